@@ -14,7 +14,7 @@
 /* ---- scenes ---------------------------------------------------------------------------------------------- */
 
 /* Contacts j and j + 1 become the two directions of one of that law, under the law of the circle. */
-static void make_circle(model *m, int j, contact whole)
+static void make_planar(model *m, int j, contact whole)
 {
   for (int a = 0; a < 2; ++a) {
     m->contacts[j + a].law = model_half_law(&whole);
@@ -48,7 +48,7 @@ static model *on_a_plane(int n, double force, contact law)
   m->loads[0].cosine[0] = force * forces[0];
   m->loads[0].sine[1] = force * forces[1];
   for (int a = 0; a < 2; ++a) m->contacts[a].tangent[a] = 1;
-  make_circle(m, 0, law);
+  make_planar(m, 0, law);
   return m;
 }
 
@@ -75,7 +75,7 @@ static void draw(uint64_t *seed, transient_law law, drawn *d)
       whole.kn = whole.gap = 0;
       memset(d->m->contacts[j].normal, 0, (size_t)n * sizeof(double));
     }
-    make_circle(d->m, j, whole);
+    make_planar(d->m, j, whole);
   }
   scale_drawn(d, law, 3 + 10 * random_unit(seed));
 }
@@ -284,8 +284,8 @@ static void a_motion_on_a_line_is_that_of_one_tangent(void **state)
   one.m->contacts[1].law = (contact){0};
   scale_drawn(&one, TRANSIENT_LAW_EXACT, 10.5);
   scale_drawn(&two, TRANSIENT_LAW_EXACT, 10.5);
-  assert_int_equal(integrate_new_series(one.base, PHASE_MODES_STIFF, &of_one), HC_OK);
-  assert_int_equal(integrate_new_series(two.base, PHASE_MODES_STIFF, &of_two), HC_OK);
+  assert_int_equal(integrate_new_closed_form(one.base, INTERVAL_MODES_STIFF, &of_one), HC_OK);
+  assert_int_equal(integrate_new_closed_form(two.base, INTERVAL_MODES_STIFF, &of_two), HC_OK);
   for (int period = 0; period < 5; ++period) {
     double x[2][6];
     assert_int_equal(integrate_period(of_one, &one.scaled, y[0], NULL, NULL), HC_OK);
@@ -324,8 +324,8 @@ static void turned_tangents_change_nothing(void **state)
         turned.m->contacts[j + 1].tangent[i] = mirror * (c * two - s * one);
       }
     scale_drawn(&turned, TRANSIENT_LAW_EXACT, 1 / d.scaled.by_C);
-    assert_int_equal(integrate_new_series(d.base, PHASE_MODES_STIFF, &in), HC_OK);
-    assert_int_equal(integrate_new_series(turned.base, PHASE_MODES_STIFF, &other), HC_OK);
+    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &in), HC_OK);
+    assert_int_equal(integrate_new_closed_form(turned.base, INTERVAL_MODES_STIFF, &other), HC_OK);
     for (int period = 0; period < 3; ++period) {
       double x[MOST], x2[MOST];
       assert_int_equal(integrate_period(in, &d.scaled, y, NULL, NULL), HC_OK);
@@ -372,7 +372,7 @@ static bool is_smooth(const drawn *d, const double *y)
     const scaled_contact *c = &d->scaled.contact[j];
     double u[2] = {0}, v;
     if (!c->law.has_friction || c->second) continue;
-    if (c->circle) scaled_circle_motion(&d->scaled, j, y, u, &v);
+    if (c->circle) scaled_planar_motion(&d->scaled, j, y, u, &v);
     else scaled_contact_motion(&d->scaled, j, y, u, &v);
     const double n = c->law.kn > 0 ? c->law.kn * (v + c->law.gap) : c->law.load;
     const double *w = y + 2 * d->scaled.n + j, t = c->law.kt * hypot(u[0] - w[0], c->circle ? u[1] - w[1] : 0);
@@ -394,7 +394,7 @@ static void monodromy_is_the_derivative(void **state)
     draw(&seed, TRANSIENT_LAW_EXACT, &d);
     const int n = d.scaled.n_states;
     for (int i = 0; i < n; ++i) y[i] = 0.3 * random_signed(&seed);
-    assert_int_equal(integrate_new_series(d.base, PHASE_MODES_STIFF, &in), HC_OK);
+    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &in), HC_OK);
     memcpy(z, y, sizeof y);
     assert_int_equal(integrate_monodromy(in, &d.scaled, z, phi), HC_OK);
     for (int q = 0; q < n && is_smooth(&d, y); ++q) {
@@ -423,7 +423,7 @@ static void series_and_events_agree(void **state)
     static double phi[2][MOST * MOST];
     draw(&seed, TRANSIENT_LAW_EXACT, &d);
     const int n = d.scaled.n_states;
-    assert_int_equal(integrate_new_series(d.base, PHASE_MODES_STIFF, &series), HC_OK);
+    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &series), HC_OK);
     assert_int_equal(integrate_new_events(d.base, 1e-13, &events), HC_OK);
     for (int period = 0; period < 4; ++period) {
       const bool varies = period == 3;
@@ -455,7 +455,7 @@ static void a_slider_that_comes_back_has_travelled(void **state)
     integrator *by[2];
     double y[2][MOST] = {{0}};
     scale_drawn(&d, TRANSIENT_LAW_EXACT, 10.5);
-    assert_int_equal(integrate_new_series(d.base, PHASE_MODES_STIFF, &by[0]), HC_OK);
+    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &by[0]), HC_OK);
     assert_int_equal(integrate_new_events(d.base, 1e-10, &by[1]), HC_OK);
     for (int k = 0; k < 2; ++k) {
       for (int period = 0; period < 40; ++period)

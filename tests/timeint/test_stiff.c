@@ -83,8 +83,8 @@ static void modes_and_series_agree(void **state)
     double y[MOST] = {0}, z[MOST];
     draw(&seed, (enum kind)(trial % N_KINDS), &d);
     const int n = d.scaled.n_states;
-    assert_int_equal(integrate_new_series(d.base, 0, &modes), HC_OK);
-    assert_int_equal(integrate_new_series(d.base, INFINITY, &series), HC_OK);
+    assert_int_equal(integrate_new_closed_form(d.base, 0, &modes), HC_OK);
+    assert_int_equal(integrate_new_closed_form(d.base, INFINITY, &series), HC_OK);
     for (int period = 0; period < PERIODS; ++period) {
       memcpy(z, y, sizeof y);
       assert_int_equal(integrate_monodromy(modes, &d.scaled, y, phi[0]), HC_OK);
@@ -115,7 +115,7 @@ static void sets_give_way(void **state)
   model *m = random_structure(&seed, 2, 6);
   drawn d = {.m = m};
   const transient_settings how = {.law = TRANSIENT_LAW_EXACT};
-  phase_modes *kept;
+  interval_modes *kept;
   for (int j = 0; j < 6; ++j) { /* each state another matrix */
     m->contacts[j].law = (contact){.kt = 10 + j, .kn = 20 + j, .mu = 0.3, .gap = 0.1};
     random_direction(&seed, 2, m->contacts[j].tangent);
@@ -124,23 +124,23 @@ static void sets_give_way(void **state)
   assert_int_equal(modal_base_new(m, &d.base), HC_OK);
   d.scaled = (scaled_model){.contact = d.contacts, .base = d.base};
   scaled_make(&d.scaled, m, &how, 5, 1);
-  assert_int_equal(phase_modes_new(d.base, 0, &kept), HC_OK);
+  assert_int_equal(interval_modes_new(d.base, 0, &kept), HC_OK);
   for (int trial = 0; trial < 3000; ++trial) {
     contact_track track[6] = {{0}};
     const complex_modes *modes, *made;
-    phase_modes *fresh;
+    interval_modes *fresh;
     const contact_state states[] = {CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS, CONTACT_SLIP_MINUS};
     for (int j = 0; j < 6; ++j) track[j].state = states[random_int(&seed, 0, 3)];
-    assert_int_equal(phase_modes_of(kept, &d.scaled, track, &modes), HC_OK);
+    assert_int_equal(interval_modes_of(kept, &d.scaled, track, &modes), HC_OK);
     if (trial % 50) continue;
-    assert_int_equal(phase_modes_new(d.base, 0, &fresh), HC_OK);
-    assert_int_equal(phase_modes_of(fresh, &d.scaled, track, &made), HC_OK);
+    assert_int_equal(interval_modes_new(d.base, 0, &fresh), HC_OK);
+    assert_int_equal(interval_modes_of(fresh, &d.scaled, track, &made), HC_OK);
     assert_int_equal(modes != NULL, made != NULL);
     for (int k = 0; made && k < made->count; ++k)
       CHECK_LE(cabs(modes->lambda[k] - made->lambda[k]), 1e-13 * cabs(made->lambda[k]), "trial %d, %d", trial, k);
-    phase_modes_free(fresh);
+    interval_modes_free(fresh);
   }
-  phase_modes_free(kept);
+  interval_modes_free(kept);
   undraw(&d);
 }
 
@@ -177,8 +177,8 @@ static void a_watch_is_told_the_same(void **state)
     double y[MOST] = {0}, z[MOST];
     told by_modes = {.max = -INFINITY, .min = INFINITY}, by_series = by_modes;
     draw(&seed, trial % 2 ? STIFF : PLAIN, &d);
-    assert_int_equal(integrate_new_series(d.base, 0, &modes), HC_OK);
-    assert_int_equal(integrate_new_series(d.base, INFINITY, &series), HC_OK);
+    assert_int_equal(integrate_new_closed_form(d.base, 0, &modes), HC_OK);
+    assert_int_equal(integrate_new_closed_form(d.base, INFINITY, &series), HC_OK);
     for (int k = 0; k < PERIODS; ++k) assert_int_equal(integrate_period(series, &d.scaled, y, NULL, NULL), HC_OK);
     memcpy(z, y, sizeof y);
     assert_int_equal(integrate_period(modes, &d.scaled, y, listen, &by_modes), HC_OK);
@@ -251,7 +251,7 @@ static void events_of_stiff_structures(void **state)
   assert_int_equal(modal_base_new(m, &d.base), HC_OK);
   d.scaled = (scaled_model){.contact = d.contacts, .base = d.base};
   scaled_make(&d.scaled, m, &how, 0.7, 1);
-  assert_int_equal(integrate_new_series(d.base, PHASE_MODES_STIFF, &modes), HC_OK);
+  assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &modes), HC_OK);
   assert_int_equal(integrate_new_events(d.base, 1e-12, &events), HC_OK);
   for (int period = 0; period < PERIODS; ++period) {
     memcpy(z, y, sizeof y);

@@ -208,7 +208,7 @@ static void series_and_closed_form_agree(void **state)
         assert_int_equal(modal_base_new(m[i], &base[i]), HC_OK);
         scaled[i] = (scaled_model){.base = base[i], .contact = contacts[i]};
         scaled_make(&scaled[i], m[i], &how, omegas[w], 10);
-        assert_int_equal(integrate_new_series(base[i], INFINITY, &in[i]), HC_OK);
+        assert_int_equal(integrate_new_closed_form(base[i], INFINITY, &in[i]), HC_OK);
       }
       const int n = scaled[0].n_states;
       for (int period = 0; period < 3; ++period) { /* rounding grows by the multipliers, to 1e3 in three periods */
@@ -257,7 +257,7 @@ static void series_and_events_agree(void **state)
     integrator *series, *events;
     double y[MOST] = {0}, z[MOST];
     draw(&seed, TRANSIENT_LAW_EXACT, &d);
-    assert_int_equal(integrate_new_series(d.base, PHASE_MODES_STIFF, &series), HC_OK);
+    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &series), HC_OK);
     assert_int_equal(integrate_new_events(d.base, 1e-13, &events), HC_OK);
     for (int period = 0; period < 4; ++period) {
       memcpy(z, y, sizeof y);
@@ -321,7 +321,7 @@ static void check_monodromy(const drawn *d, int step, int *compared, int *off)
   const int n = d->scaled.n_states, moving = 2 * d->scaled.n;
   memset(y, 0, sizeof y);
   assert_true(n <= MOST);
-  assert_int_equal(integrate_new_series(d->base, PHASE_MODES_STIFF, &in), HC_OK);
+  assert_int_equal(integrate_new_closed_form(d->base, INTERVAL_MODES_STIFF, &in), HC_OK);
   for (int period = 0; period < 3; ++period) assert_int_equal(integrate_period(in, &d->scaled, y, NULL, NULL), HC_OK);
   memcpy(z, y, sizeof y);
   assert_int_equal(integrate_monodromy(in, &d->scaled, z, phi), HC_OK);

@@ -6,13 +6,12 @@
 #include <string.h>
 
 #include "model/linear.h"
+#include "timeint/closed_form/modal_motion.h"
 
-static const double soft = 1e-2; /* of k: below, the response to a constant is not computed as a difference over k */
-
-hc_status structure_variations_make(structure_variations *v, const modal_base *base, phase_modes *modes)
+hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base, interval_modes *modes)
 {
   const size_t states = 2 * (size_t)base->n + (size_t)base->n_contacts;
-  *v = (structure_variations){.n = base->n, .n_states = (int)states, .modes = modes};
+  *v = (fundamental_matrix){.n = base->n, .n_states = (int)states, .modes = modes};
   v->rows = calloc(states * (states + 4), sizeof *v->rows);
   v->state = calloc(states, sizeof *v->state);
   v->track = calloc(states, sizeof *v->track);
@@ -22,11 +21,11 @@ hc_status structure_variations_make(structure_variations *v, const modal_base *b
   v->du2 = v->dv + states;
   v->y = v->du2 + states;
   hc_status st = series_columns_make(&v->series, base);
-  if (st == HC_OK && base->n_circles > 0) st = motion_series_make(&v->motion, base);
+  if (st == HC_OK && base->n_planar > 0) st = motion_series_make(&v->motion, base);
   return st == HC_OK && modes ? modes_columns_make(&v->by_modes, base) : st;
 }
 
-void structure_variations_free(structure_variations *v)
+void fundamental_matrix_free(fundamental_matrix *v)
 {
   series_columns_free(&v->series);
   modes_columns_free(&v->by_modes);
@@ -36,11 +35,11 @@ void structure_variations_free(structure_variations *v)
   free(v->state);
 }
 
-static double *row_of(const structure_variations *v, int i) { return v->rows + (size_t)i * (size_t)v->n_states; }
-static double *slider_of(const structure_variations *v, int j) { return row_of(v, 2 * v->n + j); }
+static double *row_of(const fundamental_matrix *v, int i) { return v->rows + (size_t)i * (size_t)v->n_states; }
+static double *slider_of(const fundamental_matrix *v, int j) { return row_of(v, 2 * v->n + j); }
 
 /* out[n_columns] := along . D */
-static void project(const structure_variations *v, const double *along, double *restrict out)
+static void project(const fundamental_matrix *v, const double *along, double *restrict out)
 {
   memset(out, 0, (size_t)v->n_columns * sizeof *out);
   for (int i = 0; i < v->n; ++i) {
@@ -50,7 +49,7 @@ static void project(const structure_variations *v, const double *along, double *
 }
 
 /* v->du and v->dv of contact j. */
-static void find_motion(structure_variations *v, const modal_base *b, int j)
+static void find_motion(fundamental_matrix *v, const modal_base *b, int j)
 {
   project(v, b->tangent + (size_t)j * (size_t)b->n, v->du);
   project(v, b->normal + (size_t)j * (size_t)b->n, v->dv);
@@ -59,29 +58,28 @@ static void find_motion(structure_variations *v, const modal_base *b, int j)
 /* ---- circles --------------------------------------------------------------------------------------------- */
 
 /* v->du, v->du2 and v->dv of the circle whose first direction is j. */
-static void find_circle(structure_variations *v, const modal_base *b, int j)
+static void find_planar(fundamental_matrix *v, const modal_base *b, int j)
 {
   project(v, b->tangent + (size_t)(j + 1) * (size_t)b->n, v->du2);
   find_motion(v, b, j);
 }
 
 /* dphi into the first slider's row, from those of a slider with |U - W| = R. */
-static void begin_to_turn(structure_variations *v, const scaled_model *m, int j, const contact_track t[2],
-                          double radius)
+static void begin_to_turn(fundamental_matrix *v, const scaled_model *m, int j, const contact_track t[2], double radius)
 {
   double *one = slider_of(v, j), *two = slider_of(v, j + 1);
-  find_circle(v, m->base, j);
+  find_planar(v, m->base, j);
   for (int q = 0; q < v->n_columns; ++q)
     one[q] = (t[0].along * (v->du2[q] - two[q]) - t[1].along * (v->du[q] - one[q])) / radius;
 }
 
 /* dW of both from dphi in the first one's row. */
-static void tie_circle(structure_variations *v, const scaled_model *m, int j, const contact_track t[2], double radius)
+static void tie_planar(fundamental_matrix *v, const scaled_model *m, int j, const contact_track t[2], double radius)
 {
   const law_regularised *law = &m->contact[j].law;
   const double shrinks = law->mu * law->kn / law->kt;
   double *one = slider_of(v, j), *two = slider_of(v, j + 1);
-  find_circle(v, m->base, j);
+  find_planar(v, m->base, j);
   for (int q = 0; q < v->n_columns; ++q) {
     const double angle = one[q];
     one[q] = v->du[q] - shrinks * v->dv[q] * t[0].along + radius * t[1].along * angle;
@@ -90,39 +88,38 @@ static void tie_circle(structure_variations *v, const scaled_model *m, int j, co
 }
 
 /* At the start of a period, where w has just been put on the circle: dphi; dW where it sticks there. */
-static void begin_circle(structure_variations *v, const scaled_model *m, int j, const contact_track t[2],
-                         const double *y)
+static void begin_planar(fundamental_matrix *v, const scaled_model *m, int j, const contact_track t[2], const double *y)
 {
   const double *w = y + 2 * v->n + j;
   double u[2], normal;
   if (t->state == CONTACT_SEPARATED || t->since_start) return;
-  scaled_circle_motion(m, j, y, u, &normal);
+  scaled_planar_motion(m, j, y, u, &normal);
   begin_to_turn(v, m, j, t, hypot(u[0] - w[0], u[1] - w[1]));
-  if (t->state == CONTACT_STICK) tie_circle(v, m, j, t, circle_track_radius(&m->contact[j], normal));
+  if (t->state == CONTACT_STICK) tie_planar(v, m, j, t, planar_track_radius(&m->contact[j], normal));
 }
 
-void structure_variations_circle(structure_variations *v, const scaled_model *m, int j, const contact_track before[2],
-                                 const contact_track after[2], const circle_motion *at)
+void fundamental_matrix_planar(fundamental_matrix *v, const scaled_model *m, int j, const contact_track before[2],
+                               const contact_track after[2], const planar_contact_motion *at)
 {
-  const double radius = circle_track_radius(&m->contact[j], at->v);
+  const double radius = planar_track_radius(&m->contact[j], at->v);
   if (before->state == CONTACT_STICK && after->state == CONTACT_SLIP_PLUS) begin_to_turn(v, m, j, after, radius);
-  if (before->state == CONTACT_SLIP_PLUS && after->state == CONTACT_STICK) tie_circle(v, m, j, before, radius);
+  if (before->state == CONTACT_SLIP_PLUS && after->state == CONTACT_STICK) tie_planar(v, m, j, before, radius);
   if (before->state != CONTACT_SEPARATED || after->state != CONTACT_STICK) return;
   for (int a = 0; a < 2; ++a) {
     const contact_motion one = {at->u[a], at->v, at->du[a], at->dv};
-    structure_variations_stick(v, m, j + a, CONTACT_SEPARATED, &one);
+    fundamental_matrix_stick(v, m, j + a, CONTACT_SEPARATED, &one);
   }
 }
 
-void structure_variations_follow(structure_variations *v, const scaled_model *m, const contact_track *track,
-                                 const double *y)
+void fundamental_matrix_follow(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
+                               const double *y)
 {
-  if (m->base->n_circles == 0) return;
+  if (m->base->n_planar == 0) return;
   memcpy(v->y, y, 2 * (size_t)v->n * sizeof *y);
   memcpy(v->track, track, (size_t)m->n_contacts * sizeof *track);
 }
 
-static bool has_slipping_circle(const scaled_model *m, const contact_track *track)
+static bool has_slipping_planar(const scaled_model *m, const contact_track *track)
 {
   for (int j = 0; j < m->n_contacts; ++j)
     if (m->contact[j].circle && track[j].state == CONTACT_SLIP_PLUS) return true;
@@ -136,7 +133,7 @@ static bool is_on_circle(const scaled_model *m, const contact_track *track, int 
 }
 
 /* A step from v->theta of the motion and its columns together, up to `most`. Its length; 0: not finite. */
-static double step_along(structure_variations *v, const scaled_model *m, double most)
+static double step_along(fundamental_matrix *v, const scaled_model *m, double most)
 {
   const double safe = 0.7; /* terms of columns grow with their number faster by a factor of that */
   const double held = motion_series_hold(m, v->track, v->y);
@@ -151,7 +148,7 @@ static double step_along(structure_variations *v, const scaled_model *m, double 
   return h;
 }
 
-static hc_status advance_along(structure_variations *v, const scaled_model *m, double theta)
+static hc_status advance_along(fundamental_matrix *v, const scaled_model *m, double theta)
 {
   for (double left = theta - v->theta; left > 0;) {
     const double h = step_along(v, m, left);
@@ -165,7 +162,7 @@ static hc_status advance_along(structure_variations *v, const scaled_model *m, d
 /* ---------------------------------------------------------------------------------------------------------- */
 
 /* A single mass: its columns in closed form. The response to a constant force 1 from rest is `step` in X, e01 in P. */
-static void advance_single(structure_variations *v, const scaled_model *m, const contact_track *track, double span)
+static void advance_single(fundamental_matrix *v, const scaled_model *m, const contact_track *track, double span)
 {
   const modal_base *b = m->base;
   double *x = row_of(v, 0), *p = row_of(v, 1), *pull = v->du, e[2][2], k = m->by_K * b->K[0];
@@ -178,7 +175,7 @@ static void advance_single(structure_variations *v, const scaled_model *m, const
     for (int q = 0; q < v->n_columns && f.t_w != 0; ++q) pull[q] -= t * f.t_w * slider[q];
   }
   linear_free_motion(1, c, k, span, e);
-  const double step = fabs(k) > soft ? (1 - e[0][0]) / k : linear_step_response(c, k, span);
+  const double step = fabs(k) > MODE_SOFT ? (1 - e[0][0]) / k : linear_step_response(c, k, span);
   for (int q = 0; q < v->n_columns; ++q) {
     const double x0 = x[q], p0 = p[q];
     x[q] = e[0][0] * x0 + e[0][1] * p0 + step * pull[q];
@@ -186,8 +183,7 @@ static void advance_single(structure_variations *v, const scaled_model *m, const
   }
 }
 
-void structure_variations_begin(structure_variations *v, const scaled_model *m, const contact_track *track,
-                                const double *y)
+void fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track, const double *y)
 {
   const size_t n = (size_t)v->n_states;
   memset(v->rows, 0, n * n * sizeof *v->rows);
@@ -201,19 +197,19 @@ void structure_variations_begin(structure_variations *v, const scaled_model *m, 
   }
   for (int j = 0; j < m->n_contacts; ++j) { /* on its limit: put there, as the motion has it */
     const contact_track *t = &track[j];
-    if (m->contact[j].circle) begin_circle(v, m, j, t, y);
+    if (m->contact[j].circle) begin_planar(v, m, j, t, y);
     if (m->contact[j].circle || m->contact[j].second) continue;
     if (t->state != CONTACT_STICK || !m->contact[j].law.has_friction || t->since_start) continue;
     const contact_state slip = t->limit > 0 ? CONTACT_SLIP_PLUS : CONTACT_SLIP_MINUS;
-    structure_variations_stick(v, m, j, slip, &(contact_motion){0});
+    fundamental_matrix_stick(v, m, j, slip, &(contact_motion){0});
   }
 }
 
-hc_status structure_variations_advance(structure_variations *v, const scaled_model *m, const contact_track *track,
-                                       double theta)
+hc_status fundamental_matrix_advance(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
+                                     double theta)
 {
   const double span = theta - v->theta;
-  if (m->base->n_circles > 0 && has_slipping_circle(m, v->track)) return advance_along(v, m, theta);
+  if (m->base->n_planar > 0 && has_slipping_planar(m, v->track)) return advance_along(v, m, theta);
   v->theta = theta;
   if (!(span > 0)) return HC_OK;
   if (m->n == 1) {
@@ -222,7 +218,7 @@ hc_status structure_variations_advance(structure_variations *v, const scaled_mod
   }
   const complex_modes *modes = NULL;
   hc_status st = HC_OK;
-  if (phase_modes_pay(v->modes, 1 / m->by_C, span)) st = phase_modes_of(v->modes, m, track, &modes);
+  if (interval_modes_pay(v->modes, 1 / m->by_C, span)) st = interval_modes_of(v->modes, m, track, &modes);
   if (st != HC_OK) return st;
   if (modes) {
     modes_columns_advance(&v->by_modes, m, modes, track, span, v->n_columns, v->n_states, v->rows);
@@ -232,8 +228,8 @@ hc_status structure_variations_advance(structure_variations *v, const scaled_mod
   return series_columns_advance(&v->series, m, span, v->n_columns, v->n_states, v->rows);
 }
 
-void structure_variations_stick(structure_variations *v, const scaled_model *m, int j, contact_state before,
-                                const contact_motion *at)
+void fundamental_matrix_stick(fundamental_matrix *v, const scaled_model *m, int j, contact_state before,
+                              const contact_motion *at)
 {
   if (!m->contact[j].law.has_friction) return;
   double *slider = slider_of(v, j);
@@ -242,8 +238,8 @@ void structure_variations_stick(structure_variations *v, const scaled_model *m, 
     slider[q] = contact_track_vary_rest(&m->contact[j], before, at, v->du[q], v->dv[q]);
 }
 
-void structure_variations_end(structure_variations *v, const scaled_model *m, const contact_track *track,
-                              const double *y, double *monodromy)
+void fundamental_matrix_end(fundamental_matrix *v, const scaled_model *m, const contact_track *track, const double *y,
+                            double *monodromy)
 {
   const size_t n = (size_t)v->n_states;
   for (int j = 0; j < m->n_contacts; ++j) {
@@ -251,8 +247,8 @@ void structure_variations_end(structure_variations *v, const scaled_model *m, co
     if (track[j].state != CONTACT_SEPARATED && (m->contact[j].circle || m->contact[j].second)) {
       double u[2], normal;
       if (m->contact[j].second) continue;
-      scaled_circle_motion(m, j, y, u, &normal);
-      tie_circle(v, m, j, &track[j], circle_track_radius(&m->contact[j], normal));
+      scaled_planar_motion(m, j, y, u, &normal);
+      tie_planar(v, m, j, &track[j], planar_track_radius(&m->contact[j], normal));
       continue;
     }
     double *slider = slider_of(v, j);

@@ -12,10 +12,10 @@
 #include "timeint/closed_form/motion_series.h"
 #include "timeint/closed_form/series_columns.h"
 
-typedef struct structure_variations { /* from structure_variations_make, to structure_variations_free */
-  int n, n_states;                    /* modes; 2 n + contacts */
-  double theta;                       /* up to which `rows` has come */
-  int n_columns, *state;              /* [n_states] the first of them: states that the motion depends on, ascending */
+typedef struct fundamental_matrix { /* from fundamental_matrix_make, to fundamental_matrix_free */
+  int n, n_states;                  /* modes; 2 n + contacts */
+  double theta;                     /* up to which `rows` has come */
+  int n_columns, *state;            /* [n_states] the first of them: states that the motion depends on, ascending */
   double *rows;    /* [n_states][n_states] row i is that of state i, column q that of state[q]; a slider's row is valid
                    while its contact sticks; while a circle slips that of its first is that of e's angle */
   double *du, *dv; /* [n_states] of a contact, all columns */
@@ -25,36 +25,36 @@ typedef struct structure_variations { /* from structure_variations_make, to stru
   motion_series motion; /* of that */
   series_columns series;
   modes_columns by_modes;
-  phase_modes *modes; /* the owner's, or NULL */
-} structure_variations;
+  interval_modes *modes; /* the owner's, or NULL */
+} fundamental_matrix;
 
 /* With complex modes where `modes` is not NULL and they pay. HC_NO_MEMORY; free it then, too. */
-hc_status structure_variations_make(structure_variations *v, const modal_base *base, phase_modes *modes);
-void structure_variations_free(structure_variations *v);
+hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base, interval_modes *modes);
+void fundamental_matrix_free(fundamental_matrix *v);
 
 /* The identity at theta = 0, contacts as they begin there at y[n_states]. */
-void structure_variations_begin(structure_variations *v, const scaled_model *m, const contact_track *track,
-                                const double *y);
+void fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
+                              const double *y);
 
-/* From v->theta on the motion is that of y[2 n], its contacts those of track[]: after structure_variations_begin, and
+/* From v->theta on the motion is that of y[2 n], its contacts those of track[]: after fundamental_matrix_begin, and
  * whenever a contact has changed its state. */
-void structure_variations_follow(structure_variations *v, const scaled_model *m, const contact_track *track,
-                                 const double *y);
+void fundamental_matrix_follow(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
+                               const double *y);
 
 /* On to theta, the contacts as they were. HC_NOT_FINITE, HC_NO_MEMORY. */
-hc_status structure_variations_advance(structure_variations *v, const scaled_model *m, const contact_track *track,
-                                       double theta);
+hc_status fundamental_matrix_advance(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
+                                     double theta);
 
 /* At v->theta contact j, in state `before` up to there, has begun to stick. */
-void structure_variations_stick(structure_variations *v, const scaled_model *m, int j, contact_state before,
-                                const contact_motion *at);
+void fundamental_matrix_stick(fundamental_matrix *v, const scaled_model *m, int j, contact_state before,
+                              const contact_motion *at);
 
 /* The same of the circle whose first direction is j, from before[2] to after[2]. */
-void structure_variations_circle(structure_variations *v, const scaled_model *m, int j, const contact_track before[2],
-                                 const contact_track after[2], const circle_motion *at);
+void fundamental_matrix_planar(fundamental_matrix *v, const scaled_model *m, int j, const contact_track before[2],
+                               const contact_track after[2], const planar_contact_motion *at);
 
 /* The rows of sliders that are tied to the motion y[2 n], when the period is over. */
-void structure_variations_end(structure_variations *v, const scaled_model *m, const contact_track *track,
-                              const double *y, double *monodromy);
+void fundamental_matrix_end(fundamental_matrix *v, const scaled_model *m, const contact_track *track, const double *y,
+                            double *monodromy);
 
 #endif

@@ -14,13 +14,11 @@
 #include "timeint/law/slider_travel.h"
 #include "timeint/period/integrate_private.h"
 
-static const double longest_watched = 0.2; /* [rad] as CVODE's */
-
 enum {
   MAX_STEPS = 10000000 /* per period */
 };
 
-typedef struct by_series { /* from integrate_new_series, to integrate_free; not shared between threads */
+typedef struct by_series { /* from integrate_new_closed_form, to integrate_free; not shared between threads */
   integrator base;
   int n, n_contacts;
   const scaled_model *m; /* of the period under way; the caller's */
@@ -30,12 +28,12 @@ typedef struct by_series { /* from integrate_new_series, to integrate_free; not 
   double *y, *end;      /* [2 n] the motion there, and at its end */
   double *response;     /* [TRACK_ORDER + 1] of one response */
   motion_series series;
-  phase_modes *modes; /* or NULL */
-  motion_modes stiff; /* the motion since stiff.theta, where by_modes */
+  interval_modes *modes; /* or NULL */
+  motion_modes stiff;    /* the motion since stiff.theta, where by_modes */
   bool fits_single;
   motion_single single; /* where that: the motion of the present step, if by_single */
   bool by_modes, by_single;
-  structure_variations variations;
+  fundamental_matrix variations;
 } by_series;
 
 static contact_motion motion_of(const by_series *in, int j, const double *y)
@@ -46,10 +44,10 @@ static contact_motion motion_of(const by_series *in, int j, const double *y)
                           dot_product(in->n, n, y + in->n)};
 }
 
-static circle_motion circle_of(const by_series *in, int j, const double *y)
+static planar_contact_motion planar_of(const by_series *in, int j, const double *y)
 {
   const contact_motion one = motion_of(in, j, y), two = motion_of(in, j + 1, y);
-  return (circle_motion){{one.u, two.u}, one.v, {one.du, two.du}, one.dv};
+  return (planar_contact_motion){{one.u, two.u}, one.v, {one.du, two.du}, one.dv};
 }
 
 static hc_status begin(by_series *in, const double *y)
@@ -62,8 +60,8 @@ static hc_status begin(by_series *in, const double *y)
     const scaled_contact *c = &in->m->contact[j];
     const contact_motion at = motion_of(in, j, y);
     if (c->circle) {
-      const circle_motion both = circle_of(in, j, y);
-      circle_track_begin(&in->track[j], c, &both, y + 2 * in->n + j);
+      const planar_contact_motion both = planar_of(in, j, y);
+      planar_track_begin(&in->track[j], c, &both, y + 2 * in->n + j);
     } else if (!c->second) {
       in->track[j] = contact_track_begin(c, &at, y[2 * in->n + j]);
     }
@@ -73,7 +71,7 @@ static hc_status begin(by_series *in, const double *y)
 }
 
 /* Does a circle touch? Its guard is no sum of exponentials. */
-static bool has_closed_circle(const by_series *in)
+static bool has_closed_planar(const by_series *in)
 {
   for (int j = 0; j < in->n_contacts; ++j)
     if (in->m->contact[j].circle && in->track[j].state != CONTACT_SEPARATED) return true;
@@ -86,10 +84,10 @@ static hc_status choose(by_series *in)
   const complex_modes *modes;
   const double omega = 1 / in->m->by_C;
   in->by_modes = false;
-  in->by_single = in->fits_single && !has_closed_circle(in);
+  in->by_single = in->fits_single && !has_closed_planar(in);
   if (in->by_single) return HC_OK;
-  if (!phase_modes_pay(in->modes, omega, INFINITY) || has_closed_circle(in)) return HC_OK;
-  hc_status st = phase_modes_of(in->modes, in->m, in->track, &modes);
+  if (!interval_modes_pay(in->modes, omega, INFINITY) || has_closed_planar(in)) return HC_OK;
+  hc_status st = interval_modes_of(in->modes, in->m, in->track, &modes);
   if (st == HC_OK && modes) in->by_modes = motion_modes_begin(&in->stiff, modes, in->m, in->track, in->theta, in->y);
   return st;
 }
@@ -121,15 +119,15 @@ static contact_motion contact_at_end(const by_series *in, int j)
 }
 
 /* The circle whose first direction is j. */
-static void pass_circle(by_series *in, int j, track_event event, bool varies)
+static void pass_planar(by_series *in, int j, track_event event, bool varies)
 {
   const contact_track before[2] = {in->track[j], in->track[j + 1]};
   contact_motion at[2];
   for (int a = 0; a < 2; ++a) at[a] = contact_at_end(in, j + a);
-  const circle_motion both = {{at[0].u, at[1].u}, at->v, {at[0].du, at[1].du}, at->dv};
-  circle_track_pass(&in->track[j], &in->m->contact[j], event, &both);
-  slider_travel_note_circle(&in->travel, &in->m->contact[j], in->track, j, &both);
-  if (varies) structure_variations_circle(&in->variations, in->m, j, before, &in->track[j], &both);
+  const planar_contact_motion both = {{at[0].u, at[1].u}, at->v, {at[0].du, at[1].du}, at->dv};
+  planar_track_pass(&in->track[j], &in->m->contact[j], event, &both);
+  slider_travel_note_planar(&in->travel, &in->m->contact[j], in->track, j, &both);
+  if (varies) fundamental_matrix_planar(&in->variations, in->m, j, before, &in->track[j], &both);
 }
 
 /* Contact j at the end of the step. */
@@ -141,26 +139,25 @@ static hc_status pass(by_series *in, int j, track_event event, bool varies, int 
   *count += circle ? 1 : contact_track_counts(&in->track[j], event, in->theta + in->length);
   if (*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
   if (varies) {
-    hc_status st = structure_variations_advance(&in->variations, in->m, in->track, in->theta + in->length);
+    hc_status st = fundamental_matrix_advance(&in->variations, in->m, in->track, in->theta + in->length);
     if (st != HC_OK) return st;
   }
-  if (circle) pass_circle(in, j, event, varies);
+  if (circle) pass_planar(in, j, event, varies);
   else contact_track_pass(&in->track[j], &in->m->contact[j], event, &at);
   if (!circle) slider_travel_note(&in->travel, &in->m->contact[j], in->track, j, &at);
   if (!varies) return HC_OK;
-  if (!circle && in->track[j].state == CONTACT_STICK)
-    structure_variations_stick(&in->variations, in->m, j, before, &at);
-  structure_variations_follow(&in->variations, in->m, in->track, in->end);
+  if (!circle && in->track[j].state == CONTACT_STICK) fundamental_matrix_stick(&in->variations, in->m, j, before, &at);
+  fundamental_matrix_follow(&in->variations, in->m, in->track, in->end);
   return HC_OK;
 }
 
 /* At the end of the step. */
-static void note_slipping_circles(by_series *in)
+static void note_slipping_planar(by_series *in)
 {
   for (int j = 0; j < in->n_contacts; ++j) {
-    if (!in->m->contact[j].circle || !circle_track_turns(&in->track[j])) continue;
-    const circle_motion at = circle_of(in, j, in->end);
-    slider_travel_note_circle(&in->travel, &in->m->contact[j], in->track, j, &at);
+    if (!in->m->contact[j].circle || !planar_track_turns(&in->track[j])) continue;
+    const planar_contact_motion at = planar_of(in, j, in->end);
+    slider_travel_note_planar(&in->travel, &in->m->contact[j], in->track, j, &at);
   }
 }
 
@@ -170,7 +167,7 @@ static hc_status end_step(by_series *in, int changing, track_event event, bool v
   hc_status st = changing >= 0 ? pass(in, changing, event, varies, count) : HC_OK;
   if (st != HC_OK) return st;
   memcpy(in->y, in->end, 2 * (size_t)in->n * sizeof *in->y);
-  note_slipping_circles(in);
+  note_slipping_planar(in);
   in->theta = theta;
   return HC_OK;
 }
@@ -196,7 +193,7 @@ static hc_status step_by_series(by_series *in, bool varies, integrate_watch *wat
 }
 
 /* To the first event, in watched steps. */
-static hc_status phase_by_modes(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
+static hc_status interval_by_modes(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
 {
   track_event event = TRACK_STICKS;
   const double from = in->theta, left = TWO_PI - from;
@@ -204,7 +201,7 @@ static hc_status phase_by_modes(by_series *in, bool varies, integrate_watch *wat
   const int direction = motion_modes_first_event(&in->stiff, in->m, in->track, &span, &event);
   const int changing = direction < 0 ? -1 : scaled_first(in->m, direction);
   const double end = span < left ? from + span : TWO_PI;
-  const int steps = watch ? 1 + (int)(span / longest_watched) : 1;
+  const int steps = watch ? 1 + (int)(span / INTEGRATE_LONGEST_STEP) : 1;
   ++in->base.rhs;
   for (int i = 1; i <= steps; ++i) {
     const double to = i < steps ? from + span * i / steps : end;
@@ -242,7 +239,7 @@ static hc_status run(by_series *in, bool varies, integrate_watch *watch, void *s
   for (int steps = 0; in->theta < TWO_PI; ++steps) {
     hc_status st = choose(in);
     if (st == HC_OK && in->by_single) st = step_in_closed_form(in, varies, watch, self, count);
-    else if (st == HC_OK) st = (in->by_modes ? phase_by_modes : step_by_series)(in, varies, watch, self, count);
+    else if (st == HC_OK) st = (in->by_modes ? interval_by_modes : step_by_series)(in, varies, watch, self, count);
     if (st != HC_OK) return st;
     if (steps > MAX_STEPS) return HC_CHATTER;
     if (!integrate_goes_on(&in->base)) return HC_INTERRUPTED;
@@ -255,8 +252,8 @@ static void turned(const by_series *in, int j, double tau, contact_track circle[
 {
   double e[2];
   for (int a = 0; a < 2; ++a) circle[a] = in->track[j + a];
-  if (isnan(tau) || in->by_modes || in->by_single || in->series.circle_of[j] < 0) return;
-  circle_series_direction(&in->series.circle[in->series.circle_of[j]], tau, e);
+  if (isnan(tau) || in->by_modes || in->by_single || in->series.planar_of[j] < 0) return;
+  planar_series_direction(&in->series.circle[in->series.planar_of[j]], tau, e);
   for (int a = 0; a < 2; ++a) circle[a].along = e[a];
 }
 
@@ -271,10 +268,10 @@ static void put_sliders(const by_series *in, double tau, int order, double *y)
     const bool sticks = t->state == CONTACT_STICK && c->law.has_friction;
     if (c->circle) {
       contact_track circle[2];
-      const circle_motion both = circle_of(in, j, y);
+      const planar_contact_motion both = planar_of(in, j, y);
       turned(in, j, tau, circle);
-      if (order == 0) circle_track_slider(circle, c, &both, w + j);
-      else circle_track_slider_rate(circle, c, both.u, both.v, w + j);
+      if (order == 0) planar_track_slider(circle, c, &both, w + j);
+      else planar_track_slider_rate(circle, c, both.u, both.v, w + j);
     } else if (order == 0) {
       w[j] = contact_track_slider(t, c, &at);
     } else {
@@ -293,17 +290,17 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   hc_status st = begin(in, y);
   if (st == HC_OK && monodromy) {
     in->variations.theta = 0;
-    structure_variations_begin(&in->variations, m, in->track, y);
-    structure_variations_follow(&in->variations, m, in->track, y);
+    fundamental_matrix_begin(&in->variations, m, in->track, y);
+    fundamental_matrix_follow(&in->variations, m, in->track, y);
   }
   if (st == HC_OK) st = run(in, monodromy != NULL, watch, self, &count);
-  if (st == HC_OK && monodromy) st = structure_variations_advance(&in->variations, m, in->track, TWO_PI);
+  if (st == HC_OK && monodromy) st = fundamental_matrix_advance(&in->variations, m, in->track, TWO_PI);
   base->transitions += count;
   if (st != HC_OK) return st;
   memcpy(y, in->y, 2 * (size_t)in->n * sizeof *y);
   put_sliders(in, NAN, 0, y);
   slider_travel_end(&in->travel, in->track, y + 2 * in->n);
-  if (monodromy) structure_variations_end(&in->variations, m, in->track, y, monodromy);
+  if (monodromy) fundamental_matrix_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
 }
 
@@ -408,12 +405,12 @@ static hc_status tolerance(integrator *base, double ignored)
 static void release(integrator *base)
 {
   by_series *in = (by_series *)base;
-  structure_variations_free(&in->variations);
+  fundamental_matrix_free(&in->variations);
   slider_travel_free(&in->travel);
   motion_series_free(&in->series);
   motion_modes_free(&in->stiff);
   motion_single_free(&in->single);
-  phase_modes_free(in->modes);
+  interval_modes_free(in->modes);
   free(in->track);
   free(in->y);
   free(in);
@@ -429,7 +426,7 @@ static const integrator_class class = {.period = period,
                                        .tolerance = tolerance,
                                        .free = release};
 
-hc_status integrate_new_series(const modal_base *base, double stiff, integrator **out)
+hc_status integrate_new_closed_form(const modal_base *base, double stiff, integrator **out)
 {
   const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts;
   *out = NULL;
@@ -441,11 +438,11 @@ hc_status integrate_new_series(const modal_base *base, double stiff, integrator 
   in->track = calloc(contacts + 1, sizeof *in->track);
   in->y = calloc(4 * n + TRACK_ORDER + 1, sizeof *in->y);
   hc_status st = in->track && in->y ? motion_series_make(&in->series, base) : HC_NO_MEMORY;
-  if (st == HC_OK) st = phase_modes_new(base, stiff, &in->modes);
+  if (st == HC_OK) st = interval_modes_new(base, stiff, &in->modes);
   if (st == HC_OK) st = motion_modes_make(&in->stiff, base);
   in->fits_single = motion_single_fits(base);
   if (st == HC_OK && in->fits_single) st = motion_single_make(&in->single, base);
-  if (st == HC_OK) st = structure_variations_make(&in->variations, base, in->modes);
+  if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes);
   if (st == HC_OK) st = slider_travel_make(&in->travel, base->n_contacts);
   if (st == HC_OK) {
     in->end = in->y + 2 * n;

@@ -7,11 +7,11 @@
 #ifndef HC_TIMEINT_INTEGRATE_CLOSED_FORM_H
 #define HC_TIMEINT_INTEGRATE_CLOSED_FORM_H
 
-#include "timeint/closed_form/interval_modes.h" /* PHASE_MODES_STIFF */
+#include "timeint/closed_form/interval_modes.h" /* INTERVAL_MODES_STIFF */
 #include "timeint/period/integrate.h"
 
-/* By complex modes where the fastest rate is more than `stiff` times omega (PHASE_MODES_STIFF; 0: wherever there are
+/* By complex modes where the fastest rate is more than `stiff` times omega (INTERVAL_MODES_STIFF; 0: wherever there are
  * any; INFINITY: never). HC_NO_MEMORY. */
-hc_status integrate_new_series(const modal_base *base, double stiff, integrator **out);
+hc_status integrate_new_closed_form(const modal_base *base, double stiff, integrator **out);
 
 #endif

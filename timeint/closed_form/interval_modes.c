@@ -11,7 +11,7 @@ static const double short_span = 20;        /* [rad of the fastest mode] some te
 static const size_t most_bytes = 32u << 20; /* of what is kept */
 enum { MOST_MODES = 64, MOST_SETS = 256, NO_CONTACT = 255 };
 
-struct phase_modes { /* from phase_modes_new, to phase_modes_free */
+struct interval_modes { /* from interval_modes_new, to interval_modes_free */
   const modal_base *base;
   double fastest; /* [rad/time] no eigenvalue is much larger */
   double stiff;   /* fastest over omega from where on modes pay */
@@ -34,7 +34,7 @@ static size_t room_of(const modal_base *b)
   return 2 * n * (1 + 3 * n + rows);
 }
 
-static void place(phase_modes *p, int i)
+static void place(interval_modes *p, int i)
 {
   const modal_base *b = p->base;
   const size_t n = (size_t)b->n, most = 2 * n, contacts = (size_t)b->n_contacts, at = (size_t)i;
@@ -55,7 +55,7 @@ static void place(phase_modes *p, int i)
   s->load_back = s->load + most * (size_t)b->n_loads;
 }
 
-static hc_status make(phase_modes *p)
+static hc_status make(interval_modes *p)
 {
   const modal_base *b = p->base;
   const size_t n = (size_t)b->n, contacts = (size_t)b->n_contacts, fit = most_bytes / (room_of(b) * sizeof *p->numbers);
@@ -75,11 +75,11 @@ static hc_status make(phase_modes *p)
   return eigensystem_make(&p->eigen, 2 * b->n);
 }
 
-hc_status phase_modes_new(const modal_base *base, double stiff, phase_modes **out)
+hc_status interval_modes_new(const modal_base *base, double stiff, interval_modes **out)
 {
   *out = NULL;
   if (base->n > MOST_MODES || isinf(stiff)) return HC_OK;
-  phase_modes *p = calloc(1, sizeof *p); /* zeroed, so free works half-built */
+  interval_modes *p = calloc(1, sizeof *p); /* zeroed, so free works half-built */
   if (!p) return HC_NO_MEMORY;
   p->base = base;
   p->stiff = stiff * fmax(1, pow(base->n / 16.0, 2));
@@ -87,11 +87,11 @@ hc_status phase_modes_new(const modal_base *base, double stiff, phase_modes **ou
     *out = p;
     return HC_OK;
   }
-  phase_modes_free(p);
+  interval_modes_free(p);
   return HC_NO_MEMORY;
 }
 
-void phase_modes_free(phase_modes *p)
+void interval_modes_free(interval_modes *p)
 {
   if (!p) return;
   eigensystem_free(&p->eigen);
@@ -105,7 +105,7 @@ void phase_modes_free(phase_modes *p)
   free(p);
 }
 
-bool phase_modes_pay(const phase_modes *p, double omega, double span)
+bool interval_modes_pay(const interval_modes *p, double omega, double span)
 {
   return p && p->fastest > p->stiff * omega && p->fastest * span > short_span * omega;
 }
@@ -118,7 +118,7 @@ static unsigned char state_of(const contact_track *track, const contact_forces_l
 }
 
 /* -(K + K_contacts) [1/time^2] in the lower left of the first-order matrix, whose upper half is (0 1). */
-static void fill_stiffness(const phase_modes *p, const scaled_model *m, const contact_track *track, long double *A)
+static void fill_stiffness(const interval_modes *p, const scaled_model *m, const contact_track *track, long double *A)
 {
   const modal_base *b = p->base;
   const size_t n = (size_t)b->n, ld = 2 * n;
@@ -138,7 +138,7 @@ static void fill_stiffness(const phase_modes *p, const scaled_model *m, const co
 
 /* The first-order matrix of (scale q, q'), scale_i the frequency of q_i alone, so that eigenvectors are orthogonal
  * where nothing damps and couples. */
-static void fill_matrix(const phase_modes *p, const scaled_model *m, const contact_track *track)
+static void fill_matrix(const interval_modes *p, const scaled_model *m, const contact_track *track)
 {
   const modal_base *b = p->base;
   const size_t n = (size_t)b->n, ld = 2 * n;
@@ -164,7 +164,7 @@ static double complex dot_complex(int n, const double *a, const double complex *
 }
 
 /* Mode k of the set from eigenvector `from`. */
-static void take_mode(const phase_modes *p, complex_modes *s, int k, int from)
+static void take_mode(const interval_modes *p, complex_modes *s, int k, int from)
 {
   const modal_base *b = p->base;
   const size_t n = (size_t)b->n, at = (size_t)k, contacts = (size_t)b->n_contacts, loads = (size_t)b->n_loads;
@@ -197,7 +197,7 @@ static void take_mode(const phase_modes *p, complex_modes *s, int k, int from)
 }
 
 /* All of them but the second of each pair, slowest first. */
-static void take_modes(phase_modes *p, complex_modes *s)
+static void take_modes(interval_modes *p, complex_modes *s)
 {
   const double complex *lambda = p->eigen.lambda;
   s->count = 0;
@@ -211,7 +211,7 @@ static void take_modes(phase_modes *p, complex_modes *s)
 }
 
 /* The one that has these states, or the one to be overwritten. */
-static complex_modes *look_up(phase_modes *p, bool *found)
+static complex_modes *look_up(interval_modes *p, bool *found)
 {
   complex_modes *oldest = &p->set[0];
   const size_t contacts = (size_t)p->base->n_contacts;
@@ -225,7 +225,8 @@ static complex_modes *look_up(phase_modes *p, bool *found)
   return p->used < p->n_sets ? &p->set[p->used++] : oldest;
 }
 
-hc_status phase_modes_of(phase_modes *p, const scaled_model *m, const contact_track *track, const complex_modes **out)
+hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const contact_track *track,
+                            const complex_modes **out)
 {
   bool found;
   *out = NULL;

@@ -29,22 +29,23 @@ typedef struct complex_modes {
   double complex *load_back;      /* [2 n][n_loads] W_k . (cosine + i sine) */
 } complex_modes;
 
-typedef struct phase_modes phase_modes;
+typedef struct interval_modes interval_modes;
 
 /* Fastest rate of a structure of up to 16 modes over omega from where on modes are less work than series; of more,
  * times (n/16)^2. A set of states then takes about as long as a period by series: 3 ms of 16 modes, 24 ms of 32,
  * 160 ms of 64. */
-#define PHASE_MODES_STIFF 60.0
+#define INTERVAL_MODES_STIFF 60.0
 
 /* To be used where the fastest rate is more than `stiff` times omega. *out = NULL where that never is: stiff =
  * INFINITY, or more than 64 modes, which take too long. HC_NO_MEMORY. */
-hc_status phase_modes_new(const modal_base *base, double stiff, phase_modes **out);
-void phase_modes_free(phase_modes *p); /* NULL is allowed */
+hc_status interval_modes_new(const modal_base *base, double stiff, interval_modes **out);
+void interval_modes_free(interval_modes *p); /* NULL is allowed */
 
 /* Are modes less work than series at omega, over a span [rad] of the phase (INFINITY: not known)? NULL: no. */
-bool phase_modes_pay(const phase_modes *p, double omega, double span);
+bool interval_modes_pay(const interval_modes *p, double omega, double span);
 
 /* Of the phase. *out stays the cache's, until the next call; NULL: there are none. HC_NO_MEMORY, HC_NOT_FINITE. */
-hc_status phase_modes_of(phase_modes *p, const scaled_model *m, const contact_track *track, const complex_modes **out);
+hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const contact_track *track,
+                            const complex_modes **out);
 
 #endif

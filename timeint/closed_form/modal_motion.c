@@ -9,7 +9,6 @@
 #include "numerics/exponentials.h"
 
 static const double near_resonance = 0.25;  /* of k - 1 + i c: below, r is computed as a divided difference */
-static const double near_free = 1e-2;       /* of k: below, s is not computed as a difference divided by k */
 static const double resonant_digits = 1e-3; /* of k - 1 + i c, as the divisor of an integral: loses three digits */
 static const double longest_step = 1.5;     /* [rad] for which one bound is taken */
 enum { MAX_NEWTON = 60, RESTART = 32 };
@@ -22,7 +21,7 @@ mode mode_make(double c, double k)
                 .k = k,
                 .response = resonant ? 0 : 1 / by,
                 .resonant = resonant,
-                .soft = fabs(k) < near_free,
+                .soft = fabs(k) < MODE_SOFT,
                 .grows = k < 0 ? sqrt(-k) : 0};
 }
 

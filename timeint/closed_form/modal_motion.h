@@ -18,6 +18,9 @@
 #include <complex.h>
 #include <stdbool.h>
 
+/* Of k: below, the response to a constant force is not computed as a difference divided by k. */
+#define MODE_SOFT 1e-2
+
 typedef struct mode {
   double c, k;
   double complex response; /* 1/(k - 1 + i c): of the steady state to e^{i theta} */

@@ -21,9 +21,9 @@ hc_status motion_series_make(motion_series *s, const modal_base *base)
   s->v = s->u ? s->u + TERMS * contacts : NULL;
   s->load = s->v ? s->v + TERMS * contacts : NULL;
   s->law = calloc(contacts + 1, sizeof *s->law);
-  s->circle = calloc((size_t)base->n_circles + 1, sizeof *s->circle);
-  s->circle_of = calloc(contacts + 1, sizeof *s->circle_of);
-  return s->x && s->u && s->law && s->circle && s->circle_of ? HC_OK : HC_NO_MEMORY;
+  s->circle = calloc((size_t)base->n_planar + 1, sizeof *s->circle);
+  s->planar_of = calloc(contacts + 1, sizeof *s->planar_of);
+  return s->x && s->u && s->law && s->circle && s->planar_of ? HC_OK : HC_NO_MEMORY;
 }
 
 void motion_series_free(motion_series *s)
@@ -32,7 +32,7 @@ void motion_series_free(motion_series *s)
   free(s->u);
   free(s->law);
   free(s->circle);
-  free(s->circle_of);
+  free(s->planar_of);
 }
 
 static double largest(int n, const double *a)
@@ -88,12 +88,12 @@ static const double *tangent_of(const motion_series *s, const modal_base *b, int
 }
 
 /* What the circles that slip take from coefficient k. */
-static void subtract_circles(motion_series *s, const scaled_model *m, int k, double *force)
+static void subtract_planar(motion_series *s, const scaled_model *m, int k, double *force)
 {
   for (int j = 0; j < s->n_contacts; ++j) {
     double pull[2];
-    if (s->circle_of[j] < 0) continue;
-    circle_series_next(&s->circle[s->circle_of[j]], &m->contact[j], k, pull);
+    if (s->planar_of[j] < 0) continue;
+    planar_series_next(&s->circle[s->planar_of[j]], &m->contact[j], k, pull);
     for (int a = 0; a < 2; ++a) {
       const double *t = tangent_of(s, m->base, j + a);
       for (int i = 0; i < s->n; ++i) force[i] -= t[i] * pull[a];
@@ -101,24 +101,24 @@ static void subtract_circles(motion_series *s, const scaled_model *m, int k, dou
   }
 }
 
-static void begin_circles(motion_series *s, const scaled_model *m, const contact_track *track)
+static void begin_planar_contacts(motion_series *s, const scaled_model *m, const contact_track *track)
 {
   int n = 0;
   for (int j = 0; j < s->n_contacts; ++j) {
     const size_t at = (size_t)j * TERMS;
-    s->circle_of[j] = -1;
-    if (!m->contact[j].circle || !circle_track_turns(&track[j])) continue;
-    s->circle_of[j] = n;
-    circle_series_begin(&s->circle[n++], &track[j], s->u + at, s->u + at + TERMS, s->v + at);
+    s->planar_of[j] = -1;
+    if (!m->contact[j].circle || !planar_track_turns(&track[j])) continue;
+    s->planar_of[j] = n;
+    planar_series_begin(&s->circle[n++], &track[j], s->u + at, s->u + at + TERMS, s->v + at);
   }
 }
 
 /* Up to where all of them are known. */
-static double circles_reach(const motion_series *s)
+static double planar_reach(const motion_series *s)
 {
   double tau = INFINITY;
   for (int j = 0; j < s->n_contacts; ++j)
-    if (s->circle_of[j] >= 0) tau = fmin(tau, circle_series_reach(&s->circle[s->circle_of[j]]));
+    if (s->planar_of[j] >= 0) tau = fmin(tau, planar_series_reach(&s->circle[s->planar_of[j]]));
   return tau;
 }
 
@@ -152,19 +152,19 @@ static double expand(motion_series *s, const scaled_model *m, bool loaded, doubl
     modal_base_subtract_K(b, m->by_K, x, force);
     modal_base_subtract_C(b, m->by_C * (k + 1), x + n, force);
     subtract_contacts(s, b, k, force);
-    subtract_circles(s, m, k, force);
+    subtract_planar(s, m, k, force);
     for (size_t i = 0; i < n; ++i) next[i] = force[i] / ((k + 1) * (k + 2));
     project(s, b, k + 2);
   }
-  for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) subtract_circles(s, m, k, s->force); /* for their directions */
-  return fmin(reach(s, loaded ? 1 : 0), circles_reach(s));                                  /* a motion is about 1 */
+  for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) subtract_planar(s, m, k, s->force); /* for their directions */
+  return fmin(reach(s, loaded ? 1 : 0), planar_reach(s));                                  /* a motion is about 1 */
 }
 
-static circle_motion circle_at(const scaled_model *m, int j, const double *y)
+static planar_contact_motion planar_at(const scaled_model *m, int j, const double *y)
 {
-  circle_motion at;
-  scaled_circle_motion(m, j, y, at.u, &at.v);
-  scaled_circle_motion(m, j, y + m->n, at.du, &at.dv);
+  planar_contact_motion at;
+  scaled_planar_motion(m, j, y, at.u, &at.v);
+  scaled_planar_motion(m, j, y + m->n, at.du, &at.dv);
   return at;
 }
 
@@ -174,8 +174,8 @@ double motion_series_hold(const scaled_model *m, contact_track *track, const dou
   for (int j = 0; j < m->n_contacts; ++j) {
     double left;
     if (!m->contact[j].circle || track[j].state != CONTACT_SLIP_PLUS) continue;
-    const circle_motion at = circle_at(m, j, y);
-    const bool holds = circle_track_holds(&track[j], &m->contact[j], &at, &left);
+    const planar_contact_motion at = planar_at(m, j, y);
+    const bool holds = planar_track_holds(&track[j], &m->contact[j], &at, &left);
     track[j].held = track[j + 1].held = holds;
     if (holds) reach = fmin(reach, 4 * left);
   }
@@ -186,7 +186,7 @@ double motion_series_begin(motion_series *s, const scaled_model *m, const contac
                            const double *y)
 {
   for (int j = 0; j < s->n_contacts; ++j) s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
-  begin_circles(s, m, track);
+  begin_planar_contacts(s, m, track);
   return expand(s, m, true, theta, y);
 }
 
@@ -211,18 +211,18 @@ contact_motion motion_series_contact(const motion_series *s, int j, double tau)
   return (contact_motion){series_value(u, tau), series_value(v, tau), series_slope(u, tau), series_slope(v, tau)};
 }
 
-circle_motion motion_series_circle(const motion_series *s, int j, double tau)
+planar_contact_motion motion_series_planar(const motion_series *s, int j, double tau)
 {
   const contact_motion one = motion_series_contact(s, j, tau), two = motion_series_contact(s, j + 1, tau);
-  return (circle_motion){{one.u, two.u}, one.v, {one.du, two.du}, one.dv};
+  return (planar_contact_motion){{one.u, two.u}, one.v, {one.du, two.du}, one.dv};
 }
 
 void motion_series_turn(const motion_series *s, double tau, contact_track *track)
 {
   for (int j = 0; j < s->n_contacts; ++j) {
     double e[2];
-    if (s->circle_of[j] < 0) continue;
-    circle_series_direction(&s->circle[s->circle_of[j]], tau, e);
+    if (s->planar_of[j] < 0) continue;
+    planar_series_direction(&s->circle[s->planar_of[j]], tau, e);
     for (int a = 0; a < 2; ++a) {
       track[j + a].along = e[a];
       track[j + a].fresh = track[j + a].fresh && !(tau > 0);
@@ -231,16 +231,16 @@ void motion_series_turn(const motion_series *s, double tau, contact_track *track
 }
 
 /* Of a circle that sticks, or slips: all but that of N = 0. */
-static int circle_guard(const motion_series *s, const scaled_model *m, const contact_track *track, int j,
+static int planar_guard(const motion_series *s, const scaled_model *m, const contact_track *track, int j,
                         track_guard *guard)
 {
   const double *u = s->u + (size_t)j * TERMS, *v = s->v + (size_t)j * TERMS;
   if (track[j].state == CONTACT_SEPARATED || track[j].held) return 0;
   if (track[j].state == CONTACT_STICK) {
-    circle_track_stick_guard(&track[j], &m->contact[j], u, u + TERMS, v, guard);
+    planar_track_stick_guard(&track[j], &m->contact[j], u, u + TERMS, v, guard);
     return 1;
   }
-  circle_series_guard(&s->circle[s->circle_of[j]], &m->contact[j], guard->g);
+  planar_series_guard(&s->circle[s->planar_of[j]], &m->contact[j], guard->g);
   guard->event = TRACK_STICKS;
   guard->noise = contact_track_rate_noise(&m->contact[j], hypot(u[1], u[1 + TERMS]), v[1]);
   return 1;
@@ -253,7 +253,7 @@ int motion_series_guards(const motion_series *s, const scaled_model *m, const co
   const scaled_contact *c = &m->contact[j];
   if (c->second) return 0;
   const int n = contact_track_guards(&track[j], c, u, v, guard);
-  return c->circle ? n + circle_guard(s, m, track, j, guard + n) : n;
+  return c->circle ? n + planar_guard(s, m, track, j, guard + n) : n;
 }
 
 void motion_series_of(const motion_series *s, const double *row, double *r)

@@ -21,8 +21,8 @@ typedef struct motion_series { /* from motion_series_make, to motion_series_free
   double *force;              /* [n] */
   double *load;               /* [n_loads][2] cosine and sine of one term */
   contact_forces_linear *law; /* [n_contacts] of the phase */
-  circle_series *circle;      /* [n_circles] */
-  int *circle_of;             /* [n_contacts] that of the contact's first direction; -1: none that turns */
+  planar_series *circle;      /* [n_planar] */
+  int *planar_of;             /* [n_contacts] that of the contact's first direction; -1: none that turns */
 } motion_series;
 
 hc_status motion_series_make(motion_series *s, const modal_base *base); /* HC_NO_MEMORY; free in any case */
@@ -46,7 +46,7 @@ int motion_series_guards(const motion_series *s, const scaled_model *m, const co
                          track_guard guard[TRACK_GUARDS]);
 
 /* Of the circle whose first direction is j, at tau; and the directions of those that slip, in track[]. */
-circle_motion motion_series_circle(const motion_series *s, int j, double tau);
+planar_contact_motion motion_series_planar(const motion_series *s, int j, double tau);
 void motion_series_turn(const motion_series *s, double tau, contact_track *track);
 
 /* Coefficients of row . X: r[TRACK_ORDER + 1]. */

@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-hc_status circle_columns_make(circle_columns *c, int columns)
+hc_status planar_columns_make(planar_columns *c, int columns)
 {
   const size_t width = (size_t)columns, series = TRACK_TERMS * width;
   double **const arrays[] = {&c->u[0], &c->u[1], &c->v, &c->angle};
   const size_t n_arrays = sizeof arrays / sizeof *arrays;
-  *c = (circle_columns){.columns = columns};
+  *c = (planar_columns){.columns = columns};
   if (!(c->numbers = calloc(n_arrays * series + 3 * width, sizeof *c->numbers))) return HC_NO_MEMORY;
   for (size_t i = 0; i < n_arrays; ++i) *arrays[i] = c->numbers + i * series;
   c->pull[0] = c->numbers + n_arrays * series;
@@ -18,9 +18,9 @@ hc_status circle_columns_make(circle_columns *c, int columns)
   return HC_OK;
 }
 
-void circle_columns_free(circle_columns *c) { free(c->numbers); }
+void planar_columns_free(planar_columns *c) { free(c->numbers); }
 
-void circle_columns_begin(circle_columns *c, const circle_series *s, const scaled_contact *law, double h)
+void planar_columns_begin(planar_columns *c, const planar_series *s, const scaled_contact *law, double h)
 {
   double power = 1;
   c->fresh = s->fresh;
@@ -41,7 +41,7 @@ void circle_columns_begin(circle_columns *c, const circle_series *s, const scale
   }
 }
 
-static double *term(double *series, const circle_columns *c, int k) { return series + (size_t)k * (size_t)c->columns; }
+static double *term(double *series, const planar_columns *c, int k) { return series + (size_t)k * (size_t)c->columns; }
 
 /* sum += by_x x + by_y y */
 static void add(int width, double by_x, const double *restrict x, double by_y, const double *restrict y,
@@ -51,7 +51,7 @@ static void add(int width, double by_x, const double *restrict x, double by_y, c
 }
 
 /* sum += kt (dU'.e_perp)_k */
-static void add_across(const circle_columns *c, int width, int k, double *sum)
+static void add_across(const planar_columns *c, int width, int k, double *sum)
 {
   for (int i = 0; i <= k; ++i) {
     const double by = c->kt * (i + 1) / c->h;
@@ -60,7 +60,7 @@ static void add_across(const circle_columns *c, int width, int k, double *sum)
 }
 
 /* sum -= (q d(mu N))_k + (kt U'.e dphi + mu N dphi')_k with dphi up to `known`. */
-static void subtract_rest(const circle_columns *c, int width, int k, int known, double *sum)
+static void subtract_rest(const planar_columns *c, int width, int k, int known, double *sum)
 {
   for (int i = 0; i <= k; ++i) {
     const double *angle = term(i <= known ? c->angle : c->v, c, i);
@@ -70,7 +70,7 @@ static void subtract_rest(const circle_columns *c, int width, int k, int known, 
 }
 
 /* dphi_k */
-static void find_angle(circle_columns *c, int width, int k)
+static void find_angle(planar_columns *c, int width, int k)
 {
   double *angle = term(c->angle, c, k);
   if (k == 0 && !c->fresh) return;
@@ -83,7 +83,7 @@ static void find_angle(circle_columns *c, int width, int k)
   for (int q = 0; q < width; ++q) angle[q] = sum[q] / by;
 }
 
-void circle_columns_term(circle_columns *c, int width, int k)
+void planar_columns_term(planar_columns *c, int width, int k)
 {
   find_angle(c, width, k);
   for (int a = 0; a < 2; ++a) {
@@ -94,7 +94,7 @@ void circle_columns_term(circle_columns *c, int width, int k)
   }
 }
 
-void circle_columns_end(const circle_columns *c, int width, int k, double *angle)
+void planar_columns_end(const planar_columns *c, int width, int k, double *angle)
 {
   memset(angle, 0, (size_t)width * sizeof *angle);
   for (int i = 0; i <= k; ++i)

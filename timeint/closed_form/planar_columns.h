@@ -5,13 +5,13 @@
  *     mu N dphi' = kt (dU'.e_perp - U'.e dphi) - q d(mu N)
  * N, e, q and U' are those of the motion, so the equation is linear, with coefficients that are series. From touch-down
  * on, N_0 = 0, it is singular as that of e is, and dphi_0 follows from dU' and dN. A term is a coefficient times h^k.
- * Nothing is allocated after circle_columns_make. */
+ * Nothing is allocated after planar_columns_make. */
 #ifndef HC_TIMEINT_PLANAR_COLUMNS_H
 #define HC_TIMEINT_PLANAR_COLUMNS_H
 
 #include "timeint/closed_form/planar_series.h"
 
-typedef struct circle_columns { /* from circle_columns_make, to circle_columns_free; of one contact */
+typedef struct planar_columns { /* from planar_columns_make, to planar_columns_free; of one contact */
   int columns;                  /* the most side by side */
   bool fresh;
   double h, kt, friction; /* friction: mu kn */
@@ -23,19 +23,19 @@ typedef struct circle_columns { /* from circle_columns_make, to circle_columns_f
   double *pull[2];               /* [columns] of dT */
   double *sum;                   /* [columns] */
   double *numbers;               /* of all arrays */
-} circle_columns;
+} planar_columns;
 
-hc_status circle_columns_make(circle_columns *c, int columns); /* HC_NO_MEMORY; free it in any case */
-void circle_columns_free(circle_columns *c);
+hc_status planar_columns_make(planar_columns *c, int columns); /* HC_NO_MEMORY; free it in any case */
+void planar_columns_free(planar_columns *c);
 
 /* Along that motion, steps of h. */
-void circle_columns_begin(circle_columns *c, const circle_series *s, const scaled_contact *law, double h);
+void planar_columns_begin(planar_columns *c, const planar_series *s, const scaled_contact *law, double h);
 
 /* Term k = 0, 1, 2 ... of dT for `width` columns into c->pull; those of dU and dV are there up to k + 1, dphi_0 in
  * c->angle. */
-void circle_columns_term(circle_columns *c, int width, int k);
+void planar_columns_term(planar_columns *c, int width, int k);
 
 /* dphi at the end of the step, of terms up to k: angle[width]. */
-void circle_columns_end(const circle_columns *c, int width, int k, double *angle);
+void planar_columns_end(const planar_columns *c, int width, int k, double *angle);
 
 #endif

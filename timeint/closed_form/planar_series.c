@@ -13,7 +13,7 @@ static double product(const double *a, const double *b, int k, int from, int to)
   return sum;
 }
 
-void circle_series_begin(circle_series *s, const contact_track t[2], const double *u1, const double *u2,
+void planar_series_begin(planar_series *s, const contact_track t[2], const double *u1, const double *u2,
                          const double *v)
 {
   s->fresh = t->fresh;
@@ -25,20 +25,20 @@ void circle_series_begin(circle_series *s, const contact_track t[2], const doubl
 }
 
 /* (U'.e_perp)_k, with e up to `known`. */
-static double across(const circle_series *s, int k, int known)
+static double across(const planar_series *s, int k, int known)
 {
   return product(s->e[0], s->rate[1], k, 0, known) - product(s->e[1], s->rate[0], k, 0, known);
 }
 
 /* Coefficient k of e from q up to k - 1, which is q_{k-1} = turn where that is not known yet. */
-static void expand_direction(circle_series *s, int k)
+static void expand_direction(planar_series *s, int k)
 {
   s->e[0][k] = -product(s->turn, s->e[1], k - 1, 0, k - 1) / k;
   s->e[1][k] = product(s->turn, s->e[0], k - 1, 0, k - 1) / k;
 }
 
 /* q_{k-1} and e_k. */
-static void turn(circle_series *s, double kt, int k)
+static void turn(planar_series *s, double kt, int k)
 {
   const double *limit = s->limit;
   if (!s->fresh) {
@@ -54,7 +54,7 @@ static void turn(circle_series *s, double kt, int k)
   expand_direction(s, k);
 }
 
-void circle_series_next(circle_series *s, const scaled_contact *c, int k, double pull[2])
+void planar_series_next(planar_series *s, const scaled_contact *c, int k, double pull[2])
 {
   const law_regularised *law = &c->law;
   const double friction = law->mu * law->kn;
@@ -66,7 +66,7 @@ void circle_series_next(circle_series *s, const scaled_contact *c, int k, double
   for (int a = 0; a < 2; ++a) pull[a] = product(s->limit, s->e[a], k, 0, k);
 }
 
-double circle_series_reach(const circle_series *s)
+double planar_series_reach(const planar_series *s)
 {
   double tau = INFINITY;
   for (int k = TRACK_ORDER - 2; k < TRACK_ORDER; ++k) {
@@ -77,7 +77,7 @@ double circle_series_reach(const circle_series *s)
   return tau;
 }
 
-void circle_series_direction(const circle_series *s, double tau, double e[2])
+void planar_series_direction(const planar_series *s, double tau, double e[2])
 {
   for (int a = 0; a < 2; ++a) {
     e[a] = 0;
@@ -87,7 +87,7 @@ void circle_series_direction(const circle_series *s, double tau, double e[2])
   e[0] /= size, e[1] /= size;
 }
 
-void circle_series_guard(const circle_series *s, const scaled_contact *c, double *g)
+void planar_series_guard(const planar_series *s, const scaled_contact *c, double *g)
 {
   for (int k = 0; k < TRACK_ORDER; ++k) {
     const double slide = product(s->e[0], s->rate[0], k, 0, k) + product(s->e[1], s->rate[1], k, 0, k);

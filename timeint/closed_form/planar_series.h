@@ -13,29 +13,29 @@
 
 #include "timeint/law/planar_track.h"
 
-typedef struct circle_series {
+typedef struct planar_series {
   bool fresh;                  /* from touch-down on, N_0 = 0 */
   double limit[TRACK_TERMS];   /* mu N */
   double e[2][TRACK_TERMS];    /* of the last one nothing is known where fresh: 0 */
   double turn[TRACK_TERMS];    /* q, one less than of e */
   double rate[2][TRACK_TERMS]; /* U', one less than of U */
   const double *u[2], *v;      /* [TRACK_TERMS] the motion's, as far as it is known */
-} circle_series;
+} planar_series;
 
 /* Before the first coefficient of a circle in the states t[2], its motion in u_1, u_2, v[TRACK_TERMS]. */
-void circle_series_begin(circle_series *s, const contact_track t[2], const double *u1, const double *u2,
+void planar_series_begin(planar_series *s, const contact_track t[2], const double *u1, const double *u2,
                          const double *v);
 
 /* Coefficient k = 0, 1, 2 ... of all, in turn; U and V are known up to k + 1. pull[2]: of T. */
-void circle_series_next(circle_series *s, const scaled_contact *c, int k, double pull[2]);
+void planar_series_next(planar_series *s, const scaled_contact *c, int k, double pull[2]);
 
 /* The tau up to which e is known to rounding. */
-double circle_series_reach(const circle_series *s);
+double planar_series_reach(const planar_series *s);
 
 /* e at tau, of length 1. */
-void circle_series_direction(const circle_series *s, double tau, double e[2]);
+void planar_series_direction(const planar_series *s, double tau, double e[2]);
 
 /* s kt, what ends slip where it falls through 0: g[TRACK_TERMS]. */
-void circle_series_guard(const circle_series *s, const scaled_contact *c, double *g);
+void planar_series_guard(const planar_series *s, const scaled_contact *c, double *g);
 
 #endif

@@ -20,7 +20,7 @@ static const double died_away =
 hc_status series_columns_make(series_columns *s, const modal_base *base)
 {
   const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, rows = 2 * contacts;
-  const size_t circles = (size_t)base->n_circles;
+  const size_t circles = (size_t)base->n_planar;
   *s = (series_columns){.n = base->n, .n_contacts = base->n_contacts};
   const struct {
     double **array;
@@ -50,11 +50,11 @@ hc_status series_columns_make(series_columns *s, const modal_base *base)
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
   s->numbers = calloc(count, sizeof *s->numbers);
   s->law = calloc(contacts + 1, sizeof *s->law);
-  s->circle = calloc((size_t)base->n_circles + 1, sizeof *s->circle);
+  s->circle = calloc((size_t)base->n_planar + 1, sizeof *s->circle);
   if (!s->numbers || !s->law || !s->circle) return HC_NO_MEMORY;
-  s->n_circles = base->n_circles;
-  for (int i = 0; i < s->n_circles; ++i)
-    if (circle_columns_make(&s->circle[i], BLOCK) != HC_OK) return HC_NO_MEMORY;
+  s->n_planar = base->n_planar;
+  for (int i = 0; i < s->n_planar; ++i)
+    if (planar_columns_make(&s->circle[i], BLOCK) != HC_OK) return HC_NO_MEMORY;
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
     *parts[k].array = s->numbers + used;
     used += parts[k].count;
@@ -66,7 +66,7 @@ hc_status series_columns_make(series_columns *s, const modal_base *base)
 
 void series_columns_free(series_columns *s)
 {
-  for (int i = 0; i < s->n_circles; ++i) circle_columns_free(&s->circle[i]);
+  for (int i = 0; i < s->n_planar; ++i) planar_columns_free(&s->circle[i]);
   free(s->circle);
   free(s->numbers);
   free(s->law);
@@ -127,7 +127,7 @@ void series_columns_begin(series_columns *s, const scaled_model *m, const contac
   for (int j = 0; j < s->n_contacts; ++j) s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
   for (int j = 0; j < s->n_contacts; ++j) {
     if (m->contact[j].circle) join_normals(s, j);
-    if (m->contact[j].circle && circle_track_turns(&track[j])) add_slipping(s, b, j);
+    if (m->contact[j].circle && planar_track_turns(&track[j])) add_slipping(s, b, j);
     if (has_tangent(&s->law[j])) add_row(s, b->tangent + (size_t)j * (size_t)s->n);
     if (has_normal(&s->law[j])) add_row(s, b->normal + (size_t)j * (size_t)s->n);
   }
@@ -210,7 +210,7 @@ static void project_slips(series_columns *s, int width, int n_rows, const double
 }
 
 /* Term k of a motion that is -s->circling's row. */
-static void keep_term(const series_columns *s, int width, int row, const circle_columns *c, int k, double *series)
+static void keep_term(const series_columns *s, int width, int row, const planar_columns *c, int k, double *series)
 {
   const double *from = s->circling + (size_t)row * (size_t)width;
   double *to = series + (size_t)k * (size_t)c->columns;
@@ -218,7 +218,7 @@ static void keep_term(const series_columns *s, int width, int row, const circle_
 }
 
 /* Term k of the motion of the circles that slip. */
-static void project_circles(series_columns *s, int width, int k, const double *z)
+static void project_planar(series_columns *s, int width, int k, const double *z)
 {
   project_slips(s, width, 2 * s->n_slipping, s->slip_tangents, z);
   for (int i = 0; i < s->n_slipping; ++i)
@@ -228,15 +228,15 @@ static void project_circles(series_columns *s, int width, int k, const double *z
 }
 
 /* out -= by (T of the circles that slip) of terms z_k and `next`, z_{k+1}. */
-static void subtract_circles(series_columns *s, int width, int k, double by, const double *z, const double *next,
-                             double *out)
+static void subtract_planar(series_columns *s, int width, int k, double by, const double *z, const double *next,
+                            double *out)
 {
   double *row = s->circling;
   if (s->n_slipping == 0) return;
-  if (k == 0) project_circles(s, width, 0, z);
-  project_circles(s, width, k + 1, next);
+  if (k == 0) project_planar(s, width, 0, z);
+  project_planar(s, width, k + 1, next);
   for (int i = 0; i < s->n_slipping; ++i) {
-    circle_columns_term(&s->circle[i], width, k);
+    planar_columns_term(&s->circle[i], width, k);
     for (int a = 0; a < 2; ++a, row += width)
       for (int q = 0; q < width; ++q) row[q] = by * s->circle[i].pull[a][q];
   }
@@ -292,7 +292,7 @@ static bool expand(series_columns *s, const scaled_model *m, int width, double h
     subtract(s, width, b->diagonal_K, b->K, s->turned_K, by * h * m->by_K, z, second);
     subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, second);
     subtract_contacts(s, width, k == 2, by * h, z, second);
-    subtract_circles(s, width, k - 2, by * h, z, next, second);
+    subtract_planar(s, width, k - 2, by * h, z, next, second);
     add_term(count, k / h, second, s->x_end, s->p_end);
     if (k == 2) add_squares(s, width, 2 / h, second, s->size); /* a column that begins with its slider alone */
     if (!s->along) small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
@@ -358,10 +358,10 @@ hc_status series_columns_advance(series_columns *s, const scaled_model *m, doubl
 static void exchange_angles(series_columns *s, int width, bool back)
 {
   for (int j = 0; j < s->n_contacts; ++j) {
-    if (s->along->circle_of[j] < 0) continue;
-    circle_columns *c = &s->circle[s->along->circle_of[j]];
+    if (s->along->planar_of[j] < 0) continue;
+    planar_columns *c = &s->circle[s->along->planar_of[j]];
     double *row = s->slider + (size_t)j * (size_t)width;
-    if (back) circle_columns_end(c, width, LAST - 2, row);
+    if (back) planar_columns_end(c, width, LAST - 2, row);
     else memcpy(c->angle, row, (size_t)width * sizeof *row);
   }
 }
@@ -372,8 +372,8 @@ void series_columns_turn(series_columns *s, const scaled_model *m, const motion_
   const size_t rows = (size_t)s->n * (size_t)ld;
   s->along = along;
   for (int j = 0; j < s->n_contacts; ++j)
-    if (along->circle_of[j] >= 0)
-      circle_columns_begin(&s->circle[along->circle_of[j]], &along->circle[along->circle_of[j]], &m->contact[j], h);
+    if (along->planar_of[j] >= 0)
+      planar_columns_begin(&s->circle[along->planar_of[j]], &along->circle[along->planar_of[j]], &m->contact[j], h);
   for (int q = 0; q < count; q += BLOCK) {
     const int width = count - q < BLOCK ? count - q : BLOCK;
     double *from = matrix + q;

@@ -14,7 +14,7 @@
 #include "timeint/closed_form/planar_columns.h"
 
 typedef struct series_columns { /* from series_columns_make, to series_columns_free */
-  int n, n_contacts, n_circles;
+  int n, n_contacts, n_planar;
   double *turned_K, *turned_C;  /* [n][n] by rows, where they are not diagonal; else NULL */
   int n_rows;                   /* of contacts that resist in this phase */
   double *rows, *turned;        /* [n][n_rows] by columns; by rows */
@@ -33,7 +33,7 @@ typedef struct series_columns { /* from series_columns_make, to series_columns_f
   double *motion;               /* [block][n_rows] of the contacts; their forces */
   double *slider;               /* [block][n_contacts] dW_j */
   double *size, *left;          /* [block] of columns, squared */
-  circle_columns *circle;       /* [n_circles] */
+  planar_columns *circle;       /* [n_planar] */
   const motion_series *along;   /* where circles slip: the motion; else NULL */
   double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
   double *numbers;              /* of all arrays of doubles */

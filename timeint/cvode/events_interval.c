@@ -8,26 +8,26 @@
 
 /* ---- equations -------------------------------------------------------------------------------------- */
 
-circle_motion events_circle_at(const events *in, int j, const double *y)
+planar_contact_motion events_planar_at(const events *in, int j, const double *y)
 {
-  circle_motion at;
-  scaled_circle_motion(in->base.m, j, y, at.u, &at.v);
-  scaled_circle_motion(in->base.m, j, y + in->n, at.du, &at.dv);
+  planar_contact_motion at;
+  scaled_planar_motion(in->base.m, j, y, at.u, &at.v);
+  scaled_planar_motion(in->base.m, j, y + in->n, at.du, &at.dv);
   return at;
 }
 
 /* T of the circles that slip, out of the forces dy + n, and the rates of all angles. */
-static void subtract_circles(const events *in, const double *y, double *dy)
+static void subtract_planar(const events *in, const double *y, double *dy)
 {
-  for (int i = 0; i < in->n_circles; ++i) {
-    const circle_angle *a = &in->angle[i];
+  for (int i = 0; i < in->n_planar; ++i) {
+    const planar_angle *a = &in->angle[i];
     const int j = a->contact, n = in->n;
     const scaled_contact *c = &in->base.m->contact[j];
     const double phi = y[2 * n + i], *t = in->base.m->base->tangent + (size_t)j * (size_t)n;
-    const circle_motion at = events_circle_at(in, j, y);
-    dy[2 * n + i] = circle_angle_rate(a, &in->track[j], c, &at, phi);
-    if (!circle_track_turns(&in->track[j])) continue;
-    const double limit = c->law.kt * circle_track_radius(c, at.v), pull[2] = {limit * cos(phi), limit * sin(phi)};
+    const planar_contact_motion at = events_planar_at(in, j, y);
+    dy[2 * n + i] = planar_angle_rate(a, &in->track[j], c, &at, phi);
+    if (!planar_track_turns(&in->track[j])) continue;
+    const double limit = c->law.kt * planar_track_radius(c, at.v), pull[2] = {limit * cos(phi), limit * sin(phi)};
     for (int k = 0; k < n; ++k) dy[n + k] -= pull[0] * t[k] + pull[1] * t[n + k];
   }
 }
@@ -45,7 +45,7 @@ void events_rate(const events *in, double theta, const double *y, double *dy)
     const double along = f->t_u * u + f->t_v * v + f->t_0, across = f->n_v * v + f->n_0;
     for (int i = 0; i < n; ++i) dy[n + i] -= along * t[i] + across * normal[i];
   }
-  subtract_circles(in, y, dy);
+  subtract_planar(in, y, dy);
   memcpy(dy, y + n, (size_t)n * sizeof *dy);
 }
 
@@ -77,17 +77,17 @@ static void fill_linear(const scaled_model *m, size_t ld, double *a)
 }
 
 /* What circles that slip add. */
-static void fill_circles(const events *in, const double *y, size_t ld, double *a)
+static void fill_planar(const events *in, const double *y, size_t ld, double *a)
 {
   const scaled_model *m = in->base.m;
   const size_t n = (size_t)in->n;
-  for (int i = 0; i < in->n_circles; ++i) {
+  for (int i = 0; i < in->n_planar; ++i) {
     const int j = in->angle[i].contact;
     const size_t phi = 2 * n + (size_t)i;
     const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
-    if (!circle_track_turns(&in->track[j])) continue;
-    const circle_motion at = events_circle_at(in, j, y);
-    const angle_slopes s = circle_angle_slopes(&in->angle[i], &in->track[j], &m->contact[j], &at, y[phi]);
+    if (!planar_track_turns(&in->track[j])) continue;
+    const planar_contact_motion at = events_planar_at(in, j, y);
+    const angle_slopes s = planar_angle_slopes(&in->angle[i], &in->track[j], &m->contact[j], &at, y[phi]);
     for (size_t k = 0; k < 2; ++k)
       for (size_t row = 0; row < n; ++row) {
         for (size_t col = 0; col < n; ++col) a[col * ld + n + row] -= t[k * n + row] * s.t_v[k] * normal[col];
@@ -119,7 +119,7 @@ int events_jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, v
       for (size_t row = 0; row < n; ++row) a[col * ld + n + row] -= t[row] * along + normal[row] * across;
     }
   }
-  fill_circles(in, NV_DATA_S(y), ld, a);
+  fill_planar(in, NV_DATA_S(y), ld, a);
   return 0;
 }
 
@@ -143,8 +143,8 @@ void events_motion_at(const events *in, int j, const double *y, const double *dy
 
 angle_motion events_angle_motion_at(const events *in, int j, double theta, const double *y, const double *dy)
 {
-  angle_motion now = {.at = events_circle_at(in, j, y), .theta = theta, .phi = y[2 * in->n + in->angle_of[j]]};
-  scaled_circle_motion(in->base.m, j, dy + in->n, now.bend, &now.normal_bend);
+  angle_motion now = {.at = events_planar_at(in, j, y), .theta = theta, .phi = y[2 * in->n + in->angle_of[j]]};
+  scaled_planar_motion(in->base.m, j, dy + in->n, now.bend, &now.normal_bend);
   return now;
 }
 
@@ -157,7 +157,7 @@ int events_guards(const events *in, int j, double theta, const double *y, const 
   if (c->second) return 0;
   if (c->circle) {
     const angle_motion now = events_angle_motion_at(in, j, theta, y, dy);
-    return circle_angle_guards(&in->angle[in->angle_of[j]], &in->track[j], c, &now, guard);
+    return planar_angle_guards(&in->angle[in->angle_of[j]], &in->track[j], c, &now, guard);
   }
   events_motion_at(in, j, y, dy, &at, bend);
   return guards_at(in, j, &at, bend, guard);

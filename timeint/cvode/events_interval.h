@@ -27,18 +27,18 @@ typedef struct events { /* from integrate_new_events, to integrate_free; not sha
   contact_forces_linear *law; /* [n_contacts] of these states */
   int *info;                  /* [n_contacts][EVENTS_ROOTS] what CVODE says of the root functions */
   double *rate;               /* [n_equations] dy where the guards' rates are wanted */
-  int n_circles, n_equations; /* 2 n, and an angle for each circle */
-  circle_angle *angle;        /* [n_circles] */
+  int n_planar, n_equations;  /* 2 n, and an angle for each circle */
+  planar_angle *angle;        /* [n_planar] */
   int *angle_of;              /* [n_contacts] that of a circle's first direction; else -1 */
-  double *phi;                /* [n_circles] where sliders are wanted */
+  double *phi;                /* [n_planar] where sliders are wanted */
   int passed;                 /* events since the period began */
   bool varies;                /* the monodromy is asked for */
-  structure_variations variations;
-  phase_modes *modes; /* for them */
+  fundamental_matrix variations;
+  interval_modes *modes; /* for them */
 } events;
 
 /* The motion of the circle whose first direction is contact j, at y; with dy, the rate of y, its bend, too. */
-circle_motion events_circle_at(const events *in, int j, const double *y);
+planar_contact_motion events_planar_at(const events *in, int j, const double *y);
 angle_motion events_angle_motion_at(const events *in, int j, double theta, const double *y, const double *dy);
 
 /* Of a contact with one tangent; with dy its u'' and v'' in bend, too. */

@@ -16,7 +16,6 @@
 
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
 static const double stiff = 60; /* largest decay rate over lowest frequency, from where on BDF takes fewer steps */
-static const double longest_step = 0.2; /* [rad] measure.c integrates a quintic over each */
 
 enum {
   MAX_STEPS = 1000000,   /* between transitions */
@@ -32,9 +31,9 @@ static void use_states(events *in)
 static void follow_angles(events *in)
 {
   const double *phi = NV_DATA_S(in->base.y) + 2 * in->n;
-  for (int i = 0; i < in->n_circles; ++i) {
+  for (int i = 0; i < in->n_planar; ++i) {
     contact_track *t = &in->track[in->angle[i].contact];
-    if (!circle_track_turns(t)) continue;
+    if (!planar_track_turns(t)) continue;
     t[0].along = cos(phi[i]);
     t[1].along = sin(phi[i]);
   }
@@ -44,7 +43,7 @@ static void follow_angles(events *in)
 static void note_turn(events *in, int j)
 {
   const int i = in->angle_of[j];
-  if (circle_track_turns(&in->track[j]))
+  if (planar_track_turns(&in->track[j]))
     slider_travel_note_turn(&in->travel, j, NV_DATA_S(in->base.y)[2 * in->n + i] - in->angle[i].began);
 }
 
@@ -52,36 +51,36 @@ static void note_turn(events *in, int j)
 static void begin_angle(events *in, int j, double theta)
 {
   double *y = NV_DATA_S(in->base.y);
-  circle_angle *a = &in->angle[in->angle_of[j]];
+  planar_angle *a = &in->angle[in->angle_of[j]];
   contact_track *t = &in->track[j];
   a->opens = false;
-  if (!circle_track_turns(t)) return;
+  if (!planar_track_turns(t)) return;
   a->began = y[2 * in->n + in->angle_of[j]] = atan2(t[1].along, t[0].along);
   if (!t->fresh) return;
   t[0].fresh = t[1].fresh = false;
   events_rate(in, theta, y, in->rate);
   const angle_motion now = events_angle_motion_at(in, j, theta, y, in->rate);
-  circle_angle_open(a, &in->base.m->contact[j], &now);
+  planar_angle_open(a, &in->base.m->contact[j], &now);
 }
 
 /* The circle whose first direction is j. That its angle is held, or no more, is no change of state. */
-static hc_status pass_circle(events *in, int j, track_event event, double theta, int *count)
+static hc_status pass_planar(events *in, int j, track_event event, double theta, int *count)
 {
   const contact_track before[2] = {in->track[j], in->track[j + 1]};
   const scaled_contact *c = &in->base.m->contact[j];
-  const circle_motion at = events_circle_at(in, j, NV_DATA_S(in->base.y));
+  const planar_contact_motion at = events_planar_at(in, j, NV_DATA_S(in->base.y));
   hc_status st = HC_OK;
   const bool changes = event != TRACK_TURNS && event != TRACK_HOLDS;
   if (++in->passed > 8 * integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
   if (changes && ++*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
-  if (changes && in->varies) st = structure_variations_advance(&in->variations, in->base.m, in->track, theta);
+  if (changes && in->varies) st = fundamental_matrix_advance(&in->variations, in->base.m, in->track, theta);
   if (st != HC_OK) return st;
   note_turn(in, j);
-  circle_track_pass(&in->track[j], c, event, &at);
-  slider_travel_note_circle(&in->travel, c, in->track, j, &at);
+  planar_track_pass(&in->track[j], c, event, &at);
+  slider_travel_note_planar(&in->travel, c, in->track, j, &at);
   if (changes && in->varies) {
-    structure_variations_circle(&in->variations, in->base.m, j, before, &in->track[j], &at);
-    structure_variations_follow(&in->variations, in->base.m, in->track, NV_DATA_S(in->base.y));
+    fundamental_matrix_planar(&in->variations, in->base.m, j, before, &in->track[j], &at);
+    fundamental_matrix_follow(&in->variations, in->base.m, in->track, NV_DATA_S(in->base.y));
   }
   use_states(in);
   begin_angle(in, j, theta);
@@ -93,18 +92,18 @@ static hc_status pass(events *in, int j, track_event event, double theta, int *c
   const contact_state before = in->track[j].state;
   contact_motion at;
   follow_angles(in);
-  if (in->base.m->contact[j].circle) return pass_circle(in, j, event, theta, count);
+  if (in->base.m->contact[j].circle) return pass_planar(in, j, event, theta, count);
   events_motion_at(in, j, NV_DATA_S(in->base.y), NULL, &at, NULL);
   ++in->passed;
   *count += contact_track_counts(&in->track[j], event, theta);
   if (*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
-  hc_status st = in->varies ? structure_variations_advance(&in->variations, in->base.m, in->track, theta) : HC_OK;
+  hc_status st = in->varies ? fundamental_matrix_advance(&in->variations, in->base.m, in->track, theta) : HC_OK;
   if (st != HC_OK) return st;
   contact_track_pass(&in->track[j], &in->base.m->contact[j], event, &at);
   slider_travel_note(&in->travel, &in->base.m->contact[j], in->track, j, &at);
   if (in->varies && in->track[j].state == CONTACT_STICK)
-    structure_variations_stick(&in->variations, in->base.m, j, before, &at);
-  if (in->varies) structure_variations_follow(&in->variations, in->base.m, in->track, NV_DATA_S(in->base.y));
+    fundamental_matrix_stick(&in->variations, in->base.m, j, before, &at);
+  if (in->varies) fundamental_matrix_follow(&in->variations, in->base.m, in->track, NV_DATA_S(in->base.y));
   use_states(in);
   return HC_OK;
 }
@@ -194,16 +193,16 @@ static hc_status integrate_to_end(events *in, integrate_watch *watch, void *self
 }
 
 /* Which contacts are circles. */
-static void find_circles(events *in)
+static void find_planar_contacts(events *in)
 {
   int i = 0;
   in->passed = 0;
   for (int j = 0; j < in->n_contacts; ++j) {
     in->angle_of[j] = in->base.m->contact[j].circle ? i : -1;
     if (in->angle_of[j] < 0) continue;
-    in->angle[i++] = (circle_angle){.contact = j, .held_pull = fmax(1e-17, 1e-3 * in->tolerance)};
+    in->angle[i++] = (planar_angle){.contact = j, .held_pull = fmax(1e-17, 1e-3 * in->tolerance)};
   }
-  in->n_circles = i;
+  in->n_planar = i;
   for (; i < in->n_equations - 2 * in->n; ++i) NV_Ith_S(in->base.y, 2 * in->n + i) = 0; /* without friction */
 }
 
@@ -213,13 +212,13 @@ static hc_status begin(events *in, const double *y, int *count)
   for (int i = 0; i < in->base.m->n_states; ++i) size += fabs(y[i]);
   if (!isfinite(size)) return HC_NOT_FINITE;
   memcpy(NV_DATA_S(in->base.y), y, 2 * (size_t)in->n * sizeof *y);
-  find_circles(in);
+  find_planar_contacts(in);
   for (int j = 0; j < in->n_contacts; ++j) {
     const scaled_contact *c = &in->base.m->contact[j];
     contact_motion at;
     if (c->circle) {
-      const circle_motion both = events_circle_at(in, j, y);
-      circle_track_begin(&in->track[j], c, &both, y + 2 * in->n + j);
+      const planar_contact_motion both = events_planar_at(in, j, y);
+      planar_track_begin(&in->track[j], c, &both, y + 2 * in->n + j);
       begin_angle(in, j, 0);
     } else if (!c->second) {
       events_motion_at(in, j, y, NULL, &at, NULL);
@@ -230,14 +229,14 @@ static hc_status begin(events *in, const double *y, int *count)
   slider_travel_begin(&in->travel, in->track, y + 2 * in->n);
   if (in->varies) {
     in->variations.theta = 0;
-    structure_variations_begin(&in->variations, in->base.m, in->track, y);
-    structure_variations_follow(&in->variations, in->base.m, in->track, y);
+    fundamental_matrix_begin(&in->variations, in->base.m, in->track, y);
+    fundamental_matrix_follow(&in->variations, in->base.m, in->track, y);
   }
   return pass_fallen(in, 0, count);
 }
 
 /* Sliders of the motion y (order 0), or their rates where y is its derivative; circles that slip in the directions of
- * their angles phi[n_circles]. */
+ * their angles phi[n_planar]. */
 static void set_sliders(const events *in, int order, const double *phi, double *y)
 {
   double *w = y + 2 * in->n;
@@ -249,11 +248,11 @@ static void set_sliders(const events *in, int order, const double *phi, double *
     const bool sticks = t->state == CONTACT_STICK && c->law.has_friction;
     if (c->circle) {
       contact_track circle[2] = {t[0], t[1]};
-      const circle_motion both = events_circle_at(in, j, y);
+      const planar_contact_motion both = events_planar_at(in, j, y);
       const double angle = phi[in->angle_of[j]];
-      if (circle_track_turns(t)) circle[0].along = cos(angle), circle[1].along = sin(angle);
-      if (order == 0) circle_track_slider(circle, c, &both, w + j);
-      else circle_track_slider_rate(circle, c, both.u, both.v, w + j);
+      if (planar_track_turns(t)) circle[0].along = cos(angle), circle[1].along = sin(angle);
+      if (order == 0) planar_track_slider(circle, c, &both, w + j);
+      else planar_track_slider_rate(circle, c, both.u, both.v, w + j);
     } else if (order == 0) {
       w[j] = contact_track_slider(t, c, &at);
     } else {
@@ -279,14 +278,14 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
     if (st == HC_OK) st = counted;
   }
   base->transitions += count;
-  if (st == HC_OK && monodromy) st = structure_variations_advance(&in->variations, m, in->track, TWO_PI);
+  if (st == HC_OK && monodromy) st = fundamental_matrix_advance(&in->variations, m, in->track, TWO_PI);
   if (st != HC_OK) return st;
   memcpy(y, NV_DATA_S(in->base.y), 2 * (size_t)in->n * sizeof *y);
   follow_angles(in);
-  for (int i = 0; i < in->n_circles; ++i) note_turn(in, in->angle[i].contact);
+  for (int i = 0; i < in->n_planar; ++i) note_turn(in, in->angle[i].contact);
   set_sliders(in, 0, NV_DATA_S(in->base.y) + 2 * in->n, y);
   slider_travel_end(&in->travel, in->track, y + 2 * in->n);
-  if (monodromy) structure_variations_end(&in->variations, m, in->track, y, monodromy);
+  if (monodromy) fundamental_matrix_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
 }
 
@@ -295,10 +294,10 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   const events *in = (const events *)base;
   if (CVodeGetDky(in->base.cv, theta, order, in->base.dky) != CV_SUCCESS) return HC_BUG; /* theta outside the step */
   memcpy(y, NV_DATA_S(in->base.dky), 2 * (size_t)in->n * sizeof *y);
-  memcpy(in->phi, NV_DATA_S(in->base.dky) + 2 * in->n, (size_t)in->n_circles * sizeof *in->phi);
-  if (order == 1 && in->n_circles > 0) {
+  memcpy(in->phi, NV_DATA_S(in->base.dky) + 2 * in->n, (size_t)in->n_planar * sizeof *in->phi);
+  if (order == 1 && in->n_planar > 0) {
     if (CVodeGetDky(in->base.cv, theta, 0, in->base.dky) != CV_SUCCESS) return HC_BUG;
-    memcpy(in->phi, NV_DATA_S(in->base.dky) + 2 * in->n, (size_t)in->n_circles * sizeof *in->phi);
+    memcpy(in->phi, NV_DATA_S(in->base.dky) + 2 * in->n, (size_t)in->n_planar * sizeof *in->phi);
   }
   if (order <= 1) set_sliders(in, order, in->phi, y);
   return HC_OK;
@@ -327,9 +326,9 @@ static double travel(const integrator *base, int j) { return ((const events *)ba
 static void release(integrator *base)
 {
   events *in = (events *)base;
-  structure_variations_free(&in->variations);
+  fundamental_matrix_free(&in->variations);
   slider_travel_free(&in->travel);
-  phase_modes_free(in->modes);
+  interval_modes_free(in->modes);
   integrate_free_parts(&in->base);
   free(in->track);
   free(in->law);
@@ -370,7 +369,7 @@ static hc_status make_cvode(events *in)
       CVodeSetEtaFixedStepBounds(in->base.cv, 0.9, 1.2), /* from 0, 1.5: a third fewer steps, and a tenth of the
                                                             error (c2 at omega 9) */
       CVodeSetNoInactiveRootWarn(in->base.cv),
-      CVodeSetMaxStep(in->base.cv, longest_step),
+      CVodeSetMaxStep(in->base.cv, INTEGRATE_LONGEST_STEP),
       CVodeSetMaxNumSteps(in->base.cv, MAX_STEPS),
       CVodeSetMaxHnilWarns(in->base.cv, -1),
   };
@@ -389,19 +388,19 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   in->n = base->n;
   in->n_contacts = base->n_contacts;
   in->tolerance = tolerance;
-  in->is_single = motion_single_fits(base) && base->n_circles == 0;
+  in->is_single = motion_single_fits(base) && base->n_planar == 0;
   in->track = calloc(contacts + 1, sizeof *in->track);
   in->law = calloc(contacts + 1, sizeof *in->law);
   in->info = calloc(EVENTS_ROOTS * contacts + 1, sizeof *in->info);
-  in->n_equations = 2 * base->n + base->n_circles;
-  in->rate = calloc((size_t)in->n_equations + (size_t)base->n_circles, sizeof *in->rate);
-  in->angle = calloc((size_t)base->n_circles + 1, sizeof *in->angle);
+  in->n_equations = 2 * base->n + base->n_planar;
+  in->rate = calloc((size_t)in->n_equations + (size_t)base->n_planar, sizeof *in->rate);
+  in->angle = calloc((size_t)base->n_planar + 1, sizeof *in->angle);
   in->angle_of = calloc(contacts + 1, sizeof *in->angle_of);
   const bool enough = in->track && in->law && in->info && in->rate && in->angle && in->angle_of;
   hc_status st = enough ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) in->phi = in->rate + in->n_equations;
-  if (st == HC_OK) st = phase_modes_new(base, PHASE_MODES_STIFF, &in->modes);
-  if (st == HC_OK) st = structure_variations_make(&in->variations, base, in->modes);
+  if (st == HC_OK) st = interval_modes_new(base, INTERVAL_MODES_STIFF, &in->modes);
+  if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes);
   if (st == HC_OK) st = slider_travel_make(&in->travel, base->n_contacts);
   if (st == HC_OK) st = integrate_make_parts(&in->base, in->n_equations, bdf ? CV_BDF : CV_ADAMS, NULL);
   if (st == HC_OK) st = make_cvode(in);

@@ -12,7 +12,7 @@ static double limit_of(const scaled_contact *c, double v)
 
 static double friction_of(const scaled_contact *c) { return c->law.mu * c->law.kn; }
 
-void circle_angle_open(circle_angle *a, const scaled_contact *c, const angle_motion *now)
+void planar_angle_open(planar_angle *a, const scaled_contact *c, const angle_motion *now)
 {
   const double *du = now->at.du, speed = hypot(du[0], du[1]);
   const double turn = (now->bend[1] * du[0] - now->bend[0] * du[1]) / (speed * speed);
@@ -22,17 +22,17 @@ void circle_angle_open(circle_angle *a, const scaled_contact *c, const angle_mot
   a->rate = turn * pull / (friction_of(c) * now->at.dv + pull);
 }
 
-static bool turns(const circle_angle *a, const contact_track t[2]) { return circle_track_turns(t) && !a->opens; }
+static bool turns(const planar_angle *a, const contact_track t[2]) { return planar_track_turns(t) && !a->opens; }
 
-double circle_angle_rate(const circle_angle *a, const contact_track t[2], const scaled_contact *c,
-                         const circle_motion *at, double phi)
+double planar_angle_rate(const planar_angle *a, const contact_track t[2], const scaled_contact *c,
+                         const planar_contact_motion *at, double phi)
 {
-  if (!turns(a, t)) return circle_track_turns(t) ? a->rate : 0;
+  if (!turns(a, t)) return planar_track_turns(t) ? a->rate : 0;
   return c->law.kt * (at->du[1] * cos(phi) - at->du[0] * sin(phi)) / limit_of(c, at->v);
 }
 
-angle_slopes circle_angle_slopes(const circle_angle *a, const contact_track t[2], const scaled_contact *c,
-                                 const circle_motion *at, double phi)
+angle_slopes planar_angle_slopes(const planar_angle *a, const contact_track t[2], const scaled_contact *c,
+                                 const planar_contact_motion *at, double phi)
 {
   const double limit = limit_of(c, at->v), e[2] = {cos(phi), sin(phi)}, by = c->law.kt / limit;
   angle_slopes s = {.t_v = {friction_of(c) * e[0], friction_of(c) * e[1]}, .t_phi = {-limit * e[1], limit * e[0]}};
@@ -50,7 +50,7 @@ static track_guard guard_of(track_event event, double value, double rate, double
 }
 
 /* mu N - |T|; where T = 0 its rate is that of the T to come. */
-static track_guard end_of_stick(const contact_track t[2], const scaled_contact *c, const circle_motion *at)
+static track_guard end_of_stick(const contact_track t[2], const scaled_contact *c, const planar_contact_motion *at)
 {
   const double s[2] = {at->u[0] - t[0].rest, at->u[1] - t[1].rest}, size = hypot(s[0], s[1]);
   const double grows = size > 0 ? (s[0] * at->du[0] + s[1] * at->du[1]) / size : hypot(at->du[0], at->du[1]);
@@ -70,14 +70,14 @@ static track_guard end_of_slip(const scaled_contact *c, const angle_motion *now,
 }
 
 /* mu kn (V + gap)^2 + held_pull V': mu kn times the square of the time left, times the speed of it, is small. */
-static track_guard start_of_hold(const circle_angle *a, const scaled_contact *c, const angle_motion *now)
+static track_guard start_of_hold(const planar_angle *a, const scaled_contact *c, const angle_motion *now)
 {
   const double d = now->at.v + c->law.gap;
   return guard_of(TRACK_HOLDS, friction_of(c) * d * d + a->held_pull * now->at.dv,
                   2 * friction_of(c) * d * now->at.dv + a->held_pull * now->normal_bend, 0);
 }
 
-int circle_angle_guards(const circle_angle *a, const contact_track t[2], const scaled_contact *c,
+int planar_angle_guards(const planar_angle *a, const contact_track t[2], const scaled_contact *c,
                         const angle_motion *now, track_guard guard[TRACK_GUARDS])
 {
   const double apart = t->state == CONTACT_SEPARATED ? -1 : 1;
@@ -94,7 +94,7 @@ int circle_angle_guards(const circle_angle *a, const contact_track t[2], const s
     guard[n++] = guard_of(TRACK_TURNS, -now->at.dv, -now->normal_bend, 0);
     return n;
   }
-  guard[n++] = end_of_slip(c, now, circle_angle_rate(a, t, c, &now->at, now->phi));
+  guard[n++] = end_of_slip(c, now, planar_angle_rate(a, t, c, &now->at, now->phi));
   if (a->opens) guard[n++] = guard_of(TRACK_TURNS, a->until - now->theta, -1, 0);
   else if (c->law.kn > 0) guard[n++] = start_of_hold(a, c, now);
   return n;

@@ -12,37 +12,37 @@
 
 #include "timeint/law/planar_track.h"
 
-typedef struct circle_angle {
+typedef struct planar_angle {
   int contact;  /* its first direction */
   double began; /* phi where it began to follow it */
   bool opens;   /* since a touch, until theta = `until`: phi' = rate */
   double rate, until;
   double held_pull; /* what a held direction may change of a rate until N = 0 */
-} circle_angle;
+} planar_angle;
 
 /* U, V, U', V' and U'', V'' at theta. */
 typedef struct angle_motion {
-  circle_motion at;
+  planar_contact_motion at;
   double bend[2], normal_bend;
   double theta, phi;
 } angle_motion;
 
 /* The circle has just touched at such a motion, and slips. */
-void circle_angle_open(circle_angle *a, const scaled_contact *c, const angle_motion *now);
+void planar_angle_open(planar_angle *a, const scaled_contact *c, const angle_motion *now);
 
 /* phi', of a circle in any state. */
-double circle_angle_rate(const circle_angle *a, const contact_track t[2], const scaled_contact *c,
-                         const circle_motion *at, double phi);
+double planar_angle_rate(const planar_angle *a, const contact_track t[2], const scaled_contact *c,
+                         const planar_contact_motion *at, double phi);
 
 /* T = mu N e and phi' of a circle that slips: what they follow. */
 typedef struct angle_slopes {
   double t_v[2], t_phi[2], rate_u[2] /* by U' */, rate_v, rate_phi;
 } angle_slopes;
-angle_slopes circle_angle_slopes(const circle_angle *a, const contact_track t[2], const scaled_contact *c,
-                                 const circle_motion *at, double phi);
+angle_slopes planar_angle_slopes(const planar_angle *a, const contact_track t[2], const scaled_contact *c,
+                                 const planar_contact_motion *at, double phi);
 
 /* Values and rates, g[0] and g[1], of all guards, the end of contact first. How many there are. */
-int circle_angle_guards(const circle_angle *a, const contact_track t[2], const scaled_contact *c,
+int planar_angle_guards(const planar_angle *a, const contact_track t[2], const scaled_contact *c,
                         const angle_motion *now, track_guard guard[TRACK_GUARDS]);
 
 #endif

@@ -100,7 +100,7 @@ typedef struct eliminated {
 /* (1 + gamma r_u)^-1 */
 static void invert_rates(const structure_newton *s, int j, double share[2][2])
 {
-  const circle_derivatives *l = &s->law[j];
+  const planar_derivatives *l = &s->law[j];
   const double a = 1 + s->gamma * l->rate_u[0][0], b = s->gamma * l->rate_u[0][1];
   const double c = s->gamma * l->rate_u[1][0], d = 1 + s->gamma * l->rate_u[1][1];
   if (s->directions[j] == 1) {
@@ -114,7 +114,7 @@ static void invert_rates(const structure_newton *s, int j, double share[2][2])
 
 static eliminated eliminate(const structure_newton *s, int j)
 {
-  const circle_derivatives *l = &s->law[j];
+  const planar_derivatives *l = &s->law[j];
   const int directions = s->directions[j];
   eliminated f = {.by_v = {l->t_v[0], l->t_v[1]}};
   invert_rates(s, j, f.share);
@@ -234,7 +234,7 @@ static void find_forces(structure_newton *s, bool whole, const double *d)
 /* d[] of contact j := its slider, of d. */
 static void find_slider(const structure_newton *s, int j, double *d)
 {
-  const circle_derivatives *l = &s->law[j];
+  const planar_derivatives *l = &s->law[j];
   const eliminated f = eliminate(s, j);
   const int directions = s->directions[j];
   double sum[2] = {0};
@@ -272,7 +272,7 @@ void structure_newton_solve(structure_newton *s, double *r)
 /* What contact j does where the motion is s->q and z: its forces into s->force, its sliders' rates into rate[]. */
 static void multiply_contact(structure_newton *s, int j, const double *slider, double *rate)
 {
-  const circle_derivatives *l = &s->law[j];
+  const planar_derivatives *l = &s->law[j];
   const double v = at(s->q, s->across[j]);
   for (int a = 0; a < s->directions[j]; ++a) {
     double t = l->t_v[a] * v;

@@ -19,7 +19,7 @@
 typedef struct structure_newton { /* from structure_newton_make, to structure_newton_free */
   const modal_base *base;         /* the owner's */
   int n, n_contacts, n_rows;
-  circle_derivatives *law; /* [n_contacts] where the equations were linearised */
+  planar_derivatives *law; /* [n_contacts] where the equations were linearised */
   int *directions;         /* [n_contacts] that share that law: 1, 2; 0: the second, whose law is the first's */
   double *rows;            /* [n][n_rows] by columns: t_j and n_j that are not 0 */
   int *along, *across;     /* [n_contacts] which row is t_j, n_j; -1: none */

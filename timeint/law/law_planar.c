@@ -14,10 +14,10 @@ static overload load_of(const law_regularised *c, const double u[2], double n, c
   return o;
 }
 
-circle_value law_circle_eval(const law_regularised *c, const double u[2], double v, const double w[2])
+planar_value law_planar_eval(const law_regularised *c, const double u[2], double v, const double w[2])
 {
   const law_value normal = law_regularised_eval(c, 0, v, 0); /* T = 0: of N alone */
-  circle_value r = {.n = normal.n, .change = normal.change};
+  planar_value r = {.n = normal.n, .change = normal.change};
   if (!c->has_friction) return r;
   const overload o = load_of(c, u, normal.n, w);
   for (int a = 0; a < 2; ++a) {
@@ -28,10 +28,10 @@ circle_value law_circle_eval(const law_regularised *c, const double u[2], double
   return r;
 }
 
-circle_derivatives law_circle_derivatives(const law_regularised *c, const double u[2], double v, const double w[2])
+planar_derivatives law_planar_derivatives(const law_regularised *c, const double u[2], double v, const double w[2])
 {
   const double n = law_regularised_eval(c, 0, v, 0).n;
-  circle_derivatives r = {.n_v = law_regularised_derivatives(c, 0, v, 0).n_v};
+  planar_derivatives r = {.n_v = law_regularised_derivatives(c, 0, v, 0).n_v};
   if (!c->has_friction) return r;
   const overload o = load_of(c, u, n, w);
   const double kept = o.excess > 0 ? o.limit / o.size : 1; /* of what turns the force */

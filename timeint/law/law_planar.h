@@ -14,18 +14,18 @@
 
 #include "timeint/law/law_regularised.h"
 
-typedef struct circle_value {
+typedef struct planar_value {
   double n, change, t[2], rate[2];
-} circle_value; /* N and N - N0 of either direction; T [force], w' [length/time] */
+} planar_value; /* N and N - N0 of either direction; T [force], w' [length/time] */
 
 /* dN/dv of either direction, dT_a/du_b in t_u[a][b], dT_a/dv ...; w enters as u - w. */
-typedef struct circle_derivatives {
+typedef struct planar_derivatives {
   double n_v, t_u[2][2], t_v[2], rate_u[2][2], rate_v[2];
-} circle_derivatives;
+} planar_derivatives;
 
-circle_value law_circle_eval(const law_regularised *c, const double u[2], double v, const double w[2]);
+planar_value law_planar_eval(const law_regularised *c, const double u[2], double v, const double w[2]);
 
 /* Where the law has them; on the circle those of stick. */
-circle_derivatives law_circle_derivatives(const law_regularised *c, const double u[2], double v, const double w[2]);
+planar_derivatives law_planar_derivatives(const law_regularised *c, const double u[2], double v, const double w[2]);
 
 #endif

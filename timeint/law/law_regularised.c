@@ -9,16 +9,12 @@ law_regularised law_regularised_make(const contact *c, double width, double rela
   return r;
 }
 
-/* For |z| > 40 exp(-|z|) < 5e-18: below rounding where it is added to z; for z < -40 it is all of N/(kn width), and
- * is set to 0. This saves two exp in most evaluations, and no exp can overflow. */
-enum { SOFT_END = 40 };
-
 /* N without the load. */
 static double spring_force(const law_regularised *c, double v)
 {
   double g = v + c->gap;
-  if (g > SOFT_END * c->width) return c->kn * g;
-  if (g < -SOFT_END * c->width) return 0.0;
+  if (g > LAW_SOFT_END * c->width) return c->kn * g;
+  if (g < -LAW_SOFT_END * c->width) return 0.0;
   return c->width > 0 ? c->kn * c->width * log1p(exp(g / c->width)) : 0.0 * g; /* NaN in, NaN out */
 }
 
@@ -29,16 +25,16 @@ static double normal_change(const law_regularised *c, double v)
 {
   double g = v + c->gap;
   if (!(c->gap > 0) || isnan(g)) return spring_force(c, v);
-  if (g > SOFT_END * c->width) return c->kn * v;
-  if (g < -SOFT_END * c->width) return -c->kn * c->gap;
+  if (g > LAW_SOFT_END * c->width) return c->kn * v;
+  if (g < -LAW_SOFT_END * c->width) return -c->kn * c->gap;
   return c->kn * (c->width > 0 ? v + c->width * log1p(exp(-g / c->width)) : v);
 }
 
 static double normal_stiffness(const law_regularised *c, double v)
 {
   double g = v + c->gap;
-  if (g > SOFT_END * c->width) return c->kn;
-  if (g < -SOFT_END * c->width) return 0.0;
+  if (g > LAW_SOFT_END * c->width) return c->kn;
+  if (g < -LAW_SOFT_END * c->width) return 0.0;
   return c->width > 0 ? c->kn / (1.0 + exp(-g / c->width)) : 0.0;
 }
 

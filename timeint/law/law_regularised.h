@@ -22,6 +22,10 @@
 
 #include "model/contact_law.h"
 
+/* For |z| > 40 exp(-|z|) < 5e-18: below rounding where it is added to z; for z < -40 it is all of N/(kn width), and
+ * is set to 0. This saves two exp in most evaluations, and no exp can overflow. */
+enum { LAW_SOFT_END = 40 };
+
 typedef struct law_regularised {
   double kt, kn, mu, gap, load; /* as in contact_law.h */
   double width;                 /* [length] >= 0 of the corner in N; 0 is the exact corner */

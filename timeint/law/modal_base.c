@@ -194,7 +194,7 @@ hc_status modal_base_new(const model *m, modal_base **out)
   if (st == HC_OK) {
     b->n = m->n, b->n_contacts = m->n_contacts, b->n_loads = m->n_loads, b->n_responses = m->n_responses;
     for (int j = 0; j < m->n_contacts; ++j)
-      b->n_circles += m->contacts[j].circle && m->contacts[j].pair == CONTACT_FIRST;
+      b->n_planar += m->contacts[j].circle && m->contacts[j].pair == CONTACT_FIRST;
     st = make_memory(b);
   }
   if (st == HC_OK) st = look_at_stuck(b, m, room, room + m->n, b->shape);

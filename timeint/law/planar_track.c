@@ -6,7 +6,7 @@
 static const double held_pull = 1e-17; /* what a wrong direction of T could change of a rate until N = 0 */
 static const double held_time = 1e-13; /* [rad] too short for steps */
 
-double circle_track_radius(const scaled_contact *c, double v)
+double planar_track_radius(const scaled_contact *c, double v)
 {
   return c->law.mu * (c->law.kn * (v + c->law.gap) + c->law.load) / c->law.kt;
 }
@@ -20,9 +20,9 @@ static void set_direction(contact_track t[2], double e1, double e2)
   t[1].along = size > 0 ? e2 / size : 0;
 }
 
-static void rest_on_circle(contact_track t[2], const scaled_contact *c, const circle_motion *at)
+static void rest_on_circle(contact_track t[2], const scaled_contact *c, const planar_contact_motion *at)
 {
-  const double radius = circle_track_radius(c, at->v);
+  const double radius = planar_track_radius(c, at->v);
   for (int a = 0; a < 2; ++a) t[a].rest = at->u[a] - radius * t[a].along;
 }
 
@@ -32,14 +32,14 @@ static double slide(const contact_track t[2], const scaled_contact *c, const dou
   return c->law.kt * (du[0] * t[0].along + du[1] * t[1].along) - c->law.mu * c->law.kn * dv;
 }
 
-void circle_track_begin(contact_track t[2], const scaled_contact *c, const circle_motion *at, const double w[2])
+void planar_track_begin(contact_track t[2], const scaled_contact *c, const planar_contact_motion *at, const double w[2])
 {
   const law_regularised *law = &c->law;
   const double s[2] = {at->u[0] - w[0], at->u[1] - w[1]}, size = hypot(s[0], s[1]);
   for (int a = 0; a < 2; ++a) t[a] = (contact_track){.state = CONTACT_SEPARATED};
   if (!(law->kn > 0 ? at->v + law->gap > 0 : law->load > 0)) return;
   for (int a = 0; a < 2; ++a) t[a] = (contact_track){.state = CONTACT_STICK, .rest = w[a]};
-  const double spare = law->kt * (circle_track_radius(c, at->v) - size);
+  const double spare = law->kt * (planar_track_radius(c, at->v) - size);
   t[0].since_start = t[1].since_start =
       spare > contact_track_force_noise(c, hypot(at->u[0], at->u[1]), at->v, hypot(w[0], w[1]));
   if (t->since_start) return;
@@ -50,7 +50,7 @@ void circle_track_begin(contact_track t[2], const scaled_contact *c, const circl
   if (slide(t, c, at->du, at->dv) > 0) set_state(t, CONTACT_SLIP_PLUS);
 }
 
-void circle_track_stick_guard(const contact_track t[2], const scaled_contact *c, const double *u1, const double *u2,
+void planar_track_stick_guard(const contact_track t[2], const scaled_contact *c, const double *u1, const double *u2,
                               const double *v, track_guard *guard)
 {
   const law_regularised *law = &c->law;
@@ -71,7 +71,8 @@ void circle_track_stick_guard(const contact_track t[2], const scaled_contact *c,
   guard->noise = noise * (noise + fabs(f[0][0]) + hypot(f[1][0], f[2][0]));
 }
 
-bool circle_track_holds(const contact_track t[2], const scaled_contact *c, const circle_motion *at, double *left)
+bool planar_track_holds(const contact_track t[2], const scaled_contact *c, const planar_contact_motion *at,
+                        double *left)
 {
   const double distance = at->v + c->law.gap;
   *left = INFINITY;
@@ -80,7 +81,7 @@ bool circle_track_holds(const contact_track t[2], const scaled_contact *c, const
   return c->law.mu * c->law.kn * distance * *left < held_pull || *left < held_time;
 }
 
-void circle_track_pass(contact_track t[2], const scaled_contact *c, track_event event, const circle_motion *at)
+void planar_track_pass(contact_track t[2], const scaled_contact *c, track_event event, const planar_contact_motion *at)
 {
   const law_regularised *law = &c->law;
   const double speed = hypot(at->du[0], at->du[1]);
@@ -109,14 +110,15 @@ void circle_track_pass(contact_track t[2], const scaled_contact *c, track_event 
   }
 }
 
-void circle_track_slider(const contact_track t[2], const scaled_contact *c, const circle_motion *at, double w[2])
+void planar_track_slider(const contact_track t[2], const scaled_contact *c, const planar_contact_motion *at,
+                         double w[2])
 {
-  const double radius = t->state == CONTACT_SEPARATED ? 0 : circle_track_radius(c, at->v);
+  const double radius = t->state == CONTACT_SEPARATED ? 0 : planar_track_radius(c, at->v);
   for (int a = 0; a < 2; ++a)
     w[a] = t->state == CONTACT_STICK ? t[a].rest : at->u[a] - radius * (radius > 0 ? t[a].along : 0);
 }
 
-void circle_track_slider_rate(const contact_track t[2], const scaled_contact *c, const double du[2], double dv,
+void planar_track_slider_rate(const contact_track t[2], const scaled_contact *c, const double du[2], double dv,
                               double dw[2])
 {
   const double s = slide(t, c, du, dv) / c->law.kt;

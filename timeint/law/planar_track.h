@@ -13,32 +13,35 @@
 
 #include "timeint/law/contact_track.h"
 
-typedef struct circle_motion {
+typedef struct planar_contact_motion {
   double u[2], v, du[2], dv;
-} circle_motion;
+} planar_contact_motion;
 
 /* contact_track_begin of both directions, the slider at w[2]. */
-void circle_track_begin(contact_track t[2], const scaled_contact *c, const circle_motion *at, const double w[2]);
+void planar_track_begin(contact_track t[2], const scaled_contact *c, const planar_contact_motion *at,
+                        const double w[2]);
 
 /* Does it slip, in a direction that may turn? */
-static inline bool circle_track_turns(const contact_track t[2]) { return t->state == CONTACT_SLIP_PLUS && !t->held; }
+static inline bool planar_track_turns(const contact_track t[2]) { return t->state == CONTACT_SLIP_PLUS && !t->held; }
 
 /* (mu N)^2 - |kt (U - rest)|^2 as a series, and its noise. */
-void circle_track_stick_guard(const contact_track t[2], const scaled_contact *c, const double *u1, const double *u2,
+void planar_track_stick_guard(const contact_track t[2], const scaled_contact *c, const double *u1, const double *u2,
                               const double *v, track_guard *guard);
 
 /* Is e to be held from here on? And the time [rad] left to N = 0. */
-bool circle_track_holds(const contact_track t[2], const scaled_contact *c, const circle_motion *at, double *left);
+bool planar_track_holds(const contact_track t[2], const scaled_contact *c, const planar_contact_motion *at,
+                        double *left);
 
 /* That has happened there. */
-void circle_track_pass(contact_track t[2], const scaled_contact *c, track_event event, const circle_motion *at);
+void planar_track_pass(contact_track t[2], const scaled_contact *c, track_event event, const planar_contact_motion *at);
 
 /* W at that motion, and W' from its rates. */
-void circle_track_slider(const contact_track t[2], const scaled_contact *c, const circle_motion *at, double w[2]);
-void circle_track_slider_rate(const contact_track t[2], const scaled_contact *c, const double du[2], double dv,
+void planar_track_slider(const contact_track t[2], const scaled_contact *c, const planar_contact_motion *at,
+                         double w[2]);
+void planar_track_slider_rate(const contact_track t[2], const scaled_contact *c, const double du[2], double dv,
                               double dw[2]);
 
 /* R there. */
-double circle_track_radius(const scaled_contact *c, double v);
+double planar_track_radius(const scaled_contact *c, double v);
 
 #endif

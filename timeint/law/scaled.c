@@ -58,7 +58,7 @@ void scaled_contact_motion(const scaled_model *m, int j, const double *x, double
   *v = dot_product(m->n, m->base->normal + (size_t)j * (size_t)m->n, x);
 }
 
-void scaled_circle_motion(const scaled_model *m, int j, const double *x, double u[2], double *v)
+void scaled_planar_motion(const scaled_model *m, int j, const double *x, double u[2], double *v)
 {
   scaled_contact_motion(m, j, x, &u[0], v);
   u[1] = dot_product(m->n, m->base->tangent + (size_t)(j + 1) * (size_t)m->n, x);
@@ -71,11 +71,11 @@ double scaled_response(const scaled_model *m, int r, const double *x)
 
 int scaled_n_responses(const scaled_model *m) { return m->base->n_responses; }
 
-static contact_state circle_state(const scaled_model *m, int j, const double *y)
+static contact_state state_in_plane(const scaled_model *m, int j, const double *y)
 {
   double u[2], v;
-  scaled_circle_motion(m, j, y, u, &v);
-  const circle_value at = law_circle_eval(&m->contact[j].law, u, v, y + 2 * m->n + j);
+  scaled_planar_motion(m, j, y, u, &v);
+  const planar_value at = law_planar_eval(&m->contact[j].law, u, v, y + 2 * m->n + j);
   return at.rate[0] != 0 || at.rate[1] != 0 ? CONTACT_SLIP_PLUS : CONTACT_STICK;
 }
 
@@ -85,7 +85,7 @@ contact_state scaled_contact_state(const scaled_model *m, int j, const double *y
   double u, v;
   scaled_contact_motion(m, j, y, &u, &v);
   if (!(law->kn > 0 ? v + law->gap > 0 : law->load > 0)) return CONTACT_SEPARATED;
-  if (m->contact[j].circle || m->contact[j].second) return circle_state(m, scaled_first(m, j), y);
+  if (m->contact[j].circle || m->contact[j].second) return state_in_plane(m, scaled_first(m, j), y);
   const double rate = law_regularised_eval(law, u, v, y[2 * m->n + j]).rate;
   return rate > 0 ? CONTACT_SLIP_PLUS : rate < 0 ? CONTACT_SLIP_MINUS : CONTACT_STICK;
 }
@@ -122,8 +122,8 @@ static law_value value_of(const scaled_model *m, int j, const double *y)
     scaled_contact_motion(m, j, y, u, &v);
     return law_regularised_eval(&c->law, u[0], v, y[2 * m->n + j]);
   }
-  scaled_circle_motion(m, first, y, u, &v);
-  const circle_value both = law_circle_eval(&c->law, u, v, y + 2 * m->n + first);
+  scaled_planar_motion(m, first, y, u, &v);
+  const planar_value both = law_planar_eval(&c->law, u, v, y + 2 * m->n + first);
   return (law_value){.n = both.n, .change = both.change, .t = both.t[j - first], .rate = both.rate[j - first]};
 }
 
@@ -160,17 +160,17 @@ static void fill_linear(const scaled_model *m, double *jac)
   }
 }
 
-circle_derivatives scaled_law(const scaled_contact *c, const double *u, double v, const double *w)
+planar_derivatives scaled_law(const scaled_contact *c, const double *u, double v, const double *w)
 {
-  if (c->circle) return law_circle_derivatives(&c->law, u, v, w);
+  if (c->circle) return law_planar_derivatives(&c->law, u, v, w);
   const law_derivatives s = law_regularised_derivatives(&c->law, *u, v, *w);
-  return (circle_derivatives){
+  return (planar_derivatives){
       .n_v = s.n_v, .t_u = {{s.t_u}}, .t_v = {s.t_v}, .rate_u = {{s.rate_u}}, .rate_v = {s.rate_v}};
 }
 
 /* What motion along direction b of a contact, tangents t[][n], does to direction a of it. */
 static void add_direction(double *jac, size_t n, size_t ld, size_t w, const double *t, int a, int b,
-                          const circle_derivatives *s)
+                          const planar_derivatives *s)
 {
   const double *pulls = t + (size_t)a * n, *moves = t + (size_t)b * n;
   double *slider = jac + (w + (size_t)b) * ld;
@@ -193,9 +193,9 @@ void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
     const int directions = scaled_directions(m, j);
     const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
     double u[2], v;
-    if (directions == 2) scaled_circle_motion(m, j, y, u, &v);
+    if (directions == 2) scaled_planar_motion(m, j, y, u, &v);
     else scaled_contact_motion(m, j, y, u, &v);
-    const circle_derivatives s = scaled_law(&m->contact[j], u, v, y + w);
+    const planar_derivatives s = scaled_law(&m->contact[j], u, v, y + w);
     for (int a = 0; a < directions; ++a)
       for (int b = 0; b < directions; ++b) add_direction(jac, n, ld, w, t, a, b, &s);
     for (int a = 0; a < directions; ++a) {

@@ -48,7 +48,7 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
 void scaled_jacobian(const scaled_model *m, const double *y, double *jac);
 
 /* Derivatives of the regularised law of that contact at u, v and w; of one direction alone in [0]. */
-circle_derivatives scaled_law(const scaled_contact *c, const double *u, double v, const double *w);
+planar_derivatives scaled_law(const scaled_contact *c, const double *u, double v, const double *w);
 
 /* out[n] := by_load p(theta) - by_C C P - by_K K X: all but the contacts. */
 void scaled_linear_force(const scaled_model *m, double theta, const double *y, double *out);
@@ -61,7 +61,7 @@ contact_state scaled_contact_state(const scaled_model *m, int j, const double *y
 void scaled_contact_motion(const scaled_model *m, int j, const double *x, double *u, double *v);
 
 /* The same of a circle whose first direction is j: U of both. */
-void scaled_circle_motion(const scaled_model *m, int j, const double *x, double u[2], double *v);
+void scaled_planar_motion(const scaled_model *m, int j, const double *x, double u[2], double *v);
 
 /* The first direction of the contact that j is one of; and how many it has that share a law: 2 of a circle, else 1. */
 static inline int scaled_first(const scaled_model *m, int j) { return m->contact[j].second ? j - 1 : j; }

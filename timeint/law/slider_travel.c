@@ -46,10 +46,10 @@ void slider_travel_note_turn(slider_travel *t, int j, double turn)
   if (!(fabs(turn) <= TWO_PI / 4)) t->most[j] = t->most[j + 1] = INFINITY;
 }
 
-void slider_travel_note_circle(slider_travel *t, const scaled_contact *c, const contact_track *track, int j,
-                               const circle_motion *at)
+void slider_travel_note_planar(slider_travel *t, const scaled_contact *c, const contact_track *track, int j,
+                               const planar_contact_motion *at)
 {
   double w[2];
-  circle_track_slider(&track[j], c, at, w);
+  planar_track_slider(&track[j], c, at, w);
   for (int a = 0; a < 2; ++a) note(t, track[j + a].state, j + a, w[a]);
 }

@@ -23,8 +23,8 @@ void slider_travel_end(slider_travel *t, const contact_track *track, const doubl
 /* Contact j, of one tangent or of two (its first), is in its state at that motion. */
 void slider_travel_note(slider_travel *t, const scaled_contact *c, const contact_track *track, int j,
                         const contact_motion *at);
-void slider_travel_note_circle(slider_travel *t, const scaled_contact *c, const contact_track *track, int j,
-                               const circle_motion *at);
+void slider_travel_note_planar(slider_travel *t, const scaled_contact *c, const contact_track *track, int j,
+                               const planar_contact_motion *at);
 
 /* The direction in which that circle slips has turned by so much since it began to [rad]: up to a quarter, W is
  * farther from where it was the longer it slips. */

@@ -18,6 +18,10 @@
 
 typedef struct integrator integrator;
 
+/* [rad] The longest step of a watched period. measure.h integrates a response over each by a quintic through both ends
+ * where the integrator has no integrals of its own: 0.2^7/100800 = 1e-10 of the response's sixth derivative. */
+#define INTEGRATE_LONGEST_STEP 0.2
+
 /* Called after each internal step of a watched period, which led from theta0 to theta1; a transition of the exact
  * law ends a step. */
 typedef hc_status integrate_watch(void *self, const integrator *in, double theta0, double theta1);

@@ -10,8 +10,6 @@
 #include "model/periodic_motion.h"
 #include "numerics/roots.h"
 
-static const double longest_quintic = 0.2; /* [rad] 0.2^7/100800 = 1e-10 of the sixth derivative, for one step */
-
 hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts)
 {
   const size_t n = (size_t)n_states;
@@ -116,7 +114,7 @@ static void add_integrals(measure *me, const integrator *in, int i, double theta
   const double h = theta1 - theta0, ends[2][3] = {{r->x, r->p, r->a}, {end->x, end->p, end->a}};
   if (!integrate_fourier(in, i, step)) {
     double plain[2][3], by_cos[2][3], by_sin[2][3];
-    me->no_integrals = me->no_integrals || h > longest_quintic;
+    me->no_integrals = me->no_integrals || h > INTEGRATE_LONGEST_STEP;
     for (int e = 0; e < 2; ++e) {
       const double co = cos(e ? theta1 : theta0), si = sin(e ? theta1 : theta0);
       const double x = ends[e][0], p = ends[e][1], bend = ends[e][2] - x;

@@ -11,8 +11,6 @@
 #include "timeint/steady/orbit.h"
 #include "timeint/steady/timeint_private.h"
 
-static const double next_to = 0.2;   /* [size] the largest regularisation, 0.1, moves an orbit by some percent: one
-                                        farther away is another, of which the scout's multiplier says nothing */
 static const double contracts = 0.3; /* a Newton step no shorter than that part of the last one leads nowhere */
 enum { MOST_STEPS = 8 };
 
@@ -132,7 +130,7 @@ hc_status confirm_orbit(confirm *c, int k, double goal, const hc_monitor *monito
       break;
     }
     for (int i = 0; i < c->n; ++i) c->z[i] -= c->step[i];
-    if (!(distance_2(c->n, c->z, c->before) <= next_to * size)) st = HC_NOT_CONVERGED;
+    if (!(distance_2(c->n, c->z, c->before) <= ORBIT_REGULARISED_WITHIN * size)) st = HC_NOT_CONVERGED;
     last = length;
   }
   if (st != HC_OK) memcpy(ti->y, c->before, bytes);

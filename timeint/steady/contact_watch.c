@@ -37,14 +37,14 @@ typedef struct contact_watch {
 } contact_watch;
 
 /* All but N of the circle whose first direction is j. */
-static void add_circle(const contact_watch *w, int j, contact_instant *at)
+static void add_planar(const contact_watch *w, int j, contact_instant *at)
 {
   const scaled_model *m = &w->ti->scaled;
   const double *slider = w->y + 2 * m->n + j, *slides = w->dy + 2 * m->n + j;
   double u[2], du[2], v, dv;
-  scaled_circle_motion(m, j, w->y, u, &v);
-  scaled_circle_motion(m, j, w->dy, du, &dv);
-  const circle_value value = law_circle_eval(&m->contact[j].law, u, v, slider);
+  scaled_planar_motion(m, j, w->y, u, &v);
+  scaled_planar_motion(m, j, w->dy, du, &dv);
+  const planar_value value = law_planar_eval(&m->contact[j].law, u, v, slider);
   const bool exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
   at->du = (u[0] - slider[0]) * du[0] + (u[1] - slider[1]) * du[1];
   if (at->state == CONTACT_SEPARATED) return;
@@ -64,7 +64,7 @@ static contact_instant contact_at(const contact_watch *w, int j)
   scaled_contact_motion(m, j, w->dy, &at.du, &at.dv);
   const law_value value = law_regularised_eval(law, u, v, w->y[slider]);
   at.normal = value.n;
-  if (m->contact[j].circle) add_circle(w, j, &at);
+  if (m->contact[j].circle) add_planar(w, j, &at);
   if (m->contact[j].circle || m->contact[j].second) return at;
   if (!law->has_friction || at.state == CONTACT_SEPARATED) return at;
   at.pull = value.t;

@@ -10,7 +10,6 @@
 
 static const double margin = 1e-9; /* of the sum of a guard's terms: far above the errors of an integration started
                                       at the same state */
-static const double corner = 40; /* [width] beyond which softplus is exact to rounding: SOFT_END of law_regularised.c */
 
 /* A contact as the mass sees it: its law, u and v of X = 1, N0. */
 typedef struct one_contact {
@@ -67,7 +66,7 @@ static bool positive_within(double a, double b, double center, double reach)
 static bool keeps_state(const one_contact *c, double x, double w, double center, double reach)
 {
   const law_regularised *law = c->law;
-  const double clear = corner * law->width;
+  const double clear = LAW_SOFT_END * law->width;
   if (law->load != 0) return false;
   if (law->kn == 0) return true;     /* N = 0 always */
   if (law->overstress) return false; /* the slider of a separated contact acts on X as a dashpot */

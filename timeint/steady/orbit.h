@@ -9,6 +9,10 @@
  * integration's own errors allow. */
 double orbit_goal(const timeint *ti);
 
+/* [size] The largest regularisation, 0.1, moves an orbit by some percent: one farther away is another, of which the
+ * multiplier known says nothing. */
+#define ORBIT_REGULARISED_WITHIN 0.2
+
 /* [L] The scatter of k integrated periods: how far F^k(z) may be off. */
 double orbit_scatter(const timeint *ti, int k);
 

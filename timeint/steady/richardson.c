@@ -19,7 +19,6 @@
 #include "timeint/steady/timeint_private.h"
 
 enum { LEVELS = 3 };
-static const double same_orbit = 0.2; /* [size] the largest regularisation, 0.1, moves an orbit by some percent */
 
 static double extrapolate(double q1, double q2, double q3)
 {
@@ -40,7 +39,7 @@ static hc_status solve_at(timeint *ti, double regularisation, int k, const hc_mo
   }
   hc_status st = shoot_newton(ti->shoot, k, size, orbit_goal(ti), monitor, &found);
   /* another orbit: nothing to extrapolate from */
-  if (st == HC_OK && !(found.moved <= same_orbit * size)) st = HC_NOT_CONVERGED;
+  if (st == HC_OK && !(found.moved <= ORBIT_REGULARISED_WITHIN * size)) st = HC_NOT_CONVERGED;
   return st == HC_OK ? orbit_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
 }
 

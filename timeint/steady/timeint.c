@@ -66,7 +66,7 @@ static hc_status make_memory(timeint *ti)
 static hc_status make_integrator(const timeint *ti, transient_law law, integrator **out)
 {
   const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM, exact = law == TRANSIENT_LAW_EXACT;
-  if (closed) return integrate_new_series(ti->base, PHASE_MODES_STIFF, out);
+  if (closed) return integrate_new_closed_form(ti->base, INTERVAL_MODES_STIFF, out);
   return (exact ? integrate_new_events : integrate_new_regularised)(ti->base, ti->tolerance, out);
 }
 
