@@ -88,7 +88,8 @@ void structure_newton_linearise(structure_newton *s, const scaled_model *m, cons
     const int directions = m->contact[j].second ? 0 : scaled_directions(m, j);
     const double u[2] = {at(s->q, s->along[j]), directions == 2 ? at(s->q, s->along[j + 1]) : 0};
     s->directions[j] = directions;
-    if (directions > 0) s->law[j] = scaled_law(&m->contact[j], u, at(s->q, s->across[j]), y + 2 * s->n + j);
+    const scaled_contact *c = &m->contact[j];
+    if (directions > 0) s->law[j] = c->kind->derivatives(&c->law, u, at(s->q, s->across[j]), y + 2 * s->n + j);
   }
 }
 

@@ -14,7 +14,7 @@ static overload load_of(const law_regularised *c, const double u[2], double n, c
   return o;
 }
 
-planar_value law_planar_eval(const law_regularised *c, const double u[2], double v, const double w[2])
+planar_value law_planar_eval(const law_regularised *c, const double *u, double v, const double *w)
 {
   const law_value normal = law_regularised_eval(c, 0, v, 0); /* T = 0: of N alone */
   planar_value r = {.n = normal.n, .change = normal.change};
@@ -28,7 +28,7 @@ planar_value law_planar_eval(const law_regularised *c, const double u[2], double
   return r;
 }
 
-planar_derivatives law_planar_derivatives(const law_regularised *c, const double u[2], double v, const double w[2])
+planar_derivatives law_planar_derivatives(const law_regularised *c, const double *u, double v, const double *w)
 {
   const double n = law_regularised_eval(c, 0, v, 0).n;
   planar_derivatives r = {.n_v = law_regularised_derivatives(c, 0, v, 0).n_v};
@@ -47,3 +47,21 @@ planar_derivatives law_planar_derivatives(const law_regularised *c, const double
   }
   return r;
 }
+
+static planar_value eval_line(const law_regularised *c, const double *u, double v, const double *w)
+{
+  const law_value l = law_regularised_eval(c, *u, v, *w);
+  return (planar_value){.n = l.n, .change = l.change, .t = {l.t}, .rate = {l.rate}};
+}
+
+static planar_derivatives line_derivatives(const law_regularised *c, const double *u, double v, const double *w)
+{
+  const law_derivatives s = law_regularised_derivatives(c, *u, v, *w);
+  return (planar_derivatives){
+      .n_v = s.n_v, .t_u = {{s.t_u}}, .t_v = {s.t_v}, .rate_u = {{s.rate_u}}, .rate_v = {s.rate_v}};
+}
+
+const law_kind law_kinds[] = {
+    [LAW_ONE_TANGENT] = {1, eval_line, line_derivatives},
+    [LAW_TWO_TANGENTS] = {2, law_planar_eval, law_planar_derivatives},
+};

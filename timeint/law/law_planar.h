@@ -23,9 +23,20 @@ typedef struct planar_derivatives {
   double n_v, t_u[2][2], t_v[2], rate_u[2][2], rate_v[2];
 } planar_derivatives;
 
-planar_value law_planar_eval(const law_regularised *c, const double u[2], double v, const double w[2]);
+/* A contact law as the equations see it, with one tangent or with two; of one tangent in [0]. Chosen once, when the
+ * contact is made (scaled.c); a new law is its file and its row in law_planar.c. */
+typedef struct law_kind {
+  int directions;
+  planar_value (*evaluate)(const law_regularised *c, const double *u, double v, const double *w);
+  planar_derivatives (*derivatives)(const law_regularised *c, const double *u, double v, const double *w);
+} law_kind;
+
+enum { LAW_ONE_TANGENT, LAW_TWO_TANGENTS };
+extern const law_kind law_kinds[];
+
+planar_value law_planar_eval(const law_regularised *c, const double *u, double v, const double *w);
 
 /* Where the law has them; on the circle those of stick. */
-planar_derivatives law_planar_derivatives(const law_regularised *c, const double u[2], double v, const double w[2]);
+planar_derivatives law_planar_derivatives(const law_regularised *c, const double *u, double v, const double *w);
 
 #endif

@@ -28,6 +28,7 @@ static void make_contact(scaled_contact *sc, const model_contact *from, double u
   sc->law = law_regularised_make(&law, width / length, how->regularisation);
   sc->preload = contact_preload(&law);
   sc->circle = from->circle && from->pair == CONTACT_FIRST && sc->law.has_friction;
+  sc->kind = &law_kinds[sc->circle ? LAW_TWO_TANGENTS : LAW_ONE_TANGENT];
   sc->second = from->circle && from->pair == CONTACT_SECOND && sc->law.has_friction;
 }
 
@@ -64,6 +65,13 @@ void scaled_planar_motion(const scaled_model *m, int j, const double *x, double 
   u[1] = dot_product(m->n, m->base->tangent + (size_t)(j + 1) * (size_t)m->n, x);
 }
 
+/* U of all directions of the contact whose first is j, and V. */
+static void motion_of(const scaled_model *m, int j, const double *x, double u[2], double *v)
+{
+  if (scaled_directions(m, j) == 2) scaled_planar_motion(m, j, x, u, v);
+  else scaled_contact_motion(m, j, x, &u[0], v);
+}
+
 double scaled_response(const scaled_model *m, int r, const double *x)
 {
   return dot_product(m->n, m->base->response + (size_t)r * (size_t)m->n, x);
@@ -71,12 +79,13 @@ double scaled_response(const scaled_model *m, int r, const double *x)
 
 int scaled_n_responses(const scaled_model *m) { return m->base->n_responses; }
 
-static contact_state state_in_plane(const scaled_model *m, int j, const double *y)
+/* The regularised law of the contact whose first direction is j, at y. */
+static planar_value value_of(const scaled_model *m, int j, const double *y)
 {
+  const scaled_contact *c = &m->contact[j];
   double u[2], v;
-  scaled_planar_motion(m, j, y, u, &v);
-  const planar_value at = law_planar_eval(&m->contact[j].law, u, v, y + 2 * m->n + j);
-  return at.rate[0] != 0 || at.rate[1] != 0 ? CONTACT_SLIP_PLUS : CONTACT_STICK;
+  motion_of(m, j, y, u, &v);
+  return c->kind->evaluate(&c->law, u, v, y + 2 * m->n + j);
 }
 
 contact_state scaled_contact_state(const scaled_model *m, int j, const double *y)
@@ -85,9 +94,10 @@ contact_state scaled_contact_state(const scaled_model *m, int j, const double *y
   double u, v;
   scaled_contact_motion(m, j, y, &u, &v);
   if (!(law->kn > 0 ? v + law->gap > 0 : law->load > 0)) return CONTACT_SEPARATED;
-  if (m->contact[j].circle || m->contact[j].second) return state_in_plane(m, scaled_first(m, j), y);
-  const double rate = law_regularised_eval(law, u, v, y[2 * m->n + j]).rate;
-  return rate > 0 ? CONTACT_SLIP_PLUS : rate < 0 ? CONTACT_SLIP_MINUS : CONTACT_STICK;
+  const int first = scaled_first(m, j);
+  const planar_value at = value_of(m, first, y);
+  if (at.rate[0] < 0 && scaled_directions(m, first) == 1) return CONTACT_SLIP_MINUS;
+  return at.rate[0] != 0 || at.rate[1] != 0 ? CONTACT_SLIP_PLUS : CONTACT_STICK;
 }
 
 double scaled_pull(const scaled_model *m, int j)
@@ -112,32 +122,20 @@ void scaled_linear_force(const scaled_model *m, double theta, const double *y, d
   modal_base_subtract_C(b, m->by_C, y + n, out);
 }
 
-/* Of direction j alone, or of the circle it is one of. */
-static law_value value_of(const scaled_model *m, int j, const double *y)
-{
-  const scaled_contact *c = &m->contact[j];
-  const int first = scaled_first(m, j);
-  double u[2], v;
-  if (!c->circle && !c->second) {
-    scaled_contact_motion(m, j, y, u, &v);
-    return law_regularised_eval(&c->law, u[0], v, y[2 * m->n + j]);
-  }
-  scaled_planar_motion(m, first, y, u, &v);
-  const planar_value both = law_planar_eval(&c->law, u, v, y + 2 * m->n + first);
-  return (law_value){.n = both.n, .change = both.change, .t = both.t[j - first], .rate = both.rate[j - first]};
-}
-
 bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy)
 {
   const int n = m->n;
   double *force = dy + n, sum = 0;
   scaled_linear_force(m, theta, y, force);
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const law_value l = value_of(m, j, y);
-    const double *t = m->base->tangent + (size_t)j * (size_t)n, *normal = m->base->normal + (size_t)j * (size_t)n;
-    for (int i = 0; i < n; ++i) force[i] -= l.t * t[i] + l.change * normal[i];
-    dy[2 * n + j] = l.rate;
-    sum += l.rate;
+  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
+    const planar_value l = value_of(m, j, y);
+    for (int a = 0; a < scaled_directions(m, j); ++a) {
+      const size_t at = (size_t)(j + a) * (size_t)n;
+      const double *t = m->base->tangent + at, *normal = m->base->normal + at;
+      for (int i = 0; i < n; ++i) force[i] -= l.t[a] * t[i] + l.change * normal[i];
+      dy[2 * n + j + a] = l.rate[a];
+      sum += l.rate[a];
+    }
   }
   for (int i = 0; i < n; ++i) {
     dy[i] = y[n + i];
@@ -158,14 +156,6 @@ static void fill_linear(const scaled_model *m, double *jac)
     for (size_t row = 0; row < n && !b->diagonal_K; ++row) by_x[n + row] = -m->by_K * b->K[col * n + row];
     for (size_t row = 0; row < n && !b->diagonal_C; ++row) by_p[n + row] = -m->by_C * b->C[col * n + row];
   }
-}
-
-planar_derivatives scaled_law(const scaled_contact *c, const double *u, double v, const double *w)
-{
-  if (c->circle) return law_planar_derivatives(&c->law, u, v, w);
-  const law_derivatives s = law_regularised_derivatives(&c->law, *u, v, *w);
-  return (planar_derivatives){
-      .n_v = s.n_v, .t_u = {{s.t_u}}, .t_v = {s.t_v}, .rate_u = {{s.rate_u}}, .rate_v = {s.rate_v}};
 }
 
 /* What motion along direction b of a contact, tangents t[][n], does to direction a of it. */
@@ -193,9 +183,8 @@ void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
     const int directions = scaled_directions(m, j);
     const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
     double u[2], v;
-    if (directions == 2) scaled_planar_motion(m, j, y, u, &v);
-    else scaled_contact_motion(m, j, y, u, &v);
-    const planar_derivatives s = scaled_law(&m->contact[j], u, v, y + w);
+    motion_of(m, j, y, u, &v);
+    const planar_derivatives s = m->contact[j].kind->derivatives(&m->contact[j].law, u, v, y + w);
     for (int a = 0; a < directions; ++a)
       for (int b = 0; b < directions; ++b) add_direction(jac, n, ld, w, t, a, b, &s);
     for (int a = 0; a < directions; ++a) {

@@ -23,6 +23,7 @@
 
 typedef struct scaled_contact {
   law_regularised law; /* without dimensions */
+  const law_kind *kind;
   double preload;      /* N0 */
   bool circle, second; /* the first of two directions that share the law of the circle; the second. With friction */
 } scaled_contact;
@@ -47,9 +48,6 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
 /* jac[n_states * n_states], column by column: d dy[i] / d y[j] at jac[i + j n_states]. */
 void scaled_jacobian(const scaled_model *m, const double *y, double *jac);
 
-/* Derivatives of the regularised law of that contact at u, v and w; of one direction alone in [0]. */
-planar_derivatives scaled_law(const scaled_contact *c, const double *u, double v, const double *w);
-
 /* out[n] := by_load p(theta) - by_C C P - by_K K X: all but the contacts. */
 void scaled_linear_force(const scaled_model *m, double theta, const double *y, double *out);
 
@@ -65,7 +63,7 @@ void scaled_planar_motion(const scaled_model *m, int j, const double *x, double 
 
 /* The first direction of the contact that j is one of; and how many it has that share a law: 2 of a circle, else 1. */
 static inline int scaled_first(const scaled_model *m, int j) { return m->contact[j].second ? j - 1 : j; }
-static inline int scaled_directions(const scaled_model *m, int j) { return m->contact[j].circle ? 2 : 1; }
+static inline int scaled_directions(const scaled_model *m, int j) { return m->contact[j].kind->directions; }
 
 double scaled_response(const scaled_model *m, int r, const double *x);
 int scaled_n_responses(const scaled_model *m);
