@@ -9,7 +9,7 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "timeint/cvode/structure_solver.h"
+#include "timeint/cvode/structure_newton.h"
 #include "timeint/period/integrate_private.h"
 
 typedef struct cvode_integrator { /* the first member of each kind */
@@ -20,7 +20,7 @@ typedef struct cvode_integrator { /* the first member of each kind */
   bool called;     /* CVODE has been called: its first call allocates, and crashes if it cannot (sundials_compat.h) */
   SUNContext ctx;  /* made first, freed last, this integrator's alone */
   N_Vector y, dky; /* [n] what CVODE integrates; dense output */
-  SUNMatrix jac;   /* [n][n], or what structure_solver.h has in its place */
+  SUNMatrix jac;   /* [n][n], or no entries, a structure_newton behind it */
   SUNLinearSolver ls;
   void *cv;
 } cvode_integrator;
@@ -54,5 +54,9 @@ int integrate_first_flag(const int *flags, size_t n);
 hc_status integrate_dense_samples(const integrator *in, int r, double theta, double step, int count, double *x);
 bool integrate_no_fourier(const integrator *in, int r, double out[3]);
 hc_status integrate_cvode_tolerance(integrator *in, double tolerance);
+
+/* What a CVLsLinSysFn has to do, of *s for *m: linearised at y unless CVODE says that the last derivatives will do
+ * (keep). 0, or 1 where it is singular: CVODE then tries a shorter step. */
+int structure_solver_set(structure_newton *s, const scaled_model *m, const double *y, bool keep, double gamma);
 
 #endif
