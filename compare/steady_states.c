@@ -121,7 +121,7 @@ static hc_status add_other_responses(workspace *w, steady_row *row)
 }
 
 /* w->state to the steady state at omega; not HC_OK only when there is no going on. */
-static hc_status settle(workspace *w, double omega, const char *start, hc_status without_hbm)
+static hc_status steady_settle(workspace *w, double omega, const char *start, hc_status without_hbm)
 {
   steady_row row = {.result = {.omega = omega}, .without_hbm = without_hbm, .from_regularisation = NAN};
   snprintf(row.start, sizeof row.start, "%s", start);
@@ -134,20 +134,20 @@ static hc_status settle(workspace *w, double omega, const char *start, hc_status
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;
 }
 
-static hc_status settle_from_rest(workspace *w, double omega, hc_status without_hbm)
+static hc_status steady_from_rest(workspace *w, double omega, hc_status without_hbm)
 {
   timeint_rest(w->ti, w->state);
-  return settle(w, omega, "rest", without_hbm);
+  return steady_settle(w, omega, "rest", without_hbm);
 }
 
-static hc_status settle_from_orbit(workspace *w, double omega, const hbm_curve *at, int k)
+static hc_status steady_from_orbit(workspace *w, double omega, const hbm_curve *at, int k)
 {
   const double *X = at->X + (size_t)k * at->n_coef;
   char start[32];
   hc_status st = comparison_orbit_start(w->hbm, X, omega, w->state);
   if (st != HC_OK) return add_failure(w, STEADY_HBM, st, omega);
   snprintf(start, sizeof start, "hbm branch %d", at->points[k].branch);
-  return settle(w, omega, start, HC_OK);
+  return steady_settle(w, omega, start, HC_OK);
 }
 
 static hc_status from_hbm_orbits(workspace *w, double omega)
@@ -156,8 +156,8 @@ static hc_status from_hbm_orbits(workspace *w, double omega)
   hc_status st = hbm_curve_at(w->hbm, &w->curve, omega, &at), why = st != HC_OK             ? st
                                                                     : w->curve.end != HC_OK ? w->curve.end
                                                                                             : HC_NOT_CONVERGED;
-  if (st != HC_NO_MEMORY) st = st != HC_OK || at.n == 0 ? settle_from_rest(w, omega, why) : HC_OK;
-  for (int k = 0; k < at.n && st == HC_OK; ++k) st = settle_from_orbit(w, omega, &at, k);
+  if (st != HC_NO_MEMORY) st = st != HC_OK || at.n == 0 ? steady_from_rest(w, omega, why) : HC_OK;
+  for (int k = 0; k < at.n && st == HC_OK; ++k) st = steady_from_orbit(w, omega, &at, k);
   hbm_curve_free(&at);
   return st;
 }
@@ -172,7 +172,7 @@ static hc_status swept(workspace *w, const number_list *at, bool up)
     hc_status st = timeint_sweep(w->ti, here, omega, w->state, w->monitor);
     if (st == HC_NO_MEMORY) return st;
     if (st != HC_OK) return add_failure(w, STEADY_SWEEP, st, omega); /* from nowhere there is no going on */
-    if ((st = settle(w, omega, up ? "up" : "down", HC_OK)) != HC_OK) return st;
+    if ((st = steady_settle(w, omega, up ? "up" : "down", HC_OK)) != HC_OK) return st;
     here = omega;
   }
   return HC_OK;
@@ -191,7 +191,7 @@ static hc_status run(workspace *w, const number_list *asked)
   if (start == TRANSIENT_START_HBM) st = response_trace(w->setup, asked, w->monitor, &w->hbm, &w->curve);
   if (w->hbm && st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = HC_OK; /* as far as the curve goes */
   for (int i = 0; i < asked->n && st == HC_OK; ++i)
-    st = w->hbm ? from_hbm_orbits(w, asked->v[i]) : settle_from_rest(w, asked->v[i], HC_OK);
+    st = w->hbm ? from_hbm_orbits(w, asked->v[i]) : steady_from_rest(w, asked->v[i], HC_OK);
   return st;
 }
 

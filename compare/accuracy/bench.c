@@ -78,7 +78,7 @@ typedef struct workspace {
   bench *out;
 } workspace;
 
-static bool tick(void *self, double done)
+static bool bench_tick(void *self, double done)
 {
   const workspace *w = self;
   (void)done;
@@ -305,7 +305,7 @@ hc_status bench_run(const compare_setup *setup, const bench_options *options, co
                    .from = (double)i / at.n,
                    .width = 1.0 / at.n,
                    .out = out};
-    w.monitor = (hc_monitor){tick, &w};
+    w.monitor = (hc_monitor){bench_tick, &w};
     st = bench_start_new(setup->model, f.response.hbm, &w.start);
     if (st == HC_OK) st = bench_at(&w, &f, at.v[i]);
     bench_start_free(&w.start);
