@@ -203,6 +203,47 @@ static bool step_contact(const one_contact *c, int n_harm, int N, const double *
   return rests;
 }
 
+/* Sum of h^p times the sizes of harmonic h >= 1 of coordinate d: a bound of the p-th derivative by th. */
+static double motion_size(const solved_scene *s, const one_contact *c, int d, int p)
+{
+  double sum = 0;
+  for (int h = 1; h <= s->how.harmonics; ++h) {
+    const double *a = c->motion + d * s->n_coef + 2 * h - 1;
+    sum += pow(h, p) * hypot(a[0], a[1]);
+  }
+  return sum;
+}
+
+/* What stepping through N instants, e = 2 pi/N apart, may do to a coefficient, over the largest force of the springs.
+ * Up, Vp bound the p-th derivatives of u and v; r = mu N/kt.
+ *     sums     a trapezoidal sum errs by e^2/12 times the mean of |(f cos h th)''|, twice that for h >= 1: with f of
+ *              the springs, S2 + 2 h S1 + h^2 S0, Sp = kt Up + (1 + mu) kn Vp; and by e^2/8 times each jump of f', at most
+ *              2 S1, over pi
+ *     slider   u and r go evenly between instants, off by e^2/8 (U2 + R2): on a line so is the slider
+ *     circle   of two circles that are nowhere more than d apart the sliders differ by no more than the root of
+ *              2 d (length of both paths) (Moreau's sweeping process), each path 2 pi (U1 + R1) at most
+ * The second of the two is the larger one by far, and no better is known without the order of the motion's contact with
+ * the circle; it is of first order in e. */
+static double stepping_bound(const solved_scene *s, const one_contact *c, int N)
+{
+  const contact *law = c->law;
+  const int last = c->n_dof - 1, H = s->how.harmonics;
+  const bool moves = c->circle ? c->n_dof == 3 : law->kn > 0;
+  const double e = TWO_PI / N, r = law->kt > 0 ? law->mu * law->kn / law->kt : 0;
+  double U[3] = {0}, V[3] = {0}, S[3], largest = 0;
+  for (int p = 0; p < 3; ++p) {
+    for (int d = 0; d < (c->circle ? 2 : 1); ++d) U[p] += motion_size(s, c, d, p);
+    if (moves) V[p] = motion_size(s, c, last, p);
+    S[p] = law->kt * U[p] + (c->circle ? 2 : 1) * (1 + law->mu) * law->kn * V[p];
+  }
+  for (int k = 0; k < c->n_dof * s->n_coef; ++k)
+    largest = fmax(largest, c->stiffness[k / s->n_coef] * fabs(c->motion[k]));
+  const double sums = e * e * ((S[2] + 2 * H * S[1] + H * H * S[0]) / 6 + (c->report.transitions + 1) * S[1] / 4);
+  const double line = e * e / 8 * (U[2] + r * V[2]);
+  const double slider = c->circle ? e * sqrt(PI * (U[1] + r * V[1]) * (U[2] + r * V[2])) : line;
+  return (sums + 2 * law->kt * slider) / fmax(largest, DBL_MIN);
+}
+
 /* ---- balance ---------------------------------------------------------------------------------------- */
 
 typedef struct balance {
@@ -254,10 +295,17 @@ static double spring_size(const solved_scene *s, double stiffness, const double 
   return stiffness * sum;
 }
 
-static hc_status add_contact(const solved_scene *s, int j, const double *x, balance *b)
+/* Its force as it is located, or where N > 0 stepped through N instants, whose cos and sin are turn[2 N]; *bound then
+ * grows by what that may do. HC_INTERRUPTED: the slider has not settled. */
+static hc_status add_contact(const solved_scene *s, int j, const double *x, int N, const double *turn, balance *b,
+                             double *bound)
 {
   one_contact c;
   hc_status st = one_contact_locate(s, j, x, &c);
+  if (st == HC_OK && N > 0 && c.n_dof > 0) {
+    *bound += stepping_bound(s, &c, N);
+    if (!step_contact(&c, s->how.harmonics, N, turn, c.force)) st = HC_INTERRUPTED;
+  }
   for (int d = 0; d < c.n_dof && st == HC_OK; ++d)
     for (int k = 0; k < s->n_coef; ++k) {
       const double force = c.force[d * s->n_coef + k];
@@ -271,14 +319,16 @@ static hc_status add_contact(const solved_scene *s, int j, const double *x, bala
   return st;
 }
 
-double stress_imbalance(solved_scene *s, const double *x)
+static double imbalance(solved_scene *s, const double *x, int N, double *bound)
 {
   const size_t length = (size_t)s->n * (size_t)s->n_coef;
   balance b = {calloc(length, sizeof(double)), calloc(length, sizeof(double))};
   double left = 0, size = 0;
-  hc_status st = b.left && b.size ? HC_OK : HC_NO_MEMORY;
+  double *turn = malloc(2 * ((size_t)N + 1) * sizeof *turn);
+  hc_status st = b.left && b.size && turn ? HC_OK : HC_NO_MEMORY;
+  if (st == HC_OK) make_angles(N, turn);
   if (st == HC_OK) add_structure(s, x, &b);
-  for (int j = 0; j < s->model->n_contacts && st == HC_OK; ++j) st = add_contact(s, j, x, &b);
+  for (int j = 0; j < s->model->n_contacts && st == HC_OK; ++j) st = add_contact(s, j, x, N, turn, &b, bound);
   for (size_t i = s->how.keep_mean ? 0 : (size_t)s->n; i < length && st == HC_OK; ++i) {
     if (isnan(b.left[i])) st = HC_NOT_FINITE;
     left = fmax(left, fabs(b.left[i]));
@@ -286,8 +336,17 @@ double stress_imbalance(solved_scene *s, const double *x)
   }
   free(b.left);
   free(b.size);
+  free(turn);
   if (st == HC_NO_MEMORY) s->fatal = st;
   return st != HC_OK ? NAN : left == 0 ? 0 : left / size;
+}
+
+double stress_imbalance(solved_scene *s, const double *x) { return imbalance(s, x, 0, NULL); }
+
+double stress_imbalance_sampled(solved_scene *s, const double *x, int N, double *bound)
+{
+  *bound = 0;
+  return imbalance(s, x, N, bound);
 }
 
 stress_check stress_check_balance(solved_scene *s)
@@ -307,48 +366,6 @@ static double forces_apart(int n_coef, const one_contact *c, const double *stepp
     size = fmax(size, c->stiffness[k / n_coef] * fabs(c->motion[k]));
   }
   return apart == 0 ? 0 : apart / fmax(size, DBL_MIN);
-}
-
-/* Sum of h^p times the sizes of harmonic h >= 1 of coordinate d: a bound of the p-th derivative by th. */
-static double motion_size(const solved_scene *s, const one_contact *c, int d, int p)
-{
-  double sum = 0;
-  for (int h = 1; h <= s->how.harmonics; ++h) {
-    const double *a = c->motion + d * s->n_coef + 2 * h - 1;
-    sum += pow(h, p) * hypot(a[0], a[1]);
-  }
-  return sum;
-}
-
-/* What stepping through N instants, e = 2 pi/N apart, may do to a coefficient, over the largest force of the springs.
- * Up, Vp bound the p-th derivatives of u and v; r = mu N/kt.
- *     sums     a trapezoidal sum errs by e^2/12 times the mean of |(f cos h th)''|, twice that for h >= 1: with f of
- * the
- *              springs, S2 + 2 h S1 + h^2 S0, Sp = kt Up + (1 + mu) kn Vp; and by e^2/8 times each jump of f', at most
- *              2 S1, over pi
- *     slider   u and r go evenly between instants, off by e^2/8 (U2 + R2): on a line so is the slider
- *     circle   of two circles that are nowhere more than d apart the sliders differ by no more than the root of
- *              2 d (length of both paths) (Moreau's sweeping process), each path 2 pi (U1 + R1) at most
- * The second of the two is the larger one by far, and no better is known without the order of the motion's contact with
- * the circle; it is of first order in e. */
-static double stepping_bound(const solved_scene *s, const one_contact *c, int N)
-{
-  const contact *law = c->law;
-  const int last = c->n_dof - 1, H = s->how.harmonics;
-  const bool moves = c->circle ? c->n_dof == 3 : law->kn > 0;
-  const double e = TWO_PI / N, r = law->kt > 0 ? law->mu * law->kn / law->kt : 0;
-  double U[3] = {0}, V[3] = {0}, S[3], largest = 0;
-  for (int p = 0; p < 3; ++p) {
-    for (int d = 0; d < (c->circle ? 2 : 1); ++d) U[p] += motion_size(s, c, d, p);
-    if (moves) V[p] = motion_size(s, c, last, p);
-    S[p] = law->kt * U[p] + (c->circle ? 2 : 1) * (1 + law->mu) * law->kn * V[p];
-  }
-  for (int k = 0; k < c->n_dof * s->n_coef; ++k)
-    largest = fmax(largest, c->stiffness[k / s->n_coef] * fabs(c->motion[k]));
-  const double sums = e * e * ((S[2] + 2 * H * S[1] + H * H * S[0]) / 6 + (c->report.transitions + 1) * S[1] / 4);
-  const double line = e * e / 8 * (U[2] + r * V[2]);
-  const double slider = c->circle ? e * sqrt(PI * (U[1] + r * V[1]) * (U[2] + r * V[2])) : line;
-  return (sums + 2 * law->kt * slider) / fmax(largest, DBL_MIN);
 }
 
 /* Steps are made finer until they agree to 1e-6, or differ by no more than they must. */

@@ -82,6 +82,10 @@ double stress_multipliers_apart(const stress_motion *a, const stress_motion *b);
  * what it is made of; written down from the model, each contact's force by itself. NaN: a force failed. */
 double stress_imbalance(solved_scene *s, const double *x);
 
+/* The same with each contact's law stepped through N instants a period in place of its exact force; *bound: the most
+ * that this may change. NaN also: a slider in the plane has not settled. */
+double stress_imbalance_sampled(solved_scene *s, const double *x, int N, double *bound);
+
 /* What is let pass of it, 100 times Newton's tolerance: that is relative to the forces in the condensed coordinates,
  * which may be larger by what the rest of the structure, held, makes of them. */
 static inline double stress_balanced(const solved_scene *s) { return 100 * s->how.tolerance; }

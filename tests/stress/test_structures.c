@@ -23,6 +23,7 @@ typedef enum spoil {
   LIMIT_SQUARE,       /* in place of the circle, in what is solved */
   CONTACT_SIGN,       /* of one direction of one contact, in what is solved */
   SECOND_HARMONIC,    /* of a load, in what is solved */
+  SAMPLES_STIFFER,    /* contacts, where forces are sampled */
   FORCE_TURNED,       /* its sign, where a contact is looked at alone */
   FORCE_SCALED,       /* likewise, by a little */
   FOUND_MOVED,        /* what Newton finds from a guess */
@@ -66,6 +67,8 @@ hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_sol
   assert_int_equal(model_copy(m, &other), HC_OK);
   if (spoiled == DAMPING_TRANSPOSED) transpose(m->n, other->damping);
   for (int j = 0; j < m->n_contacts && spoiled == LIMIT_SQUARE; ++j) other->contacts[j].circle = false;
+  for (int j = 0; j < m->n_contacts && spoiled == SAMPLES_STIFFER && how->force == HBM_FORCE_SAMPLED; ++j)
+    other->contacts[j].law.kt *= 1 + 1e-5, other->contacts[j].law.kn *= 1 + 1e-5;
   if (spoiled == CONTACT_SIGN) other->contacts[1].tangent[0] *= -1;
   if (spoiled == SECOND_HARMONIC) other->loads[m->n_loads - 1].cosine[1] *= 1 + 1e-7;
   hc_status st = __real_hbm_solver_new(other, how, out);
@@ -272,6 +275,7 @@ static void circles_are_held_against_their_law(void **state)
   assert_int_equal(in_space(LIMIT_SQUARE, STRESS_OTHER_TANGENTS).outcome, STRESS_FINDING);
   assert_int_equal(in_space(FOUND_MOVED, STRESS_OTHER_TANGENTS).outcome, STRESS_FINDING);
   assert_int_equal(in_space(LATER_MULTIPLIERS, STRESS_OTHER_TANGENTS).outcome, STRESS_FINDING);
+  assert_int_equal(in_space(SAMPLES_STIFFER, STRESS_SAMPLED).outcome, STRESS_FINDING);
 }
 
 /* Scenes of which a contact has shaken down to the edge of slip: shooting left such an orbit by rounding, and ended on
@@ -325,6 +329,7 @@ static void a_wrong_force_is_found(void **state)
   (void)state;
   expect_finding(true, FORCE_TURNED, STRESS_WORK);
   expect_finding(true, FORCE_SCALED, STRESS_FORCE);
+  expect_finding(true, SAMPLES_STIFFER, STRESS_SAMPLED);
 }
 
 /* Solutions and multipliers of every other way to write it. */
@@ -447,8 +452,9 @@ static void an_oscillator_is_made_small(void **state)
 /* ---- findings of seeds that nobody had used ------------------------------------------------------------------ */
 
 /* The force of contact 38 of seed 31337 differed from its stepped one by 5.2e-6, as a slider was put where the first
- * instant of contact found it; units of the two oscillators by 5.0e-10 and 1.7e-10, as Newton's tolerance allows. */
-static void findings_of_other_seeds_agree(void **state)
+ * instant of contact found it; units of the two oscillators by 5.0e-10 and 1.7e-10, as Newton's tolerance allows; the
+ * multiplier by HBM of structure 85 was 1.1e-2 off with one harmonic, hardly less with two, and 1e-4 with 64. */
+static void findings_of_other_seeds_are_none(void **state)
 {
   (void)state;
   static const struct {
@@ -456,9 +462,11 @@ static void findings_of_other_seeds_agree(void **state)
     unsigned long seed;
     long index;
     stress_kind kind;
-  } rows[] = {{STRESS_OSCILLATORS, 101, 889, STRESS_UNITS},
-              {STRESS_OSCILLATORS, 404, 1192, STRESS_UNITS},
-              {STRESS_SPACE, 31337, 38, STRESS_FORCE}};
+    stress_outcome outcome;
+  } rows[] = {{STRESS_OSCILLATORS, 101, 889, STRESS_UNITS, STRESS_AGREED},
+              {STRESS_OSCILLATORS, 404, 1192, STRESS_UNITS, STRESS_AGREED},
+              {STRESS_SPACE, 31337, 38, STRESS_FORCE, STRESS_AGREED},
+              {STRESS_STRUCTURES, 90003, 85, STRESS_MULTIPLIER, STRESS_EXPLAINED}};
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
     stress_scenes *scenes;
     scene sc;
@@ -466,7 +474,7 @@ static void findings_of_other_seeds_agree(void **state)
     assert_int_equal(stress_scenes_new(rows[i].seed, &scenes), HC_OK);
     assert_int_equal(stress_scene_of(scenes, rows[i].family, rows[i].index, &sc), HC_OK);
     assert_int_equal(stress_scene(&sc, 1, NULL, &r), HC_OK);
-    assert_int_equal(r.check[rows[i].kind].outcome, STRESS_AGREED);
+    assert_int_equal(r.check[rows[i].kind].outcome, rows[i].outcome);
     case_clear(&sc);
     stress_scenes_free(scenes);
   }
@@ -600,7 +608,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(good_oscillators_are_no_findings),
     cmocka_unit_test(a_wrong_oscillator_is_found),
     cmocka_unit_test(an_oscillator_is_made_small),
-    cmocka_unit_test(findings_of_other_seeds_agree),
+    cmocka_unit_test(findings_of_other_seeds_are_none),
     cmocka_unit_test(what_only_sensitivity_allows_is_ill_conditioned),
     cmocka_unit_test(every_scene_is_a_case_file),
     cmocka_unit_test(circles_are_held_against_their_law),
