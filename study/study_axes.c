@@ -37,11 +37,7 @@ static hc_status bad_entry(study_reader *q, const char *path, const char *key, c
   message *m = study_blame(q, node);
   message_add(m, "%s: `%s` is ", path, key);
   if (node->type != YAML_SCALAR_NODE || node->data.scalar.length == 0) message_add(m, "%s", yaml_node_what(node));
-  else {
-    message_add(m, "`");
-    message_add_input(m, yaml_node_text(node), node->data.scalar.length, 60);
-    message_add(m, "`");
-  }
+  else message_add_quoted(m, yaml_node_text(node), node->data.scalar.length);
   message_add(m, ", expected %s", expected);
   return HC_BAD_INPUT;
 }
@@ -94,8 +90,7 @@ static hc_status read_range(study_reader *q, const char *path, const field *f, c
   }
   const char *fault = range_fault(f, g);
   if (!fault) return HC_OK;
-  message_add(study_blame(q, node), "`%s` %s", path, fault);
-  return HC_BAD_INPUT;
+  return yaml_refuse(&q->r, node, "`%s` %s", path, fault);
 }
 
 /* Value i as text, held against its field. Integers forgive the rounding of a log range. */
@@ -111,10 +106,8 @@ static hc_status range_value(study_reader *q, const study_field *sf, const range
   number_write(x, text);
   field_value v = {.n = 1, .item[0] = {.text = text, .length = strlen(text)}};
   message_start(&why, words, sizeof words);
-  if (!field_store(sf->f, &scratch, &v, &why, &bad)) {
-    message_add(study_blame(q, node), "%s%s (value %d of %d of the range)", sf->path, why.text, i + 1, g->count);
-    return HC_BAD_INPUT;
-  }
+  if (!field_store(sf->f, &scratch, &v, &why, &bad))
+    return yaml_refuse(&q->r, node, "%s%s (value %d of %d of the range)", sf->path, why.text, i + 1, g->count);
   *out = (study_value){strdup(text), node->start_mark.line + 1, node->start_mark.column + 1};
   return out->text ? HC_OK : study_no_memory(q);
 }
@@ -169,13 +162,11 @@ static hc_status count_values(study_reader *q, const study_field *sf, const yaml
     *n = g->count;
     return st;
   }
-  long count =
-      node->type == YAML_SEQUENCE_NODE ? (long)(node->data.sequence.items.top - node->data.sequence.items.start) : 0;
+  long count = node->type == YAML_SEQUENCE_NODE ? yaml_length(node) : 0;
   *n = (int)count;
   if (count > 0) return HC_OK;
-  message_add(study_blame(q, node), "`%s` varies over %s, expected a list of values or {from: A, to: B, count: N}",
-              sf->path, node->type == YAML_SEQUENCE_NODE ? "an empty list" : yaml_node_what(node));
-  return HC_BAD_INPUT;
+  return yaml_refuse(&q->r, node, "`%s` varies over %s, expected a list of values or {from: A, to: B, count: N}",
+                     sf->path, node->type == YAML_SEQUENCE_NODE ? "an empty list" : yaml_node_what(node));
 }
 
 static hc_status read_values(study_reader *q, study_axis *a, study_field *sf, const yaml_node_t *node)
@@ -183,18 +174,15 @@ static hc_status read_values(study_reader *q, study_axis *a, study_field *sf, co
   range g;
   int n;
   hc_status st = count_values(q, sf, node, &g, &n);
-  if (st == HC_OK && sf != a->fields && n != a->n) {
-    message_add(study_blame(q, node), "`%s` has %d values but `%s` on the same axis has %d, expected as many", sf->path,
-                n, a->fields[0].path, a->n);
-    st = HC_BAD_INPUT;
-  }
+  if (st == HC_OK && sf != a->fields && n != a->n)
+    st = yaml_refuse(&q->r, node, "`%s` has %d values but `%s` on the same axis has %d, expected as many", sf->path, n,
+                     a->fields[0].path, a->n);
   if (st != HC_OK) return st;
   a->n = n;
   if (!(sf->values = calloc((size_t)n, sizeof *sf->values))) return study_no_memory(q);
   for (int i = 0; i < n && st == HC_OK; ++i)
-    st = node->type == YAML_MAPPING_NODE
-             ? range_value(q, sf, &g, i, node, &sf->values[i])
-             : list_value(q, sf, study_node(q, node->data.sequence.items.start[i]), &sf->values[i]);
+    st = node->type == YAML_MAPPING_NODE ? range_value(q, sf, &g, i, node, &sf->values[i])
+                                         : list_value(q, sf, yaml_entry(&q->doc, node, (int)i), &sf->values[i]);
   return st;
 }
 
@@ -207,12 +195,10 @@ static hc_status read_field(study_reader *q, study_axis *a, const yaml_node_pair
   hc_status st = study_give(q, key, &t, sf->path);
   if (st != HC_OK) return st;
   const bool part = t.f && t.f->kind == FIELD_PART;
-  if (!t.f || part || (t.list == CASE_CONTACTS && t.index >= contacts)) {
-    message_add(study_blame(q, key), "`%s` cannot vary, expected %s", sf->path,
-                part ? "a number, a choice or a flag, such as structure.damping.modal"
-                     : "a field of a contact that the base case has, such as contacts[0].gap");
-    return HC_BAD_INPUT;
-  }
+  if (!t.f || part || (t.list == CASE_CONTACTS && t.index >= contacts))
+    return yaml_refuse(&q->r, key, "`%s` cannot vary, expected %s", sf->path,
+                       part ? "a number, a choice or a flag, such as structure.damping.modal"
+                            : "a field of a contact that the base case has, such as contacts[0].gap");
   sf->f = t.f;
   sf->contact = t.index;
   sf->line = key->start_mark.line + 1;
@@ -261,11 +247,9 @@ static hc_status read_axis(study_reader *q, study_axis *a, const yaml_node_t *no
 {
   bool mapping = node->type == YAML_MAPPING_NODE;
   size_t n = mapping ? (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start) : 0;
-  if (n == 0) {
-    message_add(study_blame(q, node), "an axis is %s, expected {FIELD: [VALUE, ...]}",
-                mapping ? "empty" : yaml_node_what(node));
-    return HC_BAD_INPUT;
-  }
+  if (n == 0)
+    return yaml_refuse(&q->r, node, "an axis is %s, expected {FIELD: [VALUE, ...]}",
+                       mapping ? "empty" : yaml_node_what(node));
   if (!(a->fields = calloc(n, sizeof *a->fields))) return study_no_memory(q);
   hc_status st = HC_OK;
   for (size_t i = 0; i < n && st == HC_OK; ++i) st = read_field(q, a, &node->data.mapping.pairs.start[i]);
@@ -273,26 +257,22 @@ static hc_status read_axis(study_reader *q, study_axis *a, const yaml_node_t *no
   if (st != HC_OK) return st;
   q->s->n_scenes *= a->n;
   if (q->s->n_scenes <= STUDY_MOST_SCENES) return HC_OK;
-  message_add(study_blame(q, node), "the grid has %ld scenes up to here, expected at most %d", q->s->n_scenes,
-              STUDY_MOST_SCENES);
-  return HC_BAD_INPUT;
+  return yaml_refuse(&q->r, node, "the grid has %ld scenes up to here, expected at most %d", q->s->n_scenes,
+                     STUDY_MOST_SCENES);
 }
 
 hc_status study_read_axes(study_reader *q, const yaml_node_t *node)
 {
-  size_t n =
-      node->type == YAML_SEQUENCE_NODE ? (size_t)(node->data.sequence.items.top - node->data.sequence.items.start) : 0;
-  if (n == 0) {
-    message_add(study_blame(q, node), "vary is %s, expected a list of axes such as [{hbm.samples: [32, 128]}]",
-                node->type == YAML_SEQUENCE_NODE ? "an empty list" : yaml_node_what(node));
-    return HC_BAD_INPUT;
-  }
+  size_t n = node->type == YAML_SEQUENCE_NODE ? (size_t)yaml_length(node) : 0;
+  if (n == 0)
+    return yaml_refuse(&q->r, node, "vary is %s, expected a list of axes such as [{hbm.samples: [32, 128]}]",
+                       node->type == YAML_SEQUENCE_NODE ? "an empty list" : yaml_node_what(node));
   if (!(q->s->axes = calloc(n, sizeof *q->s->axes))) return study_no_memory(q);
   q->s->n_scenes = 1;
   hc_status st = HC_OK;
   for (size_t i = 0; i < n && st == HC_OK; ++i) {
     q->s->n_axes = (int)i + 1;
-    st = read_axis(q, &q->s->axes[i], study_node(q, node->data.sequence.items.start[i]));
+    st = read_axis(q, &q->s->axes[i], yaml_entry(&q->doc, node, (int)i));
   }
   return st;
 }

@@ -1,120 +1,192 @@
-/* study_file.c - reading a study file: title, base case, what is set for all scenes. What varies: study_axes.c; what
- * is claimed: study_claims.c. In this order whatever the file's: base or case, set, --set, vary. The first mistake
- * ends it. */
-#include <errno.h>
+/* study_file.c - reading a study file: title, base case, what is set for all scenes, what is claimed. What varies:
+ * study_axes.c. In this order whatever the file's: base or case, set, --set, vary, views, claims. The first mistake ends
+ * it. Holding claims against results: claims.c. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "study/study_reader.h"
-
-#include "base/nearest.h"
 
 enum { KEY_STUDY, KEY_BASE, KEY_CASE, KEY_RUN, KEY_SET, KEY_VARY, KEY_VIEWS, KEY_CLAIMS, KEY_MAY_FAIL, N_KEYS };
 static const char *const keys[] = {"study", "base", "case", "run", "set", "vary", "views", "claims", "may_fail", NULL};
 
-message *study_blame(study_reader *q, const yaml_node_t *node)
+/* ---- claims ---- */
+
+enum {
+  CLAIM_SOURCE,
+  CLAIM_SAYS,
+  CLAIM_FOUND,
+  CLAIM_HOLDS,
+  CLAIM_EXPECT,
+  CLAIM_SECONDS,
+  CLAIM_PAPER,
+  CLAIM_OURS,
+  CLAIM_FIXED_STEP,
+  N_CLAIM_KEYS
+};
+static const char *const claim_keys[] = {"source",  "says",  "found", "holds",      "expect",
+                                         "seconds", "paper", "ours",  "fixed_step", NULL};
+enum { ANSWER_FOUND, ANSWER_HOLDS, ANSWER_EXPECT, ANSWER_SECONDS, N_ANSWER_KEYS };
+static const char *const answer_keys[] = {"found", "holds", "expect", "seconds", NULL};
+
+static hc_status read_expectation(study_reader *q, const yaml_node_t *node, study_answer *a)
 {
-  return case_blame(&q->r, case_place_of(&q->r, node->start_mark));
+  const char *text = node->type == YAML_SCALAR_NODE ? yaml_node_text(node) : "";
+  a->expect = !strcmp(text, "agree")      ? STUDY_EXPECT_AGREE
+              : !strcmp(text, "disagree") ? STUDY_EXPECT_DISAGREE
+              : !strcmp(text, "unsaid")   ? STUDY_EXPECT_UNSAID
+                                          : STUDY_EXPECT_NOTHING;
+  if (a->expect != STUDY_EXPECT_NOTHING) return HC_OK;
+  return yaml_refuse(&q->r, node, "expect is not known, expected agree, disagree or unsaid");
 }
 
-hc_status study_no_memory(study_reader *q)
+static hc_status read_answer(study_reader *q, const char *name, const yaml_node_t *node, study_answer *a)
 {
-  message_add(case_blame(&q->r, (case_place){0}), "out of memory");
-  return HC_NO_MEMORY;
-}
-
-static void unknown_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words)
-{
-  const char *text = yaml_node_text(key);
-  size_t length = key->data.scalar.length;
-  message *m = study_blame(q, key);
-  message_add(m, "unknown key `");
-  message_add_input(m, text, length, 60);
-  message_add(m, "` in %s", where);
-  const char *guess = nearest_word(words, text, length);
-  size_t stem = strcspn(text, ".[");
-  if (guess) {
-    message_add(m, ", did you mean `%s`?", guess);
-    return;
+  case_place seen[N_ANSWER_KEYS] = {{0}};
+  if (node->type != YAML_MAPPING_NODE)
+    return yaml_refuse(&q->r, node,
+                       "%s is %s, expected {found: \"SELECT ...\", holds: \"SELECT ...\", seconds: \"SELECT ...\"}",
+                       name, yaml_node_what(node));
+  hc_status st = HC_OK;
+  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p) {
+    int k = study_key(q, study_node(q, p->key), "the answer to a claim", answer_keys, seen);
+    const yaml_node_t *value = study_node(q, p->value);
+    if (k < 0) return HC_BAD_INPUT;
+    if (k == ANSWER_EXPECT) st = read_expectation(q, value, a);
+    else
+      st = study_read_text(q, answer_keys[k], value,
+                           k == ANSWER_FOUND   ? &a->found
+                           : k == ANSWER_HOLDS ? &a->holds
+                                               : &a->seconds);
   }
-  if (words == keys && field_find_section(text, stem)) {
-    message_add(m, ", expected fields of the case in `case`, `set` or `vary`");
-    return;
-  }
-  message_add(m, ", expected one of");
-  for (int i = 0; words[i]; ++i) message_add(m, "%s %s", i ? "," : "", words[i]);
+  if (st != HC_OK || a->holds.text || a->seconds.text) return st;
+  return yaml_refuse(&q->r, node, "missing key `holds` in `%s`, expected an SQL query that gives 0 or 1", name);
 }
 
-int study_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words, case_place *seen)
+static hc_status read_seconds(study_reader *q, const yaml_node_t *node, study_claim *c)
 {
-  if (!yaml_check_key(&q->r, key)) return -1;
-  for (int i = 0; words[i]; ++i) {
-    if (strlen(words[i]) != key->data.scalar.length || memcmp(words[i], yaml_node_text(key), key->data.scalar.length))
-      continue;
-    if (seen[i].line > 0) {
-      yaml_duplicate_key(&q->r, key, seen[i]);
-      return -1;
-    }
-    seen[i] = case_place_of(&q->r, key->start_mark);
-    return i;
-  }
-  unknown_key(q, key, where, words);
-  return -1;
+  hc_status st = study_read_text(q, "seconds", node, &c->reported);
+  if (st != HC_OK) return st;
+  if (number_read(c->reported.text, strlen(c->reported.text), &c->seconds) == NUMBER_FINE && c->seconds >= 0)
+    return HC_OK;
+  message_add(study_blame(q, node), "seconds is ");
+  message_add_quoted(&q->r.msg, c->reported.text, strlen(c->reported.text));
+  message_add(&q->r.msg, ", expected how many the source reports, a number >= 0");
+  return HC_BAD_INPUT;
 }
 
-hc_status study_read_text(study_reader *q, const char *what, const yaml_node_t *node, study_value *out)
+static hc_status read_entry(study_reader *q, int k, const yaml_node_t *value, study_claim *c)
 {
-  if (node->type != YAML_SCALAR_NODE || node->data.scalar.length == 0) {
-    message_add(study_blame(q, node), "%s is %s, expected text", what, yaml_node_what(node));
-    return HC_BAD_INPUT;
+  study_answer *plain = &c->answers[STUDY_PLAIN];
+  switch (k) {
+  case CLAIM_SOURCE: return study_read_text(q, claim_keys[k], value, &c->source);
+  case CLAIM_SAYS: return study_read_text(q, claim_keys[k], value, &c->says);
+  case CLAIM_FOUND: return study_read_text(q, claim_keys[k], value, &plain->found);
+  case CLAIM_HOLDS: return study_read_text(q, claim_keys[k], value, &plain->holds);
+  case CLAIM_EXPECT: return read_expectation(q, value, plain);
+  case CLAIM_SECONDS: return read_seconds(q, value, c);
+  case CLAIM_PAPER: return read_answer(q, claim_keys[k], value, &c->answers[STUDY_PAPER]);
+  case CLAIM_OURS: return read_answer(q, claim_keys[k], value, &c->answers[STUDY_OURS]);
+  default: return read_answer(q, claim_keys[k], value, &c->answers[STUDY_FIXED_STEP]);
   }
-  if (strlen(yaml_node_text(node)) != node->data.scalar.length) {
-    message_add(study_blame(q, node), "%s has a zero character, expected text", what);
-    return HC_BAD_INPUT;
-  }
-  *out = (study_value){strdup(yaml_node_text(node)), node->start_mark.line + 1, node->start_mark.column + 1};
-  return out->text ? HC_OK : study_no_memory(q);
 }
 
-/* Is this the field, or another way to say the same? */
-static bool clashes(const char *path, const field *f, const char *own)
+/* What a whole claim can lack, or have too much of. */
+static hc_status check_claim(study_reader *q, const yaml_node_t *node, const study_claim *c,
+                             const case_place seen[N_CLAIM_KEYS])
 {
-  const field *rival;
-  char other[FIELD_PATH];
-  for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i)
-    if (!strcmp(path, field_path(rival, -1, other))) return true;
-  return !strcmp(path, own);
-}
-
-static hc_status note_given(study_reader *q, const char *path, case_place at)
-{
-  if (q->n_given == STUDY_MOST_FIELDS)
-    return case_refuse(&q->r, at, "one field too many, expected at most %d set or varied", STUDY_MOST_FIELDS);
-  snprintf(q->given[q->n_given].path, FIELD_PATH, "%s", path);
-  q->given[q->n_given++].at = at;
+  bool plain = c->answers[STUDY_PLAIN].holds.text != NULL,
+       sided = seen[CLAIM_PAPER].line > 0 || seen[CLAIM_OURS].line > 0 || seen[CLAIM_FIXED_STEP].line > 0;
+  const char *lacks = !c->says.text ? "says" : !plain && !sided ? "holds" : NULL;
+  if (lacks)
+    return yaml_refuse(&q->r, node, "missing key `%s` in a claim, expected %s", lacks,
+                       c->says.text ? "an SQL query that gives 0 or 1" : "what is claimed, in words");
+  if (!sided) return HC_OK;
+  for (int k = CLAIM_FOUND; k <= CLAIM_EXPECT; ++k) {
+    if (seen[k].line == 0) continue;
+    return case_refuse(&q->r, seen[k], "`%s` beside `paper`, `ours` or `fixed_step`, expected it within them",
+                       claim_keys[k]);
+  }
   return HC_OK;
 }
 
-hc_status study_give(study_reader *q, const yaml_node_t *key, case_target *t, char path[FIELD_PATH])
+static hc_status read_claim(study_reader *q, const yaml_node_t *node, study_claim *c)
 {
-  if (!yaml_check_key(&q->r, key)) return HC_BAD_INPUT;
-  q->r.here = case_place_of(&q->r, key->start_mark);
-  hc_status st = case_find_target(&q->r, yaml_node_text(key), key->data.scalar.length, t);
-  if (st != HC_OK) return st;
-  const char *list = t->list == CASE_LOADS ? "forcing" : "contacts";
-  if (t->f) field_path(t->f, t->index, path);
-  else snprintf(path, FIELD_PATH, t->index < 0 ? "%s" : "%s[%d]", list, t->index);
-  for (int i = 0; i < q->n_given; ++i) {
-    if (!(t->f ? clashes(q->given[i].path, t->f, path) : !strcmp(q->given[i].path, path))) continue;
-    message *m = case_blame(&q->r, q->r.here);
-    message_add(m, "`%s` is given twice, expected it once (also `%s` ", path, q->given[i].path);
-    if (q->given[i].at.set) message_add(m, "by --set)");
-    else message_add(m, "on line %zu)", q->given[i].at.line);
-    return HC_BAD_INPUT;
+  case_place seen[N_CLAIM_KEYS] = {{0}};
+  c->seconds = NAN;
+  if (node->type != YAML_MAPPING_NODE)
+    return yaml_refuse(&q->r, node,
+                       "a claim is %s, expected {source: ..., says: ..., found: \"SELECT ...\", holds: \"SELECT ...\"}",
+                       yaml_node_what(node));
+  hc_status st = HC_OK;
+  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p) {
+    int k = study_key(q, study_node(q, p->key), "a claim", claim_keys, seen);
+    if (k < 0) return HC_BAD_INPUT;
+    st = read_entry(q, k, study_node(q, p->value), c);
   }
-  return note_given(q, path, q->r.here);
+  return st == HC_OK ? check_claim(q, node, c, seen) : st;
 }
+
+static hc_status read_claims(study_reader *q, const yaml_node_t *node)
+{
+  if (node->type != YAML_SEQUENCE_NODE)
+    return yaml_refuse(&q->r, node, "claims is %s, expected a list of {source: ..., says: ..., found: ..., holds: ...}",
+                       yaml_node_what(node));
+  size_t n = (size_t)yaml_length(node);
+  if (!(q->s->claims = calloc(n + 1, sizeof *q->s->claims))) return study_no_memory(q);
+  hc_status st = HC_OK;
+  for (size_t i = 0; i < n && st == HC_OK; ++i) {
+    q->s->n_claims = (int)i + 1;
+    st = read_claim(q, yaml_entry(&q->doc, node, (int)i), &q->s->claims[i]);
+  }
+  return st;
+}
+
+/* ---- views ---- */
+
+/* A word that needs no quotes in SQL, and no table of ours. */
+static bool good_name(const char *text)
+{
+  static const char *const taken[] = {"study", "scene", "row"};
+  for (size_t i = 0; i < sizeof taken / sizeof *taken; ++i)
+    if (!strcmp(text, taken[i])) return false;
+  return !(*text >= '0' && *text <= '9') && text[strspn(text, "abcdefghijklmnopqrstuvwxyz_0123456789")] == 0;
+}
+
+static hc_status read_view(study_reader *q, const yaml_node_pair_t *pair, int i)
+{
+  yaml_node_t *key = study_node(q, pair->key);
+  if (!yaml_check_key(&q->r, key)) return HC_BAD_INPUT;
+  study_view *v = &q->s->views[i];
+  q->s->n_views = i + 1;
+  hc_status st = study_read_text(q, "the name of a view", key, &v->name);
+  if (st != HC_OK) return st;
+  bool twice = false;
+  for (int k = 0; k < i; ++k) twice |= !strcmp(q->s->views[k].name.text, v->name.text);
+  if (!twice && good_name(v->name.text)) return study_read_text(q, "a view", study_node(q, pair->value), &v->query);
+  message_add(study_blame(q, key), "a view is called ");
+  message_add_quoted(&q->r.msg, v->name.text, strlen(v->name.text));
+  message_add(&q->r.msg, ", expected %s",
+              twice ? "a name of its own" : "lower-case letters, digits and _, and neither study, scene nor row");
+  return HC_BAD_INPUT;
+}
+
+static hc_status read_views(study_reader *q, const yaml_node_t *node)
+{
+  if (node->type != YAML_MAPPING_NODE)
+    return yaml_refuse(&q->r, node,
+                       "views is %s, expected a mapping such as {exact: \"SELECT * FROM scene WHERE ...\"}",
+                       yaml_node_what(node));
+  size_t n = (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start);
+  if (!(q->s->views = calloc(n + 1, sizeof *q->s->views))) return study_no_memory(q);
+  hc_status st = HC_OK;
+  for (size_t i = 0; i < n && st == HC_OK; ++i) st = read_view(q, &node->data.mapping.pairs.start[i], (int)i);
+  return st;
+}
+
+/* ---- the base case and what is set for all scenes ---- */
 
 /* One entry of `set`. */
 static hc_status set_one(study_reader *q, const yaml_node_pair_t *pair)
@@ -128,11 +200,8 @@ static hc_status set_one(study_reader *q, const yaml_node_pair_t *pair)
 
 static hc_status read_set(study_reader *q, const yaml_node_t *node)
 {
-  if (node->type != YAML_MAPPING_NODE) {
-    message_add(study_blame(q, node), "set is %s, expected a mapping such as {hbm.harmonics: 10}",
-                yaml_node_what(node));
-    return HC_BAD_INPUT;
-  }
+  if (node->type != YAML_MAPPING_NODE)
+    return yaml_refuse(&q->r, node, "set is %s, expected a mapping such as {hbm.harmonics: 10}", yaml_node_what(node));
   hc_status st = HC_OK;
   for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p)
     st = set_one(q, p);
@@ -150,7 +219,7 @@ static hc_status apply_options(study_reader *q, int n_set)
     if ((st = case_set_apply(&q->r, k)) != HC_OK) break;
     while (*text == ' ') ++text;
     if (case_find_target(&q->r, text, strcspn(text, "= "), &t) == HC_OK && t.f)
-      st = note_given(q, field_path(t.f, t.index, path), (case_place){.set = k, .line = 1, .column = 1});
+      st = study_note_given(q, field_path(t.f, t.index, path), (case_place){.set = k, .line = 1, .column = 1});
   }
   q->r.set_now = 0;
   return st;
@@ -202,10 +271,9 @@ static hc_status read_title(study_reader *q, const yaml_node_t *node)
   hc_status st = study_read_text(q, "study", node, &title);
   if (st != HC_OK) return st;
   size_t length = strlen(title.text);
-  if (length >= STUDY_TEXT || strpbrk(title.text, "\n\r")) {
-    message_add(study_blame(q, node), "the title is longer than a line, expected at most %d bytes", STUDY_TEXT - 1);
-    st = HC_BAD_INPUT;
-  } else memcpy(q->s->title, title.text, length + 1);
+  if (length >= STUDY_TEXT || strpbrk(title.text, "\n\r"))
+    st = yaml_refuse(&q->r, node, "the title is longer than a line, expected at most %d bytes", STUDY_TEXT - 1);
+  else memcpy(q->s->title, title.text, length + 1);
   free(title.text);
   return st;
 }
@@ -219,11 +287,8 @@ static hc_status read_kind(study_reader *q, const yaml_node_t *node)
       return HC_OK;
     }
   message_add(study_blame(q, node), "run is ");
-  if (*text) {
-    message_add(&q->r.msg, "`");
-    message_add_input(&q->r.msg, text, node->data.scalar.length, 60);
-    message_add(&q->r.msg, "`");
-  } else message_add(&q->r.msg, "%s", yaml_node_what(node));
+  if (*text) message_add_quoted(&q->r.msg, text, node->data.scalar.length);
+  else message_add(&q->r.msg, "%s", yaml_node_what(node));
   message_add(&q->r.msg, ", expected frf, transient or compare");
   return HC_BAD_INPUT;
 }
@@ -233,33 +298,27 @@ static hc_status read_may_fail(study_reader *q, const yaml_node_t *node)
   const char *text = node->type == YAML_SCALAR_NODE ? yaml_node_text(node) : "";
   q->s->may_fail = !strcmp(text, "true");
   if (q->s->may_fail || !strcmp(text, "false")) return HC_OK;
-  message_add(study_blame(q, node), "may_fail is not known, expected true or false");
-  return HC_BAD_INPUT;
+  return yaml_refuse(&q->r, node, "may_fail is not known, expected true or false");
 }
 
 static hc_status missing(study_reader *q, const yaml_node_t *root, const char *what, const char *expected)
 {
-  message_add(study_blame(q, root), "missing key `%s`, expected %s", what, expected);
-  return HC_BAD_INPUT;
+  return yaml_refuse(&q->r, root, "missing key `%s`, expected %s", what, expected);
 }
 
 /* value[key] is NULL where a key is not given. */
 static hc_status find_keys(study_reader *q, const yaml_node_t *root, const yaml_node_t *value[N_KEYS])
 {
   case_place seen[N_KEYS] = {{0}};
-  if (root->type != YAML_MAPPING_NODE) {
-    message_add(study_blame(q, root), "the study is %s, expected a mapping with %s", yaml_node_what(root),
-                q->r.required);
-    return HC_BAD_INPUT;
-  }
+  if (root->type != YAML_MAPPING_NODE)
+    return yaml_refuse(&q->r, root, "the study is %s, expected a mapping with %s", yaml_node_what(root), q->r.required);
   for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top; ++p) {
     const yaml_node_t *key = study_node(q, p->key);
     int k = study_key(q, key, "a study", keys, seen);
     if (k < 0) return HC_BAD_INPUT;
     value[k] = study_node(q, p->value);
     if ((k != KEY_BASE && k != KEY_CASE) || !value[KEY_BASE] || !value[KEY_CASE]) continue;
-    message_add(study_blame(q, key), "both `base` and `case`, expected one of them");
-    return HC_BAD_INPUT;
+    return yaml_refuse(&q->r, key, "both `base` and `case`, expected one of them");
   }
   if (!value[KEY_STUDY]) return missing(q, root, "study", "the study's title");
   if (!value[KEY_BASE] && !value[KEY_CASE])
@@ -279,8 +338,8 @@ static hc_status read_study(study_reader *q, const yaml_node_t *root, int n_set)
   if (st == HC_OK && value[KEY_SET]) st = read_set(q, value[KEY_SET]);
   if (st == HC_OK) st = apply_options(q, n_set);
   if (st == HC_OK) st = study_read_axes(q, value[KEY_VARY]);
-  if (st == HC_OK && value[KEY_VIEWS]) st = study_read_views(q, value[KEY_VIEWS]);
-  if (st == HC_OK && value[KEY_CLAIMS]) st = study_read_claims(q, value[KEY_CLAIMS]);
+  if (st == HC_OK && value[KEY_VIEWS]) st = read_views(q, value[KEY_VIEWS]);
+  if (st == HC_OK && value[KEY_CLAIMS]) st = read_claims(q, value[KEY_CLAIMS]);
   q->s->base = q->r.sc; /* and its structure, in any case */
   return st == HC_OK ? study_take_fingerprint(q->s) : st;
 }

@@ -1,7 +1,7 @@
 /* study_reader.h - what the parts of the study file's reader share; private to study/. Messages and places
  * are the case reader's.
  *
- *     study_file.c: the file, base, set     study_axes.c: vary     study_claims.c: views, claims */
+ *     study_file.c: the file, base, set, views, claims     study_axes.c: vary */
 #ifndef HC_STUDY_READER_H
 #define HC_STUDY_READER_H
 
@@ -34,12 +34,11 @@ message *study_blame(study_reader *q, const yaml_node_t *node);
 /* The field a key names goes into *t, its full name into path. Given before, it or its rival, is a mistake. */
 hc_status study_give(study_reader *q, const yaml_node_t *key, case_target *t, char path[FIELD_PATH]);
 
+/* It is set or varied: too many are a mistake. */
+hc_status study_note_given(study_reader *q, const char *path, case_place at);
+
 /* The value of `vary`, into s->axes. */
 hc_status study_read_axes(study_reader *q, const yaml_node_t *node);
-
-/* The values of `views` and `claims`, into s->views and s->claims. That the queries can be run: claims.h. */
-hc_status study_read_views(study_reader *q, const yaml_node_t *node);
-hc_status study_read_claims(study_reader *q, const yaml_node_t *node);
 
 /* The text of a node that must be a single value, copied to free. HC_BAD_INPUT when it is not or is empty. */
 hc_status study_read_text(study_reader *q, const char *what, const yaml_node_t *node, study_value *out);

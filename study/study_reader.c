@@ -1,0 +1,106 @@
+/* study_reader.c - see study_reader.h. */
+#include "study/study_reader.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/nearest.h"
+
+message *study_blame(study_reader *q, const yaml_node_t *node)
+{
+  return case_blame(&q->r, case_place_of(&q->r, node->start_mark));
+}
+
+hc_status study_no_memory(study_reader *q)
+{
+  message_add(case_blame(&q->r, (case_place){0}), "out of memory");
+  return HC_NO_MEMORY;
+}
+
+static void unknown_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words)
+{
+  const char *text = yaml_node_text(key);
+  size_t length = key->data.scalar.length;
+  message *m = study_blame(q, key);
+  message_add(m, "unknown key ");
+  message_add_quoted(m, text, length);
+  message_add(m, " in %s", where);
+  const char *guess = nearest_word(words, text, length);
+  size_t stem = strcspn(text, ".[");
+  if (guess) {
+    message_add(m, ", did you mean `%s`?", guess);
+    return;
+  }
+  if (field_find_section(text, stem)) {
+    message_add(m, ", expected fields of the case in `case`, `set` or `vary`");
+    return;
+  }
+  message_add(m, ", expected one of");
+  for (int i = 0; words[i]; ++i) message_add(m, "%s %s", i ? "," : "", words[i]);
+}
+
+int study_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words, case_place *seen)
+{
+  if (!yaml_check_key(&q->r, key)) return -1;
+  for (int i = 0; words[i]; ++i) {
+    if (strlen(words[i]) != key->data.scalar.length || memcmp(words[i], yaml_node_text(key), key->data.scalar.length))
+      continue;
+    if (seen[i].line > 0) {
+      yaml_duplicate_key(&q->r, key, seen[i]);
+      return -1;
+    }
+    seen[i] = case_place_of(&q->r, key->start_mark);
+    return i;
+  }
+  unknown_key(q, key, where, words);
+  return -1;
+}
+
+hc_status study_read_text(study_reader *q, const char *what, const yaml_node_t *node, study_value *out)
+{
+  if (node->type != YAML_SCALAR_NODE || node->data.scalar.length == 0)
+    return yaml_refuse(&q->r, node, "%s is %s, expected text", what, yaml_node_what(node));
+  if (strlen(yaml_node_text(node)) != node->data.scalar.length)
+    return yaml_refuse(&q->r, node, "%s has a zero character, expected text", what);
+  *out = (study_value){strdup(yaml_node_text(node)), node->start_mark.line + 1, node->start_mark.column + 1};
+  return out->text ? HC_OK : study_no_memory(q);
+}
+
+/* Is this the field, or another way to say the same? */
+static bool clashes(const char *path, const field *f, const char *own)
+{
+  const field *rival;
+  char other[FIELD_PATH];
+  for (int i = 0; (rival = field_rival(f, i)) != NULL; ++i)
+    if (!strcmp(path, field_path(rival, -1, other))) return true;
+  return !strcmp(path, own);
+}
+
+hc_status study_note_given(study_reader *q, const char *path, case_place at)
+{
+  if (q->n_given == STUDY_MOST_FIELDS)
+    return case_refuse(&q->r, at, "one field too many, expected at most %d set or varied", STUDY_MOST_FIELDS);
+  snprintf(q->given[q->n_given].path, FIELD_PATH, "%s", path);
+  q->given[q->n_given++].at = at;
+  return HC_OK;
+}
+
+hc_status study_give(study_reader *q, const yaml_node_t *key, case_target *t, char path[FIELD_PATH])
+{
+  if (!yaml_check_key(&q->r, key)) return HC_BAD_INPUT;
+  q->r.here = case_place_of(&q->r, key->start_mark);
+  hc_status st = case_find_target(&q->r, yaml_node_text(key), key->data.scalar.length, t);
+  if (st != HC_OK) return st;
+  const char *list = t->list == CASE_LOADS ? "forcing" : "contacts";
+  if (t->f) field_path(t->f, t->index, path);
+  else snprintf(path, FIELD_PATH, t->index < 0 ? "%s" : "%s[%d]", list, t->index);
+  for (int i = 0; i < q->n_given; ++i) {
+    if (!(t->f ? clashes(q->given[i].path, t->f, path) : !strcmp(q->given[i].path, path))) continue;
+    message *m = case_blame(&q->r, q->r.here);
+    message_add(m, "`%s` is given twice, expected it once (also `%s` ", path, q->given[i].path);
+    if (q->given[i].at.set) message_add(m, "by --set)");
+    else message_add(m, "on line %zu)", q->given[i].at.line);
+    return HC_BAD_INPUT;
+  }
+  return study_note_given(q, path, q->r.here);
+}
