@@ -217,8 +217,8 @@ static double motion_size(const solved_scene *s, const one_contact *c, int d, in
 /* What stepping through N instants, e = 2 pi/N apart, may do to a coefficient, over the largest force of the springs.
  * Up, Vp bound the p-th derivatives of u and v; r = mu N/kt.
  *     sums     a trapezoidal sum errs by e^2/12 times the mean of |(f cos h th)''|, twice that for h >= 1: with f of
- *              the springs, S2 + 2 h S1 + h^2 S0, Sp = kt Up + (1 + mu) kn Vp; and by e^2/8 times each jump of f', at most
- *              2 S1, over pi
+ *              the springs, S2 + 2 h S1 + h^2 S0, Sp = kt Up + (1 + mu) kn Vp; and by e^2/8 times each jump of f', at
+ *              most 2 S1, over pi
  *     slider   u and r go evenly between instants, off by e^2/8 (U2 + R2): on a line so is the slider
  *     circle   of two circles that are nowhere more than d apart the sliders differ by no more than the root of
  *              2 d (length of both paths) (Moreau's sweeping process), each path 2 pi (U1 + R1) at most

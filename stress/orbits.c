@@ -385,58 +385,48 @@ static stress_check hold(solved_scene *s, const stress_path *other, int shift, d
 
 /* ---- written in another way --------------------------------------------------------------------------- */
 
-/* s->path.state in y, x = Q y. */
-static void turn_state(const solved_scene *s, const double *Q, double *state)
+/* Another orbit from its start, held against the known one, which is `shift` samples ahead; m as in path_follow, the
+ * settings those of a closed form. Clears what it is given but the base model. */
+static stress_check hold_again(solved_scene *s, model *m, double omega, double length, int shift, stress_path *other)
 {
-  const int n = s->n;
-  memcpy(state, s->path.state, (2 * (size_t)n + (size_t)s->model->n_contacts) * sizeof *state);
-  turned_vector(n, Q, s->path.state, state);
-  turned_vector(n, Q, s->path.state + n, state + n);
+  const transient_settings how = path_settings();
+  if (s->fatal == HC_OK) path_follow(s, m, &how, omega, PATH_ORBIT, length, other);
+  model_free(m);
+  const stress_check c = hold(s, other, shift, same_in_closed_form);
+  stress_path_free(other);
+  return c;
 }
 
 static stress_check turned(solved_scene *s, void (*draw)(uint64_t *, int, double *))
 {
-  const transient_settings how = path_settings();
   stress_path other;
   model *m = NULL;
   double *Q = malloc((size_t)s->n * (size_t)s->n * sizeof *Q);
-  path_make(s, s->model, NULL, &other);
+  path_make(s, s->model, s->path.state, &other);
   if (Q) draw(&s->random, s->n, Q);
   if (!Q || rewritten_turned(s->model, Q, &m) != HC_OK) s->fatal = HC_NO_MEMORY;
-  if (s->fatal == HC_OK) {
-    turn_state(s, Q, other.state);
-    path_follow(s, m, &how, s->omega, PATH_ORBIT, 1, &other);
-  }
+  for (int part = 0; part < 2 && s->fatal == HC_OK; ++part) /* positions, then velocities, in y, x = Q y */
+    turned_vector(s->n, Q, s->path.state + part * s->n, other.state + part * s->n);
   free(Q);
-  model_free(m);
-  const stress_check c = hold(s, &other, 0, same_in_closed_form);
-  stress_path_free(&other);
-  return c;
+  return hold_again(s, m, s->omega, 1, 0, &other);
 }
 
 static stress_check in_units(solved_scene *s, double length, double force, double time)
 {
-  const transient_settings how = path_settings();
   const int n = s->n;
   stress_path other;
   model *m = NULL;
   path_make(s, s->model, s->path.state, &other);
   if (rewritten_in_units(s->model, length, force, time, &m) != HC_OK) s->fatal = HC_NO_MEMORY;
-  if (s->fatal == HC_OK) {
-    for (int i = 0; i < 2 * n + m->n_contacts; ++i) other.state[i] *= i >= n && i < 2 * n ? length / time : length;
-    path_follow(s, m, &how, s->omega / time, PATH_ORBIT, length, &other);
-  }
-  model_free(m);
-  const stress_check c = hold(s, &other, 0, same_in_closed_form);
-  stress_path_free(&other);
-  return c;
+  for (int i = 0; s->fatal == HC_OK && i < 2 * n + m->n_contacts; ++i)
+    other.state[i] *= i >= n && i < 2 * n ? length / time : length;
+  return hold_again(s, m, s->omega / time, length, 0, &other);
 }
 
 /* From the HBM solution of the later loads next to the orbit's own harmonics, later; where that is not next to the
  * orbit the start says nothing. Where a slider that never slips rests hangs on time 0. */
 static stress_check delayed(solved_scene *s)
 {
-  const transient_settings how = path_settings();
   const int shift = random_int(&s->random, 1, TIMEINT_WAVE - 1);
   stress_path other;
   stress_motion h = {.status = HC_NOT_CONVERGED};
@@ -444,14 +434,13 @@ static stress_check delayed(solved_scene *s)
   if (rewritten_delayed(s->model, TWO_PI * shift / TIMEINT_WAVE, &m) != HC_OK) s->fatal = HC_NO_MEMORY;
   if (s->fatal == HC_OK) motion_beside(s, m, &s->path, shift, s->fine_harmonics, &h);
   path_make(s, s->model, h.start, &other);
-  if (h.status == HC_OK && s->fatal == HC_OK) path_follow(s, m, &how, s->omega, PATH_ORBIT, 1, &other);
-  model_free(m);
-  stress_check c = hold(s, &other, TIMEINT_WAVE - shift, same_in_closed_form);
+  stress_check c = stress_skip(STRESS_NO_ORBIT);
+  if (h.status == HC_OK) c = hold_again(s, m, s->omega, 1, TIMEINT_WAVE - shift, &other);
+  else model_free(m), stress_path_free(&other);
   if (c.outcome == STRESS_REFUSED ||
       !(stress_path_off(s, series_length(s->fine_harmonics), s->fine.x, &s->path) <= nearby))
     c = stress_skip(STRESS_NO_ORBIT);
   stress_motion_free(&h);
-  stress_path_free(&other);
   return c;
 }
 

@@ -119,28 +119,46 @@ static bool take(shrinker *s, scene *sc, scene *smaller)
   return finds;
 }
 
-static void drop_structure_contacts(shrinker *s, scene *sc)
+/* What a structure may do without, one at a time and the last first; drop() is false where it cannot be. */
+typedef struct part {
+  int (*count)(const scene_structure *);
+  int least;
+  bool (*drop)(scene_structure *, int);
+} part;
+
+static void drop_parts(shrinker *s, scene *sc, const part *p)
 {
   scene smaller;
-  for (int j = sc->structure->n_contacts - 1; j >= 0 && sc->structure->n_contacts > 1; --j) {
+  for (int i = p->count(sc->structure) - 1; i >= 0 && p->count(sc->structure) > p->least; --i) {
     if (!copy(s, sc, &smaller)) return;
-    scene_structure *t = smaller.structure;
-    free(t->contacts[j].tangent); /* with the others behind it */
-    t->contacts[j] = t->contacts[--t->n_contacts];
-    take(s, sc, &smaller);
+    if (p->drop(smaller.structure, i)) take(s, sc, &smaller);
+    else case_clear(&smaller);
   }
 }
 
-static void drop_loads(shrinker *s, scene *sc)
+static int count_contacts(const scene_structure *t) { return t->n_contacts; }
+static int count_loads(const scene_structure *t) { return t->n_loads; }
+static int count_dofs(const scene_structure *t) { return t->n; }
+
+static bool drop_contact(scene_structure *t, int j)
 {
-  scene smaller;
-  for (int i = sc->structure->n_loads - 1; i >= 0 && sc->structure->n_loads > 1; --i) {
-    if (!copy(s, sc, &smaller)) return;
-    scene_structure *t = smaller.structure;
-    free(t->loads[i].direction);
-    t->loads[i] = t->loads[--t->n_loads];
-    take(s, sc, &smaller);
-  }
+  free(t->contacts[j].tangent); /* with the others behind it */
+  t->contacts[j] = t->contacts[--t->n_contacts];
+  return true;
+}
+
+static bool drop_load(scene_structure *t, int i)
+{
+  free(t->loads[i].direction);
+  t->loads[i] = t->loads[--t->n_loads];
+  return true;
+}
+
+static bool drop_second_tangent(scene_structure *t, int j)
+{
+  if (is_zero(t->n, t->contacts[j].tangent_2)) return false;
+  memset(t->contacts[j].tangent_2, 0, (size_t)t->n * sizeof(double));
+  return true;
 }
 
 /* Without row and column k, in place. */
@@ -155,34 +173,6 @@ static void drop_row(int n, int k, double *A)
 static void drop_entry(int n, int k, double *v)
 {
   for (int i = k; i + 1 < n; ++i) v[i] = v[i + 1];
-}
-
-static void drop_second_tangents(shrinker *s, scene *sc)
-{
-  scene smaller;
-  for (int j = 0; j < sc->structure->n_contacts; ++j) {
-    if (is_zero(sc->structure->n, sc->structure->contacts[j].tangent_2)) continue;
-    if (!copy(s, sc, &smaller)) return;
-    for (int i = 0; i < smaller.structure->n; ++i) smaller.structure->contacts[j].tangent_2[i] = 0;
-    take(s, sc, &smaller);
-  }
-}
-
-/* Degree of freedom k held: of a structure without names, nodes and damping by modes. */
-static void hold_dof(scene_structure *t, int k)
-{
-  drop_row(t->n, k, t->mass.v);
-  drop_row(t->n, k, t->stiffness.v);
-  drop_row(t->n, k, t->damping.v);
-  for (int i = 0; i < t->n_loads; ++i) drop_entry(t->n, k, t->loads[i].direction);
-  for (int j = 0; j < t->n_contacts; ++j) {
-    drop_entry(t->n, k, t->contacts[j].tangent);
-    drop_entry(t->n, k, t->contacts[j].tangent_2);
-    drop_entry(t->n, k, t->contacts[j].normal);
-  }
-  structure_clear_responses(t);
-  t->how = STRUCTURE_DAMPING_MATRIX;
-  --t->n;
 }
 
 /* Are the tangents along one line, or nearly? A case file has no such two. */
@@ -205,15 +195,22 @@ static bool is_whole(const scene_structure *t)
   return true;
 }
 
-static void hold_dofs(shrinker *s, scene *sc)
+/* Degree of freedom k held: of a structure without names, nodes and damping by modes. */
+static bool hold_dof(scene_structure *t, int k)
 {
-  scene smaller;
-  for (int k = sc->structure->n - 1; k >= 0 && sc->structure->n > 1; --k) {
-    if (!copy(s, sc, &smaller)) return;
-    hold_dof(smaller.structure, k);
-    if (is_whole(smaller.structure)) take(s, sc, &smaller);
-    else case_clear(&smaller);
+  drop_row(t->n, k, t->mass.v);
+  drop_row(t->n, k, t->stiffness.v);
+  drop_row(t->n, k, t->damping.v);
+  for (int i = 0; i < t->n_loads; ++i) drop_entry(t->n, k, t->loads[i].direction);
+  for (int j = 0; j < t->n_contacts; ++j) {
+    drop_entry(t->n, k, t->contacts[j].tangent);
+    drop_entry(t->n, k, t->contacts[j].tangent_2);
+    drop_entry(t->n, k, t->contacts[j].normal);
   }
+  structure_clear_responses(t);
+  t->how = STRUCTURE_DAMPING_MATRIX;
+  --t->n;
+  return is_whole(t);
 }
 
 static int highest_load(const scene_structure *t)
@@ -238,10 +235,11 @@ hc_status stress_shrink(scene *sc, stress_kind kind, double seconds, const hc_mo
 {
   shrinker s = {kind, seconds, monitor, HC_OK};
   if (sc->structure) {
-    drop_structure_contacts(&s, sc);
-    drop_second_tangents(&s, sc);
-    drop_loads(&s, sc);
-    hold_dofs(&s, sc);
+    static const part parts[] = {{count_contacts, 1, drop_contact},
+                                 {count_contacts, 0, drop_second_tangent},
+                                 {count_loads, 1, drop_load},
+                                 {count_dofs, 1, hold_dof}};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) drop_parts(&s, sc, &parts[i]);
     fewer_structure_harmonics(&s, sc);
   } else {
     drop_contacts(&s, sc);

@@ -1,5 +1,5 @@
-/* claims.c - see claims.h. */
-#include "study/claims.h"
+/* claims.c - see store.h. */
+#include "study/store.h"
 
 #include <math.h>
 #include <stdio.h>

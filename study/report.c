@@ -1,5 +1,5 @@
-/* report.c - see report.h. The export is written row by row: a study may be larger than memory. */
-#include "study/report.h"
+/* report.c - see store.h. The export is written row by row: a study may be larger than memory. */
+#include "study/store.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -1,7 +1,7 @@
-/* run.c - see run.h. Threads take the next scene's number under one lock and hand the result to the store under
+/* run.c - see store.h. Threads take the next scene's number under one lock and hand the result to the store under
  * another; the calling thread watches, and answers other processes (cluster.h). Scenes are stored in another order in
  * each run, with the same results. */
-#include "study/run.h"
+#include "study/store.h"
 
 #include <stdlib.h>
 #include <time.h>

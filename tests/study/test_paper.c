@@ -5,7 +5,7 @@
 #include <string.h>
 #include <sys/wait.h>
 
-#include "study/claims.h"
+#include "study/store.h"
 #include "tests/check.h"
 
 /* A claim may tell only; one on the paper must say what it expects, so that no verdict changes unseen. */

@@ -1,5 +1,4 @@
 /* test_store.c - what the results file refuses, and that what it refuses stays as it was, byte for byte. */
-#include "study/claims.h"
 #include "study/store.h"
 #include "tests/study/study_text.h"
 
