@@ -14,8 +14,8 @@
 #include "command/plot/plot.h"
 #include "output/output.h"
 #include "output/progress.h"
-#include "study/store.h"
 #include "study/cluster.h"
+#include "study/store.h"
 
 static const char help[] =
     "Compute every scene of each STUDY (a YAML file: a base case, and what varies) in parallel, keep the results in "

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "numerics/dense.h"
 #include "numerics/random.h"
 
 static size_t vector(int n) { return (size_t)n * sizeof(double); }
@@ -67,9 +68,7 @@ void turned_vector(int n, const double *Q, const double *x, double *out)
 /* out = Q^T A Q; a symmetric A gives one, to the last bit. */
 static void turned_matrix(int n, const double *Q, const double *A, double *work, double *out)
 {
-  bool symmetric = true;
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < j; ++i) symmetric &= A[j * n + i] == A[i * n + j];
+  const bool symmetric = dense_is_symmetric(n, A);
   for (int j = 0; j < n; ++j) turned_vector(n, Q, A + j * n, work + j * n); /* Q^T A */
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
@@ -252,9 +251,7 @@ static void nudge_vector(uint64_t *random, double part, int n, double *v)
 static void nudge_matrix(uint64_t *random, double part, int n, double *A)
 {
   const double size = part * largest(A, n * n);
-  bool symmetric = true;
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < j; ++i) symmetric &= A[j * n + i] == A[i * n + j];
+  const bool symmetric = dense_is_symmetric(n, A);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i <= j; ++i) {
       const double up = size * random_signed(random), down = symmetric ? up : size * random_signed(random);

@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "casefile/case_file.h"
 #include "casefile/structure_check.h"
+#include "numerics/norm.h"
 #include "stress/stress.h"
 
 typedef struct shrinker {
@@ -99,13 +100,6 @@ static bool copy(shrinker *s, const scene *sc, scene *out)
   return out->structure != NULL;
 }
 
-static bool is_zero(int n, const double *v)
-{
-  for (int i = 0; i < n; ++i)
-    if (v[i] != 0) return false;
-  return true;
-}
-
 /* *smaller takes *sc's place where it is still a finding; else it is forgotten. */
 static bool take(shrinker *s, scene *sc, scene *smaller)
 {
@@ -156,7 +150,7 @@ static bool drop_load(scene_structure *t, int i)
 
 static bool drop_second_tangent(scene_structure *t, int j)
 {
-  if (is_zero(t->n, t->contacts[j].tangent_2)) return false;
+  if (structure_is_zero(t->contacts[j].tangent_2, t->n)) return false;
   memset(t->contacts[j].tangent_2, 0, (size_t)t->n * sizeof(double));
   return true;
 }
@@ -178,9 +172,8 @@ static void drop_entry(int n, int k, double *v)
 /* Are the tangents along one line, or nearly? A case file has no such two. */
 static bool is_line(int n, const double *a, const double *b)
 {
-  double aa = 0, bb = 0, ab = 0;
-  for (int i = 0; i < n; ++i) aa += a[i] * a[i], bb += b[i] * b[i], ab += a[i] * b[i];
-  return ab * ab >= (1 - 4e-12) * aa * bb;
+  const double ab = dot_product(n, a, b);
+  return ab * ab >= (1 - 4e-12) * dot_product(n, a, a) * dot_product(n, b, b);
 }
 
 /* Could a case file say it? No contact may have lost what it acts along. */
@@ -188,9 +181,10 @@ static bool is_whole(const scene_structure *t)
 {
   for (int j = 0; j < t->n_contacts; ++j) {
     const structure_contact *c = &t->contacts[j];
-    if ((c->given.law.kt != 0 && is_zero(t->n, c->tangent)) || (c->given.law.kn != 0 && is_zero(t->n, c->normal)))
+    if ((c->given.law.kt != 0 && structure_is_zero(c->tangent, t->n)) ||
+        (c->given.law.kn != 0 && structure_is_zero(c->normal, t->n)))
       return false;
-    if (!is_zero(t->n, c->tangent_2) && is_line(t->n, c->tangent, c->tangent_2)) return false;
+    if (!structure_is_zero(c->tangent_2, t->n) && is_line(t->n, c->tangent, c->tangent_2)) return false;
   }
   return true;
 }

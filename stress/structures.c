@@ -19,6 +19,7 @@
 #include "casefile/structure_check.h"
 #include "model/modes.h"
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 #include "numerics/random.h"
 #include "stress/scenes.h"
 
@@ -345,19 +346,11 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
  * motion then is nearly straight, and slip turns about at once. The limit is the circle's in four of five. Numbers come
  * from a generator of its own for each scene: what is drawn above is what it is without. */
 
-static bool is_zero(int n, const double *d)
-{
-  for (int i = 0; i < n; ++i)
-    if (d[i] != 0) return false;
-  return true;
-}
-
 /* |sin| of the angle between a and b, of which neither is 0. */
 static double across(int n, const double *a, const double *b)
 {
-  double aa = 0, bb = 0, ab = 0;
-  for (int i = 0; i < n; ++i) aa += a[i] * a[i], bb += b[i] * b[i], ab += a[i] * b[i];
-  return sqrt(fmax(1 - ab * ab / (aa * bb), 0));
+  const double ab = dot_product(n, a, b);
+  return sqrt(fmax(1 - ab * ab / (dot_product(n, a, a) * dot_product(n, b, b)), 0));
 }
 
 /* Not along the tangent, which a structure of one degree of freedom could not have. */
@@ -375,7 +368,7 @@ static void give_second_tangents(uint64_t *r, scene_structure *s)
 {
   for (int j = 0; j < s->n_contacts && s->n > 1; ++j) {
     structure_contact *c = &s->contacts[j];
-    if (is_zero(s->n, c->tangent) || random_unit(r) > 0.7) continue;
+    if (structure_is_zero(c->tangent, s->n) || random_unit(r) > 0.7) continue;
     draw_second_tangent(r, s->n, c);
     c->given.limit = random_unit(r) < 0.8 ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
   }
@@ -384,7 +377,7 @@ static void give_second_tangents(uint64_t *r, scene_structure *s)
 static int directions(const scene_structure *s)
 {
   int sum = 0;
-  for (int j = 0; j < s->n_contacts; ++j) sum += 2 + !is_zero(s->n, s->contacts[j].tangent_2);
+  for (int j = 0; j < s->n_contacts; ++j) sum += 2 + !structure_is_zero(s->contacts[j].tangent_2, s->n);
   return sum;
 }
 
