@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "numerics/norm.h"
 #include "timeint/steady/timeint_private.h"
 
 /* The unit of length for a model at rest without force: the largest gap, or 1. */
@@ -40,7 +41,8 @@ static double least_length(const timeint *ti)
   return force / (b->highest * b->highest + omega * omega + 2 * b->slowest * omega);
 }
 
-/* X, P and W of the state, in units of `length`. */
+/* X, P and W of the state, in units of `length`. A contact without friction has its slider at u whatever the state
+ * says: its way there would count as the motion's, and an orbit next to the state as far from it. */
 static void take_state(const timeint *ti, const double *state, double length, double *y)
 {
   const int n = ti->n_dof;
@@ -50,7 +52,11 @@ static void take_state(const timeint *ti, const double *state, double length, do
     y[i] /= length;
     y[n + i] /= ti->omega * length;
   }
-  for (int i = 2 * n; i < ti->n; ++i) y[i] = state[i] / length;
+  for (int j = 0; j < ti->model->n_contacts; ++j) {
+    const double *tangent = ti->base->tangent + (size_t)j * (size_t)n;
+    const bool friction = contact_has_friction(&ti->model->contacts[j].law);
+    y[2 * n + j] = friction ? state[2 * n + j] / length : dot_product(n, tangent, y);
+  }
 }
 
 void timeint_take_state(const timeint *ti, const double *state, double *y) { take_state(ti, state, ti->length, y); }
