@@ -1,6 +1,6 @@
 /* fundamental_matrix.h - the monodromy matrix of a period of the exact law of a structure, from one change of contact
  * state to the next. In a phase a variation of the motion obeys the same linear equation without its loads
- * (series_columns.h, or modes_columns.h where that is less work); all forces are continuous, so that a transition
+ * (series_columns.h, or complex modes where that is less work); all forces are continuous, so that a transition
  * changes no column but in the rows of sliders that begin to stick there (contact_track.h). A circle that slips has an
  * angle, e = (cos phi, sin phi), that varies, too: dphi = (dU - dW).e_perp/R where it begins, and
  *     dW = dU - dR e - R e_perp dphi
@@ -8,9 +8,18 @@
 #ifndef HC_TIMEINT_FUNDAMENTAL_MATRIX_H
 #define HC_TIMEINT_FUNDAMENTAL_MATRIX_H
 
-#include "timeint/closed_form/modes_columns.h"
+#include "timeint/closed_form/interval_modes.h"
 #include "timeint/closed_form/motion_series.h"
 #include "timeint/closed_form/series_columns.h"
+
+/* Columns within an interval from its complex modes (interval_modes.h), over any span at once:
+ *
+ *     eta_k = by_x . D + by_v . D' - eta_k of where sliders that stick hold the variation
+ *     D += sum_k Re V_k (e^{mu_k span} - 1) eta_k,   D' = sum_k Re V_k mu_k e^{mu_k span} eta_k */
+typedef struct modes_columns { /* from modes_columns_make, to modes_columns_free */
+  int n, n_columns;            /* modes of the structure; the most columns */
+  double *change, *rate;       /* [2 n][2][n_columns] real and imaginary parts */
+} modes_columns;
 
 typedef struct fundamental_matrix { /* from fundamental_matrix_make, to fundamental_matrix_free */
   int n, n_states;                  /* modes; 2 n + contacts */
