@@ -102,7 +102,7 @@ static void shorten_exponent(char *text)
   memmove(zeros, zeros + n, strlen(zeros + n) + 1);
 }
 
-/* Of a text that is a number: is it digits alone, after a sign? */
+/* Is a text that is a number digits alone, after a sign? */
 static bool is_integer(const char *text, size_t length)
 {
   for (size_t i = text[0] == '+' || text[0] == '-'; i < length; ++i)

@@ -107,18 +107,6 @@ static hc_status check_contacts(case_reader *r)
   return HC_OK;
 }
 
-hc_status case_check(case_reader *r)
-{
-  r->sc.gate.ranges.in_cycles = r->sc.in_cycles;
-  hc_status st = r->sc.structure ? case_check_structure(r) : check_contacts(r);
-  if (st == HC_OK) st = check_sweep(r);
-  if (st == HC_OK) st = check_samples(r);
-  if (st == HC_OK) st = check_fixed_step(r);
-  if (st == HC_OK) st = check_method(r);
-  if (st == HC_OK) st = check_gate_ranges(r);
-  return st;
-}
-
 /* ---- damping ---- */
 
 static hc_status check_damping(case_reader *r)
@@ -242,11 +230,26 @@ static hc_status check_held(case_reader *r)
   return is_free ? HC_BAD_INPUT : HC_OK;
 }
 
-hc_status case_check_structure(case_reader *r)
+/* The rules of a structure, whose damping matrix is made here. */
+static hc_status check_structure(case_reader *r)
 {
   hc_status st = case_own_structure(r);
   if (st == HC_OK) st = check_damping(r);
   if (st == HC_OK) st = check_loads(r);
   for (int j = 0; j < r->sc.structure->n_contacts && st == HC_OK; ++j) st = check_contact(r, j);
   return st == HC_OK ? check_held(r) : st;
+}
+
+/* ---- all of them ---- */
+
+hc_status case_check(case_reader *r)
+{
+  r->sc.gate.ranges.in_cycles = r->sc.in_cycles;
+  hc_status st = r->sc.structure ? check_structure(r) : check_contacts(r);
+  if (st == HC_OK) st = check_sweep(r);
+  if (st == HC_OK) st = check_samples(r);
+  if (st == HC_OK) st = check_fixed_step(r);
+  if (st == HC_OK) st = check_method(r);
+  if (st == HC_OK) st = check_gate_ranges(r);
+  return st;
 }

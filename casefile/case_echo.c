@@ -242,7 +242,7 @@ static bool choices_are_known(const scene *sc)
   return sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS;
 }
 
-/* Of rivals the one in force is written: of those that give the sweep the one that did; else the list if it is not
+/* The rival in force is written: of those that give the sweep the one that did; else the list if it is not
  * empty (compare.omega), else the other (compare.points). */
 bool case_field_counts(const field *f, const scene *sc)
 {

@@ -85,7 +85,7 @@ const char *yaml_node_what(const yaml_node_t *n);
 bool yaml_node_is(const yaml_node_t *n, const char *word); /* a scalar, and that word? */
 field_item yaml_node_item(const yaml_node_t *n);           /* of a scalar */
 
-/* Of a list: how many entries, and entry i. Of a mapping: the value of the first such key, or NULL. */
+/* How many entries a list has, and entry i; the value of the first such key of a mapping, or NULL. */
 static inline int yaml_length(const yaml_node_t *list)
 {
   return (int)(list->data.sequence.items.top - list->data.sequence.items.start);
@@ -162,8 +162,5 @@ hc_status case_set_apply(case_reader *r, int k);
 
 /* What depends on several fields, once all of them are known. */
 hc_status case_check(case_reader *r);
-
-/* The same of a structure, whose damping matrix is made here. */
-hc_status case_check_structure(case_reader *r);
 
 #endif

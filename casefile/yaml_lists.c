@@ -231,7 +231,7 @@ hc_status yaml_responses_read(case_reader *r, yaml_document_t *doc, const yaml_n
   return HC_OK;
 }
 
-hc_status yaml_no_such_dof(case_reader *r, case_place at, const char *text, size_t length)
+static hc_status no_such_dof(case_reader *r, case_place at, const char *text, size_t length)
 {
   const scene_structure *s = r->sc.structure;
   const char *near = s->names ? nearest_word((const char *const *)s->names, text, length) : NULL;
@@ -253,7 +253,7 @@ static hc_status named_dof(case_reader *r, const yaml_node_t *node, int *dof)
   const char *text = yaml_node_text(node);
   const size_t length = node->data.scalar.length;
   *dof = structure_dof(r->sc.structure, text, length);
-  return *dof >= 0 ? HC_OK : yaml_no_such_dof(r, case_place_of(r, node->start_mark), text, length);
+  return *dof >= 0 ? HC_OK : no_such_dof(r, case_place_of(r, node->start_mark), text, length);
 }
 
 static bool is_axis(const yaml_node_t *n)

@@ -46,9 +46,6 @@ hc_status yaml_dof(case_reader *r, yaml_document_t *doc, const yaml_node_t *node
 hc_status yaml_direction(case_reader *r, yaml_document_t *doc, const char *what, const yaml_node_t *node,
                          double *direction);
 
-/* text[length] is not a degree of freedom. */
-hc_status yaml_no_such_dof(case_reader *r, case_place at, const char *text, size_t length);
-
 /* f, one of the fields of damping, has been stored: which kind of damping that is. Of Rayleigh damping one number given
  * alone leaves the other where there was such damping, and else 0. */
 void structure_damping_given(scene_structure *s, const field *f);

@@ -15,9 +15,10 @@ typedef struct contact_period {
                   regularised law, whose T is not that, off by its error, perhaps below 0 */
 } contact_period;
 
-/* Of a pair's two (model.h) that of the contact: the larger regime, the sum of the normal forces, the larger traction,
- * the sums of slip and work. Under the law of the circle both halves have the contact's regime and half of its normal
- * force each; the first one has all of traction, path and work, which are the plane's, and the second one 0. */
+/* The contact's, from those of a pair's two (model.h): the larger regime, the sum of the normal forces, the larger
+ * traction, the sums of slip and work. Under the law of the circle both halves have the contact's regime and half of
+ * its normal force each; the first one has all of traction, path and work, which are the plane's, and the second one
+ * 0. */
 contact_period contact_period_of_pair(const contact_period *first, const contact_period *second);
 
 /* p[m->n_contacts], one for each contact of the model -> one for each contact of the case: the first

@@ -28,7 +28,7 @@ typedef struct motion_error {
   double amplitude, harmonic_1, waveform; /* [length] as in motion_distance */
 } motion_error;
 
-/* Of the series X[2 n_harm + 1], whose extrema the caller has from series_extrema. */
+/* The motion of the series X[2 n_harm + 1], whose extrema the caller has from series_extrema. */
 periodic_motion motion_of_series(int n_harm, const double *X, double max, double min);
 
 /* X[2 n_harm + 1] of the samples, n_harm < MOTION_SAMPLES/2; exact where x has no harmonics above

@@ -30,8 +30,8 @@ typedef struct eigensystem { /* from eigensystem_make, to eigensystem_free */
 hc_status eigensystem_make(eigensystem *e, int n); /* HC_NO_MEMORY; free it then, too */
 void eigensystem_free(eigensystem *e);
 
-/* Of A[n][n] by columns. HC_SINGULAR: the eigenvectors are so nearly dependent (a double eigenvalue with one
- * eigenvector, a free body) that more than four digits would be lost; HC_NO_MEMORY, HC_NOT_CONVERGED. */
+/* The eigensystem of A[n][n], by columns. HC_SINGULAR: the eigenvectors are so nearly dependent (a double eigenvalue
+ * with one eigenvector, a free body) that more than four digits would be lost; HC_NO_MEMORY, HC_NOT_CONVERGED. */
 hc_status eigensystem_find(eigensystem *e, const long double *A);
 
 #endif
