@@ -1,5 +1,5 @@
 /* fundamental_matrix.h - the monodromy matrix of a period of the exact law of a structure, from one change of contact
- * state to the next. In a phase a variation of the motion obeys the same linear equation without its loads
+ * state to the next. In an interval a variation of the motion obeys the same linear equation without its loads
  * (series_columns.h, or complex modes where that is less work); all forces are continuous, so that a transition
  * changes no column but in the rows of sliders that begin to stick there (contact_track.h). A circle that slips has an
  * angle, e = (cos phi, sin phi), that varies, too: dphi = (dU - dW).e_perp/R where it begins, and

@@ -20,7 +20,7 @@ struct interval_modes { /* from interval_modes_new, to interval_modes_free */
   complex_modes *set; /* [n_sets], `used` of them filled */
   double *weights;
   double complex *numbers;
-  unsigned char *states, *wanted; /* of all; [n_contacts] of the phase */
+  unsigned char *states, *wanted; /* of all; [n_contacts] of the interval */
   long double *matrix;            /* [2 n][2 n] */
   double *scale;                  /* [n] of x in it */
   int *order;                     /* [2 n] */
@@ -110,7 +110,7 @@ bool interval_modes_pay(const interval_modes *p, double omega, double span)
   return p && p->fastest > p->stiff * omega && p->fastest * span > short_span * omega;
 }
 
-/* What contact j adds to the matrix of the phase: its state, or NO_CONTACT for nothing. */
+/* What contact j adds to the matrix of the interval: its state, or NO_CONTACT for nothing. */
 static unsigned char state_of(const contact_track *track, const contact_forces_linear *f)
 {
   const bool nothing = f->t_u == 0 && f->t_v == 0 && f->n_v == 0;

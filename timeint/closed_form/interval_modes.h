@@ -1,4 +1,4 @@
-/* interval_modes.h - the complex modes of a structure in a phase, in which no contact changes its state:
+/* interval_modes.h - the complex modes of a structure in an interval, in which no contact changes its state:
  *
  *     q'' + C q' + (K + K_contacts) q = f(t),  K_contacts of contact_track_forces        in physical time
  *     q = sum_k weight_k Re(V_k eta_k),   eta_k' = lambda_k eta_k + W_k . f
@@ -41,10 +41,10 @@ typedef struct interval_modes interval_modes;
 hc_status interval_modes_new(const modal_base *base, double stiff, interval_modes **out);
 void interval_modes_free(interval_modes *p); /* NULL is allowed */
 
-/* Are modes less work than series at omega, over a span [rad] of the phase (INFINITY: not known)? NULL: no. */
+/* Are modes less work than series at omega, over a span [rad] of the interval (INFINITY: not known)? NULL: no. */
 bool interval_modes_pay(const interval_modes *p, double omega, double span);
 
-/* Of the phase. *out stays the cache's, until the next call; NULL: there are none. HC_NO_MEMORY, HC_NOT_FINITE. */
+/* The modes of the interval. *out stays the cache's, until the next call; NULL: there are none. HC_NO_MEMORY, HC_NOT_FINITE. */
 hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const contact_track *track,
                             const complex_modes **out);
 

@@ -1,4 +1,4 @@
-/* motion_modes.h - the motion of a structure in a phase, from its complex modes (interval_modes.h): the same as
+/* motion_modes.h - the motion of a structure in an interval, from its complex modes (interval_modes.h): the same as
  * motion_series.h, but from one change of contact state to the next at once, however stiff the structure is.
  *
  *     eta_k(theta0 + tau) = c_k e^{mu_k tau} + fixed_k + sum_l (forward_kl e^{i h_l tau} + back_kl e^{-i h_l tau})

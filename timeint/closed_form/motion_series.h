@@ -1,4 +1,4 @@
-/* motion_series.h - the motion of a structure in a phase, as a power series in time, to rounding.
+/* motion_series.h - the motion of a structure in an interval, as a power series in time, to rounding.
  *
  *     X'' + by_C C X' + by_K K X = p(theta) - sum_j [ t_j T_j + n_j (N_j - N0_j) ],  T_j, N_j linear (contact_track.h)
  *     X(theta0 + tau) = sum_k x_k tau^k:      (k + 1)(k + 2) x_{k+2} = the k-th coefficients of all the others
@@ -20,7 +20,7 @@ typedef struct motion_series { /* from motion_series_make, to motion_series_free
   double *u, *v;              /* [n_contacts][TRACK_ORDER + 1] */
   double *force;              /* [n] */
   double *load;               /* [n_loads][2] cosine and sine of one term */
-  contact_forces_linear *law; /* [n_contacts] of the phase */
+  contact_forces_linear *law; /* [n_contacts] of the interval */
   planar_series *circle;      /* [n_planar] */
   int *planar_of;             /* [n_contacts] that of the contact's first direction; -1: none that turns */
 } motion_series;

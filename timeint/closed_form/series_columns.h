@@ -1,4 +1,4 @@
-/* series_columns.h - many variations of a structure's motion at once, in a phase in which no contact changes its state:
+/* series_columns.h - many variations of a structure's motion at once, in an interval between changes of contact state:
  *
  *     D'' + by_C C D' + by_K K D = - sum_j [ t_j dT_j + n_j dN_j ],   dT_j = t_u dU + t_v dV + t_w dW_j, dN_j = n_v dV
  *
@@ -16,12 +16,12 @@
 typedef struct series_columns { /* from series_columns_make, to series_columns_free */
   int n, n_contacts, n_planar;
   double *turned_K, *turned_C;  /* [n][n] by rows, where they are not diagonal; else NULL */
-  int n_rows;                   /* of contacts that resist in this phase */
+  int n_rows;                   /* of contacts that resist in this interval */
   double *rows, *turned;        /* [n][n_rows] by columns; by rows */
   bool whole;                   /* are what they do the matrix below, which is cheaper? */
   double *resistance;           /* [n][n] by columns of B: out_i = sum_l z_l B_li */
-  contact_forces_linear *law;   /* [n_contacts] of this phase, but T of the circles that slip */
-  int n_slipping;               /* circles that slip in this phase */
+  contact_forces_linear *law;   /* [n_contacts] of this interval, but T of the circles that slip */
+  int n_slipping;               /* contacts that slip in a plane in this interval */
   double *slip_tangents;        /* [n][2 n_slipping] by columns: their t_1 and t_2 */
   double *slip_normals;         /* [n][n_slipping] by columns */
   double *slip_turned;          /* slip_tangents by rows */

@@ -1,5 +1,5 @@
-/* events_interval.h - private to integrate_events: its state, and what holds between two changes of contact state, a
- * phase: the equations that CVODE integrates and the root functions that end it.
+/* events_interval.h - private to integrate_events: its state, and what holds between two changes of contact state, an
+ * interval: the equations that CVODE integrates and the root functions that end it.
  *
  * Root functions of a contact, six, so that a period allocates nothing: the guards of its state, which end it where
  * they fall through 0, and the rates of these, which end nothing. Without them a guard could fall and rise within one

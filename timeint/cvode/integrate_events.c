@@ -1,7 +1,7 @@
 /* integrate_events.c - see integrate_events.h. What holds between two changes of contact state is events_interval.h's;
  * here is what happens at one, and from the first to the last of a period.
  *
- * A guard that has fallen at the beginning of a phase, or with another contact's in the same instant, is passed at
+ * A guard that has fallen at the beginning of an interval, or with another contact's in the same instant, is passed at
  * once. The monodromy matrix is fundamental_matrix.h's. */
 #include "timeint/cvode/integrate_events.h"
 

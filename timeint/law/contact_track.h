@@ -1,7 +1,7 @@
 /* contact_track.h - the contacts of a structure along a motion of the exact law (model/contact_law.h): the state of
  * each, what ends it, and what comes next. libm only.
  *
- * In a phase no contact changes its state, and each force is linear in the contact's motion:
+ * In an interval no contact changes its state, and each force is linear in the contact's motion:
  *     stick  T = kt (U - rest)        slip(s)  T = s mu N        closed  N = kn (V + gap) + load
  * Every guard is linear in (U, V) or (U', V'), so that of a motion in powers of tau it is such a series, too:
  *     closed      V + gap                            separated   -(V + gap)
