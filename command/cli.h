@@ -107,9 +107,9 @@ int cli_start(const cli_command *self, int argc, char **argv, void *own, cli_com
    offsetof(type, plot), .group = 2, .file = "--plot", .use = CLI_OUTPUT}
 /* clang-format on */
 
-/* No output of a command may replace one of its inputs or another of its outputs: every command hands in the files that
- * it reads and writes before it opens or computes anything. Names that mean one file are told by device and inode number
- * (output/same_file.h); /dev/null, terminals and pipes may be given any number of times. */
+/* No output of a command may replace one of its inputs or another of its outputs: every command hands in the files
+ * that it reads and writes before it opens or computes anything. Names that mean one file are told by device and inode
+ * number (output/same_file.h); /dev/null, terminals and pipes may be given any number of times. */
 typedef struct cli_file {
   const char *what; /* "--junit", "the curve": how messages call it                                                   */
   const char *path; /* NULL: there is none; "-": standard input or output, but for CLI_RESULTS                        */

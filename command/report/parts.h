@@ -41,7 +41,8 @@ double words_worst_omega(const report_data *d);
  * along the solution. HC_INTERRUPTED, HC_NO_MEMORY, or why there is no model. */
 hc_status structure_json(const scene *sc, const comparison *c, json_t *others, const hc_monitor *monitor, json_t **out);
 
-/* ---- aliasing.c: the answers that the page's section on aliasing chooses among: for each normal stiffness, H and omega
+/* ---- aliasing.c: the answers that the page's section on aliasing chooses among: for each normal stiffness, H and
+ * omega
  *
  *     the HBM solution X with exact forces and largest amplitude, its force over the period, the true harmonics F;
  *     for each N the harmonics that N samples of X's force give (aft.h), sampled minus true; the first true ones that
