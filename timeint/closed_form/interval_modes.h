@@ -44,7 +44,8 @@ void interval_modes_free(interval_modes *p); /* NULL is allowed */
 /* Are modes less work than series at omega, over a span [rad] of the interval (INFINITY: not known)? NULL: no. */
 bool interval_modes_pay(const interval_modes *p, double omega, double span);
 
-/* The modes of the interval. *out stays the cache's, until the next call; NULL: there are none. HC_NO_MEMORY, HC_NOT_FINITE. */
+/* The modes of the interval. *out stays the cache's, until the next call; NULL: there are none.
+ * HC_NO_MEMORY, HC_NOT_FINITE. */
 hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const contact_track *track,
                             const complex_modes **out);
 
