@@ -326,9 +326,11 @@ static double better_multiplier(solved_scene *s, double error, double bound)
 {
   stress_motion h = {.status = HC_OK};
   const double *x = s->fine.x;
-  for (int n = s->fine_harmonics; error > bound && may_double(s, n); n *= 2) {
+  for (int n = s->fine_harmonics, more; error > bound && n < HBM_MAX_HARMONICS; n = more) {
     stress_motion finer;
-    solve_with(s, 2 * n, series_length(n), x, &finer);
+    if (n > s->fine_harmonics && !may_double(s, n)) break; /* beyond what `orbit` may take once, as it costs */
+    more = 2 * n < HBM_MAX_HARMONICS ? 2 * n : HBM_MAX_HARMONICS;
+    solve_with(s, more, series_length(n), x, &finer);
     const double now = finer.status == HC_OK ? multipliers_apart(&finer, &s->path) : NAN;
     stress_motion_free(&h);
     h = finer, x = h.x;
