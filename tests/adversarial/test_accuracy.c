@@ -6,9 +6,8 @@
 
 static steady_reference rows[N_STEADY_REFERENCES];
 
-static int read_rows(void **state)
+static int read_rows(CHECK_STATE)
 {
-  (void)state;
   read_steady_references(rows);
   return 0;
 }
@@ -115,9 +114,8 @@ static void print_row(const accuracy_of *a, int n_harm)
 
 /* With 30 harmonics, and with as many as asked where 30 do not do: a case that 30 suffice for has no excuse, and one
  * that is excused needs it. */
-static void the_first_harmonic_is_good_to_a_millionth(void **state)
+static void the_first_harmonic_is_good_to_a_millionth(CHECK_STATE)
 {
-  (void)state;
   int compared = 0;
   for (int i = 0; i < N_REFERENCE_SCENES; ++i) {
     const reference_scene *r = &reference_scenes[i];

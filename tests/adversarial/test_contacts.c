@@ -20,9 +20,8 @@ static double grazing_omega(const scene *sc, int sign)
 /* On it and an ulp either side: as many solutions as on either side of a fold, one of them with the amplitude
  * |gap|/sin(alpha). Off by an ulp, the linear amplitude is off by dA/dw ulp(w) = 1e-15 A; if it touches, the
  * response differs by less. */
-static void grazing_to_an_ulp(void **state)
+static void grazing_to_an_ulp(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("grazing", NULL);
   const double amplitude = 5 * sqrt(2), low = grazing_omega(&sc, -1), high = grazing_omega(&sc, 1);
   CHECK_NEAR(low, 5.0995831509, 1e-10, "theory.md, 11");
@@ -39,9 +38,8 @@ static void grazing_to_an_ulp(void **state)
 }
 
 /* x = 1.6 cos + 1.2 sin, in whole numbers: 10/(4 + 3i). */
-static void amplitude_equal_to_the_gap(void **state)
+static void amplitude_equal_to_the_gap(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("amplitude_is_gap", NULL);
   static const double expected[] = {0, 1.6, 1.2};
   hbm_curve at = solutions(&sc, 6);
@@ -52,9 +50,8 @@ static void amplitude_equal_to_the_gap(void **state)
 
 /* From touching to separating T = mu N exactly, and an ulp below or above it: the force is the same as where it
  * sticks, with ten times mu. */
-static void on_the_edge_of_the_cone(void **state)
+static void on_the_edge_of_the_cone(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("cone_edge", NULL), sticks = LOAD("cone_edge", "contacts[0].friction=5"), beside = sc;
   const double kt = sc.contacts[0].law.kt;
   assert_true(kt == sc.contacts[0].law.mu * sc.contacts[0].law.kn);
@@ -67,9 +64,8 @@ static void on_the_edge_of_the_cone(void **state)
 
 /* Once separated, never slips: kt cos < mu kn sin. Not so before, and at other angles: the premise is checked by
  * friction a tenth. */
-static void tangential_and_normal_force_vanish_together(void **state)
+static void tangential_and_normal_force_vanish_together(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("vanishing_together", NULL), sticks = LOAD("vanishing_together", "contacts[0].friction=1000");
   same_answers(&sc, &sticks, 1, SOLVED);
   hbm_curve p = solutions(&sc, 25), q;
@@ -83,9 +79,8 @@ static void tangential_and_normal_force_vanish_together(void **state)
 /* Odd symmetric, x(t + T/2) = -x(t); and with one harmonic, the Jenkins element in closed form, x = A cos th, phi =
  * arccos(1 - 2 fc/(kt A)):
  *     a1 = kt A/pi (phi - sin(2 phi)/2),  b1 = -kt A/pi sin^2(phi),  and  |(K - M w^2) A + a1, C w A - b1| = F0. */
-static void angle_0_is_a_jenkins_element(void **state)
+static void angle_0_is_a_jenkins_element(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("angle_0", NULL), one = LOAD("angle_0", "hbm.harmonics=1");
   const double kt = one.contacts[0].law.kt, fc = 0.05 * 200 * 0.5;
   for (int i = 0; i < sc.compare.omega.n; ++i) {
@@ -108,9 +103,8 @@ static void angle_0_is_a_jenkins_element(void **state)
  * + m, p = arccos(-g/A):
  *     a0 = kn/pi (g p + A sin p),  a1 = kn/pi (2 g sin p + A (p + sin p cos p)),  K m + a0 = 0 and |(K - M w^2) A +
  *     a1, C w A| = F0. */
-static void angle_90_is_a_stop(void **state)
+static void angle_90_is_a_stop(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("angle_90", NULL),
         free_of = LOAD("angle_90", "contacts[0].friction=0", "contacts[0].tangential_stiffness=0");
   scene one = LOAD("angle_90", "hbm.harmonics=1");
@@ -130,9 +124,8 @@ static void angle_90_is_a_stop(void **state)
 }
 
 /* mu = 0 is kt = 0; mu = 1e300 is mu = 1e6; where mu kn overflows it is said, in no time. */
-static void friction_from_none_to_too_much(void **state)
+static void friction_from_none_to_too_much(CHECK_STATE)
 {
-  (void)state;
   scene none = load("no_friction", NULL), no_spring = LOAD("no_friction", "contacts[0].tangential_stiffness=0");
   scene huge = load("huge_friction", NULL), large = LOAD("huge_friction", "contacts[0].friction=1e6");
   scene beyond = LOAD("huge_friction", "contacts[0].friction=1e308");
@@ -147,9 +140,8 @@ static void friction_from_none_to_too_much(void **state)
 }
 
 /* Homogeneous of degree one: exactly, by a power of two; to rounding by three. */
-static void gap_0_scales_with_the_force(void **state)
+static void gap_0_scales_with_the_force(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("gap_0", NULL), twice = LOAD("gap_0", "forcing.amplitude=200"),
         thrice = LOAD("gap_0", "forcing.amplitude=300");
   same_answers(&sc, &twice, 2, 0);
@@ -158,9 +150,8 @@ static void gap_0_scales_with_the_force(void **state)
 
 /* Free and undamped from x = 0: back after pi/8 + pi/24, a period of omega = 2 w1 w2/(w1 + w2) = 12, to CVODE's
  * 1e-12 a step, some 100 of them. */
-static void gap_0_vibrates_at_its_bilinear_frequency(void **state)
+static void gap_0_vibrates_at_its_bilinear_frequency(CHECK_STATE)
 {
-  (void)state;
   scene sc = LOAD("gap_0", "forcing.amplitude=0", "oscillator.damping=0", "transient.law=exact",
                   "transient.steady_state=march", "transient.max_periods=1", "transient.start=rest");
   timeint *ti;
@@ -175,9 +166,8 @@ static void gap_0_vibrates_at_its_bilinear_frequency(void **state)
 }
 
 /* Two equal contacts are one of twice the stiffness; and nothing hangs on the order of sixteen. */
-static void contacts_that_switch_together(void **state)
+static void contacts_that_switch_together(CHECK_STATE)
 {
-  (void)state;
   scene two = load("two_at_once", NULL), one = two, sixteen = load("sixteen", NULL), reversed = sixteen;
   one.n_contacts = 1;
   one.contacts[0].law.kt *= 2;

@@ -10,9 +10,8 @@ static const double SOLVED = 1e-11; /* as in test_contacts.c */
 
 /* x = Re(F0/(K - M w^2 + i C w) e^{i w t}), by both; K and M w^2 cancel to eps K, against C w = 2e-6: relative
  * 1e-16/2e-6 = 1e-10. */
-static void resonance_has_its_closed_form(void **state)
+static void resonance_has_its_closed_form(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("zeta_1e-6", NULL);
   timeint *ti;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
@@ -36,9 +35,8 @@ static void resonance_has_its_closed_form(void **state)
 /* With the contact in reach, one harmonic: the same curve from either end, and energy: what the force puts in, pi F0
  * |X1 sin(phase)|, is what the damper takes, pi C w |X1|^2, since this contact, bilinear, takes none: F0 X[2] = C w
  * |X1|^2. */
-static void resonance_with_a_contact_balances_its_energy(void **state)
+static void resonance_with_a_contact_balances_its_energy(CHECK_STATE)
 {
-  (void)state;
   scene sc = LOAD("zeta_1e-6_contact", "hbm.harmonics=1"),
         down = LOAD("zeta_1e-6_contact", "hbm.harmonics=1", "sweep.omega=1.1,0.9");
   for (int i = 0; i < sc.compare.omega.n; ++i) {
@@ -80,9 +78,8 @@ static int folds(const scene *sc, hbm_special *out, int cap)
  * number of turns on: either before the fold, or after having gone round both (a tip shorter than the curve's own
  * accuracy, 1e-4 of X, so (1e-4)^2 of omega, may be gone round though it is outside). Well before it the end is met
  * first; beyond it there is no missing both turns. */
-static void a_sweep_that_ends_on_a_fold(void **state)
+static void a_sweep_that_ends_on_a_fold(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("grazing", NULL);
   hbm_special fold[2];
   assert_int_equal(folds(&sc, fold, 2), 2);
@@ -103,9 +100,8 @@ static void a_sweep_that_ends_on_a_fold(void **state)
 }
 
 /* Upwards and downwards, the same solutions in opposite order. */
-static void downwards_is_upwards_backwards(void **state)
+static void downwards_is_upwards_backwards(CHECK_STATE)
 {
-  (void)state;
   scene down = load("downwards", NULL), up = LOAD("downwards", "sweep.omega=3,20");
   for (int i = 0; i < down.compare.omega.n; ++i) {
     hbm_curve p = solutions(&up, down.compare.omega.v[i]), q = solutions(&down, down.compare.omega.v[i]);
@@ -122,9 +118,8 @@ static void downwards_is_upwards_backwards(void **state)
 
 /* gap1 at 16: three solutions on the curve from 3 to 30; the transient swept down arrives on the last, swept up on
  * the first. */
-static void both_directions_reach_their_branch(void **state)
+static void both_directions_reach_their_branch(CHECK_STATE)
 {
-  (void)state;
   scene sc = LOAD("isolated", "transient.law=exact", "transient.start=down");
   hbm_curve at = solutions(&sc, 16);
   assert_int_equal(at.n, 3);
@@ -143,9 +138,8 @@ static void both_directions_reach_their_branch(void **state)
 }
 
 /* Nothing moves: zeros, not NaN. */
-static void no_force_is_rest(void **state)
+static void no_force_is_rest(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("no_force", NULL);
   for (double gap = -1; gap <= 1; ++gap) {
     sc.contacts[0].law.gap = gap;
@@ -157,9 +151,8 @@ static void no_force_is_rest(void **state)
 }
 
 /* Held by a soft, long spring: alpha = 0 with kt cos^2 and the limit mu N cos, but for N's changing by v/gap = 1e-9. */
-static void a_contact_of_friction_alone(void **state)
+static void a_contact_of_friction_alone(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("friction_only", NULL), flat = sc;
   flat.contacts[0].angle_deg = 0;
   flat.contacts[0].law = (contact){.kt = 50, .kn = 40, .mu = 0.1 * sqrt(0.5), .gap = 1};
@@ -168,9 +161,8 @@ static void a_contact_of_friction_alone(void **state)
 
 /* Contact forces are at most (kt + kn)/2 x = 4e-7 x against |Z| x = F0 = 100 and K = 40: off the linear answer by
  * 4e-7 |X|/|F0| at most. */
-static void a_contact_of_next_to_no_stiffness(void **state)
+static void a_contact_of_next_to_no_stiffness(CHECK_STATE)
 {
-  (void)state;
   scene sc = load("soft", NULL);
   for (int i = 0; i < sc.compare.omega.n; ++i) {
     double w = sc.compare.omega.v[i];

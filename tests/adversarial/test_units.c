@@ -19,9 +19,8 @@ enum { N_FACTORS = sizeof factors / sizeof *factors }; /* the first two are powe
 static reference_row rows[MAX_REFERENCE];
 static int n_rows, orbits, loose; /* orbits compared so far, and of these, those farther apart than INVARIANT */
 
-static int read_rows(void **state)
+static int read_rows(CHECK_STATE)
 {
-  (void)state;
   n_rows = read_reference_rows(rows);
   return n_rows == 542 ? 0 : -1;
 }
@@ -90,18 +89,10 @@ static void hbm_with(int force, int n_scenes)
   }
 }
 
-static void exact_forces(void **state)
-{
-  (void)state;
-  hbm_with(HBM_FORCE_EXACT, N_REFERENCE_SCENES);
-}
+static void exact_forces(CHECK_STATE) { hbm_with(HBM_FORCE_EXACT, N_REFERENCE_SCENES); }
 
 /* The first scenes only: the stiff ones' sampled curves have more kinks than this test has time. */
-static void sampled_forces(void **state)
-{
-  (void)state;
-  hbm_with(HBM_FORCE_SAMPLED, 3);
-}
+static void sampled_forces(CHECK_STATE) { hbm_with(HBM_FORCE_SAMPLED, 3); }
 
 static scene_state in_units_state(scene_state y, int n, const units *u)
 {
@@ -184,17 +175,9 @@ static void transient_with(int law, int n_scenes)
   }
 }
 
-static void exact_law(void **state)
-{
-  (void)state;
-  transient_with(TRANSIENT_LAW_EXACT, N_REFERENCE_SCENES);
-}
+static void exact_law(CHECK_STATE) { transient_with(TRANSIENT_LAW_EXACT, N_REFERENCE_SCENES); }
 
-static void regularised_law(void **state)
-{
-  (void)state;
-  transient_with(TRANSIENT_LAW_REGULARISED, 3);
-}
+static void regularised_law(CHECK_STATE) { transient_with(TRANSIENT_LAW_REGULARISED, 3); }
 
 int main(void)
 {

@@ -41,9 +41,8 @@ static void check_verdicts(int n, const verdicts *v)
 
 #define CHECK_VERDICTS(list) check_verdicts((int)(sizeof list / sizeof *list), list)
 
-static void contacts(void **state)
+static void contacts(CHECK_STATE)
 {
-  (void)state;
   static const verdicts list[] = {
       {"grazing", "", 0, "mmum"},
       {"amplitude_is_gap", "", 0, "m"},
@@ -66,9 +65,8 @@ static void contacts(void **state)
 }
 
 /* 20 harmonics cannot draw a wall: what is in contact differs, or is unstable by the referee; what is not is exact. */
-static void curves(void **state)
+static void curves(CHECK_STATE)
 {
-  (void)state;
   static const verdicts list[] = {
       {"hard", "", 1, "mddumm"},
       {"overdamped", "", 0, "mmmm"},
@@ -86,9 +84,8 @@ static void curves(void **state)
 /* The orbit of 7.37 is on the curve from 3 to 30; a transient swept down says so. A curve that cannot turn round
  * says where it stopped, and agrees to nothing. A sweep too narrow for the fold sees one branch, as README says of
  * it; a fact about the sweep, not a disagreement. */
-static void a_branch_is_not_hidden(void **state)
+static void a_branch_is_not_hidden(CHECK_STATE)
 {
-  (void)state;
   static const verdicts list[] = {
       {"isolated", "", 0, "mum"},
       {"isolated", "--set transient.start=down", 0, "oum"},
@@ -107,17 +104,15 @@ static void a_branch_is_not_hidden(void **state)
 }
 
 /* The HBM solution at 5.3 is good, and unstable: nothing runs there. */
-static void chaos_is_not_agreed_with(void **state)
+static void chaos_is_not_agreed_with(CHECK_STATE)
 {
-  (void)state;
   static const verdicts list[] = {{"chaotic", "--at 5.3,6", 1, "am"}};
   CHECK_VERDICTS(list);
   expect("frf cases/adversarial/chaotic.yaml --at 5.3 -q --format csv 2>&1", 0, ",no,");
 }
 
-static void refusals(void **state)
+static void refusals(CHECK_STATE)
 {
-  (void)state;
   expect("compare cases/adversarial/one_point.yaml 2>&1", 2, "one_point.yaml:6:16: the sweep ends where it starts");
   expect("frf cases/adversarial/one_point.yaml 2>&1", 2, "--at");
   expect("compare cases/adversarial/fewest_samples.yaml -q --at 6,6.5 2>&1", 1, "aliasing");

@@ -10,9 +10,8 @@
 #include "base/number.h"
 #include "tests/cases/case_text.h"
 
-static void numbers_are_read_whole(void **state)
+static void numbers_are_read_whole(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *text;
     double value;
@@ -39,9 +38,8 @@ static void numbers_are_read_whole(void **state)
   }
 }
 
-static void what_is_no_number_says_why(void **state)
+static void what_is_no_number_says_why(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *text;
     number_fault fault;
@@ -94,9 +92,8 @@ static void what_is_no_number_says_why(void **state)
   assert_int_equal(number_read(long_text, sizeof long_text, &x), NUMBER_NONE);
 }
 
-static void integers_are_digits(void **state)
+static void integers_are_digits(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *text;
     number_fault fault;
@@ -122,9 +119,8 @@ static void integers_are_digits(void **state)
   }
 }
 
-static void written_numbers_come_back(void **state)
+static void written_numbers_come_back(CHECK_STATE)
 {
-  (void)state;
   char text[NUMBER_TEXT];
   assert_string_equal(number_write(0.1, text), "0.1");
   assert_string_equal(number_write(1e-9, text), "1e-9");
@@ -144,9 +140,8 @@ static void written_numbers_come_back(void **state)
 }
 
 /* Texts that end where a page ends, the next of which must not be read: a look at text[length] is a SIGSEGV. */
-static void nothing_is_read_beyond_the_end(void **state)
+static void nothing_is_read_beyond_the_end(CHECK_STATE)
 {
-  (void)state;
   static const char *const texts[] = {"5", "-", "+12", "1e5", "1.5", "1e", ".", "2147483648", "nan", "-inf", "x"};
   const size_t page = (size_t)sysconf(_SC_PAGESIZE);
   char *two = mmap(NULL, 2 * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -165,9 +160,8 @@ static void nothing_is_read_beyond_the_end(void **state)
   munmap(two, 2 * page);
 }
 
-static void errno_is_left_alone(void **state)
+static void errno_is_left_alone(CHECK_STATE)
 {
-  (void)state;
   double x;
   errno = 42;
   number_read("1e-310", 6, &x);

@@ -124,9 +124,8 @@ static void random_scene(scene *sc, uint64_t *s)
   if (sc->transient.method == TRANSIENT_METHOD_CLOSED_FORM) sc->transient.law = TRANSIENT_LAW_EXACT;
 }
 
-static void random_scenes_come_back_bit_for_bit(void **state)
+static void random_scenes_come_back_bit_for_bit(CHECK_STATE)
 {
-  (void)state;
   uint64_t s = 6;
   for (int i = 0; i < 2000; ++i) {
     scene sc;
@@ -135,9 +134,8 @@ static void random_scenes_come_back_bit_for_bit(void **state)
   }
 }
 
-static void frequencies_and_assignments_come_back_too(void **state)
+static void frequencies_and_assignments_come_back_too(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   accepted("oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\nsweep: {frequency: [0.1, 3.3]}\n",
            "title= \"x\\\" ", &sc);
@@ -148,9 +146,8 @@ static void frequencies_and_assignments_come_back_too(void **state)
   free(text);
 }
 
-static void what_is_no_scene_is_not_echoed(void **state)
+static void what_is_no_scene_is_not_echoed(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   accepted(SMALLEST, NULL, &sc);
   sc.hbm.force = 7;
@@ -160,9 +157,8 @@ static void what_is_no_scene_is_not_echoed(void **state)
   free(echoed(&sc, HC_BAD_INPUT));
 }
 
-static void the_papers_scenes_are_all_readable(void **state)
+static void the_papers_scenes_are_all_readable(CHECK_STATE)
 {
-  (void)state;
   const char *folder = SOURCE_DIR "/cases/paper";
   DIR *dir = opendir(folder);
   int n = 0;
@@ -185,9 +181,8 @@ static void the_papers_scenes_are_all_readable(void **state)
 }
 
 /* Against tests/reference/README.md: M, K, F0, kt, kn, gap. */
-static void reference_scenes_are_what_they_say(void **state)
+static void reference_scenes_are_what_they_say(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name;
     double mass, stiffness, force, kt, kn, gap;

@@ -3,9 +3,8 @@
 #include "casefile/fields.h"
 #include "tests/cases/case_text.h"
 
-static void defaults_pass_their_own_reader(void **state)
+static void defaults_pass_their_own_reader(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0, bad; i < field_count(); ++i) {
     const field *f = field_at(i);
     scene sc; /* larger than a scene_contact */
@@ -19,9 +18,8 @@ static void defaults_pass_their_own_reader(void **state)
   }
 }
 
-static void defaults_are_those_of_the_interface(void **state)
+static void defaults_are_those_of_the_interface(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   static const double harmonics[] = {1, 3, 5, 10}, samples[] = {32, 128, 512, 2048};
   accepted(SMALLEST, NULL, &sc);
@@ -47,9 +45,8 @@ static void defaults_are_those_of_the_interface(void **state)
               sc.gate.most.waveform == 5e-3);
 }
 
-static void rows_are_sound(void **state)
+static void rows_are_sound(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
     assert_ptr_equal(field_find(f->section, f->name, strlen(f->name)), f); /* unique */
@@ -86,9 +83,8 @@ static char *described(const char *name, hc_status expect, case_error *err)
   return text;
 }
 
-static void describe_mentions_every_field(void **state)
+static void describe_mentions_every_field(CHECK_STATE)
 {
-  (void)state;
   case_error err;
   char *all = described(NULL, HC_OK, &err), path[FIELD_PATH];
   for (const char *line = all; *line;) {
@@ -111,9 +107,8 @@ static void describe_mentions_every_field(void **state)
   free(all);
 }
 
-static void describe_finds_by_section_name_and_symbol(void **state)
+static void describe_finds_by_section_name_and_symbol(CHECK_STATE)
 {
-  (void)state;
   case_error err;
   char *text = described("gate", HC_OK, &err);
   assert_true(strstr(text, "waveform") && !strstr(text, "mass"));

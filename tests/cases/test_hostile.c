@@ -36,9 +36,8 @@ static void refuse_repeated(const char *head, const char *piece, const char *wor
   free(text);
 }
 
-static void megabytes_end_quickly(void **state)
+static void megabytes_end_quickly(CHECK_STATE)
 {
-  (void)state;
   refuse_repeated("", "[", "nested too deeply");
   refuse_repeated("", "{a: ", "nested too deeply");
   refuse_repeated("", "- ", "nested too deeply");
@@ -53,9 +52,8 @@ static void megabytes_end_quickly(void **state)
   refuse_repeated("title: ", "\xC3\xA9", "too long");
 }
 
-static void anything_larger_is_not_even_parsed(void **state)
+static void anything_larger_is_not_even_parsed(CHECK_STATE)
 {
-  (void)state;
   char *text = calloc(1, CASE_LARGEST + 1); /* NULs: the size is judged first */
   scene sc;
   case_error err;
@@ -69,9 +67,8 @@ static void anything_larger_is_not_even_parsed(void **state)
                       "/dev/zero: larger than 16 MB, expected a case file (a few kB; large matrices in files)");
 }
 
-static void what_is_no_file_is_an_io_error(void **state)
+static void what_is_no_file_is_an_io_error(CHECK_STATE)
 {
-  (void)state;
   scene sc, before;
   case_error err;
   memset(&sc, 0x5A, sizeof sc);
@@ -93,9 +90,8 @@ static void what_is_no_file_is_an_io_error(void **state)
   assert_memory_equal(&sc, &before, sizeof sc);
 }
 
-static void files_are_closed_again(void **state)
+static void files_are_closed_again(CHECK_STATE)
 {
-  (void)state;
   struct rlimit before, few;
   scene sc;
   case_error err;
@@ -110,9 +106,8 @@ static void files_are_closed_again(void **state)
   setrlimit(RLIMIT_NOFILE, &before);
 }
 
-static void input_is_never_echoed_raw(void **state)
+static void input_is_never_echoed_raw(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   case_error err;
   const char *set[] = {"hbm.samples=\033]0;x\007\n\x80\xC2\x85\xE2\x80\xAE"};
@@ -127,9 +122,8 @@ static void input_is_never_echoed_raw(void **state)
   check_message(&err);
 }
 
-static void long_messages_are_cut_between_characters(void **state)
+static void long_messages_are_cut_between_characters(CHECK_STATE)
 {
-  (void)state;
   static char name[4000], text[4000];
   scene sc;
   case_error err;
@@ -146,9 +140,8 @@ static void long_messages_are_cut_between_characters(void **state)
 }
 
 /* Two-byte characters into every size of buffer: terminated, whole, and "..." where something is missing. */
-static void small_buffers_are_never_overrun(void **state)
+static void small_buffers_are_never_overrun(CHECK_STATE)
 {
-  (void)state;
   static const char input[] = "\xC3\xA9\xC3\xA9\xC3\xA9\xC3\xA9\xC3\xA9\xC3\xA9";
   for (size_t size = 8; size < 20; ++size) {
     char *text = malloc(size); /* its end is the sanitizer's */
@@ -166,9 +159,8 @@ static void small_buffers_are_never_overrun(void **state)
 
 /* Bytes of a good case changed at random: it is read, or refused in one clean line; never anything else (sanitizers
  * watch). */
-static void mutants_are_read_or_refused(void **state)
+static void mutants_are_read_or_refused(CHECK_STATE)
 {
-  (void)state;
   static const char good[] = "title: \"T\"\n" SMALLEST "contacts:\n  - " CONTACT_1
                              "\nhbm: {harmonics: 3, samples: 64}\ncompare: {omega: [5, 6]}\n";
   static const char spice[] = "[]{}:,-?*&!|>'\"%@`#\n\t \\0159e.x~";

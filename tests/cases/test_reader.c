@@ -1,9 +1,8 @@
 /* test_reader.c - a case file read right, and every class of mistake with its exact position and words. */
 #include "tests/cases/case_text.h"
 
-static void everything_lands_where_it_belongs(void **state)
+static void everything_lands_where_it_belongs(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   accepted("title: T\n"
            "units: {length: mm, force: kN, time: ms}\n"
@@ -48,9 +47,8 @@ static void everything_lands_where_it_belongs(void **state)
               sc.gate.most.waveform == 4);
 }
 
-static void harmless_forms_are_read(void **state)
+static void harmless_forms_are_read(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   accepted("\xEF\xBB\xBF%YAML 1.1\n---\n" SMALLEST "...\n", NULL, &sc);
   accepted("# note\r\nforcing: {amplitude: +5}\r\noscillator:\r\n  mass: 1\r\n  damping: 0\r\n  stiffness: 1\r\nsweep: "
@@ -69,9 +67,8 @@ static void harmless_forms_are_read(void **state)
 }
 
 /* omega = 2 pi f, one rounding in the constant and one in the product */
-static void frequency_becomes_omega(void **state)
+static void frequency_becomes_omega(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   accepted(
       "oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\nsweep: {frequency: [0.5, 3.25]}\n",
@@ -235,9 +232,8 @@ static const mistake whole[] = {
      "f:4:10: ", "the sweep ends where it starts"},
 };
 
-static void mistakes_are_named_where_they_stand(void **state)
+static void mistakes_are_named_where_they_stand(CHECK_STATE)
 {
-  (void)state;
   char text[1024];
   for (size_t i = 0; i < sizeof extra / sizeof *extra; ++i) {
     snprintf(text, sizeof text, SMALLEST "%s\n", extra[i].text);
@@ -246,9 +242,8 @@ static void mistakes_are_named_where_they_stand(void **state)
   for (size_t i = 0; i < sizeof whole / sizeof *whole; ++i) refused(whole[i].text, NULL, whole[i].at, whole[i].words);
 }
 
-static void too_many_are_refused(void **state)
+static void too_many_are_refused(CHECK_STATE)
 {
-  (void)state;
   static char text[1 << 15];
   size_t n = (size_t)snprintf(text, sizeof text, "%scontacts:\n", SMALLEST);
   for (int i = 0; i < SCENE_MAX_CONTACTS; ++i) n += (size_t)snprintf(text + n, sizeof text - n, "  - %s\n", CONTACT_1);

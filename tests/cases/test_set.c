@@ -3,9 +3,8 @@
 
 #define ONE SMALLEST "contacts: [" CONTACT_1 "]\n"
 
-static void every_kind_can_be_set(void **state)
+static void every_kind_can_be_set(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   accepted(ONE, "oscillator.mass=2.5", &sc);
   assert_true(sc.mass == 2.5);
@@ -23,9 +22,8 @@ static void every_kind_can_be_set(void **state)
   assert_string_equal(sc.title, "");
 }
 
-static void lists_with_or_without_brackets(void **state)
+static void lists_with_or_without_brackets(CHECK_STATE)
 {
-  (void)state;
   static const char *const forms[] = {"compare.harmonics=[1,3,5]", "compare.harmonics=1,3,5",
                                       "compare.harmonics= [ 1 , 3, 5 ] "};
   scene sc;
@@ -41,9 +39,8 @@ static void lists_with_or_without_brackets(void **state)
   assert_true(sc.compare.omega.n == 1 && sc.compare.omega.v[0] == 5);
 }
 
-static void contacts_are_reached_replaced_and_appended(void **state)
+static void contacts_are_reached_replaced_and_appended(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   accepted(ONE, "contacts[0].gap=-1", &sc);
   assert_true(sc.contacts[0].law.gap == -1 && sc.contacts[0].law.kt == 100);
@@ -58,9 +55,8 @@ static void contacts_are_reached_replaced_and_appended(void **state)
   assert_int_equal(sc.n_contacts, 3);
 }
 
-static void a_contact_may_be_appended_field_by_field(void **state)
+static void a_contact_may_be_appended_field_by_field(CHECK_STATE)
 {
-  (void)state;
   const char *set[] = {"contacts[0].tangential_stiffness=1", "contacts[0].normal_stiffness=2", "contacts[0].friction=0",
                        "contacts[0].angle_deg=0"};
   scene sc;
@@ -74,9 +70,8 @@ static void a_contact_may_be_appended_field_by_field(void **state)
                       "contacts[0].angle_deg=VALUE too: a number 0..90");
 }
 
-static void later_ones_win_and_rivals_give_way(void **state)
+static void later_ones_win_and_rivals_give_way(CHECK_STATE)
 {
-  (void)state;
   const char *set[] = {"sweep.frequency=1,2", "sweep.omega=4,5", "compare.points=9", "compare.omega=7",
                        "compare.points=11",   "hbm.samples=8",   "hbm.samples=64"};
   scene sc;
@@ -93,9 +88,8 @@ static void later_ones_win_and_rivals_give_way(void **state)
   assert_true(sc.compare.omega.n == 0 && sc.compare.points == 11 && sc.hbm.samples == 64);
 }
 
-static void mistakes_name_the_assignment(void **state)
+static void mistakes_name_the_assignment(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *set, *message;
   } all[] = {
@@ -157,9 +151,8 @@ static void mistakes_name_the_assignment(void **state)
 }
 
 /* The samples came from the file, the harmonics from the assignment: it is the assignment that broke it. */
-static void the_one_given_last_is_blamed(void **state)
+static void the_one_given_last_is_blamed(CHECK_STATE)
 {
-  (void)state;
   refused(SMALLEST "hbm: {samples: 16, force: sampled}\n", "hbm.harmonics=8",
           "--set hbm.harmonics=8: 16 samples cannot tell 8 harmonics apart", "");
   refused(SMALLEST "hbm: {samples: 9, force: sampled}\n", "oscillator.mass=8", "f:4:16: 9 samples", "");
@@ -174,16 +167,14 @@ static void the_one_given_last_is_blamed(void **state)
   assert_int_equal(strncmp(err.message, "--set hbm.harmonics=5: 9 samples", 32), 0);
 }
 
-static void a_wrong_file_is_not_mended_by_assignments(void **state)
+static void a_wrong_file_is_not_mended_by_assignments(CHECK_STATE)
 {
-  (void)state;
   refused("oscillator: {mass: 0, damping: 0, stiffness: 1}\n", "oscillator.mass=1",
           "f:1:20: ", "oscillator.mass is `0`");
 }
 
-static void sixteen_contacts_and_no_more(void **state)
+static void sixteen_contacts_and_no_more(CHECK_STATE)
 {
-  (void)state;
   char set[17][128];
   const char *list[17];
   scene sc;

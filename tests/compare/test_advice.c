@@ -12,9 +12,8 @@ static void check(const char *text, const char *advised, bool so_already, int fa
   if (so_already && strstr(text, advised)) fail_msg("%s: '%s' is so already", hc_status_text((hc_status)failure), text);
 }
 
-static void hbm_is_never_advised_what_it_has(void **state)
+static void hbm_is_never_advised_what_it_has(CHECK_STATE)
 {
-  (void)state;
   char text[ADVICE_TEXT];
   for (int failure = HC_OK; failure <= HC_BUG; ++failure)
     for (int i = 0; i < 4 * 2 * 2; ++i) {
@@ -32,9 +31,8 @@ static void hbm_is_never_advised_what_it_has(void **state)
     }
 }
 
-static void the_transient_is_never_advised_what_it_has(void **state)
+static void the_transient_is_never_advised_what_it_has(CHECK_STATE)
 {
-  (void)state;
   char text[ADVICE_TEXT];
   for (int failure = HC_OK; failure <= HC_BUG; ++failure)
     for (int i = 0; i < 2 * 3 * 4 * 2; ++i) {
@@ -56,9 +54,8 @@ static void the_transient_is_never_advised_what_it_has(void **state)
     }
 }
 
-static void advice_is_a_sentence(void **state)
+static void advice_is_a_sentence(CHECK_STATE)
 {
-  (void)state;
   char text[ADVICE_TEXT];
   hbm_settings hbm = {.continuation = HBM_CONTINUATION_NATURAL, .force = HBM_FORCE_SAMPLED, .tolerance = 1e-10};
   assert_string_equal(advice_for_hbm(&hbm, HC_NOT_CONVERGED, text),
@@ -86,9 +83,8 @@ static void expect_remedy(const compare_setup *setup, int n_harm, budget_parts p
   assert_string_equal(said ? said + 2 : "", remedy);
 }
 
-static void budgets_are_never_advised_what_is_set(void **state)
+static void budgets_are_never_advised_what_is_set(CHECK_STATE)
 {
-  (void)state;
   compare_setup setup = {.hbm = {.harmonics = 5, .keep_mean = true, .accuracy = 1e-4},
                          .transient = {.tolerance = 1e-9}};
   /* the largest part alone is within the goal, the sum is not: 5 harmonics are no advice to one who has them */

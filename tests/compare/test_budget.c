@@ -93,9 +93,8 @@ static tally run_all(const variant *v)
 }
 
 /* Exact forces, exact law: truncation alone is larger than 1e-9, so there is nothing it could cancel with. */
-static void one_cause_is_accounted_for_in_full(void **state)
+static void one_cause_is_accounted_for_in_full(CHECK_STATE)
 {
-  (void)state;
   tally t = run_all(&(variant){"exact forces, exact law", HBM_FORCE_EXACT, 1024, TRANSIENT_LAW_EXACT, 8});
   assert_true(t.large > 20);
   assert_int_equal(t.known, t.rows);
@@ -105,9 +104,8 @@ static void one_cause_is_accounted_for_in_full(void **state)
 /* The fraction within a factor 3 is what it is: a cancellation is a matter of chance. More than a factor 3 takes two
  * parts that agree to half their size with opposite signs, (a + b)/|a - b| > 3: one in three of random sign and size
  * at most. */
-static void two_causes_may_cancel_but_seldom(void **state)
+static void two_causes_may_cancel_but_seldom(CHECK_STATE)
 {
-  (void)state;
   const variant all[] = {{"N = 64, exact law", HBM_FORCE_SAMPLED, 64, TRANSIENT_LAW_EXACT, 8},
                          {"N = 1024, exact law", HBM_FORCE_SAMPLED, 1024, TRANSIENT_LAW_EXACT, 8},
                          {"exact forces, regularised law", HBM_FORCE_EXACT, 1024, TRANSIENT_LAW_REGULARISED, 8},
@@ -154,27 +152,24 @@ static scene known_scene(int n_harm)
   return sc;
 }
 
-static void fewer_samples_are_aliasing(void **state)
+static void fewer_samples_are_aliasing(CHECK_STATE)
 {
-  (void)state;
   scene sc = known_scene(20);
   sc.hbm.force = HBM_FORCE_SAMPLED;
   sc.hbm.samples = 48;
   expect_cause("aliasing", &sc, 1e-4);
 }
 
-static void fewer_harmonics_are_truncation(void **state)
+static void fewer_harmonics_are_truncation(CHECK_STATE)
 {
-  (void)state;
   scene sc = known_scene(3);
   sc.hbm.force = HBM_FORCE_SAMPLED;
   sc.hbm.samples = 8192;
   expect_cause("truncation", &sc, 1e-5);
 }
 
-static void more_regularisation_is_regularisation(void **state)
+static void more_regularisation_is_regularisation(CHECK_STATE)
 {
-  (void)state;
   scene sc = known_scene(20);
   sc.transient.law = TRANSIENT_LAW_REGULARISED;
   sc.transient.regularisation = 1e-2;
@@ -186,9 +181,8 @@ static void more_regularisation_is_regularisation(void **state)
 /* The exact law with loose steps, against the same with fine ones, whose own error is 1e-12: its tolerance 1e-9 is a
  * millionth of the loose one, which is off by 2e-6 and less. Rounding of the amplitudes, 1e-15, is nothing beside. What
  * Newton leaves of the distance to the loose orbit, at the most the tolerance, is `settling` and not counted twice. */
-static void integration_is_the_distance_to_fine_steps(void **state)
+static void integration_is_the_distance_to_fine_steps(CHECK_STATE)
 {
-  (void)state;
   scene sc = known_scene(20);
   comparison loose, fine;
   int seen = 0, settled = 0;
@@ -218,9 +212,8 @@ static void integration_is_the_distance_to_fine_steps(void **state)
 
 /* Waiting with a loose tolerance: CVODE's steps and the distance left are the error, and H = 40 leaves 1e-6 for the
  * rest. */
-static void a_loose_tolerance_is_integration_or_settling(void **state)
+static void a_loose_tolerance_is_integration_or_settling(CHECK_STATE)
 {
-  (void)state;
   scene sc = known_scene(40);
   comparison c;
   int seen = 0;
@@ -242,9 +235,8 @@ static void a_loose_tolerance_is_integration_or_settling(void **state)
   comparison_clear(&c);
 }
 
-static void advice_names_cause_and_remedy(void **state)
+static void advice_names_cause_and_remedy(CHECK_STATE)
 {
-  (void)state;
   scene sc = known_scene(3);
   compare_setup setup;
   char text[BUDGET_TEXT];

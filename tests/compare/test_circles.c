@@ -21,9 +21,8 @@ static void compare(const char *name, const char *const set[SETTINGS], scene *sc
 }
 
 /* With 15 harmonics nothing of four frequencies, creep, slip round, lift-off, is beyond a thousandth. */
-static void all_rows_match(void **state)
+static void all_rows_match(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name;
     int responses;
@@ -59,9 +58,8 @@ static void expect_advice(const scene *sc, const error_budget *b, const char *ex
 
 /* 32 samples a period miss where slip begins and ends: what is off is aliasing, which is said, with what helps.
  * Nothing else of the difference is a hundredth of that: 15 harmonics suffice (above), the transient is exact. */
-static void too_few_samples_are_named(void **state)
+static void too_few_samples_are_named(CHECK_STATE)
 {
-  (void)state;
   static const char *const set[SETTINGS] = {"hbm.harmonics=15", "hbm.force=sampled", "hbm.samples=32",
                                             "transient.law=exact"};
   scene sc;
@@ -83,9 +81,8 @@ static void too_few_samples_are_named(void **state)
 }
 
 /* e(rho) = a rho + b rho^2 + ...: half the parameter leaves half of the error, and e(rho)/e(rho/2) tends to 2. */
-static void the_regularisation_is_of_first_order(void **state)
+static void the_regularisation_is_of_first_order(CHECK_STATE)
 {
-  (void)state;
   enum { STEPS = 3, MOST_ROWS = 8 };
   static const char *const steps[STEPS] = {"transient.regularisation=4e-3", "transient.regularisation=2e-3",
                                            "transient.regularisation=1e-3"};
@@ -120,9 +117,8 @@ static bool never_falls_back(void *self, double done)
 }
 
 /* The curve first, then the frequencies: what is done is a part of all of it. */
-static void progress_goes_on_from_the_curve(void **state)
+static void progress_goes_on_from_the_curve(CHECK_STATE)
 {
-  (void)state;
   static const char *const set[] = {"compare.omega=[10.5]", "transient.law=exact", "transient.method=closed_form"};
   char path[] = SOURCE_DIR "/cases/structures/plane.yaml";
   scene sc;

@@ -21,9 +21,8 @@ static void slipping(contact_comparison c[2])
 }
 
 /* Relative to the largest work of either side, which is contact 0's: 0.02 of 2. */
-static void work_is_measured_by_the_largest(void **state)
+static void work_is_measured_by_the_largest(CHECK_STATE)
 {
-  (void)state;
   contact_comparison c[2];
   slipping(c);
   c[1].hbm.work = 1.02;
@@ -41,9 +40,8 @@ static void work_is_measured_by_the_largest(void **state)
 }
 
 /* 1e-6 of T^2/kt = 0.4: less than that is no work, and a slip of so little no disagreement. */
-static void a_graze_is_no_disagreement(void **state)
+static void a_graze_is_no_disagreement(CHECK_STATE)
 {
-  (void)state;
   contact_comparison c[2];
   slipping(c);
   for (int j = 0; j < 2; ++j) c[j].hbm.work = c[j].transient.work = 0, c[j].hbm.regime = CONTACT_STUCK;
@@ -56,9 +54,8 @@ static void a_graze_is_no_disagreement(void **state)
   assert_true(c[0].differs && !c[1].differs);
 }
 
-static void normal_forces_count_unless_a_slider_is_free(void **state)
+static void normal_forces_count_unless_a_slider_is_free(CHECK_STATE)
 {
-  (void)state;
   contact_comparison c[2];
   slipping(c);
   c[0].hbm.normal_min = 4.08;
@@ -69,9 +66,8 @@ static void normal_forces_count_unless_a_slider_is_free(void **state)
   assert_true(isnan(c[0].normal_error) && !c[0].differs);
 }
 
-static void to_touch_or_not_is_a_difference(void **state)
+static void to_touch_or_not_is_a_difference(CHECK_STATE)
 {
-  (void)state;
   contact_comparison c[2];
   slipping(c);
   c[0].hbm = (contact_period){.regime = CONTACT_LINEAR};
@@ -115,9 +111,8 @@ static void errors_of(const char *name, const char *at, const char *harmonics, d
 /* Two programs with nothing in common but the law: forces with a kink give motions off by H^-3, and work, an integral
  * over the motion, with it: by (31/7)^3 = 87 from H = 7 to 31. N is linear
  * in the motion where it is least. A thousandth of transient.tolerance is what CVODE leaves. */
-static void both_sides_meet_with_the_harmonics(void **state)
+static void both_sides_meet_with_the_harmonics(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name, *at;
   } cases[] = {{"structures/wedge_F2", "compare.omega=[35]"},

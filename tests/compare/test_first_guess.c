@@ -49,9 +49,8 @@ static hbm_solver *plain(const scene *sc)
   return s;
 }
 
-static void not_asked_where_the_linear_response_will_do(void **state)
+static void not_asked_where_the_linear_response_will_do(CHECK_STATE)
 {
-  (void)state;
   oracle o = {.answer = HC_BUG};
   double X[64];
   hbm_point point;
@@ -85,9 +84,8 @@ static double hard_omega(void)
   return 0;
 }
 
-static void refusals_lead_to_ramps_or_out(void **state)
+static void refusals_lead_to_ramps_or_out(CHECK_STATE)
 {
-  (void)state;
   const scene sc = impacts();
   const double omega = hard_omega();
   static const hc_status answers[] = {HC_NOT_SETTLED, HC_NOT_CONVERGED, HC_CHATTER, HC_NO_MEMORY};
@@ -106,9 +104,8 @@ static void refusals_lead_to_ramps_or_out(void **state)
 }
 
 /* A guess that is a solution is where Newton stays. */
-static void a_guess_is_where_newton_begins(void **state)
+static void a_guess_is_where_newton_begins(CHECK_STATE)
 {
-  (void)state;
   const scene sc = impacts();
   const double omega = hard_omega();
   oracle o = {.answer = HC_NOT_SETTLED};
@@ -128,9 +125,8 @@ static void a_guess_is_where_newton_begins(void **state)
 
 /* The guess of compare/: a solution of harmonic balance, near the motion from rest, with fewer systems to solve than a
  * ramp takes. */
-static void the_motion_from_rest_is_a_guess(void **state)
+static void the_motion_from_rest_is_a_guess(CHECK_STATE)
 {
-  (void)state;
   const scene sc = impacts();
   int solved = 0, cheaper = 0;
   for (double omega = 3; omega < 30; omega += 0.25) {
@@ -177,9 +173,8 @@ static model *halves(const scene *sc)
   return m;
 }
 
-static void a_structure_is_guessed_whole(void **state)
+static void a_structure_is_guessed_whole(CHECK_STATE)
 {
-  (void)state;
   const scene sc = impacts();
   model *m = halves(&sc);
   int solved = 0, cheaper = 0;

@@ -31,9 +31,8 @@ static int reported(const comparison *c)
 
 /* The exact law: one period of CVODE's for each orbit, and that only once: the referee is the transient, a second
  * solution's motion goes to the first's orbit. The unstable solutions have orbits of their own beside them. */
-static void exact_law(void **state)
+static void exact_law(CHECK_STATE)
 {
-  (void)state;
   static const char *const exact[] = {"transient.law=exact"};
   comparison c = compared(1, exact, true);
   assert_int_equal(reported(&c), ROWS - LINEAR - AT_ANOTHER);
@@ -43,9 +42,8 @@ static void exact_law(void **state)
 
 /* The regularised law: at most three periods an orbit, one or two for the prediction, one for the exact law's orbit
  * beside. */
-static void regularised_law(void **state)
+static void regularised_law(CHECK_STATE)
 {
-  (void)state;
   comparison c = compared(0, NULL, true);
   const int orbits = ROWS - LINEAR - AT_ANOTHER;
   CHECK_LE(reported(&c), 3 * orbits, "transients");
@@ -55,9 +53,8 @@ static void regularised_law(void **state)
 }
 
 /* What csv shows in addition: the same orbits with finer steps, two periods each. */
-static void finer_steps_only_where_shown(void **state)
+static void finer_steps_only_where_shown(CHECK_STATE)
 {
-  (void)state;
   comparison spare = compared(0, NULL, true), full = compared(0, NULL, false);
   const int orbits = ROWS - LINEAR - AT_ANOTHER;
   CHECK_LE(spare.cost.periods + orbits, full.cost.periods, "finer steps");
@@ -74,9 +71,8 @@ static void finer_steps_only_where_shown(void **state)
 }
 
 /* HBM: the curve, and what lies between its points; nothing for budgets and verdicts. */
-static void systems_solved(void **state)
+static void systems_solved(CHECK_STATE)
 {
-  (void)state;
   comparison c = compared(0, NULL, false);
   CHECK_LE(c.cost.hbm_solves, c.curve.n + c.curve.rejected + 12 * ROWS, "Newton solves");
   print_message("case 2: %ld HBM solves, %d points, %d rejected; %ld periods by CVODE, %ld in closed form\n",

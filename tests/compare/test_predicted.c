@@ -72,9 +72,8 @@ static bool on_one_orbit(const comparison_row *r)
 }
 
 /* HBM's own prediction, without a stub: three times of it holds what is found, and is no more than what is needed. */
-static void hbm_predicts_what_is_found(void **state)
+static void hbm_predicts_what_is_found(CHECK_STATE)
 {
-  (void)state;
   comparison c;
   int visible = 0;
   stub.told = false;
@@ -95,9 +94,8 @@ static void hbm_predicts_what_is_found(void **state)
 }
 
 /* Each is relative to its own motion's amplitude. */
-static void predictions_are_relative_to_their_own_amplitude(void **state)
+static void predictions_are_relative_to_their_own_amplitude(CHECK_STATE)
 {
-  (void)state;
   comparison c;
   tell(0.5, 0.25);
   stub.hbm.harmonic_1 = 0.125, stub.hbm.waveform = 2, stub.transient.waveform = 4;
@@ -114,9 +112,8 @@ static void predictions_are_relative_to_their_own_amplitude(void **state)
 }
 
 /* A disagreement on purpose: both are sure of themselves, and HBM keeps 3 harmonics. Verdicts stay what they are. */
-static void a_disagreement_beyond_both_is_unexpected(void **state)
+static void a_disagreement_beyond_both_is_unexpected(CHECK_STATE)
 {
-  (void)state;
   comparison plain, sure, modest;
   int unexpected = 0;
   stub.told = false;
@@ -142,9 +139,8 @@ static void a_disagreement_beyond_both_is_unexpected(void **state)
 }
 
 /* observed > 3 (h + t), of the amplitude or of the waveform; of no other verdict, and not where one is not known. */
-static void the_rule(void **state)
+static void the_rule(CHECK_STATE)
 {
-  (void)state;
   const comparison_row even = {.verdict = VERDICT_MATCH,
                                .transient = {.period_multiple = 1},
                                .errors = {.amplitude = 3, .harmonic_1 = 100, .mean = 100, .waveform = 6},
@@ -200,9 +196,8 @@ static void expect(const char *text, const char *fragment, bool there)
 #define UNEXPECTED                                                                                                     \
   "is above what both predicted (HBM 1.2e-07, transient 1.2e-07): something is wrong that neither expected"
 
-static void the_command_says_so(void **state)
+static void the_command_says_so(CHECK_STATE)
 {
-  (void)state;
   tell(1e-6, 1e-6);
   outcome *o = said(COMPARE);
   const int code = o->code;
@@ -229,9 +224,8 @@ static void the_command_says_so(void **state)
 /* Nothing is stubbed: HBM's damping is off by 1e-4, the time integration's is not. Both are sure of themselves, with 60
  * harmonics to 1e-6 and better, and each is right about its own equations. At resonance the amplitude changes like the
  * damping. */
-static void a_damping_off_on_one_side_is_unexpected(void **state)
+static void a_damping_off_on_one_side_is_unexpected(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_named("c2", 60, true, 1024);
   sc.hbm.force = HBM_FORCE_EXACT;
   sc.transient = (transient_settings){

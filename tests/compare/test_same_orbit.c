@@ -11,9 +11,8 @@ static timeint_result settled(void)
 }
 
 /* budget.h: a twentieth of the amplitude, 0.1 here, at any one instant. 1 % on either side of it. */
-static void a_twentieth_of_the_amplitude_apart(void **state)
+static void a_twentieth_of_the_amplitude_apart(CHECK_STATE)
 {
-  (void)state;
   const timeint_result a = settled();
   timeint_result b = a;
   assert_true(budget_same_orbit(&a, &b));
@@ -26,9 +25,8 @@ static void a_twentieth_of_the_amplitude_apart(void **state)
 }
 
 /* A slider that rests elsewhere moves the mean, and nothing else. */
-static void a_free_mean_is_no_other_orbit(void **state)
+static void a_free_mean_is_no_other_orbit(CHECK_STATE)
 {
-  (void)state;
   const timeint_result a = settled();
   timeint_result b = a;
   for (int i = 0; i < TIMEINT_WAVE; ++i) b.wave[i] += 1;
@@ -39,9 +37,8 @@ static void a_free_mean_is_no_other_orbit(void **state)
 }
 
 /* A stable orbit and an unstable one, or one of another period, are two, however near. Of unknown stability: one. */
-static void stability_and_period_tell_orbits_apart(void **state)
+static void stability_and_period_tell_orbits_apart(CHECK_STATE)
 {
-  (void)state;
   const timeint_result a = settled();
   timeint_result b = a;
   b.multiplier = 1.5;
@@ -54,9 +51,8 @@ static void stability_and_period_tell_orbits_apart(void **state)
 }
 
 /* The relative difference of amplitudes, of the same orbit only. */
-static void regularisation_is_of_one_orbit(void **state)
+static void regularisation_is_of_one_orbit(CHECK_STATE)
 {
-  (void)state;
   const timeint_result orbit = settled();
   timeint_result regularised = orbit;
   regularised.amplitude = 1.75;

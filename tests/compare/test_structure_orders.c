@@ -86,9 +86,8 @@ static void check_order(const char *name, const double *error)
   CHECK_NEAR(slope, -3, 4 * own + next_term, "%s: scatter of the slope %g", name, own);
 }
 
-static void harmonics_tend_to_the_transient(void **state)
+static void harmonics_tend_to_the_transient(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name;
     double from, to; /* all contacts slip or open there, and there is one solution */
@@ -124,9 +123,8 @@ static double apart(const model *m, const timeint_result *a, const timeint_resul
 /* None of these returns to contact in stick, so that the law is of the second order in its parameter
  * (timeint.regularisation): e(h) = c h^2 (1 + O(h)), O(h) some percent at 1e-2, and CVODE's scatter at tolerance 1e-10
  * stays below 1e-9. At 1e-5 nothing but that scatter is left. */
-static void the_three_meet(void **state)
+static void the_three_meet(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name;
     double omega;

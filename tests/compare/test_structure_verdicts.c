@@ -138,9 +138,8 @@ static void check_case(const struct expected *e)
   case_clear(&sc);
 }
 
-static void verdicts_hold(void **state)
+static void verdicts_hold(CHECK_STATE)
 {
-  (void)state;
   for (size_t i = 0; i < sizeof expected / sizeof *expected; ++i) check_case(&expected[i]);
 }
 

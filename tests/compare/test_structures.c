@@ -43,9 +43,8 @@ static bool on_one_orbit(const comparison_row *r)
 /* In every response what is observed is within three times what both sides expected, and what they expected within
  * thirty times of what is observed (of the waveform, which cannot agree by chance), for all but a row in ten of those
  * that a contact makes err at all. */
-static void every_response_predicts_its_error(void **state)
+static void every_response_predicts_its_error(CHECK_STATE)
 {
-  (void)state;
   static const char *const names[] = {"jenkins2", "chain3", "wedge_F2", "wedge_F20", "tangent_normal_F100"};
   static const char *const orders[] = {"hbm.harmonics=3", "hbm.harmonics=9"};
   int rows = 0, others = 0, pessimistic = 0, nonlinear = 0;
@@ -127,9 +126,8 @@ static void swapped_in_the_loads(model *m) { swap_vectors(1, &m->loads[0].cosine
 
 static void swapped_in_the_responses(model *m) { swap_vectors(m->n, m->responses + m->n, m->responses + 2 * m->n); }
 
-static void a_mistake_on_one_side_is_seen(void **state)
+static void a_mistake_on_one_side_is_seen(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *what;
     void (*made)(model *m);

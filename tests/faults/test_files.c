@@ -8,9 +8,8 @@
 /* Nothing written beside another file is left. */
 #define CLEAN " ; c=$?; ls -a | grep -q '^[.]hbmcheck-' && exit 99; exit $c"
 
-static void full_disk(void **state)
+static void full_disk(CHECK_STATE)
 {
-  (void)state;
   if (access("/dev/full", W_OK) != 0) skip();
   expect("$H frf small.yaml -q 2>&1 >/dev/full", 3, "standard output: No space left");
   expect("$H frf small.yaml -q -o /dev/full 2>&1", 3, "/dev/full: No space left");
@@ -32,18 +31,16 @@ static void full_disk(void **state)
 
 /* A limit on the size of files, the signal for it ignored, is a disk that fills up in the middle. */
 #define LIMITED "trap '' XFSZ; ulimit -f 1; "
-static void disk_fills_up(void **state)
+static void disk_fills_up(CHECK_STATE)
 {
-  (void)state;
   expect("echo before >old; (" LIMITED "$H describe -q -o old 2>&1)" CLEAN, 3, "");
   expect("cat old", 0, "before\n");
   expect("(" LIMITED "$H study study.yaml -q --results limited.sqlite 2>&1)", 2, "limited.sqlite");
   expect("$H study study.yaml -q --results limited.sqlite 2>&1", 0, "limited.sqlite");
 }
 
-static void wrong_places(void **state)
+static void wrong_places(CHECK_STATE)
 {
-  (void)state;
   expect("mkdir -p there; $H frf small.yaml -q -o there 2>&1" CLEAN, 3, "there: Is a directory");
   expect("$H frf small.yaml -q -o missing/out 2>&1", 3, "missing/out: No such file");
   expect("$H frf small.yaml -q -o /proc/hbmcheck-out 2>&1", 3, "/proc/hbmcheck-out: ");
@@ -58,9 +55,8 @@ static void wrong_places(void **state)
 
 /* With SIGPIPE as it is by default and ignored; where the reader leaves at once there may be nothing to say, but
  * never a signal. */
-static void closed_pipe(void **state)
+static void closed_pipe(CHECK_STATE)
 {
-  (void)state;
   expect("{ $H describe 2>err; echo $? >code; } | true; cat code err", 0, "");
   expect(UNREAD "$H describe 2>err >&3; echo $?; cat err", 0, "3\nhbmcheck describe: ");
   expect(UNREAD "$H frf small.yaml -q --format csv 2>err >&3; echo $?; cat err", 0,
@@ -72,9 +68,8 @@ static void closed_pipe(void **state)
 
 /* ---- results of a study ---- */
 
-static void damaged_results(void **state)
+static void damaged_results(CHECK_STATE)
 {
-  (void)state;
   expect("$H study study.yaml -q --results good.sqlite 2>&1", 0, "good.sqlite");
   /* as a crash before the first write leaves it */
   expect(": >empty.sqlite; $H study study.yaml -q --results empty.sqlite", 0, "empty.sqlite");
@@ -95,9 +90,8 @@ static void damaged_results(void **state)
          "precious\n");
 }
 
-static void changed_study(void **state)
+static void changed_study(CHECK_STATE)
 {
-  (void)state;
   expect("sed 's/\\[2, 3\\]/[2, 3, 4]/' study.yaml >changed.yaml; $H study changed.yaml -q --results good.sqlite 2>&1",
          2, "good.sqlite: results of another study, or of this one before it was changed");
   expect("$H study study.yaml -q --results good.sqlite --set forcing.amplitude=21 2>&1", 2,
@@ -108,9 +102,8 @@ static void changed_study(void **state)
 
 /* Held by another process for longer than we are ready to wait for the file's lock; the scenes are kept when it lets
  * go. */
-static void locked_results(void **state)
+static void locked_results(CHECK_STATE)
 {
-  (void)state;
   expect("flock good.sqlite sh -c '$H study study.yaml -q --results good.sqlite 2>&1'", 2,
          "good.sqlite: another hbmcheck is writing these results");
 }

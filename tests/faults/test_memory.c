@@ -126,9 +126,8 @@ static void try_one(const char *line, bool timed)
 
 static void try(const char *line) { try_one(line, false); }
 
-static void frf(void **state)
+static void frf(CHECK_STATE)
 {
-  (void)state;
   try("frf small.yaml -q -o result");
   try("frf small.yaml -q -o result --format json --at 6.3 --set hbm.harmonics=2 --set hbm.force=sampled --set "
       "hbm.samples=16");
@@ -137,9 +136,8 @@ static void frf(void **state)
 }
 
 /* A curve's first point from a ramp: the linear response is no guess there (tests/hbm/test_first_solution.c). */
-static void first_point_from_a_ramp(void **state)
+static void first_point_from_a_ramp(CHECK_STATE)
 {
-  (void)state;
   small_file(
       "ramp.yaml",
       "{oscillator: {mass: 1.8113, damping: 0, stiffness: 178.109}, forcing: {amplitude: 2.48831e-5},\n"
@@ -152,17 +150,15 @@ static void first_point_from_a_ramp(void **state)
   unlink("ramp.yaml");
 }
 
-static void transient(void **state)
+static void transient(CHECK_STATE)
 {
-  (void)state;
   try("transient small.yaml -q -o result");
   try("transient small.yaml -q -o result --format csv --set transient.law=exact --set transient.start=rest");
   try("transient small.yaml -q -o result --format json --set transient.law=exact --set transient.start=up");
 }
 
-static void compare(void **state)
+static void compare(CHECK_STATE)
 {
-  (void)state;
   try("compare small.yaml -q -o result --set transient.law=exact");
   try_one("compare small.yaml -q -o result --format json --tables --set transient.law=exact --harmonics 1 --samples 16",
           true);
@@ -171,36 +167,28 @@ static void compare(void **state)
       "transient.law=exact --set transient.start=rest");
 }
 
-static void contact_force(void **state)
-{
-  (void)state;
-  try("contact small.yaml -q -o result --motion 0,1,0 --samples 16");
-}
+static void contact_force(CHECK_STATE) { try("contact small.yaml -q -o result --motion 0,1,0 --samples 16"); }
 
-static void gate(void **state)
+static void gate(CHECK_STATE)
 {
-  (void)state;
   try("gate small.yaml -q -o result --set transient.law=exact");
   try("gate small.yaml -q -o /dev/null --junit result --set transient.law=exact");
 }
 
-static void study(void **state)
+static void study(CHECK_STATE)
 {
-  (void)state;
   try("study study.yaml -q --jobs 1 --results :memory: --export csv -o result");
   try("study study.yaml -q --jobs 1 --results :memory: --export json -o result");
 }
 
-static void verify(void **state)
+static void verify(CHECK_STATE)
 {
-  (void)state;
   try("verify small.yaml -q --against curve.csv --columns omega=omega,amplitude=amplitude -o result --set "
       "transient.law=exact");
 }
 
-static void describe(void **state)
+static void describe(CHECK_STATE)
 {
-  (void)state;
   try("describe -o result");
   try("describe hbm.samples -q -o result");
 }

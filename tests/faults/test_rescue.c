@@ -55,9 +55,8 @@ static int lines_of(const char *text)
 }
 
 /* The header and the rows before the stalled one are those of the whole table. */
-static void rows_found_before_are_written(void **state)
+static void rows_found_before_are_written(CHECK_STATE)
 {
-  (void)state;
   run(LINE, INFINITY, &whole);
   assert_int_equal(whole.code, 0);
   assert_int_equal(lines_of(rows_of(whole.out)), 1 + 3);
@@ -73,9 +72,8 @@ static void rows_found_before_are_written(void **state)
   }
 }
 
-static void the_table_says_that_it_is_not_whole(void **state)
+static void the_table_says_that_it_is_not_whole(CHECK_STATE)
 {
-  (void)state;
   run("compare small.yaml -q --contacts -o result --set compare.omega=6.2,6.4,6.6", 6.3, &stopped);
   static char text[1 << 14];
   FILE *from = fopen("result", "r");
@@ -87,9 +85,8 @@ static void the_table_says_that_it_is_not_whole(void **state)
   assert_non_null(strstr(text, "Contacts"));
 }
 
-static void nothing_found_yet(void **state)
+static void nothing_found_yet(CHECK_STATE)
 {
-  (void)state;
   run(LINE, 6, &stopped);
   assert_int_equal(stopped.code, 3);
   assert_int_equal(strlen(stopped.out), 0);

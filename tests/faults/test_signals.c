@@ -104,33 +104,25 @@ static void try_with(const char *line, int moments)
   assert_true(stopped > moments);
 }
 
-static void frf(void **state)
-{
-  (void)state;
-  try_with("frf small.yaml -o result --set hbm.harmonics=40", times);
-}
+static void frf(CHECK_STATE) { try_with("frf small.yaml -o result --set hbm.harmonics=40", times); }
 
-static void compare(void **state)
+static void compare(CHECK_STATE)
 {
-  (void)state;
   try_with("compare small.yaml -o result --set compare.omega=6.2,6.3,6.4,6.5,6.6", times);
 }
 
-static void transient(void **state)
+static void transient(CHECK_STATE)
 {
-  (void)state;
   try_with("transient small.yaml -o result --set compare.omega=6.2,6.3,6.4,6.5,6.6", times);
 }
 
-static void gate(void **state)
+static void gate(CHECK_STATE)
 {
-  (void)state;
   try_with("gate small.yaml --junit result --set compare.omega=6.2,6.3,6.4,6.5,6.6", times);
 }
 
-static void report(void **state)
+static void report(CHECK_STATE)
 {
-  (void)state;
   said s = shell("$H report small.yaml -q -o result --harmonics 1 --samples 16 2>&1");
   if (s.code == 64) skip(); /* built without Chart.js */
   try_with("report small.yaml -o result --harmonics 1 --samples 16", times > 2 ? times : 1);
@@ -138,9 +130,8 @@ static void report(void **state)
 
 /* Each time a little is added, whatever ended it; then the export is that of an undisturbed run. The moments are drawn
  * from the first ones, so that scenes are left for all runs: each of them is ended by its signal. */
-static void study(void **state)
+static void study(CHECK_STATE)
 {
-  (void)state;
   static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGKILL};
   small_file("many.yaml", "study: many\nbase: small.yaml\nrun: frf\nset: {compare.omega: [6.2, 6.8]}\n"
                           "vary: [{oscillator.damping: {from: 1, to: 3, count: 40}}, {hbm.harmonics: [2, 3, 4]}]\n");

@@ -127,9 +127,8 @@ static hc_status trace_with(fault f, int *n)
   return st;
 }
 
-static void kinsol_fails(void **state)
+static void kinsol_fails(CHECK_STATE)
 {
-  (void)state;
   int n, points;
   assert_int_equal(trace_with((fault){0}, &points), HC_OK);
   const long at[] = {1, 2, kin.calls};
@@ -148,9 +147,8 @@ static void kinsol_fails(void **state)
       }
 }
 
-static void kinsol_lies(void **state)
+static void kinsol_lies(CHECK_STATE)
 {
-  (void)state;
   int n;
   static const int flags[] = {KIN_SUCCESS, KIN_INITIAL_GUESS_OK, KIN_STEP_LT_STPTOL, KIN_WARNING, -999};
   assert_int_equal(trace_with((fault){0}, &n), HC_OK);
@@ -216,9 +214,8 @@ static hc_status steady_with(int law, fault f, fault *which, timeint_result *r)
   return st;
 }
 
-static void cvode_fails(void **state)
+static void cvode_fails(CHECK_STATE)
 {
-  (void)state;
   timeint_result r;
   for (int law = 0; law < 2; ++law) {
     assert_int_equal(steady_with(law, (fault){0}, &cv, &r), HC_OK);
@@ -238,9 +235,8 @@ static void cvode_fails(void **state)
 }
 
 /* Success where nothing was done, or with a NaN; a root, a warning or a stop that are none. */
-static void cvode_lies(void **state)
+static void cvode_lies(CHECK_STATE)
 {
-  (void)state;
   timeint_result r;
   static const int flags[] = {CV_SUCCESS, CV_TSTOP_RETURN, CV_ROOT_RETURN, CV_WARNING};
   for (int law = 0; law < 2; ++law) {
@@ -259,9 +255,8 @@ static void cvode_lies(void **state)
 }
 
 /* Shooting and Anderson's iteration run on KINSOL, too. */
-static void shooting_fails(void **state)
+static void shooting_fails(CHECK_STATE)
 {
-  (void)state;
   timeint_result r;
   for (int law = 0; law < 2; ++law) {
     assert_int_equal(steady_with(law, (fault){0}, &kin, &r), HC_OK);
@@ -291,9 +286,8 @@ static int command(void *self)
 }
 
 /* Exit 3; which solver, at which omega, what to try. */
-static void failures_are_told(void **state)
+static void failures_are_told(CHECK_STATE)
 {
-  (void)state;
   const fault bad = {1, true, KIN_LSOLVE_FAIL, RETURN_FLAG, 0}, stuck = {1, true, CV_ERR_FAILURE, RETURN_FLAG, 0};
   const struct {
     order o;

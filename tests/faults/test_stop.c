@@ -22,9 +22,8 @@ static void check_all(const char *line, const char *expected)
   fail();
 }
 
-static void reading_or_writing_a_pipe(void **state)
+static void reading_or_writing_a_pipe(CHECK_STATE)
 {
-  (void)state;
   /* 9 keeps both ends of the pipe open: reading waits for ever, and so does writing once it is full */
   check_all("mkfifo silent alone; exec 9<>silent; " RUN("case", TERM_IT "$H frf silent")
                 RUN("stdin", TERM_IT "$H compare - <&9") RUN("study", TERM_IT "$H study silent")
@@ -39,9 +38,8 @@ static void reading_or_writing_a_pipe(void **state)
 }
 
 /* A second and more for one evaluation: no tick of the monitor comes in between. */
-static void inside_one_evaluation(void **state)
+static void inside_one_evaluation(CHECK_STATE)
 {
-  (void)state;
   small_file("kept", "before\n");
   check_all(RUN("contact", TERM_IT "$H contact small.yaml --motion 0,8,0 --samples 16777216,16777215,16777214 -o kept")
                 ALL_ENDED("contact"),
@@ -50,9 +48,8 @@ static void inside_one_evaluation(void **state)
 }
 
 /* Minutes of work, in several threads too. */
-static void amid_thousands_of_scenes(void **state)
+static void amid_thousands_of_scenes(CHECK_STATE)
 {
-  (void)state;
   small_file("many.yaml", "study: many\nbase: small.yaml\nrun: compare\nvary:\n"
                           "  - contacts[0].gap: {from: -6, to: -1, count: 5000}\n");
   check_all(RUN("study", TERM_IT "$H study many.yaml --jobs 2 --results :memory: -q")
@@ -64,9 +61,8 @@ static void amid_thousands_of_scenes(void **state)
             "study 3\nstress 3\nbench 3\n");
 }
 
-static void waiting_for_gnuplot(void **state)
+static void waiting_for_gnuplot(CHECK_STATE)
 {
-  (void)state;
   small_file("gnuplot", "#!/bin/sh\necho $$ >gnuplot.pid\nexec sleep 1000\n");
   check_all("chmod +x gnuplot; PATH=.:$PATH; " RUN("drawn", TERM_IT "$H frf small.yaml -q --plot drawn.svg")
                 ALL_ENDED("drawn"),
@@ -77,9 +73,8 @@ static void waiting_for_gnuplot(void **state)
 }
 
 /* JUnit is opened before anything runs, so its file beside is there when the signal comes. */
-static void files_beside_are_removed(void **state)
+static void files_beside_are_removed(CHECK_STATE)
 {
-  (void)state;
   small_file("kept.xml", "before\n");
   check_all(
       RUN("gate", TERM_IT "$H gate small.yaml --junit kept.xml --set hbm.force=sampled --set hbm.samples=16777216")

@@ -130,17 +130,9 @@ static void poisoned_force(const char *const *set)
   hbm_solver_free(s);
 }
 
-static void located_force(void **state)
-{
-  (void)state;
-  poisoned_force(located);
-}
+static void located_force(CHECK_STATE) { poisoned_force(located); }
 
-static void sampled_force(void **state)
-{
-  (void)state;
-  poisoned_force(sampled);
-}
+static void sampled_force(CHECK_STATE) { poisoned_force(sampled); }
 
 /* ---- time integration ---- */
 
@@ -189,15 +181,10 @@ static void right_hand_side_of(scene sc)
       }
 }
 
-static void right_hand_side(void **state)
-{
-  (void)state;
-  right_hand_side_of(small_scene(smoothly));
-}
+static void right_hand_side(CHECK_STATE) { right_hand_side_of(small_scene(smoothly)); }
 
-static void right_hand_side_with_a_scout(void **state)
+static void right_hand_side_with_a_scout(CHECK_STATE)
 {
-  (void)state;
   scene sc = small_scene(smoothly);
   sc.transient.scout = true;
   right_hand_side_of(sc);

@@ -61,9 +61,8 @@ static double unilateral(int h, double k, double g, double A)
 
 /* Angle 90: only the normal spring. With clearance the force is the spring's; with preload, less N0. The jump of f'
  * at +-p is k A sin p. */
-static void unilateral_spring(void **state)
+static void unilateral_spring(CHECK_STATE)
 {
-  (void)state;
   enum { H = 8 };
   static const int sizes[] = {128, 255, 1000, 4096};
   static const double gaps[] = {-0.37, 0.6};
@@ -117,9 +116,8 @@ static double jenkins(int h, bool sine, double k, double A, double fc)
  * shift) the sampled forces are exact and B_3(0) = 0, so turns enter from s^4 on. Elsewhere the sampled extremum is
  * up to A s^2/8 short, and so is the slider over the stick angle phi of each half period: 2 phi k A s^2/8 (1/pi)
  * more, plus the turns' own s^3 term. */
-static void jenkins_element(void **state)
+static void jenkins_element(CHECK_STATE)
 {
-  (void)state;
   enum { H = 7 };
   static const int sizes[] = {128, 1000, 4096};
   double A = 1, k = 1, fc = 0.4, phi = acos(1 - 2 * fc / (k * A));
@@ -180,9 +178,8 @@ static double case_2_error(int restart, int n_time)
  * 1/r) D = 2/3 D, and stays for the whole contact (but for an instant of slip at its end). The first harmonic is
  * then off by kt c^2 (2/3) A sin p s (2/pi) sin p; 64 shifts miss at most 1/64 of it, and kinks add second-order
  * terms. Restarted at the interpolated touch, w is exact, as u and v are proportional, and only the kinks are left. */
-static void restarts_of_the_slider(void **state)
+static void restarts_of_the_slider(CHECK_STATE)
 {
-  (void)state;
   /* the largest p, at A = 10.1 */
   double g = -1 - 5 / sqrt(0.5), sin_p = sqrt(1 - g * g / (10.1 * 10.1)), sample[4], touch[4];
   for (int i = 0; i < 4; ++i) {
@@ -207,9 +204,8 @@ static void restarts_of_the_slider(void **state)
 }
 
 /* Every size, odd ones and 2H + 1 included, several contacts, both restarts; the slider of the report too. */
-static void agrees_with_the_slow_way(void **state)
+static void agrees_with_the_slow_way(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     int H, N;
   } sizes[] = {{1, 3}, {1, 5}, {2, 5}, {3, 7}, {1, 64}, {5, 33}, {10, 128}, {50, 101}, {50, 512}};
@@ -242,9 +238,8 @@ static void agrees_with_the_slow_way(void **state)
  * closed under composition, so a period is one too, and applying it twice is applying it once: a second period finds
  * the slider settled, whatever the motion. That is exact but for rounding: the clamp's ends have errors of a few eps.
  * aft.c relies on it and returns HC_NOT_CLOSED if it fails. */
-static void the_slider_closes_in_one_pass(void **state)
+static void the_slider_closes_in_one_pass(CHECK_STATE)
 {
-  (void)state;
   static const int sizes[] = {5, 16, 101, 256};
   uint64_t seed = 7;
   double X[101], F[101];
@@ -267,9 +262,8 @@ static void the_slider_closes_in_one_pass(void **state)
 }
 
 /* Forces add: to the rounding of N additions and one transform more. */
-static void contacts_add(void **state)
+static void contacts_add(CHECK_STATE)
 {
-  (void)state;
   enum { H = 6, N = 50, N_COEF = 2 * H + 1 };
   uint64_t seed = 8;
   double X[N_COEF], F[N_COEF], G[N_COEF], sum[N_COEF], jac[N_COEF * N_COEF], one[N_COEF * N_COEF],
@@ -307,9 +301,8 @@ static void contacts_add(void **state)
 }
 
 /* No contacts, and contacts that stay apart or stuck: known without sampling. */
-static void linear_motions(void **state)
+static void linear_motions(CHECK_STATE)
 {
-  (void)state;
   enum { H = 3, N = 16, N_COEF = 2 * H + 1 };
   double X[N_COEF] = {0.1, 0.5, -0.2, 0.1, 0, 0, 0.05}, F[N_COEF], jac[N_COEF * N_COEF];
   aft_result got;
@@ -334,9 +327,8 @@ static void linear_motions(void **state)
   assert_true(got.w[0] == 0 && got.report.transitions == 0);
 }
 
-static void bad_input(void **state)
+static void bad_input(CHECK_STATE)
 {
-  (void)state;
   scene sc = one_contact(2, 3, 0.3, -0.1, 45);
   aft *a = (aft *)&sc;
   assert_int_equal(scene_aft(&sc, 0, 16, &a), HC_BAD_INPUT);

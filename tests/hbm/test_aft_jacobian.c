@@ -21,9 +21,8 @@ static uint64_t pattern_at(const scene *sc, int H, int N, const double *X, doubl
  * difference has no truncation error at any step that keeps the states, which the slow way reports (at -step, 0 and
  * +step, settling period included); other directions are skipped, and counted. Left is rounding: of F, twice its
  * tolerance over 2 step, and of the product J d. */
-static void jacobian_equals_central_differences(void **state)
+static void jacobian_equals_central_differences(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     int H, N;
   } sizes[] = {{1, 5}, {1, 64}, {3, 7}, {5, 33}, {10, 128}, {25, 200}, {50, 101}, {50, 256}};
@@ -83,9 +82,8 @@ static void jacobian_equals_central_differences(void **state)
  * most an eps of the stiffness, and two rotations. The shifted X, off by 2 eps, moves F by that. A slider that has been
  * pushed until friction just holds it (shakedown) touches its limit at one sample to rounding: that is a slip or not,
  * with the same force and Jacobian, so states are not compared there. */
-static void whole_steps_only_rotate(void **state)
+static void whole_steps_only_rotate(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     int H, N;
   } sizes[] = {{1, 5}, {1, 16}, {3, 7}, {7, 64}, {20, 101}};

@@ -98,9 +98,8 @@ static const char *const names[] = {"c2", "b10", "gap1", "r2"};
  * H^-4 has set in and at worst as large as it; and solutions between points use the most harmonics of the curve, so
  * can only be better. Hence 2 times the accuracy, and 3 near folds where the second order of the step shows. H = 60
  * itself is wrong by (10/60)^4 of H = 10: c2 1e-8. */
-static void auto_harmonics_keep_the_accuracy(void **state)
+static void auto_harmonics_keep_the_accuracy(CHECK_STATE)
 {
-  (void)state;
   static const int ladder[] = {1, 2, 3, 5, 7, 10, 14, 20, 28, 40, 56};
   static const double accuracies[] = {1e-2, 1e-3, 1e-4};
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
@@ -140,9 +139,8 @@ static void auto_harmonics_keep_the_accuracy(void **state)
 /* Each point's own row is as accurate as its `error` says: solved again with 60 harmonics from that row, at its
  * omega. A step back to fewer harmonics is taken on a tail of 0.05 accuracy, and its effect on the kept ones is not
  * measured until the next point: hence 3 here too. */
-static void harmonics_follow_the_curve(void **state)
+static void harmonics_follow_the_curve(CHECK_STATE)
 {
-  (void)state;
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
     scene sc = exact_scene(names[q], HBM_AUTO);
     sc.hbm.accuracy = 1e-3;
@@ -183,9 +181,8 @@ static void harmonics_follow_the_curve(void **state)
 
 /* Sampling errs like 1/N^2, so that N against 2N shows 3/4 of it, 4/3 of the accuracy; with the restart interpolated
  * it is not monotone: 3. */
-static void auto_samples_keep_the_accuracy(void **state)
+static void auto_samples_keep_the_accuracy(CHECK_STATE)
 {
-  (void)state;
   static const double accuracies[] = {1e-2, 1e-3, 1e-4};
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
     scene sc = exact_scene(names[q], 5);
@@ -213,9 +210,8 @@ static void auto_samples_keep_the_accuracy(void **state)
 /* A point solved leaves a residual at 1e-10 of its forces or, polished once more, at rounding; the closed form at
  * rounding. Forces to motions: at most the resonance's K/(C w) = 5e3 for r2 (lightly damped) but polished 1e-16
  * each: 1e-9 is far above. So too for natural against arc-length steps. */
-static void shortcuts_change_no_solution(void **state)
+static void shortcuts_change_no_solution(CHECK_STATE)
 {
-  (void)state;
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
     scene sc = exact_scene(names[q], 7);
     double omega[FREQUENCIES];
@@ -241,9 +237,8 @@ static void shortcuts_change_no_solution(void **state)
 
 /* Every switch off: numbers as given, the same at every point, no estimate, no arc-length, no closed form. a10 with
  * 1 N stays away from folds. */
-static void every_switch_can_be_turned_off(void **state)
+static void every_switch_can_be_turned_off(CHECK_STATE)
 {
-  (void)state;
   scene sc = exact_scene("a10", 5);
   sc.force = 1;
   sc.hbm.force = HBM_FORCE_SAMPLED;

@@ -118,9 +118,8 @@ static void check_harmonic(uint64_t *seed, const model *m, condensation *c, doub
 }
 
 /* Low omegas, where most modes come in by the series, high ones, where none does, and the series made anew. */
-static void condensed_is_the_whole(void **state)
+static void condensed_is_the_whole(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 4;
   const double omegas[] = {0.3, 0.35, 1, 4.4, 7, 30, 0.1, 70};
   for (int how = 0; how < DAMPINGS; ++how) {
@@ -143,9 +142,8 @@ static void condensed_is_the_whole(void **state)
 /* The tangent of one contact is that of another but for a part of 1e-6: the forces that hold q are of the size of the
  * structure's own, not 1e12 times as large, and the coordinates are as good as others (check_harmonic's bound). With
  * rows no shorter than 0.1 of their own, P is at most of that order for each of the DIM. */
-static void nearly_dependent_directions(void **state)
+static void nearly_dependent_directions(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 11;
   model *m = large_structure(&seed, RAYLEIGH);
   condensation *c;
@@ -191,9 +189,8 @@ static double worst_difference(int n, const double complex *d, double h, double 
 
 /* A resonance at 6, half as wide as d = 0.06 or more, makes f^(5) = 120 f'/d^4: h = 3e-4 errs by 4 (h/d)^4 = 3e-9 next
  * to one, and rounding of 1e-13 of S over h by 3e-10 of S: less than 1e-7 in all. */
-static void changes_are_derivatives(void **state)
+static void changes_are_derivatives(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 8;
   const double h = 3e-4;
   for (int how = 0; how < DAMPINGS; ++how)

@@ -19,9 +19,8 @@ static contact_period measure(const contact *law, const double *u, const double 
 /* u = u0 + A cos(h th - phi) under constant N, R = mu N/kt < A: two slips of 2 (A - R) in each of h cycles, so work = 4
  * h mu N (A - R). The rounding of u, a few DBL_EPSILON (|u0| + A) at each of 4 h transitions, moves a transition, where
  * the slip begins or ends, and with it the path by as much; that of the integrals is relative. */
-static void a_jenkins_element_loses_the_closed_form_work(void **state)
+static void a_jenkins_element_loses_the_closed_form_work(CHECK_STATE)
 {
-  (void)state;
   const double excess[] = {1e-8, 1e-3, 0.3, 5, 1000}, v[LENGTH] = {0};
   for (int i = 0; i < 5; ++i)
     for (int h = 1; h <= H; h += 4) {
@@ -39,9 +38,8 @@ static void a_jenkins_element_loses_the_closed_form_work(void **state)
 }
 
 /* Never at the limit, from w = 0: T = kt u, whose extremum kt (|u0| + A) is no angle of any grid. */
-static void a_stuck_contact_does_no_work(void **state)
+static void a_stuck_contact_does_no_work(CHECK_STATE)
 {
-  (void)state;
   const contact law = {.kt = 20, .mu = 0.4, .kn = 50, .gap = 1};
   double u[LENGTH] = {-0.1}, v[LENGTH] = {0};
   u[9] = 0.2 * cos(1.1), u[10] = 0.2 * sin(1.1); /* 0.2 cos(5 th - 1.1) */
@@ -58,9 +56,8 @@ static void a_stuck_contact_does_no_work(void **state)
  * rises. From the top, v = V, it sticks: T = mu N_max - kt b (V - v) falls to -mu N where (kt b + mu kn) (V - v) = 2 mu
  * N_max; then it slips back until it lifts off. |dw| = (b - mu kn/kt) dv on the way up, over y = v + gap from 0 to c =
  * V + gap, and (b + mu kn/kt) |dv| on the way down, from y1 = c - 2 mu kn c/(kt b + mu kn) to 0; and mu N = mu kn y. */
-static void a_contact_that_separates_loses_the_closed_form_work(void **state)
+static void a_contact_that_separates_loses_the_closed_form_work(CHECK_STATE)
 {
-  (void)state;
   const contact law = {.kt = 100, .mu = 0.3, .kn = 60, .gap = -0.4};
   const double V = 1, phi = 0.77, b = 0.5;
   for (int s = -1; s <= 1; s += 2) {
@@ -81,9 +78,8 @@ static void a_contact_that_separates_loses_the_closed_form_work(void **state)
 }
 
 /* A closed unilateral spring, and an open contact: no friction, no traction, no work. */
-static void without_friction_there_is_no_traction(void **state)
+static void without_friction_there_is_no_traction(CHECK_STATE)
 {
-  (void)state;
   const contact spring = {.kn = 50, .gap = 2}, smooth = {.kn = 50, .kt = 10, .gap = 2}, apart = {.kn = 50, .gap = -2};
   double v[LENGTH] = {0, 1}, u[LENGTH] = {0, 3};
   contact_period p = measure(&spring, u, v);
@@ -95,9 +91,8 @@ static void without_friction_there_is_no_traction(void **state)
   assert_true(p.regime == CONTACT_LINEAR && p.normal_max == 0 && p.normal_min == 0);
 }
 
-static void what_is_no_motion_is_refused(void **state)
+static void what_is_no_motion_is_refused(CHECK_STATE)
 {
-  (void)state;
   const contact law = {.kn = 50, .gap = 2};
   double u[LENGTH] = {0}, v[LENGTH] = {0};
   contact_period out;
@@ -176,9 +171,8 @@ static double damped(const model *m, double omega, double (*x)[LENGTH])
  * residual of 1e-13 of the forces that make it up leaves as much of the work of each of them; those of K and M exceed
  * the input by the quality of the resonance, of the order of 10 at most, so 1e-12 of the input. (Of directions drawn at
  * random some are nearly dependent, and x is recovered with as many digits less.) */
-static void what_goes_in_is_dissipated(void **state)
+static void what_goes_in_is_dissipated(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 4;
   int solved = 0, slipped = 0, opened = 0;
   for (int trial = 0; trial < 100; ++trial) {

@@ -5,9 +5,8 @@ static reference_row rows[MAX_REFERENCE];
 static reference_peak peaks[MAX_REFERENCE];
 static int n_rows, n_peaks;
 
-static int read_references(void **state)
+static int read_references(CHECK_STATE)
 {
-  (void)state;
   n_rows = read_reference_rows(rows);
   n_peaks = read_reference_peaks(peaks);
   return 0;
@@ -60,9 +59,8 @@ static void check_linear_sweep(const scene *sc, double k, contact_regime regime,
 /* No contact; preloaded and never slipping (a10 with 1 N: 0.18 at resonance, below mu kn gap/(kt cos + mu kn sin) =
  * 0.26); never touching (b10 with 1 N: 0.4 sin 45 < 0.5). The paper's Table 10 likewise, where the resonance is 2800
  * times sharper. The numbers there lose 4 digits more. */
-static void linear_sweeps(void **state)
+static void linear_sweeps(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 5, 10};
   for (int i = 0; i < 3; ++i)
     for (int keep_mean = 0; keep_mean <= 1; ++keep_mean)
@@ -156,9 +154,8 @@ static int check_peak(const traced *t, const char *name, int n_harm, int keep_me
 /* c2kn1e4, harmonic 0 kept: only H = 1. With kn = 1e4, 4096 samples make hundreds of false turning points
  * (test_paper.c) and take 20 s for the rest. Without harmonic 0 its reference peaks are where the reference sweep
  * ended, near 20, the curve still rising: no peaks. */
-static void reference_rows_and_peaks(void **state)
+static void reference_rows_and_peaks(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 5, 10};
   int n_checked = 0, n_tops = 0;
   for (int i = 0; i < N_REFERENCE_SCENES; ++i)
@@ -180,9 +177,8 @@ static void reference_rows_and_peaks(void **state)
 }
 
 /* These curves hang together: from the other end the same points come in the opposite order. */
-static void from_the_other_end(void **state)
+static void from_the_other_end(CHECK_STATE)
 {
-  (void)state;
   static const char *const names[] = {"a10", "b10", "c2", "c2kt1e4", "gap1", "r1", "r2"};
   for (int i = 0; i < 7; ++i)
     for (int n_harm = 1; n_harm <= 5; n_harm += 4)
@@ -198,9 +194,8 @@ static void from_the_other_end(void **state)
 }
 
 /* Arc-length only takes the same curve: every row of these scenes at H = 5 with harmonic 0. */
-static void arclength_only(void **state)
+static void arclength_only(CHECK_STATE)
 {
-  (void)state;
   static const char *const names[] = {"a10", "b10", "c2", "r2"};
   for (int i = 0; i < 4; ++i) {
     scene sc = scene_named(names[i], 5, true, 4096);

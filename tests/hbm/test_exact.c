@@ -40,9 +40,8 @@ static void check_series(int n, const double *F, const double *expected, double 
   for (int i = 0; i < n; ++i) CHECK_NEAR(F[i], expected[i], tol, "%s, coefficient %d", what, i);
 }
 
-static void closed_forms_themselves(void **state)
+static void closed_forms_themselves(CHECK_STATE)
 {
-  (void)state;
   double F[7];
   spring_series(1, 1, -0.37, 3, F);
   CHECK_NEAR(F[0], 0.155357649636024, 1e-15, "theory.md, 11");
@@ -55,9 +54,8 @@ static void closed_forms_themselves(void **state)
 }
 
 /* 1e-13 of k A: some eps for each of up to 50 terms. */
-static void unilateral_spring(void **state)
+static void unilateral_spring(CHECK_STATE)
 {
-  (void)state;
   static const double gaps[] = {-2,     -1 - 1e-9, -1,        -1 + 1e-15, -1 + 1e-12, -1 + 1e-9, -1 + 1e-6,
                                 -0.999, -0.5,      -0.37,     -1e-9,      0,          1e-9,      0.37,
                                 0.999,  1 - 1e-9,  1 - 1e-12, 1 - 1e-15,  1,          1 + 1e-9,  2};
@@ -88,9 +86,8 @@ static void unilateral_spring(void **state)
 }
 
 /* Angle 0: constant normal force, limit f = mu kn gap. The mean of x does nothing. */
-static void jenkins_element(void **state)
+static void jenkins_element(CHECK_STATE)
 {
-  (void)state;
   static const double ratios[] = {1e-6, 1e-3, 0.1, 0.4, 0.5, 0.9, 0.999, 1 - 1e-6, 1 - 1e-9, 1 - 1e-12};
   static const int orders[] = {1, 3, 5, 10, 50};
   static evaluation e;
@@ -122,9 +119,8 @@ static void jenkins_element(void **state)
 /* kt cos <= mu kn sin, and separating: exactly bilinear, for any motion. Equality included, as it comes out of
  * rounding, one ulp to either side. The other side of the comparison is one contact at 90 degrees, which has been
  * compared with its closed form. */
-static void never_slipping_is_bilinear(void **state)
+static void never_slipping_is_bilinear(CHECK_STATE)
 {
-  (void)state;
   static evaluation e, spring;
   double X[101];
   uint64_t seed = 6;
@@ -160,9 +156,8 @@ static void never_slipping_is_bilinear(void **state)
 
 /* Stuck for good while |T| <= mu N everywhere from w = 0: F = kt c u + kn s v, X times a number. Apart for good: 0.
  * Nothing to push: 0. */
-static void stuck_apart_and_degenerate(void **state)
+static void stuck_apart_and_degenerate(CHECK_STATE)
 {
-  (void)state;
   static evaluation e, other;
   double X[101], expected[101];
   uint64_t seed = 8;
@@ -210,9 +205,8 @@ static bool stuck_for_good(const evaluation *e)
 }
 
 /* Sum of contacts; a shift in time; a scale of lengths (bit for bit if it is a power of two). 1 and 2 coordinates. */
-static void symmetries(void **state)
+static void symmetries(CHECK_STATE)
 {
-  (void)state;
   static evaluation e, one, moved;
   static double X[EXACT_MAX_COEF], Y[EXACT_MAX_COEF], sum[EXACT_MAX_COEF], turned[EXACT_MAX_COEF];
   uint64_t seed = 10;
@@ -264,9 +258,8 @@ static void symmetries(void **state)
 /* The intervals and the report belong together: ascending, apart or touching, each at least as long as nothing;
  * regimes by what the intervals are. A contact with a preload no motion lifts never separates, however many
  * intervals its period has. */
-static void intervals_and_report(void **state)
+static void intervals_and_report(CHECK_STATE)
 {
-  (void)state;
   static evaluation e;
   static double X[EXACT_MAX_COEF];
   uint64_t seed = 12;
@@ -311,9 +304,8 @@ static void intervals_and_report(void **state)
 }
 
 /* aft_eval tends to it like 1/N^2 (bound: exact_scenes.h), for random contacts and motions of one coordinate. */
-static void sampling_tends_to_it(void **state)
+static void sampling_tends_to_it(CHECK_STATE)
 {
-  (void)state;
   static evaluation e;
   double X[101], F[101];
   uint64_t seed = 14;
@@ -351,9 +343,8 @@ static void sampling_tends_to_it(void **state)
 /* The same for independent u and v, with the slow evaluator, and for motions that graze: touching by so little,
  * leaving by so little, slipping by so little. The slider at th = 0 is compared where it is stuck, and known: a
  * sample's distance of its rate, as the touch may be missed. */
-static void independent_u_and_v(void **state)
+static void independent_u_and_v(CHECK_STATE)
 {
-  (void)state;
   static evaluation e;
   static double X[EXACT_MAX_COEF], F[EXACT_MAX_COEF];
   static const double depths[] = {1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 0, -1e-12, -1e-9, -1e-6, -1e-4, -1e-2};
@@ -392,9 +383,8 @@ static void independent_u_and_v(void **state)
 /* Lifting off by rounding: T, N and their rates are 0 together at one angle, and every guard is rounding there. Also
  * a tangential spring so stiff that stick lasts no longer than rounding. The force is found, and is that of a
  * lift-off 1e-7 higher, but for what that changes: a contact time of sqrt(1e-7) at most. */
-static void lift_off_by_rounding(void **state)
+static void lift_off_by_rounding(CHECK_STATE)
 {
-  (void)state;
   static evaluation e, above;
   static double X[EXACT_MAX_COEF];
   static const double depths[] = {0, 1e-16, -1e-16, 1e-15, -1e-15, 1e-14, -1e-14, 1e-13, -1e-13, 1e-12, -1e-12};
@@ -421,9 +411,8 @@ static void lift_off_by_rounding(void **state)
 }
 
 /* Bad input and odd sizes. */
-static void refusals(void **state)
+static void refusals(CHECK_STATE)
 {
-  (void)state;
   exact_force *e;
   moving_contact c = contact_at((contact){1, 1, 0.3, 0}, 45);
   assert_int_equal(exact_force_new(0, 1, 1, &c, &e), HC_BAD_INPUT);

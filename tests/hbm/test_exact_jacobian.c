@@ -85,9 +85,8 @@ static void check_jacobian(uint64_t *seed, int H, int n_dof, const moving_contac
   }
 }
 
-static void random_motions(void **state)
+static void random_motions(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 2, 3, 5, 10, 20, 50};
   static double X[EXACT_MAX_COEF];
   uint64_t seed = 30;
@@ -110,9 +109,8 @@ static void random_motions(void **state)
 }
 
 /* Touching, leaving or slipping by so little that the step must be small against it: 50 steps deep and more. */
-static void grazing_motions(void **state)
+static void grazing_motions(CHECK_STATE)
 {
-  (void)state;
   static const double depths[] = {0.05, 0.02, 0.01, -0.01, -0.02, -0.05};
   static double X[EXACT_MAX_COEF];
   uint64_t seed = 31;
@@ -143,9 +141,8 @@ static void grazing_motions(void **state)
  * which T' and N' are at most (kt + (1 + mu) kn) and a slider's memory is as much again: 1/pi of it times the width,
  * doubled by harmonics' 2/2pi, held with a factor of 2. No jump and no NaN, down to rounding and beyond. The onset
  * of slip is not like that: dissipation 4 f (A - f/k) starts with a kink, and the mean of u no longer counts. */
-static void onsets_are_smooth(void **state)
+static void onsets_are_smooth(CHECK_STATE)
 {
-  (void)state;
   static evaluation e;
   static double before[EXACT_MAX_COEF * EXACT_MAX_COEF], jac[EXACT_MAX_COEF * EXACT_MAX_COEF], X[EXACT_MAX_COEF];
   static const int orders[] = {1, 3, 10, 50};
@@ -173,9 +170,8 @@ static void onsets_are_smooth(void **state)
 }
 
 /* Contacts add up, and the Jacobian does not depend on whether the report or it is asked for. */
-static void several_contacts(void **state)
+static void several_contacts(CHECK_STATE)
 {
-  (void)state;
   static evaluation e, one;
   static double X[EXACT_MAX_COEF], jac[EXACT_MAX_COEF * EXACT_MAX_COEF], sum[EXACT_MAX_COEF * EXACT_MAX_COEF];
   uint64_t seed = 33;

@@ -7,9 +7,8 @@ static reference_row rows[MAX_REFERENCE];
 static reference_peak peaks[MAX_REFERENCE];
 static int n_rows, n_peaks;
 
-static int read_references(void **state)
+static int read_references(CHECK_STATE)
 {
-  (void)state;
   n_rows = read_reference_rows(rows);
   n_peaks = read_reference_peaks(peaks);
   return 0;
@@ -23,9 +22,8 @@ static scene exact_scene(const char *name, int n_harm, bool keep_mean)
 }
 
 /* A table without one of the scenes would pass the comparisons below. */
-static void the_tables_are_whole(void **state)
+static void the_tables_are_whole(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0; i < N_REFERENCE_SCENES; ++i)
     for (int n_harm = 1; n_harm <= 10; n_harm += n_harm == 1 ? 4 : 5)
       for (int keep_mean = 0; keep_mean <= 1; ++keep_mean) {
@@ -154,9 +152,8 @@ static traced whole(const scene *sc, double from, double to, const char *what)
   return t;
 }
 
-static void reference_rows_and_peaks(void **state)
+static void reference_rows_and_peaks(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 5, 10};
   int n_checked = 0, n_tops = 0;
   for (int i = 0; i < N_REFERENCE_SCENES; ++i)
@@ -175,9 +172,8 @@ static void reference_rows_and_peaks(void **state)
 
 /* Not c2kn1e4 without harmonic 0: downwards it starts on the upper of the branches that meet beyond 20 (turning
  * points at 7.34 and 24) and returns there, another part of the curve than the rows are of. */
-static void from_the_other_end(void **state)
+static void from_the_other_end(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 5, 10};
   int n_checked = 0;
   for (int i = 0; i < N_REFERENCE_SCENES; ++i)
@@ -197,9 +193,8 @@ static void from_the_other_end(void **state)
  * folds included: the solutions at 35 frequencies of figure 17 are the same, in the opposite order, to what Newton
  * leaves (1e-10 of the forces) times a response that is as steep as 100. Without harmonic 0 the branches meet far
  * beyond 20 (at 32 for 1e5, H = 1), so those sweeps begin or end at 150. */
-static void stiff_contacts_from_both_ends(void **state)
+static void stiff_contacts_from_both_ends(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 5, 10};
   for (double kn = 1e5; kn < 2e7; kn *= 10)
     for (int o = 0; o < 3; ++o)

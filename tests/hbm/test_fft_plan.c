@@ -58,9 +58,8 @@ void __wrap_fftw_destroy_plan(fftw_plan plan)
 }
 
 /* Three plans made and freed by a handle of aft.h, two by hand. */
-static void one_lock_guards_the_planner(void **state)
+static void one_lock_guards_the_planner(CHECK_STATE)
 {
-  (void)state;
   static const scene no_contact = {.n_contacts = 0};
   fftw_complex spectrum[3];
   double samples[4];
@@ -79,9 +78,8 @@ static void one_lock_guards_the_planner(void **state)
 }
 
 /* 1 + 2 cos th - 6 sin th at four samples: 3, -5, -1, 7; sums of small integers and no others, so exact. */
-static void plans_transform_both_ways(void **state)
+static void plans_transform_both_ways(CHECK_STATE)
 {
-  (void)state;
   static const double expected[4] = {3, -5, -1, 7};
   fftw_complex spectrum[3] = {1, 1 + 3 * I, 0};
   double samples[4];

@@ -159,9 +159,8 @@ static void check_left(const hbm_solver *s, const scene *sc)
   assert_true(s->step_scale == 1 && !s->finer_harmonics == (sc->hbm.harmonics != HBM_AUTO));
 }
 
-static void scenes_once_refused_are_solved(void **state)
+static void scenes_once_refused_are_solved(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0; i < SCENES; ++i) {
     const scene sc = scene_of(&refused[i]);
     double X[MOST_COEF];
@@ -184,9 +183,8 @@ static bool has_no_gap(const refused_scene *r)
 }
 
 /* Each ramp by itself; that of the force only where a small force leaves the contacts alone. */
-static void either_ramp_ends_on_a_solution(void **state)
+static void either_ramp_ends_on_a_solution(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0; i < SCENES; ++i)
     for (int kind = HBM_RAMP_DAMPING; kind <= HBM_RAMP_FORCE; ++kind) {
       if (kind == HBM_RAMP_FORCE && has_no_gap(&refused[i])) continue;
@@ -204,9 +202,8 @@ static void either_ramp_ends_on_a_solution(void **state)
 
 /* dR/dp by central differences of h. R is linear in phi; D is an exponential of rate * p: the next term
  * is (rate h)^2/6 of the derivative. Rounding: 8 units of the forces over h. */
-static void derivative_along_a_ramp(void **state)
+static void derivative_along_a_ramp(CHECK_STATE)
 {
-  (void)state;
   const double h = 1e-4, places[2] = {1.4, 0.3};
   const refused_scene *r = &refused[0];
   const double X[5] = {-0.1, 2, -3, 0.6, 0.8};
@@ -232,9 +229,8 @@ static void derivative_along_a_ramp(void **state)
 }
 
 /* At its end a ramp's equations are the model's, to the bit. */
-static void a_ramp_ends_at_the_model(void **state)
+static void a_ramp_ends_at_the_model(CHECK_STATE)
 {
-  (void)state;
   hbm_solver *s = solver_of(&refused[0]);
   for (int kind = HBM_RAMP_DAMPING; kind <= HBM_RAMP_FORCE; ++kind) {
     const hbm_ramp ramp = hbm_ramp_of((hbm_ramp_kind)kind, &s->sys, refused[0].omega);
@@ -255,9 +251,8 @@ static bool tick_any(void *self, double done)
 }
 
 /* A ramp that winds is given up after 1500 steps (ramp.c), and the other is tried. */
-static void force_where_the_damping_takes_too_long(void **state)
+static void force_where_the_damping_takes_too_long(CHECK_STATE)
 {
-  (void)state;
   double X[MOST_COEF];
   hbm_point point;
   tick_counter watch = {.stop = 5000};
@@ -271,9 +266,8 @@ static void force_where_the_damping_takes_too_long(void **state)
 }
 
 /* How a response curve is to be followed is not how a ramp is. */
-static void settings_for_curves_do_not_reach_ramps(void **state)
+static void settings_for_curves_do_not_reach_ramps(CHECK_STATE)
 {
-  (void)state;
   const refused_scene *r = &refused[0];
   double X[2][MOST_COEF];
   int iterations[2];
@@ -297,9 +291,8 @@ static void settings_for_curves_do_not_reach_ramps(void **state)
   assert_memory_equal(X[0], X[1], (size_t)(2 * r->harmonics + 1) * sizeof **X);
 }
 
-static void no_ramp_where_the_linear_response_is_a_guess(void **state)
+static void no_ramp_where_the_linear_response_is_a_guess(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_named("b10", 5, true, 64);
   sc.hbm.force = HBM_FORCE_EXACT;
   double X[MOST_COEF];
@@ -314,9 +307,8 @@ static void no_ramp_where_the_linear_response_is_a_guess(void **state)
 }
 
 /* Stopped at any step, the solver is whole: it then finds what a fresh one finds, to the bit. */
-static void a_ramp_can_be_stopped(void **state)
+static void a_ramp_can_be_stopped(CHECK_STATE)
 {
-  (void)state;
   const refused_scene *r = &refused[0];
   const scene sc = scene_of(r);
   double X[MOST_COEF], Y[MOST_COEF];
@@ -338,9 +330,8 @@ static void a_ramp_can_be_stopped(void **state)
 }
 
 /* The solver adapts while a curve is traced; its first point may come from a ramp, which does not. */
-static void adapting_solvers_follow_ramps_too(void **state)
+static void adapting_solvers_follow_ramps_too(CHECK_STATE)
 {
-  (void)state;
   static const int which[] = {0, 2, 3};
   for (int i = 0; i < 3; ++i) {
     const refused_scene *r = &refused[which[i]];

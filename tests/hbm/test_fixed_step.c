@@ -30,9 +30,8 @@ static double advance(const hbm_curve *c, int k)
 /* Newton's corrections lie in a plane across the tangent, so that every point but the last, which is put on the end of
  * the sweep, is exactly a step ahead of the one before. The plane is one of Newton's equations: met to the tolerance,
  * 1e-10, of lengths in the metric; ten times that allows for the polishing step and rounding. */
-static void every_step_is_the_same(void **state)
+static void every_step_is_the_same(CHECK_STATE)
 {
-  (void)state;
   const double steps[] = {0.05, 0.01};
   for (int i = 0; i < 2; ++i) {
     scene sc = fixed("c2", 5, true, 1024, steps[i], 20);
@@ -50,9 +49,8 @@ static void every_step_is_the_same(void **state)
 
 /* Both solve the same equations to 1e-10 of the forces, at 8 and 9 well off the folds (7.337, 9.21): 1e-8 of the
  * amplitudes leaves a factor 100 for the inverse of the Jacobian. Downwards too. */
-static void smooth_curve_is_the_one_of_auto(void **state)
+static void smooth_curve_is_the_one_of_auto(CHECK_STATE)
 {
-  (void)state;
   for (int down = 0; down <= 1; ++down) {
     scene sc = fixed("c2", 5, true, 1024, 0.02, 20), as_always;
     sc.hbm.force = HBM_FORCE_EXACT;
@@ -84,9 +82,8 @@ static void smooth_curve_is_the_one_of_auto(void **state)
 /* Case 2 with kn = 3e3 and N = 2^7 samples, restarted on a sample, without harmonic 0: the paper's code fails there
  * (figure 17). The sampled curve has a sawtooth's corners, some of which turn by more than a plane a step ahead can
  * meet: fixed steps stop, at whatever length, and keep what they have; `auto` gets round every corner. */
-static void sampled_corners_stop_it(void **state)
+static void sampled_corners_stop_it(CHECK_STATE)
 {
-  (void)state;
   const double steps[] = {0.05, 0.02, 0.01, 0.005};
   for (int i = 0; i < 4; ++i) {
     scene sc = fixed("c2", 1, false, 128, steps[i], 20);
@@ -111,9 +108,8 @@ static void sampled_corners_stop_it(void **state)
 
 /* Newton must not take more than it may: with 1 it cannot follow where the curve bends, and says so. In the linear part
  * it can at the start only, since the equations are linear in X but not in omega. */
-static void capped_iterations_stop_it(void **state)
+static void capped_iterations_stop_it(CHECK_STATE)
 {
-  (void)state;
   scene sc = fixed("c2", 5, true, 1024, 0.05, 1);
   sc.hbm.force = HBM_FORCE_EXACT;
   traced t = trace(&sc, 3, 20, "one iteration");
@@ -122,9 +118,8 @@ static void capped_iterations_stop_it(void **state)
   free_traced(&t);
 }
 
-static void what_adapts_is_refused(void **state)
+static void what_adapts_is_refused(CHECK_STATE)
 {
-  (void)state;
   for (int samples = 0; samples <= 1; ++samples) {
     scene sc = fixed("c2", samples ? 3 : HBM_AUTO, true, samples ? HBM_AUTO : 1024, 0.02, 20);
     sc.hbm.accuracy = 1e-4;

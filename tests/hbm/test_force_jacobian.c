@@ -13,9 +13,8 @@ static double basis(int i, double th) { return i == 0 ? 1 : i % 2 ? cos((i + 1) 
  * only rounding is left. Each point adds at most |k| <= sum |symbol| =: K, with an error of a few eps in k (its own
  * sum: as many eps as it has terms) and in the angles h th (up to H eps each): (4H + 1) + 2 (2H) + 2 H + 4 eps, all
  * times 2K; the mean of n sums n eps/2 more. 20 (H + 1) eps K holds them all. */
-static void matrix_equals_quadrature(void **state)
+static void matrix_equals_quadrature(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 2, 3, 7, 25};
   static double symbol[MAX_SYMBOL], jac[(MAX_N + 3) * MAX_N], k[4 * MAX_H + 1], phi[MAX_N][4 * MAX_H + 1];
   uint64_t seed = 4;

@@ -32,9 +32,8 @@ static bool tick(void *self, double done)
 
 /* A curve asks at least once an iteration, and how far it is never falls back. Told to stop in the midst of a step it
  * asks a few times more, of Newton's own retries, and keeps its points. */
-static void a_request_to_stop_is_heard_in_a_step(void **state)
+static void a_request_to_stop_is_heard_in_a_step(CHECK_STATE)
 {
-  (void)state;
   enum { AT = 40, MOST_RETRIES = 60 };
   visitor through = {.stop_at = 1 << 30}, stops = {.stop_at = AT};
   scene sc;

@@ -67,9 +67,8 @@ int posix_memalign(void **p, size_t align, size_t n)
 }
 
 /* The counter must see what libraries do, or the tests below would pass for nothing. */
-static void the_counter_sees_libraries(void **state)
+static void the_counter_sees_libraries(CHECK_STATE)
 {
-  (void)state;
   long before = allocations;
   double *a = fftw_alloc_real(100);
   assert_true(allocations > before);
@@ -87,9 +86,8 @@ static void the_counter_sees_libraries(void **state)
 
 /* For sizes made of small primes. FFTW's own transforms of others (101, 1001 = 7 11 13, 1021 with Debian's FFTW 3.3)
  * take work space at each call, once to four times a transform: aft.h's promise does not hold for those. */
-static void force_allocates_nothing(void **state)
+static void force_allocates_nothing(CHECK_STATE)
 {
-  (void)state;
   static const int sizes[] = {64, 100, 1000, 4096};
   enum { H = 10, N_COEF = 2 * H + 1 };
   double X[N_COEF], F[N_COEF], jac[N_COEF * N_COEF];
@@ -117,9 +115,8 @@ static void force_allocates_nothing(void **state)
 enum { MESSAGES = SUNDIALS_VERSION_MAJOR >= 7 ? 2 : 0 };
 
 /* Event-located forces, with and without Jacobian, one coordinate and two, motions that touch, slip, or do neither. */
-static void exact_force_allocates_nothing(void **state)
+static void exact_force_allocates_nothing(CHECK_STATE)
 {
-  (void)state;
   enum { H = 20, N_COEF = 2 * H + 1 };
   static double X[2 * N_COEF], F[2 * N_COEF], jac[4 * N_COEF * N_COEF];
   contact_report report;
@@ -143,9 +140,8 @@ static void exact_force_allocates_nothing(void **state)
 }
 
 /* The same in a plane: always in contact, coming and going, and under a constant normal force. */
-static void circle_force_allocates_nothing(void **state)
+static void circle_force_allocates_nothing(CHECK_STATE)
 {
-  (void)state;
   enum { H = 5, N_COEF = 2 * H + 1 };
   static double X[3 * N_COEF], F[3 * N_COEF], jac[9 * N_COEF * N_COEF];
   static const contact halves[] = {{2, 1, 0.6, 1.5, 0}, {2, 1, 0.6, 0.1, 0}, {2, 0, 0.6, 0, 1}};
@@ -202,9 +198,8 @@ static void solving_with(int force)
   assert_true(wild <= MESSAGES);
 }
 
-static void solve_allocates_nothing(void **state)
+static void solve_allocates_nothing(CHECK_STATE)
 {
-  (void)state;
   solving_with(HBM_FORCE_SAMPLED);
   solving_with(HBM_FORCE_EXACT);
 }
@@ -217,9 +212,8 @@ static const struct CMUnitTest tests[] = {
 
 #else
 
-static void cannot_count_here(void **state)
+static void cannot_count_here(CHECK_STATE)
 {
-  (void)state;
   print_message("skipped: malloc belongs to the sanitizer here, or the C library is not glibc\n");
   skip();
 }

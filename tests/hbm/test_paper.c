@@ -72,9 +72,8 @@ static bool spoiled(const outcome *o, int real) { return o->status != HC_OK || o
  * follows the sample it started on, at fixed angle, until the next one takes over, a sawtooth whose teeth shrink
  * like 1/N while their derivatives stay. "Nearly smooth" is what longer steps see of it. At the interpolated touch the
  * derivatives are right to 1/N, and false turns die out: 2 are left at N = 2^13. */
-static void case_2_and_its_false_turning_points(void **state)
+static void case_2_and_its_false_turning_points(CHECK_STATE)
 {
-  (void)state;
   const double peak = 18.43041766;
   outcome on_sample[11], at_touch[14];
   scene any = paper_scene("c2", 64, HBM_RESTART_SAMPLE);
@@ -108,9 +107,8 @@ static void case_2_and_its_false_turning_points(void **state)
 /* Case 1, Table 4: N = 5 fails in places, 2^4 is usable, 2^7 smooth. So it is. Peak with exact forces: 0.64957.
  * Kinks miss s^2/12 of the force's derivative, s = 2 pi/N: 1.3 % at N = 16, of forces that are a part of the
  * response; 2 % and 2e-3 (points, not the refined peak) are held. */
-static void case_1_needs_few_samples(void **state)
+static void case_1_needs_few_samples(CHECK_STATE)
 {
-  (void)state;
   const double peak = 0.6495663811;
   scene any = paper_scene("a10", 16, HBM_RESTART_SAMPLE);
   const int real = real_turning_points(&any);
@@ -133,9 +131,8 @@ static void case_1_needs_few_samples(void **state)
 /* Figures 7 and 8: case A has no turning points at any force and natural continuation suffices. Case B's branch
  * turns at 10 N, and natural continuation stops there; in fact it turns as soon as it touches, 2 N included; only 1
  * N, which never touches, does not. (N = 1024.) */
-static void case_b_needs_arclength_and_case_a_does_not(void **state)
+static void case_b_needs_arclength_and_case_a_does_not(CHECK_STATE)
 {
-  (void)state;
   for (int force = 1; force <= 10; ++force)
     for (int natural = 0; natural <= 1; ++natural) {
       scene a = paper_scene("a10", 1024, HBM_RESTART_SAMPLE), b = paper_scene("b10", 1024, HBM_RESTART_SAMPLE);
@@ -155,9 +152,8 @@ static void case_b_needs_arclength_and_case_a_does_not(void **state)
 
 /* Figure 17: a stiffer contact needs more samples. The paper's first two failures are failures here too; 2^12 gets
  * through at kn = 5e3. */
-static void stiffer_contacts_need_more_samples(void **state)
+static void stiffer_contacts_need_more_samples(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     double kn;
     int n_time;

@@ -52,9 +52,8 @@ static void compare_jacobians(int H, int n_dof, const double dir[2], const doubl
 /* u = dir U: whatever the restart, T = dir T of the law of one tangent, and so is the Jacobian in the directions that
  * stay on the line. Both march by the same sums but for dir's: 1e-13 of the forces; a slider keeps the roundings of a
  * period's steps, and 30 of them at w are 30 kt. */
-static void a_line_is_one_tangent(void **state)
+static void a_line_is_one_tangent(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 21;
   int regimes[4] = {0}, told_apart = 0;
   double U[2 * CIRCLE_MAX_LENGTH], d[2 * CIRCLE_MAX_LENGTH], X[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[2 * CIRCLE_MAX_LENGTH];
@@ -126,9 +125,8 @@ static double circle_error(hbm_restart restart, int N)
 }
 
 /* Along the line between samples the error is of order 2; the radial return is of order 1, for the direction turns. */
-static void a_circle_by_its_closed_form(void **state)
+static void a_circle_by_its_closed_form(CHECK_STATE)
 {
-  (void)state;
   for (int N = 64; N <= 16384; N *= 4) {
     const double fine = circle_error(HBM_RESTART_INTERPOLATED, N), coarse = circle_error(HBM_RESTART_SAMPLE, N);
     print_message("N = %5d: error of T / mu N on a circle, along the line %.2e, radial return %.2e\n", N, fine, coarse);
@@ -155,9 +153,8 @@ static double error_of(const contact *law, hbm_restart restart, int H, int N, co
  * error is a sum over the places where the force or its slope bends, each with the fraction of a step at which it lies:
  * from N to 4 N it falls by 16 on average only. Over 2^8 .. 2^16 that is 16^4, and a fraction may be as unlucky as that
  * it costs a factor 4 at the one end or the other; where contact is lost, N and with it the error are small there. */
-static void located_forces_are_the_limit(void **state)
+static void located_forces_are_the_limit(CHECK_STATE)
 {
-  (void)state;
   enum { H = 3, L = 2 * H + 1 };
   static const char *const names[] = {"in contact", "separating", "grazing"};
   static const double gap[] = {1.3, 0.4, 0};
@@ -190,9 +187,8 @@ static void located_forces_are_the_limit(void **state)
 
 /* The plane turned, forces turn with it; the motion begun k samples later, forces begin later too, unless where the
  * slider rests depends on where it began. 1e-12: each period of dragging adds its roundings, and few are needed. */
-static void turns_and_shifts(void **state)
+static void turns_and_shifts(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 22;
   double X[CIRCLE_MAX_X], Y[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], wanted[CIRCLE_MAX_X];
   int shifted = 0;
@@ -226,9 +222,8 @@ static void turns_and_shifts(void **state)
 /* A motion that only just slips contracts little from period to period; the orbit is found all the same, to rounding: a
  * period more, marched from the slider found, gives the same forces. Here by an ellipse whose ends reach past the
  * circle by `past` of its radius. */
-static void little_slip_closes(void **state)
+static void little_slip_closes(CHECK_STATE)
 {
-  (void)state;
   const contact law = {.kt = 1, .mu = 1, .load = 1};
   for (int k = 0; k < 10; ++k) {
     const double past = pow(10, -k), a = 1 + past;
@@ -249,9 +244,8 @@ static hc_status forces(void *a, const double *X, double *F) { return planar_aft
 
 /* Against differences, to 1e-9. A sample that changes its state, in a motion out of some dozens, moves the difference
  * by its kink: those are the trials counted as skipped. */
-static void jacobian_equals_differences(void **state)
+static void jacobian_equals_differences(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 23;
   double X[CIRCLE_MAX_X], d[CIRCLE_MAX_X], F[CIRCLE_MAX_X], slope[CIRCLE_MAX_X], product[CIRCLE_MAX_X];
   int skipped = 0, checked = 0, regimes[4] = {0};
@@ -286,9 +280,8 @@ static void jacobian_equals_differences(void **state)
 
 /* ---- refused ---------------------------------------------------------------------------------------- */
 
-static void refuses(void **state)
+static void refuses(CHECK_STATE)
 {
-  (void)state;
   const contact law = {.kt = 1, .mu = 1, .load = 1}, smooth = {.kt = 1, .load = 1};
   planar_aft *a;
   assert_int_equal(planar_aft_new(0, 8, HBM_RESTART_SAMPLE, 2, &law, &a), HC_BAD_INPUT);

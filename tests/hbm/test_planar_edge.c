@@ -54,9 +54,8 @@ static void clear(space_curve *k)
 
 /* Amplitude and mean of x1 at 12.5, H = 3: reference hbm.csv (an independent program; located transitions). 1e-9: what
  * the reference asks of exact forces. */
-static void a_curve_passes_both_edges(void **state)
+static void a_curve_passes_both_edges(CHECK_STATE)
 {
-  (void)state;
   const double amplitude = 0.0136788720187776, mean = 0.000723689017065682, ends[2] = {9.45, 15.4};
   for (int down = 0; down < 2; ++down) {
     space_curve k = trace_space(0.1, 3, ends[down], ends[1 - down], 1);
@@ -80,9 +79,8 @@ static void a_curve_passes_both_edges(void **state)
  * the largest |u - w| - R over the period falls through 0 there is room for one w only, and the curve of stuck motions
  * turns. A search over w of its own, by nested golden sections, has that zero at 12.77034103, to the 1e-9 of R that
  * those are good to, which is 3e-10 in omega. */
-static void the_curve_turns_where_the_last_slider_is_stuck(void **state)
+static void the_curve_turns_where_the_last_slider_is_stuck(CHECK_STATE)
 {
-  (void)state;
   space_curve k = trace_space(0.1, 5, 12.772, 12.769, 0.05);
   hbm_special special[8];
   int n, turns = 0;
@@ -97,9 +95,8 @@ static void the_curve_turns_where_the_last_slider_is_stuck(void **state)
 
 /* Driven somewhat more, stuck motions lead back along slipping ones, for 5e-6 of omega: a step across an edge must not
  * lead to where the curve has been, or it goes round for ever. */
-static void a_curve_does_not_go_round(void **state)
+static void a_curve_does_not_go_round(CHECK_STATE)
 {
-  (void)state;
   space_curve k = trace_space(0.16, 5, 9.45, 15.4, 1);
   assert_true(k.c.points[k.c.n - 1].omega == 15.4);
   assert_in_range(k.c.n, 50, 1000);

@@ -27,9 +27,8 @@ static double force_size(const contact *law, double size)
 
 /* u = dir U: T = dir T of the law of one tangent. Both locate the same transitions to rounding; 1e-12 of the forces is
  * what a few dozen roundings of the largest terms come to where N is small beside what it is the difference of. */
-static void a_line_is_one_tangent(void **state)
+static void a_line_is_one_tangent(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 31;
   int regimes[4] = {0}, told_apart = 0;
   double U[2 * CIRCLE_MAX_LENGTH], X[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[2 * CIRCLE_MAX_LENGTH], worst = 0;
@@ -79,9 +78,8 @@ static void a_line_is_one_tangent(void **state)
 
 /* u = a (cos th, sin th), constant N: the slider follows on a circle of radius sqrt(a^2 - r^2), r = mu N/kt, and T has
  * mu N r/a along u and mu N sqrt(1 - r^2/a^2) ahead of it. It dissipates 2 pi mu N sqrt(a^2 - r^2) a cycle. */
-static void a_circle_by_its_closed_form(void **state)
+static void a_circle_by_its_closed_form(CHECK_STATE)
 {
-  (void)state;
   const contact law = {.kt = 3, .mu = 0.4, .load = 2.5};
   const double mu_N = 1, r = mu_N / 3;
   for (int k = 0; k < 8; ++k) {
@@ -127,9 +125,8 @@ static double distance_to_sampled(const contact *law, int H, const double *X, in
 /* Three motions: always in contact, coming and going, and one whose normal motion grazes separation. Order 2 of
  * samples holds on average over where they lie, so that four times as many are looked at: 16 times less, within a
  * factor of 3. */
-static void sampled_forces_tend_to_it(void **state)
+static void sampled_forces_tend_to_it(CHECK_STATE)
 {
-  (void)state;
   enum { H = 2 };
   const double gaps[] = {1.5, 0.2, 0.5};
   for (int k = 0; k < 3; ++k) {
@@ -150,9 +147,8 @@ static void sampled_forces_tend_to_it(void **state)
 
 /* Scenes of all kinds, to the error of sampling: order 2 of 2^14 samples is 1e-7 of what the largest harmonic makes,
  * and corners within a sample a few times that. */
-static void random_scenes_meet_the_sampled_ones(void **state)
+static void random_scenes_meet_the_sampled_ones(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 34;
   double X[CIRCLE_MAX_X], worst = 0;
   for (int trial = 0; trial < 120; ++trial) {
@@ -171,9 +167,8 @@ static void random_scenes_meet_the_sampled_ones(void **state)
 
 /* The plane turned, forces turn with it; the motion begun later, forces begin later too, unless where the slider rests
  * depends on where it began. */
-static void turns_and_shifts(void **state)
+static void turns_and_shifts(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 32;
   double X[CIRCLE_MAX_X], Y[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], wanted[CIRCLE_MAX_X], worst = 0;
   int shifted = 0;
@@ -214,9 +209,8 @@ static hc_status forces(void *f, const double *X, double *F) { return planar_for
 
 /* With a Jacobian the orbit is closed by a last step to first order, without one by passes alone: the same forces, to
  * 1e-12 of them; and the same slider, to 1e-7: what phi is good to between a panel's points. */
-static void with_jacobian_the_force_is_the_same(void **state)
+static void with_jacobian_the_force_is_the_same(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 35;
   double X[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], worst = 0;
   for (int trial = 0; trial < 400; ++trial) {
@@ -242,9 +236,8 @@ static void with_jacobian_the_force_is_the_same(void **state)
 }
 
 /* Against differences; where an interval appears or vanishes the trial is counted as skipped. */
-static void jacobian_equals_differences(void **state)
+static void jacobian_equals_differences(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 33;
   double X[CIRCLE_MAX_X], d[CIRCLE_MAX_X], F[CIRCLE_MAX_X], slope[CIRCLE_MAX_X], product[CIRCLE_MAX_X], worst = 0;
   int skipped = 0, checked = 0, regimes[4] = {0};
@@ -286,9 +279,8 @@ static void jacobian_equals_differences(void **state)
  * there, whose derivatives by a and Y are -kt a/sqrt(R^2 - a^2) and 0. A rounding of R moves the corner by R/sqrt(R^2 -
  * a^2) of it; a few dozen are granted. Where R < a it slips for ever, by symmetry about Y, to as many roundings of R
  * over the part of a radius that it slips. */
-static void a_slider_creeps_to_the_corner_of_a_lens(void **state)
+static void a_slider_creeps_to_the_corner_of_a_lens(CHECK_STATE)
 {
-  (void)state;
   const double Y = 3, a = 1, room[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, -1e-2, -1e-4};
   for (int k = 0; k < 7; ++k) {
     const double R = a * (1 + room[k]), deep = sqrt(fmax(0, (R - a) * (R + a)));
@@ -314,9 +306,8 @@ static void a_slider_creeps_to_the_corner_of_a_lens(void **state)
 /* ---- limits and refusals ------------------------------------------------------------------------------- */
 
 /* Far too little pull to slip: kt (u - 0), a free slider; and never in contact: nothing. */
-static void stuck_and_open_are_linear(void **state)
+static void stuck_and_open_are_linear(CHECK_STATE)
 {
-  (void)state;
   const contact stuck = {.kt = 3, .kn = 2, .mu = 0.5, .gap = 100}, open = {.kt = 3, .kn = 2, .mu = 0.5, .gap = -100};
   const double X[9] = {0.1, 1, 0.2, 0.3, -0.4, 0.9, 0.2, 0.5, 0.1};
   double F[9];
@@ -336,9 +327,8 @@ static void stuck_and_open_are_linear(void **state)
   planar_force_free(f);
 }
 
-static void refuses(void **state)
+static void refuses(CHECK_STATE)
 {
-  (void)state;
   const contact law = {.kt = 1, .mu = 1, .load = 1}, smooth = {.kt = 1, .load = 1};
   planar_force *f;
   assert_int_equal(planar_force_new(0, 2, &law, &f), HC_BAD_INPUT);

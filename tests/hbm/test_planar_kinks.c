@@ -112,9 +112,8 @@ static void print_tally(const char *what, const tally *t)
 
 /* kt |u'| = mu kn v' at touch-down. Which of stick and slip follows is up to what comes next, both do, and phi' of slip
  * that follows a short stick is (something small)/R, R nearly 0. */
-static void slip_that_begins_at_touch_down(void **state)
+static void slip_that_begins_at_touch_down(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 41;
   tally t = {0};
   int outruns = 0;
@@ -140,9 +139,8 @@ static void slip_that_begins_at_touch_down(void **state)
 }
 
 /* N touches 0 at one angle; on one side it never separates. */
-static void a_graze_of_the_normal_force(void **state)
+static void a_graze_of_the_normal_force(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 42;
   tally t = {0};
   for (int trial = 0; trial < 100; ++trial) {
@@ -160,9 +158,8 @@ static void a_graze_of_the_normal_force(void **state)
 }
 
 /* kt u = mu N all the while: every instant is an edge. T = mu N, whichever state says so. */
-static void at_the_limit_all_the_while(void **state)
+static void at_the_limit_all_the_while(CHECK_STATE)
 {
-  (void)state;
   const contact law = {.kt = 0.75, .kn = 1.5, .mu = 0.5};
   double X[ROWS] = {0}, F[ROWS];
   planar_force *f = make(&law);
@@ -232,9 +229,8 @@ static int count_bars(const char *spelt)
 /* Random contacts that come and go, at whatever edge lies between two motions: a graze of N (another number of
  * bars), a touch-down that slips or sticks, or an interval within contact. At those of friction's limit F has a
  * kink: a slider is pushed on one side and not on the other. */
-static void edges_between_motions(void **state)
+static void edges_between_motions(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 43;
   tally grazes = {0}, touches = {0}, inside = {0};
   for (int trial = 0; trial < 900; ++trial) {

@@ -7,9 +7,8 @@
 
 /* u = a (cos th, sin th), constant N: the slider goes round on sqrt(a^2 - r^2), r = mu N/kt. 1e-13: sums of a few dozen
  * terms of that size. */
-static void a_circle_by_its_closed_form(void **state)
+static void a_circle_by_its_closed_form(CHECK_STATE)
 {
-  (void)state;
   const contact law = {.kt = 3, .mu = 0.4, .load = 2.5}, half = circle_half(law);
   const double r = 1.0 / 3, a = 0.7, path = 2 * PI * sqrt(a * a - r * r), u1[3] = {0, a, 0}, u2[3] = {0, 0, a},
                v[3] = {0};
@@ -25,9 +24,8 @@ static void a_circle_by_its_closed_form(void **state)
 }
 
 /* Stuck, |T| is the largest distance of an ellipse from its slider, here along its long axis. */
-static void stuck_it_pulls_as_far_as_it_goes(void **state)
+static void stuck_it_pulls_as_far_as_it_goes(CHECK_STATE)
 {
-  (void)state;
   const contact half = circle_half((contact){.kt = 3, .mu = 0.4, .load = 25});
   const double c = cos(0.4), s = sin(0.4), u1[5] = {0, 0, 0, 0.9 * c, -0.2 * s}, u2[5] = {0, 0, 0, 0.9 * s, 0.2 * c},
                v[5] = {0};
@@ -40,9 +38,8 @@ static void stuck_it_pulls_as_far_as_it_goes(void **state)
 
 /* Halves of what contact_measures_of says of the whole contact. Traction and path are found as roots and integrals of
  * other functions of the same motion: 1e-12 of them. */
-static void on_a_line_it_is_one_tangent(void **state)
+static void on_a_line_it_is_one_tangent(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 41;
   double u[CIRCLE_MAX_LENGTH], u1[CIRCLE_MAX_LENGTH], u2[CIRCLE_MAX_LENGTH], v[CIRCLE_MAX_LENGTH];
   for (int trial = 0; trial < 300; ++trial) {
@@ -65,9 +62,8 @@ static void on_a_line_it_is_one_tangent(void **state)
 }
 
 /* closed integral T . du = pi sum over h of h (a_T b_u - b_T a_u), whatever the path: of the force's own harmonics. */
-static void work_is_that_of_the_traction(void **state)
+static void work_is_that_of_the_traction(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 42;
   double X[CIRCLE_MAX_X], F[CIRCLE_MAX_X];
   int slipped = 0;
@@ -93,9 +89,8 @@ static void work_is_that_of_the_traction(void **state)
   assert_true(slipped > 150);
 }
 
-static void what_is_no_motion_is_refused(void **state)
+static void what_is_no_motion_is_refused(CHECK_STATE)
 {
-  (void)state;
   const contact half = circle_half((contact){.kt = 3, .mu = 0.4, .load = 2.5});
   const double u[3] = {0, NAN, 0}, v[3] = {0};
   contact_period out[2];

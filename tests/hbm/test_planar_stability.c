@@ -329,9 +329,8 @@ static double check(const char *what, const structure_case *c, double omega)
 }
 
 /* The mass on a rough plane: with slip all round, touch-down, lift-off; and pressed on so that N does not vary. */
-static void multipliers_are_those_of_the_period_map(void **state)
+static void multipliers_are_those_of_the_period_map(CHECK_STATE)
 {
-  (void)state;
   static const double factor[] = {1, 1.0 / 3};
   for (int k = 0; k < 2; ++k) {
     structure_case c = structure_case_named("space", H);
@@ -370,9 +369,8 @@ static void add_circle(structure_case *c, int along_1, int along_2, double kt, d
 
 /* Two on one mass: the plane it rubs on and lifts off from, and another one across it that only sticks; and a third one
  * that slips, too. */
-static void multipliers_of_several_circles(void **state)
+static void multipliers_of_several_circles(CHECK_STATE)
 {
-  (void)state;
   structure_case c = structure_case_named("space", H);
   add_circle(&c, 1, 2, 30, 1e3);
   check("one slips, one sticks", &c, 11);
@@ -396,9 +394,8 @@ static double multiplier_of(const structure_case *c, double omega)
 }
 
 /* A spring behind it in the list, too soft to matter: the circle's motion is still its own. */
-static void another_contact_changes_nothing(void **state)
+static void another_contact_changes_nothing(CHECK_STATE)
 {
-  (void)state;
   structure_case alone = structure_case_named("space", H), beside = alone;
   assert_int_equal(model_copy_sized(alone.model, 3, alone.model->n_responses, &beside.model), HC_OK);
   beside.model->contacts[2].law = (contact){.kn = 1e-12, .gap = 100};
@@ -411,9 +408,8 @@ static void another_contact_changes_nothing(void **state)
 
 /* A period doubling of two circles that harmonic balance locates is one of the map. There is no such test of a
  * Neimark-Sacker point: neither plane nor space has one. */
-static void a_doubling_is_one_of_the_period_map(void **state)
+static void a_doubling_is_one_of_the_period_map(CHECK_STATE)
 {
-  (void)state;
   structure_case c = structure_case_named("space", H);
   add_circle(&c, 1, 2, 30, 1e3);
   hbm_solver *s = structure_solver(&c);

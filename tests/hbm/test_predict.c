@@ -83,9 +83,8 @@ static const struct {
 } places[] = {{"c2", 5.8}, {"c2", 6}, {"c2", 6.5}, {"c2", 7}, {"a10", 13.5}, {"a10", 14}, {"a10", 14.5}};
 enum { N_PLACES = sizeof places / sizeof *places };
 
-static void prediction_tracks_truncation(void **state)
+static void prediction_tracks_truncation(CHECK_STATE)
 {
-  (void)state;
   static const int harmonics[] = {1, 2, 3, 5, 7, 10, 14, 20, 30};
   for (int i = 0; i < N_PLACES; ++i)
     for (size_t k = 0; k < sizeof harmonics / sizeof *harmonics; ++k) {
@@ -101,9 +100,8 @@ static void prediction_tracks_truncation(void **state)
 
 /* Twice as many as 120 are too many: half as many tell, H = 200 is the truth, and (120/200)^3 = 1/5 of the error is its
  * own. */
-static void prediction_tracks_truncation_of_many_harmonics(void **state)
+static void prediction_tracks_truncation_of_many_harmonics(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0; i < N_PLACES; ++i) {
     char what[64];
     solved r = solve(exact_scene(places[i].name, 120), places[i].omega, HBM_MAX_HARMONICS);
@@ -121,9 +119,8 @@ static void prediction_tracks_truncation_of_many_harmonics(void **state)
 }
 
 /* N = 64 and H = 20: what is off is aliasing, a hundred times the truncation and more in c2. */
-static void prediction_tracks_aliasing(void **state)
+static void prediction_tracks_aliasing(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0; i < N_PLACES; ++i) {
     char what[64];
     solved r = solve(scene_named(places[i].name, 20, true, 64), places[i].omega, TRUTH);
@@ -135,9 +132,8 @@ static void prediction_tracks_aliasing(void **state)
 }
 
 /* Without harmonic 0: c2 is 8 to 24 % off. */
-static void prediction_tracks_a_mean_left_out(void **state)
+static void prediction_tracks_a_mean_left_out(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0; i < 4; ++i) {
     scene sc = exact_scene(places[i].name, 10);
     sc.hbm.keep_mean = false;
@@ -152,9 +148,8 @@ static void prediction_tracks_a_mean_left_out(void **state)
 }
 
 /* A solution spoilt on purpose: what was done to it is off, and is seen. */
-static void a_mistake_is_predicted(void **state)
+static void a_mistake_is_predicted(CHECK_STATE)
 {
-  (void)state;
   enum { H = 10 };
   for (int i = 0; i < N_PLACES; ++i) {
     solved r = solve(exact_scene(places[i].name, H), places[i].omega, TRUTH);
@@ -179,9 +174,8 @@ static void a_mistake_is_predicted(void **state)
 
 /* Along omega the error of the amplitude passes through 0 where that of the waveform does not, and so does what the
  * finer equations say, elsewhere. */
-static void chance_agreement_is_not_relied_on(void **state)
+static void chance_agreement_is_not_relied_on(CHECK_STATE)
 {
-  (void)state;
   enum { H = 10, STEPS = 1000 };
   solved r = solve(exact_scene("c2", H), 5.8, TRUTH);
   double Y[MOST] = {0}, before = 0;
@@ -209,9 +203,8 @@ static void chance_agreement_is_not_relied_on(void **state)
 
 /* The motion of 9.2 on the resonant branch, told to be one of 9.22 and more, beyond the fold at 9.2096: Newton goes
  * anywhere. The only solution there is a fifth as large. */
-static void a_solution_that_is_not_there_is_far_off(void **state)
+static void a_solution_that_is_not_there_is_far_off(CHECK_STATE)
 {
-  (void)state;
   scene sc = exact_scene("c2", 10);
   solved r = solve(sc, 7.2, TRUTH);
   hbm_curve c = {0}, at = {0};
@@ -233,9 +226,8 @@ static void a_solution_that_is_not_there_is_far_off(void **state)
 }
 
 /* What was asked before leaves no trace. */
-static void prediction_repeats_itself(void **state)
+static void prediction_repeats_itself(CHECK_STATE)
 {
-  (void)state;
   solved r = solve(exact_scene("c2", 10), 6.5, TRUTH);
   double Y[MOST];
   for (int k = 0; k < 21; ++k) Y[k] = -3 * r.X[k];
@@ -249,9 +241,8 @@ static void prediction_repeats_itself(void **state)
 }
 
 /* Where nothing touches, the closed form is off by rounding: more than nothing, and not much. */
-static void prediction_of_a_linear_response_is_rounding(void **state)
+static void prediction_of_a_linear_response_is_rounding(CHECK_STATE)
 {
-  (void)state;
   for (int n_harm = 1; n_harm <= 30; n_harm += 29) {
     solved r = solve(exact_scene("c2", n_harm), 5, TRUTH);
     const motion_error e = predicted(&r, r.X);
@@ -264,9 +255,8 @@ static void prediction_of_a_linear_response_is_rounding(void **state)
   }
 }
 
-static void what_is_no_number_predicts_none(void **state)
+static void what_is_no_number_predicts_none(CHECK_STATE)
 {
-  (void)state;
   static const double bad[] = {NAN, INFINITY, -INFINITY, 1e308};
   for (int force = 0; force < 2; ++force) {
     scene sc = exact_scene("c2", 10);
@@ -292,9 +282,8 @@ static void what_is_no_number_predicts_none(void **state)
 }
 
 /* hbm.harmonics: auto changes the number under way. */
-static void prediction_follows_the_number_of_harmonics(void **state)
+static void prediction_follows_the_number_of_harmonics(CHECK_STATE)
 {
-  (void)state;
   scene sc = exact_scene("c2", HBM_AUTO);
   sc.hbm.accuracy = 1e-4;
   hbm_solver *s;

@@ -28,9 +28,8 @@ static void check(const double *F, double terms, const char *which)
   for (int i = 0; i < N_COEF; ++i) CHECK_NEAR(F[i], k * X[i], terms * DBL_EPSILON * k * 2e-10, "%s, row %d", which, i);
 }
 
-static void exact_force_of_a_small_motion(void **state)
+static void exact_force_of_a_small_motion(CHECK_STATE)
 {
-  (void)state;
   scene sc = preloaded();
   exact_force *e;
   double F[N_COEF];
@@ -40,9 +39,8 @@ static void exact_force_of_a_small_motion(void **state)
   check(F, 4 * N_COEF, "exact");
 }
 
-static void sampled_force_of_a_small_motion(void **state)
+static void sampled_force_of_a_small_motion(CHECK_STATE)
 {
-  (void)state;
   scene sc = preloaded();
   aft *a;
   double F[N_COEF];
@@ -54,9 +52,8 @@ static void sampled_force_of_a_small_motion(void **state)
 
 /* Open for part of the period the preload is missing there: against samples, whose error is d^2/8 times the jumps of
  * the force's derivative, d = 2 pi/N. */
-static void an_opening_takes_the_preload_away(void **state)
+static void an_opening_takes_the_preload_away(CHECK_STATE)
 {
-  (void)state;
   enum { N = 8192 };
   scene sc = preloaded();
   const double large[N_COEF] = {0, 20, 0, 1, 0, 0, 0};

@@ -20,9 +20,8 @@ static void check_found(const structure_case *c, double omega, double *X, hbm_so
 /* Sector k does what sector 0 does, 3 k/24 of a period later: harmonic h is turned by exp(-2 pi i h 3 k/24). All
  * contacts slip, so that there is one motion. The residual is 1e-13 of the forces; at a resonance of 0.3 % damping
  * motions are off by up to 1/0.006 times as much, and higher harmonics are measured by the largest: 1e-10. */
-static void sectors_follow_each_other(void **state)
+static void sectors_follow_each_other(CHECK_STATE)
 {
-  (void)state;
   static const int sectors[] = {1, 5, 18};
   for (size_t q = 0; q < sizeof sectors / sizeof *sectors; ++q) {
     structure_case c = structure_case_named("bladed_disk", H);

@@ -88,9 +88,8 @@ static void without_sticking(moving_contact *c)
   c->law.gap = 3;
 }
 
-static void equals_two_whole_periods(void **state)
+static void equals_two_whole_periods(CHECK_STATE)
 {
-  (void)state;
   static const int sizes[] = {5, 16, 17, 33, 64, 250, 1024, 1099};
   uint64_t seed = 5;
   int seen[4] = {0}; /* never touches, separates, stays in contact, slips all the time */
@@ -111,9 +110,8 @@ static void equals_two_whole_periods(void **state)
 }
 
 /* Samples exactly at the limits: at the gap, at the friction limit, at rest; no friction, no stiffness. */
-static void equals_them_at_the_limits(void **state)
+static void equals_them_at_the_limits(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 6;
   int seen[4] = {0};
   for (int trial = 0; trial < 4000; ++trial) {

@@ -46,9 +46,8 @@ static double special(const found *f, hbm_special_kind kind, int i)
  * segment, shorter than 10 in omega. The orbit in Newton's tolerance 1e-10 of |x| would move it by 1e-10 |x|/(d|x|/d
  * omega), |x| = 7.07 and the derivatives 1.3 and 3.7: below 6e-10. special_points.h promises 1e-9 of omega, which is
  * less than 1e-8. */
-static void contact_sets_in_where_the_linear_response_grazes(void **state)
+static void contact_sets_in_where_the_linear_response_grazes(CHECK_STATE)
 {
-  (void)state;
   double b = 0.4 * 0.4 - 2 * 40, q = 100 * sqrt(0.5) / 5, c = 40 * 40 - q * q;
   double low = sqrt(0.5 * (-b - sqrt(b * b - 4 * c))), high = sqrt(0.5 * (-b + sqrt(b * b - 4 * c)));
   CHECK_NEAR(low, 5.0995831509, 1e-10, "closed form against theory.md, 11");
@@ -72,9 +71,8 @@ static void contact_sets_in_where_the_linear_response_grazes(void **state)
  * the fourth power of their distance, less than any margin of root_change_guided, whose first five leave nothing: 10
  * solutions, and two rounds of 3 more where the pattern begins with a kink. Nothing else is searched for below 5.105,
  * where contact sets in and nothing turns back or doubles. */
-static void a_contact_change_takes_few_solutions(void **state)
+static void a_contact_change_takes_few_solutions(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_named("c2", 5, true, 1024);
   found f = find_in(sc, 5.105);
   hbm_special at[ROOM];
@@ -102,9 +100,8 @@ static void check_no_twins(const found *f, const char *what)
 
 /* Preloaded by 1, case 2 slips and separates from the same amplitude on: the jump from stick is one change, from stick
  * to separation. So it is with two like contacts, and where slip within the contact begins with it (kn = 200). */
-static void what_begins_at_once_is_one_change(void **state)
+static void what_begins_at_once_is_one_change(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_named("c2", 5, true, 1024);
   sc.contacts[0].law.gap = 1;
   sc.hbm.skip_linear = true;
@@ -153,9 +150,8 @@ static hbm_stability stability_of_solution(found *f, const hbm_curve *at, int i)
  * Their mean misses 1 because the multiplier belongs to the orbit of the untruncated equations, by O(H^-3) as the
  * transitions are: the fold of H is 4e-5 from that of 2H (9.20954, 9.209579, 9.209580 at H = 10, 20, 40), and a
  * sqrt(4e-5) is what that costs at most. */
-static void a_fold_is_where_two_solutions_and_multiplier_one_meet(void **state)
+static void a_fold_is_where_two_solutions_and_multiplier_one_meet(CHECK_STATE)
 {
-  (void)state;
   found f = find("c2", 20);
   double fold = special(&f, HBM_TURNING_POINT, 0), split[2], turn = special(&f, HBM_TURNING_POINT, 1);
   CHECK_NEAR(fold, 9.20958, 1e-5, "fold at H = 20");
@@ -190,9 +186,8 @@ static void a_fold_is_where_two_solutions_and_multiplier_one_meet(void **state)
  * 40, by 16^2 / 10 at least where the contact lasts long (5.57), where asymptotics hold from H = 10 on. Just after
  * grazing (5.106) contact lasts a 50th of a period, and 40 harmonics hardly resolve it: there only 2e-5 at H = 40,
  * and falling by 10 to H = 80. The references are rounded to 1e-6: 5e-7. */
-static void doublings_tend_to_those_of_the_true_orbit(void **state)
+static void doublings_tend_to_those_of_the_true_orbit(CHECK_STATE)
 {
-  (void)state;
   static const int harmonics[] = {10, 20, 40, 80};
   double low[4], high[4];
   for (int q = 0; q < 4; ++q) {
@@ -219,9 +214,8 @@ static void doublings_tend_to_those_of_the_true_orbit(void **state)
 
 /* kn = 1e4: contact ten times stiffer and three times shorter, so H = 80 here is worth about H = 25 there: 1e-4, and
  * eight times nearer than H = 40. */
-static void the_doubling_of_a_stiff_contact(void **state)
+static void the_doubling_of_a_stiff_contact(CHECK_STATE)
 {
-  (void)state;
   double miss[2];
   for (int q = 0; q < 2; ++q) {
     found f = find("c2kn1e4", q ? 80 : 40);
@@ -235,9 +229,8 @@ static void the_doubling_of_a_stiff_contact(void **state)
 
 /* Between the doublings unstable, between fold and turn unstable, else stable: at the middles and next to the
  * limits, outside what truncation moves. */
-static void every_interval_is_as_stable_as_it_should_be(void **state)
+static void every_interval_is_as_stable_as_it_should_be(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     double omega;
     int n;
@@ -273,9 +266,8 @@ static void every_interval_is_as_stable_as_it_should_be(void **state)
 }
 
 /* More special points than fit: all are counted, the first ones kept. */
-static void too_little_room_keeps_the_first(void **state)
+static void too_little_room_keeps_the_first(CHECK_STATE)
 {
-  (void)state;
   found f = find("c2", 10);
   hbm_special few[2];
   int n = -1;

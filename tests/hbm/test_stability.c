@@ -70,9 +70,8 @@ static void check_linear(const scene *sc, double k, double omega, contact_regime
   CHECK_NEAR(st.fold, creal((1 - l1) * (1 - l2)), 4 * tol, "%s omega=%g", what, omega);
 }
 
-static void a_linear_oscillator_has_the_exponentials_of_its_eigenvalues(void **state)
+static void a_linear_oscillator_has_the_exponentials_of_its_eigenvalues(CHECK_STATE)
 {
-  (void)state;
   /* critical: 12.65 at k = 40, 36.4 stuck */
   static const double damping[] = {0.02, 0.4, 5, 12.7, 30}, omegas[] = {2.3, 6, 11, 40};
   for (size_t i = 0; i < sizeof damping / sizeof *damping; ++i)
@@ -102,9 +101,8 @@ static double moving_determinant(const hbm_stability *st) { return 0.5 * (st->fl
  * is a difference of products of phi's entries, each of m intervals long and rounded 10 times an interval: 10 m eps
  * |phi_00 phi_11|, and with det = b, trace = 2 half, no product exceeds half^2 + |phi_01 phi_10| <= trace^2 +
  * multiplier^2 + 1. m <= transitions + 2 < 40 here: 1e-13 times that; 1e-12 leaves room for the angles. */
-static void without_slip_the_determinant_is_that_of_the_damping(void **state)
+static void without_slip_the_determinant_is_that_of_the_damping(CHECK_STATE)
 {
-  (void)state;
   static const int harmonics[] = {5, 20};
   for (int q = 0; q < 2; ++q) {
     scene sc = exact_scene("c2", harmonics[q]);
@@ -351,9 +349,8 @@ static void check_slipping(const scene *sc, double omega, const char *what)
            omega);
 }
 
-static void slipping_orbits_against_differences_of_the_period_map(void **state)
+static void slipping_orbits_against_differences_of_the_period_map(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name;
     double omega;
@@ -364,9 +361,8 @@ static void slipping_orbits_against_differences_of_the_period_map(void **state)
   }
 }
 
-static void two_contacts_against_differences_of_the_period_map(void **state)
+static void two_contacts_against_differences_of_the_period_map(CHECK_STATE)
 {
-  (void)state;
   static const double omegas[] = {5.5, 7, 8};
   for (int i = 0; i < 3; ++i) {
     scene sc = exact_scene("b10", 30);
@@ -379,9 +375,8 @@ static void two_contacts_against_differences_of_the_period_map(void **state)
 /* Shakedown: the slider slipped from w = 0 until friction just holds it. Where it rests is one of a family of places,
  * so its multiplier is 1 and is left out; the others are those of the stuck oscillator, exp(lambda T) with M lambda^2
  * + C lambda + K' = 0. A stress campaign found the case: the verdict was "unknown" for orbits that are stable. */
-static void a_slider_shaken_down_is_held(void **state)
+static void a_slider_shaken_down_is_held(CHECK_STATE)
 {
-  (void)state;
   scene sc = exact_scene("a10", 4);
   sc.mass = 0.004673179462143663, sc.damping = 3.034467329816304, sc.stiffness = 5318.444481348431,
   sc.force = 583.943258710234;
@@ -406,9 +401,8 @@ static void a_slider_shaken_down_is_held(void **state)
 
 /* Between the turning point of H harmonics, where det dR/dX changes sign, and the orbit whose multiplier is 1, the two
  * contradict each other, and the verdict is "unknown". Past the turning point det dR/dX has the other sign. */
-static void the_determinant_has_its_say(void **state)
+static void the_determinant_has_its_say(CHECK_STATE)
 {
-  (void)state;
   scene sc = exact_scene("c2", 3);
   hbm_solver *s;
   hbm_curve curve = {0};

@@ -92,9 +92,8 @@ static void reach(reach_of *most, const model *m, const hbm_system *sys)
 }
 
 /* To n = 30 with 12 contacts, H to 20; every tenth without harmonic 0. Of sampled forces the same. */
-static void jacobian_is_the_derivative(void **state)
+static void jacobian_is_the_derivative(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 11;
   int compared[2] = {0}, tried[2] = {0};
   reach_of reached = {0};
@@ -231,9 +230,8 @@ static model *with_contacts_split(const model *m)
 
 /* 1e-11 of the largest coefficient: rounding of the change of coordinates, n^2 units, times the condition of the
  * equations, which for these structures is below 1e4. */
-static void another_way_to_write_it_changes_nothing(void **state)
+static void another_way_to_write_it_changes_nothing(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 5;
   int solved = 0, separated = 0;
   for (int trial = 0; trial < 60; ++trial) {
@@ -271,9 +269,8 @@ static void another_way_to_write_it_changes_nothing(void **state)
 
 /* Case 2 of the paper, n times, coupled by nothing: each is case 2 alone. Newton starts next to that: along a path all
  * of them would turn at once, and no single tangent is left. */
-static void copies_are_each_the_one(void **state)
+static void copies_are_each_the_one(CHECK_STATE)
 {
-  (void)state;
   enum { COPIES = 4 };
   model *one, *many;
   double x[2][41], y[2][41];
@@ -339,9 +336,8 @@ static model *two_bodies(double size)
 /* At the tolerance that users have, 1e-10: were a row compared with the forces on all bodies, the small one would be
  * left as its guess was. 2.2e-13 of the largest force, the least that a row is compared with times the tolerance, is
  * 2.2e-7 of its own; with the last Newton step its square. */
-static void a_small_body_beside_a_large_one(void **state)
+static void a_small_body_beside_a_large_one(CHECK_STATE)
 {
-  (void)state;
   enum { HARMONICS = 5 };
   const double size = 1e-6;
   model *alike = two_bodies(1), *unlike = two_bodies(size);
@@ -364,9 +360,8 @@ static void a_small_body_beside_a_large_one(void **state)
 }
 
 /* 50 x + 100 (x - 0.1) = 20: x = 0.2, N = 10; a stop at 1 is out of reach. */
-static void contacts_at_rest(void **state)
+static void contacts_at_rest(CHECK_STATE)
 {
-  (void)state;
   model *m;
   hbm_solver *s;
   double N[2];
@@ -389,9 +384,8 @@ static void contacts_at_rest(void **state)
 }
 
 /* A load of harmonic 5 and one of 1: auto keeps five harmonics from the first point on, and nowhere fewer. */
-static void auto_keeps_the_loads(void **state)
+static void auto_keeps_the_loads(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 3;
   model *m = random_structure(&seed, 3, 1);
   hbm_settings how = settings(HBM_AUTO);

@@ -74,9 +74,8 @@ static void check_over_sweep(const char *name, structure_case *c, const bool *st
   model_free(given);
 }
 
-static void stuck_contacts(void **state)
+static void stuck_contacts(CHECK_STATE)
 {
-  (void)state;
   for (int k = 0; k < N_STRUCTURE_CASES; ++k) {
     structure_case c = structure_case_named(STRUCTURE_CASES[k], H);
     bool stuck[4];
@@ -86,9 +85,8 @@ static void stuck_contacts(void **state)
   }
 }
 
-static void open_contacts(void **state)
+static void open_contacts(CHECK_STATE)
 {
-  (void)state;
   for (int k = 0; k < N_STRUCTURE_CASES; ++k) {
     structure_case c = structure_case_named(STRUCTURE_CASES[k], H);
     const bool stuck[4] = {false};
@@ -104,9 +102,8 @@ static void open_contacts(void **state)
 }
 
 /* pyHarm's example "jenkins": the 2-norm of the harmonics of its first mass at omega = 24, as it prints it. */
-static void pyharm_prints_the_same(void **state)
+static void pyharm_prints_the_same(CHECK_STATE)
 {
-  (void)state;
   structure_case c = structure_case_named("jenkins2", 7);
   hbm_solver *s = structure_solver(&c);
   hbm_point point;

@@ -23,9 +23,8 @@ static void check_solution(const char *name, hbm_solver *s, const model *m, doub
 }
 
 /* Slipping, separating, with sliders that never slip, and unstable ones. */
-static void multipliers_are_those_of_the_period_map(void **state)
+static void multipliers_are_those_of_the_period_map(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name;
     double omega[7];
@@ -109,9 +108,8 @@ static void free_curve(structure_case *c, hbm_solver *s, hbm_curve *curve)
 /* The two frequencies at which the pad's stop brings its modes to flutter and lets them part again, bisected; no other
  * point of the kind. The map's multipliers are good to 1e-9 (seen: 1e-10), and the point lies where the pair is
  * 1 + 1e-10 in size (stability.h): 2e-9 over the slope, which is that of the chord. */
-static void neimark_sacker_points_are_where_a_pair_leaves(void **state)
+static void neimark_sacker_points_are_where_a_pair_leaves(CHECK_STATE)
 {
-  (void)state;
   static const double inside[2] = {9.02, 11.335}, outside[2] = {9.06, 11.31};
   structure_case c;
   hbm_solver *s;
@@ -135,9 +133,8 @@ static void neimark_sacker_points_are_where_a_pair_leaves(void **state)
 
 /* Others that turned up, on curves that turn: at their omega a pair is on the circle. 1e-8: differences to 1e-9, and
  * points located to 1e-11 of a segment. */
-static void every_one_has_a_pair_on_the_circle(void **state)
+static void every_one_has_a_pair_on_the_circle(CHECK_STATE)
 {
-  (void)state;
   int checked = 0;
   for (int q = 0; q < N_STRUCTURE_CASES; ++q) {
     structure_case c;

@@ -51,9 +51,8 @@ static void check_order(const char *name, int order, double (*error)[SIZES], int
 /* With friction 0.6 the wedge touches down and sticks, so that where its slider then starts counts: on a sample, it
  * is order 1 (docs/aliasing.md). Of each case where its contacts slip or separate, mostly; sampled at none of the
  * frequencies does it fail to converge. */
-static void sampled_tends_to_exact(void **state)
+static void sampled_tends_to_exact(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name;
     double from, to;

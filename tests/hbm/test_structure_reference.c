@@ -111,9 +111,8 @@ static void check_frequency(hbm_solver *s, const model *m, const hbm_curve *curv
   hbm_curve_free(&at);
 }
 
-static void every_solution_is_found(void **state)
+static void every_solution_is_found(CHECK_STATE)
 {
-  (void)state;
   static reference row[MOST_ROWS];
   const int n = read_rows(row);
   assert_int_equal(n, 353);

@@ -26,9 +26,8 @@ static hbm_stability stability_of(const model *m, double omega, double *X)
 
 /* Case 2 of the paper at 8, whose solutions slip, separate and are unstable, and a linear oscillator beside it; written
  * in x = Q y, so that nothing is decoupled. Multipliers of the linear one: exp((-c/2 +- i w) T/m). */
-static void oscillators_side_by_side(void **state)
+static void oscillators_side_by_side(CHECK_STATE)
 {
-  (void)state;
   const double omega = 8, mass = 2, damping = 0.7, stiffness = 30, turn = 0.6;
   const double Q[4] = {cos(turn), sin(turn), -sin(turn), cos(turn)};
   const contact laws[] = {{.kt = 100, .kn = 1000, .mu = 0.3, .gap = -5}, {.kt = 100, .kn = 200, .mu = 0.3, .gap = 0.5}};
@@ -74,9 +73,8 @@ static void oscillators_side_by_side(void **state)
 
 /* A free body without damping has A = [0 1; 0 0], which has one eigenvector: x moves by v t, under a stuck slider's
  * pull by t^2/2 more. */
-static void a_free_body_has_no_eigenvectors(void **state)
+static void a_free_body_has_no_eigenvectors(CHECK_STATE)
 {
-  (void)state;
   model *m;
   interval_flow *f;
   assert_int_equal(model_new(2, 0, 1, 1, &m), HC_OK);
@@ -154,9 +152,8 @@ static void products_of(const model *m, int last, bool all, double *fold, double
  * has two multipliers, which the products over 1 - lambda and 1 + lambda tell, and a slider's 0. The map of all states
  * rounds by 2e-16 of its entries, 1e2 to 1e3 times as large as the multipliers: velocities of motions at 300 beside
  * displacements. With kt = 1e9 a slider's force in the place of its motion would make entries of 1e9, and 1e-7. */
-static void what_a_interval_leaves_has_all_the_multipliers(void **state)
+static void what_a_interval_leaves_has_all_the_multipliers(CHECK_STATE)
 {
-  (void)state;
   static const double stiffness[] = {100, 1e9};
   for (int i = 0; i < 4; ++i) {
     const int last = i % 2 ? STUCK : SLIP;
@@ -175,9 +172,8 @@ static void what_a_interval_leaves_has_all_the_multipliers(void **state)
 /* A free chain keeps its momentum: sum m dx moves by t sum m dx' whatever the springs do. Its eigenvectors of the free
  * motion are nearly one and the same; those of the other motions are good, which must not be taken for all. Rounding of
  * a sum of n terms, each of the size of m dx or m t dx', through exponentials of ten oscillations: 1e-11. */
-static void a_free_chain_keeps_its_momentum(void **state)
+static void a_free_chain_keeps_its_momentum(CHECK_STATE)
 {
-  (void)state;
   enum { N = 10, ALL = 2 * N };
   uint64_t seed = 3;
   model *m;

@@ -94,9 +94,8 @@ static void check_equations(const wedge *w, int every, const char *what)
 
 /* Forces 0.5, 2, 10, 20 and a twentieth of the first, each with half, once and twice the static load of 10. With it as
  * in the case files, the wedge never slips, slips, slips, separates, separates. */
-static void whole_curves(void **state)
+static void whole_curves(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name;
     double force;
@@ -124,9 +123,8 @@ static void whole_curves(void **state)
 
 /* Without gaps and clearances all forces are proportional to all loads: four times these, four times the motion, to
  * the last bit where nothing is compared with 1. Rounding of 1e-12 is allowed. */
-static void only_ratios_of_loads_matter(void **state)
+static void only_ratios_of_loads_matter(CHECK_STATE)
 {
-  (void)state;
   wedge one, four;
   trace("wedge_F10", 1, 1, &one);
   trace("wedge_F10", 4, 4, &four);
@@ -147,9 +145,8 @@ static void only_ratios_of_loads_matter(void **state)
 }
 
 /* By its file, and where a program makes the model. */
-static void without_contacts_it_is_refused(void **state)
+static void without_contacts_it_is_refused(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   case_error err;
   const char *const none[] = {"contacts=[]"};
@@ -165,9 +162,8 @@ static void without_contacts_it_is_refused(void **state)
 }
 
 /* Not touched at rest, nothing presses it on: where it rests is open. No solution is made up. */
-static void out_of_reach_it_is_refused(void **state)
+static void out_of_reach_it_is_refused(CHECK_STATE)
 {
-  (void)state;
   structure_case c = structure_case_named("wedge_F2", H);
   hbm_point point;
   double X[CASE_MAX_COEF] = {0};

@@ -7,9 +7,8 @@
 
 /* Inertia, damping, spring and forcing of each harmonic count in full, also at resonance, K = M omega^2, where their
  * sum is small; and so does the contact force. In units of their own size each: 4 roundings a harmonic. */
-static void forces_add_up_and_never_cancel(void **state)
+static void forces_add_up_and_never_cancel(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_named("c2", 2, true, 64);
   sc.hbm.force = HBM_FORCE_EXACT;
   sc.mass = 2, sc.damping = 0.5, sc.stiffness = 18, sc.force = 7;

@@ -41,9 +41,8 @@ static int sign_of_determinant(const scene *sc, aft *a, const double *X, double 
  * (the tangent is the kernel of [dR/dX dR/domega], whose bordered determinant keeps its sign, through folds and
  * through kinks). A point that breaks this was reached against the curve's direction: a false turning point, or a
  * curve retraced. */
-static void turning_points_are_real(void **state)
+static void turning_points_are_real(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name;
     int H, keep_mean, N;
@@ -80,9 +79,8 @@ static void turning_points_are_real(void **state)
 /* Case B with 10 N: a natural trace must stop at the fold that arc-length passes, say why, and keep what it has.
  * Case A gets through. The fold is met from below: solutions end like sqrt(fold - omega), and steps shrink until the
  * next would pass it: within 1e-3. */
-static void natural_continuation_stops_at_the_fold(void **state)
+static void natural_continuation_stops_at_the_fold(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 5};
   for (int o = 0; o < 2; ++o)
     for (int keep_mean = 0; keep_mean <= 1; ++keep_mean) {
@@ -115,9 +113,8 @@ static void natural_continuation_stops_at_the_fold(void **state)
 
 /* Case 2 from 8.5 down on the separated branch. It ends grazing at 7.337 (closed form 7.3371828168 for any H: the
  * motion is still linear there), turns up past the start to the fold at 9.21, then down to the end of the sweep. */
-static void a_branch_that_turns_back(void **state)
+static void a_branch_that_turns_back(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_named("c2", 5, true, 4096);
   traced t = trace(&sc, 8.5, 3, "c2 down from 8.5");
   const hbm_curve *c = &t.curve;
@@ -136,9 +133,8 @@ static void a_branch_that_turns_back(void **state)
 
 /* Nearly rigid and without harmonic 0 the fold is beyond 4 times the start: the curve is cut where it left the
  * sweep. */
-static void a_branch_that_leaves(void **state)
+static void a_branch_that_leaves(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_named("c2", 1, false, 64);
   sc.contacts[0].law.kn = 1e7;
   sc.hbm.force = HBM_FORCE_EXACT;
@@ -150,9 +146,8 @@ static void a_branch_that_leaves(void **state)
   free_traced(&t);
 }
 
-static void interruption_keeps_points(void **state)
+static void interruption_keeps_points(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_named("c2", 5, true, 256);
   traced whole = trace(&sc, 3, 20, "c2");
   for (int stop = 1; stop <= 40; stop += 13) {
@@ -173,9 +168,8 @@ static void interruption_keeps_points(void **state)
 
 /* Hard scenes with few samples: the trace ends, its status is one of the method's, and no point lies outside
  * (check_curve). */
-static void always_an_end_with_a_reason(void **state)
+static void always_an_end_with_a_reason(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 12;
   int ends[64] = {0}, back = 0;
   for (int trial = 0; trial < 60; ++trial) {
@@ -217,9 +211,8 @@ static void always_an_end_with_a_reason(void **state)
   assert_int_equal(ends[HC_BUG] + ends[HC_BAD_INPUT] + ends[HC_NO_MEMORY], 0);
 }
 
-static void sweeps_that_make_no_sense(void **state)
+static void sweeps_that_make_no_sense(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_named("b10", 1, true, 64);
   traced t = trace(&sc, 6, 6, "a point"); /* one frequency is allowed */
   assert_true(t.status == HC_OK && t.curve.n == 1 && t.curve.points[0].omega == 6);
@@ -243,9 +236,8 @@ static void sweeps_that_make_no_sense(void **state)
   hbm_solver_free(NULL);
 }
 
-static void solving_from_nonsense(void **state)
+static void solving_from_nonsense(CHECK_STATE)
 {
-  (void)state;
   enum { H = 3, N_COEF = 2 * H + 1 };
   scene sc = scene_named("c2", H, true, 64);
   hbm_solver *s;

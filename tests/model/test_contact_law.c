@@ -8,9 +8,8 @@
 /* Dyadic numbers: every product and sum below is exact, so equality is asked for. */
 static const contact law = {.kt = 4, .kn = 8, .mu = 0.25, .gap = 0.5};
 
-static void separated_lets_go_and_follows(void **state)
+static void separated_lets_go_and_follows(CHECK_STATE)
 {
-  (void)state;
   double w = 7, t = 9;
   assert_int_equal(contact_step(&law, 3, -1, &w, &t), CONTACT_SEPARATED);
   assert_true(w == 3 && t == 0);
@@ -22,9 +21,8 @@ static void separated_lets_go_and_follows(void **state)
   assert_true(contact_preload(&(contact){.kn = 8, .gap = -0.5}) == 0);
 }
 
-static void stick_is_a_spring_to_the_slider(void **state)
+static void stick_is_a_spring_to_the_slider(CHECK_STATE)
 {
-  (void)state;
   double w = 1, t; /* N = 8, limit 2, so |u - w| <= 0.5 sticks, the limit included */
   assert_int_equal(contact_step(&law, 1.25, 0.5, &w, &t), CONTACT_STICK);
   assert_true(w == 1 && t == 1);
@@ -34,9 +32,8 @@ static void stick_is_a_spring_to_the_slider(void **state)
   assert_true(w == 1 && t == -2);
 }
 
-static void slip_holds_the_limit_and_drags_the_slider(void **state)
+static void slip_holds_the_limit_and_drags_the_slider(CHECK_STATE)
 {
-  (void)state;
   double w = 1, t;
   assert_int_equal(contact_step(&law, 3, 0.5, &w, &t), CONTACT_SLIP_PLUS);
   assert_true(t == 2 && w == 2.5);
@@ -48,9 +45,8 @@ static void slip_holds_the_limit_and_drags_the_slider(void **state)
   assert_int_equal(contact_slip_sign(CONTACT_SEPARATED), 0);
 }
 
-static void no_tangential_spring_means_no_friction_force(void **state)
+static void no_tangential_spring_means_no_friction_force(CHECK_STATE)
 {
-  (void)state;
   contact c = law;
   double w = 1, t = 5;
   c.kt = 0;
@@ -63,9 +59,8 @@ static void no_tangential_spring_means_no_friction_force(void **state)
   assert_true(t == 0 && w == 100);
 }
 
-static void no_friction_slips_with_the_slider_on_the_mass(void **state)
+static void no_friction_slips_with_the_slider_on_the_mass(CHECK_STATE)
 {
-  (void)state;
   contact c = law;
   double w = 1, t = 5;
   c.mu = 0;
@@ -88,9 +83,8 @@ static void touching_decides_by_the_velocities(void **state)
 /* For one slider position T = clamp(kt (u - w), +-mu N(v)), so |T1 - T2| <= kt |u1 - u2| + mu kn |v1 - v2| across
  * every transition, separation included. Rounding: each T is off by at most 3 eps (kt (|u| + |w|) + mu kn (|v| +
  * |gap|)), below 60 eps with the numbers drawn here; two of them make 120 eps. Steps of 0.1 cross every limit often. */
-static void force_has_no_jump(void **state)
+static void force_has_no_jump(CHECK_STATE)
 {
-  (void)state;
   uint64_t s = 1;
   int states[4] = {0};
   for (int i = 0; i < 20000; ++i) {
@@ -108,9 +102,8 @@ static void force_has_no_jump(void **state)
 /* After a slipping step the stick guard of that side is 0 and of the other 2 mu N. w = u - T/kt is rounded twice and
  * u - w once, each by at most eps/2 of a term below kt |u| + mu N <= 4 + 8: 3 * 12 eps/2 = 18 eps, and mu N's own
  * rounding 2 eps. */
-static void guards_vanish_where_states_end(void **state)
+static void guards_vanish_where_states_end(CHECK_STATE)
 {
-  (void)state;
   uint64_t s = 2;
   int slips = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -134,9 +127,8 @@ static void guards_vanish_where_states_end(void **state)
 /* A small step h after touching, u = u0 + du h, v = -gap + dv h, w = u0, is in the state that contact_on_touch
  * predicts. kt du h and mu kn dv h scale alike, so only draws within rounding of equality could differ; those are left
  * out. */
-static void touching_agrees_with_the_step_after_it(void **state)
+static void touching_agrees_with_the_step_after_it(CHECK_STATE)
 {
-  (void)state;
   uint64_t s = 3;
   int seen[4] = {0};
   for (int i = 0; i < 20000; ++i) {
@@ -153,9 +145,8 @@ static void touching_agrees_with_the_step_after_it(void **state)
 /* Constant limit fc = mu kn gap (v = 0): a cycle of amplitude A loses 4 fc (A - fc/k). k = 1, fc = 1/2, A = 1: 1.
  * Steps of 1/8 put each kink (|u - u_turn| = 2 fc/k = 1) on a step, T is linear in between, and all numbers are
  * dyadic: the sum is exact. */
-static void jenkins_loses_the_closed_form_energy(void **state)
+static void jenkins_loses_the_closed_form_energy(CHECK_STATE)
 {
-  (void)state;
   contact c = {.kt = 1, .kn = 1, .mu = 0.5, .gap = 1};
   double w = 0, t, before, loss = 0;
   contact_step(&c, 1, 0, &w, &before); /* at the upper turn, slipped: w = 1/2 */
@@ -169,9 +160,8 @@ static void jenkins_loses_the_closed_form_energy(void **state)
   assert_true(loss == 1.0 && w == 0.5);
 }
 
-static void geometry_is_exact_at_the_ends(void **state)
+static void geometry_is_exact_at_the_ends(CHECK_STATE)
 {
-  (void)state;
   double c, s;
   scene_contact k = {.law = {.kt = 100, .kn = 1000}, .angle_deg = 0};
   scene_direction(&k, &c, &s);
@@ -187,9 +177,8 @@ static void geometry_is_exact_at_the_ends(void **state)
   CHECK_NEAR(scene_max_stiffness(&sc), 1140, 2400 * 4 * DBL_EPSILON, "two contacts");
 }
 
-static void names_are_those_of_the_columns(void **state)
+static void names_are_those_of_the_columns(CHECK_STATE)
 {
-  (void)state;
   assert_string_equal(contact_regime_name(CONTACT_LINEAR), "linear");
   assert_string_equal(contact_regime_name(CONTACT_STUCK), "stick");
   assert_string_equal(contact_regime_name(CONTACT_SLIPS), "slip");

@@ -10,9 +10,8 @@ static void check_period(const contact_period *p, contact_regime regime, const d
 }
 
 /* A contact with one tangent, a pair, another one, a pair. */
-static void pairs_become_one(void **state)
+static void pairs_become_one(CHECK_STATE)
 {
-  (void)state;
   model *m;
   static const contact_pair pair[6] = {CONTACT_ALONE, CONTACT_FIRST, CONTACT_SECOND,
                                        CONTACT_ALONE, CONTACT_FIRST, CONTACT_SECOND};

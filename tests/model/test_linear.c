@@ -56,9 +56,8 @@ static void check_free(double c, double k, double t, double *worst)
   }
 }
 
-static void free_motion(void **state)
+static void free_motion(CHECK_STATE)
 {
-  (void)state;
   double worst = 0;
   for (int i = 0; i < DAMPINGS; ++i)
     for (int j = 0; j < STIFFNESSES; ++j)
@@ -68,9 +67,8 @@ static void free_motion(void **state)
 }
 
 /* Next to critical damping w = sqrt|c^2/4 - k| is rounding: what depends on w^2 is not. */
-static void next_to_critical_damping(void **state)
+static void next_to_critical_damping(CHECK_STATE)
 {
-  (void)state;
   double worst = 0;
   for (double k = 1e-3; k < 1e5; k *= 7)
     for (double off = 1e-16; off < 0.5; off *= 3)
@@ -80,9 +78,8 @@ static void next_to_critical_damping(void **state)
 }
 
 /* Relative to s itself where nothing oscillates, to 1/k where it may pass 0. The series loses e^2 to its signs. */
-static void step_response(void **state)
+static void step_response(CHECK_STATE)
 {
-  (void)state;
   double worst = 0;
   for (int i = 0; i < DAMPINGS; ++i)
     for (int j = 0; j < STIFFNESSES; ++j)

@@ -23,9 +23,8 @@ static model *case_2_in_parts(int n)
   return m;
 }
 
-static void a_copy_is_its_own(void **state)
+static void a_copy_is_its_own(CHECK_STATE)
 {
-  (void)state;
   model *m = case_2_in_parts(3), *copy;
   assert_int_equal(model_copy(m, &copy), HC_OK);
   assert_true(copy->contacts != m->contacts && copy->n_contacts == 3 && *copy->mass == 1 && model_force(copy) == 100);
@@ -52,18 +51,16 @@ static void a_copy_is_its_own(void **state)
 }
 
 /* kt c^2 + kn s^2, all contacts and K: (100 + 1000)/2 + 40, each of MANY terms rounded a few times. */
-static void stiffness_of_many_is_that_of_one(void **state)
+static void stiffness_of_many_is_that_of_one(CHECK_STATE)
 {
-  (void)state;
   model *m = case_2_in_parts(MANY);
   CHECK_NEAR(model_max_stiffness(m), 590, 8 * MANY * DBL_EPSILON * 590, "all stuck");
   model_free(m);
 }
 
 /* Sums of MANY equal forces: MANY rounding units of each, and those of one evaluation (about H per coefficient). */
-static void forces_of_many_are_those_of_one(void **state)
+static void forces_of_many_are_those_of_one(CHECK_STATE)
 {
-  (void)state;
   const double X[N_COEF] = {-0.5, 9, 1, 0.3, -0.2, 0.1, 0, 0.05, 0, 0, 0.02};
   double F[2][N_COEF], G[2][N_COEF], w[MANY], largest = 0;
   for (int i = 0; i < 2; ++i) {
@@ -92,9 +89,8 @@ static void forces_of_many_are_those_of_one(void **state)
 
 /* The equations differ by rounding of the forces, 1e-13 of them; a solution to 1e-10 of them is met to 1e-9 here, its
  * multiplier to 1e-8: the stiffness is what it is made of, a thousandth of which moves it by about as much. */
-static void solutions_with_many_are_those_with_one(void **state)
+static void solutions_with_many_are_those_with_one(CHECK_STATE)
 {
-  (void)state;
   const hbm_settings how = {.harmonics = H, .keep_mean = true, .tolerance = 1e-12, .accuracy = 1e-4};
   double X[2][N_COEF], multiplier[2];
   for (int i = 0; i < 2; ++i) {

@@ -19,9 +19,8 @@ static double value_at(double th) { return mean + first * cos(th - phase) + seco
 
 /* Every number is a sum of at most five terms of size 2: 8 units of rounding of 2 each. A sample adds the rounding of
  * its angle, up to 2 pi, times |x'| <= A + 2 C = 3: 4 more. */
-static void a_series_has_its_measures(void **state)
+static void a_series_has_its_measures(CHECK_STATE)
 {
-  (void)state;
   const double tol = 16 * DBL_EPSILON, max = 2.25, min = -1.75; /* as given: extrema are the caller's */
   double X[5];
   fill_series(X);
@@ -42,9 +41,8 @@ static void a_series_has_its_measures(void **state)
 /* The highest harmonic that 512 samples may hold beside n_harm others is 511 - n_harm: it folds onto n_harm + 1. With
  * one more it folds onto n_harm itself, its cosine unchanged. Sums of 512 products of size 2, each rounded: the worst
  * case is 512 units of rounding, halved by the factor 2/512 and doubled by the size. */
-static void harmonics_come_back_from_samples(void **state)
+static void harmonics_come_back_from_samples(CHECK_STATE)
 {
-  (void)state;
   enum { H = 6 };
   const double tol = 2 * MOTION_SAMPLES * DBL_EPSILON, high = 0.25;
   double X[5], found[2 * H + 1];
@@ -60,9 +58,8 @@ static void harmonics_come_back_from_samples(void **state)
 }
 
 /* b is a moved by 0.25 and with one sample moved 0.5 farther: by dyadic numbers, so that nothing is rounded. */
-static void the_mean_counts_unless_it_is_free(void **state)
+static void the_mean_counts_unless_it_is_free(CHECK_STATE)
 {
-  (void)state;
   periodic_motion a = {.amplitude = 2, .harmonic_1 = 1.5, .mean = 0.5}, b = a;
   for (int i = 0; i < MOTION_SAMPLES; ++i) a.samples[i] = 0.5 + i % 8, b.samples[i] = a.samples[i] + 0.25;
   b.samples[77] += 0.5;
@@ -80,9 +77,8 @@ static void the_mean_counts_unless_it_is_free(void **state)
   }
 }
 
-static void a_sample_that_is_no_number_is_no_distance(void **state)
+static void a_sample_that_is_no_number_is_no_distance(CHECK_STATE)
 {
-  (void)state;
   periodic_motion a = {.amplitude = 1}, b = a;
   b.samples[300] = NAN; /* larger differences before and after it */
   b.samples[10] = 5, b.samples[400] = 7;

@@ -9,18 +9,16 @@
 /* Dyadic numbers and a 3-4-5 triangle: N = 8, mu N = 2.5 at v = 0.5. */
 static const contact law = {.kt = 4, .kn = 8, .mu = 0.3125, .gap = 0.5};
 
-static void separated_lets_go_and_follows(void **state)
+static void separated_lets_go_and_follows(CHECK_STATE)
 {
-  (void)state;
   const double u[2] = {3, -4};
   double w[2] = {7, 8}, T[2] = {9, 9};
   assert_int_equal(contact_step_planar(&law, u, -0.5, w, T), CONTACT_SEPARATED);
   assert_true(w[0] == 3 && w[1] == -4 && T[0] == 0 && T[1] == 0);
 }
 
-static void stick_is_a_spring_to_the_slider(void **state)
+static void stick_is_a_spring_to_the_slider(CHECK_STATE)
 {
-  (void)state;
   const double u[2] = {1.375, -0.5};
   double w[2] = {1, 0}, T[2];
   assert_int_equal(contact_step_planar(&law, u, 0.5, w, T),
@@ -28,9 +26,8 @@ static void stick_is_a_spring_to_the_slider(void **state)
   assert_true(w[0] == 1 && w[1] == 0 && T[0] == 1.5 && T[1] == -2);
 }
 
-static void slip_returns_radially_and_drags_the_slider(void **state)
+static void slip_returns_radially_and_drags_the_slider(CHECK_STATE)
 {
-  (void)state;
   const double u[2] = {2.5, -2};
   double w[2] = {1, 0}, T[2]; /* the predictor (6, -8) is four times as long as the limit */
   assert_int_equal(contact_step_planar(&law, u, 0.5, w, T), CONTACT_SLIP_PLUS);
@@ -40,9 +37,8 @@ static void slip_returns_radially_and_drags_the_slider(void **state)
 
 /* Steps along a line of any direction are contact_step's, to the rounding of the projections: each number below is off
  * by at most 8 roundings of the largest, kt (|u| + |w|) <= 16 of forces and 3 of lengths. */
-static void along_a_line_it_is_the_law_of_one_tangent(void **state)
+static void along_a_line_it_is_the_law_of_one_tangent(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 7;
   for (int i = 0; i < 2000; ++i) {
     const double angle = PI * random_signed(&seed), e[2] = {cos(angle), sin(angle)}, along = 2 * random_signed(&seed),
@@ -60,9 +56,8 @@ static void along_a_line_it_is_the_law_of_one_tangent(void **state)
 
 /* A random walk and the same walk turned by an angle stay turned by that angle; |T| never exceeds the limit; and either
  * half of a pair has the whole contact's limit. */
-static void nothing_depends_on_the_tangents_or_on_the_half(void **state)
+static void nothing_depends_on_the_tangents_or_on_the_half(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 11;
   contact half = law;
   half.kn /= 2, half.mu *= 2;
@@ -81,9 +76,8 @@ static void nothing_depends_on_the_tangents_or_on_the_half(void **state)
   }
 }
 
-static void not_a_number_is_no_stick(void **state)
+static void not_a_number_is_no_stick(CHECK_STATE)
 {
-  (void)state;
   double w[2] = {0}, T[2];
   assert_int_not_equal(contact_step_planar(&law, (double[2]){NAN, 0}, 0.5, w, T), CONTACT_STICK);
   assert_true(isnan(T[0]) && isnan(w[0]));

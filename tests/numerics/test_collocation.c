@@ -8,9 +8,8 @@ enum { N = COLLOCATION_POINTS };
 
 /* Integrals of x^k from 0 to x_i are exact for k < N, from 0 to 1 for k <= 2 N - 2; coefficients are those of a
  * polynomial. 200 roundings: of the table's recurrences, of degree 10. */
-static void sums_are_exact_on_polynomials(void **state)
+static void sums_are_exact_on_polynomials(CHECK_STATE)
 {
-  (void)state;
   collocation c;
   collocation_fill(&c);
   assert_true(c.x[N - 1] == 1);
@@ -25,9 +24,8 @@ static void sums_are_exact_on_polynomials(void **state)
 }
 
 /* The modes of Legendre's polynomial P_3(2 x - 1) are those of P_3 alone. */
-static void modes_are_legendres(void **state)
+static void modes_are_legendres(CHECK_STATE)
 {
-  (void)state;
   collocation c;
   collocation_fill(&c);
   for (int n = 0; n < N; ++n) {
@@ -42,9 +40,8 @@ static void modes_are_legendres(void **state)
 
 /* Slopes of x^k are those of x^k elsewhere, too: inside the panel, and beyond it, where rounding grows like the last
  * Legendre polynomial there, 4e6 at 4. */
-static void slopes_are_continued(void **state)
+static void slopes_are_continued(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     double start, part, roundings;
   } parts[] = {{0, 0.4, 200}, {0.3, 0.5, 200}, {1, 1, 1e9}};
@@ -62,9 +59,8 @@ static void slopes_are_continued(void **state)
 }
 
 /* What is stiff decays in one panel: y' = -z y, solved by collocation, ends at about 1/z of its start for large z. */
-static void what_is_stiff_decays(void **state)
+static void what_is_stiff_decays(CHECK_STATE)
 {
-  (void)state;
   collocation c;
   collocation_fill(&c);
   for (int power = 6; power <= 12; power += 3) {

@@ -117,9 +117,8 @@ static void check_search(const series_vector *m, const guard *g, double from, in
   CHECK_LE(ahead, 3e-2 / sqrt(m->n_harm), "%s: f does not fall below 0 after %.17g", what, o.root);
 }
 
-static void random_polynomials(void **state)
+static void random_polynomials(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 2, 3, 5, 10, 20, 50, 100, 200};
   static double X[MAX_COEF], Y[MAX_COEF];
   uint64_t seed = 20;
@@ -151,9 +150,8 @@ static void random_polynomials(void **state)
 
 /* The deepest minimum of a random f, put at +-depth around 0 and at 0: what is deeper than noise is found, what
  * stays above 0 is not. */
-static void grazing(void **state)
+static void grazing(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 2, 3, 5, 10, 20, 50, 100, 200};
   static const double depths[] = {0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-10, 1e-8, 1e-5};
   static double X[MAX_COEF];
@@ -196,9 +194,8 @@ static void grazing(void **state)
 
 /* f = (1 - cos(h th)): double roots at all 2 pi k/h, exactly grazing; with a constant of +-1e-12 and +-1e-15 added,
  * dips by that or none. And f = +-sin^3 th, triple: found where it falls, to the cube root of noise. */
-static void roots_that_are_known(void **state)
+static void roots_that_are_known(CHECK_STATE)
 {
-  (void)state;
   static double X[MAX_COEF];
   static const double shifts[] = {0, 1e-15, -1e-15, 1e-12, -1e-12, 1e-3, -1e-3};
   double one = 1;
@@ -235,9 +232,8 @@ static void roots_that_are_known(void **state)
 
 /* Simple roots: f = cos(h (th - t0)) falls through 0 at t0 + pi/(2h) to a few eps of the angle, and from every
  * starting angle the next one is found. */
-static void simple_roots_to_rounding(void **state)
+static void simple_roots_to_rounding(CHECK_STATE)
 {
-  (void)state;
   static double X[MAX_COEF];
   double one = 1;
   uint64_t seed = 9;
@@ -254,9 +250,8 @@ static void simple_roots_to_rounding(void **state)
   }
 }
 
-static void constants_and_zero(void **state)
+static void constants_and_zero(CHECK_STATE)
 {
-  (void)state;
   static double X[MAX_COEF];
   static const double constants[] = {0, 1, 1e-300, 1e300, DBL_MIN};
   for (int i = 0; i < 5; ++i)
@@ -284,9 +279,8 @@ static void constants_and_zero(void **state)
 
 /* Flat contacts, f = (1 + cos th)^k / 2^k + shift, a root of order 2k at pi: what costs most. Bounded by the
  * watchdog; k <= 4 here. */
-static void flat_minima(void **state)
+static void flat_minima(CHECK_STATE)
 {
-  (void)state;
   for (int k = 1; k <= 4; ++k)
     for (int i = -1; i <= 1; ++i) {
       double X[2 * 4 + 1] = {0}, p[9] = {1}, one = 1;
@@ -302,9 +296,8 @@ static void flat_minima(void **state)
 }
 
 /* series_vector_at and the bounds that proofs rest on. */
-static void nodes_and_bounds(void **state)
+static void nodes_and_bounds(CHECK_STATE)
 {
-  (void)state;
   static double X[MAX_COEF], Y[MAX_COEF];
   uint64_t seed = 77;
   for (int H = 1; H <= MAX_HARM; H = H < 10 ? H + 3 : 3 * H) {

@@ -36,9 +36,8 @@ static void lu_times(int n, const double *f, const int *pivot, const double *x, 
  * reciprocal itself: 3n + 2. With partial pivoting |L| <= 1, so the right-hand side is at most n growth eps max|A|
  * |x|_1 times 3/2: the second check makes sure that the bound is not vacuous; the growth of random matrices is about
  * n^(2/3), never n. b - A x is formed in long double, 2^-11 of what is tested. */
-static void solves_within_the_bound_of_rounding_theory(void **state)
+static void solves_within_the_bound_of_rounding_theory(CHECK_STATE)
 {
-  (void)state;
   static double a[MAX_N * MAX_N], f[MAX_N * MAX_N], b[MAX_N], x[MAX_N], bound[MAX_N];
   int pivot[MAX_N];
   uint64_t seed = 1;
@@ -71,9 +70,8 @@ static void solves_within_the_bound_of_rounding_theory(void **state)
 }
 
 /* det of a permutation with the signs d_i is (-1)^(n - cycles) prod d_i; nothing rounds. */
-static void the_sign_of_signed_permutations(void **state)
+static void the_sign_of_signed_permutations(CHECK_STATE)
 {
-  (void)state;
   static double a[MAX_N * MAX_N];
   int pivot[MAX_N], to[MAX_N], seen_plus = 0, seen_minus = 0;
   uint64_t seed = 7;
@@ -106,9 +104,8 @@ static void the_sign_of_signed_permutations(void **state)
 
 /* Exchanging two rows of a random matrix, or the sign of one, turns the determinant over; of random matrices none is
  * near singular. */
-static void the_sign_turns_over_with_a_row(void **state)
+static void the_sign_turns_over_with_a_row(CHECK_STATE)
 {
-  (void)state;
   static double a[MAX_N * MAX_N], f[MAX_N * MAX_N];
   int pivot[MAX_N];
   uint64_t seed = 11;
@@ -133,9 +130,8 @@ static void the_sign_turns_over_with_a_row(void **state)
 
 /* A zero row or column, two equal rows of small integers (their difference is exactly 0 where nothing rounds:
  * multiplier 1), and a NaN or infinity anywhere. */
-static void singular_and_not_finite_are_refused(void **state)
+static void singular_and_not_finite_are_refused(CHECK_STATE)
 {
-  (void)state;
   static double a[MAX_N * MAX_N];
   int pivot[MAX_N];
   uint64_t seed = 3;
@@ -181,9 +177,8 @@ static hc_status inverse(int n, const double complex *A, int *pivot, double comp
 
 /* Each column of X solves (A + E) x = e with |E| of a few n u |A| growth: |A X - 1| <= c n u n |A| |X| where the
  * largest entries stand for norms. c = 10 allows for the growth. */
-static void inverts_random_matrices(void **state)
+static void inverts_random_matrices(CHECK_STATE)
 {
-  (void)state;
   static double complex A[MAX_N * MAX_N], X[MAX_N * MAX_N];
   uint64_t seed = 3;
   int pivot[MAX_N];
@@ -206,9 +201,8 @@ static void inverts_random_matrices(void **state)
 }
 
 /* i at (k, to(k)): the inverse has -i at (to(k), k), and nothing rounds. Pivots are never on the diagonal. */
-static void inverts_a_permutation_exactly(void **state)
+static void inverts_a_permutation_exactly(CHECK_STATE)
 {
-  (void)state;
   enum { N = 37 };
   static double complex A[N * N], X[N * N];
   int pivot[N];
@@ -220,9 +214,8 @@ static void inverts_a_permutation_exactly(void **state)
   free(work);
 }
 
-static void singular_matrices_are_refused(void **state)
+static void singular_matrices_are_refused(CHECK_STATE)
 {
-  (void)state;
   enum { N = 20 };
   static double complex A[N * N], X[N * N];
   int pivot[N];

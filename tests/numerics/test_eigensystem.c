@@ -46,9 +46,8 @@ static double nearest(const eigensystem *e, double complex z)
 
 /* Eigenvalues of the sizes 1 to 1e8: rounding of A, whose entries are as large, in long double leaves 64 6e-20 1e8 =
  * 4e-10 in any of them; LAPACK's errors are some 1e-8. */
-static void small_ones_are_as_good_as_large(void **state)
+static void small_ones_are_as_good_as_large(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 2;
   eigensystem e;
   assert_int_equal(eigensystem_make(&e, N), HC_OK);
@@ -74,9 +73,8 @@ static void small_ones_are_as_good_as_large(void **state)
 }
 
 /* Equal eigenvalues with as many eigenvectors are one space, which any basis spans. */
-static void equal_ones(void **state)
+static void equal_ones(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 3;
   eigensystem e;
   double complex lambda[N];
@@ -90,9 +88,8 @@ static void equal_ones(void **state)
 }
 
 /* A double eigenvalue with one eigenvector, exactly and nearly. */
-static void defective_ones_are_refused(void **state)
+static void defective_ones_are_refused(CHECK_STATE)
 {
-  (void)state;
   const double nearly[] = {0, 1e-14, 1e-10};
   eigensystem e;
   assert_int_equal(eigensystem_make(&e, 3), HC_OK);

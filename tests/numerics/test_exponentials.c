@@ -24,9 +24,8 @@ static void make(made *m, int n, double constant)
 
 /* Rates from 1 to 1e4 with amplitudes that fall like 1/rate^2, some that grow slowly: nothing is below -noise before
  * the root, and there the sum is 0 to rounding, h slope of 1e-15 6. */
-static void nothing_falls_before(void **state)
+static void nothing_falls_before(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 11;
   int found = 0;
   for (int trial = 0; trial < 300; ++trial) {
@@ -57,9 +56,8 @@ static void nothing_falls_before(void **state)
 }
 
 /* 1 - cos(tau - 2) - depth: its dip is wide sqrt(8 depth), whatever fast mode is there that hardly moves. */
-static void grazes(void **state)
+static void grazes(CHECK_STATE)
 {
-  (void)state;
   const double depths[] = {1e-4, 1e-8, 1e-12}, fast[] = {0, 1e-13, 1e-6};
   for (size_t i = 0; i < 3; ++i)
     for (size_t k = 0; k < 3; ++k)
@@ -80,9 +78,8 @@ static void grazes(void **state)
 }
 
 /* The first of several, and one that has fallen before. */
-static void the_first_of_several(void **state)
+static void the_first_of_several(CHECK_STATE)
 {
-  (void)state;
   made m, late;
   double at;
   m.rate[0] = late.rate[0] = -1;

@@ -9,9 +9,8 @@
 /* phi = D P diag(lambda) P^-1 D^-1, P and its inverse of small integers, D of powers of two as lengths, velocities and
  * forces differ by: exact but for the last place. Of P diag(lambda) P^-1 itself, entries up to 20, the eigenvalues are
  * good to rounding times the product of the norms of P and P^-1, below 1e4; D must make no difference. */
-static void units_of_states_make_no_difference(void **state)
+static void units_of_states_make_no_difference(CHECK_STATE)
 {
-  (void)state;
   enum { N = 4 };
   static const double lambda[N] = {0.9375, 0.5, -0.25, 0.125};
   static const double P[N][N] = {{1, 0, 0, 0}, {2, 1, 0, 0}, {-1, 3, 1, 0}, {1, -1, 2, 1}};

@@ -7,9 +7,8 @@
 
 /* Exact for x^k, k <= 31: the integral over [-1, 1] is 2/(k + 1) or 0. The table has 17 digits, the sum 16 terms below
  * 0.2: 8 roundings of 1. The rule is not exact for x^32: off by 2^33 (16!)^4 / (33 (32!)^3) 32! = 7e-10. */
-static void nodes_and_weights_are_the_rules(void **state)
+static void nodes_and_weights_are_the_rules(CHECK_STATE)
 {
-  (void)state;
   for (int i = 1; i < GAUSS_POINTS; ++i) assert_true(gauss_node(i) > gauss_node(i - 1));
   for (int k = 0; k <= 32; ++k) {
     const double exact = k % 2 ? 0 : 2.0 / (k + 1);
@@ -27,9 +26,8 @@ static void two_powers(const void *self, double x, double value[2])
 }
 
 /* Over [0, 2] on 1 and on 7 panels: 2^(k + 1)/(k + 1), to the roundings of 112 terms. */
-static void panels_add_up(void **state)
+static void panels_add_up(CHECK_STATE)
 {
-  (void)state;
   static const int k[2] = {4, 15};
   for (int panels = 1; panels <= 7; panels += 6) {
     double sum[2];

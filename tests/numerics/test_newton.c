@@ -91,9 +91,8 @@ static newton *make_scalar(probe *p, equation *f)
  * condition number below 20 (z ~ 1..2) per step, 40 eps; Heron halves errors at least, so they add to twice that.
  * From (1, 1) the errors go 4e-1, 9e-2, 2e-3, 2e-6, 2e-12, rounding: five iterations reach 1e-12 |r|, one more
  * polishes. */
-static void quadratic_like_heron(void **state)
+static void quadratic_like_heron(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make(&p, 2, heron_residual, heron_jacobian);
   double z[2] = {1, 1}, x = 1, y = 1;
@@ -114,9 +113,8 @@ static void quadratic_like_heron(void **state)
 }
 
 /* Weights: the same system in other units takes the same path. Powers of two, so that nothing rounds differently. */
-static void weights_are_units(void **state)
+static void weights_are_units(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make(&p, 2, heron_residual, heron_jacobian);
   double z[2] = {1.5, 1.5}, z_scale[2] = {1024, 1024}, r_scale[2] = {1 / 4096.0, 1 / 4096.0};
@@ -135,9 +133,8 @@ static void weights_are_units(void **state)
 }
 
 /* dx/db of A (x^2 - 2, y^2 - 3) = b at the root is J^-1; 2 x 2 inverse by hand, condition below 20. */
-static void backsolve_is_the_inverse_at_the_end(void **state)
+static void backsolve_is_the_inverse_at_the_end(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make(&p, 2, heron_residual, heron_jacobian);
   double z[2] = {1, 1}, b[2] = {1, -2}, jac[4];
@@ -160,9 +157,8 @@ static hc_status cubic(const probe *p, double z, double *r, double *slope)
   return HC_OK;
 }
 
-static void starts_from_zero(void **state)
+static void starts_from_zero(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make_scalar(&p, cubic);
   newton_report report;
@@ -185,9 +181,8 @@ static void starts_from_zero(void **state)
 }
 
 /* A root at the start: nothing to do, nothing to spoil. */
-static void starts_at_the_root(void **state)
+static void starts_at_the_root(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make_scalar(&p, cubic);
   newton_report report;
@@ -221,9 +216,8 @@ static hc_status no_root(const probe *p, double z, double *r, double *slope)
   return HC_OK;
 }
 
-static void no_root_is_never_ok(void **state)
+static void no_root_is_never_ok(CHECK_STATE)
 {
-  (void)state;
   /* the last has period 2 under Newton */
   static const double starts[] = {3, 0.5, -1, 1e-3, 1e-9, 0, 1e6, 1 / 1.7320508075688772};
   probe p;
@@ -247,9 +241,8 @@ static hc_status atan_equation(const probe *p, double z, double *r, double *slop
   return HC_OK;
 }
 
-static void the_line_search_helps_out(void **state)
+static void the_line_search_helps_out(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make_scalar(&p, atan_equation);
   newton_report report;
@@ -268,9 +261,8 @@ static hc_status kink(const probe *p, double z, double *r, double *slope)
   return HC_OK;
 }
 
-static void a_stall_is_said(void **state)
+static void a_stall_is_said(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make_scalar(&p, kink);
   newton_report report;
@@ -295,9 +287,8 @@ static hc_status parallel_jacobian(void *self, const double *z, double *jac)
   return HC_OK;
 }
 
-static void singular_is_said(void **state)
+static void singular_is_said(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make(&p, 2, parallel_residual, parallel_jacobian);
   newton_report report;
@@ -323,9 +314,8 @@ static hc_status nan_logarithm(const probe *p, double z, double *r, double *slop
   return HC_OK;
 }
 
-static void refusals_are_passed_on(void **state)
+static void refusals_are_passed_on(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make_scalar(&p, logarithm);
   newton_report report;
@@ -353,9 +343,8 @@ static hc_status start_only(const probe *p, double z, double *r, double *slope)
   return HC_OK;
 }
 
-static void the_reason_of_a_refusal_survives(void **state)
+static void the_reason_of_a_refusal_survives(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make_scalar(&p, start_only);
   newton_report report;
@@ -364,9 +353,8 @@ static void the_reason_of_a_refusal_survives(void **state)
 }
 
 /* A NaN that the problem did not refuse must not count as convergence, nor keep the line search in a loop. */
-static void nan_is_refused(void **state)
+static void nan_is_refused(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make_scalar(&p, nan_logarithm);
   newton_report report;
@@ -386,9 +374,8 @@ static hc_status nan_slope(const probe *p, double z, double *r, double *slope)
   return st;
 }
 
-static void a_nan_jacobian_is_not_an_answer(void **state)
+static void a_nan_jacobian_is_not_an_answer(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make_scalar(&p, nan_slope);
   newton_report report;
@@ -397,9 +384,8 @@ static void a_nan_jacobian_is_not_an_answer(void **state)
 }
 
 /* A handle that failed is as good as new. */
-static void works_on_after_failures(void **state)
+static void works_on_after_failures(CHECK_STATE)
 {
-  (void)state;
   probe p;
   newton *nw = make_scalar(&p, logarithm);
   newton_report report;
@@ -452,9 +438,8 @@ static hc_status short_jacobian(void *self, const double *z, double *jac)
   return HC_OK;
 }
 
-static void out_of_memory_ends_it(void **state)
+static void out_of_memory_ends_it(CHECK_STATE)
 {
-  (void)state;
   for (int in_jacobian = 0; in_jacobian < 2; ++in_jacobian)
     for (long last = 1; last <= 6; ++last) {
       newton *nw;

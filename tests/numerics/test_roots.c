@@ -49,9 +49,8 @@ enum { CASES = sizeof cases / sizeof *cases };
  * last bit. Flat: (x - 0.7)^9 is exact in sign. */
 static double reach(double tolerance, double root) { return tolerance + 8 * DBL_EPSILON * root; }
 
-static void roots_are_found_from_either_side(void **state)
+static void roots_are_found_from_either_side(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0; i < CASES; ++i)
     for (int swapped = 0; swapped < 2; ++swapped)
       for (double tolerance = 1e-2; tolerance > 1e-17; tolerance /= 10) {
@@ -70,9 +69,8 @@ static void roots_are_found_from_either_side(void **state)
 
 /* Interpolation is of no use: one half at each step, but for the secant at the start; one more for a rounding up, and
  * one for the last step, which is as long as the tolerance allows. */
-static void jumps_and_poles_cost_a_bisection(void **state)
+static void jumps_and_poles_cost_a_bisection(CHECK_STATE)
 {
-  (void)state;
   double (*const f[])(double) = {jump, pole};
   for (int i = 0; i < 2; ++i) {
     for (int infinite = 0; infinite < 2; ++infinite) {
@@ -88,9 +86,8 @@ static void jumps_and_poles_cost_a_bisection(void **state)
 
 static double line(double x) { return x - 0.25; }
 
-static void a_straight_line_takes_one_evaluation(void **state)
+static void a_straight_line_takes_one_evaluation(CHECK_STATE)
 {
-  (void)state;
   watched w = {.f = line, .a = -0.75, .b = 2.25};
   root_point root;
   assert_int_equal(root_between(value_of, &w, -0.75, -1, 2.25, 2, 1e-9, &root), HC_OK);
@@ -98,9 +95,8 @@ static void a_straight_line_takes_one_evaluation(void **state)
 }
 
 /* 0 counts as not positive. At an end it is the answer if nothing between changes sign. */
-static void an_end_may_be_the_root(void **state)
+static void an_end_may_be_the_root(CHECK_STATE)
 {
-  (void)state;
   watched w = {.f = sin, .a = 0, .b = 1};
   root_point root;
   assert_int_equal(root_between(value_of, &w, 0, 0, 1, sin(1), 1e-9, &root), HC_OK);
@@ -113,9 +109,8 @@ static void an_end_may_be_the_root(void **state)
   CHECK_NEAR(root.x, 2 * PI, 1e-9, "beyond a");
 }
 
-static void what_is_no_bracket_is_refused(void **state)
+static void what_is_no_bracket_is_refused(CHECK_STATE)
 {
-  (void)state;
   static const double bad[][4] = {{0, 1, 1, 2},    {0, -1, 1, -2},  {0, 0, 1, -1},       {0, NAN, 1, 1},
                                   {0, -1, 1, NAN}, {NAN, -1, 1, 1}, {0, -1, INFINITY, 1}};
   watched w = {.f = sin};
@@ -137,9 +132,8 @@ static double holed(double x) { return x > 0.4 && x < 0.9 ? NAN : x - 0.7; }
 static double parabola(double x) { return (x - 0.7) * (x - 0.7) + 1e-3 * x; }
 
 /* The function's own status comes back at once, NaN is HC_NOT_FINITE, and what is known by then is kept. */
-static void a_failure_ends_the_search(void **state)
+static void a_failure_ends_the_search(CHECK_STATE)
 {
-  (void)state;
   root_point root;
   for (int at = 1; at < 5; ++at) {
     watched w = {.f = cubic, .a = -9, .b = 9, .fails_at = at};
@@ -162,9 +156,8 @@ static void a_failure_ends_the_search(void **state)
 static double tiny_jump(double x) { return x > 1e-300 ? 1 : -1; }
 
 /* Next to 0 a rounding of x is no bound: 1000 halvings lead to 1e-300, 200 are made. */
-static void a_search_that_would_not_end_is_given_up(void **state)
+static void a_search_that_would_not_end_is_given_up(CHECK_STATE)
 {
-  (void)state;
   watched w = {.f = tiny_jump, .a = -1, .b = 0.9};
   root_point root;
   assert_int_equal(root_between(value_of, &w, -1, -1, 0.9, 1, 0, &root), HC_NOT_CONVERGED);
@@ -179,9 +172,8 @@ static double lopsided(double x) { return x - log(x); }
 static double terrace(double x) { return x < 0.5 ? 1 - x : 0.5; }
 
 /* f known to u |f| hides where its minimum lies to sqrt(2 u |f|/f''): 1.5e-8 of cosh and x - log x. */
-static void minima_are_found(void **state)
+static void minima_are_found(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     double (*f)(double);
     double a, m, b, lowest;
@@ -217,9 +209,8 @@ static double cusp(double x) { return sqrt(fabs(x - cusp_at)) + (x > cusp_at ? 0
 
 /* No parabola fits a cusp, and the last point is anywhere in the last bracket: of 200 cusps some are next to its end.
  * Golden section alone takes log(3/1e-4)/log(1.618) = 22, and each of its steps may follow a parabola in vain. */
-static void a_minimum_is_as_near_as_was_asked(void **state)
+static void a_minimum_is_as_near_as_was_asked(CHECK_STATE)
 {
-  (void)state;
   double farthest = 0;
   for (int i = 0; i < 200; ++i) {
     root_point low;
@@ -242,9 +233,8 @@ static hc_status beyond(void *self, double x, bool *is)
   return ++w->calls == w->fails_at ? HC_STALLED : HC_OK;
 }
 
-static void a_change_is_bisected(void **state)
+static void a_change_is_bisected(CHECK_STATE)
 {
-  (void)state;
   for (int swapped = 0; swapped < 2; ++swapped) {
     watched w = {.f = swapped ? cos : jump}; /* cos x > 0 below pi/2 */
     root_point change;
@@ -291,9 +281,8 @@ static hc_status likely_past(void *self, double x, bool *is)
 /* A guess that is off by c w^2 at the width w is found to w/64, w/512, ..., half the margin: it holds where c w^2 is
  * less than the other half. With c = 0.015 and w = 1, then 1/16, it always does: widths of two margins, 6e-2, 5e-4,
  * 5e-7, 6e-11, and 5e-12 by the tolerance, take two questions each. */
-static void a_good_guess_saves_questions(void **state)
+static void a_good_guess_saves_questions(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0; i < 50; ++i) {
     root_point change;
     guessed g = {.at = 0.05 + 0.0179 * i, .before = 0, .beyond = 1, .curvature = 0.015};
@@ -306,9 +295,8 @@ static void a_good_guess_saves_questions(void **state)
 }
 
 /* Each round halves the bracket whatever the guess, for three questions at most: 3 log2(1e11) = 111. */
-static void a_bad_guess_is_survived(void **state)
+static void a_bad_guess_is_survived(CHECK_STATE)
 {
-  (void)state;
   static const double off[] = {1e9, -1e9, 7, -0.5}; /* always before, always beyond, and in between */
   for (int i = 0; i < 8; ++i) {
     root_point change;
@@ -324,9 +312,8 @@ static void a_bad_guess_is_survived(void **state)
 }
 
 /* Downwards, too; a tolerance below rounding ends at 4 roundings. */
-static void the_first_change_that_is_guessed_is_found(void **state)
+static void the_first_change_that_is_guessed_is_found(CHECK_STATE)
 {
-  (void)state;
   root_point change;
   guessed g = {.at = 0.9, .second_from = 0.3, .second_to = 0.5, .before = 0, .beyond = 1};
   assert_int_equal(root_change_guided(past, likely_past, &g, 0, 1, 0, &change), HC_OK);

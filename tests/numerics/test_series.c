@@ -12,9 +12,8 @@ enum { MAX_COEF = 2 * HBM_MAX_HARMONICS + 1 };
  * another 1.5 eps: after h steps |error| <= 2.3 h eps, 3 h eps with room. A term then loses 2 eps more by its
  * products, and the sum H eps of its largest partial sum. All told 4 (H + 2) eps sum |X| h^d for the d-th
  * derivative, as h^d |X| are the terms there. */
-static void values_agree_with_direct_sums(void **state)
+static void values_agree_with_direct_sums(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {0, 1, 2, 5, 20, 50, 200};
   uint64_t seed = 1;
   double X[MAX_COEF];
@@ -70,9 +69,8 @@ static void check_extrema(const char *what, int H, const double *X, double max, 
   }
 }
 
-static void a_constant_is_its_own_extremum(void **state)
+static void a_constant_is_its_own_extremum(CHECK_STATE)
 {
-  (void)state;
   double X[7] = {-0.75}, max, min;
   for (int H = 0; H <= 3; H += 3) {
     series_extrema(H, X, &max, &min);
@@ -80,9 +78,8 @@ static void a_constant_is_its_own_extremum(void **state)
   }
 }
 
-static void one_harmonic_swings_by_its_modulus(void **state)
+static void one_harmonic_swings_by_its_modulus(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 2, 7, 200};
   double X[MAX_COEF];
   for (size_t o = 0; o < 4; ++o) {
@@ -98,9 +95,8 @@ static void one_harmonic_swings_by_its_modulus(void **state)
 /* cos th + q cos 2 th: the maximum is 1 + q; the minimum is q - 1 at pi while q <= 1/4, else -q - 1/(8 q), twice,
  * beside a local maximum at pi. At q = 1/4 four roots of x' meet. Just above, both minima and the maximum between
  * them fit between two grid angles: x' changes sign once. */
-static void extrema_that_coincide(void **state)
+static void extrema_that_coincide(CHECK_STATE)
 {
-  (void)state;
   static const double q[] = {
       0.05,  0.2,  0.249, 0.25, 0.25 * (1 + 1e-8), 0.25 * (1 + 1e-4), 0.25 * (1 + 1e-3), 0.25 * (1 + 4e-3),
       0.252, 0.26, 0.5,   2};
@@ -114,9 +110,8 @@ static void extrema_that_coincide(void **state)
 
 /* Fejer's kernel 1 + 2 sum (1 - h/(H+1)) cos h th = (sin((H+1) th/2)/sin(th/2))^2/(H+1): one peak H + 1, and H
  * double zeros as minima. */
-static void fejer_kernel(void **state)
+static void fejer_kernel(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {1, 2, 5, 20, 200};
   double X[MAX_COEF];
   for (size_t o = 0; o < 5; ++o) {
@@ -148,9 +143,8 @@ static void check_against_samples(const char *what, int H, const double *X)
   CHECK_LE(least - min, between + rounding, "%s", what);
 }
 
-static void no_sample_lies_outside(void **state)
+static void no_sample_lies_outside(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 2;
   double X[21];
   for (int trial = 0; trial < 100; ++trial) {
@@ -165,9 +159,8 @@ static void no_sample_lies_outside(void **state)
 /* Two unequal minima so close together that they fall between two grid angles: x' changes sign once there, and the
  * lower one must win. cos th + q cos 2 th has twin minima at pi +- y, y^2 = 2 (4q - 1) nearly; sin th lifts one of
  * them. */
-static void the_lower_of_two_close_minima(void **state)
+static void the_lower_of_two_close_minima(CHECK_STATE)
 {
-  (void)state;
   for (int d = 1; d <= 4; ++d)
     for (int tilt = -4; tilt <= 4; ++tilt)
       for (int k = 0; k < 8; ++k) {
@@ -181,9 +174,8 @@ static void the_lower_of_two_close_minima(void **state)
 
 /* 2H+1 equidistant samples integrate x^2 (degree 2H) exactly: only rounding is left, 4 (H + 2) eps a sample relative
  * to (sum |X|)^2 >= x^2, doubled by squaring; the root halves it and divides by rms. */
-static void rms_and_first_harmonic(void **state)
+static void rms_and_first_harmonic(CHECK_STATE)
 {
-  (void)state;
   static const int orders[] = {0, 1, 3, 50, 200};
   uint64_t seed = 3;
   double X[MAX_COEF];
@@ -205,9 +197,8 @@ static void rms_and_first_harmonic(void **state)
 
 /* The three roundings of rotate.h, half of one of each cosine and sine of libm, and four of angle + x, which is below
  * 8: nine with room. */
-static void rotated_angles(void **state)
+static void rotated_angles(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 3;
   for (int trial = 0; trial < 2000; ++trial) {
     const double angle = 2 * PI * random_signed(&seed);

@@ -61,18 +61,16 @@ static hc_status run_workers(task *t, int stop_at)
   return workers_join(&t->workers);
 }
 
-static void each_piece_is_done_once(void **state)
+static void each_piece_is_done_once(CHECK_STATE)
 {
-  (void)state;
   static task t;
   assert_int_equal(run_workers(&t, TASKS), HC_OK);
   for (int i = 0; i < TASKS; ++i) assert_int_equal(t.done[i], 1);
 }
 
 /* Stopped at the first piece: each of the threads can have one more in hand by then, and gives another reason. */
-static void the_first_reason_is_kept(void **state)
+static void the_first_reason_is_kept(CHECK_STATE)
 {
-  (void)state;
   static task t;
   hc_status st = run_workers(&t, 0);
   assert_true(st == HC_IO || st == HC_STALLED);
@@ -84,9 +82,8 @@ static void the_first_reason_is_kept(void **state)
   assert_int_equal(workers_join(&t.workers), HC_NOT_FINITE);
 }
 
-static void what_the_system_lacks_is_a_status(void **state)
+static void what_the_system_lacks_is_a_status(CHECK_STATE)
 {
-  (void)state;
   static task t;
   lock_error = ENOMEM;
   assert_int_equal(workers_init(&t.workers), HC_NO_MEMORY);
@@ -121,9 +118,8 @@ static hc_status run_list(listed *l, int jobs, int fails_at, int waits_at, const
 }
 
 /* By the calling thread, by several, and by more than there are tasks. */
-static void each_listed_task_is_done_once(void **state)
+static void each_listed_task_is_done_once(CHECK_STATE)
 {
-  (void)state;
   static listed l;
   static const int jobs[] = {0, 1, 2, THREADS, TASKS + 1};
   for (int k = 0; k < 5; ++k) {
@@ -133,9 +129,8 @@ static void each_listed_task_is_done_once(void **state)
   assert_int_equal(workers_run(THREADS, 0, do_listed, &l, NULL), HC_OK);
 }
 
-static void a_failed_task_ends_the_list(void **state)
+static void a_failed_task_ends_the_list(CHECK_STATE)
 {
-  (void)state;
   static listed l;
   assert_int_equal(run_list(&l, 1, 7, -1, NULL), HC_STALLED);
   assert_int_equal(l.done[7], 1);
@@ -162,9 +157,8 @@ static bool stop_third_time(void *self, double done)
 }
 
 /* A task that would wait for ever; the calling thread alone is asked, and told a part that never falls. */
-static void the_caller_can_stop_the_list(void **state)
+static void the_caller_can_stop_the_list(CHECK_STATE)
 {
-  (void)state;
   static listed l;
   for (int jobs = 1; jobs <= THREADS; ++jobs) {
     asked a = {.caller = pthread_self()};

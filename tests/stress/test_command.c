@@ -27,16 +27,14 @@ static void expect(const char *args, int code, const char *fragment)
   shell_check(args, last.code, last.out, code, fragment);
 }
 
-static void two_hundred_scenes_without_a_finding(void **state)
+static void two_hundred_scenes_without_a_finding(CHECK_STATE)
 {
-  (void)state;
   expect("--scenes 200", 0, "200 scenes of seed 1 from 0 on: 0 findings, 0 scenes never classified");
 }
 
 /* And structures, which have a journal and case files of their own. */
-static void structures_without_a_finding(void **state)
+static void structures_without_a_finding(CHECK_STATE)
 {
-  (void)state;
   expect("--structures --scenes 60 --results %s/structures", 0,
          "60 scenes of seed 1 from 0 on: 0 findings, 0 scenes never classified");
   expect("--structures --scenes 61 --results %s/structures --format csv", 0, "rotated,");
@@ -45,9 +43,8 @@ static void structures_without_a_finding(void **state)
 }
 
 /* And those in space, with a check of their own. */
-static void structures_in_space_without_a_finding(void **state)
+static void structures_in_space_without_a_finding(CHECK_STATE)
 {
-  (void)state;
   expect("--space --first 3 --scenes 20 --results %s/space --format csv", 0, "turned_tangents,");
   expect("--structures --first 3 --scenes 5 --results %s/space 2>&1", 2, "scenes of this kind");
   expect("--space --first 3 --case > %s/space.yaml && " HBMCHECK_COMMAND " modes %s/space.yaml", 0, "omega_open");
@@ -59,9 +56,8 @@ static void structures_in_space_without_a_finding(void **state)
   "$(i + 4); print o}'"
 
 /* Killed while it wrote, and gone on with: the same scenes with the same results as in one go. */
-static void what_was_stopped_goes_on(void **state)
+static void what_was_stopped_goes_on(CHECK_STATE)
 {
-  (void)state;
   static char whole[sizeof last.out];
   expect("--seed 5 --scenes 12 --seconds 60 --jobs 1 --results %s/whole > /dev/null; grep -vc '#' %s/whole", 0, "12");
   expect(
@@ -89,9 +85,8 @@ static void refuse_changed(const char *change, const char *words)
   expect(args, 2, words);
 }
 
-static void a_journal_that_does_not_fit_is_refused(void **state)
+static void a_journal_that_does_not_fit_is_refused(CHECK_STATE)
 {
-  (void)state;
   expect("--seed 5 --scenes 1 --seconds 60 --results %s/one", 0, "1 scenes of seed 5 from 0 on");
   static const char *const other[] = {"1s/stress 4/stress 1/",
                                       "1s/stress 4/stress 5/",
@@ -110,9 +105,8 @@ static void a_journal_that_does_not_fit_is_refused(void **state)
   refuse_changed("6s/  [0-9]/  9/", "or damaged"); /* an outcome beyond the list */
 }
 
-static void one_scene_is_printed_as_a_case_file(void **state)
+static void one_scene_is_printed_as_a_case_file(CHECK_STATE)
 {
-  (void)state;
   expect("--seed 5 --first 3 --case", 0, "Stress scene 3 of seed 5");
   expect("--seed 5 --first 3 --case --output %s/three.yaml && " HBMCHECK_COMMAND
          " frf --quiet %s/three.yaml > /dev/null && echo read",
@@ -120,9 +114,8 @@ static void one_scene_is_printed_as_a_case_file(void **state)
   expect("--seed 5 --first 3 --scenes 1 --all --format csv", 0, "3,verdict,");
 }
 
-static void what_cannot_be_is_said(void **state)
+static void what_cannot_be_is_said(CHECK_STATE)
 {
-  (void)state;
   expect("--scenes 0 2>&1", 64, "is not an integer 1..");
   expect("--seconds nan 2>&1", 64, "is not a number > 0");
   expect("--set hbm.harmonics=3 2>&1", 64, "no case file");
@@ -130,15 +123,10 @@ static void what_cannot_be_is_said(void **state)
   expect("--scenes 1 --results /dev/null/x 2>&1", 3, "Not a directory");
 }
 
-static int make_folder(void **state)
-{
-  (void)state;
-  return mkdtemp(folder) ? 0 : -1;
-}
+static int make_folder(CHECK_STATE) { return mkdtemp(folder) ? 0 : -1; }
 
-static int remove_folder(void **state)
+static int remove_folder(CHECK_STATE)
 {
-  (void)state;
   char line[64];
   snprintf(line, sizeof line, "rm -r %s", folder);
   return system(line);

@@ -42,9 +42,8 @@ static void check_reach(const range *r, bool geometric)
   CHECK_LE(high - 0.02 * (high - low), most, "%s reaches up", r->name);
 }
 
-static void the_whole_of_every_range_is_drawn(void **state)
+static void the_whole_of_every_range_is_drawn(CHECK_STATE)
 {
-  (void)state;
   range r[N_RANGES] = {{"kn", 1, 1e8, 0, 0},      {"kt", 1, 1e8, 0, 0},        {"mu", 0, 3, 0, 0},
                        {"angle", 0, 90, 0, 0},    {"gap", -10, 10, 0, 0},      {"F0", 1e-6, 1e6, 0, 0},
                        {"mass", 1e-3, 1e3, 0, 0}, {"stiffness", 1, 1e6, 0, 0}, {"ratio", 0, 0.5, 0, 0},
@@ -81,9 +80,8 @@ static void the_whole_of_every_range_is_drawn(void **state)
 }
 
 /* In any order; another seed is another scene. */
-static void a_scene_comes_again_from_seed_and_index(void **state)
+static void a_scene_comes_again_from_seed_and_index(CHECK_STATE)
 {
-  (void)state;
   stress_scenes *a = sequence(7), *b = sequence(7), *c = sequence(8);
   scene first, again, other;
   for (long i = 0; i < 50; ++i) assert_int_equal(stress_scenes_at(a, i, &first), HC_OK);
@@ -97,9 +95,8 @@ static void a_scene_comes_again_from_seed_and_index(void **state)
 }
 
 /* Every scene is one that a case file may say. */
-static void every_scene_is_a_case_file(void **state)
+static void every_scene_is_a_case_file(CHECK_STATE)
 {
-  (void)state;
   stress_scenes *s = sequence(3);
   for (long i = 0; i < 200; ++i) {
     scene sc, back;

@@ -216,9 +216,8 @@ static bool ends_well(const stress_check *c, int kind, bool friction)
   return c->outcome == STRESS_AGREED;
 }
 
-static void good_answers_agree(void **state)
+static void good_answers_agree(CHECK_STATE)
 {
-  (void)state;
   for (int friction = 0; friction < 2; ++friction) {
     const stress_result r = stressed(friction, NOTHING);
     for (int k = 0; k < STRESS_N_CHECKS; ++k)
@@ -265,9 +264,8 @@ static stress_check in_space(spoil with, stress_kind kind)
   return r.check[kind];
 }
 
-static void circles_are_held_against_their_law(void **state)
+static void circles_are_held_against_their_law(CHECK_STATE)
 {
-  (void)state;
   assert_int_equal(in_space(NOTHING, STRESS_BALANCE).outcome, STRESS_AGREED);
   assert_int_equal(in_space(NOTHING, STRESS_FORCE).outcome, STRESS_AGREED);
   assert_int_equal(in_space(NOTHING, STRESS_OTHER_TANGENTS).outcome, STRESS_AGREED);
@@ -280,9 +278,8 @@ static void circles_are_held_against_their_law(void **state)
 
 /* Scenes of which a contact has shaken down to the edge of slip: shooting left such an orbit by rounding, and ended on
  * another member of its family, up to 1.5e-3 of the motion away. */
-static void orbits_on_an_edge_of_slip_are_kept(void **state)
+static void orbits_on_an_edge_of_slip_are_kept(CHECK_STATE)
 {
-  (void)state;
   static const int scenes_on_edges[] = {1650, 1672, 1928};
   static const stress_kind orbits_again[] = {STRESS_ORBIT_REWRITTEN, STRESS_ORBIT_CVODE};
   stress_scenes *scenes;
@@ -312,9 +309,8 @@ static void expect_finding(bool friction, spoil with, stress_kind kind)
              stress_reason_name(c->reason), c->error, c->bound);
 }
 
-static void a_wrong_solution_is_found(void **state)
+static void a_wrong_solution_is_found(CHECK_STATE)
 {
-  (void)state;
   expect_finding(true, DOFS_SWAPPED, STRESS_BALANCE);
   expect_finding(true, DAMPING_TRANSPOSED, STRESS_BALANCE);
   expect_finding(true, CONTACT_SIGN, STRESS_BALANCE);
@@ -324,18 +320,16 @@ static void a_wrong_solution_is_found(void **state)
   expect_finding(true, CURVE_MOVED, STRESS_CURVE);
 }
 
-static void a_wrong_force_is_found(void **state)
+static void a_wrong_force_is_found(CHECK_STATE)
 {
-  (void)state;
   expect_finding(true, FORCE_TURNED, STRESS_WORK);
   expect_finding(true, FORCE_SCALED, STRESS_FORCE);
   expect_finding(true, SAMPLES_STIFFER, STRESS_SAMPLED);
 }
 
 /* Solutions and multipliers of every other way to write it. */
-static void another_solution_is_found(void **state)
+static void another_solution_is_found(CHECK_STATE)
 {
-  (void)state;
   expect_finding(true, FOUND_MOVED, STRESS_FREE);
   expect_finding(true, FOUND_MOVED, STRESS_STUCK);
   for (stress_kind kind = STRESS_PERMUTED; kind <= STRESS_SAMPLED; ++kind) {
@@ -347,9 +341,8 @@ static void another_solution_is_found(void **state)
 }
 
 /* Time integration against harmonic balance, and against itself. */
-static void a_wrong_orbit_is_found(void **state)
+static void a_wrong_orbit_is_found(CHECK_STATE)
 {
-  (void)state;
   expect_finding(true, ORBITS_SCALED, STRESS_ORBIT);
   expect_finding(true, ORBIT_MULTIPLIER, STRESS_MULTIPLIER);
   for (stress_kind kind = STRESS_ORBIT_REWRITTEN; kind <= STRESS_ORBIT_LAWS; ++kind)
@@ -357,9 +350,8 @@ static void a_wrong_orbit_is_found(void **state)
   expect_finding(true, VERDICT_TURNED, STRESS_VERDICT);
 }
 
-static void a_finding_is_made_small(void **state)
+static void a_finding_is_made_small(CHECK_STATE)
 {
-  (void)state;
   scene sc = given(true);
   spoiled = FORCE_SCALED;
   assert_int_equal(stress_shrink(&sc, STRESS_FORCE, 20, NULL), HC_OK);
@@ -399,9 +391,8 @@ static stress_result oscillator_stressed(scene sc, spoil with)
   return r;
 }
 
-static void good_oscillators_are_no_findings(void **state)
+static void good_oscillators_are_no_findings(CHECK_STATE)
 {
-  (void)state;
   scene slips = case_2();
   slips.contacts[0].law.gap = 0.05;
   for (int i = 0; i < 2; ++i) {
@@ -413,9 +404,8 @@ static void good_oscillators_are_no_findings(void **state)
   }
 }
 
-static void a_wrong_oscillator_is_found(void **state)
+static void a_wrong_oscillator_is_found(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     spoil with;
     stress_kind kind;
@@ -433,9 +423,8 @@ static void a_wrong_oscillator_is_found(void **state)
 }
 
 /* What has nothing to do with the fault goes: contacts, harmonics, digits. */
-static void an_oscillator_is_made_small(void **state)
+static void an_oscillator_is_made_small(CHECK_STATE)
 {
-  (void)state;
   scene sc = case_2();
   sc.n_contacts = 2;
   sc.contacts[1] = (scene_contact){{1.2345, 2.3456, 0.34567, -4.5678}, 12.345};
@@ -455,9 +444,8 @@ static void an_oscillator_is_made_small(void **state)
  * instant of contact found it; units of the two oscillators by 5.0e-10 and 1.7e-10, as Newton's tolerance allows. The
  * orbit of scene 9 counted as far from its start where that had the slider of a contact without friction elsewhere. The
  * multiplier by HBM of structure 85 was 1.1e-2 off with one harmonic, hardly less with two, and 1e-4 with 64. */
-static void findings_of_other_seeds_are_none(void **state)
+static void findings_of_other_seeds_are_none(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     stress_family family;
     unsigned long seed;
@@ -484,9 +472,8 @@ static void findings_of_other_seeds_are_none(void **state)
 
 /* A difference as large as the scene's own sensitivity allows is not called an agreement, and where it allows
  * more than 1e-3 nothing is said. */
-static void what_only_sensitivity_allows_is_ill_conditioned(void **state)
+static void what_only_sensitivity_allows_is_ill_conditioned(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     double error, sensitive;
     stress_outcome outcome;
@@ -532,9 +519,8 @@ static void check_echo(int i, const scene *sc, scene *back)
 }
 
 /* Every scene is a case file that reads back to the same; all kinds of everything come up; the index alone decides. */
-static void every_scene_is_a_case_file(void **state)
+static void every_scene_is_a_case_file(CHECK_STATE)
 {
-  (void)state;
   stress_scenes *scenes;
   int damping[4] = {0}, sizes[13] = {0}, contacts[7] = {0}, jenkins = 0, springs = 0, loads = 0, at_rest = 0;
   assert_int_equal(stress_scenes_new(1, &scenes), HC_OK);
@@ -570,9 +556,8 @@ static void every_scene_is_a_case_file(void **state)
 }
 
 /* Second tangents of both limits, and some nearly along the first; all else is what it is without. */
-static void scenes_in_space_are_case_files(void **state)
+static void scenes_in_space_are_case_files(CHECK_STATE)
 {
-  (void)state;
   stress_scenes *scenes;
   int pairs = 0, circles = 0;
   assert_int_equal(stress_scenes_new(1, &scenes), HC_OK);

@@ -84,9 +84,8 @@ static void run_inside(const char *args, int signal, long n)
 /* Ten kills at moments drawn from a fixed sequence, among SQLite's writes, too. An undisturbed run has 800 scenes and
  * two moments or more in each; a tenth of these moments a run, halved by the ten that are killed on the average, leave
  * scenes for all of them. Then every scene is there once, and the export is that of an undisturbed run. */
-static void killed_and_resumed(void **state)
+static void killed_and_resumed(CHECK_STATE)
 {
-  (void)state;
   unsigned long long seed = 88172645463325252ull;
   write_file("k.yaml", MANY("kills", "40"));
   run_inside("k.yaml -q --results whole.sqlite --jobs 1", 0, 0);
@@ -110,9 +109,8 @@ static void killed_and_resumed(void **state)
   free(b.out);
 }
 
-static void threads_change_nothing(void **state)
+static void threads_change_nothing(CHECK_STATE)
 {
-  (void)state;
   static const char *const formats[] = {"csv", "json"};
   write_file("t.yaml", MANY("threads", "10"));
   for (int i = 0; i < 2; ++i) {
@@ -129,9 +127,8 @@ static void threads_change_nothing(void **state)
   }
 }
 
-static void stopped_by_a_signal(void **state)
+static void stopped_by_a_signal(CHECK_STATE)
 {
-  (void)state;
   write_file("s.yaml", MANY("signals", "80"));
   run_inside("s.yaml -q", SIGTERM, 200);
   shell_check("stopped", last.code, last.err, 3, "scenes are in s.sqlite; the same command goes on from there");
@@ -153,9 +150,8 @@ static void stand_still(void *self)
   if (write(s->tells, &byte, 1) != 1 || read(s->waits, &byte, 1) != 0) _exit(99);
 }
 
-static void a_second_process_is_refused(void **state)
+static void a_second_process_is_refused(CHECK_STATE)
 {
-  (void)state;
   int there[2], go[2], status;
   char byte;
   write_file("p.yaml", MANY("processes", "10"));
@@ -180,9 +176,8 @@ static void a_second_process_is_refused(void **state)
   close(there[0]);
 }
 
-static void changed_and_foreign(void **state)
+static void changed_and_foreign(CHECK_STATE)
 {
-  (void)state;
   write_file("c.yaml", "study: c\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2]}]\n");
   expect("c.yaml -q", 0, "c.sqlite");
   write_file("c.yaml", "study: c\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2, 3]}]\n");
@@ -195,9 +190,8 @@ static void changed_and_foreign(void **state)
   expect("c.yaml -q 2>&1", 2, "c.sqlite: not an SQLite file");
 }
 
-static void claims_are_held(void **state)
+static void claims_are_held(CHECK_STATE)
 {
-  (void)state;
   write_file(
       "m.yaml",
       "study: m\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2, 4]}]\nclaims:\n"
@@ -218,9 +212,8 @@ static void claims_are_held(void **state)
 }
 
 /* Two answers a claim; views; what the source took beside what it takes here; totals. */
-static void claims_have_two_sides(void **state)
+static void claims_have_two_sides(CHECK_STATE)
 {
-  (void)state;
   write_file(
       "d.yaml",
       "study: d\n" LINEAR
@@ -254,9 +247,8 @@ static void claims_have_two_sides(void **state)
 
 /* A third answer, in fixed steps, has a table of its own with the verdicts of the other two beside it. What cannot be
  * said can be what is expected. */
-static void claims_are_answered_in_fixed_steps(void **state)
+static void claims_are_answered_in_fixed_steps(CHECK_STATE)
 {
-  (void)state;
   write_file("f.yaml", "study: f\n" LINEAR
                        "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n  - source: text\n    says: it fails\n"
                        "    paper: {holds: SELECT NULL, expect: unsaid}\n"
@@ -274,9 +266,8 @@ static void claims_are_answered_in_fixed_steps(void **state)
 }
 
 /* Long texts are carried over, not cut; no line is longer than the page. */
-static void long_claims_are_wrapped(void **state)
+static void long_claims_are_wrapped(CHECK_STATE)
 {
-  (void)state;
   char word[] = "abcdefghi ", text[700] = "";
   for (int i = 0; i < 30; ++i) strcat(text, word);
   char file[2000];
@@ -295,9 +286,8 @@ static void long_claims_are_wrapped(void **state)
   free(o.out);
 }
 
-static void a_failure_is_a_row(void **state)
+static void a_failure_is_a_row(CHECK_STATE)
 {
-  (void)state;
   write_file("f.yaml", "study: f\n" LINEAR "run: frf\nset: {hbm.force: sampled}\nvary: [{hbm.samples: [32, 8]}]\n");
   expect("f.yaml -q", 3, "8 samples cannot tell 5 harmonics apart");
   expect("f.yaml -q --export csv", 3, "\n1,8,failed,");
@@ -310,9 +300,8 @@ static void a_failure_is_a_row(void **state)
   expect("q.yaml -q", 0, "match");
 }
 
-static void usage_is_checked(void **state)
+static void usage_is_checked(CHECK_STATE)
 {
-  (void)state;
   expect("2>&1", 64, "STUDY");
   expect("t.yaml --jobs 0 2>&1", 64, "--jobs: '0'");
   expect("t.yaml --export table 2>&1", 64, "expected csv or json");

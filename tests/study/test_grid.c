@@ -11,9 +11,8 @@ static scene scene_of(const study *s, long id)
 }
 
 /* 2 x 3 x 2: the last axis is the fastest, so id = 6 i + 2 j + k. */
-static void the_last_axis_is_the_fastest(void **state)
+static void the_last_axis_is_the_fastest(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study(
       "study: t\n" CONTACT_CASE
       "set: {hbm.harmonics: 7}\nvary:\n  - hbm.samples: [32, 128]\n  - contacts[0].gap: {from: -1, to: 1, count: 3}\n"
@@ -33,9 +32,8 @@ static void the_last_axis_is_the_fastest(void **state)
 }
 
 /* Ends are included as written; linear steps of halves are exact in binary; decades of a log range are exact. */
-static void ranges_hit_what_one_expects(void **state)
+static void ranges_hit_what_one_expects(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study(
       "study: t\n" CONTACT_CASE "vary:\n  - contacts[0].gap: {from: -5, to: 3, count: 17}\n"
       "  - contacts[0].normal_stiffness: {from: 1e2, to: 1e5, count: 7, scale: log}\n  - oscillator.damping: {from: "
@@ -58,17 +56,15 @@ static void ranges_hit_what_one_expects(void **state)
 }
 
 /* An integer forgives what a log range rounds: 32 * 2^k. */
-static void integers_by_powers_of_two(void **state)
+static void integers_by_powers_of_two(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study("study: t\n" CASE "vary:\n  - {hbm.samples: {from: 32, to: 4096, count: 8, scale: log}}\n");
   for (int i = 0; i < 8; ++i) assert_int_equal(scene_of(s, i).hbm.samples, 32 << i);
   study_free(s);
 }
 
-static void lists_and_rivals_can_vary(void **state)
+static void lists_and_rivals_can_vary(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study(
       "study: t\n" CASE
       "vary:\n  - {sweep.frequency: [[1, 2], [2, 1]]}\n  - {compare.omega: [[5], [6, 7]], title: [a, 'b, \"c\"']}\n");
@@ -80,9 +76,8 @@ static void lists_and_rivals_can_vary(void **state)
 }
 
 /* Fields that do not go together are a matter of the scene, told with their place. */
-static void a_scene_may_be_impossible(void **state)
+static void a_scene_may_be_impossible(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study("study: t\n" CASE
                         "set: {hbm.force: sampled}\nvary:\n  - {hbm.samples: [32, 8]}\n  - {hbm.harmonics: [3, 4]}\n");
   scene sc;
@@ -95,9 +90,8 @@ static void a_scene_may_be_impossible(void **state)
 
 /* The fingerprint is of what is computed: how a value is written, titles and claims are not part of it; everything
  * else is. */
-static void the_fingerprint_is_of_what_is_computed(void **state)
+static void the_fingerprint_is_of_what_is_computed(CHECK_STATE)
 {
-  (void)state;
   static const char *const same[] = {
       "study: t\n" CASE "vary: [{oscillator.mass: [1, 2, 3]}]\n",
       "study: other\n" CASE "vary: [{oscillator.mass: [1.0, 2e0, 3]}]\nclaims: [{says: a, holds: SELECT 1}]\n",
@@ -125,9 +119,8 @@ static void the_fingerprint_is_of_what_is_computed(void **state)
   study_free(first);
 }
 
-static void the_largest_study(void **state)
+static void the_largest_study(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study(
       "study: t\n" CASE
       "vary:\n  - {oscillator.mass: {from: 1, to: 2, count: 1000}}\n  - {oscillator.damping: {from: 1, to: 2, count: "
@@ -145,9 +138,8 @@ static void the_largest_study(void **state)
   "  contacts: [{name: joint, tangential_stiffness: 10, friction: 0.3, preload: 1, tangent: root}]\n"
 
 /* Every scene has a structure of its own; the base keeps what it had. */
-static void structures_vary_too(void **state)
+static void structures_vary_too(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study("study: t\nrun: frf\n" STRUCTURE_CASE "set: {\"contacts[joint].preload\": 7}\n"
                         "vary:\n  - structure.damping.modal: [0.02, 0.03]\n  - {\"contacts[joint].friction\": [0, 1], "
                         "\"forcing[0].amplitude\": [5, 6]}\n");
@@ -168,9 +160,8 @@ static void structures_vary_too(void **state)
   study_free(s);
 }
 
-static void one_number_of_rayleigh_damping_varies(void **state)
+static void one_number_of_rayleigh_damping_varies(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study("study: t\nrun: frf\n" STRUCTURE_CASE
                         "vary:\n  - structure.damping.rayleigh[0]: {from: 1, to: 3, count: 3}\n"
                         "  - structure.damping.rayleigh[1]: [0.5, 0.25]\n");
@@ -185,9 +176,8 @@ static void one_number_of_rayleigh_damping_varies(void **state)
   study_free(s);
 }
 
-static void parts_of_structures_do_not_vary(void **state)
+static void parts_of_structures_do_not_vary(CHECK_STATE)
 {
-  (void)state;
   case_error err;
   assert_null(
       study_from_text("study: t\nrun: frf\n" STRUCTURE_CASE "vary: [{structure.mass: [1, 2]}]\n", 0, NULL, &err));

@@ -49,18 +49,16 @@ static int check_folder(const char *folder)
   return n;
 }
 
-static void every_shipped_study_can_be_run(void **state)
+static void every_shipped_study_can_be_run(CHECK_STATE)
 {
-  (void)state;
   assert_int_equal(check_folder(SOURCE_DIR "/cases/paper/studies"),
                    20); /* figures 7 to 18 and 20, sections 2 and 5, five guidelines */
   assert_true(check_folder(SOURCE_DIR "/cases/studies") >= 1);
 }
 
 /* Exit 1 would say that a claim is not as the file expects it. */
-static void the_quick_ones_are_as_expected(void **state)
+static void the_quick_ones_are_as_expected(CHECK_STATE)
 {
-  (void)state;
   static const char *const quick[] = {"fig07",         "fig08",         "fig11_table04", "fig13_table06",
                                       "fig14_table07", "fig15_table08", "section2",      "guideline1"};
   char line[4096];

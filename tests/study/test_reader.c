@@ -19,9 +19,8 @@ static void refuse(const mistake *m, int n_set, const char *const *set)
 #define STUDY "study: t\n"
 #define VARY  "vary: [{hbm.samples: [32, 64]}]\n"
 
-static void the_frame(void **state)
+static void the_frame(CHECK_STATE)
 {
-  (void)state;
   static const mistake all[] = {
       {"", ":1:1: ", "nothing here, expected a study with `study`, `base` or `case`, and `vary`"},
       {"[1]\n", ":1:1: ", "the study is a list, expected a mapping with"},
@@ -48,9 +47,8 @@ static void the_frame(void **state)
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refuse(&all[i], 0, NULL);
 }
 
-static void set(void **state)
+static void set(CHECK_STATE)
 {
-  (void)state;
   static const mistake all[] = {
       {STUDY CASE "set: 5\n" VARY, ":3:6: ", "set is a single value, expected a mapping such as"},
       {STUDY CASE "set: {hbm.harmonic: 3}\n" VARY,
@@ -67,9 +65,8 @@ static void set(void **state)
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refuse(&all[i], 0, NULL);
 }
 
-static void options(void **state)
+static void options(CHECK_STATE)
 {
-  (void)state;
   static const char *const twice[] = {"hbm.samples=3"}, *const unknown[] = {"hbm.sample=3"},
                            *const wrong[] = {"hbm.harmonics=x"};
   refuse(&(mistake){STUDY CASE VARY, ":3:9: ", "(also `hbm.samples` by --set)"}, 1, twice);
@@ -80,9 +77,8 @@ static void options(void **state)
 #define V STUDY CASE "vary:\n  - "
 #define C STUDY CONTACT_CASE "vary:\n  - "
 
-static void axes(void **state)
+static void axes(CHECK_STATE)
 {
-  (void)state;
   static const mistake all[] = {
       {STUDY CASE "vary: []\n", ":3:7: ", "vary is an empty list, expected a list of axes"},
       {STUDY CASE "vary: {hbm.samples: [3]}\n", ":3:7: ", "vary is a mapping, expected a list of axes"},
@@ -120,9 +116,8 @@ static void axes(void **state)
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refuse(&all[i], 0, NULL);
 }
 
-static void ranges(void **state)
+static void ranges(CHECK_STATE)
 {
-  (void)state;
   static const mistake all[] = {
       {V "{oscillator.mass: {from: 1, to: 2}}\n",
        ":4:23: ", "has an incomplete range, expected {from: A, to: B, count: N}"},
@@ -156,9 +151,8 @@ static void ranges(void **state)
 
 #define K STUDY CASE VARY "claims:\n  - "
 
-static void claims(void **state)
+static void claims(CHECK_STATE)
 {
-  (void)state;
   static const mistake all[] = {
       {STUDY CASE VARY "claims: 3\n", ":4:9: ", "claims is a single value, expected a list of"},
       {K "a\n", ":5:5: ", "a claim is a single value"},
@@ -186,9 +180,8 @@ static void claims(void **state)
 }
 
 /* A base file's own mistakes are told with its own name; its name is seen from the study's folder. */
-static void a_base_beside_the_study(void **state)
+static void a_base_beside_the_study(CHECK_STATE)
 {
-  (void)state;
   char folder[] = "/tmp/hbmcheck-study-XXXXXX", base[64], path[64];
   case_error err = {{0}};
   study *s = NULL;

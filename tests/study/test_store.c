@@ -66,9 +66,8 @@ static long count_done(const study *s, study_store *st)
   return n;
 }
 
-static void scenes_are_kept_once(void **state)
+static void scenes_are_kept_once(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study(LINEAR);
   study_store *st = open_good(s, "1", false);
   keep_scene(s, st, 0);
@@ -88,9 +87,8 @@ static void scenes_are_kept_once(void **state)
   unlink(file);
 }
 
-static void others_are_refused(void **state)
+static void others_are_refused(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study(LINEAR),
         *other = good_study("study: t\n" CASE "run: frf\nvary: [{oscillator.mass: [1, 2, 4]}]\n");
   study_store *st = open_good(s, "1", false);
@@ -119,9 +117,8 @@ static void run_sql(const char *sql)
   sqlite3_close(db);
 }
 
-static void foreign_files_are_refused(void **state)
+static void foreign_files_are_refused(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study(LINEAR);
   for (int fresh = 0; fresh < 2; ++fresh) {
     write_text(
@@ -139,9 +136,8 @@ static void foreign_files_are_refused(void **state)
 }
 
 /* Pages of noise in the middle of our own file. */
-static void damaged_files_are_refused(void **state)
+static void damaged_files_are_refused(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study(LINEAR);
   study_store *st = open_good(s, "1", false);
   for (long id = 0; id < 3; ++id) keep_scene(s, st, id);
@@ -159,9 +155,8 @@ static void damaged_files_are_refused(void **state)
   unlink(file);
 }
 
-static void places_that_cannot_be(void **state)
+static void places_that_cannot_be(CHECK_STATE)
 {
-  (void)state;
   study *s = good_study(LINEAR);
   study_store *st = NULL;
   case_error err = {{0}};
@@ -188,9 +183,8 @@ static void refuse_claim(const char *query, const char *words)
   study_free(s);
 }
 
-static void claims_only_read(void **state)
+static void claims_only_read(CHECK_STATE)
 {
-  (void)state;
   refuse_claim("SELECT nosuch FROM scene", "no such column: nosuch");
   refuse_claim("SELEC 1", "syntax error");
   refuse_claim("SELECT 1, 2", "gives 2 columns, expected one value");
@@ -210,9 +204,8 @@ static void claims_only_read(void **state)
 }
 
 /* A result survives packing. */
-static void results_travel(void **state)
+static void results_travel(CHECK_STATE)
 {
-  (void)state;
   study *s =
       good_study("study: t\n" CASE "run: frf\nset: {compare.omega: [4, 5]}\nvary: [{oscillator.mass: [1, 2, 3]}]\n");
   study_result r, back;

@@ -199,9 +199,8 @@ static void *work(void *self)
 
 /* What is compared must be results: each job's first number is its status, and a failure would repeat itself
  * faithfully. A comparison has 15 numbers a row. */
-static int run_alone(void **state)
+static int run_alone(CHECK_STATE)
 {
-  (void)state;
   for (int j = 0; j < JOBS; ++j) {
     jobs[j](&alone[j]);
     if (alone[j].v[0] != HBMCHECK_OK || alone[j].n < 2 + 2 * 15 || alone[j].n > MOST_NUMBERS) {
@@ -212,9 +211,8 @@ static int run_alone(void **state)
   return 0;
 }
 
-static void together_as_alone(void **state)
+static void together_as_alone(CHECK_STATE)
 {
-  (void)state;
   worker *w = calloc(THREADS, sizeof *w);
   pthread_barrier_t start;
   assert_non_null(w);

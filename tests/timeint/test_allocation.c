@@ -70,9 +70,8 @@ static timeint *made(transient_steady steady, bool scout, transient_law law)
   return ti;
 }
 
-static void marching_allocates_nothing(void **state)
+static void marching_allocates_nothing(CHECK_STATE)
 {
-  (void)state;
   if (!COUNTED) skip();
   count c = {0};
   hc_monitor monitor = {.tick = tick, .self = &c};
@@ -86,9 +85,8 @@ static void marching_allocates_nothing(void **state)
 }
 
 /* Where Newton succeeds: SUNDIALS 7 composes a message, and frees it, when it does not. */
-static void shooting_and_sweeping_allocate_nothing(void **state)
+static void shooting_and_sweeping_allocate_nothing(CHECK_STATE)
 {
-  (void)state;
   if (!COUNTED) skip();
   timeint *ti = made(TRANSIENT_STEADY_AUTO, false, TRANSIENT_LAW_REGULARISED);
   double y[TIMEINT_W + CONTACTS] = {1.04, 7}; /* next to the orbit */
@@ -109,9 +107,8 @@ static void shooting_and_sweeping_allocate_nothing(void **state)
 enum { MESSAGES = SUNDIALS_VERSION_MAJOR >= 7 ? 12 : 0 };
 
 /* From rest: marching in closed form, its Newton, CVODE's periods that confirm it. */
-static void a_scout_allocates_nothing(void **state)
+static void a_scout_allocates_nothing(CHECK_STATE)
 {
-  (void)state;
   if (!COUNTED) skip();
   for (int law = 0; law < 2; ++law) {
     timeint *ti = made(TRANSIENT_STEADY_AUTO, true, law ? TRANSIENT_LAW_EXACT : TRANSIENT_LAW_REGULARISED);

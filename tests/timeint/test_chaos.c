@@ -32,9 +32,8 @@ static hc_status swept_up(const scene *sc, double omega, timeint_result *r)
  * closed form over 4000 periods: 0.150 +- 0.003 at 5.13, 0.1555 +- 0.004 at 5.14 (standard errors). Here at least 640
  * periods are averaged: standard errors sqrt(4000/640) = 2.5 times as large, 0.0075 and 0.01; four of them. At 5.2 and
  * 5.4 the bands have merged. */
-static void narrow_bands(void **state)
+static void narrow_bands(CHECK_STATE)
 {
-  (void)state;
   static const double at[][3] = {{5.13, 0.150, 0.030}, {5.14, 0.1555, 0.040}, {5.2, 0.2, 0.2}, {5.4, 0.2, 0.2}};
   scene sc = case2();
   for (size_t i = 0; i < sizeof at / sizeof *at; ++i) {
@@ -46,9 +45,8 @@ static void narrow_bands(void **state)
 }
 
 /* The same through the laws and ways that people use; CVODE by itself takes seconds and is left to test_verdicts.c. */
-static void narrow_bands_whoever_integrates(void **state)
+static void narrow_bands_whoever_integrates(CHECK_STATE)
 {
-  (void)state;
   static const transient_start start[] = {TRANSIENT_START_UP, TRANSIENT_START_HBM};
   for (int law = 0; law < 2; ++law)
     for (int k = 0; k < 2; ++k) {
@@ -63,9 +61,8 @@ static void narrow_bands_whoever_integrates(void **state)
 }
 
 /* Between the bands, and below and above them, the motion repeats itself. */
-static void cascade_and_windows(void **state)
+static void cascade_and_windows(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     double omega;
     int multiple;
@@ -100,9 +97,8 @@ static scene_state unstable_orbit(timeint *ti, double omega, timeint_result *r)
 /* A motion on its way from the unstable orbit next to the fold: neighbours drift apart by a factor 1.004 a period, as
  * steadily as can be, for all of the first 640 periods, and there is no chaos in it. From next to the orbit nothing is
  * said at once: the motion goes on, and is asked again later. */
-static void leaving_an_orbit_is_not_chaos(void **state)
+static void leaving_an_orbit_is_not_chaos(CHECK_STATE)
 {
-  (void)state;
   static const double off[] = {1e-6, 3e-4, 1e-3, 2e-3, 3e-3, 5e-3};
   scene sc = case2();
   timeint *ti;

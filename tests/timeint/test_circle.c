@@ -169,25 +169,19 @@ static void check_reference(transient_settings how, double tolerance)
 }
 
 /* The reference's own error; orbits are closed to 1e-10 at least. */
-static void series_meet_the_reference(void **state)
-{
-  (void)state;
-  check_reference(closed_form, 1e-10);
-}
+static void series_meet_the_reference(CHECK_STATE) { check_reference(closed_form, 1e-10); }
 
 /* CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter by some hundred times that. */
-static void events_meet_the_reference(void **state)
+static void events_meet_the_reference(CHECK_STATE)
 {
-  (void)state;
   transient_settings how = closed_form;
   how.method = TRANSIENT_METHOD_CVODE;
   check_reference(how, 1e-8);
 }
 
 /* The regularised law's error is of the first order in 1e-4, in units of the motion. */
-static void regularised_meets_the_reference(void **state)
+static void regularised_meets_the_reference(CHECK_STATE)
 {
-  (void)state;
   transient_settings how = closed_form;
   how.method = TRANSIENT_METHOD_CVODE;
   how.law = TRANSIENT_LAW_REGULARISED;
@@ -197,9 +191,8 @@ static void regularised_meets_the_reference(void **state)
 }
 
 /* A contact that sticks all the time is one slider that rests anywhere, not two: by shooting, and marched. */
-static void a_circle_that_sticks_is_free_once(void **state)
+static void a_circle_that_sticks_is_free_once(CHECK_STATE)
 {
-  (void)state;
   static timeint_result r;
   for (int march = 0; march < 2; ++march) {
     model *m = plane(0.08);
@@ -217,9 +210,8 @@ static void a_circle_that_sticks_is_free_once(void **state)
 
 /* ---- the regularised law --------------------------------------------------------------------------------- */
 
-static void jacobian_is_the_derivative(void **state)
+static void jacobian_is_the_derivative(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 3;
   for (int trial = 0; trial < 100; ++trial) {
     drawn d;
@@ -232,9 +224,8 @@ static void jacobian_is_the_derivative(void **state)
 }
 
 /* (I - gamma J) z = r by elimination, against the dense matrix times what it finds: rounding times the entries. */
-static void newton_solves_the_dense_equations(void **state)
+static void newton_solves_the_dense_equations(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 9;
   for (int trial = 0; trial < 100; ++trial) {
     drawn d;
@@ -259,9 +250,8 @@ static void newton_solves_the_dense_equations(void **state)
 
 /* A motion on one line through the plane, along e, is that of the contact whose tangent is e: the same masses with
  * loads along that line, K and C the same in both directions. Rounding of some hundred steps. */
-static void a_motion_on_a_line_is_that_of_one_tangent(void **state)
+static void a_motion_on_a_line_is_that_of_one_tangent(CHECK_STATE)
 {
-  (void)state;
   const double e[2] = {0.6, 0.8};
   const contact law = {.kt = 60, .kn = 80, .mu = 0.5, .gap = 0.02};
   drawn two = {.m = space(3)}, one = {.m = space(3)};
@@ -306,9 +296,8 @@ static void a_motion_on_a_line_is_that_of_one_tangent(void **state)
 }
 
 /* The tangents turned in their plane by an angle, and mirrored: the same motion, to rounding. */
-static void turned_tangents_change_nothing(void **state)
+static void turned_tangents_change_nothing(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 5;
   for (int trial = 0; trial < 20; ++trial) {
     drawn d, turned;
@@ -381,9 +370,8 @@ static bool is_smooth(const drawn *d, const double *y)
   return true;
 }
 
-static void monodromy_is_the_derivative(void **state)
+static void monodromy_is_the_derivative(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 7;
   int compared = 0, off = 0;
   for (int trial = 0; trial < 60; ++trial) {
@@ -411,9 +399,8 @@ static void monodromy_is_the_derivative(void **state)
 /* The same period by series and by CVODE, which carries the angle of T as a state, at 1e-13 a step; and its matrix,
  * that starts at each transition from CVODE's motion. The first opening of a touch-down is off by 1e-12 of T, and a
  * period magnifies what steps leave by up to 1e3. */
-static void series_and_events_agree(void **state)
+static void series_and_events_agree(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 16;
   int transitions = 0;
   for (int trial = 0; trial < 40; ++trial) {
@@ -447,9 +434,8 @@ static void series_and_events_agree(void **state)
 
 /* A slider that goes round a closed curve in each period has left its place, though it comes back to it and the circle
  * never changes its state; one that sticks has not. */
-static void a_slider_that_comes_back_has_travelled(void **state)
+static void a_slider_that_comes_back_has_travelled(CHECK_STATE)
 {
-  (void)state;
   for (int slips = 0; slips < 2; ++slips) {
     drawn d = {.m = plane(slips ? 40 : 0.1)};
     integrator *by[2];
@@ -478,9 +464,8 @@ static void a_slider_that_comes_back_has_travelled(void **state)
 /* Over a period of a steady state the loads' work is what damping and friction take: that of the load from the first
  * harmonics, p . x' = omega (sin part), damping's from the waves of three masses, exact but for their aliasing: a sum
  * over TIMEINT_WAVE instants of harmonics that fall off like the sixth power at touch-down. */
-static void friction_takes_what_the_loads_give(void **state)
+static void friction_takes_what_the_loads_give(CHECK_STATE)
 {
-  (void)state;
   static timeint_result r[3];
   const double omegas[] = {10.5, 11.5, 12.5};
   for (int law = 0; law < 2; ++law)
@@ -526,9 +511,8 @@ static bool stop_at_three(void *self, double done) { return (void)done, ++*(int 
 
 /* With mu N/kt = 8e-7 against a motion of some 0.05 the direction of slip follows in steps of some 1e-5 of the period.
  * The monitor is asked at the start of a period, then once in 4096 steps, and no longer period comes to its end. */
-static void a_long_period_hears_the_monitor(void **state)
+static void a_long_period_hears_the_monitor(CHECK_STATE)
 {
-  (void)state;
   static timeint_result r;
   for (int cvode = 0; cvode < 2; ++cvode) {
     model *m = on_a_plane(2, 3, (contact){.kt = 60, .mu = 0.5, .load = 1e-4});

@@ -83,9 +83,8 @@ static double follows_oracle(const char *what, scene sc, double omega, double le
   return worst;
 }
 
-static void scenes_follow_the_oracle(void **state)
+static void scenes_follow_the_oracle(CHECK_STATE)
 {
-  (void)state;
   double worst = 0;
 #define FOLLOW(...) worst = fmax(worst, follows_oracle(__VA_ARGS__))
   FOLLOW("linear", scene_linear(1, 0.4, 40, 100), 7, 10, 20);
@@ -113,9 +112,8 @@ static void scenes_follow_the_oracle(void **state)
 /* Where kt cos is next to mu kn sin (to an eighth here) the X at which slip begins is the guard over a small slope,
  * and its rounding is many times X's. Found twice it would be two X, the second behind the one that the motion has
  * reached, and the period would never end. */
-static void slip_that_begins_on_a_flat_guard(void **state)
+static void slip_that_begins_on_a_flat_guard(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_linear(8.13, 0.88, 13.2, 23.2);
   scene_add(&sc, 20.35, 4.05, 0.46, 2.8, 0);
   scene_add(&sc, 12.98, 40.99, 0.47, 3.8, 30.5);
@@ -192,9 +190,8 @@ static void lasting_intervals(integrator *in, const scaled_model *m, const doubl
 /* One period, and its matrix, against CVODE's: 200 steps of 1e-13 of the motion's size, which a stiff phase (rates 30)
  * may carry on 30 times larger. The matrix changes with the transitions' angles, whose error is that of X over P: 1e-10
  * where P is some 1e-3. Each contact passes through as many intervals. */
-static void random_scenes_follow_cvode(void **state)
+static void random_scenes_follow_cvode(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 19;
   double worst = 0, worst_matrix = 0;
   int transitions = 0;
@@ -246,9 +243,8 @@ static void period_of(const scene *sc, const scaled_model *m, integrator *in, do
  * over 512 instants err by the motion's corners 512^-2 here, where the period does not close, so integrals are compared
  * with sums over the intervals: the trapezoidal rule with its end correction, h^4/720 of the third derivative's
  * jump. */
-static void measures_are_those_of_the_motion(void **state)
+static void measures_are_those_of_the_motion(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 29;
   double worst = 0, worst_mean = 0;
   for (int trial = 0; trial < CHECK_TRIALS(200); ++trial) {
@@ -307,9 +303,8 @@ static void measures_are_those_of_the_motion(void **state)
 /* On the orbit X = A cos(theta - phi) of a contact that sticks, or is separated, the end of that state is put at A, and
  * some roundings to either side: crossed or not, nothing may change by more than a slip or touch of sqrt(eps) rad
  * does, (1e-8)^3. So for 3 periods. */
-static void ends_at_a_turn(void **state)
+static void ends_at_a_turn(CHECK_STATE)
 {
-  (void)state;
   for (int trial = 0; trial < CHECK_TRIALS(300); ++trial) {
     const bool apart = trial % 2;
     const double angle = apart ? 45 : 0;
@@ -341,9 +336,8 @@ static void ends_at_a_turn(void **state)
 
 /* The contact's edge where the separated motion ends its period, to a few roundings: the transition falls on 2 pi,
  * before, after, or just does not happen. */
-static void a_transition_at_the_end_of_the_period(void **state)
+static void a_transition_at_the_end_of_the_period(CHECK_STATE)
 {
-  (void)state;
   scaled_model m = exact_model(one(100, 300, 200, 0.3, -0.5, 45), 7.3, 10);
   const double start[SCENE_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
   m.contact[0].law.gap = -100;
@@ -424,9 +418,8 @@ static void check_monodromy(const char *what, scene sc, double omega, double len
   integrate_free(in);
 }
 
-static void monodromy_is_that_of_the_period(void **state)
+static void monodromy_is_that_of_the_period(CHECK_STATE)
 {
-  (void)state;
   const double high[] = {23 / 24.0, 0, 0.6};
   check_monodromy("c2", scene_c2(), 9, 24, high, 100, true);
   check_monodromy("c2", scene_c2(), 7, 10, NULL, 100, true);
@@ -448,9 +441,8 @@ enum { MAX_ROWS = 256 };
 static row rows[MAX_ROWS];
 static int n_rows;
 
-static int read_rows(void **state)
+static int read_rows(CHECK_STATE)
 {
-  (void)state;
   char line[512];
   FILE *f = fopen(SOURCE_DIR "/tests/reference/transient_exact.csv", "r");
   if (!f || !fgets(line, sizeof line, f)) return -1;
@@ -506,9 +498,8 @@ static double follow(const scene *sc, const char *name, const char *sweep, doubl
   return worst;
 }
 
-static void every_row_of_the_reference(void **state)
+static void every_row_of_the_reference(CHECK_STATE)
 {
-  (void)state;
   double worst = 0;
   for (int i = 0; i < N_REFERENCE_SCENES; ++i) {
     const reference_scene *of = &reference_scenes[i];
@@ -525,9 +516,8 @@ static void every_row_of_the_reference(void **state)
 }
 
 /* No force, at rest, also at the edge of contacts. */
-static void rest_stays_at_rest(void **state)
+static void rest_stays_at_rest(CHECK_STATE)
 {
-  (void)state;
   const double gap[] = {0.5, 0, -0.5};
   for (int i = 0; i < 3; ++i)
     for (int angle = 0; angle <= 90; angle += 45) {
@@ -541,9 +531,8 @@ static void rest_stays_at_rest(void **state)
 }
 
 /* No spring of the mass's own; damping up to 1e4 times critical: soft and resonant phases, roots far apart. */
-static void soft_and_overdamped_scenes_follow_cvode(void **state)
+static void soft_and_overdamped_scenes_follow_cvode(CHECK_STATE)
 {
-  (void)state;
   const double damping[] = {0, 1e-3, 4, 100, 1e4}, stiffness[] = {0, 1e-6, 49, 49.01};
   long most = 0;
   for (int i = 0; i < 5; ++i)
@@ -570,9 +559,8 @@ static void soft_and_overdamped_scenes_follow_cvode(void **state)
   CHECK_LE((double)most, 20000, "evaluations");
 }
 
-static void failures_are_reported(void **state)
+static void failures_are_reported(CHECK_STATE)
 {
-  (void)state;
   scaled_model m = exact_model(scene_c2(), 7, 10);
   integrator *in = closed_of(&m);
   const double bad[] = {NAN, INFINITY, -INFINITY, DBL_MAX};

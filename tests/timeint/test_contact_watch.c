@@ -108,33 +108,26 @@ static void check_structures(const transient_settings *how, double tolerance)
 
 /* x''' jumps at transitions, so X_h falls like h^-4: in `damped` 250 harmonics leave sum h^2 X_h^2, of the order of
  * 250^-5 = 1e-12, and 512 samples alias X_h by X_(512 - h), 1e-10 at worst. Closure 1e-10; twice of it in a square. */
-static void closed_form_balances(void **state)
-{
-  (void)state;
-  check_structures(&closed, 1e-9);
-}
+static void closed_form_balances(CHECK_STATE) { check_structures(&closed, 1e-9); }
 
 /* CVODE's tolerance is 1e-13; a period scatters by some hundreds of it, and near a resonance the work of inertia is 100
  * times the input. */
-static void events_balance(void **state)
+static void events_balance(CHECK_STATE)
 {
-  (void)state;
   const transient_settings how = by_cvode(TRANSIENT_LAW_EXACT);
   check_structures(&how, 1e-8);
 }
 
 /* The law's own T and N: what it loses to the regularisation it loses on both sides of the balance. Corners lie inside
  * steps: h^2 of them, with CVODE's steps there as short as 1e-4 rad. */
-static void the_regularised_law_balances(void **state)
+static void the_regularised_law_balances(CHECK_STATE)
 {
-  (void)state;
   const transient_settings how = by_cvode(TRANSIENT_LAW_REGULARISED);
   check_structures(&how, 1e-7);
 }
 
-static void one_degree_of_freedom_balances(void **state)
+static void one_degree_of_freedom_balances(CHECK_STATE)
 {
-  (void)state;
   static const double omegas[] = {7, 7.5};
   const transient_settings hows[] = {closed, by_cvode(TRANSIENT_LAW_EXACT), by_cvode(TRANSIENT_LAW_REGULARISED)};
   for (int i = 0; i < 2; ++i)
@@ -149,9 +142,8 @@ static void one_degree_of_freedom_balances(void **state)
 
 /* A Jenkins element under N = const whose u has two turning points, at +-A: it slips 2 A - 2 f/kt after each, f = mu N.
  * The closed form is good to its closure. */
-static void a_jenkins_element_loses_the_closed_form_work(void **state)
+static void a_jenkins_element_loses_the_closed_form_work(CHECK_STATE)
 {
-  (void)state;
   static steady_contacts s;
   const structure_case c = structure_case_named("jenkins2", 3);
   model *m = with_all_responses(c.model);
@@ -168,9 +160,8 @@ static void a_jenkins_element_loses_the_closed_form_work(void **state)
 }
 
 /* Extrema between the ends of steps: of N = max(kn (x3 + gap), 0) at the largest x3, which the response has. */
-static void extrema_are_between_the_steps(void **state)
+static void extrema_are_between_the_steps(CHECK_STATE)
 {
-  (void)state;
   static steady_contacts s;
   const structure_case c = structure_case_named("chain3", 3);
   const transient_settings ways[] = {closed, by_cvode(TRANSIENT_LAW_EXACT)};
@@ -186,9 +177,8 @@ static void extrema_are_between_the_steps(void **state)
 }
 
 /* At 24 the slider of jenkins2 never slips: no work, not even of rounding. */
-static void a_stuck_contact_does_no_work(void **state)
+static void a_stuck_contact_does_no_work(CHECK_STATE)
 {
-  (void)state;
   static steady_contacts s;
   const structure_case c = structure_case_named("jenkins2", 3);
   const transient_settings ways[] = {closed, by_cvode(TRANSIENT_LAW_REGULARISED)};

@@ -17,9 +17,8 @@ enum { MAX_ROWS = 256 };
 static row rows[MAX_ROWS];
 static int n_rows;
 
-static int read_rows(void **state)
+static int read_rows(CHECK_STATE)
 {
-  (void)state;
   char line[512];
   FILE *f = fopen(SOURCE_DIR "/tests/reference/transient_exact.csv", "r");
   if (!f || !fgets(line, sizeof line, f)) return -1;
@@ -71,9 +70,8 @@ static void both_ways(const char *name, scene sc, double low, double high)
   follow(&sc, name, "down", high);
 }
 
-static void paper_scenes(void **state)
+static void paper_scenes(CHECK_STATE)
 {
-  (void)state;
   both_ways("a10", scene_a10(), 3, 20);
   both_ways("b10", scene_b10(), 3, 20);
   both_ways("c2", scene_c2(), 3, 20);
@@ -82,9 +80,8 @@ static void paper_scenes(void **state)
   both_ways("gap1", scene_gap1(), 3, 30);
 }
 
-static void blades(void **state)
+static void blades(CHECK_STATE)
 {
-  (void)state;
   both_ways("r1", scene_r1(), 600, 1100);
   both_ways("r2", scene_r2(), 600, 1100);
 }

@@ -151,32 +151,28 @@ static void check_start(const char *name, transient_start start)
   model_free(c.model);
 }
 
-static void from_rest(void **state)
+static void from_rest(CHECK_STATE)
 {
-  (void)state;
   const char *const named[] = {"jenkins2", "chain3", "wedge_F0.5", "wedge_F2"};
   for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_start(named[k], REST);
 }
 
-static void swept_up(void **state)
+static void swept_up(CHECK_STATE)
 {
-  (void)state;
   check_start("jenkins2", UP);
   check_start("chain3", UP);
 }
 
-static void swept_down(void **state)
+static void swept_down(CHECK_STATE)
 {
-  (void)state;
   const char *const named[] = {"jenkins2", "chain3", "wedge_F0.5", "wedge_F2", "wedge_F10", "wedge_F20"};
   for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_start(named[k], DOWN);
 }
 
 /* At 1.485 two motions of chain3 are stable, and a sweep down in small steps stays on the other one: the reference
  * finds it from two of its three HBM solutions, x3 = 1.1445, and the first from rest and from the third. */
-static void two_stable_motions(void **state)
+static void two_stable_motions(CHECK_STATE)
 {
-  (void)state;
   const structure_case c = structure_case_named("chain3", 3);
   transient_settings how = closed_form;
   how.start = DOWN;
@@ -195,9 +191,8 @@ static void two_stable_motions(void **state)
 }
 
 /* Marched from rest, without the multipliers that tell free sliders where an orbit is solved for. */
-static void marching_counts_them_too(void **state)
+static void marching_counts_them_too(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *name;
     double omega;

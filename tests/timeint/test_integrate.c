@@ -24,9 +24,8 @@ static double complex linear_state(const scaled_model *m, double theta)
 
 /* Every step's error is kept below the tolerance (of states of size 1); `steps` of them add up, damping only shrinks
  * them: steps * tolerance. */
-static void linear_period_is_the_closed_form(void **state)
+static void linear_period_is_the_closed_form(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_linear(1, 0.4, 40, 40);
   scaled_model m;
   scene_scaled(&m, &sc, 5, 1);
@@ -60,9 +59,8 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
 
 /* A watched period takes the same steps to the same end; its dense output is as good as the steps (bound as above;
  * between steps the polynomial of the same order: the same size again). */
-static void watched_period_is_the_same(void **state)
+static void watched_period_is_the_same(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_linear(1, 0.4, 40, 40);
   scaled_model m;
   scene_scaled(&m, &sc, 5, 1);
@@ -81,9 +79,8 @@ static void watched_period_is_the_same(void **state)
 }
 
 /* Settling relies on it: a period is a function of the state alone, whatever was integrated before. */
-static void a_period_has_no_memory(void **state)
+static void a_period_has_no_memory(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_c2();
   scaled_model m, other;
   scene_scaled(&m, &sc, 7, 10);
@@ -98,9 +95,8 @@ static void a_period_has_no_memory(void **state)
   integrate_free(in);
 }
 
-static void failures_are_reported(void **state)
+static void failures_are_reported(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_c2();
   scaled_model m;
   scene_scaled(&m, &sc, 7, 10);

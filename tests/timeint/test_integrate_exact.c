@@ -78,9 +78,8 @@ static scene one(double force, double kt, double kn, double mu, double gap, doub
   return sc;
 }
 
-static void scenes_follow_the_closed_form(void **state)
+static void scenes_follow_the_closed_form(CHECK_STATE)
 {
-  (void)state;
   follows_oracle("linear", scene_linear(1, 0.4, 40, 100), 7, 10, 20);
   follows_oracle("c2", scene_c2(), 7, 10, 20); /* bilinear */
   follows_oracle("b10", scene_b10(), 7, 1, 20);
@@ -91,9 +90,8 @@ static void scenes_follow_the_closed_form(void **state)
   follows_oracle("three", three_contacts(), 7, 2, 20);
 }
 
-static void degenerate_contacts_follow_it_too(void **state)
+static void degenerate_contacts_follow_it_too(CHECK_STATE)
 {
-  (void)state;
   follows_oracle("alpha 0", one(100, 100, 200, 0.3, 0.5, 0), 9, 2, 20); /* Jenkins: constant limit */
   follows_oracle("alpha 0, apart", one(100, 100, 200, 0.3, -0.5, 0), 9, 2, 5);
   follows_oracle("alpha 90", one(100, 100, 200, 0.3, -0.5, 90), 9, 2, 20);
@@ -107,9 +105,8 @@ static void degenerate_contacts_follow_it_too(void **state)
 /* Where kt cos <= mu kn sin a contact that touches sticks until it separates, T and N vanishing together: the
  * frictionless contact of the same stiffness against x, kn' = kn + kt at 45 degrees. Equality: the slip's guard is 0
  * all the time. */
-static void bilinear_contacts_need_no_friction(void **state)
+static void bilinear_contacts_need_no_friction(CHECK_STATE)
 {
-  (void)state;
   const double kt[] = {299.999, 256, 100};
   for (int i = 0; i < 3; ++i) {
     const double kn = i == 1 ? 1024 : 1000, mu = i == 1 ? 0.25 : 0.3; /* 0.25 * 1024 = 256, exactly */
@@ -130,9 +127,8 @@ static void bilinear_contacts_need_no_friction(void **state)
   }
 }
 
-static void two_contacts_are_one_of_double_stiffness(void **state)
+static void two_contacts_are_one_of_double_stiffness(CHECK_STATE)
 {
-  (void)state;
   scene twin = one(10, 100, 200, 0.3, -0.5, 45), single = one(10, 200, 400, 0.3, -0.5, 45);
   scene_add(&twin, 100, 200, 0.3, -0.5, 45);
   scaled_model m = exact_model(twin, 7, 1), s = exact_model(single, 7, 1);
@@ -153,9 +149,8 @@ static void two_contacts_are_one_of_double_stiffness(void **state)
 /* On the orbit of the separated oscillator, X = A cos(theta - phi), a contact at A(1 - d): 2 transitions if d > 0,
  * none if d < 0, for d down to 100 times CVODE's error; it is open for sqrt(2 d) to either side, far less than a
  * step. */
-static void grazing_is_not_stepped_over(void **state)
+static void grazing_is_not_stepped_over(CHECK_STATE)
 {
-  (void)state;
   for (int i = 0; i < 40; ++i) {
     const double omega = 7 + 0.05 * i;
     double complex X = linear_response(1, 0.4, 40, 100, omega);
@@ -176,9 +171,8 @@ static void grazing_is_not_stepped_over(void **state)
 
 /* The contact's edge where the separated motion ends its period, to a few roundings: the transition falls on 2 pi,
  * before, after, or just does not happen. What contact does in such a time is below rounding. */
-static void a_transition_at_the_end_of_the_period(void **state)
+static void a_transition_at_the_end_of_the_period(CHECK_STATE)
 {
-  (void)state;
   scaled_model m = exact_model(one(100, 300, 200, 0.3, -0.5, 45), 7.3, 10);
   const double start[SCENE_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
   m.contact[0].law.gap = -100;
@@ -262,9 +256,8 @@ static void check_monodromy(const char *what, scene sc, double omega, double len
   integrate_free(in);
 }
 
-static void monodromy_is_that_of_the_period(void **state)
+static void monodromy_is_that_of_the_period(CHECK_STATE)
 {
-  (void)state;
   const double high[] = {23 / 24.0, 0, 0.6};
   check_monodromy("c2", scene_c2(), 9, 24, high, 100, true);
   check_monodromy("c2", scene_c2(), 7, 10, NULL, 100, true);
@@ -279,9 +272,8 @@ static void monodromy_is_that_of_the_period(void **state)
 /* Rows that rest reaches, and c2's upper branch from a state near it; damping makes what is left of the start
  * exp(-0.2 * 2 pi/omega) a period: below 1e-12 after 220. Reference good to 1e-9; the amplitude's own error is that
  * of x. */
-static void steady_states_are_the_references(void **state)
+static void steady_states_are_the_references(CHECK_STATE)
 {
-  (void)state;
   const scene cases[] = {scene_a10(), scene_b10(), scene_c2(), scene_c2kt1e4(), scene_gap1()};
   const struct {
     int which;
@@ -343,9 +335,8 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
   return HC_OK;
 }
 
-static void watched_period_is_the_same(void **state)
+static void watched_period_is_the_same(CHECK_STATE)
 {
-  (void)state;
   scaled_model m = exact_model(three_contacts(), 7, 2), other = exact_model(three_contacts(), 8, 3);
   integrator *in = integrator_of(&m);
   double y[SCENE_MAX_STATES] = {0}, z[SCENE_MAX_STATES] = {0}, w[SCENE_MAX_STATES] = {0};
@@ -365,9 +356,8 @@ static void watched_period_is_the_same(void **state)
 
 /* No force, at rest, also at the edge of contacts: the root function of P is not exactly 0 all the time, which would be
  * an error to CVODE. */
-static void rest_stays_at_rest(void **state)
+static void rest_stays_at_rest(CHECK_STATE)
 {
-  (void)state;
   const double gap[] = {0.5, 0, -0.5};
   for (int i = 0; i < 3; ++i) {
     scaled_model m = exact_model(one(0, 100, 200, 0.3, gap[i], 45), 7, 1);
@@ -382,9 +372,8 @@ static void rest_stays_at_rest(void **state)
 /* One period from many states, most of them far from any orbit: turns within a step, short slips, short contacts.
  * The oracle misses what lasts less than 2 pi/4000: a slip or contact that short moves X by its force, less than 50
  * h (its guard grows by that much) h, for h. */
-static void any_start_follows_the_closed_form(void **state)
+static void any_start_follows_the_closed_form(CHECK_STATE)
 {
-  (void)state;
   const double h = 2 * PI / SCAN;
   scene cases[] = {one(100, 300, 200, 0.3, 0.5, 0), one(30, 300, 200, 0.3, 0.5, 45), one(100, 300, 200, 0.3, -0.5, 60)};
   for (int k = 0; k < 3; ++k) {
@@ -404,9 +393,8 @@ static void any_start_follows_the_closed_form(void **state)
   }
 }
 
-static void failures_are_reported(void **state)
+static void failures_are_reported(CHECK_STATE)
 {
-  (void)state;
   scaled_model m = exact_model(scene_c2(), 7, 10);
   integrator *in;
   double y[SCENE_MAX_STATES] = {0.5, 0, 0};

@@ -9,9 +9,8 @@ static const contact steel = {.kt = 3, .kn = 5, .mu = 0.3, .gap = 0.2};
 
 /* Away from the corners the law is linear: N = kn g to rounding, since softplus(z) - z = log1p(exp(-z)) < exp(-40)
  * there. */
-static void branches_are_exact(void **state)
+static void branches_are_exact(CHECK_STATE)
 {
-  (void)state;
   law_regularised c = law_regularised_make(&steel, 1e-3, 1e-2);
   law_value stick = law_regularised_eval(&c, 0.1, 1, 0.05), slip = law_regularised_eval(&c, 2, 1, 0),
             off = law_regularised_eval(&c, 2, -1, 0);
@@ -27,9 +26,8 @@ static void branches_are_exact(void **state)
 }
 
 /* The law is odd: (u, w) -> (-u, -w) turns T and w' round. */
-static void sign_follows_the_motion(void **state)
+static void sign_follows_the_motion(CHECK_STATE)
 {
-  (void)state;
   law_regularised c = law_regularised_make(&steel, 1e-3, 1e-2);
   law_value a = law_regularised_eval(&c, 2, 1, 0.1), b = law_regularised_eval(&c, -2, 1, -0.1);
   CHECK_LE(fabs(a.t + b.t) + fabs(a.rate + b.rate), 0, "odd");
@@ -39,9 +37,8 @@ static void sign_follows_the_motion(void **state)
 /* integral of (kn width softplus(g/width) - kn max(g, 0)) dg = kn width^2 pi^2/6 (Bose integral): the second order
  * the header claims, with its constant. Trapezoid on [-45, 45] widths, step 1/64 width, the corner on a node: the
  * kink costs h^2/12 (jump of its derivative by 1); what is beyond the ends is 2 exp(-45). */
-static void softplus_errs_by_second_order(void **state)
+static void softplus_errs_by_second_order(CHECK_STATE)
 {
-  (void)state;
   for (double width = 1e-1; width > 1e-4; width *= 0.1) {
     law_regularised c = law_regularised_make(&steel, width, 1e-2);
     double sum = 0, h = width / 64;
@@ -75,9 +72,8 @@ static void check_derivatives(const law_regularised *c, double u, double v, doub
   CHECK_NEAR(-s.rate_u, (wp.rate - wm.rate) / (2 * h), tol_rate, "dw'/dw at %g %g %g", u, v, w);
 }
 
-static void derivatives_are_those_of_the_values(void **state)
+static void derivatives_are_those_of_the_values(CHECK_STATE)
 {
-  (void)state;
   law_regularised c = law_regularised_make(&steel, 0.5, 1e-2);
   int stuck = 0, forward = 0, backward = 0;
   for (int both = 0; both < 2; ++both)
@@ -94,9 +90,8 @@ static void derivatives_are_those_of_the_values(void **state)
 }
 
 /* kt, kn or mu = 0: no tangential force, w stays. Width 0: the exact corner. Nothing overflows. */
-static void limits(void **state)
+static void limits(CHECK_STATE)
 {
-  (void)state;
   contact none[3] = {steel, steel, steel};
   none[0].kt = 0, none[1].kn = 0, none[2].mu = 0;
   for (int i = 0; i < 3; ++i) {

@@ -88,9 +88,8 @@ static double middle(const scene *sc, double omega)
 }
 
 /* The table has 12 digits: 5e-12 at worst, of a number that begins with 1. */
-static void rows_of_the_table(void **state)
+static void rows_of_the_table(CHECK_STATE)
 {
-  (void)state;
   const scene scenes[REF_CASES] = {scene_a10(), scene_b10(), scene_c2(), scene_c2kt1e4(), scene_gap1()};
   int n = 0;
   for (size_t i = 0; i < sizeof reference_rows / sizeof *reference_rows; ++i) {
@@ -168,9 +167,8 @@ scene_many(void) /* sliders at rest and following x, contacts without friction, 
   return sc;
 }
 
-static void measures(void **state)
+static void measures(CHECK_STATE)
 {
-  (void)state;
   const double none[SCENE_MAX_CONTACTS] = {0}, held[SCENE_MAX_CONTACTS] = {-0.1, 0, 0.05};
   scene a10 = scene_a10(), b10 = scene_b10(), many = scene_many(), alone = scene_linear(2, 0.5, 50, 7);
   for (int law = 0; law < 2; ++law) {
@@ -190,9 +188,8 @@ static void measures(void **state)
 /* The force of a slider at rest far off keeps the other contact open although it has a preload (N0 stays in the
  * equation), or closed although it has a clearance: kn (x + gap). A period of some 500 steps of 1e-12, relative to
  * |x| < 4, ends where it began. */
-static void a_slider_keeps_another_contact_open_or_closed(void **state)
+static void a_slider_keeps_another_contact_open_or_closed(CHECK_STATE)
 {
-  (void)state;
   for (int side = -1; side <= 1; side += 2) {
     scene sc = scene_linear(1, 0.4, 40, 10);
     scene_add(&sc, 100, 1000, 1, 1, 0);
@@ -310,9 +307,8 @@ static bool check_farthest(uint64_t *seed, const scene *sc, double omega, double
   return yes;
 }
 
-static void a_yes_is_right(void **state)
+static void a_yes_is_right(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 12345;
   int yes = 0, all = 0;
   for (int law = 0; law < 2; ++law)
@@ -360,9 +356,8 @@ static void check_up_to_the_edge(const scene *from, const char *name, double ome
   }
 }
 
-static void edges(void **state)
+static void edges(CHECK_STATE)
 {
-  (void)state;
   const double none[SCENE_MAX_CONTACTS] = {0}, held[SCENE_MAX_CONTACTS] = {-0.1, 0, 0.05},
                other[SCENE_MAX_CONTACTS] = {0.1, 0, -0.05};
   scene a10 = scene_a10(), b10 = scene_b10(), c2 = scene_c2(), gap1 = scene_gap1(), many = scene_many();
@@ -385,9 +380,8 @@ static void edges(void **state)
 }
 
 /* From rest the free motion is as large as the steady one. */
-static void from_rest(void **state)
+static void from_rest(CHECK_STATE)
 {
-  (void)state;
   const scene_state rest = {0};
   scene r2 = scene_r2(), a10 = scene_a10(), c2 = scene_c2(), alone = scene_linear(1, 0.4, 40, 10);
   assert_true(is_final(&r2, 700, &rest));
@@ -411,9 +405,8 @@ static void from_rest(void **state)
   timeint_free(ti);
 }
 
-static void undamped(void **state)
+static void undamped(CHECK_STATE)
 {
-  (void)state;
   const double none[SCENE_MAX_CONTACTS] = {0};
   const scene_state rest = {0};
   scene sc = scene_b10();
@@ -436,9 +429,8 @@ static void undamped(void **state)
   assert_true(is_final(&resonance, 9, &rest));
 }
 
-static void no_stiffness_and_no_number(void **state)
+static void no_stiffness_and_no_number(CHECK_STATE)
 {
-  (void)state;
   const scene_state rest = {0};
   scene mass = scene_linear(1, 0.4, 0, 10);
   assert_false(is_final(&mass, 9, &rest));
@@ -458,9 +450,8 @@ static void no_stiffness_and_no_number(void **state)
 
 /* lambda^2 - trace lambda + det = 0 of the free motion's matrix over a period; the larger of the two. A few roundings,
  * whatever the damping. */
-static void multipliers(void **state)
+static void multipliers(CHECK_STATE)
 {
-  (void)state;
   for (double damping = 0.01; damping < 1000; damping *= 2) {
     scene sc = scene_linear(1, damping, 2, 1);
     const scene_state rest = {0};

@@ -16,9 +16,8 @@ static const int numbers[] = {17, 40};
 /* P' is a sum of 3 + 2 n terms, each of a few roundings, of k/n, itself rounded; added one after the other, n of
  * them err by n roundings of their sum. |X|, |P|, |W| <= 1; T is at most kt (|u| + |w|), N - N0 at most kn (|v| +
  * |gap|). */
-static void equations_are_those_of_one(void **state)
+static void equations_are_those_of_one(CHECK_STATE)
 {
-  (void)state;
   const scene cases[] = {scene_b10(), scene_c2(), scene_a10()};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
@@ -108,22 +107,13 @@ static void check_all(transient_steady steady, timeint_method method)
       }
 }
 
-static void shooting(void **state)
-{
-  (void)state;
-  check_all(TRANSIENT_STEADY_SHOOTING, TIMEINT_BY_SHOOTING);
-}
+static void shooting(CHECK_STATE) { check_all(TRANSIENT_STEADY_SHOOTING, TIMEINT_BY_SHOOTING); }
 
-static void marching(void **state)
-{
-  (void)state;
-  check_all(TRANSIENT_STEADY_MARCH, TIMEINT_BY_MARCHING);
-}
+static void marching(CHECK_STATE) { check_all(TRANSIENT_STEADY_MARCH, TIMEINT_BY_MARCHING); }
 
 /* More transitions in a period than the 1000 that are chatter for few contacts. */
-static void more_transitions_than_few_contacts_may_have(void **state)
+static void more_transitions_than_few_contacts_may_have(CHECK_STATE)
 {
-  (void)state;
   const double start[] = {1.04, 7, 0.6};
   double y[TIMEINT_W + MOST];
   scene sc = scene_b10();
@@ -134,9 +124,8 @@ static void more_transitions_than_few_contacts_may_have(void **state)
 }
 
 /* A sweep with the regularised law uses the exact law's integrator: it, too, has room for all contacts. */
-static void sweep(void **state)
+static void sweep(CHECK_STATE)
 {
-  (void)state;
   const int n = 17;
   scene sc = scene_b10();
   timeint *ti;

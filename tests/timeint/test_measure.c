@@ -24,9 +24,8 @@ static double complex integral(double s, int harmonic)
 
 /* CVODE at 1e-13 a step, 1500 steps, states up to 2.5: 4e-10 at worst for the state, the wave and the sums. A peak
  * is a root of v: x errs by the state's error, too. */
-static void free_vibration(void **state)
+static void free_vibration(CHECK_STATE)
 {
-  (void)state;
   const double s = 2.5, p = 0.6, q = -0.8, tol = 4e-10;
   scene sc = scene_linear(1, 0, s * s, 0);
   scaled_model m;
@@ -55,9 +54,8 @@ static void free_vibration(void **state)
 }
 
 /* What a contact was seen to do, and the strongest of it. */
-static void regimes(void **state)
+static void regimes(CHECK_STATE)
 {
-  (void)state;
   assert_int_equal(measure_seen_regime(0), CONTACT_LINEAR);
   assert_int_equal(measure_seen_regime(SEEN_SEPARATED), CONTACT_LINEAR);
   assert_int_equal(measure_seen_regime(SEEN_STUCK), CONTACT_STUCK);

@@ -129,9 +129,8 @@ static double rounding(const made *m, int i, double tau)
 }
 
 /* 4 roundings of that size (worst seen: 1.1); q' and so p carry the factor of the mode's rate. */
-static void each_mode_obeys_its_equation(void **state)
+static void each_mode_obeys_its_equation(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 11;
   double worst[2] = {0};
   for (int kind = 0; kind < KINDS; ++kind)
@@ -251,9 +250,8 @@ static void random_guard(const made *m, modal_guard *g, double by_q[MOST], doubl
 }
 
 /* Up to three modes of any kind, three guards. */
-static void no_random_crossing_is_missed(void **state)
+static void no_random_crossing_is_missed(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 5;
   long most = 0, sum = 0;
   enum { TRIALS = CHECK_TRIALS(1200) };
@@ -299,9 +297,8 @@ static double lowest(const made *m, const modal_guard *g, double span, double *w
 /* The constant such that the least value inside the span is `depth` below 0, or above. What is deeper than the noise is
  * seen, at the first of the two roots next to it, or before if there are several minima; what stays above 0 by
  * more than that is not. */
-static void grazes(void **state)
+static void grazes(CHECK_STATE)
 {
-  (void)state;
   const double depths[] = {1e-6, 1e-9, 1e-12, 1e-13, 0, -1e-13, -1e-12, -1e-9};
   uint64_t seed = 23;
   int met = 0;
@@ -342,9 +339,8 @@ static void grazes(void **state)
 
 /* g and 2 g vanish at one instant; a guard that is 0 at the beginning ends the span there if it falls, and not if it
  * grows, by whatever rounding it is off. */
-static void guards_that_vanish_together_or_at_once(void **state)
+static void guards_that_vanish_together_or_at_once(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 37;
   int together = 0, at_once = 0, grown = 0;
   for (int trial = 0; trial < CHECK_TRIALS(2000); ++trial) {
@@ -383,9 +379,8 @@ static void guards_that_vanish_together_or_at_once(void **state)
 }
 
 /* q = cosh(tau), g = C - q: g'' grows in the step, so that C - q'' tau^2/2 of the beginning passes 0 later than g. */
-static void a_mode_that_is_driven_away(void **state)
+static void a_mode_that_is_driven_away(CHECK_STATE)
 {
-  (void)state;
   const double by = -1;
   made m = {.q = {1}};
   m.mode[0] = mode_make(0, -1);
@@ -399,9 +394,8 @@ static void a_mode_that_is_driven_away(void **state)
 }
 
 /* A guard below 0 at the beginning; no guard; no span; no number. */
-static void ends_of_the_range(void **state)
+static void ends_of_the_range(CHECK_STATE)
 {
-  (void)state;
   const int kind = 1;
   const double by = 1;
   uint64_t seed = 3;
@@ -432,9 +426,8 @@ static void ends_of_the_range(void **state)
 }
 
 /* Steps of a recurrence, started anew after 32: as many roundings more. */
-static void samples_are_the_motion(void **state)
+static void samples_are_the_motion(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 41;
   double worst = 0;
   for (int kind = 0; kind < KINDS; ++kind)
@@ -477,9 +470,8 @@ static void quadrature(const made *m, double from, double to, int panels, double
 
 /* Differences of p, (1 + c) q and integrals of the force, divided by k and k - 1 + i c: that is where roundings grow,
  * next to those of the quadrature's own values. */
-static void integrals_are_those_of_the_motion(void **state)
+static void integrals_are_those_of_the_motion(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 43;
   double worst = 0;
   int told = 0;

@@ -9,9 +9,8 @@
 
 /* Against the printed equation in the scene's own units, where both laws are exact (no corner within 40 widths):
  * rounding only, of the largest term. */
-static void rhs_is_the_printed_equation(void **state)
+static void rhs_is_the_printed_equation(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_gap1();
   scene_add(&sc, 20, 30, 0.5, -0.1, 30);
   const double omega = 7, L = 3, theta = 0.7, x = 0.4, v = -5, w[2] = {0.25, 0.1};
@@ -67,9 +66,8 @@ static bool off_corners(const scaled_model *m, const double *y)
   return true;
 }
 
-static void jacobian_is_the_derivative(void **state)
+static void jacobian_is_the_derivative(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_linear(1, 0.4, 40, 100);
   sc.transient.regularisation = 0.1; /* wide corners: differences resolve them */
   scene_add(&sc, 100, 1000, 0.3, -5, 45);
@@ -92,9 +90,8 @@ static void jacobian_is_the_derivative(void **state)
 
 /* x -> 1e9 x and 1e-9 x: scaling force, gaps and L scales nothing that the solver sees; rounding of the quotients
  * only. */
-static void scale_drops_out(void **state)
+static void scale_drops_out(CHECK_STATE)
 {
-  (void)state;
   scaled_model one, other;
   scene sc = scene_c2();
   scene_scaled(&one, &sc, 7, 10);
@@ -109,9 +106,8 @@ static void scale_drops_out(void **state)
   }
 }
 
-static void not_finite_is_noticed(void **state)
+static void not_finite_is_noticed(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_c2();
   scaled_model m;
   scene_scaled(&m, &sc, 7, 10);

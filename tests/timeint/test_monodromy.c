@@ -64,9 +64,8 @@ static void compare(const scene *from, const char *name, double omega, double le
   integrate_free(fine);
 }
 
-static void monodromy_is_the_difference_of_periods(void **state)
+static void monodromy_is_the_difference_of_periods(CHECK_STATE)
 {
-  (void)state;
   scene c2 = scene_c2(), b10 = scene_b10(), a10 = scene_a10();
   for (double regularisation = 1e-4; regularisation < 0.1; regularisation *= 100) {
     compare(&c2, "c2", 9, 20, regularisation);
@@ -82,9 +81,8 @@ static double det(const double *a)
 
 /* a10 at 10 sticks all the time: stiffness 40 + 150, the slider stays, and x moves with it like with a constant
  * force: det = exp(-C T/M). Nothing has corners: each of some 500 steps at 1e-6. */
-static void stuck_period_is_the_closed_form(void **state)
+static void stuck_period_is_the_closed_form(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_a10();
   scaled_model m;
   scene_scaled(&m, &sc, 10, 0.1);
@@ -99,9 +97,8 @@ static void stuck_period_is_the_closed_form(void **state)
   integrate_free(in);
 }
 
-static void a_period_with_monodromy_does_not_affect_the_next(void **state)
+static void a_period_with_monodromy_does_not_affect_the_next(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_c2();
   scaled_model m;
   scene_scaled(&m, &sc, 7, 10);

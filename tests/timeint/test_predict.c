@@ -37,9 +37,8 @@ static void predicted(scene sc, double omega, double regularisation, bool scout,
  * is it; where of second (b10) twice the change is 1.5 times the error. A tenth more for the orders that are left out,
  * with regularisation 1e-3 at most, and 1000 tolerances of 1e-12 that BDF may scatter by; and the prediction names no
  * more than ten times what is found. */
-static void regularisation_is_predicted(void **state)
+static void regularisation_is_predicted(CHECK_STATE)
 {
-  (void)state;
   const struct {
     scene sc;
     double omega;
@@ -64,9 +63,8 @@ static void regularisation_is_predicted(void **state)
 }
 
 /* The exact law by CVODE: no more than its closure and scatter, and no less than what it is off by. */
-static void integration_is_predicted(void **state)
+static void integration_is_predicted(CHECK_STATE)
 {
-  (void)state;
   for (int scout = 0; scout < 2; ++scout) {
     timeint *ti = made(scene_c2(), TRANSIENT_LAW_EXACT, TRANSIENT_METHOD_CVODE, scout, 1e-4);
     timeint *closed = made(scene_c2(), TRANSIENT_LAW_EXACT, TRANSIENT_METHOD_CLOSED_FORM, false, 1e-4);

@@ -23,9 +23,8 @@ static double harmonic_1(scene sc, double regularisation, scene_state y)
 /* Slip and separation, contact resumed in slip: second order. e(h) = c h^2 (1 + O(h)): from 1e-1 to 1e-2 and to 1e-3
  * a factor of 100, less some tens of percent O(h) at 1e-1 (its slip phases last 0.3 to 1 rad, so h over them is up
  * to a third), and 3 % at 1e-2. At 1e-3 the error is 5e-7, marching's 1e-8. */
-static void slip_is_second_order(void **state)
+static void slip_is_second_order(CHECK_STATE)
 {
-  (void)state;
   scene_state y = {.x = 1.04, .v = 7, .w = {0.6}};
   double e1 = harmonic_1(scene_b10(), 1e-1, y) / b10_exact - 1, e2 = harmonic_1(scene_b10(), 1e-2, y) / b10_exact - 1;
   double e3 = harmonic_1(scene_b10(), 1e-3, y) / b10_exact - 1, e4 = harmonic_1(scene_b10(), 1e-4, y) / b10_exact - 1;
@@ -36,9 +35,8 @@ static void slip_is_second_order(void **state)
 
 /* Contact resumed in stick (case 2): first order, c h (1 + O(h)). The first pair is left out: at 1e-1 w trails by a
  * tenth of a radian. */
-static void closing_in_stick_is_first_order(void **state)
+static void closing_in_stick_is_first_order(CHECK_STATE)
 {
-  (void)state;
   scene_state y = {.x = 8.06, .v = 46.2, .w = {5}};
   double e2 = harmonic_1(scene_c2(), 1e-2, y) / c2_exact - 1, e3 = harmonic_1(scene_c2(), 1e-3, y) / c2_exact - 1;
   double e4 = harmonic_1(scene_c2(), 1e-4, y) / c2_exact - 1;
@@ -64,9 +62,8 @@ static timeint_result solved(scene sc, double regularisation, bool richardson)
  * is an angle of about h there). Extrapolated, what is left is third order: h^2 better, and from 1e-3 on below 1e-9
  * (the table has 12 digits: 1e-11; CVODE's scatter at tolerance 1e-11 stays below 1e-10). The estimate is the error
  * of the step before, second order: never too small. */
-static void extrapolation_gains_two_orders(void **state)
+static void extrapolation_gains_two_orders(CHECK_STATE)
 {
-  (void)state;
   double before = NAN;
   for (double h = 1e-2; h > 5e-6; h *= 0.1) {
     timeint_result plain = solved(scene_c2(), h, false), best = solved(scene_c2(), h, true);
@@ -105,9 +102,8 @@ static double with_overstress(double eta)
 
 /* Known from another program: 7.0e-3, 6.7e-4, 6.6e-5, 6.6e-6 at eta = 1e-1 .. 1e-4 (two digits: half a unit of the
  * last, 0.8 %; and CVODE's scatter, 2e-9). */
-static void overstress_is_first_order(void **state)
+static void overstress_is_first_order(CHECK_STATE)
 {
-  (void)state;
   const double known[] = {7.0e-3, 6.7e-4, 6.6e-5, 6.6e-6};
   for (int i = 0; i < 4; ++i) {
     double e = fabs(with_overstress(pow(10, -1 - i)) / b10_exact - 1);

@@ -101,23 +101,14 @@ static void reference_scenes_of(transient_law law)
   }
 }
 
-static void reference_scenes_exactly(void **state)
-{
-  (void)state;
-  reference_scenes_of(TRANSIENT_LAW_EXACT);
-}
+static void reference_scenes_exactly(CHECK_STATE) { reference_scenes_of(TRANSIENT_LAW_EXACT); }
 
-static void reference_scenes_regularised(void **state)
-{
-  (void)state;
-  reference_scenes_of(TRANSIENT_LAW_REGULARISED);
-}
+static void reference_scenes_regularised(CHECK_STATE) { reference_scenes_of(TRANSIENT_LAW_REGULARISED); }
 
 /* Case 2 next to 5.1 and at 5.56, 5.55, 5.54: 3, 2 and 4 periods; 5.2 and 5.4, and kn = 1e4 at 5.8: aperiodic, which
  * the scout finds and CVODE measures for a period. */
-static void sub_harmonics_and_chaos(void **state)
+static void sub_harmonics_and_chaos(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     bool stiff;
     double omega, x;
@@ -147,9 +138,8 @@ static void sub_harmonics_and_chaos(void **state)
 }
 
 /* r2 at 707.2: 12 000 periods of marching without a scout, from a start where Newton fails. */
-static void a_slow_case(void **state)
+static void a_slow_case(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_r2();
   sc.transient.law = TRANSIENT_LAW_EXACT;
   sc.transient.start = TRANSIENT_START_HBM;
@@ -163,9 +153,8 @@ static void a_slow_case(void **state)
   CHECK_NEAR(a.r.amplitude, b.r.amplitude, 2 * (a.r.closure + b.r.closure) * b.r.amplitude, "r2");
 }
 
-static void tolerances_and_limits(void **state)
+static void tolerances_and_limits(CHECK_STATE)
 {
-  (void)state;
   for (int law = 0; law < 2; ++law) {
     scene sc = scene_c2();
     const scene_state rest = {.x = 0};
@@ -193,9 +182,8 @@ static void tolerances_and_limits(void **state)
 }
 
 /* One orbit asked for as one of k periods: the contraction a period is the orbit's all the same. */
-static void an_orbit_run_through_several_times(void **state)
+static void an_orbit_run_through_several_times(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_c2();
   const scene_state rest = {.x = 0};
   sc.transient.law = TRANSIENT_LAW_EXACT;
@@ -227,9 +215,8 @@ static bool tick(void *self, double done)
 }
 
 /* Interrupted at any tick, in the scout as in CVODE's periods. */
-static void an_interrupt_is_heeded(void **state)
+static void an_interrupt_is_heeded(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_c2();
   sc.transient.start = TRANSIENT_START_REST;
   int refused = 0;
@@ -252,9 +239,8 @@ static void an_interrupt_is_heeded(void **state)
 /* confirm_orbit from a state off the orbit, or with the matrix of another model: CVODE's periods decide. Confirmed is
  * what closes; to |I - Phi| |(I - Phi)^-1| < 100 of the tolerance where the matrix is another's. Or it is not
  * confirmed, and the motion is where it was. */
-static void a_spoiled_orbit(void **state)
+static void a_spoiled_orbit(CHECK_STATE)
 {
-  (void)state;
   int confirmed = 0, refused = 0;
   for (int law = 0; law < 2; ++law) {
     scene sc = scene_c2();
@@ -293,9 +279,8 @@ static void a_spoiled_orbit(void **state)
 
 /* c2 at 12 does not touch: F is linear, and Newton's first step ends on the orbit wherever it begins. From half of it
  * that orbit is another one than the scout's, and its multiplier not known. */
-static void an_orbit_far_away_is_not_confirmed(void **state)
+static void an_orbit_far_away_is_not_confirmed(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_c2();
   sc.transient.law = TRANSIENT_LAW_EXACT;
   timeint *ti = make(sc, true);

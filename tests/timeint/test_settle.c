@@ -53,9 +53,8 @@ static int settle_after(const map *m, double prior, double goal, double scatter,
 /* Of |z_n - z*| <= D/(1 - rho^m): never below the truth where rho is; above it by no more than 3 (the ellipse) *
  * 2/(1 - e^-2) at the longest stride. So it settles, and at the latest when the truth is goal/21: log(1/goal *
  * 21)/log(1/rho) steps and 2 baselines (512 at most, and 17). */
-static void never_early_never_late(void **state)
+static void never_early_never_late(CHECK_STATE)
 {
-  (void)state;
   const double radius[] = {0.3, 0.84, 0.97, 0.99888}, angle[] = {0, 0.01, 0.3, 1.5, 3.1, PI}, goal = 1e-9;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 6; ++j) {
@@ -74,9 +73,8 @@ static void never_early_never_late(void **state)
  * rounding of 7 + z, 1e-15 of a drift of goal (1 - rho) >= 1e-13: 1 % of the ratio of two at worst, 1 %/b of rho, b
  * >= 256 the longest baseline (16 times a power of 2), 4e-5 against 1 - rho = 1e-4: 40 % of the distance; at 0.999 a
  * hundredth of that. */
-static void slow_real_multiplier_is_measured(void **state)
+static void slow_real_multiplier_is_measured(CHECK_STATE)
 {
-  (void)state;
   const double slow[] = {0.95, 0.99, 0.999, 0.9999}, goal = 1e-9;
   for (int i = 0; i < 4; ++i) {
     map m = {0.7, 0, slow[i]};
@@ -91,9 +89,8 @@ static void slow_real_multiplier_is_measured(void **state)
 /* Noise of s a step leaves the state s/sqrt(2 (1 - rho)) off (half of that, being uniform, in rms). A goal of 20
  * times this can be met; D over 1 - rho alone would ask for s/(1 - rho), 47 times more than the first at rho =
  * 0.99888. A goal of a tenth cannot be met, and must not be said to be. */
-static void noise_is_neither_contraction_nor_doom(void **state)
+static void noise_is_neither_contraction_nor_doom(CHECK_STATE)
 {
-  (void)state;
   const double radius[] = {0.84, 0.99888}, scatter = 1e-9;
   for (int i = 0; i < 2; ++i) {
     map m = {radius[i], 0.5, 0};
@@ -108,9 +105,8 @@ static void noise_is_neither_contraction_nor_doom(void **state)
 }
 
 /* A drift that does not shrink has no limit. */
-static void no_limit_is_never_settled(void **state)
+static void no_limit_is_never_settled(CHECK_STATE)
 {
-  (void)state;
   double d;
   settle_estimate e;
   map turning = {1, 0.7, 0}, growing = {1.001, 0, 0.5};
@@ -128,9 +124,8 @@ static void no_limit_is_never_settled(void **state)
 }
 
 /* A cycle of k points reached at the rate 0.8 a step: k is found, and not before the state is within goal of it. */
-static void cycles_are_counted(void **state)
+static void cycles_are_counted(CHECK_STATE)
 {
-  (void)state;
   for (int k = 2; k <= SETTLE_MAX_MULTIPLE; ++k) {
     settle *s;
     assert_int_equal(settle_new(1, &s), HC_OK);
@@ -150,9 +145,8 @@ static void cycles_are_counted(void **state)
 }
 
 /* After settle_restart nothing older counts. */
-static void restart_forgets(void **state)
+static void restart_forgets(CHECK_STATE)
 {
-  (void)state;
   settle *s;
   assert_int_equal(settle_new(1, &s), HC_OK);
   settle_start(s, 0.5);

@@ -136,9 +136,8 @@ static void check_orbit(const scene *sc, int law, scene_state y, const timeint_r
 
 /* Shooting against marching, with the same law, from the same start: one orbit. Each is within transient.tolerance of
  * it. */
-static void finds_what_marching_finds(void **state)
+static void finds_what_marching_finds(CHECK_STATE)
 {
-  (void)state;
   const struct {
     scene sc;
     double omega;
@@ -166,9 +165,8 @@ static void finds_what_marching_finds(void **state)
 
 /* From 1 % off the orbit: Newton doubles the digits each iteration, a period an iteration with the exact law. What
  * damping allows a march in one period is 1 - exp(-C T/2M) = 0.1 % of the way (r2). */
-static void few_periods_whatever_the_damping(void **state)
+static void few_periods_whatever_the_damping(CHECK_STATE)
 {
-  (void)state;
   const struct {
     scene sc;
     double omega, from;
@@ -194,9 +192,8 @@ static void few_periods_whatever_the_damping(void **state)
 /* The orbit of one period, run through k times: its multiplier is that of one period to the power k, and it is still
  * reported as an orbit of one period. Both points are within 1e-9 of the orbit: a multiplier, of derivative 10 or less
  * there as check_orbit allows, is off by 1e-8, its k-th power by k times that. */
-static void k_periods_multiply(void **state)
+static void k_periods_multiply(CHECK_STATE)
 {
-  (void)state;
   const struct {
     scene sc;
     double omega;
@@ -220,9 +217,8 @@ static void k_periods_multiply(void **state)
 
 /* Stuck all period: the slider may rest anywhere in an interval. It stays where it is; the mean depends on it, and
  * nothing else does. x = (steady) + kt c w/(K + kt c^2 + kn s^2) with w at rest. */
-static void a_free_slider_is_left_alone(void **state)
+static void a_free_slider_is_left_alone(CHECK_STATE)
 {
-  (void)state;
   const scene sc = scene_a10();
   const double offset[] = {0, 0.02, -0.05}, c = sqrt(0.5), share = 100 * c / (40 + 100 * 0.5 + 200 * 0.5);
   for (int law = TRANSIENT_LAW_REGULARISED; law <= TRANSIENT_LAW_EXACT; ++law)
@@ -241,9 +237,8 @@ static void a_free_slider_is_left_alone(void **state)
 
 /* Case 2 has three orbits at 9: the two outer are stable, the one between is a saddle, with a real multiplier beyond
  * 1. Shooting finds each from 10 % off, says which it is, and reports none where none is next to the start. */
-static void unstable_orbits_are_found_and_named(void **state)
+static void unstable_orbits_are_found_and_named(CHECK_STATE)
 {
-  (void)state;
   const scene sc = scene_c2();
   const struct {
     double x, v, w;

@@ -10,9 +10,8 @@
 /* Swept up onto the branch that ends at 708.6, as far as 708.5, where the peak bends over by 1.5 rad/s. Exact
  * amplitude: transient_exact.csv of the reference. 1e-6: the regularised law's second order (2e-7 seen; first order
  * would be 1e-4), and CVODE's error, 3e-14 a step, 1000 steps a period, summed over 1/(1 - rho) = 900: 3e-8. */
-static void bent_peak_is_climbed(void **state)
+static void bent_peak_is_climbed(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_r2();
   timeint *ti;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
@@ -33,9 +32,8 @@ static void bent_peak_is_climbed(void **state)
  * is no larger than the closure reported. That is INFINITY while no contraction could be measured, but not at the end,
  * and not at every stop before it. 1 % needs log(1e7)/0.00112 = 14400 periods to become 1e-9, and the
  * estimate at most 3 e-folds (2/(1 - e^-0.57), tests/timeint/test_settle.c) and 1056 periods more: 18100. */
-static void distance_is_no_larger_than_closure(void **state)
+static void distance_is_no_larger_than_closure(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_r2();
   const double omega = 700;
   double complex X = sc.force / (sc.stiffness - sc.mass * omega * omega + I * sc.damping * omega);

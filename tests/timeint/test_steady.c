@@ -42,9 +42,8 @@ static void check_harmonic(const scene *sc, const timeint_result *r, double comp
   assert_int_equal(r->period_multiple, 1);
 }
 
-static void without_contacts(void **state)
+static void without_contacts(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_linear(1, 0.4, 40, 100);
   const double omegas[] = {1, 3, 6.3, 7, 16};
   for (int i = 0; i < 5; ++i) {
@@ -60,9 +59,8 @@ static void without_contacts(void **state)
 /* Amplitude 0.11 of gap 0.5: min N is 200 (0.5 - 0.08) = 84, so softplus differs by exp(-0.42/5e-5), nothing; |T| <=
  * 100 * 0.08 = 8 < 0.3 * 84: no slip. From rest the start-up transient must not slip either: it at most doubles the
  * amplitude: 16 < 0.3 * 68. */
-static void stuck_all_period(void **state)
+static void stuck_all_period(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_a10();
   scene_state y = {0};
   timeint_result r;
@@ -73,9 +71,8 @@ static void stuck_all_period(void **state)
 
 /* Separated all period, kt = 0, mu = 0, alpha = 0 and 90 degrees, several in parallel: each is linear while it
  * neither slips nor opens. */
-static void linear_contacts(void **state)
+static void linear_contacts(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_linear(1, 0.4, 40, 1);
   scene_add(&sc, 100, 200, 0.3, -5, 45); /* never touched */
   scene_add(&sc, 0, 60, 0.3, 5, 90);     /* kt = 0: a spring kn */
@@ -94,9 +91,8 @@ static void linear_contacts(void **state)
 /* Lengths and forces times s: the same numbers times s. CVODE sees states in units of the motion; the quotients'
  * rounding is amplified by steps decided otherwise, so agreement is to the tolerance: both within it of the orbit,
  * and 8 of them of each other as above. */
-static void any_scale(void **state)
+static void any_scale(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_c2();
   scene_state y = {.x = 8, .v = 46, .w = {5}};
   timeint_result one, r;
@@ -115,9 +111,8 @@ static void any_scale(void **state)
 
 /* A start 1e8 times too large or too small ends on the same orbit, as accurately: CVODE's absolute tolerance follows
  * the motion down. (Kept at the start's size it would be 1e8 * 4e-13 of the motion.) */
-static void start_of_any_size(void **state)
+static void start_of_any_size(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_linear(1, 0.4, 40, 100);
   const double starts[] = {1e-8, 1e8};
   for (int i = 0; i < 2; ++i) {
@@ -131,9 +126,8 @@ static void start_of_any_size(void **state)
 /* No force. In closed form nothing moves, exactly. Marched, a period leaves exp(-0.2 2 pi/7) = 0.836 of the state, and
  * of CVODE's error no more than its tolerance of the start: 0.836^500 = 1e-39 of it in 500 periods, the tolerance being
  * below 1e-12. */
-static void without_force(void **state)
+static void without_force(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_linear(1, 0.4, 40, 0);
   scene_state y = {.x = 1}, z = y;
   timeint_result r;
@@ -149,9 +143,8 @@ static void without_force(void **state)
 
 /* docs/theory.md, 9: case 2 has period 2 at 5.55 and 5.56 (the 1e-4 law shifts frequencies by about 1e-3), period 1
  * at 5.08. */
-static void sub_harmonics(void **state)
+static void sub_harmonics(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_c2();
   timeint *ti;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
@@ -176,9 +169,8 @@ static void sub_harmonics(void **state)
 
 static bool stop_at_ten(void *self, double done) { return (void)done, ++*(int *)self <= 10; }
 
-static void stopped_and_refused(void **state)
+static void stopped_and_refused(CHECK_STATE)
 {
-  (void)state;
   scene sc = scene_c2();
   timeint *ti;
   int ticks = 0;

@@ -71,9 +71,8 @@ static double largest_of(int n, const double *a)
 
 /* Periods by modes, wherever there are any, and by series: states, transitions, monodromy matrices. A period magnifies
  * what it is given by no more than the monodromy matrix, and cancellation takes up to four digits of rounding. */
-static void modes_and_series_agree(void **state)
+static void modes_and_series_agree(CHECK_STATE)
 {
-  (void)state;
   static double phi[2][MOST * MOST];
   uint64_t seed = 31;
   long by_modes = 0, by_series = 0;
@@ -108,9 +107,8 @@ static void modes_and_series_agree(void **state)
 }
 
 /* Of more sets of contact states than are kept, asked for in any order: each as one that was just made has it. */
-static void sets_give_way(void **state)
+static void sets_give_way(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 8;
   model *m = random_structure(&seed, 2, 6);
   drawn d = {.m = m};
@@ -167,9 +165,8 @@ static hc_status listen(void *self, const integrator *in, double theta0, double 
 
 /* The largest of 20 000 instants is no larger, and misses the extreme by bend h^2/8 at most: h = 3e-4, bend about 1e2
  * of the motion's size in these structures. */
-static void a_watch_is_told_the_same(void **state)
+static void a_watch_is_told_the_same(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 5;
   for (int trial = 0; trial < 40; ++trial) {
     drawn d;
@@ -221,9 +218,8 @@ static model *graded_chain(int n)
 
 /* The modes of the chain are off by rounding of the stiffest; damping is not found to couple them for that. A dashpot
  * between two masses that is a millionth of what is there does. */
-static void proportional_damping_is_told(void **state)
+static void proportional_damping_is_told(CHECK_STATE)
 {
-  (void)state;
   const double dashpots[] = {0, 1e-6, 0.1};
   for (size_t i = 0; i < 3; ++i) {
     modal_base *base;
@@ -240,9 +236,8 @@ static void proportional_damping_is_told(void **state)
  * mean square over the states of each step's below 1e-12 of about 1, so that no state's exceeds sqrt(n) of that; the
  * chain is damped, and what a step left does not grow. Which errors add up depends on the last digits, and so on the
  * BLAS. Its steps are not as short as the fastest mode is fast: 2e4 a radian. */
-static void events_of_stiff_structures(void **state)
+static void events_of_stiff_structures(CHECK_STATE)
 {
-  (void)state;
   model *m = graded_chain(6);
   drawn d = {.m = m};
   const transient_settings how = {.law = TRANSIENT_LAW_EXACT};

@@ -107,18 +107,16 @@ static const transient_settings from_rest = {.law = TRANSIENT_LAW_EXACT,
                                              .max_periods = 20000};
 
 /* The reference's own 1e-11; an orbit is closed to 1e-10 of its size at most. */
-static void series_meet_the_reference(void **state)
+static void series_meet_the_reference(CHECK_STATE)
 {
-  (void)state;
   for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], from_rest, 1e-10);
 }
 
 /* The regularised law at 1e-3 with and without Richardson's extrapolation, every response against the exact law: an
  * error of first order becomes one of third, a thousand times less for each order; half of the digits of that are
  * asked for. */
-static void richardson_is_of_every_response(void **state)
+static void richardson_is_of_every_response(CHECK_STATE)
 {
-  (void)state;
   static timeint_result exact[3], plain, extrapolated;
   transient_settings how = from_rest;
   timeint *ti[3];
@@ -147,18 +145,16 @@ static void richardson_is_of_every_response(void **state)
 }
 
 /* CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter by some hundred times that. */
-static void events_meet_the_reference(void **state)
+static void events_meet_the_reference(CHECK_STATE)
 {
-  (void)state;
   transient_settings how = from_rest;
   how.method = TRANSIENT_METHOD_CVODE;
   for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], how, 1e-8);
 }
 
 /* The regularised law's error is of the first order in 1e-4: of that size at most in units of the motion. */
-static void regularised_meets_the_reference(void **state)
+static void regularised_meets_the_reference(CHECK_STATE)
 {
-  (void)state;
   transient_settings how = from_rest;
   how.method = TRANSIENT_METHOD_CVODE;
   how.law = TRANSIENT_LAW_REGULARISED;
@@ -186,9 +182,8 @@ static model *with_second_load(const model *m)
 
 /* Case 2 of the paper and others by series and in closed form: other code from transition to transition. Each is exact
  * but for rounding, of some thousand steps. */
-static void series_and_closed_form_agree(void **state)
+static void series_and_closed_form_agree(CHECK_STATE)
 {
-  (void)state;
   const scene scenes[] = {scene_c2(), scene_b10(), scene_a10()};
   const double omegas[] = {5, 8, 9, 11, 16};
   long transitions[2] = {0, 0};
@@ -247,9 +242,8 @@ static void draw(uint64_t *seed, transient_law law, drawn *d)
 
 /* The same period by series and by CVODE, at 1e-13 a step: some hundred steps, and the 1e3 by which a period may
  * magnify what they leave. */
-static void series_and_events_agree(void **state)
+static void series_and_events_agree(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 16;
   int changing = 0; /* trials whose contacts change their state */
   for (int trial = 0; trial < 60; ++trial) {
@@ -339,9 +333,8 @@ static void check_monodromy(const drawn *d, int step, int *compared, int *off)
   integrate_free(in);
 }
 
-static void monodromy_is_the_derivative(void **state)
+static void monodromy_is_the_derivative(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 7;
   int compared = 0, off = 0;
   for (int trial = 0; trial < 40; ++trial) {
@@ -354,9 +347,8 @@ static void monodromy_is_the_derivative(void **state)
 }
 
 /* More columns than series_columns.c takes at once. */
-static void monodromy_of_many_columns(void **state)
+static void monodromy_of_many_columns(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 12;
   int compared = 0, off = 0;
   for (int trial = 0; trial < 4; ++trial) {
@@ -368,9 +360,8 @@ static void monodromy_of_many_columns(void **state)
   CHECK_LE(off, 0.02 * compared, "of %d derivatives", compared);
 }
 
-static void jacobian_is_the_derivative(void **state)
+static void jacobian_is_the_derivative(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 3;
   for (int trial = 0; trial < 100; ++trial) {
     drawn d;
@@ -394,9 +385,8 @@ static void damp_in_proportion(drawn *d)
 
 /* (I - gamma J) z = r by elimination, against the dense matrix times what it finds: rounding, times what the stiffest
  * contact, with its width of 1e-2, makes of the entries. */
-static void newton_solves_the_dense_equations(void **state)
+static void newton_solves_the_dense_equations(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 9;
   for (int trial = 0; trial < 100; ++trial) {
     drawn d;
@@ -423,9 +413,8 @@ static void newton_solves_the_dense_equations(void **state)
 
 /* The monodromy matrix of the regularised law against differences of its period map: of what CVODE's tolerance leaves
  * of them, 1e-12/1e-5 times some hundred, and of the variations' own 1e-6 a step. */
-static void regularised_monodromy_is_the_derivative(void **state)
+static void regularised_monodromy_is_the_derivative(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 21;
   for (int trial = 0; trial < 4; ++trial) {
     drawn d;
@@ -452,9 +441,8 @@ static void regularised_monodromy_is_the_derivative(void **state)
 }
 
 /* x = Q y changes no response: rounding, and what the settling leaves of 1e-12. */
-static void other_coordinates_change_nothing(void **state)
+static void other_coordinates_change_nothing(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 5;
   transient_settings how = from_rest;
   how.tolerance = 1e-12;
@@ -485,9 +473,8 @@ static void other_coordinates_change_nothing(void **state)
 }
 
 /* A mass matrix that is not positive definite: said, not integrated. */
-static void a_massless_freedom_is_refused(void **state)
+static void a_massless_freedom_is_refused(CHECK_STATE)
 {
-  (void)state;
   uint64_t seed = 2;
   model *m = random_structure(&seed, 3, 1);
   timeint *ti;

@@ -46,9 +46,8 @@ static double noisy(double nu, int i)
 
 /* The whole of a drawn line is one frequency: that of the curve, to the hundredth of a bin at least. Cycles of k
  * periods, growth by 1 % a window and noise are none. */
-static void a_curve_has_one_rotation(void **state)
+static void a_curve_has_one_rotation(CHECK_STATE)
 {
-  (void)state;
   const double golden = 0.5 * (sqrt(5) - 1);
   CHECK_NEAR(rotation_of(on_curve, 1 - golden), 1 - golden, 1e-6, "the golden mean, from below");
   CHECK_NEAR(rotation_of(on_curve, 0.2034567), 0.2034567, 1e-6, "a fifth or so");
@@ -95,9 +94,8 @@ static double angle_of_multiplier(const model *m, double omega, double *modulus)
 /* Where the pair leaves the unit circle, at 9.042, the torus is small and turns as its angle says: to second order in
  * the torus' size, whose square is proportional to what the modulus is above 1. So the difference over that is the same
  * at two frequencies, to a tenth: it changes with omega itself. CVODE's own steps end on the same torus. */
-static void a_torus_turns_as_its_multipliers(void **state)
+static void a_torus_turns_as_its_multipliers(CHECK_STATE)
 {
-  (void)state;
   const structure_case c = structure_case_named("brake", 3);
   const double omegas[] = {9.05, 9.06};
   double ratio[2];
@@ -116,9 +114,8 @@ static void a_torus_turns_as_its_multipliers(void **state)
   model_free(c.model);
 }
 
-static void by_whichever_way(void **state)
+static void by_whichever_way(CHECK_STATE)
 {
-  (void)state;
   const structure_case c = structure_case_named("brake", 3);
   transient_settings how = closed_form;
   timeint_result series, events;
@@ -136,9 +133,8 @@ static void by_whichever_way(void **state)
 }
 
 /* Said as soon as the motion is beyond every resonance, whatever the contacts do there. */
-static void growth_without_bound_is_told(void **state)
+static void growth_without_bound_is_told(CHECK_STATE)
 {
-  (void)state;
   const structure_case c = structure_case_named("brake", 3);
   for (int i = 0; i < 3; ++i) {
     timeint_result r;
@@ -167,9 +163,8 @@ hc_status __wrap_chaos_test(timeint *ti, const hc_monitor *monitor, bool *chaos,
   return st;
 }
 
-static void what_has_come_to_an_orbit_is_not_chaos(void **state)
+static void what_has_come_to_an_orbit_is_not_chaos(CHECK_STATE)
 {
-  (void)state;
   const structure_case c = structure_case_named("wedge_F10", 3);
   timeint *ti;
   double swept[STATES], y[STATES], orbit[STATES];

@@ -52,9 +52,8 @@ static double doubling(const scene *sc, double from, double low, double high)
 }
 
 /* The references have 6 decimals; 1e-5 is asked. */
-static void multiplier_passes_minus_one(void **state)
+static void multiplier_passes_minus_one(CHECK_STATE)
 {
-  (void)state;
   scene c2 = case2(), kn = stiff();
   CHECK_NEAR(doubling(&c2, 6, 5.107, 5.1055), 5.106167, 1e-5, "case 2, lower");
   CHECK_NEAR(doubling(&c2, 6, 5.58, 5.56), 5.569782, 1e-5, "case 2, upper");
@@ -62,9 +61,8 @@ static void multiplier_passes_minus_one(void **state)
 }
 
 /* Above the doubling the period-1 orbit is where the motion goes. */
-static void period_1_above(void **state)
+static void period_1_above(CHECK_STATE)
 {
-  (void)state;
   scene sc = stiff();
   timeint *ti;
   timeint_result r;
@@ -96,9 +94,8 @@ static void becomes(const scene *sc, double omega, int multiple, bool aperiodic)
   timeint_free(ti);
 }
 
-static void sub_harmonics_of_case_2(void **state)
+static void sub_harmonics_of_case_2(CHECK_STATE)
 {
-  (void)state;
   scene sc = case2();
   sc.transient.start = TRANSIENT_START_HBM;
   becomes(&sc, 5.56, 2, false);
@@ -106,9 +103,8 @@ static void sub_harmonics_of_case_2(void **state)
   becomes(&sc, 5.4, 0, true);
 }
 
-static void sub_harmonics_with_a_stiff_contact(void **state)
+static void sub_harmonics_with_a_stiff_contact(CHECK_STATE)
 {
-  (void)state;
   scene sc = stiff();
   sc.transient.start = TRANSIENT_START_HBM;
   becomes(&sc, 5.3, 2, false);
@@ -116,9 +112,8 @@ static void sub_harmonics_with_a_stiff_contact(void **state)
 }
 
 /* At 5.11 a period-3 attractor coexists with the period-4 one that is reached by sweeping up. */
-static void swept_up_to_period_4(void **state)
+static void swept_up_to_period_4(CHECK_STATE)
 {
-  (void)state;
   scene sc = case2();
   timeint *ti;
   timeint_result r;

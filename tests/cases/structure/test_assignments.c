@@ -22,9 +22,8 @@ static void is_as_if(const char *set, const char *from, const char *to)
   model_free(b);
 }
 
-static void every_part_can_be_set(void **state)
+static void every_part_can_be_set(CHECK_STATE)
 {
-  (void)state;
   is_as_if("structure.damping.modal=0.02", "modal: 0.01", "modal: 0.02");
   is_as_if("structure.damping.modal=[0.02, 0.03]", "modal: 0.01", "modal: [0.02, 0.03]");
   is_as_if("structure.damping.rayleigh=[0.5, 1e-3]", "modal: 0.01", "rayleigh: [0.5, 1e-3]");
@@ -56,9 +55,8 @@ static void every_part_can_be_set(void **state)
 }
 
 /* One number of Rayleigh damping leaves the other where there was such damping, also if it came before in the list. */
-static void one_number_of_rayleigh_damping_leaves_the_other(void **state)
+static void one_number_of_rayleigh_damping_leaves_the_other(CHECK_STATE)
 {
-  (void)state;
   static const char *const set[] = {"structure.damping.rayleigh=[0.5, 1e-3]", "structure.damping.rayleigh[0]=0.25",
                                     "structure.damping.modal=0.1", "structure.damping.rayleigh[1]=1e-2"};
   static const double expected[][2] = {{0.5, 1e-3}, {0.25, 1e-3}, {0, 0}, {0, 1e-2}};
@@ -73,9 +71,8 @@ static void one_number_of_rayleigh_damping_leaves_the_other(void **state)
   }
 }
 
-static void mistakes_name_the_assignment(void **state)
+static void mistakes_name_the_assignment(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *set, *words;
   } all[] = {
@@ -122,17 +119,15 @@ static void mistakes_name_the_assignment(void **state)
   refused(SMALLEST, "forcing[0].amplitude=1", "--set forcing[0].amplitude=1: ", "unknown field");
 }
 
-static void a_preload_needs_a_stiffness_that_can_hold_it(void **state)
+static void a_preload_needs_a_stiffness_that_can_hold_it(CHECK_STATE)
 {
-  (void)state;
   static const char text[] = TWO_NAMED "contacts: [{normal_stiffness: 1e-10, preload: 1, normal: tip}]\n";
   model_free(model_of(text, NULL));
   refused(text, "contacts[0].preload=1e300", "--set contacts[0].preload=1e300: ", "preload/normal_stiffness too large");
 }
 
-static void a_copy_is_changed_without_its_original(void **state)
+static void a_copy_is_changed_without_its_original(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   accepted(TWO_NAMED LISTS, NULL, &sc);
   scene_structure *copy = structure_copy(sc.structure);

@@ -39,9 +39,8 @@ static void check_round_trip(const scene *sc)
   free(again);
 }
 
-static void every_form_comes_back(void **state)
+static void every_form_comes_back(CHECK_STATE)
 {
-  (void)state;
   static const char *const texts[] = {
       TWO,
       TWO_NAMED,
@@ -69,9 +68,8 @@ static void every_form_comes_back(void **state)
 }
 
 /* Random numbers, all bits of them, in matrices that are positive definite by their diagonals. */
-static void random_structures_come_back_bit_for_bit(void **state)
+static void random_structures_come_back_bit_for_bit(CHECK_STATE)
 {
-  (void)state;
   uint64_t s = 3;
   for (int trial = 0; trial < 200; ++trial) {
     const int n = random_int(&s, 1, 9);
@@ -105,9 +103,8 @@ static void random_structures_come_back_bit_for_bit(void **state)
   }
 }
 
-static void the_cases_of_structures_are_all_readable(void **state)
+static void the_cases_of_structures_are_all_readable(CHECK_STATE)
 {
-  (void)state;
   const char *folder = SOURCE_DIR "/cases/structures";
   DIR *dir = opendir(folder);
   int n = 0;

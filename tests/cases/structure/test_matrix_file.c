@@ -23,9 +23,8 @@ static void reads(const char *text, int n, const double *rows)
   free(v);
 }
 
-static void every_format_is_read(void **state)
+static void every_format_is_read(CHECK_STATE)
 {
-  (void)state;
   const double full[] = {1, 2, 3, 4}, sym[] = {1, -2.5, -2.5, 4}, skew[] = {0, 2, -2, 0}, one[] = {7};
   const double three[] = {1, 2, 3, 2, 4, 5, 3, 5, 6}, skew_3[] = {0, -1, -2, 1, 0, -3, 2, 3, 0}, zero[] = {0, 0, 0, 0};
   reads(HEAD("coordinate", "real", "general") "2 2 4\n1 1 1\n2 2 4.0\n1 2 2e0\n2 1 +3\n", 2, full);
@@ -55,9 +54,8 @@ static void is_refused(const char *text, int expected, const char *words)
   assert_int_equal(n, 0);
 }
 
-static void mistakes_are_named_where_they_stand(void **state)
+static void mistakes_are_named_where_they_stand(CHECK_STATE)
 {
-  (void)state;
   is_refused("% a comment\n", 0, "m:1:1: no Matrix Market banner, expected `%%MatrixMarket matrix coordinate real");
   is_refused("%%MatrixMarket matrix coordinate real\n", 0, "m:1:1: a banner of less than five words");
   is_refused("%%MatrixMarket vector coordinate real general\n", 0, "m:1:16: `vector` in the banner, expected matrix");
@@ -103,9 +101,8 @@ static void mistakes_are_named_where_they_stand(void **state)
              "m:3:1: entry (1, 1) of a skew-symmetric");
 }
 
-static void files_are_found_and_searched(void **state)
+static void files_are_found_and_searched(CHECK_STATE)
 {
-  (void)state;
   static const char text[] = HEAD("coordinate", "real", "symmetric") "3 3 3\n1 1 1\n3 1 5\n2 2 1\n";
   const own_file f = write_file("m.mtx", text, sizeof text - 1);
   double *v;

@@ -31,9 +31,8 @@ static void reads(const char *text, const char *part, int n, const double *rows,
   free(found_labels);
 }
 
-static void triplets_are_read(void **state)
+static void triplets_are_read(CHECK_STATE)
 {
-  (void)state;
   const double sym[] = {1, -2.5, -2.5, 4}, general[] = {1, 2, 3, 4}, diagonal[] = {1, 0, 0, 4};
   reads("         1          1  1.0000000000000e+00\n         1          2 -2.5000000000000e+00\n"
         "         2          2  4.0000000000000E+00\n",
@@ -43,9 +42,8 @@ static void triplets_are_read(void **state)
   reads("1 1 1\n2 2 4\n", NULL, 2, diagonal, NULL);
 }
 
-static void rows_by_node_are_sorted(void **state)
+static void rows_by_node_are_sorted(CHECK_STATE)
 {
-  (void)state;
   const double sym[] = {1, -2.5, 0, -2.5, 4, 5, 0, 5, 9};
   const matrix_label labels[] = {{3, 2}, {7, 1}, {7, 3}};
   reads("7,1, 7,1, 4.0\n7,1, 3,2, -2.5\n3,2,3,2,1\n** a comment\n7 3 7 1 5\n7,3,7,3,9\n", NULL, 3, sym, labels);
@@ -55,9 +53,8 @@ static void rows_by_node_are_sorted(void **state)
 #define HEADER "**\n** ELEMENT TYPE Z1\n*USER ELEMENT, NODES= 2, LINEAR\n** ELEMENT NODES\n** 5, 9\n1, 2\n2, 3\n"
 #define ROWS   " 1.0 ,\n-2.5 , 4.0\n 0, 5, 9,\n"
 
-static void elements_are_read(void **state)
+static void elements_are_read(CHECK_STATE)
 {
-  (void)state;
   const double stiffness[] = {1, -2.5, 0, -2.5, 4, 5, 0, 5, 9}, mass[] = {7},
                five[] = {1, 0, 0, 0, 2, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 2, 0, 0, 0, 1};
   const matrix_label labels[] = {{5, 1}, {5, 2}, {9, 3}};
@@ -83,9 +80,8 @@ static void is_refused(const char *text, const char *part, int expected, const c
   assert_int_equal(n, 0);
 }
 
-static void another_file_is_named(void **state)
+static void another_file_is_named(CHECK_STATE)
 {
-  (void)state;
   is_refused("", NULL, 0,
              "m:1:1: ", "no matrix's first line, expected `%%MatrixMarket matrix coordinate real general`");
   is_refused("3 3\n", NULL, 0, "m:1:1: ", "a CalculiX file of DOFs");
@@ -97,9 +93,8 @@ static void another_file_is_named(void **state)
   is_refused("one two three\n", NULL, 0, "m:1:1: ", "no matrix's first line");
 }
 
-static void mistakes_in_triplets(void **state)
+static void mistakes_in_triplets(CHECK_STATE)
 {
-  (void)state;
   is_refused("1 1 1\n2 2\n", NULL, 0, "m:2:1: ", "2 words, expected row, column and value");
   is_refused("1 1 1\n2 2 1 5\n", NULL, 0, "m:2:1: ", "4 words, expected row, column and value");
   is_refused("1 1 1\n2 0 1\n", NULL, 0, "m:2:3: ", "`0`, expected a column, an integer 1..4000");
@@ -119,9 +114,8 @@ static void mistakes_in_triplets(void **state)
   is_refused("7,1,8,1,1\n", NULL, 0, "m:2:1: ", "no entries on the diagonal");
 }
 
-static void mistakes_in_elements(void **state)
+static void mistakes_in_elements(CHECK_STATE)
 {
-  (void)state;
   is_refused(HEADER "*MATRIX,TYPE=STIFFNESS\n" ROWS, "MASS", 0, "m:12:1: ", "no *MATRIX,TYPE=MASS in this file");
   is_refused(HEADER "*MATRIX,TYPE=STIFFNESS\n" ROWS, NULL, 4,
              "m:11:1: ", "a matrix of 3 x 3 ends here, expected 4 x 4");
@@ -139,9 +133,8 @@ static void mistakes_in_elements(void **state)
 }
 
 /* The line of an entry, which messages about the matrix name. */
-static void entries_are_found_again(void **state)
+static void entries_are_found_again(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *text;
     size_t line, column;
@@ -173,9 +166,8 @@ static model *chain(const char *mass, const char *stiffness, const char *nodes)
   return model_of(text, NULL);
 }
 
-static void one_model_in_every_format(void **state)
+static void one_model_in_every_format(CHECK_STATE)
 {
-  (void)state;
   static const char *const all[][3] = {
       {FORMATS "chain.mas", FORMATS "chain.sti", FORMATS "chain.dof"},
       {FORMATS "chain_MASS1.mtx", FORMATS "chain_STIF1.mtx", FORMATS "chain_STIF1.mtx"},
@@ -207,9 +199,8 @@ static void model_is_refused(const char *mass, const char *stiffness, const char
   remove_file(&m), remove_file(&k), remove_file(&n);
 }
 
-static void rows_and_nodes_must_fit(void **state)
+static void rows_and_nodes_must_fit(CHECK_STATE)
 {
-  (void)state;
   const char *const mass = "5,1,5,1,1\n9,2,9,2,1\n", *const csv = "dof,node,direction\n";
   model_is_refused(mass, "5,1,5,1,1\n9,1,9,1,1\n", csv, "K",
                    "2:1: ", "row 2 of structure.stiffness is DOF 1 of node 9, but of structure.mass DOF 2 of node 9");

@@ -40,9 +40,8 @@ static hc_status read_and_build(const char *text, int n_set, const char *const *
   return st;
 }
 
-static void each_allocation_may_fail(void **state)
+static void each_allocation_may_fail(CHECK_STATE)
 {
-  (void)state;
   static const char mtx[] = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 680\n2 1 -40\n2 2 40\n";
   static const char csv[] = "dof,node,direction\n1,17,x\n2,17,y\n";
   const own_file k = write_file("k.mtx", mtx, sizeof mtx - 1), nodes = write_file("n.csv", csv, sizeof csv - 1);

@@ -4,9 +4,8 @@
 #define STRUCTURE(body) "structure: {" body "}\n" SWEEP
 #define DC              ", stiffness: [1, 1], damping: [0, 0]"
 
-static void in_the_section(void **state)
+static void in_the_section(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *text, *start, *words;
   } all[] = {
@@ -87,9 +86,8 @@ static void in_the_section(void **state)
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refused(all[i].text, NULL, all[i].start, all[i].words);
 }
 
-static void in_loads_contacts_and_responses(void **state)
+static void in_loads_contacts_and_responses(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *line, *place, *words;
   } all[] = {
@@ -167,9 +165,8 @@ static void in_loads_contacts_and_responses(void **state)
 }
 
 /* Of a matrix that came from a file: the line there. */
-static void in_a_matrix_file(void **state)
+static void in_a_matrix_file(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *entries, *place, *words;
   } all[] = {
@@ -194,9 +191,8 @@ static void in_a_matrix_file(void **state)
   }
 }
 
-static void in_a_file_of_nodes(void **state)
+static void in_a_file_of_nodes(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *lines, *place, *words;
   } all[] = {

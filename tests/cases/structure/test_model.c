@@ -5,9 +5,8 @@
 #include "casefile/structure.h"
 #include "tests/cases/structure/structure_text.h"
 
-static void matrices_are_by_columns(void **state)
+static void matrices_are_by_columns(CHECK_STATE)
 {
-  (void)state;
   model *m = model_of("structure:\n  mass: [[2, 0.5], [0.5, 1]]\n  stiffness: [[1, 2], [3, 4]]\n"
                       "  damping: [[5, 6], [7, 8]]\n" SWEEP,
                       NULL);
@@ -22,9 +21,8 @@ static void matrices_are_by_columns(void **state)
 }
 
 /* One degree of freedom in every way it can be written. */
-static void one_degree_of_freedom_is_the_oscillator_to_the_bit(void **state)
+static void one_degree_of_freedom_is_the_oscillator_to_the_bit(CHECK_STATE)
 {
-  (void)state;
   static const char *const laws[] = {"angle_deg: 45", "angle_deg: 0", "angle_deg: 90"};
   for (size_t i = 0; i < sizeof laws / sizeof *laws; ++i) {
     char old[512], new[512];
@@ -51,9 +49,8 @@ static void one_degree_of_freedom_is_the_oscillator_to_the_bit(void **state)
   }
 }
 
-static void contacts_have_directions_and_laws(void **state)
+static void contacts_have_directions_and_laws(CHECK_STATE)
 {
-  (void)state;
   model *m = model_of(TWO "contacts:\n"
                           "  - {tangential_stiffness: 200, normal_stiffness: 300, friction: 0.3, gap: 0.1,\n"
                           "     tangent: {1: 1, 2: -1}, normal: {2: 1}}\n"
@@ -75,9 +72,8 @@ static void contacts_have_directions_and_laws(void **state)
   model_free(m);
 }
 
-static void loads_of_a_harmonic_are_summed(void **state)
+static void loads_of_a_harmonic_are_summed(CHECK_STATE)
 {
-  (void)state;
   model *m = model_of(TWO "forcing:\n"
                           "  - {dof: 1, amplitude: 3, phase_deg: 90, harmonic: 2}\n"
                           "  - {dof: 2, amplitude: -10, harmonic: 0}\n"
@@ -101,9 +97,8 @@ static void loads_of_a_harmonic_are_summed(void **state)
   model_free(m);
 }
 
-static void quarters_of_a_turn_are_exact(void **state)
+static void quarters_of_a_turn_are_exact(CHECK_STATE)
 {
-  (void)state;
   double c, s;
   for (int k = -9; k <= 9; ++k) {
     static const double cosines[] = {1, 0, -1, 0}, sines[] = {0, 1, 0, -1};
@@ -118,9 +113,8 @@ static void quarters_of_a_turn_are_exact(void **state)
   }
 }
 
-static void degrees_of_freedom_go_by_name_number_or_node(void **state)
+static void degrees_of_freedom_go_by_name_number_or_node(CHECK_STATE)
 {
-  (void)state;
   static const char nodes[] = "dof,node,direction\n\n 1 , 17, y\r\nroot,18,x\n";
   const own_file f = write_file("nodes.csv", nodes, sizeof nodes - 1);
   char text[1024];
@@ -146,9 +140,8 @@ static void degrees_of_freedom_go_by_name_number_or_node(void **state)
   remove_file(&f);
 }
 
-static void files_of_matrices_lie_beside_the_case(void **state)
+static void files_of_matrices_lie_beside_the_case(CHECK_STATE)
 {
-  (void)state;
   static const char mtx[] = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 680\n2 1 -40\n2 2 40\n";
   const own_file f = write_file("k.mtx", mtx, sizeof mtx - 1);
   static const char text[] =
@@ -168,9 +161,8 @@ static void files_of_matrices_lie_beside_the_case(void **state)
 }
 
 /* Phi^T C Phi must be diag(2 z omega): held against M, K and an independent closed form for n = 2. */
-static void modal_damping_damps_every_mode_as_asked(void **state)
+static void modal_damping_damps_every_mode_as_asked(CHECK_STATE)
 {
-  (void)state;
   static const char text[] =
       "structure:\n  mass: [2, 2]\n  stiffness: [[30, -10], [-10, 30]]\n  damping: {modal: %s}\n" SWEEP;
   static const char *const values[] = {"0.02", "[0.02, 0.02]", "[0.01, 0.03]"};
@@ -195,9 +187,8 @@ static void modal_damping_damps_every_mode_as_asked(void **state)
 }
 
 /* A free damper on a blade is held by contacts alone; with its tangential springs gone it slides away. */
-static void what_contacts_hold_is_held(void **state)
+static void what_contacts_hold_is_held(CHECK_STATE)
 {
-  (void)state;
   static const char text[] =
       "structure:\n  mass: [1, 0.05]\n  stiffness: [1000, 0]\n  damping: [0.3, 0.2]\n" SWEEP
       "contacts: [{tangential_stiffness: 400, friction: 0.3, preload: 3, tangent: {1: 1, 2: -1}}]\n";
@@ -219,9 +210,8 @@ static void what_contacts_hold_is_held(void **state)
 }
 
 /* In the model a contact with two tangents is two, with half the normal stiffness and twice the friction each. */
-static void two_tangents_are_two_contacts_of_the_model(void **state)
+static void two_tangents_are_two_contacts_of_the_model(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   model *m;
   accepted(TWO "contacts:\n"
@@ -251,9 +241,8 @@ static void two_tangents_are_two_contacts_of_the_model(void **state)
   case_clear(&sc);
 }
 
-static void names_of_responses(void **state)
+static void names_of_responses(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   char text[64];
   accepted(TWO_NAMED "response: [tip, {root: -1, tip: 1}, {tip: 0.5, 2: 2}, {2: -1}]\n", NULL, &sc);

@@ -20,9 +20,8 @@ static void same(const char *pairs, const char *written_out)
   model_free(of_list);
 }
 
-static void pairs_are_contacts(void **state)
+static void pairs_are_contacts(CHECK_STATE)
 {
-  (void)state;
 #define DIRECTIONS(a, b, c, d, e, f)                                                                                   \
   "tangent: {" #a ": 1, " #d ": -1}, tangent_2: {" #b ": 1, " #e ": -1}, normal: {" #c ": 1, " #f ": -1}"
 #define GROUND "tangent: {4: 1}, tangent_2: {5: 1}, normal: {6: 1}"
@@ -44,9 +43,8 @@ static void pairs_are_contacts(void **state)
        "{" LAW ", tangent: {4: 1}, tangent_2: {5: -1}, normal: {6: 1}}");
 }
 
-static void pairs_have_names_and_places(void **state)
+static void pairs_have_names_and_places(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   accepted(THREE "contacts:\n  - {pairs: [[7, 8], [8, ground]], name: face, " AXES ", " LAW "}\n"
                  "  - {pairs: [[7, ground], [8, 7]], " AXES ", " LAW "}\n",
@@ -62,9 +60,8 @@ static void pairs_have_names_and_places(void **state)
 }
 
 /* The echo writes them out, and reads back to the same. */
-static void pairs_are_echoed_as_contacts(void **state)
+static void pairs_are_echoed_as_contacts(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   char *text = NULL;
   size_t length = 0;
@@ -82,9 +79,8 @@ static void pairs_are_echoed_as_contacts(void **state)
   case_clear(&sc);
 }
 
-static void a_file_of_pairs(void **state)
+static void a_file_of_pairs(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *file, *place, *words; /* place NULL: read */
   } all[] = {
@@ -120,9 +116,8 @@ static void a_file_of_pairs(void **state)
   }
 }
 
-static void mistakes_in_an_entry(void **state)
+static void mistakes_in_an_entry(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *entry, *place, *words;
   } all[] = {

@@ -32,9 +32,8 @@ static void check_falls(const char *csv, const char *family, int n, const char *
 /* Case 2 at 6.5: stable, alone, far from folds. Harmonic balance in H: exact forces order 3 to 4 in the amplitude,
  * so a factor 4 in H is 16 and more, 4 asked. Sampled: down to the same H's truncation. The regularised law on case
  * 2 is of first order: a tenth, 1/5 asked. */
-static void errors_fall_along_each_family(void **state)
+static void errors_fall_along_each_family(CHECK_STATE)
 {
-  (void)state;
   assert_int_equal(run("bench " CASE2 "--at 6.5 --repeats 1 --alone --format csv -q --set transient.max_periods=2000"),
                    0);
   static const char *const exact[] = {"6.5,hbm_exact,5,", "6.5,hbm_exact,20,", "6.5,hbm_exact,80,"};
@@ -53,9 +52,8 @@ static void errors_fall_along_each_family(void **state)
 
 /* A mass on a rubbing foot: its normal motion, here the first response, is linear and free of error to rounding, so
  * that the error is that of the other: order 3 and more in H, a factor 4 in H is 64, 16 asked. */
-static void errors_are_of_all_responses(void **state)
+static void errors_are_of_all_responses(CHECK_STATE)
 {
-  (void)state;
   char path[] = "/tmp/hbmcheck-bench-XXXXXX", line[256];
   const int file = mkstemp(path);
   FILE *to = file >= 0 ? fdopen(file, "w") : NULL;
@@ -93,9 +91,8 @@ static double best_of(const char *csv, const char *method)
 }
 
 /* Every family comes near the reference: each bound ten times what its finest setting claims. */
-static void every_method_comes_near(void **state)
+static void every_method_comes_near(CHECK_STATE)
 {
-  (void)state;
   assert_int_equal(run("bench " CASE2 "--at 6.5 --repeats 1 --alone --format csv -q"), 0);
   CHECK_LE(best_of(out, "exact_shooting"), 1e-10, "tolerance 1e-11");
   CHECK_LE(best_of(out, "exact_marching"), 1e-10, "tolerance 1e-11");
@@ -104,9 +101,8 @@ static void every_method_comes_near(void **state)
   CHECK_LE(best_of(out, "regularised_richardson"), 1e-5, "extrapolated from 1e-2");
 }
 
-static void mistakes_are_named(void **state)
+static void mistakes_are_named(CHECK_STATE)
 {
-  (void)state;
   expect("bench 2>&1", 64, "CASE");
   expect("bench " CASE2 "--repeats 0 2>&1", 64, "--repeats");
   expect("bench " CASE2 "--repeats x 2>&1", 64, "--repeats");

@@ -18,9 +18,8 @@ static bench_row row(bench_method m, int harmonics, double tolerance, double err
                      .outcome = BENCH_SOLVED};
 }
 
-static void dominated_rows_are_not_on_the_front(void **state)
+static void dominated_rows_are_not_on_the_front(CHECK_STATE)
 {
-  (void)state;
   bench_row rows[] = {
       row(BENCH_HBM_EXACT, 1, NAN, 1e-2, 1),         /* fastest: on it */
       row(BENCH_HBM_EXACT, 5, NAN, 1e-3, 3),         /* beaten in both by the next */
@@ -37,9 +36,8 @@ static void dominated_rows_are_not_on_the_front(void **state)
 
 /* H = 3 is near by luck: H = 10 is farther off, so H = 3 may not be counted on to be nearer. Not so the other way
  * round. */
-static void luck_does_not_count(void **state)
+static void luck_does_not_count(CHECK_STATE)
 {
-  (void)state;
   bench_row rows[] = {row(BENCH_HBM_EXACT, 3, NAN, 1e-7, 1), row(BENCH_HBM_EXACT, 10, NAN, 1e-3, 2),
                       row(BENCH_HBM_EXACT, 40, NAN, 1e-5, 3)};
   bench_judge(3, rows, floor_of_tests);
@@ -50,9 +48,8 @@ static void luck_does_not_count(void **state)
 }
 
 /* Finer is finer in every setting: a smaller regularisation with a larger tolerance is not. Nor is another method. */
-static void finer_is_in_every_setting(void **state)
+static void finer_is_in_every_setting(CHECK_STATE)
 {
-  (void)state;
   bench_row rows[] = {row(BENCH_REGULARISED_SHOOTING, 0, 1e-6, 1e-4, 1),
                       row(BENCH_REGULARISED_SHOOTING, 0, 1e-4, 1e-2, 1),
                       row(BENCH_REGULARISED_MARCHING, 0, 1e-8, 1e-1, 1)};
@@ -62,17 +59,15 @@ static void finer_is_in_every_setting(void **state)
 }
 
 /* Below the reference's own error there is nothing to tell rows apart by: the faster one wins. */
-static void errors_end_at_the_floor(void **state)
+static void errors_end_at_the_floor(CHECK_STATE)
 {
-  (void)state;
   bench_row rows[] = {row(BENCH_HBM_EXACT, 3, NAN, 1e-11, 1), row(BENCH_EXACT_SHOOTING, 0, 1e-9, 1e-14, 2)};
   bench_judge(2, rows, 1e-10);
   assert_true(rows[0].front && !rows[1].front);
 }
 
-static void unsolved_rows_do_not_take_part(void **state)
+static void unsolved_rows_do_not_take_part(CHECK_STATE)
 {
-  (void)state;
   bench_row rows[] = {row(BENCH_HBM_EXACT, 3, NAN, NAN, NAN), row(BENCH_HBM_EXACT, 1, NAN, 1e-2, 1),
                       row(BENCH_HBM_EXACT, 5, NAN, 1e-9, 1e-9)};
   const bench_row *second;
@@ -85,9 +80,8 @@ static void unsolved_rows_do_not_take_part(void **state)
   assert_null(bench_cheapest(3, rows, 1e-3, &second));
 }
 
-static void the_cheapest_way_is_the_fastest_that_is_near_enough(void **state)
+static void the_cheapest_way_is_the_fastest_that_is_near_enough(CHECK_STATE)
 {
-  (void)state;
   bench_row rows[] = {row(BENCH_HBM_EXACT, 5, NAN, 1e-3, 1), row(BENCH_HBM_EXACT, 10, NAN, 1e-4, 2),
                       row(BENCH_EXACT_SHOOTING, 0, 1e-4, 1e-5, 3), row(BENCH_EXACT_MARCHING, 0, 1e-4, 1e-5, 30)};
   static const struct {
@@ -103,9 +97,8 @@ static void the_cheapest_way_is_the_fastest_that_is_near_enough(void **state)
 }
 
 /* Linear between the order statistics, 0.25 (n - 1) apart. */
-static void quartiles_are_interpolated(void **state)
+static void quartiles_are_interpolated(CHECK_STATE)
 {
-  (void)state;
   double v[] = {4, 1, 3, 2}, one[] = {7}, low, median, high;
   method_quartiles(4, v, &low, &median, &high);
   CHECK_NEAR(low, 1.75, 1e-15, "low");

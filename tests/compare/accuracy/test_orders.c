@@ -7,9 +7,8 @@
 enum { N = 8 };
 
 /* Exact powers: the order to rounding, no spread. What is 0.1 or more, or below the floor, is left out. */
-static void powers_have_their_exponent(void **state)
+static void powers_have_their_exponent(CHECK_STATE)
 {
-  (void)state;
   for (int p = 1; p <= 4; ++p) {
     double x[N], e[N];
     for (int i = 0; i < N; ++i) x[i] = 16 << i, e[i] = 3 * pow(x[i], -p);
@@ -27,9 +26,8 @@ static void powers_have_their_exponent(void **state)
 /* c x^-2, two of the eight by luck 50 times smaller: the envelope puts each at its finer neighbour's, 2^2 too low.
  * That pulls a slope over all eight by sum (i - 3.5) (-2)/42 over these two, at most 2 (3.5 + 2.5)/42 = 0.29.
  * Without an envelope it would be log2(50) instead of 2. */
-static void luck_is_no_order(void **state)
+static void luck_is_no_order(CHECK_STATE)
 {
-  (void)state;
   double x[N], e[N];
   for (int i = 0; i < N; ++i) x[i] = 32 << i, e[i] = 5 * pow(x[i], -2) * (i % 3 == 2 ? 0.02 : 1);
   order_fit fit = order_fit_to(N, x, e, 0);
@@ -37,9 +35,8 @@ static void luck_is_no_order(void **state)
 }
 
 /* A plateau before the asymptotic part: x^-3 from x = 64 on. */
-static void a_plateau_is_left_out(void **state)
+static void a_plateau_is_left_out(CHECK_STATE)
 {
-  (void)state;
   double x[N], e[N];
   for (int i = 0; i < N; ++i) x[i] = 8 << i, e[i] = x[i] < 64 ? 0.01 : 0.01 * pow(x[i] / 64, -3);
   order_fit fit = order_fit_to(N, x, e, 1e-12);
@@ -47,9 +44,8 @@ static void a_plateau_is_left_out(void **state)
   CHECK_LE(64 * (1 - 1e-12), fit.from, "starts on the plateau");
 }
 
-static void too_little_says_nothing(void **state)
+static void too_little_says_nothing(CHECK_STATE)
 {
-  (void)state;
   const double x[] = {10, 20, 40}, none[] = {NAN, NAN, 1e-3}, zero[] = {0, 0, 0}, two[] = {NAN, 4e-3, 1e-3};
   assert_int_equal(order_fit_to(3, x, none, 0).points, 0);
   assert_int_equal(order_fit_to(3, x, zero, 0).points, 0);
@@ -85,9 +81,8 @@ static scene case2(void)
 /* Where contact restarts in stick, a slider restarted on a sample is off by up to a sample: order 1; at the
  * interpolated instant: order 2 (docs/theory.md, 4: 2e-3, 2e-4, 3e-5 against 2e-5, 4e-7, 5e-9 of the force, from 512 to
  * 32768). The sum's own error is of order 2. Erratic, so the order of the envelope is asserted to half. */
-static void aliasing_of_case_2_is_of_first_or_second_order(void **state)
+static void aliasing_of_case_2_is_of_first_or_second_order(CHECK_STATE)
 {
-  (void)state;
   for (int restart = HBM_RESTART_INTERPOLATED; restart <= HBM_RESTART_SAMPLE; ++restart) {
     scene sc = case2();
     comparison c;
@@ -109,9 +104,8 @@ static void aliasing_of_case_2_is_of_first_or_second_order(void **state)
 
 /* x's coefficients decay like 1/n^4, so what is left out of x itself is of order 3 and more (docs/theory.md, 3: H^-3,
  * |X1| H^-4). */
-static void truncation_of_case_2_is_of_third_order_or_more(void **state)
+static void truncation_of_case_2_is_of_third_order_or_more(CHECK_STATE)
 {
-  (void)state;
   scene sc = case2();
   comparison c;
   accuracy a;
@@ -128,9 +122,8 @@ static void truncation_of_case_2_is_of_third_order_or_more(void **state)
 }
 
 /* timeint/README.md: order 1 where contact returns in stick (case 2). */
-static void regularisation_of_case_2_is_of_first_order(void **state)
+static void regularisation_of_case_2_is_of_first_order(CHECK_STATE)
 {
-  (void)state;
   scene sc = case2();
   comparison c;
   order_row r;

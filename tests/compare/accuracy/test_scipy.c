@@ -35,9 +35,8 @@ static int asked(scipy_run *runs, char text[96])
   return n;
 }
 
-static void what_it_prints_is_read(void **state)
+static void what_it_prints_is_read(CHECK_STATE)
 {
-  (void)state;
   scipy_run runs[SCIPY_MOST_RUNS];
   char text[96];
   be_python("echo '# scipy 0.0 python 0.0'; echo 1e-4 0.5 2 1.75");
@@ -48,9 +47,8 @@ static void what_it_prints_is_read(void **state)
 }
 
 /* waitpid says ECHILD then; the watchdog ends a test that asks again for ever. */
-static void ignored_children_end_too(void **state)
+static void ignored_children_end_too(CHECK_STATE)
 {
-  (void)state;
   scipy_run runs[SCIPY_MOST_RUNS];
   char text[96];
   struct sigaction before, ignore = {.sa_handler = SIG_IGN};
@@ -61,9 +59,8 @@ static void ignored_children_end_too(void **state)
   assert_true(n == 0 || runs[0].amplitude == 2);
 }
 
-static void without_scipy_it_says_so(void **state)
+static void without_scipy_it_says_so(CHECK_STATE)
 {
-  (void)state;
   scipy_run runs[SCIPY_MOST_RUNS];
   char text[96];
   be_python("exit 69");

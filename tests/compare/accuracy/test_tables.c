@@ -49,9 +49,8 @@ static double largest_aliasing(const scene *exact, const comparison *c, int samp
 }
 
 /* Lists unsorted and with a repetition; 8 samples are too few for 10 harmonics. One orbit at 6, three at 8. */
-static void rows_are_the_grid(void **state)
+static void rows_are_the_grid(CHECK_STATE)
 {
-  (void)state;
   scene sc = case2();
   comparison c;
   accuracy a;
@@ -77,9 +76,8 @@ static void rows_are_the_grid(void **state)
 }
 
 /* The worst error of H = 10 with exact forces is what the rows of the comparison say themselves. */
-static void the_table_agrees_with_the_rows(void **state)
+static void the_table_agrees_with_the_rows(CHECK_STATE)
 {
-  (void)state;
   scene sc = case2();
   comparison c;
   accuracy a;
@@ -97,9 +95,8 @@ static void the_table_agrees_with_the_rows(void **state)
 
 /* The peak of the exact transient against that of H = 40 and 80 with exact forces, whose error falls like H^-3 or
  * faster: the last is within 1/(2^3 - 1) of the difference of the two, and the frequency's likewise. */
-static void the_peak_is_the_limit_of_many_harmonics(void **state)
+static void the_peak_is_the_limit_of_many_harmonics(CHECK_STATE)
 {
-  (void)state;
   scene sc = case2();
   comparison c;
   accuracy a;
@@ -145,9 +142,8 @@ static void check_same_row(const accuracy_row *a, const accuracy_row *b)
 
 /* Interrupted anywhere: HC_INTERRUPTED, and the rows that are there are those of a run to the end, bit for bit. Some
  * interrupt comes between the two rows. */
-static void an_interrupt_keeps_whole_rows(void **state)
+static void an_interrupt_keeps_whole_rows(CHECK_STATE)
 {
-  (void)state;
   scene sc = case2();
   comparison c;
   sc.compare.harmonics = (number_list){2, {1, 3}};
@@ -173,9 +169,8 @@ static void an_interrupt_keeps_whole_rows(void **state)
 }
 
 /* The same rows and orders, in the same order, by one thread, two, and more than there are rows. */
-static void threads_change_nothing(void **state)
+static void threads_change_nothing(CHECK_STATE)
 {
-  (void)state;
   static const int jobs[] = {2, 16};
   scene sc = case2();
   comparison c;
@@ -234,9 +229,8 @@ static int check_part(const accuracy *part, const accuracy *whole)
   return part->n_rows;
 }
 
-static void an_interrupt_stops_all_threads(void **state)
+static void an_interrupt_stops_all_threads(CHECK_STATE)
 {
-  (void)state;
   scene sc = case2();
   comparison c;
   accuracy whole, a;

@@ -87,9 +87,8 @@ static void check_counts(const char *file, int suites, int failures, int errors)
   assert_int_equal(counted(file, "count(//testcase[not(@name) or @classname != ../@name])"), 0);
 }
 
-static void passes_then_fails_when_the_result_gets_worse(void **state)
+static void passes_then_fails_when_the_result_gets_worse(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *args, *fragment;
     int code;
@@ -113,9 +112,8 @@ static void passes_then_fails_when_the_result_gets_worse(void **state)
 /* Case 2 has an unstable solution between two stable ones: right at 9, and 1.6 % off with H = 2 at 8. At 5.56 the
  * period doubles. With H = 1 the curve turns back before 9 and all that is left there is right; that something is
  * missing shows to a transient that comes from elsewhere. */
-static void unstable_solutions_are_held_against_their_orbits(void **state)
+static void unstable_solutions_are_held_against_their_orbits(CHECK_STATE)
 {
-  (void)state;
   outcome o = gate(CASE2 "--at 9 --format csv");
   assert_int_equal(o.code, 0);
   assert_non_null(strstr(o.out, ",1,unstable,amplitude,orbit,"));
@@ -132,9 +130,8 @@ static void unstable_solutions_are_held_against_their_orbits(void **state)
 }
 
 /* Every response of chain3 with H = 20 is right, the unstable solution at 1.485 too; with H = 5 it is 5 % off. */
-static void every_response_of_a_structure_is_held_to_its_limits(void **state)
+static void every_response_of_a_structure_is_held_to_its_limits(CHECK_STATE)
 {
-  (void)state;
   outcome o = gate("cases/structures/chain3.yaml --at 1.485 --set hbm.harmonics=20 --format csv");
   assert_int_equal(o.code, 0);
   assert_non_null(strstr(o.out, "case,omega,branch,response,verdict,"));
@@ -153,9 +150,8 @@ static void every_response_of_a_structure_is_held_to_its_limits(void **state)
                    1);
 }
 
-static void limits_are_those_of_the_case(void **state)
+static void limits_are_those_of_the_case(CHECK_STATE)
 {
-  (void)state;
   expect(CASE2 "--at 6", 0, "pass");
   expect(CASE2 "--at 6 --set gate.amplitude=3e-4", 1, "fail"); /* found 3.83e-4 */
   expect(CASE2 "--at 6,7 --set gate.amplitude=3e-4 --set gate.ranges=5,6.5 --set gate.range_amplitude=4e-4", 0, "pass");
@@ -165,9 +161,8 @@ static void limits_are_those_of_the_case(void **state)
   expect(CASE2 "--at 6 --set gate.evaluations=1000000 --set gate.iterations=1000000", 0, "evaluations");
 }
 
-static void wrong_limits_are_named_before_anything_runs(void **state)
+static void wrong_limits_are_named_before_anything_runs(CHECK_STATE)
 {
-  (void)state;
   put_case("ok.yaml", SMALL);
   put_case("bad.yaml", SMALL "gate:\n  amplitude: 1e-3\n  waveform: 5e-3, 2\n");
   put_case("key.yaml", SMALL "gate: {harmonic_2: 1e-3}\n");
@@ -182,9 +177,8 @@ static void wrong_limits_are_named_before_anything_runs(void **state)
 }
 
 /* A CI page that only says that there is no report sends people to the log: the message is in the report. */
-static void a_wrong_case_file_is_in_the_junit(void **state)
+static void a_wrong_case_file_is_in_the_junit(CHECK_STATE)
 {
-  (void)state;
   put_case("ok.yaml", SMALL);
   put_case("a&b <c>.yaml", SMALL "gate: {'x<y & \"z\"': 1}\n");
   expect("@/ok.yaml '@/a&b <c>.yaml' @/none.yaml --junit @/u.xml 2>&1", 2,
@@ -203,9 +197,8 @@ static void a_wrong_case_file_is_in_the_junit(void **state)
       counted("u.xml", "count(//testsuite[3]/testcase/error[contains(@message, \"/none.yaml: cannot be\")])"), 1);
 }
 
-static void several_cases_are_several_suites(void **state)
+static void several_cases_are_several_suites(CHECK_STATE)
 {
-  (void)state;
   put_case("ok.yaml", SMALL);
   put_case("a&b <c>.yaml", SMALL "compare: {omega: [5]}\n");
   expect(CASE2 "@/ok.yaml '@/a&b <c>.yaml' --set hbm.static=false --junit @/m.xml", 1, "a&b <c>.yaml: ");
@@ -217,9 +210,8 @@ static void several_cases_are_several_suites(void **state)
   assert_int_equal(counted("m.xml", "count(//testsuite[contains(@name, \"/a&b <c>.yaml\")])"), 1);
 }
 
-static void what_cannot_be_compared_is_an_error(void **state)
+static void what_cannot_be_compared_is_an_error(CHECK_STATE)
 {
-  (void)state;
   expect(CASE2 "--at 6.5 --set transient.max_periods=3 --junit @/e.xml --format csv", 3,
          "did not reach a steady state");
   if (*XMLLINT) check_counts("e.xml", 1, 0, 1);
@@ -227,9 +219,8 @@ static void what_cannot_be_compared_is_an_error(void **state)
          "the HBM curve stopped at omega = 9.2");
 }
 
-static void junit_is_written_whole_or_not_at_all(void **state)
+static void junit_is_written_whole_or_not_at_all(CHECK_STATE)
 {
-  (void)state;
   expect(CASE2 "--junit /nonexistent/a.xml 2>&1", 3, "/nonexistent/a.xml: No such file or directory");
   expect(CASE2 "--at 5 --junit /nonexistent/a.xml 2>/dev/null | wc -c", 0, "0\n"); /* and no table */
   expect(CASE2 "--at 5 --junit @/same -o @/same 2>&1", 64, "the same file");
@@ -245,11 +236,7 @@ static void junit_is_written_whole_or_not_at_all(void **state)
   assert_int_equal(shell(line).code, 0);
 }
 
-static int make_folder(void **state)
-{
-  (void)state;
-  return mkdtemp(folder) ? 0 : -1;
-}
+static int make_folder(CHECK_STATE) { return mkdtemp(folder) ? 0 : -1; }
 
 static int remove_folder(void **state)
 {

@@ -55,9 +55,8 @@ static const gate_check *find(const made *m, int branch, const char *quantity)
   return NULL;
 }
 
-static void every_quantity_has_its_limit(void **state)
+static void every_quantity_has_its_limit(CHECK_STATE)
 {
-  (void)state;
   made *m = start(1);
   assert_int_equal(judged(m), 0);
   assert_int_equal(m->g.n, 4);
@@ -84,9 +83,8 @@ static void every_quantity_has_its_limit(void **state)
   end(m);
 }
 
-static void rounding_at_the_limit_decides_nothing(void **state)
+static void rounding_at_the_limit_decides_nothing(CHECK_STATE)
 {
-  (void)state;
   made *m = start(1);
   for (int side = -1; side <= 1; ++side) {
     m->rows[0].errors.amplitude = 1e-3 * (1 + side * 1e-9);
@@ -105,9 +103,8 @@ static void rounding_at_the_limit_decides_nothing(void **state)
   end(m);
 }
 
-static void limits_may_differ_in_ranges(void **state)
+static void limits_may_differ_in_ranges(CHECK_STATE)
 {
-  (void)state;
   made *m = start(3);
   gate_ranges *g = &m->sc.gate.ranges;
   *g = (gate_ranges){.ends = {4, {7, 9, 8, 12}}, .amplitude = {2, {1e-2, 1e-5}}};
@@ -127,9 +124,8 @@ static void limits_may_differ_in_ranges(void **state)
   end(m);
 }
 
-static void an_unstable_solution_is_held_against_its_orbit(void **state)
+static void an_unstable_solution_is_held_against_its_orbit(CHECK_STATE)
 {
-  (void)state;
   made *m = start(1);
   comparison_row *r = &m->rows[0];
   r->verdict = VERDICT_UNSTABLE;
@@ -155,9 +151,8 @@ static void an_unstable_solution_is_held_against_its_orbit(void **state)
   end(m);
 }
 
-static void a_transient_of_its_own_fails_in_words(void **state)
+static void a_transient_of_its_own_fails_in_words(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     verdict v;
     hc_status st;
@@ -180,9 +175,8 @@ static void a_transient_of_its_own_fails_in_words(void **state)
 }
 
 /* Wider limits in a range account for a transient too, if that is where another solution's transient runs. */
-static void what_could_not_be_compared_is_an_error(void **state)
+static void what_could_not_be_compared_is_an_error(CHECK_STATE)
 {
-  (void)state;
   made *m = start(2);
   m->rows[0].verdict = VERDICT_NOT_SETTLED, m->rows[0].transient_status = HC_NOT_SETTLED;
   assert_int_equal(judged(m), 3);
@@ -204,9 +198,8 @@ static void what_could_not_be_compared_is_an_error(void **state)
 }
 
 /* Two responses of one solution, the second off; then one that hardly moves, of which there is nothing to hold. */
-static void each_response_is_held_by_itself(void **state)
+static void each_response_is_held_by_itself(CHECK_STATE)
 {
-  (void)state;
   static const char names[][RESPONSE_NAME] = {"tip", "a<b"};
   made *m = start(2);
   char *text = NULL;
@@ -232,9 +225,8 @@ static void each_response_is_held_by_itself(void **state)
   end(m);
 }
 
-static void costs_are_whole_numbers_with_limits(void **state)
+static void costs_are_whole_numbers_with_limits(CHECK_STATE)
 {
-  (void)state;
   made *m = start(1);
   m->c.summary.iterations = 2000000, m->c.summary.evaluations = 500;
   assert_int_equal(judged(m), 0);
@@ -250,9 +242,8 @@ static void costs_are_whole_numbers_with_limits(void **state)
   end(m);
 }
 
-static void one_check_of_a_quantity_is_the_worst(void **state)
+static void one_check_of_a_quantity_is_the_worst(CHECK_STATE)
 {
-  (void)state;
   made *m = start(3);
   m->rows[1].errors.amplitude = 5e-4;
   m->rows[2].errors.waveform = 2e-3;
@@ -269,9 +260,8 @@ static void one_check_of_a_quantity_is_the_worst(void **state)
   end(m);
 }
 
-static void junit_escapes_what_it_is_given(void **state)
+static void junit_escapes_what_it_is_given(CHECK_STATE)
 {
-  (void)state;
   made *m = start(1);
   char *text = NULL;
   size_t size;
@@ -288,9 +278,8 @@ static void junit_escapes_what_it_is_given(void **state)
 }
 
 /* Settings that no case file can hold, so that harmonic balance cannot even begin. */
-static void a_comparison_that_cannot_begin_is_an_error(void **state)
+static void a_comparison_that_cannot_begin_is_an_error(CHECK_STATE)
 {
-  (void)state;
   scene sc;
   compare_setup setup;
   gate_case g;

@@ -37,9 +37,8 @@ static model *in_contact(double M, double K, double F, const contact *law, doubl
 #define CLOSE 1e-10
 
 /* A solution of the linear oscillator: amplitude omega^2 A. */
-static void without_contact(void **state)
+static void without_contact(CHECK_STATE)
 {
-  (void)state;
   const double M = 3, C = 0.5, K = 7, omega = 2, F = 10, real = K - M * omega * omega, imaginary = C * omega,
                size = real * real + imaginary * imaginary;
   model *m = oscillator(M, C, K, F);
@@ -51,9 +50,8 @@ static void without_contact(void **state)
 }
 
 /* f = max(-1 + 2 c, 0), F0 - K A = 1: c from -1 to the kink at 1/2, and down to 0 at c = 1: from -1 to 1/2. */
-static void unilateral_spring_has_its_kink(void **state)
+static void unilateral_spring_has_its_kink(CHECK_STATE)
 {
-  (void)state;
   const contact spring = {.kn = 1, .gap = -1};
   model *m = in_contact(1, 1, 3, &spring, 0, 1);
   CHECK_NEAR(acceleration(m, 2), 0.75, CLOSE * 3, "kink");
@@ -63,9 +61,8 @@ static void unilateral_spring_has_its_kink(void **state)
 /* Case 2's contact never slips: f = 550 max(10 c - sqrt(50), 0). F0 - K A = 90: the kink is the largest, c = 1 the
  * least. The slider that restarts on the sample after the touch is up to A 2 pi/4096 off, kt times which is 1 in
  * 1500. */
-static void a_slider_restarts_at_the_touch(void **state)
+static void a_slider_restarts_at_the_touch(CHECK_STATE)
 {
-  (void)state;
   const double half = sqrt(0.5);
   const contact joint = {.kt = 100, .kn = 1000, .mu = 0.3, .gap = -5};
   model *m = in_contact(1, 1, 100, &joint, half, half);
@@ -75,9 +72,8 @@ static void a_slider_restarts_at_the_touch(void **state)
 }
 
 /* A Jenkins element on its own, F0 = K A: x'' is -T/M, and |T| reaches mu N0 both ways, once the slider has settled. */
-static void friction_reaches_its_limit(void **state)
+static void friction_reaches_its_limit(CHECK_STATE)
 {
-  (void)state;
   const contact joint = {.kt = 10, .kn = 2, .mu = 0.5, .gap = 3};
   model *m = in_contact(2, 4, 8, &joint, 1, 0);
   CHECK_NEAR(acceleration(m, 2), 1.5, CLOSE * 8, "mu N0/M");

@@ -57,9 +57,8 @@ static void name_all(int n, const prepared *p)
 #define ON_CASE2     case2, .low = 4, .high = 14, .n = 41
 #define ON_PRELOADED preloaded, .low = 15, .high = 29, .n = 41
 
-static void equations_solved_wrongly(void **state)
+static void equations_solved_wrongly(CHECK_STATE)
 {
-  (void)state;
   static const prepared list[] = {
       {"no static", ON_CASE2, .cause = "no_static_harmonic", .how = {.no_static = true}},
       {"no static", ON_PRELOADED, .cause = "no_static_harmonic", .how = {.no_static = true}},
@@ -74,9 +73,8 @@ static void equations_solved_wrongly(void **state)
   NAME_ALL(list);
 }
 
-static void forces_sampled_too_coarsely(void **state)
+static void forces_sampled_too_coarsely(CHECK_STATE)
 {
-  (void)state;
   static const prepared list[] = {
       {"N = 32", ON_CASE2, .cause = "too_few_samples", .how = {.samples = 32}},
       {"N = 16", ON_PRELOADED, .cause = "too_few_samples", .how = {.samples = 16}},
@@ -95,9 +93,8 @@ static void forces_sampled_too_coarsely(void **state)
   NAME_ALL(list);
 }
 
-static void columns_misread(void **state)
+static void columns_misread(CHECK_STATE)
 {
-  (void)state;
   static const prepared list[] = {
       {"Hz", ON_CASE2, .cause = "frequency_unit", .how = {.omega_factor = 1 / (2 * PI)}},
       {"rad/s times 2 pi", ON_CASE2, .cause = "frequency_unit", .how = {.omega_factor = 2 * PI}},
@@ -140,9 +137,8 @@ static void without_friction(scene *sc) { sc->contacts[0].law.mu = 0; }
 static void twice_the_contact(scene *sc) { sc->contacts[0].law.kn *= 2, sc->contacts[0].law.kt *= 2; }
 
 /* Nothing touches with -gap: what the curve tells is that the contacts are missing. */
-static void numbers_of_another_model(void **state)
+static void numbers_of_another_model(CHECK_STATE)
 {
-  (void)state;
   static const prepared list[] = {
       {"2 C", ON_CASE2, .cause = "wrong_damping", .how = {.change = twice_the_damping}},
       {"1.13 M", ON_CASE2, .cause = "wrong_mass", .how = {.change = some_more_mass}},
@@ -158,9 +154,8 @@ static void numbers_of_another_model(void **state)
 }
 
 /* Case 2 has an upper, an unstable and a lower solution from 7.337 to 9.209. */
-static void branches_mistaken(void **state)
+static void branches_mistaken(CHECK_STATE)
 {
-  (void)state;
   static const prepared unstable = {"unstable", ON_CASE2, .cause = "unstable_branch", .how = {.branch = -1}},
                         hops = {"hops", ON_CASE2, .cause = "other_branch", .how = {.branch = 2}};
   verify_report r = named(&unstable);
@@ -174,9 +169,8 @@ static void branches_mistaken(void **state)
 static void seven_percent_more_mass(scene *sc) { sc->mass *= 1.07; }
 
 /* Nearly undamped, a larger mass and another unit of frequency give the same curve: neither is named, both are told. */
-static void equals_are_a_guess(void **state)
+static void equals_are_a_guess(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(preloaded);
   const spoiling how = {.harmonics = 20, .change = seven_percent_more_mass};
   verify_data d = curve_make(&sc, &how, 15, 29, 41);
@@ -190,9 +184,8 @@ static void equals_are_a_guess(void **state)
   verify_data_clear(&d);
 }
 
-static void nothing_wrong(void **state)
+static void nothing_wrong(CHECK_STATE)
 {
-  (void)state;
   static const prepared list[] = {
       {"good", ON_CASE2, .cause = "none", .how = {.harmonics = 20, .noise = 1e-5}},
       {"good, all branches", ON_CASE2, .cause = "none", .how = {.harmonics = 20, .noise = 1e-5, .branch = 1}},
@@ -204,9 +197,8 @@ static void nothing_wrong(void **state)
 }
 
 /* What nobody tried is not explained away: values too high by more and more, up to 40 % at the last omega. */
-static void no_cause_is_made_up(void **state)
+static void no_cause_is_made_up(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(case2);
   const spoiling how = {.harmonics = 20, .warp = 0.4};
   verify_data d = curve_make(&sc, &how, 4, 14, 41);
@@ -223,9 +215,8 @@ static void no_cause_is_made_up(void **state)
 /* The error column is |value - truth|/amplitude: noise of 1e-3 is 1e-3, less what a tenth of the gate in omega
  * explains: the contact is apart here, so that amplitude = F0/(M omega^2 - K) nearly, whose logarithmic slope is
  * -2 omega^2/(omega^2 - K/M), K/M = 40. The truth's own error is in checked_error. */
-static void errors_are_what_was_put_in(void **state)
+static void errors_are_what_was_put_in(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(case2);
   const spoiling how = {.harmonics = 40, .noise = 1e-3};
   verify_data d = curve_make(&sc, &how, 10, 14, 9);
@@ -249,9 +240,8 @@ static bool stop(void *self, double done)
 
 /* Stopped at any moment: the rows that are there are the first of a run to the end, as that judges them before its
  * search for causes, and some stop comes among them. */
-static void stopping_keeps_rows(void **state)
+static void stopping_keeps_rows(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(case2);
   const spoiling how = {.samples = 32};
   verify_data d = curve_make(&sc, &how, 4, 14, 11);

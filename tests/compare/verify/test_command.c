@@ -5,9 +5,8 @@
 
 #define EXAMPLE "verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,harmonic_1=2 "
 
-static void the_shipped_example_is_named(void **state)
+static void the_shipped_example_is_named(CHECK_STATE)
 {
-  (void)state;
   expect(EXAMPLE, 1, "suspected cause: harmonic 0 is missing (hbm.static: false, ");
   expect(EXAMPLE "-q --format csv", 1, "omega,value,nearest,branch,stable,error,verdict,line\n");
   expect(EXAMPLE "-q --format csv", 1, "# cause: no_static_harmonic\n");
@@ -21,9 +20,8 @@ static void the_shipped_example_is_named(void **state)
 }
 
 /* Our own curve, as frf writes it: branches, unstable points and remarks included. */
-static void our_own_curve_matches(void **state)
+static void our_own_curve_matches(CHECK_STATE)
 {
-  (void)state;
   char path[] = "/tmp/hbmcheck-verify-XXXXXX", args[512];
   int fd = mkstemp(path);
   assert_true(fd >= 0);
@@ -43,9 +41,8 @@ static void our_own_curve_matches(void **state)
   unlink(path);
 }
 
-static void mistakes_are_named(void **state)
+static void mistakes_are_named(CHECK_STATE)
 {
-  (void)state;
   expect("verify cases/verify/case2.yaml 2>&1", 64, "--against");
   expect("verify cases/verify/case2.yaml --against LICENSE 2>&1", 2, "--columns");
   expect("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,amplitud=2 2>&1", 64,
@@ -66,9 +63,8 @@ static void mistakes_are_named(void **state)
 }
 
 /* Up to omega 12 the slider of case 1 never slips (tests/reference, a10), and its mean is a matter of history. */
-static void a_free_mean_is_skipped(void **state)
+static void a_free_mean_is_skipped(CHECK_STATE)
 {
-  (void)state;
 #define CASE1 "verify cases/paper/case1.yaml -q --against /dev/stdin --quantity mean "
   expect(CASE1 "<<'END'\nomega,mean\n10,7\n11,0\n12,-7\n13,-0.11747504\nEND\n", 0,
          "3 points not compared: the mean is free");
@@ -78,9 +74,8 @@ static void a_free_mean_is_skipped(void **state)
 }
 
 /* Far from the sweep nothing is known, and that is not a match. */
-static void what_cannot_be_judged_is_said(void **state)
+static void what_cannot_be_judged_is_said(CHECK_STATE)
 {
-  (void)state;
   expect(
       "verify cases/verify/case2.yaml -q --against /dev/stdin --columns omega=1,amplitude=2 2>&1 <<'END'\n1e6 1\n2e6 "
       "1\n3e6 1\nEND\n",

@@ -33,9 +33,8 @@ static void judged(int n, const peer *p)
 }
 #define JUDGED(list) judged(sizeof list / sizeof *list, list)
 
-static void right_curves_match(void **state)
+static void right_curves_match(CHECK_STATE)
 {
-  (void)state;
   static const peer list[] = {
       {CASE2, "nlvib_case2.csv", "norm_over_root_2", 0, "# cause: none"},
       {CASE2, "nlvib_case2.csv", "harmonic_1", 0, "# cause: none"},
@@ -50,9 +49,8 @@ static void right_curves_match(void **state)
   JUDGED(list);
 }
 
-static void wrong_curves_are_named(void **state)
+static void wrong_curves_are_named(CHECK_STATE)
 {
-  (void)state;
   static const peer list[] = {
       {CASE2, "nlvib_case2_n32.csv", "norm_over_root_2", 1, "# cause: too_few_samples\n"},
       {CASE2, "nlvib_case2_n32.csv", "norm_over_root_2", 1, "H = 10, N = 32; "},
@@ -63,9 +61,8 @@ static void wrong_curves_are_named(void **state)
   JUDGED(list);
 }
 
-static void wandered_curves_are_judged(void **state)
+static void wandered_curves_are_judged(CHECK_STATE)
 {
-  (void)state;
   static const peer list[] = {
       {CASE2, "tmdsimpy_case2_wandered.csv", "norm", 1, "# 67 points at omega <= 0 left out"},
       {CASE2, "tmdsimpy_case2_wandered.csv", "norm", 1, "H = 5, N = 128; "},
@@ -78,9 +75,8 @@ static void wandered_curves_are_judged(void **state)
 
 /* H = 7 is too few for chain3, and said to be 7; NLvib's RMS is named where it is called one. tmdsimpy's contact with a
  * varying normal force, as it should be and with 16 samples. */
-static void structures_are_judged(void **state)
+static void structures_are_judged(CHECK_STATE)
 {
-  (void)state;
   static const peer list[] = {
       {CHAIN3, "nlvib_chain3.csv --columns omega=1,rms@3=7", "rms", 1,
        "too few harmonics, and the values are norms of all harmonics divided by the root of 2 (H = 7; "},
@@ -96,9 +92,8 @@ static void structures_are_judged(void **state)
 
 /* tmdsimpy's element limits each of two tangential forces by itself; a radial return limits the vector. That is of
  * first order where slip turns: at N = 1024 it is off by 1.4e-3 here, hence the wider gate. */
-static void laws_of_two_tangents_are_told_apart(void **state)
+static void laws_of_two_tangents_are_told_apart(CHECK_STATE)
 {
-  (void)state;
   static const peer list[] = {
       {SQUARE, "tmdsimpy_space.csv --columns omega=1,amplitude@x=2,amplitude@y=3,amplitude@z=4", "amplitude", 0,
        "# cause: none"},

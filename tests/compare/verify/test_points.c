@@ -40,9 +40,8 @@ static verify_report judged(const scene *sc, const verify_data *d, const char *c
 /* A standard deviation estimated from n = 59 second differences of 61 points: by the median of moduli its relative
  * deviation is 1.17/sqrt(n) for independent ones, here at most 3 times the variance as each point is in three: 26 %,
  * and 3 of them are allowed. */
-static void noise_is_named_and_estimated(void **state)
+static void noise_is_named_and_estimated(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(case2);
   for (double sigma = 3e-3; sigma < 0.1; sigma *= 3) {
     verify_data d = right_curve(&sc);
@@ -58,9 +57,8 @@ static void noise_is_named_and_estimated(void **state)
 }
 
 /* With the noise said the curve is right; with a tenth of it, not. */
-static void noise_that_is_said_is_allowed(void **state)
+static void noise_that_is_said_is_allowed(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(case2);
   verify_data d = right_curve(&sc);
   add_noise(&d, 1e-2);
@@ -76,9 +74,8 @@ static void noise_that_is_said_is_allowed(void **state)
 }
 
 /* 3 % too high at every point is within four standard deviations of 1 %, but not on the average of 25. */
-static void noise_does_not_hide_an_offset(void **state)
+static void noise_does_not_hide_an_offset(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(case2);
   verify_data d = right_curve(&sc);
   add_noise(&d, 1e-2);
@@ -93,9 +90,8 @@ static void noise_does_not_hide_an_offset(void **state)
   verify_data_clear(&d);
 }
 
-static void outliers_are_named(void **state)
+static void outliers_are_named(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(case2);
   char text[VERIFY_TEXT];
   verify_data d = right_curve(&sc);
@@ -119,9 +115,8 @@ static void outliers_are_named(void **state)
 }
 
 /* A little off is no outlier, and few points tell nothing. */
-static void a_little_off_is_no_outlier(void **state)
+static void a_little_off_is_no_outlier(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(case2);
   verify_data d = right_curve(&sc);
   d.points[20].value *= 1.01;
@@ -132,9 +127,8 @@ static void a_little_off_is_no_outlier(void **state)
 }
 
 /* In [5.12, 5.55] case 2 has an unstable solution and no other. */
-static void nothing_but_unstable_points_fail(void **state)
+static void nothing_but_unstable_points_fail(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(case2);
   const spoiling how = {.harmonics = 20};
   verify_data d = curve_make(&sc, &how, 5.12, 5.55, 11);
@@ -147,9 +141,8 @@ static void nothing_but_unstable_points_fail(void **state)
 
 /* Forth and back over the resonance, in steps that turn back again and again: no neighbours in the file are neighbours
  * in omega, and each point is right. */
-static void the_order_of_the_points_does_not_matter(void **state)
+static void the_order_of_the_points_does_not_matter(CHECK_STATE)
 {
-  (void)state;
   const scene sc = curve_scene(case2);
   verify_data d = right_curve(&sc), shuffled = right_curve(&sc);
   for (int i = 0; i < d.n; ++i) shuffled.points[i] = d.points[i * 17 % POINTS];

@@ -47,9 +47,8 @@ static void reads(const char *text, const char *columns)
   verify_data_clear(&d);
 }
 
-static void files_as_people_have_them(void **state)
+static void files_as_people_have_them(CHECK_STATE)
 {
-  (void)state;
   reads("5,1\n6,2\n7,3\n", "omega=1,amplitude=2");
   reads("5,1\n6,2\n7,3", "omega=1,amplitude=2");
   reads("5,1\r\n6,2\r\n7,3\r\n", "omega=1,amplitude=2");
@@ -66,9 +65,8 @@ static void files_as_people_have_them(void **state)
 }
 
 /* Without --columns: what a header calls the three points' columns. */
-static void plain_names_need_no_columns(void **state)
+static void plain_names_need_no_columns(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *header, *quantity, *found; /* --quantity, NULL: none; what the values are taken for */
     double omega;                          /* [rad/time] of the first point, 5 in the file */
@@ -108,9 +106,8 @@ static void plain_names_need_no_columns(void **state)
   }
 }
 
-static void ambiguous_names_need_columns(void **state)
+static void ambiguous_names_need_columns(CHECK_STATE)
 {
-  (void)state;
   static const struct {
     const char *text, *fragment;
   } list[] = {
@@ -134,9 +131,8 @@ static void ambiguous_names_need_columns(void **state)
 }
 
 /* 20 log10 of 10 is 20 dB; and 0 and below are numbers in dB. */
-static void decibels_become_numbers(void **state)
+static void decibels_become_numbers(CHECK_STATE)
 {
-  (void)state;
   verify_data d;
   char words[VERIFY_TEXT];
   const char text[] = "1 20\n2 0\n3 -40\n0 7\n-1 7\n";
@@ -150,9 +146,8 @@ static void decibels_become_numbers(void **state)
 }
 
 /* x = 0.5 + 3 cos - 4 sin, omega = 2: by hand. max and min are 0.5 +- 5. */
-static void quantities_by_hand(void **state)
+static void quantities_by_hand(CHECK_STATE)
 {
-  (void)state;
   static const double X[] = {0.5, 3, -4};
   static const struct {
     const char *name;
@@ -184,9 +179,8 @@ static void quantities_by_hand(void **state)
   }
 }
 
-static void cycles_become_radians(void **state)
+static void cycles_become_radians(CHECK_STATE)
 {
-  (void)state;
   verify_data d;
   char words[VERIFY_TEXT];
   const char text[] = "1 1\n0.5 0\n3 3\n";
@@ -211,9 +205,8 @@ static void refused(const char *text, size_t length, const char *columns, const 
 }
 #define REFUSED(text, columns, place, fragment) refused(text, sizeof text - 1, columns, place, fragment)
 
-static void mistakes_have_a_place(void **state)
+static void mistakes_have_a_place(CHECK_STATE)
 {
-  (void)state;
   REFUSED("", "omega=1,value=2", ":1:1: ", "0 points");
   REFUSED("# nothing\n", "omega=1,value=2", ":1:1: ", "0 points");
   REFUSED("w,A\n5,1\n6,2\n", "omega=w,value=A", ":3:1: ", "2 points");
@@ -242,9 +235,8 @@ static void mistakes_have_a_place(void **state)
   REFUSED("a,1\n\xC3\xA4 , \xC3\xA4\n7,3\n", "omega=2,value=2", ":2:5: ", "not a number"); /* columns are characters */
 }
 
-static void limits_hold(void **state)
+static void limits_hold(CHECK_STATE)
 {
-  (void)state;
   size_t size = (size_t)(VERIFY_MOST_POINTS + 1) * 4;
   char *text = malloc(size + 1), words[VERIFY_TEXT];
   assert_non_null(text);
@@ -259,9 +251,8 @@ static void limits_hold(void **state)
   free(text);
 }
 
-static void no_such_file(void **state)
+static void no_such_file(CHECK_STATE)
 {
-  (void)state;
   verify_columns where;
   verify_data d;
   char words[VERIFY_TEXT];
@@ -281,9 +272,8 @@ static void unclear(const char *columns, const char *quantity, const char *fragm
   }
 }
 
-static void columns_say_what_they_mean(void **state)
+static void columns_say_what_they_mean(CHECK_STATE)
 {
-  (void)state;
   unclear("", NULL, "NAME=COLUMN");
   unclear("omega", NULL, "NAME=COLUMN");
   unclear("omega=1", NULL, "no column of values");
@@ -305,9 +295,8 @@ static void columns_say_what_they_mean(void **state)
 
 /* A hypothesis fits within 1 %, or the gate if that is larger, and a fifth of the truth's distance; one that is no
  * number does not. */
-static void what_is_left_decides_a_fit(void **state)
+static void what_is_left_decides_a_fit(CHECK_STATE)
 {
-  (void)state;
   static verify_report r;
   r.truth_distance = 1;
   r.gate = 1e-3;

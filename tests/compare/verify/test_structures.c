@@ -64,9 +64,8 @@ static int verify(const char *options)
 }
 
 /* Two responses in one file, by its column `response` and as columns of their own. */
-static void every_response_is_judged(void **state)
+static void every_response_is_judged(CHECK_STATE)
 {
-  (void)state;
   put_case("ours.yaml", NULL, NULL);
   put_case("theirs.yaml", NULL, NULL);
   make_curve("");
@@ -98,9 +97,8 @@ static void every_response_is_judged(void **state)
 }
 
 /* A structure with one thing changed, and what that is called. */
-static void mistakes_of_structures_are_named(void **state)
+static void mistakes_of_structures_are_named(CHECK_STATE)
 {
-  (void)state;
   static const struct mistake {
     const char *was, *now, *words, *cause;
   } all[] = {
@@ -134,9 +132,8 @@ static void mistakes_of_structures_are_named(void **state)
 }
 
 /* The motion of c under the name of a; c is no response of the case. */
-static void another_degree_of_freedom_is_named(void **state)
+static void another_degree_of_freedom_is_named(CHECK_STATE)
 {
-  (void)state;
   put_case("ours.yaml", NULL, NULL);
   put_case("theirs.yaml", "response: [a, b]", "response: [c]");
   make_curve("");
@@ -146,9 +143,8 @@ static void another_degree_of_freedom_is_named(void **state)
 }
 
 /* All of the force at one degree of freedom: the load of jenkins2 at its root. */
-static void a_load_elsewhere_is_named(void **state)
+static void a_load_elsewhere_is_named(CHECK_STATE)
 {
-  (void)state;
   assert_int_equal(shell("%s frf cases/structures/jenkins2.yaml -q --format csv --response tip --set "
                          "'forcing[0].dof=root' --set hbm.harmonics=20 -o %s/load.csv",
                          HBMCHECK_COMMAND, folder),
@@ -163,9 +159,8 @@ static void a_load_elsewhere_is_named(void **state)
 
 /* A mass on a rough plane, rubbing along one of its directions only. Along the first its curve of x is that of the
  * square law, too, which knows nothing of y, so that both are guessed; y, and all along the second, tell. */
-static void a_missing_tangent_is_named(void **state)
+static void a_missing_tangent_is_named(CHECK_STATE)
 {
-  (void)state;
   static const struct missing {
     const char *tangents, *response, *cause, *words;
   } all[] = {
@@ -188,9 +183,8 @@ static void a_missing_tangent_is_named(void **state)
 }
 
 /* Where the slider of jenkins2 sticks all period, a value that is off may be right with the slider elsewhere: said. */
-static void what_history_decides_is_said(void **state)
+static void what_history_decides_is_said(CHECK_STATE)
 {
-  (void)state;
   assert_int_equal(shell("%s frf cases/structures/jenkins2.yaml -q --format csv --response tip --set hbm.harmonics=20 "
                          "| awk -F, -v OFS=, '/^2/ {$4 *= 1.01 + 0.3*($1 - 25)} {print}' > %s/off.csv",
                          HBMCHECK_COMMAND, folder),
@@ -202,17 +196,9 @@ static void what_history_decides_is_said(void **state)
   HAVE(" points that differ are where a slider never slips: where it rests is a matter of history");
 }
 
-static int make_folder(void **state)
-{
-  (void)state;
-  return mkdtemp(folder) ? 0 : -1;
-}
+static int make_folder(CHECK_STATE) { return mkdtemp(folder) ? 0 : -1; }
 
-static int remove_folder(void **state)
-{
-  (void)state;
-  return shell("rm -r %s", folder);
-}
+static int remove_folder(CHECK_STATE) { return shell("rm -r %s", folder); }
 
 int main(void)
 {
