@@ -31,7 +31,8 @@ hc_status model_modes(const model *m, bool stuck, double *omega2, double *phi)
   return st;
 }
 
-double model_modal_damping(const model *m, const double *phi)
+/* phi^T C phi [1/time] of a mode with phi^T M phi = 1: twice its damping ratio times omega. */
+static double modal_damping(const model *m, const double *phi)
 {
   double c = 0;
   for (int col = 0; col < m->n; ++col)
@@ -73,7 +74,7 @@ hc_status model_mode_list(const model *m, bool stuck, model_mode *modes)
   double *phi = omega2 + n;
   hc_status st = model_modes(m, stuck, omega2, phi);
   for (size_t i = 0; i < n && st == HC_OK; ++i) {
-    const double omega = sqrt(omega2[i]), c = model_modal_damping(m, phi + i * n);
+    const double omega = sqrt(omega2[i]), c = modal_damping(m, phi + i * n);
     modes[i] = (model_mode){omega, omega > 0 ? c / (2 * omega) : NAN};
   }
   free(omega2);

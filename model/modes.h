@@ -18,9 +18,6 @@ typedef struct model_mode {
 /* modes[n], ascending. HC_NO_MEMORY, and the errors of model_modes. */
 hc_status model_mode_list(const model *m, bool stuck, model_mode *modes);
 
-/* phi^T C phi [1/time] of a mode with phi^T M phi = 1: twice its damping ratio times omega. */
-double model_modal_damping(const model *m, const double *phi);
-
 /* What steps in omega are measured by. */
 typedef struct model_scales {
   double highest;    /* [rad/time] the highest natural frequency, contacts stuck */
