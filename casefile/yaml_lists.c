@@ -313,7 +313,7 @@ hc_status yaml_direction(case_reader *r, yaml_document_t *doc, const char *what,
                          double *direction)
 {
   const int n = r->sc.structure->n;
-  int dof;
+  int dof = 0;
   memset(direction, 0, (size_t)n * sizeof *direction);
   if (node->type != YAML_MAPPING_NODE || yaml_find(doc, node, "node")) {
     const hc_status st = yaml_dof(r, doc, node, &dof);
