@@ -340,6 +340,7 @@ typedef struct theirs {
   const verify_report *r;
 } theirs;
 
+/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is figure.h's */
 static const char *theirs_point(const void *report, int i, double *x, double *y, char text[24])
 {
   const theirs *t = report;
