@@ -60,13 +60,13 @@ static hc_status read_row(matrix_text *t, const matrix_word field[COLUMNS], scen
 {
   int node;
   const int dof = structure_dof(s, field[0].text, field[0].length);
-  const char axis = *field[2].text;
+  const char axis = field[2].length == 1 ? *field[2].text : '\0'; /* an empty one may be the text's end */
   char expected[64];
   snprintf(expected, sizeof expected, "DOF, expected a name or a number 1..%d", s->n);
   if (dof < 0) return wrong_field(t, &field[0], expected);
   if (number_read_integer(field[1].text, field[1].length, &node) != NUMBER_FINE)
     return wrong_field(t, &field[1], "node, expected its number");
-  if (field[2].length != 1 || !structure_is_axis(axis))
+  if (!structure_is_axis(axis))
     return wrong_field(t, &field[2], "direction, expected x, y or z");
   if (structure_node_dof(s, node, axis) >= 0)
     return matrix_text_refuse(t, t->line_text, "node %d in direction %c again, expected it once", node, axis);
