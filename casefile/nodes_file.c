@@ -66,8 +66,7 @@ static hc_status read_row(matrix_text *t, const matrix_word field[COLUMNS], scen
   if (dof < 0) return wrong_field(t, &field[0], expected);
   if (number_read_integer(field[1].text, field[1].length, &node) != NUMBER_FINE)
     return wrong_field(t, &field[1], "node, expected its number");
-  if (!structure_is_axis(axis))
-    return wrong_field(t, &field[2], "direction, expected x, y or z");
+  if (!structure_is_axis(axis)) return wrong_field(t, &field[2], "direction, expected x, y or z");
   if (structure_node_dof(s, node, axis) >= 0)
     return matrix_text_refuse(t, t->line_text, "node %d in direction %c again, expected it once", node, axis);
   return nodes_add(s, dof, node, axis);
