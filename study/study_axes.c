@@ -177,7 +177,7 @@ static hc_status read_values(study_reader *q, study_axis *a, study_field *sf, co
   if (st == HC_OK && sf != a->fields && n != a->n)
     st = yaml_refuse(&q->r, node, "`%s` has %d values but `%s` on the same axis has %d, expected as many", sf->path, n,
                      a->fields[0].path, a->n);
-  if (st != HC_OK) return st;
+  if (st != HC_OK || n < 1) return st; /* a list of none has been refused */
   a->n = n;
   if (!(sf->values = calloc((size_t)n, sizeof *sf->values))) return study_no_memory(q);
   for (int i = 0; i < n && st == HC_OK; ++i)
@@ -226,7 +226,7 @@ static int by_value(const void *pa, const void *pb)
 /* A value listed twice would be the same scene twice. */
 static hc_status check_repeats(study_reader *q, const study_axis *a)
 {
-  entry *all = malloc((size_t)a->n * sizeof *all);
+  entry *all = malloc(((size_t)a->n + 1) * sizeof *all); /* one more: never of 0 bytes */
   if (!all) return study_no_memory(q);
   for (int i = 0; i < a->n; ++i) all[i] = (entry){a, i};
   qsort(all, (size_t)a->n, sizeof *all, by_value);
