@@ -40,8 +40,8 @@ static bool split(const matrix_text *t, matrix_word field[COLUMNS])
   for (int i = 0; i < COLUMNS; ++i) {
     const char *comma = memchr(s, ',', (size_t)(stop - s)), *end = comma ? comma : stop;
     if ((comma == NULL) != (i == COLUMNS - 1)) return false;
+    while (end > s && is_end(end[-1])) --end; /* first, so that an empty field begins after its comma */
     while (s < end && is_end(*s)) ++s;
-    while (end > s && is_end(end[-1])) --end;
     field[i] = (matrix_word){s, (size_t)(end - s)};
     s = comma ? comma + 1 : stop;
   }

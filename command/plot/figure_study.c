@@ -283,7 +283,7 @@ static void write_line(figure *g, const chart *c, long line)
 {
   char name[32];
   snprintf(name, sizeof name, "line%ld", line);
-  figure_block(g, name);
+  figure_block(g, "%s", name);
   for (int i = 0; i < c->s->axes[c->x].n; ++i) {
     double x = i, y = c->value[first_of_line(c, line) + i * stride_of(c)];
     if (c->scale) number_of(c->scale, i, &x);
