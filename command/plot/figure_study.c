@@ -281,9 +281,7 @@ static long first_of_line(const chart *c, long line)
 
 static void write_line(figure *g, const chart *c, long line)
 {
-  char name[32];
-  snprintf(name, sizeof name, "line%ld", line);
-  figure_block(g, "%s", name);
+  figure_block(g, "line%ld", line);
   for (int i = 0; i < c->s->axes[c->x].n; ++i) {
     double x = i, y = c->value[first_of_line(c, line) + i * stride_of(c)];
     if (c->scale) number_of(c->scale, i, &x);
