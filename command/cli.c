@@ -260,9 +260,9 @@ void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_co
   const struct argp argp = {common_options, read_common_option, self->arguments, self->help, children, NULL, NULL};
   const bool several = strstr(self->arguments, "...") != NULL;
   const bool required = *self->arguments && *self->arguments != '[';
+  *common = (cli_common){.command = self, .own = own, .argument_is = what_arguments_are(self->arguments)};
   parse_input input = {common, several ? CLI_MAX_ARGUMENTS : *self->arguments ? 1 : 0, own};
   char name[64];
-  *common = (cli_common){.command = self, .own = own, .argument_is = what_arguments_are(self->arguments)};
   snprintf(name, sizeof name, "hbmcheck %s", self->name);
   refuse_unknown_option(self, options, argc, argv);
   argv[0] = name;

@@ -300,7 +300,7 @@ static hc_status largest_stable(finder *f, double omega, const hc_monitor *monit
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     const double *Xk = at.X + (size_t)k * at.n_coef;
     timeint_result r;
-    double floor_k;
+    double floor_k = 0;
     if (hbm_measure(f->response.hbm, Xk, &m) != HC_OK || m.amplitude < 0.9 * best->amplitude) continue;
     hc_status found = comparison_orbit_start(f->response.hbm, Xk, omega, f->other);
     if (found == HC_OK) found = tightest_orbit(f, omega, monitor, f->other, &r, &floor_k);
