@@ -67,11 +67,13 @@ static inline int check_ended(int failed)
 #define CHECK_TRIALS(n) (n)
 #endif
 
-#define CHECK_MAIN(name, tests, seconds)                                                                               \
+/* The main of a test program: its tests, the seconds after which it ends, their common setup and teardown or NULL. */
+#define CHECK_MAIN_WITH(name, tests, seconds, setup, teardown)                                                         \
   int main(void)                                                                                                       \
   {                                                                                                                    \
     check_watchdog(seconds);                                                                                           \
-    return cmocka_run_group_tests_name(name, tests, NULL, NULL);                                                       \
+    return cmocka_run_group_tests_name(name, tests, setup, teardown);                                                  \
   }
+#define CHECK_MAIN(name, tests, seconds) CHECK_MAIN_WITH(name, tests, seconds, NULL, NULL)
 
 #endif

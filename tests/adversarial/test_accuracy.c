@@ -135,9 +135,5 @@ static void the_first_harmonic_is_good_to_a_millionth(CHECK_STATE)
   assert_int_equal(compared, N_STEADY_REFERENCES); /* none grazes */
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_first_harmonic_is_good_to_a_millionth)};
-  check_watchdog(900);
-  return cmocka_run_group_tests_name("adversarial.accuracy", tests, read_rows, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(the_first_harmonic_is_good_to_a_millionth)};
+CHECK_MAIN_WITH("adversarial.accuracy", tests, 900, read_rows, NULL)

@@ -178,20 +178,16 @@ static void contacts_that_switch_together(CHECK_STATE)
   same_answers(&sixteen, &reversed, 1, SOLVED);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(grazing_to_an_ulp),
-      cmocka_unit_test(amplitude_equal_to_the_gap),
-      cmocka_unit_test(on_the_edge_of_the_cone),
-      cmocka_unit_test(tangential_and_normal_force_vanish_together),
-      cmocka_unit_test(angle_0_is_a_jenkins_element),
-      cmocka_unit_test(angle_90_is_a_stop),
-      cmocka_unit_test(friction_from_none_to_too_much),
-      cmocka_unit_test(gap_0_scales_with_the_force),
-      cmocka_unit_test(gap_0_vibrates_at_its_bilinear_frequency),
-      cmocka_unit_test(contacts_that_switch_together),
-  };
-  check_watchdog(900);
-  return cmocka_run_group_tests_name("adversarial.contacts", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(grazing_to_an_ulp),
+    cmocka_unit_test(amplitude_equal_to_the_gap),
+    cmocka_unit_test(on_the_edge_of_the_cone),
+    cmocka_unit_test(tangential_and_normal_force_vanish_together),
+    cmocka_unit_test(angle_0_is_a_jenkins_element),
+    cmocka_unit_test(angle_90_is_a_stop),
+    cmocka_unit_test(friction_from_none_to_too_much),
+    cmocka_unit_test(gap_0_scales_with_the_force),
+    cmocka_unit_test(gap_0_vibrates_at_its_bilinear_frequency),
+    cmocka_unit_test(contacts_that_switch_together),
+};
+CHECK_MAIN("adversarial.contacts", tests, 900)

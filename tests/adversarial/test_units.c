@@ -179,10 +179,6 @@ static void exact_law(CHECK_STATE) { transient_with(TRANSIENT_LAW_EXACT, N_REFER
 
 static void regularised_law(CHECK_STATE) { transient_with(TRANSIENT_LAW_REGULARISED, 3); }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(exact_forces), cmocka_unit_test(sampled_forces),
-                                     cmocka_unit_test(exact_law), cmocka_unit_test(regularised_law)};
-  check_watchdog(900);
-  return cmocka_run_group_tests_name("adversarial.units", tests, read_rows, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(exact_forces), cmocka_unit_test(sampled_forces),
+                                          cmocka_unit_test(exact_law), cmocka_unit_test(regularised_law)};
+CHECK_MAIN_WITH("adversarial.units", tests, 900, read_rows, NULL)

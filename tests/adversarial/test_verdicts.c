@@ -120,11 +120,7 @@ static void refusals(CHECK_STATE)
   expect("compare cases/adversarial/two_hundred_harmonics.yaml --set hbm.harmonics=201 2>&1", 2, "200");
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(contacts), cmocka_unit_test(curves),
-                                     cmocka_unit_test(a_branch_is_not_hidden),
-                                     cmocka_unit_test(chaos_is_not_agreed_with), cmocka_unit_test(refusals)};
-  check_watchdog(900);
-  return cmocka_run_group_tests_name("adversarial.verdicts", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(contacts), cmocka_unit_test(curves),
+                                          cmocka_unit_test(a_branch_is_not_hidden),
+                                          cmocka_unit_test(chaos_is_not_agreed_with), cmocka_unit_test(refusals)};
+CHECK_MAIN("adversarial.verdicts", tests, 900)

@@ -104,14 +104,10 @@ static void budgets_are_never_advised_what_is_set(CHECK_STATE)
   expect_remedy(&setup, 5, (budget_parts){.settling = 1, .sum = 1}, "");
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(hbm_is_never_advised_what_it_has),
-      cmocka_unit_test(the_transient_is_never_advised_what_it_has),
-      cmocka_unit_test(advice_is_a_sentence),
-      cmocka_unit_test(budgets_are_never_advised_what_is_set),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("compare.advice", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(hbm_is_never_advised_what_it_has),
+    cmocka_unit_test(the_transient_is_never_advised_what_it_has),
+    cmocka_unit_test(advice_is_a_sentence),
+    cmocka_unit_test(budgets_are_never_advised_what_is_set),
+};
+CHECK_MAIN("compare.advice", tests, 60)

@@ -197,15 +197,11 @@ static void a_structure_is_guessed_whole(CHECK_STATE)
   model_free(m);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(not_asked_where_the_linear_response_will_do),
-      cmocka_unit_test(refusals_lead_to_ramps_or_out),
-      cmocka_unit_test(a_guess_is_where_newton_begins),
-      cmocka_unit_test(the_motion_from_rest_is_a_guess),
-      cmocka_unit_test(a_structure_is_guessed_whole),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("compare.first_guess", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(not_asked_where_the_linear_response_will_do),
+    cmocka_unit_test(refusals_lead_to_ramps_or_out),
+    cmocka_unit_test(a_guess_is_where_newton_begins),
+    cmocka_unit_test(the_motion_from_rest_is_a_guess),
+    cmocka_unit_test(a_structure_is_guessed_whole),
+};
+CHECK_MAIN("compare.first_guess", tests, 120)

@@ -80,14 +80,10 @@ static void systems_solved(CHECK_STATE)
   comparison_clear(&c);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(exact_law),
-      cmocka_unit_test(regularised_law),
-      cmocka_unit_test(finer_steps_only_where_shown),
-      cmocka_unit_test(systems_solved),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("compare.once", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(exact_law),
+    cmocka_unit_test(regularised_law),
+    cmocka_unit_test(finer_steps_only_where_shown),
+    cmocka_unit_test(systems_solved),
+};
+CHECK_MAIN("compare.once", tests, 60)

@@ -216,13 +216,9 @@ static void changes_are_derivatives(CHECK_STATE)
     }
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(condensed_is_the_whole),
-      cmocka_unit_test(nearly_dependent_directions),
-      cmocka_unit_test(changes_are_derivatives),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("hbm.condensation", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(condensed_is_the_whole),
+    cmocka_unit_test(nearly_dependent_directions),
+    cmocka_unit_test(changes_are_derivatives),
+};
+CHECK_MAIN("hbm.condensation", tests, 120)

@@ -218,8 +218,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(arclength_only),
 };
 
-int main(void)
-{
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("hbm.curve", tests, read_references, NULL);
-}
+CHECK_MAIN_WITH("hbm.curve", tests, 300, read_references, NULL)

@@ -240,8 +240,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(stiff_contacts_from_both_ends),
 };
 
-int main(void)
-{
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("hbm.exact_reference", tests, read_references, NULL);
-}
+CHECK_MAIN_WITH("hbm.exact_reference", tests, 120, read_references, NULL)

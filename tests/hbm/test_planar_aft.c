@@ -298,17 +298,13 @@ static void refuses(CHECK_STATE)
   planar_aft_free(a);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_line_is_one_tangent),
-      cmocka_unit_test(a_circle_by_its_closed_form),
-      cmocka_unit_test(located_forces_are_the_limit),
-      cmocka_unit_test(turns_and_shifts),
-      cmocka_unit_test(little_slip_closes),
-      cmocka_unit_test(jacobian_equals_differences),
-      cmocka_unit_test(refuses),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("hbm.planar_aft", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_line_is_one_tangent),
+    cmocka_unit_test(a_circle_by_its_closed_form),
+    cmocka_unit_test(located_forces_are_the_limit),
+    cmocka_unit_test(turns_and_shifts),
+    cmocka_unit_test(little_slip_closes),
+    cmocka_unit_test(jacobian_equals_differences),
+    cmocka_unit_test(refuses),
+};
+CHECK_MAIN("hbm.planar_aft", tests, 120)

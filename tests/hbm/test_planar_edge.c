@@ -103,11 +103,7 @@ static void a_curve_does_not_go_round(CHECK_STATE)
   clear(&k);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_curve_passes_both_edges),
-                                     cmocka_unit_test(the_curve_turns_where_the_last_slider_is_stuck),
-                                     cmocka_unit_test(a_curve_does_not_go_round)};
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("hbm.planar_edge", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(a_curve_passes_both_edges),
+                                          cmocka_unit_test(the_curve_turns_where_the_last_slider_is_stuck),
+                                          cmocka_unit_test(a_curve_does_not_go_round)};
+CHECK_MAIN("hbm.planar_edge", tests, 60)

@@ -255,14 +255,10 @@ static void edges_between_motions(CHECK_STATE)
   assert_true(grazes.kinks == 0 && touches.kinks == 0 && inside.kinks > 3);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(slip_that_begins_at_touch_down),
-      cmocka_unit_test(a_graze_of_the_normal_force),
-      cmocka_unit_test(at_the_limit_all_the_while),
-      cmocka_unit_test(edges_between_motions),
-  };
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("hbm.planar_kinks", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(slip_that_begins_at_touch_down),
+    cmocka_unit_test(a_graze_of_the_normal_force),
+    cmocka_unit_test(at_the_limit_all_the_while),
+    cmocka_unit_test(edges_between_motions),
+};
+CHECK_MAIN("hbm.planar_kinks", tests, 300)

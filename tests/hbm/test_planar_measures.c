@@ -98,13 +98,9 @@ static void what_is_no_motion_is_refused(CHECK_STATE)
   assert_int_equal(planar_measures_of(&half, 1, v, u, v, out), HC_NOT_FINITE);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_circle_by_its_closed_form),  cmocka_unit_test(stuck_it_pulls_as_far_as_it_goes),
-      cmocka_unit_test(on_a_line_it_is_one_tangent),  cmocka_unit_test(work_is_that_of_the_traction),
-      cmocka_unit_test(what_is_no_motion_is_refused),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("hbm.planar_measures", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_circle_by_its_closed_form),  cmocka_unit_test(stuck_it_pulls_as_far_as_it_goes),
+    cmocka_unit_test(on_a_line_it_is_one_tangent),  cmocka_unit_test(work_is_that_of_the_traction),
+    cmocka_unit_test(what_is_no_motion_is_refused),
+};
+CHECK_MAIN("hbm.planar_measures", tests, 60)

@@ -127,12 +127,8 @@ static void equals_them_at_the_limits(CHECK_STATE)
   assert_true(seen[0] > 100 && seen[1] > 100 && seen[2] > 100);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(equals_two_whole_periods),
-      cmocka_unit_test(equals_them_at_the_limits),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("hbm.slider", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(equals_two_whole_periods),
+    cmocka_unit_test(equals_them_at_the_limits),
+};
+CHECK_MAIN("hbm.slider", tests, 120)

@@ -402,13 +402,9 @@ static void auto_keeps_the_loads(CHECK_STATE)
   model_free(m);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(jacobian_is_the_derivative), cmocka_unit_test(another_way_to_write_it_changes_nothing),
-      cmocka_unit_test(copies_are_each_the_one),    cmocka_unit_test(contacts_at_rest),
-      cmocka_unit_test(auto_keeps_the_loads),       cmocka_unit_test(a_small_body_beside_a_large_one),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("hbm.structure", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(jacobian_is_the_derivative), cmocka_unit_test(another_way_to_write_it_changes_nothing),
+    cmocka_unit_test(copies_are_each_the_one),    cmocka_unit_test(contacts_at_rest),
+    cmocka_unit_test(auto_keeps_the_loads),       cmocka_unit_test(a_small_body_beside_a_large_one),
+};
+CHECK_MAIN("hbm.structure", tests, 120)

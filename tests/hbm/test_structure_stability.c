@@ -199,14 +199,10 @@ static void a_free_chain_keeps_its_momentum(CHECK_STATE)
   model_free(m);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(oscillators_side_by_side),
-      cmocka_unit_test(a_free_body_has_no_eigenvectors),
-      cmocka_unit_test(what_a_interval_leaves_has_all_the_multipliers),
-      cmocka_unit_test(a_free_chain_keeps_its_momentum),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("hbm.structure_stability", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(oscillators_side_by_side),
+    cmocka_unit_test(a_free_body_has_no_eigenvectors),
+    cmocka_unit_test(what_a_interval_leaves_has_all_the_multipliers),
+    cmocka_unit_test(a_free_chain_keeps_its_momentum),
+};
+CHECK_MAIN("hbm.structure_stability", tests, 60)

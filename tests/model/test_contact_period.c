@@ -29,9 +29,5 @@ static void pairs_become_one(CHECK_STATE)
   model_free(m);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(pairs_become_one)};
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("model.contact_period", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(pairs_become_one)};
+CHECK_MAIN("model.contact_period", tests, 60)

@@ -97,13 +97,9 @@ static void step_response(CHECK_STATE)
   print_message("worst: %.2f of 8\n", worst);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(free_motion),
-      cmocka_unit_test(next_to_critical_damping),
-      cmocka_unit_test(step_response),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("model.linear", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(free_motion),
+    cmocka_unit_test(next_to_critical_damping),
+    cmocka_unit_test(step_response),
+};
+CHECK_MAIN("model.linear", tests, 60)

@@ -82,14 +82,10 @@ static void what_is_stiff_decays(CHECK_STATE)
   }
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sums_are_exact_on_polynomials),
-      cmocka_unit_test(modes_are_legendres),
-      cmocka_unit_test(slopes_are_continued),
-      cmocka_unit_test(what_is_stiff_decays),
-  };
-  check_watchdog(30);
-  return cmocka_run_group_tests_name("numerics.collocation", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(sums_are_exact_on_polynomials),
+    cmocka_unit_test(modes_are_legendres),
+    cmocka_unit_test(slopes_are_continued),
+    cmocka_unit_test(what_is_stiff_decays),
+};
+CHECK_MAIN("numerics.collocation", tests, 30)

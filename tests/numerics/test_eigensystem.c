@@ -104,12 +104,9 @@ static void defective_ones_are_refused(CHECK_STATE)
   eigensystem_free(&e);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(small_ones_are_as_good_as_large),
-      cmocka_unit_test(equal_ones),
-      cmocka_unit_test(defective_ones_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(small_ones_are_as_good_as_large),
+    cmocka_unit_test(equal_ones),
+    cmocka_unit_test(defective_ones_are_refused),
+};
+CHECK_MAIN("numerics.eigensystem", tests, 600)

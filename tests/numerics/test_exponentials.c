@@ -96,12 +96,9 @@ static void the_first_of_several(CHECK_STATE)
   assert_int_equal(exponentials_first_fall(&m.e, 1, &late.s, 0, 2, &at), 0);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(nothing_falls_before),
-      cmocka_unit_test(grazes),
-      cmocka_unit_test(the_first_of_several),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(nothing_falls_before),
+    cmocka_unit_test(grazes),
+    cmocka_unit_test(the_first_of_several),
+};
+CHECK_MAIN("numerics.exponentials", tests, 600)

@@ -84,13 +84,9 @@ static int remove_folder(CHECK_STATE)
   return system(line);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(files_that_are_there),    cmocka_unit_test(files_to_come),
-      cmocka_unit_test(what_is_no_regular_file), cmocka_unit_test(open_descriptors),
-      cmocka_unit_test(right_in_a_folder),
-  };
-  check_watchdog(20);
-  return cmocka_run_group_tests_name("output.same_file", tests, make_folder, remove_folder);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(files_that_are_there),    cmocka_unit_test(files_to_come),
+    cmocka_unit_test(what_is_no_regular_file), cmocka_unit_test(open_descriptors),
+    cmocka_unit_test(right_in_a_folder),
+};
+CHECK_MAIN_WITH("output.same_file", tests, 20, make_folder, remove_folder)

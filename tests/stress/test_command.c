@@ -132,17 +132,13 @@ static int remove_folder(CHECK_STATE)
   return system(line);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(two_hundred_scenes_without_a_finding),
-      cmocka_unit_test(structures_without_a_finding),
-      cmocka_unit_test(structures_in_space_without_a_finding),
-      cmocka_unit_test(what_was_stopped_goes_on),
-      cmocka_unit_test(a_journal_that_does_not_fit_is_refused),
-      cmocka_unit_test(one_scene_is_printed_as_a_case_file),
-      cmocka_unit_test(what_cannot_be_is_said),
-  };
-  check_watchdog(900);
-  return cmocka_run_group_tests_name("stress.command", tests, make_folder, remove_folder);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(two_hundred_scenes_without_a_finding),
+    cmocka_unit_test(structures_without_a_finding),
+    cmocka_unit_test(structures_in_space_without_a_finding),
+    cmocka_unit_test(what_was_stopped_goes_on),
+    cmocka_unit_test(a_journal_that_does_not_fit_is_refused),
+    cmocka_unit_test(one_scene_is_printed_as_a_case_file),
+    cmocka_unit_test(what_cannot_be_is_said),
+};
+CHECK_MAIN_WITH("stress.command", tests, 900, make_folder, remove_folder)

@@ -72,10 +72,6 @@ static void the_quick_ones_are_as_expected(CHECK_STATE)
   assert_int_equal(WEXITSTATUS(status), 0);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_shipped_study_can_be_run),
-                                     cmocka_unit_test(the_quick_ones_are_as_expected)};
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("study.paper", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(every_shipped_study_can_be_run),
+                                          cmocka_unit_test(the_quick_ones_are_as_expected)};
+CHECK_MAIN("study.paper", tests, 300)

@@ -126,11 +126,7 @@ static void a_scout_allocates_nothing(CHECK_STATE)
   }
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(marching_allocates_nothing),
-                                     cmocka_unit_test(shooting_and_sweeping_allocate_nothing),
-                                     cmocka_unit_test(a_scout_allocates_nothing)};
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("timeint.allocation", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(marching_allocates_nothing),
+                                          cmocka_unit_test(shooting_and_sweeping_allocate_nothing),
+                                          cmocka_unit_test(a_scout_allocates_nothing)};
+CHECK_MAIN("timeint.allocation", tests, 120)

@@ -122,14 +122,10 @@ static void leaving_an_orbit_is_not_chaos(CHECK_STATE)
   timeint_free(ti);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(narrow_bands),
-      cmocka_unit_test(narrow_bands_whoever_integrates),
-      cmocka_unit_test(cascade_and_windows),
-      cmocka_unit_test(leaving_an_orbit_is_not_chaos),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("timeint.chaos", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(narrow_bands),
+    cmocka_unit_test(narrow_bands_whoever_integrates),
+    cmocka_unit_test(cascade_and_windows),
+    cmocka_unit_test(leaving_an_orbit_is_not_chaos),
+};
+CHECK_MAIN("timeint.chaos", tests, 60)

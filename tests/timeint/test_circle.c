@@ -531,22 +531,19 @@ static void a_long_period_hears_the_monitor(CHECK_STATE)
   }
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(series_meet_the_reference),
-      cmocka_unit_test(events_meet_the_reference),
-      cmocka_unit_test(regularised_meets_the_reference),
-      cmocka_unit_test(a_circle_that_sticks_is_free_once),
-      cmocka_unit_test(jacobian_is_the_derivative),
-      cmocka_unit_test(newton_solves_the_dense_equations),
-      cmocka_unit_test(a_motion_on_a_line_is_that_of_one_tangent),
-      cmocka_unit_test(turned_tangents_change_nothing),
-      cmocka_unit_test(monodromy_is_the_derivative),
-      cmocka_unit_test(series_and_events_agree),
-      cmocka_unit_test(a_slider_that_comes_back_has_travelled),
-      cmocka_unit_test(friction_takes_what_the_loads_give),
-      cmocka_unit_test(a_long_period_hears_the_monitor),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(series_meet_the_reference),
+    cmocka_unit_test(events_meet_the_reference),
+    cmocka_unit_test(regularised_meets_the_reference),
+    cmocka_unit_test(a_circle_that_sticks_is_free_once),
+    cmocka_unit_test(jacobian_is_the_derivative),
+    cmocka_unit_test(newton_solves_the_dense_equations),
+    cmocka_unit_test(a_motion_on_a_line_is_that_of_one_tangent),
+    cmocka_unit_test(turned_tangents_change_nothing),
+    cmocka_unit_test(monodromy_is_the_derivative),
+    cmocka_unit_test(series_and_events_agree),
+    cmocka_unit_test(a_slider_that_comes_back_has_travelled),
+    cmocka_unit_test(friction_takes_what_the_loads_give),
+    cmocka_unit_test(a_long_period_hears_the_monitor),
+};
+CHECK_MAIN("timeint.circle", tests, 600)

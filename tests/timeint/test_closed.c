@@ -589,21 +589,17 @@ static void failures_are_reported(CHECK_STATE)
   integrate_free(in);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(scenes_follow_the_oracle),
-      cmocka_unit_test(slip_that_begins_on_a_flat_guard),
-      cmocka_unit_test(random_scenes_follow_cvode),
-      cmocka_unit_test(soft_and_overdamped_scenes_follow_cvode),
-      cmocka_unit_test(measures_are_those_of_the_motion),
-      cmocka_unit_test(ends_at_a_turn),
-      cmocka_unit_test(a_transition_at_the_end_of_the_period),
-      cmocka_unit_test(monodromy_is_that_of_the_period),
-      cmocka_unit_test(every_row_of_the_reference),
-      cmocka_unit_test(rest_stays_at_rest),
-      cmocka_unit_test(failures_are_reported),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("timeint.closed", tests, read_rows, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(scenes_follow_the_oracle),
+    cmocka_unit_test(slip_that_begins_on_a_flat_guard),
+    cmocka_unit_test(random_scenes_follow_cvode),
+    cmocka_unit_test(soft_and_overdamped_scenes_follow_cvode),
+    cmocka_unit_test(measures_are_those_of_the_motion),
+    cmocka_unit_test(ends_at_a_turn),
+    cmocka_unit_test(a_transition_at_the_end_of_the_period),
+    cmocka_unit_test(monodromy_is_that_of_the_period),
+    cmocka_unit_test(every_row_of_the_reference),
+    cmocka_unit_test(rest_stays_at_rest),
+    cmocka_unit_test(failures_are_reported),
+};
+CHECK_MAIN_WITH("timeint.closed", tests, 120, read_rows, NULL)

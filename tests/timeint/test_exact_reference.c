@@ -86,9 +86,5 @@ static void blades(CHECK_STATE)
   both_ways("r2", scene_r2(), 600, 1100);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(paper_scenes), cmocka_unit_test(blades)};
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("timeint.exact_reference", tests, read_rows, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(paper_scenes), cmocka_unit_test(blades)};
+CHECK_MAIN_WITH("timeint.exact_reference", tests, 300, read_rows, NULL)

@@ -117,14 +117,10 @@ static void failures_are_reported(CHECK_STATE)
   assert_null(in);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(linear_period_is_the_closed_form),
-      cmocka_unit_test(watched_period_is_the_same),
-      cmocka_unit_test(a_period_has_no_memory),
-      cmocka_unit_test(failures_are_reported),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("timeint.integrate", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(linear_period_is_the_closed_form),
+    cmocka_unit_test(watched_period_is_the_same),
+    cmocka_unit_test(a_period_has_no_memory),
+    cmocka_unit_test(failures_are_reported),
+};
+CHECK_MAIN("timeint.integrate", tests, 120)

@@ -63,9 +63,5 @@ static void regimes(CHECK_STATE)
   assert_int_equal(measure_seen_regime(SEEN_SEPARATED | SEEN_STUCK), CONTACT_SEPARATES);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(free_vibration), cmocka_unit_test(regimes)};
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("timeint.measure", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(free_vibration), cmocka_unit_test(regimes)};
+CHECK_MAIN("timeint.measure", tests, 60)

@@ -121,14 +121,10 @@ static void not_finite_is_noticed(CHECK_STATE)
   }
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rhs_is_the_printed_equation),
-      cmocka_unit_test(jacobian_is_the_derivative),
-      cmocka_unit_test(scale_drops_out),
-      cmocka_unit_test(not_finite_is_noticed),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("timeint.model", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(rhs_is_the_printed_equation),
+    cmocka_unit_test(jacobian_is_the_derivative),
+    cmocka_unit_test(scale_drops_out),
+    cmocka_unit_test(not_finite_is_noticed),
+};
+CHECK_MAIN("timeint.model", tests, 60)

@@ -122,13 +122,9 @@ static void a_period_with_monodromy_does_not_affect_the_next(CHECK_STATE)
   integrate_free(in);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(monodromy_is_the_difference_of_periods),
-      cmocka_unit_test(stuck_period_is_the_closed_form),
-      cmocka_unit_test(a_period_with_monodromy_does_not_affect_the_next),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("timeint.monodromy", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(monodromy_is_the_difference_of_periods),
+    cmocka_unit_test(stuck_period_is_the_closed_form),
+    cmocka_unit_test(a_period_with_monodromy_does_not_affect_the_next),
+};
+CHECK_MAIN("timeint.monodromy", tests, 120)

@@ -80,10 +80,6 @@ static void integration_is_predicted(CHECK_STATE)
   }
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(regularisation_is_predicted),
-                                     cmocka_unit_test(integration_is_predicted)};
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("timeint.predict", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(regularisation_is_predicted),
+                                          cmocka_unit_test(integration_is_predicted)};
+CHECK_MAIN("timeint.predict", tests, 120)

@@ -79,12 +79,8 @@ static void gap1(void **state)
   both_ways(&sc, REF_GAP1, 3, 30);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a10),     cmocka_unit_test(b10),  cmocka_unit_test(c2),
-      cmocka_unit_test(c2kt1e4), cmocka_unit_test(gap1),
-  };
-  check_watchdog(600);
-  return cmocka_run_group_tests_name("timeint.reference", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a10),     cmocka_unit_test(b10),  cmocka_unit_test(c2),
+    cmocka_unit_test(c2kt1e4), cmocka_unit_test(gap1),
+};
+CHECK_MAIN("timeint.reference", tests, 600)

@@ -111,14 +111,10 @@ static void overstress_is_first_order(CHECK_STATE)
   }
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(slip_is_second_order),
-      cmocka_unit_test(closing_in_stick_is_first_order),
-      cmocka_unit_test(extrapolation_gains_two_orders),
-      cmocka_unit_test(overstress_is_first_order),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("timeint.regularisation", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(slip_is_second_order),
+    cmocka_unit_test(closing_in_stick_is_first_order),
+    cmocka_unit_test(extrapolation_gains_two_orders),
+    cmocka_unit_test(overstress_is_first_order),
+};
+CHECK_MAIN("timeint.regularisation", tests, 120)

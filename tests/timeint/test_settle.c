@@ -159,16 +159,12 @@ static void restart_forgets(CHECK_STATE)
   settle_free(s);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(never_early_never_late),
-      cmocka_unit_test(slow_real_multiplier_is_measured),
-      cmocka_unit_test(noise_is_neither_contraction_nor_doom),
-      cmocka_unit_test(no_limit_is_never_settled),
-      cmocka_unit_test(cycles_are_counted),
-      cmocka_unit_test(restart_forgets),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("timeint.settle", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(never_early_never_late),
+    cmocka_unit_test(slow_real_multiplier_is_measured),
+    cmocka_unit_test(noise_is_neither_contraction_nor_doom),
+    cmocka_unit_test(no_limit_is_never_settled),
+    cmocka_unit_test(cycles_are_counted),
+    cmocka_unit_test(restart_forgets),
+};
+CHECK_MAIN("timeint.settle", tests, 120)

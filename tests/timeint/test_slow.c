@@ -57,10 +57,6 @@ static void distance_is_no_larger_than_closure(CHECK_STATE)
   assert_true(known > 1);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(bent_peak_is_climbed),
-                                     cmocka_unit_test(distance_is_no_larger_than_closure)};
-  check_watchdog(400);
-  return cmocka_run_group_tests_name("timeint.slow", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(bent_peak_is_climbed),
+                                          cmocka_unit_test(distance_is_no_larger_than_closure)};
+CHECK_MAIN("timeint.slow", tests, 400)

@@ -193,13 +193,9 @@ static void stopped_and_refused(CHECK_STATE)
   assert_null(ti);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(without_contacts), cmocka_unit_test(stuck_all_period),    cmocka_unit_test(linear_contacts),
-      cmocka_unit_test(any_scale),        cmocka_unit_test(start_of_any_size),   cmocka_unit_test(without_force),
-      cmocka_unit_test(sub_harmonics),    cmocka_unit_test(stopped_and_refused),
-  };
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("timeint.steady", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(without_contacts), cmocka_unit_test(stuck_all_period),    cmocka_unit_test(linear_contacts),
+    cmocka_unit_test(any_scale),        cmocka_unit_test(start_of_any_size),   cmocka_unit_test(without_force),
+    cmocka_unit_test(sub_harmonics),    cmocka_unit_test(stopped_and_refused),
+};
+CHECK_MAIN("timeint.steady", tests, 300)

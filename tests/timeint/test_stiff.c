@@ -263,12 +263,9 @@ static void events_of_stiff_structures(CHECK_STATE)
   undraw(&d);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(modes_and_series_agree),     cmocka_unit_test(sets_give_way),
-      cmocka_unit_test(a_watch_is_told_the_same),   cmocka_unit_test(proportional_damping_is_told),
-      cmocka_unit_test(events_of_stiff_structures),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(modes_and_series_agree),     cmocka_unit_test(sets_give_way),
+    cmocka_unit_test(a_watch_is_told_the_same),   cmocka_unit_test(proportional_damping_is_told),
+    cmocka_unit_test(events_of_stiff_structures),
+};
+CHECK_MAIN("timeint.stiff", tests, 600)

@@ -484,23 +484,19 @@ static void a_massless_freedom_is_refused(CHECK_STATE)
   model_free(m);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(series_meet_the_reference),
-      cmocka_unit_test(events_meet_the_reference),
-      cmocka_unit_test(regularised_meets_the_reference),
-      cmocka_unit_test(series_and_closed_form_agree),
-      cmocka_unit_test(series_and_events_agree),
-      cmocka_unit_test(monodromy_is_the_derivative),
-      cmocka_unit_test(monodromy_of_many_columns),
-      cmocka_unit_test(newton_solves_the_dense_equations),
-      cmocka_unit_test(regularised_monodromy_is_the_derivative),
-      cmocka_unit_test(jacobian_is_the_derivative),
-      cmocka_unit_test(richardson_is_of_every_response),
-      cmocka_unit_test(other_coordinates_change_nothing),
-      cmocka_unit_test(a_massless_freedom_is_refused),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("timeint.structure", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(series_meet_the_reference),
+    cmocka_unit_test(events_meet_the_reference),
+    cmocka_unit_test(regularised_meets_the_reference),
+    cmocka_unit_test(series_and_closed_form_agree),
+    cmocka_unit_test(series_and_events_agree),
+    cmocka_unit_test(monodromy_is_the_derivative),
+    cmocka_unit_test(monodromy_of_many_columns),
+    cmocka_unit_test(newton_solves_the_dense_equations),
+    cmocka_unit_test(regularised_monodromy_is_the_derivative),
+    cmocka_unit_test(jacobian_is_the_derivative),
+    cmocka_unit_test(richardson_is_of_every_response),
+    cmocka_unit_test(other_coordinates_change_nothing),
+    cmocka_unit_test(a_massless_freedom_is_refused),
+};
+CHECK_MAIN("timeint.structure", tests, 120)

@@ -126,13 +126,9 @@ static void swept_up_to_period_4(CHECK_STATE)
   timeint_free(ti);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(multiplier_passes_minus_one), cmocka_unit_test(period_1_above),
-      cmocka_unit_test(sub_harmonics_of_case_2),     cmocka_unit_test(sub_harmonics_with_a_stiff_contact),
-      cmocka_unit_test(swept_up_to_period_4),
-  };
-  check_watchdog(120);
-  return cmocka_run_group_tests_name("timeint.verdicts", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(multiplier_passes_minus_one), cmocka_unit_test(period_1_above),
+    cmocka_unit_test(sub_harmonics_of_case_2),     cmocka_unit_test(sub_harmonics_with_a_stiff_contact),
+    cmocka_unit_test(swept_up_to_period_4),
+};
+CHECK_MAIN("timeint.verdicts", tests, 120)

@@ -113,11 +113,7 @@ static void mistakes_are_named(CHECK_STATE)
   expect("bench --help", 0, "example");
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(errors_fall_along_each_family),
-                                     cmocka_unit_test(errors_are_of_all_responses),
-                                     cmocka_unit_test(every_method_comes_near), cmocka_unit_test(mistakes_are_named)};
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("bench.command", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(errors_fall_along_each_family), cmocka_unit_test(errors_are_of_all_responses),
+    cmocka_unit_test(every_method_comes_near), cmocka_unit_test(mistakes_are_named)};
+CHECK_MAIN("bench.command", tests, 300)

@@ -139,17 +139,13 @@ static void regularisation_of_case_2_is_of_first_order(CHECK_STATE)
   comparison_clear(&c);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(powers_have_their_exponent),
-      cmocka_unit_test(luck_is_no_order),
-      cmocka_unit_test(a_plateau_is_left_out),
-      cmocka_unit_test(too_little_says_nothing),
-      cmocka_unit_test(aliasing_of_case_2_is_of_first_or_second_order),
-      cmocka_unit_test(truncation_of_case_2_is_of_third_order_or_more),
-      cmocka_unit_test(regularisation_of_case_2_is_of_first_order),
-  };
-  check_watchdog(240);
-  return cmocka_run_group_tests_name("compare.budget_orders", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(powers_have_their_exponent),
+    cmocka_unit_test(luck_is_no_order),
+    cmocka_unit_test(a_plateau_is_left_out),
+    cmocka_unit_test(too_little_says_nothing),
+    cmocka_unit_test(aliasing_of_case_2_is_of_first_or_second_order),
+    cmocka_unit_test(truncation_of_case_2_is_of_third_order_or_more),
+    cmocka_unit_test(regularisation_of_case_2_is_of_first_order),
+};
+CHECK_MAIN("compare.budget_orders", tests, 240)

@@ -246,19 +246,15 @@ static int remove_folder(void **state)
   return shell(line).code;
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(passes_then_fails_when_the_result_gets_worse),
-      cmocka_unit_test(unstable_solutions_are_held_against_their_orbits),
-      cmocka_unit_test(every_response_of_a_structure_is_held_to_its_limits),
-      cmocka_unit_test(limits_are_those_of_the_case),
-      cmocka_unit_test(wrong_limits_are_named_before_anything_runs),
-      cmocka_unit_test(a_wrong_case_file_is_in_the_junit),
-      cmocka_unit_test(several_cases_are_several_suites),
-      cmocka_unit_test(what_cannot_be_compared_is_an_error),
-      cmocka_unit_test(junit_is_written_whole_or_not_at_all),
-  };
-  check_watchdog(600);
-  return cmocka_run_group_tests_name("gate.command", tests, make_folder, remove_folder);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(passes_then_fails_when_the_result_gets_worse),
+    cmocka_unit_test(unstable_solutions_are_held_against_their_orbits),
+    cmocka_unit_test(every_response_of_a_structure_is_held_to_its_limits),
+    cmocka_unit_test(limits_are_those_of_the_case),
+    cmocka_unit_test(wrong_limits_are_named_before_anything_runs),
+    cmocka_unit_test(a_wrong_case_file_is_in_the_junit),
+    cmocka_unit_test(several_cases_are_several_suites),
+    cmocka_unit_test(what_cannot_be_compared_is_an_error),
+    cmocka_unit_test(junit_is_written_whole_or_not_at_all),
+};
+CHECK_MAIN_WITH("gate.command", tests, 600, make_folder, remove_folder)

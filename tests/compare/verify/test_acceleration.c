@@ -80,14 +80,10 @@ static void friction_reaches_its_limit(CHECK_STATE)
   model_free(m);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(without_contact),
-      cmocka_unit_test(unilateral_spring_has_its_kink),
-      cmocka_unit_test(a_slider_restarts_at_the_touch),
-      cmocka_unit_test(friction_reaches_its_limit),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("verify.acceleration", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(without_contact),
+    cmocka_unit_test(unilateral_spring_has_its_kink),
+    cmocka_unit_test(a_slider_restarts_at_the_touch),
+    cmocka_unit_test(friction_reaches_its_limit),
+};
+CHECK_MAIN("verify.acceleration", tests, 60)

@@ -82,15 +82,11 @@ static void what_cannot_be_judged_is_said(CHECK_STATE)
       3, "solver_failed");
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_shipped_example_is_named),
-      cmocka_unit_test(our_own_curve_matches),
-      cmocka_unit_test(mistakes_are_named),
-      cmocka_unit_test(a_free_mean_is_skipped),
-      cmocka_unit_test(what_cannot_be_judged_is_said),
-  };
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("verify.command", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_shipped_example_is_named),
+    cmocka_unit_test(our_own_curve_matches),
+    cmocka_unit_test(mistakes_are_named),
+    cmocka_unit_test(a_free_mean_is_skipped),
+    cmocka_unit_test(what_cannot_be_judged_is_said),
+};
+CHECK_MAIN("verify.command", tests, 300)

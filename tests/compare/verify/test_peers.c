@@ -109,15 +109,11 @@ static void laws_of_two_tangents_are_told_apart(CHECK_STATE)
   JUDGED(list);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(right_curves_match),
-      cmocka_unit_test(wrong_curves_are_named),
-      cmocka_unit_test(wandered_curves_are_judged),
-      cmocka_unit_test(structures_are_judged),
-      cmocka_unit_test(laws_of_two_tangents_are_told_apart),
-  };
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("verify.peers", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(right_curves_match),
+    cmocka_unit_test(wrong_curves_are_named),
+    cmocka_unit_test(wandered_curves_are_judged),
+    cmocka_unit_test(structures_are_judged),
+    cmocka_unit_test(laws_of_two_tangents_are_told_apart),
+};
+CHECK_MAIN("verify.peers", tests, 300)

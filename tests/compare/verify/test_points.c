@@ -158,17 +158,13 @@ static void the_order_of_the_points_does_not_matter(CHECK_STATE)
   verify_data_clear(&shuffled);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(noise_is_named_and_estimated),
-      cmocka_unit_test(noise_that_is_said_is_allowed),
-      cmocka_unit_test(noise_does_not_hide_an_offset),
-      cmocka_unit_test(outliers_are_named),
-      cmocka_unit_test(a_little_off_is_no_outlier),
-      cmocka_unit_test(nothing_but_unstable_points_fail),
-      cmocka_unit_test(the_order_of_the_points_does_not_matter),
-  };
-  check_watchdog(300);
-  return cmocka_run_group_tests_name("verify.points", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(noise_is_named_and_estimated),
+    cmocka_unit_test(noise_that_is_said_is_allowed),
+    cmocka_unit_test(noise_does_not_hide_an_offset),
+    cmocka_unit_test(outliers_are_named),
+    cmocka_unit_test(a_little_off_is_no_outlier),
+    cmocka_unit_test(nothing_but_unstable_points_fail),
+    cmocka_unit_test(the_order_of_the_points_does_not_matter),
+};
+CHECK_MAIN("verify.points", tests, 300)

@@ -324,21 +324,17 @@ static void what_is_left_decides_a_fit(CHECK_STATE)
   assert_false(verify_fits(&r));
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_left_decides_a_fit),
-      cmocka_unit_test(files_as_people_have_them),
-      cmocka_unit_test(plain_names_need_no_columns),
-      cmocka_unit_test(ambiguous_names_need_columns),
-      cmocka_unit_test(decibels_become_numbers),
-      cmocka_unit_test(quantities_by_hand),
-      cmocka_unit_test(cycles_become_radians),
-      cmocka_unit_test(mistakes_have_a_place),
-      cmocka_unit_test(limits_hold),
-      cmocka_unit_test(no_such_file),
-      cmocka_unit_test(columns_say_what_they_mean),
-  };
-  check_watchdog(60);
-  return cmocka_run_group_tests_name("verify.reader", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(what_is_left_decides_a_fit),
+    cmocka_unit_test(files_as_people_have_them),
+    cmocka_unit_test(plain_names_need_no_columns),
+    cmocka_unit_test(ambiguous_names_need_columns),
+    cmocka_unit_test(decibels_become_numbers),
+    cmocka_unit_test(quantities_by_hand),
+    cmocka_unit_test(cycles_become_radians),
+    cmocka_unit_test(mistakes_have_a_place),
+    cmocka_unit_test(limits_hold),
+    cmocka_unit_test(no_such_file),
+    cmocka_unit_test(columns_say_what_they_mean),
+};
+CHECK_MAIN("verify.reader", tests, 60)

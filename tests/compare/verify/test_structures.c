@@ -200,13 +200,9 @@ static int make_folder(CHECK_STATE) { return mkdtemp(folder) ? 0 : -1; }
 
 static int remove_folder(CHECK_STATE) { return shell("rm -r %s", folder); }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_response_is_judged),           cmocka_unit_test(mistakes_of_structures_are_named),
-      cmocka_unit_test(another_degree_of_freedom_is_named), cmocka_unit_test(a_load_elsewhere_is_named),
-      cmocka_unit_test(a_missing_tangent_is_named),         cmocka_unit_test(what_history_decides_is_said),
-  };
-  check_watchdog(600);
-  return cmocka_run_group_tests_name("verify.structures", tests, make_folder, remove_folder);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_response_is_judged),           cmocka_unit_test(mistakes_of_structures_are_named),
+    cmocka_unit_test(another_degree_of_freedom_is_named), cmocka_unit_test(a_load_elsewhere_is_named),
+    cmocka_unit_test(a_missing_tangent_is_named),         cmocka_unit_test(what_history_decides_is_said),
+};
+CHECK_MAIN_WITH("verify.structures", tests, 600, make_folder, remove_folder)
