@@ -3,25 +3,14 @@
 #include "tests/check.h"
 
 #include <complex.h>
-#include <float.h>
 #include <string.h>
 
 #include "base/constants.h"
 #include "model/linear.h"
 #include "tests/random.h"
-#include "tests/scene_parts.h"
+#include "tests/timeint/exact_periods.h"
 #include "tests/timeint/oracle.h"
-#include "tests/timeint/scenes.h"
-#include "timeint/period/integrate.h"
 #include "timeint/period/measure.h"
-
-static scaled_model exact_model(scene sc, double omega, double length)
-{
-  sc.transient.law = TRANSIENT_LAW_EXACT;
-  scaled_model m;
-  scene_scaled(&m, &sc, omega, length);
-  return m;
-}
 
 static integrator *closed_of(const scaled_model *m)
 {
@@ -35,27 +24,6 @@ static integrator *cvode_of(const scaled_model *m)
   integrator *in;
   assert_int_equal(integrate_new_events(m->base, 1e-13, &in), HC_OK);
   return in;
-}
-
-static void run(integrator *in, const scaled_model *m, double *y, int periods)
-{
-  for (int i = 0; i < periods; ++i) assert_int_equal(integrate_period(in, m, y, NULL, NULL), HC_OK);
-}
-
-static scene one(double force, double kt, double kn, double mu, double gap, double angle)
-{
-  scene sc = scene_linear(1, 0.4, 40, force);
-  scene_add(&sc, kt, kn, mu, gap, angle);
-  return sc;
-}
-
-static scene three_contacts(void)
-{
-  scene sc = scene_linear(1, 0.4, 40, 60);
-  scene_add(&sc, 100, 200, 0.3, -0.5, 45);
-  scene_add(&sc, 80, 50, 0.5, 1.2, 20);
-  scene_add(&sc, 300, 400, 0.1, -2, 70);
-  return sc;
 }
 
 /* From rest (w = 0: stuck if touching). The oracle adds up the roundings of 4000 small steps and leaves a slip's limit
@@ -362,75 +330,6 @@ static void a_transition_at_the_end_of_the_period(CHECK_STATE)
   integrate_free(in);
 }
 
-/* d y(2 pi)/d y_q(0) by central differences with Richardson's h^4: roundings of a period, some 100 of size, over h;
- * truncation as in test_integrate_exact.c. A slider tied to X moves with it. */
-static void check_monodromy(const char *what, scene sc, double omega, double length, const double *start, int periods,
-                            bool no_slip)
-{
-  scaled_model m = exact_model(sc, omega, length);
-  const int n = m.n_states;
-  const double h = 1e-4;
-  double y[SCENE_MAX_STATES] = {0}, end[SCENE_MAX_STATES], monodromy[SCENE_MAX_STATES * SCENE_MAX_STATES], size = 1;
-  double plain[SCENE_MAX_STATES];
-  if (start) memcpy(y, start, sizeof *y * (size_t)n);
-  integrator *in = closed_of(&m);
-  run(in, &m, y, periods);
-  memcpy(end, y, sizeof end);
-  memcpy(plain, y, sizeof plain);
-  assert_int_equal(integrate_monodromy(in, &m, end, monodromy), HC_OK);
-  run(in, &m, plain, 1);
-  for (int i = 0; i < n; ++i) CHECK_NEAR(end[i], plain[i], 0, "the same period");
-  for (int i = 0; i < n * n; ++i) size = fmax(size, fabs(monodromy[i]));
-  for (int q = 0; q < n; ++q) {
-    double column = 0, diff[SCENE_MAX_STATES] = {0};
-    for (int i = 0; i < n; ++i) column += fabs(monodromy[i + q * n]);
-    if (q >= SCALED_W && column == 0) continue;
-    const double smooth[] = {-1 / 12.0, 8 / 12.0, -8 / 12.0, 1 / 12.0}, kinked[] = {-1 / 4.0, 1, -1, 1 / 4.0};
-    const double *weight = q < SCALED_W ? smooth : kinked, truncation = q < SCALED_W ? 1e3 * pow(h, 4) : 1e2 * h * h;
-    for (int k = 0; k < 4; ++k) {
-      const double by = (k < 2 ? 2 - k : 1 - k) * h; /* 2, 1, -1, -2 */
-      double z[SCENE_MAX_STATES];
-      memcpy(z, y, sizeof z);
-      z[q] += by;
-      for (int j = 0; j < m.n_contacts; ++j) {
-        double own = 0;
-        for (int i = 0; i < n; ++i) own += fabs(monodromy[i + (SCALED_W + j) * n]);
-        const scaled_contact *c = &m.contact[j];
-        const double g = scene_sine(&m, c) * y[0] + c->law.gap,
-                     t = c->law.kt * (scene_cosine(&m, c) * y[0] - y[SCALED_W + j]);
-        const double s = g > 0 && c->law.has_friction ? (t > 0 ? 1 : -1) : 0;
-        if (own == 0 && q == SCALED_X)
-          z[SCALED_W + j] +=
-              (scene_cosine(&m, c) - (s != 0 ? s * c->law.mu * c->law.kn * scene_sine(&m, c) / c->law.kt : 0)) * by;
-      }
-      run(in, &m, z, 1);
-      for (int i = 0; i < n; ++i) diff[i] += weight[k] * z[i] / h;
-    }
-    for (int i = 0; i < n; ++i)
-      CHECK_NEAR(monodromy[i + q * n], diff[i], size * (100 * DBL_EPSILON / h + truncation), "%s: d y%d / d y%d", what,
-                 i, q);
-  }
-  if (no_slip) { /* volume shrinks by the damping alone, in every phase without slip */
-    double det = monodromy[0] * monodromy[1 + n] - monodromy[1] * monodromy[n],
-           damping = exp(-sc.damping / sc.mass * 2 * PI / omega);
-    CHECK_NEAR(det, damping, 64 * DBL_EPSILON * size * size, "%s: determinant", what);
-  }
-  integrate_free(in);
-}
-
-static void monodromy_is_that_of_the_period(CHECK_STATE)
-{
-  const double high[] = {23 / 24.0, 0, 0.6};
-  check_monodromy("c2", scene_c2(), 9, 24, high, 100, true);
-  check_monodromy("c2", scene_c2(), 7, 10, NULL, 100, true);
-  check_monodromy("b10", scene_b10(), 7, 1, NULL, 100, false);
-  check_monodromy("a10", scene_a10(), 13, 0.7, NULL, 100, false);
-  const double r2[] = {0.0724587530 / 0.299294926, 205.420778 / 708.5 / 0.299294926, 0.05123607 / 0.299294926};
-  check_monodromy("r2", scene_r2(), 708.5, 0.299294926, r2, 2, false);
-  check_monodromy("gap1, stuck", scene_gap1(), 7, 1, NULL, 50, true);
-  for (int i = 1; i < 6; ++i) check_monodromy("three", three_contacts(), 6 + 0.3 * i, 2, NULL, 10 * i, false);
-}
-
 typedef struct row {
   char name[16], sweep[8], digits[4][32];
   double omega, amplitude, harmonic_1, mean;
@@ -587,6 +486,12 @@ static void failures_are_reported(CHECK_STATE)
   double y[SCENE_MAX_STATES] = {0};
   assert_int_equal(integrate_period(in, &other, y, NULL, NULL), HC_BUG);
   integrate_free(in);
+}
+
+static void monodromy_is_that_of_the_period(CHECK_STATE)
+{
+  const exact_way way = {closed_of, 100 * DBL_EPSILON}; /* roundings of a period */
+  check_monodromies(&way);
 }
 
 static const struct CMUnitTest tests[] = {
