@@ -14,11 +14,12 @@
 
 enum { MATRIX_MOST_ROWS = 4000 }; /* a matrix is kept dense: 128 MB */
 
-/* (*values)[n][n], n = *rows, by columns and to free in any case, from the file at `path`: of several matrices in it the
- * one that `part` names ("MASS", "STIFFNESS", "VISCOUSDAMPING"; NULL: the first). It must have `expected` rows unless
- * expected = 0. (*labels)[n], to free in any case, or NULL where there are none; labels may be NULL. HC_BAD_INPUT with
- * "PATH:LINE:COLUMN: what is wrong, what was expected" in m; HC_IO where there is no such file or none that can be read,
- * with the words for it alone ("cannot be opened: ..."), which are the caller's to place; HC_NO_MEMORY. */
+/* (*values)[n][n], n = *rows, by columns and to free in any case, from the file at `path`: of several matrices in it
+ * the one that `part` names ("MASS", "STIFFNESS", "VISCOUSDAMPING"; NULL: the first). It must have `expected` rows
+ * unless expected = 0. (*labels)[n], to free in any case, or NULL where there are none; labels may be NULL.
+ * HC_BAD_INPUT with "PATH:LINE:COLUMN: what is wrong, what was expected" in m; HC_IO where there is no such file or
+ * none that can be read, with the words for it alone ("cannot be opened: ..."), which are the caller's to place;
+ * HC_NO_MEMORY. */
 hc_status matrix_file_read(const char *path, const char *part, int expected, int *rows, double **values,
                            matrix_label **labels, message *m);
 

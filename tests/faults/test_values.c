@@ -1,7 +1,7 @@
-/* test_values.c - NaN and infinity at the n-th evaluation of the contact forces (hbm/forces/contact_forces.c) or of the
- * right-hand side of the regularised law (timeint/law/scaled.c), with the status of a good evaluation or the one it owes:
- * no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers, bit for
- * bit. */
+/* test_values.c - NaN and infinity at the n-th evaluation of the contact forces (hbm/forces/contact_forces.c) or of
+ * the right-hand side of the regularised law (timeint/law/scaled.c), with the status of a good evaluation or the one
+ * it owes: no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers,
+ * bit for bit. */
 #include "hbm/forces/contact_forces.h"
 #include "hbm/hbm.h"
 #include "study/scene_solvers.h"

@@ -87,50 +87,6 @@ static void linear_sweeps(CHECK_STATE)
  * or the steepness near a fold, 10 or so where rows are listed: 3e-5 of the amplitude. 1e-4 is held; found is 5e-6. */
 static const double SAMPLED = 1e-4;
 
-/* Rows of one curve, as one frequency after the other; in the order of the curve, reversed or not, one solution for
- * each row. */
-static int check_rows(const traced *t, const char *name, int n_harm, int keep_mean, bool reversed)
-{
-  int checked = 0;
-  for (int i = 0; i < n_rows; ++i) {
-    const reference_row *r = &rows[i];
-    if (strcmp(r->name, name) || r->n_harm != n_harm || r->keep_mean != keep_mean) continue;
-    int before = 0, all = 0; /* rows at this omega before this one, and in all */
-    for (int j = 0; j < n_rows; ++j) {
-      bool same = !strcmp(rows[j].name, name) && rows[j].n_harm == n_harm && rows[j].keep_mean == keep_mean &&
-                  rows[j].omega == r->omega;
-      all += same;
-      before += same && j < i;
-    }
-    hbm_curve at = {0};
-    hbm_measures m;
-    hc_status st = hbm_curve_at(t->s, &t->curve, r->omega, &at);
-    if (st != HC_OK || at.n != all)
-      fail_msg("%s H=%d static=%d: %d solutions at %g, not %d; %s", name, n_harm, keep_mean, at.n, r->omega, all,
-               hc_status_text(st));
-    int k = reversed ? all - 1 - before : before;
-    assert_int_equal(hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &m), HC_OK);
-    double tol = SAMPLED * r->amplitude;
-    CHECK_NEAR(m.amplitude, r->amplitude, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean,
-               r->omega, r->branch);
-    CHECK_NEAR(m.max, r->max, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega,
-               r->branch);
-    CHECK_NEAR(m.min, r->min, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega,
-               r->branch);
-    CHECK_NEAR(m.mean, r->mean, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean, r->omega,
-               r->branch);
-    CHECK_NEAR(m.harmonic_1, r->harmonic_1, tol, "%s H=%d static=%d omega=%g branch %d", name, n_harm, keep_mean,
-               r->omega, r->branch);
-    /* Sampling may add false turning points (test_paper.c), but in pairs: rising stays rising. */
-    if ((at.points[k].branch - (reversed ? t->curve.turning_points : 0) - r->branch) % 2)
-      fail_msg("%s H=%d static=%d omega=%g: branch %d, not %d", name, n_harm, keep_mean, r->omega, at.points[k].branch,
-               r->branch);
-    hbm_curve_free(&at);
-    ++checked;
-  }
-  return checked;
-}
-
 /* The reference peaks are good to 1e-6, their omega to 1e-3; a flat top hides the error of omega. */
 static int check_peak(const traced *t, const char *name, int n_harm, int keep_mean)
 {
@@ -168,7 +124,7 @@ static void reference_rows_and_peaks(CHECK_STATE)
         traced t = trace(&sc, r->omega_from, r->omega_to, r->name);
         if (t.status != HC_OK || t.curve.left_at_start)
           fail_msg("%s H=%d static=%d: %s", r->name, orders[o], keep_mean, hc_status_text(t.status));
-        n_checked += check_rows(&t, r->name, orders[o], keep_mean, false);
+        n_checked += check_rows(n_rows, rows, &t, r->name, orders[o], keep_mean, false, SAMPLED, true);
         if (!(hard && !keep_mean)) n_tops += check_peak(&t, r->name, orders[o], keep_mean);
         free_traced(&t);
       }
@@ -188,7 +144,7 @@ static void from_the_other_end(CHECK_STATE)
         if (t.status != HC_OK || t.curve.left_at_start)
           fail_msg("%s H=%d static=%d, downwards: %s%s", names[i], n_harm, keep_mean, hc_status_text(t.status),
                    t.curve.left_at_start ? ", turned back" : "");
-        assert_true(check_rows(&t, names[i], n_harm, keep_mean, true) > 8);
+        assert_true(check_rows(n_rows, rows, &t, names[i], n_harm, keep_mean, true, SAMPLED, true) > 8);
         free_traced(&t);
       }
 }
@@ -206,7 +162,7 @@ static void arclength_only(CHECK_STATE)
     for (int j = 0; j < n_rows; ++j)
       listed += !strcmp(rows[j].name, names[i]) && rows[j].n_harm == 5 && rows[j].keep_mean;
     assert_true(listed >= 7); /* reference frequencies of a scene, test_exact_reference.c */
-    assert_int_equal(check_rows(&t, names[i], 5, true, false), listed);
+    assert_int_equal(check_rows(n_rows, rows, &t, names[i], 5, true, false, SAMPLED, true), listed);
     free_traced(&t);
   }
 }

@@ -70,6 +70,46 @@ static inline void free_traced(traced *t)
   hbm_solver_free(t->s);
 }
 
+/* The rows[n] of one curve, as one frequency after the other, to `tol` of the amplitude; in the order of the curve,
+ * reversed or not, one solution for each row. Sampling may add false turning points (test_paper.c), but in pairs:
+ * rising stays rising. Returns how many. */
+static inline int check_rows(int n, const reference_row *rows, const traced *t, const char *name, int n_harm,
+                             int keep_mean, bool reversed, double tol, bool sampled)
+{
+  int checked = 0;
+  for (int i = 0; i < n; ++i) {
+    const reference_row *r = &rows[i];
+    if (strcmp(r->name, name) || r->n_harm != n_harm || r->keep_mean != keep_mean) continue;
+    int before = 0, all = 0; /* rows at this omega before this one, and in all */
+    for (int j = 0; j < n; ++j) {
+      bool same = !strcmp(rows[j].name, name) && rows[j].n_harm == n_harm && rows[j].keep_mean == keep_mean &&
+                  rows[j].omega == r->omega;
+      all += same;
+      before += same && j < i;
+    }
+    hbm_curve at = {0};
+    hbm_measures m;
+    hc_status st = hbm_curve_at(t->s, &t->curve, r->omega, &at);
+    if (st != HC_OK || at.n != all)
+      fail_msg("%s H=%d static=%d: %d solutions at %g, not %d; %s", name, n_harm, keep_mean, at.n, r->omega, all,
+               hc_status_text(st));
+    int k = reversed ? all - 1 - before : before;
+    assert_int_equal(hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &m), HC_OK);
+    const double got[] = {m.amplitude, m.max, m.min, m.harmonic_1, m.mean},
+                 expected[] = {r->amplitude, r->max, r->min, r->harmonic_1, r->mean};
+    static const char *const what[] = {"amplitude", "max", "min", "harmonic_1", "mean"};
+    for (int q = 0; q < 5; ++q)
+      CHECK_NEAR(got[q], expected[q], tol * r->amplitude, "%s of %s H=%d static=%d omega=%g branch %d", what[q], name,
+                 n_harm, keep_mean, r->omega, r->branch);
+    const int branch = reversed ? t->curve.turning_points - at.points[k].branch : at.points[k].branch;
+    if (sampled ? (branch - r->branch) % 2 : branch != r->branch)
+      fail_msg("%s H=%d static=%d omega=%g: branch %d, not %d", name, n_harm, keep_mean, r->omega, branch, r->branch);
+    hbm_curve_free(&at);
+    ++checked;
+  }
+  return checked;
+}
+
 /* x = F0/(k - M w^2 + i C w), X_1 = Re x, X_2 = -Im x, nothing else. A residual of some eps of the forces (k + M w^2
  * + C w)|x| is amplified by the inverse of z = |k - M w^2 + i C w|: at most 8 eps (4 for the residual, 2 for the
  * polishing solve, and room), and the FFT's 2 log2 N eps of k |x|. Higher harmonics h likewise, with z_h, which is

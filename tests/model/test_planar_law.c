@@ -1,5 +1,5 @@
-/* test_planar_law.c - the law of two tangents: its branches, the one-dimensional law along any line, and what no rotation
- * of the tangents changes. */
+/* test_planar_law.c - the law of two tangents: its branches, the one-dimensional law along any line, and what no
+ * rotation of the tangents changes. */
 #include <float.h>
 
 #include "model/contact_law.h"
@@ -83,16 +83,12 @@ static void not_a_number_is_no_stick(CHECK_STATE)
   assert_true(isnan(T[0]) && isnan(w[0]));
 }
 
-int main(void)
-{
-  check_watchdog(30);
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(separated_lets_go_and_follows),
-      cmocka_unit_test(stick_is_a_spring_to_the_slider),
-      cmocka_unit_test(slip_returns_radially_and_drags_the_slider),
-      cmocka_unit_test(along_a_line_it_is_the_law_of_one_tangent),
-      cmocka_unit_test(nothing_depends_on_the_tangents_or_on_the_half),
-      cmocka_unit_test(not_a_number_is_no_stick),
-  };
-  return cmocka_run_group_tests_name("model.planar_law", tests, NULL, NULL);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(separated_lets_go_and_follows),
+    cmocka_unit_test(stick_is_a_spring_to_the_slider),
+    cmocka_unit_test(slip_returns_radially_and_drags_the_slider),
+    cmocka_unit_test(along_a_line_it_is_the_law_of_one_tangent),
+    cmocka_unit_test(nothing_depends_on_the_tangents_or_on_the_half),
+    cmocka_unit_test(not_a_number_is_no_stick),
+};
+CHECK_MAIN("model.planar_law", tests, 30)

@@ -229,9 +229,5 @@ static void together_as_alone(CHECK_STATE)
   free(w);
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(together_as_alone)};
-  check_watchdog(300); /* the thread sanitizer takes ten times as long */
-  return cmocka_run_group_tests_name("threads.own_handles", tests, run_alone, NULL);
-}
+static const struct CMUnitTest tests[] = {cmocka_unit_test(together_as_alone)};
+CHECK_MAIN_WITH("threads.own_handles", tests, 300, run_alone, NULL) /* the thread sanitizer takes ten times as long */
