@@ -88,11 +88,9 @@ static int stress_make_folder(const cli_common *common, const char *findings)
 }
 
 static const char help[] =
-    "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and hold "
-    "each against every other. Every "
-    "check ends as agreed, explained (by a reason that was computed, too), too dear, refused (a solver said "
-    "why) or a finding: "
-    "two methods differ and nothing explains it."
+    "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and compare "
+    "each with every other. Every check ends as agreed, explained (by a reason that was computed, too), too_dear (see "
+    "--seconds), refused (a solver said why) or a finding: two methods differ and nothing explains it."
     "\vSeed and index make a scene again: --first INDEX --scenes 1 --all runs it alone, --case prints its case file. "
     "With --results the same command goes "
     "on where it was stopped.\n"
@@ -123,7 +121,7 @@ static const cli_option options[] = {
      offsetof(stress_options, findings)},
     {CLI_TEXT, "results", "FILE", "Keep results in FILE as they come, and go on from what is there",
      offsetof(stress_options, plan.journal), .file = "--results", .use = CLI_RESULTS},
-    {CLI_POSITIVE, "seconds", "S", "Processor time for one check before it is given up as too dear [1]",
+    {CLI_POSITIVE, "seconds", "S", "Processor time for one check, which beyond it is given up as too_dear [1]",
      offsetof(stress_options, plan.seconds)},
     {CLI_INTEGER, "jobs", "N", "Scenes at once [one a processor]", offsetof(stress_options, plan.jobs), 1,
      CLI_MAX_JOBS},

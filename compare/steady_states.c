@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growing.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
 #include "compare/response.h"
@@ -39,13 +40,9 @@ typedef struct workspace {
 
 static hc_status add_row(steady_states *s, const steady_row *row)
 {
-  if (s->n == s->cap) {
-    int cap = s->cap ? 2 * s->cap : 16;
-    steady_row *rows = realloc(s->rows, (size_t)cap * sizeof *rows);
-    if (!rows) return HC_NO_MEMORY;
-    s->rows = rows;
-    s->cap = cap;
-  }
+  steady_row *grown = growing(s->rows, s->n, sizeof *grown);
+  if (!grown) return HC_NO_MEMORY;
+  s->rows = grown;
   s->rows[s->n++] = *row;
   return HC_OK;
 }

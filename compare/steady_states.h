@@ -34,7 +34,7 @@ typedef struct steady_contact {
 } steady_contact;
 
 typedef struct steady_states {
-  int n, cap;
+  int n;
   steady_row *rows;
   int n_contacts, contacts_cap;
   steady_contact *contacts; /* with setup.contacts: every contact of every state that was measured, in that order */

@@ -47,7 +47,8 @@
     "all loads later, half a period or any other time: the same solution, later")                                      \
   X(STRESS_OTHER_TANGENTS, "turned_tangents", stress_check_other_tangents,                                             \
     "a circle's two tangents turned: the same solution and multiplier")                                                \
-  X(STRESS_SAMPLED, "sampled", stress_check_sampled, "HBM with ever more samples tends to HBM with exact forces")      \
+  X(STRESS_SAMPLED, "sampled", stress_check_sampled,                                                                   \
+    "HBM with N samples balances at these N instants, and with ever more tends to HBM with exact forces")              \
   X(STRESS_CURVE, "curve", stress_check_curve, "the response curve through it has that solution, and no false one")    \
   X(STRESS_ORBIT, "orbit", stress_check_orbit, "HBM with more and more harmonics tends to the orbit of the exact law") \
   X(STRESS_MULTIPLIER, "orbit_multiplier", stress_check_multiplier,                                                    \

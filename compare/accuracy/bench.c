@@ -7,10 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growing.h"
 #include "compare/accuracy/reference.h"
 #include "compare/accuracy/scipy.h"
 
-enum { MOST_SETTINGS = 8, MOST_ROWS = 128, FEWEST = 3 };
+enum { MOST_SETTINGS = 8, FEWEST = 3 };
 static const double enough = 0.25; /* [s] a row measured FEWEST times and for as long is repeated no more */
 
 /* A method's settings: every a with every b. a: harmonics or regularisation, b: samples or tolerance; 0 is none. */
@@ -87,13 +88,9 @@ static bool bench_tick(void *self, double done)
 
 static hc_status add_row(bench *b, const bench_row *row)
 {
-  if (b->n_rows == b->cap) {
-    int cap = b->cap ? 2 * b->cap : MOST_ROWS;
-    bench_row *rows = realloc(b->rows, (size_t)cap * sizeof *rows);
-    if (!rows) return HC_NO_MEMORY;
-    b->rows = rows;
-    b->cap = cap;
-  }
+  bench_row *grown = growing(b->rows, b->n_rows, sizeof *grown);
+  if (!grown) return HC_NO_MEMORY;
+  b->rows = grown;
   b->rows[b->n_rows++] = *row;
   return HC_OK;
 }

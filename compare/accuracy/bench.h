@@ -73,7 +73,7 @@ typedef struct bench_frequency {
 } bench_frequency;
 
 typedef struct bench {
-  int n_rows, cap, n_frequencies;
+  int n_rows, n_frequencies;
   bench_row *rows;
   bench_frequency frequencies[NUMBER_LIST_MAX];
 } bench;

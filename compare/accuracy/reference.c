@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growing.h"
 #include "compare/response.h"
 #include "model/modes.h"
 #include "numerics/roots.h"
@@ -18,13 +19,9 @@ static const double reusable = 0.01; /* [amplitude] an orbit within this of a so
 
 static hc_status add_target(reference *r, double omega, const periodic_motion *orbit)
 {
-  if (r->n == r->cap) {
-    int cap = r->cap ? 2 * r->cap : 16;
-    target *targets = realloc(r->targets, (size_t)cap * sizeof *targets);
-    if (!targets) return HC_NO_MEMORY;
-    r->targets = targets;
-    r->cap = cap;
-  }
+  target *grown = growing(r->targets, r->n, sizeof *grown);
+  if (!grown) return HC_NO_MEMORY;
+  r->targets = grown;
   r->targets[r->n++] = (target){omega, *orbit};
   return HC_OK;
 }

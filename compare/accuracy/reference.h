@@ -13,7 +13,7 @@ typedef struct target {
 } target;
 
 typedef struct reference {
-  int n, cap;
+  int n;
   target *targets; /* [n] by frequency */
   int harmonics;   /* of the curve they were looked for from */
   bool peak_by_orbit;

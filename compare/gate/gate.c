@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/growing.h"
 #include "base/number.h"
 #include "base/utf8.h"
 #include "compare/gate_limits.h"
@@ -48,14 +49,10 @@ typedef struct judge {
 static void add(judge *j, const gate_check *check)
 {
   gate_case *g = j->out;
-  if (g->n == g->cap) {
-    int cap = g->cap ? 2 * g->cap : 64;
-    gate_check *checks = realloc(g->checks, (size_t)cap * sizeof *checks);
-    if (!checks) j->st = HC_NO_MEMORY;
-    if (!checks) return;
-    g->checks = checks;
-    g->cap = cap;
-  }
+  gate_check *grown = growing(g->checks, g->n, sizeof *grown);
+  if (!grown) j->st = HC_NO_MEMORY;
+  if (!grown) return;
+  g->checks = grown;
   g->checks[g->n++] = *check;
   g->failures += check->result == GATE_FAIL;
   g->errors += check->result == GATE_ERROR;

@@ -51,7 +51,7 @@ typedef struct gate_check {
 typedef struct gate_case {
   const char *name;                       /* the caller's: of the case file */
   const char (*responses)[RESPONSE_NAME]; /* the caller's, NULL until it sets them: names of a structure's responses */
-  int n, cap;
+  int n;
   gate_check *checks; /* [n] in the order of the comparison's rows, the curve last */
   int failures, errors, not_applicable;
   int n_rows;     /* of the comparison */

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growing.h"
 #include "hbm/curve/segment.h"
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
@@ -48,8 +49,8 @@ typedef struct detector {
   const hbm_curve *c;
   hbm_candidate x;    /* the solution on a segment that was evaluated last */
   hbm_narrowing near; /* of a contact change */
-  int n, cap, first;  /* of found; `first` is the first one of the current segment */
-  found_point *found; /* [cap] */
+  int n, first;       /* of found; `first` is the first one of the current segment */
+  found_point *found; /* [n] */
 } detector;
 
 bool hbm_specials_follow_each(const hbm_solver *s) { return s->model->n_contacts <= MOST_CONTACTS_FOLLOWED; }
@@ -81,24 +82,15 @@ static bool same_pattern(const test_values *a, const test_values *b)
   return a->regime == b->regime && a->transitions == b->transitions;
 }
 
-static hc_status need_capacity(detector *d)
-{
-  if (d->n < d->cap) return HC_OK;
-  const int cap = d->cap ? 2 * d->cap : 32;
-  found_point *grown = realloc(d->found, (size_t)cap * sizeof *grown);
-  if (!grown) return HC_NO_MEMORY;
-  d->found = grown;
-  d->cap = cap;
-  return HC_OK;
-}
-
 /* The solution in d->x, at sigma, behind those of this segment that come before it. */
 static hc_status insert_special(detector *d, double sigma, hbm_special_kind kind, const test_values *before,
                                 const test_values *after)
 {
   hbm_measures m;
-  hc_status st = need_capacity(d);
-  if (st == HC_OK) st = hbm_measure(d->s, d->x.X, &m);
+  found_point *grown = growing(d->found, d->n, sizeof *grown);
+  if (!grown) return HC_NO_MEMORY;
+  d->found = grown;
+  const hc_status st = hbm_measure(d->s, d->x.X, &m);
   if (st != HC_OK) return st;
   int i = d->n++;
   for (; i > d->first && d->found[i - 1].sigma > sigma; --i) d->found[i] = d->found[i - 1];

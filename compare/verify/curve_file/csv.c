@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/growing.h"
 #include "base/message.h"
 #include "base/number.h"
 #include "compare/verify/curve_file/fields.h"
@@ -151,7 +152,6 @@ typedef struct reader {
   message *m;
   verify_columns columns;
   verify_data *out;
-  int cap;
   char separator; /* 0: not known yet; ' ' is any blanks */
   long line, first_line;
   int n_fields, first_fields;
@@ -337,13 +337,9 @@ static hc_status add_point(reader *r, verify_point p)
     message_add(r->m, "one point too many, expected at most %d", VERIFY_MOST_POINTS);
     return HC_BAD_INPUT;
   }
-  if (r->out->n == r->cap) {
-    int cap = r->cap ? 2 * r->cap : 256;
-    verify_point *points = realloc(r->out->points, (size_t)cap * sizeof *points);
-    if (!points) return HC_NO_MEMORY;
-    r->out->points = points;
-    r->cap = cap;
-  }
+  verify_point *grown = growing(r->out->points, r->out->n, sizeof *grown);
+  if (!grown) return HC_NO_MEMORY;
+  r->out->points = grown;
   r->out->points[r->out->n++] = p;
   return HC_OK;
 }
