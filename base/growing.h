@@ -1,15 +1,20 @@
-/* growing.h - lists that double in size whenever their number of entries is a power of two. */
+/* growing.h - lists with room for a power of two of entries. */
 #ifndef HC_GROWING_H
 #define HC_GROWING_H
 
 #include <stdlib.h>
 
-/* The list with room for one more entry of `size` bytes than the `count` there are; NULL: out of memory, and the list
+/* The list with room for `more` entries of `size` bytes beside the `count` there are; NULL: out of memory, and the list
  * is as it was. */
-static inline void *growing(void *list, int count, size_t size)
+static inline void *growing_by(void *list, int count, int more, size_t size)
 {
-  if (count & (count - 1)) return list; /* not at a power of two, so there is room */
-  return realloc(list, size * (count > 0 ? 2 * (size_t)count : 1));
+  size_t room = 1;
+  while (room < (size_t)count) room *= 2;
+  if (count > 0 && (size_t)count + (size_t)more <= room) return list;
+  while (room < (size_t)count + (size_t)more) room *= 2;
+  return realloc(list, size * room);
 }
+
+static inline void *growing(void *list, int count, size_t size) { return growing_by(list, count, 1, size); }
 
 #endif

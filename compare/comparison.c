@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compare/comparison.h"
+#include "base/growing.h"
 #include "compare/comparison_private.h"
 #include "compare/first_guess.h"
 #include "compare/motion.h"
@@ -14,37 +14,17 @@
 
 const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }
 
-static hc_status make_room(comparison *c)
-{
-  const int cap = c->cap ? 2 * c->cap : 32;
-  comparison_row *rows = realloc(c->rows, (size_t)cap * sizeof *rows);
-  if (!rows) return HC_NO_MEMORY;
-  c->rows = rows;
-  double *states = realloc(c->states, (size_t)cap * (size_t)c->n_states * sizeof *states);
-  if (!states) return HC_NO_MEMORY;
-  c->states = states;
-  c->cap = cap;
-  return HC_OK;
-}
-
 static hc_status add_row(comparison *c, const comparison_row *row, const double *state)
 {
-  hc_status st = c->n_rows == c->cap ? make_room(c) : HC_OK;
-  if (st != HC_OK) return st;
-  memcpy(c->states + (size_t)c->n_rows * (size_t)c->n_states, state, (size_t)c->n_states * sizeof *state);
-  c->rows[c->n_rows++] = *row;
+  const size_t bytes = (size_t)c->n_states * sizeof *state;
+  comparison_row *rows = growing(c->rows, c->n_rows, sizeof *rows);
+  if (rows) c->rows = rows;
+  double *states = growing(c->states, c->n_rows, bytes);
+  if (states) c->states = states;
+  if (!rows || !states) return HC_NO_MEMORY;
+  memcpy(states + (size_t)c->n_rows * (size_t)c->n_states, state, bytes);
+  rows[c->n_rows++] = *row;
   ++c->count[row->verdict];
-  return HC_OK;
-}
-
-static hc_status make_room_for_contacts(comparison *c, int n)
-{
-  if (c->n_contacts + n <= c->contacts_cap) return HC_OK;
-  const int cap = 2 * (c->n_contacts + n);
-  contact_comparison *contacts = realloc(c->contacts, (size_t)cap * sizeof *contacts);
-  if (!contacts) return HC_NO_MEMORY;
-  c->contacts = contacts;
-  c->contacts_cap = cap;
   return HC_OK;
 }
 
@@ -53,8 +33,10 @@ static hc_status add_contacts(comparison_work *w, const double *X, const compari
 {
   comparison *out = w->out;
   const int n = model_whole_contacts(w->setup->model);
-  hc_status st = make_room_for_contacts(out, n);
-  if (st == HC_OK) st = solution_contacts(w, X, row, out->contacts + out->n_contacts);
+  contact_comparison *grown = growing_by(out->contacts, out->n_contacts, n, sizeof *grown);
+  if (!grown) return HC_NO_MEMORY;
+  out->contacts = grown;
+  const hc_status st = solution_contacts(w, X, row, grown + out->n_contacts);
   if (st == HC_OK) out->n_contacts += n;
   return st;
 }
@@ -71,24 +53,15 @@ static hc_status add_other_responses(comparison_work *w, const hbm_curve *at, in
   return st;
 }
 
-/* All that is told of solution k, at once for who looks at what was found meanwhile. */
+/* All that is told of solution k, at once for who looks at what was found meanwhile; k < 0: there is none. */
 static hc_status add_solution(comparison_work *w, const hbm_curve *at, int k, const comparison_row *row)
 {
   const compare_setup *setup = w->setup;
   if (setup->found) pthread_mutex_lock(setup->found);
   hc_status st = add_row(w->out, row, w->state);
-  if (st == HC_OK && setup->contacts) st = add_contacts(w, at->X + (size_t)k * at->n_coef, row);
-  if (st == HC_OK && setup->model->n_responses > 1) st = add_other_responses(w, at, k, row);
+  if (st == HC_OK && k >= 0 && setup->contacts) st = add_contacts(w, at->X + (size_t)k * at->n_coef, row);
+  if (st == HC_OK && k >= 0) st = add_other_responses(w, at, k, row);
   if (setup->found) pthread_mutex_unlock(setup->found);
-  return st;
-}
-
-/* Without a solution. */
-static hc_status add_failure(comparison_work *w, const comparison_row *row)
-{
-  if (w->setup->found) pthread_mutex_lock(w->setup->found);
-  const hc_status st = add_row(w->out, row, w->state);
-  if (w->setup->found) pthread_mutex_unlock(w->setup->found);
   return st;
 }
 
@@ -111,7 +84,7 @@ static hc_status compare_at(comparison_work *w, double omega)
   if (row.hbm_status == HC_OK && at.n == 0)
     row.hbm_status = w->out->curve.end != HC_OK ? w->out->curve.end : HC_NOT_CONVERGED;
   hc_status st = row.hbm_status == HC_NO_MEMORY         ? row.hbm_status
-                 : at.n == 0 || row.hbm_status != HC_OK ? add_failure(w, &row)
+                 : at.n == 0 || row.hbm_status != HC_OK ? add_solution(w, &at, -1, &row)
                                                         : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     row = none;

@@ -107,15 +107,14 @@ typedef struct comparison_cost {
 } comparison_cost;
 
 typedef struct comparison {
-  int n_rows, cap;
+  int n_rows, n_contacts;
   comparison_row *rows;
-  int n_contacts, contacts_cap;
   contact_comparison *contacts; /* with setup.contacts: every contact of every solution that has rows, in that order */
   hbm_curve curve;              /* the response curve behind the rows; its `end` says how far it came */
   int count[VERDICT_COUNT];
   response_summary summary; /* of that curve */
   int n_states;             /* in a state of time integration */
-  double *states;           /* [cap][n_states] of each row: where the transient ended */
+  double *states;           /* [n_rows][n_states] of each row: where the transient ended */
   comparison_cost cost;
   int harmonics, samples; /* in use: for auto, the most the curve needed; samples 0 for exact forces */
 } comparison;

@@ -18,19 +18,12 @@ hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega,
   return st == HC_OK ? hbm_sliders(hbm, X, state + 2 * n) : st;
 }
 
-/* What of the model is compared, and by whom. */
-typedef struct side {
-  hbm_solver *hbm;
-  const compare_setup *setup;
-  int response;
-} side;
-
-/* Response s->response of the solution X against the transient; into *m the solution's measures. */
-static hc_status errors_of(const side *s, double omega, const double *X, const timeint_result *tr, hbm_measures *m,
-                           discrepancy *out)
+/* Response r of the solution X against the transient; into *m the solution's measures. */
+static hc_status errors_of(const comparison_work *w, int r, double omega, const double *X, const timeint_result *tr,
+                           hbm_measures *m, discrepancy *out)
 {
   periodic_motion a;
-  hc_status st = motion_of_response(s->hbm, omega, X, s->response, m, &a);
+  hc_status st = motion_of_response(w->hbm, omega, X, r, m, &a);
   if (st != HC_OK) return st;
   const periodic_motion b = motion_of_transient(tr);
   *out = motion_discrepancy(&a, &b);
@@ -43,15 +36,15 @@ static bool within_limits(const compare_setup *setup, const discrepancy *e, cons
   return gate_limits_hold(setup->limits, tr->omega, e, motion_mean_is_free(tr));
 }
 
-/* Is the transient within the limits of any HBM solution at this omega? */
-static bool accounted_for(const side *s, const hbm_curve *at, const timeint_result *tr)
+/* Is response r of the transient within the limits of any HBM solution at this omega? */
+static bool accounted_for(const comparison_work *w, int r, const hbm_curve *at, const timeint_result *tr)
 {
   for (int i = 0; i < at->n; ++i) {
     const double *X = at->X + (size_t)i * at->n_coef;
     hbm_measures m;
     discrepancy e;
-    if (errors_of(s, at->points[i].omega, X, tr, &m, &e) != HC_OK) continue;
-    if (within_limits(s->setup, &e, tr)) return true;
+    if (errors_of(w, r, at->points[i].omega, X, tr, &m, &e) != HC_OK) continue;
+    if (within_limits(w->setup, &e, tr)) return true;
   }
   return false;
 }
@@ -139,7 +132,6 @@ static hc_status perturbed_motion(comparison_work *w, double omega, int directio
 /* *it_stays: perturbed motions return to within the limits of the solution, or do not converge. */
 static hc_status perturbations_decay(comparison_work *w, const comparison_row *row, const double *X, bool *it_stays)
 {
-  const side first = {w->hbm, w->setup, 0};
   *it_stays = true;
   for (int to = -1; to <= 1 && *it_stays; to += 2) {
     timeint_result there;
@@ -147,7 +139,7 @@ static hc_status perturbations_decay(comparison_work *w, const comparison_row *r
     discrepancy e;
     hc_status st = perturbed_motion(w, row->omega, to, &there);
     if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
-    if (st != HC_OK || errors_of(&first, row->omega, X, &there, &unused, &e) != HC_OK) continue;
+    if (st != HC_OK || errors_of(w, 0, row->omega, X, &there, &unused, &e) != HC_OK) continue;
     *it_stays = there.period_multiple == 1 && within_limits(w->setup, &e, &there);
   }
   return HC_OK;
@@ -188,9 +180,6 @@ static void referee(comparison_work *w, comparison_row *row, const double *X)
     w->orbits[r] = same ? w->responses[r] : row->orbit;
     if (!same) row->orbit_status = timeint_response(w->exact, r, &w->orbits[r]);
   }
-  hbm_measures unused;
-  const side first = {w->hbm, w->setup, 0};
-  if (row->orbit_status == HC_OK) errors_of(&first, row->omega, X, &row->orbit, &unused, &row->orbit_errors);
 }
 
 /* What the discrepancy is made of, in every response. */
@@ -227,15 +216,14 @@ static discrepancy relative_prediction(const motion_error *e, double amplitude)
 }
 
 /* What HBM expects of X in every response: known before the transient is. */
-static hc_status predict_solution(comparison_work *w, const double *X, comparison_row *row)
+static hc_status predict_solution(comparison_work *w, const double *X, const comparison_row *row)
 {
   hc_status st = row->hbm_status;
-  if (st == HC_OK) st = hbm_predict(w->hbm, row->omega, X, &w->expected[0]);
-  for (int r = 1; r < w->setup->model->n_responses; ++r) {
+  for (int r = 0; r < w->setup->model->n_responses; ++r) {
     w->expected[r] = (motion_error){NAN, NAN, NAN};
-    if (st == HC_OK) st = hbm_predict_response(w->hbm, row->omega, X, r, &w->expected[r]);
+    if (st == HC_OK && r == 0) st = hbm_predict(w->hbm, row->omega, X, w->expected);
+    else if (st == HC_OK) st = hbm_predict_response(w->hbm, row->omega, X, r, &w->expected[r]);
   }
-  if (row->hbm_status == HC_OK) row->hbm_predicted = relative_prediction(&w->expected[0], row->hbm.amplitude);
   return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
@@ -243,24 +231,17 @@ static hc_status predict_solution(comparison_work *w, const double *X, compariso
 static hc_status predict_transient(comparison_work *w, comparison_row *row)
 {
   if (row->transient_status != HC_OK) return HC_OK;
-  timeint_result *tr = w->responses;
-  hc_status st = timeint_predict(w->ti, w->state, w->monitor, w->setup->model->n_responses, tr);
-  row->transient = *tr;
-  row->transient_predicted = relative_prediction(&tr->predicted, tr->amplitude);
+  hc_status st = timeint_predict(w->ti, w->state, w->monitor, w->setup->model->n_responses, w->responses);
+  row->transient = w->responses[0];
   return st;
-}
-
-static bool moved(const comparison_row *row)
-{
-  return row->transient_status == HC_OK || row->transient_status == HC_NOT_SETTLED ||
-         row->transient_status == HC_APERIODIC;
 }
 
 /* The transient's contacts, while the handle has their periods. HC_NO_MEMORY: no going on. */
 static hc_status keep_contacts(comparison_work *w, const comparison_row *row)
 {
   w->acted = HC_UNSUPPORTED;
-  if (w->setup->contacts && moved(row)) w->acted = timeint_contacts(w->ti, &row->transient, w->acting);
+  if (w->setup->contacts && motion_is_measured(row->transient_status))
+    w->acted = timeint_contacts(w->ti, &row->transient, w->acting);
   if (w->acted == HC_OK) contact_periods_merge(w->setup->model, w->acting);
   return w->acted == HC_NO_MEMORY ? w->acted : HC_OK;
 }
@@ -270,11 +251,48 @@ static hc_status keep_responses(comparison_work *w, const comparison_row *row)
 {
   hc_status st = HC_OK;
   w->responses[0] = row->transient;
-  for (int r = 1; r < w->setup->model->n_responses && moved(row) && st == HC_OK; ++r) {
+  const int n = motion_is_measured(row->transient_status) ? w->setup->model->n_responses : 1;
+  for (int r = 1; r < n && st == HC_OK; ++r) {
     w->responses[r] = row->transient;
     st = timeint_response(w->ti, r, &w->responses[r]);
   }
   return st;
+}
+
+/* A response that moves less than this of the largest is not compared: rounding of the others. */
+static const double still = 1e-9;
+
+static double largest_amplitude(const comparison_work *w)
+{
+  double most = 0;
+  for (int r = 0; r < w->setup->model->n_responses; ++r) most = fmax(most, w->responses[r].amplitude);
+  return most;
+}
+
+/* Response r in *row, which knows how the solution's and the transient's computations ended: the measures of both, of
+ * the orbit, their errors and what was expected of them. */
+static void measure_response(comparison_work *w, const hbm_curve *at, int k, int r, comparison_row *row)
+{
+  const double *X = at->X + (size_t)k * at->n_coef;
+  const discrepancy nothing = {NAN, NAN, NAN, NAN};
+  const bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
+  row->response = r;
+  row->errors = row->orbit_errors = row->hbm_predicted = row->transient_predicted = nothing;
+  row->accounted = false;
+  if (row->hbm_status == HC_OK) row->hbm_status = hbm_measure_response(w->hbm, row->omega, X, r, &row->hbm);
+  if (row->hbm_status == HC_OK) row->hbm_predicted = relative_prediction(&w->expected[r], row->hbm.amplitude);
+  if (row->orbit_status == HC_OK && row->hbm_status == HC_OK) {
+    row->orbit = w->orbits[r];
+    row->hbm_status = errors_of(w, r, row->omega, X, &row->orbit, &row->hbm, &row->orbit_errors);
+  }
+  if (!motion_is_measured(row->transient_status)) return;
+  row->transient = w->responses[r];
+  row->transient_predicted = relative_prediction(&row->transient.predicted, row->transient.amplitude);
+  if (comparable) row->hbm_status = errors_of(w, r, row->omega, X, &row->transient, &row->hbm, &row->errors);
+  if (!comparable || row->transient.period_multiple != 1) return;
+  row->still = r > 0 && !(row->transient.amplitude > still * largest_amplitude(w));
+  row->accounted = row->still || accounted_for(w, r, at, &row->transient);
+  if (row->still) row->errors = row->hbm_predicted = row->transient_predicted = nothing;
 }
 
 hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, comparison_row *row)
@@ -295,59 +313,24 @@ hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, compa
   if ((known = predict_transient(w, row)) != HC_OK) return known;
   referee(w, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
-  bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
   row->family = w->setup->model->n_contacts > 1 && comparison_mean_free(row) && row->transient.regime > CONTACT_STUCK;
-  const side first = {w->hbm, w->setup, 0};
-  if (comparable) row->hbm_status = errors_of(&first, row->omega, X, &row->transient, &row->hbm, &row->errors);
-  row->accounted = comparable && row->transient.period_multiple == 1 && accounted_for(&first, at, &row->transient);
+  measure_response(w, at, k, 0, row);
   hc_status judged = judge(w, row, X, &row->verdict);
   if (judged != HC_OK) return judged;
   row->unexpected = comparison_unexpected(row);
   return account(w, at, k, row);
 }
 
-/* A response that moves less than this of the largest is not compared: rounding of the others. */
-static const double still = 1e-9;
-
-static double largest_amplitude(const comparison_work *w)
-{
-  double most = 0;
-  for (int r = 0; r < w->setup->model->n_responses; ++r) most = fmax(most, w->responses[r].amplitude);
-  return most;
-}
-
 void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,
                    comparison_row *row)
 {
-  const double *X = at->X + (size_t)k * at->n_coef;
-  const side s = {w->hbm, w->setup, r};
-  const discrepancy nothing = {NAN, NAN, NAN, NAN};
   *row = *first;
-  row->response = r;
-  row->errors = row->orbit_errors = row->hbm_predicted = row->transient_predicted = nothing;
-  row->budget = w->budgets[r];
-  row->unexpected = false;
-  if (row->hbm_status == HC_OK) row->hbm_status = hbm_measure_response(w->hbm, row->omega, X, r, &row->hbm);
-  if (row->hbm_status == HC_OK) row->hbm_predicted = relative_prediction(&w->expected[r], row->hbm.amplitude);
-  if (row->orbit_status == HC_OK && row->hbm_status == HC_OK) {
-    row->orbit = w->orbits[r];
-    row->hbm_status = errors_of(&s, row->omega, X, &row->orbit, &row->hbm, &row->orbit_errors);
-  }
-  if (!moved(first)) return;
-  row->transient = w->responses[r];
-  row->transient_predicted = relative_prediction(&row->transient.predicted, row->transient.amplitude);
-  const bool comparable = first->hbm_status == HC_OK && first->transient_status == HC_OK;
-  if (comparable) row->hbm_status = errors_of(&s, row->omega, X, &row->transient, &row->hbm, &row->errors);
-  if (!comparable || row->transient.period_multiple != 1) return;
-  row->still = !(row->transient.amplitude > still * largest_amplitude(w));
-  row->accounted = row->still || accounted_for(&s, at, &row->transient);
-  if (row->still) {
-    row->errors = row->hbm_predicted = row->transient_predicted = nothing;
-    row->budget = budget_nothing();
-  }
-  const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
-  if (first->verdict == VERDICT_MATCH || first->verdict == VERDICT_DIFFERS)
+  measure_response(w, at, k, r, row);
+  row->budget = row->still ? budget_nothing() : w->budgets[r];
+  if (first->verdict == VERDICT_MATCH || first->verdict == VERDICT_DIFFERS) {
+    const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
     row->verdict = within ? VERDICT_MATCH : unstable(first) ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
+  }
   row->unexpected = comparison_unexpected(row);
 }
 
@@ -404,10 +387,8 @@ bool comparison_nonlinear(const comparison *c)
 {
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
-    const bool moved =
-        r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
     if (r->hbm_status == HC_OK && r->hbm.contact.regime > CONTACT_STUCK) return true;
-    if (moved && r->transient.regime > CONTACT_STUCK) return true;
+    if (motion_is_measured(r->transient_status) && r->transient.regime > CONTACT_STUCK) return true;
   }
   return false;
 }

@@ -9,6 +9,7 @@
 #include "base/growing.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
+#include "compare/motion.h"
 #include "compare/response.h"
 #include "timeint/steady/contact_watch.h"
 #include "timeint/steady/sweep.h"
@@ -47,17 +48,6 @@ static hc_status add_row(steady_states *s, const steady_row *row)
   return HC_OK;
 }
 
-static hc_status make_room_for_contacts(steady_states *s, int n)
-{
-  if (s->n_contacts + n <= s->contacts_cap) return HC_OK;
-  const int cap = 2 * (s->n_contacts + n);
-  steady_contact *contacts = realloc(s->contacts, (size_t)cap * sizeof *contacts);
-  if (!contacts) return HC_NO_MEMORY;
-  s->contacts = contacts;
-  s->contacts_cap = cap;
-  return HC_OK;
-}
-
 /* A row that came to nothing at that stage. */
 static hc_status add_failure(workspace *w, steady_stage stage, hc_status st, double omega)
 {
@@ -80,21 +70,16 @@ static double regularisation_error(workspace *w, const timeint_result *r, hc_sta
   return budget_regularisation(r, &orbit);
 }
 
-static bool moved(const steady_row *row)
-{
-  return row->status == HC_OK || row->status == HC_NOT_SETTLED || row->status == HC_APERIODIC;
-}
-
 /* Appends what each contact does in the periods that w->ti holds. */
 static hc_status add_contacts(workspace *w, const steady_row *row)
 {
   const model *m = w->setup->model;
   const int n = model_whole_contacts(m);
   steady_states *out = w->out;
-  hc_status st = make_room_for_contacts(out, n);
   contact_period *periods = calloc((size_t)m->n_contacts + 1, sizeof *periods);
-  if (!periods) st = HC_NO_MEMORY;
-  const hc_status measured = st == HC_OK ? timeint_contacts(w->ti, &row->result, periods) : st;
+  steady_contact *grown = growing_by(out->contacts, out->n_contacts, n, sizeof *grown);
+  if (grown) out->contacts = grown;
+  const hc_status measured = periods && grown ? timeint_contacts(w->ti, &row->result, periods) : HC_NO_MEMORY;
   if (measured == HC_OK) contact_periods_merge(m, periods);
   for (int j = 0; j < n && measured == HC_OK; ++j) {
     steady_contact *c = &out->contacts[out->n_contacts++];
@@ -102,14 +87,16 @@ static hc_status add_contacts(workspace *w, const steady_row *row)
     snprintf(c->start, sizeof c->start, "%s", row->start);
   }
   free(periods);
-  return measured == HC_NO_MEMORY ? measured : st;
+  return measured == HC_NO_MEMORY ? measured : HC_OK;
 }
 
 /* Appends the rows of the other responses, from the periods that w->ti holds. */
 static hc_status add_other_responses(workspace *w, steady_row *row)
 {
   hc_status st = HC_OK;
-  for (row->response = 1; row->response < w->setup->model->n_responses && moved(row) && st == HC_OK; ++row->response) {
+  for (row->response = 1;
+       row->response < w->setup->model->n_responses && motion_is_measured(row->status) && st == HC_OK;
+       ++row->response) {
     st = timeint_response(w->ti, row->response, &row->result);
     row->from_regularisation = NAN; /* known of the first response */
     if (st == HC_OK) st = add_row(w->out, row);
@@ -126,7 +113,7 @@ static hc_status steady_settle(workspace *w, double omega, const char *start, hc
   if (row.status == HC_OK) row.from_regularisation = regularisation_error(w, &row.result, &row.status);
   if (row.status == HC_NO_MEMORY) return HC_NO_MEMORY;
   hc_status st = add_row(w->out, &row);
-  if (st == HC_OK && w->setup->contacts && moved(&row)) st = add_contacts(w, &row);
+  if (st == HC_OK && w->setup->contacts && motion_is_measured(row.status)) st = add_contacts(w, &row);
   if (st == HC_OK) st = add_other_responses(w, &row);
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;
 }

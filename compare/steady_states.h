@@ -34,9 +34,8 @@ typedef struct steady_contact {
 } steady_contact;
 
 typedef struct steady_states {
-  int n;
+  int n, n_contacts;
   steady_row *rows;
-  int n_contacts, contacts_cap;
   steady_contact *contacts; /* with setup.contacts: every contact of every state that was measured, in that order */
 } steady_states;
 
