@@ -18,6 +18,7 @@
 #include "timeint/steady/timeint_private.h"
 
 enum { NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4, LAST_STEPS = 4 };
+enum { EDGE_SCATTERS = 100 }; /* sliders are moved off the edge of slip by so much more than rounding */
 
 struct shoot { /* from shoot_new, to shoot_free */
   timeint *ti;
@@ -294,6 +295,30 @@ static double attainable(shoot *s)
   return sqrt(sum) * orbit_scatter(s->ti, s->k);
 }
 
+/* An orbit on the edge of slip, where F has one derivative on either side: s->phi becomes that of the side that sticks,
+ * whichever rounding chose. Sliders that slip by rounding are moved on by that and EDGE_SCATTERS times what periods
+ * scatter, as are those that slip then; where one that was moved slips again, no side is known, and s->phi stays. */
+static hc_status take_side_that_sticks(shoot *s)
+{
+  const double rests = MEASURE_RESTS * timeint_motion_size(s->ti) / s->ti->length;
+  double *z = s->vector, *travel = s->other; /* of s->best */
+  bool slips = true;
+  memcpy(z, s->best, sizeof *z * (size_t)s->n);
+  memcpy(travel, s->travel, sizeof *z * (size_t)s->n);
+  while (slips) {
+    slips = false;
+    for (int i = 2 * s->ti->n_dof; i < s->n; ++i) {
+      if (!(travel[i] <= rests && s->travel[i] > 0)) continue;
+      if (z[i] != s->best[i]) return evaluate(s, s->best);
+      z[i] += copysign(s->travel[i] + EDGE_SCATTERS * orbit_scatter(s->ti, s->k), s->f[i] - z[i]);
+      slips = true;
+    }
+    const hc_status st = slips ? evaluate(s, z) : HC_OK;
+    if (st != HC_OK) return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : evaluate(s, s->best);
+  }
+  return HC_OK;
+}
+
 /* From s->iterate, next to the orbit: further Newton steps until it is as near as the goal asks or the scatter of
  * periods allows; ti->y and *r are then those of the nearest point. */
 static hc_status finish(shoot *s, double goal, shoot_report *r)
@@ -312,7 +337,7 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   if (st != HC_OK || !(r->distance < INFINITY)) return st != HC_OK ? st : HC_NOT_CONVERGED;
   r->moved = distance_2(s->n, s->start, s->best);
   r->nonlinear = nonlinear_part(s, s->best);
-  if ((st = find_multiplier(s, r)) != HC_OK) return st;
+  if ((st = take_side_that_sticks(s)) != HC_OK || (st = find_multiplier(s, r)) != HC_OK) return st;
   memcpy(s->ti->y, s->best, bytes);
   r->attainable = attainable(s);
   return r->distance <= fmax(goal, r->attainable) ? HC_OK : HC_NOT_CONVERGED;

@@ -24,7 +24,7 @@ typedef struct shoot_report {
   double moved;      /* [L] from the start to the orbit */
   double nonlinear;  /* [1] |F^k(z0) - z* - Phi (z0 - z*)| / |z0 - z*|, z0 the start: 0 where F^k is linear between
                        z0 and z* */
-  double complex multiplier; /* the largest, free sliders left out */
+  double complex multiplier; /* the largest, free sliders left out; on the edge of slip of the side that sticks */
   int free_sliders;
 } shoot_report;
 
