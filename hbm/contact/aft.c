@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/workspace.h"
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/slider.h"
@@ -34,6 +35,7 @@ struct aft {
       *intervals;             /* [n_contacts][n_time] of the last evaluation, the first n_intervals[j] of each filled */
   sampled_interval *settling; /* [n_time] */
   int *n_intervals;           /* [n_contacts] */
+  workspace memory;           /* of all of these */
 };
 
 static hc_status make_plans(aft *a)
@@ -48,24 +50,22 @@ static hc_status make_plans(aft *a)
 static hc_status make_tables(aft *a)
 {
   int n = a->n_time, n_coef = series_length(a->n_harm);
-  a->x = fftw_alloc_real((size_t)n);
-  a->f = fftw_alloc_real((size_t)n);
-  a->k = fftw_alloc_real((size_t)n);
+  a->x = workspace_doubles(&a->memory, (size_t)n);
+  a->f = workspace_doubles(&a->memory, (size_t)n);
+  a->k = workspace_doubles(&a->memory, (size_t)n);
   a->y = a->n_dof > 1 ? fftw_alloc_real((size_t)n) : NULL;
-  a->part = fftw_alloc_real((size_t)n);
-  a->spec = fftw_alloc_complex((size_t)n / 2 + 1);
-  a->root = malloc((size_t)n * sizeof *a->root);
-  a->inv_step = malloc((2 * (size_t)a->n_harm + 1) * sizeof *a->inv_step);
-  a->symbol = calloc((size_t)force_jacobian_symbol_length(a->n_harm), sizeof(double));
-  a->left = calloc((size_t)n_coef, sizeof(double));
-  a->right = calloc((size_t)a->n_dof * (size_t)n_coef, sizeof(double));
-  a->intervals = malloc(((size_t)a->n_contacts * (size_t)n + 1) * sizeof *a->intervals); /* few are used */
-  a->settling = malloc((size_t)n * sizeof *a->settling);
-  a->n_intervals = calloc((size_t)a->n_contacts + 1, sizeof *a->n_intervals);
-  bool samples = a->x && (a->y || a->n_dof == 1) && a->f && a->k && a->part && a->spec && a->root,
-       harmonics = a->inv_step && a->symbol;
-  bool tracks = a->intervals && a->settling && a->n_intervals;
-  if (!tracks || !samples || !harmonics || !a->left || !a->right) return HC_NO_MEMORY;
+  a->part = workspace_doubles(&a->memory, (size_t)n);
+  a->spec = workspace_array(&a->memory, (size_t)n / 2 + 1, sizeof *a->spec);
+  a->root = workspace_array(&a->memory, (size_t)n, sizeof *a->root);
+  a->inv_step = workspace_array(&a->memory, 2 * (size_t)a->n_harm + 1, sizeof *a->inv_step);
+  a->symbol = workspace_doubles(&a->memory, (size_t)force_jacobian_symbol_length(a->n_harm));
+  a->left = workspace_doubles(&a->memory, (size_t)n_coef);
+  a->right = workspace_doubles(&a->memory, (size_t)a->n_dof * (size_t)n_coef);
+  a->intervals =
+      workspace_array(&a->memory, (size_t)a->n_contacts * (size_t)n + 1, sizeof *a->intervals); /* few are used */
+  a->settling = workspace_array(&a->memory, (size_t)n, sizeof *a->settling);
+  a->n_intervals = workspace_array(&a->memory, (size_t)a->n_contacts + 1, sizeof *a->n_intervals);
+  if (a->memory.failed) return HC_NO_MEMORY;
   const double step = TWO_PI / n;
   for (int i = 0; i < n; ++i) a->root[i] = cos(i * step) + I * sin(i * step);
   for (int h = 1; h <= 2 * a->n_harm; ++h) a->inv_step[h] = 1 / (a->root[h % n] - 1); /* 2 H < N */
@@ -85,7 +85,7 @@ hc_status aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, int n_
   a->restart = restart;
   a->n_dof = n_dof;
   a->n_contacts = n_contacts;
-  a->contacts = calloc((size_t)n_contacts + 1, sizeof *a->contacts);
+  a->contacts = workspace_array(&a->memory, (size_t)n_contacts + 1, sizeof *a->contacts);
   hc_status st = a->contacts ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK && n_contacts) memcpy(a->contacts, contacts, (size_t)n_contacts * sizeof *contacts);
   if (st == HC_OK) st = make_tables(a);
@@ -111,25 +111,11 @@ hc_status aft_new_of_model(const model *m, hbm_restart restart, int n_harm, int 
 void aft_free(aft *a)
 {
   if (!a) return;
-  free(a->contacts);
   fft_plan_free(a->to_time);
   fft_plan_free(a->to_freq_f);
   fft_plan_free(a->to_freq_k);
   fft_plan_free(a->to_time_y);
-  fftw_free(a->x);
-  fftw_free(a->f);
-  fftw_free(a->k);
-  fftw_free(a->part);
-  fftw_free(a->y);
-  fftw_free(a->spec);
-  free(a->root);
-  free(a->inv_step);
-  free(a->symbol);
-  free(a->left);
-  free(a->right);
-  free(a->intervals);
-  free(a->settling);
-  free(a->n_intervals);
+  workspace_free(&a->memory);
   free(a);
 }
 

@@ -2,15 +2,14 @@
 #include "hbm/contact/contact_measures.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
+#include "base/workspace.h"
 #include "hbm/contact/transitions.h"
 #include "numerics/crossing.h"
 #include "numerics/gauss.h"
 #include "numerics/series.h"
 
-/* A contact along its motion; made by open_motion, to close. */
+/* A contact along its motion, made by open_motion. */
 typedef struct measured_motion {
   const contact *law;
   moving_contact moved; /* by u and v themselves */
@@ -18,24 +17,19 @@ typedef struct measured_motion {
   double *table;
   contact_interval *interval; /* [cap] */
   int n, cap;
+  workspace memory;
 } measured_motion;
 
 static hc_status open_motion(const contact *law, int n_harm, const double *u, const double *v, measured_motion *m)
 {
   const series_vector motion = {n_harm, 2, {u, v}};
   *m = (measured_motion){.law = law, .moved = {.law = *law, .cu = {1, 0}, .cv = {0, 1}}, .cap = 16 * n_harm + 16};
-  m->table = calloc((size_t)series_grid_table_length(n_harm), sizeof *m->table);
-  m->interval = calloc((size_t)m->cap, sizeof *m->interval);
-  if (!m->table || !m->interval) return HC_NO_MEMORY;
+  m->table = workspace_doubles(&m->memory, (size_t)series_grid_table_length(n_harm));
+  m->interval = workspace_array(&m->memory, (size_t)m->cap, sizeof *m->interval);
+  if (m->memory.failed) return HC_NO_MEMORY;
   series_grid_table_fill(n_harm, m->table);
   series_grid_fill(&m->grid, &motion, m->table);
   return transitions_find(&m->grid, &m->moved, m->cap, m->interval, &m->n);
-}
-
-static void close_motion(measured_motion *m)
-{
-  free(m->table);
-  free(m->interval);
 }
 
 /* ---- forces -------------------------------------------------------------------------------------- */
@@ -117,6 +111,6 @@ hc_status contact_measures_of(const contact *law, int n_harm, const double *u, c
       add_slip(&m, &m.interval[i], out);
     }
   }
-  close_motion(&m);
+  workspace_free(&m.memory);
   return st;
 }

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/workspace.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/interval_series.h"
 #include "hbm/hbm_settings.h"
@@ -28,6 +29,7 @@ struct exact_force {
   double *left, *right;        /* [n_dof (2H+1)] one rank-1 term */
   double *matrix;              /* [n_dof (2H+1)]^2 in the place of the caller's Jacobian where that is NULL */
   series_grid grid;
+  workspace memory; /* of all of these */
 };
 
 hc_status exact_force_new(int n_harm, int n_dof, int n_contacts, const moving_contact *contacts, exact_force **out)
@@ -44,19 +46,17 @@ hc_status exact_force_new(int n_harm, int n_dof, int n_contacts, const moving_co
   e->cap = 16 * n_harm + 16;
   size_t m = (size_t)n_dof * e->n_coef, symbol = (size_t)force_jacobian_symbol_length(n_harm);
   const size_t n_room = n_contacts ? (size_t)n_contacts : 1;
-  e->contacts = calloc(n_room, sizeof *e->contacts);
-  e->n_intervals = calloc(n_room, sizeof *e->n_intervals);
-  e->intervals = calloc(n_room * e->cap, sizeof *e->intervals);
-  e->table = calloc((size_t)series_grid_table_length(n_harm), sizeof(double));
-  e->indicator = calloc(symbol, sizeof(double));
-  e->weight = calloc(2 * (size_t)n_harm + 1, sizeof(double));
-  e->symbol = calloc((size_t)n_dof * n_dof * symbol, sizeof(double));
-  e->left = calloc(m, sizeof(double));
-  e->right = calloc(m, sizeof(double));
-  e->matrix = calloc(m * m, sizeof(double));
-  bool orbit = e->contacts && e->n_intervals && e->intervals && e->table;
-  bool series = e->indicator && e->weight && e->symbol && e->left && e->right;
-  if (!orbit || !series || !e->matrix) {
+  e->contacts = workspace_array(&e->memory, n_room, sizeof *e->contacts);
+  e->n_intervals = workspace_array(&e->memory, n_room, sizeof *e->n_intervals);
+  e->intervals = workspace_array(&e->memory, n_room * e->cap, sizeof *e->intervals);
+  e->table = workspace_doubles(&e->memory, (size_t)series_grid_table_length(n_harm));
+  e->indicator = workspace_doubles(&e->memory, symbol);
+  e->weight = workspace_doubles(&e->memory, 2 * (size_t)n_harm + 1);
+  e->symbol = workspace_doubles(&e->memory, (size_t)n_dof * n_dof * symbol);
+  e->left = workspace_doubles(&e->memory, m);
+  e->right = workspace_doubles(&e->memory, m);
+  e->matrix = workspace_doubles(&e->memory, m * m);
+  if (e->memory.failed) {
     exact_force_free(e);
     return HC_NO_MEMORY;
   }
@@ -70,16 +70,7 @@ hc_status exact_force_new(int n_harm, int n_dof, int n_contacts, const moving_co
 void exact_force_free(exact_force *e)
 {
   if (!e) return;
-  free(e->contacts);
-  free(e->n_intervals);
-  free(e->intervals);
-  free(e->table);
-  free(e->indicator);
-  free(e->weight);
-  free(e->symbol);
-  free(e->left);
-  free(e->right);
-  free(e->matrix);
+  workspace_free(&e->memory);
   free(e);
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/series.h"
 
@@ -36,15 +37,16 @@ struct contact_forces {
   double *directions; /* [n_rows][dim] these in q, by columns; NULL where scattering is the faster way */
   double *product;    /* [dim][2H+1][n_rows] of the Jacobian, with `directions` */
   bool assembled;
+  workspace memory; /* of all of these */
 };
 
 /* ---- made and freed ---------------------------------------------------------------------------- */
 
-static hc_status combine(int dim, const double *direction, double divisor, combination *out)
+static hc_status combine(workspace *memory, int dim, const double *direction, double divisor, combination *out)
 {
-  out->coordinate = calloc((size_t)dim, sizeof *out->coordinate);
-  out->weight = calloc((size_t)dim, sizeof *out->weight);
-  if (!out->coordinate || !out->weight) return HC_NO_MEMORY;
+  out->coordinate = workspace_array(memory, (size_t)dim, sizeof *out->coordinate);
+  out->weight = workspace_doubles(memory, (size_t)dim);
+  if (memory->failed) return HC_NO_MEMORY;
   for (int d = 0; d < dim; ++d) {
     if (direction[d] == 0) continue;
     out->coordinate[out->n] = d;
@@ -54,7 +56,7 @@ static hc_status combine(int dim, const double *direction, double divisor, combi
 }
 
 static hc_status make_member(const placed_contact *c, int dim, hbm_force force, const evaluator_settings *how,
-                             member *m)
+                             workspace *memory, member *m)
 {
   const contact_kind *kind = contact_kind_of(c);
   contact_coordinates x;
@@ -65,11 +67,11 @@ static hc_status make_member(const placed_contact *c, int dim, hbm_force force, 
   memcpy(m->cu, x.moved.cu, sizeof m->cu);
   memcpy(m->cv, x.moved.cv, sizeof m->cv);
   for (int d = 0; d < x.n_dof; ++d) {
-    const hc_status st = combine(dim, x.direction[d], x.divisor[d], &m->of[d]);
+    const hc_status st = combine(memory, dim, x.direction[d], x.divisor[d], &m->of[d]);
     if (st != HC_OK) return st;
   }
   const size_t length = (size_t)m->n_dof * (size_t)series_length(how->n_harm);
-  m->jac = calloc(length * length, sizeof *m->jac);
+  m->jac = workspace_doubles(memory, length * length);
   return m->jac ? m->by->make(&x, how, &m->evaluator) : HC_NO_MEMORY;
 }
 
@@ -80,7 +82,7 @@ static hc_status make_members(int n, const placed_contact *contacts, hbm_force f
   for (int j = 0; j < n && st == HC_OK; ++f->n_members) {
     member *m = &f->members[f->n_members];
     m->first = j;
-    st = make_member(&contacts[j], f->dim, force, how, m);
+    st = make_member(&contacts[j], f->dim, force, how, &f->memory, m);
     for (int k = 0; k < m->contacts; ++k) f->member_of[j++] = f->n_members;
   }
   return st;
@@ -105,9 +107,9 @@ static hc_status make_product(contact_forces *f)
   for (int j = 0; j < f->n_members; ++j) f->n_rows += f->members[j].n_dof;
   if (f->dim < FEW || f->n_rows == 0 || !product_pays(f)) return HC_OK;
   const size_t dim = (size_t)f->dim, rows = (size_t)f->n_rows;
-  f->directions = calloc(dim * rows, sizeof *f->directions);
-  f->product = calloc(dim * rows * (size_t)f->length, sizeof *f->product);
-  if (!f->directions || !f->product) return HC_NO_MEMORY;
+  f->directions = workspace_array(&f->memory, dim * rows, sizeof *f->directions);
+  f->product = workspace_array(&f->memory, dim * rows * (size_t)f->length, sizeof *f->product);
+  if (f->memory.failed) return HC_NO_MEMORY;
   double *row = f->directions;
   for (int j = 0; j < f->n_members; ++j)
     for (int d = 0; d < f->members[j].n_dof; ++d, row += dim) {
@@ -126,13 +128,12 @@ hc_status contact_forces_new_of(int dim, int n, const placed_contact *contacts, 
   f->dim = dim;
   f->length = series_length(how->n_harm);
   const size_t unknowns = (size_t)dim * (size_t)f->length, most = EVALUATOR_MOST_DOF * (size_t)f->length;
-  f->members = calloc((size_t)n + 1, sizeof *f->members);
-  f->member_of = calloc((size_t)n + 1, sizeof *f->member_of);
-  f->x = calloc(most, sizeof *f->x);
-  f->f = calloc(most, sizeof *f->f);
-  f->jac = calloc(unknowns * unknowns, sizeof *f->jac);
-  const bool allocated = f->members && f->member_of && f->x && f->f && f->jac;
-  hc_status st = allocated ? make_members(n, contacts, force, how, f) : HC_NO_MEMORY;
+  f->members = workspace_array(&f->memory, (size_t)n + 1, sizeof *f->members);
+  f->member_of = workspace_array(&f->memory, (size_t)n + 1, sizeof *f->member_of);
+  f->x = workspace_array(&f->memory, most, sizeof *f->x);
+  f->f = workspace_array(&f->memory, most, sizeof *f->f);
+  f->jac = workspace_array(&f->memory, unknowns * unknowns, sizeof *f->jac);
+  hc_status st = f->memory.failed ? HC_NO_MEMORY : make_members(n, contacts, force, how, f);
   if (st == HC_OK) st = make_product(f);
   f->itself = st == HC_OK && dim == 1 && n == 1 && f->members->of[0].n == 1; /* its weight is then 1 */
   if (st == HC_OK) *out = f;
@@ -160,22 +161,8 @@ hc_status contact_forces_new(const model *m, const condensation *c, hbm_force fo
 void contact_forces_free(contact_forces *f)
 {
   if (!f) return;
-  for (int j = 0; j < f->n_members && f->members; ++j) {
-    member *m = &f->members[j];
-    m->by->free(m->evaluator);
-    free(m->jac);
-    for (int d = 0; d < EVALUATOR_MOST_DOF; ++d) {
-      free(m->of[d].coordinate);
-      free(m->of[d].weight);
-    }
-  }
-  free(f->members);
-  free(f->member_of);
-  free(f->x);
-  free(f->f);
-  free(f->jac);
-  free(f->directions);
-  free(f->product);
+  for (int j = 0; j < f->n_members; ++j) f->members[j].by->free(f->members[j].evaluator);
+  workspace_free(&f->memory);
   free(f);
 }
 

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/workspace.h"
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/planar/planar_slider.h"
@@ -50,6 +51,7 @@ struct planar_aft {
   double *held;     /* [2H+1] their sum since w moved last */
   double *by[2];    /* [n_col] dw_1, dw_2 */
   double *whole;    /* [2 (2H+1)][n_col] by columns: d(T_1, T_2) */
+  workspace memory; /* of all of these */
 };
 
 /* The first period is entered as slider.c does: out of contact, or with w = 0 put into the circle at sample 0. */
@@ -63,14 +65,13 @@ static inline planar_sample planar_aft_sample(const planar_aft *a, int i)
 static hc_status make_samples(planar_aft *a)
 {
   const size_t n = (size_t)a->n_time;
-  bool allocated = true;
-  for (int d = 0; d < 3; ++d) allocated &= (a->motion[d] = fftw_alloc_real(n)) != NULL;
-  for (int d = 0; d < 2; ++d) allocated &= (a->traction[d] = calloc(n, sizeof(double))) != NULL;
-  allocated &= (a->sample = fftw_alloc_real(n)) != NULL;
-  allocated &= (a->spec = fftw_alloc_complex(n / 2 + 1)) != NULL;
-  allocated &= (a->root = malloc(n * sizeof *a->root)) != NULL;
-  allocated &= (a->move = calloc(n, sizeof *a->move)) != NULL;
-  if (!allocated) return HC_NO_MEMORY;
+  for (int d = 0; d < 3; ++d) a->motion[d] = workspace_doubles(&a->memory, n);
+  for (int d = 0; d < 2; ++d) a->traction[d] = workspace_doubles(&a->memory, n);
+  a->sample = workspace_doubles(&a->memory, n);
+  a->spec = workspace_array(&a->memory, n / 2 + 1, sizeof *a->spec);
+  a->root = workspace_array(&a->memory, n, sizeof *a->root);
+  a->move = workspace_array(&a->memory, n, sizeof *a->move);
+  if (a->memory.failed) return HC_NO_MEMORY;
   for (int i = 0; i < a->n_time; ++i) a->root[i] = cos(i * (TWO_PI / a->n_time)) + I * sin(i * (TWO_PI / a->n_time));
   return HC_OK;
 }
@@ -78,14 +79,14 @@ static hc_status make_samples(planar_aft *a)
 static hc_status make_tables(planar_aft *a)
 {
   const size_t length = (size_t)series_length(a->n_harm), n_col = (size_t)a->n_dof * length + 2;
-  bool allocated = (a->symbol = calloc((size_t)force_jacobian_symbol_length(a->n_harm), sizeof(double))) != NULL;
+  a->symbol = workspace_doubles(&a->memory, (size_t)force_jacobian_symbol_length(a->n_harm));
   for (int d = 0; d < 2; ++d) {
-    allocated &= (a->basis[d] = calloc(length, sizeof(double))) != NULL;
-    allocated &= (a->by[d] = calloc(n_col, sizeof(double))) != NULL;
+    a->basis[d] = workspace_doubles(&a->memory, length);
+    a->by[d] = workspace_doubles(&a->memory, n_col);
   }
-  allocated &= (a->held = calloc(length, sizeof(double))) != NULL;
-  allocated &= (a->whole = calloc(2 * length * n_col, sizeof(double))) != NULL;
-  return allocated ? HC_OK : HC_NO_MEMORY;
+  a->held = workspace_doubles(&a->memory, length);
+  a->whole = workspace_doubles(&a->memory, 2 * length * n_col);
+  return a->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 hc_status planar_aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, const contact *law, planar_aft **out)
@@ -114,19 +115,7 @@ void planar_aft_free(planar_aft *a)
   if (!a) return;
   fft_plan_free(a->to_time);
   fft_plan_free(a->to_freq);
-  for (int d = 0; d < 3; ++d) fftw_free(a->motion[d]);
-  for (int d = 0; d < 2; ++d) {
-    free(a->traction[d]);
-    free(a->basis[d]);
-    free(a->by[d]);
-  }
-  fftw_free(a->sample);
-  fftw_free(a->spec);
-  free(a->root);
-  free(a->move);
-  free(a->symbol);
-  free(a->held);
-  free(a->whole);
+  workspace_free(&a->memory);
   free(a);
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/workspace.h"
 #include "numerics/dense.h"
 
 enum { N = COLLOCATION_POINTS };
@@ -30,6 +31,7 @@ struct planar_flow {
   double *now;          /* [2 n + n_contacts] a column of phi */
   planar_state *at;     /* [planar][N] */
   double *along, *perp; /* [planar][N][n] t.e and t.e_perp */
+  workspace memory;     /* of all of these */
 };
 
 static int most_unknowns(const model *m) { return N * (m->n + m->n_contacts / 2 + 1); }
@@ -43,35 +45,30 @@ hc_status planar_flow_new(const model *m, planar_flow **out)
   f->m = m;
   f->n = m->n;
   f->n_states = 2 * m->n + m->n_contacts;
-  f->K = calloc(n * n, sizeof *f->K);
-  f->matrix = calloc(unknowns * unknowns, sizeof *f->matrix);
-  f->pivot = calloc(unknowns, sizeof *f->pivot);
-  f->right = calloc((size_t)f->n_states * unknowns, sizeof *f->right);
-  f->now = calloc((size_t)f->n_states, sizeof *f->now);
-  f->at = calloc(planar * N, sizeof *f->at);
-  f->along = calloc(planar * N * n, sizeof *f->along);
-  f->perp = calloc(planar * N * n, sizeof *f->perp);
+  f->K = workspace_array(&f->memory, n * n, sizeof *f->K);
+  f->matrix = workspace_array(&f->memory, unknowns * unknowns, sizeof *f->matrix);
+  f->pivot = workspace_array(&f->memory, unknowns, sizeof *f->pivot);
+  f->right = workspace_array(&f->memory, (size_t)f->n_states * unknowns, sizeof *f->right);
+  f->now = workspace_array(&f->memory, (size_t)f->n_states, sizeof *f->now);
+  f->at = workspace_array(&f->memory, planar * N, sizeof *f->at);
+  f->along = workspace_array(&f->memory, planar * N * n, sizeof *f->along);
+  f->perp = workspace_array(&f->memory, planar * N * n, sizeof *f->perp);
   collocation_fill(&f->c);
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j)
       for (int k = 0; k < N; ++k) f->twice[i][j] += f->c.a[i][k] * f->c.a[k][j];
-  const bool allocated = f->K && f->matrix && f->pivot && f->right && f->now && f->at && f->along && f->perp;
-  if (allocated) *out = f;
-  else planar_flow_free(f);
-  return allocated ? HC_OK : HC_NO_MEMORY;
+  if (!f->memory.failed) {
+    *out = f;
+    return HC_OK;
+  }
+  planar_flow_free(f);
+  return HC_NO_MEMORY;
 }
 
 void planar_flow_free(planar_flow *f)
 {
   if (!f) return;
-  free(f->K);
-  free(f->matrix);
-  free(f->pivot);
-  free(f->right);
-  free(f->now);
-  free(f->at);
-  free(f->along);
-  free(f->perp);
+  workspace_free(&f->memory);
   free(f);
 }
 

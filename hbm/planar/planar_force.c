@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/workspace.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/interval_series.h"
@@ -43,6 +44,7 @@ struct planar_force {
   double *matrix;                      /* [n_coef]^2 */
   double *base, *rate;                 /* [N][n_coef] 1, cos, sin at the points, and their derivatives */
   double *test;                        /* [n_coef][N] what is integrated with: 1/2, cos, sin */
+  workspace memory;                    /* of all of these */
 };
 
 /* ---- rows of derivatives [n_col]: by the columns of X and by w0 ---------------------------------------- */
@@ -269,14 +271,12 @@ static void add_panel(planar_force *f, const planar_panel *p, bool derive)
 
 /* ---- made and freed ---------------------------------------------------------------------------------- */
 
-static double *zeros(size_t n) { return calloc(n, sizeof(double)); }
-
 static hc_status make_normal(planar_force *f)
 {
   const moving_contact across = {.law = {.kn = f->law.kn, .gap = f->law.gap}, .cv = {1}};
-  f->F_normal = zeros((size_t)f->n_coef);
-  f->jac_normal = zeros((size_t)f->n_coef * (size_t)f->n_coef);
-  if (!f->F_normal || !f->jac_normal) return HC_NO_MEMORY;
+  f->F_normal = workspace_doubles(&f->memory, (size_t)f->n_coef);
+  f->jac_normal = workspace_doubles(&f->memory, (size_t)f->n_coef * (size_t)f->n_coef);
+  if (f->memory.failed) return HC_NO_MEMORY;
   return exact_force_new(f->n_harm, 1, 1, &across, &f->normal);
 }
 
@@ -286,21 +286,21 @@ static hc_status make_workspace(planar_force *f)
   planar_cycle *c = &f->cycle;
   c->cap = 16 * f->n_harm + 16;
   c->slip.cap = 64 * f->n_harm + 256;
-  c->interval = calloc((size_t)c->cap, sizeof *c->interval);
-  c->slip.panel = calloc((size_t)c->slip.cap, sizeof *c->slip.panel);
-  f->contact = calloc((size_t)c->cap, sizeof *f->contact);
-  f->intervals = calloc((size_t)c->cap, sizeof *f->intervals);
-  f->indicator = zeros(symbol), f->symbol = zeros(symbol), f->weight = zeros(2 * (size_t)f->n_harm + 1);
-  f->X = zeros((size_t)f->n_size), f->F = zeros(2 * L), f->by = zeros(2 * L * col);
-  f->dw[0] = zeros(col), f->dw[1] = zeros(col), f->dphi = zeros(col);
-  f->matrix = zeros(L * L), f->table = zeros((size_t)series_grid_table_length(f->n_harm));
-  f->node = zeros(3 * N * col), f->base = zeros(N * L), f->rate = zeros(N * L), f->test = zeros(N * L);
-  const bool found =
-      c->interval && c->slip.panel && f->contact && f->intervals && f->indicator && f->symbol && f->weight;
-  return found && f->X && f->F && f->matrix && f->table && f->by && f->dw[0] && f->dw[1] && f->dphi && f->node &&
-                 f->base && f->rate && f->test
-             ? HC_OK
-             : HC_NO_MEMORY;
+  c->interval = workspace_array(&f->memory, (size_t)c->cap, sizeof *c->interval);
+  c->slip.panel = workspace_array(&f->memory, (size_t)c->slip.cap, sizeof *c->slip.panel);
+  f->contact = workspace_array(&f->memory, (size_t)c->cap, sizeof *f->contact);
+  f->intervals = workspace_array(&f->memory, (size_t)c->cap, sizeof *f->intervals);
+  f->indicator = workspace_doubles(&f->memory, symbol), f->symbol = workspace_doubles(&f->memory, symbol),
+  f->weight = workspace_doubles(&f->memory, 2 * (size_t)f->n_harm + 1);
+  f->X = workspace_doubles(&f->memory, (size_t)f->n_size), f->F = workspace_doubles(&f->memory, 2 * L),
+  f->by = workspace_doubles(&f->memory, 2 * L * col);
+  f->dw[0] = workspace_doubles(&f->memory, col), f->dw[1] = workspace_doubles(&f->memory, col),
+  f->dphi = workspace_doubles(&f->memory, col);
+  f->matrix = workspace_doubles(&f->memory, L * L),
+  f->table = workspace_doubles(&f->memory, (size_t)series_grid_table_length(f->n_harm));
+  f->node = workspace_doubles(&f->memory, 3 * N * col), f->base = workspace_doubles(&f->memory, N * L),
+  f->rate = workspace_doubles(&f->memory, N * L), f->test = workspace_doubles(&f->memory, N * L);
+  return f->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 /* Without v, N is what v = 0 gives. */
@@ -339,14 +339,7 @@ void planar_force_free(planar_force *f)
 {
   if (!f) return;
   exact_force_free(f->normal);
-  double *const arrays[] = {f->X,    f->F_normal, f->jac_normal, f->indicator, f->symbol, f->weight,
-                            f->F,    f->by,       f->dw[0],      f->dw[1],     f->dphi,   f->node,
-                            f->base, f->rate,     f->test,       f->matrix,    f->table};
-  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
-  free(f->contact);
-  free(f->intervals);
-  free(f->cycle.interval);
-  free(f->cycle.slip.panel);
+  workspace_free(&f->memory);
   free(f);
 }
 

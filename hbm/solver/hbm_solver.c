@@ -16,10 +16,9 @@ static hc_status make_workspace(hbm_solver *s)
 {
   size_t m = (size_t)s->sys.n_coef + 1;
   double **const arrays[] = {&s->X, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor};
-  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
-    if (!(*arrays[i] = calloc(m, sizeof(double)))) return HC_NO_MEMORY;
-  if (!(s->x = calloc((size_t)series_length(HBM_MAX_HARMONICS), sizeof *s->x))) return HC_NO_MEMORY;
-  return hbm_corrector_new(s);
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) *arrays[i] = workspace_doubles(&s->memory, m);
+  s->x = workspace_doubles(&s->memory, (size_t)series_length(HBM_MAX_HARMONICS));
+  return s->memory.failed ? HC_NO_MEMORY : hbm_corrector_new(s);
 }
 
 static hc_status make_orbit(hbm_solver *s)
@@ -64,8 +63,7 @@ static void free_equations(hbm_solver *s)
   refinement_free(s->exact_finer);
   free(s->improved);
   hbm_system_clear(&s->sys);
-  double *const arrays[] = {s->X, s->x, s->z, s->z_scale, s->r_scale, s->normal, s->anchor};
-  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
+  workspace_free(&s->memory);
   *s = (hbm_solver){.model = s->model,
                     .edges = s->edges,
                     .how = s->how,

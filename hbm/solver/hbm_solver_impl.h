@@ -36,6 +36,7 @@ struct hbm_solver {            /* from hbm_solver_new, to hbm_solver_free; not s
   double *z;                   /* [n+1]     unknowns of a solve */
   double *z_scale, *r_scale;   /* [n+1]     weights for KINSOL */
   double *normal, *anchor;     /* [n+1]     of the plane form; the metric's weights are included in normal */
+  workspace memory;            /* of these arrays */
 };
 
 /* Other numbers of harmonics and samples from here on. The solver is unusable, but may be freed, unless HC_OK. */

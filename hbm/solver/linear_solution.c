@@ -18,23 +18,21 @@ static void add_outer(int dim, double k, const double *d, double *K)
 
 static void add_stuck_stiffness(const hbm_system *sys)
 {
-  hbm_linear_workspace *r = sys->workspace;
-  memset(r->stiffness, 0, (size_t)sys->dim * (size_t)sys->dim * sizeof *r->stiffness);
+  memset(sys->stiffness, 0, (size_t)sys->dim * (size_t)sys->dim * sizeof *sys->stiffness);
   for (int j = 0; j < sys->model->n_contacts; ++j) {
     const contact *law = &sys->model->contacts[j].law;
-    if (!r->stuck[j]) continue;
-    if (contact_has_friction(law)) add_outer(sys->dim, law->kt, condensation_tangent(sys->linear, j), r->stiffness);
-    add_outer(sys->dim, law->kn, condensation_normal(sys->linear, j), r->stiffness);
+    if (!sys->stuck[j]) continue;
+    if (contact_has_friction(law)) add_outer(sys->dim, law->kt, condensation_tangent(sys->linear, j), sys->stiffness);
+    add_outer(sys->dim, law->kn, condensation_normal(sys->linear, j), sys->stiffness);
   }
 }
 
 /* S_h + K', factored. */
 static hc_status factor(const hbm_system *sys, int h)
 {
-  hbm_linear_workspace *r = sys->workspace;
   const double complex *S = condensation_stiffness(sys->linear, h);
-  for (int i = 0; i < sys->dim * sys->dim; ++i) r->A[i] = S[i] + r->stiffness[i];
-  return dense_factor_complex(sys->dim, r->A, r->pivot);
+  for (int i = 0; i < sys->dim * sys->dim; ++i) sys->A[i] = S[i] + sys->stiffness[i];
+  return dense_factor_complex(sys->dim, sys->A, sys->pivot);
 }
 
 static const double complex *load_of(const hbm_system *sys, int h)
@@ -54,32 +52,31 @@ static void put_amplitude(const hbm_system *sys, int h, const double complex *z,
   }
 }
 
-/* The mean q_0 in r->z for the contacts as r->stuck has them. What a contact's force has beside its stiffness is on the
- * right: N - N0 is kn (v + gap) in contact with gap < 0, and -kn gap apart with gap > 0. */
+/* The mean q_0 in sys->z for the contacts as sys->stuck has them. What a contact's force has beside its stiffness is on
+ * the right: N - N0 is kn (v + gap) in contact with gap < 0, and -kn gap apart with gap > 0. */
 static hc_status solve_static(const hbm_system *sys)
 {
-  hbm_linear_workspace *r = sys->workspace;
   const double complex *p = load_of(sys, 0);
   add_stuck_stiffness(sys);
   hc_status st = factor(sys, 0);
   if (st != HC_OK) return st;
-  for (int d = 0; d < sys->dim; ++d) r->z[d] = p ? sys->force_factor * p[d] : 0;
+  for (int d = 0; d < sys->dim; ++d) sys->z[d] = p ? sys->force_factor * p[d] : 0;
   for (int j = 0; j < sys->model->n_contacts; ++j) {
     const contact *law = &sys->model->contacts[j].law;
     const double *n = condensation_normal(sys->linear, j),
-                 constant = (r->stuck[j] ? 1 : -1) * ((law->gap > 0) == r->stuck[j] ? 0 : law->kn * law->gap);
-    for (int d = 0; d < sys->dim; ++d) r->z[d] -= constant * n[d];
+                 constant = (sys->stuck[j] ? 1 : -1) * ((law->gap > 0) == sys->stuck[j] ? 0 : law->kn * law->gap);
+    for (int d = 0; d < sys->dim; ++d) sys->z[d] -= constant * n[d];
   }
-  dense_solve_complex(sys->dim, r->A, r->pivot, false, 1, r->z);
+  dense_solve_complex(sys->dim, sys->A, sys->pivot, false, 1, sys->z);
   return HC_OK;
 }
 
-/* Normal motion of contact j at rest, q_0 being in r->z. */
+/* Normal motion of contact j at rest, q_0 being in sys->z. */
 static double rest_motion(const hbm_system *sys, int j)
 {
   const double *n = condensation_normal(sys->linear, j);
   double v = 0;
-  for (int d = 0; d < sys->dim; ++d) v += n[d] * creal(sys->workspace->z[d]);
+  for (int d = 0; d < sys->dim; ++d) v += n[d] * creal(sys->z[d]);
   return v;
 }
 
@@ -93,23 +90,22 @@ static bool contact_is_closed(const hbm_system *sys, int j)
 static hc_status find_static_state(const hbm_system *sys, double *X)
 {
   enum { TRIES = 50 };
-  hbm_linear_workspace *r = sys->workspace;
   const bool loaded = load_of(sys, 0) && sys->first == 0;
   for (int j = 0; j < sys->model->n_contacts; ++j) {
     const contact *law = &sys->model->contacts[j].law;
-    r->stuck[j] = loaded || law->gap > 0 || law->load > 0;
+    sys->stuck[j] = loaded || law->gap > 0 || law->load > 0;
   }
   add_stuck_stiffness(sys);
   bool changed = loaded;
   for (int k = 0; k < TRIES && changed; ++k) {
     hc_status st = solve_static(sys);
     if (st != HC_OK) return st;
-    put_amplitude(sys, 0, r->z, X);
+    put_amplitude(sys, 0, sys->z, X);
     changed = false;
     for (int j = 0; j < sys->model->n_contacts; ++j) {
       const bool closed = contact_is_closed(sys, j);
-      changed |= closed != r->stuck[j];
-      r->stuck[j] = closed;
+      changed |= closed != sys->stuck[j];
+      sys->stuck[j] = closed;
     }
   }
   add_stuck_stiffness(sys);
@@ -120,7 +116,7 @@ hc_status hbm_linear_rest(hbm_system *sys, double *N)
 {
   const double any = 1; /* at rest omega matters nowhere */
   hc_status st = condensation_at(sys->linear, any, 0);
-  memset(sys->workspace->z, 0, (size_t)sys->dim * sizeof *sys->workspace->z);
+  memset(sys->z, 0, (size_t)sys->dim * sizeof *sys->z);
   if (st == HC_OK) st = find_static_state(sys, sys->rows);
   for (int j = 0; j < sys->model->n_contacts && st == HC_OK; ++j)
     N[j] = contact_normal(&sys->model->contacts[j].law, rest_motion(sys, j));
@@ -129,7 +125,6 @@ hc_status hbm_linear_rest(hbm_system *sys, double *N)
 
 static hc_status respond(const hbm_system *sys, double omega, double *X)
 {
-  hbm_linear_workspace *r = sys->workspace;
   hc_status st = condensation_at(sys->linear, omega, sys->more_damping);
   memset(X, 0, (size_t)sys->n_coef * sizeof(double));
   if (st == HC_OK) st = find_static_state(sys, X);
@@ -137,9 +132,9 @@ static hc_status respond(const hbm_system *sys, double omega, double *X)
     const int h = sys->model->loads[l].harmonic;
     if (h == 0) continue;
     st = factor(sys, h);
-    for (int d = 0; d < sys->dim; ++d) r->z[d] = sys->force_factor * condensation_load(sys->linear, l)[d];
-    if (st == HC_OK) dense_solve_complex(sys->dim, r->A, r->pivot, false, 1, r->z);
-    if (st == HC_OK) put_amplitude(sys, h, r->z, X);
+    for (int d = 0; d < sys->dim; ++d) sys->z[d] = sys->force_factor * condensation_load(sys->linear, l)[d];
+    if (st == HC_OK) dense_solve_complex(sys->dim, sys->A, sys->pivot, false, 1, sys->z);
+    if (st == HC_OK) put_amplitude(sys, h, sys->z, X);
   }
   return st;
 }
@@ -154,7 +149,6 @@ double hbm_linear_response(hbm_system *sys, double omega, double *X)
 /* dq_h = -(S + K')^-1 (dS q_h - dp), harmonic by harmonic: the rows of the equations' derivative. */
 static void differentiate_response(hbm_system *sys, double omega, const double *X, double *R, double *dX)
 {
-  hbm_linear_workspace *r = sys->workspace;
   const int dim = sys->dim;
   memset(dX, 0, (size_t)sys->n_coef * sizeof(double));
   hbm_system_domega(sys, omega, X, R);
@@ -162,9 +156,9 @@ static void differentiate_response(hbm_system *sys, double omega, const double *
     const int h = sys->model->loads[l].harmonic;
     if (h == 0 || factor(sys, h) != HC_OK) continue;
     const double *a = R + (2 * h - 1) * dim - sys->first;
-    for (int d = 0; d < dim; ++d) r->z[d] = -(a[d] - I * a[dim + d]);
-    dense_solve_complex(dim, r->A, r->pivot, false, 1, r->z);
-    put_amplitude(sys, h, r->z, dX);
+    for (int d = 0; d < dim; ++d) sys->z[d] = -(a[d] - I * a[dim + d]);
+    dense_solve_complex(dim, sys->A, sys->pivot, false, 1, sys->z);
+    put_amplitude(sys, h, sys->z, dX);
   }
 }
 

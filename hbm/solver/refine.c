@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 
@@ -15,6 +16,7 @@ struct refinement {
   double *R;   /* [n] residual, then step */
   double *jac; /* [n][n] */
   int *pivot;  /* [n] */
+  workspace memory;
 };
 
 hc_status refinement_new(const model *m, const hbm_settings *how, int n_harm, int n_time, refinement **out)
@@ -24,11 +26,11 @@ hc_status refinement_new(const model *m, const hbm_settings *how, int n_harm, in
   if (!r) return HC_NO_MEMORY;
   hc_status st = hbm_system_init(&r->sys, m, how, n_harm, n_time);
   size_t n = (size_t)r->sys.n_coef;
-  r->X = calloc(n, sizeof(double));
-  r->R = calloc(n, sizeof(double));
-  r->jac = calloc(n * n, sizeof(double));
-  r->pivot = calloc(n, sizeof *r->pivot);
-  if (st == HC_OK && (!r->X || !r->R || !r->jac || !r->pivot)) st = HC_NO_MEMORY;
+  r->X = workspace_doubles(&r->memory, n);
+  r->R = workspace_doubles(&r->memory, n);
+  r->jac = workspace_doubles(&r->memory, n * n);
+  r->pivot = workspace_array(&r->memory, n, sizeof *r->pivot);
+  if (st == HC_OK && r->memory.failed) st = HC_NO_MEMORY;
   if (st == HC_OK) {
     *out = r;
     return HC_OK;
@@ -41,10 +43,7 @@ void refinement_free(refinement *r)
 {
   if (!r) return;
   hbm_system_clear(&r->sys);
-  free(r->X);
-  free(r->R);
-  free(r->jac);
-  free(r->pivot);
+  workspace_free(&r->memory);
   free(r);
 }
 

@@ -2,31 +2,21 @@
 #include "hbm/solver/system.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-static hc_status linear_workspace_new(const model *m, int dim, hbm_linear_workspace **out)
+static void make_arrays(hbm_system *sys)
 {
-  const size_t n = (size_t)dim;
-  hbm_linear_workspace *r = *out = calloc(1, sizeof *r);
-  if (!r) return HC_NO_MEMORY;
-  r->stuck = calloc((size_t)m->n_contacts + 1, sizeof *r->stuck);
-  r->stiffness = calloc(n * n, sizeof *r->stiffness);
-  r->A = calloc(n * n, sizeof *r->A);
-  r->z = calloc(n, sizeof *r->z);
-  r->pivot = calloc(n, sizeof *r->pivot);
-  return r->stuck && r->stiffness && r->A && r->z && r->pivot ? HC_OK : HC_NO_MEMORY;
-}
-
-static void linear_workspace_free(hbm_linear_workspace *r)
-{
-  if (!r) return;
-  free(r->stuck);
-  free(r->stiffness);
-  free(r->A);
-  free(r->z);
-  free(r->pivot);
-  free(r);
+  const size_t n = (size_t)sys->n_coef, dim = (size_t)sys->dim;
+  workspace *w = &sys->memory;
+  sys->X = workspace_doubles(w, n);
+  sys->F = workspace_doubles(w, n);
+  sys->rows = workspace_doubles(w, n);
+  sys->amplitudes = workspace_array(w, 2 * dim, sizeof *sys->amplitudes);
+  sys->stuck = workspace_array(w, (size_t)sys->model->n_contacts, sizeof *sys->stuck);
+  sys->stiffness = workspace_doubles(w, dim * dim);
+  sys->A = workspace_array(w, dim * dim, sizeof *sys->A);
+  sys->z = workspace_array(w, dim, sizeof *sys->z);
+  sys->pivot = workspace_array(w, dim, sizeof *sys->pivot);
 }
 
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
@@ -40,13 +30,8 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->n_coef = hbm_system_length(sys, n_harm);
   sys->first = how->keep_mean ? 0 : sys->dim;
   sys->n = sys->n_coef - sys->first;
-  size_t n = (size_t)sys->n_coef, dim = (size_t)sys->dim;
-  sys->X = calloc(n, sizeof(double));
-  sys->F = calloc(n, sizeof(double));
-  sys->rows = calloc(n, sizeof(double));
-  sys->amplitudes = calloc(2 * dim, sizeof *sys->amplitudes);
-  if (!sys->X || !sys->F || !sys->rows || !sys->amplitudes) return HC_NO_MEMORY;
-  if ((st = linear_workspace_new(m, sys->dim, &sys->workspace)) != HC_OK) return st;
+  make_arrays(sys);
+  if (sys->memory.failed) return HC_NO_MEMORY;
   const evaluator_settings by = {n_harm, n_time, how->restart};
   return contact_forces_new(m, sys->linear, how->force, &by, &sys->contacts);
 }
@@ -55,11 +40,7 @@ void hbm_system_clear(hbm_system *sys)
 {
   condensation_free(sys->linear);
   contact_forces_free(sys->contacts);
-  linear_workspace_free(sys->workspace);
-  free(sys->X);
-  free(sys->F);
-  free(sys->rows);
-  free(sys->amplitudes);
+  workspace_free(&sys->memory);
   *sys = (hbm_system){0};
 }
 

@@ -12,17 +12,10 @@
 #ifndef HC_SYSTEM_H
 #define HC_SYSTEM_H
 
+#include "base/workspace.h"
 #include "hbm/forces/contact_forces.h"
 #include "model/modes.h"
 #include "numerics/series.h"
-
-/* Workspace of linear_solution.c. */
-typedef struct hbm_linear_workspace {
-  bool *stuck;           /* [n_contacts] */
-  double *stiffness;     /* [dim][dim] K' */
-  double complex *A, *z; /* [dim][dim] factored; [dim] */
-  int *pivot;            /* [dim] */
-} hbm_linear_workspace;
 
 typedef struct hbm_system {
   const model *model; /* the solver's */
@@ -33,7 +26,6 @@ typedef struct hbm_system {
   double force_factor /* phi */, more_damping /* D [force time/length] */;
   condensation *linear;
   contact_forces *contacts;
-  hbm_linear_workspace *workspace;
   model_scales scales;
   double *X, *F; /* [n_coef] the last evaluation: where, and the contact force */
   contact_report report;
@@ -41,6 +33,11 @@ typedef struct hbm_system {
   double *rows;   /* [n_coef] residual or its derivative with the means' rows, which may have to be dropped */
   double complex *amplitudes; /* [2][dim] */
   long evaluations;           /* of the contact force */
+  bool *stuck;                /* [n_contacts] of linear_solution.c, and all that follows: */
+  double *stiffness;          /* [dim][dim] K' */
+  double complex *A, *z;      /* [dim][dim] factored; [dim] */
+  int *pivot;                 /* [dim] */
+  workspace memory;           /* of all of its arrays */
 } hbm_system;
 
 /* Entries of X with n_harm harmonics. */

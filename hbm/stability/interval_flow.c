@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "numerics/dense.h"
 
 enum { MOST_STATES = 32 }; /* combinations of contact states that are kept; more replace the oldest */
@@ -39,6 +40,7 @@ struct interval_flow {
   double complex *work;                /* [3][2n][2n] and [2n] */
   double *y;                           /* [2 moving][n_states] */
   int n_lasting, *lasting;             /* [moving] of interval_flow_leave: which of y */
+  workspace memory;                    /* of all of these */
   gsl_matrix *augmented, *exponential; /* [n_states]^2, for what has no eigenvectors; made when needed */
 };
 
@@ -213,19 +215,17 @@ hc_status interval_flow_new(const model *m, interval_flow **out)
   f->n = m->n;
   f->moving = 2 * m->n;
   f->n_states = f->moving + m->n_contacts;
-  f->by_K = calloc(n * n, sizeof *f->by_K);
-  f->by_C = calloc(n * n, sizeof *f->by_C);
-  f->along = calloc(n * contacts + 1, sizeof *f->along);
-  f->across = calloc(n * contacts + 1, sizeof *f->across);
-  f->key = calloc(contacts + 1, sizeof *f->key);
-  f->A = calloc(4 * n * n, sizeof *f->A);
-  f->pivot = calloc(2 * n, sizeof *f->pivot);
-  f->work = calloc(12 * n * n + 2 * n, sizeof *f->work);
-  f->y = calloc(4 * n * (2 * n + contacts), sizeof *f->y);
-  f->lasting = calloc(2 * n, sizeof *f->lasting);
-  const bool linear = f->by_K && f->by_C && f->along && f->across,
-             workspace = f->key && f->A && f->pivot && f->work && f->y && f->lasting;
-  hc_status st = linear && workspace ? divide_by_mass(m, f) : HC_NO_MEMORY;
+  f->by_K = workspace_array(&f->memory, n * n, sizeof *f->by_K);
+  f->by_C = workspace_array(&f->memory, n * n, sizeof *f->by_C);
+  f->along = workspace_array(&f->memory, n * contacts + 1, sizeof *f->along);
+  f->across = workspace_array(&f->memory, n * contacts + 1, sizeof *f->across);
+  f->key = workspace_array(&f->memory, contacts + 1, sizeof *f->key);
+  f->A = workspace_array(&f->memory, 4 * n * n, sizeof *f->A);
+  f->pivot = workspace_array(&f->memory, 2 * n, sizeof *f->pivot);
+  f->work = workspace_array(&f->memory, 12 * n * n + 2 * n, sizeof *f->work);
+  f->y = workspace_array(&f->memory, 4 * n * (2 * n + contacts), sizeof *f->y);
+  f->lasting = workspace_array(&f->memory, 2 * n, sizeof *f->lasting);
+  hc_status st = f->memory.failed ? HC_NO_MEMORY : divide_by_mass(m, f);
   if (st == HC_OK) f->unit = middle_frequency(f);
   if (st == HC_OK) *out = f;
   else interval_flow_free(f);
@@ -236,16 +236,7 @@ void interval_flow_free(interval_flow *f)
 {
   if (!f) return;
   for (int k = 0; k < MOST_STATES; ++k) interval_forget(&f->known[k]);
-  free(f->by_K);
-  free(f->by_C);
-  free(f->along);
-  free(f->across);
-  free(f->key);
-  free(f->A);
-  free(f->pivot);
-  free(f->work);
-  free(f->y);
-  free(f->lasting);
+  workspace_free(&f->memory);
   if (f->augmented) gsl_matrix_free(f->augmented);
   if (f->exponential) gsl_matrix_free(f->exponential);
   free(f);

@@ -17,6 +17,7 @@
 
 #include "base/constants.h"
 #include "base/number.h"
+#include "base/workspace.h"
 #include "hbm/planar/planar_flow.h"
 #include "hbm/stability/interval_flow.h"
 #include "numerics/floquet.h"
@@ -59,6 +60,7 @@ struct monodromy {
   bool *goes_on;
   double complex *lambda; /* [n_states] */
   floquet *floquet;
+  workspace memory; /* of all arrays but boundary */
 };
 
 /* ---- the intervals of a period ------------------------------------------------------------------ */
@@ -329,19 +331,17 @@ hc_status monodromy_new(const model *m, monodromy **out)
   w->n = m->n;
   w->n_states = 2 * m->n + m->n_contacts;
   const size_t n = (size_t)w->n_states;
-  w->phi = malloc(n * n * sizeof *w->phi);
-  w->size = malloc(n * sizeof *w->size);
-  w->interval = malloc(n * sizeof *w->interval);
-  w->active = malloc(n * sizeof *w->active);
-  w->slider = malloc(n * sizeof *w->slider);
-  w->goes_on = malloc(n * sizeof *w->goes_on);
-  w->lambda = malloc(n * sizeof *w->lambda);
-  w->left = malloc(n * n * sizeof *w->left);
-  w->track = calloc((size_t)m->n_contacts + 1, sizeof *w->track);
-  w->slipping = calloc((size_t)m->n_contacts + 1, sizeof *w->slipping);
-  const bool vectors = w->boundary && w->size && w->interval && w->active && w->slider && w->goes_on && w->lambda;
-  const bool allocated = vectors && w->phi && w->left && w->track && w->slipping;
-  hc_status st = allocated ? floquet_new(w->n_states, &w->floquet) : HC_NO_MEMORY;
+  w->phi = workspace_array(&w->memory, n * n, sizeof *w->phi);
+  w->size = workspace_array(&w->memory, n, sizeof *w->size);
+  w->interval = workspace_array(&w->memory, n, sizeof *w->interval);
+  w->active = workspace_array(&w->memory, n, sizeof *w->active);
+  w->slider = workspace_array(&w->memory, n, sizeof *w->slider);
+  w->goes_on = workspace_array(&w->memory, n, sizeof *w->goes_on);
+  w->lambda = workspace_array(&w->memory, n, sizeof *w->lambda);
+  w->left = workspace_array(&w->memory, n * n, sizeof *w->left);
+  w->track = workspace_array(&w->memory, (size_t)m->n_contacts + 1, sizeof *w->track);
+  w->slipping = workspace_array(&w->memory, (size_t)m->n_contacts + 1, sizeof *w->slipping);
+  hc_status st = w->boundary && !w->memory.failed ? floquet_new(w->n_states, &w->floquet) : HC_NO_MEMORY;
   for (int j = 0; j < m->n_contacts && st == HC_OK; j += w->track[j].law->contacts)
     w->track[j].law = &laws[placed_contact_of(m, j).planar ? PLANAR : LINE];
   if (st == HC_OK) st = interval_flow_new(m, &w->flow);
@@ -358,17 +358,8 @@ void monodromy_free(monodromy *w)
   floquet_free(w->floquet);
   interval_flow_free(w->flow);
   planar_flow_free(w->planar);
-  free(w->track);
-  free(w->slipping);
+  workspace_free(&w->memory);
   free(w->boundary);
-  free(w->phi);
-  free(w->left);
-  free(w->size);
-  free(w->interval);
-  free(w->active);
-  free(w->slider);
-  free(w->goes_on);
-  free(w->lambda);
   free(w);
 }
 

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "hbm/structure/mode_sum.h"
 #include "model/modes.h"
 #include "numerics/dense.h"
@@ -31,43 +32,38 @@ struct compliance {
   bool change_is_known;
   int *pivot;           /* [dim] */
   double complex *work; /* [DENSE_INVERT_WORK dim] */
+  workspace memory;     /* of all of these */
 };
 
 /* What mode sums are made of. */
 typedef struct modal_form {
-  int n, rows;    /* rows: q, loads, responses */
+  int n, rows;    /* rows: responses, q, loads */
   double *omega2; /* [n] */
   double *phi;    /* [n][n] */
   double *C;      /* [n][n] phi^T C phi */
   double *x;      /* [rows][n] each direction's entries in the modes */
+  workspace memory;
 } modal_form;
 
-static void clear_form(modal_form *f)
-{
-  free(f->omega2);
-  free(f->phi);
-  free(f->C);
-  free(f->x);
-}
-
-/* The direction of row k: of q, then of the loads, then of the responses. */
+/* The direction of row k: of the responses, then of q, then of the loads. Either sum begins with its left rows. */
 static const double *direction(const model *m, int dim, const double *B, int k)
 {
-  if (k < dim) return B + (size_t)k * (size_t)m->n;
-  if (k < dim + 2 * m->n_loads) return (k - dim) % 2 ? m->loads[(k - dim) / 2].sine : m->loads[(k - dim) / 2].cosine;
-  return m->responses + (size_t)(k - dim - 2 * m->n_loads) * (size_t)m->n;
+  const int of_q = k - m->n_responses, of_load = of_q - dim;
+  if (of_q < 0) return m->responses + (size_t)k * (size_t)m->n;
+  if (of_load < 0) return B + (size_t)of_q * (size_t)m->n;
+  return of_load % 2 ? m->loads[of_load / 2].sine : m->loads[of_load / 2].cosine;
 }
 
 static hc_status make_form(const model *m, int dim, const double *B, modal_form *f)
 {
   const size_t n = (size_t)m->n;
   *f = (modal_form){.n = m->n, .rows = dim + 2 * m->n_loads + m->n_responses};
-  double *work = malloc(2 * n * n * sizeof *work);
-  f->omega2 = malloc(n * sizeof *f->omega2);
-  f->phi = malloc(n * n * sizeof *f->phi);
-  f->C = malloc(n * n * sizeof *f->C);
-  f->x = malloc((size_t)f->rows * n * sizeof *f->x);
-  hc_status st = work && f->omega2 && f->phi && f->C && f->x ? HC_OK : HC_NO_MEMORY;
+  double *work = workspace_doubles(&f->memory, 2 * n * n);
+  f->omega2 = workspace_array(&f->memory, n, sizeof *f->omega2);
+  f->phi = workspace_array(&f->memory, n * n, sizeof *f->phi);
+  f->C = workspace_array(&f->memory, n * n, sizeof *f->C);
+  f->x = workspace_array(&f->memory, (size_t)f->rows * n, sizeof *f->x);
+  hc_status st = f->memory.failed ? HC_NO_MEMORY : HC_OK;
   if (st == HC_OK) st = model_modes(m, false, f->omega2, f->phi);
   if (st == HC_OK) dense_congruence(m->n, m->n, f->phi, m->damping, work, f->C);
   for (int k = 0; k < f->rows && st == HC_OK; ++k) {
@@ -78,7 +74,6 @@ static hc_status make_form(const model *m, int dim, const double *B, modal_form 
       f->x[(size_t)k * n + i] = sum;
     }
   }
-  free(work);
   return st;
 }
 
@@ -98,19 +93,15 @@ static bool is_diagonal(const modal_form *f)
 
 static hc_status sum_modes(const model *m, int dim, const modal_form *f, compliance *c)
 {
-  const size_t n = (size_t)f->n, inputs = (size_t)dim + 2 * (size_t)m->n_loads;
-  const int rows = (int)inputs + m->n_responses;
-  double *own = malloc(n * sizeof *own), *x = malloc((size_t)rows * n * sizeof *x);
-  hc_status st = own && x ? HC_OK : HC_NO_MEMORY;
+  const size_t n = (size_t)f->n;
+  const int responses = m->n_responses;
+  double *own = malloc(n * sizeof *own);
+  hc_status st = own ? HC_OK : HC_NO_MEMORY;
   for (size_t i = 0; i < n && st == HC_OK; ++i) own[i] = f->C[i * (n + 1)];
-  if (st == HC_OK) st = mode_sum_of_modes(f->n, f->omega2, own, dim, (int)inputs, f->x, &c->of_q);
-  if (st == HC_OK) { /* responses first: they are the left rows */
-    memcpy(x, f->x + inputs * n, (size_t)m->n_responses * n * sizeof *x);
-    memcpy(x + (size_t)m->n_responses * n, f->x, inputs * n * sizeof *x);
-    st = mode_sum_of_modes(f->n, f->omega2, own, m->n_responses, rows, x, &c->of_responses);
-  }
+  if (st == HC_OK)
+    st = mode_sum_of_modes(f->n, f->omega2, own, dim, f->rows - responses, f->x + (size_t)responses * n, &c->of_q);
+  if (st == HC_OK) st = mode_sum_of_modes(f->n, f->omega2, own, responses, f->rows, f->x, &c->of_responses);
   free(own);
-  free(x);
   return st;
 }
 
@@ -165,25 +156,6 @@ static bool take_poles(const modal_form *f, double u, const double complex *lamb
   return true;
 }
 
-static hc_status sums_of_table(const model *m, int dim, const pole_table *t, compliance *c)
-{
-  const size_t kept = (size_t)t->n, inputs = (size_t)dim + 2 * (size_t)m->n_loads, responses = (size_t)m->n_responses;
-  const size_t rows = inputs + responses;
-  double complex *left = malloc((rows * kept + 1) * sizeof *left), *right = malloc((rows * kept + 1) * sizeof *right);
-  hc_status st = left && right ? HC_OK : HC_NO_MEMORY;
-  if (st == HC_OK) st = mode_sum_of_poles(t->n, t->lambda, dim, (int)inputs, t->left, t->right, &c->of_q);
-  if (st == HC_OK) {
-    memcpy(left, t->left + inputs * kept, responses * kept * sizeof *left);
-    memcpy(left + responses * kept, t->left, inputs * kept * sizeof *left);
-    memcpy(right, t->right + inputs * kept, responses * kept * sizeof *right);
-    memcpy(right + responses * kept, t->right, inputs * kept * sizeof *right);
-    st = mode_sum_of_poles(t->n, t->lambda, m->n_responses, (int)rows, left, right, &c->of_responses);
-  }
-  free(left);
-  free(right);
-  return st;
-}
-
 /* A frequency amid the structure's own. */
 static double middle_frequency(const modal_form *f)
 {
@@ -196,23 +168,23 @@ static hc_status sum_poles(const model *m, int dim, const modal_form *f, complia
 {
   const size_t n = (size_t)f->n, ld = 2 * n;
   const double u = middle_frequency(f);
-  double *A = malloc(ld * ld * sizeof *A);
-  double complex *lambda = malloc(ld * sizeof *lambda), *V = malloc(2 * ld * ld * sizeof *V),
-                 *W = V ? V + ld * ld : NULL;
-  pole_table t = {.lambda = malloc(ld * sizeof *t.lambda),
-                  .left = malloc((size_t)f->rows * ld * sizeof *t.left),
-                  .right = malloc((size_t)f->rows * ld * sizeof *t.right)};
-  hc_status st = A && lambda && V && t.lambda && t.left && t.right ? HC_OK : HC_NO_MEMORY;
+  workspace own = {0};
+  double *A = workspace_doubles(&own, ld * ld);
+  double complex *lambda = workspace_array(&own, ld, sizeof *lambda), *V = workspace_array(&own, ld * ld, sizeof *V),
+                 *W = workspace_array(&own, ld * ld, sizeof *W);
+  pole_table t = {.lambda = workspace_array(&own, ld, sizeof *t.lambda),
+                  .left = workspace_array(&own, (size_t)f->rows * ld, sizeof *t.left),
+                  .right = workspace_array(&own, (size_t)f->rows * ld, sizeof *t.right)};
+  hc_status st = own.failed ? HC_NO_MEMORY : HC_OK;
   if (st == HC_OK) fill_first_order(f, u, A);
   if (st == HC_OK) st = dense_eigen_both(2 * f->n, A, lambda, V, W);
-  const bool usable = st == HC_OK && take_poles(f, u, lambda, V, W, &t);
-  if (usable) st = sums_of_table(m, dim, &t, c);
-  free(A);
-  free(lambda);
-  free(V);
-  free(t.lambda);
-  free(t.left);
-  free(t.right);
+  if (st == HC_OK && take_poles(f, u, lambda, V, W, &t)) {
+    const int responses = m->n_responses, inputs = f->rows - responses;
+    const size_t behind = (size_t)responses * (size_t)t.n;
+    st = mode_sum_of_poles(t.n, t.lambda, dim, inputs, t.left + behind, t.right + behind, &c->of_q);
+    if (st == HC_OK) st = mode_sum_of_poles(t.n, t.lambda, responses, f->rows, t.left, t.right, &c->of_responses);
+  }
+  workspace_free(&own);
   return st;
 }
 
@@ -230,12 +202,12 @@ static hc_status make_workspace(const model *m, int dim, compliance *c)
 {
   const size_t columns = (size_t)dim + 2 * (size_t)m->n_loads + (size_t)m->n_responses,
                rows = (size_t)(dim > m->n_responses ? dim : m->n_responses);
-  c->G = calloc(columns * rows, sizeof *c->G);
-  c->by_s = calloc(columns * rows, sizeof *c->by_s);
-  c->by_d = calloc(columns * rows, sizeof *c->by_d);
-  c->work = calloc(DENSE_INVERT_WORK * (size_t)dim, sizeof *c->work);
-  c->pivot = calloc((size_t)dim, sizeof *c->pivot);
-  return c->G && c->by_s && c->by_d && c->work && c->pivot ? HC_OK : HC_NO_MEMORY;
+  c->G = workspace_array(&c->memory, columns * rows, sizeof *c->G);
+  c->by_s = workspace_array(&c->memory, columns * rows, sizeof *c->by_s);
+  c->by_d = workspace_array(&c->memory, columns * rows, sizeof *c->by_d);
+  c->work = workspace_array(&c->memory, DENSE_INVERT_WORK * (size_t)dim, sizeof *c->work);
+  c->pivot = workspace_array(&c->memory, (size_t)dim, sizeof *c->pivot);
+  return c->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 hc_status compliance_new(const model *m, int dim, const double *B, compliance **out)
@@ -250,7 +222,7 @@ hc_status compliance_new(const model *m, int dim, const double *B, compliance **
   if (st == HC_OK && every_mode_is_damped(&f))
     st = is_diagonal(&f) ? sum_modes(m, dim, &f, c) : sum_poles(m, dim, &f, c);
   if (st == HC_OK && c->of_responses) st = make_workspace(m, dim, c);
-  clear_form(&f);
+  workspace_free(&f.memory);
   const bool usable = st == HC_OK && c->of_responses;
   if (usable) *out = c;
   else compliance_free(c);
@@ -262,11 +234,7 @@ void compliance_free(compliance *c)
   if (!c) return;
   mode_sum_free(c->of_q);
   mode_sum_free(c->of_responses);
-  free(c->G);
-  free(c->by_s);
-  free(c->by_d);
-  free(c->work);
-  free(c->pivot);
+  workspace_free(&c->memory);
   free(c);
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "hbm/structure/compliance.h"
 #include "hbm/structure/condensation_basis.h"
 #include "numerics/dense.h"
@@ -31,6 +32,7 @@ struct condensation {
   double complex *rest_of;   /* [n_loads][rest]: Z_yy^-1 p_y */
   double complex *Zyy;       /* [rest][rest] where it is not diagonal; else [rest], its inverse */
   int *pivot;                /* [rest] */
+  workspace memory;          /* of all of these */
 };
 
 /* What Z is at h: K + (alpha M + beta C) with these. */
@@ -66,8 +68,6 @@ static double more_rate(const condensation *c) { return c->more_damping * c->mor
 /* With a rest at least as large its modes pay. */
 enum { LARGE = 24 };
 
-static double complex *new_complex(size_t n) { return calloc(n + 1, sizeof(double complex)); }
-
 hc_status condensation_new(const model *m, int n_harm, condensation **out)
 {
   condensation *c = calloc(1, sizeof *c);
@@ -81,21 +81,19 @@ hc_status condensation_new(const model *m, int n_harm, condensation **out)
   const size_t H = (size_t)n_harm + 1, dim = (size_t)c->basis.dim, rest = (size_t)c->basis.rest,
                loads = (size_t)m->n_loads;
   if (st == HC_OK) {
-    c->by_compliance = calloc(H, sizeof *c->by_compliance);
-    c->motion = new_complex(loads * dim);
-    c->workspace = new_complex(2 * loads * dim);
-    c->vector = new_complex(2 * (size_t)m->n);
-    c->S = new_complex(H * dim * dim);
-    c->size = calloc(dim * dim + 1, sizeof *c->size);
-    c->by_q = new_complex(H * dim * rest);
-    c->by_y = new_complex(H * dim * rest);
-    c->load = new_complex(loads * dim);
-    c->rest_of = new_complex(loads * rest);
-    c->Zyy = new_complex(rest * rest);
-    c->pivot = calloc(rest + 1, sizeof *c->pivot);
-    const bool sums =
-        c->S && c->size && c->by_q && c->by_y && c->by_compliance && c->motion && c->workspace && c->vector;
-    if (!sums || !c->load || !c->rest_of || !c->Zyy || !c->pivot) st = HC_NO_MEMORY;
+    c->by_compliance = workspace_array(&c->memory, H, sizeof *c->by_compliance);
+    c->motion = workspace_array(&c->memory, loads * dim, sizeof *c->motion);
+    c->workspace = workspace_array(&c->memory, 2 * loads * dim, sizeof *c->workspace);
+    c->vector = workspace_array(&c->memory, 2 * (size_t)m->n, sizeof *c->vector);
+    c->S = workspace_array(&c->memory, H * dim * dim, sizeof *c->S);
+    c->size = workspace_array(&c->memory, dim * dim + 1, sizeof *c->size);
+    c->by_q = workspace_array(&c->memory, H * dim * rest, sizeof *c->by_q);
+    c->by_y = workspace_array(&c->memory, H * dim * rest, sizeof *c->by_y);
+    c->load = workspace_array(&c->memory, loads * dim, sizeof *c->load);
+    c->rest_of = workspace_array(&c->memory, loads * rest, sizeof *c->rest_of);
+    c->Zyy = workspace_array(&c->memory, rest * rest, sizeof *c->Zyy);
+    c->pivot = workspace_array(&c->memory, rest + 1, sizeof *c->pivot);
+    if (c->memory.failed) st = HC_NO_MEMORY;
   }
   if (st == HC_OK && c->basis.rest >= LARGE) st = compliance_new(m, c->basis.dim, c->basis.rows, &c->compliance);
   if (st == HC_OK) *out = c;
@@ -108,18 +106,7 @@ void condensation_free(condensation *c)
   if (!c) return;
   condensation_basis_clear(&c->basis);
   compliance_free(c->compliance);
-  free(c->by_compliance);
-  free(c->motion);
-  free(c->workspace);
-  free(c->vector);
-  free(c->S);
-  free(c->size);
-  free(c->by_q);
-  free(c->by_y);
-  free(c->load);
-  free(c->rest_of);
-  free(c->Zyy);
-  free(c->pivot);
+  workspace_free(&c->memory);
   free(c);
 }
 

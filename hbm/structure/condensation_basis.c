@@ -36,25 +36,17 @@ static hc_status allocate(const model *m, condensation_basis *b)
 {
   const size_t n = (size_t)m->n;
   double **const squares[] = {&b->T, &b->M, &b->C, &b->K};
-  for (size_t i = 0; i < sizeof squares / sizeof *squares; ++i)
-    if (!(*squares[i] = calloc(n * n, sizeof(double)))) return HC_NO_MEMORY;
-  b->rows = calloc(n * (2 * (size_t)m->n_contacts + 1), sizeof(double));
-  b->directions = calloc(2 * n * (size_t)m->n_contacts + 1, sizeof(double));
-  b->loads = calloc(2 * n * (size_t)m->n_loads + 1, sizeof(double));
-  b->responses = calloc(n * (size_t)m->n_responses + 1, sizeof(double));
-  return b->rows && b->directions && b->loads && b->responses ? HC_OK : HC_NO_MEMORY;
+  for (size_t i = 0; i < sizeof squares / sizeof *squares; ++i) *squares[i] = workspace_doubles(&b->memory, n * n);
+  b->rows = workspace_doubles(&b->memory, n * (2 * (size_t)m->n_contacts + 1));
+  b->directions = workspace_doubles(&b->memory, 2 * n * (size_t)m->n_contacts + 1);
+  b->loads = workspace_doubles(&b->memory, 2 * n * (size_t)m->n_loads + 1);
+  b->responses = workspace_doubles(&b->memory, n * (size_t)m->n_responses + 1);
+  return b->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 void condensation_basis_clear(condensation_basis *b)
 {
-  free(b->T);
-  free(b->M);
-  free(b->C);
-  free(b->K);
-  free(b->rows);
-  free(b->directions);
-  free(b->loads);
-  free(b->responses);
+  workspace_free(&b->memory);
   *b = (condensation_basis){0};
 }
 
@@ -99,10 +91,11 @@ static void keep_rows(const model *m, const double *const *row, const int *pivot
 static hc_status choose_coordinates(const model *m, condensation_basis *b)
 {
   const int n = m->n, most = 2 * m->n_contacts + 1;
-  const double **row = calloc((size_t)most, sizeof *row);
-  int *pivot = calloc((size_t)most, sizeof *pivot);
-  double *triangle = calloc(square(most < n ? most : n), sizeof *triangle);
-  hc_status st = row && pivot && triangle ? HC_OK : HC_NO_MEMORY;
+  workspace own = {0};
+  const double **row = workspace_array(&own, (size_t)most, sizeof *row);
+  int *pivot = workspace_array(&own, (size_t)most, sizeof *pivot);
+  double *triangle = workspace_doubles(&own, square(most < n ? most : n));
+  hc_status st = own.failed ? HC_NO_MEMORY : HC_OK;
   b->dim = 0;
   if (st == HC_OK) st = dense_span(n, collect_rows(m, row), row, dependent, &b->dim, pivot, b->T, triangle);
   b->rest = n - b->dim;
@@ -112,9 +105,7 @@ static hc_status choose_coordinates(const model *m, condensation_basis *b)
     memset(b->T, 0, square(n) * sizeof *b->T);
     for (int i = 0; i < n; ++i) b->T[(size_t)i * (size_t)(n + 1)] = 1;
   }
-  free(row);
-  free(pivot);
-  free(triangle);
+  workspace_free(&own);
   return st;
 }
 
@@ -141,10 +132,11 @@ static hc_status choose_modes(const model *m, condensation_basis *b)
 {
   const int n = m->n, rest = b->rest;
   const double *Y = b->T + (size_t)b->dim * (size_t)n;
-  double *work = calloc(2 * square(n), sizeof *work), *lambda = calloc((size_t)rest, sizeof *lambda),
-         *phi = calloc(square(rest), sizeof *phi), *Myy = calloc(square(rest), sizeof *Myy),
-         *Kyy = calloc(square(rest), sizeof *Kyy);
-  hc_status st = work && lambda && phi && Myy && Kyy ? HC_OK : HC_NO_MEMORY;
+  workspace own = {0};
+  double *work = workspace_doubles(&own, 2 * square(n)), *lambda = workspace_doubles(&own, (size_t)rest),
+         *phi = workspace_doubles(&own, square(rest)), *Myy = workspace_doubles(&own, square(rest)),
+         *Kyy = workspace_doubles(&own, square(rest));
+  hc_status st = own.failed ? HC_NO_MEMORY : HC_OK;
   if (st == HC_OK) {
     dense_congruence(n, rest, Y, m->mass, work, Myy);
     dense_congruence(n, rest, Y, m->stiffness, work, Kyy);
@@ -153,11 +145,7 @@ static hc_status choose_modes(const model *m, condensation_basis *b)
   for (int i = 0; i < rest && st == HC_OK; ++i)
     if (!(lambda[i] > free_mode * fabs(lambda[rest - 1]))) st = HC_SINGULAR;
   if (st == HC_OK) turn_to_modes(m, b, lambda, phi, work);
-  free(work);
-  free(lambda);
-  free(phi);
-  free(Myy);
-  free(Kyy);
+  workspace_free(&own);
   return st;
 }
 

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "base/workspace.h"
 #include "model/model.h"
 
 typedef struct condensation_basis {
@@ -16,6 +17,7 @@ typedef struct condensation_basis {
   double *directions; /* [n_contacts][2][dim]: tangent and normal in q */
   double *loads;      /* [n_loads][2][n]: T^T of cosine and sine */
   double *responses;  /* [n_responses][n]: T^T of each */
+  workspace memory;
 } condensation_basis;
 
 /* HC_NO_MEMORY; HC_SINGULAR: what is left when all contacts are held can move freely, or M is not positive definite.

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "numerics/dense.h"
 
 /* A mode is far where its poles are more than FAR times as far from 0 as s: what the series leaves out after TERMS
@@ -28,6 +29,7 @@ struct mode_sum {
   int near;                  /* modes that are summed one by one; the others by the series */
   double reach;              /* of the series, which is in s/reach; 0: none yet */
   double *series;            /* [rows dim/LANES][TERMS][LANES] */
+  workspace memory;          /* of all of these */
 };
 
 /* ---- made and freed ------------------------------------------------------------------------------ */
@@ -56,30 +58,23 @@ static hc_status new_sum(int n, int dim, int rows, bool poles, mode_sum **out)
   *m = (mode_sum){.n = n, .dim = dim, .rows = rows, .poles = poles};
   const size_t modes = (size_t)n + 1, entries = (size_t)rows * (size_t)n + 1;
   double **const lists[] = {&m->k, &m->c, &m->distance}, **const tables[] = {&m->lr, &m->li, &m->rr, &m->ri};
-  bool allocated = true;
-  for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i)
-    allocated &= (*lists[i] = calloc(modes, sizeof(double))) != NULL;
+  for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i) *lists[i] = workspace_doubles(&m->memory, modes);
   for (size_t i = 0; i < (poles ? sizeof tables / sizeof *tables : 1); ++i)
-    allocated &= (*tables[i] = calloc(entries, sizeof(double))) != NULL;
-  m->lambda = calloc(modes, sizeof *m->lambda);
-  m->power = calloc(modes, sizeof *m->power);
-  m->weight = calloc(4 * modes, sizeof *m->weight);
-  m->product = calloc(2 * (size_t)dim * modes, sizeof *m->product);
-  m->turned = calloc(poles ? 2 * (size_t)dim * modes : 1, sizeof *m->turned);
-  m->term = calloc((size_t)rows * (size_t)dim + 1, sizeof *m->term);
-  m->series = calloc(((size_t)rows * (size_t)dim + LANES) * TERMS, sizeof *m->series);
-  const bool products = m->product && m->turned && m->term;
-  return allocated && m->lambda && m->power && m->weight && products && m->series ? HC_OK : HC_NO_MEMORY;
+    *tables[i] = workspace_doubles(&m->memory, entries);
+  m->lambda = workspace_array(&m->memory, modes, sizeof *m->lambda);
+  m->power = workspace_array(&m->memory, modes, sizeof *m->power);
+  m->weight = workspace_array(&m->memory, 4 * modes, sizeof *m->weight);
+  m->product = workspace_array(&m->memory, 2 * (size_t)dim * modes, sizeof *m->product);
+  m->turned = workspace_array(&m->memory, poles ? 2 * (size_t)dim * modes : 1, sizeof *m->turned);
+  m->term = workspace_array(&m->memory, (size_t)rows * (size_t)dim + 1, sizeof *m->term);
+  m->series = workspace_array(&m->memory, ((size_t)rows * (size_t)dim + LANES) * TERMS, sizeof *m->series);
+  return m->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 void mode_sum_free(mode_sum *m)
 {
   if (!m) return;
-  double *const arrays[] = {m->k,  m->c,      m->distance, m->lr,     m->li,   m->rr,
-                            m->ri, m->weight, m->product,  m->turned, m->term, m->series};
-  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) free(arrays[i]);
-  free(m->lambda);
-  free(m->power);
+  workspace_free(&m->memory);
   free(m);
 }
 
