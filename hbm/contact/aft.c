@@ -3,9 +3,8 @@
  * The contacts are followed by slider.c: the slider after a separation starts from the interpolated instant of contact,
  * or (the paper's way) from the last separated sample. Jacobian, only when it is asked for: dF_i = k_i dx_i - kt
  * cu dw, k_i by one more FFT, dw constant over a stick interval (force_jacobian.h). With two coordinates the entries of
- * k_i that do not vanish are constant on an interval, and summed in closed form. FFTW does not normalise and
- * uses exp(-i): the 2/N and the sign of the sine are in to_series() and to_samples(), nowhere else. Not here: the
- * dynamic stiffness (system.c). */
+ * k_i that do not vanish are constant on an interval, and summed in closed form. Not here:
+ * the dynamic stiffness (system.c). */
 #include "hbm/contact/aft.h"
 
 #include <stdlib.h>
@@ -22,12 +21,9 @@ struct aft {
   moving_contact *contacts; /* [n_contacts] */
   int n_harm, n_time;
   hbm_restart restart;
-  double *x, *f, *k;  /* [n_time]     displacement [length], force, its stiffness along the orbit */
-  double *y;          /* [n_time]     of two coordinates the second */
-  double *part;       /* [n_time]     force of one contact */
-  fftw_complex *spec; /* [n_time/2+1] consumed by to_time (c2r overwrites its input) */
-  fftw_plan to_time, to_freq_f, to_freq_k, to_time_y;
-  double complex *root;     /* [n_time]     exp(i th_i) */
+  double *x, *f, *k;        /* [n_time]     displacement [length], force, its stiffness along the orbit */
+  double *y;                /* [n_time]     of two coordinates the second */
+  period_samples of;        /* its sample:  force of one contact */
   double complex *inv_step; /* [2H+1]       1/(exp(i h 2 pi/N) - 1), for sums over sample ranges */
   double *symbol;           /* [4H+1]       series of k */
   double *left, *right;     /* [2H+1]       one rank-1 term; right: [n_dof][2H+1] */
@@ -38,38 +34,23 @@ struct aft {
   workspace memory;           /* of all of these */
 };
 
-static hc_status make_plans(aft *a)
-{
-  hc_status st = fft_plan_to_samples(a->n_time, a->spec, a->x, &a->to_time);
-  if (st == HC_OK) st = fft_plan_to_spectrum(a->n_time, a->f, a->spec, &a->to_freq_f);
-  if (st == HC_OK) st = fft_plan_to_spectrum(a->n_time, a->k, a->spec, &a->to_freq_k);
-  if (st == HC_OK && a->n_dof > 1) st = fft_plan_to_samples(a->n_time, a->spec, a->y, &a->to_time_y);
-  return st;
-}
-
 static hc_status make_tables(aft *a)
 {
-  int n = a->n_time, n_coef = series_length(a->n_harm);
-  a->x = workspace_doubles(&a->memory, (size_t)n);
-  a->f = workspace_doubles(&a->memory, (size_t)n);
-  a->k = workspace_doubles(&a->memory, (size_t)n);
-  a->y = a->n_dof > 1 ? fftw_alloc_real((size_t)n) : NULL;
-  a->part = workspace_doubles(&a->memory, (size_t)n);
-  a->spec = workspace_array(&a->memory, (size_t)n / 2 + 1, sizeof *a->spec);
-  a->root = workspace_array(&a->memory, (size_t)n, sizeof *a->root);
-  a->inv_step = workspace_array(&a->memory, 2 * (size_t)a->n_harm + 1, sizeof *a->inv_step);
-  a->symbol = workspace_doubles(&a->memory, (size_t)force_jacobian_symbol_length(a->n_harm));
-  a->left = workspace_doubles(&a->memory, (size_t)n_coef);
-  a->right = workspace_doubles(&a->memory, (size_t)a->n_dof * (size_t)n_coef);
-  a->intervals =
-      workspace_array(&a->memory, (size_t)a->n_contacts * (size_t)n + 1, sizeof *a->intervals); /* few are used */
-  a->settling = workspace_array(&a->memory, (size_t)n, sizeof *a->settling);
-  a->n_intervals = workspace_array(&a->memory, (size_t)a->n_contacts + 1, sizeof *a->n_intervals);
-  if (a->memory.failed) return HC_NO_MEMORY;
-  const double step = TWO_PI / n;
-  for (int i = 0; i < n; ++i) a->root[i] = cos(i * step) + I * sin(i * step);
-  for (int h = 1; h <= 2 * a->n_harm; ++h) a->inv_step[h] = 1 / (a->root[h % n] - 1); /* 2 H < N */
-  return HC_OK;
+  const size_t n = (size_t)a->n_time, n_coef = (size_t)series_length(a->n_harm);
+  workspace *w = &a->memory;
+  double **const samples[] = {&a->x, &a->f, &a->k, &a->y};
+  for (size_t i = 0; i < sizeof samples / sizeof *samples; ++i) *samples[i] = workspace_doubles(w, n);
+  a->inv_step = workspace_array(w, 2 * (size_t)a->n_harm + 1, sizeof *a->inv_step);
+  a->symbol = workspace_doubles(w, (size_t)force_jacobian_symbol_length(a->n_harm));
+  a->left = workspace_doubles(w, n_coef);
+  a->right = workspace_doubles(w, (size_t)a->n_dof * n_coef);
+  a->intervals = workspace_array(w, (size_t)a->n_contacts * n + 1, sizeof *a->intervals); /* few are used */
+  a->settling = workspace_array(w, n, sizeof *a->settling);
+  a->n_intervals = workspace_array(w, (size_t)a->n_contacts + 1, sizeof *a->n_intervals);
+  hc_status st = period_samples_make(a->n_harm, a->n_time, w, &a->of);
+  for (int h = 1; h <= 2 * a->n_harm && st == HC_OK; ++h)
+    a->inv_step[h] = 1 / (a->of.root[h % a->n_time] - 1); /* 2 H < N */
+  return st;
 }
 
 hc_status aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, int n_contacts,
@@ -89,7 +70,6 @@ hc_status aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, int n_
   hc_status st = a->contacts ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK && n_contacts) memcpy(a->contacts, contacts, (size_t)n_contacts * sizeof *contacts);
   if (st == HC_OK) st = make_tables(a);
-  if (st == HC_OK) st = make_plans(a);
   if (st == HC_OK) {
     *out = a;
     return HC_OK;
@@ -111,34 +91,9 @@ hc_status aft_new_of_model(const model *m, hbm_restart restart, int n_harm, int 
 void aft_free(aft *a)
 {
   if (!a) return;
-  fft_plan_free(a->to_time);
-  fft_plan_free(a->to_freq_f);
-  fft_plan_free(a->to_freq_k);
-  fft_plan_free(a->to_time_y);
+  period_samples_clear(&a->of);
   workspace_free(&a->memory);
   free(a);
-}
-
-static void to_samples(aft *a, fftw_plan plan, const double *X)
-{
-  memset(a->spec, 0, ((size_t)a->n_time / 2 + 1) * sizeof *a->spec);
-  a->spec[0] = X[0];
-  for (int h = 1; h <= a->n_harm; ++h) a->spec[h] = 0.5 * (X[2 * h - 1] - I * X[2 * h]);
-  fftw_execute(plan);
-}
-
-/* The first n_harm <= 2 H < N harmonics of the samples behind plan. Above N/2 a harmonic reads its alias, as the
- * sampled sums themselves do. */
-static void to_series(aft *a, fftw_plan plan, int n_harm, double *out)
-{
-  int n = a->n_time;
-  fftw_execute(plan);
-  out[0] = creal(a->spec[0]) / n;
-  for (int h = 1; h <= n_harm; ++h) {
-    double complex z = h <= n / 2 ? a->spec[h] : conj(a->spec[n - h]);
-    out[2 * h - 1] = 2 * creal(z) / n;
-    out[2 * h] = -2 * cimag(z) / n;
-  }
 }
 
 /* ---- the force ------------------------------------------------------------------------------- */
@@ -168,11 +123,11 @@ static hc_status evaluate_contact(aft *a, int j, double size, contact_report *re
 {
   const moving_contact *c = &a->contacts[j];
   sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
-  double *f = j == 0 ? a->f : a->part, *again = a->k; /* k is made afterwards, if at all */
+  double *f = j == 0 ? a->f : a->of.sample, *again = a->k; /* k is made afterwards, if at all */
   const slider_motion motion = motion_of(a, c);
   slider_report found = slider_follow(&c->law, a->restart, a->n_time, &motion, f, again, s, a->settling);
   a->n_intervals[j] = found.n_intervals;
-  for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->part[i];
+  for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->of.sample[i];
   contact_regime regime = regime_of(found.n_intervals, s);
   if (regime > report->regime) report->regime = regime;
   report->transitions += found.transitions;
@@ -185,7 +140,7 @@ static void across_to_series(aft *a, double *F)
 {
   const contact law = a->contacts[0].law;
   for (int i = 0; i < a->n_time; ++i) a->f[i] = contact_normal_change(&law, a->y[i]);
-  to_series(a, a->to_freq_f, a->n_harm, F);
+  period_samples_series(&a->of, a->f, a->n_harm, F);
 }
 
 hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
@@ -197,13 +152,13 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
   double size = 0; /* bounds |x| */
   for (int i = 0; i < a->n_dof * n_coef; ++i) size += fabs(X[i]);
   if (!isfinite(size)) return HC_NOT_FINITE;
-  to_samples(a, a->to_time, X);
-  if (a->n_dof > 1) to_samples(a, a->to_time_y, X + n_coef);
+  period_samples_of(&a->of, X, a->x);
+  if (a->n_dof > 1) period_samples_of(&a->of, X + n_coef, a->y);
   if (a->n_contacts == 0) memset(a->f, 0, (size_t)a->n_time * sizeof(double));
   hc_status st = HC_OK;
   for (int j = 0; j < a->n_contacts && st == HC_OK; ++j) st = evaluate_contact(a, j, size, report);
   if (st != HC_OK) return st;
-  to_series(a, a->to_freq_f, a->n_harm, F);
+  period_samples_series(&a->of, a->f, a->n_harm, F);
   if (a->n_dof > 1) across_to_series(a, F + n_coef);
   if (jac) aft_jacobian(a, jac);
   return HC_OK;
@@ -232,23 +187,9 @@ static void add_interval(const aft *a, int n_harm, double weight, int first, int
   for (int h = 1; h <= n_harm; ++h) {
     if ((at_first += first) >= n) at_first -= n;
     if ((at_end += end) >= n) at_end -= n;
-    double complex sum = (a->root[at_end] - a->root[at_first]) * a->inv_step[h];
+    double complex sum = (a->of.root[at_end] - a->of.root[at_first]) * a->inv_step[h];
     to[2 * h - 1] += 2 * weight * creal(sum);
     to[2 * h] += 2 * weight * cimag(sum);
-  }
-}
-
-/* to[] += weight times the values of the harmonics at sample i. */
-static void add_sample(const aft *a, double weight, int i, double *to)
-{
-  const int n = a->n_time;
-  int at = 0;
-  if (weight == 0) return;
-  to[0] += weight;
-  for (int h = 1; h <= a->n_harm; ++h) {
-    if ((at += i) >= n) at -= n;
-    to[2 * h - 1] += weight * creal(a->root[at]);
-    to[2 * h] += weight * cimag(a->root[at]);
   }
 }
 
@@ -265,10 +206,10 @@ static void subtract_stick_interval(aft *a, const moving_contact *c, const slide
   memset(a->left, 0, (size_t)n_coef * sizeof(double));
   memset(a->right, 0, (size_t)rows * sizeof(double));
   add_interval(a, a->n_harm, c->law.kt * along, first, end, a->left);
-  if (a->n_dof == 1) add_sample(a, o->by_along[0] + o->by_across[0], o->i, a->right);
+  if (a->n_dof == 1) period_samples_add(&a->of, o->by_along[0] + o->by_across[0], o->i, a->right);
   for (int k = 0; k < 2 && a->n_dof > 1; ++k) {
-    add_sample(a, o->by_along[k], k ? next : o->i, of_along);
-    add_sample(a, o->by_across[k], k ? next : o->i, of_across);
+    period_samples_add(&a->of, o->by_along[k], k ? next : o->i, of_along);
+    period_samples_add(&a->of, o->by_across[k], k ? next : o->i, of_across);
   }
   for (int q = 0; q < rows; ++q)
     for (int p = 0; p < n_coef; ++p) jac[(size_t)q * (size_t)rows + (size_t)p] -= a->left[p] * a->right[q];
@@ -323,7 +264,7 @@ void aft_jacobian(aft *a, double *jac)
   else {
     memset(a->k, 0, (size_t)a->n_time * sizeof(double));
     for (int j = 0; j < a->n_contacts; ++j) add_stiffness(a, j);
-    to_series(a, a->to_freq_k, 2 * a->n_harm, a->symbol);
+    period_samples_series(&a->of, a->k, 2 * a->n_harm, a->symbol);
     force_jacobian_add(a->n_harm, a->symbol, series_length(a->n_harm), jac);
   }
   for (int j = 0; j < a->n_contacts; ++j) {

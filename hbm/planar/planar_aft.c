@@ -4,7 +4,7 @@
  * A period maps w to w no farther apart. Once out of contact all is forgotten, and the second period is the orbit.
  * Where contact is kept the periods contract as far as it slips, perhaps little: after a few of them Newton's step goes
  * to where the period would close, w + (I - A)^-1 (w' - w), A = dw'/dw the product of the steps'. Where that does not
- * bring it nearer, it is dragged on. FFTW does not normalise and uses exp(-i): see aft.c. */
+ * bring it nearer, it is dragged on. */
 #include "hbm/planar/planar_aft.h"
 
 #include <math.h>
@@ -18,7 +18,10 @@
 #include "hbm/planar/planar_slider.h"
 #include "numerics/series.h"
 
-enum { PLANAR_PLAIN_PASSES = 4 /* periods dragged before any is guessed */ };
+enum {
+  PLANAR_PLAIN_PASSES = 4, /* periods dragged before any is guessed */
+  PLANAR_AFT_PASSES = 400  /* at most */
+};
 
 /* How the orbit of the last evaluation came about: what its slider depends on. */
 typedef enum planar_orbit {
@@ -28,18 +31,14 @@ typedef enum planar_orbit {
   PLANAR_ONE_PASS /* one period from w = 0, whether it closes or not */
 } planar_orbit;
 
-struct planar_aft {
+typedef struct planar_aft {
   int n_dof, n_harm, n_time;
   hbm_restart restart;
-  contact law;          /* of a half */
-  double *motion[3];    /* [n_time] u_1, u_2 and r (planar_slider.h), of a constant normal force the same everywhere */
-  double *traction[2];  /* [n_time] [force] */
-  double *sample;       /* [n_time] what is transformed */
-  fftw_complex *spec;   /* [n_time/2+1] consumed by to_time (c2r overwrites its input) */
-  fftw_plan to_time;    /* spec -> motion[0], and with FFTW's new-array calls to the others */
-  fftw_plan to_freq;    /* sample -> spec */
-  double complex *root; /* [n_time] exp(i th_i) */
-  unsigned char *move;  /* [n_time] planar_move that led to each sample, of the orbit */
+  contact law;         /* of a half */
+  double *motion[3];   /* [n_time] u_1, u_2 and r (planar_slider.h), of a constant normal force the same everywhere */
+  double *traction[2]; /* [n_time] [force] */
+  period_samples of;
+  unsigned char *move; /* [n_time] planar_move that led to each sample, of the orbit */
   planar_orbit orbit;
   int passes;
   double start[2]; /* slider before sample 0 on the orbit; of PLANAR_ONE_PASS 0 */
@@ -52,7 +51,7 @@ struct planar_aft {
   double *by[2];    /* [n_col] dw_1, dw_2 */
   double *whole;    /* [2 (2H+1)][n_col] by columns: d(T_1, T_2) */
   workspace memory; /* of all of these */
-};
+} planar_aft;
 
 /* The first period is entered as slider.c does: out of contact, or with w = 0 put into the circle at sample 0. */
 static inline planar_sample planar_aft_sample(const planar_aft *a, int i)
@@ -62,91 +61,55 @@ static inline planar_sample planar_aft_sample(const planar_aft *a, int i)
 
 /* ---- made and freed ------------------------------------------------------------------------------ */
 
-static hc_status make_samples(planar_aft *a)
+static void let_go(void *self)
 {
-  const size_t n = (size_t)a->n_time;
-  for (int d = 0; d < 3; ++d) a->motion[d] = workspace_doubles(&a->memory, n);
-  for (int d = 0; d < 2; ++d) a->traction[d] = workspace_doubles(&a->memory, n);
-  a->sample = workspace_doubles(&a->memory, n);
-  a->spec = workspace_array(&a->memory, n / 2 + 1, sizeof *a->spec);
-  a->root = workspace_array(&a->memory, n, sizeof *a->root);
-  a->move = workspace_array(&a->memory, n, sizeof *a->move);
-  if (a->memory.failed) return HC_NO_MEMORY;
-  for (int i = 0; i < a->n_time; ++i) a->root[i] = cos(i * (TWO_PI / a->n_time)) + I * sin(i * (TWO_PI / a->n_time));
-  return HC_OK;
-}
-
-static hc_status make_tables(planar_aft *a)
-{
-  const size_t length = (size_t)series_length(a->n_harm), n_col = (size_t)a->n_dof * length + 2;
-  a->symbol = workspace_doubles(&a->memory, (size_t)force_jacobian_symbol_length(a->n_harm));
-  for (int d = 0; d < 2; ++d) {
-    a->basis[d] = workspace_doubles(&a->memory, length);
-    a->by[d] = workspace_doubles(&a->memory, n_col);
-  }
-  a->held = workspace_doubles(&a->memory, length);
-  a->whole = workspace_doubles(&a->memory, 2 * length * n_col);
-  return a->memory.failed ? HC_NO_MEMORY : HC_OK;
-}
-
-hc_status planar_aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, const contact *law, planar_aft **out)
-{
-  *out = NULL;
-  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
-  if (n_dof < 2 || n_dof > 3 || !contact_has_friction(law)) return HC_BAD_INPUT;
-  planar_aft *a = calloc(1, sizeof *a);
-  if (!a) return HC_NO_MEMORY;
-  a->n_dof = n_dof;
-  a->n_harm = n_harm;
-  a->n_time = n_time;
-  a->restart = restart;
-  a->law = *law;
-  hc_status st = make_samples(a);
-  if (st == HC_OK) st = make_tables(a);
-  if (st == HC_OK) st = fft_plan_to_samples(a->n_time, a->spec, a->motion[0], &a->to_time);
-  if (st == HC_OK) st = fft_plan_to_spectrum(a->n_time, a->sample, a->spec, &a->to_freq);
-  if (st == HC_OK) *out = a;
-  else planar_aft_free(a);
-  return st;
-}
-
-void planar_aft_free(planar_aft *a)
-{
+  planar_aft *a = self;
   if (!a) return;
-  fft_plan_free(a->to_time);
-  fft_plan_free(a->to_freq);
+  period_samples_clear(&a->of);
   workspace_free(&a->memory);
   free(a);
 }
 
+static void make_arrays(planar_aft *a)
+{
+  const size_t n = (size_t)a->n_time, length = (size_t)series_length(a->n_harm), n_col = (size_t)a->n_dof * length + 2;
+  workspace *w = &a->memory;
+  for (int d = 0; d < 3; ++d) a->motion[d] = workspace_doubles(w, n);
+  a->move = workspace_array(w, n, sizeof *a->move);
+  a->symbol = workspace_doubles(w, (size_t)force_jacobian_symbol_length(a->n_harm));
+  for (int d = 0; d < 2; ++d) {
+    a->traction[d] = workspace_doubles(w, n);
+    a->basis[d] = workspace_doubles(w, length);
+    a->by[d] = workspace_doubles(w, n_col);
+  }
+  a->held = workspace_doubles(w, length);
+  a->whole = workspace_doubles(w, 2 * length * n_col);
+}
+
+static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
+{
+  const contact *law = &c->moved.law;
+  *self = NULL;
+  if (how->n_harm < 1 || how->n_harm > HBM_MAX_HARMONICS || how->n_time < 2 * how->n_harm + 1) return HC_BAD_INPUT;
+  if (c->n_dof < 2 || c->n_dof > 3 || !contact_has_friction(law)) return HC_BAD_INPUT;
+  planar_aft *a = calloc(1, sizeof *a);
+  if (!a) return HC_NO_MEMORY;
+  *a = (planar_aft){
+      .n_dof = c->n_dof, .n_harm = how->n_harm, .n_time = how->n_time, .restart = how->restart, .law = *law};
+  make_arrays(a);
+  const hc_status st = period_samples_make(a->n_harm, a->n_time, &a->memory, &a->of);
+  if (st == HC_OK) *self = a;
+  else let_go(a);
+  return st;
+}
+
 /* ---- samples and series ---------------------------------------------------------------------------- */
 
-static void to_samples(planar_aft *a, const double *X, double *samples)
-{
-  memset(a->spec, 0, ((size_t)a->n_time / 2 + 1) * sizeof *a->spec);
-  a->spec[0] = X[0];
-  for (int h = 1; h <= a->n_harm; ++h) a->spec[h] = 0.5 * (X[2 * h - 1] - I * X[2 * h]);
-  fftw_execute_dft_c2r(a->to_time, a->spec, samples);
-}
-
-/* Above N/2 a harmonic reads its alias, as the sampled sums themselves do. */
-static void planar_aft_to_series(planar_aft *a, int n_harm, double *out)
-{
-  const int n = a->n_time;
-  fftw_execute(a->to_freq);
-  out[0] = creal(a->spec[0]) / n;
-  for (int h = 1; h <= n_harm; ++h) {
-    const double complex z = h <= n / 2 ? a->spec[h] : conj(a->spec[n - h]);
-    out[2 * h - 1] = 2 * creal(z) / n;
-    out[2 * h] = -2 * cimag(z) / n;
-  }
-}
-
-/* F_v: the normal forces of both halves, less what they are at rest; a->sample gets them from v. */
+/* F_v: the normal forces of both halves, less what they are at rest; a->of.sample gets them from v. */
 static void normal_to_series(planar_aft *a, double *F)
 {
-  for (int i = 0; i < a->n_time; ++i) a->sample[i] = 2 * contact_normal_change(&a->law, a->motion[2][i]);
-  planar_aft_to_series(a, a->n_harm, F);
+  for (int i = 0; i < a->n_time; ++i) a->of.sample[i] = 2 * contact_normal_change(&a->law, a->motion[2][i]);
+  period_samples_series(&a->of, a->of.sample, a->n_harm, F);
 }
 
 /* motion[2] from v to r. */
@@ -281,40 +244,39 @@ static void fill_report(const planar_aft *a, contact_report *out)
   out->free_sliders = out->regime == CONTACT_STUCK;
 }
 
-hc_status planar_aft_eval(planar_aft *a, const double *X, double *F, contact_report *report)
+/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is contact_evaluator.h's */
+static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
+  planar_aft *a = self;
+  (void)jac; /* `jacobian` makes it */
   const int length = series_length(a->n_harm);
   double size = 0; /* bounds |u| and |v| */
   for (int i = 0; i < a->n_dof * length; ++i) size += fabs(X[i]);
   if (!isfinite(size)) return HC_NOT_FINITE;
-  for (int d = 0; d < a->n_dof; ++d) to_samples(a, X + d * length, a->motion[d]);
+  for (int d = 0; d < a->n_dof; ++d) period_samples_of(&a->of, X + d * length, a->motion[d]);
   if (a->n_dof == 2) memset(a->motion[2], 0, (size_t)a->n_time * sizeof(double));
   if (a->n_dof == 3) normal_to_series(a, F + 2 * length);
   radius(a);
   const hc_status st = follow(a, size);
   if (st != HC_OK) return st;
-  for (int d = 0; d < 2; ++d) {
-    memcpy(a->sample, a->traction[d], (size_t)a->n_time * sizeof(double));
-    planar_aft_to_series(a, a->n_harm, F + d * length);
-  }
+  for (int d = 0; d < 2; ++d) period_samples_series(&a->of, a->traction[d], a->n_harm, F + d * length);
   if (report) fill_report(a, report);
   return HC_OK;
 }
 
-void planar_aft_slider(const planar_aft *a, double w[2]) { memcpy(w, a->first, sizeof a->first); }
+static void sliders(const void *self, double *w)
+{
+  const planar_aft *a = self;
+  memcpy(w, a->first, sizeof a->first);
+}
 
 static int columns(const planar_aft *a) { return a->n_dof * series_length(a->n_harm); }
 
 /* basis[m] = harmonic m at sample i. */
 static void harmonics_at(const planar_aft *a, int i, double *basis)
 {
-  int at = 0;
-  basis[0] = 1;
-  for (int h = 1; h <= a->n_harm; ++h) {
-    if ((at += i) >= a->n_time) at -= a->n_time;
-    basis[2 * h - 1] = creal(a->root[at]);
-    basis[2 * h] = cimag(a->root[at]);
-  }
+  memset(basis, 0, (size_t)series_length(a->n_harm) * sizeof *basis);
+  period_samples_add(&a->of, 1, i, basis);
 }
 
 /* by = slope of the step applied to it, and to the motion at the samples before and after. */
@@ -444,13 +406,14 @@ static void add_start(planar_aft *a)
 static void add_contact_stiffness(planar_aft *a, double stiffness, int d, double *jac)
 {
   const size_t length = (size_t)series_length(a->n_harm), ld = (size_t)columns(a);
-  for (int i = 0; i < a->n_time; ++i) a->sample[i] = a->move[i] == PLANAR_APART ? 0 : stiffness;
-  planar_aft_to_series(a, 2 * a->n_harm, a->symbol);
+  for (int i = 0; i < a->n_time; ++i) a->of.sample[i] = a->move[i] == PLANAR_APART ? 0 : stiffness;
+  period_samples_series(&a->of, a->of.sample, 2 * a->n_harm, a->symbol);
   force_jacobian_add(a->n_harm, a->symbol, (int)ld, jac + (ld + 1) * (size_t)d * length);
 }
 
-void planar_aft_jacobian(planar_aft *a, double *jac)
+static void jacobian(void *self, double *jac)
 {
+  planar_aft *a = self;
   const size_t n = (size_t)columns(a), rows = 2 * (size_t)series_length(a->n_harm);
   double w[2] = {a->start[0], a->start[1]};
   memset(a->whole, 0, rows * (n + 2) * sizeof(double));
@@ -465,27 +428,6 @@ void planar_aft_jacobian(planar_aft *a, double *jac)
   for (int d = 0; d < 2; ++d) add_contact_stiffness(a, a->law.kt, d, jac);
   if (a->n_dof == 3) add_contact_stiffness(a, 2 * a->law.kn, 2, jac);
 }
-
-/* ---- as one of contact_evaluator.h -------------------------------------------------------------------- */
-
-static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
-{
-  planar_aft *a;
-  const hc_status st = planar_aft_new(how->n_harm, how->n_time, how->restart, c->n_dof, &c->moved.law, &a);
-  *self = a;
-  return st;
-}
-
-/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is contact_evaluator.h's */
-static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
-{
-  (void)jac; /* `jacobian` makes it */
-  return planar_aft_eval(self, X, F, report);
-}
-
-static void let_go(void *self) { planar_aft_free(self); }
-static void jacobian(void *self, double *jac) { planar_aft_jacobian(self, jac); }
-static void sliders(const void *self, double *w) { planar_aft_slider(self, w); }
 
 const contact_evaluator planar_aft_evaluator = {
     .make = make, .free = let_go, .evaluate = evaluate, .jacobian = jacobian, .sliders = sliders};

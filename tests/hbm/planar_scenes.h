@@ -18,6 +18,14 @@ static inline contact circle_half(contact whole)
   return (contact){whole.kt, whole.kn / 2, 2 * whole.mu, whole.gap, whole.load / 2};
 }
 
+/* planar_aft.h's evaluator of a contact whose half is this. */
+static inline hc_status make_sampled(int H, int N, hbm_restart restart, int n_dof, const contact *half, void **out)
+{
+  const contact_coordinates c = {.n_dof = n_dof, .moved = {.law = *half}};
+  const evaluator_settings how = {H, N, restart};
+  return planar_aft_evaluator.make(&c, &how, out);
+}
+
 /* A contact for motions of size about 1, with friction: mostly always in contact, or coming and going; one in four
  * under a constant normal force. */
 static inline contact random_circle(uint64_t *seed)

@@ -10,11 +10,11 @@ enum { RESTARTS = sizeof restarts / sizeof *restarts };
 
 static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X], line_jac[4 * CIRCLE_MAX_LENGTH * CIRCLE_MAX_LENGTH];
 
-static planar_aft *make(const contact *whole, hbm_restart restart, int H, int N)
+static void *make(const contact *whole, hbm_restart restart, int H, int N)
 {
   const contact half = circle_half(*whole);
-  planar_aft *a;
-  assert_int_equal(planar_aft_new(H, N, restart, whole->kn > 0 ? 3 : 2, &half, &a), HC_OK);
+  void *a;
+  assert_int_equal(make_sampled(H, N, restart, whole->kn > 0 ? 3 : 2, &half, &a), HC_OK);
   return a;
 }
 
@@ -64,14 +64,14 @@ static void a_line_is_one_tangent(CHECK_STATE)
     const contact law = random_circle(&seed);
     const int n_dof = law.kn > 0 ? 3 : 2;
     const moving_contact on_line = {.law = law, .cu = {1, 0}, .cv = {0, n_dof - 2}};
-    planar_aft *a = make(&law, restart, H, N);
+    void *a = make(&law, restart, H, N);
     aft *b;
     contact_report in_plane, in_line;
     assert_int_equal(aft_new(H, N, restart, n_dof - 1, 1, &on_line, &b), HC_OK);
     random_motion(&seed, H, 1, 1, U);
     random_motion(&seed, H, 1, 1, U + n);
     for (int i = 0; i < n; ++i) X[i] = dir[0] * U[i], X[n + i] = dir[1] * U[i], X[2 * n + i] = U[n + i];
-    assert_int_equal(planar_aft_eval(a, X, F, &in_plane), HC_OK);
+    assert_int_equal(planar_aft_evaluator.evaluate(a, X, F, NULL, &in_plane), HC_OK);
     assert_int_equal(aft_eval(b, U, G, line_jac, &in_line), HC_OK);
     const double size = force_size(&law, sum_abs(2 * n, U)), tolerance = 1e-13 * size;
     for (int i = 0; i < n; ++i) {
@@ -80,7 +80,7 @@ static void a_line_is_one_tangent(CHECK_STATE)
       if (n_dof == 3) CHECK_NEAR(F[2 * n + i], G[n + i], tolerance, "trial %d coefficient %d, normal", trial, i);
     }
     double w[2], w_line;
-    planar_aft_slider(a, w);
+    planar_aft_evaluator.sliders(a, w);
     aft_sliders(b, &w_line);
     if (in_plane.regime != CONTACT_LINEAR)
       CHECK_NEAR(dir[0] * w[0] + dir[1] * w[1], w_line, 1e-13 * sum_abs(2 * n, U), "trial %d", trial);
@@ -92,9 +92,9 @@ static void a_line_is_one_tangent(CHECK_STATE)
     ++regimes[in_line.regime];
     random_motion(&seed, H, 1, 0, d);
     random_motion(&seed, H, 1, 0, d + n);
-    planar_aft_jacobian(a, jac);
+    planar_aft_evaluator.jacobian(a, jac);
     compare_jacobians(H, n_dof, dir, d, 1e-12 * force_size(&law, 1) * sum_abs(2 * n, d), trial);
-    planar_aft_free(a);
+    planar_aft_evaluator.free(a);
     aft_free(b);
   }
   assert_true(told_apart < 60);
@@ -112,11 +112,11 @@ static double circle_error(hbm_restart restart, int N)
   const double X[6] = {0, a, 0, 0, 0, a};
   double F[6];
   contact_report report;
-  planar_aft *of = make(&law, restart, 1, N);
-  assert_int_equal(planar_aft_eval(of, X, F, &report), HC_OK);
+  void *of = make(&law, restart, 1, N);
+  assert_int_equal(planar_aft_evaluator.evaluate(of, X, F, NULL, &report), HC_OK);
   assert_int_equal(report.regime, CONTACT_SLIPS);
   assert_int_equal(report.transitions, 0);
-  planar_aft_free(of);
+  planar_aft_evaluator.free(of);
   CHECK_NEAR(F[0], 0, 1e-14, "mean, N=%d", N);
   CHECK_NEAR(F[3], 0, 1e-14, "mean, N=%d", N);
   CHECK_NEAR(F[1], F[5], 1e-13, "turned by a quarter, N=%d", N);
@@ -142,10 +142,10 @@ static void a_circle_by_its_closed_form(CHECK_STATE)
 static double error_of(const contact *law, hbm_restart restart, int H, int N, const double *X, const double *exact)
 {
   double F[CIRCLE_MAX_X], worst = 0;
-  planar_aft *a = make(law, restart, H, N);
-  assert_int_equal(planar_aft_eval(a, X, F, NULL), HC_OK);
+  void *a = make(law, restart, H, N);
+  assert_int_equal(planar_aft_evaluator.evaluate(a, X, F, NULL, NULL), HC_OK);
   for (int i = 0; i < 2 * series_length(H); ++i) worst = fmax(worst, fabs(F[i] - exact[i]));
-  planar_aft_free(a);
+  planar_aft_evaluator.free(a);
   return worst;
 }
 
@@ -197,24 +197,24 @@ static void turns_and_shifts(CHECK_STATE)
     const contact law = random_circle(&seed);
     const int n_dof = law.kn > 0 ? 3 : 2, step = 1 + trial % (N - 1);
     const double angle = PI * random_signed(&seed), shift = 2 * PI * step / N;
-    planar_aft *a = make(&law, restarts[trial % 2], H, N);
+    void *a = make(&law, restarts[trial % 2], H, N);
     contact_report report;
     random_plane_motion(&seed, H, 1, X);
     const double tolerance = 1e-12 * force_size(&law, sum_abs(3 * n, X));
-    assert_int_equal(planar_aft_eval(a, X, F, &report), HC_OK);
+    assert_int_equal(planar_aft_evaluator.evaluate(a, X, F, NULL, &report), HC_OK);
     turn_plane(H, angle, X, Y);
     turn_plane(H, angle, F, wanted);
-    assert_int_equal(planar_aft_eval(a, Y, G, NULL), HC_OK);
+    assert_int_equal(planar_aft_evaluator.evaluate(a, Y, G, NULL, NULL), HC_OK);
     for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "turned, trial %d row %d", trial, i);
     if (!report.free_sliders && ++shifted) {
       for (int d = 0; d < n_dof; ++d) {
         shift_motion(H, X + d * n, shift, Y + d * n);
         shift_motion(H, F + d * n, shift, wanted + d * n);
       }
-      assert_int_equal(planar_aft_eval(a, Y, G, NULL), HC_OK);
+      assert_int_equal(planar_aft_evaluator.evaluate(a, Y, G, NULL, NULL), HC_OK);
       for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "shifted, trial %d row %d", trial, i);
     }
-    planar_aft_free(a);
+    planar_aft_evaluator.free(a);
   }
   assert_true(shifted > 150);
 }
@@ -230,17 +230,20 @@ static void little_slip_closes(CHECK_STATE)
     const double X[6] = {0.1, a, 0, -0.3, 0, 0.5};
     double F[6];
     contact_report report;
-    planar_aft *of = make(&law, HBM_RESTART_INTERPOLATED, 1, 256);
-    assert_int_equal(planar_aft_eval(of, X, F, &report), HC_OK);
+    void *of = make(&law, HBM_RESTART_INTERPOLATED, 1, 256);
+    assert_int_equal(planar_aft_evaluator.evaluate(of, X, F, NULL, &report), HC_OK);
     assert_int_equal(report.regime, CONTACT_SLIPS);
     for (int i = 0; i < 6; ++i) assert_true(isfinite(F[i]));
-    planar_aft_free(of);
+    planar_aft_evaluator.free(of);
   }
 }
 
 /* ---- Jacobian --------------------------------------------------------------------------------------- */
 
-static hc_status forces(void *a, const double *X, double *F) { return planar_aft_eval(a, X, F, NULL); }
+static hc_status forces(void *a, const double *X, double *F)
+{
+  return planar_aft_evaluator.evaluate(a, X, F, NULL, NULL);
+}
 
 /* Against differences, to 1e-9. A sample that changes its state, in a motion out of some dozens, moves the difference
  * by its kink: those are the trials counted as skipped. */
@@ -253,25 +256,25 @@ static void jacobian_equals_differences(CHECK_STATE)
     const int H = 1 + trial % 7, N = 2 * H + 10 + 9 * (trial % 25), n = series_length(H);
     const contact law = random_circle(&seed);
     const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
-    planar_aft *a = make(&law, restarts[trial % RESTARTS], H, N);
+    void *a = make(&law, restarts[trial % RESTARTS], H, N);
     contact_report report;
     random_plane_motion(&seed, H, 1, X);
     random_plane_motion(&seed, H, 1, d);
     const double size = force_size(&law, 1) * sum_abs(rows, d);
     const double disagreement = circle_slope_along(rows, forces, a, X, d, slope);
     if (disagreement > 1e-6 * size && ++skipped) {
-      planar_aft_free(a);
+      planar_aft_evaluator.free(a);
       continue;
     }
     ++checked;
-    assert_int_equal(planar_aft_eval(a, X, F, &report), HC_OK);
-    planar_aft_jacobian(a, jac);
+    assert_int_equal(planar_aft_evaluator.evaluate(a, X, F, NULL, &report), HC_OK);
+    planar_aft_evaluator.jacobian(a, jac);
     circle_product(rows, jac, d, product);
     for (int p = 0; p < rows; ++p)
       CHECK_NEAR(product[p], slope[p], 1e-8 * size + disagreement, "trial %d restart %d regime %d row %d", trial,
                  trial % RESTARTS, report.regime, p);
     ++regimes[report.regime];
-    planar_aft_free(a);
+    planar_aft_evaluator.free(a);
   }
   print_message("%d directions checked, %d skipped for a changed state\n", checked, skipped);
   assert_true(skipped < checked / 4);
@@ -283,19 +286,19 @@ static void jacobian_equals_differences(CHECK_STATE)
 static void refuses(CHECK_STATE)
 {
   const contact law = {.kt = 1, .mu = 1, .load = 1}, smooth = {.kt = 1, .load = 1};
-  planar_aft *a;
-  assert_int_equal(planar_aft_new(0, 8, HBM_RESTART_SAMPLE, 2, &law, &a), HC_BAD_INPUT);
-  assert_int_equal(planar_aft_new(2, 4, HBM_RESTART_SAMPLE, 2, &law, &a), HC_BAD_INPUT);
-  assert_int_equal(planar_aft_new(2, 8, HBM_RESTART_SAMPLE, 1, &law, &a), HC_BAD_INPUT);
-  assert_int_equal(planar_aft_new(2, 8, HBM_RESTART_SAMPLE, 2, &smooth, &a), HC_BAD_INPUT);
+  void *a;
+  assert_int_equal(make_sampled(0, 8, HBM_RESTART_SAMPLE, 2, &law, &a), HC_BAD_INPUT);
+  assert_int_equal(make_sampled(2, 4, HBM_RESTART_SAMPLE, 2, &law, &a), HC_BAD_INPUT);
+  assert_int_equal(make_sampled(2, 8, HBM_RESTART_SAMPLE, 1, &law, &a), HC_BAD_INPUT);
+  assert_int_equal(make_sampled(2, 8, HBM_RESTART_SAMPLE, 2, &smooth, &a), HC_BAD_INPUT);
   assert_null(a);
   const double bad[] = {NAN, INFINITY, -INFINITY};
   a = make(&law, HBM_RESTART_INTERPOLATED, 1, 8);
   for (int k = 0; k < 3; ++k) {
     double X[6] = {0, 1, 2, 0, bad[k], 0}, F[6];
-    assert_int_equal(planar_aft_eval(a, X, F, NULL), HC_NOT_FINITE);
+    assert_int_equal(planar_aft_evaluator.evaluate(a, X, F, NULL, NULL), HC_NOT_FINITE);
   }
-  planar_aft_free(a);
+  planar_aft_evaluator.free(a);
 }
 
 static const struct CMUnitTest tests[] = {

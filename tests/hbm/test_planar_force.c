@@ -111,13 +111,13 @@ static double distance_to_sampled(const contact *law, int H, const double *X, in
   const contact half = circle_half(*law);
   const int rows = (law->kn > 0 ? 3 : 2) * series_length(H);
   double F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], sum = 0;
-  planar_aft *a;
+  void *a;
   planar_force *f = make(law, H);
-  assert_int_equal(planar_aft_new(H, N, HBM_RESTART_INTERPOLATED, rows / series_length(H), &half, &a), HC_OK);
-  assert_int_equal(planar_aft_eval(a, X, G, NULL), HC_OK);
+  assert_int_equal(make_sampled(H, N, HBM_RESTART_INTERPOLATED, rows / series_length(H), &half, &a), HC_OK);
+  assert_int_equal(planar_aft_evaluator.evaluate(a, X, G, NULL, NULL), HC_OK);
   assert_int_equal(planar_force_eval(f, X, F, NULL, NULL), HC_OK);
   for (int i = 0; i < rows; ++i) sum += (F[i] - G[i]) * (F[i] - G[i]);
-  planar_aft_free(a);
+  planar_aft_evaluator.free(a);
   planar_force_free(f);
   return sqrt(sum);
 }
