@@ -11,9 +11,309 @@
 #include <string.h>
 
 #include "base/workspace.h"
-#include "hbm/structure/mode_sum.h"
 #include "model/modes.h"
 #include "numerics/dense.h"
+
+/* ---- the sum over modes, for s = i omega ----------------------------------------------------------------
+ *
+ *     G_ab(s) = sum_i  x_a(i) x_b(i) / (k_i + (c_i + d) s + s^2)                           modes that damping leaves
+ *     G_ab(s) = sum_i  l_a(i) r_b(i) / (s - lambda_i) + the same conjugate where Im lambda_i > 0      any damping
+ *
+ * Modes far above s come in by the power series of their sum in s: its coefficients are real, and made once for a range
+ * of s. A value then costs what the few modes near s cost, whatever n is. d = 0 in the second form. An entry is a
+ * direction's motion in a mode of unit mass. Sums over modes are products of matrices, real and imaginary parts being
+ * two numbers of one factor. Modes are sorted by how far from s = 0 their poles are. */
+
+/* A mode is far where its poles are more than FAR times as far from 0 as s: what the series leaves out after TERMS
+ * terms is (1/FAR)^TERMS = 1e-17 of it. */
+enum { FAR = 4, TERMS = 28 };
+/* The series of so many entries are summed side by side, their coefficients next to each other. */
+enum { LANES = 8 };
+
+typedef struct mode_sum {
+  int n, dim, rows;
+  bool poles;
+  double *k, *c;             /* [n] of modes */
+  double complex *lambda;    /* [n] of poles */
+  double *distance;          /* [n] of the nearer pole from 0, ascending */
+  double *lr, *li, *rr, *ri; /* [rows][n] left and right, real and imaginary parts; of modes lr alone */
+  double *weight;            /* [4][n] of one value */
+  double *product, *turned;  /* [n][2 dim] what multiplies the right parts' real part, and their imaginary part */
+  double *term;              /* [rows][dim] of the series */
+  double complex *power;     /* [n] */
+  int near;                  /* modes that are summed one by one; the others by the series */
+  double reach;              /* of the series, which is in s/reach; 0: none yet */
+  double *series;            /* [rows dim/LANES][TERMS][LANES] */
+  workspace memory;          /* of all of these */
+} mode_sum;
+
+static double distance_of_mode(double k, double c)
+{
+  const double root = c * c / 4 - k;
+  return root > 0 ? fabs(k) / (fabs(c) / 2 + sqrt(root)) : sqrt(fabs(k));
+}
+
+/* What a sum is made of: real modes or, where there is lambda, poles, one of each pair. */
+typedef struct mode_table {
+  int n;
+  const double *k, *c, *x;                     /* [n], [n], [rows][n] */
+  const double complex *lambda, *left, *right; /* [n], [rows][n], [rows][n] */
+} mode_table;
+
+typedef struct ranked {
+  double distance;
+  int mode;
+} ranked;
+
+static int by_distance(const void *a, const void *b)
+{
+  const double x = ((const ranked *)a)->distance, y = ((const ranked *)b)->distance;
+  return (x > y) - (x < y);
+}
+
+static void mode_sum_free(mode_sum *m)
+{
+  if (!m) return;
+  workspace_free(&m->memory);
+  free(m);
+}
+
+static void make_sum_arrays(mode_sum *m)
+{
+  const size_t modes = (size_t)m->n, rows = (size_t)m->rows, dim = (size_t)m->dim, parts = m->poles ? 4 : 1;
+  workspace *w = &m->memory;
+  double **const lists[] = {&m->k, &m->c, &m->distance}, **const tables[] = {&m->lr, &m->li, &m->rr, &m->ri};
+  for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i) *lists[i] = workspace_doubles(w, modes);
+  for (size_t i = 0; i < parts; ++i) *tables[i] = workspace_doubles(w, rows * modes);
+  m->lambda = workspace_array(w, modes, sizeof *m->lambda);
+  m->power = workspace_array(w, modes, sizeof *m->power);
+  m->weight = workspace_doubles(w, 4 * modes);
+  m->product = workspace_doubles(w, 2 * dim * modes);
+  m->turned = workspace_doubles(w, m->poles ? 2 * dim * modes : 0);
+  m->term = workspace_doubles(w, rows * dim);
+  m->series = workspace_doubles(w, (rows * dim + LANES) * TERMS);
+}
+
+/* Mode i becomes the one numbered `from` in the table. */
+static void take_mode(mode_sum *m, int i, const mode_table *of, int from)
+{
+  if (m->poles) m->lambda[i] = of->lambda[from];
+  else m->k[i] = of->k[from], m->c[i] = of->c[from];
+  for (int a = 0; a < m->rows; ++a) {
+    const size_t at = (size_t)a * (size_t)m->n + (size_t)from;
+    m->lr[a * m->n + i] = m->poles ? creal(of->left[at]) : of->x[at];
+    if (!m->poles) continue;
+    m->li[a * m->n + i] = cimag(of->left[at]);
+    m->rr[a * m->n + i] = creal(of->right[at]), m->ri[a * m->n + i] = cimag(of->right[at]);
+  }
+}
+
+/* For a < dim and all b < rows. HC_NO_MEMORY: *out is NULL. */
+static hc_status mode_sum_new(const mode_table *of, int dim, int rows, mode_sum **out)
+{
+  const int n = of->n;
+  ranked *order = malloc(((size_t)n + 1) * sizeof *order);
+  mode_sum *m = *out = calloc(1, sizeof *m);
+  if (m) *m = (mode_sum){.n = n, .dim = dim, .rows = rows, .poles = of->lambda};
+  if (m) make_sum_arrays(m);
+  if (!order || !m || m->memory.failed) {
+    free(order);
+    mode_sum_free(m);
+    *out = NULL;
+    return HC_NO_MEMORY;
+  }
+  for (int i = 0; i < n; ++i)
+    order[i] = (ranked){m->poles ? cabs(of->lambda[i]) : distance_of_mode(of->k[i], of->c[i]), i};
+  qsort(order, (size_t)n, sizeof *order, by_distance);
+  for (int i = 0; i < n; ++i) {
+    m->distance[i] = order[i].distance;
+    take_mode(m, i, of, order[i].mode);
+  }
+  free(order);
+  return HC_OK;
+}
+
+/* Is it a sum over real modes, so that d may be other than 0? */
+static bool mode_sum_takes_damping(const mode_sum *m) { return !m->poles; }
+
+/* ---- the series ---------------------------------------------------------------------------------- */
+
+/* The place of an entry's coefficient t. */
+static double *coefficient(const mode_sum *m, size_t entry, int t)
+{
+  return m->series + (entry / LANES * TERMS + (size_t)t) * LANES + entry % LANES;
+}
+
+/* Coefficient t of every far mode's series in s/reach, from those before it. Of a mode, 1/(k + c s + s^2): g_t =
+ * -(c reach g_(t-1) + reach^2 g_(t-2))/k. Of a pole, 1/(s - lambda): -(reach/lambda)^t/lambda, and its conjugate's. */
+static void next_coefficients(mode_sum *m, int t, double *now, double *before)
+{
+  for (int i = m->near; i < m->n; ++i) {
+    if (m->poles) {
+      m->power[i] = t == 0 ? -1 / m->lambda[i] : m->power[i] * (m->reach / m->lambda[i]);
+      continue;
+    }
+    const double g = t == 0 ? 1 / m->k[i] : -(m->c[i] * m->reach * now[i] + m->reach * m->reach * before[i]) / m->k[i];
+    before[i] = t == 0 ? 0 : now[i];
+    now[i] = g;
+  }
+}
+
+static void add_term(mode_sum *m, int t, const double *now)
+{
+  const int dim = m->dim;
+  for (int i = m->near; i < m->n; ++i) {
+    const double complex power = m->poles ? m->power[i] * (cimag(m->lambda[i]) > 0 ? 2 : 1) : now[i];
+    for (int a = 0; a < dim; ++a) {
+      const double complex z = (m->lr[a * m->n + i] + (m->poles ? I * m->li[a * m->n + i] : 0)) * power;
+      m->product[i * dim + a] = creal(z);
+      if (m->poles) m->turned[i * dim + a] = -cimag(z);
+    }
+  }
+  const int behind = m->n - m->near, first = m->near;
+  const double *right = (m->poles ? m->rr : m->lr) + first;
+  dense_add_product(dim, m->rows, behind, 1, m->product + first * dim, dim, right, m->n, 0, m->term, dim);
+  if (m->poles)
+    dense_add_product(dim, m->rows, behind, 1, m->turned + first * dim, dim, m->ri + first, m->n, 1, m->term, dim);
+  for (size_t e = 0; e < (size_t)m->rows * (size_t)dim; ++e) *coefficient(m, e, t) = m->term[e];
+}
+
+static void make_series(mode_sum *m, double reach)
+{
+  double *now = m->weight, *before = now + m->n;
+  m->reach = reach;
+  m->near = 0;
+  while (m->near < m->n && !(m->distance[m->near] > FAR * reach)) ++m->near;
+  for (int t = 0; t < TERMS; ++t) {
+    next_coefficients(m, t, now, before);
+    add_term(m, t, now);
+  }
+}
+
+typedef struct lane_sums {
+  double even[LANES], odd[LANES];
+} lane_sums;
+
+/* even = sum over even t of T_t x^t, odd = sum over odd t of T_t x^(t-1), v = x^2. */
+static inline void sum_terms(const double *restrict T, double v, lane_sums *restrict s)
+{
+  *s = (lane_sums){.even = {0}};
+  for (int t = TERMS - 2; t >= 0; t -= 2) {
+    const double *restrict at = T + (size_t)t * LANES;
+    for (int k = 0; k < LANES; ++k) s->even[k] = s->even[k] * v + at[k];
+    for (int k = 0; k < LANES; ++k) s->odd[k] = s->odd[k] * v + at[LANES + k];
+  }
+}
+
+/* The same of the derivative: even = sum over even t of t T_t x^(t-2), odd = sum over odd t of t T_t x^(t-1). */
+static inline void sum_derivatives(const double *restrict T, double v, lane_sums *restrict s)
+{
+  *s = (lane_sums){.even = {0}};
+  for (int t = TERMS - 2; t >= 0; t -= 2) {
+    const double *restrict at = T + (size_t)t * LANES;
+    for (int k = 0; k < LANES && t > 0; ++k) s->even[k] = s->even[k] * v + t * at[k];
+    for (int k = 0; k < LANES; ++k) s->odd[k] = s->odd[k] * v + (t + 1) * at[LANES + k];
+  }
+}
+
+/* += the series and, if by_s is not NULL, its derivative, at s = i w. Of v = (s/reach)^2 < 0: even powers are real. */
+static void add_series(const mode_sum *m, double w, int from, int to, double complex *G, double complex *by_s)
+{
+  const double x = w / m->reach, v = -x * x;
+  const int first = from * m->dim, end = to * m->dim;
+  for (int block = first - first % LANES; block < end; block += LANES) {
+    const double *T = m->series + (size_t)block * TERMS;
+    const int low = block < first ? first - block : 0, high = block + LANES > end ? end - block : LANES;
+    lane_sums s;
+    if (G) sum_terms(T, v, &s);
+    for (int k = low; G && k < high; ++k) G[block + k - first] += s.even[k] + I * x * s.odd[k];
+    if (by_s) sum_derivatives(T, v, &s);
+    for (int k = low; by_s && k < high; ++k) by_s[block + k - first] += (s.odd[k] + I * x * s.even[k]) / m->reach;
+  }
+}
+
+/* ---- a value ------------------------------------------------------------------------------------- */
+
+/* weight: real and imaginary parts of 1/z of the first n modes, by `square` of 1/z^2 factor_i. */
+typedef enum { VALUE, BY_S, BY_D } wanted;
+
+static double complex of_mode(const mode_sum *m, int i, double w, double d, wanted what)
+{
+  const double re = m->k[i] - w * w, im = (m->c[i] + d) * w, size = 1 / (re * re + im * im);
+  const double complex inverse = re * size - I * (im * size);
+  if (what == VALUE) return inverse;
+  const double a = creal(inverse), b = cimag(inverse);
+  const double complex square = (a * a - b * b) + I * (2 * a * b);
+  return what == BY_S ? -square * ((m->c[i] + d) + I * (2 * w)) : -square * (I * w);
+}
+
+/* Into weight[4][n]: what real and imaginary parts of products are multiplied by. */
+static bool fill_weights(mode_sum *m, int n, double w, double d, wanted what)
+{
+  double *ar = m->weight, *ai = ar + m->n, *br = ai + m->n, *bi = br + m->n, sum = 0;
+  for (int i = 0; i < n; ++i) {
+    double complex z, conjugate = 0;
+    if (!m->poles) z = of_mode(m, i, w, d, what);
+    else {
+      const bool pair = cimag(m->lambda[i]) > 0;
+      z = 1 / (I * w - m->lambda[i]);
+      if (pair) conjugate = 1 / (I * w - conj(m->lambda[i]));
+      if (what == BY_S) z = -z * z, conjugate = -conjugate * conjugate;
+    }
+    ar[i] = creal(z + conjugate), ai[i] = cimag(z + conjugate);
+    br[i] = -cimag(z - conjugate), bi[i] = creal(z - conjugate); /* i (z - conjugate) */
+    sum += ar[i] + ai[i];
+  }
+  return isfinite(sum);
+}
+
+/* += the sum over the first n modes. With l r = p + i q: p (z + z') + q i (z - z'). */
+static void add_modes(mode_sum *m, int n, int from, int to, double complex *G)
+{
+  const double *ar = m->weight, *ai = ar + m->n, *br = ai + m->n, *bi = br + m->n;
+  const int width = 2 * m->dim;
+  for (int a = 0; a < m->dim; ++a) {
+    const double *lr = m->lr + a * m->n, *li = m->poles ? m->li + a * m->n : NULL;
+    double *to_real = m->product + 2 * a, *to_imaginary = m->turned + 2 * a;
+    for (int i = 0; i < n && !li; ++i) to_real[i * width] = lr[i] * ar[i], to_real[i * width + 1] = lr[i] * ai[i];
+    for (int i = 0; i < n && li; ++i) {
+      to_real[i * width] = lr[i] * ar[i] + li[i] * br[i], to_real[i * width + 1] = lr[i] * ai[i] + li[i] * bi[i];
+      to_imaginary[i * width] = lr[i] * br[i] - li[i] * ar[i];
+      to_imaginary[i * width + 1] = lr[i] * bi[i] - li[i] * ai[i];
+    }
+  }
+  const double *right = (m->poles ? m->rr : m->lr) + from * m->n;
+  double *sum = (double *)G; /* complex numbers are pairs of these (C11, 6.2.5) */
+  dense_add_product(width, to - from, n, 1, m->product, width, right, m->n, 1, sum, width);
+  if (m->poles) dense_add_product(width, to - from, n, 1, m->turned, width, m->ri + from * m->n, m->n, 1, sum, width);
+}
+
+static hc_status add_up(mode_sum *m, int n, double w, double d, wanted what, int from, int to, double complex *G)
+{
+  memset(G, 0, (size_t)(to - from) * (size_t)m->dim * sizeof *G);
+  if (!fill_weights(m, n, w, d, what)) return HC_NOT_FINITE;
+  add_modes(m, n, from, to, G);
+  return HC_OK;
+}
+
+/* G[from <= b < to][dim], if not NULL, at s = i w. by_s, if not NULL, gets dG/ds, and by_d dG/dd (of real modes). The
+ * largest w to be expected soon is `reach`: the power series is for up to there. HC_NOT_FINITE: an undamped mode
+ * resonates at w. */
+static hc_status mode_sum_at(mode_sum *m, double w, double reach, double d, int from, int to, double complex *G,
+                             double complex *by_s, double complex *by_d)
+{
+  const bool in_reach = w <= m->reach && reach > m->reach / 4;
+  if (d == 0 && !by_d && !in_reach && reach > 0) make_series(m, 1.5 * fmax(reach, w));
+  const bool by_series = d == 0 && !by_d && m->reach > 0;
+  const int n = by_series ? m->near : m->n;
+  hc_status st = G ? add_up(m, n, w, d, VALUE, from, to, G) : HC_OK;
+  if (st == HC_OK && by_s) st = add_up(m, n, w, d, BY_S, from, to, by_s);
+  if (st == HC_OK && by_d) st = add_up(m, n, w, d, BY_D, from, to, by_d);
+  if (st == HC_OK && by_series) add_series(m, w, from, to, G, by_s);
+  return st;
+}
+
+/* ---- a structure's sums --------------------------------------------------------------------------- */
 
 /* Rounding is multiplied by as much: of an eigenvector, and of G or S by inversion. */
 static const double most_condition = 1e6, most_cancelled = 1e8;
@@ -98,9 +398,10 @@ static hc_status sum_modes(const model *m, int dim, const modal_form *f, complia
   double *own = malloc(n * sizeof *own);
   hc_status st = own ? HC_OK : HC_NO_MEMORY;
   for (size_t i = 0; i < n && st == HC_OK; ++i) own[i] = f->C[i * (n + 1)];
-  if (st == HC_OK)
-    st = mode_sum_of_modes(f->n, f->omega2, own, dim, f->rows - responses, f->x + (size_t)responses * n, &c->of_q);
-  if (st == HC_OK) st = mode_sum_of_modes(f->n, f->omega2, own, responses, f->rows, f->x, &c->of_responses);
+  mode_table of = {.n = f->n, .k = f->omega2, .c = own, .x = f->x};
+  if (st == HC_OK) st = mode_sum_new(&of, responses, f->rows, &c->of_responses);
+  of.x += (size_t)responses * n;
+  if (st == HC_OK) st = mode_sum_new(&of, dim, f->rows - responses, &c->of_q);
   free(own);
   return st;
 }
@@ -179,10 +480,11 @@ static hc_status sum_poles(const model *m, int dim, const modal_form *f, complia
   if (st == HC_OK) fill_first_order(f, u, A);
   if (st == HC_OK) st = dense_eigen_both(2 * f->n, A, lambda, V, W);
   if (st == HC_OK && take_poles(f, u, lambda, V, W, &t)) {
-    const int responses = m->n_responses, inputs = f->rows - responses;
-    const size_t behind = (size_t)responses * (size_t)t.n;
-    st = mode_sum_of_poles(t.n, t.lambda, dim, inputs, t.left + behind, t.right + behind, &c->of_q);
-    if (st == HC_OK) st = mode_sum_of_poles(t.n, t.lambda, responses, f->rows, t.left, t.right, &c->of_responses);
+    const int responses = m->n_responses;
+    mode_table of = {.n = t.n, .lambda = t.lambda, .left = t.left, .right = t.right};
+    st = mode_sum_new(&of, responses, f->rows, &c->of_responses);
+    of.left += (size_t)responses * (size_t)t.n, of.right += (size_t)responses * (size_t)t.n;
+    if (st == HC_OK) st = mode_sum_new(&of, dim, f->rows - responses, &c->of_q);
   }
   workspace_free(&own);
   return st;

@@ -3,7 +3,7 @@
  *     S = G^-1,   G = B Z^-1 B^T,   p = S g,   g = B Z^-1 (load),   q = B x
  *     response r = G_r S q + (g_r - G_r p)                                       (G_r, g_r: of r in the place of B)
  *
- * Z^-1 is a sum over modes (mode_sum.h) where C is diagonal in them, as modal and Rayleigh damping are, and else over
+ * Z^-1 is a sum over modes where C is diagonal in them, as modal and Rayleigh damping are, and else over
  * the eigenvectors of the first-order form, found once. Either way a harmonic costs O(n dim^2) at most. Not for s = 0,
  * where a structure that is free to move has no Z^-1. */
 #ifndef HC_HBM_COMPLIANCE_H
