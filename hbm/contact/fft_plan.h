@@ -1,7 +1,7 @@
 /* fft_plan.h - plans of FFTW's real transforms, made and freed under one lock; a series to samples, and back. The
- * planner keeps tables of the whole process and is not thread-safe; executing plans is. Every plan of this program is made here
- * (.ci/layering checks it). Plans are ESTIMATE: made in microseconds, the same on every run, and the arrays keep their
- * contents. */
+ * planner keeps tables of the whole process and is not thread-safe; executing plans is. Every plan of this program is
+ * made here (.ci/layering checks it). Plans are ESTIMATE: made in microseconds, the same on every run, and the arrays
+ * keep their contents. */
 #ifndef HC_FFT_PLAN_H
 #define HC_FFT_PLAN_H
 
