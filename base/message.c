@@ -63,3 +63,11 @@ void message_add_quoted(message *m, const char *text, size_t length)
   message_add_input(m, text, length, 60);
   message_add(m, "`");
 }
+
+const char *message_quote(const char *text, size_t length, char quote[MESSAGE_QUOTE])
+{
+  message m;
+  message_start(&m, quote, MESSAGE_QUOTE);
+  message_add_quoted(&m, text, length);
+  return quote;
+}

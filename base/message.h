@@ -28,4 +28,9 @@ void message_add_input(message *m, const char *text, size_t length, size_t limit
 /* The same between backquotes, 60 bytes of it: `text`. */
 void message_add_quoted(message *m, const char *text, size_t length);
 
+/* The same as text of its own, for a %s. Returns quote. */
+enum { MESSAGE_QUOTE = 256 /* 60 bytes as \xNN, and what is around them */ };
+const char *message_quote(const char *text, size_t length, char quote[MESSAGE_QUOTE]);
+#define QUOTED(text, length) message_quote(text, length, (char[MESSAGE_QUOTE]){0}) /* lives as long as its block */
+
 #endif

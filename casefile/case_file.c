@@ -35,19 +35,12 @@ void case_reader_start(case_reader *r, const char *name, const char *const *set,
   field_defaults(&r->sc);
 }
 
-hc_status case_reader_scene(case_reader *r, const char *text, size_t length)
-{
-  yaml_document_t doc;
-  hc_status st = yaml_text_load(r, text, length, &doc);
-  if (st != HC_OK) return st;
-  st = yaml_scene_read(r, &doc, yaml_document_get_root_node(&doc));
-  yaml_document_delete(&doc);
-  return st;
-}
-
 static hc_status read_scene(case_reader *r, const char *text, size_t length, int n_set)
 {
-  hc_status st = case_reader_scene(r, text, length);
+  hc_status st = yaml_text_load(r, text, length);
+  if (st != HC_OK) return st;
+  st = yaml_scene_read(r, yaml_document_get_root_node(&r->doc));
+  yaml_document_delete(&r->doc);
   for (int k = 1; k <= n_set && st == HC_OK; ++k) st = case_set_apply(r, k);
   if (st == HC_OK) st = case_check(r);
   if (st == HC_OK && r->at[field_index(field_find("", "title", 5))].line == 0) title_from_name(r->name, r->sc.title);

@@ -32,8 +32,20 @@ hc_status yaml_refuse(case_reader *r, const yaml_node_t *node, const char *forma
 {
   va_list args;
   va_start(args, format);
-  message_add_list(case_blame(r, case_place_of(r, node->start_mark)), format, args);
+  message_add_list(yaml_blame(r, node), format, args);
   va_end(args);
+  return HC_BAD_INPUT;
+}
+
+hc_status yaml_file_failed(case_reader *r, const yaml_node_t *node, const char *what, const char *path,
+                           const char *expected)
+{
+  char words[160];
+  snprintf(words, sizeof words, "%s", r->msg.text);
+  message *m = yaml_blame(r, node);
+  message_add(m, "%s: ", what);
+  message_add_input(m, path, strlen(path), 160);
+  message_add(m, " %s, expected %s", words, expected);
   return HC_BAD_INPUT;
 }
 
@@ -64,30 +76,31 @@ bool yaml_node_is(const yaml_node_t *n, const char *word)
   return n->type == YAML_SCALAR_NODE && n->data.scalar.length == strlen(word) && !strcmp(yaml_node_text(n), word);
 }
 
-const yaml_node_t *yaml_find(yaml_document_t *doc, const yaml_node_t *mapping, const char *key)
+bool yaml_node_is_axis(const yaml_node_t *n)
 {
-  for (yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < mapping->data.mapping.pairs.top; ++p)
-    if (yaml_node_is(yaml_document_get_node(doc, p->key), key)) return yaml_document_get_node(doc, p->value);
+  return n->type == YAML_SCALAR_NODE && n->data.scalar.length == 1 && structure_is_axis(*yaml_node_text(n));
+}
+
+const yaml_node_t *yaml_find(case_reader *r, const yaml_node_t *mapping, const char *key)
+{
+  for (int i = 0; i < yaml_keys(mapping); ++i)
+    if (yaml_node_is(yaml_key(r, mapping, i), key)) return yaml_value(r, mapping, i);
   return NULL;
 }
 
-bool yaml_check_key(case_reader *r, const yaml_node_t *key)
+hc_status yaml_check_key(case_reader *r, const yaml_node_t *key)
 {
-  if (key->type == YAML_SCALAR_NODE) return true;
-  message_add(case_blame(r, case_place_of(r, key->start_mark)), "%s stands where a key should, expected `key: value`",
-              yaml_node_what(key));
-  return false;
+  if (key->type == YAML_SCALAR_NODE) return HC_OK;
+  return yaml_refuse(r, key, "%s stands where a key should, expected `key: value`", yaml_node_what(key));
 }
 
 hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *section)
 {
   const char *text = yaml_node_text(key);
-  size_t length = key->data.scalar.length;
-  message *m = case_blame(r, case_place_of(r, key->start_mark));
-  message_add(m, "unknown key ");
-  message_add_quoted(m, text, length);
+  message *m = yaml_blame(r, key);
+  message_add(m, "unknown key %s", YAML_QUOTED(key));
   message_add(m, *section ? " in `%s`" : "%s", section);
-  if (case_suggest(m, suggest_key(section, text, length), section, -1)) return HC_BAD_INPUT;
+  if (case_suggest(m, suggest_key(section, text, key->data.scalar.length), section, -1)) return HC_BAD_INPUT;
   message_add(m, ", expected one of");
   const field_section *s;
   int n = 0;
@@ -96,18 +109,21 @@ hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *s
       message_add(m, "%s %s", n++ ? "," : "", field_at(i)->name);
   for (int i = 1; !*section && (s = field_section_at(i)) != NULL; ++i)
     if (!strchr(s->name, '[')) message_add(m, ", %s", s->name);
-  if (length > 0 && text[0] >= '0' && text[0] <= '9')
-    message_add(m, " (a comma ends a value: the decimal sign is a point)");
+  if (*text >= '0' && *text <= '9') message_add(m, " (a comma ends a value: the decimal sign is a point)");
   return HC_BAD_INPUT;
 }
 
 hc_status yaml_duplicate_key(case_reader *r, const yaml_node_t *key, case_place first)
 {
-  message *m = case_blame(r, case_place_of(r, key->start_mark));
-  message_add(m, "duplicate key ");
-  message_add_quoted(m, yaml_node_text(key), key->data.scalar.length);
-  message_add(m, ", expected it once (first on line %zu)", first.line);
-  return HC_BAD_INPUT;
+  return yaml_refuse(r, key, "duplicate key %s, expected it once (first on line %zu)", YAML_QUOTED(key), first.line);
+}
+
+const field *yaml_key_field(case_reader *r, const yaml_node_t *key, const char *section)
+{
+  if (yaml_check_key(r, key) != HC_OK) return NULL;
+  const field *f = field_find(section, yaml_node_text(key), key->data.scalar.length);
+  if (!f) yaml_unknown_key(r, key, section);
+  return f;
 }
 
 field_item yaml_node_item(const yaml_node_t *n)
@@ -119,7 +135,7 @@ field_item yaml_node_item(const yaml_node_t *n)
                       .column = n->start_mark.column + 1};
 }
 
-const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node, field_value *v)
+const yaml_node_t *yaml_node_value(case_reader *r, const yaml_node_t *node, field_value *v)
 {
   v->list = node->type == YAML_SEQUENCE_NODE;
   v->n = 1;
@@ -128,28 +144,27 @@ const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node
   if (node->type == YAML_SCALAR_NODE) return NULL;
   v->n = yaml_length(node);
   for (int i = 0; i < v->n && i < NUMBER_LIST_MAX; ++i) {
-    const yaml_node_t *entry = yaml_entry(doc, node, i);
+    const yaml_node_t *entry = yaml_entry(r, node, i);
     if (entry->type != YAML_SCALAR_NODE) return entry;
     v->item[i] = yaml_node_item(entry);
   }
   return NULL;
 }
 
-hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
-                           const yaml_node_t *node)
+hc_status yaml_scene_value(case_reader *r, const field *f, int j, void *base, const yaml_node_t *node)
 {
   char path[FIELD_PATH], why_text[512];
   field_value v;
   message why;
   int bad = -1;
-  const yaml_node_t *misfit = yaml_node_value(doc, node, &v);
+  const yaml_node_t *misfit = yaml_node_value(r, node, &v);
   message_start(&why, why_text, sizeof why_text);
   if (!misfit && field_store(f, base, &v, &why, &bad)) return HC_OK;
   if (misfit) {
     message_add(&why, misfit == node ? " is %s, expected " : " has %s inside, expected ", yaml_node_what(misfit));
     field_expected(f, &why);
   }
-  case_place at = case_place_of(r, misfit ? misfit->start_mark : node->start_mark);
+  case_place at = yaml_place(r, misfit ? misfit : node);
   if (bad >= 0) at.line = v.item[bad].line, at.column = v.item[bad].column;
   return case_refuse(r, at, "%s%s", field_path(f, j, path), why.text);
 }
@@ -162,23 +177,15 @@ const field *yaml_given_rival(const case_reader *r, const field *f)
   return NULL;
 }
 
-static hc_status check_rival(case_reader *r, const field *f, const yaml_node_t *key)
+hc_status yaml_give(case_reader *r, const field *f, const yaml_node_t *key, const yaml_node_t *value)
 {
   const field *rival = yaml_given_rival(r, f);
-  if (!rival) return HC_OK;
-  return yaml_refuse(r, key, "both `%s` (line %zu) and `%s` in `%s`, expected one of them", rival->name,
-                     r->at[field_index(rival)].line, f->name, f->section);
-}
-
-hc_status yaml_scene_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
-                           const yaml_node_pair_t *pair)
-{
-  const yaml_node_t *key = yaml_document_get_node(doc, pair->key), *value = yaml_document_get_node(doc, pair->value);
   if (case_given(r, f)) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
-  hc_status st = check_rival(r, f, key);
-  if (st == HC_OK) st = yaml_scene_value(r, doc, f, j, base, value);
-  r->at[field_index(f)] = case_place_of(r, value->start_mark);
-  return st;
+  if (rival)
+    return yaml_refuse(r, key, "both `%s` (line %zu) and `%s` in `%s`, expected one of them", rival->name,
+                       r->at[field_index(rival)].line, f->name, f->section);
+  r->at[field_index(f)] = yaml_place(r, value);
+  return HC_OK;
 }
 
 void yaml_forget_fields(case_reader *r, unsigned of)

@@ -21,6 +21,7 @@ typedef struct case_reader {
   const char *required;   /* the keys it must have, in words                         */
   const char *const *set; /* the assignments                                         */
   int set_now;            /* the one being applied, from 1; 0 while the file is read */
+  yaml_document_t doc;    /* of the file, or of the assignment being applied         */
   case_place here;        /* of the path being resolved or the value being set       */
   case_place end;         /* of the file's text; line = 0 before it is known         */
   scene sc;               /* as far as it has been read                              */
@@ -39,13 +40,6 @@ typedef struct case_reader {
 static inline unsigned long long case_field_bit(const field *f) { return 1ull << field_index(f) % 64; }
 
 static inline bool case_given(const case_reader *r, const field *f) { return r->at[field_index(f)].line > 0; }
-/* Where a mark of libyaml stands. If the last line has no line end, libyaml's mark may stand on a line after it, which
- * the file does not have: then r->end. */
-static inline case_place case_place_of(const case_reader *r, yaml_mark_t mark)
-{
-  if (r->set_now == 0 && r->end.line > 0 && mark.line + 1 > r->end.line) return r->end;
-  return (case_place){.set = r->set_now, .line = mark.line + 1, .column = mark.column + 1};
-}
 
 /* A reader of the case file `name`, every field at its default; messages go to err. */
 void case_reader_start(case_reader *r, const char *name, const char *const *set, case_error *err);
@@ -53,14 +47,29 @@ void case_reader_start(case_reader *r, const char *name, const char *const *set,
 /* The bytes of r's file, "<stdin>" being standard input, in memory to free in any case. */
 hc_status case_reader_slurp(case_reader *r, char **text, size_t *length);
 
-/* The scene of text[length], before assignments and case_check. */
-hc_status case_reader_scene(case_reader *r, const char *text, size_t length);
-
 /* After reading ended with st: r's scene into *out, its structure with it, or nothing kept. Returns st. */
 hc_status case_reader_take(case_reader *r, hc_status st, scene *out);
 
+/* ---- messages ---- */
+
+/* Where a mark of libyaml stands. If the last line has no line end, libyaml's mark may stand on a line after it, which
+ * the file does not have: then r->end. */
+static inline case_place case_place_of(const case_reader *r, yaml_mark_t mark)
+{
+  if (r->set_now == 0 && r->end.line > 0 && mark.line + 1 > r->end.line) return r->end;
+  return (case_place){.set = r->set_now, .line = mark.line + 1, .column = mark.column + 1};
+}
+static inline case_place yaml_place(const case_reader *r, const yaml_node_t *node)
+{
+  return case_place_of(r, node->start_mark);
+}
+
 /* Start the message with "FILE:LINE:COLUMN: " or "--set PATH=VALUE: " and return it for the rest. */
 message *case_blame(case_reader *r, case_place place);
+static inline message *yaml_blame(case_reader *r, const yaml_node_t *node)
+{
+  return case_blame(r, yaml_place(r, node));
+}
 
 /* The whole message, printf-style, about a place or where a node stands. Always HC_BAD_INPUT. */
 #if defined(__GNUC__)
@@ -70,48 +79,74 @@ message *case_blame(case_reader *r, case_place place);
 #endif
 CASE_PRINTF hc_status case_refuse(case_reader *r, case_place place, const char *format, ...);
 CASE_PRINTF hc_status yaml_refuse(case_reader *r, const yaml_node_t *node, const char *format, ...);
+hc_status case_out_of_memory(case_reader *r);
+
+/* The file at `path`, which the node names for `what`, cannot be read: r->msg has the words for it. */
+hc_status yaml_file_failed(case_reader *r, const yaml_node_t *node, const char *what, const char *path,
+                           const char *expected);
 
 /* ", did you mean `x`?" if there is something to suggest. Fields show their whole path unless they are of `section`
  * (NULL: always). */
 bool case_suggest(message *m, suggestion s, const char *section, int j);
 
-/* text as one YAML document without aliases, anchors, tags and depth, to be freed with yaml_document_delete when
- * HC_OK. */
-hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_document_t *doc);
+/* ---- documents ---- */
 
-/* The text of a scalar node, and what a node is in words: "a mapping", "a list", "a single value", "empty". */
+/* r->doc from text, without aliases, anchors, tags and depth, to be freed with yaml_document_delete when HC_OK. */
+hc_status yaml_text_load(case_reader *r, const char *text, size_t length);
+
+/* The text of a scalar node, between backquotes for a message's %s, and what a node is in words: "a mapping", "a list",
+ * "a single value", "empty". */
 static inline const char *yaml_node_text(const yaml_node_t *n) { return (const char *)n->data.scalar.value; }
+#define YAML_QUOTED(n) QUOTED(yaml_node_text(n), (n)->data.scalar.length)
 const char *yaml_node_what(const yaml_node_t *n);
 bool yaml_node_is(const yaml_node_t *n, const char *word); /* a scalar, and that word? */
+bool yaml_node_is_axis(const yaml_node_t *n);              /* x, y or z? */
 field_item yaml_node_item(const yaml_node_t *n);           /* of a scalar */
 
-/* How many entries a list has, and entry i; the value of the first such key of a mapping, or NULL. */
+static inline const yaml_node_t *yaml_get(case_reader *r, int index) { return yaml_document_get_node(&r->doc, index); }
+
+/* How many entries a list has, and entry i; how many keys a mapping, key i and its value; the value of the first such
+ * key, or NULL. */
 static inline int yaml_length(const yaml_node_t *list)
 {
   return (int)(list->data.sequence.items.top - list->data.sequence.items.start);
 }
-static inline yaml_node_t *yaml_entry(yaml_document_t *doc, const yaml_node_t *list, int i)
+static inline const yaml_node_t *yaml_entry(case_reader *r, const yaml_node_t *list, int i)
 {
-  return yaml_document_get_node(doc, list->data.sequence.items.start[i]);
+  return yaml_get(r, list->data.sequence.items.start[i]);
 }
-const yaml_node_t *yaml_find(yaml_document_t *doc, const yaml_node_t *mapping, const char *key);
+static inline int yaml_keys(const yaml_node_t *mapping)
+{
+  return (int)(mapping->data.mapping.pairs.top - mapping->data.mapping.pairs.start);
+}
+static inline const yaml_node_t *yaml_key(case_reader *r, const yaml_node_t *mapping, int i)
+{
+  return yaml_get(r, mapping->data.mapping.pairs.start[i].key);
+}
+static inline const yaml_node_t *yaml_value(case_reader *r, const yaml_node_t *mapping, int i)
+{
+  return yaml_get(r, mapping->data.mapping.pairs.start[i].value);
+}
+const yaml_node_t *yaml_find(case_reader *r, const yaml_node_t *mapping, const char *key);
 
 /* v from a scalar or a list of scalars. NULL, or the node (a mapping, a list in a list) that cannot be a value. */
-const yaml_node_t *yaml_node_value(yaml_document_t *doc, const yaml_node_t *node, field_value *v);
+const yaml_node_t *yaml_node_value(case_reader *r, const yaml_node_t *node, field_value *v);
 
-/* Is the key a scalar? false with the message made. */
-bool yaml_check_key(case_reader *r, const yaml_node_t *key);
+/* A finite number, of which `what` tells in a message. */
+hc_status yaml_number(case_reader *r, const yaml_node_t *node, const char *what, double *x);
+
+/* ---- keys and fields ---- */
+
+/* HC_BAD_INPUT: the key is no scalar; it has been given before; there is no such field. */
+hc_status yaml_check_key(case_reader *r, const yaml_node_t *key);
 hc_status yaml_duplicate_key(case_reader *r, const yaml_node_t *key, case_place first);
-
-/* A scene at `root`, its list of contacts, or contact j of it, into r->sc. */
-hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *root);
-hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t *node);
-hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *node, int j);
-
-/* One key of a section, or of contact or load j, given once and not beside a rival, into base (fields.h). */
-hc_status yaml_scene_field(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
-                           const yaml_node_pair_t *pair);
 hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *section);
+
+/* The field of that section that a key names; NULL with the message made if there is none. */
+const field *yaml_key_field(case_reader *r, const yaml_node_t *key, const char *section);
+
+/* Note that f is given by the key, once and not beside a rival. */
+hc_status yaml_give(case_reader *r, const field *f, const yaml_node_t *key, const yaml_node_t *value);
 
 /* The first rival of f that has been given, or NULL. */
 const field *yaml_given_rival(const case_reader *r, const field *f);
@@ -120,8 +155,61 @@ const field *yaml_given_rival(const case_reader *r, const field *f);
 void yaml_forget_fields(case_reader *r, unsigned of);
 
 /* The value of one field, of contact or load j if it is one of theirs, into base (fields.h). */
-hc_status yaml_scene_value(case_reader *r, yaml_document_t *doc, const field *f, int j, void *base,
-                           const yaml_node_t *node);
+hc_status yaml_scene_value(case_reader *r, const field *f, int j, void *base, const yaml_node_t *node);
+
+/* A scene at `root`, its list of contacts, or contact j of it, into r->sc. */
+hc_status yaml_scene_read(case_reader *r, const yaml_node_t *root);
+hc_status yaml_scene_contacts(case_reader *r, const yaml_node_t *node);
+hc_status yaml_scene_contact(case_reader *r, const yaml_node_t *node, int j);
+
+/* ---- of a structure, into r->sc.structure ---- */
+
+/* The section `structure` into a new structure. It comes first, whatever the order of the file: the other sections
+ * speak of its degrees of freedom. */
+hc_status yaml_structure_read(case_reader *r, const yaml_node_t *node);
+
+/* One part of it, `structure.mass`, or one number, `structure.damping.modal`. */
+hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t *node);
+
+/* The lists, which replace what there was; or entry j, one past the last being new. */
+hc_status yaml_loads_read(case_reader *r, const yaml_node_t *node);
+hc_status yaml_load_read(case_reader *r, const yaml_node_t *node, int j);
+hc_status yaml_contacts_read(case_reader *r, const yaml_node_t *node);
+hc_status yaml_contact_read(case_reader *r, const yaml_node_t *node, int j);
+hc_status yaml_responses_read(case_reader *r, const yaml_node_t *node);
+
+/* An entry of contacts with `pairs` and `axes`: a new contact for each pair of nodes. */
+hc_status yaml_pairs_read(case_reader *r, const yaml_node_t *node);
+
+/* A field of the scene, a section, or contact or load j, given once by a key, into base; all those of a mapping.
+ * by_node: of a load, `node` and `direction` say where. */
+hc_status yaml_field_read(case_reader *r, const field *f, const yaml_node_t *key, const yaml_node_t *value, int j,
+                          void *base);
+hc_status yaml_fields_read(case_reader *r, const yaml_node_t *node, const char *section, int j, void *base,
+                           bool by_node);
+
+/* One part of load or contact j: a degree of freedom or direction. */
+hc_status yaml_entry_part(case_reader *r, const field *f, int j, const yaml_node_t *node);
+
+/* A matrix of `expected` rows, or with expected = 0 of any number of rows, into *out, which it replaces. `what` is its
+ * path. */
+hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
+                           structure_matrix *out);
+
+/* Start the message with the place of entry (i, j), from 0, of a matrix: in its file, or else in the case. */
+message *yaml_matrix_blame(case_reader *r, const structure_matrix *m, int i, int j);
+
+/* A degree of freedom by name or number, or as {node: 17, direction: y}. */
+hc_status yaml_dof(case_reader *r, const yaml_node_t *node, int *dof);
+
+/* A degree of freedom, or factors {tip: 1, root: -0.5}, not all 0, into direction[n]. `what` is its path. */
+hc_status yaml_direction(case_reader *r, const char *what, const yaml_node_t *node, double *direction);
+
+/* f, one of the fields of damping, has been stored: which kind of damping that is. Of Rayleigh damping one number given
+ * alone leaves the other where there was such damping, and else 0. */
+void structure_damping_given(scene_structure *s, const field *f);
+
+/* ---- paths and assignments ---- */
 
 /* What a path names: a field "hbm.samples", "contacts[0].gap", "contacts[joint].gap", "forcing[0].amplitude"; or with
  * f = NULL a list, "contacts", "forcing", or with an index an entry of it. */
@@ -150,12 +238,10 @@ void case_target_given(case_reader *r, case_target t);
 void case_drop_rivals(case_reader *r, const field *f, void *base);
 
 /* What t names, from a document; r->here is where. */
-hc_status case_target_read(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node);
+hc_status case_target_read(case_reader *r, case_target t, const yaml_node_t *node);
 
 /* r's structure is its own from now on: copied if it was shared. HC_NO_MEMORY with the message made. */
 hc_status case_own_structure(case_reader *r);
-
-hc_status case_out_of_memory(case_reader *r);
 
 /* Apply assignment number k, from 1. */
 hc_status case_set_apply(case_reader *r, int k);

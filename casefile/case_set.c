@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/nearest.h"
-#include "casefile/yaml_structure.h"
+#include "casefile/case_reader.h"
 
 /* j: the entry of a list that the path begins with, for what is suggested. */
 static hc_status unknown_path(case_reader *r, const char *path, size_t length, int j)
@@ -217,47 +217,49 @@ static hc_status set_field(case_reader *r, case_target t, const char *text)
 }
 
 /* A list of contacts or loads, or an entry of one. */
-static hc_status read_list(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node)
+static hc_status read_list(case_reader *r, case_target t, const yaml_node_t *node)
 {
-  if (t.list == CASE_LOADS && t.index < 0) return yaml_loads_read(r, doc, node);
-  if (t.list == CASE_LOADS) return yaml_load_read(r, doc, node, t.index);
-  if (r->sc.structure && t.index < 0) return yaml_contacts_read(r, doc, node);
-  if (r->sc.structure) return yaml_contact_read(r, doc, node, t.index);
-  if (t.index < 0) return yaml_scene_contacts(r, doc, node);
+  if (t.list == CASE_LOADS && t.index < 0) return yaml_loads_read(r, node);
+  if (t.list == CASE_LOADS) return yaml_load_read(r, node, t.index);
+  if (r->sc.structure && t.index < 0) return yaml_contacts_read(r, node);
+  if (r->sc.structure) return yaml_contact_read(r, node, t.index);
+  if (t.index < 0) return yaml_scene_contacts(r, node);
   case_target_base(r, t);
-  return yaml_scene_contact(r, doc, node, t.index);
+  return yaml_scene_contact(r, node, t.index);
 }
 
-static hc_status read_value(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node)
+static hc_status read_value(case_reader *r, case_target t, const yaml_node_t *node)
 {
   void *base = case_target_base(r, t);
   if (!base) return HC_NO_MEMORY;
   case_drop_rivals(r, t.f, base);
-  const hc_status st = yaml_scene_value(r, doc, t.f, t.index, base, node);
+  const hc_status st = yaml_scene_value(r, t.f, t.index, base, node);
   if (st == HC_OK) case_target_given(r, t);
   return st;
 }
 
-hc_status case_target_read(case_reader *r, yaml_document_t *doc, case_target t, yaml_node_t *node)
+hc_status case_target_read(case_reader *r, case_target t, const yaml_node_t *node)
 {
-  if (t.f && t.f->kind != FIELD_PART && !(t.f->flags & FIELD_IN_STRUCTURE)) return read_value(r, doc, t, node);
+  if (t.f && t.f->kind != FIELD_PART && !(t.f->flags & FIELD_IN_STRUCTURE)) return read_value(r, t, node);
   hc_status st = case_own_structure(r);
   if (st != HC_OK) return st;
   if (r->sc.structure) r->sc.structure->place = r->here;
-  if (!t.f) return read_list(r, doc, t, node);
-  if (t.list == CASE_NO_LIST) return yaml_structure_part(r, doc, t.f, node);
-  st = yaml_entry_part(r, doc, t.f, t.index, node);
+  if (!t.f) return read_list(r, t, node);
+  if (t.list == CASE_NO_LIST) return yaml_structure_part(r, t.f, node);
+  st = yaml_entry_part(r, t.f, t.index, node);
   if (st == HC_OK) case_target_given(r, t);
   return st;
 }
 
 static hc_status set_document(case_reader *r, case_target t, const char *text)
 {
-  yaml_document_t doc;
-  hc_status st = yaml_text_load(r, text, strlen(text), &doc);
-  if (st != HC_OK) return st;
-  st = case_target_read(r, &doc, t, yaml_document_get_root_node(&doc));
-  yaml_document_delete(&doc);
+  const yaml_document_t around = r->doc; /* a study's, which is still being read */
+  hc_status st = yaml_text_load(r, text, strlen(text));
+  if (st == HC_OK) {
+    st = case_target_read(r, t, yaml_document_get_root_node(&r->doc));
+    yaml_document_delete(&r->doc);
+  }
+  r->doc = around;
   return st;
 }
 

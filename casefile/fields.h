@@ -20,7 +20,7 @@ typedef enum field_kind {
   FIELD_PAIR,     /* double[2], from and to                             */
   FIELD_REALS,    /* number_list                                        */
   FIELD_INTEGERS, /* number_list of integers                            */
-  FIELD_PART      /* of a structure, in a form of its own: yaml_structure.h reads it, echo_structure.c writes it */
+  FIELD_PART      /* of a structure, in a form of its own: yaml_structure_part reads it */
 } field_kind;
 
 enum {

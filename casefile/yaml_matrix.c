@@ -5,11 +5,11 @@
 #include <strings.h>
 
 #include "base/number.h"
+#include "casefile/case_reader.h"
 #include "casefile/matrices/matrix_file.h"
 #include "casefile/matrices/text_file.h"
-#include "casefile/yaml_structure.h"
 
-static const char any_matrix[] = "rows, a diagonal, or a file of Matrix Market, CalculiX or Abaqus";
+#define ANY_MATRIX "rows, a diagonal, or a file of Matrix Market, CalculiX or Abaqus"
 
 hc_status yaml_number(case_reader *r, const yaml_node_t *node, const char *what, double *x)
 {
@@ -18,76 +18,51 @@ hc_status yaml_number(case_reader *r, const yaml_node_t *node, const char *what,
   if (scalar && !quoted) fault = number_read(yaml_node_text(node), node->data.scalar.length, x);
   *x = fault == NUMBER_FINE ? *x + 0.0 : 0; /* -0 is 0 */
   if (fault == NUMBER_FINE) return HC_OK;
-  message *m = case_blame(r, case_place_of(r, node->start_mark));
-  message_add(m, "%s is ", what);
-  if (!scalar || node->data.scalar.length == 0) {
-    message_add(m, "%s", yaml_node_what(node));
-  } else {
-    message_add_quoted(m, yaml_node_text(node), node->data.scalar.length);
-  }
-  message_add(m, ", expected a number");
-  if (quoted) message_add(m, " (in quotes it is text)");
-  else if (fault == NUMBER_NOT_FINITE) message_add(m, " (it must be finite)");
-  return HC_BAD_INPUT;
-}
-
-static hc_status wrong_size(case_reader *r, const char *what, const yaml_node_t *node, int found, const char *noun,
-                            int expected)
-{
-  message *m = case_blame(r, case_place_of(r, node->start_mark));
-  message_add(m, "%s has %d %s, expected %d", what, found, noun, expected);
-  return HC_BAD_INPUT;
+  const bool text = scalar && node->data.scalar.length > 0;
+  return yaml_refuse(r, node, "%s is %s, expected a number%s", what, text ? YAML_QUOTED(node) : yaml_node_what(node),
+                     quoted                       ? " (in quotes it is text)"
+                     : fault == NUMBER_NOT_FINITE ? " (it must be finite)"
+                                                  : "");
 }
 
 /* Row i, or with i < 0 the diagonal. */
-static hc_status read_row(case_reader *r, yaml_document_t *doc, const char *what, const yaml_node_t *row, int n, int i,
-                          double *v)
+static hc_status read_row(case_reader *r, const char *what, const yaml_node_t *row, int n, int i, double *v)
 {
   char path[FIELD_PATH + 32];
   const size_t stride = (size_t)n + (i < 0), first = i < 0 ? 0 : (size_t)i;
   snprintf(path, sizeof path, i < 0 ? "%s" : "%s[%d]", what, i);
   if (row->type != YAML_SEQUENCE_NODE)
     return yaml_refuse(r, row, "%s is %s, expected a row of %d numbers", path, yaml_node_what(row), n);
-  if (yaml_length(row) != n) return wrong_size(r, path, row, yaml_length(row), "entries", n);
+  if (yaml_length(row) != n) return yaml_refuse(r, row, "%s has %d entries, expected %d", path, yaml_length(row), n);
   for (int j = 0; j < n; ++j) {
     snprintf(path, sizeof path, i < 0 ? "%s[%d]" : "%s[%d][%d]", what, i < 0 ? j : i, j);
-    const hc_status st = yaml_number(r, yaml_entry(doc, row, j), path, &v[first + stride * (size_t)j]);
+    const hc_status st = yaml_number(r, yaml_entry(r, row, j), path, &v[first + stride * (size_t)j]);
     if (st != HC_OK) return st;
   }
   return HC_OK;
 }
 
-static hc_status read_list(case_reader *r, yaml_document_t *doc, const char *what, const yaml_node_t *node,
-                           int expected, int *n, double **v)
+static hc_status read_list(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n, double **v)
 {
   *n = yaml_length(node);
-  const bool rows = *n > 0 && yaml_entry(doc, node, 0)->type == YAML_SEQUENCE_NODE;
+  const bool rows = *n > 0 && yaml_entry(r, node, 0)->type == YAML_SEQUENCE_NODE;
   if (*n < 1 || *n > MATRIX_MOST_ROWS)
-    return yaml_refuse(r, node,
-                       "%s is a list of %d, expected 1 to %d rows, or a "
-                       "diagonal",
-                       what, *n, (int)MATRIX_MOST_ROWS);
-  if (expected > 0 && *n != expected) return wrong_size(r, what, node, *n, rows ? "rows" : "entries", expected);
+    return yaml_refuse(r, node, "%s is a list of %d, expected 1 to %d rows, or a diagonal", what, *n,
+                       (int)MATRIX_MOST_ROWS);
+  if (expected > 0 && *n != expected)
+    return yaml_refuse(r, node, "%s has %d %s, expected %d", what, *n, rows ? "rows" : "entries", expected);
   if (!(*v = calloc((size_t)*n * (size_t)*n, sizeof **v))) return case_out_of_memory(r);
   hc_status st = HC_OK;
-  if (!rows) return read_row(r, doc, what, node, *n, -1, *v);
-  for (int i = 0; i < *n && st == HC_OK; ++i) st = read_row(r, doc, what, yaml_entry(doc, node, i), *n, i, *v);
+  if (!rows) return read_row(r, what, node, *n, -1, *v);
+  for (int i = 0; i < *n && st == HC_OK; ++i) st = read_row(r, what, yaml_entry(r, node, i), *n, i, *v);
   return st;
 }
 
-/* A matrix of one number, where one may stand. */
-static bool is_number(const yaml_node_t *node, int expected)
+/* May a matrix of one number stand there? Then *x. */
+static bool is_number(const yaml_node_t *node, int expected, double *x)
 {
-  double x;
   return expected <= 1 && !yaml_node_item(node).quoted &&
-         number_read(yaml_node_text(node), node->data.scalar.length, &x) == NUMBER_FINE;
-}
-
-static hc_status read_number(case_reader *r, const char *what, const yaml_node_t *node, int *n, double **v)
-{
-  *n = 1;
-  if (!(*v = calloc(1, sizeof **v))) return case_out_of_memory(r);
-  return yaml_number(r, node, what, *v);
+         number_read(yaml_node_text(node), node->data.scalar.length, x) == NUMBER_FINE;
 }
 
 /* What Abaqus calls the matrix of that path. */
@@ -109,9 +84,8 @@ static bool is_matlab_name(const char *name)
 }
 
 static const char how_matlab_writes[] =
-    " is a MATLAB file, which is not read, expected Matrix Market, which MATLAB writes by: [i,j,v] = find(M); "
-    "f = fopen('M.mtx','w'); fprintf(f,'%%%%MatrixMarket matrix coordinate real general\\n%d %d "
-    "%d\\n',size(M),numel(v)); "
+    "Matrix Market, which MATLAB writes by: [i,j,v] = find(M); f = fopen('M.mtx','w'); "
+    "fprintf(f,'%%%%MatrixMarket matrix coordinate real general\\n%d %d %d\\n',size(M),numel(v)); "
     "fprintf(f,'%d %d %.17g\\n',[i j v]'); fclose(f)";
 
 static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
@@ -119,42 +93,41 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
 {
   const char *name = yaml_node_text(node);
   const size_t length = node->data.scalar.length;
-  const case_place at = case_place_of(r, node->start_mark);
-  char words[CASE_MESSAGE];
   if (length == 0 || memchr(name, '\0', length)) {
-    message *m = case_blame(r, at);
+    message *m = yaml_blame(r, node);
     message_add(m, "%s is ", what);
-    if (length == 0) message_add(m, "empty");
-    else message_add_input(m, name, length, 120);
-    message_add(m, ", expected %s", any_matrix);
+    message_add_input(m, length > 0 ? name : "empty", length > 0 ? length : 5, 120);
+    message_add(m, ", expected %s", ANY_MATRIX);
     return HC_BAD_INPUT;
   }
   if (!(out->file = text_file_path(r->name, name, length))) return case_out_of_memory(r);
-  const bool matlab = is_matlab_name(out->file);
   out->part = part_of(what);
-  if (!matlab) {
-    const hc_status st = matrix_file_read(out->file, out->part, expected, n, &out->v, &out->labels, &r->msg);
-    if (st == HC_NO_MEMORY) return case_out_of_memory(r);
-    if (st != HC_IO) return st;
-    snprintf(words, sizeof words, "%s", r->msg.text);
+  if (is_matlab_name(out->file)) {
+    message_add(&r->msg, "is a MATLAB file, which is not read");
+    return yaml_file_failed(r, node, what, out->file, how_matlab_writes);
   }
-  message *m = case_blame(r, at);
-  message_add(m, "%s: ", what);
-  message_add_input(m, out->file, strlen(out->file), 160);
-  if (matlab) message_add(m, "%s", how_matlab_writes);
-  else message_add(m, " %s, expected a matrix as %s", words, any_matrix);
-  return HC_BAD_INPUT;
+  const hc_status st = matrix_file_read(out->file, out->part, expected, n, &out->v, &out->labels, &r->msg);
+  if (st == HC_NO_MEMORY) return case_out_of_memory(r);
+  return st != HC_IO ? st : yaml_file_failed(r, node, what, out->file, "a matrix as " ANY_MATRIX);
 }
 
-hc_status yaml_matrix_read(case_reader *r, yaml_document_t *doc, const char *what, const yaml_node_t *node,
-                           int expected, int *n, structure_matrix *out)
+hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
+                           structure_matrix *out)
 {
-  structure_matrix given = {.place = case_place_of(r, node->start_mark)};
-  hc_status st = HC_BAD_INPUT;
-  if (node->type == YAML_SEQUENCE_NODE) st = read_list(r, doc, what, node, expected, n, &given.v);
-  else if (node->type == YAML_SCALAR_NODE && is_number(node, expected)) st = read_number(r, what, node, n, &given.v);
-  else if (node->type == YAML_SCALAR_NODE) st = read_file(r, what, node, expected, n, &given);
-  else message_add(case_blame(r, given.place), "%s is %s, expected %s", what, yaml_node_what(node), any_matrix);
+  structure_matrix given = {.place = yaml_place(r, node)};
+  hc_status st;
+  double x;
+  if (node->type == YAML_SEQUENCE_NODE) {
+    st = read_list(r, what, node, expected, n, &given.v);
+  } else if (node->type != YAML_SCALAR_NODE) {
+    st = yaml_refuse(r, node, "%s is %s, expected %s", what, yaml_node_what(node), ANY_MATRIX);
+  } else if (!is_number(node, expected, &x)) {
+    st = read_file(r, what, node, expected, n, &given);
+  } else {
+    *n = 1;
+    st = (given.v = malloc(sizeof x)) ? HC_OK : case_out_of_memory(r);
+    if (st == HC_OK) *given.v = x + 0.0; /* -0 is 0 */
+  }
   structure_free_matrix(st == HC_OK ? out : &given);
   if (st == HC_OK) *out = given;
   return st;

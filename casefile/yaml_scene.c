@@ -1,7 +1,7 @@
 /* yaml_scene.c - from a YAML document to a scene, every key through the table of fields. The first mistake ends it. */
 #include <string.h>
 
-#include "casefile/yaml_structure.h"
+#include "casefile/case_reader.h"
 
 static hc_status check_missing(case_reader *r, const field_section *s, const yaml_node_t *node, int j)
 {
@@ -9,9 +9,8 @@ static hc_status check_missing(case_reader *r, const field_section *s, const yam
     const field *f = field_at(i), *rival = field_rival(f, 0);
     if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_STRUCTURE) continue;
     if (case_given(r, f) || yaml_given_rival(r, f)) continue;
-    message *m = case_blame(r, case_place_of(r, node->start_mark));
-    message_add(m, "missing key `%s` in `%s", f->name, s->name);
-    if (j >= 0) message_add(m, "[%d]", j);
+    message *m = yaml_blame(r, node);
+    message_add(m, j >= 0 ? "missing key `%s` in `%s[%d]" : "missing key `%s` in `%s", f->name, s->name, j);
     message_add(m, "`, expected ");
     field_expected(f, m);
     if (rival) message_add(m, ", or `%s`", rival->name);
@@ -20,61 +19,44 @@ static hc_status check_missing(case_reader *r, const field_section *s, const yam
   return HC_OK;
 }
 
-static hc_status of_structure(case_reader *r, const yaml_node_t *key)
-{
-  message *m = case_blame(r, case_place_of(r, key->start_mark));
-  message_add_quoted(m, yaml_node_text(key), key->data.scalar.length);
-  message_add(m, " is for a structure, expected `structure` instead of `oscillator` with it");
-  return HC_BAD_INPUT;
-}
-
 /* A section that is a mapping, or one contact of an oscillator. */
-static hc_status read_section(case_reader *r, yaml_document_t *doc, const field_section *s, int j, void *base,
-                              const yaml_node_t *node)
+static hc_status read_section(case_reader *r, const field_section *s, int j, void *base, const yaml_node_t *node)
 {
   if (node->type != YAML_MAPPING_NODE) {
-    message *m = case_blame(r, case_place_of(r, node->start_mark));
-    message_add(m, "%s", s->name);
-    if (j >= 0) message_add(m, "[%d]", j);
+    message *m = yaml_blame(r, node);
+    message_add(m, j >= 0 ? "%s[%d]" : "%s", s->name, j);
     message_add(m, " is %s, expected a mapping such as {", yaml_node_what(node));
     for (int i = 0, n = 0; i < field_count() && n < 2; ++i)
       if (!strcmp(field_at(i)->section, s->name)) message_add(m, "%s: ..., ", field_at(i)->name), ++n;
     message_add(m, "...}");
     return HC_BAD_INPUT;
   }
-  hc_status st = HC_OK;
-  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p) {
-    const yaml_node_t *key = yaml_document_get_node(doc, p->key);
-    if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
-    const field *f = field_find(s->name, yaml_node_text(key), key->data.scalar.length);
-    if (f && f->flags & FIELD_STRUCTURE) return of_structure(r, key);
-    st = f ? yaml_scene_field(r, doc, f, j, base, p) : yaml_unknown_key(r, key, s->name);
-  }
+  const hc_status st = yaml_fields_read(r, node, s->name, j, base, false);
   return st == HC_OK ? check_missing(r, s, node, j) : st;
 }
 
-hc_status yaml_scene_contact(case_reader *r, yaml_document_t *doc, yaml_node_t *node, int j)
+hc_status yaml_scene_contact(case_reader *r, const yaml_node_t *node, int j)
 {
   yaml_forget_fields(r, FIELD_IN_CONTACT);
   field_contact_defaults(&r->sc.contacts[j]);
   r->contact_has[j] = ~0ull; /* what is missing is found here and now */
-  r->contact_at[j] = case_place_of(r, node->start_mark);
-  hc_status st = read_section(r, doc, field_find_section("contacts", 8), j, &r->sc.contacts[j], node);
+  r->contact_at[j] = yaml_place(r, node);
+  hc_status st = read_section(r, field_find_section("contacts", 8), j, &r->sc.contacts[j], node);
   memcpy(r->contact_field_at[j], r->at, sizeof r->at);
   return st;
 }
 
-hc_status yaml_scene_contacts(case_reader *r, yaml_document_t *doc, yaml_node_t *node)
+hc_status yaml_scene_contacts(case_reader *r, const yaml_node_t *node)
 {
   if (node->type != YAML_SEQUENCE_NODE)
     return yaml_refuse(r, node, "contacts is %s, expected a list of contacts, or [] for none", yaml_node_what(node));
   memset(r->sc.contacts, 0, sizeof r->sc.contacts);
   r->sc.n_contacts = 0;
   for (int i = 0; i < yaml_length(node); ++i) {
-    yaml_node_t *entry = yaml_entry(doc, node, i);
+    const yaml_node_t *entry = yaml_entry(r, node, i);
     if (r->sc.n_contacts == SCENE_MAX_CONTACTS)
       return yaml_refuse(r, entry, "one contact too many, expected at most %d", SCENE_MAX_CONTACTS);
-    hc_status st = yaml_scene_contact(r, doc, entry, r->sc.n_contacts++);
+    hc_status st = yaml_scene_contact(r, entry, r->sc.n_contacts++);
     if (st != HC_OK) return st;
   }
   return HC_OK;
@@ -95,9 +77,7 @@ static hc_status check_sections(case_reader *r, const case_place *given, const y
       const field *f = field_at(j);
       if (strcmp(f->section, s->name) || f->fallback || f->scale != 0) continue;
       if (f->flags & (FIELD_ELSEWHERE | FIELD_STRUCTURE)) continue;
-      if (!m)
-        message_add(m = case_blame(r, case_place_of(r, root->start_mark)), "missing section `%s`, expected `%s: {",
-                    s->name, s->name);
+      if (!m) message_add(m = yaml_blame(r, root), "missing section `%s`, expected `%s: {", s->name, s->name);
       else message_add(m, ", ");
       message_add(m, "%s: ...", f->name);
     }
@@ -115,64 +95,60 @@ static int section_index(const char *name)
 }
 
 /* What a section holds, wherever it stands. */
-static hc_status read_section_value(case_reader *r, yaml_document_t *doc, const field_section *s, yaml_node_t *value)
+static hc_status read_section_value(case_reader *r, const field_section *s, const yaml_node_t *value)
 {
   const bool contacts = !strcmp(s->name, "contacts");
-  if (!strcmp(s->name, "structure")) return yaml_structure_read(r, doc, value);
-  if (r->sc.structure && contacts) return yaml_contacts_read(r, doc, value);
-  if (r->sc.structure && !strcmp(s->name, "forcing")) return yaml_loads_read(r, doc, value);
-  if (contacts) return yaml_scene_contacts(r, doc, value);
-  return read_section(r, doc, s, -1, &r->sc, value);
+  if (!strcmp(s->name, "structure")) return yaml_structure_read(r, value);
+  if (r->sc.structure && contacts) return yaml_contacts_read(r, value);
+  if (r->sc.structure && !strcmp(s->name, "forcing")) return yaml_loads_read(r, value);
+  if (contacts) return yaml_scene_contacts(r, value);
+  return read_section(r, s, -1, &r->sc, value);
 }
 
-static hc_status read_top_level(case_reader *r, yaml_document_t *doc, const yaml_node_pair_t *pair, case_place *given)
+static hc_status read_top_level(case_reader *r, const yaml_node_t *key, const yaml_node_t *value, case_place *given)
 {
-  const yaml_node_t *key = yaml_document_get_node(doc, pair->key);
-  yaml_node_t *value = yaml_document_get_node(doc, pair->value);
-  if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
+  hc_status st = yaml_check_key(r, key);
+  if (st != HC_OK) return st;
   const field *f = field_find("", yaml_node_text(key), key->data.scalar.length);
-  if (f && f->kind == FIELD_PART) { /* response */
-    if (case_given(r, f)) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
-    r->at[field_index(f)] = case_place_of(r, value->start_mark);
-    return r->sc.structure ? yaml_structure_part(r, doc, f, value) : of_structure(r, key);
+  if (f && f->kind == FIELD_PART && r->sc.structure) { /* response */
+    st = yaml_give(r, f, key, value);
+    return st == HC_OK ? yaml_structure_part(r, f, value) : st;
   }
-  if (f) return yaml_scene_field(r, doc, f, -1, &r->sc, pair);
+  if (f) return yaml_field_read(r, f, key, value, -1, &r->sc);
   const field_section *s = field_find_section(yaml_node_text(key), key->data.scalar.length);
   if (!s || strchr(s->name, '[')) return yaml_unknown_key(r, key, "");
   case_place *at = &given[section_index(s->name)];
   if (at->line > 0) return yaml_duplicate_key(r, key, *at);
-  *at = case_place_of(r, key->start_mark);
-  return read_section_value(r, doc, s, value);
+  *at = yaml_place(r, key);
+  return read_section_value(r, s, value);
 }
 
-/* The first pair with that key, or NULL. */
-static const yaml_node_pair_t *find_key(yaml_document_t *doc, const yaml_node_t *root, const char *name)
+/* The first key of that name, -1 if there is none. */
+static int find_key(case_reader *r, const yaml_node_t *root, const char *name)
 {
-  for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top; ++p) {
-    const yaml_node_t *key = yaml_document_get_node(doc, p->key);
-    if (key->type == YAML_SCALAR_NODE && !strcmp(yaml_node_text(key), name)) return p;
+  for (int i = 0; i < yaml_keys(root); ++i) {
+    const yaml_node_t *key = yaml_key(r, root, i);
+    if (key->type == YAML_SCALAR_NODE && !strcmp(yaml_node_text(key), name)) return i;
   }
-  return NULL;
+  return -1;
 }
 
-static hc_status refuse_both(case_reader *r, yaml_document_t *doc, const yaml_node_pair_t *a, const yaml_node_pair_t *b)
-{
-  const yaml_node_pair_t *first = a < b ? a : b, *last = a < b ? b : a;
-  const yaml_node_t *before = yaml_document_get_node(doc, first->key), *key = yaml_document_get_node(doc, last->key);
-  return yaml_refuse(r, key, "both `%s` (line %zu) and `%s`, expected one of them", yaml_node_text(before),
-                     case_place_of(r, before->start_mark).line, yaml_node_text(key));
-}
-
-hc_status yaml_scene_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *root)
+hc_status yaml_scene_read(case_reader *r, const yaml_node_t *root)
 {
   case_place given[FIELD_MAX] = {{0}}; /* [section] */
   if (root->type != YAML_MAPPING_NODE)
     return yaml_refuse(r, root, "the case is %s, expected a mapping with `oscillator`, `forcing` and `sweep`",
                        yaml_node_what(root));
-  const yaml_node_pair_t *structure = find_key(doc, root, "structure"), *oscillator = find_key(doc, root, "oscillator");
-  if (structure && oscillator) return refuse_both(r, doc, oscillator, structure);
-  hc_status st = structure ? read_top_level(r, doc, structure, given) : HC_OK;
-  for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top && st == HC_OK; ++p)
-    if (p != structure) st = read_top_level(r, doc, p, given);
+  const int structure = find_key(r, root, "structure"), oscillator = find_key(r, root, "oscillator");
+  if (structure >= 0 && oscillator >= 0) {
+    const yaml_node_t *first = yaml_key(r, root, structure < oscillator ? structure : oscillator),
+                      *last = yaml_key(r, root, structure < oscillator ? oscillator : structure);
+    return yaml_refuse(r, last, "both `%s` (line %zu) and `%s`, expected one of them", yaml_node_text(first),
+                       yaml_place(r, first).line, yaml_node_text(last));
+  }
+  hc_status st = HC_OK;
+  if (structure >= 0) st = read_top_level(r, yaml_key(r, root, structure), yaml_value(r, root, structure), given);
+  for (int i = 0; i < yaml_keys(root) && st == HC_OK; ++i)
+    if (i != structure) st = read_top_level(r, yaml_key(r, root, i), yaml_value(r, root, i), given);
   return st == HC_OK ? check_sections(r, given, root) : st;
 }

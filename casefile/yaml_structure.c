@@ -1,5 +1,5 @@
-/* yaml_structure.c - the section `structure` and its parts, see yaml_structure.h. */
-#include "casefile/yaml_structure.h"
+/* yaml_structure.c - the section `structure` and its parts, see case_reader.h. */
+#include "casefile/case_reader.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,27 +15,8 @@ static const field *part(const char *name) { return field_find("structure", name
 
 /* ---- matrices ---- */
 
-/* The motion that has no mass, and what to do about it; nothing where M is not singular but indefinite. */
-static hc_status add_massless_motion(const scene_structure *s, const structure_matrix *mass, int n, message *m)
-{
-  scene_structure named = *s; /* which has its n only when its mass matrix has been accepted */
-  bool massless;
-  double *x = malloc((size_t)n * sizeof *x);
-  if (!x || structure_massless_motion(n, mass->v, x, &massless) != HC_OK) {
-    free(x);
-    return HC_NO_MEMORY;
-  }
-  named.n = n;
-  if (massless) {
-    message_add(m, "; {");
-    structure_describe_motion(&named, x, m);
-    message_add(m, "} has none: condense it statically onto the others, or give it a small one");
-  }
-  free(x);
-  return HC_OK;
-}
-
-/* Nothing of the methods here holds for a mass matrix that is not symmetric and positive definite. */
+/* Nothing of the methods here holds for a mass matrix that is not symmetric and positive definite. Of one that is
+ * singular, not indefinite, the motion that has no mass is told, and what to do about it. */
 static hc_status check_mass(case_reader *r, const structure_matrix *mass, int n)
 {
   char a[NUMBER_TEXT], b[NUMBER_TEXT];
@@ -54,7 +35,18 @@ static hc_status check_mass(case_reader *r, const structure_matrix *mass, int n)
               "structure.mass is not positive definite: its leading minor of order %d is not positive, expected a mass "
               "for every motion",
               order);
-  return add_massless_motion(r->sc.structure, mass, n, m) == HC_OK ? HC_BAD_INPUT : case_out_of_memory(r);
+  scene_structure named = *r->sc.structure; /* which has its n only when its mass matrix has been accepted */
+  named.n = n;
+  bool massless;
+  double *x = malloc((size_t)n * sizeof *x);
+  const hc_status st = x ? structure_massless_motion(n, mass->v, x, &massless) : HC_NO_MEMORY;
+  if (st == HC_OK && massless) {
+    message_add(m, "; {");
+    structure_describe_motion(&named, x, m);
+    message_add(m, "} has none: condense it statically onto the others, or give it a small one");
+  }
+  free(x);
+  return st == HC_OK ? HC_BAD_INPUT : case_out_of_memory(r);
 }
 
 /* Files that say what their rows are say the same. */
@@ -72,12 +64,12 @@ static hc_status check_labels(case_reader *r, const structure_matrix *m, const c
   return HC_OK;
 }
 
-static hc_status read_mass(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
+static hc_status read_mass(case_reader *r, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
   structure_matrix mass = {0};
   int n = s->n;
-  hc_status st = yaml_matrix_read(r, doc, "structure.mass", node, s->n, &n, &mass);
+  hc_status st = yaml_matrix_read(r, "structure.mass", node, s->n, &n, &mass);
   if (st == HC_OK) st = check_mass(r, &mass, n);
   structure_free_matrix(st == HC_OK ? &s->mass : &mass);
   if (st == HC_OK) s->mass = mass, s->n = n;
@@ -87,11 +79,11 @@ static hc_status read_mass(case_reader *r, yaml_document_t *doc, const yaml_node
 
 /* ---- damping ---- */
 
-static hc_status read_ratios(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
+static hc_status read_ratios(case_reader *r, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
   const int n = yaml_length(node);
-  const case_place at = case_place_of(r, node->start_mark);
+  const case_place at = yaml_place(r, node);
   if (n != s->n)
     return case_refuse(r, at, "structure.damping.modal has %d entries, expected one number, or %d, one a mode", n,
                        s->n);
@@ -99,12 +91,10 @@ static hc_status read_ratios(case_reader *r, yaml_document_t *doc, const yaml_no
   hc_status st = HC_OK;
   if (!ratios) return case_out_of_memory(r);
   for (int i = 0; i < n && st == HC_OK; ++i) {
-    const yaml_node_t *entry = yaml_entry(doc, node, i);
+    const yaml_node_t *entry = yaml_entry(r, node, i);
     st = yaml_number(r, entry, "an entry of structure.damping.modal", &ratios[i]);
-    if (st != HC_OK || ratios[i] >= 0) continue;
-    message_add(case_blame(r, case_place_of(r, entry->start_mark)),
-                "an entry of structure.damping.modal is negative, expected numbers >= 0");
-    st = HC_BAD_INPUT;
+    if (st == HC_OK && ratios[i] < 0)
+      st = yaml_refuse(r, entry, "an entry of structure.damping.modal is negative, expected numbers >= 0");
   }
   free(st == HC_OK ? s->ratios : ratios);
   if (st != HC_OK) return st;
@@ -121,34 +111,43 @@ void structure_damping_given(scene_structure *s, const field *f)
 }
 
 /* rayleigh: [alpha, beta], modal: 0.01 or modal: [0.01, ...] */
-static hc_status read_damping_value(case_reader *r, yaml_document_t *doc, const field *f, const yaml_node_t *node)
+static hc_status read_damping_value(case_reader *r, const field *f, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
   const bool modal = !strcmp(f->name, "damping.modal");
-  s->damping.place = case_place_of(r, node->start_mark);
-  if (modal && node->type == YAML_SEQUENCE_NODE) return read_ratios(r, doc, node);
-  const hc_status st = yaml_scene_value(r, doc, f, -1, s, node);
+  s->damping.place = yaml_place(r, node);
+  if (modal && node->type == YAML_SEQUENCE_NODE) return read_ratios(r, node);
+  const hc_status st = yaml_scene_value(r, f, -1, s, node);
   if (st == HC_OK) structure_damping_given(s, f);
   return st;
 }
 
-static hc_status read_damping(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
+/* `stiffness` or `damping` as a matrix. */
+static hc_status read_matrix(case_reader *r, const char *what, const yaml_node_t *node, structure_matrix *to)
 {
-  scene_structure *s = r->sc.structure;
+  int n;
+  const hc_status st = yaml_matrix_read(r, what, node, r->sc.structure->n, &n, to);
+  return st == HC_OK ? check_labels(r, to, what) : st;
+}
+
+static hc_status read_stiffness(case_reader *r, const yaml_node_t *node)
+{
+  return read_matrix(r, "structure.stiffness", node, &r->sc.structure->stiffness);
+}
+
+static hc_status read_damping(case_reader *r, const yaml_node_t *node)
+{
   if (node->type != YAML_MAPPING_NODE) {
-    int n;
-    const hc_status st = yaml_matrix_read(r, doc, "structure.damping", node, s->n, &n, &s->damping);
-    if (st == HC_OK) s->how = STRUCTURE_DAMPING_MATRIX;
-    return st == HC_OK ? check_labels(r, &s->damping, "structure.damping") : st;
+    const hc_status st = read_matrix(r, "structure.damping", node, &r->sc.structure->damping);
+    if (st == HC_OK) r->sc.structure->how = STRUCTURE_DAMPING_MATRIX;
+    return st;
   }
-  const yaml_node_pair_t *p = node->data.mapping.pairs.start;
-  const bool one = node->data.mapping.pairs.top == p + 1;
-  const yaml_node_t *key = one ? yaml_document_get_node(doc, p->key) : NULL;
+  const yaml_node_t *key = yaml_keys(node) == 1 ? yaml_key(r, node, 0) : NULL;
   char name[FIELD_PATH] = "damping.";
   if (key && key->type == YAML_SCALAR_NODE && key->data.scalar.length < 20)
     snprintf(name, sizeof name, "damping.%s", yaml_node_text(key));
   const field *f = part(name);
-  if (f) return read_damping_value(r, doc, f, yaml_document_get_node(doc, p->value));
+  if (f) return read_damping_value(r, f, yaml_value(r, node, 0));
   return yaml_refuse(
       r, key ? key : node,
       "structure.damping is a mapping of something else, expected {rayleigh: [alpha, beta]}, {modal: 0.01} or "
@@ -177,82 +176,62 @@ static const char *objection(const yaml_node_t *node)
   return NULL;
 }
 
-static hc_status read_names(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
+static hc_status read_names(case_reader *r, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
-  const bool list = node->type == YAML_SEQUENCE_NODE;
-  const int n = list ? yaml_length(node) : 0;
-  if (n != s->n) {
-    message *m = case_blame(r, case_place_of(r, node->start_mark));
-    if (list) message_add(m, "structure.names has %d names, expected %d, one a DOF", n, s->n);
-    else message_add(m, "structure.names is %s, expected a list of %d names", yaml_node_what(node), s->n);
-    return HC_BAD_INPUT;
-  }
+  if (node->type != YAML_SEQUENCE_NODE)
+    return yaml_refuse(r, node, "structure.names is %s, expected a list of %d names", yaml_node_what(node), s->n);
+  const int n = yaml_length(node);
+  if (n != s->n) return yaml_refuse(r, node, "structure.names has %d names, expected %d, one a DOF", n, s->n);
   char **old = s->names;
   for (int i = 0; old && i < n; ++i) free(old[i]);
   free(old);
   if (!(s->names = calloc((size_t)n + 1, sizeof *s->names))) return case_out_of_memory(r);
   for (int i = 0; i < n; ++i) {
-    const yaml_node_t *entry = yaml_entry(doc, node, i);
+    const yaml_node_t *entry = yaml_entry(r, node, i);
     const char *why = objection(entry);
     for (int k = 0; !why && k < i; ++k)
       if (!strcmp(s->names[k], yaml_node_text(entry))) why = "is there twice";
-    if (why) {
-      message_add(case_blame(r, case_place_of(r, entry->start_mark)),
-                  "name %d of structure.names %s, expected %d different names of at most %d bytes", i + 1, why, n,
-                  STRUCTURE_WORD - 1);
-      for (int k = i; k < n; ++k) s->names[k] = NULL;
-      return HC_BAD_INPUT;
-    }
+    if (why)
+      return yaml_refuse(r, entry, "name %d of structure.names %s, expected %d different names of at most %d bytes",
+                         i + 1, why, n, STRUCTURE_WORD - 1);
     if (!(s->names[i] = strdup(yaml_node_text(entry)))) return case_out_of_memory(r);
   }
   return HC_OK;
 }
 
 /* [dof, node, direction], as in a line of the file. */
-static hc_status read_node(case_reader *r, yaml_document_t *doc, const yaml_node_t *entry)
+static hc_status read_node(case_reader *r, const yaml_node_t *entry)
 {
-  const yaml_node_t *at[3] = {NULL, NULL, NULL};
+  scene_structure *s = r->sc.structure;
+  const bool whole = entry->type == YAML_SEQUENCE_NODE && yaml_length(entry) == 3;
+  const yaml_node_t *node = whole ? yaml_entry(r, entry, 1) : NULL, *axis = whole ? yaml_entry(r, entry, 2) : NULL;
   int dof, id = 0;
-  const bool list = entry->type == YAML_SEQUENCE_NODE;
-  for (int i = 0; list && i < 3 && entry->data.sequence.items.start + i < entry->data.sequence.items.top; ++i)
-    at[i] = yaml_entry(doc, entry, i);
-  const bool whole =
-      at[2] && yaml_length(entry) == 3 && at[1]->type == YAML_SCALAR_NODE && at[2]->type == YAML_SCALAR_NODE;
-  const char *axis = whole ? yaml_node_text(at[2]) : "";
-  if (!whole || number_read_integer(yaml_node_text(at[1]), at[1]->data.scalar.length, &id) != NUMBER_FINE ||
-      at[2]->data.scalar.length != 1 || !structure_is_axis(*axis) ||
-      structure_node_dof(r->sc.structure, id, *axis) >= 0)
+  if (!whole || node->type != YAML_SCALAR_NODE || !yaml_node_is_axis(axis) ||
+      number_read_integer(yaml_node_text(node), node->data.scalar.length, &id) != NUMBER_FINE ||
+      structure_node_dof(s, id, *yaml_node_text(axis)) >= 0)
     return yaml_refuse(
         r, entry,
         "an entry of structure.nodes, expected [DOF, NODE, x or y or z] such as [tip, 17, y], each node and "
         "direction once");
-  const hc_status st = yaml_dof(r, doc, at[0], &dof);
+  const hc_status st = yaml_dof(r, yaml_entry(r, entry, 0), &dof);
   if (st != HC_OK) return st;
-  return nodes_add(r->sc.structure, dof, id, *axis) == HC_OK ? HC_OK : case_out_of_memory(r);
+  return nodes_add(s, dof, id, *yaml_node_text(axis)) == HC_OK ? HC_OK : case_out_of_memory(r);
 }
 
 static hc_status read_nodes_file(case_reader *r, const yaml_node_t *node)
 {
-  char words[160], *path = text_file_path(r->name, yaml_node_text(node), node->data.scalar.length);
-  message told;
-  message_start(&told, words, sizeof words);
-  if (!path) return case_out_of_memory(r);
-  hc_status st = nodes_file_read(path, r->sc.structure, &r->msg);
-  if (st == HC_NO_MEMORY) st = case_out_of_memory(r);
-  if (st == HC_IO) {
-    message_add(&told, "%s", r->msg.text);
-    message *m = case_blame(r, case_place_of(r, node->start_mark));
-    message_add(m, "structure.nodes: ");
-    message_add_input(m, path, strlen(path), 160);
-    message_add(m, " %s, expected a csv file dof,node,direction, or the .dof of CalculiX or a matrix of Abaqus", words);
-    st = HC_BAD_INPUT;
-  }
+  char *path = text_file_path(r->name, yaml_node_text(node), node->data.scalar.length);
+  hc_status st = path ? nodes_file_read(path, r->sc.structure, &r->msg) : HC_NO_MEMORY;
+  if (st == HC_NO_MEMORY) case_out_of_memory(r);
+  if (st == HC_IO)
+    st = yaml_file_failed(r, node, "structure.nodes", path,
+                          "a csv file dof,node,direction, or the .dof of CalculiX or a matrix of Abaqus");
   free(path);
   return st;
 }
 
-static hc_status read_nodes(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
+static hc_status read_nodes(case_reader *r, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
   free(s->nodes);
@@ -262,69 +241,49 @@ static hc_status read_nodes(case_reader *r, yaml_document_t *doc, const yaml_nod
   if (node->type != YAML_SEQUENCE_NODE)
     return yaml_refuse(r, node, "structure.nodes is %s, expected %s", yaml_node_what(node), part("nodes")->expects);
   hc_status st = HC_OK;
-  for (int i = 0; i < yaml_length(node) && st == HC_OK; ++i) st = read_node(r, doc, yaml_entry(doc, node, i));
+  for (int i = 0; i < yaml_length(node) && st == HC_OK; ++i) st = read_node(r, yaml_entry(r, node, i));
   return st;
 }
 
 /* ---- the section ---- */
 
-static hc_status read_stiffness(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
-{
-  scene_structure *s = r->sc.structure;
-  int n;
-  const hc_status st = yaml_matrix_read(r, doc, "structure.stiffness", node, s->n, &n, &s->stiffness);
-  return st == HC_OK ? check_labels(r, &s->stiffness, "structure.stiffness") : st;
-}
-
-hc_status yaml_structure_part(case_reader *r, yaml_document_t *doc, const field *f, const yaml_node_t *node)
+hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t *node)
 {
   static const struct {
     const char *name;
-    hc_status (*read)(case_reader *, yaml_document_t *, const yaml_node_t *);
+    hc_status (*read)(case_reader *, const yaml_node_t *);
   } parts[] = {{"mass", read_mass},   {"stiffness", read_stiffness}, {"damping", read_damping},
                {"names", read_names}, {"nodes", read_nodes},         {"response", yaml_responses_read}};
   size_t i = 0;
-  if (f->flags & FIELD_IN_STRUCTURE) return read_damping_value(r, doc, f, node);
+  if (f->flags & FIELD_IN_STRUCTURE) return read_damping_value(r, f, node);
   while (strcmp(parts[i].name, f->name)) ++i;
-  return parts[i].read(r, doc, node);
+  return parts[i].read(r, node);
 }
 
-/* What each key of the section is given, value[field_index]. */
-static hc_status collect(case_reader *r, yaml_document_t *doc, const yaml_node_t *node, const yaml_node_t **value)
+hc_status yaml_structure_read(case_reader *r, const yaml_node_t *node)
 {
-  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
-    const yaml_node_t *key = yaml_document_get_node(doc, p->key);
-    if (!yaml_check_key(r, key)) return HC_BAD_INPUT;
-    const field *f = field_find("structure", yaml_node_text(key), key->data.scalar.length);
-    if (!f || f->kind != FIELD_PART) return yaml_unknown_key(r, key, "structure");
-    if (value[field_index(f)]) return yaml_duplicate_key(r, key, r->at[field_index(f)]);
-    value[field_index(f)] = yaml_document_get_node(doc, p->value);
-    r->at[field_index(f)] = case_place_of(r, value[field_index(f)]->start_mark);
-  }
-  return HC_OK;
-}
-
-hc_status yaml_structure_read(case_reader *r, yaml_document_t *doc, const yaml_node_t *node)
-{
-  const yaml_node_t *value[FIELD_MAX] = {NULL};
-  const case_place at = case_place_of(r, node->start_mark);
+  const yaml_node_t *value[FIELD_MAX] = {NULL}; /* [field_index] */
+  const case_place at = yaml_place(r, node);
+  hc_status st = HC_OK;
   if (node->type != YAML_MAPPING_NODE)
     return case_refuse(r, at, "structure is %s, expected a mapping {mass: ..., damping: ..., stiffness: ...}",
                        yaml_node_what(node));
   if (!(r->sc.structure = structure_new())) return case_out_of_memory(r);
   r->owns_structure = true;
   r->sc.structure->place = at;
-  hc_status st = collect(r, doc, node, value);
+  for (int i = 0; i < yaml_keys(node) && st == HC_OK; ++i) {
+    const yaml_node_t *key = yaml_key(r, node, i);
+    const field *f = yaml_key_field(r, key, "structure");
+    if (!f) return HC_BAD_INPUT;
+    if (f->kind != FIELD_PART) return yaml_unknown_key(r, key, "structure");
+    st = yaml_give(r, f, key, value[field_index(f)] = yaml_value(r, node, i));
+  }
   /* The order of the table: the mass matrix says how many degrees of freedom there are. */
   for (int i = 0; i < field_count() && st == HC_OK; ++i) {
     const field *f = field_at(i);
     if (strcmp(f->section, "structure") || f->kind != FIELD_PART) continue;
-    if (value[i]) {
-      st = yaml_structure_part(r, doc, f, value[i]);
-    } else if (!f->fallback) {
-      message_add(case_blame(r, at), "missing key `%s` in `structure`, expected %s", f->name, f->expects);
-      st = HC_BAD_INPUT;
-    }
+    if (value[i]) st = yaml_structure_part(r, f, value[i]);
+    else if (!f->fallback) st = case_refuse(r, at, "missing key `%s` in `structure`, expected %s", f->name, f->expects);
   }
   return st;
 }

@@ -104,18 +104,13 @@ static hc_status check_events(case_reader *r, yaml_parser_t *p)
   return HC_BAD_INPUT;
 }
 
-static hc_status load_document(case_reader *r, yaml_parser_t *p, yaml_document_t *doc)
-{
-  return yaml_parser_load(p, doc) ? HC_OK : parser_failed(r, p);
-}
-
 static hc_status out_of_memory(case_reader *r)
 {
   message_add(case_blame(r, (case_place){.set = r->set_now, .line = 1, .column = 1}), "out of memory");
   return HC_NO_MEMORY;
 }
 
-hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_document_t *doc)
+hc_status yaml_text_load(case_reader *r, const char *text, size_t length)
 {
   yaml_parser_t p;
   if (length > CASE_LARGEST) {
@@ -129,7 +124,7 @@ hc_status yaml_text_load(case_reader *r, const char *text, size_t length, yaml_d
     if (!yaml_parser_initialize(&p)) return out_of_memory(r);
     yaml_parser_set_encoding(&p, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&p, (const unsigned char *)text, length);
-    st = pass == 0 ? check_events(r, &p) : load_document(r, &p, doc);
+    st = pass == 0 ? check_events(r, &p) : yaml_parser_load(&p, &r->doc) ? HC_OK : parser_failed(r, &p);
     yaml_parser_delete(&p);
   }
   return st;

@@ -34,12 +34,9 @@ static double range_at(const range *g, int i)
 static hc_status bad_entry(study_reader *q, const char *path, const char *key, const yaml_node_t *node,
                            const char *expected)
 {
-  message *m = study_blame(q, node);
-  message_add(m, "%s: `%s` is ", path, key);
-  if (node->type != YAML_SCALAR_NODE || node->data.scalar.length == 0) message_add(m, "%s", yaml_node_what(node));
-  else message_add_quoted(m, yaml_node_text(node), node->data.scalar.length);
-  message_add(m, ", expected %s", expected);
-  return HC_BAD_INPUT;
+  const bool text = node->type == YAML_SCALAR_NODE && node->data.scalar.length > 0;
+  return yaml_refuse(&q->r, node, "%s: `%s` is %s, expected %s", path, key,
+                     text ? YAML_QUOTED(node) : yaml_node_what(node), expected);
 }
 
 static hc_status read_range_entry(study_reader *q, const char *path, int k, const yaml_node_t *node, range *g)
@@ -82,10 +79,10 @@ static hc_status read_range(study_reader *q, const char *path, const field *f, c
   char where[FIELD_PATH + 16];
   *g = (range){0};
   snprintf(where, sizeof where, "the range of `%s`", path);
-  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
-    int k = study_key(q, study_node(q, p->key), where, range_keys, g->seen);
+  for (int i = 0; i < yaml_keys(node); ++i) {
+    int k = study_key(q, yaml_key(&q->r, node, i), where, range_keys, g->seen);
     if (k < 0) return HC_BAD_INPUT;
-    hc_status st = read_range_entry(q, path, k, study_node(q, p->value), g);
+    hc_status st = read_range_entry(q, path, k, yaml_value(&q->r, node, i), g);
     if (st != HC_OK) return st;
   }
   const char *fault = range_fault(f, g);
@@ -109,7 +106,7 @@ static hc_status range_value(study_reader *q, const study_field *sf, const range
   if (!field_store(sf->f, &scratch, &v, &why, &bad))
     return yaml_refuse(&q->r, node, "%s%s (value %d of %d of the range)", sf->path, why.text, i + 1, g->count);
   *out = (study_value){strdup(text), node->start_mark.line + 1, node->start_mark.column + 1};
-  return out->text ? HC_OK : study_no_memory(q);
+  return out->text ? HC_OK : case_out_of_memory(&q->r);
 }
 
 /* ---- lists ---- */
@@ -128,7 +125,7 @@ static char *canonical(study_reader *q, const field *f, const yaml_node_t *node)
 {
   field_value v;
   message m;
-  yaml_node_value(&q->doc, node, &v);
+  yaml_node_value(&q->r, node, &v);
   size_t size = 64;
   for (int i = 0; i < v.n; ++i) size += v.item[i].length + NUMBER_TEXT + 2;
   char *text = malloc(size);
@@ -146,10 +143,10 @@ static char *canonical(study_reader *q, const field *f, const yaml_node_t *node)
 static hc_status list_value(study_reader *q, const study_field *sf, const yaml_node_t *node, study_value *out)
 {
   scene scratch; /* as in range_value */
-  hc_status st = yaml_scene_value(&q->r, &q->doc, sf->f, sf->contact, &scratch, node);
+  hc_status st = yaml_scene_value(&q->r, sf->f, sf->contact, &scratch, node);
   if (st != HC_OK) return st;
   *out = (study_value){canonical(q, sf->f, node), node->start_mark.line + 1, node->start_mark.column + 1};
-  return out->text ? HC_OK : study_no_memory(q);
+  return out->text ? HC_OK : case_out_of_memory(&q->r);
 }
 
 /* ---- axes ---- */
@@ -179,18 +176,17 @@ static hc_status read_values(study_reader *q, study_axis *a, study_field *sf, co
                      a->fields[0].path, a->n);
   if (st != HC_OK || n < 1) return st; /* a list of none has been refused */
   a->n = n;
-  if (!(sf->values = calloc((size_t)n, sizeof *sf->values))) return study_no_memory(q);
+  if (!(sf->values = calloc((size_t)n, sizeof *sf->values))) return case_out_of_memory(&q->r);
   for (int i = 0; i < n && st == HC_OK; ++i)
     st = node->type == YAML_MAPPING_NODE ? range_value(q, sf, &g, i, node, &sf->values[i])
-                                         : list_value(q, sf, yaml_entry(&q->doc, node, (int)i), &sf->values[i]);
+                                         : list_value(q, sf, yaml_entry(&q->r, node, (int)i), &sf->values[i]);
   return st;
 }
 
-static hc_status read_field(study_reader *q, study_axis *a, const yaml_node_pair_t *pair)
+static hc_status read_field(study_reader *q, study_axis *a, const yaml_node_t *key, const yaml_node_t *value)
 {
   case_target t;
   study_field *sf = &a->fields[a->n_fields];
-  const yaml_node_t *key = study_node(q, pair->key);
   int contacts = scene_contact_count(&q->r.sc);
   hc_status st = study_give(q, key, &t, sf->path);
   if (st != HC_OK) return st;
@@ -204,7 +200,7 @@ static hc_status read_field(study_reader *q, study_axis *a, const yaml_node_pair
   sf->line = key->start_mark.line + 1;
   sf->column = key->start_mark.column + 1;
   ++a->n_fields;
-  return read_values(q, a, sf, study_node(q, pair->value));
+  return read_values(q, a, sf, value);
 }
 
 /* For sorting the values of an axis, each with all its fields. */
@@ -227,7 +223,7 @@ static int by_value(const void *pa, const void *pb)
 static hc_status check_repeats(study_reader *q, const study_axis *a)
 {
   entry *all = malloc(((size_t)a->n + 1) * sizeof *all); /* one more: never of 0 bytes */
-  if (!all) return study_no_memory(q);
+  if (!all) return case_out_of_memory(&q->r);
   for (int i = 0; i < a->n; ++i) all[i] = (entry){a, i};
   qsort(all, (size_t)a->n, sizeof *all, by_value);
   int again = -1;
@@ -246,13 +242,14 @@ static hc_status check_repeats(study_reader *q, const study_axis *a)
 static hc_status read_axis(study_reader *q, study_axis *a, const yaml_node_t *node)
 {
   bool mapping = node->type == YAML_MAPPING_NODE;
-  size_t n = mapping ? (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start) : 0;
+  const int n = mapping ? yaml_keys(node) : 0;
   if (n == 0)
     return yaml_refuse(&q->r, node, "an axis is %s, expected {FIELD: [VALUE, ...]}",
                        mapping ? "empty" : yaml_node_what(node));
-  if (!(a->fields = calloc(n, sizeof *a->fields))) return study_no_memory(q);
+  if (!(a->fields = calloc((size_t)n, sizeof *a->fields))) return case_out_of_memory(&q->r);
   hc_status st = HC_OK;
-  for (size_t i = 0; i < n && st == HC_OK; ++i) st = read_field(q, a, &node->data.mapping.pairs.start[i]);
+  for (int i = 0; i < n && st == HC_OK; ++i)
+    st = read_field(q, a, yaml_key(&q->r, node, i), yaml_value(&q->r, node, i));
   if (st == HC_OK) st = check_repeats(q, a);
   if (st != HC_OK) return st;
   q->s->n_scenes *= a->n;
@@ -267,12 +264,12 @@ hc_status study_read_axes(study_reader *q, const yaml_node_t *node)
   if (n == 0)
     return yaml_refuse(&q->r, node, "vary is %s, expected a list of axes such as [{hbm.samples: [32, 128]}]",
                        node->type == YAML_SEQUENCE_NODE ? "an empty list" : yaml_node_what(node));
-  if (!(q->s->axes = calloc(n, sizeof *q->s->axes))) return study_no_memory(q);
+  if (!(q->s->axes = calloc(n, sizeof *q->s->axes))) return case_out_of_memory(&q->r);
   q->s->n_scenes = 1;
   hc_status st = HC_OK;
   for (size_t i = 0; i < n && st == HC_OK; ++i) {
     q->s->n_axes = (int)i + 1;
-    st = read_axis(q, &q->s->axes[i], yaml_entry(&q->doc, node, (int)i));
+    st = read_axis(q, &q->s->axes[i], yaml_entry(&q->r, node, (int)i));
   }
   return st;
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "casefile/matrices/text_file.h"
 #include "study/study_reader.h"
 
 enum { KEY_STUDY, KEY_BASE, KEY_CASE, KEY_RUN, KEY_SET, KEY_VARY, KEY_VIEWS, KEY_CLAIMS, KEY_MAY_FAIL, N_KEYS };
@@ -31,66 +32,63 @@ static const char *const claim_keys[] = {"source",  "says",  "found", "holds",  
 enum { ANSWER_FOUND, ANSWER_HOLDS, ANSWER_EXPECT, ANSWER_SECONDS, N_ANSWER_KEYS };
 static const char *const answer_keys[] = {"found", "holds", "expect", "seconds", NULL};
 
-static hc_status read_expectation(study_reader *q, const yaml_node_t *node, study_answer *a)
+/* Where the value of a key goes, and how it is read. */
+typedef struct key_value {
+  size_t offset;
+  hc_status (*read)(study_reader *q, const char *key, const yaml_node_t *node, void *to);
+} key_value;
+
+static hc_status read_values(study_reader *q, const yaml_node_t *node, const char *where, const char *const *keys_there,
+                             const key_value *values, void *to, case_place *seen)
 {
-  const char *text = node->type == YAML_SCALAR_NODE ? yaml_node_text(node) : "";
-  a->expect = !strcmp(text, "agree")      ? STUDY_EXPECT_AGREE
-              : !strcmp(text, "disagree") ? STUDY_EXPECT_DISAGREE
-              : !strcmp(text, "unsaid")   ? STUDY_EXPECT_UNSAID
-                                          : STUDY_EXPECT_NOTHING;
-  if (a->expect != STUDY_EXPECT_NOTHING) return HC_OK;
-  return yaml_refuse(&q->r, node, "expect is not known, expected agree, disagree or unsaid");
+  hc_status st = HC_OK;
+  for (int i = 0; i < yaml_keys(node) && st == HC_OK; ++i) {
+    const int k = study_key(q, yaml_key(&q->r, node, i), where, keys_there, seen);
+    if (k < 0) return HC_BAD_INPUT;
+    st = values[k].read(q, keys_there[k], yaml_value(&q->r, node, i), (char *)to + values[k].offset);
+  }
+  return st;
 }
 
-static hc_status read_answer(study_reader *q, const char *name, const yaml_node_t *node, study_answer *a)
+static hc_status read_expectation(study_reader *q, const char *key, const yaml_node_t *node, void *to)
 {
+  static const char *const words[] = {
+      [STUDY_EXPECT_AGREE] = "agree", [STUDY_EXPECT_DISAGREE] = "disagree", [STUDY_EXPECT_UNSAID] = "unsaid"};
+  const char *text = node->type == YAML_SCALAR_NODE ? yaml_node_text(node) : "";
+  for (int e = STUDY_EXPECT_AGREE; e <= STUDY_EXPECT_UNSAID; ++e)
+    if (!strcmp(text, words[e])) {
+      *(study_expectation *)to = (study_expectation)e;
+      return HC_OK;
+    }
+  return yaml_refuse(&q->r, node, "%s is not known, expected agree, disagree or unsaid", key);
+}
+
+static hc_status read_answer(study_reader *q, const char *key, const yaml_node_t *node, void *to)
+{
+  static const key_value values[] = {[ANSWER_FOUND] = {offsetof(study_answer, found), study_read_text},
+                                     [ANSWER_HOLDS] = {offsetof(study_answer, holds), study_read_text},
+                                     [ANSWER_EXPECT] = {offsetof(study_answer, expect), read_expectation},
+                                     [ANSWER_SECONDS] = {offsetof(study_answer, seconds), study_read_text}};
+  const study_answer *a = to;
   case_place seen[N_ANSWER_KEYS] = {{0}};
   if (node->type != YAML_MAPPING_NODE)
     return yaml_refuse(&q->r, node,
                        "%s is %s, expected {found: \"SELECT ...\", holds: \"SELECT ...\", seconds: \"SELECT ...\"}",
-                       name, yaml_node_what(node));
-  hc_status st = HC_OK;
-  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p) {
-    int k = study_key(q, study_node(q, p->key), "the answer to a claim", answer_keys, seen);
-    const yaml_node_t *value = study_node(q, p->value);
-    if (k < 0) return HC_BAD_INPUT;
-    if (k == ANSWER_EXPECT) st = read_expectation(q, value, a);
-    else
-      st = study_read_text(q, answer_keys[k], value,
-                           k == ANSWER_FOUND   ? &a->found
-                           : k == ANSWER_HOLDS ? &a->holds
-                                               : &a->seconds);
-  }
+                       key, yaml_node_what(node));
+  const hc_status st = read_values(q, node, "the answer to a claim", answer_keys, values, to, seen);
   if (st != HC_OK || a->holds.text || a->seconds.text) return st;
-  return yaml_refuse(&q->r, node, "missing key `holds` in `%s`, expected an SQL query that gives 0 or 1", name);
+  return yaml_refuse(&q->r, node, "missing key `holds` in `%s`, expected an SQL query that gives 0 or 1", key);
 }
 
-static hc_status read_seconds(study_reader *q, const yaml_node_t *node, study_claim *c)
+static hc_status read_seconds(study_reader *q, const char *key, const yaml_node_t *node, void *to)
 {
-  hc_status st = study_read_text(q, "seconds", node, &c->reported);
+  study_claim *c = to;
+  hc_status st = study_read_text(q, key, node, &c->reported);
   if (st != HC_OK) return st;
-  if (number_read(c->reported.text, strlen(c->reported.text), &c->seconds) == NUMBER_FINE && c->seconds >= 0)
-    return HC_OK;
-  message_add(study_blame(q, node), "seconds is ");
-  message_add_quoted(&q->r.msg, c->reported.text, strlen(c->reported.text));
-  message_add(&q->r.msg, ", expected how many the source reports, a number >= 0");
-  return HC_BAD_INPUT;
-}
-
-static hc_status read_entry(study_reader *q, int k, const yaml_node_t *value, study_claim *c)
-{
-  study_answer *plain = &c->answers[STUDY_PLAIN];
-  switch (k) {
-  case CLAIM_SOURCE: return study_read_text(q, claim_keys[k], value, &c->source);
-  case CLAIM_SAYS: return study_read_text(q, claim_keys[k], value, &c->says);
-  case CLAIM_FOUND: return study_read_text(q, claim_keys[k], value, &plain->found);
-  case CLAIM_HOLDS: return study_read_text(q, claim_keys[k], value, &plain->holds);
-  case CLAIM_EXPECT: return read_expectation(q, value, plain);
-  case CLAIM_SECONDS: return read_seconds(q, value, c);
-  case CLAIM_PAPER: return read_answer(q, claim_keys[k], value, &c->answers[STUDY_PAPER]);
-  case CLAIM_OURS: return read_answer(q, claim_keys[k], value, &c->answers[STUDY_OURS]);
-  default: return read_answer(q, claim_keys[k], value, &c->answers[STUDY_FIXED_STEP]);
-  }
+  const size_t length = strlen(c->reported.text);
+  if (number_read(c->reported.text, length, &c->seconds) == NUMBER_FINE && c->seconds >= 0) return HC_OK;
+  return yaml_refuse(&q->r, node, "seconds is %s, expected how many the source reports, a number >= 0",
+                     QUOTED(c->reported.text, length));
 }
 
 /* What a whole claim can lack, or have too much of. */
@@ -114,18 +112,24 @@ static hc_status check_claim(study_reader *q, const yaml_node_t *node, const stu
 
 static hc_status read_claim(study_reader *q, const yaml_node_t *node, study_claim *c)
 {
+#define ANSWER(which) offsetof(study_claim, answers) + (which) * sizeof(study_answer)
+  static const key_value values[] = {
+      [CLAIM_SOURCE] = {offsetof(study_claim, source), study_read_text},
+      [CLAIM_SAYS] = {offsetof(study_claim, says), study_read_text},
+      [CLAIM_FOUND] = {ANSWER(STUDY_PLAIN) + offsetof(study_answer, found), study_read_text},
+      [CLAIM_HOLDS] = {ANSWER(STUDY_PLAIN) + offsetof(study_answer, holds), study_read_text},
+      [CLAIM_EXPECT] = {ANSWER(STUDY_PLAIN) + offsetof(study_answer, expect), read_expectation},
+      [CLAIM_SECONDS] = {0, read_seconds},
+      [CLAIM_PAPER] = {ANSWER(STUDY_PAPER), read_answer},
+      [CLAIM_OURS] = {ANSWER(STUDY_OURS), read_answer},
+      [CLAIM_FIXED_STEP] = {ANSWER(STUDY_FIXED_STEP), read_answer}};
   case_place seen[N_CLAIM_KEYS] = {{0}};
   c->seconds = NAN;
   if (node->type != YAML_MAPPING_NODE)
     return yaml_refuse(&q->r, node,
                        "a claim is %s, expected {source: ..., says: ..., found: \"SELECT ...\", holds: \"SELECT ...\"}",
                        yaml_node_what(node));
-  hc_status st = HC_OK;
-  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p) {
-    int k = study_key(q, study_node(q, p->key), "a claim", claim_keys, seen);
-    if (k < 0) return HC_BAD_INPUT;
-    st = read_entry(q, k, study_node(q, p->value), c);
-  }
+  const hc_status st = read_values(q, node, "a claim", claim_keys, values, c, seen);
   return st == HC_OK ? check_claim(q, node, c, seen) : st;
 }
 
@@ -135,11 +139,11 @@ static hc_status read_claims(study_reader *q, const yaml_node_t *node)
     return yaml_refuse(&q->r, node, "claims is %s, expected a list of {source: ..., says: ..., found: ..., holds: ...}",
                        yaml_node_what(node));
   size_t n = (size_t)yaml_length(node);
-  if (!(q->s->claims = calloc(n + 1, sizeof *q->s->claims))) return study_no_memory(q);
+  if (!(q->s->claims = calloc(n + 1, sizeof *q->s->claims))) return case_out_of_memory(&q->r);
   hc_status st = HC_OK;
   for (size_t i = 0; i < n && st == HC_OK; ++i) {
     q->s->n_claims = (int)i + 1;
-    st = read_claim(q, yaml_entry(&q->doc, node, (int)i), &q->s->claims[i]);
+    st = read_claim(q, yaml_entry(&q->r, node, (int)i), &q->s->claims[i]);
   }
   return st;
 }
@@ -155,22 +159,19 @@ static bool good_name(const char *text)
   return !(*text >= '0' && *text <= '9') && text[strspn(text, "abcdefghijklmnopqrstuvwxyz_0123456789")] == 0;
 }
 
-static hc_status read_view(study_reader *q, const yaml_node_pair_t *pair, int i)
+static hc_status read_view(study_reader *q, const yaml_node_t *key, const yaml_node_t *value, int i)
 {
-  yaml_node_t *key = study_node(q, pair->key);
-  if (!yaml_check_key(&q->r, key)) return HC_BAD_INPUT;
   study_view *v = &q->s->views[i];
   q->s->n_views = i + 1;
-  hc_status st = study_read_text(q, "the name of a view", key, &v->name);
+  hc_status st = yaml_check_key(&q->r, key);
+  if (st == HC_OK) st = study_read_text(q, "the name of a view", key, &v->name);
   if (st != HC_OK) return st;
   bool twice = false;
   for (int k = 0; k < i; ++k) twice |= !strcmp(q->s->views[k].name.text, v->name.text);
-  if (!twice && good_name(v->name.text)) return study_read_text(q, "a view", study_node(q, pair->value), &v->query);
-  message_add(study_blame(q, key), "a view is called ");
-  message_add_quoted(&q->r.msg, v->name.text, strlen(v->name.text));
-  message_add(&q->r.msg, ", expected %s",
-              twice ? "a name of its own" : "lower-case letters, digits and _, and neither study, scene nor row");
-  return HC_BAD_INPUT;
+  if (!twice && good_name(v->name.text)) return study_read_text(q, "a view", value, &v->query);
+  return yaml_refuse(&q->r, key, "a view is called %s, expected %s", YAML_QUOTED(key),
+                     twice ? "a name of its own"
+                           : "lower-case letters, digits and _, and neither study, scene nor row");
 }
 
 static hc_status read_views(study_reader *q, const yaml_node_t *node)
@@ -179,32 +180,26 @@ static hc_status read_views(study_reader *q, const yaml_node_t *node)
     return yaml_refuse(&q->r, node,
                        "views is %s, expected a mapping such as {exact: \"SELECT * FROM scene WHERE ...\"}",
                        yaml_node_what(node));
-  size_t n = (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start);
-  if (!(q->s->views = calloc(n + 1, sizeof *q->s->views))) return study_no_memory(q);
+  const int n = yaml_keys(node);
+  if (!(q->s->views = calloc((size_t)n + 1, sizeof *q->s->views))) return case_out_of_memory(&q->r);
   hc_status st = HC_OK;
-  for (size_t i = 0; i < n && st == HC_OK; ++i) st = read_view(q, &node->data.mapping.pairs.start[i], (int)i);
+  for (int i = 0; i < n && st == HC_OK; ++i) st = read_view(q, yaml_key(&q->r, node, i), yaml_value(&q->r, node, i), i);
   return st;
 }
 
 /* ---- the base case and what is set for all scenes ---- */
-
-/* One entry of `set`. */
-static hc_status set_one(study_reader *q, const yaml_node_pair_t *pair)
-{
-  case_target t;
-  char path[FIELD_PATH];
-  yaml_node_t *value = study_node(q, pair->value);
-  hc_status st = study_give(q, study_node(q, pair->key), &t, path);
-  return st == HC_OK ? case_target_read(&q->r, &q->doc, t, value) : st;
-}
 
 static hc_status read_set(study_reader *q, const yaml_node_t *node)
 {
   if (node->type != YAML_MAPPING_NODE)
     return yaml_refuse(&q->r, node, "set is %s, expected a mapping such as {hbm.harmonics: 10}", yaml_node_what(node));
   hc_status st = HC_OK;
-  for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top && st == HC_OK; ++p)
-    st = set_one(q, p);
+  for (int i = 0; i < yaml_keys(node) && st == HC_OK; ++i) {
+    case_target t;
+    char path[FIELD_PATH];
+    st = study_give(q, yaml_key(&q->r, node, i), &t, path);
+    if (st == HC_OK) st = case_target_read(&q->r, t, yaml_value(&q->r, node, i));
+  }
   return st;
 }
 
@@ -225,41 +220,28 @@ static hc_status apply_options(study_reader *q, int n_set)
   return st;
 }
 
-/* `name` as seen from the study file's folder, to free. */
-static char *beside(const char *file, const char *name)
-{
-  const char *slash = strrchr(file, '/');
-  size_t folder = slash && *name != '/' ? (size_t)(slash - file) + 1 : 0;
-  size_t length = strlen(name) + 1;
-  char *path = malloc(folder + length);
-  if (!path) return NULL;
-  memcpy(path, file, folder);
-  memcpy(path + folder, name, length);
-  return path;
-}
-
 static hc_status read_base(study_reader *q, const yaml_node_t *node)
 {
   study_value name = {0};
   case_error inner = {{0}};
   hc_status st = study_read_text(q, "base", node, &name);
   if (st != HC_OK) return st;
-  char *path = q->s->base_name = beside(q->r.name, name.text);
-  st = path ? case_read(path, 0, NULL, &q->r.sc, &inner) : study_no_memory(q);
-  q->r.owns_structure = path && st == HC_OK;
-  if (path && st == HC_IO) message_add(study_blame(q, node), "the base case: %s", inner.message);
-  else if (path && st != HC_OK) {
+  char *path = q->s->base_name = text_file_path(q->r.name, name.text, strlen(name.text));
+  free(name.text);
+  if (!path) return case_out_of_memory(&q->r);
+  st = case_read(path, 0, NULL, &q->r.sc, &inner);
+  q->r.owns_structure = st == HC_OK;
+  if (st == HC_IO) message_add(yaml_blame(&q->r, node), "the base case: %s", inner.message);
+  else if (st != HC_OK) {
     message_start(&q->r.msg, q->r.msg.text, q->r.msg.size);
     message_add(&q->r.msg, "%s", inner.message); /* its own file, line and column */
-  }
-  if (st == HC_OK) memset(q->r.contact_has, 0xff, sizeof q->r.contact_has);
-  free(name.text);
+  } else memset(q->r.contact_has, 0xff, sizeof q->r.contact_has);
   return st;
 }
 
 static hc_status read_case(study_reader *q, const yaml_node_t *node)
 {
-  hc_status st = yaml_scene_read(&q->r, &q->doc, node);
+  hc_status st = yaml_scene_read(&q->r, node);
   if (st == HC_OK && !*q->r.sc.title)
     snprintf(q->r.sc.title, sizeof q->r.sc.title, "%.*s", (int)sizeof q->r.sc.title - 1, q->s->title);
   return st;
@@ -270,10 +252,9 @@ static hc_status read_title(study_reader *q, const yaml_node_t *node)
   study_value title = {0};
   hc_status st = study_read_text(q, "study", node, &title);
   if (st != HC_OK) return st;
-  size_t length = strlen(title.text);
-  if (length >= STUDY_TEXT || strpbrk(title.text, "\n\r"))
+  if (strlen(title.text) >= STUDY_TEXT || strpbrk(title.text, "\n\r"))
     st = yaml_refuse(&q->r, node, "the title is longer than a line, expected at most %d bytes", STUDY_TEXT - 1);
-  else memcpy(q->s->title, title.text, length + 1);
+  else snprintf(q->s->title, sizeof q->s->title, "%s", title.text);
   free(title.text);
   return st;
 }
@@ -286,11 +267,8 @@ static hc_status read_kind(study_reader *q, const yaml_node_t *node)
       q->s->kind = (study_kind)k;
       return HC_OK;
     }
-  message_add(study_blame(q, node), "run is ");
-  if (*text) message_add_quoted(&q->r.msg, text, node->data.scalar.length);
-  else message_add(&q->r.msg, "%s", yaml_node_what(node));
-  message_add(&q->r.msg, ", expected frf, transient or compare");
-  return HC_BAD_INPUT;
+  return yaml_refuse(&q->r, node, "run is %s, expected frf, transient or compare",
+                     *text ? YAML_QUOTED(node) : yaml_node_what(node));
 }
 
 static hc_status read_may_fail(study_reader *q, const yaml_node_t *node)
@@ -301,29 +279,25 @@ static hc_status read_may_fail(study_reader *q, const yaml_node_t *node)
   return yaml_refuse(&q->r, node, "may_fail is not known, expected true or false");
 }
 
-static hc_status missing(study_reader *q, const yaml_node_t *root, const char *what, const char *expected)
-{
-  return yaml_refuse(&q->r, root, "missing key `%s`, expected %s", what, expected);
-}
-
 /* value[key] is NULL where a key is not given. */
 static hc_status find_keys(study_reader *q, const yaml_node_t *root, const yaml_node_t *value[N_KEYS])
 {
   case_place seen[N_KEYS] = {{0}};
   if (root->type != YAML_MAPPING_NODE)
     return yaml_refuse(&q->r, root, "the study is %s, expected a mapping with %s", yaml_node_what(root), q->r.required);
-  for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top; ++p) {
-    const yaml_node_t *key = study_node(q, p->key);
-    int k = study_key(q, key, "a study", keys, seen);
+  for (int i = 0; i < yaml_keys(root); ++i) {
+    const yaml_node_t *key = yaml_key(&q->r, root, i);
+    const int k = study_key(q, key, "a study", keys, seen);
     if (k < 0) return HC_BAD_INPUT;
-    value[k] = study_node(q, p->value);
-    if ((k != KEY_BASE && k != KEY_CASE) || !value[KEY_BASE] || !value[KEY_CASE]) continue;
-    return yaml_refuse(&q->r, key, "both `base` and `case`, expected one of them");
+    value[k] = yaml_value(&q->r, root, i);
+    if ((k == KEY_BASE || k == KEY_CASE) && value[KEY_BASE] && value[KEY_CASE])
+      return yaml_refuse(&q->r, key, "both `base` and `case`, expected one of them");
   }
-  if (!value[KEY_STUDY]) return missing(q, root, "study", "the study's title");
+  if (!value[KEY_STUDY]) return yaml_refuse(&q->r, root, "missing key `study`, expected the study's title");
   if (!value[KEY_BASE] && !value[KEY_CASE])
-    return missing(q, root, "base", "the name of a case file, or `case: {...}`");
-  return value[KEY_VARY] ? HC_OK : missing(q, root, "vary", "a list such as [{hbm.samples: [32, 128]}]");
+    return yaml_refuse(&q->r, root, "missing key `base`, expected the name of a case file, or `case: {...}`");
+  if (value[KEY_VARY]) return HC_OK;
+  return yaml_refuse(&q->r, root, "missing key `vary`, expected a list such as [{hbm.samples: [32, 128]}]");
 }
 
 static hc_status read_study(study_reader *q, const yaml_node_t *root, int n_set)
@@ -361,11 +335,11 @@ static hc_status read_document(study_reader *q, int n_set)
   size_t length = 0;
   hc_status st = case_reader_slurp(&q->r, &text, &length);
   bool read = st == HC_OK;
-  if (read) st = yaml_text_load(&q->r, text, length, &q->doc);
+  if (read) st = yaml_text_load(&q->r, text, length);
   if (read && st != HC_OK) hint_at_brackets(q, text, length);
   if (st == HC_OK) {
-    st = read_study(q, yaml_document_get_root_node(&q->doc), n_set);
-    yaml_document_delete(&q->doc);
+    st = read_study(q, yaml_document_get_root_node(&q->r.doc), n_set);
+    yaml_document_delete(&q->r.doc);
   }
   free(text);
   return st;

@@ -6,64 +6,43 @@
 
 #include "base/nearest.h"
 
-message *study_blame(study_reader *q, const yaml_node_t *node)
-{
-  return case_blame(&q->r, case_place_of(&q->r, node->start_mark));
-}
-
-hc_status study_no_memory(study_reader *q)
-{
-  message_add(case_blame(&q->r, (case_place){0}), "out of memory");
-  return HC_NO_MEMORY;
-}
-
 static void unknown_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words)
 {
-  const char *text = yaml_node_text(key);
-  size_t length = key->data.scalar.length;
-  message *m = study_blame(q, key);
-  message_add(m, "unknown key ");
-  message_add_quoted(m, text, length);
-  message_add(m, " in %s", where);
-  const char *guess = nearest_word(words, text, length);
-  size_t stem = strcspn(text, ".[");
-  if (guess) {
-    message_add(m, ", did you mean `%s`?", guess);
-    return;
-  }
-  if (field_find_section(text, stem)) {
+  const char *text = yaml_node_text(key), *guess = nearest_word(words, text, key->data.scalar.length);
+  message *m = yaml_blame(&q->r, key);
+  message_add(m, "unknown key %s in %s", YAML_QUOTED(key), where);
+  if (guess) message_add(m, ", did you mean `%s`?", guess);
+  else if (field_find_section(text, strcspn(text, ".[")))
     message_add(m, ", expected fields of the case in `case`, `set` or `vary`");
-    return;
+  else {
+    message_add(m, ", expected one of");
+    for (int i = 0; words[i]; ++i) message_add(m, "%s %s", i ? "," : "", words[i]);
   }
-  message_add(m, ", expected one of");
-  for (int i = 0; words[i]; ++i) message_add(m, "%s %s", i ? "," : "", words[i]);
 }
 
 int study_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words, case_place *seen)
 {
-  if (!yaml_check_key(&q->r, key)) return -1;
-  for (int i = 0; words[i]; ++i) {
-    if (strlen(words[i]) != key->data.scalar.length || memcmp(words[i], yaml_node_text(key), key->data.scalar.length))
-      continue;
-    if (seen[i].line > 0) {
-      yaml_duplicate_key(&q->r, key, seen[i]);
-      return -1;
-    }
-    seen[i] = case_place_of(&q->r, key->start_mark);
-    return i;
+  if (yaml_check_key(&q->r, key) != HC_OK) return -1;
+  int k = 0;
+  while (words[k] && !yaml_node_is(key, words[k])) ++k;
+  if (!words[k]) unknown_key(q, key, where, words);
+  else if (seen[k].line > 0) yaml_duplicate_key(&q->r, key, seen[k]);
+  else {
+    seen[k] = yaml_place(&q->r, key);
+    return k;
   }
-  unknown_key(q, key, where, words);
   return -1;
 }
 
-hc_status study_read_text(study_reader *q, const char *what, const yaml_node_t *node, study_value *out)
+hc_status study_read_text(study_reader *q, const char *what, const yaml_node_t *node, void *out)
 {
   if (node->type != YAML_SCALAR_NODE || node->data.scalar.length == 0)
     return yaml_refuse(&q->r, node, "%s is %s, expected text", what, yaml_node_what(node));
   if (strlen(yaml_node_text(node)) != node->data.scalar.length)
     return yaml_refuse(&q->r, node, "%s has a zero character, expected text", what);
-  *out = (study_value){strdup(yaml_node_text(node)), node->start_mark.line + 1, node->start_mark.column + 1};
-  return out->text ? HC_OK : study_no_memory(q);
+  study_value *v = out;
+  *v = (study_value){strdup(yaml_node_text(node)), node->start_mark.line + 1, node->start_mark.column + 1};
+  return v->text ? HC_OK : case_out_of_memory(&q->r);
 }
 
 /* Is this the field, or another way to say the same? */
@@ -87,9 +66,9 @@ hc_status study_note_given(study_reader *q, const char *path, case_place at)
 
 hc_status study_give(study_reader *q, const yaml_node_t *key, case_target *t, char path[FIELD_PATH])
 {
-  if (!yaml_check_key(&q->r, key)) return HC_BAD_INPUT;
-  q->r.here = case_place_of(&q->r, key->start_mark);
-  hc_status st = case_find_target(&q->r, yaml_node_text(key), key->data.scalar.length, t);
+  q->r.here = yaml_place(&q->r, key);
+  hc_status st = yaml_check_key(&q->r, key);
+  if (st == HC_OK) st = case_find_target(&q->r, yaml_node_text(key), key->data.scalar.length, t);
   if (st != HC_OK) return st;
   const char *list = t->list == CASE_LOADS ? "forcing" : "contacts";
   if (t->f) field_path(t->f, t->index, path);

@@ -16,20 +16,14 @@ typedef struct study_given {
 
 typedef struct study_reader {
   case_reader r; /* name: the study file; sc: the base as far as it is known */
-  yaml_document_t doc;
   study *s;
   int n_given;
   study_given given[STUDY_MOST_FIELDS];
 } study_reader;
 
-static inline yaml_node_t *study_node(study_reader *q, int index) { return yaml_document_get_node(&q->doc, index); }
-
 /* Which of words[] (ending in NULL) this key is, noted in seen[]. -1 with the message made: no word, unknown, or
  * there twice. */
 int study_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words, case_place *seen);
-
-/* Start a message about that node. */
-message *study_blame(study_reader *q, const yaml_node_t *node);
 
 /* The field a key names goes into *t, its full name into path. Given before, it or its rival, is a mistake. */
 hc_status study_give(study_reader *q, const yaml_node_t *key, case_target *t, char path[FIELD_PATH]);
@@ -40,12 +34,10 @@ hc_status study_note_given(study_reader *q, const char *path, case_place at);
 /* The value of `vary`, into s->axes. */
 hc_status study_read_axes(study_reader *q, const yaml_node_t *node);
 
-/* The text of a node that must be a single value, copied to free. HC_BAD_INPUT when it is not or is empty. */
-hc_status study_read_text(study_reader *q, const char *what, const yaml_node_t *node, study_value *out);
+/* The text of a node that must be a single value into a study_value, to free. HC_BAD_INPUT when it is none or empty. */
+hc_status study_read_text(study_reader *q, const char *what, const yaml_node_t *node, void *out);
 
 /* s->fingerprint, once all the rest is there. */
 hc_status study_take_fingerprint(study *s);
-
-hc_status study_no_memory(study_reader *q);
 
 #endif
