@@ -75,6 +75,7 @@ static hc_status unknown_field(const char *asked, case_error *err)
 {
   message m;
   message_start(&m, err->message, sizeof err->message);
+  if (field_was_removed(&m, asked, strlen(asked))) return HC_BAD_INPUT;
   message_add(&m, "no field or section ");
   message_add_quoted(&m, asked, strlen(asked));
   suggestion s = suggest_path(asked, strlen(asked));

@@ -97,10 +97,14 @@ hc_status yaml_check_key(case_reader *r, const yaml_node_t *key)
 hc_status yaml_unknown_key(case_reader *r, const yaml_node_t *key, const char *section)
 {
   const char *text = yaml_node_text(key);
+  const size_t length = key->data.scalar.length;
   message *m = yaml_blame(r, key);
+  char path[FIELD_PATH];
+  const int written = snprintf(path, sizeof path, "%s.%.*s", section, (int)length, text);
+  if (written < FIELD_PATH && field_was_removed(m, path, (size_t)written)) return HC_BAD_INPUT;
   message_add(m, "unknown key %s", YAML_QUOTED(key));
   message_add(m, *section ? " in `%s`" : "%s", section);
-  if (case_suggest(m, suggest_key(section, text, key->data.scalar.length), section, -1)) return HC_BAD_INPUT;
+  if (case_suggest(m, suggest_key(section, text, length), section, -1)) return HC_BAD_INPUT;
   message_add(m, ", expected one of");
   const field_section *s;
   int n = 0;

@@ -21,6 +21,7 @@ static hc_status unknown_path(case_reader *r, const char *path, size_t length, i
         message_add(m, "%s %s.%s", n++ ? "," : "", s->name, field_at(i)->name);
     return HC_BAD_INPUT;
   }
+  if (field_was_removed(m, path, length)) return HC_BAD_INPUT;
   message_add(m, "unknown field ");
   message_add_quoted(m, path, length);
   suggestion guess = suggest_path(path, length);

@@ -192,8 +192,6 @@ static const field table[] = {
   {"transient", "regularisation", "eta", FIELD_REAL, .unit = "1", SCENE(transient.regularisation),
    .fallback = "1e-4", WITHIN(1e-8, TRANSIENT_MOST_REGULARISATION),
    .meaning = "of the contact law's corners; the error vanishes with it"},
-  {"transient", "richardson", "", FIELD_FLAG, .unit = "", SCENE(transient.richardson), .fallback = "false",
-   .meaning = "extrapolate to no regularisation, from the regularisation given, a half and a quarter of it"},
   {"transient", "steady_state", "", CHOICE(steady_names, transient.steady), .fallback = "auto",
    .meaning = "how the steady state is reached"},
   {"transient", "start", "", CHOICE(start_names, transient.start), .fallback = "hbm",
@@ -242,6 +240,13 @@ static const field table[] = {
    .meaning = "contact force evaluations the whole response curve may take; 0: any number"},
 };
 /* clang-format on */
+
+/* Fields that an earlier version had, and what does their work now. */
+static const struct removed_field {
+  const char *path, *instead;
+} removed[] = {
+    {"transient.richardson", "law: exact is nearer to the limit at less cost"},
+};
 
 enum { COUNT = sizeof table / sizeof *table, SECTIONS = sizeof sections / sizeof *sections };
 _Static_assert((int)COUNT <= (int)FIELD_MAX, "case_reader keeps one place a field");
@@ -297,6 +302,16 @@ const char *field_path(const field *f, int j, char path[FIELD_PATH])
 }
 
 /* ---- what was meant ---- */
+
+bool field_was_removed(message *m, const char *path, size_t length)
+{
+  for (size_t i = 0; i < sizeof removed / sizeof *removed; ++i) {
+    if (strlen(removed[i].path) != length || memcmp(removed[i].path, path, length)) continue;
+    message_add(m, "%s was removed: %s", removed[i].path, removed[i].instead);
+    return true;
+  }
+  return false;
+}
 
 enum { FAR = NEAREST_FAR };
 

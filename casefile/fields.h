@@ -123,6 +123,9 @@ void field_load_defaults(structure_load *load); /* those of the table; its direc
 
 /* ---- which field or section was meant by a key that does not exist ---- */
 
+/* "transient.richardson was removed: ...", with what does its work, if an earlier version had a field of that path. */
+bool field_was_removed(message *m, const char *path, size_t length);
+
 typedef struct suggestion { /* at most one is not NULL */
   const field *f;
   const field_section *s;

@@ -121,7 +121,7 @@ static hc_status perturbed_motion(comparison_work *w, double omega, int directio
   how.law = TRANSIENT_LAW_EXACT;
   how.method = TRANSIENT_METHOD_CLOSED_FORM;
   how.steady = TRANSIENT_STEADY_MARCH;
-  how.scout = how.richardson = false;
+  how.scout = false;
   if (how.max_periods > PERTURBED_PERIODS) how.max_periods = PERTURBED_PERIODS;
   hc_status st = timeint_new(w->setup->model, &how, &ti);
   if (st == HC_OK) st = march_perturbed(w, ti, omega, direction * perturbation, r);

@@ -56,13 +56,12 @@ static hc_status add_failure(workspace *w, steady_stage stage, hc_status st, dou
   return st == HC_INTERRUPTED ? st : added;
 }
 
-/* The error of a regularised steady state, w->state on it: by the exact law's orbit next to it, or by what Richardson's
- * extrapolation left. *st becomes HC_NO_MEMORY or HC_INTERRUPTED if that is why there is none. */
+/* The error of a regularised steady state, w->state on it: by the exact law's orbit next to it. *st becomes
+ * HC_NO_MEMORY or HC_INTERRUPTED if that is why there is none. */
 static double regularisation_error(workspace *w, const timeint_result *r, hc_status *st)
 {
   timeint_result orbit;
   if (!w->exact || r->method == TIMEINT_BY_CLOSED_FORM) return 0;
-  if (w->setup->transient.richardson) return r->regularisation_error;
   memcpy(w->scratch, w->state, (size_t)timeint_n_states(w->ti) * sizeof *w->scratch);
   hc_status found = timeint_orbit(w->exact, r->omega, r->period_multiple, w->scratch, w->monitor, &orbit);
   if (found == HC_NO_MEMORY || found == HC_INTERRUPTED) *st = found;

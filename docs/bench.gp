@@ -16,12 +16,11 @@ set style line 3 pt 5 ps 0.9 lw 2.5 dt 2 lc rgb "#c0392b"
 set style line 4 pt 4 ps 0.9 lw 1.5 dt 3 lc rgb "#c0392b"
 set style line 5 pt 9 ps 0.9 lc rgb "#e08e0b"
 set style line 6 pt 8 ps 0.9 lc rgb "#8a5a00"
-set style line 7 pt 3 ps 0.9 lc rgb "#2e7d32"
-set style line 8 pt 13 ps 1.2 lc rgb "#000000"
-set style line 9 pt 11 ps 1.4 lc rgb "#000000"
-set style line 10 pt 14 ps 1.0 lw 1.5 lc rgb "#c0392b"
-set style line 11 pt 12 ps 0.9 lw 1.5 lc rgb "#e08e0b"
-names = "'HBM, sampled forces' 'HBM, exact forces' 'exact law, shooting' 'exact law, marching' 'regularised law, shooting' 'regularised law, marching' 'regularised law, extrapolated' 'scipy LSODA' 'exact law, closed form' 'exact law, scouted' 'regularised law, scouted'"
+set style line 7 pt 13 ps 1.2 lc rgb "#000000"
+set style line 8 pt 11 ps 1.4 lc rgb "#000000"
+set style line 9 pt 14 ps 1.0 lw 1.5 lc rgb "#c0392b"
+set style line 10 pt 12 ps 0.9 lw 1.5 lc rgb "#e08e0b"
+names = "'HBM, sampled forces' 'HBM, exact forces' 'exact law, shooting' 'exact law, marching' 'regularised law, shooting' 'regularised law, marching' 'scipy LSODA' 'exact law, closed form' 'exact law, scouted' 'regularised law, scouted'"
 set multiplot layout 1,2 margins 0.07,0.99,0.13,0.93 spacing 0.06
 do for [panel = 1:2] {
   file = panel == 1 ? ARG1 : ARG2
@@ -33,13 +32,12 @@ do for [panel = 1:2] {
        rows("exact_marching", file) using 10:9 with linespoints ls 4 notitle, \
        rows("regularised_shooting", file) using 10:9 with points ls 5 notitle, \
        rows("regularised_marching", file) using 10:9 with points ls 6 notitle, \
-       rows("regularised_richardson", file) using 10:9 with points ls 7 notitle, \
-       rows("scipy_lsoda", file) using 10:9 with points ls 8 notitle, \
-       rows("closed_shooting", file) using 10:9 with points ls 9 notitle, \
-       rows("exact_scouted", file) using 10:9 with linespoints ls 10 notitle, \
-       rows("regularised_scouted", file) using 10:9 with points ls 11 notitle, \
+       rows("scipy_lsoda", file) using 10:9 with points ls 7 notitle, \
+       rows("closed_shooting", file) using 10:9 with points ls 8 notitle, \
+       rows("exact_scouted", file) using 10:9 with linespoints ls 9 notitle, \
+       rows("regularised_scouted", file) using 10:9 with points ls 10 notitle, \
        for [i = 1:(panel == 1 ? 1 : 0)] keyentry with points ls i title word(names, i), \
        for [i = 2:(panel == 1 ? 4 : 0)] keyentry with linespoints ls i title word(names, i), \
-       for [i = 5:(panel == 2 ? 11 : 0)] keyentry with points ls i title word(names, i)
+       for [i = 5:(panel == 2 ? 10 : 0)] keyentry with points ls i title word(names, i)
 }
 unset multiplot

@@ -46,12 +46,11 @@ typedef struct timeint_result {
                          differ next to a grazing shorter than integration errors */
   bool left_orbit;    /* the orbit next to the start is unstable; reported is the one the motion went to from there */
   double lyapunov;    /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
-  double second_frequency;     /* [rad/time] of a motion on a torus, between 0 and omega/2, see torus.h; else NaN */
-  double regularisation_error; /* [1] of the amplitude, relative; estimated with transient.richardson, else NaN */
-  motion_error predicted;      /* [length] what timeint_predict expects; NaN before */
-  contact_regime regime;       /* strongest regime of any contact in the reported period */
-  int cvode_flag;              /* CVODE's own flag when the status is HC_INTEGRATOR */
-  double wave[TIMEINT_WAVE];   /* [length] x at t = i T / TIMEINT_WAVE of the reported period */
+  double second_frequency;   /* [rad/time] of a motion on a torus, between 0 and omega/2, see torus.h; else NaN */
+  motion_error predicted;    /* [length] what timeint_predict expects; NaN before */
+  contact_regime regime;     /* strongest regime of any contact in the reported period */
+  int cvode_flag;            /* CVODE's own flag when the status is HC_INTEGRATOR */
+  double wave[TIMEINT_WAVE]; /* [length] x at t = i T / TIMEINT_WAVE of the reported period */
 } timeint_result;
 
 #endif

@@ -29,7 +29,6 @@ typedef struct transient_settings {
   transient_method method; /* closed form: exact law only */
   bool scout;              /* orbits are looked for in closed form, and confirmed by `method` */
   double regularisation;   /* [1] */
-  bool richardson;         /* extrapolate to no regularisation */
   transient_steady steady;
   transient_start start;
   double tolerance; /* [1] relative distance to the periodic orbit */

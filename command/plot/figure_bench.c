@@ -18,7 +18,6 @@ static const char *const looks[BENCH_METHODS] = {
     [BENCH_EXACT_MARCHING] = "pt 10 ps 1.2 lw 1.5 lc rgb '#D55E00'",
     [BENCH_REGULARISED_SHOOTING] = "pt 6 ps 1.1 lw 1.5 lc rgb '#009E73'",
     [BENCH_REGULARISED_MARCHING] = "pt 4 ps 1.1 lw 1.5 lc rgb '#009E73'",
-    [BENCH_REGULARISED_RICHARDSON] = "pt 12 ps 1.2 lw 1.5 lc rgb '#CC79A7'",
     [BENCH_SCIPY_LSODA] = "pt 2 ps 1.1 lw 1.6 lc rgb '#000000'",
 };
 

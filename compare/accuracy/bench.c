@@ -32,7 +32,6 @@ static const family families[] = {
     {BENCH_REGULARISED_SCOUTED, 5, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}, 3, {1e-4, 1e-6, 1e-8}},
     {BENCH_REGULARISED_SHOOTING, 5, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}, 3, {1e-4, 1e-6, 1e-8}},
     {BENCH_REGULARISED_MARCHING, 4, {1e-2, 1e-3, 1e-4, 1e-5}, 3, {1e-4, 1e-6, 1e-8}},
-    {BENCH_REGULARISED_RICHARDSON, 2, {1e-1, 1e-2}, 3, {1e-4, 1e-6, 1e-8}},
 };
 enum { N_FAMILIES = sizeof families / sizeof *families };
 

@@ -26,8 +26,6 @@
     "time integration, regularised law, from the closed form's orbit and with its matrix")                             \
   X(BENCH_REGULARISED_SHOOTING, "regularised_shooting", "time integration, regularised law, shooting")                 \
   X(BENCH_REGULARISED_MARCHING, "regularised_marching", "time integration, regularised law, marching")                 \
-  X(BENCH_REGULARISED_RICHARDSON, "regularised_richardson",                                                            \
-    "time integration, regularised law, shooting, extrapolated")                                                       \
   X(BENCH_SCIPY_LSODA, "scipy_lsoda", "scipy's solve_ivp, LSODA, the exact law without events, marched")
 #define BENCH_ENUM(code, name, meaning) code,
 typedef enum bench_method { BENCH_METHOD_LIST(BENCH_ENUM) BENCH_METHODS } bench_method;

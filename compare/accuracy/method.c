@@ -50,7 +50,6 @@ compare_setup method_setup(const compare_setup *setup, bench_method method, int 
   t->tolerance = tolerance;
   t->method = method == BENCH_CLOSED_SHOOTING ? TRANSIENT_METHOD_CLOSED_FORM : TRANSIENT_METHOD_CVODE;
   t->scout = method == BENCH_EXACT_SCOUTED || method == BENCH_REGULARISED_SCOUTED;
-  t->richardson = method == BENCH_REGULARISED_RICHARDSON;
   t->steady = marches ? TRANSIENT_STEADY_MARCH : TRANSIENT_STEADY_SHOOTING;
   return own;
 }

@@ -10,24 +10,22 @@
  * of the amplitude. Errors are relative, against the exact law by shooting at tolerance 1e-13. transient.tolerance
  * is the accuracy asked, or a tenth of it where that misses; the regularisation is the largest of half decades 10^-1
  * .. 10^-8 that meets the accuracy with it, by shooting; where shooting fails, marching gets 0.1 sqrt(accuracy).
- * Richardson's other levels are always shot. Ways take turns, ROUNDS times; a time is the median of its rounds [ms
+ * Ways take turns, ROUNDS times; a time is the median of its rounds [ms
  * of processor], a ratio the median of ratios within a round to the way that is cheapest among those that met the
  * accuracy. The handle is made beforehand: one serves a whole sweep. */
 #include "study/scene_solvers.h"
 #include "tests/bench/orbits.h"
 
-enum { WAYS = 5, ACCURACIES = 4, CASES = 3, HALF_DECADES = 15 };
+enum { WAYS = 4, ACCURACIES = 4, CASES = 3, HALF_DECADES = 15 };
 
 typedef struct way {
   const char *name;
   int law, steady;
-  bool richardson;
 } way;
-static const way ways[WAYS] = {{"exact, shooting", TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_SHOOTING, false},
-                               {"exact, marching", TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_MARCH, false},
-                               {"regularised, shooting", TRANSIENT_LAW_REGULARISED, TRANSIENT_STEADY_SHOOTING, false},
-                               {"regularised, marching", TRANSIENT_LAW_REGULARISED, TRANSIENT_STEADY_MARCH, false},
-                               {"regularised, Richardson", TRANSIENT_LAW_REGULARISED, TRANSIENT_STEADY_SHOOTING, true}};
+static const way ways[WAYS] = {{"exact, shooting", TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_SHOOTING},
+                               {"exact, marching", TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_MARCH},
+                               {"regularised, shooting", TRANSIENT_LAW_REGULARISED, TRANSIENT_STEADY_SHOOTING},
+                               {"regularised, marching", TRANSIENT_LAW_REGULARISED, TRANSIENT_STEADY_MARCH}};
 static const double accuracies[ACCURACIES] = {1e-4, 1e-6, 1e-8, 1e-10};
 
 static const double longest_shot = 1e3, longest_march = 3e4; /* [ms] after which a way has failed */
@@ -74,7 +72,6 @@ static bool attempt(trial *t, const bench_case *c, const way *w, double toleranc
   t->sc = c->sc;
   t->sc.transient = (transient_settings){.law = w->law,
                                          .steady = w->steady,
-                                         .richardson = w->richardson,
                                          .regularisation = regularisation,
                                          .tolerance = tolerance,
                                          .start = TRANSIENT_START_HBM,

@@ -86,6 +86,8 @@ static const mistake extra[] = {
     /* unknown keys */
     {"hbm: {sample: 3}", "f:4:7: ", "unknown key `sample` in `hbm`, did you mean `samples`?"},
     {"hbm:\n  samples: 64\n  harmonic: 3", "f:6:3: ", "did you mean `harmonics`?"},
+    {"transient: {law: exact, richardson: false}",
+     "f:4:25: ", "transient.richardson was removed: law: exact is nearer to the limit at less cost"},
     {"samples: 3", "f:4:1: ", "unknown key `samples`, did you mean `hbm.samples`?"},
     {"hbms: {}", "f:4:1: ", "did you mean `hbm`?"},
     {"contact: []", "f:4:1: ", "did you mean `contacts`?"},

@@ -94,6 +94,9 @@ static void mistakes_name_the_assignment(CHECK_STATE)
     const char *set, *message;
   } all[] = {
       {"hbm.sample=3", "--set hbm.sample=3: unknown field `hbm.sample`, did you mean `hbm.samples`?"},
+      {"transient.richardson=true",
+       "--set transient.richardson=true: transient.richardson was removed: law: exact is nearer to the limit at less "
+       "cost"},
       {"samples=3", "--set samples=3: unknown field `samples`, did you mean `hbm.samples`?"},
       {"hmb.samples=3", "--set hmb.samples=3: unknown field `hmb.samples`, did you mean `hbm.samples`?"},
       {"contacts[0].gpa=1",

@@ -27,6 +27,7 @@ static void every_field_is_there_for_programs(CHECK_STATE)
   expect("contacts --format csv", 0, "field,symbol,unit,kind,expected,choices,low,high,default,required,meaning\n");
   expect("contacts --format csv", 0, "contacts[].friction,mu,1,number,a number >= 0,,0,,,yes,");
   expect("mass --format csv", 0, "oscillator.mass,M,");
+  expect("transient.richardson 2>&1", 64, "transient.richardson was removed: law: exact is nearer");
   expect("hbm.sampls --format json 2>&1", 64, "did you mean `hbm.samples`?");
   expect("hbm.samples", 0, "hbm.samples: per period"); /* people still get a page */
 }

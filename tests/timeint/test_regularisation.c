@@ -44,38 +44,6 @@ static void closing_in_stick_is_first_order(CHECK_STATE)
   CHECK_NEAR(log10(e3 / e4), 1, 0.02, "%g %g", e3, e4);
 }
 
-static timeint_result solved(scene sc, double regularisation, bool richardson)
-{
-  timeint *ti;
-  timeint_result r;
-  scene_state y = {.x = 8.06, .v = 46.2, .w = {5}};
-  sc.transient.regularisation = regularisation;
-  sc.transient.richardson = richardson;
-  sc.transient.tolerance = 1e-11;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-  assert_int_equal(timeint_steady(ti, 7, y.all, NULL, &r), HC_OK);
-  timeint_free(ti);
-  return r;
-}
-
-/* Case 2, 1e-2 to 1e-5: four decades at first order, c h (1 + O(h)); O(h) is 9 % at 1e-2 (seen; the corner's width
- * is an angle of about h there). Extrapolated, what is left is third order: h^2 better, and from 1e-3 on below 1e-9
- * (the table has 12 digits: 1e-11; CVODE's scatter at tolerance 1e-11 stays below 1e-10). The estimate is the error
- * of the step before, second order: never too small. */
-static void extrapolation_gains_two_orders(CHECK_STATE)
-{
-  double before = NAN;
-  for (double h = 1e-2; h > 5e-6; h *= 0.1) {
-    timeint_result plain = solved(scene_c2(), h, false), best = solved(scene_c2(), h, true);
-    double e = fabs(plain.harmonic_1 / c2_exact - 1), left = fabs(best.harmonic_1 / c2_exact - 1);
-    if (!isnan(before)) CHECK_NEAR(log10(before / e), 1, 0.05, "h = %g", h);
-    CHECK_LE(left, 0.5 * h * h * h + 1e-10, "h = %g", h);
-    CHECK_LE(left, best.regularisation_error + 1e-10, "h = %g", h);
-    assert_true(isnan(plain.regularisation_error));
-    before = e;
-  }
-}
-
 /* The law with the dashpot's force in it, marched without settling: 200 periods leave 0.836^200 = 3e-16 of the
  * start. */
 static double with_overstress(double eta)
@@ -114,7 +82,6 @@ static void overstress_is_first_order(CHECK_STATE)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(slip_is_second_order),
     cmocka_unit_test(closing_in_stick_is_first_order),
-    cmocka_unit_test(extrapolation_gains_two_orders),
     cmocka_unit_test(overstress_is_first_order),
 };
 CHECK_MAIN("timeint.regularisation", tests, 120)

@@ -112,38 +112,6 @@ static void series_meet_the_reference(CHECK_STATE)
   for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], from_rest, 1e-10);
 }
 
-/* The regularised law at 1e-3 with and without Richardson's extrapolation, every response against the exact law: an
- * error of first order becomes one of third, a thousand times less for each order; half of the digits of that are
- * asked for. */
-static void richardson_is_of_every_response(CHECK_STATE)
-{
-  static timeint_result exact[3], plain, extrapolated;
-  transient_settings how = from_rest;
-  timeint *ti[3];
-  const structure_case c = structure_case_named("wedge_F2", 3);
-  double y[3][8] = {{0}};
-  for (int k = 0; k < 3; ++k) { /* exact, regularised, extrapolated */
-    if (k == 1) how.law = TRANSIENT_LAW_REGULARISED, how.method = TRANSIENT_METHOD_CVODE, how.scout = true;
-    how.regularisation = 1e-3;
-    how.richardson = k == 2;
-    assert_int_equal(timeint_new(c.model, &how, &ti[k]), HC_OK);
-  }
-  assert_int_equal(timeint_steady(ti[0], 35, y[0], NULL, &exact[0]), HC_OK);
-  assert_int_equal(timeint_steady(ti[1], 35, y[1], NULL, &plain), HC_OK);
-  assert_int_equal(timeint_steady(ti[2], 35, y[2], NULL, &extrapolated), HC_OK);
-  for (int r = 0; r < 3; ++r) {
-    exact[r] = exact[0];
-    assert_int_equal(timeint_response(ti[0], r, &exact[r]), HC_OK);
-    assert_int_equal(timeint_response(ti[1], r, &plain), HC_OK);
-    assert_int_equal(timeint_response(ti[2], r, &extrapolated), HC_OK);
-    const double a = exact[r].amplitude, off = fabs(plain.harmonic_1 - exact[r].harmonic_1);
-    CHECK_LE(fabs(extrapolated.harmonic_1 - exact[r].harmonic_1), 1e-3 * off, "response %d, %g off before", r, off);
-    CHECK_LE(fabs(extrapolated.amplitude - a), (extrapolated.regularisation_error + 1e-9) * a, "response %d", r);
-  }
-  for (int k = 0; k < 3; ++k) timeint_free(ti[k]);
-  model_free(c.model);
-}
-
 /* CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter by some hundred times that. */
 static void events_meet_the_reference(CHECK_STATE)
 {
@@ -495,7 +463,6 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(newton_solves_the_dense_equations),
     cmocka_unit_test(regularised_monodromy_is_the_derivative),
     cmocka_unit_test(jacobian_is_the_derivative),
-    cmocka_unit_test(richardson_is_of_every_response),
     cmocka_unit_test(other_coordinates_change_nothing),
     cmocka_unit_test(a_massless_freedom_is_refused),
 };

@@ -10,7 +10,6 @@
 #include "numerics/gauss.h"
 #include "numerics/roots.h"
 #include "timeint/law/law_planar.h"
-#include "timeint/steady/richardson.h"
 #include "timeint/steady/timeint_private.h"
 
 /* A contact at one instant. */
@@ -191,12 +190,9 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
   if (!(w.of = calloc((size_t)n_contacts + 1, sizeof *w.of))) return HC_NO_MEMORY;
   for (int j = 0; j < n_contacts; ++j) w.of[j].normal_min = INFINITY;
   memcpy(y, ti->y, (size_t)ti->n * sizeof *y);
-  const double rho = ti->how.regularisation;
-  if (ti->is_extrapolated) timeint_regularise(ti, RICHARDSON_FINEST * rho);
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   for (int i = 0; i < k && st == HC_OK; ++i) st = integrate_period(ti->in, &ti->scaled, y, watch_step, &w);
   if (st == HC_OK) report(&w, k, out);
-  if (ti->is_extrapolated) timeint_regularise(ti, rho);
   free(w.of);
   return st;
 }

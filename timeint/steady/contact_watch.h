@@ -15,9 +15,8 @@
 #include "timeint/steady/steady.h"
 
 /* out[n_contacts]: along the periods of *r, the last result of this handle, which are integrated once more; where it
- * repeats after k periods the work and the slip path are those of one, on average. transient.richardson: of the least
- * regularisation, not extrapolated. Of the two directions of a circle each has half of N; |T|, path and work in the
- * plane are in the first's. HC_NO_MEMORY, errors of integration. */
+ * repeats after k periods the work and the slip path are those of one, on average. Of the two directions of a circle
+ * each has half of N; |T|, path and work in the plane are in the first's. HC_NO_MEMORY, errors of integration. */
 hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period *out);
 
 #endif

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "timeint/steady/richardson.h"
 #include "timeint/steady/timeint_private.h"
 
 static const double same_state = 1e-6; /* [size] a state that returns as near is the same, but for integration errors */
@@ -93,13 +92,12 @@ hc_status timeint_response(timeint *ti, int i, timeint_result *r)
 {
   if (i < 0 || i >= scaled_n_responses(&ti->scaled)) return HC_BAD_INPUT;
   const double amplitude = r->amplitude;
-  if (!ti->measured && !ti->is_extrapolated) {
+  if (!ti->measured) {
     timeint_result again = *r;
     hc_status st = orbit_measure(ti, r->period_multiple > 0 ? r->period_multiple : 1, &again);
     if (st != HC_OK) return st;
   }
-  if (ti->is_extrapolated) richardson_response(ti, i, r);
-  else measure_report(&ti->measure, ti->model, i, ti->length, r);
+  measure_report(&ti->measure, ti->model, i, ti->length, r);
   r->closure *= amplitude / r->amplitude; /* they are relative to it */
   r->attainable *= amplitude / r->amplitude;
   return HC_OK;

@@ -91,12 +91,9 @@ static hc_status regularisation(timeint *ti, const double *state, const hc_monit
 static hc_status regularised_part(timeint *ti, const double *state, const hc_monitor *monitor, int n,
                                   const timeint_result *r, motion_error *out)
 {
-  motion_error *known = ti->scout && !ti->how.richardson ? scout_predictions(ti, state) : NULL;
-  for (int i = 0; i < n; ++i) {
-    out[i] = ti->how.richardson ? all(r[i].regularisation_error * r[i].amplitude) : all(NAN);
-    if (known) out[i] = known[i];
-  }
-  if (ti->how.richardson || out[n - 1].amplitude >= 0) return HC_OK;
+  motion_error *known = ti->scout ? scout_predictions(ti, state) : NULL;
+  for (int i = 0; i < n; ++i) out[i] = known ? known[i] : all(NAN);
+  if (out[n - 1].amplitude >= 0) return HC_OK;
   hc_status st = regularisation(ti, state, monitor, n, r, out);
   for (int i = 0; i < n && known; ++i) known[i] = out[i];
   return st;

@@ -53,7 +53,7 @@ hc_status scout_new(timeint *ti)
   transient_settings how = ti->how;
   how.law = TRANSIENT_LAW_EXACT;
   how.method = TRANSIENT_METHOD_CLOSED_FORM;
-  how.scout = how.richardson = false; /* so a scout has no scout */
+  how.scout = false; /* so a scout has no scout */
   how.tolerance = fmin(how.tolerance, scout_tolerance);
   hc_status st = timeint_new(ti->model, &how, &ti->scout);
   if (st == HC_OK) st = confirm_new(ti, &ti->confirm);

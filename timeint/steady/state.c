@@ -73,7 +73,7 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   const model *m = ti->model;
   if (!(omega > 0 && isfinite(omega)) || !state_ok(ti, state)) return HC_BAD_INPUT;
   ti->omega = omega;
-  ti->measured = ti->is_extrapolated = false;
+  ti->measured = false;
   ti->contraction = exp(-TWO_PI * ti->base->slowest / omega);
   ti->periods = 0;
   ti->steps0 = integrate_steps(ti->in);

@@ -14,7 +14,6 @@
 #include "timeint/steady/linear_regime.h"
 #include "timeint/steady/march.h"
 #include "timeint/steady/orbit.h"
-#include "timeint/steady/richardson.h"
 #include "timeint/steady/scout.h"
 #include "timeint/steady/timeint_private.h"
 #include "timeint/steady/torus.h"
@@ -251,8 +250,7 @@ static void clear_result(timeint_result *r, double omega)
   r->scout_switches = -1;
   r->amplitude = r->max = r->min = r->rms = r->mean = r->a1 = r->b1 = r->harmonic_1 = r->closure = r->attainable =
       r->contraction = NAN;
-  r->multiplier = r->multiplier_re = r->multiplier_im = r->lyapunov = r->second_frequency = r->regularisation_error =
-      NAN;
+  r->multiplier = r->multiplier_re = r->multiplier_im = r->lyapunov = r->second_frequency = NAN;
   r->predicted = (motion_error){NAN, NAN, NAN};
   for (int i = 0; i < TIMEINT_WAVE; ++i) r->wave[i] = NAN;
 }
@@ -347,7 +345,6 @@ hc_status timeint_steady(timeint *ti, double omega, double *state, const hc_moni
   const hc_monitor *before = timeint_hear(ti, monitor);
   if (ti->scout && ti->how.steady != TRANSIENT_STEADY_MARCH) st = scout_steady(ti, 0, state, monitor, result, &done);
   if (st == HC_OK && !done) st = by_itself(ti, monitor, result);
-  if (st == HC_OK) st = richardson_extrapolate(ti, monitor, result);
   timeint_get_state(ti, state); /* on failure, the last one that was reached */
   timeint_hear(ti, before);
   fill_counts(ti, result);
@@ -382,7 +379,6 @@ hc_status timeint_again(timeint *ti, double omega, int k, double *state, const h
   const hc_monitor *before = timeint_hear(ti, monitor);
   if (ti->scout) st = scout_confirm(ti, k, monitor, result, &done);
   if (st == HC_OK && !done) st = to_nearest_orbit(ti, k, monitor, result);
-  if (st == HC_OK) st = richardson_extrapolate(ti, monitor, result);
   timeint_get_state(ti, state);
   timeint_hear(ti, before);
   fill_counts(ti, result);

@@ -8,7 +8,7 @@
 const char *timeint_method_name(timeint_method method); /* "closed_form", "shooting", "anderson", "march" */
 
 /* From `state` at omega to the steady state as the settings say; `state` becomes a point on the orbit, *result its
- * measures. transient.richardson: the measures are extrapolated to no regularisation.
+ * measures.
  *     auto      where the motion goes. With start: hbm the state is taken for a point next to an orbit: that orbit is
  *               the answer if it is stable; if not, the motion leaves it (left_orbit).
  *     shooting  the period-1 orbit next to the state, stable or not.
@@ -26,7 +26,7 @@ hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const h
                         timeint_result *result);
 
 /* The orbit of k periods through a state that lies next to it already, as that of the same equations integrated with
- * another tolerance does: neither looked for nor scouted. transient.richardson as in timeint_steady. Errors as
+ * another tolerance does: neither looked for nor scouted. Errors as
  * timeint_orbit. */
 hc_status timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                         timeint_result *result);
@@ -41,8 +41,8 @@ hc_status timeint_again(timeint *ti, double omega, int k, double *state, const h
 hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r);
 
 /* *r, the last result of this handle, becomes that of response i (counted from 0) of the same periods: its measures.
- * Where the handle has only remembered the orbit its periods are integrated once more. transient.richardson: the
- * extrapolated ones. Errors of integration; HC_BAD_INPUT: there is no such response. */
+ * Where the handle has only remembered the orbit its periods are integrated once more. Errors of integration;
+ * HC_BAD_INPUT: there is no such response. */
 hc_status timeint_response(timeint *ti, int i, timeint_result *r);
 
 /* With a scout a handle remembers the orbits it found last, and gives them again to a start that leads to one of them.

@@ -6,7 +6,6 @@
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/integrate_events.h"
 #include "timeint/cvode/integrate_regularised.h"
-#include "timeint/steady/richardson.h"
 #include "timeint/steady/scout.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
@@ -78,7 +77,6 @@ static hc_status make_parts(timeint *ti)
   if (st == HC_OK && !exact && !ti->how.scout) st = make_integrator(ti, TRANSIENT_LAW_EXACT, &ti->exact);
   if (st == HC_OK) st = settle_new(ti->n, &ti->settle);
   if (st == HC_OK) st = shoot_new(ti, &ti->shoot);
-  if (st == HC_OK) st = richardson_new(ti);
   return st == HC_OK ? scout_new(ti) : st;
 }
 
@@ -116,7 +114,6 @@ void timeint_free(timeint *ti)
   measure_free(&ti->measure);
   free(ti->scaled.contact);
   free(ti->memory);
-  free(ti->extrapolated);
   modal_base_free(ti->base);
   model_free(ti->model);
   free(ti);

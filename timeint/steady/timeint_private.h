@@ -24,27 +24,25 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   struct confirm *confirm;  /* with a scout                                                              */
   struct memory *confirmed; /* with a scout: orbits found lately (scout.c)                              */
   measure measure;
-  timeint_result *extrapolated; /* richardson.c's; NULL without transient.richardson                        */
-  bool is_extrapolated;         /* that is what the last result says                                         */
-  bool measured;                /* it is of the periods that led to y                                        */
-  scaled_model scaled;          /* the equations at omega in units of length                                     */
-  double omega;                 /* [rad/time]                                                                    */
-  double length;                /* [length] about the size of the motion; y is in units of it                    */
-  double least_length;          /* [length] the unit is never smaller                                            */
-  double tolerance;             /* [1] CVODE's at present                                                        */
-  double contraction;           /* [1] a priori, per period: exp(-C T/2M)                                        */
-  int periods;                  /* since timeint_begin                                                           */
-  long steps0, rhs0;            /* counts at timeint_begin                                                       */
-  double *y;                    /* [n] the state                                                                 */
-  double *saved;                /* [n] y before a Newton solve whose answer may be rejected                      */
-  double *direction;            /* [n] in which an unstable orbit is left                                        */
-  double *scout_state;          /* [n] of the scout's orbit, in the model's units                                */
-  double *neighbour;            /* [n] state of a second motion, drawn along with the first                      */
-  double *separation;           /* [n] neighbour - y at the beginning of a period                                */
-  double *point[3];             /* [n] states as timeint_point has them                                          */
-  double *began;                /* [n] where a measurement of periods began                                      */
-  double *past;                 /* [SETTLE_MAX_MULTIPLE][n] a ring of the latest of these                        */
-  double *memory;               /* of all the arrays above                                                       */
+  bool measured;       /* it is of the periods that led to y                                        */
+  scaled_model scaled; /* the equations at omega in units of length                                     */
+  double omega;        /* [rad/time]                                                                    */
+  double length;       /* [length] about the size of the motion; y is in units of it                    */
+  double least_length; /* [length] the unit is never smaller                                            */
+  double tolerance;    /* [1] CVODE's at present                                                        */
+  double contraction;  /* [1] a priori, per period: exp(-C T/2M)                                        */
+  int periods;         /* since timeint_begin                                                           */
+  long steps0, rhs0;   /* counts at timeint_begin                                                       */
+  double *y;           /* [n] the state                                                                 */
+  double *saved;       /* [n] y before a Newton solve whose answer may be rejected                      */
+  double *direction;   /* [n] in which an unstable orbit is left                                        */
+  double *scout_state; /* [n] of the scout's orbit, in the model's units                                */
+  double *neighbour;   /* [n] state of a second motion, drawn along with the first                      */
+  double *separation;  /* [n] neighbour - y at the beginning of a period                                */
+  double *point[3];    /* [n] states as timeint_point has them                                          */
+  double *began;       /* [n] where a measurement of periods began                                      */
+  double *past;        /* [SETTLE_MAX_MULTIPLE][n] a ring of the latest of these                        */
+  double *memory;      /* of all the arrays above                                                       */
 };
 
 /* Equations, unit of length and a-priori contraction for omega; y from state[n]. HC_BAD_INPUT unless omega and the

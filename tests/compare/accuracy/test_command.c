@@ -98,7 +98,6 @@ static void every_method_comes_near(CHECK_STATE)
   CHECK_LE(best_of(out, "exact_marching"), 1e-10, "tolerance 1e-11");
   CHECK_LE(best_of(out, "regularised_shooting"), 1e-5, "first order, regularisation 1e-6");
   CHECK_LE(best_of(out, "regularised_marching"), 1e-4, "first order, regularisation 1e-5");
-  CHECK_LE(best_of(out, "regularised_richardson"), 1e-5, "extrapolated from 1e-2");
 }
 
 static void mistakes_are_named(CHECK_STATE)
