@@ -292,6 +292,7 @@ const double complex *condensation_stiffness(const condensation *c, int h)
 const double *condensation_sizes(condensation *c, int h)
 {
   const int dim = c->basis.dim, rest = c->basis.rest;
+  const bool coupled = !c->by_compliance[h] && !(h == 0 && c->basis.modes); /* fill_static */
   const condensation_change dynamic = dynamic_at(c, h);
   const double alpha = cabs(dynamic.alpha), beta = cabs(dynamic.beta);
   const double complex *S = condensation_stiffness(c, h), *by_q = c->by_q + (size_t)h * (size_t)dim * (size_t)rest;
@@ -300,7 +301,7 @@ const double *condensation_sizes(condensation *c, int h)
       const size_t at = entry(c, d, e), to = (size_t)e * (size_t)dim + (size_t)d;
       double size = fabs(c->basis.K[at]) + alpha * fabs(c->basis.M[at]) + beta * fabs(c->basis.C[at]);
       if (c->by_compliance[h]) size += cabs(S[to] - Z_at(c, dynamic, at));
-      for (int i = 0; i < rest && !c->by_compliance[h]; ++i)
+      for (int i = 0; i < rest && coupled; ++i)
         size += cabs(Z_at(c, dynamic, entry(c, d, dim + i)) * by_q[(size_t)e * (size_t)rest + (size_t)i]);
       c->size[to] = size;
     }
