@@ -13,6 +13,7 @@
 #include "base/workspace.h"
 #include "model/modes.h"
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 
 /* ---- the sum over modes, for s = i omega ----------------------------------------------------------------
  *
@@ -345,36 +346,32 @@ typedef struct modal_form {
   workspace memory;
 } modal_form;
 
-/* The direction of row k: of the responses, then of q, then of the loads. Either sum begins with its left rows. */
-static const double *direction(const model *m, int dim, const double *B, int k)
+/* A row of x: the direction d in the modes. */
+static void add_row(modal_form *f, const double *d)
 {
-  const int of_q = k - m->n_responses, of_load = of_q - dim;
-  if (of_q < 0) return m->responses + (size_t)k * (size_t)m->n;
-  if (of_load < 0) return B + (size_t)of_q * (size_t)m->n;
-  return of_load % 2 ? m->loads[of_load / 2].sine : m->loads[of_load / 2].cosine;
+  const size_t n = (size_t)f->n;
+  double *x = f->x + (size_t)f->rows++ * n;
+  for (size_t i = 0; i < n; ++i) x[i] = dot_product(f->n, f->phi + i * n, d);
 }
 
+/* Either sum begins with its left rows: of the responses, or of q. */
 static hc_status make_form(const model *m, int dim, const double *B, modal_form *f)
 {
-  const size_t n = (size_t)m->n;
-  *f = (modal_form){.n = m->n, .rows = dim + 2 * m->n_loads + m->n_responses};
-  double *work = workspace_doubles(&f->memory, 2 * n * n);
-  f->omega2 = workspace_array(&f->memory, n, sizeof *f->omega2);
-  f->phi = workspace_array(&f->memory, n * n, sizeof *f->phi);
-  f->C = workspace_array(&f->memory, n * n, sizeof *f->C);
-  f->x = workspace_array(&f->memory, (size_t)f->rows * n, sizeof *f->x);
-  hc_status st = f->memory.failed ? HC_NO_MEMORY : HC_OK;
-  if (st == HC_OK) st = model_modes(m, false, f->omega2, f->phi);
-  if (st == HC_OK) dense_congruence(m->n, m->n, f->phi, m->damping, work, f->C);
-  for (int k = 0; k < f->rows && st == HC_OK; ++k) {
-    const double *d = direction(m, dim, B, k);
-    for (size_t i = 0; i < n; ++i) {
-      double sum = 0;
-      for (size_t j = 0; j < n; ++j) sum += f->phi[i * n + j] * d[j];
-      f->x[(size_t)k * n + i] = sum;
-    }
-  }
-  return st;
+  const size_t n = (size_t)m->n, rows = (size_t)(m->n_responses + dim + 2 * m->n_loads);
+  workspace *w = &f->memory;
+  double *work = workspace_doubles(w, 2 * n * n);
+  f->n = m->n;
+  f->omega2 = workspace_doubles(w, n);
+  f->phi = workspace_doubles(w, n * n);
+  f->C = workspace_doubles(w, n * n);
+  f->x = workspace_doubles(w, rows * n);
+  const hc_status st = w->failed ? HC_NO_MEMORY : model_modes(m, false, f->omega2, f->phi);
+  if (st != HC_OK) return st;
+  dense_congruence(m->n, m->n, f->phi, m->damping, work, f->C);
+  for (int r = 0; r < m->n_responses; ++r) add_row(f, m->responses + (size_t)r * n);
+  for (int d = 0; d < dim; ++d) add_row(f, B + (size_t)d * n);
+  for (int l = 0; l < m->n_loads; ++l) add_row(f, m->loads[l].cosine), add_row(f, m->loads[l].sine);
+  return HC_OK;
 }
 
 /* ---- damping that the modes diagonalise ------------------------------------------------------------ */

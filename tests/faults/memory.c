@@ -165,6 +165,21 @@ SHELTERED(int, CVode, (void *cv, sunrealtype to, N_Vector y, sunrealtype *t, int
 SHELTERED(int, CVodeSensSStolerances, (void *cv, sunrealtype relative, sunrealtype *absolute), (cv, relative, absolute))
 SHELTERED(int, CVodeSensInit, (void *cv, int n, int method, CVSensRhsFn f, N_Vector *s), (cv, n, method, f, s))
 SHELTERED(N_Vector *, N_VCloneVectorArray, (int n, N_Vector v), (n, v))
+/* OpenBLAS 0.3.21 takes room for small products without a look at what malloc says. */
+typedef const int *sizes;
+typedef const double *entries;
+void __real_dgemm_(const char *at, const char *bt, sizes m, sizes n, sizes k, entries alpha, entries a, sizes lda,
+                   entries b, sizes ldb, entries beta, double *c, sizes ldc, size_t one, size_t also_one);
+void __wrap_dgemm_(const char *at, const char *bt, sizes m, sizes n, sizes k, entries alpha, entries a, sizes lda,
+                   entries b, sizes ldb, entries beta, double *c, sizes ldc, size_t one, size_t also_one);
+void __wrap_dgemm_(const char *at, const char *bt, sizes m, sizes n, sizes k, entries alpha, entries a, sizes lda,
+                   entries b, sizes ldb, entries beta, double *c, sizes ldc, size_t one, size_t also_one)
+{
+  const int shelter = how != MEMORY_LIMIT;
+  sheltered += shelter;
+  __real_dgemm_(at, bt, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc, one, also_one);
+  sheltered -= shelter;
+}
 #if SUNDIALS_VERSION_MAJOR >= 7
 SHELTERED(SUNErrCode, SUNContext_Create, (SUNComm comm, SUNContext *ctx), (comm, ctx))
 SHELTERED_FROM_ALL(N_Vector, N_VNew_Serial, (sunindextype n, SUNContext ctx), (n, ctx))
