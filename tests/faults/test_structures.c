@@ -1,14 +1,16 @@
-/* test_structures.c - a large structure's equations, one solution of them and its multipliers, where each allocation
- * in turn fails: out of memory, or the same answer. test_memory.c tries commands, on small scenes. */
+/* test_structures.c - a large structure's equations, one solution of them and its multipliers, and a small scene's
+ * curve with more and more harmonics, where each allocation in turn fails: out of memory, or the same answer.
+ * test_memory.c tries commands, on small scenes. */
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "casefile/case_file.h"
 #include "hbm/hbm.h"
+#include "numerics/norm.h"
 #include "study/scene_solvers.h"
 #include "tests/check.h"
 #include "tests/faults/memory.h"
+#include "tests/faults/small.h"
 
 enum { DOF = 30, ROOM = 32 * DOF * DOF };
 
@@ -79,10 +81,42 @@ static void fails_honestly(bool rayleigh)
   case_clear(&sc);
 }
 
+/* A curve along which harmonics are added: [length] the size of its last solution. */
+static hc_status trace(const scene *sc, double *size)
+{
+  hbm_solver *s;
+  hbm_curve curve = {0};
+  hc_status st = scene_hbm_solver(sc, &s);
+  if (st != HC_OK) return st;
+  st = hbm_trace(s, sc->omega_from, sc->omega_to, NULL, &curve);
+  if (st == HC_OK) *size = norm_2(curve.n_coef, hbm_curve_X(&curve, curve.n - 1));
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+  return st;
+}
+
+static void with_more_harmonics(CHECK_STATE)
+{
+  static const char *const set[] = {"hbm.harmonics=auto", "hbm.accuracy=1e-4", NULL};
+  const scene sc = small_scene(set);
+  double good, found;
+  assert_int_equal(trace(&sc, &good), HC_OK);
+  long refused = 1;
+  for (long n = 1; refused > 0; ++n) {
+    memory_fail(n, MEMORY_ONE);
+    const hc_status st = trace(&sc, &found);
+    refused = memory_refused();
+    memory_fail(0, MEMORY_ONE);
+    if (st != HC_OK && st != HC_NO_MEMORY) fail_msg("allocation %ld: %s", n, hc_status_text(st));
+    if (st == HC_OK) CHECK_NEAR(found, good, 1e-6 * good, "allocation %ld", n);
+  }
+}
+
 static void with_modes(CHECK_STATE) { fails_honestly(true); }
 static void with_any_damping(CHECK_STATE) { fails_honestly(false); }
 
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(with_more_harmonics),
     cmocka_unit_test(with_modes),
     cmocka_unit_test(with_any_damping),
 };
