@@ -184,28 +184,28 @@ static hc_status check_contact(case_reader *r, int j)
   const bool tangent = c->by_angle || !structure_is_zero(c->tangent, s->n),
              normal = c->by_angle || !structure_is_zero(c->normal, s->n);
   const int first = structure_contact_named(s, c->given.name, strlen(c->given.name));
-  message *m = case_blame(r, c->place);
-  const size_t before = m->used;
   if (!tangent && (law->kt != 0 || law->mu != 0))
-    message_add(m, "contacts[%d] has %s, but no tangent to act along, expected `tangent`, or none", j,
-                law->kt != 0 ? "a tangential_stiffness" : "friction");
-  else if (!normal && (law->kn != 0 || law->gap != 0))
-    message_add(m, "contacts[%d] has a %s, but no normal to act along, expected `normal`, or `preload` alone", j,
-                law->kn != 0 ? "normal_stiffness" : "gap");
-  else if (!structure_is_zero(c->tangent_2, s->n) && is_parallel(c->tangent, c->tangent_2, s->n))
-    message_add(m, "contacts[%d] has tangent_2 along its tangent, expected a direction across it", j);
-  else if (!isfinite(2 * law->mu)) message_add(m, "contacts[%d] has too large a friction to be held, expected less", j);
-  else if (!isfinite(structure_contact_law(c).gap))
-    message_add(m, "contacts[%d] has a preload/normal_stiffness too large to be held, expected a finite gap", j);
-  else if (*c->given.name && !is_good_name(c->given.name))
-    message_add(
-        m, "contacts[%d] is named `%s`, expected a name that is no number, without blanks, points or any of []=", j,
+    return case_refuse(r, c->place, "contacts[%d] has %s, but no tangent to act along, expected `tangent`, or none", j,
+                       law->kt != 0 ? "a tangential_stiffness" : "friction");
+  if (!normal && (law->kn != 0 || law->gap != 0))
+    return case_refuse(r, c->place,
+                       "contacts[%d] has a %s, but no normal to act along, expected `normal`, or `preload` alone", j,
+                       law->kn != 0 ? "normal_stiffness" : "gap");
+  if (!structure_is_zero(c->tangent_2, s->n) && is_parallel(c->tangent, c->tangent_2, s->n))
+    return case_refuse(r, c->place, "contacts[%d] has tangent_2 along its tangent, expected a direction across it", j);
+  if (!isfinite(2 * law->mu))
+    return case_refuse(r, c->place, "contacts[%d] has too large a friction to be held, expected less", j);
+  if (!isfinite(structure_contact_law(c).gap))
+    return case_refuse(r, c->place,
+                       "contacts[%d] has a preload/normal_stiffness too large to be held, expected a finite gap", j);
+  if (*c->given.name && !is_good_name(c->given.name))
+    return case_refuse(
+        r, c->place,
+        "contacts[%d] is named `%s`, expected a name that is no number, without blanks, points or any of []=", j,
         c->given.name);
-  else if (*c->given.name && first != j)
-    message_add(m, "contacts[%d] is named `%s` like contacts[%d], expected different names", j, c->given.name, first);
-  if (m->used > before) return HC_BAD_INPUT;
-  message_start(m, m->text, m->size);
-  return HC_OK;
+  if (!*c->given.name || first == j) return HC_OK;
+  return case_refuse(r, c->place, "contacts[%d] is named `%s` like contacts[%d], expected different names", j,
+                     c->given.name, first);
 }
 
 /* ---- what nothing holds ---- */

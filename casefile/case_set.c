@@ -22,10 +22,8 @@ static hc_status unknown_path(case_reader *r, const char *path, size_t length, i
     return HC_BAD_INPUT;
   }
   if (field_was_removed(m, path, length)) return HC_BAD_INPUT;
-  message_add(m, "unknown field ");
-  message_add_quoted(m, path, length);
-  suggestion guess = suggest_path(path, length);
-  if (!case_suggest(m, guess, NULL, j))
+  message_add(m, "unknown field %s", QUOTED(path, length));
+  if (!case_suggest(m, suggest_path(path, length), NULL, j))
     message_add(m, ", expected a path such as hbm.samples (`hbmcheck describe` lists them)");
   return HC_BAD_INPUT;
 }
@@ -58,29 +56,22 @@ static hc_status read_name(case_reader *r, const char *s, const char *stop, cons
     const int d = *name ? nearest_distance(s + 1, length, name) : NEAREST_FAR;
     if (d < least) near = j, least = d;
   }
-  message *m = case_blame(r, r->here);
-  message_add(m, "no contact is named ");
-  message_add_quoted(m, s + 1, length);
-  if (near >= 0) message_add(m, ", did you mean `%s`?", own->contacts[near].given.name);
-  else message_add(m, ", expected an index or a name that the case gives");
-  return HC_BAD_INPUT;
-}
-
-static int list_length(const case_reader *r, case_list list)
-{
-  return list == CASE_LOADS ? r->sc.structure->n_loads : scene_contact_count(&r->sc);
+  if (near >= 0)
+    return case_refuse(r, r->here, "no contact is named %s, did you mean `%s`?", QUOTED(s + 1, length),
+                       own->contacts[near].given.name);
+  return case_refuse(r, r->here, "no contact is named %s, expected an index or a name that the case gives",
+                     QUOTED(s + 1, length));
 }
 
 /* An entry one past the last is new, but a structure's has no field yet: it is to be given as a whole. */
 static hc_status check_index(case_reader *r, case_target t)
 {
-  const int n = list_length(r, t.list);
+  const int n = t.list == CASE_LOADS ? r->sc.structure->n_loads : scene_contact_count(&r->sc);
   const bool one_more = !(r->sc.structure ? t.f != NULL : n == SCENE_MAX_CONTACTS);
   if (t.index < n + one_more) return HC_OK;
-  message *m = case_blame(r, r->here);
-  message_add(m, "the case has %d %s, expected an index 0..%d%s", n, t.list == CASE_LOADS ? "loads" : "contacts",
-              n - 1 + one_more, one_more ? " (the last one appends)" : "");
-  return HC_BAD_INPUT;
+  return case_refuse(r, r->here, "the case has %d %s, expected an index 0..%d%s", n,
+                     t.list == CASE_LOADS ? "loads" : "contacts", n - 1 + one_more,
+                     one_more ? " (the last one appends)" : "");
 }
 
 /* A list and what follows: nothing, an index or name, a field of that entry. */
@@ -109,12 +100,11 @@ static hc_status check_kind(case_reader *r, const field *f, const char *path, si
   const bool structure = r->sc.structure != NULL;
   const bool of_oscillator = !strcmp(f->section, "oscillator") || !strcmp(f->section, "forcing");
   if (structure ? !of_oscillator : !(f->flags & FIELD_STRUCTURE)) return HC_OK;
-  message *m = case_blame(r, r->here);
-  message_add_quoted(m, path, length);
-  message_add(m, structure ? " is an oscillator's, and the case has a structure, expected "
-                           : " is a structure's, and the case has an oscillator, expected a field of that");
-  if (structure) message_add(m, *f->section == 'f' ? "forcing[0].%s" : "structure.%s", f->name);
-  return HC_BAD_INPUT;
+  if (structure)
+    return case_refuse(r, r->here, "%s is an oscillator's, and the case has a structure, expected %s.%s",
+                       QUOTED(path, length), *f->section == 'f' ? "forcing[0]" : "structure", f->name);
+  return case_refuse(r, r->here, "%s is a structure's, and the case has an oscillator, expected a field of that",
+                     QUOTED(path, length));
 }
 
 static bool begins_list(const char *path, size_t length, const char *word)
@@ -142,16 +132,6 @@ hc_status case_find_target(case_reader *r, const char *path, size_t length, case
   return st == HC_OK && t->f ? check_kind(r, t->f, path, length) : st;
 }
 
-static void append_contact_if_new(case_reader *r, int j)
-{
-  if (j < r->sc.n_contacts) return;
-  field_contact_defaults(&r->sc.contacts[j]);
-  r->contact_has[j] = 0;
-  memset(r->contact_field_at[j], 0, sizeof r->contact_field_at[j]);
-  r->contact_at[j] = r->here;
-  r->sc.n_contacts = j + 1;
-}
-
 hc_status case_own_structure(case_reader *r)
 {
   if (r->owns_structure || !r->sc.structure) return HC_OK;
@@ -171,8 +151,15 @@ void *case_target_base(case_reader *r, case_target t)
   if (in_structure && t.list == CASE_CONTACTS) return &s->contacts[t.index].given;
   if (in_structure) return s;
   if (t.list == CASE_NO_LIST) return &r->sc;
-  append_contact_if_new(r, t.index);
-  return &r->sc.contacts[t.index];
+  const int j = t.index;
+  if (j == r->sc.n_contacts) { /* appended */
+    field_contact_defaults(&r->sc.contacts[j]);
+    r->contact_has[j] = 0;
+    memset(r->contact_field_at[j], 0, sizeof r->contact_field_at[j]);
+    r->contact_at[j] = r->here;
+    r->sc.n_contacts = j + 1;
+  }
+  return &r->sc.contacts[j];
 }
 
 void case_target_given(case_reader *r, case_target t)
@@ -229,19 +216,19 @@ static hc_status read_list(case_reader *r, case_target t, const yaml_node_t *nod
   return yaml_scene_contact(r, node, t.index);
 }
 
-static hc_status read_value(case_reader *r, case_target t, const yaml_node_t *node)
-{
-  void *base = case_target_base(r, t);
-  if (!base) return HC_NO_MEMORY;
-  case_drop_rivals(r, t.f, base);
-  const hc_status st = yaml_scene_value(r, t.f, t.index, base, node);
-  if (st == HC_OK) case_target_given(r, t);
-  return st;
-}
+/* A field stored by its kind alone; the others have forms of their own. */
+static bool is_plain(const field *f) { return f && f->kind != FIELD_PART && !(f->flags & FIELD_IN_STRUCTURE); }
 
 hc_status case_target_read(case_reader *r, case_target t, const yaml_node_t *node)
 {
-  if (t.f && t.f->kind != FIELD_PART && !(t.f->flags & FIELD_IN_STRUCTURE)) return read_value(r, t, node);
+  if (is_plain(t.f)) {
+    void *base = case_target_base(r, t);
+    if (!base) return HC_NO_MEMORY;
+    case_drop_rivals(r, t.f, base);
+    const hc_status st = yaml_scene_value(r, t.f, t.index, base, node);
+    if (st == HC_OK) case_target_given(r, t);
+    return st;
+  }
   hc_status st = case_own_structure(r);
   if (st != HC_OK) return st;
   if (r->sc.structure) r->sc.structure->place = r->here;
@@ -276,6 +263,5 @@ hc_status case_set_apply(case_reader *r, int k)
   while (length > 0 && path[length - 1] == ' ') --length;
   hc_status st = case_find_target(r, path, length, &t);
   if (st != HC_OK) return st;
-  const bool plain = t.f && t.f->kind != FIELD_PART && !(t.f->flags & FIELD_IN_STRUCTURE);
-  return plain ? set_field(r, t, equals + 1) : set_document(r, t, equals + 1);
+  return is_plain(t.f) ? set_field(r, t, equals + 1) : set_document(r, t, equals + 1);
 }

@@ -23,12 +23,9 @@ hc_status nodes_add(scene_structure *s, int dof, int node, char direction)
 
 /* ---- dof,node,direction ---- */
 
-static hc_status wrong_field(matrix_text *t, const matrix_word *w, const char *expected)
+static hc_status wrong_field(matrix_text *t, matrix_word w, const char *expected)
 {
-  message *m = matrix_text_blame(t, w->text);
-  message_add_quoted(m, w->text, w->length);
-  message_add(m, " is no %s", expected);
-  return HC_BAD_INPUT;
+  return matrix_text_refuse(t, w.text, "%s is no %s", MATRIX_QUOTED(w), expected);
 }
 
 static bool is_end(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
@@ -63,10 +60,10 @@ static hc_status read_row(matrix_text *t, const matrix_word field[COLUMNS], scen
   const char axis = field[2].length == 1 ? *field[2].text : '\0'; /* an empty one may be the text's end */
   char expected[64];
   snprintf(expected, sizeof expected, "DOF, expected a name or a number 1..%d", s->n);
-  if (dof < 0) return wrong_field(t, &field[0], expected);
+  if (dof < 0) return wrong_field(t, field[0], expected);
   if (number_read_integer(field[1].text, field[1].length, &node) != NUMBER_FINE)
-    return wrong_field(t, &field[1], "node, expected its number");
-  if (!structure_is_axis(axis)) return wrong_field(t, &field[2], "direction, expected x, y or z");
+    return wrong_field(t, field[1], "node, expected its number");
+  if (!structure_is_axis(axis)) return wrong_field(t, field[2], "direction, expected x, y or z");
   if (structure_node_dof(s, node, axis) >= 0)
     return matrix_text_refuse(t, t->line_text, "node %d in direction %c again, expected it once", node, axis);
   return nodes_add(s, dof, node, axis);
@@ -89,8 +86,7 @@ static hc_status read_lines(matrix_text *t, scene_structure *s)
   }
   if (st != HC_OK || header) return st;
   t->line_text = t->end;
-  message_add(matrix_text_blame_end(t), "nothing here, expected the line `dof,node,direction` and one a DOF");
-  return HC_BAD_INPUT;
+  return matrix_text_refuse(t, NULL, "nothing here, expected the line `dof,node,direction` and one a DOF");
 }
 
 /* ---- nodes as CalculiX and Abaqus tell them */
@@ -115,7 +111,7 @@ static bool read_dof(matrix_text *t, int *node, int *direction)
       number_read_integer(point + 1, w->length - before - 1, direction) == NUMBER_FINE && *direction >= 1 &&
       *direction <= 3)
     return true;
-  message_add(matrix_text_blame_word(t, 0), ", expected NODE.DIRECTION such as 17.2, direction 1, 2 or 3");
+  matrix_text_refuse(t, w->text, "%s, expected NODE.DIRECTION such as 17.2, direction 1, 2 or 3", MATRIX_QUOTED(*w));
   return false;
 }
 
@@ -126,17 +122,15 @@ static hc_status read_dofs(matrix_text *t, scene_structure *s)
   while (matrix_text_next(t)) {
     int node, direction;
     if (!read_dof(t, &node, &direction)) return HC_BAD_INPUT;
-    if (n == s->n || structure_node_dof(s, node, axes[direction - 1]) >= 0) {
-      message *m = matrix_text_blame_word(t, 0);
-      if (n == s->n) message_add(m, ", one line too many, expected %d, one a DOF", s->n);
-      else message_add(m, " again, expected it once");
-      return HC_BAD_INPUT;
-    }
+    if (n == s->n)
+      return matrix_text_refuse(t, t->words[0].text, "%s, one line too many, expected %d, one a DOF",
+                                MATRIX_QUOTED(t->words[0]), s->n);
+    if (structure_node_dof(s, node, axes[direction - 1]) >= 0)
+      return matrix_text_refuse(t, t->words[0].text, "%s again, expected it once", MATRIX_QUOTED(t->words[0]));
     if (nodes_add(s, n++, node, axes[direction - 1]) != HC_OK) return HC_NO_MEMORY;
   }
   if (n == s->n) return HC_OK;
-  message_add(matrix_text_blame_end(t), "the file ends after %d lines, expected %d, one a DOF", n, s->n);
-  return HC_BAD_INPUT;
+  return matrix_text_refuse(t, NULL, "the file ends after %d lines, expected %d, one a DOF", n, s->n);
 }
 
 static hc_status read_labels(matrix_text *t, scene_structure *s)
@@ -148,9 +142,9 @@ static hc_status read_labels(matrix_text *t, scene_structure *s)
       matrix_file_parse(t->name, t->text, (size_t)(t->end - t->text), NULL, s->n, &n, &values, &labels, t->m);
   if (st == HC_OK && !labels) {
     matrix_text_rewind(t);
-    message_add(matrix_text_blame(t, t->text), "a matrix that does not say which nodes its rows are, expected one that "
-                                               "does, or lines dof,node,direction");
-    st = HC_BAD_INPUT;
+    st = matrix_text_refuse(
+        t, t->text,
+        "a matrix that does not say which nodes its rows are, expected one that does, or lines dof,node,direction");
   }
   for (int i = 0; i < n && st == HC_OK; ++i) {
     if (labels[i].dof < 1 || labels[i].dof > 3 || structure_node_dof(s, labels[i].node, axes[labels[i].dof - 1]) >= 0)

@@ -5,7 +5,7 @@
 #ifndef HC_STRUCTURE_H
 #define HC_STRUCTURE_H
 
-#include "casefile/matrices/matrix_label.h"
+#include "casefile/matrices/matrix_file.h"
 #include "casefile/scene.h"
 
 /* Where something was given, for messages: the set-th assignment, counted from 1, or for set = 0 a line and column of

@@ -155,36 +155,31 @@ static bool unresisted(int n, double *A, double *d, int *pivot, double *x)
   return is_free;
 }
 
+/* The same with room made; A[n + 1][n] is freed, NULL: out of memory. */
+static hc_status find_unresisted(int n, double *A, double *x, bool *is_free)
+{
+  int *pivot = malloc((size_t)n * sizeof *pivot);
+  const hc_status st = A && pivot ? HC_OK : HC_NO_MEMORY;
+  *is_free = st == HC_OK && unresisted(n, A, A + (size_t)n * (size_t)n, pivot, x);
+  free(A);
+  free(pivot);
+  return st;
+}
+
 hc_status structure_free_motion(const scene_structure *s, bool at_rest, double *x, bool *free_motion)
 {
   const size_t n = (size_t)s->n;
   double *A = malloc(n * (n + 1) * sizeof *A);
-  int *pivot = malloc(n * sizeof *pivot);
-  *free_motion = false;
-  if (A && pivot) {
-    stuck_stiffness(s, at_rest, A);
-    *free_motion = unresisted(s->n, A, A + n * n, pivot, x);
-  }
-  const bool failed = !A || !pivot;
-  free(A);
-  free(pivot);
-  return failed ? HC_NO_MEMORY : HC_OK;
+  if (A) stuck_stiffness(s, at_rest, A);
+  return find_unresisted(s->n, A, x, free_motion);
 }
 
 hc_status structure_massless_motion(int n, const double *M, double *x, bool *massless)
 {
-  const size_t square = (size_t)n * (size_t)n;
-  double *A = malloc((square + (size_t)n) * sizeof *A);
-  int *pivot = malloc((size_t)n * sizeof *pivot);
-  *massless = false;
-  if (A && pivot) {
-    memcpy(A, M, square * sizeof *A);
-    *massless = unresisted(n, A, A + square, pivot, x);
-  }
-  const bool failed = !A || !pivot;
-  free(A);
-  free(pivot);
-  return failed ? HC_NO_MEMORY : HC_OK;
+  const size_t rows = (size_t)n;
+  double *A = malloc(rows * (rows + 1) * sizeof *A);
+  if (A) memcpy(A, M, rows * rows * sizeof *A);
+  return find_unresisted(n, A, x, massless);
 }
 
 hc_status structure_undamped_mode(const scene_structure *s, double *omega)

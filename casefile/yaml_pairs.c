@@ -108,8 +108,7 @@ static hc_status open_file(pair_rows *p, const yaml_node_t *node)
     return yaml_file_failed(p->r, node, "pairs", p->path, "a csv file node_a,node_b[,gap][,preload][,area]");
   p->text = matrix_text_start(p->path, p->bytes, length, 0, &p->r->msg);
   if (matrix_text_next(&p->text)) return read_names(p);
-  message_add(matrix_text_blame_end(&p->text), "nothing here, expected the line %s and one a pair", expected_columns);
-  return HC_BAD_INPUT;
+  return matrix_text_refuse(&p->text, NULL, "nothing here, expected the line %s and one a pair", expected_columns);
 }
 
 /* Rows of two nodes need no names. */

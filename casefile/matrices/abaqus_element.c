@@ -96,8 +96,7 @@ static hc_status read_header(matrix_text *r, element *e)
     first = first && comment;
   }
   if (st != HC_OK) return st;
-  message_add(matrix_text_blame_end(r), "the file ends in a header, expected *MATRIX,TYPE=STIFFNESS or the like");
-  return HC_BAD_INPUT;
+  return matrix_text_refuse(r, NULL, "the file ends in a header, expected *MATRIX,TYPE=STIFFNESS or the like");
 }
 
 /* ---- matrices ---- */
@@ -135,9 +134,9 @@ static hc_status read_rows(matrix_text *r, element *e, int *rows, bool *more)
   while ((*more = matrix_text_next(r)) && st == HC_OK && !(r->words[0].length > 0 && *r->words[0].text == '*'))
     st = read_row_line(r, e, rows, &column);
   if (st != HC_OK || (*rows > 0 && column == 0)) return st;
-  message *m = *more ? matrix_text_blame(r, r->words[0].text) : matrix_text_blame_end(r);
-  message_add(m, "row %d of the lower triangle ends after %d numbers, expected %d", *rows + 1, column, *rows + 1);
-  return HC_BAD_INPUT;
+  return matrix_text_refuse(r, *more ? r->words[0].text : NULL,
+                            "row %d of the lower triangle ends after %d numbers, expected %d", *rows + 1, column,
+                            *rows + 1);
 }
 
 static hc_status unpack(matrix_text *r, element *e, int n)
@@ -165,10 +164,9 @@ static hc_status read_matrices(matrix_text *r, element *e)
   while (more) {
     int rows;
     const char *type = keyword(r, words);
-    if (strncmp(type, start, strlen(start)) != 0) {
-      message_add(matrix_text_blame_word(r, 0), ", expected *MATRIX,TYPE=STIFFNESS or the like");
-      return HC_BAD_INPUT;
-    }
+    if (strncmp(type, start, strlen(start)) != 0)
+      return matrix_text_refuse(r, r->words[0].text, "%s, expected *MATRIX,TYPE=STIFFNESS or the like",
+                                MATRIX_QUOTED(r->words[0]));
     type += strlen(start);
     const bool wanted = !r->values && (!r->part || !strcmp(type, r->part));
     const int row = r->watch_row;
@@ -179,8 +177,7 @@ static hc_status read_matrices(matrix_text *r, element *e)
     if (st != HC_OK) return st;
   }
   if (r->values) return HC_OK;
-  message_add(matrix_text_blame_end(r), "no *MATRIX,TYPE=%s in this file, expected one", r->part);
-  return HC_BAD_INPUT;
+  return matrix_text_refuse(r, NULL, "no *MATRIX,TYPE=%s in this file, expected one", r->part);
 }
 
 hc_status abaqus_element_parse(matrix_text *r)

@@ -10,7 +10,11 @@
 
 #include "base/message.h"
 #include "base/status.h"
-#include "casefile/matrices/matrix_label.h"
+
+/* What a row of a matrix stands for, where its file says it. */
+typedef struct matrix_label {
+  int node, dof; /* 1..3 along x, y, z; 4..6 rotations; others as the program has them */
+} matrix_label;
 
 enum { MATRIX_MOST_ROWS = 4000 }; /* a matrix is kept dense: 128 MB */
 

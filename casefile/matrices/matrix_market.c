@@ -2,31 +2,22 @@
  * and blank lines between them are skipped. */
 #include "casefile/matrices/matrix_text.h"
 
-typedef enum symmetry { GENERAL, SYMMETRIC, SKEW } symmetry;
-
-typedef struct reader {
-  matrix_text *t;
-  bool coordinate;
-  symmetry sym;
-} reader;
-
 /* Which of names[], ending in NULL, word i is; -1 with the message made. */
 static int choose(matrix_text *t, int i, const char *const *names, const char *expected)
 {
   for (int k = 0; names[k]; ++k)
     if (matrix_word_is(&t->words[i], names[k])) return k;
-  message_add(matrix_text_blame_word(t, i), " in the banner, expected %s", expected);
+  matrix_text_refuse(t, t->words[i].text, "%s in the banner, expected %s", MATRIX_QUOTED(t->words[i]), expected);
   return -1;
 }
 
 /* %%MatrixMarket matrix coordinate|array real|integer general|symmetric|skew-symmetric */
-static hc_status read_banner(reader *r)
+static hc_status read_banner(matrix_text *t)
 {
-  matrix_text *t = r->t;
   static const char *const formats[] = {"coordinate", "array", NULL}, *const objects[] = {"matrix", NULL};
   static const char *const fields[] = {"real", "integer", NULL};
   static const char *const symmetries[] = {
-      [GENERAL] = "general", [SYMMETRIC] = "symmetric", [SKEW] = "skew-symmetric", NULL};
+      [MATRIX_GENERAL] = "general", [MATRIX_SYMMETRIC] = "symmetric", [MATRIX_SKEW] = "skew-symmetric", NULL};
   if (!matrix_text_line(t) || t->n_words == 0 || !matrix_word_is(&t->words[0], "%%matrixmarket"))
     return matrix_text_refuse(
         t, t->line_text,
@@ -40,57 +31,50 @@ static hc_status read_banner(reader *r)
   const int format = object < 0 ? -1 : choose(t, 2, formats, "coordinate or array");
   const int kind = format < 0 ? -1 : choose(t, 3, fields, "real or integer: numbers are needed");
   const int sym = kind < 0 ? -1 : choose(t, 4, symmetries, "general, symmetric or skew-symmetric");
-  r->coordinate = format == 0;
+  t->coordinate = format == 0;
   t->integers = kind == 1;
-  r->sym = sym < 0 ? GENERAL : (symmetry)sym;
+  t->symmetry = sym < 0 ? MATRIX_GENERAL : (matrix_symmetry)sym;
   return sym < 0 ? HC_BAD_INPUT : HC_OK;
 }
 
-static long most_entries(const reader *r)
+static long most_entries(const matrix_text *t)
 {
-  const matrix_text *t = r->t;
   const long n = t->n, below = n * (n - 1) / 2;
-  return r->sym == GENERAL ? n * n : r->sym == SYMMETRIC ? below + n : below;
+  return t->symmetry == MATRIX_GENERAL ? n * n : t->symmetry == MATRIX_SYMMETRIC ? below + n : below;
 }
 
-static hc_status read_size(reader *r, int *entries)
+static hc_status read_size(matrix_text *t, int *entries)
 {
-  matrix_text *t = r->t;
   int columns;
-  if (!matrix_text_next(t)) {
-    message_add(matrix_text_blame_end(t), "the file ends before the line of sizes, expected rows and columns");
-    return HC_BAD_INPUT;
-  }
-  if (t->n_words != 2 + r->coordinate)
+  if (!matrix_text_next(t))
+    return matrix_text_refuse(t, NULL, "the file ends before the line of sizes, expected rows and columns");
+  if (t->n_words != 2 + t->coordinate)
     return matrix_text_refuse(t, t->words[0].text, "%d words where the sizes should stand, expected %s", t->n_words,
-                              r->coordinate ? "rows, columns and number of entries" : "rows and columns");
+                              t->coordinate ? "rows, columns and number of entries" : "rows and columns");
   if (!matrix_text_integer(t, 0, 1, MATRIX_MOST_ROWS, "the number of rows", &t->n)) return HC_BAD_INPUT;
   if (!matrix_text_integer(t, 1, 1, MATRIX_MOST_ROWS, "the number of columns", &columns)) return HC_BAD_INPUT;
-  if (columns != t->n || (t->expected > 0 && t->n != t->expected)) {
-    message *m = matrix_text_blame(t, t->words[0].text);
-    message_add(m, "a matrix of %d x %d, expected ", t->n, columns);
-    if (t->expected > 0) message_add(m, "%d x %d", t->expected, t->expected);
-    else message_add(m, "as many columns as rows");
-    return HC_BAD_INPUT;
-  }
-  *entries = (int)most_entries(r);
-  return r->coordinate && !matrix_text_integer(t, 2, 0, *entries, "the number of entries", entries) ? HC_BAD_INPUT
+  if (t->expected > 0 && (columns != t->n || t->n != t->expected))
+    return matrix_text_refuse(t, t->words[0].text, "a matrix of %d x %d, expected %d x %d", t->n, columns, t->expected,
+                              t->expected);
+  if (columns != t->n)
+    return matrix_text_refuse(t, t->words[0].text, "a matrix of %d x %d, expected as many columns as rows", t->n,
+                              columns);
+  *entries = (int)most_entries(t);
+  return t->coordinate && !matrix_text_integer(t, 2, 0, *entries, "the number of entries", entries) ? HC_BAD_INPUT
                                                                                                     : HC_OK;
 }
 
 /* Entry (i, j), and by symmetry (j, i), of the line that `at` is in. */
-static void store(reader *r, int i, int j, double value, const char *at)
+static void store(matrix_text *t, int i, int j, double value, const char *at)
 {
-  matrix_text *t = r->t;
   matrix_text_put(t, i, j, value, at);
-  if (r->sym == GENERAL) return;
-  t->values[(size_t)j + (size_t)t->n * (size_t)i] = (r->sym == SKEW ? -value : value) + 0.0;
+  if (t->symmetry == MATRIX_GENERAL) return;
+  t->values[(size_t)j + (size_t)t->n * (size_t)i] = (t->symmetry == MATRIX_SKEW ? -value : value) + 0.0;
   matrix_text_watch(t, j, i, at);
 }
 
-static hc_status read_coordinate(reader *r)
+static hc_status read_coordinate(matrix_text *t)
 {
-  matrix_text *t = r->t;
   int i, j;
   double value;
   if (t->n_words != 3)
@@ -98,39 +82,35 @@ static hc_status read_coordinate(reader *r)
                               t->n_words < 3 ? "less" : "more");
   if (!matrix_text_integer(t, 0, 1, t->n, "a row", &i) || !matrix_text_integer(t, 1, 1, t->n, "a column", &j))
     return HC_BAD_INPUT;
-  if (r->sym != GENERAL && i < j + (r->sym == SKEW))
-    return matrix_text_refuse(t, t->words[0].text,
-                              "entry (%d, %d) of a %s matrix, expected its lower triangle alone, row %s column", i, j,
-                              r->sym == SKEW ? "skew-symmetric" : "symmetric", r->sym == SKEW ? ">" : ">=");
+  if (t->symmetry != MATRIX_GENERAL && i < j + (t->symmetry == MATRIX_SKEW))
+    return matrix_text_refuse(
+        t, t->words[0].text, "entry (%d, %d) of a %s matrix, expected its lower triangle alone, row %s column", i, j,
+        t->symmetry == MATRIX_SKEW ? "skew-symmetric" : "symmetric", t->symmetry == MATRIX_SKEW ? ">" : ">=");
   if (matrix_text_seen(t, i - 1, j - 1))
     return matrix_text_refuse(t, t->words[0].text, "a second entry (%d, %d), expected each once", i, j);
   if (!matrix_text_number(t, 2, &value)) return HC_BAD_INPUT;
-  store(r, i - 1, j - 1, value, t->words[0].text);
+  store(t, i - 1, j - 1, value, t->words[0].text);
   return HC_OK;
 }
 
 /* A value a line, down the columns; (*i, *j) moves on to the next one. */
-static hc_status read_array(reader *r, int *i, int *j)
+static hc_status read_array(matrix_text *t, int *i, int *j)
 {
-  matrix_text *t = r->t;
   double value;
   if (t->n_words != 1) return matrix_text_refuse(t, t->words[1].text, "a second word, expected one value a line");
   if (!matrix_text_number(t, 0, &value)) return HC_BAD_INPUT;
-  store(r, *i, *j, value, t->words[0].text);
-  if (++*i == t->n) ++*j, *i = r->sym == GENERAL ? 0 : *j + (r->sym == SKEW);
+  store(t, *i, *j, value, t->words[0].text);
+  if (++*i == t->n) ++*j, *i = t->symmetry == MATRIX_GENERAL ? 0 : *j + (t->symmetry == MATRIX_SKEW);
   return HC_OK;
 }
 
-static hc_status read_entries(reader *r, int entries)
+static hc_status read_entries(matrix_text *t, int entries)
 {
-  matrix_text *t = r->t;
-  int i = r->sym == SKEW, j = 0;
+  int i = t->symmetry == MATRIX_SKEW, j = 0;
   for (int k = 0; k < entries; ++k) {
-    if (!matrix_text_next(t)) {
-      message_add(matrix_text_blame_end(t), "the file ends after %d entries, expected %d", k, entries);
-      return HC_BAD_INPUT;
-    }
-    const hc_status st = r->coordinate ? read_coordinate(r) : read_array(r, &i, &j);
+    if (!matrix_text_next(t))
+      return matrix_text_refuse(t, NULL, "the file ends after %d entries, expected %d", k, entries);
+    const hc_status st = t->coordinate ? read_coordinate(t) : read_array(t, &i, &j);
     if (st != HC_OK) return st;
   }
   if (!matrix_text_next(t)) return HC_OK;
@@ -139,13 +119,12 @@ static hc_status read_entries(reader *r, int entries)
 
 hc_status matrix_market_parse(matrix_text *t)
 {
-  reader r = {.t = t};
   int entries = 0;
   t->comment = "%";
   t->commas = false;
   matrix_text_rewind(t);
-  hc_status st = read_banner(&r);
-  if (st == HC_OK) st = read_size(&r, &entries);
+  hc_status st = read_banner(t);
+  if (st == HC_OK) st = read_size(t, &entries);
   if (st == HC_OK) st = matrix_text_square(t, t->n);
-  return st == HC_OK ? read_entries(&r, entries) : st;
+  return st == HC_OK ? read_entries(t, entries) : st;
 }

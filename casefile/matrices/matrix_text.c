@@ -39,23 +39,12 @@ void matrix_text_rewind(matrix_text *r)
 
 message *matrix_text_blame(matrix_text *r, const char *at)
 {
+  if (!at && r->end > r->text && r->end[-1] == '\n') ++r->line, r->line_text = r->end;
+  if (!at) at = r->end;
   message_start(r->m, r->m->text, r->m->size);
   message_add_input(r->m, r->name, strlen(r->name), 240);
   message_add(r->m, ":%zu:%zu: ", r->line > 0 ? r->line : 1, (size_t)(at - r->line_text) + 1);
   return r->m;
-}
-
-message *matrix_text_blame_end(matrix_text *r)
-{
-  if (r->end > r->text && r->end[-1] == '\n') ++r->line, r->line_text = r->end;
-  return matrix_text_blame(r, r->end);
-}
-
-message *matrix_text_blame_word(matrix_text *r, int i)
-{
-  message *m = matrix_text_blame(r, r->words[i].text);
-  message_add_quoted(m, r->words[i].text, r->words[i].length);
-  return m;
 }
 
 hc_status matrix_text_refuse(matrix_text *r, const char *at, const char *format, ...)
@@ -119,9 +108,10 @@ bool matrix_word_is(const matrix_word *w, const char *name)
 
 bool matrix_text_integer(matrix_text *r, int i, int from, long to, const char *what, int *value)
 {
-  const number_fault fault = number_read_integer(r->words[i].text, r->words[i].length, value);
+  const matrix_word w = r->words[i];
+  const number_fault fault = number_read_integer(w.text, w.length, value);
   if (fault == NUMBER_FINE && *value >= from && *value <= to) return true;
-  message_add(matrix_text_blame_word(r, i), ", expected %s, an integer %d..%ld", what, from, to);
+  matrix_text_refuse(r, w.text, "%s, expected %s, an integer %d..%ld", MATRIX_QUOTED(w), what, from, to);
   return false;
 }
 
@@ -132,11 +122,11 @@ bool matrix_text_number(matrix_text *r, int i, double *value)
   number_fault fault = number_read(w->text, w->length, value);
   if (fault == NUMBER_FINE && r->integers) fault = number_read_integer(w->text, w->length, &whole);
   if (fault == NUMBER_FINE) return true;
-  message *m = matrix_text_blame_word(r, i);
-  message_add(m, ", expected a finite %s", r->integers ? "integer, as the banner says" : "number");
-  if (memchr(w->text, ',', w->length)) message_add(m, " (the decimal sign is a point)");
-  if (memchr(w->text, 'D', w->length) || memchr(w->text, 'd', w->length))
-    message_add(m, " (an exponent is written with E)");
+  const bool exponent = memchr(w->text, 'D', w->length) || memchr(w->text, 'd', w->length);
+  matrix_text_refuse(r, w->text, "%s, expected a finite %s%s%s", MATRIX_QUOTED(*w),
+                     r->integers ? "integer, as the banner says" : "number",
+                     memchr(w->text, ',', w->length) ? " (the decimal sign is a point)" : "",
+                     exponent ? " (an exponent is written with E)" : "");
   return false;
 }
 

@@ -17,11 +17,15 @@ typedef struct matrix_word {
   size_t length;
 } matrix_word;
 
+typedef enum matrix_symmetry { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matrix_symmetry;
+
 typedef struct matrix_text {
   const char *name, *text, *end;
-  const char *comment;   /* what lines of comment start with */
-  bool commas;           /* words are parted by commas or blanks; else by blanks alone */
-  bool integers;         /* numbers must be */
+  const char *comment; /* what lines of comment start with */
+  bool commas;         /* words are parted by commas or blanks; else by blanks alone */
+  bool integers;       /* numbers must be */
+  bool coordinate;     /* of Matrix Market: each entry with its row and column */
+  matrix_symmetry symmetry;
   const char *line_text; /* of the line being read */
   const char *next;      /* the line after it      */
   size_t line;           /* its number, from 1     */
@@ -49,16 +53,16 @@ void matrix_text_rewind(matrix_text *r);
 bool matrix_text_line(matrix_text *r);
 bool matrix_text_next(matrix_text *r);
 
+#define MATRIX_QUOTED(word) QUOTED((word).text, (word).length)
+
 /* Is it that word, in any case of letters? `name` is in lower case. */
 bool matrix_word_is(const matrix_word *w, const char *name);
 
-/* Start the message with the place of `at` in the current line; with the end of the text, where matrix_text_next has
- * come to; with the place of word i and the word itself. */
+/* Start the message with the place of `at` in the current line, or for NULL of the end of the text, where
+ * matrix_text_next has come to. */
 message *matrix_text_blame(matrix_text *r, const char *at);
-message *matrix_text_blame_end(matrix_text *r);
-message *matrix_text_blame_word(matrix_text *r, int i);
 
-/* The whole message, printf-style, about the place of `at`. Always HC_BAD_INPUT. */
+/* The whole message, printf-style, about that place. Always HC_BAD_INPUT. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif

@@ -83,8 +83,9 @@ static bool find_row(matrix_text *r, int first, int *row)
   const matrix_label *found = bsearch(&label, r->labels, (size_t)r->n, sizeof *r->labels, by_node);
   if (found) *row = (int)(found - r->labels);
   else
-    message_add(matrix_text_blame(r, r->words[first].text),
-                "DOF %d of node %d has no entry on the diagonal, expected one of every DOF", label.dof, label.node);
+    matrix_text_refuse(r, r->words[first].text,
+                       "DOF %d of node %d has no entry on the diagonal, expected one of every DOF", label.dof,
+                       label.node);
   return found != NULL;
 }
 
@@ -149,10 +150,7 @@ static hc_status parse(matrix_text *r, hc_status (*count)(matrix_text *, int *))
   bool lower, upper;
   matrix_text_rewind(r);
   hc_status st = count(r, &n);
-  if (st == HC_OK && n == 0) {
-    message_add(matrix_text_blame_end(r), "no entries on the diagonal, expected a matrix");
-    st = HC_BAD_INPUT;
-  }
+  if (st == HC_OK && n == 0) st = matrix_text_refuse(r, NULL, "no entries on the diagonal, expected a matrix");
   if (st == HC_OK) st = matrix_text_check_rows(r, n);
   if (st == HC_OK) st = matrix_text_square(r, n);
   matrix_text_rewind(r);
