@@ -360,11 +360,11 @@ static bool is_smooth(const drawn *d, const double *y)
   for (int j = 0; j < d->scaled.n_contacts; ++j) {
     const scaled_contact *c = &d->scaled.contact[j];
     double u[2] = {0}, v;
-    if (!c->law.has_friction || c->second) continue;
-    if (c->circle) scaled_planar_motion(&d->scaled, j, y, u, &v);
-    else scaled_contact_motion(&d->scaled, j, y, u, &v);
+    if (!c->law.has_friction || c->direction > 0) continue;
+    scaled_contact_motion(&d->scaled, j, y, u, &v);
     const double n = c->law.kn > 0 ? c->law.kn * (v + c->law.gap) : c->law.load;
-    const double *w = y + 2 * d->scaled.n + j, t = c->law.kt * hypot(u[0] - w[0], c->circle ? u[1] - w[1] : 0);
+    const double *w = y + 2 * d->scaled.n + j,
+                 t = c->law.kt * hypot(u[0] - w[0], c->kind->directions > 1 ? u[1] - w[1] : 0);
     if (fabs(n) < 1e-3 || (n > 0 && fabs(t - c->law.mu * n) < 1e-3)) return false;
   }
   return true;

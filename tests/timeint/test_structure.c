@@ -241,10 +241,9 @@ static void follow_with_sliders(const scaled_model *m, const double *y, int q, d
   const int n = m->n;
   for (int j = 0; j < m->n_contacts; ++j) {
     const double *t = m->base->tangent + j * n, *normal = m->base->normal + j * n;
-    contact_motion at;
-    scaled_contact_motion(m, j, y, &at.u, &at.v);
-    scaled_contact_motion(m, j, y + n, &at.du, &at.dv);
-    const contact_track begun = contact_track_begin(&m->contact[j], &at, y[2 * n + j]);
+    const contact_motion at = contact_motion_at(m, j, y);
+    contact_track begun;
+    contact_track_begin(&begun, &m->contact[j], &at, &y[2 * n + j]);
     if (begun.since_start || q >= n) continue;
     z[2 * n + j] += contact_track_vary_slider(&begun, &m->contact[j], by * t[q], by * normal[q]);
   }
@@ -288,12 +287,11 @@ static void check_monodromy(const drawn *d, int step, int *compared, int *off)
   memcpy(z, y, sizeof y);
   assert_int_equal(integrate_monodromy(in, &d->scaled, z, phi), HC_OK);
   for (int q = 0; q < n; q += q < moving ? step : 1) {
-    contact_motion at = {0};
     if (q >= moving) {
-      const int j = q - moving;
-      scaled_contact_motion(&d->scaled, j, y, &at.u, &at.v);
-      scaled_contact_motion(&d->scaled, j, y + d->scaled.n, &at.du, &at.dv);
-      if (!contact_track_begin(&d->scaled.contact[j], &at, y[q]).since_start) continue; /* tied to the motion */
+      const contact_motion at = contact_motion_at(&d->scaled, q - moving, y);
+      contact_track begun;
+      contact_track_begin(&begun, &d->scaled.contact[q - moving], &at, &y[q]);
+      if (!begun.since_start) continue; /* tied to the motion */
     }
     *compared += moving;
     *off += differences_off(d, in, y, phi, q);

@@ -97,10 +97,10 @@ hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base,
   v->state = calloc(states, sizeof *v->state);
   v->track = calloc(states, sizeof *v->track);
   if (!v->rows || !v->state || !v->track) return HC_NO_MEMORY;
-  v->du = v->rows + states * states;
-  v->dv = v->du + states;
-  v->du2 = v->dv + states;
-  v->y = v->du2 + states;
+  v->du[0] = v->rows + states * states;
+  v->du[1] = v->du[0] + states;
+  v->dv = v->du[1] + states;
+  v->y = v->dv + states;
   hc_status st = series_columns_make(&v->series, base);
   if (st == HC_OK && base->n_planar > 0) st = motion_series_make(&v->motion, base);
   return st == HC_OK && modes ? modes_columns_make(&v->by_modes, base) : st;
@@ -130,66 +130,62 @@ static void project(const fundamental_matrix *v, const double *along, double *re
 }
 
 /* v->du and v->dv of contact j. */
-static void find_motion(fundamental_matrix *v, const modal_base *b, int j)
+static void find_motion(fundamental_matrix *v, const scaled_model *m, int j)
 {
-  project(v, b->tangent + (size_t)j * (size_t)b->n, v->du);
-  project(v, b->normal + (size_t)j * (size_t)b->n, v->dv);
+  const size_t n = (size_t)v->n, at = (size_t)j * n;
+  for (int a = 0; a < scaled_directions(m, j); ++a) project(v, m->base->tangent + at + (size_t)a * n, v->du[a]);
+  project(v, m->base->normal + at, v->dv);
 }
 
-/* ---- circles --------------------------------------------------------------------------------------------- */
-
-/* v->du, v->du2 and v->dv of the circle whose first direction is j. */
-static void find_planar(fundamental_matrix *v, const modal_base *b, int j)
-{
-  project(v, b->tangent + (size_t)(j + 1) * (size_t)b->n, v->du2);
-  find_motion(v, b, j);
-}
-
-/* dphi into the first slider's row, from those of a slider with |U - W| = R. */
-static void begin_to_turn(fundamental_matrix *v, const scaled_model *m, int j, const contact_track t[2], double radius)
+/* dphi of two directions into the first slider's row, from those of a slider with |U - W| = R. */
+static void begin_to_turn(fundamental_matrix *v, const scaled_model *m, int j, const contact_track *t, double radius)
 {
   double *one = slider_of(v, j), *two = slider_of(v, j + 1);
-  find_planar(v, m->base, j);
+  find_motion(v, m, j);
   for (int q = 0; q < v->n_columns; ++q)
-    one[q] = (t[0].along * (v->du2[q] - two[q]) - t[1].along * (v->du[q] - one[q])) / radius;
+    one[q] = (t[0].along * (v->du[1][q] - two[q]) - t[1].along * (v->du[0][q] - one[q])) / radius;
 }
 
-/* dW of both from dphi in the first one's row. */
-static void tie_planar(fundamental_matrix *v, const scaled_model *m, int j, const contact_track t[2], double radius)
+/* dW of a slider that is tied to the motion; of two directions from dphi in the first one's row. */
+static void tie(fundamental_matrix *v, const scaled_model *m, int j, const contact_track *t, double radius)
 {
-  const law_regularised *law = &m->contact[j].law;
-  const double shrinks = law->mu * law->kn / law->kt;
-  double *one = slider_of(v, j), *two = slider_of(v, j + 1);
-  find_planar(v, m->base, j);
-  for (int q = 0; q < v->n_columns; ++q) {
-    const double angle = one[q];
-    one[q] = v->du[q] - shrinks * v->dv[q] * t[0].along + radius * t[1].along * angle;
-    two[q] = v->du2[q] - shrinks * v->dv[q] * t[1].along - radius * t[0].along * angle;
+  const scaled_contact *c = &m->contact[j];
+  const bool turned = c->kind->directions > 1 && t->state != CONTACT_SEPARATED;
+  const double by_angle[2] = {turned ? radius * t[1].along : 0, turned ? -radius * t[0].along : 0};
+  find_motion(v, m, j);
+  for (int a = c->kind->directions - 1; a >= 0; --a) { /* the first last: its row is dphi */
+    const double *angle = slider_of(v, j);
+    double *row = slider_of(v, j + a);
+    for (int q = 0; q < v->n_columns; ++q)
+      row[q] = contact_track_vary_slider(&t[a], c, v->du[a][q], v->dv[q]) + (turned ? by_angle[a] * angle[q] : 0);
   }
 }
 
-/* At the start of a period, where w has just been put on the circle: dphi; dW where it sticks there. */
-static void begin_planar(fundamental_matrix *v, const scaled_model *m, int j, const contact_track t[2], const double *y)
+/* At the start of a period, where w has just been put on the limit: dphi; dW where it sticks there. */
+static void begin_on_limit(fundamental_matrix *v, const scaled_model *m, int j, const contact_track *t, const double *y)
 {
   const double *w = y + 2 * v->n + j;
   double u[2], normal;
-  if (t->state == CONTACT_SEPARATED || t->since_start) return;
-  scaled_planar_motion(m, j, y, u, &normal);
-  begin_to_turn(v, m, j, t, hypot(u[0] - w[0], u[1] - w[1]));
-  if (t->state == CONTACT_STICK) tie_planar(v, m, j, t, planar_track_radius(&m->contact[j], normal));
+  scaled_contact_motion(m, j, y, u, &normal);
+  if (scaled_directions(m, j) > 1) begin_to_turn(v, m, j, t, hypot(u[0] - w[0], u[1] - w[1]));
+  if (t->state == CONTACT_STICK) tie(v, m, j, t, contact_track_radius(&m->contact[j], normal));
 }
 
-void fundamental_matrix_planar(fundamental_matrix *v, const scaled_model *m, int j, const contact_track before[2],
-                               const contact_track after[2], const planar_contact_motion *at)
+void fundamental_matrix_pass(fundamental_matrix *v, const scaled_model *m, int j, const contact_track *before,
+                             const contact_track *after, const contact_motion *at)
 {
-  const double radius = planar_track_radius(&m->contact[j], at->v);
-  if (before->state == CONTACT_STICK && after->state == CONTACT_SLIP_PLUS) begin_to_turn(v, m, j, after, radius);
-  if (before->state == CONTACT_SLIP_PLUS && after->state == CONTACT_STICK) tie_planar(v, m, j, before, radius);
-  if (before->state != CONTACT_SEPARATED || after->state != CONTACT_STICK) return;
-  for (int a = 0; a < 2; ++a) {
-    const contact_motion one = {at->u[a], at->v, at->du[a], at->dv};
-    fundamental_matrix_stick(v, m, j + a, CONTACT_SEPARATED, &one);
+  const double radius = contact_track_radius(&m->contact[j], at->v);
+  if (!m->contact[j].law.has_friction) return;
+  if (before->state == CONTACT_STICK && after->turns) begin_to_turn(v, m, j, after, radius);
+  if (after->state != CONTACT_STICK) return;
+  if (before->state != CONTACT_SEPARATED) {
+    tie(v, m, j, before, radius);
+    return;
   }
+  find_motion(v, m, j);
+  for (int a = 0; a < scaled_directions(m, j); ++a)
+    for (int q = 0; q < v->n_columns; ++q)
+      slider_of(v, j + a)[q] = contact_track_vary_touch(at, a, v->du[a][q], v->dv[q]);
 }
 
 void fundamental_matrix_follow(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
@@ -200,17 +196,12 @@ void fundamental_matrix_follow(fundamental_matrix *v, const scaled_model *m, con
   memcpy(v->track, track, (size_t)m->n_contacts * sizeof *track);
 }
 
-static bool has_slipping_planar(const scaled_model *m, const contact_track *track)
+/* Does a slip turn, or would if it were not held? */
+static bool has_slip_that_turns(const scaled_model *m, const contact_track *track)
 {
   for (int j = 0; j < m->n_contacts; ++j)
-    if (m->contact[j].circle && track[j].state == CONTACT_SLIP_PLUS) return true;
+    if (m->contact[j].kind->hold && contact_slip_sign(track[j].state) != 0) return true;
   return false;
-}
-
-/* Does the period begin with the slider of the circle, of which j is a direction, on it? */
-static bool is_on_circle(const scaled_model *m, const contact_track *track, int j)
-{
-  return (m->contact[j].circle || m->contact[j].second) && track[j].state != CONTACT_SEPARATED;
 }
 
 /* A step from v->theta of the motion and its columns together, up to `most`. Its length; 0: not finite. */
@@ -240,13 +231,11 @@ static hc_status advance_along(fundamental_matrix *v, const scaled_model *m, dou
   return HC_OK;
 }
 
-/* ---------------------------------------------------------------------------------------------------------- */
-
 /* A single mass: its columns in closed form. The response to a constant force 1 from rest is `step` in X, e01 in P. */
 static void advance_single(fundamental_matrix *v, const scaled_model *m, const contact_track *track, double span)
 {
   const modal_base *b = m->base;
-  double *x = row_of(v, 0), *p = row_of(v, 1), *pull = v->du, e[2][2], k = m->by_K * b->K[0];
+  double *x = row_of(v, 0), *p = row_of(v, 1), *pull = v->du[0], e[2][2], k = m->by_K * b->K[0];
   const double c = m->by_C * b->C[0];
   memset(pull, 0, (size_t)v->n_columns * sizeof *pull);
   for (int j = 0; j < m->n_contacts; ++j) {
@@ -271,18 +260,16 @@ void fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, cons
   v->n_columns = 0;
   for (int i = 0; i < v->n_states; ++i) {
     const int j = i - 2 * v->n;
-    const bool moves = j < 0 || (m->contact[j].law.has_friction && (track[j].since_start || is_on_circle(m, track, j)));
+    const bool on_limit = j >= 0 && scaled_directions(m, j) > 1 && track[j].state != CONTACT_SEPARATED; /* w says e */
+    const bool moves = j < 0 || (m->contact[j].law.has_friction && (track[j].since_start || on_limit));
     if (!moves) continue;
     row_of(v, i)[v->n_columns] = 1;
     v->state[v->n_columns++] = i;
   }
-  for (int j = 0; j < m->n_contacts; ++j) { /* on its limit: put there, as the motion has it */
+  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     const contact_track *t = &track[j];
-    if (m->contact[j].circle) begin_planar(v, m, j, t, y);
-    if (m->contact[j].circle || m->contact[j].second) continue;
-    if (t->state != CONTACT_STICK || !m->contact[j].law.has_friction || t->since_start) continue;
-    const contact_state slip = t->limit > 0 ? CONTACT_SLIP_PLUS : CONTACT_SLIP_MINUS;
-    fundamental_matrix_stick(v, m, j, slip, &(contact_motion){0});
+    if (t->state != CONTACT_SEPARATED && m->contact[j].law.has_friction && !t->since_start)
+      begin_on_limit(v, m, j, t, y);
   }
 }
 
@@ -290,7 +277,7 @@ hc_status fundamental_matrix_advance(fundamental_matrix *v, const scaled_model *
                                      double theta)
 {
   const double span = theta - v->theta;
-  if (m->base->n_planar > 0 && has_slipping_planar(m, v->track)) return advance_along(v, m, theta);
+  if (m->base->n_planar > 0 && has_slip_that_turns(m, v->track)) return advance_along(v, m, theta);
   v->theta = theta;
   if (!(span > 0)) return HC_OK;
   if (m->n == 1) {
@@ -309,33 +296,15 @@ hc_status fundamental_matrix_advance(fundamental_matrix *v, const scaled_model *
   return series_columns_advance(&v->series, m, span, v->n_columns, v->n_states, v->rows);
 }
 
-void fundamental_matrix_stick(fundamental_matrix *v, const scaled_model *m, int j, contact_state before,
-                              const contact_motion *at)
-{
-  if (!m->contact[j].law.has_friction) return;
-  double *slider = slider_of(v, j);
-  find_motion(v, m->base, j);
-  for (int q = 0; q < v->n_columns; ++q)
-    slider[q] = contact_track_vary_rest(&m->contact[j], before, at, v->du[q], v->dv[q]);
-}
-
 void fundamental_matrix_end(fundamental_matrix *v, const scaled_model *m, const contact_track *track, const double *y,
                             double *monodromy)
 {
   const size_t n = (size_t)v->n_states;
-  for (int j = 0; j < m->n_contacts; ++j) {
+  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
+    double u[2], normal;
     if (m->contact[j].law.has_friction && track[j].state == CONTACT_STICK) continue;
-    if (track[j].state != CONTACT_SEPARATED && (m->contact[j].circle || m->contact[j].second)) {
-      double u[2], normal;
-      if (m->contact[j].second) continue;
-      scaled_planar_motion(m, j, y, u, &normal);
-      tie_planar(v, m, j, &track[j], planar_track_radius(&m->contact[j], normal));
-      continue;
-    }
-    double *slider = slider_of(v, j);
-    find_motion(v, m->base, j);
-    for (int q = 0; q < v->n_columns; ++q)
-      slider[q] = contact_track_vary_slider(&track[j], &m->contact[j], v->du[q], v->dv[q]);
+    scaled_contact_motion(m, j, y, u, &normal);
+    tie(v, m, j, &track[j], contact_track_radius(&m->contact[j], normal));
   }
   memset(monodromy, 0, n * n * sizeof *monodromy);
   for (int q = 0; q < v->n_columns; ++q)

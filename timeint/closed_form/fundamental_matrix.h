@@ -1,7 +1,7 @@
 /* fundamental_matrix.h - the monodromy matrix of a period of the exact law of a structure, from one change of contact
  * state to the next. In an interval a variation of the motion obeys the same linear equation without its loads
  * (series_columns.h, or complex modes where that is less work); all forces are continuous, so that a transition
- * changes no column but in the rows of sliders that begin to stick there (contact_track.h). A circle that slips has an
+ * changes no column but in the rows of sliders that begin to stick there (contact_track.h). A slip that turns has an
  * angle, e = (cos phi, sin phi), that varies, too: dphi = (dU - dW).e_perp/R where it begins, and
  *     dW = dU - dR e - R e_perp dphi
  * where it sticks again. Meanwhile the motion itself is integrated once more, by its series, beside its columns. */
@@ -25,12 +25,11 @@ typedef struct fundamental_matrix { /* from fundamental_matrix_make, to fundamen
   int n, n_states;                  /* modes; 2 n + contacts */
   double theta;                     /* up to which `rows` has come */
   int n_columns, *state;            /* [n_states] the first of them: states that the motion depends on, ascending */
-  double *rows;    /* [n_states][n_states] row i is that of state i, column q that of state[q]; a slider's row is valid
-                   while its contact sticks; while a circle slips that of its first is that of e's angle */
-  double *du, *dv; /* [n_states] of a contact, all columns */
-  double *du2;     /* [n_states] of a circle's second direction */
-  double *y;       /* [2 n] the motion at `theta`, and its contacts, */
-  contact_track *track; /* [n_contacts] where a circle slips */
+  double *rows;         /* [n_states][n_states] row i is that of state i, column q that of state[q]; a slider's row is
+                   valid while its contact sticks; while a slip turns that of its first is that of e's angle */
+  double *du[2], *dv;   /* [n_states] of a contact, all columns */
+  double *y;            /* [2 n] the motion at `theta`, and its contacts, */
+  contact_track *track; /* [n_contacts] where a slip turns */
   motion_series motion; /* of that */
   series_columns series;
   modes_columns by_modes;
@@ -54,13 +53,9 @@ void fundamental_matrix_follow(fundamental_matrix *v, const scaled_model *m, con
 hc_status fundamental_matrix_advance(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
                                      double theta);
 
-/* At v->theta contact j, in state `before` up to there, has begun to stick. */
-void fundamental_matrix_stick(fundamental_matrix *v, const scaled_model *m, int j, contact_state before,
-                              const contact_motion *at);
-
-/* The same of the circle whose first direction is j, from before[2] to after[2]. */
-void fundamental_matrix_planar(fundamental_matrix *v, const scaled_model *m, int j, const contact_track before[2],
-                               const contact_track after[2], const planar_contact_motion *at);
+/* At v->theta contact j, its tracks `before` up to there, has come to after[], at that motion. */
+void fundamental_matrix_pass(fundamental_matrix *v, const scaled_model *m, int j, const contact_track *before,
+                             const contact_track *after, const contact_motion *at);
 
 /* The rows of sliders that are tied to the motion y[2 n], when the period is over. */
 void fundamental_matrix_end(fundamental_matrix *v, const scaled_model *m, const contact_track *track, const double *y,

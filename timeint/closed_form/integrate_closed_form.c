@@ -6,12 +6,10 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "numerics/norm.h"
 #include "timeint/closed_form/fundamental_matrix.h"
 #include "timeint/closed_form/motion_modes.h"
 #include "timeint/closed_form/motion_series.h"
 #include "timeint/closed_form/motion_single.h"
-#include "timeint/law/slider_travel.h"
 #include "timeint/period/integrate_private.h"
 
 enum {
@@ -23,10 +21,9 @@ typedef struct by_series { /* from integrate_new_closed_form, to integrate_free;
   int n, n_contacts;
   const scaled_model *m; /* of the period under way; the caller's */
   contact_track *track;  /* [n_contacts] now */
-  slider_travel travel;
-  double theta, length; /* where the present step began, and its length */
-  double *y, *end;      /* [2 n] the motion there, and at its end */
-  double *response;     /* [TRACK_ORDER + 1] of one response */
+  double theta, length;  /* where the present step began, and its length */
+  double *y, *end;       /* [2 n] the motion there, and at its end */
+  double *response;      /* [TRACK_ORDER + 1] of one response */
   motion_series series;
   interval_modes *modes; /* or NULL */
   motion_modes stiff;    /* the motion since stiff.theta, where by_modes */
@@ -36,46 +33,25 @@ typedef struct by_series { /* from integrate_new_closed_form, to integrate_free;
   fundamental_matrix variations;
 } by_series;
 
-static contact_motion motion_of(const by_series *in, int j, const double *y)
-{
-  const double *t = in->m->base->tangent + (size_t)j * (size_t)in->n,
-               *n = in->m->base->normal + (size_t)j * (size_t)in->n;
-  return (contact_motion){dot_product(in->n, t, y), dot_product(in->n, n, y), dot_product(in->n, t, y + in->n),
-                          dot_product(in->n, n, y + in->n)};
-}
-
-static planar_contact_motion planar_of(const by_series *in, int j, const double *y)
-{
-  const contact_motion one = motion_of(in, j, y), two = motion_of(in, j + 1, y);
-  return (planar_contact_motion){{one.u, two.u}, one.v, {one.du, two.du}, one.dv};
-}
-
 static hc_status begin(by_series *in, const double *y)
 {
   double size = 0;
   for (int i = 0; i < in->m->n_states; ++i) size += fabs(y[i]);
   if (!isfinite(size)) return HC_NOT_FINITE;
   memcpy(in->y, y, 2 * (size_t)in->n * sizeof *y);
-  for (int j = 0; j < in->n_contacts; ++j) {
-    const scaled_contact *c = &in->m->contact[j];
-    const contact_motion at = motion_of(in, j, y);
-    if (c->circle) {
-      const planar_contact_motion both = planar_of(in, j, y);
-      planar_track_begin(&in->track[j], c, &both, y + 2 * in->n + j);
-    } else if (!c->second) {
-      in->track[j] = contact_track_begin(c, &at, y[2 * in->n + j]);
-    }
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
+    const contact_motion at = contact_motion_at(in->m, j, y);
+    contact_track_begin(&in->track[j], &in->m->contact[j], &at, y + 2 * in->n + j);
   }
-  slider_travel_begin(&in->travel, in->track, y + 2 * in->n);
   return HC_OK;
 }
 
-/* Does a circle touch? Its guard is no sum of exponentials. */
-static bool has_closed_planar(const by_series *in)
+/* Are all guards linear in the motion, and so sums of exponentials? */
+static bool guards_are_linear(const by_series *in)
 {
   for (int j = 0; j < in->n_contacts; ++j)
-    if (in->m->contact[j].circle && in->track[j].state != CONTACT_SEPARATED) return true;
-  return false;
+    if (!contact_track_is_linear(&in->track[j], &in->m->contact[j])) return false;
+  return true;
 }
 
 /* Is the motion from in->theta on one by complex modes? Then it is in in->stiff. */
@@ -83,10 +59,10 @@ static hc_status choose(by_series *in)
 {
   const complex_modes *modes;
   const double omega = 1 / in->m->by_C;
+  const bool linear = guards_are_linear(in);
   in->by_modes = false;
-  in->by_single = in->fits_single && !has_closed_planar(in);
-  if (in->by_single) return HC_OK;
-  if (!interval_modes_pay(in->modes, omega, INFINITY) || has_closed_planar(in)) return HC_OK;
+  in->by_single = in->fits_single && linear;
+  if (in->by_single || !linear || !interval_modes_pay(in->modes, omega, INFINITY)) return HC_OK;
   hc_status st = interval_modes_of(in->modes, in->m, in->track, &modes);
   if (st == HC_OK && modes) in->by_modes = motion_modes_begin(&in->stiff, modes, in->m, in->track, in->theta, in->y);
   return st;
@@ -96,7 +72,7 @@ static hc_status choose(by_series *in)
 static int find_event(by_series *in, track_event *event)
 {
   int first = -1;
-  for (int j = 0; j < in->n_contacts; ++j) {
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
     track_guard guard[TRACK_GUARDS];
     const int n = motion_series_guards(&in->series, in->m, in->track, j, guard);
     for (int g = 0; g < n; ++g) {
@@ -113,51 +89,40 @@ static int find_event(by_series *in, track_event *event)
 /* The motion of contact j at the end of the step. */
 static contact_motion contact_at_end(const by_series *in, int j)
 {
-  if (in->by_single) return motion_of(in, j, in->end);
-  if (in->by_modes) return motion_modes_contact(&in->stiff, j, in->theta + in->length - in->stiff.theta);
-  return motion_series_contact(&in->series, j, in->length);
-}
-
-/* The circle whose first direction is j. */
-static void pass_planar(by_series *in, int j, track_event event, bool varies)
-{
-  const contact_track before[2] = {in->track[j], in->track[j + 1]};
-  contact_motion at[2];
-  for (int a = 0; a < 2; ++a) at[a] = contact_at_end(in, j + a);
-  const planar_contact_motion both = {{at[0].u, at[1].u}, at->v, {at[0].du, at[1].du}, at->dv};
-  planar_track_pass(&in->track[j], &in->m->contact[j], event, &both);
-  slider_travel_note_planar(&in->travel, &in->m->contact[j], in->track, j, &both);
-  if (varies) fundamental_matrix_planar(&in->variations, in->m, j, before, &in->track[j], &both);
+  const int directions = scaled_directions(in->m, j);
+  if (in->by_single) return contact_motion_at(in->m, j, in->end);
+  if (in->by_modes) return motion_modes_contact(&in->stiff, j, directions, in->theta + in->length - in->stiff.theta);
+  return motion_series_contact(&in->series, j, directions, in->length);
 }
 
 /* Contact j at the end of the step. */
 static hc_status pass(by_series *in, int j, track_event event, bool varies, int *count)
 {
+  const scaled_contact *c = &in->m->contact[j];
+  contact_track *t = &in->track[j];
+  const contact_track before[2] = {t[0], t[c->kind->directions - 1]};
   const contact_motion at = contact_at_end(in, j);
-  const bool circle = in->m->contact[j].circle;
-  const contact_state before = in->track[j].state;
-  *count += circle ? 1 : contact_track_counts(&in->track[j], event, in->theta + in->length);
+  *count += c->kind->counts(t, event, in->theta + in->length);
   if (*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
   if (varies) {
     hc_status st = fundamental_matrix_advance(&in->variations, in->m, in->track, in->theta + in->length);
     if (st != HC_OK) return st;
   }
-  if (circle) pass_planar(in, j, event, varies);
-  else contact_track_pass(&in->track[j], &in->m->contact[j], event, &at);
-  if (!circle) slider_travel_note(&in->travel, &in->m->contact[j], in->track, j, &at);
+  contact_track_pass(t, c, event, &at);
+  contact_track_note(t, c, &at);
   if (!varies) return HC_OK;
-  if (!circle && in->track[j].state == CONTACT_STICK) fundamental_matrix_stick(&in->variations, in->m, j, before, &at);
+  fundamental_matrix_pass(&in->variations, in->m, j, before, t, &at);
   fundamental_matrix_follow(&in->variations, in->m, in->track, in->end);
   return HC_OK;
 }
 
 /* At the end of the step. */
-static void note_slipping_planar(by_series *in)
+static void note_turning(by_series *in)
 {
-  for (int j = 0; j < in->n_contacts; ++j) {
-    if (!in->m->contact[j].circle || !planar_track_turns(&in->track[j])) continue;
-    const planar_contact_motion at = planar_of(in, j, in->end);
-    slider_travel_note_planar(&in->travel, &in->m->contact[j], in->track, j, &at);
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
+    if (!in->track[j].turns) continue;
+    const contact_motion at = contact_motion_at(in->m, j, in->end);
+    contact_track_note(&in->track[j], &in->m->contact[j], &at);
   }
 }
 
@@ -167,7 +132,7 @@ static hc_status end_step(by_series *in, int changing, track_event event, bool v
   hc_status st = changing >= 0 ? pass(in, changing, event, varies, count) : HC_OK;
   if (st != HC_OK) return st;
   memcpy(in->y, in->end, 2 * (size_t)in->n * sizeof *in->y);
-  note_slipping_planar(in);
+  note_turning(in);
   in->theta = theta;
   return HC_OK;
 }
@@ -198,8 +163,7 @@ static hc_status interval_by_modes(by_series *in, bool varies, integrate_watch *
   track_event event = TRACK_STICKS;
   const double from = in->theta, left = TWO_PI - from;
   double span = left;
-  const int direction = motion_modes_first_event(&in->stiff, in->m, in->track, &span, &event);
-  const int changing = direction < 0 ? -1 : scaled_first(in->m, direction);
+  const int changing = motion_modes_first_event(&in->stiff, in->m, in->track, &span, &event);
   const double end = span < left ? from + span : TWO_PI;
   const int steps = watch ? 1 + (int)(span / INTEGRATE_LONGEST_STEP) : 1;
   ++in->base.rhs;
@@ -247,36 +211,19 @@ static hc_status run(by_series *in, bool varies, integrate_watch *watch, void *s
   return HC_OK;
 }
 
-/* The directions of the circle whose first is j, at tau of the step; NAN: where the step has ended. */
-static void turned(const by_series *in, int j, double tau, contact_track circle[2])
-{
-  double e[2];
-  for (int a = 0; a < 2; ++a) circle[a] = in->track[j + a];
-  if (isnan(tau) || in->by_modes || in->by_single || in->series.planar_of[j] < 0) return;
-  planar_series_direction(&in->series.circle[in->series.planar_of[j]], tau, e);
-  for (int a = 0; a < 2; ++a) circle[a].along = e[a];
-}
-
-/* Sliders of the motion y (order 0), or their rates where y is its derivative. */
+/* Sliders of the motion y (order 0), or their rates where y is its derivative, at tau of the step; NAN: where it has
+ * ended. */
 static void put_sliders(const by_series *in, double tau, int order, double *y)
 {
+  const bool inside = !(isnan(tau) || in->by_modes || in->by_single);
   double *w = y + 2 * in->n;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
     const scaled_contact *c = &in->m->contact[j];
-    const contact_track *t = &in->track[j];
-    const contact_motion at = motion_of(in, j, y);
-    const bool sticks = t->state == CONTACT_STICK && c->law.has_friction;
-    if (c->circle) {
-      contact_track circle[2];
-      const planar_contact_motion both = planar_of(in, j, y);
-      turned(in, j, tau, circle);
-      if (order == 0) planar_track_slider(circle, c, &both, w + j);
-      else planar_track_slider_rate(circle, c, both.u, both.v, w + j);
-    } else if (order == 0) {
-      w[j] = contact_track_slider(t, c, &at);
-    } else {
-      w[j] = sticks ? 0 : contact_track_vary_slider(t, c, at.u, at.v);
-    }
+    const contact_motion at = contact_motion_at(in->m, j, y);
+    contact_track t[2] = {in->track[j], in->track[j + c->kind->directions - 1]};
+    if (inside) motion_series_direction(&in->series, j, tau, t);
+    if (order == 0) contact_track_slider(t, c, &at, w + j);
+    else contact_track_slider_rate(t, c, &at, w + j);
   }
 }
 
@@ -299,7 +246,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   if (st != HC_OK) return st;
   memcpy(y, in->y, 2 * (size_t)in->n * sizeof *y);
   put_sliders(in, NAN, 0, y);
-  slider_travel_end(&in->travel, in->track, y + 2 * in->n);
+  contact_track_end(in->track, in->n_contacts, y + 2 * in->n);
   if (monodromy) fundamental_matrix_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
 }
@@ -394,7 +341,7 @@ static contact_state state(const integrator *base, int j, const double *y)
   return ((const by_series *)base)->track[j].state;
 }
 
-static double travel(const integrator *base, int j) { return ((const by_series *)base)->travel.most[j]; }
+static double travel(const integrator *base, int j) { return ((const by_series *)base)->track[j].most; }
 
 static hc_status tolerance(integrator *base, double ignored)
 {
@@ -406,7 +353,6 @@ static void release(integrator *base)
 {
   by_series *in = (by_series *)base;
   fundamental_matrix_free(&in->variations);
-  slider_travel_free(&in->travel);
   motion_series_free(&in->series);
   motion_modes_free(&in->stiff);
   motion_single_free(&in->single);
@@ -443,7 +389,6 @@ hc_status integrate_new_closed_form(const modal_base *base, double stiff, integr
   in->fits_single = motion_single_fits(base);
   if (st == HC_OK && in->fits_single) st = motion_single_make(&in->single, base);
   if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes);
-  if (st == HC_OK) st = slider_travel_make(&in->travel, base->n_contacts);
   if (st == HC_OK) {
     in->end = in->y + 2 * n;
     in->response = in->y + 4 * n;

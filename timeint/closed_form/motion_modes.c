@@ -188,10 +188,10 @@ void motion_modes_at(motion_modes *mm, double tau, int order, double *out)
   }
 }
 
-contact_motion motion_modes_contact(const motion_modes *mm, int j, double tau)
+contact_motion motion_modes_contact(const motion_modes *mm, int j, int directions, double tau)
 {
   contact_motion at;
-  at.u = exponential_sum_at(&mm->e, &mm->u[j], tau, &at.du);
+  for (int a = 0; a < directions; ++a) at.u[a] = exponential_sum_at(&mm->e, &mm->u[j + a], tau, &at.du[a]);
   at.v = exponential_sum_at(&mm->e, &mm->v[j], tau, &at.dv);
   return at;
 }
@@ -213,9 +213,9 @@ int motion_modes_first_event(motion_modes *mm, const scaled_model *m, const cont
                              track_event *event)
 {
   int n = 0;
-  for (int j = 0; j < mm->base->n_contacts; ++j) {
+  for (int j = 0; j < mm->base->n_contacts; j += scaled_directions(m, j)) {
     track_condition conditions[TRACK_GUARDS];
-    const contact_motion at = motion_modes_contact(mm, j, 0);
+    const contact_motion at = motion_modes_contact(mm, j, scaled_directions(m, j), 0);
     const int more = contact_track_conditions(&track[j], &m->contact[j], conditions);
     for (int i = 0; i < more; ++i, ++n) {
       mm->guard[n].noise = contact_track_noise(&conditions[i], &m->contact[j], &at);

@@ -39,8 +39,8 @@ bool motion_modes_begin(motion_modes *mm, const complex_modes *modes, const scal
 /* X and X' (order 0), or X' and X'' (order 1), at tau: out[2n]. */
 void motion_modes_at(motion_modes *mm, double tau, int order, double *out);
 
-/* Of contact j at tau. */
-contact_motion motion_modes_contact(const motion_modes *mm, int j, double tau);
+/* Of contact j, in its `directions`, at tau. */
+contact_motion motion_modes_contact(const motion_modes *mm, int j, int directions, double tau);
 
 /* The first event up to *tau, which becomes its time: the contact; -1: none. */
 int motion_modes_first_event(motion_modes *mm, const scaled_model *m, const contact_track *track, double *tau,

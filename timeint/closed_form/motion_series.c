@@ -21,9 +21,8 @@ hc_status motion_series_make(motion_series *s, const modal_base *base)
   s->v = s->u ? s->u + TERMS * contacts : NULL;
   s->load = s->v ? s->v + TERMS * contacts : NULL;
   s->law = calloc(contacts + 1, sizeof *s->law);
-  s->circle = calloc((size_t)base->n_planar + 1, sizeof *s->circle);
-  s->planar_of = calloc(contacts + 1, sizeof *s->planar_of);
-  return s->x && s->u && s->law && s->circle && s->planar_of ? HC_OK : HC_NO_MEMORY;
+  s->turning = calloc((size_t)base->n_planar + 1, sizeof *s->turning);
+  return s->x && s->u && s->law && s->turning ? HC_OK : HC_NO_MEMORY;
 }
 
 void motion_series_free(motion_series *s)
@@ -31,8 +30,7 @@ void motion_series_free(motion_series *s)
   free(s->x);
   free(s->u);
   free(s->law);
-  free(s->circle);
-  free(s->planar_of);
+  free(s->turning);
 }
 
 static double largest(int n, const double *a)
@@ -82,44 +80,15 @@ static void subtract_contacts(const motion_series *s, const modal_base *b, int k
   }
 }
 
-static const double *tangent_of(const motion_series *s, const modal_base *b, int j)
+/* What T of the slips that turn takes from coefficient k. */
+static void subtract_turning(motion_series *s, const scaled_model *m, int k, double *force)
 {
-  return b->tangent + (size_t)j * (size_t)s->n;
-}
-
-/* What the circles that slip take from coefficient k. */
-static void subtract_planar(motion_series *s, const scaled_model *m, int k, double *force)
-{
-  for (int j = 0; j < s->n_contacts; ++j) {
+  for (planar_series *c = s->turning; c < s->turning + s->n_turning; ++c) {
+    const double *t = m->base->tangent + (size_t)c->contact * (size_t)s->n;
     double pull[2];
-    if (s->planar_of[j] < 0) continue;
-    planar_series_next(&s->circle[s->planar_of[j]], &m->contact[j], k, pull);
-    for (int a = 0; a < 2; ++a) {
-      const double *t = tangent_of(s, m->base, j + a);
-      for (int i = 0; i < s->n; ++i) force[i] -= t[i] * pull[a];
-    }
+    planar_series_next(c, &m->contact[c->contact], k, pull);
+    for (int i = 0; i < s->n; ++i) force[i] -= t[i] * pull[0] + t[s->n + i] * pull[1];
   }
-}
-
-static void begin_planar_contacts(motion_series *s, const scaled_model *m, const contact_track *track)
-{
-  int n = 0;
-  for (int j = 0; j < s->n_contacts; ++j) {
-    const size_t at = (size_t)j * TERMS;
-    s->planar_of[j] = -1;
-    if (!m->contact[j].circle || !planar_track_turns(&track[j])) continue;
-    s->planar_of[j] = n;
-    planar_series_begin(&s->circle[n++], &track[j], s->u + at, s->u + at + TERMS, s->v + at);
-  }
-}
-
-/* Up to where all of them are known. */
-static double planar_reach(const motion_series *s)
-{
-  double tau = INFINITY;
-  for (int j = 0; j < s->n_contacts; ++j)
-    if (s->planar_of[j] >= 0) tau = fmin(tau, planar_series_reach(&s->circle[s->planar_of[j]]));
-  return tau;
 }
 
 /* The tau up to which what is left out is rounding of what is kept, or of `size` if that is more. */
@@ -152,32 +121,24 @@ static double expand(motion_series *s, const scaled_model *m, bool loaded, doubl
     modal_base_subtract_K(b, m->by_K, x, force);
     modal_base_subtract_C(b, m->by_C * (k + 1), x + n, force);
     subtract_contacts(s, b, k, force);
-    subtract_planar(s, m, k, force);
+    subtract_turning(s, m, k, force);
     for (size_t i = 0; i < n; ++i) next[i] = force[i] / ((k + 1) * (k + 2));
     project(s, b, k + 2);
   }
-  for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) subtract_planar(s, m, k, s->force); /* for their directions */
-  return fmin(reach(s, loaded ? 1 : 0), planar_reach(s));                                  /* a motion is about 1 */
-}
-
-static planar_contact_motion planar_at(const scaled_model *m, int j, const double *y)
-{
-  planar_contact_motion at;
-  scaled_planar_motion(m, j, y, at.u, &at.v);
-  scaled_planar_motion(m, j, y + m->n, at.du, &at.dv);
-  return at;
+  for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) subtract_turning(s, m, k, s->force); /* for their directions */
+  double tau = reach(s, loaded ? 1 : 0);                                                    /* a motion is about 1 */
+  for (int i = 0; i < s->n_turning; ++i) tau = fmin(tau, planar_series_reach(&s->turning[i]));
+  return tau;
 }
 
 double motion_series_hold(const scaled_model *m, contact_track *track, const double *y)
 {
   double reach = INFINITY;
-  for (int j = 0; j < m->n_contacts; ++j) {
-    double left;
-    if (!m->contact[j].circle || track[j].state != CONTACT_SLIP_PLUS) continue;
-    const planar_contact_motion at = planar_at(m, j, y);
-    const bool holds = planar_track_holds(&track[j], &m->contact[j], &at, &left);
-    track[j].held = track[j + 1].held = holds;
-    if (holds) reach = fmin(reach, 4 * left);
+  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
+    const scaled_contact *c = &m->contact[j];
+    if (!c->kind->hold || contact_slip_sign(track[j].state) == 0) continue;
+    const contact_motion at = contact_motion_at(m, j, y);
+    reach = fmin(reach, c->kind->hold(&track[j], c, &at));
   }
   return reach;
 }
@@ -185,8 +146,13 @@ double motion_series_hold(const scaled_model *m, contact_track *track, const dou
 double motion_series_begin(motion_series *s, const scaled_model *m, const contact_track *track, double theta,
                            const double *y)
 {
-  for (int j = 0; j < s->n_contacts; ++j) s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
-  begin_planar_contacts(s, m, track);
+  s->n_turning = 0;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const size_t at = (size_t)j * TERMS;
+    s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
+    if (track[j].turns && m->contact[j].direction == 0)
+      planar_series_begin(&s->turning[s->n_turning++], j, &track[j], s->u + at, s->v + at);
+  }
   return expand(s, m, true, theta, y);
 }
 
@@ -205,45 +171,37 @@ void motion_series_at(const motion_series *s, double tau, int order, double *out
   }
 }
 
-contact_motion motion_series_contact(const motion_series *s, int j, double tau)
+contact_motion motion_series_contact(const motion_series *s, int j, int directions, double tau)
 {
   const double *u = s->u + (size_t)j * TERMS, *v = s->v + (size_t)j * TERMS;
-  return (contact_motion){series_value(u, tau), series_value(v, tau), series_slope(u, tau), series_slope(v, tau)};
+  contact_motion at = {.v = series_value(v, tau), .dv = series_slope(v, tau)};
+  for (int a = 0; a < directions; ++a, u += TERMS) at.u[a] = series_value(u, tau), at.du[a] = series_slope(u, tau);
+  return at;
 }
 
-planar_contact_motion motion_series_planar(const motion_series *s, int j, double tau)
+static const planar_series *turning_of(const motion_series *s, int j)
 {
-  const contact_motion one = motion_series_contact(s, j, tau), two = motion_series_contact(s, j + 1, tau);
-  return (planar_contact_motion){{one.u, two.u}, one.v, {one.du, two.du}, one.dv};
+  for (int i = 0; i < s->n_turning; ++i)
+    if (s->turning[i].contact == j) return &s->turning[i];
+  return NULL;
+}
+
+void motion_series_direction(const motion_series *s, int j, double tau, contact_track *t)
+{
+  const planar_series *turning = turning_of(s, j);
+  double e[2];
+  if (!turning) return;
+  planar_series_direction(turning, tau, e);
+  for (int a = 0; a < 2; ++a) t[a].along = e[a];
 }
 
 void motion_series_turn(const motion_series *s, double tau, contact_track *track)
 {
-  for (int j = 0; j < s->n_contacts; ++j) {
-    double e[2];
-    if (s->planar_of[j] < 0) continue;
-    planar_series_direction(&s->circle[s->planar_of[j]], tau, e);
-    for (int a = 0; a < 2; ++a) {
-      track[j + a].along = e[a];
-      track[j + a].fresh = track[j + a].fresh && !(tau > 0);
-    }
+  for (int i = 0; i < s->n_turning; ++i) {
+    contact_track *t = &track[s->turning[i].contact];
+    motion_series_direction(s, s->turning[i].contact, tau, t);
+    for (int a = 0; a < 2; ++a) t[a].fresh = t[a].fresh && !(tau > 0);
   }
-}
-
-/* Of a circle that sticks, or slips: all but that of N = 0. */
-static int planar_guard(const motion_series *s, const scaled_model *m, const contact_track *track, int j,
-                        track_guard *guard)
-{
-  const double *u = s->u + (size_t)j * TERMS, *v = s->v + (size_t)j * TERMS;
-  if (track[j].state == CONTACT_SEPARATED || track[j].held) return 0;
-  if (track[j].state == CONTACT_STICK) {
-    planar_track_stick_guard(&track[j], &m->contact[j], u, u + TERMS, v, guard);
-    return 1;
-  }
-  planar_series_guard(&s->circle[s->planar_of[j]], &m->contact[j], guard->g);
-  guard->event = TRACK_STICKS;
-  guard->noise = contact_track_rate_noise(&m->contact[j], hypot(u[1], u[1 + TERMS]), v[1]);
-  return 1;
 }
 
 int motion_series_guards(const motion_series *s, const scaled_model *m, const contact_track *track, int j,
@@ -251,9 +209,12 @@ int motion_series_guards(const motion_series *s, const scaled_model *m, const co
 {
   const double *u = s->u + (size_t)j * TERMS, *v = s->v + (size_t)j * TERMS;
   const scaled_contact *c = &m->contact[j];
-  if (c->second) return 0;
   const int n = contact_track_guards(&track[j], c, u, v, guard);
-  return c->circle ? n + planar_guard(s, m, track, j, guard + n) : n;
+  if (!track[j].turns) return n;
+  planar_series_guard(turning_of(s, j), c, guard[n].g);
+  guard[n].event = TRACK_STICKS;
+  guard[n].noise = contact_track_rate_noise(c, hypot(u[1], u[1 + TERMS]), v[1]);
+  return n + 1;
 }
 
 void motion_series_of(const motion_series *s, const double *row, double *r)

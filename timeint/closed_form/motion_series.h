@@ -21,8 +21,8 @@ typedef struct motion_series { /* from motion_series_make, to motion_series_free
   double *force;              /* [n] */
   double *load;               /* [n_loads][2] cosine and sine of one term */
   contact_forces_linear *law; /* [n_contacts] of the interval */
-  planar_series *circle;      /* [n_planar] */
-  int *planar_of;             /* [n_contacts] that of the contact's first direction; -1: none that turns */
+  int n_turning;              /* contacts that slip in a direction that turns, in this interval: */
+  planar_series *turning;     /* [n_planar] */
 } motion_series;
 
 hc_status motion_series_make(motion_series *s, const modal_base *base); /* HC_NO_MEMORY; free in any case */
@@ -32,21 +32,21 @@ void motion_series_free(motion_series *s);
 double motion_series_begin(motion_series *s, const scaled_model *m, const contact_track *track, double theta,
                            const double *y);
 
-/* Before it: which circles' directions are held from y on (planar_track.h); the longest step on which that holds. */
+/* Before it: which slips' directions are held from y on (law_kind.h); the longest step on which that holds. */
 double motion_series_hold(const scaled_model *m, contact_track *track, const double *y);
 
 /* X and X' (order 0), or X' and X'' (order 1), at tau: out[2n]. */
 void motion_series_at(const motion_series *s, double tau, int order, double *out);
 
-/* Of contact j at tau. */
-contact_motion motion_series_contact(const motion_series *s, int j, double tau);
+/* Of contact j, in its `directions`, at tau. */
+contact_motion motion_series_contact(const motion_series *s, int j, int directions, double tau);
 
-/* All guards of contact j; none of a circle's second direction. How many there are. */
+/* All guards of contact j. How many there are. */
 int motion_series_guards(const motion_series *s, const scaled_model *m, const contact_track *track, int j,
                          track_guard guard[TRACK_GUARDS]);
 
-/* Of the circle whose first direction is j, at tau; and the directions of those that slip, in track[]. */
-planar_contact_motion motion_series_planar(const motion_series *s, int j, double tau);
+/* The directions that turn, at tau: of contact j into t[], if it is one; of all into track[]. */
+void motion_series_direction(const motion_series *s, int j, double tau, contact_track *t);
 void motion_series_turn(const motion_series *s, double tau, contact_track *track);
 
 /* Coefficients of row . X: r[TRACK_ORDER + 1]. */

@@ -81,10 +81,10 @@ static bool falls_with_normal_force(const track_condition *g, const scaled_conta
 static int find_guards(motion_single *s, const scaled_model *m, const contact_track *track, bool to_turn)
 {
   int n = 0;
-  for (int j = 0; j < m->n_contacts; ++j) {
+  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     track_condition conditions[TRACK_GUARDS];
     const double t = m->base->tangent[j], normal = m->base->normal[j];
-    const contact_motion at = {t * s->q, normal * s->q, t * s->p, normal * s->p};
+    const contact_motion at = {{t * s->q}, normal * s->q, {t * s->p}, normal * s->p};
     const int more = contact_track_conditions(&track[j], &m->contact[j], conditions);
     for (int i = 0; i < more; ++i) {
       const track_condition *g = &conditions[i];

@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* sum of a_i b_{k-i}, i = from .. to. */
@@ -13,12 +14,12 @@ static double product(const double *a, const double *b, int k, int from, int to)
   return sum;
 }
 
-void planar_series_begin(planar_series *s, const contact_track t[2], const double *u1, const double *u2,
-                         const double *v)
+void planar_series_begin(planar_series *s, int j, const contact_track t[2], const double *u, const double *v)
 {
+  s->contact = j;
   s->fresh = t->fresh;
-  s->u[0] = u1;
-  s->u[1] = u2;
+  s->u[0] = u;
+  s->u[1] = u + TRACK_TERMS;
   s->v = v;
   s->e[0][0] = t[0].along;
   s->e[1][0] = t[1].along;
@@ -59,7 +60,7 @@ void planar_series_next(planar_series *s, const scaled_contact *c, int k, double
   const law_regularised *law = &c->law;
   const double friction = law->mu * law->kn;
   s->limit[k] = friction * s->v[k];
-  if (k == 0) s->limit[0] = s->fresh ? 0 : friction * (s->v[0] + law->gap) + law->mu * law->load;
+  if (k == 0) s->limit[0] = s->fresh ? 0 : contact_track_limit(c, s->v[0]);
   for (int a = 0; a < 2; ++a) s->rate[a][k] = k + 1 < TRACK_TERMS ? (k + 1) * s->u[a][k + 1] : 0;
   if (k > 0 && s->fresh && k + 1 == TRACK_TERMS) s->e[0][k] = s->e[1][k] = s->turn[k - 1] = 0;
   else if (k > 0) turn(s, law->kt, k);
@@ -94,4 +95,103 @@ void planar_series_guard(const planar_series *s, const scaled_contact *c, double
     g[k] = c->law.kt * slide - (k + 1) * s->limit[k + 1];
   }
   g[TRACK_ORDER] = 0;
+}
+
+/* ---- variations ---------------------------------------------------------------------------------------- */
+
+hc_status planar_columns_make(planar_columns *c, int columns)
+{
+  const size_t width = (size_t)columns, series = TRACK_TERMS * width;
+  double **const arrays[] = {&c->u[0], &c->u[1], &c->v, &c->angle};
+  const size_t n_arrays = sizeof arrays / sizeof *arrays;
+  *c = (planar_columns){.columns = columns};
+  if (!(c->numbers = calloc(n_arrays * series + 3 * width, sizeof *c->numbers))) return HC_NO_MEMORY;
+  for (size_t i = 0; i < n_arrays; ++i) *arrays[i] = c->numbers + i * series;
+  c->pull[0] = c->numbers + n_arrays * series;
+  c->pull[1] = c->pull[0] + width;
+  c->sum = c->pull[1] + width;
+  return HC_OK;
+}
+
+void planar_columns_free(planar_columns *c) { free(c->numbers); }
+
+void planar_columns_begin(planar_columns *c, const planar_series *s, const scaled_contact *law, double h)
+{
+  double power = 1;
+  c->fresh = s->fresh;
+  c->h = h;
+  c->kt = law->law.kt;
+  c->friction = law->law.mu * law->law.kn;
+  for (int k = 0; k < TRACK_TERMS; ++k, power *= h) {
+    c->limit[k] = s->limit[k] * power;
+    c->turn[k] = k < TRACK_ORDER ? s->turn[k] * power : 0;
+    c->slide[k] = c->across[0][k] = c->across[1][k] = 0;
+    for (int a = 0; a < 2; ++a) {
+      c->e[a][k] = s->e[a][k] * power;
+      for (int i = 0; i <= k; ++i) {
+        c->slide[k] += s->e[a][i] * s->rate[a][k - i] * power;
+        c->across[1 - a][k] += (a == 0 ? 1 : -1) * s->e[a][i] * s->limit[k - i] * power;
+      }
+    }
+  }
+}
+
+static double *term(double *series, const planar_columns *c, int k) { return series + (size_t)k * (size_t)c->columns; }
+
+/* sum += by_x x + by_y y */
+static void add(int width, double by_x, const double *restrict x, double by_y, const double *restrict y,
+                double *restrict sum)
+{
+  for (int q = 0; q < width; ++q) sum[q] += by_x * x[q] + by_y * y[q];
+}
+
+/* sum += kt (dU'.e_perp)_k */
+static void add_across(const planar_columns *c, int width, int k, double *sum)
+{
+  for (int i = 0; i <= k; ++i) {
+    const double by = c->kt * (i + 1) / c->h;
+    add(width, -by * c->e[1][k - i], term(c->u[0], c, i + 1), by * c->e[0][k - i], term(c->u[1], c, i + 1), sum);
+  }
+}
+
+/* sum -= (q d(mu N))_k + (kt U'.e dphi + mu N dphi')_k with dphi up to `known`. */
+static void subtract_rest(const planar_columns *c, int width, int k, int known, double *sum)
+{
+  for (int i = 0; i <= k; ++i) {
+    const double *angle = term(i <= known ? c->angle : c->v, c, i);
+    const double by = i <= known ? -c->kt * c->slide[k - i] - (i > 0 ? c->limit[k + 1 - i] * i / c->h : 0) : 0;
+    add(width, -c->turn[k - i] * c->friction, term(c->v, c, i), by, angle, sum);
+  }
+}
+
+/* dphi_k */
+static void find_angle(planar_columns *c, int width, int k)
+{
+  double *angle = term(c->angle, c, k);
+  if (k == 0 && !c->fresh) return;
+  const int order = c->fresh ? k : k - 1; /* of the equation that tells it */
+  const double by = c->fresh ? (k > 0 ? k * c->limit[1] / c->h : 0) + c->kt * c->slide[0] : k * c->limit[0] / c->h;
+  double *sum = c->sum;
+  memset(sum, 0, (size_t)width * sizeof *sum);
+  add_across(c, width, order, sum);
+  subtract_rest(c, width, order, k - 1, sum);
+  for (int q = 0; q < width; ++q) angle[q] = sum[q] / by;
+}
+
+void planar_columns_term(planar_columns *c, int width, int k)
+{
+  find_angle(c, width, k);
+  for (int a = 0; a < 2; ++a) {
+    double *pull = c->pull[a];
+    memset(pull, 0, (size_t)width * sizeof *pull);
+    for (int i = 0; i <= k; ++i)
+      add(width, c->friction * c->e[a][k - i], term(c->v, c, i), c->across[a][k - i], term(c->angle, c, i), pull);
+  }
+}
+
+void planar_columns_end(const planar_columns *c, int width, int k, double *angle)
+{
+  memset(angle, 0, (size_t)width * sizeof *angle);
+  for (int i = 0; i <= k; ++i)
+    for (int q = 0; q < width; ++q) angle[q] += term(c->angle, c, i)[q];
 }

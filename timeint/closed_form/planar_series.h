@@ -7,13 +7,14 @@
  * At touch-down N_0 = 0, and the equation of e is singular. All its solutions but one run away backwards in time; that
  * one starts along U', e_0 = U'_0/|U'_0|, and is a power series as well, q_{k-1} being in (U'.e_perp)_k, too:
  *     (mu N_1 + kt |U'_0|/k) q_{k-1} = kt (U'.e_perp)_k without it - sum_{i=2}^{k} mu N_i q_{k-i}
- * The slider slips as long as s = U'.e - (mu N)'/kt >= 0. libm only. */
+ * The slider slips as long as s = U'.e - (mu N)'/kt >= 0. */
 #ifndef HC_TIMEINT_PLANAR_SERIES_H
 #define HC_TIMEINT_PLANAR_SERIES_H
 
-#include "timeint/law/planar_track.h"
+#include "timeint/law/contact_track.h"
 
 typedef struct planar_series {
+  int contact;                 /* its first direction */
   bool fresh;                  /* from touch-down on, N_0 = 0 */
   double limit[TRACK_TERMS];   /* mu N */
   double e[2][TRACK_TERMS];    /* of the last one nothing is known where fresh: 0 */
@@ -22,9 +23,8 @@ typedef struct planar_series {
   const double *u[2], *v;      /* [TRACK_TERMS] the motion's, as far as it is known */
 } planar_series;
 
-/* Before the first coefficient of a circle in the states t[2], its motion in u_1, u_2, v[TRACK_TERMS]. */
-void planar_series_begin(planar_series *s, const contact_track t[2], const double *u1, const double *u2,
-                         const double *v);
+/* Before the first coefficient of contact j in the states t[2], its motion in u[2][TRACK_TERMS], v[TRACK_TERMS]. */
+void planar_series_begin(planar_series *s, int j, const contact_track t[2], const double *u, const double *v);
 
 /* Coefficient k = 0, 1, 2 ... of all, in turn; U and V are known up to k + 1. pull[2]: of T. */
 void planar_series_next(planar_series *s, const scaled_contact *c, int k, double pull[2]);
@@ -37,5 +37,38 @@ void planar_series_direction(const planar_series *s, double tau, double e[2]);
 
 /* s kt, what ends slip where it falls through 0: g[TRACK_TERMS]. */
 void planar_series_guard(const planar_series *s, const scaled_contact *c, double *g);
+
+/* Many variations of it, term by term beside those of the motion (series_columns.h):
+ *     dT = d(mu N) e + mu N e_perp dphi
+ *     mu N dphi' = kt (dU'.e_perp - U'.e dphi) - q d(mu N)
+ * N, e, q and U' are those of the motion, so the equation is linear, with coefficients that are series. From touch-down
+ * on, N_0 = 0, it is singular as that of e is, and dphi_0 follows from dU' and dN. A term is a coefficient times h^k.
+ * Nothing is allocated after planar_columns_make. */
+typedef struct planar_columns { /* from planar_columns_make, to planar_columns_free; of one contact */
+  int columns;                  /* the most side by side */
+  bool fresh;
+  double h, kt, friction; /* friction: mu kn */
+  double limit[TRACK_TERMS], e[2][TRACK_TERMS], turn[TRACK_TERMS],
+      slide[TRACK_TERMS];        /* the motion's: mu N, e, q, U'.e */
+  double across[2][TRACK_TERMS]; /* mu N e_perp */
+  double *u[2], *v;              /* [TRACK_TERMS][columns] of dU, dV */
+  double *angle;                 /* [TRACK_TERMS][columns] of dphi */
+  double *pull[2];               /* [columns] of dT */
+  double *sum;                   /* [columns] */
+  double *numbers;               /* of all arrays */
+} planar_columns;
+
+hc_status planar_columns_make(planar_columns *c, int columns); /* HC_NO_MEMORY; free it in any case */
+void planar_columns_free(planar_columns *c);
+
+/* Along that motion, steps of h. */
+void planar_columns_begin(planar_columns *c, const planar_series *s, const scaled_contact *law, double h);
+
+/* Term k = 0, 1, 2 ... of dT for `width` columns into c->pull; those of dU and dV are there up to k + 1, dphi_0 in
+ * c->angle. */
+void planar_columns_term(planar_columns *c, int width, int k);
+
+/* dphi at the end of the step, of terms up to k: angle[width]. */
+void planar_columns_end(const planar_columns *c, int width, int k, double *angle);
 
 #endif

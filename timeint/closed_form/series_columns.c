@@ -20,7 +20,7 @@ static const double died_away =
 hc_status series_columns_make(series_columns *s, const modal_base *base)
 {
   const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, rows = 2 * contacts;
-  const size_t circles = (size_t)base->n_planar;
+  const size_t planar = (size_t)base->n_planar;
   *s = (series_columns){.n = base->n, .n_contacts = base->n_contacts};
   const struct {
     double **array;
@@ -39,10 +39,10 @@ hc_status series_columns_make(series_columns *s, const modal_base *base)
                {&s->share, BLOCK * n},
                {&s->motion, BLOCK * rows},
                {&s->slider, BLOCK * contacts},
-               {&s->slip_tangents, 2 * n * circles},
-               {&s->slip_normals, n * circles},
-               {&s->slip_turned, 2 * n * circles},
-               {&s->circling, 2 * BLOCK * circles},
+               {&s->slip_tangents, 2 * n * planar},
+               {&s->slip_normals, n * planar},
+               {&s->slip_turned, 2 * n * planar},
+               {&s->slipping, 2 * BLOCK * planar},
                {&s->resistance, n * n},
                {&s->size, BLOCK},
                {&s->left, BLOCK}};
@@ -50,11 +50,11 @@ hc_status series_columns_make(series_columns *s, const modal_base *base)
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
   s->numbers = calloc(count, sizeof *s->numbers);
   s->law = calloc(contacts + 1, sizeof *s->law);
-  s->circle = calloc((size_t)base->n_planar + 1, sizeof *s->circle);
-  if (!s->numbers || !s->law || !s->circle) return HC_NO_MEMORY;
+  s->turning = calloc((size_t)base->n_planar + 1, sizeof *s->turning);
+  if (!s->numbers || !s->law || !s->turning) return HC_NO_MEMORY;
   s->n_planar = base->n_planar;
   for (int i = 0; i < s->n_planar; ++i)
-    if (planar_columns_make(&s->circle[i], BLOCK) != HC_OK) return HC_NO_MEMORY;
+    if (planar_columns_make(&s->turning[i], BLOCK) != HC_OK) return HC_NO_MEMORY;
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
     *parts[k].array = s->numbers + used;
     used += parts[k].count;
@@ -66,8 +66,8 @@ hc_status series_columns_make(series_columns *s, const modal_base *base)
 
 void series_columns_free(series_columns *s)
 {
-  for (int i = 0; i < s->n_planar; ++i) planar_columns_free(&s->circle[i]);
-  free(s->circle);
+  for (int i = 0; i < s->n_planar; ++i) planar_columns_free(&s->turning[i]);
+  free(s->turning);
   free(s->numbers);
   free(s->law);
 }
@@ -104,7 +104,7 @@ static void add_row(series_columns *s, const double *row)
   memcpy(s->rows + (size_t)s->n_rows++ * (size_t)s->n, row, (size_t)s->n * sizeof *row);
 }
 
-/* The circle whose first direction is j, which slips. */
+/* The contact whose first direction is j, and whose slip turns. */
 static void add_slipping(series_columns *s, const modal_base *b, int j)
 {
   const size_t n = (size_t)s->n, i = (size_t)s->n_slipping++;
@@ -112,22 +112,24 @@ static void add_slipping(series_columns *s, const modal_base *b, int j)
   memcpy(s->slip_normals + n * i, b->normal + (size_t)j * n, n * sizeof *s->slip_normals);
 }
 
-/* Both directions of a circle have half of N each: the first gets all of it. */
+/* Two directions have half of N each: the first gets all of it. */
 static void join_normals(series_columns *s, int j)
 {
-  if (s->law[j].t_v != 0 || s->law[j + 1].t_v != 0) return;
-  s->law[j].n_v += s->law[j + 1].n_v;
-  s->law[j + 1].n_v = 0;
+  if (s->law[j - 1].t_v != 0 || s->law[j].t_v != 0) return;
+  s->law[j - 1].n_v += s->law[j].n_v;
+  s->law[j].n_v = 0;
 }
 
 void series_columns_begin(series_columns *s, const scaled_model *m, const contact_track *track)
 {
   const modal_base *b = m->base;
   s->n_rows = s->n_slipping = 0;
-  for (int j = 0; j < s->n_contacts; ++j) s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
   for (int j = 0; j < s->n_contacts; ++j) {
-    if (m->contact[j].circle) join_normals(s, j);
-    if (m->contact[j].circle && planar_track_turns(&track[j])) add_slipping(s, b, j);
+    s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
+    if (m->contact[j].direction > 0) join_normals(s, j);
+  }
+  for (int j = 0; j < s->n_contacts; ++j) {
+    if (track[j].turns && m->contact[j].direction == 0) add_slipping(s, b, j);
     if (has_tangent(&s->law[j])) add_row(s, b->tangent + (size_t)j * (size_t)s->n);
     if (has_normal(&s->law[j])) add_row(s, b->normal + (size_t)j * (size_t)s->n);
   }
@@ -202,45 +204,45 @@ static void subtract_contacts(series_columns *s, int width, bool first, double b
   dense_add_product(width, s->n, s->n_rows, -1, s->motion, width, s->turned, s->n_rows, 1, out, width);
 }
 
-/* s->circling[block][n_rows] := rows . z, with its sign turned. */
+/* s->slipping[block][n_rows] := rows . z, with its sign turned. */
 static void project_slips(series_columns *s, int width, int n_rows, const double *rows, const double *z)
 {
-  memset(s->circling, 0, (size_t)n_rows * (size_t)width * sizeof *s->circling);
-  dense_add_product(width, n_rows, s->n, -1, z, width, rows, s->n, 1, s->circling, width);
+  memset(s->slipping, 0, (size_t)n_rows * (size_t)width * sizeof *s->slipping);
+  dense_add_product(width, n_rows, s->n, -1, z, width, rows, s->n, 1, s->slipping, width);
 }
 
-/* Term k of a motion that is -s->circling's row. */
+/* Term k of a motion that is -s->slipping's row. */
 static void keep_term(const series_columns *s, int width, int row, const planar_columns *c, int k, double *series)
 {
-  const double *from = s->circling + (size_t)row * (size_t)width;
+  const double *from = s->slipping + (size_t)row * (size_t)width;
   double *to = series + (size_t)k * (size_t)c->columns;
   for (int q = 0; q < width; ++q) to[q] = -from[q];
 }
 
-/* Term k of the motion of the circles that slip. */
-static void project_planar(series_columns *s, int width, int k, const double *z)
+/* Term k of the motion of the contacts whose slip turns. */
+static void project_turning(series_columns *s, int width, int k, const double *z)
 {
   project_slips(s, width, 2 * s->n_slipping, s->slip_tangents, z);
   for (int i = 0; i < s->n_slipping; ++i)
-    for (int a = 0; a < 2; ++a) keep_term(s, width, 2 * i + a, &s->circle[i], k, s->circle[i].u[a]);
+    for (int a = 0; a < 2; ++a) keep_term(s, width, 2 * i + a, &s->turning[i], k, s->turning[i].u[a]);
   project_slips(s, width, s->n_slipping, s->slip_normals, z);
-  for (int i = 0; i < s->n_slipping; ++i) keep_term(s, width, i, &s->circle[i], k, s->circle[i].v);
+  for (int i = 0; i < s->n_slipping; ++i) keep_term(s, width, i, &s->turning[i], k, s->turning[i].v);
 }
 
-/* out -= by (T of the circles that slip) of terms z_k and `next`, z_{k+1}. */
-static void subtract_planar(series_columns *s, int width, int k, double by, const double *z, const double *next,
-                            double *out)
+/* out -= by (T of the slips that turn) of terms z_k and `next`, z_{k+1}. */
+static void subtract_turning(series_columns *s, int width, int k, double by, const double *z, const double *next,
+                             double *out)
 {
-  double *row = s->circling;
+  double *row = s->slipping;
   if (s->n_slipping == 0) return;
-  if (k == 0) project_planar(s, width, 0, z);
-  project_planar(s, width, k + 1, next);
+  if (k == 0) project_turning(s, width, 0, z);
+  project_turning(s, width, k + 1, next);
   for (int i = 0; i < s->n_slipping; ++i) {
-    planar_columns_term(&s->circle[i], width, k);
+    planar_columns_term(&s->turning[i], width, k);
     for (int a = 0; a < 2; ++a, row += width)
-      for (int q = 0; q < width; ++q) row[q] = by * s->circle[i].pull[a][q];
+      for (int q = 0; q < width; ++q) row[q] = by * s->turning[i].pull[a][q];
   }
-  dense_add_product(width, s->n, 2 * s->n_slipping, -1, s->circling, width, s->slip_turned, 2 * s->n_slipping, 1, out,
+  dense_add_product(width, s->n, 2 * s->n_slipping, -1, s->slipping, width, s->slip_turned, 2 * s->n_slipping, 1, out,
                     width);
 }
 
@@ -292,7 +294,7 @@ static bool expand(series_columns *s, const scaled_model *m, int width, double h
     subtract(s, width, b->diagonal_K, b->K, s->turned_K, by * h * m->by_K, z, second);
     subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, second);
     subtract_contacts(s, width, k == 2, by * h, z, second);
-    subtract_planar(s, width, k - 2, by * h, z, next, second);
+    subtract_turning(s, width, k - 2, by * h, z, next, second);
     add_term(count, k / h, second, s->x_end, s->p_end);
     if (k == 2) add_squares(s, width, 2 / h, second, s->size); /* a column that begins with its slider alone */
     if (!s->along) small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
@@ -354,15 +356,13 @@ hc_status series_columns_advance(series_columns *s, const scaled_model *m, doubl
   return HC_OK;
 }
 
-/* dphi of the circles that slip: from the sliders' rows into the first terms, or back when the step is over. */
+/* dphi of the slips that turn: from the sliders' rows into the first terms, or back when the step is over. */
 static void exchange_angles(series_columns *s, int width, bool back)
 {
-  for (int j = 0; j < s->n_contacts; ++j) {
-    if (s->along->planar_of[j] < 0) continue;
-    planar_columns *c = &s->circle[s->along->planar_of[j]];
-    double *row = s->slider + (size_t)j * (size_t)width;
-    if (back) planar_columns_end(c, width, LAST - 2, row);
-    else memcpy(c->angle, row, (size_t)width * sizeof *row);
+  for (int i = 0; i < s->along->n_turning; ++i) {
+    double *row = s->slider + (size_t)s->along->turning[i].contact * (size_t)width;
+    if (back) planar_columns_end(&s->turning[i], width, LAST - 2, row);
+    else memcpy(s->turning[i].angle, row, (size_t)width * sizeof *row);
   }
 }
 
@@ -371,9 +371,8 @@ void series_columns_turn(series_columns *s, const scaled_model *m, const motion_
 {
   const size_t rows = (size_t)s->n * (size_t)ld;
   s->along = along;
-  for (int j = 0; j < s->n_contacts; ++j)
-    if (along->planar_of[j] >= 0)
-      planar_columns_begin(&s->circle[along->planar_of[j]], &along->circle[along->planar_of[j]], &m->contact[j], h);
+  for (int i = 0; i < along->n_turning; ++i)
+    planar_columns_begin(&s->turning[i], &along->turning[i], &m->contact[along->turning[i].contact], h);
   for (int q = 0; q < count; q += BLOCK) {
     const int width = count - q < BLOCK ? count - q : BLOCK;
     double *from = matrix + q;

@@ -11,7 +11,6 @@
 #define HC_TIMEINT_SERIES_COLUMNS_H
 
 #include "timeint/closed_form/motion_series.h"
-#include "timeint/closed_form/planar_columns.h"
 
 typedef struct series_columns { /* from series_columns_make, to series_columns_free */
   int n, n_contacts, n_planar;
@@ -20,12 +19,12 @@ typedef struct series_columns { /* from series_columns_make, to series_columns_f
   double *rows, *turned;        /* [n][n_rows] by columns; by rows */
   bool whole;                   /* are what they do the matrix below, which is cheaper? */
   double *resistance;           /* [n][n] by columns of B: out_i = sum_l z_l B_li */
-  contact_forces_linear *law;   /* [n_contacts] of this interval, but T of the circles that slip */
-  int n_slipping;               /* contacts that slip in a plane in this interval */
+  contact_forces_linear *law;   /* [n_contacts] of this interval, but T of slips that turn */
+  int n_slipping;               /* contacts whose slip turns in this interval */
   double *slip_tangents;        /* [n][2 n_slipping] by columns: their t_1 and t_2 */
   double *slip_normals;         /* [n][n_slipping] by columns */
   double *slip_turned;          /* slip_tangents by rows */
-  double *circling;             /* [block][2 n_slipping] their motion; their forces */
+  double *slipping;             /* [block][2 n_slipping] their motion; their forces */
   double *x, *p;                /* [block][n] motion and its rate, of a block of columns */
   double *x_end, *p_end;        /* [block][n] the same after a step */
   double *term, *next, *second; /* [block][n] z_k, z_{k+1}, z_{k+2} */
@@ -33,8 +32,8 @@ typedef struct series_columns { /* from series_columns_make, to series_columns_f
   double *motion;               /* [block][n_rows] of the contacts; their forces */
   double *slider;               /* [block][n_contacts] dW_j */
   double *size, *left;          /* [block] of columns, squared */
-  planar_columns *circle;       /* [n_planar] */
-  const motion_series *along;   /* where circles slip: the motion; else NULL */
+  planar_columns *turning;      /* [n_planar] */
+  const motion_series *along;   /* where slips turn: the motion; else NULL */
   double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
   double *numbers;              /* of all arrays of doubles */
 } series_columns;
@@ -50,8 +49,8 @@ void series_columns_begin(series_columns *s, const scaled_model *m, const contac
 hc_status series_columns_advance(series_columns *s, const scaled_model *m, double span, int count, int ld,
                                  double *matrix);
 
-/* The same over one step h of a motion on which circles slip, h within its reach; a slider's row is dphi of the circle
- * whose first direction it is. */
+/* The same over one step h of a motion on which slips turn, h within its reach; the row of the first slider of each
+ * is dphi. */
 void series_columns_turn(series_columns *s, const scaled_model *m, const motion_series *along, double h, int count,
                          int ld, double *matrix);
 

@@ -1,5 +1,10 @@
-/* integrate_events.c - see integrate_events.h. What holds between two changes of contact state is events_interval.h's;
- * here is what happens at one, and from the first to the last of a period.
+/* integrate_events.c - see integrate_events.h: between two changes of contact state, an interval, the equations that
+ * CVODE integrates and the root functions that end it; what happens at a change; from the first to the last of a period.
+ *
+ * Root functions of a contact, six, so that a period allocates nothing: the guards of its state, which end it where
+ * they fall through 0, and the rates of these, which end nothing. Without them a guard could fall and rise within one
+ * step unseen: CVODE's search for the root of the rate between evaluates all functions there.
+ * Functions that are not there are 1; none is ever exactly 0, which CVODE answers with an error.
  *
  * A guard that has fallen at the beginning of an interval, or with another contact's in the same instant, is passed at
  * once. The monodromy matrix is fundamental_matrix.h's. */
@@ -11,75 +16,256 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "numerics/norm.h"
 #include "numerics/sundials_compat.h"
-#include "timeint/cvode/events_interval.h"
+#include "timeint/closed_form/fundamental_matrix.h"
+#include "timeint/closed_form/motion_single.h"
+#include "timeint/cvode/integrate_cvode.h"
+#include "timeint/cvode/planar_angle.h"
 
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
 static const double stiff = 60; /* largest decay rate over lowest frequency, from where on BDF takes fewer steps */
 
 enum {
+  ROOTS = 2 * TRACK_GUARDS,
   MAX_STEPS = 1000000,   /* between transitions */
   MAX_STANDSTILLS = 1000 /* returns of CVODE in succession that do not advance theta */
 };
+
+typedef struct events { /* from integrate_new_events, to integrate_free; not shared between threads */
+  cvode_integrator base;
+  int n, n_contacts;
+  double tolerance;
+  bool is_single;                  /* of motion_single.h: */
+  double theta0, theta1, began[2]; /* the step under way, and where it began */
+  contact_track *track;            /* [n_contacts] now */
+  contact_forces_linear *law;      /* [n_contacts] of these states */
+  int *info;                       /* [n_contacts][ROOTS] what CVODE says of the root functions */
+  double *rate;                    /* [n_equations] dy where the guards' rates are wanted */
+  int n_planar, n_equations;       /* 2 n, and an angle for each contact of two tangents */
+  planar_angle *angle;             /* [n_planar] */
+  int *angle_of;                   /* [n_contacts] that of the first of two directions; else -1 */
+  double *phi;                     /* [n_planar] where sliders are wanted */
+  int passed;                      /* events since the period began */
+  bool varies;                     /* the monodromy is asked for */
+  fundamental_matrix variations;
+  interval_modes *modes; /* for them */
+} events;
+
+/* ---- equations -------------------------------------------------------------------------------------- */
+
+/* T of the slips that turn, out of the forces dy + n, and the rates of all angles. */
+static void subtract_turning(const events *in, const double *y, double *dy)
+{
+  for (int i = 0; i < in->n_planar; ++i) {
+    const planar_angle *a = &in->angle[i];
+    const int j = a->contact, n = in->n;
+    const scaled_contact *c = &in->base.m->contact[j];
+    const double phi = y[2 * n + i], *t = in->base.m->base->tangent + (size_t)j * (size_t)n;
+    const contact_motion at = contact_motion_at(in->base.m, j, y);
+    dy[2 * n + i] = planar_angle_rate(a, &in->track[j], c, &at, phi);
+    if (!in->track[j].turns) continue;
+    const double limit = contact_track_limit(c, at.v), pull[2] = {limit * cos(phi), limit * sin(phi)};
+    for (int k = 0; k < n; ++k) dy[n + k] -= pull[0] * t[k] + pull[1] * t[n + k];
+  }
+}
+
+/* dy at y, in the states as they are. */
+static void events_rate(const events *in, double theta, const double *y, double *dy)
+{
+  const scaled_model *m = in->base.m;
+  const int n = in->n;
+  scaled_linear_force(m, theta, y, dy + n);
+  for (int j = 0; j < in->n_contacts; ++j) {
+    const contact_forces_linear *f = &in->law[j];
+    const double *t = m->base->tangent + (size_t)j * (size_t)n, *normal = m->base->normal + (size_t)j * (size_t)n;
+    const double u = dot_product(n, t, y), v = dot_product(n, normal, y);
+    const double along = f->t_u * u + f->t_v * v + f->t_0, across = f->n_v * v + f->n_0;
+    for (int i = 0; i < n; ++i) dy[n + i] -= along * t[i] + across * normal[i];
+  }
+  subtract_turning(in, y, dy);
+  memcpy(dy, y + n, (size_t)n * sizeof *dy);
+}
+
+static int events_rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
+{
+  events *in = self;
+  double sum = 0;
+  if (!integrate_cvode_goes_on(&in->base)) return -1;
+  events_rate(in, theta, NV_DATA_S(y), NV_DATA_S(dy));
+  for (int i = 0; i < in->n_equations; ++i) sum += NV_Ith_S(dy, i);
+  if (isfinite(sum)) return 0;
+  in->base.not_finite = true;
+  return -1;
+}
+
+static void fill_linear(const scaled_model *m, size_t ld, double *a)
+{
+  const modal_base *b = m->base;
+  const size_t n = (size_t)m->n;
+  memset(a, 0, ld * ld * sizeof *a);
+  for (size_t col = 0; col < n; ++col) {
+    double *by_x = a + col * ld + n, *by_p = a + (n + col) * ld;
+    by_p[col] = 1;
+    if (b->diagonal_K) by_x[col] = -m->by_K * b->K[col];
+    if (b->diagonal_C) by_p[n + col] = -m->by_C * b->C[col];
+    for (size_t row = 0; row < n && !b->diagonal_K; ++row) by_x[row] = -m->by_K * b->K[col * n + row];
+    for (size_t row = 0; row < n && !b->diagonal_C; ++row) by_p[n + row] = -m->by_C * b->C[col * n + row];
+  }
+}
+
+/* What slips that turn add. */
+static void fill_turning(const events *in, const double *y, size_t ld, double *a)
+{
+  const scaled_model *m = in->base.m;
+  const size_t n = (size_t)in->n;
+  for (int i = 0; i < in->n_planar; ++i) {
+    const int j = in->angle[i].contact;
+    const size_t phi = 2 * n + (size_t)i;
+    const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
+    if (!in->track[j].turns) continue;
+    const contact_motion at = contact_motion_at(in->base.m, j, y);
+    const angle_slopes s = planar_angle_slopes(&in->angle[i], &in->track[j], &m->contact[j], &at, y[phi]);
+    for (size_t k = 0; k < 2; ++k)
+      for (size_t row = 0; row < n; ++row) {
+        for (size_t col = 0; col < n; ++col) a[col * ld + n + row] -= t[k * n + row] * s.t_v[k] * normal[col];
+        a[phi * ld + n + row] -= t[k * n + row] * s.t_phi[k];
+      }
+    for (size_t col = 0; col < n; ++col) {
+      a[col * ld + phi] = s.rate_v * normal[col];
+      a[(n + col) * ld + phi] = s.rate_u[0] * t[col] + s.rate_u[1] * t[n + col];
+    }
+    a[phi * ld + phi] = s.rate_phi;
+  }
+}
+
+static int events_jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, void *self, N_Vector t1,
+                           N_Vector t2, N_Vector t3)
+{
+  (void)theta, (void)dy, (void)t1, (void)t2, (void)t3;
+  const events *in = self;
+  const scaled_model *m = in->base.m;
+  const size_t n = (size_t)in->n, ld = (size_t)in->n_equations;
+  double *a = SM_DATA_D(jac);
+  fill_linear(m, ld, a);
+  for (int j = 0; j < in->n_contacts; ++j) {
+    const contact_forces_linear *f = &in->law[j];
+    const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
+    for (size_t col = 0; col < n; ++col) {
+      const double along = f->t_u * t[col] + f->t_v * normal[col], across = f->n_v * normal[col];
+      if (along == 0 && across == 0) continue;
+      for (size_t row = 0; row < n; ++row) a[col * ld + n + row] -= t[row] * along + normal[row] * across;
+    }
+  }
+  fill_turning(in, NV_DATA_S(y), ld, a);
+  return 0;
+}
+
+/* ---- guards ------------------------------------------------------------------------------------------- */
+
+static angle_motion angle_motion_at(const events *in, int j, double theta, const double *y, const double *dy)
+{
+  angle_motion now = {.at = contact_motion_at(in->base.m, j, y), .theta = theta};
+  scaled_contact_motion(in->base.m, j, dy + in->n, now.bend, &now.normal_bend);
+  if (in->angle_of[j] >= 0) now.phi = y[2 * in->n + in->angle_of[j]];
+  return now;
+}
+
+/* The guards of contact j at theta and y, where its rate is dy: the value and rate of each, of one tangent also half
+ * the rate of that. How many. */
+static int events_guards(const events *in, int j, double theta, const double *y, const double *dy,
+                         track_guard guard[TRACK_GUARDS])
+{
+  const scaled_contact *c = &in->base.m->contact[j];
+  const angle_motion now = angle_motion_at(in, j, theta, y, dy);
+  if (in->angle_of[j] >= 0) return planar_angle_guards(&in->angle[in->angle_of[j]], &in->track[j], c, &now, guard);
+  const double u[TRACK_TERMS] = {now.at.u[0], now.at.du[0], 0.5 * now.bend[0]};
+  const double v[TRACK_TERMS] = {now.at.v, now.at.dv, 0.5 * now.normal_bend};
+  return contact_track_guards(&in->track[j], c, u, v, guard);
+}
+
+/* CVODE multiplies values on either side of a root: this must not underflow. */
+static double never_zero(double g) { return g != 0 ? g : -1e-100; }
+
+static int events_roots(sunrealtype theta, N_Vector y, sunrealtype *g, void *self)
+{
+  events *in = self;
+  const double *z = NV_DATA_S(y);
+  events_rate(in, theta, z, in->rate);
+  for (int i = 0; i < ROOTS * in->n_contacts; ++i) g[i] = 1;
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
+    track_guard guard[TRACK_GUARDS];
+    const int n = events_guards(in, j, theta, z, in->rate, guard);
+    for (int i = 0; i < n; ++i) {
+      g[j * ROOTS + i] = never_zero(guard[i].g[0]);
+      g[j * ROOTS + TRACK_GUARDS + i] = never_zero(guard[i].g[1]);
+    }
+  }
+  return 0;
+}
+
+/* ---- changes of state ---------------------------------------------------------------------------------- */
 
 static void use_states(events *in)
 {
   for (int j = 0; j < in->n_contacts; ++j) in->law[j] = contact_track_forces(&in->track[j], &in->base.m->contact[j]);
 }
 
-/* The directions of circles that slip, from their angles. */
-static void follow_angles(events *in)
+/* The directions of slips that turn, from their angles phi[n_planar]: of contact j into t[2]. */
+static void follow_angle(const events *in, int j, const double *phi, contact_track *t)
 {
-  const double *phi = NV_DATA_S(in->base.y) + 2 * in->n;
-  for (int i = 0; i < in->n_planar; ++i) {
-    contact_track *t = &in->track[in->angle[i].contact];
-    if (!planar_track_turns(t)) continue;
-    t[0].along = cos(phi[i]);
-    t[1].along = sin(phi[i]);
-  }
+  if (!t->turns) return;
+  t[0].along = cos(phi[in->angle_of[j]]);
+  t[1].along = sin(phi[in->angle_of[j]]);
 }
 
-/* The circle whose first direction is j, where it stops turning, or the period ends. */
+static double *angles_of(const events *in) { return NV_DATA_S(in->base.y) + 2 * in->n; }
+
+/* Contact j, where its direction stops turning, or the period ends. */
 static void note_turn(events *in, int j)
 {
+  if (!in->track[j].turns) return;
   const int i = in->angle_of[j];
-  if (planar_track_turns(&in->track[j]))
-    slider_travel_note_turn(&in->travel, j, NV_DATA_S(in->base.y)[2 * in->n + i] - in->angle[i].began);
+  contact_track_note_turn(&in->track[j], &in->base.m->contact[j], angles_of(in)[i] - in->angle[i].began);
 }
 
-/* In motion from theta on: its angle, and the direction that it has at a touch. */
+/* In motion from theta on: the angle of contact j, and the direction that it has at a touch. */
 static void begin_angle(events *in, int j, double theta)
 {
   double *y = NV_DATA_S(in->base.y);
-  planar_angle *a = &in->angle[in->angle_of[j]];
   contact_track *t = &in->track[j];
+  if (in->angle_of[j] < 0) return;
+  planar_angle *a = &in->angle[in->angle_of[j]];
   a->opens = false;
-  if (!planar_track_turns(t)) return;
-  a->began = y[2 * in->n + in->angle_of[j]] = atan2(t[1].along, t[0].along);
+  if (!t->turns) return;
+  a->began = angles_of(in)[in->angle_of[j]] = atan2(t[1].along, t[0].along);
   if (!t->fresh) return;
   t[0].fresh = t[1].fresh = false;
   events_rate(in, theta, y, in->rate);
-  const angle_motion now = events_angle_motion_at(in, j, theta, y, in->rate);
+  const angle_motion now = angle_motion_at(in, j, theta, y, in->rate);
   planar_angle_open(a, &in->base.m->contact[j], &now);
 }
 
-/* The circle whose first direction is j. That its angle is held, or no more, is no change of state. */
-static hc_status pass_planar(events *in, int j, track_event event, double theta, int *count)
+/* That an angle is held, or no more, counts as no change of state, and the monodromy matrix does not see it. */
+static hc_status pass(events *in, int j, track_event event, double theta, int *count)
 {
-  const contact_track before[2] = {in->track[j], in->track[j + 1]};
   const scaled_contact *c = &in->base.m->contact[j];
-  const planar_contact_motion at = events_planar_at(in, j, NV_DATA_S(in->base.y));
-  hc_status st = HC_OK;
-  const bool changes = event != TRACK_TURNS && event != TRACK_HOLDS;
-  if (++in->passed > 8 * integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
-  if (changes && ++*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
-  if (changes && in->varies) st = fundamental_matrix_advance(&in->variations, in->base.m, in->track, theta);
+  contact_track *t = &in->track[j];
+  const bool varies = in->varies && event != TRACK_TURNS && event != TRACK_HOLDS;
+  const contact_motion at = contact_motion_at(in->base.m, j, NV_DATA_S(in->base.y));
+  for (int i = 0; i < in->n_planar; ++i)
+    follow_angle(in, in->angle[i].contact, angles_of(in), &in->track[in->angle[i].contact]);
+  const contact_track before[2] = {t[0], t[c->kind->directions - 1]};
+  *count += c->kind->counts(t, event, theta);
+  const int most = integrate_most_transitions(in->n_contacts);
+  if (*count > most || (++in->passed > 8 * most && in->angle_of[j] >= 0)) return HC_CHATTER;
+  hc_status st = varies ? fundamental_matrix_advance(&in->variations, in->base.m, in->track, theta) : HC_OK;
   if (st != HC_OK) return st;
   note_turn(in, j);
-  planar_track_pass(&in->track[j], c, event, &at);
-  slider_travel_note_planar(&in->travel, c, in->track, j, &at);
-  if (changes && in->varies) {
-    fundamental_matrix_planar(&in->variations, in->base.m, j, before, &in->track[j], &at);
+  contact_track_pass(t, c, event, &at);
+  contact_track_note(t, c, &at);
+  if (varies) {
+    fundamental_matrix_pass(&in->variations, in->base.m, j, before, t, &at);
     fundamental_matrix_follow(&in->variations, in->base.m, in->track, NV_DATA_S(in->base.y));
   }
   use_states(in);
@@ -87,33 +273,13 @@ static hc_status pass_planar(events *in, int j, track_event event, double theta,
   return HC_OK;
 }
 
-static hc_status pass(events *in, int j, track_event event, double theta, int *count)
-{
-  const contact_state before = in->track[j].state;
-  contact_motion at;
-  follow_angles(in);
-  if (in->base.m->contact[j].circle) return pass_planar(in, j, event, theta, count);
-  events_motion_at(in, j, NV_DATA_S(in->base.y), NULL, &at, NULL);
-  ++in->passed;
-  *count += contact_track_counts(&in->track[j], event, theta);
-  if (*count > integrate_most_transitions(in->n_contacts)) return HC_CHATTER;
-  hc_status st = in->varies ? fundamental_matrix_advance(&in->variations, in->base.m, in->track, theta) : HC_OK;
-  if (st != HC_OK) return st;
-  contact_track_pass(&in->track[j], &in->base.m->contact[j], event, &at);
-  slider_travel_note(&in->travel, &in->base.m->contact[j], in->track, j, &at);
-  if (in->varies && in->track[j].state == CONTACT_STICK)
-    fundamental_matrix_stick(&in->variations, in->base.m, j, before, &at);
-  if (in->varies) fundamental_matrix_follow(&in->variations, in->base.m, in->track, NV_DATA_S(in->base.y));
-  use_states(in);
-  return HC_OK;
-}
-
-/* Has the guard fallen, and does it go on falling? At rest its second derivative says; a circle has none. */
-static bool goes_on_falling(const events *in, int j, const track_guard *guard)
+/* Has the guard fallen, and does it go on falling? At rest its second derivative says; that of an angle is not known:
+ * 0. */
+static bool goes_on_falling(const track_guard *guard)
 {
   const double *g = guard->g, noise = guard->noise;
   if (!(g[0] <= noise)) return false;
-  return g[1] < -noise || (g[1] <= noise && !in->base.m->contact[j].circle && g[2] < -noise);
+  return g[1] < -noise || (g[1] <= noise && g[2] < -noise);
 }
 
 /* Guards that have fallen already and go on falling; until there is none. */
@@ -121,13 +287,13 @@ static hc_status pass_fallen(events *in, double theta, int *count)
 {
   for (bool more = true; more;) {
     more = false;
-    for (int j = 0; j < in->n_contacts; ++j) {
+    for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
       track_guard guard[TRACK_GUARDS];
       const double *y = NV_DATA_S(in->base.y);
       events_rate(in, theta, y, in->rate);
       const int n = events_guards(in, j, theta, y, in->rate, guard);
       for (int i = 0; i < n; ++i) {
-        if (!goes_on_falling(in, j, &guard[i])) continue;
+        if (!goes_on_falling(&guard[i])) continue;
         hc_status st = pass(in, j, guard[i].event, theta, count);
         if (st != HC_OK) return st;
         more = true;
@@ -156,11 +322,11 @@ static hc_status pass_roots(events *in, double theta, int *count)
   const double *y = NV_DATA_S(in->base.y);
   hc_status st = HC_OK;
   events_rate(in, theta, y, in->rate);
-  for (int j = 0; j < in->n_contacts && st == HC_OK; ++j) {
+  for (int j = 0; j < in->n_contacts && st == HC_OK; j += scaled_directions(in->base.m, j)) {
     track_guard guard[TRACK_GUARDS];
     const int n = events_guards(in, j, theta, y, in->rate, guard);
     for (int i = 0; i < n; ++i) {
-      if (!in->info[j * EVENTS_ROOTS + i]) continue;
+      if (!in->info[j * ROOTS + i]) continue;
       st = pass(in, j, guard[i].event, theta, count);
       break;
     }
@@ -192,14 +358,15 @@ static hc_status integrate_to_end(events *in, integrate_watch *watch, void *self
   return integrate_check_end(&in->base, theta, in->n_equations);
 }
 
-/* Which contacts are circles. */
+/* Which contacts have an angle. */
 static void find_planar_contacts(events *in)
 {
   int i = 0;
   in->passed = 0;
   for (int j = 0; j < in->n_contacts; ++j) {
-    in->angle_of[j] = in->base.m->contact[j].circle ? i : -1;
-    if (in->angle_of[j] < 0) continue;
+    const bool has_angle = scaled_directions(in->base.m, j) > 1 && in->base.m->contact[j].direction == 0;
+    in->angle_of[j] = has_angle ? i : -1;
+    if (!has_angle) continue;
     in->angle[i++] = (planar_angle){.contact = j, .held_pull = fmax(1e-17, 1e-3 * in->tolerance)};
   }
   in->n_planar = i;
@@ -213,20 +380,12 @@ static hc_status begin(events *in, const double *y, int *count)
   if (!isfinite(size)) return HC_NOT_FINITE;
   memcpy(NV_DATA_S(in->base.y), y, 2 * (size_t)in->n * sizeof *y);
   find_planar_contacts(in);
-  for (int j = 0; j < in->n_contacts; ++j) {
-    const scaled_contact *c = &in->base.m->contact[j];
-    contact_motion at;
-    if (c->circle) {
-      const planar_contact_motion both = events_planar_at(in, j, y);
-      planar_track_begin(&in->track[j], c, &both, y + 2 * in->n + j);
-      begin_angle(in, j, 0);
-    } else if (!c->second) {
-      events_motion_at(in, j, y, NULL, &at, NULL);
-      in->track[j] = contact_track_begin(c, &at, y[2 * in->n + j]);
-    }
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
+    const contact_motion at = contact_motion_at(in->base.m, j, y);
+    contact_track_begin(&in->track[j], &in->base.m->contact[j], &at, y + 2 * in->n + j);
+    begin_angle(in, j, 0);
   }
   use_states(in);
-  slider_travel_begin(&in->travel, in->track, y + 2 * in->n);
   if (in->varies) {
     in->variations.theta = 0;
     fundamental_matrix_begin(&in->variations, in->base.m, in->track, y);
@@ -235,29 +394,18 @@ static hc_status begin(events *in, const double *y, int *count)
   return pass_fallen(in, 0, count);
 }
 
-/* Sliders of the motion y (order 0), or their rates where y is its derivative; circles that slip in the directions of
+/* Sliders of the motion y (order 0), or their rates where y is its derivative; slips that turn in the directions of
  * their angles phi[n_planar]. */
 static void set_sliders(const events *in, int order, const double *phi, double *y)
 {
   double *w = y + 2 * in->n;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
     const scaled_contact *c = &in->base.m->contact[j];
-    const contact_track *t = &in->track[j];
-    contact_motion at;
-    events_motion_at(in, j, y, NULL, &at, NULL);
-    const bool sticks = t->state == CONTACT_STICK && c->law.has_friction;
-    if (c->circle) {
-      contact_track circle[2] = {t[0], t[1]};
-      const planar_contact_motion both = events_planar_at(in, j, y);
-      const double angle = phi[in->angle_of[j]];
-      if (planar_track_turns(t)) circle[0].along = cos(angle), circle[1].along = sin(angle);
-      if (order == 0) planar_track_slider(circle, c, &both, w + j);
-      else planar_track_slider_rate(circle, c, both.u, both.v, w + j);
-    } else if (order == 0) {
-      w[j] = contact_track_slider(t, c, &at);
-    } else {
-      w[j] = sticks ? 0 : contact_track_vary_slider(t, c, at.u, at.v);
-    }
+    const contact_motion at = contact_motion_at(in->base.m, j, y);
+    contact_track t[2] = {in->track[j], in->track[j + c->kind->directions - 1]};
+    follow_angle(in, j, phi, t);
+    if (order == 0) contact_track_slider(t, c, &at, w + j);
+    else contact_track_slider_rate(t, c, &at, w + j);
   }
 }
 
@@ -281,10 +429,13 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   if (st == HC_OK && monodromy) st = fundamental_matrix_advance(&in->variations, m, in->track, TWO_PI);
   if (st != HC_OK) return st;
   memcpy(y, NV_DATA_S(in->base.y), 2 * (size_t)in->n * sizeof *y);
-  follow_angles(in);
-  for (int i = 0; i < in->n_planar; ++i) note_turn(in, in->angle[i].contact);
-  set_sliders(in, 0, NV_DATA_S(in->base.y) + 2 * in->n, y);
-  slider_travel_end(&in->travel, in->track, y + 2 * in->n);
+  for (int i = 0; i < in->n_planar; ++i) {
+    const int j = in->angle[i].contact;
+    follow_angle(in, j, angles_of(in), &in->track[j]);
+    note_turn(in, j);
+  }
+  set_sliders(in, 0, angles_of(in), y);
+  contact_track_end(in->track, in->n_contacts, y + 2 * in->n);
   if (monodromy) fundamental_matrix_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
 }
@@ -321,13 +472,12 @@ static contact_state state(const integrator *base, int j, const double *y)
   return ((const events *)base)->track[j].state;
 }
 
-static double travel(const integrator *base, int j) { return ((const events *)base)->travel.most[j]; }
+static double travel(const integrator *base, int j) { return ((const events *)base)->track[j].most; }
 
 static void release(integrator *base)
 {
   events *in = (events *)base;
   fundamental_matrix_free(&in->variations);
-  slider_travel_free(&in->travel);
   interval_modes_free(in->modes);
   integrate_free_parts(&in->base);
   free(in->track);
@@ -354,11 +504,9 @@ static hc_status make_cvode(events *in)
 {
   N_VConst(0.0, in->base.y);
   int flag = CVodeInit(in->base.cv, events_rhs, 0.0, in->base.y); /* first: the other calls need it */
-  if (flag == CV_SUCCESS && in->n_contacts > 0)
-    flag = CVodeRootInit(in->base.cv, EVENTS_ROOTS * in->n_contacts, events_roots);
+  if (flag == CV_SUCCESS && in->n_contacts > 0) flag = CVodeRootInit(in->base.cv, ROOTS * in->n_contacts, events_roots);
   if (flag != CV_SUCCESS) return HC_NO_MEMORY;
-  for (int i = 0; i < EVENTS_ROOTS * in->n_contacts; ++i)
-    in->info[i] = i % EVENTS_ROOTS < TRACK_GUARDS ? -1 : 0; /* guards fall */
+  for (int i = 0; i < ROOTS * in->n_contacts; ++i) in->info[i] = i % ROOTS < TRACK_GUARDS ? -1 : 0; /* guards fall */
   const int flags[] = {
       HC_CVODE_QUIET(in->base.cv),
       CVodeSStolerances(in->base.cv, in->tolerance, in->tolerance),
@@ -391,7 +539,7 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   in->is_single = motion_single_fits(base) && base->n_planar == 0;
   in->track = calloc(contacts + 1, sizeof *in->track);
   in->law = calloc(contacts + 1, sizeof *in->law);
-  in->info = calloc(EVENTS_ROOTS * contacts + 1, sizeof *in->info);
+  in->info = calloc(ROOTS * contacts + 1, sizeof *in->info);
   in->n_equations = 2 * base->n + base->n_planar;
   in->rate = calloc((size_t)in->n_equations + (size_t)base->n_planar, sizeof *in->rate);
   in->angle = calloc((size_t)base->n_planar + 1, sizeof *in->angle);
@@ -401,7 +549,6 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   if (st == HC_OK) in->phi = in->rate + in->n_equations;
   if (st == HC_OK) st = interval_modes_new(base, INTERVAL_MODES_STIFF, &in->modes);
   if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes);
-  if (st == HC_OK) st = slider_travel_make(&in->travel, base->n_contacts);
   if (st == HC_OK) st = integrate_make_parts(&in->base, in->n_equations, bdf ? CV_BDF : CV_ADAMS, NULL);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {

@@ -5,11 +5,6 @@
 
 static const double opening = 1e-4; /* [rad] */
 
-static double limit_of(const scaled_contact *c, double v)
-{
-  return c->law.mu * (c->law.kn * (v + c->law.gap) + c->law.load);
-}
-
 static double friction_of(const scaled_contact *c) { return c->law.mu * c->law.kn; }
 
 void planar_angle_open(planar_angle *a, const scaled_contact *c, const angle_motion *now)
@@ -22,21 +17,19 @@ void planar_angle_open(planar_angle *a, const scaled_contact *c, const angle_mot
   a->rate = turn * pull / (friction_of(c) * now->at.dv + pull);
 }
 
-static bool turns(const planar_angle *a, const contact_track t[2]) { return planar_track_turns(t) && !a->opens; }
-
 double planar_angle_rate(const planar_angle *a, const contact_track t[2], const scaled_contact *c,
-                         const planar_contact_motion *at, double phi)
+                         const contact_motion *at, double phi)
 {
-  if (!turns(a, t)) return planar_track_turns(t) ? a->rate : 0;
-  return c->law.kt * (at->du[1] * cos(phi) - at->du[0] * sin(phi)) / limit_of(c, at->v);
+  if (!t->turns || a->opens) return t->turns ? a->rate : 0;
+  return c->law.kt * (at->du[1] * cos(phi) - at->du[0] * sin(phi)) / contact_track_limit(c, at->v);
 }
 
 angle_slopes planar_angle_slopes(const planar_angle *a, const contact_track t[2], const scaled_contact *c,
-                                 const planar_contact_motion *at, double phi)
+                                 const contact_motion *at, double phi)
 {
-  const double limit = limit_of(c, at->v), e[2] = {cos(phi), sin(phi)}, by = c->law.kt / limit;
+  const double limit = contact_track_limit(c, at->v), e[2] = {cos(phi), sin(phi)}, by = c->law.kt / limit;
   angle_slopes s = {.t_v = {friction_of(c) * e[0], friction_of(c) * e[1]}, .t_phi = {-limit * e[1], limit * e[0]}};
-  if (!turns(a, t)) return s;
+  if (!t->turns || a->opens) return s;
   s.rate_u[0] = -by * e[1];
   s.rate_u[1] = by * e[0];
   s.rate_phi = -by * (at->du[0] * e[0] + at->du[1] * e[1]);
@@ -50,13 +43,13 @@ static track_guard guard_of(track_event event, double value, double rate, double
 }
 
 /* mu N - |T|; where T = 0 its rate is that of the T to come. */
-static track_guard end_of_stick(const contact_track t[2], const scaled_contact *c, const planar_contact_motion *at)
+static track_guard end_of_stick(const contact_track t[2], const scaled_contact *c, const contact_motion *at)
 {
   const double s[2] = {at->u[0] - t[0].rest, at->u[1] - t[1].rest}, size = hypot(s[0], s[1]);
   const double grows = size > 0 ? (s[0] * at->du[0] + s[1] * at->du[1]) / size : hypot(at->du[0], at->du[1]);
   const double noise = contact_track_force_noise(c, hypot(at->u[0], at->u[1]), at->v, hypot(t[0].rest, t[1].rest));
-  return guard_of(TRACK_SLIPS_PLUS, limit_of(c, at->v) - c->law.kt * size, friction_of(c) * at->dv - c->law.kt * grows,
-                  noise);
+  return guard_of(TRACK_SLIPS_PLUS, contact_track_limit(c, at->v) - c->law.kt * size,
+                  friction_of(c) * at->dv - c->law.kt * grows, noise);
 }
 
 /* kt U'.e - mu kn V'. */
@@ -90,7 +83,7 @@ int planar_angle_guards(const planar_angle *a, const contact_track t[2], const s
     guard[n++] = end_of_stick(t, c, &now->at);
     return n;
   }
-  if (t->held) {
+  if (!t->turns) {
     guard[n++] = guard_of(TRACK_TURNS, -now->at.dv, -now->normal_bend, 0);
     return n;
   }

@@ -85,7 +85,7 @@ void structure_newton_linearise(structure_newton *s, const scaled_model *m, cons
 {
   project(s, y, s->q);
   for (int j = 0; j < s->n_contacts; ++j) {
-    const int directions = m->contact[j].second ? 0 : scaled_directions(m, j);
+    const int directions = m->contact[j].direction > 0 ? 0 : scaled_directions(m, j);
     const double u[2] = {at(s->q, s->along[j]), directions == 2 ? at(s->q, s->along[j + 1]) : 0};
     s->directions[j] = directions;
     const scaled_contact *c = &m->contact[j];

@@ -1,5 +1,21 @@
-/* law_planar.c - see law_planar.h; the law itself stands there. Proof: tests/timeint/test_law.c. */
-#include "timeint/law/law_planar.h"
+/* law_planar.c - see law_kind.h: the two directions of a contact with two tangents under the law of the circle. u, w, S
+ * and T are vectors of the plane. Regularised (law_regularised.h), for either direction's half of N:
+ *
+ *     S  = kt (u - w)
+ *     w' = e max(|S| - mu N, 0)/eta,  e = S/|S|
+ *     T  = S, limited to |T| <= mu N; `overstress`: T = S
+ * width -> 0, eta -> 0 give the exact law. Where w moves, S is longer than mu N by eta |w'|: T is exact but for its
+ * direction, which turns as if R = mu N/kt were longer by eta |w'|/kt. So where a slider creeps along the circle the
+ * error is first order in eta (law_regularised.h: second).
+ *
+ * Under the exact law (contact_track.h) its guards are
+ *     stick  (mu N)^2 - |T|^2        slip  kt s, of the series of e (planar_series.h) or its angle (planar_angle.h)
+ * Shortly before N = 0 the direction e has no time left to turn the motion, but turns the faster itself: it is then
+ * held. Proof: tests/timeint/test_law.c, test_circle.c. */
+#include "timeint/law/contact_track.h"
+
+static const double held_pull = 1e-17; /* what a wrong direction of T could change of a rate until N = 0 */
+static const double held_time = 1e-13; /* [rad] too short for steps */
 
 /* The spring's force, and by how much it is longer than the limit. */
 typedef struct overload {
@@ -14,7 +30,7 @@ static overload load_of(const law_regularised *c, const double u[2], double n, c
   return o;
 }
 
-planar_value law_planar_eval(const law_regularised *c, const double *u, double v, const double *w)
+static planar_value evaluate(const law_regularised *c, const double *u, double v, const double *w)
 {
   const law_value normal = law_regularised_eval(c, 0, v, 0); /* T = 0: of N alone */
   planar_value r = {.n = normal.n, .change = normal.change};
@@ -28,7 +44,7 @@ planar_value law_planar_eval(const law_regularised *c, const double *u, double v
   return r;
 }
 
-planar_derivatives law_planar_derivatives(const law_regularised *c, const double *u, double v, const double *w)
+static planar_derivatives derivatives(const law_regularised *c, const double *u, double v, const double *w)
 {
   const double n = law_regularised_eval(c, 0, v, 0).n;
   planar_derivatives r = {.n_v = law_regularised_derivatives(c, 0, v, 0).n_v};
@@ -48,20 +64,48 @@ planar_derivatives law_planar_derivatives(const law_regularised *c, const double
   return r;
 }
 
-static planar_value eval_line(const law_regularised *c, const double *u, double v, const double *w)
+/* (mu N)^2 - |kt (U - rest)|^2 of a contact that sticks; the series of e has that of one that slips. */
+static int curved_guards(const contact_track *t, const scaled_contact *c, const double *u, const double *v,
+                         track_guard guard[TRACK_GUARDS])
 {
-  const law_value l = law_regularised_eval(c, *u, v, *w);
-  return (planar_value){.n = l.n, .change = l.change, .t = {l.t}, .rate = {l.rate}};
+  const law_regularised *law = &c->law;
+  double f[3][TRACK_TERMS]; /* mu N, T_1, T_2 */
+  if (t->state != CONTACT_STICK) return 0;
+  for (int k = 0; k < TRACK_TERMS; ++k) {
+    f[0][k] = law->mu * law->kn * v[k];
+    for (int a = 0; a < 2; ++a) f[1 + a][k] = law->kt * u[a * TRACK_TERMS + k];
+  }
+  f[0][0] = contact_track_limit(c, v[0]);
+  for (int a = 0; a < 2; ++a) f[1 + a][0] = law->kt * (u[a * TRACK_TERMS] - t[a].rest);
+  for (int k = 0; k < TRACK_TERMS; ++k) {
+    guard->g[k] = 0;
+    for (int i = 0; i <= k; ++i) guard->g[k] += f[0][i] * f[0][k - i] - f[1][i] * f[1][k - i] - f[2][i] * f[2][k - i];
+  }
+  const double noise = contact_track_force_noise(c, hypot(u[0], u[TRACK_TERMS]), v[0], hypot(t[0].rest, t[1].rest));
+  guard->event = TRACK_SLIPS_PLUS;
+  guard->noise = noise * (noise + fabs(f[0][0]) + hypot(f[1][0], f[2][0]));
+  return 1;
 }
 
-static planar_derivatives line_derivatives(const law_regularised *c, const double *u, double v, const double *w)
+/* That e is held, or no more, is no change of state. */
+static int counts(contact_track *t, track_event event, double theta)
 {
-  const law_derivatives s = law_regularised_derivatives(c, *u, v, *w);
-  return (planar_derivatives){
-      .n_v = s.n_v, .t_u = {{s.t_u}}, .t_v = {s.t_v}, .rate_u = {{s.rate_u}}, .rate_v = {s.rate_v}};
+  (void)t, (void)theta;
+  return event != TRACK_TURNS && event != TRACK_HOLDS;
 }
 
-const law_kind law_kinds[] = {
-    [LAW_ONE_TANGENT] = {1, eval_line, line_derivatives},
-    [LAW_TWO_TANGENTS] = {2, law_planar_eval, law_planar_derivatives},
-};
+static double hold(contact_track *t, const scaled_contact *c, const contact_motion *at)
+{
+  const double distance = at->v + c->law.gap, left = at->dv < 0 ? distance / -at->dv : INFINITY; /* to N = 0 [rad] */
+  const bool ends = !t->fresh && c->law.kn > 0 && at->dv < 0;
+  const bool holds = ends && (c->law.mu * c->law.kn * distance * left < held_pull || left < held_time);
+  t[0].turns = t[1].turns = !holds;
+  return holds ? 4 * left : INFINITY;
+}
+
+const law_kind law_planar = {.directions = 2,
+                             .evaluate = evaluate,
+                             .derivatives = derivatives,
+                             .curved_guards = curved_guards,
+                             .counts = counts,
+                             .hold = hold};

@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "numerics/norm.h"
-#include "timeint/law/law_planar.h"
+
+/* By whether two directions share a limit. */
+static const law_kind *const kinds[] = {&law_line, &law_planar};
 
 /* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force.
  * Where a contact opens or closes the motion is at least as large as the gap; a gap of 0 leaves the static motion. */
@@ -27,9 +29,8 @@ static void make_contact(scaled_contact *sc, const model_contact *from, double u
   if (!moves_along) law.kt = 0; /* u = 0 always: the tangential spring does no work */
   sc->law = law_regularised_make(&law, width / length, how->regularisation);
   sc->preload = contact_preload(&law);
-  sc->circle = from->circle && from->pair == CONTACT_FIRST && sc->law.has_friction;
-  sc->kind = &law_kinds[sc->circle ? LAW_TWO_TANGENTS : LAW_ONE_TANGENT];
-  sc->second = from->circle && from->pair == CONTACT_SECOND && sc->law.has_friction;
+  sc->kind = kinds[from->circle && from->pair != CONTACT_ALONE && sc->law.has_friction];
+  sc->direction = sc->kind->directions > 1 && from->pair == CONTACT_SECOND;
 }
 
 double scaled_force_unit(const scaled_model *m, double omega, double length)
@@ -53,23 +54,12 @@ void scaled_make(scaled_model *m, const model *from, const transient_settings *h
   }
 }
 
-void scaled_contact_motion(const scaled_model *m, int j, const double *x, double *u, double *v)
+void scaled_contact_motion(const scaled_model *m, int j, const double *x, double u[2], double *v)
 {
-  *u = dot_product(m->n, m->base->tangent + (size_t)j * (size_t)m->n, x);
-  *v = dot_product(m->n, m->base->normal + (size_t)j * (size_t)m->n, x);
-}
-
-void scaled_planar_motion(const scaled_model *m, int j, const double *x, double u[2], double *v)
-{
-  scaled_contact_motion(m, j, x, &u[0], v);
-  u[1] = dot_product(m->n, m->base->tangent + (size_t)(j + 1) * (size_t)m->n, x);
-}
-
-/* U of all directions of the contact whose first is j, and V. */
-static void motion_of(const scaled_model *m, int j, const double *x, double u[2], double *v)
-{
-  if (scaled_directions(m, j) == 2) scaled_planar_motion(m, j, x, u, v);
-  else scaled_contact_motion(m, j, x, &u[0], v);
+  const size_t n = (size_t)m->n, at = (size_t)j * n;
+  const int count = scaled_directions(m, j) - m->contact[j].direction;
+  for (int a = 0; a < count; ++a) u[a] = dot_product(m->n, m->base->tangent + at + (size_t)a * n, x);
+  *v = dot_product(m->n, m->base->normal + at, x);
 }
 
 double scaled_response(const scaled_model *m, int r, const double *x)
@@ -84,15 +74,15 @@ static planar_value value_of(const scaled_model *m, int j, const double *y)
 {
   const scaled_contact *c = &m->contact[j];
   double u[2], v;
-  motion_of(m, j, y, u, &v);
+  scaled_contact_motion(m, j, y, u, &v);
   return c->kind->evaluate(&c->law, u, v, y + 2 * m->n + j);
 }
 
 contact_state scaled_contact_state(const scaled_model *m, int j, const double *y)
 {
   const law_regularised *law = &m->contact[j].law;
-  double u, v;
-  scaled_contact_motion(m, j, y, &u, &v);
+  double u[2], v;
+  scaled_contact_motion(m, j, y, u, &v);
   if (!(law->kn > 0 ? v + law->gap > 0 : law->load > 0)) return CONTACT_SEPARATED;
   const int first = scaled_first(m, j);
   const planar_value at = value_of(m, first, y);
@@ -183,7 +173,7 @@ void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
     const int directions = scaled_directions(m, j);
     const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
     double u[2], v;
-    motion_of(m, j, y, u, &v);
+    scaled_contact_motion(m, j, y, u, &v);
     const planar_derivatives s = m->contact[j].kind->derivatives(&m->contact[j].law, u, v, y + w);
     for (int a = 0; a < directions; ++a)
       for (int b = 0; b < directions; ++b) add_direction(jac, n, ld, w, t, a, b, &s);

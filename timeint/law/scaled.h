@@ -9,7 +9,7 @@
  * Forces are in units of omega^2 L/s^2. N0 = max(kn gap, 0) + load is the exact preload, not softplus' of it: at
  * gap = 0 the two differ to first order in the width, and a constant force would show in the answer to first order
  * too.
- * Two directions of one contact under the law of the circle are neighbours (model.h); T and W of both: law_planar.h.
+ * Two directions of one contact under the law of the circle are neighbours (model.h); T and W of both: law_kind.h.
  *
  * For the exact law the corner's width is 0, and X', P' of scaled_rhs are then exact for any state whose slider obeys
  * |T| <= mu N; the sliders' own motion is contact_track.h's. */
@@ -17,16 +17,9 @@
 #define HC_TIMEINT_SCALED_H
 
 #include "model/model.h"
-#include "timeint/law/law_planar.h"
+#include "timeint/law/law_kind.h"
 #include "timeint/law/modal_base.h"
 #include "timeint/transient_settings.h"
-
-typedef struct scaled_contact {
-  law_regularised law; /* without dimensions */
-  const law_kind *kind;
-  double preload;      /* N0 */
-  bool circle, second; /* the first of two directions that share the law of the circle; the second. With friction */
-} scaled_contact;
 
 typedef struct scaled_model {
   int n, n_contacts, n_states; /* n_states = 2 n + n_contacts: n of X, n of P, W */
@@ -55,14 +48,11 @@ void scaled_linear_force(const scaled_model *m, double theta, const double *y, d
  * state; where it slips that is CONTACT_SLIP_PLUS, whatever the direction. */
 contact_state scaled_contact_state(const scaled_model *m, int j, const double *y);
 
-/* U and V of contact j at X = y[0..n-1]; and response r. */
-void scaled_contact_motion(const scaled_model *m, int j, const double *x, double *u, double *v);
-
-/* The same of a circle whose first direction is j: U of both. */
-void scaled_planar_motion(const scaled_model *m, int j, const double *x, double u[2], double *v);
+/* U and V of contact j at X = y[0..n-1]: u of the directions from j on to the last that shares its law. */
+void scaled_contact_motion(const scaled_model *m, int j, const double *x, double u[2], double *v);
 
 /* The first direction of the contact that j is one of; and how many it has that share a law: 2 of a circle, else 1. */
-static inline int scaled_first(const scaled_model *m, int j) { return m->contact[j].second ? j - 1 : j; }
+static inline int scaled_first(const scaled_model *m, int j) { return j - m->contact[j].direction; }
 static inline int scaled_directions(const scaled_model *m, int j) { return m->contact[j].kind->directions; }
 
 double scaled_response(const scaled_model *m, int r, const double *x);

@@ -243,11 +243,11 @@ int measure_resting_sliders(const measure *me)
   double range = 0;
   int resting = 0;
   for (int i = 0; i < me->n_responses; ++i) range = fmax(range, me->response[i].max - me->response[i].min);
-  for (int j = 0; j < me->m->n_contacts; ++j) {
-    const scaled_contact *c = &me->m->contact[j];
-    const bool leaves = !c->law.has_friction || me->seen[j] & SEEN_SEPARATED || c->second;
-    double path = me->slider[2 * j + 1] - me->slider[2 * j];
-    if (c->circle) path = fmax(path, me->slider[2 * j + 3] - me->slider[2 * j + 2]);
+  for (int j = 0; j < me->m->n_contacts; j += scaled_directions(me->m, j)) {
+    const bool leaves = !me->m->contact[j].law.has_friction || me->seen[j] & SEEN_SEPARATED;
+    double path = 0;
+    for (int a = j; a < j + scaled_directions(me->m, j); ++a)
+      path = fmax(path, me->slider[2 * a + 1] - me->slider[2 * a]);
     resting += !leaves && path <= MEASURE_RESTS * range;
   }
   return resting;

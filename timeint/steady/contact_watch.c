@@ -9,7 +9,6 @@
 
 #include "numerics/gauss.h"
 #include "numerics/roots.h"
-#include "timeint/law/law_planar.h"
 #include "timeint/steady/timeint_private.h"
 
 /* A contact at one instant. */
@@ -35,41 +34,29 @@ typedef struct contact_watch {
   contact_sums *of; /* [n_contacts] */
 } contact_watch;
 
-/* All but N of the circle whose first direction is j. */
-static void add_planar(const contact_watch *w, int j, contact_instant *at)
-{
-  const scaled_model *m = &w->ti->scaled;
-  const double *slider = w->y + 2 * m->n + j, *slides = w->dy + 2 * m->n + j;
-  double u[2], du[2], v, dv;
-  scaled_planar_motion(m, j, w->y, u, &v);
-  scaled_planar_motion(m, j, w->dy, du, &dv);
-  const planar_value value = law_planar_eval(&m->contact[j].law, u, v, slider);
-  const bool exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
-  at->du = (u[0] - slider[0]) * du[0] + (u[1] - slider[1]) * du[1];
-  if (at->state == CONTACT_SEPARATED) return;
-  at->pull = hypot(value.t[0], value.t[1]);
-  if (at->state != CONTACT_STICK) at->slip = exact ? hypot(slides[0], slides[1]) : hypot(value.rate[0], value.rate[1]);
-  at->loss = exact ? m->contact[j].law.mu * value.n * at->slip : value.t[0] * du[0] + value.t[1] * du[1];
-}
-
 static contact_instant contact_at(const contact_watch *w, int j)
 {
   const scaled_model *m = &w->ti->scaled;
-  const law_regularised *law = &m->contact[j].law;
-  const int slider = 2 * m->n + j;
-  double u, v;
-  contact_instant at = {.state = integrate_contact(w->in, j, w->y)};
-  scaled_contact_motion(m, j, w->y, &u, &v);
-  scaled_contact_motion(m, j, w->dy, &at.du, &at.dv);
-  const law_value value = law_regularised_eval(law, u, v, w->y[slider]);
+  const scaled_contact *c = &m->contact[j];
+  const int directions = c->kind->directions;
+  const double *slider = w->y + 2 * m->n + j, *slides = w->dy + 2 * m->n + j;
+  double u[2], du[2], v, dv;
+  scaled_contact_motion(m, j, w->y, u, &v);
+  scaled_contact_motion(m, j, w->dy, du, &dv);
+  contact_instant at = {.state = integrate_contact(w->in, j, w->y), .du = du[0], .dv = dv};
+  if (c->direction > 0) { /* the first has all but N */
+    at.normal = law_regularised_eval(&c->law, 0, v, 0).n;
+    return at;
+  }
+  const planar_value value = c->kind->evaluate(&c->law, u, v, slider);
   at.normal = value.n;
-  if (m->contact[j].circle) add_planar(w, j, &at);
-  if (m->contact[j].circle || m->contact[j].second) return at;
-  if (!law->has_friction || at.state == CONTACT_SEPARATED) return at;
-  at.pull = value.t;
-  const bool slips = contact_slip_sign(at.state) != 0, exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
-  if (slips) at.slip = fabs(exact ? w->dy[slider] : value.rate);
-  at.loss = exact ? law->mu * value.n * at.slip : value.t * at.du;
+  if (directions > 1) at.du = (u[0] - slider[0]) * du[0] + (u[1] - slider[1]) * du[1];
+  if (!c->law.has_friction || at.state == CONTACT_SEPARATED) return at;
+  const bool slips = at.state != CONTACT_STICK, exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
+  const double *rate = exact ? slides : value.rate;
+  at.pull = hypot(value.t[0], value.t[1]); /* of one tangent t[1] = 0 */
+  if (slips) at.slip = directions > 1 ? hypot(rate[0], rate[1]) : fabs(rate[0]);
+  at.loss = exact ? c->law.mu * value.n * at.slip : value.t[0] * du[0] + (directions > 1 ? value.t[1] * du[1] : 0);
   return at;
 }
 
@@ -98,15 +85,15 @@ static hc_status rate_at(void *self, double theta, double *rate)
 {
   const contact_rate *of = self;
   const scaled_model *m = &of->w->ti->scaled;
-  double du, dv;
-  if (m->contact[of->contact].circle && !of->normal) {
+  double du[2], dv;
+  if (scaled_directions(m, of->contact) > 1 && !of->normal) {
     hc_status st = look(of->w, theta);
     *rate = st == HC_OK ? contact_at(of->w, of->contact).du : NAN;
     return st;
   }
   hc_status st = integrate_dense(of->w->in, theta, 1, of->w->dy);
-  scaled_contact_motion(m, of->contact, of->w->dy, &du, &dv);
-  *rate = of->normal ? dv : du;
+  scaled_contact_motion(m, of->contact, of->w->dy, du, &dv);
+  *rate = of->normal ? dv : du[0];
   return st;
 }
 

@@ -261,7 +261,7 @@ static hc_status find_multiplier(shoot *s, shoot_report *r)
   for (int i = 0; i < s->n; ++i) {
     const scaled_contact *c = &s->ti->scaled.contact[i < moving ? 0 : i - moving];
     if (!is_free(s, i)) s->active[m++] = i;
-    else r->free_sliders += c->law.has_friction && !c->second; /* a circle counts once */
+    else r->free_sliders += c->law.has_friction && c->direction == 0;
   }
   hc_status st = floquet_multipliers(s->floquet, s->phi, 1, s->n, m, s->active, s->multipliers);
   if (st == HC_NOT_CONVERGED) {

@@ -138,9 +138,9 @@ void timeint_get_state(const timeint *ti, double *state)
     state[n + i] = state[n + i] * length * ti->omega;
   }
   for (int j = 0; j < ti->model->n_contacts; ++j) {
-    double u, v;
-    scaled_contact_motion(&ti->scaled, j, ti->y, &u, &v);
-    state[2 * n + j] = (ti->scaled.contact[j].law.has_friction ? ti->y[2 * n + j] : u) * length;
+    double u[2], v;
+    scaled_contact_motion(&ti->scaled, j, ti->y, u, &v);
+    state[2 * n + j] = (ti->scaled.contact[j].law.has_friction ? ti->y[2 * n + j] : u[0]) * length;
   }
 }
 

@@ -1,0 +1,99 @@
+/* law_kind.h - a contact law as time integration sees it: a row of functions, chosen once, when the contact is made
+ * (scaled.c). A new law is its file, which defines its row, and that row's name in the table in scaled.c.
+ *
+ * A contact has one direction in the tangent plane, or two under the law of the circle, which are neighbours (model.h):
+ * U, W, S and T are vectors of so many entries, and so are the arrays w[], t[] of what a direction has. N is half of
+ * the contact's for either of two directions, and mu twice as large. Functions need libm only and cannot fail. */
+#ifndef HC_TIMEINT_LAW_KIND_H
+#define HC_TIMEINT_LAW_KIND_H
+
+#include "timeint/law/law_regularised.h"
+
+/* ---- regularised (law_regularised.h) --------------------------------------------------------------------------- */
+
+typedef struct planar_value {
+  double n, change, t[2], rate[2];
+} planar_value; /* N and N - N0 of either direction; T [force], w' [length/time] */
+
+/* dN/dv of either direction, dT_a/du_b in t_u[a][b], dT_a/dv ...; w enters as u - w. */
+typedef struct planar_derivatives {
+  double n_v, t_u[2][2], t_v[2], rate_u[2][2], rate_v[2];
+} planar_derivatives;
+
+/* ---- exact (contact_track.h) ------------------------------------------------------------------------------------ */
+
+/* U, V and their rates at one instant. */
+typedef struct contact_motion {
+  double u[2], v, du[2], dv;
+} contact_motion;
+
+/* One direction of a contact along the motion of a period; states and flags are the same in all of its directions. */
+typedef struct contact_track {
+  contact_state state;
+  double rest;       /* W while the contact sticks */
+  bool since_start;  /* it sticks since the start of the period: rest is an independent state */
+  double along;      /* T/|T| where it slips, or began with |T| = mu N: this direction's part of e */
+  bool turns;        /* e follows the motion: T is not linear in it */
+  bool fresh;        /* it turns since a touch at this instant, N = 0 */
+  double changed;    /* [rad] when it came to this state */
+  double from, most; /* W where the period began; the largest |W - from| since, INFINITY once separated */
+} contact_track;
+
+enum { TRACK_GUARDS = 3, TRACK_ORDER = 24, TRACK_TERMS = TRACK_ORDER + 1 };
+typedef enum track_event {
+  TRACK_SEPARATES,
+  TRACK_TOUCHES,
+  TRACK_SLIPS_PLUS,
+  TRACK_SLIPS_MINUS,
+  TRACK_STICKS,
+  TRACK_TURNS, /* of a contact that slips: its direction turns freely from here on; */
+  TRACK_HOLDS  /* is held */
+} track_event;
+
+/* A guard of a state: g = by_u (U - from_u) + by_v (V + gap) + constant, or by_u U' + by_v V'. */
+typedef struct track_condition {
+  track_event event; /* what happens where it falls through 0 */
+  bool of_rates;
+  double by_u, by_v, from_u, gap, constant;
+} track_condition;
+
+/* A guard as a series in tau: coefficients g[TRACK_TERMS]; below -noise it is negative. */
+typedef struct track_guard {
+  track_event event; /* what happens where it falls through 0 */
+  double noise, g[TRACK_TERMS];
+} track_guard;
+
+/* ----------------------------------------------------------------------------------------------------------------- */
+
+typedef struct scaled_contact scaled_contact;
+typedef struct law_kind {
+  int directions;
+
+  planar_value (*evaluate)(const law_regularised *c, const double *u, double v, const double *w);
+  /* Where the law has them; on the limit |S| = mu N those of stick. */
+  planar_derivatives (*derivatives)(const law_regularised *c, const double *u, double v, const double *w);
+
+  /* Guards of a contact with friction that touches, but the end of contact: those that are linear in the motion; those
+   * that are not (NULL: none), as series from those of U and V, u[directions][TRACK_TERMS], v[TRACK_TERMS]. How many. */
+  int (*conditions)(const contact_track *t, const scaled_contact *c, track_condition conditions[TRACK_GUARDS]);
+  int (*curved_guards)(const contact_track *t, const scaled_contact *c, const double *u, const double *v,
+                       track_guard guard[TRACK_GUARDS]);
+
+  /* By how many the period's transitions grow with that event at theta, which is not passed yet. */
+  int (*counts)(contact_track *t, track_event event, double theta);
+
+  /* While it slips: holds e from that motion on if it has no time left to turn the motion, or lets it turn. The longest
+   * step [rad] for which that holds. NULL: e never turns. */
+  double (*hold)(contact_track *t, const scaled_contact *c, const contact_motion *at);
+} law_kind;
+
+extern const law_kind law_line, law_planar; /* one tangent; two under the law of the circle */
+
+struct scaled_contact {
+  law_regularised law; /* without dimensions */
+  const law_kind *kind;
+  int direction;  /* of the kind's: 0, 1 */
+  double preload; /* N0 */
+};
+
+#endif
