@@ -219,8 +219,9 @@ static void put_sliders(const by_series *in, double tau, int order, double *y)
   double *w = y + 2 * in->n;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
     const scaled_contact *c = &in->m->contact[j];
-    const contact_motion at = contact_motion_at(in->m, j, y);
     contact_track t[2] = {in->track[j], in->track[j + c->kind->directions - 1]};
+    contact_motion at;
+    scaled_contact_motion(in->m, j, y, at.u, &at.v);
     if (inside) motion_series_direction(&in->series, j, tau, t);
     if (order == 0) contact_track_slider(t, c, &at, w + j);
     else contact_track_slider_rate(t, c, &at, w + j);

@@ -401,8 +401,9 @@ static void set_sliders(const events *in, int order, const double *phi, double *
   double *w = y + 2 * in->n;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
     const scaled_contact *c = &in->base.m->contact[j];
-    const contact_motion at = contact_motion_at(in->base.m, j, y);
     contact_track t[2] = {in->track[j], in->track[j + c->kind->directions - 1]};
+    contact_motion at;
+    scaled_contact_motion(in->base.m, j, y, at.u, &at.v);
     follow_angle(in, j, phi, t);
     if (order == 0) contact_track_slider(t, c, &at, w + j);
     else contact_track_slider_rate(t, c, &at, w + j);
