@@ -1,5 +1,5 @@
 /* integrate_events.c - see integrate_events.h: between two changes of contact state, an interval, the equations that
- * CVODE integrates and the root functions that end it; what happens at a change; from the first to the last of a period.
+ * CVODE integrates and the root functions that end it; what happens at a change; a period from its first to its last.
  *
  * Root functions of a contact, six, so that a period allocates nothing: the guards of its state, which end it where
  * they fall through 0, and the rates of these, which end nothing. Without them a guard could fall and rise within one

@@ -20,7 +20,7 @@ typedef struct planar_derivatives {
   double n_v, t_u[2][2], t_v[2], rate_u[2][2], rate_v[2];
 } planar_derivatives;
 
-/* ---- exact (contact_track.h) ------------------------------------------------------------------------------------ */
+/* ---- exact (contact_track.h) ----------------------------------------------------------------------------------- */
 
 /* U, V and their rates at one instant. */
 typedef struct contact_motion {
@@ -63,7 +63,7 @@ typedef struct track_guard {
   double noise, g[TRACK_TERMS];
 } track_guard;
 
-/* ----------------------------------------------------------------------------------------------------------------- */
+/* ---- a row ----------------------------------------------------------------------------------------------------- */
 
 typedef struct scaled_contact scaled_contact;
 typedef struct law_kind {
@@ -74,7 +74,7 @@ typedef struct law_kind {
   planar_derivatives (*derivatives)(const law_regularised *c, const double *u, double v, const double *w);
 
   /* Guards of a contact with friction that touches, but the end of contact: those that are linear in the motion; those
-   * that are not (NULL: none), as series from those of U and V, u[directions][TRACK_TERMS], v[TRACK_TERMS]. How many. */
+/* ---- a row ---------------------------------------------------------------------------------------------------- */
   int (*conditions)(const contact_track *t, const scaled_contact *c, track_condition conditions[TRACK_GUARDS]);
   int (*curved_guards)(const contact_track *t, const scaled_contact *c, const double *u, const double *v,
                        track_guard guard[TRACK_GUARDS]);
