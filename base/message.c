@@ -43,6 +43,13 @@ void message_add(message *m, const char *format, ...)
   va_end(args);
 }
 
+void message_add_errno(message *m, int error)
+{
+  char words[128];
+  if (strerror_r(error, words, sizeof words)) message_add(m, "error %d", error);
+  else message_add(m, "%s", words);
+}
+
 void message_add_input(message *m, const char *text, size_t length, size_t limit)
 {
   for (size_t i = 0; i < length && !m->full;) {

@@ -21,6 +21,9 @@ __attribute__((format(printf, 2, 3)))
 void message_add(message *m, const char *format, ...);
 void message_add_list(message *m, const char *format, va_list args);
 
+/* Adds the system's words for an errno. */
+void message_add_errno(message *m, int error);
+
 /* Adds text of the input, text[length]: at most `limit` bytes of it and then "..."; a control character or a byte that
  * is not UTF-8 becomes \xNN. */
 void message_add_input(message *m, const char *text, size_t length, size_t limit);

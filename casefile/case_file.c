@@ -82,10 +82,10 @@ static hc_status read_stream(case_reader *r, FILE *from, char **text, size_t *le
 
 static hc_status cannot_open(case_reader *r, int error)
 {
-  char words[128];
   if (error == ENOMEM) return case_out_of_memory(r);
-  if (strerror_r(error, words, sizeof words)) snprintf(words, sizeof words, "error %d", error);
-  message_add(case_blame(r, (case_place){0}), "cannot be opened: %s", words);
+  message *m = case_blame(r, (case_place){0});
+  message_add(m, "cannot be opened: ");
+  message_add_errno(m, error);
   return HC_IO;
 }
 

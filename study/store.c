@@ -74,13 +74,7 @@ static char *store_schema(const study *s, int application_id)
 
 /* ---- putting a scene ---- */
 
-static int n_varied(const study *s)
-{
-  int n = 0;
-  for (int a = 0; a < s->n_axes; ++a) n += s->axes[a].n_fields;
-  return n;
-}
-
+/* A statement that inserts n columns; NULL when out of memory. */
 static sqlite3_stmt *prepare_insert(sqlite3 *db, const char *name, int n)
 {
   char sql[4096];
@@ -92,20 +86,15 @@ static sqlite3_stmt *prepare_insert(sqlite3 *db, const char *name, int n)
 }
 _Static_assert(2 * (STUDY_MOST_FIELDS + ROWS_MOST) + 64 < 4096, "prepare_insert's text holds a mark a column");
 
-static bool store_prepare(study_store *st)
+static bool prepare_inserts(study_store *st)
 {
-  int n_curve, n_row;
+  int n_curve, n_row, n_varied = 0;
   rows_columns(ROWS_CURVE, study_extra_columns(st->s), &n_curve);
   rows_columns(study_rows(st->s), study_extra_columns(st->s), &n_row);
-  st->put_scene = prepare_insert(st->db, "scene", 1 + n_varied(st->s) + 3 + n_curve);
+  for (int a = 0; a < st->s->n_axes; ++a) n_varied += st->s->axes[a].n_fields;
+  st->put_scene = prepare_insert(st->db, "scene", 1 + n_varied + 3 + n_curve);
   st->put_row = prepare_insert(st->db, "row", 2 + n_row);
   return st->put_scene && st->put_row;
-}
-
-static void store_unprepare(study_store *st)
-{
-  sqlite3_finalize(st->put_scene);
-  sqlite3_finalize(st->put_row);
 }
 
 /* False: no memory for the text. Unchecked, the column would be stored as NULL. */
@@ -128,6 +117,14 @@ static void bind_value(sqlite3_stmt *q, int i, const study_field *sf, const char
   else sqlite3_bind_text(q, i, text, -1, SQLITE_STATIC);
 }
 
+/* Store the row whose columns are bound, if they are. */
+static bool insert(sqlite3_stmt *q, bool bound)
+{
+  const bool good = bound && sqlite3_step(q) == SQLITE_DONE;
+  sqlite3_reset(q);
+  return good;
+}
+
 static bool insert_scene(study_store *st, const study_result *r)
 {
   const study *s = st->s;
@@ -146,9 +143,7 @@ static bool insert_scene(study_store *st, const study_result *r)
   sqlite3_bind_double(q, ++i, r->seconds);
   for (int c = 0; c < n_curve; ++c)
     good &= bind_cell(q, ++i, r->has_curve ? &r->curve[c] : &(row_cell){.there = false});
-  good = good && sqlite3_step(q) == SQLITE_DONE;
-  sqlite3_reset(q);
-  return good;
+  return insert(q, good);
 }
 
 static bool insert_rows(study_store *st, const study_result *r)
@@ -160,42 +155,48 @@ static bool insert_rows(study_store *st, const study_result *r)
     sqlite3_bind_int(q, 2, n);
     for (int c = 0; c < r->n_columns; ++c)
       good &= bind_cell(q, 3 + c, &r->rows[(size_t)n * (size_t)r->n_columns + (size_t)c]);
-    good = good && sqlite3_step(q) == SQLITE_DONE;
-    sqlite3_reset(q);
+    good = insert(q, good);
   }
   return good;
 }
 
 /* ---- saying what is wrong ---- */
 
-static hc_status refuse(case_error *err, const char *path, hc_status st, const char *why)
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+static hc_status
+refuse(case_error *err, const char *path, hc_status st, const char *format, ...)
 {
   message m;
+  va_list args;
   message_start(&m, err->message, sizeof err->message);
   message_add_input(&m, path, strlen(path), 240);
-  message_add(&m, ": %s", why);
+  message_add(&m, ": ");
+  va_start(args, format);
+  message_add_list(&m, format, args);
+  va_end(args);
   return st;
 }
 
 static hc_status refuse_errno(case_error *err, const char *path, const char *what, int error)
 {
-  char words[128], why[256];
-  if (strerror_r(error, words, sizeof words)) snprintf(words, sizeof words, "error %d", error);
-  snprintf(why, sizeof why, "%s: %s", what, words);
-  return refuse(err, path, HC_IO, why);
+  message m;
+  message_start(&m, err->message, sizeof err->message);
+  message_add_input(&m, path, strlen(path), 240);
+  message_add(&m, ": %s: ", what);
+  message_add_errno(&m, error);
+  return HC_IO;
 }
+
+static const char damaged[] = "damaged; delete it, or give another name with --results";
 
 static hc_status refuse_sql(case_error *err, const char *path, sqlite3 *db)
 {
-  char why[256];
-  int code = sqlite3_errcode(db);
-  if (code == SQLITE_NOMEM || code == SQLITE_OK /* then it was our own text that had no room */)
-    return refuse(err, path, HC_NO_MEMORY, "out of memory");
-  snprintf(why, sizeof why, "%s (SQLite: %.150s)",
-           code == SQLITE_CORRUPT || code == SQLITE_NOTADB ? "damaged; delete it, or give another name with --results"
-                                                           : "cannot be used",
-           sqlite3_errmsg(db));
-  return refuse(err, path, HC_IO, why);
+  const int code = sqlite3_errcode(db);
+  if (study_sql_status(db) == HC_NO_MEMORY) return refuse(err, path, HC_NO_MEMORY, "out of memory");
+  return refuse(err, path, HC_IO, "%s (SQLite: %.150s)",
+                code == SQLITE_CORRUPT || code == SQLITE_NOTADB ? damaged : "cannot be used", sqlite3_errmsg(db));
 }
 
 /* ---- the file, before SQLite sees it ---- */
@@ -236,87 +237,78 @@ static hc_status lock_file(const char *path, int *fd, bool *is_new, case_error *
 
 /* ---- the database ---- */
 
-/* The value of `key` in table study, to free; NULL if there is none. */
-static char *study_key_value(sqlite3 *db, const char *key)
+/* Run SQL, printf-style as sqlite3_mprintf has it; true if all of it was done. */
+static bool run_sql(sqlite3 *db, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  char *sql = sqlite3_vmprintf(format, args);
+  va_end(args);
+  const bool good = sql && sqlite3_exec(db, sql, NULL, NULL, NULL) == SQLITE_OK;
+  sqlite3_free(sql);
+  return good;
+}
+
+/* The first value that a query gives, to free; NULL if there is none. */
+static char *first_value(sqlite3 *db, const char *sql)
 {
   sqlite3_stmt *q = NULL;
   char *text = NULL;
-  if (sqlite3_prepare_v2(db, "SELECT value FROM study WHERE key = ?", -1, &q, NULL) == SQLITE_OK) {
-    sqlite3_bind_text(q, 1, key, -1, SQLITE_STATIC);
-    if (sqlite3_step(q) == SQLITE_ROW && sqlite3_column_text(q, 0))
-      text = strdup((const char *)sqlite3_column_text(q, 0));
-  }
+  if (sqlite3_prepare_v2(db, sql, -1, &q, NULL) == SQLITE_OK && sqlite3_step(q) == SQLITE_ROW &&
+      sqlite3_column_text(q, 0))
+    text = strdup((const char *)sqlite3_column_text(q, 0));
   sqlite3_finalize(q);
   return text;
 }
 
-static bool same_value(sqlite3 *db, const char *key, const char *expected)
+static bool gives(sqlite3 *db, const char *sql, const char *expected)
 {
-  char *text = study_key_value(db, key);
-  bool same = text && !strcmp(text, expected);
+  char *text = first_value(db, sql);
+  const bool same = text && !strcmp(text, expected);
   free(text);
   return same;
 }
 
-static bool is_sound(sqlite3 *db)
+enum { FINGERPRINT = 24 };
+static const char *fingerprint_of(const study *s, char text[FINGERPRINT])
 {
-  sqlite3_stmt *q = NULL;
-  bool sound = sqlite3_prepare_v2(db, "PRAGMA quick_check(1)", -1, &q, NULL) == SQLITE_OK &&
-               sqlite3_step(q) == SQLITE_ROW && !strcmp((const char *)sqlite3_column_text(q, 0), "ok");
-  sqlite3_finalize(q);
-  return sound;
+  snprintf(text, FINGERPRINT, "%016" PRIx64, s->fingerprint);
+  return text;
 }
 
 /* HC_OK: go on with it. HC_BAD_INPUT: the results of another study, which `fresh` may throw away. */
 static hc_status check_contents(const study *s, sqlite3 *db, const char *path, const char *version, case_error *err)
 {
-  char fingerprint[24], why[256];
-  snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, s->fingerprint);
-  char *made_by = study_key_value(db, "hbmcheck");
+  char fingerprint[FINGERPRINT];
+  char *made_by = first_value(db, "SELECT value FROM study WHERE key = 'hbmcheck'");
   hc_status st = HC_OK;
-  if (!made_by || !same_value(db, "schema", schema_version) || strcmp(made_by, version) != 0) {
-    snprintf(why, sizeof why,
-             "made by hbmcheck %.30s, this is %s; --fresh throws these results away, --results FILE keeps them",
-             made_by ? made_by : "?", version);
-    st = refuse(err, path, HC_BAD_INPUT, why);
-  } else if (!same_value(db, "fingerprint", fingerprint)) {
+  if (!made_by || !gives(db, "SELECT value FROM study WHERE key = 'schema'", schema_version) ||
+      strcmp(made_by, version) != 0)
+    st = refuse(err, path, HC_BAD_INPUT,
+                "made by hbmcheck %.30s, this is %s; --fresh throws these results away, --results FILE keeps them",
+                made_by ? made_by : "?", version);
+  else if (!gives(db, "SELECT value FROM study WHERE key = 'fingerprint'", fingerprint_of(s, fingerprint)))
     st = refuse(
         err, path, HC_BAD_INPUT,
         "results of another study, or of this one before it was changed; --fresh throws them away, --results FILE "
         "keeps them");
-  }
   free(made_by);
   return st;
-}
-
-static bool put_key(sqlite3 *db, const char *key, const char *value)
-{
-  char *sql = sqlite3_mprintf("INSERT INTO study VALUES(%Q, %Q)", key, value);
-  bool good = sql && sqlite3_exec(db, sql, NULL, NULL, NULL) == SQLITE_OK;
-  sqlite3_free(sql);
-  return good;
-}
-
-static bool put_keys(const study *s, sqlite3 *db, const char *version)
-{
-  char fingerprint[24], scenes[24];
-  snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, s->fingerprint);
-  snprintf(scenes, sizeof scenes, "%ld", s->n_scenes);
-  return put_key(db, "schema", schema_version) && put_key(db, "hbmcheck", version) && put_key(db, "title", s->title) &&
-         put_key(db, "run", study_kind_name(s->kind)) && put_key(db, "fingerprint", fingerprint) &&
-         put_key(db, "scenes", scenes);
 }
 
 /* All tables anew, in one transaction. */
 static bool make_tables(const study *s, sqlite3 *db, const char *version)
 {
-  char *sql = store_schema(s, APPLICATION_ID);
-  bool good = sql && sqlite3_exec(db, "BEGIN IMMEDIATE", NULL, NULL, NULL) == SQLITE_OK &&
-              sqlite3_exec(db, "DROP TABLE IF EXISTS \"row\"; DROP TABLE IF EXISTS scene; DROP TABLE IF EXISTS study",
-                           NULL, NULL, NULL) == SQLITE_OK &&
-              sqlite3_exec(db, sql, NULL, NULL, NULL) == SQLITE_OK && put_keys(s, db, version) &&
-              sqlite3_exec(db, "COMMIT", NULL, NULL, NULL) == SQLITE_OK;
-  free(sql);
+  char fingerprint[FINGERPRINT], *schema = store_schema(s, APPLICATION_ID);
+  const bool good =
+      schema &&
+      run_sql(db,
+              "BEGIN IMMEDIATE; DROP TABLE IF EXISTS \"row\"; DROP TABLE IF EXISTS scene; DROP TABLE IF EXISTS study;"
+              "%s; INSERT INTO study VALUES('schema', %Q), ('hbmcheck', %Q), ('title', %Q), ('run', %Q),"
+              "('fingerprint', %Q), ('scenes', '%ld'); COMMIT",
+              schema, schema_version, version, s->title, study_kind_name(s->kind), fingerprint_of(s, fingerprint),
+              s->n_scenes);
+  free(schema);
   return good;
 }
 
@@ -330,7 +322,7 @@ static hc_status open_database(study_store *st, const char *path, const char *ve
   if (!is_new) {
     /* until it is known to be ours, closing writes nothing */
     sqlite3_db_config(st->db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, NULL);
-    if (!is_sound(st->db)) return refuse(err, path, HC_IO, "damaged; delete it, or give another name with --results");
+    if (!gives(st->db, "PRAGMA quick_check(1)", "ok")) return refuse(err, path, HC_IO, "%s", damaged);
     sqlite3_stmt *q = NULL; /* a crash before the first commit leaves a file of ours without tables */
     bool empty = sqlite3_prepare_v2(st->db, "SELECT 1 FROM study", -1, &q, NULL) != SQLITE_OK;
     sqlite3_finalize(q);
@@ -340,10 +332,9 @@ static hc_status open_database(study_store *st, const char *path, const char *ve
     err->message[0] = 0;
     sqlite3_db_config(st->db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, NULL);
   }
-  if (is_new && !make_tables(s, st->db, version)) return refuse_sql(err, path, st->db);
-  if (sqlite3_exec(st->db, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL", NULL, NULL, NULL) != SQLITE_OK)
-    return refuse_sql(err, path, st->db);
-  return store_prepare(st) ? HC_OK : refuse_sql(err, path, st->db);
+  const bool good = (!is_new || make_tables(s, st->db, version)) &&
+                    run_sql(st->db, "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL") && prepare_inserts(st);
+  return good ? HC_OK : refuse_sql(err, path, st->db);
 }
 
 hc_status study_store_open(const study *s, const char *path, const char *version, bool fresh, study_store **out,
@@ -365,21 +356,26 @@ hc_status study_store_open(const study *s, const char *path, const char *version
 void study_store_close(study_store *st)
 {
   if (!st) return;
-  store_unprepare(st);
+  sqlite3_finalize(st->put_scene);
+  sqlite3_finalize(st->put_row);
   sqlite3_close(st->db);
   if (st->lock >= 0) close(st->lock);
   free(st);
 }
 
 const char *study_store_error(const study_store *st) { return sqlite3_errmsg(st->db); }
-hc_status study_sql_status(sqlite3 *db) { return sqlite3_errcode(db) == SQLITE_NOMEM ? HC_NO_MEMORY : HC_IO; }
+
+hc_status study_sql_status(sqlite3 *db)
+{
+  const int code = sqlite3_errcode(db);
+  return code == SQLITE_NOMEM || code == SQLITE_OK /* our own text had no room */ ? HC_NO_MEMORY : HC_IO;
+}
 
 /* ---- scenes ---- */
 
 hc_status study_store_put(study_store *st, const study_result *r)
 {
-  if (sqlite3_exec(st->db, "BEGIN IMMEDIATE", NULL, NULL, NULL) == SQLITE_OK && insert_scene(st, r) &&
-      insert_rows(st, r) && sqlite3_exec(st->db, "COMMIT", NULL, NULL, NULL) == SQLITE_OK)
+  if (run_sql(st->db, "BEGIN IMMEDIATE") && insert_scene(st, r) && insert_rows(st, r) && run_sql(st->db, "COMMIT"))
     return HC_OK;
   return study_sql_status(st->db); /* closing rolls back; study_store_error still has the words */
 }
@@ -416,11 +412,9 @@ sqlite3 *study_store_readonly(study_store *st)
 
 hc_status study_store_view(study_store *st, const char *name, const char *select)
 {
-  char *sql = sqlite3_mprintf("CREATE TEMP VIEW \"%w\" AS %s", name, select);
-  if (!sql) return HC_NO_MEMORY;
   sqlite3_set_authorizer(st->db, NULL, NULL);
-  int code = sqlite3_exec(st->db, sql, NULL, NULL, NULL);
-  sqlite3_free(sql);
+  const bool good = run_sql(st->db, "CREATE TEMP VIEW \"%w\" AS %s", name, select);
+  const hc_status status = good ? HC_OK : study_sql_status(st->db);
   study_store_readonly(st);
-  return code == SQLITE_OK ? HC_OK : code == SQLITE_NOMEM ? HC_NO_MEMORY : HC_IO;
+  return status;
 }

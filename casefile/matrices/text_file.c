@@ -8,9 +8,8 @@
 
 static hc_status cannot_open(int error, message *m)
 {
-  char words[128];
-  if (strerror_r(error, words, sizeof words)) snprintf(words, sizeof words, "error %d", error);
-  message_add(m, "cannot be opened: %s", words);
+  message_add(m, "cannot be opened: ");
+  message_add_errno(m, error);
   return error == ENOMEM ? HC_NO_MEMORY : HC_IO;
 }
 
