@@ -73,8 +73,9 @@ typedef struct law_kind {
   /* Where the law has them; on the limit |S| = mu N those of stick. */
   planar_derivatives (*derivatives)(const law_regularised *c, const double *u, double v, const double *w);
 
-  /* Guards of a contact with friction that touches, but the end of contact: those that are linear in the motion; those
-/* ---- a row ---------------------------------------------------------------------------------------------------- */
+  /* Guards of a contact with friction that touches, but the end of contact. Those that are linear in the motion (NULL:
+   * none); those that are not (NULL: none), as series, from those of U and V: u[directions][TRACK_TERMS],
+   * v[TRACK_TERMS]. How many. */
   int (*conditions)(const contact_track *t, const scaled_contact *c, track_condition conditions[TRACK_GUARDS]);
   int (*curved_guards)(const contact_track *t, const scaled_contact *c, const double *u, const double *v,
                        track_guard guard[TRACK_GUARDS]);
