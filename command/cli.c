@@ -25,7 +25,6 @@
 #include "base/number.h"
 #include "casefile/case_file.h"
 #include "casefile/structure_check.h"
-#include "command/plot/plot.h"
 #include "compare/advice.h"
 #include "output/output.h"
 #include "output/same_file.h"
@@ -176,8 +175,13 @@ static void read_value(struct argp_state *state, const cli_option *o, char *text
 typedef struct parse_input {
   cli_common *common;
   int max_arguments;
-  void *own;
 } parse_input;
+
+/* What an option fills. */
+static void *value_of(cli_common *common, const cli_option *o)
+{
+  return o->kind == CLI_PLOT ? (void *)&common->drawing.path : (char *)common->own + o->at;
+}
 
 /* The first key of a command's own options, which come in the order of their table. */
 enum { OWN_KEY = 0x200 };
@@ -187,7 +191,7 @@ static error_t read_own_option(int key, char *text, struct argp_state *state)
   const parse_input *input = state->input;
   if (key < OWN_KEY || key >= OWN_KEY + CLI_MOST_OPTIONS) return ARGP_ERR_UNKNOWN;
   const cli_option *o = &input->common->command->options[key - OWN_KEY];
-  read_value(state, o, text, (char *)input->own + o->at);
+  read_value(state, o, text, value_of(input->common, o));
   return 0;
 }
 
@@ -230,17 +234,13 @@ static void refuse_unknown_option(const cli_command *self, const struct argp_opt
   exit(EXIT_USAGE);
 }
 
-static const void *value_of(const cli_common *common, const cli_option *o) { return (const char *)common->own + o->at; }
-
-static void check_plot(const cli_common *common)
+/* --plot - may not mix with csv, json or an export on standard output. */
+static void check_plot(cli_common *common)
 {
-  bool to_screen = false, exporting = false;
-  for (const cli_option *o = common->command->options; o && o->name; ++o) {
+  bool exporting = false;
+  for (const cli_option *o = common->command->options; o && o->name; ++o)
     if (o->kind == CLI_FORMAT) exporting |= *(const table_format *)value_of(common, o) != FORMAT_TABLE;
-    if (o->kind != CLI_PLOT) continue;
-    const char *const path = *(const char *const *)value_of(common, o);
-    to_screen |= path && !strcmp(path, "-");
-  }
+  const bool to_screen = common->drawing.path && !strcmp(common->drawing.path, "-");
   const bool screen = common->format == FORMAT_TABLE;
   if (!to_screen || common->output || (screen && !exporting)) return;
   cli_message(common, "--plot - would mix a drawing into %s; give one of them a file",
@@ -248,7 +248,8 @@ static void check_plot(const cli_common *common)
   exit(EXIT_USAGE);
 }
 
-void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_common *common)
+/* The arguments into *common and its own struct. Does not return on --help, --version or wrong usage. */
+static void parse(const cli_command *self, int argc, char **argv, cli_common *common)
 {
   struct argp_option options[CLI_MOST_OPTIONS + 1] = {{0}};
   for (int i = 0; self->options && self->options[i].name; ++i) {
@@ -260,8 +261,7 @@ void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_co
   const struct argp argp = {common_options, read_common_option, self->arguments, self->help, children, NULL, NULL};
   const bool several = strstr(self->arguments, "...") != NULL;
   const bool required = *self->arguments && *self->arguments != '[';
-  *common = (cli_common){.command = self, .own = own, .argument_is = what_arguments_are(self->arguments)};
-  parse_input input = {common, several ? CLI_MAX_ARGUMENTS : *self->arguments ? 1 : 0, own};
+  parse_input input = {common, several ? CLI_MAX_ARGUMENTS : *self->arguments ? 1 : 0};
   char name[64];
   snprintf(name, sizeof name, "hbmcheck %s", self->name);
   refuse_unknown_option(self, options, argc, argv);
@@ -281,11 +281,24 @@ void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_co
   check_plot(common);
 }
 
-int cli_start(const cli_command *self, int argc, char **argv, void *own, cli_common *common, scene *sc)
+int cli_run(const cli_command *self, int argc, char **argv)
 {
-  cli_parse(self, argc, argv, own, common);
-  const int code = cli_check_files(common, 0, NULL);
-  return code ? code : cli_load_case(common, common->arguments[0], sc);
+  cli_common common = {.command = self, .argument_is = what_arguments_are(self->arguments)};
+  scene sc = {.structure = NULL};
+  common.own = calloc(1, self->own_size + 1);
+  if (!common.own) {
+    cli_message(&common, "%s", hc_status_text(HC_NO_MEMORY));
+    return EXIT_NO_SOLUTION;
+  }
+  if (self->defaults) memcpy(common.own, self->defaults, self->own_size);
+  parse(self, argc, argv, &common);
+  int code = self->starts_itself ? 0 : cli_check_files(&common, 0, NULL);
+  if (!code && !self->starts_itself && !strcmp(self->arguments, "CASE"))
+    code = cli_load_case(&common, common.arguments[0], &sc);
+  if (!code) code = self->run(&common, common.own, &sc);
+  case_clear(&sc);
+  free(common.own);
+  return code;
 }
 
 int cli_processors(void)
@@ -310,7 +323,7 @@ static bool add_file(named_file *list, int *n, cli_file f)
 }
 
 /* Everything into list[common->n_arguments + 1 + n + CLI_MOST_OPTIONS], *found of it. False: out of memory. */
-static bool add_all_files(const cli_common *common, int n, const cli_file *files, named_file *list, int *found)
+static bool add_all_files(cli_common *common, int n, const cli_file *files, named_file *list, int *found)
 {
   bool whole = add_file(list, found, (cli_file){"--output", common->output, CLI_OUTPUT});
   for (int i = 0; i < common->n_arguments && common->argument_is && whole; ++i)
@@ -358,7 +371,7 @@ static void tell(const cli_common *common, const cli_file *written, const cli_fi
   else cli_message(common, "%s and %s are the same file; give another name", one, two);
 }
 
-int cli_check_files(const cli_common *common, int n, const cli_file *files)
+int cli_check_files(cli_common *common, int n, const cli_file *files)
 {
   int found = 0, code = 0;
   named_file *list = calloc((size_t)common->n_arguments + 1 + (size_t)n + CLI_MOST_OPTIONS, sizeof *list);
@@ -400,10 +413,10 @@ void cli_foretell_memory(const cli_common *common, double bytes)
   else cli_message(common, "takes about %.2g GB of memory", 1e-9 * bytes);
 }
 
-int cli_plotted(const cli_common *common, hc_status st, const char *why)
+int cli_plotted(const cli_common *common, hc_status st)
 {
   if (st == HC_OK) return 0;
-  cli_message(common, "no drawing: %s", why);
+  cli_message(common, "no drawing: %s", common->drawing.why);
   return EXIT_NO_SOLUTION;
 }
 

@@ -10,6 +10,7 @@
 #include "base/status.h"
 #include "casefile/case_file.h"
 #include "casefile/scene.h"
+#include "command/plot/plot.h"
 #include "output/rows.h"
 #include "output/table.h"
 
@@ -34,7 +35,7 @@ typedef enum {
   CLI_COUNT,    /* long, low..high                                       */
   CLI_POSITIVE, /* double                                                */
   CLI_FORMAT,   /* table_format, csv or json                             */
-  CLI_PLOT      /* const char *, a file that can be drawn to             */
+  CLI_PLOT      /* common->drawing.path: a file that can be drawn to     */
 } cli_kind;
 
 typedef struct cli_option {
@@ -55,20 +56,24 @@ typedef struct cli_texts {
 
 /* A command: its help, its own options, and what it does. */
 typedef struct cli_command cli_command;
+typedef struct cli_common cli_common;
 struct cli_command {
   const char *name;          /* "frf"                                                                   */
   const char *summary;       /* its line of hbmcheck --help                                             */
   const char *arguments;     /* "CASE": one is required; "CASE...": one or more; "[FIELD]", "": none is */
   const char *help;          /* what it does, \v, columns, exit codes, an example                       */
   const cli_option *options; /* its own, at most CLI_MOST_OPTIONS, then {0}; NULL for none */
-  /* Parses the arguments and does the work. Returns the exit code. */
-  int (*run)(int argc, char **argv);
+  size_t own_size;           /* of the struct that they fill                                            */
+  const void *defaults;      /* what that struct holds before; NULL: zeros                              */
+  bool starts_itself;        /* run checks the files and loads the case; else that is done before it    */
+  /* Does the work, on the options' struct and the case of a command for one CASE. Returns the exit code. */
+  int (*run)(cli_common *common, void *own, scene *sc);
 };
 
-/* What every command has. --help and --version never come back from cli_parse. */
-typedef struct cli_common {
+/* What every command has. */
+struct cli_common {
   const cli_command *command;
-  const void *own; /* the command's own struct, as its options filled it */
+  void *own; /* the command's own struct, as its options filled it */
   int n_arguments;
   const char *argument_is;                  /* what they are, "the case file"; NULL: no files */
   const char *arguments[CLI_MAX_ARGUMENTS]; /* CASE, or what stands in its place; arguments[0] is NULL without any */
@@ -78,15 +83,13 @@ typedef struct cli_common {
   const char *output;           /* --output; NULL: standard output */
   bool quiet;                   /* --quiet */
   bool wide;                    /* --wide */
+  plot_order drawing;           /* --plot; path NULL: no drawing */
   const scene *scene;           /* the case at work, for messages; NULL before cli_load_case */
-} cli_common;
+};
 
-/* Parse a command's arguments: the common options into *common, its own into *own (NULL without options). Does not
- * return on --help, --version or wrong usage (exit 64). */
-void cli_parse(const cli_command *self, int argc, char **argv, void *own, cli_common *common);
-/* The same, then cli_check_files without other files, then cli_load_case of the first argument into sc. 0, or the exit
- * code after the message. */
-int cli_start(const cli_command *self, int argc, char **argv, void *own, cli_common *common, scene *sc);
+/* Runs a command with its arguments, argv[0] its name: returns its exit code, but does not return on --help, --version or
+ * wrong usage (exit 64). */
+int cli_run(const cli_command *self, int argc, char **argv);
 
 /* What --at takes, in its help. */
 #define CLI_FREQUENCIES "omegas, rad per unit time (cycles, where the case has sweep.frequency)"
@@ -100,11 +103,11 @@ int cli_start(const cli_command *self, int argc, char **argv, void *own, cli_com
    "A second table: of each contact in each solution the extrema of its forces, slip path and dissipated work", \
    offsetof(type, contacts)}
 /* --plot - while csv, json or an export goes to standard output ends the program with a message (exit 64). */
-#define CLI_PLOT_OPTION(type) \
+#define CLI_PLOT_OPTION \
   {CLI_PLOT, "plot", "FILE", \
    "Draw the result with gnuplot, too: FILE ends in .svg, .png or .pdf; - draws with letters, here. Exit 3 if only " \
    "that fails", \
-   offsetof(type, plot), .group = 2, .file = "--plot", .use = CLI_OUTPUT}
+   .group = 2, .file = "--plot", .use = CLI_OUTPUT}
 /* clang-format on */
 
 /* No output of a command may replace one of its inputs or another of its outputs: every command hands in the files
@@ -120,7 +123,7 @@ typedef struct cli_file {
  * against each other. 0; or
  * EXIT_USAGE after a message that names both if an output is an input or another output; EXIT_NO_SOLUTION without
  * memory. Nothing is opened. */
-int cli_check_files(const cli_common *common, int n, const cli_file *files);
+int cli_check_files(cli_common *common, int n, const cli_file *files);
 
 /* Scenes computed at a time by default: the processors that are online, 1..CLI_MAX_JOBS. */
 int cli_processors(void);
@@ -171,8 +174,8 @@ int cli_write(const cli_common *common, int n, table *const *tables);
  * progress line is drawn. */
 void cli_foretell_memory(const cli_common *common, double bytes);
 
-/* After a drawing that ended with st: 0, or the exit code after the message that there is none and why. */
-int cli_plotted(const cli_common *common, hc_status st, const char *why);
+/* After common->drawing ended with st: 0, or the exit code after the message that there is none and why. */
+int cli_plotted(const cli_common *common, hc_status st);
 
 /* "H = 10, exact forces" or "H = 10 WITHOUT harmonic 0, 1024 samples"; for auto the numbers in use. Returns text. */
 const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text, size_t size);

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "command/commands.h"
-#include "command/plot/plot.h"
 #include "compare/accuracy/bench.h"
 #include "output/progress.h"
 
@@ -27,10 +26,9 @@ static const char help[] =
     "example: hbmcheck bench cases/paper/case2.yaml --at 9";
 
 typedef struct bench_command_options {
-  number_list at;   /* n = 0: where the response is largest */
-  int repeats;      /* 1..MAX_REPEATS */
-  bool alone;       /* --alone */
-  const char *plot; /* NULL: no drawing */
+  number_list at; /* n = 0: where the response is largest */
+  int repeats;    /* 1..MAX_REPEATS */
+  bool alone;     /* --alone */
 } bench_command_options;
 
 enum { DEFAULT_REPEATS = 9, MAX_REPEATS = 1000 };
@@ -43,7 +41,7 @@ static const cli_option options[] = {
      "Times each method is measured; those that take long less often, as the column says [9]",
      offsetof(bench_command_options, repeats), 1, MAX_REPEATS},
     {CLI_FLAG, "alone", NULL, "No other programs beside our methods", offsetof(bench_command_options, alone)},
-    CLI_PLOT_OPTION(bench_command_options),
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -238,37 +236,32 @@ static int write_tables(const cli_common *common, const scene *sc, const bench *
   return code;
 }
 
-static int run_bench(int argc, char **argv)
+static int run_bench(cli_common *common, void *given, scene *sc)
 {
-  cli_common common;
-  bench_command_options own = {.repeats = DEFAULT_REPEATS};
-  scene sc = {.structure = NULL};
+  bench_command_options *own = given;
   bench b = {0};
   double failed_at = 0;
-  int code = cli_start(&cmd_bench, argc, argv, &own, &common, &sc);
-  if (code) return code;
-  cli_take_frequencies(&common, &own.at, &sc);
-  if (own.at.n) own.at = sc.compare.omega;
-  bench_options how = {.at = own.at, .repeats = own.repeats, .alone = own.alone};
-  progress *bar = progress_start("benchmark", common.quiet);
+  int code = 0;
+  cli_take_frequencies(common, &own->at, sc);
+  if (own->at.n) own->at = sc->compare.omega;
+  bench_options how = {.at = own->at, .repeats = own->repeats, .alone = own->alone};
+  progress *bar = progress_start("benchmark", common->quiet);
   hc_monitor monitor = progress_monitor(bar);
   compare_setup setup;
-  hc_status st = scene_setup(&sc, &setup);
+  hc_status st = scene_setup(sc, &setup);
   if (st == HC_OK) st = bench_run(&setup, &how, &monitor, &b, &failed_at);
   scene_setup_clear(&setup);
   progress_end(bar);
   if (st == HC_NOT_CONVERGED) {
-    cli_message(&common,
+    cli_message(common,
                 "%s: no stable orbit of the exact law next to a harmonic-balance solution, or none beside it; try "
                 "another --at",
-                scene_where(&sc, failed_at, (char[SCENE_WHERE]){0}));
+                scene_where(sc, failed_at, (char[SCENE_WHERE]){0}));
     code = EXIT_NO_SOLUTION;
-  } else if (st != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the benchmark", st, failed_at);
-  int written = b.n_rows ? write_tables(&common, &sc, &b) : 0;
-  plot_order drawing = {.path = own.plot};
-  if (own.plot && b.n_rows && !written) written = cli_plotted(&common, plot_bench(&drawing, &sc, &b), drawing.why);
+  } else if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the benchmark", st, failed_at);
+  int written = b.n_rows ? write_tables(common, sc, &b) : 0;
+  if (common->drawing.path && b.n_rows && !written) written = cli_plotted(common, plot_bench(&common->drawing, sc, &b));
   bench_clear(&b);
-  case_clear(&sc);
   return code ? code : written;
 }
 
@@ -278,5 +271,7 @@ const cli_command cmd_bench = {
     .arguments = "CASE",
     .help = help,
     .options = options,
+    .own_size = sizeof(bench_command_options),
+    .defaults = &(const bench_command_options){.repeats = DEFAULT_REPEATS},
     .run = run_bench,
 };

@@ -10,7 +10,6 @@
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/compare_tables.h"
-#include "command/plot/plot.h"
 #include "compare/comparison.h"
 #include "compare/memory.h"
 #include "output/progress.h"
@@ -108,7 +107,6 @@ typedef struct compare_options {
   bool contacts;        /* --contacts */
   const char *response; /* NULL: all of them */
   table_lists lists;    /* one that is not empty implies tables */
-  const char *plot;     /* NULL: no drawing */
 } compare_options;
 
 static const cli_option options[] = {
@@ -125,7 +123,7 @@ static const cli_option options[] = {
     {CLI_FLAG, "contacts", NULL,
      "A table of the contacts: regime, forces, slip path and dissipated work of each from both sides, and how far off",
      offsetof(compare_options, contacts)},
-    CLI_PLOT_OPTION(compare_options),
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -315,58 +313,51 @@ static int write_found(void *self)
   return code ? code : written;
 }
 
-static int run_compare(int argc, char **argv)
+static int run_compare(cli_common *common, void *given, scene *sc)
 {
-  cli_common common;
-  compare_options own = {0};
-  scene sc = {.structure = NULL};
+  const compare_options *own = given;
   comparison c = {0};
   accuracy a = {0};
   table *tables[4] = {NULL};
-  int code = cli_start(&cmd_compare, argc, argv, &own, &common, &sc);
-  if (!code) code = compare_lists(&common, &own.lists, &sc);
-  if (!code) code = cli_keep_response(&common, &sc, own.response);
-  if (code) {
-    case_clear(&sc);
-    return code;
-  }
-  cli_take_frequencies(&common, &own.at, &sc);
+  int code = compare_lists(common, &own->lists, sc);
+  if (!code) code = cli_keep_response(common, sc, own->response);
+  if (code) return code;
+  cli_take_frequencies(common, &own->at, sc);
   compare_setup setup;
-  hc_status st = scene_setup(&sc, &setup), tabled = HC_OK;
-  if (st == HC_OK) cli_foretell_memory(&common, memory_of_comparison(&setup));
-  progress *bar = progress_start("comparing", common.quiet);
+  hc_status st = scene_setup(sc, &setup), tabled = HC_OK;
+  if (st == HC_OK) cli_foretell_memory(common, memory_of_comparison(&setup));
+  progress *bar = progress_start("comparing", common->quiet);
   hc_monitor monitor = progress_monitor(bar);
   setup.jobs = cli_processors();
-  setup.contacts = own.contacts;
-  setup.spare = common.format == FORMAT_TABLE && !common.wide && !own.plot; /* from_integration is not shown */
-  found_rows found = {&common, &setup, &c};
+  setup.contacts = own->contacts;
+  setup.spare =
+      common->format == FORMAT_TABLE && !common->wide && !common->drawing.path; /* from_integration is not shown */
+  found_rows found = {common, &setup, &c};
   keep_found beside;
   keep_found_begin(&beside, write_found, &found);
   setup.found = &beside.found;
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
   setup.found = NULL;
   keep_found_end(&beside);
-  int n_tables = tables_of_found(&common, own.contacts, &setup, &c, st, tables);
-  if (st == HC_OK && (own.tables || own.lists.harmonics.n || own.lists.samples.n)) {
-    tabled = compare_tables(&common, &setup, &c, &monitor, tables + n_tables, &a);
+  int n_tables = tables_of_found(common, own->contacts, &setup, &c, st, tables);
+  if (st == HC_OK && (own->tables || own->lists.harmonics.n || own->lists.samples.n)) {
+    tabled = compare_tables(common, &setup, &c, &monitor, tables + n_tables, &a);
     n_tables += 2;
   }
   progress_end(bar);
-  if (st != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the comparison", st, 0);
+  if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the comparison", st, 0);
   else code = comparison_exit_code(&c);
-  if (tabled != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the tables", tabled, 0);
-  print_failures(&common, &c);
-  say_unexpected(&common, &c, NULL);
-  if (c.n_rows && !common.quiet && !comparison_nonlinear(&c)) cli_message(&common, COMPARISON_LINEAR, c.n_rows);
-  int written = c.n_rows ? cli_write(&common, n_tables, tables) : 0;
-  plot_order drawing = {.path = own.plot};
-  if (own.plot && c.n_rows && !written)
-    written = cli_plotted(&common, plot_compare(&drawing, &sc, &c, a.n_rows ? &a : NULL), drawing.why);
+  if (tabled != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the tables", tabled, 0);
+  print_failures(common, &c);
+  say_unexpected(common, &c, NULL);
+  if (c.n_rows && !common->quiet && !comparison_nonlinear(&c)) cli_message(common, COMPARISON_LINEAR, c.n_rows);
+  int written = c.n_rows ? cli_write(common, n_tables, tables) : 0;
+  if (common->drawing.path && c.n_rows && !written)
+    written = cli_plotted(common, plot_compare(&common->drawing, sc, &c, a.n_rows ? &a : NULL));
   for (int i = 0; i < n_tables; ++i) table_free(tables[i]);
   accuracy_clear(&a);
   comparison_clear(&c);
   scene_setup_clear(&setup);
-  case_clear(&sc);
   return code ? code : written;
 }
 
@@ -376,5 +367,6 @@ const cli_command cmd_compare = {
     .arguments = "CASE",
     .help = help,
     .options = options,
+    .own_size = sizeof(compare_options),
     .run = run_compare,
 };

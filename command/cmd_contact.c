@@ -10,7 +10,6 @@
 #include "command/case_names.h"
 #include "command/cli.h"
 #include "command/commands.h"
-#include "command/plot/plot.h"
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/forces/given_motion.h"
@@ -30,7 +29,6 @@ typedef struct contact_options {
   const char *motion[CONTACT_MOTIONS]; /* the same */
   const char *slider;                  /* the same */
   number_list samples;
-  const char *plot; /* NULL: no drawing */
 } contact_options;
 
 typedef struct contact_motion {
@@ -326,7 +324,7 @@ static const cli_option options[] = {
      "Where its slider starts (of two tangents W1,W2), if it never separates and the start decides [0]",
      offsetof(contact_options, slider)},
     {CLI_LIST, "samples", "LIST", "Also at these numbers of samples per period", offsetof(contact_options, samples)},
-    CLI_PLOT_OPTION(contact_options),
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -402,16 +400,8 @@ static int list_sets(const cli_common *common, const contact_options *own, int n
   return n_sets;
 }
 
-static int draw_contact(const cli_common *common, const char *path, const contact_motion *m)
-{
-  plot_order drawing = {.path = path};
-  const plot_motion motion = {m->one < 0 ? 0 : m->one, {m->slider[0], m->slider[1]}, &m->of};
-  const hc_status st = plot_contact(&drawing, common->scene, &motion);
-  return cli_plotted(common, st, drawing.why);
-}
-
 /* The forces of the given motion. */
-static int put_forces(const cli_common *common, const contact_options *own, const contact_motion *m)
+static int put_forces(cli_common *common, const contact_options *own, const contact_motion *m)
 {
   const scene *sc = common->scene;
   int n_time[MAX_SETS];
@@ -426,22 +416,19 @@ static int put_forces(const cli_common *common, const contact_options *own, cons
   if (!F) return cli_solver_failed(common, CLI_HBM, "the contact force", HC_NO_MEMORY, 0);
   int code = evaluate(common, m, n_time, n_sets, F);
   if (!code) code = write_table(common, m, n_time, n_sets, F);
-  if (!code && own->plot) code = draw_contact(common, own->plot, m);
+  const plot_motion motion = {m->one < 0 ? 0 : m->one, {m->slider[0], m->slider[1]}, &m->of};
+  if (!code && common->drawing.path) code = cli_plotted(common, plot_contact(&common->drawing, sc, &motion));
   free(F);
   return code;
 }
 
-static int run_contact(int argc, char **argv)
+static int run_contact(cli_common *common, void *own, scene *sc)
 {
-  cli_common common;
-  contact_options own = {0};
+  (void)sc;
   contact_motion motion = {0};
-  scene sc = {.structure = NULL};
-  int code = cli_start(&cmd_contact, argc, argv, &own, &common, &sc);
-  if (!code) code = contact_motion_find(&common, &own, &motion);
-  if (!code) code = put_forces(&common, &own, &motion);
+  int code = contact_motion_find(common, own, &motion);
+  if (!code) code = put_forces(common, own, &motion);
   free(motion.contacts);
-  case_clear(&sc);
   return code;
 }
 
@@ -451,5 +438,6 @@ const cli_command cmd_contact = {
     .arguments = "CASE",
     .help = help,
     .options = options,
+    .own_size = sizeof(contact_options),
     .run = run_contact,
 };

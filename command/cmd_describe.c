@@ -427,20 +427,18 @@ static int write_text(const cli_common *common, const char *path)
   return EXIT_USAGE;
 }
 
-static int run_describe(int argc, char **argv)
+static int run_describe(cli_common *common, void *given, scene *sc)
 {
-  cli_common common;
-  describe_options own = {0};
-  cli_parse(&cmd_describe, argc, argv, &own, &common);
-  int code = cli_check_files(&common, 0, NULL);
-  if (code) return code;
-  if (common.n_set && !own.case_file) {
-    cli_message(&common, "--set has no case file to set anything in; expected --case CASE, too");
+  const describe_options *own = given;
+  int code;
+  (void)sc;
+  if (common->n_set && !own->case_file) {
+    cli_message(common, "--set has no case file to set anything in; expected --case CASE, too");
     return EXIT_USAGE;
   }
-  if (common.format == FORMAT_TABLE && !own.case_file) return write_text(&common, common.output);
-  if (common.arguments[0] && (code = write_text(&common, "/dev/null")) != 0) return code;
-  return own.case_file ? describe_case(&common, own.case_file) : write_fields(&common);
+  if (common->format == FORMAT_TABLE && !own->case_file) return write_text(common, common->output);
+  if (common->arguments[0] && (code = write_text(common, "/dev/null")) != 0) return code;
+  return own->case_file ? describe_case(common, own->case_file) : write_fields(common);
 }
 
 const cli_command cmd_describe = {
@@ -449,5 +447,6 @@ const cli_command cmd_describe = {
     .arguments = "[FIELD]",
     .help = help,
     .options = options,
+    .own_size = sizeof(describe_options),
     .run = run_describe,
 };

@@ -7,7 +7,6 @@
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
-#include "command/plot/plot.h"
 #include "compare/memory.h"
 #include "compare/response.h"
 #include "output/progress.h"
@@ -28,7 +27,6 @@ typedef struct frf_options {
   const char *response; /* NULL: all of them */
   bool contacts;        /* what each contact does, too */
   bool verbose;         /* how Newton's equations were solved, too */
-  const char *plot;     /* NULL: no drawing */
 } frf_options;
 
 static const cli_option options[] = {
@@ -36,42 +34,25 @@ static const cli_option options[] = {
     CLI_RESPONSE_OPTION(frf_options),
     CLI_CONTACTS_OPTION(frf_options),
     {CLI_FLAG, "verbose", NULL, "Also how Newton's equations were solved", offsetof(frf_options, verbose)},
-    CLI_PLOT_OPTION(frf_options),
+    CLI_PLOT_OPTION,
     {0},
 };
 
-/* All of the case's, or the one that is asked for. 0 or the exit code after the message. */
-static int choose_responses(const cli_common *common, const char *name, plot_responses *out)
-{
-  const scene_structure *of = common->scene->structure;
-  *out = (plot_responses){0, of ? structure_response_count(of) - 1 : 0};
-  if (!name) return 0;
-  out->first = out->last = cli_response_named(common, name);
-  return out->first < 0 ? EXIT_USAGE : 0;
-}
-
-/* A row for each response of point k. */
-static hc_status put_point(const cli_common *common, hbm_solver *s, const hbm_curve *c, int k, plot_responses of_case,
-                           bool *free, table *t)
-{
-  const scene_structure *of = common->scene->structure;
-  response_row row;
-  hc_status st = response_row_of(s, c, k, &row);
-  for (int r = of_case.first; r <= of_case.last && st == HC_OK; ++r) {
-    if (r > 0) st = response_row_turn(s, c, k, r, &row);
-    if (of) structure_response_name(of, r, row.response, sizeof row.response);
-    *free |= row.measures.contact.free_sliders > 0;
-    cli_put_row(common, t, ROWS_FRF, &row);
-  }
-  return st;
-}
-
+/* A row for each response of each point. */
 static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_curve *c, plot_responses of_case,
                             table *t)
 {
+  const scene_structure *of = common->scene->structure;
   bool free = false;
   for (int k = 0; k < c->n; ++k) {
-    hc_status st = put_point(common, s, c, k, of_case, &free, t);
+    response_row row;
+    hc_status st = response_row_of(s, c, k, &row);
+    for (int r = of_case.first; r <= of_case.last && st == HC_OK; ++r) {
+      if (r > 0) st = response_row_turn(s, c, k, r, &row);
+      if (of) structure_response_name(of, r, row.response, sizeof row.response);
+      free |= row.measures.contact.free_sliders > 0;
+      cli_put_row(common, t, ROWS_FRF, &row);
+    }
     if (st != HC_OK) return st;
   }
   if (!free) table_hide(t, "mean_free");
@@ -152,60 +133,55 @@ static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const h
   return st;
 }
 
-static int run_frf(int argc, char **argv)
+static int run_frf(cli_common *common, void *given, scene *sc)
 {
-  cli_common common;
-  frf_options own = {0};
-  scene sc = {.structure = NULL};
-  int code = cli_start(&cmd_frf, argc, argv, &own, &common, &sc);
-  plot_responses of_case;
-  if (!code && (code = choose_responses(&common, own.response, &of_case)) != 0) case_clear(&sc);
-  if (code) return code;
+  const frf_options *own = given;
+  plot_responses of_case = {0, sc->structure ? structure_response_count(sc->structure) - 1 : 0};
+  if (own->response && (of_case.first = of_case.last = cli_response_named(common, own->response)) < 0)
+    return EXIT_USAGE;
   hbm_solver *s = NULL;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0;
-  table *t = cli_table(&common, "Response curve", ROWS_FRF);
-  table *contacts = own.contacts ? cli_table(&common, "Contacts", ROWS_CONTACT) : NULL;
+  table *t = cli_table(common, "Response curve", ROWS_FRF);
+  table *contacts = own->contacts ? cli_table(common, "Contacts", ROWS_CONTACT) : NULL;
   compare_setup setup;
-  if (scene_setup(&sc, &setup) == HC_OK) cli_foretell_memory(&common, memory_of_curve(setup.model, &setup.hbm));
+  if (scene_setup(sc, &setup) == HC_OK) cli_foretell_memory(common, memory_of_curve(setup.model, &setup.hbm));
   scene_setup_clear(&setup);
-  progress *bar = progress_start("harmonic balance", common.quiet);
+  progress *bar = progress_start("harmonic balance", common->quiet);
   hc_monitor monitor = progress_monitor(bar);
-  if (!own.at.n) sc.compare.omega.n = 0; /* those of the case are for the comparison */
-  cli_take_frequencies(&common, &own.at, &sc);
-  const number_list *at = &sc.compare.omega; /* n = 0: the whole curve */
-  comparison_sweep(sc.omega_from, sc.omega_to, at, &from, &to);
-  hc_status st = scene_hbm_solver(&sc, &s);
+  if (!own->at.n) sc->compare.omega.n = 0; /* those of the case are for the comparison */
+  cli_take_frequencies(common, &own->at, sc);
+  const number_list *at = &sc->compare.omega; /* n = 0: the whole curve */
+  comparison_sweep(sc->omega_from, sc->omega_to, at, &from, &to);
+  hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK) {
     st = hbm_trace(s, from, to, &monitor, &curve);
     if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;
+    const hbm_curve *shown = at->n ? &found : &curve;
     hc_status solved = at->n ? response_at(s, &curve, at, &found, &failed_at) : HC_OK;
-    if (st == HC_OK)
-      st = solved; /* also with --at a curve that stops early is a
-    failure: it might have turned back to those omegas */
-    hc_status shown = put_points(&common, s, at->n ? &found : &curve, of_case, t);
-    if (st == HC_OK) st = shown;
-    if (contacts) shown = put_contacts(&common, s, at->n ? &found : &curve, contacts);
-    if (st == HC_OK) st = shown;
-    note_curve(t, &sc, s, &curve, at->n > 0);
+    /* also with --at a curve that stops early is a failure: it might have turned back to those omegas */
+    if (st == HC_OK) st = solved;
+    solved = put_points(common, s, shown, of_case, t);
+    if (st == HC_OK) st = solved;
+    if (contacts) solved = put_contacts(common, s, shown, contacts);
+    if (st == HC_OK) st = solved;
+    note_curve(t, sc, s, &curve, at->n > 0);
     const hbm_newton_report work = hbm_newton_work(s);
-    if (own.verbose) table_note(t, "Newton: %d unknowns, %ld factorisations", work.unknowns, work.factorisations);
-    hc_status noted = at->n ? HC_OK : note_specials(t, &sc, s, &curve);
-    if (st == HC_OK && noted == HC_NO_MEMORY) st = noted; /* another failure to locate one is in the note */
+    if (own->verbose) table_note(t, "Newton: %d unknowns, %ld factorisations", work.unknowns, work.factorisations);
+    solved = at->n ? HC_OK : note_specials(t, sc, s, &curve);
+    if (st == HC_OK && solved == HC_NO_MEMORY) st = solved; /* another failure to locate one is in the note */
     if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
   }
   progress_end(bar);
-  code = st == HC_OK ? 0 : cli_solver_failed(&common, CLI_HBM, "harmonic balance", st, failed_at);
-  int written = s ? cli_write(&common, own.contacts ? 2 : 1, (table *[]){t, contacts}) : 0;
-  plot_order drawing = {.path = own.plot};
-  if (own.plot && s && !written)
-    written = cli_plotted(&common, plot_frf(&drawing, &sc, s, &curve, at->n ? &found : NULL, of_case), drawing.why);
+  int code = st == HC_OK ? 0 : cli_solver_failed(common, CLI_HBM, "harmonic balance", st, failed_at);
+  int written = s ? cli_write(common, own->contacts ? 2 : 1, (table *[]){t, contacts}) : 0;
+  if (common->drawing.path && s && !written)
+    written = cli_plotted(common, plot_frf(&common->drawing, sc, s, &curve, at->n ? &found : NULL, of_case));
   table_free(t);
   table_free(contacts);
   hbm_curve_free(&found);
   hbm_curve_free(&curve);
   hbm_solver_free(s);
-  case_clear(&sc);
   return code ? code : written;
 }
 
@@ -215,5 +191,6 @@ const cli_command cmd_frf = {
     .arguments = "CASE",
     .help = help,
     .options = options,
+    .own_size = sizeof(frf_options),
     .run = run_frf,
 };

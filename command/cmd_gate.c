@@ -58,8 +58,8 @@ enum { N_COLUMNS = sizeof columns / sizeof *columns };
 
 /* One call of the command. */
 typedef struct gate_call {
-  cli_common common;
-  gate_options own;
+  cli_common *common;
+  const gate_options *own;
   scene *scenes;                     /* [n_arguments] */
   gate_case *cases;                  /* [n_arguments], of which n_judged are filled */
   char (**responses)[RESPONSE_NAME]; /* [n_arguments] their names, of structures */
@@ -75,12 +75,12 @@ typedef struct gate_call {
 static int read_cases(gate_call *call)
 {
   int wrong = 0;
-  for (int i = 0; i < call->common.n_arguments; ++i) {
-    int code = cli_load_case_saying(&call->common, call->common.arguments[i], &call->scenes[i], &call->errors[i]);
+  for (int i = 0; i < call->common->n_arguments; ++i) {
+    int code = cli_load_case_saying(call->common, call->common->arguments[i], &call->scenes[i], &call->errors[i]);
     if (code == EXIT_NO_SOLUTION) return code;
     if (code) wrong = code;
     if (code) continue;
-    cli_take_frequencies(&call->common, &call->own.at, &call->scenes[i]);
+    cli_take_frequencies(call->common, &call->own->at, &call->scenes[i]);
     call->extra |= cli_extra_columns(&call->scenes[i]);
   }
   return wrong;
@@ -88,28 +88,28 @@ static int read_cases(gate_call *call)
 
 static int open_junit(gate_call *call)
 {
-  if (!call->own.junit) return 0;
-  hc_status st = output_open(call->own.junit, &call->junit);
-  return st == HC_OK ? 0 : cli_file_failed(&call->common, call->own.junit, st);
+  if (!call->own->junit) return 0;
+  hc_status st = output_open(call->own->junit, &call->junit);
+  return st == HC_OK ? 0 : cli_file_failed(call->common, call->own->junit, st);
 }
 
 static int judge_cases(gate_call *call)
 {
-  for (; call->n_judged < call->common.n_arguments; ++call->n_judged) {
-    progress *bar = progress_start(call->common.arguments[call->n_judged], call->common.quiet);
+  for (; call->n_judged < call->common->n_arguments; ++call->n_judged) {
+    progress *bar = progress_start(call->common->arguments[call->n_judged], call->common->quiet);
     hc_monitor monitor = progress_monitor(bar);
     compare_setup setup;
     gate_case *g = &call->cases[call->n_judged];
-    call->common.scene = &call->scenes[call->n_judged];
-    hc_status st = scene_setup(call->common.scene, &setup);
-    if (st == HC_OK) st = gate_run(call->common.arguments[call->n_judged], &setup, &monitor, g);
-    if (st == HC_OK) st = cli_response_names(call->common.scene, &call->responses[call->n_judged]);
+    call->common->scene = &call->scenes[call->n_judged];
+    hc_status st = scene_setup(call->common->scene, &setup);
+    if (st == HC_OK) st = gate_run(call->common->arguments[call->n_judged], &setup, &monitor, g);
+    if (st == HC_OK) st = cli_response_names(call->common->scene, &call->responses[call->n_judged]);
     g->responses = (const char(*)[RESPONSE_NAME])call->responses[call->n_judged];
     scene_setup_clear(&setup);
     progress_end(bar);
     if (st == HC_OK) continue;
-    if (st == HC_INTERRUPTED) cli_message(&call->common, "stopped on request: nothing is written, half a gate is none");
-    else cli_solver_failed(&call->common, CLI_BOTH, call->common.arguments[call->n_judged], st, 0);
+    if (st == HC_INTERRUPTED) cli_message(call->common, "stopped on request: nothing is written, half a gate is none");
+    else cli_solver_failed(call->common, CLI_BOTH, call->common->arguments[call->n_judged], st, 0);
     gate_clear(g);
     return EXIT_NO_SOLUTION;
   }
@@ -161,17 +161,17 @@ static bool wants_attention(const gate_check *c) { return c->result == GATE_FAIL
 
 static table *checks_table(gate_call *call)
 {
-  const bool people = call->common.format == FORMAT_TABLE;
+  const bool people = call->common->format == FORMAT_TABLE;
   const int n = cli_columns(call->extra, N_COLUMNS, people ? columns_for_people : columns, call->columns);
   table *t = table_new("Gate", n, call->columns);
-  table_wrap(t, cli_width(&call->common)); /* the reasons are sentences */
+  table_wrap(t, cli_width(call->common)); /* the reasons are sentences */
   table_spare(t, spare_columns);
-  if (call->n_judged == 1 && !call->common.wide) table_hide(t, "case"); /* the remark below has it */
-  call->short_names = !call->common.wide && names_differ(call);
+  if (call->n_judged == 1 && !call->common->wide) table_hide(t, "case"); /* the remark below has it */
+  call->short_names = !call->common->wide && names_differ(call);
   for (int i = 0; i < call->n_judged; ++i) {
     const gate_case *g = &call->cases[i];
     for (int k = 0; k < g->n; ++k)
-      if (!people || call->own.all || wants_attention(&g->checks[k]) || gate_is_worst(g, k))
+      if (!people || call->own->all || wants_attention(&g->checks[k]) || gate_is_worst(g, k))
         put_check(call, t, i, &g->checks[k], people);
     table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made, %d not applicable", g->name, g->n,
                g->n - g->failures - g->errors - g->not_applicable, g->failures, g->errors, g->not_applicable);
@@ -185,7 +185,7 @@ static int close_junit(gate_call *call, hc_status st)
 {
   st = output_finish(call->junit, st);
   call->junit = NULL;
-  return st == HC_OK ? 0 : cli_file_failed(&call->common, call->own.junit, st);
+  return st == HC_OK ? 0 : cli_file_failed(call->common, call->own->junit, st);
 }
 
 /* Where a case file is wrong: the JUnit file with its message, so that CI shows why nothing was judged. Returns the
@@ -193,34 +193,33 @@ static int close_junit(gate_call *call, hc_status st)
 static int report_unread(gate_call *call, int code)
 {
   const char *wrong[CLI_MAX_ARGUMENTS];
-  for (int i = 0; i < call->common.n_arguments; ++i)
+  for (int i = 0; i < call->common->n_arguments; ++i)
     wrong[i] = *call->errors[i].message ? call->errors[i].message : NULL;
   if (open_junit(call) != 0 || !call->junit) return code;
   hc_status st =
-      gate_write_junit_unread(call->common.n_arguments, call->common.arguments, wrong, output_stream(call->junit));
+      gate_write_junit_unread(call->common->n_arguments, call->common->arguments, wrong, output_stream(call->junit));
   close_junit(call, st);
   return code;
 }
 
-static int run_gate(int argc, char **argv)
+static int run_gate(cli_common *common, void *own, scene *sc)
 {
-  gate_call call = {.n_judged = 0};
-  cli_parse(&cmd_gate, argc, argv, &call.own, &call.common);
-  call.scenes = calloc((size_t)call.common.n_arguments, sizeof *call.scenes);
-  call.cases = calloc((size_t)call.common.n_arguments, sizeof *call.cases);
-  call.responses = calloc((size_t)call.common.n_arguments, sizeof *call.responses);
-  int code = cli_check_files(&call.common, 0, NULL);
-  call.errors = calloc((size_t)call.common.n_arguments, sizeof *call.errors);
-  if (!code && !(call.scenes && call.cases && call.responses && call.errors)) {
-    cli_solver_failed(&call.common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
-    code = EXIT_NO_SOLUTION;
-  }
+  const size_t n = (size_t)common->n_arguments;
+  gate_call call = {common, own, .n_judged = 0};
+  int code = 0;
+  (void)sc;
+  call.scenes = calloc(n, sizeof *call.scenes);
+  call.cases = calloc(n, sizeof *call.cases);
+  call.responses = calloc(n, sizeof *call.responses);
+  call.errors = calloc(n, sizeof *call.errors);
+  if (!call.scenes || !call.cases || !call.responses || !call.errors)
+    code = cli_solver_failed(common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
   if (!code && (code = read_cases(&call)) == EXIT_BAD_CASE) code = report_unread(&call, code);
   if (!code) code = open_junit(&call);
   if (!code && call.cases && call.responses) code = judge_cases(&call);
   if (!code) { /* each is written even if the other one fails */
     table *t = checks_table(&call);
-    const int shown = cli_write(&call.common, 1, &t);
+    const int shown = cli_write(common, 1, &t);
     int reported = 0;
     if (call.junit)
       reported = close_junit(&call, gate_write_junit(call.n_judged, call.cases, output_stream(call.junit)));
@@ -232,9 +231,9 @@ static int run_gate(int argc, char **argv)
   for (int i = 0; i < call.n_judged; ++i) gate_clear(&call.cases[i]);
   free(call.errors);
   free(call.cases);
-  for (int i = 0; call.responses && i < call.common.n_arguments; ++i) free(call.responses[i]);
+  for (int i = 0; call.responses && i < common->n_arguments; ++i) free(call.responses[i]);
   free(call.responses);
-  for (int i = 0; call.scenes && i < call.common.n_arguments; ++i) case_clear(&call.scenes[i]);
+  for (int i = 0; call.scenes && i < common->n_arguments; ++i) case_clear(&call.scenes[i]);
   free(call.scenes);
   return code;
 }
@@ -245,5 +244,6 @@ const cli_command cmd_gate = {
     .arguments = "CASE...",
     .help = help,
     .options = options,
+    .own_size = sizeof(gate_options),
     .run = run_gate,
 };

@@ -148,23 +148,19 @@ static int check_usage(const cli_common *common, const char *case_file)
   return 0;
 }
 
-static int run_lab(int argc, char **argv)
+static int run_lab(cli_common *common, void *given, scene *sc)
 {
-  cli_common common;
-  lab_options own = {0};
-  scene sc = {.structure = NULL};
+  const lab_options *own = given;
   char *page = NULL;
-  cli_parse(&cmd_lab, argc, argv, &own, &common);
-  const char *const case_file = own.case_file;
-  const char *path = common.output ? common.output : "lab.html";
-  int code = check_usage(&common, case_file);
-  if (!code) code = cli_check_files(&common, !common.output, &(cli_file){"the page", path, CLI_OUTPUT});
-  if (!code && case_file) code = load_oscillator(&common, case_file, &sc);
+  const char *const case_file = own->case_file;
+  const char *path = common->output ? common->output : "lab.html";
+  int code = check_usage(common, case_file);
+  if (!code) code = cli_check_files(common, !common->output, &(cli_file){"the page", path, CLI_OUTPUT});
+  if (!code && case_file) code = load_oscillator(common, case_file, sc);
   const hc_status st = code ? HC_OK : read_page(&page);
-  if (st != HC_OK) code = no_page(&common, st);
-  else if (!code) code = write_page(&common, page, case_file ? &sc : NULL, path);
+  if (st != HC_OK) code = no_page(common, st);
+  else if (!code) code = write_page(common, page, case_file ? sc : NULL, path);
   free(page);
-  case_clear(&sc);
   return code;
 }
 
@@ -174,5 +170,7 @@ const cli_command cmd_lab = {
     .arguments = "",
     .help = help,
     .options = options,
+    .own_size = sizeof(lab_options),
+    .starts_itself = true,
     .run = run_lab,
 };

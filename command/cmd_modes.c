@@ -75,23 +75,19 @@ static hc_status put_contacts(const scene *sc, const model *m, table *t)
   return st;
 }
 
-static int run_modes(int argc, char **argv)
+static int run_modes(cli_common *common, void *own, scene *sc)
 {
-  cli_common common;
-  scene sc = {.structure = NULL};
-  int code = cli_start(&cmd_modes, argc, argv, NULL, &common, &sc);
-  if (code) return code;
+  (void)own;
   model *m = NULL;
   table *tables[] = {table_new("Modes", N_MODE_COLUMNS, mode_columns),
                      table_new("Contacts at rest", N_CONTACT_COLUMNS, contact_columns)};
-  hc_status st = scene_model(&sc, &m);
+  hc_status st = scene_model(sc, &m);
   if (st == HC_OK) st = put_modes(m, tables[0]);
-  if (st == HC_OK) st = put_contacts(&sc, m, tables[1]);
-  if (st != HC_OK) code = cli_solver_failed(&common, CLI_HBM, "modes", st, 0);
-  else code = cli_write(&common, m->n_contacts ? 2 : 1, tables);
+  if (st == HC_OK) st = put_contacts(sc, m, tables[1]);
+  const int code = st != HC_OK ? cli_solver_failed(common, CLI_HBM, "modes", st, 0)
+                               : cli_write(common, m->n_contacts ? 2 : 1, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
   model_free(m);
-  case_clear(&sc);
   return code;
 }
 

@@ -165,38 +165,31 @@ static int check_possible(const cli_common *common)
   return 0;
 }
 
-static int run_report(int argc, char **argv)
+static int run_report(cli_common *common, void *given, scene *sc)
 {
-  cli_common common;
-  report_options own = {0};
-  scene sc = {.structure = NULL};
+  const report_options *own = given;
   report_data d;
   char name[512];
-  cli_parse(&cmd_report, argc, argv, &own, &common);
-  int code = check_possible(&common);
-  const char *path = common.output ? common.output : name_of_page(common.arguments[0], name, sizeof name);
-  if (!code) code = cli_check_files(&common, !common.output, &(cli_file){"the page", path, CLI_OUTPUT});
-  if (!code) code = cli_load_case(&common, common.arguments[0], &sc);
-  if (!code) code = compare_lists(&common, &own.lists, &sc);
-  if (code) {
-    case_clear(&sc);
-    return code;
-  }
-  cli_take_frequencies(&common, &own.at, &sc);
-  progress *bar = progress_start("comparing", common.quiet);
+  int code = check_possible(common);
+  const char *path = common->output ? common->output : name_of_page(common->arguments[0], name, sizeof name);
+  if (!code) code = cli_check_files(common, !common->output, &(cli_file){"the page", path, CLI_OUTPUT});
+  if (!code) code = cli_load_case(common, common->arguments[0], sc);
+  if (!code) code = compare_lists(common, &own->lists, sc);
+  if (code) return code;
+  cli_take_frequencies(common, &own->at, sc);
+  progress *bar = progress_start("comparing", common->quiet);
   hc_monitor monitor = progress_monitor(bar);
-  hc_status st = report_gather(&sc, cli_processors(), &monitor, announce, bar, &d);
+  hc_status st = report_gather(sc, cli_processors(), &monitor, announce, bar, &d);
   progress_end(bar);
   if (st == HC_INTERRUPTED) {
-    cli_message(&common, "stopped on request; no page was written");
+    cli_message(common, "stopped on request; no page was written");
     code = EXIT_NO_SOLUTION;
-  } else if (st != HC_OK) code = cli_solver_failed(&common, CLI_BOTH, "the report", st, 0);
-  else if ((st = write_page(&common, &own, &d, path)) == HC_OK) {
+  } else if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the report", st, 0);
+  else if ((st = write_page(common, own, &d, path)) == HC_OK) {
     code = comparison_exit_code(&d.comparison);
-    if (!common.quiet) cli_message(&common, "wrote %s", path);
-  } else code = cli_file_failed(&common, path, st);
+    if (!common->quiet) cli_message(common, "wrote %s", path);
+  } else code = cli_file_failed(common, path, st);
   report_clear(&d);
-  case_clear(&sc);
   return code;
 }
 
@@ -206,5 +199,7 @@ const cli_command cmd_report = {
     .arguments = "CASE",
     .help = help,
     .options = options,
+    .own_size = sizeof(report_options),
+    .starts_itself = true,
     .run = run_report,
 };

@@ -67,7 +67,7 @@ static bool may_be_replaced(unsigned long seed, const char *folder, const char *
 static int stress_check_files(const cli_common *common, const stress_plan *plan, const char *findings)
 {
   const cli_file others[] = {{"--results", plan->journal, CLI_RESULTS}, {"--output", common->output, CLI_OUTPUT}};
-  int code = cli_check_files(common, 0, NULL);
+  int code = 0;
   for (int i = 0; i < 2 && findings && !code; ++i)
     if (others[i].path && may_be_replaced(plan->seed, findings, others[i].path)) {
       cli_message(common, "%s %s is where --findings %s keeps a case file; give another name", others[i].what,
@@ -148,8 +148,8 @@ static const char *const spare_columns[] = {"holds", "seconds", "median_error", 
 
 /* One call of the command. */
 typedef struct stress_call {
-  cli_common common;
-  stress_options own;
+  cli_common *common;
+  stress_options *own;
   stress_result *results;   /* [plan.scenes] */
   long classified, resumed; /* scenes with results, and those of them that the journal had */
   long findings;
@@ -160,9 +160,9 @@ typedef struct stress_call {
 /* Median and largest error of the scenes where this check agreed, and the scene of the largest. */
 static void put_errors(const stress_call *call, int kind, table *t)
 {
-  double *errors = malloc((size_t)call->own.plan.scenes * sizeof *errors), largest = -1;
+  double *errors = malloc((size_t)call->own->plan.scenes * sizeof *errors), largest = -1;
   long n = 0, at = -1;
-  for (long i = 0; errors && i < call->own.plan.scenes; ++i) {
+  for (long i = 0; errors && i < call->own->plan.scenes; ++i) {
     const stress_check *c = &call->results[i].check[kind];
     if (!call->results[i].there || c->outcome != STRESS_AGREED) continue;
     errors[n++] = c->error;
@@ -182,7 +182,7 @@ static void put_explanations(const stress_call *call, int kind, table *t)
   int length = 0;
   for (int r = 0; r < STRESS_N_REASONS; ++r) {
     long n = 0;
-    for (long i = 0; i < call->own.plan.scenes; ++i) {
+    for (long i = 0; i < call->own->plan.scenes; ++i) {
       const stress_check *c = &call->results[i].check[kind];
       n += call->results[i].there && c->outcome == STRESS_EXPLAINED && (int)c->reason == r;
     }
@@ -202,7 +202,7 @@ static table *checks_table(stress_call *call)
   for (int k = 0; k < STRESS_N_CHECKS; ++k) {
     long count[STRESS_N_OUTCOMES] = {0};
     double seconds = 0;
-    for (long i = 0; i < call->own.plan.scenes; ++i) {
+    for (long i = 0; i < call->own->plan.scenes; ++i) {
       if (!call->results[i].there) continue;
       ++count[call->results[i].check[k].outcome];
       seconds += call->results[i].check[k].seconds;
@@ -227,14 +227,14 @@ static const char *meaning_of(const stress_check *c)
 static table *reasons_table(const stress_call *call)
 {
   table *t = table_new("Reasons", COUNT(reason_columns), reason_columns);
-  table_wrap(t, cli_width(&call->common));
+  table_wrap(t, cli_width(call->common));
   for (int k = 0; k < STRESS_N_CHECKS; ++k)
     for (int o = 0; o < STRESS_N_OUTCOMES; ++o)
       for (int r = 0; r < STRESS_N_REASONS; ++r)
         for (int st = HC_OK; st <= HC_BUG; ++st) {
           const stress_check *one = NULL;
           long n = 0, index = 0;
-          for (long i = 0; i < call->own.plan.scenes; ++i) {
+          for (long i = 0; i < call->own->plan.scenes; ++i) {
             const stress_check *c = &call->results[i].check[k];
             if (!call->results[i].there || o == STRESS_AGREED || (int)c->outcome != o || (int)c->reason != r ||
                 (int)c->status != st)
@@ -266,11 +266,11 @@ static void put_scene(table *t, long index, int kind, const stress_check *c)
 /* The findings, or with --all everything. */
 static table *scenes_table(const stress_call *call)
 {
-  table *t = table_new(call->own.all ? "Scenes" : "Findings", COUNT(scene_columns), scene_columns);
-  table_wrap(t, cli_width(&call->common));
-  for (long i = 0; i < call->own.plan.scenes; ++i)
+  table *t = table_new(call->own->all ? "Scenes" : "Findings", COUNT(scene_columns), scene_columns);
+  table_wrap(t, cli_width(call->common));
+  for (long i = 0; i < call->own->plan.scenes; ++i)
     for (int k = 0; k < STRESS_N_CHECKS && call->results[i].there; ++k)
-      if (call->own.all || call->results[i].check[k].outcome == STRESS_FINDING)
+      if (call->own->all || call->results[i].check[k].outcome == STRESS_FINDING)
         put_scene(t, call->results[i].index, k, &call->results[i].check[k]);
   return t;
 }
@@ -279,17 +279,17 @@ static void note_totals(const stress_call *call, table *t)
 {
   double total = 0, slowest = -1;
   long at = 0;
-  for (long i = 0; i < call->own.plan.scenes; ++i) {
+  for (long i = 0; i < call->own->plan.scenes; ++i) {
     const stress_result *r = &call->results[i];
     if (!r->there) continue;
     total += r->seconds;
     if (r->seconds > slowest) slowest = r->seconds, at = r->index;
   }
   table_note(t, "%ld scenes of seed %lu from %ld on: %ld findings, %ld scenes never classified", call->classified,
-             call->own.plan.seed, call->own.plan.first, call->findings, call->own.plan.scenes - call->classified);
+             call->own->plan.seed, call->own->plan.first, call->findings, call->own->plan.scenes - call->classified);
   if (call->classified > 0) table_note(t, "%.4g s of processor time; slowest: scene %ld, %.3g s", total, at, slowest);
   table_note(t, "errors are those of what agreed; again: hbmcheck stress%s --seed %lu --first SCENE --scenes 1 --all",
-             stress_family_option(call->own.plan.family), call->own.plan.seed);
+             stress_family_option(call->own->plan.family), call->own->plan.seed);
 }
 
 /* Returns the exit code. */
@@ -297,7 +297,7 @@ static int write_tables(stress_call *call)
 {
   table *tables[3] = {checks_table(call), reasons_table(call), scenes_table(call)};
   note_totals(call, tables[0]);
-  int code = cli_write(&call->common, table_rows(tables[2]) > 0 ? 3 : 2, tables);
+  int code = cli_write(call->common, table_rows(tables[2]) > 0 ? 3 : 2, tables);
   for (int i = 0; i < 3; ++i) table_free(tables[i]);
   return code ? code : call->findings > 0 ? EXIT_DISAGREED : EXIT_AGREED;
 }
@@ -307,8 +307,8 @@ static int write_tables(stress_call *call)
 static hc_status scene_at(const stress_call *call, long index, scene *sc)
 {
   stress_scenes *scenes;
-  hc_status st = stress_scenes_new(call->own.plan.seed, &scenes);
-  if (st == HC_OK) st = stress_scene_of(scenes, call->own.plan.family, index, sc);
+  hc_status st = stress_scenes_new(call->own->plan.seed, &scenes);
+  if (st == HC_OK) st = stress_scene_of(scenes, call->own->plan.family, index, sc);
   stress_scenes_free(scenes);
   return st;
 }
@@ -323,15 +323,15 @@ static int write_case(const stress_call *call, const char *path, const char *com
     fputs(comment, output_stream(out));
     st = output_finish(out, case_echo(sc, output_stream(out)));
   }
-  return st == HC_OK ? 0 : cli_file_failed(&call->common, path, st);
+  return st == HC_OK ? 0 : cli_file_failed(call->common, path, st);
 }
 
 static int print_case(const stress_call *call)
 {
   scene sc;
-  hc_status st = scene_at(call, call->own.plan.first, &sc);
-  if (st != HC_OK) return cli_solver_failed(&call->common, CLI_BOTH, "the sequence", st, 0);
-  const int code = write_case(call, call->common.output, "", &sc);
+  hc_status st = scene_at(call, call->own->plan.first, &sc);
+  if (st != HC_OK) return cli_solver_failed(call->common, CLI_BOTH, "the sequence", st, 0);
+  const int code = write_case(call, call->common->output, "", &sc);
   case_clear(&sc);
   return code;
 }
@@ -342,19 +342,19 @@ static int keep_finding(const stress_call *call, long index, stress_kind kind, c
   scene sc;
   char path[4096], comment[512];
   hc_status st = scene_at(call, index, &sc);
-  if (st != HC_OK) return cli_solver_failed(&call->common, CLI_BOTH, "the sequence", st, 0);
-  st = stress_shrink(&sc, kind, call->own.plan.seconds, monitor);
+  if (st != HC_OK) return cli_solver_failed(call->common, CLI_BOTH, "the sequence", st, 0);
+  st = stress_shrink(&sc, kind, call->own->plan.seconds, monitor);
   if (st != HC_OK && st != HC_INTERRUPTED) {
     case_clear(&sc);
-    return cli_solver_failed(&call->common, CLI_BOTH, "shrinking", st, 0);
+    return cli_solver_failed(call->common, CLI_BOTH, "shrinking", st, 0);
   }
-  snprintf(path, sizeof path, "%s/stress-%lu-%s%ld-%s.yaml", call->own.findings, call->own.plan.seed,
+  snprintf(path, sizeof path, "%s/stress-%lu-%s%ld-%s.yaml", call->own->findings, call->own->plan.seed,
            sc.structure ? "structure-" : "", index, stress_kind_name(kind));
   snprintf(
       comment, sizeof comment,
       "# Found by hbmcheck stress%s --seed %lu --first %ld --scenes 1, and made smaller: %s.\n# It should hold that: "
       "%s.\n",
-      stress_family_option(call->own.plan.family), call->own.plan.seed, index, stress_kind_name(kind),
+      stress_family_option(call->own->plan.family), call->own->plan.seed, index, stress_kind_name(kind),
       stress_kind_meaning(kind));
   const int code = write_case(call, path, comment, &sc);
   case_clear(&sc);
@@ -364,9 +364,9 @@ static int keep_finding(const stress_call *call, long index, stress_kind kind, c
 static int keep_findings(const stress_call *call)
 {
   int code = 0;
-  progress *bar = progress_start("shrinking findings", call->common.quiet);
+  progress *bar = progress_start("shrinking findings", call->common->quiet);
   const hc_monitor monitor = progress_monitor(bar);
-  for (long i = 0; i < call->own.plan.scenes && !code; ++i)
+  for (long i = 0; i < call->own->plan.scenes && !code; ++i)
     for (int k = 0; k < STRESS_N_CHECKS && !code; ++k)
       if (call->results[i].there && call->results[i].check[k].outcome == STRESS_FINDING)
         code = keep_finding(call, call->results[i].index, (stress_kind)k, &monitor);
@@ -394,46 +394,48 @@ static bool scenes_done(void *self, long done, long scenes)
 /* Classify the scenes of the plan. 0 or the exit code after the message. */
 static int classify_scenes(stress_call *call)
 {
-  scene_progress w = {.bar = progress_start("stress", call->common.quiet)};
+  scene_progress w = {.bar = progress_start("stress", call->common->quiet)};
   w.monitor = progress_monitor(w.bar);
   const stress_watch watching = {scenes_done, &w};
-  hc_status st = stress_run(&call->own.plan, &watching, call->results, &call->resumed);
+  hc_status st = stress_run(&call->own->plan, &watching, call->results, &call->resumed);
   int failure = errno;
   progress_end(w.bar);
-  for (long i = 0; i < call->own.plan.scenes; ++i) call->classified += call->results[i].there;
+  for (long i = 0; i < call->own->plan.scenes; ++i) call->classified += call->results[i].there;
   if (st == HC_OK) return 0;
   if (st == HC_BAD_INPUT || st == HC_UNSUPPORTED) {
-    cli_message(&call->common, "%s: %s, expected those or a new file", call->own.plan.journal,
+    cli_message(call->common, "%s: %s, expected those or a new file", call->own->plan.journal,
                 st == HC_BAD_INPUT ? "not the results of this seed, these --seconds and scenes of this kind, or damaged"
                                    : "not the results of this version of hbmcheck with its checks and reasons");
     return EXIT_BAD_CASE;
   }
-  if (st == HC_IO) cli_message(&call->common, "%s: %s", call->own.plan.journal, strerror(failure));
+  if (st == HC_IO) cli_message(call->common, "%s: %s", call->own->plan.journal, strerror(failure));
   else if (st == HC_INTERRUPTED)
-    cli_message(&call->common, "stopped on request after %ld of %ld scenes%s", call->classified, call->own.plan.scenes,
-                call->own.plan.journal ? "; the same command goes on from there" : "; --results FILE would keep them");
-  else return cli_solver_failed(&call->common, CLI_BOTH, "stress", st, 0);
+    cli_message(call->common, "stopped on request after %ld of %ld scenes%s", call->classified, call->own->plan.scenes,
+                call->own->plan.journal ? "; the same command goes on from there" : "; --results FILE would keep them");
+  else return cli_solver_failed(call->common, CLI_BOTH, "stress", st, 0);
   return EXIT_NO_SOLUTION;
 }
 
-static int run_stress(int argc, char **argv)
+static int run_stress(cli_common *common, void *given, scene *sc)
 {
-  stress_call call = {.own.plan = {.seed = 1, .scenes = DEFAULT_SCENES, .jobs = cli_processors(), .seconds = 1}};
-  cli_parse(&cmd_stress, argc, argv, &call.own, &call.common);
-  if (call.own.structures) call.own.plan.family = STRESS_STRUCTURES;
-  if (call.own.space) call.own.plan.family = STRESS_SPACE;
-  if (call.common.n_set) {
-    cli_message(&call.common, "--set has no case file to set anything in");
+  stress_options *own = given;
+  stress_call call = {.common = common, .own = own};
+  (void)sc;
+  if (own->structures) own->plan.family = STRESS_STRUCTURES;
+  if (own->space) own->plan.family = STRESS_SPACE;
+  if (!own->plan.jobs) own->plan.jobs = cli_processors();
+  if (common->n_set) {
+    cli_message(common, "--set has no case file to set anything in");
     return EXIT_USAGE;
   }
-  int refused = stress_check_files(&call.common, &call.own.plan, call.own.findings);
-  if (!refused && call.own.one_case) return print_case(&call);
-  if (!refused) refused = stress_make_folder(&call.common, call.own.findings);
+  int refused = stress_check_files(common, &own->plan, own->findings);
+  if (!refused && own->one_case) return print_case(&call);
+  if (!refused) refused = stress_make_folder(common, own->findings);
   if (refused) return refused;
-  if (!(call.results = calloc((size_t)call.own.plan.scenes, sizeof *call.results)))
-    return cli_solver_failed(&call.common, CLI_BOTH, "stress", HC_NO_MEMORY, 0);
+  if (!(call.results = calloc((size_t)own->plan.scenes, sizeof *call.results)))
+    return cli_solver_failed(common, CLI_BOTH, "stress", HC_NO_MEMORY, 0);
   int stopped = classify_scenes(&call), code = stopped && call.classified == 0 ? stopped : write_tables(&call);
-  if (!stopped && call.own.findings && code == EXIT_DISAGREED) {
+  if (!stopped && own->findings && code == EXIT_DISAGREED) {
     int kept = keep_findings(&call);
     if (kept) code = kept;
   }
@@ -447,5 +449,7 @@ const cli_command cmd_stress = {
     .arguments = "",
     .help = help,
     .options = options,
+    .own_size = sizeof(stress_options),
+    .defaults = &(const stress_options){.plan = {.seed = 1, .scenes = DEFAULT_SCENES, .seconds = 1}},
     .run = run_stress,
 };

@@ -11,7 +11,6 @@
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
-#include "command/plot/plot.h"
 #include "output/output.h"
 #include "output/progress.h"
 #include "study/cluster.h"
@@ -27,12 +26,12 @@ static const char help[] =
     "example: hbmcheck study gaps.yaml --jobs 4 --export csv --output gaps.csv";
 
 typedef struct study_options {
-  int jobs;                  /* 0: not given */
-  const char *results;       /* NULL: not given */
-  bool fresh, timings;       /* --fresh, --timings */
-  table_format export;       /* FORMAT_TABLE: --export was not given */
-  const char *plot, *plot_y; /* NULL: not given */
-  const char *response;      /* likewise */
+  int jobs;             /* 0: not given */
+  const char *results;  /* NULL: not given */
+  bool fresh, timings;  /* --fresh, --timings */
+  table_format export;  /* FORMAT_TABLE: --export was not given */
+  const char *plot_y;   /* NULL: not given */
+  const char *response; /* likewise */
 } study_options;
 
 static const cli_option options[] = {
@@ -47,7 +46,7 @@ static const cli_option options[] = {
     {CLI_FLAG, "timings", NULL, "Export the seconds each scene took, too", offsetof(study_options, timings)},
     {CLI_TEXT, "response", "NAME", "Of a structure: export, or draw, this response alone [export all, draw the first]",
      offsetof(study_options, response)},
-    CLI_PLOT_OPTION(study_options),
+    CLI_PLOT_OPTION,
     {CLI_TEXT, "plot-y", "NAME",
      "What to draw: a column of scenes, or of rows, then the largest of each scene [peak_amplitude, or amplitude]",
      offsetof(study_options, plot_y), .group = 2},
@@ -73,8 +72,8 @@ typedef struct study_entry {
 
 /* One call of the command. */
 typedef struct study_call {
-  cli_common common;
-  study_options own;
+  cli_common *common;
+  const study_options *own;
   int rank, n_ranks; /* of this process, and of how many; 0 and 1 without MPI */
   int jobs;          /* scenes computed at a time by this process */
   int n_studies;
@@ -128,7 +127,7 @@ static int check_names(const study_call *call)
         continue;
       if (call->rank == 0)
         cli_message(
-            &call->common,
+            call->common,
             "%s and %s would share the results file %s; run them one by one, or give a folder or names that differ",
             call->studies[k].s->name, call->studies[i].s->name, call->studies[i].results);
       return EXIT_USAGE;
@@ -141,19 +140,19 @@ static const char *response_of(const study_entry *entry) { return *entry->respon
 /* entry->response, of the study's own base; false after a message, by rank 0 only. */
 static bool find_response(study_call *call, study_entry *entry)
 {
-  if (!call->own.response) return true;
+  if (!call->own->response) return true;
   const scene_structure *of = entry->s->base.structure;
-  call->common.scene = &entry->s->base;
+  call->common->scene = &entry->s->base;
   if (!of && call->rank == 0)
-    cli_message(&call->common, "--response: %s has one degree of freedom, expected a structure", entry->s->name);
-  const int r = of ? cli_response_named(&call->common, call->own.response) : -1;
+    cli_message(call->common, "--response: %s has one degree of freedom, expected a structure", entry->s->name);
+  const int r = of ? cli_response_named(call->common, call->own->response) : -1;
   if (r >= 0) structure_response_name(of, r, entry->response, sizeof entry->response);
   return r >= 0;
 }
 
 static int read_studies(study_call *call)
 {
-  const cli_common *common = &call->common;
+  cli_common *common = call->common;
   for (int i = 0; i < common->n_arguments; ++i) {
     case_error err = {{0}};
     hc_status st = study_read(common->arguments[i], common->n_set, common->set, &call->studies[i].s, &err);
@@ -162,12 +161,11 @@ static int read_studies(study_call *call)
       st = study_claims_check(call->studies[i].s, &err);
     }
     if (st != HC_OK) return study_failed(call, st, &err);
-    name_results(&call->own, &call->studies[i]);
+    name_results(call->own, &call->studies[i]);
     if (!find_response(call, &call->studies[i])) return EXIT_USAGE;
-    plot_order drawing = {.path = call->own.plot};
-    if (call->own.plot &&
-        plot_study_check(&drawing, call->studies[i].s, call->own.plot_y, response_of(&call->studies[i])) != HC_OK) {
-      if (call->rank == 0) cli_message(common, "%s", drawing.why);
+    if (common->drawing.path && plot_study_check(&common->drawing, call->studies[i].s, call->own->plot_y,
+                                                 response_of(&call->studies[i])) != HC_OK) {
+      if (call->rank == 0) cli_message(common, "%s", common->drawing.why);
       return EXIT_USAGE;
     }
   }
@@ -193,7 +191,7 @@ static int open_stores(study_call *call)
 {
   for (int i = 0; i < call->n_studies; ++i) {
     case_error err = {{0}};
-    hc_status st = study_store_open(call->studies[i].s, call->studies[i].results, HBMCHECK_VERSION, call->own.fresh,
+    hc_status st = study_store_open(call->studies[i].s, call->studies[i].results, HBMCHECK_VERSION, call->own->fresh,
                                     &call->studies[i].store, &err);
     if (st != HC_OK) return study_failed(call, st, &err);
   }
@@ -203,8 +201,8 @@ static int open_stores(study_call *call)
 /* Options that do not go together. 0 or the exit code. */
 static int check_usage(const study_call *call, bool without_mpi)
 {
-  const study_options *own = &call->own;
-  const bool several = call->common.n_arguments > 1;
+  const study_options *own = call->own;
+  const bool several = call->common->n_arguments > 1;
   const char *fault = NULL;
   if (without_mpi)
     fault =
@@ -212,10 +210,10 @@ static int check_usage(const study_call *call, bool without_mpi)
   else if (is_exporting(own) && several) fault = "--export takes one study at a time";
   else if (call->n_ranks > 1 && own->jobs > 1)
     fault = "under mpirun every process computes one scene at a time: give mpirun more processes instead of --jobs";
-  else if (own->plot && several) fault = "--plot draws one study at a time";
-  else if (own->plot_y && !own->plot) fault = "--plot-y goes with --plot";
+  else if (call->common->drawing.path && several) fault = "--plot draws one study at a time";
+  else if (own->plot_y && !call->common->drawing.path) fault = "--plot-y goes with --plot";
   else if (own->timings && !is_exporting(own)) fault = "--timings goes with --export";
-  if (fault && call->rank == 0) cli_message(&call->common, "%s", fault);
+  if (fault && call->rank == 0) cli_message(call->common, "%s", fault);
   return fault ? EXIT_USAGE : 0;
 }
 
@@ -242,7 +240,7 @@ static bool scenes_done(void *self, long done, long now, long scenes)
 /* Compute the scenes of one study that its results file does not have. 0 or the exit code after the message. */
 static int compute_study(study_call *call, study_entry *entry)
 {
-  scene_progress w = {.bar = progress_start("study", call->common.quiet), .start = wall_seconds()};
+  scene_progress w = {.bar = progress_start("study", call->common->quiet), .start = wall_seconds()};
   w.monitor = progress_monitor(w.bar);
   study_watch watching = {scenes_done, &w};
   hc_status st = study_run(entry->s, entry->store, call->jobs, &watching, &entry->computed_now, &entry->computed);
@@ -250,13 +248,13 @@ static int compute_study(study_call *call, study_entry *entry)
   entry->wall = wall_seconds() - w.start;
   if (st == HC_OK) return 0;
   if (st == HC_IO)
-    cli_message(&call->common, "%s: a scene could not be kept: %s", entry->results, study_store_error(entry->store));
-  else if (st == HC_NO_MEMORY) cli_message(&call->common, "%s", hc_status_text(st));
+    cli_message(call->common, "%s: a scene could not be kept: %s", entry->results, study_store_error(entry->store));
+  else if (st == HC_NO_MEMORY) cli_message(call->common, "%s", hc_status_text(st));
   if (!strcmp(entry->results, ":memory:"))
-    cli_message(&call->common, "stopped: %ld of %ld scenes were done and are lost with :memory:", entry->computed,
+    cli_message(call->common, "stopped: %ld of %ld scenes were done and are lost with :memory:", entry->computed,
                 entry->s->n_scenes);
   else
-    cli_message(&call->common, "stopped: %ld of %ld scenes are in %s; the same command goes on from there",
+    cli_message(call->common, "stopped: %ld of %ld scenes are in %s; the same command goes on from there",
                 entry->computed, entry->s->n_scenes, entry->results);
   return EXIT_NO_SOLUTION;
 }
@@ -281,7 +279,7 @@ static int put_summary(study_call *call, const study_entry *entry, bool *any_fai
   hc_status st = study_summarise(entry->s, entry->store, &sum);
   if (st == HC_OK) st = study_verdicts(entry->s, entry->store, call->tables[VERDICTS]);
   if (st != HC_OK) {
-    cli_message(&call->common, "%s: %s", entry->results,
+    cli_message(call->common, "%s: %s", entry->results,
                 st == HC_NO_MEMORY ? hc_status_text(st) : study_store_error(entry->store));
     return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
   }
@@ -310,11 +308,11 @@ static int put_summary(study_call *call, const study_entry *entry, bool *any_fai
 static int check_claims(study_call *call, const study_entry *entry)
 {
   case_error err = {{0}};
-  progress *bar = progress_start("claims", call->common.quiet);
+  progress *bar = progress_start("claims", call->common->quiet);
   hc_monitor monitor = progress_monitor(bar);
   hc_status st = study_claims_run(entry->s, entry->store, &monitor, call->tables + CLAIMS, &call->claims, &err);
   progress_end(bar);
-  if (st == HC_INTERRUPTED) return cli_solver_failed(&call->common, CLI_BOTH, "the claims", st, 0);
+  if (st == HC_INTERRUPTED) return cli_solver_failed(call->common, CLI_BOTH, "the claims", st, 0);
   return st == HC_OK ? 0 : study_failed(call, st, &err);
 }
 
@@ -322,11 +320,11 @@ static int write_export(const study_call *call)
 {
   output *out = NULL;
   const study_entry *entry = &call->studies[0];
-  hc_status st = output_open(call->common.output, &out);
+  hc_status st = output_open(call->common->output, &out);
   if (st == HC_OK)
-    st = output_finish(out, study_export(entry->s, entry->store, call->own.export, call->own.timings,
+    st = output_finish(out, study_export(entry->s, entry->store, call->own->export, call->own->timings,
                                          response_of(entry), output_stream(out)));
-  return st == HC_OK ? 0 : cli_file_failed(&call->common, call->common.output, st);
+  return st == HC_OK ? 0 : cli_file_failed(call->common, call->common->output, st);
 }
 
 /* The summary and the tables that have rows; with --export these go to stderr, and the export where they would. */
@@ -336,8 +334,8 @@ static int write_tables(const study_call *call)
   int n = 0;
   for (int i = 0; i < N_TABLES; ++i)
     if (i == SUMMARY || table_rows(call->tables[i]) > 0) shown[n++] = call->tables[i];
-  if (!is_exporting(&call->own)) return cli_write(&call->common, n, shown);
-  if (!call->common.quiet) table_write(n, shown, FORMAT_TABLE, stderr);
+  if (!is_exporting(call->own)) return cli_write(call->common, n, shown);
+  if (!call->common->quiet) table_write(n, shown, FORMAT_TABLE, stderr);
   return write_export(call);
 }
 
@@ -355,7 +353,7 @@ static void make_tables(study_call *call)
   for (int i = 0; i < STUDY_CLAIM_TABLES; ++i) {
     columns = study_claims_columns(i, &n);
     call->tables[CLAIMS + i] = table_new(titles[i], n, columns);
-    if (i != STUDY_SECONDS) table_wrap(call->tables[CLAIMS + i], cli_width(&call->common));
+    if (i != STUDY_SECONDS) table_wrap(call->tables[CLAIMS + i], cli_width(call->common));
   }
 }
 
@@ -388,13 +386,10 @@ static int write_results(study_call *call, int n_run)
   }
   note_totals(call);
   if (!code) code = write_tables(call);
-  plot_order drawing = {.path = call->own.plot};
   int drawn = 0;
-  if (!code && call->own.plot && n_run > 0)
-    drawn = cli_plotted(&call->common,
-                        plot_study(&drawing, call->studies[0].s, call->studies[0].store, call->own.plot_y,
-                                   response_of(&call->studies[0])),
-                        drawing.why);
+  if (!code && call->common->drawing.path && n_run > 0)
+    drawn = cli_plotted(call->common, plot_study(&call->common->drawing, call->studies[0].s, call->studies[0].store,
+                                                 call->own->plot_y, response_of(&call->studies[0])));
   for (int i = 0; i < N_TABLES; ++i) table_free(call->tables[i]);
   return code ? code : call->claims.unexpected ? EXIT_DISAGREED : any_failed ? EXIT_NO_SOLUTION : drawn;
 }
@@ -409,7 +404,7 @@ static int run_rank_0(study_call *call)
     stopped = compute_study(call, &call->studies[n]);
   }
   if (stopped && n < call->n_studies) cluster_agree(stopped);
-  if (stopped && is_exporting(&call->own)) return stopped;
+  if (stopped && is_exporting(call->own)) return stopped;
   int code = write_results(call, n);
   return stopped ? stopped : code;
 }
@@ -427,21 +422,20 @@ static void run_other_rank(const study_call *call)
   for (int n = 0; n < call->n_studies && cluster_agree(0) == 0; ++n) cluster_work(call->studies[n].s, &monitor);
 }
 
-static int run_study(int argc, char **argv)
+static int run_study(cli_common *common, void *own, scene *sc)
 {
   study_call *call = calloc(1, sizeof *call);
-  if (!call) {
-    fprintf(stderr, "hbmcheck study: %s\n", hc_status_text(HC_NO_MEMORY));
-    return EXIT_NO_SOLUTION;
-  }
+  (void)sc;
+  if (!call) return cli_solver_failed(common, CLI_BOTH, "study", HC_NO_MEMORY, 0);
+  call->common = common;
+  call->own = own;
   bool without_mpi = !cluster_start(&call->rank, &call->n_ranks);
-  cli_parse(&cmd_study, argc, argv, &call->own, &call->common);
-  call->jobs = call->own.jobs ? call->own.jobs : call->n_ranks > 1 ? 1 : cli_processors();
+  call->jobs = call->own->jobs ? call->own->jobs : call->n_ranks > 1 ? 1 : cli_processors();
   int code = check_usage(call, without_mpi);
   if (!code) code = read_studies(call);
   for (int i = 0; i < call->n_studies && !code; ++i)
     list_files(&call->studies[i], call->files + (ptrdiff_t)i * FILES_EACH);
-  if (!code && call->rank == 0) code = cli_check_files(&call->common, call->n_studies * FILES_EACH, call->files);
+  if (!code && call->rank == 0) code = cli_check_files(common, call->n_studies * FILES_EACH, call->files);
   if (!code && call->rank == 0) code = open_stores(call);
   int agreed = cluster_agree(code);
   if (!agreed && call->rank == 0) code = run_rank_0(call);
@@ -461,5 +455,7 @@ const cli_command cmd_study = {
     .arguments = "STUDY...",
     .help = help,
     .options = options,
+    .own_size = sizeof(study_options),
+    .starts_itself = true,
     .run = run_study,
 };

@@ -6,7 +6,6 @@
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
-#include "command/plot/plot.h"
 #include "compare/motion.h"
 #include "compare/steady_states.h"
 #include "output/progress.h"
@@ -23,7 +22,6 @@ typedef struct transient_options {
   number_list at;       /* n = 0: the case's */
   const char *response; /* NULL: all of them */
   bool contacts;        /* what each contact does, too */
-  const char *plot;     /* NULL: no drawing */
 } transient_options;
 
 static const cli_option options[] = {
@@ -31,7 +29,7 @@ static const cli_option options[] = {
      offsetof(transient_options, at)},
     CLI_RESPONSE_OPTION(transient_options),
     CLI_CONTACTS_OPTION(transient_options),
-    CLI_PLOT_OPTION(transient_options),
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -66,56 +64,48 @@ static table *contacts_table(const cli_common *common, steady_states *found)
   return t;
 }
 
-static int run_transient(int argc, char **argv)
+static int run_transient(cli_common *common, void *given, scene *sc)
 {
-  cli_common common;
-  transient_options own = {0};
-  scene sc = {.structure = NULL};
-  int code = cli_start(&cmd_transient, argc, argv, &own, &common, &sc);
-  if (!code) code = cli_keep_response(&common, &sc, own.response);
-  if (!code) cli_take_frequencies(&common, &own.at, &sc);
-  if (!code && sc.compare.omega.n == 0) {
-    cli_message(&common, "at which frequencies? give --at LIST, or compare.omega in the case");
-    code = EXIT_USAGE;
+  const transient_options *own = given;
+  int code = cli_keep_response(common, sc, own->response);
+  if (code) return code;
+  cli_take_frequencies(common, &own->at, sc);
+  if (sc->compare.omega.n == 0) {
+    cli_message(common, "at which frequencies? give --at LIST, or compare.omega in the case");
+    return EXIT_USAGE;
   }
-  if (code) {
-    case_clear(&sc);
-    return code;
-  }
-  progress *bar = progress_start("time integration", common.quiet);
+  progress *bar = progress_start("time integration", common->quiet);
   hc_monitor monitor = progress_monitor(bar);
   steady_states found = {0};
   compare_setup setup;
-  hc_status st = scene_setup(&sc, &setup);
-  setup.contacts = own.contacts;
+  hc_status st = scene_setup(sc, &setup);
+  setup.contacts = own->contacts;
   if (st == HC_OK) st = steady_states_run(&setup, &monitor, &found);
   scene_setup_clear(&setup);
   progress_end(bar);
-  table *t = cli_table(&common, "Steady states", ROWS_TRANSIENT);
+  table *t = cli_table(common, "Steady states", ROWS_TRANSIENT);
   bool free = false, torus = false;
   for (int i = 0; i < found.n; ++i) {
     free |= found.rows[i].status == HC_OK && motion_mean_is_free(&found.rows[i].result);
     torus |= found.rows[i].status == HC_APERIODIC && !isnan(found.rows[i].result.second_frequency);
-    if (sc.structure)
-      structure_response_name(sc.structure, found.rows[i].response, found.rows[i].response_name, RESPONSE_NAME);
-    int row_code = put_row(&common, &found.rows[i], t);
+    if (sc->structure)
+      structure_response_name(sc->structure, found.rows[i].response, found.rows[i].response_name, RESPONSE_NAME);
+    int row_code = put_row(common, &found.rows[i], t);
     if (row_code) code = row_code;
   }
   if (!free) table_hide(t, "mean_free");
   if (!torus) table_hide(t, "second_frequency");
   if (st != HC_OK) {
     table_note(t, "INCOMPLETE: %s", hc_status_text(st));
-    code = cli_solver_failed(&common, CLI_TRANSIENT, "time integration", st, 0);
+    code = cli_solver_failed(common, CLI_TRANSIENT, "time integration", st, 0);
   }
-  table *contacts = own.contacts ? contacts_table(&common, &found) : NULL;
-  int written = st == HC_OK || found.n ? cli_write(&common, contacts ? 2 : 1, (table *[]){t, contacts}) : 0;
-  plot_order drawing = {.path = own.plot};
-  if (own.plot && found.n && !written)
-    written = cli_plotted(&common, plot_transient(&drawing, &sc, &found), drawing.why);
+  table *contacts = own->contacts ? contacts_table(common, &found) : NULL;
+  int written = st == HC_OK || found.n ? cli_write(common, contacts ? 2 : 1, (table *[]){t, contacts}) : 0;
+  if (common->drawing.path && found.n && !written)
+    written = cli_plotted(common, plot_transient(&common->drawing, sc, &found));
   table_free(t);
   table_free(contacts);
   steady_states_clear(&found);
-  case_clear(&sc);
   return code ? code : written;
 }
 
@@ -125,5 +115,6 @@ const cli_command cmd_transient = {
     .arguments = "CASE",
     .help = help,
     .options = options,
+    .own_size = sizeof(transient_options),
     .run = run_transient,
 };

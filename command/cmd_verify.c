@@ -11,7 +11,6 @@
 #include "command/case_names.h"
 #include "command/cli.h"
 #include "command/commands.h"
-#include "command/plot/plot.h"
 #include "compare/verify/verify.h"
 #include "output/progress.h"
 
@@ -148,7 +147,7 @@ static const char help[] =
     "omega=1,harmonic_1=2";
 
 typedef struct verify_options {
-  const char *against, *noise, *plot; /* NULL: not given */
+  const char *against, *noise; /* NULL: not given */
   verify_asked asked;
 } verify_options;
 
@@ -164,7 +163,7 @@ static const cli_option options[] = {
      offsetof(verify_options, asked.responses)},
     {CLI_TEXT, "noise", "S", "A measured curve: standard deviation of its values relative to the amplitude [0]",
      offsetof(verify_options, noise)},
-    CLI_PLOT_OPTION(verify_options),
+    CLI_PLOT_OPTION,
     {0},
 };
 
@@ -205,9 +204,9 @@ typedef struct verified {
 
 /* One call of the command. */
 typedef struct verify_call {
-  cli_common common;
-  verify_options own;
-  scene sc;
+  cli_common *common;
+  const verify_options *own;
+  scene *sc;
   int n;        /* curves */
   verified *of; /* [n] */
 } verify_call;
@@ -337,7 +336,7 @@ static table *table_for(const scene *sc, const char *title, int n, const table_c
 /* Points and what came out; the table on a screen has no summary, since the remarks say it, csv the points alone. */
 static int write_tables(const verify_call *call)
 {
-  const scene *sc = &call->sc;
+  const scene *sc = call->sc;
   table_column own[3][N_SUMMARY_COLUMNS];
   table *points = table_for(sc, "Points", N_COLUMNS, columns, own[0]),
         *hypotheses = table_for(sc, "Hypotheses", N_HYPOTHESIS_COLUMNS, hypothesis_columns, own[1]),
@@ -355,9 +354,9 @@ static int write_tables(const verify_call *call)
     note_verification(points, sc, &v->data, r);
   }
   table_spare(hypotheses, spare_hypothesis_columns);
-  if (n_hypotheses && call->common.format != FORMAT_CSV) tables[n++] = hypotheses;
-  if (call->common.format == FORMAT_JSON) tables[n++] = summary;
-  int code = cli_write(&call->common, n, tables);
+  if (n_hypotheses && call->common->format != FORMAT_CSV) tables[n++] = hypotheses;
+  if (call->common->format == FORMAT_JSON) tables[n++] = summary;
+  int code = cli_write(call->common, n, tables);
   table_free(points);
   table_free(hypotheses);
   table_free(summary);
@@ -367,33 +366,33 @@ static int write_tables(const verify_call *call)
 /* A curve of --against, read as --columns and --quantity say. 0 or the exit code after the message. */
 static int read_curve(const verify_call *call, double noise, verified *v)
 {
-  const cli_common *common = &call->common;
+  const cli_common *common = call->common;
   const char *list = *v->curve.columns ? v->curve.columns : NULL;
   verify_columns where;
   char words[VERIFY_TEXT];
-  if (verify_columns_read(list, call->own.asked.quantity, &where, words) != HC_OK) {
+  if (verify_columns_read(list, call->own->asked.quantity, &where, words) != HC_OK) {
     cli_message(common, "%s", words);
     return EXIT_USAGE;
   }
-  where.response = call->sc.structure ? v->curve.name : NULL;
-  hc_status st = verify_data_read(call->own.against, &where, &v->data, words);
+  where.response = call->sc->structure ? v->curve.name : NULL;
+  hc_status st = verify_data_read(call->own->against, &where, &v->data, words);
   v->data.noise = noise;
   v->data.response = v->curve.response;
-  v->data.with_line = call->own.plot;
+  v->data.with_line = call->common->drawing.path;
   if (st != HC_OK) {
     fprintf(stderr, "%s\n", words);
     return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
   }
-  const char *refused = call->sc.structure ? verify_quantity_refused_of_structure(&v->data.quantity) : NULL;
+  const char *refused = call->sc->structure ? verify_quantity_refused_of_structure(&v->data.quantity) : NULL;
   if (refused) {
     cli_message(common, "%s", refused);
     return EXIT_BAD_CASE;
   }
-  if (call->own.asked.responses.n > 1 && !v->data.by_response) {
+  if (call->own->asked.responses.n > 1 && !v->data.by_response) {
     cli_message(common,
                 "several --response, and %s has no column `response`; expected one, or --columns with "
                 "QUANTITY@RESPONSE for each",
-                call->own.against);
+                call->own->against);
     return EXIT_USAGE;
   }
   return 0;
@@ -403,24 +402,24 @@ static int read_curve(const verify_call *call, double noise, verified *v)
 static int read_curves(verify_call *call)
 {
   verify_curve curves[VERIFY_MOST_CURVES];
-  const char *said = call->own.noise;
+  const char *said = call->own->noise;
   double noise = 0;
-  if (!call->own.against) {
-    cli_message(&call->common, "no --against given, expected --against FILE");
+  if (!call->own->against) {
+    cli_message(call->common, "no --against given, expected --against FILE");
     return EXIT_USAGE;
   }
-  const int n = verify_curves_of(&call->common, &call->own.asked, curves);
+  const int n = verify_curves_of(call->common, &call->own->asked, curves);
   if (n == 0) return EXIT_USAGE;
-  if (n > 1 && call->own.plot) {
-    cli_message(&call->common, "--plot draws one response, and there are %d; name one", n);
+  if (n > 1 && call->common->drawing.path) {
+    cli_message(call->common, "--plot draws one response, and there are %d; name one", n);
     return EXIT_USAGE;
   }
   if (said && (number_read(said, strlen(said), &noise) != NUMBER_FINE || !(noise >= 0) || noise > 1)) {
-    cli_message(&call->common, "--noise: '%.40s' is no scatter, expected a number from 0 to 1 such as 1e-2", said);
+    cli_message(call->common, "--noise: '%.40s' is no scatter, expected a number from 0 to 1 such as 1e-2", said);
     return EXIT_USAGE;
   }
   if (!(call->of = calloc((size_t)n, sizeof *call->of)))
-    return cli_solver_failed(&call->common, CLI_BOTH, "the verification", HC_NO_MEMORY, 0);
+    return cli_solver_failed(call->common, CLI_BOTH, "the verification", HC_NO_MEMORY, 0);
   for (int code; call->n < n; ++call->n) {
     call->of[call->n].curve = curves[call->n];
     if ((code = read_curve(call, noise, &call->of[call->n])) != 0) return ++call->n, code;
@@ -438,43 +437,37 @@ static int worse(int a, int b)
 /* The exit code, after a message where one is due; *st of the last curve that was begun. */
 static int verify_curves(verify_call *call, hc_status *st)
 {
-  progress *bar = progress_start("verifying", call->common.quiet);
+  progress *bar = progress_start("verifying", call->common->quiet);
   hc_monitor monitor = progress_monitor(bar);
   compare_setup setup;
   int code = 0;
-  *st = scene_setup(&call->sc, &setup);
+  *st = scene_setup(call->sc, &setup);
   for (int k = 0; k < call->n && *st == HC_OK; ++k) {
     *st = verify_run(&setup, &call->of[k].data, &monitor, &call->of[k].report);
     if (*st == HC_OK) code = worse(code, verify_exit_code(&call->of[k].report));
   }
   scene_setup_clear(&setup);
   progress_end(bar);
-  if (*st != HC_OK) return cli_solver_failed(&call->common, CLI_BOTH, "the verification", *st, 0);
+  if (*st != HC_OK) return cli_solver_failed(call->common, CLI_BOTH, "the verification", *st, 0);
   if (code == EXIT_NO_SOLUTION)
-    cli_message(&call->common, "some points could not be judged; the notes of the table say why");
+    cli_message(call->common, "some points could not be judged; the notes of the table say why");
   return code;
 }
 
-static int run_verify(int argc, char **argv)
+static int run_verify(cli_common *common, void *own, scene *sc)
 {
-  verify_call call = {.n = 0};
-  cli_common *common = &call.common;
-  const verify_options *own = &call.own;
-  int written = 0;
-  int code = cli_start(&cmd_verify, argc, argv, &call.own, common, &call.sc);
-  if (!code) code = read_curves(&call);
+  verify_call call = {.common = common, .own = own, .sc = sc};
+  int written = 0, code = read_curves(&call);
   if (!code) {
     hc_status st;
     code = verify_curves(&call, &st);
     const verified *first = &call.of[0];
     written = first->report.n_rows ? write_tables(&call) : 0;
-    plot_order drawing = {.path = own->plot};
-    if (own->plot && st != HC_NO_MEMORY && !written)
-      written = cli_plotted(common, plot_verify(&drawing, &call.sc, &first->data, &first->report), drawing.why);
+    if (common->drawing.path && st != HC_NO_MEMORY && !written)
+      written = cli_plotted(common, plot_verify(&common->drawing, sc, &first->data, &first->report));
   }
   for (int k = 0; k < call.n; ++k) verify_clear(&call.of[k].report), verify_data_clear(&call.of[k].data);
   free(call.of);
-  case_clear(&call.sc);
   return code ? code : written;
 }
 
@@ -484,5 +477,6 @@ const cli_command cmd_verify = {
     .arguments = "CASE",
     .help = help,
     .options = options,
+    .own_size = sizeof(verify_options),
     .run = run_verify,
 };

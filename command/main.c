@@ -69,5 +69,5 @@ int main(int argc, char **argv)
   for (int i = 0; i < N_COMMANDS && !command; ++i)
     if (!strcmp(name, commands[i]->name)) command = commands[i];
   char *ask[] = {argv[0], "--help", NULL};
-  return !command ? unknown_command(name) : help ? command->run(2, ask) : command->run(argc - 1, argv + 1);
+  return !command ? unknown_command(name) : cli_run(command, help ? 2 : argc - 1, help ? ask : argv + 1);
 }
