@@ -23,31 +23,25 @@ static double number(void)
 
 static int integer(void) { return (int)number(); }
 
-static int read_case(lab *l)
-{
-  const int bytes = integer();
-  if (bytes < 0 || bytes > MOST_TEXT || getchar() != '\n') exit(WRONG_USAGE);
-  char *text = calloc((size_t)bytes + 1, 1);
-  if (!text) exit(BUG);
-  if (fread(text, 1, (size_t)bytes, stdin) != (size_t)bytes) exit(WRONG_USAGE);
-  const int status = lab_read(l, text);
-  free(text);
-  return status;
-}
-
-static int take_motion(lab *l)
-{
-  const int n_harm = integer();
-  double *X = lab_motion(l, n_harm);
-  if (!X) exit(WRONG_USAGE);
-  for (int i = 0; i < 2 * n_harm + 1; ++i) X[i] = number();
-  return 0;
-}
-
 static int answer_question(lab *l, const char *question)
 {
-  if (!strcmp(question, "read")) return read_case(l);
-  if (!strcmp(question, "motion")) return take_motion(l);
+  if (!strcmp(question, "read")) {
+    const int bytes = integer();
+    if (bytes < 0 || bytes > MOST_TEXT || getchar() != '\n') exit(WRONG_USAGE);
+    char *text = calloc((size_t)bytes + 1, 1);
+    if (!text) exit(BUG);
+    if (fread(text, 1, (size_t)bytes, stdin) != (size_t)bytes) exit(WRONG_USAGE);
+    const int status = lab_read(l, text);
+    free(text);
+    return status;
+  }
+  if (!strcmp(question, "motion")) {
+    const int n_harm = integer();
+    double *X = lab_motion(l, n_harm);
+    if (!X) exit(WRONG_USAGE);
+    for (int i = 0; i < 2 * n_harm + 1; ++i) X[i] = number();
+    return 0;
+  }
   if (!strcmp(question, "work")) return lab_work(l);
   if (!strcmp(question, "neighbours")) return lab_neighbours(l);
   const double first = number();

@@ -46,25 +46,6 @@ static void solve(const lab *l, double omega, double orbit, double *X, error_row
   e->error = fabs(m.amplitude - orbit) / orbit;
 }
 
-/* Exact forces first: what they find is the guess for the samples. */
-static hc_status add_harmonics(lab *l, double omega, double orbit, int n_harm)
-{
-  double first[LAB_MOST_COEF] = {0};
-  const int common = n_harm < l->n_harm ? n_harm : l->n_harm;
-  error_row e = {.harmonics = n_harm};
-  memcpy(first, l->X, (size_t)(2 * common + 1) * sizeof *first);
-  solve(l, omega, orbit, first, &e);
-  hc_status st = add_row(l, &e);
-  for (int i = 0; i < l->sc.compare.samples.n && st == HC_OK; ++i) {
-    double guess[LAB_MOST_COEF];
-    memcpy(guess, first, sizeof guess);
-    e = (error_row){.harmonics = n_harm, .samples = (int)l->sc.compare.samples.v[i]};
-    solve(l, omega, orbit, guess, &e);
-    st = add_row(l, &e);
-  }
-  return st;
-}
-
 /* Where the time integration starts: on the lab's motion, its sliders by exact forces. */
 static hc_status state_of_motion(const lab *l, double omega, double *state)
 {
@@ -78,9 +59,13 @@ static hc_status state_of_motion(const lab *l, double omega, double *state)
   return st;
 }
 
-/* Amplitude of the exact law's orbit next to the lab's motion, in closed form. */
-static hc_status find_orbit(const lab *l, double omega, double *amplitude)
+int lab_errors(lab *l, double omega)
 {
+  enum { COLUMNS = 6 };
+  double orbit = NAN;
+  lab_begin(l, COLUMNS);
+  if (!l->has_case || l->n_harm < 1 || !(isfinite(omega) && omega > 0)) return lab_answer(l, HC_BAD_INPUT);
+  /* Amplitude of the exact law's orbit next to the lab's motion, in closed form. */
   double state[TIMEINT_W + SCENE_MAX_CONTACTS];
   scene sc = l->sc;
   compare_setup setup;
@@ -92,20 +77,25 @@ static hc_status find_orbit(const lab *l, double omega, double *amplitude)
   if (st == HC_OK) st = comparison_referee(&setup, &ti);
   if (st == HC_OK) st = state_of_motion(l, omega, state);
   if (st == HC_OK) st = timeint_orbit(ti, omega, 1, state, NULL, &found);
-  if (st == HC_OK) *amplitude = found.amplitude;
+  if (st == HC_OK) orbit = found.amplitude;
   timeint_free(ti);
   scene_setup_clear(&setup);
-  return st;
-}
-
-int lab_errors(lab *l, double omega)
-{
-  enum { COLUMNS = 6 };
-  double orbit = NAN;
-  lab_begin(l, COLUMNS);
-  if (!l->has_case || l->n_harm < 1 || !(isfinite(omega) && omega > 0)) return lab_answer(l, HC_BAD_INPUT);
-  hc_status st = find_orbit(l, omega, &orbit);
-  for (int i = 0; i < l->sc.compare.harmonics.n && st == HC_OK; ++i)
-    st = add_harmonics(l, omega, orbit, (int)l->sc.compare.harmonics.v[i]);
+  /* Exact forces first: what they find is the guess for the samples. */
+  for (int i = 0; i < l->sc.compare.harmonics.n && st == HC_OK; ++i) {
+    int n_harm = (int)l->sc.compare.harmonics.v[i];
+    double first[LAB_MOST_COEF] = {0};
+    const int common = n_harm < l->n_harm ? n_harm : l->n_harm;
+    error_row e = {.harmonics = n_harm};
+    memcpy(first, l->X, (size_t)(2 * common + 1) * sizeof *first);
+    solve(l, omega, orbit, first, &e);
+    st = add_row(l, &e);
+    for (int k = 0; k < l->sc.compare.samples.n && st == HC_OK; ++k) {
+      double guess[LAB_MOST_COEF];
+      memcpy(guess, first, sizeof guess);
+      e = (error_row){.harmonics = n_harm, .samples = (int)l->sc.compare.samples.v[k]};
+      solve(l, omega, orbit, guess, &e);
+      st = add_row(l, &e);
+    }
+  }
   return lab_answer(l, st);
 }

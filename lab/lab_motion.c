@@ -101,18 +101,6 @@ int lab_signal(lab *l, int force, int n)
 
 /* ---- harmonics ---- */
 
-/* F[2 n_shown + 1] of the motion, whose harmonics above n_harm are 0. */
-static hc_status true_harmonics(const lab *l, const model *m, int n_shown, double *F)
-{
-  double X[LAB_MOST_COEF] = {0};
-  exact_force *e;
-  memcpy(X, l->X, (size_t)(2 * l->n_harm + 1) * sizeof *X);
-  hc_status st = exact_force_new_of_model(n_shown, m, &e);
-  if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
-  exact_force_free(e);
-  return st;
-}
-
 static hc_status sampled_harmonics(const lab *l, const model *m, int n, double *F)
 {
   aft *a;
@@ -147,7 +135,15 @@ int lab_spectrum(lab *l, int n, int n_shown)
   lab_begin(l, COLUMNS);
   if (!has_motion(l) || n < 1 || n_shown < l->n_harm || n_shown > HBM_MAX_HARMONICS) return lab_answer(l, HC_BAD_INPUT);
   hc_status st = scene_model(&l->sc, &m);
-  if (st == HC_OK) st = true_harmonics(l, m, n_shown, F);
+  /* F[2 n_shown + 1] of the motion, whose harmonics above n_harm are 0. */
+  if (st == HC_OK) {
+    double X[LAB_MOST_COEF] = {0};
+    exact_force *e;
+    memcpy(X, l->X, (size_t)(2 * l->n_harm + 1) * sizeof *X);
+    st = exact_force_new_of_model(n_shown, m, &e);
+    if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
+    exact_force_free(e);
+  }
   if (st == HC_OK) st = sampled_harmonics(l, m, n, sampled);
   if (st == HC_OK) st = add_harmonics(l, n_shown, F, sampled);
   model_free(m);

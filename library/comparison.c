@@ -50,20 +50,6 @@ static hbmcheck_row row_of(const comparison_row *r)
                         .family = r->family};
 }
 
-/* The gate's checks, of which the totals are kept. */
-static hc_status judge(const compare_setup *setup, const comparison *found, hbmcheck_gate *out)
-{
-  gate_case g;
-  hc_status st = gate_judge("", setup, found, &g);
-  *out = (hbmcheck_gate){.checks = g.n,
-                         .failed = g.failures,
-                         .errors = g.errors,
-                         .exit_code = gate_exit_code(1, &g),
-                         .not_applicable = g.not_applicable};
-  gate_clear(&g);
-  return st;
-}
-
 hbmcheck_status hbmcheck_comparison_run(const hbmcheck_case *c, int n, const double *omega,
                                         const hbmcheck_monitor *monitor, hbmcheck_comparison **out)
 {
@@ -77,7 +63,17 @@ hbmcheck_status hbmcheck_comparison_run(const hbmcheck_case *c, int n, const dou
   run->n_contacts = scene_contact_count(&sc);
   hc_status st = library_setup(c, &sc, &setup);
   if (st == HC_OK) st = comparison_run(&setup, &inner, &run->found);
-  if (st == HC_OK) st = judge(&setup, &run->found, &run->gate);
+  /* The gate's checks, of which the totals are kept. */
+  if (st == HC_OK) {
+    gate_case g;
+    st = gate_judge("", &setup, &run->found, &g);
+    run->gate = (hbmcheck_gate){.checks = g.n,
+                                .failed = g.failures,
+                                .errors = g.errors,
+                                .exit_code = gate_exit_code(1, &g),
+                                .not_applicable = g.not_applicable};
+    gate_clear(&g);
+  }
   run->end = st;
   scene_setup_clear(&setup);
   if (has_result(st)) *out = run;

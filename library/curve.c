@@ -49,19 +49,6 @@ static double *solution_series(const hbmcheck_solutions *s, int k, int r)
   return s->series + ((size_t)k * (size_t)s->n_responses + (size_t)r) * (size_t)s->length;
 }
 
-/* Point k of s->curve, every response. */
-static hc_status measure_solution(hbm_solver *solver, int k, hbmcheck_solutions *s)
-{
-  response_row row;
-  hc_status st = response_row_of(solver, &s->curve, k, &row);
-  for (int r = 0; r < s->n_responses && st == HC_OK; ++r) {
-    if (r > 0) st = response_row_turn(solver, &s->curve, k, r, &row);
-    s->list[k * s->n_responses + r] = solution_of(&row);
-    if (st == HC_OK) st = hbm_response(solver, row.point.omega, hbm_curve_X(&s->curve, k), r, solution_series(s, k, r));
-  }
-  return st;
-}
-
 /* Every point of s->curve. On failure those before it are kept. */
 static hc_status measure_solutions(hbm_solver *solver, int n_responses, hbmcheck_solutions *s)
 {
@@ -74,7 +61,15 @@ static hc_status measure_solutions(hbm_solver *solver, int n_responses, hbmcheck
   s->series = malloc(n * (size_t)s->length * sizeof *s->series);
   if (!s->series) return HC_NO_MEMORY;
   for (; s->n < s->curve.n; ++s->n) {
-    hc_status st = measure_solution(solver, s->n, s);
+    /* Point k of s->curve, every response. */
+    response_row row;
+    hc_status st = response_row_of(solver, &s->curve, s->n, &row);
+    for (int r = 0; r < s->n_responses && st == HC_OK; ++r) {
+      if (r > 0) st = response_row_turn(solver, &s->curve, s->n, r, &row);
+      s->list[s->n * s->n_responses + r] = solution_of(&row);
+      if (st == HC_OK)
+        st = hbm_response(solver, row.point.omega, hbm_curve_X(&s->curve, s->n), r, solution_series(s, s->n, r));
+    }
     if (st != HC_OK) return st;
   }
   return HC_OK;

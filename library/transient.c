@@ -12,34 +12,6 @@ struct hbmcheck_transient {
   int n_contacts; /* of the case; those of a state stand together in found.contacts */
 };
 
-static hbmcheck_steady steady_of(const steady_row *row)
-{
-  const timeint_result *r = &row->result;
-  const bool settled = row->status == HC_OK;
-  hbmcheck_steady s = {.status = public_status(row->status),
-                       .without_hbm = public_status(row->without_hbm),
-                       .omega = r->omega,
-                       .amplitude = r->amplitude,
-                       .max = r->max,
-                       .min = r->min,
-                       .rms = r->rms,
-                       .mean = r->mean,
-                       .harmonic_1 = r->harmonic_1,
-                       .closure = r->closure,
-                       .multiplier = settled ? r->multiplier : NAN,
-                       .from_regularisation = settled ? row->from_regularisation : NAN,
-                       .stable = settled ? timeint_stability(r) : 0,
-                       .period_multiple = settled ? r->period_multiple : 0,
-                       .periods = r->periods,
-                       .steps = r->steps,
-                       .free_sliders = r->free_sliders,
-                       .left_orbit = r->left_orbit,
-                       .response = row->response,
-                       .contact = (hbmcheck_contact)r->regime};
-  if (!motion_is_measured(row->status)) s.amplitude = s.max = s.min = s.rms = s.mean = s.harmonic_1 = s.closure = NAN;
-  return s;
-}
-
 static const steady_row *steady_row_at(const hbmcheck_transient *t, int k)
 {
   return t && k >= 0 && k < t->found.n ? &t->found.rows[k] : NULL;
@@ -70,7 +42,30 @@ hbmcheck_status hbmcheck_transient_get(const hbmcheck_transient *t, int k, hbmch
 {
   const steady_row *row = steady_row_at(t, k);
   if (!out || !row) return HBMCHECK_BAD_INPUT;
-  *out = steady_of(row);
+  const timeint_result *r = &row->result;
+  const bool settled = row->status == HC_OK;
+  hbmcheck_steady s = {.status = public_status(row->status),
+                       .without_hbm = public_status(row->without_hbm),
+                       .omega = r->omega,
+                       .amplitude = r->amplitude,
+                       .max = r->max,
+                       .min = r->min,
+                       .rms = r->rms,
+                       .mean = r->mean,
+                       .harmonic_1 = r->harmonic_1,
+                       .closure = r->closure,
+                       .multiplier = settled ? r->multiplier : NAN,
+                       .from_regularisation = settled ? row->from_regularisation : NAN,
+                       .stable = settled ? timeint_stability(r) : 0,
+                       .period_multiple = settled ? r->period_multiple : 0,
+                       .periods = r->periods,
+                       .steps = r->steps,
+                       .free_sliders = r->free_sliders,
+                       .left_orbit = r->left_orbit,
+                       .response = row->response,
+                       .contact = (hbmcheck_contact)r->regime};
+  if (!motion_is_measured(row->status)) s.amplitude = s.max = s.min = s.rms = s.mean = s.harmonic_1 = s.closure = NAN;
+  *out = s;
   return HBMCHECK_OK;
 }
 

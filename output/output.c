@@ -140,21 +140,16 @@ hc_status output_open(const char *path, output **out)
 
 FILE *output_stream(output *o) { return o->stream; }
 
-/* Was everything written and accepted by the kernel? Closes the stream unless it is standard output. */
-static bool finish_stream(output *o)
+hc_status output_commit(output *o)
 {
+  /* Was everything written and accepted by the kernel? Closes the stream unless it is standard output. */
   FILE *stream = o->stream;
   bool lost = ferror(stream) != 0;
   errno = 0;
   bool flushed = (stream == stdout ? fflush(stream) : fclose(stream)) == 0;
   o->stream = NULL;
   if (lost && errno == 0) errno = EIO; /* the errno of the write that failed is lost */
-  return flushed && !lost;
-}
-
-hc_status output_commit(output *o)
-{
-  bool good = finish_stream(o);
+  bool good = flushed && !lost;
   if (good && o->beside && (good = rename(o->beside, o->target) == 0)) {
     forget(o->beside);
     free(o->beside);

@@ -6,10 +6,10 @@
 #include <locale.h>
 #include <math.h>
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growing.h"
 #include "base/utf8.h"
 #include "output/table_private.h"
 
@@ -77,25 +77,12 @@ void table_free(table *t)
   free(t);
 }
 
-/* Memory for one more element of `size` bytes in *array of n. */
-static bool reserve(void **array, size_t n, size_t *room, size_t size)
-{
-  if (n < *room) return true;
-  size_t more = *room ? 2 * *room : 64;
-  if (more > SIZE_MAX / 2 / size) return false;
-  void *grown = realloc(*array, more * size);
-  if (!grown) return false;
-  *array = grown;
-  *room = more;
-  return true;
-}
-
 /* The next cell, appended as missing; NULL if the table failed before or memory runs out. */
 static table_cell *next_cell(table *t)
 {
   if (!t || t->status != HC_OK) return NULL;
-  void *cells = t->cells;
-  if (t->n_cells >= INT_MAX || !reserve(&cells, t->n_cells, &t->cells_room, sizeof *t->cells)) {
+  table_cell *cells = t->n_cells < INT_MAX ? growing(t->cells, (int)t->n_cells, sizeof *cells) : NULL;
+  if (!cells) {
     give_up(t, HC_NO_MEMORY);
     return NULL;
   }
@@ -169,8 +156,8 @@ void table_note(table *t, const char *format, ...)
   va_end(args);
   char *note = text ? utf8_clean(text, true) : NULL;
   free(text);
-  void *notes = t->notes;
-  if (!note || !reserve(&notes, t->n_notes, &t->notes_room, sizeof *t->notes)) {
+  char **notes = note && t->n_notes < INT_MAX ? growing(t->notes, (int)t->n_notes, sizeof *notes) : NULL;
+  if (!notes) {
     free(note);
     give_up(t, HC_NO_MEMORY);
     return;
@@ -238,24 +225,6 @@ static void write_csv_cell(const table *t, int row, int column, FILE *to)
   }
 }
 
-static void write_csv(const table *t, bool with_title, FILE *to)
-{
-  if (with_title) fprintf(to, *t->title ? "# %s\n" : "# table\n", t->title);
-  for (size_t i = 0; i < t->n_notes; ++i) fprintf(to, *t->notes[i] ? "# %s\n" : "#\n", t->notes[i]);
-  for (int j = 0; j < t->n_columns; ++j) {
-    if (j) putc(',', to);
-    table_write_csv_text(t->columns[j].name, to);
-  }
-  putc('\n', to);
-  for (int i = 0; i < table_rows(t); ++i) {
-    for (int j = 0; j < t->n_columns; ++j) {
-      if (j) putc(',', to);
-      write_csv_cell(t, i, j, to);
-    }
-    putc('\n', to);
-  }
-}
-
 hc_status table_write(int n, table *const *tables, table_format format, FILE *to)
 {
   for (int k = 0; k < n; ++k) {
@@ -269,8 +238,23 @@ hc_status table_write(int n, table *const *tables, table_format format, FILE *to
   if (format == FORMAT_JSON) st = table_write_json(n, tables, to);
   for (int k = 0; k < n && format != FORMAT_JSON && st == HC_OK; ++k) {
     if (k) putc('\n', to);
-    if (format == FORMAT_CSV) write_csv(tables[k], n > 1, to);
-    else st = tables[k]->wrap ? table_write_wrapped(tables[k], to) : table_write_aligned(tables[k], to);
+    if (format == FORMAT_CSV) {
+      const table *t = tables[k];
+      if (n > 1) fprintf(to, *t->title ? "# %s\n" : "# table\n", t->title);
+      for (size_t i = 0; i < t->n_notes; ++i) fprintf(to, *t->notes[i] ? "# %s\n" : "#\n", t->notes[i]);
+      for (int j = 0; j < t->n_columns; ++j) {
+        if (j) putc(',', to);
+        table_write_csv_text(t->columns[j].name, to);
+      }
+      putc('\n', to);
+      for (int i = 0; i < table_rows(t); ++i) {
+        for (int j = 0; j < t->n_columns; ++j) {
+          if (j) putc(',', to);
+          write_csv_cell(t, i, j, to);
+        }
+        putc('\n', to);
+      }
+    } else st = tables[k]->wrap ? table_write_wrapped(tables[k], to) : table_write_aligned(tables[k], to);
   }
   leave_c_locale(c, before);
   return ferror(to) ? HC_IO : st;

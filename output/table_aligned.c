@@ -77,22 +77,6 @@ static void significant_digits(double v, int *exponent, int *mantissa)
   while (*mantissa > 0 && *--e == '0') --*mantissa;
 }
 
-static void choose_notation(const table *t, int column, column_style *style)
-{
-  int largest = 0, decimals = 0, mantissa = 0;
-  for (int i = 0; i < table_row_count(t); ++i) {
-    const table_cell *cell = table_at(t, i, column);
-    if (!cell->there || !isfinite(cell->as.real) || cell->as.real == 0) continue;
-    int e, m;
-    significant_digits(cell->as.real, &e, &m);
-    if (e > largest) largest = e;
-    if (m > mantissa) mantissa = m;
-    if (m - e > decimals) decimals = m - e;
-  }
-  style->scientific = largest > MAX_EXPONENT || largest + 1 + decimals > MAX_DIGITS;
-  style->decimals = style->scientific ? mantissa : decimals;
-}
-
 /* The cell's text, in `digits` unless it is a text already. */
 static const char *cell_text(const table *t, int row, int column, const column_style *style, char digits[NUMBER_ROOM])
 {
@@ -107,20 +91,6 @@ static const char *cell_text(const table *t, int row, int column, const column_s
     return digits;
   }
   return "";
-}
-
-static void choose_style(const table *t, int column, column_style *style)
-{
-  *style = (column_style){.width = 0};
-  if (t->columns[column].kind == TABLE_REAL) choose_notation(t, column, style);
-  for (int i = 0; i < table_row_count(t); ++i) {
-    char digits[NUMBER_ROOM];
-    int width = utf8_width(cell_text(t, i, column, style, digits));
-    if (width > style->width) style->width = width;
-  }
-  if (style->width > MAX_TEXT_WIDTH) style->width = MAX_TEXT_WIDTH;
-  int header = utf8_width(t->columns[column].name);
-  if (header > style->width) style->width = header;
 }
 
 /* A text in a column of that many; too long, it ends in an ellipsis. */
@@ -154,15 +124,6 @@ static bool is_empty(const table *t, int column)
 
 static bool too_long(const layout *l) { return l->t->fit > 0 && shown_width(l) > l->t->fit; }
 
-/* Empty columns go first. */
-static void lose_what_can_be_spared(const layout *l)
-{
-  for (int only_empty = 1; only_empty >= 0; --only_empty)
-    for (const char *const *name = l->t->spare; name && *name && too_long(l); ++name)
-      for (int j = 0; j < l->t->n_columns; ++j)
-        if (!strcmp(l->t->columns[j].name, *name) && (!only_empty || is_empty(l->t, j))) l->shown[j] = false;
-}
-
 static void write_cell(line_writer *w, const layout *l, int column, const char *text)
 {
   const column_style *style = &l->style[column];
@@ -181,17 +142,6 @@ static void write_line(line_writer *l, const char *text)
   end_line(l);
 }
 
-/* The columns from..to-1, and before them the first one of all. row -1: the header. */
-static void write_row(line_writer *w, const layout *l, int row, int from, int to)
-{
-  for (int j = l->first; j < to; ++j) {
-    char digits[NUMBER_ROOM];
-    if (j > l->first && j < from) continue;
-    write_cell(w, l, j, row < 0 ? l->t->columns[j].name : cell_text(l->t, row, j, &l->style[j], digits));
-  }
-  end_line(w);
-}
-
 /* Where the block ends that begins at `from`: it has one column at least, beside the first one of all. */
 static int end_of_block(const layout *l, int from)
 {
@@ -204,24 +154,6 @@ static int end_of_block(const layout *l, int from)
   return to;
 }
 
-static void write_blocks(line_writer *w, const layout *l)
-{
-  for (int from = l->first, to; from <= l->last; from = to) {
-    to = end_of_block(l, from);
-    if (from > l->first) end_line(w);
-    for (int row = -1; row < table_row_count(l->t); ++row) write_row(w, l, row, from, to);
-  }
-}
-
-static void write_notes(line_writer *w, const layout *l, int lost)
-{
-  char text[64];
-  if (l->t->n_notes || lost) end_line(w);
-  for (size_t i = 0; i < l->t->n_notes; ++i) write_line(w, l->t->notes[i]);
-  snprintf(text, sizeof text, TABLE_SHOWN, table_shown(l->t, l->shown), l->t->n_columns);
-  if (lost) write_line(w, text);
-}
-
 hc_status table_write_aligned(const table *t, FILE *to)
 {
   const size_t n = (size_t)t->n_columns;
@@ -231,16 +163,60 @@ hc_status table_write_aligned(const table *t, FILE *to)
   if (good) {
     if (*t->title) write_line(&w, t->title);
     for (int j = 0; j < t->n_columns; ++j) {
-      choose_style(t, j, &l.style[j]);
+      column_style *style = &l.style[j];
+      *style = (column_style){.width = 0};
+      if (t->columns[j].kind == TABLE_REAL) {
+        int largest = 0, decimals = 0, mantissa = 0;
+        for (int i = 0; i < table_row_count(t); ++i) {
+          const table_cell *cell = table_at(t, i, j);
+          if (!cell->there || !isfinite(cell->as.real) || cell->as.real == 0) continue;
+          int e, m;
+          significant_digits(cell->as.real, &e, &m);
+          if (e > largest) largest = e;
+          if (m > mantissa) mantissa = m;
+          if (m - e > decimals) decimals = m - e;
+        }
+        style->scientific = largest > MAX_EXPONENT || largest + 1 + decimals > MAX_DIGITS;
+        style->decimals = style->scientific ? mantissa : decimals;
+      }
+      for (int i = 0; i < table_row_count(t); ++i) {
+        char digits[NUMBER_ROOM];
+        int width = utf8_width(cell_text(t, i, j, style, digits));
+        if (width > style->width) style->width = width;
+      }
+      if (style->width > MAX_TEXT_WIDTH) style->width = MAX_TEXT_WIDTH;
+      int header = utf8_width(t->columns[j].name);
+      if (header > style->width) style->width = header;
       l.shown[j] = !t->hidden[j];
     }
     const int wanted = table_shown(t, l.shown);
-    lose_what_can_be_spared(&l);
+    /* Empty columns go first. */
+    for (int only_empty = 1; only_empty >= 0; --only_empty)
+      for (const char *const *name = l.t->spare; name && *name && too_long(&l); ++name)
+        for (int j = 0; j < l.t->n_columns; ++j)
+          if (!strcmp(l.t->columns[j].name, *name) && (!only_empty || is_empty(l.t, j))) l.shown[j] = false;
     l.last = t->n_columns - 1;
     while (l.first < l.last && !l.shown[l.first]) ++l.first;
     while (l.last > l.first && !l.shown[l.last]) --l.last;
-    write_blocks(&w, &l);
-    write_notes(&w, &l, wanted - table_shown(t, l.shown));
+    for (int from = l.first, end; from <= l.last; from = end) {
+      end = end_of_block(&l, from);
+      if (from > l.first) end_line(&w);
+      /* The columns from..to-1, and before them the first one of all. Row -1: the header. */
+      for (int row = -1; row < table_row_count(l.t); ++row) {
+        for (int j = l.first; j < end; ++j) {
+          char digits[NUMBER_ROOM];
+          if (j > l.first && j < from) continue;
+          write_cell(&w, &l, j, row < 0 ? l.t->columns[j].name : cell_text(l.t, row, j, &l.style[j], digits));
+        }
+        end_line(&w);
+      }
+    }
+    int lost = wanted - table_shown(t, l.shown);
+    char text[64];
+    if (l.t->n_notes || lost) end_line(&w);
+    for (size_t i = 0; i < l.t->n_notes; ++i) write_line(&w, l.t->notes[i]);
+    snprintf(text, sizeof text, TABLE_SHOWN, table_shown(l.t, l.shown), l.t->n_columns);
+    if (lost) write_line(&w, text);
   }
   free(l.style);
   free(l.shown);

@@ -64,16 +64,6 @@ static hc_status write_notes(const table *t, const char *indent, FILE *to)
   return st;
 }
 
-static hc_status write_one(const table *t, FILE *to)
-{
-  fputs("{\n  \"rows\": ", to);
-  hc_status st = write_rows(t, to);
-  fputs(",\n  \"notes\": ", to);
-  if (st == HC_OK) st = write_notes(t, "  ", to);
-  fputs("\n}\n", to);
-  return st;
-}
-
 /* The title, or when an earlier table or "notes" has it, the title with a number: no table may hide another. Goes
  * into `taken`. */
 static json_t *make_key(const table *t, json_t *taken)
@@ -108,24 +98,17 @@ static hc_status write_key(json_t *keys, int k, FILE *to)
   return st;
 }
 
-static hc_status write_all_notes(int n, table *const *tables, json_t *keys, FILE *to)
-{
-  hc_status st = HC_OK;
-  bool any = false;
-  fputs("  \"notes\": {", to);
-  for (int k = 0; k < n && st == HC_OK; ++k) {
-    if (!tables[k]->n_notes) continue;
-    fputs(any ? ",\n    " : "\n    ", to);
-    any = true;
-    if ((st = write_key(keys, k, to)) == HC_OK) st = write_notes(tables[k], "    ", to);
-  }
-  fputs(any ? "\n  }" : "}", to);
-  return st;
-}
-
 hc_status table_write_json(int n, table *const *tables, FILE *to)
 {
-  if (n == 1) return write_one(tables[0], to);
+  if (n == 1) {
+    const table *t = tables[0];
+    fputs("{\n  \"rows\": ", to);
+    hc_status st = write_rows(t, to);
+    fputs(",\n  \"notes\": ", to);
+    if (st == HC_OK) st = write_notes(t, "  ", to);
+    fputs("\n}\n", to);
+    return st;
+  }
   json_t *keys = make_keys(n, tables);
   if (!keys) return HC_NO_MEMORY;
   hc_status st = HC_OK;
@@ -135,7 +118,17 @@ hc_status table_write_json(int n, table *const *tables, FILE *to)
     if ((st = write_key(keys, k, to)) == HC_OK) st = write_rows(tables[k], to);
     fputs(",\n", to);
   }
-  if (st == HC_OK) st = write_all_notes(n, tables, keys, to);
+  if (st == HC_OK) {
+    bool any = false;
+    fputs("  \"notes\": {", to);
+    for (int k = 0; k < n && st == HC_OK; ++k) {
+      if (!tables[k]->n_notes) continue;
+      fputs(any ? ",\n    " : "\n    ", to);
+      any = true;
+      if ((st = write_key(keys, k, to)) == HC_OK) st = write_notes(tables[k], "    ", to);
+    }
+    fputs(any ? "\n  }" : "}", to);
+  }
   fputs("\n}\n", to);
   json_decref(keys);
   return st;

@@ -17,9 +17,9 @@ struct table {
   char *title;                 /* one line, "" for none */
   int n_columns;               /* 0: the columns given were wrong, and status is not HC_OK */
   const table_column *columns; /* [n_columns] the caller's */
-  size_t n_cells, cells_room;  /* a row after another; n_cells is a multiple of n_columns between rows */
+  size_t n_cells;              /* a row after another; n_cells is a multiple of n_columns between rows */
   table_cell *cells;
-  size_t n_notes, notes_room;
+  size_t n_notes;
   char **notes;             /* one line each */
   bool *hidden;             /* [n_columns] left out of the aligned format */
   int wrap;                 /* columns of the terminal to fit into, 0: each row is one line */

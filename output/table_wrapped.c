@@ -68,30 +68,6 @@ static int total_of(const table *t, const wrapped *w, const int *widths)
   return total;
 }
 
-/* Columns to spare go, one after the other, while the words of the others do not fit side by side. */
-static void lose_what_can_be_spared(const table *t, const wrapped *w)
-{
-  for (const char *const *name = t->spare; name && *name && total_of(t, w, w->words) > t->wrap; ++name)
-    for (int j = 0; j < t->n_columns; ++j)
-      if (!strcmp(t->columns[j].name, *name)) w->shown[j] = false;
-}
-
-static void measure_columns(const table *t, const wrapped *w)
-{
-  for (int j = 0; j < t->n_columns; ++j) {
-    w->shown[j] = !t->hidden[j];
-    w->widths[j] = widest(t, w, j);
-    w->words[j] = longest_word(t, w, j);
-  }
-}
-
-/* From each as wide as its widest text, one after the other is narrowed until the line fits. */
-static void narrow_columns(const table *t, const wrapped *w)
-{
-  int total = total_of(t, w, w->widths);
-  for (int j; total > t->wrap && (j = column_to_narrow(t, w)) >= 0; --total) --w->widths[j];
-}
-
 /* Bytes of the next line of *rest, which is moved past them and past the spaces before them; where it starts goes
  * into *from. */
 static size_t next_part(const char **rest, int width, const char **from)
@@ -171,11 +147,20 @@ hc_status table_write_wrapped(const table *t, FILE *to)
                calloc(columns, sizeof *w.shown), calloc(columns, sizeof *w.rest)};
   bool good = copy_texts(t, &w);
   if (good) {
-    measure_columns(t, &w);
+    for (int j = 0; j < t->n_columns; ++j) {
+      w.shown[j] = !t->hidden[j];
+      w.widths[j] = widest(t, &w, j);
+      w.words[j] = longest_word(t, &w, j);
+    }
     const int wanted = table_shown(t, w.shown);
-    lose_what_can_be_spared(t, &w);
+    /* Columns to spare go, one after the other, while the words of the others do not fit side by side. */
+    for (const char *const *name = t->spare; name && *name && total_of(t, &w, w.words) > t->wrap; ++name)
+      for (int j = 0; j < t->n_columns; ++j)
+        if (!strcmp(t->columns[j].name, *name)) w.shown[j] = false;
     const int shown = table_shown(t, w.shown);
-    narrow_columns(t, &w);
+    /* From each as wide as its widest text, one after the other is narrowed until the line fits. */
+    int total = total_of(t, &w, w.widths);
+    for (int j; total > t->wrap && (j = column_to_narrow(t, &w)) >= 0; --total) --w.widths[j];
     if (*t->title) fprintf(to, "%s\n", t->title);
     for (int i = 0, lines = 1; i <= table_row_count(t); ++i) {
       if (i > 1 && lines > 1) putc('\n', to);
