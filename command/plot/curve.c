@@ -87,21 +87,6 @@ static bool on_curve(const curve_shape *c, const curve_point *p, double wide, do
   return false;
 }
 
-/* Drops the points of `other` that lie on the curve; a gap stands where some were dropped. */
-static void keep_other(curve_shape *c)
-{
-  int kept = 0;
-  double high = 0;
-  for (int k = 0; k < c->n; ++k) high = fmax(high, c->points[k].amplitude);
-  for (int k = 0; k < c->n_other; ++k) {
-    const curve_point p = c->other[k];
-    bool off = p.omega >= c->low && p.omega <= c->high && !on_curve(c, &p, c->high - c->low, high > 0 ? high : 1);
-    if (off) c->other[kept++] = p;
-    else if (kept && !isnan(c->other[kept - 1].omega)) c->other[kept++] = (curve_point){.omega = NAN};
-  }
-  c->n_other = kept;
-}
-
 /* The sweep from the other end. If it fails nothing of it is drawn; the only error is HC_NO_MEMORY. */
 static hc_status trace_other(const scene *sc, double from, double to, curve_shape *out)
 {
@@ -110,8 +95,20 @@ static hc_status trace_other(const scene *sc, double from, double to, curve_shap
   hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK) hbm_trace(s, from, to, NULL, &back);
   if (st == HC_OK && back.n > 0) st = sample_curve(s, &back, (drawn_as){0, false}, &out->other, &out->n_other);
-  if (st == HC_OK) keep_other(out);
-  else out->n_other = 0;
+  /* Drops the points of `other` that lie on the curve; a gap stands where some were dropped. */
+  if (st == HC_OK) {
+    int kept = 0;
+    double high = 0;
+    for (int k = 0; k < out->n; ++k) high = fmax(high, out->points[k].amplitude);
+    for (int k = 0; k < out->n_other; ++k) {
+      const curve_point p = out->other[k];
+      bool off =
+          p.omega >= out->low && p.omega <= out->high && !on_curve(out, &p, out->high - out->low, high > 0 ? high : 1);
+      if (off) out->other[kept++] = p;
+      else if (kept && !isnan(out->other[kept - 1].omega)) out->other[kept++] = (curve_point){.omega = NAN};
+    }
+    out->n_other = kept;
+  } else out->n_other = 0;
   hbm_curve_free(&back);
   hbm_solver_free(s);
   return st == HC_NO_MEMORY ? st : HC_OK;
@@ -223,17 +220,6 @@ static const struct special_look {
 };
 enum { N_SPECIAL_LOOKS = sizeof special_looks / sizeof *special_looks };
 
-/* The points of one stability, as data for lines. A segment between two stabilities is drawn as its first point's, so
- * the point after the last of a stability is written too. */
-static void write_points_of(figure *g, const curve_shape *c, int stable)
-{
-  for (int k = 0; k < c->n; ++k) {
-    bool mine = c->points[k].stable == stable, ends = k > 0 && c->points[k - 1].stable == stable;
-    if (mine || ends) figure_point(g, c->points[k].omega, c->points[k].amplitude);
-    if (!mine && ends) figure_gap(g);
-  }
-}
-
 static int count_points_of(const curve_shape *c, int stable)
 {
   int n = 0;
@@ -257,7 +243,14 @@ void curve_shape_data(figure *g, const curve_shape *c)
 {
   for (int r = 0; r < N_STABILITIES; ++r) {
     figure_block(g, "%s%d", stabilities[r].name, c->among); /* one curve's names differ from another's */
-    write_points_of(g, c, stabilities[r].stable);
+    /* The points of one stability, as data for lines. A segment between two stabilities is drawn as its first
+     * point's, so the point after the last of a stability is written too. */
+    int stable = stabilities[r].stable;
+    for (int k = 0; k < c->n; ++k) {
+      bool mine = c->points[k].stable == stable, ends = k > 0 && c->points[k - 1].stable == stable;
+      if (mine || ends) figure_point(g, c->points[k].omega, c->points[k].amplitude);
+      if (!mine && ends) figure_gap(g);
+    }
     figure_block_end(g);
   }
   for (int m = 0; m < N_SPECIAL_LOOKS; ++m) {
@@ -277,61 +270,46 @@ void curve_shape_data(figure *g, const curve_shape *c)
 
 static void special_items(figure *g, const curve_shape *c)
 {
-  char look[FIGURE_LOOK], what[64];
-  for (int m = 0; m < N_SPECIAL_LOOKS; ++m) {
-    if (count_specials(c, special_looks[m].kind) == 0) continue;
-    snprintf(what, sizeof what, "$%s%d using 1:2 with points", special_looks[m].name, c->among);
-    figure_item(g, what, g->letters ? figure_look(g, "", 20 + m, look) : special_looks[m].look,
-                c->among > 1 ? NULL : "%s", special_looks[m].title);
-  }
-}
-
-/* One of several: its colour, solid, dashed or dotted; its name at the first of these that there is. */
-static void colour_items(figure *g, const curve_shape *c)
-{
-  static const char *const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                        "#E69F00", "#56B4E9", "#000000", "#777777"};
-  static const char *const dashes[N_STABILITIES] = {"lw 2.2 dt 1", "lw 1.8 dt (10,6)", "lw 1.6 dt 3"};
-  const int n_colours = sizeof colours / sizeof *colours;
-  bool named = false;
-  for (int r = 0; r < N_STABILITIES; ++r) {
-    char own[FIGURE_LOOK], look[FIGURE_LOOK], what[64];
-    if (count_points_of(c, stabilities[r].stable) == 0) continue;
-    snprintf(what, sizeof what, "$%s%d using 1:2 with lines", stabilities[r].name, c->among);
-    snprintf(own, sizeof own, "%s lc rgb '%s'", dashes[r], colours[(c->among - 1) % n_colours]);
-    figure_item(g, what, figure_look(g, own, c->among - 1, look), named ? NULL : "%s", c->of);
-    named = true;
-  }
+  for (int m = 0; m < N_SPECIAL_LOOKS; ++m)
+    if (count_specials(c, special_looks[m].kind) > 0)
+      figure_item(g, figure_look(g, 20 + m, "%s", special_looks[m].look), c->among > 1 ? NULL : special_looks[m].title,
+                  "$%s%d using 1:2 with points", special_looks[m].name, c->among);
 }
 
 void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
 {
-  char look[FIGURE_LOOK], what[64];
   if (c->among) {
-    colour_items(g, c);
+    /* One of several: its colour, solid, dashed or dotted; its name at the first of these that there is. */
+    static const char *const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                          "#E69F00", "#56B4E9", "#000000", "#777777"};
+    static const char *const dashes[N_STABILITIES] = {"lw 2.2 dt 1", "lw 1.8 dt (10,6)", "lw 1.6 dt 3"};
+    const int n_colours = sizeof colours / sizeof *colours;
+    bool named = false;
+    for (int r = 0; r < N_STABILITIES; ++r) {
+      if (count_points_of(c, stabilities[r].stable) == 0) continue;
+      figure_item(g, figure_look(g, c->among - 1, "%s lc rgb '%s'", dashes[r], colours[(c->among - 1) % n_colours]),
+                  named ? NULL : c->of, "$%s%d using 1:2 with lines", stabilities[r].name, c->among);
+      named = true;
+    }
     return;
   }
   if (c->n_other > 1)
-    figure_item(g, "$other0 using 1:2 with lines", figure_look(g, "lw 3 dt 1 lc rgb '#c8c8c8'", 5, look),
-                "other branch, from the sweep's other end");
-  for (int r = 0; r < N_STABILITIES; ++r) {
-    if (count_points_of(c, stabilities[r].stable) == 0) continue;
-    snprintf(what, sizeof what, "$%s0 using 1:2 with lines", stabilities[r].name);
-    figure_item(g, what, figure_look(g, quiet ? stabilities[r].quiet : stabilities[r].look, r, look), "%s",
-                r == 0 && c->stable_title ? c->stable_title : stabilities[r].title);
-  }
+    figure_item(g, figure_look(g, 5, "lw 3 dt 1 lc rgb '#c8c8c8'"), "other branch, from the sweep's other end",
+                "$other0 using 1:2 with lines");
+  for (int r = 0; r < N_STABILITIES; ++r)
+    if (count_points_of(c, stabilities[r].stable) > 0)
+      figure_item(g, figure_look(g, r, "%s", quiet ? stabilities[r].quiet : stabilities[r].look),
+                  r == 0 && c->stable_title ? c->stable_title : stabilities[r].title, "$%s0 using 1:2 with lines",
+                  stabilities[r].name);
   if (!quiet) special_items(g, c);
 }
 
 void curve_shapes_rest(figure *g, int n, const curve_shape *c)
 {
   static const char *const dashes[N_STABILITIES] = {NULL, "lw 1.8 dt (10,6)", "lw 1.6 dt 3"};
-  for (int r = 1; r < N_STABILITIES && !g->letters; ++r) {
-    char look[FIGURE_LOOK];
-    if (count_points_of(c, stabilities[r].stable) == 0) continue;
-    snprintf(look, sizeof look, "%s lc rgb '#555555'", dashes[r]);
-    figure_item(g, "NaN with lines", look, "%s", stabilities[r].title);
-  }
+  for (int r = 1; r < N_STABILITIES && !g->letters; ++r)
+    if (count_points_of(c, stabilities[r].stable) > 0)
+      figure_item(g, figure_look(g, r, "%s lc rgb '#555555'", dashes[r]), stabilities[r].title, "NaN with lines");
   for (int i = 0; i < n && (i == 0 || !g->letters); ++i) special_items(g, &c[i]);
 }
 

@@ -27,24 +27,6 @@ extern char **environ;
 
 enum { WORDS = 400 };
 
-/* How gnuplot ended and what it wrote to stderr, in one line. */
-static void describe_failure(FILE *words, int status, char *why, size_t size)
-{
-  char text[WORDS];
-  message m;
-  message_start(&m, why, size);
-  rewind(words);
-  size_t n = fread(text, 1, sizeof text, words), begin = 0;
-  for (size_t i = 0; i < n; ++i)
-    if (text[i] == '\n' || text[i] == '\t') text[i] = ' ';
-  while (begin < n && text[begin] == ' ') ++begin;
-  while (n > begin && text[n - 1] == ' ') --n;
-  if (WIFSIGNALED(status)) message_add(&m, "gnuplot was ended by signal %d", WTERMSIG(status));
-  else message_add(&m, "gnuplot failed (%d)", WEXITSTATUS(status));
-  if (n > begin) message_add(&m, ": ");
-  message_add_input(&m, text + begin, n - begin, WORDS);
-}
-
 /* Starts gnuplot with these as its three streams, the default action for SIGPIPE, and without the user's settings.
  * Returns 0 or an errno. */
 static int start_gnuplot(FILE *script, FILE *drawing, FILE *words, pid_t *pid)
@@ -93,22 +75,21 @@ static hc_status start_and_wait(FILE *script, FILE *drawing, FILE *words, char *
     return HC_IO;
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && lseek(fileno(drawing), 0, SEEK_END) > 0) return HC_OK;
-  describe_failure(words, status, why, size);
+  /* How gnuplot ended and what it wrote to stderr, in one line. */
+  char text[WORDS];
+  message m;
+  message_start(&m, why, size);
+  rewind(words);
+  size_t n = fread(text, 1, sizeof text, words), begin = 0;
+  for (size_t i = 0; i < n; ++i)
+    if (text[i] == '\n' || text[i] == '\t') text[i] = ' ';
+  while (begin < n && text[begin] == ' ') ++begin;
+  while (n > begin && text[n - 1] == ' ') --n;
+  if (WIFSIGNALED(status)) message_add(&m, "gnuplot was ended by signal %d", WTERMSIG(status));
+  else message_add(&m, "gnuplot failed (%d)", WEXITSTATUS(status));
+  if (n > begin) message_add(&m, ": ");
+  message_add_input(&m, text + begin, n - begin, WORDS);
   return HC_IO;
-}
-
-/* What the script writes to its standard output goes into `drawing`. HC_IO with why[size] saying what went wrong:
- * gnuplot is not installed, or its own words; HC_NO_MEMORY. */
-static hc_status gnuplot_run(const char *script, size_t length, FILE *drawing, char *why, size_t size)
-{
-  FILE *in = tmpfile(), *words = tmpfile();
-  hc_status st = HC_IO;
-  if (in && words && fwrite(script, 1, length, in) == length && fflush(in) == 0 && lseek(fileno(in), 0, SEEK_SET) == 0)
-    st = start_and_wait(in, drawing, words, why, size);
-  else snprintf(why, size, "no temporary file: %s", strerror(errno));
-  if (in) fclose(in);
-  if (words) fclose(words);
-  return st;
 }
 
 enum {
@@ -151,8 +132,13 @@ static void set_letters(figure *g)
                 height < LEAST_HEIGHT ? LEAST_HEIGHT : height);
 }
 
-static void set_terminal(figure *g, int width, int height)
+hc_status figure_open(figure *g, plot_order *p, int width, int height)
 {
+  *g = (figure){.order = p, .letters = !strcmp(p->path, "-"), .x_unit = 1};
+  snprintf(p->why, sizeof p->why, "%s", hc_status_text(HC_NO_MEMORY));
+  g->to = open_memstream(&g->script, &g->length);
+  if (!g->to) return HC_NO_MEMORY;
+  p->why[0] = 0;
   const char *path = g->order->path;
   figure_script(g, "set encoding utf8\n");
   if (g->letters) set_letters(g);
@@ -169,16 +155,6 @@ static void set_terminal(figure *g, int width, int height)
   figure_script(g, "set border lw 0.8\nset tics nomirror out\nset key noautotitle Left reverse samplen 3\n");
   if (!g->letters)
     figure_script(g, "set grid lw 0.7 lc rgb '#d5d5d5' dt 1\nset key outside below center horizontal width 1\n");
-}
-
-hc_status figure_open(figure *g, plot_order *p, int width, int height)
-{
-  *g = (figure){.order = p, .letters = !strcmp(p->path, "-"), .x_unit = 1};
-  snprintf(p->why, sizeof p->why, "%s", hc_status_text(HC_NO_MEMORY));
-  g->to = open_memstream(&g->script, &g->length);
-  if (!g->to) return HC_NO_MEMORY;
-  p->why[0] = 0;
-  set_terminal(g, width, height);
   return HC_OK;
 }
 
@@ -193,18 +169,6 @@ static hc_status copy_stream(FILE *drawing, FILE *to)
   return ferror(drawing) ? HC_IO : HC_OK;
 }
 
-static hc_status write_drawing(figure *g, FILE *drawing)
-{
-  output *out = NULL;
-  plot_order *p = g->order;
-  hc_status st = output_open(g->letters ? NULL : p->path, &out);
-  if (st == HC_OK) st = output_finish(out, copy_stream(drawing, output_stream(out)));
-  if (st != HC_OK)
-    snprintf(p->why, sizeof p->why, "%s: %s", g->letters ? "standard output" : p->path,
-             st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
-  return st;
-}
-
 static hc_status run_script(figure *g)
 {
   FILE *drawing = tmpfile();
@@ -212,8 +176,25 @@ static hc_status run_script(figure *g)
     snprintf(g->order->why, PLOT_WHY, "no temporary file: %s", strerror(errno));
     return HC_IO;
   }
-  hc_status st = gnuplot_run(g->script, g->length, drawing, g->order->why, PLOT_WHY);
-  if (st == HC_OK) st = write_drawing(g, drawing);
+  /* What the script writes to its standard output goes into `drawing`. HC_IO with why[size] saying what went wrong:
+   * gnuplot is not installed, or its own words; HC_NO_MEMORY. */
+  FILE *in = tmpfile(), *words = tmpfile();
+  hc_status st = HC_IO;
+  if (in && words && fwrite(g->script, 1, g->length, in) == g->length && fflush(in) == 0 &&
+      lseek(fileno(in), 0, SEEK_SET) == 0)
+    st = start_and_wait(in, drawing, words, g->order->why, PLOT_WHY);
+  else snprintf(g->order->why, PLOT_WHY, "no temporary file: %s", strerror(errno));
+  if (in) fclose(in);
+  if (words) fclose(words);
+  if (st == HC_OK) {
+    output *out = NULL;
+    plot_order *p = g->order;
+    st = output_open(g->letters ? NULL : p->path, &out);
+    if (st == HC_OK) st = output_finish(out, copy_stream(drawing, output_stream(out)));
+    if (st != HC_OK)
+      snprintf(p->why, sizeof p->why, "%s: %s", g->letters ? "standard output" : p->path,
+               st == HC_IO && errno ? strerror(errno) : hc_status_text(st));
+  }
   fclose(drawing);
   return st;
 }
@@ -325,18 +306,30 @@ void figure_gap(figure *g) { figure_script(g, "\n"); }
 
 void figure_block_end(figure *g) { figure_script(g, "EOD\n"); }
 
-void figure_item(figure *g, const char *what, const char *look, const char *title, ...)
+void figure_item(figure *g, const char *look, const char *title, const char *what, ...)
 {
   va_list args;
-  figure_script(g, "%s%s %s", g->items++ ? ", \\\n  " : "plot ", what, look);
-  if (!title) {
-    figure_script(g, " notitle");
-    return;
-  }
-  figure_script(g, " title ");
-  va_start(args, title);
-  write_quoted(g->to, title, args);
+  fputs(g->items++ ? ", \\\n  " : "plot ", g->to);
+  va_start(args, what);
+  vfprintf(g->to, what, args);
   va_end(args);
+  figure_script(g, " %s %s", look, title ? "title " : "notitle");
+  if (title) figure_text(g, "%s", title);
+}
+
+const char *figure_words(figure *g, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  vsnprintf(g->words, sizeof g->words, format, args);
+  va_end(args);
+  return g->words;
+}
+
+hc_status figure_refuse(plot_order *p, const char *why)
+{
+  snprintf(p->why, sizeof p->why, "%s", why);
+  return HC_BAD_INPUT;
 }
 
 void figure_draw(figure *g)
@@ -356,28 +349,27 @@ enum {
   N_SHAPES = sizeof shapes / sizeof *shapes
 };
 
-const char *figure_look(const figure *g, const char *look, int n, char text[FIGURE_LOOK])
+const char *figure_look(figure *g, int n, const char *look, ...)
 {
-  if (g->letters) snprintf(text, FIGURE_LOOK, "lt %d", n + 1);
-  else snprintf(text, FIGURE_LOOK, "%s", look);
-  return text;
+  va_list args;
+  va_start(args, look);
+  if (g->letters) snprintf(g->look, sizeof g->look, "lt %d", n + 1);
+  else vsnprintf(g->look, sizeof g->look, look, args);
+  va_end(args);
+  return g->look;
 }
 
-const char *figure_line(const figure *g, int n, double width, char text[FIGURE_LOOK])
+const char *figure_line(figure *g, int n, double width)
 {
-  char look[FIGURE_LOOK];
-  snprintf(look, sizeof look, "lw %g dt %d lc rgb '%s'", width, dashes[n % N_DASHES], colours[n % N_COLOURS]);
-  return figure_look(g, look, n, text);
+  return figure_look(g, n, "lw %g dt %d lc rgb '%s'", width, dashes[n % N_DASHES], colours[n % N_COLOURS]);
 }
 
-const char *figure_mark(const figure *g, int n, double width, char text[FIGURE_LOOK])
+const char *figure_mark(figure *g, int n, double width)
 {
-  char look[FIGURE_LOOK];
-  snprintf(look, sizeof look, "lw %g dt %d lc rgb '%s' pt %d ps 0.9", width, dashes[n % N_DASHES],
-           colours[n % N_COLOURS], shapes[n % N_SHAPES]);
-  if (g->letters) snprintf(look, sizeof look, "lt %d pt %d", n + 1, n + 1);
-  snprintf(text, FIGURE_LOOK, "%s", look);
-  return text;
+  figure_look(g, n, "lw %g dt %d lc rgb '%s' pt %d ps 0.9", width, dashes[n % N_DASHES], colours[n % N_COLOURS],
+              shapes[n % N_SHAPES]);
+  if (g->letters) snprintf(g->look, sizeof g->look, "lt %d pt %d", n + 1, n + 1);
+  return g->look;
 }
 
 void figure_log(figure *g, const char *axis)
@@ -486,10 +478,8 @@ void verdicts_data(figure *g, verdicts *v, int n, const void *rows, verdict_poin
 void verdicts_items(figure *g, const verdicts *v, const char *of)
 {
   for (int i = 0; i < v->n; ++i) {
-    char what[64], look[FIGURE_LOOK];
-    int k = verdict_look_of(v->name[i]);
-    snprintf(what, sizeof what, "$verdict%d using 1:2 with points", i);
-    figure_item(g, what, g->letters ? figure_look(g, "", 10 + k, look) : verdict_looks[k].look, "%s: %s (%d)", of,
-                v->name[i], v->count[i]);
+    const int k = verdict_look_of(v->name[i]);
+    figure_item(g, figure_look(g, 10 + k, "%s", verdict_looks[k].look),
+                figure_words(g, "%s: %s (%d)", of, v->name[i], v->count[i]), "$verdict%d using 1:2 with points", i);
   }
 }

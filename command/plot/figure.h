@@ -16,8 +16,9 @@ typedef struct figure {
   FILE *to;     /* the script so far */
   char *script;
   size_t length;
-  int items;     /* of the plot command being written */
-  double x_unit; /* figure_point divides x by it; 1 from figure_open on */
+  int items;                 /* of the plot command being written */
+  char look[96], words[512]; /* what figure_look and figure_words made last */
+  double x_unit;             /* figure_point divides x by it; 1 from figure_open on */
 } figure;
 
 /* A drawing of about width x height points of 1/90 inch. */
@@ -42,19 +43,22 @@ void figure_point(figure *g, double x, double y);
 void figure_gap(figure *g);
 void figure_block_end(figure *g);
 
-/* One more of a plot's items: figure_item(g, "$a using 1:2 with lines", look, "title %s", ...); no title: NULL.
- * figure_draw ends the plot. */
-void figure_item(figure *g, const char *what, const char *look, const char *title, ...)
+/* One more of a plot's items, figure_item(g, look, title, "$a%d using 1:2 with lines", i); no title: NULL. figure_draw
+ * ends the plot. */
+void figure_item(figure *g, const char *look, const char *title, const char *what, ...)
     __attribute__((format(printf, 4, 5)));
 void figure_draw(figure *g);
+/* For its title. */
+const char *figure_words(figure *g, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Line n of several, line and points told apart by dashes and shapes: figure_line(g, 0, 2.0). In text[96], which is
- * returned. */
-enum { FIGURE_LOOK = 96 };
-const char *figure_line(const figure *g, int n, double width, char text[FIGURE_LOOK]);
-const char *figure_mark(const figure *g, int n, double width, char text[FIGURE_LOOK]);
-/* `look`, or in a drawing of letters line type n. In text, which is returned. */
-const char *figure_look(const figure *g, const char *look, int n, char text[FIGURE_LOOK]);
+/* Looks for figure_item: a given one, or in a drawing of letters line type n; line n of several, line and point told
+ * apart by dashes and shapes. */
+const char *figure_look(figure *g, int n, const char *look, ...) __attribute__((format(printf, 3, 4)));
+const char *figure_line(figure *g, int n, double width);
+const char *figure_mark(figure *g, int n, double width);
+
+/* There is nothing to draw, and why: returns HC_BAD_INPUT. */
+hc_status figure_refuse(plot_order *p, const char *why);
 
 /* Logarithmic, with powers of ten as its labels. axis: "x" or "y" */
 void figure_log(figure *g, const char *axis);

@@ -21,17 +21,6 @@ static void add_once(int *list, int *n, int value)
   if (*n < NUMBER_LIST_MAX) list[(*n)++] = value;
 }
 
-static accuracy_grid accuracy_grid_of(const accuracy *a)
-{
-  accuracy_grid q = {0};
-  for (int i = 0; i < a->n_rows; ++i) {
-    add_once(q.harmonics, &q.n_harm, a->rows[i].harmonics);
-    if (a->rows[i].samples == EXACT) q.exact = true;
-    else add_once(q.samples, &q.n_time, a->rows[i].samples);
-  }
-  return q;
-}
-
 static const accuracy_row *row_at(const accuracy *a, int harmonics, int samples)
 {
   for (int i = 0; i < a->n_rows; ++i)
@@ -66,13 +55,9 @@ static void write_order_line(figure *g, int order, double x0, double x1, double 
 static void order_line_item(figure *g, int order, const char *of, int look)
 {
   static const char *const looks[] = {"lw 1.2 dt 3 lc rgb '#888888'", "lw 1.2 dt 5 lc rgb '#888888'"};
-  char what[64], text[FIGURE_LOOK];
-  snprintf(what, sizeof what, "$guide%d using 1:2 with lines", order);
-  figure_item(g, what, figure_look(g, looks[look], 6 + look, text), "slope of 1/%s%s", of,
-              order == 1   ? ""
-              : order == 2 ? "²"
-              : order == 3 ? "³"
-                           : "⁴");
+  static const char *const powers[] = {"", "²", "³", "⁴"};
+  figure_item(g, figure_look(g, 6 + look, "%s", looks[look]), figure_words(g, "slope of 1/%s%s", of, powers[order - 1]),
+              "$guide%d using 1:2 with lines", order);
 }
 
 /* ---- the panels ---- */
@@ -98,11 +83,9 @@ static void panel_over_samples(figure *g, const accuracy *a, const accuracy_grid
   figure_log(g, "y");
   figure_script(g, "set logscale x 2\nset format x '%%.0f'\nset xrange [%g:%g]\nset yrange [*:*]\n",
                 q->samples[0] / 1.3, q->samples[q->n_time - 1] * 1.3);
-  for (int h = 0; h < q->n_harm; ++h) {
-    char what[64], look[FIGURE_LOOK];
-    snprintf(what, sizeof what, "$n%d using 1:2 with linespoints", h);
-    figure_item(g, what, figure_mark(g, h, 1.6, look), "H = %d", q->harmonics[h]);
-  }
+  for (int h = 0; h < q->n_harm; ++h)
+    figure_item(g, figure_mark(g, h, 1.6), figure_words(g, "H = %d", q->harmonics[h]),
+                "$n%d using 1:2 with linespoints", h);
   order_line_item(g, 1, "N", 0);
   order_line_item(g, 2, "N", 1);
   figure_draw(g);
@@ -123,7 +106,7 @@ static void write_errors_over_harmonics(figure *g, const accuracy *a, const accu
 static void panel_over_harmonics(figure *g, const accuracy *a, const accuracy_grid *q)
 {
   double top = 0, first = q->harmonics[0], last = q->harmonics[q->n_harm - 1];
-  char name[64], look[FIGURE_LOOK];
+  char name[64];
   write_errors_over_harmonics(g, a, q, "hexact", EXACT, &top);
   for (int i = 0; i < q->n_time; ++i) {
     snprintf(name, sizeof name, "h%d", i);
@@ -137,12 +120,11 @@ static void panel_over_harmonics(figure *g, const accuracy *a, const accuracy_gr
   for (int h = 0; h < q->n_harm; ++h) figure_script(g, "%s%d", h ? ", " : "", q->harmonics[h]);
   figure_script(g, ")\nset xrange [%g:%g]\n", first / 1.15, last * 1.15);
   if (q->exact)
-    figure_item(g, "$hexact using 1:2 with linespoints",
-                g->letters ? "lt 1 pt 1" : "lw 2.4 dt 1 pt 7 ps 1 lc rgb '#000000'", "exact forces");
-  for (int i = 0; i < q->n_time; ++i) {
-    snprintf(name, sizeof name, "$h%d using 1:2 with linespoints", i);
-    figure_item(g, name, figure_mark(g, i + 1, 1.4, look), "N = %d", q->samples[i]);
-  }
+    figure_item(g, g->letters ? "lt 1 pt 1" : "lw 2.4 dt 1 pt 7 ps 1 lc rgb '#000000'", "exact forces",
+                "$hexact using 1:2 with linespoints");
+  for (int i = 0; i < q->n_time; ++i)
+    figure_item(g, figure_mark(g, i + 1, 1.4), figure_words(g, "N = %d", q->samples[i]),
+                "$h%d using 1:2 with linespoints", i);
   order_line_item(g, 2, "H", 0);
   order_line_item(g, 4, "H", 1);
   figure_draw(g);
@@ -181,7 +163,12 @@ static void panel_heat(figure *g, const accuracy *a, const accuracy_grid *q)
 
 void panels_accuracy(figure *g, const accuracy *a)
 {
-  accuracy_grid q = accuracy_grid_of(a);
+  accuracy_grid q = {0};
+  for (int i = 0; i < a->n_rows; ++i) {
+    add_once(q.harmonics, &q.n_harm, a->rows[i].harmonics);
+    if (a->rows[i].samples == EXACT) q.exact = true;
+    else add_once(q.samples, &q.n_time, a->rows[i].samples);
+  }
   bool any = false;
   for (int i = 0; i < a->n_rows; ++i) any |= worst_of(&a->rows[i]) && isfinite(a->rows[i].worst);
   if (!any || q.n_time == 0 || q.n_harm == 0) return;

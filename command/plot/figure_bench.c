@@ -70,19 +70,6 @@ static hc_status write_front(figure *g, const bench *b, const bench_frequency *p
   return HC_OK;
 }
 
-static void put_items(figure *g, int k_omega, const int *count)
-{
-  char what[64], look[FIGURE_LOOK];
-  snprintf(what, sizeof what, "$front%d using 1:2 with steps", k_omega);
-  figure_item(g, what, figure_look(g, "lw 3 dt 1 lc rgb '#bbbbbb'", 0, look), "nothing is nearer and faster");
-  for (int m = 0; m < BENCH_METHODS; ++m) {
-    if (!count[m]) continue;
-    snprintf(what, sizeof what, "$p%dm%d using 1:2 with points", k_omega, m);
-    figure_item(g, what, g->letters ? figure_look(g, "", m + 1, look) : looks[m], "%s",
-                bench_method_name((bench_method)m));
-  }
-}
-
 static hc_status put_panel(figure *g, const scene *sc, const bench *b, int k_omega)
 {
   const bench_frequency *p = &b->frequencies[k_omega];
@@ -92,7 +79,12 @@ static hc_status put_panel(figure *g, const scene *sc, const bench *b, int k_ome
   for (int m = 0; m < BENCH_METHODS; ++m) count[m] = write_method(g, b, p, k_omega, m);
   if (sc->in_cycles) figure_set(g, "title", "%.8g cycles/%s", scene_frequency(sc, p->omega), sc->unit_time);
   else figure_set(g, "title", "ω = %.8g rad/%s", p->omega, sc->unit_time);
-  put_items(g, k_omega, count);
+  figure_item(g, figure_look(g, 0, "lw 3 dt 1 lc rgb '#bbbbbb'"), "nothing is nearer and faster",
+              "$front%d using 1:2 with steps", k_omega);
+  for (int m = 0; m < BENCH_METHODS; ++m)
+    if (count[m])
+      figure_item(g, figure_look(g, m + 1, "%s", looks[m]), bench_method_name((bench_method)m),
+                  "$p%dm%d using 1:2 with points", k_omega, m);
   figure_draw(g);
   return HC_OK;
 }
@@ -107,10 +99,7 @@ hc_status plot_bench(plot_order *p, const scene *sc, const bench *b)
       any |= is_drawn(&b->rows[i]);
     if (any) at[n++] = k;
   }
-  if (n == 0) {
-    snprintf(p->why, sizeof p->why, "nothing was measured that could be drawn");
-    return HC_BAD_INPUT;
-  }
+  if (n == 0) return figure_refuse(p, "nothing was measured that could be drawn");
   int columns = n > 1 ? 2 : 1, rows = (n + columns - 1) / columns;
   hc_status st = figure_open(&g, p, columns * 700, rows * 520);
   if (st == HC_OK) {

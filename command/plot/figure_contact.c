@@ -53,13 +53,12 @@ static void phase_items(figure *g, int j, const int there[PHASES], bool only)
   static const char *const colours[MOST_LOOPS] = {"#0072B2", "#D55E00", "#000000", "#009E73",
                                                   "#CC79A7", "#E69F00", "#56B4E9", "#777777"};
   for (int k = 0; k < PHASES; ++k) {
-    char what[64], look[FIGURE_LOOK], of[32] = "";
+    char of[32] = "";
     if (!there[k]) continue;
     if (!only) snprintf(of, sizeof of, "contact %d ", j);
-    snprintf(what, sizeof what, "$%s%d using 1:2 with lines", phases[k].name, j);
-    snprintf(look, sizeof look, "lw %g dt %d lc rgb '%s'", phases[k].width, phases[k].dash, colours[j]);
-    if (g->letters) snprintf(look, sizeof look, "lt %d", PHASES * j + k + 1);
-    figure_item(g, what, look, "%s%s", of, phases[k].title);
+    figure_item(g,
+                figure_look(g, PHASES * j + k, "lw %g dt %d lc rgb '%s'", phases[k].width, phases[k].dash, colours[j]),
+                figure_words(g, "%s%s", of, phases[k].title), "$%s%d using 1:2 with lines", phases[k].name, j);
   }
 }
 
@@ -81,59 +80,6 @@ typedef struct contact_history {
   contact_state state[POINTS + 1];
 } contact_history;
 
-/* The exact law, from the intervals that exact_force.h found. */
-static void compute_history(const plot_motion *m, const moving_contact *c, const contact_interval *intervals, int n,
-                            contact_history *out)
-{
-  for (int i = 0; i <= POINTS; ++i) {
-    const double th = angle_of(i);
-    double v = 0;
-    const contact_interval *now = contact_interval_at(n, intervals, th);
-    out->u[i] = 0;
-    for (int d = 0; d < m->of->n_dof; ++d) {
-      const double x = series_at(m->of->n_harm, m->of->X + d * series_length(m->of->n_harm), cos(th), sin(th)).x;
-      out->u[i] += c->cu[d] * x;
-      v += c->cv[d] * x;
-    }
-    out->normal[i] = contact_normal(&c->law, v);
-    out->state[i] = now ? now->state : CONTACT_SEPARATED;
-    out->t[i] = contact_interval_traction(&c->law, now, out->u[i], out->normal[i]);
-    out->u[i] += m->slider[0];
-  }
-}
-
-static void write_forces(figure *g, const contact_history *w, const contact *c, int j)
-{
-  figure_block(g, "forces%d", j);
-  for (int i = 0; i <= POINTS; i += EVERY)
-    figure_script(g, "%.10g %.10g %.10g %.10g\n", (double)i / POINTS, w->t[i], w->normal[i], c->mu * w->normal[i]);
-  figure_block_end(g);
-}
-
-static void force_items(figure *g, int n)
-{
-  for (int j = 0; j < n; ++j) {
-    char what[64], look[FIGURE_LOOK], of[32] = "";
-    if (n > 1) snprintf(of, sizeof of, " of contact %d", j);
-    snprintf(what, sizeof what, "$forces%d using 1:3 with lines", j);
-    figure_item(g, what, figure_line(g, 3 * j + 2, 1.8, look), "normal force N%s", of);
-    snprintf(what, sizeof what, "$forces%d using 1:2 with lines", j);
-    figure_item(g, what, figure_line(g, 3 * j, 2, look), "tangential force T%s", of);
-    if (n > 1 || g->letters) continue;
-    figure_item(g, "$forces0 using 1:4 with lines", "lw 1 dt 3 lc rgb '#555555'", "± μ N");
-    figure_item(g, "$forces0 using 1:(-$4) with lines", "lw 1 dt 3 lc rgb '#555555'", NULL);
-  }
-}
-
-static void widen_to_closed(double *closed, const contact_history *w)
-{
-  for (int i = 0; i <= POINTS; ++i) {
-    if (w->state[i] == CONTACT_SEPARATED) continue;
-    closed[0] = fmin(closed[0], w->u[i]);
-    closed[1] = fmax(closed[1], w->u[i]);
-  }
-}
-
 /* The data blocks of the first n contacts; there[j][phase]: points of the loop in that phase. */
 static hc_status write_contacts(figure *g, const plot_motion *m, int n, int there[][PHASES], double closed[2])
 {
@@ -145,38 +91,38 @@ static hc_status write_contacts(figure *g, const plot_motion *m, int n, int ther
   if (st == HC_OK) st = exact_force_eval(e, m->of->X, F, NULL, NULL);
   for (int j = 0, pieces; j < n && st == HC_OK; ++j) {
     const contact_interval *p = exact_force_intervals(e, j, &pieces);
-    compute_history(m, &m->of->contacts[j], p, pieces, w);
+    /* The exact law, from the intervals that exact_force.h found. */
+    const moving_contact *c = &m->of->contacts[j];
+    for (int i = 0; i <= POINTS; ++i) {
+      const double th = angle_of(i);
+      double v = 0;
+      const contact_interval *now = contact_interval_at(pieces, p, th);
+      w->u[i] = 0;
+      for (int d = 0; d < m->of->n_dof; ++d) {
+        const double x = series_at(m->of->n_harm, m->of->X + d * series_length(m->of->n_harm), cos(th), sin(th)).x;
+        w->u[i] += c->cu[d] * x;
+        v += c->cv[d] * x;
+      }
+      w->normal[i] = contact_normal(&c->law, v);
+      w->state[i] = now ? now->state : CONTACT_SEPARATED;
+      w->t[i] = contact_interval_traction(&c->law, now, w->u[i], w->normal[i]);
+      w->u[i] += m->slider[0];
+    }
     for (int k = 0; k < PHASES; ++k) there[j][k] = write_phase(g, j, k, POINTS, w->state, w->u, w->t);
-    widen_to_closed(closed, w);
-    write_forces(g, w, &m->of->contacts[j].law, j);
+    for (int i = 0; i <= POINTS; ++i) {
+      if (w->state[i] == CONTACT_SEPARATED) continue;
+      closed[0] = fmin(closed[0], w->u[i]);
+      closed[1] = fmax(closed[1], w->u[i]);
+    }
+    figure_block(g, "forces%d", j);
+    for (int i = 0; i <= POINTS; i += EVERY)
+      figure_script(g, "%.10g %.10g %.10g %.10g\n", (double)i / POINTS, w->t[i], w->normal[i],
+                    m->of->contacts[j].law.mu * w->normal[i]);
+    figure_block_end(g);
   }
   exact_force_free(e);
   free(w);
   return st;
-}
-
-/* The range of u while the contact is closed, with a margin: while it is open T = 0. */
-static void set_window(figure *g, const double *closed)
-{
-  double wide = closed[1] - closed[0];
-  if (wide > 0) figure_script(g, "set xrange [%.10g:%.10g]\n", closed[0] - 0.5 * wide, closed[1] + 0.25 * wide);
-}
-
-static void loops_and_forces(figure *g, const scene *sc, int n, int there[][PHASES], const double *closed)
-{
-  figure_script(
-      g, "set title 'Hysteresis'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset zeroaxis lw 0.8 dt 1 "
-         "lc rgb '#999999'\n");
-  figure_below(g, "tangential motion u [%s]", sc->unit_length);
-  figure_set(g, "ylabel", "tangential force T [%s]", sc->unit_force);
-  set_window(g, closed);
-  for (int j = 0; j < n; ++j) phase_items(g, j, there[j], n == 1);
-  figure_draw(g);
-  figure_below(g, "t / T");
-  figure_script(g, "set title 'Forces over the period'\nset xrange [0:1]\nset offsets 0, 0, graph 0.03, graph 0.03\n");
-  figure_set(g, "ylabel", "force [%s]", sc->unit_force);
-  force_items(g, n);
-  figure_draw(g);
 }
 
 /* The law, and which contacts of the case are drawn where it has more. */
@@ -197,15 +143,38 @@ static hc_status plot_loops(plot_order *p, const scene *sc, const plot_motion *m
   int n = m->of->n_contacts < MOST_LOOPS ? m->of->n_contacts : MOST_LOOPS, there[MOST_LOOPS][PHASES];
   double closed[2] = {INFINITY, -INFINITY}; /* u while some contact is closed */
   char about[128];
-  if (n == 0) {
-    snprintf(p->why, sizeof p->why, "there is no contact to draw");
-    return HC_BAD_INPUT;
-  }
+  if (n == 0) return figure_refuse(p, "there is no contact to draw");
   hc_status st = figure_open(&g, p, 1100, 500);
   if (st == HC_OK) st = write_contacts(&g, m, n, there, closed);
   if (st == HC_OK) {
     panels_begin(&g, 1, 2, sc->title, say_which(sc, m, n, about, sizeof about));
-    loops_and_forces(&g, sc, n, there, closed);
+    figure_script(
+        &g,
+        "set title 'Hysteresis'\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\nset zeroaxis lw 0.8 dt 1 "
+        "lc rgb '#999999'\n");
+    figure_below(&g, "tangential motion u [%s]", sc->unit_length);
+    figure_set(&g, "ylabel", "tangential force T [%s]", sc->unit_force);
+    /* The range of u while the contact is closed, with a margin: while it is open T = 0. */
+    double wide = closed[1] - closed[0];
+    if (wide > 0) figure_script(&g, "set xrange [%.10g:%.10g]\n", closed[0] - 0.5 * wide, closed[1] + 0.25 * wide);
+    for (int j = 0; j < n; ++j) phase_items(&g, j, there[j], n == 1);
+    figure_draw(&g);
+    figure_below(&g, "t / T");
+    figure_script(&g,
+                  "set title 'Forces over the period'\nset xrange [0:1]\nset offsets 0, 0, graph 0.03, graph 0.03\n");
+    figure_set(&g, "ylabel", "force [%s]", sc->unit_force);
+    for (int j = 0; j < n; ++j) {
+      char of[32] = "";
+      if (n > 1) snprintf(of, sizeof of, " of contact %d", j);
+      figure_item(&g, figure_line(&g, 3 * j + 2, 1.8), figure_words(&g, "normal force N%s", of),
+                  "$forces%d using 1:3 with lines", j);
+      figure_item(&g, figure_line(&g, 3 * j, 2), figure_words(&g, "tangential force T%s", of),
+                  "$forces%d using 1:2 with lines", j);
+      if (n > 1 || g.letters) continue;
+      figure_item(&g, "lw 1 dt 3 lc rgb '#555555'", "± μ N", "$forces0 using 1:4 with lines");
+      figure_item(&g, "lw 1 dt 3 lc rgb '#555555'", NULL, "$forces0 using 1:(-$4) with lines");
+    }
+    figure_draw(&g);
     panels_end(&g);
   }
   return figure_close(&g, st);
@@ -220,41 +189,6 @@ typedef struct plane_history {
   contact_state state[POINTS + 1];
 } plane_history;
 
-/* The motion and the limit; no traction yet. */
-static void follow_motion(const plot_motion *m, plane_history *out)
-{
-  const contact *law = &m->of->contacts->law;
-  const int n = series_length(m->of->n_harm);
-  for (int i = 0; i <= POINTS; ++i) {
-    const double c = cos(angle_of(i)), s = sin(angle_of(i)), v = series_at(m->of->n_harm, m->of->X + 2 * n, c, s).x;
-    for (int d = 0; d < 2; ++d) out->u[d][i] = series_at(m->of->n_harm, m->of->X + d * n, c, s).x;
-    out->limit[i] = law->mu * contact_normal(law, v);
-    out->state[i] = CONTACT_SEPARATED;
-  }
-}
-
-/* Slip: T = mu N e(phi). */
-static void slip_at(const planar_cycle *c, const planar_interval *p, double th, int i, plane_history *out)
-{
-  const planar_panel *q = &c->slip.panel[p->panel];
-  while (q < &c->slip.panel[p->panel + p->n_panels - 1] && th > q->to) ++q;
-  const double phi = planar_panel_angle(c->slip.c, q, th);
-  out->t[0][i] = out->limit[i] * cos(phi), out->t[1][i] = out->limit[i] * sin(phi);
-}
-
-static void follow_circle(const planar_cycle *c, const contact *law, plane_history *out)
-{
-  for (int k = 0; k < c->n; ++k)
-    for (int i = 0; i <= POINTS; ++i) {
-      const planar_interval *p = &c->interval[k];
-      const double th = angle_inside(angle_of(i), p->from, p->to);
-      if (isnan(th)) continue;
-      out->state[i] = p->state;
-      if (p->state != CONTACT_STICK) slip_at(c, p, th, i, out);
-      for (int d = 0; d < 2 && p->state == CONTACT_STICK; ++d) out->t[d][i] = law->kt * (out->u[d][i] - p->w[d]);
-    }
-}
-
 static hc_status evaluate_circle(const plot_motion *m, plane_history *out)
 {
   const contact *law = &m->of->contacts->law;
@@ -262,21 +196,26 @@ static hc_status evaluate_circle(const plot_motion *m, plane_history *out)
   planar_force *f = NULL;
   hc_status st = planar_force_new(m->of->n_harm, law->kn > 0 ? 3 : 2, law, &f);
   if (st == HC_OK) st = planar_force_eval(f, m->of->X, F, NULL, NULL);
-  if (st == HC_OK) follow_circle(planar_force_cycle(f), law, out);
+  if (st == HC_OK) {
+    const planar_cycle *c = planar_force_cycle(f);
+    for (int k = 0; k < c->n; ++k)
+      for (int i = 0; i <= POINTS; ++i) {
+        const planar_interval *p = &c->interval[k];
+        const double th = angle_inside(angle_of(i), p->from, p->to);
+        if (isnan(th)) continue;
+        out->state[i] = p->state;
+        /* Slip: T = mu N e(phi). */
+        if (p->state != CONTACT_STICK) {
+          const planar_panel *q = &c->slip.panel[p->panel];
+          while (q < &c->slip.panel[p->panel + p->n_panels - 1] && th > q->to) ++q;
+          const double phi = planar_panel_angle(c->slip.c, q, th);
+          out->t[0][i] = out->limit[i] * cos(phi), out->t[1][i] = out->limit[i] * sin(phi);
+        }
+        for (int d = 0; d < 2 && p->state == CONTACT_STICK; ++d) out->t[d][i] = law->kt * (out->u[d][i] - p->w[d]);
+      }
+  }
   planar_force_free(f);
   return st;
-}
-
-/* Under the square law either tangent is a contact of its own; the two slip where one does. */
-static void follow_tangent(int d, const contact_interval *p, int n, const contact *law, plane_history *out)
-{
-  for (int k = 0; k < n; ++k)
-    for (int i = 0; i <= POINTS; ++i) {
-      if (isnan(angle_inside(angle_of(i), p[k].from, p[k].to))) continue;
-      const bool sticks = p[k].state == CONTACT_STICK;
-      out->t[d][i] = sticks ? law->kt * out->u[d][i] - p[k].held : contact_slip_sign(p[k].state) * out->limit[i];
-      if (d == 0 || !sticks) out->state[i] = p[k].state;
-    }
 }
 
 static hc_status evaluate_square(const plot_motion *m, plane_history *out)
@@ -290,39 +229,20 @@ static hc_status evaluate_square(const plot_motion *m, plane_history *out)
     memcpy(X, m->of->X + (size_t)d * n, n * sizeof *X);
     st = exact_force_eval(e, X, F, NULL, NULL);
     const contact_interval *p = exact_force_intervals(e, 0, &pieces);
-    if (st == HC_OK) follow_tangent(d, p, pieces, &m->of->contacts->law, out);
+    /* Under the square law either tangent is a contact of its own; the two slip where one does. */
+    if (st == HC_OK) {
+      for (int k = 0; k < pieces; ++k)
+        for (int i = 0; i <= POINTS; ++i) {
+          if (isnan(angle_inside(angle_of(i), p[k].from, p[k].to))) continue;
+          const bool sticks = p[k].state == CONTACT_STICK;
+          out->t[d][i] = sticks ? m->of->contacts->law.kt * out->u[d][i] - p[k].held
+                                : contact_slip_sign(p[k].state) * out->limit[i];
+          if (d == 0 || !sticks) out->state[i] = p[k].state;
+        }
+    }
   }
   exact_force_free(e);
   return st;
-}
-
-/* w = u - T/kt, and where the slider started added to both. */
-static void place_slider(const plot_motion *m, plane_history *out)
-{
-  for (int d = 0; d < 2; ++d)
-    for (int i = 0; i <= POINTS; ++i) {
-      out->u[d][i] += m->slider[d];
-      out->w[d][i] = out->u[d][i] - out->t[d][i] / m->of->contacts->law.kt;
-    }
-}
-
-/* The ways of the motion and, while there is contact, of the slider; where it rests. */
-static void write_ways(figure *g, const plane_history *w)
-{
-  figure_block(g, "motion");
-  for (int i = 0; i <= POINTS; i += EVERY) figure_point(g, w->u[0][i], w->u[1][i]);
-  figure_block_end(g);
-  figure_block(g, "slider");
-  for (int i = 0; i <= POINTS; ++i) {
-    if (w->state[i] != CONTACT_SEPARATED) figure_point(g, w->w[0][i], w->w[1][i]);
-    else if (i > 0 && w->state[i - 1] != CONTACT_SEPARATED) figure_gap(g);
-  }
-  figure_block_end(g);
-  figure_block(g, "rests");
-  for (int i = 0; i <= POINTS; ++i)
-    if (w->state[i] == CONTACT_STICK && (i == 0 || w->state[i - 1] != CONTACT_STICK))
-      figure_point(g, w->w[0][i], w->w[1][i]);
-  figure_block_end(g);
 }
 
 /* The limit where it is mu N = r: a circle, or a square of side 2 r. */
@@ -336,13 +256,6 @@ static void write_limit(figure *g, const char *name, bool circle, double r)
   figure_block_end(g);
 }
 
-/* The largest and the smallest mu N; at least[1] is 0 where it separates. */
-static void find_limits(const plane_history *w, double *most, double *least)
-{
-  *most = *least = w->limit[0];
-  for (int i = 0; i <= POINTS; ++i) *most = fmax(*most, w->limit[i]), *least = fmin(*least, w->limit[i]);
-}
-
 static void axes(figure *g, const char *title, const char *quantity, const char *name, const char *unit)
 {
   figure_set(g, "title", "%s", title);
@@ -352,57 +265,78 @@ static void axes(figure *g, const char *title, const char *quantity, const char 
   figure_set(g, "ylabel", "%s %s_2 [%s]", quantity, name, unit);
 }
 
-static void draw_both(figure *g, const scene *sc, const plane_history *w, const int *there, bool circle)
-{
-  double most, least;
-  char look[FIGURE_LOOK];
-  find_limits(w, &most, &least);
-  write_limit(g, "most", circle, most);
-  write_limit(g, "least", circle, least);
-  axes(g, "Traction in the plane", "traction", "T", sc->unit_force);
-  phase_items(g, 0, there, true);
-  figure_item(g, "$most using 1:2 with lines", figure_look(g, "lw 1 dt 3 lc rgb '#555555'", 4, look),
-              least < most ? "limit μ N at most" : "limit μ N");
-  if (least > 0 && least < most)
-    figure_item(g, "$least using 1:2 with lines", figure_look(g, "lw 1 dt 4 lc rgb '#555555'", 5, look),
-                "limit μ N at least");
-  figure_draw(g);
-  axes(g, "Motion and slider", "motion", "u", sc->unit_length);
-  figure_item(g, "$motion using 1:2 with lines", figure_look(g, "lw 1.2 dt 3 lc rgb '#555555'", 1, look), "motion u");
-  figure_item(g, "$slider using 1:2 with lines", figure_look(g, "lw 2 dt 1 lc rgb '#D55E00'", 2, look), "slider w");
-  if (there[0])
-    figure_item(g, "$rests using 1:2 with points", figure_look(g, "pt 7 ps 0.8 lc rgb '#0072B2'", 3, look),
-                "slider at rest");
-  figure_draw(g);
-}
-
 static hc_status plot_plane(plot_order *p, const scene *sc, const plot_motion *m)
 {
   const char *const name = scene_contact_at(sc, m->first)->name;
   figure g = {0};
   char about[128];
   int there[PHASES];
-  if (!contact_has_friction(&m->of->contacts->law)) {
-    snprintf(p->why, sizeof p->why, "the contact has no friction: there is no traction to draw");
-    return HC_BAD_INPUT;
-  }
+  if (!contact_has_friction(&m->of->contacts->law))
+    return figure_refuse(p, "the contact has no friction: there is no traction to draw");
   plane_history *w = calloc(1, sizeof *w);
   hc_status st = figure_open(&g, p, 1100, 580);
   if (st == HC_OK && !w) st = HC_NO_MEMORY;
   if (st == HC_OK) {
-    follow_motion(m, w);
+    /* The motion and the limit; no traction yet. */
+    const contact *law = &m->of->contacts->law;
+    const int n = series_length(m->of->n_harm);
+    for (int i = 0; i <= POINTS; ++i) {
+      const double c = cos(angle_of(i)), s = sin(angle_of(i)), v = series_at(m->of->n_harm, m->of->X + 2 * n, c, s).x;
+      for (int d = 0; d < 2; ++d) w->u[d][i] = series_at(m->of->n_harm, m->of->X + d * n, c, s).x;
+      w->limit[i] = law->mu * contact_normal(law, v);
+      w->state[i] = CONTACT_SEPARATED;
+    }
     st = m->of->circle ? evaluate_circle(m, w) : evaluate_square(m, w);
   }
   if (st == HC_OK) {
-    place_slider(m, w);
+    /* w = u - T/kt, and where the slider started added to both. */
+    for (int d = 0; d < 2; ++d)
+      for (int i = 0; i <= POINTS; ++i) {
+        w->u[d][i] += m->slider[d];
+        w->w[d][i] = w->u[d][i] - w->t[d][i] / m->of->contacts->law.kt;
+      }
     for (int k = 0; k < PHASES; ++k) there[k] = write_phase(&g, 0, k, POINTS, w->state, w->t[0], w->t[1]);
-    write_ways(&g, w);
+    /* The ways of the motion and, while there is contact, of the slider; where it rests. */
+    figure_block(&g, "motion");
+    for (int i = 0; i <= POINTS; i += EVERY) figure_point(&g, w->u[0][i], w->u[1][i]);
+    figure_block_end(&g);
+    figure_block(&g, "slider");
+    for (int i = 0; i <= POINTS; ++i) {
+      if (w->state[i] != CONTACT_SEPARATED) figure_point(&g, w->w[0][i], w->w[1][i]);
+      else if (i > 0 && w->state[i - 1] != CONTACT_SEPARATED) figure_gap(&g);
+    }
+    figure_block_end(&g);
+    figure_block(&g, "rests");
+    for (int i = 0; i <= POINTS; ++i)
+      if (w->state[i] == CONTACT_STICK && (i == 0 || w->state[i - 1] != CONTACT_STICK))
+        figure_point(&g, w->w[0][i], w->w[1][i]);
+    figure_block_end(&g);
     if (*name) snprintf(about, sizeof about, "contact %s", name);
     else snprintf(about, sizeof about, "contact %d", m->first);
     snprintf(about + strlen(about), sizeof about - strlen(about), "; exact law, limit: %s, along the given motion",
              m->of->circle ? "circle" : "square");
     panels_begin(&g, 1, 2, sc->title, about);
-    draw_both(&g, sc, w, there, m->of->circle);
+    double most, least;
+    /* The largest and the smallest mu N; at least[1] is 0 where it separates. */
+    most = least = w->limit[0];
+    for (int i = 0; i <= POINTS; ++i) most = fmax(most, w->limit[i]), least = fmin(least, w->limit[i]);
+    write_limit(&g, "most", m->of->circle, most);
+    write_limit(&g, "least", m->of->circle, least);
+    axes(&g, "Traction in the plane", "traction", "T", sc->unit_force);
+    phase_items(&g, 0, there, true);
+    figure_item(&g, figure_look(&g, 4, "lw 1 dt 3 lc rgb '#555555'"), least < most ? "limit μ N at most" : "limit μ N",
+                "$most using 1:2 with lines");
+    if (least > 0 && least < most)
+      figure_item(&g, figure_look(&g, 5, "lw 1 dt 4 lc rgb '#555555'"), "limit μ N at least",
+                  "$least using 1:2 with lines");
+    figure_draw(&g);
+    axes(&g, "Motion and slider", "motion", "u", sc->unit_length);
+    figure_item(&g, figure_look(&g, 1, "lw 1.2 dt 3 lc rgb '#555555'"), "motion u", "$motion using 1:2 with lines");
+    figure_item(&g, figure_look(&g, 2, "lw 2 dt 1 lc rgb '#D55E00'"), "slider w", "$slider using 1:2 with lines");
+    if (there[0])
+      figure_item(&g, figure_look(&g, 3, "pt 7 ps 0.8 lc rgb '#0072B2'"), "slider at rest",
+                  "$rests using 1:2 with points");
+    figure_draw(&g);
     panels_end(&g);
   }
   free(w);

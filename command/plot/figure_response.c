@@ -23,16 +23,15 @@ typedef struct layers {
 
 static void draw_layers(figure *g, const layers *l)
 {
-  char look[FIGURE_LOOK];
   curve_shape_items(g, l->shape, l->quiet);
   for (int i = 1; i < l->n_shapes; ++i) curve_shape_items(g, &l->shape[i], l->quiet);
   if (l->n_shapes > 1) curve_shapes_rest(g, l->n_shapes, l->shape);
   if (l->asked)
-    figure_item(g, "$asked using 1:2 with points", figure_look(g, "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'", 8, look),
-                "solutions asked for");
+    figure_item(g, figure_look(g, 8, "pt 6 ps 1.2 lw 1.6 lc rgb '#D55E00'"), "solutions asked for",
+                "$asked using 1:2 with points");
   if (l->departures && !g->letters)
-    figure_item(g, "$departures using 1:2:(0):3 with vectors filled head size character 0.9,20",
-                "lw 0.8 dt 1 lc rgb '#999999'", "where the transient went");
+    figure_item(g, "lw 0.8 dt 1 lc rgb '#999999'", "where the transient went",
+                "$departures using 1:2:(0):3 with vectors filled head size character 0.9,20");
   if (l->v) verdicts_items(g, l->v, l->of);
   figure_draw(g);
 }
@@ -67,21 +66,6 @@ static int response_width(const curve_shape *shape)
 
 /* ---- frf ---- */
 
-static hc_status write_asked(figure *g, hbm_solver *s, const hbm_curve *asked, plot_responses of)
-{
-  hc_status st = HC_OK;
-  figure_block(g, "asked");
-  for (int k = 0; asked && k < asked->n && st == HC_OK; ++k)
-    for (int r = of.first; r <= of.last && st == HC_OK; ++r) {
-      hbm_measures m;
-      const double omega = asked->points[k].omega, *X = asked->X + (size_t)k * (size_t)asked->n_coef;
-      st = hbm_measure_response(s, omega, X, r, &m);
-      if (st == HC_OK) figure_point(g, omega, m.amplitude);
-    }
-  figure_block_end(g);
-  return st;
-}
-
 /* The shapes of the responses, n of them, into shape[n + 1]: behind them the first response's, of which the others have
  * their stability. To clear, all n + 1. */
 static hc_status make_shapes(const scene *sc, hbm_solver *s, const hbm_curve *curve, plot_responses of, int n,
@@ -105,16 +89,23 @@ hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curv
 {
   figure g = {0};
   char about[160], settings[96];
-  if (curve->n == 0) {
-    snprintf(p->why, sizeof p->why, "there is no point of the response curve to draw");
-    return HC_BAD_INPUT;
-  }
+  if (curve->n == 0) return figure_refuse(p, "there is no point of the response curve to draw");
   const int all = of.last - of.first + 1, n = all < MOST_RESPONSES ? all : MOST_RESPONSES;
   of.last = of.first + n - 1;
   curve_shape *shape = calloc((size_t)n + 1, sizeof *shape);
   hc_status st = shape ? make_shapes(sc, s, curve, of, n, shape) : HC_NO_MEMORY;
   if (st == HC_OK) st = curve_figure_open(&g, p, sc, n > 1 ? WIDTH : response_width(shape), HEIGHT);
-  if (st == HC_OK) st = write_asked(&g, s, asked, of);
+  if (st == HC_OK) {
+    figure_block(&g, "asked");
+    for (int k = 0; asked && k < asked->n && st == HC_OK; ++k)
+      for (int r = of.first; r <= of.last && st == HC_OK; ++r) {
+        hbm_measures m;
+        const double omega = asked->points[k].omega, *X = asked->X + (size_t)k * (size_t)asked->n_coef;
+        st = hbm_measure_response(s, omega, X, r, &m);
+        if (st == HC_OK) figure_point(&g, omega, m.amplitude);
+      }
+    figure_block_end(&g);
+  }
   if (st == HC_OK) {
     layers l = {.shape = shape, .n_shapes = n, .asked = asked && asked->n > 0};
     for (int i = 0; i < n; ++i) curve_shape_data(&g, &shape[i]);
@@ -166,20 +157,6 @@ static int write_departures(figure *g, const comparison *c)
   return n;
 }
 
-/* Response, perhaps its detail, and three panels of discrepancy. */
-static void all_panels(figure *g, const scene *sc, const layers *l, const accuracy *a, const char *about)
-{
-  curve_window w;
-  bool detail = curve_shape_window(l->shape, &w);
-  panels_begin(g, 2, detail ? 3 : 2, sc->title, about);
-  if (!g->letters) figure_script(g, "set title 'Response'\n");
-  curve_shape_axes(g, sc, l->shape);
-  draw_layers(g, l);
-  if (detail) detail_panel(g, &w, l);
-  panels_accuracy(g, a);
-  panels_end(g);
-}
-
 hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, const accuracy *a)
 {
   figure g = {0};
@@ -188,10 +165,7 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
   verdicts v;
   char settings[96];
   bool all = a && a->n_rows > 0;
-  if (c->n_rows == 0) {
-    snprintf(p->why, sizeof p->why, "there is nothing compared to draw");
-    return HC_BAD_INPUT;
-  }
+  if (c->n_rows == 0) return figure_refuse(p, "there is nothing compared to draw");
   hc_status st = curve_shape_trace(sc, &sc->compare.omega, &shape);
   int width = !all ? response_width(&shape) : curve_shape_window(&shape, &w) ? 1900 : 1300;
   if (st == HC_OK) st = curve_figure_open(&g, p, sc, width, all ? 1040 : HEIGHT);
@@ -200,8 +174,18 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
     verdicts_data(&g, &v, c->n_rows, c->rows, compared_point);
     curve_shape_data(&g, &shape);
     curve_shape_settings(sc, &shape, settings);
-    if (all) all_panels(&g, sc, &l, a, settings);
-    else response_panels(&g, sc, &l, settings);
+    /* Response, perhaps its detail, and three panels of discrepancy. */
+    if (all) {
+      curve_window part;
+      bool detail = curve_shape_window(l.shape, &part);
+      panels_begin(&g, 2, detail ? 3 : 2, sc->title, settings);
+      if (!g.letters) figure_script(&g, "set title 'Response'\n");
+      curve_shape_axes(&g, sc, l.shape);
+      draw_layers(&g, &l);
+      if (detail) detail_panel(&g, &part, &l);
+      panels_accuracy(&g, a);
+      panels_end(&g);
+    } else response_panels(&g, sc, &l, settings);
   }
   curve_shape_clear(&shape);
   return figure_close(&g, st);
@@ -246,13 +230,6 @@ static hc_status plot_points(plot_order *p, const scene *sc, const steady_states
 
 enum { MOST_WAVES = 12 };
 
-static void write_wave(figure *g, int n, const timeint_result *r)
-{
-  figure_block(g, "wave%d", n);
-  for (int i = 0; i <= TIMEINT_WAVE; ++i) figure_point(g, (double)i / TIMEINT_WAVE, r->wave[i % TIMEINT_WAVE]);
-  figure_block_end(g);
-}
-
 /* Where contact j closes, if the motions pass there: x sin(alpha) + gap = 0. */
 static bool closes_at(const scene *sc, int j, double low, double high, double *x)
 {
@@ -261,21 +238,10 @@ static bool closes_at(const scene *sc, int j, double low, double high, double *x
   return *x >= low && *x <= high;
 }
 
-static void closing_items(figure *g, const scene *sc, double low, double high)
-{
-  char what[64], look[FIGURE_LOOK];
-  double x;
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    if (!closes_at(sc, j, low, high, &x)) continue;
-    snprintf(what, sizeof what, "%.10g with lines", x);
-    figure_item(g, what, figure_look(g, "lw 1 dt 3 lc rgb '#777777'", 7, look), "contact %d closes above", j);
-  }
-}
-
 static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states *found)
 {
   figure g = {0};
-  char name[64], of[RESPONSE_NAME], about[160], look[FIGURE_LOOK], word[24];
+  char of[RESPONSE_NAME], about[160], word[24];
   double omega = found->rows[0].result.omega, low = INFINITY, high = -INFINITY;
   int n = 0;
   hc_status st = figure_open(&g, p, 800, 500);
@@ -283,7 +249,10 @@ static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states 
   for (int i = 0; i < found->n && n < MOST_WAVES; ++i) {
     const steady_row *r = &found->rows[i];
     if (!measured(r)) continue;
-    write_wave(&g, n++, &r->result);
+    figure_block(&g, "wave%d", n++);
+    for (int k = 0; k <= TIMEINT_WAVE; ++k)
+      figure_point(&g, (double)k / TIMEINT_WAVE, r->result.wave[k % TIMEINT_WAVE]);
+    figure_block_end(&g);
     low = fmin(low, r->result.min);
     high = fmax(high, r->result.max);
   }
@@ -299,11 +268,15 @@ static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states 
   for (int i = 0; i < found->n && n < MOST_WAVES; ++i) {
     const steady_row *r = &found->rows[i];
     if (!measured(r)) continue;
-    snprintf(name, sizeof name, "$wave%d using 1:2 with lines", n);
-    figure_item(&g, name, figure_line(&g, n, 2, look), "start: %s; %s", r->start, steady_verdict_text(r, word));
+    figure_item(&g, figure_line(&g, n, 2), figure_words(&g, "start: %s; %s", r->start, steady_verdict_text(r, word)),
+                "$wave%d using 1:2 with lines", n);
     ++n;
   }
-  closing_items(&g, sc, low, high);
+  double x;
+  for (int j = 0; j < sc->n_contacts; ++j)
+    if (closes_at(sc, j, low, high, &x))
+      figure_item(&g, figure_look(&g, 7, "lw 1 dt 3 lc rgb '#777777'"), figure_words(&g, "contact %d closes above", j),
+                  "%.10g with lines", x);
   figure_draw(&g);
   return figure_close(&g, HC_OK);
 }
@@ -316,10 +289,7 @@ hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *fo
     n += measured(&found->rows[i]);
     several |= found->rows[i].result.omega != found->rows[0].result.omega;
   }
-  if (n == 0) {
-    snprintf(p->why, sizeof p->why, "there is no steady state to draw");
-    return HC_BAD_INPUT;
-  }
+  if (n == 0) return figure_refuse(p, "there is no steady state to draw");
   return several ? plot_points(p, sc, found) : plot_waves(p, sc, found);
 }
 
@@ -362,22 +332,6 @@ static const char *unit_of(const verify_quantity *q)
   }
 }
 
-/* The sweep, widened to the points. */
-static void set_axes(figure *g, const scene *sc, const verify_quantity *q, const verify_report *r)
-{
-  char name[VERIFY_QUANTITY_TEXT], unit[FIGURE_UNIT];
-  double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
-  for (int i = 0; i < r->n_rows; ++i) {
-    low = fmin(low, r->rows[i].omega);
-    high = fmax(high, r->rows[i].omega);
-  }
-  curve_x_label(g, sc);
-  verify_quantity_name(q, name);
-  figure_set(g, "ylabel", "%s [%s]", name, q->decibel ? "dB" : figure_unit(sc, unit_of(q), unit));
-  figure_script(g, "set xrange [%.10g:%.10g]\n", low / g->x_unit, high / g->x_unit);
-  if (!verify_quantity_signed(q)) figure_script(g, "set yrange [0:*]\n");
-}
-
 hc_status plot_verify(plot_order *p, const scene *sc, const verify_data *data, const verify_report *r)
 {
   const verify_quantity *q = &data->quantity;
@@ -385,10 +339,7 @@ hc_status plot_verify(plot_order *p, const scene *sc, const verify_data *data, c
   curve_shape line;
   verdicts v;
   char about[VERIFY_TEXT + 64], words[VERIFY_TEXT];
-  if (r->n_rows == 0) {
-    snprintf(p->why, sizeof p->why, "no point was judged, so there is nothing to draw");
-    return HC_BAD_INPUT;
-  }
+  if (r->n_rows == 0) return figure_refuse(p, "no point was judged, so there is nothing to draw");
   hc_status st = make_line(q, r, &line);
   if (st == HC_OK) st = curve_figure_open(&g, p, sc, 900, 560);
   if (st == HC_OK) {
@@ -397,7 +348,18 @@ hc_status plot_verify(plot_order *p, const scene *sc, const verify_data *data, c
     verdicts_data(&g, &v, r->n_rows, &(theirs){q, r}, theirs_point);
     snprintf(about, sizeof about, "ours: H = %d, exact forces; cause: %s", r->harmonics, verify_word(r, words));
     figure_title(&g, "set title", sc->title, about);
-    set_axes(&g, sc, q, r);
+    /* The sweep, widened to the points. */
+    char name[VERIFY_QUANTITY_TEXT], unit[FIGURE_UNIT];
+    double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
+    for (int i = 0; i < r->n_rows; ++i) {
+      low = fmin(low, r->rows[i].omega);
+      high = fmax(high, r->rows[i].omega);
+    }
+    curve_x_label(&g, sc);
+    verify_quantity_name(q, name);
+    figure_set(&g, "ylabel", "%s [%s]", name, q->decibel ? "dB" : figure_unit(sc, unit_of(q), unit));
+    figure_script(&g, "set xrange [%.10g:%.10g]\n", low / g.x_unit, high / g.x_unit);
+    if (!verify_quantity_signed(q)) figure_script(&g, "set yrange [0:*]\n");
     draw_layers(&g, &l);
   }
   curve_shape_clear(&line);

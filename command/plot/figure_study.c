@@ -149,25 +149,21 @@ static void choose_axes(chart *c)
     c->heat = heat[0] == c->x ? heat[1] : heat[0];
 }
 
-/* Spread over more than a factor of 100, or in equal ratios. */
-static bool is_log(int n, const double *v)
-{
-  double low = INFINITY, high = -INFINITY;
-  bool even = n >= 3;
-  for (int i = 0; i < n; ++i) {
-    low = fmin(low, v[i]);
-    high = fmax(high, v[i]);
-    if (i >= 2) even &= fabs(v[i] / v[i - 1] / (v[1] / v[0]) - 1) < 1e-6;
-  }
-  return low > 0 && (even ? high > 3 * low : high >= 100 * low);
-}
-
 static bool is_log_axis(const study_field *f, int n)
 {
   double *v = malloc((size_t)n * sizeof *v);
   bool log_scale = v != NULL;
   for (int i = 0; v && i < n; ++i) number_of(f, i, &v[i]);
-  if (v) log_scale = is_log(n, v);
+  if (v) {
+    double low = INFINITY, high = -INFINITY;
+    bool even = n >= 3;
+    for (int i = 0; i < n; ++i) {
+      low = fmin(low, v[i]);
+      high = fmax(high, v[i]);
+      if (i >= 2) even &= fabs(v[i] / v[i - 1] / (v[1] / v[0]) - 1) < 1e-6;
+    }
+    log_scale = low > 0 && (even ? high > 3 * low : high >= 100 * low);
+  }
   free(v);
   return log_scale;
 }
@@ -279,18 +275,6 @@ static long first_of_line(const chart *c, long line)
   return line / stride * stride * c->s->axes[c->x].n + line % stride;
 }
 
-static void write_line(figure *g, const chart *c, long line)
-{
-  figure_block(g, "line%ld", line);
-  for (int i = 0; i < c->s->axes[c->x].n; ++i) {
-    double x = i, y = c->value[first_of_line(c, line) + i * stride_of(c)];
-    if (c->scale) number_of(c->scale, i, &x);
-    if (isfinite(y)) figure_point(g, x, y);
-    else figure_gap(g); /* no line across a scene without a value */
-  }
-  figure_block_end(g);
-}
-
 static void write_tics(figure *g, const char *command, const study_axis *a, const study_field *scale, int most)
 {
   char text[TEXT];
@@ -307,8 +291,17 @@ static void write_tics(figure *g, const char *command, const study_axis *a, cons
 static void draw_lines(figure *g, chart *c)
 {
   const study_axis *a = &c->s->axes[c->x];
-  char text[TEXT], look[FIGURE_LOOK], what[64];
-  for (long l = 0; l < c->drawn; ++l) write_line(g, c, l);
+  char text[TEXT];
+  for (long l = 0; l < c->drawn; ++l) {
+    figure_block(g, "line%ld", l);
+    for (int i = 0; i < c->s->axes[c->x].n; ++i) {
+      double x = i, y = c->value[first_of_line(c, l) + i * stride_of(c)];
+      if (c->scale) number_of(c->scale, i, &x);
+      if (isfinite(y)) figure_point(g, x, y);
+      else figure_gap(g); /* no line across a scene without a value */
+    }
+    figure_block_end(g);
+  }
   measure_label(c, text);
   figure_set(g, "ylabel", "%s", text);
   figure_below(g, "%s", axis_text(c->s, a, c->scale, text));
@@ -331,9 +324,8 @@ static void draw_lines(figure *g, chart *c)
   if (is_log_measure(c, &low, &high)) figure_log(g, "y");
   figure_script(g, "set offsets graph 0.02, graph 0.02, 0, 0\n");
   for (long l = 0; l < c->drawn; ++l) {
-    snprintf(what, sizeof what, "$line%ld using 1:2 with linespoints", l);
     line_text(c, first_of_line(c, l), text);
-    figure_item(g, what, figure_mark(g, (int)l, 1.6, look), "%s", text[0] ? text : c->measure);
+    figure_item(g, figure_mark(g, (int)l, 1.6), text[0] ? text : c->measure, "$line%ld using 1:2 with linespoints", l);
   }
   figure_draw(g);
 }
