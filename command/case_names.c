@@ -1,6 +1,7 @@
 /* case_names.c - see case_names.h. */
 #include "command/case_names.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -118,4 +119,21 @@ int cli_contact_named(const cli_common *common, const char *name)
   if (number_read_integer(name, strlen(name), &j) == NUMBER_FINE && j >= 0 && j < n) return j;
   say_unknown(common, "contact", name, n, contact_name);
   return -1;
+}
+
+int compare_lists(const cli_common *common, const table_lists *lists, scene *sc)
+{
+  static const double most_samples = 1 << 24;
+  for (int i = 0; i < lists->harmonics.n; ++i)
+    if (lists->harmonics.v[i] != floor(lists->harmonics.v[i]) || lists->harmonics.v[i] > HBM_MAX_HARMONICS)
+      return cli_failed(common, EXIT_USAGE, "--harmonics: %g is not a whole number 1..%d", lists->harmonics.v[i],
+                        HBM_MAX_HARMONICS);
+  for (int i = 0; i < lists->samples.n; ++i)
+    if (lists->samples.v[i] != floor(lists->samples.v[i]) || lists->samples.v[i] < 3 ||
+        lists->samples.v[i] > most_samples)
+      return cli_failed(common, EXIT_USAGE, "--samples: %g is not a whole number 3..%.0f", lists->samples.v[i],
+                        most_samples);
+  if (lists->harmonics.n) sc->compare.harmonics = lists->harmonics;
+  if (lists->samples.n) sc->compare.samples = lists->samples;
+  return 0;
 }

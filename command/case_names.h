@@ -1,4 +1,5 @@
-/* case_names.h - options that name a part of the case: one of its responses, one of its contacts. */
+/* case_names.h - options that name a part of the case: one of its responses, one of its contacts, what its tables
+ * go over. */
 #ifndef HC_CASE_NAMES_H
 #define HC_CASE_NAMES_H
 
@@ -29,5 +30,13 @@ const char *cli_contact_name(const cli_common *common, int j, char text[CLI_NAME
 
 /* Only that one of the case's responses stays; all of them for NULL. 0, or the exit code after the message. */
 int cli_keep_response(const cli_common *common, scene *sc, const char *name);
+
+/* --harmonics and --samples of the commands that have tables over truncation orders and samples; n = 0: the case's. */
+typedef struct table_lists {
+  number_list harmonics, samples;
+} table_lists;
+
+/* The lists that were given in the place of the scene's. 0, or the exit code after the message. */
+int compare_lists(const cli_common *common, const table_lists *lists, scene *sc);
 
 #endif

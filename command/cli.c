@@ -29,71 +29,6 @@
 #include "output/output.h"
 #include "output/same_file.h"
 
-/* ---- a spelling suggestion for a long option ------------------------------------------------------------ */
-
-typedef struct option_lists {
-  const struct argp_option *of[3];
-} option_lists;
-
-static const struct argp_option by_argp[] = {
-    {"help", '?', 0, 0, 0, 0}, {"usage", 0, 0, 0, 0, 0}, {"version", 'V', 0, 0, 0, 0}, {0}};
-
-/* The option that name[length] is or begins: getopt takes both. */
-static const struct argp_option *known_option(const option_lists *lists, const char *name, size_t length)
-{
-  for (int i = 0; i < 3; ++i)
-    for (const struct argp_option *o = lists->of[i]; o && o->name; ++o)
-      if (!strncmp(o->name, name, length)) return o;
-  return NULL;
-}
-
-static const char *nearest_option(const option_lists *lists, const char *name, size_t length)
-{
-  const char *best = NULL;
-  int least = NEAREST_FAR;
-  for (int i = 0; i < 3; ++i)
-    for (const struct argp_option *o = lists->of[i]; o && o->name; ++o) {
-      int d = nearest_distance(name, length, o->name);
-      if (d < least) best = o->name, least = d;
-    }
-  return best;
-}
-
-/* -o FILE, -qo FILE: is what comes next the value of these short options? */
-static bool value_follows(const option_lists *lists, const char *letters)
-{
-  for (; *letters; ++letters)
-    for (int i = 0; i < 3; ++i)
-      for (const struct argp_option *o = lists->of[i]; o && o->name; ++o)
-        if (o->key == *letters && o->arg) return !letters[1];
-  return false;
-}
-
-/* The first of argv[1..argc-1] that is a long option in neither list, nor the start of one, but near to one of them:
- * returns its name without the dashes, of *length letters, and the one meant in *meant. NULL if there is none; what is
- * near to nothing is left to argp. The lists end in {0} and may be NULL. */
-static const char *option_to_suggest(int argc, char *const *argv, const struct argp_option *own,
-                                     const struct argp_option *common, int *length, const char **meant)
-{
-  const option_lists lists = {{own, common, by_argp}};
-  for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i) {
-    if (argv[i][0] != '-') continue;
-    if (argv[i][1] != '-') {
-      i += value_follows(&lists, argv[i] + 1);
-      continue;
-    }
-    const char *name = argv[i] + 2;
-    const size_t n = strcspn(name, "=");
-    const struct argp_option *o = known_option(&lists, name, n);
-    if (o) i += o->arg && !name[n];
-    else if ((*meant = nearest_option(&lists, name, n)) != NULL) {
-      *length = (int)n;
-      return name;
-    }
-  }
-  return NULL;
-}
-
 enum { KEY_SET = 0x100, KEY_FORMAT, KEY_WIDE };
 
 static const struct argp_option common_options[] = {
@@ -223,15 +158,53 @@ static const char *what_arguments_are(const char *usage)
   return !strncmp(usage, "CASE", 4) ? "the case file" : !strncmp(usage, "STUDY", 5) ? "the study" : NULL;
 }
 
-/* "--tabels" ends the program with what was meant; argp, which only knows that it is not known, is not asked then. */
+/* A list of options, which ends in {0}: the one that name[length] is or begins, for getopt takes both. NULL: none. */
+static const struct argp_option *known_option(const struct argp_option *o, const char *name, size_t length)
+{
+  for (; o->name; ++o)
+    if (!strncmp(o->name, name, length)) return o;
+  return NULL;
+}
+
+/* -o FILE, -qo FILE: is what comes next the value of these short options? */
+static bool value_follows(const struct argp_option *all, const char *letters)
+{
+  for (; *letters; ++letters)
+    for (const struct argp_option *o = all; o->name; ++o)
+      if (o->key == *letters && o->arg) return !letters[1];
+  return false;
+}
+
+/* "--tabels" ends the program with what was meant; argp, which only knows that it is not known, is not asked then. What
+ * is near to nothing is left to argp. */
 static void refuse_unknown_option(const cli_command *self, const struct argp_option *own, int argc, char **argv)
 {
-  int length;
-  const char *meant, *name = option_to_suggest(argc, argv, own, common_options, &length, &meant);
-  if (!name) return;
-  fprintf(stderr, "hbmcheck %s: unrecognized option '--%.*s', did you mean '--%s'?\nTry 'hbmcheck %s --help'.\n",
-          self->name, length, name, meant, self->name);
-  exit(EXIT_USAGE);
+  static const struct argp_option by_argp[] = {
+      {"help", '?', 0, 0, 0, 0}, {"usage", 0, 0, 0, 0, 0}, {"version", 'V', 0, 0, 0, 0}, {0}};
+  const struct argp_option *const lists[] = {own, common_options, by_argp};
+  struct argp_option all[2 * CLI_MOST_OPTIONS] = {{0}};
+  for (int i = 0, n = 0; i < 3; ++i)
+    for (const struct argp_option *o = lists[i]; o->name; ++o) all[n++] = *o;
+  for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i) {
+    if (argv[i][0] != '-') continue;
+    if (argv[i][1] != '-') {
+      i += value_follows(all, argv[i] + 1);
+      continue;
+    }
+    const char *name = argv[i] + 2, *meant = NULL;
+    const size_t length = strcspn(name, "=");
+    const struct argp_option *known = known_option(all, name, length);
+    int least = NEAREST_FAR;
+    if (known) i += known->arg && !name[length];
+    for (const struct argp_option *o = all; o->name && !known; ++o) {
+      const int d = nearest_distance(name, length, o->name);
+      if (d < least) meant = o->name, least = d;
+    }
+    if (!meant) continue;
+    fprintf(stderr, "hbmcheck %s: unrecognized option '--%.*s', did you mean '--%s'?\nTry 'hbmcheck %s --help'.\n",
+            self->name, (int)length, name, meant, self->name);
+    exit(EXIT_USAGE);
+  }
 }
 
 /* --plot - may not mix with csv, json or an export on standard output. */
@@ -269,15 +242,11 @@ static void parse(const cli_command *self, int argc, char **argv, cli_common *co
   argp_err_exit_status = EXIT_USAGE;
   error_t failed = argp_parse(&argp, argc, argv, 0, NULL, &input); /* wrong usage exits: what is left is ENOMEM */
   argv[0] = (char *)"hbmcheck";
-  if (failed) {
-    cli_message(common, "%s", failed == ENOMEM ? hc_status_text(HC_NO_MEMORY) : strerror(failed));
-    exit(failed == ENOMEM ? EXIT_NO_SOLUTION : EXIT_BUG);
-  }
-  if (required && common->n_arguments == 0) {
-    cli_message(common, "no %.*s given\nTry 'hbmcheck %s --help'.", (int)strcspn(self->arguments, "."), self->arguments,
-                self->name);
-    exit(EXIT_USAGE);
-  }
+  if (failed == ENOMEM) exit(cli_failed(common, EXIT_NO_SOLUTION, "%s", hc_status_text(HC_NO_MEMORY)));
+  if (failed) exit(cli_failed(common, EXIT_BUG, "%s", strerror(failed)));
+  if (required && common->n_arguments == 0)
+    exit(cli_failed(common, EXIT_USAGE, "no %.*s given\nTry 'hbmcheck %s --help'.", (int)strcspn(self->arguments, "."),
+                    self->arguments, self->name));
   check_plot(common);
 }
 
@@ -286,10 +255,7 @@ int cli_run(const cli_command *self, int argc, char **argv)
   cli_common common = {.command = self, .argument_is = what_arguments_are(self->arguments)};
   scene sc = {.structure = NULL};
   common.own = calloc(1, self->own_size + 1);
-  if (!common.own) {
-    cli_message(&common, "%s", hc_status_text(HC_NO_MEMORY));
-    return EXIT_NO_SOLUTION;
-  }
+  if (!common.own) return cli_failed(&common, EXIT_NO_SOLUTION, "%s", hc_status_text(HC_NO_MEMORY));
   if (self->defaults) memcpy(common.own, self->defaults, self->own_size);
   parse(self, argc, argv, &common);
   int code = self->starts_itself ? 0 : cli_check_files(&common, 0, NULL);
@@ -375,10 +341,8 @@ int cli_check_files(cli_common *common, int n, const cli_file *files)
 {
   int found = 0, code = 0;
   named_file *list = calloc((size_t)common->n_arguments + 1 + (size_t)n + CLI_MOST_OPTIONS, sizeof *list);
-  if (!list || !add_all_files(common, n, files, list, &found)) {
-    cli_message(common, "%s", hc_status_text(HC_NO_MEMORY));
-    code = EXIT_NO_SOLUTION;
-  }
+  if (!list || !add_all_files(common, n, files, list, &found))
+    code = cli_failed(common, EXIT_NO_SOLUTION, "%s", hc_status_text(HC_NO_MEMORY));
   for (int i = 0; i < found && !code; ++i)
     for (int k = 0; k < i && !code; ++k) {
       if (!clash(&list[i], &list[k])) continue;
@@ -393,14 +357,29 @@ int cli_check_files(cli_common *common, int n, const cli_file *files)
 
 /* ---- messages and exit codes ---- */
 
+__attribute__((format(printf, 2, 0))) static void print_message(const cli_common *common, const char *format,
+                                                                va_list args)
+{
+  fprintf(stderr, "hbmcheck %s: ", common->command->name);
+  vfprintf(stderr, format, args);
+  fputc('\n', stderr);
+}
+
 void cli_message(const cli_common *common, const char *format, ...)
 {
   va_list args;
   va_start(args, format);
-  fprintf(stderr, "hbmcheck %s: ", common->command->name);
-  vfprintf(stderr, format, args);
-  fputc('\n', stderr);
+  print_message(common, format, args);
   va_end(args);
+}
+
+int cli_failed(const cli_common *common, int code, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  print_message(common, format, args);
+  va_end(args);
+  return code;
 }
 
 void cli_foretell_memory(const cli_common *common, double bytes)
@@ -415,9 +394,7 @@ void cli_foretell_memory(const cli_common *common, double bytes)
 
 int cli_plotted(const cli_common *common, hc_status st)
 {
-  if (st == HC_OK) return 0;
-  cli_message(common, "no drawing: %s", common->drawing.why);
-  return EXIT_NO_SOLUTION;
+  return st == HC_OK ? 0 : cli_failed(common, EXIT_NO_SOLUTION, "no drawing: %s", common->drawing.why);
 }
 
 int cli_load_case(cli_common *common, const char *path, scene *sc)
@@ -533,8 +510,7 @@ int cli_solver_failed(const cli_common *common, cli_solver solver, const char *w
 int cli_file_failed(const cli_common *common, const char *path, hc_status st)
 {
   const char *why = st == HC_IO && errno ? strerror(errno) : hc_status_text(st);
-  cli_message(common, "%s: %s", path ? path : "standard output", why);
-  return st == HC_BUG ? EXIT_BUG : EXIT_NO_SOLUTION;
+  return cli_failed(common, st == HC_BUG ? EXIT_BUG : EXIT_NO_SOLUTION, "%s: %s", path ? path : "standard output", why);
 }
 
 /* ---- results ---- */

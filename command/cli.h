@@ -70,6 +70,14 @@ struct cli_command {
   int (*run)(cli_common *common, void *own, scene *sc);
 };
 
+/* Its definition, at the end of cmd_NAME.c, which has help[], options[] and run_NAME; own: the type of its struct. What
+ * follows is the summary, and other members where they are not 0. */
+/* clang-format off */
+#define CLI_COMMAND(NAME, own, takes, ...) \
+  const cli_command cmd_##NAME = {.name = #NAME, .arguments = takes, .help = help, .options = options, \
+                                  .own_size = sizeof(own), .run = run_##NAME, .summary = __VA_ARGS__}
+/* clang-format on */
+
 /* What every command has. */
 struct cli_common {
   const cli_command *command;
@@ -87,8 +95,8 @@ struct cli_common {
   const scene *scene;           /* the case at work, for messages; NULL before cli_load_case */
 };
 
-/* Runs a command with its arguments, argv[0] its name: returns its exit code, but does not return on --help, --version or
- * wrong usage (exit 64). */
+/* Runs a command with its arguments, argv[0] its name. Returns its exit code, but does not return on --help, --version
+ * or wrong usage (exit 64). */
 int cli_run(const cli_command *self, int argc, char **argv);
 
 /* What --at takes, in its help. */
@@ -139,6 +147,8 @@ void cli_take_frequencies(const cli_common *common, const number_list *at, scene
 
 /* "hbmcheck COMMAND: ..." on stderr. */
 void cli_message(const cli_common *common, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The same, which returns the exit code that it gets. */
+int cli_failed(const cli_common *common, int code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* Whose settings the advice in a message is about. */
 typedef enum cli_solver { CLI_HBM, CLI_TRANSIENT, CLI_BOTH } cli_solver;

@@ -13,15 +13,12 @@
 
 static const char help[] =
     "Run time against error for every method on CASE, at the largest stable response at each omega: harmonic balance "
-    "with exact and sampled forces, "
-    "time integration with the exact and the regularised law, by shooting and by marching; scipy's LSODA beside them "
-    "where python3 has it."
-    "\vThe error is of the amplitude, relative to the exact law's orbit; of a structure the largest of all responses, "
-    "relative to the largest amplitude. Seconds are processor time of one solution "
-    "at that omega from its neighbour's in "
-    "a sweep: median, lower and upper quartile. Methods take turns. error_finer is the largest error at these or "
-    "finer settings: what can be counted "
-    "on. front: nothing is both nearer by it and faster.\n"
+    "with exact and sampled forces, time integration with the exact and the regularised law, by shooting and by "
+    "marching; scipy's LSODA beside them where python3 has it."
+    "\vThe error is of the amplitude, relative to the exact law's orbit; of a structure the largest of all "
+    "responses, relative to the largest amplitude. Seconds are processor time of one solution at that omega from its "
+    "neighbour's in a sweep: median, lower and upper quartile. Methods take turns. error_finer is the largest error "
+    "at these or finer settings: what can be counted on. front: nothing is both nearer by it and faster.\n"
     "exit: 0 done  2 case file wrong  3 no stable orbit to compare with, or stopped  64 usage\n"
     "example: hbmcheck bench cases/paper/case2.yaml --at 9";
 
@@ -87,27 +84,6 @@ static void put_omega(table *t, const scene *sc, double omega)
 {
   table_put_real(t, omega);
   if (sc->in_cycles) table_put_real(t, scene_frequency(sc, omega));
-}
-
-static void put_row(table *t, const scene *sc, const bench_row *r)
-{
-  put_omega(t, sc, r->omega);
-  table_put_text(t, bench_method_name(r->method));
-  put_count(t, r->harmonics);
-  put_count(t, r->samples);
-  table_put_real(t, r->regularisation);
-  table_put_real(t, r->tolerance);
-  table_put_real(t, r->error);
-  table_put_real(t, r->error_harmonic_1);
-  table_put_real(t, r->error_finer);
-  put_seconds(t, r->repeats ? r->seconds : NAN);
-  put_seconds(t, r->low);
-  put_seconds(t, r->high);
-  put_count(t, r->repeats);
-  table_put_text(t, r->front ? "yes" : "no");
-  put_seconds(t, r->curve_seconds);
-  if (r->outcome == BENCH_FAILED) table_put_text(t, hc_status_text(r->status));
-  else table_put_text(t, bench_outcome_name(r->outcome));
 }
 
 static void put_cheapest(table *t, const scene *sc, const bench *b, const bench_frequency *p)
@@ -188,22 +164,50 @@ static void note_versions(table *t)
   table_note(t, "%s", versions);
 }
 
-static void note_place(table *t, const scene *sc, const bench_frequency *p)
+static int write_tables(const cli_common *common, const scene *sc, const bench *b)
 {
-  char here[SCENE_WHERE], beside[SCENE_WHERE];
-  scene_where(sc, p->omega, here);
-  scene_where(sc, p->neighbour, beside);
-  table_note(t,
-             "%s: reference amplitude %.12g, good to %.0e, Floquet multiplier %.4g; all start from the solutions "
-             "at %s",
-             here, p->amplitude, p->floor, p->multiplier, beside);
-  table_note(t, "%s: scipy_lsoda: %s", here, p->scipy);
-}
-
-static void note_bench(table *t, const scene *sc, const bench *b)
-{
+  table_column own[N_COLUMNS], cheapest[N_CHEAPEST_COLUMNS];
+  const int n = cli_columns(cli_extra_columns(sc), N_COLUMNS, columns, own),
+            n_cheapest = cli_columns(cli_extra_columns(sc), N_CHEAPEST_COLUMNS, cheapest_columns, cheapest);
+  table *tables[2] = {table_new("Work and precision", n, own), table_new("Cheapest way", n_cheapest, cheapest)};
+  for (int i = 0; i < 2 && b->n_frequencies == 1; ++i) table_hide(tables[i], "omega"); /* the remarks have it */
+  table_spare(tables[0], spare_columns + !sc->in_cycles);
+  table_spare(tables[1], spare_cheapest_columns + !sc->in_cycles);
+  for (int i = 0; i < b->n_rows; ++i) {
+    table *t = tables[0];
+    const bench_row *r = &b->rows[i];
+    put_omega(t, sc, r->omega);
+    table_put_text(t, bench_method_name(r->method));
+    put_count(t, r->harmonics);
+    put_count(t, r->samples);
+    table_put_real(t, r->regularisation);
+    table_put_real(t, r->tolerance);
+    table_put_real(t, r->error);
+    table_put_real(t, r->error_harmonic_1);
+    table_put_real(t, r->error_finer);
+    put_seconds(t, r->repeats ? r->seconds : NAN);
+    put_seconds(t, r->low);
+    put_seconds(t, r->high);
+    put_count(t, r->repeats);
+    table_put_text(t, r->front ? "yes" : "no");
+    put_seconds(t, r->curve_seconds);
+    if (r->outcome == BENCH_FAILED) table_put_text(t, hc_status_text(r->status));
+    else table_put_text(t, bench_outcome_name(r->outcome));
+  }
+  /* Remarks. */
+  table *t = tables[0];
   table_note(t, "%s", sc->title);
-  for (int i = 0; i < b->n_frequencies; ++i) note_place(t, sc, &b->frequencies[i]);
+  for (int i = 0; i < b->n_frequencies; ++i) {
+    const bench_frequency *p = &b->frequencies[i];
+    char here[SCENE_WHERE], beside[SCENE_WHERE];
+    scene_where(sc, p->omega, here);
+    scene_where(sc, p->neighbour, beside);
+    table_note(t,
+               "%s: reference amplitude %.12g, good to %.0e, Floquet multiplier %.4g; all start from the solutions "
+               "at %s",
+               here, p->amplitude, p->floor, p->multiplier, beside);
+    table_note(t, "%s: scipy_lsoda: %s", here, p->scipy);
+  }
   table_note(
       t, "seconds: processor time of one solution and its measures; curve_seconds: the whole response curve over the "
          "sweep");
@@ -214,19 +218,6 @@ static void note_bench(table *t, const scene *sc, const bench *b)
       sc->hbm.tolerance, sc->hbm.keep_mean ? "kept" : "NOT kept", bench_longest, bench_longest_shot);
   table_note(t, "AUTO-07p is not run from here: it wants its equations compiled (tests/bench/versus_auto.sh does)");
   note_versions(t);
-}
-
-static int write_tables(const cli_common *common, const scene *sc, const bench *b)
-{
-  table_column own[N_COLUMNS], cheapest[N_CHEAPEST_COLUMNS];
-  const int n = cli_columns(cli_extra_columns(sc), N_COLUMNS, columns, own),
-            n_cheapest = cli_columns(cli_extra_columns(sc), N_CHEAPEST_COLUMNS, cheapest_columns, cheapest);
-  table *tables[2] = {table_new("Work and precision", n, own), table_new("Cheapest way", n_cheapest, cheapest)};
-  for (int i = 0; i < 2 && b->n_frequencies == 1; ++i) table_hide(tables[i], "omega"); /* the remarks have it */
-  table_spare(tables[0], spare_columns + !sc->in_cycles);
-  table_spare(tables[1], spare_cheapest_columns + !sc->in_cycles);
-  for (int i = 0; i < b->n_rows; ++i) put_row(tables[0], sc, &b->rows[i]);
-  note_bench(tables[0], sc, b);
   for (int i = 0; i < b->n_frequencies; ++i) {
     put_cheapest(tables[1], sc, b, &b->frequencies[i]);
     note_winners(tables[1], sc, b, &b->frequencies[i]);
@@ -265,13 +256,6 @@ static int run_bench(cli_common *common, void *given, scene *sc)
   return code ? code : written;
 }
 
-const cli_command cmd_bench = {
-    .name = "bench",
-    .summary = "work-precision: run time against error for every method at one frequency",
-    .arguments = "CASE",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(bench_command_options),
-    .defaults = &(const bench_command_options){.repeats = DEFAULT_REPEATS},
-    .run = run_bench,
-};
+CLI_COMMAND(bench, bench_command_options, "CASE",
+            "work-precision: run time against error for every method at one frequency",
+            .defaults = &(const bench_command_options){.repeats = DEFAULT_REPEATS});

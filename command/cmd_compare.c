@@ -9,7 +9,6 @@
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
-#include "command/compare_tables.h"
 #include "compare/comparison.h"
 #include "compare/memory.h"
 #include "output/progress.h"
@@ -86,17 +85,14 @@ static void keep_found_end(keep_found *r)
 
 static const char help[] =
     "Solve CASE by harmonic balance and by time integration at the same frequencies; report how far apart they are, "
-    "and a verdict for every "
-    "frequency and branch."
+    "and a verdict for every frequency and branch."
     "\vAn error is |hbm - transient| / the transient's amplitude; the limits are the case's gate. from_aliasing, ... "
-    "say what "
-    "it is made of: one part a cause, all of them sizes. hbm_predicted and transient_predicted are the errors in "
-    "amplitude that each side expects of itself before it sees the other; more than three times both is said to be "
-    "unexpected.\n"
+    "say what it is made of: one part a cause, all of them sizes. hbm_predicted and transient_predicted are the "
+    "errors in amplitude that each side expects of itself before it sees the other; more than three times both is "
+    "said to be unexpected.\n"
     "--tables adds a table over truncation orders and samples (largest amplitude discrepancy, peak, false turning "
-    "points, cost) and one of "
-    "observed orders; it takes seconds, and with csv they follow the first after a blank line. The screen shows the "
-    "columns that fit; --wide, csv and json have all of them.\n"
+    "points, cost) and one of observed orders; it takes seconds, and with csv they follow the first after a blank "
+    "line. The screen shows the columns that fit; --wide, csv and json have all of them.\n"
     "exit: 0 agreed  1 a transient differs from every HBM solution  2 case file wrong  3 something could not be "
     "compared  64 usage\n"
     "example: hbmcheck compare cases/paper/case2.yaml --set hbm.static=false";
@@ -137,50 +133,6 @@ static const char *row_where(const scene *sc, const comparison_row *r, char text
   return text;
 }
 
-/* The row with the largest budget of the amplitude and what to do about it, and how many rows have no budget or one
- * that does not explain the discrepancy. */
-static void note_worst(table *t, const scene *sc, const compare_setup *setup, const comparison *c)
-{
-  const comparison_row *top = NULL;
-  char text[BUDGET_TEXT], at[WHERE];
-  int unknown = 0;
-  for (int i = 0; i < c->n_rows; ++i) {
-    const comparison_row *r = &c->rows[i];
-    unknown += !r->budget.known && r->response == 0;
-    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
-  }
-  if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
-  if (top) table_note(t, "largest budget, %s: %s", row_where(sc, top, at), text);
-  if (unknown)
-    table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown,
-               unknown == 1 ? "" : "s");
-}
-
-/* Rows of which something is not compared, or holds for one motion of many. */
-static void note_open_rows(table *t, const comparison *c)
-{
-  int mean_free = 0, family = 0, still = 0;
-  for (int i = 0; i < c->n_rows; ++i) {
-    mean_free += comparison_mean_free(&c->rows[i]);
-    family += c->rows[i].family;
-    still += c->rows[i].still;
-  }
-  if (mean_free == 0) table_hide(t, "mean_free");
-  else
-    table_note(t,
-               "%d row%s without a mean to compare (mean_free): a slider that never slips rests where the history "
-               "left it, and the mean, max, min and rms with it",
-               mean_free, mean_free == 1 ? "" : "s");
-  if (family)
-    table_note(t,
-               "%d row%s of a family of steady states: where a slider that never slips rests decides on the harmonics, "
-               "too. HBM is held against the member that begins with its own sliders",
-               family, family == 1 ? "" : "s");
-  if (still)
-    table_note(t, "%d row%s not compared: that response moves less than 1e-9 of the largest", still,
-               still == 1 ? "" : "s");
-}
-
 /* What neither side expected, a line a row: under the table if there is one, else on stderr. */
 static void say_unexpected(const cli_common *common, const comparison *c, table *t)
 {
@@ -217,9 +169,43 @@ static void note_comparison(const cli_common *common, table *t, const compare_se
                unaccounted == 1 ? " matches" : "s match");
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
-  note_worst(t, sc, setup, c);
+  /* The row with the largest budget of the amplitude and what to do about it, and how many rows have no budget or
+   * one that does not explain the discrepancy. */
+  const comparison_row *top = NULL;
+  char text[BUDGET_TEXT], at[WHERE];
+  int unknown = 0;
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    unknown += !r->budget.known && r->response == 0;
+    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
+  }
+  if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
+  if (top) table_note(t, "largest budget, %s: %s", row_where(sc, top, at), text);
+  if (unknown)
+    table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown,
+               unknown == 1 ? "" : "s");
   say_unexpected(common, c, t);
-  note_open_rows(t, c);
+  /* Rows of which something is not compared, or holds for one motion of many. */
+  int mean_free = 0, family = 0, still = 0;
+  for (int i = 0; i < c->n_rows; ++i) {
+    mean_free += comparison_mean_free(&c->rows[i]);
+    family += c->rows[i].family;
+    still += c->rows[i].still;
+  }
+  if (mean_free == 0) table_hide(t, "mean_free");
+  else
+    table_note(t,
+               "%d row%s without a mean to compare (mean_free): a slider that never slips rests where the history "
+               "left it, and the mean, max, min and rms with it",
+               mean_free, mean_free == 1 ? "" : "s");
+  if (family)
+    table_note(t,
+               "%d row%s of a family of steady states: where a slider that never slips rests decides on the harmonics, "
+               "too. HBM is held against the member that begins with its own sliders",
+               family, family == 1 ? "" : "s");
+  if (still)
+    table_note(t, "%d row%s not compared: that response moves less than 1e-9 of the largest", still,
+               still == 1 ? "" : "s");
   if (scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (!comparison_nonlinear(c)) table_note(t, COMPARISON_LINEAR, c->n_rows);
 }
@@ -236,35 +222,6 @@ static void print_failures(const cli_common *common, const comparison *c)
     cli_solver_failed(common, CLI_HBM, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
 }
 
-static table *comparison_table(const cli_common *common, const compare_setup *setup, comparison *c)
-{
-  table *t = cli_table(common, "HBM against time integration", ROWS_COMPARE);
-  const scene_structure *of = common->scene->structure;
-  for (int i = 0; i < c->n_rows; ++i) {
-    if (of) structure_response_name(of, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
-    cli_put_row(common, t, ROWS_COMPARE, &c->rows[i]);
-  }
-  note_comparison(common, t, setup, c);
-  return t;
-}
-
-/* Contacts that do not do the same on both sides, a line each: under the table and on stderr. */
-static void say_contacts(const cli_common *common, const comparison *c, table *t)
-{
-  char text[CONTACT_COMPARISON_TEXT], at[SCENE_WHERE];
-  int unknown = 0;
-  for (int i = 0; i < c->n_contacts; ++i) {
-    const contact_comparison *k = &c->contacts[i];
-    unknown += k->hbm_status != HC_OK || k->transient_status != HC_OK;
-    if (!k->differs) continue;
-    contact_comparison_text(k, text);
-    scene_where(common->scene, k->omega, at);
-    table_note(t, "DIFFERS at %s, branch %d: %s", at, k->branch, text);
-    cli_message(common, "at %s, branch %d: %s", at, k->branch, text);
-  }
-  if (unknown) table_note(t, "%d row%s of which one side is not known", unknown, unknown == 1 ? "" : "s");
-}
-
 static table *contacts_table(const cli_common *common, comparison *c)
 {
   const scene *sc = common->scene;
@@ -279,8 +236,55 @@ static table *contacts_table(const cli_common *common, comparison *c)
       "work: dissipated in a period, work_error relative to the largest there; beyond the gate's waveform it differs");
   if (sc->hbm.force == HBM_FORCE_SAMPLED)
     table_note(t, "harmonic balance's by the exact law along the motion found with sampled forces");
-  say_contacts(common, c, t);
+  /* Contacts that do not do the same on both sides, a line each: under the table and on stderr. */
+  char text[CONTACT_COMPARISON_TEXT], at[SCENE_WHERE];
+  int unknown = 0;
+  for (int i = 0; i < c->n_contacts; ++i) {
+    const contact_comparison *k = &c->contacts[i];
+    unknown += k->hbm_status != HC_OK || k->transient_status != HC_OK;
+    if (!k->differs) continue;
+    contact_comparison_text(k, text);
+    scene_where(common->scene, k->omega, at);
+    table_note(t, "DIFFERS at %s, branch %d: %s", at, k->branch, text);
+    cli_message(common, "at %s, branch %d: %s", at, k->branch, text);
+  }
+  if (unknown) table_note(t, "%d row%s of which one side is not known", unknown, unknown == 1 ? "" : "s");
   return t;
+}
+
+/* The table over (H, N) and the one of observed orders into out[], which the caller frees; on failure they have the
+ * rows found before. *a gets what they were made from, to be freed with accuracy_clear in any case. */
+static hc_status compare_tables(const cli_common *common, const compare_setup *setup, const comparison *c,
+                                const hc_monitor *monitor, table *out[2], accuracy *a)
+{
+  hc_status st = accuracy_run(setup, c, monitor, a);
+  out[0] = cli_table(common, "Samples and truncation order", ROWS_ACCURACY);
+  for (int i = 0; i < a->n_rows; ++i) cli_put_row(common, out[0], ROWS_ACCURACY, &a->rows[i]);
+  table *t = out[0];
+  char of[RESPONSE_NAME];
+  if (common->scene->structure)
+    table_note(t, "by the response %s", structure_response_name(common->scene->structure, 0, of, sizeof of));
+  table_note(
+      t,
+      "amplitude_error: largest over %d orbits of the exact transient at %d frequencies; missing: orbits no solution "
+      "is next to",
+      a->orbits, a->frequencies);
+  if (isfinite(a->peak_amplitude))
+    table_note(t, "peak: %.10g at %s, %s", a->peak_amplitude,
+               scene_where(common->scene, a->peak_omega, (char[SCENE_WHERE]){0}),
+               a->peak_by_orbit ? "of the exact transient's orbits"
+                                : "of the curve with exact forces and most harmonics");
+  table_note(
+      t,
+      "aliasing: against exact forces and the same H; false turning points: more than with exact forces and the same "
+      "H");
+  out[1] = cli_table(common, "Observed orders", ROWS_ORDER);
+  for (int i = 0; i < a->n_orders; ++i) cli_put_row(common, out[1], ROWS_ORDER, &a->orders[i]);
+  table_note(out[1],
+             "error ~ quantity^-order (regularisation^order), least squares over the asymptotic part of its envelope; "
+             "spread: standard error");
+  for (int i = 0; i < 2 && st != HC_OK; ++i) table_note(out[i], "INCOMPLETE: %s", hc_status_text(st));
+  return st;
 }
 
 /* The tables of what was found, and that it is not all unless st is HC_OK; how many. */
@@ -288,7 +292,14 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
                            hc_status st, table **tables)
 {
   int n = 1;
-  tables[0] = comparison_table(common, setup, c);
+  table *t = cli_table(common, "HBM against time integration", ROWS_COMPARE);
+  const scene_structure *of = common->scene->structure;
+  for (int i = 0; i < c->n_rows; ++i) {
+    if (of) structure_response_name(of, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
+    cli_put_row(common, t, ROWS_COMPARE, &c->rows[i]);
+  }
+  note_comparison(common, t, setup, c);
+  tables[0] = t;
   if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
   if (contacts) tables[n++] = contacts_table(common, c);
   return n;
@@ -361,12 +372,5 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   return code ? code : written;
 }
 
-const cli_command cmd_compare = {
-    .name = "compare",
-    .summary = "harmonic balance and time integration at the same frequencies: discrepancies and verdicts",
-    .arguments = "CASE",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(compare_options),
-    .run = run_compare,
-};
+CLI_COMMAND(compare, compare_options, "CASE",
+            "harmonic balance and time integration at the same frequencies: discrepancies and verdicts");

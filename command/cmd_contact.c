@@ -112,10 +112,9 @@ static int check_directions(const cli_common *common, const contact_options *own
   char name[CLI_NAME];
   cli_contact_name(common, m->one, name);
   for (int d = 0; d < 3; ++d)
-    if (own->motion[CONTACT_U + d] && !(directions[d] && has_direction(of->n, directions[d]))) {
-      cli_message(common, "contact %s has no %s; expected no --%s", name, words[d], motion_names[CONTACT_U + d]);
-      return EXIT_USAGE;
-    }
+    if (own->motion[CONTACT_U + d] && !(directions[d] && has_direction(of->n, directions[d])))
+      return cli_failed(common, EXIT_USAGE, "contact %s has no %s; expected no --%s", name, words[d],
+                        motion_names[CONTACT_U + d]);
   return 0;
 }
 
@@ -137,13 +136,11 @@ static int read_motions(const cli_common *common, const contact_options *own, co
     if (n < 0) return EXIT_USAGE;
     if (n > m->of.n_harm) m->of.n_harm = n;
   }
-  if (own->slider && !read_slider(own->slider, m)) {
-    cli_message(common,
-                m->of.pair ? "--slider: '%s' is not two finite numbers W1,W2, of a contact with two tangents"
-                           : "--slider: '%s' is not a finite number",
-                own->slider);
-    return EXIT_USAGE;
-  }
+  if (own->slider && !read_slider(own->slider, m))
+    return cli_failed(common, EXIT_USAGE,
+                      m->of.pair ? "--slider: '%s' is not two finite numbers W1,W2, of a contact with two tangents"
+                                 : "--slider: '%s' is not a finite number",
+                      own->slider);
   if (m->one < 0) return 0;
   if (own->motion[CONTACT_X])
     for (int i = 0; i < GIVEN_MOST_COEF; ++i) {
@@ -218,8 +215,9 @@ static void note_period(table *t, const char *name, const contact_period *p)
              p->normal_min, p->normal_max, p->traction_max, p->slip_distance, p->work);
 }
 
-static hc_status note_circle_pieces(table *t, const contact_motion *m, const char *name)
+static hc_status note_circle(table *t, const contact_motion *m, const char *name)
 {
+  contact_period p[2];
   const contact *law = &m->contacts->law;
   double F[GIVEN_MOST_DOF * GIVEN_MOST_COEF];
   planar_force *f = NULL;
@@ -233,13 +231,6 @@ static hc_status note_circle_pieces(table *t, const contact_motion *m, const cha
     note_more(t, name, c->n);
   }
   planar_force_free(f);
-  return st;
-}
-
-static hc_status note_circle(table *t, const contact_motion *m, const char *name)
-{
-  contact_period p[2];
-  hc_status st = note_circle_pieces(t, m, name);
   if (st == HC_OK)
     st = planar_measures_of(&m->contacts->law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_U2],
                             m->given[CONTACT_V], p);
@@ -338,11 +329,9 @@ static int evaluate(const cli_common *common, const contact_motion *m, const int
 {
   for (int i = 0; i < n_sets; ++i) {
     hc_status st = given_motion_force(&m->of, common->scene->hbm.restart, n_time[i], F[i]);
-    if (st == HC_BAD_INPUT) {
-      cli_message(common, "%d samples are too few for %d harmonics; expected at least %d", n_time[i], m->of.n_harm,
-                  2 * m->of.n_harm + 1);
-      return EXIT_USAGE;
-    }
+    if (st == HC_BAD_INPUT)
+      return cli_failed(common, EXIT_USAGE, "%d samples are too few for %d harmonics; expected at least %d", n_time[i],
+                        m->of.n_harm, 2 * m->of.n_harm + 1);
     if (st != HC_OK) return cli_solver_failed(common, CLI_HBM, "the contact force", st, 0);
     if (m->one >= 0) F[i][(m->of.n_dof - 1) * series_length(m->of.n_harm)] += given_motion_preload(&m->of);
   }
@@ -405,11 +394,10 @@ static int put_forces(cli_common *common, const contact_options *own, const cont
 {
   const scene *sc = common->scene;
   int n_time[MAX_SETS];
-  if (sc->hbm.force == HBM_FORCE_SAMPLED && sc->hbm.samples == HBM_AUTO) {
-    cli_message(common, "hbm.samples: auto chooses along a response curve, and there is none here; try --set "
-                        "hbm.samples=N, or --set hbm.force=exact");
-    return EXIT_NO_SOLUTION;
-  }
+  if (sc->hbm.force == HBM_FORCE_SAMPLED && sc->hbm.samples == HBM_AUTO)
+    return cli_failed(common, EXIT_NO_SOLUTION,
+                      "hbm.samples: auto chooses along a response curve, and there is none here; try --set "
+                      "hbm.samples=N, or --set hbm.force=exact");
   const int n_sets = list_sets(common, own, n_time);
   if (n_sets < 0) return EXIT_USAGE;
   double(*F)[MOST_NUMBERS] = calloc(MAX_SETS, sizeof *F);
@@ -432,12 +420,4 @@ static int run_contact(cli_common *common, void *own, scene *sc)
   return code;
 }
 
-const cli_command cmd_contact = {
-    .name = "contact",
-    .summary = "Fourier coefficients of the contact force of a given motion",
-    .arguments = "CASE",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(contact_options),
-    .run = run_contact,
-};
+CLI_COMMAND(contact, contact_options, "CASE", "Fourier coefficients of the contact force of a given motion");

@@ -81,13 +81,6 @@ static void write_part(const scene_structure *s, const field *f, FILE *to)
   else if (!strcmp(f->name, "nodes") && s->n_nodes > 0) fprintf(to, "%d", s->n_nodes);
 }
 
-/* The direction of a load stands beside `direction`, also where the case gave a DOF. */
-static void write_of_load(const scene_structure *s, const field *f, const structure_load *load, FILE *to)
-{
-  if (!strcmp(f->name, "direction")) write_direction(s, load->direction, to);
-  else if (f->kind != FIELD_PART) field_write(f, load, to);
-}
-
 static void write_of_contact(const scene_structure *s, const field *f, const structure_contact *c, FILE *to)
 {
   const bool tangent = c->by_angle || !is_zero(s->n, c->tangent), normal = c->by_angle || !is_zero(s->n, c->normal);
@@ -124,8 +117,11 @@ static hc_status describe_structure_value(const scene_structure *s, const field 
   FILE *to = open_memstream(text, &size);
   *at = place_of(s, f, j);
   if (!to) return *text = NULL, HC_NO_MEMORY;
-  if (f->flags & FIELD_IN_LOAD) write_of_load(s, f, &s->loads[j], to);
-  else if (f->flags & FIELD_IN_CONTACT) write_of_contact(s, f, &s->contacts[j], to);
+  if (f->flags & FIELD_IN_LOAD) {
+    const structure_load *load = &s->loads[j];
+    if (!strcmp(f->name, "direction")) write_direction(s, load->direction, to);
+    else if (f->kind != FIELD_PART) field_write(f, load, to);
+  } else if (f->flags & FIELD_IN_CONTACT) write_of_contact(s, f, &s->contacts[j], to);
   else write_part(s, f, to);
   if (fclose(to) != 0) return free(*text), *text = NULL, HC_NO_MEMORY;
   if (size > 0) return HC_OK;
@@ -226,31 +222,29 @@ static const char *choices_of(const field *f, char text[128])
   return f->kind == FIELD_CHOICE ? text : NULL;
 }
 
-static void put_field(table *t, const field *f)
-{
-  char path[FIELD_PATH], expected[128], choices[128];
-  const bool ranged = f->kind != FIELD_FLAG && f->kind != FIELD_CHOICE && f->kind != FIELD_TEXT;
-  message m;
-  message_start(&m, expected, sizeof expected);
-  field_expected(f, &m);
-  table_put_text(t, field_path(f, -1, path));
-  table_put_text(t, text_or_nothing(f->symbol));
-  table_put_text(t, text_or_nothing(f->unit));
-  table_put_text(t, kind_name(f->kind));
-  table_put_text(t, expected);
-  table_put_text(t, choices_of(f, choices));
-  table_put_real(t, ranged && isfinite(f->low) ? f->low : NAN);
-  table_put_real(t, ranged && isfinite(f->high) ? f->high : NAN);
-  table_put_text(t, f->fallback);
-  table_put_text(t, f->fallback || field_rival(f, 0) ? "no" : "yes");
-  table_put_text(t, f->meaning);
-}
-
 static int write_fields(const cli_common *common)
 {
   table *t = table_new("Fields", COUNT(field_columns), field_columns);
   for (int i = 0; i < field_count(); ++i)
-    if (case_field_asked(field_at(i), common->arguments[0])) put_field(t, field_at(i));
+    if (case_field_asked(field_at(i), common->arguments[0])) {
+      const field *f = field_at(i);
+      char path[FIELD_PATH], expected[128], choices[128];
+      const bool ranged = f->kind != FIELD_FLAG && f->kind != FIELD_CHOICE && f->kind != FIELD_TEXT;
+      message m;
+      message_start(&m, expected, sizeof expected);
+      field_expected(f, &m);
+      table_put_text(t, field_path(f, -1, path));
+      table_put_text(t, text_or_nothing(f->symbol));
+      table_put_text(t, text_or_nothing(f->unit));
+      table_put_text(t, kind_name(f->kind));
+      table_put_text(t, expected);
+      table_put_text(t, choices_of(f, choices));
+      table_put_real(t, ranged && isfinite(f->low) ? f->low : NAN);
+      table_put_real(t, ranged && isfinite(f->high) ? f->high : NAN);
+      table_put_text(t, f->fallback);
+      table_put_text(t, f->fallback || field_rival(f, 0) ? "no" : "yes");
+      table_put_text(t, f->meaning);
+    }
   int code = cli_write(common, 1, &t);
   table_free(t);
   return code;
@@ -284,14 +278,6 @@ static hc_status put_text_of(table *t, const field *f, const void *base, bool co
   return written ? HC_OK : HC_NO_MEMORY;
 }
 
-static void put_place(table *t, case_place at, bool counts)
-{
-  const bool in_file = counts && at.line > 0 && at.set == 0;
-  table_put_text(t, !counts ? NULL : at.line == 0 ? "default" : in_file ? "file" : "--set");
-  table_put_integer_if(t, in_file, (long)at.line);
-  table_put_integer_if(t, in_file, (long)at.column);
-}
-
 /* What is shown of one case. */
 typedef struct described {
   const scene *sc;
@@ -302,7 +288,10 @@ typedef struct described {
 static void put_rest(table *t, const field *f, case_place at, bool counts)
 {
   table_put_text(t, text_or_nothing(f->unit));
-  put_place(t, at, counts);
+  const bool in_file = counts && at.line > 0 && at.set == 0;
+  table_put_text(t, !counts ? NULL : at.line == 0 ? "default" : in_file ? "file" : "--set");
+  table_put_integer_if(t, in_file, (long)at.line);
+  table_put_integer_if(t, in_file, (long)at.column);
   table_put_text(t, f->fallback);
   table_put_text(t, text_or_nothing(f->symbol));
   table_put_text(t, f->meaning);
@@ -334,26 +323,23 @@ static hc_status put_part(table *t, const described *d, const field *f, int j)
   return st;
 }
 
-/* In the order of the table of fields, entry after entry of its lists. */
-static hc_status put_values_of_structure(table *t, const described *d)
-{
-  const unsigned lists = FIELD_IN_CONTACT | FIELD_IN_LOAD;
-  hc_status st = HC_OK;
-  for (int i = 0, end; i < field_count() && st == HC_OK; i = end) {
-    const unsigned list = field_at(i)->flags & lists;
-    for (end = i + 1; list && end < field_count() && field_at(end)->flags & list;) ++end;
-    if (!describes_structure(field_at(i))) st = put_value(t, d, field_at(i), -1);
-    else
-      for (int j = 0; j < describe_structure_count(d->sc->structure, field_at(i)); ++j)
-        for (int k = i; k < end && st == HC_OK; ++k) st = put_part(t, d, field_at(k), j);
-  }
-  return st;
-}
-
 /* In the order of the table of fields, contact after contact. */
 static hc_status put_values(table *t, const described *d)
 {
-  if (d->sc->structure) return put_values_of_structure(t, d);
+  /* In the order of the table of fields, entry after entry of its lists. */
+  if (d->sc->structure) {
+    const unsigned lists = FIELD_IN_CONTACT | FIELD_IN_LOAD;
+    hc_status st = HC_OK;
+    for (int i = 0, end; i < field_count() && st == HC_OK; i = end) {
+      const unsigned list = field_at(i)->flags & lists;
+      for (end = i + 1; list && end < field_count() && field_at(end)->flags & list;) ++end;
+      if (!describes_structure(field_at(i))) st = put_value(t, d, field_at(i), -1);
+      else
+        for (int j = 0; j < describe_structure_count(d->sc->structure, field_at(i)); ++j)
+          for (int k = i; k < end && st == HC_OK; ++k) st = put_part(t, d, field_at(k), j);
+    }
+    return st;
+  }
   hc_status st = HC_OK;
   for (int i = 0, end; i < field_count() && st == HC_OK; i = end) {
     const bool in_contact = field_at(i)->flags & FIELD_IN_CONTACT;
@@ -432,21 +418,12 @@ static int run_describe(cli_common *common, void *given, scene *sc)
   const describe_options *own = given;
   int code;
   (void)sc;
-  if (common->n_set && !own->case_file) {
-    cli_message(common, "--set has no case file to set anything in; expected --case CASE, too");
-    return EXIT_USAGE;
-  }
+  if (common->n_set && !own->case_file)
+    return cli_failed(common, EXIT_USAGE, "--set has no case file to set anything in; expected --case CASE, too");
   if (common->format == FORMAT_TABLE && !own->case_file) return write_text(common, common->output);
   if (common->arguments[0] && (code = write_text(common, "/dev/null")) != 0) return code;
   return own->case_file ? describe_case(common, own->case_file) : write_fields(common);
 }
 
-const cli_command cmd_describe = {
-    .name = "describe",
-    .summary = "what a case file may say, or with --case what one says and where each value is from",
-    .arguments = "[FIELD]",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(describe_options),
-    .run = run_describe,
-};
+CLI_COMMAND(describe, describe_options, "[FIELD]",
+            "what a case file may say, or with --case what one says and where each value is from");

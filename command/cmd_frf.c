@@ -14,12 +14,11 @@
 
 static const char help[] =
     "The harmonic-balance response curve of CASE, turning points included, or every solution of that curve at the "
-    "omegas of --at. The curve is the branch that begins "
-    "at the sweep's first omega; what is not connected to it (try the sweep the other way) is not seen."
-    "\vColumns: amplitude = (max - min)/2 of x over a period, branch = turning points passed, contact = the strongest "
-    "thing that happens "
-    "in a period.\nexit: 0 the whole sweep  2 case file wrong  3 stopped before the end (where and why on stderr)  64 "
-    "usage\n"
+    "omegas of --at. The curve is the branch that begins at the sweep's first omega; what is not connected to it "
+    "(try the sweep the other way) is not seen."
+    "\vColumns: amplitude = (max - min)/2 of x over a period, branch = turning points passed, contact = the "
+    "strongest thing that happens in a period.\n"
+    "exit: 0 the whole sweep  2 case file wrong  3 stopped before the end (where and why on stderr)  64 usage\n"
     "example: hbmcheck frf cases/paper/case2.yaml --at 8,9 --set hbm.harmonics=5";
 
 typedef struct frf_options {
@@ -185,12 +184,4 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   return code ? code : written;
 }
 
-const cli_command cmd_frf = {
-    .name = "frf",
-    .summary = "the harmonic-balance response curve, or every solution at given frequencies",
-    .arguments = "CASE",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(frf_options),
-    .run = run_frf,
-};
+CLI_COMMAND(frf, frf_options, "CASE", "the harmonic-balance response curve, or every solution at given frequencies");

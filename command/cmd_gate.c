@@ -14,17 +14,15 @@
 
 static const char help[] =
     "Compare harmonic balance with time integration on every CASE, and hold what is found against the limits under "
-    "its gate: a table of what was "
-    "allowed and what was found, and an exit code."
+    "its gate: a table of what was allowed and what was found, and an exit code."
     "\vA stable HBM solution is held against the transient, an unstable one against the exact orbit next to it; and "
-    "every transient must match some "
-    "HBM solution. Each response of a structure is held to the limits by itself. Limits: "
-    "gate.amplitude, harmonic_1, mean, waveform; the same with range_ in front, in gate.ranges; gate.iterations and "
-    "gate.evaluations of the response curve (hbmcheck describe gate).\n"
+    "every transient must match some HBM solution. Each response of a structure is held to the limits by itself. "
+    "Limits: gate.amplitude, harmonic_1, mean, waveform; the same with range_ in front, in gate.ranges; "
+    "gate.iterations and gate.evaluations of the response curve (hbmcheck describe gate).\n"
     "A number passes up to 1.000001 times its limit, so that rounding decides nothing. Every case is read before "
     "anything runs; what is wrong in one is in the JUnit file, too.\n"
-    "exit: 0 all within  1 something is not  2 a case file is wrong  3 something could not be compared or written  64 "
-    "usage\n"
+    "exit: 0 all within  1 something is not  2 a case file is wrong  3 something could not be compared or written  "
+    "64 usage\n"
     "example: hbmcheck gate cases/paper/case2.yaml --junit gate.xml";
 
 typedef struct gate_options {
@@ -139,24 +137,6 @@ static bool names_differ(const gate_call *call)
   return true;
 }
 
-/* `of`: the check's case. */
-static void put_check(const gate_call *call, table *t, int of, const gate_check *c, bool people)
-{
-  const scene *sc = &call->scenes[of];
-  table_put_text(t, people && call->short_names ? without_folder(call->cases[of].name) : call->cases[of].name);
-  table_put_real(t, c->omega);
-  if (call->extra & ROWS_IN_CYCLES) table_put_real(t, sc->in_cycles ? scene_frequency(sc, c->omega) : NAN);
-  table_put_integer_if(t, c->branch >= 0, c->branch);
-  if (call->extra & ROWS_RESPONSES) table_put_text(t, gate_response(&call->cases[of], c));
-  table_put_text(t, *c->verdict ? c->verdict : NULL);
-  table_put_text(t, c->quantity);
-  table_put_text(t, c->against);
-  put_number(t, c->allowed, people);
-  put_number(t, people ? gate_shown(c) : c->found, people);
-  table_put_text(t, gate_result_name(c->result));
-  table_put_text(t, *c->reason ? c->reason : NULL);
-}
-
 static bool wants_attention(const gate_check *c) { return c->result == GATE_FAIL || c->result == GATE_ERROR; }
 
 static table *checks_table(gate_call *call)
@@ -170,9 +150,24 @@ static table *checks_table(gate_call *call)
   call->short_names = !call->common->wide && names_differ(call);
   for (int i = 0; i < call->n_judged; ++i) {
     const gate_case *g = &call->cases[i];
+    /* `of`: the check's case. */
     for (int k = 0; k < g->n; ++k)
-      if (!people || call->own->all || wants_attention(&g->checks[k]) || gate_is_worst(g, k))
-        put_check(call, t, i, &g->checks[k], people);
+      if (!people || call->own->all || wants_attention(&g->checks[k]) || gate_is_worst(g, k)) {
+        const gate_check *c = &g->checks[k];
+        const scene *sc = &call->scenes[i];
+        table_put_text(t, people && call->short_names ? without_folder(call->cases[i].name) : call->cases[i].name);
+        table_put_real(t, c->omega);
+        if (call->extra & ROWS_IN_CYCLES) table_put_real(t, sc->in_cycles ? scene_frequency(sc, c->omega) : NAN);
+        table_put_integer_if(t, c->branch >= 0, c->branch);
+        if (call->extra & ROWS_RESPONSES) table_put_text(t, gate_response(&call->cases[i], c));
+        table_put_text(t, *c->verdict ? c->verdict : NULL);
+        table_put_text(t, c->quantity);
+        table_put_text(t, c->against);
+        put_number(t, c->allowed, people);
+        put_number(t, people ? gate_shown(c) : c->found, people);
+        table_put_text(t, gate_result_name(c->result));
+        table_put_text(t, *c->reason ? c->reason : NULL);
+      }
     table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made, %d not applicable", g->name, g->n,
                g->n - g->failures - g->errors - g->not_applicable, g->failures, g->errors, g->not_applicable);
     if (g->linear) table_note(t, "%s: " COMPARISON_LINEAR, g->name, g->n_rows);
@@ -238,12 +233,5 @@ static int run_gate(cli_common *common, void *own, scene *sc)
   return code;
 }
 
-const cli_command cmd_gate = {
-    .name = "gate",
-    .summary = "the accuracy gate for CI: case files with limits, a table of verdicts, JUnit, an exit code",
-    .arguments = "CASE...",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(gate_options),
-    .run = run_gate,
-};
+CLI_COMMAND(gate, gate_options, "CASE...",
+            "the accuracy gate for CI: case files with limits, a table of verdicts, JUnit, an exit code");

@@ -39,15 +39,6 @@ static const cli_option options[] = {
 static const char *const from_program[] = {"/../share/hbmcheck/lab.html", "/lab/lab.html"};
 enum { N_FROM_PROGRAM = 2, MOST_PATH = 4096 };
 
-/* The program's folder, "" if unknown; MOST_PATH bytes. */
-static void folder_of_program(char *path)
-{
-  const ssize_t length = readlink("/proc/self/exe", path, MOST_PATH - 64);
-  path[length > 0 ? length : 0] = '\0';
-  char *slash = strrchr(path, '/');
-  *(slash ? slash : path) = '\0';
-}
-
 /* The page at `path`, to free in any case. HC_IO: there is none. HC_NO_MEMORY. */
 static hc_status read_page_at(const char *path, char **text)
 {
@@ -63,7 +54,11 @@ static hc_status read_page(char **text)
 {
   char folder[MOST_PATH], path[MOST_PATH + 64];
   hc_status st = HC_IO;
-  folder_of_program(folder);
+  /* The program's folder, "" if unknown; MOST_PATH bytes. */
+  const ssize_t length = readlink("/proc/self/exe", folder, MOST_PATH - 64);
+  folder[length > 0 ? length : 0] = '\0';
+  char *slash = strrchr(folder, '/');
+  *(slash ? slash : folder) = '\0';
   for (int i = 0; i < N_FROM_PROGRAM && st == HC_IO; ++i) {
     snprintf(path, sizeof path, "%s%s", folder, from_program[i]);
     free(*text);
@@ -131,20 +126,15 @@ static int load_oscillator(cli_common *common, const char *case_file, scene *sc)
 {
   int code = cli_load_case(common, case_file, sc);
   if (code || !sc->structure) return code;
-  cli_message(common, "%s: structure: the lab has one degree of freedom, an `oscillator` was expected", case_file);
-  return EXIT_BAD_CASE;
+  return cli_failed(common, EXIT_BAD_CASE,
+                    "%s: structure: the lab has one degree of freedom, an `oscillator` was expected", case_file);
 }
 
 static int check_usage(const cli_common *common, const char *case_file)
 {
-  if (common->format != FORMAT_TABLE) {
-    cli_message(common, "the lab is HTML: --format does not apply");
-    return EXIT_USAGE;
-  }
-  if (common->n_set && !case_file) {
-    cli_message(common, "--set changes a case: --case CASE was expected, too");
-    return EXIT_USAGE;
-  }
+  if (common->format != FORMAT_TABLE) return cli_failed(common, EXIT_USAGE, "the lab is HTML: --format does not apply");
+  if (common->n_set && !case_file)
+    return cli_failed(common, EXIT_USAGE, "--set changes a case: --case CASE was expected, too");
   return 0;
 }
 
@@ -164,13 +154,6 @@ static int run_lab(cli_common *common, void *given, scene *sc)
   return code;
 }
 
-const cli_command cmd_lab = {
-    .name = "lab",
-    .summary = "an HTML page that solves cases itself while you move sliders, with a lesson on aliasing",
-    .arguments = "",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(lab_options),
-    .starts_itself = true,
-    .run = run_lab,
-};
+CLI_COMMAND(lab, lab_options, "",
+            "an HTML page that solves cases itself while you move sliders, with a lesson on aliasing",
+            .starts_itself = true);

@@ -38,43 +38,6 @@ static void put_mode(table *t, const model_mode *mode)
   table_put_real(t, mode->damping);
 }
 
-static hc_status put_modes(const model *m, table *t)
-{
-  model_mode *open = calloc(2 * (size_t)m->n, sizeof *open), *stuck = open ? open + m->n : NULL;
-  hc_status st = open ? model_mode_list(m, false, open) : HC_NO_MEMORY;
-  if (st == HC_OK) st = model_mode_list(m, true, stuck);
-  for (int i = 0; i < m->n && st == HC_OK; ++i) {
-    table_put_integer(t, i + 1);
-    put_mode(t, &open[i]);
-    put_mode(t, &stuck[i]);
-  }
-  if (st == HC_OK && isnan(open[0].omega)) table_note(t, "mode 1 is driven away with the contacts open: no frequency");
-  free(open);
-  return st;
-}
-
-static hc_status put_contacts(const scene *sc, const model *m, table *t)
-{
-  double *N = calloc((size_t)m->n_contacts + 1, sizeof *N);
-  hbm_solver *s = NULL;
-  hc_status st = N ? scene_hbm_solver(sc, &s) : HC_NO_MEMORY;
-  if (st == HC_OK) st = hbm_preloads(s, N);
-  for (int j = 0; j < scene_contact_count(sc) && st == HC_OK; ++j) {
-    const char *name = scene_contact_at(sc, j)->name;
-    const int first = scene_model_contact(sc, j), end = scene_model_contact(sc, j + 1);
-    double whole = 0;
-    for (int i = first; i < end; ++i) whole += N[i];
-    table_put_integer(t, j);
-    table_put_text(t, *name ? name : NULL);
-    table_put_text(t, whole > 0 ? "closed" : "open");
-    table_put_real(t, whole);
-    table_put_real(t, m->contacts[first].law.mu * N[first]); /* of a pair each half has the limit of the whole */
-  }
-  hbm_solver_free(s);
-  free(N);
-  return st;
-}
-
 static int run_modes(cli_common *common, void *own, scene *sc)
 {
   (void)own;
@@ -82,8 +45,40 @@ static int run_modes(cli_common *common, void *own, scene *sc)
   table *tables[] = {table_new("Modes", N_MODE_COLUMNS, mode_columns),
                      table_new("Contacts at rest", N_CONTACT_COLUMNS, contact_columns)};
   hc_status st = scene_model(sc, &m);
-  if (st == HC_OK) st = put_modes(m, tables[0]);
-  if (st == HC_OK) st = put_contacts(sc, m, tables[1]);
+  if (st == HC_OK) {
+    table *t = tables[0];
+    model_mode *open = calloc(2 * (size_t)m->n, sizeof *open), *stuck = open ? open + m->n : NULL;
+    st = open ? model_mode_list(m, false, open) : HC_NO_MEMORY;
+    if (st == HC_OK) st = model_mode_list(m, true, stuck);
+    for (int i = 0; i < m->n && st == HC_OK; ++i) {
+      table_put_integer(t, i + 1);
+      put_mode(t, &open[i]);
+      put_mode(t, &stuck[i]);
+    }
+    if (st == HC_OK && isnan(open[0].omega))
+      table_note(t, "mode 1 is driven away with the contacts open: no frequency");
+    free(open);
+  }
+  if (st == HC_OK) {
+    table *t = tables[1];
+    double *N = calloc((size_t)m->n_contacts + 1, sizeof *N);
+    hbm_solver *s = NULL;
+    st = N ? scene_hbm_solver(sc, &s) : HC_NO_MEMORY;
+    if (st == HC_OK) st = hbm_preloads(s, N);
+    for (int j = 0; j < scene_contact_count(sc) && st == HC_OK; ++j) {
+      const char *name = scene_contact_at(sc, j)->name;
+      const int first = scene_model_contact(sc, j), end = scene_model_contact(sc, j + 1);
+      double whole = 0;
+      for (int i = first; i < end; ++i) whole += N[i];
+      table_put_integer(t, j);
+      table_put_text(t, *name ? name : NULL);
+      table_put_text(t, whole > 0 ? "closed" : "open");
+      table_put_real(t, whole);
+      table_put_real(t, m->contacts[first].law.mu * N[first]); /* of a pair each half has the limit of the whole */
+    }
+    hbm_solver_free(s);
+    free(N);
+  }
   const int code = st != HC_OK ? cli_solver_failed(common, CLI_HBM, "modes", st, 0)
                                : cli_write(common, m->n_contacts ? 2 : 1, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);

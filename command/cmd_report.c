@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command/case_names.h"
 #include "command/commands.h"
-#include "command/compare_tables.h"
 #include "command/report/report.h"
 #include "output/output.h"
 #include "output/progress.h"
@@ -121,22 +121,17 @@ static char *origin_text(origin_writer *write, const cli_common *common, const r
   return NULL;
 }
 
-static void describe_settings(const report_data *d, char *text, size_t size)
-{
-  char hbm[96], law[64] = "exact contact law";
-  const transient_settings *t = &d->sc->transient;
-  if (t->law != TRANSIENT_LAW_EXACT) snprintf(law, sizeof law, "regularised contact law, %g", t->regularisation);
-  cli_hbm_settings(d->sc, d->comparison.harmonics, d->comparison.samples, hbm, sizeof hbm);
-  snprintf(text, size, "Harmonic balance: %s. Time integration: %s, to %g of the steady state.", hbm, law,
-           t->tolerance);
-}
-
 static hc_status write_page(const cli_common *common, const report_options *own, const report_data *d, const char *path)
 {
   char settings[256], *command = origin_text(write_command, common, own), *lab = origin_text(write_lab, common, own),
                       *versions = origin_text(write_versions, common, own);
   output *out = NULL;
-  describe_settings(d, settings, sizeof settings);
+  char hbm[96], law[64] = "exact contact law";
+  const transient_settings *t = &d->sc->transient;
+  if (t->law != TRANSIENT_LAW_EXACT) snprintf(law, sizeof law, "regularised contact law, %g", t->regularisation);
+  cli_hbm_settings(d->sc, d->comparison.harmonics, d->comparison.samples, hbm, sizeof hbm);
+  snprintf(settings, (sizeof settings), "Harmonic balance: %s. Time integration: %s, to %g of the steady state.", hbm,
+           law, t->tolerance);
   hc_status st = command && lab && versions ? output_open(path, &out) : HC_NO_MEMORY;
   if (st == HC_OK) {
     st = report_write(d, &(report_origin){command, lab, versions, settings}, output_stream(out));
@@ -153,15 +148,13 @@ static void announce(void *bar, const char *stage) { progress_relabel(bar, stage
 /* Can there be a page at all? 0, or the exit code after the message. */
 static int check_possible(const cli_common *common)
 {
-  if (common->format != FORMAT_TABLE) {
-    cli_message(common, "a report is HTML: --format does not apply; hbmcheck compare has csv and json");
-    return EXIT_USAGE;
-  }
-  if (!report_has_charts()) {
-    cli_message(common,
-                "built without Chart.js, which draws the plots: install it (Debian: libjs-chart.js) and build again");
-    return EXIT_USAGE;
-  }
+  if (common->format != FORMAT_TABLE)
+    return cli_failed(common, EXIT_USAGE,
+                      "a report is HTML: --format does not apply; hbmcheck compare has csv and json");
+  if (!report_has_charts())
+    return cli_failed(
+        common, EXIT_USAGE,
+        "built without Chart.js, which draws the plots: install it (Debian: libjs-chart.js) and build again");
   return 0;
 }
 
@@ -193,13 +186,5 @@ static int run_report(cli_common *common, void *given, scene *sc)
   return code;
 }
 
-const cli_command cmd_report = {
-    .name = "report",
-    .summary = "one self-contained HTML page: verdict in words, plots, tables, what aliasing does",
-    .arguments = "CASE",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(report_options),
-    .starts_itself = true,
-    .run = run_report,
-};
+CLI_COMMAND(report, report_options, "CASE",
+            "one self-contained HTML page: verdict in words, plots, tables, what aliasing does", .starts_itself = true);

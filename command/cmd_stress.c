@@ -33,48 +33,28 @@ static bool is_finding(unsigned long seed, const char *name)
   return !strncmp(name, start, (size_t)head) && length > tail && !strcmp(name + length - tail, ending);
 }
 
-/* Is one of the findings in the folder, which may be written again, this very file, under whatever name? */
-static bool is_kept_there(unsigned long seed, const char *folder, const file_identity *it)
-{
-  bool same = false;
-  DIR *from = opendir(folder);
-  for (struct dirent *e; from && !same && (e = readdir(from));) {
-    char path[PATH_ROOM];
-    file_identity there;
-    if (!is_finding(seed, e->d_name)) continue;
-    snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
-    file_identify(path, -1, &there);
-    same = file_same(it, &there);
-    file_forget(&there);
-  }
-  if (from) closedir(from);
-  return same;
-}
-
 static bool may_be_replaced(unsigned long seed, const char *folder, const char *path)
 {
   file_identity it;
   const char *slash = strrchr(path, '/');
   if (file_is_in(path, folder) && is_finding(seed, slash ? slash + 1 : path)) return true;
   file_identify(path, -1, &it);
-  const bool kept = is_kept_there(seed, folder, &it);
+  /* Is one of the findings in the folder, which may be written again, this very file, under whatever name? */
+  bool same = false;
+  DIR *from = opendir(folder);
+  for (struct dirent *e; from && !same && (e = readdir(from));) {
+    char finding[PATH_ROOM];
+    file_identity there;
+    if (!is_finding(seed, e->d_name)) continue;
+    snprintf(finding, sizeof finding, "%s/%s", folder, e->d_name);
+    file_identify(finding, -1, &there);
+    same = file_same(&it, &there);
+    file_forget(&there);
+  }
+  if (from) closedir(from);
+  const bool kept = same;
   file_forget(&it);
   return kept;
-}
-
-/* --results, --output and what may be written to the folder of --findings (NULL: none), held against each other before
- * anything is opened. 0, or the exit code after the message. */
-static int stress_check_files(const cli_common *common, const stress_plan *plan, const char *findings)
-{
-  const cli_file others[] = {{"--results", plan->journal, CLI_RESULTS}, {"--output", common->output, CLI_OUTPUT}};
-  int code = 0;
-  for (int i = 0; i < 2 && findings && !code; ++i)
-    if (others[i].path && may_be_replaced(plan->seed, findings, others[i].path)) {
-      cli_message(common, "%s %s is where --findings %s keeps a case file; give another name", others[i].what,
-                  others[i].path, findings);
-      code = EXIT_USAGE;
-    }
-  return code;
 }
 
 /* The folder of --findings (NULL: none), made if it is not there. 0, or the exit code after the message. */
@@ -88,12 +68,11 @@ static int stress_make_folder(const cli_common *common, const char *findings)
 }
 
 static const char help[] =
-    "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and compare "
-    "each with every other. Every check ends as agreed, explained (by a reason that was computed, too), too_dear (see "
-    "--seconds), refused (a solver said why) or a finding: two methods differ and nothing explains it."
+    "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and "
+    "compare each with every other. Every check ends as agreed, explained (by a reason that was computed, too), "
+    "too_dear (see --seconds), refused (a solver said why) or a finding: two methods differ and nothing explains it."
     "\vSeed and index make a scene again: --first INDEX --scenes 1 --all runs it alone, --case prints its case file. "
-    "With --results the same command goes "
-    "on where it was stopped.\n"
+    "With --results the same command goes on where it was stopped.\n"
     "exit: 0 no findings  1 findings  3 stopped, or a file could not be written  64 usage\n"
     "example: hbmcheck stress --scenes 200";
 
@@ -157,42 +136,6 @@ typedef struct stress_call {
 
 /* ---- tables ---- */
 
-/* Median and largest error of the scenes where this check agreed, and the scene of the largest. */
-static void put_errors(const stress_call *call, int kind, table *t)
-{
-  double *errors = malloc((size_t)call->own->plan.scenes * sizeof *errors), largest = -1;
-  long n = 0, at = -1;
-  for (long i = 0; errors && i < call->own->plan.scenes; ++i) {
-    const stress_check *c = &call->results[i].check[kind];
-    if (!call->results[i].there || c->outcome != STRESS_AGREED) continue;
-    errors[n++] = c->error;
-    if (c->error > largest) largest = c->error, at = call->results[i].index;
-  }
-  if (n > 0) qsort(errors, (size_t)n, sizeof *errors, ascending);
-  table_put_real(t, n > 0 ? errors[n / 2] : NAN);
-  table_put_real(t, n > 0 ? largest : NAN);
-  table_put_integer_if(t, n > 0, at);
-  free(errors);
-}
-
-/* "truncated 12, ill_conditioned 3": how many scenes a check explained by what. */
-static void put_explanations(const stress_call *call, int kind, table *t)
-{
-  char text[256] = "";
-  int length = 0;
-  for (int r = 0; r < STRESS_N_REASONS; ++r) {
-    long n = 0;
-    for (long i = 0; i < call->own->plan.scenes; ++i) {
-      const stress_check *c = &call->results[i].check[kind];
-      n += call->results[i].there && c->outcome == STRESS_EXPLAINED && (int)c->reason == r;
-    }
-    if (n == 0 || length >= (int)sizeof text) continue;
-    length += snprintf(text + length, sizeof text - (size_t)length, "%s%s %ld", length ? ", " : "",
-                       stress_reason_name((stress_reason)r), n);
-  }
-  table_put_text(t, text);
-}
-
 static table *checks_table(stress_call *call)
 {
   static const stress_outcome shown[] = {STRESS_AGREED,  STRESS_EXPLAINED, STRESS_DEAR,
@@ -209,8 +152,34 @@ static table *checks_table(stress_call *call)
     }
     table_put_text(t, stress_kind_name((stress_kind)k));
     for (int o = 0; o < COUNT(shown); ++o) table_put_integer(t, count[shown[o]]);
-    put_explanations(call, k, t);
-    put_errors(call, k, t);
+    /* "truncated 12, ill_conditioned 3": how many scenes a check explained by what. */
+    char text[256] = "";
+    int length = 0;
+    for (int r = 0; r < STRESS_N_REASONS; ++r) {
+      long n = 0;
+      for (long i = 0; i < call->own->plan.scenes; ++i) {
+        const stress_check *c = &call->results[i].check[k];
+        n += call->results[i].there && c->outcome == STRESS_EXPLAINED && (int)c->reason == r;
+      }
+      if (n == 0 || length >= (int)sizeof text) continue;
+      length += snprintf(text + length, sizeof text - (size_t)length, "%s%s %ld", length ? ", " : "",
+                         stress_reason_name((stress_reason)r), n);
+    }
+    table_put_text(t, text);
+    /* Median and largest error of the scenes where this check agreed, and the scene of the largest. */
+    double *errors = malloc((size_t)call->own->plan.scenes * sizeof *errors), largest = -1;
+    long n = 0, at = -1;
+    for (long i = 0; errors && i < call->own->plan.scenes; ++i) {
+      const stress_check *c = &call->results[i].check[k];
+      if (!call->results[i].there || c->outcome != STRESS_AGREED) continue;
+      errors[n++] = c->error;
+      if (c->error > largest) largest = c->error, at = call->results[i].index;
+    }
+    if (n > 0) qsort(errors, (size_t)n, sizeof *errors, ascending);
+    table_put_real(t, n > 0 ? errors[n / 2] : NAN);
+    table_put_real(t, n > 0 ? largest : NAN);
+    table_put_integer_if(t, n > 0, at);
+    free(errors);
     table_put_real(t, seconds);
     table_put_text(t, stress_kind_meaning((stress_kind)k));
     call->findings += count[STRESS_FINDING];
@@ -252,17 +221,6 @@ static table *reasons_table(const stress_call *call)
   return t;
 }
 
-static void put_scene(table *t, long index, int kind, const stress_check *c)
-{
-  table_put_integer(t, index);
-  table_put_text(t, stress_kind_name((stress_kind)kind));
-  table_put_text(t, stress_outcome_name(c->outcome));
-  table_put_text(t, stress_reason_name(c->reason));
-  table_put_real(t, c->error);
-  table_put_real(t, c->bound);
-  table_put_text(t, c->outcome == STRESS_AGREED ? "" : meaning_of(c));
-}
-
 /* The findings, or with --all everything. */
 static table *scenes_table(const stress_call *call)
 {
@@ -270,13 +228,24 @@ static table *scenes_table(const stress_call *call)
   table_wrap(t, cli_width(call->common));
   for (long i = 0; i < call->own->plan.scenes; ++i)
     for (int k = 0; k < STRESS_N_CHECKS && call->results[i].there; ++k)
-      if (call->own->all || call->results[i].check[k].outcome == STRESS_FINDING)
-        put_scene(t, call->results[i].index, k, &call->results[i].check[k]);
+      if (call->own->all || call->results[i].check[k].outcome == STRESS_FINDING) {
+        const stress_check *c = &call->results[i].check[k];
+        table_put_integer(t, call->results[i].index);
+        table_put_text(t, stress_kind_name((stress_kind)k));
+        table_put_text(t, stress_outcome_name(c->outcome));
+        table_put_text(t, stress_reason_name(c->reason));
+        table_put_real(t, c->error);
+        table_put_real(t, c->bound);
+        table_put_text(t, c->outcome == STRESS_AGREED ? "" : meaning_of(c));
+      }
   return t;
 }
 
-static void note_totals(const stress_call *call, table *t)
+/* Returns the exit code. */
+static int write_tables(stress_call *call)
 {
+  table *tables[3] = {checks_table(call), reasons_table(call), scenes_table(call)};
+  table *t = tables[0];
   double total = 0, slowest = -1;
   long at = 0;
   for (long i = 0; i < call->own->plan.scenes; ++i) {
@@ -290,13 +259,6 @@ static void note_totals(const stress_call *call, table *t)
   if (call->classified > 0) table_note(t, "%.4g s of processor time; slowest: scene %ld, %.3g s", total, at, slowest);
   table_note(t, "errors are those of what agreed; again: hbmcheck stress%s --seed %lu --first SCENE --scenes 1 --all",
              stress_family_option(call->own->plan.family), call->own->plan.seed);
-}
-
-/* Returns the exit code. */
-static int write_tables(stress_call *call)
-{
-  table *tables[3] = {checks_table(call), reasons_table(call), scenes_table(call)};
-  note_totals(call, tables[0]);
   int code = cli_write(call->common, table_rows(tables[2]) > 0 ? 3 : 2, tables);
   for (int i = 0; i < 3; ++i) table_free(tables[i]);
   return code ? code : call->findings > 0 ? EXIT_DISAGREED : EXIT_AGREED;
@@ -402,12 +364,11 @@ static int classify_scenes(stress_call *call)
   progress_end(w.bar);
   for (long i = 0; i < call->own->plan.scenes; ++i) call->classified += call->results[i].there;
   if (st == HC_OK) return 0;
-  if (st == HC_BAD_INPUT || st == HC_UNSUPPORTED) {
-    cli_message(call->common, "%s: %s, expected those or a new file", call->own->plan.journal,
-                st == HC_BAD_INPUT ? "not the results of this seed, these --seconds and scenes of this kind, or damaged"
-                                   : "not the results of this version of hbmcheck with its checks and reasons");
-    return EXIT_BAD_CASE;
-  }
+  if (st == HC_BAD_INPUT || st == HC_UNSUPPORTED)
+    return cli_failed(call->common, EXIT_BAD_CASE, "%s: %s, expected those or a new file", call->own->plan.journal,
+                      st == HC_BAD_INPUT
+                          ? "not the results of this seed, these --seconds and scenes of this kind, or damaged"
+                          : "not the results of this version of hbmcheck with its checks and reasons");
   if (st == HC_IO) cli_message(call->common, "%s: %s", call->own->plan.journal, strerror(failure));
   else if (st == HC_INTERRUPTED)
     cli_message(call->common, "stopped on request after %ld of %ld scenes%s", call->classified, call->own->plan.scenes,
@@ -424,11 +385,15 @@ static int run_stress(cli_common *common, void *given, scene *sc)
   if (own->structures) own->plan.family = STRESS_STRUCTURES;
   if (own->space) own->plan.family = STRESS_SPACE;
   if (!own->plan.jobs) own->plan.jobs = cli_processors();
-  if (common->n_set) {
-    cli_message(common, "--set has no case file to set anything in");
-    return EXIT_USAGE;
-  }
-  int refused = stress_check_files(common, &own->plan, own->findings);
+  if (common->n_set) return cli_failed(common, EXIT_USAGE, "--set has no case file to set anything in");
+  const cli_file others[] = {{"--results", own->plan.journal, CLI_RESULTS}, {"--output", common->output, CLI_OUTPUT}};
+  int refused = 0;
+  for (int k = 0; k < 2 && own->findings && !refused; ++k)
+    if (others[k].path && may_be_replaced(own->plan.seed, own->findings, others[k].path)) {
+      cli_message(common, "%s %s is where --findings %s keeps a case file; give another name", others[k].what,
+                  others[k].path, own->findings);
+      refused = EXIT_USAGE;
+    }
   if (!refused && own->one_case) return print_case(&call);
   if (!refused) refused = stress_make_folder(common, own->findings);
   if (refused) return refused;
@@ -443,13 +408,5 @@ static int run_stress(cli_common *common, void *given, scene *sc)
   return stopped ? stopped : code;
 }
 
-const cli_command cmd_stress = {
-    .name = "stress",
-    .summary = "random scenes, every method held against every other",
-    .arguments = "",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(stress_options),
-    .defaults = &(const stress_options){.plan = {.seed = 1, .scenes = DEFAULT_SCENES, .seconds = 1}},
-    .run = run_stress,
-};
+CLI_COMMAND(stress, stress_options, "", "random scenes, every method held against every other",
+            .defaults = &(const stress_options){.plan = {.seed = 1, .scenes = DEFAULT_SCENES, .seconds = 1}});

@@ -101,40 +101,6 @@ static int study_failed(const study_call *call, hc_status st, const case_error *
 
 /* ---- before anything runs ---- */
 
-/* The file of --results; without, the study's name with .sqlite, here or in the folder of --results. */
-static void name_results(const study_options *own, study_entry *entry)
-{
-  const char *name = entry->s->name, *slash = strrchr(name, '/'),
-             *stem = !strcmp(name, "<stdin>") ? "study"
-                     : slash                  ? slash + 1
-                                              : name;
-  const char *dot = strrchr(stem, '.');
-  int length = (int)(dot && dot > stem ? (size_t)(dot - stem) : strlen(stem));
-  struct stat info;
-  const bool folder = own->results && stat(own->results, &info) == 0 && S_ISDIR(info.st_mode);
-  if (own->results && !folder) snprintf(entry->results, sizeof entry->results, "%s", own->results);
-  else
-    snprintf(entry->results, sizeof entry->results, "%s%s%.*s.sqlite", folder ? own->results : "", folder ? "/" : "",
-             length, stem);
-}
-
-/* No two studies in one results file. 0 or the exit code. */
-static int check_names(const study_call *call)
-{
-  for (int i = 0; i < call->n_studies; ++i)
-    for (int k = 0; k < i; ++k) {
-      if (strcmp(call->studies[i].results, call->studies[k].results) || !strcmp(call->studies[i].results, ":memory:"))
-        continue;
-      if (call->rank == 0)
-        cli_message(
-            call->common,
-            "%s and %s would share the results file %s; run them one by one, or give a folder or names that differ",
-            call->studies[k].s->name, call->studies[i].s->name, call->studies[i].results);
-      return EXIT_USAGE;
-    }
-  return 0;
-}
-
 static const char *response_of(const study_entry *entry) { return *entry->response ? entry->response : NULL; }
 
 /* entry->response, of the study's own base; false after a message, by rank 0 only. */
@@ -161,7 +127,20 @@ static int read_studies(study_call *call)
       st = study_claims_check(call->studies[i].s, &err);
     }
     if (st != HC_OK) return study_failed(call, st, &err);
-    name_results(call->own, &call->studies[i]);
+    /* The file of --results; without, the study's name with .sqlite, here or in the folder of --results. */
+    study_entry *entry = &call->studies[i];
+    const char *name = entry->s->name, *slash = strrchr(name, '/'),
+               *stem = !strcmp(name, "<stdin>") ? "study"
+                       : slash                  ? slash + 1
+                                                : name;
+    const char *dot = strrchr(stem, '.');
+    int length = (int)(dot && dot > stem ? (size_t)(dot - stem) : strlen(stem));
+    struct stat info;
+    const bool folder = call->own->results && stat(call->own->results, &info) == 0 && S_ISDIR(info.st_mode);
+    if (call->own->results && !folder) snprintf(entry->results, sizeof entry->results, "%s", call->own->results);
+    else
+      snprintf(entry->results, sizeof entry->results, "%s%s%.*s.sqlite", folder ? call->own->results : "",
+               folder ? "/" : "", length, stem);
     if (!find_response(call, &call->studies[i])) return EXIT_USAGE;
     if (common->drawing.path && plot_study_check(&common->drawing, call->studies[i].s, call->own->plot_y,
                                                  response_of(&call->studies[i])) != HC_OK) {
@@ -169,22 +148,19 @@ static int read_studies(study_call *call)
       return EXIT_USAGE;
     }
   }
-  return check_names(call);
-}
-
-/* What a study reads and keeps, into list[FILES_EACH]. */
-static void list_files(study_entry *entry, cli_file *list)
-{
-  static const char *const endings[] = {"-wal", "-shm"};
-  const bool kept = strcmp(entry->results, ":memory:") != 0;
-  const size_t length = strlen(entry->results); /* < MAX_PATH: BESIDE_PATH holds it with an ending */
-  list[0] = (cli_file){"the base case", entry->s->base_name, CLI_INPUT};
-  list[1] = (cli_file){"the results file", kept ? entry->results : NULL, CLI_RESULTS};
-  for (int i = 0; i < 2; ++i) {
-    memcpy(entry->beside[i], entry->results, length);
-    memcpy(entry->beside[i] + length, endings[i], strlen(endings[i]) + 1);
-    list[2 + i] = (cli_file){"the results file's companion", kept ? entry->beside[i] : NULL, CLI_RESULTS};
-  }
+  /* No two studies in one results file. */
+  for (int i = 0; i < call->n_studies; ++i)
+    for (int k = 0; k < i; ++k) {
+      if (strcmp(call->studies[i].results, call->studies[k].results) || !strcmp(call->studies[i].results, ":memory:"))
+        continue;
+      if (call->rank == 0)
+        cli_message(
+            call->common,
+            "%s and %s would share the results file %s; run them one by one, or give a folder or names that differ",
+            call->studies[k].s->name, call->studies[i].s->name, call->studies[i].results);
+      return EXIT_USAGE;
+    }
+  return 0;
 }
 
 static int open_stores(study_call *call)
@@ -196,25 +172,6 @@ static int open_stores(study_call *call)
     if (st != HC_OK) return study_failed(call, st, &err);
   }
   return 0;
-}
-
-/* Options that do not go together. 0 or the exit code. */
-static int check_usage(const study_call *call, bool without_mpi)
-{
-  const study_options *own = call->own;
-  const bool several = call->common->n_arguments > 1;
-  const char *fault = NULL;
-  if (without_mpi)
-    fault =
-        "started in several copies by mpirun, but built without MPI (cmake -DHBMCHECK_MPI=ON): each would do the same";
-  else if (is_exporting(own) && several) fault = "--export takes one study at a time";
-  else if (call->n_ranks > 1 && own->jobs > 1)
-    fault = "under mpirun every process computes one scene at a time: give mpirun more processes instead of --jobs";
-  else if (call->common->drawing.path && several) fault = "--plot draws one study at a time";
-  else if (own->plot_y && !call->common->drawing.path) fault = "--plot-y goes with --plot";
-  else if (own->timings && !is_exporting(own)) fault = "--timings goes with --export";
-  if (fault && call->rank == 0) cli_message(call->common, "%s", fault);
-  return fault ? EXIT_USAGE : 0;
 }
 
 /* ---- running ---- */
@@ -316,17 +273,6 @@ static int check_claims(study_call *call, const study_entry *entry)
   return st == HC_OK ? 0 : study_failed(call, st, &err);
 }
 
-static int write_export(const study_call *call)
-{
-  output *out = NULL;
-  const study_entry *entry = &call->studies[0];
-  hc_status st = output_open(call->common->output, &out);
-  if (st == HC_OK)
-    st = output_finish(out, study_export(entry->s, entry->store, call->own->export, call->own->timings,
-                                         response_of(entry), output_stream(out)));
-  return st == HC_OK ? 0 : cli_file_failed(call->common, call->common->output, st);
-}
-
 /* The summary and the tables that have rows; with --export these go to stderr, and the export where they would. */
 static int write_tables(const study_call *call)
 {
@@ -336,11 +282,20 @@ static int write_tables(const study_call *call)
     if (i == SUMMARY || table_rows(call->tables[i]) > 0) shown[n++] = call->tables[i];
   if (!is_exporting(call->own)) return cli_write(call->common, n, shown);
   if (!call->common->quiet) table_write(n, shown, FORMAT_TABLE, stderr);
-  return write_export(call);
+  output *out = NULL;
+  const study_entry *entry = &call->studies[0];
+  hc_status st = output_open(call->common->output, &out);
+  if (st == HC_OK)
+    st = output_finish(out, study_export(entry->s, entry->store, call->own->export, call->own->timings,
+                                         response_of(entry), output_stream(out)));
+  return st == HC_OK ? 0 : cli_file_failed(call->common, call->common->output, st);
 }
 
-static void make_tables(study_call *call)
+/* The tables, export and drawing of the first n_run studies. Returns the exit code. */
+static int write_results(study_call *call, int n_run)
 {
+  int code = 0;
+  bool any_failed = false;
   static const char *const titles[STUDY_CLAIM_TABLES] = {
       "Claims", "Claims, with the settings of their source and with ours",
       "Claims that the continuation decides, in fixed steps of arc length with the settings of their source",
@@ -355,10 +310,11 @@ static void make_tables(study_call *call)
     call->tables[CLAIMS + i] = table_new(titles[i], n, columns);
     if (i != STUDY_SECONDS) table_wrap(call->tables[CLAIMS + i], cli_width(call->common));
   }
-}
-
-static void note_totals(const study_call *call)
-{
+  for (int i = 0; i < n_run && !code; ++i) {
+    code = put_summary(call, &call->studies[i], &any_failed);
+    if (!code && call->studies[i].computed == call->studies[i].s->n_scenes)
+      code = check_claims(call, &call->studies[i]);
+  }
   static const char *const with[STUDY_ANSWERS] = {"", " with the settings of their source", " with ours",
                                                   " in fixed steps"};
   static const int shown_in[STUDY_ANSWERS] = {STUDY_CLAIMS, STUDY_SIDES, STUDY_SIDES, STUDY_STEPS};
@@ -371,20 +327,6 @@ static void note_totals(const study_call *call)
     if (c->agree[k] + c->disagree[k] + c->unsaid[k] > 0)
       table_note(call->tables[CLAIMS + shown_in[k]], "%d claims agree%s, %d do not, of %d it cannot be said",
                  c->agree[k], with[k], c->disagree[k], c->unsaid[k]);
-}
-
-/* The tables, export and drawing of the first n_run studies. Returns the exit code. */
-static int write_results(study_call *call, int n_run)
-{
-  int code = 0;
-  bool any_failed = false;
-  make_tables(call);
-  for (int i = 0; i < n_run && !code; ++i) {
-    code = put_summary(call, &call->studies[i], &any_failed);
-    if (!code && call->studies[i].computed == call->studies[i].s->n_scenes)
-      code = check_claims(call, &call->studies[i]);
-  }
-  note_totals(call);
   if (!code) code = write_tables(call);
   int drawn = 0;
   if (!code && call->common->drawing.path && n_run > 0)
@@ -431,10 +373,37 @@ static int run_study(cli_common *common, void *own, scene *sc)
   call->own = own;
   bool without_mpi = !cluster_start(&call->rank, &call->n_ranks);
   call->jobs = call->own->jobs ? call->own->jobs : call->n_ranks > 1 ? 1 : cli_processors();
-  int code = check_usage(call, without_mpi);
+  /* Options that do not go together. */
+  const study_options *given = call->own;
+  const bool several = call->common->n_arguments > 1;
+  const char *fault = NULL;
+  if (without_mpi)
+    fault =
+        "started in several copies by mpirun, but built without MPI (cmake -DHBMCHECK_MPI=ON): each would do the same";
+  else if (is_exporting(given) && several) fault = "--export takes one study at a time";
+  else if (call->n_ranks > 1 && given->jobs > 1)
+    fault = "under mpirun every process computes one scene at a time: give mpirun more processes instead of --jobs";
+  else if (call->common->drawing.path && several) fault = "--plot draws one study at a time";
+  else if (given->plot_y && !call->common->drawing.path) fault = "--plot-y goes with --plot";
+  else if (given->timings && !is_exporting(given)) fault = "--timings goes with --export";
+  if (fault && call->rank == 0) cli_message(call->common, "%s", fault);
+  int code = fault ? EXIT_USAGE : 0;
   if (!code) code = read_studies(call);
-  for (int i = 0; i < call->n_studies && !code; ++i)
-    list_files(&call->studies[i], call->files + (ptrdiff_t)i * FILES_EACH);
+  /* What each study reads and keeps. */
+  for (int i = 0; i < call->n_studies && !code; ++i) {
+    study_entry *entry = &call->studies[i];
+    cli_file *list = call->files + (ptrdiff_t)i * FILES_EACH;
+    static const char *const endings[] = {"-wal", "-shm"};
+    const bool kept = strcmp(entry->results, ":memory:") != 0;
+    const size_t length = strlen(entry->results); /* < MAX_PATH: BESIDE_PATH holds it with an ending */
+    list[0] = (cli_file){"the base case", entry->s->base_name, CLI_INPUT};
+    list[1] = (cli_file){"the results file", kept ? entry->results : NULL, CLI_RESULTS};
+    for (int k = 0; k < 2; ++k) {
+      memcpy(entry->beside[k], entry->results, length);
+      memcpy(entry->beside[k] + length, endings[k], strlen(endings[k]) + 1);
+      list[2 + k] = (cli_file){"the results file's companion", kept ? entry->beside[k] : NULL, CLI_RESULTS};
+    }
+  }
   if (!code && call->rank == 0) code = cli_check_files(common, call->n_studies * FILES_EACH, call->files);
   if (!code && call->rank == 0) code = open_stores(call);
   int agreed = cluster_agree(code);
@@ -449,13 +418,5 @@ static int run_study(cli_common *common, void *own, scene *sc)
   return code;
 }
 
-const cli_command cmd_study = {
-    .name = "study",
-    .summary = "many scenes in parallel, kept as they come, and claims held against them",
-    .arguments = "STUDY...",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(study_options),
-    .starts_itself = true,
-    .run = run_study,
-};
+CLI_COMMAND(study, study_options, "STUDY...",
+            "many scenes in parallel, kept as they come, and claims held against them", .starts_itself = true);

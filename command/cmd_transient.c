@@ -12,8 +12,7 @@
 
 static const char help[] =
     "The steady state of CASE by time integration (CVODE) at the omegas of --at. It starts where transient.start "
-    "says: on each HBM solution's "
-    "orbit (hbm), at rest, or swept from an end of the sweep, as on a shaker (up, down)."
+    "says: on each HBM solution's orbit (hbm), at rest, or swept from an end of the sweep, as on a shaker (up, down)."
     "\vColumns: closure = estimated distance to the periodic orbit relative to the amplitude, steps = CVODE's.\n"
     "exit: 0 all settled  2 case file wrong  3 one did not (which and why on stderr)  64 usage\n"
     "example: hbmcheck transient cases/paper/case2.yaml --at 8,9 --set transient.start=up";
@@ -70,10 +69,8 @@ static int run_transient(cli_common *common, void *given, scene *sc)
   int code = cli_keep_response(common, sc, own->response);
   if (code) return code;
   cli_take_frequencies(common, &own->at, sc);
-  if (sc->compare.omega.n == 0) {
-    cli_message(common, "at which frequencies? give --at LIST, or compare.omega in the case");
-    return EXIT_USAGE;
-  }
+  if (sc->compare.omega.n == 0)
+    return cli_failed(common, EXIT_USAGE, "at which frequencies? give --at LIST, or compare.omega in the case");
   progress *bar = progress_start("time integration", common->quiet);
   hc_monitor monitor = progress_monitor(bar);
   steady_states found = {0};
@@ -109,12 +106,4 @@ static int run_transient(cli_common *common, void *given, scene *sc)
   return code ? code : written;
 }
 
-const cli_command cmd_transient = {
-    .name = "transient",
-    .summary = "the steady state by time integration at given frequencies",
-    .arguments = "CASE",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(transient_options),
-    .run = run_transient,
-};
+CLI_COMMAND(transient, transient_options, "CASE", "the steady state by time integration at given frequencies");

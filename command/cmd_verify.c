@@ -125,22 +125,19 @@ static int verify_curves_of(const cli_common *common, const verify_asked *asked,
 
 static const char help[] =
     "Hold another code's response curve of CASE, a file of columns, against harmonic balance with exact forces and "
-    "many harmonics, itself held "
-    "against time integration; a verdict for every point, and the suspected cause where they differ, found by making "
-    "the mistake ourselves."
+    "many harmonics, itself held against time integration; a verdict for every point, and the suspected cause where "
+    "they differ, found by making the mistake ourselves."
     "\vFILE: fields separated by comma, semicolon, tab or blanks; # starts a remark; any order, several branches. "
-    "Without --columns the header says what is what: omega or frequency, and a quantity. "
-    "COLUMN is a number from 1 or a name in the header. omega is in rad per unit time, frequency in cycles per unit "
-    "time.\n"
+    "Without --columns the header says what is what: omega or frequency, and a quantity. COLUMN is a number from 1 "
+    "or a name in the header. omega is in rad per unit time, frequency in cycles per unit time.\n"
     "QUANTITY: amplitude = (max - min)/2 of x, double_amplitude, peak = max |x|, max, min, mean, rms, norm = "
-    "sqrt(X0^2 + sum (a_k^2 + b_k^2)), norm_over_root_2 (NLvib's rms), harmonic_K = |a_K + i b_K|, "
-    "velocity and acceleration = (max - min)/2 of x' and x'', velocity_harmonic_K, acceleration_harmonic_K; dB_ before "
-    "any: 20 log10 of it. docs/verify.md has the "
-    "formulas and all causes.\n"
+    "sqrt(X0^2 + sum (a_k^2 + b_k^2)), norm_over_root_2 (NLvib's rms), harmonic_K = |a_K + i b_K|, velocity and "
+    "acceleration = (max - min)/2 of x' and x'', velocity_harmonic_K, acceleration_harmonic_K; dB_ before any: 20 "
+    "log10 of it. docs/verify.md has the formulas and all causes.\n"
     "A point matches within the case's gate.amplitude, gate.harmonic_1 or gate.mean. Where a slider never slips the "
-    "mean is open, and what contains it is not compared. With --noise S, points match that are within the gate "
-    "and 4 S, and on the average of m neighbours, up to 25, within the gate and 4 S/sqrt(m). With csv "
-    "only the points are written, with the cause in the remarks before them.\n"
+    "mean is open, and what contains it is not compared. With --noise S, points match that are within the gate and 4 "
+    "S, and on the average of m neighbours, up to 25, within the gate and 4 S/sqrt(m). With csv only the points are "
+    "written, with the cause in the remarks before them.\n"
     "exit: 0 every point matches  1 some do not, or run along the wrong branch  2 a file is wrong  3 could not be "
     "judged  64 usage\n"
     "example: hbmcheck verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns "
@@ -216,52 +213,6 @@ static void put_response(table *t, const scene *sc, const verified *v)
   if (sc->structure) table_put_text(t, v->curve.name);
 }
 
-static void put_row(table *t, const scene *sc, const verified *v, const verify_row *r)
-{
-  const verify_quantity *q = &v->data.quantity;
-  table_put_real(t, r->omega);
-  if (sc->in_cycles) table_put_real(t, scene_frequency(sc, r->omega));
-  table_put_real(t, verify_quantity_to_column(q, r->value));
-  table_put_real(t, verify_quantity_to_column(q, r->nearest));
-  table_put_integer_if(t, r->branch >= 0, r->branch);
-  put_response(t, sc, v);
-  table_put_text(t, r->branch < 0 ? NULL : r->stable > 0 ? "yes" : r->stable < 0 ? "no" : "unknown");
-  table_put_real(t, r->error);
-  table_put_text(t, r->skipped ? "skipped" : verdict_name(r->verdict));
-  table_put_integer(t, r->line);
-}
-
-static void put_hypothesis(table *t, const scene *sc, const verified *v, const verify_hypothesis *h)
-{
-  char words[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
-  const verify_equations *e = &h->equations;
-  const bool linear = verify_equations_linear(e);
-  put_response(t, sc, v);
-  table_put_text(t, verify_cause_words(h->causes, words));
-  table_put_real(t, h->distance);
-  table_put_real(t, v->report.truth_distance);
-  table_put_integer_if(t, !linear, e->harmonics);
-  table_put_text(t, linear ? NULL : e->keep_mean ? "true" : "false");
-  table_put_integer_if(t, e->samples > 0, e->samples);
-  table_put_text(t, !e->samples ? NULL : e->restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated");
-  table_put_real(t, h->omega_factor);
-  table_put_real(t, h->value_factor);
-  table_put_text(t, verify_quantity_name(&h->quantity, name));
-}
-
-static void note_truth(table *t, const verify_data *data, const verify_report *r)
-{
-  char name[VERIFY_QUANTITY_TEXT];
-  table_note(t, "truth: H = %d, exact forces, harmonic 0 kept; gate: %s %g", r->harmonics,
-             verify_quantity_name(&data->quantity, name), r->gate);
-  if (r->checked)
-    table_note(t, "truth held against time integration at %d points: %.1e off at most", r->checked, r->checked_error);
-  if (r->unchecked) table_note(t, "at %d points time integration found no orbit next to the truth", r->unchecked);
-  if (r->checked && r->checked_error > 0.1 * r->gate) table_note(t, "the truth is NOT known to a tenth of the gate");
-  if (r->curve_end != HC_OK)
-    table_note(t, "the truth's curve STOPPED at omega = %.10g: %s", r->curve_omega, hc_status_text(r->curve_end));
-}
-
 static const char *meaning_for_point(verdict v)
 {
   switch (v) {
@@ -274,8 +225,20 @@ static const char *meaning_for_point(verdict v)
   }
 }
 
-static void note_what_was_not_compared(table *t, const scene *sc, const verify_report *r)
+static void note_verification(table *t, const scene *sc, const verify_data *data, const verify_report *r)
 {
+  char text[VERIFY_TEXT];
+  char name[VERIFY_QUANTITY_TEXT];
+  table_note(t, "truth: H = %d, exact forces, harmonic 0 kept; gate: %s %g", r->harmonics,
+             verify_quantity_name(&data->quantity, name), r->gate);
+  if (r->checked)
+    table_note(t, "truth held against time integration at %d points: %.1e off at most", r->checked, r->checked_error);
+  if (r->unchecked) table_note(t, "at %d points time integration found no orbit next to the truth", r->unchecked);
+  if (r->checked && r->checked_error > 0.1 * r->gate) table_note(t, "the truth is NOT known to a tenth of the gate");
+  if (r->curve_end != HC_OK)
+    table_note(t, "the truth's curve STOPPED at omega = %.10g: %s", r->curve_omega, hc_status_text(r->curve_end));
+  for (int v = 0; v < VERDICT_COUNT; ++v)
+    if (r->count[v]) table_note(t, "%d %s: %s", r->count[v], verdict_name((verdict)v), meaning_for_point((verdict)v));
   if (r->skipped)
     table_note(t, "%d points not compared: the mean is free where a slider never slips, and the quantity contains it",
                r->skipped);
@@ -291,15 +254,6 @@ static void note_what_was_not_compared(table *t, const scene *sc, const verify_r
     table_note(t, "the points scatter around the truth by %.1e; said: %g", r->noise, r->noise_said);
   if (r->reversals > VERIFY_USUAL_REVERSALS)
     table_note(t, "the curve reverses %d times: its program wandered; each point is judged by itself", r->reversals);
-}
-
-static void note_verification(table *t, const scene *sc, const verify_data *data, const verify_report *r)
-{
-  char text[VERIFY_TEXT];
-  note_truth(t, data, r);
-  for (int v = 0; v < VERDICT_COUNT; ++v)
-    if (r->count[v]) table_note(t, "%d %s: %s", r->count[v], verdict_name((verdict)v), meaning_for_point((verdict)v));
-  note_what_was_not_compared(t, sc, r);
   table_note(t, "%s", verify_sentence(r, text));
   table_note(t, "cause: %s", verify_word(r, text));
   if (r->nearest_guess) table_note(t, "nearest guess: %s", verify_cause_words(r->nearest_guess, text));
@@ -346,8 +300,37 @@ static int write_tables(const verify_call *call)
   for (int k = 0; k < call->n; ++k) {
     const verified *v = &call->of[k];
     const verify_report *r = &v->report;
-    for (int i = 0; i < r->n_rows; ++i) put_row(points, sc, v, &r->rows[i]);
-    for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i) put_hypothesis(hypotheses, sc, v, &r->hypotheses[i]);
+    for (int i = 0; i < r->n_rows; ++i) {
+      const verify_row *row = &r->rows[i];
+      const verify_quantity *q = &v->data.quantity;
+      table_put_real(points, row->omega);
+      if (sc->in_cycles) table_put_real(points, scene_frequency(sc, row->omega));
+      table_put_real(points, verify_quantity_to_column(q, row->value));
+      table_put_real(points, verify_quantity_to_column(q, row->nearest));
+      table_put_integer_if(points, row->branch >= 0, row->branch);
+      put_response(points, sc, v);
+      table_put_text(points, row->branch < 0 ? NULL : row->stable > 0 ? "yes" : row->stable < 0 ? "no" : "unknown");
+      table_put_real(points, row->error);
+      table_put_text(points, row->skipped ? "skipped" : verdict_name(row->verdict));
+      table_put_integer(points, row->line);
+    }
+    for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i) {
+      const verify_hypothesis *h = &r->hypotheses[i];
+      char words[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
+      const verify_equations *e = &h->equations;
+      const bool linear = verify_equations_linear(e);
+      put_response(hypotheses, sc, v);
+      table_put_text(hypotheses, verify_cause_words(h->causes, words));
+      table_put_real(hypotheses, h->distance);
+      table_put_real(hypotheses, v->report.truth_distance);
+      table_put_integer_if(hypotheses, !linear, e->harmonics);
+      table_put_text(hypotheses, linear ? NULL : e->keep_mean ? "true" : "false");
+      table_put_integer_if(hypotheses, e->samples > 0, e->samples);
+      table_put_text(hypotheses, !e->samples ? NULL : e->restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated");
+      table_put_real(hypotheses, h->omega_factor);
+      table_put_real(hypotheses, h->value_factor);
+      table_put_text(hypotheses, verify_quantity_name(&h->quantity, name));
+    }
     n_hypotheses += r->n_hypotheses;
     put_summary(summary, sc, v);
     if (sc->structure) table_note(points, "response %s", v->curve.name);
@@ -370,10 +353,8 @@ static int read_curve(const verify_call *call, double noise, verified *v)
   const char *list = *v->curve.columns ? v->curve.columns : NULL;
   verify_columns where;
   char words[VERIFY_TEXT];
-  if (verify_columns_read(list, call->own->asked.quantity, &where, words) != HC_OK) {
-    cli_message(common, "%s", words);
-    return EXIT_USAGE;
-  }
+  if (verify_columns_read(list, call->own->asked.quantity, &where, words) != HC_OK)
+    return cli_failed(common, EXIT_USAGE, "%s", words);
   where.response = call->sc->structure ? v->curve.name : NULL;
   hc_status st = verify_data_read(call->own->against, &where, &v->data, words);
   v->data.noise = noise;
@@ -384,17 +365,12 @@ static int read_curve(const verify_call *call, double noise, verified *v)
     return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
   }
   const char *refused = call->sc->structure ? verify_quantity_refused_of_structure(&v->data.quantity) : NULL;
-  if (refused) {
-    cli_message(common, "%s", refused);
-    return EXIT_BAD_CASE;
-  }
-  if (call->own->asked.responses.n > 1 && !v->data.by_response) {
-    cli_message(common,
-                "several --response, and %s has no column `response`; expected one, or --columns with "
-                "QUANTITY@RESPONSE for each",
-                call->own->against);
-    return EXIT_USAGE;
-  }
+  if (refused) return cli_failed(common, EXIT_BAD_CASE, "%s", refused);
+  if (call->own->asked.responses.n > 1 && !v->data.by_response)
+    return cli_failed(common, EXIT_USAGE,
+                      "several --response, and %s has no column `response`; expected one, or --columns with "
+                      "QUANTITY@RESPONSE for each",
+                      call->own->against);
   return 0;
 }
 
@@ -404,20 +380,14 @@ static int read_curves(verify_call *call)
   verify_curve curves[VERIFY_MOST_CURVES];
   const char *said = call->own->noise;
   double noise = 0;
-  if (!call->own->against) {
-    cli_message(call->common, "no --against given, expected --against FILE");
-    return EXIT_USAGE;
-  }
+  if (!call->own->against) return cli_failed(call->common, EXIT_USAGE, "no --against given, expected --against FILE");
   const int n = verify_curves_of(call->common, &call->own->asked, curves);
   if (n == 0) return EXIT_USAGE;
-  if (n > 1 && call->common->drawing.path) {
-    cli_message(call->common, "--plot draws one response, and there are %d; name one", n);
-    return EXIT_USAGE;
-  }
-  if (said && (number_read(said, strlen(said), &noise) != NUMBER_FINE || !(noise >= 0) || noise > 1)) {
-    cli_message(call->common, "--noise: '%.40s' is no scatter, expected a number from 0 to 1 such as 1e-2", said);
-    return EXIT_USAGE;
-  }
+  if (n > 1 && call->common->drawing.path)
+    return cli_failed(call->common, EXIT_USAGE, "--plot draws one response, and there are %d; name one", n);
+  if (said && (number_read(said, strlen(said), &noise) != NUMBER_FINE || !(noise >= 0) || noise > 1))
+    return cli_failed(call->common, EXIT_USAGE,
+                      "--noise: '%.40s' is no scatter, expected a number from 0 to 1 such as 1e-2", said);
   if (!(call->of = calloc((size_t)n, sizeof *call->of)))
     return cli_solver_failed(call->common, CLI_BOTH, "the verification", HC_NO_MEMORY, 0);
   for (int code; call->n < n; ++call->n) {
@@ -471,12 +441,5 @@ static int run_verify(cli_common *common, void *own, scene *sc)
   return code ? code : written;
 }
 
-const cli_command cmd_verify = {
-    .name = "verify",
-    .summary = "another code's response curve held against both, and the suspected cause where it is off",
-    .arguments = "CASE",
-    .help = help,
-    .options = options,
-    .own_size = sizeof(verify_options),
-    .run = run_verify,
-};
+CLI_COMMAND(verify, verify_options, "CASE",
+            "another code's response curve held against both, and the suspected cause where it is off");

@@ -87,31 +87,6 @@ static json_t *list_of_numbers(int n, const double *v)
 
 /* ---- response curves ------------------------------------------------------------------------- */
 
-static void find_largest(hbm_solver *s, const hbm_curve *curve, double omega, solution *out)
-{
-  hbm_curve at = {0};
-  hbm_curve_at(s, curve, omega, &at);
-  for (int k = 0; k < at.n; ++k) {
-    hbm_measures m;
-    if (hbm_measure(s, hbm_curve_X(&at, k), &m) != HC_OK || m.amplitude <= out->amplitude) continue;
-    out->amplitude = m.amplitude;
-    out->touches = m.contact.regime > CONTACT_LINEAR;
-    memcpy(out->X, hbm_curve_X(&at, k), (size_t)at.n_coef * sizeof *out->X);
-  }
-  hbm_curve_free(&at);
-}
-
-static void find_working_range(hbm_solver *s, const hbm_curve *curve, double working[2])
-{
-  for (int k = 0; k < curve->n; ++k) {
-    hbm_measures m;
-    const double omega = curve->points[k].omega;
-    if (hbm_measure(s, hbm_curve_X(curve, k), &m) != HC_OK || m.contact.regime <= CONTACT_STUCK) continue;
-    working[0] = fmin(working[0], omega); /* fmin and fmax take the number, not the NaN */
-    working[1] = fmax(working[1], omega);
-  }
-}
-
 /* Is there a solution that needs the working range to be explained? */
 static bool touches_nothing(const followed *f, int n_omega)
 {
@@ -143,8 +118,28 @@ static hc_status follow_curve(void *self, int task, const hc_monitor *monitor)
   if (st == HC_OK) st = hbm_trace(s, all->from, all->to, monitor, &curve);
   if (s && st != HC_INTERRUPTED && st != HC_NO_MEMORY) {
     for (int i = 0; i < all->n_omega; ++i)
-      if (is_asked(all, task, i)) find_largest(s, &curve, all->omega[i], &f->at[i]);
-    if (touches_nothing(f, all->n_omega)) find_working_range(s, &curve, f->working);
+      if (is_asked(all, task, i)) {
+        solution *out = &f->at[i];
+        hbm_curve at = {0};
+        hbm_curve_at(s, &curve, all->omega[i], &at);
+        for (int k = 0; k < at.n; ++k) {
+          hbm_measures m;
+          if (hbm_measure(s, hbm_curve_X(&at, k), &m) != HC_OK || m.amplitude <= out->amplitude) continue;
+          out->amplitude = m.amplitude;
+          out->touches = m.contact.regime > CONTACT_LINEAR;
+          memcpy(out->X, hbm_curve_X(&at, k), (size_t)at.n_coef * sizeof *out->X);
+        }
+        hbm_curve_free(&at);
+      }
+    if (touches_nothing(f, all->n_omega)) {
+      for (int k = 0; k < curve.n; ++k) {
+        hbm_measures m;
+        const double omega = curve.points[k].omega;
+        if (hbm_measure(s, hbm_curve_X(&curve, k), &m) != HC_OK || m.contact.regime <= CONTACT_STUCK) continue;
+        f->working[0] = fmin(f->working[0], omega); /* fmin and fmax take the number, not the NaN */
+        f->working[1] = fmax(f->working[1], omega);
+      }
+    }
   }
   hbm_curve_free(&curve);
   hbm_solver_free(s);
@@ -162,35 +157,6 @@ typedef struct force_workspace {
   hbm_solver *hbm[N_SAMPLES]; /* of the sampled equations; NULL: N is too small for H */
   aft *sampled[N_SAMPLES];
 } force_workspace;
-
-static void workspace_close(force_workspace *w)
-{
-  for (int i = 0; i < N_SAMPLES; ++i) {
-    hbm_solver_free(w->hbm[i]);
-    aft_free(w->sampled[i]);
-  }
-  exact_force_free(w->fine);
-  free(w->contacts);
-  model_free(w->m);
-}
-
-static hc_status workspace_open(const scene *sc, force_workspace *w)
-{
-  const int H = sc->hbm.harmonics;
-  scene with_samples = *sc;
-  with_samples.hbm.force = HBM_FORCE_SAMPLED;
-  *w = (force_workspace){.sc = sc};
-  hc_status st = scene_model(sc, &w->m);
-  if (st == HC_OK) st = moving_contacts_of_model(w->m, &w->contacts);
-  if (st == HC_OK) st = scene_exact(sc, FINE_HARMONICS, &w->fine);
-  for (int i = 0; i < N_SAMPLES && st == HC_OK; ++i) {
-    if (samples[i] < 2 * H + 2) continue;
-    with_samples.hbm.samples = samples[i];
-    st = scene_hbm_solver(&with_samples, &w->hbm[i]);
-    if (st == HC_OK) st = scene_aft(sc, H, samples[i], &w->sampled[i]);
-  }
-  return st;
-}
 
 /* force[SHOWN_TIMES + 1] over a period, after one in which the sliders settle; returns its largest size. */
 static double force_over_period(const force_workspace *w, const double *X, double *force)
@@ -271,7 +237,20 @@ static hc_status answer_curve(void *self, int task, const hc_monitor *monitor)
   followed *f = curve_of_task(all, task);
   followed *const end = all->curve[task % N_STIFFNESS] + N_HARM;
   force_workspace w;
-  hc_status st = workspace_open(&f->sc, &w);
+  const scene *sc = &f->sc;
+  const int H = sc->hbm.harmonics;
+  scene with_samples = *sc;
+  with_samples.hbm.force = HBM_FORCE_SAMPLED;
+  w = (force_workspace){.sc = sc};
+  hc_status st = scene_model(sc, &w.m);
+  if (st == HC_OK) st = moving_contacts_of_model(w.m, &w.contacts);
+  if (st == HC_OK) st = scene_exact(sc, FINE_HARMONICS, &w.fine);
+  for (int i = 0; i < N_SAMPLES && st == HC_OK; ++i) {
+    if (samples[i] < 2 * H + 2) continue;
+    with_samples.hbm.samples = samples[i];
+    st = scene_hbm_solver(&with_samples, &w.hbm[i]);
+    if (st == HC_OK) st = scene_aft(sc, H, samples[i], &w.sampled[i]);
+  }
   f->states = json_array();
   for (int i = 0; i < all->n_omega && st == HC_OK; ++i) {
     const solution *at = &f->at[i], *more = NULL;
@@ -280,27 +259,17 @@ static hc_status answer_curve(void *self, int task, const hc_monitor *monitor)
     json_array_append_new(f->states, isnan(at->amplitude) ? json_null() : state_of(&w, all->omega[i], at, more));
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
   }
-  workspace_close(&w);
+  for (int i = 0; i < N_SAMPLES; ++i) {
+    hbm_solver_free(w.hbm[i]);
+    aft_free(w.sampled[i]);
+  }
+  exact_force_free(w.fine);
+  free(w.contacts);
+  model_free(w.m);
   return st;
 }
 
 /* ---- all of them ------------------------------------------------------------------------------ */
-
-static void prepare(const scene *sc, all_answers *all)
-{
-  number_list asked = {.n = all->n_omega};
-  memcpy(asked.v, all->omega, (size_t)all->n_omega * sizeof *all->omega);
-  comparison_sweep(sc->omega_from, sc->omega_to, &asked, &all->from, &all->to);
-  for (int k = 0; k < N_STIFFNESS; ++k)
-    for (int h = 0; h < N_HARM; ++h) {
-      followed *f = &all->curve[k][h];
-      *f = (followed){.sc = *sc, .working = {NAN, NAN}};
-      f->sc.hbm.harmonics = harmonics[h];
-      f->sc.hbm.force = HBM_FORCE_EXACT;
-      for (int j = 0; j < sc->n_contacts; ++j) f->sc.contacts[j].law.kn *= stiffness[k];
-      for (int i = 0; i < ALIASING_MOST_OMEGAS; ++i) f->at[i].amplitude = NAN;
-    }
-}
 
 static json_t *all_json(const all_answers *all)
 {
@@ -331,7 +300,18 @@ hc_status aliasing_answers(const scene *sc, int n_omega, const double *omega, in
   all_answers *all = calloc(1, sizeof *all);
   if (!all) return HC_NO_MEMORY;
   *all = (all_answers){.n_omega = n_omega, .first = first, .omega = omega};
-  prepare(sc, all);
+  number_list asked = {.n = all->n_omega};
+  memcpy(asked.v, all->omega, (size_t)all->n_omega * sizeof *all->omega);
+  comparison_sweep(sc->omega_from, sc->omega_to, &asked, &all->from, &all->to);
+  for (int k = 0; k < N_STIFFNESS; ++k)
+    for (int h = 0; h < N_HARM; ++h) {
+      followed *f = &all->curve[k][h];
+      *f = (followed){.sc = *sc, .working = {NAN, NAN}};
+      f->sc.hbm.harmonics = harmonics[h];
+      f->sc.hbm.force = HBM_FORCE_EXACT;
+      for (int j = 0; j < sc->n_contacts; ++j) f->sc.contacts[j].law.kn *= stiffness[k];
+      for (int i = 0; i < ALIASING_MOST_OMEGAS; ++i) f->at[i].amplitude = NAN;
+    }
   hc_status st = workers_run(jobs, N_STIFFNESS * N_HARM, follow_curve, all, monitor);
   if (st == HC_OK) st = workers_run(jobs, N_STIFFNESS * N_HARM, answer_curve, all, monitor);
   if (st == HC_OK && !(*out = all_json(all))) st = HC_NO_MEMORY;

@@ -95,27 +95,6 @@ static void write_orders(page *p)
             extra_columns(p->d->sc), p->d->accuracy.n_orders, p->d->accuracy.orders, NULL);
 }
 
-static void write_budget_row(FILE *to, const comparison_row *r, const scene *sc)
-{
-  char text[24];
-  const budget_parts *b = &r->budget.amplitude;
-  html_row(to);
-  html_cell_number(to, r->omega);
-  if (sc->in_cycles) html_cell_number(to, scene_frequency(sc, r->omega));
-  html_cell_number(to, r->branch >= 0 ? r->branch : NAN);
-  if (sc->structure) html_cell_text(to, r->response_name);
-  html_cell_text(to, comparison_verdict_text(r, text));
-  html_cell_number(to, r->branch >= 0 && r->hbm_status == HC_OK ? r->hbm.amplitude : NAN);
-  html_cell_number(to, motion_is_measured(r->transient_status) ? r->transient.amplitude : NAN);
-  html_cell_bar(to, r->errors.amplitude,
-                r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS ? sc->gate.most.amplitude : INFINITY);
-#define CELL(part) html_cell_bar(to, b->part, sc->gate.most.amplitude);
-  BUDGET_PARTS(CELL)
-#undef CELL
-  html_cell_bar(to, r->budget.known ? b->sum : NAN, sc->gate.most.amplitude);
-  html_row_end(to);
-}
-
 static void write_budget(page *p)
 {
 #define HEAD(part) "from_" #part,
@@ -132,7 +111,27 @@ static void write_budget(page *p)
   html_table(p->to,
              "Verdict and error budget of the amplitude, relative; bars: 1e-12 to 1, logarithmic; red: beyond the gate",
              sizeof heads / sizeof *heads, heads);
-  for (int i = 0; i < p->d->comparison.n_rows; ++i) write_budget_row(p->to, &p->d->comparison.rows[i], p->d->sc);
+  for (int i = 0; i < p->d->comparison.n_rows; ++i) {
+    const comparison_row *r = &p->d->comparison.rows[i];
+    char text[24];
+    const budget_parts *b = &r->budget.amplitude;
+    html_row(p->to);
+    html_cell_number(p->to, r->omega);
+    if (p->d->sc->in_cycles) html_cell_number(p->to, scene_frequency(p->d->sc, r->omega));
+    html_cell_number(p->to, r->branch >= 0 ? r->branch : NAN);
+    if (p->d->sc->structure) html_cell_text(p->to, r->response_name);
+    html_cell_text(p->to, comparison_verdict_text(r, text));
+    html_cell_number(p->to, r->branch >= 0 && r->hbm_status == HC_OK ? r->hbm.amplitude : NAN);
+    html_cell_number(p->to, motion_is_measured(r->transient_status) ? r->transient.amplitude : NAN);
+    html_cell_bar(p->to, r->errors.amplitude,
+                  r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS ? p->d->sc->gate.most.amplitude
+                                                                               : INFINITY);
+#define CELL(part) html_cell_bar(p->to, b->part, p->d->sc->gate.most.amplitude);
+    BUDGET_PARTS(CELL)
+#undef CELL
+    html_cell_bar(p->to, r->budget.known ? b->sum : NAN, p->d->sc->gate.most.amplitude);
+    html_row_end(p->to);
+  }
   html_table_end(p->to);
 }
 

@@ -44,20 +44,6 @@ static void append_point(json_t *columns, const response_row *r)
   append(columns, "contact", json_string(contact_regime_name(r->measures.contact.regime)));
 }
 
-static void append_specials(hbm_solver *s, const hbm_curve *c, json_t *list)
-{
-  enum { MOST = 64 };
-  hbm_special special[MOST];
-  int n = 0;
-  hbm_specials(s, c, MOST, special, &n); /* if one cannot be located, those before it are shown */
-  for (int i = 0; i < n && i < MOST; ++i) {
-    const hbm_special *p = &special[i];
-    char text[ROWS_SPECIAL];
-    json_array_append_new(list, json_pack("{s:f, s:f, s:i, s:s}", "omega", p->omega, "amplitude", p->amplitude,
-                                          "branch", p->branch, "what", rows_special_text(p, text)));
-  }
-}
-
 /* The curve of sc over the comparison's frequencies, columns[n] of n responses; specials may be NULL. */
 static hc_status append_curve(const scene *sc, const comparison *c, const hc_monitor *monitor, int n,
                               json_t *const *columns, json_t *specials)
@@ -78,7 +64,18 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
     for (int r = 1; r < n; ++r)
       if (response_row_turn(s, &curve, k, r, &row) == HC_OK) append_point(columns[r], &row);
   }
-  if (s && specials) append_specials(s, &curve, specials);
+  if (s && specials) {
+    enum { MOST = 64 };
+    hbm_special special[MOST];
+    int n_special = 0;
+    hbm_specials(s, &curve, MOST, special, &n_special); /* if one cannot be located, those before it are shown */
+    for (int i = 0; i < n_special && i < MOST; ++i) {
+      const hbm_special *p = &special[i];
+      char text[ROWS_SPECIAL];
+      json_array_append_new(specials, json_pack("{s:f, s:f, s:i, s:s}", "omega", p->omega, "amplitude", p->amplitude,
+                                                "branch", p->branch, "what", rows_special_text(p, text)));
+    }
+  }
   hbm_curve_free(&curve);
   hbm_solver_free(s);
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;

@@ -72,15 +72,6 @@ static hc_status shown_open(const scene *sc, const comparison *c, shown *d)
   return d->series[0] && d->series[1] && d->series[2] && d->w && d->periods ? HC_OK : HC_NO_MEMORY;
 }
 
-static void shown_close(shown *d)
-{
-  for (int i = 0; i < 3; ++i) free(d->series[i]);
-  free(d->w);
-  free(d->periods);
-  hbm_curve_free(&d->curve);
-  hbm_solver_free(d->s);
-}
-
 /* ---- one solution ---- */
 
 /* The tractions of two tangents over each other, followed as in loop_of, by short steps: they are of first order where
@@ -124,20 +115,6 @@ static json_t *loop_of(const shown *d, int j, int first)
                    number(d->periods[j].work));
 }
 
-static hc_status loops_of(shown *d, double omega, const double *X, json_t *loops)
-{
-  hc_status st = hbm_sliders(d->s, X, d->w);
-  if (st == HC_OK) st = hbm_measure_contacts(d->s, X, d->periods);
-  for (int j = 0, first = 0; first < d->m->n_contacts && j < MOST_CONTACTS && st == HC_OK; ++j, ++first) {
-    const bool pair = d->m->contacts[first].pair == CONTACT_FIRST;
-    for (int i = 0; i < 2 + pair && st == HC_OK; ++i)
-      st = hbm_response(d->s, omega, X, d->m->n + 2 * first + i, d->series[i]);
-    if (st == HC_OK) json_array_append_new(loops, pair ? loop_of_pair(d, j, first) : loop_of(d, j, first));
-    first += pair;
-  }
-  return st;
-}
-
 static hc_status shape_of(shown *d, double omega, const double *X, json_t *amplitude, json_t *cosine, json_t *sine)
 {
   hc_status st = HC_OK;
@@ -160,7 +137,17 @@ static hc_status append_solution(shown *d, const hbm_point *p, const double *X, 
   const hc_status known = hbm_stability_at(d->s, p->omega, X, &stability);
   json_t *amplitude = json_array(), *cosine = json_array(), *sine = json_array(), *loops = json_array();
   hc_status st = shape_of(d, p->omega, X, amplitude, cosine, sine);
-  if (st == HC_OK) st = loops_of(d, p->omega, X, loops);
+  if (st == HC_OK) {
+    st = hbm_sliders(d->s, X, d->w);
+    if (st == HC_OK) st = hbm_measure_contacts(d->s, X, d->periods);
+    for (int j = 0, first = 0; first < d->m->n_contacts && j < MOST_CONTACTS && st == HC_OK; ++j, ++first) {
+      const bool pair = d->m->contacts[first].pair == CONTACT_FIRST;
+      for (int i = 0; i < 2 + pair && st == HC_OK; ++i)
+        st = hbm_response(d->s, p->omega, X, d->m->n + 2 * first + i, d->series[i]);
+      if (st == HC_OK) json_array_append_new(loops, pair ? loop_of_pair(d, j, first) : loop_of(d, j, first));
+      first += pair;
+    }
+  }
   json_t *solution = json_pack("{s:f, s:i, s:i, s:o, s:o, s:o, s:o}", "omega", p->omega, "branch", p->branch, "stable",
                                known == HC_OK ? hbm_stability_verdict(&stability) : 0, "amplitude", amplitude, "cosine",
                                cosine, "sine", sine, "loops", loops);
@@ -247,7 +234,11 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
   if (st == HC_OK) st = solutions(&d, c, list);
   *out = json_pack("{s:o, s:O, s:o, s:o, s:o}", "names", response_names(sc->structure), "responses", others, "dofs",
                    dof_names(sc->structure, m), "contacts", contact_names(sc), "solutions", list);
-  shown_close(&d);
+  for (int i = 0; i < 3; ++i) free(d.series[i]);
+  free(d.w);
+  free(d.periods);
+  hbm_curve_free(&d.curve);
+  hbm_solver_free(d.s);
   model_free(m);
   return st == HC_OK && !*out ? HC_NO_MEMORY : st;
 }

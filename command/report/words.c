@@ -14,18 +14,6 @@ static void write_where(const report_data *d, double omega, FILE *to)
 
 static void open_item(FILE *to, const char *class) { fprintf(to, "<li class=\"%s\">", class); }
 
-static void list_verdicts(const comparison *c, FILE *to)
-{
-  fputs("<ul class=\"verdicts\">\n", to);
-  for (int v = 0; v < VERDICT_COUNT; ++v) {
-    if (!c->count[v]) continue;
-    fprintf(to, "<li><b>%d</b> <code>%s</code>: ", c->count[v], verdict_name((verdict)v));
-    html_text(to, verdict_meaning((verdict)v));
-    fputs("</li>\n", to);
-  }
-  fputs("</ul>\n", to);
-}
-
 /* What was not compared though it might seem so. */
 static void list_remarks(const report_data *d, FILE *to)
 {
@@ -68,36 +56,17 @@ void words_verdict(const report_data *d, FILE *to)
     fputs(".</p>\n", to);
   }
   list_remarks(d, to);
-  list_verdicts(c, to);
+  fputs("<ul class=\"verdicts\">\n", to);
+  for (int v = 0; v < VERDICT_COUNT; ++v) {
+    if (!c->count[v]) continue;
+    fprintf(to, "<li><b>%d</b> <code>%s</code>: ", c->count[v], verdict_name((verdict)v));
+    html_text(to, verdict_meaning((verdict)v));
+    fputs("</li>\n", to);
+  }
+  fputs("</ul>\n", to);
 }
 
 /* ---- what to do ------------------------------------------------------------------------------ */
-
-static void advise_on_error(const report_data *d, FILE *to)
-{
-  const comparison *c = &d->comparison;
-  const comparison_row *top = NULL;
-  int unknown = 0;
-  char text[BUDGET_TEXT];
-  for (int i = 0; i < c->n_rows; ++i) {
-    const comparison_row *r = &c->rows[i];
-    unknown += !r->budget.known;
-    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
-  }
-  if (top) {
-    open_item(to, top->budget.amplitude.sum <= d->sc->gate.most.amplitude ? "good" : "bad");
-    fputs("Largest error at ", to);
-    write_where(d, top->omega, to);
-    html_printf(to, ", branch %d: %s.", top->branch,
-                budget_advice(&top->budget, &d->setup, d->sc->gate.most.amplitude, c->harmonics, text));
-    fputs("</li>\n", to);
-  }
-  if (unknown)
-    fprintf(
-        to,
-        "<li class=\"open\">%d row%s without a budget: no periodic orbit was found next to the HBM solution.</li>\n",
-        unknown, unknown == 1 ? "" : "s");
-}
 
 /* The row of the fewest harmonics of the table from which on the truncation is within the limit; NULL: none. */
 static const accuracy_row *enough_harmonics(const accuracy *a, double limit)
@@ -177,7 +146,28 @@ static void advise_on_samples(const report_data *d, FILE *to)
 void words_what_to_do(const report_data *d, FILE *to)
 {
   fputs("<ul class=\"advice\">\n", to);
-  advise_on_error(d, to);
+  const comparison *c = &d->comparison;
+  const comparison_row *top = NULL;
+  int unknown = 0;
+  char text[BUDGET_TEXT];
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    unknown += !r->budget.known;
+    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
+  }
+  if (top) {
+    open_item(to, top->budget.amplitude.sum <= d->sc->gate.most.amplitude ? "good" : "bad");
+    fputs("Largest error at ", to);
+    write_where(d, top->omega, to);
+    html_printf(to, ", branch %d: %s.", top->branch,
+                budget_advice(&top->budget, &d->setup, d->sc->gate.most.amplitude, c->harmonics, text));
+    fputs("</li>\n", to);
+  }
+  if (unknown)
+    fprintf(
+        to,
+        "<li class=\"open\">%d row%s without a budget: no periodic orbit was found next to the HBM solution.</li>\n",
+        unknown, unknown == 1 ? "" : "s");
   advise_on_harmonics(d, to);
   advise_on_samples(d, to);
   if (d->tabled != HC_OK) {
