@@ -324,8 +324,8 @@ static hc_status plot_plane(plot_order *p, const scene *sc, const plot_motion *m
     write_limit(&g, "least", m->of->circle, least);
     axes(&g, "Traction in the plane", "traction", "T", sc->unit_force);
     phase_items(&g, 0, there, true);
-    figure_item(&g, figure_look(&g, 4, "lw 1 dt 3 lc rgb '#555555'"), least < most ? "limit μ N at most" : "limit μ N",
-                "$most using 1:2 with lines");
+    const char *title = least < most ? "limit μ N at most" : "limit μ N";
+    figure_item(&g, figure_look(&g, 4, "lw 1 dt 3 lc rgb '#555555'"), title, "$most using 1:2 with lines");
     if (least > 0 && least < most)
       figure_item(&g, figure_look(&g, 5, "lw 1 dt 4 lc rgb '#555555'"), "limit μ N at least",
                   "$least using 1:2 with lines");
