@@ -2,7 +2,9 @@
 #ifndef HC_GROWING_H
 #define HC_GROWING_H
 
+#include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The list with room for `more` entries of `size` bytes beside the `count` there are; NULL: out of memory, and the list
  * is as it was. */
@@ -16,5 +18,16 @@ static inline void *growing_by(void *list, int count, int more, size_t size)
 }
 
 static inline void *growing(void *list, int count, size_t size) { return growing_by(list, count, 1, size); }
+
+/* The same for a list that a variable holds, which gets the larger one; false: out of memory. */
+#define GROW(list, count) grow_in_place(&(list), count, sizeof *(list))
+static inline bool grow_in_place(void *variable, int count, size_t size)
+{
+  void *list;
+  memcpy(&list, variable, sizeof list);
+  list = growing(list, count, size);
+  if (list) memcpy(variable, &list, sizeof list);
+  return list != NULL;
+}
 
 #endif

@@ -6,7 +6,6 @@
 
 #include "base/number.h"
 #include "casefile/case_reader.h"
-#include "casefile/structure_check.h"
 
 static const field *field_named(const char *section, const char *name)
 {

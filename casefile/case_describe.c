@@ -138,55 +138,34 @@ bool case_field_asked(const field *f, const char *asked)
   return is_path(f, asked) || !strcmp(f->name, asked) || (*asked && !strcmp(f->symbol, asked));
 }
 
-typedef struct list {
-  case_derived *out;
-  int n;
-} list;
-
-static void add(list *l, const char *name, double value, const char *unit, const char *meaning)
-{
-  case_derived *d = &l->out[l->n++];
-  *d = (case_derived){.value = value, .unit = unit, .meaning = meaning};
-  snprintf(d->name, sizeof d->name, "%s", name);
-}
-
-static void add_of_contact(list *l, int j, const char *name, double value, const char *unit, const char *meaning)
-{
-  char path[40];
-  snprintf(path, sizeof path, "contacts[%d].%s", j, name);
-  add(l, path, value, unit, meaning);
-}
-
 static double ratio(double a, double b) { return b > 0 ? a / b : NAN; }
-
-/* With all contacts open, and with all of them closed and sticking: the two linear oscillators between which the
- * contacts move it. */
-static void add_oscillators(list *l, const scene *sc)
-{
-  const double open = sqrt(sc->stiffness / sc->mass), stuck = sqrt(scene_max_stiffness(sc) / sc->mass);
-  add(l, "omega_open", open, "rad/time", "natural frequency, every contact open");
-  add(l, "omega_stuck", stuck, "rad/time", "natural frequency, every contact stuck");
-  add(l, "frequency_open", open / TWO_PI, "cycles/time", "omega_open / (2 pi)");
-  add(l, "frequency_stuck", stuck / TWO_PI, "cycles/time", "omega_stuck / (2 pi)");
-  add(l, "damping_ratio_open", ratio(sc->damping, 2 * sc->mass * open), "1", "C / (2 M omega_open)");
-  add(l, "damping_ratio_stuck", ratio(sc->damping, 2 * sc->mass * stuck), "1", "C / (2 M omega_stuck)");
-  add(l, "static_deflection", ratio(sc->force, sc->stiffness), "length", "F0 / K");
-}
-
-static void add_contact(list *l, const scene *sc, int j)
-{
-  const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-  const double preload = contact_preload(&c.law);
-  add_of_contact(l, j, "preload", preload, "force", "N0 = kn gap, at rest; 0 with a clearance");
-  add_of_contact(l, j, "friction_limit", c.law.mu * preload, "force", "mu N0, at rest");
-  add_of_contact(l, j, "touches_at", c.cv[0] > 0 ? 0 - c.law.gap / c.cv[0] : NAN, "length",
-                 "x beyond which it touches, -gap / sin(alpha)");
-}
 
 int case_derive(const scene *sc, case_derived *out)
 {
-  list l = {.out = out};
-  add_oscillators(&l, sc);
-  for (int j = 0; j < sc->n_contacts; ++j) add_contact(&l, sc, j);
-  return l.n;
+  /* With all contacts open, and with all of them closed and sticking: the two linear oscillators between which the
+   * contacts move it. */
+  const double open = sqrt(sc->stiffness / sc->mass), stuck = sqrt(scene_max_stiffness(sc) / sc->mass);
+  const case_derived of_oscillator[] = {
+      {"omega_open", open, "rad/time", "natural frequency, every contact open"},
+      {"omega_stuck", stuck, "rad/time", "natural frequency, every contact stuck"},
+      {"frequency_open", open / TWO_PI, "cycles/time", "omega_open / (2 pi)"},
+      {"frequency_stuck", stuck / TWO_PI, "cycles/time", "omega_stuck / (2 pi)"},
+      {"damping_ratio_open", ratio(sc->damping, 2 * sc->mass * open), "1", "C / (2 M omega_open)"},
+      {"damping_ratio_stuck", ratio(sc->damping, 2 * sc->mass * stuck), "1", "C / (2 M omega_stuck)"},
+      {"static_deflection", ratio(sc->force, sc->stiffness), "length", "F0 / K"}};
+  int n = sizeof of_oscillator / sizeof *of_oscillator;
+  memcpy(out, of_oscillator, sizeof of_oscillator);
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    const double preload = contact_preload(&c.law), touches = c.cv[0] > 0 ? 0 - c.law.gap / c.cv[0] : NAN;
+    const case_derived of_contact[] = {
+        {"preload", preload, "force", "N0 = kn gap, at rest; 0 with a clearance"},
+        {"friction_limit", c.law.mu * preload, "force", "mu N0, at rest"},
+        {"touches_at", touches, "length", "x beyond which it touches, -gap / sin(alpha)"}};
+    for (size_t i = 0; i < sizeof of_contact / sizeof *of_contact; ++i, ++n) {
+      out[n] = of_contact[i];
+      snprintf(out[n].name, sizeof out[n].name, "contacts[%d].%.16s", j, of_contact[i].name);
+    }
+  }
+  return n;
 }

@@ -151,41 +151,6 @@ static void write_structure(const scene_structure *s, FILE *to)
   if (s->n_responses > 0) fputs("]\n", to);
 }
 
-/* The directions of a load or contact that are not 0, each on a line of its own. */
-static void write_directions(const scene_structure *s, const char *section, const void *entry, FILE *to)
-{
-  const char *before = "  - ";
-  for (int i = 0; i < field_count(); ++i) {
-    const field *f = field_at(i);
-    const bool is_direction = f->kind == FIELD_PART && f->size > 0 && strcmp(f->name, "dof") != 0;
-    if (!is_direction || strcmp(f->section, section) != 0) continue;
-    const double *direction = field_direction(f, entry);
-    if (structure_is_zero(direction, s->n)) continue;
-    fprintf(to, "%s%s: ", before, f->name);
-    write_direction(s, direction, to);
-    putc('\n', to);
-    before = "    ";
-  }
-}
-
-static void write_scalar(const field *f, const void *base, FILE *to)
-{
-  fprintf(to, "    %s: ", f->name);
-  field_write(f, base, to);
-  putc('\n', to);
-}
-
-static void write_loads(const scene_structure *s, FILE *to)
-{
-  fputs(s->n_loads > 0 ? "forcing:\n" : "forcing: []\n", to);
-  for (int j = 0; j < s->n_loads; ++j) {
-    write_directions(s, "forcing[]", &s->loads[j], to);
-    for (int i = 0; i < field_count(); ++i)
-      if (field_at(i)->flags & FIELD_IN_LOAD && field_at(i)->kind != FIELD_PART)
-        write_scalar(field_at(i), &s->loads[j], to);
-  }
-}
-
 /* Has the contact that direction? One given by its angle has a tangent and a normal. */
 static bool has_direction(const scene_structure *s, const structure_contact *c, const char *along)
 {
@@ -204,27 +169,53 @@ static bool says_something(const scene_structure *s, const structure_contact *c,
   return !f->group || !has_direction(s, c, "normal") || preload == (c->given.preload > 0);
 }
 
-static void write_structure_contact(const scene_structure *s, const structure_contact *c, FILE *to)
+static void begin_line(const char **before, const field *f, FILE *to)
 {
-  write_directions(s, "contacts", c, to);
-  if (c->by_angle) fputs("  -\n", to);
+  fprintf(to, "%s%s: ", *before, f->name);
+  *before = "    ";
+}
+
+/* An entry of a list, a field a line: its directions that are not 0, then its scalars in base. s and c are NULL for an
+ * oscillator's contact, c alone for a load. */
+static void write_entry(const char *section, const scene_structure *s, const structure_contact *c, const void *entry,
+                        const void *base, FILE *to)
+{
+  const char *before = "  - ";
+  for (int i = 0; i < field_count() && s; ++i) {
+    const field *f = field_at(i);
+    const bool is_direction = f->kind == FIELD_PART && f->size > 0 && strcmp(f->name, "dof") != 0;
+    if (!is_direction || strcmp(f->section, section) || structure_is_zero(field_direction(f, entry), s->n)) continue;
+    begin_line(&before, f, to);
+    write_direction(s, field_direction(f, entry), to);
+    putc('\n', to);
+  }
+  if (c && c->by_angle) fprintf(to, "%.3s\n", before), before = "    ";
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
-    if (!strcmp(f->section, "contacts") && f->kind != FIELD_PART && says_something(s, c, f))
-      write_scalar(f, &c->given, to);
+    if (strcmp(f->section, section) || f->kind == FIELD_PART) continue;
+    if (s ? c && !says_something(s, c, f) : f->flags & FIELD_STRUCTURE) continue;
+    begin_line(&before, f, to);
+    field_write(f, base, to);
+    putc('\n', to);
   }
 }
+
+static void begin_list(const char *name, int n, FILE *to) { fprintf(to, n > 0 ? "%s:\n" : "%s: []\n", name); }
 
 /* Write what the section of that name says of a structure; false where it says nothing that an oscillator's does not.
  * The list of responses goes with the section `structure`. */
 static bool write_of_structure(const scene_structure *s, const char *section, FILE *to)
 {
-  const bool contacts = !strcmp(section, "contacts");
-  if (!strcmp(section, "structure")) write_structure(s, to);
-  else if (!strcmp(section, "forcing[]")) write_loads(s, to);
-  else if (contacts) fputs(s->n_contacts > 0 ? "contacts:\n" : "contacts: []\n", to);
-  else return !strcmp(section, "oscillator") || !strcmp(section, "forcing");
-  for (int j = 0; j < s->n_contacts && contacts; ++j) write_structure_contact(s, &s->contacts[j], to);
+  if (!strcmp(section, "structure")) {
+    write_structure(s, to);
+  } else if (!strcmp(section, "forcing[]")) {
+    begin_list("forcing", s->n_loads, to);
+    for (int j = 0; j < s->n_loads; ++j) write_entry(section, s, NULL, &s->loads[j], &s->loads[j], to);
+  } else if (!strcmp(section, "contacts")) {
+    begin_list("contacts", s->n_contacts, to);
+    for (int j = 0; j < s->n_contacts; ++j)
+      write_entry(section, s, &s->contacts[j], &s->contacts[j], &s->contacts[j].given, to);
+  } else return !strcmp(section, "oscillator") || !strcmp(section, "forcing");
   return true;
 }
 
@@ -255,19 +246,6 @@ bool case_field_counts(const field *f, const scene *sc)
   return true;
 }
 
-static void write_contact(const scene_contact *c, FILE *to)
-{
-  const char *before = "  - ";
-  for (int i = 0; i < field_count(); ++i) {
-    const field *f = field_at(i);
-    if (!(f->flags & FIELD_IN_CONTACT) || f->flags & FIELD_STRUCTURE) continue;
-    fprintf(to, "%s%s: ", before, f->name);
-    field_write(f, c, to);
-    putc('\n', to);
-    before = "    ";
-  }
-}
-
 static void write_section(const field_section *s, const scene *sc, FILE *to)
 {
   bool begun = !*s->name;
@@ -292,8 +270,8 @@ hc_status case_echo(const scene *sc, FILE *to)
       write_section(s, sc, to);
       continue;
     }
-    fprintf(to, sc->n_contacts > 0 ? "contacts:\n" : "contacts: []\n");
-    for (int j = 0; j < sc->n_contacts; ++j) write_contact(&sc->contacts[j], to);
+    begin_list("contacts", sc->n_contacts, to);
+    for (int j = 0; j < sc->n_contacts; ++j) write_entry("contacts", NULL, NULL, NULL, &sc->contacts[j], to);
   }
   return ferror(to) ? HC_IO : HC_OK;
 }

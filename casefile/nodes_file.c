@@ -1,5 +1,5 @@
-/* nodes_file.c - see nodes_file.h. */
-#include "casefile/nodes_file.h"
+/* nodes_file.c - see structure.h. */
+#include "casefile/structure.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -14,9 +14,7 @@ static const size_t most_bytes = (size_t)1 << 29; /* it may be a matrix */
 
 hc_status nodes_add(scene_structure *s, int dof, int node, char direction)
 {
-  structure_node *grown = growing(s->nodes, s->n_nodes, sizeof *grown);
-  if (!grown) return HC_NO_MEMORY;
-  s->nodes = grown;
+  if (!GROW(s->nodes, s->n_nodes)) return HC_NO_MEMORY;
   s->nodes[s->n_nodes++] = (structure_node){.dof = dof, .node = node, .direction = direction};
   return HC_OK;
 }

@@ -64,36 +64,36 @@ void structure_free(scene_structure *s)
 
 structure_load *structure_add_load(scene_structure *s)
 {
-  structure_load *grown = growing(s->loads, s->n_loads, sizeof *grown);
-  if (!grown) return NULL;
-  s->loads = grown;
-  grown += s->n_loads;
-  *grown = (structure_load){.direction = calloc((size_t)s->n, sizeof(double))};
-  s->n_loads += grown->direction != NULL;
-  return grown->direction ? grown : NULL;
+  double *direction = calloc((size_t)s->n, sizeof *direction);
+  if (direction && GROW(s->loads, s->n_loads)) {
+    s->loads[s->n_loads] = (structure_load){.direction = direction};
+    return &s->loads[s->n_loads++];
+  }
+  free(direction);
+  return NULL;
 }
 
 structure_response *structure_add_response(scene_structure *s)
 {
-  structure_response *grown = growing(s->responses, s->n_responses, sizeof *grown);
-  if (!grown) return NULL;
-  s->responses = grown;
-  grown += s->n_responses;
-  *grown = (structure_response){.direction = calloc((size_t)s->n, sizeof(double))};
-  s->n_responses += grown->direction != NULL;
-  return grown->direction ? grown : NULL;
+  double *direction = calloc((size_t)s->n, sizeof *direction);
+  if (direction && GROW(s->responses, s->n_responses)) {
+    s->responses[s->n_responses] = (structure_response){.direction = direction};
+    return &s->responses[s->n_responses++];
+  }
+  free(direction);
+  return NULL;
 }
 
 structure_contact *structure_add_contact(scene_structure *s)
 {
   const size_t n = (size_t)s->n;
-  structure_contact *grown = growing(s->contacts, s->n_contacts, sizeof *grown);
-  double *directions = grown ? calloc(3 * n, sizeof *directions) : NULL;
-  if (grown) s->contacts = grown;
-  if (!directions) return NULL;
-  grown += s->n_contacts++;
-  *grown = (structure_contact){.tangent = directions, .tangent_2 = directions + n, .normal = directions + 2 * n};
-  return grown;
+  double *t = calloc(3 * n, sizeof *t);
+  if (t && GROW(s->contacts, s->n_contacts)) {
+    s->contacts[s->n_contacts] = (structure_contact){.tangent = t, .tangent_2 = t + n, .normal = t + 2 * n};
+    return &s->contacts[s->n_contacts++];
+  }
+  free(t);
+  return NULL;
 }
 
 void structure_keep_response(scene_structure *s, int r)

@@ -1,7 +1,6 @@
 /* structure.h - what a case file says with `structure`, its list of loads, its contacts and its responses: plain data,
- * as it was written, the damping matrix that follows from it, and its
- * model. Degrees of
- * freedom are counted from 0 here, from 1 in a file. Vectors are dense: [n], one entry a degree of freedom. */
+ * as it was written, the damping matrix that follows from it, and its model. Degrees of freedom are counted from 0
+ * here, from 1 in a file. Vectors are dense: [n], one entry a degree of freedom. */
 #ifndef HC_STRUCTURE_H
 #define HC_STRUCTURE_H
 
@@ -124,6 +123,22 @@ const char *structure_dof_name(const scene_structure *s, int dof, char text[STRU
  * end. Returns text. */
 const char *structure_direction_name(const scene_structure *s, const double *direction, char *text, size_t size);
 
+/* ---- files of nodes (nodes_file.c) ----
+ *
+ * Which degree of freedom moves which node of a mesh in which direction: a csv file of lines dof,node,direction, that
+ * line itself the first; CalculiX' JOB.dof; or a matrix file of Abaqus or CalculiX that says what its rows are
+ * (matrix_file.h). The first line tells which. */
+
+/* One more node of s, which is known not to be there yet. HC_NO_MEMORY. */
+hc_status nodes_add(scene_structure *s, int dof, int node, char direction);
+
+/* The file at `path` into s->nodes. HC_BAD_INPUT with "PATH:LINE:COLUMN: ..." in m, HC_IO with words that are to follow
+ * the file's name ("cannot be opened: ..."), HC_NO_MEMORY. */
+hc_status nodes_file_read(const char *path, scene_structure *s, message *m);
+
+/* The same from text[length], which `name` stands for. */
+hc_status nodes_file_parse(const char *name, const char *text, size_t length, scene_structure *s, message *m);
+
 /* ---- the model ---- */
 
 /* To free with model_free. The loads of a harmonic are summed: amplitude cos(k omega t + phase) is amplitude
@@ -146,5 +161,36 @@ contact structure_contact_law(const structure_contact *c);
 
 /* Cosine and sine of an angle [deg], exact at multiples of 90. */
 void structure_cosine_sine(double angle_deg, double *cosine, double *sine);
+
+/* ---- what its matrices must be: rules, without words (structure_check.c) ---- */
+
+/* Is A[n][n] not symmetric, beyond the 1e-10 of its diagonal that a reduction leaves? Then the first such entry, from
+ * 0, i > j. */
+bool structure_unsymmetric(int n, const double *A, int *i, int *j);
+
+/* *order = 0 for a symmetric M[n][n] that is positive definite beyond rounding; else the order of its first leading
+ * minor that is not positive. HC_NO_MEMORY. */
+hc_status structure_not_definite(int n, const double *M, int *order);
+
+/* A motion x[n], largest entry 1, that neither K nor any contact resists: *free_motion = true if there is one. The
+ * stiffness then is singular to rounding with every contact stuck, kt t t^T + kn n n^T each where it can hold; at_rest:
+ * each that is pressed on without a load. HC_NO_MEMORY. */
+hc_status structure_free_motion(const scene_structure *s, bool at_rest, double *x, bool *free_motion);
+
+/* The same of a motion that M[n][n], symmetric, gives no kinetic energy to. HC_NO_MEMORY. */
+hc_status structure_massless_motion(int n, const double *M, double *x, bool *massless);
+
+/* *omega [rad/time] of the first mode of M and K that C takes no energy from, beyond rounding; -1: there is none.
+ * s->damping.v is resolved. HC_NO_MEMORY, HC_NOT_CONVERGED. */
+hc_status structure_undamped_mode(const scene_structure *s, double *omega);
+
+/* The degrees of freedom that move most, at most four, in words; x is used up. */
+void structure_describe_motion(const scene_structure *s, double *x, message *m);
+
+/* s->damping.v from the kind of damping: alpha M + beta K; or for modal damping M Phi diag(2 z omega) Phi^T M, the
+ * columns of Phi being the modes of M and K with Phi^T M Phi = 1 (Craig and Kurdila, Fundamentals of Structural
+ * Dynamics, 2006, chapter 10), K being symmetric then. HC_BAD_INPUT if a mode's omega^2 is negative beyond rounding;
+ * HC_NO_MEMORY, HC_NOT_CONVERGED. */
+hc_status structure_resolve_damping(scene_structure *s);
 
 #endif

@@ -1,5 +1,5 @@
-/* structure_check.c - see structure_check.h. */
-#include "casefile/structure_check.h"
+/* structure_check.c - what the matrices of a structure must be; see structure.h. */
+#include "casefile/structure.h"
 
 #include <float.h>
 #include <math.h>

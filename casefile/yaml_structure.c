@@ -8,8 +8,6 @@
 #include "base/number.h"
 #include "base/utf8.h"
 #include "casefile/matrices/text_file.h"
-#include "casefile/nodes_file.h"
-#include "casefile/structure_check.h"
 
 static const field *part(const char *name) { return field_find("structure", name, strlen(name)); }
 

@@ -24,7 +24,7 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "casefile/case_file.h"
-#include "casefile/structure_check.h"
+#include "casefile/structure.h"
 #include "compare/advice.h"
 #include "output/output.h"
 #include "output/same_file.h"

@@ -6,7 +6,7 @@
 
 #include "base/number.h"
 #include "casefile/case_file.h"
-#include "casefile/structure_check.h"
+#include "casefile/structure.h"
 #include "numerics/norm.h"
 #include "stress/stress.h"
 

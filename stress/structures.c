@@ -16,7 +16,6 @@
 #include "casefile/case_file.h"
 #include "casefile/fields.h"
 #include "casefile/structure.h"
-#include "casefile/structure_check.h"
 #include "model/modes.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"

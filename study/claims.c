@@ -43,8 +43,8 @@ static hc_status blame(const study *s, const study_value *query, const char *wha
 }
 
 /* One query that gives that many columns. */
-static hc_status prepare_columns(const study *s, sqlite3 *db, const study_value *query, const char *what, int columns,
-                                 sqlite3_stmt **q, case_error *err)
+static hc_status prepare(const study *s, sqlite3 *db, const study_value *query, const char *what, int columns,
+                         sqlite3_stmt **q, case_error *err)
 {
   const char *rest = "";
   char why[128];
@@ -65,12 +65,6 @@ static hc_status prepare_columns(const study *s, sqlite3 *db, const study_value 
   return blame(s, query, what, fault, err);
 }
 
-static hc_status prepare(const study *s, sqlite3 *db, const study_value *query, const char *what, sqlite3_stmt **q,
-                         case_error *err)
-{
-  return prepare_columns(s, db, query, what, 1, q, err);
-}
-
 static hc_status make_views(const study *s, study_store *store, case_error *err)
 {
   sqlite3 *db = study_store_readonly(store);
@@ -78,7 +72,7 @@ static hc_status make_views(const study *s, study_store *store, case_error *err)
   for (int i = 0; i < s->n_views && st == HC_OK; ++i) {
     const study_view *v = &s->views[i];
     sqlite3_stmt *q = NULL;
-    st = prepare_columns(s, db, &v->query, v->name.text, ANY_COLUMNS, &q, err);
+    st = prepare(s, db, &v->query, v->name.text, ANY_COLUMNS, &q, err);
     sqlite3_finalize(q);
     if (st == HC_OK) st = study_store_view(store, v->name.text, v->query.text);
     if (st == HC_IO) st = blame(s, &v->query, v->name.text, study_store_error(store), err);
@@ -89,7 +83,7 @@ static hc_status make_views(const study *s, study_store *store, case_error *err)
 static hc_status check_query(const study *s, sqlite3 *db, const study_value *query, const char *what, case_error *err)
 {
   sqlite3_stmt *q = NULL;
-  hc_status st = query->text ? prepare(s, db, query, what, &q, err) : HC_OK;
+  hc_status st = query->text ? prepare(s, db, query, what, 1, &q, err) : HC_OK;
   sqlite3_finalize(q);
   return st;
 }
@@ -123,7 +117,7 @@ static hc_status evaluate(const study *s, sqlite3 *db, const study_value *query,
 {
   sqlite3_stmt *q = NULL;
   *text = 0;
-  hc_status st = query->text ? prepare(s, db, query, what, &q, err) : HC_OK;
+  hc_status st = query->text ? prepare(s, db, query, what, 1, &q, err) : HC_OK;
   int code = q ? sqlite3_step(q) : SQLITE_DONE;
   if (code == SQLITE_ROW) {
     int type = sqlite3_column_type(q, 0);

@@ -4,7 +4,7 @@
 #ifndef HC_STUDY_CLUSTER_H
 #define HC_STUDY_CLUSTER_H
 
-#include "study/solve.h"
+#include "study/study.h"
 
 /* Once, first: how many processes there are, and which this one is. false: several copies were started by mpirun, but
  * this build has no MPI, and each would compute the whole study. */

@@ -1,5 +1,5 @@
-/* solve.c - see solve.h. A failure is put into words here, with the frequency, and is a result like any other. */
-#include "study/solve.h"
+/* solve.c - see study.h. A failure is put into words here, with the frequency, and is a result like any other. */
+#include "study/study.h"
 
 #include <stdio.h>
 #include <stdlib.h>

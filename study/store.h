@@ -11,7 +11,7 @@
 #include <sqlite3.h>
 
 #include "output/table.h"
-#include "study/solve.h"
+#include "study/study.h"
 
 typedef struct study_store study_store;
 

@@ -42,9 +42,7 @@ static hc_status read_comment(const matrix_text *r, element *e)
   for (int i = 1, node; i < r->n_words; ++i)
     if (number_read_integer(r->words[i].text, r->words[i].length, &node) != NUMBER_FINE) return HC_OK;
   for (int i = 1; i < r->n_words && e->n_nodes < MATRIX_MOST_ROWS; ++i) {
-    int *grown = growing(e->nodes, e->n_nodes, sizeof *grown);
-    if (!grown) return HC_NO_MEMORY;
-    e->nodes = grown;
+    if (!GROW(e->nodes, e->n_nodes)) return HC_NO_MEMORY;
     number_read_integer(r->words[i].text, r->words[i].length, &e->nodes[e->n_nodes++]);
   }
   return HC_OK;
@@ -55,9 +53,7 @@ static hc_status label_nodes(element *e, int place)
 {
   for (; e->place < place && e->place < e->n_nodes; ++e->place)
     for (int k = 0; k < e->n_dofs && e->n_labels < MATRIX_MOST_ROWS; ++k) {
-      matrix_label *grown = growing(e->labels, e->n_labels, sizeof *grown);
-      if (!grown) return HC_NO_MEMORY;
-      e->labels = grown;
+      if (!GROW(e->labels, e->n_labels)) return HC_NO_MEMORY;
       e->labels[e->n_labels++] = (matrix_label){.node = e->nodes[e->place], .dof = e->dofs[k]};
     }
   return HC_OK;
@@ -114,9 +110,7 @@ static hc_status read_row_line(matrix_text *r, element *e, int *row, int *column
     if (*row == MATRIX_MOST_ROWS)
       return matrix_text_refuse(r, r->words[i].text, "another row, expected at most %d", (int)MATRIX_MOST_ROWS);
     if (!matrix_text_number(r, i, &value)) return HC_BAD_INPUT;
-    double *grown = growing(e->packed, e->n_values, sizeof value);
-    if (!grown) return HC_NO_MEMORY;
-    e->packed = grown;
+    if (!GROW(e->packed, e->n_values)) return HC_NO_MEMORY;
     e->packed[e->n_values++] = value;
     matrix_text_watch(r, *row, *column, r->words[i].text);
     matrix_text_watch(r, *column, *row, r->words[i].text);

@@ -66,9 +66,7 @@ static hc_status collect_labels(matrix_text *r, int *n)
     if (by_node(&row, &column) != 0) continue;
     if (*n == MATRIX_MOST_ROWS)
       return matrix_text_refuse(r, r->words[0].text, "another row, expected at most %d", (int)MATRIX_MOST_ROWS);
-    matrix_label *grown = growing(r->labels, *n, sizeof *grown);
-    if (!grown) return HC_NO_MEMORY;
-    r->labels = grown;
+    if (!GROW(r->labels, *n)) return HC_NO_MEMORY;
     r->labels[(*n)++] = row;
   }
   if (*n > 0) *n = distinct(r->labels, *n);
