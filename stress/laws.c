@@ -60,33 +60,20 @@ static one_contact contact_of(const model *m, int j)
                        .stiffness = {law->kt, law->kt, 2 * law->kn}};
 }
 
-static hc_status locate_line(int n_harm, one_contact *c)
-{
-  const moving_contact alone = {.law = *c->law, .cu = {1, 0}, .cv = {0, 1}};
-  contact_report report = {0};
-  exact_force *e;
-  hc_status st = exact_force_new(n_harm, 2, 1, &alone, &e);
-  if (st == HC_OK) st = exact_force_eval(e, c->motion, c->force, NULL, &report);
-  exact_force_free(e);
-  c->report = report;
-  return st;
-}
-
-static hc_status locate_circle(int n_harm, one_contact *c)
-{
-  contact_report report = {0};
-  planar_force *f;
-  hc_status st = planar_force_new(n_harm, c->n_dof, c->law, &f);
-  if (st == HC_OK) st = planar_force_eval(f, c->motion, c->force, NULL, &report);
-  planar_force_free(f);
-  c->report = report;
-  return st;
-}
-
 /* c->force of c->motion. */
 static hc_status locate(int n_harm, one_contact *c)
 {
-  return c->circle ? locate_circle(n_harm, c) : locate_line(n_harm, c);
+  const moving_contact alone = {.law = *c->law, .cu = {1, 0}, .cv = {0, 1}};
+  exact_force *line = NULL;
+  planar_force *plane = NULL;
+  c->report = (contact_report){0};
+  hc_status st =
+      c->circle ? planar_force_new(n_harm, c->n_dof, c->law, &plane) : exact_force_new(n_harm, 2, 1, &alone, &line);
+  if (st == HC_OK && c->circle) st = planar_force_eval(plane, c->motion, c->force, NULL, &c->report);
+  else if (st == HC_OK) st = exact_force_eval(line, c->motion, c->force, NULL, &c->report);
+  exact_force_free(line);
+  planar_force_free(plane);
+  return st;
 }
 
 /* Contact j in the motion x[2H+1][n]. HC_NO_MEMORY and the errors of exact_force_eval, planar_force_eval;
@@ -106,80 +93,53 @@ static hc_status one_contact_locate(const solved_scene *s, int j, const double *
 
 /* ---- stepped through ----------------------------------------------------------------------------------- */
 
-/* turn[2 N]: cos and sin of all angles of a period of N steps. Those of harmonic h are among them. */
-static void make_angles(int N, double *turn)
+/* An instant's part f, of which the harmonics F[2H+1] are the sum, at the angle of that cosine and sine. */
+static void add_instant(int n_harm, double f, double c, double s, double *F)
 {
-  for (int i = 0; i < N; ++i) {
-    turn[2 * i] = cos(TWO_PI * i / N);
-    turn[2 * i + 1] = sin(TWO_PI * i / N);
-  }
-}
-
-/* x at instant i of N. */
-static double at_step(int n_harm, const double *x, int N, const double *turn, int i)
-{
-  double sum = x[0];
+  double ch = 1, sh = 0;
+  F[0] += f;
   for (int h = 1; h <= n_harm; ++h) {
-    const double *cs = turn + 2 * (int)((long)h * i % N);
-    sum += x[2 * h - 1] * cs[0] + x[2 * h] * cs[1];
-  }
-  return sum;
-}
-
-/* One instant's part of the harmonics F[2H+1] of f. */
-static void add_instant(int n_harm, double f, int N, const double *turn, int i, double *F)
-{
-  F[0] += f / N;
-  for (int h = 1; h <= n_harm; ++h) {
-    const double *cs = turn + 2 * (int)((long)h * i % N);
-    F[2 * h - 1] += 2 * f * cs[0] / N;
-    F[2 * h] += 2 * f * cs[1] / N;
+    series_turn(c, s, &ch, &sh);
+    F[2 * h - 1] += 2 * f * ch;
+    F[2 * h] += 2 * f * sh;
   }
 }
 
-/* The slider on its way: w, and the instant before; r is v + gap where the contact has one tangent. */
+/* The slider on its way: w, and the instant before. */
 typedef struct stepper {
   double w[2];
   planar_sample before;
   bool begun;
 } stepper;
 
-/* f = T_1, T_2, N - N0 at the sample that is reached by motion = u_1, u_2, v. */
-static void step_circle(const contact *law, const double *motion, stepper *s, double *f)
+/* f[n_dof], T and N - N0 at the instant that is reached by motion[n_dof]. A contact on a line is one in the plane whose
+ * second tangent does not move. */
+static void step(const one_contact *c, const double *motion, stepper *s, double *f)
 {
-  const double v = motion[2], limit = law->mu * (law->kn * (v + law->gap) + law->load);
-  const planar_sample to = {.u = {motion[0], motion[1]}, .r = limit / law->kt};
-  planar_move move = PLANAR_SLIPPED;
-  if (s->begun) move = planar_slider_step(HBM_RESTART_INTERPOLATED, &s->before, &to, s->w, NULL);
-  else move = planar_slider_enter(&to, s->w, NULL);
-  for (int d = 0; d < 2; ++d) f[d] = move == PLANAR_APART ? 0 : law->kt * (to.u[d] - s->w[d]);
-  f[2] = 2 * contact_normal_change(law, v);
+  const contact *law = c->law;
+  const int tangents = c->circle ? 2 : 1, last = c->n_dof - 1;
+  const double v = last == tangents ? motion[last] : 0, limit = law->mu * (law->kn * (v + law->gap) + law->load);
+  const planar_sample to = {.u = {motion[0], c->circle ? motion[1] : 0}, .r = limit / law->kt};
+  planar_move move = PLANAR_APART;
+  if (contact_has_friction(law))
+    move = s->begun ? planar_slider_step(HBM_RESTART_INTERPOLATED, &s->before, &to, s->w, NULL)
+                    : planar_slider_enter(&to, s->w, NULL);
+  for (int d = 0; d < tangents; ++d) f[d] = move == PLANAR_APART ? 0 : law->kt * (to.u[d] - s->w[d]);
+  if (last == tangents) f[last] = tangents * contact_normal_change(law, v);
   s->before = to;
   s->begun = true;
 }
 
-/* A contact that closes between two instants, where v + gap crosses 0, finds its slider where u is by then. */
-static void step_line(const contact *law, const double *motion, stepper *s, double *f)
-{
-  const double from = s->before.r, to = motion[1] + law->gap;
-  if (law->kn > 0 && s->begun && from < 0 && to > 0)
-    s->w[0] = s->before.u[0] + (motion[0] - s->before.u[0]) * from / (from - to);
-  contact_step(law, motion[0], motion[1], s->w, &f[0]);
-  f[1] = contact_normal_change(law, motion[1]);
-  s->before = (planar_sample){.u = {motion[0]}, .r = to};
-  s->begun = true;
-}
-
 /* One period; its harmonics are added to force unless that is NULL. */
-static void step_period(const one_contact *c, int n_harm, int N, const double *turn, stepper *s, double *force)
+static void step_period(const one_contact *c, int n_harm, int N, stepper *s, double *force)
 {
   const int n_coef = series_length(n_harm);
   for (int i = 0; i < N; ++i) {
+    const double cosine = cos(TWO_PI * i / N), sine = sin(TWO_PI * i / N);
     double motion[ONE_CONTACT_MOST] = {0}, f[ONE_CONTACT_MOST];
-    for (int d = 0; d < c->n_dof; ++d) motion[d] = at_step(n_harm, c->motion + d * n_coef, N, turn, i);
-    if (c->circle) step_circle(c->law, motion, s, f);
-    else step_line(c->law, motion, s, f);
-    for (int d = 0; d < c->n_dof && force; ++d) add_instant(n_harm, f[d], N, turn, i, force + d * n_coef);
+    for (int d = 0; d < c->n_dof; ++d) motion[d] = series_at(n_harm, c->motion + d * n_coef, cosine, sine).x;
+    step(c, motion, s, f);
+    for (int d = 0; d < c->n_dof && force; ++d) add_instant(n_harm, f[d] / N, cosine, sine, force + d * n_coef);
   }
 }
 
@@ -187,7 +147,7 @@ static void step_period(const one_contact *c, int n_harm, int N, const double *t
  * one period more. Between instants u and v go evenly, as in hbm/planar/planar_slider.h. A slider on a line has
  * settled after one period; one in the plane settles by a factor each, or creeps into a corner between two circles,
  * the slower the nearer. false: after 2^23 instants it still has not settled. */
-static bool step_contact(const one_contact *c, int n_harm, int N, const double *turn, double *force)
+static bool step_contact(const one_contact *c, int n_harm, int N, double *force)
 {
   const int most = c->circle ? 1 << 23 : N; /* instants in all */
   const double settled = 1e-9;
@@ -195,11 +155,11 @@ static bool step_contact(const one_contact *c, int n_harm, int N, const double *
   bool rests = !c->circle;
   for (int done = 0; done < most && (done == 0 || !rests); done += N) {
     const double before[2] = {s.w[0], s.w[1]};
-    step_period(c, n_harm, N, turn, &s, NULL);
+    step_period(c, n_harm, N, &s, NULL);
     rests = rests || hypot(s.w[0] - before[0], s.w[1] - before[1]) <= settled * hypot(s.w[0], s.w[1]);
   }
   memset(force, 0, (size_t)c->n_dof * (size_t)series_length(n_harm) * sizeof *force);
-  step_period(c, n_harm, N, turn, &s, force);
+  step_period(c, n_harm, N, &s, force);
   return rests;
 }
 
@@ -295,16 +255,15 @@ static double spring_size(const solved_scene *s, double stiffness, const double 
   return stiffness * sum;
 }
 
-/* Its force as it is located, or where N > 0 stepped through N instants, whose cos and sin are turn[2 N]; *bound then
- * grows by what that may do. HC_INTERRUPTED: the slider has not settled. */
-static hc_status add_contact(const solved_scene *s, int j, const double *x, int N, const double *turn, balance *b,
-                             double *bound)
+/* Its force as it is located, or where N > 0 stepped through N instants; *bound then grows by what that may do.
+ * HC_INTERRUPTED: the slider has not settled. */
+static hc_status add_contact(const solved_scene *s, int j, const double *x, int N, balance *b, double *bound)
 {
   one_contact c;
   hc_status st = one_contact_locate(s, j, x, &c);
   if (st == HC_OK && N > 0 && c.n_dof > 0) {
     *bound += stepping_bound(s, &c, N);
-    if (!step_contact(&c, s->how.harmonics, N, turn, c.force)) st = HC_INTERRUPTED;
+    if (!step_contact(&c, s->how.harmonics, N, c.force)) st = HC_INTERRUPTED;
   }
   for (int d = 0; d < c.n_dof && st == HC_OK; ++d)
     for (int k = 0; k < s->n_coef; ++k) {
@@ -319,16 +278,15 @@ static hc_status add_contact(const solved_scene *s, int j, const double *x, int 
   return st;
 }
 
-static double imbalance(solved_scene *s, const double *x, int N, double *bound)
+double stress_imbalance_sampled(solved_scene *s, const double *x, int N, double *bound)
 {
   const size_t length = (size_t)s->n * (size_t)s->n_coef;
   balance b = {calloc(length, sizeof(double)), calloc(length, sizeof(double))};
   double left = 0, size = 0;
-  double *turn = malloc(2 * ((size_t)N + 1) * sizeof *turn);
-  hc_status st = b.left && b.size && turn ? HC_OK : HC_NO_MEMORY;
-  if (st == HC_OK) make_angles(N, turn);
+  *bound = 0;
+  hc_status st = b.left && b.size ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) add_structure(s, x, &b);
-  for (int j = 0; j < s->model->n_contacts && st == HC_OK; ++j) st = add_contact(s, j, x, N, turn, &b, bound);
+  for (int j = 0; j < s->model->n_contacts && st == HC_OK; ++j) st = add_contact(s, j, x, N, &b, bound);
   for (size_t i = s->how.keep_mean ? 0 : (size_t)s->n; i < length && st == HC_OK; ++i) {
     if (isnan(b.left[i])) st = HC_NOT_FINITE;
     left = fmax(left, fabs(b.left[i]));
@@ -336,17 +294,8 @@ static double imbalance(solved_scene *s, const double *x, int N, double *bound)
   }
   free(b.left);
   free(b.size);
-  free(turn);
   if (st == HC_NO_MEMORY) s->fatal = st;
   return st != HC_OK ? NAN : left == 0 ? 0 : left / size;
-}
-
-double stress_imbalance(solved_scene *s, const double *x) { return imbalance(s, x, 0, NULL); }
-
-double stress_imbalance_sampled(solved_scene *s, const double *x, int N, double *bound)
-{
-  *bound = 0;
-  return imbalance(s, x, N, bound);
 }
 
 stress_check stress_check_balance(solved_scene *s)
@@ -356,41 +305,30 @@ stress_check stress_check_balance(solved_scene *s)
 
 /* ---- a contact's force and work ------------------------------------------------------------------------ */
 
-/* Largest difference over the largest force of the springs. */
-static double forces_apart(int n_coef, const one_contact *c, const double *stepped)
-{
-  double apart = 0, size = 0;
-  for (int k = 0; k < c->n_dof * n_coef; ++k) {
-    apart = fmax(apart, fabs(c->force[k] - stepped[k]));
-    if (isnan(c->force[k])) return NAN;
-    size = fmax(size, c->stiffness[k / n_coef] * fabs(c->motion[k]));
-  }
-  return apart == 0 ? 0 : apart / fmax(size, DBL_MIN);
-}
-
-/* Steps are made finer until they agree to 1e-6, or differ by no more than they must. */
+/* Steps are made finer until the largest difference is 1e-6 of the largest force of the springs, or no more than it
+ * must be. */
 static stress_check hold_force(solved_scene *s, const one_contact *c)
 {
   enum { LEAST = 512, MOST = 131072 };
-  const double near = 1e-6, says_something = 1e-3;
-  double error = 0, *turn = malloc(2 * MOST * sizeof *turn),
-         *stepped = malloc(one_contact_length(s, c) * sizeof *stepped);
-  const bool room = turn && stepped;
+  const double near = 1e-6;
+  double error = 0, *stepped = malloc(one_contact_length(s, c) * sizeof *stepped);
   bool settled = true;
-  for (int N = LEAST; N <= MOST && room; N *= 16) {
-    make_angles(N, turn);
-    settled = step_contact(c, s->how.harmonics, N, turn, stepped);
-    error = forces_apart(s->n_coef, c, stepped);
+  if (!stepped) return stress_refuse(s, HC_NO_MEMORY);
+  for (int N = LEAST; N <= MOST; N *= 16) {
+    settled = step_contact(c, s->how.harmonics, N, stepped);
+    double apart = 0, size = DBL_MIN;
+    for (int k = 0; k < c->n_dof * s->n_coef; ++k) {
+      if (!(fabs(c->force[k] - stepped[k]) <= apart)) apart = fabs(c->force[k] - stepped[k]);
+      size = fmax(size, c->stiffness[k / s->n_coef] * fabs(c->motion[k]));
+    }
+    error = apart / size;
     if (error <= near) break;
   }
-  free(turn);
   free(stepped);
-  if (!room) return stress_refuse(s, HC_NO_MEMORY);
-  if (!(error > near)) return stress_agree(error, near);
+  if (!(error > near)) return stress_agree(error, near); /* NaN, too */
   if (!settled) return stress_refuse(s, HC_INTERRUPTED);
-  const double bound = stepping_bound(s, c, MOST);
-  return error <= fmin(bound, says_something) ? stress_explain(STRESS_ALIASED, error, bound)
-                                              : stress_find(STRESS_DISAGREES, error, fmin(bound, says_something));
+  const double bound = fmin(stepping_bound(s, c, MOST), STRESS_SAYS_SOMETHING);
+  return error <= bound ? stress_explain(STRESS_ALIASED, error, bound) : stress_find(STRESS_DISAGREES, error, bound);
 }
 
 /* A motion of the same harmonics, falling as 1/h^2, that crosses the gap or the friction limit: the solution may do
@@ -414,10 +352,8 @@ stress_check stress_check_force(solved_scene *s)
   for (int j = 0; j < s->model->n_contacts; ++j) {
     one_contact c;
     hc_status st = one_contact_locate(s, j, s->base.x, &c);
-    worst = stress_worse(worst, st == HC_OK ? hold_force(s, &c) : stress_refuse(s, st));
-    if (st == HC_OK && c.n_dof > 0) {
-      draw_motion(s, &c);
-      st = locate(s->how.harmonics, &c);
+    for (int drawn = 0; drawn < 2 && c.n_dof > 0; ++drawn) {
+      if (drawn && st == HC_OK) draw_motion(s, &c), st = locate(s->how.harmonics, &c);
       worst = stress_worse(worst, st == HC_OK ? hold_force(s, &c) : stress_refuse(s, st));
     }
     one_contact_clear(&c);
@@ -425,38 +361,29 @@ stress_check stress_check_force(solved_scene *s)
   return worst;
 }
 
-/* Work per period over pi: the sum of h (b_x a_F - a_x b_F), and the sizes of what it is made of. */
-static double work_over_pi(const solved_scene *s, const one_contact *c, double *size)
-{
-  double work = 0;
-  for (int h = 1; h <= s->how.harmonics; ++h)
-    for (int d = 0; d < c->n_dof; ++d) {
-      const int a = d * s->n_coef + 2 * h - 1, b = a + 1;
-      const double x = hypot(c->motion[a], c->motion[b]);
-      work += h * (c->motion[b] * c->force[a] - c->motion[a] * c->force[b]);
-      *size += h * x * (hypot(c->force[a], c->force[b]) + c->stiffness[d] * x);
-    }
-  return work;
-}
-
-/* Each contact by itself, of the truncated motion, too: its force is the exact one. Rounding of the sums. */
+/* Each contact by itself, of the truncated motion, too: its force is the exact one. The work per period over pi is the
+ * sum of h (b_x a_F - a_x b_F), and errs by rounding of what it is made of. */
 stress_check stress_check_work(solved_scene *s)
 {
   double worst = 0;
   for (int j = 0; j < s->model->n_contacts; ++j) {
     const contact *law = &s->model->contacts[j].law;
     one_contact c;
-    double size = 0;
+    double work = 0, size = 0;
     hc_status st = one_contact_locate(s, j, s->base.x, &c);
-    if (st == HC_OK) {
-      const double work = work_over_pi(s, &c, &size);
-      const bool takes = contact_has_friction(law) && c.report.regime >= CONTACT_SLIPS;
-      const double wrong = takes ? fmax(-work, 0) : fabs(work);
-      if (isnan(work)) worst = NAN;
-      else if (wrong > 0 && !isnan(worst)) worst = fmax(worst, wrong / size);
-    }
+    for (int h = 1; h <= s->how.harmonics && st == HC_OK; ++h)
+      for (int d = 0; d < c.n_dof; ++d) {
+        const int a = d * s->n_coef + 2 * h - 1, b = a + 1;
+        const double x = hypot(c.motion[a], c.motion[b]);
+        work += h * (c.motion[b] * c.force[a] - c.motion[a] * c.force[b]);
+        size += h * x * (hypot(c.force[a], c.force[b]) + c.stiffness[d] * x);
+      }
+    const bool takes = contact_has_friction(law) && c.report.regime >= CONTACT_SLIPS;
+    const double wrong = takes ? fmax(-work, 0) : fabs(work);
     one_contact_clear(&c);
     if (st != HC_OK) return stress_refuse(s, st);
+    if (isnan(work)) worst = NAN;
+    else if (wrong > 0 && !isnan(worst)) worst = fmax(worst, wrong / size);
   }
   return stress_agree(worst, 1e-11);
 }
@@ -466,21 +393,21 @@ stress_check stress_check_work(solved_scene *s)
 /* trace M^-1 C; NaN: out of memory, or M is singular. */
 static double damping_trace(const model *m)
 {
-  const int n = m->n;
-  double trace = 0, *lu = malloc((size_t)n * (size_t)n * sizeof *lu), *x = malloc((size_t)n * sizeof *x);
-  int *pivot = malloc((size_t)n * sizeof *pivot);
-  const bool room = lu && x && pivot;
-  if (room) memcpy(lu, m->mass, (size_t)n * (size_t)n * sizeof *lu);
-  const bool factored = room && dense_factor(n, lu, pivot) == HC_OK;
-  for (int j = 0; j < n && factored; ++j) {
-    memcpy(x, m->damping + (size_t)j * (size_t)n, (size_t)n * sizeof *x);
-    dense_solve(n, lu, pivot, 1, x);
-    trace += x[j];
+  const size_t n = (size_t)m->n, bytes = n * n * sizeof(double);
+  double trace = 0, *lu = malloc(bytes), *product = malloc(bytes);
+  int *pivot = malloc(n * sizeof *pivot);
+  bool solved = lu && product && pivot;
+  if (solved) {
+    memcpy(lu, m->mass, bytes);
+    memcpy(product, m->damping, bytes);
+    solved = dense_factor(m->n, lu, pivot) == HC_OK;
   }
+  if (solved) dense_solve(m->n, lu, pivot, m->n, product);
+  for (size_t j = 0; j < n && solved; ++j) trace += product[j * (n + 1)];
   free(lu);
-  free(x);
+  free(product);
   free(pivot);
-  return factored ? trace : NAN;
+  return solved ? trace : NAN;
 }
 
 /* Liouville: without slip the flow contracts by the trace of M^-1 C alone, whatever opens and closes. Multipliers are

@@ -45,17 +45,6 @@ static transient_settings path_settings(void)
 
 static size_t state_length(const model *m) { return 2 * (size_t)m->n + (size_t)m->n_contacts; }
 
-/* Room for an orbit of m, its start from[2 n + contacts]. HC_NO_MEMORY goes to s->fatal; stress_path_free in any
- * case. */
-static void path_make(solved_scene *s, const model *m, const double *from, stress_path *out)
-{
-  *out = (stress_path){.status = HC_NOT_CONVERGED};
-  out->state = calloc(state_length(m), sizeof *out->state);
-  out->wave = calloc((size_t)s->n * TIMEINT_WAVE, sizeof *out->wave);
-  if (!out->state || !out->wave) s->fatal = out->status = HC_NO_MEMORY;
-  else if (from) memcpy(out->state, from, state_length(m) * sizeof *out->state);
-}
-
 void stress_path_free(stress_path *p)
 {
   free(p->state);
@@ -63,16 +52,17 @@ void stress_path_free(stress_path *p)
   *p = (stress_path){.status = HC_NOT_CONVERGED};
 }
 
-static hc_status follow(solved_scene *s, timeint *ti, double omega, path_way way, stress_path *p)
-{
-  switch (way) {
-  case PATH_ORBIT: return timeint_orbit(ti, omega, 1, p->state, &s->monitor, &p->r);
-  case PATH_AGAIN: return timeint_again(ti, omega, 1, p->state, &s->monitor, &p->r);
-  case PATH_STEADY: break;
-  }
-  hc_status st = timeint_steady(ti, omega, p->state, &s->monitor, &p->r);
-  return st == HC_OK && p->r.period_multiple != 1 ? HC_NOT_SETTLED : st;
-}
+/* An orbit to be found: of m, whose responses 1 .. n are the base model's degrees of freedom, and of whose units of
+ * length `length` are one of the base model's. */
+typedef struct search {
+  const model *m;
+  transient_settings how;
+  path_way way;
+  double omega, length;
+} search;
+
+/* The orbit of the base model next to a start, by the exact law in closed form. */
+static search next_to(const solved_scene *s) { return (search){s->model, path_settings(), PATH_ORBIT, s->omega, 1}; }
 
 static hc_status read_waves(const solved_scene *s, timeint *ti, double length, stress_path *p)
 {
@@ -88,19 +78,26 @@ static hc_status read_waves(const solved_scene *s, timeint *ti, double length, s
   return HC_OK;
 }
 
-/* From p->state to the orbit. m's responses 1 .. n are the base model's degrees of freedom, `length` of its units of
- * length are one of the base model's. p->status is that of the way; also HC_NOT_SETTLED where it is of several
- * periods. */
-static void path_follow(solved_scene *s, const model *m, const transient_settings *how, double omega, path_way way,
-                        double length, stress_path *p)
+/* From from[2 n + contacts], or from rest where it is NULL. Its status is that of the way; also HC_NOT_SETTLED where it
+ * is of several periods; HC_NO_MEMORY goes to s->fatal. stress_path_free in any case. */
+static stress_path find_path(solved_scene *s, const search *at, const double *from)
 {
   timeint *ti = NULL;
-  if (p->status == HC_NO_MEMORY) return;
-  p->status = timeint_new(m, how, &ti);
-  if (p->status == HC_OK) p->status = follow(s, ti, omega, way, p);
-  if (p->status == HC_OK) p->status = read_waves(s, ti, length, p);
+  stress_path p = {.state = calloc(state_length(at->m), sizeof *p.state),
+                   .wave = calloc((size_t)s->n * TIMEINT_WAVE, sizeof *p.wave)};
+  p.status = p.state && p.wave ? s->fatal : HC_NO_MEMORY;
+  if (p.status == HC_OK && from) memcpy(p.state, from, state_length(at->m) * sizeof *from);
+  if (p.status == HC_OK) p.status = timeint_new(at->m, &at->how, &ti);
+  if (p.status == HC_OK) switch (at->way) {
+    case PATH_ORBIT: p.status = timeint_orbit(ti, at->omega, 1, p.state, &s->monitor, &p.r); break;
+    case PATH_AGAIN: p.status = timeint_again(ti, at->omega, 1, p.state, &s->monitor, &p.r); break;
+    case PATH_STEADY: p.status = timeint_steady(ti, at->omega, p.state, &s->monitor, &p.r); break;
+    }
+  if (p.status == HC_OK && p.r.period_multiple != 1) p.status = HC_NOT_SETTLED;
+  if (p.status == HC_OK) p.status = read_waves(s, ti, at->length, &p);
   timeint_free(ti);
-  if (p->status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;
+  if (p.status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;
+  return p;
 }
 
 /* Largest |a(t) - b(t)| of any degree of freedom, b later by `shift` samples, over a's largest amplitude. */
@@ -118,9 +115,9 @@ static double paths_apart(const solved_scene *s, const stress_path *a, const str
 
 void stress_path_of(solved_scene *s, const model *m, const double *from, stress_path *out)
 {
-  const transient_settings how = path_settings();
-  path_make(s, m, from, out);
-  if (s->fatal == HC_OK) path_follow(s, m, &how, s->omega, PATH_ORBIT, 1, out);
+  search at = next_to(s);
+  at.m = m;
+  *out = find_path(s, &at, from);
 }
 
 double stress_path_off(const solved_scene *s, int n_coef, const double *x, const stress_path *p)
@@ -140,47 +137,46 @@ double stress_path_off(const solved_scene *s, int n_coef, const double *x, const
 
 /* ---- the orbit ---------------------------------------------------------------------------------------- */
 
-/* s with other harmonics: for stress_motion_solve and what reads its motions. */
-static solved_scene with_harmonics(const solved_scene *s, int n_harm)
+/* HBM of m, the base model or one rewritten, with n_harm harmonics, from guess[n_coef][n]. */
+static void solve_with(solved_scene *s, const model *m, int n_harm, int n_coef, const double *guess, stress_motion *out)
 {
-  solved_scene other = *s;
-  other.how.harmonics = n_harm;
-  other.n_coef = series_length(n_harm);
-  return other;
-}
-
-/* HBM of m with n_harm harmonics from guess[n_coef][n]. */
-static void solve_model_with(solved_scene *s, const model *m, int n_harm, int n_coef, const double *guess,
-                             stress_motion *out)
-{
-  solved_scene other = with_harmonics(s, n_harm);
-  const size_t most = (size_t)other.n_coef * (size_t)s->n, given = (size_t)n_coef * (size_t)s->n;
+  hbm_settings how = s->how;
+  how.harmonics = n_harm;
+  const size_t most = (size_t)series_length(n_harm) * (size_t)s->n, given = (size_t)n_coef * (size_t)s->n;
   double *padded = calloc(most, sizeof *padded);
+  *out = (stress_motion){.status = HC_NO_MEMORY, .harmonics = n_harm};
   if (!padded) s->fatal = HC_NO_MEMORY;
-  else memcpy(padded, guess, (given < most ? given : most) * sizeof *padded);
-  stress_motion_solve(&other, m, &other.how, s->omega, padded, 1, out);
-  if (other.fatal != HC_OK) s->fatal = other.fatal;
+  else {
+    memcpy(padded, guess, (given < most ? given : most) * sizeof *padded);
+    stress_motion_solve(s, m, &how, s->omega, padded, 1, out);
+  }
   free(padded);
 }
 
-static void solve_with(solved_scene *s, int n_harm, int n_coef, const double *guess, stress_motion *out)
+/* The same with n_harm harmonics. */
+static void solve_again(solved_scene *s, const stress_motion *from, int n_harm, stress_motion *out)
 {
-  solve_model_with(s, s->model, n_harm, n_coef, guess, out);
+  solve_with(s, s->model, n_harm, series_length(from->harmonics), from->x, out);
+}
+
+static double motion_off(const solved_scene *s, const stress_motion *h, const stress_path *p)
+{
+  return stress_path_off(s, series_length(h->harmonics), h->x, p);
 }
 
 /* The orbit next to that solution, into *path, and how far apart they are; NaN without one. */
-static double shoot_from(solved_scene *s, const stress_motion *from, int n_harm, stress_path *path)
+static double shoot_from(solved_scene *s, const stress_motion *from, stress_path *path)
 {
   *path = (stress_path){.status = HC_NOT_CONVERGED};
   if (from->status != HC_OK || from->start_status != HC_OK) return NAN;
   stress_path_of(s, s->model, from->start, path);
-  return path->status == HC_OK ? stress_path_off(s, series_length(n_harm), from->x, path) : NAN;
+  return path->status == HC_OK ? motion_off(s, from, path) : NAN;
 }
 
-/* A bound of the change by doubling the harmonics, of any degree of freedom, over the orbit's amplitude. */
-static double moved(const solved_scene *s, const stress_motion *coarse, int n_coef, const stress_motion *fine,
-                    int n_fine, double amplitude)
+/* A bound of the change by more harmonics, of any degree of freedom, over that amplitude. */
+static double moved(const solved_scene *s, const stress_motion *coarse, const stress_motion *fine, double amplitude)
 {
+  const int n_coef = series_length(coarse->harmonics), n_fine = series_length(fine->harmonics);
   double most = 0;
   for (int i = 0; i < s->n; ++i) {
     double sum = 0;
@@ -190,12 +186,11 @@ static double moved(const solved_scene *s, const stress_motion *coarse, int n_co
   return most / amplitude;
 }
 
-/* HBM of m, a rewritten base model with its coordinates, with n_harm harmonics from those of the orbit, `shift` samples
- * later; *out has so many. stress_motion_free in any case. */
-static void motion_beside(solved_scene *s, const model *m, const stress_path *path, int shift, int n_harm,
-                          stress_motion *out)
+/* HBM of m, the base model or one rewritten with its coordinates, from the harmonics of the orbit `shift` samples
+ * later; with as many as s->fine has. stress_motion_free in any case. */
+static void motion_beside(solved_scene *s, const model *m, const stress_path *path, int shift, stress_motion *out)
 {
-  const int n_coef = series_length(n_harm);
+  const int n_harm = s->fine.harmonics, n_coef = series_length(n_harm);
   double *guess = calloc((size_t)n_coef * (size_t)s->n, sizeof *guess), *one = calloc((size_t)n_coef, sizeof *one);
   *out = (stress_motion){.status = HC_NO_MEMORY};
   if (!guess || !one) s->fatal = HC_NO_MEMORY;
@@ -206,29 +201,19 @@ static void motion_beside(solved_scene *s, const model *m, const stress_path *pa
     motion_harmonics(&motion, n_harm, one);
     for (int c = 0; c < n_coef; ++c) guess[c * s->n + i] = one[c];
   }
-  if (s->fatal == HC_OK) solve_model_with(s, m, n_harm, n_coef, guess, out);
+  if (s->fatal == HC_OK) solve_with(s, m, n_harm, n_coef, guess, out);
   free(guess);
   free(one);
 }
 
-/* Does HBM, from the orbit's own harmonics, end on that orbit? How far off. */
-static double confirmed(solved_scene *s, const stress_path *path, int n_harm)
-{
-  stress_motion h;
-  motion_beside(s, s->model, path, 0, n_harm, &h);
-  const double off = h.status == HC_OK ? stress_path_off(s, series_length(n_harm), h.x, path) : NAN;
-  stress_motion_free(&h);
-  return off;
-}
-
-/* Is the highest frequency of the stuck structure above a tenth of the n-th harmonic's? After each transition it rings
- * at that frequency. */
-static bool beyond_harmonics(solved_scene *s, int n_harm)
+/* Is the highest frequency of the stuck structure above a tenth of the finest solution's last harmonic's? After each
+ * transition it rings at that frequency. */
+static bool beyond_harmonics(solved_scene *s)
 {
   model_scales scales;
   hc_status st = model_find_scales(s->model, &scales);
   if (st == HC_NO_MEMORY) s->fatal = st;
-  return st == HC_OK && scales.highest > 0.1 * n_harm * s->omega;
+  return st == HC_OK && scales.highest > 0.1 * s->fine.harmonics * s->omega;
 }
 
 /* What the errors of two orbits may set apart, or those of one. */
@@ -246,70 +231,58 @@ static bool may_double(const solved_scene *s, int n_harm)
   return 2 * n_harm <= MOST_HARMONICS && coordinates * series_length(2 * n_harm) <= MOST_UNKNOWNS;
 }
 
-/* s->fine and &s->path become those of twice the harmonics, if there are. *step: the change. */
+/* s->fine and s->path become those of twice the harmonics, if there are. *step: the change. */
 static bool refine(solved_scene *s, double *error, double *step)
 {
   stress_motion finer;
   stress_path path;
-  const int n_harm = 2 * s->fine_harmonics;
-  solve_with(s, n_harm, series_length(s->fine_harmonics), s->fine.x, &finer);
-  const bool solved = finer.status == HC_OK;
-  if (!solved) {
+  solve_again(s, &s->fine, 2 * s->fine.harmonics, &finer);
+  if (finer.status != HC_OK) {
     stress_motion_free(&finer);
     return false;
   }
-  *error = shoot_from(s, &finer, n_harm, &path);
-  *step = moved(s, &s->fine, series_length(s->fine_harmonics), &finer, series_length(n_harm),
-                path.status == HC_OK ? path.amplitude : finer.m.amplitude);
+  *error = shoot_from(s, &finer, &path);
+  *step = moved(s, &s->fine, &finer, path.status == HC_OK ? path.amplitude : finer.m.amplitude);
   stress_motion_free(&s->fine);
   stress_path_free(&s->path);
   s->fine = finer;
   s->path = path;
-  s->fine_harmonics = n_harm;
   return true;
-}
-
-/* Beyond the bound with as many harmonics as may be. */
-static stress_check explain(solved_scene *s, double before, double error, double step)
-{
-  if (s->path.status != HC_OK) return stress_refuse(s, s->path.status);
-  if (error <= before / 2 || error <= 3 * step) return stress_explain(STRESS_TRUNCATED, error, 3 * step);
-  if (beyond_harmonics(s, s->fine_harmonics)) return stress_explain(STRESS_UNRESOLVED, error, NAN);
-  const double other = confirmed(s, &s->path, s->fine_harmonics);
-  if (other <= fmin(error / 10, same_orbit)) return stress_explain(STRESS_OTHER_ORBIT, error, other);
-  stress_condition(s);
-  if (error <= s->solution_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->solution_errs);
-  return stress_find(STRESS_DISAGREES, error, tolerance_of(&s->path));
-}
-
-/* Without harmonic 0, means and static loads are left out. */
-static bool other_equation(const solved_scene *s)
-{
-  if (s->how.keep_mean) return false;
-  for (int l = 0; l < s->model->n_loads; ++l)
-    if (s->model->loads[l].harmonic == 0) return true;
-  return s->base.m.contact.regime != CONTACT_LINEAR;
 }
 
 /* Harmonics are doubled until HBM and the orbit next to it meet. */
 stress_check stress_check_orbit(solved_scene *s)
 {
-  solve_with(s, s->how.harmonics, s->n_coef, s->base.x, &s->fine);
-  s->fine_harmonics = s->how.harmonics;
+  bool loaded = false; /* statically */
+  solve_again(s, &s->base, s->base.harmonics, &s->fine);
   if (s->fine.status != HC_OK) return stress_refuse(s, s->fine.status);
-  double error = shoot_from(s, &s->fine, s->fine_harmonics, &s->path), before = NAN, step = NAN;
-  if (other_equation(s)) return stress_skip(STRESS_NOT_APPLICABLE);
+  double error = shoot_from(s, &s->fine, &s->path), before = NAN, step = NAN;
+  for (int l = 0; l < s->model->n_loads; ++l) loaded = loaded || s->model->loads[l].harmonic == 0;
+  if (!s->how.keep_mean && (loaded || s->base.m.contact.regime != CONTACT_LINEAR))
+    return stress_skip(STRESS_NOT_APPLICABLE); /* without harmonic 0, means and static loads are left out */
   const double coarse = error;
   if (s->path.status == HC_OK && error <= tolerance_of(&s->path))
     return stress_agree_within(error, close_enough, sensitive(&s->path, NULL));
-  while (s->fatal == HC_OK && may_double(s, s->fine_harmonics)) {
+  while (s->fatal == HC_OK && may_double(s, s->fine.harmonics)) {
     before = error;
     if (!refine(s, &error, &step)) break;
     if (s->path.status == HC_INTERRUPTED) return stress_refuse(s, s->path.status);
     if (s->path.status == HC_OK && error <= tolerance_of(&s->path))
       return stress_explain(STRESS_TRUNCATED, coarse, NAN);
   }
-  return explain(s, before, error, step);
+
+  /* beyond the bound with as many harmonics as may be */
+  if (s->path.status != HC_OK) return stress_refuse(s, s->path.status);
+  if (error <= before / 2 || error <= 3 * step) return stress_explain(STRESS_TRUNCATED, error, 3 * step);
+  if (beyond_harmonics(s)) return stress_explain(STRESS_UNRESOLVED, error, NAN);
+  stress_motion from_orbit; /* does HBM, from the orbit's own harmonics, end on it? */
+  motion_beside(s, s->model, &s->path, 0, &from_orbit);
+  const double other = from_orbit.status == HC_OK ? motion_off(s, &from_orbit, &s->path) : NAN;
+  stress_motion_free(&from_orbit);
+  if (other <= fmin(error / 10, same_orbit)) return stress_explain(STRESS_OTHER_ORBIT, error, other);
+  stress_condition(s);
+  if (error <= s->solution_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->solution_errs);
+  return stress_find(STRESS_DISAGREES, error, tolerance_of(&s->path));
 }
 
 /* ---- its multiplier ----------------------------------------------------------------------------------- */
@@ -321,20 +294,26 @@ static double multipliers_apart(const stress_motion *h, const stress_path *p)
 }
 
 /* HBM's multiplier with twice the harmonics, and twice, until it is the orbit's or there are no more; how far off it
- * then is. Contacts much stiffer than the structure close for so short a time that many harmonics move its ends. */
-static double better_multiplier(solved_scene *s, double error, double bound)
+ * then is. Contacts much stiffer than the structure close for so short a time that many harmonics move its ends.
+ *
+ * As x'' is bounded, harmonics fall as 1/h^2 or faster, and truncation moves x, and with it the instants at which
+ * contacts change, by 1/H or less. So *truncated where the last doubling halved the difference or brought it within the
+ * bound. That is evidence, not a bound: what is left may hide an error as large as itself. */
+static double better_multiplier(solved_scene *s, double error, double bound, bool *truncated)
 {
   stress_motion h = {.status = HC_OK};
-  const double *x = s->fine.x;
-  for (int n = s->fine_harmonics, more; error > bound && n < HBM_MAX_HARMONICS; n = more) {
+  const stress_motion *from = &s->fine;
+  *truncated = false;
+  for (int n = from->harmonics, more; error > bound && n < HBM_MAX_HARMONICS; n = more) {
     stress_motion finer;
-    if (n > s->fine_harmonics && !may_double(s, n)) break; /* beyond what `orbit` may take once, as it costs */
+    if (n > s->fine.harmonics && !may_double(s, n)) break; /* beyond what `orbit` may take once, as it costs */
     more = 2 * n < HBM_MAX_HARMONICS ? 2 * n : HBM_MAX_HARMONICS;
-    solve_with(s, more, series_length(n), x, &finer);
+    solve_again(s, from, more, &finer);
     const double now = finer.status == HC_OK ? multipliers_apart(&finer, &s->path) : NAN;
     stress_motion_free(&h);
-    h = finer, x = h.x;
+    h = finer, from = &h;
     if (isnan(now)) break;
+    if (now <= bound || more == 2 * n) *truncated = now <= fmax(bound, error / 2);
     error = now;
   }
   stress_motion_free(&h);
@@ -345,84 +324,71 @@ static double better_multiplier(solved_scene *s, double error, double bound)
 stress_check stress_check_multiplier(solved_scene *s)
 {
   const double bound = 1e-3;
+  bool truncated;
   if (s->path.status != HC_OK || isnan(s->path.r.multiplier) || s->fine.stability_status != HC_OK)
     return stress_skip(STRESS_NO_ORBIT);
-  const double far = stress_path_off(s, series_length(s->fine_harmonics), s->fine.x, &s->path);
+  const double far = motion_off(s, &s->fine, &s->path);
   if (!(far <= same_orbit)) return stress_skip(STRESS_NO_ORBIT);
   const double error = multipliers_apart(&s->fine, &s->path);
   if (error <= bound) return stress_agree(error, bound);
-  const double better = better_multiplier(s, error, bound);
-  if (better <= fmax(bound, error / 2)) return stress_explain(STRESS_TRUNCATED, error, better);
+  const double better = better_multiplier(s, error, bound, &truncated);
+  if (truncated) return stress_explain(STRESS_TRUNCATED, error, better);
   if (s->fine.m.contact.transitions != s->path.r.switches) return stress_explain(STRESS_OTHER_EVENTS, error, better);
-  if (far > close_enough && beyond_harmonics(s, s->fine_harmonics))
-    return stress_explain(STRESS_UNRESOLVED, error, better);
+  if (far > close_enough && beyond_harmonics(s)) return stress_explain(STRESS_UNRESOLVED, error, better);
   stress_condition(s);
   if (error <= s->multiplier_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->multiplier_errs);
   return stress_find(STRESS_DISAGREES, error, bound);
 }
 
-static const stress_path *known(const solved_scene *s) { return s->path.status == HC_OK ? &s->path : NULL; }
+/* ---- that orbit again ---------------------------------------------------------------------------------- */
+
+static bool known(const solved_scene *s) { return s->path.status == HC_OK; }
 
 /* Does that method stay on that orbit, too? Then it is one. */
 static bool is_orbit(solved_scene *s, const stress_path *p, transient_method method)
 {
-  transient_settings how = path_settings();
-  how.method = method;
-  how.tolerance = 1e-9;
-  stress_path again;
-  path_make(s, s->model, p->state, &again);
-  if (s->fatal == HC_OK) path_follow(s, s->model, &how, s->omega, PATH_ORBIT, 1, &again);
+  search at = next_to(s);
+  at.how.method = method;
+  at.how.tolerance = 1e-9;
+  stress_path again = find_path(s, &at, p->state);
   const double bound = fmax(same_by_cvode, sensitive(p, &again));
   const bool same = again.status == HC_OK && paths_apart(s, p, &again, 0) <= bound;
   stress_path_free(&again);
   return same;
 }
 
-/* The orbit found in another way beside the one that is known. */
+/* The orbit found in another way beside the one that is known, which is `shift` samples ahead. */
 static stress_check hold(solved_scene *s, const stress_path *other, int shift, double least)
 {
   if (other->status != HC_OK) return stress_refuse(s, other->status);
   return stress_agree_within(paths_apart(s, &s->path, other, shift), least, sensitive(&s->path, other));
 }
 
-/* ---- written in another way --------------------------------------------------------------------------- */
-
-/* Another orbit from its start, held against the known one, which is `shift` samples ahead; m as in path_follow, the
- * settings those of a closed form. Clears what it is given but the base model. */
-static stress_check hold_again(solved_scene *s, model *m, double omega, double length, int shift, stress_path *other)
+static stress_check hold_found(solved_scene *s, const search *at, const double *from, int shift, double least)
 {
-  const transient_settings how = path_settings();
-  if (s->fatal == HC_OK) path_follow(s, m, &how, omega, PATH_ORBIT, length, other);
-  model_free(m);
-  const stress_check c = hold(s, other, shift, same_in_closed_form);
-  stress_path_free(other);
+  stress_path other = find_path(s, at, from);
+  const stress_check c = hold(s, &other, shift, least);
+  stress_path_free(&other);
   return c;
 }
 
-static stress_check turned(solved_scene *s, void (*draw)(uint64_t *, int, double *))
-{
-  stress_path other;
-  model *m = NULL;
-  double *Q = malloc((size_t)s->n * (size_t)s->n * sizeof *Q);
-  path_make(s, s->model, s->path.state, &other);
-  if (Q) draw(&s->random, s->n, Q);
-  if (!Q || rewritten_turned(s->model, Q, &m) != HC_OK) s->fatal = HC_NO_MEMORY;
-  for (int part = 0; part < 2 && s->fatal == HC_OK; ++part) /* positions, then velocities, in y, x = Q y */
-    turned_vector(s->n, Q, s->path.state + part * s->n, other.state + part * s->n);
-  free(Q);
-  return hold_again(s, m, s->omega, 1, 0, &other);
-}
-
-static stress_check in_units(solved_scene *s, double length, double force, double time)
+/* The base model written in another way, which is cleared, from the known orbit's start as it says that. */
+static stress_check hold_rewritten(solved_scene *s, hc_status made, rewritten *w)
 {
   const int n = s->n;
-  stress_path other;
-  model *m = NULL;
-  path_make(s, s->model, s->path.state, &other);
-  if (rewritten_in_units(s->model, length, force, time, &m) != HC_OK) s->fatal = HC_NO_MEMORY;
-  for (int i = 0; s->fatal == HC_OK && i < 2 * n + m->n_contacts; ++i)
-    other.state[i] *= i >= n && i < 2 * n ? length / time : length;
-  return hold_again(s, m, s->omega / time, length, 0, &other);
+  stress_check c = stress_skip(STRESS_NO_REASON);
+  search at = {w->model, path_settings(), PATH_ORBIT, s->omega / w->time, w->length};
+  double *from = made == HC_OK ? malloc(state_length(w->model) * sizeof *from) : NULL;
+  if (from) {
+    rewritten_motion(w, n, s->path.state, from);
+    rewritten_motion(w, n, s->path.state + n, from + n);
+    for (int j = 0; j < w->model->n_contacts; ++j) from[2 * n + j] = s->path.state[2 * n + j];
+    for (size_t i = 0; i < state_length(w->model); ++i) from[i] *= (int)i / n == 1 ? w->length / w->time : w->length;
+    c = hold_found(s, &at, from, 0, same_in_closed_form);
+  } else s->fatal = HC_NO_MEMORY;
+  rewritten_clear(w);
+  free(from);
+  return c;
 }
 
 /* From the HBM solution of the later loads next to the orbit's own harmonics, later; where that is not next to the
@@ -430,48 +396,53 @@ static stress_check in_units(solved_scene *s, double length, double force, doubl
 static stress_check delayed(solved_scene *s)
 {
   const int shift = random_int(&s->random, 1, TIMEINT_WAVE - 1);
-  stress_path other;
   stress_motion h = {.status = HC_NOT_CONVERGED};
-  model *m = NULL;
-  if (rewritten_delayed(s->model, TWO_PI * shift / TIMEINT_WAVE, &m) != HC_OK) s->fatal = HC_NO_MEMORY;
-  if (s->fatal == HC_OK) motion_beside(s, m, &s->path, shift, s->fine_harmonics, &h);
-  path_make(s, s->model, h.start, &other);
   stress_check c = stress_skip(STRESS_NO_ORBIT);
-  if (h.status == HC_OK) c = hold_again(s, m, s->omega, 1, TIMEINT_WAVE - shift, &other);
-  else model_free(m), stress_path_free(&other);
-  if (c.outcome == STRESS_REFUSED ||
-      !(stress_path_off(s, series_length(s->fine_harmonics), s->fine.x, &s->path) <= nearby))
-    c = stress_skip(STRESS_NO_ORBIT);
+  rewritten w;
+  s->fatal = rewritten_delayed(s->model, TWO_PI * shift / TIMEINT_WAVE, &w);
+  if (s->fatal == HC_OK) motion_beside(s, w.model, &s->path, shift, &h);
+  if (h.status == HC_OK) {
+    search at = next_to(s);
+    at.m = w.model;
+    c = hold_found(s, &at, h.start, TIMEINT_WAVE - shift, same_in_closed_form);
+  }
+  if (c.outcome == STRESS_REFUSED || !(motion_off(s, &s->fine, &s->path) <= nearby)) c = stress_skip(STRESS_NO_ORBIT);
   stress_motion_free(&h);
+  rewritten_clear(&w);
   return c;
 }
 
 stress_check stress_check_rewritten(solved_scene *s)
 {
+  rewritten w;
   if (!known(s)) return stress_skip(STRESS_NO_ORBIT);
-  stress_check c = turned(s, random_permutation);
-  c = stress_worse(c, turned(s, random_rotation));
-  c = stress_worse(c, in_units(s, 39.3701, 0.224809, 1.0 / 60));
+  hc_status made = rewritten_permuted(s->model, &s->random, &w);
+  stress_check c = hold_rewritten(s, made, &w);
+  made = rewritten_rotated(s->model, &s->random, &w);
+  c = stress_worse(c, hold_rewritten(s, made, &w));
+  made = rewritten_in_units(s->model, 39.3701, 0.224809, 1.0 / 60, &w);
+  c = stress_worse(c, hold_rewritten(s, made, &w));
   return s->path.r.free_sliders == 0 ? stress_worse(c, delayed(s)) : c;
 }
-
-/* ---- from beside it ----------------------------------------------------------------------------------- */
 
 /* Where the motion goes from next to a stable orbit: back to it. Sliders that never slip would rest elsewhere. */
 stress_check stress_check_returns(solved_scene *s)
 {
-  const transient_settings how = path_settings();
   if (!known(s)) return stress_skip(STRESS_NO_ORBIT);
   if (!(s->path.r.multiplier < 1 - 1e-3) || s->path.r.free_sliders > 0) return stress_skip(STRESS_NOT_APPLICABLE);
-  stress_path other;
-  path_make(s, s->model, s->path.state, &other);
-  for (int i = 0; i < 2 * s->n && s->fatal == HC_OK; ++i)
-    other.state[i] += beside * s->path.amplitude * (i < s->n ? 1 : s->omega) * random_signed(&s->random);
-  if (s->fatal == HC_OK) path_follow(s, s->model, &how, s->omega, PATH_STEADY, 1, &other);
+  search at = next_to(s);
+  at.way = PATH_STEADY;
+  double *from = malloc(state_length(s->model) * sizeof *from);
+  if (!from) return stress_refuse(s, HC_NO_MEMORY);
+  memcpy(from, s->path.state, state_length(s->model) * sizeof *from);
+  for (int i = 0; i < 2 * s->n; ++i)
+    from[i] += beside * s->path.amplitude * (i < s->n ? 1 : s->omega) * random_signed(&s->random);
+  stress_path other = find_path(s, &at, from);
   stress_check c = hold(s, &other, 0, same_in_closed_form);
   if (c.outcome == STRESS_FINDING && is_orbit(s, &other, TRANSIENT_METHOD_CVODE))
     c = stress_explain(STRESS_OTHER_ORBIT, c.error, c.bound);
   stress_path_free(&other);
+  free(from);
   return c;
 }
 
@@ -483,55 +454,37 @@ static bool is_alone(solved_scene *s) { return random_int(&s->random, 1, ALONE_E
  * before. */
 stress_check stress_check_from_rest(solved_scene *s)
 {
-  transient_settings how = path_settings();
-  stress_path closed, cvode;
+  search at = next_to(s);
+  at.way = PATH_STEADY;
   if (!is_alone(s)) return stress_skip(STRESS_NOT_APPLICABLE);
-  path_make(s, s->model, NULL, &closed);
-  path_make(s, s->model, NULL, &cvode);
-  if (s->fatal == HC_OK) {
-    memset(closed.state, 0, state_length(s->model) * sizeof *closed.state);
-    memset(cvode.state, 0, state_length(s->model) * sizeof *cvode.state);
-    path_follow(s, s->model, &how, s->omega, PATH_STEADY, 1, &closed);
-    how.method = TRANSIENT_METHOD_CVODE;
-    how.tolerance = 1e-9;
-    if (closed.status == HC_OK && closed.r.free_sliders == 0)
-      path_follow(s, s->model, &how, s->omega, PATH_STEADY, 1, &cvode);
-  }
+  stress_path closed = find_path(s, &at, NULL), cvode = {.status = HC_NOT_CONVERGED};
   stress_check c = stress_skip(STRESS_NO_ORBIT);
+  at.how.method = TRANSIENT_METHOD_CVODE;
+  at.how.tolerance = 1e-9;
   if (closed.status == HC_OK && closed.r.free_sliders > 0) c = stress_skip(STRESS_NOT_APPLICABLE);
-  else if (closed.status == HC_OK && cvode.status == HC_OK) {
+  else if (closed.status == HC_OK) cvode = find_path(s, &at, NULL);
+  if (closed.status == HC_INTERRUPTED || cvode.status == HC_INTERRUPTED) c = stress_refuse(s, HC_INTERRUPTED);
+  if (cvode.status == HC_OK) {
     c = stress_agree_within(paths_apart(s, &closed, &cvode, 0), same_by_cvode, sensitive(&closed, &cvode));
     if (c.outcome == STRESS_FINDING && is_orbit(s, &closed, TRANSIENT_METHOD_CVODE) &&
         is_orbit(s, &cvode, TRANSIENT_METHOD_CLOSED_FORM))
       c = stress_explain(STRESS_OTHER_ORBIT, c.error, c.bound);
-  } else if (closed.status == HC_INTERRUPTED || cvode.status == HC_INTERRUPTED) c = stress_refuse(s, HC_INTERRUPTED);
+  }
   stress_path_free(&closed);
   stress_path_free(&cvode);
-  return c;
-}
-
-/* ---- by other integrators ----------------------------------------------------------------------------- */
-
-/* The known orbit once more. */
-static stress_check by(solved_scene *s, const transient_settings *how, path_way way, double least)
-{
-  stress_path other;
-  path_make(s, s->model, s->path.state, &other);
-  if (s->fatal == HC_OK) path_follow(s, s->model, how, s->omega, way, 1, &other);
-  const stress_check c = hold(s, &other, 0, least);
-  stress_path_free(&other);
   return c;
 }
 
 /* CVODE from event to event closes the orbit; for some scenes by itself, without the closed form's matrix. */
 stress_check stress_check_cvode(solved_scene *s)
 {
-  transient_settings how = path_settings();
+  search at = next_to(s);
   if (!known(s)) return stress_skip(STRESS_NO_ORBIT);
-  how.method = TRANSIENT_METHOD_CVODE;
-  how.tolerance = 1e-9;
-  how.scout = !is_alone(s);
-  return by(s, &how, how.scout ? PATH_AGAIN : PATH_ORBIT, same_by_cvode);
+  at.how.method = TRANSIENT_METHOD_CVODE;
+  at.how.tolerance = 1e-9;
+  at.how.scout = !is_alone(s);
+  at.way = at.how.scout ? PATH_AGAIN : PATH_ORBIT;
+  return hold_found(s, &at, s->path.state, 0, same_by_cvode);
 }
 
 /* Where a slider never slips beside other contacts, and with another law rests elsewhere, the orbit is another member
@@ -546,17 +499,19 @@ static stress_check unless_family(const solved_scene *s, stress_check c)
  * less. */
 stress_check stress_check_regularised(solved_scene *s)
 {
-  transient_settings how = path_settings();
+  search at = next_to(s);
+  transient_settings *how = &at.how;
   if (!known(s)) return stress_skip(STRESS_NO_ORBIT);
-  how.method = TRANSIENT_METHOD_CVODE;
-  how.law = TRANSIENT_LAW_REGULARISED;
-  how.tolerance = 1e-8;
-  how.scout = true;
+  at.way = PATH_AGAIN;
+  how->method = TRANSIENT_METHOD_CVODE;
+  how->law = TRANSIENT_LAW_REGULARISED;
+  how->tolerance = 1e-8;
+  how->scout = true;
   stress_check c = stress_skip(STRESS_NO_ORBIT);
   double before = -1;
   int solved = 0;
-  for (how.regularisation = 1e-4; how.regularisation >= 0.9e-7; how.regularisation /= 10) {
-    c = by(s, &how, PATH_AGAIN, same_law);
+  for (how->regularisation = 1e-4; how->regularisation >= 0.9e-7; how->regularisation /= 10) {
+    c = hold_found(s, &at, s->path.state, 0, same_law);
     if (isnan(c.error) && solved >= 2) /* it did not shrink */
       return unless_family(s, stress_find(STRESS_DISAGREES, before, same_law));
     if (c.outcome != STRESS_FINDING || isnan(c.error)) return c;

@@ -39,72 +39,70 @@ static void put_part(const model *m, model *to, int at, int first)
   }
 }
 
-static void put_responses(const model *m, model *to)
+void rewritten_clear(rewritten *w)
 {
-  for (int r = 0; r < m->n_responses && r < to->n_responses; ++r)
-    memcpy(to->responses + (size_t)r * (size_t)to->n, m->responses + (size_t)r * (size_t)m->n, vector(m->n));
+  model_free(w->model);
+  free(w->map);
 }
+
+void rewritten_motion(const rewritten *w, int n, const double *x, double *out)
+{
+  if (w->map) dense_multiply(w->model->n, 1, n, w->map, x, out);
+  else memcpy(out, x, vector(n));
+}
+
+static const rewritten same = {.length = 1, .force = 1, .time = 1};
 
 hc_status rewritten_with_all_responses(const model *m, model **out)
 {
-  hc_status st = model_new(m->n, m->n_loads, m->n_contacts, 1 + m->n, out);
-  if (st != HC_OK) return st;
-  put_part(m, *out, 0, 0);
-  put_responses(m, *out);
-  for (int i = 0; i < m->n; ++i) (*out)->responses[(size_t)(i + 1) * (size_t)m->n + (size_t)i] = 1;
-  return HC_OK;
+  const size_t n = (size_t)m->n;
+  hc_status st = model_copy_sized(m, m->n_contacts, 1 + m->n, out);
+  for (size_t i = 0; i < n * n && st == HC_OK; ++i) (*out)->responses[n + i] = i % (n + 1) == 0;
+  return st;
 }
 
 /* ---- coordinates --------------------------------------------------------------------------------- */
 
-void turned_vector(int n, const double *Q, const double *x, double *out)
-{
-  for (int i = 0; i < n; ++i) {
-    out[i] = 0;
-    for (int k = 0; k < n; ++k) out[i] += Q[(size_t)i * (size_t)n + (size_t)k] * x[k];
-  }
-}
-
 /* out = Q^T A Q; a symmetric A gives one, to the last bit. */
-static void turned_matrix(int n, const double *Q, const double *A, double *work, double *out)
+static void turn_matrix(int n, const double *Q, const double *A, double *work, double *out)
 {
-  const bool symmetric = dense_is_symmetric(n, A);
-  for (int j = 0; j < n; ++j) turned_vector(n, Q, A + j * n, work + j * n); /* Q^T A */
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      out[j * n + i] = 0;
-      for (int k = 0; k < n; ++k) out[j * n + i] += work[k * n + i] * Q[j * n + k];
-    }
-  for (int j = 0; j < n && symmetric; ++j)
+  dense_congruence(n, n, Q, A, work, out);
+  for (int j = 0; j < n && dense_is_symmetric(n, A); ++j)
     for (int i = 0; i < j; ++i) out[i * n + j] = out[j * n + i];
 }
 
-hc_status rewritten_turned(const model *m, const double *Q, model **out)
+/* m in y, x = Q y. */
+static hc_status turn(const model *m, void (*draw)(uint64_t *, int, double *), uint64_t *random, rewritten *out)
 {
   const int n = m->n;
-  double *work = malloc((size_t)n * vector(n));
-  hc_status st = work ? model_copy(m, out) : HC_NO_MEMORY;
+  double *Q = malloc((size_t)n * vector(n)), *work = malloc((size_t)n * vector(2 * n)), *map;
+  *out = same;
+  out->map = map = malloc((size_t)n * vector(n));
+  hc_status st = Q && work && map ? model_copy(m, &out->model) : HC_NO_MEMORY;
   if (st == HC_OK) {
-    model *t = *out;
-    turned_matrix(n, Q, m->mass, work, t->mass);
-    turned_matrix(n, Q, m->damping, work, t->damping);
-    turned_matrix(n, Q, m->stiffness, work, t->stiffness);
+    model *t = out->model;
+    draw(random, n, Q);
+    dense_transpose(n, n, Q, map);
+    turn_matrix(n, Q, m->mass, work, t->mass);
+    turn_matrix(n, Q, m->damping, work, t->damping);
+    turn_matrix(n, Q, m->stiffness, work, t->stiffness);
     for (int l = 0; l < m->n_loads; ++l) {
-      turned_vector(n, Q, m->loads[l].cosine, t->loads[l].cosine);
-      turned_vector(n, Q, m->loads[l].sine, t->loads[l].sine);
+      dense_multiply(n, 1, n, map, m->loads[l].cosine, t->loads[l].cosine);
+      dense_multiply(n, 1, n, map, m->loads[l].sine, t->loads[l].sine);
     }
     for (int j = 0; j < m->n_contacts; ++j) {
-      turned_vector(n, Q, m->contacts[j].tangent, t->contacts[j].tangent);
-      turned_vector(n, Q, m->contacts[j].normal, t->contacts[j].normal);
+      dense_multiply(n, 1, n, map, m->contacts[j].tangent, t->contacts[j].tangent);
+      dense_multiply(n, 1, n, map, m->contacts[j].normal, t->contacts[j].normal);
     }
-    for (int r = 0; r < m->n_responses; ++r) turned_vector(n, Q, m->responses + r * n, t->responses + r * n);
-  } else *out = NULL;
+    dense_multiply(n, m->n_responses, n, map, m->responses, t->responses);
+  }
+  free(Q);
   free(work);
   return st;
 }
 
 /* Householder's reflection by one random vector, then by another. */
-void random_rotation(uint64_t *random, int n, double *Q)
+static void draw_rotation(uint64_t *random, int n, double *Q)
 {
   for (int i = 0; i < n * n; ++i) Q[i] = i % (n + 1) == 0;
   for (int turn = 0; turn < 2; ++turn) {
@@ -125,7 +123,7 @@ void random_rotation(uint64_t *random, int n, double *Q)
   }
 }
 
-void random_permutation(uint64_t *random, int n, double *Q)
+static void draw_permutation(uint64_t *random, int n, double *Q)
 {
   for (int i = 0; i < n * n; ++i) Q[i] = i % (n + 1) == 0;
   for (int j = n - 1; j > 0; --j) {
@@ -136,6 +134,16 @@ void random_permutation(uint64_t *random, int n, double *Q)
       Q[k * n + i] = kept;
     }
   }
+}
+
+hc_status rewritten_permuted(const model *m, uint64_t *random, rewritten *out)
+{
+  return turn(m, draw_permutation, random, out);
+}
+
+hc_status rewritten_rotated(const model *m, uint64_t *random, rewritten *out)
+{
+  return turn(m, draw_rotation, random, out);
 }
 
 /* ---- units, contacts, copies, time ------------------------------------------------------------------ */
@@ -152,12 +160,13 @@ static void scale(double *v, int n, double by)
   for (int i = 0; i < n; ++i) v[i] *= by;
 }
 
-hc_status rewritten_in_units(const model *m, double length, double force, double time, model **out)
+hc_status rewritten_in_units(const model *m, double length, double force, double time, rewritten *out)
 {
   const int n = m->n;
-  hc_status st = model_copy(m, out);
+  *out = (rewritten){.length = length, .force = force, .time = time};
+  hc_status st = model_copy(m, &out->model);
   if (st != HC_OK) return st;
-  model *u = *out;
+  model *u = out->model;
   scale(u->mass, n * n, force * time * time / length);
   scale(u->damping, n * n, force * time / length);
   scale(u->stiffness, n * n, force / length);
@@ -170,17 +179,39 @@ hc_status rewritten_in_units(const model *m, double length, double force, double
   return HC_OK;
 }
 
-static void take_part(contact *law, double part) { law->kt *= part, law->kn *= part, law->load *= part; }
-
-hc_status rewritten_split(const model *m, double part, model **out)
+/* Room for m's degrees of freedom and `more`, with m's contacts once or twice, filled with m once. */
+static hc_status beside(const model *m, int more, int times, model **out)
 {
-  hc_status st = model_new(m->n, m->n_loads, 2 * m->n_contacts, m->n_responses, out);
+  hc_status st = model_new(m->n + more, m->n_loads, times * m->n_contacts, m->n_responses, out);
   if (st != HC_OK) return st;
   put_part(m, *out, 0, 0);
-  put_part(m, *out, 0, m->n_contacts);
-  put_responses(m, *out);
-  for (int j = 0; j < 2 * m->n_contacts; ++j) take_part(&(*out)->contacts[j].law, j < m->n_contacts ? part : 1 - part);
+  for (int r = 0; r < m->n_responses; ++r)
+    memcpy((*out)->responses + r * (m->n + more), m->responses + r * m->n, vector(m->n));
   return HC_OK;
+}
+
+hc_status rewritten_split(const model *m, double part, rewritten *out)
+{
+  *out = same;
+  hc_status st = beside(m, 0, 2, &out->model);
+  if (st == HC_OK) put_part(m, out->model, 0, m->n_contacts);
+  for (int j = 0; j < 2 * m->n_contacts && st == HC_OK; ++j) {
+    contact *law = &out->model->contacts[j].law;
+    const double its = j < m->n_contacts ? part : 1 - part;
+    law->kt *= its, law->kn *= its, law->load *= its;
+  }
+  return st;
+}
+
+hc_status rewritten_copies(const model *m, rewritten *out)
+{
+  const int n = m->n;
+  *out = same;
+  out->map = calloc((size_t)n, vector(2 * n));
+  hc_status st = out->map ? beside(m, n, 2, &out->model) : HC_NO_MEMORY;
+  if (st == HC_OK) put_part(m, out->model, n, m->n_contacts);
+  for (int k = 0; k < n && st == HC_OK; ++k) out->map[2 * n * k + k] = out->map[2 * n * k + n + k] = 1;
+  return st;
 }
 
 /* The largest entry of K; where there is none, of a contact: far stiffer, it would only bring rounding. */
@@ -192,21 +223,19 @@ static double some_stiffness(const model *m)
   return most;
 }
 
-hc_status rewritten_beside(const model *m, int more, bool twice, model **out)
+hc_status rewritten_bystander(const model *m, uint64_t *random, rewritten *out)
 {
-  const int n = m->n;
-  hc_status st = model_new(n + more, m->n_loads, (twice ? 2 : 1) * m->n_contacts, m->n_responses, out);
+  const int n = m->n, last = n * (n + 2);
+  model *straight;
+  *out = same;
+  hc_status st = beside(m, 1, 1, &straight);
   if (st != HC_OK) return st;
-  put_part(m, *out, 0, 0);
-  put_responses(m, *out);
-  if (twice) put_part(m, *out, n, m->n_contacts);
-  for (int i = n; i < n + more && !twice; ++i) {
-    const size_t at = (size_t)i * (size_t)(n + more + 1);
-    (*out)->mass[at] = largest(m->mass, n * n);
-    (*out)->stiffness[at] = some_stiffness(m);
-    (*out)->damping[at] = largest(m->damping, n * n);
-  }
-  return HC_OK;
+  straight->mass[last] = largest(m->mass, n * n);
+  straight->stiffness[last] = some_stiffness(m);
+  straight->damping[last] = largest(m->damping, n * n);
+  st = turn(straight, draw_rotation, random, out);
+  model_free(straight);
+  return st;
 }
 
 /* (a, b) of a cos + b sin, seen from `angle` later; of two tangents those turned by it. */
@@ -220,21 +249,24 @@ static void turn_pair(int n, double angle, double *a, double *b)
   }
 }
 
-hc_status rewritten_delayed(const model *m, double delay, model **out)
+hc_status rewritten_delayed(const model *m, double delay, rewritten *out)
 {
-  hc_status st = model_copy(m, out);
+  *out = same;
+  out->delay = delay;
+  hc_status st = model_copy(m, &out->model);
   for (int l = 0; l < m->n_loads && st == HC_OK; ++l) {
-    model_load *load = &(*out)->loads[l];
+    model_load *load = &out->model->loads[l];
     if (load->harmonic > 0) turn_pair(m->n, load->harmonic * delay, load->cosine, load->sine);
   }
   return st;
 }
 
-hc_status rewritten_other_tangents(const model *m, uint64_t *random, model **out)
+hc_status rewritten_other_tangents(const model *m, uint64_t *random, rewritten *out)
 {
-  hc_status st = model_copy(m, out);
+  *out = same;
+  hc_status st = model_copy(m, &out->model);
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
-    model_contact *c = &(*out)->contacts[j];
+    model_contact *c = &out->model->contacts[j];
     if (c->circle && c->pair == CONTACT_FIRST) turn_pair(m->n, TWO_PI * random_unit(random), c->tangent, c[1].tangent);
   }
   return st;
@@ -267,13 +299,14 @@ static void nudge_direction(uint64_t *random, double part, int n, double *to, co
     for (int k = 0; k < n; ++k) to[i] += part * random_signed(random) * d[k];
 }
 
-hc_status rewritten_nudged(const model *m, double part, uint64_t *random, model **out)
+hc_status rewritten_nudged(const model *m, double part, uint64_t *random, rewritten *out)
 {
   const int n = m->n;
   const uint64_t seed = random_bits(random);
-  hc_status st = model_copy(m, out);
+  *out = same;
+  hc_status st = model_copy(m, &out->model);
   if (st != HC_OK) return st;
-  model *t = *out;
+  model *t = out->model;
   nudge_matrix(random, part, n, t->mass);
   nudge_matrix(random, part, n, t->damping);
   nudge_matrix(random, part, n, t->stiffness);

@@ -8,37 +8,48 @@
 
 #include "model/model.h"
 
-/* m with its first response, and then each degree of freedom as one. HC_NO_MEMORY, here and below: *out is NULL. */
+/* Its motion is length map x at the time t time, later by the delay. */
+typedef struct rewritten {
+  model *model; /* NULL: out of memory */
+  double *map;  /* [n][model->n] of each x, what moves as it does, and maybe more columns; NULL: x itself */
+  double length, force, time; /* [1] numbers of lengths, forces, times are multiplied by these; responses by length */
+  double delay;               /* [rad] */
+} rewritten;
+
+void rewritten_clear(rewritten *w);
+
+/* map x[n] into out[model->n]. */
+void rewritten_motion(const rewritten *w, int n, const double *x, double *out);
+
+/* m with its first response, and then each degree of freedom as one. HC_NO_MEMORY: *out is NULL. */
 hc_status rewritten_with_all_responses(const model *m, model **out);
 
-/* In y, x = Q y, for an orthogonal Q[n][n] by columns. */
-hc_status rewritten_turned(const model *m, const double *Q, model **out);
+/* HC_NO_MEMORY, here and below: out->model is NULL; rewritten_clear in any case.
+ *
+ * Degrees of freedom in another order, and in y, x = Q y for an orthogonal Q of no particular form, drawn at random. */
+hc_status rewritten_permuted(const model *m, uint64_t *random, rewritten *out);
+hc_status rewritten_rotated(const model *m, uint64_t *random, rewritten *out);
 
-/* The numbers of all lengths, forces and times multiplied by these; responses give lengths of theirs. */
-hc_status rewritten_in_units(const model *m, double length, double force, double time, model **out);
+/* In units of which so many are one of m's. */
+hc_status rewritten_in_units(const model *m, double length, double force, double time, rewritten *out);
 
 /* Every contact as two, the first with `part` of its stiffness and load. */
-hc_status rewritten_split(const model *m, double part, model **out);
+hc_status rewritten_split(const model *m, double part, rewritten *out);
 
-/* With `more` degrees of freedom besides that nothing couples to m's, whose forces and contacts are those of m's first
- * ones where `twice` (more = n), else none, and then stiffness and mass are m's largest. */
-hc_status rewritten_beside(const model *m, int more, bool twice, model **out);
+/* Two of m that nothing couples. */
+hc_status rewritten_copies(const model *m, rewritten *out);
+
+/* With one degree of freedom more that nothing couples to m's, and of m's largest stiffness and mass; then rotated. */
+hc_status rewritten_bystander(const model *m, uint64_t *random, rewritten *out);
 
 /* Whose motion is x(t + delay/omega), delay [rad]. */
-hc_status rewritten_delayed(const model *m, double delay, model **out);
+hc_status rewritten_delayed(const model *m, double delay, rewritten *out);
 
 /* The two tangents of every contact with one limit for both turned by an angle of its own, drawn at random. */
-hc_status rewritten_other_tangents(const model *m, uint64_t *random, model **out);
+hc_status rewritten_other_tangents(const model *m, uint64_t *random, rewritten *out);
 
 /* Every matrix and vector, each contact's numbers and every load changed by `part` of their largest entry, at random;
- * what is 0 altogether, and what is symmetric, stays so. */
-hc_status rewritten_nudged(const model *m, double part, uint64_t *random, model **out);
-
-/* Q[n][n]: an orthogonal matrix of no particular form; a permutation. */
-void random_rotation(uint64_t *random, int n, double *Q);
-void random_permutation(uint64_t *random, int n, double *Q);
-
-/* out = Q^T x. */
-void turned_vector(int n, const double *Q, const double *x, double *out);
+ * what is 0 altogether, and what is symmetric, stays so. Its motions are others. */
+hc_status rewritten_nudged(const model *m, double part, uint64_t *random, rewritten *out);
 
 #endif

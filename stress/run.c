@@ -26,17 +26,13 @@
 
 /* ---- one scene ------------------------------------------------------------------------------------------- */
 
-static bool is_finite(const solved_scene *s)
-{
-  for (int i = 0; i < s->n * s->n_coef; ++i)
-    if (!isfinite(s->base.x[i])) return false;
-  return true;
-}
-
+/* of(s), if there is a solution and all its numbers are some. */
 static stress_check check(solved_scene *s, stress_check (*of)(solved_scene *))
 {
   if (s->base.status != HC_OK) return stress_refuse(s, s->base.status);
-  return is_finite(s) ? of(s) : stress_find(STRESS_INTERNAL, NAN, NAN);
+  for (int i = 0; i < s->n * s->n_coef; ++i)
+    if (!isfinite(s->base.x[i])) return stress_find(STRESS_INTERNAL, NAN, NAN);
+  return of(s);
 }
 
 hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
@@ -78,10 +74,17 @@ static const char *const lists[] = {
 };
 enum { N_LISTS = sizeof lists / sizeof *lists };
 
+static void first_line(const stress_plan *plan, char line[LINE])
+{
+  snprintf(line, LINE, "# hbmcheck stress %d, %sseed %lu, %.17g s\n", VERSION, families[plan->family], plan->seed,
+           plan->seconds);
+}
+
 static void write_heading(const stress_plan *plan, FILE *file)
 {
-  fprintf(file, "# hbmcheck stress %d, %sseed %lu, %.17g s\n", VERSION, families[plan->family], plan->seed,
-          plan->seconds);
+  char line[LINE];
+  first_line(plan, line);
+  fputs(line, file);
   for (int i = 0; i < N_LISTS; ++i) fputs(lists[i], file);
 }
 
@@ -91,8 +94,7 @@ static hc_status read_heading(const stress_plan *plan, FILE *file)
   static const char begin[] = "# hbmcheck stress ";
   char line[LINE], expected[LINE];
   if (!fgets(line, sizeof line, file)) return ferror(file) ? HC_IO : HC_BAD_INPUT;
-  snprintf(expected, sizeof expected, "# hbmcheck stress %d, %sseed %lu, %.17g s\n", VERSION, families[plan->family],
-           plan->seed, plan->seconds);
+  first_line(plan, expected);
   if (strcmp(line, expected) != 0) {
     const char *number = line + sizeof begin - 1;
     int version = VERSION;
@@ -170,17 +172,6 @@ static hc_status read_all(const stress_plan *plan, FILE *file, stress_result *re
   return ferror(file) ? HC_IO : HC_OK;
 }
 
-/* Ready to be written to: what is there taken over, half a line cut off, a heading at its beginning. */
-static hc_status start_journal(const stress_plan *plan, FILE *file, stress_result *results, long *there)
-{
-  long end;
-  hc_status st = read_all(plan, file, results, there, &end);
-  if (st != HC_OK) return st;
-  if (fseek(file, end, SEEK_SET) != 0 || ftruncate(fileno(file), end) != 0) return HC_IO;
-  if (end == 0) write_heading(plan, file);
-  return fflush(file) == 0 && !ferror(file) ? HC_OK : HC_IO;
-}
-
 /* plan->journal, if any: its scenes that belong to the plan into results, *there of them. *out is NULL where there
  * is none to keep. HC_BAD_INPUT: it is no journal of this seed and these seconds, or is damaged; HC_UNSUPPORTED: its
  * version or its lists of names are not those of this program; HC_IO. What is refused is left as it was. */
@@ -191,26 +182,17 @@ static hc_status open_journal(const stress_plan *plan, stress_result *results, l
   FILE *file = fopen(plan->journal, "r+");
   if (!file && errno == ENOENT) file = fopen(plan->journal, "w+");
   if (!file) return HC_IO;
-  hc_status st = start_journal(plan, file, results, there);
+  long end;
+  hc_status st = read_all(plan, file, results, there, &end);
+  /* half a line is cut off; a heading at its beginning */
+  if (st == HC_OK && (fseek(file, end, SEEK_SET) != 0 || ftruncate(fileno(file), end) != 0)) st = HC_IO;
+  if (st == HC_OK && end == 0) write_heading(plan, file);
+  if (st == HC_OK && (fflush(file) != 0 || ferror(file))) st = HC_IO;
   const int why = errno;
   if (st == HC_OK) *out = file;
   else fclose(file);
   errno = why;
   return st;
-}
-
-/* On disk when this returns HC_OK; NULL: nowhere to. */
-static hc_status keep_result(FILE *journal, const stress_result *r)
-{
-  if (!journal) return HC_OK;
-  fprintf(journal, "%ld %.3f", r->index, r->seconds);
-  for (int k = 0; k < STRESS_N_CHECKS; ++k) {
-    const stress_check *c = &r->check[k];
-    fprintf(journal, "  %d %d %d %.17g %.17g %.3f", (int)c->outcome, (int)c->reason, (int)c->status, c->error, c->bound,
-            c->seconds);
-  }
-  fputs(" .\n", journal);
-  return fflush(journal) == 0 && !ferror(journal) ? HC_OK : HC_IO;
 }
 
 /* ---- threads -------------------------------------------------------------------------------------------- */
@@ -235,10 +217,22 @@ static stress_result *next_result(pool *p)
   return r;
 }
 
+/* On disk when this returns HC_OK, if it is to be anywhere. */
 static hc_status store_result(pool *p, const stress_result *r)
 {
+  FILE *journal = p->journal;
+  hc_status st = HC_OK;
   pthread_mutex_lock(&p->workers.lock);
-  hc_status st = keep_result(p->journal, r);
+  if (journal) {
+    fprintf(journal, "%ld %.3f", r->index, r->seconds);
+    for (int k = 0; k < STRESS_N_CHECKS; ++k) {
+      const stress_check *c = &r->check[k];
+      fprintf(journal, "  %d %d %d %.17g %.17g %.3f", (int)c->outcome, (int)c->reason, (int)c->status, c->error,
+              c->bound, c->seconds);
+    }
+    fputs(" .\n", journal);
+    if (fflush(journal) != 0 || ferror(journal)) st = HC_IO;
+  }
   ++p->done;
   pthread_mutex_unlock(&p->workers.lock);
   return st;
@@ -264,18 +258,6 @@ static void *work(void *self)
   return NULL;
 }
 
-static void watch_over(pool *p, const stress_watch *watch)
-{
-  for (bool running = true; running;) {
-    running = workers_wait(&p->workers, WATCH_MS);
-    pthread_mutex_lock(&p->workers.lock);
-    long done = p->done;
-    pthread_mutex_unlock(&p->workers.lock);
-    if (watch->tick && !watch->tick(watch->self, done, p->plan->scenes) && running)
-      workers_stop(&p->workers, HC_INTERRUPTED);
-  }
-}
-
 hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_result *results, long *resumed)
 {
   pool p = {.plan = plan, .results = results};
@@ -285,7 +267,14 @@ hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_
   if (st == HC_OK && (st = workers_init(&p.workers)) != HC_OK && p.journal) fclose(p.journal);
   if (st != HC_OK) return st;
   workers_start(&p.workers, plan->jobs, work, &p);
-  watch_over(&p, watch);
+  for (bool running = true; running;) {
+    running = workers_wait(&p.workers, WATCH_MS);
+    pthread_mutex_lock(&p.workers.lock);
+    const long done = p.done;
+    pthread_mutex_unlock(&p.workers.lock);
+    if (watch->tick && !watch->tick(watch->self, done, plan->scenes) && running)
+      workers_stop(&p.workers, HC_INTERRUPTED);
+  }
   hc_status worst = workers_join(&p.workers);
   st = !p.journal || fclose(p.journal) == 0 ? HC_OK : HC_IO;
   return worst != HC_OK ? worst : st;

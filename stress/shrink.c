@@ -17,42 +17,35 @@ typedef struct shrinker {
   hc_status status;
 } shrinker;
 
-static bool still(shrinker *s, const scene *sc)
+/* A scene to make smaller, with a structure of its own; false: out of memory, or stopped. */
+static bool copy(shrinker *s, const scene *sc, scene *out)
 {
-  stress_result r;
+  *out = *sc;
   if (s->status != HC_OK) return false;
-  s->status = stress_scene(sc, s->seconds, s->monitor, &r);
-  return s->status == HC_OK && r.check[s->kind].outcome == STRESS_FINDING;
+  if (sc->structure && !(out->structure = structure_copy(sc->structure))) s->status = HC_NO_MEMORY;
+  return s->status == HC_OK;
 }
 
-static bool try(shrinker *s, scene *sc, const scene *smaller)
+/* *smaller takes *sc's place where it is still a finding, and nothing is adrift, which a case file could not say; else
+ * it is forgotten. */
+static bool take(shrinker *s, scene *sc, scene *smaller)
 {
-  if (!still(s, smaller)) return false;
-  *sc = *smaller;
-  return true;
-}
-
-/* ---- an oscillator ---- */
-
-static void drop_contacts(shrinker *s, scene *sc)
-{
-  for (int j = sc->n_contacts - 1; j >= 0 && sc->n_contacts > 1; --j) {
-    scene smaller = *sc;
-    for (int k = j; k + 1 < smaller.n_contacts; ++k) smaller.contacts[k] = smaller.contacts[k + 1];
-    --smaller.n_contacts;
-    try(s, sc, &smaller);
+  const scene_structure *t = smaller->structure;
+  double *x = t ? malloc((size_t)t->n * sizeof *x) : NULL;
+  bool finds = false, adrift = false;
+  stress_result r;
+  if (t && s->status == HC_OK) s->status = x ? structure_free_motion(t, false, x, &adrift) : HC_NO_MEMORY;
+  free(x);
+  if (s->status == HC_OK && !adrift) {
+    s->status = stress_scene(smaller, s->seconds, s->monitor, &r);
+    finds = s->status == HC_OK && r.check[s->kind].outcome == STRESS_FINDING;
   }
+  case_clear(finds ? sc : smaller);
+  if (finds) *sc = *smaller;
+  return finds;
 }
 
-static void fewer_harmonics(shrinker *s, scene *sc)
-{
-  static const int few[] = {1, 2, 3, 5, 10, 20};
-  for (int i = 0; i < 6 && few[i] < sc->hbm.harmonics; ++i) {
-    scene smaller = *sc;
-    smaller.hbm.harmonics = few[i];
-    if (try(s, sc, &smaller)) return;
-  }
-}
+/* ---- its numbers ---- */
 
 static double rounded(double x, int digits)
 {
@@ -70,9 +63,9 @@ static void round_number(shrinker *s, scene *sc, double *number, bool frequency)
     *number = rounded(full, digits);
     if (*number == full) return;
     if (frequency) sc->omega_from = 0.8 * *number, sc->omega_to = 1.2 * *number;
-    const scene smaller = *sc;
+    scene smaller = *sc;
     *sc = before;
-    if (try(s, sc, &smaller)) return;
+    if (take(s, sc, &smaller)) return;
   }
 }
 
@@ -88,68 +81,54 @@ static void round_numbers(shrinker *s, scene *sc)
   }
 }
 
-/* ---- a structure ---- */
-
-/* A scene with a structure of its own to make smaller; false: out of memory, or stopped. */
-static bool copy(shrinker *s, const scene *sc, scene *out)
-{
-  *out = *sc;
-  if (s->status != HC_OK) return false;
-  out->structure = structure_copy(sc->structure);
-  if (!out->structure) s->status = HC_NO_MEMORY;
-  return out->structure != NULL;
-}
-
-/* *smaller takes *sc's place where it is still a finding; else it is forgotten. */
-static bool take(shrinker *s, scene *sc, scene *smaller)
-{
-  double *x = malloc((size_t)smaller->structure->n * sizeof *x);
-  bool adrift = true;
-  if (s->status == HC_OK) s->status = x ? structure_free_motion(smaller->structure, false, x, &adrift) : HC_NO_MEMORY;
-  free(x);
-  const bool finds = !adrift && still(s, smaller);
-  case_clear(finds ? sc : smaller);
-  if (finds) *sc = *smaller;
-  return finds;
-}
-
-/* What a structure may do without, one at a time and the last first; drop() is false where it cannot be. */
+/* ---- its parts ----
+ *
+ * What a scene may do without, one at a time and the last first; drop() is false where it cannot be. */
 typedef struct part {
-  int (*count)(const scene_structure *);
+  int (*count)(const scene *);
   int least;
-  bool (*drop)(scene_structure *, int);
+  bool (*drop)(scene *, int);
 } part;
 
 static void drop_parts(shrinker *s, scene *sc, const part *p)
 {
   scene smaller;
-  for (int i = p->count(sc->structure) - 1; i >= 0 && p->count(sc->structure) > p->least; --i) {
+  for (int i = p->count(sc) - 1; i >= 0 && p->count(sc) > p->least; --i) {
     if (!copy(s, sc, &smaller)) return;
-    if (p->drop(smaller.structure, i)) take(s, sc, &smaller);
+    if (p->drop(&smaller, i)) take(s, sc, &smaller);
     else case_clear(&smaller);
   }
 }
 
-static int count_contacts(const scene_structure *t) { return t->n_contacts; }
-static int count_loads(const scene_structure *t) { return t->n_loads; }
-static int count_dofs(const scene_structure *t) { return t->n; }
+static int count_contacts(const scene *sc) { return sc->structure ? sc->structure->n_contacts : sc->n_contacts; }
+static int count_loads(const scene *sc) { return sc->structure ? sc->structure->n_loads : 0; }
+static int count_dofs(const scene *sc) { return sc->structure ? sc->structure->n : 0; }
+static int count_tangents(const scene *sc) { return sc->structure ? sc->structure->n_contacts : 0; }
 
-static bool drop_contact(scene_structure *t, int j)
+static bool drop_contact(scene *sc, int j)
 {
-  free(t->contacts[j].tangent); /* with the others behind it */
-  t->contacts[j] = t->contacts[--t->n_contacts];
+  scene_structure *t = sc->structure;
+  if (t) {
+    free(t->contacts[j].tangent); /* with the others behind it */
+    t->contacts[j] = t->contacts[--t->n_contacts];
+  } else {
+    --sc->n_contacts;
+    for (int k = j; k < sc->n_contacts; ++k) sc->contacts[k] = sc->contacts[k + 1];
+  }
   return true;
 }
 
-static bool drop_load(scene_structure *t, int i)
+static bool drop_load(scene *sc, int i)
 {
+  scene_structure *t = sc->structure;
   free(t->loads[i].direction);
   t->loads[i] = t->loads[--t->n_loads];
   return true;
 }
 
-static bool drop_second_tangent(scene_structure *t, int j)
+static bool drop_second_tangent(scene *sc, int j)
 {
+  const scene_structure *t = sc->structure;
   if (structure_is_zero(t->contacts[j].tangent_2, t->n)) return false;
   memset(t->contacts[j].tangent_2, 0, (size_t)t->n * sizeof(double));
   return true;
@@ -190,8 +169,9 @@ static bool is_whole(const scene_structure *t)
 }
 
 /* Degree of freedom k held: of a structure without names, nodes and damping by modes. */
-static bool hold_dof(scene_structure *t, int k)
+static bool hold_dof(scene *sc, int k)
 {
+  scene_structure *t = sc->structure;
   drop_row(t->n, k, t->mass.v);
   drop_row(t->n, k, t->stiffness.v);
   drop_row(t->n, k, t->damping.v);
@@ -207,18 +187,14 @@ static bool hold_dof(scene_structure *t, int k)
   return is_whole(t);
 }
 
-static int highest_load(const scene_structure *t)
-{
-  int most = 1;
-  for (int i = 0; i < t->n_loads; ++i)
-    if (t->loads[i].harmonic > most) most = t->loads[i].harmonic;
-  return most;
-}
-
-static void fewer_structure_harmonics(shrinker *s, scene *sc)
+/* With the fewest: a structure not without the harmonics of its loads. */
+static void fewer_harmonics(shrinker *s, scene *sc)
 {
   scene smaller;
-  for (int h = highest_load(sc->structure); h < sc->hbm.harmonics; ++h) {
+  int least = 1;
+  for (int i = 0; i < count_loads(sc); ++i)
+    if (sc->structure->loads[i].harmonic > least) least = sc->structure->loads[i].harmonic;
+  for (int h = least; h < sc->hbm.harmonics; ++h) {
     if (!copy(s, sc, &smaller)) return;
     smaller.hbm.harmonics = h;
     if (take(s, sc, &smaller)) return;
@@ -227,18 +203,13 @@ static void fewer_structure_harmonics(shrinker *s, scene *sc)
 
 hc_status stress_shrink(scene *sc, stress_kind kind, double seconds, const hc_monitor *monitor)
 {
+  static const part parts[] = {{count_contacts, 1, drop_contact},
+                               {count_tangents, 0, drop_second_tangent},
+                               {count_loads, 1, drop_load},
+                               {count_dofs, 1, hold_dof}};
   shrinker s = {kind, seconds, monitor, HC_OK};
-  if (sc->structure) {
-    static const part parts[] = {{count_contacts, 1, drop_contact},
-                                 {count_contacts, 0, drop_second_tangent},
-                                 {count_loads, 1, drop_load},
-                                 {count_dofs, 1, hold_dof}};
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) drop_parts(&s, sc, &parts[i]);
-    fewer_structure_harmonics(&s, sc);
-  } else {
-    drop_contacts(&s, sc);
-    fewer_harmonics(&s, sc);
-    round_numbers(&s, sc);
-  }
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) drop_parts(&s, sc, &parts[i]);
+  fewer_harmonics(&s, sc);
+  if (!sc->structure) round_numbers(&s, sc);
   return s.status;
 }

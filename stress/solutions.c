@@ -134,41 +134,31 @@ static stress_check hold_linear(solved_scene *s, const model *m, const linear_mo
   return c;
 }
 
-/* m with contacts changed, and K of what is linear then. */
-static stress_check check_linear(solved_scene *s, model *m, model *linear, bool stuck)
-{
-  const double solvable = 1e-10;
-  linear_motion exact;
-  hc_status st = linear_steady(s, linear, &exact);
-  stress_check c = stress_skip(STRESS_NOT_APPLICABLE);
-  double moves = 0;
-  for (int i = 0; i < s->n * s->n_coef && st == HC_OK; ++i) moves = fmax(moves, fabs(exact.x[i]));
-  for (int j = 0; j < m->n_contacts && st == HC_OK && moves > 0; ++j) {
-    contact *law = &m->contacts[j].law;
-    const bool second = m->contacts[j].pair == CONTACT_SECOND, first = m->contacts[j].pair == CONTACT_FIRST;
-    const double v = reach(s, m->contacts[j].normal, exact.x);
-    const double u =
-        reach(s, m->contacts[j].tangent, exact.x) + (first ? reach(s, m->contacts[j + 1].tangent, exact.x) : 0);
-    if (second) *law = m->contacts[j - 1].law; /* one law for both */
-    else if (!stuck) law->gap = -3 * (v + 1e-3 * moves), law->load = 0;
-    else if (law->kn > 0) law->gap = 10 * (v + moves + law->kt * u / (law->mu * law->kn));
-    else law->load = 10 * law->kt * (u + moves) / law->mu;
-  }
-  if (st == HC_OK && moves > 0 && exact.bound < solvable && moves < 1e150) c = hold_linear(s, m, &exact, stuck);
-  else if (st != HC_OK) c = stress_refuse(s, st);
-  free(exact.x);
-  return c;
-}
-
 static void add_spring(int n, double k, const double *d, double *K)
 {
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) K[j * n + i] += k * d[i] * d[j];
 }
 
+/* Contact j of m so that the motion x, whose largest entry is `moves`, never closes it, or never slips nor opens. */
+static void keep_linear(const solved_scene *s, const double *x, double moves, bool stuck, int j, model *m)
+{
+  model_contact *c = &m->contacts[j];
+  contact *law = &c->law;
+  const double v = reach(s, c->normal, x);
+  const double u = reach(s, c->tangent, x) + (c->pair == CONTACT_FIRST ? reach(s, c[1].tangent, x) : 0);
+  if (c->pair == CONTACT_SECOND) *law = c[-1].law; /* one law for both */
+  else if (!stuck) law->gap = -3 * (v + 1e-3 * moves), law->load = 0;
+  else if (law->kn > 0) law->gap = 10 * (v + moves + law->kt * u / (law->mu * law->kn));
+  else law->load = 10 * law->kt * (u + moves) / law->mu;
+}
+
+/* The model with other contacts, against the closed form of K with the springs of those that stick. */
 static stress_check check_contacts(solved_scene *s, bool stuck)
 {
+  const double solvable = 1e-10;
   model *m = NULL, *linear = NULL;
+  linear_motion exact = {.x = NULL};
   hc_status st = model_copy(s->model, &m);
   for (int l = 0; st == HC_OK && l < m->n_loads && !s->how.keep_mean; ++l)
     for (int i = 0; i < s->n && m->loads[l].harmonic == 0; ++i) m->loads[l].cosine[i] = 0; /* not in HBM's equations */
@@ -179,7 +169,13 @@ static stress_check check_contacts(solved_scene *s, bool stuck)
     if (law->kt > 0) add_spring(s->n, law->kt, m->contacts[j].tangent, linear->stiffness);
     if (law->kn > 0) add_spring(s->n, law->kn, m->contacts[j].normal, linear->stiffness);
   }
-  const stress_check c = st == HC_OK ? check_linear(s, m, linear, stuck) : stress_refuse(s, st);
+  if (st == HC_OK) st = linear_steady(s, linear, &exact);
+  stress_check c = st == HC_OK ? stress_skip(STRESS_NOT_APPLICABLE) : stress_refuse(s, st);
+  double moves = 0;
+  for (int i = 0; i < s->n * s->n_coef && st == HC_OK; ++i) moves = fmax(moves, fabs(exact.x[i]));
+  for (int j = 0; moves > 0 && j < m->n_contacts; ++j) keep_linear(s, exact.x, moves, stuck, j, m);
+  if (moves > 0 && exact.bound < solvable && moves < 1e150) c = hold_linear(s, m, &exact, stuck);
+  free(exact.x);
   model_free(m);
   model_free(linear);
   return c;
@@ -206,26 +202,22 @@ static stress_check hold_samples(solved_scene *s, const double *x, int N)
   return stress_agree(stress_imbalance(s, x), bound + allowed);
 }
 
-/* Does Newton on the exact forces lead from there to the solution? How far from it it ends, and whether in balance. */
-static double exact_from(solved_scene *s, const double *x, bool *balanced)
+/* Sliders that never slip rest where they like. */
+static double off_base(const solved_scene *s, const double *x)
 {
-  stress_motion exact;
-  stress_motion_solve(s, s->model, &s->how, s->omega, x, 1, &exact);
-  const bool solved = exact.status == HC_OK;
-  *balanced = solved && stress_imbalance(s, exact.x) <= stress_balanced(s);
-  const double far =
-      solved ? stress_motion_distance(s, exact.x, s->base.x, s->base.m.contact.free_sliders > 0) : INFINITY;
-  stress_motion_free(&exact);
-  return far;
+  return stress_motion_distance(s, x, s->base.x, s->base.m.contact.free_sliders > 0);
 }
 
 /* Beyond the bound with the most samples: all of it is the samples' where each solution is in balance with its own
- * forces, these differ by no more than they must, and the exact solution is the one next to the sampled. */
+ * forces, these differ by no more than they must, and Newton on the exact forces leads from the one to the other. */
 static stress_check explain_samples(solved_scene *s, const double *x, double error)
 {
-  bool balanced;
-  const double far = exact_from(s, x, &balanced);
-  if (far <= near) return stress_explain(STRESS_ALIASED, error, near);
+  stress_motion exact;
+  stress_motion_solve(s, s->model, &s->how, s->omega, x, 1, &exact);
+  const bool solved = exact.status == HC_OK, same = solved && off_base(s, exact.x) <= near;
+  const bool balanced = solved && stress_imbalance(s, exact.x) <= stress_balanced(s);
+  stress_motion_free(&exact);
+  if (same) return stress_explain(STRESS_ALIASED, error, near);
   stress_condition(s);
   if (error <= s->solution_errs) return stress_agree_within(error, near, s->solution_errs);
   return balanced ? stress_explain(STRESS_OTHER_ORBIT, error, near) : stress_find(STRESS_DISAGREES, error, near);
@@ -247,8 +239,7 @@ stress_check stress_check_sampled(solved_scene *s)
     stress_motion_solve(s, s->model, &how, s->omega, s->base.x, 1, &sampled);
     if (sampled.status != HC_OK) failed = sampled.status;
     else {
-      /* sliders that never slip rest where they like */
-      const double error = stress_motion_distance(s, sampled.x, s->base.x, s->base.m.contact.free_sliders > 0);
+      const double error = off_base(s, sampled.x);
       result = hold_samples(s, sampled.x, how.samples);
       done = result.outcome == STRESS_FINDING || error <= near;
       if (result.outcome != STRESS_FINDING && error <= near) result = stress_agree(error, near);
@@ -271,11 +262,11 @@ static stress_check hold_found(solved_scene *s, hbm_solver *h, const hbm_curve *
   *nearest = INFINITY;
   for (int k = 0; k < found->n && st == HC_OK; ++k) {
     hbm_stability stability;
-    st = stress_motion_read(s, h, s->omega, hbm_curve_X(found, k), x);
+    st = stress_motion_read(s, h, s->omega, hbm_curve_X(found, k), s->n_coef, x);
     if (st != HC_OK) break;
     const double off = stress_imbalance(s, x);
     if (!(off <= worst)) worst = off;
-    *nearest = fmin(*nearest, stress_motion_distance(s, x, s->base.x, s->base.m.contact.free_sliders > 0));
+    *nearest = fmin(*nearest, off_base(s, x));
     st = hbm_stability_at(h, s->omega, hbm_curve_X(found, k), &stability);
     if (st == HC_OK && !(stability.multiplier >= 0)) worst = NAN;
   }

@@ -23,15 +23,6 @@ static bool go_on(void *self, double done)
 
 void solved_scene_clock(solved_scene *s) { s->deadline = thread_seconds() + s->seconds; }
 
-static hc_status make_model(solved_scene *s, const scene *sc)
-{
-  model *m;
-  hc_status st = scene_model(sc, &m);
-  if (st == HC_OK) st = rewritten_with_all_responses(m, &s->model);
-  model_free(m);
-  return st;
-}
-
 hc_status solved_scene_start(solved_scene *s, const scene *sc, double seconds, const hc_monitor *outer)
 {
   *s = (solved_scene){.how = sc->hbm, .omega = sc->compare.omega.v[0], .seconds = seconds, .outer = outer};
@@ -40,7 +31,10 @@ hc_status solved_scene_start(solved_scene *s, const scene *sc, double seconds, c
   s->from = sc->omega_from, s->to = sc->omega_to;
   s->monitor = (hc_monitor){go_on, s};
   memcpy(&s->random, &s->omega, sizeof s->random); /* the same for the same scene, whatever its number */
-  hc_status st = make_model(s, sc);
+  model *m;
+  hc_status st = scene_model(sc, &m);
+  if (st == HC_OK) st = rewritten_with_all_responses(m, &s->model);
+  model_free(m);
   if (st != HC_OK) return st;
   s->n = s->model->n;
   s->n_coef = series_length(s->how.harmonics);
@@ -58,8 +52,7 @@ void solved_scene_clear(solved_scene *s)
   model_free(s->model);
   stress_motion_free(&s->base);
   stress_motion_free(&s->fine);
-  free(s->path.state);
-  free(s->path.wave);
+  stress_path_free(&s->path);
 }
 
 /* ---- one solution --------------------------------------------------------------------------------- */
@@ -71,28 +64,16 @@ void stress_motion_free(stress_motion *m)
   m->x = m->start = NULL;
 }
 
-hc_status stress_motion_read(const solved_scene *s, hbm_solver *h, double omega, const double *X, double *x)
+hc_status stress_motion_read(const solved_scene *s, hbm_solver *h, double omega, const double *X, int n_coef, double *x)
 {
   hc_status st = HC_OK;
-  double *series = malloc((size_t)s->n_coef * sizeof *series);
+  double *series = malloc((size_t)n_coef * sizeof *series);
   if (!series) return HC_NO_MEMORY;
   for (int i = 0; i < s->n && st == HC_OK; ++i) {
     st = hbm_response(h, omega, X, 1 + i, series);
-    for (int c = 0; c < s->n_coef; ++c) x[c * s->n + i] = series[c];
+    for (int c = 0; c < n_coef; ++c) x[c * s->n + i] = series[c];
   }
   free(series);
-  return st;
-}
-
-static hc_status solve(solved_scene *s, hbm_solver *h, double omega, const double *guess, double *X, stress_motion *out)
-{
-  hbm_point point;
-  if (guess) hbm_guess_of(h, guess, X);
-  hc_status st = guess ? hbm_solve(h, omega, X, &point) : hbm_first_solution(h, omega, &s->monitor, X, &point);
-  if (st == HC_OK) st = hbm_measure(h, X, &out->m);
-  if (st == HC_OK) st = stress_motion_read(s, h, omega, X, out->x);
-  if (st == HC_OK) out->stability_status = hbm_stability_at(h, omega, X, &out->stability);
-  if (st == HC_OK) out->start_status = comparison_orbit_start(h, X, omega, out->start);
   return st;
 }
 
@@ -101,12 +82,17 @@ static hc_status solve_with(solved_scene *s, const model *m, const hbm_settings 
                             const double *guess, stress_motion *out)
 {
   hbm_solver *h = NULL;
+  hbm_point point;
   hc_status st = guided ? guided_hbm_solver_new(m, how, &h) : hbm_solver_new(m, how, &h);
-  if (st == HC_OK) {
-    double *X = calloc((size_t)hbm_n_coefficients(h), sizeof *X);
-    st = X ? solve(s, h, omega, guess, X, out) : HC_NO_MEMORY;
-    free(X);
-  }
+  double *X = st == HC_OK ? calloc((size_t)hbm_n_coefficients(h), sizeof *X) : NULL;
+  if (st == HC_OK && !X) st = HC_NO_MEMORY;
+  if (st == HC_OK && guess) hbm_guess_of(h, guess, X);
+  if (st == HC_OK) st = guess ? hbm_solve(h, omega, X, &point) : hbm_first_solution(h, omega, &s->monitor, X, &point);
+  if (st == HC_OK) st = hbm_measure(h, X, &out->m);
+  if (st == HC_OK) st = stress_motion_read(s, h, omega, X, series_length(out->harmonics), out->x);
+  if (st == HC_OK) out->stability_status = hbm_stability_at(h, omega, X, &out->stability);
+  if (st == HC_OK) out->start_status = comparison_orbit_start(h, X, omega, out->start);
+  free(X);
   hbm_solver_free(h);
   return st;
 }
@@ -114,12 +100,14 @@ static hc_status solve_with(solved_scene *s, const model *m, const hbm_settings 
 void stress_motion_solve(solved_scene *s, const model *m, const hbm_settings *how, double omega, const double *guess,
                          double length, stress_motion *out)
 {
-  *out = (stress_motion){.x = calloc((size_t)s->n * (size_t)s->n_coef, sizeof(double)),
+  const size_t length_x = (size_t)s->n * (size_t)series_length(how->harmonics);
+  *out = (stress_motion){.harmonics = how->harmonics,
+                         .x = calloc(length_x, sizeof(double)),
                          .start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof(double))};
   out->status = out->x && out->start ? solve_with(s, m, how, false, omega, guess, out) : HC_NO_MEMORY;
   if (!guess && out->status != HC_OK && out->status != HC_INTERRUPTED && out->status != HC_NO_MEMORY)
     out->status = solve_with(s, m, how, true, omega, NULL, out);
-  for (int i = 0; out->x && i < s->n * s->n_coef; ++i) out->x[i] /= length;
+  for (size_t i = 0; out->x && i < length_x; ++i) out->x[i] /= length;
   if (out->status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;
 }
 

@@ -16,6 +16,7 @@ typedef struct solved_scene solved_scene;
 /* One solution. */
 typedef struct stress_motion {
   hc_status status, stability_status;
+  int harmonics;
   double *x; /* [2H+1][n] [length], of the base model's degrees of freedom, in its units */
   hbm_measures m;
   hbm_stability stability;
@@ -48,8 +49,7 @@ struct solved_scene {
                              INFINITY where the solution gets lost */
   double multiplier_errs; /* [1] what that makes of the largest multiplier */
   const scene *asked;
-  stress_motion fine; /* with the most harmonics that were needed, from STRESS_ORBIT on */
-  int fine_harmonics;
+  stress_motion fine;     /* with the most harmonics that were needed, from STRESS_ORBIT on */
   stress_path path;       /* the exact law's orbit next to it */
   stress_check predicted; /* of the comparison that STRESS_VERDICT made */
 };
@@ -59,14 +59,16 @@ hc_status solved_scene_start(solved_scene *s, const scene *sc, double seconds, c
 void solved_scene_clear(solved_scene *s);
 void solved_scene_clock(solved_scene *s); /* of a check starts now */
 
-/* HBM of m at omega, from the guess x[2H+1][m->n], or from nothing where it is NULL. m's responses 1 .. n are the base
- * model's degrees of freedom, in a unit of length of which `length` are one of the base model's. To be freed. */
+/* HBM of m at omega with how->harmonics, from the guess x[2H+1][m->n], or from nothing where it is NULL. m's responses
+ * 1 .. n are the base model's degrees of freedom, in a unit of length of which `length` are one of the base model's. To
+ * be freed. */
 void stress_motion_solve(solved_scene *s, const model *m, const hbm_settings *how, double omega, const double *guess,
                          double length, stress_motion *out);
 void stress_motion_free(stress_motion *m);
 
-/* The motion X of h, a solver of the base model, in all its degrees of freedom. */
-hc_status stress_motion_read(const solved_scene *s, hbm_solver *h, double omega, const double *X, double *x);
+/* The motion X[n_coef] of h, a solver of the base model, in all its degrees of freedom. */
+hc_status stress_motion_read(const solved_scene *s, hbm_solver *h, double omega, const double *X, int n_coef,
+                             double *x);
 
 /* Largest |x - y| over the largest |y|, without the means where they are left `out`; NaN if one is. */
 double stress_motion_distance(const solved_scene *s, const double *x, const double *y, bool means_out);
@@ -79,12 +81,16 @@ void stress_condition(solved_scene *s);
 double stress_multipliers_apart(const stress_motion *a, const stress_motion *b);
 
 /* What is left of M x'' + C x' + K x + contact forces - loads for the motion x, over the largest sum of the sizes of
- * what it is made of; written down from the model, each contact's force by itself. NaN: a force failed. */
-double stress_imbalance(solved_scene *s, const double *x);
-
-/* The same with each contact's law stepped through N instants a period in place of its exact force; *bound: the most
- * that this may change. NaN also: a slider in the plane has not settled. */
+ * what it is made of; written down from the model, each contact's force by itself: the exact one, or where N > 0 its
+ * law stepped through N instants a period, and *bound is the most that this may change. NaN: a force failed, or a
+ * slider in the plane has not settled. */
 double stress_imbalance_sampled(solved_scene *s, const double *x, int N, double *bound);
+
+static inline double stress_imbalance(solved_scene *s, const double *x)
+{
+  double unused;
+  return stress_imbalance_sampled(s, x, 0, &unused);
+}
 
 /* What is let pass of it, 100 times Newton's tolerance: that is relative to the forces in the condensed coordinates,
  * which may be larger by what the rest of the structure, held, makes of them. */

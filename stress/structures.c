@@ -238,25 +238,6 @@ static void give_units(double mass, double stiffness, double length, scene *sc)
 
 /* ---- the whole --------------------------------------------------------------------------------------- */
 
-/* A spring to the ground where neither matrix nor contacts hold it: a case file could not say it. */
-static hc_status hold(scene_structure *s)
-{
-  double x[MOST_DOFS];
-  bool adrift;
-  hc_status st = structure_free_motion(s, false, x, &adrift);
-  if (st == HC_OK && adrift) add_between(s->n, s->stiffness.v, 1, 0, -1);
-  return st;
-}
-
-static hc_status draw_response(uint64_t *r, scene_structure *s)
-{
-  if (random_unit(r) < 0.3) return HC_OK; /* the default */
-  structure_response *response = structure_add_response(s);
-  if (!response) return HC_NO_MEMORY;
-  draw_direction(r, s->n, response->direction);
-  return HC_OK;
-}
-
 /* MOST_UNKNOWNS at most, but for the coordinates that their number keeps. */
 static int most_harmonics(int n, int n_directions)
 {
@@ -264,15 +245,13 @@ static int most_harmonics(int n, int n_directions)
   return most < MOST_HARMONICS ? most : MOST_HARMONICS;
 }
 
-static int harmonics(const double *p, int n, int n_contacts)
-{
-  return (int)pow(most_harmonics(n, 2 * n_contacts) + 0.999, p[HARMONICS]);
-}
-
-/* All but the limits that are of the order of the motion. */
+/* All but the limits that are of the order of the motion. Where neither matrix nor contacts hold it, which a case file
+ * could not say, a spring to the ground does. */
 static hc_status draw_structure(uint64_t *r, const double *p, int n_contacts, int n_harm, scene_structure *s)
 {
   const double stiffness = 1e-2 * pow(1e5, p[CONTACT_STIFFNESS]);
+  double x[MOST_DOFS];
+  bool adrift;
   draw_matrices(r, p, s);
   hc_status st = draw_damping(r, p, s);
   for (int j = 0; j < n_contacts && st == HC_OK; ++j) {
@@ -282,8 +261,13 @@ static hc_status draw_structure(uint64_t *r, const double *p, int n_contacts, in
     if (c->given.law.kn == 0) c->given.preload = 1; /* it holds; how much comes later */
   }
   if (st == HC_OK) st = draw_loads(r, p, n_harm, s);
-  if (st == HC_OK) st = draw_response(r, s);
-  if (st == HC_OK) st = hold(s);
+  if (st == HC_OK && random_unit(r) >= 0.3) { /* else the default */
+    structure_response *response = structure_add_response(s);
+    if (!response) return HC_NO_MEMORY;
+    draw_direction(r, s->n, response->direction);
+  }
+  if (st == HC_OK) st = structure_free_motion(s, false, x, &adrift);
+  if (st == HC_OK && adrift) add_between(s->n, s->stiffness.v, 1, 0, -1);
   return st == HC_OK ? structure_resolve_damping(s) : st;
 }
 
@@ -300,18 +284,6 @@ static hc_status choose_motion(uint64_t *r, const double *p, scene *sc)
   return st;
 }
 
-static scene_structure *empty(int n)
-{
-  scene_structure *s = structure_new();
-  if (!s) return NULL;
-  s->n = n;
-  s->mass.v = calloc((size_t)n * (size_t)n, sizeof(double));
-  s->stiffness.v = calloc((size_t)n * (size_t)n, sizeof(double));
-  if (s->mass.v && s->stiffness.v) return s;
-  structure_free(s);
-  return NULL;
-}
-
 hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
 {
   double p[STRESS_DIMENSIONS];
@@ -322,15 +294,19 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
   field_defaults(&sc);
   snprintf(sc.title, sizeof sc.title, "Stress structure %ld of seed %lu", index, stress_scenes_seed(scenes));
   const int n = 1 + (int)(MOST_DOFS * p[DOFS]), n_contacts = 1 + (int)(MOST_CONTACTS * p[CONTACTS]);
-  sc.hbm.harmonics = harmonics(p, n, n_contacts);
+  sc.hbm.harmonics = (int)pow(most_harmonics(n, 2 * n_contacts) + 0.999, p[HARMONICS]);
   sc.hbm.keep_mean = p[KEEP_MEAN] < 0.9;
   sc.compare.omega.n = 1;
-  if (!(sc.structure = empty(n))) return HC_NO_MEMORY;
-  hc_status st = draw_structure(&r, p, n_contacts, sc.hbm.harmonics, sc.structure);
+  scene_structure *s = sc.structure = structure_new();
+  if (!s) return HC_NO_MEMORY;
+  s->n = n;
+  s->mass.v = calloc((size_t)n * (size_t)n, sizeof(double));
+  s->stiffness.v = calloc((size_t)n * (size_t)n, sizeof(double));
+  hc_status st = s->mass.v && s->stiffness.v ? draw_structure(&r, p, n_contacts, sc.hbm.harmonics, s) : HC_NO_MEMORY;
   if (st == HC_OK) st = choose_motion(&r, p, &sc);
   if (st == HC_OK) {
     give_units(1e-3 * pow(1e6, p[MASS]), pow(1e6, p[STIFFNESS]), 1e-4 * pow(1e4, p[LENGTH]), &sc);
-    st = structure_resolve_damping(sc.structure);
+    st = structure_resolve_damping(s);
   }
   sc.omega_from = 0.97 * sc.compare.omega.v[0];
   sc.omega_to = 1.03 * sc.compare.omega.v[0];
@@ -363,33 +339,24 @@ static void draw_second_tangent(uint64_t *r, int n, structure_contact *c)
   for (int i = 0; i < n; ++i) c->tangent_2[i] = along * c->tangent[i] + by * c->tangent_2[i];
 }
 
-static void give_second_tangents(uint64_t *r, scene_structure *s)
-{
-  for (int j = 0; j < s->n_contacts && s->n > 1; ++j) {
-    structure_contact *c = &s->contacts[j];
-    if (structure_is_zero(c->tangent, s->n) || random_unit(r) > 0.7) continue;
-    draw_second_tangent(r, s->n, c);
-    c->given.limit = random_unit(r) < 0.8 ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
-  }
-}
-
-static int directions(const scene_structure *s)
-{
-  int sum = 0;
-  for (int j = 0; j < s->n_contacts; ++j) sum += 2 + !structure_is_zero(s->contacts[j].tangent_2, s->n);
-  return sum;
-}
-
 static hc_status in_space(stress_scenes *scenes, long index, scene *out)
 {
   const uint64_t other = 0x5eedULL << 48; /* than that of structures.c */
   hc_status st = stress_structures_at(scenes, index, out);
   if (st != HC_OK) return st;
+  scene_structure *s = out->structure;
   uint64_t key = (((uint64_t)stress_scenes_seed(scenes) << 32) + (uint64_t)index) ^ other, r = random_bits(&key);
   snprintf(out->title, sizeof out->title, "Stress structure in space %ld of seed %lu", index,
            stress_scenes_seed(scenes));
-  give_second_tangents(&r, out->structure);
-  const int most = most_harmonics(out->structure->n, directions(out->structure));
+  int directions = 2 * s->n_contacts;
+  for (int j = 0; j < s->n_contacts && s->n > 1; ++j) {
+    structure_contact *c = &s->contacts[j];
+    if (structure_is_zero(c->tangent, s->n) || random_unit(&r) > 0.7) continue;
+    draw_second_tangent(&r, s->n, c);
+    c->given.limit = random_unit(&r) < 0.8 ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
+    ++directions;
+  }
+  const int most = most_harmonics(s->n, directions);
   if (out->hbm.harmonics > most) out->hbm.harmonics = most;
   return HC_OK;
 }

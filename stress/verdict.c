@@ -75,13 +75,25 @@ static void hold_prediction(const comparison_row *r, stress_check *so_far)
     *so_far = stress_explain(r->family ? STRESS_FAMILY : STRESS_UNEXPECTED, ratio, bound);
 }
 
-/* The worst of all rows of one comparison; s->predicted: the worst of what the rows' errors are of what both sides said
+/* With as many harmonics as have turned out to be enough, but for MOST_UNKNOWNS, where forces are exact (samples are
+ * too few for more than they were drawn with): with too few, all that is said is that the two differ. Along a curve
+ * just long enough for what lies beside (`curve` has the long one). What takes more periods is not_settled: chaos takes
+ * seconds. The worst of all rows; s->predicted: the worst of what their errors are of what both sides said
  * beforehand. */
-static stress_check hold_verdicts(solved_scene *s, const scene *sc)
+stress_check stress_check_verdict(solved_scene *s)
 {
+  enum { MOST_PERIODS = 600, MOST_UNKNOWNS = 400 };
+  const double beside = 1e-3;
+  const int coordinates = 2 * s->model->n_contacts < s->n ? 2 * s->model->n_contacts : s->n;
+  const int most = MOST_UNKNOWNS / (2 * coordinates), given = s->how.harmonics, enough = s->fine.harmonics;
+  scene sc = *s->asked;
+  if (sc.hbm.force == HBM_FORCE_EXACT && enough > given)
+    sc.hbm.harmonics = enough < most ? enough : given < most ? most : given;
+  if (sc.transient.max_periods > MOST_PERIODS) sc.transient.max_periods = MOST_PERIODS;
+  sc.omega_from = s->omega * (1 - beside), sc.omega_to = s->omega * (1 + beside);
   comparison c = {0};
   compare_setup setup;
-  hc_status st = scene_setup(sc, &setup);
+  hc_status st = scene_setup(&sc, &setup);
   setup.spare = true;
   if (st == HC_OK) st = comparison_run(&setup, &s->monitor, &c);
   scene_setup_clear(&setup);
@@ -90,36 +102,12 @@ static stress_check hold_verdicts(solved_scene *s, const scene *sc)
   /* a frequency without an answer */
   if (c.n_rows == 0) worst = st == HC_OK ? stress_find(STRESS_INTERNAL, NAN, NAN) : stress_refuse(s, st);
   for (int i = 0; i < c.n_rows; ++i) {
-    stress_check row = row_check(s, sc, &c.rows[i]);
+    stress_check row = row_check(s, &sc, &c.rows[i]);
     hold_prediction(&c.rows[i], &s->predicted);
     if (row.outcome > worst.outcome) worst = row;
   }
   comparison_clear(&c);
   return worst;
-}
-
-/* With as many harmonics as have turned out to be enough, but for MOST_UNKNOWNS: with too few, all that is said is that
- * the two differ. */
-static int enough_harmonics(const solved_scene *s)
-{
-  enum { MOST_UNKNOWNS = 400 };
-  const int coordinates = 2 * s->model->n_contacts < s->n ? 2 * s->model->n_contacts : s->n;
-  const int most = MOST_UNKNOWNS / (2 * coordinates), given = s->how.harmonics;
-  if (!(s->fine_harmonics > given)) return given;
-  return s->fine_harmonics < most ? s->fine_harmonics : given < most ? most : given;
-}
-
-/* Along a curve just long enough for what lies beside (`curve` has the long one). What takes more periods is
- * not_settled: chaos takes seconds. Samples are too few for more harmonics than they were drawn with. */
-stress_check stress_check_verdict(solved_scene *s)
-{
-  enum { MOST_PERIODS = 600 };
-  const double beside = 1e-3;
-  scene sc = *s->asked;
-  if (sc.hbm.force == HBM_FORCE_EXACT) sc.hbm.harmonics = enough_harmonics(s);
-  if (sc.transient.max_periods > MOST_PERIODS) sc.transient.max_periods = MOST_PERIODS;
-  sc.omega_from = s->omega * (1 - beside), sc.omega_to = s->omega * (1 + beside);
-  return hold_verdicts(s, &sc);
 }
 
 stress_check stress_check_predicted(solved_scene *s) { return s->predicted; }

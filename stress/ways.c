@@ -6,11 +6,13 @@
  * the equations. 1e-11 of the largest response is let pass; and 2e-6 of the multiplier, for a double one splits by the
  * root of rounding, which in a product of exponentials is some 1e-12. Beyond that, what the scene itself makes of
  * errors of rounding (stress_condition). */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
+#include "model/modes.h"
 #include "numerics/random.h"
 #include "stress/solved_scene.h"
 
@@ -32,14 +34,14 @@ static void solve_again(solved_scene *s, const model *m, double beside, stress_m
 /* Data changed by `nudge`: how far the solution goes, and *rate, the multiplier for each unit of that. */
 static double nudged(solved_scene *s, double nudge, double *rate)
 {
-  model *m;
+  rewritten other;
   stress_motion moved;
-  if ((s->fatal = rewritten_nudged(s->model, nudge, &s->random, &m)) != HC_OK) return INFINITY;
-  solve_again(s, m, 0, &moved);
+  if ((s->fatal = rewritten_nudged(s->model, nudge, &s->random, &other)) != HC_OK) return INFINITY;
+  solve_again(s, other.model, 0, &moved);
   const double far = moved.status == HC_OK ? stress_motion_distance(s, moved.x, s->base.x, false) : INFINITY;
   if (moved.status == HC_OK && far > 0) *rate = fmax(*rate, stress_multipliers_apart(&moved, &s->base) / far);
   stress_motion_free(&moved);
-  model_free(m);
+  rewritten_clear(&other);
   return far;
 }
 
@@ -74,55 +76,46 @@ void stress_condition(solved_scene *s)
 
 /* ---- one way to write it ------------------------------------------------------------------------------- */
 
-typedef struct way {
-  model *model;  /* NULL: out of memory */
-  double *guess; /* [2H+1][model->n] the known solution as the other model says it */
-  double omega, length;
-  double delay; /* [rad] that the other motion is ahead */
-  bool company; /* whose own multiplier may be the largest */
-} way;
-
-static size_t guess_length(const solved_scene *s, int n) { return (size_t)n * (size_t)s->n_coef; }
-
-/* The base solution in y, x = Q y. */
-static double *turned_guess(const solved_scene *s, const double *Q)
-{
-  double *guess = malloc(guess_length(s, s->n) * sizeof *guess);
-  for (int c = 0; guess && c < s->n_coef; ++c) turned_vector(s->n, Q, s->base.x + c * s->n, guess + c * s->n);
-  return guess;
-}
-
-static void clear(way *w)
-{
-  model_free(w->model);
-  free(w->guess);
-}
-
-/* Back to our time: coefficients of harmonic h turned by -h delay. */
-static void undelay(const solved_scene *s, double delay, double *x)
+/* x(t) becomes x(t + delay/omega): coefficients of harmonic h turned by h delay. */
+static void shift(const solved_scene *s, double delay, double *x)
 {
   for (int h = 1; 2 * h < s->n_coef && delay != 0; ++h) {
     const double c = cos(h * delay), sine = sin(h * delay);
     double *a = x + (2 * h - 1) * s->n, *b = a + s->n;
     for (int i = 0; i < s->n; ++i) {
       const double kept = a[i];
-      a[i] = c * kept - sine * b[i];
-      b[i] = c * b[i] + sine * kept;
+      a[i] = c * kept + sine * b[i];
+      b[i] = c * b[i] - sine * kept;
     }
   }
 }
 
-/* Solve it from `beside` off the known solution; the distance of what is found. */
-static double found_again(solved_scene *s, const way *w, double beside, stress_motion *out)
+/* The base solution as the other says it, [2H+1][w->model->n]. NULL: out of memory. */
+static double *guess_of(const solved_scene *s, const rewritten *w)
 {
-  const size_t n = guess_length(s, w->model->n);
+  const size_t n = (size_t)s->n, n_other = (size_t)w->model->n, n_coef = (size_t)s->n_coef;
+  double *guess = malloc(n_coef * n_other * sizeof *guess), *x = malloc(n_coef * n * sizeof *x);
+  if (guess && x) {
+    memcpy(x, s->base.x, n_coef * n * sizeof *x);
+    shift(s, w->delay, x);
+    for (size_t c = 0; c < n_coef; ++c) rewritten_motion(w, s->n, x + c * n, guess + c * n_other);
+    for (size_t i = 0; i < n_coef * n_other; ++i) guess[i] *= w->length;
+  }
+  free(x ? x : guess);
+  return x ? guess : NULL;
+}
+
+/* Solve it from `beside` off the known solution, known[]; the distance of what is found. */
+static double found_again(solved_scene *s, const rewritten *w, const double *known, double beside, stress_motion *out)
+{
+  const size_t n = (size_t)w->model->n * (size_t)s->n_coef;
   double *guess = malloc(n * sizeof *guess);
-  for (size_t i = 0; guess && i < n; ++i) guess[i] = w->guess[i] * (1 + beside * random_signed(&s->random));
+  for (size_t i = 0; guess && i < n; ++i) guess[i] = known[i] * (1 + beside * random_signed(&s->random));
   if (!guess) s->fatal = HC_NO_MEMORY;
-  stress_motion_solve(s, w->model, &s->how, w->omega, guess, w->length, out);
+  stress_motion_solve(s, w->model, &s->how, s->omega / w->time, guess, w->length, out);
   free(guess);
   if (out->status != HC_OK) return NAN;
-  undelay(s, w->delay, out->x);
+  shift(s, -w->delay, out->x);
   return stress_motion_distance(s, out->x, s->base.x, false);
 }
 
@@ -137,12 +130,28 @@ static stress_check same_multiplier(solved_scene *s, const stress_motion *other,
                                      : stress_find(STRESS_DISAGREES, apart, fmax(same_multipliers, s->multiplier_errs));
 }
 
+/* Does nothing hold a motion at rest: no contact ever closed, and K singular to rounding? Wherever it rests is a
+ * solution, and whether Newton's matrix is singular is left to rounding. Eigenvalues of M^-1 K are good to n units of
+ * the largest. */
+static bool floats(solved_scene *s)
+{
+  const size_t n = (size_t)s->n;
+  double *omega2 = malloc(n * sizeof *omega2), *phi = malloc(n * n * sizeof *phi);
+  const hc_status st = omega2 && phi ? model_modes(s->model, false, omega2, phi) : HC_NO_MEMORY;
+  const bool is_free = st == HC_OK && fabs(omega2[0]) <= s->n * DBL_EPSILON * omega2[n - 1];
+  if (st == HC_NO_MEMORY) s->fatal = st;
+  free(omega2);
+  free(phi);
+  return is_free && s->base.m.contact.regime == CONTACT_LINEAR;
+}
+
 /* Beyond the bound, and after the last guess: the reason, if there is one. A motion that is another altogether, and in
  * balance by the equations as they were, is a solution, too; where the scene makes more than 1e-3 of rounding, or loses
  * the solution, nothing is said. */
 static stress_check explain(solved_scene *s, hc_status refused, double error, bool balanced)
 {
   stress_condition(s);
+  if (refused == HC_SINGULAR && floats(s)) return stress_explain(STRESS_FAMILY, error, NAN);
   if (error <= s->solution_errs && s->solution_errs <= STRESS_SAYS_SOMETHING)
     return stress_explain(STRESS_ILL_CONDITIONED, error, s->solution_errs);
   if (error > elsewhere && balanced) return stress_explain(STRESS_OTHER_ORBIT, error, elsewhere);
@@ -154,144 +163,96 @@ static stress_check explain(solved_scene *s, hc_status refused, double error, bo
                      fmax(close_enough, s->solution_errs));
 }
 
-/* The check of one way, which it clears. */
-static stress_check check_way(solved_scene *s, way w)
+/* The check of one way, which it clears. `company`: its multiplier may be the largest. */
+static stress_check check_way(solved_scene *s, hc_status made, rewritten *w, bool company)
 {
   static const double beside[] = {1e-3, 1e-5, 1e-7};
   stress_check result = stress_skip(STRESS_NO_REASON);
   hc_status refused = HC_OK;
-  double error = NAN;
+  double error = NAN, *known = made == HC_OK ? guess_of(s, w) : NULL;
   bool same = false, agreed = false, balanced = false;
-  if (!w.model || !w.guess) s->fatal = HC_NO_MEMORY;
+  if (!known) s->fatal = HC_NO_MEMORY;
   for (int i = 0; i < 3 && !agreed && s->fatal == HC_OK; ++i) {
     stress_motion other;
-    error = found_again(s, &w, beside[i], &other);
+    error = found_again(s, w, known, beside[i], &other);
     refused = other.status;
     same = error <= close_enough;
-    if (same) result = w.company ? stress_agree(error, close_enough) : same_multiplier(s, &other, error);
+    if (same) result = company ? stress_agree(error, close_enough) : same_multiplier(s, &other, error);
     agreed = same && result.outcome == STRESS_AGREED; /* else a copy that is not read may have gone elsewhere */
     if (!same) balanced = refused == HC_OK && stress_imbalance(s, other.x) <= stress_balanced(s);
     stress_motion_free(&other);
   }
-  clear(&w);
+  rewritten_clear(w);
+  free(known);
   return same || s->fatal != HC_OK ? result : explain(s, refused, error, balanced);
 }
 
-/* ---- coordinates ---------------------------------------------------------------------------------- */
+/* ---- the ways ------------------------------------------------------------------------------------------ */
 
-static stress_check turn(solved_scene *s, void (*draw)(uint64_t *, int, double *))
+stress_check stress_check_permuted(solved_scene *s)
 {
+  rewritten w;
   if (s->n == 1) return stress_skip(STRESS_NOT_APPLICABLE);
-  way w = {.omega = s->omega, .length = 1};
-  double *Q = malloc((size_t)s->n * (size_t)s->n * sizeof *Q);
-  if (Q) {
-    draw(&s->random, s->n, Q);
-    rewritten_turned(s->model, Q, &w.model);
-    w.guess = turned_guess(s, Q);
-  }
-  free(Q);
-  return check_way(s, w);
+  return check_way(s, rewritten_permuted(s->model, &s->random, &w), &w, false);
 }
 
-stress_check stress_check_permuted(solved_scene *s) { return turn(s, random_permutation); }
-stress_check stress_check_rotated(solved_scene *s) { return turn(s, random_rotation); }
-
-/* ---- units ------------------------------------------------------------------------------------------ */
-
-static stress_check check_units(solved_scene *s, double length, double force, double time)
+stress_check stress_check_rotated(solved_scene *s)
 {
-  way w = {.omega = s->omega / time, .length = length};
-  rewritten_in_units(s->model, length, force, time, &w.model);
-  w.guess = malloc(guess_length(s, s->n) * sizeof *w.guess);
-  for (size_t i = 0; w.guess && i < guess_length(s, s->n); ++i) w.guess[i] = length * s->base.x[i];
-  return check_way(s, w);
+  rewritten w;
+  if (s->n == 1) return stress_skip(STRESS_NOT_APPLICABLE);
+  return check_way(s, rewritten_rotated(s->model, &s->random, &w), &w, false);
 }
 
 /* Powers of four change no mantissa and no root's: from nothing, the same to the last bit but for what libraries do.
  * (Where a free body hardly touches anything, that much decides where it goes.) */
 stress_check stress_check_units(solved_scene *s)
 {
-  const double length = 0x1p-10, force = 0x1p6, time = 0x1p4;
-  model *m;
+  rewritten w;
   stress_motion binary;
-  if ((s->fatal = rewritten_in_units(s->model, length, force, time, &m)) != HC_OK) return stress_skip(STRESS_NO_REASON);
-  stress_motion_solve(s, m, &s->how, s->omega / time, NULL, length, &binary);
-  model_free(m);
+  if ((s->fatal = rewritten_in_units(s->model, 0x1p-10, 0x1p6, 0x1p4, &w)) != HC_OK)
+    return stress_skip(STRESS_NO_REASON);
+  stress_motion_solve(s, w.model, &s->how, s->omega / w.time, NULL, w.length, &binary);
+  rewritten_clear(&w);
   const hc_status st = binary.status;
   const double error = st == HC_OK ? stress_motion_distance(s, binary.x, s->base.x, false) : NAN;
   const bool balanced = st == HC_OK && stress_imbalance(s, binary.x) <= stress_balanced(s);
   stress_motion_free(&binary);
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return stress_refuse(s, st);
   if (!(error <= close_enough)) return explain(s, st, error, balanced);
-  return check_units(s, 39.3701, 0.224809, 1.0 / 60);
-}
-
-/* ---- contacts, copies, company ----------------------------------------------------------------------- */
-
-static double *copied_guess(const solved_scene *s, int n, bool twice)
-{
-  double *guess = calloc(guess_length(s, n), sizeof *guess);
-  for (int c = 0; guess && c < s->n_coef; ++c) {
-    memcpy(guess + c * n, s->base.x + c * s->n, (size_t)s->n * sizeof *guess);
-    if (twice) memcpy(guess + c * n + s->n, s->base.x + c * s->n, (size_t)s->n * sizeof *guess);
-  }
-  return guess;
+  return check_way(s, rewritten_in_units(s->model, 39.3701, 0.224809, 1.0 / 60, &w), &w, false);
 }
 
 stress_check stress_check_split(solved_scene *s)
 {
-  way w = {.omega = s->omega, .length = 1};
-  rewritten_split(s->model, 0.1 + 0.8 * random_unit(&s->random), &w.model);
-  w.guess = copied_guess(s, s->n, false);
-  return check_way(s, w);
+  rewritten w;
+  return check_way(s, rewritten_split(s->model, 0.1 + 0.8 * random_unit(&s->random), &w), &w, false);
 }
 
 stress_check stress_check_copies(solved_scene *s)
 {
-  way w = {.omega = s->omega, .length = 1};
-  rewritten_beside(s->model, s->n, true, &w.model);
-  w.guess = copied_guess(s, 2 * s->n, true);
-  return check_way(s, w);
+  rewritten w;
+  return check_way(s, rewritten_copies(s->model, &w), &w, false);
 }
 
 stress_check stress_check_bystander(solved_scene *s)
 {
-  const int n = s->n + 1;
-  way w = {.omega = s->omega, .length = 1, .company = true};
-  model *m;
-  double *Q = malloc((size_t)n * (size_t)n * sizeof *Q), *straight = copied_guess(s, n, false);
-  w.guess = malloc(guess_length(s, n) * sizeof *w.guess);
-  if (Q && straight && w.guess && rewritten_beside(s->model, 1, false, &m) == HC_OK) {
-    random_rotation(&s->random, n, Q);
-    for (int c = 0; c < s->n_coef; ++c) turned_vector(n, Q, straight + c * n, w.guess + c * n);
-    rewritten_turned(m, Q, &w.model);
-    model_free(m);
-  }
-  free(Q);
-  free(straight);
-  return check_way(s, w);
+  rewritten w;
+  return check_way(s, rewritten_bystander(s->model, &s->random, &w), &w, true);
 }
 
 /* One limit for both of a contact's tangents does not know which two they are. */
 stress_check stress_check_other_tangents(solved_scene *s)
 {
-  way w = {.omega = s->omega, .length = 1};
+  rewritten w;
   if (!model_has_circle(s->model)) return stress_skip(STRESS_NOT_APPLICABLE);
-  rewritten_other_tangents(s->model, &s->random, &w.model);
-  w.guess = copied_guess(s, s->n, false);
-  return check_way(s, w);
+  return check_way(s, rewritten_other_tangents(s->model, &s->random, &w), &w, false);
 }
-
-/* ---- time -------------------------------------------------------------------------------------------- */
 
 /* Where a slider that never slips rests hangs on time 0. */
 stress_check stress_check_delayed(solved_scene *s)
 {
+  rewritten w;
   if (s->base.m.contact.free_sliders > 0) return stress_skip(STRESS_NOT_APPLICABLE);
   const double delay = random_unit(&s->random) < 0.5 ? PI : TWO_PI * random_unit(&s->random);
-  way w = {.omega = s->omega, .length = 1, .delay = delay};
-  rewritten_delayed(s->model, delay, &w.model);
-  w.guess = copied_guess(s, s->n, false);
-  if (w.guess) undelay(s, -delay, w.guess);
-  return check_way(s, w);
+  return check_way(s, rewritten_delayed(s->model, delay, &w), &w, false);
 }
