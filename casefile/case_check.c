@@ -7,24 +7,18 @@
 #include "base/number.h"
 #include "casefile/case_reader.h"
 
-static const field *field_named(const char *section, const char *name)
-{
-  return field_find(section, name, strlen(name));
-}
-
 /* Assignments come after the file, later ones after earlier ones; within the file, and for defaults, a goes first. */
-static case_place last_given(const case_reader *r, const field *a, const field *b)
+static case_place last_given(const case_reader *r, const char *section, const char *a, const char *b)
 {
-  case_place pa = r->at[field_index(a)], pb = r->at[field_index(b)];
-  if (pa.line == 0) return pb;
-  return pb.set > pa.set ? pb : pa;
+  const case_place pa = r->at[field_index(field_named(section, a))], pb = r->at[field_index(field_named(section, b))];
+  return pa.line == 0 || pb.set > pa.set ? pb : pa;
 }
 
 static hc_status check_sweep(case_reader *r)
 {
   if (r->sc.omega_from != r->sc.omega_to) return HC_OK;
   return case_refuse(
-      r, last_given(r, field_named("sweep", "omega"), field_named("sweep", "frequency")),
+      r, last_given(r, "sweep", "omega", "frequency"),
       "the sweep ends where it starts, expected FROM and TO to differ (single frequencies: compare.omega, or --at)");
 }
 
@@ -34,7 +28,7 @@ static hc_status check_samples(case_reader *r)
   if (h->force != HBM_FORCE_SAMPLED || h->samples == HBM_AUTO || h->harmonics == HBM_AUTO ||
       h->samples >= 2 * h->harmonics + 1)
     return HC_OK;
-  return case_refuse(r, last_given(r, field_named("hbm", "samples"), field_named("hbm", "harmonics")),
+  return case_refuse(r, last_given(r, "hbm", "samples", "harmonics"),
                      "%d samples cannot tell %d harmonics apart, expected hbm.samples >= %d", h->samples, h->harmonics,
                      2 * h->harmonics + 1);
 }
@@ -46,7 +40,7 @@ static hc_status check_fixed_step(case_reader *r)
   bool samples = h->force == HBM_FORCE_SAMPLED && h->samples == HBM_AUTO, harmonics = h->harmonics == HBM_AUTO;
   if (h->continuation != HBM_CONTINUATION_FIXED_STEP || !(samples || harmonics)) return HC_OK;
   const char *name = harmonics ? "harmonics" : "samples";
-  return case_refuse(r, last_given(r, field_named("hbm", "continuation"), field_named("hbm", name)),
+  return case_refuse(r, last_given(r, "hbm", "continuation", name),
                      "hbm.%s: auto adapts the step, too, expected a number of %s with hbm.continuation: fixed_step",
                      name, name);
 }
@@ -57,7 +51,7 @@ static hc_status check_method(case_reader *r)
   const transient_settings *t = &r->sc.transient;
   if (t->method != TRANSIENT_METHOD_CLOSED_FORM || t->law == TRANSIENT_LAW_EXACT) return HC_OK;
   return case_refuse(
-      r, last_given(r, field_named("transient", "method"), field_named("transient", "law")),
+      r, last_given(r, "transient", "method", "law"),
       "only the exact law has a closed form, expected transient.law: exact with transient.method: closed_form");
 }
 
@@ -65,29 +59,26 @@ static hc_status check_method(case_reader *r)
 static hc_status check_gate_ranges(case_reader *r)
 {
   static const char *const limits[] = {"range_amplitude", "range_harmonic_1", "range_mean", "range_waveform"};
-  const field *ranges = field_named("gate", "ranges");
+  const case_place at = r->at[field_index(field_named("gate", "ranges"))];
   const number_list *ends = &r->sc.gate.ranges.ends;
   int longest = 0;
   for (int i = 0; i < ends->n; i += 2) {
-    if (i + 1 < ends->n && ends->v[i] <= ends->v[i + 1]) continue;
-    message *m = case_blame(r, r->at[field_index(ranges)]);
     if (i + 1 == ends->n)
-      message_add(m, "gate.ranges ends in a single %.10g, expected FROM, TO, FROM, TO, ...", ends->v[i]);
-    else message_add(m, "gate.ranges has a range from %.10g to %.10g, expected FROM <= TO", ends->v[i], ends->v[i + 1]);
-    return HC_BAD_INPUT;
+      return case_refuse(r, at, "gate.ranges ends in a single %.10g, expected FROM, TO, FROM, TO, ...", ends->v[i]);
+    if (!(ends->v[i] <= ends->v[i + 1]))
+      return case_refuse(r, at, "gate.ranges has a range from %.10g to %.10g, expected FROM <= TO", ends->v[i],
+                         ends->v[i + 1]);
   }
   for (size_t k = 0; k < sizeof limits / sizeof *limits; ++k) {
-    const field *f = field_named("gate", limits[k]);
-    int n = ((const number_list *)field_look(f, &r->sc))->n;
+    const int n = ((const number_list *)field_look(field_named("gate", limits[k]), &r->sc))->n;
     if (n > longest) longest = n;
     if (n == 0 || n == ends->n / 2) continue;
-    return case_refuse(r, last_given(r, f, ranges),
+    return case_refuse(r, last_given(r, "gate", limits[k], "ranges"),
                        "gate.%s has %d limit%s for %d range%s in gate.ranges, expected one for each", limits[k], n,
                        n == 1 ? "" : "s", ends->n / 2, ends->n == 2 ? "" : "s");
   }
   if (ends->n == 0 || longest > 0) return HC_OK;
-  return case_refuse(r, r->at[field_index(ranges)],
-                     "gate.ranges without limits, expected gate.range_amplitude or another gate.range_... too");
+  return case_refuse(r, at, "gate.ranges without limits, expected gate.range_amplitude or another gate.range_... too");
 }
 
 /* A contact appended by --set must have got every required field; contacts of the file were checked when read. */

@@ -155,7 +155,7 @@ static void write_structure(const scene_structure *s, FILE *to)
 static bool has_direction(const scene_structure *s, const structure_contact *c, const char *along)
 {
   if (c->by_angle) return strcmp(along, "tangent_2") != 0;
-  const field *f = field_find("contacts", along, strlen(along));
+  const field *f = field_named("contacts", along);
   return !structure_is_zero(field_direction(f, c), s->n);
 }
 

@@ -43,7 +43,7 @@ static hc_status read_scene(case_reader *r, const char *text, size_t length, int
   yaml_document_delete(&r->doc);
   for (int k = 1; k <= n_set && st == HC_OK; ++k) st = case_set_apply(r, k);
   if (st == HC_OK) st = case_check(r);
-  if (st == HC_OK && r->at[field_index(field_find("", "title", 5))].line == 0) title_from_name(r->name, r->sc.title);
+  if (st == HC_OK && r->at[field_index(field_named("", "title"))].line == 0) title_from_name(r->name, r->sc.title);
   return st;
 }
 

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/message.h"
 #include "casefile/structure.h"
@@ -69,6 +70,10 @@ const field *field_rival(const field *f, int i); /* the i-th other field of its 
 const field_section *field_section_at(int i);    /* NULL past the last one; the first is the top level, named "" */
 const field_section *field_find_section(const char *name, size_t length);
 const field *field_find(const char *section, const char *name, size_t length); /* NULL if there is none */
+static inline const field *field_named(const char *section, const char *name)
+{
+  return field_find(section, name, strlen(name));
+}
 
 /* "hbm.samples", "title", "contacts[2].gap", "forcing[0].phase_deg"; j < 0 gives "contacts[].gap". Returns path. */
 const char *field_path(const field *f, int j, char path[FIELD_PATH]);

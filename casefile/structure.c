@@ -20,28 +20,25 @@ void structure_free_matrix(structure_matrix *m)
   free(m->labels);
 }
 
-void structure_clear_loads(scene_structure *s)
+/* Free a list of *n entries, each of which begins with a pointer to memory of its own. Returns NULL. */
+static void *cleared(void *list, size_t size, int *n)
 {
-  for (int i = 0; i < s->n_loads; ++i) free(s->loads[i].direction);
-  free(s->loads);
-  s->loads = NULL;
-  s->n_loads = 0;
+  for (int i = 0; i < *n; ++i) free(*(double **)(void *)((char *)list + size * (size_t)i));
+  free(list);
+  *n = 0;
+  return NULL;
 }
+
+void structure_clear_loads(scene_structure *s) { s->loads = cleared(s->loads, sizeof *s->loads, &s->n_loads); }
 
 void structure_clear_contacts(scene_structure *s)
 {
-  for (int j = 0; j < s->n_contacts; ++j) free(s->contacts[j].tangent); /* with the others behind it */
-  free(s->contacts);
-  s->contacts = NULL;
-  s->n_contacts = 0;
+  s->contacts = cleared(s->contacts, sizeof *s->contacts, &s->n_contacts);
 }
 
 void structure_clear_responses(scene_structure *s)
 {
-  for (int i = 0; i < s->n_responses; ++i) free(s->responses[i].direction);
-  free(s->responses);
-  s->responses = NULL;
-  s->n_responses = 0;
+  s->responses = cleared(s->responses, sizeof *s->responses, &s->n_responses);
 }
 
 void structure_free(scene_structure *s)

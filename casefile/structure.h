@@ -30,17 +30,18 @@ typedef struct structure_matrix {
   case_place place;     /* in the case */
 } structure_matrix;
 
+/* What entries of lists own comes first in them. */
 typedef struct structure_load { /* amplitude cos(harmonic omega t + phase) along `direction` */
+  double *direction;            /* [n] [1] */
   double amplitude;             /* [force] */
   double phase_deg;             /* [deg] */
   int harmonic;                 /* >= 0; 0: a static load */
-  double *direction;            /* [n] [1] */
   case_place place;
 } structure_load;
 
 typedef struct structure_contact {
-  scene_contact given;                  /* its scalars; kt = mu = 0 without a tangent, kn = gap = 0 without a normal */
   double *tangent, *tangent_2, *normal; /* [n] [1] u = tangent . x, v = normal . x; all 0 where there is none */
+  scene_contact given;                  /* its scalars; kt = mu = 0 without a tangent, kn = gap = 0 without a normal */
   bool by_angle;                        /* they came from given.angle_deg: one degree of freedom */
   case_place place;
 } structure_contact;

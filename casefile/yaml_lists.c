@@ -7,12 +7,10 @@
 #include "base/number.h"
 #include "casefile/case_reader.h"
 
-static const field *part(const char *section, const char *name) { return field_find(section, name, strlen(name)); }
-
 /* Where a field of the entry being read was given, line = 0: not at all. */
 static case_place place(const case_reader *r, const char *section, const char *name)
 {
-  return r->at[field_index(part(section, name))];
+  return r->at[field_index(field_named(section, name))];
 }
 
 /* Is it a list, of which `what` tells? */
@@ -35,7 +33,10 @@ static hc_status not_of_one(case_reader *r, const yaml_node_t *node, const char 
                      name);
 }
 
-static bool is_of_pairs(const field *f) { return f == part("contacts", "pairs") || f == part("contacts", "axes"); }
+static bool is_of_pairs(const field *f)
+{
+  return f == field_named("contacts", "pairs") || f == field_named("contacts", "axes");
+}
 
 hc_status yaml_entry_part(case_reader *r, const field *f, int j, const yaml_node_t *node)
 {
@@ -158,7 +159,7 @@ static hc_status check_contact(case_reader *r, int j)
     return case_refuse(r, c->place, "contacts[%d] moves nothing, expected `tangent`, `normal` or both", j);
   hc_status st = tangent || c->by_angle ? check_needed(r, j, "tangent") : HC_OK;
   if (st != HC_OK || normal || c->by_angle) return st == HC_OK ? check_needed(r, j, "normal") : st;
-  const field *preload = part("contacts", "preload");
+  const field *preload = field_named("contacts", "preload");
   return case_given(r, preload) ? HC_OK : missing(r, j, preload, "tangent but no normal");
 }
 
@@ -200,10 +201,10 @@ hc_status yaml_responses_read(case_reader *r, const yaml_node_t *node)
   scene_structure *s = r->sc.structure;
   const size_t bytes = (size_t)s->n * sizeof(double);
   structure_clear_responses(s);
-  hc_status st = check_list(r, node, "response", part("", "response")->expects);
+  hc_status st = check_list(r, node, "response", field_named("", "response")->expects);
   if (st != HC_OK) return st;
   if (yaml_length(node) == 0)
-    return yaml_refuse(r, node, "response is an empty list, expected %s", part("", "response")->expects);
+    return yaml_refuse(r, node, "response is an empty list, expected %s", field_named("", "response")->expects);
   for (int i = 0; i < yaml_length(node); ++i) {
     const yaml_node_t *entry = yaml_entry(r, node, i);
     structure_response *new = structure_add_response(s);

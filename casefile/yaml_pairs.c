@@ -188,8 +188,6 @@ typedef struct pairs_entry {
   bool has[AXES];
 } pairs_entry;
 
-static const field *part(const char *name) { return field_find("contacts", name, strlen(name)); }
-
 /* ---- axes ---- */
 
 static hc_status read_vector(case_reader *r, const yaml_node_t *node, axis k, double *to)
@@ -237,7 +235,8 @@ static hc_status read_axes(case_reader *r, const yaml_node_t *node, pairs_entry 
 {
   bool seen[AXES] = {false};
   if (node->type != YAML_MAPPING_NODE)
-    return yaml_refuse(r, node, "axes is %s, expected %s", yaml_node_what(node), part("axes")->expects);
+    return yaml_refuse(r, node, "axes is %s, expected %s", yaml_node_what(node),
+                       field_named("contacts", "axes")->expects);
   for (int i = 0; i < yaml_keys(node); ++i) {
     const yaml_node_t *key = yaml_key(r, node, i), *value = yaml_value(r, node, i);
     int k = 0;
@@ -256,7 +255,8 @@ static hc_status read_axes(case_reader *r, const yaml_node_t *node, pairs_entry 
   const bool alone = !e->has[TANGENT] && (e->has[TANGENT_2] || !e->has[NORMAL]);
   if (alone)
     return yaml_refuse(r, node, "axes without a tangent%s, expected %s",
-                       e->has[TANGENT_2] ? ", but with a tangent_2" : " and without a normal", part("axes")->expects);
+                       e->has[TANGENT_2] ? ", but with a tangent_2" : " and without a normal",
+                       field_named("contacts", "axes")->expects);
   const hc_status st = check_orthonormal(r, node, e);
   if (st == HC_OK && e->has[NORMAL] && e->has[TANGENT] && !seen[TANGENT_2]) complete(e);
   return st;
@@ -272,8 +272,11 @@ static hc_status read_keys(case_reader *r, const yaml_node_t *node, pairs_entry 
     const yaml_node_t *key = yaml_key(r, node, i), *value = yaml_value(r, node, i);
     const field *f = yaml_key_field(r, key, "contacts");
     if (!f) return HC_BAD_INPUT;
-    const yaml_node_t **to = f == part("pairs") ? rows : f == part("axes") ? axes : NULL;
-    if (!to && (f->kind == FIELD_PART || f == part("angle_deg"))) /* they are for one contact alone */
+    const yaml_node_t **to = f == field_named("contacts", "pairs")  ? rows
+                             : f == field_named("contacts", "axes") ? axes
+                                                                    : NULL;
+    if (!to &&
+        (f->kind == FIELD_PART || f == field_named("contacts", "angle_deg"))) /* they are for one contact alone */
       return yaml_refuse(r, key, "%s beside `pairs`, expected `axes`: directions in space, of all pairs", f->name);
     st = yaml_give(r, f, key, value);
     if (to) *to = value;
@@ -295,7 +298,7 @@ static hc_status check_entry(case_reader *r, const pairs_entry *e, const pair_ro
              {"gap", false, e->has[NORMAL]},
              {"limit", false, e->has[TANGENT_2]}};
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-    const field *f = part(all[i].name);
+    const field *f = field_named("contacts", all[i].name);
     const bool given = case_given(r, f);
     if (given ? all[i].useful : !all[i].needed) continue;
     if (given)
@@ -305,8 +308,8 @@ static hc_status check_entry(case_reader *r, const pairs_entry *e, const pair_ro
     field_expected(f, m);
     return HC_BAD_INPUT;
   }
-  const bool gap = case_given(r, part("gap")) || rows->column[PAIR_GAP] >= 0;
-  const bool preload = case_given(r, part("preload")) || rows->column[PAIR_PRELOAD] >= 0;
+  const bool gap = case_given(r, field_named("contacts", "gap")) || rows->column[PAIR_GAP] >= 0;
+  const bool preload = case_given(r, field_named("contacts", "preload")) || rows->column[PAIR_PRELOAD] >= 0;
   if (!(gap && preload) && !(rows->column[PAIR_GAP] >= 0 && !e->has[NORMAL])) return HC_OK;
   return case_refuse(r, e->place,
                      gap && preload ? "both a gap and a preload of pairs, expected one: preload = normal_stiffness "
@@ -406,7 +409,7 @@ hc_status yaml_pairs_read(case_reader *r, const yaml_node_t *node)
   for (int i = 0; i < 2 && st == HC_OK; ++i) {
     if (given[i]) continue;
     return case_refuse(r, e.place, "missing key `%s` beside `%s`, expected %s", needed[i], needed[1 - i],
-                       part(needed[i])->expects);
+                       field_named("contacts", needed[i])->expects);
   }
   if (st == HC_OK) st = read_axes(r, given[1], &e);
   if (st != HC_OK) return st;

@@ -9,8 +9,6 @@
 #include "base/utf8.h"
 #include "casefile/matrices/text_file.h"
 
-static const field *part(const char *name) { return field_find("structure", name, strlen(name)); }
-
 /* ---- matrices ---- */
 
 /* Nothing of the methods here holds for a mass matrix that is not symmetric and positive definite. Of one that is
@@ -144,7 +142,7 @@ static hc_status read_damping(case_reader *r, const yaml_node_t *node)
   char name[FIELD_PATH] = "damping.";
   if (key && key->type == YAML_SCALAR_NODE && key->data.scalar.length < 20)
     snprintf(name, sizeof name, "damping.%s", yaml_node_text(key));
-  const field *f = part(name);
+  const field *f = field_named("structure", name);
   if (f) return read_damping_value(r, f, yaml_value(r, node, 0));
   return yaml_refuse(
       r, key ? key : node,
@@ -237,7 +235,8 @@ static hc_status read_nodes(case_reader *r, const yaml_node_t *node)
   s->n_nodes = 0;
   if (node->type == YAML_SCALAR_NODE && node->data.scalar.length > 0) return read_nodes_file(r, node);
   if (node->type != YAML_SEQUENCE_NODE)
-    return yaml_refuse(r, node, "structure.nodes is %s, expected %s", yaml_node_what(node), part("nodes")->expects);
+    return yaml_refuse(r, node, "structure.nodes is %s, expected %s", yaml_node_what(node),
+                       field_named("structure", "nodes")->expects);
   hc_status st = HC_OK;
   for (int i = 0; i < yaml_length(node) && st == HC_OK; ++i) st = read_node(r, yaml_entry(r, node, i));
   return st;

@@ -163,7 +163,7 @@ static void unpack_vector(size_t n, const double *vectors, size_t k, double im, 
   for (size_t i = 0; i < n; ++i) to[i] = im > 0 ? x[i] + I * y[i] : im < 0 ? x[i] - I * y[i] : x[i];
 }
 
-hc_status dense_eigen_both(int n, double *A, double complex *lambda, double complex *V, double complex *W)
+hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *V, double complex *W)
 {
   const int work_length = 8 * n;
   const size_t rows = (size_t)n, left = W ? square(n) : 0;
@@ -179,11 +179,6 @@ hc_status dense_eigen_both(int n, double *A, double complex *lambda, double comp
   }
   free(re);
   return info == 0 ? HC_OK : HC_NOT_CONVERGED;
-}
-
-hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *V)
-{
-  return dense_eigen_both(n, A, lambda, V, NULL);
 }
 
 /* ---- LU factors ------------------------------------------------------------------------------------ */

@@ -57,12 +57,10 @@ hc_status dense_modes(int n, const double *K, const double *M, double *lambda, d
 hc_status dense_span(int n, int rows, const double *const *row, double tolerance, int *rank, int *pivot, double *basis,
                      double *triangle);
 
-/* Eigenvalues lambda[n] and eigenvectors, the columns of V[n][n], of the real A[n][n], which is overwritten.
- * HC_NO_MEMORY, HC_NOT_CONVERGED. */
-hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *V);
-
-/* The same with left eigenvectors, w_k^* A = lambda_k w_k^*, in the columns of W[n][n]; all as long as 1. */
-hc_status dense_eigen_both(int n, double *A, double complex *lambda, double complex *V, double complex *W);
+/* Eigenvalues lambda[n] of the real A[n][n], which is overwritten, eigenvectors in the columns of V[n][n], and left
+ * ones, w_k^* A = lambda_k w_k^*, in those of W[n][n] unless it is NULL; all as long as 1. HC_NO_MEMORY,
+ * HC_NOT_CONVERGED. */
+hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *V, double complex *W);
 
 /* LU factors with partial pivoting of A[n][n], in its place; pivot[n]. HC_SINGULAR for a pivot that is 0 or not
  * finite. */

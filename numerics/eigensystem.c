@@ -179,7 +179,7 @@ hc_status eigensystem_find(eigensystem *e, const long double *A)
     size = hypot(size, e->narrow[i]);
   }
   if (!isfinite(size)) return HC_NOT_FINITE;
-  hc_status st = dense_eigen(e->n, e->narrow, e->lambda, e->V);
+  hc_status st = dense_eigen(e->n, e->narrow, e->lambda, e->V, NULL);
   if (st != HC_OK) return st;
   for (size_t i = 0; i < n * n; ++i) e->vectors[i] = widen(e->V[i]);
   for (size_t k = 0; k < n; ++k) e->values[k] = widen(e->lambda[k]);

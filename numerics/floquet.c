@@ -102,13 +102,3 @@ double complex floquet_largest(int m, const double complex *lambda)
     if (!(cabs(lambda[i]) <= cabs(largest))) largest = lambda[i]; /* NaN counts as larger */
   return largest;
 }
-
-void floquet_product(int n, const double *a, const double *b, double *c)
-{
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      double sum = 0;
-      for (int q = 0; q < n; ++q) sum += a[i + q * n] * b[q + j * n];
-      c[i + j * n] = sum;
-    }
-}

@@ -17,9 +17,6 @@ void floquet_free(floquet *f);
 hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column, int m, const int *active,
                               double complex *lambda);
 
-/* c[n*n] = a b by columns, c neither of them: the monodromy matrix of the periods of b, then those of a. */
-void floquet_product(int n, const double *a, const double *b, double *c);
-
 /* The one of largest modulus; 0 if there are none. */
 double complex floquet_largest(int m, const double complex *lambda);
 

@@ -142,7 +142,7 @@ static hc_status decompose(interval_flow *f, const contact_interval *const *inte
   }
   memcpy(d->key, f->key, contacts);
   interval_fill_A(f, interval);
-  hc_status st = dense_eigen(f->moving, f->A, lambda, V);
+  hc_status st = dense_eigen(f->moving, f->A, lambda, V, NULL);
   d->usable = st == HC_OK && invert(f, V, lu, W);
   if (d->usable) keep_halves(f, lambda, V, W, d);
   return st == HC_NOT_CONVERGED ? HC_OK : st;

@@ -475,7 +475,7 @@ static hc_status sum_poles(const model *m, int dim, const modal_form *f, complia
                   .right = workspace_array(&own, (size_t)f->rows * ld, sizeof *t.right)};
   hc_status st = own.failed ? HC_NO_MEMORY : HC_OK;
   if (st == HC_OK) fill_first_order(f, u, A);
-  if (st == HC_OK) st = dense_eigen_both(2 * f->n, A, lambda, V, W);
+  if (st == HC_OK) st = dense_eigen(2 * f->n, A, lambda, V, W);
   if (st == HC_OK && take_poles(f, u, lambda, V, W, &t)) {
     const int responses = m->n_responses;
     mode_table of = {.n = t.n, .lambda = t.lambda, .left = t.left, .right = t.right};

@@ -74,7 +74,7 @@ static hc_status make_matrix(confirm *c, int k)
     if (st != HC_OK) return st;
     if (i == 0) continue;
     memcpy(c->product, c->phi, bytes);
-    floquet_product(c->n, c->one_period, c->product, c->phi);
+    dense_multiply(c->n, c->n, c->n, c->one_period, c->product, c->phi);
   }
   for (int i = 0; i < c->n; ++i) {
     const bool stays = i >= 2 * c->ti->n_dof && is_unit_row(c, i);

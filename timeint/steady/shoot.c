@@ -10,6 +10,7 @@
 #include <kinsol/kinsol.h>
 #include <nvector/nvector_serial.h>
 
+#include "numerics/dense.h"
 #include "numerics/floquet.h"
 #include "numerics/newton.h"
 #include "numerics/norm.h"
@@ -69,7 +70,7 @@ static hc_status integrate_k_periods(shoot *s)
     note_travel(s);
     if (i == 0) continue;
     memcpy(s->product, s->phi, bytes);
-    floquet_product(s->n, s->one_period, s->product, s->phi);
+    dense_multiply(s->n, s->n, s->n, s->one_period, s->product, s->phi);
   }
   return HC_OK;
 }
