@@ -13,70 +13,13 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "lsoda.py.h" /* made of lsoda.py: script[] */
+
 extern char **environ;
 
 enum { NUMBER = 32, LINE = 256, NOT_THERE = 69, MOST_PERIODS = 3000 };
 static const double longest = 6; /* [s] of wall time, Python's start included */
 static const double left = 1e-9; /* [1] of the distance from which it starts */
-
-/* What a person writes who has scipy and no event location: the law's cases in the right-hand side, a tight rtol, many
- * periods. argv: omega periods repeats x v M C K F0, then for each contact w kt kn mu gap cos sin. Prints a line a run:
- * rtol seconds amplitude harmonic_1. Where the slider's rate jumps LSODA may take ever smaller steps at a tight rtol
- * (1e-8 on case 2): the time limit ends that. */
-static const char script[] =
-    "import math, sys, time\n"
-    "try:\n"
-    "    import scipy\n"
-    "    from scipy.integrate import solve_ivp\n"
-    "except ImportError:\n"
-    "    sys.exit(69)\n"
-    "print('# scipy', scipy.__version__, 'python', sys.version.split()[0], flush=True)\n"
-    "a = [float(s) for s in sys.argv[1:]]\n"
-    "omega, periods, repeats = a[0], int(a[1]), int(a[2])\n"
-    "M, C, K, F0 = a[5:9]\n"
-    "contacts = [tuple(a[i + 1:i + 7]) for i in range(9, len(a), 7)]\n"
-    "y0 = a[3:5] + [a[i] for i in range(9, len(a), 7)]\n"
-    "cos = math.cos\n"
-    "def motion(t, y):\n"
-    "    x, v = y[0], y[1]\n"
-    "    f = F0 * cos(omega * t) - C * v - K * x\n"
-    "    rates = []\n"
-    "    for j, (kt, kn, mu, gap, c, s) in enumerate(contacts):\n"
-    "        n = kn * (s * x + gap)\n"
-    "        f += max(kn * gap, 0.0) * s\n"
-    "        if n <= 0.0:\n"
-    "            rates.append(c * v)\n"
-    "            continue\n"
-    "        T, most, rate = kt * (c * x - y[2 + j]), mu * n, 0.0\n"
-    "        if abs(T) >= most:\n"
-    "            sign = 1.0 if T > 0.0 else -1.0\n"
-    "            T = sign * most\n"
-    "            if kt == 0.0:\n"
-    "                rate = c * v\n"
-    "            elif sign * kt * c * v > mu * kn * s * v:\n"
-    "                rate = c * v - sign * mu * kn * s * v / kt\n"
-    "        rates.append(rate)\n"
-    "        f -= T * c + n * s\n"
-    "    return [v, f / M] + rates\n"
-    "def top(x):\n"
-    "    i = max(range(1, len(x) - 1), key=lambda k: x[k])\n"
-    "    p, q, r = x[i - 1:i + 2]\n"
-    "    return q - 0.125 * (r - p) ** 2 / (p - 2.0 * q + r)\n"
-    "T1, N = 2.0 * math.pi / omega, 4096\n"
-    "last = [T1 * (periods - 1 + k / N) for k in range(N)] + [T1 * periods]\n"
-    "for rtol in (1e-4, 1e-6, 1e-8, 1e-10):\n"
-    "    for repeat in range(repeats):\n"
-    "        began = time.process_time()\n"
-    "        r = solve_ivp(motion, (0.0, last[-1]), y0, method='LSODA', rtol=rtol, atol=rtol * max(abs(y0[0]), "
-    "abs(y0[1]) / omega), t_eval=last)\n"
-    "        seconds = time.process_time() - began\n"
-    "        if not r.success:\n"
-    "            continue\n"
-    "        x = [float(b) for b in r.y[0]]\n"
-    "        a1 = 2.0 / N * sum(x[k] * math.cos(2.0 * math.pi * k / N) for k in range(N))\n"
-    "        b1 = 2.0 / N * sum(x[k] * math.sin(2.0 * math.pi * k / N) for k in range(N))\n"
-    "        x.append(x[1])\n"
-    "        print(rtol, seconds, 0.5 * (top(x) + top([-b for b in x])), math.hypot(a1, b1), flush=True)\n";
 
 /* The child and what it has said. */
 typedef struct child {

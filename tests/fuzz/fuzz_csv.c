@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "compare/verify/curve_file/csv.h"
-#include "compare/verify/curve_file/fields.h"
 #include "tests/fuzz/fuzz.h"
 
 static void data_is_in_range(const verify_data *d, const char *text, size_t length)

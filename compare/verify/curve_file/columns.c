@@ -6,7 +6,6 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "compare/verify/curve_file/csv.h"
-#include "compare/verify/curve_file/fields.h"
 
 static const char *const names[] = {
     "omega", "frequency", "amplitude", "double_amplitude", "harmonic_1",   "peak", "max",   "min",
@@ -15,6 +14,20 @@ static const char *const names[] = {
 static bool is(const char *word, const char *text, size_t length)
 {
   return strlen(word) == length && !memcmp(word, text, length);
+}
+
+/* "--columns: 'text' " and what is wrong with it. */
+__attribute__((format(printf, 4, 5))) static hc_status blame(message *m, const char *text, size_t length,
+                                                             const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  message_add(m, "--columns: '");
+  message_add_input(m, text, length, 60);
+  message_add(m, "' ");
+  message_add_list(m, format, args);
+  va_end(args);
+  return HC_BAD_INPUT;
 }
 
 static hc_status read_place(const char *text, size_t length, verify_column *out, message *m)
@@ -28,18 +41,14 @@ static hc_status read_place(const char *text, size_t length, verify_column *out,
   if (number_read_integer(text, length, &out->number) == NUMBER_FINE && out->number >= 1 &&
       out->number <= VERIFY_MOST_FIELDS)
     return HC_OK;
-  message_add(m, "--columns: '");
-  message_add_input(m, text, length, 60);
-  message_add(m, "' is no column, expected its number from 1 to %d or its name in the header", VERIFY_MOST_FIELDS);
-  return HC_BAD_INPUT;
+  return blame(m, text, length, "is no column, expected its number from 1 to %d or its name in the header",
+               VERIFY_MOST_FIELDS);
 }
 
 static hc_status unknown(const char *text, size_t length, message *m)
 {
   const char *near = nearest_word(names, text, length);
-  message_add(m, "--columns: '");
-  message_add_input(m, text, length, 60);
-  message_add(m, "' is unknown, expected omega or frequency, and value or one of %s", verify_quantity_names);
+  blame(m, text, length, "is unknown, expected omega or frequency, and value or one of %s", verify_quantity_names);
   if (near) message_add(m, "; did you mean %s?", near);
   return HC_BAD_INPUT;
 }
@@ -52,12 +61,7 @@ typedef struct seen {
 static hc_status read_one(const char *text, size_t length, verify_columns *out, seen *s, message *m)
 {
   const char *equals = memchr(text, '=', length);
-  if (!equals) {
-    message_add(m, "--columns: '");
-    message_add_input(m, text, length, 60);
-    message_add(m, "' is not NAME=COLUMN, expected a list like omega=1,amplitude=2");
-    return HC_BAD_INPUT;
-  }
+  if (!equals) return blame(m, text, length, "is not NAME=COLUMN, expected a list like omega=1,amplitude=2");
   size_t n = (size_t)(equals - text);
   bool cycles = is("frequency", text, n), first = cycles || is("omega", text, n), value = is("value", text, n);
   verify_quantity q;

@@ -1,4 +1,6 @@
-/* csv.c - see csv.h. The file is read whole, then line by line; no line is longer than the file, no field is copied. */
+/* csv.c - see csv.h. The file is read whole, then line by line; no line is longer than the file, no field is copied.
+ * Fields are separated by semicolons, tabs, commas or blanks, whichever of these the first line has outside quotes, in
+ * that order. A field may stand in double quotes, with separators inside, and "" for one quote (RFC 4180). */
 #include "compare/verify/curve_file/csv.h"
 
 #include <errno.h>
@@ -11,7 +13,106 @@
 #include "base/growing.h"
 #include "base/message.h"
 #include "base/number.h"
-#include "compare/verify/curve_file/fields.h"
+#include "base/utf8.h"
+
+/* ---- a line into fields ---- */
+
+typedef struct field {
+  const char *text; /* in the line; trimmed, without its quotes */
+  size_t length;
+  int column; /* in characters from 1, as editors count */
+} field;
+
+typedef enum fields_fault { FIELDS_FINE, FIELDS_TOO_MANY, FIELDS_OPEN_QUOTE, FIELDS_AFTER_QUOTE } fields_fault;
+
+static bool blank(char c) { return c == ' ' || c == '\t'; }
+
+/* Which one the line has; ' ' is any blanks. */
+static char fields_separator(const char *text, size_t length)
+{
+  for (const char *s = ";\t,"; *s; ++s) {
+    bool quoted = false;
+    for (size_t i = 0; i < length; ++i) {
+      if (text[i] == '"') quoted = !quoted;
+      else if (text[i] == *s && !quoted) return *s;
+    }
+  }
+  return ' ';
+}
+
+static int column_of(const char *text, const char *at)
+{
+  int column = 1;
+  unsigned long code;
+  for (size_t n; text < at; text += n, ++column)
+    if ((n = utf8_character(text, (size_t)(at - text), &code)) == 0) n = 1;
+  return column;
+}
+
+static bool field_is(const field *f, const char *word)
+{
+  return f->length == strlen(word) && !memcmp(f->text, word, f->length);
+}
+
+/* What is between at and stop, without blanks around it. */
+static field trimmed(const char *at, const char *stop)
+{
+  field f = {at, (size_t)(stop - at), 0};
+  while (f.length && blank(f.text[0])) ++f.text, --f.length;
+  while (f.length && blank(f.text[f.length - 1])) --f.length;
+  return f;
+}
+
+/* The end of a field that begins with a quote at `at`: behind the closing one; NULL if there is none. */
+static const char *behind_quotes(const char *at, const char *end)
+{
+  for (const char *c = at + 1; c < end; ++c) {
+    if (*c != '"') continue;
+    if (c + 1 == end || c[1] != '"') return c + 1;
+    ++c;
+  }
+  return NULL;
+}
+
+static bool ends_field(char c, char separator) { return separator == ' ' ? blank(c) : c == separator; }
+
+/* The field that begins at *at, which moves to its end. */
+static fields_fault next_field(const char **at, const char *end, char separator, field *f)
+{
+  const char *first = *at, *stop;
+  while (first < end && blank(*first) && !ends_field(*first, separator)) ++first;
+  if (first < end && *first == '"') {
+    if (!(stop = behind_quotes(first, end))) return *at = first, FIELDS_OPEN_QUOTE;
+    *f = (field){first + 1, (size_t)(stop - first) - 2, 0};
+    while (stop < end && blank(*stop) && !ends_field(*stop, separator)) ++stop;
+    *at = stop;
+    return stop < end && !ends_field(*stop, separator) ? FIELDS_AFTER_QUOTE : FIELDS_FINE;
+  }
+  for (stop = *at; stop < end && !ends_field(*stop, separator);) ++stop;
+  *f = trimmed(*at, stop);
+  *at = stop;
+  return FIELDS_FINE;
+}
+
+/* fields[VERIFY_MOST_FIELDS], *n of them; *column is where the fault is. */
+static fields_fault fields_split(const char *text, size_t length, char separator, field *fields, int *n, int *column)
+{
+  const char *at = text, *end = text + length;
+  *n = 0;
+  for (;;) {
+    while (separator == ' ' && at < end && blank(*at)) ++at;
+    if (separator == ' ' && at == end) return FIELDS_FINE;
+    if (*n == VERIFY_MOST_FIELDS) return *column = column_of(text, at), FIELDS_TOO_MANY;
+    field *f = &fields[(*n)++];
+    fields_fault fault = next_field(&at, end, separator, f);
+    if (fault != FIELDS_FINE) return *column = column_of(text, at), fault;
+    f->column = column_of(text, f->text);
+    if (at == end) return FIELDS_FINE;
+    at += separator != ' ';
+  }
+}
+
+/* ---- what a column may be called ---- */
 
 enum { PLAIN = 48 };
 
@@ -103,15 +204,22 @@ static meaning meaning_of(const field *f, verify_quantity *q)
   return MEANS_QUANTITY;
 }
 
+/* "a, b, ..." */
+static void list_names(int n, const field *fields, int most, const char *quote, message *m)
+{
+  for (int i = 0; i < n && i < most; ++i) {
+    message_add(m, "%s%s", i ? ", " : "", quote);
+    message_add_input(m, fields[i].text, fields[i].length, 24);
+    message_add(m, "%s", quote);
+  }
+  if (n > most) message_add(m, ", ...");
+}
+
 static void say_ambiguous(int n, const field *fields, const char *what, int found, message *m)
 {
-  message_add(m, found ? "more than one column of %s among '" : "no column named like %s among '", what);
-  for (int i = 0; i < n && i < 10; ++i) {
-    message_add(m, i ? "', '" : "");
-    message_add_input(m, fields[i].text, fields[i].length, 24);
-  }
-  message_add(m, n > 10 ? "', ..., expected --columns omega=1,amplitude=2 (or frequency=, and any of --quantity)"
-                        : "', expected --columns omega=1,amplitude=2 (or frequency=, and any of --quantity)");
+  message_add(m, found ? "more than one column of %s among " : "no column named like %s among ", what);
+  list_names(n, fields, 10, "'", m);
+  message_add(m, ", expected --columns omega=1,amplitude=2 (or frequency=, and any of --quantity)");
 }
 
 /* "omega", "w", "Frequency [Hz]", "|X1|", "Amplitude (mm)", ...: case, blanks, _ - | and a unit behind it do not count.
@@ -160,34 +268,27 @@ typedef struct reader {
   field fields[VERIFY_MOST_FIELDS];
 } reader;
 
-static hc_status blame(reader *r, int column)
+/* "FILE:LINE:COLUMN: " and what is wrong there. */
+__attribute__((format(printf, 3, 4))) static hc_status blame(reader *r, int column, const char *format, ...)
 {
+  va_list args;
+  va_start(args, format);
   message_add_input(r->m, r->name, strlen(r->name), 240);
   message_add(r->m, ":%ld:%d: ", r->line, column);
+  message_add_list(r->m, format, args);
+  va_end(args);
   return HC_BAD_INPUT;
 }
-
-/* ---- a line into fields ---- */
 
 static hc_status split(reader *r, const char *text, size_t length)
 {
   int column = 1;
   switch (fields_split(text, length, r->separator, r->fields, &r->n_fields, &column)) {
-  case FIELDS_FINE: return HC_OK;
-  case FIELDS_TOO_MANY:
-    blame(r, column);
-    message_add(r->m, "one field too many, expected at most %d", VERIFY_MOST_FIELDS);
-    break;
-  case FIELDS_OPEN_QUOTE:
-    blame(r, column);
-    message_add(r->m, "a quote that is not closed, expected \" at the end of the field");
-    break;
-  case FIELDS_AFTER_QUOTE:
-    blame(r, column);
-    message_add(r->m, "text behind the closing quote, expected the next field");
-    break;
+  case FIELDS_TOO_MANY: return blame(r, column, "one field too many, expected at most %d", VERIFY_MOST_FIELDS);
+  case FIELDS_OPEN_QUOTE: return blame(r, column, "a quote that is not closed, expected \" at the end of the field");
+  case FIELDS_AFTER_QUOTE: return blame(r, column, "text behind the closing quote, expected the next field");
+  default: return HC_OK;
   }
-  return HC_BAD_INPUT;
 }
 
 /* ---- the header ---- */
@@ -198,15 +299,6 @@ static bool is_header(const reader *r)
   for (int i = 0; i < r->n_fields; ++i)
     if (number_read(r->fields[i].text, r->fields[i].length, &ignored) != NUMBER_NONE) return false;
   return true;
-}
-
-static void list_header(reader *r)
-{
-  for (int i = 0; i < r->n_fields && i < 8; ++i) {
-    message_add(r->m, i ? ", " : "");
-    message_add_input(r->m, r->fields[i].text, r->fields[i].length, 24);
-  }
-  if (r->n_fields > 8) message_add(r->m, ", ...");
 }
 
 /* Where the column is, from 0, into *at. */
@@ -220,15 +312,12 @@ static hc_status find_column(reader *r, const verify_column *c, bool header, int
     *at = i;
   }
   if (found == 1) return HC_OK;
-  blame(r, 1);
-  if (c->number) message_add(r->m, "no column %d, expected one of the %d there are", c->number, r->n_fields);
-  else {
-    message_add(r->m, "%s column '", found ? "more than one" : "no");
-    message_add_input(r->m, c->header, strlen(c->header), 40);
-    if (!header) message_add(r->m, "', expected a header before the first number, or --columns with numbers");
-    else message_add(r->m, found ? "', expected --columns with numbers from 1" : "', expected one of ");
-    if (header && !found) list_header(r);
-  }
+  if (c->number) return blame(r, 1, "no column %d, expected one of the %d there are", c->number, r->n_fields);
+  blame(r, 1, "%s column '", found ? "more than one" : "no");
+  message_add_input(r->m, c->header, strlen(c->header), 40);
+  if (!header) message_add(r->m, "', expected a header before the first number, or --columns with numbers");
+  else message_add(r->m, found ? "', expected --columns with numbers from 1" : "', expected one of ");
+  if (header && !found) list_names(r->n_fields, r->fields, 8, "", r->m);
   return HC_BAD_INPUT;
 }
 
@@ -237,17 +326,11 @@ static hc_status begin(reader *r, bool header)
   message words;
   char text[VERIFY_TEXT];
   message_start(&words, text, sizeof text);
-  if (r->columns.by_header && !header) {
-    blame(r, 1);
-    message_add(r->m, "no header, expected one that names omega and amplitude, or --columns omega=1,amplitude=2");
-    return HC_BAD_INPUT;
-  }
+  if (r->columns.by_header && !header)
+    return blame(r, 1, "no header, expected one that names omega and amplitude, or --columns omega=1,amplitude=2");
   if (r->columns.by_header &&
-      !recognise_columns(r->n_fields, r->fields, r->columns.quantity_given, &r->columns, &words)) {
-    blame(r, 1);
-    message_add(r->m, "%s", text);
-    return HC_BAD_INPUT;
-  }
+      !recognise_columns(r->n_fields, r->fields, r->columns.quantity_given, &r->columns, &words))
+    return blame(r, 1, "%s", text);
   r->out->quantity = r->columns.quantity;
   r->response = -1;
   for (int i = 0; i < r->n_fields && header && r->columns.response; ++i)
@@ -272,13 +355,13 @@ static bool decimal_comma(const field *f)
          number_read(f->text + comma + 1, f->length - comma - 1, &ignored) == NUMBER_FINE;
 }
 
-static void blame_number(reader *r, const field *f, const char *fault, const char *expected)
+static hc_status blame_number(reader *r, const field *f, const char *fault, const char *expected)
 {
-  blame(r, f->column);
-  message_add(r->m, "'");
+  blame(r, f->column, "'");
   message_add_input(r->m, f->text, f->length, 40);
   message_add(r->m, "' %s, expected %s like 12.5 or 1.25e1%s", fault, expected,
               decimal_comma(f) ? "; a decimal comma? Write points" : "");
+  return HC_BAD_INPUT;
 }
 
 static hc_status read_number(reader *r, int index, const char *what, double *value)
@@ -290,9 +373,7 @@ static hc_status read_number(reader *r, int index, const char *what, double *val
                                        [NUMBER_NOT_INTEGER] = "is not an integer"};
   const field *f = &r->fields[index];
   number_fault fault = number_read(f->text, f->length, value);
-  if (fault == NUMBER_FINE) return HC_OK;
-  blame_number(r, f, faults[fault], what);
-  return HC_BAD_INPUT;
+  return fault == NUMBER_FINE ? HC_OK : blame_number(r, f, faults[fault], what);
 }
 
 /* What is wrong with the numbers of a point, if anything. */
@@ -313,30 +394,28 @@ static verify_fault verify_point_convert(const verify_quantity *q, bool cycles, 
   return isfinite(p->value) ? VERIFY_FINE : VERIFY_VALUE_TOO_LARGE;
 }
 
+static const char in_decibel[] = "; is it in dB? Name it dB, or dB_ and the quantity";
+
 /* The columns' numbers become omega in rad per time and the quantity, which must be in range. */
 static hc_status convert(reader *r, verify_point *p)
 {
   const verify_quantity *q = &r->columns.quantity;
   const field *value = &r->fields[r->value];
   switch (verify_point_convert(q, r->columns.cycles, p)) {
-  case VERIFY_FINE: return HC_OK;
   case VERIFY_NEGATIVE:
     blame_number(r, value, "is too small", "a number >= 0");
-    if (!q->decibel) message_add(r->m, "; is it in dB? Name it dB, or dB_ and the quantity");
-    break;
-  case VERIFY_OMEGA_TOO_LARGE: blame_number(r, &r->fields[r->omega], "is too large", "a number"); break;
-  case VERIFY_VALUE_TOO_LARGE: blame_number(r, value, "is too large", "a number"); break;
+    message_add(r->m, "%s", q->decibel ? "" : in_decibel);
+    return HC_BAD_INPUT;
+  case VERIFY_OMEGA_TOO_LARGE: return blame_number(r, &r->fields[r->omega], "is too large", "a number");
+  case VERIFY_VALUE_TOO_LARGE: return blame_number(r, value, "is too large", "a number");
+  default: return HC_OK;
   }
-  return HC_BAD_INPUT;
 }
 
 static hc_status add_point(reader *r, verify_point p)
 {
-  if (r->out->n == VERIFY_MOST_POINTS) {
-    blame(r, 1);
-    message_add(r->m, "one point too many, expected at most %d", VERIFY_MOST_POINTS);
-    return HC_BAD_INPUT;
-  }
+  if (r->out->n == VERIFY_MOST_POINTS)
+    return blame(r, 1, "one point too many, expected at most %d", VERIFY_MOST_POINTS);
   verify_point *grown = growing(r->out->points, r->out->n, sizeof *grown);
   if (!grown) return HC_NO_MEMORY;
   r->out->points = grown;
@@ -348,13 +427,10 @@ static hc_status read_point(reader *r)
 {
   verify_point p = {.line = r->line};
   char name[VERIFY_QUANTITY_TEXT];
-  if (r->n_fields != r->first_fields) {
-    blame(r, 1);
-    message_add(r->m, "%d field%s, expected %d as in line %ld%s", r->n_fields, r->n_fields == 1 ? "" : "s",
-                r->first_fields, r->first_line,
-                r->separator == ',' && r->n_fields == 2 * r->first_fields ? "; decimal commas? Write points" : "");
-    return HC_BAD_INPUT;
-  }
+  if (r->n_fields != r->first_fields)
+    return blame(r, 1, "%d field%s, expected %d as in line %ld%s", r->n_fields, r->n_fields == 1 ? "" : "s",
+                 r->first_fields, r->first_line,
+                 r->separator == ',' && r->n_fields == 2 * r->first_fields ? "; decimal commas? Write points" : "");
   if (r->response >= 0 && !field_is(&r->fields[r->response], r->columns.response)) return HC_OK;
   hc_status st = read_number(r, r->omega, r->columns.cycles ? "a frequency" : "an omega", &p.omega);
   if (st == HC_OK) st = read_number(r, r->value, verify_quantity_name(&r->columns.quantity, name), &p.value);
@@ -362,8 +438,6 @@ static hc_status read_point(reader *r)
   if (st == HC_OK && !(p.omega > 0)) return ++r->out->left_out, HC_OK;
   return st == HC_OK ? add_point(r, p) : st;
 }
-
-static bool blank(char c) { return c == ' ' || c == '\t'; }
 
 static hc_status read_line(reader *r, const char *text, size_t length)
 {
@@ -393,9 +467,8 @@ static hc_status read_lines(reader *r, const char *text, size_t length)
   }
   if (st != HC_OK || r->out->n >= VERIFY_LEAST_POINTS) return st;
   r->line += r->line == 0;
-  blame(r, 1);
-  message_add(r->m, "%d point%s in the file%s", r->out->n, r->out->n == 1 ? "" : "s",
-              r->out->left_out ? " at omega > 0" : "");
+  blame(r, 1, "%d point%s in the file%s", r->out->n, r->out->n == 1 ? "" : "s",
+        r->out->left_out ? " at omega > 0" : "");
   if (r->out->by_response) message_add(r->m, " of response %s", r->columns.response);
   message_add(r->m, ", expected at least %d", VERIFY_LEAST_POINTS);
   return HC_BAD_INPUT;
@@ -464,25 +537,12 @@ static hc_status convert_given(const verify_quantity *q, int i, verify_point *p,
   else switch (verify_point_convert(q, false, p)) {
     case VERIFY_FINE: return HC_OK;
     case VERIFY_NEGATIVE:
-      message_add(m, "value[%d] = %g is too small, expected a number >= 0", i, value);
-      if (!q->decibel) message_add(m, "; is it in dB? Name it dB, or dB_ and the quantity");
+      message_add(m, "value[%d] = %g is too small, expected a number >= 0%s", i, value, q->decibel ? "" : in_decibel);
       break;
     case VERIFY_OMEGA_TOO_LARGE: message_add(m, "omega[%d] = %g is too large, expected a number", i, omega); break;
     case VERIFY_VALUE_TOO_LARGE: message_add(m, "value[%d] = %g is too large, expected a number", i, value); break;
     }
   return HC_BAD_INPUT;
-}
-
-static hc_status read_quantity(const char *name, double noise, verify_quantity *q, message *m)
-{
-  if (!(noise >= 0 && noise <= 1))
-    message_add(m, "noise = %g is no scatter, expected a number from 0 to 1 such as 1e-2", noise);
-  else if (!verify_quantity_read(name, strlen(name), q)) {
-    message_add(m, "quantity '");
-    message_add_input(m, name, strlen(name), 60);
-    message_add(m, "' is unknown, expected one of %s", verify_quantity_names);
-  }
-  return m->used ? HC_BAD_INPUT : HC_OK;
 }
 
 static hc_status read_points(int n, const double *omega, const double *value, verify_data *out, message *m)
@@ -515,8 +575,14 @@ hc_status verify_data_of(const char *quantity, double noise, int n, const double
   message m;
   message_start(&m, words, VERIFY_TEXT);
   *out = (verify_data){.noise = noise};
-  hc_status st = read_quantity(quantity, noise, &out->quantity, &m);
-  return st == HC_OK ? read_points(n, omega, value, out, &m) : st;
+  if (!(noise >= 0 && noise <= 1))
+    message_add(&m, "noise = %g is no scatter, expected a number from 0 to 1 such as 1e-2", noise);
+  else if (!verify_quantity_read(quantity, strlen(quantity), &out->quantity)) {
+    message_add(&m, "quantity '");
+    message_add_input(&m, quantity, strlen(quantity), 60);
+    message_add(&m, "' is unknown, expected one of %s", verify_quantity_names);
+  }
+  return m.used ? HC_BAD_INPUT : read_points(n, omega, value, out, &m);
 }
 
 void verify_data_clear(verify_data *d)

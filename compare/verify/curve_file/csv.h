@@ -1,7 +1,5 @@
 /* csv.h - a response curve from a text file of columns: strict, every mistake is one message FILE:LINE:COLUMN: what
- * is wrong, what was expected.
- *
- * Fields are split as fields.h says. '#' starts a line of remarks; blank lines are skipped; a first line without a
+ * is wrong, what was expected. '#' starts a line of remarks; blank lines are skipped; a first line without a
  * number is a header. CRLF and a byte order mark are accepted. Points at omega <= 0, to which a continuation may
  * wander, are counted and left out. */
 #ifndef HC_VERIFY_CSV_H
@@ -13,7 +11,7 @@
 #include "compare/verify/curve_file/quantity.h"
 #include "compare/verify/equations/causes.h"
 
-enum { VERIFY_MOST_POINTS = 100000, VERIFY_LEAST_POINTS = 3, VERIFY_NAME = 64 };
+enum { VERIFY_MOST_POINTS = 100000, VERIFY_LEAST_POINTS = 3, VERIFY_MOST_FIELDS = 256, VERIFY_NAME = 64 };
 
 /* Where a column is: by number, or by its name in the header. */
 typedef struct verify_column {

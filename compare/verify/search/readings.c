@@ -275,8 +275,6 @@ const verify_scale *verify_scale_near(const verify_scale *s, int n, double facto
   return NULL;
 }
 
-/* ---- the values ---- */
-
 /* ---- judge ---- */
 
 /* Which cause is named. The rule, of hypotheses ranked by distance times 3 per cause:
@@ -366,10 +364,12 @@ bool search_tick(search *s)
   return hc_monitor_tick(s->monitor, 0.5 + 0.5 * (part < 1 ? part : 1));
 }
 
-verify_equations search_own(const search *s)
+verify_equations search_equations(int harmonics, bool keep_mean)
 {
-  return (verify_equations){.keep_mean = true, .harmonics = s->own, .factor = 1};
+  return (verify_equations){.keep_mean = keep_mean, .harmonics = harmonics, .factor = 1};
 }
+
+verify_equations search_own(const search *s) { return search_equations(s->own, true); }
 
 /* The best of every set of causes is kept, in the order of their scores. */
 void search_keep(search *s, const verify_hypothesis *h)
@@ -421,7 +421,7 @@ static verify_causes causes_of(const search *s, const verify_equations *e, int f
 {
   verify_causes causes = frequency ? VERIFY_BIT(CAUSE_FREQUENCY) : 0;
   if (e->change != CHANGE_NONE) causes |= VERIFY_BIT(verify_change_cause(e->change));
-  if (e->change == CHANGE_NO_CONTACT || e->change == CHANGE_STUCK) return causes;
+  if (verify_equations_linear(e)) return causes;
   if (e->odd_only) causes |= VERIFY_BIT(CAUSE_ODD_ONLY);
   else if (!e->keep_mean) causes |= VERIFY_BIT(CAUSE_NO_STATIC);
   if (e->samples) causes |= causes_of_slider(e);
@@ -448,18 +448,14 @@ hc_status search_solve(search *s, const verify_equations *e, double omega_factor
   return verify_solutions_of(s->setup, e, &s->points.quantity, from, to, n, omega, s->monitor, out);
 }
 
-hc_status search_try(search *s, const verify_equations *e)
+hc_status search_fit(search *s, verify_hypothesis h)
 {
-  hc_status st = HC_OK;
-  for (int f = 0; f < SEARCH_FREQUENCIES && st == HC_OK; ++f) {
-    verify_solutions of = {0};
-    if (!s->scaled[f]) continue;
-    st = search_solve(s, e, search_omega_factor(f), &of);
-    if (st == HC_OK) search_read(s, e, f, &of);
-    verify_solutions_clear(&of);
-  }
-  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
-  return search_tick(s) ? HC_OK : HC_INTERRUPTED;
+  verify_solutions of = {0};
+  hc_status st = search_solve(s, &h.equations, h.omega_factor, &of);
+  if (st == HC_OK) verify_read_one(&s->points, &of, 0, h.value_factor, s->floor, &h);
+  if (st == HC_OK) search_keep(s, &h);
+  verify_solutions_clear(&of);
+  return st;
 }
 
 bool search_explained(const search *s)

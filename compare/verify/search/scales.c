@@ -13,8 +13,6 @@
 #include "hbm/curve/segment.h"
 #include "numerics/roots.h"
 
-/* ---- names ---- */
-
 /* The median of value/truth, of the points with one solution, or of all if they are few; NaN: no point has one. */
 static double median_ratio(const verify_sample *p, const verify_solutions *of, double *room)
 {
@@ -68,17 +66,14 @@ static hc_status keep_force_scale(search *s)
 {
   const verify_hypothesis *best = &s->out->hypotheses[0];
   if (s->out->n_hypotheses == 0 || best->causes != VERIFY_BIT(CAUSE_VALUE_SCALE)) return HC_OK;
-  verify_equations e = search_own(s);
-  verify_hypothesis h = {.omega_factor = 1, .fitted = true, .causes = VERIFY_BIT(CAUSE_FORCE)};
-  verify_solutions of = {0};
-  e.change = CHANGE_FORCE;
-  e.factor = best->value_factor;
-  h.equations = e;
-  hc_status st = search_solve(s, &e, 1, &of);
-  if (st == HC_OK) verify_read_one(&s->points, &of, 0, 1, s->floor, &h);
-  if (st == HC_OK) search_keep(s, &h);
-  verify_solutions_clear(&of);
-  return st;
+  verify_hypothesis h = {.equations = search_own(s),
+                         .omega_factor = 1,
+                         .value_factor = 1,
+                         .fitted = true,
+                         .causes = VERIFY_BIT(CAUSE_FORCE)};
+  h.equations.change = CHANGE_FORCE;
+  h.equations.factor = best->value_factor;
+  return search_fit(s, h);
 }
 
 /* ---- the frequencies ---- */
@@ -92,7 +87,7 @@ typedef struct outline {
 static hc_status outline_new(search *s, outline *out)
 {
   enum { BETWEEN = 6 }; /* of two points of the curve */
-  const verify_equations e = {.keep_mean = true, .harmonics = s->out->harmonics, .factor = 1};
+  const verify_equations e = search_equations(s->out->harmonics, true);
   const compare_setup own = verify_settings(s->setup, &e);
   hbm_solver *hbm = NULL;
   hbm_curve curve = {0};
@@ -123,8 +118,6 @@ static hc_status outline_new(search *s, outline *out)
   hbm_solver_free(hbm);
   return st;
 }
-
-static void outline_clear(outline *o) { free(o->omega); }
 
 /* How far the value is from the outline at omega, relative to it; MOST where it has none. */
 static double apart_at(const outline *o, double omega, double value)
@@ -181,18 +174,6 @@ static double best_stretch(search *s, const outline *o, double value_factor, dou
   return exp(least.x);
 }
 
-/* The truth with these harmonics as hypothesis, the factors given. */
-static hc_status keep_scaled(search *s, int harmonics, verify_hypothesis h)
-{
-  verify_solutions of = {0};
-  h.equations = (verify_equations){.keep_mean = true, .harmonics = harmonics, .factor = 1};
-  hc_status st = search_solve(s, &h.equations, h.omega_factor, &of);
-  if (st == HC_OK) verify_read_one(&s->points, &of, 0, h.value_factor, s->floor, &h);
-  if (st == HC_OK) search_keep(s, &h);
-  verify_solutions_clear(&of);
-  return st;
-}
-
 static bool is_frequency_unit(double omega_factor)
 {
   for (int f = 1; f < SEARCH_FREQUENCIES; ++f)
@@ -209,16 +190,18 @@ static hc_status keep_stretch(search *s, double omega_factor, double value_facto
   const verify_scale *named = verify_scale_near(names, n, 1 / omega_factor, 0.005),
                      *value = verify_scale_near(s->scales, s->n_scales, value_factor, 0.005);
   if (is_frequency_unit(omega_factor) || fabs(omega_factor - 1) < nothing) return HC_OK;
-  const verify_hypothesis h = {
-      .causes = VERIFY_BIT(fabs(omega_factor - 1) < offset ? CAUSE_OMEGA_OFFSET : CAUSE_OMEGA_SCALE) |
-                (value_factor == 1 ? 0 : VERIFY_BIT(CAUSE_VALUE_SCALE)),
-      .fitted = !named || (value_factor != 1 && !value),
-      .omega_factor = named ? 1 / named->factor : omega_factor,
-      .value_factor = value_factor != 1 && value ? value->factor : value_factor,
-      .omega_scale = named ? named->name : NULL,
-      .value_scale = value_factor != 1 && value ? value->name : NULL};
-  hc_status st = keep_scaled(s, s->out->harmonics, h);
-  return st == HC_OK && s->own != s->out->harmonics ? keep_scaled(s, s->own, h) : st;
+  verify_hypothesis h = {.equations = search_equations(s->out->harmonics, true),
+                         .causes =
+                             VERIFY_BIT(fabs(omega_factor - 1) < offset ? CAUSE_OMEGA_OFFSET : CAUSE_OMEGA_SCALE) |
+                             (value_factor == 1 ? 0 : VERIFY_BIT(CAUSE_VALUE_SCALE)),
+                         .fitted = !named || (value_factor != 1 && !value),
+                         .omega_factor = named ? 1 / named->factor : omega_factor,
+                         .value_factor = value_factor != 1 && value ? value->factor : value_factor,
+                         .omega_scale = named ? named->name : NULL,
+                         .value_scale = value_factor != 1 && value ? value->name : NULL};
+  hc_status st = search_fit(s, h);
+  h.equations = search_own(s);
+  return st == HC_OK && s->own != s->out->harmonics ? search_fit(s, h) : st;
 }
 
 /* Factors of the frequencies that leave the points within the sweep, and those near 1. */
@@ -244,15 +227,14 @@ static hc_status try_stretches(search *s, const outline *o)
 
 hc_status search_scales(search *s)
 {
-  const verify_hypothesis plain = {.equations = {.keep_mean = true, .harmonics = s->out->harmonics, .factor = 1},
-                                   .omega_factor = 1};
+  const verify_hypothesis plain = {.equations = search_equations(s->out->harmonics, true), .omega_factor = 1};
   outline o;
   keep_value_scale(s, &s->many[true][0], plain);
   hc_status st = keep_force_scale(s);
   if (st == HC_OK) st = outline_new(s, &o);
   else return st;
   if (st == HC_OK && o.n > 1) st = try_stretches(s, &o);
-  outline_clear(&o);
+  free(o.omega);
   return st;
 }
 
@@ -282,23 +264,10 @@ static hc_status closeness_at(void *self, double log_factor, double *out)
   return st;
 }
 
-static hc_status keep_fitted(search *s, verify_equations *e, double factor)
+/* HC_BAD_INPUT: there are no such equations. */
+static hc_status fit_factor(search *s, verify_change change)
 {
-  verify_hypothesis h = {.omega_factor = 1, .fitted = true};
-  verify_solutions of = {0};
-  e->factor = factor;
-  h.equations = *e;
-  h.causes = VERIFY_BIT(verify_change_cause(e->change)) | (e->keep_mean ? 0 : VERIFY_BIT(CAUSE_NO_STATIC));
-  hc_status st = search_solve(s, e, 1, &of);
-  if (st == HC_OK) verify_read_one(&s->points, &of, 0, 1, s->floor, &h);
-  if (st == HC_OK) search_keep(s, &h);
-  verify_solutions_clear(&of);
-  return st;
-}
-
-static hc_status fit_factor(search *s, const verify_equations *like, verify_change change)
-{
-  fit f = {s, *like};
+  fit f = {s, search_own(s)};
   double values[FACTORS];
   int best = 0;
   root_point least;
@@ -312,16 +281,21 @@ static hc_status fit_factor(search *s, const verify_equations *like, verify_chan
   hc_status st = root_minimum(closeness_at, &f, log(fit_factors[best - 1]), values[best - 1], log(fit_factors[best]),
                               values[best], log(fit_factors[best + 1]), values[best + 1], precise_factor, &least);
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
-  return fabs(least.x) > small_factor ? keep_fitted(s, &f.equations, exp(least.x)) : HC_OK;
+  if (fabs(least.x) <= small_factor) return HC_OK;
+  f.equations.factor = exp(least.x);
+  return search_fit(s, (verify_hypothesis){.equations = f.equations,
+                                           .omega_factor = 1,
+                                           .value_factor = 1,
+                                           .fitted = true,
+                                           .causes = VERIFY_BIT(verify_change_cause(change))});
 }
 
 hc_status search_fits(search *s)
 {
-  const verify_equations own = search_own(s);
   hc_status st = HC_OK;
   for (int c = CHANGE_FORCE; c <= CHANGE_MEAN_OF_N && st == HC_OK; ++c) {
-    st = fit_factor(s, &own, c);
-    if (st == HC_BAD_INPUT) st = HC_OK; /* there are no such equations */
+    st = fit_factor(s, c);
+    if (st == HC_BAD_INPUT) st = HC_OK;
   }
   return st;
 }

@@ -1,7 +1,9 @@
 /* search.c - see search.h. In stages, the later ones only if none before explains the points:
  *   exact    every number of harmonics with and without harmonic 0, odd ones only, and every change of the model, with
  *            every reading of the columns; one factor of all values or frequencies
- *   sampled  for the likeliest of these, every number of samples, from their solutions by Newton
+ *   sampled  for the likeliest of these, every number of samples: too few, and mistakes in following the slider.
+ *            Solutions come by Newton from those with exact forces, at a small part of what the sampled curve would
+ *            cost; the likeliest are followed along their own curves, which have solutions that no exact one is near to
  *   fits     a free factor of one number of the model
  *   pairs    changes of the model without harmonic 0, with few harmonics, or few samples
  * A number of harmonics counts as a cause where its solutions are farther than the gate from those of many. */
@@ -17,17 +19,55 @@
 
 static const int harmonics_tried[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20};
 static const double factors_tried[] = {2, 0.5, 10, 0.1};
+/* The powers of two first: they are tried with every likely number of harmonics. Around the best, every number is. */
+static const int samples_tried[] = {16, 32, 64, 128, 256, 512, 1024, 3,   4,   5,   6,   8,   10,  12,  20,
+                                    24, 40, 48, 80,  96,  100, 160,  192, 200, 250, 320, 400, 500, 1000};
 enum {
   HARMONICS_TRIED = sizeof harmonics_tried / sizeof *harmonics_tried,
   FACTORS_TRIED = sizeof factors_tried / sizeof *factors_tried,
+  SAMPLES_TRIED = sizeof samples_tried / sizeof *samples_tried,
+  POWERS_OF_TWO = 7,
+  MOST_BASES = 15,
   USUAL_HARMONICS = 10
 };
+
+/* Every reading of the solutions of *e, for one reading of the frequency. Errors of search_solve. */
+static hc_status try_at(search *s, const verify_equations *e, int frequency)
+{
+  verify_solutions of = {0};
+  hc_status st = search_solve(s, e, search_omega_factor(frequency), &of);
+  if (st == HC_OK) search_read(s, e, frequency, &of);
+  verify_solutions_clear(&of);
+  return st;
+}
+
+/* Each possible reading of the frequency. HC_OK where there are no such equations. */
+static hc_status try_equations(search *s, const verify_equations *e)
+{
+  hc_status st = HC_OK;
+  for (int f = 0; f < SEARCH_FREQUENCIES && st == HC_OK; ++f)
+    if (s->scaled[f]) st = try_at(s, e, f);
+  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
+  return search_tick(s) ? HC_OK : HC_INTERRUPTED;
+}
+
+/* Equations that are otherwise *like, with each of n numbers of harmonics. */
+static hc_status try_harmonics(search *s, const verify_equations *like, int n, const int *harmonics)
+{
+  verify_equations e = *like;
+  hc_status st = HC_OK;
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    e.harmonics = harmonics[i];
+    st = try_equations(s, &e);
+  }
+  return st;
+}
 
 /* ---- numbers of harmonics ---- */
 
 static hc_status try_order(search *s, int harmonics, bool keep_mean)
 {
-  const verify_equations e = {.keep_mean = keep_mean, .harmonics = harmonics, .factor = 1};
+  const verify_equations e = search_equations(harmonics, keep_mean);
   const bool many = harmonics == s->out->harmonics;
   order *o = &s->orders[s->n_orders++];
   hc_status st = HC_OK;
@@ -45,6 +85,8 @@ static hc_status try_order(search *s, int harmonics, bool keep_mean)
   return st == HC_OK && !search_tick(s) ? HC_INTERRUPTED : st;
 }
 
+static hc_status try_truth(search *s) { return try_order(s, s->out->harmonics, true); }
+
 /* All but the truth's own. */
 static hc_status try_other_orders(search *s)
 {
@@ -60,43 +102,48 @@ static hc_status try_other_orders(search *s)
   return st;
 }
 
-static hc_status try_orders(search *s)
-{
-  hc_status st = try_order(s, s->out->harmonics, true);
-  return st == HC_OK ? try_other_orders(s) : st;
-}
-
 static hc_status try_odd_only(search *s)
 {
   const int orders[] = {s->own, s->out->harmonics, 3, 5, 7, 9};
-  hc_status st = HC_OK;
-  for (size_t i = 0; i < sizeof orders / sizeof *orders && st == HC_OK; ++i) {
-    const verify_equations e = {.odd_only = true, .harmonics = orders[i], .factor = 1};
-    st = search_try(s, &e);
-  }
-  return st;
+  const verify_equations odd = {.odd_only = true, .factor = 1};
+  if (s->setup->model->n_contacts == 0) return HC_OK;
+  return try_harmonics(s, &odd, sizeof orders / sizeof *orders, orders);
 }
 
 /* ---- changes of the model ---- */
 
-static int variants(const search *s, verify_change c) { return verify_change_variants(s->setup->model, c); }
-
-/* Every change, in equations that are otherwise *like; those with a factor at the usual ones. */
-static hc_status try_changes(search *s, const verify_equations *like)
+/* The changes first..last in each way they can be made, in equations that are otherwise *like; those with a factor at
+ * the usual ones. Of another response: try_responses. */
+static hc_status try_changes(search *s, const verify_equations *like, verify_change first, verify_change last)
 {
+  const model *m = s->setup->model;
   hc_status st = HC_OK;
-  for (int c = CHANGE_NONE + 1; c < VERIFY_CHANGES && st == HC_OK; ++c)
-    for (int i = 0; i < (verify_change_has_factor(c) ? FACTORS_TRIED : 1) * variants(s, c) && st == HC_OK; ++i) {
+  for (int c = first; c <= (int)last && st == HC_OK; ++c) {
+    const int variants = verify_change_variants(m, c);
+    const bool factor = verify_change_has_factor(c);
+    for (int i = 0; i < (factor ? FACTORS_TRIED : 1) * variants && c != CHANGE_RESPONSE && st == HC_OK; ++i) {
       verify_equations e = *like;
       e.change = c;
-      if (c == CHANGE_RESPONSE) continue; /* try_responses */
-      e.which = i % variants(s, c);
-      e.n = s->setup->model->n;
-      e.factor = verify_change_has_factor(c) ? factors_tried[i / variants(s, c)] : 1;
-      if (c == CHANGE_NO_CONTACT || c == CHANGE_STUCK) e.harmonics = 1;
-      st = search_try(s, &e);
+      e.which = i % variants;
+      e.n = m->n;
+      e.factor = factor ? factors_tried[i / variants] : 1;
+      if (verify_equations_linear(&e)) e.harmonics = 1;
+      st = try_equations(s, &e);
     }
+  }
   return st;
+}
+
+static hc_status try_every_change(search *s)
+{
+  const verify_equations own = search_own(s);
+  return try_changes(s, &own, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
+}
+
+static hc_status try_every_change_without_mean(search *s)
+{
+  const verify_equations without = search_equations(s->own, false);
+  return try_changes(s, &without, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
 }
 
 /* The other law of two tangents, or one tangent alone: what programs differ in, and before what is dear. All of them,
@@ -106,29 +153,26 @@ static hc_status try_limits(search *s)
   const int orders[] = {s->out->harmonics, s->own};
   const model *m = s->setup->model;
   hc_status st = HC_OK;
-  if (model_whole_contacts(m) == m->n_contacts) return HC_OK;
-  for (int i = 0; i < 2 && st == HC_OK && !search_explained(s); ++i)
-    for (int c = CHANGE_SQUARE_LIMIT; c <= CHANGE_NO_TANGENT_1 && st == HC_OK; ++c) {
-      const verify_equations e = {.change = c, .keep_mean = true, .harmonics = orders[i], .factor = 1, .n = m->n};
-      st = search_try(s, &e);
-    }
+  for (int i = 0; i < 2 && model_whole_contacts(m) < m->n_contacts && st == HC_OK && !search_explained(s); ++i) {
+    const verify_equations like = search_equations(orders[i], true);
+    st = try_changes(s, &like, CHANGE_SQUARE_LIMIT, CHANGE_NO_TANGENT_1);
+  }
   return st;
 }
 
 /* The likeliest changed models again with other numbers of harmonics: theirs may not be the case's. */
 static hc_status try_orders_of_changed(search *s)
 {
-  enum { TOP = 3 };
+  enum { TOP = 3, FIRST = 2 };
+  int orders[HARMONICS_TRIED - FIRST + 1], n = 0;
   verify_equations top[TOP];
-  int n = 0;
   hc_status st = HC_OK;
+  memcpy(orders, harmonics_tried + FIRST, sizeof orders - sizeof *orders);
+  orders[HARMONICS_TRIED - FIRST] = s->out->harmonics;
   for (int i = 0; i < s->out->n_hypotheses && n < TOP; ++i)
     if (s->out->hypotheses[i].equations.change > CHANGE_STUCK) top[n++] = s->out->hypotheses[i].equations;
   for (int k = 0; k < n && st == HC_OK && !search_explained(s); ++k)
-    for (int i = 2; i <= HARMONICS_TRIED && st == HC_OK; ++i) {
-      top[k].harmonics = i < HARMONICS_TRIED ? harmonics_tried[i] : s->out->harmonics;
-      st = search_try(s, &top[k]);
-    }
+    st = try_harmonics(s, &top[k], sizeof orders / sizeof *orders, orders);
   return st;
 }
 
@@ -157,8 +201,8 @@ static hc_status try_responses(search *s)
 {
   const int orders[] = {s->out->harmonics, s->own};
   hc_status st = HC_OK;
-  for (int i = 0; i < 2 && st == HC_OK && !search_explained(s); ++i) {
-    response_reader r = {s, {.keep_mean = true, .harmonics = orders[i], .factor = 1}};
+  for (int i = 0; i < 2 && s->setup->model->n > 1 && st == HC_OK && !search_explained(s); ++i) {
+    response_reader r = {s, search_equations(orders[i], true)};
     st = verify_solutions_of_dofs(s->setup, &r.equations, &s->points.quantity, s->from, s->to, s->points.n,
                                   s->points.omega, s->monitor, read_dof, &r);
     if (st == HC_OK && !search_tick(s)) st = HC_INTERRUPTED;
@@ -166,56 +210,238 @@ static hc_status try_responses(search *s)
   return st;
 }
 
+/* ---- few samples, and the slider ---- */
+
+static void note_likely(search *s, const verify_equations *e, double score)
+{
+  int at = s->n_likely < SEARCH_MOST_LIKELY ? s->n_likely++ : SEARCH_MOST_LIKELY;
+  for (; at > 0 && score < s->likely_score[at - 1]; --at) {
+    if (at == SEARCH_MOST_LIKELY) continue;
+    s->likely[at] = s->likely[at - 1];
+    s->likely_score[at] = s->likely_score[at - 1];
+  }
+  if (at == SEARCH_MOST_LIKELY) return;
+  s->likely[at] = *e;
+  s->likely_score[at] = score;
+}
+
+/* Equations with exact forces and their solutions, which Newton starts from. */
+typedef struct base {
+  verify_equations equations;
+  int frequency;
+  double omega[SEARCH_MOST_POINTS];
+  verify_solutions exact;
+} base;
+
+static hc_status base_solve(search *s, const verify_equations *e, int frequency, base *out)
+{
+  *out = (base){.equations = *e, .frequency = frequency};
+  for (int i = 0; i < s->points.n; ++i) out->omega[i] = search_omega_factor(frequency) * s->points.omega[i];
+  return search_solve(s, e, search_omega_factor(frequency), &out->exact);
+}
+
+static hc_status try_rate(search *s, const base *b, int samples, int restart)
+{
+  verify_equations e = b->equations;
+  verify_solutions of = {0};
+  e.samples = samples;
+  e.restart = restart;
+  if (samples < 2 * e.harmonics + 1) return HC_OK;
+  hc_status st = verify_solutions_near(s->setup, &e, &b->exact, b->omega, &of);
+  if (st == HC_OK) search_read(s, &e, b->frequency, &of);
+  if (st == HC_OK) {
+    s->points.part = 0; /* some points fit to rounding, and others' solutions were not found: a likely one, too */
+    note_likely(s, &e, verify_read_plain(&s->points, &of));
+    s->points.part = 0.9;
+  }
+  verify_solutions_clear(&of);
+  if (st == HC_OK && !search_tick(s)) st = HC_INTERRUPTED;
+  return st;
+}
+
+static hc_status try_rates(search *s, const base *b, int n, const int *samples, int last_restart)
+{
+  hc_status st = HC_OK;
+  for (int i = 0; i < n && st == HC_OK; ++i)
+    for (int restart = HBM_RESTART_INTERPOLATED; restart <= last_restart && st == HC_OK; ++restart)
+      st = try_rate(s, b, samples[i], restart);
+  return st;
+}
+
+/* Order number i with each of n numbers of samples. */
+static hc_status try_order_sampled(search *s, int i, int n, const int *samples, int last_restart)
+{
+  const verify_equations e = search_equations(s->orders[i].harmonics, s->orders[i].keep_mean);
+  base b;
+  hc_status st = base_solve(s, &e, s->frequency, &b);
+  if (st == HC_OK) st = try_rates(s, &b, n, samples, last_restart);
+  verify_solutions_clear(&b.exact);
+  return st;
+}
+
+/* The orders for which the powers of two are tried, as indices into s->orders. Where exact forces fit CLEARLY better
+ * with harmonic 0 than without, or the other way, all orders of that kind; else of both kinds the case's own number of
+ * harmonics, the largest, and the two that fit best. */
+static int choose_bases(const search *s, int bases[MOST_BASES])
+{
+  enum { CLEARLY = 5 };
+  int n = 0;
+  double least[2] = {INFINITY, INFINITY};
+  for (int i = 0; i < s->n_orders; ++i)
+    least[s->orders[i].keep_mean] = fmin(least[s->orders[i].keep_mean], s->orders[i].score);
+  for (int mean = 1; mean >= 0; --mean) {
+    const bool alone = least[mean] * CLEARLY < least[!mean];
+    if (least[!mean] * CLEARLY < least[mean]) continue;
+    int best[2] = {-1, -1};
+    for (int i = 0; i < s->n_orders; ++i) {
+      const order *o = &s->orders[i];
+      if (o->keep_mean != mean) continue;
+      if (best[0] < 0 || o->score < s->orders[best[0]].score) best[1] = best[0], best[0] = i;
+      else if (best[1] < 0 || o->score < s->orders[best[1]].score) best[1] = i;
+    }
+    for (int i = 0; i < s->n_orders; ++i) {
+      const order *o = &s->orders[i];
+      bool wanted =
+          alone || o->harmonics == s->own || o->harmonics == s->out->harmonics || i == best[0] || i == best[1];
+      if (o->keep_mean == mean && wanted && n < MOST_BASES) bases[n++] = i;
+    }
+  }
+  return n;
+}
+
+/* The reading of the frequencies that the best hypothesis so far has. */
+static int likeliest_frequency(const search *s)
+{
+  int f = SEARCH_FREQUENCIES - 1;
+  if (!verify_fits(s->out)) return 0;
+  while (f > 0 && s->out->hypotheses[0].omega_factor != search_omega_factor(f)) --f;
+  return f;
+}
+
+/* The powers of two with every base; all rates with the case's own harmonics. */
+static hc_status try_bases(search *s)
+{
+  int bases[MOST_BASES], n = choose_bases(s, bases);
+  hc_status st = HC_OK;
+  s->frequency = likeliest_frequency(s);
+  s->expected = s->done + 2 * n * POWERS_OF_TWO + 4 * SAMPLES_TRIED;
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    const bool own = s->orders[bases[i]].harmonics == s->own;
+    st = try_order_sampled(s, bases[i], own ? SAMPLES_TRIED : POWERS_OF_TWO, samples_tried, HBM_RESTART_SAMPLE);
+  }
+  return st;
+}
+
+/* All rates, and all numbers near the best, with the harmonics of the likeliest. */
+static hc_status try_near_likeliest(search *s)
+{
+  enum { AROUND = 8, FEWEST_SPACED = 256 };
+  if (s->n_likely == 0) return HC_OK;
+  verify_equations top = s->likely[0];
+  base b;
+  top.samples = 0;
+  hc_status st = base_solve(s, &top, s->frequency, &b);
+  if (st == HC_OK && top.harmonics != s->own)
+    st = try_rates(s, &b, SAMPLES_TRIED - POWERS_OF_TWO, samples_tried + POWERS_OF_TWO, HBM_RESTART_SAMPLE);
+  top = s->likely[0];
+  const bool same = top.harmonics == b.equations.harmonics && top.keep_mean == b.equations.keep_mean;
+  for (int d = -AROUND; d <= AROUND && same && st == HC_OK && !search_explained(s); ++d)
+    if (d && top.samples + d > 2 && top.samples <= FEWEST_SPACED) st = try_rate(s, &b, top.samples + d, top.restart);
+  verify_solutions_clear(&b.exact);
+  return st;
+}
+
+/* The likeliest number of samples with every other number of harmonics. */
+static hc_status try_likeliest_with_orders(search *s)
+{
+  hc_status st = HC_OK;
+  if (s->n_likely == 0) return st;
+  const verify_equations top = s->likely[0];
+  for (int i = 0; i < s->n_orders && st == HC_OK && !search_explained(s); ++i)
+    if (s->orders[i].keep_mean == top.keep_mean && s->orders[i].harmonics != top.harmonics)
+      st = try_order_sampled(s, i, 1, &top.samples, HBM_RESTART_SAMPLE);
+  return st;
+}
+
+/* Few harmonics with as few samples as people take then: 2H + 1 to 8H. */
+static hc_status try_small(search *s)
+{
+  enum { SMALL = 8 };
+  static const int rates[] = {3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64};
+  hc_status st = HC_OK;
+  for (int i = 0; i < s->n_orders && st == HC_OK && !search_explained(s); ++i) {
+    const int harmonics = s->orders[i].harmonics;
+    int n = 0;
+    while (n < (int)(sizeof rates / sizeof *rates) && rates[n] <= SMALL * harmonics) ++n;
+    if (harmonics > SMALL || harmonics == s->own) continue;
+    st = try_order_sampled(s, i, n, rates, HBM_RESTART_INTERPOLATED);
+  }
+  return st;
+}
+
+static hc_status try_curves(search *s)
+{
+  const int n = s->n_likely;
+  hc_status st = HC_OK;
+  for (int i = 0; i < n && st == HC_OK && !search_explained(s); ++i) st = try_at(s, &s->likely[i], s->frequency);
+  return st;
+}
+
+static hc_status try_sliders(search *s)
+{
+  static const int rates[] = {256, 1024, 512, 128, 64};
+  const verify_equations own = search_own(s);
+  base b;
+  if (s->setup->model->n_contacts == 0) return HC_OK;
+  hc_status st = base_solve(s, &own, 0, &b);
+  for (int restart = HBM_RESTART_ZEROED; restart <= HBM_RESTART_ONE_PASS_SAMPLE && st == HC_OK; ++restart)
+    for (size_t i = 0; i < sizeof rates / sizeof *rates && st == HC_OK; ++i) st = try_rate(s, &b, rates[i], restart);
+  verify_solutions_clear(&b.exact);
+  return st;
+}
+
 /* ---- in stages ---- */
+
+typedef struct stage {
+  hc_status (*run)(search *s);
+  bool always; /* else only if nothing explains the points so far */
+} stage;
+
+/* Curves of a structure are dearer, and more may be wrong: the plainest first, until one explains the points. */
+static const stage of_structure[] = {
+    {try_truth, true},         {try_limits, false},       {try_responses, false},
+    {try_other_orders, false}, {try_every_change, false}, {search_scales, false},
+    {try_odd_only, false},     {try_sliders, false},      {try_orders_of_changed, false}};
+static const stage of_oscillator[] = {
+    {try_truth, true},        {try_other_orders, true}, {search_scales, true},         {try_odd_only, true},
+    {try_every_change, true}, {try_sliders, false},     {try_orders_of_changed, false}};
+static const stage sampled[] = {{try_bases, false},
+                                {try_small, false},
+                                {try_near_likeliest, false},
+                                {try_likeliest_with_orders, false},
+                                {try_curves, false}};
+#define STAGES(list) sizeof list / sizeof *list, list
+
+static hc_status run_stages(search *s, size_t n, const stage *stages)
+{
+  hc_status st = HC_OK;
+  for (size_t i = 0; i < n && st == HC_OK; ++i)
+    if (stages[i].always || !search_explained(s)) st = stages[i].run(s);
+  return st;
+}
 
 /* Is the best hypothesis a factor without a name? Factors of the model's numbers may do what it does. */
 static bool free_factor(const search *s) { return s->out->n_hypotheses > 0 && s->out->hypotheses[0].fitted; }
 
-/* Curves of a structure are dearer, and more may be wrong: the plainest first, until one explains the points. */
-static hc_status try_structure(search *s)
-{
-  const verify_equations own = search_own(s);
-  hc_status st = try_order(s, s->out->harmonics, true);
-  if (st == HC_OK && !search_explained(s)) st = try_limits(s);
-  if (st == HC_OK && !search_explained(s) && s->setup->model->n > 1) st = try_responses(s);
-  if (st == HC_OK && !search_explained(s)) st = try_other_orders(s);
-  if (st == HC_OK && !search_explained(s)) st = try_changes(s, &own);
-  if (st == HC_OK && !search_explained(s)) st = search_scales(s);
-  if (st == HC_OK && !search_explained(s) && s->setup->model->n_contacts) st = try_odd_only(s);
-  if (st == HC_OK && !search_explained(s) && s->setup->model->n_contacts) st = search_sliders(s);
-  if (st == HC_OK && !search_explained(s)) st = try_orders_of_changed(s);
-  return st;
-}
-
-static hc_status try_exact(search *s)
-{
-  if (!model_is_oscillator(s->setup->model)) return try_structure(s);
-  const verify_equations own = search_own(s);
-  hc_status st = try_orders(s);
-  if (st == HC_OK) st = search_scales(s);
-  if (st == HC_OK && s->setup->model->n_contacts) st = try_odd_only(s);
-  if (st == HC_OK) st = try_changes(s, &own);
-  if (st == HC_OK && s->setup->model->n_contacts && !search_explained(s)) st = search_sliders(s);
-  if (st == HC_OK && !search_explained(s)) st = try_orders_of_changed(s);
-  if (st == HC_OK && free_factor(s)) st = search_fits(s);
-  return st;
-}
-
-static hc_status try_pairs(search *s)
-{
-  verify_equations without = search_own(s);
-  without.keep_mean = false;
-  return try_changes(s, &without);
-}
-
 static hc_status try_everything(search *s)
 {
-  hc_status st = try_exact(s);
+  const bool contacts = s->setup->model->n_contacts > 0, oscillator = model_is_oscillator(s->setup->model);
+  hc_status st = oscillator ? run_stages(s, STAGES(of_oscillator)) : run_stages(s, STAGES(of_structure));
+  if (st == HC_OK && oscillator && free_factor(s)) st = search_fits(s);
   const bool fits_done = free_factor(s);
-  const bool contacts = s->setup->model->n_contacts > 0;
-  if (st == HC_OK && contacts && !search_explained(s)) st = search_sampled(s);
+  if (st == HC_OK && contacts) st = run_stages(s, STAGES(sampled));
   if (st == HC_OK && !search_explained(s) && !fits_done) st = search_fits(s);
-  if (st == HC_OK && contacts && !search_explained(s) && !verify_fits(s->out)) st = try_pairs(s);
+  if (st == HC_OK && contacts && !search_explained(s) && !verify_fits(s->out)) st = try_every_change_without_mean(s);
   return st;
 }
 

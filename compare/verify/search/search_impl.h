@@ -1,6 +1,6 @@
 /* search_impl.h - how the columns may be meant, how far the points are from solutions then, and what a search consists
- * of; for the files of the search only: search.c (order of the stages, exact forces), readings.c (hypotheses, which
- * cause is named), sampled.c, scales.c (free factors). */
+ * of; for the files of the search only: search.c (the stages), readings.c (hypotheses, which cause is named), scales.c (free
+ * factors). */
 #ifndef HC_VERIFY_SEARCH_IMPL_H
 #define HC_VERIFY_SEARCH_IMPL_H
 
@@ -97,7 +97,8 @@ typedef struct search {
   verify_solutions many[2][SEARCH_FREQUENCIES]; /* with the truth's harmonics: without harmonic 0, with */
   int n_orders;
   order orders[SEARCH_MOST_ORDERS];
-  int n_likely; /* sampled equations that may be it, likeliest first */
+  int n_likely;  /* sampled equations that may be it, likeliest first */
+  int frequency; /* the reading of it that these have */
   verify_equations likely[SEARCH_MOST_LIKELY];
   double likely_score[SEARCH_MOST_LIKELY];
   int done, expected; /* equations, for the monitor */
@@ -108,7 +109,8 @@ double search_omega_factor(int frequency); /* 0: as it stands */
 /* False: interrupted. */
 bool search_tick(search *s);
 
-/* The case's own equations, with exact forces. */
+/* Equations with exact forces and so many harmonics; with the case's own. */
+verify_equations search_equations(int harmonics, bool keep_mean);
 verify_equations search_own(const search *s);
 
 /* Their solutions at the points' omegas times the factor, along their curve. HC_BAD_INPUT: there are no such
@@ -118,17 +120,13 @@ hc_status search_solve(search *s, const verify_equations *e, double omega_factor
 /* Every reading of the points for these solutions, among the hypotheses. */
 void search_read(search *s, const verify_equations *e, int frequency, const verify_solutions *of);
 
-/* Both for each possible reading of the frequency. HC_OK where there are no such equations. */
-hc_status search_try(search *s, const verify_equations *e);
+/* The hypothesis with its equations and factors, as the file says the quantity: solved, and among the hypotheses. */
+hc_status search_fit(search *s, verify_hypothesis h);
 
 void search_keep(search *s, const verify_hypothesis *h);
 
 /* Does the best hypothesis explain the points so well that no other stage is needed? */
 bool search_explained(const search *s);
-
-/* sampled.c: every number of samples, and the mistakes in following a slider. */
-hc_status search_sampled(search *s);
-hc_status search_sliders(search *s);
 
 /* readings.c: out->causes or out->nearest_guess from the hypotheses. */
 void search_judge(verify_report *out);
