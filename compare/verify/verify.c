@@ -9,7 +9,6 @@
 
 #include "base/message.h"
 #include "compare/verify/search/search.h"
-#include "compare/verify/truth/points.h"
 #include "compare/verify/truth/truth.h"
 
 static int differing(const verify_report *r)

@@ -101,6 +101,7 @@ verify_motion verify_motion_of(double omega, int n_harm, const double *X)
 /* (max - min)/2 of the derivative of order 1 or 2 with respect to time. */
 static double rate_amplitude(const verify_motion *m, int order)
 {
+  if (m->rates[order - 1] > 0) return m->rates[order - 1];
   double rate[2 * VERIFY_MOST_HARMONIC + 1] = {0}, high, low;
   for (int k = 1; k <= m->n_harm; ++k) {
     const double a = m->X[2 * k - 1], b = m->X[2 * k], kw = k * m->omega;
@@ -109,6 +110,11 @@ static double rate_amplitude(const verify_motion *m, int order)
   }
   series_extrema(m->n_harm, rate, &high, &low);
   return 0.5 * (high - low);
+}
+
+void verify_motion_find_rates(verify_motion *m)
+{
+  for (int order = 1; order <= 2; ++order) m->rates[order - 1] = rate_amplitude(m, order);
 }
 
 static double modulus(const verify_motion *m, int k)

@@ -68,6 +68,7 @@ bool verify_quantity_of_mean(const verify_quantity *q);
 typedef struct verify_motion {
   double omega;    /* [rad/time] */
   double max, min; /* [length] */
+  double rates[2]; /* [length/time], [length/time^2] (max - min)/2 of x' and x''; 0: not looked for yet */
   int n_harm;
   const double *X; /* [2 n_harm + 1] [length] */
 } verify_motion;
@@ -77,6 +78,9 @@ verify_motion verify_motion_of(double omega, int n_harm, const double *X);
 
 /* The quantity of that motion, not in dB. */
 double verify_quantity_of(const verify_quantity *q, const verify_motion *m);
+
+/* m->rates, for those who ask for many quantities of one motion: their extrema are costly. */
+void verify_motion_find_rates(verify_motion *m);
 
 /* What a difference of that quantity is measured by, > 0: the amplitude of x, x' or x''. Of double_amplitude, norm and
  * sums: of themselves. */

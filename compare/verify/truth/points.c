@@ -1,10 +1,10 @@
-/* points.c - see points.h. First the verdicts along the branches: points on an unstable one, and points that change
+/* points.c - see truth.h. First the verdicts along the branches: points on an unstable one, and points that change
  * it. A curve with unstable branches beside the stable ones is the whole curve; one with unstable points where a
  * stable branch exists, and none on that, or with nothing but unstable points, followed the wrong branch. */
 #include <math.h>
 #include <stdlib.h>
 
-#include "compare/verify/truth/points.h"
+#include "compare/verify/truth/truth.h"
 
 int points_reversals(const verify_data *d)
 {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growing.h"
 #include "compare/first_guess.h"
 
 static const double close_omegas = 0.1; /* [1] a step that Newton may take in one go */
@@ -93,51 +94,22 @@ bool verify_reading(int i, const verify_quantity *asked, verify_quantity *out, v
   return i == 0 || out->kind != asked->kind || out->harmonic != asked->harmonic;
 }
 
-/* Extrema of x' and x'' are costly, and most readings are one of them or measured by one. */
-typedef struct amplitudes {
-  double velocity, acceleration;
-} amplitudes;
-
-static verify_solution read_all_of(const verify_quantity *asked, const verify_motion *motion, const amplitudes *a)
+/* Every reading of the motion, whose series is the problem's, plus the problem's offset. */
+static verify_solution read_all(const verify_quantity *asked, const problem *p, verify_motion motion)
 {
   verify_solution s;
+  p->series[0] += p->offset;
+  motion.max += p->offset;
+  motion.min += p->offset;
+  verify_motion_find_rates(&motion);
   for (int i = 0; i < VERIFY_READINGS; ++i) {
     verify_quantity q;
     verify_causes ignored;
     verify_reading(i, asked, &q, &ignored);
-    const bool of_velocity = q.kind == KIND_VELOCITY, of_acceleration = q.kind == KIND_ACCELERATION;
-    s.q[i] = of_velocity ? a->velocity : of_acceleration ? a->acceleration : verify_quantity_of(&q, motion);
-    s.scale[i] = of_velocity || q.kind == KIND_VELOCITY_HARMONIC           ? a->velocity
-                 : of_acceleration || q.kind == KIND_ACCELERATION_HARMONIC ? a->acceleration
-                                                                           : verify_quantity_scale(&q, motion);
+    s.q[i] = verify_quantity_of(&q, &motion);
+    s.scale[i] = verify_quantity_scale(&q, &motion);
   }
   return s;
-}
-
-/* Every reading of the motion plus the problem's offset. */
-static verify_solution read_all(const verify_quantity *asked, const problem *p, verify_motion motion)
-{
-  const verify_quantity velocity = {.kind = KIND_VELOCITY}, acceleration = {.kind = KIND_ACCELERATION};
-  if (motion.X != p->series) memcpy(p->series, motion.X, (2 * (size_t)motion.n_harm + 1) * sizeof *p->series);
-  p->series[0] += p->offset;
-  motion.X = p->series;
-  motion.max += p->offset;
-  motion.min += p->offset;
-  const amplitudes a = {verify_quantity_of(&velocity, &motion), verify_quantity_of(&acceleration, &motion)};
-  return read_all_of(asked, &motion, &a);
-}
-
-static hc_status reserve(verify_solutions *s)
-{
-  if (s->count < s->cap) return HC_OK;
-  int cap = s->cap ? 2 * s->cap : 64;
-  verify_solution *of = realloc(s->of, (size_t)cap * sizeof *of);
-  if (of) s->of = of;
-  double *X = realloc(s->X, (size_t)cap * (size_t)s->n_coef * sizeof *X);
-  if (X) s->X = X;
-  if (!of || !X) return HC_NO_MEMORY;
-  s->cap = cap;
-  return HC_OK;
 }
 
 static bool same_solution(const verify_solutions *s, int k, const double *X, double amplitude)
@@ -156,11 +128,13 @@ static hc_status add(verify_solutions *s, const problem *p, double omega, int fr
   if (verify_motion_of_solution(p->hbm, omega, X, 0, p->series, &m, &motion) != HC_OK) return HC_OK;
   for (int k = from; k < s->count; ++k)
     if (same_solution(s, k, X, m.amplitude)) return HC_OK;
-  hc_status st = reserve(s);
-  if (st != HC_OK) return st;
-  memcpy(s->X + (size_t)s->count * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
-  s->of[s->count] = read_all(&s->asked, p, motion);
-  ++s->count;
+  verify_solution *of = growing(s->of, s->count, sizeof *of);
+  if (of) s->of = of;
+  double *all = growing(s->X, s->count, (size_t)s->n_coef * sizeof *all);
+  if (all) s->X = all;
+  if (!of || !all) return HC_NO_MEMORY;
+  memcpy(all + (size_t)s->count * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
+  of[s->count++] = read_all(&s->asked, p, motion);
   return HC_OK;
 }
 

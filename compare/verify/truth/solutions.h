@@ -23,13 +23,13 @@ typedef struct verify_solutions {
   verify_quantity asked;
   int n, n_coef; /* omegas; numbers of a solution */
   int *first;    /* [n+1] */
-  int count, cap;
+  int count;
   verify_solution *of; /* [count] */
   double *X;           /* [count][n_coef] */
 } verify_solutions;
 
-/* The motion of a response of the solution X at omega, and its measures. series[2H+1] is room that the motion of a
- * structure refers to from then on; an oscillator's refers to X. Errors of hbm_measure and hbm_response. */
+/* The motion of a response of the solution X at omega, and its measures. series[2H+1] is room that the motion
+ * refers to from then on. Errors of hbm_measure and hbm_response. */
 hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double *X, int response, double *series,
                                     hbm_measures *m, verify_motion *out);
 

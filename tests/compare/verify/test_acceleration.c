@@ -2,7 +2,7 @@
  * C = 0, M x'' = (F0 - K A) c - f(A c), c = cos(th), which has its extrema at c = -1, c = 1 or a kink of f. They need
  * not be solutions. */
 #include "base/constants.h"
-#include "compare/verify/truth/acceleration.h"
+#include "compare/verify/truth/truth.h"
 #include "tests/check.h"
 
 /* x = amplitude cos, from sliders at 0. */
