@@ -3,6 +3,7 @@
 #include "compare/budget.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -222,26 +223,28 @@ typedef struct distances {
   motion_distance observed, direct, aliasing, truncation, regularisation, integration;
 } distances;
 
-/* The same in one measure [length]. */
-typedef struct gaps {
-  double observed, direct, aliasing, truncation, regularisation, integration;
-} gaps;
+/* One measure of a distance, at its offset in motion_distance, relative to the amplitude `unit`. */
+static double relative(const motion_distance *d, size_t measure, double unit)
+{
+  return discrepancy_relative(*(const double *)(const void *)((const char *)d + measure), unit);
+}
 
-/* The parts in one measure, relative to the amplitude `unit`. */
-static budget_parts split(const chain *c, bool exact_law, double settling, double unit, const gaps *g)
+/* The parts in one measure. */
+static budget_parts split(const chain *c, bool exact_law, double settling, double unit, const distances *d,
+                          size_t measure)
 {
   budget_parts p = budget_nothing().amplitude;
-  p.observed = discrepancy_relative(g->observed, unit);
+  p.observed = relative(&d->observed, measure, unit);
   if (c->has_hx) {
-    p.aliasing = discrepancy_relative(g->aliasing, unit);
-    p.truncation = discrepancy_relative(g->truncation, unit);
+    p.aliasing = relative(&d->aliasing, measure, unit);
+    p.truncation = relative(&d->truncation, measure, unit);
   } else
-    p.aliasing = discrepancy_relative(g->direct, unit); /* exact forces have no solution here: h is there by aliasing */
+    p.aliasing = relative(&d->direct, measure, unit); /* exact forces have no solution here: h is there by aliasing */
   if (c->has_transient) {
-    p.regularisation = exact_law ? 0 : c->has_orbit ? discrepancy_relative(g->regularisation, unit) : NAN;
+    p.regularisation = exact_law ? 0 : c->has_orbit ? relative(&d->regularisation, measure, unit) : NAN;
     p.settling = settling;
     if (c->has_finer || c->finer_is_coarser)
-      p.integration = fmax(discrepancy_relative(g->integration, unit) - known(settling), 0);
+      p.integration = fmax(relative(&d->integration, measure, unit) - known(settling), 0);
   }
   add_up(&p);
   return p;
@@ -264,14 +267,11 @@ static distances measure_distances(const chain *c, const link *of, bool exact_la
 
 static void fill_budget(const chain *c, const link *of, bool exact_law, error_budget *out)
 {
-  const distances l = measure_distances(c, of, exact_law);
+  const distances d = measure_distances(c, of, exact_law);
   const double unit = c->has_transient ? of->transient.amplitude : of->orbit.amplitude;
-#define GAPS(m)                                                                                                        \
-  &(const gaps){l.observed.m, l.direct.m, l.aliasing.m, l.truncation.m, l.regularisation.m, l.integration.m}
-  out->amplitude = split(c, exact_law, of->settling, unit, GAPS(amplitude));
-  out->harmonic_1 = split(c, exact_law, of->settling, unit, GAPS(harmonic_1));
-  out->waveform = split(c, exact_law, of->settling, unit, GAPS(waveform));
-#undef GAPS
+  out->amplitude = split(c, exact_law, of->settling, unit, &d, offsetof(motion_distance, amplitude));
+  out->harmonic_1 = split(c, exact_law, of->settling, unit, &d, offsetof(motion_distance, harmonic_1));
+  out->waveform = split(c, exact_law, of->settling, unit, &d, offsetof(motion_distance, waveform));
   out->known = true;
   out->against_transient = c->has_transient;
 }

@@ -148,19 +148,20 @@ hc_status comparison_referee(const compare_setup *setup, timeint **out)
 static hc_status make_states(comparison_work *w)
 {
   const size_t n = (size_t)(w->out->n_states = timeint_n_states(w->ti));
-  w->swept = calloc(n, sizeof *w->swept);
-  w->state = calloc(n, sizeof *w->state);
-  w->scratch = calloc(n, sizeof *w->scratch);
+  w->swept = calloc(3 * n, sizeof *w->swept);
+  w->state = w->swept ? w->swept + n : NULL;
+  w->scratch = w->swept ? w->state + n : NULL;
   const size_t responses = (size_t)w->setup->model->n_responses;
   w->responses = calloc(responses, sizeof *w->responses);
   w->orbits = calloc(responses, sizeof *w->orbits);
   w->expected = calloc(responses, sizeof *w->expected);
   w->motions = calloc(responses, sizeof *w->motions);
   w->budgets = calloc(responses, sizeof *w->budgets);
-  w->acting = calloc((size_t)w->setup->model->n_contacts + 1, sizeof *w->acting);
-  w->balanced = calloc((size_t)w->setup->model->n_contacts + 1, sizeof *w->balanced);
-  const bool states = w->swept && w->state && w->scratch && w->acting && w->balanced;
-  const bool results = w->responses && w->orbits && w->expected && w->motions && w->budgets;
+  const size_t contacts = (size_t)w->setup->model->n_contacts + 1;
+  w->acting = calloc(2 * contacts, sizeof *w->acting);
+  w->balanced = w->acting ? w->acting + contacts : NULL;
+  const bool states = w->swept && w->acting,
+             results = w->responses && w->orbits && w->expected && w->motions && w->budgets;
   return states && results ? HC_OK : HC_NO_MEMORY;
 }
 
@@ -179,15 +180,12 @@ static void count_cost(comparison_work *w, comparison_cost *cost)
 
 static void runner_clear(comparison_work *w)
 {
-  free(w->balanced);
   free(w->acting);
   free(w->budgets);
   free(w->motions);
   free(w->expected);
   free(w->orbits);
   free(w->responses);
-  free(w->scratch);
-  free(w->state);
   free(w->swept);
   budgeter_free(w->budgeter);
   timeint_free(w->exact);

@@ -1,5 +1,5 @@
-/* bench.c - see bench.h: the settings of each method, the rounds in which they take turns, and the Pareto front of
- * error and time. */
+/* bench.c - see bench.h: the settings of each method, one solution timed, the rounds in which methods take turns, and
+ * the Pareto front of error and time. */
 #include "compare/accuracy/bench.h"
 
 #include <math.h>
@@ -8,8 +8,11 @@
 #include <string.h>
 
 #include "base/growing.h"
-#include "compare/accuracy/reference.h"
+#include "base/number.h"
+#include "base/thread_clock.h"
+#include "compare/accuracy/bench_start.h"
 #include "compare/accuracy/scipy.h"
+#include "compare/first_guess.h"
 
 enum { MOST_SETTINGS = 8, FEWEST = 3 };
 static const double enough = 0.25; /* [s] a row measured FEWEST times and for as long is repeated no more */
@@ -61,6 +64,224 @@ const char *bench_settings(const bench_row *r, char text[BENCH_TEXT])
     snprintf(text, BENCH_TEXT, "regularisation %.0e, tolerance %.0e", r->regularisation, r->tolerance);
   else snprintf(text, BENCH_TEXT, "tolerance %.0e", r->tolerance);
   return text;
+}
+
+/* ---- a method at one frequency, timed ---- */
+
+const double bench_longest = 1.5, bench_longest_shot = 0.3;
+static const double timed_method_slow = 0.2; /* [s] of a solution: what takes longer is measured by its first run */
+static const double shortest_run = 5e-4;     /* [s] the clock is good to a microsecond */
+static const double other_orbit = 0.3;       /* [amplitude] of the waveform: few harmonics are some ten percent off,
+                                          another orbit is elsewhere */
+
+/* A monitor that also stops at a limit of processor time. */
+typedef struct limit {
+  const hc_monitor *outer;
+  double until;
+  bool stopped;
+} limit;
+
+static bool tick_limit(void *self, double done)
+{
+  limit *l = self;
+  (void)done;
+  l->stopped = !hc_monitor_tick(l->outer, -1);
+  return !l->stopped && thread_seconds() < l->until;
+}
+
+typedef struct timed_method {
+  bench_row *row; /* the caller's; settings are read, outcome and errors written */
+  compare_setup setup;
+  hbm_solver *hbm; /* one of the two */
+  timeint *ti;
+  double *X, *trial;       /* [most_coef] the HBM method's own solution at the neighbour; the one at omega */
+  double *state;           /* [n_states] */
+  periodic_motion *motion; /* [n_responses] of the last solution */
+  double *seconds;         /* [cap] of each run */
+  int runs, cap, batch;    /* batch: solutions a run, so that a run is long enough for the clock */
+  double spent;            /* [s] */
+} timed_method;
+
+/* What one solution came to. */
+typedef struct answer {
+  hc_status status;
+  bool too_long;
+} answer;
+
+static void solve_hbm(timed_method *t, const bench_start *at, answer *a)
+{
+  hbm_point point;
+  hbm_measures m;
+  memcpy(t->trial, t->X, (size_t)hbm_n_coefficients(t->hbm) * sizeof *t->X);
+  a->status = hbm_solve(t->hbm, at->omega, t->trial, &point);
+  if (a->status == HC_OK) a->status = hbm_measure(t->hbm, t->trial, &m);
+}
+
+static void solve_transient(timed_method *t, const bench_start *at, const hc_monitor *monitor, timeint_result *r,
+                            answer *a)
+{
+  const bool marches = t->setup.transient.steady == TRANSIENT_STEADY_MARCH;
+  limit l = {monitor, thread_seconds() + (marches ? bench_longest : bench_longest_shot), false};
+  hc_monitor limited = {tick_limit, &l};
+  memcpy(t->state, at->state, (size_t)at->n_states * sizeof *t->state);
+  timeint_forget(t->ti); /* the same solution is asked for again and again */
+  a->status = timeint_steady(t->ti, at->omega, t->state, &limited, r);
+  a->too_long = a->status == HC_INTERRUPTED && !l.stopped;
+}
+
+/* The motion of every response of the last solution. */
+static hc_status find_motions(timed_method *t, const bench_start *at, timeint_result *r)
+{
+  hbm_measures m;
+  hc_status st = HC_OK;
+  for (int i = 0; i < at->n_responses && st == HC_OK; ++i) {
+    if (t->hbm) st = motion_of_response(t->hbm, at->omega, t->trial, i, &m, &t->motion[i]);
+    else if (i == 0 || (st = timeint_response(t->ti, i, r)) == HC_OK) t->motion[i] = motion_of_transient(r);
+  }
+  return st;
+}
+
+/* A batch of solutions; the time of one. */
+static double solve(timed_method *t, const bench_start *at, const hc_monitor *monitor, answer *a)
+{
+  timeint_result r;
+  *a = (answer){.status = HC_OK};
+  const double began = thread_seconds();
+  for (int i = 0; i < t->batch; ++i) {
+    if (t->hbm) solve_hbm(t, at, a);
+    else solve_transient(t, at, monitor, &r, a);
+  }
+  const double took = thread_seconds() - began;
+  t->spent += took;
+  if (a->status == HC_OK) a->status = find_motions(t, at, &r);
+  return took / t->batch;
+}
+
+/* Start from the largest solution at the neighbour on the method's own curve. */
+static hc_status from_own_curve(const bench_start *at, const hc_monitor *monitor, timed_method *t)
+{
+  limit l = {monitor, thread_seconds() + bench_longest_shot, false};
+  hc_monitor limited = {tick_limit, &l};
+  hbm_curve curve = {0}, found = {0};
+  hbm_measures m;
+  double most = -1;
+  hbm_trace(t->hbm, t->setup.omega_from, t->setup.omega_to, &limited, &curve); /* as far as it comes */
+  hc_status st = l.stopped ? HC_INTERRUPTED : hbm_curve_at(t->hbm, &curve, at->neighbour, &found);
+  for (int k = 0; k < found.n && st == HC_OK; ++k) {
+    const double *X = found.X + (size_t)k * found.n_coef;
+    if (hbm_measure(t->hbm, X, &m) != HC_OK || m.amplitude <= most) continue;
+    most = m.amplitude;
+    memcpy(t->X, X, (size_t)found.n_coef * sizeof *X);
+  }
+  hbm_curve_free(&found);
+  hbm_curve_free(&curve);
+  return st == HC_OK && most < 0 ? HC_NOT_CONVERGED : st;
+}
+
+/* Workspace and start. The neighbour's solution with these settings is next to that with many harmonics, or on the
+ * method's own curve. */
+static hc_status make(const bench_start *at, const hc_monitor *monitor, timed_method *t)
+{
+  hbm_point point;
+  if (!method_is_hbm(t->row->method)) return timeint_new(t->setup.model, &t->setup.transient, &t->ti);
+  hc_status st = guided_hbm_solver_new(t->setup.model, &t->setup.hbm, &t->hbm);
+  if (st != HC_OK) return st;
+  memcpy(t->X, at->X, (size_t)hbm_n_coefficients(t->hbm) * sizeof *t->X);
+  return hbm_solve(t->hbm, at->neighbour, t->X, &point) == HC_OK ? HC_OK : from_own_curve(at, monitor, t);
+}
+
+static void record_answer(const timed_method *t, const answer *a, const bench_start *at, double took, bench_row *row)
+{
+  row->status = a->status;
+  row->outcome = a->status == HC_OK ? BENCH_SOLVED : a->too_long ? BENCH_TOO_LONG : BENCH_FAILED;
+  if (a->status != HC_OK) return;
+  const motion_distance error = method_error(at->n_responses, t->motion, at->reference, at->size);
+  if (!(error.waveform <= other_orbit)) row->outcome = BENCH_OTHER_ORBIT;
+  if (row->outcome != BENCH_SOLVED) return;
+  row->error = error.amplitude;
+  row->error_harmonic_1 = error.harmonic_1;
+  row->seconds = took;
+}
+
+static hc_status make_workspace(const bench_start *at, timed_method *t)
+{
+  t->seconds = calloc((size_t)t->cap, sizeof *t->seconds);
+  t->X = calloc(2 * (size_t)at->most_coef + (size_t)at->n_states, sizeof *t->X);
+  t->motion = calloc((size_t)at->n_responses, sizeof *t->motion);
+  if (!t->seconds || !t->X || !t->motion) return HC_NO_MEMORY;
+  t->trial = t->X + at->most_coef;
+  t->state = t->trial + at->most_coef;
+  return HC_OK;
+}
+
+/* Ready to run up to cap times, the first run done: errors and outcome are in the row. HC_INTERRUPTED, HC_NO_MEMORY;
+ * what goes wrong with the method itself is the row's outcome. Free in any case. */
+static hc_status timed_method_start(const compare_setup *setup, const bench_start *at, bench_row *row, int cap,
+                                    const hc_monitor *monitor, timed_method *t)
+{
+  answer a;
+  *t = (timed_method){.row = row, .cap = cap, .batch = 1};
+  t->setup = method_setup(setup, row->method, row->harmonics, row->samples, row->regularisation, row->tolerance);
+  hc_status st = make_workspace(at, t);
+  if (st == HC_OK) st = make(at, monitor, t);
+  if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
+  if (st != HC_OK) {
+    row->status = st;
+    row->outcome = BENCH_FAILED;
+    return HC_OK;
+  }
+  double took = solve(t, at, monitor, &a);
+  if (a.status == HC_NO_MEMORY || (a.status == HC_INTERRUPTED && !a.too_long)) return a.status;
+  record_answer(t, &a, at, took, row);
+  if (took > timed_method_slow && row->outcome == BENCH_SOLVED) t->seconds[t->runs++] = took; /* is the only one */
+  if (took < shortest_run) t->batch = (int)fmin(ceil(shortest_run / fmax(took, 1e-7)), 1000);
+  return HC_OK;
+}
+
+/* Once more, timed. */
+static hc_status timed_method_run(timed_method *t, const bench_start *at, const hc_monitor *monitor)
+{
+  answer a;
+  if (t->row->outcome != BENCH_SOLVED || t->runs == t->cap) return HC_OK;
+  double took = solve(t, at, monitor, &a);
+  if (a.too_long) return HC_OK; /* by a hair, this time: not counted */
+  if (a.status == HC_OK) t->seconds[t->runs++] = took;
+  return a.status;
+}
+
+/* hbm_exact: what the whole curve takes, into the row; left at NaN when it takes too long. */
+static hc_status timed_method_curve(timed_method *t, const hc_monitor *monitor)
+{
+  limit l = {monitor, thread_seconds() + bench_longest, false};
+  hc_monitor limited = {tick_limit, &l};
+  double v[3], low, high;
+  hc_status st = HC_OK;
+  if (t->row->method != BENCH_HBM_EXACT || t->row->outcome != BENCH_SOLVED) return HC_OK;
+  for (int i = 0; i < 3 && st == HC_OK; ++i) {
+    hbm_curve curve = {0};
+    const double began = thread_seconds();
+    st = hbm_trace(t->hbm, t->setup.omega_from, t->setup.omega_to, &limited, &curve);
+    v[i] = thread_seconds() - began;
+    hbm_curve_free(&curve);
+  }
+  if (st == HC_OK) method_quartiles(3, v, &low, &t->row->curve_seconds, &high);
+  /* a curve that ends early has no time */
+  return l.stopped || st == HC_NO_MEMORY ? (l.stopped ? HC_INTERRUPTED : st) : HC_OK;
+}
+
+/* Median and quartiles of the runs into the row; frees. */
+static void timed_method_finish(timed_method *t)
+{
+  if (t->row && t->seconds && t->runs > 0) {
+    t->row->repeats = t->runs;
+    method_quartiles(t->runs, t->seconds, &t->row->low, &t->row->seconds, &t->row->high);
+  }
+  free(t->seconds);
+  free(t->X);
+  free(t->motion);
+  hbm_solver_free(t->hbm);
+  timeint_free(t->ti);
+  *t = (timed_method){0};
 }
 
 /* ---- the rounds ------------------------------------------------------------------------------- */

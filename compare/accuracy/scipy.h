@@ -3,7 +3,7 @@
 #ifndef HC_SCIPY_H
 #define HC_SCIPY_H
 
-#include "compare/accuracy/method.h"
+#include "compare/accuracy/bench_start.h"
 
 enum { SCIPY_MOST_RUNS = 8, SCIPY_MOST_REPEATS = 32 };
 

@@ -282,29 +282,67 @@ int gate_exit_code(int n, const gate_case *cases)
 
 /* ---- JUnit  ---------------------------------------------------------------------------------- */
 
+typedef struct junit {
+  FILE *to;
+  hc_status st; /* HC_NO_MEMORY from then on */
+} junit;
+
 /* In an attribute or between tags. What XML 1.0 cannot hold even escaped, control characters and U+FFFE, U+FFFF,
  * utf8_clean makes spaces. */
-static hc_status put_text(const char *raw, FILE *to)
+static void put_text(junit *x, const char *raw)
 {
-  char *text = utf8_clean(raw, true);
-  if (!text) return HC_NO_MEMORY;
-  for (const char *p = text; *p; ++p) {
-    if (*p == '&') fputs("&amp;", to);
-    else if (*p == '<') fputs("&lt;", to);
-    else if (*p == '>') fputs("&gt;", to);
-    else if (*p == '"') fputs("&quot;", to);
-    else putc(*p, to);
+  char *text = x->st == HC_OK ? utf8_clean(raw, true) : NULL;
+  if (!text) x->st = HC_NO_MEMORY;
+  for (const char *p = text; p && *p; ++p) {
+    if (*p == '&') fputs("&amp;", x->to);
+    else if (*p == '<') fputs("&lt;", x->to);
+    else if (*p == '>') fputs("&gt;", x->to);
+    else if (*p == '"') fputs("&quot;", x->to);
+    else putc(*p, x->to);
   }
   free(text);
-  return HC_OK;
 }
 
-static hc_status put_attribute(const char *name, const char *value, FILE *to)
+static void put_attribute(junit *x, const char *name, const char *value)
 {
-  fprintf(to, " %s=\"", name);
-  hc_status st = put_text(value, to);
-  putc('"', to);
-  return st;
+  fprintf(x->to, " %s=\"", name);
+  put_text(x, value);
+  putc('"', x->to);
+}
+
+static void put_counts(junit *x, int tests, int failures, int errors, int skipped)
+{
+  fprintf(x->to, " tests=\"%d\" failures=\"%d\" errors=\"%d\" skipped=\"%d\" time=\"0\">\n", tests, failures, errors,
+          skipped);
+}
+
+static junit begin_suites(FILE *to, int tests, int failures, int errors, int skipped)
+{
+  junit x = {to, HC_OK};
+  fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"hbmcheck gate\"", to);
+  put_counts(&x, tests, failures, errors, skipped);
+  return x;
+}
+
+static hc_status end_suites(junit *x)
+{
+  fputs("</testsuites>\n", x->to);
+  return x->st != HC_OK ? x->st : ferror(x->to) ? HC_IO : HC_OK;
+}
+
+static void begin_suite(junit *x, const char *name, int tests, int failures, int errors, int skipped)
+{
+  fputs("  <testsuite", x->to);
+  put_attribute(x, "name", name);
+  put_counts(x, tests, failures, errors, skipped);
+}
+
+static void begin_case(junit *x, const char *suite, const char *name)
+{
+  fputs("    <testcase", x->to);
+  put_attribute(x, "classname", suite);
+  put_attribute(x, "name", name);
+  fputs(" time=\"0\"", x->to);
 }
 
 static void name_check(const gate_case *g, const gate_check *c, char *text, size_t size)
@@ -330,92 +368,65 @@ static void say_check(const gate_check *c, char *text, size_t size)
              found, allowed, c->verdict);
 }
 
-static hc_status put_skipped(const gate_check *c, FILE *to)
+static void put_check(junit *x, const gate_case *g, const gate_check *c)
 {
-  fputs(">\n      <skipped", to);
-  hc_status st = put_attribute("message", c->reason, to);
-  fputs("/>\n    </testcase>\n", to);
-  return st;
-}
-
-static hc_status put_check(const gate_case *g, const gate_check *c, FILE *to)
-{
+  static const char *const tags[] = {
+      [GATE_PASS] = "", [GATE_FAIL] = "failure", [GATE_ERROR] = "error", [GATE_NOT_APPLICABLE] = "skipped"};
   char name[512], words[GATE_REASON + 96];
   name_check(g, c, name, sizeof name);
-  fputs("    <testcase", to);
-  hc_status st = put_attribute("classname", g->name, to);
-  if (st == HC_OK) st = put_attribute("name", name, to);
-  fputs(" time=\"0\"", to);
-  if (c->result == GATE_PASS) fputs("/>\n", to);
-  if (c->result == GATE_PASS || st != HC_OK) return st;
-  if (c->result == GATE_NOT_APPLICABLE) return put_skipped(c, to);
-  const char *tag = c->result == GATE_FAIL ? "failure" : "error";
   say_check(c, words, sizeof words);
-  fprintf(to, ">\n      <%s", tag);
-  st = put_attribute("message", words, to);
-  if (st == HC_OK) st = put_attribute("type", c->quantity, to);
-  putc('>', to);
-  if (st == HC_OK) st = put_text(g->name, to);
-  fputs(", ", to);
-  if (st == HC_OK) st = put_text(name, to);
-  fputs(": ", to);
-  if (st == HC_OK) st = put_text(words, to);
-  fprintf(to, "</%s>\n    </testcase>\n", tag);
-  return st;
-}
-
-static void put_counts(int tests, int failures, int errors, int skipped, FILE *to)
-{
-  fprintf(to, " tests=\"%d\" failures=\"%d\" errors=\"%d\" skipped=\"%d\" time=\"0\">\n", tests, failures, errors,
-          skipped);
+  begin_case(x, g->name, name);
+  if (c->result == GATE_PASS) {
+    fputs("/>\n", x->to);
+    return;
+  }
+  fprintf(x->to, ">\n      <%s", tags[c->result]);
+  put_attribute(x, "message", words);
+  if (c->result == GATE_NOT_APPLICABLE) fputs("/>", x->to);
+  else {
+    put_attribute(x, "type", c->quantity);
+    putc('>', x->to);
+    put_text(x, g->name);
+    fputs(", ", x->to);
+    put_text(x, name);
+    fputs(": ", x->to);
+    put_text(x, words);
+    fprintf(x->to, "</%s>", tags[c->result]);
+  }
+  fputs("\n    </testcase>\n", x->to);
 }
 
 hc_status gate_write_junit(int n, const gate_case *cases, FILE *to)
 {
   int tests = 0, failures = 0, errors = 0, skipped = 0;
-  hc_status st = HC_OK;
   for (int i = 0; i < n; ++i) {
     tests += cases[i].n, failures += cases[i].failures;
     errors += cases[i].errors, skipped += cases[i].not_applicable;
   }
-  fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"hbmcheck gate\"", to);
-  put_counts(tests, failures, errors, skipped, to);
-  for (int i = 0; i < n && st == HC_OK; ++i) {
-    fputs("  <testsuite", to);
-    st = put_attribute("name", cases[i].name, to);
-    put_counts(cases[i].n, cases[i].failures, cases[i].errors, cases[i].not_applicable, to);
-    for (int k = 0; k < cases[i].n && st == HC_OK; ++k) st = put_check(&cases[i], &cases[i].checks[k], to);
+  junit x = begin_suites(to, tests, failures, errors, skipped);
+  for (int i = 0; i < n && x.st == HC_OK; ++i) {
+    const gate_case *g = &cases[i];
+    begin_suite(&x, g->name, g->n, g->failures, g->errors, g->not_applicable);
+    for (int k = 0; k < g->n && x.st == HC_OK; ++k) put_check(&x, g, &g->checks[k]);
     fputs("  </testsuite>\n", to);
   }
-  fputs("</testsuites>\n", to);
-  return st != HC_OK ? st : ferror(to) ? HC_IO : HC_OK;
-}
-
-/* The suite of one case file: wrong, or fine and not run because another one is wrong. */
-static hc_status put_unread(const char *name, const char *wrong, FILE *to)
-{
-  fputs("  <testsuite", to);
-  hc_status st = put_attribute("name", name, to);
-  put_counts(1, 0, wrong != NULL, !wrong, to);
-  fputs("    <testcase", to);
-  if (st == HC_OK) st = put_attribute("classname", name, to);
-  fprintf(to, " name=\"case file\" time=\"0\">\n      <%s", wrong ? "error" : "skipped");
-  if (st == HC_OK) st = put_attribute("message", wrong ? wrong : "not run: another case file is wrong", to);
-  if (wrong) fputs(" type=\"case file\"", to);
-  putc('>', to);
-  if (st == HC_OK && wrong) st = put_text(wrong, to);
-  fprintf(to, "</%s>\n    </testcase>\n  </testsuite>\n", wrong ? "error" : "skipped");
-  return st;
+  return end_suites(&x);
 }
 
 hc_status gate_write_junit_unread(int n, const char *const *names, const char *const *wrong, FILE *to)
 {
   int errors = 0;
-  hc_status st = HC_OK;
   for (int i = 0; i < n; ++i) errors += wrong[i] != NULL;
-  fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"hbmcheck gate\"", to);
-  put_counts(n, 0, errors, n - errors, to);
-  for (int i = 0; i < n && st == HC_OK; ++i) st = put_unread(names[i], wrong[i], to);
-  fputs("</testsuites>\n", to);
-  return st != HC_OK ? st : ferror(to) ? HC_IO : HC_OK;
+  junit x = begin_suites(to, n, 0, errors, n - errors);
+  for (int i = 0; i < n && x.st == HC_OK; ++i) {
+    begin_suite(&x, names[i], 1, 0, wrong[i] != NULL, !wrong[i]);
+    begin_case(&x, names[i], "case file");
+    fprintf(to, ">\n      <%s", wrong[i] ? "error" : "skipped");
+    put_attribute(&x, "message", wrong[i] ? wrong[i] : "not run: another case file is wrong");
+    if (wrong[i]) put_attribute(&x, "type", "case file");
+    putc('>', to);
+    if (wrong[i]) put_text(&x, wrong[i]);
+    fprintf(to, "</%s>\n    </testcase>\n  </testsuite>\n", wrong[i] ? "error" : "skipped");
+  }
+  return end_suites(&x);
 }

@@ -23,7 +23,11 @@ static const struct {
     {1e2, VERIFY_BIT(CAUSE_LENGTH)},
     {1e-2, VERIFY_BIT(CAUSE_LENGTH)},
 };
-enum { FACTORS = sizeof factors / sizeof *factors, MOST_DIFFERING = 48, MOST_MATCHING = 16 };
+enum {
+  FACTORS = sizeof factors / sizeof *factors,
+  MOST_DIFFERING = 48,
+  MOST_MATCHING = SEARCH_MOST_POINTS - MOST_DIFFERING
+};
 
 /* ---- the sample ---- */
 
@@ -39,68 +43,31 @@ static bool differs(const verify_row *r)
   return !r->skipped && (r->verdict == VERDICT_DIFFERS || r->verdict == VERDICT_SOLVER_FAILED);
 }
 
-/* At most `most` of the n rows that differ or not, evenly spread, appended. */
-static void choose_rows(const verify_row **rows, int n, bool off, int most, verify_sample *out)
-{
-  int there = 0, seen = 0, taken = 0;
-  for (int i = 0; i < n; ++i) there += differs(rows[i]) == off;
-  int wanted = there < most ? there : most;
-  for (int i = 0; i < n && taken < wanted; ++i) {
-    if (differs(rows[i]) != off) continue;
-    if ((long)seen++ * wanted < (long)taken * there) continue;
-    out->omega[out->n] = rows[i]->omega;
-    out->value[out->n] = rows[i]->value;
-    out->differs[out->n++] = off;
-    ++taken;
-  }
-}
-
-/* Insertion sort by omega: there are at most MOST_DIFFERING + MOST_MATCHING. */
-static void sort(verify_sample *s)
-{
-  for (int i = 1; i < s->n; ++i)
-    for (int k = i; k > 0 && s->omega[k] < s->omega[k - 1]; --k) {
-      double omega = s->omega[k], value = s->value[k];
-      bool off = s->differs[k];
-      s->omega[k] = s->omega[k - 1], s->value[k] = s->value[k - 1], s->differs[k] = s->differs[k - 1];
-      s->omega[k - 1] = omega, s->value[k - 1] = value, s->differs[k - 1] = off;
-    }
-}
-
+/* Of the rows that differ and of those that do not as many as there is room for, evenly spread. */
 hc_status verify_sample_new(const verify_report *r, const verify_quantity *quantity, verify_sample *out)
 {
-  enum { MOST = MOST_DIFFERING + MOST_MATCHING };
+  const int most[] = {MOST_MATCHING, MOST_DIFFERING};
+  int there[2] = {0}, seen[2] = {0}, taken[2] = {0};
+  verify_quantity other = *quantity;
+  other.decibel = true;
+  *out = (verify_sample){.quantity = *quantity, .part = 0.9};
   const verify_row **rows = malloc((size_t)r->n_rows * sizeof *rows + 1);
-  double *numbers = calloc(5 * MOST, sizeof *numbers);
-  *out = (verify_sample){.omega = numbers, .quantity = *quantity, .part = 0.9};
-  if (numbers) out->value = numbers + MOST, out->decibel = numbers + 2 * MOST, out->scratch = numbers + 3 * MOST;
-  out->differs = calloc(MOST, sizeof *out->differs);
-  if (rows && numbers && out->differs) {
-    for (int i = 0; i < r->n_rows; ++i) rows[i] = &r->rows[i];
-    qsort(rows, (size_t)r->n_rows, sizeof *rows, by_omega);
-    choose_rows(rows, r->n_rows, true, MOST_DIFFERING, out);
-    choose_rows(rows, r->n_rows, false, MOST_MATCHING, out);
-    sort(out);
-    verify_quantity other = *quantity;
-    other.decibel = true;
-    for (int i = 0; i < out->n; ++i)
-      out->decibel[i] = quantity->decibel ? verify_quantity_to_column(&other, out->value[i])
-                                          : verify_quantity_from_column(&other, out->value[i]);
-    free(rows);
-    return HC_OK;
+  if (!rows) return HC_NO_MEMORY;
+  for (int i = 0; i < r->n_rows; ++i) rows[i] = &r->rows[i], ++there[differs(rows[i])];
+  qsort(rows, (size_t)r->n_rows, sizeof *rows, by_omega);
+  for (int i = 0; i < r->n_rows; ++i) {
+    const bool off = differs(rows[i]);
+    const int wanted = there[off] < most[off] ? there[off] : most[off];
+    if (taken[off] == wanted || (long)seen[off]++ * wanted < (long)taken[off] * there[off]) continue;
+    ++taken[off];
+    out->omega[out->n] = rows[i]->omega;
+    out->value[out->n] = rows[i]->value;
+    out->decibel[out->n] = quantity->decibel ? verify_quantity_to_column(&other, rows[i]->value)
+                                             : verify_quantity_from_column(&other, rows[i]->value);
+    out->differs[out->n++] = off;
   }
   free(rows);
-  free(numbers);
-  free(out->differs);
-  *out = (verify_sample){0};
-  return HC_NO_MEMORY;
-}
-
-void verify_sample_clear(verify_sample *s)
-{
-  free(s->omega);
-  free(s->differs);
-  *s = (verify_sample){0};
+  return HC_OK;
 }
 
 /* ---- distances ---- */
@@ -141,7 +108,7 @@ static double nearest(const double *value, const verify_solutions *s, int i, int
 static double distance(const verify_sample *p, const double *value, const verify_solutions *s, int q, double factor)
 {
   int off = 0, on = 0;
-  double *far = p->scratch, *near = p->scratch + p->n;
+  double far[SEARCH_MOST_POINTS], near[SEARCH_MOST_POINTS];
   for (int i = 0; i < p->n; ++i) {
     const double least = nearest(value, s, i, q, factor);
     if (p->differs[i]) far[off++] = least;
@@ -203,6 +170,7 @@ double verify_closeness(const verify_sample *p, const verify_solutions *s)
 double verify_apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b)
 {
   int n = 0;
+  double far[SEARCH_MOST_POINTS];
   for (int i = 0; i < p->n; ++i) {
     if (!p->differs[i]) continue;
     double worst = a->first[i] < a->first[i + 1] ? 0 : 1;
@@ -212,9 +180,9 @@ double verify_apart(const verify_sample *p, const verify_solutions *a, const ver
         least = fmin(least, relative(a->of[k].q[0], b->of[j].q[0], b->of[j].scale[0]));
       worst = fmax(worst, least);
     }
-    p->scratch[n++] = worst;
+    far[n++] = worst;
   }
-  return within(n, p->scratch, p->part);
+  return within(n, far, p->part);
 }
 
 /* ---- what a column may have been divided by ---- */

@@ -478,7 +478,6 @@ hc_status verify_search(const compare_setup *setup, const verify_data *data, con
   }
   if (st == HC_OK) search_judge(out);
   for (int i = 0; i < 2 * SEARCH_FREQUENCIES; ++i) verify_solutions_clear(&s->many[i % 2][i / 2]);
-  verify_sample_clear(&s->points);
   free(s);
   return st;
 }

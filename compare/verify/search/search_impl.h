@@ -26,21 +26,21 @@ const verify_scale *verify_scale_near(const verify_scale *s, int n, double facto
 
 /* ---- how the columns may be meant ---- */
 
+enum { SEARCH_MOST_POINTS = 64 };
+
 /* The points that hypotheses are held against: some that differ from the truth and some that do not, omega
  * ascending. */
 typedef struct verify_sample {
   int n;
-  double *omega, *value;    /* [n] */
-  double *decibel;          /* [n] the values if they are in dB where the file says not, or the other way */
-  bool *differs;            /* [n] */
-  double *scratch;          /* [2n] */
+  double omega[SEARCH_MOST_POINTS], value[SEARCH_MOST_POINTS];
+  double decibel[SEARCH_MOST_POINTS]; /* the values if they are in dB where the file says not, or the other way */
+  bool differs[SEARCH_MOST_POINTS];
   verify_quantity quantity; /* what the file says it is */
   double part;              /* [1] a distance is what this part of the points is within, 0.9; 0: their geometric mean */
 } verify_sample;
 
 /* HC_NO_MEMORY. */
 hc_status verify_sample_new(const verify_report *r, const verify_quantity *quantity, verify_sample *out);
-void verify_sample_clear(verify_sample *s);
 
 typedef void verify_keep(void *self, const verify_hypothesis *h);
 
@@ -71,8 +71,7 @@ double verify_apart(const verify_sample *p, const verify_solutions *a, const ver
 enum {
   SEARCH_FREQUENCIES = 3, /* omega as it stands, in cycles, or the other way */
   SEARCH_MOST_ORDERS = 40,
-  SEARCH_MOST_LIKELY = 4,
-  SEARCH_MOST_POINTS = 64
+  SEARCH_MOST_LIKELY = 4
 };
 
 /* The equations with exact forces and one number of harmonics, with or without harmonic 0. */

@@ -1,31 +1,25 @@
-/* reference.h - what methods are compared with: the exact law's orbits. For the tables over H and N those at the
- * compared frequencies, and the peak of the response; for the benchmark the one at a frequency as tight as rounding
- * allows, and the solutions at a neighbouring frequency from which all methods start. */
-#ifndef HC_REFERENCE_H
-#define HC_REFERENCE_H
+/* bench_start.h - what the methods of bench.h start from and are compared with: the exact law's orbit at a frequency, as
+ * tight as rounding allows, and the solutions at a neighbouring one. Private to compare/accuracy/. */
+#ifndef HC_BENCH_START_H
+#define HC_BENCH_START_H
 
-#include "compare/accuracy/accuracy.h"
+#include "compare/accuracy/bench.h"
 #include "compare/accuracy/method.h"
 
-typedef struct target {
-  double omega;
-  periodic_motion orbit;
-} target;
+/* What all methods start from there. */
+typedef struct bench_start { /* from bench_start_new, to bench_start_free */
+  double omega, neighbour;   /* [rad/time] */
+  int most_coef, n_states, n_responses;
+  double *X;     /* [most_coef] [length] HBM solution at the neighbour, as many harmonics as there are, then
+                                 zeros: coefficient by coefficient (hbm_solver.h) */
+  double *state; /* [n_states] on the exact orbit at the neighbour */
+  periodic_motion *reference; /* [n_responses] at omega */
+  double size;                /* [length] the largest amplitude of these: what errors are relative to */
+} bench_start;
 
-typedef struct reference {
-  int n;
-  target *targets; /* [n] by frequency */
-  int harmonics;   /* of the curve they were looked for from */
-  bool peak_by_orbit;
-  double peak_amplitude, peak_omega;
-} reference;
-
-/* From the curve of `hbm`, whose forces are exact. Free with reference_clear in any case. */
-hc_status reference_make(const compare_setup *setup, const comparison *c, hbm_solver *hbm, const hbm_curve *curve,
-                         const hc_monitor *monitor, reference *out);
-void reference_clear(reference *r);
-
-/* ---- at one frequency ---- */
+/* For the harmonic balance of the model; HC_NO_MEMORY, *at is to be freed then, too. */
+hc_status bench_start_new(const model *m, const hbm_solver *s, bench_start *at);
+void bench_start_free(bench_start *at);
 
 /* The response curve by harmonic balance, and the exact law's orbits next to it. */
 typedef struct finder {
