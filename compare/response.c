@@ -6,15 +6,28 @@
 #include <stdlib.h>
 
 #include "base/number.h"
+#include "base/thread_clock.h"
 #include "compare/first_guess.h"
 
 hc_status response_trace(const compare_setup *setup, const number_list *asked, const hc_monitor *monitor,
-                         hbm_solver **hbm, hbm_curve *curve)
+                         response_curve *out)
 {
+  const double began = thread_seconds();
+  const number_list none = {.n = 0};
   double from, to;
-  comparison_sweep(setup->omega_from, setup->omega_to, asked, &from, &to);
-  const hc_status st = guided_hbm_solver_new(setup->model, &setup->hbm, hbm);
-  return st == HC_OK ? hbm_trace(*hbm, from, to, monitor, curve) : st;
+  *out = (response_curve){.hbm = NULL};
+  comparison_sweep(setup->omega_from, setup->omega_to, asked ? asked : &none, &from, &to);
+  out->status = guided_hbm_solver_new(setup->model, &setup->hbm, &out->hbm);
+  if (out->status == HC_OK) out->status = hbm_trace(out->hbm, from, to, monitor, &out->curve);
+  out->seconds = thread_seconds() - began;
+  return out->status == HC_INTERRUPTED || out->status == HC_NO_MEMORY ? out->status : HC_OK;
+}
+
+void response_curve_free(response_curve *c)
+{
+  hbm_curve_free(&c->curve);
+  hbm_solver_free(c->hbm);
+  *c = (response_curve){.hbm = NULL};
 }
 
 hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row *out)

@@ -14,10 +14,19 @@ void comparison_sweep(double omega_from, double omega_to, const number_list *ask
 hc_status comparison_frequencies(const compare_settings *where, double omega_from, hbm_solver *hbm,
                                  const hbm_curve *curve, number_list *out);
 
-/* The curve over the sweep, widened to the asked frequencies, into *curve as far as it goes; errors of hbm_trace. *hbm
- * is NULL where the solver could not be made. Free both in any case. */
+/* A response curve and its price. */
+typedef struct response_curve {
+  hbm_solver *hbm; /* NULL where it could not be made */
+  hbm_curve curve;
+  hc_status status; /* how it ended */
+  double seconds;   /* of processor time */
+} response_curve;
+
+/* By harmonic balance over the sweep, widened to the asked frequencies (NULL: none). HC_NO_MEMORY, HC_INTERRUPTED; else
+ * HC_OK, with the curve as far as it goes. response_curve_free in any case. */
 hc_status response_trace(const compare_setup *setup, const number_list *asked, const hc_monitor *monitor,
-                         hbm_solver **hbm, hbm_curve *curve);
+                         response_curve *out);
+void response_curve_free(response_curve *c);
 
 enum { RESPONSE_NAME = 32 };
 

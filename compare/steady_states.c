@@ -30,9 +30,8 @@ const char *steady_verdict_text(const steady_row *r, char text[24])
 typedef struct workspace {
   const compare_setup *setup;
   timeint *ti;
-  timeint *exact;  /* to see what the regularisation costs; NULL where the law is the exact one already */
-  hbm_solver *hbm; /* NULL unless the start is on HBM orbits */
-  hbm_curve curve;
+  timeint *exact;          /* to see what the regularisation costs; NULL where the law is the exact one already */
+  response_curve response; /* its solver is NULL unless the start is on HBM orbits */
   const hc_monitor *monitor;
   steady_states *out;
   double *state;   /* [n_states] on its way to the steady state of a row */
@@ -127,7 +126,7 @@ static hc_status steady_from_orbit(workspace *w, double omega, const hbm_curve *
 {
   const double *X = at->X + (size_t)k * at->n_coef;
   char start[32];
-  hc_status st = comparison_orbit_start(w->hbm, X, omega, w->state);
+  hc_status st = comparison_orbit_start(w->response.hbm, X, omega, w->state);
   if (st != HC_OK) return add_failure(w, STEADY_HBM, st, omega);
   snprintf(start, sizeof start, "hbm branch %d", at->points[k].branch);
   return steady_settle(w, omega, start, HC_OK);
@@ -136,9 +135,10 @@ static hc_status steady_from_orbit(workspace *w, double omega, const hbm_curve *
 static hc_status from_hbm_orbits(workspace *w, double omega)
 {
   hbm_curve at = {0};
-  hc_status st = hbm_curve_at(w->hbm, &w->curve, omega, &at), why = st != HC_OK             ? st
-                                                                    : w->curve.end != HC_OK ? w->curve.end
-                                                                                            : HC_NOT_CONVERGED;
+  hc_status st = hbm_curve_at(w->response.hbm, &w->response.curve, omega, &at), why = st != HC_OK ? st
+                                                                                      : w->response.curve.end != HC_OK
+                                                                                          ? w->response.curve.end
+                                                                                          : HC_NOT_CONVERGED;
   if (st != HC_NO_MEMORY) st = st != HC_OK || at.n == 0 ? steady_from_rest(w, omega, why) : HC_OK;
   for (int k = 0; k < at.n && st == HC_OK; ++k) st = steady_from_orbit(w, omega, &at, k);
   hbm_curve_free(&at);
@@ -171,10 +171,10 @@ static hc_status run(workspace *w, const number_list *asked)
   w->scratch = calloc((size_t)timeint_n_states(w->ti), sizeof *w->scratch);
   if (!w->state || !w->scratch) return HC_NO_MEMORY;
   if (start == TRANSIENT_START_UP || start == TRANSIENT_START_DOWN) return swept(w, asked, start == TRANSIENT_START_UP);
-  if (start == TRANSIENT_START_HBM) st = response_trace(w->setup, asked, w->monitor, &w->hbm, &w->curve);
-  if (w->hbm && st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = HC_OK; /* as far as the curve goes */
+  if (start == TRANSIENT_START_HBM) st = response_trace(w->setup, asked, w->monitor, &w->response);
+  if (st == HC_OK && !w->response.hbm) st = w->response.status;
   for (int i = 0; i < asked->n && st == HC_OK; ++i)
-    st = w->hbm ? from_hbm_orbits(w, asked->v[i]) : steady_from_rest(w, asked->v[i], HC_OK);
+    st = w->response.hbm ? from_hbm_orbits(w, asked->v[i]) : steady_from_rest(w, asked->v[i], HC_OK);
   return st;
 }
 
@@ -186,8 +186,7 @@ hc_status steady_states_run(const compare_setup *setup, const hc_monitor *monito
   workspace w = {.setup = setup, .monitor = monitor, .out = out};
   hc_status st = comparison_frequencies(&setup->compare, setup->omega_from, NULL, &(hbm_curve){0}, &asked);
   if (st == HC_OK) st = run(&w, &asked);
-  hbm_curve_free(&w.curve);
-  hbm_solver_free(w.hbm);
+  response_curve_free(&w.response);
   free(w.scratch);
   free(w.state);
   timeint_free(w.exact);

@@ -224,11 +224,11 @@ typedef struct workspace {
 
 /* ---- curves and solutions -------------------------------------------------------------------- */
 
-static hc_status trace(const workspace *w, int n_harm, int samples, const hc_monitor *monitor, method_curve *t)
+static hc_status trace(const workspace *w, int n_harm, int samples, const hc_monitor *monitor, response_curve *t)
 {
   const compare_setup setup =
       method_setup(w->setup, samples == EXACT ? BENCH_HBM_EXACT : BENCH_HBM_SAMPLED, n_harm, samples, NAN, NAN);
-  return method_curve_trace(&setup, monitor, t);
+  return response_trace(&setup, &setup.compare.omega, monitor, t);
 }
 
 static hc_status solutions_new(int n, int n_coef, solutions *s)
@@ -276,7 +276,7 @@ static bool nearest_pair(const workspace *w, const solutions *s, int first, int 
 
 /* The targets first..last-1, of one frequency, get the solutions of the curve there: each at most one, the nearest
  * pairs first. */
-static hc_status assign(const workspace *w, method_curve *t, int first, int last, solutions *s)
+static hc_status assign(const workspace *w, response_curve *t, int first, int last, solutions *s)
 {
   hbm_curve at = {0};
   hc_status st = hbm_curve_at(t->hbm, &t->curve, w->ref.targets[first].omega, &at);
@@ -300,7 +300,7 @@ static hc_status assign(const workspace *w, method_curve *t, int first, int last
   return st;
 }
 
-static hc_status solve_exact(const workspace *w, method_curve *t, solutions *s)
+static hc_status solve_exact(const workspace *w, response_curve *t, solutions *s)
 {
   hc_status st = solutions_new(w->ref.n, hbm_n_coefficients(t->hbm), s);
   for (int first = 0, last; first < w->ref.n && st == HC_OK; first = last) {
@@ -324,7 +324,7 @@ static void drop_doubles(const workspace *w, const solutions *from, solutions *s
 }
 
 /* The sampled solutions, each from the one with exact forces. */
-static hc_status solve_sampled(const workspace *w, method_curve *t, const solutions *from, solutions *s)
+static hc_status solve_sampled(const workspace *w, response_curve *t, const solutions *from, solutions *s)
 {
   hc_status st = solutions_new(from->n, from->n_coef, s);
   double *X = malloc(((size_t)from->n_coef + 1) * sizeof *X);
@@ -352,9 +352,10 @@ static hc_status put_errors(const workspace *w, const solutions *s, const soluti
   for (int i = 0; i < s->n; ++i) {
     const periodic_motion *orbit = &w->ref.targets[i].orbit;
     if (!s->there[i]) continue;
-    e[row->solutions++] = method_error(1, &s->motion[i], orbit, orbit->amplitude).amplitude;
+    const double amplitude = s->motion[i].amplitude;
+    e[row->solutions++] = discrepancy_relative(amplitude - orbit->amplitude, orbit->amplitude);
     row->worst = fmax(row->worst, e[row->solutions - 1]);
-    row->aliasing = fmax(row->aliasing, method_error(1, &s->motion[i], &plain->motion[i], orbit->amplitude).amplitude);
+    row->aliasing = fmax(row->aliasing, discrepancy_relative(amplitude - plain->motion[i].amplitude, orbit->amplitude));
   }
   if (row->solutions == 0) row->worst = row->aliasing = NAN;
   row->missing = s->n - row->solutions;
@@ -363,7 +364,7 @@ static hc_status put_errors(const workspace *w, const solutions *s, const soluti
   return HC_OK;
 }
 
-static hc_status put_curve(const workspace *w, method_curve *t, accuracy_row *row)
+static hc_status put_curve(const workspace *w, response_curve *t, accuracy_row *row)
 {
   response_summary curve = {.peak_amplitude = NAN, .peak_omega = NAN};
   hc_status st = t->hbm ? response_summarise(t->hbm, &t->curve, &curve) : HC_OK;
@@ -379,7 +380,7 @@ static hc_status put_curve(const workspace *w, method_curve *t, accuracy_row *ro
   return st;
 }
 
-static hc_status make_row(const workspace *w, method_curve *t, int samples, const solutions *s,
+static hc_status make_row(const workspace *w, response_curve *t, int samples, const solutions *s,
                           const plain_solutions *plain, double began, accuracy_row *row)
 {
   *row = (accuracy_row){.harmonics = plain->n_harm, .samples = samples, .possible = true};
@@ -409,7 +410,7 @@ static accuracy_row impossible_row(int n_harm, int samples)
 }
 
 /* The row of the i-th H with exact forces, and the solutions that the sampled ones start from. */
-static hc_status exact_row(workspace *w, int i, method_curve *t)
+static hc_status exact_row(workspace *w, int i, response_curve *t)
 {
   const int at = i * (w->n_samples + 1);
   plain_solutions *plain = &w->plain[i];
@@ -425,7 +426,7 @@ static hc_status exact_row(workspace *w, int i, method_curve *t)
 static hc_status sampled_row(const workspace *w, int samples, const plain_solutions *plain, const hc_monitor *monitor,
                              accuracy_row *row)
 {
-  method_curve t;
+  response_curve t;
   solutions s = {0};
   if (samples < 2 * plain->n_harm + 2) {
     *row = impossible_row(plain->n_harm, samples);
@@ -436,7 +437,7 @@ static hc_status sampled_row(const workspace *w, int samples, const plain_soluti
   if (st == HC_OK) st = solve_sampled(w, &t, &plain->s, &s);
   if (st == HC_OK) st = make_row(w, &t, samples, &s, plain, began, row);
   solutions_free(&s);
-  method_curve_free(&t);
+  response_curve_free(&t);
   return st;
 }
 
@@ -481,7 +482,7 @@ static void put_orders(const workspace *w, accuracy *out)
 static hc_status exact_rows(workspace *w)
 {
   int most = w->harmonics[w->n_harm - 1] > LEAST_REFERENCE ? w->harmonics[w->n_harm - 1] : LEAST_REFERENCE;
-  method_curve finest, t = {.hbm = NULL};
+  response_curve finest, t = {.hbm = NULL};
   hc_status st = trace(w, most, EXACT, w->monitor, &finest);
   if (st == HC_OK && !finest.hbm) st = finest.status;
   if (st == HC_OK) st = reference_make(w->setup, w->c, finest.hbm, &finest.curve, w->monitor, &w->ref);
@@ -490,9 +491,9 @@ static hc_status exact_rows(workspace *w)
     if (!hc_monitor_tick(w->monitor, -1)) st = HC_INTERRUPTED;
     if (st == HC_OK && !again) st = trace(w, w->harmonics[i], EXACT, w->monitor, &t);
     if (st == HC_OK) st = exact_row(w, i, again ? &finest : &t);
-    if (!again) method_curve_free(&t);
+    if (!again) response_curve_free(&t);
   }
-  method_curve_free(&finest);
+  response_curve_free(&finest);
   return st;
 }
 

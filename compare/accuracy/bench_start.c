@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "compare/comparison.h"
-#include "compare/response.h"
 
 hc_status bench_start_new(const model *m, const hbm_solver *s, bench_start *at)
 {
@@ -53,14 +52,14 @@ hc_status finder_start(const compare_setup *setup, const number_list *at, const 
   if (at->n) f->setup.compare.omega = *at;
   comparison_sweep(setup->omega_from, setup->omega_to, &f->setup.compare.omega, &f->setup.omega_from,
                    &f->setup.omega_to);
-  hc_status st = method_curve_trace(&f->setup, monitor, &f->response);
+  hc_status st = response_trace(&f->setup, &f->setup.compare.omega, monitor, &f->response);
   if (st == HC_OK && f->response.curve.n == 0) st = f->response.status;
   return st == HC_OK ? make_workspace(f) : st;
 }
 
 void finder_free(finder *f)
 {
-  method_curve_free(&f->response);
+  response_curve_free(&f->response);
   free(f->X);
   free(f->motion);
   *f = (finder){0};

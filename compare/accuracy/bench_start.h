@@ -5,6 +5,7 @@
 
 #include "compare/accuracy/bench.h"
 #include "compare/accuracy/method.h"
+#include "compare/response.h"
 
 /* What all methods start from there. */
 typedef struct bench_start { /* from bench_start_new, to bench_start_free */
@@ -24,7 +25,7 @@ void bench_start_free(bench_start *at);
 /* The response curve by harmonic balance, and the exact law's orbits next to it. */
 typedef struct finder {
   compare_setup setup; /* with harmonics and forces of the curve; the sweep covers the asked frequencies */
-  method_curve response;
+  response_curve response;
   int n_states;
   double *X;                     /* [hbm_n_coefficients] harmonic balance's solution at the frequency under way */
   double *state, *other, *trial; /* [n_states] on the exact orbit there; for what one function needs */

@@ -33,37 +33,6 @@ compare_setup method_setup(const compare_setup *setup, bench_method method, int 
   return own;
 }
 
-hc_status method_curve_trace(const compare_setup *setup, const hc_monitor *monitor, method_curve *out)
-{
-  const double began = thread_seconds();
-  *out = (method_curve){.hbm = NULL};
-  out->status = response_trace(setup, &setup->compare.omega, monitor, &out->hbm, &out->curve);
-  out->seconds = thread_seconds() - began;
-  return out->status == HC_INTERRUPTED || out->status == HC_NO_MEMORY ? out->status : HC_OK;
-}
-
-void method_curve_free(method_curve *c)
-{
-  hbm_curve_free(&c->curve);
-  hbm_solver_free(c->hbm);
-  *c = (method_curve){.hbm = NULL};
-}
-
-motion_distance method_error(int n, const periodic_motion *found, const periodic_motion *reference, double size)
-{
-  motion_distance worst = {0};
-  for (int i = 0; i < n; ++i) {
-    const motion_distance gap = motion_between(&found[i], &reference[i]);
-    if (!(gap.waveform <= worst.waveform)) worst.waveform = gap.waveform;
-    if (!(gap.amplitude <= worst.amplitude)) worst.amplitude = gap.amplitude;
-    if (!(gap.harmonic_1 <= worst.harmonic_1)) worst.harmonic_1 = gap.harmonic_1;
-  }
-  return (motion_distance){.amplitude = discrepancy_relative(worst.amplitude, size),
-                           .harmonic_1 = discrepancy_relative(worst.harmonic_1, size),
-                           .mean = NAN,
-                           .waveform = discrepancy_relative(worst.waveform, size)};
-}
-
 static double quantile(int n, const double *v, double at)
 {
   if (n == 0) return NAN;

@@ -15,22 +15,6 @@ bool method_is_hbm(bench_method m);
 compare_setup method_setup(const compare_setup *setup, bench_method method, int harmonics, int samples,
                            double regularisation, double tolerance);
 
-/* A response curve and its price. */
-typedef struct method_curve {
-  hbm_solver *hbm; /* NULL where it could not be made */
-  hbm_curve curve;
-  hc_status status; /* how it ended */
-  double seconds;   /* of processor time */
-} method_curve;
-
-/* By harmonic balance over the sweep, widened to the compared frequencies. HC_NO_MEMORY, HC_INTERRUPTED; else HC_OK,
- * with the curve as far as it goes. method_curve_free in any case. */
-hc_status method_curve_trace(const compare_setup *setup, const hc_monitor *monitor, method_curve *out);
-void method_curve_free(method_curve *c);
-
-/* The largest of each difference between n motions and their references, over `size`; NaN stays. */
-motion_distance method_error(int n, const periodic_motion *found, const periodic_motion *reference, double size);
-
 /* Median and quartiles of v[n], which is sorted; NaN of none. */
 void method_quartiles(int n, double *v, double *low, double *median, double *high);
 

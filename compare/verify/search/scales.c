@@ -8,7 +8,7 @@
 
 #include "base/constants.h"
 #include "base/number.h"
-#include "compare/first_guess.h"
+#include "compare/response.h"
 #include "compare/verify/search/search_impl.h"
 #include "hbm/curve/segment.h"
 #include "numerics/roots.h"
@@ -89,24 +89,22 @@ static hc_status outline_new(search *s, outline *out)
   enum { BETWEEN = 6 }; /* of two points of the curve */
   const verify_equations e = search_equations(s->out->harmonics, true);
   const compare_setup own = verify_settings(s->setup, &e);
-  hbm_solver *hbm = NULL;
-  hbm_curve curve = {0};
+  response_curve truth;
+  const hbm_curve *curve = &truth.curve;
   *out = (outline){0};
-  hc_status st = guided_hbm_solver_new(own.model, &own.hbm, &hbm);
-  if (st == HC_OK) st = hbm_trace(hbm, own.omega_from, own.omega_to, s->monitor, &curve);
-  if (hbm && st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = HC_OK; /* as far as it came */
+  hc_status st = response_trace(&own, NULL, s->monitor, &truth);
   const int n_harm = s->out->harmonics;
-  double *X = malloc(((size_t)curve.n_coef + 1) * sizeof *X);
+  double *X = malloc(((size_t)curve->n_coef + 1) * sizeof *X);
   double *series = malloc((2 * (size_t)n_harm + 1) * sizeof *series);
-  const size_t room = (size_t)curve.n * BETWEEN + 1;
+  const size_t room = (size_t)curve->n * BETWEEN + 1;
   out->omega = malloc(2 * room * sizeof *out->omega);
   if (!X || !series || !out->omega) st = HC_NO_MEMORY;
-  for (int k = 0; k + 1 < curve.n && st == HC_OK; ++k) {
-    const hbm_segment seg = hbm_segment_between(&curve, k);
+  for (int k = 0; k + 1 < curve->n && st == HC_OK; ++k) {
+    const hbm_segment seg = hbm_segment_between(curve, k);
     for (int i = 0; i < BETWEEN; ++i) {
       double *const omega = &out->omega[out->n];
       hbm_segment_at(&seg, (double)i / BETWEEN, X, omega, NULL, NULL);
-      if (hbm_response(hbm, *omega, X, 0, series) != HC_OK) continue;
+      if (hbm_response(truth.hbm, *omega, X, 0, series) != HC_OK) continue;
       const verify_motion motion = verify_motion_of(*omega, n_harm, series);
       out->omega[room + (size_t)out->n++] = verify_quantity_of(&s->points.quantity, &motion);
     }
@@ -114,8 +112,7 @@ static hc_status outline_new(search *s, outline *out)
   out->value = out->omega ? out->omega + room : NULL;
   free(series);
   free(X);
-  hbm_curve_free(&curve);
-  hbm_solver_free(hbm);
+  response_curve_free(&truth);
   return st;
 }
 

@@ -431,7 +431,7 @@ static hc_status run_stages(search *s, size_t n, const stage *stages)
 }
 
 /* Is the best hypothesis a factor without a name? Factors of the model's numbers may do what it does. */
-static bool free_factor(const search *s) { return s->out->n_hypotheses > 0 && s->out->hypotheses[0].fitted; }
+static bool free_factor(const search *s) { return s->out->hypotheses[0].fitted; } /* false where there is none yet */
 
 static hc_status try_everything(search *s)
 {

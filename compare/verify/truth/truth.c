@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "compare/first_guess.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
 #include "compare/response.h"
@@ -110,10 +109,9 @@ typedef struct truth {
   const verify_data *data;
   const hc_monitor *monitor;
   verify_report *out;
-  hbm_solver *hbm;
+  response_curve response;
   timeint *referee;
   double *state; /* [n_states] of the referee's */
-  hbm_curve curve;
   double from, to;
   double *room;   /* acceleration_room */
   double *series; /* [2H+1] of a response */
@@ -156,7 +154,7 @@ static double verify_gate(const compare_setup *setup, const verify_quantity *q)
 static int truth_stable(truth *t, double omega, const double *X, hc_status *st)
 {
   hbm_stability s;
-  hc_status known = hbm_stability_at(t->hbm, omega, X, &s);
+  hc_status known = hbm_stability_at(t->response.hbm, omega, X, &s);
   if (known == HC_NO_MEMORY) *st = known;
   return known == HC_OK ? hbm_stability_verdict(&s) : 0;
 }
@@ -179,12 +177,12 @@ static hc_status truth_measure(truth *t, double omega, const double *X, measured
 {
   hbm_measures m;
   verify_motion motion;
-  hc_status st = verify_motion_of_solution(t->hbm, omega, X, 0, t->series, &m, &motion);
+  hc_status st = verify_motion_of_solution(t->response.hbm, omega, X, 0, t->series, &m, &motion);
   if (st != HC_OK) return st;
   const verify_quantity *q = &t->data->quantity;
   const bool mean_free = mean_is_free(t->setup->model, &m.contact);
   if (q->kind == KIND_ACCELERATION) {
-    st = hbm_sliders(t->hbm, X, t->room);
+    st = hbm_sliders(t->response.hbm, X, t->room);
     const double amplitude = st == HC_OK ? acceleration_amplitude(t->setup->model, &motion, t->room) : NAN;
     *out = (measured){amplitude, amplitude, mean_free};
     return st;
@@ -211,12 +209,12 @@ static int truth_nearest(truth *t, const hbm_curve *at, const verify_row *row, m
 static hc_status truth_at(truth *t, double omega, hbm_curve *at)
 {
   if (omega < fmin(t->from, t->to) || omega > fmax(t->from, t->to)) return HC_OK;
-  if (hbm_curve_at(t->hbm, &t->curve, omega, at) == HC_NO_MEMORY) return HC_NO_MEMORY;
+  if (hbm_curve_at(t->response.hbm, &t->response.curve, omega, at) == HC_NO_MEMORY) return HC_NO_MEMORY;
   if (at->n > 0) return HC_OK;
-  double *X = calloc((size_t)t->curve.n_coef, sizeof *X);
+  double *X = calloc((size_t)t->response.curve.n_coef, sizeof *X);
   hbm_point point;
-  hc_status st = X ? hbm_solve_first(t->hbm, omega, X, &point) : HC_NO_MEMORY;
-  at->n_coef = t->curve.n_coef;
+  hc_status st = X ? hbm_solve_first(t->response.hbm, omega, X, &point) : HC_NO_MEMORY;
+  at->n_coef = t->response.curve.n_coef;
   if (st == HC_OK && (at->X = X) && (at->points = calloc(1, sizeof point))) {
     at->points[0] = point;
     at->points[0].omega = omega;
@@ -342,7 +340,7 @@ static hc_status check_row(truth *t, const verify_row *row)
   hc_status st = truth_at(t, row->omega, &at), found = HC_NOT_CONVERGED;
   int k = st == HC_OK ? truth_nearest(t, &at, row, &m) : -1;
   if (k >= 0) {
-    found = comparison_orbit_start(t->hbm, at.X + (size_t)k * at.n_coef, row->omega, t->state);
+    found = comparison_orbit_start(t->response.hbm, at.X + (size_t)k * at.n_coef, row->omega, t->state);
     if (found == HC_OK) found = timeint_orbit(t->referee, row->omega, 1, t->state, t->monitor, &orbit);
     if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
   }
@@ -430,23 +428,22 @@ static hc_status judge_all(truth *t)
 static hc_status with_harmonics(truth *t, int harmonics)
 {
   const verify_equations e = {.keep_mean = true, .harmonics = harmonics};
-  const compare_setup own = verify_settings(t->setup, &e);
-  hbm_curve_free(&t->curve);
-  t->curve = (hbm_curve){0};
-  hbm_solver_free(t->hbm);
+  compare_setup own = verify_settings(t->setup, &e);
+  own.omega_from = t->from;
+  own.omega_to = t->to;
+  response_curve_free(&t->response);
   free(t->series);
-  t->hbm = NULL;
   if (!(t->series = malloc((2 * (size_t)harmonics + 1) * sizeof *t->series))) return HC_NO_MEMORY;
-  hc_status st = guided_hbm_solver_new(own.model, &own.hbm, &t->hbm);
-  if (st != HC_OK) return st;
-  st = hbm_trace(t->hbm, t->from, t->to, t->monitor, &t->curve);
-  t->curve.n_coef = hbm_n_coefficients(t->hbm);
+  const hc_status st = response_trace(&own, NULL, t->monitor, &t->response);
+  if (!t->response.hbm) return t->response.status;
+  t->response.curve.n_coef = hbm_n_coefficients(t->response.hbm);
   t->out->harmonics = harmonics;
-  t->out->curve_end = t->curve.end;
-  t->out->curve_omega = t->curve.n ? t->curve.points[t->curve.n - 1].omega : t->from;
-  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
-  st = judge_all(t);
-  return st == HC_OK ? truth_check(t) : st;
+  t->out->response.curve_end = t->response.curve.end;
+  t->out->response.curve_omega =
+      t->response.curve.n ? t->response.curve.points[t->response.curve.n - 1].omega : t->from;
+  if (st != HC_OK) return st;
+  const hc_status judged = judge_all(t);
+  return judged == HC_OK ? truth_check(t) : judged;
 }
 
 enum { BETWEEN = 4 }; /* steps from one point of the curve to the next */
@@ -463,7 +460,7 @@ static hc_status put_line_point(truth *t, double omega, const double *X, int sta
  * lines. HC_NO_MEMORY, or why it cannot be measured. */
 static hc_status draw_line(truth *t)
 {
-  const hbm_curve *c = &t->curve;
+  const hbm_curve *c = &t->response.curve;
   verify_report *out = t->out;
   double *X = malloc(((size_t)c->n_coef + 1) * sizeof *X);
   out->n_line = 0;
@@ -504,8 +501,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
     again = out->checked_error > 0.1 * out->gate && 2 * harmonics <= ENOUGH_HARMONICS;
   }
   if (st == HC_OK && data->with_line) st = draw_line(&t);
-  hbm_curve_free(&t.curve);
-  hbm_solver_free(t.hbm);
+  response_curve_free(&t.response);
   free(t.state);
   free(t.room);
   free(t.series);
