@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "compare/first_guess.h"
 #include "compare/motion.h"
 #include "compare/period_limit.h"
@@ -20,6 +21,7 @@ struct budgeter {           /* from budgeter_new, to budgeter_free */
   int n_harm;               /* of alias_free */
   hbm_solver *alias_free;   /* exact forces; NULL until needed */
   timeint *finer, *coarser; /* the transient's law, stepped finer and coarser; NULL until needed */
+  workspace memory;         /* of the arrays below */
   double *state;            /* [n_states] where these start */
   int n_states;             /* in a state of time integration */
   double *X;                /* [n_coefficients of the alias-free solution, and more] */
@@ -48,11 +50,11 @@ hc_status budgeter_new(const compare_setup *setup, budgeter **out)
   if (!b) return HC_NO_MEMORY;
   b->setup = *setup;
   b->n_states = 2 * setup->model->n + setup->model->n_contacts;
-  b->state = calloc((size_t)b->n_states, sizeof *b->state);
-  b->X = calloc((size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)setup->model->n, sizeof *b->X);
-  b->link = calloc((size_t)setup->model->n_responses, sizeof *b->link);
-  if (b->state && b->X && b->link) *out = b;
-  else budgeter_free(b);
+  b->state = workspace_doubles(&b->memory, (size_t)b->n_states);
+  b->X = workspace_doubles(&b->memory, (size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)setup->model->n);
+  b->link = workspace_array(&b->memory, (size_t)setup->model->n_responses, sizeof *b->link);
+  if (b->memory.failed) budgeter_free(b);
+  else *out = b;
   return *out ? HC_OK : HC_NO_MEMORY;
 }
 
@@ -62,9 +64,7 @@ void budgeter_free(budgeter *b)
   hbm_solver_free(b->alias_free);
   timeint_free(b->finer);
   timeint_free(b->coarser);
-  free(b->state);
-  free(b->X);
-  free(b->link);
+  workspace_free(&b->memory);
   free(b);
 }
 

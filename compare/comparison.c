@@ -148,21 +148,19 @@ hc_status comparison_referee(const compare_setup *setup, timeint **out)
 static hc_status make_states(comparison_work *w)
 {
   const size_t n = (size_t)(w->out->n_states = timeint_n_states(w->ti));
-  w->swept = calloc(3 * n, sizeof *w->swept);
-  w->state = w->swept ? w->swept + n : NULL;
-  w->scratch = w->swept ? w->state + n : NULL;
-  const size_t responses = (size_t)w->setup->model->n_responses;
-  w->responses = calloc(responses, sizeof *w->responses);
-  w->orbits = calloc(responses, sizeof *w->orbits);
-  w->expected = calloc(responses, sizeof *w->expected);
-  w->motions = calloc(responses, sizeof *w->motions);
-  w->budgets = calloc(responses, sizeof *w->budgets);
-  const size_t contacts = (size_t)w->setup->model->n_contacts + 1;
-  w->acting = calloc(2 * contacts, sizeof *w->acting);
-  w->balanced = w->acting ? w->acting + contacts : NULL;
-  const bool states = w->swept && w->acting,
-             results = w->responses && w->orbits && w->expected && w->motions && w->budgets;
-  return states && results ? HC_OK : HC_NO_MEMORY;
+  const size_t responses = (size_t)w->setup->model->n_responses, contacts = (size_t)w->setup->model->n_contacts;
+  workspace *memory = &w->memory;
+  w->swept = workspace_doubles(memory, n);
+  w->state = workspace_doubles(memory, n);
+  w->scratch = workspace_doubles(memory, n);
+  w->responses = workspace_array(memory, responses, sizeof *w->responses);
+  w->orbits = workspace_array(memory, responses, sizeof *w->orbits);
+  w->expected = workspace_array(memory, responses, sizeof *w->expected);
+  w->motions = workspace_array(memory, responses, sizeof *w->motions);
+  w->budgets = workspace_array(memory, responses, sizeof *w->budgets);
+  w->acting = workspace_array(memory, contacts, sizeof *w->acting);
+  w->balanced = workspace_array(memory, contacts, sizeof *w->balanced);
+  return memory->failed ? HC_NO_MEMORY : HC_OK;
 }
 
 static void count_cost(comparison_work *w, comparison_cost *cost)
@@ -176,21 +174,6 @@ static void count_cost(comparison_work *w, comparison_cost *cost)
     cost->closed_form += closed;
   }
   budgeter_count(w->budgeter, &cost->hbm_solves, &cost->periods, &cost->closed_form);
-}
-
-static void runner_clear(comparison_work *w)
-{
-  free(w->acting);
-  free(w->budgets);
-  free(w->motions);
-  free(w->expected);
-  free(w->orbits);
-  free(w->responses);
-  free(w->swept);
-  budgeter_free(w->budgeter);
-  timeint_free(w->exact);
-  timeint_free(w->ti);
-  hbm_solver_free(w->hbm);
 }
 
 hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out)
@@ -214,7 +197,11 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
     if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = compare_all(&w); /* as far as the curve goes */
     count_cost(&w, &out->cost);
   }
-  runner_clear(&w);
+  workspace_free(&w.memory);
+  budgeter_free(w.budgeter);
+  timeint_free(w.exact);
+  timeint_free(w.ti);
+  hbm_solver_free(w.hbm);
   return st;
 }
 

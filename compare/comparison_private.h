@@ -4,6 +4,7 @@
 #ifndef HC_COMPARISON_PRIVATE_H
 #define HC_COMPARISON_PRIVATE_H
 
+#include "base/workspace.h"
 #include "compare/comparison.h"
 
 typedef struct comparison_work comparison_work;
@@ -15,9 +16,10 @@ struct comparison_work {
   budgeter *budgeter;
   const hc_monitor *monitor;
   comparison *out;
-  double *swept;   /* [n_states] where a sweep start has come to */
-  double *state;   /* [n_states] of the row under way, on the transient's orbit */
-  double *scratch; /* [n_states] of what else is integrated for it */
+  workspace memory; /* of the arrays below */
+  double *swept;    /* [n_states] where a sweep start has come to */
+  double *state;    /* [n_states] of the row under way, on the transient's orbit */
+  double *scratch;  /* [n_states] of what else is integrated for it */
   double swept_omega;
   /* [n_responses], of the row under way: the transient's and the orbit's results, what HBM expects of itself, its
    * motion (for the budget), and the budget */

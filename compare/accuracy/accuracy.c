@@ -10,6 +10,7 @@
 #include "base/growing.h"
 #include "base/number.h"
 #include "base/thread_clock.h"
+#include "base/workspace.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/accuracy/method.h"
 #include "model/modes.h"
@@ -198,6 +199,7 @@ static const double floor_of_orbits = 1e-8; /* [1] ten times the error of the re
 /* The solution next to each target, for one H and N. */
 typedef struct solutions {
   int n, n_coef;
+  workspace memory;        /* of the arrays below */
   bool *there;             /* [n] */
   double *X;               /* [n][n_coef] */
   periodic_motion *motion; /* [n] */
@@ -210,7 +212,7 @@ typedef struct plain_solutions {
   solutions s;
 } plain_solutions;
 
-typedef struct workspace {
+typedef struct table_work {
   const compare_setup *setup;
   const comparison *c;
   const hc_monitor *monitor;                   /* the calling thread's */
@@ -220,11 +222,11 @@ typedef struct workspace {
   bool *there;                            /* [n_harm (n_samples + 1)] rows that are whole */
   accuracy_row *rows;                     /* of each H that with exact forces, then the samples */
   order_row regularisation;
-} workspace;
+} table_work;
 
 /* ---- curves and solutions -------------------------------------------------------------------- */
 
-static hc_status trace(const workspace *w, int n_harm, int samples, const hc_monitor *monitor, response_curve *t)
+static hc_status trace(const table_work *w, int n_harm, int samples, const hc_monitor *monitor, response_curve *t)
 {
   const compare_setup setup =
       method_setup(w->setup, samples == EXACT ? BENCH_HBM_EXACT : BENCH_HBM_SAMPLED, n_harm, samples, NAN, NAN);
@@ -234,18 +236,10 @@ static hc_status trace(const workspace *w, int n_harm, int samples, const hc_mon
 static hc_status solutions_new(int n, int n_coef, solutions *s)
 {
   *s = (solutions){.n = n, .n_coef = n_coef};
-  s->there = calloc((size_t)n + 1, sizeof *s->there);
-  s->X = calloc((size_t)n * (size_t)n_coef + 1, sizeof *s->X);
-  s->motion = calloc((size_t)n + 1, sizeof *s->motion);
-  return s->there && s->X && s->motion ? HC_OK : HC_NO_MEMORY;
-}
-
-static void solutions_free(solutions *s)
-{
-  free(s->there);
-  free(s->X);
-  free(s->motion);
-  *s = (solutions){0};
+  s->there = workspace_array(&s->memory, (size_t)n, sizeof *s->there);
+  s->X = workspace_doubles(&s->memory, (size_t)n * (size_t)n_coef);
+  s->motion = workspace_array(&s->memory, (size_t)n, sizeof *s->motion);
+  return s->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 static bool keep_solution(solutions *s, int i, hbm_solver *hbm, double omega, const double *X)
@@ -257,7 +251,7 @@ static bool keep_solution(solutions *s, int i, hbm_solver *hbm, double omega, co
 }
 
 /* The nearest pair of a target without solution and a solution of *at not taken yet; false when there is no more. */
-static bool nearest_pair(const workspace *w, const solutions *s, int first, int last, const hbm_curve *at,
+static bool nearest_pair(const table_work *w, const solutions *s, int first, int last, const hbm_curve *at,
                          const periodic_motion *found, const bool *taken, int *i, int *k)
 {
   double least = INFINITY;
@@ -276,7 +270,7 @@ static bool nearest_pair(const workspace *w, const solutions *s, int first, int 
 
 /* The targets first..last-1, of one frequency, get the solutions of the curve there: each at most one, the nearest
  * pairs first. */
-static hc_status assign(const workspace *w, response_curve *t, int first, int last, solutions *s)
+static hc_status assign(const table_work *w, response_curve *t, int first, int last, solutions *s)
 {
   hbm_curve at = {0};
   hc_status st = hbm_curve_at(t->hbm, &t->curve, w->ref.targets[first].omega, &at);
@@ -300,7 +294,7 @@ static hc_status assign(const workspace *w, response_curve *t, int first, int la
   return st;
 }
 
-static hc_status solve_exact(const workspace *w, response_curve *t, solutions *s)
+static hc_status solve_exact(const table_work *w, response_curve *t, solutions *s)
 {
   hc_status st = solutions_new(w->ref.n, hbm_n_coefficients(t->hbm), s);
   for (int first = 0, last; first < w->ref.n && st == HC_OK; first = last) {
@@ -311,7 +305,7 @@ static hc_status solve_exact(const workspace *w, response_curve *t, solutions *s
 }
 
 /* Where two starts converged to the same solution, the one that came from farther away is dropped. */
-static void drop_doubles(const workspace *w, const solutions *from, solutions *s)
+static void drop_doubles(const table_work *w, const solutions *from, solutions *s)
 {
   for (int a = 0; a < s->n; ++a)
     for (int b = 0; b < s->n; ++b) {
@@ -324,7 +318,7 @@ static void drop_doubles(const workspace *w, const solutions *from, solutions *s
 }
 
 /* The sampled solutions, each from the one with exact forces. */
-static hc_status solve_sampled(const workspace *w, response_curve *t, const solutions *from, solutions *s)
+static hc_status solve_sampled(const table_work *w, response_curve *t, const solutions *from, solutions *s)
 {
   hc_status st = solutions_new(from->n, from->n_coef, s);
   double *X = malloc(((size_t)from->n_coef + 1) * sizeof *X);
@@ -344,7 +338,7 @@ static hc_status solve_sampled(const workspace *w, response_curve *t, const solu
 
 /* ---- a row ----------------------------------------------------------------------------------- */
 
-static hc_status put_errors(const workspace *w, const solutions *s, const solutions *plain, accuracy_row *row)
+static hc_status put_errors(const table_work *w, const solutions *s, const solutions *plain, accuracy_row *row)
 {
   double *e = calloc((size_t)s->n + 1, sizeof *e), low, high;
   if (!e) return HC_NO_MEMORY;
@@ -364,7 +358,7 @@ static hc_status put_errors(const workspace *w, const solutions *s, const soluti
   return HC_OK;
 }
 
-static hc_status put_curve(const workspace *w, response_curve *t, accuracy_row *row)
+static hc_status put_curve(const table_work *w, response_curve *t, accuracy_row *row)
 {
   response_summary curve = {.peak_amplitude = NAN, .peak_omega = NAN};
   hc_status st = t->hbm ? response_summarise(t->hbm, &t->curve, &curve) : HC_OK;
@@ -380,7 +374,7 @@ static hc_status put_curve(const workspace *w, response_curve *t, accuracy_row *
   return st;
 }
 
-static hc_status make_row(const workspace *w, response_curve *t, int samples, const solutions *s,
+static hc_status make_row(const table_work *w, response_curve *t, int samples, const solutions *s,
                           const plain_solutions *plain, double began, accuracy_row *row)
 {
   *row = (accuracy_row){.harmonics = plain->n_harm, .samples = samples, .possible = true};
@@ -410,7 +404,7 @@ static accuracy_row impossible_row(int n_harm, int samples)
 }
 
 /* The row of the i-th H with exact forces, and the solutions that the sampled ones start from. */
-static hc_status exact_row(workspace *w, int i, response_curve *t)
+static hc_status exact_row(table_work *w, int i, response_curve *t)
 {
   const int at = i * (w->n_samples + 1);
   plain_solutions *plain = &w->plain[i];
@@ -423,7 +417,7 @@ static hc_status exact_row(workspace *w, int i, response_curve *t)
   return st;
 }
 
-static hc_status sampled_row(const workspace *w, int samples, const plain_solutions *plain, const hc_monitor *monitor,
+static hc_status sampled_row(const table_work *w, int samples, const plain_solutions *plain, const hc_monitor *monitor,
                              accuracy_row *row)
 {
   response_curve t;
@@ -436,7 +430,7 @@ static hc_status sampled_row(const workspace *w, int samples, const plain_soluti
   double began = thread_seconds();
   if (st == HC_OK) st = solve_sampled(w, &t, &plain->s, &s);
   if (st == HC_OK) st = make_row(w, &t, samples, &s, plain, began, row);
-  solutions_free(&s);
+  workspace_free(&s.memory);
   response_curve_free(&t);
   return st;
 }
@@ -463,7 +457,7 @@ static void put_order(accuracy *out, const char *quantity, int n_harm, int n, co
 }
 
 /* The orders of the aliasing error in N for each H, and of the truncation error in H with exact forces. */
-static void put_orders(const workspace *w, accuracy *out)
+static void put_orders(const table_work *w, accuracy *out)
 {
   double x[NUMBER_LIST_MAX], e[NUMBER_LIST_MAX], h[NUMBER_LIST_MAX], truncation[NUMBER_LIST_MAX];
   int n = 0, n_h = 0;
@@ -479,7 +473,7 @@ static void put_orders(const workspace *w, accuracy *out)
 }
 
 /* The orbits to compare with, and the rows with exact forces. */
-static hc_status exact_rows(workspace *w)
+static hc_status exact_rows(table_work *w)
 {
   int most = w->harmonics[w->n_harm - 1] > LEAST_REFERENCE ? w->harmonics[w->n_harm - 1] : LEAST_REFERENCE;
   response_curve finest, t = {.hbm = NULL};
@@ -500,7 +494,7 @@ static hc_status exact_rows(workspace *w)
 /* The tasks: the sampled rows, those with most harmonics first, since they take longest; then the regularisation. */
 static hc_status do_task(void *self, int task, const hc_monitor *monitor)
 {
-  workspace *w = self;
+  table_work *w = self;
   if (task == w->n_harm * w->n_samples) return order_of_regularisation(w->setup, w->c, monitor, &w->regularisation);
   const int i = w->n_harm - 1 - task / w->n_samples, k = task % w->n_samples;
   const int at = i * (w->n_samples + 1) + 1 + k;
@@ -509,7 +503,7 @@ static hc_status do_task(void *self, int task, const hc_monitor *monitor)
   return st;
 }
 
-static void put_reference(const workspace *w, accuracy *out)
+static void put_reference(const table_work *w, accuracy *out)
 {
   out->orbits = w->ref.n;
   for (int i = 0; i < w->ref.n; ++i)
@@ -521,15 +515,15 @@ static void put_reference(const workspace *w, accuracy *out)
 }
 
 /* The rows that are there move together, in their order. */
-static void put_rows(const workspace *w, accuracy *out)
+static void put_rows(const table_work *w, accuracy *out)
 {
   for (int i = 0; i < w->n_harm * (w->n_samples + 1); ++i)
     if (w->there[i]) out->rows[out->n_rows++] = out->rows[i];
 }
 
-static void workspace_clear(workspace *w)
+static void table_work_clear(table_work *w)
 {
-  for (int i = 0; i < w->n_harm; ++i) solutions_free(&w->plain[i].s);
+  for (int i = 0; i < w->n_harm; ++i) workspace_free(&w->plain[i].s.memory);
   reference_clear(&w->ref);
   free(w->there);
 }
@@ -539,7 +533,7 @@ hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc
   int harmonics[NUMBER_LIST_MAX], samples[NUMBER_LIST_MAX];
   *out = (accuracy){0};
   const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor}; /* how far it is the tasks tell */
-  workspace w = {.setup = setup, .c = c, .monitor = &aside, .harmonics = harmonics, .samples = samples};
+  table_work w = {.setup = setup, .c = c, .monitor = &aside, .harmonics = harmonics, .samples = samples};
   w.n_harm = whole_numbers(&setup->compare.harmonics, harmonics);
   w.n_samples = whole_numbers(&setup->compare.samples, samples);
   if (w.n_harm == 0) return HC_OK;
@@ -555,7 +549,7 @@ hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc
     put_orders(&w, out);
     put_reference(&w, out);
   }
-  workspace_clear(&w);
+  table_work_clear(&w);
   return st;
 }
 

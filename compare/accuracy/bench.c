@@ -94,6 +94,7 @@ typedef struct timed_method {
   compare_setup setup;
   hbm_solver *hbm; /* one of the two */
   timeint *ti;
+  workspace memory;        /* of the arrays below */
   double *X, *trial;       /* [most_coef] the HBM method's own solution at the neighbour; the one at omega */
   double *state;           /* [n_states] */
   periodic_motion *motion; /* [n_responses] of the last solution */
@@ -221,13 +222,12 @@ static void record_answer(const timed_method *t, const answer *a, const bench_st
 
 static hc_status make_workspace(const bench_start *at, timed_method *t)
 {
-  t->seconds = calloc((size_t)t->cap, sizeof *t->seconds);
-  t->X = calloc(2 * (size_t)at->most_coef + (size_t)at->n_states, sizeof *t->X);
-  t->motion = calloc((size_t)at->n_responses, sizeof *t->motion);
-  if (!t->seconds || !t->X || !t->motion) return HC_NO_MEMORY;
-  t->trial = t->X + at->most_coef;
-  t->state = t->trial + at->most_coef;
-  return HC_OK;
+  t->seconds = workspace_doubles(&t->memory, (size_t)t->cap);
+  t->X = workspace_doubles(&t->memory, (size_t)at->most_coef);
+  t->trial = workspace_doubles(&t->memory, (size_t)at->most_coef);
+  t->state = workspace_doubles(&t->memory, (size_t)at->n_states);
+  t->motion = workspace_array(&t->memory, (size_t)at->n_responses, sizeof *t->motion);
+  return t->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 /* Ready to run up to cap times, the first run done: errors and outcome are in the row. HC_INTERRUPTED, HC_NO_MEMORY;
@@ -292,9 +292,7 @@ static void timed_method_finish(timed_method *t)
     t->row->repeats = t->runs;
     method_quartiles(t->runs, t->seconds, &t->row->low, &t->row->seconds, &t->row->high);
   }
-  free(t->seconds);
-  free(t->X);
-  free(t->motion);
+  workspace_free(&t->memory);
   hbm_solver_free(t->hbm);
   timeint_free(t->ti);
   *t = (timed_method){0};
@@ -303,7 +301,7 @@ static void timed_method_finish(timed_method *t)
 /* ---- the rounds ------------------------------------------------------------------------------- */
 
 /* What the functions below have at hand: the settings, one frequency's start and its methods, the result. */
-typedef struct workspace {
+typedef struct bench_work {
   const compare_setup *setup;
   const bench_options *options;
   const hc_monitor *outer;
@@ -313,11 +311,11 @@ typedef struct workspace {
   bench_start start;
   timed_method *methods;
   bench *out;
-} workspace;
+} bench_work;
 
 static bool bench_tick(void *self, double done)
 {
-  const workspace *w = self;
+  const bench_work *w = self;
   (void)done;
   return hc_monitor_tick(w->outer, w->from + w->width * w->done);
 }
@@ -376,7 +374,7 @@ static bool hopeless(const bench_row *rows, int i)
 }
 
 /* All rows once: what they find; and the curves. */
-static hc_status first_round(workspace *w, bench_frequency *p)
+static hc_status first_round(bench_work *w, bench_frequency *p)
 {
   bench_row *rows = w->out->rows + p->first;
   hc_status st = HC_OK;
@@ -398,7 +396,7 @@ static bool has_enough(const timed_method *t, const bench_row *row)
   return t->runs >= fewest && t->spent > enough; /* spent: the first run included */
 }
 
-static hc_status rounds(workspace *w, const bench_frequency *p)
+static hc_status rounds(bench_work *w, const bench_frequency *p)
 {
   const int n = w->options->repeats;
   hc_status st = HC_OK;
@@ -412,7 +410,7 @@ static hc_status rounds(workspace *w, const bench_frequency *p)
   return st;
 }
 
-static hc_status measure_ours(workspace *w, bench_frequency *p)
+static hc_status measure_ours(bench_work *w, bench_frequency *p)
 {
   hc_status st = HC_OK;
   p->first = w->out->n_rows;
@@ -428,7 +426,7 @@ static hc_status measure_ours(workspace *w, bench_frequency *p)
 }
 
 /* The runs of scipy, as rows. */
-static hc_status measure_scipy(workspace *w, bench_frequency *p)
+static hc_status measure_scipy(bench_work *w, bench_frequency *p)
 {
   scipy_run runs[SCIPY_MOST_RUNS];
   int n = 0;
@@ -507,7 +505,7 @@ const bench_row *bench_cheapest(int n, const bench_row *rows, double goal, const
 
 /* ---- the whole -------------------------------------------------------------------------------- */
 
-static hc_status bench_at(workspace *w, finder *f, double omega)
+static hc_status bench_at(bench_work *w, finder *f, double omega)
 {
   bench_frequency *p = &w->out->frequencies[w->out->n_frequencies];
   w->done = 0;
@@ -532,12 +530,12 @@ hc_status bench_run(const compare_setup *setup, const bench_options *options, co
   hc_status st = finder_start(setup, &at, monitor, &f);
   if (st == HC_OK && at.n == 0 && (st = finder_default(&f, &at.v[0])) == HC_OK) at.n = 1;
   for (int i = 0; i < at.n && st == HC_OK; ++i) {
-    workspace w = {.setup = &f.setup,
-                   .options = options,
-                   .outer = monitor,
-                   .from = (double)i / at.n,
-                   .width = 1.0 / at.n,
-                   .out = out};
+    bench_work w = {.setup = &f.setup,
+                    .options = options,
+                    .outer = monitor,
+                    .from = (double)i / at.n,
+                    .width = 1.0 / at.n,
+                    .out = out};
     w.monitor = (hc_monitor){bench_tick, &w};
     st = bench_start_new(setup->model, f.response.hbm, &w.start);
     if (st == HC_OK) st = bench_at(&w, &f, at.v[i]);

@@ -13,16 +13,15 @@ hc_status bench_start_new(const model *m, const hbm_solver *s, bench_start *at)
   *at = (bench_start){.most_coef = width * (2 * HBM_MAX_HARMONICS + 1),
                       .n_states = 2 * m->n + m->n_contacts,
                       .n_responses = m->n_responses};
-  at->X = calloc((size_t)at->most_coef + (size_t)at->n_states, sizeof *at->X);
-  at->reference = calloc((size_t)at->n_responses, sizeof *at->reference);
-  at->state = at->X ? at->X + at->most_coef : NULL;
-  return at->X && at->reference ? HC_OK : HC_NO_MEMORY;
+  at->X = workspace_doubles(&at->memory, (size_t)at->most_coef);
+  at->state = workspace_doubles(&at->memory, (size_t)at->n_states);
+  at->reference = workspace_array(&at->memory, (size_t)at->n_responses, sizeof *at->reference);
+  return at->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 void bench_start_free(bench_start *at)
 {
-  free(at->X);
-  free(at->reference);
+  workspace_free(&at->memory);
   *at = (bench_start){0};
 }
 
@@ -35,15 +34,13 @@ static const double first_distance = 1e-3, nearby = 0.3; /* [omega] of the neigh
 static hc_status make_workspace(finder *f)
 {
   const model *m = f->setup.model;
-  const int n_coef = hbm_n_coefficients(f->response.hbm);
-  f->n_states = 2 * m->n + m->n_contacts;
-  f->X = calloc((size_t)n_coef + 3 * (size_t)f->n_states, sizeof *f->X);
-  f->motion = calloc((size_t)m->n_responses, sizeof *f->motion);
-  if (!f->X || !f->motion) return HC_NO_MEMORY;
-  f->state = f->X + n_coef;
-  f->other = f->state + f->n_states;
-  f->trial = f->other + f->n_states;
-  return HC_OK;
+  const size_t n_states = (size_t)(f->n_states = 2 * m->n + m->n_contacts);
+  f->X = workspace_doubles(&f->memory, (size_t)hbm_n_coefficients(f->response.hbm));
+  f->state = workspace_doubles(&f->memory, n_states);
+  f->other = workspace_doubles(&f->memory, n_states);
+  f->trial = workspace_doubles(&f->memory, n_states);
+  f->motion = workspace_array(&f->memory, (size_t)m->n_responses, sizeof *f->motion);
+  return f->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 hc_status finder_start(const compare_setup *setup, const number_list *at, const hc_monitor *monitor, finder *f)
@@ -60,8 +57,7 @@ hc_status finder_start(const compare_setup *setup, const number_list *at, const 
 void finder_free(finder *f)
 {
   response_curve_free(&f->response);
-  free(f->X);
-  free(f->motion);
+  workspace_free(&f->memory);
   *f = (finder){0};
 }
 

@@ -3,12 +3,14 @@
 #ifndef HC_BENCH_START_H
 #define HC_BENCH_START_H
 
+#include "base/workspace.h"
 #include "compare/accuracy/bench.h"
 #include "compare/accuracy/method.h"
 #include "compare/response.h"
 
 /* What all methods start from there. */
 typedef struct bench_start { /* from bench_start_new, to bench_start_free */
+  workspace memory;          /* of the arrays below */
   double omega, neighbour;   /* [rad/time] */
   int most_coef, n_states, n_responses;
   double *X;     /* [most_coef] [length] HBM solution at the neighbour, as many harmonics as there are, then
@@ -27,6 +29,7 @@ typedef struct finder {
   compare_setup setup; /* with harmonics and forces of the curve; the sweep covers the asked frequencies */
   response_curve response;
   int n_states;
+  workspace memory;              /* of the arrays below */
   double *X;                     /* [hbm_n_coefficients] harmonic balance's solution at the frequency under way */
   double *state, *other, *trial; /* [n_states] on the exact orbit there; for what one function needs */
   periodic_motion *motion;       /* [n_responses] of the last exact orbit */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/workspace.h"
 #include "compare/verify/truth/truth.h"
 
 int points_reversals(const verify_data *d)
@@ -102,6 +103,7 @@ typedef struct neighbours {
   const verify_row **row; /* [n] */
   double *offset;         /* [n] (value - nearest)/scale */
   double *scratch;        /* [n] */
+  workspace memory;
 } neighbours;
 
 static int by_place(const void *a, const void *b)
@@ -111,21 +113,15 @@ static int by_place(const void *a, const void *b)
   return (x->omega > y->omega) - (x->omega < y->omega);
 }
 
-static void neighbours_clear(neighbours *p)
-{
-  free(p->row);
-  free(p->offset);
-  free(p->scratch);
-}
-
 static hc_status neighbours_of(const verify_report *r, neighbours *p)
 {
-  const size_t room = (size_t)r->n_rows + 1;
-  *p = (neighbours){.row = calloc(room, sizeof *p->row),
-                    .offset = calloc(room, sizeof *p->offset),
-                    .scratch = calloc(room, sizeof *p->scratch)};
-  if (!p->row || !p->offset || !p->scratch) {
-    neighbours_clear(p);
+  const size_t most = (size_t)r->n_rows;
+  *p = (neighbours){.n = 0};
+  p->row = workspace_array(&p->memory, most, sizeof *p->row);
+  p->offset = workspace_doubles(&p->memory, most);
+  p->scratch = workspace_doubles(&p->memory, most);
+  if (p->memory.failed) {
+    workspace_free(&p->memory);
     return HC_NO_MEMORY;
   }
   for (int i = 0; i < r->n_rows; ++i)
@@ -152,7 +148,7 @@ hc_status points_estimate_noise(verify_report *r)
     if (p.row[i - 1]->branch == p.row[i]->branch && p.row[i]->branch == p.row[i + 1]->branch)
       p.scratch[n++] = fabs(p.offset[i - 1] - 2 * p.offset[i] + p.offset[i + 1]);
   if (p.n >= LEAST_POINTS && n >= LEAST_DIFFERENCES) r->noise = normal * quantile(n, p.scratch, 0.5) / sqrt(6);
-  neighbours_clear(&p);
+  workspace_free(&p.memory);
   return HC_OK;
 }
 
@@ -183,7 +179,7 @@ hc_status points_allow_noise(verify_report *r, double said)
     if (row->verdict != VERDICT_DIFFERS || !alone || !together) continue;
     row->verdict = row->stable < 0 ? VERDICT_UNSTABLE : VERDICT_MATCH;
   }
-  neighbours_clear(&p);
+  workspace_free(&p.memory);
   return HC_OK;
 }
 
@@ -230,7 +226,7 @@ hc_status points_scatter(const verify_report *r, verify_causes *out)
   hc_status st = neighbours_of(r, &p);
   if (st != HC_OK) return st;
   if (is_noise(r, &p)) *out = VERIFY_BIT(CAUSE_NOISE);
-  neighbours_clear(&p);
+  workspace_free(&p.memory);
   return HC_OK;
 }
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/workspace.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
 #include "compare/response.h"
@@ -111,10 +112,11 @@ typedef struct truth {
   verify_report *out;
   response_curve response;
   timeint *referee;
+  workspace memory;
   double *state; /* [n_states] of the referee's */
   double from, to;
   double *room;   /* acceleration_room */
-  double *series; /* [2H+1] of a response */
+  double *series; /* [2H+1] of a response, of as many harmonics as there may be */
 } truth;
 
 /* A solution as the file's quantity is taken of it. */
@@ -432,15 +434,12 @@ static hc_status with_harmonics(truth *t, int harmonics)
   own.omega_from = t->from;
   own.omega_to = t->to;
   response_curve_free(&t->response);
-  free(t->series);
-  if (!(t->series = malloc((2 * (size_t)harmonics + 1) * sizeof *t->series))) return HC_NO_MEMORY;
   const hc_status st = response_trace(&own, NULL, t->monitor, &t->response);
   if (!t->response.hbm) return t->response.status;
   t->response.curve.n_coef = hbm_n_coefficients(t->response.hbm);
   t->out->harmonics = harmonics;
-  t->out->response.curve_end = t->response.curve.end;
-  t->out->response.curve_omega =
-      t->response.curve.n ? t->response.curve.points[t->response.curve.n - 1].omega : t->from;
+  t->out->curve_end = t->response.curve.end;
+  t->out->curve_omega = t->response.curve.n ? t->response.curve.points[t->response.curve.n - 1].omega : t->from;
   if (st != HC_OK) return st;
   const hc_status judged = judge_all(t);
   return judged == HC_OK ? truth_check(t) : judged;
@@ -490,8 +489,10 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
   out->rows = calloc((size_t)data->n, sizeof *out->rows);
   verify_window(setup, data, &t.from, &t.to);
   hc_status st = out->rows ? comparison_referee(setup, &t.referee) : HC_NO_MEMORY;
-  if (st == HC_OK && !(t.state = calloc((size_t)timeint_n_states(t.referee), sizeof *t.state))) st = HC_NO_MEMORY;
-  if (st == HC_OK && !(t.room = calloc(acceleration_room(setup->model), sizeof *t.room))) st = HC_NO_MEMORY;
+  if (st == HC_OK) t.state = workspace_doubles(&t.memory, (size_t)timeint_n_states(t.referee));
+  t.room = workspace_doubles(&t.memory, acceleration_room(setup->model));
+  t.series = workspace_doubles(&t.memory, 2 * HBM_MAX_HARMONICS + 1);
+  if (t.memory.failed) st = HC_NO_MEMORY;
   int harmonics = 2 * setup->hbm.harmonics; /* 0 for auto */
   harmonics = harmonics < LEAST_HARMONICS     ? LEAST_HARMONICS
               : harmonics > HBM_MAX_HARMONICS ? HBM_MAX_HARMONICS
@@ -502,9 +503,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
   }
   if (st == HC_OK && data->with_line) st = draw_line(&t);
   response_curve_free(&t.response);
-  free(t.state);
-  free(t.room);
-  free(t.series);
+  workspace_free(&t.memory);
   timeint_free(t.referee);
   return st;
 }
