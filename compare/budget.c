@@ -10,7 +10,7 @@
 #include "base/workspace.h"
 #include "compare/first_guess.h"
 #include "compare/motion.h"
-#include "compare/period_limit.h"
+#include "compare/work_limit.h"
 
 static const double same_orbit = 0.05; /* [amplitude] */
 static const double negligible = 1e-2; /* of the discrepancy: a part that no remark would name */
@@ -68,19 +68,11 @@ void budgeter_free(budgeter *b)
   free(b);
 }
 
-static void count(const timeint *ti, long *periods, long *closed_form)
-{
-  long cvode = 0, closed = 0;
-  if (ti) timeint_count(ti, &cvode, &closed);
-  *periods += cvode;
-  *closed_form += closed;
-}
-
 void budgeter_count(const budgeter *b, long *solves, long *periods, long *closed_form)
 {
   if (b->alias_free) *solves += hbm_solves(b->alias_free);
-  count(b->finer, periods, closed_form);
-  count(b->coarser, periods, closed_form);
+  timeint_count(b->finer, periods, closed_form);
+  timeint_count(b->coarser, periods, closed_form);
 }
 
 error_budget budget_nothing(void)
@@ -124,11 +116,10 @@ static double way_by(const link *l, const periodic_motion *hx)
 static void try_alias_free(budgeter *b, const budget_case *from, chain *c)
 {
   hbm_point point;
-  hbm_measures m;
   const link *lead = &c->of[c->most];
   if (hbm_solve(b->alias_free, from->omega, b->X, &point) != HC_OK) return;
   for (int i = 0; i < c->n; ++i)
-    if (motion_of_response(b->alias_free, from->omega, b->X, i, &m, &c->of[i].found) != HC_OK) return;
+    if (motion_of_response(b->alias_free, from->omega, b->X, i, NULL, &c->of[i].found) != HC_OK) return;
   if (c->has_hx && !(way_by(lead, &lead->found) < way_by(lead, &lead->hx))) return;
   for (int i = 0; i < c->n; ++i) c->of[i].hx = c->of[i].found;
   c->has_hx = true;
@@ -163,8 +154,8 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
   compare_setup setup = b->setup;
   timeint_result r;
   memcpy(b->state, from->state, (size_t)b->n_states * sizeof *b->state);
-  period_limit p = {.outer = monitor, .left = PERIOD_LIMIT};
-  hc_monitor bounded = {period_limit_tick, &p};
+  work_limit p = {.outer = monitor, .most = PERIOD_LIMIT};
+  hc_monitor bounded = {work_limit_tick, &p};
   *found = false;
   setup.transient.tolerance = tolerance;
   hc_status st = *ti ? HC_OK : timeint_new(setup.model, &setup.transient, ti);

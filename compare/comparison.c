@@ -165,14 +165,9 @@ static hc_status make_states(comparison_work *w)
 
 static void count_cost(comparison_work *w, comparison_cost *cost)
 {
-  timeint *const both[] = {w->ti, w->exact};
   *cost = (comparison_cost){.hbm_solves = hbm_solves(w->hbm)};
-  for (int i = 0; i < 2; ++i) {
-    long cvode, closed;
-    timeint_count(both[i], &cvode, &closed);
-    cost->periods += cvode;
-    cost->closed_form += closed;
-  }
+  timeint_count(w->ti, &cost->periods, &cost->closed_form);
+  timeint_count(w->exact, &cost->periods, &cost->closed_form);
   budgeter_count(w->budgeter, &cost->hbm_solves, &cost->periods, &cost->closed_form);
 }
 

@@ -6,17 +6,14 @@
 
 _Static_assert((int)TIMEINT_WAVE == (int)MOTION_SAMPLES, "a transient's wave is taken as it is");
 
-periodic_motion motion_of_solution(const hbm_measures *m, int n_harm, const double *X)
-{
-  return motion_of_series(n_harm, X, m->max, m->min);
-}
-
 hc_status motion_of_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *m, periodic_motion *out)
 {
+  hbm_measures unused;
   double x[2 * HBM_MAX_HARMONICS + 1];
+  if (!m) m = &unused;
   hc_status st = hbm_measure_response(s, omega, X, r, m);
   if (st == HC_OK) st = hbm_response(s, omega, X, r, x);
-  if (st == HC_OK) *out = motion_of_solution(m, hbm_n_harmonics(s), x);
+  if (st == HC_OK) *out = motion_of_series(hbm_n_harmonics(s), x, m->max, m->min);
   return st;
 }
 

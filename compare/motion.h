@@ -8,10 +8,7 @@
 #include "timeint/steady/steady.h"
 #include "timeint/timeint.h"
 
-/* The motion of the HBM solution X[2 n_harm + 1], measured by hbm_measure. */
-periodic_motion motion_of_solution(const hbm_measures *m, int n_harm, const double *X);
-
-/* The motion of response r of the HBM solution X at omega, of any model, with its measures. Errors of
+/* The motion of response r of the HBM solution X at omega, of any model, with its measures (m may be NULL). Errors of
  * hbm_measure_response. */
 hc_status motion_of_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *m,
                              periodic_motion *out);

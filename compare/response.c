@@ -61,24 +61,10 @@ hc_status response_at(hbm_solver *s, const hbm_curve *curve, const number_list *
   return worst;
 }
 
-/* HC_OK, or HC_NO_MEMORY: there may be one. */
-static hc_status find_peak(hbm_solver *s, const hbm_curve *c, response_summary *out)
+hc_status response_summarise(hbm_solver *s, const hbm_curve *c, response_summary *out)
 {
   hbm_curve peak = {0};
   hbm_measures m;
-  out->peak_amplitude = out->peak_omega = out->peak_harmonic_1 = NAN;
-  hc_status st = c->n > 0 ? hbm_curve_peak(s, c, &peak) : HC_OK;
-  if (st == HC_OK && peak.n > 0 && hbm_measure(s, peak.X, &m) == HC_OK) {
-    out->peak_amplitude = m.amplitude;
-    out->peak_omega = peak.points[0].omega;
-    out->peak_harmonic_1 = m.harmonic_1;
-  }
-  hbm_curve_free(&peak);
-  return st == HC_NO_MEMORY ? st : HC_OK;
-}
-
-hc_status response_summarise(hbm_solver *s, const hbm_curve *c, response_summary *out)
-{
   *out = (response_summary){.harmonics = hbm_n_harmonics(s),
                             .samples = hbm_n_samples(s),
                             .points = c->n,
@@ -86,10 +72,20 @@ hc_status response_summarise(hbm_solver *s, const hbm_curve *c, response_summary
                             .turning_points = c->turning_points,
                             .iterations = c->iterations,
                             .evaluations = c->evaluations,
+                            .peak_amplitude = NAN,
+                            .peak_omega = NAN,
+                            .peak_harmonic_1 = NAN,
                             .reached_end = c->n > 0 && c->end == HC_OK && !c->left_at_start,
                             .arclength = c->arclength,
                             .left_at_start = c->left_at_start};
-  return find_peak(s, c, out);
+  const hc_status st = c->n > 0 ? hbm_curve_peak(s, c, &peak) : HC_OK;
+  if (st == HC_OK && peak.n > 0 && hbm_measure(s, peak.X, &m) == HC_OK) {
+    out->peak_amplitude = m.amplitude;
+    out->peak_omega = peak.points[0].omega;
+    out->peak_harmonic_1 = m.harmonic_1;
+  }
+  hbm_curve_free(&peak);
+  return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
 /* ---- where to compare ---- */

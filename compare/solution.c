@@ -18,7 +18,7 @@ hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega,
   return st == HC_OK ? hbm_sliders(hbm, X, state + 2 * n) : st;
 }
 
-/* Response r of the solution X against the transient; into *m the solution's measures. */
+/* Response r of the solution X against the transient; into *m, if not NULL, the solution's measures. */
 static hc_status errors_of(const comparison_work *w, int r, double omega, const double *X, const timeint_result *tr,
                            hbm_measures *m, discrepancy *out)
 {
@@ -41,9 +41,8 @@ static bool accounted_for(const comparison_work *w, int r, const hbm_curve *at, 
 {
   for (int i = 0; i < at->n; ++i) {
     const double *X = at->X + (size_t)i * at->n_coef;
-    hbm_measures m;
     discrepancy e;
-    if (errors_of(w, r, at->points[i].omega, X, tr, &m, &e) != HC_OK) continue;
+    if (errors_of(w, r, at->points[i].omega, X, tr, NULL, &e) != HC_OK) continue;
     if (within_limits(w->setup, &e, tr)) return true;
   }
   return false;
@@ -135,11 +134,10 @@ static hc_status perturbations_decay(comparison_work *w, const comparison_row *r
   *it_stays = true;
   for (int to = -1; to <= 1 && *it_stays; to += 2) {
     timeint_result there;
-    hbm_measures unused;
     discrepancy e;
     hc_status st = perturbed_motion(w, row->omega, to, &there);
     if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
-    if (st != HC_OK || errors_of(w, 0, row->omega, X, &there, &unused, &e) != HC_OK) continue;
+    if (st != HC_OK || errors_of(w, 0, row->omega, X, &there, NULL, &e) != HC_OK) continue;
     *it_stays = there.period_multiple == 1 && within_limits(w->setup, &e, &there);
   }
   return HC_OK;
@@ -185,12 +183,11 @@ static void referee(comparison_work *w, comparison_row *row, const double *X)
 /* What the discrepancy is made of, in every response. */
 static hc_status account(comparison_work *w, const hbm_curve *at, int k, comparison_row *row)
 {
-  hbm_measures unused;
   const double *X = at->X + (size_t)k * at->n_coef;
   hc_status st = row->hbm_status;
   for (int r = 0; r < w->setup->model->n_responses; ++r) w->budgets[r] = budget_nothing();
   for (int r = 0; r < w->setup->model->n_responses && st == HC_OK; ++r)
-    st = motion_of_response(w->hbm, row->omega, X, r, &unused, &w->motions[r]);
+    st = motion_of_response(w->hbm, row->omega, X, r, NULL, &w->motions[r]);
   const budget_case from = {.omega = row->omega,
                             .n_harm = at->points[k].harmonics,
                             .X = X,

@@ -24,7 +24,7 @@ typedef struct timeint timeint;
 hc_status timeint_new(const model *m, const transient_settings *how, timeint **out);
 void timeint_free(timeint *ti);
 
-/* Periods integrated since the handle was made: by CVODE, and in closed form. */
+/* Adds the periods integrated since the handle was made, by CVODE and in closed form; of no handle (NULL) none. */
 void timeint_count(const timeint *ti, long *by_cvode, long *closed_form);
 
 /* Doubles in a state: 2 n + the model's contacts. */

@@ -61,9 +61,8 @@ static bool is_known(const reference *r, double omega, const periodic_motion *or
 static bool orbit_next_to(const comparison *c, timeint *ti, double *state, hbm_solver *hbm, const double *X,
                           double omega, const hc_monitor *monitor, periodic_motion *out)
 {
-  hbm_measures m;
   periodic_motion here;
-  if (motion_of_response(hbm, omega, X, 0, &m, &here) != HC_OK) return false;
+  if (motion_of_response(hbm, omega, X, 0, NULL, &here) != HC_OK) return false;
   for (int i = 0; i < c->n_rows; ++i) {
     if (c->rows[i].response != 0 || c->rows[i].omega != omega || c->rows[i].orbit_status != HC_OK) continue;
     *out = motion_of_transient(&c->rows[i].orbit);
@@ -244,8 +243,7 @@ static hc_status solutions_new(int n, int n_coef, solutions *s)
 
 static bool keep_solution(solutions *s, int i, hbm_solver *hbm, double omega, const double *X)
 {
-  hbm_measures m;
-  if (motion_of_response(hbm, omega, X, 0, &m, &s->motion[i]) != HC_OK) return false;
+  if (motion_of_response(hbm, omega, X, 0, NULL, &s->motion[i]) != HC_OK) return false;
   memcpy(s->X + (size_t)i * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
   return s->there[i] = true;
 }
@@ -279,10 +277,9 @@ static hc_status assign(const table_work *w, response_curve *t, int first, int l
   int i = 0, k = 0;
   st = st == HC_NO_MEMORY || !found || !taken ? HC_NO_MEMORY : HC_OK;
   for (int b = 0; b < at.n && st == HC_OK; ++b) {
-    hbm_measures m;
     const double *X = at.X + (size_t)b * at.n_coef;
     s->iterations += at.points[b].iterations;
-    taken[b] = motion_of_response(t->hbm, at.points[b].omega, X, 0, &m, &found[b]) != HC_OK; /* not to be had */
+    taken[b] = motion_of_response(t->hbm, at.points[b].omega, X, 0, NULL, &found[b]) != HC_OK; /* not to be had */
   }
   while (st == HC_OK && nearest_pair(w, s, first, last, &at, found, taken, &i, &k)) {
     taken[k] = true;

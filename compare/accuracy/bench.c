@@ -13,6 +13,7 @@
 #include "compare/accuracy/bench_start.h"
 #include "compare/accuracy/scipy.h"
 #include "compare/first_guess.h"
+#include "compare/work_limit.h"
 
 enum { MOST_SETTINGS = 8, FEWEST = 3 };
 static const double enough = 0.25; /* [s] a row measured FEWEST times and for as long is repeated no more */
@@ -74,21 +75,6 @@ static const double shortest_run = 5e-4;     /* [s] the clock is good to a micro
 static const double other_orbit = 0.3;       /* [amplitude] of the waveform: few harmonics are some ten percent off,
                                           another orbit is elsewhere */
 
-/* A monitor that also stops at a limit of processor time. */
-typedef struct limit {
-  const hc_monitor *outer;
-  double until;
-  bool stopped;
-} limit;
-
-static bool tick_limit(void *self, double done)
-{
-  limit *l = self;
-  (void)done;
-  l->stopped = !hc_monitor_tick(l->outer, -1);
-  return !l->stopped && thread_seconds() < l->until;
-}
-
 typedef struct timed_method {
   bench_row *row; /* the caller's; settings are read, outcome and errors written */
   compare_setup setup;
@@ -122,8 +108,8 @@ static void solve_transient(timed_method *t, const bench_start *at, const hc_mon
                             answer *a)
 {
   const bool marches = t->setup.transient.steady == TRANSIENT_STEADY_MARCH;
-  limit l = {monitor, thread_seconds() + (marches ? bench_longest : bench_longest_shot), false};
-  hc_monitor limited = {tick_limit, &l};
+  work_limit l = {.outer = monitor, .until = thread_seconds() + (marches ? bench_longest : bench_longest_shot)};
+  hc_monitor limited = {work_limit_tick, &l};
   memcpy(t->state, at->state, (size_t)at->n_states * sizeof *t->state);
   timeint_forget(t->ti); /* the same solution is asked for again and again */
   a->status = timeint_steady(t->ti, at->omega, t->state, &limited, r);
@@ -133,10 +119,9 @@ static void solve_transient(timed_method *t, const bench_start *at, const hc_mon
 /* The motion of every response of the last solution. */
 static hc_status find_motions(timed_method *t, const bench_start *at, timeint_result *r)
 {
-  hbm_measures m;
   hc_status st = HC_OK;
   for (int i = 0; i < at->n_responses && st == HC_OK; ++i) {
-    if (t->hbm) st = motion_of_response(t->hbm, at->omega, t->trial, i, &m, &t->motion[i]);
+    if (t->hbm) st = motion_of_response(t->hbm, at->omega, t->trial, i, NULL, &t->motion[i]);
     else if (i == 0 || (st = timeint_response(t->ti, i, r)) == HC_OK) t->motion[i] = motion_of_transient(r);
   }
   return st;
@@ -161,8 +146,8 @@ static double solve(timed_method *t, const bench_start *at, const hc_monitor *mo
 /* Start from the largest solution at the neighbour on the method's own curve. */
 static hc_status from_own_curve(const bench_start *at, const hc_monitor *monitor, timed_method *t)
 {
-  limit l = {monitor, thread_seconds() + bench_longest_shot, false};
-  hc_monitor limited = {tick_limit, &l};
+  work_limit l = {.outer = monitor, .until = thread_seconds() + bench_longest_shot};
+  hc_monitor limited = {work_limit_tick, &l};
   hbm_curve curve = {0}, found = {0};
   hbm_measures m;
   double most = -1;
@@ -268,8 +253,8 @@ static hc_status timed_method_run(timed_method *t, const bench_start *at, const 
 /* hbm_exact: what the whole curve takes, into the row; left at NaN when it takes too long. */
 static hc_status timed_method_curve(timed_method *t, const hc_monitor *monitor)
 {
-  limit l = {monitor, thread_seconds() + bench_longest, false};
-  hc_monitor limited = {tick_limit, &l};
+  work_limit l = {.outer = monitor, .until = thread_seconds() + bench_longest};
+  hc_monitor limited = {work_limit_tick, &l};
   double v[3], low, high;
   hc_status st = HC_OK;
   if (t->row->method != BENCH_HBM_EXACT || t->row->outcome != BENCH_SOLVED) return HC_OK;

@@ -179,7 +179,6 @@ static bool are_near(int n, const periodic_motion *a, const periodic_motion *b, 
 static bool try_neighbour(finder *f, double omega, const hc_monitor *monitor, bench_start *start)
 {
   hbm_point point;
-  hbm_measures m;
   timeint_result r;
   periodic_motion by_hbm;
   start->neighbour = omega;
@@ -189,7 +188,7 @@ static bool try_neighbour(finder *f, double omega, const hc_monitor *monitor, be
   if (hbm_solve(f->response.hbm, omega, start->X, &point) != HC_OK) return false;
   if (exact_orbit(f, omega, TRANSIENT_STEADY_SHOOTING, 1e-9, monitor, start->state, &r) != HC_OK) return false;
   for (int i = 0; i < start->n_responses; ++i)
-    if (motion_of_response(f->response.hbm, omega, start->X, i, &m, &by_hbm) != HC_OK ||
+    if (motion_of_response(f->response.hbm, omega, start->X, i, NULL, &by_hbm) != HC_OK ||
         !are_near(1, &by_hbm, &f->motion[i], start->size))
       return false;
   return are_near(start->n_responses, f->motion, start->reference, start->size);

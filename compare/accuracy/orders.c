@@ -7,7 +7,7 @@
 #include <gsl/gsl_fit.h>
 
 #include "compare/accuracy/accuracy.h"
-#include "compare/period_limit.h"
+#include "compare/work_limit.h"
 
 enum { LEAST_POINTS = 3, LEVELS = 4 };
 
@@ -76,8 +76,8 @@ static hc_status error_at(const compare_setup *setup, double regularisation, con
   compare_setup other = *setup;
   timeint *ti = NULL;
   timeint_result r;
-  period_limit p = {.outer = monitor, .left = PERIOD_LIMIT};
-  hc_monitor bounded = {period_limit_tick, &p};
+  work_limit p = {.outer = monitor, .most = PERIOD_LIMIT};
+  hc_monitor bounded = {work_limit_tick, &p};
   *e = NAN;
   other.transient.regularisation = regularisation;
   hc_status st = timeint_new(other.model, &other.transient, &ti);

@@ -14,8 +14,7 @@
 static int differing(const verify_report *r)
 {
   int n = 0;
-  for (int i = 0; i < r->n_rows; ++i)
-    n += !r->rows[i].skipped && (r->rows[i].verdict == VERDICT_DIFFERS || r->rows[i].verdict == VERDICT_SOLVER_FAILED);
+  for (int i = 0; i < r->n_rows; ++i) n += verify_row_differs(&r->rows[i]);
   return n;
 }
 
@@ -55,8 +54,7 @@ hc_status verify_run(const compare_setup *setup, const verify_data *data, const 
                          .reversals = points_reversals(data)};
   hc_status st = setup_of_response(setup, data->response, &own, &one);
   if (st == HC_OK) st = verify_truth(&own, data, monitor, out);
-  if (st == HC_OK) st = points_estimate_noise(out);
-  if (st == HC_OK && data->noise > 0) st = points_allow_noise(out, data->noise);
+  if (st == HC_OK) st = points_noise(out);
   if (st == HC_OK) st = find_causes(&own, data, monitor, out);
   model_free(one);
   for (int i = 0; i < out->n_rows; ++i) ++*(out->rows[i].skipped ? &out->skipped : &out->count[out->rows[i].verdict]);

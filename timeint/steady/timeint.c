@@ -121,10 +121,11 @@ void timeint_free(timeint *ti)
 
 void timeint_count(const timeint *ti, long *by_cvode, long *closed_form)
 {
+  if (!ti) return;
   const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM;
   const long own = integrate_periods(ti->in);
-  *by_cvode = (closed ? 0 : own) + (ti->exact ? integrate_periods(ti->exact) : 0);
-  *closed_form = (closed ? own : 0) + (ti->scout ? integrate_periods(ti->scout->in) : 0);
+  *by_cvode += (closed ? 0 : own) + (ti->exact ? integrate_periods(ti->exact) : 0);
+  *closed_form += (closed ? own : 0) + (ti->scout ? integrate_periods(ti->scout->in) : 0);
 }
 
 int timeint_n_states(const timeint *ti) { return ti->n; }

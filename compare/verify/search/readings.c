@@ -1,6 +1,6 @@
-/* readings.c - see search_impl.h. Distances are relative to the larger of the two, so that no factor makes everything
+/* readings.c - see search.h. Distances are relative to the larger of the two, so that no factor makes everything
  * small. */
-#include "compare/verify/search/search_impl.h"
+#include "compare/verify/search/search.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,11 +38,6 @@ static int by_omega(const void *a, const void *b)
   return (p->line > q->line) - (p->line < q->line);
 }
 
-static bool differs(const verify_row *r)
-{
-  return !r->skipped && (r->verdict == VERDICT_DIFFERS || r->verdict == VERDICT_SOLVER_FAILED);
-}
-
 /* Of the rows that differ and of those that do not as many as there is room for, evenly spread. */
 hc_status verify_sample_new(const verify_report *r, const verify_quantity *quantity, verify_sample *out)
 {
@@ -53,10 +48,10 @@ hc_status verify_sample_new(const verify_report *r, const verify_quantity *quant
   *out = (verify_sample){.quantity = *quantity, .part = 0.9};
   const verify_row **rows = malloc((size_t)r->n_rows * sizeof *rows + 1);
   if (!rows) return HC_NO_MEMORY;
-  for (int i = 0; i < r->n_rows; ++i) rows[i] = &r->rows[i], ++there[differs(rows[i])];
+  for (int i = 0; i < r->n_rows; ++i) rows[i] = &r->rows[i], ++there[verify_row_differs(rows[i])];
   qsort(rows, (size_t)r->n_rows, sizeof *rows, by_omega);
   for (int i = 0; i < r->n_rows; ++i) {
-    const bool off = differs(rows[i]);
+    const bool off = verify_row_differs(rows[i]);
     const int wanted = there[off] < most[off] ? there[off] : most[off];
     if (taken[off] == wanted || (long)seen[off]++ * wanted < (long)taken[off] * there[off]) continue;
     ++taken[off];

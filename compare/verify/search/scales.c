@@ -9,7 +9,7 @@
 #include "base/constants.h"
 #include "base/number.h"
 #include "compare/response.h"
-#include "compare/verify/search/search_impl.h"
+#include "compare/verify/search/search.h"
 #include "hbm/curve/segment.h"
 #include "numerics/roots.h"
 

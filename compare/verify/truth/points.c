@@ -79,10 +79,8 @@ static bool mark_hops(verify_report *r)
 
 verify_causes points_branches(verify_report *r)
 {
-  for (int i = 0; i < r->n_rows; ++i) {
-    const verify_row *row = &r->rows[i];
-    if (!row->skipped && (row->verdict == VERDICT_DIFFERS || row->verdict == VERDICT_SOLVER_FAILED)) return 0;
-  }
+  for (int i = 0; i < r->n_rows; ++i)
+    if (verify_row_differs(&r->rows[i])) return 0;
   if (mark_hops(r)) return VERIFY_BIT(CAUSE_OTHER_BRANCH);
   return only_unstable(r) || all_unstable(r) ? VERIFY_BIT(CAUSE_UNSTABLE) : 0;
 }
@@ -138,20 +136,6 @@ static double quantile(int n, double *list, double part)
   return list[(int)(part * (n - 1) + 0.5)];
 }
 
-hc_status points_estimate_noise(verify_report *r)
-{
-  neighbours p;
-  hc_status st = neighbours_of(r, &p);
-  if (st != HC_OK) return st;
-  int n = 0;
-  for (int i = 1; i + 1 < p.n; ++i)
-    if (p.row[i - 1]->branch == p.row[i]->branch && p.row[i]->branch == p.row[i + 1]->branch)
-      p.scratch[n++] = fabs(p.offset[i - 1] - 2 * p.offset[i] + p.offset[i + 1]);
-  if (p.n >= LEAST_POINTS && n >= LEAST_DIFFERENCES) r->noise = normal * quantile(n, p.scratch, 0.5) / sqrt(6);
-  workspace_free(&p.memory);
-  return HC_OK;
-}
-
 /* The average offset of row i and its neighbours on its branch, *n of them. */
 static double local_average(const neighbours *p, int i, int *n)
 {
@@ -165,20 +149,30 @@ static double local_average(const neighbours *p, int i, int *n)
   return sum / *n;
 }
 
-hc_status points_allow_noise(verify_report *r, double said)
+static void allow_noise(const neighbours *p, double said, verify_report *r)
 {
-  neighbours p;
-  hc_status st = neighbours_of(r, &p);
-  if (st != HC_OK) return st;
-  for (int i = 0; i < p.n; ++i) {
-    verify_row *row = &r->rows[p.row[i] - r->rows];
+  for (int i = 0; i < p->n; ++i) {
+    verify_row *row = &r->rows[p->row[i] - r->rows];
     int n;
-    const double average = local_average(&p, i, &n);
+    const double average = local_average(p, i, &n);
     const bool alone = row->error <= r->gate + deviations * said,
                together = fabs(average) <= r->gate + deviations * said / sqrt(n);
     if (row->verdict != VERDICT_DIFFERS || !alone || !together) continue;
     row->verdict = row->stable < 0 ? VERDICT_UNSTABLE : VERDICT_MATCH;
   }
+}
+
+hc_status points_noise(verify_report *r)
+{
+  neighbours p;
+  hc_status st = neighbours_of(r, &p);
+  if (st != HC_OK) return st;
+  int n = 0;
+  for (int i = 1; i + 1 < p.n; ++i)
+    if (p.row[i - 1]->branch == p.row[i]->branch && p.row[i]->branch == p.row[i + 1]->branch)
+      p.scratch[n++] = fabs(p.offset[i - 1] - 2 * p.offset[i] + p.offset[i + 1]);
+  if (p.n >= LEAST_POINTS && n >= LEAST_DIFFERENCES) r->noise = normal * quantile(n, p.scratch, 0.5) / sqrt(6);
+  if (r->noise_said > 0) allow_noise(&p, r->noise_said, r);
   workspace_free(&p.memory);
   return HC_OK;
 }

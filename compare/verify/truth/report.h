@@ -56,6 +56,11 @@ typedef struct verify_row {
   verdict verdict;
 } verify_row;
 
+static inline bool verify_row_differs(const verify_row *r)
+{
+  return !r->skipped && (r->verdict == VERDICT_DIFFERS || r->verdict == VERDICT_SOLVER_FAILED);
+}
+
 /* A point of the truth's curve. */
 typedef struct verify_line {
   double omega, value; /* [rad/time]; the file's quantity, not in dB */

@@ -370,7 +370,7 @@ static hc_status truth_check(truth *t)
   for (int i = 0; i < n && st == HC_OK; ++i) {
     const verify_row *row = &out->rows[n > 1 ? (int)((long)i * (out->n_rows - 1) / (n - 1)) : 0];
     if (row->branch >= 0 && !row->skipped) st = check_row(t, row);
-    if (!hc_monitor_tick(t->monitor, -1)) st = HC_INTERRUPTED;
+    if (st == HC_OK && !hc_monitor_tick(t->monitor, -1)) st = HC_INTERRUPTED;
   }
   return st;
 }

@@ -36,12 +36,9 @@ verify_causes points_branches(verify_report *r);
 
 /* r->noise: the standard deviation of (value - nearest)/scale from point to point, whatever is the same for neighbours
  * taken out: 1.4826 median |d|/sqrt(6) of second differences d along each branch. NaN for fewer than ten points.
- * HC_NO_MEMORY. */
-hc_status points_estimate_noise(verify_report *r);
-
-/* Rows that differ by no more than the gate and four standard deviations `said`, and no more than noise may on the
- * average of up to 25 neighbours, match. HC_NO_MEMORY. */
-hc_status points_allow_noise(verify_report *r, double said);
+ * With r->noise_said > 0, rows that differ by no more than the gate and four standard deviations of that, and no more
+ * than noise may on the average of up to 25 neighbours, match. HC_NO_MEMORY. */
+hc_status points_noise(verify_report *r);
 
 /* CAUSE_OUTLIER: few points, none beside another, are far off, and all others lie on the truth; else 0. */
 verify_causes points_outliers(const verify_report *r);
