@@ -401,14 +401,15 @@ void search_read(search *s, const verify_equations *e, int frequency, const veri
 
 hc_status search_solve(search *s, const verify_equations *e, double omega_factor, verify_solutions *out)
 {
-  double omega[SEARCH_MOST_POINTS], from = s->from, to = s->to;
+  double omega[SEARCH_MOST_POINTS];
   const int n = s->points.n;
+  verify_places at = {s->from, s->to, n, omega};
   for (int i = 0; i < n; ++i) omega[i] = omega_factor * s->points.omega[i];
   if (omega_factor != 1) {
     number_list ends = {.n = 2, .v = {omega[0], omega[n - 1]}};
-    comparison_sweep(s->setup->omega_from, s->setup->omega_to, &ends, &from, &to);
+    comparison_sweep(s->setup->omega_from, s->setup->omega_to, &ends, &at.from, &at.to);
   }
-  return verify_solutions_of(s->setup, e, &s->points.quantity, from, to, n, omega, s->monitor, out);
+  return verify_solutions_of(s->setup, e, &s->points.quantity, &at, s->monitor, out);
 }
 
 hc_status search_fit(search *s, verify_hypothesis h)

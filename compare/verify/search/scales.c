@@ -95,10 +95,10 @@ static hc_status outline_new(search *s, outline *out)
   hc_status st = response_trace(&own, NULL, s->monitor, &truth);
   const int n_harm = s->out->harmonics;
   double *X = malloc(((size_t)curve->n_coef + 1) * sizeof *X);
-  double *series = malloc((2 * (size_t)n_harm + 1) * sizeof *series);
+  double series[2 * HBM_MAX_HARMONICS + 1];
   const size_t room = (size_t)curve->n * BETWEEN + 1;
   out->omega = malloc(2 * room * sizeof *out->omega);
-  if (!X || !series || !out->omega) st = HC_NO_MEMORY;
+  if (!X || !out->omega) st = HC_NO_MEMORY;
   for (int k = 0; k + 1 < curve->n && st == HC_OK; ++k) {
     const hbm_segment seg = hbm_segment_between(curve, k);
     for (int i = 0; i < BETWEEN; ++i) {
@@ -110,7 +110,6 @@ static hc_status outline_new(search *s, outline *out)
     }
   }
   out->value = out->omega ? out->omega + room : NULL;
-  free(series);
   free(X);
   response_curve_free(&truth);
   return st;

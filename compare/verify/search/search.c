@@ -199,11 +199,11 @@ static void read_dof(void *self, int dof, const verify_solutions *of)
 static hc_status try_responses(search *s)
 {
   const int orders[] = {s->out->harmonics, s->own};
+  const verify_places at = {s->from, s->to, s->points.n, s->points.omega};
   hc_status st = HC_OK;
   for (int i = 0; i < 2 && s->setup->model->n > 1 && st == HC_OK && !search_explained(s); ++i) {
     response_reader r = {s, search_equations(orders[i], true)};
-    st = verify_solutions_of_dofs(s->setup, &r.equations, &s->points.quantity, s->from, s->to, s->points.n,
-                                  s->points.omega, s->monitor, read_dof, &r);
+    st = verify_solutions_of_dofs(s->setup, &r.equations, &s->points.quantity, &at, s->monitor, read_dof, &r);
     if (st == HC_OK && !search_tick(s)) st = HC_INTERRUPTED;
   }
   return st;

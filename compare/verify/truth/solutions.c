@@ -35,15 +35,9 @@ hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double 
 /* Equations ready to be solved. */
 typedef struct problem {
   hbm_solver *hbm;
-  double offset;  /* [length] their response is the solver's plus this */
-  double *series; /* [2H+1] of a response */
+  double offset;                            /* [length] their response is the solver's plus this */
+  double series[2 * HBM_MAX_HARMONICS + 1]; /* of a response */
 } problem;
-
-static void problem_clear(problem *p)
-{
-  free(p->series);
-  hbm_solver_free(p->hbm);
-}
 
 static hc_status problem_new(const compare_setup *setup, const verify_equations *e, problem *out)
 {
@@ -57,8 +51,7 @@ static hc_status problem_new(const compare_setup *setup, const verify_equations 
   if (own.hbm.mistakes.mean_error != 0) own.hbm.skip_linear = false;
   st = guided_hbm_solver_new(theirs, &own.hbm, &out->hbm);
   model_free(theirs);
-  out->series = malloc((2 * (size_t)e->harmonics + 1) * sizeof *out->series);
-  return st == HC_OK && !out->series ? HC_NO_MEMORY : st;
+  return st;
 }
 
 static const struct {
@@ -95,7 +88,7 @@ bool verify_reading(int i, const verify_quantity *asked, verify_quantity *out, v
 }
 
 /* Every reading of the motion, whose series is the problem's, plus the problem's offset. */
-static verify_solution read_all(const verify_quantity *asked, const problem *p, verify_motion motion)
+static verify_solution read_all(const verify_quantity *asked, problem *p, verify_motion motion)
 {
   verify_solution s;
   p->series[0] += p->offset;
@@ -121,7 +114,7 @@ static bool same_solution(const verify_solutions *s, int k, const double *X, dou
 }
 
 /* X, measured, among the solutions at the omega that began with number `from`; not twice. */
-static hc_status add(verify_solutions *s, const problem *p, double omega, int from, const double *X)
+static hc_status add(verify_solutions *s, problem *p, double omega, int from, const double *X)
 {
   hbm_measures m;
   verify_motion motion;
@@ -146,19 +139,19 @@ static hc_status start(verify_solutions *s, const verify_quantity *asked, int n,
 
 /* The curve, and its solutions at every omega. The problem is the caller's to clear. */
 static hc_status follow_curve(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                              double from, double to, int n, const double *omega, const hc_monitor *monitor, problem *p,
-                              verify_solutions *out)
+                              const verify_places *places, const hc_monitor *monitor, problem *p, verify_solutions *out)
 {
   hbm_curve curve = {0};
-  hc_status st = problem_new(setup, e, p), started = start(out, asked, n, p->hbm ? hbm_n_coefficients(p->hbm) : 0);
+  hc_status st = problem_new(setup, e, p),
+            started = start(out, asked, places->n, p->hbm ? hbm_n_coefficients(p->hbm) : 0);
   if (started != HC_OK) st = started;
-  if (st == HC_OK) st = hbm_trace(p->hbm, from, to, monitor, &curve);
-  if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && p->series) st = HC_OK; /* as far as it came */
-  for (int i = 0; i < n && st == HC_OK; ++i) {
+  if (st == HC_OK) st = hbm_trace(p->hbm, places->from, places->to, monitor, &curve);
+  if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && p->hbm) st = HC_OK; /* as far as it came */
+  for (int i = 0; i < places->n && st == HC_OK; ++i) {
     hbm_curve at = {0};
-    if (hbm_curve_at(p->hbm, &curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
+    if (hbm_curve_at(p->hbm, &curve, places->omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
     for (int k = 0; k < at.n && st == HC_OK; ++k)
-      st = add(out, p, omega[i], out->first[i], at.X + (size_t)k * at.n_coef);
+      st = add(out, p, places->omega[i], out->first[i], at.X + (size_t)k * at.n_coef);
     out->first[i + 1] = out->count;
     hbm_curve_free(&at);
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
@@ -168,17 +161,16 @@ static hc_status follow_curve(const compare_setup *setup, const verify_equations
 }
 
 hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                              double from, double to, int n, const double *omega, const hc_monitor *monitor,
-                              verify_solutions *out)
+                              const verify_places *at, const hc_monitor *monitor, verify_solutions *out)
 {
   problem p = {0};
-  hc_status st = follow_curve(setup, e, asked, from, to, n, omega, monitor, &p, out);
-  problem_clear(&p);
+  hc_status st = follow_curve(setup, e, asked, at, monitor, &p, out);
+  hbm_solver_free(p.hbm);
   return st;
 }
 
 /* What is read of the solutions becomes that of response r. */
-static void turn(verify_solutions *s, const problem *p, const double *omega, int r)
+static void turn(verify_solutions *s, problem *p, const double *omega, int r)
 {
   for (int i = 0; i < s->n; ++i)
     for (int k = s->first[i]; k < s->first[i + 1]; ++k) {
@@ -191,8 +183,8 @@ static void turn(verify_solutions *s, const problem *p, const double *omega, int
 }
 
 hc_status verify_solutions_of_dofs(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                                   double from, double to, int n, const double *omega, const hc_monitor *monitor,
-                                   verify_keep_dof *keep, void *self)
+                                   const verify_places *at, const hc_monitor *monitor, verify_keep_dof *keep,
+                                   void *self)
 {
   problem p = {0};
   verify_solutions of = {0};
@@ -200,21 +192,21 @@ hc_status verify_solutions_of_dofs(const compare_setup *setup, const verify_equa
   model *all;
   hc_status st = model_copy_all_seen(setup->model, &all);
   own.model = all;
-  if (st == HC_OK) st = follow_curve(&own, e, asked, from, to, n, omega, monitor, &p, &of);
+  if (st == HC_OK) st = follow_curve(&own, e, asked, at, monitor, &p, &of);
   for (int r = 0; r < setup->model->n && st == HC_OK; ++r) {
-    turn(&of, &p, omega, r);
+    turn(&of, &p, at->omega, r);
     keep(self, r, &of);
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
   }
   verify_solutions_clear(&of);
-  problem_clear(&p);
+  hbm_solver_free(p.hbm);
   model_free(all);
   return st;
 }
 
 /* From guess number k of *from, X[n_coef] being room for it. */
-static hc_status solve_from(verify_solutions *s, const problem *p, int i, double omega, const verify_solutions *from,
-                            int k, double *X)
+static hc_status solve_from(verify_solutions *s, problem *p, int i, double omega, const verify_solutions *from, int k,
+                            double *X)
 {
   hbm_point point;
   if (s->count - s->first[i] >= VERIFY_MOST_SOLUTIONS) return HC_OK;
@@ -242,7 +234,7 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
     out->first[i + 1] = out->count;
   }
   free(X);
-  problem_clear(&p);
+  hbm_solver_free(p.hbm);
   return st;
 }
 

@@ -36,18 +36,24 @@ hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double 
 /* *setup with these equations for its own, but for the change of its model. */
 compare_setup verify_settings(const compare_setup *setup, const verify_equations *e);
 
-/* Along their response curve from `from` to `to`, as far as it comes. A solution that is not found is none.
+/* Where solutions are asked for, and the sweep of the curve that passes there. */
+typedef struct verify_places {
+  double from, to;
+  int n;
+  const double *omega; /* [n] */
+} verify_places;
+
+/* Along their response curve, as far as it comes. A solution that is not found is none.
  * HC_INTERRUPTED, HC_NO_MEMORY, or why there are no such equations. */
 hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                              double from, double to, int n, const double *omega, const hc_monitor *monitor,
-                              verify_solutions *out);
+                              const verify_places *at, const hc_monitor *monitor, verify_solutions *out);
 
 /* The same of every degree of freedom in turn: keep(self, i, its solutions), which are gone when it returns. The curve
  * is followed once. */
 typedef void verify_keep_dof(void *self, int dof, const verify_solutions *of);
 hc_status verify_solutions_of_dofs(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                                   double from, double to, int n, const double *omega, const hc_monitor *monitor,
-                                   verify_keep_dof *keep, void *self);
+                                   const verify_places *at, const hc_monitor *monitor, verify_keep_dof *keep,
+                                   void *self);
 
 /* By Newton from the solutions `near` of equations with as many harmonics at the same omegas, and from those at the
  * omega before if that is close: sampled equations from exact ones, at a small part of what their curve would cost.

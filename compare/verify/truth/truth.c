@@ -115,8 +115,8 @@ typedef struct truth {
   workspace memory;
   double *state; /* [n_states] of the referee's */
   double from, to;
-  double *room;   /* acceleration_room */
-  double *series; /* [2H+1] of a response, of as many harmonics as there may be */
+  double *room;                             /* acceleration_room */
+  double series[2 * HBM_MAX_HARMONICS + 1]; /* of a response */
 } truth;
 
 /* A solution as the file's quantity is taken of it. */
@@ -491,7 +491,6 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
   hc_status st = out->rows ? comparison_referee(setup, &t.referee) : HC_NO_MEMORY;
   if (st == HC_OK) t.state = workspace_doubles(&t.memory, (size_t)timeint_n_states(t.referee));
   t.room = workspace_doubles(&t.memory, acceleration_room(setup->model));
-  t.series = workspace_doubles(&t.memory, 2 * HBM_MAX_HARMONICS + 1);
   if (t.memory.failed) st = HC_NO_MEMORY;
   int harmonics = 2 * setup->hbm.harmonics; /* 0 for auto */
   harmonics = harmonics < LEAST_HARMONICS     ? LEAST_HARMONICS

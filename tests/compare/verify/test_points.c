@@ -170,10 +170,11 @@ static void every_exact_solution_leads_to_a_sampled_one(CHECK_STATE)
   compare_setup setup;
   verify_solutions exact, sampled;
   double omega[OMEGAS];
+  const verify_places at = {4, 14, OMEGAS, omega};
   int several = 0;
   for (int i = 0; i < OMEGAS; ++i) omega[i] = 6.2 + 0.5 * i;
   assert_int_equal(scene_setup(&sc, &setup), HC_OK);
-  assert_int_equal(verify_solutions_of(&setup, &e, &amplitude, 4, 14, OMEGAS, omega, NULL, &exact), HC_OK);
+  assert_int_equal(verify_solutions_of(&setup, &e, &amplitude, &at, NULL, &exact), HC_OK);
   e.samples = 4096;
   assert_int_equal(verify_solutions_near(&setup, &e, &exact, omega, &sampled), HC_OK);
   for (int i = 0; i < OMEGAS; ++i) {
