@@ -1,5 +1,5 @@
-/* work_limit.h - a monitor that stops after a number of ticks, or at a processor time; `stopped` tells a request to stop
- * from that. */
+/* work_limit.h - a monitor that stops after a number of ticks, or at a processor time; `stopped` tells a request to
+ * stop from that. */
 #ifndef HC_WORK_LIMIT_H
 #define HC_WORK_LIMIT_H
 

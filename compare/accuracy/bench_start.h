@@ -1,5 +1,5 @@
-/* bench_start.h - what the methods of bench.h start from and are compared with: the exact law's orbit at a frequency, as
- * tight as rounding allows, and the solutions at a neighbouring one. Private to compare/accuracy/. */
+/* bench_start.h - what the methods of bench.h start from and are compared with: the exact law's orbit at a frequency,
+ * as tight as rounding allows, and the solutions at a neighbouring one. Private to compare/accuracy/. */
 #ifndef HC_BENCH_START_H
 #define HC_BENCH_START_H
 
