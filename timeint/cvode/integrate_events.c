@@ -21,7 +21,6 @@
 #include "timeint/closed_form/fundamental_matrix.h"
 #include "timeint/closed_form/motion_single.h"
 #include "timeint/cvode/integrate_cvode.h"
-#include "timeint/cvode/planar_angle.h"
 
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
 static const double stiff = 60; /* largest decay rate over lowest frequency, from where on BDF takes fewer steps */
@@ -42,10 +41,10 @@ typedef struct events { /* from integrate_new_events, to integrate_free; not sha
   contact_forces_linear *law;      /* [n_contacts] of these states */
   int *info;                       /* [n_contacts][ROOTS] what CVODE says of the root functions */
   double *rate;                    /* [n_equations] dy where the guards' rates are wanted */
-  int n_planar, n_equations;       /* 2 n, and an angle for each contact of two tangents */
-  planar_angle *angle;             /* [n_planar] */
-  int *angle_of;                   /* [n_contacts] that of the first of two directions; else -1 */
-  double *phi;                     /* [n_planar] where sliders are wanted */
+  int n_own, n_equations;          /* 2 n, and contacts' own states (law_kind.h): the angles of e */
+  int *own_of;                     /* [n_contacts] which is the contact's; -1: none */
+  double *own;                     /* [n_own] where sliders are wanted */
+  double held_pull;                /* what a held direction may change of a rate until N = 0 */
   int passed;                      /* events since the period began */
   bool varies;                     /* the monodromy is asked for */
   fundamental_matrix variations;
@@ -54,19 +53,20 @@ typedef struct events { /* from integrate_new_events, to integrate_free; not sha
 
 /* ---- equations -------------------------------------------------------------------------------------- */
 
-/* T of the slips that turn, out of the forces dy + n, and the rates of all angles. */
-static void subtract_turning(const events *in, const double *y, double *dy)
+/* T that is not linear in the motion, out of the forces dy + n, and the rates of contacts' own states. */
+static void subtract_curved(const events *in, const double *y, double *dy)
 {
-  for (int i = 0; i < in->n_planar; ++i) {
-    const planar_angle *a = &in->angle[i];
-    const int j = a->contact, n = in->n;
+  const int n = in->n;
+  memset(dy + 2 * n, 0, (size_t)in->n_own * sizeof *dy);
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
     const scaled_contact *c = &in->base.m->contact[j];
-    const double phi = y[2 * n + i], *t = in->base.m->base->tangent + (size_t)j * (size_t)n;
-    const contact_motion at = contact_motion_at(in->base.m, j, y);
-    dy[2 * n + i] = planar_angle_rate(a, &in->track[j], c, &at, phi);
+    const double *t = in->base.m->base->tangent + (size_t)j * (size_t)n;
+    const int own = 2 * n + in->own_of[j];
     if (!in->track[j].turns) continue;
-    const double limit = contact_track_limit(c, at.v), pull[2] = {limit * cos(phi), limit * sin(phi)};
-    for (int k = 0; k < n; ++k) dy[n + k] -= pull[0] * t[k] + pull[1] * t[n + k];
+    const contact_motion at = contact_motion_at(in->base.m, j, y);
+    const law_pull pull = c->kind->pull(&in->track[j], c, &at, y[own]);
+    dy[own] = pull.rate;
+    for (int k = 0; k < n; ++k) dy[n + k] -= pull.t[0] * t[k] + pull.t[1] * t[n + k];
   }
 }
 
@@ -83,7 +83,7 @@ static void events_rate(const events *in, double theta, const double *y, double 
     const double along = f->t_u * u + f->t_v * v + f->t_0, across = f->n_v * v + f->n_0;
     for (int i = 0; i < n; ++i) dy[n + i] -= along * t[i] + across * normal[i];
   }
-  subtract_turning(in, y, dy);
+  subtract_curved(in, y, dy);
   memcpy(dy, y + n, (size_t)n * sizeof *dy);
 }
 
@@ -114,28 +114,28 @@ static void fill_linear(const scaled_model *m, size_t ld, double *a)
   }
 }
 
-/* What slips that turn add. */
-static void fill_turning(const events *in, const double *y, size_t ld, double *a)
+/* What forces that are not linear in the motion add. */
+static void fill_curved(const events *in, const double *y, size_t ld, double *a)
 {
   const scaled_model *m = in->base.m;
   const size_t n = (size_t)in->n;
-  for (int i = 0; i < in->n_planar; ++i) {
-    const int j = in->angle[i].contact;
-    const size_t phi = 2 * n + (size_t)i;
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(m, j)) {
+    const scaled_contact *c = &m->contact[j];
     const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
     if (!in->track[j].turns) continue;
-    const contact_motion at = contact_motion_at(in->base.m, j, y);
-    const angle_slopes s = planar_angle_slopes(&in->angle[i], &in->track[j], &m->contact[j], &at, y[phi]);
+    const size_t own = 2 * n + (size_t)in->own_of[j];
+    const contact_motion at = contact_motion_at(m, j, y);
+    const law_slopes s = c->kind->slopes(&in->track[j], c, &at, y[own]);
     for (size_t k = 0; k < 2; ++k)
       for (size_t row = 0; row < n; ++row) {
         for (size_t col = 0; col < n; ++col) a[col * ld + n + row] -= t[k * n + row] * s.t_v[k] * normal[col];
-        a[phi * ld + n + row] -= t[k * n + row] * s.t_phi[k];
+        a[own * ld + n + row] -= t[k * n + row] * s.t_own[k];
       }
     for (size_t col = 0; col < n; ++col) {
-      a[col * ld + phi] = s.rate_v * normal[col];
-      a[(n + col) * ld + phi] = s.rate_u[0] * t[col] + s.rate_u[1] * t[n + col];
+      a[col * ld + own] = s.rate_v * normal[col];
+      a[(n + col) * ld + own] = s.rate_du[0] * t[col] + s.rate_du[1] * t[n + col];
     }
-    a[phi * ld + phi] = s.rate_phi;
+    a[own * ld + own] = s.rate_own;
   }
 }
 
@@ -157,28 +157,28 @@ static int events_jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix
       for (size_t row = 0; row < n; ++row) a[col * ld + n + row] -= t[row] * along + normal[row] * across;
     }
   }
-  fill_turning(in, NV_DATA_S(y), ld, a);
+  fill_curved(in, NV_DATA_S(y), ld, a);
   return 0;
 }
 
 /* ---- guards ------------------------------------------------------------------------------------------- */
 
-static angle_motion angle_motion_at(const events *in, int j, double theta, const double *y, const double *dy)
+static law_instant instant_at(const events *in, int j, double theta, const double *y, const double *dy)
 {
-  angle_motion now = {.at = contact_motion_at(in->base.m, j, y), .theta = theta};
+  law_instant now = {.at = contact_motion_at(in->base.m, j, y), .theta = theta};
   scaled_contact_motion(in->base.m, j, dy + in->n, now.bend, &now.normal_bend);
-  if (in->angle_of[j] >= 0) now.phi = y[2 * in->n + in->angle_of[j]];
+  if (in->own_of[j] >= 0) now.own = y[2 * in->n + in->own_of[j]];
   return now;
 }
 
-/* The guards of contact j at theta and y, where its rate is dy: the value and rate of each, of one tangent also half
- * the rate of that. How many. */
+/* The guards of contact j at theta and y, where its rate is dy: the value and rate of each, without an own state also
+ * half the rate of that. How many. */
 static int events_guards(const events *in, int j, double theta, const double *y, const double *dy,
                          track_guard guard[TRACK_GUARDS])
 {
   const scaled_contact *c = &in->base.m->contact[j];
-  const angle_motion now = angle_motion_at(in, j, theta, y, dy);
-  if (in->angle_of[j] >= 0) return planar_angle_guards(&in->angle[in->angle_of[j]], &in->track[j], c, &now, guard);
+  const law_instant now = instant_at(in, j, theta, y, dy);
+  if (in->own_of[j] >= 0) return c->kind->own_guards(&in->track[j], c, &now, in->held_pull, guard);
   const double u[TRACK_TERMS] = {now.at.u[0], now.at.du[0], 0.5 * now.bend[0]};
   const double v[TRACK_TERMS] = {now.at.v, now.at.dv, 0.5 * now.normal_bend};
   return contact_track_guards(&in->track[j], c, u, v, guard);
@@ -211,54 +211,49 @@ static void use_states(events *in)
   for (int j = 0; j < in->n_contacts; ++j) in->law[j] = contact_track_forces(&in->track[j], &in->base.m->contact[j]);
 }
 
-/* The directions of slips that turn, from their angles phi[n_planar]: of contact j into t[2]. */
-static void follow_angle(const events *in, int j, const double *phi, contact_track *t)
-{
-  if (!t->turns) return;
-  t[0].along = cos(phi[in->angle_of[j]]);
-  t[1].along = sin(phi[in->angle_of[j]]);
-}
+static double *own_states(const events *in) { return NV_DATA_S(in->base.y) + 2 * in->n; }
 
-static double *angles_of(const events *in) { return NV_DATA_S(in->base.y) + 2 * in->n; }
+/* Tracks of contact j, from its own state among own[n_own]. */
+static void follow_own(const events *in, int j, const double *own, contact_track *t)
+{
+  if (t->turns) in->base.m->contact[j].kind->own_follow(t, own[in->own_of[j]]);
+}
 
 /* Contact j, where its direction stops turning, or the period ends. */
 static void note_turn(events *in, int j)
 {
-  if (!in->track[j].turns) return;
-  const int i = in->angle_of[j];
-  contact_track_note_turn(&in->track[j], &in->base.m->contact[j], angles_of(in)[i] - in->angle[i].began);
+  contact_track *t = &in->track[j];
+  if (t->turns) contact_track_note_turn(t, &in->base.m->contact[j], own_states(in)[in->own_of[j]] - t->opens.began);
 }
 
-/* In motion from theta on: the angle of contact j, and the direction that it has at a touch. */
-static void begin_angle(events *in, int j, double theta)
+/* In motion from theta on: the own state of contact j, and its rate at a touch. */
+static void begin_own(events *in, int j, double theta)
 {
+  const scaled_contact *c = &in->base.m->contact[j];
   double *y = NV_DATA_S(in->base.y);
   contact_track *t = &in->track[j];
-  if (in->angle_of[j] < 0) return;
-  planar_angle *a = &in->angle[in->angle_of[j]];
-  a->opens = false;
   if (!t->turns) return;
-  a->began = angles_of(in)[in->angle_of[j]] = atan2(t[1].along, t[0].along);
+  own_states(in)[in->own_of[j]] = c->kind->own_begin(t);
   if (!t->fresh) return;
-  t[0].fresh = t[1].fresh = false;
+  for (int a = 0; a < c->kind->directions; ++a) t[a].fresh = false;
   events_rate(in, theta, y, in->rate);
-  const angle_motion now = angle_motion_at(in, j, theta, y, in->rate);
-  planar_angle_open(a, &in->base.m->contact[j], &now);
+  const law_instant now = instant_at(in, j, theta, y, in->rate);
+  c->kind->own_open(t, c, &now);
 }
 
-/* That an angle is held, or no more, counts as no change of state, and the monodromy matrix does not see it. */
+/* That a direction is held, or no more, counts as no change of state, and the monodromy matrix does not see it. */
 static hc_status pass(events *in, int j, track_event event, double theta, int *count)
 {
   const scaled_contact *c = &in->base.m->contact[j];
   contact_track *t = &in->track[j];
   const bool varies = in->varies && event != TRACK_TURNS && event != TRACK_HOLDS;
   const contact_motion at = contact_motion_at(in->base.m, j, NV_DATA_S(in->base.y));
-  for (int i = 0; i < in->n_planar; ++i)
-    follow_angle(in, in->angle[i].contact, angles_of(in), &in->track[in->angle[i].contact]);
+  for (int i = 0; i < in->n_contacts; i += scaled_directions(in->base.m, i))
+    follow_own(in, i, own_states(in), &in->track[i]);
   const contact_track before[2] = {t[0], t[c->kind->directions - 1]};
   *count += c->kind->counts(t, event, theta);
   const int most = integrate_most_transitions(in->n_contacts);
-  if (*count > most || (++in->passed > 8 * most && in->angle_of[j] >= 0)) return HC_CHATTER;
+  if (*count > most || (++in->passed > 8 * most && in->own_of[j] >= 0)) return HC_CHATTER;
   hc_status st = varies ? fundamental_matrix_advance(&in->variations, in->base.m, in->track, theta) : HC_OK;
   if (st != HC_OK) return st;
   note_turn(in, j);
@@ -269,7 +264,7 @@ static hc_status pass(events *in, int j, track_event event, double theta, int *c
     fundamental_matrix_follow(&in->variations, in->base.m, in->track, NV_DATA_S(in->base.y));
   }
   use_states(in);
-  begin_angle(in, j, theta);
+  begin_own(in, j, theta);
   return HC_OK;
 }
 
@@ -358,19 +353,15 @@ static hc_status integrate_to_end(events *in, integrate_watch *watch, void *self
   return integrate_check_end(&in->base, theta, in->n_equations);
 }
 
-/* Which contacts have an angle. */
-static void find_planar_contacts(events *in)
+/* Which contacts have a state of their own. */
+static void number_own_states(events *in)
 {
-  int i = 0;
-  in->passed = 0;
+  in->n_own = 0;
   for (int j = 0; j < in->n_contacts; ++j) {
-    const bool has_angle = scaled_directions(in->base.m, j) > 1 && in->base.m->contact[j].direction == 0;
-    in->angle_of[j] = has_angle ? i : -1;
-    if (!has_angle) continue;
-    in->angle[i++] = (planar_angle){.contact = j, .held_pull = fmax(1e-17, 1e-3 * in->tolerance)};
+    const scaled_contact *c = &in->base.m->contact[j];
+    in->own_of[j] = c->kind->own_begin && c->direction == 0 ? in->n_own++ : -1;
   }
-  in->n_planar = i;
-  for (; i < in->n_equations - 2 * in->n; ++i) NV_Ith_S(in->base.y, 2 * in->n + i) = 0; /* without friction */
+  for (int i = in->n_own; i < in->n_equations - 2 * in->n; ++i) own_states(in)[i] = 0; /* without friction */
 }
 
 static hc_status begin(events *in, const double *y, int *count)
@@ -379,11 +370,12 @@ static hc_status begin(events *in, const double *y, int *count)
   for (int i = 0; i < in->base.m->n_states; ++i) size += fabs(y[i]);
   if (!isfinite(size)) return HC_NOT_FINITE;
   memcpy(NV_DATA_S(in->base.y), y, 2 * (size_t)in->n * sizeof *y);
-  find_planar_contacts(in);
+  number_own_states(in);
+  in->passed = 0;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
     const contact_motion at = contact_motion_at(in->base.m, j, y);
     contact_track_begin(&in->track[j], &in->base.m->contact[j], &at, y + 2 * in->n + j);
-    begin_angle(in, j, 0);
+    begin_own(in, j, 0);
   }
   use_states(in);
   if (in->varies) {
@@ -395,8 +387,8 @@ static hc_status begin(events *in, const double *y, int *count)
 }
 
 /* Sliders of the motion y (order 0), or their rates where y is its derivative; slips that turn in the directions of
- * their angles phi[n_planar]. */
-static void set_sliders(const events *in, int order, const double *phi, double *y)
+ * their own states own[n_own]. */
+static void set_sliders(const events *in, int order, const double *own, double *y)
 {
   double *w = y + 2 * in->n;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
@@ -404,7 +396,7 @@ static void set_sliders(const events *in, int order, const double *phi, double *
     contact_track t[2] = {in->track[j], in->track[j + c->kind->directions - 1]};
     contact_motion at;
     scaled_contact_motion(in->base.m, j, y, at.u, &at.v);
-    follow_angle(in, j, phi, t);
+    follow_own(in, j, own, t);
     if (order == 0) contact_track_slider(t, c, &at, w + j);
     else contact_track_slider_rate(t, c, &at, w + j);
   }
@@ -430,12 +422,11 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   if (st == HC_OK && monodromy) st = fundamental_matrix_advance(&in->variations, m, in->track, TWO_PI);
   if (st != HC_OK) return st;
   memcpy(y, NV_DATA_S(in->base.y), 2 * (size_t)in->n * sizeof *y);
-  for (int i = 0; i < in->n_planar; ++i) {
-    const int j = in->angle[i].contact;
-    follow_angle(in, j, angles_of(in), &in->track[j]);
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(m, j)) {
+    follow_own(in, j, own_states(in), &in->track[j]);
     note_turn(in, j);
   }
-  set_sliders(in, 0, angles_of(in), y);
+  set_sliders(in, 0, own_states(in), y);
   contact_track_end(in->track, in->n_contacts, y + 2 * in->n);
   if (monodromy) fundamental_matrix_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
@@ -446,12 +437,12 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   const events *in = (const events *)base;
   if (CVodeGetDky(in->base.cv, theta, order, in->base.dky) != CV_SUCCESS) return HC_BUG; /* theta outside the step */
   memcpy(y, NV_DATA_S(in->base.dky), 2 * (size_t)in->n * sizeof *y);
-  memcpy(in->phi, NV_DATA_S(in->base.dky) + 2 * in->n, (size_t)in->n_planar * sizeof *in->phi);
-  if (order == 1 && in->n_planar > 0) {
+  memcpy(in->own, NV_DATA_S(in->base.dky) + 2 * in->n, (size_t)in->n_own * sizeof *in->own);
+  if (order == 1 && in->n_own > 0) {
     if (CVodeGetDky(in->base.cv, theta, 0, in->base.dky) != CV_SUCCESS) return HC_BUG;
-    memcpy(in->phi, NV_DATA_S(in->base.dky) + 2 * in->n, (size_t)in->n_planar * sizeof *in->phi);
+    memcpy(in->own, NV_DATA_S(in->base.dky) + 2 * in->n, (size_t)in->n_own * sizeof *in->own);
   }
-  if (order <= 1) set_sliders(in, order, in->phi, y);
+  if (order <= 1) set_sliders(in, order, in->own, y);
   return HC_OK;
 }
 
@@ -485,8 +476,7 @@ static void release(integrator *base)
   free(in->law);
   free(in->info);
   free(in->rate);
-  free(in->angle);
-  free(in->angle_of);
+  free(in->own_of);
   free(base);
 }
 
@@ -537,17 +527,17 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   in->n = base->n;
   in->n_contacts = base->n_contacts;
   in->tolerance = tolerance;
+  in->held_pull = fmax(1e-17, 1e-3 * tolerance);
   in->is_single = motion_single_fits(base) && base->n_planar == 0;
   in->track = calloc(contacts + 1, sizeof *in->track);
   in->law = calloc(contacts + 1, sizeof *in->law);
   in->info = calloc(ROOTS * contacts + 1, sizeof *in->info);
   in->n_equations = 2 * base->n + base->n_planar;
   in->rate = calloc((size_t)in->n_equations + (size_t)base->n_planar, sizeof *in->rate);
-  in->angle = calloc((size_t)base->n_planar + 1, sizeof *in->angle);
-  in->angle_of = calloc(contacts + 1, sizeof *in->angle_of);
-  const bool enough = in->track && in->law && in->info && in->rate && in->angle && in->angle_of;
+  in->own_of = calloc(contacts + 1, sizeof *in->own_of);
+  const bool enough = in->track && in->law && in->info && in->rate && in->own_of;
   hc_status st = enough ? HC_OK : HC_NO_MEMORY;
-  if (st == HC_OK) in->phi = in->rate + in->n_equations;
+  if (st == HC_OK) in->own = in->rate + in->n_equations;
   if (st == HC_OK) st = interval_modes_new(base, INTERVAL_MODES_STIFF, &in->modes);
   if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes);
   if (st == HC_OK) st = integrate_make_parts(&in->base, in->n_equations, bdf ? CV_BDF : CV_ADAMS, NULL);

@@ -2,7 +2,7 @@
  * side for each set of contact states, from one transition to the next; guards are those of contact_track.h.
  * Adams' method, or BDF where damping makes the structure stiff: where its largest rate is 60 times the lowest natural
  * frequency or more (beam16: 4000 steps a period, not 22 000). A contact with two tangents that slips under the law of
- * the circle adds the angle of its traction to the states (planar_angle.h). */
+ * the circle adds the angle of its traction to the states (law_planar.c). */
 #ifndef HC_TIMEINT_INTEGRATE_EVENTS_H
 #define HC_TIMEINT_INTEGRATE_EVENTS_H
 

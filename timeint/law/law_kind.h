@@ -27,6 +27,13 @@ typedef struct contact_motion {
   double u[2], v, du[2], dv;
 } contact_motion;
 
+/* What CVODE knows of a slip in two directions, where phi, the angle of e, is a state of its equations. */
+typedef struct law_opening {
+  double began; /* phi where it began to turn */
+  bool opens;   /* since a touch, until theta = `until`: phi' = rate */
+  double rate, until;
+} law_opening;
+
 /* One direction of a contact along the motion of a period; states and flags are the same in all of its directions. */
 typedef struct contact_track {
   contact_state state;
@@ -36,6 +43,7 @@ typedef struct contact_track {
   bool turns;        /* e follows the motion: T is not linear in it */
   bool fresh;        /* it turns since a touch at this instant, N = 0 */
   double changed;    /* [rad] when it came to this state */
+  law_opening opens; /* by CVODE */
   double from, most; /* W where the period began; the largest |W - from| since, INFINITY once separated */
 } contact_track;
 
@@ -65,6 +73,22 @@ typedef struct track_guard {
 
 /* ---- a row ----------------------------------------------------------------------------------------------------- */
 
+/* A motion at theta, with U'' and V'', and the contact's own state by CVODE. */
+typedef struct law_instant {
+  contact_motion at;
+  double bend[2], normal_bend;
+  double theta, own;
+} law_instant;
+
+/* T that is not linear in the motion, and the rate of the own state z; what they follow: dT_a/dV, dT_a/dz, dz'/dU'_a,
+ * dz'/dV, dz'/dz. */
+typedef struct law_pull {
+  double t[2], rate;
+} law_pull;
+typedef struct law_slopes {
+  double t_v[2], t_own[2], rate_du[2], rate_v, rate_own;
+} law_slopes;
+
 typedef struct scaled_contact scaled_contact;
 typedef struct law_kind {
   int directions;
@@ -86,6 +110,17 @@ typedef struct law_kind {
   /* While it slips: holds e from that motion on if it has no time left to turn the motion, or lets it turn. The longest
    * step [rad] for which that holds. NULL: e never turns. */
   double (*hold)(contact_track *t, const scaled_contact *c, const contact_motion *at);
+
+  /* By CVODE, which carries a state z of such a contact beside the motion; all NULL where there is none. */
+  double (*own_begin)(contact_track *t); /* z of the track's direction, from where it turns */
+  void (*own_open)(contact_track *t, const scaled_contact *c, const law_instant *now); /* it has just touched */
+  void (*own_follow)(contact_track *t, double own); /* the track's direction from z */
+  law_pull (*pull)(const contact_track *t, const scaled_contact *c, const contact_motion *at, double own);
+  law_slopes (*slopes)(const contact_track *t, const scaled_contact *c, const contact_motion *at, double own);
+  /* Values and rates, g[0] and g[1], of all guards, the end of contact first; e may be held where that changes a rate
+   * by less than may_change until N = 0. How many. */
+  int (*own_guards)(const contact_track *t, const scaled_contact *c, const law_instant *now, double may_change,
+                    track_guard guard[TRACK_GUARDS]);
 } law_kind;
 
 extern const law_kind law_line, law_planar; /* one tangent; two under the law of the circle */

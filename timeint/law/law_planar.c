@@ -9,13 +9,22 @@
  * error is first order in eta (law_regularised.h: second).
  *
  * Under the exact law (contact_track.h) its guards are
- *     stick  (mu N)^2 - |T|^2        slip  kt s, of the series of e (planar_series.h) or its angle (planar_angle.h)
+ *     stick  (mu N)^2 - |T|^2        slip  kt s, of the series of e (planar_series.h) or, by CVODE, its angle
  * Shortly before N = 0 the direction e has no time left to turn the motion, but turns the faster itself: it is then
- * held. Proof: tests/timeint/test_law.c, test_circle.c. */
+ * held.
+ *
+ * CVODE carries the angle of e as a state: T = mu N e, phi' = kt (U'.e_perp)/(mu N). At touch-down that is 0/0. The one
+ * solution that does not run away backwards in time starts along U', with
+ *     phi'_0 = beta psi'/(1 + beta),   beta = kt |U'|/(mu kn V'),   psi' = U''.e_perp/|U'|: the turn of U'
+ * and phi grows at that rate for the first `opening`: off by its square, which changes a rate of the motion by its
+ * fourth power, or third as beta -> 1. Before N = 0 phi is held where what it could still change is small. The guard of
+ * stick is linear there, mu N - |T|, which means something at N = 0, too.
+ * Proof: tests/timeint/test_law.c, test_circle.c. */
 #include "timeint/law/contact_track.h"
 
 static const double held_pull = 1e-17; /* what a wrong direction of T could change of a rate until N = 0 */
 static const double held_time = 1e-13; /* [rad] too short for steps */
+static const double opening = 1e-4;    /* [rad] */
 
 /* The spring's force, and by how much it is longer than the limit. */
 typedef struct overload {
@@ -103,9 +112,116 @@ static double hold(contact_track *t, const scaled_contact *c, const contact_moti
   return holds ? 4 * left : INFINITY;
 }
 
+/* ---- by CVODE: the angle phi of e = (cos phi, sin phi) ---------------------------------------------------- */
+
+static double own_begin(contact_track *t)
+{
+  t->opens = (law_opening){.began = atan2(t[1].along, t[0].along)};
+  return t->opens.began;
+}
+
+static void own_follow(contact_track *t, double phi)
+{
+  t[0].along = cos(phi);
+  t[1].along = sin(phi);
+}
+
+static double friction_of(const scaled_contact *c) { return c->law.mu * c->law.kn; }
+
+static void own_open(contact_track *t, const scaled_contact *c, const law_instant *now)
+{
+  const double *du = now->at.du, speed = hypot(du[0], du[1]);
+  const double turn = (now->bend[1] * du[0] - now->bend[0] * du[1]) / (speed * speed);
+  const double pull = c->law.kt * speed;
+  t->opens.opens = true;
+  t->opens.until = now->theta + opening;
+  t->opens.rate = turn * pull / (friction_of(c) * now->at.dv + pull);
+}
+
+static law_pull pull(const contact_track *t, const scaled_contact *c, const contact_motion *at, double phi)
+{
+  const double limit = contact_track_limit(c, at->v), e[2] = {cos(phi), sin(phi)};
+  const double turn = c->law.kt * (at->du[1] * e[0] - at->du[0] * e[1]) / limit;
+  return (law_pull){.t = {limit * e[0], limit * e[1]}, .rate = t->opens.opens ? t->opens.rate : turn};
+}
+
+static law_slopes slopes(const contact_track *t, const scaled_contact *c, const contact_motion *at, double phi)
+{
+  const double limit = contact_track_limit(c, at->v), e[2] = {cos(phi), sin(phi)}, by = c->law.kt / limit;
+  law_slopes s = {.t_v = {friction_of(c) * e[0], friction_of(c) * e[1]}, .t_own = {-limit * e[1], limit * e[0]}};
+  if (t->opens.opens) return s;
+  s.rate_du[0] = -by * e[1];
+  s.rate_du[1] = by * e[0];
+  s.rate_own = -by * (at->du[0] * e[0] + at->du[1] * e[1]);
+  s.rate_v = -(s.rate_du[0] * at->du[0] + s.rate_du[1] * at->du[1]) * friction_of(c) / limit;
+  return s;
+}
+
+static track_guard guard_of(track_event event, double value, double rate, double noise)
+{
+  return (track_guard){.event = event, .noise = noise, .g = {value, rate}};
+}
+
+/* mu N - |T|; where T = 0 its rate is that of the T to come. */
+static track_guard end_of_stick(const contact_track *t, const scaled_contact *c, const contact_motion *at)
+{
+  const double s[2] = {at->u[0] - t[0].rest, at->u[1] - t[1].rest}, size = hypot(s[0], s[1]);
+  const double grows = size > 0 ? (s[0] * at->du[0] + s[1] * at->du[1]) / size : hypot(at->du[0], at->du[1]);
+  const double noise = contact_track_force_noise(c, hypot(at->u[0], at->u[1]), at->v, hypot(t[0].rest, t[1].rest));
+  return guard_of(TRACK_SLIPS_PLUS, contact_track_limit(c, at->v) - c->law.kt * size,
+                  friction_of(c) * at->dv - c->law.kt * grows, noise);
+}
+
+/* kt U'.e - mu kn V'. */
+static track_guard end_of_slip(const scaled_contact *c, const law_instant *now, double turn)
+{
+  const double e[2] = {cos(now->own), sin(now->own)}, kt = c->law.kt, *du = now->at.du;
+  const double value = kt * (du[0] * e[0] + du[1] * e[1]) - friction_of(c) * now->at.dv;
+  const double rate = kt * (now->bend[0] * e[0] + now->bend[1] * e[1] + turn * (du[1] * e[0] - du[0] * e[1])) -
+                      friction_of(c) * now->normal_bend;
+  return guard_of(TRACK_STICKS, value, rate, contact_track_rate_noise(c, hypot(du[0], du[1]), now->at.dv));
+}
+
+/* mu kn (V + gap)^2 + may_change V': mu kn times the square of the time left, times the speed of it, is small. */
+static track_guard start_of_hold(const scaled_contact *c, const law_instant *now, double may_change)
+{
+  const double d = now->at.v + c->law.gap;
+  return guard_of(TRACK_HOLDS, friction_of(c) * d * d + may_change * now->at.dv,
+                  2 * friction_of(c) * d * now->at.dv + may_change * now->normal_bend, 0);
+}
+
+static int own_guards(const contact_track *t, const scaled_contact *c, const law_instant *now, double may_change,
+                      track_guard guard[TRACK_GUARDS])
+{
+  const double apart = t->state == CONTACT_SEPARATED ? -1 : 1;
+  int n = 0;
+  if (c->law.kn > 0)
+    guard[n++] = guard_of(apart < 0 ? TRACK_TOUCHES : TRACK_SEPARATES, apart * (now->at.v + c->law.gap),
+                          apart * now->at.dv, contact_track_distance_noise(c, now->at.v));
+  if (t->state == CONTACT_SEPARATED) return n;
+  if (t->state == CONTACT_STICK) {
+    guard[n++] = end_of_stick(t, c, &now->at);
+    return n;
+  }
+  if (!t->turns) {
+    guard[n++] = guard_of(TRACK_TURNS, -now->at.dv, -now->normal_bend, 0);
+    return n;
+  }
+  guard[n++] = end_of_slip(c, now, pull(t, c, &now->at, now->own).rate);
+  if (t->opens.opens) guard[n++] = guard_of(TRACK_TURNS, t->opens.until - now->theta, -1, 0);
+  else if (c->law.kn > 0) guard[n++] = start_of_hold(c, now, may_change);
+  return n;
+}
+
 const law_kind law_planar = {.directions = 2,
                              .evaluate = evaluate,
                              .derivatives = derivatives,
                              .curved_guards = curved_guards,
                              .counts = counts,
-                             .hold = hold};
+                             .hold = hold,
+                             .own_begin = own_begin,
+                             .own_open = own_open,
+                             .own_follow = own_follow,
+                             .pull = pull,
+                             .slopes = slopes,
+                             .own_guards = own_guards};
