@@ -57,7 +57,8 @@ typedef struct events { /* from integrate_new_events, to integrate_free; not sha
 static void subtract_curved(const events *in, const double *y, double *dy)
 {
   const int n = in->n;
-  memset(dy + 2 * n, 0, (size_t)in->n_own * sizeof *dy);
+  memset(dy + 2 * n, 0, (size_t)(in->n_equations - 2 * n) * sizeof *dy); /* without friction, too */
+  if (in->n_own == 0) return;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
     const scaled_contact *c = &in->base.m->contact[j];
     const double *t = in->base.m->base->tangent + (size_t)j * (size_t)n;
@@ -99,21 +100,6 @@ static int events_rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
   return -1;
 }
 
-static void fill_linear(const scaled_model *m, size_t ld, double *a)
-{
-  const modal_base *b = m->base;
-  const size_t n = (size_t)m->n;
-  memset(a, 0, ld * ld * sizeof *a);
-  for (size_t col = 0; col < n; ++col) {
-    double *by_x = a + col * ld + n, *by_p = a + (n + col) * ld;
-    by_p[col] = 1;
-    if (b->diagonal_K) by_x[col] = -m->by_K * b->K[col];
-    if (b->diagonal_C) by_p[n + col] = -m->by_C * b->C[col];
-    for (size_t row = 0; row < n && !b->diagonal_K; ++row) by_x[row] = -m->by_K * b->K[col * n + row];
-    for (size_t row = 0; row < n && !b->diagonal_C; ++row) by_p[n + row] = -m->by_C * b->C[col * n + row];
-  }
-}
-
 /* What forces that are not linear in the motion add. */
 static void fill_curved(const events *in, const double *y, size_t ld, double *a)
 {
@@ -147,7 +133,7 @@ static int events_jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix
   const scaled_model *m = in->base.m;
   const size_t n = (size_t)in->n, ld = (size_t)in->n_equations;
   double *a = SM_DATA_D(jac);
-  fill_linear(m, ld, a);
+  scaled_linear_jacobian(m, ld, a);
   for (int j = 0; j < in->n_contacts; ++j) {
     const contact_forces_linear *f = &in->law[j];
     const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;

@@ -57,8 +57,8 @@ void scaled_make(scaled_model *m, const model *from, const transient_settings *h
 void scaled_contact_motion(const scaled_model *m, int j, const double *x, double u[2], double *v)
 {
   const size_t n = (size_t)m->n, at = (size_t)j * n;
-  const int count = scaled_directions(m, j) - m->contact[j].direction;
-  for (int a = 0; a < count; ++a) u[a] = dot_product(m->n, m->base->tangent + at + (size_t)a * n, x);
+  u[0] = dot_product(m->n, m->base->tangent + at, x);
+  if (m->contact[j].direction + 1 < scaled_directions(m, j)) u[1] = dot_product(m->n, m->base->tangent + at + n, x);
   *v = dot_product(m->n, m->base->normal + at, x);
 }
 
@@ -134,10 +134,11 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
   return isfinite(sum);
 }
 
-static void fill_linear(const scaled_model *m, double *jac)
+void scaled_linear_jacobian(const scaled_model *m, size_t ld, double *jac)
 {
   const modal_base *b = m->base;
-  const size_t n = (size_t)m->n, ld = (size_t)m->n_states;
+  const size_t n = (size_t)m->n;
+  memset(jac, 0, ld * ld * sizeof *jac);
   for (size_t col = 0; col < n; ++col) {
     double *by_x = jac + col * ld, *by_p = jac + (n + col) * ld;
     by_p[col] = 1;
@@ -166,8 +167,7 @@ static void add_direction(double *jac, size_t n, size_t ld, size_t w, const doub
 void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
 {
   const size_t n = (size_t)m->n, ld = (size_t)m->n_states;
-  memset(jac, 0, ld * ld * sizeof *jac);
-  fill_linear(m, jac);
+  scaled_linear_jacobian(m, ld, jac);
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     const size_t w = 2 * n + (size_t)j;
     const int directions = scaled_directions(m, j);
