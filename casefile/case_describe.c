@@ -43,15 +43,6 @@ static void describe_section(const field_section *s, FILE *to)
     if (!strcmp(field_at(i)->section, s->name)) describe_briefly(field_at(i), to);
 }
 
-static void describe_all(FILE *to)
-{
-  const field_section *s;
-  for (int i = 0; (s = field_section_at(i)) != NULL; ++i) {
-    if (i > 0) putc('\n', to);
-    describe_section(s, to);
-  }
-}
-
 /* Everything about one field. */
 static void describe_field(const field *f, FILE *to)
 {
@@ -89,12 +80,12 @@ static hc_status unknown_field(const char *asked, case_error *err)
 hc_status case_describe(const char *asked, FILE *to, case_error *err)
 {
   err->message[0] = '\0';
-  if (!asked) describe_all(to);
-  int n = !asked;
+  int n = 0;
   const field_section *s;
-  for (int i = 1; asked && (s = field_section_at(i)) != NULL; ++i) {
+  for (int i = asked ? 1 : 0; (s = field_section_at(i)) != NULL; ++i) {
     const int stem = stem_length(s->name);
-    if (strcmp(s->name, asked) && (strncmp(s->name, asked, (size_t)stem) || asked[stem])) continue;
+    const bool meant = !asked || !strcmp(s->name, asked) || (!strncmp(s->name, asked, (size_t)stem) && !asked[stem]);
+    if (!meant) continue;
     if (n++) putc('\n', to);
     describe_section(s, to);
   }

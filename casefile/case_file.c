@@ -70,32 +70,29 @@ hc_status case_parse(const char *name, const char *text, size_t length, int n_se
   return case_reader_take(&r, read_scene(&r, text, length, n_set), out);
 }
 
-/* At most one byte more than allowed: then it is too large. */
-static hc_status read_stream(case_reader *r, FILE *from, char **text, size_t *length)
-{
-  struct stat info;
-  if (fstat(fileno(from), &info) == 0 && S_ISDIR(info.st_mode)) return file_failed(r, "a directory");
-  if (!(*text = malloc(CASE_LARGEST + 1))) return case_out_of_memory(r);
-  *length = fread(*text, 1, CASE_LARGEST + 1, from);
-  return ferror(from) ? file_failed(r, "cannot be read") : HC_OK;
-}
-
-static hc_status cannot_open(case_reader *r, int error)
-{
-  if (error == ENOMEM) return case_out_of_memory(r);
-  message *m = case_blame(r, (case_place){0});
-  message_add(m, "cannot be opened: ");
-  message_add_errno(m, error);
-  return HC_IO;
-}
-
 hc_status case_reader_slurp(case_reader *r, char **text, size_t *length)
 {
-  bool standard_input = !strcmp(r->name, "<stdin>");
+  const bool standard_input = !strcmp(r->name, "<stdin>");
+  struct stat info;
+  hc_status st = HC_OK;
   *text = NULL;
   FILE *from = standard_input ? stdin : fopen(r->name, "rb");
-  if (!from) return cannot_open(r, errno);
-  hc_status st = read_stream(r, from, text, length);
+  if (!from && errno == ENOMEM) return case_out_of_memory(r);
+  if (!from) {
+    const int error = errno;
+    message *m = case_blame(r, (case_place){0});
+    message_add(m, "cannot be opened: ");
+    message_add_errno(m, error);
+    return HC_IO;
+  }
+  if (fstat(fileno(from), &info) == 0 && S_ISDIR(info.st_mode)) {
+    st = file_failed(r, "a directory");
+  } else if (!(*text = malloc(CASE_LARGEST + 1))) { /* a byte more than allowed: then it is too large */
+    st = case_out_of_memory(r);
+  } else {
+    *length = fread(*text, 1, CASE_LARGEST + 1, from);
+    if (ferror(from)) st = file_failed(r, "cannot be read");
+  }
   if (!standard_input) fclose(from);
   return st;
 }

@@ -123,15 +123,6 @@ static structure_matrix copied_matrix(const structure_matrix *from, size_t n, bo
   return to;
 }
 
-static bool copy_names(scene_structure *to, const scene_structure *from)
-{
-  bool failed = false;
-  if (!from->names) return true;
-  if (!(to->names = calloc((size_t)from->n + 1, sizeof *to->names))) return false;
-  for (int i = 0; i < from->n; ++i) to->names[i] = copied(from->names[i], strlen(from->names[i]) + 1, &failed);
-  return !failed;
-}
-
 static bool copy_lists(scene_structure *to, const scene_structure *from)
 {
   const size_t bytes = (size_t)from->n * sizeof(double);
@@ -176,7 +167,9 @@ scene_structure *structure_copy(const scene_structure *s)
   to->damping = copied_matrix(&s->damping, n, &failed);
   to->ratios = copied(s->ratios, n * sizeof *to->ratios, &failed);
   to->nodes = copied(s->nodes, (size_t)s->n_nodes * sizeof *to->nodes, &failed);
-  if (!failed && copy_names(to, s) && copy_lists(to, s)) return to;
+  if (s->names) failed |= !(to->names = calloc(n + 1, sizeof *to->names));
+  for (int i = 0; to->names && i < s->n; ++i) to->names[i] = copied(s->names[i], strlen(s->names[i]) + 1, &failed);
+  if (!failed && copy_lists(to, s)) return to;
   structure_free(to);
   return NULL;
 }
@@ -286,16 +279,6 @@ static void set_pair(const scene_structure *s, const structure_contact *c, model
   }
 }
 
-static void set_contacts(const scene_structure *s, model *m)
-{
-  model_contact *to = m->contacts;
-  for (int j = 0; j < s->n_contacts; ++j) {
-    const structure_contact *c = &s->contacts[j];
-    if (structure_contact_is_pair(s, c)) set_pair(s, c, to), to += 2;
-    else set_contact(s, c, c->tangent, to++);
-  }
-}
-
 /* The loads of the model: one for every harmonic there is, in ascending order; returns how many. */
 static int harmonics(const scene_structure *s, int *harmonic)
 {
@@ -306,16 +289,6 @@ static int harmonics(const scene_structure *s, int *harmonic)
   return n;
 }
 
-static void add_load(model_load *to, int n, const structure_load *load)
-{
-  double cosine, sine;
-  structure_cosine_sine(load->phase_deg, &cosine, &sine);
-  for (int i = 0; i < n; ++i) {
-    to->cosine[i] += load->amplitude * cosine * load->direction[i];
-    if (load->harmonic > 0) to->sine[i] -= load->amplitude * sine * load->direction[i];
-  }
-}
-
 /* The response where the case names none. */
 static int forced_dof(const scene_structure *s)
 {
@@ -324,14 +297,6 @@ static int forced_dof(const scene_structure *s)
   for (int i = 1; i < s->n && first < s->n_loads; ++i)
     if (fabs(s->loads[first].direction[i]) > fabs(s->loads[first].direction[most])) most = i;
   return most;
-}
-
-static void set_responses(const scene_structure *s, model *m)
-{
-  const size_t n = (size_t)s->n;
-  for (int i = 0; i < s->n_responses; ++i)
-    memcpy(m->responses + n * (size_t)i, s->responses[i].direction, n * sizeof(double));
-  if (s->n_responses == 0) m->responses[forced_dof(s)] = 1;
 }
 
 int structure_response_count(const scene_structure *s) { return s->n_responses > 0 ? s->n_responses : 1; }
@@ -347,21 +312,34 @@ const char *structure_response_name(const scene_structure *s, int r, char *text,
 hc_status structure_model(const scene_structure *s, model **out)
 {
   int harmonic[HBM_MAX_HARMONICS + 1];
-  const int n_loads = harmonics(s, harmonic);
-  const size_t square = (size_t)s->n * (size_t)s->n * sizeof(double);
-  const int n_contacts = structure_model_contact(s, s->n_contacts);
+  const int n_loads = harmonics(s, harmonic), n_contacts = structure_model_contact(s, s->n_contacts);
+  const size_t n = (size_t)s->n, vector = n * sizeof(double);
   hc_status st = model_new(s->n, n_loads, n_contacts, structure_response_count(s), out);
   if (st != HC_OK) return st;
   model *m = *out;
-  memcpy(m->mass, s->mass.v, square);
-  memcpy(m->damping, s->damping.v, square);
-  memcpy(m->stiffness, s->stiffness.v, square);
+  memcpy(m->mass, s->mass.v, n * vector);
+  memcpy(m->damping, s->damping.v, n * vector);
+  memcpy(m->stiffness, s->stiffness.v, n * vector);
   for (int l = 0; l < n_loads; ++l) {
-    m->loads[l].harmonic = harmonic[l];
-    for (int i = 0; i < s->n_loads; ++i)
-      if (s->loads[i].harmonic == harmonic[l]) add_load(&m->loads[l], s->n, &s->loads[i]);
+    model_load *to = &m->loads[l];
+    to->harmonic = harmonic[l];
+    for (int k = 0; k < s->n_loads; ++k) {
+      const structure_load *load = &s->loads[k];
+      double cosine, sine;
+      structure_cosine_sine(load->phase_deg, &cosine, &sine);
+      for (int i = 0; i < s->n && load->harmonic == to->harmonic; ++i) {
+        to->cosine[i] += load->amplitude * cosine * load->direction[i];
+        if (load->harmonic > 0) to->sine[i] -= load->amplitude * sine * load->direction[i];
+      }
+    }
   }
-  set_contacts(s, m);
-  set_responses(s, m);
+  model_contact *to = m->contacts;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const structure_contact *c = &s->contacts[j];
+    if (structure_contact_is_pair(s, c)) set_pair(s, c, to), to += 2;
+    else set_contact(s, c, c->tangent, to++);
+  }
+  for (int i = 0; i < s->n_responses; ++i) memcpy(m->responses + n * (size_t)i, s->responses[i].direction, vector);
+  if (s->n_responses == 0) m->responses[forced_dof(s)] = 1;
   return HC_OK;
 }

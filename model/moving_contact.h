@@ -2,6 +2,8 @@
 #ifndef HC_MOVING_CONTACT_H
 #define HC_MOVING_CONTACT_H
 
+#include <stdlib.h>
+
 #include "base/status.h"
 #include "model/model.h"
 #include "numerics/series.h"
@@ -13,7 +15,16 @@ typedef struct moving_contact {
 } moving_contact;
 
 /* The contacts of an oscillator, in memory to free: *out is never NULL on HC_OK. HC_NO_MEMORY: it is. */
-hc_status moving_contacts_of_model(const model *m, moving_contact **out);
+static inline hc_status moving_contacts_of_model(const model *m, moving_contact **out)
+{
+  *out = calloc((size_t)m->n_contacts + 1, sizeof **out);
+  if (!*out) return HC_NO_MEMORY;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    (*out)[j] = (moving_contact){.law = c->law, .cu = {*c->tangent}, .cv = {*c->normal}};
+  }
+  return HC_OK;
+}
 
 /* Stiffness [force/length] that the first coordinate sees of it while it sticks: kt cu^2 + kn cv^2. */
 static inline double moving_contact_stuck_stiffness(const moving_contact *c)
@@ -22,6 +33,11 @@ static inline double moving_contact_stuck_stiffness(const moving_contact *c)
 }
 
 /* Does it have a slider that the motion pulls at? */
-bool moving_contact_has_slider(const moving_contact *c, int n_dof);
+static inline bool moving_contact_has_slider(const moving_contact *c, int n_dof)
+{
+  bool moves = false;
+  for (int d = 0; d < n_dof; ++d) moves |= c->cu[d] != 0;
+  return moves && contact_has_friction(&c->law);
+}
 
 #endif

@@ -97,32 +97,28 @@ hc_status study_take_fingerprint(study *s)
   return HC_OK;
 }
 
-static void free_axis(study_axis *a)
-{
-  for (int k = 0; k < a->n_fields; ++k) {
-    for (int i = 0; i < a->n && a->fields[k].values; ++i) free(a->fields[k].values[i].text);
-    free(a->fields[k].values);
-  }
-  free(a->fields);
-}
-
-static void free_claim(study_claim *c)
-{
-  free(c->source.text);
-  free(c->says.text);
-  free(c->reported.text);
-  for (int a = 0; a < STUDY_ANSWERS; ++a) {
-    free(c->answers[a].found.text);
-    free(c->answers[a].holds.text);
-    free(c->answers[a].seconds.text);
-  }
-}
-
 void study_free(study *s)
 {
   if (!s) return;
-  for (int a = 0; a < s->n_axes; ++a) free_axis(&s->axes[a]);
-  for (int i = 0; i < s->n_claims; ++i) free_claim(&s->claims[i]);
+  for (int a = 0; a < s->n_axes; ++a) {
+    for (int k = 0; k < s->axes[a].n_fields; ++k) {
+      study_field *f = &s->axes[a].fields[k];
+      for (int i = 0; i < s->axes[a].n && f->values; ++i) free(f->values[i].text);
+      free(f->values);
+    }
+    free(s->axes[a].fields);
+  }
+  for (int i = 0; i < s->n_claims; ++i) {
+    study_claim *c = &s->claims[i];
+    free(c->source.text);
+    free(c->says.text);
+    free(c->reported.text);
+    for (int a = 0; a < STUDY_ANSWERS; ++a) {
+      free(c->answers[a].found.text);
+      free(c->answers[a].holds.text);
+      free(c->answers[a].seconds.text);
+    }
+  }
   for (int i = 0; i < s->n_views; ++i) {
     free(s->views[i].name.text);
     free(s->views[i].query.text);

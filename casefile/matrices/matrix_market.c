@@ -37,12 +37,6 @@ static hc_status read_banner(matrix_text *t)
   return sym < 0 ? HC_BAD_INPUT : HC_OK;
 }
 
-static long most_entries(const matrix_text *t)
-{
-  const long n = t->n, below = n * (n - 1) / 2;
-  return t->symmetry == MATRIX_GENERAL ? n * n : t->symmetry == MATRIX_SYMMETRIC ? below + n : below;
-}
-
 static hc_status read_size(matrix_text *t, int *entries)
 {
   int columns;
@@ -59,7 +53,8 @@ static hc_status read_size(matrix_text *t, int *entries)
   if (columns != t->n)
     return matrix_text_refuse(t, t->words[0].text, "a matrix of %d x %d, expected as many columns as rows", t->n,
                               columns);
-  *entries = (int)most_entries(t);
+  const int below = t->n * (t->n - 1) / 2;
+  *entries = t->symmetry == MATRIX_GENERAL ? t->n * t->n : t->symmetry == MATRIX_SYMMETRIC ? below + t->n : below;
   return t->coordinate && !matrix_text_integer(t, 2, 0, *entries, "the number of entries", entries) ? HC_BAD_INPUT
                                                                                                     : HC_OK;
 }
