@@ -90,14 +90,13 @@ static double reach(const solved_scene *s, const double *d, const double *x)
 /* Where the motion starts, its sliders at 0. */
 static void start_of(const solved_scene *s, const double *x, double *state)
 {
-  for (int c = 0; c < s->n_coef; ++c)
-    for (int i = 0; i < s->n; ++i) {
-      if (c == 0 || c % 2) state[i] += x[c * s->n + i];
-      else {
-        const int harmonic = c / 2;
-        state[s->n + i] += harmonic * s->omega * x[c * s->n + i];
-      }
+  for (int i = 0; i < s->n; ++i) {
+    state[i] = x[i];
+    for (int h = 1; 2 * h < s->n_coef; ++h) {
+      state[i] += x[(2 * h - 1) * s->n + i];
+      state[s->n + i] += h * s->omega * x[2 * h * s->n + i];
     }
+  }
 }
 
 /* HBM by Newton from 1.4 times the solution, and the orbit next to it, against the closed form. The mean of a stuck

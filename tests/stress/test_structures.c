@@ -281,17 +281,22 @@ static void circles_are_held_against_their_law(CHECK_STATE)
 static void orbits_on_an_edge_of_slip_are_kept(CHECK_STATE)
 {
   static const struct {
+    stress_family family;
     unsigned long seed;
     int index;
-  } on_edges[] = {{1, 1650}, {1, 1672}, {1, 1928}, {63001, 6}};
+  } on_edges[] = {{STRESS_SPACE, 1, 1650},
+                  {STRESS_SPACE, 1, 1672},
+                  {STRESS_SPACE, 1, 1928},
+                  {STRESS_SPACE, 63001, 6},
+                  {STRESS_STRUCTURES, 62004, 68}};
   static const stress_kind orbits_again[] = {STRESS_MULTIPLIER, STRESS_ORBIT_REWRITTEN, STRESS_ORBIT_CVODE};
   for (size_t i = 0; i < sizeof on_edges / sizeof *on_edges; ++i) {
     stress_scenes *scenes;
     scene sc;
     stress_result r;
     assert_int_equal(stress_scenes_new(on_edges[i].seed, &scenes), HC_OK);
-    assert_int_equal(stress_scene_of(scenes, STRESS_SPACE, on_edges[i].index, &sc), HC_OK);
-    assert_int_equal(stress_scene(&sc, 20, NULL, &r), HC_OK);
+    assert_int_equal(stress_scene_of(scenes, on_edges[i].family, on_edges[i].index, &sc), HC_OK);
+    assert_int_equal(stress_scene(&sc, 5, NULL, &r), HC_OK);
     for (size_t k = 0; k < sizeof orbits_again / sizeof *orbits_again; ++k) {
       const stress_check *c = &r.check[orbits_again[k]];
       if (c->outcome != STRESS_AGREED)
