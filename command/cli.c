@@ -281,28 +281,6 @@ typedef struct named_file {
   file_identity is;
 } named_file;
 
-static bool add_file(named_file *list, int *n, cli_file f)
-{
-  if (f.path && !strcmp(f.path, "-") && f.use != CLI_RESULTS) f.path = NULL;
-  list[*n].as = f;
-  return file_identify(f.path, f.use == CLI_INPUT ? STDIN_FILENO : STDOUT_FILENO, &list[(*n)++].is);
-}
-
-/* Everything into list[common->n_arguments + 1 + n + CLI_MOST_OPTIONS], *found of it. False: out of memory. */
-static bool add_all_files(cli_common *common, int n, const cli_file *files, named_file *list, int *found)
-{
-  bool whole = add_file(list, found, (cli_file){"--output", common->output, CLI_OUTPUT});
-  for (int i = 0; i < common->n_arguments && common->argument_is && whole; ++i)
-    whole = add_file(list, found, (cli_file){common->argument_is, common->arguments[i], CLI_INPUT});
-  for (int i = 0; i < n && whole; ++i)
-    if (files[i].path) whole = add_file(list, found, files[i]);
-  for (const cli_option *o = common->command->options; o && o->name && whole; ++o) {
-    const char *path = o->file ? *(const char *const *)value_of(common, o) : NULL;
-    if (path) whole = add_file(list, found, (cli_file){o->file, path, o->use});
-  }
-  return whole;
-}
-
 /* Is it a name that the system gives to a stream of ours? Two outputs are mixed there because the user asked for it. */
 static bool is_stream(const cli_file *f)
 {
@@ -341,8 +319,22 @@ int cli_check_files(cli_common *common, int n, const cli_file *files)
 {
   int found = 0, code = 0;
   named_file *list = calloc((size_t)common->n_arguments + 1 + (size_t)n + CLI_MOST_OPTIONS, sizeof *list);
-  if (!list || !add_all_files(common, n, files, list, &found))
-    code = cli_failed(common, EXIT_NO_SOLUTION, "%s", hc_status_text(HC_NO_MEMORY));
+  bool whole = list != NULL;
+  if (whole) list[found++].as = (cli_file){"--output", common->output, CLI_OUTPUT};
+  for (int i = 0; i < common->n_arguments && common->argument_is && whole; ++i)
+    list[found++].as = (cli_file){common->argument_is, common->arguments[i], CLI_INPUT};
+  for (int i = 0; i < n && whole; ++i)
+    if (files[i].path) list[found++].as = files[i];
+  for (const cli_option *o = common->command->options; o && o->name && whole; ++o) {
+    const char *path = o->file ? *(const char *const *)value_of(common, o) : NULL;
+    if (path) list[found++].as = (cli_file){o->file, path, o->use};
+  }
+  for (int i = 0; i < found && whole; ++i) {
+    cli_file *f = &list[i].as;
+    if (f->path && !strcmp(f->path, "-") && f->use != CLI_RESULTS) f->path = NULL;
+    whole = file_identify(f->path, f->use == CLI_INPUT ? STDIN_FILENO : STDOUT_FILENO, &list[i].is);
+  }
+  if (!whole) code = cli_failed(common, EXIT_NO_SOLUTION, "%s", hc_status_text(HC_NO_MEMORY));
   for (int i = 0; i < found && !code; ++i)
     for (int k = 0; k < i && !code; ++k) {
       if (!clash(&list[i], &list[k])) continue;
@@ -357,29 +349,14 @@ int cli_check_files(cli_common *common, int n, const cli_file *files)
 
 /* ---- messages and exit codes ---- */
 
-__attribute__((format(printf, 2, 0))) static void print_message(const cli_common *common, const char *format,
-                                                                va_list args)
-{
-  fprintf(stderr, "hbmcheck %s: ", common->command->name);
-  vfprintf(stderr, format, args);
-  fputc('\n', stderr);
-}
-
 void cli_message(const cli_common *common, const char *format, ...)
 {
   va_list args;
   va_start(args, format);
-  print_message(common, format, args);
+  fprintf(stderr, "hbmcheck %s: ", common->command->name);
+  vfprintf(stderr, format, args);
+  fputc('\n', stderr);
   va_end(args);
-}
-
-int cli_failed(const cli_common *common, int code, const char *format, ...)
-{
-  va_list args;
-  va_start(args, format);
-  print_message(common, format, args);
-  va_end(args);
-  return code;
 }
 
 void cli_foretell_memory(const cli_common *common, double bytes)
@@ -525,15 +502,15 @@ const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text
   return text;
 }
 
-int cli_columns(unsigned extra, int n, const table_column *columns, table_column *out)
+table *cli_own_table(const char *title, unsigned extra, int n, const table_column *columns)
 {
+  table_column own[ROWS_MOST];
   int kept = 0;
-  for (int i = 0; i < n; ++i) {
-    const bool absent = (!(extra & ROWS_IN_CYCLES) && !strcmp(columns[i].name, "frequency")) ||
-                        (!(extra & ROWS_RESPONSES) && !strcmp(columns[i].name, "response"));
-    if (!absent) out[kept++] = columns[i];
-  }
-  return kept;
+  for (int i = 0; i < n; ++i)
+    if ((extra & ROWS_IN_CYCLES || strcmp(columns[i].name, "frequency") != 0) &&
+        (extra & ROWS_RESPONSES || strcmp(columns[i].name, "response") != 0))
+      own[kept++] = columns[i];
+  return table_new(title, kept, own);
 }
 
 unsigned cli_extra_columns(const scene *sc)

@@ -147,8 +147,8 @@ void cli_take_frequencies(const cli_common *common, const number_list *at, scene
 
 /* "hbmcheck COMMAND: ..." on stderr. */
 void cli_message(const cli_common *common, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* The same, which returns the exit code that it gets. */
-int cli_failed(const cli_common *common, int code, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* The same, with the exit code as its value. */
+#define cli_failed(common, code, ...) (cli_message(common, __VA_ARGS__), (code))
 
 /* Whose settings the advice in a message is about. */
 typedef enum cli_solver { CLI_HBM, CLI_TRANSIENT, CLI_BOTH } cli_solver;
@@ -161,9 +161,10 @@ int cli_solver_failed(const cli_common *common, cli_solver solver, const char *w
  * exit code. */
 int cli_file_failed(const cli_common *common, const char *path, hc_status st);
 
-/* columns[n] into out[n], how many: all of them, but `frequency` where `extra` has no ROWS_IN_CYCLES, and `response`
- * where it has no ROWS_RESPONSES. */
-int cli_columns(unsigned extra, int n, const table_column *columns, table_column *out);
+/* An empty table of a command's own columns[n], without `frequency` where `extra` has no ROWS_IN_CYCLES, and without
+ * `response` where it has no ROWS_RESPONSES. */
+table *cli_own_table(const char *title, unsigned extra, int n, const table_column *columns);
+#define CLI_COLUMNS(list) (int)(sizeof(list) / sizeof *(list)), list
 
 /* The columns of rows.h that only some cases have, for this one. */
 unsigned cli_extra_columns(const scene *sc);

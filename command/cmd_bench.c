@@ -55,10 +55,6 @@ static const table_column cheapest_columns[] = {
     {"settings", TABLE_TEXT},      {"error_finer", TABLE_REAL},  {"seconds", TABLE_REAL},  {"next_method", TABLE_TEXT},
     {"next_settings", TABLE_TEXT}, {"times_faster", TABLE_REAL},
 };
-enum {
-  N_COLUMNS = sizeof columns / sizeof *columns,
-  N_CHEAPEST_COLUMNS = sizeof cheapest_columns / sizeof *cheapest_columns
-};
 /* In cycles from the beginning on, else without omega. */
 static const char *const spare_columns[] = {"omega",   "low",   "high",  "curve_seconds", "error_harmonic_1",
                                             "repeats", "error", "front", "outcome",       NULL},
@@ -166,10 +162,9 @@ static void note_versions(table *t)
 
 static int write_tables(const cli_common *common, const scene *sc, const bench *b)
 {
-  table_column own[N_COLUMNS], cheapest[N_CHEAPEST_COLUMNS];
-  const int n = cli_columns(cli_extra_columns(sc), N_COLUMNS, columns, own),
-            n_cheapest = cli_columns(cli_extra_columns(sc), N_CHEAPEST_COLUMNS, cheapest_columns, cheapest);
-  table *tables[2] = {table_new("Work and precision", n, own), table_new("Cheapest way", n_cheapest, cheapest)};
+  const unsigned extra = cli_extra_columns(sc);
+  table *tables[2] = {cli_own_table("Work and precision", extra, CLI_COLUMNS(columns)),
+                      cli_own_table("Cheapest way", extra, CLI_COLUMNS(cheapest_columns))};
   for (int i = 0; i < 2 && b->n_frequencies == 1; ++i) table_hide(tables[i], "omega"); /* the remarks have it */
   table_spare(tables[0], spare_columns + !sc->in_cycles);
   table_spare(tables[1], spare_cheapest_columns + !sc->in_cycles);

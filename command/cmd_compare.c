@@ -146,70 +146,6 @@ static void say_unexpected(const cli_common *common, const comparison *c, table 
   }
 }
 
-static void note_comparison(const cli_common *common, table *t, const compare_setup *setup, const comparison *c)
-{
-  const scene *sc = common->scene;
-  table_note(t, "%s", sc->title);
-  char how[128];
-  char law[64] = "exact law";
-  if (sc->transient.law != TRANSIENT_LAW_EXACT)
-    snprintf(law, sizeof law, "regularised law, %g", sc->transient.regularisation);
-  table_note(t, "HBM: %s. Transient: %s, closure %g", cli_hbm_settings(sc, c->harmonics, c->samples, how, sizeof how),
-             law, sc->transient.tolerance);
-  table_note(t, "gate: amplitude %g, harmonic_1 %g, mean %g, waveform %g of the transient's amplitude",
-             sc->gate.most.amplitude, sc->gate.most.harmonic_1, sc->gate.most.mean, sc->gate.most.waveform);
-  if (c->curve.end != HC_OK && c->curve.n)
-    table_note(t, "the HBM curve STOPPED at %s: %s",
-               scene_where(sc, c->curve.points[c->curve.n - 1].omega, (char[SCENE_WHERE]){0}),
-               hc_status_text(c->curve.end));
-  int unaccounted = 0;
-  for (int i = 0; i < c->n_rows; ++i) unaccounted += comparison_unaccounted(&c->rows[i]);
-  if (unaccounted)
-    table_note(t, "%d transient%s NO HBM solution of this curve within the gate", unaccounted,
-               unaccounted == 1 ? " matches" : "s match");
-  for (int v = 0; v < VERDICT_COUNT; ++v)
-    if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
-  /* The row with the largest budget of the amplitude and what to do about it, and how many rows have no budget or
-   * one that does not explain the discrepancy. */
-  const comparison_row *top = NULL;
-  char text[BUDGET_TEXT], at[WHERE];
-  int unknown = 0;
-  for (int i = 0; i < c->n_rows; ++i) {
-    const comparison_row *r = &c->rows[i];
-    unknown += !r->budget.known && r->response == 0;
-    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
-  }
-  if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
-  if (top) table_note(t, "largest budget, %s: %s", row_where(sc, top, at), text);
-  if (unknown)
-    table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown,
-               unknown == 1 ? "" : "s");
-  say_unexpected(common, c, t);
-  /* Rows of which something is not compared, or holds for one motion of many. */
-  int mean_free = 0, family = 0, still = 0;
-  for (int i = 0; i < c->n_rows; ++i) {
-    mean_free += comparison_mean_free(&c->rows[i]);
-    family += c->rows[i].family;
-    still += c->rows[i].still;
-  }
-  if (mean_free == 0) table_hide(t, "mean_free");
-  else
-    table_note(t,
-               "%d row%s without a mean to compare (mean_free): a slider that never slips rests where the history "
-               "left it, and the mean, max, min and rms with it",
-               mean_free, mean_free == 1 ? "" : "s");
-  if (family)
-    table_note(t,
-               "%d row%s of a family of steady states: where a slider that never slips rests decides on the harmonics, "
-               "too. HBM is held against the member that begins with its own sliders",
-               family, family == 1 ? "" : "s");
-  if (still)
-    table_note(t, "%d row%s not compared: that response moves less than 1e-9 of the largest", still,
-               still == 1 ? "" : "s");
-  if (scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
-  if (!comparison_nonlinear(c)) table_note(t, COMPARISON_LINEAR, c->n_rows);
-}
-
 static void print_failures(const cli_common *common, const comparison *c)
 {
   for (int i = 0; i < c->n_rows; ++i) {
@@ -298,7 +234,66 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
     if (of) structure_response_name(of, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
     cli_put_row(common, t, ROWS_COMPARE, &c->rows[i]);
   }
-  note_comparison(common, t, setup, c);
+  const scene *sc = common->scene;
+  table_note(t, "%s", sc->title);
+  char how[128];
+  char law[64] = "exact law";
+  if (sc->transient.law != TRANSIENT_LAW_EXACT)
+    snprintf(law, sizeof law, "regularised law, %g", sc->transient.regularisation);
+  table_note(t, "HBM: %s. Transient: %s, closure %g", cli_hbm_settings(sc, c->harmonics, c->samples, how, sizeof how),
+             law, sc->transient.tolerance);
+  table_note(t, "gate: amplitude %g, harmonic_1 %g, mean %g, waveform %g of the transient's amplitude",
+             sc->gate.most.amplitude, sc->gate.most.harmonic_1, sc->gate.most.mean, sc->gate.most.waveform);
+  if (c->curve.end != HC_OK && c->curve.n)
+    table_note(t, "the HBM curve STOPPED at %s: %s",
+               scene_where(sc, c->curve.points[c->curve.n - 1].omega, (char[SCENE_WHERE]){0}),
+               hc_status_text(c->curve.end));
+  int unaccounted = 0;
+  for (int i = 0; i < c->n_rows; ++i) unaccounted += comparison_unaccounted(&c->rows[i]);
+  if (unaccounted)
+    table_note(t, "%d transient%s NO HBM solution of this curve within the gate", unaccounted,
+               unaccounted == 1 ? " matches" : "s match");
+  for (int v = 0; v < VERDICT_COUNT; ++v)
+    if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
+  /* The row with the largest budget of the amplitude and what to do about it, and how many rows have no budget or
+   * one that does not explain the discrepancy. */
+  const comparison_row *top = NULL;
+  char text[BUDGET_TEXT], at[WHERE];
+  int unknown = 0;
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    unknown += !r->budget.known && r->response == 0;
+    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
+  }
+  if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
+  if (top) table_note(t, "largest budget, %s: %s", row_where(sc, top, at), text);
+  if (unknown)
+    table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown,
+               unknown == 1 ? "" : "s");
+  say_unexpected(common, c, t);
+  /* Rows of which something is not compared, or holds for one motion of many. */
+  int mean_free = 0, family = 0, still = 0;
+  for (int i = 0; i < c->n_rows; ++i) {
+    mean_free += comparison_mean_free(&c->rows[i]);
+    family += c->rows[i].family;
+    still += c->rows[i].still;
+  }
+  if (mean_free == 0) table_hide(t, "mean_free");
+  else
+    table_note(t,
+               "%d row%s without a mean to compare (mean_free): a slider that never slips rests where the history "
+               "left it, and the mean, max, min and rms with it",
+               mean_free, mean_free == 1 ? "" : "s");
+  if (family)
+    table_note(t,
+               "%d row%s of a family of steady states: where a slider that never slips rests decides on the harmonics, "
+               "too. HBM is held against the member that begins with its own sliders",
+               family, family == 1 ? "" : "s");
+  if (still)
+    table_note(t, "%d row%s not compared: that response moves less than 1e-9 of the largest", still,
+               still == 1 ? "" : "s");
+  if (scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
+  if (!comparison_nonlinear(c)) table_note(t, COMPARISON_LINEAR, c->n_rows);
   tables[0] = t;
   if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
   if (contacts) tables[n++] = contacts_table(common, c);

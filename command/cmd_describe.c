@@ -201,7 +201,6 @@ static const table_column field_columns[] = {
     {"expected", TABLE_TEXT}, {"choices", TABLE_TEXT},  {"low", TABLE_REAL},     {"high", TABLE_REAL},
     {"default", TABLE_TEXT},  {"required", TABLE_TEXT}, {"meaning", TABLE_TEXT},
 };
-#define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
 static const char *kind_name(field_kind kind)
 {
@@ -224,7 +223,7 @@ static const char *choices_of(const field *f, char text[128])
 
 static int write_fields(const cli_common *common)
 {
-  table *t = table_new("Fields", COUNT(field_columns), field_columns);
+  table *t = table_new("Fields", CLI_COLUMNS(field_columns));
   for (int i = 0; i < field_count(); ++i)
     if (case_field_asked(field_at(i), common->arguments[0])) {
       const field *f = field_at(i);
@@ -368,8 +367,8 @@ static hc_status put_derived(table *t, const scene *sc)
 
 static int write_values(const cli_common *common, const described *d)
 {
-  table *tables[2] = {table_new("Values", COUNT(value_columns), value_columns),
-                      table_new("Derived", COUNT(derived_columns), derived_columns)};
+  table *tables[2] = {table_new("Values", CLI_COLUMNS(value_columns)),
+                      table_new("Derived", CLI_COLUMNS(derived_columns))};
   hc_status st = put_values(tables[0], d);
   table_spare(tables[0], spare_value_columns);
   table_note(tables[0], "%s", d->sc->title);

@@ -52,7 +52,6 @@ static const cli_option options[] = {
 /* clang-format on */
 static const table_column columns[] = {COLUMNS(TABLE_REAL)}, columns_for_people[] = {COLUMNS(TABLE_TEXT)};
 static const char *const spare_columns[] = {"against", "verdict", "allowed", "branch", "case", NULL};
-enum { N_COLUMNS = sizeof columns / sizeof *columns };
 
 /* One call of the command. */
 typedef struct gate_call {
@@ -65,8 +64,7 @@ typedef struct gate_call {
   int n_judged;
   unsigned extra;   /* columns that one of them has */
   bool short_names; /* their names differ without their folders, too: so they stand on the screen */
-  table_column columns[N_COLUMNS];
-  output *junit; /* opened before anything runs: a name that cannot be written to is found at once */
+  output *junit;    /* opened before anything runs: a name that cannot be written to is found at once */
 } gate_call;
 
 /* Every case, however many are wrong. 0 or the exit code after the messages. */
@@ -129,31 +127,24 @@ static const char *without_folder(const char *path)
   return slash ? slash + 1 : path;
 }
 
-static bool names_differ(const gate_call *call)
-{
-  for (int i = 0; i < call->n_judged; ++i)
-    for (int k = 0; k < i; ++k)
-      if (!strcmp(without_folder(call->cases[i].name), without_folder(call->cases[k].name))) return false;
-  return true;
-}
-
-static bool wants_attention(const gate_check *c) { return c->result == GATE_FAIL || c->result == GATE_ERROR; }
-
 static table *checks_table(gate_call *call)
 {
   const bool people = call->common->format == FORMAT_TABLE;
-  const int n = cli_columns(call->extra, N_COLUMNS, people ? columns_for_people : columns, call->columns);
-  table *t = table_new("Gate", n, call->columns);
+  table *t = people ? cli_own_table("Gate", call->extra, CLI_COLUMNS(columns_for_people))
+                    : cli_own_table("Gate", call->extra, CLI_COLUMNS(columns));
   table_wrap(t, cli_width(call->common)); /* the reasons are sentences */
   table_spare(t, spare_columns);
   if (call->n_judged == 1 && !call->common->wide) table_hide(t, "case"); /* the remark below has it */
-  call->short_names = !call->common->wide && names_differ(call);
+  call->short_names = !call->common->wide;
+  for (int i = 0; i < call->n_judged; ++i)
+    for (int k = 0; k < i; ++k)
+      call->short_names &= strcmp(without_folder(call->cases[i].name), without_folder(call->cases[k].name)) != 0;
   for (int i = 0; i < call->n_judged; ++i) {
     const gate_case *g = &call->cases[i];
-    /* `of`: the check's case. */
-    for (int k = 0; k < g->n; ++k)
-      if (!people || call->own->all || wants_attention(&g->checks[k]) || gate_is_worst(g, k)) {
-        const gate_check *c = &g->checks[k];
+    for (int k = 0; k < g->n; ++k) {
+      const gate_check *c = &g->checks[k];
+      const bool wants_attention = c->result == GATE_FAIL || c->result == GATE_ERROR;
+      if (!people || call->own->all || wants_attention || gate_is_worst(g, k)) {
         const scene *sc = &call->scenes[i];
         table_put_text(t, people && call->short_names ? without_folder(call->cases[i].name) : call->cases[i].name);
         table_put_real(t, c->omega);
@@ -168,6 +159,7 @@ static table *checks_table(gate_call *call)
         table_put_text(t, gate_result_name(c->result));
         table_put_text(t, *c->reason ? c->reason : NULL);
       }
+    }
     table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made, %d not applicable", g->name, g->n,
                g->n - g->failures - g->errors - g->not_applicable, g->failures, g->errors, g->not_applicable);
     if (g->linear) table_note(t, "%s: " COMPARISON_LINEAR, g->name, g->n_rows);

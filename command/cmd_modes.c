@@ -25,10 +25,6 @@ static const table_column contact_columns[] = {
     {"contact", TABLE_INTEGER}, {"name", TABLE_TEXT},           {"at_rest", TABLE_TEXT},
     {"preload", TABLE_REAL},    {"friction_limit", TABLE_REAL},
 };
-enum {
-  N_MODE_COLUMNS = sizeof mode_columns / sizeof *mode_columns,
-  N_CONTACT_COLUMNS = sizeof contact_columns / sizeof *contact_columns
-};
 
 /* A mode that is driven away has no frequency; one with 0 to rounding is free. */
 static void put_mode(table *t, const model_mode *mode)
@@ -42,8 +38,8 @@ static int run_modes(cli_common *common, void *own, scene *sc)
 {
   (void)own;
   model *m = NULL;
-  table *tables[] = {table_new("Modes", N_MODE_COLUMNS, mode_columns),
-                     table_new("Contacts at rest", N_CONTACT_COLUMNS, contact_columns)};
+  table *tables[] = {table_new("Modes", CLI_COLUMNS(mode_columns)),
+                     table_new("Contacts at rest", CLI_COLUMNS(contact_columns))};
   hc_status st = scene_model(sc, &m);
   if (st == HC_OK) {
     table *t = tables[0];

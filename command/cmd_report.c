@@ -8,7 +8,6 @@
 #include "command/commands.h"
 #include "command/report/report.h"
 #include "output/output.h"
-#include "output/progress.h"
 
 static const char help[] =
     "Write one self-contained HTML page about CASE: verdict and error budget in words, interactive plots, the tables, "
@@ -51,16 +50,12 @@ static void write_word(FILE *to, const char *word)
 {
   static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
   putc(' ', to);
-  if (*word && strspn(word, plain) == strlen(word)) {
-    fputs(word, to);
-    return;
-  }
-  putc('\'', to);
-  for (; *word; ++word) {
+  const bool quoted = !*word || strspn(word, plain) != strlen(word);
+  if (quoted) putc('\'', to);
+  for (; *word; ++word)
     if (*word == '\'') fputs("'\\''", to);
     else putc(*word, to);
-  }
-  putc('\'', to);
+  if (quoted) putc('\'', to);
 }
 
 static void write_list(FILE *to, const char *option, const number_list *list)
@@ -77,73 +72,41 @@ static void write_sets(FILE *to, const cli_common *common)
   }
 }
 
-/* ---- what a report_origin has ---- */
-
-typedef void origin_writer(FILE *to, const cli_common *common, const report_options *own);
-
-/* The command line that makes this page again. */
-static void write_command(FILE *to, const cli_common *common, const report_options *own)
+static hc_status write_page(const cli_common *common, const report_options *own, const report_data *d, const char *path)
 {
+  char settings[256], hbm[96], law[64] = "exact contact law", *text = NULL;
+  size_t size = 0;
+  FILE *to = open_memstream(&text, &size);
+  if (!to) return HC_NO_MEMORY;
+  /* The command line that makes this page again, that of the lab, and the versions, each with its end. */
   fputs("hbmcheck report", to);
   write_word(to, common->arguments[0]);
   write_list(to, "at", &own->at);
   write_list(to, "harmonics", &own->lists.harmonics);
   write_list(to, "samples", &own->lists.samples);
   write_sets(to, common);
-}
-
-static void write_lab(FILE *to, const cli_common *common, const report_options *own)
-{
-  (void)own;
+  fputc(0, to);
   fputs("hbmcheck lab --case", to);
   write_word(to, common->arguments[0]);
   write_sets(to, common);
-}
-
-static void write_versions(FILE *to, const cli_common *common, const report_options *own)
-{
-  (void)common;
-  (void)own;
+  fputc(0, to);
   cli_print_version(to, NULL);
-}
-
-/* To be freed; NULL: out of memory. */
-static char *origin_text(origin_writer *write, const cli_common *common, const report_options *own)
-{
-  char *text = NULL;
-  size_t size = 0;
-  FILE *to = open_memstream(&text, &size);
-  if (!to) return NULL;
-  write(to, common, own);
-  bool whole = !ferror(to);
-  if (fclose(to) == 0 && whole) return text;
-  free(text);
-  return NULL;
-}
-
-static hc_status write_page(const cli_common *common, const report_options *own, const report_data *d, const char *path)
-{
-  char settings[256], *command = origin_text(write_command, common, own), *lab = origin_text(write_lab, common, own),
-                      *versions = origin_text(write_versions, common, own);
-  output *out = NULL;
-  char hbm[96], law[64] = "exact contact law";
+  const bool failed = ferror(to);
+  hc_status st = fclose(to) == 0 && !failed ? HC_OK : HC_NO_MEMORY;
   const transient_settings *t = &d->sc->transient;
   if (t->law != TRANSIENT_LAW_EXACT) snprintf(law, sizeof law, "regularised contact law, %g", t->regularisation);
   cli_hbm_settings(d->sc, d->comparison.harmonics, d->comparison.samples, hbm, sizeof hbm);
-  snprintf(settings, (sizeof settings), "Harmonic balance: %s. Time integration: %s, to %g of the steady state.", hbm,
+  snprintf(settings, sizeof settings, "Harmonic balance: %s. Time integration: %s, to %g of the steady state.", hbm,
            law, t->tolerance);
-  hc_status st = command && lab && versions ? output_open(path, &out) : HC_NO_MEMORY;
+  output *out = NULL;
+  if (st == HC_OK) st = output_open(path, &out);
   if (st == HC_OK) {
-    st = report_write(d, &(report_origin){command, lab, versions, settings}, output_stream(out));
-    st = output_finish(out, st);
+    const char *lab = text + strlen(text) + 1, *versions = lab + strlen(lab) + 1;
+    st = output_finish(out, report_write(d, &(report_origin){text, lab, versions, settings}, output_stream(out)));
   }
-  free(command);
-  free(lab);
-  free(versions);
+  free(text);
   return st;
 }
-
-static void announce(void *bar, const char *stage) { progress_relabel(bar, stage); }
 
 /* Can there be a page at all? 0, or the exit code after the message. */
 static int check_possible(const cli_common *common)
@@ -171,8 +134,7 @@ static int run_report(cli_common *common, void *given, scene *sc)
   if (code) return code;
   cli_take_frequencies(common, &own->at, sc);
   progress *bar = progress_start("comparing", common->quiet);
-  hc_monitor monitor = progress_monitor(bar);
-  hc_status st = report_gather(sc, cli_processors(), &monitor, announce, bar, &d);
+  hc_status st = report_gather(sc, cli_processors(), bar, &d);
   progress_end(bar);
   if (st == HC_INTERRUPTED) {
     cli_message(common, "stopped on request; no page was written");

@@ -140,7 +140,7 @@ static table *checks_table(stress_call *call)
 {
   static const stress_outcome shown[] = {STRESS_AGREED,  STRESS_EXPLAINED, STRESS_DEAR,
                                          STRESS_REFUSED, STRESS_FINDING,   STRESS_SKIPPED};
-  table *t = table_new("Checks", COUNT(check_columns), check_columns);
+  table *t = table_new("Checks", CLI_COLUMNS(check_columns));
   table_spare(t, spare_columns);
   for (int k = 0; k < STRESS_N_CHECKS; ++k) {
     long count[STRESS_N_OUTCOMES] = {0};
@@ -195,7 +195,7 @@ static const char *meaning_of(const stress_check *c)
 /* How often each outcome but agreement had each reason and status, with the first scene of it. */
 static table *reasons_table(const stress_call *call)
 {
-  table *t = table_new("Reasons", COUNT(reason_columns), reason_columns);
+  table *t = table_new("Reasons", CLI_COLUMNS(reason_columns));
   table_wrap(t, cli_width(call->common));
   for (int k = 0; k < STRESS_N_CHECKS; ++k)
     for (int o = 0; o < STRESS_N_OUTCOMES; ++o)
@@ -224,7 +224,7 @@ static table *reasons_table(const stress_call *call)
 /* The findings, or with --all everything. */
 static table *scenes_table(const stress_call *call)
 {
-  table *t = table_new(call->own->all ? "Scenes" : "Findings", COUNT(scene_columns), scene_columns);
+  table *t = table_new(call->own->all ? "Scenes" : "Findings", CLI_COLUMNS(scene_columns));
   table_wrap(t, cli_width(call->common));
   for (long i = 0; i < call->own->plan.scenes; ++i)
     for (int k = 0; k < STRESS_N_CHECKS && call->results[i].there; ++k)

@@ -301,7 +301,7 @@ static int write_results(study_call *call, int n_run)
       "Claims that the continuation decides, in fixed steps of arc length with the settings of their source",
       "Seconds, as the source reports them, and here with its settings and with ours"};
   int n;
-  call->tables[SUMMARY] = table_new("Studies", sizeof summary_columns / sizeof *summary_columns, summary_columns);
+  call->tables[SUMMARY] = table_new("Studies", CLI_COLUMNS(summary_columns));
   table_spare(call->tables[SUMMARY], spare_columns);
   const table_column *columns = study_verdict_columns(&n);
   call->tables[VERDICTS] = table_new("Verdicts", n, columns);

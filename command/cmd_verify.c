@@ -186,11 +186,6 @@ static const table_column summary_columns[] = {
 static const char *const spare_hypothesis_columns[] = {"slider_restart", "omega_factor",   "value_factor",
                                                        "static",         "truth_distance", "quantity",
                                                        "samples",        "harmonics",      NULL};
-enum {
-  N_SUMMARY_COLUMNS = sizeof summary_columns / sizeof *summary_columns,
-  N_COLUMNS = sizeof columns / sizeof *columns,
-  N_HYPOTHESIS_COLUMNS = sizeof hypothesis_columns / sizeof *hypothesis_columns
-};
 
 /* A curve of the file, and what came of it. */
 typedef struct verified {
@@ -259,42 +254,14 @@ static void note_verification(table *t, const scene *sc, const verify_data *data
   if (r->nearest_guess) table_note(t, "nearest guess: %s", verify_cause_words(r->nearest_guess, text));
 }
 
-static void put_summary(table *t, const scene *sc, const verified *v)
-{
-  char text[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
-  const verify_report *r = &v->report;
-  put_response(t, sc, v);
-  table_put_text(t, verify_word(r, text));
-  table_put_text(t, r->nearest_guess ? verify_cause_words(r->nearest_guess, text) : NULL);
-  table_put_text(t, verify_quantity_name(&v->data.quantity, name));
-  table_put_integer(t, r->n_rows);
-  table_put_integer(t, r->count[VERDICT_MATCH]);
-  table_put_integer(t, r->count[VERDICT_DIFFERS]);
-  table_put_integer(t, r->count[VERDICT_UNSTABLE]);
-  table_put_integer(t, r->count[VERDICT_OTHER_BRANCH]);
-  table_put_integer(t, r->count[VERDICT_SOLVER_FAILED]);
-  table_put_integer(t, r->skipped);
-  table_put_integer(t, r->left_out);
-  table_put_integer(t, r->reversals);
-  table_put_real(t, r->truth_distance);
-  table_put_real(t, r->noise);
-  table_put_text(t, verify_sentence(r, text));
-}
-
-static table *table_for(const scene *sc, const char *title, int n, const table_column *all, table_column *own)
-{
-  const int kept = cli_columns(cli_extra_columns(sc), n, all, own);
-  return table_new(title, kept, own);
-}
-
 /* Points and what came out; the table on a screen has no summary, since the remarks say it, csv the points alone. */
 static int write_tables(const verify_call *call)
 {
   const scene *sc = call->sc;
-  table_column own[3][N_SUMMARY_COLUMNS];
-  table *points = table_for(sc, "Points", N_COLUMNS, columns, own[0]),
-        *hypotheses = table_for(sc, "Hypotheses", N_HYPOTHESIS_COLUMNS, hypothesis_columns, own[1]),
-        *summary = table_for(sc, "Summary", N_SUMMARY_COLUMNS, summary_columns, own[2]), *tables[3] = {points};
+  const unsigned extra = cli_extra_columns(sc);
+  table *points = cli_own_table("Points", extra, CLI_COLUMNS(columns)),
+        *hypotheses = cli_own_table("Hypotheses", extra, CLI_COLUMNS(hypothesis_columns)),
+        *summary = cli_own_table("Summary", extra, CLI_COLUMNS(summary_columns)), *tables[3] = {points};
   int n = 1, n_hypotheses = 0;
   table_note(points, "%s", sc->title);
   for (int k = 0; k < call->n; ++k) {
@@ -332,7 +299,23 @@ static int write_tables(const verify_call *call)
       table_put_text(hypotheses, verify_quantity_name(&h->quantity, name));
     }
     n_hypotheses += r->n_hypotheses;
-    put_summary(summary, sc, v);
+    char text[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
+    put_response(summary, sc, v);
+    table_put_text(summary, verify_word(r, text));
+    table_put_text(summary, r->nearest_guess ? verify_cause_words(r->nearest_guess, text) : NULL);
+    table_put_text(summary, verify_quantity_name(&v->data.quantity, name));
+    table_put_integer(summary, r->n_rows);
+    table_put_integer(summary, r->count[VERDICT_MATCH]);
+    table_put_integer(summary, r->count[VERDICT_DIFFERS]);
+    table_put_integer(summary, r->count[VERDICT_UNSTABLE]);
+    table_put_integer(summary, r->count[VERDICT_OTHER_BRANCH]);
+    table_put_integer(summary, r->count[VERDICT_SOLVER_FAILED]);
+    table_put_integer(summary, r->skipped);
+    table_put_integer(summary, r->left_out);
+    table_put_integer(summary, r->reversals);
+    table_put_real(summary, r->truth_distance);
+    table_put_real(summary, r->noise);
+    table_put_text(summary, verify_sentence(r, text));
     if (sc->structure) table_note(points, "response %s", v->curve.name);
     note_verification(points, sc, &v->data, r);
   }

@@ -14,42 +14,6 @@ struct hbmcheck_comparison {
   int n_contacts;     /* of the case; those of a solution stand together in found.contacts */
 };
 
-static hbmcheck_row row_of(const comparison_row *r)
-{
-  const bool hbm = r->branch >= 0 && r->hbm_status == HC_OK;
-  const budget_parts *parts = &r->budget.amplitude;
-  return (hbmcheck_row){.omega = r->omega,
-                        .verdict = (hbmcheck_verdict)r->verdict,
-                        .hbm_status = public_status(r->hbm_status),
-                        .transient_status = public_status(r->transient_status),
-                        .orbit_status = public_status(r->orbit_status),
-                        .branch = r->branch,
-                        .stable = hbm ? hbm_stability_verdict(&r->stability) : 0,
-                        .period_multiple = r->transient_status == HC_OK ? r->transient.period_multiple : 0,
-                        .accounted = r->accounted,
-                        .multiplier = hbm ? r->stability.multiplier : NAN,
-                        .hbm_amplitude = hbm ? r->hbm.amplitude : NAN,
-                        .transient_amplitude = motion_is_measured(r->transient_status) ? r->transient.amplitude : NAN,
-                        .orbit_amplitude = r->orbit_status == HC_OK ? r->orbit.amplitude : NAN,
-                        .amplitude_error = r->errors.amplitude,
-                        .harmonic_1_error = r->errors.harmonic_1,
-                        .mean_error = r->errors.mean,
-                        .waveform_error = r->errors.waveform,
-                        .orbit_error = r->orbit_errors.waveform,
-                        .from_aliasing = parts->aliasing,
-                        .from_truncation = parts->truncation,
-                        .from_regularisation = parts->regularisation,
-                        .from_integration = parts->integration,
-                        .from_settling = parts->settling,
-                        .hbm_predicted = r->hbm_predicted.amplitude,
-                        .transient_predicted = r->transient_predicted.amplitude,
-                        .unexpected = r->unexpected,
-                        .mean_free = comparison_mean_free(r),
-                        .response = r->response,
-                        .still = r->still,
-                        .family = r->family};
-}
-
 hbmcheck_status hbmcheck_comparison_run(const hbmcheck_case *c, int n, const double *omega,
                                         const hbmcheck_monitor *monitor, hbmcheck_comparison **out)
 {
@@ -86,7 +50,39 @@ int hbmcheck_comparison_count(const hbmcheck_comparison *c) { return c ? c->foun
 hbmcheck_status hbmcheck_comparison_get(const hbmcheck_comparison *c, int k, hbmcheck_row *out)
 {
   if (!c || !out || k < 0 || k >= c->found.n_rows) return HBMCHECK_BAD_INPUT;
-  *out = row_of(&c->found.rows[k]);
+  const comparison_row *r = &c->found.rows[k];
+  const bool hbm = r->branch >= 0 && r->hbm_status == HC_OK;
+  const budget_parts *parts = &r->budget.amplitude;
+  *out = (hbmcheck_row){.omega = r->omega,
+                        .verdict = (hbmcheck_verdict)r->verdict,
+                        .hbm_status = public_status(r->hbm_status),
+                        .transient_status = public_status(r->transient_status),
+                        .orbit_status = public_status(r->orbit_status),
+                        .branch = r->branch,
+                        .stable = hbm ? hbm_stability_verdict(&r->stability) : 0,
+                        .period_multiple = r->transient_status == HC_OK ? r->transient.period_multiple : 0,
+                        .accounted = r->accounted,
+                        .multiplier = hbm ? r->stability.multiplier : NAN,
+                        .hbm_amplitude = hbm ? r->hbm.amplitude : NAN,
+                        .transient_amplitude = motion_is_measured(r->transient_status) ? r->transient.amplitude : NAN,
+                        .orbit_amplitude = r->orbit_status == HC_OK ? r->orbit.amplitude : NAN,
+                        .amplitude_error = r->errors.amplitude,
+                        .harmonic_1_error = r->errors.harmonic_1,
+                        .mean_error = r->errors.mean,
+                        .waveform_error = r->errors.waveform,
+                        .orbit_error = r->orbit_errors.waveform,
+                        .from_aliasing = parts->aliasing,
+                        .from_truncation = parts->truncation,
+                        .from_regularisation = parts->regularisation,
+                        .from_integration = parts->integration,
+                        .from_settling = parts->settling,
+                        .hbm_predicted = r->hbm_predicted.amplitude,
+                        .transient_predicted = r->transient_predicted.amplitude,
+                        .unexpected = r->unexpected,
+                        .mean_free = comparison_mean_free(r),
+                        .response = r->response,
+                        .still = r->still,
+                        .family = r->family};
   return HBMCHECK_OK;
 }
 

@@ -108,65 +108,46 @@ static double clock_seconds(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* "12 s", "3 min", "5 h" */
-static void write_duration(char *text, size_t size, double seconds)
-{
-  if (seconds < 99.5) snprintf(text, size, "%.0f s", seconds);
-  else if (seconds < 99.5 * 60) snprintf(text, size, "%.0f min", seconds / 60);
-  else if (seconds < 1e6 * 3600) snprintf(text, size, "%.0f h", seconds / 3600);
-  else snprintf(text, size, "ages");
-}
-
-/* "  37 %  12 s left", "  12 s" when unknown, or nothing to say yet */
-static void write_tail(char *tail, size_t size, double done, double elapsed)
-{
-  char time[32];
-  double part = done < 1 ? done : 1;
-  bool known = done >= 0; /* NaN is unknown too */
-  int n = known ? snprintf(tail, size, "  %.0f %%", 100 * part) : snprintf(tail, size, "%s", "");
-  if (elapsed < MIN_ELAPSED || part == 0) return;
-  write_duration(time, sizeof time, known ? elapsed * (1 - part) / part : elapsed);
-  snprintf(tail + n, size - (size_t)n, known ? "  %s left" : "  %s", time);
-}
-
 void progress_line(char *line, size_t size, const char *label, double done, double elapsed, int columns)
 {
-  char tail[64];
-  write_tail(tail, sizeof tail, done, elapsed);
+  /* "  37 %  12 s left", "  12 s" when unknown, or nothing to say yet */
+  char tail[64] = "";
+  const double part = done < 1 ? done : 1;
+  const bool known = done >= 0; /* NaN is unknown too */
+  if (known) snprintf(tail, sizeof tail, "  %.0f %%", 100 * part);
+  if (elapsed >= MIN_ELAPSED && part != 0) {
+    const double seconds = known ? elapsed * (1 - part) / part : elapsed;
+    const size_t n = strlen(tail), rest = sizeof tail - n;
+    if (seconds < 99.5) snprintf(tail + n, rest, "  %.0f s", seconds);
+    else if (seconds < 99.5 * 60) snprintf(tail + n, rest, "  %.0f min", seconds / 60);
+    else if (seconds < 1e6 * 3600) snprintf(tail + n, rest, "  %.0f h", seconds / 3600);
+    else snprintf(tail + n, rest, "  ages");
+    if (known) snprintf(tail + strlen(tail), sizeof tail - strlen(tail), " left");
+  }
   int width, room = columns - (int)strlen(tail);
   size_t bytes = utf8_fit(label, room > 0 ? room : 0, &width);
   while (bytes > 0 && bytes + strlen(tail) >= size) bytes = utf8_fit(label, --width, &width);
   snprintf(line, size, "%.*s%s", (int)bytes, label, tail);
 }
 
-static int terminal_columns(void)
-{
-  struct winsize w;
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col > 0 ? w.ws_col : 80;
-}
-
 static void draw_line(progress *p, double done)
 {
   char line[LINE_ROOM];
+  struct winsize w;
+  const int columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col > 0 ? w.ws_col : 80;
   p->drawn = clock_seconds();
-  /* a full line would wrap */
-  progress_line(line, sizeof line, p->label, done, p->drawn - p->start, terminal_columns() - 1);
+  progress_line(line, sizeof line, p->label, done, p->drawn - p->start, columns - 1); /* a full line would wrap */
   line_drawn = true;
   fprintf(stderr, "\r%s\033[K", line);
   fflush(stderr);
 }
 
-static bool may_draw(bool quiet)
-{
-  const char *term = getenv("TERM");
-  return !quiet && term && *term && strcmp(term, "dumb") != 0 && isatty(STDERR_FILENO);
-}
-
 progress *progress_start(const char *label, bool quiet)
 {
   progress *p = calloc(1, sizeof *p);
+  const char *term = getenv("TERM");
   if (!p) return NULL;
-  if (may_draw(quiet)) p->label = utf8_clean(label, true);
+  if (!quiet && term && *term && strcmp(term, "dumb") != 0 && isatty(STDERR_FILENO)) p->label = utf8_clean(label, true);
   p->start = clock_seconds();
   if (p->label) draw_line(p, -1);
   return p;

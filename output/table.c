@@ -1,4 +1,4 @@
-/* table.c - the table itself, and csv. The other formats: table_aligned.c, table_wrapped.c, table_json.c. Proof:
+/* table.c - the table itself, and csv. The other formats: table_aligned.c, table_json.c. Proof:
  * tests/output/test_table.c. */
 #include "output/table.h"
 
@@ -57,10 +57,10 @@ table *table_new(const char *title, int n_columns, const table_column *columns)
     give_up(t, HC_BUG);
     return t;
   }
-  t->n_columns = n_columns;
-  t->columns = columns;
+  t->columns = malloc((size_t)n_columns * sizeof *columns);
   t->hidden = calloc((size_t)n_columns, sizeof *t->hidden);
-  if (!t->hidden) give_up(t, HC_NO_MEMORY);
+  if (t->columns) memcpy(t->columns, columns, (size_t)n_columns * sizeof *columns), t->n_columns = n_columns;
+  if (!t->columns || !t->hidden) give_up(t, HC_NO_MEMORY);
   return t;
 }
 
@@ -74,6 +74,7 @@ void table_free(table *t)
   free(t->notes);
   free(t->title);
   free(t->hidden);
+  free(t->columns);
   free(t);
 }
 

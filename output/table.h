@@ -19,7 +19,7 @@ typedef enum { FORMAT_TABLE, FORMAT_CSV, FORMAT_JSON } table_format;
 
 typedef struct table table;
 
-/* The columns must outlive the table; their names differ from each other. The title is copied and may be NULL.
+/* The columns are copied, not their names, which differ from each other. The title is copied and may be NULL.
  * Appending after a failed allocation, or to NULL, does nothing; table_write reports HC_NO_MEMORY then. So it is with
  * HC_BUG after a mistake of the caller's: no columns, two of one name, a value that is not of its column's kind. */
 table *table_new(const char *title, int n_columns, const table_column *columns);

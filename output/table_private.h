@@ -14,10 +14,10 @@ typedef struct table_cell {
 } table_cell;
 
 struct table {
-  char *title;                 /* one line, "" for none */
-  int n_columns;               /* 0: the columns given were wrong, and status is not HC_OK */
-  const table_column *columns; /* [n_columns] the caller's */
-  size_t n_cells;              /* a row after another; n_cells is a multiple of n_columns between rows */
+  char *title;           /* one line, "" for none */
+  int n_columns;         /* 0: the columns given were wrong, and status is not HC_OK */
+  table_column *columns; /* [n_columns] */
+  size_t n_cells;        /* a row after another; n_cells is a multiple of n_columns between rows */
   table_cell *cells;
   size_t n_notes;
   char **notes;             /* one line each */

@@ -18,7 +18,6 @@ typedef struct chart {
   double *value;            /* [n_scenes] NaN: none */
   int x;                    /* axis along the drawing; -1: nothing varies */
   const study_field *scale; /* its field that is a scale, or NULL: its values stand side by side */
-  bool log_x, log_y;
   int heat;          /* the other axis of a heat map, or -1 */
   long lines, drawn; /* combinations of the other axes; as many of them as are drawn */
 } chart;

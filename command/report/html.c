@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "casefile/case_file.h"
+
 enum { DECADES = 12, JSON_DIGITS = 12 };
 
 void html_text(FILE *to, const char *text)
@@ -36,6 +38,18 @@ void html_printf(FILE *to, const char *format, ...)
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
   html_text(to, text);
+}
+
+hc_status html_case(FILE *to, const scene *sc, void (*write)(FILE *to, const char *text))
+{
+  char *text = NULL;
+  size_t size = 0;
+  FILE *memory = open_memstream(&text, &size);
+  hc_status st = memory ? case_echo(sc, memory) : HC_NO_MEMORY;
+  if (memory && (fclose(memory) != 0 || !text)) st = HC_NO_MEMORY;
+  if (st == HC_OK) write(to, text);
+  free(text);
+  return st;
 }
 
 void html_table(FILE *to, const char *caption, int n, const char *const *heads)

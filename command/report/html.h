@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "casefile/scene.h"
 #include "output/rows.h"
 
 /* Text between tags or in a quoted attribute: <, >, &, quotes escaped; control characters but line breaks become
@@ -15,6 +16,9 @@ void html_text(FILE *to, const char *text);
 void html_percent(FILE *to, const char *text);
 /* html_text, formatted; at most 511 bytes */
 void html_printf(FILE *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* write(to, the resolved case), as html_text or html_percent. HC_NO_MEMORY. */
+hc_status html_case(FILE *to, const scene *sc, void (*write)(FILE *to, const char *text));
 
 /* A table: html_table with the names of its columns, of which NULL is none, html_row before each row, one cell after
  * another, html_row_end, html_table_end. */

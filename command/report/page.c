@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "casefile/case_file.h"
 #include "command/report/html.h"
 #include "command/report/parts.h"
 #include "compare/motion.h"
@@ -16,14 +15,9 @@ typedef struct page {
   hc_status status;
 } page;
 
-static void write_asset(FILE *to, const asset *a) { fwrite(a->bytes, 1, a->length, to); }
-
 /* ---- plain pieces ---------------------------------------------------------------------------- */
 
 static void write_title(page *p) { html_text(p->to, p->d->sc->title[0] ? p->d->sc->title : "untitled case"); }
-static void write_style(page *p) { write_asset(p->to, &asset_style); }
-static void write_script(page *p) { write_asset(p->to, &asset_script); }
-static void write_chart(page *p) { write_asset(p->to, &asset_chart); }
 
 /* "3.9.1" from the notice that Chart.js begins with. */
 static void write_chart_version(page *p)
@@ -35,25 +29,10 @@ static void write_chart_version(page *p)
   if (at) fprintf(p->to, "%.*s", (int)strspn(at + strlen(before), "0123456789."), at + strlen(before));
 }
 
-static void write_settings(page *p) { html_text(p->to, p->origin->settings); }
-static void write_command(page *p) { html_text(p->to, p->origin->command); }
-static void write_lab_command(page *p) { html_text(p->to, p->origin->lab); }
-static void write_versions(page *p) { html_text(p->to, p->origin->versions); }
-static void write_verdict(page *p) { words_verdict(p->d, p->to); }
-static void write_advice(page *p) { words_what_to_do(p->d, p->to); }
-static void write_gate(page *p) { words_gate(p->d, p->to); }
-
-/* To write(p->to, the resolved case). */
 static void pass_case(page *p, void (*write)(FILE *to, const char *text))
 {
-  char *text = NULL;
-  size_t size = 0;
-  FILE *memory = open_memstream(&text, &size);
-  hc_status st = memory ? case_echo(p->d->sc, memory) : HC_NO_MEMORY;
-  if (memory && (fclose(memory) != 0 || !text)) st = HC_NO_MEMORY;
-  if (st == HC_OK) write(p->to, text);
-  else if (p->status == HC_OK) p->status = st;
-  free(text);
+  const hc_status st = html_case(p->to, p->d->sc, write);
+  if (st != HC_OK && p->status == HC_OK) p->status = st;
 }
 
 static void write_case(page *p) { pass_case(p, html_text); }
@@ -74,25 +53,6 @@ static void write_lab_address(page *p)
 static unsigned extra_columns(const scene *sc)
 {
   return (sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (sc->structure ? ROWS_RESPONSES : 0u);
-}
-
-static void write_compare(page *p)
-{
-  html_rows(p->to, "Every column, as hbmcheck compare prints it", ROWS_COMPARE, extra_columns(p->d->sc),
-            p->d->comparison.n_rows, p->d->comparison.rows, NULL);
-}
-
-static void write_accuracy(page *p)
-{
-  static const char *const without[] = {"seconds", NULL}; /* the same input is to give the same page */
-  html_rows(p->to, "Samples and truncation order: errors relative to the exact transient's orbits", ROWS_ACCURACY,
-            extra_columns(p->d->sc), p->d->accuracy.n_rows, p->d->accuracy.rows, without);
-}
-
-static void write_orders(page *p)
-{
-  html_rows(p->to, "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER,
-            extra_columns(p->d->sc), p->d->accuracy.n_orders, p->d->accuracy.orders, NULL);
 }
 
 static void write_budget(page *p)
@@ -197,13 +157,6 @@ static void write_modes(page *p)
   else if (st != HC_OK) html_printf(p->to, "The modes were not found: %s.", hc_status_text(st));
 }
 
-static void write_contacts(page *p)
-{
-  if (p->d->sc->structure)
-    html_rows(p->to, "Contacts over one period, on both sides; work: what friction dissipates", ROWS_COMPARE_CONTACT,
-              extra_columns(p->d->sc), p->d->comparison.n_contacts, p->d->comparison.contacts, NULL);
-}
-
 /* ---- data for the plots ---------------------------------------------------------------------- */
 
 static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
@@ -252,42 +205,70 @@ static void write_data(page *p)
 
 /* ---- the page ------------------------------------------------------------------------------- */
 
+/* A piece is written by a function, or it is words, an asset, a text of where the page is from, or a table of rows. */
 static const struct piece {
   const char *name;
   void (*write)(page *p);
+  void (*words)(const report_data *d, FILE *to);
+  const asset *asset;
+  size_t origin; /* 1 + its place in report_origin */
 } pieces[] = {
     {"title", write_title},
-    {"style", write_style},
-    {"script", write_script},
-    {"chart", write_chart},
-    {"settings", write_settings},
-    {"command", write_command},
-    {"versions", write_versions},
-    {"verdict", write_verdict},
-    {"advice", write_advice},
-    {"gate", write_gate},
+    {"style", .asset = &asset_style},
+    {"script", .asset = &asset_script},
+    {"chart", .asset = &asset_chart},
+    {"settings", .origin = 1 + offsetof(report_origin, settings)},
+    {"command", .origin = 1 + offsetof(report_origin, command)},
+    {"versions", .origin = 1 + offsetof(report_origin, versions)},
+    {"verdict", .words = words_verdict},
+    {"advice", .words = words_what_to_do},
+    {"gate", .words = words_gate},
     {"case", write_case},
-    {"compare", write_compare},
-    {"accuracy", write_accuracy},
-    {"orders", write_orders},
     {"budget", write_budget},
     {"specials", write_specials},
     {"data", write_data},
     {"chart_version", write_chart_version},
     {"kind", write_kind},
     {"modes", write_modes},
-    {"contacts", write_contacts},
-    {"lab_command", write_lab_command},
+    {"lab_command", .origin = 1 + offsetof(report_origin, lab)},
     {"lab_address", write_lab_address},
 };
 
 static void write_piece(page *p, const char *name, size_t length)
 {
-  for (size_t i = 0; i < sizeof pieces / sizeof *pieces; ++i)
-    if (strlen(pieces[i].name) == length && !memcmp(pieces[i].name, name, length)) {
-      pieces[i].write(p);
-      return;
-    }
+  static const char *const without[] = {"seconds", NULL}; /* the same input is to give the same page */
+  const report_data *d = p->d;
+  const struct row_table {
+    const char *name, *caption;
+    rows_kind kind;
+    int n;
+    const void *rows;
+  } tables[] = {
+      {"compare", "Every column, as hbmcheck compare prints it", ROWS_COMPARE, d->comparison.n_rows,
+       d->comparison.rows},
+      {"accuracy", "Samples and truncation order: errors relative to the exact transient's orbits", ROWS_ACCURACY,
+       d->accuracy.n_rows, d->accuracy.rows},
+      {"orders", "Observed orders: error ~ quantity^-order (regularisation^order)", ROWS_ORDER, d->accuracy.n_orders,
+       d->accuracy.orders},
+      {"contacts", "Contacts over one period, on both sides; work: what friction dissipates", ROWS_COMPARE_CONTACT,
+       d->comparison.n_contacts, d->comparison.contacts},
+  };
+  for (size_t i = 0; i < sizeof tables / sizeof *tables; ++i) {
+    const struct row_table *t = &tables[i];
+    if (strlen(t->name) != length || memcmp(t->name, name, length) != 0) continue;
+    if (t->kind != ROWS_COMPARE_CONTACT || d->sc->structure)
+      html_rows(p->to, t->caption, t->kind, extra_columns(d->sc), t->n, t->rows, without);
+    return;
+  }
+  for (size_t i = 0; i < sizeof pieces / sizeof *pieces; ++i) {
+    const struct piece *q = &pieces[i];
+    if (strlen(q->name) != length || memcmp(q->name, name, length) != 0) continue;
+    if (q->write) q->write(p);
+    if (q->words) q->words(d, p->to);
+    if (q->asset) fwrite(q->asset->bytes, 1, q->asset->length, p->to);
+    if (q->origin) html_text(p->to, *(const char *const *)((const char *)p->origin + q->origin - 1));
+    return;
+  }
   p->status = HC_BUG; /* page.html names a piece that is not there */
 }
 

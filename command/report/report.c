@@ -170,29 +170,24 @@ static void name_rows(const scene *sc, comparison *c)
     snprintf(c->contacts[i].name, RESPONSE_NAME, "%s", scene_contact_at(sc, c->contacts[i].contact)->name);
 }
 
-static void announce_stage(void (*announce)(void *, const char *), void *self, const char *stage)
+hc_status report_gather(const scene *sc, int jobs, progress *bar, report_data *out)
 {
-  if (announce) announce(self, stage);
-}
-
-hc_status report_gather(const scene *sc, int jobs, const hc_monitor *monitor,
-                        void (*announce)(void *self, const char *stage), void *self, report_data *out)
-{
+  const hc_monitor watch = progress_monitor(bar), *const monitor = &watch;
   *out = (report_data){.sc = sc};
-  announce_stage(announce, self, "comparing");
+  progress_relabel(bar, "comparing");
   hc_status st = scene_setup(sc, &out->setup);
   out->setup.jobs = jobs;
   out->setup.contacts = sc->structure != NULL;
   if (st == HC_OK) st = comparison_run(&out->setup, monitor, &out->comparison);
   if (st != HC_OK) return st;
   name_rows(sc, &out->comparison);
-  announce_stage(announce, self, "response curve");
+  progress_relabel(bar, "response curve");
   json_t *others = NULL;
   st = curve_json(sc, &out->comparison, monitor, &out->response, &others);
   if (st == HC_OK) st = structure_json(sc, &out->comparison, others, monitor, &out->structure);
   json_decref(others);
   if (st != HC_OK) return st;
-  announce_stage(announce, self, "aliasing");
+  progress_relabel(bar, "aliasing");
   double omega[ALIASING_MOST_OMEGAS];
   int first;
   const int n = choose_omegas(&out->comparison, omega, &first);
@@ -200,7 +195,7 @@ hc_status report_gather(const scene *sc, int jobs, const hc_monitor *monitor,
     st = aliasing_answers(sc, n, omega, first, jobs, monitor, &out->aliasing);
   else out->aliasing = json_null();
   if (st != HC_OK) return st;
-  announce_stage(announce, self, "samples and truncation orders");
+  progress_relabel(bar, "samples and truncation orders");
   out->tabled = accuracy_run(&out->setup, &out->comparison, monitor, &out->accuracy);
   return out->tabled == HC_INTERRUPTED || out->tabled == HC_NO_MEMORY ? out->tabled : HC_OK;
 }

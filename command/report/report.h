@@ -17,6 +17,7 @@
 #include "casefile/scene.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
+#include "output/progress.h"
 
 typedef struct report_data {
   const scene *sc;     /* the caller's */
@@ -40,11 +41,10 @@ typedef struct report_origin {
 /* Was Chart.js installed when this was built? Without it no report can be written. */
 bool report_has_charts(void);
 
-/* Everything the page shows, by so many threads; the same whatever their number. announce(self, "tables") before each
- * stage; may be NULL. HC_INTERRUPTED, HC_NO_MEMORY, or what kept the comparison or the curve from being made at all.
+/* Everything the page shows, by so many threads; the same whatever their number. The stages are labels of the progress,
+ * which may be NULL. HC_INTERRUPTED, HC_NO_MEMORY, or what kept the comparison or the curve from being made at all.
  * Free with report_clear in any case. */
-hc_status report_gather(const scene *sc, int jobs, const hc_monitor *monitor,
-                        void (*announce)(void *self, const char *stage), void *self, report_data *out);
+hc_status report_gather(const scene *sc, int jobs, progress *bar, report_data *out);
 void report_clear(report_data *d);
 
 /* The page. HC_IO once the stream has failed, HC_NO_MEMORY. */

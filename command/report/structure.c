@@ -169,22 +169,6 @@ static int choose_omegas(const comparison *c, double omega[MOST_OMEGAS])
   return chosen;
 }
 
-static hc_status solutions(shown *d, const comparison *c, json_t *list)
-{
-  double omega[MOST_OMEGAS];
-  const int n = choose_omegas(c, omega);
-  hc_status st = HC_OK;
-  for (int i = 0; i < n && st == HC_OK; ++i) {
-    hbm_curve at = {0};
-    if (hbm_curve_at(d->s, &d->curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
-    for (int k = 0; k < at.n && json_array_size(list) < MOST_SOLUTIONS && st == HC_OK; ++k)
-      st = append_solution(d, &at.points[k], at.X + (size_t)k * at.n_coef, list);
-    hbm_curve_free(&at);
-    if (!hc_monitor_tick(d->monitor, -1)) st = HC_INTERRUPTED;
-  }
-  return st;
-}
-
 static json_t *dof_names(const scene_structure *s, const model *m)
 {
   json_t *names = json_array();
@@ -231,7 +215,18 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
   shown d = {.m = m, .monitor = monitor};
   json_t *list = json_array();
   st = shown_open(sc, c, &d);
-  if (st == HC_OK) st = solutions(&d, c, list);
+  if (st == HC_OK) {
+    double omega[MOST_OMEGAS];
+    const int n = choose_omegas(c, omega);
+    for (int i = 0; i < n && st == HC_OK; ++i) {
+      hbm_curve at = {0};
+      if (hbm_curve_at(d.s, &d.curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
+      for (int k = 0; k < at.n && json_array_size(list) < MOST_SOLUTIONS && st == HC_OK; ++k)
+        st = append_solution(&d, &at.points[k], at.X + (size_t)k * at.n_coef, list);
+      hbm_curve_free(&at);
+      if (!hc_monitor_tick(d.monitor, -1)) st = HC_INTERRUPTED;
+    }
+  }
   *out = json_pack("{s:o, s:O, s:o, s:o, s:o}", "names", response_names(sc->structure), "responses", others, "dofs",
                    dof_names(sc->structure, m), "contacts", contact_names(sc), "solutions", list);
   for (int i = 0; i < 3; ++i) free(d.series[i]);
