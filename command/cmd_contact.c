@@ -209,15 +209,9 @@ static void note_pieces(table *t, const char *name, int n, const contact_interva
   note_more(t, name, n);
 }
 
-static void note_period(table *t, const char *name, const contact_period *p)
+/* Of a pair under the limit of a circle, and what each half does in a period. */
+static hc_status note_circle(table *t, const contact_motion *m, const char *name, contact_period p[2])
 {
-  table_note(t, "contact %s: N from %.9g to %.9g, |T| at most %.9g, slip path %.9g, work %.9g in a period", name,
-             p->normal_min, p->normal_max, p->traction_max, p->slip_distance, p->work);
-}
-
-static hc_status note_circle(table *t, const contact_motion *m, const char *name)
-{
-  contact_period p[2];
   const contact *law = &m->contacts->law;
   double F[GIVEN_MOST_DOF * GIVEN_MOST_COEF];
   planar_force *f = NULL;
@@ -231,19 +225,13 @@ static hc_status note_circle(table *t, const contact_motion *m, const char *name
     note_more(t, name, c->n);
   }
   planar_force_free(f);
-  if (st == HC_OK)
-    st = planar_measures_of(&m->contacts->law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_U2],
-                            m->given[CONTACT_V], p);
   if (st != HC_OK) return st;
-  p[0] = contact_period_of_pair(&p[0], &p[1]);
-  note_period(t, name, p);
-  return HC_OK;
+  return planar_measures_of(law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_U2], m->given[CONTACT_V], p);
 }
 
-static hc_status note_halves(table *t, const contact_motion *m, const char *name)
+static hc_status note_halves(table *t, const contact_motion *m, const char *name, contact_period p[2])
 {
   static const char *const tangents[] = {"tangential", "tangential_2"};
-  contact_period p[2];
   for (int d = 0, n; d < 2; ++d) {
     const double *const x[] = {m->given[d ? CONTACT_U2 : CONTACT_U], m->given[CONTACT_V]};
     const size_t length = (size_t)series_length(m->of.n_harm);
@@ -262,8 +250,6 @@ static hc_status note_halves(table *t, const contact_motion *m, const char *name
     if (st == HC_OK) st = contact_measures_of(&m->contacts->law, m->of.n_harm, x[0], x[1], &p[d]);
     if (st != HC_OK) return st;
   }
-  p[0] = contact_period_of_pair(&p[0], &p[1]);
-  note_period(t, name, p);
   return HC_OK;
 }
 
@@ -273,21 +259,27 @@ static hc_status contact_force_note(table *t, const cli_common *common, const co
 {
   double F[2 * GIVEN_MOST_COEF];
   char name[CLI_NAME];
-  if (m->of.pair) cli_contact_name(common, m->one, name);
-  if (m->of.pair) return given_motion_is_planar(&m->of) ? note_circle(t, m, name) : note_halves(t, m, name);
-  exact_force *e = NULL;
-  hc_status st = exact_force_new(m->of.n_harm, m->of.n_dof, m->of.n_contacts, m->contacts, &e);
-  if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
-  for (int j = 0, n; j < m->of.n_contacts && st == HC_OK; ++j) {
-    const contact_interval *p = exact_force_intervals(e, j, &n);
-    note_pieces(t, cli_contact_name(common, m->one < 0 ? j : m->one, name), n, p);
+  contact_period p[2];
+  hc_status st;
+  if (m->of.pair) {
+    cli_contact_name(common, m->one, name);
+    st = given_motion_is_planar(&m->of) ? note_circle(t, m, name, p) : note_halves(t, m, name, p);
+    if (st == HC_OK) p[0] = contact_period_of_pair(&p[0], &p[1]);
+  } else {
+    exact_force *e = NULL;
+    st = exact_force_new(m->of.n_harm, m->of.n_dof, m->of.n_contacts, m->contacts, &e);
+    if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
+    for (int j = 0, n; j < m->of.n_contacts && st == HC_OK; ++j) {
+      const contact_interval *piece = exact_force_intervals(e, j, &n);
+      note_pieces(t, cli_contact_name(common, m->one < 0 ? j : m->one, name), n, piece);
+    }
+    if (st == HC_OK && m->one >= 0)
+      st = contact_measures_of(&m->contacts->law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_V], p);
+    exact_force_free(e);
   }
-  if (st == HC_OK && m->one >= 0) {
-    contact_period p;
-    st = contact_measures_of(&m->contacts->law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_V], &p);
-    if (st == HC_OK) note_period(t, name, &p);
-  }
-  exact_force_free(e);
+  if (st == HC_OK && m->one >= 0)
+    table_note(t, "contact %s: N from %.9g to %.9g, |T| at most %.9g, slip path %.9g, work %.9g in a period", name,
+               p->normal_min, p->normal_max, p->traction_max, p->slip_distance, p->work);
   return st;
 }
 

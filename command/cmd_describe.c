@@ -202,42 +202,30 @@ static const table_column field_columns[] = {
     {"default", TABLE_TEXT},  {"required", TABLE_TEXT}, {"meaning", TABLE_TEXT},
 };
 
-static const char *kind_name(field_kind kind)
-{
-  static const char *const names[] = {[FIELD_REAL] = "number",   [FIELD_INTEGER] = "integer",   [FIELD_FLAG] = "flag",
-                                      [FIELD_CHOICE] = "choice", [FIELD_TEXT] = "text",         [FIELD_PAIR] = "pair",
-                                      [FIELD_REALS] = "numbers", [FIELD_INTEGERS] = "integers", [FIELD_PART] = "part"};
-  return names[kind];
-}
-
 static const char *text_or_nothing(const char *text) { return text && *text ? text : NULL; }
-
-/* "exact|sampled"; NULL where nothing is chosen. */
-static const char *choices_of(const field *f, char text[128])
-{
-  message m;
-  message_start(&m, text, 128);
-  for (int i = 0; f->choices && f->choices[i]; ++i) message_add(&m, "%s%s", i ? "|" : "", f->choices[i]);
-  return f->kind == FIELD_CHOICE ? text : NULL;
-}
 
 static int write_fields(const cli_common *common)
 {
+  static const char *const kinds[] = {[FIELD_REAL] = "number",   [FIELD_INTEGER] = "integer",   [FIELD_FLAG] = "flag",
+                                      [FIELD_CHOICE] = "choice", [FIELD_TEXT] = "text",         [FIELD_PAIR] = "pair",
+                                      [FIELD_REALS] = "numbers", [FIELD_INTEGERS] = "integers", [FIELD_PART] = "part"};
   table *t = table_new("Fields", CLI_COLUMNS(field_columns));
   for (int i = 0; i < field_count(); ++i)
     if (case_field_asked(field_at(i), common->arguments[0])) {
       const field *f = field_at(i);
-      char path[FIELD_PATH], expected[128], choices[128];
+      char path[FIELD_PATH], expected[128], choices[128]; /* "exact|sampled" */
       const bool ranged = f->kind != FIELD_FLAG && f->kind != FIELD_CHOICE && f->kind != FIELD_TEXT;
       message m;
       message_start(&m, expected, sizeof expected);
       field_expected(f, &m);
+      message_start(&m, choices, sizeof choices);
+      for (int k = 0; f->choices && f->choices[k]; ++k) message_add(&m, "%s%s", k ? "|" : "", f->choices[k]);
       table_put_text(t, field_path(f, -1, path));
       table_put_text(t, text_or_nothing(f->symbol));
       table_put_text(t, text_or_nothing(f->unit));
-      table_put_text(t, kind_name(f->kind));
+      table_put_text(t, kinds[f->kind]);
       table_put_text(t, expected);
-      table_put_text(t, choices_of(f, choices));
+      table_put_text(t, f->kind == FIELD_CHOICE ? choices : NULL);
       table_put_real(t, ranged && isfinite(f->low) ? f->low : NAN);
       table_put_real(t, ranged && isfinite(f->high) ? f->high : NAN);
       table_put_text(t, f->fallback);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growing.h"
 #include "compare/first_guess.h"
 #include "lab/lab_inside.h"
 
@@ -117,19 +118,15 @@ void lab_begin(lab *l, int columns)
 {
   free(l->values);
   l->values = NULL;
-  l->rows = l->room = 0;
+  l->rows = 0;
   l->columns = columns;
 }
 
 double *lab_row(lab *l)
 {
-  if (l->rows == l->room) {
-    const int room = l->room ? 2 * l->room : 64;
-    double *more = realloc(l->values, (size_t)room * (size_t)l->columns * sizeof *more);
-    if (!more) return NULL;
-    l->values = more;
-    l->room = room;
-  }
+  double *grown = growing(l->values, l->rows, (size_t)l->columns * sizeof *grown);
+  if (!grown) return NULL;
+  l->values = grown;
   double *row = l->values + (size_t)l->rows++ * (size_t)l->columns;
   for (int i = 0; i < l->columns; ++i) row[i] = NAN;
   return row;

@@ -17,8 +17,8 @@ struct lab {
   bool has_case;
   scene sc; /* an oscillator: nothing to free */
   char message[CASE_MESSAGE];
-  int rows, columns, room; /* room: rows that values can take */
-  double *values;          /* [rows][columns] */
+  int rows, columns;
+  double *values; /* [rows][columns] */
   lab_kept kept[LAB_FORCES];
   int n_harm; /* of the motion; 0: there is none */
   double X[LAB_MOST_COEF];

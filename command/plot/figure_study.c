@@ -18,8 +18,8 @@ typedef struct chart {
   double *value;            /* [n_scenes] NaN: none */
   int x;                    /* axis along the drawing; -1: nothing varies */
   const study_field *scale; /* its field that is a scale, or NULL: its values stand side by side */
-  int heat;          /* the other axis of a heat map, or -1 */
-  long lines, drawn; /* combinations of the other axes; as many of them as are drawn */
+  int heat;                 /* the other axis of a heat map, or -1 */
+  long lines, drawn;        /* combinations of the other axes; as many of them as are drawn */
 } chart;
 
 /* ---- the measure ---- */
@@ -150,21 +150,16 @@ static void choose_axes(chart *c)
 
 static bool is_log_axis(const study_field *f, int n)
 {
-  double *v = malloc((size_t)n * sizeof *v);
-  bool log_scale = v != NULL;
-  for (int i = 0; v && i < n; ++i) number_of(f, i, &v[i]);
-  if (v) {
-    double low = INFINITY, high = -INFINITY;
-    bool even = n >= 3;
-    for (int i = 0; i < n; ++i) {
-      low = fmin(low, v[i]);
-      high = fmax(high, v[i]);
-      if (i >= 2) even &= fabs(v[i] / v[i - 1] / (v[1] / v[0]) - 1) < 1e-6;
-    }
-    log_scale = low > 0 && (even ? high > 3 * low : high >= 100 * low);
+  double v = 0, before = 0, ratio = 1, low = INFINITY, high = -INFINITY;
+  bool even = n >= 3;
+  for (int i = 0; i < n; ++i, before = v) {
+    number_of(f, i, &v);
+    low = fmin(low, v);
+    high = fmax(high, v);
+    if (i == 1) ratio = v / before;
+    if (i >= 2) even &= fabs(v / before / ratio - 1) < 1e-6;
   }
-  free(v);
-  return log_scale;
+  return low > 0 && (even ? high > 3 * low : high >= 100 * low);
 }
 
 static bool is_log_measure(const chart *c, double *low, double *high)
@@ -183,26 +178,19 @@ static bool is_log_measure(const chart *c, double *low, double *high)
 
 static const char *measure_unit(const chart *c, char unit[FIGURE_UNIT])
 {
-  static const char *const lengths[] = {"amplitude",
-                                        "peak_amplitude",
-                                        "hbm_amplitude",
-                                        "transient_amplitude",
-                                        "orbit_amplitude",
-                                        "max",
-                                        "min",
-                                        "rms",
-                                        "mean",
-                                        "harmonic_1",
-                                        "peak_harmonic_1",
-                                        "hbm_harmonic_1",
-                                        "transient_harmonic_1"};
-  for (size_t i = 0; i < sizeof lengths / sizeof *lengths; ++i)
-    if (!strcmp(lengths[i], c->measure)) return figure_unit(&c->s->base, "length", unit);
-  if (!strcmp(c->measure, "seconds")) return "s";
-  if (!strcmp(c->measure, "omega") || !strcmp(c->measure, "peak_omega"))
-    return figure_unit(&c->s->base, "rad/time", unit);
-  if (!strcmp(c->measure, "frequency") || !strcmp(c->measure, "peak_frequency"))
-    return figure_unit(&c->s->base, "cycles/time", unit);
+  static const struct {
+    const char *measures, *unit; /* each between blanks */
+  } units[] = {
+      {" amplitude peak_amplitude hbm_amplitude transient_amplitude orbit_amplitude max min rms mean harmonic_1 "
+       "peak_harmonic_1 hbm_harmonic_1 transient_harmonic_1 ",
+       "length"},
+      {" omega peak_omega ", "rad/time"},
+      {" frequency peak_frequency ", "cycles/time"},
+      {" seconds ", "s"}};
+  char name[TEXT];
+  snprintf(name, sizeof name, " %s ", c->measure);
+  for (int i = 0; i < 4; ++i)
+    if (strstr(units[i].measures, name)) return figure_unit(&c->s->base, units[i].unit, unit);
   return "1";
 }
 

@@ -50,11 +50,6 @@ static void write_lab_address(page *p)
 
 /* ---- tables ---------------------------------------------------------------------------------- */
 
-static unsigned extra_columns(const scene *sc)
-{
-  return (sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (sc->structure ? ROWS_RESPONSES : 0u);
-}
-
 static void write_budget(page *p)
 {
 #define HEAD(part) "from_" #part,
@@ -257,7 +252,9 @@ static void write_piece(page *p, const char *name, size_t length)
     const struct row_table *t = &tables[i];
     if (strlen(t->name) != length || memcmp(t->name, name, length) != 0) continue;
     if (t->kind != ROWS_COMPARE_CONTACT || d->sc->structure)
-      html_rows(p->to, t->caption, t->kind, extra_columns(d->sc), t->n, t->rows, without);
+      html_rows(p->to, t->caption, t->kind,
+                (d->sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (d->sc->structure ? ROWS_RESPONSES : 0u), t->n, t->rows,
+                without);
     return;
   }
   for (size_t i = 0; i < sizeof pieces / sizeof *pieces; ++i) {

@@ -81,8 +81,9 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
 }
 
-/* What time integration came to in the rows of the comparison, of one response. */
-static json_t *transient_rows(const comparison *c, int response)
+/* What is shown of one response, with what time integration came to in the rows of the comparison. */
+static json_t *response_object(const scene *sc, const comparison *c, int response, json_t *curve, json_t *turned,
+                               json_t *specials)
 {
   json_t *list = json_array();
   for (int i = 0; i < c->n_rows; ++i) {
@@ -95,15 +96,8 @@ static json_t *transient_rows(const comparison *c, int response)
                                           "mean", number(r->transient.mean), "mean_free", (int)comparison_mean_free(r),
                                           "branch", r->branch, "verdict", text, "error", number(r->errors.amplitude)));
   }
-  return list;
-}
-
-/* What is shown of one response. */
-static json_t *response_object(const scene *sc, const comparison *c, int r, json_t *curve, json_t *turned,
-                               json_t *specials)
-{
   return json_pack("{s:o, s:o, s:b, s:o, s:o}", "curve", curve, "turned", turned, "mean_kept", (int)sc->hbm.keep_mean,
-                   "specials", specials, "transient", transient_rows(c, r));
+                   "specials", specials, "transient", list);
 }
 
 /* The first response's curve, and into *others a list of the same for the others of a structure, up to
@@ -131,24 +125,18 @@ static hc_status curve_json(const scene *sc, const comparison *c, const hc_monit
 
 bool report_has_charts(void) { return asset_chart.length > 0; }
 
-/* The comparison's frequencies at which a contact changes its state in some HBM solution, ascending; how many. */
-static int nonlinear_omegas(const comparison *c, double all[NUMBER_LIST_MAX])
+/* Of the comparison's frequencies at which a contact changes its state in some HBM solution the one nearest to the peak,
+ * and others spread over the rest, ascending; how many. *first: the index of the nearest. */
+static int choose_omegas(const comparison *c, double *omega, int *first)
 {
-  int n = 0;
+  double all[NUMBER_LIST_MAX];
+  int n = 0, peak = 0, chosen = 0;
   for (int i = 0; i < c->n_rows && n < NUMBER_LIST_MAX; ++i) {
     const comparison_row *r = &c->rows[i];
     bool nonlinear = r->branch >= 0 && r->hbm_status == HC_OK && r->hbm.contact.regime > CONTACT_STUCK;
     if (nonlinear && (n == 0 || r->omega != all[n - 1])) all[n++] = r->omega;
   }
-  return n;
-}
-
-/* Chooses among them the one nearest to the peak, and others spread over the rest, ascending; how many. *first: the
- * index of the nearest. */
-static int choose_omegas(const comparison *c, double *omega, int *first)
-{
-  double all[NUMBER_LIST_MAX];
-  int n = nonlinear_omegas(c, all), peak = 0, chosen = 0, step = (n + ALIASING_MOST_OMEGAS - 1) / ALIASING_MOST_OMEGAS;
+  const int step = (n + ALIASING_MOST_OMEGAS - 1) / ALIASING_MOST_OMEGAS;
   for (int i = 1; i < n; ++i)
     if (fabs(all[i] - c->summary.peak_omega) < fabs(all[peak] - c->summary.peak_omega)) peak = i;
   *first = 0;
@@ -158,16 +146,6 @@ static int choose_omegas(const comparison *c, double *omega, int *first)
     omega[chosen++] = all[i];
   }
   return chosen;
-}
-
-/* What a structure's responses and contacts are called. */
-static void name_rows(const scene *sc, comparison *c)
-{
-  if (!sc->structure) return;
-  for (int i = 0; i < c->n_rows; ++i)
-    structure_response_name(sc->structure, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
-  for (int i = 0; i < c->n_contacts; ++i)
-    snprintf(c->contacts[i].name, RESPONSE_NAME, "%s", scene_contact_at(sc, c->contacts[i].contact)->name);
 }
 
 hc_status report_gather(const scene *sc, int jobs, progress *bar, report_data *out)
@@ -180,7 +158,11 @@ hc_status report_gather(const scene *sc, int jobs, progress *bar, report_data *o
   out->setup.contacts = sc->structure != NULL;
   if (st == HC_OK) st = comparison_run(&out->setup, monitor, &out->comparison);
   if (st != HC_OK) return st;
-  name_rows(sc, &out->comparison);
+  comparison *c = &out->comparison;
+  for (int i = 0; i < c->n_rows && sc->structure; ++i)
+    structure_response_name(sc->structure, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
+  for (int i = 0; i < c->n_contacts && sc->structure; ++i)
+    snprintf(c->contacts[i].name, RESPONSE_NAME, "%s", scene_contact_at(sc, c->contacts[i].contact)->name);
   progress_relabel(bar, "response curve");
   json_t *others = NULL;
   st = curve_json(sc, &out->comparison, monitor, &out->response, &others);

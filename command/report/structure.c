@@ -169,42 +169,6 @@ static int choose_omegas(const comparison *c, double omega[MOST_OMEGAS])
   return chosen;
 }
 
-static json_t *dof_names(const scene_structure *s, const model *m)
-{
-  json_t *names = json_array();
-  double *direction = calloc((size_t)m->n, sizeof *direction);
-  for (int i = 0; i < m->n && direction; ++i) {
-    char text[NAME];
-    direction[i] = 1;
-    json_array_append_new(names, json_string(structure_direction_name(s, direction, text, sizeof text)));
-    direction[i] = 0;
-  }
-  free(direction);
-  return names;
-}
-
-static json_t *response_names(const scene_structure *s)
-{
-  json_t *names = json_array();
-  for (int r = 0; r < structure_response_count(s); ++r) {
-    char text[NAME];
-    json_array_append_new(names, json_string(structure_response_name(s, r, text, sizeof text)));
-  }
-  return names;
-}
-
-static json_t *contact_names(const scene *sc)
-{
-  json_t *names = json_array();
-  for (int j = 0; j < scene_contact_count(sc); ++j) {
-    char text[NAME];
-    const char *name = scene_contact_at(sc, j)->name;
-    snprintf(text, sizeof text, *name ? "%d %s" : "%d", j, name);
-    json_array_append_new(names, json_string(text));
-  }
-  return names;
-}
-
 hc_status structure_json(const scene *sc, const comparison *c, json_t *others, const hc_monitor *monitor, json_t **out)
 {
   model *m = NULL;
@@ -227,8 +191,25 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
       if (!hc_monitor_tick(d.monitor, -1)) st = HC_INTERRUPTED;
     }
   }
-  *out = json_pack("{s:o, s:O, s:o, s:o, s:o}", "names", response_names(sc->structure), "responses", others, "dofs",
-                   dof_names(sc->structure, m), "contacts", contact_names(sc), "solutions", list);
+  json_t *dofs = json_array(), *responses = json_array(), *contacts = json_array();
+  /* What the degrees of freedom, responses and contacts are called. */
+  char text[NAME];
+  double *direction = calloc((size_t)m->n, sizeof *direction);
+  for (int i = 0; i < m->n && direction; ++i) {
+    direction[i] = 1;
+    json_array_append_new(dofs, json_string(structure_direction_name(sc->structure, direction, text, sizeof text)));
+    direction[i] = 0;
+  }
+  free(direction);
+  for (int r = 0; r < structure_response_count(sc->structure); ++r)
+    json_array_append_new(responses, json_string(structure_response_name(sc->structure, r, text, sizeof text)));
+  for (int j = 0; j < scene_contact_count(sc); ++j) {
+    const char *name = scene_contact_at(sc, j)->name;
+    snprintf(text, sizeof text, *name ? "%d %s" : "%d", j, name);
+    json_array_append_new(contacts, json_string(text));
+  }
+  *out = json_pack("{s:o, s:O, s:o, s:o, s:o}", "names", responses, "responses", others, "dofs", dofs, "contacts",
+                   contacts, "solutions", list);
   for (int i = 0; i < 3; ++i) free(d.series[i]);
   free(d.w);
   free(d.periods);

@@ -68,24 +68,18 @@ void words_verdict(const report_data *d, FILE *to)
 
 /* ---- what to do ------------------------------------------------------------------------------ */
 
-/* The row of the fewest harmonics of the table from which on the truncation is within the limit; NULL: none. */
-static const accuracy_row *enough_harmonics(const accuracy *a, double limit)
-{
-  const accuracy_row *enough = NULL;
-  for (int i = a->n_rows - 1; i >= 0; --i) {
-    if (a->rows[i].samples) continue;
-    if (!(a->rows[i].worst <= limit) || a->rows[i].missing) break;
-    enough = &a->rows[i];
-  }
-  return enough;
-}
-
 static void advise_on_harmonics(const report_data *d, FILE *to)
 {
   const accuracy *a = &d->accuracy;
   const double limit = d->sc->gate.most.amplitude;
   const int kept = d->comparison.harmonics;
-  const accuracy_row *last = NULL, *row = enough_harmonics(a, limit);
+  const accuracy_row *last = NULL, *row = NULL;
+  /* the row of the fewest harmonics of the table from which on the truncation is within the limit */
+  for (int i = a->n_rows - 1; i >= 0; --i) {
+    if (a->rows[i].samples) continue;
+    if (!(a->rows[i].worst <= limit) || a->rows[i].missing) break;
+    row = &a->rows[i];
+  }
   if (!d->sc->hbm.keep_mean)
     fputs(
         "<li class=\"bad\">Harmonic 0 is left out (hbm.static: false): that solves another equation, and no number of "
