@@ -125,8 +125,8 @@ static hc_status curve_json(const scene *sc, const comparison *c, const hc_monit
 
 bool report_has_charts(void) { return asset_chart.length > 0; }
 
-/* Of the comparison's frequencies at which a contact changes its state in some HBM solution the one nearest to the peak,
- * and others spread over the rest, ascending; how many. *first: the index of the nearest. */
+/* Chooses among the comparison's frequencies at which a contact changes its state in some HBM solution: the one nearest
+ * to the peak, and others spread over the rest, ascending; how many. *first: the index of the nearest. */
 static int choose_omegas(const comparison *c, double *omega, int *first)
 {
   double all[NUMBER_LIST_MAX];
