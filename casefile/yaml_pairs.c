@@ -220,17 +220,6 @@ static hc_status check_orthonormal(case_reader *r, const yaml_node_t *node, cons
   return HC_OK;
 }
 
-/* tangent_2 = normal x tangent */
-static void complete(pairs_entry *e)
-{
-  const double *n = e->axes[NORMAL], *t = e->axes[TANGENT];
-  double *s = e->axes[TANGENT_2];
-  s[0] = n[1] * t[2] - n[2] * t[1];
-  s[1] = n[2] * t[0] - n[0] * t[2];
-  s[2] = n[0] * t[1] - n[1] * t[0];
-  e->has[TANGENT_2] = true;
-}
-
 static hc_status read_axes(case_reader *r, const yaml_node_t *node, pairs_entry *e)
 {
   bool seen[AXES] = {false};
@@ -258,8 +247,13 @@ static hc_status read_axes(case_reader *r, const yaml_node_t *node, pairs_entry 
                        e->has[TANGENT_2] ? ", but with a tangent_2" : " and without a normal",
                        field_named("contacts", "axes")->expects);
   const hc_status st = check_orthonormal(r, node, e);
-  if (st == HC_OK && e->has[NORMAL] && e->has[TANGENT] && !seen[TANGENT_2]) complete(e);
-  return st;
+  if (st != HC_OK || !e->has[NORMAL] || !e->has[TANGENT] || seen[TANGENT_2]) return st;
+  for (int d = 0; d < 3; ++d) { /* tangent_2 = normal x tangent */
+    const int j = (d + 1) % 3, k = (d + 2) % 3;
+    e->axes[TANGENT_2][d] = e->axes[NORMAL][j] * e->axes[TANGENT][k] - e->axes[NORMAL][k] * e->axes[TANGENT][j];
+  }
+  e->has[TANGENT_2] = true;
+  return HC_OK;
 }
 
 /* ---- the entry ---- */
@@ -371,14 +365,6 @@ static hc_status add_contact(pair_rows *rows, const pairs_entry *e, int k, const
   return st;
 }
 
-/* Has an earlier row the same two nodes? */
-static bool is_there(const pair_row *all, int n, const pair_row *row)
-{
-  for (int i = 0; i < n; ++i)
-    if ((all[i].a == row->a && all[i].b == row->b) || (all[i].a == row->b && all[i].b == row->a)) return true;
-  return false;
-}
-
 static hc_status read_rows(pair_rows *rows, const pairs_entry *e, pair_row *all)
 {
   bool more = true;
@@ -389,8 +375,9 @@ static hc_status read_rows(pair_rows *rows, const pairs_entry *e, pair_row *all)
     if (st != HC_OK || !more) return st;
     if (k == MATRIX_MOST_ROWS)
       return refuse(rows, rows->column[PAIR_NODE_A], false, "another pair, expected at most %d", (int)MATRIX_MOST_ROWS);
-    if (is_there(all, k, &row))
-      return refuse(rows, rows->column[PAIR_NODE_A], false, "the same two nodes again, expected each pair once");
+    for (int i = 0; i < k; ++i)
+      if ((all[i].a == row.a && all[i].b == row.b) || (all[i].a == row.b && all[i].b == row.a))
+        return refuse(rows, rows->column[PAIR_NODE_A], false, "the same two nodes again, expected each pair once");
     all[k] = row;
     st = add_contact(rows, e, k, &row);
   }

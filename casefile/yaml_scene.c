@@ -62,18 +62,15 @@ hc_status yaml_scene_contacts(case_reader *r, const yaml_node_t *node)
   return HC_OK;
 }
 
-/* Does a case do without the section? A structure has neither mass nor force as an oscillator has. */
-static bool may_be_missing(const case_reader *r, const field_section *s)
-{
-  return r->sc.structure && (!strcmp(s->name, "oscillator") || !strcmp(s->name, "forcing"));
-}
-
 static hc_status check_sections(case_reader *r, const case_place *given, const yaml_node_t *root)
 {
   const field_section *s;
   for (int i = 1; (s = field_section_at(i)) != NULL; ++i) {
     message *m = NULL;
-    for (int j = 0; j < field_count() && given[i].line == 0 && !may_be_missing(r, s); ++j) {
+    /* a structure has neither mass nor force as an oscillator has */
+    const bool of_oscillator = !strcmp(s->name, "oscillator") || !strcmp(s->name, "forcing");
+    if (given[i].line > 0 || (r->sc.structure && of_oscillator)) continue;
+    for (int j = 0; j < field_count(); ++j) {
       const field *f = field_at(j);
       if (strcmp(f->section, s->name) || f->fallback || f->scale != 0) continue;
       if (f->flags & (FIELD_ELSEWHERE | FIELD_STRUCTURE)) continue;
@@ -85,13 +82,6 @@ static hc_status check_sections(case_reader *r, const case_place *given, const y
     if (m) return HC_BAD_INPUT;
   }
   return HC_OK;
-}
-
-static int section_index(const char *name)
-{
-  int i = 0;
-  while (strcmp(field_section_at(i)->name, name)) ++i;
-  return i;
 }
 
 /* What a section holds, wherever it stands. */
@@ -117,7 +107,7 @@ static hc_status read_top_level(case_reader *r, const yaml_node_t *key, const ya
   if (f) return yaml_field_read(r, f, key, value, -1, &r->sc);
   const field_section *s = field_find_section(yaml_node_text(key), key->data.scalar.length);
   if (!s || strchr(s->name, '[')) return yaml_unknown_key(r, key, "");
-  case_place *at = &given[section_index(s->name)];
+  case_place *at = &given[s - field_section_at(0)];
   if (at->line > 0) return yaml_duplicate_key(r, key, *at);
   *at = yaml_place(r, key);
   return read_section_value(r, s, value);

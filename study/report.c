@@ -112,15 +112,16 @@ static char *export_query(const study *s, bool timings, bool one_response)
   return NULL;
 }
 
-static void write_csv_row(sqlite3_stmt *q, FILE *to)
+/* The values of the current row, or the names of the columns. */
+static void write_csv_row(sqlite3_stmt *q, bool names, FILE *to)
 {
   for (int j = 0; j < sqlite3_column_count(q); ++j) {
     if (j) putc(',', to);
-    switch (sqlite3_column_type(q, j)) {
+    switch (names ? SQLITE_TEXT : sqlite3_column_type(q, j)) {
     case SQLITE_INTEGER: fprintf(to, "%lld", (long long)sqlite3_column_int64(q, j)); break;
     case SQLITE_FLOAT: fprintf(to, "%.17g", sqlite3_column_double(q, j)); break;
     case SQLITE_NULL: break;
-    default: table_write_csv_text((const char *)sqlite3_column_text(q, j), to);
+    default: table_write_csv_text(names ? sqlite3_column_name(q, j) : (const char *)sqlite3_column_text(q, j), to);
     }
   }
   putc('\n', to);
@@ -148,15 +149,6 @@ static bool write_json_row(sqlite3_stmt *q, FILE *to)
   return good;
 }
 
-static void write_csv_header(sqlite3_stmt *q, FILE *to)
-{
-  for (int j = 0; j < sqlite3_column_count(q); ++j) {
-    if (j) putc(',', to);
-    table_write_csv_text(sqlite3_column_name(q, j), to);
-  }
-  putc('\n', to);
-}
-
 hc_status study_export(const study *s, study_store *store, table_format format, bool timings, const char *response,
                        FILE *to)
 {
@@ -172,11 +164,11 @@ hc_status study_export(const study *s, study_store *store, table_format format, 
     return study_sql_status(study_store_readonly(store));
   }
   if (json) fputs("{\n  \"rows\": [", to);
-  else write_csv_header(q, to);
+  else write_csv_row(q, true, to);
   for (long n = 0; good && (code = sqlite3_step(q)) == SQLITE_ROW; ++n) {
     if (json) fputs(n ? ",\n    " : "\n    ", to);
     if (json) good = write_json_row(q, to);
-    else write_csv_row(q, to);
+    else write_csv_row(q, false, to);
   }
   if (json) fputs("\n  ],\n  \"notes\": []\n}\n", to);
   sqlite3_finalize(q);
