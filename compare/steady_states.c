@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/growing.h"
+#include "base/workspace.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
 #include "compare/motion.h"
@@ -27,16 +28,17 @@ const char *steady_verdict_text(const steady_row *r, char text[24])
 }
 
 /* The settings and solvers of one run of steady states, and where its rows go. */
-typedef struct workspace {
+typedef struct steady_work {
   const compare_setup *setup;
   timeint *ti;
   timeint *exact;          /* to see what the regularisation costs; NULL where the law is the exact one already */
   response_curve response; /* its solver is NULL unless the start is on HBM orbits */
   const hc_monitor *monitor;
   steady_states *out;
-  double *state;   /* [n_states] on its way to the steady state of a row */
-  double *scratch; /* [n_states] of the exact law's orbit next to that */
-} workspace;
+  workspace memory; /* of the arrays below */
+  double *state;    /* [n_states] on its way to the steady state of a row */
+  double *scratch;  /* [n_states] of the exact law's orbit next to that */
+} steady_work;
 
 static hc_status add_row(steady_states *s, const steady_row *row)
 {
@@ -48,7 +50,7 @@ static hc_status add_row(steady_states *s, const steady_row *row)
 }
 
 /* A row that came to nothing at that stage. */
-static hc_status add_failure(workspace *w, steady_stage stage, hc_status st, double omega)
+static hc_status add_failure(steady_work *w, steady_stage stage, hc_status st, double omega)
 {
   steady_row row = {.status = st, .stage = stage, .result = {.omega = omega}};
   hc_status added = add_row(w->out, &row);
@@ -57,7 +59,7 @@ static hc_status add_failure(workspace *w, steady_stage stage, hc_status st, dou
 
 /* The error of a regularised steady state, w->state on it: by the exact law's orbit next to it. *st becomes
  * HC_NO_MEMORY or HC_INTERRUPTED if that is why there is none. */
-static double regularisation_error(workspace *w, const timeint_result *r, hc_status *st)
+static double regularisation_error(steady_work *w, const timeint_result *r, hc_status *st)
 {
   timeint_result orbit;
   if (!w->exact || r->method == TIMEINT_BY_CLOSED_FORM) return 0;
@@ -69,7 +71,7 @@ static double regularisation_error(workspace *w, const timeint_result *r, hc_sta
 }
 
 /* Appends what each contact does in the periods that w->ti holds. */
-static hc_status add_contacts(workspace *w, const steady_row *row)
+static hc_status add_contacts(steady_work *w, const steady_row *row)
 {
   const model *m = w->setup->model;
   const int n = model_whole_contacts(m);
@@ -89,7 +91,7 @@ static hc_status add_contacts(workspace *w, const steady_row *row)
 }
 
 /* Appends the rows of the other responses, from the periods that w->ti holds. */
-static hc_status add_other_responses(workspace *w, steady_row *row)
+static hc_status add_other_responses(steady_work *w, steady_row *row)
 {
   hc_status st = HC_OK;
   for (row->response = 1;
@@ -103,7 +105,7 @@ static hc_status add_other_responses(workspace *w, steady_row *row)
 }
 
 /* w->state to the steady state at omega; not HC_OK only when there is no going on. */
-static hc_status steady_settle(workspace *w, double omega, const char *start, hc_status without_hbm)
+static hc_status steady_settle(steady_work *w, double omega, const char *start, hc_status without_hbm)
 {
   steady_row row = {.result = {.omega = omega}, .without_hbm = without_hbm, .from_regularisation = NAN};
   snprintf(row.start, sizeof row.start, "%s", start);
@@ -116,13 +118,13 @@ static hc_status steady_settle(workspace *w, double omega, const char *start, hc
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;
 }
 
-static hc_status steady_from_rest(workspace *w, double omega, hc_status without_hbm)
+static hc_status steady_from_rest(steady_work *w, double omega, hc_status without_hbm)
 {
   timeint_rest(w->ti, w->state);
   return steady_settle(w, omega, "rest", without_hbm);
 }
 
-static hc_status steady_from_orbit(workspace *w, double omega, const hbm_curve *at, int k)
+static hc_status steady_from_orbit(steady_work *w, double omega, const hbm_curve *at, int k)
 {
   const double *X = at->X + (size_t)k * at->n_coef;
   char start[32];
@@ -132,7 +134,7 @@ static hc_status steady_from_orbit(workspace *w, double omega, const hbm_curve *
   return steady_settle(w, omega, start, HC_OK);
 }
 
-static hc_status from_hbm_orbits(workspace *w, double omega)
+static hc_status from_hbm_orbits(steady_work *w, double omega)
 {
   hbm_curve at = {0};
   hc_status st = hbm_curve_at(w->response.hbm, &w->response.curve, omega, &at), why = st != HC_OK ? st
@@ -146,7 +148,7 @@ static hc_status from_hbm_orbits(workspace *w, double omega)
 }
 
 /* The asked omegas in the order a sweep meets them, from the sweep's end, the state carried along. */
-static hc_status swept(workspace *w, const number_list *at, bool up)
+static hc_status swept(steady_work *w, const number_list *at, bool up)
 {
   double here = up ? fmin(w->setup->omega_from, w->setup->omega_to) : fmax(w->setup->omega_from, w->setup->omega_to);
   timeint_rest(w->ti, w->state);
@@ -161,15 +163,15 @@ static hc_status swept(workspace *w, const number_list *at, bool up)
   return HC_OK;
 }
 
-static hc_status run(workspace *w, const number_list *asked)
+static hc_status run(steady_work *w, const number_list *asked)
 {
   int start = w->setup->transient.start;
   hc_status st = timeint_new(w->setup->model, &w->setup->transient, &w->ti);
   if (st == HC_OK && w->setup->transient.law != TRANSIENT_LAW_EXACT) st = comparison_referee(w->setup, &w->exact);
   if (st != HC_OK) return st;
-  w->state = calloc((size_t)timeint_n_states(w->ti), sizeof *w->state);
-  w->scratch = calloc((size_t)timeint_n_states(w->ti), sizeof *w->scratch);
-  if (!w->state || !w->scratch) return HC_NO_MEMORY;
+  w->state = workspace_doubles(&w->memory, (size_t)timeint_n_states(w->ti));
+  w->scratch = workspace_doubles(&w->memory, (size_t)timeint_n_states(w->ti));
+  if (w->memory.failed) return HC_NO_MEMORY;
   if (start == TRANSIENT_START_UP || start == TRANSIENT_START_DOWN) return swept(w, asked, start == TRANSIENT_START_UP);
   if (start == TRANSIENT_START_HBM) st = response_trace(w->setup, asked, w->monitor, &w->response);
   if (st == HC_OK && !w->response.hbm) st = w->response.status;
@@ -183,12 +185,11 @@ hc_status steady_states_run(const compare_setup *setup, const hc_monitor *monito
   *out = (steady_states){0};
   if (setup->compare.omega.n == 0) return HC_BAD_INPUT;
   number_list asked;
-  workspace w = {.setup = setup, .monitor = monitor, .out = out};
+  steady_work w = {.setup = setup, .monitor = monitor, .out = out};
   hc_status st = comparison_frequencies(&setup->compare, setup->omega_from, NULL, &(hbm_curve){0}, &asked);
   if (st == HC_OK) st = run(&w, &asked);
   response_curve_free(&w.response);
-  free(w.scratch);
-  free(w.state);
+  workspace_free(&w.memory);
   timeint_free(w.exact);
   timeint_free(w.ti);
   return st;

@@ -106,15 +106,15 @@ static const char *slider_words(int restart)
  * as elsewhere. */
 static void add_change(message *m, const verify_equations *e)
 {
-  message_add(m, "%s", verify_change_words(e->change));
-  if (e->which > 0) switch (verify_change_part(e->change)) {
+  message_add(m, "%s", verify_changes[e->change].words);
+  if (e->which > 0) switch (verify_changes[e->change].part) {
     case PART_CONTACT:
     case PART_ONE_CONTACT: message_add(m, " of contact %d", e->which - 1); break;
     case PART_DOF: message_add(m, " DOF %d", e->which); break;
     case PART_PAIR: message_add(m, " DOFs %d and %d", (e->which - 1) / e->n + 1, (e->which - 1) % e->n + 1); break;
     case PART_ALL: break;
     }
-  if (verify_change_has_factor(e->change)) message_add(m, " times %.4g", e->factor);
+  if (verify_changes[e->change].factor) message_add(m, " times %.4g", e->factor);
 }
 
 static void add_equations(message *m, const verify_equations *e)

@@ -13,12 +13,7 @@
 #include "compare/verify/equations/causes.h"
 #include "numerics/dense.h"
 
-static const struct {
-  int cause;
-  const char *words;
-  bool factor;
-  verify_part part;
-} changes[] = {
+const verify_change_kind verify_changes[] = {
 #define VERIFY_CHANGE_WORDS(code, cause, words, factor, part) {cause, words, factor, part},
     VERIFY_CHANGE_LIST(VERIFY_CHANGE_WORDS)
 #undef VERIFY_CHANGE_WORDS
@@ -26,15 +21,10 @@ static const struct {
 
 enum { MOST_SINGLE_CONTACTS = 12, MOST_DOFS = 200, MOST_PAIRED_DOFS = 8 };
 
-int verify_change_cause(verify_change c) { return changes[c].cause; }
-const char *verify_change_words(verify_change c) { return changes[c].words; }
-bool verify_change_has_factor(verify_change c) { return changes[c].factor; }
-verify_part verify_change_part(verify_change c) { return changes[c].part; }
-
 int verify_change_variants(const model *m, verify_change c)
 {
   const int contacts = model_whole_contacts(m);
-  switch (changes[c].part) {
+  switch (verify_changes[c].part) {
   case PART_CONTACT: return 1 + (m->n > 1 && contacts > 1 && contacts <= MOST_SINGLE_CONTACTS) * contacts;
   case PART_ONE_CONTACT: return contacts <= MOST_SINGLE_CONTACTS ? 1 + contacts : 1;
   case PART_DOF: return m->n > 1 && m->n <= MOST_DOFS ? 1 + m->n : 1;
@@ -151,8 +141,8 @@ static void stick(model *m)
 {
   for (int j = 0; j < m->n_contacts; ++j) {
     const model_contact *c = &m->contacts[j];
-    if (m->n == 1) *m->stiffness += model_stuck_stiffness(c); /* in one sum */
-    else add_spring(m->n, c->law.kt, c->tangent, m->stiffness), add_spring(m->n, c->law.kn, c->normal, m->stiffness);
+    add_spring(m->n, c->law.kt, c->tangent, m->stiffness);
+    add_spring(m->n, c->law.kn, c->normal, m->stiffness);
   }
 }
 
@@ -346,7 +336,7 @@ static bool any_preload(const model *m)
 }
 
 /* A fit passes through it. */
-static bool factor_is_one(verify_change c, double factor) { return verify_change_has_factor(c) && factor == 1; }
+static bool factor_is_one(verify_change c, double factor) { return verify_changes[c].factor && factor == 1; }
 
 /* p[n]: room for a constant force. */
 static hc_status change_copy(const model *m, const verify_changed *how, bool keep_mean, double *p, model *own,
@@ -356,7 +346,7 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
   const int which = how->which - 1;
   change_matrices(own, c, how->factor);
   change_loads(own, c, how->factor, which);
-  if (verify_change_part(c) == PART_PAIR && which >= 0) change_numbering(own, c, which / m->n, which % m->n);
+  if (verify_changes[c].part == PART_PAIR && which >= 0) change_numbering(own, c, which / m->n, which % m->n);
   for (int j = 0, whole = -1; j < own->n_contacts; ++j) {
     whole += own->contacts[j].pair != CONTACT_SECOND;
     if (which < 0 || which == whole) change_contact(m->n, &own->contacts[j], c, how->factor);

@@ -57,10 +57,13 @@ typedef enum verify_part { PART_ALL, PART_CONTACT, PART_ONE_CONTACT, PART_DOF, P
 typedef enum verify_change { VERIFY_CHANGE_LIST(VERIFY_CHANGE_CODE) VERIFY_CHANGES } verify_change;
 #undef VERIFY_CHANGE_CODE
 
-int verify_change_cause(verify_change c); /* VERIFY_CAUSES: none */
-const char *verify_change_words(verify_change c);
-bool verify_change_has_factor(verify_change c);
-verify_part verify_change_part(verify_change c);
+typedef struct verify_change_kind {
+  int cause; /* VERIFY_CAUSES: none */
+  const char *words;
+  bool factor;
+  verify_part part;
+} verify_change_kind;
+extern const verify_change_kind verify_changes[VERIFY_CHANGES];
 
 /* In how many ways it can be made of this model: values of verify_changed.which, from 0 on. */
 int verify_change_variants(const model *m, verify_change c);

@@ -383,7 +383,7 @@ static verify_causes causes_of_slider(const verify_equations *e)
 static verify_causes causes_of(const search *s, const verify_equations *e, int frequency)
 {
   verify_causes causes = frequency ? VERIFY_BIT(CAUSE_FREQUENCY) : 0;
-  if (e->change != CHANGE_NONE) causes |= VERIFY_BIT(verify_change_cause(e->change));
+  if (e->change != CHANGE_NONE) causes |= VERIFY_BIT(verify_changes[e->change].cause);
   if (verify_equations_linear(e)) return causes;
   if (e->odd_only) causes |= VERIFY_BIT(CAUSE_ODD_ONLY);
   else if (!e->keep_mean) causes |= VERIFY_BIT(CAUSE_NO_STATIC);

@@ -283,7 +283,7 @@ static hc_status fit_factor(search *s, verify_change change)
                                            .omega_factor = 1,
                                            .value_factor = 1,
                                            .fitted = true,
-                                           .causes = VERIFY_BIT(verify_change_cause(change))});
+                                           .causes = VERIFY_BIT(verify_changes[change].cause)});
 }
 
 hc_status search_fits(search *s)

@@ -119,7 +119,7 @@ static hc_status try_changes(search *s, const verify_equations *like, verify_cha
   hc_status st = HC_OK;
   for (int c = first; c <= (int)last && st == HC_OK; ++c) {
     const int variants = verify_change_variants(m, c);
-    const bool factor = verify_change_has_factor(c);
+    const bool factor = verify_changes[c].factor;
     for (int i = 0; i < (factor ? FACTORS_TRIED : 1) * variants && c != CHANGE_RESPONSE && st == HC_OK; ++i) {
       verify_equations e = *like;
       e.change = c;
