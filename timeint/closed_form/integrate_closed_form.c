@@ -219,10 +219,15 @@ static void put_sliders(const by_series *in, double tau, int order, double *y)
   double *w = y + 2 * in->n;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
     const scaled_contact *c = &in->m->contact[j];
-    contact_track t[2] = {in->track[j], in->track[j + c->kind->directions - 1]};
+    const contact_track *t = &in->track[j];
+    contact_track turned[2];
     contact_motion at;
     scaled_contact_motion(in->m, j, y, at.u, &at.v);
-    if (inside) motion_series_direction(&in->series, j, tau, t);
+    if (inside && t->turns) {
+      memcpy(turned, t, (size_t)c->kind->directions * sizeof *t);
+      motion_series_direction(&in->series, j, tau, turned);
+      t = turned;
+    }
     if (order == 0) contact_track_slider(t, c, &at, w + j);
     else contact_track_slider_rate(t, c, &at, w + j);
   }

@@ -379,10 +379,15 @@ static void set_sliders(const events *in, int order, const double *own, double *
   double *w = y + 2 * in->n;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
     const scaled_contact *c = &in->base.m->contact[j];
-    contact_track t[2] = {in->track[j], in->track[j + c->kind->directions - 1]};
+    const contact_track *t = &in->track[j];
+    contact_track turned[2];
     contact_motion at;
     scaled_contact_motion(in->base.m, j, y, at.u, &at.v);
-    follow_own(in, j, own, t);
+    if (t->turns) {
+      memcpy(turned, t, (size_t)c->kind->directions * sizeof *t);
+      follow_own(in, j, own, turned);
+      t = turned;
+    }
     if (order == 0) contact_track_slider(t, c, &at, w + j);
     else contact_track_slider_rate(t, c, &at, w + j);
   }
