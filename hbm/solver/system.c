@@ -86,35 +86,23 @@ hc_status hbm_system_any_response(hbm_system *sys, double omega, const double *X
 static size_t cosines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(h ? 2 * h - 1 : 0); }
 static size_t sines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(2 * h); }
 
-/* rows = S X, of one coordinate. */
-static void multiply_numbers(hbm_system *sys, const double complex *S, const double *X)
-{
-  double *restrict rows = sys->rows;
-  rows[0] = creal(S[0]) * X[0];
-  for (int h = 1; h <= sys->n_harm; ++h) {
-    const double re = creal(S[h]), im = cimag(S[h]), a = X[2 * h - 1], b = X[2 * h];
-    rows[2 * h - 1] = re * a + im * b;
-    rows[2 * h] = re * b - im * a;
-  }
-}
-
-/* rows of harmonic h += B X, B[dim][dim] complex. */
-static void multiply_block(hbm_system *sys, const double complex *B, int h, const double *X)
+/* rows += S X. */
+static void add_linear_forces(hbm_system *sys, const double *X)
 {
   const int dim = sys->dim;
-  const double *a = X + cosines(sys, h), *b = X + sines(sys, h);
-  double *of_a = sys->rows + cosines(sys, h), *of_b = sys->rows + sines(sys, h);
+  const double complex *S = condensation_stiffness(sys->linear, 0);
   for (int e = 0; e < dim; ++e)
-    for (int d = 0; d < dim; ++d) {
-      const double re = creal(B[(size_t)e * (size_t)dim + (size_t)d]),
-                   im = cimag(B[(size_t)e * (size_t)dim + (size_t)d]);
-      if (h == 0) {
-        of_a[d] += re * a[e];
-        continue;
+    for (int d = 0; d < dim; ++d) sys->rows[d] += creal(*S++) * X[e];
+  for (int h = 1; h <= sys->n_harm; ++h) {
+    const double *a = X + cosines(sys, h), *b = a + dim;
+    double *of_a = sys->rows + cosines(sys, h), *of_b = of_a + dim;
+    for (int e = 0; e < dim; ++e)
+      for (int d = 0; d < dim; ++d, ++S) {
+        const double re = creal(*S), im = cimag(*S);
+        of_a[d] += re * a[e] + im * b[e];
+        of_b[d] += re * b[e] - im * a[e];
       }
-      of_a[d] += re * a[e] + im * b[e];
-      of_b[d] += re * b[e] - im * a[e];
-    }
+  }
 }
 
 /* rows of harmonic h -= factor p, a complex amplitude a - i b. */
@@ -153,45 +141,33 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   hc_status st = hbm_system_contact(sys, X);
   if (st == HC_OK) st = condensation_at(sys->linear, omega, sys->more_damping);
   if (st != HC_OK) return st;
-  if (sys->dim == 1) multiply_numbers(sys, condensation_stiffness(sys->linear, 0), X);
-  else memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
-  for (int h = 0; h <= sys->n_harm && sys->dim > 1; ++h)
-    multiply_block(sys, condensation_stiffness(sys->linear, h), h, X);
-  for (int i = 0; i < sys->n_coef; ++i) sys->rows[i] += sys->F[i];
+  memcpy(sys->rows, sys->F, (size_t)sys->n_coef * sizeof(double));
+  add_linear_forces(sys, X);
   for (int l = 0; l < sys->model->n_loads; ++l)
     subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);
   make_mistakes(sys, omega, X);
   return drop_means(sys, R);
 }
 
-/* jac += S, of one coordinate. */
-static void add_numbers(const hbm_system *sys, const double complex *S, int ld, double *jac)
-{
-  if (sys->first == 0) jac[0] += creal(S[0]);
-  for (int h = 1; h <= sys->n_harm; ++h) {
-    const size_t a = (size_t)(2 * h - 1 - sys->first), b = a + 1, n = (size_t)ld;
-    const double re = creal(S[h]), im = cimag(S[h]);
-    jac[a + n * a] += re;
-    jac[b + n * b] += re;
-    jac[a + n * b] += im;
-    jac[b + n * a] -= im;
-  }
-}
-
-static void add_block(const hbm_system *sys, const double complex *S, int h, int ld, double *jac)
+/* jac += S. */
+static void add_linear_stiffness(const hbm_system *sys, int ld, double *jac)
 {
   const size_t dim = (size_t)sys->dim, n = (size_t)ld;
-  if (h == 0 && sys->first) return;
-  const size_t a = cosines(sys, h) - (size_t)sys->first, b = sines(sys, h) - (size_t)sys->first;
+  const double complex *S = condensation_stiffness(sys->linear, 0);
   for (size_t e = 0; e < dim; ++e)
-    for (size_t d = 0; d < dim; ++d) {
-      const double re = creal(S[e * dim + d]), im = cimag(S[e * dim + d]);
-      jac[a + d + n * (a + e)] += re;
-      if (h == 0) continue;
-      jac[b + d + n * (b + e)] += re;
-      jac[a + d + n * (b + e)] += im;
-      jac[b + d + n * (a + e)] -= im;
-    }
+    for (size_t d = 0; d < dim; ++d, ++S)
+      if (sys->first == 0) jac[d + n * e] += creal(*S);
+  for (int h = 1; h <= sys->n_harm; ++h) {
+    const size_t a = cosines(sys, h) - (size_t)sys->first, b = a + dim;
+    for (size_t e = 0; e < dim; ++e)
+      for (size_t d = 0; d < dim; ++d, ++S) {
+        const double re = creal(*S), im = cimag(*S);
+        jac[a + d + n * (a + e)] += re;
+        jac[b + d + n * (b + e)] += re;
+        jac[a + d + n * (b + e)] += im;
+        jac[b + d + n * (a + e)] -= im;
+      }
+  }
 }
 
 /* jac is whole but for the mistakes. */
@@ -218,9 +194,7 @@ void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
     for (int row = 0; row < sys->n; ++row) to[row] = from[row];
   }
   if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
-  if (sys->dim == 1) add_numbers(sys, condensation_stiffness(sys->linear, 0), ld, jac);
-  for (int h = 0; h <= sys->n_harm && sys->dim > 1; ++h)
-    add_block(sys, condensation_stiffness(sys->linear, h), h, ld, jac);
+  add_linear_stiffness(sys, ld, jac);
   differentiate_mistakes(sys, omega, dF, ld, jac);
 }
 

@@ -44,7 +44,8 @@ const double *condensation_first_response(const condensation *c);
  * undamped there. */
 hc_status condensation_at(condensation *c, double omega, double more_damping);
 
-/* S of harmonic h, [dim][dim] by columns, and what its entries are sums of, by their sizes: until asked again. */
+/* S of harmonic h, [dim][dim] by columns, those of the next ones behind it; and what its entries are sums of, by their
+ * sizes: until asked again. */
 const double complex *condensation_stiffness(const condensation *c, int h);
 const double *condensation_sizes(condensation *c, int h);
 bool condensation_is_by_modes(const condensation *c, int h); /* S is compliance.h's; else Z_yy is solved with */
