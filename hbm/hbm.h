@@ -5,8 +5,8 @@
  * hbm_solver.h       a solver of a model; one solution at a fixed omega, and its measures
  * continuation.h     the response curve over a range of omega
  * response_curve.h   its points
+ * segment.h          every solution at an omega between the points, and the peak
  * contact_measures.h what each contact does: forces, slip path, dissipated work
- * between.h          every solution at an omega between the points, and the peak
  * predict.h          how far off a solution expects to be
  * stability.h        Floquet multipliers of a solution
  * special_points.h   turning points, period doublings, Neimark-Sacker points and contact changes of a curve
@@ -16,10 +16,10 @@
 #define HC_HBM_H
 
 #include "hbm/contact/contact_measures.h"
-#include "hbm/curve/between.h"
 #include "hbm/curve/continuation.h"
 #include "hbm/curve/predict.h"
 #include "hbm/curve/response_curve.h"
+#include "hbm/curve/segment.h"
 #include "hbm/curve/special_points.h"
 #include "hbm/solver/hbm_solver.h"
 #include "hbm/solver/stability.h"

@@ -22,14 +22,6 @@ static double inner(const hbm_segment *s, const double *aX, double a_omega, cons
   return sum / (s->x_scale * s->x_scale) + a_omega * b_omega / (s->omega_scale * s->omega_scale);
 }
 
-static double chord(const hbm_segment *s)
-{
-  double sum = 0;
-  for (int i = 0; i < s->n_coef; ++i) sum += (s->X1[i] - s->X0[i]) * (s->X1[i] - s->X0[i]);
-  double d = (s->omega1 - s->omega0) / s->omega_scale;
-  return sqrt(sum / (s->x_scale * s->x_scale) + d * d);
-}
-
 hbm_segment hbm_segment_between(const hbm_curve *c, int k)
 {
   const hbm_point *p = &c->points[k], *q = p + 1;
@@ -47,7 +39,8 @@ hbm_segment hbm_segment_between(const hbm_curve *c, int k)
          t1 = sqrt(inner(&s, s.dX1, q->d_omega, s.dX1, q->d_omega));
   double cosine = inner(&s, s.dX0, p->d_omega, s.dX1, q->d_omega) / (t0 * t1);
   double angle = acos(fmin(1, fmax(-1, cosine)));
-  s.length = chord(&s) * (1 + angle * angle / 24); /* arc of a circle, to fourth order */
+  const double chord = hypot(distance_2(s.n_coef, s.X0, s.X1) / s.x_scale, (s.omega1 - s.omega0) / s.omega_scale);
+  s.length = chord * (1 + angle * angle / 24); /* arc of a circle, to fourth order */
   s.scale0 = s.length / t0;
   s.scale1 = s.length / t1;
   s.d_omega0 = s.scale0 * p->d_omega;
@@ -210,11 +203,11 @@ static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segme
   return st == HC_OK ? hbm_curve_append(halves, c->n_coef, seg->X1, seg->dX1, &c->points[k + 1]) : st;
 }
 
-/* Is x one of the solutions out[first..]? */
-static bool found_before(const hbm_curve *out, int first, const hbm_candidate *x, double x_scale)
+/* Is X one of the points first.. of c, to `within` [length]? */
+static bool has_point(const hbm_curve *c, int first, const double *X, double within)
 {
-  for (int j = first; j < out->n; ++j)
-    if (!(distance_2(out->n_coef, x->X, hbm_curve_X(out, j)) > 1e-9 * x_scale)) return true;
+  for (int j = first; j < c->n; ++j)
+    if (!(distance_2(c->n_coef, X, hbm_curve_X(c, j)) > within)) return true;
   return false;
 }
 
@@ -227,7 +220,7 @@ static hc_status search_solutions(hbm_solver *s, const hbm_curve *c, int k, doub
   int crossings = find_omega(&seg, omega, include_end, sigma), before = out->n;
   bool all_found = true;
   for (int i = 0; i < crossings && all_found; ++i) {
-    all_found = solve_at(s, c, k, &seg, sigma[i], omega, x) && !found_before(out, before, x, seg.x_scale);
+    all_found = solve_at(s, c, k, &seg, sigma[i], omega, x) && !has_point(out, before, x->X, 1e-9 * seg.x_scale);
     if (all_found && hbm_curve_append(out, c->n_coef, x->X, x->dX, &x->point) != HC_OK) return HC_NO_MEMORY;
   }
   if (all_found) return HC_OK;
@@ -248,6 +241,135 @@ hc_status hbm_segment_solutions(hbm_solver *s, const hbm_curve *c, int k, double
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
   st = search_solutions(s, c, k, omega, include_end, MAX_HALVINGS, &x, out);
+  free(x.X);
+  return st;
+}
+
+/* ---- of the whole curve: at an omega, and the peak ----------------------------------------------------- */
+
+/* A solution at omega, found from guess or, if that is NULL, from nothing, appended unless it is there already: one of
+ * at[before..]. */
+static hc_status append_solution(hbm_solver *s, const hbm_curve *c, const double *guess, double omega, int before,
+                                 hbm_curve *at)
+{
+  hbm_candidate x;
+  hc_status st = hbm_candidate_new(c->n_coef, &x);
+  if (st != HC_OK) return st;
+  const double size = guess ? norm_2(c->n_coef, guess) : 0;
+  if (guess) memcpy(x.X, guess, (size_t)c->n_coef * sizeof *guess);
+  memset(x.dX, 0, (size_t)c->n_coef * sizeof *x.dX);
+  st = guess ? hbm_solve_fixed(s, omega, size, x.X, &x.point) : hbm_solve_first(s, omega, x.X, &x.point);
+  if (st == HC_OK && !has_point(at, before, x.X, 1e-9 * norm_2(c->n_coef, x.X)))
+    st = hbm_curve_append(at, c->n_coef, x.X, x.dX, &x.point);
+  free(x.X);
+  return st;
+}
+
+/* Planes across the interpolant may miss the curve at an edge of slip: from both ends of a segment, at omega. */
+static hc_status solve_from_ends(hbm_solver *s, const hbm_curve *c, int k, double omega, int before, hbm_curve *at)
+{
+  for (int end = k; end <= k + 1; ++end)
+    if (append_solution(s, c, hbm_curve_X(c, end), omega, before, at) == HC_NO_MEMORY) return HC_NO_MEMORY;
+  return at->n > before ? HC_OK : HC_NOT_CONVERGED;
+}
+
+/* Solutions that are there twice: interpolants of steep segments may overshoot into the next one. */
+static void drop_twins(hbm_curve *at, int before)
+{
+  const size_t row = (size_t)at->n_coef * sizeof(double);
+  int n = before;
+  for (int i = before; i < at->n; ++i) {
+    const int all = at->n;
+    at->n = n;
+    const double *X = hbm_curve_X(at, i);
+    const bool twin = has_point(at, before, X, 1e-9 * norm_2(at->n_coef, X));
+    at->n = all;
+    if (twin) continue;
+    at->points[n] = at->points[i];
+    memmove(hbm_curve_X(at, n), hbm_curve_X(at, i), row);
+    memmove(hbm_curve_dX(at, n), hbm_curve_dX(at, i), row);
+    ++n;
+  }
+  at->n = n;
+}
+
+hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
+{
+  const int before = at->n;
+  hc_status worst = HC_OK;
+  at->omega_scale = c->omega_scale;
+  at->asked = true;
+  for (int k = 0; k + 1 < c->n; ++k) {
+    hc_status st = hbm_segment_solutions(s, c, k, omega, k + 2 == c->n, at);
+    if (st != HC_OK && s->edges) st = solve_from_ends(s, c, k, omega, before, at);
+    if (st != HC_OK) worst = st;
+  }
+  if (s->edges) drop_twins(at, before);
+  const bool stopped = at->n == before && c->n > 0 && c->end != HC_OK;
+  return stopped && s->edges ? append_solution(s, c, NULL, omega, before, at) : worst;
+}
+
+/* The two segments that meet at the highest point, by a position: -1 is the point before, 0 the highest, 1 the point
+ * after. */
+typedef struct peak_search {
+  hbm_solver *s;
+  const hbm_curve *c;
+  int top;          /* index of the highest point */
+  hbm_candidate *x; /* the solution at the last position */
+} peak_search;
+
+static hc_status minus_amplitude_at(void *self, double position, double *minus_amplitude)
+{
+  const peak_search *p = self;
+  const int k = position < 0 ? p->top - 1 : p->top;
+  hbm_measures m;
+  hc_status st = hbm_segment_point(p->s, p->c, k, position - (k - p->top), p->x);
+  if (st == HC_OK) st = hbm_measure(p->s, p->x->X, &m);
+  *minus_amplitude = st == HC_OK ? -m.amplitude : NAN;
+  return st;
+}
+
+/* amplitude[3]: of the highest point and its neighbours. */
+static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, const double *amplitude, hbm_candidate *x,
+                             hbm_curve *peak)
+{
+  const double tolerance =
+      1e-7; /* at a maximum the amplitude changes with the square: 1e-7 in position is 1e-14 in it */
+  peak_search p = {s, c, top, x};
+  root_point found;
+  double value;
+  hc_status st =
+      root_minimum(minus_amplitude_at, &p, -1, -amplitude[0], 0, -amplitude[1], 1, -amplitude[2], tolerance, &found);
+  if (st == HC_BAD_INPUT) return st;
+  /* any other failure is that of a solve between the points: found.x is then the highest one solved for before */
+  if (minus_amplitude_at(&p, found.x, &value) != HC_OK) return HC_NOT_CONVERGED;
+  return hbm_curve_append(peak, c->n_coef, x->X, x->dX, &x->point);
+}
+
+hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
+{
+  int top = -1;
+  double before = NAN, beside[3] = {NAN, -1, NAN}; /* amplitudes: of the point before; around the highest one */
+  for (int k = 0; k < c->n; ++k) {
+    hbm_measures m;
+    hc_status st = hbm_measure(s, hbm_curve_X(c, k), &m);
+    if (st != HC_OK) return st;
+    if (m.amplitude > beside[1]) {
+      beside[0] = before;
+      beside[1] = m.amplitude;
+      top = k;
+    }
+    if (k == top + 1) beside[2] = m.amplitude;
+    before = m.amplitude;
+  }
+  if (top < 0) return HC_BAD_INPUT;
+  peak->omega_scale = c->omega_scale;
+  if (top == 0 || top == c->n - 1) /* an end of the sweep: the peak may lie outside */
+    return hbm_curve_append(peak, c->n_coef, hbm_curve_X(c, top), hbm_curve_dX(c, top), &c->points[top]);
+  hbm_candidate x;
+  hc_status st = hbm_candidate_new(c->n_coef, &x);
+  if (st != HC_OK) return st;
+  st = refine_peak(s, c, top, beside, &x, peak);
   free(x.X);
   return st;
 }

@@ -44,6 +44,18 @@ hc_status hbm_candidate_new(int n_coef, hbm_candidate *out); /* one block: free(
  * hbm_solve_plane and hbm_tangent_plane. */
 hc_status hbm_segment_point(hbm_solver *s, const hbm_curve *curve, int k, double sigma, hbm_candidate *x);
 
+/* ---- of the whole curve ---- */
+
+/* Every solution of the curve at omega, appended to *at in the curve's order. The status is HC_OK, or that of the
+ * last segment on which a solution could not be found; the other segments' solutions are there all the same. Where a
+ * curve whose contacts have edges of slip stopped before omega: one solution, found without it; of their edges of
+ * slip (README.md) those that Newton finds at omega from a segment's ends. */
+hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at);
+
+/* The point of largest amplitude of the curve, refined between its points, appended to *peak. HC_BAD_INPUT for an
+ * empty curve. */
+hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *curve, hbm_curve *peak);
+
 /* ---- a part of a segment that shrinks ---- */
 
 /* Something is searched for on it, and solutions that are found become its ends, so that the interpolant between these
