@@ -73,6 +73,17 @@ void dense_congruence(int n, int m, const double *A, const double *B, double *wo
   dense_multiply(m, m, n, turned, BA, C);
 }
 
+bool dense_is_diagonal(int n, const double *A, int ld)
+{
+  double largest = 0, beside = 0;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      double *of = i == j ? &largest : &beside;
+      *of = fmax(*of, fabs(A[(size_t)i + (size_t)j * (size_t)ld]));
+    }
+  return beside <= 8 * ld * DBL_EPSILON * largest;
+}
+
 bool dense_is_symmetric(int n, const double *A)
 {
   for (int j = 0; j < n; ++j)

@@ -43,6 +43,9 @@ int dense_sign(int n, const double *A, const int *pivot);
 /* Is A[n][n] symmetric but for rounding of each entry? */
 bool dense_is_symmetric(int n, const double *A);
 
+/* Is A[n][n], whose columns are ld apart, diagonal but for rounding relative to its largest entry? */
+bool dense_is_diagonal(int n, const double *A, int ld);
+
 /* Eigenvalues of K phi = lambda M phi, ascending, and eigenvectors with phi^T M phi = 1 in the columns of phi[n][n]:
  * K[n][n] symmetric, M[n][n] symmetric and positive definite; both are only read, their lower halves. Errors are of
  * the order of rounding relative to the largest eigenvalue. HC_NO_MEMORY; HC_SINGULAR if M is not positive definite to

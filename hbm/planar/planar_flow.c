@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "base/workspace.h"
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 
 enum { N = COLLOCATION_POINTS };
 
@@ -70,13 +71,6 @@ void planar_flow_free(planar_flow *f)
   if (!f) return;
   workspace_free(&f->memory);
   free(f);
-}
-
-static double dot(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
 }
 
 /* ---- K_j -------------------------------------------------------------------------------------------- */
@@ -252,10 +246,11 @@ static void fill_right(const planar_flow *f, const contact_interval *const *inte
       const model_contact *c = &m->contacts[slipping[k].contact];
       const planar_state *a = &f->at[k * N + i];
       const double *along = f->along + (size_t)((k * N + i) * n), *perp = f->perp + (size_t)((k * N + i) * n);
-      const double dR = radius_by_v(f, &slipping[k]) * (dot(n, c->normal, x) + t * dot(n, c->normal, v));
+      const double dR =
+          radius_by_v(f, &slipping[k]) * (dot_product(n, c->normal, x) + t * dot_product(n, c->normal, v));
       const double y = state[slipping[k].contact];
       for (int r = 0; r < n; ++r) right[r] -= c->law.kt * (along[r] * dR + perp[r] * y);
-      right[n + k] = a->weight * (a->R * (dot(n, perp, v) - a->turning * dR) - a->speed * y);
+      right[n + k] = a->weight * (a->R * (dot_product(n, perp, v) - a->turning * dR) - a->speed * y);
     }
   }
 }

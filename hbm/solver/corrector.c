@@ -118,58 +118,50 @@ static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const d
   return HC_OK;
 }
 
-/* KINSOL weighted the residual by the forces at the guess; here it is weighed against those at the answer. */
-static hc_status check_residual(hbm_solver *s, double omega, const newton *nw, const newton_report *report,
-                                hbm_point *point)
+/* Newton from s->z, whose last entry is omega, by either form. KINSOL weighted the residual by the forces at the guess;
+ * here it is weighed against those at the answer, which then becomes X and *omega. */
+static hc_status solve(hbm_solver *s, newton *form, const newton_options *opt, double *X, double *omega,
+                       hbm_point *point)
 {
-  weigh_rows(s, omega);
-  point->omega = omega;
-  point->iterations = report->iterations;
+  newton_report report;
+  hc_status st = newton_solve(form, s->z, opt, &report);
+  point->iterations = report.iterations;
+  if (st != HC_OK) return st;
+  weigh_rows(s, s->z[s->sys.n]);
+  point->omega = s->z[s->sys.n];
   point->harmonics = s->sys.n_harm;
   point->error = NAN;
-  point->residual = norm_weighted_max(s->sys.n, s->r_scale, newton_residual(nw));
-  return point->residual <= 10 * s->how.tolerance ? HC_OK : HC_NOT_CONVERGED;
+  point->residual = norm_weighted_max(s->sys.n, s->r_scale, newton_residual(form));
+  if (!(point->residual <= 10 * s->how.tolerance)) return HC_NOT_CONVERGED;
+  unpack(s, s->z, X, omega);
+  return HC_OK;
 }
 
 hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point)
 {
+  const newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 3.0, MAX_NEWTON_ITERATIONS, false};
   ++s->solves;
   hc_status st = set_scales(s, omega, x_scale, X);
   if (st != HC_OK) return st;
   s->omega = omega;
-  newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 3.0, MAX_NEWTON_ITERATIONS, false};
-  newton_report report;
   pack(s, X, omega, s->z);
-  st = newton_solve(s->fixed, s->z, &opt, &report);
-  if (st != HC_OK) {
-    point->iterations = report.iterations;
-    return st;
-  }
-  if ((st = check_residual(s, omega, s->fixed, &report, point)) == HC_OK) unpack(s, s->z, X, &omega);
-  return st;
+  return solve(s, s->fixed, &opt, X, &omega, point);
 }
 
 static hc_status solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale,
                              int max_iterations, bool plain, double *X, double *omega, hbm_point *point)
 {
+  const newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 1.0, max_iterations, plain};
+  const int n = s->sys.n;
   ++s->solves;
   hc_status st = set_scales(s, *omega, x_scale, X);
   if (st != HC_OK) return st;
-  int n = s->sys.n;
   s->z_scale[n] = 1 / omega_scale;
   s->r_scale[n] = 1; /* normal . (z - anchor) is a length in the metric */
   memcpy(s->normal, normal, (size_t)(n + 1) * sizeof(double));
   pack(s, X, *omega, s->anchor);
   memcpy(s->z, s->anchor, (size_t)(n + 1) * sizeof(double));
-  newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 1.0, max_iterations, plain};
-  newton_report report;
-  st = newton_solve(s->plane, s->z, &opt, &report);
-  if (st != HC_OK) {
-    point->iterations = report.iterations;
-    return st;
-  }
-  if ((st = check_residual(s, s->z[n], s->plane, &report, point)) == HC_OK) unpack(s, s->z, X, omega);
-  return st;
+  return solve(s, s->plane, &opt, X, omega, point);
 }
 
 hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,

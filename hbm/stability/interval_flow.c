@@ -24,6 +24,7 @@ typedef struct decomposition {
   double complex *lambda; /* [n] */
   double *V, *W;          /* [moving][2 n], [2 n][moving] by rows: (dx, dx') = V y, y = W (dx, dx'), and y of eigenvalue
                              k is y[2k] + i y[2k + 1] */
+  workspace memory;
 } decomposition;
 
 struct interval_flow {
@@ -120,10 +121,7 @@ static void keep_halves(const interval_flow *f, const double complex *lambda, co
 
 static void interval_forget(decomposition *d)
 {
-  free(d->key);
-  free(d->lambda);
-  free(d->V);
-  free(d->W);
+  workspace_free(&d->memory);
   *d = (decomposition){0};
 }
 
@@ -132,11 +130,11 @@ static hc_status decompose(interval_flow *f, const contact_interval *const *inte
   const size_t ld = (size_t)f->moving, contacts = (size_t)f->m->n_contacts;
   double complex *V = f->work, *lu = V + ld * ld, *W = lu + ld * ld, *lambda = W + ld * ld;
   interval_forget(d);
-  d->key = malloc(contacts + 1);
-  d->lambda = malloc(ld * sizeof *d->lambda);
-  d->V = malloc(2 * ld * ld * sizeof *d->V);
-  d->W = malloc(2 * ld * ld * sizeof *d->W);
-  if (!d->key || !d->lambda || !d->V || !d->W) {
+  d->key = workspace_array(&d->memory, contacts, 1);
+  d->lambda = workspace_array(&d->memory, ld, sizeof *d->lambda);
+  d->V = workspace_doubles(&d->memory, 2 * ld * ld);
+  d->W = workspace_doubles(&d->memory, 2 * ld * ld);
+  if (d->memory.failed) {
     interval_forget(d);
     return HC_NO_MEMORY;
   }

@@ -43,7 +43,7 @@ typedef struct contact_track {
 struct monodromy {
   int n;            /* degrees of freedom */
   int n_states;     /* 2 n + contacts */
-  int cap;          /* of boundary */
+  size_t cap;       /* of boundary */
   double *boundary; /* [cap] [rad] every angle at which a contact changes state, ascending */
   int columns;      /* of phi that count */
   double *phi;      /* [n_states][n_states] by rows */
@@ -73,23 +73,16 @@ static bool covers(double from, double to, double th)
   return (th >= from && th < to) || (th + TWO_PI >= from && th + TWO_PI < to);
 }
 
-/* All angles of change in [0, 2 pi); their number or -1 without memory. */
+/* All angles of change in [0, 2 pi), 0 if there are none; their number or -1 without memory. */
 static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_contacts)
 {
-  int n = 1;
-  for (int j = 0, intervals; j < n_contacts; ++j) {
-    contact_forces_intervals(orbit, j, &intervals);
-    n += 2 * intervals;
-  }
-  if (n > w->cap) {
-    double *more = realloc(w->boundary, 2 * (size_t)n * sizeof(double));
-    if (!more) return -1;
-    w->boundary = more;
-    w->cap = 2 * n;
-  }
-  n = 0;
+  int n = 0;
   for (int j = 0, intervals; j < n_contacts; ++j) {
     const contact_interval *p = contact_forces_intervals(orbit, j, &intervals);
+    const size_t most = (size_t)(n + 2 * intervals + 1);
+    double *more = most > w->cap ? realloc(w->boundary, 2 * most * sizeof *more) : w->boundary;
+    if (!more) return -1;
+    if (most > w->cap) w->boundary = more, w->cap = 2 * most;
     for (int k = 0; k < intervals; ++k) w->boundary[n++] = wrap(p[k].from), w->boundary[n++] = wrap(p[k].to);
   }
   if (n == 0) w->boundary[n++] = 0;
@@ -327,7 +320,7 @@ hc_status monodromy_new(const model *m, monodromy **out)
   monodromy *w = *out;
   if (!w) return HC_NO_MEMORY;
   w->cap = 2;
-  w->boundary = malloc((size_t)w->cap * sizeof(double));
+  w->boundary = malloc(w->cap * sizeof(double));
   w->n = m->n;
   w->n_states = 2 * m->n + m->n_contacts;
   const size_t n = (size_t)w->n_states;

@@ -5,7 +5,6 @@
  *                                                                            w: lower half of the left one */
 #include "hbm/structure/compliance.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -376,18 +375,6 @@ static hc_status make_form(const model *m, int dim, const double *B, modal_form 
 
 /* ---- damping that the modes diagonalise ------------------------------------------------------------ */
 
-/* Rounding in C is relative to its largest entry. */
-static bool is_diagonal(const modal_form *f)
-{
-  double largest = 0, beside = 0;
-  for (int j = 0; j < f->n; ++j)
-    for (int i = 0; i < f->n; ++i) {
-      double *of = i == j ? &largest : &beside;
-      *of = fmax(*of, fabs(f->C[(size_t)i + (size_t)j * (size_t)f->n]));
-    }
-  return beside <= 8 * f->n * DBL_EPSILON * largest;
-}
-
 static hc_status sum_modes(const model *m, int dim, const modal_form *f, compliance *c)
 {
   const size_t n = (size_t)f->n;
@@ -519,7 +506,7 @@ hc_status compliance_new(const model *m, int dim, const double *B, compliance **
   *c = (compliance){.n = m->n, .dim = dim, .n_loads = m->n_loads, .n_responses = m->n_responses};
   hc_status st = make_form(m, dim, B, &f);
   if (st == HC_OK && every_mode_is_damped(&f))
-    st = is_diagonal(&f) ? sum_modes(m, dim, &f, c) : sum_poles(m, dim, &f, c);
+    st = dense_is_diagonal(f.n, f.C, f.n) ? sum_modes(m, dim, &f, c) : sum_poles(m, dim, &f, c);
   if (st == HC_OK && c->of_responses) st = make_workspace(m, dim, c);
   workspace_free(&f.memory);
   const bool usable = st == HC_OK && c->of_responses;

@@ -6,12 +6,12 @@
  * Where the rows span everything, q = x. */
 #include "hbm/structure/condensation_basis.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 
 /* Directions that differ by less than this from others are the same but for rounding of the case file's numbers. */
 static const double dependent = 1e-10;
@@ -24,13 +24,6 @@ static const double negligible = 1e-12;
 static const double free_mode = 1e-14;
 
 static size_t square(int n) { return (size_t)n * (size_t)n; }
-
-static double dot(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
 
 static hc_status allocate(const model *m, condensation_basis *b)
 {
@@ -82,7 +75,7 @@ static void keep_rows(const model *m, const double *const *row, const int *pivot
   const size_t n = (size_t)m->n, dim = (size_t)b->dim;
   for (size_t d = 0; d < dim; ++d) {
     const bool new_part = fabs(R[d * (dim + 1)]) < little;
-    const double *from = new_part ? b->T + d * n : row[pivot[d]], length = sqrt(dot(m->n, from, from));
+    const double *from = new_part ? b->T + d * n : row[pivot[d]], length = sqrt(dot_product(m->n, from, from));
     for (size_t i = 0; i < n; ++i) b->rows[d * n + i] = from[i] / length;
     for (size_t k = 0; k <= d && new_part; ++k) R[d * dim + k] = k == d;
   }
@@ -122,7 +115,7 @@ static void turn_to_modes(const model *m, condensation_basis *b, const double *l
   for (int d = 0; d < dim; ++d)
     for (int j = 0; j < rest; ++j)
       part[(size_t)d * (size_t)rest + (size_t)j] =
-          -dot(n, Y + (size_t)j * (size_t)n, KP + (size_t)d * (size_t)n) / lambda[j];
+          -dot_product(n, Y + (size_t)j * (size_t)n, KP + (size_t)d * (size_t)n) / lambda[j];
   dense_multiply(n, dim, rest, Y, part, work);
   for (size_t i = 0; i < (size_t)n * (size_t)dim; ++i) P[i] += work[i];
 }
@@ -162,24 +155,11 @@ static void drop_rounding(condensation_basis *b)
     }
 }
 
-/* Is the rest's block of C diagonal but for rounding, which is relative to its largest entry? */
-static bool damping_is_diagonal(const condensation_basis *b)
-{
-  const int n = b->n;
-  double largest = 0, beside = 0;
-  for (int j = b->dim; j < n; ++j)
-    for (int i = b->dim; i < n; ++i) {
-      double *of = i == j ? &largest : &beside;
-      *of = fmax(*of, fabs(b->C[(size_t)i + (size_t)j * (size_t)n]));
-    }
-  return beside <= 8 * n * DBL_EPSILON * largest;
-}
-
 /* ---- everything in the new coordinates ---------------------------------------------------------- */
 
 static void transform(const condensation_basis *b, int columns, const double *x, double *out)
 {
-  for (int d = 0; d < columns; ++d) out[d] = dot(b->n, b->T + (size_t)d * (size_t)b->n, x);
+  for (int d = 0; d < columns; ++d) out[d] = dot_product(b->n, b->T + (size_t)d * (size_t)b->n, x);
 }
 
 static void transform_vectors(const model *m, condensation_basis *b)
@@ -226,7 +206,7 @@ hc_status condensation_basis_make(const model *m, condensation_basis *b)
     clean_directions(m, b);
     if (modes) drop_rounding(b);
     b->modes = modes;
-    b->diagonal = modes && damping_is_diagonal(b);
+    b->diagonal = modes && dense_is_diagonal(b->rest, b->C + (size_t)b->dim * (size_t)(m->n + 1), m->n);
   }
   free(work);
   return st;
