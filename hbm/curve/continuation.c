@@ -25,9 +25,10 @@
 
 static const double TOLERANCE = 1e-4; /* [1] of interpolation, relative to |X| */
 static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
-static const double STEP_CORNER = 1e-4;      /* where steps are this short the curve has a corner: a kink is accepted */
-static const double STEP_ROUND = 1e-9;       /* where steps fail below this, a step round the corner is tried */
-static const double LOOP_RANGE = 4;          /* factor beyond the start of the sweep up to which a loop is followed */
+static const double STEP_CORNER = 1e-4; /* where steps are this short the curve has a corner: a kink is accepted */
+static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
+static const double LOOP_RANGE = 4;     /* factor beyond the start of the sweep up to which a loop is followed */
+static const double LONGER = 4; /* factor from one length of a step round a corner or past an edge to the next */
 static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
 static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
 
@@ -40,6 +41,12 @@ static const double MOST_MOVED = 0.25, LEAST_COSINE = 0.7, MOST_ERROR = 4, SAFET
 static const double SHRINK_ACCEPTED = 0.4, GROW_ACCEPTED = 2, SHRINK_REFUSED = 0.2, GROW_REFUSED = 0.5;
 static const double SHRINK_FAILED = 0.4, SHRINK_SLOW = 0.7;
 enum { MANY_ITERATIONS = 8 };
+
+/* A sweep is four units of omega long in the curve's metric, so that STEP_MAX makes eight steps at least; one of a
+ * single omega has a unit all the same. Errors beside a resonance narrower than a millionth of omega are measured as if
+ * it had that width. */
+static const double SWEEP_UNITS = 4, LEAST_UNIT = 1e-3, NARROWEST = 1e-6;
+static const double WAY_BACK = -0.99; /* cos of the angle to the last tangent, 172 degrees: it retraces the curve */
 enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
 
 static bool steps_are_fixed(const hbm_solver *s) { return s->how.continuation == HBM_CONTINUATION_FIXED_STEP; }
@@ -159,7 +166,8 @@ static hc_status step_round_corner(path *p, double h, bool *accepted)
   fill_chord(p);
   double w = p->omega - last->omega, along_last = path_metric(p, x_scale, dX0, last->d_omega, p->chord, w);
   bool onward = path_metric(p, x_scale, p->dX, p->d_omega, p->chord, w) > 0;
-  bool the_way_it_came = along_last < -0.99 * h * sqrt(path_metric(p, x_scale, dX0, last->d_omega, dX0, last->d_omega));
+  bool the_way_it_came =
+      along_last < WAY_BACK * h * sqrt(path_metric(p, x_scale, dX0, last->d_omega, dX0, last->d_omega));
   *accepted = onward && !the_way_it_came && path_correction(p, c->omega_scale) <= h;
   return HC_OK;
 }
@@ -168,7 +176,7 @@ static hc_status step_round_corner(path *p, double h, bool *accepted)
 static bool round_corner(path *p)
 {
   bool accepted = false;
-  for (double h = STEP_ROUND; h <= STEP_CORNER && !accepted; h *= 4)
+  for (double h = STEP_ROUND; h <= STEP_CORNER && !accepted; h *= LONGER)
     if (step_round_corner(p, h, &accepted) != HC_OK) accepted = false;
   if (accepted) p->step = STEP_ROUND;
   return accepted;
@@ -217,7 +225,7 @@ static bool pass_edge(path *p)
   const double onward = last->d_omega > 0 ? last->omega : -last->omega;
   bool accepted = false;
   if (p->edges++ >= edges->most) return false;
-  for (double part = edges->first; part <= edges->last && !accepted; part *= 4)
+  for (double part = edges->first; part <= edges->last && !accepted; part *= LONGER)
     accepted = solve_past_edge(p, last->omega + part * onward) || solve_past_edge(p, last->omega - part * onward);
   if (!accepted) return false;
   ++c->edges;
@@ -435,12 +443,12 @@ static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from
                       .may_come_from_above = may_come_from_above};
   bool adapts = s->how.harmonics == HBM_AUTO, more_samples;
   curve->n_coef = adapts ? hbm_system_length(&s->sys, REFINE_MOST_HARMONICS) : s->sys.n_coef;
-  curve->omega_scale = fmax(fabs(to - from) / 4, 1e-3 * from);
+  curve->omega_scale = fmax(fabs(to - from) / SWEEP_UNITS, LEAST_UNIT * from);
   long before = s->sys.evaluations;
   hc_status st;
   do {
     path p = start;
-    p.resolution = fmin(curve->omega_scale, fmax(s->sys.scales.half_width, 1e-6 * from));
+    p.resolution = fmin(curve->omega_scale, fmax(s->sys.scales.half_width, NARROWEST * from));
     if (s->ramp) p.resolution = curve->omega_scale;
     st = trace_once(&p, monitor, &more_samples);
     if (more_samples && (st = hbm_solver_resize(s, s->sys.n_harm, 2 * s->n_time)) != HC_OK) break;

@@ -45,16 +45,20 @@ double path_flatness(const path *p)
   return fabs(p->d_omega) / p->curve->omega_scale / sqrt(all);
 }
 
+/* The last segment's cubic is extrapolated by four of its lengths at most, then its tangent. The errors' ratio is that
+ * of continuation.c, h^4/384 to (h_p + h)^2 h^2/24: (24/384) h^2/(h_p + h)^2, of the tangent alone as if h_p were 0. */
+static const double MOST_LENGTHS = 4, RATIO = 24.0 / 384;
+
 double path_predict(path *p, double h)
 {
   const hbm_curve *c = p->curve;
   int last = c->n - 1;
-  double x_scale = path_size(p), ratio = 1.0 / 16;
+  double x_scale = path_size(p), ratio = RATIO;
   hbm_segment seg = {.length = 0};
   if (c->n >= 2) seg = hbm_segment_between(c, last - 1);
-  if (c->n >= 2 && h <= 4 * seg.length && !p->tangent_only) {
+  if (c->n >= 2 && h <= MOST_LENGTHS * seg.length && !p->tangent_only) {
     hbm_segment_at(&seg, 1 + h / seg.length, p->X, &p->omega, p->dX, &p->d_omega);
-    ratio = h * h / (16 * (seg.length + h) * (seg.length + h));
+    ratio = RATIO * h * h / ((seg.length + h) * (seg.length + h));
   } else {
     const double *X = hbm_curve_X(c, last), *dX = hbm_curve_dX(c, last);
     const hbm_point *q = &c->points[last];
@@ -128,7 +132,11 @@ hc_status path_fixed_step(path *p, bool *accepted)
 /* Harmonics change along the curve, as far as the last point needs. Samples do not: the curve of sampled equations
  * turns elsewhere for another N, so one that needs more starts again with twice as many. */
 
-enum { POINTS_BEFORE_DROPPING = 4 };
+/* Harmonics are dropped where they have not shown at four points in a row, that is, have come to a twentieth of the
+ * accuracy at most: the ladder's rungs are a factor of 1.4 apart, so that errors, like H^-3, grow by 2.8. If that
+ * fails, four times as many points are waited for. */
+enum { POINTS_BEFORE_DROPPING = 4, WAITED_LONGER = 4 };
+static const double DROPPABLE = 0.05;
 
 /* The trial: the last point solved again with the equations as they are now, at its omega if it is an end of the sweep
  * (ends stay where they are), else across its own tangent. */
@@ -239,14 +247,14 @@ hc_status path_adapt(path *p)
   if (st != HC_OK || too_few_samples) return st;
   bool has_spare = s->finer_harmonics && s->sys.n_harm > 1 &&
                    refine_next_harmonics(s->sys.n_harm, false) >= model_highest_load(s->model);
-  bool droppable = has_spare && droppable_size(p, hbm_curve_X(c, c->n - 1)) < 0.05 * s->how.accuracy;
+  bool droppable = has_spare && droppable_size(p, hbm_curve_X(c, c->n - 1)) < DROPPABLE * s->how.accuracy;
   p->droppable_points = droppable ? p->droppable_points + 1 : 0;
   if (p->droppable_points < POINTS_BEFORE_DROPPING) return HC_OK;
   int before = s->sys.n_harm;
   p->droppable_points = 0;
   st = change_harmonics(p, refine_next_harmonics(before, false));
   if (st == HC_OK) st = path_adapt(p); /* estimates the error, and adds them again if it is too large */
-  if (s->sys.n_harm >= before) p->droppable_points = -4 * POINTS_BEFORE_DROPPING;
+  if (s->sys.n_harm >= before) p->droppable_points = -WAITED_LONGER * POINTS_BEFORE_DROPPING;
   return st;
 }
 

@@ -137,6 +137,10 @@ static int find_omega(const hbm_segment *s, double omega, bool include_end, doub
 
 enum { MAX_HALVINGS = 40 };
 
+/* Newton leaves 1e-10 of the forces, the usual tolerance: solutions nearer than 1e-9 of |X| are one. One belongs to the
+ * interpolant that it is off by no more than a tenth of the segment: the step's controller leaves 1e-4 of |X|. */
+static const double SAME = 1e-9, NEAR = 0.1, ROUNDING = 1e-8;
+
 hc_status hbm_candidate_new(int n_coef, hbm_candidate *out)
 {
   size_t n = (size_t)n_coef + 1;
@@ -165,7 +169,7 @@ static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment
   hbm_truncate(s, c->n_coef, x->dX);
   memcpy(x->guess, x->X, bytes);
   if (hbm_solve_fixed(s, omega, seg->x_scale, x->X, &x->point) != HC_OK) return false;
-  const double near = (0.1 * seg->length + 1e-8) * seg->x_scale;
+  const double near = (NEAR * seg->length + ROUNDING) * seg->x_scale;
   if (!(distance_2(c->n_coef, x->X, x->guess) <= near)) return false;
   if (hbm_tangent_fixed(s, x->X, x->dX) != HC_OK) return false;
   double sign = d_omega < 0 ? -1 : 1;
@@ -220,7 +224,7 @@ static hc_status search_solutions(hbm_solver *s, const hbm_curve *c, int k, doub
   int crossings = find_omega(&seg, omega, include_end, sigma), before = out->n;
   bool all_found = true;
   for (int i = 0; i < crossings && all_found; ++i) {
-    all_found = solve_at(s, c, k, &seg, sigma[i], omega, x) && !has_point(out, before, x->X, 1e-9 * seg.x_scale);
+    all_found = solve_at(s, c, k, &seg, sigma[i], omega, x) && !has_point(out, before, x->X, SAME * seg.x_scale);
     if (all_found && hbm_curve_append(out, c->n_coef, x->X, x->dX, &x->point) != HC_OK) return HC_NO_MEMORY;
   }
   if (all_found) return HC_OK;
@@ -259,7 +263,7 @@ static hc_status append_solution(hbm_solver *s, const hbm_curve *c, const double
   if (guess) memcpy(x.X, guess, (size_t)c->n_coef * sizeof *guess);
   memset(x.dX, 0, (size_t)c->n_coef * sizeof *x.dX);
   st = guess ? hbm_solve_fixed(s, omega, size, x.X, &x.point) : hbm_solve_first(s, omega, x.X, &x.point);
-  if (st == HC_OK && !has_point(at, before, x.X, 1e-9 * norm_2(c->n_coef, x.X)))
+  if (st == HC_OK && !has_point(at, before, x.X, SAME * norm_2(c->n_coef, x.X)))
     st = hbm_curve_append(at, c->n_coef, x.X, x.dX, &x.point);
   free(x.X);
   return st;
@@ -282,7 +286,7 @@ static void drop_twins(hbm_curve *at, int before)
     const int all = at->n;
     at->n = n;
     const double *X = hbm_curve_X(at, i);
-    const bool twin = has_point(at, before, X, 1e-9 * norm_2(at->n_coef, X));
+    const bool twin = has_point(at, before, X, SAME * norm_2(at->n_coef, X));
     at->n = all;
     if (twin) continue;
     at->points[n] = at->points[i];

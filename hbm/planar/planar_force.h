@@ -1,4 +1,4 @@
-/* planar_force.h - contact force harmonics of a contact with two tangents and one limit for both (model/planar_slip.h),
+/* planar_force.h - contact force harmonics of a contact with two tangents and one limit for both (planar_slip.h),
  * from displacement harmonics without sampling, hence without aliasing:
  *
  *     F = (T_1, T_2, N - N0)      X = (u_1, u_2, v), or without the last ones where N is constant

@@ -1,5 +1,5 @@
 /* planar_motion.h - what moves a contact of two tangents with one limit, as lengths: u(th) in the plane and the
- * radius R(th) = mu N/kt of the circle that holds the slider (model/planar_slip.h). While it is in contact R is
+ * radius R(th) = mu N/kt of the circle that holds the slider (planar_slip.h). While it is in contact R is
  * linear in v, so it is a trigonometric polynomial like u. libm only, nothing is allocated. */
 #ifndef HC_HBM_PLANAR_MOTION_H
 #define HC_HBM_PLANAR_MOTION_H

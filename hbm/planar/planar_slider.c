@@ -1,4 +1,4 @@
-/* circle_slider.c - see planar_slider.h.
+/* planar_slider.c - see planar_slider.h.
  *
  * Slip along a straight motion is known in closed form. Let d be the way of u in the step, of length l and direction n,
  * delta the angle from n to e, e = (u - w)/r. With e' = (u'.e_perp/r) e_perp and u' = d, r = r0 + t (r1 - r0):

@@ -1,4 +1,4 @@
-/* planar_slider.h - the slider of a contact with two tangents under the law of the circle (model/planar_slip.h), from
+/* planar_slider.h - the slider of a contact with two tangents under the law of the circle (planar_slip.h), from
  * one sample of the motion to the next. With r = mu N/kt [length] the law is: the slider w stays within r of u, moves
  * only where it must, and then straight towards u,
  *
