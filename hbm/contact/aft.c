@@ -110,13 +110,6 @@ static contact_regime regime_of(int n, const sampled_interval *s)
   return slips ? CONTACT_SLIPS : CONTACT_STUCK;
 }
 
-/* What moves contact j, and where its force acts: on x, or on u where v is another coordinate. */
-static slider_motion motion_of(const aft *a, const moving_contact *c)
-{
-  if (a->n_dof > 1) return (slider_motion){a->x, a->y, 1, 1, 1, 0};
-  return (slider_motion){a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
-}
-
 /* One step of the law maps w to the nearest point of an interval, and so does a whole period: applied once more it
  * changes nothing, so the slider is periodic in the second. That it is not can only be rounding or a defect. */
 static hc_status evaluate_contact(aft *a, int j, double size, contact_report *report)
@@ -124,7 +117,9 @@ static hc_status evaluate_contact(aft *a, int j, double size, contact_report *re
   const moving_contact *c = &a->contacts[j];
   sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
   double *f = j == 0 ? a->f : a->of.sample, *again = a->k; /* k is made afterwards, if at all */
-  const slider_motion motion = motion_of(a, c);
+  slider_motion motion = {a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
+  if (a->n_dof > 1)
+    motion = (slider_motion){a->x, a->y, 1, 1, 1, 0}; /* the force on u, where v is another coordinate */
   slider_report found = slider_follow(&c->law, a->restart, a->n_time, &motion, f, again, s, a->settling);
   a->n_intervals[j] = found.n_intervals;
   for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->of.sample[i];
@@ -133,14 +128,6 @@ static hc_status evaluate_contact(aft *a, int j, double size, contact_report *re
   report->transitions += found.transitions;
   report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(c, a->n_dof);
   return fabs(found.w - found.settled) <= 1e-12 * (fabs(found.settled) + size) ? HC_OK : HC_NOT_CLOSED;
-}
-
-/* N - N0 at every sample of v, to its harmonics: its contact's T is in the first coordinate. */
-static void across_to_series(aft *a, double *F)
-{
-  const contact law = a->contacts[0].law;
-  for (int i = 0; i < a->n_time; ++i) a->f[i] = contact_normal_change(&law, a->y[i]);
-  period_samples_series(&a->of, a->f, a->n_harm, F);
 }
 
 hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
@@ -159,7 +146,10 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
   for (int j = 0; j < a->n_contacts && st == HC_OK; ++j) st = evaluate_contact(a, j, size, report);
   if (st != HC_OK) return st;
   period_samples_series(&a->of, a->f, a->n_harm, F);
-  if (a->n_dof > 1) across_to_series(a, F + n_coef);
+  if (a->n_dof > 1) { /* N - N0: its contact's T is in the first coordinate */
+    for (int i = 0; i < a->n_time; ++i) a->f[i] = contact_normal_change(&a->contacts->law, a->y[i]);
+    period_samples_series(&a->of, a->f, a->n_harm, F + n_coef);
+  }
   if (jac) aft_jacobian(a, jac);
   return HC_OK;
 }
@@ -225,16 +215,6 @@ static double stiffness_in(const moving_contact *c, contact_state state)
   return (slip ? slip * law->mu * law->kn * normal : law->kt * tangent) * tangent + law->kn * normal * normal;
 }
 
-static void add_stiffness(aft *a, int j)
-{
-  const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
-  for (int m = 0; m < a->n_intervals[j]; ++m) {
-    const int end = end_of_interval(a, j, m);
-    const double stiffness = stiffness_in(&a->contacts[j], s[m].state);
-    for (int i = s[m].first; i < end; ++i) a->k[i] += stiffness;
-  }
-}
-
 /* One block of the Jacobian from its stiffness in every contact_state. */
 static void add_block(aft *a, const double stiffness[4], double *block)
 {
@@ -263,7 +243,13 @@ void aft_jacobian(aft *a, double *jac)
   if (a->n_dof > 1) differentiate_two_coordinates(a, jac);
   else {
     memset(a->k, 0, (size_t)a->n_time * sizeof(double));
-    for (int j = 0; j < a->n_contacts; ++j) add_stiffness(a, j);
+    for (int j = 0; j < a->n_contacts; ++j)
+      for (int m = 0; m < a->n_intervals[j]; ++m) {
+        const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time + m;
+        const int end = end_of_interval(a, j, m);
+        const double stiffness = stiffness_in(&a->contacts[j], s->state);
+        for (int i = s->first; i < end; ++i) a->k[i] += stiffness;
+      }
     period_samples_series(&a->of, a->k, 2 * a->n_harm, a->symbol);
     force_jacobian_add(a->n_harm, a->symbol, series_length(a->n_harm), jac);
   }

@@ -34,14 +34,6 @@ static hc_status open_motion(const contact *law, int n_harm, const double *u, co
 
 /* ---- forces -------------------------------------------------------------------------------------- */
 
-static void measure_normal(const measured_motion *m, contact_period *out)
-{
-  double most, least;
-  series_extrema(m->grid.m.n_harm, m->grid.m.X[1], &most, &least);
-  out->normal_min = contact_normal(m->law, least);
-  out->normal_max = contact_normal(m->law, most);
-}
-
 /* The largest |T| of one interval: of kt u - held while it sticks, of mu N while it slips. Where it goes from one to
  * the other, rounding of the first may exceed the limit. */
 static double interval_traction(const measured_motion *m, const contact_interval *p)
@@ -98,13 +90,16 @@ static bool is_finite(int n, const double *X)
 hc_status contact_measures_of(const contact *law, int n_harm, const double *u, const double *v, contact_period *out)
 {
   measured_motion m;
+  double most, least;
   *out = (contact_period){.regime = CONTACT_LINEAR};
   if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS) return HC_BAD_INPUT;
   if (!is_finite(series_length(n_harm), u) || !is_finite(series_length(n_harm), v)) return HC_NOT_FINITE;
   hc_status st = open_motion(law, n_harm, u, v, &m);
   if (st == HC_OK) {
     out->regime = transitions_regime(m.n, m.interval);
-    measure_normal(&m, out);
+    series_extrema(n_harm, v, &most, &least);
+    out->normal_min = contact_normal(law, least);
+    out->normal_max = contact_normal(law, most);
     for (int i = 0; i < m.n && contact_has_friction(law); ++i) {
       out->traction_max =
           fmax(out->traction_max, fmin(interval_traction(&m, &m.interval[i]), law->mu * out->normal_max));

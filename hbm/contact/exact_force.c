@@ -163,16 +163,6 @@ static void subtract_stick_interval(exact_force *e, const moving_contact *c, con
     }
 }
 
-/* The blocks (d, f) of the matrix from the symbols K_df. */
-static void assemble(const exact_force *e, double *matrix)
-{
-  int n = e->n_coef, D = e->n_dof, symbol = force_jacobian_symbol_length(e->n_harm);
-  for (int d = 0; d < D; ++d)
-    for (int f = 0; f < D; ++f)
-      force_jacobian_add(e->n_harm, e->symbol + (size_t)(d * D + f) * symbol, D * n,
-                         matrix + (size_t)d * n + (size_t)D * n * f * n);
-}
-
 /* Changes of state over the period. An interval is followed by another one (one change, or none if both are parts of
  * the same state), or by a separation and then an interval (two). */
 static int count_changes(const contact_interval *p, int n)
@@ -239,7 +229,10 @@ hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *j
       add_interval(e, c, &p[i], F);
     }
   }
-  assemble(e, matrix);
+  for (int d = 0; d < e->n_dof; ++d) /* block (d, f) from the symbol K_df */
+    for (int f = 0; f < e->n_dof; ++f)
+      force_jacobian_add(e->n_harm, e->symbol + (size_t)(d * e->n_dof + f) * symbol, m,
+                         matrix + (size_t)d * e->n_coef + (size_t)m * f * e->n_coef);
   for (int q = 0; q < m; ++q) add_scaled(m, X[q], matrix + (size_t)m * q, F); /* Toeplitz + Hankel only, so far */
   for (int j = 0; jac && j < e->n_contacts; ++j)
     for (int i = 0; i < e->n_intervals[j]; ++i)

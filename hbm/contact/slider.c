@@ -169,14 +169,6 @@ static bool same_from_here(const followed *k, const sampled_interval *a, const s
   return a->state == b->state && (!remembers || a->w == b->w);
 }
 
-/* The first period; how many intervals. */
-static int follow_first_period(const followed *k, int n, double *f, slider *t, sampled_interval *out)
-{
-  int count = 0;
-  for (int i = 0; i < n;) i = follow_interval(k, n, f, i, t, &out[count++]);
-  return count;
-}
-
 /* The second, where it differs from the first, whose force is in f. `again` gets the second's force: blocks write past
  * the end of an interval. */
 static int settle_again(const followed *k, int n, double *f, double *again, slider *t, const sampled_interval *first,
@@ -205,7 +197,8 @@ slider_report slider_follow(const contact *law, hbm_restart restart, int n, cons
   slider_report found;
   slider t = {.state = CONTACT_STICK};
   if (!(contact_normal(law, k.m.s * m->across[n - 1]) > 0)) t.state = CONTACT_SEPARATED;
-  int n_first = follow_first_period(&k, n, f, &t, settling);
+  int n_first = 0;
+  for (int i = 0; i < n;) i = follow_interval(&k, n, f, i, &t, &settling[n_first++]);
   contact_state before = t.state;
   found.settled = t.w;
   if (restart == HBM_RESTART_ONE_PASS || restart == HBM_RESTART_ONE_PASS_SAMPLE) {

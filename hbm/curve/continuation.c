@@ -17,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "hbm/curve/path.h"
 #include "hbm/curve/segment.h"
 #include "hbm/solver/corrector.h"
@@ -313,16 +314,12 @@ static hc_status come_from_above(path *p, const hc_monitor *monitor)
   return st;
 }
 
-static hc_status start_of_ramp(path *p)
-{
-  double size = hbm_ramp_start(p->s->ramp, &p->s->sys, p->X);
-  return hbm_solve_fixed(p->s, p->from, size, p->X, &p->point);
-}
-
 static hc_status first_point(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
-  hc_status st = p->s->ramp ? start_of_ramp(p) : hbm_first_solution(p->s, p->from, monitor, p->X, &p->point);
+  hbm_solver *s = p->s;
+  hc_status st = s->ramp ? hbm_solve_fixed(s, p->from, hbm_ramp_start(s->ramp, &s->sys, p->X), p->X, &p->point)
+                         : hbm_first_solution(s, p->from, monitor, p->X, &p->point);
   bool no_solution = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED;
   if (no_solution && p->may_come_from_above) st = come_from_above(p, monitor);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
@@ -402,18 +399,6 @@ static hc_status follow(path *p, const hc_monitor *monitor)
   return st;
 }
 
-static hc_status make_rows(path *p)
-{
-  size_t n = (size_t)p->curve->n_coef;
-  p->X = calloc(5 * n + 1, sizeof(double)); /* one block: X, dX, X_predicted, chord, normal */
-  if (!p->X) return HC_NO_MEMORY;
-  p->dX = p->X + n;
-  p->X_predicted = p->dX + n;
-  p->chord = p->X_predicted + n;
-  p->normal = p->chord + n;
-  return HC_OK;
-}
-
 /* One way through the sweep with one number of samples. *more_samples: it should be gone again with more of them. */
 static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_samples)
 {
@@ -424,9 +409,13 @@ static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_sampl
   p->step = STEP_FIRST;
   p->natural = natural_allowed(p);
   c->arclength = !p->natural;
-  hc_status st = make_rows(p);
-  if (st == HC_OK) st = follow(p, monitor);
-  free(p->X);
+  const size_t n = (size_t)c->n_coef;
+  workspace rows = {0};
+  p->X = workspace_doubles(&rows, n), p->dX = workspace_doubles(&rows, n);
+  p->X_predicted = workspace_doubles(&rows, n), p->chord = workspace_doubles(&rows, n);
+  p->normal = workspace_doubles(&rows, n + 1);
+  hc_status st = rows.failed ? HC_NO_MEMORY : follow(p, monitor);
+  workspace_free(&rows);
   bool gave_up = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED; /* at a kink that more samples may smooth */
   *more_samples = p->more_samples || (gave_up && p->s->finer_samples && p->s->n_time < REFINE_MOST_SAMPLES);
   return st;

@@ -202,13 +202,6 @@ static hc_status change_harmonics(path *p, int n_harm)
   return st;
 }
 
-/* Size, relative to X, of what X has in the harmonics that the next lower rung of the ladder would drop. */
-static double droppable_size(const path *p, const double *X)
-{
-  int n = p->s->sys.n_coef, kept = hbm_system_length(&p->s->sys, refine_next_harmonics(p->s->sys.n_harm, false));
-  return norm_2(n - kept, X + kept) / path_size(p);
-}
-
 /* More harmonics until the last point meets hbm.accuracy; *too_few: it takes more samples first. */
 static hc_status add_harmonics(path *p, bool *too_few)
 {
@@ -245,9 +238,10 @@ hc_status path_adapt(path *p)
   hc_status st = add_harmonics(p, &too_few_samples);
   p->more_samples |= too_few_samples;
   if (st != HC_OK || too_few_samples) return st;
-  bool has_spare = s->finer_harmonics && s->sys.n_harm > 1 &&
-                   refine_next_harmonics(s->sys.n_harm, false) >= model_highest_load(s->model);
-  bool droppable = has_spare && droppable_size(p, hbm_curve_X(c, c->n - 1)) < DROPPABLE * s->how.accuracy;
+  const int fewer = refine_next_harmonics(s->sys.n_harm, false), kept = hbm_system_length(&s->sys, fewer);
+  bool has_spare = s->finer_harmonics && s->sys.n_harm > 1 && fewer >= model_highest_load(s->model);
+  const double *X = hbm_curve_X(c, c->n - 1);
+  bool droppable = has_spare && norm_2(s->sys.n_coef - kept, X + kept) / path_size(p) < DROPPABLE * s->how.accuracy;
   p->droppable_points = droppable ? p->droppable_points + 1 : 0;
   if (p->droppable_points < POINTS_BEFORE_DROPPING) return HC_OK;
   int before = s->sys.n_harm;

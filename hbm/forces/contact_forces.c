@@ -75,19 +75,6 @@ static hc_status make_member(const placed_contact *c, int dim, hbm_force force, 
   return m->jac ? m->by->make(&x, how, &m->evaluator) : HC_NO_MEMORY;
 }
 
-static hc_status make_members(int n, const placed_contact *contacts, hbm_force force, const evaluator_settings *how,
-                              contact_forces *f)
-{
-  hc_status st = HC_OK;
-  for (int j = 0; j < n && st == HC_OK; ++f->n_members) {
-    member *m = &f->members[f->n_members];
-    m->first = j;
-    st = make_member(&contacts[j], f->dim, force, how, &f->memory, m);
-    for (int k = 0; k < m->contacts; ++k) f->member_of[j++] = f->n_members;
-  }
-  return st;
-}
-
 /* Does the Jacobian cost less as a product of matrices than scattered member by member? That takes some ten times as
  * long an operation. */
 static bool product_pays(const contact_forces *f)
@@ -133,7 +120,13 @@ hc_status contact_forces_new_of(int dim, int n, const placed_contact *contacts, 
   f->x = workspace_array(&f->memory, most, sizeof *f->x);
   f->f = workspace_array(&f->memory, most, sizeof *f->f);
   f->jac = workspace_array(&f->memory, unknowns * unknowns, sizeof *f->jac);
-  hc_status st = f->memory.failed ? HC_NO_MEMORY : make_members(n, contacts, force, how, f);
+  hc_status st = f->memory.failed ? HC_NO_MEMORY : HC_OK;
+  for (int j = 0; j < n && st == HC_OK; ++f->n_members) {
+    member *m = &f->members[f->n_members];
+    m->first = j;
+    st = make_member(&contacts[j], dim, force, how, &f->memory, m);
+    for (int k = 0; k < m->contacts; ++k) f->member_of[j++] = f->n_members;
+  }
   if (st == HC_OK) st = make_product(f);
   f->itself = st == HC_OK && dim == 1 && n == 1 && f->members->of[0].n == 1; /* its weight is then 1 */
   if (st == HC_OK) *out = f;
@@ -187,13 +180,6 @@ static void scatter(const contact_forces *f, const combination *of, const double
   }
 }
 
-static void add_report(contact_report *sum, const contact_report *one)
-{
-  if (one->regime > sum->regime) sum->regime = one->regime;
-  sum->transitions += one->transitions;
-  sum->free_sliders += one->free_sliders;
-}
-
 static hc_status evaluate(contact_forces *f, const double *X, double *F, bool derive, contact_report *report)
 {
   hc_status st = HC_OK;
@@ -207,7 +193,10 @@ static hc_status evaluate(contact_forces *f, const double *X, double *F, bool de
     st = m->by->evaluate(m->evaluator, f->itself ? X : f->x, f->itself ? F : f->f, derive ? m->jac : NULL, &own);
     m->differentiated = derive && !m->by->jacobian;
     for (int d = 0; d < m->n_dof && st == HC_OK && !f->itself; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);
-    if (st == HC_OK) add_report(report, &own);
+    if (st != HC_OK) continue;
+    if (own.regime > report->regime) report->regime = own.regime;
+    report->transitions += own.transitions;
+    report->free_sliders += own.free_sliders;
   }
   return st;
 }

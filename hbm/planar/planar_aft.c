@@ -105,13 +105,6 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
 
 /* ---- samples and series ---------------------------------------------------------------------------- */
 
-/* F_v: the normal forces of both halves, less what they are at rest; a->of.sample gets them from v. */
-static void normal_to_series(planar_aft *a, double *F)
-{
-  for (int i = 0; i < a->n_time; ++i) a->of.sample[i] = 2 * contact_normal_change(&a->law, a->motion[2][i]);
-  period_samples_series(&a->of, a->of.sample, a->n_harm, F);
-}
-
 /* motion[2] from v to r. */
 static void radius(planar_aft *a)
 {
@@ -174,13 +167,6 @@ static bool planar_aft_fixed_point(double A[2][2], const double b[2], double x[2
   return true;
 }
 
-static bool separates_somewhere(const planar_aft *a)
-{
-  double least = a->motion[2][0];
-  for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]);
-  return !(least > 0);
-}
-
 /* What the orbit is, of which `p` was the last period and began at a->start. */
 static planar_orbit orbit_of(const period *p, bool guessed)
 {
@@ -214,7 +200,9 @@ static hc_status close_orbit(planar_aft *a, bool apart, double w[2], double enou
 
 static hc_status follow(planar_aft *a, double size)
 {
-  const bool apart = separates_somewhere(a);
+  double least = a->motion[2][0];
+  for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]);
+  const bool apart = !(least > 0);
   const bool once = a->restart == HBM_RESTART_ONE_PASS || a->restart == HBM_RESTART_ONE_PASS_SAMPLE;
   double w[2] = {0};
   a->passes = 0;
@@ -255,7 +243,10 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   if (!isfinite(size)) return HC_NOT_FINITE;
   for (int d = 0; d < a->n_dof; ++d) period_samples_of(&a->of, X + d * length, a->motion[d]);
   if (a->n_dof == 2) memset(a->motion[2], 0, (size_t)a->n_time * sizeof(double));
-  if (a->n_dof == 3) normal_to_series(a, F + 2 * length);
+  if (a->n_dof == 3) { /* the normal forces of both halves, less what they are at rest */
+    for (int i = 0; i < a->n_time; ++i) a->of.sample[i] = 2 * contact_normal_change(&a->law, a->motion[2][i]);
+    period_samples_series(&a->of, a->of.sample, a->n_harm, F + 2 * length);
+  }
   radius(a);
   const hc_status st = follow(a, size);
   if (st != HC_OK) return st;

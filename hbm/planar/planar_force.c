@@ -271,15 +271,6 @@ static void add_panel(planar_force *f, const planar_panel *p, bool derive)
 
 /* ---- made and freed ---------------------------------------------------------------------------------- */
 
-static hc_status make_normal(planar_force *f)
-{
-  const moving_contact across = {.law = {.kn = f->law.kn, .gap = f->law.gap}, .cv = {1}};
-  f->F_normal = workspace_doubles(&f->memory, (size_t)f->n_coef);
-  f->jac_normal = workspace_doubles(&f->memory, (size_t)f->n_coef * (size_t)f->n_coef);
-  if (f->memory.failed) return HC_NO_MEMORY;
-  return exact_force_new(f->n_harm, 1, 1, &across, &f->normal);
-}
-
 static hc_status make_workspace(planar_force *f)
 {
   const size_t L = (size_t)f->n_coef, col = (size_t)f->n_col, symbol = (size_t)force_jacobian_symbol_length(f->n_harm);
@@ -300,7 +291,10 @@ static hc_status make_workspace(planar_force *f)
   f->table = workspace_doubles(&f->memory, (size_t)series_grid_table_length(f->n_harm));
   f->node = workspace_doubles(&f->memory, 3 * N * col), f->base = workspace_doubles(&f->memory, N * L),
   f->rate = workspace_doubles(&f->memory, N * L), f->test = workspace_doubles(&f->memory, N * L);
-  return f->memory.failed ? HC_NO_MEMORY : HC_OK;
+  f->F_normal = workspace_doubles(&f->memory, L), f->jac_normal = workspace_doubles(&f->memory, L * L);
+  if (f->memory.failed || f->n_dof == 2) return f->memory.failed ? HC_NO_MEMORY : HC_OK;
+  const moving_contact across = {.law = {.kn = f->law.kn, .gap = f->law.gap}, .cv = {1}};
+  return exact_force_new(f->n_harm, 1, 1, &across, &f->normal);
 }
 
 /* Without v, N is what v = 0 gives. */
@@ -323,7 +317,6 @@ hc_status planar_force_new(int n_harm, int n_dof, const contact *law, planar_for
   f->n_size = n_dof * f->n_coef;
   f->n_col = f->n_size + 2;
   hc_status st = make_workspace(f);
-  if (st == HC_OK && n_dof == 3) st = make_normal(f);
   if (st != HC_OK) {
     planar_force_free(f);
     return st;
@@ -427,14 +420,6 @@ static void add_intervals(planar_force *f, bool derive)
   come_to_rest(f, base, c->slip.panel[last->panel + last->n_panels - 1].phi[N - 1], at.R);
 }
 
-static void start_from_w0(planar_force *f)
-{
-  for (int d = 0; d < 2; ++d) {
-    clear_row(f, f->dw[d]);
-    f->dw[d][f->n_size + d] = 1;
-  }
-}
-
 /* by += (derivatives by w0) dw0, dw0 by the columns of X being in row[2]. */
 static void eliminate_w0(planar_force *f, double *const row[2])
 {
@@ -497,9 +482,12 @@ static hc_status integrate(planar_force *f, bool derive)
   const bool closes = derive && f->cycle.always && f->cycle.marched < 0 && !f->cycle.cornered;
   if (f->cycle.n_contacts == 0) clear_sums(f);
   if (f->cycle.n_contacts == 0) return HC_OK;
-  if (closes) start_from_w0(f);
-  else if (derive && f->cycle.cornered) follow_corner(f);
-  else if (derive && f->cycle.always) st = march_again(f);
+  for (int d = 0; d < 2 && closes; ++d) { /* from w0 */
+    clear_row(f, f->dw[d]);
+    f->dw[d][f->n_size + d] = 1;
+  }
+  if (derive && f->cycle.cornered) follow_corner(f);
+  else if (derive && f->cycle.always && !closes) st = march_again(f);
   if (st != HC_OK) return st;
   add_intervals(f, derive);
   if (!closes) return HC_OK;
@@ -581,19 +569,14 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
   return st;
 }
 
-/* An interval of stick whose slider comes to rest at no angle: monodromy.c moves it. */
-static void fill_intervals(planar_force *f)
+static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
-  for (int i = 0; i < f->cycle.n; ++i) {
+  planar_force *f = self;
+  const hc_status st = planar_force_eval(f, X, F, jac, report);
+  for (int i = 0; i < f->cycle.n && st == HC_OK; ++i) { /* sliders come to rest at no angle: monodromy.c moves them */
     const planar_interval *p = &f->cycle.interval[i];
     f->intervals[i] = (contact_interval){.from = p->from, .to = p->to, .state = p->state, .origin = -1};
   }
-}
-
-static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
-{
-  const hc_status st = planar_force_eval(self, X, F, jac, report);
-  if (st == HC_OK) fill_intervals(self);
   return st;
 }
 

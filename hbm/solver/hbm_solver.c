@@ -21,13 +21,6 @@ static hc_status make_workspace(hbm_solver *s)
   return s->memory.failed ? HC_NO_MEMORY : hbm_corrector_new(s);
 }
 
-static hc_status make_orbit(hbm_solver *s)
-{
-  if (s->how.force == HBM_FORCE_EXACT) return HC_OK;
-  const evaluator_settings how = {.n_harm = s->sys.n_harm};
-  return contact_forces_new(s->model, s->sys.linear, HBM_FORCE_EXACT, &how, &s->orbit);
-}
-
 enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64 }; /* where auto starts */
 
 /* The finer equations by which auto estimates the error: twice the harmonics, twice the samples. */
@@ -49,7 +42,9 @@ static hc_status make_equations(hbm_solver *s, int n_harm, int n_time)
   hc_status st = hbm_system_init(&s->sys, s->model, &s->how, n_harm, n_time);
   s->n_time = n_time;
   if (st == HC_OK) st = make_workspace(s);
-  if (st == HC_OK) st = make_orbit(s);
+  const evaluator_settings exact = {.n_harm = n_harm};
+  if (st == HC_OK && s->how.force != HBM_FORCE_EXACT)
+    st = contact_forces_new(s->model, s->sys.linear, HBM_FORCE_EXACT, &exact, &s->orbit);
   return st == HC_OK ? make_refinements(s, n_time) : st;
 }
 

@@ -80,12 +80,6 @@ static double rest_motion(const hbm_system *sys, int j)
   return v;
 }
 
-static bool contact_is_closed(const hbm_system *sys, int j)
-{
-  const contact *law = &sys->model->contacts[j].law;
-  return law->load > 0 || rest_motion(sys, j) + law->gap > 0;
-}
-
 /* Which contacts are stuck in the static state, and its q_0 into X. */
 static hc_status find_static_state(const hbm_system *sys, double *X)
 {
@@ -103,7 +97,8 @@ static hc_status find_static_state(const hbm_system *sys, double *X)
     put_amplitude(sys, 0, sys->z, X);
     changed = false;
     for (int j = 0; j < sys->model->n_contacts; ++j) {
-      const bool closed = contact_is_closed(sys, j);
+      const contact *law = &sys->model->contacts[j].law;
+      const bool closed = law->load > 0 || rest_motion(sys, j) + law->gap > 0;
       changed |= closed != sys->stuck[j];
       sys->stuck[j] = closed;
     }

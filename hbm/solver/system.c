@@ -128,14 +128,6 @@ static double dropped(const model *m, double omega) { return *m->stiffness + *m-
 /* The first coefficient behind those of harmonic h. */
 static size_t behind(const hbm_system *sys, int h) { return sines(sys, h) + (size_t)sys->dim; }
 
-static void make_mistakes(hbm_system *sys, double omega, const double *X)
-{
-  const hbm_mistakes *wrong = &sys->how.mistakes;
-  for (int d = 0; d < sys->dim; ++d) sys->rows[d] += wrong->mean_error * sys->F[d];
-  for (int h = 0; wrong->odd_only && h <= sys->n_harm; h += 2)
-    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i) sys->rows[i] = dropped(sys->model, omega) * X[i];
-}
-
 hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R)
 {
   hc_status st = hbm_system_contact(sys, X);
@@ -145,7 +137,10 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   add_linear_forces(sys, X);
   for (int l = 0; l < sys->model->n_loads; ++l)
     subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);
-  make_mistakes(sys, omega, X);
+  const hbm_mistakes *wrong = &sys->how.mistakes;
+  for (int d = 0; d < sys->dim; ++d) sys->rows[d] += wrong->mean_error * sys->F[d];
+  for (int h = 0; wrong->odd_only && h <= sys->n_harm; h += 2)
+    for (size_t i = cosines(sys, h); i < behind(sys, h); ++i) sys->rows[i] = dropped(sys->model, omega) * X[i];
   return drop_means(sys, R);
 }
 

@@ -195,14 +195,6 @@ static hc_status divide_by_mass(const model *m, interval_flow *f)
   return st;
 }
 
-/* A frequency amid the structure's own. */
-static double middle_frequency(const interval_flow *f)
-{
-  double sum = 0;
-  for (int i = 0; i < f->n; ++i) sum += fabs(f->by_K[(size_t)i * (size_t)(f->n + 1)]);
-  return sum > 0 ? sqrt(sum / f->n) : 1;
-}
-
 hc_status interval_flow_new(const model *m, interval_flow **out)
 {
   const size_t n = (size_t)m->n, contacts = (size_t)m->n_contacts;
@@ -224,7 +216,9 @@ hc_status interval_flow_new(const model *m, interval_flow **out)
   f->y = workspace_array(&f->memory, 4 * n * (2 * n + contacts), sizeof *f->y);
   f->lasting = workspace_array(&f->memory, 2 * n, sizeof *f->lasting);
   hc_status st = f->memory.failed ? HC_NO_MEMORY : divide_by_mass(m, f);
-  if (st == HC_OK) f->unit = middle_frequency(f);
+  double sum = 0; /* for a frequency amid the structure's own */
+  for (size_t i = 0; i < n && st == HC_OK; ++i) sum += fabs(f->by_K[i * (n + 1)]);
+  f->unit = sum > 0 ? sqrt(sum / m->n) : 1;
   if (st == HC_OK) *out = f;
   else interval_flow_free(f);
   return st;
@@ -295,14 +289,6 @@ static void grow(const interval_flow *f, const decomposition *d, const contact_i
   }
 }
 
-static void advance_by_eigenvectors(interval_flow *f, const decomposition *d, const contact_interval *const *interval,
-                                    double duration, int columns, double *phi)
-{
-  multiply(f, 2 * d->n, f->moving, columns, d->W, phi, f->y);
-  for (int k = 0; k < d->n; ++k) grow(f, d, interval, duration, k, columns, phi);
-  multiply(f, f->moving, 2 * d->n, columns, d->V, f->y, phi);
-}
-
 /* By the exponential of A, augmented by the dheld, which are constant. */
 static hc_status advance_by_exponential(interval_flow *f, const contact_interval *const *interval, double duration,
                                         int columns, double *phi)
@@ -337,7 +323,11 @@ hc_status interval_flow_advance(interval_flow *f, const contact_interval *const 
   const decomposition *d;
   hc_status st = interval_find(f, interval, &d);
   if (st == HC_OK && !d->usable) st = advance_by_exponential(f, interval, duration, columns, phi);
-  else if (st == HC_OK) advance_by_eigenvectors(f, d, interval, duration, columns, phi);
+  else if (st == HC_OK) {
+    multiply(f, 2 * d->n, f->moving, columns, d->W, phi, f->y);
+    for (int k = 0; k < d->n; ++k) grow(f, d, interval, duration, k, columns, phi);
+    multiply(f, f->moving, 2 * d->n, columns, d->V, f->y, phi);
+  }
   if (st == HC_OK && !isfinite(phi[0])) st = HC_NOT_FINITE;
   return st;
 }

@@ -98,15 +98,6 @@ static double end_of_interval(const monodromy *w, int n, int i)
 
 static bool is_empty(const monodromy *w, int n, int i) { return !(end_of_interval(w, n, i) > w->boundary[i]); }
 
-/* Boundary at which the longest interval begins. */
-static int find_longest(const monodromy *w, int n)
-{
-  int longest = 0;
-  for (int i = 1; i < n; ++i)
-    if (end_of_interval(w, n, i) - w->boundary[i] > end_of_interval(w, n, longest) - w->boundary[longest]) longest = i;
-  return longest;
-}
-
 /* The interval behind i; there may be boundaries twice. */
 static int next_interval(const monodromy *w, int n, int i)
 {
@@ -372,14 +363,6 @@ static void begin_with_all(monodromy *w, const model *m)
   }
 }
 
-/* The states at the end in terms of the columns' sizes. */
-static void end_with_all(monodromy *w)
-{
-  const size_t states = (size_t)w->n_states;
-  for (size_t i = 0; i < states; ++i)
-    for (size_t q = 0; q < states; ++q) w->left[i * states + q] = w->phi[i * states + q] / w->size[i];
-}
-
 /* The sliders that are at rest over the interval `last`, and matter; and which of them still are on the one behind it,
  * which is the current one. Their number. */
 static int collect_held_sliders(monodromy *w, const model *m, const contact_forces *orbit, int n, int last)
@@ -413,7 +396,9 @@ static hc_status begin_period(monodromy *w, const model *m, const contact_forces
 /* w->left: what the states that the period begins with have become at its end. */
 static hc_status follow_period(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n)
 {
-  const int last = find_longest(w, n);
+  int last = 0; /* at which the longest interval begins */
+  for (int i = 1; i < n; ++i)
+    if (end_of_interval(w, n, i) - w->boundary[i] > end_of_interval(w, n, last) - w->boundary[last]) last = i;
   hc_status st = begin_period(w, m, orbit, omega, n, last);
   for (int k = 1; k <= n && st == HC_OK; ++k) {
     const int i = (last + k) % n;
@@ -425,9 +410,12 @@ static hc_status follow_period(monodromy *w, const model *m, const contact_force
       st = planar_flow_advance(w->planar, w->interval, w->n_slipping, w->slipping, a, b, omega, w->columns, w->phi);
     else st = interval_flow_advance(w->flow, w->interval, (b - a) / omega, w->columns, w->phi);
   }
-  if (st == HC_OK && w->planar) end_with_all(w);
-  else if (st == HC_OK) st = interval_flow_left(w->flow, w->interval, w->slider, w->columns, w->phi, w->left);
-  return st;
+  if (st != HC_OK || !w->planar)
+    return st == HC_OK ? interval_flow_left(w->flow, w->interval, w->slider, w->columns, w->phi, w->left) : st;
+  const size_t states = (size_t)w->n_states;
+  for (size_t i = 0; i < states; ++i) /* in terms of the columns' sizes */
+    for (size_t q = 0; q < states; ++q) w->left[i * states + q] = w->phi[i * states + q] / w->size[i];
+  return HC_OK;
 }
 
 /* m of n states have multipliers, those that outlast the longest interval: the others' are 0. */
@@ -452,18 +440,14 @@ static void summarise(int n, int m, const double complex *lambda, hbm_stability 
   out->determinant = m < n ? 0 : creal(all);
 }
 
-/* More than some minutes of eigenvectors: 30 (2 n)^3 operations an interval, each of its own combination of states. */
-static bool is_too_much(const monodromy *w, int intervals)
-{
-  const double most = 4e11, states = 2.0 * w->n;
-  return 30 * states * states * states * intervals > most;
-}
+/* Some minutes of eigenvectors: 30 (2 n)^3 operations an interval, each of its own combination of states. */
+static const double MOST_OPERATIONS = 4e11;
 
 hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
                               hbm_stability *out)
 {
   const int n = collect_boundaries(w, orbit, m->n_contacts);
-  hc_status st = n < 0 ? HC_NO_MEMORY : is_too_much(w, n) ? HC_NOT_CONVERGED : HC_OK;
+  hc_status st = n < 0 ? HC_NO_MEMORY : 30 * pow(2.0 * w->n, 3) * n > MOST_OPERATIONS ? HC_NOT_CONVERGED : HC_OK;
   if (st == HC_OK) st = follow_period(w, m, orbit, omega, n);
   if (st == HC_OK) st = floquet_multipliers(w->floquet, w->left, w->n_states, 1, w->n_active, w->active, w->lambda);
   if (st == HC_OK) summarise(2 * w->n, w->n_active, w->lambda, out);

@@ -392,17 +392,6 @@ static hc_status sum_modes(const model *m, int dim, const modal_form *f, complia
 
 /* ---- any damping ------------------------------------------------------------------------------------ */
 
-static void fill_first_order(const modal_form *f, double u, double *A)
-{
-  const size_t n = (size_t)f->n, ld = 2 * n;
-  memset(A, 0, ld * ld * sizeof *A);
-  for (size_t j = 0; j < n; ++j) {
-    A[(n + j) * ld + j] = u;
-    A[j * ld + n + j] = -f->omega2[j] / u;
-    for (size_t i = 0; i < n; ++i) A[(n + j) * ld + n + i] = -f->C[j * n + i];
-  }
-}
-
 /* out[k] = sum_i x[i] v[i] for a real x. */
 static double complex project(size_t n, const double *x, const double complex *v)
 {
@@ -441,18 +430,12 @@ static bool take_poles(const modal_form *f, double u, const double complex *lamb
   return true;
 }
 
-/* A frequency amid the structure's own. */
-static double middle_frequency(const modal_form *f)
-{
-  double sum = 0;
-  for (int i = 0; i < f->n; ++i) sum += sqrt(fabs(f->omega2[i]));
-  return sum > 0 ? sum / f->n : 1;
-}
-
 static hc_status sum_poles(const model *m, int dim, const modal_form *f, compliance *c)
 {
   const size_t n = (size_t)f->n, ld = 2 * n;
-  const double u = middle_frequency(f);
+  double sum = 0;
+  for (size_t i = 0; i < n; ++i) sum += sqrt(fabs(f->omega2[i]));
+  const double u = sum > 0 ? sum / f->n : 1; /* a frequency amid the structure's own */
   workspace own = {0};
   double *A = workspace_doubles(&own, ld * ld);
   double complex *lambda = workspace_array(&own, ld, sizeof *lambda), *V = workspace_array(&own, ld * ld, sizeof *V),
@@ -461,7 +444,11 @@ static hc_status sum_poles(const model *m, int dim, const modal_form *f, complia
                   .left = workspace_array(&own, (size_t)f->rows * ld, sizeof *t.left),
                   .right = workspace_array(&own, (size_t)f->rows * ld, sizeof *t.right)};
   hc_status st = own.failed ? HC_NO_MEMORY : HC_OK;
-  if (st == HC_OK) fill_first_order(f, u, A);
+  for (size_t j = 0; j < n && st == HC_OK; ++j) {
+    A[(n + j) * ld + j] = u;
+    A[j * ld + n + j] = -f->omega2[j] / u;
+    for (size_t i = 0; i < n; ++i) A[(n + j) * ld + n + i] = -f->C[j * n + i];
+  }
   if (st == HC_OK) st = dense_eigen(2 * f->n, A, lambda, V, W);
   if (st == HC_OK && take_poles(f, u, lambda, V, W, &t)) {
     const int responses = m->n_responses;
@@ -475,14 +462,6 @@ static hc_status sum_poles(const model *m, int dim, const modal_form *f, complia
 }
 
 /* ---- made and freed --------------------------------------------------------------------------------- */
-
-/* Does every mode lose energy? One that does not could resonate without bound. */
-static bool every_mode_is_damped(const modal_form *f)
-{
-  for (int i = 0; i < f->n; ++i)
-    if (!(f->C[(size_t)i * (size_t)(f->n + 1)] > 0)) return false;
-  return true;
-}
 
 static hc_status make_workspace(const model *m, int dim, compliance *c)
 {
@@ -505,7 +484,9 @@ hc_status compliance_new(const model *m, int dim, const double *B, compliance **
   if (!c) return HC_NO_MEMORY;
   *c = (compliance){.n = m->n, .dim = dim, .n_loads = m->n_loads, .n_responses = m->n_responses};
   hc_status st = make_form(m, dim, B, &f);
-  if (st == HC_OK && every_mode_is_damped(&f))
+  bool damped = true; /* a mode that loses no energy could resonate without bound */
+  for (size_t i = 0; i < (size_t)m->n && st == HC_OK; ++i) damped &= f.C[i * (size_t)(m->n + 1)] > 0;
+  if (st == HC_OK && damped)
     st = dense_is_diagonal(f.n, f.C, f.n) ? sum_modes(m, dim, &f, c) : sum_poles(m, dim, &f, c);
   if (st == HC_OK && c->of_responses) st = make_workspace(m, dim, c);
   workspace_free(&f.memory);
@@ -546,11 +527,6 @@ hc_status compliance_at(compliance *c, double w, double reach, double d, double 
   return size * largest(dim * dim, S) <= most_cancelled ? HC_OK : HC_NOT_FINITE; /* false for NaN */
 }
 
-static bool is_same_change(const asked_change *a, const asked_change *b)
-{
-  return a->w == b->w && a->reach == b->reach && a->d == b->d && a->ds == b->ds && a->dd == b->dd;
-}
-
 hc_status compliance_change(compliance *c, double w, double reach, double d, double complex ds, double complex dd,
                             const double complex **dG)
 {
@@ -558,7 +534,9 @@ hc_status compliance_change(compliance *c, double w, double reach, double d, dou
   const bool by_damping = dd != 0;
   const asked_change asked = {w, reach, d, ds, dd};
   *dG = c->by_s;
-  if (c->change_is_known && is_same_change(&asked, &c->change)) return HC_OK;
+  const asked_change *last = &c->change;
+  const bool same = w == last->w && reach == last->reach && d == last->d && ds == last->ds && dd == last->dd;
+  if (c->change_is_known && same) return HC_OK;
   c->change_is_known = false;
   if (by_damping && !mode_sum_takes_damping(c->of_q)) return HC_NOT_FINITE;
   hc_status st =
