@@ -23,8 +23,12 @@ double path_size(const path *p)
 
 double path_correction(const path *p, double omega_unit)
 {
-  return hypot(distance_2(p->curve->n_coef, p->X, p->X_predicted) / path_size(p),
-               (p->omega - p->omega_predicted) / omega_unit);
+  double sum = 0, x_scale = path_size(p), d = (p->omega - p->omega_predicted) / omega_unit;
+  for (int i = 0; i < p->curve->n_coef; ++i) {
+    double moved = p->X[i] - p->X_predicted[i];
+    sum += moved * moved;
+  }
+  return sqrt(sum / (x_scale * x_scale) + d * d);
 }
 
 bool path_agrees_backwards(const path *p, double h)

@@ -39,7 +39,9 @@ hbm_segment hbm_segment_between(const hbm_curve *c, int k)
          t1 = sqrt(inner(&s, s.dX1, q->d_omega, s.dX1, q->d_omega));
   double cosine = inner(&s, s.dX0, p->d_omega, s.dX1, q->d_omega) / (t0 * t1);
   double angle = acos(fmin(1, fmax(-1, cosine)));
-  const double chord = hypot(distance_2(s.n_coef, s.X0, s.X1) / s.x_scale, (s.omega1 - s.omega0) / s.omega_scale);
+  double chord = 0, d = (s.omega1 - s.omega0) / s.omega_scale;
+  for (int i = 0; i < s.n_coef; ++i) chord += (s.X1[i] - s.X0[i]) * (s.X1[i] - s.X0[i]);
+  chord = sqrt(chord / (s.x_scale * s.x_scale) + d * d);
   s.length = chord * (1 + angle * angle / 24); /* arc of a circle, to fourth order */
   s.scale0 = s.length / t0;
   s.scale1 = s.length / t1;

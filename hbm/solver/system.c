@@ -133,8 +133,9 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   hc_status st = hbm_system_contact(sys, X);
   if (st == HC_OK) st = condensation_at(sys->linear, omega, sys->more_damping);
   if (st != HC_OK) return st;
-  memcpy(sys->rows, sys->F, (size_t)sys->n_coef * sizeof(double));
+  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
   add_linear_forces(sys, X);
+  for (int i = 0; i < sys->n_coef; ++i) sys->rows[i] += sys->F[i];
   for (int l = 0; l < sys->model->n_loads; ++l)
     subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);
   const hbm_mistakes *wrong = &sys->how.mistakes;
