@@ -29,24 +29,22 @@ typedef struct timeint_result {
                                  not known */
   double contraction;         /* [1] measured contraction per period of the drift; NaN: could not be measured */
   int periods;                /* forcing periods integrated, all included */
-  int scouted;                /* forcing periods followed in closed form beforehand (transient.scout) */
+  int closed_form_periods;    /* forcing periods followed in closed form beforehand (transient.scout) */
   int period_multiple;        /* of the orbit found, 1 unless a sub-harmonic was found (k <= 16: measures cover k
                                  periods, wave the last); 0 not settled */
   long steps;                 /* CVODE steps, all included */
   long rhs;                   /* right-hand side evaluations */
   timeint_method method;
   double multiplier; /* [1] modulus of the orbit's largest Floquet multiplier over its period_multiple periods; NaN:
-                        not known. Of an orbit that was scouted: the exact law's beside it, also where the law is
-                        regularised */
+                        not known. Of an orbit first found in closed form: the exact law's beside it, also
+                        where the law is regularised */
   double multiplier_re, multiplier_im;
-  int free_sliders;   /* contacts that stick all the time: where their sliders rest, and with them the mean, depends on
+  int free_sliders; /* contacts that stick all the time: where their sliders rest, and with them the mean, depends on
                        the start */
-  int switches;       /* contact transitions in the reported periods; exact law only */
-  int scout_switches; /* the same of the scout's orbit, whose multiplier is reported; -1: there was no scout. They
-                         differ next to a grazing shorter than integration errors */
-  bool left_orbit;    /* the orbit next to the start is unstable; reported is the one the motion went to from there */
-  double lyapunov;    /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
-  double second_frequency;   /* [rad/time] of a motion on a torus, between 0 and omega/2, see torus.h; else NaN */
+  int switches;     /* contact transitions in the reported periods; exact law only */
+  bool left_orbit;  /* the orbit next to the start is unstable; reported is the one the motion went to from there */
+  double lyapunov;  /* [1/period] mean rate at which neighbours drift apart; NaN where it was not measured */
+  double second_frequency;   /* [rad/time] of a motion on a torus, between 0 and omega/2, see aperiodic.h; else NaN */
   motion_error predicted;    /* [length] what timeint_predict expects; NaN before */
   contact_regime regime;     /* strongest regime of any contact in the reported period */
   int cvode_flag;            /* CVODE's own flag when the status is HC_INTEGRATOR */

@@ -117,7 +117,7 @@ static void a_scout_allocates_nothing(CHECK_STATE)
       double y[TIMEINT_W + CONTACTS] = {0};
       const long before = allocations;
       assert_int_equal(timeint_steady(ti, 7 + 0.1 * i, y, NULL, &r), HC_OK);
-      CHECK_LE(5, r.scouted, "scouted");
+      CHECK_LE(5, r.closed_form_periods, "scouted");
       assert_int_equal(r.method, TIMEINT_BY_SHOOTING);
       const long made = allocations - before;
       if (i > 0) CHECK_LE(made, MESSAGES, "allocations"); /* CVODE makes itself ready in the first period */

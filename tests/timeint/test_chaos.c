@@ -5,7 +5,7 @@
 
 #include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/steady/chaos.h"
+#include "timeint/steady/aperiodic.h"
 #include "timeint/steady/timeint_private.h"
 
 static scene case2(void)

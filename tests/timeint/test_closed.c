@@ -388,7 +388,7 @@ static double follow(const scene *sc, const char *name, const char *sweep, doubl
     /* 3: touch, separation, and a slip of no length where traction and limit vanish together (reference/README.md) */
     assert_int_equal(r.switches, want->events == 3 ? 2 : want->events);
     assert_int_equal(r.period_multiple, 1);
-    assert_true(r.scouted == 0 && r.cvode_flag == 0);
+    assert_true(r.closed_form_periods == 0 && r.cvode_flag == 0);
     CHECK_LE(r.multiplier, 1, "%s %s is stable at %g", name, sweep, want->omega);
     ++seen;
   }

@@ -6,8 +6,7 @@
 
 #include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/steady/confirm.h"
-#include "timeint/steady/orbit.h"
+#include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
 typedef struct found {
@@ -21,7 +20,7 @@ static timeint *make(scene sc, bool scout)
   timeint *ti;
   sc.transient.scout = scout;
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-  assert_true((ti->scout != NULL) == scout);
+  assert_true((ti->closed_form != NULL) == scout);
   return ti;
 }
 
@@ -63,7 +62,7 @@ static void same(const char *what, double omega, const found *scout, const found
     CHECK_NEAR(a->rms, b->rms, apart, "%s at %g", what, omega);
   }
   CHECK_LE(a->periods, most * a->period_multiple, "%s at %g: CVODE's periods", what, omega);
-  assert_true(a->scouted > 0 || a->method == TIMEINT_BY_CLOSED_FORM);
+  assert_true(a->closed_form_periods > 0 || a->method == TIMEINT_BY_CLOSED_FORM);
 }
 
 /* The exact law's orbit is the scout's own: CVODE's first period of it is off by that period's scatter, which
@@ -126,7 +125,7 @@ static void sub_harmonics_and_chaos(CHECK_STATE)
       assert_int_equal(a.r.period_multiple, at[i].multiple);
       if (a.st == HC_APERIODIC) {
         assert_int_equal(a.r.periods, 1);
-        assert_true(a.r.steps > 50 && a.r.scouted > 500);
+        assert_true(a.r.steps > 50 && a.r.closed_form_periods > 500);
         CHECK_LE(0.05, a.r.lyapunov, "at %g", at[i].omega);
         CHECK_LE(5, a.r.amplitude, "at %g", at[i].omega); /* one of the motion's periods */
         CHECK_LE(a.r.amplitude, 10, "at %g", at[i].omega);
@@ -176,7 +175,7 @@ static void tolerances_and_limits(CHECK_STATE)
       assert_int_equal(a.st, HC_NOT_SETTLED);
       assert_int_equal(b.st, HC_NOT_SETTLED);
       assert_int_equal(a.r.period_multiple, 0);
-      assert_true(a.r.scouted <= most && a.r.periods == 1 && isfinite(a.r.amplitude) && !(a.r.closure < 1));
+      assert_true(a.r.closed_form_periods <= most && a.r.periods == 1 && isfinite(a.r.amplitude) && !(a.r.closure < 1));
     }
   }
 }
@@ -236,7 +235,7 @@ static void an_interrupt_is_heeded(CHECK_STATE)
   CHECK_LE(20, refused, "ticks");
 }
 
-/* confirm_orbit from a state off the orbit, or with the matrix of another model: CVODE's periods decide. Confirmed is
+/* shoot_confirm from a state off the orbit, or with the matrix of another model: CVODE's periods decide. Confirmed is
  * what closes; to |I - Phi| |(I - Phi)^-1| < 100 of the tolerance where the matrix is another's. Or it is not
  * confirmed, and the motion is where it was. */
 static void a_spoiled_orbit(CHECK_STATE)
@@ -260,7 +259,7 @@ static void a_spoiled_orbit(CHECK_STATE)
       double before[3];
       memcpy(before, ti->y, sizeof before);
       shoot_report report = {.multiplier = 0.5};
-      hc_status st = confirm_orbit(ti->confirm, 1, orbit_goal(ti), NULL, &report, &r);
+      hc_status st = shoot_confirm(ti->shoot, 1, orbit_goal(ti), NULL, &report, &r);
       if (st == HC_OK) {
         CHECK_NEAR(r.amplitude, at.r.amplitude, 100 * 1e-9 * at.r.amplitude, "off %g, %g", off, factor);
         ++confirmed;
@@ -293,7 +292,7 @@ static void an_orbit_far_away_is_not_confirmed(CHECK_STATE)
     assert_int_equal(timeint_begin(ti, 12, z.all), HC_OK);
     assert_int_equal(timeint_set_tolerance(ti, timeint_final_tolerance(ti)), HC_OK);
     shoot_report report = {.multiplier = 0.5};
-    assert_int_equal(confirm_orbit(ti->confirm, 1, orbit_goal(ti), NULL, &report, &r), far ? HC_NOT_CONVERGED : HC_OK);
+    assert_int_equal(shoot_confirm(ti->shoot, 1, orbit_goal(ti), NULL, &report, &r), far ? HC_NOT_CONVERGED : HC_OK);
   }
   timeint_free(ti);
 }

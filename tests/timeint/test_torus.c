@@ -3,10 +3,9 @@
 #include "numerics/random.h"
 #include "tests/check.h"
 #include "tests/hbm/structure_cases.h"
-#include "timeint/steady/chaos.h"
+#include "timeint/steady/aperiodic.h"
 #include "timeint/steady/sweep.h"
 #include "timeint/steady/timeint_private.h"
-#include "timeint/steady/torus.h"
 
 enum { N = 1024, STATES = 16 };
 

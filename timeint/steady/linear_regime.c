@@ -127,8 +127,9 @@ static void fill_stability(const linear *l, timeint_result *r)
   r->closure = r->attainable = 0;
 }
 
-void linear_regime_steady(timeint *ti, timeint_result *r)
+bool linear_regime_steady(timeint *ti, timeint_result *r)
 {
+  if (!linear_regime_is_final(ti)) return false;
   const scaled_model *m = &ti->scaled;
   const linear l = linear_now(ti);
   const bool exact = ti->how.law == TRANSIENT_LAW_EXACT;
@@ -149,4 +150,5 @@ void linear_regime_steady(timeint *ti, timeint_result *r)
   fill_stability(&l, r);
   ti->y[0] = l.center + creal(l.steady);
   ti->y[1] = -cimag(l.steady);
+  return true;
 }

@@ -18,10 +18,10 @@
  * oscillator only; the regularised one is linear where v + gap is 40 widths of its corner in N away from 0. */
 bool linear_regime_is_final(const timeint *ti);
 
-/* Where linear_regime_is_final: ti->y onto the steady orbit at theta = 0, and its measures, multiplier and free_sliders
- * into *r; not omega and the counts of work. Sliders of stuck contacts stay; those of separated contacts are where the
- * law has them on the orbit. The multiplier is the oscillator's; that of the regularised slider of a separated contact,
- * exp(-2 pi/regularisation), is left out: it has no influence on X. */
-void linear_regime_steady(timeint *ti, timeint_result *r);
+/* True where linear_regime_is_final: ti->y goes onto the steady orbit at theta = 0, and its measures, multiplier and
+ * free_sliders into *r; not omega and the counts of work. Sliders of stuck contacts stay; those of separated contacts
+ * are where the law has them on the orbit. The multiplier is the oscillator's; that of the regularised slider of a
+ * separated contact, exp(-2 pi/regularisation), is left out: it has no influence on X. */
+bool linear_regime_steady(timeint *ti, timeint_result *r);
 
 #endif

@@ -4,10 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "timeint/steady/confirm.h"
+#include "timeint/steady/closed_form_start.h"
 #include "timeint/steady/linear_regime.h"
-#include "timeint/steady/orbit.h"
-#include "timeint/steady/scout.h"
+#include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
 static const double rounding = 16 * DBL_EPSILON; /* [amplitude] of a closed form */
@@ -33,19 +32,19 @@ static periodic_motion motion_of(const timeint_result *r)
 
 static motion_error all(double e) { return (motion_error){e, e, e}; }
 
-/* The orbit with half the regularisation, from the state on the orbit with all of it: half way to the scout's, which
- * has none. *r: of the orbit so far, then of that one. */
+/* The orbit with half the regularisation, from the state on the orbit with all of it: half way to the exact law's,
+ * which has none. *r: of the orbit so far, then of that one. */
 static hc_status halve(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r)
 {
   shoot_report found = {.distance = INFINITY, .multiplier = NAN};
   double goal = orbit_goal(ti);
-  if (ti->scout) {
+  if (ti->closed_form) {
     timeint_result unused;
     double change = 0;
-    timeint_get_state(ti, ti->scout_state);
-    hc_status st = timeint_orbit(ti->scout, ti->omega, k, ti->scout_state, monitor, &unused);
+    timeint_get_state(ti, ti->closed_form_state);
+    hc_status st = timeint_orbit(ti->closed_form, ti->omega, k, ti->closed_form_state, monitor, &unused);
     if (st != HC_OK) return st;
-    timeint_take_state(ti, ti->scout_state, ti->point[0]);
+    timeint_take_state(ti, ti->closed_form_state, ti->point[0]);
     for (int i = 0; i < ti->n; ++i) {
       const double apart = ti->point[0][i] - ti->y[i];
       change = fmax(change, fabs(apart));
@@ -53,7 +52,7 @@ static hc_status halve(timeint *ti, int k, const hc_monitor *monitor, timeint_re
     }
     goal = fmax(goal, enough * change);
     st = timeint_set_tolerance(ti, fmin(fmax(per_change * change, timeint_final_tolerance(ti)), coarsest));
-    if (st == HC_OK) st = confirm_orbit(ti->confirm, k, goal, monitor, &found, r);
+    if (st == HC_OK) st = shoot_confirm(ti->shoot, k, goal, monitor, &found, r);
     if (!shoot_found_no_orbit(st)) return st;
   }
   hc_status st = shoot_newton(ti->shoot, k, timeint_size(ti) / ti->length, goal, monitor, &found);
@@ -91,7 +90,7 @@ static hc_status regularisation(timeint *ti, const double *state, const hc_monit
 static hc_status regularised_part(timeint *ti, const double *state, const hc_monitor *monitor, int n,
                                   const timeint_result *r, motion_error *out)
 {
-  motion_error *known = ti->scout ? scout_predictions(ti, state) : NULL;
+  motion_error *known = ti->closed_form ? closed_start_predictions(ti, state) : NULL;
   for (int i = 0; i < n; ++i) out[i] = known ? known[i] : all(NAN);
   if (out[n - 1].amplitude >= 0) return HC_OK;
   hc_status st = regularisation(ti, state, monitor, n, r, out);

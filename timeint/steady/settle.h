@@ -21,7 +21,7 @@
 #ifndef HC_TIMEINT_SETTLE_H
 #define HC_TIMEINT_SETTLE_H
 
-#include "base/status.h"
+#include "timeint/steady/steady.h"
 
 enum { SETTLE_MAX_MULTIPLE = 16 };
 
@@ -60,5 +60,11 @@ int settle_baseline(const settle *s);
 /* The distance to the fixed point, or, if that is not within goal while some k-cycle is, to the shortest of these.
  * goal > 0. */
 settle_estimate settle_judge(const settle *s, double goal);
+
+/* ---- the steady state by integrating period after period until the state repeats itself ---- */
+
+/* From ti->y to the steady state, its measures into *r. HC_NOT_SETTLED after max_periods: *r is then the last
+ * period. */
+hc_status settle_by_integration(timeint *ti, const hc_monitor *monitor, timeint_result *r);
 
 #endif

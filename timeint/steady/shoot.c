@@ -15,13 +15,15 @@
 #include "numerics/newton.h"
 #include "numerics/norm.h"
 #include "numerics/sundials_compat.h"
-#include "timeint/steady/orbit.h"
 #include "timeint/steady/timeint_private.h"
 
-enum { NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4, LAST_STEPS = 4 };
+enum { NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4, LAST_STEPS = 4, CONFIRM_STEPS = 8 };
 enum { EDGE_SCATTERS = 100 }; /* sliders are moved off the edge of slip by so much more than rounding */
 
-struct shoot { /* from shoot_new, to shoot_free */
+static const double same_state = 1e-6; /* [size] a state that returns as near is the same, but for integration errors */
+
+static const double contracts = 0.3; /* a Newton step no shorter than that part of the last one leads nowhere */
+struct shoot {                       /* from shoot_new, to shoot_free */
   timeint *ti;
   int n, k;
   const hc_monitor *monitor;
@@ -35,6 +37,8 @@ struct shoot { /* from shoot_new, to shoot_free */
   double *ones;                  /* [n] 1: weights of Newton's unknowns and residuals */
   double *vector, *other;        /* [n] for what one function needs */
   double *one_period, *product;  /* [n][n] monodromy matrix of one period out of k; a copy of phi */
+  double *matrix;                /* [n][n] factors of Newton's matrix */
+  int *pivot;                    /* [n] theirs */
   double complex *multipliers;   /* [n] */
   int *active;                   /* [n] the states that are not free sliders */
   double *memory;                /* of all the doubles above */
@@ -56,21 +60,27 @@ static void note_travel(shoot *s)
   }
 }
 
+/* s->f goes on by a period, by `in`; s->phi becomes the monodromy matrix of this and the i periods before it. */
+static hc_status add_period(shoot *s, integrator *in, const scaled_model *m, int i)
+{
+  hc_status st = integrate_monodromy(in, m, s->f, i == 0 ? s->phi : s->one_period);
+  if (st != HC_OK || i == 0) return st;
+  memcpy(s->product, s->phi, sizeof *s->phi * (size_t)(s->n * s->n));
+  dense_multiply(s->n, s->n, s->n, s->one_period, s->product, s->phi);
+  return HC_OK;
+}
+
 /* s->f becomes F^k(s->f), s->phi the monodromy matrix of these k periods. */
 static hc_status integrate_k_periods(shoot *s)
 {
-  const size_t bytes = sizeof *s->phi * (size_t)(s->n * s->n);
   memset(s->travel, 0, (size_t)s->n * sizeof *s->travel);
   for (int i = 0; i < s->k; ++i) {
     if (s->ti->periods >= s->ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
-    hc_status st = integrate_monodromy(s->ti->in, &s->ti->scaled, s->f, i == 0 ? s->phi : s->one_period);
+    hc_status st = add_period(s, s->ti->in, &s->ti->scaled, i);
     if (st != HC_OK) return st;
     ++s->ti->periods;
     note_travel(s);
-    if (i == 0) continue;
-    memcpy(s->product, s->phi, bytes);
-    dense_multiply(s->n, s->n, s->n, s->one_period, s->product, s->phi);
   }
   return HC_OK;
 }
@@ -92,15 +102,19 @@ static hc_status evaluate(shoot *s, const double *z)
   return st;
 }
 
+static bool is_unit_row(const shoot *s, int i)
+{
+  for (int j = 0; j < s->n; ++j)
+    if (s->phi[i + j * s->n] != (i == j)) return false;
+  return true;
+}
+
 /* Is state i a slider at a fixed point of F^k wherever it is, or one that rests but for a slip as small as rounding? */
 static bool is_free(const shoot *s, int i)
 {
   if (i < 2 * s->ti->n_dof) return false;
-  if (s->travel[i] <= MEASURE_RESTS * timeint_motion_size(s->ti) / s->ti->length) return true;
-  if (s->f[i] != s->z[i]) return false;
-  for (int j = 0; j < s->n; ++j)
-    if (s->phi[i + j * s->n] != (i == j)) return false;
-  return true;
+  if (s->travel[i] <= MEASURE_RESTS * timeint_scaled_size(s->ti)) return true;
+  return s->f[i] == s->z[i] && is_unit_row(s, i);
 }
 
 static hc_status residual(void *self, const double *z, double *r)
@@ -157,13 +171,14 @@ static hc_status make_memory(shoot *s)
 {
   double **const vectors[] = {&s->z,    &s->f,    &s->start, &s->first,  &s->before, &s->iterate,
                               &s->step, &s->best, &s->ones,  &s->vector, &s->other,  &s->travel};
-  double **const matrices[] = {&s->phi, &s->one_period, &s->product};
+  double **const matrices[] = {&s->phi, &s->one_period, &s->product, &s->matrix};
   const size_t n = (size_t)s->n, n_vectors = sizeof vectors / sizeof *vectors,
                n_matrices = sizeof matrices / sizeof *matrices;
   s->memory = calloc(n_vectors * n + n_matrices * n * n, sizeof *s->memory);
   s->multipliers = calloc(n, sizeof *s->multipliers);
   s->active = calloc(n, sizeof *s->active);
-  if (!s->memory || !s->multipliers || !s->active) return HC_NO_MEMORY;
+  s->pivot = calloc(n, sizeof *s->pivot);
+  if (!s->memory || !s->multipliers || !s->active || !s->pivot) return HC_NO_MEMORY;
   for (size_t i = 0; i < n_vectors; ++i) *vectors[i] = s->memory + i * n;
   for (size_t i = 0; i < n_matrices; ++i) *matrices[i] = s->memory + n_vectors * n + i * n * n;
   for (int i = 0; i < s->n; ++i) s->ones[i] = 1;
@@ -199,6 +214,7 @@ void shoot_free(shoot *s)
   if (s->u) N_VDestroy(s->u);
   if (s->weights) N_VDestroy(s->weights);
   if (s->ctx) SUNContext_Free(&s->ctx);
+  free(s->pivot);
   free(s->active);
   free(s->multipliers);
   free(s->memory);
@@ -213,6 +229,15 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
   s->k = k;
   s->monitor = monitor;
   s->known = s->begun = false;
+}
+
+double orbit_goal(const timeint *ti) { return fmax(ti->how.tolerance * timeint_scaled_size(ti), 100 * ti->tolerance); }
+
+/* CVODE's, and the rounding of some thousand steps; in closed form of some ten. */
+double orbit_scatter(const timeint *ti, int k)
+{
+  if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return k * 200 * DBL_EPSILON;
+  return k * fmax(integrate_scatter(ti->in) * ti->tolerance, 2e4 * DBL_EPSILON);
 }
 
 /* The residual at which Newton stops. A residual r is a distance of about r/(1 - rho) from the orbit: hence a tenth of
@@ -276,12 +301,13 @@ static hc_status find_multiplier(shoot *s, shoot_report *r)
 /* Newton's step from z into step[n], and its length [L]. */
 static hc_status newton_step(shoot *s, const double *z, double *step, double *length)
 {
-  hc_status st = newton_factor_at(s->newton, z);
+  hc_status st = jacobian(s, z, s->matrix);
+  if (st == HC_OK) st = dense_factor(s->n, s->matrix, s->pivot);
   if (st != HC_OK) return st;
   for (int i = 0; i < s->n; ++i) step[i] = z[i] - s->f[i];
-  st = newton_backsolve(s->newton, step);
+  dense_solve(s->n, s->matrix, s->pivot, 1, step);
   *length = norm_2(s->n, step);
-  return st;
+  return HC_OK;
 }
 
 /* shoot_report.attainable: Frobenius norm, factors of the last step. */
@@ -290,7 +316,7 @@ static double attainable(shoot *s)
   double sum = 0, *column = s->vector;
   for (int j = 0; j < s->n; ++j) {
     for (int i = 0; i < s->n; ++i) column[i] = i == j;
-    if (newton_backsolve(s->newton, column) != HC_OK) return INFINITY;
+    dense_solve(s->n, s->matrix, s->pivot, 1, column);
     sum += norm_2(s->n, column) * norm_2(s->n, column);
   }
   return sqrt(sum) * orbit_scatter(s->ti, s->k);
@@ -301,7 +327,7 @@ static double attainable(shoot *s)
  * scatter, as are those that slip then; where one that was moved slips again, no side is known, and s->phi stays. */
 static hc_status take_side_that_sticks(shoot *s)
 {
-  const double rests = MEASURE_RESTS * timeint_motion_size(s->ti) / s->ti->length;
+  const double rests = MEASURE_RESTS * timeint_scaled_size(s->ti);
   double *z = s->vector, *travel = s->other; /* of s->best */
   bool slips = true;
   memcpy(z, s->best, sizeof *z * (size_t)s->n);
@@ -377,6 +403,17 @@ hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor
   return st;
 }
 
+hc_status orbit_find(timeint *ti, int k, double reach, const hc_monitor *monitor, timeint_method *method,
+                     shoot_report *found)
+{
+  *method = TIMEINT_BY_SHOOTING;
+  hc_status st = shoot_newton(ti->shoot, k, reach, orbit_goal(ti), monitor, found);
+  if (!shoot_found_no_orbit(st)) return st;
+  *method = TIMEINT_BY_ANDERSON;
+  hc_status second = shoot_anderson(ti->shoot, k, orbit_goal(ti), monitor, found);
+  return second == HC_OK || second == HC_INTERRUPTED ? second : st;
+}
+
 bool shoot_found_no_orbit(hc_status st)
 {
   return st == HC_SINGULAR || st == HC_STALLED || st == HC_NOT_CONVERGED || st == HC_CHATTER || st == HC_NOT_SETTLED;
@@ -395,4 +432,131 @@ void shoot_direction(shoot *s, double *z)
     if (!(size > 0)) return;
     for (int i = 0; i < s->n; ++i) z[i] = next[i] / size;
   }
+}
+
+/* ---- an orbit measured ---- */
+
+/* The number of periods after which an orbit of k repeats itself: the smallest divisor d of k with returned[d] =
+ * |F^d(z) - z| as small as integration errors leave it. */
+static int shortest_period(int k, double size, const double *returned)
+{
+  for (int d = 1; d < k; ++d)
+    if (k % d == 0 && returned[d] <= same_state * size) return d;
+  return k;
+}
+
+static double relative_closure(const timeint *ti, double distance, double amplitude)
+{
+  if (amplitude > 0) return distance * ti->length / amplitude;
+  return distance > 0 ? INFINITY : 0;
+}
+
+hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
+{
+  double returned[SETTLE_MAX_MULTIPLE + 1];
+  const long transitions = integrate_transitions(ti->in);
+  const size_t moving = 2 * (size_t)ti->n_dof;
+  double *began = ti->began;
+  memcpy(began, ti->y, moving * sizeof *began);
+  measure_begin(&ti->measure, &ti->scaled);
+  for (int i = 0; i < k; ++i) {
+    hc_status st = timeint_period(ti, true);
+    if (st != HC_OK) return st;
+    returned[i + 1] = 0;
+    for (size_t c = 0; c < moving; ++c) returned[i + 1] = fmax(returned[i + 1], fabs(ti->y[c] - began[c]));
+  }
+  measure_report(&ti->measure, ti->model, 0, ti->length, r);
+  r->free_sliders = measure_resting_sliders(&ti->measure);
+  ti->measured = true;
+  r->switches = (int)(integrate_transitions(ti->in) - transitions);
+  r->period_multiple = shortest_period(k, timeint_size(ti) / ti->length, returned);
+  return HC_OK;
+}
+
+void orbit_fill(const timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r)
+{
+  r->method = method;
+  r->closure = relative_closure(ti, found->distance, r->amplitude);
+  r->attainable = relative_closure(ti, found->attainable, r->amplitude);
+  r->multiplier = cabs(found->multiplier);
+  r->multiplier_re = creal(found->multiplier);
+  r->multiplier_im = cimag(found->multiplier);
+  r->contraction = pow(r->multiplier, 1.0 / k);
+  if (found->free_sliders > r->free_sliders) r->free_sliders = found->free_sliders;
+}
+
+hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r)
+{
+  hc_status st = orbit_measure(ti, k, r);
+  if (st == HC_OK) orbit_fill(ti, k, method, found, r);
+  return st;
+}
+
+hc_status orbit_report_none(timeint *ti, hc_status why, timeint_result *r)
+{
+  const shoot_report none = {.distance = INFINITY, .attainable = INFINITY, .multiplier = NAN};
+  hc_status st = orbit_report(ti, 1, TIMEINT_BY_MARCHING, &none, r);
+  r->period_multiple = 0;
+  return st == HC_OK ? why : st;
+}
+
+/* ---- an orbit known in closed form, confirmed ---- */
+
+/* s->matrix becomes the factors of I - Phi^k of the exact law in closed form along the k periods from ti->y on. The
+ * equation of a slider that stays wherever it is becomes: go where the period takes it. */
+static hc_status factor_closed_form(shoot *s)
+{
+  timeint *ti = s->ti, *closed = ti->closed_form;
+  scaled_make(&closed->scaled, ti->model, &closed->how, ti->omega, ti->length);
+  memcpy(s->f, ti->y, sizeof *s->f * (size_t)s->n);
+  for (int i = 0; i < s->k; ++i) {
+    hc_status st = add_period(s, closed->in, &closed->scaled, i);
+    if (st != HC_OK) return st;
+  }
+  for (int i = 0; i < s->n; ++i) {
+    const bool stays = i >= 2 * ti->n_dof && is_unit_row(s, i);
+    for (int j = 0; j < s->n; ++j) s->matrix[i + j * s->n] = (i == j) - (stays ? 0 : s->phi[i + j * s->n]);
+  }
+  return dense_factor(s->n, s->matrix, s->pivot);
+}
+
+/* k periods from s->iterate on, measured; s->step: from the orbit to s->iterate, *length of it. */
+static hc_status measure_and_step(shoot *s, int k, const hc_monitor *monitor, double *length, timeint_result *r)
+{
+  timeint *ti = s->ti;
+  if (ti->periods + k > ti->how.max_periods) return HC_NOT_SETTLED;
+  if (!hc_monitor_tick(monitor, -1)) return HC_INTERRUPTED;
+  memcpy(ti->y, s->iterate, sizeof *s->iterate * (size_t)s->n);
+  hc_status st = orbit_measure(ti, k, r);
+  if (st != HC_OK) return st;
+  for (int i = 0; i < s->n; ++i) s->step[i] = s->iterate[i] - ti->y[i];
+  dense_solve(s->n, s->matrix, s->pivot, 1, s->step);
+  *length = norm_2(s->n, s->step);
+  return isfinite(*length) ? HC_OK : HC_NOT_FINITE;
+}
+
+hc_status shoot_confirm(shoot *s, int k, double goal, const hc_monitor *monitor, shoot_report *found, timeint_result *r)
+{
+  timeint *ti = s->ti;
+  const size_t bytes = sizeof *s->iterate * (size_t)s->n;
+  double length = INFINITY, last = INFINITY;
+  const double size = timeint_scaled_size(ti);
+  begin(s, k, monitor);
+  hc_status st = factor_closed_form(s);
+  if (st == HC_OK) found->attainable = attainable(s);
+  for (int tries = 0; st == HC_OK; ++tries) {
+    st = measure_and_step(s, k, monitor, &length, r);
+    found->distance = length;
+    if (st != HC_OK || length <= goal) break;
+    if (tries == CONFIRM_STEPS || !(length <= contracts * last)) { /* as near as periods can tell, or not at all */
+      if (!(length <= found->attainable)) st = HC_NOT_CONVERGED;
+      break;
+    }
+    for (int i = 0; i < s->n; ++i) s->iterate[i] -= s->step[i];
+    if (!(distance_2(s->n, s->iterate, s->before) <= ORBIT_REGULARISED_WITHIN * size)) st = HC_NOT_CONVERGED;
+    last = length;
+  }
+  if (st != HC_OK) memcpy(ti->y, s->before, bytes);
+  else orbit_fill(ti, k, TIMEINT_BY_SHOOTING, found, r);
+  return st;
 }

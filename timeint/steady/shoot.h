@@ -14,7 +14,7 @@
 
 #include <complex.h>
 
-#include "timeint/timeint.h"
+#include "timeint/steady/steady.h"
 
 typedef struct shoot shoot;
 
@@ -45,5 +45,50 @@ bool shoot_found_no_orbit(hc_status st);
 /* z[n]: the direction, of length 1, in which neighbours of the last orbit leave it fastest (or approach it slowest):
  * the power iteration on Phi. */
 void shoot_direction(shoot *s, double *z);
+
+/* ---- an orbit found, measured, confirmed ---- */
+
+/* [L] The distance within which an orbit counts as found: transient.tolerance times the motion's size, or what the
+ * integration's own errors allow. */
+double orbit_goal(const timeint *ti);
+
+/* [size] The largest regularisation, 0.1, moves an orbit by some percent: one farther away is another, of which the
+ * multiplier known says nothing. */
+#define ORBIT_REGULARISED_WITHIN 0.2
+
+/* [size] An orbit no farther from a state is next to it. */
+#define ORBIT_NEXT_TO 0.02
+
+/* [L] The scatter of k integrated periods: how far F^k(z) may be off. */
+double orbit_scatter(const timeint *ti, int k);
+
+/* ti->y onto the orbit of k periods next to it, no farther away than `reach` [L] a Newton step: by Newton, else by
+ * Anderson. Errors of Newton; ti->y is then unchanged. */
+hc_status orbit_find(timeint *ti, int k, double reach, const hc_monitor *monitor, timeint_method *method,
+                     shoot_report *found);
+
+/* The k periods from ti->y on, measured into *r; period_multiple: after how many of them the state has returned. What
+ * integration answers. */
+hc_status orbit_measure(timeint *ti, int k, timeint_result *r);
+
+/* Into *r, measured before: what is known of the orbit found by `method`. */
+void orbit_fill(const timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r);
+
+/* Both, for the orbit through ti->y. */
+hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r);
+
+/* The next period, where the motion repeats itself after none: measured into *r, period_multiple 0. `why`, or what
+ * integration answers. */
+hc_status orbit_report_none(timeint *ti, hc_status why, timeint_result *r);
+
+/* From ti->y to within goal [L] of the orbit of k periods next to it, which is known in closed form (ti->closed_form):
+ * Newton with F^k CVODE's own periods and, as its matrix, that of the exact law in closed form. With the exact law the
+ * two differ by integration errors: one period shows that the orbit closes. The regularised law's map and matrix differ
+ * by the order of the regularisation: each step contracts by that factor, and costs a plain period instead of one with
+ * variational equations. *r: its measures; found->distance from it, found->attainable; found's multiplier and free
+ * sliders are the caller's. HC_NOT_CONVERGED if the steps do not contract, HC_SINGULAR; HC_NOT_SETTLED after
+ * max_periods; what integration answers; HC_INTERRUPTED. ti->y is then where it was. */
+hc_status shoot_confirm(shoot *s, int k, double goal, const hc_monitor *monitor, shoot_report *found,
+                        timeint_result *r);
 
 #endif

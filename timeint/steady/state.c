@@ -111,7 +111,7 @@ static void follow_length(timeint *ti)
 
 const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor)
 {
-  if (ti->scout) timeint_hear(ti->scout, monitor);
+  if (ti->closed_form) timeint_hear(ti->closed_form, monitor);
   if (ti->exact) integrate_hear(ti->exact, monitor);
   return integrate_hear(ti->in, monitor);
 }
@@ -149,6 +149,7 @@ void timeint_restore(timeint *ti) { memcpy(ti->y, ti->saved, sizeof *ti->y * (si
 
 double timeint_size(const timeint *ti) { return size_of(ti) * ti->length; }
 double timeint_motion_size(const timeint *ti) { return fmax(timeint_size(ti), ti->least_length); }
+double timeint_scaled_size(const timeint *ti) { return timeint_motion_size(ti) / ti->length; }
 
 void timeint_point(const timeint *ti, double *z)
 {

@@ -1,22 +1,21 @@
-/* steady.c - see steady.h. With a scout (scout.h) the way is its own, and CVODE confirms where it leads. Without, or
- * where that fails, in the order of what they cost:
+/* steady.c - see steady.h. With transient.scout the closed form goes first (closed_form_start.h), and CVODE confirms
+ * where it leads. Without, or where that fails, in the order of what they cost:
  *     1. no contact changes its state from here on: the closed form (linear_regime.h)
- *     2. Newton on the period map, or where it fails Anderson's acceleration of it (orbit.h)
+ *     2. Newton on the period map, or where it fails Anderson's acceleration of it (shoot.h)
  *     3. a stretch of periods, longer each time, and again from 1
- *     4. period after period to the end (march.h), which is also what transient.steady_state: march asks for */
+ *     4. period after period to the end (settle.h), which is also what transient.steady_state: march asks for */
 #include "timeint/steady/steady.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-#include "timeint/steady/chaos.h"
+#include "timeint/steady/aperiodic.h"
+#include "timeint/steady/closed_form_start.h"
 #include "timeint/steady/linear_regime.h"
-#include "timeint/steady/march.h"
-#include "timeint/steady/orbit.h"
-#include "timeint/steady/scout.h"
+#include "timeint/steady/settle.h"
+#include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
-#include "timeint/steady/torus.h"
 
 /* ---- the approach to an attractor --------------------------------------------------------------------
  *
@@ -24,15 +23,14 @@
  * converges.
  *
  * A stretch is integrated with a coarse tolerance, since Newton makes the orbit accurate. Then, if the last state is
- * within `near` of the state k periods ago, the orbit of k periods next to it is computed (shoot.h). The motion goes to
- * that orbit if it is stable, next to the state, and the map between the two is linear enough for the distance to
- * shrink: |F(z) - z* - Phi (z - z*)| <= (1 - rho)/2 |z - z*|. Otherwise another stretch follows.
+ * within ORBIT_NEXT_TO of the state k periods ago, the orbit of k periods next to it is computed (shoot.h). The motion
+ * goes to that orbit if it is stable, next to the state, and the map between the two is linear enough for the distance
+ * to shrink: |F(z) - z* - Phi (z - z*)| <= (1 - rho)/2 |z - z*|. Otherwise another stretch follows.
  *
- * A motion next to no such orbit is tested for chaos (chaos.h) and for a torus (torus.h). Chaos may be a transient on
+ * A motion next to no such orbit is tested for chaos and for a torus (aperiodic.h). Chaos may be a transient on
  * its way to an orbit: it has to be found after two stretches in a row, the second twice as long as the first, and no
  * orbit after either of them or at the end. */
 static const double coarse = 1e-9; /* CVODE's tolerance in a stretch, if the final one is not coarser */
-static const double near = 0.02;   /* [size] between a state and its return: the orbit is then looked for */
 static const double unbounded =
     1e9; /* [least_length] no resonance with damping is as high: the motion grows for ever */
 static const double on_a_torus = 0.05; /* [1/period] neighbours there part in proportion to time: log(680)/640 = 0.01 */
@@ -100,8 +98,8 @@ static hc_status integrate_stretch(approach *a, int periods, bool *linear)
 static bool converges_to(const approach *a, const shoot_report *found, double size)
 {
   const double rho = cabs(found->multiplier);
-  if (a->n_past == 0) return rho < 1 && found->moved <= near * size;
-  return rho < 1 && found->moved <= 5 * near * size && found->nonlinear <= 0.5 * (1 - rho);
+  if (a->n_past == 0) return rho < 1 && found->moved <= ORBIT_NEXT_TO * size;
+  return rho < 1 && found->moved <= 5 * ORBIT_NEXT_TO * size && found->nonlinear <= 0.5 * (1 - rho);
 }
 
 /* *found_it: the motion converges to the orbit of k periods next to ti->y, which is then reported. */
@@ -109,10 +107,10 @@ static hc_status try_orbit(approach *a, int k, bool *found_it, timeint_result *r
 {
   timeint *ti = a->ti;
   shoot_report found;
-  const double size = timeint_motion_size(ti) / ti->length;
+  const double size = timeint_scaled_size(ti);
   timeint_save(ti);
   *found_it = false;
-  hc_status st = shoot_newton(ti->shoot, k, near * size, orbit_goal(ti), a->monitor, &found);
+  hc_status st = shoot_newton(ti->shoot, k, ORBIT_NEXT_TO * size, orbit_goal(ti), a->monitor, &found);
   if (shoot_found_no_orbit(st)) {
     ++a->failures;
     return HC_OK;
@@ -129,7 +127,7 @@ static hc_status try_orbit(approach *a, int k, bool *found_it, timeint_result *r
  * periods, now unstable, and one of 2 k. */
 static hc_status try_orbits(approach *a, bool *found_it, timeint_result *r)
 {
-  double within = 2 * near * timeint_motion_size(a->ti);
+  double within = 2 * ORBIT_NEXT_TO * timeint_motion_size(a->ti);
   hc_status st = HC_OK;
   *found_it = false;
   for (int k = next_return(a, 0, within); k > 0 && st == HC_OK && !*found_it; k = next_return(a, k, within)) {
@@ -137,17 +135,6 @@ static hc_status try_orbits(approach *a, bool *found_it, timeint_result *r)
     st = try_orbit(a, k, found_it, r);
   }
   return st;
-}
-
-static hc_status report_aperiodic(timeint *ti, timeint_result *r)
-{
-  const shoot_report none = {.distance = INFINITY, .attainable = INFINITY, .multiplier = NAN};
-  const double rate = r->lyapunov, second = r->second_frequency;
-  hc_status st = orbit_report(ti, 1, TIMEINT_BY_MARCHING, &none, r);
-  r->period_multiple = 0;
-  r->lyapunov = rate;
-  r->second_frequency = second;
-  return st == HC_OK ? HC_APERIODIC : st;
 }
 
 /* The closed form, or the orbit next to the state. */
@@ -165,7 +152,7 @@ static hc_status conclude_chaos(approach *a, bool *done, timeint_result *r)
   bool linear;
   hc_status st = integrate_stretch(a, LAST_LOOK, &linear);
   if (st == HC_OK) st = try_to_end(a, linear, done, r);
-  return st == HC_OK && !*done ? report_aperiodic(a->ti, r) : st;
+  return st == HC_OK && !*done ? orbit_report_none(a->ti, HC_APERIODIC, r) : st;
 }
 
 /* Next to no orbit: does the motion run on a torus, or is it chaotic? Then it is reported. Both wait until the
@@ -182,7 +169,7 @@ static hc_status try_aperiodic(approach *a, bool *done, timeint_result *r)
   if (!(r->lyapunov > on_a_torus)) {
     if ((st = torus_test(ti, a->monitor, &nu)) != HC_OK) return st;
     r->second_frequency = nu * ti->omega;
-    if (!isnan(nu)) return report_aperiodic(ti, r);
+    if (!isnan(nu)) return orbit_report_none(ti, HC_APERIODIC, r);
   }
   return a->chaotic == TIMES_CHAOTIC ? conclude_chaos(a, done, r) : HC_OK;
 }
@@ -204,7 +191,7 @@ static hc_status by_stretches(approach *a, int first, timeint_result *r)
     if ((st = try_aperiodic(a, &done, r)) != HC_OK || done) return st;
     if (a->failures >= MOST_FAILURES) break;
   }
-  return march_to_steady_state(ti, a->monitor, r);
+  return settle_by_integration(ti, a->monitor, r);
 }
 
 /* From ti->y, next to no known stable orbit, to the attractor, its measures into *r. first: periods of the first
@@ -247,7 +234,6 @@ static void clear_result(timeint_result *r, double omega)
 {
   memset(r, 0, sizeof *r);
   r->omega = omega;
-  r->scout_switches = -1;
   r->amplitude = r->max = r->min = r->rms = r->mean = r->a1 = r->b1 = r->harmonic_1 = r->closure = r->attainable =
       r->contraction = NAN;
   r->multiplier = r->multiplier_re = r->multiplier_im = r->lyapunov = r->second_frequency = NAN;
@@ -263,20 +249,14 @@ static void fill_counts(const timeint *ti, timeint_result *r)
   r->cvode_flag = integrate_flag(ti->in);
 }
 
-/* In units of length. */
-static double scaled_size(const timeint *ti) { return timeint_motion_size(ti) / ti->length; }
-
 /* The orbit of k periods next to the state, stable or not. */
 static hc_status to_nearest_orbit(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r)
 {
   timeint_method method;
   shoot_report found;
-  if (linear_regime_is_final(ti)) {
-    linear_regime_steady(ti, r);
-    return HC_OK;
-  }
+  if (linear_regime_steady(ti, r)) return HC_OK;
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
-  const double size = scaled_size(ti);
+  const double size = timeint_scaled_size(ti);
   if (st == HC_OK) st = orbit_find(ti, k, reach_from_hbm * size, monitor, &method, &found);
   /* an orbit, but not the one next to the start */
   if (st == HC_OK && !(found.moved <= next_to * size)) st = HC_NOT_CONVERGED;
@@ -300,7 +280,7 @@ static hc_status from_orbit(timeint *ti, const hc_monitor *monitor, timeint_resu
 {
   timeint_method method;
   shoot_report found;
-  const double size = scaled_size(ti);
+  const double size = timeint_scaled_size(ti);
   timeint_save(ti);
   hc_status st = orbit_find(ti, 1, reach_from_hbm * size, monitor, &method, &found);
   if (shoot_found_no_orbit(st)) return approach_attractor(ti, FIRST_STRETCH, monitor, r);
@@ -317,10 +297,7 @@ static hc_status from_orbit(timeint *ti, const hc_monitor *monitor, timeint_resu
 
 static hc_status to_attractor(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
-  if (linear_regime_is_final(ti)) {
-    linear_regime_steady(ti, r);
-    return HC_OK;
-  }
+  if (linear_regime_steady(ti, r)) return HC_OK;
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   if (st != HC_OK) return st;
   return ti->how.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r)
@@ -330,57 +307,61 @@ static hc_status to_attractor(timeint *ti, const hc_monitor *monitor, timeint_re
 static hc_status by_itself(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
   switch (ti->how.steady) {
-  case TRANSIENT_STEADY_MARCH: return march_to_steady_state(ti, monitor, r);
+  case TRANSIENT_STEADY_MARCH: return settle_by_integration(ti, monitor, r);
   case TRANSIENT_STEADY_SHOOTING: return to_nearest_orbit(ti, 1, monitor, r);
   default: return to_attractor(ti, monitor, r);
   }
 }
 
-hc_status timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *result)
+/* The steady state (k = 0), or the orbit of k periods next to `state`; at_state: the state is on it, but for the
+ * errors of another integration. */
+static hc_status reach(timeint *ti, double omega, int k, bool at_state, double *state, const hc_monitor *monitor,
+                       timeint_result *result)
 {
   bool done = false;
   clear_result(result, omega);
+  if (k < 0 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;
   hc_status st = timeint_begin(ti, omega, state);
   if (st != HC_OK) return st;
   const hc_monitor *before = timeint_hear(ti, monitor);
-  if (ti->scout && ti->how.steady != TRANSIENT_STEADY_MARCH) st = scout_steady(ti, 0, state, monitor, result, &done);
-  if (st == HC_OK && !done) st = by_itself(ti, monitor, result);
+  const bool closed_first = ti->closed_form && (k > 0 || ti->how.steady != TRANSIENT_STEADY_MARCH);
+  if (closed_first && at_state) st = closed_start_confirm(ti, k, monitor, result, &done);
+  else if (closed_first) st = closed_start_steady(ti, k, state, monitor, result, &done);
+  if (st == HC_OK && !done) st = k > 0 ? to_nearest_orbit(ti, k, monitor, result) : by_itself(ti, monitor, result);
   timeint_get_state(ti, state); /* on failure, the last one that was reached */
   timeint_hear(ti, before);
   fill_counts(ti, result);
   return st;
 }
 
+hc_status timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *result)
+{
+  return reach(ti, omega, 0, false, state, monitor, result);
+}
+
 hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                         timeint_result *result)
 {
-  clear_result(result, omega);
-  if (k < 1 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;
-  hc_status st = timeint_begin(ti, omega, state);
-  if (st != HC_OK) return st;
-  const hc_monitor *before = timeint_hear(ti, monitor);
-  bool done = false;
-  if (ti->scout) st = scout_steady(ti, k, state, monitor, result, &done);
-  if (st == HC_OK && !done) st = to_nearest_orbit(ti, k, monitor, result);
-  timeint_get_state(ti, state);
-  timeint_hear(ti, before);
-  fill_counts(ti, result);
-  return st;
+  return reach(ti, omega, k < 1 ? -1 : k, false, state, monitor, result);
 }
 
 hc_status timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                         timeint_result *result)
 {
-  bool done = false;
-  clear_result(result, omega);
-  if (k < 1 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;
-  hc_status st = timeint_begin(ti, omega, state);
-  if (st != HC_OK) return st;
-  const hc_monitor *before = timeint_hear(ti, monitor);
-  if (ti->scout) st = scout_confirm(ti, k, monitor, result, &done);
-  if (st == HC_OK && !done) st = to_nearest_orbit(ti, k, monitor, result);
-  timeint_get_state(ti, state);
-  timeint_hear(ti, before);
-  fill_counts(ti, result);
-  return st;
+  return reach(ti, omega, k < 1 ? -1 : k, true, state, monitor, result);
+}
+
+hc_status timeint_response(timeint *ti, int i, timeint_result *r)
+{
+  if (i < 0 || i >= scaled_n_responses(&ti->scaled)) return HC_BAD_INPUT;
+  const double amplitude = r->amplitude;
+  if (!ti->measured) {
+    timeint_result again = *r;
+    hc_status st = orbit_measure(ti, r->period_multiple > 0 ? r->period_multiple : 1, &again);
+    if (st != HC_OK) return st;
+  }
+  measure_report(&ti->measure, ti->model, i, ti->length, r);
+  r->closure *= amplitude / r->amplitude; /* they are relative to it */
+  r->attainable *= amplitude / r->amplitude;
+  return HC_OK;
 }

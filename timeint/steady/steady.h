@@ -26,7 +26,7 @@ hc_status timeint_orbit(timeint *ti, double omega, int k, double *state, const h
                         timeint_result *result);
 
 /* The orbit of k periods through a state that lies next to it already, as that of the same equations integrated with
- * another tolerance does: neither looked for nor scouted. Errors as
+ * another tolerance does: not looked for. Errors as
  * timeint_orbit. */
 hc_status timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
                         timeint_result *result);
@@ -36,8 +36,8 @@ hc_status timeint_again(timeint *ti, double omega, int k, double *state, const h
  * equations only:
  *     integration     distance from the orbit, and the scatter of periods times |(I - Phi)^-1|
  *     regularisation  twice the change by half of it: it is of first order, or better
- * With a scout that is one plain period of the regularised law, none of the exact. HC_OK, also where nothing can be
- * said (NaN); HC_NO_MEMORY, HC_INTERRUPTED. */
+ * With transient.scout that is one plain period of the regularised law, none of the exact. HC_OK, also where nothing
+ * can be said (NaN); HC_NO_MEMORY, HC_INTERRUPTED. */
 hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r);
 
 /* *r, the last result of this handle, becomes that of response i (counted from 0) of the same periods: its measures.
@@ -45,8 +45,8 @@ hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *mo
  * HC_BAD_INPUT: there is no such response. */
 hc_status timeint_response(timeint *ti, int i, timeint_result *r);
 
-/* With a scout a handle remembers the orbits it found last, and gives them again to a start that leads to one of them.
- * Forget them: the next is integrated whatever it is. */
+/* With transient.scout a handle remembers the orbits it found last, and gives them again to a start that leads to one
+ * of them. Forget them: the next is integrated whatever it is. */
 void timeint_forget(timeint *ti);
 
 /* Stable by its multiplier: +1; -1 not; 0 unknown, or within 1e-9 of the border. */

@@ -49,14 +49,14 @@ static double distance_left(const double complex moves[2], double move, double s
 static hc_status follow_branch(timeint *ti, const hc_monitor *monitor, bool *there, double *moved)
 {
   double *before = ti->point[0], *after = ti->point[1];
-  const double size = timeint_motion_size(ti) / ti->length;
+  const double size = timeint_scaled_size(ti);
   shoot_report found = {0};
   timeint_result unused;
   timeint_point(ti, before);
   timeint_save(ti);
   hc_status st = HC_OK;
-  if ((*there = linear_regime_is_final(ti))) linear_regime_steady(ti, &unused);
-  else st = shoot_newton(ti->shoot, 1, moved_much * size, orbit_within * size, monitor, &found);
+  *there = linear_regime_steady(ti, &unused);
+  if (!*there) st = shoot_newton(ti->shoot, 1, moved_much * size, orbit_within * size, monitor, &found);
   timeint_point(ti, after);
   *moved = relative_distance(ti, after, before);
   if (st == HC_OK && !*there) *there = cabs(found.multiplier) < 1 && *moved <= 2 * moved_much;
@@ -189,7 +189,7 @@ static void swap_law(timeint *ti, transient_law law)
 hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, double *state, const hc_monitor *monitor)
 {
   const transient_law law = ti->how.law;
-  if (ti->scout) return timeint_sweep(ti->scout, omega_from, omega_to, state, monitor);
+  if (ti->closed_form) return timeint_sweep(ti->closed_form, omega_from, omega_to, state, monitor);
   const hc_monitor *before = timeint_hear(ti, monitor);
   if (law != TRANSIENT_LAW_EXACT) swap_law(ti, TRANSIENT_LAW_EXACT);
   hc_status st = sweep_with_this_law(ti, omega_from, omega_to, state, monitor);

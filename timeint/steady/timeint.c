@@ -6,7 +6,7 @@
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/integrate_events.h"
 #include "timeint/cvode/integrate_regularised.h"
-#include "timeint/steady/scout.h"
+#include "timeint/steady/closed_form_start.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
@@ -51,9 +51,9 @@ static hc_status check_input(const model *m, const transient_settings *how)
 
 static hc_status make_memory(timeint *ti)
 {
-  double **const vectors[] = {&ti->y,          &ti->saved,       &ti->direction, &ti->neighbour,
-                              &ti->separation, &ti->scout_state, &ti->point[0],  &ti->point[1],
-                              &ti->point[2],   &ti->began,       &ti->past};
+  double **const vectors[] = {
+      &ti->y,        &ti->saved,    &ti->direction, &ti->neighbour, &ti->separation, &ti->closed_form_state,
+      &ti->point[0], &ti->point[1], &ti->point[2],  &ti->began,     &ti->past};
   const size_t n = (size_t)ti->n, n_vectors = sizeof vectors / sizeof *vectors;
   ti->memory = calloc((n_vectors - 1 + SETTLE_MAX_MULTIPLE) * n, sizeof *ti->memory);
   ti->scaled.contact = calloc(n, sizeof *ti->scaled.contact); /* two more than needed, so never nothing */
@@ -77,7 +77,7 @@ static hc_status make_parts(timeint *ti)
   if (st == HC_OK && !exact && !ti->how.scout) st = make_integrator(ti, TRANSIENT_LAW_EXACT, &ti->exact);
   if (st == HC_OK) st = settle_new(ti->n, &ti->settle);
   if (st == HC_OK) st = shoot_new(ti, &ti->shoot);
-  return st == HC_OK ? scout_new(ti) : st;
+  return st == HC_OK ? closed_start_new(ti) : st;
 }
 
 hc_status timeint_new(const model *m, const transient_settings *how, timeint **out)
@@ -106,7 +106,7 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
 void timeint_free(timeint *ti)
 {
   if (!ti) return;
-  scout_free(ti);
+  closed_start_free(ti);
   shoot_free(ti->shoot);
   settle_free(ti->settle);
   integrate_free(ti->exact);
@@ -125,7 +125,7 @@ void timeint_count(const timeint *ti, long *by_cvode, long *closed_form)
   const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM;
   const long own = integrate_periods(ti->in);
   *by_cvode += (closed ? 0 : own) + (ti->exact ? integrate_periods(ti->exact) : 0);
-  *closed_form += (closed ? own : 0) + (ti->scout ? integrate_periods(ti->scout->in) : 0);
+  *closed_form += (closed ? own : 0) + (ti->closed_form ? integrate_periods(ti->closed_form->in) : 0);
 }
 
 int timeint_n_states(const timeint *ti) { return ti->n; }

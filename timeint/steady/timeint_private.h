@@ -17,32 +17,31 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   modal_base *base;       /* the model in its modes                                                     */
   int n_dof, n;           /* degrees of freedom; number of states, 2 n_dof + contacts                   */
   integrator *in;
-  integrator *exact; /* of the exact law, for sweeps, where `in` is not and there is no scout; else NULL */
+  integrator *exact; /* of the exact law, for sweeps, where `in` is not and there is no closed_form; else NULL */
   settle *settle;
   struct shoot *shoot;
-  timeint *scout;           /* of the same model, in closed form; NULL without transient.scout           */
-  struct confirm *confirm;  /* with a scout                                                              */
-  struct memory *confirmed; /* with a scout: orbits found lately (scout.c)                              */
+  timeint *closed_form;     /* of the same model, in closed form; NULL without transient.scout           */
+  struct memory *confirmed; /* with it: orbits found lately (closed_form_start.c)                       */
   measure measure;
-  bool measured;       /* it is of the periods that led to y                                        */
-  scaled_model scaled; /* the equations at omega in units of length                                     */
-  double omega;        /* [rad/time]                                                                    */
-  double length;       /* [length] about the size of the motion; y is in units of it                    */
-  double least_length; /* [length] the unit is never smaller                                            */
-  double tolerance;    /* [1] CVODE's at present                                                        */
-  double contraction;  /* [1] a priori, per period: exp(-C T/2M)                                        */
-  int periods;         /* since timeint_begin                                                           */
-  long steps0, rhs0;   /* counts at timeint_begin                                                       */
-  double *y;           /* [n] the state                                                                 */
-  double *saved;       /* [n] y before a Newton solve whose answer may be rejected                      */
-  double *direction;   /* [n] in which an unstable orbit is left                                        */
-  double *scout_state; /* [n] of the scout's orbit, in the model's units                                */
-  double *neighbour;   /* [n] state of a second motion, drawn along with the first                      */
-  double *separation;  /* [n] neighbour - y at the beginning of a period                                */
-  double *point[3];    /* [n] states as timeint_point has them                                          */
-  double *began;       /* [n] where a measurement of periods began                                      */
-  double *past;        /* [SETTLE_MAX_MULTIPLE][n] a ring of the latest of these                        */
-  double *memory;      /* of all the arrays above                                                       */
+  bool measured;             /* it is of the periods that led to y                                        */
+  scaled_model scaled;       /* the equations at omega in units of length                                     */
+  double omega;              /* [rad/time]                                                                    */
+  double length;             /* [length] about the size of the motion; y is in units of it                    */
+  double least_length;       /* [length] the unit is never smaller                                            */
+  double tolerance;          /* [1] CVODE's at present                                                        */
+  double contraction;        /* [1] a priori, per period: exp(-C T/2M)                                        */
+  int periods;               /* since timeint_begin                                                           */
+  long steps0, rhs0;         /* counts at timeint_begin                                                       */
+  double *y;                 /* [n] the state                                                                 */
+  double *saved;             /* [n] y before a Newton solve whose answer may be rejected                      */
+  double *direction;         /* [n] in which an unstable orbit is left                                        */
+  double *closed_form_state; /* [n] of the closed form's orbit, in the model's units                                */
+  double *neighbour;         /* [n] state of a second motion, drawn along with the first                      */
+  double *separation;        /* [n] neighbour - y at the beginning of a period                                */
+  double *point[3];          /* [n] states as timeint_point has them                                          */
+  double *began;             /* [n] where a measurement of periods began                                      */
+  double *past;              /* [SETTLE_MAX_MULTIPLE][n] a ring of the latest of these                        */
+  double *memory;            /* of all the arrays above                                                       */
 };
 
 /* Equations, unit of length and a-priori contraction for omega; y from state[n]. HC_BAD_INPUT unless omega and the
@@ -55,7 +54,7 @@ void timeint_regularise(timeint *ti, double regularisation);
 /* Another tolerance of CVODE's from the next period on. */
 hc_status timeint_set_tolerance(timeint *ti, double tolerance);
 
-/* What periods hear between their steps, of the scout, too, until something else is given; what it was before. */
+/* What periods hear between their steps, of closed_form, too, until something else is given; what it was before. */
 const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor);
 
 /* One period, measured or not; then the unit of length follows the motion. */
@@ -77,6 +76,9 @@ double timeint_size(const timeint *ti);
 
 /* [length] the same, but no less than least_length: what distances between states are compared with. */
 double timeint_motion_size(const timeint *ti);
+
+/* [L] The same in units of ti->length, as ti->y is. */
+double timeint_scaled_size(const timeint *ti);
 
 /* z[n] [length]: what settling is judged by: x, v/omega, and by how much x would follow each slider,
  * kt cos(alpha) w/(largest stiffness). */

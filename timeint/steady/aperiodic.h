@@ -1,4 +1,14 @@
-/* torus.h - does a motion that repeats itself after no number of periods run on a torus; with what second frequency?
+/* aperiodic.h - a motion that repeats itself after no number of periods: is it chaotic, or does it run on a torus?
+ *
+ * Chaos: neighbouring motions drift apart, although the motion itself goes nowhere.
+ * The largest Lyapunov exponent [1/period]: the mean of log |d_(n+1)|/|d_n|, d the distance of a neighbour that is
+ * brought back to a small distance after each period. It is positive in chaos, but also while a motion leaves an
+ * unstable orbit, which takes thousands of periods where damping is low. What tells the two apart is how often the
+ * distance could have grown by e. Next to an orbit of k periods the motion's distance from it, D, is itself that of a
+ * neighbour: it is at least half the return |z_n - z_(n-k)| (multipliers beyond -1 make it 2 D) and at most the size of
+ * the motion, so in the time that a motion needs to leave neighbours grow by no more than
+ *     log(2 size/return)
+ * folds. In chaos there is no end to it, however narrow the bands in which the motion stays.
  *
  * Beyond a Neimark-Sacker bifurcation a complex pair of Floquet multipliers is outside the unit circle, and the motion
  * goes to a torus: its states after each period lie on a closed curve and go round it by nu turns a period,
@@ -10,10 +20,15 @@
  * Told by averages over two windows, one after the other, each weighted by w(t) = exp(-1/(t (1 - t))): on a torus they
  * converge faster than any power of the window's length (S. Das, Y. Saiki, E. Sander, J. A. Yorke, Nonlinearity 30,
  * 2017), in chaos like its root, and while a motion settles, or grows, they move. */
-#ifndef HC_TIMEINT_TORUS_H
-#define HC_TIMEINT_TORUS_H
+#ifndef HC_TIMEINT_APERIODIC_H
+#define HC_TIMEINT_APERIODIC_H
 
 #include "timeint/steady/steady.h"
+
+/* From ti->y on, which moves along. *chaos stays false, and nothing is integrated, before the transient has died out
+ * (500 periods, and six times those in which damping reduces a difference by e) and where too few periods are left.
+ * *rate [1/period]: the mean where it was measured, with chaos or without. */
+hc_status chaos_test(timeint *ti, const hc_monitor *monitor, bool *chaos, double *rate);
 
 /* From ti->y on, over two windows of 1024 periods, along which it moves. *nu [1]: of a torus, in (0, 1/2); NaN: it is
  * none, or cannot be told, or no periods are left. An oscillator never is on one: its period map shrinks areas, and a
