@@ -28,6 +28,12 @@ typedef struct motion_error {
   double amplitude, harmonic_1, waveform; /* [length] as in motion_distance */
 } motion_error;
 
+/* [waveform] Amplitude and first harmonic are expected to be off by this at least. Of two motions they may agree by
+ * chance, where an error passes through 0 as omega or a setting changes; what they are off by is then of the size of
+ * what the finer equations leave out, an eighth of the waveform's error or less. The worst seen is 0.03 of it, along
+ * c2. */
+#define MOTION_LEAST_SHARE 0.04
+
 /* The motion of the series X[2 n_harm + 1], whose extrema the caller has from series_extrema. */
 periodic_motion motion_of_series(int n_harm, const double *X, double max, double min);
 

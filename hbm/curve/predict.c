@@ -22,11 +22,6 @@ static const double converged = 0.02; /* a step this small beside what all came 
 static const double lost = 0.1, another = 0.3;
 static const double roundings = 4; /* a motion and its measures take a few */
 
-/* The amplitude and the first harmonic of two motions may agree by chance, where an error passes through 0 as omega or
- * H changes; what they are off by is then of the size of what the finer equations leave out, an eighth of the
- * waveform's error or less. The worst seen is 0.03 of it, along c2. */
-static const double least_share = 0.04;
-
 /* Twice the harmonics, and more where these do not reach the natural frequency of the mass on its stuck contacts, at
  * which it swings after each impact: up to there errors hardly fall with the harmonics, and twice as many say
  * nothing. Of many coordinates no more than MOST_UNKNOWNS allow, or twice as many. */
@@ -119,8 +114,8 @@ static hc_status error_between(const hbm_solver *s, const periodic_motion *ours,
   const motion_distance d = motion_between(ours, better);
   const double factor = extrapolation(s, refinement_harmonics(s->exact_finer)), waveform = factor * d.waveform;
   const double least = s->improved_least;
-  *out = (motion_error){.amplitude = fmax(factor * d.amplitude, least_share * waveform) + least,
-                        .harmonic_1 = fmax(factor * d.harmonic_1, least_share * waveform) + least,
+  *out = (motion_error){.amplitude = fmax(factor * d.amplitude, MOTION_LEAST_SHARE * waveform) + least,
+                        .harmonic_1 = fmax(factor * d.harmonic_1, MOTION_LEAST_SHARE * waveform) + least,
                         .waveform = waveform + least};
   const double sum = out->amplitude + out->harmonic_1 + out->waveform;
   if (isnan(sum)) *out = (motion_error){NAN, NAN, NAN};

@@ -11,10 +11,10 @@
 
 /* ---- chaos ----
  *
- * Neighbours are drawn along for a round of batches. It is chaos if they drift apart at a mean
- * rate of more than three standard errors of the batches' means, and by more folds than leaving an orbit can explain.
- * Where they drift apart too slowly for that, another round is added as long as the latest one does not take it back.
- * */
+ * A neighbouring motion is integrated beside the first for a round of batches. It is chaos if they drift apart at a
+ * mean rate of more than three standard errors of the batches' means, and by more folds than leaving an orbit can
+ * explain. Where they drift apart too slowly for that, another round is added as long as the latest one does not take
+ * it back. */
 
 /* [1] e-folds beyond those of leaving an orbit, which are counted as if growth were that of small distances up to the
  * size of the motion: 5 is a factor 150 of what that neglects. */
@@ -24,8 +24,9 @@ static const double separation = 1e-5; /* [L] of the two neighbours: far above t
 static const double narrowest = 10; /* [separation] neighbours in narrower bands are too far apart to say anything, and
                                           a motion that returns nearer may be held on an unstable orbit */
 enum {
-  AFTER = 500, /* periods */
-  FOLDS = 6,   /* of what damping takes away */
+  AFTER = 500,         /* periods */
+  FOLDS = 6,           /* of what damping takes away: exp(-6) = 0.25 % of the transient is left */
+  STANDARD_ERRORS = 3, /* by chance once in 700 */
   BATCHES = 16,
   BATCH = 40 /* periods; the first batch only turns the neighbours' difference into the direction of growth */
 };
@@ -125,7 +126,7 @@ static double folds_of_leaving(const measurement *m)
 static bool rate_is_positive(const measurement *m)
 {
   const double n = m->batches, mean = m->sum / n;
-  return mean > 3 * sqrt(fmax(m->square / n - mean * mean, 0) / (n - 1));
+  return mean > STANDARD_ERRORS * sqrt(fmax(m->square / n - mean * mean, 0) / (n - 1));
 }
 
 static bool periods_left(const timeint *ti, int batches)
@@ -158,9 +159,13 @@ hc_status chaos_test(timeint *ti, const hc_monitor *monitor, bool *chaos, double
 static const double same_average = 1e-3;
 static const double same_line =
     1e-5; /* [turns a period] of its frequency in the two windows; a tenth of a bin is 1e-4 */
-static const double same_height = 1e-2;
+static const double same_height = 1e-2;  /* ten times same_average: a height is found with its frequency */
 static const double stands_still = 1e-6; /* [1] a deviation that small, of the size, is no motion */
-enum { WINDOW = 1024, REFINEMENTS = 60, MOST_LOCKED = 64 };
+enum {
+  WINDOW = 1024,                        /* periods: see same_average */
+  REFINEMENTS = 60,                     /* golden sections: 0.618^60 = 3e-13 of a bin */
+  MOST_LOCKED = 4 * SETTLE_MAX_MULTIPLE /* a cycle, or bands, beyond those looked for */
+};
 
 /* Sum to 1 over i = 0 .. n-1. */
 static double weight(int n, int i)

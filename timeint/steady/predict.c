@@ -15,9 +15,6 @@ static const double enough = 1e-3;   /* [change] to which half the regularisatio
 static const double coarsest = 1e-8; /* CVODE's tolerance for it */
 static const double per_change = 1e-6; /* that tolerance, relative to the change: it scatters by 250 times itself */
 
-/* Of the waveform's change: amplitude and first harmonic may agree by chance. */
-static const double least_share = 0.04;
-
 static periodic_motion motion_of(const timeint_result *r)
 {
   periodic_motion m = {.amplitude = r->amplitude,
@@ -64,7 +61,7 @@ static motion_error change(const timeint_result *whole, const timeint_result *ha
 {
   const periodic_motion all_of_it = motion_of(whole), less = motion_of(half);
   const motion_distance d = motion_between(&all_of_it, &less);
-  const double least = least_share * d.waveform;
+  const double least = MOTION_LEAST_SHARE * d.waveform;
   return (motion_error){2 * fmax(d.amplitude, least), 2 * fmax(d.harmonic_1, least), 2 * d.waveform};
 }
 

@@ -11,13 +11,16 @@
 #include "timeint/steady/timeint_private.h"
 
 enum {
-  MIN_BASELINE = SETTLE_MAX_MULTIPLE,
-  MAX_BASELINE = 512,
+  MIN_BASELINE = SETTLE_MAX_MULTIPLE, /* the longest cycle once */
+  MAX_BASELINE = 512,                 /* for memory: the ring holds two */
   CAPACITY = 2 * MAX_BASELINE + 2 * SETTLE_MAX_MULTIPLE,
-  RECENT = 16
+  RECENT = 16 /* differences of which the largest counts */
 };
 
-static const double contraction_cap = 0.9995;
+static const double contraction_cap = 0.9995; /* e-folds of 2000 periods: two baselines cannot tell more from 1 */
+static const double least_directed = 0.4; /* along one direction a drift that falls by two e-folds over the baseline is
+                                                 (1 - exp(-2))/2 = 0.43 of the largest times their number */
+static const double far_apart = 100;      /* [goal] states of a cycle, see find_cycle */
 
 struct settle {       /* from settle_new, to settle_free */
   int d;              /* components of a point                                      */
@@ -108,7 +111,7 @@ double settle_rate(const settle *s) { return s->n > 2 * s->baseline ? rate(s, s-
 static bool directed(const settle *s, int b, int k)
 {
   const int folds = b / k;
-  return moved(s, 0, folds * k) >= 0.4 * folds * moved_most(s, 0, b, k);
+  return moved(s, 0, folds * k) >= least_directed * folds * moved_most(s, 0, b, k);
 }
 
 /* Contraction per step along one direction, over the longest baseline over which the drift keeps one: the nearer to 1
@@ -141,15 +144,15 @@ static settle_estimate estimate_cycle(const settle *s, int k)
 }
 
 /* The k of the shortest cycle that the points follow to within goal; k > 1 only if from one point to the next they
- * change 100 times as much, since close to a fixed point, or to a cycle of k/2, the differences over all strides are
- * small. 0: none. */
+ * change far_apart times as much, since close to a fixed point, or to a cycle of k/2, the differences over all strides
+ * are small. 0: none. */
 static int find_cycle(const settle *s, double goal)
 {
   for (int k = 1; k <= SETTLE_MAX_MULTIPLE; ++k) {
-    if (moved(s, 0, k) > 100 * goal) continue;
+    if (moved(s, 0, k) > far_apart * goal) continue;
     double drift = moved_most(s, 0, s->baseline, k);
     if (drift <= 2 * goal) return k;
-    if (!(drift > 100 * goal)) return 0;
+    if (!(drift > far_apart * goal)) return 0;
   }
   return 0;
 }
@@ -168,15 +171,15 @@ settle_estimate settle_judge(const settle *s, double goal)
 
 /* ---- period after period ----
  *
- * The first period is integrated with the finest tolerance of CVODE
- * (timeint_final_tolerance), to see how much the state moves; the next ones with a tolerance as coarse as that
- * allows, and a finer one as the state moves less. Only with the finest is the orbit judged (settle.h), and its
- * period or k periods measured. */
+ * The first period is integrated with the finest tolerance of CVODE (timeint_final_tolerance), to see how much the
+ * state moves; the next ones with a tolerance as coarse as that allows, and a finer one as the state moves less. Only
+ * with the finest is the orbit judged, and its period or k periods measured. */
 
 /* Coarse steps cost a third to a fifth, and lose nothing while the state is farther from the orbit than their error
  * puts it: up to 250 times the tolerance a period, which adds up over 1/(1 - rho) periods to at least 1/sqrt(1 -
  * rho) times that. Hence drift sqrt(1 - rho)/1000: a start on the orbit keeps the finest tolerance and stays on it. */
-static const double coarsest = 1e-8, drift_over_tolerance = 1e3, refine_by = 0.1;
+static const double coarsest = 1e-8;
+static const double drift_over_tolerance = 1e3, refine_by = 0.1;
 enum { MOST_BASELINES = 20 }; /* at one tolerance: if the scatter is larger than expected, drift never falls below it */
 
 static void push(timeint *ti)

@@ -17,13 +17,24 @@
 #include "numerics/sundials_compat.h"
 #include "timeint/steady/timeint_private.h"
 
-enum { NEWTON_ITERATIONS = 12, ANDERSON_ITERATIONS = 100, ANDERSON_DEPTH = 4, LAST_STEPS = 4, CONFIRM_STEPS = 8 };
+enum {
+  NEWTON_ITERATIONS = 12,    /* twice the 3 to 7 periods that it takes from the HBM orbit (docs/transient.md) */
+  ANDERSON_ITERATIONS = 100, /* what a contraction of 0.8 a period needs to 1e-9 without acceleration: 0.8^93 = 1e-9 */
+  ANDERSON_DEPTH = 4,        /* about the states of an oscillator: with as many as states it is the secant method */
+  LAST_STEPS = 4,            /* digits double: from 1e-2 to rounding in three, and one that shows it */
+  CONFIRM_STEPS = 8,         /* 0.3^8 = 7e-5: slower than that Newton with variational equations is cheaper */
+  DIRECTION_STEPS = 64       /* of the power iteration: a second multiplier of 0.8 of the first leaves 0.8^64 = 6e-7 */
+};
 enum { EDGE_SCATTERS = 100 }; /* sliders are moved off the edge of slip by so much more than rounding */
 
 static const double same_state = 1e-6; /* [size] a state that returns as near is the same, but for integration errors */
 
-static const double contracts = 0.3; /* a Newton step no shorter than that part of the last one leads nowhere */
-struct shoot {                       /* from shoot_new, to shoot_free */
+static const double rounding_of_step = 20 * DBL_EPSILON; /* [L] of the sums that make a step */
+enum { CLOSED_FORM_STEPS = 10, CVODE_STEPS = 1000 };     /* in a period, about */
+static const double both_scatter = 1e3; /* [tolerance] of F(z0) and F(z*) together: twice 250, and twice that */
+static const double contracts =
+    0.3;       /* [last step] a Newton step no shorter than that part of the last one leads nowhere */
+struct shoot { /* from shoot_new, to shoot_free */
   timeint *ti;
   int n, k;
   const hc_monitor *monitor;
@@ -233,18 +244,19 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
 
 double orbit_goal(const timeint *ti) { return fmax(ti->how.tolerance * timeint_scaled_size(ti), 100 * ti->tolerance); }
 
-/* CVODE's, and the rounding of some thousand steps; in closed form of some ten. */
 double orbit_scatter(const timeint *ti, int k)
 {
-  if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return k * 200 * DBL_EPSILON;
-  return k * fmax(integrate_scatter(ti->in) * ti->tolerance, 2e4 * DBL_EPSILON);
+  if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return k * CLOSED_FORM_STEPS * rounding_of_step;
+  return k * fmax(integrate_scatter(ti->in) * ti->tolerance, CVODE_STEPS * rounding_of_step);
 }
 
-/* The residual at which Newton stops. A residual r is a distance of about r/(1 - rho) from the orbit: hence a tenth of
- * the goal times 1 - rho, but no less than the scatter of periods. finish() judges what is left. */
+static const double share_of_goal = 0.1; /* the matrix' inverse is known to its order of magnitude only */
+
+/* The residual at which Newton stops. A residual r is a distance of about r/(1 - rho) from the orbit: hence
+ * share_of_goal times the goal times 1 - rho, but no less than the scatter of periods. finish() judges what is left. */
 static double small_residual(const shoot *s, double goal)
 {
-  return fmax(0.1 * goal * (1 - fmin(s->ti->contraction, 1)), orbit_scatter(s->ti, s->k));
+  return fmax(share_of_goal * goal * (1 - fmin(s->ti->contraction, 1)), orbit_scatter(s->ti, s->k));
 }
 
 /* |F^k(z0) - z* - Phi (z0 - z*)| / |z0 - z*|, z* = z. */
@@ -257,7 +269,7 @@ static double nonlinear_part(const shoot *s, const double *z)
     left[i] = s->first[i] - s->f[i]; /* F(z*) is z*, and nearer to F(z0)'s own errors */
     for (int j = 0; j < n; ++j) left[i] -= s->phi[i + j * n] * e[j];
   }
-  const double size = norm_2(n, e), rounding = 1e3 * s->ti->tolerance;
+  const double size = norm_2(n, e), rounding = both_scatter * s->ti->tolerance;
   return size > rounding ? fmax(norm_2(n, left) - rounding, 0) / size : 0;
 }
 
@@ -423,7 +435,7 @@ void shoot_direction(shoot *s, double *z)
 {
   double *next = s->vector;
   for (int i = 0; i < s->n; ++i) z[i] = 1 / sqrt(s->n);
-  for (int step = 0; step < 64; ++step) {
+  for (int step = 0; step < DIRECTION_STEPS; ++step) {
     for (int i = 0; i < s->n; ++i) {
       next[i] = 0;
       for (int j = 0; j < s->n; ++j) next[i] += (is_free(s, i) ? 0 : s->phi[i + j * s->n]) * z[j];

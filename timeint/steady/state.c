@@ -101,12 +101,13 @@ hc_status timeint_set_tolerance(timeint *ti, double tolerance)
   return integrate_tolerance(ti->in, tolerance);
 }
 
-/* The unit stays within a factor of 4 of the motion's size. CVODE's absolute tolerance is in this unit, and needs to be
+/* The unit stays within this factor of the motion's size. CVODE's absolute tolerance is in this unit, and needs to be
  * in proportion to the motion to no better than that. */
+static const double unit_factor = 4;
 static void follow_length(timeint *ti)
 {
   double size = timeint_motion_size(ti);
-  if (size > 4 * ti->length || size < 0.25 * ti->length) set_length(ti, size);
+  if (size > unit_factor * ti->length || size * unit_factor < ti->length) set_length(ti, size);
 }
 
 const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor)
@@ -171,7 +172,7 @@ void timeint_point(const timeint *ti, double *z)
  * pass over whole contacts. */
 double timeint_final_tolerance(const timeint *ti)
 {
-  if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return 1e-14; /* of rounding alone */
-  double wanted = 1e-3 * ti->how.tolerance * sqrt(1 - fmin(ti->contraction, 1));
-  return fmin(fmax(wanted, 1e-14), 1e-6);
+  const double finest = 1e-14, coarsest = 1e-6, share = 1e-3;
+  if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return finest; /* of rounding alone */
+  return fmin(fmax(share * ti->how.tolerance * sqrt(1 - fmin(ti->contraction, 1)), finest), coarsest);
 }

@@ -30,12 +30,13 @@
  * A motion next to no such orbit is tested for chaos and for a torus (aperiodic.h). Chaos may be a transient on
  * its way to an orbit: it has to be found after two stretches in a row, the second twice as long as the first, and no
  * orbit after either of them or at the end. */
-static const double coarse = 1e-9; /* CVODE's tolerance in a stretch, if the final one is not coarser */
+static const double coarse = 1e-9;     /* CVODE's tolerance in a stretch, if the final one is not coarser */
+static const double along_the_way = 5; /* [ORBIT_NEXT_TO] a return is (1 - rho) of the distance: rho up to 0.8 */
 static const double unbounded =
     1e9; /* [least_length] no resonance with damping is as high: the motion grows for ever */
 static const double on_a_torus = 0.05; /* [1/period] neighbours there part in proportion to time: log(680)/640 = 0.01 */
 enum {
-  MOST_FAILURES = 6,                  /* of Newton; then marching decides */
+  MOST_FAILURES = 6,                  /* of Newton; then period after period decides */
   TIMES_CHAOTIC = 2,                  /* in a row, before it is said */
   LAST_LOOK = 2 * SETTLE_MAX_MULTIPLE /* periods, before it is said: the ring is of these again */
 };
@@ -99,7 +100,7 @@ static bool converges_to(const approach *a, const shoot_report *found, double si
 {
   const double rho = cabs(found->multiplier);
   if (a->n_past == 0) return rho < 1 && found->moved <= ORBIT_NEXT_TO * size;
-  return rho < 1 && found->moved <= 5 * ORBIT_NEXT_TO * size && found->nonlinear <= 0.5 * (1 - rho);
+  return rho < 1 && found->moved <= along_the_way * ORBIT_NEXT_TO * size && found->nonlinear <= 0.5 * (1 - rho);
 }
 
 /* *found_it: the motion converges to the orbit of k periods next to ti->y, which is then reported. */
@@ -225,7 +226,7 @@ const char *timeint_method_name(timeint_method method)
 
 int timeint_stability(const timeint_result *r)
 {
-  const double border = 1e-9;
+  const double border = 1e-9; /* transient.tolerance by default: multipliers are known no better */
   if (r->multiplier < 1 - border) return 1;
   return r->multiplier > 1 + border ? -1 : 0;
 }

@@ -19,14 +19,25 @@
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
-static const double largest_step = 1e-2, first_step = 2e-3, smallest_step = 1e-4;
+/* Steps, relative to omega. */
+static const double largest_step = 1e-2;
+static const double first_step = 2e-3;    /* before it is known how far orbits move: a fifth of the largest */
+static const double smallest_step = 1e-4; /* the shortest branch seen, period 8 of case 2, is ten of it long */
+static const double step_of_width = 0.1;  /* [half width] across a resonance in some twenty steps */
+static const double no_damping = 1e-6;    /* [omega] the half width of a resonance without damping */
+static const double grow = 1.5, shrink = 0.5, retry = 0.25;
+static const double last_step = 1.2;        /* [step] to the end, rather than leave a remainder */
 static const double aperiodic_step = 5e-4;  /* among sub-harmonics and chaos: case 2 has period 8 over 1e-3 of omega,
                                                and a longer step would miss it */
 static const double sweep_tolerance = 1e-8; /* of CVODE: periods scatter by 1e-6 of the motion */
 static const double settled_within = 1e-2;  /* of the motion: the distance from the orbit, when marching */
 static const double orbit_within = 1e-5;    /* the same, by Newton */
 static const double moved_little = 0.03, moved_much = 0.1; /* of the motion, from one frequency to the next */
-enum { MIN_PERIODS = 4, MAX_FOLDS = 5 };
+static const double slowest = 1e-3; /* [1/period] damping of 1 - contraction, at least, when distances are estimated */
+enum {
+  MIN_PERIODS = 4, /* in a row: one may look settled in passing */
+  MAX_FOLDS = 5    /* exp(-5) = 0.7 %, below settled_within */
+};
 
 /* max |a - b| of two points, relative to the motion. */
 static double relative_distance(const timeint *ti, const double *a, const double *b)
@@ -76,7 +87,7 @@ static double complex move_of(const timeint *ti, const double *from, const doubl
 /* Periods at one frequency until the state has settled. *moved: how far it went; NaN if it did not settle. */
 static hc_status settle_by_marching(timeint *ti, const hc_monitor *monitor, double done, double *moved)
 {
-  const double slow = fmax(1 - ti->contraction, 1e-3);
+  const double slow = fmax(1 - ti->contraction, slowest);
   const int most = (int)ceil(MAX_FOLDS / slow);
   double *const *z = ti->point; /* before the first period; before and after the last */
   double complex moves[2] = {0, 0};
@@ -99,15 +110,15 @@ static hc_status settle_by_marching(timeint *ti, const hc_monitor *monitor, doub
 }
 
 /* Half the width of a linear resonance at half its power, relative to omega. */
-static double half_width(const timeint *ti) { return fmax(ti->base->slowest / ti->omega, 1e-6); }
+static double half_width(const timeint *ti) { return fmax(ti->base->slowest / ti->omega, no_damping); }
 
-static double least_step(const timeint *ti) { return fmin(smallest_step, 0.1 * half_width(ti)); }
+static double least_step(const timeint *ti) { return fmin(smallest_step, step_of_width * half_width(ti)); }
 
 static double next_step(const timeint *ti, double step, double moved)
 {
   if (isnan(moved)) return fmin(aperiodic_step, half_width(ti));
-  if (moved > moved_much) step *= 0.5;
-  if (moved < moved_little) step *= 1.5;
+  if (moved > moved_much) step *= shrink;
+  if (moved < moved_little) step *= grow;
   return fmin(fmax(step, least_step(ti)), largest_step);
 }
 
@@ -127,7 +138,7 @@ static double next_omega(const sweep *s, bool begun)
 {
   const double left = fabs(log(s->to / s->omega)), sign = s->to > s->omega ? 1 : -1;
   if (!begun) return s->omega;
-  return left <= 1.2 * s->step ? s->to : s->omega * exp(sign * s->step);
+  return left <= last_step * s->step ? s->to : s->omega * exp(sign * s->step);
 }
 
 /* The state at omega from the one where the sweep stands. !*arrived: the step was too long for the branch to be
@@ -142,7 +153,7 @@ static hc_status advance_to(sweep *s, double omega, double *state, bool *arrived
   if (st != HC_OK) return st;
   if (!hc_monitor_tick(s->monitor, done)) return HC_INTERRUPTED;
   if (!there && s->computed && s->step > least_step(s->ti)) { /* the orbit may only have moved far */
-    s->step = fmax(0.25 * s->step, least_step(s->ti));
+    s->step = fmax(retry * s->step, least_step(s->ti));
     *arrived = false;
     return HC_OK;
   }
