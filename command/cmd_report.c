@@ -108,27 +108,20 @@ static hc_status write_page(const cli_common *common, const report_options *own,
   return st;
 }
 
-/* Can there be a page at all? 0, or the exit code after the message. */
-static int check_possible(const cli_common *common)
-{
-  if (common->format != FORMAT_TABLE)
-    return cli_failed(common, EXIT_USAGE,
-                      "a report is HTML: --format does not apply; hbmcheck compare has csv and json");
-  if (!report_has_charts())
-    return cli_failed(
-        common, EXIT_USAGE,
-        "built without Chart.js, which draws the plots: install it (Debian: libjs-chart.js) and build again");
-  return 0;
-}
-
 static int run_report(cli_common *common, void *given, scene *sc)
 {
   const report_options *own = given;
   report_data d;
   char name[512];
-  int code = check_possible(common);
   const char *path = common->output ? common->output : name_of_page(common->arguments[0], name, sizeof name);
-  if (!code) code = cli_check_files(common, !common->output, &(cli_file){"the page", path, CLI_OUTPUT});
+  if (common->format != FORMAT_TABLE)
+    return cli_failed(common, EXIT_USAGE,
+                      "a report is HTML: --format does not apply; hbmcheck compare has csv and json");
+  if (!report_has_charts())
+    return cli_failed(common, EXIT_USAGE,
+                      "built without Chart.js, which draws the plots: install it (Debian: libjs-chart.js) and build "
+                      "again");
+  int code = cli_check_files(common, !common->output, &(cli_file){"the page", path, CLI_OUTPUT});
   if (!code) code = cli_load_case(common, common->arguments[0], sc);
   if (!code) code = compare_lists(common, &own->lists, sc);
   if (code) return code;
@@ -136,10 +129,8 @@ static int run_report(cli_common *common, void *given, scene *sc)
   progress *bar = progress_start("comparing", common->quiet);
   hc_status st = report_gather(sc, cli_processors(), bar, &d);
   progress_end(bar);
-  if (st == HC_INTERRUPTED) {
-    cli_message(common, "stopped on request; no page was written");
-    code = EXIT_NO_SOLUTION;
-  } else if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the report", st, 0);
+  if (st == HC_INTERRUPTED) code = cli_failed(common, EXIT_NO_SOLUTION, "stopped on request; no page was written");
+  else if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the report", st, 0);
   else if ((st = write_page(common, own, &d, path)) == HC_OK) {
     code = comparison_exit_code(&d.comparison);
     if (!common->quiet) cli_message(common, "wrote %s", path);

@@ -288,16 +288,6 @@ static int write_case(const stress_call *call, const char *path, const char *com
   return st == HC_OK ? 0 : cli_file_failed(call->common, path, st);
 }
 
-static int print_case(const stress_call *call)
-{
-  scene sc;
-  hc_status st = scene_at(call, call->own->plan.first, &sc);
-  if (st != HC_OK) return cli_solver_failed(call->common, CLI_BOTH, "the sequence", st, 0);
-  const int code = write_case(call, call->common->output, "", &sc);
-  case_clear(&sc);
-  return code;
-}
-
 /* The finding, shrunk, as a case file in the folder of --findings. 0 or the exit code. */
 static int keep_finding(const stress_call *call, long index, stress_kind kind, const hc_monitor *monitor)
 {
@@ -394,7 +384,14 @@ static int run_stress(cli_common *common, void *given, scene *sc)
                   others[k].path, own->findings);
       refused = EXIT_USAGE;
     }
-  if (!refused && own->one_case) return print_case(&call);
+  if (!refused && own->one_case) {
+    scene first;
+    hc_status st = scene_at(&call, call.own->plan.first, &first);
+    if (st != HC_OK) return cli_solver_failed(call.common, CLI_BOTH, "the sequence", st, 0);
+    const int code = write_case(&call, call.common->output, "", &first);
+    case_clear(&first);
+    return code;
+  }
   if (!refused) refused = stress_make_folder(common, own->findings);
   if (refused) return refused;
   if (!(call.results = calloc((size_t)own->plan.scenes, sizeof *call.results)))

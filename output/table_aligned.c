@@ -108,12 +108,12 @@ static void write_fitted(line_writer *l, const char *text, int columns)
   owe_spaces(l, columns - width);
 }
 
-static int shown_width(const layout *l)
+static bool too_long(const layout *l)
 {
   int width = -BETWEEN;
   for (int j = 0; j < l->t->n_columns; ++j)
     if (l->shown[j]) width += l->style[j].width + BETWEEN;
-  return width;
+  return l->t->fit > 0 && width > l->t->fit;
 }
 
 static bool is_empty(const table *t, int column)
@@ -122,8 +122,6 @@ static bool is_empty(const table *t, int column)
     if (table_at(t, i, column)->there) return false;
   return true;
 }
-
-static bool too_long(const layout *l) { return l->t->fit > 0 && shown_width(l) > l->t->fit; }
 
 static void write_cell(line_writer *w, const layout *l, int column, const char *text)
 {

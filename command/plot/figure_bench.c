@@ -32,20 +32,6 @@ static double drawn_error(const bench_row *r, const bench_frequency *p)
   return fmax(r->error_finer, fmax(p->floor, 1e-16));
 }
 
-static int write_method(figure *g, const bench *b, const bench_frequency *p, int k_omega, int method)
-{
-  int n = 0;
-  figure_block(g, "p%dm%d", k_omega, method);
-  for (int i = p->first; i < p->first + p->n; ++i) {
-    const bench_row *r = &b->rows[i];
-    if (r->method != (bench_method)method || !is_drawn(r)) continue;
-    figure_point(g, r->seconds, drawn_error(r, p));
-    ++n;
-  }
-  figure_block_end(g);
-  return n;
-}
-
 static int by_time(const void *a, const void *b)
 {
   const double *x = a, *y = b;
@@ -76,7 +62,18 @@ static hc_status put_panel(figure *g, const scene *sc, const bench *b, int k_ome
   int count[BENCH_METHODS];
   hc_status st = write_front(g, b, p, k_omega);
   if (st != HC_OK) return st;
-  for (int m = 0; m < BENCH_METHODS; ++m) count[m] = write_method(g, b, p, k_omega, m);
+  for (int m = 0; m < BENCH_METHODS; ++m) {
+    int n = 0;
+    figure_block(g, "p%dm%d", k_omega, m);
+    for (int i = p->first; i < p->first + p->n; ++i) {
+      const bench_row *r = &b->rows[i];
+      if (r->method != (bench_method)m || !is_drawn(r)) continue;
+      figure_point(g, r->seconds, drawn_error(r, p));
+      ++n;
+    }
+    figure_block_end(g);
+    count[m] = n;
+  }
   if (sc->in_cycles) figure_set(g, "title", "%.8g cycles/%s", scene_frequency(sc, p->omega), sc->unit_time);
   else figure_set(g, "title", "ω = %.8g rad/%s", p->omega, sc->unit_time);
   figure_item(g, figure_look(g, 0, "lw 3 dt 1 lc rgb '#bbbbbb'"), "nothing is nearer and faster",

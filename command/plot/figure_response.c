@@ -207,25 +207,6 @@ static const char *steady_point(const void *rows, int i, double *x, double *y, c
   return measured(r) ? steady_verdict_text(r, text) : NULL;
 }
 
-static hc_status plot_points(plot_order *p, const scene *sc, const steady_states *s)
-{
-  figure g = {0};
-  curve_shape shape = {0};
-  verdicts v;
-  char settings[96], about[160];
-  hc_status st = curve_shape_trace(sc, &sc->compare.omega, &shape);
-  if (st == HC_OK) st = curve_figure_open(&g, p, sc, response_width(&shape), HEIGHT);
-  if (st == HC_OK) {
-    layers l = {.shape = &shape, .quiet = true, .v = &v, .of = "time integration"};
-    curve_shape_data(&g, &shape);
-    verdicts_data(&g, &v, s->n, s->rows, steady_point);
-    snprintf(about, sizeof about, "time integration; harmonic balance, %s", curve_shape_settings(sc, &shape, settings));
-    response_panels(&g, sc, &l, about);
-  }
-  curve_shape_clear(&shape);
-  return figure_close(&g, st);
-}
-
 /* ---- the motion over a period at one frequency ---- */
 
 enum { MOST_WAVES = 12 };
@@ -290,7 +271,22 @@ hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *fo
     several |= found->rows[i].result.omega != found->rows[0].result.omega;
   }
   if (n == 0) return figure_refuse(p, "there is no steady state to draw");
-  return several ? plot_points(p, sc, found) : plot_waves(p, sc, found);
+  if (!several) return plot_waves(p, sc, found);
+  figure g = {0};
+  curve_shape shape = {0};
+  verdicts v;
+  char settings[96], about[160];
+  hc_status st = curve_shape_trace(sc, &sc->compare.omega, &shape);
+  if (st == HC_OK) st = curve_figure_open(&g, p, sc, response_width(&shape), HEIGHT);
+  if (st == HC_OK) {
+    layers l = {.shape = &shape, .quiet = true, .v = &v, .of = "time integration"};
+    curve_shape_data(&g, &shape);
+    verdicts_data(&g, &v, found->n, found->rows, steady_point);
+    snprintf(about, sizeof about, "time integration; harmonic balance, %s", curve_shape_settings(sc, &shape, settings));
+    response_panels(&g, sc, &l, about);
+  }
+  curve_shape_clear(&shape);
+  return figure_close(&g, st);
 }
 
 /* ---- another program's curve over ours, its points by verdict ---- */

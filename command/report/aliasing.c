@@ -87,24 +87,10 @@ static json_t *list_of_numbers(int n, const double *v)
 
 /* ---- response curves ------------------------------------------------------------------------- */
 
-/* Is there a solution that needs the working range to be explained? */
-static bool touches_nothing(const followed *f, int n_omega)
-{
-  for (int i = 0; i < n_omega; ++i)
-    if (isfinite(f->at[i].amplitude) && !f->at[i].touches) return true;
-  return false;
-}
-
 /* Tasks of both stages: the curves from the H that takes longest. */
 static followed *curve_of_task(all_answers *all, int task)
 {
   return &all->curve[task % N_STIFFNESS][N_HARM - 1 - task / N_STIFFNESS];
-}
-
-/* Is this omega answered with the task's stiffness? */
-static bool is_asked(const all_answers *all, int task, int i)
-{
-  return task % N_STIFFNESS == THE_CASE || i == all->first;
 }
 
 /* As far as the curve goes: what cannot be followed has no solutions. */
@@ -117,8 +103,10 @@ static hc_status follow_curve(void *self, int task, const hc_monitor *monitor)
   hc_status st = scene_hbm_solver(&f->sc, &s);
   if (st == HC_OK) st = hbm_trace(s, all->from, all->to, monitor, &curve);
   if (s && st != HC_INTERRUPTED && st != HC_NO_MEMORY) {
-    for (int i = 0; i < all->n_omega; ++i)
-      if (is_asked(all, task, i)) {
+    bool touches_nothing = false; /* is there a solution that needs the working range to be explained? */
+    for (int i = 0; i < all->n_omega; ++i) {
+      /* with the case's stiffness every omega is answered, with another the first alone */
+      if (task % N_STIFFNESS == THE_CASE || i == all->first) {
         solution *out = &f->at[i];
         hbm_curve at = {0};
         hbm_curve_at(s, &curve, all->omega[i], &at);
@@ -131,7 +119,9 @@ static hc_status follow_curve(void *self, int task, const hc_monitor *monitor)
         }
         hbm_curve_free(&at);
       }
-    if (touches_nothing(f, all->n_omega)) {
+      touches_nothing |= isfinite(f->at[i].amplitude) && !f->at[i].touches;
+    }
+    if (touches_nothing) {
       for (int k = 0; k < curve.n; ++k) {
         hbm_measures m;
         const double omega = curve.points[k].omega;
