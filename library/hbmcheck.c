@@ -100,9 +100,9 @@ void library_copy(int n, const double *from, int cap, double *to)
   if (cap > 0) memcpy(to, from, (size_t)cap * sizeof *to);
 }
 
-void library_say(char *message, size_t size, const char *text)
+void library_say(char *words, size_t size, const char *text)
 {
-  if (message && size > 0) snprintf(message, size, "%s", text);
+  if (words && size > 0) snprintf(words, size, "%s", text);
 }
 
 /* ---- a case ---- */
@@ -117,36 +117,36 @@ static bool are_strings(int n, const char *const *texts)
 
 /* From text[length], or from the file `name` without text. */
 static hbmcheck_status new_case(const char *name, const char *text, size_t length, int n_set, const char *const *set,
-                                char *message, size_t size, hbmcheck_case **out)
+                                char *words, size_t size, hbmcheck_case **out)
 {
   case_error err;
   hbmcheck_case *c = calloc(1, sizeof *c);
-  library_say(message, size, hc_status_text(HC_NO_MEMORY));
+  library_say(words, size, hc_status_text(HC_NO_MEMORY));
   if (!c) return HBMCHECK_NO_MEMORY;
   hc_status st =
       text ? case_parse(name, text, length, n_set, set, &c->sc, &err) : case_read(name, n_set, set, &c->sc, &err);
-  library_say(message, size, err.message);
+  library_say(words, size, err.message);
   if (st == HC_OK) *out = c;
   else hbmcheck_case_free(c);
   return public_status(st);
 }
 
-hbmcheck_status hbmcheck_case_read(const char *path, int n_set, const char *const *set, char *message, size_t size,
+hbmcheck_status hbmcheck_case_read(const char *path, int n_set, const char *const *set, char *words, size_t size,
                                    hbmcheck_case **out)
 {
   if (out) *out = NULL;
-  library_say(message, size, hc_status_text(HC_BAD_INPUT));
+  library_say(words, size, hc_status_text(HC_BAD_INPUT));
   if (!out || !path || !are_strings(n_set, set)) return HBMCHECK_BAD_INPUT;
-  return new_case(path, NULL, 0, n_set, set, message, size, out);
+  return new_case(path, NULL, 0, n_set, set, words, size, out);
 }
 
 hbmcheck_status hbmcheck_case_parse(const char *name, const char *text, size_t length, int n_set,
-                                    const char *const *set, char *message, size_t size, hbmcheck_case **out)
+                                    const char *const *set, char *words, size_t size, hbmcheck_case **out)
 {
   if (out) *out = NULL;
-  library_say(message, size, hc_status_text(HC_BAD_INPUT));
+  library_say(words, size, hc_status_text(HC_BAD_INPUT));
   if (!out || !name || !text || !are_strings(n_set, set)) return HBMCHECK_BAD_INPUT;
-  return new_case(name, text, length, n_set, set, message, size, out);
+  return new_case(name, text, length, n_set, set, words, size, out);
 }
 
 int hbmcheck_case_responses(const hbmcheck_case *c)
