@@ -122,10 +122,41 @@ static void leaving_an_orbit_is_not_chaos(CHECK_STATE)
   timeint_free(ti);
 }
 
+static bool stop_at(void *left, double done)
+{
+  (void)done;
+  return --*(int *)left > 0;
+}
+
+/* In the chaos at 5.13, stopped at any period of the first batch (40) or of the round after it (640): that is said, and
+ * not chaos. */
+static void an_interruption_is_no_chaos(CHECK_STATE)
+{
+  static const int at[] = {1, 40, 41, 60, 81, 679};
+  const scene sc = case2();
+  timeint *ti;
+  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  scene_state y = {.x = 0};
+  assert_int_equal(timeint_sweep(ti, 4, 5.13, y.all, NULL), HC_OK);
+  for (size_t i = 0; i < sizeof at / sizeof *at; ++i) {
+    int left = at[i];
+    const hc_monitor stop = {.tick = stop_at, .self = &left};
+    bool chaos;
+    double rate;
+    assert_int_equal(timeint_begin(ti, 5.13, y.all), HC_OK);
+    ti->periods = 600; /* as if so many had passed: the transient has died out */
+    assert_int_equal(chaos_test(ti, &stop, &chaos, &rate), HC_INTERRUPTED);
+    assert_false(chaos);
+    assert_int_equal(left, 0); /* and nothing is integrated after it */
+  }
+  timeint_free(ti);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(narrow_bands),
     cmocka_unit_test(narrow_bands_whoever_integrates),
     cmocka_unit_test(cascade_and_windows),
     cmocka_unit_test(leaving_an_orbit_is_not_chaos),
+    cmocka_unit_test(an_interruption_is_no_chaos),
 };
 CHECK_MAIN("timeint.chaos", tests, 60)

@@ -5,6 +5,7 @@
 
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
+#include "timeint/period/integrate_private.h"
 #include "timeint/period/measure.h"
 
 /* Undamped, unforced: x = sum of what the start gives: x = p cos(s theta) + q sin(s theta), s^2 = k; here s = 2.5,
@@ -63,5 +64,59 @@ static void regimes(CHECK_STATE)
   assert_int_equal(measure_seen_regime(SEEN_SEPARATED | SEEN_STUCK), CONTACT_SEPARATES);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(free_vibration), cmocka_unit_test(regimes)};
+/* An integrator whose motion is x = sin(2 theta), and whose dense output fails at the call of that number. */
+typedef struct failing {
+  integrator base;
+  int calls, fails_at;
+} failing;
+
+static hc_status dense(const integrator *in, double theta, int order, double *y)
+{
+  failing *f = (failing *)in;
+  y[0] = order ? 2 * cos(2 * theta) : sin(2 * theta);
+  y[1] = order ? -4 * sin(2 * theta) : 2 * cos(2 * theta);
+  return ++f->calls == f->fails_at ? HC_INTEGRATOR : HC_OK;
+}
+
+static hc_status samples(const integrator *in, int r, double theta, double step, int count, double *x)
+{
+  (void)in, (void)r;
+  for (int i = 0; i < count; ++i) x[i] = sin(2 * (theta + i * step));
+  return HC_OK;
+}
+
+static bool no_fourier(const integrator *in, int r, double out[3])
+{
+  (void)in, (void)r, (void)out;
+  return false;
+}
+
+/* Steps that hold one peak, and two: dense output is asked for at their ends and to find the peaks, and wherever it
+ * fails the step says so. */
+static void a_failure_of_dense_output_is_told(CHECK_STATE)
+{
+  static const integrator_class class = {.dense = dense, .samples = samples, .fourier = no_fourier};
+  static const double ends[] = {1.2, 3.0};
+  scene sc = scene_linear(1, 0, 4, 0);
+  scaled_model m;
+  scene_scaled(&m, &sc, 1, 1);
+  for (int i = 0; i < 2; ++i) {
+    failing f = {.base = {.does = &class}};
+    int calls = 1;
+    for (f.fails_at = 0; f.fails_at <= calls; ++f.fails_at) {
+      measure me = scene_measure();
+      const double y[SCENE_MAX_STATES] = {0, 2};
+      f.calls = 0;
+      measure_begin(&me, &m);
+      measure_period(&me, y);
+      assert_int_equal(measure_step(&me, &f.base, 0, ends[i]), f.fails_at ? HC_INTEGRATOR : HC_OK);
+      if (f.fails_at == 0) calls = f.calls;
+      measure_free(&me);
+    }
+    assert_true(calls > 2);
+  }
+}
+
+static const struct CMUnitTest tests[] = {cmocka_unit_test(free_vibration), cmocka_unit_test(regimes),
+                                          cmocka_unit_test(a_failure_of_dense_output_is_told)};
 CHECK_MAIN("timeint.measure", tests, 60)
