@@ -102,17 +102,15 @@ static hc_status insert_special(detector *d, double sigma, hbm_special_kind kind
   return HC_OK;
 }
 
-static bool same_place(const hbm_special *a, const hbm_special *b)
-{
-  return fabs(a->omega - b->omega) <= SAME_OMEGA * a->omega &&
-         fabs(a->amplitude - b->amplitude) <= SAME_AMPLITUDE * a->amplitude;
-}
-
 /* The point among found[0..n-1] of p's kind that p cannot be told from; -1 if there is none. */
 static int twin_of(const found_point *found, int n, const found_point *p)
 {
-  for (int k = n - 1; k >= 0 && same_place(&found[k].special, &p->special); --k)
-    if (found[k].special.kind == p->special.kind) return k;
+  for (int k = n - 1; k >= 0; --k) {
+    const hbm_special *a = &found[k].special, *b = &p->special;
+    const bool same_omega = fabs(a->omega - b->omega) <= SAME_OMEGA * a->omega;
+    if (!same_omega || !(fabs(a->amplitude - b->amplitude) <= SAME_AMPLITUDE * a->amplitude)) return -1;
+    if (a->kind == b->kind) return k;
+  }
   return -1;
 }
 

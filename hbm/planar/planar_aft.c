@@ -167,13 +167,6 @@ static bool planar_aft_fixed_point(double A[2][2], const double b[2], double x[2
   return true;
 }
 
-/* What the orbit is, of which `p` was the last period and began at a->start. */
-static planar_orbit orbit_of(const period *p, bool guessed)
-{
-  if (p->slips || p->separates) return PLANAR_CLOSED;
-  return guessed ? PLANAR_GUESSED : PLANAR_DRAGGED;
-}
-
 /* Periods until one ends where it began, to `enough` [length]; at the end of the last one, to `most`. */
 static hc_status close_orbit(planar_aft *a, bool apart, double w[2], double enough, double most)
 {
@@ -184,7 +177,7 @@ static hc_status close_orbit(planar_aft *a, bool apart, double w[2], double enou
     const period p = drag(a, false, apart, w);
     const double step[2] = {w[0] - a->start[0], w[1] - a->start[1]};
     missed = hypot(step[0], step[1]);
-    a->orbit = orbit_of(&p, guessed);
+    a->orbit = p.slips || p.separates ? PLANAR_CLOSED : guessed ? PLANAR_GUESSED : PLANAR_DRAGGED;
     if (missed <= enough || (missed <= most && !(missed < 0.5 * before) && stepped)) return HC_OK;
     if (p.slips) memcpy(a->last, a->start, sizeof a->last);
     const bool guess = a->passes >= PLANAR_PLAIN_PASSES && (!stepped || missed < 0.5 * before);

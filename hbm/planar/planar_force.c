@@ -420,18 +420,8 @@ static void add_intervals(planar_force *f, bool derive)
   come_to_rest(f, base, c->slip.panel[last->panel + last->n_panels - 1].phi[N - 1], at.R);
 }
 
-/* by += (derivatives by w0) dw0, dw0 by the columns of X being in row[2]. */
-static void eliminate_w0(planar_force *f, double *const row[2])
-{
-  const size_t L = (size_t)f->n_coef;
-  for (size_t i = 0; i < 2 * L; ++i) {
-    double *by = f->by + i * (size_t)f->n_col;
-    const double *by_w0 = by + f->n_size;
-    for (int q = 0; q < f->n_size; ++q) by[q] += by_w0[0] * row[0][q] + by_w0[1] * row[1][q];
-  }
-}
-
-/* On the closed orbit d w0 = A d w0 + B: of what dw has after a pass from w0, into dw. */
+/* On the closed orbit d w0 = A d w0 + B: of what dw has after a pass from w0, into dw; then by += (derivatives by w0)
+ * d w0. */
 static void close_derivatives(planar_force *f)
 {
   const int n = f->n_size;
@@ -441,6 +431,11 @@ static void close_derivatives(planar_force *f)
     const double x = f->dw[0][q], y = f->dw[1][q];
     f->dw[0][q] = (d * x - b * y) / det;
     f->dw[1][q] = (a * y - c * x) / det;
+  }
+  for (size_t i = 0; i < 2 * (size_t)f->n_coef; ++i) {
+    double *by = f->by + i * (size_t)f->n_col;
+    const double *by_w0 = by + n;
+    for (int q = 0; q < n; ++q) by[q] += by_w0[0] * f->dw[0][q] + by_w0[1] * f->dw[1][q];
   }
 }
 
@@ -490,9 +485,7 @@ static hc_status integrate(planar_force *f, bool derive)
   else if (derive && f->cycle.always && !closes) st = march_again(f);
   if (st != HC_OK) return st;
   add_intervals(f, derive);
-  if (!closes) return HC_OK;
-  close_derivatives(f);
-  eliminate_w0(f, f->dw);
+  if (closes) close_derivatives(f);
   return HC_OK;
 }
 

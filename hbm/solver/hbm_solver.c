@@ -12,15 +12,6 @@
 #include "numerics/norm.h"
 #include "numerics/series.h"
 
-static hc_status make_workspace(hbm_solver *s)
-{
-  size_t m = (size_t)s->sys.n_coef + 1;
-  double **const arrays[] = {&s->X, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor};
-  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) *arrays[i] = workspace_doubles(&s->memory, m);
-  s->x = workspace_doubles(&s->memory, (size_t)series_length(HBM_MAX_HARMONICS));
-  return s->memory.failed ? HC_NO_MEMORY : hbm_corrector_new(s);
-}
-
 enum { AUTO_FIRST_HARMONICS = 3, AUTO_FIRST_SAMPLES = 64 }; /* where auto starts */
 
 /* The finer equations by which auto estimates the error: twice the harmonics, twice the samples. */
@@ -40,8 +31,12 @@ static hc_status make_refinements(hbm_solver *s, int n_time)
 static hc_status make_equations(hbm_solver *s, int n_harm, int n_time)
 {
   hc_status st = hbm_system_init(&s->sys, s->model, &s->how, n_harm, n_time);
+  double **const arrays[] = {&s->X, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
+    *arrays[i] = workspace_doubles(&s->memory, (size_t)s->sys.n_coef + 1);
+  s->x = workspace_doubles(&s->memory, (size_t)series_length(HBM_MAX_HARMONICS));
   s->n_time = n_time;
-  if (st == HC_OK) st = make_workspace(s);
+  if (st == HC_OK) st = s->memory.failed ? HC_NO_MEMORY : hbm_corrector_new(s);
   const evaluator_settings exact = {.n_harm = n_harm};
   if (st == HC_OK && s->how.force != HBM_FORCE_EXACT)
     st = contact_forces_new(s->model, s->sys.linear, HBM_FORCE_EXACT, &exact, &s->orbit);

@@ -334,18 +334,6 @@ hc_status interval_flow_advance(interval_flow *f, const contact_interval *const 
 
 /* ---- what is left at the end of an interval ----------------------------------------------------------- */
 
-/* Which coordinates outlast it; all of (dx, dx') where there are no eigenvectors. Their number goes into f. */
-static void find_lasting(interval_flow *f, const decomposition *d, double duration)
-{
-  f->n_lasting = 0;
-  for (int i = 0; i < f->moving && !d->usable; ++i) f->lasting[f->n_lasting++] = i;
-  for (int k = 0; k < d->n && d->usable; ++k) {
-    if (exp(creal(d->lambda[k]) * duration) < DEAD) continue;
-    f->lasting[f->n_lasting++] = 2 * k;
-    if (cimag(d->lambda[k]) > 0) f->lasting[f->n_lasting++] = 2 * k + 1;
-  }
-}
-
 /* Column `to` of phi += scale * what coordinate c is in (dx, dx'). */
 static void add_coordinate(const interval_flow *f, const decomposition *d, int c, double scale, int to, double *phi)
 {
@@ -375,7 +363,13 @@ hc_status interval_flow_leave(interval_flow *f, const contact_interval *const *i
   *columns = 0;
   if (st != HC_OK) return st;
   memset(phi, 0, (size_t)f->n_states * (size_t)f->n_states * sizeof *phi);
-  find_lasting(f, d, duration);
+  f->n_lasting = 0; /* coordinates that outlast it; all of (dx, dx') where there are no eigenvectors */
+  for (int i = 0; i < f->moving && !d->usable; ++i) f->lasting[f->n_lasting++] = i;
+  for (int k = 0; k < d->n && d->usable; ++k) {
+    if (exp(creal(d->lambda[k]) * duration) < DEAD) continue;
+    f->lasting[f->n_lasting++] = 2 * k;
+    if (cimag(d->lambda[k]) > 0) f->lasting[f->n_lasting++] = 2 * k + 1;
+  }
   for (; *columns < f->n_lasting; ++*columns) add_coordinate(f, d, f->lasting[*columns], 1, *columns, phi);
   for (int s = 0; s < n_sliders; ++s) {
     const bool counts = goes_on[s] || f->n_lasting < f->moving;

@@ -207,24 +207,21 @@ static void fill_load(condensation *c, int l)
   solve_rest(c, h, false, 1, y);
 }
 
-/* At rest K couples q and modes of the rest nowhere: S = K_qq, p = p_q, and no coupling is ever anything but 0. */
-static void fill_static(condensation *c)
-{
-  const int dim = c->basis.dim;
-  for (int e = 0; e < dim; ++e)
-    for (int d = 0; d < dim; ++d) c->S[e * dim + d] = c->basis.K[entry(c, d, e)];
-}
-
 /* S, couplings and loads of harmonic h by the rest: HC_NOT_FINITE where Z_yy is singular. */
 static hc_status fill_by_rest(condensation *c, int h)
 {
   const condensation_change dynamic = dynamic_at(c, h);
   hc_status st = prepare_rest(c, h, dynamic);
   if (st != HC_OK) return st;
+  /* At rest K couples q and modes of the rest nowhere: S = K_qq, p = p_q, and no coupling is ever anything but 0. */
   const bool uncoupled = h == 0 && c->basis.modes;
-  if (uncoupled) fill_static(c);
-  else fill_couplings(c, h, dynamic);
-  if (!uncoupled) fill_stiffness(c, h, dynamic);
+  const int dim = c->basis.dim;
+  for (int e = 0; e < dim && uncoupled; ++e)
+    for (int d = 0; d < dim; ++d) c->S[e * dim + d] = c->basis.K[entry(c, d, e)];
+  if (!uncoupled) {
+    fill_couplings(c, h, dynamic);
+    fill_stiffness(c, h, dynamic);
+  }
   for (int l = 0; l < c->m->n_loads; ++l)
     if (c->m->loads[l].harmonic == h) fill_load(c, l);
   return HC_OK;
@@ -404,38 +401,25 @@ void condensation_stiffness_change(condensation *c, int h, condensation_change b
   else apply_by_rest(c, h, by, a, c->vector, dS_a);
 }
 
-/* p = S g:  dp = dS g + S dg. */
-static void load_change_by_compliance(condensation *c, int l, const double complex *dG, double complex *dp)
-{
-  const size_t dim = (size_t)c->basis.dim;
-  const int h = c->m->loads[l].harmonic;
-  const double complex *dg = dG + dim * dim + 2 * (size_t)l * dim;
-  double complex *motion = c->workspace;
-  apply_by_compliance(c, h, dG, c->motion + (size_t)l * dim, c->vector, dp);
-  for (size_t d = 0; d < dim; ++d) motion[d] = dg[d] - I * dg[dim + d];
-  multiply(c->basis.dim, condensation_stiffness(c, h), motion, c->vector);
-  for (size_t d = 0; d < dim; ++d) dp[d] += c->vector[d];
-}
-
-/* dp = Z_qy Z_yy^-1 dZ_yy Z_yy^-1 p_y - dZ_qy Z_yy^-1 p_y. */
-static void load_change_by_rest(condensation *c, int l, condensation_change by, double complex *dp)
-{
-  const size_t rest = (size_t)c->basis.rest;
-  const int h = c->m->loads[l].harmonic;
-  const double complex *y = c->rest_of + (size_t)l * rest;
-  memset(c->vector, 0, rest * sizeof *c->vector);
-  subtract_rest(c, h, by, y, c->vector);
-  subtract_coupling(c, h, by, y, c->vector, dp);
-}
-
+/* By compliance p = S g:  dp = dS g + S dg; by the rest dp = Z_qy Z_yy^-1 dZ_yy Z_yy^-1 p_y - dZ_qy Z_yy^-1 p_y. */
 void condensation_load_change(condensation *c, int l, condensation_change by, double complex *dp)
 {
   const int h = c->m->loads[l].harmonic;
-  memset(dp, 0, (size_t)c->basis.dim * sizeof *dp);
+  const size_t dim = (size_t)c->basis.dim, rest = (size_t)c->basis.rest;
+  memset(dp, 0, dim * sizeof *dp);
   if (by.alpha == 0 && by.beta == 0) return;
-  const double complex *dG = change_by_compliance(c, h, by);
-  if (dG) load_change_by_compliance(c, l, dG, dp);
-  else load_change_by_rest(c, l, by, dp);
+  const double complex *dG = change_by_compliance(c, h, by), *y = c->rest_of + (size_t)l * rest;
+  if (!dG) {
+    memset(c->vector, 0, rest * sizeof *c->vector);
+    subtract_rest(c, h, by, y, c->vector);
+    subtract_coupling(c, h, by, y, c->vector, dp);
+    return;
+  }
+  const double complex *dg = dG + dim * dim + 2 * (size_t)l * dim;
+  apply_by_compliance(c, h, dG, c->motion + (size_t)l * dim, c->vector, dp);
+  for (size_t d = 0; d < dim; ++d) c->workspace[d] = dg[d] - I * dg[dim + d];
+  multiply(c->basis.dim, condensation_stiffness(c, h), c->workspace, c->vector);
+  for (size_t d = 0; d < dim; ++d) dp[d] += c->vector[d];
 }
 
 /* row = G_r S, rest = g_r - G_r p. */
