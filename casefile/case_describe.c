@@ -96,7 +96,7 @@ hc_status case_describe(const char *asked, FILE *to, case_error *err)
     if (n++) putc('\n', to);
     describe_field(f, to);
   }
-  if (n == 0) return unknown_field(asked, err);
+  if (asked && n == 0) return unknown_field(asked, err);
   return ferror(to) ? HC_IO : HC_OK;
 }
 

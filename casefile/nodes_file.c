@@ -144,7 +144,7 @@ static hc_status read_labels(matrix_text *t, scene_structure *s)
         t, t->text,
         "a matrix that does not say which nodes its rows are, expected one that does, or lines dof,node,direction");
   }
-  for (int i = 0; i < n && st == HC_OK; ++i) {
+  for (int i = 0; i < n && labels && st == HC_OK; ++i) {
     if (labels[i].dof < 1 || labels[i].dof > 3 || structure_node_dof(s, labels[i].node, axes[labels[i].dof - 1]) >= 0)
       continue;
     st = nodes_add(s, i, labels[i].node, axes[labels[i].dof - 1]);

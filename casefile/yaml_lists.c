@@ -259,7 +259,8 @@ hc_status yaml_dof(case_reader *r, const yaml_node_t *node, int *dof)
 static hc_status read_factors(case_reader *r, const char *what, const yaml_node_t *node, double *direction)
 {
   unsigned char *seen = calloc((size_t)r->sc.structure->n, 1);
-  hc_status st = seen ? HC_OK : case_out_of_memory(r);
+  hc_status st = HC_OK;
+  if (!seen) return case_out_of_memory(r);
   for (int i = 0; i < yaml_keys(node) && st == HC_OK; ++i) {
     const yaml_node_t *key = yaml_key(r, node, i);
     int dof = 0;

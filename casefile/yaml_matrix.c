@@ -125,8 +125,9 @@ hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *
     st = read_file(r, what, node, expected, n, &given);
   } else {
     *n = 1;
-    st = (given.v = malloc(sizeof x)) ? HC_OK : case_out_of_memory(r);
-    if (st == HC_OK) *given.v = x + 0.0; /* -0 is 0 */
+    if (!(given.v = malloc(sizeof x))) return case_out_of_memory(r);
+    *given.v = x + 0.0; /* -0 is 0 */
+    st = HC_OK;
   }
   structure_free_matrix(st == HC_OK ? out : &given);
   if (st == HC_OK) *out = given;
