@@ -45,13 +45,6 @@ static transient_settings path_settings(void)
 
 static size_t state_length(const model *m) { return 2 * (size_t)m->n + (size_t)m->n_contacts; }
 
-void stress_path_free(stress_path *p)
-{
-  free(p->state);
-  free(p->wave);
-  *p = (stress_path){.status = HC_NOT_CONVERGED};
-}
-
 /* An orbit to be found: of m, whose responses 1 .. n are the base model's degrees of freedom, and of whose units of
  * length `length` are one of the base model's. */
 typedef struct search {

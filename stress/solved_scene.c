@@ -47,6 +47,13 @@ hc_status solved_scene_start(solved_scene *s, const scene *sc, double seconds, c
   return s->fatal;
 }
 
+void stress_path_free(stress_path *p)
+{
+  free(p->state);
+  free(p->wave);
+  *p = (stress_path){.status = HC_NOT_CONVERGED};
+}
+
 void solved_scene_clear(solved_scene *s)
 {
   model_free(s->model);

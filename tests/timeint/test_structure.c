@@ -241,7 +241,7 @@ static void follow_with_sliders(const scaled_model *m, const double *y, int q, d
   const int n = m->n;
   for (int j = 0; j < m->n_contacts; ++j) {
     const double *t = m->base->tangent + j * n, *normal = m->base->normal + j * n;
-    const contact_motion at = contact_motion_at(m, j, y);
+    const contact_motion at = scaled_motion_at(m, j, y);
     contact_track begun;
     contact_track_begin(&begun, &m->contact[j], &at, &y[2 * n + j]);
     if (begun.since_start || q >= n) continue;
@@ -288,7 +288,7 @@ static void check_monodromy(const drawn *d, int step, int *compared, int *off)
   assert_int_equal(integrate_monodromy(in, &d->scaled, z, phi), HC_OK);
   for (int q = 0; q < n; q += q < moving ? step : 1) {
     if (q >= moving) {
-      const contact_motion at = contact_motion_at(&d->scaled, q - moving, y);
+      const contact_motion at = scaled_motion_at(&d->scaled, q - moving, y);
       contact_track begun;
       contact_track_begin(&begun, &d->scaled.contact[q - moving], &at, &y[q]);
       if (!begun.since_start) continue; /* tied to the motion */

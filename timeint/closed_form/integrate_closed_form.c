@@ -40,7 +40,7 @@ static hc_status begin(by_series *in, const double *y)
   if (!isfinite(size)) return HC_NOT_FINITE;
   memcpy(in->y, y, 2 * (size_t)in->n * sizeof *y);
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
-    const contact_motion at = contact_motion_at(in->m, j, y);
+    const contact_motion at = scaled_motion_at(in->m, j, y);
     contact_track_begin(&in->track[j], &in->m->contact[j], &at, y + 2 * in->n + j);
   }
   return HC_OK;
@@ -90,7 +90,7 @@ static int find_event(by_series *in, track_event *event)
 static contact_motion contact_at_end(const by_series *in, int j)
 {
   const int directions = scaled_directions(in->m, j);
-  if (in->by_single) return contact_motion_at(in->m, j, in->end);
+  if (in->by_single) return scaled_motion_at(in->m, j, in->end);
   if (in->by_modes) return motion_modes_contact(&in->stiff, j, directions, in->theta + in->length - in->stiff.theta);
   return motion_series_contact(&in->series, j, directions, in->length);
 }
@@ -121,7 +121,7 @@ static void note_turning(by_series *in)
 {
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
     if (!in->track[j].turns) continue;
-    const contact_motion at = contact_motion_at(in->m, j, in->end);
+    const contact_motion at = scaled_motion_at(in->m, j, in->end);
     contact_track_note(&in->track[j], &in->m->contact[j], &at);
   }
 }

@@ -137,7 +137,7 @@ double motion_series_hold(const scaled_model *m, contact_track *track, const dou
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     const scaled_contact *c = &m->contact[j];
     if (!c->kind->hold || contact_slip_sign(track[j].state) == 0) continue;
-    const contact_motion at = contact_motion_at(m, j, y);
+    const contact_motion at = scaled_motion_at(m, j, y);
     reach = fmin(reach, c->kind->hold(&track[j], c, &at));
   }
   return reach;

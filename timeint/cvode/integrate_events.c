@@ -64,7 +64,7 @@ static void subtract_curved(const events *in, const double *y, double *dy)
     const double *t = in->base.m->base->tangent + (size_t)j * (size_t)n;
     const int own = 2 * n + in->own_of[j];
     if (!in->track[j].turns) continue;
-    const contact_motion at = contact_motion_at(in->base.m, j, y);
+    const contact_motion at = scaled_motion_at(in->base.m, j, y);
     const law_pull pull = c->kind->pull(&in->track[j], c, &at, y[own]);
     dy[own] = pull.rate;
     for (int k = 0; k < n; ++k) dy[n + k] -= pull.t[0] * t[k] + pull.t[1] * t[n + k];
@@ -110,7 +110,7 @@ static void fill_curved(const events *in, const double *y, size_t ld, double *a)
     const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
     if (!in->track[j].turns) continue;
     const size_t own = 2 * n + (size_t)in->own_of[j];
-    const contact_motion at = contact_motion_at(m, j, y);
+    const contact_motion at = scaled_motion_at(m, j, y);
     const law_slopes s = c->kind->slopes(&in->track[j], c, &at, y[own]);
     for (size_t k = 0; k < 2; ++k)
       for (size_t row = 0; row < n; ++row) {
@@ -151,7 +151,7 @@ static int events_jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix
 
 static law_instant instant_at(const events *in, int j, double theta, const double *y, const double *dy)
 {
-  law_instant now = {.at = contact_motion_at(in->base.m, j, y), .theta = theta};
+  law_instant now = {.at = scaled_motion_at(in->base.m, j, y), .theta = theta};
   scaled_contact_motion(in->base.m, j, dy + in->n, now.bend, &now.normal_bend);
   if (in->own_of[j] >= 0) now.own = y[2 * in->n + in->own_of[j]];
   return now;
@@ -233,7 +233,7 @@ static hc_status pass(events *in, int j, track_event event, double theta, int *c
   const scaled_contact *c = &in->base.m->contact[j];
   contact_track *t = &in->track[j];
   const bool varies = in->varies && event != TRACK_TURNS && event != TRACK_HOLDS;
-  const contact_motion at = contact_motion_at(in->base.m, j, NV_DATA_S(in->base.y));
+  const contact_motion at = scaled_motion_at(in->base.m, j, NV_DATA_S(in->base.y));
   for (int i = 0; i < in->n_contacts; i += scaled_directions(in->base.m, i))
     follow_own(in, i, own_states(in), &in->track[i]);
   const contact_track before[2] = {t[0], t[c->kind->directions - 1]};
@@ -359,7 +359,7 @@ static hc_status begin(events *in, const double *y, int *count)
   number_own_states(in);
   in->passed = 0;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
-    const contact_motion at = contact_motion_at(in->base.m, j, y);
+    const contact_motion at = scaled_motion_at(in->base.m, j, y);
     contact_track_begin(&in->track[j], &in->base.m->contact[j], &at, y + 2 * in->n + j);
     begin_own(in, j, 0);
   }

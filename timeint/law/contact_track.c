@@ -8,14 +8,6 @@
 
 static const double rounding = 16 * DBL_EPSILON; /* of sums of a few terms, relative to their sizes */
 
-contact_motion contact_motion_at(const scaled_model *m, int j, const double *y)
-{
-  contact_motion at;
-  scaled_contact_motion(m, j, y, at.u, &at.v);
-  scaled_contact_motion(m, j, y + m->n, at.du, &at.dv);
-  return at;
-}
-
 /* Rounding of the guards; motions are of the order of 1. */
 double contact_track_distance_noise(const scaled_contact *c, double v)
 {

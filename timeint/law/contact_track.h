@@ -24,9 +24,6 @@
 
 #include "timeint/law/scaled.h"
 
-/* U and V of contact j at X = y[0..n-1], their rates at X' = y[n..2n-1]. */
-contact_motion contact_motion_at(const scaled_model *m, int j, const double *y);
-
 /* The state at the beginning of a period, its slider at w. Where |T| > mu N the slider moves until |T| = mu N; where
  * |T| = mu N the contact slips if the motion keeps loading it. */
 void contact_track_begin(contact_track *t, const scaled_contact *c, const contact_motion *at, const double *w);

@@ -62,6 +62,14 @@ void scaled_contact_motion(const scaled_model *m, int j, const double *x, double
   *v = dot_product(m->n, m->base->normal + at, x);
 }
 
+contact_motion scaled_motion_at(const scaled_model *m, int j, const double *y)
+{
+  contact_motion at;
+  scaled_contact_motion(m, j, y, at.u, &at.v);
+  scaled_contact_motion(m, j, y + m->n, at.du, &at.dv);
+  return at;
+}
+
 double scaled_response(const scaled_model *m, int r, const double *x)
 {
   return dot_product(m->n, m->base->response + (size_t)r * (size_t)m->n, x);

@@ -56,6 +56,9 @@ contact_state scaled_contact_state(const scaled_model *m, int j, const double *y
 /* U and V of contact j at X = y[0..n-1]: u of the directions from j on to the last that shares its law. */
 void scaled_contact_motion(const scaled_model *m, int j, const double *x, double u[2], double *v);
 
+/* The same at X = y[0..n-1], and their rates at X' = y[n..2n-1]. */
+contact_motion scaled_motion_at(const scaled_model *m, int j, const double *y);
+
 /* The first direction of the contact that j is one of; and how many it has that share a law: 2 of a circle, else 1. */
 static inline int scaled_first(const scaled_model *m, int j) { return j - m->contact[j].direction; }
 static inline int scaled_directions(const scaled_model *m, int j) { return m->contact[j].kind->directions; }
