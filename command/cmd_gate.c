@@ -201,7 +201,7 @@ static int run_gate(cli_common *common, void *own, scene *sc)
   call.errors = calloc(n, sizeof *call.errors);
   if (!call.scenes || !call.cases || !call.responses || !call.errors)
     code = cli_solver_failed(common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
-  if (!code && (code = read_cases(&call)) == EXIT_BAD_CASE) code = report_unread(&call, code);
+  if (!code && call.errors && (code = read_cases(&call)) == EXIT_BAD_CASE) code = report_unread(&call, code);
   if (!code) code = open_junit(&call);
   if (!code && call.cases && call.responses) code = judge_cases(&call);
   if (!code) { /* each is written even if the other one fails */

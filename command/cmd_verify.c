@@ -411,7 +411,7 @@ static int run_verify(cli_common *common, void *own, scene *sc)
 {
   verify_call call = {.common = common, .own = own, .sc = sc};
   int written = 0, code = read_curves(&call);
-  if (!code) {
+  if (!code && call.of) {
     hc_status st;
     code = verify_curves(&call, &st);
     const verified *first = &call.of[0];

@@ -150,10 +150,11 @@ static void begin_to_turn(fundamental_matrix *v, const scaled_model *m, int j, c
 static void tie(fundamental_matrix *v, const scaled_model *m, int j, const contact_track *t, double radius)
 {
   const scaled_contact *c = &m->contact[j];
-  const bool turned = c->kind->directions > 1 && t->state != CONTACT_SEPARATED;
+  const int directions = c->kind->directions > 1 ? 2 : 1;
+  const bool turned = directions > 1 && t->state != CONTACT_SEPARATED;
   const double by_angle[2] = {turned ? radius * t[1].along : 0, turned ? -radius * t[0].along : 0};
   find_motion(v, m, j);
-  for (int a = c->kind->directions - 1; a >= 0; --a) { /* the first last: its row is dphi */
+  for (int a = directions - 1; a >= 0; --a) { /* the first last: its row is dphi */
     const double *angle = slider_of(v, j);
     double *row = slider_of(v, j + a);
     for (int q = 0; q < v->n_columns; ++q)
