@@ -189,31 +189,35 @@ static int report_unread(gate_call *call, int code)
   return code;
 }
 
+/* The cases read, judged, and told in the table and in JUnit. Returns the exit code. */
+static int read_and_judge(gate_call *call)
+{
+  int code = read_cases(call), reported = 0;
+  if (code == EXIT_BAD_CASE) code = report_unread(call, code);
+  if (!code) code = open_junit(call);
+  if (!code) code = judge_cases(call);
+  if (code) return code;
+  table *t = checks_table(call); /* each is written even if the other one fails */
+  const int shown = cli_write(call->common, 1, &t);
+  if (call->junit)
+    reported = close_junit(call, gate_write_junit(call->n_judged, call->cases, output_stream(call->junit)));
+  table_free(t);
+  if ((code = gate_exit_code(call->n_judged, call->cases)) != 0) return code;
+  return shown ? shown : reported;
+}
+
 static int run_gate(cli_common *common, void *own, scene *sc)
 {
   const size_t n = (size_t)common->n_arguments;
   gate_call call = {common, own, .n_judged = 0};
-  int code = 0;
   (void)sc;
   call.scenes = calloc(n, sizeof *call.scenes);
   call.cases = calloc(n, sizeof *call.cases);
   call.responses = calloc(n, sizeof *call.responses);
   call.errors = calloc(n, sizeof *call.errors);
-  if (!call.scenes || !call.cases || !call.responses || !call.errors)
-    code = cli_solver_failed(common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
-  if (!code && call.errors && (code = read_cases(&call)) == EXIT_BAD_CASE) code = report_unread(&call, code);
-  if (!code) code = open_junit(&call);
-  if (!code && call.cases && call.responses) code = judge_cases(&call);
-  if (!code) { /* each is written even if the other one fails */
-    table *t = checks_table(&call);
-    const int shown = cli_write(common, 1, &t);
-    int reported = 0;
-    if (call.junit)
-      reported = close_junit(&call, gate_write_junit(call.n_judged, call.cases, output_stream(call.junit)));
-    code = gate_exit_code(call.n_judged, call.cases);
-    if (!code) code = shown ? shown : reported;
-    table_free(t);
-  }
+  const int code = call.scenes && call.cases && call.responses && call.errors
+                       ? read_and_judge(&call)
+                       : cli_solver_failed(common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
   output_abandon(call.junit);
   for (int i = 0; i < call.n_judged; ++i) gate_clear(&call.cases[i]);
   free(call.errors);
