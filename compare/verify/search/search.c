@@ -419,7 +419,7 @@ static const stage sampled[] = {{try_bases, false},
                                 {try_near_likeliest, false},
                                 {try_likeliest_with_orders, false},
                                 {try_curves, false}};
-#define STAGES(list) sizeof list / sizeof *list, list
+#define STAGES(list) sizeof(list) / sizeof *(list), (list)
 
 static hc_status run_stages(search *s, size_t n, const stage *stages)
 {
