@@ -66,11 +66,12 @@ static hc_status locate(int n_harm, one_contact *c)
   const moving_contact alone = {.law = *c->law, .cu = {1, 0}, .cv = {0, 1}};
   exact_force *line = NULL;
   planar_force *plane = NULL;
-  c->report = (contact_report){0};
+  contact_report report = {0};
   hc_status st =
       c->circle ? planar_force_new(n_harm, c->n_dof, c->law, &plane) : exact_force_new(n_harm, 2, 1, &alone, &line);
-  if (st == HC_OK && c->circle) st = planar_force_eval(plane, c->motion, c->force, NULL, &c->report);
-  else if (st == HC_OK) st = exact_force_eval(line, c->motion, c->force, NULL, &c->report);
+  if (st == HC_OK && c->circle) st = planar_force_eval(plane, c->motion, c->force, NULL, &report);
+  else if (st == HC_OK) st = exact_force_eval(line, c->motion, c->force, NULL, &report);
+  c->report = report;
   exact_force_free(line);
   planar_force_free(plane);
   return st;

@@ -140,7 +140,7 @@ static void solve_with(solved_scene *s, const model *m, int n_harm, int n_coef, 
   *out = (stress_motion){.status = HC_NO_MEMORY, .harmonics = n_harm};
   if (!padded) s->fatal = HC_NO_MEMORY;
   else {
-    memcpy(padded, guess, (given < most ? given : most) * sizeof *padded);
+    if (guess) memcpy(padded, guess, (given < most ? given : most) * sizeof *padded);
     stress_motion_solve(s, m, &how, s->omega, padded, 1, out);
   }
   free(padded);

@@ -75,7 +75,7 @@ static void turn_matrix(int n, const double *Q, const double *A, double *work, d
 static hc_status turn(const model *m, void (*draw)(uint64_t *, int, double *), uint64_t *random, rewritten *out)
 {
   const int n = m->n;
-  double *Q = malloc((size_t)n * vector(n)), *work = malloc((size_t)n * vector(2 * n)), *map;
+  double *Q = calloc((size_t)n, vector(n)), *work = malloc((size_t)n * vector(2 * n)), *map;
   *out = same;
   out->map = map = malloc((size_t)n * vector(n));
   hc_status st = Q && work && map ? model_copy(m, &out->model) : HC_NO_MEMORY;

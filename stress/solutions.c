@@ -172,8 +172,8 @@ static stress_check check_contacts(solved_scene *s, bool stuck)
   stress_check c = st == HC_OK ? stress_skip(STRESS_NOT_APPLICABLE) : stress_refuse(s, st);
   double moves = 0;
   for (int i = 0; i < s->n * s->n_coef && st == HC_OK; ++i) moves = fmax(moves, fabs(exact.x[i]));
-  for (int j = 0; moves > 0 && j < m->n_contacts; ++j) keep_linear(s, exact.x, moves, stuck, j, m);
-  if (moves > 0 && exact.bound < solvable && moves < 1e150) c = hold_linear(s, m, &exact, stuck);
+  for (int j = 0; exact.x && moves > 0 && j < m->n_contacts; ++j) keep_linear(s, exact.x, moves, stuck, j, m);
+  if (exact.x && moves > 0 && exact.bound < solvable && moves < 1e150) c = hold_linear(s, m, &exact, stuck);
   free(exact.x);
   model_free(m);
   model_free(linear);

@@ -94,7 +94,7 @@ static void shift(const solved_scene *s, double delay, double *x)
 static double *guess_of(const solved_scene *s, const rewritten *w)
 {
   const size_t n = (size_t)s->n, n_other = (size_t)w->model->n, n_coef = (size_t)s->n_coef;
-  double *guess = malloc(n_coef * n_other * sizeof *guess), *x = malloc(n_coef * n * sizeof *x);
+  double *guess = calloc(n_coef * n_other, sizeof *guess), *x = malloc(n_coef * n * sizeof *x);
   if (guess && x) {
     memcpy(x, s->base.x, n_coef * n * sizeof *x);
     shift(s, w->delay, x);

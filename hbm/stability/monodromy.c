@@ -79,7 +79,7 @@ static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_c
   int n = 0;
   for (int j = 0, intervals; j < n_contacts; ++j) {
     const contact_interval *p = contact_forces_intervals(orbit, j, &intervals);
-    const size_t most = (size_t)(n + 2 * intervals + 1);
+    const size_t most = (size_t)n + 2 * (size_t)intervals + 1;
     double *more = most > w->cap ? realloc(w->boundary, 2 * most * sizeof *more) : w->boundary;
     if (!more) return -1;
     if (most > w->cap) w->boundary = more, w->cap = 2 * most;

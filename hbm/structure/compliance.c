@@ -97,12 +97,12 @@ static void make_sum_arrays(mode_sum *m)
 /* Mode i becomes the one numbered `from` in the table. */
 static void take_mode(mode_sum *m, int i, const mode_table *of, int from)
 {
-  if (m->poles) m->lambda[i] = of->lambda[from];
+  if (of->lambda) m->lambda[i] = of->lambda[from];
   else m->k[i] = of->k[from], m->c[i] = of->c[from];
   for (int a = 0; a < m->rows; ++a) {
     const size_t at = (size_t)a * (size_t)m->n + (size_t)from;
-    m->lr[a * m->n + i] = m->poles ? creal(of->left[at]) : of->x[at];
-    if (!m->poles) continue;
+    m->lr[a * m->n + i] = of->lambda ? creal(of->left[at]) : of->x[at];
+    if (!of->lambda) continue;
     m->li[a * m->n + i] = cimag(of->left[at]);
     m->rr[a * m->n + i] = creal(of->right[at]), m->ri[a * m->n + i] = cimag(of->right[at]);
   }
@@ -123,7 +123,7 @@ static hc_status mode_sum_new(const mode_table *of, int dim, int rows, mode_sum 
     return HC_NO_MEMORY;
   }
   for (int i = 0; i < n; ++i)
-    order[i] = (ranked){m->poles ? cabs(of->lambda[i]) : distance_of_mode(of->k[i], of->c[i]), i};
+    order[i] = (ranked){of->lambda ? cabs(of->lambda[i]) : distance_of_mode(of->k[i], of->c[i]), i};
   qsort(order, (size_t)n, sizeof *order, by_distance);
   for (int i = 0; i < n; ++i) {
     m->distance[i] = order[i].distance;
@@ -356,7 +356,7 @@ static void add_row(modal_form *f, const double *d)
 /* Either sum begins with its left rows: of the responses, or of q. */
 static hc_status make_form(const model *m, int dim, const double *B, modal_form *f)
 {
-  const size_t n = (size_t)m->n, rows = (size_t)(m->n_responses + dim + 2 * m->n_loads);
+  const size_t n = (size_t)m->n, rows = (size_t)m->n_responses + (size_t)dim + 2 * (size_t)m->n_loads;
   workspace *w = &f->memory;
   double *work = workspace_doubles(w, 2 * n * n);
   f->n = m->n;

@@ -198,8 +198,8 @@ static void a_watch_is_told_the_same(CHECK_STATE)
 }
 
 /* A mass on next to no spring slips under a constant T: it begins at 0, 500 of its units from where that T and the
- * spring balance, and as far back by its free motion. Modes of such an interval lose three digits, which is said; at the
- * place of balance nothing cancels. */
+ * spring balance, and as far back by its free motion. Modes of such an interval lose three digits, which is said; at
+ * the place of balance nothing cancels. */
 static void a_constant_force_that_cancels_is_told(CHECK_STATE)
 {
   const transient_settings how = {.law = TRANSIENT_LAW_EXACT};
