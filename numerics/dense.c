@@ -4,6 +4,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <pthread.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,14 +31,33 @@ void zgetri_(const int *n, double complex *a, const int *lda, const int *pivot, 
 void zgetrs_(const char *transposed, const int *n, const int *columns, const double complex *a, const int *lda,
              const int *pivot, double complex *b, const int *ldb, int *info, size_t transposed_length);
 
-/* OpenBLAS, where it stands in for the reference BLAS, may start threads: one is what this program is built for. The
- * symbol is missing elsewhere. */
+/* OpenBLAS, where it stands in for the reference BLAS, may start threads: one is what this program is built for. Built
+ * without any (Debian's libopenblas0-serial 0.3.21 and 0.3.29) it must not be called from two threads at once: they get
+ * the same workspace, and 2 of 100 factors of 20 rows are wrong when four threads ask for them. Its calls take turns.
+ * The symbols are missing elsewhere. */
 void openblas_set_num_threads(int threads) __attribute__((weak));
+int openblas_get_parallel(void) __attribute__((weak)); /* 0: built without threads */
+
+static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+static bool takes_turns;
 
 __attribute__((constructor)) static void keep_to_one_thread(void)
 {
   if (openblas_set_num_threads) openblas_set_num_threads(1);
+  takes_turns = openblas_get_parallel && openblas_get_parallel() == 0;
 }
+
+static void begin_turn(void)
+{
+  if (takes_turns) pthread_mutex_lock(&turn);
+}
+
+static void end_turn(void)
+{
+  if (takes_turns) pthread_mutex_unlock(&turn);
+}
+
+#define IN_TURN(call) (begin_turn(), (call), end_turn())
 
 static size_t square(int n) { return (size_t)n * (size_t)n; }
 
@@ -52,7 +72,7 @@ void dense_add_product(int m, int n, int k, double alpha, const double *A, int l
                        double beta, double *C, int ldc)
 {
   const int rows_of_B = ldb > 0 ? ldb : 1; /* of an empty sum, too */
-  if (m > 0 && n > 0) dgemm_("N", "N", &m, &n, &k, &alpha, A, &lda, B, &rows_of_B, &beta, C, &ldc, 1, 1);
+  if (m > 0 && n > 0) IN_TURN(dgemm_("N", "N", &m, &n, &k, &alpha, A, &lda, B, &rows_of_B, &beta, C, &ldc, 1, 1));
 }
 
 void dense_transpose(int rows, int columns, const double *A, double *B)
@@ -110,7 +130,8 @@ hc_status dense_modes(int n, const double *K, const double *M, double *lambda, d
   if (st == HC_OK) {
     memcpy(phi, K, square(n) * sizeof *phi);
     memcpy(mass, M, square(n) * sizeof *mass);
-    dsygvd_(&type, "V", "L", &n, phi, &n, mass, &n, lambda, work, &work_length, integers, &integer_length, &info, 1, 1);
+    IN_TURN(dsygvd_(&type, "V", "L", &n, phi, &n, mass, &n, lambda, work, &work_length, integers, &integer_length,
+                    &info, 1, 1));
     if (info > n) st = HC_SINGULAR;
     else if (info != 0) st = HC_NOT_CONVERGED;
   }
@@ -135,7 +156,7 @@ static hc_status pivoted_qr(int n, int rows, double *A, double tolerance, int *p
   int info = 0;
   const int most = rows < n ? rows : n;
   memset(pivot, 0, (size_t)rows * sizeof *pivot); /* 0: free to move */
-  dgeqp3_(&n, &rows, A, &n, pivot, tau, work, &work_length, &info);
+  IN_TURN(dgeqp3_(&n, &rows, A, &n, pivot, tau, work, &work_length, &info));
   if (info != 0) return HC_BUG;
   for (int i = 0; i < rows; ++i) --pivot[i];
   *rank = 0;
@@ -158,7 +179,7 @@ hc_status dense_span(int n, int rows, const double *const *row, double tolerance
       for (int r = 0; r < *rank; ++r)
         triangle[(size_t)c * (size_t)*rank + (size_t)r] = r <= c ? A[(size_t)c * (size_t)n + (size_t)r] : 0;
     memcpy(basis, A, (size_t)most * (size_t)n * sizeof *basis);
-    dorgqr_(&n, &n, &most, basis, &n, tau, work, &work_length, &info);
+    IN_TURN(dorgqr_(&n, &n, &most, basis, &n, tau, work, &work_length, &info));
     if (info != 0) st = HC_BUG;
   }
   free(A);
@@ -182,7 +203,8 @@ hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *
   int info = 0;
   if (!re) return HC_NO_MEMORY;
   double *im = re + rows, *vectors = im + rows, *of_left = vectors + square(n), *work = of_left + left;
-  dgeev_(W ? "V" : "N", "V", &n, A, &n, re, im, W ? of_left : NULL, &n, vectors, &n, work, &work_length, &info, 1, 1);
+  IN_TURN(dgeev_(W ? "V" : "N", "V", &n, A, &n, re, im, W ? of_left : NULL, &n, vectors, &n, work, &work_length, &info,
+                 1, 1));
   for (size_t k = 0; k < rows && info == 0; ++k) {
     lambda[k] = re[k] + I * im[k];
     unpack_vector(rows, vectors, k, im[k], V + k * rows);
@@ -222,7 +244,7 @@ static bool factor_small(int n, double *A, int *pivot)
 hc_status dense_factor(int n, double *A, int *pivot)
 {
   int info = 0;
-  if (n > DENSE_SMALL) dgetrf_(&n, &n, A, &n, pivot, &info);
+  if (n > DENSE_SMALL) IN_TURN(dgetrf_(&n, &n, A, &n, pivot, &info));
   else if (!factor_small(n, A, pivot)) return HC_SINGULAR;
   if (info != 0) return HC_SINGULAR;
   for (int i = 0; i < n; ++i)
@@ -248,7 +270,7 @@ static void solve_small(int n, const double *restrict A, const int *pivot, doubl
 void dense_solve(int n, const double *A, const int *pivot, int columns, double *X)
 {
   int info = 0;
-  if (n > DENSE_SMALL) dgetrs_("N", &n, &columns, A, &n, pivot, X, &n, &info, 1);
+  if (n > DENSE_SMALL) IN_TURN(dgetrs_("N", &n, &columns, A, &n, pivot, X, &n, &info, 1));
   else
     for (int k = 0; k < columns; ++k) solve_small(n, A, pivot, X + n * k);
 }
@@ -266,7 +288,7 @@ int dense_sign(int n, const double *A, const int *pivot)
 hc_status dense_factor_complex(int n, double complex *A, int *pivot)
 {
   int info = 0;
-  zgetrf_(&n, &n, A, &n, pivot, &info);
+  IN_TURN(zgetrf_(&n, &n, A, &n, pivot, &info));
   if (info != 0) return HC_SINGULAR;
   for (int i = 0; i < n; ++i)
     if (!isfinite(cabs(A[(size_t)i * (size_t)(n + 1)]))) return HC_SINGULAR;
@@ -277,7 +299,7 @@ void dense_solve_complex(int n, const double complex *A, const int *pivot, bool 
                          double complex *B)
 {
   int info = 0;
-  zgetrs_(transposed ? "T" : "N", &n, &columns, A, &n, pivot, B, &n, &info, 1);
+  IN_TURN(zgetrs_(transposed ? "T" : "N", &n, &columns, A, &n, pivot, B, &n, &info, 1));
 }
 
 hc_status dense_invert_complex(int n, double complex *A, int *pivot, double complex *work)
@@ -285,6 +307,6 @@ hc_status dense_invert_complex(int n, double complex *A, int *pivot, double comp
   const int length = DENSE_INVERT_WORK * n;
   int info = 0;
   const hc_status st = dense_factor_complex(n, A, pivot);
-  if (st == HC_OK) zgetri_(&n, A, &n, pivot, work, &length, &info);
+  if (st == HC_OK) IN_TURN(zgetri_(&n, A, &n, pivot, work, &length, &info));
   return info == 0 ? st : HC_SINGULAR;
 }
