@@ -24,8 +24,8 @@
  * The library prints nothing, never exits, and keeps no global state. Functions that count answer 0 for NULL.
  * BLAS: where OpenBLAS is the system's, it is told to use one thread when the library is loaded, which holds for the
  * whole process (NumPy of Debian, too): several wait for each other longer than they compute here. One that was built
- * without threads (libopenblas0-serial) gives wrong answers to two at once: handles take turns in it, and a program must
- * not call it itself while another thread is in this library.
+ * without threads (libopenblas0-serial) gives wrong answers to two at once: handles take turns in it, and a program
+ * must not call it itself while another thread is in this library.
  * Threads: any number, each with handles of its own. FFTW's planner is shared by a process, and guarded among these
  * handles only: a program that plans with FFTW itself must not do so while another thread is in this library.
  * GSL: its error handler, which aborts unless told otherwise, is the program's: call gsl_set_error_handler_off(). */

@@ -33,7 +33,7 @@ void zgetrs_(const char *transposed, const int *n, const int *columns, const dou
 
 /* OpenBLAS, where it stands in for the reference BLAS, may start threads: one is what this program is built for. Built
  * without any (Debian's libopenblas0-serial 0.3.21 and 0.3.29) it must not be called from two threads at once: they get
- * the same workspace, and 2 of 100 factors of 20 rows are wrong when four threads ask for them. Its calls take turns.
+ * the same workspace, and 7 of 1000 factors of 20 rows are wrong when four threads ask for them. Its calls take turns.
  * The symbols are missing elsewhere. */
 void openblas_set_num_threads(int threads) __attribute__((weak));
 int openblas_get_parallel(void) __attribute__((weak)); /* 0: built without threads */
