@@ -1,7 +1,7 @@
 /* room.h - is there memory? Asked before calls into libraries that crash or abort when an allocation of theirs fails:
  *   SUNDIALS 6.4  N_VClone writes through the NULL it gets; SUNContext_Create frees its logger's table twice;
  *   SUNDIALS 7.1  tells of a failure in a text that it allocates, and writes through NULL where that fails, too: every
- *                 constructor (N_VNew_Serial, SUNDenseMatrix, SUNLinSol_Dense, CVodeCreate, ...), KINSol, CVode;
+ *                 constructor (N_VNew_Serial, SUNMatNewEmpty, SUNLinSol_Dense, CVodeCreate, ...), KINSol, CVode;
  *   FFTW's planner aborts.
  * They take far less than what is asked for here, so a process at its limit is told HC_NO_MEMORY instead.
  *

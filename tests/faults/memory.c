@@ -187,6 +187,7 @@ SHELTERED_FROM_ALL(SUNMatrix, SUNDenseMatrix, (sunindextype rows, sunindextype c
                    (rows, columns, ctx))
 SHELTERED_FROM_ALL(SUNLinearSolver, SUNLinSol_Dense, (N_Vector y, SUNMatrix a, SUNContext ctx), (y, a, ctx))
 SHELTERED_FROM_ALL(SUNLinearSolver, SUNLinSolNewEmpty, (SUNContext ctx), (ctx))
+SHELTERED_FROM_ALL(SUNMatrix, SUNMatNewEmpty, (SUNContext ctx), (ctx))
 SHELTERED_FROM_ALL(void *, KINCreate, (SUNContext ctx), (ctx))
 SHELTERED_FROM_ALL(void *, CVodeCreate, (int method, SUNContext ctx), (method, ctx))
 SHELTERED(int, KINSol, (void *kin, N_Vector u, int strategy, N_Vector u_scale, N_Vector f_scale),
