@@ -287,7 +287,7 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
   if (family)
     table_note(t,
                "%d row%s of a family of steady states: where a slider that never slips rests decides on the harmonics, "
-               "too. HBM is held against the member that begins with its own sliders",
+               "too. HBM is compared with the one whose sliders start where its own do",
                family, family == 1 ? "" : "s");
   if (still)
     table_note(t, "%d row%s not compared: that response moves less than 1e-9 of the largest", still,

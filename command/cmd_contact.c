@@ -209,7 +209,7 @@ static void note_pieces(table *t, const char *name, int n, const contact_interva
   note_more(t, name, n);
 }
 
-/* Of a pair under the limit of a circle, and what each half does in a period. */
+/* The lines below the table of a contact with two tangents under the law of the circle. */
 static hc_status note_circle(table *t, const contact_motion *m, const char *name, contact_period p[2])
 {
   const contact *law = &m->contacts->law;
