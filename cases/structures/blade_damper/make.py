@@ -2,42 +2,22 @@
 """Writes the models of blade_damper.yaml (36 pairs) and blade_damper_120.yaml beside itself; needs NumPy. Units: kg, N, m, s.
 
 A blade, a plate clamped at its foot, carries a platform on one side; a thin strip under the platform (of 120 pairs a
-second one on top) is pressed on by its centrifugal force and rubs. The blade is of solid elements (eight nodes, with
-Wilson's incompatible modes) and reduced by Craig and Bampton to the nodes of the platform's lower face, a node at the
+second one on top) is pressed on by its centrifugal force and rubs. The blade is of solid elements
+(../solid_elements.py) and reduced by Craig and Bampton to the nodes of the platform's lower face, a node at the
 tip and the fixed-interface modes below; the strip is a lattice of springs on an elastic bed, the neighbour's platform.
 A pair is a node of the platform and the node of a strip that touches it: x and y along the face, z across it."""
 import os
+import sys
 
 import numpy as np
 
-E, NU, RHO = 2.1e11, 0.3, 7850.0
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from solid_elements import assemble, craig_bampton, frequencies, write, write_matrix
+
 HEIGHT, WIDTH, THICK, PLATFORM, PLATE, LEVEL = 0.16, 0.05, 0.008, 0.036, 0.006, 0.060  # of blade and platform [m]
 MODES = 12  # with the platform held
 STRIP, LATTICE, BED = 0.02, 4.0e7, (4.0e6, 4.0e6, 1.0e6)  # strip: mass [kg], springs of its lattice, bed in all [N/m]
 PRESS = 300.0  # on a strip in all [N]
-
-
-def element(size):
-    """Stiffness and mass of a brick, 24 DOFs; corners in the order of signs below."""
-    signs = np.array([[i, j, k] for k in (-1, 1) for j in (-1, 1) for i in (-1, 1)], float)
-    D = np.zeros((6, 6))
-    D[:3, :3] = NU
-    D[range(3), range(3)] = 1 - NU
-    D[range(3, 6), range(3, 6)] = (1 - 2 * NU) / 2
-    D *= E / ((1 + NU) * (1 - 2 * NU))
-    K, M, volume = np.zeros((33, 33)), np.zeros((24, 24)), np.prod(size) / 8
-    for point in signs / np.sqrt(3):
-        N = np.prod(1 + signs * point, axis=1) / 8
-        dN = np.stack([signs[:, a] / 8 * np.prod(np.delete(1 + signs * point, a, 1), axis=1) for a in range(3)])
-        grad = np.hstack([dN, np.diag(-2 * point)]) * (2 / np.array(size))[:, None]  # eight corners, three bubbles
-        B = np.zeros((6, 33))
-        for c in range(11):
-            x, y, z = grad[:, c]
-            B[:, 3 * c:3 * c + 3] = [[x, 0, 0], [0, y, 0], [0, 0, z], [y, x, 0], [0, z, y], [z, 0, x]]
-        K += B.T @ D @ B * volume
-        M += np.kron(np.outer(N, N), np.eye(3)) * RHO * volume
-    condensed = K[:24, :24] - K[:24, 24:] @ np.linalg.solve(K[24:, 24:], K[24:, :24])
-    return condensed, M
 
 
 def blade(n_y, n_x):
@@ -48,31 +28,10 @@ def blade(n_y, n_x):
     z = np.concatenate([np.linspace(0, LEVEL, low + 1), np.linspace(LEVEL + PLATE, HEIGHT, n_z - low)])
     bricks = [(0, j, k) for k in range(n_z) for j in range(n_y)]
     bricks += [(i, j, low) for i in range(1, n_x + 1) for j in range(n_y)]
-    corners = [[(i + a, j + b, k + c) for c in (0, 1) for b in (0, 1) for a in (0, 1)] for i, j, k in bricks]
-    nodes = {p: q for q, p in enumerate(sorted({c for cs in corners for c in cs if c[2] > 0}, key=lambda p: p[::-1]))}
-    K, M = np.zeros((3 * len(nodes),) * 2), np.zeros((3 * len(nodes),) * 2)
-    for (i, j, k), cs in zip(bricks, corners):
-        ke, me = element((x[i + 1] - x[i], WIDTH / n_y, z[k + 1] - z[k]))
-        kept = [c for c in range(8) if cs[c] in nodes]
-        local = [3 * c + d for c in kept for d in range(3)]
-        rows = [3 * nodes[cs[c]] + d for c in kept for d in range(3)]
-        K[np.ix_(rows, rows)] += ke[np.ix_(local, local)]
-        M[np.ix_(rows, rows)] += me[np.ix_(local, local)]
+    sized = [((i, j, k), (x[i + 1] - x[i], WIDTH / n_y, z[k + 1] - z[k])) for i, j, k in bricks]
+    K, M, nodes = assemble(sized, lambda i, j, k: k == 0)
     face = [nodes[i, j, low] for i in range(2, n_x + 2) for j in range(n_y + 1)]
     return K, M, face, nodes[1, n_y // 2, n_z]
-
-
-def craig_bampton(K, M, kept, modes):
-    """Both on the DOFs `kept` and the first modes with these held, of mass 1."""
-    inner = np.setdiff1d(np.arange(len(K)), kept)
-    L = np.linalg.cholesky(M[np.ix_(inner, inner)])
-    scaled = np.linalg.solve(L, np.linalg.solve(L, K[np.ix_(inner, inner)]).T)
-    shapes = np.linalg.solve(L.T, np.linalg.eigh((scaled + scaled.T) / 2)[1][:, :modes])
-    T = np.zeros((len(K), len(kept) + modes))
-    T[kept, range(len(kept))] = 1
-    T[np.ix_(inner, range(len(kept)))] = -np.linalg.solve(K[np.ix_(inner, inner)], K[np.ix_(inner, kept)])
-    T[np.ix_(inner, range(len(kept), len(kept) + modes))] = shapes
-    return T.T @ K @ T, T.T @ M @ T
 
 
 def strip(n_i, n_j, dx, dy):
@@ -91,17 +50,6 @@ def strip(n_i, n_j, dx, dy):
                 for r, s, sign in ((p, p, 1), (q, q, 1), (p, q, -1), (q, p, -1)):
                     K[r:r + 3, s:s + 3] += sign * k
     return K, np.diag(np.full(3 * n, STRIP / n))
-
-
-def write(path, lines):
-    with open(path, "w", encoding="ascii") as f:
-        f.writelines(line + "\n" for line in lines)
-
-
-def write_matrix(path, A):
-    i, j = np.nonzero(np.tril(A))
-    write(path, ["%%MatrixMarket matrix coordinate real symmetric", f"{len(A)} {len(A)} {len(i)}"] +
-          [f"{r + 1} {c + 1} {A[r, c]!r}" for r, c in zip(i.tolist(), j.tolist())])
 
 
 def model(name, n_x, n_y, strips):
@@ -136,12 +84,7 @@ def model(name, n_x, n_y, strips):
             A[q, q] += 1e9
             A[p, q] -= 1e9
             A[q, p] -= 1e9
-    return [frequencies(Kr, Mr), frequencies(A, B)], n, share
-
-
-def frequencies(K, M):
-    L = np.linalg.cholesky(M)
-    return np.sqrt(np.linalg.eigvalsh(np.linalg.solve(L, np.linalg.solve(L, K).T))[:4]) / (2 * np.pi)
+    return [frequencies(Kr, Mr)[:4], frequencies(A, B)[:4]], n, share
 
 
 if __name__ == "__main__":

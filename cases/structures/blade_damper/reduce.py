@@ -10,7 +10,8 @@ import sys
 
 import numpy as np
 
-from make import write, write_matrix
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from solid_elements import write, write_matrix
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 TANGENTIAL, NORMAL, FRICTION = 2.0e10, 2.5e10, 0.3  # per area, as in ../blade_damper.yaml

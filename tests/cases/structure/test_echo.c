@@ -122,7 +122,7 @@ static void the_cases_of_structures_are_all_readable(CHECK_STATE)
     ++n;
   }
   closedir(dir);
-  assert_true(n >= 16);
+  assert_true(n >= 20);
 }
 
 static const struct CMUnitTest tests[] = {
