@@ -391,34 +391,105 @@ int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_e
   return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
-/* A frequency typed in the other unit lies far outside the sweep: the hint shows it in that unit, if it fits there. */
-static void warn_outside(const cli_common *common, const scene *sc, double omega, int more)
+/* ---- frequencies, and the sweep. Proof: tests/command/test_frequency.c ---- */
+
+/* A frequency beyond FAR times the sweep's ends is not reached along the response curve; one that comes within DECADE
+ * of them when it is taken for the other unit was probably typed in that. */
+static const double FAR = 4, DECADE = 10;
+static const double SHORTEST_SWEEP = 1e-3; /* of omega: a curve through a frequency that is solved for alone */
+
+/* [1] How many times omega lies below or above the sweep; 1 inside. */
+static double times_outside(const scene *sc, double omega)
 {
   const double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
-  const double other = sc->in_cycles ? omega / TWO_PI : omega * TWO_PI;
-  char at[SCENE_WHERE], others[32] = "", hint[128] = "";
-  if (more) snprintf(others, sizeof others, " and %d more", more);
-  if (other >= low && other <= high)
-    snprintf(hint, sizeof hint, "; frequencies here are in %s per %s", sc->in_cycles ? "cycles" : "rad", sc->unit_time);
-  cli_message(common, "%s%s: outside the sweep from %.10g to %.10g%s, which is widened to it%s",
-              scene_where(sc, omega, at), others, scene_frequency(sc, low), scene_frequency(sc, high),
-              sc->in_cycles ? " cycles" : "", hint);
+  return fmax(1, fmax(low / omega, omega / high));
 }
 
-void cli_take_frequencies(const cli_common *common, const number_list *at, scene *sc)
+/* The omega that was meant if the one given was typed in the other unit; compare.omega of a case is never in cycles. */
+static double in_other_unit(bool typed_in_cycles, double omega)
+{
+  return typed_in_cycles ? omega / TWO_PI : omega * TWO_PI;
+}
+
+/* "from 3 to 20", "from 0.5 to 3.2 cycles" into text[64], which is returned. */
+static const char *sweep_text(const scene *sc, char text[64])
 {
   const double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
+  snprintf(text, 64, "from %.10g to %.10g%s", scene_frequency(sc, low), scene_frequency(sc, high),
+           sc->in_cycles ? " cycles" : "");
+  return text;
+}
+
+/* The frequencies outside the sweep: `outside` of them, the first at `omega`. */
+static void warn_outside(const cli_common *common, const scene *sc, double omega, int outside, bool cycles, bool alone)
+{
+  const double rounding = 8 * DBL_EPSILON;
+  char at[SCENE_WHERE], others[32] = "", hint[128] = "", sweep[64];
+  if (outside > 1) snprintf(others, sizeof others, " and %d more", outside - 1);
+  if (alone || times_outside(sc, in_other_unit(cycles, omega)) <= 1 + rounding)
+    snprintf(hint, sizeof hint, "; frequencies here are in %s per %s", cycles ? "cycles" : "rad", sc->unit_time);
+  cli_message(common, "%s%s: %soutside the sweep %s, %s%s", scene_where(sc, omega, at), others, alone ? "far " : "",
+              sweep_text(sc, sweep),
+              alone ? "solved for without the response curve: other branches are not looked for"
+                    : "which is widened to it",
+              hint);
+}
+
+/* Why the frequency is refused, with what to do. */
+static void refuse_far(const scene *sc, double omega, bool typed_in_cycles, char why[CASE_MESSAGE])
+{
+  const double meant = in_other_unit(typed_in_cycles, omega), own = scene_frequency(sc, omega);
+  char at[SCENE_WHERE], sweep[64], hint[128];
+  if (times_outside(sc, meant) <= DECADE)
+    snprintf(hint, sizeof hint, "did you mean %.3g (%s per %s)? Else", typed_in_cycles ? meant / TWO_PI : meant,
+             typed_in_cycles ? "cycles" : "rad", sc->unit_time);
+  else snprintf(hint, sizeof hint, "expected all frequencies within a factor %g of it;", FAR);
+  snprintf(
+      why, CASE_MESSAGE, "%s: far outside the sweep %s, %s give it a run of its own, with --set sweep.%s=%.6g,%.6g",
+      scene_where(sc, omega, at), sweep_text(sc, sweep), hint, sc->in_cycles ? "frequency" : "omega", own, 1.01 * own);
+}
+
+bool cli_frequencies_fit(const cli_common *common, const number_list *at, bool followed, scene *sc,
+                         char why[CASE_MESSAGE])
+{
   const double rounding = 8 * DBL_EPSILON; /* of 2 pi times an end of the sweep */
-  double first = NAN;
-  int outside = 0;
+  const bool cycles = sc->in_cycles && at->n;
   number_list *omega = &sc->compare.omega;
+  double first = NAN, first_far = NAN, low = INFINITY, high = 0;
+  int outside = 0, far = 0;
+  bool slip = false;
   if (at->n) *omega = *at;
   for (int i = 0; i < omega->n; ++i) {
     if (at->n) omega->v[i] = scene_omega(sc, omega->v[i]);
-    if (omega->v[i] >= low * (1 - rounding) && omega->v[i] <= high * (1 + rounding)) continue;
+    const double times = times_outside(sc, omega->v[i]);
+    low = fmin(low, omega->v[i]), high = fmax(high, omega->v[i]);
+    if (!(times > 1 + rounding)) continue;
     if (outside++ == 0) first = omega->v[i];
+    if (!(times > FAR)) continue;
+    const bool this_slip = times_outside(sc, in_other_unit(cycles, omega->v[i])) <= DECADE;
+    if (far++ == 0 || (this_slip && !slip)) first_far = omega->v[i];
+    slip |= this_slip;
   }
-  if (outside && !common->quiet) warn_outside(common, sc, first, outside - 1);
+  const bool swept = sc->transient.start == TRANSIENT_START_UP || sc->transient.start == TRANSIENT_START_DOWN;
+  const bool alone = far > 0 && far == omega->n && high <= FAR * low && !swept;
+  if (slip || (far > 0 && followed && !alone)) {
+    refuse_far(sc, first_far, cycles, why);
+    return false;
+  }
+  if (outside && !common->quiet) warn_outside(common, sc, first, outside, cycles, alone && followed);
+  if (alone && followed) {
+    const bool up = sc->omega_from <= sc->omega_to;
+    high *= 1 + SHORTEST_SWEEP;
+    sc->omega_from = up ? low : high;
+    sc->omega_to = up ? high : low;
+  }
+  return true;
+}
+
+int cli_take_frequencies(const cli_common *common, const number_list *at, bool followed, scene *sc)
+{
+  char why[CASE_MESSAGE];
+  return cli_frequencies_fit(common, at, followed, sc, why) ? 0 : cli_failed(common, EXIT_BAD_CASE, "%s", why);
 }
 
 /* A structure that cannot be solved at rest: names the motion that nothing holds there. */

@@ -142,8 +142,14 @@ int cli_load_case(cli_common *common, const char *path, scene *sc);
 int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_error *err);
 
 /* The frequencies of --at, if there are any, into compare.omega of the case: they are cycles per time where its sweep
- * is. Frequencies outside the sweep are warned of. */
-void cli_take_frequencies(const cli_common *common, const number_list *at, scene *sc);
+ * is. Frequencies outside the sweep are warned of. Of those a factor 4 below or above it: what looks like the other
+ * unit (within a factor 10 of the sweep in that) is refused. If the response curve is `followed` to the frequencies,
+ * and all of them are so far and within a factor 4 of each other, the case's sweep becomes theirs: they are solved for
+ * without all that lies between; else they are refused. 0, or the exit code after the message. */
+int cli_take_frequencies(const cli_common *common, const number_list *at, bool followed, scene *sc);
+/* The same; false and the message in why where they are refused, which is not said. */
+bool cli_frequencies_fit(const cli_common *common, const number_list *at, bool followed, scene *sc,
+                         char why[CASE_MESSAGE]);
 
 /* "hbmcheck COMMAND: ..." on stderr. */
 void cli_message(const cli_common *common, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -227,8 +227,8 @@ static int run_bench(cli_common *common, void *given, scene *sc)
   bench_command_options *own = given;
   bench b = {0};
   double failed_at = 0;
-  int code = 0;
-  cli_take_frequencies(common, &own->at, sc);
+  int code = cli_take_frequencies(common, &own->at, true, sc);
+  if (code) return code;
   if (own->at.n) own->at = sc->compare.omega;
   bench_options how = {.at = own->at, .repeats = own->repeats, .alone = own->alone};
   progress *bar = progress_start("benchmark", common->quiet);

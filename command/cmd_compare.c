@@ -327,8 +327,8 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   table *tables[4] = {NULL};
   int code = compare_lists(common, &own->lists, sc);
   if (!code) code = cli_keep_response(common, sc, own->response);
+  if (!code) code = cli_take_frequencies(common, &own->at, true, sc);
   if (code) return code;
-  cli_take_frequencies(common, &own->at, sc);
   compare_setup setup;
   hc_status st = scene_setup(sc, &setup), tabled = HC_OK;
   if (st == HC_OK) cli_foretell_memory(common, memory_of_comparison(&setup));

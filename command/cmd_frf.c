@@ -138,6 +138,9 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   plot_responses of_case = {0, sc->structure ? structure_response_count(sc->structure) - 1 : 0};
   if (own->response && (of_case.first = of_case.last = cli_response_named(common, own->response)) < 0)
     return EXIT_USAGE;
+  if (!own->at.n) sc->compare.omega.n = 0; /* those of the case are for the comparison */
+  const int refused = cli_take_frequencies(common, &own->at, true, sc);
+  if (refused) return refused;
   hbm_solver *s = NULL;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0;
@@ -148,8 +151,6 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   scene_setup_clear(&setup);
   progress *bar = progress_start("harmonic balance", common->quiet);
   hc_monitor monitor = progress_monitor(bar);
-  if (!own->at.n) sc->compare.omega.n = 0; /* those of the case are for the comparison */
-  cli_take_frequencies(common, &own->at, sc);
   const number_list *at = &sc->compare.omega; /* n = 0: the whole curve */
   comparison_sweep(sc->omega_from, sc->omega_to, at, &from, &to);
   hc_status st = scene_hbm_solver(sc, &s);

@@ -76,7 +76,10 @@ static int read_cases(gate_call *call)
     if (code == EXIT_NO_SOLUTION) return code;
     if (code) wrong = code;
     if (code) continue;
-    cli_take_frequencies(call->common, &call->own->at, &call->scenes[i]);
+    if (!cli_frequencies_fit(call->common, &call->own->at, true, &call->scenes[i], call->errors[i].message)) {
+      cli_message(call->common, "%s: %s", call->common->arguments[i], call->errors[i].message);
+      wrong = EXIT_BAD_CASE;
+    }
     call->extra |= cli_extra_columns(&call->scenes[i]);
   }
   return wrong;

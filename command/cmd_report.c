@@ -124,8 +124,8 @@ static int run_report(cli_common *common, void *given, scene *sc)
   int code = cli_check_files(common, !common->output, &(cli_file){"the page", path, CLI_OUTPUT});
   if (!code) code = cli_load_case(common, common->arguments[0], sc);
   if (!code) code = compare_lists(common, &own->lists, sc);
+  if (!code) code = cli_take_frequencies(common, &own->at, true, sc);
   if (code) return code;
-  cli_take_frequencies(common, &own->at, sc);
   progress *bar = progress_start("comparing", common->quiet);
   hc_status st = report_gather(sc, cli_processors(), bar, &d);
   progress_end(bar);

@@ -66,9 +66,10 @@ static table *contacts_table(const cli_common *common, steady_states *found)
 static int run_transient(cli_common *common, void *given, scene *sc)
 {
   const transient_options *own = given;
+  const bool followed = sc->transient.start == TRANSIENT_START_HBM;
   int code = cli_keep_response(common, sc, own->response);
+  if (!code) code = cli_take_frequencies(common, &own->at, followed, sc);
   if (code) return code;
-  cli_take_frequencies(common, &own->at, sc);
   if (sc->compare.omega.n == 0)
     return cli_failed(common, EXIT_USAGE, "at which frequencies? give --at LIST, or compare.omega in the case");
   progress *bar = progress_start("time integration", common->quiet);

@@ -79,10 +79,55 @@ static void outside_the_sweep_is_warned_of(CHECK_STATE)
   assert_string_equal(out, "");
 }
 
+/* 0.6 rad: 3.77 if it is in cycles, in the sweep from 3 to 20; 18.5 is 8 times below the bladed disk's sweep as 116. */
+static void the_other_unit_is_refused_far_outside(CHECK_STATE)
+{
+#define FAR_BELOW "omega = 0.6: far outside the sweep from 3 to 20, did you mean 3.77 (rad per s)?"
+  expect("frf " CASE2 "--at 0.6 2>&1", 2, FAR_BELOW);
+  expect("compare " CASE2 "--at 6,0.6 -q 2>&1", 2, FAR_BELOW);
+  expect("compare " CASE2 "--set compare.omega=0.6 2>&1", 2, FAR_BELOW);
+  expect("transient " CASE2 "--at 0.6 --set transient.start=rest 2>&1", 2, FAR_BELOW);
+  expect("bench " CASE2 "--at 0.6 2>&1", 2, FAR_BELOW);
+  expect("gate " CASE2 SOURCE_DIR "/cases/paper/case1.yaml --at 0.6 2>&1", 2, "case1.yaml: " FAR_BELOW);
+  expect("gate " CASE2 "--at 0.6 --junit /dev/stdout 2>/dev/null", 2, "<error message=\"" FAR_BELOW);
+  expect("frf " CASE2 CYCLES "--at 30 2>&1", 2, "from 0.5 to 3.2 cycles, did you mean 4.77 (cycles per s)?");
+  expect("compare " CASE2 CYCLES "--set compare.omega=0.6 2>&1", 2, "did you mean 3.77 (rad per s)?");
+  expect("compare " SOURCE_DIR "/cases/structures/bladed_disk.yaml --at 18.5 2>&1", 2, "did you mean 116 (rad per s)?");
+  /* the way out that the message names */
+  expect("compare " CASE2 "--at 0.6 2>&1", 2, "--set sweep.omega=0.6,0.606");
+  expect("frf " CASE2 "--at 0.6 --set sweep.omega=0.6,0.606 -q", 0, "\n  0.6       0");
+}
+
+/* Above every resonance and far below the gap the motion is linear: F0/|k - m omega^2 + i c omega| at omega = 100. */
+static void far_outside_is_solved_without_the_curve(CHECK_STATE)
+{
+  const double expected = 100 / hypot(40 - 1e4, 0.4 * 100);
+  const char *const alone = "omega = 100: far outside the sweep from 3 to 20, solved for without the response curve";
+  expect("frf " CASE2 "--at 100 --format csv 2>/dev/null", 0, "reached the end of the sweep, omega = 100.1");
+  CHECK_LE(fabs(cell(2) - expected), 1e-10 * expected, "hbm.tolerance");
+  expect("frf " CASE2 "--at 100 2>&1 >/dev/null", 0, alone);
+  expect("compare " CASE2 "--set sweep.omega=20,3 --at 100 2>&1 >/dev/null", 0, alone);
+  expect("compare " CASE2 "--at 100,120 --format csv -q", 0, "\n120,0,match");
+  expect("transient " CASE2 "--at 100 --format csv -q", 0, "hbm branch 0");
+  /* some near and some far: the curve would be followed over all that lies between, but for a start at rest */
+  expect("compare " CASE2 "--at 5,100 2>&1", 2, "expected all frequencies within a factor 4 of it; give it a run");
+  expect("compare " CASE2 "--at 81,400 2>&1", 2, "omega = 81: far outside");
+  expect("transient " CASE2 "--at 5,100 --set transient.start=rest --format csv -q", 0, "\n100,settled");
+  expect("transient " CASE2 "--at 100 --set transient.start=up --format csv -q", 0, "\n100,settled");
+  /* factor 4 itself: as if it were near */
+  expect("frf " CASE2 "--at 80 2>&1 >/dev/null", 0, "omega = 80: outside the sweep from 3 to 20, which is widened");
+  expect("frf " CASE2 "--at 0.75 2>&1 >/dev/null", 0, "omega = 0.75: outside the sweep from 3 to 20, which is widened");
+}
+
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(at_is_in_cycles_where_the_sweep_is), cmocka_unit_test(cycles_are_not_taken_for_radians),
-    cmocka_unit_test(compare_takes_frequencies_too),      cmocka_unit_test(the_gates_ranges_are_in_the_sweeps_unit),
-    cmocka_unit_test(what_is_said_is_in_cycles),          cmocka_unit_test(outside_the_sweep_is_warned_of),
+    cmocka_unit_test(at_is_in_cycles_where_the_sweep_is),
+    cmocka_unit_test(cycles_are_not_taken_for_radians),
+    cmocka_unit_test(compare_takes_frequencies_too),
+    cmocka_unit_test(the_gates_ranges_are_in_the_sweeps_unit),
+    cmocka_unit_test(what_is_said_is_in_cycles),
+    cmocka_unit_test(outside_the_sweep_is_warned_of),
+    cmocka_unit_test(the_other_unit_is_refused_far_outside),
+    cmocka_unit_test(far_outside_is_solved_without_the_curve),
 };
 
 CHECK_MAIN("command.frequency", tests, 300)
