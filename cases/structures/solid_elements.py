@@ -1,7 +1,7 @@
 """Solid finite elements of steel and their reduction by Craig and Bampton, for the scripts that write blade_damper/ and
 plates/; needs NumPy. Units: kg, N, m, s.
 
-The element is a brick of eight nodes with Wilson's incompatible modes, condensed: bending needs one through the thickness.
+The element is a brick of eight nodes with Wilson's incompatible modes, condensed: one through the thickness bends.
 A node is three indices (i, j, k) of a grid along x, y and z; its DOFs are numbered x, y, z."""
 import numpy as np
 

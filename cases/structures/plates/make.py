@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Writes the models of plates.yaml (12 pairs) and plates_36.yaml beside itself; needs NumPy. Units: kg, N, m, s.
 
-Two steel plates, one above the other, are clamped at x = 0 and touch over a patch at the end of the lower one; the upper
-one is longer and is loaded at a corner of its tip. Each is one layer of solid elements and is reduced by Craig and Bampton
-on its own: to the nodes of its face in the patch, the upper one to the loaded node as well, and to its first modes with
-these held. x is along the plates, y across, z up. A pair is a node of the upper plate's lower face and the node of the
-lower plate's upper face below it: the meshes match. The patch is crowned: its ends have a clearance. The cases press it
-together by a static load."""
+Two steel plates, one above the other, are clamped at x = 0 and touch over a patch at the end of the lower one; the
+upper one is longer and is loaded at a corner of its tip. Each is one layer of solid elements and is reduced by Craig and
+Bampton on its own: to the nodes of its face in the patch, the upper one to the loaded node as well, and to its first
+modes with these held. x is along the plates, y across, z up. A pair is a node of the upper plate's lower face and the
+node of the lower plate's upper face below it: the meshes match. The patch is crowned: its ends have a clearance. The
+cases press it together by a static load."""
 import os
 import sys
 
@@ -24,7 +24,7 @@ STUCK = (2.0e10, 2.0e10, 2.5e10)  # stiffnesses per area, as in the cases: for t
 
 
 def plate(length, thick, n_y, patch):
-    """K, M and nodes {(i, j, k): number} of a plate, its clamped end left out; then i of the patch's first grid line, and
+    """K, M and nodes {(i, j, k): number} of a plate, its clamped end left out; then i of the patch's first grid line and
     of the plate's end. The grid lines along x are those of `patch` and others about STEP apart."""
     before = np.linspace(0, patch[0], round(patch[0] / STEP) + 1)
     behind = np.linspace(patch[-1], length, round((length - patch[-1]) / STEP) + 1)
@@ -34,8 +34,8 @@ def plate(length, thick, n_y, patch):
 
 
 def model(name, n_x, n_y):
-    """NAME_M.mtx, NAME_K.mtx, NAME_nodes.csv, NAME_pairs.csv of n_x times n_y + 1 pairs; returns natural frequencies [Hz]
-    with the contacts open and with all of them stuck."""
+    """NAME_M.mtx, NAME_K.mtx, NAME_nodes.csv, NAME_pairs.csv of n_x times n_y + 1 pairs; returns natural frequencies
+    [Hz] with the contacts open and with all of them stuck."""
     patch = np.linspace(*PATCH, n_x)
     blocks, rows, start = [], [], 0
     for (length, thick), side, level, number in ((UPPER, 0, 0, 101), (LOWER, 1, 1, 1001)):
