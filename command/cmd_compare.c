@@ -1,87 +1,15 @@
 /* cmd_compare.c - hbmcheck compare: harmonic balance and time integration at the same frequencies. */
-#include <pthread.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <time.h>
-#include <unistd.h>
 
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
+#include "command/keep_found.h"
 #include "compare/comparison.h"
 #include "compare/memory.h"
 #include "output/progress.h"
-
-/* ---- what was found is kept ------------------------------------------------------------ */
-
-/* The work looks for a signal only now and then, a whole period of time integration apart, and loses nothing of what it
- * has found: beside it a thread waits for the signal, then for the work to end by itself, and if that does not, writes
- * what there is and ends the program. Proof: tests/faults/test_rescue.c.
- *
- *     keep_found_begin -> the work, which holds `found` whenever it changes what it has found -> keep_found_end */
-typedef struct keep_found {
-  pthread_mutex_t found;
-  pthread_cond_t ended;
-  bool over;    /* the work has ended; under the lock */
-  bool watched; /* there is a thread */
-  int (*write)(
-      void *self); /* while the lock is held: writes what was found, its answer is the exit code; < 0: nothing */
-  void *self;
-  pthread_t thread;
-} keep_found;
-
-enum { LOOK_MS = 50, GRACE_MS = 500 };
-
-/* Lets go of the lock for so long, or until the work has ended. */
-static void wait_unlocked(keep_found *r, int ms)
-{
-  struct timespec until;
-  clock_gettime(CLOCK_REALTIME, &until);
-  until.tv_nsec += 1000000L * ms;
-  until.tv_sec += until.tv_nsec / 1000000000L, until.tv_nsec %= 1000000000L;
-  pthread_cond_timedwait(&r->ended, &r->found, &until);
-}
-
-static void *wait_for_signal(void *self)
-{
-  keep_found *r = self;
-  pthread_mutex_lock(&r->found);
-  while (!r->over && !progress_interrupted()) wait_unlocked(r, LOOK_MS);
-  for (int waited = 0; !r->over && waited < GRACE_MS; waited += LOOK_MS) wait_unlocked(r, LOOK_MS);
-  if (!r->over) {
-    progress_erase();
-    progress_hold(false); /* a pipe that nobody reads is no reason to stay */
-    const int code = r->write(r->self);
-    if (code < 0) progress_stop();
-    _exit(code); /* the work goes on meanwhile: nothing is freed under it */
-  }
-  pthread_mutex_unlock(&r->found);
-  return NULL;
-}
-
-/* Where the system has no more locks or threads, the program ends at once after a signal, as it would by itself. */
-static void keep_found_begin(keep_found *r, int (*write)(void *self), void *self)
-{
-  *r = (keep_found){.write = write, .self = self};
-  pthread_mutex_init(&r->found, NULL);
-  pthread_cond_init(&r->ended, NULL);
-  r->watched = pthread_create(&r->thread, NULL, wait_for_signal, r) == 0;
-  if (r->watched) progress_hold(true);
-}
-
-/* Does not return while the thread is writing: the program ends there. */
-static void keep_found_end(keep_found *r)
-{
-  pthread_mutex_lock(&r->found);
-  r->over = true;
-  pthread_cond_signal(&r->ended);
-  pthread_mutex_unlock(&r->found);
-  if (r->watched) pthread_join(r->thread, NULL);
-  if (r->watched) progress_hold(false);
-  pthread_cond_destroy(&r->ended);
-  pthread_mutex_destroy(&r->found);
-}
 
 static const char help[] =
     "Solve CASE by harmonic balance and by time integration at the same frequencies; report how far apart they are, "
@@ -344,12 +272,14 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   setup.found = &beside.found;
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
   setup.found = NULL;
-  keep_found_end(&beside);
+  pthread_mutex_lock(&beside.found);
   int n_tables = tables_of_found(common, own->contacts, &setup, &c, st, tables);
+  pthread_mutex_unlock(&beside.found);
   if (st == HC_OK && (own->tables || own->lists.harmonics.n || own->lists.samples.n)) {
     tabled = compare_tables(common, &setup, &c, &monitor, tables + n_tables, &a);
     n_tables += 2;
   }
+  keep_found_end(&beside);
   progress_end(bar);
   if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the comparison", st, 0);
   else code = comparison_exit_code(&c);

@@ -6,6 +6,7 @@
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
+#include "command/keep_found.h"
 #include "compare/motion.h"
 #include "compare/steady_states.h"
 #include "output/progress.h"
@@ -63,6 +64,51 @@ static table *contacts_table(const cli_common *common, steady_states *found)
   return t;
 }
 
+typedef struct found_states {
+  const cli_common *common;
+  bool contacts; /* --contacts */
+  steady_states *found;
+} found_states;
+
+/* The tables of what was found into tables[2], the second NULL without --contacts; with the messages of rows without a
+ * steady state, and that they are not all unless st is HC_OK. 0 or the exit code. */
+static int tables_of_found(const found_states *f, hc_status st, table *tables[2])
+{
+  const cli_common *common = f->common;
+  const scene_structure *of = common->scene->structure;
+  int code = 0;
+  table *t = cli_table(common, "Steady states", ROWS_TRANSIENT);
+  bool free = false, torus = false;
+  for (int i = 0; i < f->found->n; ++i) {
+    steady_row *row = &f->found->rows[i];
+    free |= row->status == HC_OK && motion_mean_is_free(&row->result);
+    torus |= row->status == HC_APERIODIC && !isnan(row->result.second_frequency);
+    if (of) structure_response_name(of, row->response, row->response_name, RESPONSE_NAME);
+    int row_code = put_row(common, row, t);
+    if (row_code) code = row_code;
+  }
+  if (!free) table_hide(t, "mean_free");
+  if (!torus) table_hide(t, "second_frequency");
+  if (st != HC_OK) {
+    table_note(t, "INCOMPLETE: %s", hc_status_text(st));
+    code = cli_solver_failed(common, CLI_TRANSIENT, "time integration", st, 0);
+  }
+  tables[0] = t;
+  tables[1] = f->contacts ? contacts_table(common, f->found) : NULL;
+  return code;
+}
+
+/* For keep_found_begin. */
+static int write_found(void *self)
+{
+  const found_states *f = self;
+  table *tables[2];
+  if (f->found->n == 0) return -1;
+  const int code = tables_of_found(f, HC_INTERRUPTED, tables);
+  const int written = cli_write(f->common, f->contacts ? 2 : 1, tables);
+  return code ? code : written;
+}
+
 static int run_transient(cli_common *common, void *given, scene *sc)
 {
   const transient_options *own = given;
@@ -77,32 +123,22 @@ static int run_transient(cli_common *common, void *given, scene *sc)
   steady_states found = {0};
   compare_setup setup;
   hc_status st = scene_setup(sc, &setup);
+  found_states so_far = {common, own->contacts, &found};
+  keep_found beside;
+  keep_found_begin(&beside, write_found, &so_far);
   setup.contacts = own->contacts;
+  setup.found = &beside.found;
   if (st == HC_OK) st = steady_states_run(&setup, &monitor, &found);
+  keep_found_end(&beside);
   scene_setup_clear(&setup);
   progress_end(bar);
-  table *t = cli_table(common, "Steady states", ROWS_TRANSIENT);
-  bool free = false, torus = false;
-  for (int i = 0; i < found.n; ++i) {
-    free |= found.rows[i].status == HC_OK && motion_mean_is_free(&found.rows[i].result);
-    torus |= found.rows[i].status == HC_APERIODIC && !isnan(found.rows[i].result.second_frequency);
-    if (sc->structure)
-      structure_response_name(sc->structure, found.rows[i].response, found.rows[i].response_name, RESPONSE_NAME);
-    int row_code = put_row(common, &found.rows[i], t);
-    if (row_code) code = row_code;
-  }
-  if (!free) table_hide(t, "mean_free");
-  if (!torus) table_hide(t, "second_frequency");
-  if (st != HC_OK) {
-    table_note(t, "INCOMPLETE: %s", hc_status_text(st));
-    code = cli_solver_failed(common, CLI_TRANSIENT, "time integration", st, 0);
-  }
-  table *contacts = own->contacts ? contacts_table(common, &found) : NULL;
-  int written = st == HC_OK || found.n ? cli_write(common, contacts ? 2 : 1, (table *[]){t, contacts}) : 0;
+  table *tables[2];
+  code = tables_of_found(&so_far, st, tables);
+  int written = st == HC_OK || found.n ? cli_write(common, own->contacts ? 2 : 1, tables) : 0;
   if (common->drawing.path && found.n && !written)
     written = cli_plotted(common, plot_transient(&common->drawing, sc, &found));
-  table_free(t);
-  table_free(contacts);
+  table_free(tables[0]);
+  table_free(tables[1]);
   steady_states_clear(&found);
   return code ? code : written;
 }

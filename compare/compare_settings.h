@@ -29,7 +29,7 @@ typedef struct compare_setup {
   const gate_limits *limits; /* what is within them is a match */
   bool spare;                /* leave out parts of the budget that nobody asks for and no verdict depends on */
   bool contacts;             /* what each contact does, too */
-  pthread_mutex_t *found;    /* held while rows are added to the comparison; NULL: nobody else looks */
+  pthread_mutex_t *found;    /* held while rows are added to the results; NULL: nobody else looks */
   int jobs;                  /* threads for the tables of accuracy.h; 0 and 1: the calling one alone */
 } compare_setup;
 

@@ -40,20 +40,32 @@ typedef struct steady_work {
   double *scratch;  /* [n_states] of the exact law's orbit next to that */
 } steady_work;
 
-static hc_status add_row(steady_states *s, const steady_row *row)
+/* While what was found changes, for who looks at it meanwhile. */
+static void lock_found(const steady_work *w)
 {
+  if (w->setup->found) pthread_mutex_lock(w->setup->found);
+}
+
+static void unlock_found(const steady_work *w)
+{
+  if (w->setup->found) pthread_mutex_unlock(w->setup->found);
+}
+
+static hc_status add_row(steady_work *w, const steady_row *row)
+{
+  steady_states *s = w->out;
+  lock_found(w);
   steady_row *grown = growing(s->rows, s->n, sizeof *grown);
-  if (!grown) return HC_NO_MEMORY;
-  s->rows = grown;
-  s->rows[s->n++] = *row;
-  return HC_OK;
+  if (grown) s->rows = grown, s->rows[s->n++] = *row;
+  unlock_found(w);
+  return grown ? HC_OK : HC_NO_MEMORY;
 }
 
 /* A row that came to nothing at that stage. */
 static hc_status add_failure(steady_work *w, steady_stage stage, hc_status st, double omega)
 {
   steady_row row = {.status = st, .stage = stage, .result = {.omega = omega}};
-  hc_status added = add_row(w->out, &row);
+  hc_status added = add_row(w, &row);
   return st == HC_INTERRUPTED ? st : added;
 }
 
@@ -77,15 +89,18 @@ static hc_status add_contacts(steady_work *w, const steady_row *row)
   const int n = model_whole_contacts(m);
   steady_states *out = w->out;
   contact_period *periods = calloc((size_t)m->n_contacts + 1, sizeof *periods);
+  hc_status measured = periods ? timeint_contacts(w->ti, &row->result, periods) : HC_NO_MEMORY;
+  if (measured == HC_OK) contact_periods_merge(m, periods);
+  lock_found(w);
   steady_contact *grown = growing_by(out->contacts, out->n_contacts, n, sizeof *grown);
   if (grown) out->contacts = grown;
-  const hc_status measured = periods && grown ? timeint_contacts(w->ti, &row->result, periods) : HC_NO_MEMORY;
-  if (measured == HC_OK) contact_periods_merge(m, periods);
+  else measured = HC_NO_MEMORY;
   for (int j = 0; j < n && measured == HC_OK; ++j) {
     steady_contact *c = &out->contacts[out->n_contacts++];
     *c = (steady_contact){.omega = row->result.omega, .contact = j, .period = periods[j]};
     snprintf(c->start, sizeof c->start, "%s", row->start);
   }
+  unlock_found(w);
   free(periods);
   return measured == HC_NO_MEMORY ? measured : HC_OK;
 }
@@ -99,7 +114,7 @@ static hc_status add_other_responses(steady_work *w, steady_row *row)
        ++row->response) {
     st = timeint_response(w->ti, row->response, &row->result);
     row->from_regularisation = NAN; /* known of the first response */
-    if (st == HC_OK) st = add_row(w->out, row);
+    if (st == HC_OK) st = add_row(w, row);
   }
   return st;
 }
@@ -112,7 +127,7 @@ static hc_status steady_settle(steady_work *w, double omega, const char *start, 
   row.status = timeint_steady(w->ti, omega, w->state, w->monitor, &row.result);
   if (row.status == HC_OK) row.from_regularisation = regularisation_error(w, &row.result, &row.status);
   if (row.status == HC_NO_MEMORY) return HC_NO_MEMORY;
-  hc_status st = add_row(w->out, &row);
+  hc_status st = add_row(w, &row);
   if (st == HC_OK && w->setup->contacts && motion_is_measured(row.status)) st = add_contacts(w, &row);
   if (st == HC_OK) st = add_other_responses(w, &row);
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;

@@ -29,6 +29,7 @@ static volatile sig_atomic_t line_drawn;  /* the progress line stands on the ter
 static volatile sig_atomic_t stop_code;   /* exit code when the grace period is over */
 static volatile sig_atomic_t child;       /* process id, 0: none */
 static volatile sig_atomic_t caller_ends; /* the program, not this file: progress_hold */
+static volatile sig_atomic_t was_held;    /* once it was so, there are results that a second signal is not to lose */
 static timer_t grace_is_over;             /* made before the handlers are installed */
 static bool can_wait;                     /* it was */
 
@@ -60,13 +61,16 @@ static void start_grace(void)
 
 static void on_signal(int number)
 {
+  const struct sigaction kill_it = {.sa_handler = SIG_DFL};
   if (!stop_signal) start_grace();
+  if (!was_held || !can_wait) sigaction(number, &kill_it, NULL); /* the next one of this kind */
   stop_signal = number;
 }
 
 void progress_hold(bool held)
 {
   caller_ends = held;
+  was_held = was_held || held;
   if (!held && stop_signal) start_grace();
 }
 
@@ -91,7 +95,7 @@ void progress_install_signals(int exit_code)
   stop_code = exit_code;
   can_wait = timer_create(CLOCK_MONOTONIC, &alarm, &grace_is_over) == 0 && sigprocmask(SIG_UNBLOCK, &heard, NULL) == 0;
   for (int i = 0; i < 3; ++i) {
-    struct sigaction old, action = {.sa_handler = on_signal, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    struct sigaction old, action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     sigemptyset(&action.sa_mask);
     if (sigaction(numbers[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(numbers[i], &action, NULL);
   }

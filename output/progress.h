@@ -16,12 +16,12 @@
 typedef struct progress progress;
 
 /* From now on the first SIGINT, SIGTERM or SIGHUP makes every tick answer false, and 0.7 s later ends the program with
- * exit_code, a message and without its child and files beside (output.h); the second of its kind kills. A signal that
- * was ignored (nohup) stays ignored. Call once, early. */
+ * exit_code, a message and without its child and files beside (output.h); the second of its kind kills, unless there
+ * are results to keep (progress_hold). A signal that was ignored (nohup) stays ignored. Call once, early. */
 void progress_install_signals(int exit_code);
 
-/* While held, the program does not end 0.7 s after a signal: the caller ends it (command/cmd_compare.c, keep_found).
- * Let go after a signal, 0.7 s begin. */
+/* While held, the program does not end 0.7 s after a signal: the caller ends it (command/keep_found.h).
+ * Let go after a signal, 0.7 s begin. From the first time on a second signal no longer kills. */
 void progress_hold(bool held);
 
 /* Ends the program as at the end of the 0.7 s. */

@@ -1,6 +1,7 @@
-/* test_rescue.c - `compare` is stopped inside a period of time integration that never ends, timeint_steady being
- * wrapped by the linker: the rows that were found before are written as in a run that is not stopped, the first table
- * says that it is not whole, the exit code is 3. Where no row was found yet, it ends as everything does. */
+/* test_rescue.c - `compare` or `transient` is stopped inside a period of time integration that never ends,
+ * timeint_steady being wrapped by the linker: the rows that were found before are written as in a run that is not
+ * stopped, the first table says that it is not whole, the exit code is 3; however many signals come. Where no row was
+ * found yet, it ends as everything does. */
 #include <signal.h>
 #include <unistd.h>
 
@@ -11,13 +12,14 @@
 enum { HANGS = 600 /* [s] of a child, to end hangs */ };
 
 static double stalls_at; /* from this omega on timeint_steady does not come back */
+static int signals = 1;  /* how many are sent there */
 
 hc_status __real_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r);
 hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r);
 hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r)
 {
   if (!(omega >= stalls_at)) return __real_timeint_steady(ti, omega, state, monitor, r);
-  raise(SIGINT);
+  for (int i = 0; i < signals; ++i) raise(SIGINT);
   for (;;) pause();
 }
 
@@ -44,6 +46,7 @@ static void run(const char *line, double omega, outcome *o)
 static const char *rows_of(const char *text)
 {
   const char *header = strstr(text, "omega,branch");
+  if (!header) header = strstr(text, "omega,verdict");
   return header ? header : "";
 }
 
@@ -72,6 +75,29 @@ static void rows_found_before_are_written(CHECK_STATE)
   }
 }
 
+#define STATES "transient small.yaml -q --format csv --set compare.omega=6.2,6.4,6.6"
+
+static void steady_states_are_kept_too(CHECK_STATE)
+{
+  run(STATES, INFINITY, &whole);
+  assert_int_equal(whole.code, 0);
+  assert_int_equal(lines_of(rows_of(whole.out)), 1 + 3);
+  run(STATES, 6.5, &stopped);
+  const char *rows = rows_of(stopped.out);
+  if (stopped.code != 3 || lines_of(rows) != 1 + 2 || strncmp(rows, rows_of(whole.out), strlen(rows)) != 0 ||
+      !strstr(stopped.out, "INCOMPLETE: stopped on request"))
+    child_show(&stopped, STATES), fail();
+}
+
+/* Without rows to keep it would kill: tests/output/test_progress.c. */
+static void a_second_signal_loses_none_of_them(CHECK_STATE)
+{
+  signals = 3;
+  rows_found_before_are_written(state);
+  steady_states_are_kept_too(state);
+  signals = 1;
+}
+
 static void the_table_says_that_it_is_not_whole(CHECK_STATE)
 {
   run("compare small.yaml -q --contacts -o result --set compare.omega=6.2,6.4,6.6", 6.3, &stopped);
@@ -97,6 +123,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(rows_found_before_are_written),
+      cmocka_unit_test(steady_states_are_kept_too),
+      cmocka_unit_test(a_second_signal_loses_none_of_them),
       cmocka_unit_test(the_table_says_that_it_is_not_whole),
       cmocka_unit_test(nothing_found_yet),
   };

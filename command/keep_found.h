@@ -1,0 +1,28 @@
+/* keep_found.h - rows that were found are kept after a signal, wherever the work is. It looks for a signal only now and
+ * then, a whole period of time integration apart: beside it a thread waits for the signal, then for the work to end by
+ * itself, and if that does not, writes what there is and ends the program. Further signals change nothing.
+ *
+ *     keep_found_begin -> the work, which holds `found` whenever it changes what it has found -> keep_found_end */
+#ifndef HC_KEEP_FOUND_H
+#define HC_KEEP_FOUND_H
+
+#include <pthread.h>
+#include <stdbool.h>
+
+typedef struct keep_found {
+  pthread_mutex_t found;
+  pthread_cond_t ended;
+  bool over;                /* the work has ended; under the lock */
+  bool watched;             /* there is a thread */
+  int (*write)(void *self); /* while the lock is held: writes what was found; the exit code, or < 0: nothing was */
+  void *self;
+  pthread_t thread;
+} keep_found;
+
+/* Where the system has no more locks or threads, the program ends at once after a signal, as it would by itself. */
+void keep_found_begin(keep_found *k, int (*write)(void *self), void *self);
+
+/* Does not return while the thread is writing: the program ends there. */
+void keep_found_end(keep_found *k);
+
+#endif
