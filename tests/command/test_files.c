@@ -1,9 +1,8 @@
 /* test_files.c - no output replaces an input or another output: each pair by its name, by links, by other spellings;
  * exit 64 before anything is computed, a message with both names, and every file in the folder as it was, to the
  * byte. */
+#include "tests/folder.h"
 #include "tests/shell.h"
-
-static char folder[] = "/tmp/hbmcheck-roles-XXXXXX";
 
 static const char scene[] = "title: small\n"
                             "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\n"
@@ -12,20 +11,11 @@ static const char scene[] = "title: small\n"
                             "compare: {omega: [5]}\n"
                             "hbm: {harmonics: 1}\n";
 
-static void put(const char *name, const char *text)
-{
-  FILE *to = fopen(name, "w");
-  assert_non_null(to);
-  fputs(text, to);
-  assert_int_equal(fclose(to), 0);
-}
-
 /* Exit code and both streams of a line for sh, in which $H is hbmcheck. */
 static void expect(const char *line, int code, const char *fragment)
 {
   static char said[1 << 16];
-  int found = shell_read(line, said, sizeof said);
-  shell_check(line, found, said, code, fragment);
+  shell_check(line, shell_read(line, said, sizeof said), said, code, fragment);
 }
 
 /* Every file and link in the folder, with checksums. */
@@ -158,38 +148,26 @@ static void what_may_be_said_twice(CHECK_STATE)
       0, "");
 }
 
-static int fill_folder(CHECK_STATE)
+static int fill_folder(void **state)
 {
-  if (!mkdtemp(folder) || chdir(folder) != 0) return -1;
-  put("case.yaml", scene);
-  put("other.yaml", scene);
-  put("curve.csv", "5,6.3\n6,15\n");
-  put("study.yaml", "study: two\nbase: case.yaml\nrun: frf\nvary: [{hbm.harmonics: [1, 2]}]\n");
+  if (folder_enter(state) != 0) return -1;
+  folder_put("case.yaml", scene);
+  folder_put("other.yaml", scene);
+  folder_put("curve.csv", "5,6.3\n6,15\n");
+  folder_put("study.yaml", "study: two\nbase: case.yaml\nrun: frf\nvary: [{hbm.harmonics: [1, 2]}]\n");
   return 0;
 }
 
-static int remove_folder(CHECK_STATE)
-{
-  char line[64];
-  snprintf(line, sizeof line, "cd / && rm -r %s", folder);
-  return system(line) == 0 ? 0 : -1;
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(an_output_over_its_case),
-      cmocka_unit_test(an_output_over_its_study_or_base),
-      cmocka_unit_test(an_output_over_the_curve),
-      cmocka_unit_test(an_output_over_the_results),
-      cmocka_unit_test(junit_plot_and_findings_over_another),
-      cmocka_unit_test(a_journal_is_kept),
-      cmocka_unit_test(a_page_named_after_its_case),
-      cmocka_unit_test(other_names_for_the_same_file),
-      cmocka_unit_test(the_streams_of_the_shell),
-      cmocka_unit_test(what_may_be_said_twice),
-  };
-  check_watchdog(120);
-  setenv("H", HBMCHECK_COMMAND, 1);
-  return cmocka_run_group_tests_name("command.files", tests, fill_folder, remove_folder);
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(an_output_over_its_case),
+    cmocka_unit_test(an_output_over_its_study_or_base),
+    cmocka_unit_test(an_output_over_the_curve),
+    cmocka_unit_test(an_output_over_the_results),
+    cmocka_unit_test(junit_plot_and_findings_over_another),
+    cmocka_unit_test(a_journal_is_kept),
+    cmocka_unit_test(a_page_named_after_its_case),
+    cmocka_unit_test(other_names_for_the_same_file),
+    cmocka_unit_test(the_streams_of_the_shell),
+    cmocka_unit_test(what_may_be_said_twice),
+};
+CHECK_MAIN_WITH("command.files", tests, 120, fill_folder, folder_remove)

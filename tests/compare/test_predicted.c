@@ -7,6 +7,7 @@
 #include "tests/faults/child.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_runs.h"
+#include "tests/wrap.h"
 
 /* What both sides are told to say [length]; not told: what they say themselves. */
 static struct {
@@ -14,18 +15,15 @@ static struct {
   motion_error hbm, transient;
 } stub;
 
-hc_status __real_hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out);
-hc_status __wrap_hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out);
-hc_status __wrap_hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out)
+WRAP(hc_status, hbm_predict, (hbm_solver * s, double omega, const double *X, motion_error *out))
 {
   hc_status st = __real_hbm_predict(s, omega, X, out);
   if (stub.told) *out = stub.hbm;
   return st;
 }
 
-hc_status __real_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r);
-hc_status __wrap_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r);
-hc_status __wrap_timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r)
+WRAP(hc_status, timeint_predict,
+     (timeint * ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r))
 {
   hc_status st = __real_timeint_predict(ti, state, monitor, n, r);
   if (stub.told) r->predicted = stub.transient;
@@ -34,9 +32,7 @@ hc_status __wrap_timeint_predict(timeint *ti, const double *state, const hc_moni
 
 static double damping_error; /* of HBM's model alone, relative */
 
-hc_status __real_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
-hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
-hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out)
+WRAP(hc_status, hbm_solver_new, (const model *m, const hbm_settings *how, hbm_solver **out))
 {
   model wrong = *m;
   double damping = *m->damping * (1 + damping_error);

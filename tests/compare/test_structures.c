@@ -7,12 +7,11 @@
 #include "compare/comparison.h"
 #include "tests/check.h"
 #include "tests/scene_runs.h"
+#include "tests/wrap.h"
 
 static void (*mistake)(model *m); /* made in the model that harmonic balance gets; NULL: none */
 
-hc_status __real_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
-hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
-hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out)
+WRAP(hc_status, hbm_solver_new, (const model *m, const hbm_settings *how, hbm_solver **out))
 {
   model *wrong;
   assert_int_equal(model_copy(m, &wrong), HC_OK);

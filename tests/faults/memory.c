@@ -1,6 +1,7 @@
 /* memory.c - see memory.h. Under gcc's address sanitizer the real functions are the sanitizer's, so that it still
  * sees every leak and overrun; else glibc's. strdup is here because the sanitizer's does not come through malloc. */
 #include "tests/faults/memory.h"
+#include "tests/wrap.h"
 
 #include <cvodes/cvodes.h>
 #include <dlfcn.h>
@@ -138,9 +139,7 @@ char *strdup(const char *text)
  * reasons): some where one allocation fails, some of SUNDIALS 7 only where all do. Under a limit nothing is sheltered:
  * hc_room_for has asked for more than such a call takes, and the call is not made. */
 #define SHELTERED_IF(crashes, type, name, parameters, arguments)                                                       \
-  type __real_##name parameters;                                                                                       \
-  type __wrap_##name parameters;                                                                                       \
-  type __wrap_##name parameters                                                                                        \
+  WRAP(type, name, parameters)                                                                                         \
   {                                                                                                                    \
     const int shelter = (crashes) && how != MEMORY_LIMIT;                                                              \
     sheltered += shelter;                                                                                              \
@@ -168,12 +167,9 @@ SHELTERED(N_Vector *, N_VCloneVectorArray, (int n, N_Vector v), (n, v))
 /* OpenBLAS 0.3.21 takes room for small products without a look at what malloc says. */
 typedef const int *sizes;
 typedef const double *entries;
-void __real_dgemm_(const char *at, const char *bt, sizes m, sizes n, sizes k, entries alpha, entries a, sizes lda,
-                   entries b, sizes ldb, entries beta, double *c, sizes ldc, size_t one, size_t also_one);
-void __wrap_dgemm_(const char *at, const char *bt, sizes m, sizes n, sizes k, entries alpha, entries a, sizes lda,
-                   entries b, sizes ldb, entries beta, double *c, sizes ldc, size_t one, size_t also_one);
-void __wrap_dgemm_(const char *at, const char *bt, sizes m, sizes n, sizes k, entries alpha, entries a, sizes lda,
-                   entries b, sizes ldb, entries beta, double *c, sizes ldc, size_t one, size_t also_one)
+WRAP(void, dgemm_,
+     (const char *at, const char *bt, sizes m, sizes n, sizes k, entries alpha, entries a, sizes lda, entries b,
+      sizes ldb, entries beta, double *c, sizes ldc, size_t one, size_t also_one))
 {
   const int shelter = how != MEMORY_LIMIT;
   sheltered += shelter;

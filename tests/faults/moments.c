@@ -16,6 +16,7 @@
 #include "output/output.h"
 #include "study/store.h"
 #include "tests/faults/child.h"
+#include "tests/wrap.h"
 
 static atomic_long passed;
 static long expected; /* written while one thread runs, as are the next two */
@@ -69,9 +70,7 @@ static void moment(void)
 }
 
 #define MOMENT(type, name, parameters, arguments)                                                                      \
-  type __real_##name parameters;                                                                                       \
-  type __wrap_##name parameters;                                                                                       \
-  type __wrap_##name parameters                                                                                        \
+  WRAP(type, name, parameters)                                                                                         \
   {                                                                                                                    \
     moment();                                                                                                          \
     return __real_##name arguments;                                                                                    \
@@ -84,9 +83,7 @@ MOMENT(hc_status, output_open, (const char *path, output **out), (path, out))
 MOMENT(hc_status, output_commit, (output * o), (o))
 MOMENT(hc_status, study_store_put, (study_store * store, const study_result *r), (store, r))
 
-void __real_workers_stop(workers *w, hc_status why);
-void __wrap_workers_stop(workers *w, hc_status why);
-void __wrap_workers_stop(workers *w, hc_status why)
+WRAP(void, workers_stop, (workers * w, hc_status why))
 {
   __real_workers_stop(w, why);
   set_gate(false);

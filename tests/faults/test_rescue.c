@@ -7,6 +7,7 @@
 
 #include "tests/faults/child.h"
 #include "tests/faults/small.h"
+#include "tests/wrap.h"
 #include "timeint/steady/steady.h"
 
 enum { HANGS = 600 /* [s] of a child, to end hangs */ };
@@ -14,9 +15,8 @@ enum { HANGS = 600 /* [s] of a child, to end hangs */ };
 static double stalls_at; /* from this omega on timeint_steady does not come back */
 static int signals = 1;  /* how many are sent there */
 
-hc_status __real_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r);
-hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r);
-hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r)
+WRAP(hc_status, timeint_steady,
+     (timeint * ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r))
 {
   if (!(omega >= stalls_at)) return __real_timeint_steady(ti, omega, state, monitor, r);
   for (int i = 0; i < signals; ++i) raise(SIGINT);

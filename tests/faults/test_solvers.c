@@ -10,6 +10,7 @@
 #include "study/scene_solvers.h"
 #include "tests/faults/child.h"
 #include "tests/faults/small.h"
+#include "tests/wrap.h"
 #include "timeint/timeint.h"
 
 typedef enum {
@@ -41,9 +42,7 @@ static void spoil(N_Vector v, lie how)
   for (sunindextype i = 0; i < NV_LENGTH_S(v); ++i) x[i] = how == SPOIL_NAN ? NAN : 1.001 * x[i];
 }
 
-int __real_KINSol(void *mem, N_Vector u, int strategy, N_Vector u_scale, N_Vector f_scale);
-int __wrap_KINSol(void *mem, N_Vector u, int strategy, N_Vector u_scale, N_Vector f_scale);
-int __wrap_KINSol(void *mem, N_Vector u, int strategy, N_Vector u_scale, N_Vector f_scale)
+WRAP(int, KINSol, (void *mem, N_Vector u, int strategy, N_Vector u_scale, N_Vector f_scale))
 {
   if (!strikes(&kin)) return __real_KINSol(mem, u, strategy, u_scale, f_scale);
   if (kin.how != RETURN_FLAG) __real_KINSol(mem, u, strategy, u_scale, f_scale);
@@ -51,9 +50,7 @@ int __wrap_KINSol(void *mem, N_Vector u, int strategy, N_Vector u_scale, N_Vecto
   return kin.flag;
 }
 
-int __real_CVode(void *mem, sunrealtype to, N_Vector y, sunrealtype *t, int task);
-int __wrap_CVode(void *mem, sunrealtype to, N_Vector y, sunrealtype *t, int task);
-int __wrap_CVode(void *mem, sunrealtype to, N_Vector y, sunrealtype *t, int task)
+WRAP(int, CVode, (void *mem, sunrealtype to, N_Vector y, sunrealtype *t, int task))
 {
   if (!strikes(&cv)) return __real_CVode(mem, to, y, t, task);
   if (cv.how == RETURN_FLAG || cv.how == STAND_STILL) return cv.flag;

@@ -6,6 +6,7 @@
 #include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/faults/small.h"
+#include "tests/wrap.h"
 #include "timeint/law/scaled.h"
 #include "timeint/timeint.h"
 
@@ -29,9 +30,7 @@ static bool strikes(void)
   return now.at > 0 && (now.stays ? now.calls >= now.at : now.calls == now.at);
 }
 
-hc_status __real_contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report);
-hc_status __wrap_contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report);
-hc_status __wrap_contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report)
+WRAP(hc_status, contact_forces_eval, (contact_forces * f, const double *X, double *F, contact_report *report))
 {
   hc_status st = __real_contact_forces_eval(f, X, F, report);
   now.struck = strikes();
@@ -41,18 +40,14 @@ hc_status __wrap_contact_forces_eval(contact_forces *f, const double *X, double 
 }
 
 /* That of a spoiled evaluation; the next evaluation makes it anew. */
-const double *__real_contact_forces_jacobian(contact_forces *f);
-const double *__wrap_contact_forces_jacobian(contact_forces *f);
-const double *__wrap_contact_forces_jacobian(contact_forces *f)
+WRAP(const double *, contact_forces_jacobian, (contact_forces * f))
 {
   double *jac = (double *)__real_contact_forces_jacobian(f);
   if (now.struck && now.jacobian) jac[1] = now.value;
   return jac;
 }
 
-bool __real_scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy);
-bool __wrap_scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy);
-bool __wrap_scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy)
+WRAP(bool, scaled_rhs, (const scaled_model *m, double theta, const double *y, double *dy))
 {
   bool finite = __real_scaled_rhs(m, theta, y, dy);
   if (!strikes()) return finite;

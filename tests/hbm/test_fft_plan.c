@@ -6,21 +6,18 @@
 #include "hbm/contact/fft_plan.h"
 #include "study/scene_solvers.h"
 #include "tests/check.h"
+#include "tests/wrap.h"
 
 static const pthread_mutex_t *held, *planner; /* the lock held now, or NULL; the lock held at the first call */
 static int calls, unguarded;
 
-int __real_pthread_mutex_lock(pthread_mutex_t *lock);
-int __wrap_pthread_mutex_lock(pthread_mutex_t *lock);
-int __wrap_pthread_mutex_lock(pthread_mutex_t *lock)
+WRAP(int, pthread_mutex_lock, (pthread_mutex_t * lock))
 {
   held = lock;
   return __real_pthread_mutex_lock(lock);
 }
 
-int __real_pthread_mutex_unlock(pthread_mutex_t *lock);
-int __wrap_pthread_mutex_unlock(pthread_mutex_t *lock);
-int __wrap_pthread_mutex_unlock(pthread_mutex_t *lock)
+WRAP(int, pthread_mutex_unlock, (pthread_mutex_t * lock))
 {
   held = NULL;
   return __real_pthread_mutex_unlock(lock);
@@ -33,25 +30,19 @@ static void note_call(void)
   ++calls;
 }
 
-fftw_plan __real_fftw_plan_dft_c2r_1d(int n, fftw_complex *from, double *to, unsigned flags);
-fftw_plan __wrap_fftw_plan_dft_c2r_1d(int n, fftw_complex *from, double *to, unsigned flags);
-fftw_plan __wrap_fftw_plan_dft_c2r_1d(int n, fftw_complex *from, double *to, unsigned flags)
+WRAP(fftw_plan, fftw_plan_dft_c2r_1d, (int n, fftw_complex *from, double *to, unsigned flags))
 {
   note_call();
   return __real_fftw_plan_dft_c2r_1d(n, from, to, flags);
 }
 
-fftw_plan __real_fftw_plan_dft_r2c_1d(int n, double *from, fftw_complex *to, unsigned flags);
-fftw_plan __wrap_fftw_plan_dft_r2c_1d(int n, double *from, fftw_complex *to, unsigned flags);
-fftw_plan __wrap_fftw_plan_dft_r2c_1d(int n, double *from, fftw_complex *to, unsigned flags)
+WRAP(fftw_plan, fftw_plan_dft_r2c_1d, (int n, double *from, fftw_complex *to, unsigned flags))
 {
   note_call();
   return __real_fftw_plan_dft_r2c_1d(n, from, to, flags);
 }
 
-void __real_fftw_destroy_plan(fftw_plan plan);
-void __wrap_fftw_destroy_plan(fftw_plan plan);
-void __wrap_fftw_destroy_plan(fftw_plan plan)
+WRAP(void, fftw_destroy_plan, (fftw_plan plan))
 {
   note_call();
   __real_fftw_destroy_plan(plan);

@@ -1,6 +1,7 @@
 /* test_memory.c - each allocation of our own code fails in turn: every call answers HBMCHECK_NO_MEMORY, hands over
  * nothing, and leaks nothing (the address sanitizer sees to that); without a failure it is HBMCHECK_OK. */
 #include "tests/library/case2.h"
+#include "tests/wrap.h"
 
 #include <stdbool.h>
 
@@ -8,15 +9,9 @@ static long asked, refused_one; /* refused_one: which allocation fails; 0: none 
 
 static bool refuse(void) { return ++asked == refused_one; }
 
-void *__real_malloc(size_t);
-void *__real_calloc(size_t, size_t);
-void *__real_realloc(void *, size_t);
-void *__wrap_malloc(size_t n);
-void *__wrap_calloc(size_t n, size_t size);
-void *__wrap_realloc(void *p, size_t n);
-void *__wrap_malloc(size_t n) { return refuse() ? NULL : __real_malloc(n); }
-void *__wrap_calloc(size_t n, size_t size) { return refuse() ? NULL : __real_calloc(n, size); }
-void *__wrap_realloc(void *p, size_t n) { return refuse() ? NULL : __real_realloc(p, n); }
+WRAP(void *, malloc, (size_t n)) { return refuse() ? NULL : __real_malloc(n); }
+WRAP(void *, calloc, (size_t n, size_t size)) { return refuse() ? NULL : __real_calloc(n, size); }
+WRAP(void *, realloc, (void *p, size_t n)) { return refuse() ? NULL : __real_realloc(p, n); }
 
 /* What is tried: HBMCHECK_OK and everything freed, or a status and nothing handed over. */
 typedef struct material {

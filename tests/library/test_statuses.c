@@ -7,6 +7,7 @@
 #include "compare/gate/gate.h"
 #include "compare/response.h"
 #include "compare/steady_states.h"
+#include "tests/wrap.h"
 
 /* X(function, parameters, arguments) */
 #define WRAPPED(X)                                                                                                     \
@@ -30,27 +31,21 @@ static struct {
   int rows_before; /* response_row_of: rows that are measured before */
 } forced;
 
-#define WRAP(name, parameters, arguments)                                                                              \
-  hc_status __real_##name parameters;                                                                                  \
-  hc_status __wrap_##name parameters;                                                                                  \
-  hc_status __wrap_##name parameters                                                                                   \
+#define ANSWER(name, parameters, arguments)                                                                            \
+  WRAP(hc_status, name, parameters)                                                                                    \
   {                                                                                                                    \
     hc_status st = __real_##name arguments;                                                                            \
     return forced.name != HC_OK ? forced.name : st;                                                                    \
   }
-WRAPPED(WRAP)
+WRAPPED(ANSWER)
 
-hc_status __real_hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve);
-hc_status __wrap_hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve);
-hc_status __wrap_hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve)
+WRAP(hc_status, hbm_trace, (hbm_solver * s, double from, double to, const hc_monitor *monitor, hbm_curve *curve))
 {
   hc_status st = __real_hbm_trace(s, from, to, monitor, curve);
   return forced.hbm_trace != HC_OK ? (curve->end = forced.hbm_trace) : st;
 }
 
-hc_status __real_response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row *out);
-hc_status __wrap_response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row *out);
-hc_status __wrap_response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row *out)
+WRAP(hc_status, response_row_of, (hbm_solver * s, const hbm_curve *c, int k, response_row *out))
 {
   if (forced.response_row_of != HC_OK && k >= forced.rows_before) return forced.response_row_of;
   return __real_response_row_of(s, c, k, out);
@@ -58,18 +53,14 @@ hc_status __wrap_response_row_of(hbm_solver *s, const hbm_curve *c, int k, respo
 
 static hc_status row_status; /* of the rows that are found; HC_OK: what it is */
 
-hc_status __real_steady_states_run(const compare_setup *setup, const hc_monitor *monitor, steady_states *out);
-hc_status __wrap_steady_states_run(const compare_setup *setup, const hc_monitor *monitor, steady_states *out);
-hc_status __wrap_steady_states_run(const compare_setup *setup, const hc_monitor *monitor, steady_states *out)
+WRAP(hc_status, steady_states_run, (const compare_setup *setup, const hc_monitor *monitor, steady_states *out))
 {
   hc_status st = __real_steady_states_run(setup, monitor, out);
   for (int k = 0; k < out->n && row_status != HC_OK; ++k) out->rows[k].status = out->rows[k].without_hbm = row_status;
   return forced.steady_states_run != HC_OK ? forced.steady_states_run : st;
 }
 
-hc_status __real_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
-hc_status __wrap_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
-hc_status __wrap_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out)
+WRAP(hc_status, comparison_run, (const compare_setup *setup, const hc_monitor *monitor, comparison *out))
 {
   hc_status st = __real_comparison_run(setup, monitor, out);
   for (int k = 0; k < out->n_rows && row_status != HC_OK; ++k)

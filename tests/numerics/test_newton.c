@@ -5,6 +5,7 @@
 
 #include "numerics/newton.h"
 #include "tests/hbm/scenes.h"
+#include "tests/wrap.h"
 
 enum { MAX_CALLS = 5000 };
 
@@ -408,9 +409,7 @@ typedef struct shortage {
 
 static int last_flag; /* KINSOL's: the linker wraps KINSol */
 
-int __real_KINSol(void *kin, N_Vector z, int strategy, N_Vector z_scale, N_Vector r_scale);
-int __wrap_KINSol(void *kin, N_Vector z, int strategy, N_Vector z_scale, N_Vector r_scale);
-int __wrap_KINSol(void *kin, N_Vector z, int strategy, N_Vector z_scale, N_Vector r_scale)
+WRAP(int, KINSol, (void *kin, N_Vector z, int strategy, N_Vector z_scale, N_Vector r_scale))
 {
   return last_flag = __real_KINSol(kin, z, strategy, z_scale, r_scale);
 }

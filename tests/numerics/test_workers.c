@@ -5,28 +5,23 @@
 
 #include "numerics/workers.h"
 #include "tests/check.h"
+#include "tests/wrap.h"
 
 enum { TASKS = 500, THREADS = 4 };
 
 static int lock_error, condition_error, thread_error; /* what the next calls answer; 0: what they do */
 
-int __real_pthread_mutex_init(pthread_mutex_t *lock, const pthread_mutexattr_t *how);
-int __wrap_pthread_mutex_init(pthread_mutex_t *lock, const pthread_mutexattr_t *how);
-int __wrap_pthread_mutex_init(pthread_mutex_t *lock, const pthread_mutexattr_t *how)
+WRAP(int, pthread_mutex_init, (pthread_mutex_t * lock, const pthread_mutexattr_t *how))
 {
   return lock_error ? lock_error : __real_pthread_mutex_init(lock, how);
 }
 
-int __real_pthread_cond_init(pthread_cond_t *changed, const pthread_condattr_t *how);
-int __wrap_pthread_cond_init(pthread_cond_t *changed, const pthread_condattr_t *how);
-int __wrap_pthread_cond_init(pthread_cond_t *changed, const pthread_condattr_t *how)
+WRAP(int, pthread_cond_init, (pthread_cond_t * changed, const pthread_condattr_t *how))
 {
   return condition_error ? condition_error : __real_pthread_cond_init(changed, how);
 }
 
-int __real_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*run)(void *), void *self);
-int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*run)(void *), void *self);
-int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *how, void *(*run)(void *), void *self)
+WRAP(int, pthread_create, (pthread_t * thread, const pthread_attr_t *how, void *(*run)(void *), void *self))
 {
   return thread_error ? thread_error : __real_pthread_create(thread, how, run, self);
 }

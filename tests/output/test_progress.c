@@ -12,14 +12,14 @@
 
 #include "output/progress.h"
 #include "tests/check.h"
+#include "tests/wrap.h"
 
 enum { SEEN_ROOM = 1 << 16 };
 static char seen[SEEN_ROOM];
 
 static struct timespec clock_now = {.tv_sec = 1000};
 
-int __wrap_clock_gettime(clockid_t which, struct timespec *t);
-int __wrap_clock_gettime(clockid_t which, struct timespec *t)
+WRAP(int, clock_gettime, (clockid_t which, struct timespec *t))
 {
   (void)which;
   *t = clock_now;

@@ -2,29 +2,16 @@
  * again. Runs the built command (HBMCHECK_COMMAND) in a shell, in a folder of its own. */
 #include <string.h>
 
+#include "tests/folder.h"
 #include "tests/shell.h"
 
-static char folder[] = "/tmp/hbmcheck-stress-XXXXXX";
-
-typedef struct outcome {
-  int code;
-  char out[262144];
-} outcome;
-static outcome last;
-
-/* "%s" in args is the folder, as often as it stands there (at most four times). */
-static void stress(const char *args)
-{
-  char line[2048], filled[1536];
-  snprintf(filled, sizeof filled, args, folder, folder, folder, folder);
-  snprintf(line, sizeof line, "%s stress -q %s", HBMCHECK_COMMAND, filled);
-  last.code = shell_read(line, last.out, sizeof last.out);
-}
+static char out[262144]; /* what the last run said */
 
 static void expect(const char *args, int code, const char *fragment)
 {
-  stress(args);
-  shell_check(args, last.code, last.out, code, fragment);
+  char line[2048];
+  snprintf(line, sizeof line, "$H stress -q %s", args);
+  shell_check(args, shell_read(line, out, sizeof out), out, code, fragment);
 }
 
 static void two_hundred_scenes_without_a_finding(CHECK_STATE)
@@ -35,19 +22,19 @@ static void two_hundred_scenes_without_a_finding(CHECK_STATE)
 /* And structures, which have a journal and case files of their own. */
 static void structures_without_a_finding(CHECK_STATE)
 {
-  expect("--structures --scenes 60 --results %s/structures", 0,
+  expect("--structures --scenes 60 --results $D/structures", 0,
          "60 scenes of seed 1 from 0 on: 0 findings, 0 scenes never classified");
-  expect("--structures --scenes 61 --results %s/structures --format csv", 0, "rotated,");
-  expect("--scenes 60 --results %s/structures 2>&1", 2, "scenes of this kind");
-  expect("--structures --first 3 --case > %s/one.yaml && " HBMCHECK_COMMAND " modes %s/one.yaml", 0, "omega_open");
+  expect("--structures --scenes 61 --results $D/structures --format csv", 0, "rotated,");
+  expect("--scenes 60 --results $D/structures 2>&1", 2, "scenes of this kind");
+  expect("--structures --first 3 --case > $D/one.yaml && $H modes $D/one.yaml", 0, "omega_open");
 }
 
 /* And those in space, with a check of their own. */
 static void structures_in_space_without_a_finding(CHECK_STATE)
 {
-  expect("--space --first 3 --scenes 20 --results %s/space --format csv", 0, "turned_tangents,");
-  expect("--structures --first 3 --scenes 5 --results %s/space 2>&1", 2, "scenes of this kind");
-  expect("--space --first 3 --case > %s/space.yaml && " HBMCHECK_COMMAND " modes %s/space.yaml", 0, "omega_open");
+  expect("--space --first 3 --scenes 20 --results $D/space --format csv", 0, "turned_tangents,");
+  expect("--structures --first 3 --scenes 5 --results $D/space 2>&1", 2, "scenes of this kind");
+  expect("--space --first 3 --case > $D/space.yaml && $H modes $D/space.yaml", 0, "omega_open");
 }
 
 /* Of a journal's scenes all but the times. */
@@ -58,18 +45,18 @@ static void structures_in_space_without_a_finding(CHECK_STATE)
 /* Killed while it wrote, and gone on with: the same scenes with the same results as in one go. */
 static void what_was_stopped_goes_on(CHECK_STATE)
 {
-  static char whole[sizeof last.out];
-  expect("--seed 5 --scenes 12 --seconds 60 --jobs 1 --results %s/whole > /dev/null; grep -vc '#' %s/whole", 0, "12");
+  static char whole[sizeof out];
+  expect("--seed 5 --scenes 12 --seconds 60 --jobs 1 --results $D/whole > /dev/null; grep -vc '#' $D/whole", 0, "12");
   expect(
-      "--seed 5 --scenes 5 --seconds 60 --jobs 1 --results %s/part > /dev/null; head -c -40 %s/part > %s/cut; grep -vc "
-      "'#' %s/cut",
+      "--seed 5 --scenes 5 --seconds 60 --jobs 1 --results $D/part > /dev/null; head -c -40 $D/part > $D/cut; grep -vc "
+      "'#' $D/cut",
       0, "5");
-  expect("--seed 5 --scenes 12 --seconds 60 --jobs 2 --results %s/cut > /dev/null; " UNTIMED " %s/cut | sort", 0,
+  expect("--seed 5 --scenes 12 --seconds 60 --jobs 2 --results $D/cut > /dev/null; " UNTIMED " $D/cut | sort", 0,
          "11 1 0 0 ");
-  strcpy(whole, last.out);
-  expect("--seed 5 --scenes 1 --case > /dev/null; " UNTIMED " %s/whole | sort", 0, "11 1 0 0 ");
-  assert_string_equal(last.out, whole);
-  expect("--seed 6 --scenes 12 --seconds 60 --results %s/whole 2>&1", 2, "not the results of this seed");
+  strcpy(whole, out);
+  expect("--seed 5 --scenes 1 --case > /dev/null; " UNTIMED " $D/whole | sort", 0, "11 1 0 0 ");
+  assert_string_equal(out, whole);
+  expect("--seed 6 --scenes 12 --seconds 60 --results $D/whole 2>&1", 2, "not the results of this seed");
 }
 
 /* A journal of one scene, changed by sed: exit 2 with the reason, and it is left as it was. */
@@ -78,8 +65,8 @@ static void refuse_changed(const char *change, const char *words)
   char args[512];
   snprintf(
       args, sizeof args,
-      "--seed 5 --scenes 1 --case >/dev/null; cd %%s; sed '%s' one >changed; cmp -s one changed && exit 98; cp changed "
-      "kept; " HBMCHECK_COMMAND " stress -q --seed 5 --scenes 2 --seconds 60 --results changed 2>&1; c=$?; "
+      "--seed 5 --scenes 1 --case >/dev/null; cd $D; sed '%s' one >changed; cmp -s one changed && exit 98; cp changed "
+      "kept; $H stress -q --seed 5 --scenes 2 --seconds 60 --results changed 2>&1; c=$?; "
       "cmp kept changed || exit 99; exit $c",
       change);
   expect(args, 2, words);
@@ -87,7 +74,7 @@ static void refuse_changed(const char *change, const char *words)
 
 static void a_journal_that_does_not_fit_is_refused(CHECK_STATE)
 {
-  expect("--seed 5 --scenes 1 --seconds 60 --results %s/one", 0, "1 scenes of seed 5 from 0 on");
+  expect("--seed 5 --scenes 1 --seconds 60 --results $D/one", 0, "1 scenes of seed 5 from 0 on");
   static const char *const other[] = {"1s/stress 4/stress 1/",
                                       "1s/stress 4/stress 5/",
                                       "2s/ units/ other_units/",
@@ -108,9 +95,8 @@ static void a_journal_that_does_not_fit_is_refused(CHECK_STATE)
 static void one_scene_is_printed_as_a_case_file(CHECK_STATE)
 {
   expect("--seed 5 --first 3 --case", 0, "Stress scene 3 of seed 5");
-  expect("--seed 5 --first 3 --case --output %s/three.yaml && " HBMCHECK_COMMAND
-         " frf --quiet %s/three.yaml > /dev/null && echo read",
-         0, "read");
+  expect("--seed 5 --first 3 --case --output $D/three.yaml && $H frf --quiet $D/three.yaml > /dev/null && echo read", 0,
+         "read");
   expect("--seed 5 --first 3 --scenes 1 --all --format csv", 0, "3,verdict,");
 }
 
@@ -119,17 +105,8 @@ static void what_cannot_be_is_said(CHECK_STATE)
   expect("--scenes 0 2>&1", 64, "is not an integer 1..");
   expect("--seconds nan 2>&1", 64, "is not a number > 0");
   expect("--set hbm.harmonics=3 2>&1", 64, "no case file");
-  expect("--scenes 1 --results %s 2>&1", 3, "directory");
+  expect("--scenes 1 --results $D 2>&1", 3, "directory");
   expect("--scenes 1 --results /dev/null/x 2>&1", 3, "Not a directory");
-}
-
-static int make_folder(CHECK_STATE) { return mkdtemp(folder) ? 0 : -1; }
-
-static int remove_folder(CHECK_STATE)
-{
-  char line[64];
-  snprintf(line, sizeof line, "rm -r %s", folder);
-  return system(line);
 }
 
 static const struct CMUnitTest tests[] = {
@@ -141,4 +118,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(one_scene_is_printed_as_a_case_file),
     cmocka_unit_test(what_cannot_be_is_said),
 };
-CHECK_MAIN_WITH("stress.command", tests, 900, make_folder, remove_folder)
+CHECK_MAIN_WITH("stress.command", tests, 900, folder_make, folder_remove)

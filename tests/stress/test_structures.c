@@ -14,6 +14,7 @@
 #include "stress/scenes.h"
 #include "stress/solved_scene.h"
 #include "tests/check.h"
+#include "tests/wrap.h"
 #include "timeint/steady/steady.h"
 
 typedef enum spoil {
@@ -39,9 +40,7 @@ typedef enum spoil {
 static spoil spoiled;
 static int multipliers, orbits; /* asked for so far */
 
-hc_status __real_hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x);
-hc_status __wrap_hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x);
-hc_status __wrap_hbm_response(hbm_solver *s, double omega, const double *X, int r, double *x)
+WRAP(hc_status, hbm_response, (hbm_solver * s, double omega, const double *X, int r, double *x))
 {
   const bool swap = spoiled == DOFS_SWAPPED && (r == 1 || r == 2);
   hc_status st = __real_hbm_response(s, omega, X, swap ? 3 - r : r, x);
@@ -59,9 +58,7 @@ static void transpose(int n, double *A)
     }
 }
 
-hc_status __real_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
-hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
-hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out)
+WRAP(hc_status, hbm_solver_new, (const model *m, const hbm_settings *how, hbm_solver **out))
 {
   model *other;
   assert_int_equal(model_copy(m, &other), HC_OK);
@@ -76,9 +73,7 @@ hc_status __wrap_hbm_solver_new(const model *m, const hbm_settings *how, hbm_sol
   return st;
 }
 
-hc_status __real_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report);
-hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report);
-hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report)
+WRAP(hc_status, exact_force_eval, (exact_force * e, const double *X, double *F, double *jac, contact_report *report))
 {
   hc_status st = __real_exact_force_eval(e, X, F, jac, report);
   for (int i = 1; i < 13 && spoiled == FORCE_TURNED && !jac; ++i) F[i] *= -1; /* H = 6 */
@@ -86,18 +81,14 @@ hc_status __wrap_exact_force_eval(exact_force *e, const double *X, double *F, do
   return st;
 }
 
-hc_status __real_hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
-hc_status __wrap_hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
-hc_status __wrap_hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
+WRAP(hc_status, hbm_solve, (hbm_solver * s, double omega, double *X, hbm_point *point))
 {
   hc_status st = __real_hbm_solve(s, omega, X, point);
   for (int i = 0; i < hbm_n_coefficients(s) && spoiled == FOUND_MOVED; ++i) X[i] *= 1 + 1e-4;
   return st;
 }
 
-hc_status __real_hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
-hc_status __wrap_hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
-hc_status __wrap_hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out)
+WRAP(hc_status, hbm_stability_at, (hbm_solver * s, double omega, const double *X, hbm_stability *out))
 {
   hc_status st = __real_hbm_stability_at(s, omega, X, out);
   if (spoiled == LATER_MULTIPLIERS && multipliers++ > 0) out->multiplier += 1e-6 * hbm_n_coefficients(s);
@@ -105,21 +96,15 @@ hc_status __wrap_hbm_stability_at(hbm_solver *s, double omega, const double *X, 
   return st;
 }
 
-hc_status __real_hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at);
-hc_status __wrap_hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at);
-hc_status __wrap_hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at)
+WRAP(hc_status, hbm_curve_at, (hbm_solver * s, const hbm_curve *curve, double omega, hbm_curve *at))
 {
   hc_status st = __real_hbm_curve_at(s, curve, omega, at);
   for (int i = 0; i < at->n * at->n_coef && spoiled == CURVE_MOVED; ++i) at->X[i] *= 1 + 1e-7;
   return st;
 }
 
-hc_status __real_timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
-                               timeint_result *r);
-hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
-                               timeint_result *r);
-hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
-                               timeint_result *r)
+WRAP(hc_status, timeint_orbit,
+     (timeint * ti, double omega, int k, double *state, const hc_monitor *monitor, timeint_result *r))
 {
   hc_status st = __real_timeint_orbit(ti, omega, k, state, monitor, r);
   ++orbits;
@@ -127,28 +112,21 @@ hc_status __wrap_timeint_orbit(timeint *ti, double omega, int k, double *state, 
   return st;
 }
 
-hc_status __real_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r);
-hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r);
-hc_status __wrap_timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r)
+WRAP(hc_status, timeint_steady,
+     (timeint * ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r))
 {
   ++orbits;
   return __real_timeint_steady(ti, omega, state, monitor, r);
 }
 
-hc_status __real_timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
-                               timeint_result *r);
-hc_status __wrap_timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
-                               timeint_result *r);
-hc_status __wrap_timeint_again(timeint *ti, double omega, int k, double *state, const hc_monitor *monitor,
-                               timeint_result *r)
+WRAP(hc_status, timeint_again,
+     (timeint * ti, double omega, int k, double *state, const hc_monitor *monitor, timeint_result *r))
 {
   ++orbits;
   return __real_timeint_again(ti, omega, k, state, monitor, r);
 }
 
-hc_status __real_timeint_response(timeint *ti, int i, timeint_result *r);
-hc_status __wrap_timeint_response(timeint *ti, int i, timeint_result *r);
-hc_status __wrap_timeint_response(timeint *ti, int i, timeint_result *r)
+WRAP(hc_status, timeint_response, (timeint * ti, int i, timeint_result *r))
 {
   hc_status st = __real_timeint_response(ti, i, r);
   const double by = spoiled == ORBITS_SCALED ? 1e-5 : spoiled == LATER_ORBITS ? 1e-5 * orbits : 0;
@@ -156,9 +134,7 @@ hc_status __wrap_timeint_response(timeint *ti, int i, timeint_result *r)
   return st;
 }
 
-hc_status __real_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
-hc_status __wrap_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
-hc_status __wrap_comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out)
+WRAP(hc_status, comparison_run, (const compare_setup *setup, const hc_monitor *monitor, comparison *out))
 {
   hc_status st = __real_comparison_run(setup, monitor, out);
   for (int i = 0; i < out->n_rows && spoiled == VERDICT_TURNED; ++i)

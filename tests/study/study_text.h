@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "study/study.h"
-#include "tests/check.h"
+#include "tests/folder.h"
 
 /* A linear scene: cheap, and enough wherever the scene is beside the point. */
 #define CASE                                                                                                           \
@@ -15,23 +15,13 @@
   "contacts: ["                                                                                                        \
   "{tangential_stiffness: 10, normal_stiffness: 20, friction: 0.3, angle_deg: 45}]}\n"
 
-static inline void write_text(const char *path, const char *text)
-{
-  FILE *to = fopen(path, "w");
-  assert_non_null(to);
-  assert_int_equal(fwrite(text, 1, strlen(text), to), strlen(text));
-  assert_int_equal(fclose(to), 0);
-}
-
 /* Read `text` with the assignments; NULL with the message in err. */
 static inline study *study_from_text(const char *text, int n_set, const char *const *set, case_error *err)
 {
-  char path[] = "/tmp/hbmcheck-study-XXXXXX";
+  char path[64];
   study *s = NULL;
-  int fd = mkstemp(path);
-  assert_true(fd >= 0);
-  close(fd);
-  write_text(path, text);
+  folder_put("s.yaml", text);
+  snprintf(path, sizeof path, "%s/s.yaml", folder);
   memset(err, 0, sizeof *err);
   hc_status st = study_read(path, n_set, set, &s, err);
   unlink(path);
@@ -44,10 +34,7 @@ static inline study *good_study(const char *text)
 {
   case_error err;
   study *s = study_from_text(text, 0, NULL, &err);
-  if (!s) {
-    print_error("refused: %s\n%s\n", text, err.message);
-    fail();
-  }
+  if (!s) fail_msg("refused: %s\n%s", text, err.message);
   return s;
 }
 

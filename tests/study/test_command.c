@@ -8,11 +8,10 @@
 
 #include "tests/faults/child.h"
 #include "tests/faults/moments.h"
+#include "tests/folder.h"
 #include "tests/shell.h"
 
 enum { HANGS = 600 /* [s] of a child, to end hangs */ };
-
-static char folder[] = "/tmp/hbmcheck-command-XXXXXX";
 
 typedef struct reply {
   int code;
@@ -25,7 +24,7 @@ static reply run(const char *args)
   enum { MOST = 1 << 22 };
   reply o = {-1, malloc(MOST)};
   char line[1024];
-  snprintf(line, sizeof line, "cd %s; %s study %s", folder, HBMCHECK_COMMAND, args);
+  snprintf(line, sizeof line, "cd $D; $H study %s", args);
   assert_non_null(o.out);
   o.code = shell_read(line, o.out, MOST);
   return o;
@@ -36,16 +35,6 @@ static void expect(const char *args, int code, const char *fragment)
   reply o = run(args);
   shell_check(args, o.code, o.out, code, fragment);
   free(o.out);
-}
-
-static void write_file(const char *name, const char *text)
-{
-  char path[128];
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  FILE *to = fopen(path, "w");
-  assert_non_null(to);
-  fputs(text, to);
-  assert_int_equal(fclose(to), 0);
 }
 
 #define LINEAR                                                                                                         \
@@ -87,7 +76,7 @@ static void run_inside(const char *args, int signal, long n)
 static void killed_and_resumed(CHECK_STATE)
 {
   unsigned long long seed = 88172645463325252ull;
-  write_file("k.yaml", MANY("kills", "40"));
+  folder_put("k.yaml", MANY("kills", "40"));
   run_inside("k.yaml -q --results whole.sqlite --jobs 1", 0, 0);
   assert_int_equal(last.code, 0);
   const long whole = last.count;
@@ -112,7 +101,7 @@ static void killed_and_resumed(CHECK_STATE)
 static void threads_change_nothing(CHECK_STATE)
 {
   static const char *const formats[] = {"csv", "json"};
-  write_file("t.yaml", MANY("threads", "10"));
+  folder_put("t.yaml", MANY("threads", "10"));
   for (int i = 0; i < 2; ++i) {
     char args[128];
     snprintf(args, sizeof args, "t.yaml -q --results :memory: --export %s --jobs 1", formats[i]);
@@ -129,7 +118,7 @@ static void threads_change_nothing(CHECK_STATE)
 
 static void stopped_by_a_signal(CHECK_STATE)
 {
-  write_file("s.yaml", MANY("signals", "80"));
+  folder_put("s.yaml", MANY("signals", "80"));
   run_inside("s.yaml -q", SIGTERM, 200);
   shell_check("stopped", last.code, last.err, 3, "scenes are in s.sqlite; the same command goes on from there");
   run_inside("s.yaml -q --export csv --fresh", SIGTERM, 200);
@@ -154,7 +143,7 @@ static void a_second_process_is_refused(CHECK_STATE)
 {
   int there[2], go[2], status;
   char byte;
-  write_file("p.yaml", MANY("processes", "10"));
+  folder_put("p.yaml", MANY("processes", "10"));
   assert_true(pipe(there) == 0 && pipe(go) == 0);
   fflush(NULL);
   pid_t child = fork();
@@ -178,21 +167,21 @@ static void a_second_process_is_refused(CHECK_STATE)
 
 static void changed_and_foreign(CHECK_STATE)
 {
-  write_file("c.yaml", "study: c\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2]}]\n");
+  folder_put("c.yaml", "study: c\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2]}]\n");
   expect("c.yaml -q", 0, "c.sqlite");
-  write_file("c.yaml", "study: c\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2, 3]}]\n");
+  folder_put("c.yaml", "study: c\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2, 3]}]\n");
   expect("c.yaml -q 2>&1", 2,
          "c.sqlite: results of another study, or of this one before it was changed; --fresh throws them away");
   expect("c.yaml -q --set oscillator.damping=0.5 2>&1", 2, "c.sqlite: results of another study");
   expect("c.yaml -q --fresh", 0, "c.sqlite");
-  write_file("c.sqlite", "precious notes, not a database\n");
+  folder_put("c.sqlite", "precious notes, not a database\n");
   expect("c.yaml -q --fresh 2>&1; cat c.sqlite", 0, "precious notes, not a database\n");
   expect("c.yaml -q 2>&1", 2, "c.sqlite: not an SQLite file");
 }
 
 static void claims_are_held(CHECK_STATE)
 {
-  write_file(
+  folder_put(
       "m.yaml",
       "study: m\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 2, 4]}]\nclaims:\n"
       "  - {source: text, says: heavier is slower, found: SELECT min(peak_omega) FROM scene, holds: "
@@ -202,11 +191,11 @@ static void claims_are_held(CHECK_STATE)
   /* M = 4: omega^2 = K/M - C^2/(2 M^2) = 9.995 */
   expect("m.yaml -q --results :memory:", 0, "heavier is slower  3.16148");
   expect("m.yaml -q --results :memory: --format csv", 0, ",agrees\n,no rows,,does not agree\n");
-  write_file("e.yaml",
+  folder_put("e.yaml",
              "study: e\n" LINEAR
              "run: frf\nvary: [{oscillator.mass: [1, 2]}]\nclaims:\n  - {says: x, holds: SELECT 0, expect: agree}\n");
   expect("m.yaml e.yaml -q --results :memory:", 1, "does not agree");
-  write_file("w.yaml", "study: w\n" LINEAR
+  folder_put("w.yaml", "study: w\n" LINEAR
                        "run: frf\nvary: [{oscillator.mass: [1, 2]}]\nclaims:\n  - {says: x, holds: SELECT y}\n");
   expect("w.yaml -q 2>&1; ls w.sqlite 2>/dev/null", 2, "w.yaml:6:22: `holds`: no such column: y");
 }
@@ -214,7 +203,7 @@ static void claims_are_held(CHECK_STATE)
 /* Two answers a claim; views; what the source took beside what it takes here; totals. */
 static void claims_have_two_sides(CHECK_STATE)
 {
-  write_file(
+  folder_put(
       "d.yaml",
       "study: d\n" LINEAR
       "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nviews:\n  light: 'SELECT *, \"oscillator.mass\" AS m FROM scene "
@@ -229,15 +218,14 @@ static void claims_have_two_sides(CHECK_STATE)
   expect("d.yaml -q --results :memory:", 0,
          "0 claims agree with the settings of their source, 1 do not, of 1 it cannot be said");
   /* views are of a run, not of the file */
-  expect("d.yaml -q --results d.sqlite --fresh && " HBMCHECK_COMMAND " study d.yaml -q --results d.sqlite", 0,
-         "it is light");
-  write_file("v.yaml",
+  expect("d.yaml -q --results d.sqlite --fresh && $H study d.yaml -q --results d.sqlite", 0, "it is light");
+  folder_put("v.yaml",
              "study: v\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nviews: {a: SELECT y FROM scene}\n");
   expect("v.yaml -q 2>&1", 2, "v.yaml:5:12: `a`: no such column: y");
-  write_file("v.yaml", "study: v\n" LINEAR
+  folder_put("v.yaml", "study: v\n" LINEAR
                        "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nviews: {a: SELECT 1; DROP TABLE scene}\n");
   expect("v.yaml -q 2>&1", 2, "is more than one query");
-  write_file(
+  folder_put(
       "u.yaml",
       "study: u\n" LINEAR
       "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n  - {source: s, says: x, ours: {holds: SELECT 0, expect: "
@@ -249,7 +237,7 @@ static void claims_have_two_sides(CHECK_STATE)
  * said can be what is expected. */
 static void claims_are_answered_in_fixed_steps(CHECK_STATE)
 {
-  write_file("f.yaml", "study: f\n" LINEAR
+  folder_put("f.yaml", "study: f\n" LINEAR
                        "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n  - source: text\n    says: it fails\n"
                        "    paper: {holds: SELECT NULL, expect: unsaid}\n"
                        "    ours: {holds: SELECT 0, expect: disagree}\n"
@@ -260,7 +248,7 @@ static void claims_are_answered_in_fixed_steps(CHECK_STATE)
          "text,it fails,stops,agrees,cannot be said,does not agree\n,only there,,does not agree,,\n");
   expect("f.yaml -q --results :memory:", 0, "1 claims agree in fixed steps, 1 do not, of 0 it cannot be said");
   expect("f.yaml -q --results :memory:", 0, "0 claims agree with ours, 1 do not, of 0 it cannot be said");
-  write_file("x.yaml", "study: x\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n"
+  folder_put("x.yaml", "study: x\n" LINEAR "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n"
                        "  - {source: s, says: y, fixed_step: {holds: SELECT 1, expect: unsaid}}\n");
   expect("x.yaml -q --results :memory:", 1, "not as expected in fixed steps: s: y");
 }
@@ -276,7 +264,7 @@ static void long_claims_are_wrapped(CHECK_STATE)
            "run: frf\nvary: [{oscillator.mass: [1, 4]}]\nclaims:\n  - {source: s, says: x, found: \"SELECT '%send'\", "
            "holds: SELECT 1}\n",
            text);
-  write_file("l.yaml", file);
+  folder_put("l.yaml", file);
   reply o = run("l.yaml -q --results :memory: | sed -n '/^Claims/,$p'");
   int words = 0;
   assert_int_equal(o.code, 0);
@@ -288,15 +276,15 @@ static void long_claims_are_wrapped(CHECK_STATE)
 
 static void a_failure_is_a_row(CHECK_STATE)
 {
-  write_file("f.yaml", "study: f\n" LINEAR "run: frf\nset: {hbm.force: sampled}\nvary: [{hbm.samples: [32, 8]}]\n");
+  folder_put("f.yaml", "study: f\n" LINEAR "run: frf\nset: {hbm.force: sampled}\nvary: [{hbm.samples: [32, 8]}]\n");
   expect("f.yaml -q", 3, "8 samples cannot tell 5 harmonics apart");
   expect("f.yaml -q --export csv", 3, "\n1,8,failed,");
-  expect("f.yaml -q >/dev/null; echo 'may_fail: true' >>f.yaml; " HBMCHECK_COMMAND " study f.yaml -q", 0,
+  expect("f.yaml -q >/dev/null; echo 'may_fail: true' >>f.yaml; $H study f.yaml -q", 0,
          "8 samples cannot tell 5 harmonics apart");
-  write_file("r.yaml", "study: r\n" LINEAR "run: transient\nvary: [{compare.omega: [[5], [6]]}]\n");
+  folder_put("r.yaml", "study: r\n" LINEAR "run: transient\nvary: [{compare.omega: [[5], [6]]}]\n");
   expect("r.yaml -q --export csv", 0, "\n1,[6],done,,6,settled,");
   expect("r.yaml -q --export csv --timings", 0, "status,reason,seconds,omega");
-  write_file("q.yaml", "study: q\n" LINEAR "set: {compare.omega: [5]}\nvary: [{oscillator.mass: [1, 2]}]\n");
+  folder_put("q.yaml", "study: q\n" LINEAR "set: {compare.omega: [5]}\nvary: [{oscillator.mass: [1, 2]}]\n");
   expect("q.yaml -q", 0, "match");
 }
 
@@ -318,21 +306,15 @@ static void usage_is_checked(CHECK_STATE)
   unsetenv("OMPI_COMM_WORLD_SIZE");
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(killed_and_resumed),      cmocka_unit_test(threads_change_nothing),
-      cmocka_unit_test(stopped_by_a_signal),     cmocka_unit_test(a_second_process_is_refused),
-      cmocka_unit_test(changed_and_foreign),     cmocka_unit_test(claims_are_held),
-      cmocka_unit_test(claims_have_two_sides),   cmocka_unit_test(claims_are_answered_in_fixed_steps),
-      cmocka_unit_test(long_claims_are_wrapped), cmocka_unit_test(a_failure_is_a_row),
-      cmocka_unit_test(usage_is_checked),
-  };
-  char clean[128];
-  check_watchdog(300);
-  setenv("COLUMNS", "80", 1);
-  if (!mkdtemp(folder)) return 1;
-  int failed = cmocka_run_group_tests_name("study.command", tests, NULL, NULL);
-  snprintf(clean, sizeof clean, "rm -r %s", folder);
-  return system(clean) == 0 ? failed : 1;
-}
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(killed_and_resumed),      cmocka_unit_test(threads_change_nothing),
+    cmocka_unit_test(stopped_by_a_signal),     cmocka_unit_test(a_second_process_is_refused),
+    cmocka_unit_test(changed_and_foreign),     cmocka_unit_test(claims_are_held),
+    cmocka_unit_test(claims_have_two_sides),   cmocka_unit_test(claims_are_answered_in_fixed_steps),
+    cmocka_unit_test(long_claims_are_wrapped), cmocka_unit_test(a_failure_is_a_row),
+    cmocka_unit_test(usage_is_checked),
+};
+
+static int make_folder(void **state) { return setenv("COLUMNS", "80", 1) == 0 ? folder_make(state) : -1; }
+
+CHECK_MAIN_WITH("study.command", tests, 300, make_folder, folder_remove)

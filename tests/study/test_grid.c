@@ -202,4 +202,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(one_number_of_rayleigh_damping_varies),
     cmocka_unit_test(parts_of_structures_do_not_vary),
 };
-CHECK_MAIN("study.grid", tests, 60)
+CHECK_MAIN_WITH("study.grid", tests, 60, folder_make, folder_remove)

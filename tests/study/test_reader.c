@@ -182,24 +182,19 @@ static void claims(CHECK_STATE)
 /* A base file's own mistakes are told with its own name; its name is seen from the study's folder. */
 static void a_base_beside_the_study(CHECK_STATE)
 {
-  char folder[] = "/tmp/hbmcheck-study-XXXXXX", base[64], path[64];
+  char path[64];
   case_error err = {{0}};
   study *s = NULL;
-  assert_non_null(mkdtemp(folder));
-  snprintf(base, sizeof base, "%s/b.yaml", folder);
   snprintf(path, sizeof path, "%s/s.yaml", folder);
-  write_text(path, "study: t\nbase: b.yaml\nvary: [{oscillator.mass: [1, 2]}]\n");
-  write_text(base, "oscillator: {mass: 1, damping: 0.4, stiffness: 4x}\n");
+  folder_put("s.yaml", "study: t\nbase: b.yaml\nvary: [{oscillator.mass: [1, 2]}]\n");
+  folder_put("b.yaml", "oscillator: {mass: 1, damping: 0.4, stiffness: 4x}\n");
   assert_int_equal(study_read(path, 0, NULL, &s, &err), HC_BAD_INPUT);
   assert_non_null(strstr(err.message, "/b.yaml:1:48: oscillator.stiffness is `4x`"));
-  write_text(base,
+  folder_put("b.yaml",
              "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 1}\nsweep: {omega: [3, 9]}\n");
   assert_int_equal(study_read(path, 0, NULL, &s, &err), HC_OK);
   assert_int_equal(s->n_scenes, 2);
   study_free(s);
-  unlink(base);
-  unlink(path);
-  rmdir(folder);
 }
 
 static const struct CMUnitTest tests[] = {
@@ -211,4 +206,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(claims),
     cmocka_unit_test(a_base_beside_the_study),
 };
-CHECK_MAIN("study.reader", tests, 60)
+CHECK_MAIN_WITH("study.reader", tests, 60, folder_make, folder_remove)

@@ -2,35 +2,21 @@
 #include "study/store.h"
 #include "tests/study/study_text.h"
 
-static char folder[] = "/tmp/hbmcheck-store-XXXXXX", file[64];
+static char file[64]; /* r.sqlite in the folder */
 
 #define LINEAR "study: t\n" CASE "run: frf\nvary: [{oscillator.mass: [1, 2, 3]}]\n"
-
-/* The bytes of the file, to free. */
-static char *bytes_of(const char *path, size_t *n)
-{
-  FILE *from = fopen(path, "rb");
-  assert_non_null(from);
-  char *all = malloc(1 << 20);
-  assert_non_null(all);
-  *n = fread(all, 1, 1 << 20, from);
-  fclose(from);
-  return all;
-}
 
 static void refuse_unchanged(const study *s, bool fresh, const char *words)
 {
   size_t before, after;
-  char *a = bytes_of(file, &before);
+  char *a = folder_read("r.sqlite", &before);
   case_error err = {{0}};
   study_store *st = NULL;
   assert_int_not_equal(study_store_open(s, file, "1", fresh, &st, &err), HC_OK);
   assert_null(st);
-  if (strncmp(err.message, file, strlen(file)) || !strstr(err.message, words)) {
-    print_error("expected '%s' in: %s\n", words, err.message);
-    fail();
-  }
-  char *b = bytes_of(file, &after);
+  if (strncmp(err.message, file, strlen(file)) || !strstr(err.message, words))
+    fail_msg("expected '%s' in: %s", words, err.message);
+  char *b = folder_read("r.sqlite", &after);
   assert_int_equal(before, after);
   assert_memory_equal(a, b, before);
   free(a);
@@ -41,10 +27,7 @@ static study_store *open_good(const study *s, const char *version, bool fresh)
 {
   case_error err = {{0}};
   study_store *st = NULL;
-  if (study_store_open(s, file, version, fresh, &st, &err) != HC_OK) {
-    print_error("%s\n", err.message);
-    fail();
-  }
+  if (study_store_open(s, file, version, fresh, &st, &err) != HC_OK) fail_msg("%s", err.message);
   return st;
 }
 
@@ -121,11 +104,12 @@ static void foreign_files_are_refused(CHECK_STATE)
 {
   study *s = good_study(LINEAR);
   for (int fresh = 0; fresh < 2; ++fresh) {
-    write_text(
-        file, "study: not a database, but longer than the hundred bytes of SQLite's header, which is what is looked at "
-              "first\n");
+    folder_put(
+        "r.sqlite",
+        "study: not a database, but longer than the hundred bytes of SQLite's header, which is what is looked at "
+        "first\n");
     refuse_unchanged(s, fresh, "not an SQLite file, expected the results of a study");
-    write_text(file, "short");
+    folder_put("r.sqlite", "short");
     refuse_unchanged(s, fresh, "not an SQLite file");
     unlink(file);
     run_sql("CREATE TABLE study(key, value); INSERT INTO study VALUES('schema', '1')");
@@ -142,8 +126,7 @@ static void damaged_files_are_refused(CHECK_STATE)
   study_store *st = open_good(s, "1", false);
   for (long id = 0; id < 3; ++id) keep_scene(s, st, id);
   study_store_close(st);
-  FILE *to = fopen(file, "r+b");
-  assert_non_null(to);
+  FILE *to = folder_open("r.sqlite", "r+b");
   for (long at = 4096; at < 4 * 4096; ++at) {
     fseek(to, at, SEEK_SET);
     putc((int)(at * 7919 % 251), to);
@@ -176,10 +159,8 @@ static void refuse_claim(const char *query, const char *words)
   study *s = study_from_text(text, 0, NULL, &err);
   assert_non_null(s);
   if (study_claims_check(s, &err) != HC_BAD_INPUT || !strstr(err.message, ":6:22: `holds`: ") ||
-      !strstr(err.message, words)) {
-    print_error("%s: expected '%s' in: %s\n", query, words, err.message);
-    fail();
-  }
+      !strstr(err.message, words))
+    fail_msg("%s: expected '%s' in: %s", query, words, err.message);
   study_free(s);
 }
 
@@ -225,21 +206,21 @@ static void results_travel(CHECK_STATE)
   study_free(s);
 }
 
-int main(void)
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(scenes_are_kept_once),
+    cmocka_unit_test(others_are_refused),
+    cmocka_unit_test(foreign_files_are_refused),
+    cmocka_unit_test(damaged_files_are_refused),
+    cmocka_unit_test(places_that_cannot_be),
+    cmocka_unit_test(claims_only_read),
+    cmocka_unit_test(results_travel),
+};
+
+static int make_folder(void **state)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(scenes_are_kept_once),
-      cmocka_unit_test(others_are_refused),
-      cmocka_unit_test(foreign_files_are_refused),
-      cmocka_unit_test(damaged_files_are_refused),
-      cmocka_unit_test(places_that_cannot_be),
-      cmocka_unit_test(claims_only_read),
-      cmocka_unit_test(results_travel),
-  };
-  check_watchdog(60);
-  if (!mkdtemp(folder)) return 1;
+  const int failed = folder_make(state);
   snprintf(file, sizeof file, "%s/r.sqlite", folder);
-  int failed = cmocka_run_group_tests_name("study.store", tests, NULL, NULL);
-  rmdir(folder);
   return failed;
 }
+
+CHECK_MAIN_WITH("study.store", tests, 60, make_folder, folder_remove)

@@ -1,23 +1,16 @@
 /* test_memory.c - reading a structure with the n-th allocation failing, for each n: out of memory is said, the scene is
  * left alone, and nothing leaks (that is for the address sanitizer to see). The linker wraps our own allocations. */
 #include "tests/cases/structure/structure_text.h"
+#include "tests/wrap.h"
 
 static long asked, failing; /* failing = 0: none */
 
 static bool fails(void) { return ++asked == failing; }
 
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *block, size_t size);
-char *__real_strdup(const char *text);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *block, size_t size);
-char *__wrap_strdup(const char *text);
-void *__wrap_malloc(size_t size) { return fails() ? NULL : __real_malloc(size); }
-void *__wrap_calloc(size_t count, size_t size) { return fails() ? NULL : __real_calloc(count, size); }
-void *__wrap_realloc(void *block, size_t size) { return fails() ? NULL : __real_realloc(block, size); }
-char *__wrap_strdup(const char *text) { return fails() ? NULL : __real_strdup(text); }
+WRAP(void *, malloc, (size_t size)) { return fails() ? NULL : __real_malloc(size); }
+WRAP(void *, calloc, (size_t count, size_t size)) { return fails() ? NULL : __real_calloc(count, size); }
+WRAP(void *, realloc, (void *block, size_t size)) { return fails() ? NULL : __real_realloc(block, size); }
+WRAP(char *, strdup, (const char *text)) { return fails() ? NULL : __real_strdup(text); }
 
 static hc_status read_and_build(const char *text, int n_set, const char *const *set, char *words, size_t size)
 {

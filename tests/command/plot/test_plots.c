@@ -4,8 +4,8 @@
  * installed. That pictures please the eye is not tested. */
 #include <stdbool.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "tests/folder.h"
 #include "tests/shell.h"
 
 #define CASE2 "cases/paper/case2.yaml "
@@ -15,34 +15,18 @@
 #define PLANE "cases/structures/plane.yaml "
 enum { MOST = 1 << 20 };
 
-static char folder[] = "/tmp/hbmcheck-plots-XXXXXX";
-static char text[MOST];
-
-/* Run a line of shell, where $D is our folder and $H the command; what it prints into text. The exit code. */
-static int shell(const char *line)
-{
-  char whole[4096];
-  snprintf(whole, sizeof whole, "D='%s'; H='%s'; %s", folder, HBMCHECK_COMMAND, line);
-  return shell_read(whole, text, sizeof text);
-}
+static char text[MOST]; /* what a line for sh printed, or a file */
 
 static void expect(const char *line, int code, const char *fragment)
 {
-  int got = shell(line);
-  shell_check(line, got, text, code, fragment);
+  shell_check(line, shell_read(line, text, sizeof text), text, code, fragment);
 }
 
 /* The file in our folder, into text; its length. */
 static size_t slurp(const char *name)
 {
-  char path[256];
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  FILE *f = fopen(path, "rb");
-  if (!f) {
-    print_error("%s is not there\n", path);
-    fail();
-  }
-  size_t n = fread(text, 1, sizeof text - 1, f);
+  FILE *f = folder_open(name, "rb");
+  const size_t n = fread(text, 1, sizeof text - 1, f);
   fclose(f);
   text[n] = 0;
   return n;
@@ -58,10 +42,7 @@ static int count(const char *what)
 static void expect_words(const char *name, const char *const *words)
 {
   for (; *words; ++words)
-    if (!strstr(text, *words)) {
-      print_error("%s does not say '%s'\n", name, *words);
-      fail();
-    }
+    if (!strstr(text, *words)) fail_msg("%s does not say '%s'", name, *words);
 }
 
 /* Draw with these arguments into NAME.svg: XML, with these words (NULL ends them), and as many things drawn: gnuplot
@@ -76,10 +57,8 @@ static void check_svg_of(const char *name, const char *args, int code, int plots
   snprintf(file, sizeof file, "%s.svg", name);
   assert_true(slurp(file) > 2000);
   expect_words(file, words);
-  if (count("id=\"gnuplot_plot_") != plots) {
-    print_error("%s: %d things drawn, expected %d\n", name, count("id=\"gnuplot_plot_"), plots);
-    fail();
-  }
+  const int drawn = count("id=\"gnuplot_plot_");
+  if (drawn != plots) fail_msg("%s: %d things drawn, expected %d", name, drawn, plots);
 }
 
 static void check_svg(const char *name, const char *args, int plots, const char *const *words)
@@ -165,23 +144,14 @@ static void contacts_in_a_plane(CHECK_STATE)
          "no friction");
 }
 
-static void write_study(const char *name, const char *axes)
-{
-  char path[256];
-  snprintf(path, sizeof path, "%s/%s.yaml", folder, name);
-  FILE *f = fopen(path, "w");
-  assert_non_null(f);
-  fprintf(f, "study: Drawn\nbase: %s/cases/paper/case2.yaml\nrun: frf\nset: {hbm.harmonics: 3}\nvary:\n%s", SOURCE_DIR,
-          axes);
-  fclose(f);
-}
+#define DRAWN "study: Drawn\nbase: " SOURCE_DIR "/cases/paper/case2.yaml\nrun: frf\nset: {hbm.harmonics: 3}\nvary:\n"
 
 static void studies(CHECK_STATE)
 {
-  write_study("lines", "  - hbm.static: [true, false]\n  - contacts[0].gap: [-5, -4, -3]\n");
+  folder_put("lines.yaml", DRAWN "  - hbm.static: [true, false]\n  - contacts[0].gap: [-5, -4, -3]\n");
   check_svg("lines", "study $D/lines.yaml --results :memory:", 2,
             WORDS("Drawn", "contacts[0].gap [m]", "peak_amplitude [m]", "static = true", "static = false"));
-  write_study("heat", "  - contacts[0].gap: [-5, -4, -3, -2]\n  - forcing.amplitude: [70, 80, 90, 100]\n");
+  folder_put("heat.yaml", DRAWN "  - contacts[0].gap: [-5, -4, -3, -2]\n  - forcing.amplitude: [70, 80, 90, 100]\n");
   check_svg("heat", "study $D/heat.yaml --results :memory: --plot-y turning_points", 3,
             WORDS("forcing.amplitude [N]", "turning_points [1]"));
   expect("$H study $D/lines.yaml --results :memory: --plot $D/x.svg --plot-y peek 2>&1", 64, "peak_amplitude");
@@ -266,23 +236,16 @@ static void what_can_go_wrong(CHECK_STATE)
  * markup, XML's and Pango's. */
 static void hostile_words_are_words(CHECK_STATE)
 {
-  static const char title[] =
-      "title: \"q\\\" . system('touch RAN') `touch RAN` $(touch RAN) \\\\n\\\\ {/=40 big} a_b^c @d & <b>x</b> 'e' %d "
-      "é ω\"\n";
-  char path[256], line[512];
-  snprintf(path, sizeof path, "%s/hostile.yaml", folder);
-  FILE *f = fopen(path, "w");
-  assert_non_null(f);
-  fprintf(f,
-          "%soscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 100}\nsweep: {omega: [3, "
-          "20]}\nunits: {length: '`a`_{b}\"', force: \"N\\\\\", time: 's@^&<i>%%s'}\n",
-          title);
-  fclose(f);
-  snprintf(line, sizeof line,
-           "cd $D && $H frf hostile.yaml -q --plot hostile.svg 2>&1 >/dev/null; ls RAN 2>/dev/null; xmllint --noout "
-           "hostile.svg 2>&1; $H frf hostile.yaml -q --plot h.png 2>&1 >/dev/null; $H frf hostile.yaml -q --plot h.pdf "
-           "2>&1 >/dev/null; ls RAN 2>/dev/null; true");
-  expect(line, 0, "");
+  folder_put(
+      "hostile.yaml",
+      "title: \"q\\\" . system('touch RAN') `touch RAN` $(touch RAN) \\\\n\\\\ {/=40 big} a_b^c @d & <b>x</b> 'e' "
+      "%d é ω\"\n"
+      "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 100}\nsweep: {omega: [3, 20]}\n"
+      "units: {length: '`a`_{b}\"', force: \"N\\\\\", time: 's@^&<i>%s'}\n");
+  expect("cd $D && $H frf hostile.yaml -q --plot hostile.svg 2>&1 >/dev/null; ls RAN 2>/dev/null; xmllint --noout "
+         "hostile.svg 2>&1; $H frf hostile.yaml -q --plot h.png 2>&1 >/dev/null; $H frf hostile.yaml -q --plot h.pdf "
+         "2>&1 >/dev/null; ls RAN 2>/dev/null; true",
+         0, "");
   assert_string_equal(text, "");
   slurp("hostile.svg");
   expect_words("hostile.svg",
@@ -291,10 +254,6 @@ static void hostile_words_are_words(CHECK_STATE)
   expect("$H frf $D/hostile.yaml -q --plot -", 0, "`touch RAN`");
   expect("$H frf $D/hostile.yaml -q --plot \"$D/a'b \\$(id).svg\" >/dev/null; ls $D", 0, "a'b $(id).svg");
 }
-
-static int make_folder(CHECK_STATE) { return mkdtemp(folder) ? 0 : -1; }
-
-static int remove_folder(CHECK_STATE) { return shell("rm -r \"$D\""); }
 
 int main(void)
 {
@@ -318,5 +277,5 @@ int main(void)
     return 77;
   }
   check_watchdog(600);
-  return cmocka_run_group_tests_name("compare.plot", tests, make_folder, remove_folder);
+  return cmocka_run_group_tests_name("compare.plot", tests, folder_make, folder_remove);
 }

@@ -11,20 +11,17 @@
 #define DARK "--blink-settings=preferredColorScheme=0" /* a reader whose scheme is dark */
 
 /* `scheme`: DARK, or "". */
-static void open_page(const char *folder, const char *of, const char *set, int code, const char *scheme)
+static void open_page(const char *of, const char *set, int code, const char *scheme)
 {
-  char args[1024], path[96];
-  size_t length;
-  snprintf(args, sizeof args, "report %s%s -o %s/page.html 2>&1", of, set, folder);
+  char args[1024];
+  snprintf(args, sizeof args, "report %s%s -o $D/page.html 2>&1", of, set);
   assert_int_equal(run(args), code);
   snprintf(args, sizeof args,
-           CHROMIUM HEADLESS "%s --user-data-dir=%s/profile --dump-dom 'file://%s/page.html#selftest' >%s/dom 2>%s/log",
-           scheme, folder, folder, folder, folder);
+           CHROMIUM HEADLESS
+           "%s --user-data-dir=$D/profile --dump-dom \"file://$D/page.html#selftest\" >$D/dom 2>$D/log",
+           scheme);
   shell_read(args, out, sizeof out);
-  snprintf(path, sizeof path, "%s/dom", folder);
-  char *dom = contents(path, &length);
-  snprintf(path, sizeof path, "%s/log", folder);
-  char *log = contents(path, &length);
+  char *dom = folder_read("dom", NULL), *log = folder_read("log", NULL);
   const char *said = strstr(dom, "<pre id=\"selftest\">");
   bool good = said && !strncmp(said + strlen("<pre id=\"selftest\">"), "selftest: ok ", 13) && !strstr(log, "CONSOLE");
   if (!good) print_error("%s\n%.2000s\n%.4000s\n", set, said ? said : "the page did not run", log);
@@ -50,7 +47,6 @@ static void every_plot_is_drawn_and_every_control_works(CHECK_STATE)
       {"--set contacts[0].gap=1 --set contacts[0].normal_stiffness=100 --at 10,12", 0, ""}, /* slip to and fro */
       {"--set sweep.frequency=0.5,3.2 --at 1,1.2", 0, ""},
       {"--set 'title=</script><b>x' --set 'units.length=<i>'", 0, ""}};
-  char folder[64], line[128];
   if (!CHROMIUM[0]) {
     print_message("SKIPPED: chromium is not installed (Debian: chromium), so the page was not opened\n");
     skip();
@@ -59,15 +55,12 @@ static void every_plot_is_drawn_and_every_control_works(CHECK_STATE)
     print_message("SKIPPED: built without Chart.js (Debian: libjs-chart.js), so there is no page\n");
     skip();
   }
-  make_folder(folder);
   for (size_t i = 0; i < sizeof pages / sizeof *pages; ++i)
-    open_page(folder, CASE2 SMALL, pages[i].set, pages[i].code, pages[i].scheme);
-  open_page(folder, "cases/structures/jenkins2.yaml -q ", "--at 24,25.9 --harmonics 5 --samples 64,256", 1, DARK);
-  open_page(folder, "cases/structures/stop2.yaml -q ", "--at 0.6 --harmonics 5 --samples 64", 1, "");
-  snprintf(line, sizeof line, "rm -rf %s", folder);
-  shell_read(line, out, sizeof out);
+    open_page(CASE2 SMALL, pages[i].set, pages[i].code, pages[i].scheme);
+  open_page("cases/structures/jenkins2.yaml -q ", "--at 24,25.9 --harmonics 5 --samples 64,256", 1, DARK);
+  open_page("cases/structures/stop2.yaml -q ", "--at 0.6 --harmonics 5 --samples 64", 1, "");
 }
 
 static const struct CMUnitTest tests[] = {cmocka_unit_test(every_plot_is_drawn_and_every_control_works)};
 
-CHECK_MAIN("compare_report.browser", tests, 600)
+CHECK_MAIN_WITH("compare_report.browser", tests, 600, folder_make, folder_remove)

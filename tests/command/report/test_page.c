@@ -11,10 +11,7 @@ static void count(const char *text, const char *what, int expected)
 {
   int n = 0;
   for (const char *at = text; (at = strstr(at, what)); at += strlen(what)) ++n;
-  if (n != expected) {
-    print_error("'%s' occurs %d times, expected %d\n", what, n, expected);
-    fail();
-  }
+  if (n != expected) fail_msg("'%s' occurs %d times, expected %d", what, n, expected);
 }
 
 /* The data block as it would be read by the page; to be released. */
@@ -51,10 +48,7 @@ static void check_words(const char *page)
                                       "Chart.js ",
                                       "Permission is hereby granted"};
   for (size_t i = 0; i < sizeof words / sizeof *words; ++i)
-    if (!strstr(page, words[i])) {
-      print_error("the page does not say '%s'\n", words[i]);
-      fail();
-    }
+    if (!strstr(page, words[i])) fail_msg("the page does not say '%s'", words[i]);
 }
 
 /* Nothing is loaded: no element with an address, and the browser is told to allow none. */
@@ -64,10 +58,7 @@ static void check_self_contained(const char *page)
       "src=\"",  "src='",          "href=\"http", "href=\"//", "@import", "url(", "<link rel=\"stylesheet",
       "<iframe", "XMLHttpRequest", "fetch("};
   for (size_t i = 0; i < sizeof loads / sizeof *loads; ++i)
-    if (strstr(page, loads[i])) {
-      print_error("the page holds '%s'\n", loads[i]);
-      fail();
-    }
+    if (strstr(page, loads[i])) fail_msg("the page holds '%s'", loads[i]);
   assert_non_null(strstr(page, "default-src 'none'"));
   assert_null(strstr(page, "{{"));
 }
@@ -93,19 +84,31 @@ static void check_data(const char *page)
   json_decref(data);
 }
 
+/* The page of `report ARGS`, which ends with that exit code; to be freed. */
+static char *page_of(const char *args, int code, size_t *length)
+{
+  char line[512];
+  snprintf(line, sizeof line, "report %s -o $D/page.html 2>&1", args);
+  expect(line, code, "");
+  char *page = folder_read("page.html", length);
+  assert_int_equal(system("rm $D/page.html"), 0);
+  return page;
+}
+
+/* Its data; to be released. */
+static json_t *data_of_page(const char *args)
+{
+  char *page = page_of(args, 0, NULL);
+  json_t *data = data_of(page);
+  free(page);
+  return data;
+}
+
 static void page_is_small_and_complete(CHECK_STATE)
 {
-  char folder[64], args[512], path[2][96];
   size_t length[2];
-  char *page[2];
-  make_folder(folder);
-  for (int i = 0; i < 2; ++i) {
-    snprintf(path[i], sizeof path[i], "%s/%d.html", folder, i);
-    snprintf(args, sizeof args, "report " CASE2 SMALL "-o %s 2>&1", path[i]);
-    expect(args, 0, "");
-    page[i] = contents(path[i], &length[i]);
-    unlink(path[i]);
-  }
+  expect("report " CASE2 SMALL "-o $D/0.html 2>&1", 0, "");
+  char *page[] = {folder_read("0.html", &length[0]), page_of(CASE2 SMALL, 0, &length[1])};
   assert_int_equal(length[0], length[1]);
   assert_memory_equal(page[0], page[1], length[0]); /* same input, same bytes */
   CHECK_LE((double)length[0], MOST_BYTES, "bytes of the page");
@@ -118,24 +121,6 @@ static void page_is_small_and_complete(CHECK_STATE)
   check_data(page[0]);
   free(page[0]);
   free(page[1]);
-  rmdir(folder);
-}
-
-/* The data of a page of case 2; to be released. */
-static json_t *data_of_page(const char *at)
-{
-  char folder[64], args[512], path[96];
-  size_t length;
-  make_folder(folder);
-  snprintf(path, sizeof path, "%s/page.html", folder);
-  snprintf(args, sizeof args, "report " CASE2 " -q --harmonics 1 --samples 32 --at %s -o %s 2>&1", at, path);
-  expect(args, 0, "");
-  char *page = contents(path, &length);
-  json_t *data = data_of(page);
-  free(page);
-  unlink(path);
-  rmdir(folder);
-  return data;
 }
 
 /* With the case's stiffness, the h-th H and the omega-th omega. */
@@ -156,7 +141,7 @@ static double entry(const json_t *of, const char *name, size_t i)
  * times the largest of |F_N|, |F_{N-1}|, |F_{N+1}| stands. */
 static void sampled_mean_is_what_folds_onto_it(CHECK_STATE)
 {
-  json_t *data = data_of_page("8,9");
+  json_t *data = data_of_page(CASE2 " -q --harmonics 1 --samples 32 --at 8,9");
   const json_t *one = state_of(data, 2, 1), /* H = 5, omega 9 */
       *sampled = json_array_get(json_object_get(one, "sampled"), 1);
   double off = entry(sampled, "difference", 0) * 1e-9, first = entry(one, "harmonics", 2 * 32 - 1) * 1e-6, most = 0;
@@ -172,7 +157,7 @@ static void sampled_mean_is_what_folds_onto_it(CHECK_STATE)
 static void harmonics_are_those_of_the_force_that_is_drawn(CHECK_STATE)
 {
   enum { TIMES = 128 };
-  json_t *data = data_of_page("8,9");
+  json_t *data = data_of_page(CASE2 " -q --harmonics 1 --samples 32 --at 8,9");
   const json_t *one = state_of(data, 2, 1), *sampled = json_array_get(json_object_get(one, "sampled"), 3);
   for (int h = 1; h <= 5; ++h) {
     double cosine = 0, sine = 0;
@@ -193,7 +178,7 @@ static void harmonics_are_those_of_the_force_that_is_drawn(CHECK_STATE)
  * that solution, finds a motion that touches with 16 samples and with no more, an accident of sampling. */
 static void sampling_gains_a_branch_that_truncation_lost(CHECK_STATE)
 {
-  json_t *data = data_of_page("8,8.9");
+  json_t *data = data_of_page(CASE2 " -q --harmonics 1 --samples 32 --at 8,8.9");
   const json_t *lost = state_of(data, 0, 1), *kept = state_of(data, 1, 1),
                *few = json_array_get(json_object_get(lost, "sampled"), 0),
                *many = json_array_get(json_object_get(lost, "sampled"), 8);
@@ -206,16 +191,8 @@ static void sampling_gains_a_branch_that_truncation_lost(CHECK_STATE)
 
 static void hostile_titles_are_text(CHECK_STATE)
 {
-  char folder[64], args[512], path[96];
-  size_t length;
-  make_folder(folder);
-  snprintf(path, sizeof path, "%s/page.html", folder);
-  snprintf(args, sizeof args,
-           "report " CASE2 SMALL
-           "--at 9 -o %s --set 'title=</script></title><b>x</b>{{data}}&' --set 'units.length=</scr' 2>&1",
-           path);
-  expect(args, 0, "");
-  char *page = contents(path, &length);
+  char *page = page_of(CASE2 SMALL "--at 9 --set 'title=</script></title><b>x</b>{{data}}&' --set 'units.length=</scr'",
+                       0, NULL);
   count(page, "</script>", 3);
   count(page, "</title>", 1);
   assert_null(strstr(page, "<b>x</b>"));
@@ -227,28 +204,16 @@ static void hostile_titles_are_text(CHECK_STATE)
   assert_string_equal(json_string_value(json_object_get(json_object_get(data, "units"), "length")), "</scr");
   json_decref(data);
   free(page);
-  unlink(path);
-  rmdir(folder);
 }
 
 /* Without contacts, and where they do nothing, there is nothing to alias; a page comes all the same. */
 static void linear_cases_have_a_page(CHECK_STATE)
 {
-  static const char *const sets[] = {"--set contacts=[]", "--set forcing.amplitude=0.001"};
-  for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i) {
-    char folder[64], args[512], path[96];
-    size_t length;
-    make_folder(folder);
-    snprintf(path, sizeof path, "%s/page.html", folder);
-    snprintf(args, sizeof args, "report " CASE2 SMALL "%s -o %s 2>&1", sets[i], path);
-    expect(args, 0, "");
-    char *page = contents(path, &length);
-    json_t *data = data_of(page);
+  static const char *const args[] = {CASE2 SMALL "--set contacts=[]", CASE2 SMALL "--set forcing.amplitude=0.001"};
+  for (size_t i = 0; i < sizeof args / sizeof *args; ++i) {
+    json_t *data = data_of_page(args[i]);
     assert_true(json_is_null(json_object_get(data, "aliasing")));
     json_decref(data);
-    free(page);
-    unlink(path);
-    rmdir(folder);
   }
 }
 
@@ -269,16 +234,9 @@ static double area(const json_t *loop)
  * responses. */
 static void a_structure_shows_its_shape_and_its_loops(CHECK_STATE)
 {
-  char folder[64], args[512], path[96];
-  size_t length;
-  make_folder(folder);
-  snprintf(path, sizeof path, "%s/page.html", folder);
-  snprintf(args, sizeof args,
-           "report cases/structures/jenkins2.yaml -q --set contacts[0].friction=0.3 --set hbm.harmonics=15 --at 25.9 "
-           "--harmonics 5 --samples 64 -o %s 2>&1",
-           path);
-  expect(args, 0, "");
-  char *page = contents(path, &length);
+  char *page = page_of("cases/structures/jenkins2.yaml -q --set contacts[0].friction=0.3 --set hbm.harmonics=15 "
+                       "--at 25.9 --harmonics 5 --samples 64",
+                       0, NULL);
   json_t *data = data_of(page), *structure = json_object_get(data, "structure"),
          *solution = json_array_get(json_object_get(structure, "solutions"), 0),
          *loop = json_array_get(json_object_get(solution, "loops"), 0);
@@ -300,28 +258,15 @@ static void a_structure_shows_its_shape_and_its_loops(CHECK_STATE)
   assert_null(strstr(page, "lab.html#")); /* the lab has no structures */
   json_decref(data);
   free(page);
-  unlink(path);
-  rmdir(folder);
 }
 
 /* A page of these settings holds these words. */
-static void expect_words(const char *set, int code, const char *const *words)
+static void expect_words(const char *args, int code, const char *const *words)
 {
-  char folder[64], args[512], path[96];
-  size_t length;
-  make_folder(folder);
-  snprintf(path, sizeof path, "%s/page.html", folder);
-  snprintf(args, sizeof args, "report %s -o %s 2>&1", set, path);
-  expect(args, code, "");
-  char *page = contents(path, &length);
+  char *page = page_of(args, code, NULL);
   for (; *words; ++words)
-    if (!strstr(page, *words)) {
-      print_error("%s: the page does not say '%s'\n", set, *words);
-      fail();
-    }
+    if (!strstr(page, *words)) fail_msg("%s: the page does not say '%s'", args, *words);
   free(page);
-  unlink(path);
-  rmdir(folder);
 }
 
 static void cycles_are_spoken_where_the_sweep_is_in_cycles(CHECK_STATE)
@@ -358,24 +303,15 @@ static void advice_on_samples_knows_the_forces_in_use(CHECK_STATE)
 /* Exit codes are compare's; a page that could not be written leaves what was there. */
 static void failures_touch_no_file(CHECK_STATE)
 {
-  char folder[64], args[512], path[96], text[16] = {0};
-  make_folder(folder);
-  snprintf(path, sizeof path, "%s/page.html", folder);
-  FILE *f = fopen(path, "w");
-  assert_non_null(f);
-  fputs("before", f);
-  fclose(f);
-  snprintf(args, sizeof args, "report " CASE2 " --set hbm.harmonics=0 -o %s 2>&1", path);
-  expect(args, 2, "hbm.harmonics");
-  snprintf(args, sizeof args, "report " CASE2 " --format csv -o %s 2>&1", path);
-  expect(args, 64, "HTML");
-  f = fopen(path, "r");
-  assert_non_null(f);
-  assert_non_null(fgets(text, sizeof text, f));
+  assert_int_equal(system("mkdir $D/old"), 0);
+  folder_put("old/page.html", "before");
+  expect("report " CASE2 " --set hbm.harmonics=0 -o $D/old/page.html 2>&1", 2, "hbm.harmonics");
+  expect("report " CASE2 " --format csv -o $D/old/page.html 2>&1", 64, "HTML");
+  char *text = folder_read("old/page.html", NULL);
   assert_string_equal(text, "before");
-  fclose(f);
-  unlink(path);
-  assert_int_equal(rmdir(folder), 0); /* nothing else was left */
+  free(text);
+  shell_read("ls -A $D/old", out, sizeof out);
+  assert_string_equal(out, "page.html\n"); /* nothing else was left */
   expect("report " CASE2 SMALL "-o /nonexistent/page.html 2>&1", 3, "/nonexistent/page.html: No such file");
   expect("report 2>&1", 64, "CASE");
   expect("report --help", 0, "example");
@@ -385,19 +321,9 @@ static void failures_touch_no_file(CHECK_STATE)
  * compare's. */
 static void disagreement_is_said(CHECK_STATE)
 {
-  char folder[64], args[512], path[96];
-  size_t length;
-  make_folder(folder);
-  snprintf(path, sizeof path, "%s/page.html", folder);
-  snprintf(args, sizeof args, "report " CASE2 SMALL "--set hbm.static=false -o %s 2>&1", path);
-  expect(args, 1, "");
-  char *page = contents(path, &length);
-  assert_non_null(strstr(page, "They do not agree."));
-  assert_non_null(strstr(page, "use hbm.static: true"));
-  assert_non_null(strstr(page, "no number of harmonics mends it"));
-  free(page);
-  unlink(path);
-  rmdir(folder);
+  static const char *const words[] = {"They do not agree.", "use hbm.static: true", "no number of harmonics mends it",
+                                      NULL};
+  expect_words(CASE2 SMALL "--set hbm.static=false", 1, words);
 }
 
 /* Built without Chart.js, the command names what is missing. */
@@ -421,6 +347,6 @@ int main(void)
       cmocka_unit_test(advice_on_samples_knows_the_forces_in_use),
   };
   check_watchdog(600);
-  return HAVE_CHARTJS ? cmocka_run_group_tests_name("compare_report.page", with, NULL, NULL)
+  return HAVE_CHARTJS ? cmocka_run_group_tests_name("compare_report.page", with, folder_make, folder_remove)
                       : cmocka_run_group_tests_name("compare_report.page", without, NULL, NULL);
 }

@@ -3,71 +3,35 @@
  * is tested in test_judge.c. */
 #include <stdbool.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "tests/folder.h"
 #include "tests/shell.h"
 
 #define CASE2 "cases/paper/case2.yaml "
 #define SMALL "oscillator: {mass: 1, damping: 0.4, stiffness: 40}\nforcing: {amplitude: 10}\nsweep: {omega: [3, 9]}\n"
 
-typedef struct outcome {
-  int code;
-  char out[65536];
-} outcome;
+static char out[65536]; /* what the last line for sh said */
 
-static char folder[] = "/tmp/hbmcheck-gate-XXXXXX";
-
-static outcome shell(const char *line)
-{
-  outcome o = {.code = -1};
-  o.code = shell_read(line, o.out, sizeof o.out);
-  return o;
-}
-
-/* "@" in args is the folder. */
-static outcome gate(const char *args)
+static int gate(const char *args)
 {
   char line[4096];
-  size_t n = (size_t)snprintf(line, sizeof line, "%s gate -q ", HBMCHECK_COMMAND);
-  for (; *args && n + sizeof folder < sizeof line; ++args)
-    if (*args == '@') n += (size_t)snprintf(line + n, sizeof line - n, "%s", folder);
-    else line[n++] = *args;
-  line[n] = 0;
-  return shell(line);
+  snprintf(line, sizeof line, "$H gate -q %s", args);
+  return shell_read(line, out, sizeof out);
 }
 
 static void expect(const char *args, int code, const char *fragment)
 {
-  outcome o = gate(args);
-  shell_check(args, o.code, o.out, code, fragment);
-}
-
-static void put_case(const char *name, const char *text)
-{
-  char path[256];
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  FILE *to = fopen(path, "w");
-  assert_non_null(to);
-  fputs(text, to);
-  assert_int_equal(fclose(to), 0);
-}
-
-static bool exists(const char *name)
-{
-  char path[256];
-  struct stat info;
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  return stat(path, &info) == 0;
+  shell_check(args, gate(args), out, code, fragment);
 }
 
 /* A number out of the JUnit file, by a parser that is not ours. */
 static int counted(const char *file, const char *xpath)
 {
   char line[1024];
-  snprintf(line, sizeof line, "'%s' --nonet --xpath '%s' '%s/%s'", XMLLINT, xpath, folder, file);
-  outcome o = shell(line);
-  if (o.code != 0) fail_msg("%s: exit %d, %s", line, o.code, o.out);
-  return atoi(o.out);
+  snprintf(line, sizeof line, "'%s' --nonet --xpath '%s' $D/%s", XMLLINT, xpath, file);
+  const int code = shell_read(line, out, sizeof out);
+  if (code != 0) fail_msg("%s: exit %d, %s", line, code, out);
+  return atoi(out);
 }
 
 /* The attributes say what is there, in all and case by case. */
@@ -93,13 +57,14 @@ static void passes_then_fails_when_the_result_gets_worse(CHECK_STATE)
     const char *args, *fragment;
     int code;
     bool failures;
-  } all[] = {{CASE2 "--junit @/a.xml", "pass", 0, false},
-             {CASE2 "--junit @/a.xml --set hbm.force=sampled --set hbm.samples=16384", "pass", 0, false},
-             {CASE2 "--junit @/a.xml --set hbm.force=sampled --set hbm.samples=64", "fail", 1, true},
-             {CASE2 "--junit @/a.xml --set hbm.static=false", "fail", 1, true}};
+  } all[] = {{CASE2 "--junit $D/a.xml", "pass", 0, false},
+             {CASE2 "--junit $D/a.xml --set hbm.force=sampled --set hbm.samples=16384", "pass", 0, false},
+             {CASE2 "--junit $D/a.xml --set hbm.force=sampled --set hbm.samples=64", "fail", 1, true},
+             {CASE2 "--junit $D/a.xml --set hbm.static=false", "fail", 1, true}};
   for (int i = 0; i < 4; ++i) {
+    assert_int_equal(shell_read("rm -f $D/a.xml", out, sizeof out), 0);
     expect(all[i].args, all[i].code, all[i].fragment);
-    assert_true(exists("a.xml"));
+    fclose(folder_open("a.xml", "r"));
     if (!*XMLLINT) continue;
     int failures = counted("a.xml", "count(//failure)");
     assert_int_equal(failures > 0, all[i].failures);
@@ -114,17 +79,14 @@ static void passes_then_fails_when_the_result_gets_worse(CHECK_STATE)
  * missing shows to a transient that comes from elsewhere. */
 static void unstable_solutions_are_held_against_their_orbits(CHECK_STATE)
 {
-  outcome o = gate(CASE2 "--at 9 --format csv");
-  assert_int_equal(o.code, 0);
-  assert_non_null(strstr(o.out, ",1,unstable,amplitude,orbit,"));
-  assert_null(strstr(o.out, ",0,unstable"));
-  o = gate(CASE2 "--at 8 --format csv --set hbm.harmonics=2");
-  assert_int_equal(o.code, 1);
-  const char *row = strstr(o.out, ",1,unstable,amplitude,orbit,0.001,"), *fail_at = row ? strstr(row, ",fail,") : NULL;
+  expect(CASE2 "--at 9 --format csv", 0, ",1,unstable,amplitude,orbit,");
+  assert_null(strstr(out, ",0,unstable"));
+  expect(CASE2 "--at 8 --format csv --set hbm.harmonics=2", 1, ",1,unstable,amplitude,orbit,0.001,");
+  const char *row = strstr(out, ",1,unstable,amplitude,orbit,0.001,"), *fail_at = strstr(row, ",fail,");
   assert_true(fail_at && fail_at < strchr(row, '\n'));
   expect(CASE2 "--at 9 --set hbm.harmonics=1 --set transient.start=up --format csv", 1,
          "the transient runs elsewhere, and no HBM solution");
-  expect(CASE2 "--at 5.56 --junit @/p.xml --format csv", 1,
+  expect(CASE2 "--at 5.56 --junit $D/p.xml --format csv", 1,
          "the transient repeats only after 2 forcing periods: no HBM solution is what happens");
   if (*XMLLINT) check_counts("p.xml", 1, 1, 0); /* the HBM solution itself is right */
 }
@@ -132,18 +94,17 @@ static void unstable_solutions_are_held_against_their_orbits(CHECK_STATE)
 /* Every response of chain3 with H = 20 is right, the unstable solution at 1.485 too; with H = 5 it is 5 % off. */
 static void every_response_of_a_structure_is_held_to_its_limits(CHECK_STATE)
 {
-  outcome o = gate("cases/structures/chain3.yaml --at 1.485 --set hbm.harmonics=20 --format csv");
-  assert_int_equal(o.code, 0);
-  assert_non_null(strstr(o.out, "case,omega,branch,response,verdict,"));
+  expect("cases/structures/chain3.yaml --at 1.485 --set hbm.harmonics=20 --format csv", 0,
+         "case,omega,branch,response,verdict,");
   for (const char *r = "123"; *r; ++r) {
     char row[64];
     snprintf(row, sizeof row, ",1,%c,unstable,amplitude,orbit,0.001,", *r);
-    assert_non_null(strstr(o.out, row));
+    assert_non_null(strstr(out, row));
     snprintf(row, sizeof row, ",0,%c,match,waveform,transient,", *r);
-    assert_non_null(strstr(o.out, row));
+    assert_non_null(strstr(out, row));
   }
-  assert_null(strstr(o.out, ",fail,"));
-  expect("cases/structures/chain3.yaml --at 1.485 --junit @/s.xml", 1, "chain3.yaml: 39 checks");
+  assert_null(strstr(out, ",fail,"));
+  expect("cases/structures/chain3.yaml --at 1.485 --junit $D/s.xml", 1, "chain3.yaml: 39 checks");
   if (!*XMLLINT) skip();
   check_counts("s.xml", 1, counted("s.xml", "count(//failure)"), 0);
   assert_int_equal(counted("s.xml", "count(//testcase[@name=\"omega 1.485 branch 0 response 3: waveform\"]/failure)"),
@@ -163,28 +124,29 @@ static void limits_are_those_of_the_case(CHECK_STATE)
 
 static void wrong_limits_are_named_before_anything_runs(CHECK_STATE)
 {
-  put_case("ok.yaml", SMALL);
-  put_case("bad.yaml", SMALL "gate:\n  amplitude: 1e-3\n  waveform: 5e-3, 2\n");
-  put_case("key.yaml", SMALL "gate: {harmonic_2: 1e-3}\n");
-  put_case("ranges.yaml", SMALL "gate:\n  ranges: [4, 5]\n  range_mean: [1e-3, 1e-3]\n");
-  expect("@/ok.yaml @/bad.yaml --junit @/w.xml 2>&1", 2,
+  folder_put("ok.yaml", SMALL);
+  folder_put("bad.yaml", SMALL "gate:\n  amplitude: 1e-3\n  waveform: 5e-3, 2\n");
+  folder_put("key.yaml", SMALL "gate: {harmonic_2: 1e-3}\n");
+  folder_put("ranges.yaml", SMALL "gate:\n  ranges: [4, 5]\n  range_mean: [1e-3, 1e-3]\n");
+  expect("$D/ok.yaml $D/bad.yaml --junit $D/w.xml 2>&1", 2,
          "/bad.yaml:6:13: gate.waveform is `5e-3, 2`, expected a number > 0");
-  expect("@/ok.yaml @/key.yaml --junit @/w.xml 2>&1", 2,
+  expect("$D/ok.yaml $D/key.yaml --junit $D/w.xml 2>&1", 2,
          "/key.yaml:4:8: unknown key `harmonic_2` in `gate`, did you mean `harmonic_1`?");
-  expect("@/ranges.yaml @/ok.yaml --junit @/w.xml 2>&1", 2,
+  expect("$D/ranges.yaml $D/ok.yaml --junit $D/w.xml 2>&1", 2,
          "/ranges.yaml:6:15: gate.range_mean has 2 limits for 1 range");
-  expect("@/ok.yaml @/bad.yaml --junit @/w.xml 2>/dev/null | wc -c", 0, "0\n"); /* not a row of the case that is fine */
+  expect("$D/ok.yaml $D/bad.yaml --junit $D/w.xml 2>/dev/null | wc -c", 0,
+         "0\n"); /* not a row of the case that is fine */
 }
 
 /* A CI page that only says that there is no report sends people to the log: the message is in the report. */
 static void a_wrong_case_file_is_in_the_junit(CHECK_STATE)
 {
-  put_case("ok.yaml", SMALL);
-  put_case("a&b <c>.yaml", SMALL "gate: {'x<y & \"z\"': 1}\n");
-  expect("@/ok.yaml '@/a&b <c>.yaml' @/none.yaml --junit @/u.xml 2>&1", 2,
+  folder_put("ok.yaml", SMALL);
+  folder_put("a&b <c>.yaml", SMALL "gate: {'x<y & \"z\"': 1}\n");
+  expect("$D/ok.yaml \"$D/a&b <c>.yaml\" $D/none.yaml --junit $D/u.xml 2>&1", 2,
          "a&b <c>.yaml:4:8: unknown key `x<y & \"z\"`");
-  expect("@/ok.yaml '@/a&b <c>.yaml' @/none.yaml --junit @/u.xml 2>&1", 2, "/none.yaml: cannot be opened");
-  expect("'@/a&b <c>.yaml' --junit @/none/u.xml 2>&1", 2, "none/u.xml: No such file");
+  expect("$D/ok.yaml \"$D/a&b <c>.yaml\" $D/none.yaml --junit $D/u.xml 2>&1", 2, "/none.yaml: cannot be opened");
+  expect("\"$D/a&b <c>.yaml\" --junit $D/none/u.xml 2>&1", 2, "none/u.xml: No such file");
   if (!*XMLLINT) skip();
   check_counts("u.xml", 3, 0, 2);
   assert_int_equal(counted("u.xml", "number(/testsuites/@skipped)"), 1);
@@ -199,9 +161,9 @@ static void a_wrong_case_file_is_in_the_junit(CHECK_STATE)
 
 static void several_cases_are_several_suites(CHECK_STATE)
 {
-  put_case("ok.yaml", SMALL);
-  put_case("a&b <c>.yaml", SMALL "compare: {omega: [5]}\n");
-  expect(CASE2 "@/ok.yaml '@/a&b <c>.yaml' --set hbm.static=false --junit @/m.xml", 1, "a&b <c>.yaml: ");
+  folder_put("ok.yaml", SMALL);
+  folder_put("a&b <c>.yaml", SMALL "compare: {omega: [5]}\n");
+  expect(CASE2 "$D/ok.yaml \"$D/a&b <c>.yaml\" --set hbm.static=false --junit $D/m.xml", 1, "a&b <c>.yaml: ");
   if (!*XMLLINT) skip();
   int failures = counted("m.xml", "count(//testsuite[1]/testcase/failure)"),
       errors = counted("m.xml", "count(//testsuite[1]/testcase/error)");
@@ -212,7 +174,7 @@ static void several_cases_are_several_suites(CHECK_STATE)
 
 static void what_cannot_be_compared_is_an_error(CHECK_STATE)
 {
-  expect(CASE2 "--at 6.5 --set transient.max_periods=3 --junit @/e.xml --format csv", 3,
+  expect(CASE2 "--at 6.5 --set transient.max_periods=3 --junit $D/e.xml --format csv", 3,
          "did not reach a steady state");
   if (*XMLLINT) check_counts("e.xml", 1, 0, 1);
   expect(CASE2 "--set hbm.continuation=natural --set compare.omega=5 --format csv", 3,
@@ -223,27 +185,16 @@ static void junit_is_written_whole_or_not_at_all(CHECK_STATE)
 {
   expect(CASE2 "--junit /nonexistent/a.xml 2>&1", 3, "/nonexistent/a.xml: No such file or directory");
   expect(CASE2 "--at 5 --junit /nonexistent/a.xml 2>/dev/null | wc -c", 0, "0\n"); /* and no table */
-  expect(CASE2 "--at 5 --junit @/same -o @/same 2>&1", 64, "the same file");
+  expect(CASE2 "--at 5 --junit $D/same -o $D/same 2>&1", 64, "the same file");
   expect(CASE2 "--junit 2>&1", 64, "junit");
   expect("2>&1", 64, "CASE");
   expect("--help", 0, "example");
   if (access("/dev/full", W_OK) == 0) expect(CASE2 "--at 5 --junit /dev/full 2>&1", 3, "/dev/full: No space left");
-  put_case("ok.yaml", SMALL);
-  expect("@/ok.yaml --junit @/one.xml -o @/one.txt", 0, "");
-  expect("@/ok.yaml --junit @/two.xml -o @/two.txt", 0, "");
-  char line[256];
-  snprintf(line, sizeof line, "cd %s && cmp one.xml two.xml && cmp one.txt two.txt && ls | grep -c xml", folder);
-  assert_int_equal(shell(line).code, 0);
-}
-
-static int make_folder(CHECK_STATE) { return mkdtemp(folder) ? 0 : -1; }
-
-static int remove_folder(void **state)
-{
-  char line[64];
-  (void)state;
-  snprintf(line, sizeof line, "rm -r %s", folder);
-  return shell(line).code;
+  folder_put("ok.yaml", SMALL);
+  expect("$D/ok.yaml --junit $D/one.xml -o $D/one.txt", 0, "");
+  expect("$D/ok.yaml --junit $D/two.xml -o $D/two.txt", 0, "");
+  assert_int_equal(
+      shell_read("cd $D && cmp one.xml two.xml && cmp one.txt two.txt && ls | grep -c xml", out, sizeof out), 0);
 }
 
 static const struct CMUnitTest tests[] = {
@@ -257,4 +208,4 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(what_cannot_be_compared_is_an_error),
     cmocka_unit_test(junit_is_written_whole_or_not_at_all),
 };
-CHECK_MAIN_WITH("gate.command", tests, 600, make_folder, remove_folder)
+CHECK_MAIN_WITH("gate.command", tests, 600, folder_make, folder_remove)

@@ -3,9 +3,9 @@
  * tested is that the mistake is told from all others that are tried. Runs the built hbmcheck in a folder of its own. */
 #include <string.h>
 
+#include "tests/folder.h"
 #include "tests/shell.h"
 
-static char folder[] = "/tmp/hbmcheck-structures-XXXXXX";
 static char out[262144];
 
 static int shell(const char *format, ...) __attribute__((format(printf, 1, 2)));
@@ -31,7 +31,7 @@ static const char masses[] = "mass: [1, 0.7, 1.5]", matrix_C[] = "[[0.3, 0.25, 0
 /* The case, with `now` in the place of `was` where that is not NULL. */
 static void put_case(const char *name, const char *was, const char *now)
 {
-  char text[2048], path[256];
+  char text[2048];
   snprintf(text, sizeof text,
            "structure:\n  %s\n  damping: %s\n  stiffness: %s\n  names: [a, b, c]\n"
            "forcing:\n  - {dof: a, amplitude: 10}\n  - {%s, amplitude: 4, %s}\n  - {dof: c, %s}\n"
@@ -39,9 +39,7 @@ static void put_case(const char *name, const char *was, const char *now)
            "  - {normal_stiffness: 50, gap: -0.4, %s}\n"
            "response: [a, b]\nsweep: {omega: [3, 9]}\nhbm: {harmonics: 5}\n",
            masses, matrix_C, matrix_K, load, phase, fixed, friction, tangent, normal);
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  FILE *to = fopen(path, "w");
-  assert_non_null(to);
+  FILE *to = folder_open(name, "w");
   const char *at = was ? strstr(text, was) : NULL;
   if (was) assert_non_null(at);
   if (at) fprintf(to, "%.*s%s%s", (int)(at - text), text, now, at + strlen(was));
@@ -52,15 +50,13 @@ static void put_case(const char *name, const char *was, const char *now)
 /* The curve of theirs.yaml as frf writes it, into theirs.csv. */
 static void make_curve(const char *options)
 {
-  const int code = shell("%s frf %s/theirs.yaml -q --format csv --set hbm.harmonics=20 %s -o %s/theirs.csv",
-                         HBMCHECK_COMMAND, folder, options, folder);
-  if (code != 0) fail_msg("frf: %s", out);
+  if (shell("$H frf $D/theirs.yaml -q --format csv --set hbm.harmonics=20 %s -o $D/theirs.csv", options) != 0)
+    fail_msg("frf: %s", out);
 }
 
 static int verify(const char *options)
 {
-  return shell("%s verify %s/ours.yaml -q --format csv --against %s/theirs.csv %s 2>&1", HBMCHECK_COMMAND, folder,
-               folder, options);
+  return shell("$H verify $D/ours.yaml -q --format csv --against $D/theirs.csv %s 2>&1", options);
 }
 
 /* Two responses in one file, by its column `response` and as columns of their own. */
@@ -91,7 +87,7 @@ static void every_response_is_judged(CHECK_STATE)
   make_curve("--response a");
   assert_int_equal(verify("--columns omega=omega,rms=rms --response b"), 2);
   HAVE("0 points in the file of response b, expected at least 3");
-  shell("cut -d, -f1,4 %s/theirs.csv > %s/plain.csv && mv %s/plain.csv %s/theirs.csv", folder, folder, folder, folder);
+  shell("cut -d, -f1,4 $D/theirs.csv > $D/plain.csv && mv $D/plain.csv $D/theirs.csv");
   assert_int_equal(verify("--response a --response b"), 64);
   HAVE("no column `response`");
 }
@@ -137,22 +133,20 @@ static void another_degree_of_freedom_is_named(CHECK_STATE)
   put_case("ours.yaml", NULL, NULL);
   put_case("theirs.yaml", "response: [a, b]", "response: [c]");
   make_curve("");
-  shell("sed -i 's/,c,/,a,/' %s/theirs.csv", folder);
+  shell("sed -i 's/,c,/,a,/' $D/theirs.csv");
   assert_int_equal(verify("--columns omega=omega,amplitude@a=amplitude"), 1);
   HAVE("# suspected cause: the values are those of another response (the motion of DOF 3, ");
 }
 
+#define JENKINS "$H verify cases/structures/jenkins2.yaml -q --against "
+
 /* All of the force at one degree of freedom: the load of jenkins2 at its root. */
 static void a_load_elsewhere_is_named(CHECK_STATE)
 {
-  assert_int_equal(shell("%s frf cases/structures/jenkins2.yaml -q --format csv --response tip --set "
-                         "'forcing[0].dof=root' --set hbm.harmonics=20 -o %s/load.csv",
-                         HBMCHECK_COMMAND, folder),
+  assert_int_equal(shell("$H frf cases/structures/jenkins2.yaml -q --format csv --response tip --set "
+                         "'forcing[0].dof=root' --set hbm.harmonics=20 -o $D/load.csv"),
                    0);
-  assert_int_equal(shell("%s verify cases/structures/jenkins2.yaml -q --against %s/load.csv --columns "
-                         "omega=omega,harmonic_1=harmonic_1 2>&1",
-                         HBMCHECK_COMMAND, folder),
-                   1);
+  assert_int_equal(shell(JENKINS "$D/load.csv --columns omega=omega,harmonic_1=harmonic_1 2>&1"), 1);
   HAVE("cause: load_dof\n");
   HAVE("the force at DOF 2, ");
 }
@@ -169,12 +163,11 @@ static void a_missing_tangent_is_named(CHECK_STATE)
       {"tangent: x,", "x", "# cause: unknown\n", "friction acts in one of two directions only"},
   };
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-    shell("sed 's/tangent: x, tangent_2: y,/%s/' cases/structures/space.yaml > %s/theirs.yaml", all[i].tangents,
-          folder);
+    shell("sed 's/tangent: x, tangent_2: y,/%s/' cases/structures/space.yaml > $D/theirs.yaml", all[i].tangents);
     make_curve("");
-    assert_int_equal(shell("%s verify cases/structures/space.yaml -q --against %s/theirs.csv --columns "
+    assert_int_equal(shell("$H verify cases/structures/space.yaml -q --against $D/theirs.csv --columns "
                            "omega=omega,amplitude=amplitude --response %s 2>&1",
-                           HBMCHECK_COMMAND, folder, all[i].response),
+                           all[i].response),
                      1);
     HAVE(all[i].cause + 2);
     HAVE(all[i].words);
@@ -185,24 +178,16 @@ static void a_missing_tangent_is_named(CHECK_STATE)
 /* Where the slider of jenkins2 sticks all period, a value that is off may be right with the slider elsewhere: said. */
 static void what_history_decides_is_said(CHECK_STATE)
 {
-  assert_int_equal(shell("%s frf cases/structures/jenkins2.yaml -q --format csv --response tip --set hbm.harmonics=20 "
-                         "| awk -F, -v OFS=, '/^2/ {$4 *= 1.01 + 0.3*($1 - 25)} {print}' > %s/off.csv",
-                         HBMCHECK_COMMAND, folder),
+  assert_int_equal(shell("$H frf cases/structures/jenkins2.yaml -q --format csv --response tip --set hbm.harmonics=20 "
+                         "| awk -F, -v OFS=, '/^2/ {$4 *= 1.01 + 0.3*($1 - 25)} {print}' > $D/off.csv"),
                    0);
-  assert_int_equal(shell("%s verify cases/structures/jenkins2.yaml -q --against %s/off.csv --columns "
-                         "omega=omega,amplitude=amplitude 2>&1",
-                         HBMCHECK_COMMAND, folder),
-                   1);
+  assert_int_equal(shell(JENKINS "$D/off.csv --columns omega=omega,amplitude=amplitude 2>&1"), 1);
   HAVE(" points that differ are where a slider never slips: where it rests is a matter of history");
 }
-
-static int make_folder(CHECK_STATE) { return mkdtemp(folder) ? 0 : -1; }
-
-static int remove_folder(CHECK_STATE) { return shell("rm -r %s", folder); }
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_response_is_judged),           cmocka_unit_test(mistakes_of_structures_are_named),
     cmocka_unit_test(another_degree_of_freedom_is_named), cmocka_unit_test(a_load_elsewhere_is_named),
     cmocka_unit_test(a_missing_tangent_is_named),         cmocka_unit_test(what_history_decides_is_said),
 };
-CHECK_MAIN_WITH("verify.structures", tests, 600, make_folder, remove_folder)
+CHECK_MAIN_WITH("verify.structures", tests, 600, folder_make, folder_remove)
