@@ -27,6 +27,7 @@
 #include "casefile/structure.h"
 #include "compare/advice.h"
 #include "output/output.h"
+#include "output/progress.h"
 #include "output/same_file.h"
 
 enum { KEY_SET = 0x100, KEY_FORMAT, KEY_WIDE };
@@ -630,15 +631,38 @@ int cli_width(const cli_common *common)
   return width <= 0 ? USUAL : width < LEAST ? LEAST : width;
 }
 
+bool cli_shows_rows(const cli_common *common)
+{
+  return common->format != FORMAT_TABLE && (!common->output || !strcmp(common->output, "-"));
+}
+
+void cli_show_rows(const cli_common *common, const table *t, table_begun *begun)
+{
+  if (begun->failed || !cli_shows_rows(common)) return;
+  progress_erase();
+  errno = 0;
+  const hc_status st = table_write_begun(t, common->format, stdout, begun);
+  if (fflush(stdout) != 0 || st != HC_OK) begun->failed = st == HC_NO_MEMORY ? ENOMEM : errno ? errno : EIO;
+}
+
 int cli_write(const cli_common *common, int n, table *const *tables)
 {
+  return cli_write_rest(common, n, tables, &(table_begun){.several = n != 1});
+}
+
+int cli_write_rest(const cli_common *common, int n, table *const *tables, const table_begun *begun)
+{
   output *out = NULL;
+  if (begun->failed) {
+    errno = begun->failed;
+    return cli_file_failed(common, common->output, errno == ENOMEM ? HC_NO_MEMORY : HC_IO);
+  }
   hc_status st = output_open(common->output, &out);
   for (int i = 0; i < n; ++i) {
     if (common->wide) table_show_all(tables[i]);
     else table_fit(tables[i], cli_width(common));
   }
-  if (st == HC_OK) st = output_finish(out, table_write(n, tables, common->format, output_stream(out)));
+  if (st == HC_OK) st = output_finish(out, table_write_rest(n, tables, common->format, output_stream(out), begun));
   return st == HC_OK ? 0 : cli_file_failed(common, common->output, st);
 }
 

@@ -187,6 +187,13 @@ int cli_width(const cli_common *common);
  * every column. 0 or the exit code. Frees nothing. */
 int cli_write(const cli_common *common, int n, table *const *tables);
 
+/* Rows as they are found, with --format csv or json on standard output: cli_shows_rows is true there. cli_show_rows
+ * writes those of t that have not been written, at once, also into a pipe; cli_write_rest the rest of all tables, as
+ * cli_write does. A progress line is erased, and drawn again by its next tick. */
+bool cli_shows_rows(const cli_common *common);
+void cli_show_rows(const cli_common *common, const table *t, table_begun *begun);
+int cli_write_rest(const cli_common *common, int n, table *const *tables, const table_begun *begun);
+
 /* On stderr, unless quiet, if that many bytes are much: what a run will take, and whether the machine has it. Before a
  * progress line is drawn. */
 void cli_foretell_memory(const cli_common *common, double bytes);

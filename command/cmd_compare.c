@@ -151,17 +151,10 @@ static hc_status compare_tables(const cli_common *common, const compare_setup *s
   return st;
 }
 
-/* The tables of what was found, and that it is not all unless st is HC_OK; how many. */
-static int tables_of_found(const cli_common *common, bool contacts, const compare_setup *setup, comparison *c,
-                           hc_status st, table **tables)
+/* Without rows yet: its remarks are those that are known before the first one. */
+static table *table_of_rows(const cli_common *common, const comparison *c)
 {
-  int n = 1;
   table *t = cli_table(common, "HBM against time integration", ROWS_COMPARE);
-  const scene_structure *of = common->scene->structure;
-  for (int i = 0; i < c->n_rows; ++i) {
-    if (of) structure_response_name(of, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
-    cli_put_row(common, t, ROWS_COMPARE, &c->rows[i]);
-  }
   const scene *sc = common->scene;
   table_note(t, "%s", sc->title);
   char how[128];
@@ -176,6 +169,28 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
     table_note(t, "the HBM curve STOPPED at %s: %s",
                scene_where(sc, c->curve.points[c->curve.n - 1].omega, (char[SCENE_WHERE]){0}),
                hc_status_text(c->curve.end));
+  table_notes_of_rows(t);
+  return t;
+}
+
+/* The rows that t does not have; *c is not changed meanwhile but for their names. */
+static void put_rows(const cli_common *common, comparison *c, table *t)
+{
+  const scene_structure *of = common->scene->structure;
+  for (int i = table_rows(t); i < c->n_rows; ++i) {
+    if (of) structure_response_name(of, c->rows[i].response, c->rows[i].response_name, RESPONSE_NAME);
+    cli_put_row(common, t, ROWS_COMPARE, &c->rows[i]);
+  }
+}
+
+/* The tables of what was found, and that it is not all unless st is HC_OK; how many. */
+static int tables_of_found(const cli_common *common, bool contacts, const compare_setup *setup, comparison *c,
+                           hc_status st, table **tables)
+{
+  int n = 1;
+  const scene *sc = common->scene;
+  table *t = table_of_rows(common, c);
+  put_rows(common, c, t);
   int unaccounted = 0;
   for (int i = 0; i < c->n_rows; ++i) unaccounted += comparison_unaccounted(&c->rows[i]);
   if (unaccounted)
@@ -232,19 +247,33 @@ typedef struct found_rows {
   const cli_common *common;
   const compare_setup *setup;
   comparison *c;
+  keep_found beside;
+  shown_rows shown;
 } found_rows;
 
 /* For keep_found_begin. */
 static int write_found(void *self)
 {
-  const found_rows *f = self;
+  found_rows *f = self;
   table *tables[2];
   if (f->c->n_rows == 0) return -1;
   const int n = tables_of_found(f->common, f->setup->contacts, f->setup, f->c, HC_INTERRUPTED, tables);
   const int code = cli_solver_failed(f->common, CLI_BOTH, "the comparison", HC_INTERRUPTED, 0);
   print_failures(f->common, f->c);
-  const int written = cli_write(f->common, n, tables);
+  pthread_mutex_lock(&f->shown.writing);
+  const int written = cli_write_rest(f->common, n, tables, &f->shown.begun);
   return code ? code : written;
+}
+
+/* For compare_setup.added. */
+static void show_found(void *self)
+{
+  found_rows *f = self;
+  pthread_mutex_lock(&f->beside.found);
+  if (!f->shown.rows) f->shown.rows = table_of_rows(f->common, f->c);
+  put_rows(f->common, f->c, f->shown.rows);
+  pthread_mutex_unlock(&f->beside.found);
+  shown_rows_write(&f->shown, f->common);
 }
 
 static int run_compare(cli_common *common, void *given, scene *sc)
@@ -266,20 +295,23 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   setup.contacts = own->contacts;
   setup.spare =
       common->format == FORMAT_TABLE && !common->wide && !common->drawing.path; /* from_integration is not shown */
-  found_rows found = {common, &setup, &c};
-  keep_found beside;
-  keep_found_begin(&beside, write_found, &found);
-  setup.found = &beside.found;
+  const bool with_tables = own->tables || own->lists.harmonics.n || own->lists.samples.n;
+  found_rows found = {.common = common, .setup = &setup, .c = &c};
+  shown_rows_begin(&found.shown, own->contacts || with_tables);
+  keep_found_begin(&found.beside, write_found, &found);
+  setup.found = &found.beside.found;
+  if (cli_shows_rows(common)) setup.added = show_found, setup.added_to = &found;
   if (st == HC_OK) st = comparison_run(&setup, &monitor, &c);
   setup.found = NULL;
-  pthread_mutex_lock(&beside.found);
+  setup.added = NULL;
+  pthread_mutex_lock(&found.beside.found);
   int n_tables = tables_of_found(common, own->contacts, &setup, &c, st, tables);
-  pthread_mutex_unlock(&beside.found);
-  if (st == HC_OK && (own->tables || own->lists.harmonics.n || own->lists.samples.n)) {
+  pthread_mutex_unlock(&found.beside.found);
+  if (st == HC_OK && with_tables) {
     tabled = compare_tables(common, &setup, &c, &monitor, tables + n_tables, &a);
     n_tables += 2;
   }
-  keep_found_end(&beside);
+  keep_found_end(&found.beside);
   progress_end(bar);
   if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the comparison", st, 0);
   else code = comparison_exit_code(&c);
@@ -287,10 +319,11 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   print_failures(common, &c);
   say_unexpected(common, &c, NULL);
   if (c.n_rows && !common->quiet && !comparison_nonlinear(&c)) cli_message(common, COMPARISON_LINEAR, c.n_rows);
-  int written = c.n_rows ? cli_write(common, n_tables, tables) : 0;
+  int written = c.n_rows ? cli_write_rest(common, n_tables, tables, &found.shown.begun) : 0;
   if (common->drawing.path && c.n_rows && !written)
     written = cli_plotted(common, plot_compare(&common->drawing, sc, &c, a.n_rows ? &a : NULL));
   for (int i = 0; i < n_tables; ++i) table_free(tables[i]);
+  shown_rows_end(&found.shown);
   accuracy_clear(&a);
   comparison_clear(&c);
   scene_setup_clear(&setup);

@@ -33,8 +33,8 @@ static const cli_option options[] = {
     {0},
 };
 
-/* The row's cells into the table, and the message if it has no steady state. 0 or the exit code. */
-static int put_row(const cli_common *common, const steady_row *r, table *t)
+/* The messages of a row that is not what was asked for. 0 or the exit code. */
+static int say_failure(const cli_common *common, const steady_row *r)
 {
   static const char *const stages[] = {[STEADY_TRANSIENT] = "time integration",
                                        [STEADY_SWEEP] = "the frequency sweep",
@@ -42,11 +42,27 @@ static int put_row(const cli_common *common, const steady_row *r, table *t)
   if (r->without_hbm != HC_OK && !common->quiet)
     cli_message(common, "no HBM solution at %s (%s): starting at rest",
                 scene_where(common->scene, r->result.omega, (char[SCENE_WHERE]){0}), hc_status_text(r->without_hbm));
-  if (r->status == HC_INTERRUPTED) return 0;
-  if (r->stage == STEADY_TRANSIENT) cli_put_row(common, t, ROWS_TRANSIENT, r);
-  if (r->status == HC_OK || r->status == HC_APERIODIC) return 0;
+  if (r->status == HC_INTERRUPTED || r->status == HC_OK || r->status == HC_APERIODIC) return 0;
   return cli_solver_failed(common, r->stage == STEADY_HBM ? CLI_HBM : CLI_TRANSIENT, stages[r->stage], r->status,
                            r->result.omega);
+}
+
+/* The rows from `from` on into the table. */
+static void put_rows(const cli_common *common, steady_states *found, int from, table *t)
+{
+  const scene_structure *of = common->scene->structure;
+  for (int i = from; i < found->n; ++i) {
+    steady_row *r = &found->rows[i];
+    if (of) structure_response_name(of, r->response, r->response_name, RESPONSE_NAME);
+    if (r->status != HC_INTERRUPTED && r->stage == STEADY_TRANSIENT) cli_put_row(common, t, ROWS_TRANSIENT, r);
+  }
+}
+
+static table *table_of_rows(const cli_common *common)
+{
+  table *t = cli_table(common, "Steady states", ROWS_TRANSIENT);
+  table_notes_of_rows(t);
+  return t;
 }
 
 /* A row for each contact of each state. */
@@ -68,6 +84,9 @@ typedef struct found_states {
   const cli_common *common;
   bool contacts; /* --contacts */
   steady_states *found;
+  keep_found beside;
+  shown_rows shown;
+  int n_shown; /* of found->rows */
 } found_states;
 
 /* The tables of what was found into tables[2], the second NULL without --contacts; with the messages of rows without a
@@ -75,16 +94,15 @@ typedef struct found_states {
 static int tables_of_found(const found_states *f, hc_status st, table *tables[2])
 {
   const cli_common *common = f->common;
-  const scene_structure *of = common->scene->structure;
   int code = 0;
-  table *t = cli_table(common, "Steady states", ROWS_TRANSIENT);
+  table *t = table_of_rows(common);
+  put_rows(common, f->found, 0, t);
   bool free = false, torus = false;
   for (int i = 0; i < f->found->n; ++i) {
-    steady_row *row = &f->found->rows[i];
+    const steady_row *row = &f->found->rows[i];
     free |= row->status == HC_OK && motion_mean_is_free(&row->result);
     torus |= row->status == HC_APERIODIC && !isnan(row->result.second_frequency);
-    if (of) structure_response_name(of, row->response, row->response_name, RESPONSE_NAME);
-    int row_code = put_row(common, row, t);
+    int row_code = say_failure(common, row);
     if (row_code) code = row_code;
   }
   if (!free) table_hide(t, "mean_free");
@@ -101,12 +119,25 @@ static int tables_of_found(const found_states *f, hc_status st, table *tables[2]
 /* For keep_found_begin. */
 static int write_found(void *self)
 {
-  const found_states *f = self;
+  found_states *f = self;
   table *tables[2];
   if (f->found->n == 0) return -1;
   const int code = tables_of_found(f, HC_INTERRUPTED, tables);
-  const int written = cli_write(f->common, f->contacts ? 2 : 1, tables);
+  pthread_mutex_lock(&f->shown.writing);
+  const int written = cli_write_rest(f->common, f->contacts ? 2 : 1, tables, &f->shown.begun);
   return code ? code : written;
+}
+
+/* For compare_setup.added. */
+static void show_found(void *self)
+{
+  found_states *f = self;
+  pthread_mutex_lock(&f->beside.found);
+  if (!f->shown.rows) f->shown.rows = table_of_rows(f->common);
+  put_rows(f->common, f->found, f->n_shown, f->shown.rows);
+  f->n_shown = f->found->n;
+  pthread_mutex_unlock(&f->beside.found);
+  shown_rows_write(&f->shown, f->common);
 }
 
 static int run_transient(cli_common *common, void *given, scene *sc)
@@ -123,22 +154,24 @@ static int run_transient(cli_common *common, void *given, scene *sc)
   steady_states found = {0};
   compare_setup setup;
   hc_status st = scene_setup(sc, &setup);
-  found_states so_far = {common, own->contacts, &found};
-  keep_found beside;
-  keep_found_begin(&beside, write_found, &so_far);
+  found_states so_far = {.common = common, .contacts = own->contacts, .found = &found};
+  shown_rows_begin(&so_far.shown, own->contacts);
+  keep_found_begin(&so_far.beside, write_found, &so_far);
   setup.contacts = own->contacts;
-  setup.found = &beside.found;
+  setup.found = &so_far.beside.found;
+  if (cli_shows_rows(common)) setup.added = show_found, setup.added_to = &so_far;
   if (st == HC_OK) st = steady_states_run(&setup, &monitor, &found);
-  keep_found_end(&beside);
+  keep_found_end(&so_far.beside);
   scene_setup_clear(&setup);
   progress_end(bar);
   table *tables[2];
   code = tables_of_found(&so_far, st, tables);
-  int written = st == HC_OK || found.n ? cli_write(common, own->contacts ? 2 : 1, tables) : 0;
+  int written = st == HC_OK || found.n ? cli_write_rest(common, own->contacts ? 2 : 1, tables, &so_far.shown.begun) : 0;
   if (common->drawing.path && found.n && !written)
     written = cli_plotted(common, plot_transient(&common->drawing, sc, &found));
   table_free(tables[0]);
   table_free(tables[1]);
+  shown_rows_end(&so_far.shown);
   steady_states_clear(&found);
   return code ? code : written;
 }

@@ -55,3 +55,22 @@ void keep_found_end(keep_found *k)
   pthread_cond_destroy(&k->ended);
   pthread_mutex_destroy(&k->found);
 }
+
+void shown_rows_begin(shown_rows *s, bool several)
+{
+  *s = (shown_rows){.begun.several = several};
+  pthread_mutex_init(&s->writing, NULL);
+}
+
+void shown_rows_write(shown_rows *s, const cli_common *common)
+{
+  pthread_mutex_lock(&s->writing);
+  cli_show_rows(common, s->rows, &s->begun);
+  pthread_mutex_unlock(&s->writing);
+}
+
+void shown_rows_end(shown_rows *s)
+{
+  table_free(s->rows);
+  pthread_mutex_destroy(&s->writing);
+}

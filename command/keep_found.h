@@ -1,6 +1,7 @@
-/* keep_found.h - rows that were found are kept after a signal, wherever the work is. It looks for a signal only now and
- * then, a whole period of time integration apart: beside it a thread waits for the signal, then for the work to end by
- * itself, and if that does not, writes what there is and ends the program. Further signals change nothing.
+/* keep_found.h - rows that were found are shown at once, and kept after a signal, wherever the work is. The work looks
+ * for a signal only now and then, a whole period of time integration apart: beside it a thread waits for the signal,
+ * then for the work to end by itself, and if that does not, writes what there is and ends the program. Further signals
+ * change nothing.
  *
  *     keep_found_begin -> the work, which holds `found` whenever it changes what it has found -> keep_found_end */
 #ifndef HC_KEEP_FOUND_H
@@ -8,6 +9,8 @@
 
 #include <pthread.h>
 #include <stdbool.h>
+
+#include "command/cli.h"
 
 typedef struct keep_found {
   pthread_mutex_t found;
@@ -24,5 +27,19 @@ void keep_found_begin(keep_found *k, int (*write)(void *self), void *self);
 
 /* Does not return while the thread is writing: the program ends there. */
 void keep_found_end(keep_found *k);
+
+/* Rows that are shown when they are found, where cli_shows_rows. The thread that finds them puts them into `rows`, a
+ * table of its own, and writes. The one above writes what is left while it holds `writing`; it lasts as long as the
+ * program then, so that no row is written twice. */
+typedef struct shown_rows {
+  table *rows; /* NULL before the first one */
+  table_begun begun;
+  pthread_mutex_t writing;
+} shown_rows;
+
+/* several: more tables follow these rows. */
+void shown_rows_begin(shown_rows *s, bool several);
+void shown_rows_write(shown_rows *s, const cli_common *common);
+void shown_rows_end(shown_rows *s);
 
 #endif

@@ -30,7 +30,9 @@ typedef struct compare_setup {
   bool spare;                /* leave out parts of the budget that nobody asks for and no verdict depends on */
   bool contacts;             /* what each contact does, too */
   pthread_mutex_t *found;    /* held while rows are added to the results; NULL: nobody else looks */
-  int jobs;                  /* threads for the tables of accuracy.h; 0 and 1: the calling one alone */
+  void (*added)(void *self); /* called when rows were added, without that lock, with added_to; NULL: nobody asks */
+  void *added_to;
+  int jobs; /* threads for the tables of accuracy.h; 0 and 1: the calling one alone */
 } compare_setup;
 
 #endif

@@ -62,6 +62,7 @@ static hc_status add_solution(comparison_work *w, const hbm_curve *at, int k, co
   if (st == HC_OK && k >= 0 && setup->contacts) st = add_contacts(w, at->X + (size_t)k * at->n_coef, row);
   if (st == HC_OK && k >= 0) st = add_other_responses(w, at, k, row);
   if (setup->found) pthread_mutex_unlock(setup->found);
+  if (setup->added) setup->added(setup->added_to);
   return st;
 }
 

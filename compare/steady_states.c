@@ -130,6 +130,7 @@ static hc_status steady_settle(steady_work *w, double omega, const char *start, 
   hc_status st = add_row(w, &row);
   if (st == HC_OK && w->setup->contacts && motion_is_measured(row.status)) st = add_contacts(w, &row);
   if (st == HC_OK) st = add_other_responses(w, &row);
+  if (w->setup->added) w->setup->added(w->setup->added_to);
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;
 }
 

@@ -167,6 +167,11 @@ void table_note(table *t, const char *format, ...)
   t->notes[t->n_notes++] = note;
 }
 
+void table_notes_of_rows(table *t)
+{
+  if (t) t->notes_split = true, t->n_first_notes = t->n_notes;
+}
+
 void table_wrap(table *t, int width)
 {
   if (t) t->wrap = width > 0 ? width : 0;
@@ -226,36 +231,74 @@ static void write_csv_cell(const table *t, int row, int column, FILE *to)
   }
 }
 
+static void write_csv_notes(const table *t, size_t from, size_t to_note, FILE *to)
+{
+  for (size_t i = from; i < to_note; ++i) fprintf(to, *t->notes[i] ? "# %s\n" : "#\n", t->notes[i]);
+}
+
+/* The rows of t that have not been written, and what stands before the first one. */
+static void write_csv_begun(const table *t, FILE *to, const table_begun *begun)
+{
+  if (!begun->begun) {
+    if (begun->several) fprintf(to, *t->title ? "# %s\n" : "# table\n", t->title);
+    write_csv_notes(t, 0, t->notes_split ? t->n_first_notes : t->n_notes, to);
+    for (int j = 0; j < t->n_columns; ++j) {
+      if (j) putc(',', to);
+      table_write_csv_text(t->columns[j].name, to);
+    }
+    putc('\n', to);
+  }
+  for (int i = begun->rows; i < table_rows(t); ++i) {
+    for (int j = 0; j < t->n_columns; ++j) {
+      if (j) putc(',', to);
+      write_csv_cell(t, i, j, to);
+    }
+    putc('\n', to);
+  }
+}
+
+/* HC_OK where all its rows are full and nothing went wrong before. */
+static hc_status ready(const table *t)
+{
+  if (!t) return HC_NO_MEMORY;
+  if (t->status != HC_OK) return t->status;
+  return t->n_cells % (size_t)t->n_columns == 0 ? HC_OK : HC_BUG;
+}
+
 hc_status table_write(int n, table *const *tables, table_format format, FILE *to)
 {
-  for (int k = 0; k < n; ++k) {
-    if (!tables[k]) return HC_NO_MEMORY;
-    if (tables[k]->status != HC_OK) return tables[k]->status;
-    if (tables[k]->n_cells % (size_t)tables[k]->n_columns != 0) return HC_BUG;
-  }
+  return table_write_rest(n, tables, format, to, &(table_begun){.several = n != 1});
+}
+
+hc_status table_write_begun(const table *t, table_format format, FILE *to, table_begun *begun)
+{
+  locale_t c, before;
+  hc_status st = ready(t);
+  if (st != HC_OK || format == FORMAT_TABLE || table_rows(t) <= begun->rows) return st;
+  if (!enter_c_locale(&c, &before)) return HC_NO_MEMORY;
+  if (format == FORMAT_JSON) st = table_write_json_begun(t, to, begun);
+  else write_csv_begun(t, to, begun);
+  leave_c_locale(c, before);
+  begun->begun = true;
+  begun->rows = table_rows(t);
+  return ferror(to) ? HC_IO : st;
+}
+
+hc_status table_write_rest(int n, table *const *tables, table_format format, FILE *to, const table_begun *begun)
+{
+  hc_status st = HC_OK;
+  for (int k = 0; k < n && st == HC_OK; ++k) st = ready(tables[k]);
+  if (st != HC_OK) return st;
   locale_t c, before;
   if (!enter_c_locale(&c, &before)) return HC_NO_MEMORY;
-  hc_status st = HC_OK;
-  if (format == FORMAT_JSON) st = table_write_json(n, tables, to);
+  if (format == FORMAT_JSON) st = table_write_json(n, tables, to, begun);
   for (int k = 0; k < n && format != FORMAT_JSON && st == HC_OK; ++k) {
+    const table *t = tables[k];
     if (k) putc('\n', to);
     if (format == FORMAT_CSV) {
-      const table *t = tables[k];
-      if (n > 1) fprintf(to, *t->title ? "# %s\n" : "# table\n", t->title);
-      for (size_t i = 0; i < t->n_notes; ++i) fprintf(to, *t->notes[i] ? "# %s\n" : "#\n", t->notes[i]);
-      for (int j = 0; j < t->n_columns; ++j) {
-        if (j) putc(',', to);
-        table_write_csv_text(t->columns[j].name, to);
-      }
-      putc('\n', to);
-      for (int i = 0; i < table_rows(t); ++i) {
-        for (int j = 0; j < t->n_columns; ++j) {
-          if (j) putc(',', to);
-          write_csv_cell(t, i, j, to);
-        }
-        putc('\n', to);
-      }
-    } else st = tables[k]->wrap ? table_write_wrapped(tables[k], to) : table_write_aligned(tables[k], to);
+      write_csv_begun(t, to, k ? &(table_begun){.several = begun->several} : begun);
+      if (t->notes_split) write_csv_notes(t, t->n_first_notes, t->n_notes, to);
+    } else st = t->wrap ? table_write_wrapped(t, to) : table_write_aligned(t, to);
   }
   leave_c_locale(c, before);
   return ferror(to) ? HC_IO : st;

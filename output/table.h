@@ -37,6 +37,10 @@ void table_put_integer_if(table *t, bool there, long value); /* else missing */
  * "notes" in json. */
 void table_note(table *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Rows may be shown while others are found (table_write_begun): the remarks from here on are about them, and stand
+ * behind the rows in csv, too. */
+void table_notes_of_rows(table *t);
+
 /* In the format table, carry words over to further lines instead of cutting texts, so that no line is longer than
  * `width`; longer only where the columns cannot be narrowed to it. */
 void table_wrap(table *t, int width);
@@ -68,5 +72,19 @@ int table_rows(const table *t);
  * HC_NO_MEMORY or HC_BUG (see above) if a table came to that before; then nothing is written. HC_IO once the stream has
  * failed; a failure of what is still in its buffer is found by output_commit. */
 hc_status table_write(int n, table *const *tables, table_format format, FILE *to);
+
+/* The same bytes in parts, in csv and json: the first table's rows as they are found, then the rest. */
+typedef struct table_begun {
+  bool several; /* more tables will follow the first: n > 1 */
+  bool begun;   /* what stands before the first row has been written */
+  int rows;     /* and so many rows */
+  int failed;   /* errno of the write that failed, for who writes the rest; 0: none */
+} table_begun;
+
+/* The rows of t that have not been written, and what stands before the first one. table_notes_of_rows was called;
+ * nothing is written without a row. HC_NO_MEMORY, HC_BUG, HC_IO as of table_write. */
+hc_status table_write_begun(const table *t, table_format format, FILE *to, table_begun *begun);
+/* All that is left: tables[0] has the rows and the remarks that were written, and maybe more. */
+hc_status table_write_rest(int n, table *const *tables, table_format format, FILE *to, const table_begun *begun);
 
 #endif

@@ -37,17 +37,23 @@ static hc_status write_row(const table *t, int row, FILE *to)
   return write_value(object, to);
 }
 
-/* `[`, the rows one a line, `]`. */
-static hc_status write_rows(const table *t, FILE *to)
+/* The rows from `from` on, one a line. */
+static hc_status write_rows_from(const table *t, int from, FILE *to)
 {
-  int n = table_row_count(t);
   hc_status st = HC_OK;
-  fputs("[", to);
-  for (int i = 0; i < n && st == HC_OK; ++i) {
+  for (int i = from; i < table_row_count(t) && st == HC_OK; ++i) {
     fputs(i ? ",\n    " : "\n    ", to);
     st = write_row(t, i, to);
   }
-  fputs(n ? "\n  ]" : "]", to);
+  return st;
+}
+
+/* `[`, the rows one a line, `]`; `written` of them, if any, were written with the `[`. */
+static hc_status write_rows(const table *t, int written, FILE *to)
+{
+  if (written == 0) fputs("[", to);
+  hc_status st = write_rows_from(t, written, to);
+  fputs(table_row_count(t) ? "\n  ]" : "]", to);
   return st;
 }
 
@@ -98,12 +104,32 @@ static hc_status write_key(json_t *keys, int k, FILE *to)
   return st;
 }
 
-hc_status table_write_json(int n, table *const *tables, FILE *to)
+/* Before the rows of the first table. keys: of all tables, or NULL where there is one. */
+static hc_status write_beginning(json_t *keys, FILE *to)
 {
-  if (n == 1) {
+  fputs(keys ? "{\n" : "{\n  \"rows\": ", to);
+  if (!keys || json_array_size(keys) == 0) return HC_OK;
+  fputs("  ", to);
+  return write_key(keys, 0, to);
+}
+
+hc_status table_write_json_begun(const table *t, FILE *to, const table_begun *begun)
+{
+  table *const first = (table *)t;
+  json_t *keys = begun->several ? make_keys(1, &first) : NULL;
+  hc_status st = begun->several && !keys ? HC_NO_MEMORY : HC_OK;
+  if (st == HC_OK && !begun->begun && (st = write_beginning(keys, to)) == HC_OK) fputs("[", to);
+  if (st == HC_OK) st = write_rows_from(t, begun->rows, to);
+  json_decref(keys);
+  return st;
+}
+
+hc_status table_write_json(int n, table *const *tables, FILE *to, const table_begun *begun)
+{
+  if (!begun->several) {
     const table *t = tables[0];
-    fputs("{\n  \"rows\": ", to);
-    hc_status st = write_rows(t, to);
+    hc_status st = begun->begun ? HC_OK : write_beginning(NULL, to);
+    if (st == HC_OK) st = write_rows(t, begun->rows, to);
     fputs(",\n  \"notes\": ", to);
     if (st == HC_OK) st = write_notes(t, "  ", to);
     fputs("\n}\n", to);
@@ -111,11 +137,13 @@ hc_status table_write_json(int n, table *const *tables, FILE *to)
   }
   json_t *keys = make_keys(n, tables);
   if (!keys) return HC_NO_MEMORY;
-  hc_status st = HC_OK;
-  fputs("{\n", to);
+  hc_status st = begun->begun ? HC_OK : write_beginning(keys, to);
   for (int k = 0; k < n && st == HC_OK; ++k) {
-    fputs("  ", to);
-    if ((st = write_key(keys, k, to)) == HC_OK) st = write_rows(tables[k], to);
+    if (k) {
+      fputs("  ", to);
+      st = write_key(keys, k, to);
+    }
+    if (st == HC_OK) st = write_rows(tables[k], k ? 0 : begun->rows, to);
     fputs(",\n", to);
   }
   if (st == HC_OK) {

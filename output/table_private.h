@@ -20,7 +20,9 @@ struct table {
   size_t n_cells;        /* a row after another; n_cells is a multiple of n_columns between rows */
   table_cell *cells;
   size_t n_notes;
-  char **notes;             /* one line each */
+  char **notes;     /* one line each */
+  bool notes_split; /* csv has the notes from n_first_notes on behind the rows */
+  size_t n_first_notes;
   bool *hidden;             /* [n_columns] left out of the aligned format */
   int wrap;                 /* columns of the terminal to fit into, 0: each row is one line */
   int fit;                  /* longest line of the aligned format, 0: any */
@@ -54,6 +56,8 @@ hc_status table_write_wrapped(const table *t, FILE *to);
 /* A csv cell: quotes where RFC 4180 asks for them, where a reader might strip or skip (outer blanks, '#'), and for
  * empty text, which is not missing. */
 void table_write_csv_text(const char *s, FILE *to);
-hc_status table_write_json(int n, table *const *tables, FILE *to);
+hc_status table_write_json(int n, table *const *tables, FILE *to, const table_begun *begun);
+/* The rows of the first table from begun->rows on, with what stands before the first one. */
+hc_status table_write_json_begun(const table *t, FILE *to, const table_begun *begun);
 
 #endif

@@ -25,15 +25,17 @@ static void check_all(const char *line, const char *expected)
 static void reading_or_writing_a_pipe(CHECK_STATE)
 {
   /* 9 keeps both ends of the pipe open: reading waits for ever, and so does writing once it is full */
-  check_all("mkfifo silent alone; exec 9<>silent; " RUN("case", TERM_IT "$H frf silent")
-                RUN("stdin", TERM_IT "$H compare - <&9") RUN("study", TERM_IT "$H study silent")
-                    RUN("curve", TERM_IT "$H verify small.yaml --against silent --columns omega=1,amplitude=2")
-                        RUN("gate", TERM_IT "$H gate small.yaml silent --junit kept.xml")
-                            RUN("unread", TERM_IT "$H frf small.yaml -o alone") RUN("page", TERM_IT "$H report silent")
-                                RUN("bench", TERM_IT "$H bench silent")
-                                    RUN("values", TERM_IT "$H describe --case silent")
-                                        ALL_ENDED("case stdin study curve gate unread page bench values"),
-            "case 3 1\nstdin 3 1\nstudy 3 1\ncurve 3 1\ngate 3 1\nunread 3 1\npage 3 1\nbench 3 1\nvalues 3 1\n");
+  check_all(
+      "mkfifo silent alone full; exec 9<>silent; exec 8<>full; head -c 65536 /dev/zero >&8; " RUN("case", TERM_IT
+                                                                                                  "$H frf silent")
+          RUN("stdin", TERM_IT "$H compare - <&9") RUN("study", TERM_IT "$H study silent")
+              RUN("curve", TERM_IT "$H verify small.yaml --against silent --columns omega=1,amplitude=2")
+                  RUN("gate", TERM_IT "$H gate small.yaml silent --junit kept.xml")
+                      RUN("unread", TERM_IT "$H frf small.yaml -o alone") RUN("page", TERM_IT "$H report silent")
+                          RUN("bench", TERM_IT "$H bench silent") RUN("values", TERM_IT "$H describe --case silent")
+                              RUN("rows", TERM_IT "sh -c 'exec $H compare small.yaml --format csv >full'")
+                                  ALL_ENDED("case stdin study curve gate unread page bench values rows"),
+      "case 3 1\nstdin 3 1\nstudy 3 1\ncurve 3 1\ngate 3 1\nunread 3 1\npage 3 1\nbench 3 1\nvalues 3 1\nrows 3 2\n");
   expect("test -e kept.xml", 1, "");
 }
 

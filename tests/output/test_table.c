@@ -505,6 +505,51 @@ static void misuse_is_a_bug(CHECK_STATE)
   assert_int_equal(status_after(wrong_before_the_end, 0, NULL), HC_BUG);
 }
 
+/* Rows written one at a time, then the rest: the bytes of a table that is written whole. */
+static void rows_that_are_shown_at_once(CHECK_STATE)
+{
+  for (int i = 0; i < 8; ++i) {
+    const bool several = i & 1;
+    const table_format format = i & 2 ? FORMAT_JSON : FORMAT_CSV;
+    const int before = i & 4 ? 2 : 0; /* so many rows at once */
+    table *t[2] = {table_new("A", 4, columns), small_table("B")};
+    table_begun begun = {.several = several};
+    char *text = NULL;
+    size_t size = 0;
+    FILE *to = open_memstream(&text, &size);
+    assert_non_null(to);
+    table_note(t[0], "first");
+    table_notes_of_rows(t[0]);
+    assert_int_equal(table_write_begun(t[0], format, to, &begun), HC_OK);
+    assert_false(begun.begun); /* without a row nothing is written */
+    for (int k = 0; k < 3; ++k) {
+      put(t[0], k, "match", k, NAN);
+      if (k >= before) assert_int_equal(table_write_begun(t[0], format, to, &begun), HC_OK);
+    }
+    put(t[0], 9, "differs", 9, 1);
+    table_note(t[0], "last");
+    assert_int_equal(table_write_rest(several ? 2 : 1, t, format, to, &begun), HC_OK);
+    assert_int_equal(fclose(to), 0);
+    expect(several ? 2 : 1, t, format, text);
+    free(text);
+    table_free(t[0]);
+    table_free(t[1]);
+  }
+}
+
+static void notes_of_rows_stand_behind_them(CHECK_STATE)
+{
+  table *t = table_new("A", 1, one_real);
+  table_note(t, "first");
+  table_notes_of_rows(t);
+  table_put_real(t, 2);
+  table_note(t, "last");
+  expect(1, &t, FORMAT_CSV, "# first\nvalue\n2\n# last\n");
+  expect(1, &t, FORMAT_JSON,
+         "{\n  \"rows\": [\n    {\"value\": 2.0}\n  ],\n  \"notes\": [\n    \"first\",\n    \"last\"\n  ]\n}\n");
+  table_free(t);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(hidden_columns_are_for_machines),
     cmocka_unit_test(lines_fit_the_screen),
@@ -515,6 +560,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(json_is_exact),
     cmocka_unit_test(no_rows_and_no_title),
     cmocka_unit_test(several_tables),
+    cmocka_unit_test(rows_that_are_shown_at_once),
+    cmocka_unit_test(notes_of_rows_stand_behind_them),
     cmocka_unit_test(csv_quotes_what_a_reader_could_misread),
     cmocka_unit_test(reals_get_one_notation_a_column),
     cmocka_unit_test(text_is_utf8_and_safe),
