@@ -259,11 +259,13 @@ static void solve_small(int n, const double *restrict A, const int *pivot, doubl
     x[k] = x[pivot[k] - 1];
     x[pivot[k] - 1] = kept;
   }
-  for (int k = 0; k < n; ++k)
-    for (int i = k + 1; i < n; ++i) x[i] -= x[k] * A[i + n * k];
+  for (int k = 0; k < n; ++k) {
+    const double *column = A + n * k, xk = x[k];
+    for (int i = k + 1; i < n; ++i) x[i] -= xk * column[i];
+  }
   for (int k = n - 1; k >= 0; --k) {
-    x[k] /= A[k + n * k];
-    for (int i = 0; i < k; ++i) x[i] -= x[k] * A[i + n * k];
+    const double *column = A + n * k, xk = x[k] /= column[k];
+    for (int i = 0; i < k; ++i) x[i] -= xk * column[i];
   }
 }
 

@@ -242,13 +242,13 @@ void aft_jacobian(aft *a, double *jac)
   memset(jac, 0, rows * rows * sizeof(double));
   if (a->n_dof > 1) differentiate_two_coordinates(a, jac);
   else {
-    memset(a->k, 0, (size_t)a->n_time * sizeof(double));
+    if (a->n_contacts == 0) memset(a->k, 0, (size_t)a->n_time * sizeof(double));
     for (int j = 0; j < a->n_contacts; ++j)
       for (int m = 0; m < a->n_intervals[j]; ++m) {
         const sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time + m;
         const int end = end_of_interval(a, j, m);
         const double stiffness = stiffness_in(&a->contacts[j], s->state);
-        for (int i = s->first; i < end; ++i) a->k[i] += stiffness;
+        for (int i = s->first; i < end; ++i) a->k[i] = j ? a->k[i] + stiffness : stiffness;
       }
     period_samples_series(&a->of, a->k, 2 * a->n_harm, a->symbol);
     force_jacobian_add(a->n_harm, a->symbol, series_length(a->n_harm), jac);

@@ -66,7 +66,7 @@ void period_samples_clear(period_samples *p)
 
 void period_samples_of(const period_samples *p, const double *X, double *samples)
 {
-  memset(p->spec, 0, ((size_t)p->n_time / 2 + 1) * sizeof *p->spec);
+  memset(p->spec + p->n_harm, 0, ((size_t)(p->n_time / 2 - p->n_harm) + 1) * sizeof *p->spec);
   p->spec[0] = X[0];
   for (int h = 1; h <= p->n_harm; ++h) p->spec[h] = 0.5 * (X[2 * h - 1] - I * X[2 * h]);
   fftw_execute_dft_c2r(p->to_time, p->spec, samples);

@@ -11,6 +11,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "hbm/contact/wide_vectors.h"
+
 enum { BLOCK = 16 }; /* samples looked at before asking whether one of them ends the interval */
 
 /* One contact: its law and motion in one place, what the loops need. */
@@ -40,7 +42,7 @@ static followed followed_contact(const contact *law, hbm_restart restart, const 
 
 /* ---- does the interval go on, at one sample of along and across? ------------------------------- */
 
-static inline bool stays_apart(const followed *k, double across) { return !(k->kn * (k->m.s * across + k->gap) > 0); }
+static inline bool touches(const followed *k, double across) { return k->kn * (k->m.s * across + k->gap) > 0; }
 
 static inline bool goes_on_sticking(const followed *k, double w, double along, double across, double *f)
 {
@@ -64,22 +66,25 @@ static inline bool goes_on_slipping(const followed *k, double sign, double w, do
 
 /* ---- to the end of the interval that has begun before sample i: where the next one begins, or n ---------- */
 
-static int follow_separated(const followed *of, int n, double *restrict f, int i)
+WIDE_VECTORS static int follow_separated(const followed *of, int n, double *restrict f, int i)
 {
   const followed k = *of;
-  const double *restrict across = k.m.across;
-  for (long ends = 0; i + BLOCK <= n; i += BLOCK) {
-    for (int j = i; j < i + BLOCK; ++j) {
+  const double *across = k.m.across;
+  enum {
+    LONG_BLOCK = 2 * BLOCK
+  }; /* gcc unrolls a loop as short as this one up to 16 samples, and then uses no vectors */
+  for (long ends = 0; i + LONG_BLOCK <= n; i += LONG_BLOCK) {
+    for (int j = i; j < i + LONG_BLOCK; ++j) {
       f[j] = k.apart;
-      ends |= stays_apart(&k, across[j]) ? 0L : 1L;
+      ends |= touches(&k, across[j]) ? 1L : 0L;
     }
     if (ends) break;
   }
-  for (; i < n && stays_apart(&k, across[i]); ++i) f[i] = k.apart;
+  for (; i < n && !touches(&k, across[i]); ++i) f[i] = k.apart;
   return i;
 }
 
-static int follow_stick(const followed *of, double w, int n, double *restrict f, int i)
+WIDE_VECTORS static int follow_stick(const followed *of, double w, int n, double *restrict f, int i)
 {
   const followed k = *of;
   const double *along = k.m.along, *across = k.m.across;
@@ -91,7 +96,7 @@ static int follow_stick(const followed *of, double w, int n, double *restrict f,
   return i;
 }
 
-static int follow_slip(const followed *of, double sign, int n, double *restrict f, int i)
+WIDE_VECTORS static int follow_slip(const followed *of, double sign, int n, double *restrict f, int i)
 {
   const followed k = *of;
   const double *along = k.m.along, *across = k.m.across;

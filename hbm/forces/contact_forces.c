@@ -185,7 +185,7 @@ static hc_status evaluate(contact_forces *f, const double *X, double *F, bool de
   hc_status st = HC_OK;
   f->assembled = false;
   *report = (contact_report){.regime = CONTACT_LINEAR};
-  memset(F, 0, (size_t)f->dim * (size_t)f->length * sizeof *F);
+  if (!f->itself) memset(F, 0, (size_t)f->dim * (size_t)f->length * sizeof *F);
   for (int j = 0; j < f->n_members && st == HC_OK; ++j) {
     member *m = &f->members[j];
     contact_report own;

@@ -87,22 +87,21 @@ static size_t cosines(const hbm_system *sys, int h) { return (size_t)sys->dim * 
 static size_t sines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(2 * h); }
 
 /* rows += S X. */
-static void add_linear_forces(hbm_system *sys, const double *X)
+static void add_linear_forces(const hbm_system *sys, const double *restrict X, double *restrict rows)
 {
   const int dim = sys->dim;
   const double complex *S = condensation_stiffness(sys->linear, 0);
   for (int e = 0; e < dim; ++e)
-    for (int d = 0; d < dim; ++d) sys->rows[d] += creal(*S++) * X[e];
-  for (int h = 1; h <= sys->n_harm; ++h) {
-    const double *a = X + cosines(sys, h), *b = a + dim;
-    double *of_a = sys->rows + cosines(sys, h), *of_b = of_a + dim;
+    for (int d = 0; d < dim; ++d) rows[d] += creal(*S++) * X[e];
+  const double *a = X + dim, *b = a + dim;
+  double *of_a = rows + dim, *of_b = of_a + dim;
+  for (int h = 1; h <= sys->n_harm; ++h, a += 2 * dim, b += 2 * dim, of_a += 2 * dim, of_b += 2 * dim)
     for (int e = 0; e < dim; ++e)
       for (int d = 0; d < dim; ++d, ++S) {
         const double re = creal(*S), im = cimag(*S);
         of_a[d] += re * a[e] + im * b[e];
         of_b[d] += re * b[e] - im * a[e];
       }
-  }
 }
 
 /* rows of harmonic h -= factor p, a complex amplitude a - i b. */
@@ -134,7 +133,7 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   if (st == HC_OK) st = condensation_at(sys->linear, omega, sys->more_damping);
   if (st != HC_OK) return st;
   memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
-  add_linear_forces(sys, X);
+  add_linear_forces(sys, X, sys->rows);
   for (int i = 0; i < sys->n_coef; ++i) sys->rows[i] += sys->F[i];
   for (int l = 0; l < sys->model->n_loads; ++l)
     subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);
@@ -186,8 +185,7 @@ void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
   const double *dF = contact_forces_jacobian(sys->contacts);
   for (int col = 0; col < sys->n; ++col) {
     const double *from = dF + (size_t)sys->n_coef * (size_t)(col + sys->first) + sys->first;
-    double *to = jac + (size_t)ld * (size_t)col;
-    for (int row = 0; row < sys->n; ++row) to[row] = from[row];
+    memcpy(jac + (size_t)ld * (size_t)col, from, (size_t)sys->n * sizeof *jac);
   }
   if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
   add_linear_stiffness(sys, ld, jac);

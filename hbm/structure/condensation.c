@@ -378,15 +378,17 @@ static void apply_by_rest(const condensation *c, int h, condensation_change by, 
   const int dim = c->basis.dim, rest = c->basis.rest;
   const double complex *W = c->by_q + (size_t)h * (size_t)dim * (size_t)rest;
   double complex *y = vector, *inner = vector + rest;
+  for (int d = 0; d < dim; ++d) {
+    dS_a[d] = 0;
+    for (int e = 0; e < dim; ++e) dS_a[d] += change_at(c, by, entry(c, d, e)) * a[e];
+  }
+  if (rest == 0) return;
   memset(vector, 0, 2 * (size_t)rest * sizeof *vector);
-  for (int e = 0; e < dim; ++e) {
-    for (int d = 0; d < dim; ++d) dS_a[d] += change_at(c, by, entry(c, d, e)) * a[e];
+  for (int e = 0; e < dim; ++e)
     for (int i = 0; i < rest; ++i) {
       y[i] += W[(size_t)e * (size_t)rest + (size_t)i] * a[e];
       inner[i] += change_at(c, by, entry(c, dim + i, e)) * a[e];
     }
-  }
-  if (rest == 0) return;
   subtract_rest(c, h, by, y, inner);
   subtract_coupling(c, h, by, y, inner, dS_a);
 }
@@ -394,9 +396,11 @@ static void apply_by_rest(const condensation *c, int h, condensation_change by, 
 void condensation_stiffness_change(condensation *c, int h, condensation_change by, const double complex *a,
                                    double complex *dS_a)
 {
-  memset(dS_a, 0, (size_t)c->basis.dim * sizeof *dS_a);
-  if (by.alpha == 0 && by.beta == 0) return; /* at rest */
-  const double complex *dG = change_by_compliance(c, h, by);
+  if (by.alpha == 0 && by.beta == 0) { /* at rest */
+    memset(dS_a, 0, (size_t)c->basis.dim * sizeof *dS_a);
+    return;
+  }
+  const double complex *dG = c->by_compliance[h] ? change_by_compliance(c, h, by) : NULL;
   if (dG) apply_by_compliance(c, h, dG, a, c->vector, dS_a);
   else apply_by_rest(c, h, by, a, c->vector, dS_a);
 }
