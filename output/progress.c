@@ -61,10 +61,12 @@ static void start_grace(void)
 
 static void on_signal(int number)
 {
+  const int before = errno;
   const struct sigaction kill_it = {.sa_handler = SIG_DFL};
   if (!stop_signal) start_grace();
   if (!was_held || !can_wait) sigaction(number, &kill_it, NULL); /* the next one of this kind */
   stop_signal = number;
+  errno = before;
 }
 
 void progress_hold(bool held)
