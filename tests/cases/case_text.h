@@ -27,11 +27,9 @@ static inline void refused(const char *text, const char *set, const char *start,
   memset(&sc, 0x5A, sizeof sc);
   before = sc;
   hc_status st = case_parse("f", text, strlen(text), set != NULL, &set, &sc, &err);
-  if (st == HC_OK || strncmp(err.message, start, strlen(start)) || !strstr(err.message, fragment)) {
-    print_error("%s%s%s\n  gave %d `%s`\n  not `%s...%s...`\n", text, set ? "--set " : "", set ? set : "", (int)st,
-                err.message, start, fragment);
-    fail();
-  }
+  if (st == HC_OK || strncmp(err.message, start, strlen(start)) || !strstr(err.message, fragment))
+    fail_msg("%s%s%s\n  gave %d `%s`\n  not `%s...%s...`", text, set ? "--set " : "", set ? set : "", (int)st,
+             err.message, start, fragment);
   assert_int_equal(st, HC_BAD_INPUT);
   assert_memory_equal(&sc, &before, sizeof sc);
 }

@@ -32,10 +32,7 @@ static inline scene curve_scene(const char *path)
 {
   scene sc;
   case_error err = {{0}};
-  if (case_read(path, 0, NULL, &sc, &err) != HC_OK) {
-    print_error("%s\n", err.message);
-    fail();
-  }
+  if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
   return sc;
 }
 

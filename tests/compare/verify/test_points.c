@@ -31,10 +31,8 @@ static verify_report judged(const scene *sc, const verify_data *d, const char *c
   verify_report r;
   char words[VERIFY_TEXT];
   assert_int_equal(scene_verify_run(sc, d, NULL, &r), HC_OK);
-  if (strcmp(verify_cause_words(r.causes, words), cause)) {
-    print_error("%s, expected %s\n", verify_sentence(&r, words), cause);
-    fail();
-  }
+  if (strcmp(verify_cause_words(r.causes, words), cause))
+    fail_msg("%s, expected %s", verify_sentence(&r, words), cause);
   return r;
 }
 

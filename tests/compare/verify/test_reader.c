@@ -35,10 +35,7 @@ static void reads(const char *text, const char *columns)
 {
   verify_data d;
   char words[VERIFY_TEXT];
-  if (read_text(text, strlen(text), columns, &d, words) != HC_OK) {
-    print_error("%s\nin: %s\n", words, text);
-    fail();
-  }
+  if (read_text(text, strlen(text), columns, &d, words) != HC_OK) fail_msg("%s\nin: %s", words, text);
   assert_int_equal(d.n, 3);
   for (int i = 0; i < 3; ++i) {
     CHECK_NEAR(d.points[i].omega, 5 + i, 0, "point %d of %s", i, text);
@@ -96,10 +93,8 @@ static void plain_names_need_no_columns(CHECK_STATE)
         snprintf(row[k] + strlen(row[k]), 16, "%s%d", c ? (separator == ';' ? ";" : ",") : "", 5 + k);
     snprintf(text, sizeof text, "%s\n%s\n%s\n%s\n", list[i].header, row[0], row[1], row[2]);
     verify_data d;
-    if (read_text_as(text, strlen(text), NULL, list[i].quantity, &d, words) != HC_OK) {
-      print_error("%s\nin: %s\n", words, text);
-      fail();
-    }
+    if (read_text_as(text, strlen(text), NULL, list[i].quantity, &d, words) != HC_OK)
+      fail_msg("%s\nin: %s", words, text);
     assert_string_equal(verify_quantity_name(&d.quantity, name), list[i].found);
     CHECK_NEAR(d.points[0].omega, list[i].omega, 1e-14, "%s", list[i].header);
     verify_data_clear(&d);
@@ -121,10 +116,8 @@ static void ambiguous_names_need_columns(CHECK_STATE)
     verify_data d;
     char words[VERIFY_TEXT];
     assert_int_equal(read_text_as(list[i].text, strlen(list[i].text), NULL, NULL, &d, words), HC_BAD_INPUT);
-    if (!strstr(words, list[i].fragment) || !strstr(words, "expected")) {
-      print_error("'%s', expected '%s'\n", words, list[i].fragment);
-      fail();
-    }
+    if (!strstr(words, list[i].fragment) || !strstr(words, "expected"))
+      fail_msg("'%s', expected '%s'", words, list[i].fragment);
     assert_non_null(strstr(words, "--columns"));
     verify_data_clear(&d);
   }
@@ -197,10 +190,8 @@ static void refused(const char *text, size_t length, const char *columns, const 
   char words[VERIFY_TEXT];
   hc_status st = read_text(text, length, columns, &d, words);
   const char *at = strstr(words, place);
-  if (st != HC_BAD_INPUT || !at || !strstr(at, fragment) || !strstr(at, "expected")) {
-    print_error("status %d, message '%s'; expected '%s ... %s' for:\n%s\n", st, words, place, fragment, text);
-    fail();
-  }
+  if (st != HC_BAD_INPUT || !at || !strstr(at, fragment) || !strstr(at, "expected"))
+    fail_msg("status %d, message '%s'; expected '%s ... %s' for:\n%s", st, words, place, fragment, text);
   verify_data_clear(&d);
 }
 #define REFUSED(text, columns, place, fragment) refused(text, sizeof text - 1, columns, place, fragment)
@@ -266,10 +257,8 @@ static void unclear(const char *columns, const char *quantity, const char *fragm
 {
   verify_columns where;
   char words[VERIFY_TEXT] = "";
-  if (verify_columns_read(columns, quantity, &where, words) != HC_BAD_INPUT || !strstr(words, fragment)) {
-    print_error("--columns '%s': '%s', expected '%s'\n", columns, words, fragment);
-    fail();
-  }
+  if (verify_columns_read(columns, quantity, &where, words) != HC_BAD_INPUT || !strstr(words, fragment))
+    fail_msg("--columns '%s': '%s', expected '%s'", columns, words, fragment);
 }
 
 static void columns_say_what_they_mean(CHECK_STATE)
