@@ -10,6 +10,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -67,7 +68,8 @@ static inline int check_ended(int failed)
 #define CHECK_TRIALS(n) (n)
 #endif
 
-/* The main of a test program: its tests, the seconds after which it ends, their common setup and teardown or NULL. */
+/* The main of a test program whose tests are a struct CMUnitTest tests[] (since some have a setup of their own): the
+ * seconds after which it ends, their common setup and teardown or NULL. */
 #define CHECK_MAIN_WITH(name, tests, seconds, setup, teardown)                                                         \
   int main(void)                                                                                                       \
   {                                                                                                                    \
@@ -75,5 +77,31 @@ static inline int check_ended(int failed)
     return cmocka_run_group_tests_name(name, tests, setup, teardown);                                                  \
   }
 #define CHECK_MAIN(name, tests, seconds) CHECK_MAIN_WITH(name, tests, seconds, NULL, NULL)
+
+/* Functions as tests under their names, which are listed in `names`, divided by commas. */
+enum { CHECK_MOST_TESTS = 64 };
+static inline int check_run(const char *group, char *names, size_t n, const CMUnitTestFunction *functions,
+                            CMFixtureFunction setup, CMFixtureFunction teardown)
+{
+  struct CMUnitTest tests[CHECK_MOST_TESTS] = {{0}};
+  for (size_t i = 0; i < n; ++i) {
+    tests[i].name = strtok(i == 0 ? names : NULL, ", ");
+    tests[i].test_func = functions[i];
+  }
+  return check_ended(_cmocka_run_group_tests(group, tests, n, setup, teardown));
+}
+
+/* The main of a test program whose tests are these functions. */
+#define CHECK_TESTS_WITH(name, seconds, setup, teardown, ...)                                                          \
+  int main(void)                                                                                                       \
+  {                                                                                                                    \
+    static const CMUnitTestFunction tests_[] = {__VA_ARGS__};                                                          \
+    static char names_[] = #__VA_ARGS__;                                                                               \
+    const size_t n_ = sizeof tests_ / sizeof *tests_;                                                                  \
+    _Static_assert(sizeof tests_ / sizeof *tests_ <= CHECK_MOST_TESTS, "more tests than check_run has room for");      \
+    check_watchdog(seconds);                                                                                           \
+    return check_run(name, names_, n_, tests_, setup, teardown);                                                       \
+  }
+#define CHECK_TESTS(name, seconds, ...) CHECK_TESTS_WITH(name, seconds, NULL, NULL, __VA_ARGS__)
 
 #endif

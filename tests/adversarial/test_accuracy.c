@@ -135,5 +135,4 @@ static void the_first_harmonic_is_good_to_a_millionth(CHECK_STATE)
   assert_int_equal(compared, N_STEADY_REFERENCES); /* none grazes */
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(the_first_harmonic_is_good_to_a_millionth)};
-CHECK_MAIN_WITH("adversarial.accuracy", tests, 900, read_rows, NULL)
+CHECK_TESTS_WITH("adversarial.accuracy", 900, read_rows, NULL, the_first_harmonic_is_good_to_a_millionth)

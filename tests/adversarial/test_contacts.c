@@ -178,16 +178,7 @@ static void contacts_that_switch_together(CHECK_STATE)
   same_answers(&sixteen, &reversed, 1, SOLVED);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(grazing_to_an_ulp),
-    cmocka_unit_test(amplitude_equal_to_the_gap),
-    cmocka_unit_test(on_the_edge_of_the_cone),
-    cmocka_unit_test(tangential_and_normal_force_vanish_together),
-    cmocka_unit_test(angle_0_is_a_jenkins_element),
-    cmocka_unit_test(angle_90_is_a_stop),
-    cmocka_unit_test(friction_from_none_to_too_much),
-    cmocka_unit_test(gap_0_scales_with_the_force),
-    cmocka_unit_test(gap_0_vibrates_at_its_bilinear_frequency),
-    cmocka_unit_test(contacts_that_switch_together),
-};
-CHECK_MAIN("adversarial.contacts", tests, 900)
+CHECK_TESTS("adversarial.contacts", 900, grazing_to_an_ulp, amplitude_equal_to_the_gap, on_the_edge_of_the_cone,
+            tangential_and_normal_force_vanish_together, angle_0_is_a_jenkins_element, angle_90_is_a_stop,
+            friction_from_none_to_too_much, gap_0_scales_with_the_force, gap_0_vibrates_at_its_bilinear_frequency,
+            contacts_that_switch_together)

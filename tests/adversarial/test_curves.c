@@ -175,14 +175,6 @@ static void a_contact_of_next_to_no_stiffness(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(resonance_has_its_closed_form),
-    cmocka_unit_test(resonance_with_a_contact_balances_its_energy),
-    cmocka_unit_test(a_sweep_that_ends_on_a_fold),
-    cmocka_unit_test(downwards_is_upwards_backwards),
-    cmocka_unit_test(both_directions_reach_their_branch),
-    cmocka_unit_test(no_force_is_rest),
-    cmocka_unit_test(a_contact_of_friction_alone),
-    cmocka_unit_test(a_contact_of_next_to_no_stiffness),
-};
-CHECK_MAIN("adversarial.curves", tests, 900)
+CHECK_TESTS("adversarial.curves", 900, resonance_has_its_closed_form, resonance_with_a_contact_balances_its_energy,
+            a_sweep_that_ends_on_a_fold, downwards_is_upwards_backwards, both_directions_reach_their_branch,
+            no_force_is_rest, a_contact_of_friction_alone, a_contact_of_next_to_no_stiffness)

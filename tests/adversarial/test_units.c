@@ -179,6 +179,4 @@ static void exact_law(CHECK_STATE) { transient_with(TRANSIENT_LAW_EXACT, N_REFER
 
 static void regularised_law(CHECK_STATE) { transient_with(TRANSIENT_LAW_REGULARISED, 3); }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(exact_forces), cmocka_unit_test(sampled_forces),
-                                          cmocka_unit_test(exact_law), cmocka_unit_test(regularised_law)};
-CHECK_MAIN_WITH("adversarial.units", tests, 900, read_rows, NULL)
+CHECK_TESTS_WITH("adversarial.units", 900, read_rows, NULL, exact_forces, sampled_forces, exact_law, regularised_law)

@@ -120,7 +120,4 @@ static void refusals(CHECK_STATE)
   expect("compare cases/adversarial/two_hundred_harmonics.yaml --set hbm.harmonics=201 2>&1", 2, "200");
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(contacts), cmocka_unit_test(curves),
-                                          cmocka_unit_test(a_branch_is_not_hidden),
-                                          cmocka_unit_test(chaos_is_not_agreed_with), cmocka_unit_test(refusals)};
-CHECK_MAIN("adversarial.verdicts", tests, 900)
+CHECK_TESTS("adversarial.verdicts", 900, contacts, curves, a_branch_is_not_hidden, chaos_is_not_agreed_with, refusals)

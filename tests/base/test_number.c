@@ -187,14 +187,5 @@ static void locale_does_not_matter(void **state)
   setlocale(LC_ALL, "C");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(numbers_are_read_whole),
-    cmocka_unit_test(what_is_no_number_says_why),
-    cmocka_unit_test(integers_are_digits),
-    cmocka_unit_test(written_numbers_come_back),
-    cmocka_unit_test(errno_is_left_alone),
-    cmocka_unit_test(locale_does_not_matter),
-    cmocka_unit_test(nothing_is_read_beyond_the_end),
-};
-
-CHECK_MAIN("cases.number", tests, 60)
+CHECK_TESTS("cases.number", 60, numbers_are_read_whole, what_is_no_number_says_why, integers_are_digits,
+            written_numbers_come_back, errno_is_left_alone, locale_does_not_matter, nothing_is_read_beyond_the_end)

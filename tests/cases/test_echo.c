@@ -214,10 +214,5 @@ static void reference_scenes_are_what_they_say(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(random_scenes_come_back_bit_for_bit), cmocka_unit_test(frequencies_and_assignments_come_back_too),
-    cmocka_unit_test(what_is_no_scene_is_not_echoed),      cmocka_unit_test(the_papers_scenes_are_all_readable),
-    cmocka_unit_test(reference_scenes_are_what_they_say),
-};
-
-CHECK_MAIN("cases.echo", tests, 120)
+CHECK_TESTS("cases.echo", 120, random_scenes_come_back_bit_for_bit, frequencies_and_assignments_come_back_too,
+            what_is_no_scene_is_not_echoed, the_papers_scenes_are_all_readable, reference_scenes_are_what_they_say)

@@ -130,12 +130,5 @@ static void describe_finds_by_section_name_and_symbol(CHECK_STATE)
   check_message(&err);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(defaults_pass_their_own_reader),
-    cmocka_unit_test(defaults_are_those_of_the_interface),
-    cmocka_unit_test(rows_are_sound),
-    cmocka_unit_test(describe_mentions_every_field),
-    cmocka_unit_test(describe_finds_by_section_name_and_symbol),
-};
-
-CHECK_MAIN("cases.fields", tests, 60)
+CHECK_TESTS("cases.fields", 60, defaults_pass_their_own_reader, defaults_are_those_of_the_interface, rows_are_sound,
+            describe_mentions_every_field, describe_finds_by_section_name_and_symbol)

@@ -184,15 +184,6 @@ static void mutants_are_read_or_refused(CHECK_STATE)
   assert_true(fine > 100 && bad > 1000); /* both happen */
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(megabytes_end_quickly),
-    cmocka_unit_test(anything_larger_is_not_even_parsed),
-    cmocka_unit_test(what_is_no_file_is_an_io_error),
-    cmocka_unit_test(files_are_closed_again),
-    cmocka_unit_test(small_buffers_are_never_overrun),
-    cmocka_unit_test(input_is_never_echoed_raw),
-    cmocka_unit_test(long_messages_are_cut_between_characters),
-    cmocka_unit_test(mutants_are_read_or_refused),
-};
-
-CHECK_MAIN("cases.hostile", tests, 240)
+CHECK_TESTS("cases.hostile", 240, megabytes_end_quickly, anything_larger_is_not_even_parsed,
+            what_is_no_file_is_an_io_error, files_are_closed_again, small_buffers_are_never_overrun,
+            input_is_never_echoed_raw, long_messages_are_cut_between_characters, mutants_are_read_or_refused)

@@ -263,12 +263,5 @@ static void too_many_are_refused(CHECK_STATE)
   refused(text, NULL, "f:5:10: ", "compare.omega is a list of 257");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(everything_lands_where_it_belongs),
-    cmocka_unit_test(harmless_forms_are_read),
-    cmocka_unit_test(frequency_becomes_omega),
-    cmocka_unit_test(mistakes_are_named_where_they_stand),
-    cmocka_unit_test(too_many_are_refused),
-};
-
-CHECK_MAIN("cases.reader", tests, 60)
+CHECK_TESTS("cases.reader", 60, everything_lands_where_it_belongs, harmless_forms_are_read, frequency_becomes_omega,
+            mistakes_are_named_where_they_stand, too_many_are_refused)

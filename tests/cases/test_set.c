@@ -192,16 +192,7 @@ static void sixteen_contacts_and_no_more(CHECK_STATE)
   assert_non_null(strstr(err.message, "the case has 16 contacts, expected an index 0..15"));
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_kind_can_be_set),
-    cmocka_unit_test(lists_with_or_without_brackets),
-    cmocka_unit_test(contacts_are_reached_replaced_and_appended),
-    cmocka_unit_test(a_contact_may_be_appended_field_by_field),
-    cmocka_unit_test(later_ones_win_and_rivals_give_way),
-    cmocka_unit_test(mistakes_name_the_assignment),
-    cmocka_unit_test(the_one_given_last_is_blamed),
-    cmocka_unit_test(a_wrong_file_is_not_mended_by_assignments),
-    cmocka_unit_test(sixteen_contacts_and_no_more),
-};
-
-CHECK_MAIN("cases.set", tests, 60)
+CHECK_TESTS("cases.set", 60, every_kind_can_be_set, lists_with_or_without_brackets,
+            contacts_are_reached_replaced_and_appended, a_contact_may_be_appended_field_by_field,
+            later_ones_win_and_rivals_give_way, mistakes_name_the_assignment, the_one_given_last_is_blamed,
+            a_wrong_file_is_not_mended_by_assignments, sixteen_contacts_and_no_more)

@@ -258,21 +258,8 @@ static void a_failed_run_touches_no_file(CHECK_STATE)
   if (access("/dev/full", W_OK) == 0) expect("frf " CASE2 "-q --at 6 2>&1 >/dev/full", 3, "standard output");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(columns_are_the_interface),
-    cmocka_unit_test(the_closed_form_is_of_the_exact_law),
-    cmocka_unit_test(verdicts_reach_the_exit_code),
-    cmocka_unit_test(dropping_the_mean_costs_what_it_costs),
-    cmocka_unit_test(mistakes_are_named),
-    cmocka_unit_test(nearly_right_words_get_a_suggestion),
-    cmocka_unit_test(tables_fit_the_screen),
-    cmocka_unit_test(options_belong_to_their_command),
-    cmocka_unit_test(advice_is_about_the_side_that_failed),
-    cmocka_unit_test(agreement_is_not_claimed_lightly),
-    cmocka_unit_test(leaving_a_saddle_is_not_chaos),
-    cmocka_unit_test(stability_is_said_or_unknown),
-    cmocka_unit_test(help_works_everywhere),
-    cmocka_unit_test(a_failed_run_touches_no_file),
-};
-
-CHECK_MAIN("compare.command", tests, 300)
+CHECK_TESTS("compare.command", 300, columns_are_the_interface, the_closed_form_is_of_the_exact_law,
+            verdicts_reach_the_exit_code, dropping_the_mean_costs_what_it_costs, mistakes_are_named,
+            nearly_right_words_get_a_suggestion, tables_fit_the_screen, options_belong_to_their_command,
+            advice_is_about_the_side_that_failed, agreement_is_not_claimed_lightly, leaving_a_saddle_is_not_chaos,
+            stability_is_said_or_unknown, help_works_everywhere, a_failed_run_touches_no_file)

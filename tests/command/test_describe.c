@@ -94,11 +94,5 @@ static void mistakes_are_named(CHECK_STATE)
   expect("hbm.sampls --case " CASE2 " 2>&1", 64, "did you mean `hbm.samples`?");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_field_is_there_for_programs),
-    cmocka_unit_test(a_case_says_where_its_values_are_from),
-    cmocka_unit_test(what_follows_is_what_the_formulas_say),
-    cmocka_unit_test(mistakes_are_named),
-};
-
-CHECK_MAIN("command.describe", tests, 60)
+CHECK_TESTS("command.describe", 60, every_field_is_there_for_programs, a_case_says_where_its_values_are_from,
+            what_follows_is_what_the_formulas_say, mistakes_are_named)

@@ -158,16 +158,7 @@ static int fill_folder(void **state)
   return 0;
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(an_output_over_its_case),
-    cmocka_unit_test(an_output_over_its_study_or_base),
-    cmocka_unit_test(an_output_over_the_curve),
-    cmocka_unit_test(an_output_over_the_results),
-    cmocka_unit_test(junit_plot_and_findings_over_another),
-    cmocka_unit_test(a_journal_is_kept),
-    cmocka_unit_test(a_page_named_after_its_case),
-    cmocka_unit_test(other_names_for_the_same_file),
-    cmocka_unit_test(the_streams_of_the_shell),
-    cmocka_unit_test(what_may_be_said_twice),
-};
-CHECK_MAIN_WITH("command.files", tests, 120, fill_folder, folder_remove)
+CHECK_TESTS_WITH("command.files", 120, fill_folder, folder_remove, an_output_over_its_case,
+                 an_output_over_its_study_or_base, an_output_over_the_curve, an_output_over_the_results,
+                 junit_plot_and_findings_over_another, a_journal_is_kept, a_page_named_after_its_case,
+                 other_names_for_the_same_file, the_streams_of_the_shell, what_may_be_said_twice)

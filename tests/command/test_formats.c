@@ -45,6 +45,4 @@ static void every_format_has_the_same_modes(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(every_format_has_the_same_modes)};
-
-CHECK_MAIN("command.formats", tests, 60)
+CHECK_TESTS("command.formats", 60, every_format_has_the_same_modes)

@@ -119,15 +119,7 @@ static void far_outside_is_solved_without_the_curve(CHECK_STATE)
   expect("frf " CASE2 "--at 0.75 2>&1 >/dev/null", 0, "omega = 0.75: outside the sweep from 3 to 20, which is widened");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(at_is_in_cycles_where_the_sweep_is),
-    cmocka_unit_test(cycles_are_not_taken_for_radians),
-    cmocka_unit_test(compare_takes_frequencies_too),
-    cmocka_unit_test(the_gates_ranges_are_in_the_sweeps_unit),
-    cmocka_unit_test(what_is_said_is_in_cycles),
-    cmocka_unit_test(outside_the_sweep_is_warned_of),
-    cmocka_unit_test(the_other_unit_is_refused_far_outside),
-    cmocka_unit_test(far_outside_is_solved_without_the_curve),
-};
-
-CHECK_MAIN("command.frequency", tests, 300)
+CHECK_TESTS("command.frequency", 300, at_is_in_cycles_where_the_sweep_is, cycles_are_not_taken_for_radians,
+            compare_takes_frequencies_too, the_gates_ranges_are_in_the_sweeps_unit, what_is_said_is_in_cycles,
+            outside_the_sweep_is_warned_of, the_other_unit_is_refused_far_outside,
+            far_outside_is_solved_without_the_curve)

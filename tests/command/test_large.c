@@ -96,8 +96,4 @@ static void plates_stick_slip_and_lift_off(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(a_bladed_disk_is_compared),
-                                          cmocka_unit_test(plates_bend_as_cantilevers),
-                                          cmocka_unit_test(plates_stick_slip_and_lift_off)};
-
-CHECK_MAIN("command.large", tests, 600)
+CHECK_TESTS("command.large", 600, a_bladed_disk_is_compared, plates_bend_as_cantilevers, plates_stick_slip_and_lift_off)

@@ -58,6 +58,4 @@ static void memory_is_foretold(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(memory_is_foretold)};
-
-CHECK_MAIN("command.memory", tests, 300)
+CHECK_TESTS("command.memory", 300, memory_is_foretold)

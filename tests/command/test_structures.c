@@ -401,28 +401,12 @@ static void a_structure_says_what_it_resolved_to(CHECK_STATE)
   assert_null(strstr(out, "structure.mass"));
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(pairs_are_one_row),
-    cmocka_unit_test(one_response_is_kept),
-    cmocka_unit_test(what_nothing_holds_is_named),
-    cmocka_unit_test(what_has_no_mass_is_named),
-    cmocka_unit_test(what_has_no_damping_is_named),
-    cmocka_unit_test(comparisons_say_what_they_leave_out),
-    cmocka_unit_test(one_response_is_compared),
-    cmocka_unit_test(contacts_are_compared),
-    cmocka_unit_test(every_contact_of_every_solution_has_a_row),
-    cmocka_unit_test(a_jenkins_element_has_its_closed_form),
-    cmocka_unit_test(the_slider_starts_where_it_is_told),
-    cmocka_unit_test(a_circular_motion_has_its_closed_form),
-    cmocka_unit_test(a_collinear_motion_is_that_of_one_tangent),
-    cmocka_unit_test(a_square_has_two_jenkins_elements),
-    cmocka_unit_test(a_slider_of_two_tangents_starts_where_it_is_told),
-    cmocka_unit_test(a_stop_has_a_normal_force_alone),
-    cmocka_unit_test(one_contact_of_an_oscillator_adds_up),
-    cmocka_unit_test(a_motion_that_fits_no_contact_is_refused),
-    cmocka_unit_test(a_study_keeps_every_response),
-    cmocka_unit_test(a_study_runs_time_integration_of_structures),
-    cmocka_unit_test(a_structure_says_what_it_resolved_to),
-};
-
-CHECK_MAIN("command.structures", tests, 60)
+CHECK_TESTS("command.structures", 60, pairs_are_one_row, one_response_is_kept, what_nothing_holds_is_named,
+            what_has_no_mass_is_named, what_has_no_damping_is_named, comparisons_say_what_they_leave_out,
+            one_response_is_compared, contacts_are_compared, every_contact_of_every_solution_has_a_row,
+            a_jenkins_element_has_its_closed_form, the_slider_starts_where_it_is_told,
+            a_circular_motion_has_its_closed_form, a_collinear_motion_is_that_of_one_tangent,
+            a_square_has_two_jenkins_elements, a_slider_of_two_tangents_starts_where_it_is_told,
+            a_stop_has_a_normal_force_alone, one_contact_of_an_oscillator_adds_up,
+            a_motion_that_fits_no_contact_is_refused, a_study_keeps_every_response,
+            a_study_runs_time_integration_of_structures, a_structure_says_what_it_resolved_to)

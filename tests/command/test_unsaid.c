@@ -66,11 +66,5 @@ static void an_undetermined_mean_is_said(CHECK_STATE)
   assert_null(strstr(out, "undetermined"));
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_free_mean_is_said_and_not_compared),
-    cmocka_unit_test(a_determined_mean_is_compared),
-    cmocka_unit_test(nothing_nonlinear_is_said),
-    cmocka_unit_test(an_undetermined_mean_is_said),
-};
-
-CHECK_MAIN("command.unsaid", tests, 300)
+CHECK_TESTS("command.unsaid", 300, a_free_mean_is_said_and_not_compared, a_determined_mean_is_compared,
+            nothing_nonlinear_is_said, an_undetermined_mean_is_said)

@@ -104,10 +104,5 @@ static void budgets_are_never_advised_what_is_set(CHECK_STATE)
   expect_remedy(&setup, 5, (budget_parts){.settling = 1, .sum = 1}, "");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(hbm_is_never_advised_what_it_has),
-    cmocka_unit_test(the_transient_is_never_advised_what_it_has),
-    cmocka_unit_test(advice_is_a_sentence),
-    cmocka_unit_test(budgets_are_never_advised_what_is_set),
-};
-CHECK_MAIN("compare.advice", tests, 60)
+CHECK_TESTS("compare.advice", 60, hbm_is_never_advised_what_it_has, the_transient_is_never_advised_what_it_has,
+            advice_is_a_sentence, budgets_are_never_advised_what_is_set)

@@ -132,10 +132,5 @@ static void progress_goes_on_from_the_curve(CHECK_STATE)
   case_clear(&sc);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(progress_goes_on_from_the_curve),
-    cmocka_unit_test(all_rows_match),
-    cmocka_unit_test(too_few_samples_are_named),
-    cmocka_unit_test(the_regularisation_is_of_first_order),
-};
-CHECK_MAIN("compare.circles", tests, 120)
+CHECK_TESTS("compare.circles", 120, progress_goes_on_from_the_curve, all_rows_match, too_few_samples_are_named,
+            the_regularisation_is_of_first_order)

@@ -128,11 +128,6 @@ static void both_sides_meet_with_the_harmonics(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(work_is_measured_by_the_largest),
-    cmocka_unit_test(a_graze_is_no_disagreement),
-    cmocka_unit_test(normal_forces_count_unless_a_slider_is_free),
-    cmocka_unit_test(to_touch_or_not_is_a_difference),
-    cmocka_unit_test(both_sides_meet_with_the_harmonics),
-};
-CHECK_MAIN("compare.contacts", tests, 60)
+CHECK_TESTS("compare.contacts", 60, work_is_measured_by_the_largest, a_graze_is_no_disagreement,
+            normal_forces_count_unless_a_slider_is_free, to_touch_or_not_is_a_difference,
+            both_sides_meet_with_the_harmonics)

@@ -197,11 +197,5 @@ static void a_structure_is_guessed_whole(CHECK_STATE)
   model_free(m);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(not_asked_where_the_linear_response_will_do),
-    cmocka_unit_test(refusals_lead_to_ramps_or_out),
-    cmocka_unit_test(a_guess_is_where_newton_begins),
-    cmocka_unit_test(the_motion_from_rest_is_a_guess),
-    cmocka_unit_test(a_structure_is_guessed_whole),
-};
-CHECK_MAIN("compare.first_guess", tests, 120)
+CHECK_TESTS("compare.first_guess", 120, not_asked_where_the_linear_response_will_do, refusals_lead_to_ramps_or_out,
+            a_guess_is_where_newton_begins, the_motion_from_rest_is_a_guess, a_structure_is_guessed_whole)

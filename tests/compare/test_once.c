@@ -80,10 +80,4 @@ static void systems_solved(CHECK_STATE)
   comparison_clear(&c);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(exact_law),
-    cmocka_unit_test(regularised_law),
-    cmocka_unit_test(finer_steps_only_where_shown),
-    cmocka_unit_test(systems_solved),
-};
-CHECK_MAIN("compare.once", tests, 60)
+CHECK_TESTS("compare.once", 60, exact_law, regularised_law, finer_steps_only_where_shown, systems_solved)

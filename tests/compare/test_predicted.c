@@ -245,13 +245,6 @@ static void a_damping_off_on_one_side_is_unexpected(CHECK_STATE)
   damping_error = 0;
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_rule),
-    cmocka_unit_test(hbm_predicts_what_is_found),
-    cmocka_unit_test(predictions_are_relative_to_their_own_amplitude),
-    cmocka_unit_test(a_disagreement_beyond_both_is_unexpected),
-    cmocka_unit_test(the_command_says_so),
-    cmocka_unit_test(a_damping_off_on_one_side_is_unexpected),
-};
-
-CHECK_MAIN("compare.predicted", tests, 60)
+CHECK_TESTS("compare.predicted", 60, the_rule, hbm_predicts_what_is_found,
+            predictions_are_relative_to_their_own_amplitude, a_disagreement_beyond_both_is_unexpected,
+            the_command_says_so, a_damping_off_on_one_side_is_unexpected)

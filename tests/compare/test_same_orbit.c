@@ -61,10 +61,5 @@ static void regularisation_is_of_one_orbit(CHECK_STATE)
   assert_true(isnan(budget_regularisation(&regularised, &orbit)));
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_twentieth_of_the_amplitude_apart),
-    cmocka_unit_test(a_free_mean_is_no_other_orbit),
-    cmocka_unit_test(stability_and_period_tell_orbits_apart),
-    cmocka_unit_test(regularisation_is_of_one_orbit),
-};
-CHECK_MAIN("compare.same_orbit", tests, 60)
+CHECK_TESTS("compare.same_orbit", 60, a_twentieth_of_the_amplitude_apart, a_free_mean_is_no_other_orbit,
+            stability_and_period_tell_orbits_apart, regularisation_is_of_one_orbit)

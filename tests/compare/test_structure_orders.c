@@ -155,9 +155,4 @@ static void the_three_meet(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(harmonics_tend_to_the_transient),
-    cmocka_unit_test(the_three_meet),
-};
-
-CHECK_MAIN("compare.structure_orders", tests, 300)
+CHECK_TESTS("compare.structure_orders", 300, harmonics_tend_to_the_transient, the_three_meet)

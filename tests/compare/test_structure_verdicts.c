@@ -143,5 +143,4 @@ static void verdicts_hold(CHECK_STATE)
   for (size_t i = 0; i < sizeof expected / sizeof *expected; ++i) check_case(&expected[i]);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(verdicts_hold)};
-CHECK_MAIN("compare.structure_verdicts", tests, 300)
+CHECK_TESTS("compare.structure_verdicts", 300, verdicts_hold)

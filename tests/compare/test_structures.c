@@ -146,8 +146,4 @@ static void a_mistake_on_one_side_is_seen(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_response_predicts_its_error),
-    cmocka_unit_test(a_mistake_on_one_side_is_seen),
-};
-CHECK_MAIN("compare.structures", tests, 120)
+CHECK_TESTS("compare.structures", 120, every_response_predicts_its_error, a_mistake_on_one_side_is_seen)

@@ -350,14 +350,5 @@ static void bad_input(CHECK_STATE)
   aft_free(a);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(unilateral_spring),
-    cmocka_unit_test(jenkins_element),
-    cmocka_unit_test(restarts_of_the_slider),
-    cmocka_unit_test(agrees_with_the_slow_way),
-    cmocka_unit_test(the_slider_closes_in_one_pass),
-    cmocka_unit_test(contacts_add),
-    cmocka_unit_test(linear_motions),
-    cmocka_unit_test(bad_input),
-};
-CHECK_MAIN("hbm.aft", tests, 120)
+CHECK_TESTS("hbm.aft", 120, unilateral_spring, jenkins_element, restarts_of_the_slider, agrees_with_the_slow_way,
+            the_slider_closes_in_one_pass, contacts_add, linear_motions, bad_input)

@@ -132,6 +132,4 @@ static void whole_steps_only_rotate(CHECK_STATE)
   CHECK_LE(100, told, "of 300 motions");
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(jacobian_equals_central_differences),
-                                          cmocka_unit_test(whole_steps_only_rotate)};
-CHECK_MAIN("hbm.aft_jacobian", tests, 150)
+CHECK_TESTS("hbm.aft_jacobian", 150, jacobian_equals_central_differences, whole_steps_only_rotate)

@@ -264,10 +264,5 @@ static void every_switch_can_be_turned_off(CHECK_STATE)
   free_curve(&r);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(auto_harmonics_keep_the_accuracy), cmocka_unit_test(harmonics_follow_the_curve),
-    cmocka_unit_test(auto_samples_keep_the_accuracy),   cmocka_unit_test(shortcuts_change_no_solution),
-    cmocka_unit_test(every_switch_can_be_turned_off),
-};
-
-CHECK_MAIN("hbm.auto", tests, 300)
+CHECK_TESTS("hbm.auto", 300, auto_harmonics_keep_the_accuracy, harmonics_follow_the_curve,
+            auto_samples_keep_the_accuracy, shortcuts_change_no_solution, every_switch_can_be_turned_off)

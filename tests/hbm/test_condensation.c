@@ -216,9 +216,4 @@ static void changes_are_derivatives(CHECK_STATE)
     }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(condensed_is_the_whole),
-    cmocka_unit_test(nearly_dependent_directions),
-    cmocka_unit_test(changes_are_derivatives),
-};
-CHECK_MAIN("hbm.condensation", tests, 120)
+CHECK_TESTS("hbm.condensation", 120, condensed_is_the_whole, nearly_dependent_directions, changes_are_derivatives)

@@ -209,12 +209,6 @@ static void what_goes_in_is_dissipated(CHECK_STATE)
   assert_true(solved > 80 && slipped > 80 && opened > 40);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_jenkins_element_loses_the_closed_form_work),
-    cmocka_unit_test(a_stuck_contact_does_no_work),
-    cmocka_unit_test(a_contact_that_separates_loses_the_closed_form_work),
-    cmocka_unit_test(without_friction_there_is_no_traction),
-    cmocka_unit_test(what_is_no_motion_is_refused),
-    cmocka_unit_test(what_goes_in_is_dissipated),
-};
-CHECK_MAIN("hbm.contact_measures", tests, 60)
+CHECK_TESTS("hbm.contact_measures", 60, a_jenkins_element_loses_the_closed_form_work, a_stuck_contact_does_no_work,
+            a_contact_that_separates_loses_the_closed_form_work, without_friction_there_is_no_traction,
+            what_is_no_motion_is_refused, what_goes_in_is_dissipated)

@@ -167,11 +167,5 @@ static void arclength_only(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(linear_sweeps),
-    cmocka_unit_test(reference_rows_and_peaks),
-    cmocka_unit_test(from_the_other_end),
-    cmocka_unit_test(arclength_only),
-};
-
-CHECK_MAIN_WITH("hbm.curve", tests, 300, read_references, NULL)
+CHECK_TESTS_WITH("hbm.curve", 300, read_references, NULL, linear_sweeps, reference_rows_and_peaks, from_the_other_end,
+                 arclength_only)

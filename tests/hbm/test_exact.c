@@ -440,17 +440,6 @@ static void refusals(CHECK_STATE)
   exact_force_free(e);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(closed_forms_themselves),
-    cmocka_unit_test(unilateral_spring),
-    cmocka_unit_test(jenkins_element),
-    cmocka_unit_test(never_slipping_is_bilinear),
-    cmocka_unit_test(stuck_apart_and_degenerate),
-    cmocka_unit_test(symmetries),
-    cmocka_unit_test(intervals_and_report),
-    cmocka_unit_test(sampling_tends_to_it),
-    cmocka_unit_test(independent_u_and_v),
-    cmocka_unit_test(lift_off_by_rounding),
-    cmocka_unit_test(refusals),
-};
-CHECK_MAIN("hbm.exact", tests, 120)
+CHECK_TESTS("hbm.exact", 120, closed_forms_themselves, unilateral_spring, jenkins_element, never_slipping_is_bilinear,
+            stuck_apart_and_degenerate, symmetries, intervals_and_report, sampling_tends_to_it, independent_u_and_v,
+            lift_off_by_rounding, refusals)

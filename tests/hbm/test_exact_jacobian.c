@@ -196,10 +196,4 @@ static void several_contacts(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(random_motions),
-    cmocka_unit_test(grazing_motions),
-    cmocka_unit_test(onsets_are_smooth),
-    cmocka_unit_test(several_contacts),
-};
-CHECK_MAIN("hbm.exact_jacobian", tests, 120)
+CHECK_TESTS("hbm.exact_jacobian", 120, random_motions, grazing_motions, onsets_are_smooth, several_contacts)

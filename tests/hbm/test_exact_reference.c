@@ -197,11 +197,5 @@ static void stiff_contacts_from_both_ends(CHECK_STATE)
       }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_tables_are_whole),
-    cmocka_unit_test(reference_rows_and_peaks),
-    cmocka_unit_test(from_the_other_end),
-    cmocka_unit_test(stiff_contacts_from_both_ends),
-};
-
-CHECK_MAIN_WITH("hbm.exact_reference", tests, 120, read_references, NULL)
+CHECK_TESTS_WITH("hbm.exact_reference", 120, read_references, NULL, the_tables_are_whole, reference_rows_and_peaks,
+                 from_the_other_end, stiff_contacts_from_both_ends)

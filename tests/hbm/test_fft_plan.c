@@ -85,9 +85,4 @@ static void plans_transform_both_ways(CHECK_STATE)
   fft_plan_free(back);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(one_lock_guards_the_planner),
-    cmocka_unit_test(plans_transform_both_ways),
-};
-
-CHECK_MAIN("hbm.fft_plan", tests, 60)
+CHECK_TESTS("hbm.fft_plan", 60, one_lock_guards_the_planner, plans_transform_both_ways)

@@ -346,16 +346,7 @@ static void adapting_solvers_follow_ramps_too(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(scenes_once_refused_are_solved),
-    cmocka_unit_test(either_ramp_ends_on_a_solution),
-    cmocka_unit_test(derivative_along_a_ramp),
-    cmocka_unit_test(force_where_the_damping_takes_too_long),
-    cmocka_unit_test(settings_for_curves_do_not_reach_ramps),
-    cmocka_unit_test(a_ramp_ends_at_the_model),
-    cmocka_unit_test(no_ramp_where_the_linear_response_is_a_guess),
-    cmocka_unit_test(a_ramp_can_be_stopped),
-    cmocka_unit_test(adapting_solvers_follow_ramps_too),
-};
-
-CHECK_MAIN("hbm.first_solution", tests, 300)
+CHECK_TESTS("hbm.first_solution", 300, scenes_once_refused_are_solved, either_ramp_ends_on_a_solution,
+            derivative_along_a_ramp, force_where_the_damping_takes_too_long, settings_for_curves_do_not_reach_ramps,
+            a_ramp_ends_at_the_model, no_ramp_where_the_linear_response_is_a_guess, a_ramp_can_be_stopped,
+            adapting_solvers_follow_ramps_too)

@@ -133,9 +133,5 @@ static void what_adapts_is_refused(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_step_is_the_same),  cmocka_unit_test(smooth_curve_is_the_one_of_auto),
-    cmocka_unit_test(sampled_corners_stop_it), cmocka_unit_test(capped_iterations_stop_it),
-    cmocka_unit_test(what_adapts_is_refused),
-};
-CHECK_MAIN("hbm.fixed_step", tests, 100)
+CHECK_TESTS("hbm.fixed_step", 100, every_step_is_the_same, smooth_curve_is_the_one_of_auto, sampled_corners_stop_it,
+            capped_iterations_stop_it, what_adapts_is_refused)

@@ -43,5 +43,4 @@ static void matrix_equals_quadrature(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(matrix_equals_quadrature)};
-CHECK_MAIN("hbm.force_jacobian", tests, 60)
+CHECK_TESTS("hbm.force_jacobian", 60, matrix_equals_quadrature)

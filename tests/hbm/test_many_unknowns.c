@@ -55,5 +55,4 @@ static void a_request_to_stop_is_heard_in_a_step(CHECK_STATE)
   case_clear(&sc);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(a_request_to_stop_is_heard_in_a_step)};
-CHECK_MAIN("hbm.many_unknowns", tests, 120)
+CHECK_TESTS("hbm.many_unknowns", 120, a_request_to_stop_is_heard_in_a_step)

@@ -169,10 +169,5 @@ static void stiffer_contacts_need_more_samples(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(case_2_and_its_false_turning_points),
-    cmocka_unit_test(case_1_needs_few_samples),
-    cmocka_unit_test(case_b_needs_arclength_and_case_a_does_not),
-    cmocka_unit_test(stiffer_contacts_need_more_samples),
-};
-CHECK_MAIN("hbm.paper", tests, 200)
+CHECK_TESTS("hbm.paper", 200, case_2_and_its_false_turning_points, case_1_needs_few_samples,
+            case_b_needs_arclength_and_case_a_does_not, stiffer_contacts_need_more_samples)

@@ -301,13 +301,5 @@ static void refuses(CHECK_STATE)
   planar_aft_evaluator.free(a);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_line_is_one_tangent),
-    cmocka_unit_test(a_circle_by_its_closed_form),
-    cmocka_unit_test(located_forces_are_the_limit),
-    cmocka_unit_test(turns_and_shifts),
-    cmocka_unit_test(little_slip_closes),
-    cmocka_unit_test(jacobian_equals_differences),
-    cmocka_unit_test(refuses),
-};
-CHECK_MAIN("hbm.planar_aft", tests, 120)
+CHECK_TESTS("hbm.planar_aft", 120, a_line_is_one_tangent, a_circle_by_its_closed_form, located_forces_are_the_limit,
+            turns_and_shifts, little_slip_closes, jacobian_equals_differences, refuses)

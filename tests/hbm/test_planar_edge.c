@@ -103,7 +103,5 @@ static void a_curve_does_not_go_round(CHECK_STATE)
   clear(&k);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(a_curve_passes_both_edges),
-                                          cmocka_unit_test(the_curve_turns_where_the_last_slider_is_stuck),
-                                          cmocka_unit_test(a_curve_does_not_go_round)};
-CHECK_MAIN("hbm.planar_edge", tests, 60)
+CHECK_TESTS("hbm.planar_edge", 60, a_curve_passes_both_edges, the_curve_turns_where_the_last_slider_is_stuck,
+            a_curve_does_not_go_round)

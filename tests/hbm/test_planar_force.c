@@ -345,16 +345,6 @@ static void refuses(CHECK_STATE)
   planar_force_free(f);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_line_is_one_tangent),
-    cmocka_unit_test(a_circle_by_its_closed_form),
-    cmocka_unit_test(sampled_forces_tend_to_it),
-    cmocka_unit_test(random_scenes_meet_the_sampled_ones),
-    cmocka_unit_test(turns_and_shifts),
-    cmocka_unit_test(with_jacobian_the_force_is_the_same),
-    cmocka_unit_test(jacobian_equals_differences),
-    cmocka_unit_test(stuck_and_open_are_linear),
-    cmocka_unit_test(a_slider_creeps_to_the_corner_of_a_lens),
-    cmocka_unit_test(refuses),
-};
-CHECK_MAIN("hbm.planar_force", tests, 300)
+CHECK_TESTS("hbm.planar_force", 300, a_line_is_one_tangent, a_circle_by_its_closed_form, sampled_forces_tend_to_it,
+            random_scenes_meet_the_sampled_ones, turns_and_shifts, with_jacobian_the_force_is_the_same,
+            jacobian_equals_differences, stuck_and_open_are_linear, a_slider_creeps_to_the_corner_of_a_lens, refuses)

@@ -255,10 +255,5 @@ static void edges_between_motions(CHECK_STATE)
   assert_true(grazes.kinks == 0 && touches.kinks == 0 && inside.kinks > 3);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(slip_that_begins_at_touch_down),
-    cmocka_unit_test(a_graze_of_the_normal_force),
-    cmocka_unit_test(at_the_limit_all_the_while),
-    cmocka_unit_test(edges_between_motions),
-};
-CHECK_MAIN("hbm.planar_kinks", tests, 300)
+CHECK_TESTS("hbm.planar_kinks", 300, slip_that_begins_at_touch_down, a_graze_of_the_normal_force,
+            at_the_limit_all_the_while, edges_between_motions)

@@ -98,9 +98,5 @@ static void what_is_no_motion_is_refused(CHECK_STATE)
   assert_int_equal(planar_measures_of(&half, 1, v, u, v, out), HC_NOT_FINITE);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_circle_by_its_closed_form),  cmocka_unit_test(stuck_it_pulls_as_far_as_it_goes),
-    cmocka_unit_test(on_a_line_it_is_one_tangent),  cmocka_unit_test(work_is_that_of_the_traction),
-    cmocka_unit_test(what_is_no_motion_is_refused),
-};
-CHECK_MAIN("hbm.planar_measures", tests, 60)
+CHECK_TESTS("hbm.planar_measures", 60, a_circle_by_its_closed_form, stuck_it_pulls_as_far_as_it_goes,
+            on_a_line_it_is_one_tangent, work_is_that_of_the_traction, what_is_no_motion_is_refused)

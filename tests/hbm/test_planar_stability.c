@@ -429,11 +429,5 @@ static void a_doubling_is_one_of_the_period_map(CHECK_STATE)
   model_free(c.model);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(another_contact_changes_nothing),
-    cmocka_unit_test(multipliers_of_several_circles),
-    cmocka_unit_test(a_doubling_is_one_of_the_period_map),
-    cmocka_unit_test(multipliers_are_those_of_the_period_map),
-};
-
-CHECK_MAIN("hbm.planar_stability", tests, 240)
+CHECK_TESTS("hbm.planar_stability", 240, another_contact_changes_nothing, multipliers_of_several_circles,
+            a_doubling_is_one_of_the_period_map, multipliers_are_those_of_the_period_map)

@@ -305,18 +305,8 @@ static void prediction_follows_the_number_of_harmonics(CHECK_STATE)
   hbm_solver_free(s);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(prediction_tracks_truncation),
-    cmocka_unit_test(prediction_tracks_truncation_of_many_harmonics),
-    cmocka_unit_test(prediction_tracks_aliasing),
-    cmocka_unit_test(prediction_tracks_a_mean_left_out),
-    cmocka_unit_test(a_mistake_is_predicted),
-    cmocka_unit_test(chance_agreement_is_not_relied_on),
-    cmocka_unit_test(a_solution_that_is_not_there_is_far_off),
-    cmocka_unit_test(prediction_repeats_itself),
-    cmocka_unit_test(prediction_of_a_linear_response_is_rounding),
-    cmocka_unit_test(what_is_no_number_predicts_none),
-    cmocka_unit_test(prediction_follows_the_number_of_harmonics),
-};
-
-CHECK_MAIN("hbm.predict", tests, 60)
+CHECK_TESTS("hbm.predict", 60, prediction_tracks_truncation, prediction_tracks_truncation_of_many_harmonics,
+            prediction_tracks_aliasing, prediction_tracks_a_mean_left_out, a_mistake_is_predicted,
+            chance_agreement_is_not_relied_on, a_solution_that_is_not_there_is_far_off, prediction_repeats_itself,
+            prediction_of_a_linear_response_is_rounding, what_is_no_number_predicts_none,
+            prediction_follows_the_number_of_harmonics)

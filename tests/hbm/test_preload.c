@@ -73,9 +73,5 @@ static void an_opening_takes_the_preload_away(CHECK_STATE)
   aft_free(a);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(exact_force_of_a_small_motion),
-    cmocka_unit_test(sampled_force_of_a_small_motion),
-    cmocka_unit_test(an_opening_takes_the_preload_away),
-};
-CHECK_MAIN("hbm.preload", tests, 30)
+CHECK_TESTS("hbm.preload", 30, exact_force_of_a_small_motion, sampled_force_of_a_small_motion,
+            an_opening_takes_the_preload_away)

@@ -44,8 +44,4 @@ static void sectors_follow_each_other(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(sectors_follow_each_other),
-};
-
-CHECK_MAIN("hbm.sizes", tests, 120)
+CHECK_TESTS("hbm.sizes", 120, sectors_follow_each_other)

@@ -127,8 +127,4 @@ static void equals_them_at_the_limits(CHECK_STATE)
   assert_true(seen[0] > 100 && seen[1] > 100 && seen[2] > 100);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(equals_two_whole_periods),
-    cmocka_unit_test(equals_them_at_the_limits),
-};
-CHECK_MAIN("hbm.slider", tests, 120)
+CHECK_TESTS("hbm.slider", 120, equals_two_whole_periods, equals_them_at_the_limits)

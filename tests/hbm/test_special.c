@@ -283,15 +283,7 @@ static void too_little_room_keeps_the_first(CHECK_STATE)
   free_found(&f);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(contact_sets_in_where_the_linear_response_grazes),
-    cmocka_unit_test(a_contact_change_takes_few_solutions),
-    cmocka_unit_test(what_begins_at_once_is_one_change),
-    cmocka_unit_test(a_fold_is_where_two_solutions_and_multiplier_one_meet),
-    cmocka_unit_test(doublings_tend_to_those_of_the_true_orbit),
-    cmocka_unit_test(the_doubling_of_a_stiff_contact),
-    cmocka_unit_test(every_interval_is_as_stable_as_it_should_be),
-    cmocka_unit_test(too_little_room_keeps_the_first),
-};
-
-CHECK_MAIN("hbm.special", tests, 300)
+CHECK_TESTS("hbm.special", 300, contact_sets_in_where_the_linear_response_grazes, a_contact_change_takes_few_solutions,
+            what_begins_at_once_is_one_change, a_fold_is_where_two_solutions_and_multiplier_one_meet,
+            doublings_tend_to_those_of_the_true_orbit, the_doubling_of_a_stiff_contact,
+            every_interval_is_as_stable_as_it_should_be, too_little_room_keeps_the_first)

@@ -436,13 +436,7 @@ static void the_determinant_has_its_say(CHECK_STATE)
   hbm_solver_free(s);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_linear_oscillator_has_the_exponentials_of_its_eigenvalues),
-    cmocka_unit_test(without_slip_the_determinant_is_that_of_the_damping),
-    cmocka_unit_test(slipping_orbits_against_differences_of_the_period_map),
-    cmocka_unit_test(two_contacts_against_differences_of_the_period_map),
-    cmocka_unit_test(a_slider_shaken_down_is_held),
-    cmocka_unit_test(the_determinant_has_its_say),
-};
-
-CHECK_MAIN("hbm.stability", tests, 200)
+CHECK_TESTS("hbm.stability", 200, a_linear_oscillator_has_the_exponentials_of_its_eigenvalues,
+            without_slip_the_determinant_is_that_of_the_damping, slipping_orbits_against_differences_of_the_period_map,
+            two_contacts_against_differences_of_the_period_map, a_slider_shaken_down_is_held,
+            the_determinant_has_its_say)

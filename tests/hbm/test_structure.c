@@ -402,9 +402,5 @@ static void auto_keeps_the_loads(CHECK_STATE)
   model_free(m);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(jacobian_is_the_derivative), cmocka_unit_test(another_way_to_write_it_changes_nothing),
-    cmocka_unit_test(copies_are_each_the_one),    cmocka_unit_test(contacts_at_rest),
-    cmocka_unit_test(auto_keeps_the_loads),       cmocka_unit_test(a_small_body_beside_a_large_one),
-};
-CHECK_MAIN("hbm.structure", tests, 120)
+CHECK_TESTS("hbm.structure", 120, jacobian_is_the_derivative, another_way_to_write_it_changes_nothing,
+            copies_are_each_the_one, contacts_at_rest, auto_keeps_the_loads, a_small_body_beside_a_large_one)

@@ -116,10 +116,4 @@ static void pyharm_prints_the_same(CHECK_STATE)
   model_free(c.model);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(stuck_contacts),
-    cmocka_unit_test(open_contacts),
-    cmocka_unit_test(pyharm_prints_the_same),
-};
-
-CHECK_MAIN("hbm.structure_linear", tests, 60)
+CHECK_TESTS("hbm.structure_linear", 60, stuck_contacts, open_contacts, pyharm_prints_the_same)

@@ -150,10 +150,5 @@ static void every_one_has_a_pair_on_the_circle(CHECK_STATE)
   assert_true(checked >= 3);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(multipliers_are_those_of_the_period_map),
-    cmocka_unit_test(neimark_sacker_points_are_where_a_pair_leaves),
-    cmocka_unit_test(every_one_has_a_pair_on_the_circle),
-};
-
-CHECK_MAIN("hbm.structure_multipliers", tests, 120)
+CHECK_TESTS("hbm.structure_multipliers", 120, multipliers_are_those_of_the_period_map,
+            neimark_sacker_points_are_where_a_pair_leaves, every_one_has_a_pair_on_the_circle)

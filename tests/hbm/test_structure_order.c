@@ -94,8 +94,4 @@ static void sampled_tends_to_exact(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(sampled_tends_to_exact),
-};
-
-CHECK_MAIN("hbm.structure_order", tests, 120)
+CHECK_TESTS("hbm.structure_order", 120, sampled_tends_to_exact)

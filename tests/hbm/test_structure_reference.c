@@ -132,8 +132,4 @@ static void every_solution_is_found(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_solution_is_found),
-};
-
-CHECK_MAIN("hbm.structure_reference", tests, 120)
+CHECK_TESTS("hbm.structure_reference", 120, every_solution_is_found)

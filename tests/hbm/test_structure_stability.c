@@ -199,10 +199,5 @@ static void a_free_chain_keeps_its_momentum(CHECK_STATE)
   model_free(m);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(oscillators_side_by_side),
-    cmocka_unit_test(a_free_body_has_no_eigenvectors),
-    cmocka_unit_test(what_a_interval_leaves_has_all_the_multipliers),
-    cmocka_unit_test(a_free_chain_keeps_its_momentum),
-};
-CHECK_MAIN("hbm.structure_stability", tests, 60)
+CHECK_TESTS("hbm.structure_stability", 60, oscillators_side_by_side, a_free_body_has_no_eigenvectors,
+            what_a_interval_leaves_has_all_the_multipliers, a_free_chain_keeps_its_momentum)

@@ -175,11 +175,5 @@ static void out_of_reach_it_is_refused(CHECK_STATE)
   model_free(c.model);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(whole_curves),
-    cmocka_unit_test(only_ratios_of_loads_matter),
-    cmocka_unit_test(without_contacts_it_is_refused),
-    cmocka_unit_test(out_of_reach_it_is_refused),
-};
-
-CHECK_MAIN("hbm.structure_wedge", tests, 120)
+CHECK_TESTS("hbm.structure_wedge", 120, whole_curves, only_ratios_of_loads_matter, without_contacts_it_is_refused,
+            out_of_reach_it_is_refused)

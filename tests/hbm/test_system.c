@@ -31,6 +31,4 @@ static void forces_add_up_and_never_cancel(CHECK_STATE)
   hbm_solver_free(s);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(forces_add_up_and_never_cancel)};
-
-CHECK_MAIN("hbm.system", tests, 20)
+CHECK_TESTS("hbm.system", 20, forces_add_up_and_never_cancel)

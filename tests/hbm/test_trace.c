@@ -261,10 +261,6 @@ static void solving_from_nonsense(CHECK_STATE)
   hbm_solver_free(s);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(turning_points_are_real),   cmocka_unit_test(natural_continuation_stops_at_the_fold),
-    cmocka_unit_test(a_branch_that_turns_back),  cmocka_unit_test(a_branch_that_leaves),
-    cmocka_unit_test(interruption_keeps_points), cmocka_unit_test(always_an_end_with_a_reason),
-    cmocka_unit_test(sweeps_that_make_no_sense), cmocka_unit_test(solving_from_nonsense),
-};
-CHECK_MAIN("hbm.trace", tests, 200)
+CHECK_TESTS("hbm.trace", 200, turning_points_are_real, natural_continuation_stops_at_the_fold, a_branch_that_turns_back,
+            a_branch_that_leaves, interruption_keeps_points, always_an_end_with_a_reason, sweeps_that_make_no_sense,
+            solving_from_nonsense)

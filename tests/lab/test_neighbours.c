@@ -148,9 +148,5 @@ static void without_a_curve_there_are_none(CHECK_STATE)
   lab_free(l);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(neighbours_solve_the_sampled_equations), cmocka_unit_test(every_point_has_its_row),
-    cmocka_unit_test(jumping_jacobians_are_got_round),        cmocka_unit_test(another_solution_is_no_neighbour),
-    cmocka_unit_test(without_a_curve_there_are_none),
-};
-CHECK_MAIN("lab.neighbours", tests, 60)
+CHECK_TESTS("lab.neighbours", 60, neighbours_solve_the_sampled_equations, every_point_has_its_row,
+            jumping_jacobians_are_got_round, another_solution_is_no_neighbour, without_a_curve_there_are_none)

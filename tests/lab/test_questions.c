@@ -275,18 +275,7 @@ static void transients_are_steady(CHECK_STATE)
   lab_free(l);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_case_is_had_back_in_numbers),
-    cmocka_unit_test(mistakes_are_named),
-    cmocka_unit_test(a_new_case_forgets_the_old_ones_answers),
-    cmocka_unit_test(structures_are_refused),
-    cmocka_unit_test(questions_without_an_answer_are_refused),
-    cmocka_unit_test(curve_is_the_librarys),
-    cmocka_unit_test(solutions_at_an_omega_lie_there),
-    cmocka_unit_test(loop_encloses_the_work),
-    cmocka_unit_test(sampled_harmonics_fold),
-    cmocka_unit_test(motion_is_the_curves),
-    cmocka_unit_test(more_harmonics_and_samples_come_closer),
-    cmocka_unit_test(transients_are_steady),
-};
-CHECK_MAIN("lab.questions", tests, 120)
+CHECK_TESTS("lab.questions", 120, a_case_is_had_back_in_numbers, mistakes_are_named,
+            a_new_case_forgets_the_old_ones_answers, structures_are_refused, questions_without_an_answer_are_refused,
+            curve_is_the_librarys, solutions_at_an_omega_lie_there, loop_encloses_the_work, sampled_harmonics_fold,
+            motion_is_the_curves, more_harmonics_and_samples_come_closer, transients_are_steady)

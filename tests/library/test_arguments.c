@@ -160,7 +160,4 @@ static void harmless(CHECK_STATE)
   assert_string_equal(hbmcheck_verdict_name(HBMCHECK_VERDICT_SOLVER_FAILED), "solver_failed");
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(cases), cmocka_unit_test(curves), cmocka_unit_test(runs),
-                                          cmocka_unit_test(harmless)};
-
-CHECK_MAIN("library.arguments", tests, 300)
+CHECK_TESTS("library.arguments", 300, cases, curves, runs, harmless)

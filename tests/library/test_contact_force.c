@@ -115,10 +115,5 @@ static void motions_that_are_none(CHECK_STATE)
   hbmcheck_case_free(c);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(stuck_it_is_linear),        cmocka_unit_test(a_slider_loses_the_closed_form),
-    cmocka_unit_test(two_tangents_share_a_line), cmocka_unit_test(contacts_have_names),
-    cmocka_unit_test(motions_that_are_none),
-};
-
-CHECK_MAIN("library.contact_force", tests, 300)
+CHECK_TESTS("library.contact_force", 300, stuck_it_is_linear, a_slider_loses_the_closed_form, two_tangents_share_a_line,
+            contacts_have_names, motions_that_are_none)

@@ -224,9 +224,6 @@ static void what_is_no_place_is_refused(CHECK_STATE)
   free_both(&b);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_solution_has_its_contacts), cmocka_unit_test(every_steady_state_has_its_contacts),
-    cmocka_unit_test(every_row_has_its_contacts),      cmocka_unit_test(two_tangents_are_one_contact),
-    cmocka_unit_test(none_unless_asked_for),           cmocka_unit_test(what_is_no_place_is_refused),
-};
-CHECK_MAIN("library.contacts", tests, 60)
+CHECK_TESTS("library.contacts", 60, every_solution_has_its_contacts, every_steady_state_has_its_contacts,
+            every_row_has_its_contacts, two_tangents_are_one_contact, none_unless_asked_for,
+            what_is_no_place_is_refused)

@@ -160,6 +160,4 @@ static void every_call(CHECK_STATE)
   hbmcheck_case_free(m.c);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(every_call)};
-
-CHECK_MAIN("library.memory", tests, 300)
+CHECK_TESTS("library.memory", 300, every_call)

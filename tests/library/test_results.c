@@ -365,15 +365,5 @@ static void version(CHECK_STATE)
   assert_string_equal(hbmcheck_version(), HBMCHECK_VERSION);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(curve),
-    cmocka_unit_test(curve_that_leaves),
-    cmocka_unit_test(transient),
-
-    cmocka_unit_test(comparison_and_gate),
-    cmocka_unit_test(omegas_of_the_call),
-    cmocka_unit_test(cases_and_messages),
-    cmocka_unit_test(version),
-};
-
-CHECK_MAIN("library.results", tests, 300)
+CHECK_TESTS("library.results", 300, curve, curve_that_leaves, transient, comparison_and_gate, omegas_of_the_call,
+            cases_and_messages, version)

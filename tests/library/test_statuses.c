@@ -258,8 +258,4 @@ static void rows(CHECK_STATE)
   hbmcheck_case_free(c);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(cases),    cmocka_unit_test(curve),
-                                          cmocka_unit_test(measures), cmocka_unit_test(searches),
-                                          cmocka_unit_test(runs),     cmocka_unit_test(rows)};
-
-CHECK_MAIN("library.statuses", tests, 300)
+CHECK_TESTS("library.statuses", 300, cases, curve, measures, searches, runs, rows)

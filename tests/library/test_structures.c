@@ -140,10 +140,5 @@ static void comparisons_are_of_every_response(CHECK_STATE)
   case_clear(&sc);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(responses_have_names),
-    cmocka_unit_test(solutions_are_of_every_response),
-    cmocka_unit_test(steady_states_are_of_every_response),
-    cmocka_unit_test(comparisons_are_of_every_response),
-};
-CHECK_MAIN("library.structures", tests, 60)
+CHECK_TESTS("library.structures", 60, responses_have_names, solutions_are_of_every_response,
+            steady_states_are_of_every_response, comparisons_are_of_every_response)

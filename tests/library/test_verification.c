@@ -283,13 +283,6 @@ static void nothing_is_harmless(CHECK_STATE)
   hbmcheck_verification_free(NULL);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_cause_is_named),
-    cmocka_unit_test(decibels_and_points_left_out),
-    cmocka_unit_test(wrong_curves_are_refused_in_words),
-    cmocka_unit_test(accelerations_of_structures_are_refused),
-    cmocka_unit_test(a_monitor_stops_it),
-    cmocka_unit_test(nothing_is_harmless),
-};
-
-CHECK_MAIN("library.verification", tests, 300)
+CHECK_TESTS("library.verification", 300, the_cause_is_named, decibels_and_points_left_out,
+            wrong_curves_are_refused_in_words, accelerations_of_structures_are_refused, a_monitor_stops_it,
+            nothing_is_harmless)

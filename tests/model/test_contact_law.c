@@ -185,19 +185,8 @@ static void names_are_those_of_the_columns(CHECK_STATE)
   assert_string_equal(contact_regime_name(CONTACT_SEPARATES), "separation");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(separated_lets_go_and_follows),
-    cmocka_unit_test(stick_is_a_spring_to_the_slider),
-    cmocka_unit_test(slip_holds_the_limit_and_drags_the_slider),
-    cmocka_unit_test(no_tangential_spring_means_no_friction_force),
-    cmocka_unit_test(no_friction_slips_with_the_slider_on_the_mass),
-    cmocka_unit_test(touching_decides_by_the_velocities),
-    cmocka_unit_test(force_has_no_jump),
-    cmocka_unit_test(guards_vanish_where_states_end),
-    cmocka_unit_test(touching_agrees_with_the_step_after_it),
-    cmocka_unit_test(jenkins_loses_the_closed_form_energy),
-    cmocka_unit_test(geometry_is_exact_at_the_ends),
-    cmocka_unit_test(names_are_those_of_the_columns),
-};
-
-CHECK_MAIN("cases.contact_law", tests, 60)
+CHECK_TESTS("cases.contact_law", 60, separated_lets_go_and_follows, stick_is_a_spring_to_the_slider,
+            slip_holds_the_limit_and_drags_the_slider, no_tangential_spring_means_no_friction_force,
+            no_friction_slips_with_the_slider_on_the_mass, touching_decides_by_the_velocities, force_has_no_jump,
+            guards_vanish_where_states_end, touching_agrees_with_the_step_after_it,
+            jenkins_loses_the_closed_form_energy, geometry_is_exact_at_the_ends, names_are_those_of_the_columns)

@@ -29,5 +29,4 @@ static void pairs_become_one(CHECK_STATE)
   model_free(m);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(pairs_become_one)};
-CHECK_MAIN("model.contact_period", tests, 60)
+CHECK_TESTS("model.contact_period", 60, pairs_become_one)

@@ -97,9 +97,4 @@ static void step_response(CHECK_STATE)
   print_message("worst: %.2f of 8\n", worst);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(free_motion),
-    cmocka_unit_test(next_to_critical_damping),
-    cmocka_unit_test(step_response),
-};
-CHECK_MAIN("model.linear", tests, 60)
+CHECK_TESTS("model.linear", 60, free_motion, next_to_critical_damping, step_response)

@@ -110,11 +110,5 @@ static void solutions_with_many_are_those_with_one(CHECK_STATE)
   CHECK_NEAR(multiplier[1], multiplier[0], 1e-8, "multiplier");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_copy_is_its_own),
-    cmocka_unit_test(stiffness_of_many_is_that_of_one),
-    cmocka_unit_test(forces_of_many_are_those_of_one),
-    cmocka_unit_test(solutions_with_many_are_those_with_one),
-};
-
-CHECK_MAIN("model.model", tests, 60)
+CHECK_TESTS("model.model", 60, a_copy_is_its_own, stiffness_of_many_is_that_of_one, forces_of_many_are_those_of_one,
+            solutions_with_many_are_those_with_one)

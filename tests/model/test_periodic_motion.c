@@ -85,10 +85,5 @@ static void a_sample_that_is_no_number_is_no_distance(CHECK_STATE)
   assert_true(isnan(motion_between(&a, &b).waveform) && isnan(motion_between(&b, &a).waveform));
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_series_has_its_measures),
-    cmocka_unit_test(harmonics_come_back_from_samples),
-    cmocka_unit_test(the_mean_counts_unless_it_is_free),
-    cmocka_unit_test(a_sample_that_is_no_number_is_no_distance),
-};
-CHECK_MAIN("model.periodic_motion", tests, 60)
+CHECK_TESTS("model.periodic_motion", 60, a_series_has_its_measures, harmonics_come_back_from_samples,
+            the_mean_counts_unless_it_is_free, a_sample_that_is_no_number_is_no_distance)

@@ -83,12 +83,6 @@ static void not_a_number_is_no_stick(CHECK_STATE)
   assert_true(isnan(T[0]) && isnan(w[0]));
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(separated_lets_go_and_follows),
-    cmocka_unit_test(stick_is_a_spring_to_the_slider),
-    cmocka_unit_test(slip_returns_radially_and_drags_the_slider),
-    cmocka_unit_test(along_a_line_it_is_the_law_of_one_tangent),
-    cmocka_unit_test(nothing_depends_on_the_tangents_or_on_the_half),
-    cmocka_unit_test(not_a_number_is_no_stick),
-};
-CHECK_MAIN("model.planar_law", tests, 30)
+CHECK_TESTS("model.planar_law", 30, separated_lets_go_and_follows, stick_is_a_spring_to_the_slider,
+            slip_returns_radially_and_drags_the_slider, along_a_line_it_is_the_law_of_one_tangent,
+            nothing_depends_on_the_tangents_or_on_the_half, not_a_number_is_no_stick)

@@ -82,10 +82,5 @@ static void what_is_stiff_decays(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(sums_are_exact_on_polynomials),
-    cmocka_unit_test(modes_are_legendres),
-    cmocka_unit_test(slopes_are_continued),
-    cmocka_unit_test(what_is_stiff_decays),
-};
-CHECK_MAIN("numerics.collocation", tests, 30)
+CHECK_TESTS("numerics.collocation", 30, sums_are_exact_on_polynomials, modes_are_legendres, slopes_are_continued,
+            what_is_stiff_decays)

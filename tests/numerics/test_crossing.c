@@ -322,13 +322,5 @@ static void nodes_and_bounds(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(nodes_and_bounds),
-    cmocka_unit_test(random_polynomials),
-    cmocka_unit_test(grazing),
-    cmocka_unit_test(roots_that_are_known),
-    cmocka_unit_test(simple_roots_to_rounding),
-    cmocka_unit_test(constants_and_zero),
-    cmocka_unit_test(flat_minima),
-};
-CHECK_MAIN("numerics.crossing", tests, 120)
+CHECK_TESTS("numerics.crossing", 120, nodes_and_bounds, random_polynomials, grazing, roots_that_are_known,
+            simple_roots_to_rounding, constants_and_zero, flat_minima)

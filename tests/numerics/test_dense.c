@@ -271,15 +271,6 @@ static void threads_may_ask_at_once(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(solves_within_the_bound_of_rounding_theory),
-    cmocka_unit_test(the_sign_of_signed_permutations),
-    cmocka_unit_test(the_sign_turns_over_with_a_row),
-    cmocka_unit_test(singular_and_not_finite_are_refused),
-    cmocka_unit_test(inverts_random_matrices),
-    cmocka_unit_test(inverts_a_permutation_exactly),
-    cmocka_unit_test(singular_matrices_are_refused),
-    cmocka_unit_test(threads_may_ask_at_once),
-};
-
-CHECK_MAIN("numerics.dense", tests, 60)
+CHECK_TESTS("numerics.dense", 60, solves_within_the_bound_of_rounding_theory, the_sign_of_signed_permutations,
+            the_sign_turns_over_with_a_row, singular_and_not_finite_are_refused, inverts_random_matrices,
+            inverts_a_permutation_exactly, singular_matrices_are_refused, threads_may_ask_at_once)

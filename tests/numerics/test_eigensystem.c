@@ -104,9 +104,4 @@ static void defective_ones_are_refused(CHECK_STATE)
   eigensystem_free(&e);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(small_ones_are_as_good_as_large),
-    cmocka_unit_test(equal_ones),
-    cmocka_unit_test(defective_ones_are_refused),
-};
-CHECK_MAIN("numerics.eigensystem", tests, 600)
+CHECK_TESTS("numerics.eigensystem", 600, small_ones_are_as_good_as_large, equal_ones, defective_ones_are_refused)

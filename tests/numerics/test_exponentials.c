@@ -96,9 +96,4 @@ static void the_first_of_several(CHECK_STATE)
   assert_int_equal(exponentials_first_fall(&m.e, 1, &late.s, 0, 2, &at), 0);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(nothing_falls_before),
-    cmocka_unit_test(grazes),
-    cmocka_unit_test(the_first_of_several),
-};
-CHECK_MAIN("numerics.exponentials", tests, 600)
+CHECK_TESTS("numerics.exponentials", 600, nothing_falls_before, grazes, the_first_of_several)

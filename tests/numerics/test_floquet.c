@@ -35,6 +35,4 @@ static void units_of_states_make_no_difference(CHECK_STATE)
   floquet_free(f);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(units_of_states_make_no_difference)};
-
-CHECK_MAIN("numerics.floquet", tests, 60)
+CHECK_TESTS("numerics.floquet", 60, units_of_states_make_no_difference)

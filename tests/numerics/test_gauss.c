@@ -39,9 +39,4 @@ static void panels_add_up(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(nodes_and_weights_are_the_rules),
-    cmocka_unit_test(panels_add_up),
-};
-
-CHECK_MAIN("numerics.gauss", tests, 30)
+CHECK_TESTS("numerics.gauss", 30, nodes_and_weights_are_the_rules, panels_add_up)

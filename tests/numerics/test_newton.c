@@ -455,21 +455,7 @@ static void out_of_memory_ends_it(CHECK_STATE)
     }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(quadratic_like_heron),
-    cmocka_unit_test(weights_are_units),
-    cmocka_unit_test(backsolve_is_the_inverse_at_the_end),
-    cmocka_unit_test(starts_from_zero),
-    cmocka_unit_test(starts_at_the_root),
-    cmocka_unit_test(no_root_is_never_ok),
-    cmocka_unit_test(the_line_search_helps_out),
-    cmocka_unit_test(a_stall_is_said),
-    cmocka_unit_test(singular_is_said),
-    cmocka_unit_test(refusals_are_passed_on),
-    cmocka_unit_test(the_reason_of_a_refusal_survives),
-    cmocka_unit_test(nan_is_refused),
-    cmocka_unit_test(a_nan_jacobian_is_not_an_answer),
-    cmocka_unit_test(works_on_after_failures),
-    cmocka_unit_test(out_of_memory_ends_it),
-};
-CHECK_MAIN("numerics.newton", tests, 60)
+CHECK_TESTS("numerics.newton", 60, quadratic_like_heron, weights_are_units, backsolve_is_the_inverse_at_the_end,
+            starts_from_zero, starts_at_the_root, no_root_is_never_ok, the_line_search_helps_out, a_stall_is_said,
+            singular_is_said, refusals_are_passed_on, the_reason_of_a_refusal_survives, nan_is_refused,
+            a_nan_jacobian_is_not_an_answer, works_on_after_failures, out_of_memory_ends_it)

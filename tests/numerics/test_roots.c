@@ -325,20 +325,8 @@ static void the_first_change_that_is_guessed_is_found(CHECK_STATE)
   assert_int_equal(root_change_guided(beyond, beyond, &w, 3, NAN, 1e-9, &change), HC_BAD_INPUT);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(roots_are_found_from_either_side),
-    cmocka_unit_test(jumps_and_poles_cost_a_bisection),
-    cmocka_unit_test(an_end_may_be_the_root),
-    cmocka_unit_test(what_is_no_bracket_is_refused),
-    cmocka_unit_test(a_failure_ends_the_search),
-    cmocka_unit_test(a_search_that_would_not_end_is_given_up),
-    cmocka_unit_test(minima_are_found),
-    cmocka_unit_test(a_minimum_is_as_near_as_was_asked),
-    cmocka_unit_test(a_straight_line_takes_one_evaluation),
-    cmocka_unit_test(a_change_is_bisected),
-    cmocka_unit_test(a_good_guess_saves_questions),
-    cmocka_unit_test(a_bad_guess_is_survived),
-    cmocka_unit_test(the_first_change_that_is_guessed_is_found),
-};
-
-CHECK_MAIN("numerics.roots", tests, 30)
+CHECK_TESTS("numerics.roots", 30, roots_are_found_from_either_side, jumps_and_poles_cost_a_bisection,
+            an_end_may_be_the_root, what_is_no_bracket_is_refused, a_failure_ends_the_search,
+            a_search_that_would_not_end_is_given_up, minima_are_found, a_minimum_is_as_near_as_was_asked,
+            a_straight_line_takes_one_evaluation, a_change_is_bisected, a_good_guess_saves_questions,
+            a_bad_guess_is_survived, the_first_change_that_is_guessed_is_found)

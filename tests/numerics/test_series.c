@@ -212,15 +212,6 @@ static void rotated_angles(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(values_agree_with_direct_sums),
-    cmocka_unit_test(a_constant_is_its_own_extremum),
-    cmocka_unit_test(one_harmonic_swings_by_its_modulus),
-    cmocka_unit_test(extrema_that_coincide),
-    cmocka_unit_test(fejer_kernel),
-    cmocka_unit_test(no_sample_lies_outside),
-    cmocka_unit_test(the_lower_of_two_close_minima),
-    cmocka_unit_test(rms_and_first_harmonic),
-    cmocka_unit_test(rotated_angles),
-};
-CHECK_MAIN("numerics.series", tests, 60)
+CHECK_TESTS("numerics.series", 60, values_agree_with_direct_sums, a_constant_is_its_own_extremum,
+            one_harmonic_swings_by_its_modulus, extrema_that_coincide, fejer_kernel, no_sample_lies_outside,
+            the_lower_of_two_close_minima, rms_and_first_harmonic, rotated_angles)

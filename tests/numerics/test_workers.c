@@ -164,10 +164,6 @@ static void the_caller_can_stop_the_list(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(each_piece_is_done_once),           cmocka_unit_test(the_first_reason_is_kept),
-    cmocka_unit_test(what_the_system_lacks_is_a_status), cmocka_unit_test(each_listed_task_is_done_once),
-    cmocka_unit_test(a_failed_task_ends_the_list),       cmocka_unit_test(the_caller_can_stop_the_list),
-};
-
-CHECK_MAIN("numerics.workers", tests, 60)
+CHECK_TESTS("numerics.workers", 60, each_piece_is_done_once, the_first_reason_is_kept,
+            what_the_system_lacks_is_a_status, each_listed_task_is_done_once, a_failed_task_ends_the_list,
+            the_caller_can_stop_the_list)

@@ -84,9 +84,5 @@ static int remove_folder(CHECK_STATE)
   return system(line);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(files_that_are_there),    cmocka_unit_test(files_to_come),
-    cmocka_unit_test(what_is_no_regular_file), cmocka_unit_test(open_descriptors),
-    cmocka_unit_test(right_in_a_folder),
-};
-CHECK_MAIN_WITH("output.same_file", tests, 20, make_folder, remove_folder)
+CHECK_TESTS_WITH("output.same_file", 20, make_folder, remove_folder, files_that_are_there, files_to_come,
+                 what_is_no_regular_file, open_descriptors, right_in_a_folder)

@@ -550,27 +550,9 @@ static void notes_of_rows_stand_behind_them(CHECK_STATE)
   table_free(t);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(hidden_columns_are_for_machines),
-    cmocka_unit_test(lines_fit_the_screen),
-    cmocka_unit_test(empty_columns_are_spared_first),
-    cmocka_unit_test(wrapped_columns_keep_their_words),
-    cmocka_unit_test(table_is_aligned),
-    cmocka_unit_test(csv_is_exact),
-    cmocka_unit_test(json_is_exact),
-    cmocka_unit_test(no_rows_and_no_title),
-    cmocka_unit_test(several_tables),
-    cmocka_unit_test(rows_that_are_shown_at_once),
-    cmocka_unit_test(notes_of_rows_stand_behind_them),
-    cmocka_unit_test(csv_quotes_what_a_reader_could_misread),
-    cmocka_unit_test(reals_get_one_notation_a_column),
-    cmocka_unit_test(text_is_utf8_and_safe),
-    cmocka_unit_test(utf8_is_decoded_strictly),
-    cmocka_unit_test(long_text_is_cut_except_at_the_end),
-    cmocka_unit_test(doubles_come_back_bit_for_bit),
-    cmocka_unit_test(a_comma_locale_changes_nothing),
-    cmocka_unit_test(failures_are_reported),
-    cmocka_unit_test(misuse_is_a_bug),
-};
-
-CHECK_MAIN("compare.table", tests, 60)
+CHECK_TESTS("compare.table", 60, hidden_columns_are_for_machines, lines_fit_the_screen, empty_columns_are_spared_first,
+            wrapped_columns_keep_their_words, table_is_aligned, csv_is_exact, json_is_exact, no_rows_and_no_title,
+            several_tables, rows_that_are_shown_at_once, notes_of_rows_stand_behind_them,
+            csv_quotes_what_a_reader_could_misread, reals_get_one_notation_a_column, text_is_utf8_and_safe,
+            utf8_is_decoded_strictly, long_text_is_cut_except_at_the_end, doubles_come_back_bit_for_bit,
+            a_comma_locale_changes_nothing, failures_are_reported, misuse_is_a_bug)

@@ -109,13 +109,6 @@ static void what_cannot_be_is_said(CHECK_STATE)
   expect("--scenes 1 --results /dev/null/x 2>&1", 3, "Not a directory");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(two_hundred_scenes_without_a_finding),
-    cmocka_unit_test(structures_without_a_finding),
-    cmocka_unit_test(structures_in_space_without_a_finding),
-    cmocka_unit_test(what_was_stopped_goes_on),
-    cmocka_unit_test(a_journal_that_does_not_fit_is_refused),
-    cmocka_unit_test(one_scene_is_printed_as_a_case_file),
-    cmocka_unit_test(what_cannot_be_is_said),
-};
-CHECK_MAIN_WITH("stress.command", tests, 900, folder_make, folder_remove)
+CHECK_TESTS_WITH("stress.command", 900, folder_make, folder_remove, two_hundred_scenes_without_a_finding,
+                 structures_without_a_finding, structures_in_space_without_a_finding, what_was_stopped_goes_on,
+                 a_journal_that_does_not_fit_is_refused, one_scene_is_printed_as_a_case_file, what_cannot_be_is_said)

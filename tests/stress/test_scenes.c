@@ -114,9 +114,5 @@ static void every_scene_is_a_case_file(CHECK_STATE)
   stress_scenes_free(s);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_whole_of_every_range_is_drawn),
-    cmocka_unit_test(a_scene_comes_again_from_seed_and_index),
-    cmocka_unit_test(every_scene_is_a_case_file),
-};
-CHECK_MAIN("stress.scenes", tests, 60)
+CHECK_TESTS("stress.scenes", 60, the_whole_of_every_range_is_drawn, a_scene_comes_again_from_seed_and_index,
+            every_scene_is_a_case_file)

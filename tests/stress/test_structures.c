@@ -569,21 +569,9 @@ static void scenes_in_space_are_case_files(CHECK_STATE)
   stress_scenes_free(scenes);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(good_answers_agree),
-    cmocka_unit_test(a_wrong_solution_is_found),
-    cmocka_unit_test(a_wrong_force_is_found),
-    cmocka_unit_test(another_solution_is_found),
-    cmocka_unit_test(a_wrong_orbit_is_found),
-    cmocka_unit_test(a_finding_is_made_small),
-    cmocka_unit_test(good_oscillators_are_no_findings),
-    cmocka_unit_test(a_wrong_oscillator_is_found),
-    cmocka_unit_test(an_oscillator_is_made_small),
-    cmocka_unit_test(findings_of_other_seeds_are_none),
-    cmocka_unit_test(what_only_sensitivity_allows_is_ill_conditioned),
-    cmocka_unit_test(every_scene_is_a_case_file),
-    cmocka_unit_test(circles_are_held_against_their_law),
-    cmocka_unit_test(scenes_in_space_are_case_files),
-    cmocka_unit_test(orbits_on_an_edge_of_slip_are_kept),
-};
-CHECK_MAIN("stress.structures", tests, 600)
+CHECK_TESTS("stress.structures", 600, good_answers_agree, a_wrong_solution_is_found, a_wrong_force_is_found,
+            another_solution_is_found, a_wrong_orbit_is_found, a_finding_is_made_small,
+            good_oscillators_are_no_findings, a_wrong_oscillator_is_found, an_oscillator_is_made_small,
+            findings_of_other_seeds_are_none, what_only_sensitivity_allows_is_ill_conditioned,
+            every_scene_is_a_case_file, circles_are_held_against_their_law, scenes_in_space_are_case_files,
+            orbits_on_an_edge_of_slip_are_kept)

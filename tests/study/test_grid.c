@@ -190,16 +190,7 @@ static void parts_of_structures_do_not_vary(CHECK_STATE)
   assert_non_null(strstr(err.message, "the case has 1 contacts, expected an index 0..0"));
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_last_axis_is_the_fastest),
-    cmocka_unit_test(ranges_hit_what_one_expects),
-    cmocka_unit_test(integers_by_powers_of_two),
-    cmocka_unit_test(lists_and_rivals_can_vary),
-    cmocka_unit_test(a_scene_may_be_impossible),
-    cmocka_unit_test(the_fingerprint_is_of_what_is_computed),
-    cmocka_unit_test(the_largest_study),
-    cmocka_unit_test(structures_vary_too),
-    cmocka_unit_test(one_number_of_rayleigh_damping_varies),
-    cmocka_unit_test(parts_of_structures_do_not_vary),
-};
-CHECK_MAIN_WITH("study.grid", tests, 60, folder_make, folder_remove)
+CHECK_TESTS_WITH("study.grid", 60, folder_make, folder_remove, the_last_axis_is_the_fastest,
+                 ranges_hit_what_one_expects, integers_by_powers_of_two, lists_and_rivals_can_vary,
+                 a_scene_may_be_impossible, the_fingerprint_is_of_what_is_computed, the_largest_study,
+                 structures_vary_too, one_number_of_rayleigh_damping_varies, parts_of_structures_do_not_vary)

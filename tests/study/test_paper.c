@@ -72,6 +72,4 @@ static void the_quick_ones_are_as_expected(CHECK_STATE)
   assert_int_equal(WEXITSTATUS(status), 0);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(every_shipped_study_can_be_run),
-                                          cmocka_unit_test(the_quick_ones_are_as_expected)};
-CHECK_MAIN("study.paper", tests, 300)
+CHECK_TESTS("study.paper", 300, every_shipped_study_can_be_run, the_quick_ones_are_as_expected)

@@ -197,13 +197,5 @@ static void a_base_beside_the_study(CHECK_STATE)
   study_free(s);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_frame),
-    cmocka_unit_test(set),
-    cmocka_unit_test(options),
-    cmocka_unit_test(axes),
-    cmocka_unit_test(ranges),
-    cmocka_unit_test(claims),
-    cmocka_unit_test(a_base_beside_the_study),
-};
-CHECK_MAIN_WITH("study.reader", tests, 60, folder_make, folder_remove)
+CHECK_TESTS_WITH("study.reader", 60, folder_make, folder_remove, the_frame, set, options, axes, ranges, claims,
+                 a_base_beside_the_study)

@@ -141,12 +141,6 @@ static void a_copy_is_changed_without_its_original(CHECK_STATE)
   case_clear(&sc);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_part_can_be_set),
-    cmocka_unit_test(one_number_of_rayleigh_damping_leaves_the_other),
-    cmocka_unit_test(mistakes_name_the_assignment),
-    cmocka_unit_test(a_preload_needs_a_stiffness_that_can_hold_it),
-    cmocka_unit_test(a_copy_is_changed_without_its_original),
-};
-
-CHECK_MAIN("structure.assignments", tests, 60)
+CHECK_TESTS("structure.assignments", 60, every_part_can_be_set, one_number_of_rayleigh_damping_leaves_the_other,
+            mistakes_name_the_assignment, a_preload_needs_a_stiffness_that_can_hold_it,
+            a_copy_is_changed_without_its_original)

@@ -125,10 +125,5 @@ static void the_cases_of_structures_are_all_readable(CHECK_STATE)
   assert_true(n >= 20);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_form_comes_back),
-    cmocka_unit_test(the_cases_of_structures_are_all_readable),
-    cmocka_unit_test(random_structures_come_back_bit_for_bit),
-};
-
-CHECK_MAIN("structure.echo", tests, 60)
+CHECK_TESTS("structure.echo", 60, every_form_comes_back, the_cases_of_structures_are_all_readable,
+            random_structures_come_back_bit_for_bit)

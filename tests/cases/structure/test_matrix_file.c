@@ -130,10 +130,5 @@ static void files_are_found_and_searched(CHECK_STATE)
   remove_file(&f);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_format_is_read),
-    cmocka_unit_test(mistakes_are_named_where_they_stand),
-    cmocka_unit_test(files_are_found_and_searched),
-};
-
-CHECK_MAIN("structure.matrix_file", tests, 60)
+CHECK_TESTS("structure.matrix_file", 60, every_format_is_read, mistakes_are_named_where_they_stand,
+            files_are_found_and_searched)

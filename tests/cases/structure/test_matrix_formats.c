@@ -214,12 +214,6 @@ static void rows_and_nodes_must_fit(CHECK_STATE)
   model_is_refused("5,1,5,1,1\n9,2,9,2,-1\n", mass, csv, "M", "2:1: ", "structure.mass is not positive definite");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(triplets_are_read),       cmocka_unit_test(rows_by_node_are_sorted),
-    cmocka_unit_test(elements_are_read),       cmocka_unit_test(another_file_is_named),
-    cmocka_unit_test(mistakes_in_triplets),    cmocka_unit_test(mistakes_in_elements),
-    cmocka_unit_test(entries_are_found_again), cmocka_unit_test(one_model_in_every_format),
-    cmocka_unit_test(rows_and_nodes_must_fit),
-};
-
-CHECK_MAIN("structure.matrix_formats", tests, 60)
+CHECK_TESTS("structure.matrix_formats", 60, triplets_are_read, rows_by_node_are_sorted, elements_are_read,
+            another_file_is_named, mistakes_in_triplets, mistakes_in_elements, entries_are_found_again,
+            one_model_in_every_format, rows_and_nodes_must_fit)

@@ -65,6 +65,4 @@ static void each_allocation_may_fail(CHECK_STATE)
   remove_file(&nodes);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(each_allocation_may_fail)};
-
-CHECK_MAIN("structure.memory", tests, 60)
+CHECK_TESTS("structure.memory", 60, each_allocation_may_fail)

@@ -215,11 +215,5 @@ static void in_a_file_of_nodes(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(in_the_section),
-    cmocka_unit_test(in_loads_contacts_and_responses),
-    cmocka_unit_test(in_a_matrix_file),
-    cmocka_unit_test(in_a_file_of_nodes),
-};
-
-CHECK_MAIN("structure.mistakes", tests, 60)
+CHECK_TESTS("structure.mistakes", 60, in_the_section, in_loads_contacts_and_responses, in_a_matrix_file,
+            in_a_file_of_nodes)

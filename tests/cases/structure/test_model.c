@@ -255,18 +255,8 @@ static void names_of_responses(CHECK_STATE)
   case_clear(&sc);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(matrices_are_by_columns),
-    cmocka_unit_test(one_degree_of_freedom_is_the_oscillator_to_the_bit),
-    cmocka_unit_test(contacts_have_directions_and_laws),
-    cmocka_unit_test(loads_of_a_harmonic_are_summed),
-    cmocka_unit_test(quarters_of_a_turn_are_exact),
-    cmocka_unit_test(degrees_of_freedom_go_by_name_number_or_node),
-    cmocka_unit_test(files_of_matrices_lie_beside_the_case),
-    cmocka_unit_test(modal_damping_damps_every_mode_as_asked),
-    cmocka_unit_test(what_contacts_hold_is_held),
-    cmocka_unit_test(two_tangents_are_two_contacts_of_the_model),
-    cmocka_unit_test(names_of_responses),
-};
-
-CHECK_MAIN("structure.model", tests, 60)
+CHECK_TESTS("structure.model", 60, matrices_are_by_columns, one_degree_of_freedom_is_the_oscillator_to_the_bit,
+            contacts_have_directions_and_laws, loads_of_a_harmonic_are_summed, quarters_of_a_turn_are_exact,
+            degrees_of_freedom_go_by_name_number_or_node, files_of_matrices_lie_beside_the_case,
+            modal_damping_damps_every_mode_as_asked, what_contacts_hold_is_held,
+            two_tangents_are_two_contacts_of_the_model, names_of_responses)

@@ -170,10 +170,5 @@ static void mistakes_in_an_entry(CHECK_STATE)
           "pairs of a single contact");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(pairs_are_contacts),           cmocka_unit_test(pairs_have_names_and_places),
-    cmocka_unit_test(pairs_are_echoed_as_contacts), cmocka_unit_test(a_file_of_pairs),
-    cmocka_unit_test(mistakes_in_an_entry),
-};
-
-CHECK_MAIN("structure.pairs", tests, 60)
+CHECK_TESTS("structure.pairs", 60, pairs_are_contacts, pairs_have_names_and_places, pairs_are_echoed_as_contacts,
+            a_file_of_pairs, mistakes_in_an_entry)

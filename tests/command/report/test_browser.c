@@ -61,6 +61,4 @@ static void every_plot_is_drawn_and_every_control_works(CHECK_STATE)
   open_page("cases/structures/stop2.yaml -q ", "--at 0.6 --harmonics 5 --samples 64", 1, "");
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(every_plot_is_drawn_and_every_control_works)};
-
-CHECK_MAIN_WITH("compare_report.browser", tests, 600, folder_make, folder_remove)
+CHECK_TESTS_WITH("compare_report.browser", 600, folder_make, folder_remove, every_plot_is_drawn_and_every_control_works)

@@ -112,7 +112,5 @@ static void mistakes_are_named(CHECK_STATE)
   expect("bench --help", 0, "example");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(errors_fall_along_each_family), cmocka_unit_test(errors_are_of_all_responses),
-    cmocka_unit_test(every_method_comes_near), cmocka_unit_test(mistakes_are_named)};
-CHECK_MAIN("bench.command", tests, 300)
+CHECK_TESTS("bench.command", 300, errors_fall_along_each_family, errors_are_of_all_responses, every_method_comes_near,
+            mistakes_are_named)

@@ -108,13 +108,6 @@ static void quartiles_are_interpolated(CHECK_STATE)
   assert_true(low == 7 && median == 7 && high == 7);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(dominated_rows_are_not_on_the_front),
-    cmocka_unit_test(luck_does_not_count),
-    cmocka_unit_test(finer_is_in_every_setting),
-    cmocka_unit_test(errors_end_at_the_floor),
-    cmocka_unit_test(unsolved_rows_do_not_take_part),
-    cmocka_unit_test(the_cheapest_way_is_the_fastest_that_is_near_enough),
-    cmocka_unit_test(quartiles_are_interpolated),
-};
-CHECK_MAIN("bench.judge", tests, 60)
+CHECK_TESTS("bench.judge", 60, dominated_rows_are_not_on_the_front, luck_does_not_count, finer_is_in_every_setting,
+            errors_end_at_the_floor, unsolved_rows_do_not_take_part,
+            the_cheapest_way_is_the_fastest_that_is_near_enough, quartiles_are_interpolated)

@@ -139,13 +139,6 @@ static void regularisation_of_case_2_is_of_first_order(CHECK_STATE)
   comparison_clear(&c);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(powers_have_their_exponent),
-    cmocka_unit_test(luck_is_no_order),
-    cmocka_unit_test(a_plateau_is_left_out),
-    cmocka_unit_test(too_little_says_nothing),
-    cmocka_unit_test(aliasing_of_case_2_is_of_first_or_second_order),
-    cmocka_unit_test(truncation_of_case_2_is_of_third_order_or_more),
-    cmocka_unit_test(regularisation_of_case_2_is_of_first_order),
-};
-CHECK_MAIN("compare.budget_orders", tests, 240)
+CHECK_TESTS("compare.budget_orders", 240, powers_have_their_exponent, luck_is_no_order, a_plateau_is_left_out,
+            too_little_says_nothing, aliasing_of_case_2_is_of_first_or_second_order,
+            truncation_of_case_2_is_of_third_order_or_more, regularisation_of_case_2_is_of_first_order)

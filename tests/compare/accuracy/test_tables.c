@@ -255,12 +255,6 @@ static void an_interrupt_stops_all_threads(CHECK_STATE)
   comparison_clear(&c);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(rows_are_the_grid),
-    cmocka_unit_test(the_table_agrees_with_the_rows),
-    cmocka_unit_test(the_peak_is_the_limit_of_many_harmonics),
-    cmocka_unit_test(an_interrupt_keeps_whole_rows),
-    cmocka_unit_test(threads_change_nothing),
-    cmocka_unit_test(an_interrupt_stops_all_threads),
-};
-CHECK_MAIN("compare.budget_tables", tests, 240)
+CHECK_TESTS("compare.budget_tables", 240, rows_are_the_grid, the_table_agrees_with_the_rows,
+            the_peak_is_the_limit_of_many_harmonics, an_interrupt_keeps_whole_rows, threads_change_nothing,
+            an_interrupt_stops_all_threads)

@@ -197,15 +197,8 @@ static void junit_is_written_whole_or_not_at_all(CHECK_STATE)
       shell_read("cd $D && cmp one.xml two.xml && cmp one.txt two.txt && ls | grep -c xml", out, sizeof out), 0);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(passes_then_fails_when_the_result_gets_worse),
-    cmocka_unit_test(unstable_solutions_are_held_against_their_orbits),
-    cmocka_unit_test(every_response_of_a_structure_is_held_to_its_limits),
-    cmocka_unit_test(limits_are_those_of_the_case),
-    cmocka_unit_test(wrong_limits_are_named_before_anything_runs),
-    cmocka_unit_test(a_wrong_case_file_is_in_the_junit),
-    cmocka_unit_test(several_cases_are_several_suites),
-    cmocka_unit_test(what_cannot_be_compared_is_an_error),
-    cmocka_unit_test(junit_is_written_whole_or_not_at_all),
-};
-CHECK_MAIN_WITH("gate.command", tests, 600, folder_make, folder_remove)
+CHECK_TESTS_WITH("gate.command", 600, folder_make, folder_remove, passes_then_fails_when_the_result_gets_worse,
+                 unstable_solutions_are_held_against_their_orbits, every_response_of_a_structure_is_held_to_its_limits,
+                 limits_are_those_of_the_case, wrong_limits_are_named_before_anything_runs,
+                 a_wrong_case_file_is_in_the_junit, several_cases_are_several_suites,
+                 what_cannot_be_compared_is_an_error, junit_is_written_whole_or_not_at_all)

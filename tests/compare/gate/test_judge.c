@@ -302,18 +302,8 @@ static void a_comparison_that_cannot_begin_is_an_error(CHECK_STATE)
   scene_setup_clear(&setup);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_quantity_has_its_limit),
-    cmocka_unit_test(rounding_at_the_limit_decides_nothing),
-    cmocka_unit_test(limits_may_differ_in_ranges),
-    cmocka_unit_test(an_unstable_solution_is_held_against_its_orbit),
-    cmocka_unit_test(a_transient_of_its_own_fails_in_words),
-    cmocka_unit_test(what_could_not_be_compared_is_an_error),
-    cmocka_unit_test(each_response_is_held_by_itself),
-    cmocka_unit_test(costs_are_whole_numbers_with_limits),
-    cmocka_unit_test(one_check_of_a_quantity_is_the_worst),
-    cmocka_unit_test(junit_escapes_what_it_is_given),
-    cmocka_unit_test(a_comparison_that_cannot_begin_is_an_error),
-};
-
-CHECK_MAIN("gate.judge", tests, 60)
+CHECK_TESTS("gate.judge", 60, every_quantity_has_its_limit, rounding_at_the_limit_decides_nothing,
+            limits_may_differ_in_ranges, an_unstable_solution_is_held_against_its_orbit,
+            a_transient_of_its_own_fails_in_words, what_could_not_be_compared_is_an_error,
+            each_response_is_held_by_itself, costs_are_whole_numbers_with_limits, one_check_of_a_quantity_is_the_worst,
+            junit_escapes_what_it_is_given, a_comparison_that_cannot_begin_is_an_error)

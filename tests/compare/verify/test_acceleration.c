@@ -80,10 +80,5 @@ static void friction_reaches_its_limit(CHECK_STATE)
   model_free(m);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(without_contact),
-    cmocka_unit_test(unilateral_spring_has_its_kink),
-    cmocka_unit_test(a_slider_restarts_at_the_touch),
-    cmocka_unit_test(friction_reaches_its_limit),
-};
-CHECK_MAIN("verify.acceleration", tests, 60)
+CHECK_TESTS("verify.acceleration", 60, without_contact, unilateral_spring_has_its_kink, a_slider_restarts_at_the_touch,
+            friction_reaches_its_limit)

@@ -275,16 +275,6 @@ static void stopping_keeps_rows(CHECK_STATE)
   verify_data_clear(&d);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(nothing_wrong),
-    cmocka_unit_test(equations_solved_wrongly),
-    cmocka_unit_test(forces_sampled_too_coarsely),
-    cmocka_unit_test(numbers_of_another_model),
-    cmocka_unit_test(columns_misread),
-    cmocka_unit_test(branches_mistaken),
-    cmocka_unit_test(equals_are_a_guess),
-    cmocka_unit_test(no_cause_is_made_up),
-    cmocka_unit_test(errors_are_what_was_put_in),
-    cmocka_unit_test(stopping_keeps_rows),
-};
-CHECK_MAIN("verify.causes", tests, 600)
+CHECK_TESTS("verify.causes", 600, nothing_wrong, equations_solved_wrongly, forces_sampled_too_coarsely,
+            numbers_of_another_model, columns_misread, branches_mistaken, equals_are_a_guess, no_cause_is_made_up,
+            errors_are_what_was_put_in, stopping_keeps_rows)

@@ -82,11 +82,5 @@ static void what_cannot_be_judged_is_said(CHECK_STATE)
       3, "solver_failed");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_shipped_example_is_named),
-    cmocka_unit_test(our_own_curve_matches),
-    cmocka_unit_test(mistakes_are_named),
-    cmocka_unit_test(a_free_mean_is_skipped),
-    cmocka_unit_test(what_cannot_be_judged_is_said),
-};
-CHECK_MAIN("verify.command", tests, 300)
+CHECK_TESTS("verify.command", 300, the_shipped_example_is_named, our_own_curve_matches, mistakes_are_named,
+            a_free_mean_is_skipped, what_cannot_be_judged_is_said)

@@ -109,11 +109,5 @@ static void laws_of_two_tangents_are_told_apart(CHECK_STATE)
   JUDGED(list);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(right_curves_match),
-    cmocka_unit_test(wrong_curves_are_named),
-    cmocka_unit_test(wandered_curves_are_judged),
-    cmocka_unit_test(structures_are_judged),
-    cmocka_unit_test(laws_of_two_tangents_are_told_apart),
-};
-CHECK_MAIN("verify.peers", tests, 300)
+CHECK_TESTS("verify.peers", 300, right_curves_match, wrong_curves_are_named, wandered_curves_are_judged,
+            structures_are_judged, laws_of_two_tangents_are_told_apart)

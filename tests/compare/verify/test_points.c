@@ -191,14 +191,6 @@ static void every_exact_solution_leads_to_a_sampled_one(CHECK_STATE)
   scene_setup_clear(&setup);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_exact_solution_leads_to_a_sampled_one),
-    cmocka_unit_test(noise_is_named_and_estimated),
-    cmocka_unit_test(noise_that_is_said_is_allowed),
-    cmocka_unit_test(noise_does_not_hide_an_offset),
-    cmocka_unit_test(outliers_are_named),
-    cmocka_unit_test(a_little_off_is_no_outlier),
-    cmocka_unit_test(nothing_but_unstable_points_fail),
-    cmocka_unit_test(the_order_of_the_points_does_not_matter),
-};
-CHECK_MAIN("verify.points", tests, 300)
+CHECK_TESTS("verify.points", 300, every_exact_solution_leads_to_a_sampled_one, noise_is_named_and_estimated,
+            noise_that_is_said_is_allowed, noise_does_not_hide_an_offset, outliers_are_named,
+            a_little_off_is_no_outlier, nothing_but_unstable_points_fail, the_order_of_the_points_does_not_matter)

@@ -313,17 +313,6 @@ static void what_is_left_decides_a_fit(CHECK_STATE)
   assert_false(verify_fits(&r));
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(what_is_left_decides_a_fit),
-    cmocka_unit_test(files_as_people_have_them),
-    cmocka_unit_test(plain_names_need_no_columns),
-    cmocka_unit_test(ambiguous_names_need_columns),
-    cmocka_unit_test(decibels_become_numbers),
-    cmocka_unit_test(quantities_by_hand),
-    cmocka_unit_test(cycles_become_radians),
-    cmocka_unit_test(mistakes_have_a_place),
-    cmocka_unit_test(limits_hold),
-    cmocka_unit_test(no_such_file),
-    cmocka_unit_test(columns_say_what_they_mean),
-};
-CHECK_MAIN("verify.reader", tests, 60)
+CHECK_TESTS("verify.reader", 60, what_is_left_decides_a_fit, files_as_people_have_them, plain_names_need_no_columns,
+            ambiguous_names_need_columns, decibels_become_numbers, quantities_by_hand, cycles_become_radians,
+            mistakes_have_a_place, limits_hold, no_such_file, columns_say_what_they_mean)

@@ -185,9 +185,6 @@ static void what_history_decides_is_said(CHECK_STATE)
   HAVE(" points that differ are where a slider never slips: where it rests is a matter of history");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_response_is_judged),           cmocka_unit_test(mistakes_of_structures_are_named),
-    cmocka_unit_test(another_degree_of_freedom_is_named), cmocka_unit_test(a_load_elsewhere_is_named),
-    cmocka_unit_test(a_missing_tangent_is_named),         cmocka_unit_test(what_history_decides_is_said),
-};
-CHECK_MAIN_WITH("verify.structures", tests, 600, folder_make, folder_remove)
+CHECK_TESTS_WITH("verify.structures", 600, folder_make, folder_remove, every_response_is_judged,
+                 mistakes_of_structures_are_named, another_degree_of_freedom_is_named, a_load_elsewhere_is_named,
+                 a_missing_tangent_is_named, what_history_decides_is_said)
