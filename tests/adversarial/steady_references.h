@@ -7,11 +7,10 @@
 #include "tests/hbm/scenes.h"
 #include "timeint/timeint.h"
 
-/* As scene_named, exact forces and exact law, solved as far as rounding lets: what is left is what a test is about. */
+/* As exact_scene, the exact law, too, solved as far as rounding lets: what is left is what a test is about. */
 static inline scene exact_reference_scene(const char *name, int n_harm)
 {
-  scene sc = scene_named(name, n_harm, true, 1024);
-  sc.hbm.force = HBM_FORCE_EXACT;
+  scene sc = exact_scene(name, n_harm, true);
   sc.hbm.tolerance = 1e-12;
   sc.hbm.skip_linear = true;
   sc.transient = (transient_settings){

@@ -18,6 +18,11 @@ static inline hc_status parse(const char *text, scene *sc, case_error *err)
   return case_parse("f", text, strlen(text), 0, NULL, sc, err);
 }
 
+/* A text that is refused, the place the message names, and words of the message. */
+typedef struct mistake {
+  const char *text, *at, *words;
+} mistake;
+
 /* text, or one assignment on top of it, must be refused with a message of exactly this start that holds this fragment;
  * and the scene must be left alone. set may be NULL. */
 static inline void refused(const char *text, const char *set, const char *start, const char *fragment)
@@ -41,6 +46,17 @@ static inline void accepted(const char *text, const char *set, scene *sc)
   if (st != HC_OK) print_error("%s%s%s: %s\n", text, set ? "--set " : "", set ? set : "", err.message);
   assert_int_equal(st, HC_OK);
   assert_string_equal(err.message, "");
+}
+
+/* What case_echo writes of the scene, with the status it is to have; to free. */
+static inline char *echoed(const scene *sc, hc_status expect)
+{
+  char *text = NULL;
+  size_t size;
+  FILE *to = open_memstream(&text, &size);
+  assert_int_equal(case_echo(sc, to), expect);
+  fclose(to);
+  return text;
 }
 
 /* One line, no control characters, not empty, terminated. */

@@ -5,16 +5,6 @@
 #include "casefile/fields.h"
 #include "tests/cases/case_text.h"
 
-static char *echoed(const scene *sc, hc_status expect)
-{
-  char *text = NULL;
-  size_t size;
-  FILE *to = open_memstream(&text, &size);
-  assert_int_equal(case_echo(sc, to), expect);
-  fclose(to);
-  return text;
-}
-
 static void check_round_trip(const scene *sc)
 {
   scene back;

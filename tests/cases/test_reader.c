@@ -77,10 +77,6 @@ static void frequency_becomes_omega(CHECK_STATE)
   CHECK_NEAR(sc.omega_to, 6.5 * PI, 6.5 * PI * 2 * 0x1p-52, "3.25");
 }
 
-typedef struct mistake {
-  const char *text, *at, *words;
-} mistake;
-
 /* In lines after SMALLEST, from line 4 on. */
 static const mistake extra[] = {
     /* unknown keys */

@@ -2,6 +2,7 @@
  * not at all. Runs the built hbmcheck (HBMCHECK_COMMAND) in a shell; what it computes is tested elsewhere. */
 #include <string.h>
 
+#include "tests/folder.h"
 #include "tests/program.h"
 
 #define CASE2 "cases/paper/case2.yaml "
@@ -240,26 +241,24 @@ static void help_works_everywhere(CHECK_STATE)
 
 static void a_failed_run_touches_no_file(CHECK_STATE)
 {
-  char path[] = "/tmp/hbmcheck-test-XXXXXX", args[256], text[16] = {0};
-  int fd = mkstemp(path);
-  assert_true(fd >= 0 && write(fd, "before", 6) == 6);
-  snprintf(args, sizeof args, "frf " CASE2 "--set hbm.harmonics=0 -o %s 2>&1", path);
-  expect(args, 2, "hbm.harmonics");
-  assert_int_equal(pread(fd, text, sizeof text, 0), 6);
-  snprintf(args, sizeof args, "frf " CASE2 "-q --at 6 -o %s", path);
-  expect(args, 0, "");
-  FILE *now = fopen(path, "r"); /* the name leads to a new file now */
-  assert_non_null(now);
-  assert_non_null(fgets(text, sizeof text, now));
+  folder_put("old", "before");
+  expect("frf " CASE2 "--set hbm.harmonics=0 -o $D/old 2>&1", 2, "hbm.harmonics");
+  char *text = folder_read("old", NULL);
+  assert_string_equal(text, "before");
+  free(text);
+  FILE *before = folder_open("old", "r");
+  expect("frf " CASE2 "-q --at 6 -o $D/old", 0, "");
+  assert_int_equal(fgetc(before), 'b'); /* the name leads to a new file now */
+  fclose(before);
+  text = folder_read("old", NULL);
   assert_int_equal(strncmp(text, "Response", 8), 0);
-  fclose(now);
-  close(fd);
-  unlink(path);
+  free(text);
   if (access("/dev/full", W_OK) == 0) expect("frf " CASE2 "-q --at 6 2>&1 >/dev/full", 3, "standard output");
 }
 
-CHECK_TESTS("compare.command", 300, columns_are_the_interface, the_closed_form_is_of_the_exact_law,
-            verdicts_reach_the_exit_code, dropping_the_mean_costs_what_it_costs, mistakes_are_named,
-            nearly_right_words_get_a_suggestion, tables_fit_the_screen, options_belong_to_their_command,
-            advice_is_about_the_side_that_failed, agreement_is_not_claimed_lightly, leaving_a_saddle_is_not_chaos,
-            stability_is_said_or_unknown, help_works_everywhere, a_failed_run_touches_no_file)
+CHECK_TESTS_WITH("compare.command", 300, folder_make, folder_remove, columns_are_the_interface,
+                 the_closed_form_is_of_the_exact_law, verdicts_reach_the_exit_code,
+                 dropping_the_mean_costs_what_it_costs, mistakes_are_named, nearly_right_words_get_a_suggestion,
+                 tables_fit_the_screen, options_belong_to_their_command, advice_is_about_the_side_that_failed,
+                 agreement_is_not_claimed_lightly, leaving_a_saddle_is_not_chaos, stability_is_said_or_unknown,
+                 help_works_everywhere, a_failed_run_touches_no_file)

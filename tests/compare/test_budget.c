@@ -17,8 +17,7 @@ static int n_reference;
 
 static scene scene_of(const char *name, int n_harm)
 {
-  scene sc = scene_named(name, n_harm, true, 1024);
-  sc.hbm.force = HBM_FORCE_EXACT;
+  scene sc = exact_scene(name, n_harm, true);
   sc.transient =
       (transient_settings){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-9, .max_periods = 200};
   sc.gate.most = (discrepancy){1e-3, 1e-3, 1e-3, 5e-3};

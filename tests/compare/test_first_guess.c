@@ -125,17 +125,16 @@ static void a_guess_is_where_newton_begins(CHECK_STATE)
 
 /* The guess of compare/: a solution of harmonic balance, near the motion from rest, with fewer systems to solve than a
  * ramp takes. */
-static void the_motion_from_rest_is_a_guess(CHECK_STATE)
+static void check_guesses(const model *m, const hbm_settings *how)
 {
-  const scene sc = impacts();
   int solved = 0, cheaper = 0;
   for (double omega = 3; omega < 30; omega += 0.25) {
-    double X[64], Y[64];
+    double X[64] = {0}, Y[64];
     hbm_point point;
-    hbm_solver *guided, *alone = plain(&sc);
-    assert_int_equal(scene_hbm_solver(&sc, &guided), HC_OK);
-    const hc_status st = hbm_solve_first(guided, omega, X, &point);
-    if (st == HC_OK) {
+    hbm_solver *guided, *alone;
+    assert_int_equal(guided_hbm_solver_new(m, how, &guided), HC_OK);
+    assert_int_equal(hbm_solver_new(m, how, &alone), HC_OK);
+    if (hbm_solve_first(guided, omega, X, &point) == HC_OK) {
       ++solved;
       CHECK_LE(point.residual, 1e-9, "residual at %g", omega);
       if (hbm_solve_first(alone, omega, Y, &point) == HC_OK && hbm_solves(guided) < hbm_solves(alone)) ++cheaper;
@@ -145,6 +144,15 @@ static void the_motion_from_rest_is_a_guess(CHECK_STATE)
   }
   CHECK_LE(100, solved, "frequencies with a first solution");
   CHECK_LE(1, cheaper, "frequencies where the guess spares a ramp");
+}
+
+static void the_motion_from_rest_is_a_guess(CHECK_STATE)
+{
+  const scene sc = impacts();
+  model *m;
+  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  check_guesses(m, &sc.hbm);
+  model_free(m);
 }
 
 /* The same oscillator as two halves that a stiff spring holds together, each with half of everything: their motion is
@@ -177,23 +185,7 @@ static void a_structure_is_guessed_whole(CHECK_STATE)
 {
   const scene sc = impacts();
   model *m = halves(&sc);
-  int solved = 0, cheaper = 0;
-  for (double omega = 3; omega < 30; omega += 0.25) {
-    double X[64] = {0}, Y[64];
-    hbm_point point;
-    hbm_solver *guided, *alone;
-    assert_int_equal(guided_hbm_solver_new(m, &sc.hbm, &guided), HC_OK);
-    assert_int_equal(hbm_solver_new(m, &sc.hbm, &alone), HC_OK);
-    if (hbm_solve_first(guided, omega, X, &point) == HC_OK) {
-      ++solved;
-      CHECK_LE(point.residual, 1e-9, "residual at %g", omega);
-      if (hbm_solve_first(alone, omega, Y, &point) == HC_OK && hbm_solves(guided) < hbm_solves(alone)) ++cheaper;
-    }
-    hbm_solver_free(guided);
-    hbm_solver_free(alone);
-  }
-  CHECK_LE(100, solved, "frequencies with a first solution");
-  CHECK_LE(1, cheaper, "frequencies where the guess spares a ramp");
+  check_guesses(m, &sc.hbm);
   model_free(m);
 }
 

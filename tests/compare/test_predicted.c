@@ -52,8 +52,7 @@ static void tell(double hbm, double transient)
 /* c2 with H = 3, some 1 % off; at 9 the transient of the unstable solution runs elsewhere. */
 static void run(comparison *c)
 {
-  scene sc = scene_named("c2", 3, true, 1024);
-  sc.hbm.force = HBM_FORCE_EXACT;
+  scene sc = exact_scene("c2", 3, true);
   sc.transient =
       (transient_settings){.law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-9, .max_periods = 200};
   sc.gate.most = (discrepancy){1e-3, 1e-3, 1e-3, 5e-3};
@@ -222,8 +221,7 @@ static void the_command_says_so(CHECK_STATE)
  * damping. */
 static void a_damping_off_on_one_side_is_unexpected(CHECK_STATE)
 {
-  scene sc = scene_named("c2", 60, true, 1024);
-  sc.hbm.force = HBM_FORCE_EXACT;
+  scene sc = exact_scene("c2", 60, true);
   sc.transient = (transient_settings){
       .law = TRANSIENT_LAW_EXACT, .scout = true, .regularisation = 1e-4, .tolerance = 1e-9, .max_periods = 200};
   sc.gate.most = (discrepancy){1e-3, 1e-3, 1e-3, 5e-3};

@@ -37,6 +37,14 @@ static inline scene scene_named(const char *name, int n_harm, bool keep_mean, in
   return sc;
 }
 
+/* Likewise with exact forces. */
+static inline scene exact_scene(const char *name, int n_harm, bool keep_mean)
+{
+  scene sc = scene_named(name, n_harm, keep_mean, 1024);
+  sc.hbm.force = HBM_FORCE_EXACT;
+  return sc;
+}
+
 /* A row of hbm_exact.csv. */
 typedef struct reference_row {
   char name[16];

@@ -9,10 +9,9 @@ typedef struct solved_curve {
   hbm_curve c;
 } solved_curve;
 
-static scene exact_scene(const char *name, int n_harm)
+static scene accurate_scene(const char *name, int n_harm)
 {
-  scene sc = scene_named(name, n_harm, true, 1024);
-  sc.hbm.force = HBM_FORCE_EXACT;
+  scene sc = exact_scene(name, n_harm, true);
   sc.hbm.skip_linear = true;
   sc.hbm.accuracy = 1e-4;
   return sc;
@@ -103,7 +102,7 @@ static void auto_harmonics_keep_the_accuracy(CHECK_STATE)
   static const int ladder[] = {1, 2, 3, 5, 7, 10, 14, 20, 28, 40, 56};
   static const double accuracies[] = {1e-2, 1e-3, 1e-4};
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
-    scene sc = exact_scene(names[q], 60);
+    scene sc = accurate_scene(names[q], 60);
     solved_curve reference = traced(&sc);
     double omega[FREQUENCIES + 1];
     frequencies(&sc, omega);
@@ -142,7 +141,7 @@ static void auto_harmonics_keep_the_accuracy(CHECK_STATE)
 static void harmonics_follow_the_curve(CHECK_STATE)
 {
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
-    scene sc = exact_scene(names[q], HBM_AUTO);
+    scene sc = accurate_scene(names[q], HBM_AUTO);
     sc.hbm.accuracy = 1e-3;
     solved_curve r = traced(&sc);
     sc.hbm.harmonics = 60;
@@ -185,7 +184,7 @@ static void auto_samples_keep_the_accuracy(CHECK_STATE)
 {
   static const double accuracies[] = {1e-2, 1e-3, 1e-4};
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
-    scene sc = exact_scene(names[q], 5);
+    scene sc = accurate_scene(names[q], 5);
     solved_curve reference = traced(&sc);
     double omega[FREQUENCIES];
     frequencies(&sc, omega);
@@ -213,7 +212,7 @@ static void auto_samples_keep_the_accuracy(CHECK_STATE)
 static void shortcuts_change_no_solution(CHECK_STATE)
 {
   for (size_t q = 0; q < sizeof names / sizeof *names; ++q) {
-    scene sc = exact_scene(names[q], 7);
+    scene sc = accurate_scene(names[q], 7);
     double omega[FREQUENCIES];
     frequencies(&sc, omega);
     solved_curve plain = traced(&sc);
@@ -239,7 +238,7 @@ static void shortcuts_change_no_solution(CHECK_STATE)
  * 1 N stays away from folds. */
 static void every_switch_can_be_turned_off(CHECK_STATE)
 {
-  scene sc = exact_scene("a10", 5);
+  scene sc = accurate_scene("a10", 5);
   sc.force = 1;
   sc.hbm.force = HBM_FORCE_SAMPLED;
   sc.hbm.samples = 256;

@@ -14,13 +14,6 @@ static int read_references(CHECK_STATE)
   return 0;
 }
 
-static scene exact_scene(const char *name, int n_harm, bool keep_mean)
-{
-  scene sc = scene_named(name, n_harm, keep_mean, HBM_AUTO);
-  sc.hbm.force = HBM_FORCE_EXACT;
-  return sc;
-}
-
 /* A table without one of the scenes would pass the comparisons below. */
 static void the_tables_are_whole(CHECK_STATE)
 {

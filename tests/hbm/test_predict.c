@@ -24,13 +24,6 @@ static periodic_motion motion_of(hbm_solver *s, const double *X)
   return motion_of_series(hbm_n_harmonics(s), X, m.max, m.min);
 }
 
-static scene exact_scene(const char *name, int n_harm)
-{
-  scene sc = scene_named(name, n_harm, true, 1024);
-  sc.hbm.force = HBM_FORCE_EXACT;
-  return sc;
-}
-
 /* The solution of *sc at omega, and the true one next to it with `fine` harmonics. */
 static solved solve(scene sc, double omega, int fine)
 {
@@ -89,7 +82,7 @@ static void prediction_tracks_truncation(CHECK_STATE)
   for (int i = 0; i < N_PLACES; ++i)
     for (size_t k = 0; k < sizeof harmonics / sizeof *harmonics; ++k) {
       char what[64];
-      solved r = solve(exact_scene(places[i].name, harmonics[k]), places[i].omega, TRUTH);
+      solved r = solve(exact_scene(places[i].name, harmonics[k], true), places[i].omega, TRUTH);
       const motion_error e = predicted(&r, r.X);
       snprintf(what, sizeof what, "%s at %g, H = %d", places[i].name, places[i].omega, harmonics[k]);
       assert_true(e.waveform > 1e-9 * r.truth.amplitude); /* there is something to predict */
@@ -104,14 +97,14 @@ static void prediction_tracks_truncation_of_many_harmonics(CHECK_STATE)
 {
   for (int i = 0; i < N_PLACES; ++i) {
     char what[64];
-    solved r = solve(exact_scene(places[i].name, 120), places[i].omega, HBM_MAX_HARMONICS);
+    solved r = solve(exact_scene(places[i].name, 120, true), places[i].omega, HBM_MAX_HARMONICS);
     const motion_error e = predicted(&r, r.X);
     const motion_distance d = motion_between(&r.motion, &r.truth);
     snprintf(what, sizeof what, "%s at %g", places[i].name, places[i].omega);
     CHECK_LE(d.waveform, 3 * e.waveform, "%s", what);
     CHECK_LE(e.waveform, 5 * d.waveform, "%s", what);
     clear(&r);
-    scene most = exact_scene(places[i].name, HBM_MAX_HARMONICS);
+    scene most = exact_scene(places[i].name, HBM_MAX_HARMONICS, true);
     r = solve(most, places[i].omega, HBM_MAX_HARMONICS);
     CHECK_LE(predicted(&r, r.X).waveform, e.waveform, "%s, H = 200", what);
     clear(&r);
@@ -135,7 +128,7 @@ static void prediction_tracks_aliasing(CHECK_STATE)
 static void prediction_tracks_a_mean_left_out(CHECK_STATE)
 {
   for (int i = 0; i < 4; ++i) {
-    scene sc = exact_scene(places[i].name, 10);
+    scene sc = exact_scene(places[i].name, 10, true);
     sc.hbm.keep_mean = false;
     solved r = solve(sc, places[i].omega, TRUTH);
     const motion_error e = predicted(&r, r.X);
@@ -152,7 +145,7 @@ static void a_mistake_is_predicted(CHECK_STATE)
 {
   enum { H = 10 };
   for (int i = 0; i < N_PLACES; ++i) {
-    solved r = solve(exact_scene(places[i].name, H), places[i].omega, TRUTH);
+    solved r = solve(exact_scene(places[i].name, H, true), places[i].omega, TRUTH);
     const double good = predicted(&r, r.X).waveform;
     int large = 0;
     for (int lost = 0; lost <= H; ++lost)
@@ -177,7 +170,7 @@ static void a_mistake_is_predicted(CHECK_STATE)
 static void chance_agreement_is_not_relied_on(CHECK_STATE)
 {
   enum { H = 10, STEPS = 1000 };
-  solved r = solve(exact_scene("c2", H), 5.8, TRUTH);
+  solved r = solve(exact_scene("c2", H, true), 5.8, TRUTH);
   double Y[MOST] = {0}, before = 0;
   hbm_point point;
   int zeros = 0;
@@ -205,7 +198,7 @@ static void chance_agreement_is_not_relied_on(CHECK_STATE)
  * anywhere. The only solution there is a fifth as large. */
 static void a_solution_that_is_not_there_is_far_off(CHECK_STATE)
 {
-  scene sc = exact_scene("c2", 10);
+  scene sc = exact_scene("c2", 10, true);
   solved r = solve(sc, 7.2, TRUTH);
   hbm_curve c = {0}, at = {0};
   motion_error e;
@@ -228,7 +221,7 @@ static void a_solution_that_is_not_there_is_far_off(CHECK_STATE)
 /* What was asked before leaves no trace. */
 static void prediction_repeats_itself(CHECK_STATE)
 {
-  solved r = solve(exact_scene("c2", 10), 6.5, TRUTH);
+  solved r = solve(exact_scene("c2", 10, true), 6.5, TRUTH);
   double Y[MOST];
   for (int k = 0; k < 21; ++k) Y[k] = -3 * r.X[k];
   const motion_error first = predicted(&r, r.X);
@@ -244,7 +237,7 @@ static void prediction_repeats_itself(CHECK_STATE)
 static void prediction_of_a_linear_response_is_rounding(CHECK_STATE)
 {
   for (int n_harm = 1; n_harm <= 30; n_harm += 29) {
-    solved r = solve(exact_scene("c2", n_harm), 5, TRUTH);
+    solved r = solve(exact_scene("c2", n_harm, true), 5, TRUTH);
     const motion_error e = predicted(&r, r.X);
     const double A = r.truth.amplitude, bound = 1e-12 * A; /* forces 4 times the forcing, resonance 20: 1e3 roundings */
     assert_true(e.amplitude > DBL_EPSILON * A && e.harmonic_1 > DBL_EPSILON * A && e.waveform > DBL_EPSILON * A);
@@ -259,7 +252,7 @@ static void what_is_no_number_predicts_none(CHECK_STATE)
 {
   static const double bad[] = {NAN, INFINITY, -INFINITY, 1e308};
   for (int force = 0; force < 2; ++force) {
-    scene sc = exact_scene("c2", 10);
+    scene sc = exact_scene("c2", 10, true);
     sc.hbm.force = force ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
     solved r = solve(sc, 6, TRUTH);
     for (size_t b = 0; b < sizeof bad / sizeof *bad; ++b)
@@ -284,7 +277,7 @@ static void what_is_no_number_predicts_none(CHECK_STATE)
 /* hbm.harmonics: auto changes the number under way. */
 static void prediction_follows_the_number_of_harmonics(CHECK_STATE)
 {
-  scene sc = exact_scene("c2", HBM_AUTO);
+  scene sc = exact_scene("c2", HBM_AUTO, true);
   sc.hbm.accuracy = 1e-4;
   hbm_solver *s;
   hbm_curve c = {0}, at = {0};

@@ -19,15 +19,27 @@ static hbmcheck_case *chain(void)
   return c;
 }
 
-/* The inner form of chain(), at the one frequency; to clear with scene_setup_clear and case_clear. */
-static compare_setup inner(scene *sc)
-{
+/* The case as callers have it, and its inner form at the one frequency. */
+typedef struct both_forms {
+  hbmcheck_case *c;
+  scene sc;
   compare_setup setup;
+} both_forms;
+
+static void both_make(both_forms *b)
+{
   case_error err;
-  assert_int_equal(case_read(CHAIN, 0, NULL, sc, &err), HC_OK);
-  sc->compare.omega = (number_list){1, {at[0]}};
-  assert_int_equal(scene_setup(sc, &setup), HC_OK);
-  return setup;
+  b->c = chain();
+  assert_int_equal(case_read(CHAIN, 0, NULL, &b->sc, &err), HC_OK);
+  b->sc.compare.omega = (number_list){1, {at[0]}};
+  assert_int_equal(scene_setup(&b->sc, &b->setup), HC_OK);
+}
+
+static void both_clear(both_forms *b)
+{
+  hbmcheck_case_free(b->c);
+  scene_setup_clear(&b->setup);
+  case_clear(&b->sc);
 }
 
 static void responses_have_names(CHECK_STATE)
@@ -46,9 +58,7 @@ static void responses_have_names(CHECK_STATE)
 
 static void solutions_are_of_every_response(CHECK_STATE)
 {
-  scene sc;
-  compare_setup setup = inner(&sc);
-  hbmcheck_case *c = chain();
+  both_forms b;
   hbmcheck_curve *curve;
   hbmcheck_solutions *found;
   hbmcheck_solution one;
@@ -56,10 +66,11 @@ static void solutions_are_of_every_response(CHECK_STATE)
   hbm_curve traced = {0}, there = {0};
   double X[MOST], expected[MOST];
   int n = 0;
-  assert_int_equal(hbmcheck_curve_trace(c, NULL, &curve), HBMCHECK_OK);
+  both_make(&b);
+  assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &curve), HBMCHECK_OK);
   assert_int_equal(hbmcheck_curve_at(curve, at[0], &found), HBMCHECK_OK);
-  assert_int_equal(guided_hbm_solver_new(setup.model, &setup.hbm, &s), HC_OK);
-  assert_int_equal(hbm_trace(s, setup.omega_from, setup.omega_to, NULL, &traced), HC_OK);
+  assert_int_equal(guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s), HC_OK);
+  assert_int_equal(hbm_trace(s, b.setup.omega_from, b.setup.omega_to, NULL, &traced), HC_OK);
   assert_int_equal(hbm_curve_at(s, &traced, at[0], &there), HC_OK);
   assert_int_equal(hbmcheck_solutions_count(found), 1);
   for (int r = 0; r < RESPONSES; ++r) {
@@ -70,7 +81,7 @@ static void solutions_are_of_every_response(CHECK_STATE)
     assert_int_equal(hbmcheck_solutions_get_response(found, 0, r, &one), HBMCHECK_OK);
     assert_true(one.amplitude == row.measures.amplitude && one.omega == at[0]);
     assert_int_equal(hbmcheck_solutions_response_coefficients(found, 0, r, MOST, X, &n), HBMCHECK_OK);
-    assert_int_equal(n, 2 * setup.hbm.harmonics + 1);
+    assert_int_equal(n, 2 * b.setup.hbm.harmonics + 1);
     assert_memory_equal(X, expected, (size_t)n * sizeof *X);
     if (r > 0) continue;
     assert_int_equal(hbmcheck_solutions_coefficients(found, 0, MOST, X, &n), HBMCHECK_OK);
@@ -83,20 +94,17 @@ static void solutions_are_of_every_response(CHECK_STATE)
   hbm_solver_free(s);
   hbmcheck_solutions_free(found);
   hbmcheck_curve_free(curve);
-  hbmcheck_case_free(c);
-  scene_setup_clear(&setup);
-  case_clear(&sc);
+  both_clear(&b);
 }
 
 static void steady_states_are_of_every_response(CHECK_STATE)
 {
-  scene sc;
-  compare_setup setup = inner(&sc);
-  hbmcheck_case *c = chain();
+  both_forms b;
   hbmcheck_transient *t;
   steady_states expected;
-  assert_int_equal(hbmcheck_transient_run(c, 1, at, NULL, &t), HBMCHECK_OK);
-  assert_int_equal(steady_states_run(&setup, NULL, &expected), HC_OK);
+  both_make(&b);
+  assert_int_equal(hbmcheck_transient_run(b.c, 1, at, NULL, &t), HBMCHECK_OK);
+  assert_int_equal(steady_states_run(&b.setup, NULL, &expected), HC_OK);
   assert_true(expected.n == RESPONSES && hbmcheck_transient_count(t) == RESPONSES);
   for (int r = 0; r < RESPONSES; ++r) {
     hbmcheck_steady one;
@@ -109,20 +117,17 @@ static void steady_states_are_of_every_response(CHECK_STATE)
   }
   steady_states_clear(&expected);
   hbmcheck_transient_free(t);
-  hbmcheck_case_free(c);
-  scene_setup_clear(&setup);
-  case_clear(&sc);
+  both_clear(&b);
 }
 
 static void comparisons_are_of_every_response(CHECK_STATE)
 {
-  scene sc;
-  compare_setup setup = inner(&sc);
-  hbmcheck_case *c = chain();
+  both_forms b;
   hbmcheck_comparison *found;
   comparison expected;
-  assert_int_equal(hbmcheck_comparison_run(c, 1, at, NULL, &found), HBMCHECK_OK);
-  assert_int_equal(comparison_run(&setup, NULL, &expected), HC_OK);
+  both_make(&b);
+  assert_int_equal(hbmcheck_comparison_run(b.c, 1, at, NULL, &found), HBMCHECK_OK);
+  assert_int_equal(comparison_run(&b.setup, NULL, &expected), HC_OK);
   assert_true(expected.n_rows == RESPONSES && hbmcheck_comparison_count(found) == RESPONSES);
   for (int r = 0; r < RESPONSES; ++r) {
     const comparison_row *row = &expected.rows[r];
@@ -135,9 +140,7 @@ static void comparisons_are_of_every_response(CHECK_STATE)
   assert_int_equal(hbmcheck_comparison_exit_code(found), comparison_exit_code(&expected));
   comparison_clear(&expected);
   hbmcheck_comparison_free(found);
-  hbmcheck_case_free(c);
-  scene_setup_clear(&setup);
-  case_clear(&sc);
+  both_clear(&b);
 }
 
 CHECK_TESTS("library.structures", 60, responses_have_names, solutions_are_of_every_response,

@@ -5,9 +5,7 @@
 #include <sys/stat.h>
 
 #include "output/same_file.h"
-#include "tests/check.h"
-
-static char folder[] = "/tmp/hbmcheck-same-XXXXXX";
+#include "tests/folder.h"
 
 static bool same(const char *a, const char *b)
 {
@@ -20,17 +18,10 @@ static bool same(const char *a, const char *b)
   return found;
 }
 
-static void make(const char *name)
-{
-  FILE *to = fopen(name, "w");
-  assert_non_null(to);
-  assert_int_equal(fclose(to), 0);
-}
-
 static void files_that_are_there(CHECK_STATE)
 {
-  make("a");
-  make("b");
+  folder_put("a", "");
+  folder_put("b", "");
   assert_int_equal(mkdir("d", 0777) | symlink("a", "soft") | symlink("soft", "softer") | link("a", "hard"), 0);
   assert_true(same("a", "a") && same("a", "./a") && same("a", "d/../a") && same("soft", "a") && same("softer", "hard"));
   assert_false(same("a", "b") || same("softer", "b"));
@@ -75,14 +66,5 @@ static void right_in_a_folder(CHECK_STATE)
   assert_false(file_is_in("x", "d") || file_is_in("d/x", ".") || file_is_in("missing/x", "missing"));
 }
 
-static int make_folder(CHECK_STATE) { return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1; }
-
-static int remove_folder(CHECK_STATE)
-{
-  char line[64];
-  snprintf(line, sizeof line, "cd / && rm -r %s", folder);
-  return system(line);
-}
-
-CHECK_TESTS_WITH("output.same_file", 20, make_folder, remove_folder, files_that_are_there, files_to_come,
+CHECK_TESTS_WITH("output.same_file", 20, folder_enter, folder_remove, files_that_are_there, files_to_come,
                  what_is_no_regular_file, open_descriptors, right_in_a_folder)

@@ -3,26 +3,16 @@
 
 #include "tests/cases/structure/structure_text.h"
 
-static char *echoed(const scene *sc)
-{
-  char *text = NULL;
-  size_t size;
-  FILE *to = open_memstream(&text, &size);
-  assert_int_equal(case_echo(sc, to), HC_OK);
-  fclose(to);
-  return text;
-}
-
 /* The models, the names and the text itself: what a second echo writes. */
 static void check_round_trip(const scene *sc)
 {
   scene back;
   case_error err;
   model *a, *b;
-  char *text = echoed(sc), *again;
+  char *text = echoed(sc, HC_OK), *again;
   if (case_parse("other", text, strlen(text), 0, NULL, &back, &err) != HC_OK)
     fail_msg("%s\n%.2000s", err.message, text);
-  again = echoed(&back);
+  again = echoed(&back, HC_OK);
   assert_string_equal(text, again);
   assert_int_equal(scene_model(sc, &a), HC_OK);
   assert_int_equal(scene_model(&back, &b), HC_OK);

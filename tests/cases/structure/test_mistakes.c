@@ -6,9 +6,7 @@
 
 static void in_the_section(CHECK_STATE)
 {
-  static const struct {
-    const char *text, *start, *words;
-  } all[] = {
+  static const mistake all[] = {
       {"structure: 5\n" SWEEP, "f:1:12: ", "structure is a single value, expected a mapping {mass: ..., damping"},
       {STRUCTURE("mass: [1]"),
        "f:1:12: ", "missing key `stiffness` in `structure`, expected a matrix: rows, a diagonal"},
@@ -83,14 +81,12 @@ static void in_the_section(CHECK_STATE)
       {STRUCTURE("mass: [1, 1]" DC ", nodes: README.md"),
        "README.md:1:1: ", "expected the line `dof,node,direction` first"},
   };
-  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refused(all[i].text, NULL, all[i].start, all[i].words);
+  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refused(all[i].text, NULL, all[i].at, all[i].words);
 }
 
 static void in_loads_contacts_and_responses(CHECK_STATE)
 {
-  static const struct {
-    const char *line, *place, *words;
-  } all[] = {
+  static const mistake all[] = {
       {"forcing: {amplitude: 1}", "7:10: ", "forcing is a mapping, expected a list of loads"},
       {"forcing: [5]", "7:11: ", "forcing[0] is a single value, expected a mapping such as {dof: 1, amplitude: 100}"},
       {"forcing: [{dof: tip}]", "7:11: ", "missing key `amplitude` in `forcing[0]`"},
@@ -158,8 +154,8 @@ static void in_loads_contacts_and_responses(CHECK_STATE)
   };
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
     char text[1024], start[32];
-    snprintf(text, sizeof text, TWO_NAMED "%s\n", all[i].line);
-    snprintf(start, sizeof start, "f:%s", all[i].place);
+    snprintf(text, sizeof text, TWO_NAMED "%s\n", all[i].text);
+    snprintf(start, sizeof start, "f:%s", all[i].at);
     refused(text, NULL, start, all[i].words);
   }
 }
@@ -167,9 +163,7 @@ static void in_loads_contacts_and_responses(CHECK_STATE)
 /* Of a matrix that came from a file: the line there. */
 static void in_a_matrix_file(CHECK_STATE)
 {
-  static const struct {
-    const char *entries, *place, *words;
-  } all[] = {
+  static const mistake all[] = {
       {"general\n2 2 3\n1 1 1\n2 2 1\n2 1 0.5\n",
        ":5:1: ", "structure.mass is not symmetric: entry (2, 1) is 0.5, but (1, 2) is 0"},
       {"symmetric\n2 2 2\n1 1 1\n2 2 -1\n",
@@ -179,10 +173,10 @@ static void in_a_matrix_file(CHECK_STATE)
   };
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
     char mtx[256], text[256], start[256];
-    snprintf(mtx, sizeof mtx, "%%%%MatrixMarket matrix coordinate real %s", all[i].entries);
+    snprintf(mtx, sizeof mtx, "%%%%MatrixMarket matrix coordinate real %s", all[i].text);
     const own_file f = write_file("m.mtx", mtx, strlen(mtx));
     snprintf(text, sizeof text, "structure: {mass: %s" DC "}\n" SWEEP, f.path);
-    snprintf(start, sizeof start, "%s%s", f.path, all[i].place);
+    snprintf(start, sizeof start, "%s%s", f.path, all[i].at);
     refused(text, NULL, start, all[i].words);
     snprintf(text, sizeof text, "structure: {mass: [1, 1, 1], stiffness: %s, damping: [1, 1, 1]}\n" SWEEP, f.path);
     snprintf(start, sizeof start, "%s:2:1: ", f.path);
@@ -193,9 +187,7 @@ static void in_a_matrix_file(CHECK_STATE)
 
 static void in_a_file_of_nodes(CHECK_STATE)
 {
-  static const struct {
-    const char *lines, *place, *words;
-  } all[] = {
+  static const mistake all[] = {
       {"", ":1:1: ", "nothing here, expected the line `dof,node,direction`"},
       {"dof,node\n", ":1:1: ", "expected the line `dof,node,direction` first"},
       {"dof,node,direction\n1,17\n", ":2:1: ", "expected three values: dof, node and direction"},
@@ -207,9 +199,9 @@ static void in_a_file_of_nodes(CHECK_STATE)
   };
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
     char text[256], start[256];
-    const own_file f = write_file("n.csv", all[i].lines, strlen(all[i].lines));
+    const own_file f = write_file("n.csv", all[i].text, strlen(all[i].text));
     snprintf(text, sizeof text, "structure: {mass: [1, 1]" DC ", nodes: %s}\n" SWEEP, f.path);
-    snprintf(start, sizeof start, "%s%s", f.path, all[i].place);
+    snprintf(start, sizeof start, "%s%s", f.path, all[i].at);
     refused(text, NULL, start, all[i].words);
     remove_file(&f);
   }

@@ -63,13 +63,8 @@ static void pairs_have_names_and_places(CHECK_STATE)
 static void pairs_are_echoed_as_contacts(CHECK_STATE)
 {
   scene sc;
-  char *text = NULL;
-  size_t length = 0;
   accepted(THREE "contacts:\n  - {pairs: [[7, 8], [8, ground]], name: face, " AXES ", " LAW "}\n", NULL, &sc);
-  FILE *to = open_memstream(&text, &length);
-  assert_non_null(to);
-  assert_int_equal(case_echo(&sc, to), HC_OK);
-  assert_int_equal(fclose(to), 0);
+  char *text = echoed(&sc, HC_OK);
   assert_null(strstr(text, "pairs"));
   model *a, *b = model_of(text, NULL);
   assert_int_equal(scene_model(&sc, &a), HC_OK);
@@ -81,9 +76,8 @@ static void pairs_are_echoed_as_contacts(CHECK_STATE)
 
 static void a_file_of_pairs(CHECK_STATE)
 {
-  static const struct {
-    const char *file, *place, *words; /* place NULL: read */
-  } all[] = {
+  static const mistake all[] = {
+      /* place NULL: read */
       {"node_a,node_b,area\n7,8,2\n8,ground,1\n", NULL, NULL},
       {"node_a, node_b\r\n\r\n 7 , 8\r\n", NULL, NULL},
       {"", "1:1: ", "nothing here, expected the line node_a,node_b[,gap][,preload][,area]"},
@@ -105,12 +99,12 @@ static void a_file_of_pairs(CHECK_STATE)
       {"node_a,node_b,gap\n7,8,nan\n", "2:5: ", "`nan`, expected a number, the gap"},
   };
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-    const own_file f = write_file("pairs.csv", all[i].file, strlen(all[i].file));
+    const own_file f = write_file("pairs.csv", all[i].text, strlen(all[i].text));
     char text[2048], start[160];
     scene sc;
     snprintf(text, sizeof text, THREE "contacts:\n  - {pairs: %s, " AXES ", " LAW "}\n", f.path);
-    snprintf(start, sizeof start, "%s:%s", f.path, all[i].place ? all[i].place : "");
-    if (all[i].place) refused(text, NULL, start, all[i].words);
+    snprintf(start, sizeof start, "%s:%s", f.path, all[i].at ? all[i].at : "");
+    if (all[i].at) refused(text, NULL, start, all[i].words);
     else accepted(text, NULL, &sc), case_clear(&sc);
     remove_file(&f);
   }
@@ -118,9 +112,7 @@ static void a_file_of_pairs(CHECK_STATE)
 
 static void mistakes_in_an_entry(CHECK_STATE)
 {
-  static const struct {
-    const char *entry, *place, *words;
-  } all[] = {
+  static const mistake all[] = {
       {"{pairs: [[7, 8]], " LAW "}", "8:5: ", "missing key `axes` beside `pairs`, expected {normal: [X, Y, Z]"},
       {"{" AXES ", " LAW "}", "8:5: ", "missing key `pairs` beside `axes`, expected a csv file"},
       {"{pairs: [[7, 8]], axes: [1], " LAW "}", "8:29: ", "axes is a list, expected {normal: [X, Y, Z]"},
@@ -160,8 +152,8 @@ static void mistakes_in_an_entry(CHECK_STATE)
   };
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
     char text[2048], start[32];
-    snprintf(text, sizeof text, THREE "contacts:\n  - %s\n", all[i].entry);
-    snprintf(start, sizeof start, "f:%s", all[i].place);
+    snprintf(text, sizeof text, THREE "contacts:\n  - %s\n", all[i].text);
+    snprintf(start, sizeof start, "f:%s", all[i].at);
     refused(text, NULL, start, all[i].words);
   }
   refused(THREE "contacts: [{pairs: [[7, 8]], " AXES ", " LAW "}]\n", "contacts[0].pairs=[[7, 8]]", "--set ",

@@ -3,8 +3,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "tests/folder.h"
 #include "tests/program.h"
 
 #define CASE2 "cases/paper/case2.yaml "
@@ -54,27 +54,21 @@ static void errors_fall_along_each_family(CHECK_STATE)
  * that the error is that of the other: order 3 and more in H, a factor 4 in H is 64, 16 asked. */
 static void errors_are_of_all_responses(CHECK_STATE)
 {
-  char path[] = "/tmp/hbmcheck-bench-XXXXXX", line[256];
-  const int file = mkstemp(path);
-  FILE *to = file >= 0 ? fdopen(file, "w") : NULL;
-  assert_non_null(to);
-  fputs("title: two responses\n"
-        "structure: {mass: [1, 1], damping: [0.34641016151377546, 2], stiffness: [12, 21], names: [along, across]}\n"
-        "forcing: [{dof: across, amplitude: 100, harmonic: 0}, {direction: {along: 50, across: 5}, amplitude: 1}]\n"
-        "contacts: [{tangential_stiffness: 5, normal_stiffness: 21, friction: 0.85, tangent: {along: 1}, "
-        "normal: {across: 1}}]\n"
-        "response: [across, along]\nsweep: {omega: [3, 5.5]}\n",
-        to);
-  fclose(to);
-  snprintf(line, sizeof line, "bench %s --at 4 --repeats 1 --format csv -q --set transient.max_periods=300", path);
-  assert_int_equal(run(line), 0);
+  folder_put(
+      "two.yaml",
+      "title: two responses\n"
+      "structure: {mass: [1, 1], damping: [0.34641016151377546, 2], stiffness: [12, 21], names: [along, across]}\n"
+      "forcing: [{dof: across, amplitude: 100, harmonic: 0}, {direction: {along: 50, across: 5}, amplitude: 1}]\n"
+      "contacts: [{tangential_stiffness: 5, normal_stiffness: 21, friction: 0.85, tangent: {along: 1}, "
+      "normal: {across: 1}}]\n"
+      "response: [across, along]\nsweep: {omega: [3, 5.5]}\n");
+  assert_int_equal(run("bench $D/two.yaml --at 4 --repeats 1 --format csv -q --set transient.max_periods=300"), 0);
   static const char *const exact[] = {"4,hbm_exact,5,", "4,hbm_exact,20,", "4,hbm_exact,80,"};
   CHECK_LE(1e-6, error_of(out, exact[0]), "the second response's");
   check_falls(out, "hbm_exact", 3, exact, 1.0 / 16);
   CHECK_LE(error_of(out, "4,exact_shooting,,,,9.9999999999999994e-12"), 1e-10, "tolerance 1e-11");
   CHECK_LE(error_of(out, "4,closed_shooting,"), 1e-10, "tolerance 1e-11");
   assert_non_null(strstr(out, "scipy_lsoda: of one degree of freedom only"));
-  remove(path);
 }
 
 /* The smallest error of all rows of a method: what the family comes to. */
@@ -112,5 +106,5 @@ static void mistakes_are_named(CHECK_STATE)
   expect("bench --help", 0, "example");
 }
 
-CHECK_TESTS("bench.command", 300, errors_fall_along_each_family, errors_are_of_all_responses, every_method_comes_near,
-            mistakes_are_named)
+CHECK_TESTS_WITH("bench.command", 300, folder_make, folder_remove, errors_fall_along_each_family,
+                 errors_are_of_all_responses, every_method_comes_near, mistakes_are_named)

@@ -65,8 +65,7 @@ static const order_row *find(const accuracy *a, const char *quantity)
 
 static scene case2(void)
 {
-  scene sc = scene_named("c2", 5, true, 1024);
-  sc.hbm.force = HBM_FORCE_EXACT;
+  scene sc = exact_scene("c2", 5, true);
   sc.transient = (transient_settings){.law = TRANSIENT_LAW_EXACT,
                                       .regularisation = 1e-4,
                                       .tolerance = 1e-9,

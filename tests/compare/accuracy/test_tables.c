@@ -11,8 +11,7 @@
 
 static scene case2(void)
 {
-  scene sc = scene_named("c2", 10, true, 1024);
-  sc.hbm.force = HBM_FORCE_EXACT;
+  scene sc = exact_scene("c2", 10, true);
   sc.transient = (transient_settings){.law = TRANSIENT_LAW_EXACT,
                                       .regularisation = 1e-4,
                                       .tolerance = 1e-9,

@@ -197,13 +197,22 @@ static void what_could_not_be_compared_is_an_error(CHECK_STATE)
   end(m);
 }
 
+/* The JUnit file of a case; to be freed. */
+static char *junit(const gate_case *g)
+{
+  char *text = NULL;
+  size_t size;
+  FILE *to = open_memstream(&text, &size);
+  assert_int_equal(gate_write_junit(1, g, to), HC_OK);
+  fclose(to);
+  return text;
+}
+
 /* Two responses of one solution, the second off; then one that hardly moves, of which there is nothing to hold. */
 static void each_response_is_held_by_itself(CHECK_STATE)
 {
   static const char names[][RESPONSE_NAME] = {"tip", "a<b"};
   made *m = start(2);
-  char *text = NULL;
-  size_t size;
   m->rows[1].branch = 0, m->rows[1].response = 1;
   m->rows[1].errors.amplitude = 2e-3;
   assert_int_equal(judged(m), 1);
@@ -213,9 +222,7 @@ static void each_response_is_held_by_itself(CHECK_STATE)
   m->g.responses = names;
   assert_string_equal(gate_response(&m->g, &m->g.checks[0]), "tip");
   assert_string_equal(gate_response(&m->g, &m->g.checks[4]), "a<b");
-  FILE *to = open_memstream(&text, &size);
-  assert_int_equal(gate_write_junit(1, &m->g, to), HC_OK);
-  fclose(to);
+  char *text = junit(&m->g);
   assert_non_null(strstr(text, "name=\"omega 7 branch 0 response a&lt;b: amplitude\" time=\"0\">\n      <failure"));
   free(text);
   m->rows[1].still = true;
@@ -263,13 +270,9 @@ static void one_check_of_a_quantity_is_the_worst(CHECK_STATE)
 static void junit_escapes_what_it_is_given(CHECK_STATE)
 {
   made *m = start(1);
-  char *text = NULL;
-  size_t size;
   judged(m);
   m->g.name = "a&b<c>\"d'\n\x01\xFF\xEF\xBF\xBF.yaml";
-  FILE *to = open_memstream(&text, &size);
-  assert_int_equal(gate_write_junit(1, &m->g, to), HC_OK);
-  fclose(to);
+  char *text = junit(&m->g);
   assert_non_null(strstr(
       text,
       "<testsuite name=\"a&amp;b&lt;c&gt;&quot;d'  \xEF\xBF\xBD .yaml\" tests=\"4\" failures=\"0\" errors=\"0\""));
@@ -283,17 +286,13 @@ static void a_comparison_that_cannot_begin_is_an_error(CHECK_STATE)
   scene sc;
   compare_setup setup;
   gate_case g;
-  char *text = NULL;
-  size_t size;
   memset(&sc, 0, sizeof sc);
   sc.mass = sc.damping = sc.stiffness = sc.force = sc.omega_from = 1;
   sc.omega_to = 2;
   sc.hbm.harmonics = HBM_MAX_HARMONICS + 1;
   assert_int_equal(scene_setup(&sc, &setup), HC_OK);
   assert_int_equal(gate_run("no.yaml", &setup, NULL, &g), HC_OK);
-  FILE *to = open_memstream(&text, &size);
-  assert_int_equal(gate_write_junit(1, &g, to), HC_OK);
-  fclose(to);
+  char *text = junit(&g);
   assert_int_equal(gate_exit_code(1, &g), 3);
   assert_non_null(strstr(text, "<error message=\"it could not be made: an argument is outside its documented range\" "
                                "type=\"comparison\">"));

@@ -1,6 +1,7 @@
 /* test_command.c - hbmcheck verify as people use it: the shipped example, exit codes, columns, messages. */
 #include <string.h>
 
+#include "tests/folder.h"
 #include "tests/program.h"
 
 #define EXAMPLE "verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns omega=1,harmonic_1=2 "
@@ -22,23 +23,11 @@ static void the_shipped_example_is_named(CHECK_STATE)
 /* Our own curve, as frf writes it: branches, unstable points and remarks included. */
 static void our_own_curve_matches(CHECK_STATE)
 {
-  char path[] = "/tmp/hbmcheck-verify-XXXXXX", args[512];
-  int fd = mkstemp(path);
-  assert_true(fd >= 0);
-  close(fd);
-  snprintf(args, sizeof args, "frf cases/paper/case2.yaml -q --format csv --set hbm.harmonics=20 -o %s", path);
-  expect(args, 0, "");
-  snprintf(args, sizeof args, "verify cases/paper/case2.yaml -q --against %s --columns omega=omega,amplitude=amplitude",
-           path);
-  expect(args, 0, "no cause to suspect");
-  snprintf(
-      args, sizeof args,
-      "verify cases/paper/case2.yaml -q --against %s --columns frequency=omega,value=amplitude --quantity amplitude",
-      path);
-  expect(args, 1, "cause: frequency_unit");
-  snprintf(args, sizeof args, "verify cases/paper/case2.yaml -q --against %s --columns omega=1,amplitude=8", path);
-  expect(args, 1, "cause: other_quantity");
-  unlink(path);
+#define OURS "verify cases/paper/case2.yaml -q --against $D/ours.csv --columns "
+  expect("frf cases/paper/case2.yaml -q --format csv --set hbm.harmonics=20 -o $D/ours.csv", 0, "");
+  expect(OURS "omega=omega,amplitude=amplitude", 0, "no cause to suspect");
+  expect(OURS "frequency=omega,value=amplitude --quantity amplitude", 1, "cause: frequency_unit");
+  expect(OURS "omega=1,amplitude=8", 1, "cause: other_quantity");
 }
 
 static void mistakes_are_named(CHECK_STATE)
@@ -82,5 +71,5 @@ static void what_cannot_be_judged_is_said(CHECK_STATE)
       3, "solver_failed");
 }
 
-CHECK_TESTS("verify.command", 300, the_shipped_example_is_named, our_own_curve_matches, mistakes_are_named,
-            a_free_mean_is_skipped, what_cannot_be_judged_is_said)
+CHECK_TESTS_WITH("verify.command", 300, folder_make, folder_remove, the_shipped_example_is_named, our_own_curve_matches,
+                 mistakes_are_named, a_free_mean_is_skipped, what_cannot_be_judged_is_said)
