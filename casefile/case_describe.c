@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "casefile/case_reader.h"
 #include "casefile/case_values.h"
-#include "casefile/fields.h"
 
 static const char *expected(const field *f, char text[128])
 {
@@ -43,7 +43,6 @@ static void describe_section(const field_section *s, FILE *to)
     if (!strcmp(field_at(i)->section, s->name)) describe_briefly(field_at(i), to);
 }
 
-/* Everything about one field. */
 static void describe_field(const field *f, FILE *to)
 {
   char path[FIELD_PATH], text[128];
@@ -69,11 +68,8 @@ static hc_status unknown_field(const char *asked, case_error *err)
   if (field_was_removed(&m, asked, strlen(asked))) return HC_BAD_INPUT;
   message_add(&m, "no field or section ");
   message_add_quoted(&m, asked, strlen(asked));
-  suggestion s = suggest_path(asked, strlen(asked));
-  char path[FIELD_PATH];
-  if (s.f) message_add(&m, ", did you mean `%s`?", field_path(s.f, -1, path));
-  else if (s.s) message_add(&m, ", did you mean `%s`?", s.s->name);
-  else message_add(&m, ", expected one such as hbm.samples (without a name, describe lists them)");
+  if (!case_suggest(&m, suggest_path(asked, strlen(asked)), NULL, -1))
+    message_add(&m, ", expected one such as hbm.samples (without a name, describe lists them)");
   return HC_BAD_INPUT;
 }
 

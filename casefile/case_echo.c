@@ -76,8 +76,7 @@ void field_write(const field *f, const void *base, FILE *to)
 static void write_matrix(const char *name, const double *v, int n, FILE *to)
 {
   const size_t rows = (size_t)n;
-  bool diagonal = true;
-  for (size_t i = 0; i < rows * rows && diagonal; ++i) diagonal = v[i] == 0 || i % (rows + 1) == 0;
+  const bool diagonal = structure_is_diagonal(v, n);
   fprintf(to, "  %s: ", name);
   if (diagonal) write_list(v, n, rows + 1, 0, to);
   for (int i = 0; i < n && !diagonal; ++i) {
@@ -159,8 +158,7 @@ static bool has_direction(const scene_structure *s, const structure_contact *c, 
   return !structure_is_zero(field_direction(f, c), s->n);
 }
 
-/* Does the field say something of the contact? Of gap and preload the one that was given does. */
-static bool says_something(const scene_structure *s, const structure_contact *c, const field *f)
+bool case_contact_field_counts(const scene_structure *s, const structure_contact *c, const field *f)
 {
   const bool preload = !strcmp(f->name, "preload");
   if (!strcmp(f->name, "angle_deg")) return c->by_angle;
@@ -193,7 +191,7 @@ static void write_entry(const char *section, const scene_structure *s, const str
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
     if (strcmp(f->section, section) || f->kind == FIELD_PART) continue;
-    if (s ? c && !says_something(s, c, f) : f->flags & FIELD_STRUCTURE) continue;
+    if (s ? c && !case_contact_field_counts(s, c, f) : f->flags & FIELD_STRUCTURE) continue;
     begin_line(&before, f, to);
     field_write(f, base, to);
     putc('\n', to);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/path.h"
 #include "casefile/case_reader.h"
 
 static hc_status file_failed(case_reader *r, const char *words)
@@ -17,10 +18,11 @@ static hc_status file_failed(case_reader *r, const char *words)
 /* "dir/case2.yaml" is titled "case2". */
 static void title_from_name(const char *name, char title[SCENE_MAX_TEXT])
 {
-  const char *slash = strrchr(name, '/'), *base = slash && slash[1] ? slash + 1 : name, *dot = strrchr(base, '.');
+  int stem;
+  const char *base = path_name(name, &stem);
   message m;
   message_start(&m, title, SCENE_MAX_TEXT);
-  message_add_input(&m, base, dot && dot > base ? (size_t)(dot - base) : strlen(base), SCENE_MAX_TEXT);
+  message_add_input(&m, base, (size_t)stem, SCENE_MAX_TEXT);
   memset(title + m.used, 0, SCENE_MAX_TEXT - m.used);
 }
 

@@ -28,15 +28,6 @@ hc_status case_refuse(case_reader *r, case_place place, const char *format, ...)
   return HC_BAD_INPUT;
 }
 
-hc_status yaml_refuse(case_reader *r, const yaml_node_t *node, const char *format, ...)
-{
-  va_list args;
-  va_start(args, format);
-  message_add_list(yaml_blame(r, node), format, args);
-  va_end(args);
-  return HC_BAD_INPUT;
-}
-
 hc_status yaml_file_failed(case_reader *r, const yaml_node_t *node, const char *what, const char *path,
                            const char *expected)
 {

@@ -73,12 +73,11 @@ static inline message *yaml_blame(case_reader *r, const yaml_node_t *node)
 
 /* The whole message, printf-style, about a place or where a node stands. Always HC_BAD_INPUT. */
 #if defined(__GNUC__)
-#define CASE_PRINTF __attribute__((format(printf, 3, 4)))
-#else
-#define CASE_PRINTF
+__attribute__((format(printf, 3, 4)))
 #endif
-CASE_PRINTF hc_status case_refuse(case_reader *r, case_place place, const char *format, ...);
-CASE_PRINTF hc_status yaml_refuse(case_reader *r, const yaml_node_t *node, const char *format, ...);
+hc_status
+case_refuse(case_reader *r, case_place place, const char *format, ...);
+#define yaml_refuse(r, node, ...) case_refuse(r, yaml_place(r, node), __VA_ARGS__)
 hc_status case_out_of_memory(case_reader *r);
 
 /* The file at `path`, which the node names for `what`, cannot be read: r->msg has the words for it. */

@@ -23,7 +23,7 @@ void structure_free_matrix(structure_matrix *m)
 /* Free a list of *n entries, each of which begins with a pointer to memory of its own. Returns NULL. */
 static void *cleared(void *list, size_t size, int *n)
 {
-  for (int i = 0; i < *n; ++i) free(*(double **)(void *)((char *)list + size * (size_t)i));
+  for (int i = 0; list && i < *n; ++i) free(*(double **)(void *)((char *)list + size * (size_t)i));
   free(list);
   *n = 0;
   return NULL;
@@ -59,38 +59,37 @@ void structure_free(scene_structure *s)
 
 /* ---- lists that grow ---- */
 
+/* The list with one more entry, all zeros but for the pointer to a vector[length] of zeros that it begins with; NULL:
+ * out of memory, and the list is as it was. */
+static void *with_entry(void *list, size_t size, int n, size_t length)
+{
+  double *vector = calloc(length, sizeof *vector);
+  char *longer = vector ? growing(list, n, size) : NULL;
+  if (!longer) return free(vector), NULL;
+  char *entry = memset(longer + size * (size_t)n, 0, size);
+  memcpy(entry, &vector, sizeof vector);
+  return longer;
+}
+
 structure_load *structure_add_load(scene_structure *s)
 {
-  double *direction = calloc((size_t)s->n, sizeof *direction);
-  if (direction && GROW(s->loads, s->n_loads)) {
-    s->loads[s->n_loads] = (structure_load){.direction = direction};
-    return &s->loads[s->n_loads++];
-  }
-  free(direction);
-  return NULL;
+  structure_load *list = with_entry(s->loads, sizeof *list, s->n_loads, (size_t)s->n);
+  return list ? &(s->loads = list)[s->n_loads++] : NULL;
 }
 
 structure_response *structure_add_response(scene_structure *s)
 {
-  double *direction = calloc((size_t)s->n, sizeof *direction);
-  if (direction && GROW(s->responses, s->n_responses)) {
-    s->responses[s->n_responses] = (structure_response){.direction = direction};
-    return &s->responses[s->n_responses++];
-  }
-  free(direction);
-  return NULL;
+  structure_response *list = with_entry(s->responses, sizeof *list, s->n_responses, (size_t)s->n);
+  return list ? &(s->responses = list)[s->n_responses++] : NULL;
 }
 
 structure_contact *structure_add_contact(scene_structure *s)
 {
-  const size_t n = (size_t)s->n;
-  double *t = calloc(3 * n, sizeof *t);
-  if (t && GROW(s->contacts, s->n_contacts)) {
-    s->contacts[s->n_contacts] = (structure_contact){.tangent = t, .tangent_2 = t + n, .normal = t + 2 * n};
-    return &s->contacts[s->n_contacts++];
-  }
-  free(t);
-  return NULL;
+  structure_contact *list = with_entry(s->contacts, sizeof *list, s->n_contacts, 3 * (size_t)s->n);
+  if (!list) return NULL;
+  structure_contact *c = &(s->contacts = list)[s->n_contacts++];
+  c->tangent_2 = c->tangent + s->n, c->normal = c->tangent_2 + s->n;
+  return c;
 }
 
 void structure_keep_response(scene_structure *s, int r)
@@ -123,45 +122,34 @@ static structure_matrix copied_matrix(const structure_matrix *from, size_t n, bo
   return to;
 }
 
-static bool copy_lists(scene_structure *to, const scene_structure *from)
+/* The same of a list whose entries each begin with a pointer to bytes of their own. */
+static void *copied_list(const void *from, size_t size, int n, size_t bytes, bool *failed)
 {
-  const size_t bytes = (size_t)from->n * sizeof(double);
-  for (int i = 0; i < from->n_loads; ++i) {
-    structure_load *load = structure_add_load(to);
-    if (!load) return false;
-    double *own = memcpy(load->direction, from->loads[i].direction, bytes);
-    *load = from->loads[i];
-    load->direction = own;
+  char *list = n > 0 ? growing_by(NULL, 0, n, size) : NULL;
+  *failed |= n > 0 && !list;
+  if (list) memcpy(list, from, size * (size_t)n);
+  for (char *entry = list; list && entry < list + size * (size_t)n; entry += size) {
+    void *own;
+    memcpy(&own, entry, sizeof own);
+    own = copied(own, bytes, failed);
+    memcpy(entry, &own, sizeof own);
   }
-  for (int j = 0; j < from->n_contacts; ++j) {
-    structure_contact *c = structure_add_contact(to);
-    if (!c) return false;
-    const structure_contact own = *c;
-    *c = from->contacts[j];
-    c->tangent = memcpy(own.tangent, c->tangent, bytes);
-    c->tangent_2 = memcpy(own.tangent_2, c->tangent_2, bytes);
-    c->normal = memcpy(own.normal, c->normal, bytes);
-  }
-  for (int i = 0; i < from->n_responses; ++i) {
-    structure_response *r = structure_add_response(to);
-    if (!r) return false;
-    memcpy(r->direction, from->responses[i].direction, bytes);
-    r->place = from->responses[i].place;
-  }
-  return true;
+  return list;
 }
 
 scene_structure *structure_copy(const scene_structure *s)
 {
   scene_structure *to = structure_new();
-  const size_t n = (size_t)s->n;
+  const size_t n = (size_t)s->n, vector = n * sizeof(double);
   bool failed = false;
   if (!to) return NULL;
   *to = *s;
   to->names = NULL;
-  to->loads = NULL, to->n_loads = 0;
-  to->contacts = NULL, to->n_contacts = 0;
-  to->responses = NULL, to->n_responses = 0;
+  to->loads = copied_list(s->loads, sizeof *to->loads, s->n_loads, vector, &failed);
+  to->contacts = copied_list(s->contacts, sizeof *to->contacts, s->n_contacts, 3 * vector, &failed);
+  to->responses = copied_list(s->responses, sizeof *to->responses, s->n_responses, vector, &failed);
+  for (structure_contact *c = to->contacts; c && c < to->contacts + s->n_contacts && c->tangent; ++c)
+    c->tangent_2 = c->tangent + n, c->normal = c->tangent_2 + n;
   to->mass = copied_matrix(&s->mass, n, &failed);
   to->stiffness = copied_matrix(&s->stiffness, n, &failed);
   to->damping = copied_matrix(&s->damping, n, &failed);
@@ -169,7 +157,7 @@ scene_structure *structure_copy(const scene_structure *s)
   to->nodes = copied(s->nodes, (size_t)s->n_nodes * sizeof *to->nodes, &failed);
   if (s->names) failed |= !(to->names = calloc(n + 1, sizeof *to->names));
   for (int i = 0; to->names && i < s->n; ++i) to->names[i] = copied(s->names[i], strlen(s->names[i]) + 1, &failed);
-  if (!failed && copy_lists(to, s)) return to;
+  if (!failed) return to;
   structure_free(to);
   return NULL;
 }

@@ -59,6 +59,14 @@ static inline bool structure_is_zero(const double *direction, int n)
   return true;
 }
 
+/* Has A[n][n] no entry but 0 beside its diagonal? */
+static inline bool structure_is_diagonal(const double *A, int n)
+{
+  for (size_t i = 0; i < (size_t)n * (size_t)n; ++i)
+    if (A[i] != 0 && i % ((size_t)n + 1)) return false;
+  return true;
+}
+
 /* 'x', 'y' or 'z'; the end of a string is none of them. */
 static inline bool structure_is_axis(char c) { return c >= 'x' && c <= 'z'; }
 

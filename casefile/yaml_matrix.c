@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "base/number.h"
+#include "base/path.h"
 #include "casefile/case_reader.h"
 #include "casefile/matrices/matrix_file.h"
 #include "casefile/matrices/text_file.h"
@@ -100,7 +101,7 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
     message_add(m, ", expected %s", ANY_MATRIX);
     return HC_BAD_INPUT;
   }
-  if (!(out->file = text_file_path(r->name, name, length))) return case_out_of_memory(r);
+  if (!(out->file = path_beside(r->name, name, length))) return case_out_of_memory(r);
   out->part = part_of(what);
   if (is_matlab_name(out->file)) {
     message_add(&r->msg, "is a MATLAB file, which is not read");

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/path.h"
 #include "casefile/case_reader.h"
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
@@ -101,7 +102,7 @@ static hc_status read_names(pair_rows *p)
 static hc_status open_file(pair_rows *p, const yaml_node_t *node)
 {
   size_t length = 0;
-  p->path = text_file_path(p->r->name, yaml_node_text(node), node->data.scalar.length);
+  p->path = path_beside(p->r->name, yaml_node_text(node), node->data.scalar.length);
   const hc_status st = p->path ? text_file_read(p->path, most_bytes, &p->bytes, &length, &p->r->msg) : HC_NO_MEMORY;
   if (st == HC_NO_MEMORY) return case_out_of_memory(p->r);
   if (st != HC_OK)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/path.h"
 #include "base/utf8.h"
 #include "casefile/matrices/text_file.h"
 
@@ -217,7 +218,7 @@ static hc_status read_node(case_reader *r, const yaml_node_t *entry)
 
 static hc_status read_nodes_file(case_reader *r, const yaml_node_t *node)
 {
-  char *path = text_file_path(r->name, yaml_node_text(node), node->data.scalar.length);
+  char *path = path_beside(r->name, yaml_node_text(node), node->data.scalar.length);
   hc_status st = path ? nodes_file_read(path, r->sc.structure, &r->msg) : HC_NO_MEMORY;
   if (st == HC_NO_MEMORY) case_out_of_memory(r);
   if (st == HC_IO)

@@ -10,36 +10,31 @@
 #include "base/number.h"
 #include "casefile/structure.h"
 
-enum { LONGEST = CLI_NAME, MOST_LISTED = 12 };
+enum { MOST_LISTED = 12 };
 
 /* Response r in full; the column shows its first RESPONSE_NAME - 1 letters. */
-static const char *response_name(const scene *sc, int r, char text[LONGEST])
+static const char *response_name(const cli_common *common, int r, char text[CLI_NAME])
 {
-  if (!sc->structure) return "x";
-  return structure_response_name(sc->structure, r, text, LONGEST);
-}
-
-static const char *contact_name(const scene *sc, int j, char text[LONGEST])
-{
-  const char *name = scene_contact_at(sc, j)->name;
-  if (*name) snprintf(text, LONGEST, "%s", name);
-  else snprintf(text, LONGEST, "%d", j);
-  return text;
+  const scene_structure *s = common->scene->structure;
+  return s ? structure_response_name(s, r, text, CLI_NAME) : "x";
 }
 
 const char *cli_contact_name(const cli_common *common, int j, char text[CLI_NAME])
 {
-  return contact_name(common->scene, j, text);
+  const char *name = scene_contact_at(common->scene, j)->name;
+  if (*name) snprintf(text, CLI_NAME, "%s", name);
+  else snprintf(text, CLI_NAME, "%d", j);
+  return text;
 }
 
-typedef const char *name_of(const scene *sc, int i, char text[LONGEST]);
+typedef const char *name_of(const cli_common *common, int i, char text[CLI_NAME]);
 
 static void say_unknown(const cli_common *common, const char *option, const char *asked, int n, name_of *name)
 {
-  char words[LONGEST * 2], one[LONGEST];
+  char words[CLI_NAME * 2], one[CLI_NAME];
   message m;
   message_start(&m, words, sizeof words);
-  for (int i = 0; i < n && i < MOST_LISTED; ++i) message_add(&m, "%s%s", i ? ", " : "", name(common->scene, i, one));
+  for (int i = 0; i < n && i < MOST_LISTED; ++i) message_add(&m, "%s%s", i ? ", " : "", name(common, i, one));
   if (n > MOST_LISTED) message_add(&m, " and %d more", n - MOST_LISTED);
   cli_message(common, "--%s: the case has no `%s`; expected %s%s", option, asked, n > 1 ? "one of " : "",
               n > 0 ? words : "a case that has some");
@@ -80,9 +75,9 @@ int cli_response_named(const cli_common *common, const char *name)
 {
   const scene *sc = common->scene;
   const int n = sc->structure ? structure_response_count(sc->structure) : 1;
-  char full[LONGEST], shown[RESPONSE_NAME];
+  char full[CLI_NAME], shown[RESPONSE_NAME];
   for (int r = 0; r < n; ++r) {
-    if (!strcmp(response_name(sc, r, full), name)) return r;
+    if (!strcmp(response_name(common, r, full), name)) return r;
     snprintf(shown, sizeof shown, "%.*s", RESPONSE_NAME - 1, full);
     if (!strcmp(shown, name)) return r;
   }
@@ -117,23 +112,24 @@ int cli_contact_named(const cli_common *common, const char *name)
   int j = sc->structure ? structure_contact_named(sc->structure, name, strlen(name)) : -1;
   if (j >= 0) return j;
   if (number_read_integer(name, strlen(name), &j) == NUMBER_FINE && j >= 0 && j < n) return j;
-  say_unknown(common, "contact", name, n, contact_name);
+  say_unknown(common, "contact", name, n, cli_contact_name);
   return -1;
+}
+
+/* The list of that option in the place of the scene's, if it was given. 0, or the exit code after the message. */
+static int take_whole_numbers(const cli_common *common, const char *option, const number_list *given, int low, int high,
+                              number_list *to)
+{
+  for (const double *v = given->v; v < given->v + given->n; ++v)
+    if (*v != floor(*v) || *v < low || *v > high)
+      return cli_failed(common, EXIT_USAGE, "--%s: %g is not a whole number %d..%d", option, *v, low, high);
+  if (given->n) *to = *given;
+  return 0;
 }
 
 int compare_lists(const cli_common *common, const table_lists *lists, scene *sc)
 {
-  static const double most_samples = 1 << 24;
-  for (int i = 0; i < lists->harmonics.n; ++i)
-    if (lists->harmonics.v[i] != floor(lists->harmonics.v[i]) || lists->harmonics.v[i] > HBM_MAX_HARMONICS)
-      return cli_failed(common, EXIT_USAGE, "--harmonics: %g is not a whole number 1..%d", lists->harmonics.v[i],
-                        HBM_MAX_HARMONICS);
-  for (int i = 0; i < lists->samples.n; ++i)
-    if (lists->samples.v[i] != floor(lists->samples.v[i]) || lists->samples.v[i] < 3 ||
-        lists->samples.v[i] > most_samples)
-      return cli_failed(common, EXIT_USAGE, "--samples: %g is not a whole number 3..%.0f", lists->samples.v[i],
-                        most_samples);
-  if (lists->harmonics.n) sc->compare.harmonics = lists->harmonics;
-  if (lists->samples.n) sc->compare.samples = lists->samples;
-  return 0;
+  const int code =
+      take_whole_numbers(common, "harmonics", &lists->harmonics, 1, HBM_MAX_HARMONICS, &sc->compare.harmonics);
+  return code ? code : take_whole_numbers(common, "samples", &lists->samples, 3, 1 << 24, &sc->compare.samples);
 }

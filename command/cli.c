@@ -261,7 +261,7 @@ int cli_run(const cli_command *self, int argc, char **argv)
   parse(self, argc, argv, &common);
   int code = self->starts_itself ? 0 : cli_check_files(&common, 0, NULL);
   if (!code && !self->starts_itself && !strcmp(self->arguments, "CASE"))
-    code = cli_load_case(&common, common.arguments[0], &sc);
+    code = cli_load_case(&common, common.arguments[0], &sc, &(case_error){{0}});
   if (!code) code = self->run(&common, common.own, &sc);
   case_clear(&sc);
   free(common.own);
@@ -375,21 +375,18 @@ int cli_plotted(const cli_common *common, hc_status st)
   return st == HC_OK ? 0 : cli_failed(common, EXIT_NO_SOLUTION, "no drawing: %s", common->drawing.why);
 }
 
-int cli_load_case(cli_common *common, const char *path, scene *sc)
+int cli_not_read(hc_status st, const case_error *err)
 {
-  case_error err;
-  return cli_load_case_saying(common, path, sc, &err);
+  fprintf(stderr, "%s\n", err->message[0] ? err->message : hc_status_text(st));
+  return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
-int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_error *err)
+int cli_load_case(cli_common *common, const char *path, scene *sc, case_error *err)
 {
   *err = (case_error){{0}};
   common->scene = sc;
-  hc_status st = case_read(path, common->n_set, common->set, sc, err);
-  if (st == HC_OK) return 0;
-  if (!err->message[0]) snprintf(err->message, sizeof err->message, "%s", hc_status_text(st));
-  fprintf(stderr, "%s\n", err->message);
-  return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
+  const hc_status st = case_read(path, common->n_set, common->set, sc, err);
+  return st == HC_OK ? 0 : cli_not_read(st, err);
 }
 
 /* ---- frequencies, and the sweep. Proof: tests/command/test_frequency.c ---- */

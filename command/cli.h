@@ -104,7 +104,6 @@ int cli_run(const cli_command *self, int argc, char **argv);
 
 /* Options that several commands have, rows of the table of a command whose own struct is `type`. */
 /* clang-format off */
-#define CLI_AT_OPTION(type, text) {CLI_LIST, "at", "LIST", text, offsetof(type, at)}
 /* With it goes a second table, of ROWS_CONTACT. */
 #define CLI_CONTACTS_OPTION(type) \
   {CLI_FLAG, "contacts", NULL, \
@@ -136,10 +135,11 @@ int cli_check_files(cli_common *common, int n, const cli_file *files);
 /* Scenes computed at a time by default: the processors that are online, 1..CLI_MAX_JOBS. */
 int cli_processors(void);
 
-/* Read the case with --set applied; sc is common->scene from then on. 0, or the exit code after the message. */
-int cli_load_case(cli_common *common, const char *path, scene *sc);
-/* The same, with the message kept in err, too. */
-int cli_load_case_saying(cli_common *common, const char *path, scene *sc, case_error *err);
+/* Read the case with --set applied; sc is common->scene from then on. 0, or the exit code after the message, which is
+ * in err, too. */
+int cli_load_case(cli_common *common, const char *path, scene *sc, case_error *err);
+/* The message for a file that cannot be read as what it should be, err's or else st's. Returns the exit code. */
+int cli_not_read(hc_status st, const case_error *err);
 
 /* The frequencies of --at, if there are any, into compare.omega of the case: they are cycles per time where its sweep
  * is. Frequencies outside the sweep are warned of. Of those a factor 4 below or above it: what looks like the other

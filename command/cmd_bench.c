@@ -43,18 +43,13 @@ static const cli_option options[] = {
 };
 
 static const table_column columns[] = {
-    {"omega", TABLE_REAL},         {"frequency", TABLE_REAL},  {"method", TABLE_TEXT},
-    {"harmonics", TABLE_INTEGER},  {"samples", TABLE_INTEGER}, {"regularisation", TABLE_REAL},
-    {"tolerance", TABLE_REAL},     {"error", TABLE_REAL},      {"error_harmonic_1", TABLE_REAL},
-    {"error_finer", TABLE_REAL},   {"seconds", TABLE_REAL},    {"low", TABLE_REAL},
-    {"high", TABLE_REAL},          {"repeats", TABLE_INTEGER}, {"front", TABLE_TEXT},
-    {"curve_seconds", TABLE_REAL}, {"outcome", TABLE_TEXT},
-};
+    REAL("omega"),          REAL("frequency"), TEXT("method"), INTEGER("harmonics"),     INTEGER("samples"),
+    REAL("regularisation"), REAL("tolerance"), REAL("error"),  REAL("error_harmonic_1"), REAL("error_finer"),
+    REAL("seconds"),        REAL("low"),       REAL("high"),   INTEGER("repeats"),       TEXT("front"),
+    REAL("curve_seconds"),  TEXT("outcome")};
 static const table_column cheapest_columns[] = {
-    {"omega", TABLE_REAL},         {"frequency", TABLE_REAL},    {"accuracy", TABLE_REAL}, {"method", TABLE_TEXT},
-    {"settings", TABLE_TEXT},      {"error_finer", TABLE_REAL},  {"seconds", TABLE_REAL},  {"next_method", TABLE_TEXT},
-    {"next_settings", TABLE_TEXT}, {"times_faster", TABLE_REAL},
-};
+    REAL("omega"),       REAL("frequency"), REAL("accuracy"),    TEXT("method"),        TEXT("settings"),
+    REAL("error_finer"), REAL("seconds"),   TEXT("next_method"), TEXT("next_settings"), REAL("times_faster")};
 /* In cycles from the beginning on, else without omega. */
 static const char *const spare_columns[] = {"omega",   "low",   "high",  "curve_seconds", "error_harmonic_1",
                                             "repeats", "error", "front", "outcome",       NULL},
@@ -62,40 +57,25 @@ static const char *const spare_columns[] = {"omega",   "low",   "high",  "curve_
 static const double accuracies[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
 enum { N_ACCURACIES = sizeof accuracies / sizeof *accuracies };
 
-static void put_count(table *t, int n) { table_put_integer_if(t, n > 0, n); }
-
-/* Rounded to three digits: those beyond are noise of the clock. */
-static void put_seconds(table *t, double s)
+/* Rounded to three digits: those beyond are noise of the clock. NaN: not measured. */
+static double rounded(double seconds)
 {
   char text[32];
-  if (!(s > 0)) {
-    table_put_missing(t);
-    return;
-  }
-  snprintf(text, sizeof text, "%.3g", s);
-  table_put_real(t, strtod(text, NULL));
-}
-
-static void put_omega(table *t, const scene *sc, double omega)
-{
-  table_put_real(t, omega);
-  if (sc->in_cycles) table_put_real(t, scene_frequency(sc, omega));
+  snprintf(text, sizeof text, "%.3g", seconds);
+  return seconds > 0 ? strtod(text, NULL) : NAN;
 }
 
 static void put_cheapest(table *t, const scene *sc, const bench *b, const bench_frequency *p)
 {
-  char text[BENCH_TEXT];
+  char settings[BENCH_TEXT], next[BENCH_TEXT];
   for (int i = 0; i < N_ACCURACIES; ++i) {
     const bench_row *second, *best = bench_cheapest(p->n, b->rows + p->first, accuracies[i], &second);
-    put_omega(t, sc, p->omega);
-    table_put_real(t, accuracies[i]);
-    table_put_text(t, best ? bench_method_name(best->method) : "none");
-    table_put_text(t, best ? bench_settings(best, text) : NULL);
-    table_put_real(t, best ? best->error_finer : NAN);
-    put_seconds(t, best ? best->seconds : NAN);
-    table_put_text(t, second ? bench_method_name(second->method) : NULL);
-    table_put_text(t, second ? bench_settings(second, text) : NULL);
-    put_seconds(t, best && second ? second->seconds / best->seconds : NAN);
+    TABLE_ROW(t, CELL(p->omega), CELL_OF(sc->in_cycles, scene_frequency(sc, p->omega)), CELL(accuracies[i]),
+              CELL(best ? bench_method_name(best->method) : "none"), CELL(best ? bench_settings(best, settings) : NULL),
+              CELL(best ? best->error_finer : NAN), CELL(best ? rounded(best->seconds) : NAN),
+              CELL(second ? bench_method_name(second->method) : NULL),
+              CELL(second ? bench_settings(second, next) : NULL),
+              CELL(best && second ? rounded(second->seconds / best->seconds) : NAN));
   }
 }
 
@@ -171,25 +151,14 @@ static int write_tables(const cli_common *common, const scene *sc, const bench *
   for (int i = 0; i < b->n_rows; ++i) {
     table *t = tables[0];
     const bench_row *r = &b->rows[i];
-    put_omega(t, sc, r->omega);
-    table_put_text(t, bench_method_name(r->method));
-    put_count(t, r->harmonics);
-    put_count(t, r->samples);
-    table_put_real(t, r->regularisation);
-    table_put_real(t, r->tolerance);
-    table_put_real(t, r->error);
-    table_put_real(t, r->error_harmonic_1);
-    table_put_real(t, r->error_finer);
-    put_seconds(t, r->repeats ? r->seconds : NAN);
-    put_seconds(t, r->low);
-    put_seconds(t, r->high);
-    put_count(t, r->repeats);
-    table_put_text(t, r->front ? "yes" : "no");
-    put_seconds(t, r->curve_seconds);
-    if (r->outcome == BENCH_FAILED) table_put_text(t, hc_status_text(r->status));
-    else table_put_text(t, bench_outcome_name(r->outcome));
+    TABLE_ROW(t, CELL(r->omega), CELL_OF(sc->in_cycles, scene_frequency(sc, r->omega)),
+              CELL(bench_method_name(r->method)), CELL_IF(r->harmonics > 0, r->harmonics),
+              CELL_IF(r->samples > 0, r->samples), CELL(r->regularisation), CELL(r->tolerance), CELL(r->error),
+              CELL(r->error_harmonic_1), CELL(r->error_finer), CELL(r->repeats ? rounded(r->seconds) : NAN),
+              CELL(rounded(r->low)), CELL(rounded(r->high)), CELL_IF(r->repeats > 0, r->repeats),
+              CELL(r->front ? "yes" : "no"), CELL(rounded(r->curve_seconds)),
+              CELL(r->outcome == BENCH_FAILED ? hc_status_text(r->status) : bench_outcome_name(r->outcome)));
   }
-  /* Remarks. */
   table *t = tables[0];
   table_note(t, "%s", sc->title);
   for (int i = 0; i < b->n_frequencies; ++i) {
@@ -238,13 +207,12 @@ static int run_bench(cli_common *common, void *given, scene *sc)
   if (st == HC_OK) st = bench_run(&setup, &how, &monitor, &b, &failed_at);
   scene_setup_clear(&setup);
   progress_end(bar);
-  if (st == HC_NOT_CONVERGED) {
-    cli_message(common,
-                "%s: no stable orbit of the exact law next to a harmonic-balance solution, or none beside it; try "
-                "another --at",
-                scene_where(sc, failed_at, (char[SCENE_WHERE]){0}));
-    code = EXIT_NO_SOLUTION;
-  } else if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the benchmark", st, failed_at);
+  if (st == HC_NOT_CONVERGED)
+    code = cli_failed(common, EXIT_NO_SOLUTION,
+                      "%s: no stable orbit of the exact law next to a harmonic-balance solution, or none beside it; "
+                      "try another --at",
+                      scene_where(sc, failed_at, (char[SCENE_WHERE]){0}));
+  else if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the benchmark", st, failed_at);
   int written = b.n_rows ? write_tables(common, sc, &b) : 0;
   if (common->drawing.path && b.n_rows && !written) written = cli_plotted(common, plot_bench(&common->drawing, sc, &b));
   bench_clear(&b);

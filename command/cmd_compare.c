@@ -86,6 +86,12 @@ static void print_failures(const cli_common *common, const comparison *c)
     cli_solver_failed(common, CLI_HBM, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
 }
 
+/* "3 rows without ...": where there are such rows. */
+static void note_rows(table *t, int n, const char *what)
+{
+  if (n) table_note(t, "%d row%s %s", n, n == 1 ? "" : "s", what);
+}
+
 static table *contacts_table(const cli_common *common, comparison *c)
 {
   const scene *sc = common->scene;
@@ -112,7 +118,7 @@ static table *contacts_table(const cli_common *common, comparison *c)
     table_note(t, "DIFFERS at %s, branch %d: %s", at, k->branch, text);
     cli_message(common, "at %s, branch %d: %s", at, k->branch, text);
   }
-  if (unknown) table_note(t, "%d row%s of which one side is not known", unknown, unknown == 1 ? "" : "s");
+  note_rows(t, unknown, "of which one side is not known");
   return t;
 }
 
@@ -154,8 +160,8 @@ static hc_status compare_tables(const cli_common *common, const compare_setup *s
 /* Without rows yet: its remarks are those that are known before the first one. */
 static table *table_of_rows(const cli_common *common, const comparison *c)
 {
-  table *t = cli_table(common, "HBM against time integration", ROWS_COMPARE);
   const scene *sc = common->scene;
+  table *t = cli_table(common, "HBM against time integration", ROWS_COMPARE);
   table_note(t, "%s", sc->title);
   char how[128];
   char law[64] = "exact law";
@@ -187,60 +193,44 @@ static void put_rows(const cli_common *common, comparison *c, table *t)
 static int tables_of_found(const cli_common *common, bool contacts, const compare_setup *setup, comparison *c,
                            hc_status st, table **tables)
 {
-  int n = 1;
   const scene *sc = common->scene;
   table *t = table_of_rows(common, c);
+  const comparison_row *top = NULL; /* with the largest budget of the amplitude */
+  int unaccounted = 0, unknown = 0, mean_free = 0, family = 0, still = 0;
   put_rows(common, c, t);
-  int unaccounted = 0;
-  for (int i = 0; i < c->n_rows; ++i) unaccounted += comparison_unaccounted(&c->rows[i]);
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *r = &c->rows[i];
+    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
+    unknown += !r->budget.known && r->response == 0;
+    unaccounted += comparison_unaccounted(r);
+    mean_free += comparison_mean_free(r);
+    family += r->family;
+    still += r->still;
+  }
   if (unaccounted)
     table_note(t, "%d transient%s NO HBM solution of this curve within the gate", unaccounted,
                unaccounted == 1 ? " matches" : "s match");
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
-  /* The row with the largest budget of the amplitude and what to do about it, and how many rows have no budget or
-   * one that does not explain the discrepancy. */
-  const comparison_row *top = NULL;
   char text[BUDGET_TEXT], at[WHERE];
-  int unknown = 0;
-  for (int i = 0; i < c->n_rows; ++i) {
-    const comparison_row *r = &c->rows[i];
-    unknown += !r->budget.known && r->response == 0;
-    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
-  }
   if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
   if (top) table_note(t, "largest budget, %s: %s", row_where(sc, top, at), text);
-  if (unknown)
-    table_note(t, "%d row%s without a budget: no periodic orbit was found next to the HBM solution", unknown,
-               unknown == 1 ? "" : "s");
+  note_rows(t, unknown, "without a budget: no periodic orbit was found next to the HBM solution");
   say_unexpected(common, c, t);
-  /* Rows of which something is not compared, or holds for one motion of many. */
-  int mean_free = 0, family = 0, still = 0;
-  for (int i = 0; i < c->n_rows; ++i) {
-    mean_free += comparison_mean_free(&c->rows[i]);
-    family += c->rows[i].family;
-    still += c->rows[i].still;
-  }
   if (mean_free == 0) table_hide(t, "mean_free");
-  else
-    table_note(t,
-               "%d row%s without a mean to compare (mean_free): a slider that never slips rests where the history "
-               "left it, and the mean, max, min and rms with it",
-               mean_free, mean_free == 1 ? "" : "s");
-  if (family)
-    table_note(t,
-               "%d row%s of a family of steady states: where a slider that never slips rests decides on the harmonics, "
-               "too. HBM is compared with the one whose sliders start where its own do",
-               family, family == 1 ? "" : "s");
-  if (still)
-    table_note(t, "%d row%s not compared: that response moves less than 1e-9 of the largest", still,
-               still == 1 ? "" : "s");
+  note_rows(t, mean_free,
+            "without a mean to compare (mean_free): a slider that never slips rests where the history left it, and the "
+            "mean, max, min and rms with it");
+  note_rows(t, family,
+            "of a family of steady states: where a slider that never slips rests decides on the harmonics, too. HBM is "
+            "compared with the one whose sliders start where its own do");
+  note_rows(t, still, "not compared: that response moves less than 1e-9 of the largest");
   if (scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (!comparison_nonlinear(c)) table_note(t, COMPARISON_LINEAR, c->n_rows);
+  if (st != HC_OK) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
   tables[0] = t;
-  if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
-  if (contacts) tables[n++] = contacts_table(common, c);
-  return n;
+  if (contacts) tables[1] = contacts_table(common, c);
+  return 1 + contacts;
 }
 
 typedef struct found_rows {
@@ -251,7 +241,6 @@ typedef struct found_rows {
   shown_rows shown;
 } found_rows;
 
-/* For keep_found_begin. */
 static int write_found(void *self)
 {
   found_rows *f = self;

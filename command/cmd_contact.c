@@ -49,21 +49,14 @@ static int read_motion(const cli_common *common, const char *option, const char 
   int n = 0;
   for (const char *at = motion; at;) {
     size_t length = strcspn(at, ",");
-    if (n == GIVEN_MOST_COEF) {
-      cli_message(common, "--%s takes at most %d coefficients", option, GIVEN_MOST_COEF);
-      return -1;
-    }
-    if (number_read(at, length, &X[n]) != NUMBER_FINE) {
-      cli_message(common, "--%s: '%.*s' is not a finite number", option, (int)length, at);
-      return -1;
-    }
-    ++n;
+    if (n == GIVEN_MOST_COEF)
+      return cli_failed(common, -1, "--%s takes at most %d coefficients", option, GIVEN_MOST_COEF);
+    if (number_read(at, length, &X[n++]) != NUMBER_FINE)
+      return cli_failed(common, -1, "--%s: '%.*s' is not a finite number", option, (int)length, at);
     at = at[length] ? at + length + 1 : NULL;
   }
-  if (motion && n % 2 == 0) {
-    cli_message(common, "--%s has %d coefficients; expected an odd number: a0,a1,b1,a2,b2,...", option, n);
-    return -1;
-  }
+  if (motion && n % 2 == 0)
+    return cli_failed(common, -1, "--%s has %d coefficients; expected an odd number: a0,a1,b1,a2,b2,...", option, n);
   return n / 2;
 }
 
@@ -95,13 +88,6 @@ static int choose_contact(const cli_common *common, const contact_options *own, 
   return EXIT_USAGE;
 }
 
-static bool has_direction(int n, const double *direction)
-{
-  for (int i = 0; i < n; ++i)
-    if (direction[i] != 0) return true;
-  return false;
-}
-
 /* u along nothing would be a mistake unnoticed. */
 static int check_directions(const cli_common *common, const contact_options *own, const model *of,
                             const contact_motion *m)
@@ -112,7 +98,7 @@ static int check_directions(const cli_common *common, const contact_options *own
   char name[CLI_NAME];
   cli_contact_name(common, m->one, name);
   for (int d = 0; d < 3; ++d)
-    if (own->motion[CONTACT_U + d] && !(directions[d] && has_direction(of->n, directions[d])))
+    if (own->motion[CONTACT_U + d] && (!directions[d] || structure_is_zero(directions[d], of->n)))
       return cli_failed(common, EXIT_USAGE, "contact %s has no %s; expected no --%s", name, words[d],
                         motion_names[CONTACT_U + d]);
   return 0;
@@ -200,13 +186,25 @@ static void note_more(table *t, const char *name, int n)
   if (n > SHOWN) table_note(t, "contact %s: and %d pieces more", name, n - SHOWN);
 }
 
-/* The pieces of the period in which a contact sticks or slips; in the rest it is separated. */
-static void note_pieces(table *t, const char *name, int n, const contact_interval *p)
+/* The pieces of the period in which each contact of the motion sticks or slips; in the rest it is separated. They are
+ * called by the names of the case's contacts from `first` on, and `part`. */
+static hc_status note_pieces(table *t, const cli_common *common, const given_motion *of, int first, const char *part)
 {
-  static const char *const names[] = {"separated", "sticks", "slips forward", "slips backward"};
-  for (int i = 0; i < n && i < SHOWN; ++i)
-    table_note(t, "contact %s: %s from %.12g to %.12g rad", name, names[p[i].state], p[i].from, p[i].to);
-  note_more(t, name, n);
+  static const char *const words[] = {"separated", "sticks", "slips forward", "slips backward"};
+  char name[CLI_NAME + 16];
+  double F[2 * GIVEN_MOST_COEF];
+  exact_force *e = NULL;
+  hc_status st = exact_force_new(of->n_harm, of->n_dof, of->n_contacts, of->contacts, &e);
+  if (st == HC_OK) st = exact_force_eval(e, of->X, F, NULL, NULL);
+  for (int j = 0, n; j < of->n_contacts && st == HC_OK; ++j) {
+    const contact_interval *p = exact_force_intervals(e, j, &n);
+    snprintf(name, sizeof name, "%s%s", cli_contact_name(common, first + j, (char[CLI_NAME]){0}), part);
+    for (int i = 0; i < n && i < SHOWN; ++i)
+      table_note(t, "contact %s: %s from %.12g to %.12g rad", name, words[p[i].state], p[i].from, p[i].to);
+    note_more(t, name, n);
+  }
+  exact_force_free(e);
+  return st;
 }
 
 /* The lines below the table of a contact with two tangents under the law of the circle. */
@@ -229,55 +227,37 @@ static hc_status note_circle(table *t, const contact_motion *m, const char *name
   return planar_measures_of(law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_U2], m->given[CONTACT_V], p);
 }
 
-static hc_status note_halves(table *t, const contact_motion *m, const char *name, contact_period p[2])
+static hc_status note_halves(table *t, const cli_common *common, const contact_motion *m, contact_period p[2])
 {
-  static const char *const tangents[] = {"tangential", "tangential_2"};
-  for (int d = 0, n; d < 2; ++d) {
+  static const char *const parts[] = {", tangential", ", tangential_2"};
+  hc_status st = HC_OK;
+  for (int d = 0; d < 2 && st == HC_OK; ++d) {
     const double *const x[] = {m->given[d ? CONTACT_U2 : CONTACT_U], m->given[CONTACT_V]};
     const size_t length = (size_t)series_length(m->of.n_harm);
-    double X[2 * GIVEN_MOST_COEF], F[2 * GIVEN_MOST_COEF];
-    char half[CLI_NAME + 16];
-    exact_force *e = NULL;
+    double X[2 * GIVEN_MOST_COEF];
     for (size_t k = 0; k < 2; ++k) memcpy(X + k * length, x[k], length * sizeof *X);
-    snprintf(half, sizeof half, "%s, %s", name, tangents[d]);
-    hc_status st = exact_force_new(m->of.n_harm, 2, 1, m->contacts, &e);
-    if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
-    if (st == HC_OK) {
-      const contact_interval *piece = exact_force_intervals(e, 0, &n);
-      note_pieces(t, half, n, piece);
-    }
-    exact_force_free(e);
+    const given_motion half = {.n_harm = m->of.n_harm, .n_dof = 2, .n_contacts = 1, .contacts = m->contacts, .X = X};
+    st = note_pieces(t, common, &half, m->one, parts[d]);
     if (st == HC_OK) st = contact_measures_of(&m->contacts->law, m->of.n_harm, x[0], x[1], &p[d]);
-    if (st != HC_OK) return st;
   }
-  return HC_OK;
+  return st;
 }
 
 /* Remarks under the table: when each contact sticks and slips; of one contact extrema, slip path and work, too. Errors
  * as above. */
 static hc_status contact_force_note(table *t, const cli_common *common, const contact_motion *m)
 {
-  double F[2 * GIVEN_MOST_COEF];
   char name[CLI_NAME];
   contact_period p[2];
-  hc_status st;
-  if (m->of.pair) {
-    cli_contact_name(common, m->one, name);
-    st = given_motion_is_planar(&m->of) ? note_circle(t, m, name, p) : note_halves(t, m, name, p);
-    if (st == HC_OK) p[0] = contact_period_of_pair(&p[0], &p[1]);
-  } else {
-    exact_force *e = NULL;
-    st = exact_force_new(m->of.n_harm, m->of.n_dof, m->of.n_contacts, m->contacts, &e);
-    if (st == HC_OK) st = exact_force_eval(e, m->X, F, NULL, NULL);
-    for (int j = 0, n; j < m->of.n_contacts && st == HC_OK; ++j) {
-      const contact_interval *piece = exact_force_intervals(e, j, &n);
-      note_pieces(t, cli_contact_name(common, m->one < 0 ? j : m->one, name), n, piece);
-    }
-    if (st == HC_OK && m->one >= 0)
-      st = contact_measures_of(&m->contacts->law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_V], p);
-    exact_force_free(e);
-  }
-  if (st == HC_OK && m->one >= 0)
+  if (m->one < 0) return note_pieces(t, common, &m->of, 0, "");
+  cli_contact_name(common, m->one, name);
+  hc_status st = given_motion_is_planar(&m->of) ? note_circle(t, m, name, p)
+                 : m->of.pair                   ? note_halves(t, common, m, p)
+                                                : note_pieces(t, common, &m->of, m->one, "");
+  if (st == HC_OK && m->of.pair) p[0] = contact_period_of_pair(&p[0], &p[1]);
+  else if (st == HC_OK)
+    st = contact_measures_of(&m->contacts->law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_V], p);
+  if (st == HC_OK)
     table_note(t, "contact %s: N from %.9g to %.9g, |T| at most %.9g, slip path %.9g, work %.9g in a period", name,
                p->normal_min, p->normal_max, p->traction_max, p->slip_distance, p->work);
   return st;
@@ -336,8 +316,7 @@ static int write_table(const cli_common *common, const contact_motion *m, const 
   static const char *const forces[] = {"tangential", "tangential_2", "normal"};
   const scene *sc = common->scene;
   const bool single = m->one >= 0;
-  table_column columns[2 + 2 * MAX_SETS] = {
-      {"force", TABLE_TEXT}, {"harmonic", TABLE_INTEGER}, {"cos", TABLE_REAL}, {"sin", TABLE_REAL}};
+  table_column columns[2 + 2 * MAX_SETS] = {TEXT("force"), INTEGER("harmonic"), REAL("cos"), REAL("sin")};
   char names[2 * MAX_SETS][24];
   for (int i = 1; i < n_sets; ++i)
     for (int part = 0; part < 2; ++part) {
@@ -372,16 +351,15 @@ static int list_sets(const cli_common *common, const contact_options *own, int n
   int n_sets = 0;
   n_time[n_sets++] = sc->hbm.force == HBM_FORCE_EXACT ? GIVEN_EXACT : sc->hbm.samples;
   for (int i = 0; i < own->samples.n; ++i) {
-    double n = own->samples.v[i];
-    if (n_sets == MAX_SETS) cli_message(common, "--samples takes at most %d numbers", MAX_SETS - 1);
-    else if (n != floor(n) || n > most) cli_message(common, "--samples: %.15g is not a whole number 3..%.0f", n, most);
-    if (n_sets == MAX_SETS || n != floor(n) || n > most) return -1;
+    const double n = own->samples.v[i];
+    if (n_sets == MAX_SETS) return cli_failed(common, -1, "--samples takes at most %d numbers", MAX_SETS - 1);
+    if (n != floor(n) || n > most)
+      return cli_failed(common, -1, "--samples: %.15g is not a whole number 3..%.0f", n, most);
     n_time[n_sets++] = (int)n;
   }
   return n_sets;
 }
 
-/* The forces of the given motion. */
 static int put_forces(cli_common *common, const contact_options *own, const contact_motion *m)
 {
   const scene *sc = common->scene;

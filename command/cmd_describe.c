@@ -23,42 +23,28 @@ static bool describes_structure(const field *f)
          !strcmp(f->section, "forcing");
 }
 
-/* How many values f has: of a list, one an entry. */
-static int describe_structure_count(const scene_structure *s, const field *f)
+/* How many values f has in the scene: of a list, one an entry; of a structure what is an oscillator's has none. */
+static int count_values(const scene *sc, const field *f)
 {
-  if (f->flags & FIELD_IN_LOAD) return s->n_loads;
-  if (f->flags & FIELD_IN_CONTACT) return s->n_contacts;
-  return f->flags & FIELD_STRUCTURE ? 1 : 0; /* the others are an oscillator's */
+  if (f->flags & FIELD_IN_CONTACT) return scene_contact_count(sc);
+  if (!sc->structure || !describes_structure(f)) return 1;
+  return f->flags & FIELD_IN_LOAD ? sc->structure->n_loads : f->flags & FIELD_STRUCTURE ? 1 : 0;
 }
 
 /* ---- texts ---------------------------------------------------------------------------------------- */
-
-static bool is_zero(int n, const double *direction)
-{
-  for (int i = 0; i < n; ++i)
-    if (direction[i] != 0) return false;
-  return true;
-}
-
-static bool is_diagonal(int n, const double *v)
-{
-  for (size_t i = 0; i < (size_t)n * (size_t)n; ++i)
-    if (v[i] != 0 && i % ((size_t)n + 1)) return false;
-  return true;
-}
 
 /* "3 x 3, diagonal", "16 x 16 of beam16_M.mtx" */
 static void write_matrix(int n, const structure_matrix *m, FILE *to)
 {
   fprintf(to, "%d x %d", n, n);
   if (m->file) fprintf(to, " of %s", m->file);
-  else if (is_diagonal(n, m->v)) fputs(", diagonal", to);
+  else if (structure_is_diagonal(m->v, n)) fputs(", diagonal", to);
 }
 
 static void write_direction(const scene_structure *s, const double *direction, FILE *to)
 {
   char text[512];
-  if (!is_zero(s->n, direction)) fputs(structure_direction_name(s, direction, text, sizeof text), to);
+  if (!structure_is_zero(direction, s->n)) fputs(structure_direction_name(s, direction, text, sizeof text), to);
 }
 
 static void write_part(const scene_structure *s, const field *f, FILE *to)
@@ -83,17 +69,16 @@ static void write_part(const scene_structure *s, const field *f, FILE *to)
 
 static void write_of_contact(const scene_structure *s, const field *f, const structure_contact *c, FILE *to)
 {
-  const bool tangent = c->by_angle || !is_zero(s->n, c->tangent), normal = c->by_angle || !is_zero(s->n, c->normal);
-  const bool across = !strcmp(f->name, "normal_stiffness") || !strcmp(f->name, "gap");
-  const bool along = !strcmp(f->name, "tangential_stiffness") || !strcmp(f->name, "friction");
-  const bool other = !strcmp(f->name, c->given.preload > 0 ? "gap" : "preload") || /* of the two the one not given */
-                     (!strcmp(f->name, "limit") && !structure_contact_is_pair(s, c));
-  if (!strcmp(f->name, "tangent")) write_direction(s, c->tangent, to);
-  else if (!strcmp(f->name, "tangent_2")) write_direction(s, c->tangent_2, to);
-  else if (!strcmp(f->name, "normal")) write_direction(s, c->normal, to);
+  const bool without = !strcmp(f->name, "preload") && !(c->given.preload > 0);
+  if (f->kind == FIELD_PART && f->size > 0) write_direction(s, field_direction(f, c), to);
   else if (!strcmp(f->name, "name")) fputs(c->given.name, to);
-  else if (!strcmp(f->name, "angle_deg") ? !c->by_angle : (across && !normal) || (along && !tangent) || other) return;
-  else if (f->kind != FIELD_PART) field_write(f, &c->given, to);
+  else if (f->kind != FIELD_PART && !without && case_contact_field_counts(s, c, f)) field_write(f, &c->given, to);
+}
+
+static void write_of_load(const scene_structure *s, const field *f, const structure_load *load, FILE *to)
+{
+  if (!strcmp(f->name, "direction")) write_direction(s, load->direction, to);
+  else if (f->kind != FIELD_PART) field_write(f, load, to);
 }
 
 /* ---- one value ------------------------------------------------------------------------------------- */
@@ -109,36 +94,7 @@ static case_place place_of(const scene_structure *s, const field *f, int j)
   return s->place;
 }
 
-/* The value of f, of entry j if it is one of a list's, as text to free, or NULL where it does not count; and where it
- * is from. HC_NO_MEMORY. */
-static hc_status describe_structure_value(const scene_structure *s, const field *f, int j, char **text, case_place *at)
-{
-  size_t size;
-  FILE *to = open_memstream(text, &size);
-  *at = place_of(s, f, j);
-  if (!to) return *text = NULL, HC_NO_MEMORY;
-  if (f->flags & FIELD_IN_LOAD) {
-    const structure_load *load = &s->loads[j];
-    if (!strcmp(f->name, "direction")) write_direction(s, load->direction, to);
-    else if (f->kind != FIELD_PART) field_write(f, load, to);
-  } else if (f->flags & FIELD_IN_CONTACT) write_of_contact(s, f, &s->contacts[j], to);
-  else write_part(s, f, to);
-  if (fclose(to) != 0) return free(*text), *text = NULL, HC_NO_MEMORY;
-  if (size > 0) return HC_OK;
-  free(*text);
-  *text = NULL;
-  return HC_OK;
-}
-
 /* ---- what follows ---------------------------------------------------------------------------------- */
-
-static void add_derived(case_derived *out, int *n, const char *name, double value, const char *unit,
-                        const char *meaning)
-{
-  case_derived *d = &out[(*n)++];
-  *d = (case_derived){.value = value, .unit = unit, .meaning = meaning};
-  snprintf(d->name, sizeof d->name, "%s", name);
-}
 
 /* The lowest natural frequency; NaN where that motion is driven away. */
 static hc_status lowest(const model *m, bool stuck, double *omega)
@@ -163,15 +119,17 @@ static hc_status describe_structure_derive(const scene *sc, case_derived *out, i
   if (st == HC_OK) st = lowest(m, true, &stuck);
   model_free(m);
   if (st != HC_OK) return st;
-  add_derived(out, n, "degrees_of_freedom", s->n, "1", "the size of M, C and K");
-  add_derived(out, n, "loads", s->n_loads, "1", "in the list `forcing`");
-  add_derived(out, n, "contacts", s->n_contacts, "1", "in the list `contacts`");
-  add_derived(out, n, "responses", structure_response_count(s), "1", "what is reported");
-  add_derived(out, n, "omega_open", open, "rad/time",
-              "the lowest natural frequency, every contact open; all: hbmcheck modes");
-  add_derived(out, n, "omega_stuck", stuck, "rad/time", "the lowest natural frequency, every contact stuck");
-  add_derived(out, n, "frequency_open", open / TWO_PI, "cycles/time", "omega_open / (2 pi)");
-  add_derived(out, n, "frequency_stuck", stuck / TWO_PI, "cycles/time", "omega_stuck / (2 pi)");
+  const case_derived all[] = {
+      {"degrees_of_freedom", s->n, "1", "the size of M, C and K"},
+      {"loads", s->n_loads, "1", "in the list `forcing`"},
+      {"contacts", s->n_contacts, "1", "in the list `contacts`"},
+      {"responses", structure_response_count(s), "1", "what is reported"},
+      {"omega_open", open, "rad/time", "the lowest natural frequency, every contact open; all: hbmcheck modes"},
+      {"omega_stuck", stuck, "rad/time", "the lowest natural frequency, every contact stuck"},
+      {"frequency_open", open / TWO_PI, "cycles/time", "omega_open / (2 pi)"},
+      {"frequency_stuck", stuck / TWO_PI, "cycles/time", "omega_stuck / (2 pi)"}};
+  memcpy(out, all, sizeof all);
+  *n = sizeof all / sizeof *all;
   return HC_OK;
 }
 
@@ -196,13 +154,9 @@ static const cli_option options[] = {
 
 /* ---- the table of fields ---- */
 
-static const table_column field_columns[] = {
-    {"field", TABLE_TEXT},    {"symbol", TABLE_TEXT},   {"unit", TABLE_TEXT},    {"kind", TABLE_TEXT},
-    {"expected", TABLE_TEXT}, {"choices", TABLE_TEXT},  {"low", TABLE_REAL},     {"high", TABLE_REAL},
-    {"default", TABLE_TEXT},  {"required", TABLE_TEXT}, {"meaning", TABLE_TEXT},
-};
-
-static const char *text_or_nothing(const char *text) { return text && *text ? text : NULL; }
+static const table_column field_columns[] = {TEXT("field"),    TEXT("symbol"),   TEXT("unit"),   TEXT("kind"),
+                                             TEXT("expected"), TEXT("choices"),  REAL("low"),    REAL("high"),
+                                             TEXT("default"),  TEXT("required"), TEXT("meaning")};
 
 static int write_fields(const cli_common *common)
 {
@@ -220,17 +174,10 @@ static int write_fields(const cli_common *common)
       field_expected(f, &m);
       message_start(&m, choices, sizeof choices);
       for (int k = 0; f->choices && f->choices[k]; ++k) message_add(&m, "%s%s", k ? "|" : "", f->choices[k]);
-      table_put_text(t, field_path(f, -1, path));
-      table_put_text(t, text_or_nothing(f->symbol));
-      table_put_text(t, text_or_nothing(f->unit));
-      table_put_text(t, kinds[f->kind]);
-      table_put_text(t, expected);
-      table_put_text(t, f->kind == FIELD_CHOICE ? choices : NULL);
-      table_put_real(t, ranged && isfinite(f->low) ? f->low : NAN);
-      table_put_real(t, ranged && isfinite(f->high) ? f->high : NAN);
-      table_put_text(t, f->fallback);
-      table_put_text(t, f->fallback || field_rival(f, 0) ? "no" : "yes");
-      table_put_text(t, f->meaning);
+      TABLE_ROW(t, CELL(field_path(f, -1, path)), CELL_IF(*f->symbol, f->symbol), CELL_IF(*f->unit, f->unit),
+                CELL(kinds[f->kind]), CELL(expected), CELL_IF(f->kind == FIELD_CHOICE, choices),
+                CELL_IF(ranged && isfinite(f->low), f->low), CELL_IF(ranged && isfinite(f->high), f->high),
+                CELL(f->fallback), CELL(f->fallback || field_rival(f, 0) ? "no" : "yes"), CELL(f->meaning));
     }
   int code = cli_write(common, 1, &t);
   table_free(t);
@@ -239,99 +186,62 @@ static int write_fields(const cli_common *common)
 
 /* ---- one case ---- */
 
-static const table_column value_columns[] = {
-    {"field", TABLE_TEXT},   {"value", TABLE_TEXT},   {"unit", TABLE_TEXT},
-    {"from", TABLE_TEXT},    {"line", TABLE_INTEGER}, {"column", TABLE_INTEGER},
-    {"default", TABLE_TEXT}, {"symbol", TABLE_TEXT},  {"meaning", TABLE_TEXT},
-};
+static const table_column value_columns[] = {TEXT("field"),   TEXT("value"),   TEXT("unit"),
+                                             TEXT("from"),    INTEGER("line"), INTEGER("column"),
+                                             TEXT("default"), TEXT("symbol"),  TEXT("meaning")};
 static const char *const spare_value_columns[] = {"meaning", "column", "symbol", "default", NULL};
-static const table_column derived_columns[] = {
-    {"quantity", TABLE_TEXT}, {"value", TABLE_REAL}, {"unit", TABLE_TEXT}, {"meaning", TABLE_TEXT}};
+static const table_column derived_columns[] = {TEXT("quantity"), REAL("value"), TEXT("unit"), TEXT("meaning")};
 
-/* The value of f as a case file would have it, text without its quotes; nothing where the field does not count. */
-static hc_status put_text_of(table *t, const field *f, const void *base, bool counts)
-{
-  char *text = NULL;
-  size_t size;
-  if (!counts || f->kind == FIELD_TEXT) {
-    table_put_text(t, counts ? field_look(f, base) : NULL);
-    return HC_OK;
-  }
-  FILE *to = open_memstream(&text, &size);
-  if (to) field_write(f, base, to);
-  const bool written = to && fclose(to) == 0;
-  table_put_text(t, written ? text : NULL);
-  free(text);
-  return written ? HC_OK : HC_NO_MEMORY;
-}
-
-/* What is shown of one case. */
 typedef struct described {
   const scene *sc;
   const case_places *places;
   const char *asked; /* NULL: everything */
 } described;
 
-static void put_rest(table *t, const field *f, case_place at, bool counts)
+/* Writes the value of f as a case file would have it, text without its quotes; of entry j if it is one of a list's. */
+static void write_value(const described *d, const field *f, int j, FILE *to)
 {
-  table_put_text(t, text_or_nothing(f->unit));
-  const bool in_file = counts && at.line > 0 && at.set == 0;
-  table_put_text(t, !counts ? NULL : at.line == 0 ? "default" : in_file ? "file" : "--set");
-  table_put_integer_if(t, in_file, (long)at.line);
-  table_put_integer_if(t, in_file, (long)at.column);
-  table_put_text(t, f->fallback);
-  table_put_text(t, text_or_nothing(f->symbol));
-  table_put_text(t, f->meaning);
+  const scene_structure *s = d->sc->structure;
+  if (!s || !describes_structure(f)) {
+    const void *base = f->flags & FIELD_IN_CONTACT ? (const void *)&d->sc->contacts[j] : d->sc;
+    if (f->kind == FIELD_TEXT) fputs(field_look(f, base), to);
+    else field_write(f, base, to);
+  } else if (f->flags & FIELD_IN_LOAD) write_of_load(s, f, &s->loads[j], to);
+  else if (f->flags & FIELD_IN_CONTACT) write_of_contact(s, f, &s->contacts[j], to);
+  else write_part(s, f, to);
 }
 
-/* j: the contact, if f is one of a contact's; else -1. */
+/* A row for f, of entry j if it is one of a list's; without a value where the field does not count. HC_NO_MEMORY. */
 static hc_status put_value(table *t, const described *d, const field *f, int j)
 {
-  char path[FIELD_PATH];
-  const bool counts = j >= 0 || case_field_counts(f, d->sc);
-  if (f->flags & FIELD_STRUCTURE || !case_field_asked(f, d->asked)) return HC_OK; /* an oscillator has none */
-  table_put_text(t, field_path(f, j, path));
-  hc_status st = put_text_of(t, f, j >= 0 ? (const void *)&d->sc->contacts[j] : d->sc, counts);
-  put_rest(t, f, case_field_place(d->places, f, j), counts);
-  return st;
-}
-
-/* The parts of a structure that f is about. j: the entry of a list. */
-static hc_status put_part(table *t, const described *d, const field *f, int j)
-{
-  char path[FIELD_PATH], *text;
-  case_place at;
-  if (!case_field_asked(f, d->asked)) return HC_OK;
-  hc_status st = describe_structure_value(d->sc->structure, f, j, &text, &at);
-  table_put_text(t, field_path(f, field_is_in_list(f) ? j : -1, path));
-  table_put_text(t, text);
-  put_rest(t, f, at, text != NULL);
+  const bool part = d->sc->structure && describes_structure(f), in_contact = f->flags & FIELD_IN_CONTACT;
+  char path[FIELD_PATH], *text = NULL;
+  size_t size = 0;
+  if (!case_field_asked(f, d->asked) || (!part && f->flags & FIELD_STRUCTURE))
+    return HC_OK; /* an oscillator has none */
+  const case_place at = part ? place_of(d->sc->structure, f, j) : case_field_place(d->places, f, in_contact ? j : -1);
+  bool counts = part || in_contact || case_field_counts(f, d->sc);
+  FILE *to = open_memstream(&text, &size);
+  if (to && counts) write_value(d, f, j, to);
+  const bool written = to && fclose(to) == 0;
+  counts = counts && (size > 0 || !part);
+  const bool in_file = counts && at.line > 0 && at.set == 0;
+  const char *from = at.line == 0 ? "default" : in_file ? "file" : "--set";
+  TABLE_ROW(t, CELL(field_path(f, j, path)), CELL_IF(counts && written, text), CELL_IF(*f->unit, f->unit),
+            CELL_IF(counts, from), CELL_IF(in_file, (long)at.line), CELL_IF(in_file, (long)at.column),
+            CELL(f->fallback), CELL_IF(*f->symbol, f->symbol), CELL(f->meaning));
   free(text);
-  return st;
+  return written ? HC_OK : HC_NO_MEMORY;
 }
 
-/* In the order of the table of fields, contact after contact. */
+/* In the order of the table of fields, entry after entry of its lists. */
 static hc_status put_values(table *t, const described *d)
 {
-  /* In the order of the table of fields, entry after entry of its lists. */
-  if (d->sc->structure) {
-    const unsigned lists = FIELD_IN_CONTACT | FIELD_IN_LOAD;
-    hc_status st = HC_OK;
-    for (int i = 0, end; i < field_count() && st == HC_OK; i = end) {
-      const unsigned list = field_at(i)->flags & lists;
-      for (end = i + 1; list && end < field_count() && field_at(end)->flags & list;) ++end;
-      if (!describes_structure(field_at(i))) st = put_value(t, d, field_at(i), -1);
-      else
-        for (int j = 0; j < describe_structure_count(d->sc->structure, field_at(i)); ++j)
-          for (int k = i; k < end && st == HC_OK; ++k) st = put_part(t, d, field_at(k), j);
-    }
-    return st;
-  }
   hc_status st = HC_OK;
   for (int i = 0, end; i < field_count() && st == HC_OK; i = end) {
-    const bool in_contact = field_at(i)->flags & FIELD_IN_CONTACT;
-    for (end = i + 1; in_contact && end < field_count() && field_at(end)->flags & FIELD_IN_CONTACT;) ++end;
-    for (int j = in_contact ? 0 : -1; j < (in_contact ? d->sc->n_contacts : 0); ++j)
+    const unsigned list = field_at(i)->flags & (FIELD_IN_CONTACT | FIELD_IN_LOAD);
+    for (end = i + 1; list && end < field_count() && field_at(end)->flags & list;) ++end;
+    for (int j = 0; j < count_values(d->sc, field_at(i)); ++j)
       for (int k = i; k < end && st == HC_OK; ++k) st = put_value(t, d, field_at(k), j);
   }
   return st;
@@ -344,12 +254,8 @@ static hc_status put_derived(table *t, const scene *sc)
   hc_status st = HC_OK;
   if (sc->structure) st = describe_structure_derive(sc, all, &n);
   else n = case_derive(sc, all);
-  for (int i = 0; i < n; ++i) {
-    table_put_text(t, all[i].name);
-    table_put_real(t, all[i].value);
-    table_put_text(t, all[i].unit);
-    table_put_text(t, all[i].meaning);
-  }
+  for (const case_derived *d = all; d < all + n; ++d)
+    TABLE_ROW(t, CELL(d->name), CELL(d->value), CELL(d->unit), CELL(d->meaning));
   return st;
 }
 
@@ -375,10 +281,8 @@ static int describe_case(const cli_common *common, const char *path)
   case_places *places = malloc(sizeof *places);
   hc_status st = places ? case_read_placed(path, common->n_set, common->set, &sc, places, &err) : HC_NO_MEMORY;
   const described d = {&sc, places, common->arguments[0]};
-  int code = st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
-  if (st == HC_OK) code = write_values(common, &d);
+  const int code = st == HC_OK ? write_values(common, &d) : cli_not_read(st, &err);
   case_clear(&sc);
-  if (st != HC_OK) fprintf(stderr, "%s\n", err.message[0] ? err.message : hc_status_text(st));
   free(places);
   return code;
 }

@@ -37,7 +37,6 @@ static const cli_option options[] = {
     {0},
 };
 
-/* A row for each response of each point. */
 static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_curve *c, plot_responses of_case,
                             table *t)
 {
@@ -58,7 +57,6 @@ static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_c
   return HC_OK;
 }
 
-/* A row for each contact of each solution. */
 static hc_status put_contacts(const cli_common *common, hbm_solver *s, const hbm_curve *c, table *t)
 {
   const scene *sc = common->scene;

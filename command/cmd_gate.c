@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/path.h"
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "compare/gate/gate.h"
@@ -46,21 +47,23 @@ static const cli_option options[] = {
  * these range from discrepancies to costs. */
 /* clang-format off */
 #define COLUMNS(number) \
-  {"case", TABLE_TEXT}, {"omega", TABLE_REAL}, {"frequency", TABLE_REAL}, {"branch", TABLE_INTEGER}, \
-  {"response", TABLE_TEXT}, {"verdict", TABLE_TEXT}, {"quantity", TABLE_TEXT}, {"against", TABLE_TEXT}, \
-  {"allowed", number}, {"found", number}, {"result", TABLE_TEXT}, {"reason", TABLE_TEXT}
+  TEXT("case"), REAL("omega"), REAL("frequency"), INTEGER("branch"), TEXT("response"), TEXT("verdict"), \
+  TEXT("quantity"), TEXT("against"), number("allowed"), number("found"), TEXT("result"), TEXT("reason")
 /* clang-format on */
-static const table_column columns[] = {COLUMNS(TABLE_REAL)}, columns_for_people[] = {COLUMNS(TABLE_TEXT)};
+static const table_column columns[] = {COLUMNS(REAL)}, columns_for_people[] = {COLUMNS(TEXT)};
 static const char *const spare_columns[] = {"against", "verdict", "allowed", "branch", "case", NULL};
 
-/* One call of the command. */
+typedef struct read_case {
+  scene sc;
+  char (*responses)[RESPONSE_NAME]; /* their names, of a structure */
+  case_error error;                 /* what is wrong with the case file, or empty */
+} read_case;
+
 typedef struct gate_call {
   cli_common *common;
   const gate_options *own;
-  scene *scenes;                     /* [n_arguments] */
-  gate_case *cases;                  /* [n_arguments], of which n_judged are filled */
-  char (**responses)[RESPONSE_NAME]; /* [n_arguments] their names, of structures */
-  case_error *errors;                /* [n_arguments] what is wrong with the case file, or empty */
+  read_case *of;    /* [n_arguments] */
+  gate_case *cases; /* [n_arguments], of which n_judged are filled */
   int n_judged;
   unsigned extra;   /* columns that one of them has */
   bool short_names; /* their names differ without their folders, too: so they stand on the screen */
@@ -72,15 +75,16 @@ static int read_cases(gate_call *call)
 {
   int wrong = 0;
   for (int i = 0; i < call->common->n_arguments; ++i) {
-    int code = cli_load_case_saying(call->common, call->common->arguments[i], &call->scenes[i], &call->errors[i]);
+    read_case *of = &call->of[i];
+    int code = cli_load_case(call->common, call->common->arguments[i], &of->sc, &of->error);
     if (code == EXIT_NO_SOLUTION) return code;
     if (code) wrong = code;
     if (code) continue;
-    if (!cli_frequencies_fit(call->common, &call->own->at, true, &call->scenes[i], call->errors[i].message)) {
-      cli_message(call->common, "%s: %s", call->common->arguments[i], call->errors[i].message);
+    if (!cli_frequencies_fit(call->common, &call->own->at, true, &of->sc, of->error.message)) {
+      cli_message(call->common, "%s: %s", call->common->arguments[i], of->error.message);
       wrong = EXIT_BAD_CASE;
     }
-    call->extra |= cli_extra_columns(&call->scenes[i]);
+    call->extra |= cli_extra_columns(&of->sc);
   }
   return wrong;
 }
@@ -95,20 +99,22 @@ static int open_junit(gate_call *call)
 static int judge_cases(gate_call *call)
 {
   for (; call->n_judged < call->common->n_arguments; ++call->n_judged) {
-    progress *bar = progress_start(call->common->arguments[call->n_judged], call->common->quiet);
+    const char *name = call->common->arguments[call->n_judged];
+    progress *bar = progress_start(name, call->common->quiet);
     hc_monitor monitor = progress_monitor(bar);
     compare_setup setup;
     gate_case *g = &call->cases[call->n_judged];
-    call->common->scene = &call->scenes[call->n_judged];
-    hc_status st = scene_setup(call->common->scene, &setup);
-    if (st == HC_OK) st = gate_run(call->common->arguments[call->n_judged], &setup, &monitor, g);
-    if (st == HC_OK) st = cli_response_names(call->common->scene, &call->responses[call->n_judged]);
-    g->responses = (const char(*)[RESPONSE_NAME])call->responses[call->n_judged];
+    read_case *of = &call->of[call->n_judged];
+    call->common->scene = &of->sc;
+    hc_status st = scene_setup(&of->sc, &setup);
+    if (st == HC_OK) st = gate_run(name, &setup, &monitor, g);
+    if (st == HC_OK) st = cli_response_names(&of->sc, &of->responses);
+    g->responses = (const char(*)[RESPONSE_NAME])of->responses;
     scene_setup_clear(&setup);
     progress_end(bar);
     if (st == HC_OK) continue;
     if (st == HC_INTERRUPTED) cli_message(call->common, "stopped on request: nothing is written, half a gate is none");
-    else cli_solver_failed(call->common, CLI_BOTH, call->common->arguments[call->n_judged], st, 0);
+    else cli_solver_failed(call->common, CLI_BOTH, name, st, 0);
     gate_clear(g);
     return EXIT_NO_SOLUTION;
   }
@@ -117,17 +123,9 @@ static int judge_cases(gate_call *call)
 
 /* ---- results ---- */
 
-static void put_number(table *t, double x, bool people)
+static table_value number_cell(bool people, double x, char text[NUMBER_TEXT])
 {
-  char text[NUMBER_TEXT];
-  if (people) table_put_text(t, isnan(x) ? NULL : number_write(x, text));
-  else table_put_real(t, x);
-}
-
-static const char *without_folder(const char *path)
-{
-  const char *slash = strrchr(path, '/');
-  return slash ? slash + 1 : path;
+  return people ? CELL_IF(!isnan(x), number_write(x, text)) : CELL(x);
 }
 
 static table *checks_table(gate_call *call)
@@ -141,26 +139,22 @@ static table *checks_table(gate_call *call)
   call->short_names = !call->common->wide;
   for (int i = 0; i < call->n_judged; ++i)
     for (int k = 0; k < i; ++k)
-      call->short_names &= strcmp(without_folder(call->cases[i].name), without_folder(call->cases[k].name)) != 0;
+      call->short_names &= strcmp(path_name(call->cases[i].name, NULL), path_name(call->cases[k].name, NULL)) != 0;
   for (int i = 0; i < call->n_judged; ++i) {
     const gate_case *g = &call->cases[i];
     for (int k = 0; k < g->n; ++k) {
       const gate_check *c = &g->checks[k];
       const bool wants_attention = c->result == GATE_FAIL || c->result == GATE_ERROR;
       if (!people || call->own->all || wants_attention || gate_is_worst(g, k)) {
-        const scene *sc = &call->scenes[i];
-        table_put_text(t, people && call->short_names ? without_folder(call->cases[i].name) : call->cases[i].name);
-        table_put_real(t, c->omega);
-        if (call->extra & ROWS_IN_CYCLES) table_put_real(t, sc->in_cycles ? scene_frequency(sc, c->omega) : NAN);
-        table_put_integer_if(t, c->branch >= 0, c->branch);
-        if (call->extra & ROWS_RESPONSES) table_put_text(t, gate_response(&call->cases[i], c));
-        table_put_text(t, *c->verdict ? c->verdict : NULL);
-        table_put_text(t, c->quantity);
-        table_put_text(t, c->against);
-        put_number(t, c->allowed, people);
-        put_number(t, people ? gate_shown(c) : c->found, people);
-        table_put_text(t, gate_result_name(c->result));
-        table_put_text(t, *c->reason ? c->reason : NULL);
+        const scene *sc = &call->of[i].sc;
+        char allowed[NUMBER_TEXT], found[NUMBER_TEXT];
+        TABLE_ROW(t, CELL(people && call->short_names ? path_name(g->name, NULL) : g->name), CELL(c->omega),
+                  CELL_OF(call->extra & ROWS_IN_CYCLES, sc->in_cycles ? scene_frequency(sc, c->omega) : NAN),
+                  CELL_IF(c->branch >= 0, c->branch), CELL_OF(call->extra & ROWS_RESPONSES, gate_response(g, c)),
+                  CELL_IF(*c->verdict, c->verdict), CELL(c->quantity), CELL(c->against),
+                  number_cell(people, c->allowed, allowed),
+                  number_cell(people, people ? gate_shown(c) : c->found, found), CELL(gate_result_name(c->result)),
+                  CELL_IF(*c->reason, c->reason));
       }
     }
     table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made, %d not applicable", g->name, g->n,
@@ -184,7 +178,7 @@ static int report_unread(gate_call *call, int code)
 {
   const char *wrong[CLI_MAX_ARGUMENTS];
   for (int i = 0; i < call->common->n_arguments; ++i)
-    wrong[i] = *call->errors[i].message ? call->errors[i].message : NULL;
+    wrong[i] = *call->of[i].error.message ? call->of[i].error.message : NULL;
   if (open_junit(call) != 0 || !call->junit) return code;
   hc_status st =
       gate_write_junit_unread(call->common->n_arguments, call->common->arguments, wrong, output_stream(call->junit));
@@ -214,21 +208,18 @@ static int run_gate(cli_common *common, void *own, scene *sc)
   const size_t n = (size_t)common->n_arguments;
   gate_call call = {common, own, .n_judged = 0};
   (void)sc;
-  call.scenes = calloc(n, sizeof *call.scenes);
+  call.of = calloc(n, sizeof *call.of);
   call.cases = calloc(n, sizeof *call.cases);
-  call.responses = calloc(n, sizeof *call.responses);
-  call.errors = calloc(n, sizeof *call.errors);
-  const int code = call.scenes && call.cases && call.responses && call.errors
-                       ? read_and_judge(&call)
-                       : cli_solver_failed(common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
+  const int code =
+      call.of && call.cases ? read_and_judge(&call) : cli_solver_failed(common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
   output_abandon(call.junit);
   for (int i = 0; i < call.n_judged; ++i) gate_clear(&call.cases[i]);
-  free(call.errors);
   free(call.cases);
-  for (int i = 0; call.responses && i < common->n_arguments; ++i) free(call.responses[i]);
-  free(call.responses);
-  for (int i = 0; call.scenes && i < common->n_arguments; ++i) case_clear(&call.scenes[i]);
-  free(call.scenes);
+  for (size_t i = 0; call.of && i < n; ++i) {
+    free(call.of[i].responses);
+    case_clear(&call.of[i].sc);
+  }
+  free(call.of);
   return code;
 }
 

@@ -16,23 +16,14 @@ static const char help[] =
     "phi' M phi = 1; where the damping couples modes this is an estimate. The symmetric part of the stiffness "
     "counts.\nexit: 0 done  2 case file wrong  3 could not  64 usage\nexample: hbmcheck modes cases/paper/case2.yaml";
 
-static const table_column mode_columns[] = {
-    {"mode", TABLE_INTEGER},       {"omega_open", TABLE_REAL},  {"frequency_open", TABLE_REAL},
-    {"damping_open", TABLE_REAL},  {"omega_stuck", TABLE_REAL}, {"frequency_stuck", TABLE_REAL},
-    {"damping_stuck", TABLE_REAL},
-};
-static const table_column contact_columns[] = {
-    {"contact", TABLE_INTEGER}, {"name", TABLE_TEXT},           {"at_rest", TABLE_TEXT},
-    {"preload", TABLE_REAL},    {"friction_limit", TABLE_REAL},
-};
+static const table_column mode_columns[] = {INTEGER("mode"),      REAL("omega_open"),  REAL("frequency_open"),
+                                            REAL("damping_open"), REAL("omega_stuck"), REAL("frequency_stuck"),
+                                            REAL("damping_stuck")};
+static const table_column contact_columns[] = {INTEGER("contact"), TEXT("name"), TEXT("at_rest"), REAL("preload"),
+                                               REAL("friction_limit")};
 
 /* A mode that is driven away has no frequency; one with 0 to rounding is free. */
-static void put_mode(table *t, const model_mode *mode)
-{
-  table_put_real(t, mode->omega);
-  table_put_real(t, mode->omega / TWO_PI);
-  table_put_real(t, mode->damping);
-}
+#define MODE_CELLS(mode) CELL((mode).omega), CELL((mode).omega / TWO_PI), CELL((mode).damping)
 
 static int run_modes(cli_common *common, void *own, scene *sc)
 {
@@ -46,11 +37,7 @@ static int run_modes(cli_common *common, void *own, scene *sc)
     model_mode *open = calloc(2 * (size_t)m->n, sizeof *open), *stuck = open ? open + m->n : NULL;
     st = open ? model_mode_list(m, false, open) : HC_NO_MEMORY;
     if (st == HC_OK) st = model_mode_list(m, true, stuck);
-    for (int i = 0; i < m->n && st == HC_OK; ++i) {
-      table_put_integer(t, i + 1);
-      put_mode(t, &open[i]);
-      put_mode(t, &stuck[i]);
-    }
+    for (int i = 0; i < m->n && st == HC_OK; ++i) TABLE_ROW(t, CELL(i + 1), MODE_CELLS(open[i]), MODE_CELLS(stuck[i]));
     if (st == HC_OK && isnan(open[0].omega))
       table_note(t, "mode 1 is driven away with the contacts open: no frequency");
     free(open);
@@ -66,11 +53,9 @@ static int run_modes(cli_common *common, void *own, scene *sc)
       const int first = scene_model_contact(sc, j), end = scene_model_contact(sc, j + 1);
       double whole = 0;
       for (int i = first; i < end; ++i) whole += N[i];
-      table_put_integer(t, j);
-      table_put_text(t, *name ? name : NULL);
-      table_put_text(t, whole > 0 ? "closed" : "open");
-      table_put_real(t, whole);
-      table_put_real(t, m->contacts[first].law.mu * N[first]); /* of a pair each half has the limit of the whole */
+      /* of a pair each half has the limit of the whole */
+      TABLE_ROW(t, CELL(j), CELL_IF(*name, name), CELL(whole > 0 ? "closed" : "open"), CELL(whole),
+                CELL(m->contacts[first].law.mu * N[first]));
     }
     hbm_solver_free(s);
     free(N);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/report/report.h"
@@ -37,11 +38,10 @@ static const cli_option options[] = {
 /* "case2.html" for cases/paper/case2.yaml, into text[size]. */
 static const char *name_of_page(const char *path, char *text, size_t size)
 {
-  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-  const char *dot = strrchr(name, '.');
-  int length = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
+  int stem;
+  const char *name = path_name(path, &stem);
   if (!strcmp(path, "-")) snprintf(text, size, "report.html");
-  else snprintf(text, size, "%.*s.html", length, name);
+  else snprintf(text, size, "%.*s.html", stem, name);
   return text;
 }
 
@@ -122,7 +122,7 @@ static int run_report(cli_common *common, void *given, scene *sc)
                       "built without Chart.js, which draws the plots: install it (Debian: libjs-chart.js) and build "
                       "again");
   int code = cli_check_files(common, !common->output, &(cli_file){"the page", path, CLI_OUTPUT});
-  if (!code) code = cli_load_case(common, common->arguments[0], sc);
+  if (!code) code = cli_load_case(common, common->arguments[0], sc, &(case_error){{0}});
   if (!code) code = compare_lists(common, &own->lists, sc);
   if (!code) code = cli_take_frequencies(common, &own->at, true, sc);
   if (code) return code;

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "base/number.h"
+#include "base/path.h"
 #include "casefile/case_file.h"
 #include "command/cli.h"
 #include "command/commands.h"
@@ -36,8 +37,7 @@ static bool is_finding(unsigned long seed, const char *name)
 static bool may_be_replaced(unsigned long seed, const char *folder, const char *path)
 {
   file_identity it;
-  const char *slash = strrchr(path, '/');
-  if (file_is_in(path, folder) && is_finding(seed, slash ? slash + 1 : path)) return true;
+  if (file_is_in(path, folder) && is_finding(seed, path_name(path, NULL))) return true;
   file_identify(path, -1, &it);
   /* Is one of the findings in the folder, which may be written again, this very file, under whatever name? */
   bool same = false;
@@ -52,9 +52,8 @@ static bool may_be_replaced(unsigned long seed, const char *folder, const char *
     file_forget(&there);
   }
   if (from) closedir(from);
-  const bool kept = same;
   file_forget(&it);
-  return kept;
+  return same;
 }
 
 /* The folder of --findings (NULL: none), made if it is not there. 0, or the exit code after the message. */
@@ -108,24 +107,16 @@ static const cli_option options[] = {
 };
 
 static const table_column check_columns[] = {
-    {"check", TABLE_TEXT},         {"agreed", TABLE_INTEGER},    {"explained", TABLE_INTEGER},
-    {"too_dear", TABLE_INTEGER},   {"refused", TABLE_INTEGER},   {"findings", TABLE_INTEGER},
-    {"skipped", TABLE_INTEGER},    {"explained_by", TABLE_TEXT}, {"median_error", TABLE_REAL},
-    {"largest_error", TABLE_REAL}, {"scene", TABLE_INTEGER},     {"seconds", TABLE_REAL},
-    {"holds", TABLE_TEXT},
-};
-static const table_column reason_columns[] = {
-    {"check", TABLE_TEXT},     {"outcome", TABLE_TEXT},        {"reason", TABLE_TEXT},
-    {"scenes", TABLE_INTEGER}, {"one_of_them", TABLE_INTEGER}, {"meaning", TABLE_TEXT},
-};
-static const table_column scene_columns[] = {
-    {"scene", TABLE_INTEGER}, {"check", TABLE_TEXT}, {"outcome", TABLE_TEXT}, {"reason", TABLE_TEXT},
-    {"error", TABLE_REAL},    {"bound", TABLE_REAL}, {"why", TABLE_TEXT},
-};
+    TEXT("check"),       INTEGER("agreed"),  INTEGER("explained"), INTEGER("too_dear"),  INTEGER("refused"),
+    INTEGER("findings"), INTEGER("skipped"), TEXT("explained_by"), REAL("median_error"), REAL("largest_error"),
+    INTEGER("scene"),    REAL("seconds"),    TEXT("holds")};
+static const table_column reason_columns[] = {TEXT("check"),     TEXT("outcome"),        TEXT("reason"),
+                                              INTEGER("scenes"), INTEGER("one_of_them"), TEXT("meaning")};
+static const table_column scene_columns[] = {INTEGER("scene"), TEXT("check"), TEXT("outcome"), TEXT("reason"),
+                                             REAL("error"),    REAL("bound"), TEXT("why")};
 static const char *const spare_columns[] = {"holds", "seconds", "median_error", "scene", "explained_by", NULL};
 #define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
-/* One call of the command. */
 typedef struct stress_call {
   cli_common *common;
   stress_options *own;
@@ -176,12 +167,9 @@ static table *checks_table(stress_call *call)
       if (c->error > largest) largest = c->error, at = call->results[i].index;
     }
     if (n > 0) qsort(errors, (size_t)n, sizeof *errors, ascending);
-    table_put_real(t, n > 0 ? errors[n / 2] : NAN);
-    table_put_real(t, n > 0 ? largest : NAN);
-    table_put_integer_if(t, n > 0, at);
+    TABLE_ROW(t, CELL(n > 0 ? errors[n / 2] : NAN), CELL(n > 0 ? largest : NAN), CELL_IF(n > 0, at), CELL(seconds),
+              CELL(stress_kind_meaning((stress_kind)k)));
     free(errors);
-    table_put_real(t, seconds);
-    table_put_text(t, stress_kind_meaning((stress_kind)k));
     call->findings += count[STRESS_FINDING];
   }
   return t;
@@ -211,17 +199,12 @@ static table *reasons_table(const stress_call *call)
             if (n++ == 0) one = c, index = call->results[i].index;
           }
           if (n == 0) continue;
-          table_put_text(t, stress_kind_name((stress_kind)k));
-          table_put_text(t, stress_outcome_name((stress_outcome)o));
-          table_put_text(t, stress_reason_name((stress_reason)r));
-          table_put_integer(t, n);
-          table_put_integer(t, index);
-          table_put_text(t, meaning_of(one));
+          TABLE_ROW(t, CELL(stress_kind_name((stress_kind)k)), CELL(stress_outcome_name((stress_outcome)o)),
+                    CELL(stress_reason_name((stress_reason)r)), CELL(n), CELL(index), CELL(meaning_of(one)));
         }
   return t;
 }
 
-/* The findings, or with --all everything. */
 static table *scenes_table(const stress_call *call)
 {
   table *t = table_new(call->own->all ? "Scenes" : "Findings", CLI_COLUMNS(scene_columns));
@@ -230,18 +213,13 @@ static table *scenes_table(const stress_call *call)
     for (int k = 0; k < STRESS_N_CHECKS && call->results[i].there; ++k)
       if (call->own->all || call->results[i].check[k].outcome == STRESS_FINDING) {
         const stress_check *c = &call->results[i].check[k];
-        table_put_integer(t, call->results[i].index);
-        table_put_text(t, stress_kind_name((stress_kind)k));
-        table_put_text(t, stress_outcome_name(c->outcome));
-        table_put_text(t, stress_reason_name(c->reason));
-        table_put_real(t, c->error);
-        table_put_real(t, c->bound);
-        table_put_text(t, c->outcome == STRESS_AGREED ? "" : meaning_of(c));
+        TABLE_ROW(t, CELL(call->results[i].index), CELL(stress_kind_name((stress_kind)k)),
+                  CELL(stress_outcome_name(c->outcome)), CELL(stress_reason_name(c->reason)), CELL(c->error),
+                  CELL(c->bound), CELL(c->outcome == STRESS_AGREED ? "" : meaning_of(c)));
       }
   return t;
 }
 
-/* Returns the exit code. */
 static int write_tables(stress_call *call)
 {
   table *tables[3] = {checks_table(call), reasons_table(call), scenes_table(call)};
@@ -377,22 +355,19 @@ static int run_stress(cli_common *common, void *given, scene *sc)
   if (!own->plan.jobs) own->plan.jobs = cli_processors();
   if (common->n_set) return cli_failed(common, EXIT_USAGE, "--set has no case file to set anything in");
   const cli_file others[] = {{"--results", own->plan.journal, CLI_RESULTS}, {"--output", common->output, CLI_OUTPUT}};
-  int refused = 0;
-  for (int k = 0; k < 2 && own->findings && !refused; ++k)
-    if (others[k].path && may_be_replaced(own->plan.seed, own->findings, others[k].path)) {
-      cli_message(common, "%s %s is where --findings %s keeps a case file; give another name", others[k].what,
-                  others[k].path, own->findings);
-      refused = EXIT_USAGE;
-    }
-  if (!refused && own->one_case) {
+  for (int k = 0; k < 2 && own->findings; ++k)
+    if (others[k].path && may_be_replaced(own->plan.seed, own->findings, others[k].path))
+      return cli_failed(common, EXIT_USAGE, "%s %s is where --findings %s keeps a case file; give another name",
+                        others[k].what, others[k].path, own->findings);
+  if (own->one_case) {
     scene first;
-    hc_status st = scene_at(&call, call.own->plan.first, &first);
-    if (st != HC_OK) return cli_solver_failed(call.common, CLI_BOTH, "the sequence", st, 0);
-    const int code = write_case(&call, call.common->output, "", &first);
+    hc_status st = scene_at(&call, own->plan.first, &first);
+    if (st != HC_OK) return cli_solver_failed(common, CLI_BOTH, "the sequence", st, 0);
+    const int code = write_case(&call, common->output, "", &first);
     case_clear(&first);
     return code;
   }
-  if (!refused) refused = stress_make_folder(common, own->findings);
+  const int refused = stress_make_folder(common, own->findings);
   if (refused) return refused;
   if (!(call.results = calloc((size_t)own->plan.scenes, sizeof *call.results)))
     return cli_solver_failed(common, CLI_BOTH, "stress", HC_NO_MEMORY, 0);

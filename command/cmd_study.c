@@ -8,6 +8,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/path.h"
+#include "base/thread_clock.h"
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
@@ -70,7 +72,6 @@ typedef struct study_entry {
   double wall; /* [s] */
 } study_entry;
 
-/* One call of the command. */
 typedef struct study_call {
   cli_common *common;
   const study_options *own;
@@ -85,19 +86,14 @@ typedef struct study_call {
   double seconds, exact_seconds, wall; /* of all studies */
 } study_call;
 
-static double wall_seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* The message for a study or results file that is wrong, printed by rank 0 only. Returns the exit code. */
 static int study_failed(const study_call *call, hc_status st, const case_error *err)
 {
-  if (call->rank == 0) fprintf(stderr, "%s\n", err->message[0] ? err->message : hc_status_text(st));
-  return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
+  return call->rank == 0 ? cli_not_read(st, err) : st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
+
+/* The message for wrong usage, printed by rank 0 only. Its value is the exit code. */
+#define study_refused(call, ...) ((call)->rank == 0 ? cli_message((call)->common, __VA_ARGS__) : (void)0, EXIT_USAGE)
 
 /* ---- before anything runs ---- */
 
@@ -129,36 +125,27 @@ static int read_studies(study_call *call)
     if (st != HC_OK) return study_failed(call, st, &err);
     /* The file of --results; without, the study's name with .sqlite, here or in the folder of --results. */
     study_entry *entry = &call->studies[i];
-    const char *name = entry->s->name, *slash = strrchr(name, '/'),
-               *stem = !strcmp(name, "<stdin>") ? "study"
-                       : slash                  ? slash + 1
-                                                : name;
-    const char *dot = strrchr(stem, '.');
-    int length = (int)(dot && dot > stem ? (size_t)(dot - stem) : strlen(stem));
+    int stem;
+    const char *name = path_name(!strcmp(entry->s->name, "<stdin>") ? "study" : entry->s->name, &stem);
     struct stat info;
     const bool folder = call->own->results && stat(call->own->results, &info) == 0 && S_ISDIR(info.st_mode);
     if (call->own->results && !folder) snprintf(entry->results, sizeof entry->results, "%s", call->own->results);
     else
       snprintf(entry->results, sizeof entry->results, "%s%s%.*s.sqlite", folder ? call->own->results : "",
-               folder ? "/" : "", length, stem);
+               folder ? "/" : "", stem, name);
     if (!find_response(call, &call->studies[i])) return EXIT_USAGE;
     if (common->drawing.path && plot_study_check(&common->drawing, call->studies[i].s, call->own->plot_y,
-                                                 response_of(&call->studies[i])) != HC_OK) {
-      if (call->rank == 0) cli_message(common, "%s", common->drawing.why);
-      return EXIT_USAGE;
-    }
+                                                 response_of(&call->studies[i])) != HC_OK)
+      return study_refused(call, "%s", common->drawing.why);
   }
   /* No two studies in one results file. */
   for (int i = 0; i < call->n_studies; ++i)
     for (int k = 0; k < i; ++k) {
       if (strcmp(call->studies[i].results, call->studies[k].results) || !strcmp(call->studies[i].results, ":memory:"))
         continue;
-      if (call->rank == 0)
-        cli_message(
-            call->common,
-            "%s and %s would share the results file %s; run them one by one, or give a folder or names that differ",
-            call->studies[k].s->name, call->studies[i].s->name, call->studies[i].results);
-      return EXIT_USAGE;
+      return study_refused(
+          call, "%s and %s would share the results file %s; run them one by one, or give a folder or names that differ",
+          call->studies[k].s->name, call->studies[i].s->name, call->studies[i].results);
     }
   return 0;
 }
@@ -219,10 +206,8 @@ static int compute_study(study_call *call, study_entry *entry)
 /* ---- results ---- */
 
 static const table_column summary_columns[] = {
-    {"run", TABLE_TEXT},       {"scenes", TABLE_INTEGER},   {"computed", TABLE_INTEGER}, {"done", TABLE_INTEGER},
-    {"failed", TABLE_INTEGER}, {"computing_s", TABLE_REAL}, {"exact_s", TABLE_REAL},     {"wall_s", TABLE_REAL},
-    {"results", TABLE_TEXT},   {"study", TABLE_TEXT},
-};
+    TEXT("run"),         INTEGER("scenes"), INTEGER("computed"), INTEGER("done"), INTEGER("failed"),
+    REAL("computing_s"), REAL("exact_s"),   REAL("wall_s"),      TEXT("results"), TEXT("study")};
 
 static const char *const spare_columns[] = {"exact_s", "computing_s", "computed", "wall_s", NULL};
 
@@ -240,16 +225,10 @@ static int put_summary(study_call *call, const study_entry *entry, bool *any_fai
                 st == HC_NO_MEMORY ? hc_status_text(st) : study_store_error(entry->store));
     return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
   }
-  table_put_text(to, study_kind_name(entry->s->kind));
-  table_put_integer(to, entry->s->n_scenes);
-  table_put_integer(to, entry->computed_now);
-  table_put_integer(to, sum.done);
-  table_put_integer(to, sum.failed);
-  table_put_real(to, to_milliseconds(sum.seconds));
-  table_put_real(to, to_milliseconds(sum.exact_seconds));
-  table_put_real(to, to_milliseconds(entry->wall));
-  table_put_text(to, entry->results);
-  table_put_text(to, entry->s->title);
+  TABLE_ROW(to, CELL(study_kind_name(entry->s->kind)), CELL(entry->s->n_scenes), CELL(entry->computed_now),
+            CELL(sum.done), CELL(sum.failed), CELL(to_milliseconds(sum.seconds)),
+            CELL(to_milliseconds(sum.exact_seconds)), CELL(to_milliseconds(entry->wall)), CELL(entry->results),
+            CELL(entry->s->title));
   if (sum.failed)
     table_note(to, "%s: %ld failed, the first of them scene %ld: %s", entry->s->title, sum.failed, sum.first_failed,
                sum.reason);
@@ -357,7 +336,6 @@ static bool not_interrupted(void *self, double done)
   return !progress_interrupted();
 }
 
-/* The other ranks compute the scenes that rank 0 hands out. */
 static void run_other_rank(const study_call *call)
 {
   hc_monitor monitor = {not_interrupted, NULL};
@@ -386,8 +364,7 @@ static int run_study(cli_common *common, void *own, scene *sc)
   else if (call->common->drawing.path && several) fault = "--plot draws one study at a time";
   else if (given->plot_y && !call->common->drawing.path) fault = "--plot-y goes with --plot";
   else if (given->timings && !is_exporting(given)) fault = "--timings goes with --export";
-  if (fault && call->rank == 0) cli_message(call->common, "%s", fault);
-  int code = fault ? EXIT_USAGE : 0;
+  int code = fault ? study_refused(call, "%s", fault) : 0;
   if (!code) code = read_studies(call);
   /* What each study reads and keeps. */
   for (int i = 0; i < call->n_studies && !code; ++i) {

@@ -65,7 +65,6 @@ static table *table_of_rows(const cli_common *common)
   return t;
 }
 
-/* A row for each contact of each state. */
 static table *contacts_table(const cli_common *common, steady_states *found)
 {
   const scene *sc = common->scene;

@@ -20,13 +20,11 @@
  * read here: the rest of --columns is verify_columns_read's to judge. */
 enum { VERIFY_MOST_CURVES = CLI_MOST_TEXTS, VERIFY_CURVE_TEXT = 1024 };
 
-/* What --columns, --response and --quantity say. */
 typedef struct verify_asked {
   const char *columns, *quantity; /* NULL: not given */
   cli_texts responses;            /* each --response */
 } verify_asked;
 
-/* One of the curves. */
 typedef struct verify_curve {
   char columns[VERIFY_CURVE_TEXT]; /* for verify_columns_read; empty: by the header */
   int response;                    /* of the model, counted from 0 */
@@ -95,10 +93,9 @@ static int curves_of_list(const cli_common *common, const verify_asked *asked, v
   for (const char *text = asked->columns; text; ++text) {
     const entry e = entry_at(text);
     if (e.at && n == VERIFY_MOST_CURVES)
-      return cli_message(common, "--columns: more than %d responses", VERIFY_MOST_CURVES), -1;
+      return cli_failed(common, -1, "--columns: more than %d responses", VERIFY_MOST_CURVES);
     if (e.at && asked->responses.n)
-      return cli_message(common, "--columns names a response behind @ and --response another way; give one of them"),
-             -1;
+      return cli_failed(common, -1, "--columns names a response behind @ and --response another way; give one of them");
     if (e.at && !keep_one(common, asked->columns, text, &out[n++])) return -1;
     text += e.length;
     if (!*text) break;
@@ -114,7 +111,7 @@ static int verify_curves_of(const cli_common *common, const verify_asked *asked,
   int n = curves_of_list(common, asked, out);
   if (n != 0) return n < 0 ? 0 : n;
   if (asked->columns && strlen(asked->columns) >= sizeof out->columns)
-    return cli_message(common, "--columns: longer than %zu letters", sizeof out->columns - 1), 0;
+    return cli_failed(common, 0, "--columns: longer than %zu letters", sizeof out->columns - 1);
   n = asked->responses.n ? asked->responses.n : 1;
   for (int i = 0; i < n; ++i) {
     if (!set_response(common, asked->responses.n ? asked->responses.text[i] : NULL, &out[i])) return 0;
@@ -164,25 +161,18 @@ static const cli_option options[] = {
     {0},
 };
 
-static const table_column columns[] = {
-    {"omega", TABLE_REAL},     {"frequency", TABLE_REAL}, {"value", TABLE_REAL},  {"nearest", TABLE_REAL},
-    {"branch", TABLE_INTEGER}, {"response", TABLE_TEXT},  {"stable", TABLE_TEXT}, {"error", TABLE_REAL},
-    {"verdict", TABLE_TEXT},   {"line", TABLE_INTEGER},
-};
-static const table_column hypothesis_columns[] = {
-    {"response", TABLE_TEXT},       {"cause", TABLE_TEXT},          {"distance", TABLE_REAL},
-    {"truth_distance", TABLE_REAL}, {"harmonics", TABLE_INTEGER},   {"static", TABLE_TEXT},
-    {"samples", TABLE_INTEGER},     {"slider_restart", TABLE_TEXT}, {"omega_factor", TABLE_REAL},
-    {"value_factor", TABLE_REAL},   {"quantity", TABLE_TEXT},
-};
+static const table_column columns[] = {REAL("omega"),     REAL("frequency"), REAL("value"),  REAL("nearest"),
+                                       INTEGER("branch"), TEXT("response"),  TEXT("stable"), REAL("error"),
+                                       TEXT("verdict"),   INTEGER("line")};
+static const table_column hypothesis_columns[] = {TEXT("response"),       TEXT("cause"),          REAL("distance"),
+                                                  REAL("truth_distance"), INTEGER("harmonics"),   TEXT("static"),
+                                                  INTEGER("samples"),     TEXT("slider_restart"), REAL("omega_factor"),
+                                                  REAL("value_factor"),   TEXT("quantity")};
 static const table_column summary_columns[] = {
-    {"response", TABLE_TEXT},         {"cause", TABLE_TEXT},          {"nearest_guess", TABLE_TEXT},
-    {"quantity", TABLE_TEXT},         {"points", TABLE_INTEGER},      {"match", TABLE_INTEGER},
-    {"differs", TABLE_INTEGER},       {"unstable", TABLE_INTEGER},    {"other_branch", TABLE_INTEGER},
-    {"solver_failed", TABLE_INTEGER}, {"skipped", TABLE_INTEGER},     {"left_out", TABLE_INTEGER},
-    {"reversals", TABLE_INTEGER},     {"truth_distance", TABLE_REAL}, {"noise", TABLE_REAL},
-    {"sentence", TABLE_TEXT},
-};
+    TEXT("response"),   TEXT("cause"),       TEXT("nearest_guess"), TEXT("quantity"),        INTEGER("points"),
+    INTEGER("match"),   INTEGER("differs"),  INTEGER("unstable"),   INTEGER("other_branch"), INTEGER("solver_failed"),
+    INTEGER("skipped"), INTEGER("left_out"), INTEGER("reversals"),  REAL("truth_distance"),  REAL("noise"),
+    TEXT("sentence")};
 static const char *const spare_hypothesis_columns[] = {"slider_restart", "omega_factor",   "value_factor",
                                                        "static",         "truth_distance", "quantity",
                                                        "samples",        "harmonics",      NULL};
@@ -194,7 +184,6 @@ typedef struct verified {
   verify_report report;
 } verified;
 
-/* One call of the command. */
 typedef struct verify_call {
   cli_common *common;
   const verify_options *own;
@@ -202,11 +191,6 @@ typedef struct verify_call {
   int n;        /* curves */
   verified *of; /* [n] */
 } verify_call;
-
-static void put_response(table *t, const scene *sc, const verified *v)
-{
-  if (sc->structure) table_put_text(t, v->curve.name);
-}
 
 static const char *meaning_for_point(verdict v)
 {
@@ -258,7 +242,9 @@ static void note_verification(table *t, const scene *sc, const verify_data *data
 static int write_tables(const verify_call *call)
 {
   const scene *sc = call->sc;
+  const bool of_structure = sc->structure != NULL;
   const unsigned extra = cli_extra_columns(sc);
+  char words[VERIFY_TEXT], guess[VERIFY_TEXT], sentence[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
   table *points = cli_own_table("Points", extra, CLI_COLUMNS(columns)),
         *hypotheses = cli_own_table("Hypotheses", extra, CLI_COLUMNS(hypothesis_columns)),
         *summary = cli_own_table("Summary", extra, CLI_COLUMNS(summary_columns)), *tables[3] = {points};
@@ -270,52 +256,30 @@ static int write_tables(const verify_call *call)
     for (int i = 0; i < r->n_rows; ++i) {
       const verify_row *row = &r->rows[i];
       const verify_quantity *q = &v->data.quantity;
-      table_put_real(points, row->omega);
-      if (sc->in_cycles) table_put_real(points, scene_frequency(sc, row->omega));
-      table_put_real(points, verify_quantity_to_column(q, row->value));
-      table_put_real(points, verify_quantity_to_column(q, row->nearest));
-      table_put_integer_if(points, row->branch >= 0, row->branch);
-      put_response(points, sc, v);
-      table_put_text(points, row->branch < 0 ? NULL : row->stable > 0 ? "yes" : row->stable < 0 ? "no" : "unknown");
-      table_put_real(points, row->error);
-      table_put_text(points, row->skipped ? "skipped" : verdict_name(row->verdict));
-      table_put_integer(points, row->line);
+      const char *stable = row->stable > 0 ? "yes" : row->stable < 0 ? "no" : "unknown";
+      TABLE_ROW(points, CELL(row->omega), CELL_OF(sc->in_cycles, scene_frequency(sc, row->omega)),
+                CELL(verify_quantity_to_column(q, row->value)), CELL(verify_quantity_to_column(q, row->nearest)),
+                CELL_IF(row->branch >= 0, row->branch), CELL_OF(of_structure, v->curve.name),
+                CELL_IF(row->branch >= 0, stable), CELL(row->error),
+                CELL(row->skipped ? "skipped" : verdict_name(row->verdict)), CELL(row->line));
     }
     for (int i = 0; i < r->n_hypotheses && i < VERIFY_SHOWN; ++i) {
       const verify_hypothesis *h = &r->hypotheses[i];
-      char words[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
       const verify_equations *e = &h->equations;
       const bool linear = verify_equations_linear(e);
-      put_response(hypotheses, sc, v);
-      table_put_text(hypotheses, verify_cause_words(h->causes, words));
-      table_put_real(hypotheses, h->distance);
-      table_put_real(hypotheses, v->report.truth_distance);
-      table_put_integer_if(hypotheses, !linear, e->harmonics);
-      table_put_text(hypotheses, linear ? NULL : e->keep_mean ? "true" : "false");
-      table_put_integer_if(hypotheses, e->samples > 0, e->samples);
-      table_put_text(hypotheses, !e->samples ? NULL : e->restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated");
-      table_put_real(hypotheses, h->omega_factor);
-      table_put_real(hypotheses, h->value_factor);
-      table_put_text(hypotheses, verify_quantity_name(&h->quantity, name));
+      TABLE_ROW(hypotheses, CELL_OF(of_structure, v->curve.name), CELL(verify_cause_words(h->causes, words)),
+                CELL(h->distance), CELL(r->truth_distance), CELL_IF(!linear, e->harmonics),
+                CELL_IF(!linear, e->keep_mean ? "true" : "false"), CELL_IF(e->samples > 0, e->samples),
+                CELL_IF(e->samples > 0, e->restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated"),
+                CELL(h->omega_factor), CELL(h->value_factor), CELL(verify_quantity_name(&h->quantity, name)));
     }
     n_hypotheses += r->n_hypotheses;
-    char text[VERIFY_TEXT], name[VERIFY_QUANTITY_TEXT];
-    put_response(summary, sc, v);
-    table_put_text(summary, verify_word(r, text));
-    table_put_text(summary, r->nearest_guess ? verify_cause_words(r->nearest_guess, text) : NULL);
-    table_put_text(summary, verify_quantity_name(&v->data.quantity, name));
-    table_put_integer(summary, r->n_rows);
-    table_put_integer(summary, r->count[VERDICT_MATCH]);
-    table_put_integer(summary, r->count[VERDICT_DIFFERS]);
-    table_put_integer(summary, r->count[VERDICT_UNSTABLE]);
-    table_put_integer(summary, r->count[VERDICT_OTHER_BRANCH]);
-    table_put_integer(summary, r->count[VERDICT_SOLVER_FAILED]);
-    table_put_integer(summary, r->skipped);
-    table_put_integer(summary, r->left_out);
-    table_put_integer(summary, r->reversals);
-    table_put_real(summary, r->truth_distance);
-    table_put_real(summary, r->noise);
-    table_put_text(summary, verify_sentence(r, text));
+    TABLE_ROW(summary, CELL_OF(of_structure, v->curve.name), CELL(verify_word(r, words)),
+              CELL(r->nearest_guess ? verify_cause_words(r->nearest_guess, guess) : NULL),
+              CELL(verify_quantity_name(&v->data.quantity, name)), CELL(r->n_rows), CELL(r->count[VERDICT_MATCH]),
+              CELL(r->count[VERDICT_DIFFERS]), CELL(r->count[VERDICT_UNSTABLE]), CELL(r->count[VERDICT_OTHER_BRANCH]),
+              CELL(r->count[VERDICT_SOLVER_FAILED]), CELL(r->skipped), CELL(r->left_out), CELL(r->reversals),
+              CELL(r->truth_distance), CELL(r->noise), CELL(verify_sentence(r, sentence)));
     if (sc->structure) table_note(points, "response %s", v->curve.name);
     note_verification(points, sc, &v->data, r);
   }

@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/path.h"
 #include "output/same_file.h"
 
 enum { MAX_TRIES = 10000, MOST_BESIDE = 8 };
@@ -19,21 +20,13 @@ enum { MAX_TRIES = 10000, MOST_BESIDE = 8 };
  * place. More than these many at a time are not removed by it. */
 static _Atomic(char *) all_beside[MOST_BESIDE];
 
+/* Put a new one in the place of NULL, or NULL in that of one whose name is about to be freed. */
 /* NOLINTNEXTLINE(readability-non-const-parameter): the list holds it as it is kept elsewhere, not const */
-static void remember(char *beside)
+static void replace_beside(char *old, char *new)
 {
   for (int i = 0; i < MOST_BESIDE; ++i) {
-    char *none = NULL;
-    if (atomic_compare_exchange_strong(&all_beside[i], &none, beside)) return;
-  }
-}
-
-/* Before the text of that name is freed. */
-static void forget(char *beside)
-{
-  for (int i = 0; i < MOST_BESIDE; ++i) {
-    char *this = beside;
-    if (atomic_compare_exchange_strong(&all_beside[i], &this, NULL)) return;
+    char *this = old;
+    if (atomic_compare_exchange_strong(&all_beside[i], &this, new)) return;
   }
 }
 
@@ -57,12 +50,12 @@ static int open_beside(output *o)
   for (int i = 0; i < MAX_TRIES; ++i) {
     char name[64];
     snprintf(name, sizeof name, ".hbmcheck-%ld-%d", (long)getpid(), i);
-    char *beside = file_beside(o->target, name);
+    char *beside = path_beside(o->target, name, strlen(name));
     if (!beside) return -1;
     int fd = open(beside, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd >= 0) {
       o->beside = beside;
-      remember(beside);
+      replace_beside(NULL, beside);
       return fd;
     }
     free(beside);
@@ -116,7 +109,7 @@ static void discard(output *o)
   if (o->stream && o->stream != stdout) fclose(o->stream);
   if (o->beside) {
     unlink(o->beside);
-    forget(o->beside);
+    replace_beside(o->beside, NULL);
   }
   free(o->beside);
   free(o->target);
@@ -151,7 +144,7 @@ hc_status output_commit(output *o)
   if (lost && errno == 0) errno = EIO; /* the errno of the write that failed is lost */
   bool good = flushed && !lost;
   if (good && o->beside && (good = rename(o->beside, o->target) == 0)) {
-    forget(o->beside);
+    replace_beside(o->beside, NULL);
     free(o->beside);
     o->beside = NULL;
   }

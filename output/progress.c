@@ -10,6 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/thread_clock.h"
 #include "base/utf8.h"
 #include "output/output.h"
 
@@ -107,13 +108,6 @@ int progress_interrupted(void) { return stop_signal; }
 
 void progress_child(pid_t pid) { child = (sig_atomic_t)pid; }
 
-static double clock_seconds(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 void progress_line(char *line, size_t size, const char *label, double done, double elapsed, int columns)
 {
   /* "  37 %  12 s left", "  12 s" when unknown, or nothing to say yet */
@@ -141,7 +135,7 @@ static void draw_line(progress *p, double done)
   char line[LINE_ROOM];
   struct winsize w;
   const int columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &w) == 0 && w.ws_col > 0 ? w.ws_col : 80;
-  p->drawn = clock_seconds();
+  p->drawn = wall_seconds();
   progress_line(line, sizeof line, p->label, done, p->drawn - p->start, columns - 1); /* a full line would wrap */
   line_drawn = true;
   fprintf(stderr, "\r%s\033[K", line);
@@ -154,7 +148,7 @@ progress *progress_start(const char *label, bool quiet)
   const char *term = getenv("TERM");
   if (!p) return NULL;
   if (!quiet && term && *term && strcmp(term, "dumb") != 0 && isatty(STDERR_FILENO)) p->label = utf8_clean(label, true);
-  p->start = clock_seconds();
+  p->start = wall_seconds();
   if (p->label) draw_line(p, -1);
   return p;
 }
@@ -163,7 +157,7 @@ static bool tick_progress(void *self, double done)
 {
   progress *p = self;
   if (stop_signal) return false;
-  if (p && p->label && clock_seconds() - p->drawn >= interval) draw_line(p, done);
+  if (p && p->label && wall_seconds() - p->drawn >= interval) draw_line(p, done);
   return true;
 }
 

@@ -38,17 +38,29 @@ static const char *stable_text(const response_row *r)
 }
 
 /* clang-format off */
+/* ---- what several kinds have ---- */
+#define AT_OMEGA(X, C, at) \
+  X(REAL,    "omega",      true, at) \
+  C(REAL,    "frequency",  true, (at) / TWO_PI)
+
+#define MEASURES(X, there, m) \
+  X(REAL,    "amplitude",  there, (m).amplitude) \
+  X(REAL,    "max",        there, (m).max) \
+  X(REAL,    "min",        there, (m).min) \
+  X(REAL,    "rms",        there, (m).rms) \
+  X(REAL,    "mean",       there, (m).mean) \
+  X(REAL,    "harmonic_1", there, (m).harmonic_1)
+
+#define ONE_CONTACT(X, R) \
+  X(INTEGER, "contact",    true, r->contact) \
+  R(TEXT,    "name",       *r->name, r->name)
+
+/* ---- each kind ---- */
 #define FRF_COLUMNS(X, C, R)                                                   \
-  X(REAL,    "omega",      true, r->point.omega)                            \
-  C(REAL,    "frequency",  true, r->point.omega / TWO_PI)                   \
+  AT_OMEGA(X, C, r->point.omega) \
   X(INTEGER, "branch",     true, r->point.branch)                           \
   R(TEXT,    "response",   true, r->response)                               \
-  X(REAL,    "amplitude",  true, r->measures.amplitude)                     \
-  X(REAL,    "max",        true, r->measures.max)                           \
-  X(REAL,    "min",        true, r->measures.min)                           \
-  X(REAL,    "rms",        true, r->measures.rms)                           \
-  X(REAL,    "mean",       true, r->measures.mean)                          \
-  X(REAL,    "harmonic_1", true, r->measures.harmonic_1)                    \
+  MEASURES(X, true, r->measures) \
   X(TEXT,    "stable",     true, stable_text(r))                            \
   X(REAL,    "multiplier", r->stability_known, r->stability.multiplier)     \
   X(TEXT,    "contact",    true, contact_regime_name(r->measures.contact.regime)) \
@@ -57,16 +69,10 @@ static const char *stable_text(const response_row *r)
   X(TEXT,    "mean_free",  true, yes_no(r->measures.contact.free_sliders > 0))
 
 #define TRANSIENT_COLUMNS(X, C, R)                                             \
-  X(REAL,    "omega",      true, r->result.omega)                           \
-  C(REAL,    "frequency",  true, r->result.omega / TWO_PI)                  \
+  AT_OMEGA(X, C, r->result.omega) \
   R(TEXT,    "response",   true, r->response_name)                          \
   X(TEXT,    "verdict",    true, steady_verdict_text(r, (char[24]){0}))     \
-  X(REAL,    "amplitude",  measured(r), r->result.amplitude)                \
-  X(REAL,    "max",        measured(r), r->result.max)                      \
-  X(REAL,    "min",        measured(r), r->result.min)                      \
-  X(REAL,    "rms",        measured(r), r->result.rms)                      \
-  X(REAL,    "mean",       measured(r), r->result.mean)                     \
-  X(REAL,    "harmonic_1", measured(r), r->result.harmonic_1)               \
+  MEASURES(X, measured(r), r->result) \
   X(INTEGER, "periods",    true, r->result.periods)                         \
   X(REAL,    "closure",    measured(r), r->result.closure)                  \
   X(INTEGER, "period_multiple", true, settled(r) ? r->result.period_multiple : 0) \
@@ -82,8 +88,7 @@ static const char *stable_text(const response_row *r)
   R(REAL,    "second_frequency", measured(r), r->result.second_frequency)
 
 #define COMPARE_COLUMNS(X, C, R)                                               \
-  X(REAL,    "omega",               true, r->omega)                         \
-  C(REAL,    "frequency",           true, r->omega / TWO_PI)                \
+  AT_OMEGA(X, C, r->omega) \
   X(INTEGER, "branch",              r->branch >= 0, r->branch)              \
   R(TEXT,    "response",            true, r->response_name)                 \
   X(TEXT,    "verdict",             true, comparison_verdict_text(r, (char[24]){0})) \
@@ -156,8 +161,7 @@ static const char *stable_text(const response_row *r)
 #define ORDER_COLUMNS(X, C, R)                                                 \
   X(TEXT,    "quantity",        true, r->quantity)                          \
   X(INTEGER, "harmonics",       r->harmonics > 0, r->harmonics)             \
-  X(REAL,    "omega",           true, r->omega)                             \
-  C(REAL,    "frequency",       true, r->omega / TWO_PI)                    \
+  AT_OMEGA(X, C, r->omega) \
   X(REAL,    "order",           true, r->fit.order)                         \
   X(REAL,    "spread",          true, r->fit.spread)                        \
   X(REAL,    "from",            true, r->fit.from)                          \
@@ -173,19 +177,15 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "work",          true, (p).work)
 
 #define CONTACT_COLUMNS(X, C, R)                                               \
-  X(REAL,    "omega",         true, r->omega)                               \
-  C(REAL,    "frequency",     true, r->omega / TWO_PI)                      \
+  AT_OMEGA(X, C, r->omega) \
   X(INTEGER, "branch",        true, r->branch)                              \
-  X(INTEGER, "contact",       true, r->contact)                             \
-  R(TEXT,    "name",          *r->name, r->name)                            \
+  ONE_CONTACT(X, R) \
   PERIOD_COLUMNS(X, r->period)
 
 #define STEADY_CONTACT_COLUMNS(X, C, R)                                        \
-  X(REAL,    "omega",         true, r->omega)                               \
-  C(REAL,    "frequency",     true, r->omega / TWO_PI)                      \
+  AT_OMEGA(X, C, r->omega) \
   X(TEXT,    "start",         true, r->start)                               \
-  X(INTEGER, "contact",       true, r->contact)                             \
-  R(TEXT,    "name",          *r->name, r->name)                            \
+  ONE_CONTACT(X, R) \
   PERIOD_COLUMNS(X, r->period)
 
 #define BOTH_SIDES(X, name, member)                                            \
@@ -193,11 +193,9 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "transient_" name, r->transient_status == HC_OK, r->transient.member)
 
 #define COMPARE_CONTACT_COLUMNS(X, C, R)                                       \
-  X(REAL,    "omega",         true, r->omega)                               \
-  C(REAL,    "frequency",     true, r->omega / TWO_PI)                      \
+  AT_OMEGA(X, C, r->omega) \
   X(INTEGER, "branch",        true, r->branch)                              \
-  X(INTEGER, "contact",       true, r->contact)                             \
-  R(TEXT,    "name",          *r->name, r->name)                            \
+  ONE_CONTACT(X, R) \
   X(TEXT,    "verdict",       true, r->verdict)                             \
   X(TEXT,    "contact_verdict", contact_comparison_made(r), r->differs ? "differs" : "match") \
   X(TEXT,    "hbm_regime",    r->hbm_status == HC_OK, contact_regime_name(r->hbm.regime)) \
@@ -274,7 +272,7 @@ static const char *const of_others[] = {"omega", NULL};
 
 /* Its columns with each sum of extra ones, and what fills a row. */
 /* clang-format off */
-#define KIND_OF(name, row, LIST) \
+#define KIND_OF(kind, name, row, LIST, spare) \
   static const table_column name##_plain[] = {LIST(COLUMN, NONE, NONE)}, \
                             name##_in_cycles[] = {LIST(COLUMN, COLUMN, NONE)}, \
                             name##_responses[] = {LIST(COLUMN, NONE, COLUMN)}, \
@@ -287,20 +285,23 @@ static const char *const of_others[] = {"omega", NULL};
     LIST(FILL, FILL_CYCLES, FILL_RESPONSE) \
   }
 #define LENGTH(list) (sizeof(list) / sizeof *(list))
-KIND_OF(frf, response_row, FRF_COLUMNS)
-KIND_OF(transient, steady_row, TRANSIENT_COLUMNS)
-KIND_OF(compare, comparison_row, COMPARE_COLUMNS)
-KIND_OF(curve, response_summary, CURVE_COLUMNS)
-KIND_OF(accuracy, accuracy_row, ACCURACY_COLUMNS)
-KIND_OF(order, order_row, ORDER_COLUMNS)
-KIND_OF(contact, contact_row, CONTACT_COLUMNS)
-KIND_OF(steady_contact, steady_contact, STEADY_CONTACT_COLUMNS)
-KIND_OF(compare_contact, contact_comparison, COMPARE_CONTACT_COLUMNS)
+/* X(kind of rows_kind, name, type of a row, its columns, those to spare) */
+#define KINDS(X) \
+  X(ROWS_FRF, frf, response_row, FRF_COLUMNS, of_frf) \
+  X(ROWS_TRANSIENT, transient, steady_row, TRANSIENT_COLUMNS, of_transient) \
+  X(ROWS_COMPARE, compare, comparison_row, COMPARE_COLUMNS, of_compare) \
+  X(ROWS_CURVE, curve, response_summary, CURVE_COLUMNS, of_others) \
+  X(ROWS_ACCURACY, accuracy, accuracy_row, ACCURACY_COLUMNS, of_accuracy) \
+  X(ROWS_ORDER, order, order_row, ORDER_COLUMNS, of_others) \
+  X(ROWS_CONTACT, contact, contact_row, CONTACT_COLUMNS, of_contact) \
+  X(ROWS_STEADY_CONTACT, steady_contact, steady_contact, STEADY_CONTACT_COLUMNS, of_contact) \
+  X(ROWS_COMPARE_CONTACT, compare_contact, contact_comparison, COMPARE_CONTACT_COLUMNS, of_compare_contact)
+KINDS(KIND_OF)
 
-#define KIND(name, row, spare) \
-  {{{name##_plain, LENGTH(name##_plain)}, {name##_in_cycles, LENGTH(name##_in_cycles)}, \
-    {name##_responses, LENGTH(name##_responses)}, {name##_both, LENGTH(name##_both)}}, \
-   name##_cells, sizeof(row), spare}
+#define KIND(kind, name, row, LIST, spare) \
+  [kind] = {{{name##_plain, LENGTH(name##_plain)}, {name##_in_cycles, LENGTH(name##_in_cycles)}, \
+             {name##_responses, LENGTH(name##_responses)}, {name##_both, LENGTH(name##_both)}}, \
+            name##_cells, sizeof(row), spare},
 static const struct kind {
   struct {
     const table_column *columns;
@@ -309,17 +310,7 @@ static const struct kind {
   void (*cells)(const void *row, unsigned extra, row_cell *cells);
   size_t size; /* of a row */
   const char *const *spare;
-} kinds[] = {
-    [ROWS_FRF] = KIND(frf, response_row, of_frf),
-    [ROWS_TRANSIENT] = KIND(transient, steady_row, of_transient),
-    [ROWS_COMPARE] = KIND(compare, comparison_row, of_compare),
-    [ROWS_CURVE] = KIND(curve, response_summary, of_others),
-    [ROWS_ACCURACY] = KIND(accuracy, accuracy_row, of_accuracy),
-    [ROWS_ORDER] = KIND(order, order_row, of_others),
-    [ROWS_CONTACT] = KIND(contact, contact_row, of_contact),
-    [ROWS_STEADY_CONTACT] = KIND(steady_contact, steady_contact, of_contact),
-    [ROWS_COMPARE_CONTACT] = KIND(compare_contact, contact_comparison, of_compare_contact),
-};
+} kinds[] = {KINDS(KIND)};
 /* clang-format on */
 
 const table_column *rows_columns(rows_kind kind, unsigned extra, int *n)

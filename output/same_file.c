@@ -6,18 +6,9 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MAX_LINKS = 40, MAX_LINK_TEXT = 4096 };
+#include "base/path.h"
 
-char *file_beside(const char *path, const char *name)
-{
-  const char *slash = strrchr(path, '/');
-  size_t folder = slash && *name != '/' ? (size_t)(slash - path) + 1 : 0, length = strlen(name);
-  char *joined = malloc(folder + length + 1);
-  if (!joined) return NULL;
-  memcpy(joined, path, folder);
-  memcpy(joined + folder, name, length + 1);
-  return joined;
-}
+enum { MAX_LINKS = 40, MAX_LINK_TEXT = 4096 };
 
 char *file_follow_links(const char *path)
 {
@@ -31,8 +22,7 @@ char *file_follow_links(const char *path)
       errno = ELOOP;
       return NULL;
     }
-    text[n] = 0;
-    char *next = file_beside(at, text);
+    char *next = path_beside(at, text, (size_t)n);
     free(at);
     at = next;
   }
@@ -42,7 +32,7 @@ char *file_follow_links(const char *path)
 /* The folder that `path`, its links followed, is in. False where there is none. */
 static bool look_at_folder(const char *path, struct stat *folder)
 {
-  char *of = file_beside(path, ".");
+  char *of = path_beside(path, ".", 1);
   bool found = of && stat(of, folder) == 0;
   free(of);
   return found;

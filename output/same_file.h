@@ -29,7 +29,4 @@ bool file_is_in(const char *path, const char *folder);
  * ELOOP for links in a circle. */
 char *file_follow_links(const char *path);
 
-/* `name` in the folder of `path`, or just `name` if absolute: to be freed; NULL: out of memory. */
-char *file_beside(const char *path, const char *name);
-
 #endif

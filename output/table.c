@@ -127,10 +127,15 @@ void table_put_real(table *t, double value)
 
 void table_put_missing(table *t) { next_cell(t); }
 
-void table_put_integer_if(table *t, bool there, long value)
+void table_put_values(table *t, int n, const table_value *values)
 {
-  if (there) table_put_integer(t, value);
-  else table_put_missing(t);
+  for (const table_value *v = values; v < values + n; ++v) {
+    if (!v->has) continue;
+    if (!v->there) table_put_missing(t);
+    else if (v->kind == TABLE_TEXT) table_put_text(t, v->as.text);
+    else if (v->kind == TABLE_INTEGER) table_put_integer(t, v->as.integer);
+    else table_put_real(t, v->as.real);
+  }
 }
 
 /* printf into new memory, with '.' for the decimal point. */

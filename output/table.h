@@ -15,6 +15,18 @@ typedef struct {
   const char *name;
   table_kind kind;
 } table_column;
+#define TEXT(name)                                                                                                     \
+  {                                                                                                                    \
+    name, TABLE_TEXT                                                                                                   \
+  }
+#define INTEGER(name)                                                                                                  \
+  {                                                                                                                    \
+    name, TABLE_INTEGER                                                                                                \
+  }
+#define REAL(name)                                                                                                     \
+  {                                                                                                                    \
+    name, TABLE_REAL                                                                                                   \
+  }
 typedef enum { FORMAT_TABLE, FORMAT_CSV, FORMAT_JSON } table_format;
 
 typedef struct table table;
@@ -32,7 +44,41 @@ void table_put_text(table *t, const char *value);
 void table_put_integer(table *t, long value);
 void table_put_real(table *t, double value);
 void table_put_missing(table *t);
-void table_put_integer_if(table *t, bool there, long value); /* else missing */
+
+/* The values of a row, or some of them: CELL(x) of a text, an integer or a real; CELL_IF(there, x), else missing;
+ * CELL_OF(has, x), of a column that only some tables have. */
+typedef struct table_value {
+  table_kind kind;
+  bool has, there;
+  union {
+    const char *text;
+    long integer;
+    double real;
+  } as;
+} table_value;
+void table_put_values(table *t, int n, const table_value *values);
+/* clang-format off */
+#define TABLE_ROW(t, ...) \
+  table_put_values(t, sizeof (table_value[]){__VA_ARGS__} / sizeof(table_value), (table_value[]){__VA_ARGS__})
+#define CELL(x) CELL_OF(true, x)
+#define CELL_IF(there, x) TABLE_VALUE(true, there, x)
+#define CELL_OF(has, x) TABLE_VALUE(has, true, x)
+#define TABLE_VALUE(has, there, x) \
+  _Generic((x), double: table_real, int: table_integer, long: table_integer, char *: table_text, \
+           const char *: table_text)(has, there, x)
+/* clang-format on */
+static inline table_value table_text(bool has, bool there, const char *text)
+{
+  return (table_value){TABLE_TEXT, has, there, .as.text = text};
+}
+static inline table_value table_integer(bool has, bool there, long integer)
+{
+  return (table_value){TABLE_INTEGER, has, there, .as.integer = integer};
+}
+static inline table_value table_real(bool has, bool there, double real)
+{
+  return (table_value){TABLE_REAL, has, there, .as.real = real};
+}
 /* A remark about the whole table, one line: after it in `table`, as "# ..." lines before the header in csv, under
  * "notes" in json. */
 void table_note(table *t, const char *format, ...) __attribute__((format(printf, 2, 3)));

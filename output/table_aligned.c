@@ -22,16 +22,20 @@ enum {
 };
 
 typedef struct column_style {
+  bool shown;
+  int width; /* in terminal columns */
+  /* of numbers in lines that are not wrapped */
   bool scientific;
   int decimals;
-  int width; /* in terminal columns */
+  /* of texts that are wrapped */
+  int word;         /* width of the longest one, header included */
+  const char *rest; /* of the text being written */
 } column_style;
 
 /* A table as it will look. */
 typedef struct layout {
   const table *t;
   column_style *style; /* [n_columns] */
-  bool *shown;         /* [n_columns] */
   int first, last;     /* columns shown: the first one begins every block, the last one's texts are never cut */
 } layout;
 
@@ -108,12 +112,20 @@ static void write_fitted(line_writer *l, const char *text, int columns)
   owe_spaces(l, columns - width);
 }
 
-static bool too_long(const layout *l)
+static int count_shown(const table *t, const column_style *style)
+{
+  int n = 0;
+  for (int j = 0; j < t->n_columns; ++j) n += style[j].shown;
+  return n;
+}
+
+/* Of a line in which each column has its width, or that of its longest word. */
+static int line_width(const table *t, const column_style *style, bool words)
 {
   int width = -BETWEEN;
-  for (int j = 0; j < l->t->n_columns; ++j)
-    if (l->shown[j]) width += l->style[j].width + BETWEEN;
-  return l->t->fit > 0 && width > l->t->fit;
+  for (int j = 0; j < t->n_columns; ++j)
+    if (style[j].shown) width += BETWEEN + (words ? style[j].word : style[j].width);
+  return width;
 }
 
 static bool is_empty(const table *t, int column)
@@ -123,11 +135,20 @@ static bool is_empty(const table *t, int column)
   return true;
 }
 
+/* Columns to spare go, one after the other, while a line is too long; only_empty: of these the empty ones. */
+static void drop_columns(const table *t, column_style *style, int longest, bool words, bool only_empty)
+{
+  const char *const *name = t->spare;
+  for (; name && *name && longest > 0 && line_width(t, style, words) > longest; ++name)
+    for (int j = 0; j < t->n_columns; ++j)
+      if (!strcmp(t->columns[j].name, *name) && (!only_empty || is_empty(t, j))) style[j].shown = false;
+}
+
 static void write_cell(line_writer *w, const layout *l, int column, const char *text)
 {
   const column_style *style = &l->style[column];
   bool number = l->t->columns[column].kind != TABLE_TEXT;
-  if (!l->shown[column]) return;
+  if (!style->shown) return;
   if (w->begun) owe_spaces(w, BETWEEN);
   w->begun = true;
   if (number) owe_spaces(w, style->width - utf8_width(text));
@@ -141,12 +162,22 @@ static void write_line(line_writer *l, const char *text)
   end_line(l);
 }
 
+/* The remarks, and how many columns are shown if there were to be more. */
+static void write_notes(line_writer *w, const table *t, int wanted, int shown)
+{
+  char text[64];
+  if (t->n_notes || shown < wanted) end_line(w);
+  for (size_t i = 0; i < t->n_notes; ++i) write_line(w, t->notes[i]);
+  snprintf(text, sizeof text, "%d of %d columns shown; --wide shows all", shown, t->n_columns);
+  if (shown < wanted) write_line(w, text);
+}
+
 /* Where the block ends that begins at `from`: it has one column at least, beside the first one of all. */
 static int end_of_block(const layout *l, int from)
 {
   int width = l->style[l->first].width, to = from > l->first ? from : l->first + 1;
   for (int n = 0; to <= l->last; ++to) {
-    if (!l->shown[to]) continue;
+    if (!l->style[to].shown) continue;
     width += BETWEEN + l->style[to].width;
     if (n++ > 0 && l->t->fit > 0 && width > l->t->fit) break;
   }
@@ -157,13 +188,12 @@ hc_status table_write_aligned(const table *t, FILE *to)
 {
   const size_t n = (size_t)t->n_columns;
   line_writer w = {.to = to};
-  layout l = {.t = t, .style = calloc(n, sizeof *l.style), .shown = calloc(n, sizeof *l.shown)};
-  const bool good = l.style && l.shown;
-  if (good) {
+  layout l = {.t = t, .style = calloc(n, sizeof *l.style)};
+  if (l.style) {
     if (*t->title) write_line(&w, t->title);
     for (int j = 0; j < t->n_columns; ++j) {
       column_style *style = &l.style[j];
-      *style = (column_style){.width = 0};
+      style->shown = !t->hidden[j];
       if (t->columns[j].kind == TABLE_REAL) {
         int largest = 0, decimals = 0, mantissa = 0;
         for (int i = 0; i < table_row_count(t); ++i) {
@@ -186,17 +216,13 @@ hc_status table_write_aligned(const table *t, FILE *to)
       if (style->width > MAX_TEXT_WIDTH) style->width = MAX_TEXT_WIDTH;
       int header = utf8_width(t->columns[j].name);
       if (header > style->width) style->width = header;
-      l.shown[j] = !t->hidden[j];
     }
-    const int wanted = table_shown(t, l.shown);
-    /* Empty columns go first. */
-    for (int only_empty = 1; only_empty >= 0; --only_empty)
-      for (const char *const *name = l.t->spare; name && *name && too_long(&l); ++name)
-        for (int j = 0; j < l.t->n_columns; ++j)
-          if (!strcmp(l.t->columns[j].name, *name) && (!only_empty || is_empty(l.t, j))) l.shown[j] = false;
+    const int wanted = count_shown(t, l.style);
+    drop_columns(t, l.style, t->fit, false, true);
+    drop_columns(t, l.style, t->fit, false, false);
     l.last = t->n_columns - 1;
-    while (l.first < l.last && !l.shown[l.first]) ++l.first;
-    while (l.last > l.first && !l.shown[l.last]) --l.last;
+    while (l.first < l.last && !l.style[l.first].shown) ++l.first;
+    while (l.last > l.first && !l.style[l.last].shown) --l.last;
     for (int from = l.first, end; from <= l.last; from = end) {
       end = end_of_block(&l, from);
       if (from > l.first) end_line(&w);
@@ -210,15 +236,10 @@ hc_status table_write_aligned(const table *t, FILE *to)
         end_line(&w);
       }
     }
-    int lost = wanted - table_shown(t, l.shown);
-    char text[64];
-    if (l.t->n_notes || lost) end_line(&w);
-    for (size_t i = 0; i < l.t->n_notes; ++i) write_line(&w, l.t->notes[i]);
-    snprintf(text, sizeof text, TABLE_SHOWN, table_shown(l.t, l.shown), l.t->n_columns);
-    if (lost) write_line(&w, text);
+    write_notes(&w, t, wanted, count_shown(t, l.style));
   }
+  const bool good = l.style;
   free(l.style);
-  free(l.shown);
   return good ? HC_OK : HC_NO_MEMORY;
 }
 
@@ -227,11 +248,8 @@ hc_status table_write_aligned(const table *t, FILE *to)
  * other ---- */
 
 typedef struct wrapped {
-  char **texts; /* [rows + 1][columns], the header first */
-  int *widths;  /* [columns] */
-  int *words;   /* [columns] the longest word of each, header included */
-  bool *shown;  /* [columns] */
-  const char **rest;
+  char **texts;        /* [rows + 1][columns], the header first */
+  column_style *style; /* [columns] */
 } wrapped;
 
 static int width_of(const char *text, size_t bytes)
@@ -244,14 +262,15 @@ static int width_of(const char *text, size_t bytes)
 /* The widest text of a column and its longest word, header included. */
 static void measure_column(const table *t, const wrapped *w, int column)
 {
+  column_style *style = &w->style[column];
   for (int i = 0; i <= table_row_count(t); ++i) {
     const char *text = w->texts[i * t->n_columns + column];
     const int width = utf8_width(text);
-    if (width > w->widths[column]) w->widths[column] = width;
+    if (width > style->width) style->width = width;
     for (const char *at = text; *at; at += strspn(at, " ")) {
       const size_t bytes = strcspn(at, " ");
       const int word = width_of(at, bytes);
-      if (word > w->words[column]) w->words[column] = word;
+      if (word > style->word) style->word = word;
       at += bytes;
     }
   }
@@ -259,23 +278,16 @@ static void measure_column(const table *t, const wrapped *w, int column)
 
 /* The widest column that is wider than it has to be: than its longest word, or else, once no such one is left, than
  * NARROWEST. -1: none is. */
-static int column_to_narrow(const table *t, const wrapped *w)
+static int column_to_narrow(const table *t, const column_style *style)
 {
   int whole = -1, any = -1;
   for (int j = 0; j < t->n_columns; ++j) {
-    if (!w->shown[j] || w->widths[j] <= NARROWEST) continue;
-    if (any < 0 || w->widths[j] > w->widths[any]) any = j;
-    if (w->widths[j] > w->words[j] && (whole < 0 || w->widths[j] > w->widths[whole])) whole = j;
+    const column_style *c = &style[j];
+    if (!c->shown || c->width <= NARROWEST) continue;
+    if (any < 0 || c->width > style[any].width) any = j;
+    if (c->width > c->word && (whole < 0 || c->width > style[whole].width)) whole = j;
   }
   return whole >= 0 ? whole : any;
-}
-
-static int total_of(const table *t, const wrapped *w, const int *widths)
-{
-  int total = -BETWEEN;
-  for (int j = 0; j < t->n_columns; ++j)
-    if (w->shown[j]) total += BETWEEN + widths[j];
-  return total;
 }
 
 /* Bytes of the next line of *rest, which is moved past them and past the spaces before them; where it starts goes
@@ -303,24 +315,25 @@ static size_t next_part(const char **rest, int width, const char **from)
 static bool anything_left(const table *t, const wrapped *w)
 {
   for (int j = 0; j < t->n_columns; ++j)
-    if (*w->rest[j]) return true;
+    if (*w->style[j].rest) return true;
   return false;
 }
 
 /* Returns how many lines it takes. */
 static int write_wrapped_row(const table *t, const wrapped *w, int row, FILE *to)
 {
-  for (int j = 0; j < t->n_columns; ++j) w->rest[j] = !w->shown[j] ? "" : w->texts[row * t->n_columns + j];
+  for (int j = 0; j < t->n_columns; ++j) w->style[j].rest = w->style[j].shown ? w->texts[row * t->n_columns + j] : "";
   int lines = 0;
   do {
     int spaces = 0;
     for (int j = 0; j < t->n_columns; ++j) {
+      column_style *c = &w->style[j];
       const char *from;
-      if (!w->shown[j]) continue;
-      size_t n = next_part(&w->rest[j], w->widths[j], &from);
+      if (!c->shown) continue;
+      size_t n = next_part(&c->rest, c->width, &from);
       int own = width_of(from, n);
       if (n) fprintf(to, "%*s%.*s", spaces, "", (int)n, from);
-      spaces = (n ? 0 : spaces) + w->widths[j] - own + BETWEEN;
+      spaces = (n ? 0 : spaces) + c->width - own + BETWEEN;
     }
     putc('\n', to);
     ++lines;
@@ -340,7 +353,7 @@ static char *wrapped_text(const table *t, int row, int column)
 
 static bool copy_texts(const table *t, const wrapped *w)
 {
-  if (!w->texts || !w->widths || !w->words || !w->shown || !w->rest) return false;
+  if (!w->texts || !w->style) return false;
   for (int j = 0; j < t->n_columns; ++j)
     if (!(w->texts[j] = strdup(t->columns[j].name))) return false;
   for (int i = 0; i < table_row_count(t); ++i)
@@ -353,37 +366,28 @@ hc_status table_write_wrapped(const table *t, FILE *to)
 {
   const size_t columns = (size_t)t->n_columns + 1,
                cells = columns * ((size_t)table_row_count(t) + 1); /* none of 0 bytes */
-  wrapped w = {calloc(cells, sizeof *w.texts), calloc(columns, sizeof *w.widths), calloc(columns, sizeof *w.words),
-               calloc(columns, sizeof *w.shown), calloc(columns, sizeof *w.rest)};
+  wrapped w = {calloc(cells, sizeof *w.texts), calloc(columns, sizeof *w.style)};
+  line_writer line = {.to = to};
   bool good = copy_texts(t, &w);
   if (good) {
     for (int j = 0; j < t->n_columns; ++j) {
-      w.shown[j] = !t->hidden[j];
+      w.style[j].shown = !t->hidden[j];
       measure_column(t, &w, j);
     }
-    const int wanted = table_shown(t, w.shown);
-    /* Columns to spare go, one after the other, while the words of the others do not fit side by side. */
-    for (const char *const *name = t->spare; name && *name && total_of(t, &w, w.words) > t->wrap; ++name)
-      for (int j = 0; j < t->n_columns; ++j)
-        if (!strcmp(t->columns[j].name, *name)) w.shown[j] = false;
-    const int shown = table_shown(t, w.shown);
+    const int wanted = count_shown(t, w.style);
+    drop_columns(t, w.style, t->wrap, true, false); /* while the words of the others do not fit side by side */
     /* From each as wide as its widest text, one after the other is narrowed until the line fits. */
-    int total = total_of(t, &w, w.widths);
-    for (int j; total > t->wrap && (j = column_to_narrow(t, &w)) >= 0; --total) --w.widths[j];
-    if (*t->title) fprintf(to, "%s\n", t->title);
+    int total = line_width(t, w.style, false);
+    for (int j; total > t->wrap && (j = column_to_narrow(t, w.style)) >= 0; --total) --w.style[j].width;
+    if (*t->title) write_line(&line, t->title);
     for (int i = 0, lines = 1; i <= table_row_count(t); ++i) {
       if (i > 1 && lines > 1) putc('\n', to);
       lines = write_wrapped_row(t, &w, i, to);
     }
-    if (t->n_notes || shown < wanted) putc('\n', to);
-    for (size_t i = 0; i < t->n_notes; ++i) fprintf(to, "%s\n", t->notes[i]);
-    if (shown < wanted) fprintf(to, TABLE_SHOWN "\n", shown, t->n_columns);
+    write_notes(&line, t, wanted, count_shown(t, w.style));
   }
   for (size_t i = 0; w.texts && i < cells; ++i) free(w.texts[i]);
   free(w.texts);
-  free(w.widths);
-  free(w.words);
-  free(w.shown);
-  free(w.rest);
+  free(w.style);
   return good ? HC_OK : HC_NO_MEMORY;
 }

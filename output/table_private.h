@@ -40,16 +40,6 @@ static inline const table_cell *table_at(const table *t, int row, int column)
   return &t->cells[(size_t)row * (size_t)t->n_columns + (size_t)column];
 }
 
-/* The remark of a table that lost some of its columns: how many are shown, of how many. */
-#define TABLE_SHOWN "%d of %d columns shown; --wide shows all"
-
-static inline int table_shown(const table *t, const bool *shown)
-{
-  int n = 0;
-  for (int j = 0; j < t->n_columns; ++j) n += shown[j];
-  return n;
-}
-
 /* Called with the C locale in force; HC_OK or HC_NO_MEMORY: whether the stream failed is the caller's to ask. */
 hc_status table_write_aligned(const table *t, FILE *to);
 hc_status table_write_wrapped(const table *t, FILE *to);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "casefile/matrices/text_file.h"
+#include "base/path.h"
 #include "study/study_reader.h"
 
 enum { KEY_STUDY, KEY_BASE, KEY_CASE, KEY_RUN, KEY_SET, KEY_VARY, KEY_VIEWS, KEY_CLAIMS, KEY_MAY_FAIL, N_KEYS };
@@ -226,7 +226,7 @@ static hc_status read_base(study_reader *q, const yaml_node_t *node)
   case_error inner = {{0}};
   hc_status st = study_read_text(q, "base", node, &name);
   if (st != HC_OK) return st;
-  char *path = q->s->base_name = text_file_path(q->r.name, name.text, strlen(name.text));
+  char *path = q->s->base_name = path_beside(q->r.name, name.text, strlen(name.text));
   free(name.text);
   if (!path) return case_out_of_memory(&q->r);
   st = case_read(path, 0, NULL, &q->r.sc, &inner);

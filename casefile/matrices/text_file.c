@@ -51,15 +51,3 @@ hc_status text_file_read(const char *path, size_t most, char **text, size_t *len
   fclose(from);
   return st;
 }
-
-char *text_file_path(const char *from, const char *name, size_t length)
-{
-  const char *slash = strrchr(from, '/');
-  const size_t folder = slash && !(length > 0 && *name == '/') ? (size_t)(slash - from) + 1 : 0;
-  char *path = malloc(folder + length + 1);
-  if (!path) return NULL;
-  memcpy(path, from, folder);
-  memcpy(path + folder, name, length);
-  path[folder + length] = '\0';
-  return path;
-}

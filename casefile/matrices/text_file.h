@@ -1,4 +1,4 @@
-/* text_file.h - files that a case file names: a whole one in memory, and where it lies. */
+/* text_file.h - a file that a case file names, whole in memory. */
 #ifndef HC_TEXT_FILE_H
 #define HC_TEXT_FILE_H
 
@@ -11,8 +11,5 @@
 /* The bytes of the file at `path`, at most `most` of them, with a NUL behind them, to free in any case. HC_IO
  * with the words for it in m, which are to follow the file's name ("cannot be opened: ..."); HC_NO_MEMORY. */
 hc_status text_file_read(const char *path, size_t most, char **text, size_t *length, message *m);
-
-/* name[length] as seen from the folder of the file `from`, to free; NULL when out of memory. */
-char *text_file_path(const char *from, const char *name, size_t length);
 
 #endif

@@ -200,12 +200,12 @@ void curve_shape_clear(curve_shape *c)
 /* ---- drawn ---- */
 
 static const struct stability_look {
-  const char *name, *title, *look, *quiet;
+  const char *name, *title, *dash, *quiet;
   int stable;
 } stabilities[] = {
-    {"stable", "harmonic balance: stable", "lw 2.2 dt 1 lc rgb '#0072B2'", "lw 1.4 dt 1 lc rgb '#999999'", 1},
-    {"unstable", "unstable", "lw 1.8 dt (10,6) lc rgb '#0072B2'", "lw 1.4 dt (5,4) lc rgb '#999999'", -1},
-    {"unknown", "stability unknown", "lw 1.6 dt 3 lc rgb '#0072B2'", "lw 1.2 dt 3 lc rgb '#999999'", 0},
+    {"stable", "harmonic balance: stable", "lw 2.2 dt 1", "lw 1.4 dt 1", 1},
+    {"unstable", "unstable", "lw 1.8 dt (10,6)", "lw 1.4 dt (5,4)", -1},
+    {"unknown", "stability unknown", "lw 1.6 dt 3", "lw 1.2 dt 3", 0},
 };
 enum { N_STABILITIES = sizeof stabilities / sizeof *stabilities };
 
@@ -282,13 +282,13 @@ void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
     /* One of several: its colour, solid, dashed or dotted; its name at the first of these that there is. */
     static const char *const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                           "#E69F00", "#56B4E9", "#000000", "#777777"};
-    static const char *const dashes[N_STABILITIES] = {"lw 2.2 dt 1", "lw 1.8 dt (10,6)", "lw 1.6 dt 3"};
     const int n_colours = sizeof colours / sizeof *colours;
     bool named = false;
     for (int r = 0; r < N_STABILITIES; ++r) {
       if (count_points_of(c, stabilities[r].stable) == 0) continue;
-      figure_item(g, figure_look(g, c->among - 1, "%s lc rgb '%s'", dashes[r], colours[(c->among - 1) % n_colours]),
-                  named ? NULL : c->of, "$%s%d using 1:2 with lines", stabilities[r].name, c->among);
+      figure_item(
+          g, figure_look(g, c->among - 1, "%s lc rgb '%s'", stabilities[r].dash, colours[(c->among - 1) % n_colours]),
+          named ? NULL : c->of, "$%s%d using 1:2 with lines", stabilities[r].name, c->among);
       named = true;
     }
     return;
@@ -298,7 +298,9 @@ void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
                 "$other0 using 1:2 with lines");
   for (int r = 0; r < N_STABILITIES; ++r)
     if (count_points_of(c, stabilities[r].stable) > 0)
-      figure_item(g, figure_look(g, r, "%s", quiet ? stabilities[r].quiet : stabilities[r].look),
+      figure_item(g,
+                  figure_look(g, r, "%s lc rgb '%s'", quiet ? stabilities[r].quiet : stabilities[r].dash,
+                              quiet ? "#999999" : "#0072B2"),
                   r == 0 && c->stable_title ? c->stable_title : stabilities[r].title, "$%s0 using 1:2 with lines",
                   stabilities[r].name);
   if (!quiet) special_items(g, c);
@@ -306,10 +308,10 @@ void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
 
 void curve_shapes_rest(figure *g, int n, const curve_shape *c)
 {
-  static const char *const dashes[N_STABILITIES] = {NULL, "lw 1.8 dt (10,6)", "lw 1.6 dt 3"};
   for (int r = 1; r < N_STABILITIES && !g->letters; ++r)
     if (count_points_of(c, stabilities[r].stable) > 0)
-      figure_item(g, figure_look(g, r, "%s lc rgb '#555555'", dashes[r]), stabilities[r].title, "NaN with lines");
+      figure_item(g, figure_look(g, r, "%s lc rgb '#555555'", stabilities[r].dash), stabilities[r].title,
+                  "NaN with lines");
   for (int i = 0; i < n && (i == 0 || !g->letters); ++i) special_items(g, &c[i]);
 }
 

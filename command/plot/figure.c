@@ -359,6 +359,8 @@ const char *figure_look(figure *g, int n, const char *look, ...)
   return g->look;
 }
 
+const char *figure_colour(int n) { return colours[n % N_COLOURS]; }
+
 const char *figure_line(figure *g, int n, double width)
 {
   return figure_look(g, n, "lw %g dt %d lc rgb '%s'", width, dashes[n % N_DASHES], colours[n % N_COLOURS]);

@@ -55,6 +55,7 @@ const char *figure_words(figure *g, const char *format, ...) __attribute__((form
  * apart by dashes and shapes. */
 const char *figure_look(figure *g, int n, const char *look, ...) __attribute__((format(printf, 3, 4)));
 const char *figure_line(figure *g, int n, double width);
+const char *figure_colour(int n);
 const char *figure_mark(figure *g, int n, double width);
 
 /* There is nothing to draw, and why: returns HC_BAD_INPUT. */

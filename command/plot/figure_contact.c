@@ -50,15 +50,13 @@ static int write_phase(figure *g, int j, int phase, int n, const contact_state *
 /* Its items where there[phase] is not 0; only: the legend needs no number. */
 static void phase_items(figure *g, int j, const int there[PHASES], bool only)
 {
-  static const char *const colours[MOST_LOOPS] = {"#0072B2", "#D55E00", "#000000", "#009E73",
-                                                  "#CC79A7", "#E69F00", "#56B4E9", "#777777"};
   for (int k = 0; k < PHASES; ++k) {
     char of[32] = "";
     if (!there[k]) continue;
     if (!only) snprintf(of, sizeof of, "contact %d ", j);
-    figure_item(g,
-                figure_look(g, PHASES * j + k, "lw %g dt %d lc rgb '%s'", phases[k].width, phases[k].dash, colours[j]),
-                figure_words(g, "%s%s", of, phases[k].title), "$%s%d using 1:2 with lines", phases[k].name, j);
+    figure_item(
+        g, figure_look(g, PHASES * j + k, "lw %g dt %d lc rgb '%s'", phases[k].width, phases[k].dash, figure_colour(j)),
+        figure_words(g, "%s%s", of, phases[k].title), "$%s%d using 1:2 with lines", phases[k].name, j);
   }
 }
 

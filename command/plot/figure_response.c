@@ -36,26 +36,24 @@ static void draw_layers(figure *g, const layers *l)
   figure_draw(g);
 }
 
-static void detail_panel(figure *g, const curve_window *w, const layers *l)
-{
-  figure_script(g, "set title 'Where the contact changes'\nset xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n",
-                w->low / g->x_unit, w->high / g->x_unit, w->least, w->most);
-  draw_layers(g, l);
-}
-
-/* The whole curve; beside it its detail, if it has a small part with all special points. */
-static void response_panels(figure *g, const scene *sc, const layers *l, const char *about)
+/* The whole curve; beside it its detail, if it has a small part with all special points, and with a, three panels of
+ * discrepancy. */
+static void response_panels(figure *g, const scene *sc, const layers *l, const char *about, const accuracy *a)
 {
   curve_window w;
-  bool detail = l->n_shapes <= 1 && curve_shape_window(l->shape, &w);
-  if (detail) panels_begin(g, 1, 2, sc->title, about);
+  const bool detail = l->n_shapes <= 1 && curve_shape_window(l->shape, &w), several = a || detail;
+  if (several) panels_begin(g, a ? 2 : 1, a && detail ? 3 : 2, sc->title, about);
   else figure_title(g, "set title", sc->title, about);
-  if (detail && !g->letters) figure_script(g, "set title 'Whole sweep'\n");
+  if (several && !g->letters) figure_script(g, "set title '%s'\n", a ? "Response" : "Whole sweep");
   curve_shape_axes(g, sc, l->shape);
   draw_layers(g, l);
-  if (!detail) return;
-  detail_panel(g, &w, l);
-  panels_end(g);
+  if (detail) {
+    figure_script(g, "set title 'Where the contact changes'\nset xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n",
+                  w.low / g->x_unit, w.high / g->x_unit, w.least, w.most);
+    draw_layers(g, l);
+  }
+  if (a) panels_accuracy(g, a);
+  if (several) panels_end(g);
 }
 
 static int response_width(const curve_shape *shape)
@@ -112,7 +110,7 @@ hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curv
     curve_shape_settings(sc, shape, settings);
     if (n < all) snprintf(about, sizeof about, "%s; the first %d of %d responses", settings, n, all);
     else snprintf(about, sizeof about, "%s", settings);
-    response_panels(&g, sc, &l, about);
+    response_panels(&g, sc, &l, about, NULL);
   }
   for (int i = 0; i <= n && shape; ++i) curve_shape_clear(&shape[i]);
   free(shape);
@@ -132,7 +130,6 @@ static bool stands_at_hbm(const comparison_row *r)
   return has_hbm(r) && (r->verdict == VERDICT_UNSTABLE || r->verdict == VERDICT_OTHER_BRANCH || !has_transient(r));
 }
 
-/* For verdicts_data. */
 static const char *compared_point(const void *rows, int i, double *x, double *y, char text[24])
 {
   const comparison_row *r = (const comparison_row *)rows + i;
@@ -174,18 +171,7 @@ hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, cons
     verdicts_data(&g, &v, c->n_rows, c->rows, compared_point);
     curve_shape_data(&g, &shape);
     curve_shape_settings(sc, &shape, settings);
-    /* Response, perhaps its detail, and three panels of discrepancy. */
-    if (all) {
-      curve_window part;
-      bool detail = curve_shape_window(l.shape, &part);
-      panels_begin(&g, 2, detail ? 3 : 2, sc->title, settings);
-      if (!g.letters) figure_script(&g, "set title 'Response'\n");
-      curve_shape_axes(&g, sc, l.shape);
-      draw_layers(&g, &l);
-      if (detail) detail_panel(&g, &part, &l);
-      panels_accuracy(&g, a);
-      panels_end(&g);
-    } else response_panels(&g, sc, &l, settings);
+    response_panels(&g, sc, &l, settings, all ? a : NULL);
   }
   curve_shape_clear(&shape);
   return figure_close(&g, st);
@@ -224,11 +210,12 @@ static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states 
   figure g = {0};
   char of[RESPONSE_NAME], about[160], word[24];
   double omega = found->rows[0].result.omega, low = INFINITY, high = -INFINITY;
+  const steady_row *wave[MOST_WAVES];
   int n = 0;
   hc_status st = figure_open(&g, p, 800, 500);
   if (st != HC_OK) return figure_close(&g, st);
   for (int i = 0; i < found->n && n < MOST_WAVES; ++i) {
-    const steady_row *r = &found->rows[i];
+    const steady_row *r = wave[n] = &found->rows[i];
     if (!measured(r)) continue;
     figure_block(&g, "wave%d", n++);
     for (int k = 0; k <= TIMEINT_WAVE; ++k)
@@ -245,14 +232,10 @@ static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states 
   figure_set(&g, "ylabel", "%s [%s]", of, sc->unit_length);
   figure_below(&g, "t / T");
   figure_script(&g, "set xrange [0:1]\n");
-  n = 0;
-  for (int i = 0; i < found->n && n < MOST_WAVES; ++i) {
-    const steady_row *r = &found->rows[i];
-    if (!measured(r)) continue;
-    figure_item(&g, figure_line(&g, n, 2), figure_words(&g, "start: %s; %s", r->start, steady_verdict_text(r, word)),
-                "$wave%d using 1:2 with lines", n);
-    ++n;
-  }
+  for (int i = 0; i < n; ++i)
+    figure_item(&g, figure_line(&g, i, 2),
+                figure_words(&g, "start: %s; %s", wave[i]->start, steady_verdict_text(wave[i], word)),
+                "$wave%d using 1:2 with lines", i);
   double x;
   for (int j = 0; j < sc->n_contacts; ++j)
     if (closes_at(sc, j, low, high, &x))
@@ -283,7 +266,7 @@ hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *fo
     curve_shape_data(&g, &shape);
     verdicts_data(&g, &v, found->n, found->rows, steady_point);
     snprintf(about, sizeof about, "time integration; harmonic balance, %s", curve_shape_settings(sc, &shape, settings));
-    response_panels(&g, sc, &l, about);
+    response_panels(&g, sc, &l, about, NULL);
   }
   curve_shape_clear(&shape);
   return figure_close(&g, st);

@@ -9,7 +9,6 @@
 
 enum { MOST_LINES = 12, MOST_HEAT_LABELS = 24, LEAST_HEAT = 4, TEXT = 160 };
 
-/* What is drawn. */
 typedef struct chart {
   const study *s;
   const char *measure;
@@ -201,28 +200,30 @@ static void measure_label(const chart *c, char text[TEXT])
            c->response ? c->response : "", measure_unit(c, unit));
 }
 
+/* "false, sampled": value i of all fields of an axis; with i < 0 their names. */
+static void join_fields(const study_axis *a, int i, char text[TEXT])
+{
+  text[0] = 0;
+  for (int k = 0; k < a->n_fields; ++k) {
+    const size_t used = strlen(text);
+    snprintf(text + used, TEXT - used, "%s%s", k ? ", " : "", i < 0 ? a->fields[k].path : a->fields[k].values[i].text);
+  }
+}
+
 /* "hbm.samples [1]" or the names of all fields of an axis without a scale. */
 static const char *axis_text(const study *s, const study_axis *a, const study_field *scale, char text[TEXT])
 {
   char unit[FIGURE_UNIT];
-  text[0] = 0;
   if (scale) snprintf(text, TEXT, "%s [%s]", scale->path, figure_unit(&s->base, scale->f->unit, unit));
-  for (int k = 0; !scale && k < a->n_fields; ++k) {
-    size_t used = strlen(text);
-    snprintf(text + used, TEXT - used, "%s%s", k ? ", " : "", a->fields[k].path);
-  }
+  else join_fields(a, -1, text);
   return text;
 }
 
-/* Value i of an axis: its scale's number, or "false, sampled". */
+/* Value i of an axis: its scale's number, or those of all its fields. */
 static const char *value_text(const study_axis *a, const study_field *scale, int i, char text[TEXT])
 {
-  text[0] = 0;
   if (scale) snprintf(text, TEXT, "%s", scale->values[i].text);
-  for (int k = 0; !scale && k < a->n_fields; ++k) {
-    size_t used = strlen(text);
-    snprintf(text + used, TEXT - used, "%s%s", k ? ", " : "", a->fields[k].values[i].text);
-  }
+  else join_fields(a, i, text);
   return text;
 }
 

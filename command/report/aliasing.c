@@ -40,7 +40,6 @@ typedef struct solution {
   double X[MOST_COEF];
 } solution;
 
-/* One response curve. */
 typedef struct followed {
   scene sc; /* with the stiffness, H and exact forces */
   solution at[ALIASING_MOST_OMEGAS];
@@ -57,17 +56,13 @@ typedef struct all_answers {
 
 /* ---- as JSON --------------------------------------------------------------------------------- */
 
-static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
-
-static json_t *in_steps(double value, double step)
-{
-  return isfinite(value / step) ? json_integer((json_int_t)llround(value / step)) : json_null();
-}
-
 static json_t *list_in_steps(int n, const double *v, double step)
 {
   json_t *list = json_array();
-  for (int i = 0; i < n; ++i) json_array_append_new(list, in_steps(v[i], step));
+  for (int i = 0; i < n; ++i) {
+    const double steps = v[i] / step;
+    json_array_append_new(list, isfinite(steps) ? json_integer((json_int_t)llround(steps)) : json_null());
+  }
   return list;
 }
 
@@ -81,7 +76,7 @@ static json_t *list_of_integers(int n, const int *v)
 static json_t *list_of_numbers(int n, const double *v)
 {
   json_t *list = json_array();
-  for (int i = 0; i < n; ++i) json_array_append_new(list, number(v[i]));
+  for (int i = 0; i < n; ++i) json_array_append_new(list, json_finite(v[i]));
   return list;
 }
 
@@ -138,7 +133,6 @@ static hc_status follow_curve(void *self, int task, const hc_monitor *monitor)
 
 /* ---- the force of a solution ------------------------------------------------------------------ */
 
-/* Memory for the solutions of one curve. */
 typedef struct force_workspace {
   const scene *sc;
   model *m;
@@ -188,7 +182,7 @@ static json_t *sampled_answer(const force_workspace *w, int k, double omega, con
   double X[MOST_COEF], missed[MOST_COEF], folds[2 * MOST_HARMONICS + 2] = {0};
   memcpy(X, start, sizeof X);
   if (hbm_solve(w->hbm[k], omega, X, &point) != HC_OK || hbm_measure(w->hbm[k], X, &m) != HC_OK) m.amplitude = NAN;
-  json_t *answer = json_pack("{s:o, s:b}", "amplitude", number(m.amplitude), "touches",
+  json_t *answer = json_pack("{s:o, s:b}", "amplitude", json_finite(m.amplitude), "touches",
                              (int)(isfinite(m.amplitude) && m.contact.regime > CONTACT_LINEAR));
   if (!F || aft_eval(w->sampled[k], at->X, missed, NULL, NULL) != HC_OK) return answer;
   for (int i = 0; i < n; ++i) missed[i] -= F[i];
@@ -215,7 +209,7 @@ static json_t *state_of(const force_workspace *w, double omega, const solution *
     json_array_append_new(sampled, sampled_answer(w, k, omega, at, start, known ? F : NULL, largest));
   json_t *state = json_pack("{s:f, s:b, s:o}", "amplitude", at->amplitude, "touches", (int)known, "sampled", sampled);
   if (!known) return state;
-  json_object_set_new(state, "largest", number(largest));
+  json_object_set_new(state, "largest", json_finite(largest));
   json_object_set_new(state, "force", list_in_steps(SHOWN_TIMES + 1, force, force_step * largest));
   json_object_set_new(state, "harmonics", list_in_steps(2 * SHOWN_HARMONICS + 1, F, harmonic_step * largest));
   return state;

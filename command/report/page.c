@@ -81,9 +81,9 @@ static void write_budget(page *p)
     html_cell_bar(p->to, r->errors.amplitude,
                   r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS ? p->d->sc->gate.most.amplitude
                                                                                : INFINITY);
-#define CELL(part) html_cell_bar(p->to, b->part, p->d->sc->gate.most.amplitude);
-    BUDGET_PARTS(CELL)
-#undef CELL
+#define BAR(part) html_cell_bar(p->to, b->part, p->d->sc->gate.most.amplitude);
+    BUDGET_PARTS(BAR)
+#undef BAR
     html_cell_bar(p->to, r->budget.known ? b->sum : NAN, p->d->sc->gate.most.amplitude);
     html_row_end(p->to);
   }
@@ -130,15 +130,14 @@ static void write_mode(page *p, const model_mode *mode)
 static void write_modes(page *p)
 {
   const model *m = p->d->setup.model;
-  static const char *const of_omega[] = {"mode", "omega_open", "damping_open", "omega_stuck", "damping_stuck"},
-                           *const of_cycles[] = {"mode", "frequency_open", "damping_open", "frequency_stuck",
-                                                 "damping_stuck"};
+  const bool cycles = p->d->sc->in_cycles;
+  const char *const heads[] = {"mode", cycles ? "frequency_open" : "omega_open", "damping_open",
+                               cycles ? "frequency_stuck" : "omega_stuck", "damping_stuck"};
   if (!p->d->sc->structure) return;
   model_mode *open = calloc(2 * (size_t)m->n, sizeof *open);
   hc_status st = open ? model_mode_list(m, false, open) : HC_NO_MEMORY;
   if (st == HC_OK) st = model_mode_list(m, true, open + m->n);
-  html_table(p->to, "Modes, contacts open and contacts stuck; damping of critical", 5,
-             p->d->sc->in_cycles ? of_cycles : of_omega);
+  html_table(p->to, "Modes, contacts open and contacts stuck; damping of critical", 5, heads);
   for (int i = 0; i < m->n && st == HC_OK; ++i) {
     html_row(p->to);
     html_cell_number(p->to, i + 1);
@@ -154,18 +153,16 @@ static void write_modes(page *p)
 
 /* ---- data for the plots ---------------------------------------------------------------------- */
 
-static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
-
 static json_t *budget_json(const comparison *c)
 {
   json_t *list = json_array();
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     if (!r->budget.known) continue;
-    json_t *row =
-        json_pack("{s:f, s:i, s:o}", "omega", r->omega, "branch", r->branch, "sum", number(r->budget.amplitude.sum));
+    json_t *row = json_pack("{s:f, s:i, s:o}", "omega", r->omega, "branch", r->branch, "sum",
+                            json_finite(r->budget.amplitude.sum));
     if (r->response > 0) json_object_set_new(row, "response", json_integer(r->response));
-#define PUT(part) json_object_set_new(row, #part, number(r->budget.amplitude.part));
+#define PUT(part) json_object_set_new(row, #part, json_finite(r->budget.amplitude.part));
     BUDGET_PARTS(PUT)
 #undef PUT
     json_array_append_new(list, row);
@@ -178,10 +175,10 @@ static json_t *accuracy_json(const accuracy *a)
   json_t *list = json_array();
   for (int i = 0; i < a->n_rows; ++i) {
     const accuracy_row *r = &a->rows[i];
-    json_array_append_new(list,
-                          json_pack("{s:i, s:i, s:o, s:o, s:o, s:i}", "harmonics", r->harmonics, "samples", r->samples,
-                                    "amplitude_error", number(r->worst), "aliasing", number(r->aliasing), "peak_error",
-                                    number(r->peak_error), "false_turning_points", r->false_turning_points));
+    json_array_append_new(list, json_pack("{s:i, s:i, s:o, s:o, s:o, s:i}", "harmonics", r->harmonics, "samples",
+                                          r->samples, "amplitude_error", json_finite(r->worst), "aliasing",
+                                          json_finite(r->aliasing), "peak_error", json_finite(r->peak_error),
+                                          "false_turning_points", r->false_turning_points));
   }
   return list;
 }

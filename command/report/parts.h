@@ -3,9 +3,13 @@
 #define HC_REPORT_PARTS_H
 
 #include <jansson.h>
+#include <math.h>
 #include <stddef.h>
 
 #include "command/report/report.h"
+
+/* null for what is no number */
+static inline json_t *json_finite(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
 /* ---- assets.c: the parts of the page that are built into the program, as bytes (embed.cmake makes the source) ---- */
 

@@ -22,8 +22,6 @@ enum { CURVE_MOST_RESPONSES = 12 };
 /* [1] of the step that continuation needs: drawn with straight lines, the curve needs more points. */
 static const double shorter_steps = 0.35;
 
-static json_t *number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
-
 static void append(json_t *columns, const char *name, json_t *value)
 {
   json_t *list = json_object_get(columns, name);
@@ -34,10 +32,10 @@ static void append(json_t *columns, const char *name, json_t *value)
 static void append_point(json_t *columns, const response_row *r)
 {
   int stable = r->stability_known ? hbm_stability_verdict(&r->stability) : 0;
-  append(columns, "omega", number(r->point.omega));
-  append(columns, "amplitude", number(r->measures.amplitude));
-  append(columns, "harmonic_1", number(r->measures.harmonic_1));
-  append(columns, "mean", number(r->measures.mean));
+  append(columns, "omega", json_finite(r->point.omega));
+  append(columns, "amplitude", json_finite(r->measures.amplitude));
+  append(columns, "harmonic_1", json_finite(r->measures.harmonic_1));
+  append(columns, "mean", json_finite(r->measures.mean));
   append(columns, "mean_free", json_integer(r->measures.contact.free_sliders > 0));
   append(columns, "branch", json_integer(r->point.branch));
   append(columns, "stable", json_integer(stable));
@@ -92,9 +90,10 @@ static json_t *response_object(const scene *sc, const comparison *c, int respons
     if (!motion_is_measured(r->transient_status) || r->response != response) continue;
     comparison_verdict_text(r, text);
     json_array_append_new(list, json_pack("{s:f, s:o, s:o, s:o, s:b, s:i, s:s, s:o}", "omega", r->omega, "amplitude",
-                                          number(r->transient.amplitude), "harmonic_1", number(r->transient.harmonic_1),
-                                          "mean", number(r->transient.mean), "mean_free", (int)comparison_mean_free(r),
-                                          "branch", r->branch, "verdict", text, "error", number(r->errors.amplitude)));
+                                          json_finite(r->transient.amplitude), "harmonic_1",
+                                          json_finite(r->transient.harmonic_1), "mean", json_finite(r->transient.mean),
+                                          "mean_free", (int)comparison_mean_free(r), "branch", r->branch, "verdict",
+                                          text, "error", json_finite(r->errors.amplitude)));
   }
   return json_pack("{s:o, s:o, s:b, s:o, s:o}", "curve", curve, "turned", turned, "mean_kept", (int)sc->hbm.keep_mean,
                    "specials", specials, "transient", list);

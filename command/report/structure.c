@@ -74,45 +74,31 @@ static hc_status shown_open(const scene *sc, const comparison *c, shown *d)
 
 /* ---- one solution ---- */
 
-/* The tractions of two tangents over each other, followed as in loop_of, by short steps: they are of first order where
- * the direction of slip turns (contact_law.h). `first` is the model's contact, j the case's. */
-static json_t *loop_of_pair(const shown *d, int j, int first)
-{
-  const contact *law = &d->m->contacts[first].law;
-  const bool circle = d->m->contacts[first].circle;
-  const int H = hbm_n_harmonics(d->s);
-  double w[2] = {d->w[first], d->w[first + 1]}, T[2] = {0};
-  json_t *x = json_array(), *y = json_array();
-  for (int i = -SAMPLES * STEPS; i <= SAMPLES * STEPS; ++i) {
-    const double th = TWO_PI * i / (SAMPLES * STEPS), c = cos(th), s = sin(th), v = series_at(H, d->series[1], c, s).x;
-    const double u[2] = {series_at(H, d->series[0], c, s).x, series_at(H, d->series[2], c, s).x};
-    if (circle) contact_step_planar(law, u, v, w, T);
-    for (int k = 0; k < 2 && !circle; ++k) contact_step(law, u[k], v, &w[k], &T[k]);
-    if (i < 0 || i % STEPS) continue;
-    json_array_append_new(x, number(T[0]));
-    json_array_append_new(y, number(T[1]));
-  }
-  return json_pack("{s:s, s:o, s:o, s:o}", "of", "T_2 over T_1", "x", x, "y", y, "work", number(d->periods[j].work));
-}
-
-/* T over u of a contact with friction, else N over v: a period that follows one in which the slider settles. */
+/* T over u of a contact with friction, of two tangents T_2 over T_1, else N over v: a period that follows one in which
+ * the slider settles. Two tangents go by short steps, which are of first order where the direction of slip turns
+ * (contact_law.h). `first` is the model's contact, j the case's. */
 static json_t *loop_of(const shown *d, int j, int first)
 {
-  const contact *law = &d->m->contacts[first].law;
-  const bool rubs = contact_has_friction(law);
-  const int H = hbm_n_harmonics(d->s);
-  double w = d->w[first], T = 0;
+  const model_contact *of = &d->m->contacts[first];
+  const bool pair = of->pair == CONTACT_FIRST, rubs = contact_has_friction(&of->law);
+  const int H = hbm_n_harmonics(d->s), steps = SAMPLES * (pair ? STEPS : 1);
+  double w[2] = {d->w[first], pair ? d->w[first + 1] : 0}, T[2] = {0};
   json_t *x = json_array(), *y = json_array();
-  for (int i = -SAMPLES; i <= SAMPLES; ++i) {
-    const double th = TWO_PI * i / SAMPLES, u = series_at(H, d->series[0], cos(th), sin(th)).x,
-                 v = series_at(H, d->series[1], cos(th), sin(th)).x;
-    if (rubs) contact_step(law, u, v, &w, &T);
-    if (i < 0) continue;
-    json_array_append_new(x, number(rubs ? u : v));
-    json_array_append_new(y, number(rubs ? T : contact_normal(law, v)));
+  for (int i = -steps; i <= steps; ++i) {
+    const double th = TWO_PI * i / steps, c = cos(th), s = sin(th), v = series_at(H, d->series[1], c, s).x;
+    const double u[2] = {series_at(H, d->series[0], c, s).x, pair ? series_at(H, d->series[2], c, s).x : 0};
+    if (pair && of->circle) contact_step_planar(&of->law, u, v, w, T);
+    else
+      for (int k = 0; k < 1 + pair && (pair || rubs); ++k) contact_step(&of->law, u[k], v, &w[k], &T[k]);
+    if (i < 0 || i % (steps / SAMPLES)) continue;
+    json_array_append_new(x, number(pair ? T[0] : rubs ? u[0] : v));
+    json_array_append_new(y, number(pair ? T[1] : rubs ? T[0] : contact_normal(&of->law, v)));
   }
-  return json_pack("{s:s, s:o, s:o, s:o}", "of", rubs ? "T over u" : "N over v", "x", x, "y", y, "work",
-                   number(d->periods[j].work));
+  return json_pack("{s:s, s:o, s:o, s:o}", "of",
+                   pair   ? "T_2 over T_1"
+                   : rubs ? "T over u"
+                          : "N over v",
+                   "x", x, "y", y, "work", number(d->periods[j].work));
 }
 
 static hc_status shape_of(shown *d, double omega, const double *X, json_t *amplitude, json_t *cosine, json_t *sine)
@@ -144,7 +130,7 @@ static hc_status append_solution(shown *d, const hbm_point *p, const double *X, 
       const bool pair = d->m->contacts[first].pair == CONTACT_FIRST;
       for (int i = 0; i < 2 + pair && st == HC_OK; ++i)
         st = hbm_response(d->s, p->omega, X, d->m->n + 2 * first + i, d->series[i]);
-      if (st == HC_OK) json_array_append_new(loops, pair ? loop_of_pair(d, j, first) : loop_of(d, j, first));
+      if (st == HC_OK) json_array_append_new(loops, loop_of(d, j, first));
       first += pair;
     }
   }

@@ -1,0 +1,29 @@
+/* path.h - names of files, taken apart and put together. */
+#ifndef HC_PATH_H
+#define HC_PATH_H
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The path's last part, without the folders before it. *stem, if not NULL: its length without its ending. */
+static inline const char *path_name(const char *path, int *stem)
+{
+  const char *slash = strrchr(path, '/'), *name = slash && slash[1] ? slash + 1 : path, *dot = strrchr(name, '.');
+  if (stem) *stem = (int)(dot && dot > name ? (size_t)(dot - name) : strlen(name));
+  return name;
+}
+
+/* name[length] in the folder of `path`, or itself if absolute: to be freed; NULL: out of memory. */
+static inline char *path_beside(const char *path, const char *name, size_t length)
+{
+  const char *slash = strrchr(path, '/');
+  const size_t folder = slash && !(length > 0 && *name == '/') ? (size_t)(slash - path) + 1 : 0;
+  char *joined = malloc(folder + length + 1);
+  if (!joined) return NULL;
+  memcpy(joined, path, folder);
+  memcpy(joined + folder, name, length);
+  joined[folder + length] = '\0';
+  return joined;
+}
+
+#endif
