@@ -11,6 +11,7 @@
 #include "hbm/planar/planar_force.h"
 #include "hbm/planar/planar_slider.h"
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 #include "numerics/random.h"
 #include "numerics/series.h"
 #include "stress/solved_scene.h"
@@ -94,15 +95,14 @@ static hc_status one_contact_locate(const solved_scene *s, int j, const double *
 
 /* ---- stepped through ----------------------------------------------------------------------------------- */
 
-/* An instant's part f, of which the harmonics F[2H+1] are the sum, at the angle of that cosine and sine. */
-static void add_instant(int n_harm, double f, double c, double s, double *F)
+/* basis[2H+1] = 1, cos th, sin th, .., cos H th, sin H th at instant i of N. */
+static void basis_at(int n_harm, int i, int N, double *basis)
 {
-  double ch = 1, sh = 0;
-  F[0] += f;
+  const double c = cos(TWO_PI * i / N), s = sin(TWO_PI * i / N);
+  double ch = basis[0] = 1, sh = 0;
   for (int h = 1; h <= n_harm; ++h) {
     series_turn(c, s, &ch, &sh);
-    F[2 * h - 1] += 2 * f * ch;
-    F[2 * h] += 2 * f * sh;
+    basis[2 * h - 1] = ch, basis[2 * h] = sh;
   }
 }
 
@@ -131,37 +131,45 @@ static void step(const one_contact *c, const double *motion, stepper *s, double 
   s->begun = true;
 }
 
-/* One period; its harmonics are added to force unless that is NULL. */
-static void step_period(const one_contact *c, int n_harm, int N, stepper *s, double *force)
+/* One period of motion[N][n_dof]; its harmonics are added to force[n_dof][2H+1] unless that is NULL. */
+static void step_period(const one_contact *c, int n_harm, int N, const double *motion, stepper *s, double *force)
 {
   const int n_coef = series_length(n_harm);
+  double f[ONE_CONTACT_MOST], basis[2 * HBM_MAX_HARMONICS + 1];
   for (int i = 0; i < N; ++i) {
-    const double cosine = cos(TWO_PI * i / N), sine = sin(TWO_PI * i / N);
-    double motion[ONE_CONTACT_MOST] = {0}, f[ONE_CONTACT_MOST];
-    for (int d = 0; d < c->n_dof; ++d) motion[d] = series_at(n_harm, c->motion + d * n_coef, cosine, sine).x;
-    step(c, motion, s, f);
-    for (int d = 0; d < c->n_dof && force; ++d) add_instant(n_harm, f[d] / N, cosine, sine, force + d * n_coef);
+    step(c, motion + (size_t)i * (size_t)c->n_dof, s, f);
+    if (force) basis_at(n_harm, i, N, basis);
+    for (int d = 0; d < c->n_dof && force; ++d)
+      for (int k = 0; k < n_coef; ++k) force[d * n_coef + k] += (k == 0 ? 1 : 2) * f[d] / N * basis[k];
   }
 }
 
 /* The law stepped through N instants a period, from w = 0 until the slider has settled: harmonics force[n_dof][2H+1] of
  * one period more. Between instants u and v go evenly, as in hbm/planar/planar_slider.h. A slider on a line has
  * settled after one period; one in the plane settles by a factor each, or creeps into a corner between two circles,
- * the slower the nearer. false: after 2^23 instants it still has not settled. */
-static bool step_contact(const one_contact *c, int n_harm, int N, double *force)
+ * the slower the nearer. HC_INTERRUPTED: after 2^23 instants it still has not settled; HC_NO_MEMORY. */
+static hc_status step_contact(const one_contact *c, int n_harm, int N, double *force)
 {
   const int most = c->circle ? 1 << 23 : N; /* instants in all */
+  const int n_coef = series_length(n_harm);
   const double settled = 1e-9;
+  double basis[2 * HBM_MAX_HARMONICS + 1], *motion = malloc((size_t)N * (size_t)c->n_dof * sizeof *motion);
   stepper s = {0};
   bool rests = !c->circle;
+  if (!motion) return HC_NO_MEMORY;
+  for (int i = 0; i < N; ++i) {
+    basis_at(n_harm, i, N, basis);
+    for (int d = 0; d < c->n_dof; ++d) motion[i * c->n_dof + d] = dot_product(n_coef, c->motion + d * n_coef, basis);
+  }
   for (int done = 0; done < most && (done == 0 || !rests); done += N) {
     const double before[2] = {s.w[0], s.w[1]};
-    step_period(c, n_harm, N, &s, NULL);
+    step_period(c, n_harm, N, motion, &s, NULL);
     rests = rests || hypot(s.w[0] - before[0], s.w[1] - before[1]) <= settled * hypot(s.w[0], s.w[1]);
   }
-  memset(force, 0, (size_t)c->n_dof * (size_t)series_length(n_harm) * sizeof *force);
-  step_period(c, n_harm, N, &s, force);
-  return rests;
+  memset(force, 0, (size_t)c->n_dof * (size_t)n_coef * sizeof *force);
+  step_period(c, n_harm, N, motion, &s, force);
+  free(motion);
+  return rests ? HC_OK : HC_INTERRUPTED;
 }
 
 /* Sum of h^p times the sizes of harmonic h >= 1 of coordinate d: a bound of the p-th derivative by th. */
@@ -264,7 +272,7 @@ static hc_status add_contact(const solved_scene *s, int j, const double *x, int 
   hc_status st = one_contact_locate(s, j, x, &c);
   if (st == HC_OK && N > 0 && c.n_dof > 0) {
     *bound += stepping_bound(s, &c, N);
-    if (!step_contact(&c, s->how.harmonics, N, c.force)) st = HC_INTERRUPTED;
+    st = step_contact(&c, s->how.harmonics, N, c.force);
   }
   for (int d = 0; d < c.n_dof && st == HC_OK; ++d)
     for (int k = 0; k < s->n_coef; ++k) {
@@ -313,10 +321,10 @@ static stress_check hold_force(solved_scene *s, const one_contact *c)
   enum { LEAST = 512, MOST = 131072 };
   const double near = 1e-6;
   double error = 0, *stepped = malloc(one_contact_length(s, c) * sizeof *stepped);
-  bool settled = true;
-  if (!stepped) return stress_refuse(s, HC_NO_MEMORY);
-  for (int N = LEAST; N <= MOST; N *= 16) {
-    settled = step_contact(c, s->how.harmonics, N, stepped);
+  hc_status st = stepped ? HC_OK : HC_NO_MEMORY;
+  for (int N = LEAST; N <= MOST && st != HC_NO_MEMORY; N *= 4) {
+    st = step_contact(c, s->how.harmonics, N, stepped);
+    if (st == HC_NO_MEMORY) break;
     double apart = 0, size = DBL_MIN;
     for (int k = 0; k < c->n_dof * s->n_coef; ++k) {
       if (!(fabs(c->force[k] - stepped[k]) <= apart)) apart = fabs(c->force[k] - stepped[k]);
@@ -326,8 +334,8 @@ static stress_check hold_force(solved_scene *s, const one_contact *c)
     if (error <= near) break;
   }
   free(stepped);
-  if (!(error > near)) return stress_agree(error, near); /* NaN, too */
-  if (!settled) return stress_refuse(s, HC_INTERRUPTED);
+  if (st != HC_NO_MEMORY && !(error > near)) return stress_agree(error, near); /* NaN, too */
+  if (st != HC_OK) return stress_refuse(s, st);
   const double bound = fmin(stepping_bound(s, c, MOST), STRESS_SAYS_SOMETHING);
   return error <= bound ? stress_explain(STRESS_ALIASED, error, bound) : stress_find(STRESS_DISAGREES, error, bound);
 }

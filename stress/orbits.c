@@ -243,6 +243,14 @@ static bool refine(solved_scene *s, double *error, double *step)
   return true;
 }
 
+/* s->enough, unless fewer were. */
+static void note_enough(solved_scene *s, double error)
+{
+  const discrepancy gate = gate_limits_at(&s->asked->gate, s->omega);
+  const double least = fmin(fmin(gate.amplitude, gate.harmonic_1), fmin(gate.mean, gate.waveform));
+  if (s->enough == 0 && error <= least / 100) s->enough = s->fine.harmonics;
+}
+
 /* Harmonics are doubled until HBM and the orbit next to it meet. */
 stress_check stress_check_orbit(solved_scene *s)
 {
@@ -254,11 +262,13 @@ stress_check stress_check_orbit(solved_scene *s)
   if (!s->how.keep_mean && (loaded || s->base.m.contact.regime != CONTACT_LINEAR))
     return stress_skip(STRESS_NOT_APPLICABLE); /* without harmonic 0, means and static loads are left out */
   const double coarse = error;
+  note_enough(s, error);
   if (s->path.status == HC_OK && error <= tolerance_of(&s->path))
     return stress_agree_within(error, close_enough, sensitive(&s->path, NULL));
   while (s->fatal == HC_OK && may_double(s, s->fine.harmonics)) {
     before = error;
     if (!refine(s, &error, &step)) break;
+    note_enough(s, error);
     if (s->path.status == HC_INTERRUPTED) return stress_refuse(s, s->path.status);
     if (s->path.status == HC_OK && error <= tolerance_of(&s->path))
       return stress_explain(STRESS_TRUNCATED, coarse, NAN);

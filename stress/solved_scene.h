@@ -51,6 +51,7 @@ struct solved_scene {
   const scene *asked;
   stress_motion fine;     /* with the most harmonics that were needed, from STRESS_ORBIT on */
   stress_path path;       /* the exact law's orbit next to it */
+  int enough;             /* harmonics, the fewest tried that are within a hundredth of the gate of it; 0: none are */
   stress_check predicted; /* of the comparison that STRESS_VERDICT made */
 };
 

@@ -75,17 +75,18 @@ static void hold_prediction(const comparison_row *r, stress_check *so_far)
     *so_far = stress_explain(r->family ? STRESS_FAMILY : STRESS_UNEXPECTED, ratio, bound);
 }
 
-/* With as many harmonics as have turned out to be enough, but for MOST_UNKNOWNS, where forces are exact (samples are
- * too few for more than they were drawn with): with too few, all that is said is that the two differ. Along a curve
- * just long enough for what lies beside (`curve` has the long one). What takes more periods is not_settled: chaos takes
- * seconds. The worst of all rows; s->predicted: the worst of what their errors are of what both sides said
- * beforehand. */
+/* With as many harmonics as have turned out to be enough for the gate, but for MOST_UNKNOWNS, where forces are exact
+ * (samples are too few for more than they were drawn with): with too few, all that is said is that the two differ.
+ * Along a curve just long enough for what lies beside (`curve` has the long one). What takes more periods is
+ * not_settled: chaos takes seconds. The worst of all rows; s->predicted: the worst of what their errors are of what
+ * both sides said beforehand. */
 stress_check stress_check_verdict(solved_scene *s)
 {
   enum { MOST_PERIODS = 600, MOST_UNKNOWNS = 400 };
   const double beside = 1e-3;
   const int coordinates = 2 * s->model->n_contacts < s->n ? 2 * s->model->n_contacts : s->n;
-  const int most = MOST_UNKNOWNS / (2 * coordinates), given = s->how.harmonics, enough = s->fine.harmonics;
+  const int most = MOST_UNKNOWNS / (2 * coordinates), given = s->how.harmonics;
+  const int enough = s->enough > 0 ? s->enough : s->fine.harmonics;
   scene sc = *s->asked;
   if (sc.hbm.force == HBM_FORCE_EXACT && enough > given)
     sc.hbm.harmonics = enough < most ? enough : given < most ? most : given;
