@@ -59,14 +59,6 @@ int lab_read(lab *l, const char *text)
   return st;
 }
 
-static hc_status add_contact(lab *l, const scene_contact *c)
-{
-  const double numbers[] = {c->law.kt, c->law.kn, c->law.mu, c->angle_deg, c->law.gap};
-  double *row = lab_row(l);
-  if (row) memcpy(row, numbers, sizeof numbers);
-  return row ? HC_OK : HC_NO_MEMORY;
-}
-
 int lab_case(lab *l)
 {
   enum { COLUMNS = 11 };
@@ -74,21 +66,12 @@ int lab_case(lab *l)
   if (!l->has_case) return lab_answer(l, HC_BAD_INPUT);
   const scene *sc = &l->sc;
   const hbm_settings *h = &sc->hbm;
-  const double numbers[COLUMNS] = {sc->mass,
-                                   sc->damping,
-                                   sc->stiffness,
-                                   sc->force,
-                                   sc->omega_from,
-                                   sc->omega_to,
-                                   h->harmonics,
-                                   h->samples,
-                                   h->keep_mean,
-                                   h->force == HBM_FORCE_SAMPLED,
-                                   h->restart == HBM_RESTART_SAMPLE};
-  double *row = lab_row(l);
-  if (row) memcpy(row, numbers, sizeof numbers);
-  hc_status st = row ? HC_OK : HC_NO_MEMORY;
-  for (int j = 0; j < sc->n_contacts && st == HC_OK; ++j) st = add_contact(l, &sc->contacts[j]);
+  hc_status st = LAB_ADD(l, sc->mass, sc->damping, sc->stiffness, sc->force, sc->omega_from, sc->omega_to, h->harmonics,
+                         h->samples, h->keep_mean, h->force == HBM_FORCE_SAMPLED, h->restart == HBM_RESTART_SAMPLE);
+  for (int j = 0; j < sc->n_contacts && st == HC_OK; ++j) {
+    const scene_contact *c = &sc->contacts[j];
+    st = LAB_ADD(l, c->law.kt, c->law.kn, c->law.mu, c->angle_deg, c->law.gap);
+  }
   return lab_answer(l, st);
 }
 
@@ -130,6 +113,13 @@ double *lab_row(lab *l)
   double *row = l->values + (size_t)l->rows++ * (size_t)l->columns;
   for (int i = 0; i < l->columns; ++i) row[i] = NAN;
   return row;
+}
+
+hc_status lab_add(lab *l, size_t n, const double *numbers)
+{
+  double *row = lab_row(l);
+  if (row) memcpy(row, numbers, n * sizeof *row);
+  return row ? HC_OK : HC_NO_MEMORY;
 }
 
 int lab_answer(lab *l, hc_status st)

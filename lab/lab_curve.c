@@ -13,25 +13,26 @@ static hc_status add_solution(lab *l, hbm_solver *s, const hbm_curve *c, int k)
 {
   response_row r;
   hc_status st = response_row_of(s, c, k, &r);
-  double *row = st == HC_OK ? lab_row(l) : NULL;
-  if (!row) return st == HC_OK ? HC_NO_MEMORY : st;
-  const double *X = hbm_curve_X(c, k);
-  row[LAB_OMEGA] = r.point.omega;
-  row[LAB_BRANCH] = r.point.branch;
-  row[LAB_AMPLITUDE] = r.measures.amplitude;
-  row[LAB_MAX] = r.measures.max;
-  row[LAB_MIN] = r.measures.min;
-  row[LAB_RMS] = r.measures.rms;
-  row[LAB_MEAN] = r.measures.mean;
-  row[LAB_HARMONIC_1] = r.measures.harmonic_1;
-  row[LAB_STABLE] = r.stability_known ? hbm_stability_verdict(&r.stability) : 0;
-  row[LAB_MULTIPLIER] = r.stability_known ? r.stability.multiplier : NAN;
-  row[LAB_CONTACT] = r.measures.contact.regime;
-  row[LAB_ITERATIONS] = r.point.iterations;
-  row[LAB_RESIDUAL] = r.point.residual;
-  row[LAB_HARMONICS] = r.point.harmonics;
-  for (int i = 0; i < c->n_coef; ++i) row[LAB_SOLUTION + i] = X[i];
-  return HC_OK;
+  if (st != HC_OK) return st;
+  const hbm_measures *m = &r.measures;
+  double row[LAB_SOLUTION + LAB_MOST_COEF] = {
+      [LAB_OMEGA] = r.point.omega,
+      [LAB_BRANCH] = r.point.branch,
+      [LAB_AMPLITUDE] = m->amplitude,
+      [LAB_MAX] = m->max,
+      [LAB_MIN] = m->min,
+      [LAB_RMS] = m->rms,
+      [LAB_MEAN] = m->mean,
+      [LAB_HARMONIC_1] = m->harmonic_1,
+      [LAB_STABLE] = r.stability_known ? hbm_stability_verdict(&r.stability) : 0,
+      [LAB_MULTIPLIER] = r.stability_known ? r.stability.multiplier : NAN,
+      [LAB_CONTACT] = m->contact.regime,
+      [LAB_ITERATIONS] = r.point.iterations,
+      [LAB_RESIDUAL] = r.point.residual,
+      [LAB_HARMONICS] = r.point.harmonics,
+  };
+  memcpy(row + LAB_SOLUTION, hbm_curve_X(c, k), (size_t)c->n_coef * sizeof *row);
+  return lab_add(l, LAB_SOLUTION + (size_t)c->n_coef, row);
 }
 
 /* All of them: how the search ended, unless a row fails. */
@@ -112,11 +113,7 @@ static hc_status add_neighbour(lab *l, hbm_solver *s, const hbm_curve *c, int k)
   point.branch = c->points[k].branch;
   const hbm_curve one = {.n = 1, .n_coef = c->n_coef, .points = &point, .X = X};
   if (st == HC_OK) return add_solution(l, s, &one, 0);
-  double *row = lab_row(l);
-  if (!row) return HC_NO_MEMORY;
-  row[LAB_OMEGA] = c->points[k].omega;
-  row[LAB_BRANCH] = point.branch;
-  return HC_OK;
+  return LAB_ADD(l, [LAB_OMEGA] = c->points[k].omega, [LAB_BRANCH] = point.branch);
 }
 
 /* The neighbours of all points of *c. */
@@ -163,15 +160,9 @@ int lab_specials(lab *l, int force)
   int found = 0;
   hbm_special *list = calloc(MOST, sizeof *list);
   hc_status st = list ? hbm_specials(kept->solver, &kept->curve, MOST, list, &found) : HC_NO_MEMORY;
-  for (int i = 0; list && i < found && i < MOST; ++i) {
-    double *row = lab_row(l);
-    if (!row) {
-      st = HC_NO_MEMORY;
-      break;
-    }
+  for (int i = 0; list && i < found && i < MOST && st != HC_NO_MEMORY; ++i) {
     const hbm_special *p = &list[i];
-    const double numbers[COLUMNS] = {p->omega, p->amplitude, p->branch, p->kind, p->before, p->after};
-    for (int c = 0; c < COLUMNS; ++c) row[c] = numbers[c];
+    if (LAB_ADD(l, p->omega, p->amplitude, p->branch, p->kind, p->before, p->after) != HC_OK) st = HC_NO_MEMORY;
   }
   free(list);
   return lab_answer(l, st);

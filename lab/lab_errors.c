@@ -14,15 +14,7 @@ typedef struct error_row {
 
 static hc_status add_row(lab *l, const error_row *e)
 {
-  double *row = lab_row(l);
-  if (!row) return HC_NO_MEMORY;
-  row[0] = e->harmonics;
-  row[1] = e->samples;
-  row[2] = e->status;
-  row[3] = e->amplitude;
-  row[4] = e->error;
-  row[5] = (double)e->solves;
-  return HC_OK;
+  return LAB_ADD(l, e->harmonics, e->samples, e->status, e->amplitude, e->error, (double)e->solves);
 }
 
 /* The solution next to X[2 e->harmonics + 1], which it becomes; e->status says whether there is one. */

@@ -27,8 +27,12 @@ struct lab {
 /* An empty table of so many columns. */
 void lab_begin(lab *l, int columns);
 
-/* One more row, of NaN, until the next one; NULL: out of memory. */
+/* One more row, of NaN; NULL: out of memory. It may move with the next one. */
 double *lab_row(lab *l);
+
+/* One more row that begins with numbers[n]. HC_NO_MEMORY. */
+hc_status lab_add(lab *l, size_t n, const double *numbers);
+#define LAB_ADD(l, ...) lab_add(l, sizeof((double[]){__VA_ARGS__}) / sizeof(double), (double[]){__VA_ARGS__})
 
 /* What a question returns for st. */
 int lab_answer(lab *l, hc_status st);

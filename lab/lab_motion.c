@@ -114,17 +114,10 @@ static hc_status sampled_harmonics(const lab *l, const model *m, int n, double *
 /* h, cosine and sine of both. */
 static hc_status add_harmonics(lab *l, int n_shown, const double *F, const double *sampled)
 {
-  for (int h = 0; h <= n_shown; ++h) {
-    double *row = lab_row(l);
-    if (!row) return HC_NO_MEMORY;
-    const int cosine = h ? 2 * h - 1 : 0;
-    row[0] = h;
-    row[1] = F[cosine];
-    row[2] = h ? F[cosine + 1] : 0;
-    row[3] = sampled[cosine];
-    row[4] = h ? sampled[cosine + 1] : 0;
-  }
-  return HC_OK;
+  hc_status st = LAB_ADD(l, 0, F[0], 0, sampled[0], 0);
+  for (int h = 1; h <= n_shown && st == HC_OK; ++h)
+    st = LAB_ADD(l, h, F[2 * h - 1], F[2 * h], sampled[2 * h - 1], sampled[2 * h]);
+  return st;
 }
 
 int lab_spectrum(lab *l, int n, int n_shown)
@@ -161,15 +154,8 @@ static hc_status add_work(lab *l, const moving_contact *c)
     v[i] = c->cv[0] * l->X[i];
   }
   hc_status st = contact_measures_of(&c->law, l->n_harm, u, v, &p);
-  double *row = st == HC_OK ? lab_row(l) : NULL;
-  if (!row) return st == HC_OK ? HC_NO_MEMORY : st;
-  row[0] = p.regime;
-  row[1] = p.normal_min;
-  row[2] = p.normal_max;
-  row[3] = p.traction_max;
-  row[4] = p.slip_distance;
-  row[5] = p.work;
-  return HC_OK;
+  if (st != HC_OK) return st;
+  return LAB_ADD(l, p.regime, p.normal_min, p.normal_max, p.traction_max, p.slip_distance, p.work);
 }
 
 int lab_work(lab *l)

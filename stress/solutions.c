@@ -225,14 +225,14 @@ static stress_check explain_samples(solved_scene *s, const double *x, double err
 /* With ever more samples, until the solution is the exact one to 1e-6. */
 stress_check stress_check_sampled(solved_scene *s)
 {
-  enum { LEAST = 512, MOST = 32768 };
+  enum { LEAST = 256, MOST = 32768 };
   hbm_settings how = s->how;
   hc_status failed = HC_OK;
   stress_check result = stress_skip(STRESS_NO_REASON);
   if (s->base.m.contact.regime == CONTACT_LINEAR) return stress_skip(STRESS_NOT_APPLICABLE);
   how.force = HBM_FORCE_SAMPLED;
   how.restart = HBM_RESTART_INTERPOLATED;
-  for (how.samples = LEAST; how.samples <= MOST && s->fatal == HC_OK; how.samples *= 4) {
+  for (how.samples = LEAST + 2 * how.harmonics; how.samples <= MOST && s->fatal == HC_OK; how.samples *= 4) {
     stress_motion sampled;
     bool done = false;
     stress_motion_solve(s, s->model, &how, s->omega, s->base.x, 1, &sampled);
