@@ -135,7 +135,7 @@ static void step(const one_contact *c, const double *motion, stepper *s, double 
 static void step_period(const one_contact *c, int n_harm, int N, const double *motion, stepper *s, double *force)
 {
   const int n_coef = series_length(n_harm);
-  double f[ONE_CONTACT_MOST], basis[2 * HBM_MAX_HARMONICS + 1];
+  double f[ONE_CONTACT_MOST] = {0}, basis[2 * HBM_MAX_HARMONICS + 1] = {0};
   for (int i = 0; i < N; ++i) {
     step(c, motion + (size_t)i * (size_t)c->n_dof, s, f);
     if (force) basis_at(n_harm, i, N, basis);
@@ -153,7 +153,7 @@ static hc_status step_contact(const one_contact *c, int n_harm, int N, double *f
   const int most = c->circle ? 1 << 23 : N; /* instants in all */
   const int n_coef = series_length(n_harm);
   const double settled = 1e-9;
-  double basis[2 * HBM_MAX_HARMONICS + 1], *motion = malloc((size_t)N * (size_t)c->n_dof * sizeof *motion);
+  double basis[2 * HBM_MAX_HARMONICS + 1] = {0}, *motion = malloc((size_t)N * (size_t)c->n_dof * sizeof *motion);
   stepper s = {0};
   bool rests = !c->circle;
   if (!motion) return HC_NO_MEMORY;
