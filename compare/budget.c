@@ -193,21 +193,12 @@ static hc_status find_finer(budgeter *b, const budget_case *from, const hc_monit
   const double fine = fmin(finest, 0.1 * tolerance);
   hc_status st = integrate_again(b, &b->finer, fine, from, monitor, c, &c->has_finer);
   if (st != HC_OK || c->has_finer) return st;
-  st = integrate_again(b, &b->coarser, 10 * tolerance, from, monitor, c, &c->finer_is_coarser);
-  return st;
+  return integrate_again(b, &b->coarser, 10 * tolerance, from, monitor, c, &c->finer_is_coarser);
 }
 
 /* ---- the parts ------------------------------------------------------------------------------- */
 
 static double known(double part) { return part >= 0 ? part : 0; }
-
-static void add_up(budget_parts *p)
-{
-  p->sum = 0;
-#define ADD(name) p->sum += known(p->name);
-  BUDGET_PARTS(ADD)
-#undef ADD
-}
 
 /* Distances between the solutions of a chain in one response. */
 typedef struct distances {
@@ -237,7 +228,10 @@ static budget_parts split(const chain *c, bool exact_law, double settling, doubl
     if (c->has_finer || c->finer_is_coarser)
       p.integration = fmax(relative(&d->integration, measure, unit) - known(settling), 0);
   }
-  add_up(&p);
+  p.sum = 0;
+#define ADD(name) p.sum += known(p.name);
+  BUDGET_PARTS(ADD)
+#undef ADD
   return p;
 }
 

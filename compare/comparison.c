@@ -41,18 +41,6 @@ static hc_status add_contacts(comparison_work *w, const double *X, const compari
   return st;
 }
 
-/* Rows of the other responses of solution k behind that of the first. */
-static hc_status add_other_responses(comparison_work *w, const hbm_curve *at, int k, const comparison_row *first)
-{
-  comparison_row row;
-  hc_status st = HC_OK;
-  for (int r = 1; r < w->setup->model->n_responses && st == HC_OK; ++r) {
-    solution_turn(w, at, k, r, first, &row);
-    st = add_row(w->out, &row, w->state);
-  }
-  return st;
-}
-
 /* All that is told of solution k, at once for who looks at what was found meanwhile; k < 0: there is none. */
 static hc_status add_solution(comparison_work *w, const hbm_curve *at, int k, const comparison_row *row)
 {
@@ -60,7 +48,11 @@ static hc_status add_solution(comparison_work *w, const hbm_curve *at, int k, co
   if (setup->found) pthread_mutex_lock(setup->found);
   hc_status st = add_row(w->out, row, w->state);
   if (st == HC_OK && k >= 0 && setup->contacts) st = add_contacts(w, at->X + (size_t)k * at->n_coef, row);
-  if (st == HC_OK && k >= 0) st = add_other_responses(w, at, k, row);
+  for (int r = 1; r < setup->model->n_responses && st == HC_OK && k >= 0; ++r) { /* behind that of the first response */
+    comparison_row other;
+    solution_turn(w, at, k, r, row, &other);
+    st = add_row(w->out, &other, w->state);
+  }
   if (setup->found) pthread_mutex_unlock(setup->found);
   if (setup->added) setup->added(setup->added_to);
   return st;
@@ -98,14 +90,6 @@ static hc_status compare_at(comparison_work *w, double omega)
   return st;
 }
 
-static void begin_sweep(comparison_work *w)
-{
-  bool down = w->setup->transient.start == TRANSIENT_START_DOWN;
-  double low = fmin(w->setup->omega_from, w->setup->omega_to), high = fmax(w->setup->omega_from, w->setup->omega_to);
-  w->swept_omega = down ? high : low;
-  timeint_rest(w->ti, w->swept);
-}
-
 static const double curve_share = 0.1; /* of the whole work: the response curve, before the frequencies */
 
 /* A part of the whole work, for the monitor of the inner loops. */
@@ -125,14 +109,16 @@ static hc_status compare_all(comparison_work *w)
   const hc_monitor *outer = w->monitor;
   number_list omega;
   hc_status st = comparison_frequencies(&w->setup->compare, w->setup->omega_from, w->hbm, &w->out->curve, &omega);
-  begin_sweep(w);
+  const bool down = w->setup->transient.start == TRANSIENT_START_DOWN;
+  const double from = w->setup->omega_from, to = w->setup->omega_to;
+  w->swept_omega = down ? fmax(from, to) : fmin(from, to);
+  timeint_rest(w->ti, w->swept);
   for (int i = 0; i < omega.n && st == HC_OK; ++i) {
-    int at = w->setup->transient.start == TRANSIENT_START_DOWN ? omega.n - 1 - i : i;
     const double width = (1 - curve_share) / omega.n;
     progress_part part = {outer, curve_share + i * width, width};
     hc_monitor inner = {tick_part, &part};
     w->monitor = &inner;
-    st = compare_at(w, omega.v[at]);
+    st = compare_at(w, omega.v[down ? omega.n - 1 - i : i]);
   }
   w->monitor = outer;
   return st;
@@ -164,14 +150,6 @@ static hc_status make_states(comparison_work *w)
   return memory->failed ? HC_NO_MEMORY : HC_OK;
 }
 
-static void count_cost(comparison_work *w, comparison_cost *cost)
-{
-  *cost = (comparison_cost){.hbm_solves = hbm_solves(w->hbm)};
-  timeint_count(w->ti, &cost->periods, &cost->closed_form);
-  timeint_count(w->exact, &cost->periods, &cost->closed_form);
-  budgeter_count(w->budgeter, &cost->hbm_solves, &cost->periods, &cost->closed_form);
-}
-
 hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out)
 {
   *out = (comparison){0};
@@ -191,7 +169,11 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
     hc_status summed = response_summarise(w.hbm, &out->curve, &out->summary);
     if (summed != HC_OK) st = summed;
     if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = compare_all(&w); /* as far as the curve goes */
-    count_cost(&w, &out->cost);
+    comparison_cost *cost = &out->cost;
+    *cost = (comparison_cost){.hbm_solves = hbm_solves(w.hbm)};
+    timeint_count(w.ti, &cost->periods, &cost->closed_form);
+    timeint_count(w.exact, &cost->periods, &cost->closed_form);
+    budgeter_count(w.budgeter, &cost->hbm_solves, &cost->periods, &cost->closed_form);
   }
   workspace_free(&w.memory);
   budgeter_free(w.budgeter);

@@ -106,11 +106,6 @@ static hc_status march_perturbed(comparison_work *w, timeint *ti, double omega, 
   return timeint_steady(ti, omega, y, w->monitor, r);
 }
 
-static bool is_at_corner(const comparison_row *row)
-{
-  return row->transient.free_sliders > 0 && hbm_stability_verdict(&row->stability) == 0;
-}
-
 /* Where the motion goes that is pushed off w->state to that side (+1, -1), marched with the exact law in closed form.
  * As timeint_steady. */
 static hc_status perturbed_motion(comparison_work *w, double omega, int direction, timeint_result *r)
@@ -152,7 +147,8 @@ static hc_status judge(comparison_work *w, const comparison_row *row, const doub
   if (row->transient.period_multiple > 1) return *out = VERDICT_PERIOD_K, HC_OK;
   if (within_limits(w->setup, &row->errors, &row->transient)) {
     bool it_stays = true;
-    const hc_status st = is_at_corner(row) ? perturbations_decay(w, row, X, &it_stays) : HC_OK;
+    const bool at_corner = row->transient.free_sliders > 0 && hbm_stability_verdict(&row->stability) == 0;
+    const hc_status st = at_corner ? perturbations_decay(w, row, X, &it_stays) : HC_OK;
     *out = it_stays ? VERDICT_MATCH : VERDICT_UNSTABLE;
     return st;
   }

@@ -55,8 +55,8 @@ static hc_status add_row(steady_work *w, const steady_row *row)
 {
   steady_states *s = w->out;
   lock_found(w);
-  steady_row *grown = growing(s->rows, s->n, sizeof *grown);
-  if (grown) s->rows = grown, s->rows[s->n++] = *row;
+  const bool grown = GROW(s->rows, s->n);
+  if (grown) s->rows[s->n++] = *row;
   unlock_found(w);
   return grown ? HC_OK : HC_NO_MEMORY;
 }

@@ -40,15 +40,6 @@ enum { PEAK_LEVELS = 6 };
 static const double reusable = 0.01; /* [amplitude] an orbit within this of a solution of the fine curve is taken as
                                         the one next to it */
 
-static hc_status add_target(reference *r, double omega, const periodic_motion *orbit)
-{
-  target *grown = growing(r->targets, r->n, sizeof *grown);
-  if (!grown) return HC_NO_MEMORY;
-  r->targets = grown;
-  r->targets[r->n++] = (target){omega, *orbit};
-  return HC_OK;
-}
-
 static bool is_known(const reference *r, double omega, const periodic_motion *orbit)
 {
   for (int i = 0; i < r->n; ++i)
@@ -83,8 +74,9 @@ static hc_status targets_at(const comparison *c, timeint *ti, double *state, hbm
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     const double *X = at.X + (size_t)k * at.n_coef;
     periodic_motion orbit;
-    if (!orbit_next_to(c, ti, state, hbm, X, omega, monitor, &orbit)) continue;
-    if (!is_known(r, omega, &orbit)) st = add_target(r, omega, &orbit);
+    if (!orbit_next_to(c, ti, state, hbm, X, omega, monitor, &orbit) || is_known(r, omega, &orbit)) continue;
+    if (GROW(r->targets, r->n)) r->targets[r->n++] = (target){omega, orbit};
+    else st = HC_NO_MEMORY;
   }
   hbm_curve_free(&at);
   return st;
@@ -163,7 +155,7 @@ static void find_peak(const compare_setup *setup, timeint *ti, double *states, h
   hbm_curve_free(&peak);
 }
 
-/* From the curve of `hbm`, whose forces are exact. Free with reference_clear in any case. */
+/* From the curve of `hbm`, whose forces are exact. out->targets is the caller's to free in any case. */
 static hc_status reference_make(const compare_setup *setup, const comparison *c, hbm_solver *hbm,
                                 const hbm_curve *curve, const hc_monitor *monitor, reference *out)
 {
@@ -181,12 +173,6 @@ static hc_status reference_make(const compare_setup *setup, const comparison *c,
   free(states);
   timeint_free(ti);
   return st;
-}
-
-static void reference_clear(reference *r)
-{
-  free(r->targets);
-  *r = (reference){0};
 }
 
 /* ---- the table ---- */
@@ -511,20 +497,6 @@ static void put_reference(const table_work *w, accuracy *out)
   out->peak_omega = w->ref.peak_omega;
 }
 
-/* The rows that are there move together, in their order. */
-static void put_rows(const table_work *w, accuracy *out)
-{
-  for (int i = 0; i < w->n_harm * (w->n_samples + 1); ++i)
-    if (w->there[i]) out->rows[out->n_rows++] = out->rows[i];
-}
-
-static void table_work_clear(table_work *w)
-{
-  for (int i = 0; i < w->n_harm; ++i) workspace_free(&w->plain[i].s.memory);
-  reference_clear(&w->ref);
-  free(w->there);
-}
-
 hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, accuracy *out)
 {
   int harmonics[NUMBER_LIST_MAX], samples[NUMBER_LIST_MAX];
@@ -542,11 +514,14 @@ hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc
   hc_status st = out->rows && out->orders && w.there ? exact_rows(&w) : HC_NO_MEMORY;
   if (st == HC_OK) st = workers_run(setup->jobs, w.n_harm * w.n_samples + 1, do_task, &w, monitor);
   if (out->rows && out->orders && w.there) {
-    put_rows(&w, out);
+    for (size_t i = 0; i < most_rows; ++i) /* those that are there move together, in their order */
+      if (w.there[i]) out->rows[out->n_rows++] = out->rows[i];
     put_orders(&w, out);
     put_reference(&w, out);
   }
-  table_work_clear(&w);
+  for (int i = 0; i < w.n_harm; ++i) workspace_free(&w.plain[i].s.memory);
+  free(w.ref.targets);
+  free(w.there);
   return st;
 }
 

@@ -205,16 +205,6 @@ static void record_answer(const timed_method *t, const answer *a, const bench_st
   row->seconds = took;
 }
 
-static hc_status make_workspace(const bench_start *at, timed_method *t)
-{
-  t->seconds = workspace_doubles(&t->memory, (size_t)t->cap);
-  t->X = workspace_doubles(&t->memory, (size_t)at->most_coef);
-  t->trial = workspace_doubles(&t->memory, (size_t)at->most_coef);
-  t->state = workspace_doubles(&t->memory, (size_t)at->n_states);
-  t->motion = workspace_array(&t->memory, (size_t)at->n_responses, sizeof *t->motion);
-  return t->memory.failed ? HC_NO_MEMORY : HC_OK;
-}
-
 /* Ready to run up to cap times, the first run done: errors and outcome are in the row. HC_INTERRUPTED, HC_NO_MEMORY;
  * what goes wrong with the method itself is the row's outcome. Free in any case. */
 static hc_status timed_method_start(const compare_setup *setup, const bench_start *at, bench_row *row, int cap,
@@ -223,8 +213,12 @@ static hc_status timed_method_start(const compare_setup *setup, const bench_star
   answer a;
   *t = (timed_method){.row = row, .cap = cap, .batch = 1};
   t->setup = method_setup(setup, row->method, row->harmonics, row->samples, row->regularisation, row->tolerance);
-  hc_status st = make_workspace(at, t);
-  if (st == HC_OK) st = make(at, monitor, t);
+  t->seconds = workspace_doubles(&t->memory, (size_t)cap);
+  t->X = workspace_doubles(&t->memory, (size_t)at->most_coef);
+  t->trial = workspace_doubles(&t->memory, (size_t)at->most_coef);
+  t->state = workspace_doubles(&t->memory, (size_t)at->n_states);
+  t->motion = workspace_array(&t->memory, (size_t)at->n_responses, sizeof *t->motion);
+  hc_status st = t->memory.failed ? HC_NO_MEMORY : make(at, monitor, t);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
   if (st != HC_OK) {
     row->status = st;
@@ -307,9 +301,7 @@ static bool bench_tick(void *self, double done)
 
 static hc_status add_row(bench *b, const bench_row *row)
 {
-  bench_row *grown = growing(b->rows, b->n_rows, sizeof *grown);
-  if (!grown) return HC_NO_MEMORY;
-  b->rows = grown;
+  if (!GROW(b->rows, b->n_rows)) return HC_NO_MEMORY;
   b->rows[b->n_rows++] = *row;
   return HC_OK;
 }

@@ -37,12 +37,6 @@ typedef struct arguments {
   char (*text)[NUMBER]; /* [n] */
 } arguments;
 
-static void arguments_free(arguments *a)
-{
-  free(a->argv);
-  free(a->text);
-}
-
 static void add(arguments *a, double value)
 {
   snprintf(a->text[a->n], NUMBER, "%.17g", value);
@@ -185,7 +179,8 @@ hc_status scipy_lsoda(const model *m, const bench_start *at, double multiplier, 
     int code = run(candidates[i], &a, monitor, runs, n, text, &stopped);
     if (code != NOT_THERE && code != 127) break;
   }
-  arguments_free(&a);
+  free(a.argv);
+  free(a.text);
   if (filled != HC_OK) return filled;
   size_t length = strlen(text);
   if (*n > 0) snprintf(text + length, 96 - length, ", %d periods, what it did in %g s", (int)periods, longest);

@@ -49,10 +49,10 @@ typedef struct judge {
 static void add(judge *j, const gate_check *check)
 {
   gate_case *g = j->out;
-  gate_check *grown = growing(g->checks, g->n, sizeof *grown);
-  if (!grown) j->st = HC_NO_MEMORY;
-  if (!grown) return;
-  g->checks = grown;
+  if (!GROW(g->checks, g->n)) {
+    j->st = HC_NO_MEMORY;
+    return;
+  }
   g->checks[g->n++] = *check;
   g->failures += check->result == GATE_FAIL;
   g->errors += check->result == GATE_ERROR;

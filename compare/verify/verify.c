@@ -180,19 +180,6 @@ static void add_reasons(message *m, const verify_report *r)
   }
 }
 
-static void add_remedies(message *m, verify_causes bits)
-{
-  for (int i = 0; i < VERIFY_CAUSES; ++i)
-    if (bits & VERIFY_BIT(i)) message_add(m, "; %s", verify_cause_remedy(i));
-}
-
-static void say_match(message *m, const verify_report *r)
-{
-  message_add(m, "no cause to suspect: every point lies on a solution, within the gate of %g", r->gate);
-  if (r->count[VERDICT_UNSTABLE])
-    message_add(m, "; %d of them on unstable ones, where no motion stays", r->count[VERDICT_UNSTABLE]);
-}
-
 static void say_guess(message *m, const verify_report *r)
 {
   const bool fits = verify_fits(r);
@@ -238,8 +225,11 @@ const char *verify_sentence(const verify_report *r, char text[VERIFY_TEXT])
 {
   message m;
   message_start(&m, text, VERIFY_TEXT);
-  if (!r->causes && r->status == HC_OK && verify_exit_code(r) == 0) say_match(&m, r);
-  else if (!r->causes) say_unexplained(&m, r);
+  if (!r->causes && r->status == HC_OK && verify_exit_code(r) == 0) {
+    message_add(&m, "no cause to suspect: every point lies on a solution, within the gate of %g", r->gate);
+    if (r->count[VERDICT_UNSTABLE])
+      message_add(&m, "; %d of them on unstable ones, where no motion stays", r->count[VERDICT_UNSTABLE]);
+  } else if (!r->causes) say_unexplained(&m, r);
   else {
     message_add(&m, "suspected cause: ");
     add_causes(&m, r->causes);
@@ -251,7 +241,8 @@ const char *verify_sentence(const verify_report *r, char text[VERIFY_TEXT])
       message_add(&m, " off)");
       add_reasons(&m, r);
     }
-    add_remedies(&m, r->causes);
+    for (int i = 0; i < VERIFY_CAUSES; ++i)
+      if (r->causes & VERIFY_BIT(i)) message_add(&m, "; %s", verify_cause_remedy(i));
   }
   return text;
 }

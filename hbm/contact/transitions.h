@@ -44,6 +44,20 @@ contact_regime transitions_regime(int n, const contact_interval *interval);
 /* The interval at th [rad], between -2 pi and 4 pi; NULL: the contact is separated then. */
 const contact_interval *contact_interval_at(int n, const contact_interval *interval, double th);
 
+/* dT by the normal motion while it slips, else by the tangential one [force/length]; 0 without friction. */
+static inline double contact_interval_stiffness(const contact *law, const contact_interval *at)
+{
+  const int slip = contact_slip_sign(at->state);
+  if (!contact_has_friction(law)) return 0;
+  return slip ? slip * law->mu * law->kn : law->kt;
+}
+
+/* Does a slider hold the contact in that interval, or in none (NULL)? */
+static inline bool contact_interval_holds(const contact *law, const contact_interval *at)
+{
+  return at && !contact_slip_sign(at->state) && contact_has_friction(law);
+}
+
 /* T [force] at an instant of that interval, or of none: kt u less held while stuck, +-mu N while it slips. */
 double contact_interval_traction(const contact *law, const contact_interval *at, double u, double normal);
 

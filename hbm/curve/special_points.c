@@ -87,9 +87,7 @@ static hc_status insert_special(detector *d, double sigma, hbm_special_kind kind
                                 const test_values *after)
 {
   hbm_measures m;
-  found_point *grown = growing(d->found, d->n, sizeof *grown);
-  if (!grown) return HC_NO_MEMORY;
-  d->found = grown;
+  if (!GROW(d->found, d->n)) return HC_NO_MEMORY;
   const hc_status st = hbm_measure(d->s, d->x.X, &m);
   if (st != HC_OK) return st;
   int i = d->n++;
@@ -147,35 +145,31 @@ typedef struct segment_search {
   test_values here;          /* the test functions there */
 } segment_search;
 
-static hc_status evaluate_on_segment(segment_search *s, double sigma)
+/* d->x and s->here at sigma, unless they are: of a contact change in the part that shrinks around it. */
+static hc_status evaluate_at(segment_search *s, double sigma)
 {
   detector *d = s->d;
-  s->sigma = sigma;
-  hc_status st = hbm_segment_point(d->s, d->c, s->k, sigma, &d->x);
+  if (s->sigma == sigma) return HC_OK;
+  hc_status st = s->kind == HBM_CONTACT_CHANGE ? hbm_narrowing_point(d->s, &d->near, sigma, &d->x)
+                                               : hbm_segment_point(d->s, d->c, s->k, sigma, &d->x);
   const bool asked = s->kind == HBM_PERIOD_DOUBLING || s->kind == HBM_NEIMARK_SACKER;
-  return st == HC_OK ? evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, asked, &s->here) : st;
+  if (st == HC_OK) st = evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, asked, &s->here);
+  s->sigma = st == HC_OK ? sigma : NAN;
+  return st;
 }
 
 static hc_status smooth_test_at(void *self, double sigma, double *value)
 {
   segment_search *s = self;
-  hc_status st = evaluate_on_segment(s, sigma);
+  hc_status st = evaluate_at(s, sigma);
   *value = s->kind == HBM_TURNING_POINT ? s->here.d_omega : s->here.flip;
   return st;
-}
-
-static hc_status evaluate_nearby(segment_search *s, double sigma)
-{
-  detector *d = s->d;
-  s->sigma = sigma;
-  hc_status st = hbm_narrowing_point(d->s, &d->near, sigma, &d->x);
-  return st == HC_OK ? evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, false, &s->here) : st;
 }
 
 static hc_status pattern_differs_at(void *self, double sigma, bool *differs)
 {
   segment_search *s = self;
-  hc_status st = evaluate_nearby(s, sigma);
+  hc_status st = evaluate_at(s, sigma);
   *differs = !same_pattern(&s->here, s->before);
   if (st == HC_OK) hbm_narrowing_move(&s->d->near, !*differs, sigma, &s->d->x);
   return st;
@@ -198,16 +192,9 @@ static hc_status pattern_may_differ_at(void *self, double sigma, bool *differs)
 static hc_status pairs_outside_differ_at(void *self, double sigma, bool *differ)
 {
   segment_search *s = self;
-  hc_status st = evaluate_on_segment(s, sigma);
+  hc_status st = evaluate_at(s, sigma);
   *differ = s->here.pairs_outside != s->before->pairs_outside;
   return st;
-}
-
-/* d->x and s->here at sigma, which need not be where the search was last. */
-static hc_status return_to(segment_search *s, double sigma)
-{
-  if (s->sigma == sigma) return HC_OK;
-  return s->kind == HBM_CONTACT_CHANGE ? evaluate_nearby(s, sigma) : evaluate_on_segment(s, sigma);
 }
 
 /* A sign change of a smooth test function on segment k, from f0 at its start to f1 at its end. */
@@ -216,7 +203,7 @@ static hc_status locate_root(detector *d, int k, hbm_special_kind kind, double f
   segment_search s = {.d = d, .k = k, .kind = kind, .sigma = NAN};
   root_point root;
   hc_status st = root_between(smooth_test_at, &s, 0, f0, 1, f1, SIGMA_TOLERANCE, &root);
-  if (st == HC_OK) st = return_to(&s, root.x);
+  if (st == HC_OK) st = evaluate_at(&s, root.x);
   if (st != HC_OK) return st;
   /* a turning point belongs to the branch that it ends */
   if (kind == HBM_TURNING_POINT) d->x.point.branch = d->c->points[k].branch;
@@ -266,7 +253,7 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
     if (st != HC_OK) return st;
     if (i > 0) hbm_narrowing_move(&d->near, true, from, &d->x);
     st = root_change_guided(pattern_differs_at, pattern_may_differ_at, &s, from, 1, SIGMA_TOLERANCE, &change);
-    if (st == HC_OK) st = return_to(&s, change.x);
+    if (st == HC_OK) st = evaluate_at(&s, change.x);
     if (st != HC_OK) return st;
     test_values after = change.x < 1 ? s.here : *end;
     st = insert_special(d, change.x, HBM_CONTACT_CHANGE, &before, &after);
@@ -284,7 +271,7 @@ static hc_status locate_neimark_sacker(detector *d, int k, const test_values *be
   segment_search s = {.d = d, .k = k, .kind = HBM_NEIMARK_SACKER, .before = before, .sigma = NAN};
   root_point change;
   hc_status st = root_change(pairs_outside_differ_at, &s, 0, 1, SIGMA_TOLERANCE, &change);
-  if (st == HC_OK) st = return_to(&s, change.x);
+  if (st == HC_OK) st = evaluate_at(&s, change.x);
   if (st != HC_OK || !(fabs(s.here.pair - 1) <= on_circle)) return st;
   return insert_special(d, change.x, HBM_NEIMARK_SACKER, &s.here, &s.here);
 }

@@ -167,11 +167,6 @@ static void swing(double phi, double R, double dphi, double dw[2])
   dw[1] = -R * cos(phi) * dphi;
 }
 
-static double angle_before(const planar_cycle *c, const planar_interval *p)
-{
-  return p->n_panels > 0 ? c->slip.panel[p->panel + p->n_panels - 1].phi[N - 1] : 0;
-}
-
 /* Passes lead no two sliders apart, so that none moves by more than the start. */
 static bool shift_is_small(const planar_cycle *c, double moved)
 {
@@ -197,8 +192,9 @@ static void shift_into(const planar_cycle *c, int i, double dw[2], double *dphi)
     if (!slips) swing(phi, at->R, *dphi, dw);
   } else if (p->state != p[-1].state) {
     const double R = planar_motion_at(c->m, p->from).R;
-    if (slips) *dphi = turn(c->slip.panel[p->panel].phi0, R, dw);
-    else swing(angle_before(c, p - 1), R, *dphi, dw);
+    const planar_panel *first = c->slip.panel + p->panel;
+    if (slips) *dphi = turn(first->phi0, R, dw);
+    else swing(p[-1].n_panels > 0 ? c->slip.panel[p[-1].panel + p[-1].n_panels - 1].phi[N - 1] : 0, R, *dphi, dw);
   }
 }
 

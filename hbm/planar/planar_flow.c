@@ -82,11 +82,6 @@ static void add_outer(planar_flow *f, double k, const double *a, const double *b
     for (int i = 0; i < f->n; ++i) f->K[(size_t)j * (size_t)f->n + (size_t)i] += k * a[i] * b[j];
 }
 
-static bool is_stuck(const planar_flow *f, const contact_interval *const *interval, int j)
-{
-  return interval[j] && !contact_slip_sign(interval[j]->state) && contact_has_friction(&f->m->contacts[j].law);
-}
-
 static void fill_stiffness(planar_flow *f, const contact_interval *const *interval, int n_slipping,
                            const planar_slipping *slipping)
 {
@@ -95,10 +90,9 @@ static void fill_stiffness(planar_flow *f, const contact_interval *const *interv
   for (int j = 0; j < m->n_contacts; ++j) {
     const model_contact *c = &m->contacts[j];
     if (!interval[j]) continue;
-    const int slip = contact_slip_sign(interval[j]->state);
     add_outer(f, c->law.kn, c->normal, c->normal);
-    if (slip) add_outer(f, slip * c->law.mu * c->law.kn, c->tangent, c->normal);
-    else if (is_stuck(f, interval, j)) add_outer(f, c->law.kt, c->tangent, c->tangent);
+    add_outer(f, contact_interval_stiffness(&c->law, interval[j]), c->tangent,
+              contact_slip_sign(interval[j]->state) ? c->normal : c->tangent);
   }
   for (int k = 0; k < n_slipping; ++k) { /* of both halves */
     const model_contact *c = &m->contacts[slipping[k].contact];
@@ -241,7 +235,8 @@ static void fill_right(const planar_flow *f, const contact_interval *const *inte
         right[r] -= m->damping[at] * v[q] + f->K[at] * (x[q] + t * v[q]);
       }
     for (int j = 0; j < m->n_contacts; ++j)
-      for (int r = 0; r < n && is_stuck(f, interval, j); ++r) right[r] += m->contacts[j].tangent[r] * state[j];
+      for (int r = 0; r < n && contact_interval_holds(&m->contacts[j].law, interval[j]); ++r)
+        right[r] += m->contacts[j].tangent[r] * state[j];
     for (int k = 0; k < n_slipping; ++k) {
       const model_contact *c = &m->contacts[slipping[k].contact];
       const planar_state *a = &f->at[k * N + i];

@@ -59,11 +59,9 @@ static void add_contact(interval_flow *f, int j, const contact_interval *p)
 {
   const model_contact *c = &f->m->contacts[j];
   const double *along = f->along + (size_t)j * (size_t)f->n, *across = f->across + (size_t)j * (size_t)f->n;
-  const int slip = contact_slip_sign(p->state);
   subtract_outer(f, c->law.kn, across, c->normal);
-  if (!contact_has_friction(&c->law)) return;
-  if (slip) subtract_outer(f, slip * c->law.mu * c->law.kn, along, c->normal);
-  else subtract_outer(f, c->law.kt, along, c->tangent);
+  subtract_outer(f, contact_interval_stiffness(&c->law, p), along,
+                 contact_slip_sign(p->state) ? c->normal : c->tangent);
 }
 
 static void interval_fill_A(interval_flow *f, const contact_interval *const *interval)
@@ -254,11 +252,6 @@ static double complex integral(double complex lambda, double t)
   return t * sum;
 }
 
-static bool is_stuck(const interval_flow *f, const contact_interval *const *interval, int j)
-{
-  return interval[j] && !contact_slip_sign(interval[j]->state) && contact_has_friction(&f->m->contacts[j].law);
-}
-
 /* What a stuck slider j pulls coordinate k with. */
 static double complex pull_on(const interval_flow *f, const decomposition *d, int k, int j)
 {
@@ -282,7 +275,7 @@ static void grow(const interval_flow *f, const decomposition *d, const contact_i
     im[q] = c * b + s * a;
   }
   for (int j = 0; j < f->m->n_contacts; ++j) {
-    if (!is_stuck(f, interval, j)) continue;
+    if (!contact_interval_holds(&f->m->contacts[j].law, interval[j])) continue;
     const double *held = phi + (size_t)(f->moving + j) * (size_t)f->n_states;
     const double complex by_held = integral(d->lambda[k], duration) * pull_on(f, d, k, j);
     for (int q = 0; q < columns; ++q) re[q] += creal(by_held) * held[q], im[q] += cimag(by_held) * held[q];
@@ -302,7 +295,7 @@ static hc_status advance_by_exponential(interval_flow *f, const contact_interval
   for (size_t e = 0; e < ld; ++e)
     for (size_t i = 0; i < ld; ++i) gsl_matrix_set(f->augmented, i, e, f->A[e * ld + i] * duration);
   for (int j = 0; j < f->m->n_contacts; ++j)
-    for (size_t i = 0; i < n && is_stuck(f, interval, j); ++i)
+    for (size_t i = 0; i < n && contact_interval_holds(&f->m->contacts[j].law, interval[j]); ++i)
       gsl_matrix_set(f->augmented, n + i, ld + (size_t)j, f->along[(size_t)j * n + i] / f->unit * duration);
   if (gsl_linalg_exponential_ss(f->augmented, f->exponential, GSL_PREC_DOUBLE) != GSL_SUCCESS) return HC_NOT_FINITE;
   for (size_t q = 0; q < (size_t)columns; ++q) {

@@ -289,7 +289,7 @@ const double complex *condensation_stiffness(const condensation *c, int h)
 const double *condensation_sizes(condensation *c, int h)
 {
   const int dim = c->basis.dim, rest = c->basis.rest;
-  const bool coupled = !c->by_compliance[h] && !(h == 0 && c->basis.modes); /* fill_static */
+  const bool coupled = !c->by_compliance[h] && !(h == 0 && c->basis.modes); /* fill_by_rest */
   const condensation_change dynamic = dynamic_at(c, h);
   const double alpha = cabs(dynamic.alpha), beta = cabs(dynamic.beta);
   const double complex *S = condensation_stiffness(c, h), *by_q = c->by_q + (size_t)h * (size_t)dim * (size_t)rest;

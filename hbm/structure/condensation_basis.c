@@ -175,13 +175,8 @@ static void transform_vectors(const model *m, condensation_basis *b)
   }
   for (int r = 0; r < m->n_responses; ++r)
     transform(b, m->n, m->responses + (size_t)r * n, b->responses + (size_t)r * n);
-}
-
-/* Rounding in a direction would couple what has nothing to do with each other. */
-static void clean_directions(const model *m, condensation_basis *b)
-{
-  for (int j = 0; j < 2 * m->n_contacts; ++j) {
-    double *d = b->directions + (size_t)j * (size_t)b->dim, largest = 0;
+  for (int j = 0; j < 2 * m->n_contacts; ++j) { /* rounding would couple what has nothing to do with each other */
+    double *d = b->directions + (size_t)j * dim, largest = 0;
     for (int i = 0; i < b->dim; ++i) largest = fmax(largest, fabs(d[i]));
     for (int i = 0; i < b->dim; ++i)
       if (fabs(d[i]) <= negligible * largest) d[i] = 0;
@@ -203,7 +198,6 @@ hc_status condensation_basis_make(const model *m, condensation_basis *b)
     dense_congruence(m->n, m->n, b->T, m->damping, work, b->C);
     dense_congruence(m->n, m->n, b->T, m->stiffness, work, b->K);
     transform_vectors(m, b);
-    clean_directions(m, b);
     if (modes) drop_rounding(b);
     b->modes = modes;
     b->diagonal = modes && dense_is_diagonal(b->rest, b->C + (size_t)b->dim * (size_t)(m->n + 1), m->n);

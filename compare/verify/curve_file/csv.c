@@ -416,9 +416,7 @@ static hc_status add_point(reader *r, verify_point p)
 {
   if (r->out->n == VERIFY_MOST_POINTS)
     return blame(r, 1, "one point too many, expected at most %d", VERIFY_MOST_POINTS);
-  verify_point *grown = growing(r->out->points, r->out->n, sizeof *grown);
-  if (!grown) return HC_NO_MEMORY;
-  r->out->points = grown;
+  if (!GROW(r->out->points, r->out->n)) return HC_NO_MEMORY;
   r->out->points[r->out->n++] = p;
   return HC_OK;
 }
