@@ -250,24 +250,8 @@ static void static_force(const model *m, bool preloaded, double factor, double *
 
 /* ---- more contacts ---- */
 
-/* A contact on the other side, which pulls where the first would be separated: max(kn g, 0) - max(-kn g, 0) = kn g. */
-static void other_side(int n, const model_contact *c, bool rubs, model_contact *other)
-{
-  other->law = c->law;
-  other->pair = c->pair, other->circle = c->circle;
-  for (int i = 0; i < n; ++i) other->tangent[i] = c->tangent[i], other->normal[i] = -c->normal[i];
-  other->law.gap = -c->law.gap;
-  if (!rubs) other->law.kt = other->law.mu = 0;
-}
-
-/* T of a contact with N0, N of it without friction. */
-static void held_by_preload(int n, const model_contact *c, model_contact *held)
-{
-  held->law = c->law;
-  held->pair = c->pair, held->circle = c->circle;
-  for (int i = 0; i < n; ++i) held->tangent[i] = c->tangent[i], held->normal[i] = 0;
-}
-
+/* Each contact and a second one. Without separation that is on the other side, and pulls where the first would be
+ * separated: max(kn g, 0) - max(-kn g, 0) = kn g. Of a constant limit it is T with N0; N is left to the first. */
 static hc_status double_contacts(const model *m, verify_change change, bool keep_mean, double *p, model **out,
                                  double *offset)
 {
@@ -282,8 +266,11 @@ static hc_status double_contacts(const model *m, verify_change change, bool keep
   for (int j = 0; j < n; ++j) {
     model_contact *c = &contacts[j], *added = &contacts[n + j];
     if (c->law.load > 0) continue; /* its force is constant as it is: the other is none */
-    if (linear) other_side(m->n, c, change == CHANGE_NO_SEPARATION_PULLS, added);
-    else held_by_preload(m->n, c, added);
+    added->law = c->law;
+    added->pair = c->pair, added->circle = c->circle;
+    for (int i = 0; i < m->n; ++i) added->tangent[i] = c->tangent[i], added->normal[i] = linear ? -c->normal[i] : 0;
+    if (linear) added->law.gap = -c->law.gap;
+    if (linear && change != CHANGE_NO_SEPARATION_PULLS) added->law.kt = added->law.mu = 0;
     if (!linear) c->law.kt = c->law.mu = 0;
     if (change == CHANGE_CONSTANT_LIMIT_LINEAR) add_spring(m->n, c->law.kn, c->normal, (*out)->stiffness);
     if (change == CHANGE_CONSTANT_LIMIT_LINEAR || change == CHANGE_CONSTANT_N) c->law.kn = 0;
