@@ -15,6 +15,9 @@ void dsygvd_(const int *type, const char *job, const char *half, const int *n, d
 void dgemm_(const char *transpose_a, const char *transpose_b, const int *m, const int *n, const int *k,
             const double *alpha, const double *a, const int *lda, const double *b, const int *ldb, const double *beta,
             double *c, const int *ldc, size_t a_length, size_t b_length);
+void dgemv_(const char *transposed, const int *m, const int *n, const double *alpha, const double *a, const int *lda,
+            const double *x, const int *step_x, const double *beta, double *y, const int *step_y,
+            size_t transposed_length);
 void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivot, int *info);
 void dgetrs_(const char *transposed, const int *n, const int *columns, const double *a, const int *lda,
              const int *pivot, double *b, const int *ldb, int *info, size_t transposed_length);
@@ -73,6 +76,21 @@ void dense_add_product(int m, int n, int k, double alpha, const double *A, int l
 {
   const int rows_of_B = ldb > 0 ? ldb : 1; /* of an empty sum, too */
   if (m > 0 && n > 0) IN_TURN(dgemm_("N", "N", &m, &n, &k, &alpha, A, &lda, B, &rows_of_B, &beta, C, &ldc, 1, 1));
+}
+
+void dense_times_vector(int m, int n, double alpha, const double *A, const double *x, double beta, double *y)
+{
+  enum { BY_BLAS = 1024 }; /* entries from where on a call is less than loops */
+  const int one = 1;
+  if (m * n >= BY_BLAS) {
+    IN_TURN(dgemv_("N", &m, &n, &alpha, A, &m, x, &one, &beta, y, &one, 1));
+    return;
+  }
+  for (int i = 0; i < m; ++i) y[i] = beta == 0 ? 0 : beta * y[i];
+  for (int j = 0; j < n; ++j) {
+    const double by = alpha * x[j], *column = A + (size_t)j * (size_t)m;
+    for (int i = 0; i < m; ++i) y[i] += column[i] * by;
+  }
 }
 
 void dense_transpose(int rows, int columns, const double *A, double *B)

@@ -17,16 +17,20 @@ hc_status motion_series_make(motion_series *s, const modal_base *base)
   *s = (motion_series){.n = base->n, .n_contacts = base->n_contacts};
   s->x = calloc((TERMS + 1) * n, sizeof *s->x);
   s->force = s->x ? s->x + TERMS * n : NULL;
-  s->u = calloc(2 * TERMS * contacts + 2 * loads + 1, sizeof *s->u);
+  s->u = calloc((2 * TERMS + 4) * contacts + 2 * loads + 1, sizeof *s->u);
   s->v = s->u ? s->u + TERMS * contacts : NULL;
-  s->load = s->v ? s->v + TERMS * contacts : NULL;
+  s->q = s->v ? s->v + TERMS * contacts : NULL;
+  s->pull = s->q ? s->q + 2 * contacts : NULL;
+  s->load = s->pull ? s->pull + 2 * contacts : NULL;
   s->law = calloc(contacts + 1, sizeof *s->law);
   s->turning = calloc((size_t)base->n_planar + 1, sizeof *s->turning);
-  return s->x && s->u && s->law && s->turning ? HC_OK : HC_NO_MEMORY;
+  const hc_status st = contact_rows_make(&s->rows, base);
+  return s->x && s->u && s->law && s->turning ? st : HC_NO_MEMORY;
 }
 
 void motion_series_free(motion_series *s)
 {
+  contact_rows_free(&s->rows);
   free(s->x);
   free(s->u);
   free(s->law);
@@ -57,37 +61,39 @@ static void add_loads(motion_series *s, const scaled_model *m, double theta, int
 }
 
 /* Coefficient k of every contact's motion. */
-static void project(motion_series *s, const modal_base *b, int k)
+static void project(motion_series *s, int k)
 {
-  const double *x = s->x + (size_t)k * (size_t)s->n;
+  contact_rows_motion(&s->rows, s->x + (size_t)k * (size_t)s->n, s->q);
   for (int j = 0; j < s->n_contacts; ++j) {
-    const size_t row = (size_t)j * (size_t)s->n, at = (size_t)j * TERMS + (size_t)k;
-    s->u[at] = dot_product(s->n, b->tangent + row, x);
-    s->v[at] = dot_product(s->n, b->normal + row, x);
+    const size_t at = (size_t)j * TERMS + (size_t)k;
+    s->u[at] = contact_rows_at(s->q, s->rows.along[j]);
+    s->v[at] = contact_rows_at(s->q, s->rows.across[j]);
   }
 }
 
+static void add_pull(motion_series *s, int row, double force)
+{
+  if (row >= 0) s->pull[row] += force;
+}
+
 /* What the contacts take from coefficient k: constants only in the first. */
-static void subtract_contacts(const motion_series *s, const modal_base *b, int k, double *force)
+static void add_contacts(motion_series *s, int k)
 {
   for (int j = 0; j < s->n_contacts; ++j) {
     const contact_forces_linear *f = &s->law[j];
-    const size_t row = (size_t)j * (size_t)s->n, at = (size_t)j * TERMS + (size_t)k;
-    const double t = f->t_u * s->u[at] + f->t_v * s->v[at] + (k == 0 ? f->t_0 : 0);
-    const double n = f->n_v * s->v[at] + (k == 0 ? f->n_0 : 0);
-    if (t == 0 && n == 0) continue;
-    for (int i = 0; i < s->n; ++i) force[i] -= b->tangent[row + (size_t)i] * t + b->normal[row + (size_t)i] * n;
+    const size_t at = (size_t)j * TERMS + (size_t)k;
+    add_pull(s, s->rows.along[j], f->t_u * s->u[at] + f->t_v * s->v[at] + (k == 0 ? f->t_0 : 0));
+    add_pull(s, s->rows.across[j], f->n_v * s->v[at] + (k == 0 ? f->n_0 : 0));
   }
 }
 
 /* What T of the slips that turn takes from coefficient k. */
-static void subtract_turning(motion_series *s, const scaled_model *m, int k, double *force)
+static void add_turning(motion_series *s, const scaled_model *m, int k)
 {
   for (planar_series *c = s->turning; c < s->turning + s->n_turning; ++c) {
-    const double *t = m->base->tangent + (size_t)c->contact * (size_t)s->n;
     double pull[2];
     planar_series_next(c, &m->contact[c->contact], k, pull);
-    for (int i = 0; i < s->n; ++i) force[i] -= t[i] * pull[0] + t[s->n + i] * pull[1];
+    for (int a = 0; a < 2; ++a) add_pull(s, s->rows.along[c->contact + a], pull[a]);
   }
 }
 
@@ -111,8 +117,8 @@ static double expand(motion_series *s, const scaled_model *m, bool loaded, doubl
   const modal_base *b = m->base;
   const size_t n = (size_t)s->n;
   memcpy(s->x, y, 2 * n * sizeof *y);
-  project(s, b, 0);
-  project(s, b, 1);
+  project(s, 0);
+  project(s, 1);
   for (int k = 0; k + 2 <= TRACK_ORDER; ++k) {
     const double *x = s->x + (size_t)k * n;
     double *force = s->force, *next = s->x + (size_t)(k + 2) * n;
@@ -120,13 +126,15 @@ static double expand(motion_series *s, const scaled_model *m, bool loaded, doubl
     if (loaded) add_loads(s, m, theta, k, force);
     modal_base_subtract_K(b, m->by_K, x, force);
     modal_base_subtract_C(b, m->by_C * (k + 1), x + n, force);
-    subtract_contacts(s, b, k, force);
-    subtract_turning(s, m, k, force);
+    memset(s->pull, 0, (size_t)s->rows.count * sizeof *s->pull);
+    add_contacts(s, k);
+    add_turning(s, m, k);
+    contact_rows_pull(&s->rows, 1, s->pull, force);
     for (size_t i = 0; i < n; ++i) next[i] = force[i] / ((k + 1) * (k + 2));
-    project(s, b, k + 2);
+    project(s, k + 2);
   }
-  for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) subtract_turning(s, m, k, s->force); /* for their directions */
-  double tau = reach(s, loaded ? 1 : 0);                                                    /* a motion is about 1 */
+  for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) add_turning(s, m, k); /* for their directions */
+  double tau = reach(s, loaded ? 1 : 0);                                     /* a motion is about 1 */
   for (int i = 0; i < s->n_turning; ++i) tau = fmin(tau, planar_series_reach(&s->turning[i]));
   return tau;
 }

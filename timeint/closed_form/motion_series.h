@@ -13,12 +13,15 @@
 #define HC_TIMEINT_MOTION_SERIES_H
 
 #include "timeint/closed_form/planar_series.h"
+#include "timeint/law/contact_rows.h"
 
 typedef struct motion_series { /* from motion_series_make, to motion_series_free */
   int n, n_contacts;
-  double *x;                  /* [TRACK_ORDER + 1][n] */
-  double *u, *v;              /* [n_contacts][TRACK_ORDER + 1] */
-  double *force;              /* [n] */
+  double *x;     /* [TRACK_ORDER + 1][n] */
+  double *u, *v; /* [n_contacts][TRACK_ORDER + 1] */
+  double *force; /* [n] */
+  contact_rows rows;
+  double *q, *pull;           /* [rows.count] their motion in a term; their forces */
   double *load;               /* [n_loads][2] cosine and sine of one term */
   contact_forces_linear *law; /* [n_contacts] of the interval */
   int n_turning;              /* contacts that slip in a direction that turns, in this interval: */

@@ -37,7 +37,7 @@ static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
 {
   regularised *in = self;
   if (!integrate_cvode_goes_on(&in->base)) return -1;
-  if (scaled_rhs(in->base.m, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
+  if (structure_newton_rate(&in->newton, in->base.m, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
   in->base.not_finite = true;
   return -1;
 }

@@ -8,35 +8,18 @@
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 
-static bool is_zero(int n, const double *row)
-{
-  for (int i = 0; i < n; ++i)
-    if (row[i] != 0) return false;
-  return true;
-}
-
-/* The number of that row among those kept, each once: the two contacts of a pair share a normal; -1 where it is 0. */
-static int keep_row(structure_newton *s, const double *row)
-{
-  const size_t n = (size_t)s->n;
-  if (is_zero(s->n, row)) return -1;
-  for (int r = 0; r < s->n_rows; ++r)
-    if (!memcmp(s->rows + (size_t)r * n, row, n * sizeof *row)) return r;
-  memcpy(s->rows + (size_t)s->n_rows * n, row, n * sizeof *row);
-  return s->n_rows++;
-}
-
 hc_status structure_newton_make(structure_newton *s, const modal_base *base)
 {
-  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, rows = 2 * contacts;
+  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts;
   const bool diagonal = base->diagonal_K && base->diagonal_C;
   *s = (structure_newton){.base = base, .n = base->n, .n_contacts = base->n_contacts};
+  if (contact_rows_make(&s->rows, base) != HC_OK) return HC_NO_MEMORY;
+  s->n_rows = s->rows.count;
+  const size_t rows = (size_t)s->n_rows;
   const struct {
     double **array;
     size_t count;
-  } parts[] = {{&s->rows, n * rows},
-               {&s->D, diagonal ? n : n * n},
-               {&s->turned, n * rows},
+  } parts[] = {{&s->D, diagonal ? n : n * n},
                {&s->pulled, n * rows},
                {&s->compliant, rows * rows},
                {&s->small, rows * rows},
@@ -47,22 +30,14 @@ hc_status structure_newton_make(structure_newton *s, const modal_base *base)
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
   s->numbers = calloc(count, sizeof *s->numbers);
   s->law = calloc(contacts + 1, sizeof *s->law);
-  s->along = calloc(n + 2 * rows + contacts + 1, sizeof *s->along);
-  if (!s->numbers || !s->law || !s->along) return HC_NO_MEMORY;
-  s->across = s->along + contacts;
-  s->small_pivot = s->along + rows;
+  s->directions = calloc(contacts + rows + n, sizeof *s->directions);
+  if (!s->numbers || !s->law || !s->directions) return HC_NO_MEMORY;
+  s->small_pivot = s->directions + contacts;
   s->pivot = s->small_pivot + rows;
-  s->directions = s->pivot + n;
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
     *parts[k].array = s->numbers + used;
     used += parts[k].count;
   }
-  for (size_t j = 0; j < contacts; ++j) {
-    s->along[j] = keep_row(s, base->tangent + j * n);
-    s->across[j] = keep_row(s, base->normal + j * n);
-  }
-  for (int r = 0; r < s->n_rows; ++r)
-    for (size_t i = 0; i < n; ++i) s->turned[i * (size_t)s->n_rows + (size_t)r] = s->rows[(size_t)r * n + i];
   return HC_OK;
 }
 
@@ -70,26 +45,59 @@ void structure_newton_free(structure_newton *s)
 {
   free(s->numbers);
   free(s->law);
-  free(s->along);
+  free(s->directions);
+  contact_rows_free(&s->rows);
 }
 
-/* q[n_rows] := B x. */
-static void project(const structure_newton *s, const double *x, double *q)
+/* Of contact j in a motion q, in its directions: u, which is returned, and v. */
+static double motion_of(const structure_newton *s, int j, int directions, double u[2])
 {
-  for (int r = 0; r < s->n_rows; ++r) q[r] = dot_product(s->n, s->rows + (size_t)r * (size_t)s->n, x);
+  u[0] = contact_rows_at(s->q, s->rows.along[j]);
+  u[1] = directions == 2 ? contact_rows_at(s->q, s->rows.along[j + 1]) : 0;
+  return contact_rows_at(s->q, s->rows.across[j]);
 }
 
-static double at(const double *q, int row) { return row < 0 ? 0 : q[row]; }
+static void add_to(double *force, int row, double f)
+{
+  if (row >= 0) force[row] += f;
+}
+
+bool structure_newton_rate(structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy)
+{
+  const int n = s->n;
+  double sum = 0;
+  scaled_linear_force(m, theta, y, dy + n);
+  contact_rows_motion(&s->rows, y, s->q);
+  memset(s->force, 0, (size_t)s->n_rows * sizeof *s->force);
+  for (int j = 0, directions; j < s->n_contacts; j += directions) {
+    const scaled_contact *c = &m->contact[j];
+    directions = scaled_directions(m, j);
+    double u[2];
+    const double v = motion_of(s, j, directions, u);
+    const planar_value l = c->kind->evaluate(&c->law, u, v, y + 2 * n + j);
+    for (int a = 0; a < directions; ++a) {
+      add_to(s->force, s->rows.along[j + a], l.t[a]);
+      add_to(s->force, s->rows.across[j + a], l.change);
+      dy[2 * n + j + a] = l.rate[a];
+      sum += l.rate[a];
+    }
+  }
+  contact_rows_pull(&s->rows, 1, s->force, dy + n);
+  memcpy(dy, y + n, (size_t)n * sizeof *dy);
+  for (int i = 0; i < 2 * n; ++i) sum += dy[i];
+  return isfinite(sum);
+}
 
 void structure_newton_linearise(structure_newton *s, const scaled_model *m, const double *y)
 {
-  project(s, y, s->q);
+  contact_rows_motion(&s->rows, y, s->q);
   for (int j = 0; j < s->n_contacts; ++j) {
     const int directions = m->contact[j].direction > 0 ? 0 : scaled_directions(m, j);
-    const double u[2] = {at(s->q, s->along[j]), directions == 2 ? at(s->q, s->along[j + 1]) : 0};
-    s->directions[j] = directions;
     const scaled_contact *c = &m->contact[j];
-    if (directions > 0) s->law[j] = c->kind->derivatives(&c->law, u, at(s->q, s->across[j]), y + 2 * s->n + j);
+    double u[2];
+    const double v = motion_of(s, j, directions, u);
+    s->directions[j] = directions;
+    if (directions > 0) s->law[j] = c->kind->derivatives(&c->law, u, v, y + 2 * s->n + j);
   }
 }
 
@@ -180,9 +188,9 @@ static void add_force(structure_newton *s, int by, double force, int row)
 static void find_compliance(structure_newton *s)
 {
   const size_t n = (size_t)s->n, rows = (size_t)s->n_rows;
-  memcpy(s->pulled, s->rows, n * rows * sizeof *s->pulled);
+  memcpy(s->pulled, s->rows.row, n * rows * sizeof *s->pulled);
   for (size_t r = 0; r < rows; ++r) solve_D(s, s->pulled + r * n);
-  dense_multiply(s->n_rows, s->n_rows, s->n, s->turned, s->pulled, s->compliant);
+  dense_multiply(s->n_rows, s->n_rows, s->n, s->rows.turned, s->pulled, s->compliant);
 }
 
 bool structure_newton_factor(structure_newton *s, const scaled_model *m, double gamma)
@@ -198,21 +206,12 @@ bool structure_newton_factor(structure_newton *s, const scaled_model *m, double 
   for (int j = 0; j < s->n_contacts; ++j) {
     const eliminated f = eliminate(s, j);
     for (int a = 0; a < s->directions[j]; ++a) {
-      for (int b = 0; b < s->directions[j]; ++b) add_force(s, s->along[j + a], f.by_u[a][b], s->along[j + b]);
-      add_force(s, s->along[j + a], f.by_v[a], s->across[j]);
-      add_force(s, s->across[j + a], s->law[j].n_v, s->across[j]);
+      for (int b = 0; b < s->directions[j]; ++b) add_force(s, s->rows.along[j + a], f.by_u[a][b], s->rows.along[j + b]);
+      add_force(s, s->rows.along[j + a], f.by_v[a], s->rows.across[j]);
+      add_force(s, s->rows.across[j + a], s->law[j].n_v, s->rows.across[j]);
     }
   }
   return dense_factor(s->n_rows, s->small, s->small_pivot) == HC_OK;
-}
-
-/* out -= by B^T force; of D^-1 B^T where pulled. */
-static void subtract_forces(const structure_newton *s, const double *columns, double by, double *out)
-{
-  for (int r = 0; r < s->n_rows; ++r) {
-    const double f = by * s->force[r], *column = columns + (size_t)r * (size_t)s->n;
-    for (int i = 0; i < s->n && f != 0; ++i) out[i] -= f * column[i];
-  }
 }
 
 /* s->force := S q + c (whole), or c alone. */
@@ -221,13 +220,13 @@ static void find_forces(structure_newton *s, bool whole, const double *d)
   memset(s->force, 0, (size_t)s->n_rows * sizeof *s->force);
   for (int j = 0; j < s->n_contacts; ++j) {
     const eliminated f = eliminate(s, j);
-    const double v = whole ? at(s->q, s->across[j]) : 0;
+    const double v = whole ? contact_rows_at(s->q, s->rows.across[j]) : 0;
     for (int a = 0; a < s->directions[j]; ++a) {
       double t = f.by_v[a] * v;
       for (int b = 0; b < s->directions[j]; ++b)
-        t += f.by_u[a][b] * ((whole ? at(s->q, s->along[j + b]) : 0) - d[j + b]);
-      if (s->along[j + a] >= 0) s->force[s->along[j + a]] += t;
-      if (s->across[j + a] >= 0) s->force[s->across[j + a]] += s->law[j].n_v * v;
+        t += f.by_u[a][b] * ((whole ? contact_rows_at(s->q, s->rows.along[j + b]) : 0) - d[j + b]);
+      add_to(s->force, s->rows.along[j + a], t);
+      add_to(s->force, s->rows.across[j + a], s->law[j].n_v * v);
     }
   }
 }
@@ -240,8 +239,8 @@ static void find_slider(const structure_newton *s, int j, double *d)
   const int directions = s->directions[j];
   double sum[2] = {0};
   for (int a = 0; a < directions; ++a) {
-    double rate = l->rate_v[a] * at(s->q, s->across[j]);
-    for (int b = 0; b < directions; ++b) rate += l->rate_u[a][b] * at(s->q, s->along[j + b]);
+    double rate = l->rate_v[a] * contact_rows_at(s->q, s->rows.across[j]);
+    for (int b = 0; b < directions; ++b) rate += l->rate_u[a][b] * contact_rows_at(s->q, s->rows.along[j + b]);
     sum[a] = d[a] + s->gamma * rate;
   }
   for (int a = 0; a < directions; ++a) {
@@ -253,19 +252,17 @@ static void find_slider(const structure_newton *s, int j, double *d)
 void structure_newton_solve(structure_newton *s, double *r)
 {
   const int n = s->n;
-  const size_t rows = (size_t)s->n_rows;
   const double gamma = s->gamma;
   double *a = r, *b = r + n, *d = r + 2 * n;
   modal_base_subtract_K(s->base, gamma * s->by_K, a, b);
   solve_D(s, b); /* p without contacts */
   for (int i = 0; i < n; ++i) s->p[i] = a[i] + gamma * b[i];
-  project(s, s->p, s->q);
+  contact_rows_motion(&s->rows, s->p, s->q);
   find_forces(s, false, d);
-  for (size_t k = 0; k < rows; ++k)
-    for (size_t i = 0; i < rows; ++i) s->q[i] -= gamma * gamma * s->compliant[k * rows + i] * s->force[k];
+  dense_times_vector(s->n_rows, s->n_rows, -gamma * gamma, s->compliant, s->force, 1, s->q);
   dense_solve(s->n_rows, s->small, s->small_pivot, 1, s->q);
   find_forces(s, true, d);
-  subtract_forces(s, s->pulled, gamma, b);
+  dense_times_vector(n, s->n_rows, -gamma, s->pulled, s->force, 1, b);
   for (int i = 0; i < n; ++i) a[i] += gamma * b[i];
   for (int j = 0; j < s->n_contacts; ++j) find_slider(s, j, d + j);
 }
@@ -274,17 +271,17 @@ void structure_newton_solve(structure_newton *s, double *r)
 static void multiply_contact(structure_newton *s, int j, const double *slider, double *rate)
 {
   const planar_derivatives *l = &s->law[j];
-  const double v = at(s->q, s->across[j]);
+  const double v = contact_rows_at(s->q, s->rows.across[j]);
   for (int a = 0; a < s->directions[j]; ++a) {
     double t = l->t_v[a] * v;
     rate[a] = l->rate_v[a] * v;
     for (int b = 0; b < s->directions[j]; ++b) {
-      const double u = at(s->q, s->along[j + b]) - slider[b];
+      const double u = contact_rows_at(s->q, s->rows.along[j + b]) - slider[b];
       t += l->t_u[a][b] * u;
       rate[a] += l->rate_u[a][b] * u;
     }
-    if (s->along[j + a] >= 0) s->force[s->along[j + a]] += t;
-    if (s->across[j + a] >= 0) s->force[s->across[j + a]] += l->n_v * v;
+    add_to(s->force, s->rows.along[j + a], t);
+    add_to(s->force, s->rows.across[j + a], l->n_v * v);
   }
 }
 
@@ -292,12 +289,12 @@ void structure_newton_multiply(structure_newton *s, const scaled_model *m, const
 {
   const int n = s->n;
   double *force = out + n;
-  project(s, z, s->q);
+  contact_rows_motion(&s->rows, z, s->q);
   memset(s->force, 0, (size_t)s->n_rows * sizeof *s->force);
   for (int j = 0; j < s->n_contacts; ++j) multiply_contact(s, j, z + 2 * n + j, out + 2 * n + j);
   memcpy(out, z + n, (size_t)n * sizeof *out);
   memset(force, 0, (size_t)n * sizeof *force);
   modal_base_subtract_K(s->base, m->by_K, z, force);
   modal_base_subtract_C(s->base, m->by_C, z + n, force);
-  subtract_forces(s, s->rows, 1, force);
+  contact_rows_pull(&s->rows, 1, s->force, force);
 }

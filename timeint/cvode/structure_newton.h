@@ -14,18 +14,17 @@
 #ifndef HC_TIMEINT_STRUCTURE_NEWTON_H
 #define HC_TIMEINT_STRUCTURE_NEWTON_H
 
+#include "timeint/law/contact_rows.h"
 #include "timeint/law/scaled.h"
 
 typedef struct structure_newton { /* from structure_newton_make, to structure_newton_free */
   const modal_base *base;         /* the owner's */
-  int n, n_contacts, n_rows;
-  planar_derivatives *law; /* [n_contacts] where the equations were linearised */
-  int *directions;         /* [n_contacts] that share that law: 1, 2; 0: the second, whose law is the first's */
-  double *rows;            /* [n][n_rows] by columns: t_j and n_j that are not 0 */
-  int *along, *across;     /* [n_contacts] which row is t_j, n_j; -1: none */
+  int n, n_contacts, n_rows;      /* n_rows = rows.count */
+  planar_derivatives *law;        /* [n_contacts] where the equations were linearised */
+  int *directions;                /* [n_contacts] that share that law: 1, 2; 0: the second, whose law is the first's */
+  contact_rows rows;
   double gamma, by_K, by_C;
   double *D;         /* [n] or [n][n]: D, or its factors */
-  double *turned;    /* [n][n_rows] B by columns */
   double *pulled;    /* [n][n_rows] D^-1 B^T */
   double *compliant; /* [n_rows][n_rows] B D^-1 B^T */
   double *small;     /* [n_rows][n_rows] factors of I + gamma^2 B D^-1 B^T S */
@@ -37,6 +36,9 @@ typedef struct structure_newton { /* from structure_newton_make, to structure_ne
 
 hc_status structure_newton_make(structure_newton *s, const modal_base *base); /* HC_NO_MEMORY; free it in any case */
 void structure_newton_free(structure_newton *s);
+
+/* dy[n_states] at theta and y[n_states], the same as scaled_rhs. Answers whether all of it is finite. */
+bool structure_newton_rate(structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy);
 
 /* The law's derivatives at y. */
 void structure_newton_linearise(structure_newton *s, const scaled_model *m, const double *y);

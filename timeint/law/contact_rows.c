@@ -1,0 +1,57 @@
+/* contact_rows.c - see contact_rows.h. */
+#include "timeint/law/contact_rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/dense.h"
+
+static bool is_zero(int n, const double *row)
+{
+  for (int i = 0; i < n; ++i)
+    if (row[i] != 0) return false;
+  return true;
+}
+
+static int keep_row(contact_rows *c, const double *row)
+{
+  const size_t n = (size_t)c->n;
+  if (is_zero(c->n, row)) return -1;
+  for (int r = 0; r < c->count; ++r)
+    if (!memcmp(c->row + (size_t)r * n, row, n * sizeof *row)) return r;
+  memcpy(c->row + (size_t)c->count * n, row, n * sizeof *row);
+  return c->count++;
+}
+
+hc_status contact_rows_make(contact_rows *c, const modal_base *base)
+{
+  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts;
+  *c = (contact_rows){.n = base->n};
+  c->row = calloc(4 * n * contacts + 1, sizeof *c->row);
+  c->along = calloc(2 * contacts + 1, sizeof *c->along);
+  if (!c->row || !c->along) return HC_NO_MEMORY;
+  c->turned = c->row + 2 * n * contacts;
+  c->across = c->along + contacts;
+  for (size_t j = 0; j < contacts; ++j) {
+    c->along[j] = keep_row(c, base->tangent + j * n);
+    c->across[j] = keep_row(c, base->normal + j * n);
+  }
+  dense_transpose(c->n, c->count, c->row, c->turned);
+  return HC_OK;
+}
+
+void contact_rows_free(contact_rows *c)
+{
+  free(c->row);
+  free(c->along);
+}
+
+void contact_rows_motion(const contact_rows *c, const double *x, double *q)
+{
+  dense_times_vector(c->count, c->n, 1, c->turned, x, 0, q);
+}
+
+void contact_rows_pull(const contact_rows *c, double by, const double *force, double *out)
+{
+  dense_times_vector(c->n, c->count, -by, c->row, force, 1, out);
+}

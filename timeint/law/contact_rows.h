@@ -1,0 +1,27 @@
+/* contact_rows.h - the rows t_j and n_j of a structure's contacts, each that is not 0 once: the directions of a contact
+ * share its normal. libm and BLAS. */
+#ifndef HC_TIMEINT_CONTACT_ROWS_H
+#define HC_TIMEINT_CONTACT_ROWS_H
+
+#include "timeint/law/modal_base.h"
+
+typedef struct contact_rows { /* from contact_rows_make, to contact_rows_free; only read in between */
+  int n, count;
+  int *along, *across; /* [n_contacts] which row is t_j, n_j; -1: none */
+  double *row;         /* [n][count] by columns: row r at row + r n */
+  double *turned;      /* [count][n] by columns */
+} contact_rows;
+
+hc_status contact_rows_make(contact_rows *c, const modal_base *base); /* HC_NO_MEMORY; free it in any case */
+void contact_rows_free(contact_rows *c);
+
+/* q[count] := the rows times x[n]. */
+void contact_rows_motion(const contact_rows *c, const double *x, double *q);
+
+/* out[n] -= by the sum of rows times force[count]. */
+void contact_rows_pull(const contact_rows *c, double by, const double *force, double *out);
+
+/* Entry of q, or of a force, that may not be there. */
+static inline double contact_rows_at(const double *q, int row) { return row < 0 ? 0 : q[row]; }
+
+#endif
