@@ -124,12 +124,12 @@ static hc_status compare_all(comparison_work *w)
   return st;
 }
 
-hc_status comparison_referee(const compare_setup *setup, timeint **out)
+hc_status comparison_referee(const compare_setup *setup, timeint *beside, timeint **out)
 {
-  compare_setup own = *setup;
-  own.transient.law = TRANSIENT_LAW_EXACT;
-  own.transient.tolerance = fmin(setup->transient.tolerance, 1e-9);
-  return timeint_new(own.model, &own.transient, out);
+  transient_settings how = setup->transient;
+  how.law = TRANSIENT_LAW_EXACT;
+  how.tolerance = fmin(how.tolerance, 1e-9);
+  return beside ? timeint_new_beside(beside, &how, out) : timeint_new(setup->model, &how, out);
 }
 
 static hc_status make_states(comparison_work *w)
@@ -157,7 +157,7 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
   hc_status st = guided_hbm_solver_new(setup->model, &setup->hbm, &w.hbm);
   if (st == HC_OK) st = timeint_new(setup->model, &setup->transient, &w.ti);
   if (st == HC_OK) st = make_states(&w);
-  if (st == HC_OK) st = comparison_referee(setup, &w.exact);
+  if (st == HC_OK) st = comparison_referee(setup, w.ti, &w.exact);
   if (st == HC_OK) st = budgeter_new(setup, &w.budgeter);
   if (st == HC_OK) {
     double from, to;

@@ -156,8 +156,9 @@ const char *comparison_unexpected_text(const comparison_row *row, char text[COMP
  * something could not be compared. */
 int comparison_exit_code(const comparison *c);
 
-/* The time integration that HBM solutions are held against: the model, with the exact law. For timeint_orbit. */
-hc_status comparison_referee(const compare_setup *setup, timeint **out);
+/* The time integration that HBM solutions are held against: the model, with the exact law. For timeint_orbit.
+ * It shares with `beside`, if that is not NULL, what is found in closed form. */
+hc_status comparison_referee(const compare_setup *setup, timeint *beside, timeint **out);
 
 /* A state on the transient's orbit of row i; meaningful where transient_status is HC_OK. */
 const double *comparison_state(const comparison *c, int i);

@@ -147,7 +147,8 @@ static hc_status judge(comparison_work *w, const comparison_row *row, const doub
   if (row->transient.period_multiple > 1) return *out = VERDICT_PERIOD_K, HC_OK;
   if (within_limits(w->setup, &row->errors, &row->transient)) {
     bool it_stays = true;
-    const bool at_corner = row->transient.free_sliders > 0 && hbm_stability_verdict(&row->stability) == 0;
+    const bool doubted = hbm_stability_verdict(&row->stability) == 0 && !hbm_stability_is_unknown(w->hbm);
+    const bool at_corner = row->transient.free_sliders > 0 && doubted; /* where the structure is not too large to ask */
     const hc_status st = at_corner ? perturbations_decay(w, row, X, &it_stays) : HC_OK;
     *out = it_stays ? VERDICT_MATCH : VERDICT_UNSTABLE;
     return st;

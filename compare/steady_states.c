@@ -183,7 +183,8 @@ static hc_status run(steady_work *w, const number_list *asked)
 {
   int start = w->setup->transient.start;
   hc_status st = timeint_new(w->setup->model, &w->setup->transient, &w->ti);
-  if (st == HC_OK && w->setup->transient.law != TRANSIENT_LAW_EXACT) st = comparison_referee(w->setup, &w->exact);
+  if (st == HC_OK && w->setup->transient.law != TRANSIENT_LAW_EXACT)
+    st = comparison_referee(w->setup, w->ti, &w->exact);
   if (st != HC_OK) return st;
   w->state = workspace_doubles(&w->memory, (size_t)timeint_n_states(w->ti));
   w->scratch = workspace_doubles(&w->memory, (size_t)timeint_n_states(w->ti));

@@ -66,7 +66,7 @@ int lab_errors(lab *l, double omega)
   sc.transient.method = TRANSIENT_METHOD_CLOSED_FORM;
   sc.transient.law = TRANSIENT_LAW_EXACT;
   hc_status st = scene_setup(&sc, &setup);
-  if (st == HC_OK) st = comparison_referee(&setup, &ti);
+  if (st == HC_OK) st = comparison_referee(&setup, NULL, &ti);
   if (st == HC_OK) st = state_of_motion(l, omega, state);
   if (st == HC_OK) st = timeint_orbit(ti, omega, 1, state, NULL, &found);
   if (st == HC_OK) orbit = found.amplitude;

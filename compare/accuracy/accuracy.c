@@ -162,7 +162,7 @@ static hc_status reference_make(const compare_setup *setup, const comparison *c,
   timeint *ti = NULL;
   double *states = NULL; /* [2][n_states] */
   *out = (reference){.harmonics = hbm_n_harmonics(hbm)};
-  hc_status st = comparison_referee(setup, &ti);
+  hc_status st = comparison_referee(setup, NULL, &ti);
   if (st == HC_OK && !(states = calloc(2 * (size_t)timeint_n_states(ti), sizeof *states))) st = HC_NO_MEMORY;
   for (int i = 0; i < c->n_rows && st == HC_OK; ++i) {
     if (i > 0 && c->rows[i].omega == c->rows[i - 1].omega) continue;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "model/linear.h"
+#include "numerics/dense.h"
 #include "timeint/closed_form/modal_motion.h"
 
 static hc_status modes_columns_make(modes_columns *s, const modal_base *base)
@@ -89,6 +90,19 @@ static void modes_columns_advance(modes_columns *s, const scaled_model *m, const
   }
 }
 
+static hc_status make_slowed(fundamental_matrix *v, const modal_base *base)
+{
+  const size_t slowed = (size_t)v->n_slowed;
+  v->spring = calloc(slowed * (slowed + (size_t)v->n_states), sizeof *v->spring);
+  v->fast = calloc(2 * slowed, sizeof *v->fast);
+  if (!v->spring || !v->fast) return HC_NO_MEMORY;
+  v->follow = v->spring + slowed * slowed;
+  v->pivot = v->fast + slowed;
+  for (int i = 0, f = 0; i < base->n; ++i)
+    if (base->slowed[i] != 1) v->fast[f++] = i;
+  return HC_OK;
+}
+
 hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base, interval_modes *modes)
 {
   const size_t states = 2 * (size_t)base->n + (size_t)base->n_contacts;
@@ -101,7 +115,9 @@ hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base,
   v->du[1] = v->du[0] + states;
   v->dv = v->du[1] + states;
   v->y = v->dv + states;
-  hc_status st = series_columns_make(&v->series, base);
+  for (int i = 0; i < base->n; ++i) v->n_slowed += base->slowed[i] != 1;
+  hc_status st = v->n_slowed > 0 ? make_slowed(v, base) : HC_OK;
+  if (st == HC_OK) st = series_columns_make(&v->series, base);
   if (st == HC_OK && base->n_planar > 0) st = motion_series_make(&v->motion, base);
   return st == HC_OK && modes ? modes_columns_make(&v->by_modes, base) : st;
 }
@@ -111,6 +127,8 @@ void fundamental_matrix_free(fundamental_matrix *v)
   series_columns_free(&v->series);
   modes_columns_free(&v->by_modes);
   motion_series_free(&v->motion);
+  free(v->spring);
+  free(v->fast);
   free(v->track);
   free(v->rows);
   free(v->state);
@@ -254,17 +272,62 @@ static void advance_single(fundamental_matrix *v, const scaled_model *m, const c
   }
 }
 
-void fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track, const double *y)
+/* What contact j takes from slowed mode f where the motion is 1 in mode `at`, or (-1) its slider has moved by 1. */
+static double force_on(const fundamental_matrix *v, const scaled_model *m, const contact_forces_linear *law, int j,
+                       int f, int at)
+{
+  const double *t = m->base->tangent + (size_t)j * (size_t)v->n, *normal = m->base->normal + (size_t)j * (size_t)v->n;
+  const int i = v->fast[f];
+  if (at < 0) return t[i] * law->t_w;
+  return t[i] * (law->t_u * t[at] + law->t_v * normal[at]) + normal[i] * law->n_v * normal[at];
+}
+
+/* v->follow: (by_K K + contacts) of the slowed modes times what they do is minus what contacts do to them. */
+static hc_status find_following(fundamental_matrix *v, const scaled_model *m, const contact_track *track)
+{
+  const size_t slowed = (size_t)v->n_slowed;
+  memset(v->spring, 0, slowed * (slowed + (size_t)v->n_states) * sizeof *v->spring);
+  for (size_t f = 0; f < slowed; ++f) v->spring[f * (slowed + 1)] = m->by_K * m->base->K[v->fast[f]];
+  for (int j = 0; j < v->n_states - 2 * v->n; ++j) {
+    const contact_forces_linear law = contact_track_forces(&track[j], &m->contact[j]);
+    double *slider = v->follow + (size_t)(2 * v->n + j) * slowed;
+    for (int f = 0; f < v->n_slowed; ++f) {
+      for (int g = 0; g < v->n_slowed; ++g)
+        v->spring[(size_t)g * slowed + (size_t)f] += force_on(v, m, &law, j, f, v->fast[g]);
+      for (int i = 0; i < v->n; ++i)
+        if (m->base->slowed[i] == 1) v->follow[(size_t)i * slowed + (size_t)f] -= force_on(v, m, &law, j, f, i);
+      slider[f] -= force_on(v, m, &law, j, f, -1);
+    }
+  }
+  hc_status st = dense_factor(v->n_slowed, v->spring, v->pivot);
+  if (st == HC_OK) dense_solve(v->n_slowed, v->spring, v->pivot, v->n_states, v->follow);
+  return st;
+}
+
+/* In column q, of a state, slowed modes as springs. */
+static void let_follow(fundamental_matrix *v, int state, int q)
+{
+  const bool rate = state >= v->n && state < 2 * v->n;
+  const double *follow = v->follow + (size_t)(rate ? state - v->n : state) * (size_t)v->n_slowed;
+  for (int f = 0; f < v->n_slowed; ++f) row_of(v, v->fast[f] + (rate ? v->n : 0))[q] = follow[f];
+}
+
+hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
+                                   const double *y)
 {
   const size_t n = (size_t)v->n_states;
+  hc_status st = v->n_slowed > 0 ? find_following(v, m, track) : HC_OK;
+  if (st != HC_OK) return st;
   memset(v->rows, 0, n * n * sizeof *v->rows);
   v->n_columns = 0;
   for (int i = 0; i < v->n_states; ++i) {
     const int j = i - 2 * v->n;
     const bool on_limit = j >= 0 && scaled_directions(m, j) > 1 && track[j].state != CONTACT_SEPARATED; /* w says e */
-    const bool moves = j < 0 || (m->contact[j].law.has_friction && (track[j].since_start || on_limit));
+    const bool moves =
+        j < 0 ? m->base->slowed[i % v->n] == 1 : (m->contact[j].law.has_friction && (track[j].since_start || on_limit));
     if (!moves) continue;
     row_of(v, i)[v->n_columns] = 1;
+    if (v->n_slowed > 0) let_follow(v, i, v->n_columns);
     v->state[v->n_columns++] = i;
   }
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
@@ -272,6 +335,7 @@ void fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, cons
     if (t->state != CONTACT_SEPARATED && m->contact[j].law.has_friction && !t->since_start)
       begin_on_limit(v, m, j, t, y);
   }
+  return HC_OK;
 }
 
 hc_status fundamental_matrix_advance(fundamental_matrix *v, const scaled_model *m, const contact_track *track,

@@ -4,7 +4,10 @@
  * changes no column but in the rows of sliders that begin to stick there (contact_track.h). A slip that turns has an
  * angle, e = (cos phi, sin phi), that varies, too: dphi = (dU - dW).e_perp/R where it begins, and
  *     dW = dU - dR e - R e_perp dphi
- * where it sticks again. Meanwhile the motion itself is integrated once more, by its series, beside its columns. */
+ * where it sticks again. Meanwhile the motion itself is integrated once more, by its series, beside its columns.
+ *
+ * Of a base with slowed modes (modal_base.h) there are columns of the others and of sliders alone: slowed modes follow
+ * these at theta = 0 as springs do, and what they deviate from that dies away in a period; its columns are 0. */
 #ifndef HC_TIMEINT_FUNDAMENTAL_MATRIX_H
 #define HC_TIMEINT_FUNDAMENTAL_MATRIX_H
 
@@ -28,6 +31,11 @@ typedef struct fundamental_matrix { /* from fundamental_matrix_make, to fundamen
   double *rows;         /* [n_states][n_states] row i is that of state i, column q that of state[q]; a slider's row is
                    valid while its contact sticks; while a slip turns that of its first is that of e's angle */
   double *du[2], *dv;   /* [n_states] of a contact, all columns */
+  int n_slowed;         /* modes of the base that are, */
+  int *fast;            /* [n_slowed] which, */
+  double *spring;       /* [n_slowed][n_slowed] their stiffness with contacts as they begin; factored */
+  double *follow;       /* [n_states][n_slowed] what they do where a state is 1 */
+  int *pivot;           /* [n_slowed] */
   double *y;            /* [2 n] the motion at `theta`, and its contacts, */
   contact_track *track; /* [n_contacts] where a slip turns */
   motion_series motion; /* of that */
@@ -40,9 +48,9 @@ typedef struct fundamental_matrix { /* from fundamental_matrix_make, to fundamen
 hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base, interval_modes *modes);
 void fundamental_matrix_free(fundamental_matrix *v);
 
-/* The identity at theta = 0, contacts as they begin there at y[n_states]. */
-void fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
-                              const double *y);
+/* The identity at theta = 0, contacts as they begin there at y[n_states]. HC_SINGULAR: slowed modes are no springs. */
+hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
+                                   const double *y);
 
 /* From v->theta on the motion is that of y[2 n], its contacts those of track[]: after fundamental_matrix_begin, and
  * whenever a contact has changed its state. */

@@ -243,7 +243,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   hc_status st = begin(in, y);
   if (st == HC_OK && monodromy) {
     in->variations.theta = 0;
-    fundamental_matrix_begin(&in->variations, m, in->track, y);
+    st = fundamental_matrix_begin(&in->variations, m, in->track, y);
     fundamental_matrix_follow(&in->variations, m, in->track, y);
   }
   if (st == HC_OK) st = run(in, monodromy != NULL, watch, self, &count);

@@ -14,6 +14,7 @@ enum {
   LAST = 24   /* the highest power of h; the 24 of motion_series.h */
 };
 
+static const double of_slowed = 1e-11; /* [column] left out of columns whose matrix is good to 1e-6 at best */
 static const double died_away =
     1e-200; /* [square] of a column that began as 1: below, the squares of terms underflow */
 
@@ -59,6 +60,9 @@ hc_status series_columns_make(series_columns *s, const modal_base *base)
     *parts[k].array = s->numbers + used;
     used += parts[k].count;
   }
+  s->rounding = 0.25 * DBL_EPSILON;
+  for (size_t i = 0; i < n; ++i)
+    if (base->slowed[i] != 1) s->rounding = of_slowed;
   if (!base->diagonal_K) dense_transpose(base->n, base->n, base->K, s->turned_K);
   if (!base->diagonal_C) dense_transpose(base->n, base->n, base->C, s->turned_C);
   return HC_OK;
@@ -258,7 +262,7 @@ static void add_squares(const series_columns *s, int width, double by, const dou
 /* Is power k of every column below the rounding of its motion and its rate, of which it is k/h times as much? */
 static bool is_rounding(series_columns *s, int width, int k, double h, const double *z)
 {
-  const double rounding = 0.25 * DBL_EPSILON * fmin(fmax(h, DBL_EPSILON), 1) / k;
+  const double rounding = s->rounding * fmin(fmax(h, DBL_EPSILON), 1) / k;
   bool small = true;
   memset(s->left, 0, (size_t)width * sizeof *s->left);
   add_squares(s, width, 1 / rounding, z, s->left);
@@ -275,8 +279,9 @@ static void add_term(size_t count, double by_rate, const double *restrict z, dou
   }
 }
 
-/* s->x and s->p to s->x_end and s->p_end over a step h; false if LAST powers of it do not suffice. */
-static bool expand(series_columns *s, const scaled_model *m, int width, double h)
+/* s->x and s->p to s->x_end and s->p_end over a step h; the last power of it that was taken, LAST + 1 if those up to
+ * LAST do not suffice. */
+static int expand(series_columns *s, const scaled_model *m, int width, double h)
 {
   const modal_base *b = m->base;
   const size_t count = (size_t)s->n * (size_t)width;
@@ -297,12 +302,12 @@ static bool expand(series_columns *s, const scaled_model *m, int width, double h
     subtract_turning(s, width, k - 2, by * h, z, next, second);
     add_term(count, k / h, second, s->x_end, s->p_end);
     if (k == 2) add_squares(s, width, 2 / h, second, s->size); /* a column that begins with its slider alone */
-    if (!s->along) small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
-    if (small == 2) return true; /* two: without damping even powers know nothing of odd ones */
+    if (!s->along || s->rounding > DBL_EPSILON) small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
+    if (small == 2) return k; /* two: without damping even powers know nothing of odd ones */
     double *spent = z;
     z = next, next = second, second = spent;
   }
-  return false;
+  return LAST + 1;
 }
 
 /* s->x and s->p over the span, in steps of equal length unless one is too long. */
@@ -311,7 +316,7 @@ static hc_status advance_block(series_columns *s, const scaled_model *m, int wid
   const double shortest = 1e-12; /* a motion that needs shorter steps is none */
   for (double left = span; left > 0;) {
     const double h = s->reach < left ? left / ceil(left / s->reach) : left;
-    if (!expand(s, m, width, h)) {
+    if (expand(s, m, width, h) > LAST) {
       s->reach = 0.5 * h;
       if (!(s->reach > shortest * span)) return HC_NOT_FINITE;
       continue;
@@ -356,12 +361,13 @@ hc_status series_columns_advance(series_columns *s, const scaled_model *m, doubl
   return HC_OK;
 }
 
-/* dphi of the slips that turn: from the sliders' rows into the first terms, or back when the step is over. */
-static void exchange_angles(series_columns *s, int width, bool back)
+/* dphi of the slips that turn: from the sliders' rows into the first terms; when the step is over, with terms up to
+ * power `last` of the motion, back. */
+static void exchange_angles(series_columns *s, int width, int last)
 {
   for (int i = 0; i < s->along->n_turning; ++i) {
     double *row = s->slider + (size_t)s->along->turning[i].contact * (size_t)width;
-    if (back) planar_columns_end(&s->turning[i], width, LAST - 2, row);
+    if (last > 0) planar_columns_end(&s->turning[i], width, last - 2, row);
     else memcpy(s->turning[i].angle, row, (size_t)width * sizeof *row);
   }
 }
@@ -379,9 +385,9 @@ void series_columns_turn(series_columns *s, const scaled_model *m, const motion_
     take_rows(s->n, width, from, ld, s->x);
     take_rows(s->n, width, from + rows, ld, s->p);
     take_rows(s->n_contacts, width, from + 2 * rows, ld, s->slider);
-    exchange_angles(s, width, false);
-    expand(s, m, width, h);
-    exchange_angles(s, width, true);
+    exchange_angles(s, width, 0);
+    const int last = expand(s, m, width, h);
+    exchange_angles(s, width, last < LAST ? last : LAST);
     put_rows(s->n, width, s->x_end, from, ld);
     put_rows(s->n, width, s->p_end, from + rows, ld);
     put_rows(s->n_contacts, width, s->slider, from + 2 * rows, ld);

@@ -5,8 +5,9 @@
  * A column is a variation; the terms z_k = d_k h^k of its power series over a step h come from
  *     (k + 1)(k + 2) z_{k+2} = -h^2 (by_K K z_k + contacts of z_k) - h (k + 1) by_C C z_{k+1}
  * for a block of columns together: products of matrices, not of a matrix and a vector, and contacts that resist no
- * motion are left out. So many terms are taken that what is left out of any column is below its rounding; a step is as
- * long as LAST terms allow, about 2 over the highest frequency. Nothing is allocated after series_columns_make. */
+ * motion are left out. So many terms are taken that what is left out of any column is below its rounding (of a base
+ * with slowed modes, below 1e-11 of it: its matrix is an approximation); a step is as long as LAST terms allow, about 2
+ * over the highest frequency. Nothing is allocated after series_columns_make. */
 #ifndef HC_TIMEINT_SERIES_COLUMNS_H
 #define HC_TIMEINT_SERIES_COLUMNS_H
 
@@ -34,6 +35,7 @@ typedef struct series_columns { /* from series_columns_make, to series_columns_f
   double *size, *left;          /* [block] of columns, squared */
   planar_columns *turning;      /* [n_planar] */
   const motion_series *along;   /* where slips turn: the motion; else NULL */
+  double rounding;              /* [column] what may be left out: DBL_EPSILON/4, or of slowed modes more */
   double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
   double *numbers;              /* of all arrays of doubles */
 } series_columns;

@@ -366,7 +366,8 @@ static hc_status begin(events *in, const double *y, int *count)
   use_states(in);
   if (in->varies) {
     in->variations.theta = 0;
-    fundamental_matrix_begin(&in->variations, in->base.m, in->track, y);
+    hc_status st = fundamental_matrix_begin(&in->variations, in->base.m, in->track, y);
+    if (st != HC_OK) return st;
     fundamental_matrix_follow(&in->variations, in->base.m, in->track, y);
   }
   return pass_fallen(in, 0, count);

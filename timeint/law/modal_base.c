@@ -163,7 +163,8 @@ static hc_status look_at_stuck(modal_base *b, const model *m, double *omega2, do
   return HC_OK;
 }
 
-static hc_status make_memory(modal_base *b)
+/* Doubles in b->numbers; *b's arrays there, where it is not NULL. */
+static size_t place_arrays(modal_base *b)
 {
   const size_t n = (size_t)b->n, contacts = (size_t)b->n_contacts, loads = (size_t)b->n_loads,
                responses = (size_t)b->n_responses;
@@ -172,16 +173,23 @@ static hc_status make_memory(modal_base *b)
     size_t count;
   } parts[] = {{&b->shape, n * n},      {&b->inverse, n * n},        {&b->K, n * n},
                {&b->C, n * n},          {&b->tangent, contacts * n}, {&b->normal, contacts * n},
-               {&b->cosine, loads * n}, {&b->sine, loads * n},       {&b->response, responses * n}};
-  size_t count = 0, used = 0;
-  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
-  b->numbers = calloc(count, sizeof *b->numbers);
-  b->harmonic = calloc(loads + 1, sizeof *b->harmonic);
-  if (!b->numbers || !b->harmonic) return HC_NO_MEMORY;
+               {&b->cosine, loads * n}, {&b->sine, loads * n},       {&b->response, responses * n},
+               {&b->slowed, n}};
+  size_t used = 0;
   for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
-    *parts[k].array = b->numbers + used;
+    if (b->numbers) *parts[k].array = b->numbers + used;
     used += parts[k].count;
   }
+  return used;
+}
+
+static hc_status make_memory(modal_base *b)
+{
+  b->numbers = calloc(place_arrays(b), sizeof *b->numbers);
+  b->harmonic = calloc((size_t)b->n_loads + 1, sizeof *b->harmonic);
+  if (!b->numbers || !b->harmonic) return HC_NO_MEMORY;
+  place_arrays(b);
+  for (int i = 0; i < b->n; ++i) b->slowed[i] = 1;
   return HC_OK;
 }
 
@@ -207,6 +215,84 @@ hc_status modal_base_new(const model *m, modal_base **out)
   }
   free(room);
   return st;
+}
+
+/* out := (K + sum_j kt t_j t_j^T + kn n_j n_j^T) x, of the contacts of m; K diagonal. */
+static void times_stuck(const modal_base *b, const model *m, const double *x, double *out)
+{
+  const size_t n = (size_t)b->n;
+  for (size_t i = 0; i < n; ++i) out[i] = b->K[i] * x[i];
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const double *t = b->tangent + (size_t)j * n, *normal = b->normal + (size_t)j * n, mass = 1 / (b->s * b->s);
+    const double along = m->contacts[j].law.kt / mass * dot_product(b->n, t, x);
+    const double across = m->contacts[j].law.kn / mass * dot_product(b->n, normal, x);
+    for (size_t i = 0; i < n; ++i) out[i] += along * t[i] + across * normal[i];
+  }
+}
+
+/* The highest natural frequency, contacts stuck, by the power iteration from the contacts' rows: a percent below it at
+ * worst, which lengthens the first try of a step. x[n], y[n]: room. */
+static double highest_stuck(const modal_base *b, const model *m, double *x, double *y)
+{
+  enum { ITERATIONS = 100 };
+  double highest = 0;
+  for (int i = 0; i < b->n; ++i) x[i] = 1 / sqrt(b->n);
+  for (int it = 0; it < ITERATIONS; ++it) {
+    times_stuck(b, m, x, y);
+    highest = norm_2(b->n, y);
+    if (!(highest > 0)) return 0;
+    for (int i = 0; i < b->n; ++i) x[i] = y[i] / highest;
+  }
+  return sqrt(highest);
+}
+
+static void scale_column(size_t rows, size_t ld, double by, double *first)
+{
+  for (size_t r = 0; r < rows; ++r) first[r * ld] *= by;
+}
+
+/* Mode i is slowed by `a`. */
+static void slow_mode(modal_base *b, size_t i, double a)
+{
+  const size_t n = (size_t)b->n, contacts = (size_t)b->n_contacts, loads = (size_t)b->n_loads;
+  b->slowed[i] = a;
+  b->K[i] /= a * a;
+  if (b->diagonal_C) b->C[i] /= a;
+  else scale_column(n, n, 1 / sqrt(a), b->C + i), scale(n, b->C + i * n, 1 / sqrt(a));
+  scale(n, b->shape + i * n, 1 / a);
+  scale_column(n, n, a, b->inverse + i);
+  scale_column(contacts, n, 1 / a, b->tangent + i);
+  scale_column(contacts, n, 1 / a, b->normal + i);
+  scale_column((size_t)b->n_responses, n, 1 / a, b->response + i);
+  scale_column(loads, n, 1 / a, b->cosine + i);
+  scale_column(loads, n, 1 / a, b->sine + i);
+}
+
+hc_status modal_base_slowed(const modal_base *b, const model *m, double fastest, modal_base **out)
+{
+  const size_t n = (size_t)b->n;
+  *out = NULL;
+  modal_base *copy = malloc(sizeof *copy);
+  double *room = calloc(2 * n, sizeof *room);
+  if (copy) *copy = *b;
+  hc_status st = copy ? make_memory(copy) : HC_NO_MEMORY;
+  if (st == HC_OK && room) {
+    memcpy(copy->numbers, b->numbers, place_arrays(copy) * sizeof *b->numbers);
+    memcpy(copy->harmonic, b->harmonic, (size_t)b->n_loads * sizeof *b->harmonic);
+    copy->slowest = INFINITY, copy->decay = 0;
+    for (size_t i = 0; i < n; ++i) {
+      const double a = sqrt(fmax(b->K[i], 0)) / fastest, *C = copy->C + (b->diagonal_C ? i : i * (n + 1));
+      if (a > 1) slow_mode(copy, i, a);
+      copy->slowest = fmax(0, fmin(copy->slowest, 0.5 * *C));
+      copy->decay = fmax(copy->decay, *C);
+    }
+    copy->highest = highest_stuck(copy, m, room, room + n);
+    *out = copy;
+  } else {
+    modal_base_free(copy);
+  }
+  free(room);
+  return *out ? HC_OK : HC_NO_MEMORY;
 }
 
 void modal_base_free(modal_base *b)

@@ -30,12 +30,20 @@ typedef struct modal_base { /* from modal_base_new, to modal_base_free; only rea
   double slowest;              /* [1/time] >= 0: the least decay rate of a mode by damping alone */
   double stuck_motion;         /* [length] the largest motion of a contact under the loads, all contacts stuck: a
                                        size that does not depend on omega */
+  double *slowed;              /* [n] 1, or by what this mode's frequency has been divided: modal_base_slowed */
   double *numbers;             /* of all arrays of doubles */
 } modal_base;
 
 /* HC_NO_MEMORY; HC_SINGULAR if M is not positive definite; HC_NOT_CONVERGED. *out is then NULL. */
 hc_status modal_base_new(const model *m, modal_base **out);
 void modal_base_free(modal_base *b); /* NULL is allowed */
+
+/* A copy of b, of model m, in which modes faster than `fastest` [rad/time] have so much more mass that they are as fast
+ * as that (mass scaling): with a_i = omega_i/fastest, q_i = q_i of the copy / a_i,
+ *     K_ii = fastest^2,   C_ij = C_ij of b/sqrt(a_i a_j),   rows t_ji, n_ji, r_i, loads: those of b/a_i
+ * What they do as springs, phi phi^T/omega_i^2, stays, and so do their damping ratios; a force of frequency Omega sees
+ * (Omega/fastest)^2 of their compliance more. b's K is diagonal. HC_NO_MEMORY: *out is NULL. */
+hc_status modal_base_slowed(const modal_base *b, const model *m, double fastest, modal_base **out);
 
 /* q[n] of x[n], and x of q. */
 void modal_base_to_modes(const modal_base *b, const double *x, double *q);

@@ -49,7 +49,6 @@ static hc_status make_memory(timeint *ti)
 
 hc_status closed_start_new(timeint *ti)
 {
-  if (!ti->how.scout || ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return HC_OK;
   transient_settings how = ti->how;
   how.law = TRANSIENT_LAW_EXACT;
   how.method = TRANSIENT_METHOD_CLOSED_FORM;
@@ -57,6 +56,14 @@ hc_status closed_start_new(timeint *ti)
   how.tolerance = fmin(how.tolerance, closed_start_tolerance);
   hc_status st = timeint_new(ti->model, &how, &ti->closed_form);
   return st == HC_OK ? make_memory(ti) : st;
+}
+
+hc_status closed_start_share(timeint *ti, timeint *closed_form)
+{
+  ti->closed_form = closed_form;
+  ti->shares_closed_form = true;
+  ++closed_form->owners;
+  return make_memory(ti);
 }
 
 void closed_start_free(timeint *ti)
@@ -94,11 +101,14 @@ static const struct confirmed *recall(const timeint *ti, int k, const double *st
   return NULL;
 }
 
-motion_error *closed_start_predictions(timeint *ti, const double *state)
+motion_error *closed_start_predictions(timeint *ti, const double *state, const double **start)
 {
   for (int i = 0; i < REMEMBERED; ++i) {
     struct confirmed *c = &ti->confirmed->orbit[i];
-    if (c->k > 0 && c->omega == ti->omega && same_state(ti->n, c->state, state, same_point)) return c->predicted;
+    if (c->k > 0 && c->omega == ti->omega && same_state(ti->n, c->state, state, same_point)) {
+      *start = c->start;
+      return c->predicted;
+    }
   }
   return NULL;
 }

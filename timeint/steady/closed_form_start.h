@@ -7,9 +7,11 @@
 
 #include "timeint/steady/steady.h"
 
-/* ti->closed_form, if the settings of ti ask for one, and what else is needed with it. HC_NO_MEMORY; closed_start_free
- * in any case. */
+/* ti->closed_form, and what else is needed with it. HC_NO_MEMORY; closed_start_free in any case. */
 hc_status closed_start_new(timeint *ti);
+
+/* The same with another handle's. */
+hc_status closed_start_share(timeint *ti, timeint *closed_form);
 void closed_start_free(timeint *ti);
 
 /* From state[n] to the steady state (orbit_of 0) or to the orbit of orbit_of periods next to it, as timeint_steady and
@@ -22,8 +24,8 @@ hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, co
  * one; the motion is where it was. */
 hc_status closed_start_confirm(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r, bool *done);
 
-/* [responses] The predictions of the remembered orbit through `state`, to be read or filled, NaN so far; NULL: it is
- * not remembered. */
-motion_error *closed_start_predictions(timeint *ti, const double *state);
+/* Of the remembered orbit through `state`: where the closed form's was, start[n], and the predictions [responses], to
+ * be read or filled, NaN so far; NULL: it is not remembered. */
+motion_error *closed_start_predictions(timeint *ti, const double *state, const double **start);
 
 #endif

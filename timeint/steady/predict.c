@@ -6,6 +6,7 @@
 
 #include "timeint/steady/closed_form_start.h"
 #include "timeint/steady/linear_regime.h"
+#include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
@@ -27,19 +28,41 @@ static periodic_motion motion_of(const timeint_result *r)
   return m;
 }
 
+/* The distance between two motions, as an error of one of them. */
+motion_error timeint_change(const timeint_result *one, const timeint_result *other)
+{
+  const periodic_motion a = motion_of(one), b = motion_of(other);
+  const motion_distance d = motion_between(&a, &b);
+  const double least = MOTION_LEAST_SHARE * d.waveform;
+  return (motion_error){fmax(d.amplitude, least), fmax(d.harmonic_1, least), d.waveform};
+}
+
+static motion_error scaled_error(motion_error e, double by)
+{
+  return (motion_error){by * e.amplitude, by * e.harmonic_1, by * e.waveform};
+}
+
 static motion_error all(double e) { return (motion_error){e, e, e}; }
 
-/* The orbit with half the regularisation, from the state on the orbit with all of it: half way to the exact law's,
- * which has none. *r: of the orbit so far, then of that one. */
-static hc_status halve(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r)
+/* ti->closed_form_state becomes a point on the closed form's orbit next to `state` [model], if it is not remembered. */
+static hc_status find_closed_form(timeint *ti, double omega, int k, const double *state, const hc_monitor *monitor)
+{
+  const double *start = NULL;
+  timeint_result unused;
+  closed_start_predictions(ti, state, &start);
+  memcpy(ti->closed_form_state, start ? start : state, (size_t)ti->n * sizeof *state);
+  return start ? HC_OK : timeint_orbit(ti->closed_form, omega, k, ti->closed_form_state, monitor, &unused);
+}
+
+/* The orbit with half the regularisation, from `state`, where the motion is, on the orbit with all of it: half way to
+ * the exact law's, which has none. *r: of the orbit so far, then of that one. */
+static hc_status halve(timeint *ti, const double *state, int k, const hc_monitor *monitor, timeint_result *r)
 {
   shoot_report found = {.distance = INFINITY, .multiplier = NAN};
   double goal = orbit_goal(ti);
   if (ti->closed_form) {
-    timeint_result unused;
     double change = 0;
-    timeint_get_state(ti, ti->closed_form_state);
-    hc_status st = timeint_orbit(ti->closed_form, ti->omega, k, ti->closed_form_state, monitor, &unused);
+    hc_status st = find_closed_form(ti, ti->omega, k, state, monitor);
     if (st != HC_OK) return st;
     timeint_take_state(ti, ti->closed_form_state, ti->point[0]);
     for (int i = 0; i < ti->n; ++i) {
@@ -56,15 +79,6 @@ static hc_status halve(timeint *ti, int k, const hc_monitor *monitor, timeint_re
   return st == HC_OK ? orbit_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
 }
 
-/* Twice the change from `whole` to `half`. */
-static motion_error change(const timeint_result *whole, const timeint_result *half)
-{
-  const periodic_motion all_of_it = motion_of(whole), less = motion_of(half);
-  const motion_distance d = motion_between(&all_of_it, &less);
-  const double least = MOTION_LEAST_SHARE * d.waveform;
-  return (motion_error){2 * fmax(d.amplitude, least), 2 * fmax(d.harmonic_1, least), 2 * d.waveform};
-}
-
 /* out[n]: twice the change of each response by half the regularisation; untouched if there is no such orbit. */
 static hc_status regularisation(timeint *ti, const double *state, const hc_monitor *monitor, int n,
                                 const timeint_result *r, motion_error *out)
@@ -74,10 +88,10 @@ static hc_status regularisation(timeint *ti, const double *state, const hc_monit
   hc_status st = timeint_begin(ti, r->omega, state);
   if (st != HC_OK) return st;
   timeint_regularise(ti, 0.5 * rho);
-  st = halve(ti, r->period_multiple, monitor, &half);
+  st = halve(ti, state, r->period_multiple, monitor, &half);
   for (int i = 0; i < n && st == HC_OK; ++i) {
     if (i > 0) st = timeint_response(ti, i, &half);
-    if (st == HC_OK) out[i] = change(&r[i], &half);
+    if (st == HC_OK) out[i] = scaled_error(timeint_change(&r[i], &half), 2);
   }
   timeint_regularise(ti, rho);
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
@@ -87,7 +101,8 @@ static hc_status regularisation(timeint *ti, const double *state, const hc_monit
 static hc_status regularised_part(timeint *ti, const double *state, const hc_monitor *monitor, int n,
                                   const timeint_result *r, motion_error *out)
 {
-  motion_error *known = ti->closed_form ? closed_start_predictions(ti, state) : NULL;
+  const double *start;
+  motion_error *known = ti->closed_form ? closed_start_predictions(ti, state, &start) : NULL;
   for (int i = 0; i < n; ++i) out[i] = known ? known[i] : all(NAN);
   if (out[n - 1].amplitude >= 0) return HC_OK;
   hc_status st = regularisation(ti, state, monitor, n, r, out);
@@ -95,15 +110,30 @@ static hc_status regularised_part(timeint *ti, const double *state, const hc_mon
   return st;
 }
 
+/* Of slowed modes and the regularisation, out[n]: by the closed form's orbits without and with slowed modes. */
+static hc_status slowed_part(timeint *ti, const double *state, const hc_monitor *monitor, int n,
+                             const timeint_result *r, motion_error *out)
+{
+  timeint *closed = ti->closed_form;
+  for (int i = 0; i < n; ++i) out[i] = all(NAN);
+  if (!closed || !closed->slowed) return HC_OK;
+  hc_status st = find_closed_form(ti, r->omega, r->period_multiple, state, monitor);
+  if (st == HC_OK) st = timeint_begin(closed, r->omega, ti->closed_form_state);
+  if (st == HC_OK) st = mass_scaling_error(closed, r->period_multiple, monitor, n, r, out);
+  return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
+}
+
 hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r)
 {
   if (r->period_multiple < 1) return HC_OK;
   for (int i = 0; i < n; ++i) r[i].predicted = all((r[i].closure + r[i].attainable + rounding) * r[i].amplitude);
-  if (r->method == TIMEINT_BY_CLOSED_FORM || ti->how.law == TRANSIENT_LAW_EXACT) return HC_OK;
+  if (r->method == TIMEINT_BY_CLOSED_FORM) return HC_OK;
+  const bool slows = isfinite(ti->fastest);
+  if (!slows && ti->how.law == TRANSIENT_LAW_EXACT) return HC_OK;
   motion_error *more = calloc((size_t)n, sizeof *more);
   if (!more) return HC_NO_MEMORY;
   const hc_monitor *before = timeint_hear(ti, monitor);
-  hc_status st = regularised_part(ti, state, monitor, n, r, more);
+  hc_status st = (slows ? slowed_part : regularised_part)(ti, state, monitor, n, r, more);
   timeint_hear(ti, before);
   for (int i = 0; i < n; ++i) {
     r[i].predicted.amplitude += more[i].amplitude;

@@ -23,14 +23,26 @@ enum {
   ANDERSON_DEPTH = 4,        /* about the states of an oscillator: with as many as states it is the secant method */
   LAST_STEPS = 4,            /* digits double: from 1e-2 to rounding in three, and one that shows it */
   CONFIRM_STEPS = 8,         /* 0.3^8 = 7e-5: slower than that Newton with variational equations is cheaper */
+  CHORD_STEPS = 60,          /* of 0.5 at worst, from 1 to rounding */
+  REST_TRIES = 4,            /* the second shows that all rest, as a rule */
+  CHORD_RENEWALS = 3,        /* of a matrix without which steps do not contract: then there is no orbit */
+  SLOWED_STEPS = 3,          /* of 0.02: to 1e-5 of what slowed modes change */
   DIRECTION_STEPS = 64       /* of the power iteration: a second multiplier of 0.8 of the first leaves 0.8^64 = 6e-7 */
 };
 enum { EDGE_SCATTERS = 100 }; /* sliders are moved off the edge of slip by so much more than rounding */
 
 static const double same_state = 1e-6; /* [size] a state that returns as near is the same, but for integration errors */
 
+static const double same_matrix = 1e-4;  /* [size] a state as near has the same monodromy matrix, but for some 1e-4 */
+static const double scatter_seen = 1e-6; /* [size] a chord step of CVODE's that short, and no shorter than the last, is
+                                            the scatter of periods: of fast modes it is not known beforehand */
+static const double chord_contracts = 0.5; /* [last step] the matrix is renewed where a chord step leaves more */
+
 static const double rounding_of_step = 20 * DBL_EPSILON; /* [L] of the sums that make a step */
-enum { CLOSED_FORM_STEPS = 10, CVODE_STEPS = 1000 };     /* in a period, about */
+enum { CLOSED_FORM_STEPS = 10, CVODE_STEPS = 1000 };     /* in a period, about; */
+enum {
+  LARGE_CLOSED_FORM_STEPS = 100
+}; /* of the 1000 to 4000 of a large structure, whose errors die away: 1.3e-13 seen */
 static const double both_scatter = 1e3; /* [tolerance] of F(z0) and F(z*) together: twice 250, and twice that */
 static const double contracts =
     0.3;       /* [last step] a Newton step no shorter than that part of the last one leads nowhere */
@@ -39,7 +51,10 @@ struct shoot { /* from shoot_new, to shoot_free */
   int n, k;
   const hc_monitor *monitor;
   double *z, *f;                 /* [n] the last point, and F^k of it */
-  double *phi;                   /* [n][n] column by column, dF^k/dz there */
+  double *phi;                   /* [n][n] column by column, dF^k/dz there; as giver of it: */
+  double *phi_at;                /* [n] where, */
+  double phi_omega, phi_length;  /* at which frequency, in which unit */
+  int phi_k;                     /* and of how many periods; 0: none */
   double *travel;                /* [n] of each slider, the farthest it was in a period from where that began */
   double *start, *first;         /* [n] where the solve began, and F^k of that */
   bool known, begun;             /* z, f, phi are valid; start, first are valid */
@@ -71,26 +86,34 @@ static void note_travel(shoot *s)
   }
 }
 
-/* s->f goes on by a period, by `in`; s->phi becomes the monodromy matrix of this and the i periods before it. */
-static hc_status add_period(shoot *s, integrator *in, const scaled_model *m, int i)
+/* The handle that gives matrices of a large structure (shoot.h), or NULL: each gives its own. */
+static timeint *matrix_giver(const timeint *ti)
 {
-  hc_status st = integrate_monodromy(in, m, s->f, i == 0 ? s->phi : s->one_period);
+  return ti->slowed || !ti->closed_form ? ti->slowed : ti->closed_form->slowed;
+}
+
+/* y goes on by a period, by `in`; s->phi becomes the monodromy matrix of this and the i periods before it. */
+static hc_status add_period(shoot *s, integrator *in, const scaled_model *m, int i, double *y)
+{
+  hc_status st = integrate_monodromy(in, m, y, i == 0 ? s->phi : s->one_period);
   if (st != HC_OK || i == 0) return st;
   memcpy(s->product, s->phi, sizeof *s->phi * (size_t)(s->n * s->n));
   dense_multiply(s->n, s->n, s->n, s->one_period, s->product, s->phi);
   return HC_OK;
 }
 
-/* s->f becomes F^k(s->f), s->phi the monodromy matrix of these k periods. */
+/* s->f becomes F^k(s->f), s->phi the monodromy matrix of these k periods, unless another is to give it. */
 static hc_status integrate_k_periods(shoot *s)
 {
+  timeint *ti = s->ti;
   memset(s->travel, 0, (size_t)s->n * sizeof *s->travel);
   for (int i = 0; i < s->k; ++i) {
-    if (s->ti->periods >= s->ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
+    if (ti->periods >= ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
-    hc_status st = add_period(s, s->ti->in, &s->ti->scaled, i);
+    hc_status st = matrix_giver(ti) ? integrate_period(ti->in, &ti->scaled, s->f, NULL, NULL)
+                                    : add_period(s, ti->in, &ti->scaled, i, s->f);
     if (st != HC_OK) return st;
-    ++s->ti->periods;
+    ++ti->periods;
     note_travel(s);
   }
   return HC_OK;
@@ -110,6 +133,94 @@ static hc_status evaluate(shoot *s, const double *z)
     memcpy(s->first, s->f, bytes);
     s->begun = true;
   }
+  return st;
+}
+
+/* State i of one handle in units of another, whose modes are not as slow (modal_base.h). */
+static double unit_ratio(const timeint *of, const timeint *in, int i)
+{
+  const int n = of->n_dof;
+  return i < 2 * n ? of->base->slowed[i % n] / in->base->slowed[i % n] : 1;
+}
+
+/* Sliders that rest all period from s->z on (or slip by rounding) are moved in y, the giver's state there, until they
+ * rest in its period, too, whose motion is a little another. */
+static hc_status keep_at_rest(const shoot *s, timeint *giver, double *y)
+{
+  shoot *of = giver->shoot;
+  const double size = timeint_scaled_size(s->ti);
+  bool moved = true;
+  for (int tries = 0; tries < REST_TRIES && moved; ++tries) {
+    moved = false;
+    memcpy(of->f, y, sizeof *y * (size_t)s->n);
+    memset(of->travel, 0, sizeof *y * (size_t)s->n);
+    for (int k = 0; k < s->k; ++k) {
+      hc_status st = integrate_period(giver->in, &giver->scaled, of->f, NULL, NULL);
+      if (st != HC_OK) return st;
+      note_travel(of);
+    }
+    for (int i = 2 * s->ti->n_dof; i < s->n; ++i) {
+      if (!(s->travel[i] <= MEASURE_RESTS * size && of->travel[i] > 0 && isfinite(of->travel[i]))) continue;
+      y[i] += copysign(of->travel[i] + same_matrix * size, of->f[i] - y[i]);
+      moved = true;
+    }
+  }
+  return HC_OK;
+}
+
+/* The giver's matrix at z, found anew; z of s->ti. */
+static hc_status find_slowed_matrix(const shoot *s, const double *z)
+{
+  const timeint *ti = s->ti;
+  timeint *giver = matrix_giver(ti);
+  shoot *of = giver->shoot;
+  double *y = of->vector;
+  of->phi_k = 0;
+  hc_status st = timeint_slow_modes(giver, ti->omega);
+  if (st != HC_OK) return st;
+  scaled_make(&giver->scaled, ti->model, &giver->how, ti->omega, ti->length);
+  for (int i = 0; i < s->n; ++i) of->phi_at[i] = y[i] = z[i] * unit_ratio(giver, ti, i);
+  if (s->known && z == s->z) st = keep_at_rest(s, giver, y);
+  for (int i = 0; i < s->k && st == HC_OK; ++i) {
+    if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
+    st = add_period(of, giver->in, &giver->scaled, i, y);
+  }
+  if (st != HC_OK) return st;
+  of->phi_k = s->k;
+  of->phi_omega = ti->omega;
+  of->phi_length = ti->length;
+  return HC_OK;
+}
+
+/* Has the giver a matrix of these periods? */
+static bool has_slowed_matrix(const shoot *s)
+{
+  const shoot *of = matrix_giver(s->ti)->shoot;
+  return of->phi_k == s->k && of->phi_omega == s->ti->omega;
+}
+
+/* s->phi: the giver's, in the units of s->ti. */
+static void take_slowed_matrix(shoot *s)
+{
+  const timeint *giver = matrix_giver(s->ti);
+  for (int j = 0; j < s->n; ++j)
+    for (int i = 0; i < s->n; ++i)
+      s->phi[i + j * s->n] =
+          giver->shoot->phi[i + j * s->n] * unit_ratio(giver, s->ti, j) / unit_ratio(giver, s->ti, i);
+}
+
+/* s->phi at the last point asked, to within same_matrix, if it is for a giver to find. */
+static hc_status find_matrix(shoot *s)
+{
+  const timeint *giver = matrix_giver(s->ti);
+  double apart = 0;
+  hc_status st = HC_OK;
+  if (!giver) return HC_OK;
+  const shoot *of = giver->shoot;
+  for (int i = 0; i < s->n && has_slowed_matrix(s); ++i)
+    apart = fmax(apart, fabs(s->z[i] - of->phi_at[i] / unit_ratio(giver, s->ti, i) * of->phi_length / s->ti->length));
+  if (!has_slowed_matrix(s) || !(apart <= same_matrix * timeint_scaled_size(s->ti))) st = find_slowed_matrix(s, s->z);
+  if (st == HC_OK) take_slowed_matrix(s);
   return st;
 }
 
@@ -136,15 +247,22 @@ static hc_status residual(void *self, const double *z, double *r)
   return st;
 }
 
-static hc_status jacobian(void *self, const double *z, double *jac)
+/* I - Phi, of s->phi. */
+static void fill_jacobian(const shoot *s, double *jac)
 {
-  shoot *s = self;
-  hc_status st = evaluate(s, z);
-  if (st != HC_OK) return st;
   for (int i = 0; i < s->n; ++i) {
     const bool fixed = is_free(s, i); /* its equation becomes: stay where the start is */
     for (int j = 0; j < s->n; ++j) jac[i + j * s->n] = (i == j) - (fixed ? 0 : s->phi[i + j * s->n]);
   }
+}
+
+static hc_status jacobian(void *self, const double *z, double *jac)
+{
+  shoot *s = self;
+  hc_status st = evaluate(s, z);
+  if (st == HC_OK) st = find_matrix(s);
+  if (st != HC_OK) return st;
+  fill_jacobian(s, jac);
   return HC_OK;
 }
 
@@ -180,8 +298,8 @@ static hc_status make_anderson(shoot *s)
 
 static hc_status make_memory(shoot *s)
 {
-  double **const vectors[] = {&s->z,    &s->f,    &s->start, &s->first,  &s->before, &s->iterate,
-                              &s->step, &s->best, &s->ones,  &s->vector, &s->other,  &s->travel};
+  double **const vectors[] = {&s->z,    &s->f,    &s->start,  &s->first, &s->before, &s->iterate, &s->step,
+                              &s->best, &s->ones, &s->vector, &s->other, &s->travel, &s->phi_at};
   double **const matrices[] = {&s->phi, &s->one_period, &s->product, &s->matrix};
   const size_t n = (size_t)s->n, n_vectors = sizeof vectors / sizeof *vectors,
                n_matrices = sizeof matrices / sizeof *matrices;
@@ -246,7 +364,8 @@ double orbit_goal(const timeint *ti) { return fmax(ti->how.tolerance * timeint_s
 
 double orbit_scatter(const timeint *ti, int k)
 {
-  if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return k * CLOSED_FORM_STEPS * rounding_of_step;
+  if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM)
+    return k * (ti->slowed ? LARGE_CLOSED_FORM_STEPS : CLOSED_FORM_STEPS) * rounding_of_step;
   return k * fmax(integrate_scatter(ti->in) * ti->tolerance, CVODE_STEPS * rounding_of_step);
 }
 
@@ -336,12 +455,13 @@ static double attainable(shoot *s)
 
 /* An orbit on the edge of slip, where F has one derivative on either side: s->phi becomes that of the side that sticks,
  * whichever rounding chose. Sliders that slip by rounding are moved on by that and EDGE_SCATTERS times what periods
- * scatter, as are those that slip then; where one that was moved slips again, no side is known, and s->phi stays. */
+ * scatter, as are those that slip then; where one that was moved slips again, no side is known, and s->phi stays. A
+ * giver's matrix is of that side already (keep_at_rest). */
 static hc_status take_side_that_sticks(shoot *s)
 {
   const double rests = MEASURE_RESTS * timeint_scaled_size(s->ti);
   double *z = s->vector, *travel = s->other; /* of s->best */
-  bool slips = true;
+  bool slips = !matrix_giver(s->ti);
   memcpy(z, s->best, sizeof *z * (size_t)s->n);
   memcpy(travel, s->travel, sizeof *z * (size_t)s->n);
   while (slips) {
@@ -373,6 +493,7 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
     for (int i = 0; i < s->n; ++i) z[i] -= s->step[i];
   }
   if (st == HC_OK && r->distance < INFINITY) st = evaluate(s, s->best);
+  if (st == HC_OK && r->distance < INFINITY) st = find_matrix(s);
   if (st != HC_OK || !(r->distance < INFINITY)) return st != HC_OK ? st : HC_NOT_CONVERGED;
   r->moved = distance_2(s->n, s->start, s->best);
   r->nonlinear = nonlinear_part(s, s->best);
@@ -380,6 +501,36 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   memcpy(s->ti->y, s->best, bytes);
   r->attainable = attainable(s);
   return r->distance <= fmax(goal, r->attainable) ? HC_OK : HC_NOT_CONVERGED;
+}
+
+/* s->iterate to where |z - F^k(z)| <= enough, by steps no longer than `reach` with one matrix as long as they contract.
+ */
+static hc_status by_chords(shoot *s, double reach, double enough)
+{
+  double *z = s->iterate, last = INFINITY;
+  for (int steps = 0, renewals = 0; steps < CHORD_STEPS; ++steps) {
+    hc_status st = evaluate(s, z);
+    if (st != HC_OK) return st;
+    for (int i = 0; i < s->n; ++i) s->step[i] = z[i] - s->f[i];
+    const double size = norm_2(s->n, s->step);
+    if (size <= enough) return HC_OK;
+    const bool contracts_enough = size <= chord_contracts * last;
+    renewals = contracts_enough ? 0 : renewals + (steps > 0);
+    if (renewals > CHORD_RENEWALS) return HC_NOT_CONVERGED;
+    if (!has_slowed_matrix(s) || (steps > 0 && !contracts_enough)) st = find_slowed_matrix(s, s->z);
+    if (st == HC_OK && (steps == 0 || !contracts_enough)) {
+      take_slowed_matrix(s);
+      fill_jacobian(s, s->matrix);
+      st = dense_factor(s->n, s->matrix, s->pivot);
+    }
+    if (st != HC_OK) return st;
+    dense_solve(s->n, s->matrix, s->pivot, 1, s->step);
+    const double length = norm_2(s->n, s->step), share = length > reach ? reach / length : 1;
+    if (!isfinite(length)) return HC_NOT_FINITE;
+    for (int i = 0; i < s->n; ++i) z[i] -= share * s->step[i];
+    last = size;
+  }
+  return HC_NOT_CONVERGED;
 }
 
 hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report)
@@ -392,7 +543,8 @@ hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_moni
                                   .max_step = reach,
                                   .max_iterations = NEWTON_ITERATIONS};
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
-  hc_status st = newton_solve(s->newton, s->iterate, &options, &iterations);
+  hc_status st = matrix_giver(s->ti) ? by_chords(s, reach, options.tolerance)
+                                     : newton_solve(s->newton, s->iterate, &options, &iterations);
   if (st == HC_OK) st = finish(s, goal, report);
   if (st != HC_OK) memcpy(s->ti->y, s->before, sizeof *s->before * (size_t)s->n);
   return st;
@@ -514,22 +666,60 @@ hc_status orbit_report_none(timeint *ti, hc_status why, timeint_result *r)
 
 /* ---- an orbit known in closed form, confirmed ---- */
 
-/* s->matrix becomes the factors of I - Phi^k of the exact law in closed form along the k periods from ti->y on. The
- * equation of a slider that stays wherever it is becomes: go where the period takes it. */
-static hc_status factor_closed_form(shoot *s)
+/* s->phi of the exact law in closed form along the k periods from ti->y on. */
+static hc_status closed_form_matrix(shoot *s)
 {
   timeint *ti = s->ti, *closed = ti->closed_form;
   scaled_make(&closed->scaled, ti->model, &closed->how, ti->omega, ti->length);
   memcpy(s->f, ti->y, sizeof *s->f * (size_t)s->n);
-  for (int i = 0; i < s->k; ++i) {
-    hc_status st = add_period(s, closed->in, &closed->scaled, i);
-    if (st != HC_OK) return st;
-  }
+  hc_status st = HC_OK;
+  for (int i = 0; i < s->k && st == HC_OK; ++i) st = add_period(s, closed->in, &closed->scaled, i, s->f);
+  return st;
+}
+
+/* The same of a large structure: as it is next to there. */
+static hc_status nearby_matrix(shoot *s)
+{
+  hc_status st = has_slowed_matrix(s) ? HC_OK : find_slowed_matrix(s, s->ti->y);
+  if (st == HC_OK) take_slowed_matrix(s);
+  return st;
+}
+
+/* s->matrix becomes the factors of I - Phi^k of the exact law in closed form along the k periods from ti->y on. The
+ * equation of a slider that stays wherever it is becomes: go where the period takes it. */
+static hc_status factor_closed_form(shoot *s)
+{
+  timeint *ti = s->ti;
+  hc_status st = matrix_giver(ti) ? nearby_matrix(s) : closed_form_matrix(s);
+  if (st != HC_OK) return st;
   for (int i = 0; i < s->n; ++i) {
     const bool stays = i >= 2 * ti->n_dof && is_unit_row(s, i);
     for (int j = 0; j < s->n; ++j) s->matrix[i + j * s->n] = (i == j) - (stays ? 0 : s->phi[i + j * s->n]);
   }
   return dense_factor(s->n, s->matrix, s->pivot);
+}
+
+hc_status shoot_slowed(shoot *s, int k, const hc_monitor *monitor)
+{
+  timeint *slowed = s->ti->slowed;
+  shoot *of = slowed->shoot;
+  begin(s, k, monitor);
+  memcpy(s->z, s->iterate, sizeof *s->z * (size_t)s->n);
+  hc_status st = find_matrix(s);
+  for (int i = 0; i < s->n && st == HC_OK; ++i) {
+    const bool stays = i >= 2 * s->ti->n_dof && is_unit_row(of, i);
+    for (int j = 0; j < s->n; ++j) s->matrix[i + j * s->n] = (i == j) - (stays ? 0 : of->phi[i + j * s->n]);
+  }
+  if (st == HC_OK) st = dense_factor(s->n, s->matrix, s->pivot);
+  for (int steps = 0; steps < SLOWED_STEPS && st == HC_OK; ++steps) {
+    memcpy(s->iterate, slowed->y, sizeof *s->iterate * (size_t)s->n);
+    for (int i = 0; i < k && st == HC_OK; ++i)
+      st = integrate_period(slowed->in, &slowed->scaled, slowed->y, NULL, NULL);
+    for (int i = 0; i < s->n; ++i) s->step[i] = slowed->y[i] - s->iterate[i];
+    dense_solve(s->n, s->matrix, s->pivot, 1, s->step);
+    for (int i = 0; i < s->n; ++i) slowed->y[i] = s->iterate[i] + s->step[i];
+  }
+  return st;
 }
 
 /* k periods from s->iterate on, measured; s->step: from the orbit to s->iterate, *length of it. */
@@ -561,6 +751,7 @@ hc_status shoot_confirm(shoot *s, int k, double goal, const hc_monitor *monitor,
     found->distance = length;
     if (st != HC_OK || length <= goal) break;
     if (tries == CONFIRM_STEPS || !(length <= contracts * last)) { /* as near as periods can tell, or not at all */
+      if (matrix_giver(ti) && length <= scatter_seen * size) found->attainable = fmax(found->attainable, length);
       if (!(length <= found->attainable)) st = HC_NOT_CONVERGED;
       break;
     }

@@ -72,6 +72,8 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
 {
   const model *m = ti->model;
   if (!(omega > 0 && isfinite(omega)) || !state_ok(ti, state)) return HC_BAD_INPUT;
+  hc_status st = timeint_slow_modes(ti, omega);
+  if (st != HC_OK) return st;
   ti->omega = omega;
   ti->measured = false;
   ti->contraction = exp(-TWO_PI * ti->base->slowest / omega);
@@ -113,6 +115,7 @@ static void follow_length(timeint *ti)
 const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor)
 {
   if (ti->closed_form) timeint_hear(ti->closed_form, monitor);
+  if (ti->slowed) timeint_hear(ti->slowed, monitor);
   if (ti->exact) integrate_hear(ti->exact, monitor);
   return integrate_hear(ti->in, monitor);
 }

@@ -36,6 +36,7 @@ hc_status timeint_again(timeint *ti, double omega, int k, double *state, const h
  * equations only:
  *     integration     distance from the orbit, and the scatter of periods times |(I - Phi)^-1|
  *     regularisation  twice the change by half of it: it is of first order, or better
+ *     slowed modes    the change of the exact law's orbit by them (mass_scaling.h), and the distance from that one's
  * With transient.scout that is one plain period of the regularised law, none of the exact. HC_OK, also where nothing
  * can be said (NaN); HC_NO_MEMORY, HC_INTERRUPTED. */
 hc_status timeint_predict(timeint *ti, const double *state, const hc_monitor *monitor, int n, timeint_result *r);

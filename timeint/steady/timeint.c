@@ -7,6 +7,7 @@
 #include "timeint/cvode/integrate_events.h"
 #include "timeint/cvode/integrate_regularised.h"
 #include "timeint/steady/closed_form_start.h"
+#include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
@@ -69,18 +70,46 @@ static hc_status make_integrator(const timeint *ti, transient_law law, integrato
   return (exact ? integrate_new_events : integrate_new_regularised)(ti->base, ti->tolerance, out);
 }
 
-static hc_status make_parts(timeint *ti)
+/* Of ti->base, whatever they were of before. */
+static hc_status make_integrators(timeint *ti)
 {
   const bool exact = ti->how.law == TRANSIENT_LAW_EXACT;
-  hc_status st = make_memory(ti);
-  if (st == HC_OK) st = make_integrator(ti, ti->how.law, &ti->in);
+  if (ti->in) ti->periods_before += integrate_periods(ti->in);
+  if (ti->exact) ti->periods_before += integrate_periods(ti->exact);
+  integrate_free(ti->in);
+  integrate_free(ti->exact);
+  ti->in = ti->exact = NULL;
+  ti->scaled.base = ti->base;
+  hc_status st = make_integrator(ti, ti->how.law, &ti->in);
   if (st == HC_OK && !exact && !ti->how.scout) st = make_integrator(ti, TRANSIENT_LAW_EXACT, &ti->exact);
-  if (st == HC_OK) st = settle_new(ti->n, &ti->settle);
-  if (st == HC_OK) st = shoot_new(ti, &ti->shoot);
-  return st == HC_OK ? closed_start_new(ti) : st;
+  return st;
 }
 
-hc_status timeint_new(const model *m, const transient_settings *how, timeint **out)
+hc_status timeint_slow_modes(timeint *ti, double omega)
+{
+  const double fastest = ti->may_slow ? mass_scaling_fastest(ti->whole, omega) : INFINITY;
+  modal_base *slowed = NULL;
+  if (fastest == ti->fastest) return HC_OK;
+  hc_status st = isfinite(fastest) ? modal_base_slowed(ti->whole, ti->model, fastest, &slowed) : HC_OK;
+  if (st != HC_OK) return st;
+  modal_base *before = ti->base;
+  ti->base = slowed ? slowed : ti->whole;
+  ti->fastest = fastest;
+  st = make_integrators(ti);
+  if (before != ti->whole) modal_base_free(before);
+  return st;
+}
+
+static hc_status make_parts(timeint *ti)
+{
+  hc_status st = make_memory(ti);
+  if (st == HC_OK) st = make_integrators(ti);
+  if (st == HC_OK) st = settle_new(ti->n, &ti->settle);
+  return st == HC_OK ? shoot_new(ti, &ti->shoot) : st;
+}
+
+/* The handle, alone. */
+static hc_status make(const model *m, const transient_settings *how, bool may_slow, timeint **out)
 {
   *out = NULL;
   hc_status st = check_input(m, how);
@@ -89,12 +118,15 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   timeint *ti = calloc(1, sizeof *ti); /* zeroed, so free works half-built */
   if (!ti) return HC_NO_MEMORY;
   ti->how = *how;
+  ti->owners = 1;
+  ti->may_slow = may_slow;
+  ti->fastest = INFINITY;
   ti->n_dof = m->n;
   ti->n = 2 * m->n + m->n_contacts;
   ti->tolerance = timeint_final_tolerance(ti);
   st = model_copy(m, &ti->model);
-  if (st == HC_OK) st = modal_base_new(m, &ti->base);
-  ti->scaled.base = ti->base;
+  if (st == HC_OK) st = modal_base_new(m, &ti->whole);
+  ti->base = ti->whole;
   if (st == HC_OK && (st = make_parts(ti)) == HC_OK) {
     *out = ti;
     return HC_OK;
@@ -103,9 +135,44 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   return st;
 }
 
+static hc_status keep_or_free(timeint *ti, hc_status st, timeint **out)
+{
+  if (st == HC_OK) *out = ti;
+  else timeint_free(ti);
+  return st;
+}
+
+hc_status timeint_new(const model *m, const transient_settings *how, timeint **out)
+{
+  const bool closed = how->method == TRANSIENT_METHOD_CLOSED_FORM;
+  timeint *ti;
+  *out = NULL;
+  hc_status st = make(m, how, !closed, &ti);
+  if (st == HC_OK && closed && mass_scaling_may_pay(ti->whole)) st = make(m, how, true, &ti->slowed);
+  if (st == HC_OK && !closed && how->scout) st = closed_start_new(ti);
+  return keep_or_free(ti, st, out);
+}
+
+hc_status timeint_new_beside(timeint *of, const transient_settings *how, timeint **out)
+{
+  timeint *ti;
+  *out = NULL;
+  const bool same = of->closed_form && of->closed_form->how.tolerance <= how->tolerance;
+  if (!same || !how->scout || how->method == TRANSIENT_METHOD_CLOSED_FORM) return timeint_new(of->model, how, out);
+  if (of->closed_form->slowed && how->law == TRANSIENT_LAW_EXACT) {
+    *out = of->closed_form;
+    ++of->closed_form->owners;
+    return HC_OK;
+  }
+  hc_status st = make(of->model, how, true, &ti);
+  if (st == HC_OK) st = closed_start_share(ti, of->closed_form);
+  return keep_or_free(ti, st, out);
+}
+
 void timeint_free(timeint *ti)
 {
-  if (!ti) return;
+  if (!ti || --ti->owners > 0) return;
+  timeint_free(ti->slowed);
   closed_start_free(ti);
   shoot_free(ti->shoot);
   settle_free(ti->settle);
@@ -114,18 +181,24 @@ void timeint_free(timeint *ti)
   measure_free(&ti->measure);
   free(ti->scaled.contact);
   free(ti->memory);
-  modal_base_free(ti->base);
+  if (ti->base != ti->whole) modal_base_free(ti->base);
+  modal_base_free(ti->whole);
   model_free(ti->model);
   free(ti);
+}
+
+static long periods_of(const timeint *ti)
+{
+  return ti->periods_before + integrate_periods(ti->in) + (ti->exact ? integrate_periods(ti->exact) : 0);
 }
 
 void timeint_count(const timeint *ti, long *by_cvode, long *closed_form)
 {
   if (!ti) return;
   const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM;
-  const long own = integrate_periods(ti->in);
-  *by_cvode += (closed ? 0 : own) + (ti->exact ? integrate_periods(ti->exact) : 0);
-  *closed_form += (closed ? own : 0) + (ti->closed_form ? integrate_periods(ti->closed_form->in) : 0);
+  const timeint *own = closed && ti->owners == 1 ? ti : ti->shares_closed_form ? NULL : ti->closed_form;
+  if (!closed) *by_cvode += periods_of(ti);
+  if (own) *closed_form += periods_of(own) + (own->slowed ? periods_of(own->slowed) : 0);
 }
 
 int timeint_n_states(const timeint *ti) { return ti->n; }

@@ -14,13 +14,21 @@
 struct timeint {          /* from timeint_new, to timeint_free; not shared between threads              */
   model *model;           /* a copy: the caller may drop theirs                                         */
   transient_settings how; /* a copy                                                                     */
-  modal_base *base;       /* the model in its modes                                                     */
+  modal_base *whole;      /* the model in its modes                                                     */
+  modal_base *base;       /* what is integrated: `whole`, or a copy with its fastest modes slowed       */
+  bool may_slow;          /* it may be that (mass_scaling.h)                                             */
+  double fastest;         /* [rad/time] its fastest mode; INFINITY: none is slowed                      */
+  timeint *slowed;        /* of a closed form whose fastest modes are not slowed: the same, but that they
+                             are; it gives monodromy matrices; or NULL                                  */
   int n_dof, n;           /* degrees of freedom; number of states, 2 n_dof + contacts                   */
   integrator *in;
   integrator *exact; /* of the exact law, for sweeps, where `in` is not and there is no closed_form; else NULL */
   settle *settle;
   struct shoot *shoot;
   timeint *closed_form;     /* of the same model, in closed form; NULL without transient.scout           */
+  bool shares_closed_form;  /* it is another handle's, too                                              */
+  int owners;               /* handles whose closed_form this is, or 1                                   */
+  long periods_before;      /* of integrators that have been replaced                                   */
   struct memory *confirmed; /* with it: orbits found lately (closed_form_start.c)                       */
   measure measure;
   bool measured;             /* it is of the periods that led to y                                        */
@@ -43,6 +51,9 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double *past;              /* [SETTLE_MAX_MULTIPLE][n] a ring of the latest of these                        */
   double *memory;            /* of all the arrays above                                                       */
 };
+
+/* ti->base and its integrators for omega, where fast modes may be slowed. HC_NO_MEMORY. */
+hc_status timeint_slow_modes(timeint *ti, double omega);
 
 /* Equations, unit of length and a-priori contraction for omega; y from state[n]. HC_BAD_INPUT unless omega and the
  * state are finite, omega > 0. */
@@ -83,6 +94,9 @@ double timeint_scaled_size(const timeint *ti);
 /* z[n] [length]: what settling is judged by: x, v/omega, and by how much x would follow each slider,
  * kt cos(alpha) w/(largest stiffness). */
 void timeint_point(const timeint *ti, double *z);
+
+/* The distance between the measures of two results, as an error of one of them [length]. Function: predict.c. */
+motion_error timeint_change(const timeint_result *one, const timeint_result *other);
 
 /* CVODE's tolerance for a steady state within transient.tolerance. */
 double timeint_final_tolerance(const timeint *ti);

@@ -488,7 +488,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
   out->gate = verify_gate(setup, &data->quantity);
   out->rows = calloc((size_t)data->n, sizeof *out->rows);
   verify_window(setup, data, &t.from, &t.to);
-  hc_status st = out->rows ? comparison_referee(setup, &t.referee) : HC_NO_MEMORY;
+  hc_status st = out->rows ? comparison_referee(setup, NULL, &t.referee) : HC_NO_MEMORY;
   if (st == HC_OK) t.state = workspace_doubles(&t.memory, (size_t)timeint_n_states(t.referee));
   t.room = workspace_doubles(&t.memory, acceleration_room(setup->model));
   if (t.memory.failed) st = HC_NO_MEMORY;
