@@ -271,6 +271,33 @@ static void threads_may_ask_at_once(CHECK_STATE)
   }
 }
 
+/* alpha A x + beta y by loops and by BLAS, from 1024 entries on: n products and as many sums. With beta = 0 what y was
+ * is not read. */
+static void matrices_times_vectors(CHECK_STATE)
+{
+  enum { MOST = 96 };
+  static const int size[][2] = {{1, 1}, {3, 5}, {31, 33}, {32, 32}, {36, 84}, {84, 36}, {1, MOST}, {MOST, MOST}};
+  static const double alphas[] = {1, -0.75}, betas[] = {0, 1, -0.5};
+  static double A[MOST * MOST];
+  uint64_t seed = 3;
+  for (size_t k = 0; k < sizeof size / sizeof *size; ++k)
+    for (int trial = 0; trial < 6; ++trial) {
+      const int m = size[k][0], n = size[k][1];
+      const double alpha = alphas[trial % 2], beta = betas[trial / 2];
+      double x[MOST], y[MOST], begun[MOST];
+      for (int i = 0; i < m * n; ++i) A[i] = random_signed(&seed);
+      for (int i = 0; i < n; ++i) x[i] = random_signed(&seed);
+      for (int i = 0; i < m; ++i) begun[i] = random_signed(&seed), y[i] = beta == 0 ? NAN : begun[i];
+      dense_times_vector(m, n, alpha, A, x, beta, y);
+      for (int i = 0; i < m; ++i) {
+        double sum = beta * begun[i], terms = fabs(sum);
+        for (int j = 0; j < n; ++j) sum += alpha * A[i + m * j] * x[j], terms += fabs(alpha * A[i + m * j] * x[j]);
+        CHECK_NEAR(y[i], sum, (n + 3) * DBL_EPSILON * terms, "%d x %d, alpha %g, beta %g: [%d]", m, n, alpha, beta, i);
+      }
+    }
+}
+
 CHECK_TESTS("numerics.dense", 60, solves_within_the_bound_of_rounding_theory, the_sign_of_signed_permutations,
             the_sign_turns_over_with_a_row, singular_and_not_finite_are_refused, inverts_random_matrices,
-            inverts_a_permutation_exactly, singular_matrices_are_refused, threads_may_ask_at_once)
+            inverts_a_permutation_exactly, singular_matrices_are_refused, matrices_times_vectors,
+            threads_may_ask_at_once)
