@@ -10,6 +10,7 @@
 #include "tests/timeint/drawn.h"
 #include "tests/timeint/force_steps.h"
 #include "timeint/closed_form/integrate_closed_form.h"
+#include "timeint/law/contact_track.h"
 #include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/steady.h"
 
@@ -190,7 +191,7 @@ static void check_slowed(uint64_t *seed, const model *m, double fastest)
   modal_base_free(whole);
 }
 
-/* Of the plates, whose damping is diagonal, and of drawn structures, whose is not: frequencies of some sqrt(10..100). */
+/* Of the plates, whose damping is diagonal, and of drawn structures, whose is not. */
 static void slowed_modes_stay_springs(CHECK_STATE)
 {
   uint64_t seed = 4;
@@ -415,6 +416,17 @@ static void map_whole(plates_map *p, const struct orbit *o)
   map_make(p, o, base);
 }
 
+/* The same of the structure with fast modes slowed as orbits' matrices have them. */
+static void map_slowed(plates_map *p, const struct orbit *o)
+{
+  modal_base *base, *slowed;
+  assert_int_equal(modal_base_new(plates, &base), HC_OK);
+  const double fastest = mass_scaling_fastest(base, o->omega);
+  assert_int_equal(modal_base_slowed(base, plates, fastest, &slowed), HC_OK);
+  map_make(p, o, slowed);
+  modal_base_free(base);
+}
+
 /* What was asked for, by the handle's own word and by a period of the whole model. */
 static void orbits_close(CHECK_STATE)
 {
@@ -551,7 +563,7 @@ static double complex dominant(int n, const double *phi, double complex *right, 
   return multiplier;
 }
 
-/* out += by Phi v of the whole model, of central differences of the period map over 2e. */
+/* out += by Phi v, of central differences of the period map over 2e. */
 static void apply_differences(plates_map *p, double complex by, const double *v, double e, double complex *out)
 {
   const int n = p->m.n_states;
@@ -564,20 +576,106 @@ static void apply_differences(plates_map *p, double complex by, const double *v,
   free(end);
 }
 
+/* S[n][n] := K and what contacts, as they begin at y, do to the motion there. */
+static void stiffness_at(const scaled_model *m, const double *y, double *S)
+{
+  const size_t n = (size_t)m->n;
+  memset(S, 0, n * n * sizeof *S);
+  for (size_t i = 0; i < n; ++i) S[i * (n + 1)] = m->by_K * m->base->K[i];
+  for (int j = 0, directions; j < m->n_contacts; j += directions) {
+    contact_track begun[2];
+    const contact_motion at = scaled_motion_at(m, j, y);
+    directions = scaled_directions(m, j);
+    contact_track_begin(begun, &m->contact[j], &at, y + 2 * n + j);
+    for (int a = 0; a < directions; ++a) {
+      const contact_forces_linear law = contact_track_forces(&begun[a], &m->contact[j + a]);
+      const double *t = m->base->tangent + (size_t)(j + a) * n, *normal = m->base->normal + (size_t)(j + a) * n;
+      for (size_t col = 0; col < n; ++col)
+        for (size_t row = 0; row < n; ++row)
+          S[col * n + row] += t[row] * (law.t_u * t[col] + law.t_v * normal[col]) + normal[row] * law.n_v * normal[col];
+    }
+  }
+}
+
+/* F[n][f] by columns, f slowed modes: where the motion is 1 in mode i these are where S holds them, S_ff F_i = -S_fi.
+ * How many there are; which, into fast[]. */
+static int follow_as_springs(const scaled_model *m, const double *y, int *fast, double *F)
+{
+  const int n = m->n;
+  int count = 0, *pivot = calloc((size_t)n, sizeof *pivot);
+  double *S = calloc((size_t)(2 * n * n), sizeof *S), *held = S + n * n;
+  stiffness_at(m, y, S);
+  for (int i = 0; i < n; ++i)
+    if (m->base->slowed[i] != 1) fast[count++] = i;
+  for (int g = 0; g < count; ++g)
+    for (int f = 0; f < count; ++f) held[f + g * count] = S[fast[f] + fast[g] * n];
+  for (int i = 0; i < n; ++i)
+    for (int f = 0; f < count; ++f) F[f + i * count] = -S[fast[f] + i * n];
+  assert_int_equal(dense_factor(count, held, pivot), HC_OK);
+  dense_solve(count, held, pivot, n, F);
+  free(S);
+  free(pivot);
+  return count;
+}
+
+/* Every third column of the matrix of a structure with slowed modes, at the plates' orbits: modes that are not slowed
+ * move, those that are follow as springs; columns of the latter are 0. Against differences of its period map along that
+ * motion: 1e-12 of rounding over 2 e, and e times the second derivative where transitions move. */
+static void slowed_modes_follow_in_columns(CHECK_STATE)
+{
+  const double e = 1e-7;
+  for (int k = 0; k < N_ORBITS; ++k) {
+    plates_map p;
+    map_slowed(&p, &orbits[k]);
+    const int n = plates->n, states = p.m.n_states;
+    int *fast = calloc((size_t)n, sizeof *fast), compared = 0;
+    double *F = calloc((size_t)(n * n), sizeof *F), *phi = calloc((size_t)(states * states), sizeof *phi);
+    double *v = calloc((size_t)states, sizeof *v), *end = calloc((size_t)states, sizeof *end);
+    double complex *moved = calloc((size_t)states, sizeof *moved);
+    const int count = follow_as_springs(&p.m, p.y, fast, F);
+    memcpy(end, p.y, (size_t)states * sizeof *end);
+    assert_int_equal(integrate_monodromy(p.in, &p.m, end, phi), HC_OK);
+    for (int q = k; q < 2 * n; q += 3) {
+      double largest = 0;
+      for (int i = 0; i < 2 * n; ++i) largest = fmax(largest, fabs(phi[i + q * states]));
+      if (p.base->slowed[q % n] == 1) {
+        memset(v, 0, (size_t)states * sizeof *v);
+        memset(moved, 0, (size_t)states * sizeof *moved);
+        v[q] = 1;
+        for (int f = 0; f < count; ++f) v[fast[f] + (q < n ? 0 : n)] = F[f + q % n * count];
+        apply_differences(&p, 1, v, e, moved);
+        for (int i = 0; i < 2 * n; ++i)
+          CHECK_NEAR(phi[i + q * states], creal(moved[i]), 1e-5 * fmax(1, largest), "%g Hz: [%d, %d]", frequency[k], i,
+                     q);
+        ++compared;
+      } else {
+        CHECK_NEAR(largest, 0, 0, "%g Hz: column %d, of a slowed mode", frequency[k], q);
+      }
+    }
+    CHECK_LE(10, compared, "columns");
+    CHECK_LE(10, count, "slowed modes");
+    free(moved);
+    free(end);
+    free(v);
+    free(phi);
+    free(F);
+    free(fast);
+    map_free(&p);
+  }
+}
+
 /* Newton's matrix is that of the structure with its fast modes slowed. Along its dominant vector v that is nearly the
- * whole model's: of |Phi v - lambda v| <= 1e-2 |v| the quotient w* Phi v / w* v keeps the square, as long as w is as good
- * as v. Phi v by differences of the whole period map: rounding, 1e-12 of some 1000 steps over 2 e = 2e-6, and e times
- * its second derivative where transitions move. */
+ * whole model's: of |Phi v - lambda v| <= 1e-2 |v| the quotient w* Phi v / w* v keeps the square, as long as w is as
+ * good as v. Phi v by differences of the whole period map: rounding, 1e-12 of some 1000 steps over 2 e = 2e-6, and e
+ * times its second derivative where transitions move. */
 static void the_multiplier_is_that_of_the_whole_model(CHECK_STATE)
 {
   for (int k = 0; k < N_ORBITS; ++k) {
     const struct orbit *o = &orbits[k];
     const double e = 1e-6;
     plates_map whole, slow;
-    modal_base *slowed;
     map_whole(&whole, o);
-    assert_int_equal(modal_base_slowed(whole.base, plates, mass_scaling_fastest(whole.base, o->omega), &slowed), HC_OK);
-    map_make(&slow, o, slowed);
+    map_slowed(&slow, o);
     const int n = slow.m.n_states;
     double *phi = calloc((size_t)(n * n), sizeof *phi),
            *part[2] = {calloc((size_t)n, sizeof **part), calloc((size_t)n, sizeof **part)};
@@ -585,7 +683,7 @@ static void the_multiplier_is_that_of_the_whole_model(CHECK_STATE)
     assert_int_equal(integrate_monodromy(slow.in, &slow.m, slow.y, phi), HC_OK);
     const double complex of_slowed = dominant(n, phi, v, w);
     for (int i = 0; i < n; ++i) { /* modal_base.h: q of the whole = q of the slowed / a */
-      const double a = i < 2 * plates->n ? slowed->slowed[i % plates->n] : 1;
+      const double a = i < 2 * plates->n ? slow.base->slowed[i % plates->n] : 1;
       v[i] /= a, w[i] *= a;
       part[0][i] = creal(v[i]), part[1][i] = cimag(v[i]);
     }
@@ -646,4 +744,5 @@ static void cvode_is_off_by_what_it_predicts(CHECK_STATE)
 CHECK_TESTS_WITH("timeint.large", 120, find_orbits, free_orbits, slowed_modes_stay_springs,
                  neighbours_share_the_fastest_mode, small_or_unsymmetric_structures_are_not_slowed,
                  rates_by_rows_are_the_equations, orbits_close, orbits_are_those_of_another_integrator,
-                 the_multiplier_is_that_of_the_whole_model, cvode_is_off_by_what_it_predicts)
+                 slowed_modes_follow_in_columns, the_multiplier_is_that_of_the_whole_model,
+                 cvode_is_off_by_what_it_predicts)
