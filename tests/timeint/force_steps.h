@@ -226,7 +226,8 @@ static inline void steps_pull(const force_steps *s, const double *f, double *p)
 /* One period at omega in so many steps; wave[steps]: the first response at their beginnings. */
 static inline void force_steps_period(force_steps *s, double omega, int steps, steps_state *at, double *wave)
 {
-  double r0[STEPS_ROWS], r1[STEPS_ROWS], w[2 * STEPS_PAIRS], f[STEPS_ROWS], unforced[STEPS_ROWS];
+  double r0[STEPS_ROWS] = {0}, r1[STEPS_ROWS] = {0}, w[2 * STEPS_PAIRS] = {0}, f[STEPS_ROWS] = {0},
+         unforced[STEPS_ROWS];
   double p0[STEPS_MODES], p1[STEPS_MODES], pull[STEPS_MODES];
   force_steps_of(s, TWO_PI / omega / steps);
   steps_motion(s, at->q, r0);
