@@ -715,7 +715,7 @@ static void the_multiplier_is_that_of_the_whole_model(CHECK_STATE)
 
 /* The orbit by CVODE with that law, whose fast modes are slowed, is off from the whole model's in closed form by no
  * more than it predicts, which is little. */
-static void check_cvode(const struct orbit *o, transient_law law)
+static void check_cvode(const struct orbit *o, transient_law law, double tolerance)
 {
   timeint *ti;
   timeint_result r;
@@ -725,7 +725,7 @@ static void check_cvode(const struct orbit *o, transient_law law)
   how.method = TRANSIENT_METHOD_CVODE;
   how.law = law;
   how.scout = true;
-  how.tolerance = 1e-7;
+  how.tolerance = tolerance;
   memcpy(state, o->state, n_states * sizeof *state);
   assert_int_equal(timeint_new(plates, &how, &ti), HC_OK);
   assert_int_equal(timeint_orbit(ti, o->omega, 1, state, NULL, &r), HC_OK);
@@ -738,10 +738,12 @@ static void check_cvode(const struct orbit *o, transient_law law)
   free(state);
 }
 
+/* At 1e-9 integration errors are less than what slowed modes and the regularisation cost, 8e-7 and 9e-7: neither may be
+ * missing from the prediction. */
 static void cvode_is_off_by_what_it_predicts(CHECK_STATE)
 {
-  check_cvode(&orbits[1], TRANSIENT_LAW_REGULARISED);
-  check_cvode(&orbits[1], TRANSIENT_LAW_EXACT);
+  check_cvode(&orbits[1], TRANSIENT_LAW_REGULARISED, 1e-9);
+  check_cvode(&orbits[1], TRANSIENT_LAW_EXACT, 1e-7);
 }
 
 CHECK_TESTS_WITH("timeint.large", 120, find_orbits, free_orbits, slowed_modes_stay_springs,
