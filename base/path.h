@@ -2,7 +2,6 @@
 #ifndef HC_PATH_H
 #define HC_PATH_H
 
-#include <stdlib.h>
 #include <string.h>
 
 /* The path's last part, without the folders before it. *stem, if not NULL: its length without its ending. */
@@ -14,16 +13,6 @@ static inline const char *path_name(const char *path, int *stem)
 }
 
 /* name[length] in the folder of `path`, or itself if absolute: to be freed; NULL: out of memory. */
-static inline char *path_beside(const char *path, const char *name, size_t length)
-{
-  const char *slash = strrchr(path, '/');
-  const size_t folder = slash && !(length > 0 && *name == '/') ? (size_t)(slash - path) + 1 : 0;
-  char *joined = malloc(folder + length + 1);
-  if (!joined) return NULL;
-  memcpy(joined, path, folder);
-  memcpy(joined + folder, name, length);
-  joined[folder + length] = '\0';
-  return joined;
-}
+char *path_beside(const char *path, const char *name, size_t length);
 
 #endif

@@ -77,7 +77,7 @@ __attribute__((format(printf, 3, 4)))
 #endif
 hc_status
 case_refuse(case_reader *r, case_place place, const char *format, ...);
-#define yaml_refuse(r, node, ...) case_refuse(r, yaml_place(r, node), __VA_ARGS__)
+#define yaml_refuse(r, node, ...) ((void)case_refuse(r, yaml_place(r, node), __VA_ARGS__), HC_BAD_INPUT)
 hc_status case_out_of_memory(case_reader *r);
 
 /* The file at `path`, which the node names for `what`, cannot be read: r->msg has the words for it. */

@@ -67,7 +67,7 @@ static void *with_entry(void *list, size_t size, int n, size_t length)
   char *longer = vector ? growing(list, n, size) : NULL;
   if (!longer) return free(vector), NULL;
   char *entry = memset(longer + size * (size_t)n, 0, size);
-  memcpy(entry, &vector, sizeof vector);
+  *(double **)(void *)entry = vector;
   return longer;
 }
 

@@ -125,7 +125,8 @@ static int judge_cases(gate_call *call)
 
 static table_value number_cell(bool people, double x, char text[NUMBER_TEXT])
 {
-  return people ? CELL_IF(!isnan(x), number_write(x, text)) : CELL(x);
+  if (!people) return CELL(x);
+  return CELL_IF(!isnan(x), number_write(x, text));
 }
 
 static table *checks_table(gate_call *call)

@@ -301,7 +301,8 @@ hc_status table_write_rest(int n, table *const *tables, table_format format, FIL
     const table *t = tables[k];
     if (k) putc('\n', to);
     if (format == FORMAT_CSV) {
-      write_csv_begun(t, to, k ? &(table_begun){.several = begun->several} : begun);
+      const table_begun later = {.several = begun->several};
+      write_csv_begun(t, to, k ? &later : begun);
       if (t->notes_split) write_csv_notes(t, t->n_first_notes, t->n_notes, to);
     } else st = t->wrap ? table_write_wrapped(t, to) : table_write_aligned(t, to);
   }
