@@ -158,7 +158,9 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
   hc_monitor bounded = {work_limit_tick, &p};
   *found = false;
   setup.transient.tolerance = tolerance;
-  hc_status st = *ti ? HC_OK : timeint_new(setup.model, &setup.transient, ti);
+  hc_status st = HC_OK;
+  if (!*ti && from->by) st = timeint_new_beside(from->by, &setup.transient, ti);
+  else if (!*ti) st = timeint_new(setup.model, &setup.transient, ti);
   if (st == HC_OK) st = timeint_again(*ti, from->omega, from->transient->period_multiple, b->state, &bounded, &r);
   if (st == HC_NO_MEMORY) return st;
   if (p.stopped) return HC_INTERRUPTED;

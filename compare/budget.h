@@ -47,6 +47,7 @@ typedef struct budget_case {
   hc_status transient_status, orbit_status;
   const timeint_result *transient, *orbit; /* [responses] valid where the status is HC_OK */
   const double *state;                     /* [timeint_n_states] on the transient's orbit */
+  timeint *by;                             /* which found it: what it knows in closed form is used again; may be NULL */
 } budget_case;
 
 /* Workspace for the solutions between h and T; one a thread. What it needs is made when it is needed. */

@@ -193,7 +193,8 @@ static hc_status account(comparison_work *w, const hbm_curve *at, int k, compari
                             .transient = w->responses,
                             .orbit_status = row->orbit_status,
                             .orbit = w->orbits,
-                            .state = w->state};
+                            .state = w->state,
+                            .by = w->ti};
   if (st != HC_OK) return HC_OK;
   st = budgeter_run(w->budgeter, &from, w->monitor, w->budgets);
   row->budget = w->budgets[0];

@@ -7,7 +7,7 @@
 #include "study/scene_solvers.h"
 #include "tests/faults/small.h"
 #include "tests/wrap.h"
-#include "timeint/law/scaled.h"
+#include "timeint/cvode/structure_newton.h"
 #include "timeint/timeint.h"
 
 enum { H3 = 7 /* coefficients of three harmonics */ };
@@ -47,9 +47,10 @@ WRAP(const double *, contact_forces_jacobian, (contact_forces * f))
   return jac;
 }
 
-WRAP(bool, scaled_rhs, (const scaled_model *m, double theta, const double *y, double *dy))
+WRAP(bool, structure_newton_rate,
+     (const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy))
 {
-  bool finite = __real_scaled_rhs(m, theta, y, dy);
+  bool finite = __real_structure_newton_rate(s, m, theta, y, dy);
   if (!strikes()) return finite;
   dy[m->n] = now.value;
   return !now.honest;

@@ -259,7 +259,7 @@ static void a_spoiled_orbit(CHECK_STATE)
       double before[3];
       memcpy(before, ti->y, sizeof before);
       shoot_report report = {.multiplier = 0.5};
-      hc_status st = shoot_confirm(ti->shoot, 1, orbit_goal(ti), NULL, &report, &r);
+      hc_status st = shoot_confirm(ti->shoot, 1, orbit_goal(ti), 0, NULL, &report, &r);
       if (st == HC_OK) {
         CHECK_NEAR(r.amplitude, at.r.amplitude, 100 * 1e-9 * at.r.amplitude, "off %g, %g", off, factor);
         ++confirmed;
@@ -292,7 +292,7 @@ static void an_orbit_far_away_is_not_confirmed(CHECK_STATE)
     assert_int_equal(timeint_begin(ti, 12, z.all), HC_OK);
     assert_int_equal(timeint_set_tolerance(ti, timeint_final_tolerance(ti)), HC_OK);
     shoot_report report = {.multiplier = 0.5};
-    assert_int_equal(shoot_confirm(ti->shoot, 1, orbit_goal(ti), NULL, &report, &r), far ? HC_NOT_CONVERGED : HC_OK);
+    assert_int_equal(shoot_confirm(ti->shoot, 1, orbit_goal(ti), 0, NULL, &report, &r), far ? HC_NOT_CONVERGED : HC_OK);
   }
   timeint_free(ti);
 }

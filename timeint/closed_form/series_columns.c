@@ -14,7 +14,8 @@ enum {
   LAST = 24   /* the highest power of h; the 24 of motion_series.h */
 };
 
-static const double of_slowed = 1e-11; /* [column] left out of columns whose matrix is good to 1e-6 at best */
+static const double of_slowed =
+    1e-6; /* [column] left out of columns whose matrix is good to 1e-6 at best; 4e-11 of a multiplier seen */
 static const double died_away =
     1e-200; /* [square] of a column that began as 1: below, the squares of terms underflow */
 

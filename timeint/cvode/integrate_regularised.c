@@ -208,11 +208,19 @@ static contact_state state(const integrator *base, int j, const double *y)
   return scaled_contact_state(((const regularised *)base)->base.m, j, y);
 }
 
+static void at_end(const integrator *base, double theta, const double *y, double *rate, contact_state *states)
+{
+  const regularised *in = (const regularised *)base;
+  structure_newton_rate(&in->newton, in->base.m, theta, y, rate); /* finite: CVODE has just been here */
+  structure_newton_states(&in->newton, in->base.m, y, states);
+}
+
 static const integrator_class class = {.period = period,
                                        .dense = dense,
                                        .samples = integrate_dense_samples,
                                        .fourier = integrate_no_fourier,
                                        .state = state,
+                                       .at_end = at_end,
                                        .tolerance = integrate_cvode_tolerance,
                                        .free = release};
 

@@ -62,7 +62,7 @@ static void add_to(double *force, int row, double f)
   if (row >= 0) force[row] += f;
 }
 
-bool structure_newton_rate(structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy)
+bool structure_newton_rate(const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy)
 {
   const int n = s->n;
   double sum = 0;
@@ -86,6 +86,19 @@ bool structure_newton_rate(structure_newton *s, const scaled_model *m, double th
   memcpy(dy, y + n, (size_t)n * sizeof *dy);
   for (int i = 0; i < 2 * n; ++i) sum += dy[i];
   return isfinite(sum);
+}
+
+void structure_newton_states(const structure_newton *s, const scaled_model *m, const double *y, contact_state *state)
+{
+  contact_rows_motion(&s->rows, y, s->q);
+  for (int j = 0, directions; j < s->n_contacts; j += directions) {
+    const scaled_contact *c = &m->contact[j];
+    directions = scaled_directions(m, j);
+    double u[2];
+    const double v = motion_of(s, j, directions, u);
+    const planar_value at = c->kind->evaluate(&c->law, u, v, y + 2 * s->n + j);
+    for (int a = 0; a < directions; ++a) state[j + a] = scaled_state_of(m, j, v, &at);
+  }
 }
 
 void structure_newton_linearise(structure_newton *s, const scaled_model *m, const double *y)

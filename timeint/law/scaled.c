@@ -86,16 +86,21 @@ static planar_value value_of(const scaled_model *m, int j, const double *y)
   return c->kind->evaluate(&c->law, u, v, y + 2 * m->n + j);
 }
 
-contact_state scaled_contact_state(const scaled_model *m, int j, const double *y)
+contact_state scaled_state_of(const scaled_model *m, int j, double v, const planar_value *at)
 {
   const law_regularised *law = &m->contact[j].law;
-  double u[2], v;
-  scaled_contact_motion(m, j, y, u, &v);
   if (!(law->kn > 0 ? v + law->gap > 0 : law->load > 0)) return CONTACT_SEPARATED;
+  if (at->rate[0] < 0 && scaled_directions(m, j) == 1) return CONTACT_SLIP_MINUS;
+  return at->rate[0] != 0 || at->rate[1] != 0 ? CONTACT_SLIP_PLUS : CONTACT_STICK;
+}
+
+contact_state scaled_contact_state(const scaled_model *m, int j, const double *y)
+{
   const int first = scaled_first(m, j);
-  const planar_value at = value_of(m, first, y);
-  if (at.rate[0] < 0 && scaled_directions(m, first) == 1) return CONTACT_SLIP_MINUS;
-  return at.rate[0] != 0 || at.rate[1] != 0 ? CONTACT_SLIP_PLUS : CONTACT_STICK;
+  double u[2], v;
+  scaled_contact_motion(m, first, y, u, &v);
+  const planar_value at = m->contact[first].kind->evaluate(&m->contact[first].law, u, v, y + 2 * m->n + first);
+  return scaled_state_of(m, first, v, &at);
 }
 
 double scaled_pull(const scaled_model *m, int j)

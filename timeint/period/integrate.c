@@ -51,6 +51,17 @@ bool integrate_extremes(const integrator *in, int r, double *max, double *min)
 
 contact_state integrate_contact(const integrator *in, int j, const double *y) { return in->does->state(in, j, y); }
 
+void integrate_at_end(const integrator *in, const scaled_model *m, double theta, const double *y, double *rate,
+                      contact_state *states)
+{
+  if (in->does->at_end) {
+    in->does->at_end(in, theta, y, rate, states);
+    return;
+  }
+  scaled_rhs(m, theta, y, rate);
+  for (int j = 0; j < m->n_contacts; ++j) states[j] = in->does->state(in, j, y);
+}
+
 double integrate_travel(const integrator *in, int j) { return in->does->travel ? in->does->travel(in, j) : INFINITY; }
 
 double integrate_scatter(const integrator *in) { return in->scatter; }

@@ -65,6 +65,11 @@ bool integrate_extremes(const integrator *in, int r, double *max, double *min);
 /* Inside a watch: the state of contact j in the step, at whose end the state is y. */
 contact_state integrate_contact(const integrator *in, int j, const double *y);
 
+/* Inside a watch: the derivative of the state, and the states of all contacts, at the end of the step, where the state
+ * is y. */
+void integrate_at_end(const integrator *in, const scaled_model *m, double theta, const double *y, double *rate,
+                      contact_state *states);
+
 /* How far the slider of contact j was, in the last period, from where that began: the largest |W - W(0)| at its changes
  * of state; INFINITY where it separated, or this integrator cannot tell. */
 double integrate_travel(const integrator *in, int j);

@@ -12,6 +12,8 @@ typedef struct integrator_class {
   bool (*fourier)(const integrator *, int r, double out[3]);
   bool (*extremes)(const integrator *, int r, double *max, double *min); /* NULL: cannot tell */
   contact_state (*state)(const integrator *, int j, const double *y);
+  void (*at_end)(const integrator *, double theta, const double *y, double *rate,
+                 contact_state *states);       /* NULL: as below */
   double (*travel)(const integrator *, int j); /* NULL: cannot tell */
   hc_status (*tolerance)(integrator *, double tolerance);
   void (*free)(integrator *);

@@ -16,13 +16,15 @@ hc_status measure_make(measure *me, int n_states, int n_responses, int n_contact
   *me = (measure){.n_responses = n_responses,
                   .n_contacts = n_contacts,
                   .response = calloc((size_t)n_responses, sizeof *me->response),
+                  .state = calloc((size_t)n_contacts + 1, sizeof *me->state),
                   .seen = calloc((size_t)n_contacts + 1, 1),
                   .slider = calloc(2 * (size_t)n_contacts + 1, sizeof(double)),
                   .end = calloc(n, sizeof(double)),
                   .end_rate = calloc(n, sizeof(double)),
                   .inside = calloc(n, sizeof(double)),
                   .circle = calloc((size_t)TIMEINT_WAVE * 2, sizeof(double))};
-  if (!me->response || !me->seen || !me->slider || !me->end || !me->end_rate || !me->inside || !me->circle)
+  if (!me->response || !me->state || !me->seen || !me->slider || !me->end || !me->end_rate || !me->inside ||
+      !me->circle)
     return HC_NO_MEMORY;
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
     me->circle[2 * i] = cos(TWO_PI * i / TIMEINT_WAVE);
@@ -34,6 +36,7 @@ hc_status measure_make(measure *me, int n_states, int n_responses, int n_contact
 void measure_free(measure *me)
 {
   free(me->response);
+  free(me->state);
   free(me->seen);
   free(me->slider);
   free(me->circle);
@@ -227,14 +230,14 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
   if (st != HC_OK) return st;
   st = integrate_dense(in, theta1, 0, y);
   if (st != HC_OK) return st;
-  scaled_rhs(me->m, theta1, y, me->end_rate); /* finite: CVODE has just been here */
+  integrate_at_end(in, me->m, theta1, y, me->end_rate, me->state);
   for (int i = 0; i < me->n_responses; ++i) {
     const jet end = jet_of(me->m, i, y, me->end_rate);
     add_integrals(me, in, i, theta0, theta1, &end);
     if ((st = add_peaks(me, in, i, theta0, theta1, &end)) != HC_OK) return st;
     begin_step(&me->response[i], &end);
   }
-  for (int j = 0; j < me->m->n_contacts; ++j) watch_contact(me, j, integrate_contact(in, j, y), y);
+  for (int j = 0; j < me->m->n_contacts; ++j) watch_contact(me, j, me->state[j], y);
   return HC_OK;
 }
 

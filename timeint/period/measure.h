@@ -34,6 +34,7 @@ typedef struct measure { /* lengths in units of the model's L, until measure_rep
   int next;                        /* index of the next instant of the wave                   */
   bool no_integrals;               /* the integrator does not have them */
   response_measure *response;      /* [n_responses] */
+  contact_state *state;            /* [n_contacts] at the end of the last step */
   unsigned char *seen;             /* [n_contacts] at the ends of steps */
   double *slider;                  /* [n_contacts][2] least and largest W at the ends of steps */
   double *circle;                  /* [TIMEINT_WAVE][2] cos and sin of the instants */

@@ -161,7 +161,8 @@ static hc_status confirm(timeint *ti, const double *start, const timeint_result 
     r->closed_form_periods = periods;
     return timeint_begin(ti, ti->omega, known->state);
   }
-  hc_status st = shoot_confirm(ti->shoot, k, orbit_goal(ti), monitor, &found, r);
+  const double off = ti->how.law == TRANSIENT_LAW_EXACT ? 0 : ti->how.regularisation * timeint_scaled_size(ti);
+  hc_status st = shoot_confirm(ti->shoot, k, orbit_goal(ti), off, monitor, &found, r);
   r->contraction = first->contraction; /* its multiplier may be that of several times k periods */
   if (shoot_found_no_orbit(st)) st = shoot_beside(ti, k, stable, monitor, r);
   if (st == HC_OK) remember(ti, k, start, r);
@@ -221,7 +222,7 @@ hc_status closed_start_confirm(timeint *ti, int k, const hc_monitor *monitor, ti
   *done = true;
   if (linear_regime_steady(ti, r)) return HC_OK;
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
-  if (st == HC_OK) st = shoot_confirm(ti->shoot, k, orbit_goal(ti), monitor, &found, r);
+  if (st == HC_OK) st = shoot_confirm(ti->shoot, k, orbit_goal(ti), 0, monitor, &found, r);
   *done = !shoot_found_no_orbit(st);
   return *done ? st : HC_OK;
 }

@@ -38,6 +38,12 @@ static const double scatter_seen = 1e-6; /* [size] a chord step of CVODE's that 
                                             the scatter of periods: of fast modes it is not known beforehand */
 static const double chord_contracts = 0.5; /* [last step] the matrix is renewed where a chord step leaves more */
 
+static const double coarse_scatter = 0.02; /* [expected step] what coarse periods may scatter, at worst, */
+static const double coarsest = 1e-8;       /* their tolerance at most */
+static const double coarse_until = 20;     /* [attainable] the expected step of fine ones */
+static const double chord_leaves = 0.05;   /* [last step] twice what was seen */
+static const double as_expected = 10;      /* [expected step] a longer one is not taken */
+
 static const double rounding_of_step = 20 * DBL_EPSILON; /* [L] of the sums that make a step */
 enum { CLOSED_FORM_STEPS = 10, CVODE_STEPS = 1000 };     /* in a period, about; */
 enum {
@@ -50,15 +56,18 @@ struct shoot { /* from shoot_new, to shoot_free */
   timeint *ti;
   int n, k;
   const hc_monitor *monitor;
-  double *z, *f;                 /* [n] the last point, and F^k of it */
-  double *phi;                   /* [n][n] column by column, dF^k/dz there; as giver of it: */
-  double *phi_at;                /* [n] where, */
-  double phi_omega, phi_length;  /* at which frequency, in which unit */
-  int phi_k;                     /* and of how many periods; 0: none */
-  double *travel;                /* [n] of each slider, the farthest it was in a period from where that began */
-  double *start, *first;         /* [n] where the solve began, and F^k of that */
-  bool known, begun;             /* z, f, phi are valid; start, first are valid */
-  double *before;                /* [n] ti->y when the solve began */
+  double *z, *f;                /* [n] the last point, and F^k of it */
+  double *phi;                  /* [n][n] column by column, dF^k/dz there; as giver of it: */
+  double *phi_at;               /* [n] where, */
+  double phi_omega, phi_length; /* at which frequency, in which unit */
+  int phi_k;                    /* and of how many periods; 0: none */
+  double *travel;               /* [n] of each slider, the farthest it was in a period from where that began */
+  double *start, *first;        /* [n] where the solve began, and F^k of that */
+  bool known, begun;            /* z, f, phi are valid; start, first are valid */
+  double *before;               /* [n] ti->y when the solve began */
+  double *found_from;           /* [n] the same of the last orbit of a large structure, in closed form: s->best; */
+  double found_omega, found_length;
+  int found_k;                   /* 0: none */
   double *iterate, *step, *best; /* [n] of a solve; Newton's step from there; the iterate nearest to the orbit */
   double *ones;                  /* [n] 1: weights of Newton's unknowns and residuals */
   double *vector, *other;        /* [n] for what one function needs */
@@ -86,10 +95,12 @@ static void note_travel(shoot *s)
   }
 }
 
-/* The handle that gives matrices of a large structure (shoot.h), or NULL: each gives its own. */
-static timeint *matrix_giver(const timeint *ti)
+/* The handle that gives matrices of a large structure (shoot.h), which may be ti; or NULL: periods come with theirs. */
+static timeint *matrix_giver(timeint *ti)
 {
-  return ti->slowed || !ti->closed_form ? ti->slowed : ti->closed_form->slowed;
+  if (ti->slowed) return ti->slowed;
+  if (ti->closed_form) return ti->closed_form->slowed;
+  return ti->how.method == TRANSIENT_METHOD_CLOSED_FORM && isfinite(ti->fastest) ? ti : NULL;
 }
 
 /* y goes on by a period, by `in`; s->phi becomes the monodromy matrix of this and the i periods before it. */
@@ -171,8 +182,7 @@ static hc_status keep_at_rest(const shoot *s, timeint *giver, double *y)
 /* The giver's matrix at z, found anew; z of s->ti. */
 static hc_status find_slowed_matrix(const shoot *s, const double *z)
 {
-  const timeint *ti = s->ti;
-  timeint *giver = matrix_giver(ti);
+  timeint *ti = s->ti, *giver = matrix_giver(ti);
   shoot *of = giver->shoot;
   double *y = of->vector;
   of->phi_k = 0;
@@ -180,7 +190,7 @@ static hc_status find_slowed_matrix(const shoot *s, const double *z)
   if (st != HC_OK) return st;
   scaled_make(&giver->scaled, ti->model, &giver->how, ti->omega, ti->length);
   for (int i = 0; i < s->n; ++i) of->phi_at[i] = y[i] = z[i] * unit_ratio(giver, ti, i);
-  if (s->known && z == s->z) st = keep_at_rest(s, giver, y);
+  if (s->known && z == s->z && of != s) st = keep_at_rest(s, giver, y);
   for (int i = 0; i < s->k && st == HC_OK; ++i) {
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
     st = add_period(of, giver->in, &giver->scaled, i, y);
@@ -203,7 +213,7 @@ static bool has_slowed_matrix(const shoot *s)
 static void take_slowed_matrix(shoot *s)
 {
   const timeint *giver = matrix_giver(s->ti);
-  for (int j = 0; j < s->n; ++j)
+  for (int j = 0; j < s->n && giver != s->ti; ++j)
     for (int i = 0; i < s->n; ++i)
       s->phi[i + j * s->n] =
           giver->shoot->phi[i + j * s->n] * unit_ratio(giver, s->ti, j) / unit_ratio(giver, s->ti, i);
@@ -299,7 +309,7 @@ static hc_status make_anderson(shoot *s)
 static hc_status make_memory(shoot *s)
 {
   double **const vectors[] = {&s->z,    &s->f,    &s->start,  &s->first, &s->before, &s->iterate, &s->step,
-                              &s->best, &s->ones, &s->vector, &s->other, &s->travel, &s->phi_at};
+                              &s->best, &s->ones, &s->vector, &s->other, &s->travel, &s->phi_at,  &s->found_from};
   double **const matrices[] = {&s->phi, &s->one_period, &s->product, &s->matrix};
   const size_t n = (size_t)s->n, n_vectors = sizeof vectors / sizeof *vectors,
                n_matrices = sizeof matrices / sizeof *matrices;
@@ -358,6 +368,22 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
   s->k = k;
   s->monitor = monitor;
   s->known = s->begun = false;
+}
+
+/* Is the solve that begins at ti->y the one that found s->best? */
+static bool is_found(const shoot *s, int k)
+{
+  const timeint *ti = s->ti;
+  return s->found_k == k && s->found_omega == ti->omega && s->found_length == ti->length &&
+         !memcmp(s->found_from, ti->y, sizeof *ti->y * (size_t)s->n);
+}
+
+static void note_found(shoot *s)
+{
+  memcpy(s->found_from, s->before, sizeof *s->before * (size_t)s->n);
+  s->found_omega = s->ti->omega;
+  s->found_length = s->ti->length;
+  s->found_k = s->k;
 }
 
 double orbit_goal(const timeint *ti) { return fmax(ti->how.tolerance * timeint_scaled_size(ti), 100 * ti->tolerance); }
@@ -533,6 +559,44 @@ static hc_status by_chords(shoot *s, double reach, double enough)
   return HC_NOT_CONVERGED;
 }
 
+/* s->iterate, from s->ti->y, onto the orbit next to it of the giver, whose periods cost a fifth: as near to that of
+ * s->ti as slowed modes leave it. If there is none it stays. */
+static hc_status begin_with_slowed(shoot *s, double reach, double enough)
+{
+  timeint *ti = s->ti, *giver = ti->slowed;
+  shoot *of = giver->shoot;
+  double *state = ti->point[0];
+  timeint_get_state(ti, state);
+  hc_status st = timeint_begin(giver, ti->omega, state);
+  if (st != HC_OK) return st;
+  const double unit = giver->length / ti->length;
+  begin(of, s->k, s->monitor);
+  st = by_chords(of, reach / unit, fmax(enough, orbit_scatter(giver, s->k)) / unit);
+  if (st == HC_OK) st = find_matrix(of);
+  if (st != HC_OK) return shoot_found_no_orbit(st) ? HC_OK : st;
+  memcpy(giver->y, of->iterate, sizeof *giver->y * (size_t)s->n);
+  timeint_get_state(giver, state);
+  timeint_take_state(ti, state, s->iterate);
+  memcpy(s->start, s->before, sizeof *s->start * (size_t)s->n);
+  for (int i = 0; i < s->n; ++i) s->first[i] = of->first[i] / unit_ratio(giver, ti, i) * unit;
+  s->begun = true;
+  return HC_OK;
+}
+
+/* s->iterate next to the orbit of a large structure. */
+static hc_status by_chords_from_start(shoot *s, double reach, double enough)
+{
+  if (is_found(s, s->k)) {
+    memcpy(s->iterate, s->best, sizeof *s->iterate * (size_t)s->n);
+    memcpy(s->start, s->before, sizeof *s->start * (size_t)s->n);
+    s->begun = true;
+    return HC_OK;
+  }
+  s->found_k = 0;
+  hc_status st = s->ti->slowed ? begin_with_slowed(s, reach, enough) : HC_OK;
+  return st == HC_OK ? by_chords(s, reach, enough) : st;
+}
+
 hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report)
 {
   newton_report iterations;
@@ -543,10 +607,11 @@ hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_moni
                                   .max_step = reach,
                                   .max_iterations = NEWTON_ITERATIONS};
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
-  hc_status st = matrix_giver(s->ti) ? by_chords(s, reach, options.tolerance)
+  hc_status st = matrix_giver(s->ti) ? by_chords_from_start(s, reach, options.tolerance)
                                      : newton_solve(s->newton, s->iterate, &options, &iterations);
   if (st == HC_OK) st = finish(s, goal, report);
   if (st != HC_OK) memcpy(s->ti->y, s->before, sizeof *s->before * (size_t)s->n);
+  else if (s->ti->slowed) note_found(s);
   return st;
 }
 
@@ -554,6 +619,7 @@ hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor
 {
   const size_t bytes = sizeof *s->before * (size_t)s->n;
   begin(s, k, monitor);
+  s->found_k = 0;
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
   s->refusal = HC_OK;
   if (KINSetFuncNormTol(s->kin, small_residual(s, goal)) != KIN_SUCCESS) return HC_BAD_INPUT;
@@ -615,9 +681,45 @@ static double relative_closure(const timeint *ti, double distance, double amplit
   return distance > 0 ? INFINITY : 0;
 }
 
+/* Does ti->y lie on the orbit of k periods that was measured last? Then the motion is where these ended. */
+static bool is_measured(timeint *ti, int k)
+{
+  double apart = 0;
+  if (ti->last.k != k || ti->last.omega != ti->omega) return false;
+  for (int i = 0; i < ti->n; ++i) apart = fmax(apart, fabs(ti->y[i] * ti->length - ti->last.end[i] * ti->last.length));
+  if (!(apart <= orbit_goal(ti) * ti->length)) return false;
+  memcpy(ti->y, ti->last.end, sizeof *ti->y * (size_t)ti->n);
+  ti->length = ti->last.length;
+  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
+  return true;
+}
+
+static void note_measured(timeint *ti, int k, const timeint_result *r)
+{
+  ti->last.k = k;
+  ti->last.omega = ti->omega;
+  ti->last.length = ti->length;
+  ti->last.switches = r->switches;
+  ti->last.returns = r->period_multiple;
+  memcpy(ti->last.end, ti->y, sizeof *ti->y * (size_t)ti->n);
+}
+
+static void report_measured(timeint *ti, timeint_result *r)
+{
+  measure_report(&ti->measure, ti->model, 0, ti->length, r);
+  r->free_sliders = measure_resting_sliders(&ti->measure);
+  ti->measured = true;
+}
+
 hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
 {
   double returned[SETTLE_MAX_MULTIPLE + 1];
+  if (is_measured(ti, k)) {
+    report_measured(ti, r);
+    r->switches = ti->last.switches;
+    r->period_multiple = ti->last.returns;
+    return HC_OK;
+  }
   const long transitions = integrate_transitions(ti->in);
   const size_t moving = 2 * (size_t)ti->n_dof;
   double *began = ti->began;
@@ -629,11 +731,10 @@ hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
     returned[i + 1] = 0;
     for (size_t c = 0; c < moving; ++c) returned[i + 1] = fmax(returned[i + 1], fabs(ti->y[c] - began[c]));
   }
-  measure_report(&ti->measure, ti->model, 0, ti->length, r);
-  r->free_sliders = measure_resting_sliders(&ti->measure);
-  ti->measured = true;
+  report_measured(ti, r);
   r->switches = (int)(integrate_transitions(ti->in) - transitions);
   r->period_multiple = shortest_period(k, timeint_size(ti) / ti->length, returned);
+  if (ti->slowed) note_measured(ti, k, r);
   return HC_OK;
 }
 
@@ -722,14 +823,17 @@ hc_status shoot_slowed(shoot *s, int k, const hc_monitor *monitor)
   return st;
 }
 
-/* k periods from s->iterate on, measured; s->step: from the orbit to s->iterate, *length of it. */
-static hc_status measure_and_step(shoot *s, int k, const hc_monitor *monitor, double *length, timeint_result *r)
+/* s->k periods from s->iterate on, measured unless r is NULL; s->step: from the orbit to s->iterate, *length of it. */
+static hc_status integrate_and_step(shoot *s, double *length, timeint_result *r)
 {
   timeint *ti = s->ti;
-  if (ti->periods + k > ti->how.max_periods) return HC_NOT_SETTLED;
-  if (!hc_monitor_tick(monitor, -1)) return HC_INTERRUPTED;
+  hc_status st = HC_OK;
+  if (ti->periods + s->k > ti->how.max_periods) return HC_NOT_SETTLED;
+  if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
   memcpy(ti->y, s->iterate, sizeof *s->iterate * (size_t)s->n);
-  hc_status st = orbit_measure(ti, k, r);
+  if (r) st = orbit_measure(ti, s->k, r);
+  for (int i = 0; !r && i < s->k && st == HC_OK; ++i, ++ti->periods)
+    st = integrate_period(ti->in, &ti->scaled, ti->y, NULL, NULL);
   if (st != HC_OK) return st;
   for (int i = 0; i < s->n; ++i) s->step[i] = s->iterate[i] - ti->y[i];
   dense_solve(s->n, s->matrix, s->pivot, 1, s->step);
@@ -737,21 +841,43 @@ static hc_status measure_and_step(shoot *s, int k, const hc_monitor *monitor, do
   return isfinite(*length) ? HC_OK : HC_NOT_FINITE;
 }
 
-hc_status shoot_confirm(shoot *s, int k, double goal, const hc_monitor *monitor, shoot_report *found, timeint_result *r)
+/* The first steps of a large structure, whose orbit is about `off` [L] away: with periods as coarse as the step that is
+ * expected allows. */
+static hc_status confirm_coarsely(shoot *s, double off, double attainable)
+{
+  timeint *ti = s->ti;
+  const double fine = ti->tolerance, by_tolerance = attainable / fine;
+  hc_status st = HC_OK;
+  for (double expected = off; expected > coarse_until * attainable && st == HC_OK;) {
+    double length;
+    st = timeint_set_tolerance(ti, fmin(fmax(coarse_scatter * expected / by_tolerance, fine), coarsest));
+    if (st == HC_OK) st = integrate_and_step(s, &length, NULL);
+    if (st != HC_OK || !(length <= as_expected * expected)) break;
+    for (int i = 0; i < s->n; ++i) s->iterate[i] -= s->step[i];
+    expected = chord_leaves * length;
+  }
+  const hc_status back = timeint_set_tolerance(ti, fine);
+  return st == HC_OK ? back : st;
+}
+
+hc_status shoot_confirm(shoot *s, int k, double goal, double off, const hc_monitor *monitor, shoot_report *found,
+                        timeint_result *r)
 {
   timeint *ti = s->ti;
   const size_t bytes = sizeof *s->iterate * (size_t)s->n;
   double length = INFINITY, last = INFINITY;
   const double size = timeint_scaled_size(ti);
+  const bool large = matrix_giver(ti) != NULL;
   begin(s, k, monitor);
   hc_status st = factor_closed_form(s);
   if (st == HC_OK) found->attainable = attainable(s);
+  if (st == HC_OK && large) st = confirm_coarsely(s, off, found->attainable);
   for (int tries = 0; st == HC_OK; ++tries) {
-    st = measure_and_step(s, k, monitor, &length, r);
+    st = integrate_and_step(s, &length, r);
     found->distance = length;
-    if (st != HC_OK || length <= goal) break;
+    if (st != HC_OK || length <= (large ? fmax(goal, found->attainable) : goal)) break;
     if (tries == CONFIRM_STEPS || !(length <= contracts * last)) { /* as near as periods can tell, or not at all */
-      if (matrix_giver(ti) && length <= scatter_seen * size) found->attainable = fmax(found->attainable, length);
+      if (large && length <= scatter_seen * size) found->attainable = fmax(found->attainable, length);
       if (!(length <= found->attainable)) st = HC_NOT_CONVERGED;
       break;
     }

@@ -90,10 +90,11 @@ hc_status orbit_report_none(timeint *ti, hc_status why, timeint_result *r);
  * Newton with F^k CVODE's own periods and, as its matrix, that of the exact law in closed form. With the exact law the
  * two differ by integration errors: one period shows that the orbit closes. The regularised law's map and matrix differ
  * by the order of the regularisation: each step contracts by that factor, and costs a plain period instead of one with
- * variational equations. *r: its measures; found->distance from it, found->attainable; found's multiplier and free
- * sliders are the caller's. HC_NOT_CONVERGED if the steps do not contract, HC_SINGULAR; HC_NOT_SETTLED after
+ * variational equations. off [L]: about how far the orbit is, 0 where not known; of a large structure the first steps
+ * are by coarser periods then. *r: its measures; found->distance from it, found->attainable; found's multiplier and
+ * free sliders are the caller's. HC_NOT_CONVERGED if the steps do not contract, HC_SINGULAR; HC_NOT_SETTLED after
  * max_periods; what integration answers; HC_INTERRUPTED. ti->y is then where it was. */
-hc_status shoot_confirm(shoot *s, int k, double goal, const hc_monitor *monitor, shoot_report *found,
+hc_status shoot_confirm(shoot *s, int k, double goal, double off, const hc_monitor *monitor, shoot_report *found,
                         timeint_result *r);
 
 #endif

@@ -122,7 +122,7 @@ const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor)
 
 hc_status timeint_period(timeint *ti, bool measured)
 {
-  if (measured) measure_period(&ti->measure, ti->y);
+  if (measured) measure_period(&ti->measure, ti->y), ti->last.k = 0;
   hc_status st = integrate_period(ti->in, &ti->scaled, ti->y, measured ? measure_step : NULL, &ti->measure);
   ti->measured = false;
   if (st != HC_OK) return st;

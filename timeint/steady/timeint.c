@@ -54,7 +54,7 @@ static hc_status make_memory(timeint *ti)
 {
   double **const vectors[] = {
       &ti->y,        &ti->saved,    &ti->direction, &ti->neighbour, &ti->separation, &ti->closed_form_state,
-      &ti->point[0], &ti->point[1], &ti->point[2],  &ti->began,     &ti->past};
+      &ti->point[0], &ti->point[1], &ti->point[2],  &ti->began,     &ti->last.end,   &ti->past};
   const size_t n = (size_t)ti->n, n_vectors = sizeof vectors / sizeof *vectors;
   ti->memory = calloc((n_vectors - 1 + SETTLE_MAX_MULTIPLE) * n, sizeof *ti->memory);
   ti->scaled.contact = calloc(n, sizeof *ti->scaled.contact); /* two more than needed, so never nothing */

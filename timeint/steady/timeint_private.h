@@ -31,7 +31,13 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   long periods_before;      /* of integrators that have been replaced                                   */
   struct memory *confirmed; /* with it: orbits found lately (closed_form_start.c)                       */
   measure measure;
-  bool measured;             /* it is of the periods that led to y                                        */
+  bool measured;           /* it is of the periods that led to y                                        */
+  struct {                 /* of a large structure in closed form: the orbit that it is of, */
+    int k;                 /* of so many periods; 0: none                                               */
+    int switches, returns; /* what a result says of it: switches, period_multiple                       */
+    double omega, length;  /* and where these periods ended, in that unit                               */
+    double *end;           /* [n]                                                                       */
+  } last;
   scaled_model scaled;       /* the equations at omega in units of length                                     */
   double omega;              /* [rad/time]                                                                    */
   double length;             /* [length] about the size of the motion; y is in units of it                    */
