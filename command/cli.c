@@ -370,6 +370,16 @@ void cli_foretell_memory(const cli_common *common, double bytes)
   else cli_message(common, "takes about %.2g GB of memory", 1e-9 * bytes);
 }
 
+void cli_foretell_time(const cli_common *common, double seconds, int frequencies, const model *m)
+{
+  const double long_time = 10;
+  char sizes[96] = "", time[PROGRESS_TIME];
+  if (common->quiet || !(seconds > long_time)) return;
+  if (m) snprintf(sizes, sizeof sizes, ", %d degrees of freedom, %d contact rows", m->n, m->n_contacts);
+  cli_message(common, "takes about %s of processor time: %d frequenc%s%s", progress_time(seconds, time), frequencies,
+              frequencies == 1 ? "y" : "ies", sizes);
+}
+
 int cli_plotted(const cli_common *common, hc_status st)
 {
   return st == HC_OK ? 0 : cli_failed(common, EXIT_NO_SOLUTION, "no drawing: %s", common->drawing.why);

@@ -11,6 +11,7 @@
 #include "casefile/case_file.h"
 #include "casefile/scene.h"
 #include "command/plot/plot.h"
+#include "model/model.h"
 #include "output/rows.h"
 #include "output/table.h"
 
@@ -197,6 +198,10 @@ int cli_write_rest(const cli_common *common, int n, table *const *tables, const 
 /* On stderr, unless quiet, if that many bytes are much: what a run will take, and whether the machine has it. Before a
  * progress line is drawn. */
 void cli_foretell_memory(const cli_common *common, double bytes);
+
+/* The same of processor time, if that is more than 10 s (compare/duration.h): "takes about 40 s of processor time: 3
+ * frequencies, 84 degrees of freedom, 24 contact rows", without sizes where m is NULL. */
+void cli_foretell_time(const cli_common *common, double seconds, int frequencies, const model *m);
 
 /* After common->drawing ended with st: 0, or the exit code after the message that there is none and why. */
 int cli_plotted(const cli_common *common, hc_status st);

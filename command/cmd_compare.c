@@ -8,6 +8,7 @@
 #include "command/commands.h"
 #include "command/keep_found.h"
 #include "compare/comparison.h"
+#include "compare/duration.h"
 #include "compare/memory.h"
 #include "output/progress.h"
 
@@ -265,6 +266,16 @@ static void show_found(void *self)
   shown_rows_write(&f->shown, f->common);
 }
 
+static void foretell_time(const cli_common *common, const compare_setup *setup, bool with_tables)
+{
+  duration_units u;
+  if (common->quiet) return;
+  duration_measure(setup, &u);
+  const int n = duration_frequencies(setup);
+  const double tables = with_tables ? duration_of_tables(&u, &setup->compare) : 0;
+  cli_foretell_time(common, duration_of_comparison(&u, n) + tables, n, setup->model);
+}
+
 static int run_compare(cli_common *common, void *given, scene *sc)
 {
   const compare_options *own = given;
@@ -277,14 +288,15 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   if (code) return code;
   compare_setup setup;
   hc_status st = scene_setup(sc, &setup), tabled = HC_OK;
+  const bool with_tables = own->tables || own->lists.harmonics.n || own->lists.samples.n;
   if (st == HC_OK) cli_foretell_memory(common, memory_of_comparison(&setup));
+  if (st == HC_OK) foretell_time(common, &setup, with_tables);
   progress *bar = progress_start("comparing", common->quiet);
   hc_monitor monitor = progress_monitor(bar);
   setup.jobs = cli_processors();
   setup.contacts = own->contacts;
   setup.spare =
       common->format == FORMAT_TABLE && !common->wide && !common->drawing.path; /* from_integration is not shown */
-  const bool with_tables = own->tables || own->lists.harmonics.n || own->lists.samples.n;
   found_rows found = {.common = common, .setup = &setup, .c = &c};
   shown_rows_begin(&found.shown, own->contacts || with_tables);
   keep_found_begin(&found.beside, write_found, &found);

@@ -9,6 +9,7 @@
 #include "base/path.h"
 #include "command/case_names.h"
 #include "command/commands.h"
+#include "compare/duration.h"
 #include "compare/gate/gate.h"
 #include "output/output.h"
 #include "output/progress.h"
@@ -96,8 +97,28 @@ static int open_junit(gate_call *call)
   return st == HC_OK ? 0 : cli_file_failed(call->common, call->own->junit, st);
 }
 
+/* Of all cases together. */
+static void foretell_time(const gate_call *call)
+{
+  double seconds = 0;
+  int frequencies = 0;
+  for (int i = 0; i < call->common->n_arguments && !call->common->quiet; ++i) {
+    duration_units u;
+    compare_setup setup;
+    if (scene_setup(&call->of[i].sc, &setup) == HC_OK) {
+      duration_measure(&setup, &u);
+      const int n = duration_frequencies(&setup);
+      seconds += duration_of_comparison(&u, n);
+      frequencies += n;
+    }
+    scene_setup_clear(&setup);
+  }
+  cli_foretell_time(call->common, seconds, frequencies, NULL);
+}
+
 static int judge_cases(gate_call *call)
 {
+  foretell_time(call);
   for (; call->n_judged < call->common->n_arguments; ++call->n_judged) {
     const char *name = call->common->arguments[call->n_judged];
     progress *bar = progress_start(name, call->common->quiet);

@@ -8,6 +8,7 @@
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/report/report.h"
+#include "compare/duration.h"
 #include "output/output.h"
 
 static const char help[] =
@@ -108,6 +109,19 @@ static hc_status write_page(const cli_common *common, const report_options *own,
   return st;
 }
 
+static void foretell_time(const cli_common *common, const scene *sc)
+{
+  duration_units u;
+  compare_setup setup;
+  if (common->quiet) return;
+  if (scene_setup(sc, &setup) == HC_OK) {
+    duration_measure(&setup, &u);
+    const int n = duration_frequencies(&setup);
+    cli_foretell_time(common, duration_of_report(&u, n, &setup.compare), n, setup.model);
+  }
+  scene_setup_clear(&setup);
+}
+
 static int run_report(cli_common *common, void *given, scene *sc)
 {
   const report_options *own = given;
@@ -126,6 +140,7 @@ static int run_report(cli_common *common, void *given, scene *sc)
   if (!code) code = compare_lists(common, &own->lists, sc);
   if (!code) code = cli_take_frequencies(common, &own->at, true, sc);
   if (code) return code;
+  foretell_time(common, sc);
   progress *bar = progress_start("comparing", common->quiet);
   hc_status st = report_gather(sc, cli_processors(), bar, &d);
   progress_end(bar);

@@ -7,6 +7,7 @@
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/keep_found.h"
+#include "compare/duration.h"
 #include "compare/motion.h"
 #include "compare/steady_states.h"
 #include "output/progress.h"
@@ -139,6 +140,15 @@ static void show_found(void *self)
   shown_rows_write(&f->shown, f->common);
 }
 
+static void foretell_time(const cli_common *common, const compare_setup *setup)
+{
+  duration_units u;
+  if (common->quiet) return;
+  duration_measure(setup, &u);
+  const int n = duration_frequencies(setup);
+  cli_foretell_time(common, duration_of_steady_states(&u, n), n, setup->model);
+}
+
 static int run_transient(cli_common *common, void *given, scene *sc)
 {
   const transient_options *own = given;
@@ -148,11 +158,12 @@ static int run_transient(cli_common *common, void *given, scene *sc)
   if (code) return code;
   if (sc->compare.omega.n == 0)
     return cli_failed(common, EXIT_USAGE, "at which frequencies? give --at LIST, or compare.omega in the case");
-  progress *bar = progress_start("time integration", common->quiet);
-  hc_monitor monitor = progress_monitor(bar);
   steady_states found = {0};
   compare_setup setup;
   hc_status st = scene_setup(sc, &setup);
+  if (st == HC_OK) foretell_time(common, &setup);
+  progress *bar = progress_start("time integration", common->quiet);
+  hc_monitor monitor = progress_monitor(bar);
   found_states so_far = {.common = common, .contacts = own->contacts, .found = &found};
   shown_rows_begin(&so_far.shown, own->contacts);
   keep_found_begin(&so_far.beside, write_found, &so_far);

@@ -108,6 +108,15 @@ int progress_interrupted(void) { return stop_signal; }
 
 void progress_child(pid_t pid) { child = (sig_atomic_t)pid; }
 
+const char *progress_time(double seconds, char text[PROGRESS_TIME])
+{
+  if (seconds < 99.5) snprintf(text, PROGRESS_TIME, "%.0f s", seconds);
+  else if (seconds < 99.5 * 60) snprintf(text, PROGRESS_TIME, "%.0f min", seconds / 60);
+  else if (seconds < 1e6 * 3600) snprintf(text, PROGRESS_TIME, "%.0f h", seconds / 3600);
+  else snprintf(text, PROGRESS_TIME, "ages");
+  return text;
+}
+
 void progress_line(char *line, size_t size, const char *label, double done, double elapsed, int columns)
 {
   /* "  37 %  12 s left", "  12 s" when unknown, or nothing to say yet */
@@ -117,11 +126,8 @@ void progress_line(char *line, size_t size, const char *label, double done, doub
   if (known) snprintf(tail, sizeof tail, "  %.0f %%", 100 * part);
   if (elapsed >= MIN_ELAPSED && part != 0) {
     const double seconds = known ? elapsed * (1 - part) / part : elapsed;
-    const size_t n = strlen(tail), rest = sizeof tail - n;
-    if (seconds < 99.5) snprintf(tail + n, rest, "  %.0f s", seconds);
-    else if (seconds < 99.5 * 60) snprintf(tail + n, rest, "  %.0f min", seconds / 60);
-    else if (seconds < 1e6 * 3600) snprintf(tail + n, rest, "  %.0f h", seconds / 3600);
-    else snprintf(tail + n, rest, "  ages");
+    const size_t n = strlen(tail);
+    snprintf(tail + n, sizeof tail - n, "  %s", progress_time(seconds, (char[PROGRESS_TIME]){0}));
     if (known) snprintf(tail + strlen(tail), sizeof tail - strlen(tail), " left");
   }
   int width, room = columns - (int)strlen(tail);

@@ -51,6 +51,10 @@ void progress_relabel(progress *p, const char *label);
 /* Erases the line, frees. Before anything else is written to stderr. */
 void progress_end(progress *p);
 
+/* "12 s", "12 min" from 100 s on, "12 h" from 100 min on, at last "ages": in text[PROGRESS_TIME], which is returned. */
+enum { PROGRESS_TIME = 32 };
+const char *progress_time(double seconds, char text[PROGRESS_TIME]);
+
 /* The line itself, without control sequences: elapsed in seconds, at most `columns` wide and size - 1 bytes long. */
 void progress_line(char *line, size_t size, const char *label, double done, double elapsed, int columns);
 

@@ -1,0 +1,70 @@
+/* test_duration.c - what a run takes is told beforehand: the arithmetic with given times; that times are those of the
+ * model; that nothing is measured of a small one. */
+#include "casefile/case_file.h"
+#include "compare/duration.h"
+#include "tests/check.h"
+
+/* Rounding of some ten operations. */
+static const double rounding = 1e-14;
+
+#define CHECK_SECONDS(value, expected) CHECK_NEAR((value) / (expected), 1, rounding, #value)
+
+/* A Newton step of 10 ms with 7 harmonics: 250 of them a curve, 2.5 s; with 22, three times the unknowns, 27 times
+ * that. Orbits by chord steps: 6 x 0.5 + 25 x 0.2 + 2 x 1.5 = 11 s a solution; by Newton 6 x 0.5 + 10 x 1.5 = 18 s. */
+static const duration_units chords = {
+    .newton = 0.01,
+    .harmonics = 7,
+    .period = {.by_cvode = 0.5, .closed_form = 0.2, .matrix = 1.5, .cvodes_matrix = 4, .chords = true}};
+
+static void times_are_multiplied_by_how_many(CHECK_STATE)
+{
+  duration_units newton = chords;
+  newton.period.chords = false;
+  CHECK_SECONDS(duration_of_curve(&chords, 7), 2.5);
+  CHECK_SECONDS(duration_of_curve(&chords, 22), 67.5);
+  CHECK_SECONDS(duration_of_comparison(&chords, 3), 2.5 + 3 * 11);
+  CHECK_SECONDS(duration_of_comparison(&newton, 3), 2.5 + 3 * 18);
+  CHECK_SECONDS(duration_of_steady_states(&chords, 3), 2.5 + 0.7 * 3 * 11);
+  /* With 7 and 22 harmonics, exact and by two rates; compared with the curve of 22; 30 orbits, 0.3 of a solution. */
+  const compare_settings lists = {.harmonics = {.n = 2, .v = {7, 22}}, .samples = {.n = 2, .v = {64, 128}}};
+  const double tables = 67.5 + 3 * (2.5 + 67.5) + 30 * 0.3 * 11;
+  CHECK_SECONDS(duration_of_tables(&chords, &lists), tables);
+  CHECK_SECONDS(duration_of_report(&chords, 3, &lists), 2.5 + 3 * 11 + 7 * 2.5 + tables);
+  CHECK_SECONDS(duration_of_tables(&newton, &lists), 67.5 + 3 * (2.5 + 67.5) + 30 * 0.3 * 18 + 30 * 4);
+  /* 20 harmonics; 5 steps a point; at most 20 points are held against time integration. */
+  const double more = pow(41.0 / 15, 3);
+  CHECK_SECONDS(duration_of_verification(&chords, 8), more * (2.5 + 8 * 0.05) + 8 * 0.3 * 11);
+  CHECK_SECONDS(duration_of_verification(&chords, 100), more * (2.5 + 100 * 0.05) + 20 * 0.3 * 11);
+}
+
+static duration_units units_of(const char *name)
+{
+  char path[256];
+  scene sc;
+  compare_setup setup;
+  case_error err;
+  duration_units u;
+  snprintf(path, sizeof path, SOURCE_DIR "/cases/%s.yaml", name);
+  if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  duration_measure(&setup, &u);
+  scene_setup_clear(&setup);
+  case_clear(&sc);
+  return u;
+}
+
+static void only_what_can_last_is_measured(CHECK_STATE)
+{
+  static const char *const small[] = {"paper/case2", "structures/chain3", "structures/space"};
+  for (size_t i = 0; i < sizeof small / sizeof *small; ++i) {
+    const duration_units u = units_of(small[i]);
+    assert_true(u.newton == 0 && duration_of_comparison(&u, 256) == 0);
+  }
+  const duration_units beam = units_of("structures/beam16"), plates = units_of("structures/plates");
+  assert_true(beam.newton > 0 && beam.period.by_cvode > 0 && beam.period.closed_form > 0);
+  assert_true(beam.period.matrix > 0 && beam.period.cvodes_matrix > 0);
+  assert_true(!beam.period.chords && plates.period.chords); /* 16 modes, 84 */
+  CHECK_LE(10 * beam.period.closed_form, plates.period.closed_form, "a period of 84 modes and 24 contact rows");
+}
+
+CHECK_TESTS("compare.duration", 60, times_are_multiplied_by_how_many, only_what_can_last_is_measured)
