@@ -25,6 +25,7 @@ enum {
   CONFIRM_STEPS = 8,         /* 0.3^8 = 7e-5: slower than that Newton with variational equations is cheaper */
   CHORD_STEPS = 60,          /* of 0.5 at worst, from 1 to rounding */
   REST_TRIES = 4,            /* the second shows that all rest, as a rule */
+  CHORD_IDLE = 3,            /* steps before the matrix is renewed: it costs 25 to 150 of them */
   CHORD_RENEWALS = 3,        /* of a matrix without which steps do not contract: then there is no orbit */
   SLOWED_STEPS = 3,          /* of 0.02: to 1e-5 of what slowed modes change */
   DIRECTION_STEPS = 64       /* of the power iteration: a second multiplier of 0.8 of the first leaves 0.8^64 = 6e-7 */
@@ -36,7 +37,8 @@ static const double same_state = 1e-6; /* [size] a state that returns as near is
 static const double same_matrix = 1e-4;  /* [size] a state as near has the same monodromy matrix, but for some 1e-4 */
 static const double scatter_seen = 1e-6; /* [size] a chord step of CVODE's that short, and no shorter than the last, is
                                             the scatter of periods: of fast modes it is not known beforehand */
-static const double chord_contracts = 0.5; /* [last step] the matrix is renewed where a chord step leaves more */
+static const double chord_contracts = 0.5; /* [least residual] a chord step that leaves more is idle */
+static const double chord_leads_away = 10; /* [least residual] the matrix is renewed at once where one leaves that */
 
 static const double coarse_scatter = 0.02; /* [expected step] what coarse periods may scatter, at worst, */
 static const double coarsest = 1e-8;       /* their tolerance at most */
@@ -529,32 +531,38 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   return r->distance <= fmax(goal, r->attainable) ? HC_OK : HC_NOT_CONVERGED;
 }
 
-/* s->iterate to where |z - F^k(z)| <= enough, by steps no longer than `reach` with one matrix as long as they contract.
- */
+/* The giver's matrix at s->z, renewed or not, factored. */
+static hc_status factor_slowed_matrix(shoot *s, bool renewed)
+{
+  hc_status st = renewed || !has_slowed_matrix(s) ? find_slowed_matrix(s, s->z) : HC_OK;
+  if (st != HC_OK) return st;
+  take_slowed_matrix(s);
+  fill_jacobian(s, s->matrix);
+  return dense_factor(s->n, s->matrix, s->pivot);
+}
+
+/* s->iterate to where |z - F^k(z)| <= enough, by steps no longer than `reach` with one matrix as long as some of them
+ * contract: one that does not may have let sliders slip to where they rest. */
 static hc_status by_chords(shoot *s, double reach, double enough)
 {
-  double *z = s->iterate, last = INFINITY;
-  for (int steps = 0, renewals = 0; steps < CHORD_STEPS; ++steps) {
+  double *z = s->iterate, least = INFINITY;
+  for (int steps = 0, renewals = 0, idle = 0; steps < CHORD_STEPS; ++steps) {
     hc_status st = evaluate(s, z);
     if (st != HC_OK) return st;
     for (int i = 0; i < s->n; ++i) s->step[i] = z[i] - s->f[i];
     const double size = norm_2(s->n, s->step);
     if (size <= enough) return HC_OK;
-    const bool contracts_enough = size <= chord_contracts * last;
-    renewals = contracts_enough ? 0 : renewals + (steps > 0);
-    if (renewals > CHORD_RENEWALS) return HC_NOT_CONVERGED;
-    if (!has_slowed_matrix(s) || (steps > 0 && !contracts_enough)) st = find_slowed_matrix(s, s->z);
-    if (st == HC_OK && (steps == 0 || !contracts_enough)) {
-      take_slowed_matrix(s);
-      fill_jacobian(s, s->matrix);
-      st = dense_factor(s->n, s->matrix, s->pivot);
-    }
+    idle = size <= chord_contracts * least ? 0 : idle + 1;
+    least = fmin(least, size);
+    const bool renewed = idle > CHORD_IDLE || size > chord_leads_away * least;
+    if (renewed && ++renewals > CHORD_RENEWALS) return HC_NOT_CONVERGED;
+    if (renewed) least = size, idle = 0;
+    if (renewed || steps == 0) st = factor_slowed_matrix(s, renewed);
     if (st != HC_OK) return st;
     dense_solve(s->n, s->matrix, s->pivot, 1, s->step);
     const double length = norm_2(s->n, s->step), share = length > reach ? reach / length : 1;
     if (!isfinite(length)) return HC_NOT_FINITE;
     for (int i = 0; i < s->n; ++i) z[i] -= share * s->step[i];
-    last = size;
   }
   return HC_NOT_CONVERGED;
 }
