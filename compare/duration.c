@@ -11,10 +11,10 @@
 /* Measured on plates, bladed_disk, blade_damper, blade_damper_reduced, beam16 and beam_pairs of cases/structures/. */
 enum {
   CURVE_ITERATIONS = 250, /* 50 to 60 points of four iterations each */
-  CVODE_PERIODS = 6,      /* of a solution: 1 to 3 for the steady state, as many for half the regularisation */
-  CHORD_PERIODS = 25,     /* 21 to 25: the orbit, that with slowed modes, their errors */
-  CHORD_MATRICES = 2,     /* one for each; of the exact law and finer */
-  MATRICES = 10,          /* Newton: 2 to 9 for the steady state, a few for each of the other orbits */
+  CVODE_PERIODS = 5,      /* of a solution: 1 to 3 for the steady state, as many for half the regularisation */
+  CHORD_PERIODS = 10,     /* of the whole model; with slowed modes 10 more, of which each takes a fifth */
+  CHORD_MATRICES = 2,     /* of the orbit, and of the exact law's */
+  MATRICES = 12,          /* Newton: 2 to 9 for the steady state, a few for each of the other orbits */
   REPORT_CURVES = 7,      /* two by steps of 0.35, one to look at */
   TABLE_ORBITS = 30,      /* by the exact law: at the frequencies, and up the peak */
   TABLE_MATRICES = 30,    /* by CVODES: orbits of ever smaller regularisations, beam16; without chord steps */
