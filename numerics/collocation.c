@@ -21,40 +21,59 @@ static void integrals(double t, double I[N])
   for (int n = 1; n < N; ++n) I[n] = (P[n + 1] - P[n - 1]) / (2 * n + 1);
 }
 
-static double radau(double t)
+static double radau(int points, double t)
 {
   double P[N + 1];
   legendre(t, P);
-  return P[N - 1] - P[N];
+  return P[points - 1] - P[points];
 }
 
-static double bisect(double low, double high)
+static double bisect(int points, double low, double high)
 {
-  const int positive = radau(low) > 0;
+  const int positive = radau(points, low) > 0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    if ((radau(middle) > 0) == positive) low = middle;
+    if ((radau(points, middle) > 0) == positive) low = middle;
     else high = middle;
   }
   return 0.5 * (low + high);
 }
 
-/* Points are the roots of P_(N-1) - P_N; neighbours are farther apart than the steps of this scan. */
-static void find_points(double t[N])
+/* Points are the roots of P_(points-1) - P_points; neighbours are farther apart than the steps of this scan. */
+static void find_points(int points, double t[N])
 {
   enum { STEPS = 40 * N };
   int n = 0;
-  t[N - 1] = 1;
-  for (int i = 0; i < STEPS - 1 && n < N - 1; ++i) {
+  t[points - 1] = 1;
+  for (int i = 0; i < STEPS - 1 && n < points - 1; ++i) {
     const double low = -1 + 2.0 * i / STEPS, high = -1 + 2.0 * (i + 1) / STEPS;
-    if ((radau(low) > 0) != (radau(high) > 0)) t[n++] = bisect(low, high);
+    if ((radau(points, low) > 0) != (radau(points, high) > 0)) t[n++] = bisect(points, low, high);
+  }
+}
+
+void collocation_radau(int points, double *x, double *a)
+{
+  double t[N], P[N][N + 1], I[N][N];
+  find_points(points, t);
+  for (int i = 0; i < points; ++i) {
+    x[i] = 0.5 * (t[i] + 1);
+    legendre(t[i], P[i]);
+    integrals(t[i], I[i]);
+  }
+  for (int j = 0; j < points; ++j) {
+    double kernel = 0; /* as in collocation_fill */
+    for (int n = 0; n < points; ++n) kernel += (n + 0.5) * P[j][n] * P[j][n];
+    for (int i = 0; i < points; ++i) {
+      a[i * points + j] = 0;
+      for (int n = 0; n < points; ++n) a[i * points + j] += 0.5 * I[i][n] * (n + 0.5) * P[j][n] / kernel;
+    }
   }
 }
 
 void collocation_fill(collocation *c)
 {
   double t[N], P[N][N + 1], I[N][N];
-  find_points(t);
+  find_points(N, t);
   for (int i = 0; i < N; ++i) {
     c->x[i] = 0.5 * (t[i] + 1);
     legendre(t[i], P[i]);

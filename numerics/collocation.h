@@ -19,6 +19,9 @@ typedef struct collocation {
 
 void collocation_fill(collocation *c);
 
+/* The rule of fewer points, 2 .. COLLOCATION_POINTS: x[points], a[points][points] by rows. */
+void collocation_radau(int points, double *x, double *a);
+
 /* The slopes at start + part x_i, in the panel [0, 1] or beyond it, of the polynomial with slopes k at the points. */
 void collocation_slopes(const collocation *c, const double k[COLLOCATION_POINTS], double start, double part,
                         double slopes[COLLOCATION_POINTS]);

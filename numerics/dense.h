@@ -64,7 +64,7 @@ hc_status dense_span(int n, int rows, const double *const *row, double tolerance
                      double *triangle);
 
 /* Eigenvalues lambda[n] of the real A[n][n], which is overwritten, eigenvectors in the columns of V[n][n], and left
- * ones, w_k^* A = lambda_k w_k^*, in those of W[n][n] unless it is NULL; all as long as 1. HC_NO_MEMORY,
+ * ones, w_k^* A = lambda_k w_k^*, in those of W[n][n], unless either is NULL; all as long as 1. HC_NO_MEMORY,
  * HC_NOT_CONVERGED. */
 hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *V, double complex *W);
 

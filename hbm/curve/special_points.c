@@ -64,7 +64,7 @@ static hc_status evaluate_tests(detector *d, double omega, double d_omega, const
   contact_report report;
   hbm_stability stability = {.flip = NAN, .pair = NAN};
   hc_status st = hbm_located_orbit(d->s, X, &orbit, &report);
-  if (st == HC_OK && with_multipliers) st = hbm_multipliers(d->s, orbit, omega, &stability);
+  if (st == HC_OK && with_multipliers) st = hbm_multipliers(d->s, orbit, omega, X, &stability);
   const int transitions = hbm_specials_follow_each(d->s) ? report.transitions : 0;
   if (st == HC_OK)
     *v = (test_values){d_omega, stability.flip, stability.pairs_outside, stability.pair, report.regime, transitions};

@@ -14,11 +14,10 @@
 enum { N = COLLOCATION_POINTS };
 
 /* A slipping planar contact at one point of a step. */
-typedef struct planar_state {
-  double e[2];              /* direction of its traction */
-  double R, turning, speed; /* R [length], phi' [1/time], s [length/time] */
-  double weight;            /* of its equation: 1/(R + s h) [1/length] */
-} planar_state;
+typedef struct weighted_state {
+  planar_state is;
+  double weight; /* of its equation: 1/(R + s h) [1/length] */
+} weighted_state;
 
 struct planar_flow {
   const model *m;
@@ -30,7 +29,7 @@ struct planar_flow {
   int *pivot;           /* [N (n + planar)] */
   double *right;        /* [n_states][N (n + planar)] right sides, then accelerations, of every column of phi */
   double *now;          /* [2 n + n_contacts] a column of phi */
-  planar_state *at;     /* [planar][N] */
+  weighted_state *at;   /* [planar][N] */
   double *along, *perp; /* [planar][N][n] t.e and t.e_perp */
   workspace memory;     /* of all of these */
 };
@@ -135,8 +134,7 @@ static const planar_panel *panel_at(const planar_slipping *s, double th)
   return p;
 }
 
-/* The end of the panels, shorter than the width, that begin or go on at th. */
-static double end_of_step(int n_slipping, const planar_slipping *slipping, double th, double to, double width)
+double planar_slipping_step(int n_slipping, const planar_slipping *slipping, double th, double to, double width)
 {
   const double rounding = 1e-13;
   double end = th + width < to ? th + width : to;
@@ -148,6 +146,18 @@ static double end_of_step(int n_slipping, const planar_slipping *slipping, doubl
   return end;
 }
 
+planar_state planar_slipping_at(const collocation *c, const planar_slipping *s, double th, double middle, double omega)
+{
+  const double shift = shift_to(s->interval, middle);
+  const planar_panel *panel = panel_at(s, middle + shift);
+  const double phi = planar_panel_angle(c, panel, th + shift);
+  const planar_point p = planar_motion_at(s->cycle->m, th + shift);
+  planar_state a = {.e = {cos(phi), sin(phi)}, .R = fmax(0, p.R)};
+  a.turning = omega * planar_slip_slope(s->cycle->m, &p, phi);
+  a.speed = omega * fmax(0, planar_slip_speed(&p, phi));
+  return a;
+}
+
 static void fill_states(planar_flow *f, int n_slipping, const planar_slipping *slipping, double from, double to,
                         double omega)
 {
@@ -155,21 +165,14 @@ static void fill_states(planar_flow *f, int n_slipping, const planar_slipping *s
   const double middle = 0.5 * (from + to), h = (to - from) / omega;
   for (int k = 0; k < n_slipping; ++k) {
     const planar_slipping *s = &slipping[k];
-    const double shift = shift_to(s->interval, middle);
-    const planar_panel *panel = panel_at(s, middle + shift);
     const double *t[2] = {f->m->contacts[s->contact].tangent, f->m->contacts[s->contact + 1].tangent};
     for (int i = 0; i < N; ++i) {
-      const double th = from + (to - from) * f->c.x[i] + shift, phi = planar_panel_angle(&f->c, panel, th);
-      const planar_point p = planar_motion_at(s->cycle->m, th);
-      planar_state *a = &f->at[k * N + i];
-      *a = (planar_state){.e = {cos(phi), sin(phi)}, .R = fmax(0, p.R)};
-      a->turning = omega * planar_slip_slope(s->cycle->m, &p, phi);
-      a->speed = omega * fmax(0, planar_slip_speed(&p, phi));
-      a->weight = 1 / (a->R + a->speed * h);
+      const planar_state a = planar_slipping_at(&f->c, s, from + (to - from) * f->c.x[i], middle, omega);
+      f->at[k * N + i] = (weighted_state){a, 1 / (a.R + a.speed * h)};
       double *along = f->along + (size_t)(k * N + i) * n, *perp = f->perp + (size_t)(k * N + i) * n;
       for (size_t q = 0; q < n; ++q) {
-        along[q] = t[0][q] * a->e[0] + t[1][q] * a->e[1];
-        perp[q] = t[1][q] * a->e[0] - t[0][q] * a->e[1];
+        along[q] = t[0][q] * a.e[0] + t[1][q] * a.e[1];
+        perp[q] = t[1][q] * a.e[0] - t[0][q] * a.e[1];
       }
     }
   }
@@ -208,13 +211,14 @@ static void fill_slip_block(planar_flow *f, int n_slipping, const planar_slippin
   const size_t n = (size_t)f->n, of_point = n + (size_t)n_slipping, ld = N * of_point;
   const double once = h * f->c.a[i][j], twice = h * h * f->twice[i][j];
   for (int k = 0; k < n_slipping; ++k) {
-    const planar_state *a = &f->at[k * N + i];
+    const double weight = f->at[k * N + i].weight;
+    const planar_state *a = &f->at[k * N + i].is;
     const double *perp = f->perp + (size_t)(k * N + i) * n, *normal = f->m->contacts[slipping[k].contact].normal;
     const double by_v = a->turning * radius_by_v(f, &slipping[k]);
     double *row = f->matrix + (size_t)j * of_point * ld + (size_t)i * of_point + n + (size_t)k;
-    for (size_t q = 0; q < n; ++q) row[q * ld] = a->weight * a->R * (twice * by_v * normal[q] - once * perp[q]);
+    for (size_t q = 0; q < n; ++q) row[q * ld] = weight * a->R * (twice * by_v * normal[q] - once * perp[q]);
     for (int l = 0; l < n_slipping; ++l) row[(n + (size_t)l) * ld] = 0;
-    row[(n + (size_t)k) * ld] = a->weight * ((i == j) * a->R + once * a->speed);
+    row[(n + (size_t)k) * ld] = weight * ((i == j) * a->R + once * a->speed);
   }
 }
 
@@ -239,13 +243,14 @@ static void fill_right(const planar_flow *f, const contact_interval *const *inte
         right[r] += m->contacts[j].tangent[r] * state[j];
     for (int k = 0; k < n_slipping; ++k) {
       const model_contact *c = &m->contacts[slipping[k].contact];
-      const planar_state *a = &f->at[k * N + i];
+      const double weight = f->at[k * N + i].weight;
+      const planar_state *a = &f->at[k * N + i].is;
       const double *along = f->along + (size_t)((k * N + i) * n), *perp = f->perp + (size_t)((k * N + i) * n);
       const double dR =
           radius_by_v(f, &slipping[k]) * (dot_product(n, c->normal, x) + t * dot_product(n, c->normal, v));
       const double y = state[slipping[k].contact];
       for (int r = 0; r < n; ++r) right[r] -= c->law.kt * (along[r] * dR + perp[r] * y);
-      right[n + k] = a->weight * (a->R * (dot_product(n, perp, v) - a->turning * dR) - a->speed * y);
+      right[n + k] = weight * (a->R * (dot_product(n, perp, v) - a->turning * dR) - a->speed * y);
     }
   }
 }
@@ -310,7 +315,7 @@ hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *int
   const double width = turns_a_step * omega / highest_frequency(f);
   hc_status st = HC_OK;
   for (double at = from; at < to && st == HC_OK;) {
-    const double end = end_of_step(n_slipping, slipping, at, to, width);
+    const double end = planar_slipping_step(n_slipping, slipping, at, to, width);
     st = advance_step(f, interval, n_slipping, slipping, at, end, omega, columns, phi);
     at = end;
   }

@@ -23,6 +23,18 @@ typedef struct planar_slipping {
   const planar_interval *interval;
 } planar_slipping;
 
+/* A slipping planar contact at one angle. */
+typedef struct planar_state {
+  double e[2];              /* direction of its traction */
+  double R, turning, speed; /* R [length], phi' [1/time], s [length/time] */
+} planar_state;
+
+/* At th [rad], of a step around `middle`. */
+planar_state planar_slipping_at(const collocation *c, const planar_slipping *s, double th, double middle, double omega);
+
+/* The end of the first of these contacts' panels that ends in (th, th + width), else th + width or `to` before it. */
+double planar_slipping_step(int n_slipping, const planar_slipping *slipping, double th, double to, double width);
+
 /* For m, which must live as long. HC_NO_MEMORY. */
 hc_status planar_flow_new(const model *m, planar_flow **out);
 void planar_flow_free(planar_flow *f); /* NULL is allowed */

@@ -104,6 +104,7 @@ void hbm_solver_free(hbm_solver *s)
   if (!s) return;
   free_equations(s);
   monodromy_free(s->monodromy);
+  free(s->known_stability);
   model_free(s->model);
   if (s->guess.free) s->guess.free(s->guess.self);
   free(s);

@@ -9,15 +9,24 @@
 #include "hbm/stability/monodromy.h"
 #include "numerics/newton.h"
 
-struct hbm_solver {            /* from hbm_solver_new, to hbm_solver_free; not shared between threads */
-  model *model;                /* a copy: the caller may drop theirs */
-  hbm_settings how;            /* a copy */
-  hbm_system sys;              /* the equations */
-  int n_time;                  /* samples per period, for sampled forces */
-  newton *fixed, *plane;       /* the two forms of corrector.h */
-  const slip_edges *edges;     /* of the model's response curves; NULL: there are none */
-  contact_forces *orbit;       /* locates the transitions of a solution of sampled equations; NULL when sys does */
-  monodromy *monodromy;        /* NULL until it is needed */
+/* A solution's multipliers, by a fingerprint of it. */
+typedef struct known_stability {
+  uint64_t key;
+  hbm_stability stability;
+} known_stability;
+
+struct hbm_solver {         /* from hbm_solver_new, to hbm_solver_free; not shared between threads */
+  model *model;             /* a copy: the caller may drop theirs */
+  hbm_settings how;         /* a copy */
+  hbm_system sys;           /* the equations */
+  int n_time;               /* samples per period, for sampled forces */
+  newton *fixed, *plane;    /* the two forms of corrector.h */
+  const slip_edges *edges;  /* of the model's response curves; NULL: there are none */
+  contact_forces *orbit;    /* locates the transitions of a solution of sampled equations; NULL when sys does */
+  monodromy *monodromy;     /* NULL until it is needed */
+  bool multipliers_unknown; /* hbm_stability_is_unknown */
+  int n_known_stability;
+  known_stability *known_stability; /* of solutions asked about, in the modes of a large structure */
   refinement *finer_harmonics; /* tells auto the error of this many harmonics; NULL where the settings give a number */
   refinement *finer_samples;   /* the same of samples */
   refinement *exact_finer;     /* hbm_predict's equations; NULL until it is asked */
@@ -49,7 +58,8 @@ void hbm_truncate(const hbm_solver *s, int n_coef, double *X);
  * found. Errors of contact_forces_eval. */
 hc_status hbm_located_orbit(hbm_solver *s, const double *X, const contact_forces **orbit, contact_report *report);
 
-/* The multipliers along an orbit of hbm_located_orbit: monodromy_stability. */
-hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out);
+/* The multipliers along an orbit of hbm_located_orbit, X at omega: monodromy_stability. */
+hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, const double *X,
+                          hbm_stability *out);
 
 #endif

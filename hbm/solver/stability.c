@@ -2,28 +2,67 @@
 #include "hbm/solver/stability.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "base/growing.h"
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
 
 /* A structure of more degrees of freedom is large; with planar friction, whose slip is followed step by step, one of
- * more states, and beyond 50 degrees of freedom nothing is known of it. */
-enum { LARGE = 50, LARGE_WITH_PLANAR = 12 };
+ * more states. Large ones with planar friction are followed in their modes: up to 24 planar contacts (two each in the
+ * list) a solution of the plates of cases/structures takes as long as 10 to 20 points of a curve, and the cube of that
+ * many times more beyond. */
+enum { LARGE = 50, LARGE_WITH_PLANAR = 12, MOST_IN_MODES = 48 };
+
+static bool in_modes(const model *m) { return m->n > LARGE && model_has_circle(m); }
 
 bool hbm_stability_is_costly(const hbm_solver *s)
 {
   const model *m = s->model;
+  if (in_modes(m)) return m->n_contacts > MOST_IN_MODES;
   return m->n > LARGE || (model_has_circle(m) && m->n + m->n_contacts > LARGE_WITH_PLANAR);
 }
 
-bool hbm_stability_is_unknown(const hbm_solver *s) { return s->model->n > LARGE && model_has_circle(s->model); }
+bool hbm_stability_is_unknown(const hbm_solver *s) { return s->multipliers_unknown; }
 
-hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out)
+/* Of omega and X, so that what is asked for twice, by a curve's rows and for its special points, is found once:
+ * Fowler, Noll and Vo's hash of 64 bits. */
+static uint64_t fingerprint(const hbm_solver *s, double omega, const double *X)
+{
+  uint64_t hash = 14695981039346656037u;
+  for (int i = -1; i < s->sys.n_coef; ++i) {
+    unsigned char byte[sizeof(double)];
+    memcpy(byte, i < 0 ? &omega : &X[i], sizeof byte);
+    for (size_t k = 0; k < sizeof byte; ++k) hash = (hash ^ byte[k]) * 1099511628211u;
+  }
+  return hash;
+}
+
+/* One by the modes of a large structure. */
+static hc_status keep(hbm_solver *s, uint64_t key, const hbm_stability *st)
+{
+  if (!GROW(s->known_stability, s->n_known_stability)) return HC_NO_MEMORY;
+  s->known_stability[s->n_known_stability++] = (known_stability){key, *st};
+  return HC_OK;
+}
+
+hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, const double *X, hbm_stability *out)
 {
   *out = (hbm_stability){NAN, NAN, NAN, NAN, NAN, NAN, 0, NAN, false};
-  if (hbm_stability_is_unknown(s)) return HC_OK;
-  hc_status st = s->monodromy ? HC_OK : monodromy_new(s->model, &s->monodromy);
-  return st == HC_OK ? monodromy_stability(s->monodromy, s->model, orbit, omega, out) : st;
+  const bool modal = in_modes(s->model);
+  const uint64_t key = modal ? fingerprint(s, omega, X) : 0;
+  hc_status st = HC_OK;
+  for (int k = 0; k < s->n_known_stability; ++k)
+    if (s->known_stability[k].key == key) return *out = s->known_stability[k].stability, HC_OK;
+  if (!s->monodromy && !s->multipliers_unknown)
+    st = monodromy_new(s->model, modal ? MONODROMY_IN_MODES : MONODROMY_BY_INTERVALS, &s->monodromy);
+  if (modal && st == HC_BAD_INPUT) s->multipliers_unknown = true;
+  if (s->multipliers_unknown) return HC_OK;
+  if (st == HC_OK) st = monodromy_stability(s->monodromy, s->model, orbit, omega, out);
+  if (modal && st == HC_OK) st = keep(s, key, out);
+  if (!modal || st != HC_NOT_CONVERGED) return st;
+  s->multipliers_unknown = true;
+  return HC_OK;
 }
 
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out)
@@ -32,7 +71,7 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
   contact_report report;
   int det_sign;
   hc_status st = hbm_located_orbit(s, X, &orbit, &report);
-  if (st == HC_OK) st = hbm_multipliers(s, orbit, omega, out);
+  if (st == HC_OK) st = hbm_multipliers(s, orbit, omega, X, out);
   if (st != HC_OK) return st;
   bool regular = hbm_det_sign_at(s, omega, X, &det_sign) == HC_OK;
   out->agrees = regular && (det_sign > 0) == (out->fold > 0);

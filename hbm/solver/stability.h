@@ -10,12 +10,14 @@
  * handler switched off by the caller: left on, it ends the program), HC_NOT_FINITE if they are too large. */
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
 
-/* Multipliers of a structure of more than 50 degrees of freedom cost as much as a good part of its curve: they are
- * found where somebody asks for a solution, and unknown at the points of a curve. */
+/* Multipliers of a structure of more than 50 degrees of freedom cost as much as a good part of its curve, unless it has
+ * planar friction and at most 24 such contacts; those of a smaller one with planar friction do from 12 degrees of
+ * freedom and directions of contacts on. They are found where somebody asks for a solution, and unknown at the points
+ * of a curve. */
 bool hbm_stability_is_costly(const hbm_solver *s);
 
-/* Planar slip is followed step by step: costly from 12 degrees of freedom and directions
- * of contacts on, and beyond 50 degrees of freedom out of reach, where hbm_stability_at finds NaN, which is unknown. */
+/* With planar friction and more than 50 degrees of freedom hbm_stability_at finds NaN, which is unknown, where modes do
+ * not diagonalise the damping, or where it is so light that it would take steps beyond minutes. True once that was so. */
 bool hbm_stability_is_unknown(const hbm_solver *s);
 
 /* +1 stable, -1 unstable, 0 unknown: the largest multiplier is within 1e-9 of 1 in size, or the truncated equations

@@ -20,7 +20,10 @@
 #include "base/workspace.h"
 #include "hbm/planar/planar_flow.h"
 #include "hbm/stability/interval_flow.h"
+#include "hbm/stability/modal_flow.h"
+#include "numerics/dense.h"
 #include "numerics/floquet.h"
+#include "numerics/norm.h"
 
 /* What a law is to a perturbation, of its first contact j. */
 typedef struct perturbed_law {
@@ -50,6 +53,9 @@ struct monodromy {
   double *left;     /* [n_states][n_states] of interval_flow_left */
   double *size;     /* [n_states] of a state, in the columns of phi */
   interval_flow *flow;
+  modal_flow *modal;                 /* instead of flow and planar; else NULL */
+  double *factor;                    /* [n_states][n_states] of compress */
+  double *carry;                     /* [n_states][n_states] the period's columns by those of phi, which are fewer */
   const contact_interval **interval; /* [n_states] of each contact, the current one; NULL while separated */
   int n_active, *active;             /* [n_states] the initial states that the multipliers are made of */
   contact_track *track;              /* [contacts] */
@@ -64,6 +70,8 @@ struct monodromy {
 };
 
 /* ---- the intervals of a period ------------------------------------------------------------------ */
+
+enum { PARTS = 16 }; /* of a period in modes */
 
 static double wrap(double th) { return th >= TWO_PI ? th - TWO_PI : th; }
 
@@ -86,6 +94,12 @@ static int collect_boundaries(monodromy *w, const contact_forces *orbit, int n_c
     for (int k = 0; k < intervals; ++k) w->boundary[n++] = wrap(p[k].from), w->boundary[n++] = wrap(p[k].to);
   }
   if (n == 0) w->boundary[n++] = 0;
+  if (w->modal) {
+    double *more = realloc(w->boundary, (w->cap + PARTS) * sizeof *more);
+    if (!more) return -1;
+    w->boundary = more, w->cap += PARTS;
+    for (int k = 0; k < PARTS; ++k) w->boundary[n++] = TWO_PI * k / PARTS;
+  }
   qsort(w->boundary, (size_t)n, sizeof(double), ascending);
   return n;
 }
@@ -199,6 +213,7 @@ static const contact_interval at_rest = {.from = 0, .to = TWO_PI, .state = CONTA
 
 static bool slips(const planar_interval *p) { return p && p->state != CONTACT_STICK; }
 static bool sticks(const planar_interval *p) { return p && p->state == CONTACT_STICK; }
+static bool sticks_now(const monodromy *w, int j) { return w->interval[j] && w->interval[j]->state == CONTACT_STICK; }
 
 /* Stuck all period but for 1e-6 rad, as in stuck_all_period. */
 static bool planar_is_free(const planar_cycle *c)
@@ -305,7 +320,7 @@ static const perturbed_law laws[] = {
 
 /* ---- made and freed --------------------------------------------------------------------------------- */
 
-hc_status monodromy_new(const model *m, monodromy **out)
+hc_status monodromy_new(const model *m, monodromy_method how, monodromy **out)
 {
   *out = calloc(1, sizeof **out);
   monodromy *w = *out;
@@ -328,8 +343,14 @@ hc_status monodromy_new(const model *m, monodromy **out)
   hc_status st = w->boundary && !w->memory.failed ? floquet_new(w->n_states, &w->floquet) : HC_NO_MEMORY;
   for (int j = 0; j < m->n_contacts && st == HC_OK; j += w->track[j].law->contacts)
     w->track[j].law = &laws[placed_contact_of(m, j).planar ? PLANAR : LINE];
-  if (st == HC_OK) st = interval_flow_new(m, &w->flow);
-  if (st == HC_OK && model_has_circle(m)) st = planar_flow_new(m, &w->planar);
+  if (how == MONODROMY_IN_MODES) {
+    w->carry = workspace_array(&w->memory, n * n, sizeof *w->carry);
+    w->factor = workspace_array(&w->memory, n * n, sizeof *w->factor);
+    if (st == HC_OK) st = !w->memory.failed ? modal_flow_new(m, &w->modal) : HC_NO_MEMORY;
+  } else {
+    if (st == HC_OK) st = interval_flow_new(m, &w->flow);
+    if (st == HC_OK && model_has_circle(m)) st = planar_flow_new(m, &w->planar);
+  }
   if (st == HC_OK) return HC_OK;
   monodromy_free(w);
   *out = NULL;
@@ -342,6 +363,7 @@ void monodromy_free(monodromy *w)
   floquet_free(w->floquet);
   interval_flow_free(w->flow);
   planar_flow_free(w->planar);
+  modal_flow_free(w->modal);
   workspace_free(&w->memory);
   free(w->boundary);
   free(w);
@@ -377,14 +399,21 @@ static int collect_held_sliders(monodromy *w, const model *m, const contact_forc
   return sliders;
 }
 
-/* The columns of phi that the period begins with, behind the interval `last`, which is entered. */
-static hc_status begin_period(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n, int last)
+/* The states that the period begins with, behind the interval `last`, which is entered; the sliders held over it. */
+static int collect_states(monodromy *w, const model *m, const contact_forces *orbit, int n, int last)
 {
   const double at = w->boundary[next_interval(w, n, last)];
   const int sliders = collect_held_sliders(w, m, orbit, n, last);
   for (w->n_active = 0; w->n_active < 2 * w->n; ++w->n_active) w->active[w->n_active] = w->n_active;
   for (int j = 0; j < m->n_contacts; j += w->track[j].law->contacts) w->track[j].law->add_states(w, orbit, j, at);
   enter_interval(w, m, orbit, n, last);
+  return sliders;
+}
+
+/* The columns of phi that the period begins with, behind the interval `last`, which is entered. */
+static hc_status begin_period(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n, int last)
+{
+  const int sliders = collect_states(w, m, orbit, n, last);
   if (w->planar) return begin_with_all(w, m), HC_OK;
   const double duration = (end_of_interval(w, n, last) - w->boundary[last]) / omega;
   const hc_status st =
@@ -418,6 +447,147 @@ static hc_status follow_period(monodromy *w, const model *m, const contact_force
   return HC_OK;
 }
 
+/* Some minutes: of eigenvectors 30 (2 n)^3 operations an interval, each of its own combination of states. */
+static const double MOST_OPERATIONS = 4e11;
+
+/* ---- a period in modes ---------------------------------------------------------------------------------
+ *
+ * Of all columns few outlast the first part of the period. After each part phi is factored, with rows as roots of
+ * energies, phi = basis carry, but for what rounding leaves, and the basis alone goes on. With phi of the basis at the
+ * end, the map of the period is phi carry, and carry phi, smaller, has the same multipliers but for 0. */
+
+static const double LOST = 1e-13; /* of the largest column: rounding */
+
+/* Root of the energy of state i by what it is: lengths by their mode's frequency, sliders by kt. 0 where the state does
+ * not count on the current interval. */
+static double weight_of_state(const monodromy *w, const model *m, double omega, int i)
+{
+  const int j = i - 2 * w->n;
+  if (i < w->n) return fmax(omega, sqrt(fmax(0, m->stiffness[(size_t)i * (size_t)(w->n + 1)])));
+  if (j < 0) return 1;
+  const double root = sqrt(m->contacts[j].law.kt);
+  if (sticks_now(w, j)) return root > 0 ? 1 / root : 0;
+  return w->track[j].law && slips(w->track[j].interval) ? root : 0;
+}
+
+/* The largest of the columns first.. of Q[columns][n]; its size. */
+static double largest_column(size_t n, int first, int columns, const double *Q, int *which)
+{
+  double most = 0;
+  *which = first;
+  for (int q = first; q < columns; ++q) {
+    const double size = norm_2((int)n, Q + (size_t)q * n);
+    if (size > most) most = size, *which = q;
+  }
+  return most;
+}
+
+static void swap_columns(size_t n, double *A, int a, int b)
+{
+  for (size_t i = 0; i < n && a != b; ++i) {
+    const double kept = A[(size_t)a * n + i];
+    A[(size_t)a * n + i] = A[(size_t)b * n + i];
+    A[(size_t)b * n + i] = kept;
+  }
+}
+
+/* phi = basis factor by Gram and Schmidt, the largest column first; carry = factor carry. The basis need not be
+ * orthogonal to rounding: only the product counts. */
+static void compress(monodromy *w, const model *m, double omega)
+{
+  const size_t states = (size_t)w->n_states;
+  double *Q = w->left, *R = w->factor, first = 0; /* columns of Q[columns][states], rows of R[states][columns] */
+  int rank = 0, pivot;
+  memset(R, 0, states * states * sizeof *R);
+  for (int q = 0; q < w->columns; ++q) w->slider[q] = q;
+  for (size_t i = 0; i < states; ++i) {
+    const double weight = weight_of_state(w, m, omega, (int)i);
+    for (size_t q = 0; q < (size_t)w->columns; ++q) Q[q * states + i] = weight * w->phi[i * states + q];
+  }
+  for (; rank < w->columns; ++rank) {
+    const double size = largest_column(states, rank, w->columns, Q, &pivot);
+    if (rank == 0) first = size;
+    if (!(size > LOST * first)) break;
+    swap_columns(states, Q, rank, pivot);
+    const int moved = w->slider[rank];
+    w->slider[rank] = w->slider[pivot], w->slider[pivot] = moved;
+    double *now = Q + (size_t)rank * states, *row = R + (size_t)rank * states;
+    for (size_t i = 0; i < states; ++i) now[i] /= size;
+    row[w->slider[rank]] = size;
+    for (int q = rank + 1; q < w->columns; ++q) {
+      double *other = Q + (size_t)q * states;
+      const double share = row[w->slider[q]] = dot_product((int)states, now, other);
+      for (size_t i = 0; i < states; ++i) other[i] -= share * now[i];
+    }
+  }
+  for (size_t i = 0; i < states; ++i) {
+    const double weight = weight_of_state(w, m, omega, (int)i);
+    for (size_t q = 0; q < (size_t)rank; ++q) w->phi[i * states + q] = weight > 0 ? Q[q * states + i] / weight : 0;
+  }
+  dense_add_product(w->n_active, rank, w->columns, 1, w->carry, w->n_states, R, w->n_states, 0, w->left, w->n_states);
+  for (size_t r = 0; r < (size_t)rank; ++r)
+    memcpy(w->carry + r * states, w->left + r * states, (size_t)w->n_active * sizeof *w->carry);
+  w->columns = rank;
+}
+
+/* Steps for this orbit, held against the contacts' states in the middle of each part of the period. */
+static hc_status choose_steps(monodromy *w, const contact_forces *orbit, double omega, int n)
+{
+  hc_status st = HC_OK;
+  int changes = 0;
+  for (int i = 0; i < n; ++i) changes += !is_empty(w, n, i);
+  modal_flow_begin(w->modal, omega, changes - PARTS);
+  for (int part = 0, i = 0; part < PARTS && st == HC_OK; ++part) {
+    const double th = TWO_PI * (part + 0.5) / PARTS;
+    while (!(end_of_interval(w, n, i) > th)) ++i;
+    enter_interval(w, modal_flow_model(w->modal), orbit, n, i);
+    st = modal_flow_check(w->modal, w->interval, w->n_slipping, w->slipping, th);
+  }
+  return st == HC_OK && modal_flow_operations(w->modal) > MOST_OPERATIONS ? HC_NOT_CONVERGED : st;
+}
+
+/* w->lambda[n_active]. */
+static hc_status follow_in_modes(monodromy *w, const contact_forces *orbit, double omega, int n)
+{
+  const model *m = modal_flow_model(w->modal);
+  hc_status st = choose_steps(w, orbit, omega, n);
+  if (st != HC_OK) return st;
+  const size_t states = (size_t)w->n_states;
+  const int last = n - 1;
+  int i = next_interval(w, n, last);
+  collect_states(w, m, orbit, n, last);
+  w->columns = w->n_active;
+  memset(w->phi, 0, states * states * sizeof *w->phi);
+  memset(w->carry, 0, states * states * sizeof *w->carry);
+  for (size_t q = 0; q < (size_t)w->n_active; ++q) {
+    const size_t state = (size_t)w->active[q];
+    w->phi[state * states + q] = 1 / weight_of_state(w, m, omega, (int)state);
+    w->carry[q * states + q] = 1;
+  }
+  for (int k = 0; k < n && st == HC_OK; ++k) {
+    i = (last + 1 + k) % n;
+    if (is_empty(w, n, i)) continue;
+    enter_interval(w, m, orbit, n, i);
+    for (int j = 0; j < m->n_contacts; j += w->track[j].law->contacts)
+      w->track[j].law->begin(w, m, orbit, j, w->boundary[i]);
+    st = modal_flow_advance(w->modal, w->interval, w->n_slipping, w->slipping, w->boundary[i], end_of_interval(w, n, i),
+                            omega, w->columns, w->phi);
+    if (st == HC_OK && (k + 1) % (n / PARTS) == 0) compress(w, m, omega);
+  }
+  if (st != HC_OK) return st;
+  for (size_t a = 0; a < (size_t)w->n_active; ++a) {
+    const double weight = weight_of_state(w, m, omega, w->active[a]);
+    for (size_t q = 0; q < (size_t)w->columns; ++q)
+      w->factor[a * states + q] = weight * w->phi[(size_t)w->active[a] * states + q];
+  }
+  dense_add_product(w->columns, w->columns, w->n_active, 1, w->factor, w->n_states, w->carry, w->n_states, 0, w->left,
+                    w->n_states);
+  w->n_active = w->columns;
+  for (size_t q = 0; q < (size_t)w->columns; ++q)
+    memcpy(w->factor + q * (size_t)w->columns, w->left + q * states, (size_t)w->columns * sizeof *w->factor);
+  return dense_eigen(w->columns, w->factor, w->lambda, NULL, NULL);
+}
+
 /* m of n states have multipliers, those that outlast the longest interval: the others' are 0. */
 static void summarise(int n, int m, const double complex *lambda, hbm_stability *out)
 {
@@ -440,16 +610,24 @@ static void summarise(int n, int m, const double complex *lambda, hbm_stability 
   out->determinant = m < n ? 0 : creal(all);
 }
 
-/* Some minutes of eigenvectors: 30 (2 n)^3 operations an interval, each of its own combination of states. */
-static const double MOST_OPERATIONS = 4e11;
-
 hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
                               hbm_stability *out)
 {
   const int n = collect_boundaries(w, orbit, m->n_contacts);
-  hc_status st = n < 0 ? HC_NO_MEMORY : 30 * pow(2.0 * w->n, 3) * n > MOST_OPERATIONS ? HC_NOT_CONVERGED : HC_OK;
-  if (st == HC_OK) st = follow_period(w, m, orbit, omega, n);
-  if (st == HC_OK) st = floquet_multipliers(w->floquet, w->left, w->n_states, 1, w->n_active, w->active, w->lambda);
+  hc_status st = n < 0 ? HC_NO_MEMORY : HC_OK;
+  if (st == HC_OK && w->modal) {
+    st = follow_in_modes(w, orbit, omega, n);
+  } else if (st == HC_OK) {
+    const bool too_long = 30 * pow(2.0 * w->n, 3) * n > MOST_OPERATIONS;
+    st = too_long ? HC_NOT_CONVERGED : follow_period(w, m, orbit, omega, n);
+    if (st == HC_OK) st = floquet_multipliers(w->floquet, w->left, w->n_states, 1, w->n_active, w->active, w->lambda);
+  }
   if (st == HC_OK) summarise(2 * w->n, w->n_active, w->lambda, out);
   return st;
+}
+
+int monodromy_multipliers(const monodromy *w, const double complex **lambda)
+{
+  *lambda = w->lambda;
+  return w->n_active;
 }

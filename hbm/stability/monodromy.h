@@ -10,13 +10,19 @@
 #ifndef HC_HBM_MONODROMY_H
 #define HC_HBM_MONODROMY_H
 
+#include <complex.h>
+
 #include "hbm/forces/contact_forces.h"
 #include "hbm/stability/multipliers.h"
 
 typedef struct monodromy monodromy;
 
-/* Room for orbits of m, which must live as long. HC_NO_MEMORY; HC_SINGULAR if its mass is: *out is NULL. */
-hc_status monodromy_new(const model *m, monodromy **out);
+/* How intervals are followed: as above; or all of them in the modes of a large structure (modal_flow.h). */
+typedef enum monodromy_method { MONODROMY_BY_INTERVALS, MONODROMY_IN_MODES } monodromy_method;
+
+/* Room for orbits of m, which must live as long. HC_NO_MEMORY; HC_SINGULAR if its mass is; in modes also the errors of
+ * modal_flow_new: *out is NULL. */
+hc_status monodromy_new(const model *m, monodromy_method how, monodromy **out);
 void monodromy_free(monodromy *w);
 
 /* Everything but `agrees`, which is left false, for the orbit last evaluated by `orbit`, at omega. A slider stuck all
@@ -25,5 +31,8 @@ void monodromy_free(monodromy *w);
  * large, HC_NO_MEMORY. GSL's error handler must be switched off: its errors come back as HC_NOT_CONVERGED then. */
 hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
                               hbm_stability *out);
+
+/* Those multipliers themselves: their number, and *lambda, valid until the next one is asked for. */
+int monodromy_multipliers(const monodromy *w, const double complex **lambda);
 
 #endif

@@ -1,0 +1,286 @@
+/* test_modal_stability.c - multipliers of large structures with circles, which are followed in modes (modal_flow.h):
+ * against the monodromy matrix by intervals along the same orbits; special points of a small structure that fast modes
+ * are added to; flutter of two fast modes; and a structure that has no modes to go by. */
+#include <complex.h>
+
+#include "base/constants.h"
+#include "hbm/hbm.h"
+#include "hbm/solver/hbm_solver_impl.h"
+#include "hbm/solver/stability.h"
+#include "hbm/stability/modal_flow.h"
+#include "tests/hbm/random_structures.h"
+#include "tests/hbm/structure_cases.h"
+
+enum { H = 5, LENGTH = 2 * H + 1, MOST_DOFS = 60, MOST = 3 * MOST_DOFS };
+
+static const hbm_settings how = {.harmonics = H, .keep_mean = true, .tolerance = 1e-12, .accuracy = 1e-4};
+
+/* ---- both ways along one orbit ---------------------------------------------------------------------------- */
+
+/* C = a M + b K. */
+static void damp(model *m, double a, double b)
+{
+  for (int i = 0; i < m->n * m->n; ++i) m->damping[i] = a * m->mass[i] + b * m->stiffness[i];
+}
+
+/* Contacts j and j + 1 become the halves of a circle. */
+static void pair_up(model *m, int j, contact whole)
+{
+  for (int d = 0; d < 2; ++d) {
+    model_contact *c = &m->contacts[j + d];
+    c->law = model_half_law(&whole);
+    c->pair = d ? CONTACT_SECOND : CONTACT_FIRST;
+    c->circle = true;
+    memcpy(c->normal, m->contacts[j].normal, (size_t)m->n * sizeof *c->normal);
+  }
+}
+
+/* With modes up to a hundred times the lowest one, half of its contacts circles. */
+static model *drawn(uint64_t *seed, int n)
+{
+  const int contacts = 2 * random_int(seed, 2, 4);
+  model *m = random_structure(seed, n, contacts);
+  for (int i = 0; i < n; i += 3) m->stiffness[i * (n + 1)] *= pow(10, 3 * random_unit(seed));
+  for (int j = 0; j < n; ++j) /* it is but for rounding of larger terms */
+    for (int i = 0; i < j; ++i) m->stiffness[i * n + j] = m->stiffness[j * n + i];
+  damp(m, 0.05, 0.001);
+  for (int j = 0; j < contacts; j += 4) {
+    contact whole = {.kt = 10 + 50 * random_unit(seed), .kn = 10 + 50 * random_unit(seed), .mu = 0.2};
+    whole.gap = random_unit(seed) < 0.5 ? 0.3 : -0.05;
+    for (int d = 0; d < 2; ++d) random_direction(seed, n, m->contacts[j + d].tangent);
+    random_direction(seed, n, m->contacts[j].normal);
+    pair_up(m, j, whole);
+  }
+  return m;
+}
+
+static int multipliers_by(monodromy_method method, const model *m, const contact_forces *orbit, double omega,
+                          double complex *lambda, hbm_stability *st)
+{
+  monodromy *w;
+  const double complex *found;
+  assert_int_equal(monodromy_new(m, method, &w), HC_OK);
+  assert_int_equal(monodromy_stability(w, m, orbit, omega, st), HC_OK);
+  const int n = monodromy_multipliers(w, &found);
+  assert_true(n <= MOST);
+  memcpy(lambda, found, (size_t)n * sizeof *lambda);
+  monodromy_free(w);
+  return n;
+}
+
+/* Each of a[] above 0.5 in size is one of b[]. How many. */
+static int check_found(const char *name, int at, int n_a, const double complex *a, int n_b, const double complex *b)
+{
+  int large = 0;
+  for (int i = 0; i < n_a; ++i) {
+    double apart = INFINITY;
+    if (cabs(a[i]) < 0.5) continue;
+    for (int k = 0; k < n_b; ++k) apart = fmin(apart, cabs(a[i] - b[k]));
+    CHECK_LE(apart, 1e-8 * fmax(1, cabs(a[i])), "%s, structure %d: %g%+gi", name, at, creal(a[i]), cimag(a[i]));
+    ++large;
+  }
+  return large;
+}
+
+/* To 1e-8: what steps of at most 0.3 rad of every mode that keeps half of itself leave of the order 9 is 1e-13 a step;
+ * more is left of modes that keep less and are shaken by contacts, 1.3e-9 at most here. Motions are drawn: multipliers belong to any that the contacts are taken along. */
+static void multipliers_are_those_by_intervals(CHECK_STATE)
+{
+  static double x[LENGTH * MOST_DOFS], X[CASE_MAX_COEF];
+  static double complex by_intervals[MOST], in_modes[MOST];
+  uint64_t seed = 20260729;
+  int large = 0;
+  for (int k = 0; k < 20; ++k) {
+    const int n = 10 + k * 50 / 19;
+    const double omega = 3 + 2 * random_unit(&seed);
+    model *m = drawn(&seed, n);
+    hbm_solver *s;
+    const contact_forces *orbit;
+    contact_report report;
+    hbm_stability a, b;
+    assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+    for (int c = 0; c < LENGTH; ++c)
+      for (int i = 0; i < n; ++i) x[c * n + i] = 0.5 * random_signed(&seed) / (1 + c * c);
+    hbm_guess_of(s, x, X);
+    assert_int_equal(hbm_located_orbit(s, X, &orbit, &report), HC_OK);
+    const int n_a = multipliers_by(MONODROMY_BY_INTERVALS, m, orbit, omega, by_intervals, &a),
+              n_b = multipliers_by(MONODROMY_IN_MODES, m, orbit, omega, in_modes, &b);
+    large += check_found("by intervals", k, n_a, by_intervals, n_b, in_modes);
+    check_found("in modes", k, n_b, in_modes, n_a, by_intervals);
+    CHECK_NEAR(b.multiplier, a.multiplier, 1e-8 * fmax(1, a.multiplier), "structure %d", k);
+    assert_int_equal(a.pairs_outside, b.pairs_outside);
+    hbm_solver_free(s);
+    model_free(m);
+  }
+  assert_true(large > 100);
+}
+
+/* ---- fast modes beside a small structure ---------------------------------------------------------------------- */
+
+/* m with `more` masses on springs, their frequencies from omega_low to omega_high, each held to x[0] by a spring of
+ * 1e-4 of the geometric mean, and a circle on three of them that never touches. Damping b K. */
+static model *padded(const model *m, int more, double omega_low, double omega_high, double b)
+{
+  const int n = m->n + more;
+  model *p;
+  assert_int_equal(model_new(n, m->n_loads, m->n_contacts + 2, m->n_responses, &p), HC_OK);
+  for (int j = 0; j < m->n; ++j)
+    for (int i = 0; i < m->n; ++i) {
+      p->mass[j * n + i] = m->mass[j * m->n + i];
+      p->stiffness[j * n + i] = m->stiffness[j * m->n + i];
+    }
+  for (int i = m->n; i < n; ++i) {
+    const double part = (i - m->n) / (more - 1.0), omega = omega_low * pow(omega_high / omega_low, part);
+    p->mass[i * (n + 1)] = 1;
+    p->stiffness[i * (n + 1)] = omega * omega;
+    p->stiffness[i] = p->stiffness[i * n] = -1e-4 * omega * sqrt(m->stiffness[0]);
+  }
+  damp(p, 0, b);
+  for (int l = 0; l < m->n_loads; ++l) {
+    p->loads[l].harmonic = m->loads[l].harmonic;
+    memcpy(p->loads[l].cosine, m->loads[l].cosine, (size_t)m->n * sizeof(double));
+    memcpy(p->loads[l].sine, m->loads[l].sine, (size_t)m->n * sizeof(double));
+  }
+  for (int j = 0; j < m->n_contacts; ++j) {
+    p->contacts[j].law = m->contacts[j].law;
+    memcpy(p->contacts[j].tangent, m->contacts[j].tangent, (size_t)m->n * sizeof(double));
+    memcpy(p->contacts[j].normal, m->contacts[j].normal, (size_t)m->n * sizeof(double));
+  }
+  for (int r = 0; r < m->n_responses; ++r)
+    memcpy(p->responses + (size_t)r * (size_t)n, m->responses + (size_t)r * (size_t)m->n,
+           (size_t)m->n * sizeof(double));
+  for (int d = 0; d < 2; ++d) p->contacts[m->n_contacts + d].tangent[m->n + 10 + d] = 1;
+  p->contacts[m->n_contacts].normal[m->n + 12] = 1;
+  pair_up(p, m->n_contacts, (contact){.kt = 1, .kn = 1, .mu = 0.3, .gap = -100});
+  return p;
+}
+
+enum { ROOM = 32 };
+
+static int specials_of(const structure_case *c, hbm_special *special)
+{
+  hbm_solver *s;
+  hbm_curve curve = {0};
+  int n = 0, kept = 0;
+  assert_int_equal(hbm_solver_new(c->model, &c->how, &s), HC_OK);
+  assert_int_equal(hbm_trace(s, c->from, c->to, NULL, &curve), HC_OK);
+  assert_int_equal(hbm_specials(s, &curve, ROOM, special, &n), HC_OK);
+  assert_true(n <= ROOM);
+  for (int i = 0; i < n; ++i)
+    if (special[i].kind != HBM_CONTACT_CHANGE) special[kept++] = special[i];
+  hbm_curve_free(&curve);
+  hbm_solver_free(s);
+  return kept;
+}
+
+/* Springs to the added masses take x[0]'s stiffness down by (1e-4)^2 of it each: 5e-7 in all, and omega of a special
+ * point by that times how it depends on the stiffness, which is less than 10. */
+static void special_points_stay_where_they_are(CHECK_STATE)
+{
+  structure_case small = structure_case_named("stop2", 21), large = small;
+  hbm_special alone[ROOM], beside[ROOM];
+  int of_kind[4] = {0};
+  large.model = padded(small.model, 52, 20, 400, 0.03);
+  const int n = specials_of(&small, alone);
+  assert_int_equal(specials_of(&large, beside), n);
+  for (int i = 0; i < n; ++i) {
+    assert_int_equal(beside[i].kind, alone[i].kind);
+    CHECK_NEAR(beside[i].omega, alone[i].omega, 5e-6 * alone[i].omega, "special point %d, kind %d", i,
+               (int)alone[i].kind);
+    ++of_kind[alone[i].kind];
+  }
+  assert_true(of_kind[HBM_TURNING_POINT] && of_kind[HBM_PERIOD_DOUBLING] && of_kind[HBM_NEIMARK_SACKER]);
+  model_free(small.model);
+  model_free(large.model);
+}
+
+/* ---- flutter -------------------------------------------------------------------------------------------------- */
+
+/* A mass dragged to and fro under a load of its own, rubbing on a contact whose tangential and normal motion are also
+ * those of two masses at 300 times its frequency, f_1 in t and 1/2 f_1 + sqrt(3)/2 f_2 in n. While it slips backwards,
+ * kn = 0.02 of their stiffness k adds
+ *     kn [ -mu/2 + 1/4     sqrt(3)/4 (1 - 2 mu) ]
+ *        [   sqrt(3)/4            3/4           ],       mu = 1,
+ * whose diagonal the masses' own springs make equal: omega^2 = k +- i sqrt(3)/4 kn, growth 0.0043 omega against zeta
+ * omega. A circle that rubs along t_1 has the same terms. */
+static model *fluttering(double zeta, bool circle)
+{
+  const int n = 54, contacts = circle ? 2 : 4;
+  const double fast = 300, k = fast * fast, kn = 0.02 * k;
+  model *m;
+  assert_int_equal(model_new(n, 1, contacts, 1, &m), HC_OK);
+  for (int i = 0; i < n; ++i) {
+    const double omega = i < 2 ? 2 : i < 4 ? fast : 400 + 20 * i;
+    m->mass[i * (n + 1)] = 1;
+    m->stiffness[i * (n + 1)] = omega * omega;
+    if (i == 2) m->stiffness[i * (n + 1)] += kn; /* 3/4 - (1/4 - 1/2) */
+    m->damping[i * (n + 1)] = 2 * (i < 2 ? 0.05 : i < 4 ? zeta : 0.02) * sqrt(m->stiffness[i * (n + 1)]);
+  }
+  m->loads[0].harmonic = 1;
+  m->loads[0].cosine[0] = 50;
+  m->responses[0] = 1;
+  const contact whole = {.kt = 50, .kn = kn, .mu = 1, .gap = 1 / kn};
+  for (int j = 0; j < contacts; j += 2) {
+    double *t = m->contacts[j].tangent, *normal = m->contacts[j].normal;
+    if (j == 0) t[0] = t[2] = 1, normal[2] = 0.5, normal[3] = sqrt(0.75);
+    else t[10] = normal[12] = 1;
+    m->contacts[j + 1].tangent[j == 0 ? 1 : 11] = 1;
+    if (circle || j > 0) pair_up(m, j, j > 0 ? (contact){.kt = 1, .kn = 1, .mu = 0.3, .gap = -100} : whole);
+    else m->contacts[j].law = whole, m->contacts[j + 1].law = (contact){.kn = 0};
+  }
+  return m;
+}
+
+/* Steps of 3 rad of the fast modes: Radau's method of order 9 takes (5! 4!/(9! 10!)) 3^10 = 1.3e-4 of an oscillation, and
+ * there are 2 pi 300/3 of them a period: 8 % of the multiplier, where the exact one is known. */
+static void flutter_of_fast_modes_is_seen(CHECK_STATE)
+{
+  static double X[CASE_MAX_COEF];
+  static double complex by_intervals[MOST], in_modes[MOST];
+  for (int circle = 0; circle < 2; ++circle)
+    for (int heavy = 0; heavy < 2; ++heavy) {
+      model *m = fluttering(heavy ? 0.01 : 0.001, circle);
+      hbm_solver *s;
+      hbm_point point;
+      hbm_stability a, b;
+      const contact_forces *orbit;
+      contact_report report;
+      assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+      assert_int_equal(hbm_solve_first(s, 1, X, &point), HC_OK);
+      assert_int_equal(hbm_stability_at(s, 1, X, &b), HC_OK);
+      assert_int_equal(hbm_stability_verdict(&b), heavy ? 1 : -1);
+      assert_int_equal(hbm_located_orbit(s, X, &orbit, &report), HC_OK);
+      if (!circle) { /* by intervals a circle's slip would take minutes */
+        multipliers_by(MONODROMY_BY_INTERVALS, m, orbit, 1, by_intervals, &a);
+        multipliers_by(MONODROMY_IN_MODES, m, orbit, 1, in_modes, &b);
+        assert_true((a.multiplier > 1) == !heavy);
+        CHECK_NEAR(b.multiplier, a.multiplier, 0.1 * a.multiplier, "zeta of the pair: %g", heavy ? 0.01 : 0.001);
+      }
+      hbm_solver_free(s);
+      model_free(m);
+    }
+}
+
+/* ---- what has no modes -------------------------------------------------------------------------------------------- */
+
+static void damping_that_modes_do_not_share_is_unknown(CHECK_STATE)
+{
+  static double X[CASE_MAX_COEF];
+  model *m = fluttering(0.01, true);
+  hbm_solver *s;
+  hbm_point point;
+  hbm_stability st;
+  m->damping[1] += 0.01, m->damping[m->n] += 0.01;
+  assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+  assert_int_equal(hbm_solve_first(s, 1, X, &point), HC_OK);
+  assert_false(hbm_stability_is_unknown(s));
+  assert_int_equal(hbm_stability_at(s, 1, X, &st), HC_OK);
+  assert_true(hbm_stability_is_unknown(s));
+  assert_true(isnan(st.multiplier));
+  assert_int_equal(hbm_stability_verdict(&st), 0);
+  hbm_solver_free(s);
+  model_free(m);
+}
+
+CHECK_TESTS("hbm.modal_stability", 240, multipliers_are_those_by_intervals, special_points_stay_where_they_are,
+            flutter_of_fast_modes_is_seen, damping_that_modes_do_not_share_is_unknown)
