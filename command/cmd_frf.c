@@ -92,8 +92,8 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
                "motion: solutions on them may be missing",
                c->edges, c->edge_omega, c->edge_motion);
   if (hbm_stability_is_unknown(s))
-    table_note(t, "stability is not found everywhere, nor period doublings and such: a limit of both tangents together, "
-                  "more than 50 degrees of freedom, and damping that is not modal or too light");
+    table_note(t, "stability is not found everywhere, nor period doublings and such: a limit of both tangents "
+                  "together, more than 50 degrees of freedom, and damping that is not modal or too light");
   else if (hbm_stability_is_costly(s) && !at_given)
     table_note(t, "stability is found at the omegas of --at alone, nor are period doublings and such looked for: more "
                   "than 50 degrees of freedom, or 12 with contacts of two tangents");

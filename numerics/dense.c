@@ -221,8 +221,8 @@ hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *
   int info = 0;
   if (!re) return HC_NO_MEMORY;
   double *im = re + rows, *vectors = im + rows, *of_left = vectors + square(n), *work = of_left + left;
-  IN_TURN(dgeev_(W ? "V" : "N", V ? "V" : "N", &n, A, &n, re, im, W ? of_left : NULL, &n, vectors, &n, work, &work_length, &info,
-                 1, 1));
+  IN_TURN(dgeev_(W ? "V" : "N", V ? "V" : "N", &n, A, &n, re, im, W ? of_left : NULL, &n, vectors, &n, work,
+                 &work_length, &info, 1, 1));
   for (size_t k = 0; k < rows && info == 0; ++k) {
     lambda[k] = re[k] + I * im[k];
     if (V) unpack_vector(rows, vectors, k, im[k], V + k * rows);

@@ -17,7 +17,7 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
 bool hbm_stability_is_costly(const hbm_solver *s);
 
 /* With planar friction and more than 50 degrees of freedom hbm_stability_at finds NaN, which is unknown, where modes do
- * not diagonalise the damping, or where it is so light that it would take steps beyond minutes. True once that was so. */
+ * not diagonalise the damping, or where it is so light that steps would take minutes. True once that was so. */
 bool hbm_stability_is_unknown(const hbm_solver *s);
 
 /* +1 stable, -1 unstable, 0 unknown: the largest multiplier is within 1e-9 of 1 in size, or the truncated equations

@@ -8,16 +8,23 @@
  * times the contact forces, so what is solved for are motions of the contacts in touch, few and the same for all
  * columns. What is much faster than the step decays within it, as Radau's method does, and follows as a spring.
  *
- * Steps resolve every mode that keeps half of itself over a period, to 1e-8, and every mode that contacts could make
- * unstable. Those above, F, are left to decay because they would, in each state of the contacts. With z the shape of a
- * motion in F, m = z* z, c = z* C z, k = z* K z, and i nu = z* N z of the skew part N of the slipping contacts'
- * stiffness (mu kn times half of t n^T - n t^T), m s^2 + c s + k + i nu = 0 has its roots on the left if and only if
- * m nu^2 < c^2 k (Metelitsyn 1952, Dokl. Akad. Nauk 86, 31-34). With c_k >= 2 zeta omega_k that holds if
+ * Steps resolve every mode that keeps half of itself over a period: 1e-8 of its multiplier where steps are cheap. The
+ * others, F, ring after changes of contact; left out, that is 1e-6 of the largest multiplier of
+ * cases/structures/plates.yaml (by steps a fourth as long). They are left to decay only if they would:
+ *   - damping leaves less than half of each over a period
+ *   - a change of the state of contact j moves the energy of F by no more than the part k_j b_j^T Omega^-2 b_j, and all
+ *     changes together by less than half of what damping takes
+ *   - in the states of all contacts at sixteen instants of the period the roots of s^2 + c s + Omega^2 + K_j in F, for
+ *     a circle that slips with its stiffness across slip, are to the left of -c/4, c the least damping in F. K_j is
+ *     not symmetric where a contact slips: mu kn t n^T can make two modes of neighbouring frequencies flutter.
+ * Where the last fails, F is only what must be stable in all states: with z the shape of a motion in F, m = z* z,
+ * c = z* C z, k = z* K z and i nu = z* N z of the skew part N of K_j, m s^2 + c s + k + i nu has its roots on the left
+ * if and only if m nu^2 < c^2 k (Metelitsyn 1952, Dokl. Akad. Nauk SSSR 86, 31-34). With c_k >= 2 zeta omega_k,
  *     |Omega^-1/2 N Omega^-1/2| < 2 zeta omega_F,      omega_F the lowest frequency in F,
- * since z* Omega z <= sqrt(m z* Omega^2 z). Half of the right side is demanded here, and |N| is bounded by the norms of
- * all tangents and all normals. A change of state j moves the energy of F by the part k_j b_j^T Omega^-2 b_j at most;
- * all changes of a period together must be less than what damping takes. Not proved: a mode of F is taken to move
- * apart from those that are resolved, which shake it far below its frequency. */
+ * is enough, since z* Omega z <= sqrt(m z* Omega^2 z). Half of the right side is demanded, and |N| is bounded by the
+ * norms of all tangents and all normals together. All other modes are then followed in steps of at most 3 rad, which
+ * take 1e-4 of an oscillation. Not proved: that a mode of F moves apart from the slow ones, which shake it far below
+ * its frequency. */
 #ifndef HC_HBM_MODAL_FLOW_H
 #define HC_HBM_MODAL_FLOW_H
 

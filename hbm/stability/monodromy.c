@@ -554,7 +554,7 @@ static hc_status follow_in_modes(monodromy *w, const contact_forces *orbit, doub
   if (st != HC_OK) return st;
   const size_t states = (size_t)w->n_states;
   const int last = n - 1;
-  int i = next_interval(w, n, last);
+  const int every = n > PARTS ? n / PARTS : 1;
   collect_states(w, m, orbit, n, last);
   w->columns = w->n_active;
   memset(w->phi, 0, states * states * sizeof *w->phi);
@@ -565,14 +565,14 @@ static hc_status follow_in_modes(monodromy *w, const contact_forces *orbit, doub
     w->carry[q * states + q] = 1;
   }
   for (int k = 0; k < n && st == HC_OK; ++k) {
-    i = (last + 1 + k) % n;
+    const int i = (last + 1 + k) % n;
     if (is_empty(w, n, i)) continue;
     enter_interval(w, m, orbit, n, i);
     for (int j = 0; j < m->n_contacts; j += w->track[j].law->contacts)
       w->track[j].law->begin(w, m, orbit, j, w->boundary[i]);
     st = modal_flow_advance(w->modal, w->interval, w->n_slipping, w->slipping, w->boundary[i], end_of_interval(w, n, i),
                             omega, w->columns, w->phi);
-    if (st == HC_OK && (k + 1) % (n / PARTS) == 0) compress(w, m, omega);
+    if (st == HC_OK && (k + 1) % every == 0) compress(w, m, omega);
   }
   if (st != HC_OK) return st;
   for (size_t a = 0; a < (size_t)w->n_active; ++a) {

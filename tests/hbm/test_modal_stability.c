@@ -82,8 +82,9 @@ static int check_found(const char *name, int at, int n_a, const double complex *
   return large;
 }
 
-/* To 1e-8: what steps of at most 0.3 rad of every mode that keeps half of itself leave of the order 9 is 1e-13 a step;
- * more is left of modes that keep less and are shaken by contacts, 1.3e-9 at most here. Motions are drawn: multipliers belong to any that the contacts are taken along. */
+/* Motions are drawn: multipliers belong to any that the contacts are taken along. To 1e-8: steps are at most 0.3 rad of
+ * every mode that keeps half of itself, of which Radau's method takes 1e-14 a step; of modes that keep less and are
+ * shaken by contacts it takes more, which is 1.3e-9 at most here. */
 static void multipliers_are_those_by_intervals(CHECK_STATE)
 {
   static double x[LENGTH * MOST_DOFS], X[CASE_MAX_COEF];
@@ -194,7 +195,7 @@ static void special_points_stay_where_they_are(CHECK_STATE)
   model_free(large.model);
 }
 
-/* ---- flutter -------------------------------------------------------------------------------------------------- */
+/* ---- flutter --------------------------------------------------------------------------------------------- */
 
 /* A mass dragged to and fro under a load of its own, rubbing on a contact whose tangential and normal motion are also
  * those of two masses at 300 times its frequency, f_1 in t and 1/2 f_1 + sqrt(3)/2 f_2 in n. While it slips backwards,
@@ -231,8 +232,8 @@ static model *fluttering(double zeta, bool circle)
   return m;
 }
 
-/* Steps of 3 rad of the fast modes: Radau's method of order 9 takes (5! 4!/(9! 10!)) 3^10 = 1.3e-4 of an oscillation, and
- * there are 2 pi 300/3 of them a period: 8 % of the multiplier, where the exact one is known. */
+/* In steps of 3 rad of the fast modes Radau's method takes (5! 4!/(9! 10!)) 3^10 = 1.3e-4 of an oscillation; at 2 pi
+ * 300/3 of them a period that is 8 % of the multiplier, where the exact one is known. */
 static void flutter_of_fast_modes_is_seen(CHECK_STATE)
 {
   static double X[CASE_MAX_COEF];
@@ -261,7 +262,7 @@ static void flutter_of_fast_modes_is_seen(CHECK_STATE)
     }
 }
 
-/* ---- what has no modes -------------------------------------------------------------------------------------------- */
+/* ---- what has no modes ----------------------------------------------------------------------------------- */
 
 static void damping_that_modes_do_not_share_is_unknown(CHECK_STATE)
 {
