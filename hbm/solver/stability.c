@@ -57,7 +57,7 @@ hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double ome
   if (!s->monodromy && !s->multipliers_unknown)
     st = monodromy_new(s->model, modal ? MONODROMY_IN_MODES : MONODROMY_BY_INTERVALS, &s->monodromy);
   if (modal && st == HC_BAD_INPUT) s->multipliers_unknown = true;
-  if (s->multipliers_unknown) return HC_OK;
+  if (!s->monodromy && s->multipliers_unknown) return HC_OK;
   if (st == HC_OK) st = monodromy_stability(s->monodromy, s->model, orbit, omega, out);
   if (modal && st == HC_OK) st = keep(s, key, out);
   if (!modal || st != HC_NOT_CONVERGED) return st;
