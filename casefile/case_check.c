@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "casefile/case_reader.h"
+#include "numerics/norm.h"
 
 /* Assignments come after the file, later ones after earlier ones; within the file, and for defaults, a goes first. */
 static case_place last_given(const case_reader *r, const char *section, const char *a, const char *b)
@@ -171,8 +172,7 @@ static hc_status check_contact(case_reader *r, int j)
   const scene_structure *s = r->sc.structure;
   const structure_contact *c = &s->contacts[j];
   const contact *law = &c->given.law;
-  const bool tangent = c->by_angle || !structure_is_zero(c->tangent, s->n),
-             normal = c->by_angle || !structure_is_zero(c->normal, s->n);
+  const bool tangent = c->by_angle || !is_zero(s->n, c->tangent), normal = c->by_angle || !is_zero(s->n, c->normal);
   const int first = structure_contact_named(s, c->given.name, strlen(c->given.name));
   if (!tangent && (law->kt != 0 || law->mu != 0))
     return case_refuse(r, c->place, "contacts[%d] has %s, but no tangent to act along, expected `tangent`, or none", j,
@@ -181,7 +181,7 @@ static hc_status check_contact(case_reader *r, int j)
     return case_refuse(r, c->place,
                        "contacts[%d] has a %s, but no normal to act along, expected `normal`, or `preload` alone", j,
                        law->kn != 0 ? "normal_stiffness" : "gap");
-  if (!structure_is_zero(c->tangent_2, s->n) && is_parallel(c->tangent, c->tangent_2, s->n))
+  if (!is_zero(s->n, c->tangent_2) && is_parallel(c->tangent, c->tangent_2, s->n))
     return case_refuse(r, c->place, "contacts[%d] has tangent_2 along its tangent, expected a direction across it", j);
   if (!isfinite(2 * law->mu))
     return case_refuse(r, c->place, "contacts[%d] has too large a friction to be held, expected less", j);

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "casefile/case_values.h"
+#include "numerics/norm.h"
 
 /* ---- values ---- */
 
@@ -155,7 +156,7 @@ static bool has_direction(const scene_structure *s, const structure_contact *c, 
 {
   if (c->by_angle) return strcmp(along, "tangent_2") != 0;
   const field *f = field_named("contacts", along);
-  return !structure_is_zero(field_direction(f, c), s->n);
+  return !is_zero(s->n, field_direction(f, c));
 }
 
 bool case_contact_field_counts(const scene_structure *s, const structure_contact *c, const field *f)
@@ -182,7 +183,7 @@ static void write_entry(const char *section, const scene_structure *s, const str
   for (int i = 0; i < field_count() && s; ++i) {
     const field *f = field_at(i);
     const bool is_direction = f->kind == FIELD_PART && f->size > 0 && strcmp(f->name, "dof") != 0;
-    if (!is_direction || strcmp(f->section, section) || structure_is_zero(field_direction(f, entry), s->n)) continue;
+    if (!is_direction || strcmp(f->section, section) || is_zero(s->n, field_direction(f, entry))) continue;
     begin_line(&before, f, to);
     write_direction(s, field_direction(f, entry), to);
     putc('\n', to);

@@ -10,6 +10,7 @@
 #include "base/growing.h"
 #include "base/message.h"
 #include "base/number.h"
+#include "numerics/norm.h"
 
 scene_structure *structure_new(void) { return calloc(1, sizeof(scene_structure)); }
 
@@ -236,7 +237,7 @@ void structure_cosine_sine(double angle_deg, double *cosine, double *sine)
 
 bool structure_contact_is_pair(const scene_structure *s, const structure_contact *c)
 {
-  return !structure_is_zero(c->tangent_2, s->n);
+  return !is_zero(s->n, c->tangent_2);
 }
 
 int structure_model_contact(const scene_structure *s, int j)

@@ -51,14 +51,6 @@ typedef struct structure_response {
   case_place place;
 } structure_response;
 
-/* Has the direction no entry but 0? */
-static inline bool structure_is_zero(const double *direction, int n)
-{
-  for (int i = 0; i < n; ++i)
-    if (direction[i] != 0) return false;
-  return true;
-}
-
 /* Has A[n][n] no entry but 0 beside its diagonal? */
 static inline bool structure_is_diagonal(const double *A, int n)
 {

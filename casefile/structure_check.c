@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 
 #define AT(A, i, j) ((A)[(size_t)(i) + (size_t)n * (size_t)(j)])
 
@@ -53,13 +54,6 @@ hc_status structure_not_definite(int n, const double *M, int *order)
 
 /* ---- what nothing holds ---- */
 
-/* A += stiffness direction direction^T */
-static void add_spring(int n, double *A, double stiffness, const double *direction)
-{
-  for (int j = 0; j < n && stiffness != 0; ++j)
-    for (int i = 0; i < n && direction[j] != 0; ++i) AT(A, i, j) += stiffness * direction[i] * direction[j];
-}
-
 /* Does it press on while nothing moves? */
 static bool is_pressed(const scene_contact *c) { return c->law.gap > 0 || c->preload > 0; }
 
@@ -71,9 +65,9 @@ static void stuck_stiffness(const scene_structure *s, bool at_rest, double *A)
     const structure_contact *c = &s->contacts[j];
     const bool holds = c->given.law.mu > 0 && (c->given.law.kn > 0 || c->given.preload > 0);
     if (at_rest && !is_pressed(&c->given)) continue;
-    add_spring(s->n, A, holds ? c->given.law.kt : 0, c->tangent);
-    add_spring(s->n, A, holds ? c->given.law.kt : 0, c->tangent_2);
-    add_spring(s->n, A, c->given.law.kn, c->normal);
+    add_outer(s->n, holds ? c->given.law.kt : 0, c->tangent, c->tangent, A);
+    add_outer(s->n, holds ? c->given.law.kt : 0, c->tangent_2, c->tangent_2, A);
+    add_outer(s->n, c->given.law.kn, c->normal, c->normal, A);
   }
 }
 

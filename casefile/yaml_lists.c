@@ -6,6 +6,7 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "casefile/case_reader.h"
+#include "numerics/norm.h"
 
 /* Where a field of the entry being read was given, line = 0: not at all. */
 static case_place place(const case_reader *r, const char *section, const char *name)
@@ -283,6 +284,6 @@ hc_status yaml_direction(case_reader *r, const char *what, const yaml_node_t *no
     return st;
   }
   const hc_status st = read_factors(r, what, node, direction);
-  if (st != HC_OK || !structure_is_zero(direction, n)) return st;
+  if (st != HC_OK || !is_zero(n, direction)) return st;
   return yaml_refuse(r, node, "%s is a direction of zeros, which moves nothing, expected a factor other than 0", what);
 }

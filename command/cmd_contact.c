@@ -15,6 +15,7 @@
 #include "hbm/forces/given_motion.h"
 #include "hbm/planar/planar_force.h"
 #include "hbm/planar/planar_measures.h"
+#include "numerics/norm.h"
 #include "numerics/series.h"
 #include "output/table.h"
 #include "study/scene_solvers.h"
@@ -98,7 +99,7 @@ static int check_directions(const cli_common *common, const contact_options *own
   char name[CLI_NAME];
   cli_contact_name(common, m->one, name);
   for (int d = 0; d < 3; ++d)
-    if (own->motion[CONTACT_U + d] && (!directions[d] || structure_is_zero(directions[d], of->n)))
+    if (own->motion[CONTACT_U + d] && (!directions[d] || is_zero(of->n, directions[d])))
       return cli_failed(common, EXIT_USAGE, "contact %s has no %s; expected no --%s", name, words[d],
                         motion_names[CONTACT_U + d]);
   return 0;

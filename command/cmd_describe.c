@@ -12,6 +12,7 @@
 #include "casefile/structure.h"
 #include "command/commands.h"
 #include "model/modes.h"
+#include "numerics/norm.h"
 #include "output/output.h"
 
 /* ---- what the parts of a structure resolved to ----------------------------------------------------- */
@@ -44,7 +45,7 @@ static void write_matrix(int n, const structure_matrix *m, FILE *to)
 static void write_direction(const scene_structure *s, const double *direction, FILE *to)
 {
   char text[512];
-  if (!structure_is_zero(direction, s->n)) fputs(structure_direction_name(s, direction, text, sizeof text), to);
+  if (!is_zero(s->n, direction)) fputs(structure_direction_name(s, direction, text, sizeof text), to);
 }
 
 static void write_part(const scene_structure *s, const field *f, FILE *to)

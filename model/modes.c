@@ -6,12 +6,7 @@
 #include <string.h>
 
 #include "numerics/dense.h"
-
-static void add_outer(int n, double k, const double *d, double *K)
-{
-  for (int col = 0; col < n && k != 0; ++col)
-    for (int row = 0; row < n; ++row) K[(size_t)col * (size_t)n + (size_t)row] += k * d[row] * d[col];
-}
+#include "numerics/norm.h"
 
 hc_status model_modes(const model *m, bool stuck, double *omega2, double *phi)
 {
@@ -23,8 +18,8 @@ hc_status model_modes(const model *m, bool stuck, double *omega2, double *phi)
       K[col * n + row] = 0.5 * (m->stiffness[col * n + row] + m->stiffness[row * n + col]);
   for (int j = 0; j < m->n_contacts && stuck; ++j) {
     const model_contact *c = &m->contacts[j];
-    if (contact_has_friction(&c->law)) add_outer(m->n, c->law.kt, c->tangent, K);
-    add_outer(m->n, c->law.kn, c->normal, K);
+    if (contact_has_friction(&c->law)) add_outer(m->n, c->law.kt, c->tangent, c->tangent, K);
+    add_outer(m->n, c->law.kn, c->normal, c->normal, K);
   }
   hc_status st = dense_modes(m->n, K, m->mass, omega2, phi);
   free(K);

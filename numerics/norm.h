@@ -3,6 +3,8 @@
 #define HC_NORM_H
 
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 
 /* sqrt(sum v[i]^2), not protected against overflow of the squares. */
 static inline double norm_2(int n, const double *v)
@@ -18,6 +20,20 @@ static inline double dot_product(int n, const double *a, const double *b)
   double sum = 0;
   for (int i = 0; i < n; ++i) sum += a[i] * b[i];
   return sum;
+}
+
+static inline bool is_zero(int n, const double *v)
+{
+  for (int i = 0; i < n; ++i)
+    if (v[i] != 0) return false;
+  return true;
+}
+
+/* A[n][n] += k a b^T, by columns. */
+static inline void add_outer(int n, double k, const double *a, const double *b, double *A)
+{
+  for (int j = 0; j < n && k != 0; ++j)
+    for (int i = 0; i < n && b[j] != 0; ++i) A[(size_t)j * (size_t)n + (size_t)i] += k * a[i] * b[j];
 }
 
 /* norm_2 of a - b. */

@@ -129,7 +129,7 @@ static bool drop_load(scene *sc, int i)
 static bool drop_second_tangent(scene *sc, int j)
 {
   const scene_structure *t = sc->structure;
-  if (structure_is_zero(t->contacts[j].tangent_2, t->n)) return false;
+  if (is_zero(t->n, t->contacts[j].tangent_2)) return false;
   memset(t->contacts[j].tangent_2, 0, (size_t)t->n * sizeof(double));
   return true;
 }
@@ -160,10 +160,9 @@ static bool is_whole(const scene_structure *t)
 {
   for (int j = 0; j < t->n_contacts; ++j) {
     const structure_contact *c = &t->contacts[j];
-    if ((c->given.law.kt != 0 && structure_is_zero(c->tangent, t->n)) ||
-        (c->given.law.kn != 0 && structure_is_zero(c->normal, t->n)))
+    if ((c->given.law.kt != 0 && is_zero(t->n, c->tangent)) || (c->given.law.kn != 0 && is_zero(t->n, c->normal)))
       return false;
-    if (!structure_is_zero(c->tangent_2, t->n) && is_line(t->n, c->tangent, c->tangent_2)) return false;
+    if (!is_zero(t->n, c->tangent_2) && is_line(t->n, c->tangent, c->tangent_2)) return false;
   }
   return true;
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 #include "stress/solved_scene.h"
 
 /* ---- closed forms ------------------------------------------------------------------------------------------ */
@@ -133,12 +134,6 @@ static stress_check hold_linear(solved_scene *s, const model *m, const linear_mo
   return c;
 }
 
-static void add_spring(int n, double k, const double *d, double *K)
-{
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) K[j * n + i] += k * d[i] * d[j];
-}
-
 /* Contact j of m so that the motion x, whose largest entry is `moves`, never closes it, or never slips nor opens. */
 static void keep_linear(const solved_scene *s, const double *x, double moves, bool stuck, int j, model *m)
 {
@@ -165,8 +160,8 @@ static stress_check check_contacts(solved_scene *s, bool stuck)
   for (int j = 0; st == HC_OK && j < m->n_contacts && stuck; ++j) {
     contact *law = &m->contacts[j].law;
     law->mu = fmax(law->mu, 1);
-    if (law->kt > 0) add_spring(s->n, law->kt, m->contacts[j].tangent, linear->stiffness);
-    if (law->kn > 0) add_spring(s->n, law->kn, m->contacts[j].normal, linear->stiffness);
+    if (law->kt > 0) add_outer(s->n, law->kt, m->contacts[j].tangent, m->contacts[j].tangent, linear->stiffness);
+    if (law->kn > 0) add_outer(s->n, law->kn, m->contacts[j].normal, m->contacts[j].normal, linear->stiffness);
   }
   if (st == HC_OK) st = linear_steady(s, linear, &exact);
   stress_check c = st == HC_OK ? stress_skip(STRESS_NOT_APPLICABLE) : stress_refuse(s, st);

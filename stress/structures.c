@@ -351,7 +351,7 @@ static hc_status in_space(stress_scenes *scenes, long index, scene *out)
   int directions = 2 * s->n_contacts;
   for (int j = 0; j < s->n_contacts && s->n > 1; ++j) {
     structure_contact *c = &s->contacts[j];
-    if (structure_is_zero(c->tangent, s->n) || random_unit(&r) > 0.7) continue;
+    if (is_zero(s->n, c->tangent) || random_unit(&r) > 0.7) continue;
     draw_second_tangent(&r, s->n, c);
     c->given.limit = random_unit(&r) < 0.8 ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
     ++directions;

@@ -11,13 +11,7 @@
 #include "hbm/planar/planar_corner.h"
 #include "hbm/planar/planar_force.h"
 #include "hbm/planar/planar_measures.h"
-
-static bool is_zero(int n, const double *direction)
-{
-  for (int d = 0; d < n; ++d)
-    if (direction[d] != 0) return false;
-  return true;
-}
+#include "numerics/norm.h"
 
 static int largest_entry(int n, const double *direction)
 {

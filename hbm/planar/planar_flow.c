@@ -74,13 +74,6 @@ void planar_flow_free(planar_flow *f)
 
 /* ---- K_j -------------------------------------------------------------------------------------------- */
 
-/* K += k a b^T. */
-static void add_outer(planar_flow *f, double k, const double *a, const double *b)
-{
-  for (int j = 0; j < f->n && k != 0; ++j)
-    for (int i = 0; i < f->n; ++i) f->K[(size_t)j * (size_t)f->n + (size_t)i] += k * a[i] * b[j];
-}
-
 static void fill_stiffness(planar_flow *f, const contact_interval *const *interval, int n_slipping,
                            const planar_slipping *slipping)
 {
@@ -89,13 +82,13 @@ static void fill_stiffness(planar_flow *f, const contact_interval *const *interv
   for (int j = 0; j < m->n_contacts; ++j) {
     const model_contact *c = &m->contacts[j];
     if (!interval[j]) continue;
-    add_outer(f, c->law.kn, c->normal, c->normal);
-    add_outer(f, contact_interval_stiffness(&c->law, interval[j]), c->tangent,
-              contact_slip_sign(interval[j]->state) ? c->normal : c->tangent);
+    add_outer(f->n, c->law.kn, c->normal, c->normal, f->K);
+    add_outer(f->n, contact_interval_stiffness(&c->law, interval[j]), c->tangent,
+              contact_slip_sign(interval[j]->state) ? c->normal : c->tangent, f->K);
   }
   for (int k = 0; k < n_slipping; ++k) { /* of both halves */
     const model_contact *c = &m->contacts[slipping[k].contact];
-    add_outer(f, 2 * c->law.kn, c->normal, c->normal);
+    add_outer(f->n, 2 * c->law.kn, c->normal, c->normal, f->K);
   }
 }
 

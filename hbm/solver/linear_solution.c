@@ -10,20 +10,15 @@
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 
-static void add_outer(int dim, double k, const double *d, double *K)
-{
-  for (int e = 0; e < dim && k != 0; ++e)
-    for (int i = 0; i < dim; ++i) K[(size_t)e * (size_t)dim + (size_t)i] += k * d[i] * d[e];
-}
-
 static void add_stuck_stiffness(const hbm_system *sys)
 {
   memset(sys->stiffness, 0, (size_t)sys->dim * (size_t)sys->dim * sizeof *sys->stiffness);
   for (int j = 0; j < sys->model->n_contacts; ++j) {
     const contact *law = &sys->model->contacts[j].law;
     if (!sys->stuck[j]) continue;
-    if (contact_has_friction(law)) add_outer(sys->dim, law->kt, condensation_tangent(sys->linear, j), sys->stiffness);
-    add_outer(sys->dim, law->kn, condensation_normal(sys->linear, j), sys->stiffness);
+    const double *t = condensation_tangent(sys->linear, j), *n = condensation_normal(sys->linear, j);
+    if (contact_has_friction(law)) add_outer(sys->dim, law->kt, t, t, sys->stiffness);
+    add_outer(sys->dim, law->kn, n, n, sys->stiffness);
   }
 }
 

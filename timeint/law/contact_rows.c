@@ -5,13 +5,7 @@
 #include <string.h>
 
 #include "numerics/dense.h"
-
-static bool is_zero(int n, const double *row)
-{
-  for (int i = 0; i < n; ++i)
-    if (row[i] != 0) return false;
-  return true;
-}
+#include "numerics/norm.h"
 
 static int keep_row(contact_rows *c, const double *row)
 {

@@ -12,6 +12,7 @@
 #include "base/message.h"
 #include "compare/verify/equations/causes.h"
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 
 const verify_change_kind verify_changes[] = {
 #define VERIFY_CHANGE_WORDS(code, cause, words, factor, part) {cause, words, factor, part},
@@ -35,23 +36,9 @@ int verify_change_variants(const model *m, verify_change c)
 
 /* ---- vectors and matrices, by columns ---- */
 
-static double dot(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 static void scale(size_t n, double factor, double *a)
 {
   for (size_t i = 0; i < n; ++i) a[i] *= factor;
-}
-
-static bool is_zero(int n, const double *a)
-{
-  for (int i = 0; i < n; ++i)
-    if (a[i] != 0) return false;
-  return true;
 }
 
 static void swap(double *a, double *b)
@@ -59,13 +46,6 @@ static void swap(double *a, double *b)
   const double kept = *a;
   *a = *b;
   *b = kept;
-}
-
-/* A += s d d^T */
-static void add_spring(int n, double s, const double *d, double *A)
-{
-  for (int k = 0; k < n; ++k)
-    for (int i = 0; i < n; ++i) A[i + n * k] += s * d[i] * d[k];
 }
 
 static void transpose(int n, double *A)
@@ -141,8 +121,8 @@ static void stick(model *m)
 {
   for (int j = 0; j < m->n_contacts; ++j) {
     const model_contact *c = &m->contacts[j];
-    add_spring(m->n, c->law.kt, c->tangent, m->stiffness);
-    add_spring(m->n, c->law.kn, c->normal, m->stiffness);
+    add_outer(m->n, c->law.kt, c->tangent, c->tangent, m->stiffness);
+    add_outer(m->n, c->law.kn, c->normal, c->normal, m->stiffness);
   }
 }
 
@@ -212,7 +192,7 @@ static hc_status follow(model *m, const double *d, bool all_linear)
     model_contact *c = &m->contacts[j];
     const double before = c->law.gap;
     if (is_zero(m->n, c->normal)) continue;
-    c->law.gap += dot(m->n, c->normal, d);
+    c->law.gap += dot_product(m->n, c->normal, d);
     if (!all_linear && (c->law.gap > 0) != (before > 0)) return HC_BAD_INPUT;
   }
   return HC_OK;
@@ -228,12 +208,12 @@ static hc_status displace(model *m, double *force, double mean_factor, bool all_
   memcpy(K, m->stiffness, (size_t)n * (size_t)n * sizeof *K);
   for (int j = 0; j < m->n_contacts; ++j) {
     const model_contact *c = &m->contacts[j];
-    if (all_linear || c->law.gap > 0) add_spring(n, mean_factor * c->law.kn, c->normal, K);
+    if (all_linear || c->law.gap > 0) add_outer(n, mean_factor * c->law.kn, c->normal, c->normal, K);
   }
   hc_status st = solve(n, K, force);
   free(K);
   if (st != HC_OK) return st;
-  *offset = dot(n, m->responses, force);
+  *offset = dot_product(n, m->responses, force);
   return follow(m, force, all_linear);
 }
 
@@ -272,7 +252,7 @@ static hc_status double_contacts(const model *m, verify_change change, bool keep
     if (linear) added->law.gap = -c->law.gap;
     if (linear && change != CHANGE_NO_SEPARATION_PULLS) added->law.kt = added->law.mu = 0;
     if (!linear) c->law.kt = c->law.mu = 0;
-    if (change == CHANGE_CONSTANT_LIMIT_LINEAR) add_spring(m->n, c->law.kn, c->normal, (*out)->stiffness);
+    if (change == CHANGE_CONSTANT_LIMIT_LINEAR) add_outer(m->n, c->law.kn, c->normal, c->normal, (*out)->stiffness);
     if (change == CHANGE_CONSTANT_LIMIT_LINEAR || change == CHANGE_CONSTANT_N) c->law.kn = 0;
   }
   (*out)->n_contacts = 2 * n;

@@ -128,30 +128,6 @@ void verify_read_one(const verify_sample *p, const verify_solutions *s, int read
   rank(h, floor);
 }
 
-void verify_read_all(const verify_sample *p, const verify_solutions *s, const verify_hypothesis *given,
-                     verify_causes otherwise, double floor, int n, const verify_scale *scales, verify_keep *keep,
-                     void *self)
-{
-  for (int f = 0; f <= FACTORS; ++f) /* the last is dB */
-    for (int i = 0; i < VERIFY_READINGS; ++i) {
-      verify_hypothesis h = *given;
-      verify_causes of_reading;
-      const bool decibel = f == FACTORS;
-      const verify_causes of_factor = decibel ? VERIFY_BIT(CAUSE_DECIBEL) : factors[f].cause;
-      if (!verify_reading(i, &p->quantity, &h.quantity, &of_reading)) continue;
-      if ((of_reading & of_factor) || (of_reading && of_factor == VERIFY_BIT(CAUSE_RMS))) continue;
-      if (of_factor == VERIFY_BIT(CAUSE_LENGTH) && verify_scale_near(scales, n, factors[f].factor, 1e-3)) continue;
-      if (given->causes && of_factor && of_reading) continue; /* nothing is that wrong */
-      h.causes |= of_factor | of_reading;
-      if (!h.causes && !(h.causes = otherwise)) continue; /* the truth as it stands is no hypothesis */
-      h.decibel = decibel;
-      h.value_factor = decibel ? 1 : factors[f].factor;
-      h.distance = distance(p, decibel ? p->decibel : p->value, s, i, h.value_factor);
-      rank(&h, floor);
-      keep(self, &h);
-    }
-}
-
 double verify_read_plain(const verify_sample *p, const verify_solutions *s) { return distance(p, p->value, s, 0, 1); }
 
 double verify_closeness(const verify_sample *p, const verify_solutions *s)
@@ -353,8 +329,6 @@ void search_keep(search *s, const verify_hypothesis *h)
   out->hypotheses[at] = *h;
 }
 
-static void keep(void *self, const verify_hypothesis *h) { search_keep(self, h); }
-
 /* True if this number of harmonics is a cause: it matters, and in a changed model it is smaller than the case's own. */
 static bool too_few_harmonics(const search *s, const verify_equations *e, int frequency)
 {
@@ -393,10 +367,29 @@ static verify_causes causes_of(const search *s, const verify_equations *e, int f
 
 void search_read(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
 {
+  const verify_sample *p = &s->points;
   const verify_causes otherwise = e->harmonics < s->out->harmonics ? VERIFY_BIT(CAUSE_HARMONICS) : 0;
   const verify_hypothesis given = {
       .equations = *e, .omega_factor = search_omega_factor(frequency), .causes = causes_of(s, e, frequency)};
-  verify_read_all(&s->points, of, &given, otherwise, s->floor, s->n_scales, s->scales, keep, s);
+  for (int f = 0; f <= FACTORS; ++f) /* the last is dB */
+    for (int i = 0; i < VERIFY_READINGS; ++i) {
+      verify_hypothesis h = given;
+      verify_causes of_reading;
+      const bool decibel = f == FACTORS;
+      const verify_causes of_factor = decibel ? VERIFY_BIT(CAUSE_DECIBEL) : factors[f].cause;
+      if (!verify_reading(i, &p->quantity, &h.quantity, &of_reading)) continue;
+      if ((of_reading & of_factor) || (of_reading && of_factor == VERIFY_BIT(CAUSE_RMS))) continue;
+      if (of_factor == VERIFY_BIT(CAUSE_LENGTH) && verify_scale_near(s->scales, s->n_scales, factors[f].factor, 1e-3))
+        continue;                                            /* the unit may be what the values were divided by */
+      if (given.causes && of_factor && of_reading) continue; /* nothing is that wrong */
+      h.causes |= of_factor | of_reading;
+      if (!h.causes && !(h.causes = otherwise)) continue; /* the truth as it stands is no hypothesis */
+      h.decibel = decibel;
+      h.value_factor = decibel ? 1 : factors[f].factor;
+      h.distance = distance(p, decibel ? p->decibel : p->value, of, i, h.value_factor);
+      rank(&h, s->floor);
+      search_keep(s, &h);
+    }
 }
 
 hc_status search_solve(search *s, const verify_equations *e, double omega_factor, verify_solutions *out)

@@ -57,16 +57,8 @@ typedef struct verify_sample {
 /* HC_NO_MEMORY. */
 hc_status verify_sample_new(const verify_report *r, const verify_quantity *quantity, verify_sample *out);
 
-typedef void verify_keep(void *self, const verify_hypothesis *h);
-
-/* Every reading of the values for the solutions s. *given: the equations, what the omegas are multiplied by, and the
- * causes in that; keep() gets it with each reading. `otherwise`: the cause where nothing else is one. Distances below
- * `floor` are all the same. A unit of length is no cause where it is one of the n `scales`, which may be meant. */
-void verify_read_all(const verify_sample *p, const verify_solutions *s, const verify_hypothesis *given,
-                     verify_causes otherwise, double floor, int n, const verify_scale *scales, verify_keep *keep,
-                     void *self);
-
-/* One reading: number `reading` of verify_reading, times `factor`. *h likewise gets the rest. */
+/* One reading: number `reading` of verify_reading, times `factor`, into *h. Distances below `floor` are
+ * all the same. */
 void verify_read_one(const verify_sample *p, const verify_solutions *s, int reading, double factor, double floor,
                      verify_hypothesis *h);
 
@@ -131,7 +123,8 @@ verify_equations search_own(const search *s);
  * equations. */
 hc_status search_solve(search *s, const verify_equations *e, double omega_factor, verify_solutions *out);
 
-/* Every reading of the points for these solutions, among the hypotheses. */
+/* Every reading of the points for these solutions, among the hypotheses. A unit of length is no cause where it is one
+ * of s->scales, which may be meant. */
 void search_read(search *s, const verify_equations *e, int frequency, const verify_solutions *of);
 
 /* The hypothesis with its equations and factors, as the file says the quantity: solved, and among the hypotheses. */
