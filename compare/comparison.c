@@ -129,7 +129,13 @@ hc_status comparison_referee(const compare_setup *setup, timeint *beside, timein
   transient_settings how = setup->transient;
   how.law = TRANSIENT_LAW_EXACT;
   how.tolerance = fmin(how.tolerance, 1e-9);
-  return beside ? timeint_new_beside(beside, &how, out) : timeint_new(setup->model, &how, out);
+  if (beside) return timeint_new_beside(beside, &how, out);
+  hc_status st = timeint_new(setup->model, &how, out);
+  timeint *closed_form = st == HC_OK ? timeint_closed_form_of(*out) : NULL;
+  if (!closed_form) return st;
+  timeint_free(*out);
+  *out = closed_form;
+  return HC_OK;
 }
 
 static hc_status make_states(comparison_work *w)

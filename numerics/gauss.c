@@ -6,9 +6,22 @@ static const double node[HALF] = {0.09501250983763744, 0.28160355077925891, 0.45
                                   0.75540440835500303, 0.86563120238783174, 0.94457502307323258, 0.98940093499164993};
 static const double weight[HALF] = {0.18945061045506850, 0.18260341504492359, 0.16915651939500254, 0.14959598881657673,
                                     0.12462897125553387, 0.09515851168249278, 0.06225352393864789, 0.02715245941175409};
+static const double few_nodes[GAUSS_FEW / 2] = {0.33998104358485626, 0.86113631159405258};
+static const double few_weights[GAUSS_FEW / 2] = {0.65214515486254614, 0.34785484513745386};
 
-double gauss_node(int i) { return i < HALF ? -node[HALF - 1 - i] : node[i - HALF]; }
-double gauss_weight(int i) { return weight[i < HALF ? HALF - 1 - i : i - HALF]; }
+double gauss_node(int points, int i)
+{
+  const double *of = points == GAUSS_FEW ? few_nodes : node;
+  const int half = points / 2;
+  return i < half ? -of[half - 1 - i] : of[i - half];
+}
+
+double gauss_weight(int points, int i)
+{
+  const double *of = points == GAUSS_FEW ? few_weights : weight;
+  const int half = points / 2;
+  return of[i < half ? half - 1 - i : i - half];
+}
 
 static void add_panel(gauss_functions *f, const void *self, double middle, double half, double sum[2])
 {

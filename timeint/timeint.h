@@ -24,9 +24,12 @@ typedef struct timeint timeint;
 hc_status timeint_new(const model *m, const transient_settings *how, timeint **out);
 void timeint_free(timeint *ti);
 
+/* The closed form of a large structure, of which CVODE with the exact law would confirm no more than what it slows
+ * (steady/mass_scaling.h), one more owner's; else NULL. */
+timeint *timeint_closed_form_of(timeint *ti);
+
 /* The same for the model and transient.scout of `of`, with which it shares what it finds in closed form; either may be
- * freed first. Of the exact law and a large structure it is that closed form itself, of which CVODE would confirm no
- * more than what it slows (steady/mass_scaling.h). Not for another thread than that of `of`; what is found in closed
+ * freed first. Of the exact law and a large structure it is that closed form itself. Not for another thread than that of `of`; what is found in closed
  * form counts as periods of `of`. */
 hc_status timeint_new_beside(timeint *of, const transient_settings *how, timeint **out);
 

@@ -9,6 +9,7 @@
 
 #include "numerics/gauss.h"
 #include "numerics/roots.h"
+#include "timeint/law/contact_rows.h"
 #include "timeint/steady/timeint_private.h"
 
 /* A contact at one instant. */
@@ -29,30 +30,40 @@ typedef struct contact_watch {
   const timeint *ti;
   const integrator *in; /* of the step under way */
   int n_contacts;
-  double stiffest;  /* [rad/rad] the highest frequency of a linear state, over omega */
-  double *y, *dy;   /* [n] the state and its derivative where it is looked at */
+  double stiffest; /* [rad/rad] the highest frequency of a linear state, over omega */
+  double *y, *dy;  /* [n] the state and its derivative where it is looked at */
+  contact_rows rows;
+  double *q, *dq;   /* [rows.count] the contacts' motion there, and its rate */
   contact_sums *of; /* [n_contacts] */
 } contact_watch;
+
+/* u and v, or their rates, of contact j in the directions that share its law from j on. */
+static double motion_of(const contact_watch *w, const double *q, int j, double u[2])
+{
+  u[0] = contact_rows_at(q, w->rows.along[j]);
+  u[1] = j + 1 < w->n_contacts ? contact_rows_at(q, w->rows.along[j + 1]) : 0;
+  return contact_rows_at(q, w->rows.across[j]);
+}
 
 static contact_instant contact_at(const contact_watch *w, int j)
 {
   const scaled_model *m = &w->ti->scaled;
-  const scaled_contact *c = &m->contact[j];
-  const int directions = c->kind->directions;
-  const double *slider = w->y + 2 * m->n + j, *slides = w->dy + 2 * m->n + j;
-  double u[2], du[2], v, dv;
-  scaled_contact_motion(m, j, w->y, u, &v);
-  scaled_contact_motion(m, j, w->dy, du, &dv);
-  contact_instant at = {.state = integrate_contact(w->in, j, w->y), .du = du[0], .dv = dv};
-  if (c->direction > 0) { /* the first has all but N */
-    at.normal = law_regularised_eval(&c->law, 0, v, 0).n;
+  const int first = scaled_first(m, j), directions = scaled_directions(m, j);
+  const scaled_contact *c = &m->contact[first];
+  const double *slider = w->y + 2 * m->n + first, *slides = w->dy + 2 * m->n + first;
+  const bool exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
+  double u[2], du[2];
+  const double v = motion_of(w, w->q, first, u), dv = motion_of(w, w->dq, first, du);
+  const planar_value value = c->kind->evaluate(&c->law, u, v, slider);
+  contact_instant at = {.du = du[j - first], .dv = dv, .normal = value.n};
+  at.state = exact ? integrate_contact(w->in, j, w->y) : scaled_state_of(m, first, v, &value);
+  if (j > first) { /* the first has all but N */
+    at.normal = law_regularised_eval(&m->contact[j].law, 0, v, 0).n;
     return at;
   }
-  const planar_value value = c->kind->evaluate(&c->law, u, v, slider);
-  at.normal = value.n;
   if (directions > 1) at.du = (u[0] - slider[0]) * du[0] + (u[1] - slider[1]) * du[1];
   if (!c->law.has_friction || at.state == CONTACT_SEPARATED) return at;
-  const bool slips = at.state != CONTACT_STICK, exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
+  const bool slips = at.state != CONTACT_STICK;
   const double *rate = exact ? slides : value.rate;
   at.pull = hypot(value.t[0], value.t[1]); /* of one tangent t[1] = 0 */
   if (slips) at.slip = directions > 1 ? hypot(rate[0], rate[1]) : fabs(rate[0]);
@@ -71,7 +82,10 @@ static void extend(contact_sums *s, const contact_instant *at)
 static hc_status look(contact_watch *w, double theta)
 {
   hc_status st = integrate_dense(w->in, theta, 0, w->y);
-  return st == HC_OK ? integrate_dense(w->in, theta, 1, w->dy) : st;
+  if (st == HC_OK) st = integrate_dense(w->in, theta, 1, w->dy);
+  contact_rows_motion(&w->rows, w->y, w->q);
+  contact_rows_motion(&w->rows, w->dy, w->dq);
+  return st;
 }
 
 /* u' (or v') of a contact along the step. */
@@ -132,18 +146,22 @@ static hc_status go_to(contact_watch *w, double theta0, double theta, double wei
   return st;
 }
 
+/* [rad of the stiffest state] Four points are off by (h/2)^9 f^(8) 4!^4 2^9/(9 8!^3), 1e-14 of h f there. */
+static const double short_step = 0.25;
+
 static hc_status watch_step(void *self, const integrator *in, double theta0, double theta1)
 {
   contact_watch *w = self;
-  const int panels = 1 + (int)fmin((theta1 - theta0) * w->stiffest, 1000);
+  const double oscillates = (theta1 - theta0) * w->stiffest;
+  const int panels = 1 + (int)fmin(oscillates, 1000), points = oscillates <= short_step ? GAUSS_FEW : GAUSS_POINTS;
   const double half = 0.5 * (theta1 - theta0) / panels;
   w->in = in;
   hc_status st = go_to(w, theta0, theta0, 0);
   double here = theta0;
   for (int p = 0; p < panels; ++p)
-    for (int i = 0; i < GAUSS_POINTS && st == HC_OK; ++i) {
-      const double theta = theta0 + half * (2 * p + 1 + gauss_node(i));
-      st = go_to(w, here, theta, half * gauss_weight(i));
+    for (int i = 0; i < points && st == HC_OK; ++i) {
+      const double theta = theta0 + half * (2 * p + 1 + gauss_node(points, i));
+      st = go_to(w, here, theta, half * gauss_weight(points, i));
       here = theta;
     }
   return st == HC_OK ? go_to(w, here, theta1, 0) : st;
@@ -165,6 +183,22 @@ static void report(const contact_watch *w, int k, contact_period *out)
   }
 }
 
+static hc_status make_watch(contact_watch *w)
+{
+  w->of = calloc((size_t)w->n_contacts + 1, sizeof *w->of);
+  hc_status st = w->of ? contact_rows_make(&w->rows, w->ti->base) : HC_NO_MEMORY;
+  if (st == HC_OK && !(w->q = calloc(2 * (size_t)w->rows.count + 1, sizeof *w->q))) st = HC_NO_MEMORY;
+  if (st == HC_OK) w->dq = w->q + w->rows.count;
+  return st;
+}
+
+static void free_watch(contact_watch *w)
+{
+  contact_rows_free(&w->rows);
+  free(w->of);
+  free(w->q);
+}
+
 /* [rad/rad] */
 static double stiffest_frequency(const timeint *ti) { return ti->base->highest / ti->omega; }
 
@@ -174,12 +208,12 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
   double *y = ti->point[2];
   contact_watch w = {
       .ti = ti, .n_contacts = n_contacts, .stiffest = stiffest_frequency(ti), .y = ti->point[0], .dy = ti->point[1]};
-  if (!(w.of = calloc((size_t)n_contacts + 1, sizeof *w.of))) return HC_NO_MEMORY;
-  for (int j = 0; j < n_contacts; ++j) w.of[j].normal_min = INFINITY;
+  hc_status st = make_watch(&w);
+  for (int j = 0; j < n_contacts && st == HC_OK; ++j) w.of[j].normal_min = INFINITY;
   memcpy(y, ti->y, (size_t)ti->n * sizeof *y);
-  hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
+  if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   for (int i = 0; i < k && st == HC_OK; ++i) st = integrate_period(ti->in, &ti->scaled, y, watch_step, &w);
   if (st == HC_OK) report(&w, k, out);
-  free(w.of);
+  free_watch(&w);
   return st;
 }

@@ -153,17 +153,20 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   return keep_or_free(ti, st, out);
 }
 
+timeint *timeint_closed_form_of(timeint *ti)
+{
+  if (!ti->closed_form || !ti->closed_form->slowed) return NULL;
+  ++ti->closed_form->owners;
+  return ti->closed_form;
+}
+
 hc_status timeint_new_beside(timeint *of, const transient_settings *how, timeint **out)
 {
   timeint *ti;
   *out = NULL;
   const bool same = of->closed_form && of->closed_form->how.tolerance <= how->tolerance;
   if (!same || !how->scout || how->method == TRANSIENT_METHOD_CLOSED_FORM) return timeint_new(of->model, how, out);
-  if (of->closed_form->slowed && how->law == TRANSIENT_LAW_EXACT) {
-    *out = of->closed_form;
-    ++of->closed_form->owners;
-    return HC_OK;
-  }
+  if (how->law == TRANSIENT_LAW_EXACT && (*out = timeint_closed_form_of(of))) return HC_OK;
   hc_status st = make(of->model, how, true, &ti);
   if (st == HC_OK) st = closed_start_share(ti, of->closed_form);
   return keep_or_free(ti, st, out);
