@@ -149,8 +149,11 @@ scene_structure *structure_copy(const scene_structure *s)
   to->loads = copied_list(s->loads, sizeof *to->loads, s->n_loads, vector, &failed);
   to->contacts = copied_list(s->contacts, sizeof *to->contacts, s->n_contacts, 3 * vector, &failed);
   to->responses = copied_list(s->responses, sizeof *to->responses, s->n_responses, vector, &failed);
-  for (structure_contact *c = to->contacts; c && c < to->contacts + s->n_contacts && c->tangent; ++c)
-    c->tangent_2 = c->tangent + n, c->normal = c->tangent_2 + n;
+  for (int j = 0; to->contacts && j < s->n_contacts && to->contacts[j].tangent; ++j) {
+    structure_contact *c = &to->contacts[j]; /* of what has lost degrees of freedom its vectors stand apart */
+    c->tangent_2 = memcpy(c->tangent + n, s->contacts[j].tangent_2, vector);
+    c->normal = memcpy(c->tangent_2 + n, s->contacts[j].normal, vector);
+  }
   to->mass = copied_matrix(&s->mass, n, &failed);
   to->stiffness = copied_matrix(&s->stiffness, n, &failed);
   to->damping = copied_matrix(&s->damping, n, &failed);

@@ -29,8 +29,8 @@ void timeint_free(timeint *ti);
 timeint *timeint_closed_form_of(timeint *ti);
 
 /* The same for the model and transient.scout of `of`, with which it shares what it finds in closed form; either may be
- * freed first. Of the exact law and a large structure it is that closed form itself. Not for another thread than that of `of`; what is found in closed
- * form counts as periods of `of`. */
+ * freed first. Of the exact law and a large structure it is that closed form itself. Not for another thread than that
+ * of `of`; what is found in closed form counts as periods of `of`. */
 hc_status timeint_new_beside(timeint *of, const transient_settings *how, timeint **out);
 
 /* Adds the periods integrated since the handle was made, by CVODE and in closed form; of no handle (NULL) none. */

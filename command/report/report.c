@@ -53,6 +53,7 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   for (int i = 0; i < c->n_rows && asked.n < NUMBER_LIST_MAX; ++i) asked.v[asked.n++] = c->rows[i].omega;
   comparison_sweep(sc->omega_from, sc->omega_to, &asked, &from, &to);
   hc_status st = scene_hbm_solver(sc, &s);
+  if (st == HC_OK) hbm_leave_stability(s);
   if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT) hbm_scale_steps(s, shorter_steps);
   if (st == HC_OK) st = hbm_trace(s, from, to, monitor, &curve);
   for (int k = 0; k < curve.n; ++k) {

@@ -23,6 +23,11 @@ bool hbm_stability_is_costly(const hbm_solver *s)
   return m->n > LARGE || (model_has_circle(m) && m->n + m->n_contacts > LARGE_WITH_PLANAR);
 }
 
+void hbm_leave_stability(hbm_solver *s)
+{
+  if (in_modes(s->model)) s->multipliers_unknown = true;
+}
+
 bool hbm_stability_is_unknown(const hbm_solver *s) { return s->multipliers_unknown; }
 
 /* Of omega and X, so that what is asked for twice, by a curve's rows and for its special points, is found once:

@@ -20,6 +20,10 @@ bool hbm_stability_is_costly(const hbm_solver *s);
  * not diagonalise the damping, or where it is so light that steps would take minutes. True once that was so. */
 bool hbm_stability_is_unknown(const hbm_solver *s);
 
+/* From now on it is unknown of all solutions of such a structure, each of which costs ten points of a curve and more:
+ * for curves that are only drawn. */
+void hbm_leave_stability(hbm_solver *s);
+
 /* +1 stable, -1 unstable, 0 unknown: the largest multiplier is within 1e-9 of 1 in size, or the truncated equations
  * disagree. */
 int hbm_stability_verdict(const hbm_stability *st);

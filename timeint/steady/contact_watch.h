@@ -4,10 +4,10 @@
  *     exact law          work = integral of mu N |w'| over slip      regularised     work = closed integral of T u'
  *
  * Both are sums over the integrator's steps, of Gauss's sixteen points on panels no longer than the stiffest linear
- * state's quarter period; four on steps much shorter. A step of the exact law has one contact state, and what is integrated there is smooth: the
- * rule is exact to rounding, the work as good as the motion. The regularised law has corners inside steps; CVODE cuts
- * its steps there until they do not matter. Extrema of N and T are at ends of steps, at points of the rule, or where
- * u' or v' changes sign between these: found as roots, to rounding. */
+ * state's quarter period; four on steps much shorter. A step of the exact law has one contact state, and what is
+ * integrated there is smooth: the rule is exact to rounding, the work as good as the motion. The regularised law has
+ * corners inside steps; CVODE cuts its steps there until they do not matter. Extrema of N and T are at ends of steps,
+ * at points of the rule, or where u' or v' changes sign between these: found as roots, to rounding. */
 #ifndef HC_TIMEINT_CONTACT_WATCH_H
 #define HC_TIMEINT_CONTACT_WATCH_H
 
