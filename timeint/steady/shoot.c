@@ -576,7 +576,7 @@ static hc_status begin_with_slowed(shoot *s, double reach, double enough)
   double *state = ti->point[0];
   timeint_get_state(ti, state);
   hc_status st = timeint_begin(giver, ti->omega, state);
-  if (st != HC_OK) return st;
+  if (st != HC_OK || !isfinite(giver->fastest)) return st; /* nothing is slowed at this frequency */
   const double unit = giver->length / ti->length;
   begin(of, s->k, s->monitor);
   st = by_chords(of, reach / unit, fmax(enough, orbit_scatter(giver, s->k)) / unit);
@@ -857,7 +857,7 @@ static hc_status confirm_coarsely(shoot *s, double off, double attainable)
   const double fine = ti->tolerance, by_tolerance = attainable / fine;
   hc_status st = HC_OK;
   for (double expected = off; expected > coarse_until * attainable && st == HC_OK;) {
-    double length;
+    double length = NAN;
     st = timeint_set_tolerance(ti, fmin(fmax(coarse_scatter * expected / by_tolerance, fine), coarsest));
     if (st == HC_OK) st = integrate_and_step(s, &length, NULL);
     if (st != HC_OK || !(length <= as_expected * expected)) break;
