@@ -145,6 +145,7 @@ static hc_status steady_from_orbit(steady_work *w, double omega, const hbm_curve
   const double *X = at->X + (size_t)k * at->n_coef;
   char start[32];
   hc_status st = comparison_orbit_start(w->response.hbm, X, omega, w->state);
+  if (st == HC_NO_MEMORY) return st;
   if (st != HC_OK) return add_failure(w, STEADY_HBM, st, omega);
   snprintf(start, sizeof start, "hbm branch %d", at->points[k].branch);
   return steady_settle(w, omega, start, HC_OK);
