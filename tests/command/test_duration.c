@@ -59,8 +59,8 @@ static void a_short_one_is_not(CHECK_STATE)
                                      "transient " CASE_2 " --at 8,9",
                                      "gate " CASE_2 " --at 8,9",
                                      "report " CASE_2 " --output /dev/null --at 8",
-                                     "verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns "
-                                     "omega=1,harmonic_1=2",
+                                     ("verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns "
+                                      "omega=1,harmonic_1=2"),
                                      "compare cases/structures/chain3.yaml --at 0.8"};
   for (size_t i = 0; i < sizeof runs / sizeof *runs; ++i) {
     char line[512], out[4096];
