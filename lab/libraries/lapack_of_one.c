@@ -143,3 +143,16 @@ void dgemm_(const char *transpose_a, const char *transpose_b, const int *m, cons
       *to = *beta == 0 ? *alpha * sum : *alpha * sum + *beta * *to;
     }
 }
+
+/* y := alpha A x + beta y. */
+void dgemv_(const char *transposed, const int *m, const int *n, const double *alpha, const double *a, const int *lda,
+            const double *x, const int *step_x, const double *beta, double *y, const int *step_y,
+            size_t transposed_length)
+{
+  (void)transposed, (void)step_x, (void)step_y, (void)transposed_length; /* "N", 1, 1 */
+  for (int i = 0; i < *m; ++i) {
+    double sum = 0;
+    for (int j = 0; j < *n; ++j) sum += a[i + *lda * j] * x[j];
+    y[i] = *beta == 0 ? *alpha * sum : *alpha * sum + *beta * y[i];
+  }
+}
