@@ -301,6 +301,18 @@ const char *structure_response_name(const scene_structure *s, int r, char *text,
   return text;
 }
 
+/* A matrix, or its symmetric part where no more than the rounding of a reduction is between the two: the methods for
+ * symmetric structures (modes of their own, exact to rounding and faster) ask for equal halves. */
+static void put_matrix(int n, const double *given, double *to)
+{
+  const size_t ld = (size_t)n;
+  int row, column;
+  memcpy(to, given, ld * ld * sizeof *to);
+  if (structure_unsymmetric(n, given, &row, &column)) return;
+  for (size_t j = 0; j < ld; ++j)
+    for (size_t i = 0; i < ld; ++i) to[i + ld * j] = 0.5 * given[i + ld * j] + 0.5 * given[j + ld * i];
+}
+
 hc_status structure_model(const scene_structure *s, model **out)
 {
   int harmonic[HBM_MAX_HARMONICS + 1];
@@ -309,9 +321,9 @@ hc_status structure_model(const scene_structure *s, model **out)
   hc_status st = model_new(s->n, n_loads, n_contacts, structure_response_count(s), out);
   if (st != HC_OK) return st;
   model *m = *out;
-  memcpy(m->mass, s->mass.v, n * vector);
-  memcpy(m->damping, s->damping.v, n * vector);
-  memcpy(m->stiffness, s->stiffness.v, n * vector);
+  put_matrix(s->n, s->mass.v, m->mass);
+  put_matrix(s->n, s->damping.v, m->damping);
+  put_matrix(s->n, s->stiffness.v, m->stiffness);
   for (int l = 0; l < n_loads; ++l) {
     model_load *to = &m->loads[l];
     to->harmonic = harmonic[l];

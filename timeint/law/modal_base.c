@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "model/modes.h"
+#include "numerics/dense.h"
 #include "numerics/norm.h"
 
 static const double rounding = 1e-13; /* of what is left beside the diagonal of C, relative to that */
@@ -22,14 +23,6 @@ static void times(int n, const double *A, const double *x, double *y)
 static void transposed_times(int n, const double *A, const double *x, double *y)
 {
   for (int col = 0; col < n; ++col) y[col] = dot_product(n, A + (size_t)col * (size_t)n, x);
-}
-
-static bool is_symmetric(int n, const double *A)
-{
-  for (size_t col = 0; col < (size_t)n; ++col)
-    for (size_t row = 0; row < col; ++row)
-      if (A[col * (size_t)n + row] != A[row * (size_t)n + col]) return false;
-  return true;
 }
 
 /* out := phi^T A phi, with room for one vector. */
@@ -92,7 +85,7 @@ static void fill(modal_base *b, const model *m, const double *omega2, double *ve
   const int n = b->n;
   const size_t ld = (size_t)n, contacts = (size_t)b->n_contacts, loads = (size_t)b->n_loads;
   const double *phi = b->shape;
-  b->diagonal_K = is_symmetric(n, m->stiffness);
+  b->diagonal_K = dense_is_symmetric(n, m->stiffness);
   if (b->diagonal_K) memcpy(b->K, omega2, ld * sizeof *b->K);
   else to_modes(n, phi, m->stiffness, vector, b->K);
   to_modes(n, phi, m->damping, vector, b->C);
