@@ -3,9 +3,11 @@
 #include <float.h>
 
 #include "base/constants.h"
+#include "numerics/norm.h"
 #include "tests/check.h"
 #include "tests/timeint/drawn.h"
 #include "timeint/closed_form/integrate_closed_form.h"
+#include "timeint/cvode/events_newton.h"
 #include "timeint/cvode/integrate_events.h"
 #include "timeint/cvode/integrate_regularised.h"
 #include "timeint/steady/contact_watch.h"
@@ -247,6 +249,92 @@ static void newton_solves_the_dense_equations(CHECK_STATE)
 }
 
 /* ---- the exact law --------------------------------------------------------------------------------------- */
+
+/* A state of the exact law's equations by CVODE, y = (x, p, z). */
+typedef struct between_events {
+  drawn d;
+  contact_track track[MOST_CONTACTS];
+  contact_forces_linear law[MOST_CONTACTS];
+  int own_of[MOST_CONTACTS], n, turning;
+  double y[MOST];
+} between_events;
+
+static void draw_between_events(uint64_t *seed, between_events *b)
+{
+  draw(seed, TRANSIENT_LAW_EXACT, &b->d);
+  const scaled_model *m = &b->d.scaled;
+  b->n = 2 * m->n, b->turning = 0;
+  for (int i = 0; i < b->n; ++i) b->y[i] = random_signed(seed);
+  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
+    const law_kind *kind = m->contact[j].kind;
+    const contact_motion at = scaled_motion_at(m, j, b->y);
+    const double w[2] = {random_signed(seed), random_signed(seed)};
+    contact_track_begin(&b->track[j], &m->contact[j], &at, w);
+    b->own_of[j] = -1;
+    if (!kind->own_begin) continue;
+    b->own_of[j] = b->n - 2 * m->n;
+    b->y[b->n++] = b->track[j].turns ? kind->own_begin(&b->track[j]) : 0;
+    b->turning += b->track[j].turns;
+  }
+  for (int j = 0; j < m->n_contacts; ++j) b->law[j] = contact_track_forces(&b->track[j], &m->contact[j]);
+}
+
+/* dy at y: forces and rates contact by contact. */
+static void rate_between_events(const between_events *b, const double *y, double *dy)
+{
+  const scaled_model *m = &b->d.scaled;
+  const int n = m->n;
+  memcpy(dy, y + n, (size_t)n * sizeof *dy);
+  scaled_linear_force(m, 1, y, dy + n);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const double *t = m->base->tangent + j * n, *normal = m->base->normal + j * n;
+    const contact_forces_linear *f = &b->law[j];
+    const double u = dot_product(n, t, y), v = dot_product(n, normal, y);
+    for (int i = 0; i < n; ++i)
+      dy[n + i] -= t[i] * (f->t_u * u + f->t_v * v + f->t_0) + normal[i] * (f->n_v * v + f->n_0);
+    if (m->contact[j].direction > 0 || b->own_of[j] < 0) continue;
+    const int own = 2 * n + b->own_of[j];
+    const contact_motion at = scaled_motion_at(m, j, y);
+    const law_pull pull =
+        b->track[j].turns ? m->contact[j].kind->pull(&b->track[j], &m->contact[j], &at, y[own]) : (law_pull){{0}, 0};
+    dy[own] = pull.rate;
+    for (int i = 0; i < n; ++i) dy[n + i] -= pull.t[0] * t[i] + pull.t[1] * t[n + i];
+  }
+}
+
+/* (I - gamma J) z = r by elimination, J z by differences along z: h^2 of third derivatives, those of 1/|U'|. */
+static void newton_of_the_exact_law_solves_its_equations(CHECK_STATE)
+{
+  uint64_t seed = 27;
+  int turning = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    between_events b;
+    events_newton s;
+    double z[MOST], r[MOST], f[2][MOST], size = 1;
+    draw_between_events(&seed, &b);
+    const double gamma = pow(10, -4 + 4 * random_unit(&seed)), h = 1e-5;
+    turning += b.turning;
+    for (int i = 0; i < b.n; ++i) z[i] = r[i] = random_signed(&seed);
+    assert_int_equal(events_newton_make(&s, b.d.base, b.track, b.law, b.own_of), HC_OK);
+    events_newton_linearise(&s, &b.d.scaled, b.y);
+    assert_true(events_newton_factor(&s, &b.d.scaled, gamma));
+    events_newton_solve(&s, z);
+    for (int i = 0; i < b.n; ++i) size = fmax(size, fabs(z[i]));
+    for (int side = 0; side < 2; ++side) {
+      double y[MOST];
+      for (int i = 0; i < b.n; ++i) y[i] = b.y[i] + (side ? h : -h) * z[i] / size;
+      rate_between_events(&b, y, f[side]);
+    }
+    for (int i = 0; i < b.n; ++i) {
+      const double Jz = (f[1][i] - f[0][i]) * size / (2 * h);
+      CHECK_NEAR(z[i] - gamma * Jz, r[i], 1e-5 * (1 + size + gamma * fabs(Jz)), "trial %d, row %d, gamma %g", trial, i,
+                 gamma);
+    }
+    events_newton_free(&s);
+    undraw(&b.d);
+  }
+  CHECK_LE(50, turning, "slips that turn");
+}
 
 /* A motion on one line through the plane, along e, is that of the contact whose tangent is e: the same masses with
  * loads along that line, K and C the same in both directions. Rounding of some hundred steps. */
@@ -538,6 +626,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_circle_that_sticks_is_free_once),
     cmocka_unit_test(jacobian_is_the_derivative),
     cmocka_unit_test(newton_solves_the_dense_equations),
+    cmocka_unit_test(newton_of_the_exact_law_solves_its_equations),
     cmocka_unit_test(a_motion_on_a_line_is_that_of_one_tangent),
     cmocka_unit_test(turned_tangents_change_nothing),
     cmocka_unit_test(monodromy_is_the_derivative),

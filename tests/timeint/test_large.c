@@ -283,14 +283,14 @@ static int check_rate(uint64_t *seed, const drawn *d, int trial)
     assert_true(structure_newton_rate(&s, &d->scaled, 1 + at, y, dy[1]));
     for (int i = 0; i < n; ++i) size = fmax(size, fabs(dy[0][i]));
     for (int i = 0; i < n; ++i)
-      CHECK_NEAR(dy[1][i], dy[0][i], 100 * (d->scaled.n + s.n_rows) * DBL_EPSILON * size, "trial %d, rate %d", trial,
-                 i);
+      CHECK_NEAR(dy[1][i], dy[0][i], 100 * (d->scaled.n + s.step.n_rows) * DBL_EPSILON * size, "trial %d, rate %d",
+                 trial, i);
     y[random_int(seed, 0, n - 1)] = NAN;
     assert_int_equal(structure_newton_rate(&s, &d->scaled, 1, y, dy[1]), scaled_rhs(&d->scaled, 1, y, dy[0]));
     y[random_int(seed, 0, 2 * d->scaled.n - 1)] = NAN; /* whatever a slider without friction is */
     assert_false(structure_newton_rate(&s, &d->scaled, 1, y, dy[1]));
   }
-  const int entries = s.n_rows * d->scaled.n;
+  const int entries = s.step.n_rows * d->scaled.n;
   structure_newton_free(&s);
   free(y);
   return entries;

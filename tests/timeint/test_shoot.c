@@ -110,6 +110,7 @@ static double nearest_eigenvalue(double phi[3][3], double complex lambda, double
 }
 
 /* Is y on an orbit whose multiplier is *r's?
+ * - Shooting ends at a distance of `tolerance` times the size of the state (X, P), of 1 to 1.4 amplitudes.
  * - timeint.h promises the orbit z* within `tolerance` of the amplitude: |F(y) - y| <= |F(y) - F(z*)| + |z* - y| <=
  *   (|Phi| + 1) tolerance, in units of the amplitude, Phi the derivative of the period map F.
  * - A multiplier is off by what the two Phi differ by, times the condition of the eigenvalue, for which 10 is allowed.
@@ -121,7 +122,7 @@ static void check_orbit(const scene *sc, int law, scene_state y, const timeint_r
   const period_map map = map_of(*sc, law, r->omega, r->amplitude);
   const double z[3] = {y.x / r->amplitude, y.v / (r->omega * r->amplitude), y.w[0] / r->amplitude};
   double image[3] = {z[0], z[1], z[2]}, phi[3][3], norm = 0, largest;
-  CHECK_LE(r->closure, tolerance, "closure at %g", r->omega);
+  CHECK_LE(r->closure, tolerance * fmax(1, hypot(z[0], z[1])), "closure at %g", r->omega);
   apply(&map, state_at(&map.m, z), image);
   differentiate(&map, z, law == TRANSIENT_LAW_EXACT ? 1e-4 : 1e-5, phi);
   for (int i = 0; i < 9; ++i) norm = hypot(norm, phi[i / 3][i % 3]);

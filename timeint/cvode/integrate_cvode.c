@@ -10,27 +10,21 @@
 #include "base/constants.h"
 #include "numerics/sundials_compat.h"
 
+/* CVODE's linear solver is its owner's: the matrix, which has no entries, is set by the owner's CVLsLinSysFn, which
+ * makes the factors, too. */
+
 static SUNMatrix_ID kind_of_matrix(SUNMatrix a)
 {
   (void)a;
   return SUNMATRIX_CUSTOM;
 }
 
-static void release_matrix(SUNMatrix a)
-{
-  a->content = NULL; /* the caller's */
-  SUNMatFreeEmpty(a);
-}
-
-/* structure_newton.h as CVODE's linear solver: the matrix is the structure_newton itself, set by a CVLsLinSysFn; it has
- * no entries. NULL: out of memory. *s stays the caller's, and outlives both. */
-static SUNMatrix structure_solver_matrix(structure_newton *s, SUNContext ctx)
+static SUNMatrix empty_matrix(SUNContext ctx)
 {
   SUNMatrix a = SUNMatNewEmpty(ctx);
   if (!a) return NULL;
-  a->content = s;
   a->ops->getid = kind_of_matrix;
-  a->ops->destroy = release_matrix;
+  a->ops->destroy = SUNMatFreeEmpty;
   return a;
 }
 
@@ -40,7 +34,6 @@ static SUNLinearSolver_Type kind_of_solver(SUNLinearSolver ls)
   return SUNLINEARSOLVER_DIRECT;
 }
 
-/* structure_solver_set has made the factors. */
 static int setup(SUNLinearSolver ls, SUNMatrix a)
 {
   (void)ls, (void)a;
@@ -50,37 +43,29 @@ static int setup(SUNLinearSolver ls, SUNMatrix a)
 static int solve(SUNLinearSolver ls, SUNMatrix a, N_Vector x, N_Vector b, sunrealtype tolerance)
 {
   (void)a, (void)tolerance;
-  structure_newton *s = ls->content;
-  const size_t states = 2 * (size_t)s->n + (size_t)s->n_contacts;
-  if (x != b) memcpy(NV_DATA_S(x), NV_DATA_S(b), states * sizeof(double));
-  structure_newton_solve(s, NV_DATA_S(x));
+  const cvode_integrator *in = ls->content;
+  if (x != b) memcpy(NV_DATA_S(x), NV_DATA_S(b), (size_t)NV_LENGTH_S(b) * sizeof(double));
+  in->solve(in->equations, NV_DATA_S(x));
   return 0;
 }
 
 static int release_solver(SUNLinearSolver ls)
 {
-  ls->content = NULL; /* the caller's */
+  ls->content = NULL; /* the integrator */
   SUNLinSolFreeEmpty(ls);
   return 0;
 }
 
-static SUNLinearSolver structure_solver_new(structure_newton *s, SUNContext ctx)
+static SUNLinearSolver own_solver(cvode_integrator *in)
 {
-  SUNLinearSolver ls = SUNLinSolNewEmpty(ctx);
+  SUNLinearSolver ls = SUNLinSolNewEmpty(in->ctx);
   if (!ls) return NULL;
-  ls->content = s;
+  ls->content = in;
   ls->ops->gettype = kind_of_solver;
   ls->ops->setup = setup;
   ls->ops->solve = solve;
   ls->ops->free = release_solver;
   return ls;
-}
-
-int structure_solver_set(structure_newton *s, const scaled_model *m, const double *y, bool keep, double gamma)
-{
-  const int recoverable = 1;
-  if (!keep) structure_newton_linearise(s, m, y);
-  return structure_newton_factor(s, m, gamma) ? 0 : recoverable;
 }
 
 hc_status integrate_begin_period(cvode_integrator *in)
@@ -122,14 +107,17 @@ int integrate_first_flag(const int *flags, size_t n)
   return CV_SUCCESS;
 }
 
-hc_status integrate_make_parts(cvode_integrator *in, int n, int method, structure_newton *newton)
+hc_status integrate_make_parts(cvode_integrator *in, int n, int method, void *equations,
+                               void (*solve_by)(void *equations, double *r))
 {
+  in->equations = equations;
+  in->solve = solve_by;
   if (hc_sundials_context(&in->ctx)) return HC_NO_MEMORY;
   in->y = N_VNew_Serial(n, in->ctx);
   in->dky = N_VNew_Serial(n, in->ctx);
-  in->jac = newton ? structure_solver_matrix(newton, in->ctx) : SUNDenseMatrix(n, n, in->ctx);
+  in->jac = empty_matrix(in->ctx);
   if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
-  in->ls = newton ? structure_solver_new(newton, in->ctx) : SUNLinSol_Dense(in->y, in->jac, in->ctx);
+  in->ls = own_solver(in);
   in->cv = CVodeCreate(method, in->ctx);
   return in->ls && in->cv && hc_room_for(0) ? HC_OK : HC_NO_MEMORY; /* room: CVodeInit comes next */
 }

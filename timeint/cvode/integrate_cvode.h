@@ -6,10 +6,9 @@
 
 #include <cvodes/cvodes.h>
 #include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
 
-#include "timeint/cvode/structure_newton.h"
 #include "timeint/period/integrate_private.h"
 
 typedef struct cvode_integrator { /* the first member of each kind */
@@ -20,14 +19,19 @@ typedef struct cvode_integrator { /* the first member of each kind */
   bool called;     /* CVODE has been called: its first call allocates, and crashes if it cannot (sundials_compat.h) */
   SUNContext ctx;  /* made first, freed last, this integrator's alone */
   N_Vector y, dky; /* [n] what CVODE integrates; dense output */
-  SUNMatrix jac;   /* [n][n], or no entries, a structure_newton behind it */
+  SUNMatrix jac;   /* without entries */
   SUNLinearSolver ls;
+  void *equations;                           /* the linear ones of a step, the owner's, */
+  void (*solve)(void *equations, double *r); /* and how they are solved, from the right-hand side r[n] */
   void *cv;
 } cvode_integrator;
 
-/* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF), their linear equations dense or
- * by *newton, and back; freeing works half-built. */
-hc_status integrate_make_parts(cvode_integrator *in, int n, int method, structure_newton *newton);
+enum { INTEGRATE_SINGULAR = 1 }; /* what a CVLsLinSysFn answers to have CVODE try a shorter step */
+
+/* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF), whose linear ones are solved by
+ * solve_by (the owner's CVLsLinSysFn makes their factors), and back; freeing works half-built. */
+hc_status integrate_make_parts(cvode_integrator *in, int n, int method, void *equations,
+                               void (*solve_by)(void *equations, double *r));
 void integrate_free_parts(cvode_integrator *in);
 
 /* Before a period: HC_NO_MEMORY if CVODE's first call might find none. */
@@ -54,9 +58,5 @@ int integrate_first_flag(const int *flags, size_t n);
 hc_status integrate_dense_samples(const integrator *in, int r, double theta, double step, int count, double *x);
 bool integrate_no_fourier(const integrator *in, int r, double out[3]);
 hc_status integrate_cvode_tolerance(integrator *in, double tolerance);
-
-/* What a CVLsLinSysFn has to do, of *s for *m: linearised at y unless CVODE says that the last derivatives will do
- * (keep). 0, or 1 where it is singular: CVODE then tries a shorter step. */
-int structure_solver_set(structure_newton *s, const scaled_model *m, const double *y, bool keep, double gamma);
 
 #endif

@@ -20,6 +20,7 @@
 #include "numerics/sundials_compat.h"
 #include "timeint/closed_form/fundamental_matrix.h"
 #include "timeint/closed_form/motion_single.h"
+#include "timeint/cvode/events_newton.h"
 #include "timeint/cvode/integrate_cvode.h"
 
 static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
@@ -44,30 +45,31 @@ typedef struct events { /* from integrate_new_events, to integrate_free; not sha
   int n_own, n_equations;          /* 2 n, and contacts' own states (law_kind.h): the angles of e */
   int *own_of;                     /* [n_contacts] which is the contact's; -1: none */
   double *own;                     /* [n_own] where sliders are wanted */
-  double held_pull;                /* what a held direction may change of a rate until N = 0 */
-  int passed;                      /* events since the period began */
-  bool varies;                     /* the monodromy is asked for */
+  events_newton newton;
+  double held_pull; /* what a held direction may change of a rate until N = 0 */
+  int passed;       /* events since the period began */
+  bool varies;      /* the monodromy is asked for */
   fundamental_matrix variations;
   interval_modes *modes; /* for them */
 } events;
 
 /* ---- equations -------------------------------------------------------------------------------------- */
 
-/* T that is not linear in the motion, out of the forces dy + n, and the rates of contacts' own states. */
-static void subtract_curved(const events *in, const double *y, double *dy)
+/* T that is not linear in the motion, to contacts' forces, and the rates of contacts' own states into dy. */
+static void add_turning(const events *in, const double *y, double *dy)
 {
+  const step_equations *step = &in->newton.step;
   const int n = in->n;
   memset(dy + 2 * n, 0, (size_t)(in->n_equations - 2 * n) * sizeof *dy); /* without friction, too */
   if (in->n_own == 0) return;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
     const scaled_contact *c = &in->base.m->contact[j];
-    const double *t = in->base.m->base->tangent + (size_t)j * (size_t)n;
     const int own = 2 * n + in->own_of[j];
     if (!in->track[j].turns) continue;
     const contact_motion at = scaled_motion_at(in->base.m, j, y);
     const law_pull pull = c->kind->pull(&in->track[j], c, &at, y[own]);
     dy[own] = pull.rate;
-    for (int k = 0; k < n; ++k) dy[n + k] -= pull.t[0] * t[k] + pull.t[1] * t[n + k];
+    for (int a = 0; a < 2; ++a) step_equations_add(step->force, step->rows.along[j + a], pull.t[a]);
   }
 }
 
@@ -75,16 +77,19 @@ static void subtract_curved(const events *in, const double *y, double *dy)
 static void events_rate(const events *in, double theta, const double *y, double *dy)
 {
   const scaled_model *m = in->base.m;
+  const step_equations *step = &in->newton.step;
   const int n = in->n;
   scaled_linear_force(m, theta, y, dy + n);
+  contact_rows_motion(&step->rows, y, step->q);
+  memset(step->force, 0, (size_t)step->n_rows * sizeof *step->force);
   for (int j = 0; j < in->n_contacts; ++j) {
     const contact_forces_linear *f = &in->law[j];
-    const double *t = m->base->tangent + (size_t)j * (size_t)n, *normal = m->base->normal + (size_t)j * (size_t)n;
-    const double u = dot_product(n, t, y), v = dot_product(n, normal, y);
-    const double along = f->t_u * u + f->t_v * v + f->t_0, across = f->n_v * v + f->n_0;
-    for (int i = 0; i < n; ++i) dy[n + i] -= along * t[i] + across * normal[i];
+    const double u = contact_rows_at(step->q, step->rows.along[j]), v = contact_rows_at(step->q, step->rows.across[j]);
+    step_equations_add(step->force, step->rows.along[j], f->t_u * u + f->t_v * v + f->t_0);
+    step_equations_add(step->force, step->rows.across[j], f->n_v * v + f->n_0);
   }
-  subtract_curved(in, y, dy);
+  add_turning(in, y, dy);
+  contact_rows_pull(&step->rows, 1, step->force, dy + n);
   memcpy(dy, y + n, (size_t)n * sizeof *dy);
 }
 
@@ -100,52 +105,18 @@ static int events_rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
   return -1;
 }
 
-/* What forces that are not linear in the motion add. */
-static void fill_curved(const events *in, const double *y, size_t ld, double *a)
+/* CVODE's Newton matrix. */
+static int linear_system(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix matrix, sunbooleantype keep,
+                         sunbooleantype *renewed, sunrealtype gamma, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
 {
-  const scaled_model *m = in->base.m;
-  const size_t n = (size_t)in->n;
-  for (int j = 0; j < in->n_contacts; j += scaled_directions(m, j)) {
-    const scaled_contact *c = &m->contact[j];
-    const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
-    if (!in->track[j].turns) continue;
-    const size_t own = 2 * n + (size_t)in->own_of[j];
-    const contact_motion at = scaled_motion_at(m, j, y);
-    const law_slopes s = c->kind->slopes(&in->track[j], c, &at, y[own]);
-    for (size_t k = 0; k < 2; ++k)
-      for (size_t row = 0; row < n; ++row) {
-        for (size_t col = 0; col < n; ++col) a[col * ld + n + row] -= t[k * n + row] * s.t_v[k] * normal[col];
-        a[own * ld + n + row] -= t[k * n + row] * s.t_own[k];
-      }
-    for (size_t col = 0; col < n; ++col) {
-      a[col * ld + own] = s.rate_v * normal[col];
-      a[(n + col) * ld + own] = s.rate_du[0] * t[col] + s.rate_du[1] * t[n + col];
-    }
-    a[own * ld + own] = s.rate_own;
-  }
+  (void)theta, (void)dy, (void)matrix, (void)t1, (void)t2, (void)t3;
+  events *in = self;
+  *renewed = !keep;
+  if (!keep) events_newton_linearise(&in->newton, in->base.m, NV_DATA_S(y));
+  return events_newton_factor(&in->newton, in->base.m, gamma) ? 0 : INTEGRATE_SINGULAR;
 }
 
-static int events_jacobian(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix jac, void *self, N_Vector t1,
-                           N_Vector t2, N_Vector t3)
-{
-  (void)theta, (void)dy, (void)t1, (void)t2, (void)t3;
-  const events *in = self;
-  const scaled_model *m = in->base.m;
-  const size_t n = (size_t)in->n, ld = (size_t)in->n_equations;
-  double *a = SM_DATA_D(jac);
-  scaled_linear_jacobian(m, ld, a);
-  for (int j = 0; j < in->n_contacts; ++j) {
-    const contact_forces_linear *f = &in->law[j];
-    const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
-    for (size_t col = 0; col < n; ++col) {
-      const double along = f->t_u * t[col] + f->t_v * normal[col], across = f->n_v * normal[col];
-      if (along == 0 && across == 0) continue;
-      for (size_t row = 0; row < n; ++row) a[col * ld + n + row] -= t[row] * along + normal[row] * across;
-    }
-  }
-  fill_curved(in, NV_DATA_S(y), ld, a);
-  return 0;
-}
+static void solve(void *newton, double *r) { events_newton_solve(newton, r); }
 
 /* ---- guards ------------------------------------------------------------------------------------------- */
 
@@ -464,6 +435,7 @@ static void release(integrator *base)
   fundamental_matrix_free(&in->variations);
   interval_modes_free(in->modes);
   integrate_free_parts(&in->base);
+  events_newton_free(&in->newton);
   free(in->track);
   free(in->law);
   free(in->info);
@@ -495,7 +467,7 @@ static hc_status make_cvode(events *in)
       CVodeSStolerances(in->base.cv, in->tolerance, in->tolerance),
       CVodeSetUserData(in->base.cv, in),
       CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
-      CVodeSetJacFn(in->base.cv, events_jacobian),
+      CVodeSetLinSysFn(in->base.cv, linear_system),
       in->n_contacts > 0 ? CVodeSetRootDirection(in->base.cv, in->info) : CV_SUCCESS,
       CVodeSetEtaFixedStepBounds(in->base.cv, 0.9, 1.2), /* from 0, 1.5: a third fewer steps, and a tenth of the
                                                             error (c2 at omega 9) */
@@ -532,7 +504,8 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   if (st == HC_OK) in->own = in->rate + in->n_equations;
   if (st == HC_OK) st = interval_modes_new(base, INTERVAL_MODES_STIFF, &in->modes);
   if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes);
-  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n_equations, bdf ? CV_BDF : CV_ADAMS, NULL);
+  if (st == HC_OK) st = events_newton_make(&in->newton, base, in->track, in->law, in->own_of);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n_equations, bdf ? CV_BDF : CV_ADAMS, &in->newton, solve);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {
     *out = &in->base.base;

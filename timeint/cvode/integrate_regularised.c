@@ -9,12 +9,11 @@
 #include <cvodes/cvodes.h>
 #include <cvodes/cvodes_ls.h>
 #include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
 
 #include "base/constants.h"
 #include "numerics/sundials_compat.h"
 #include "timeint/cvode/integrate_cvode.h"
+#include "timeint/cvode/structure_newton.h"
 
 static const double variation_tolerance = 1e-6; /* of the variations' steps; they are about 1 */
 
@@ -42,15 +41,18 @@ static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
   return -1;
 }
 
-/* CVODE's Newton matrix. */
+/* CVODE's Newton matrix. Singular: CVODE then tries a shorter step. */
 static int linear_system(sunrealtype theta, N_Vector y, N_Vector dy, SUNMatrix matrix, sunbooleantype keep,
                          sunbooleantype *renewed, sunrealtype gamma, void *self, N_Vector t1, N_Vector t2, N_Vector t3)
 {
   (void)theta, (void)dy, (void)matrix, (void)t1, (void)t2, (void)t3;
   regularised *in = self;
   *renewed = !keep;
-  return structure_solver_set(&in->newton, in->base.m, NV_DATA_S(y), keep, gamma);
+  if (!keep) structure_newton_linearise(&in->newton, in->base.m, NV_DATA_S(y));
+  return structure_newton_factor(&in->newton, in->base.m, gamma) ? 0 : INTEGRATE_SINGULAR;
 }
+
+static void solve(void *newton, double *r) { structure_newton_solve(newton, r); }
 
 /* The variational equations s_j' = J s_j. */
 static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Vector *s, N_Vector *ds, void *self,
@@ -110,7 +112,7 @@ static hc_status make_parts(regularised *in, const modal_base *base)
 {
   hc_status st = structure_newton_make(&in->newton, base);
   if (st == HC_OK) st = structure_newton_make(&in->variation, base);
-  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, &in->newton);
+  if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, &in->newton, solve);
   if (st != HC_OK) return st;
   in->s = N_VCloneVectorArray(in->n, in->base.y); /* room: asked for above */
   in->s_tolerance = calloc((size_t)in->n, sizeof *in->s_tolerance);

@@ -147,7 +147,8 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
   return isfinite(sum);
 }
 
-void scaled_linear_jacobian(const scaled_model *m, size_t ld, double *jac)
+/* Without contacts: jac[ld * ld], ld >= 2 n, of which the rest is 0. */
+static void linear_jacobian(const scaled_model *m, size_t ld, double *jac)
 {
   const modal_base *b = m->base;
   const size_t n = (size_t)m->n;
@@ -180,7 +181,7 @@ static void add_direction(double *jac, size_t n, size_t ld, size_t w, const doub
 void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
 {
   const size_t n = (size_t)m->n, ld = (size_t)m->n_states;
-  scaled_linear_jacobian(m, ld, jac);
+  linear_jacobian(m, ld, jac);
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     const size_t w = 2 * n + (size_t)j;
     const int directions = scaled_directions(m, j);

@@ -43,9 +43,6 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
 /* jac[n_states * n_states], column by column: d dy[i] / d y[j] at jac[i + j n_states]. */
 void scaled_jacobian(const scaled_model *m, const double *y, double *jac);
 
-/* The same without contacts: jac[ld * ld], ld >= 2 n, of which the rest is 0. */
-void scaled_linear_jacobian(const scaled_model *m, size_t ld, double *jac);
-
 /* out[n] := by_load p(theta) - by_C C P - by_K K X: all but the contacts. */
 void scaled_linear_force(const scaled_model *m, double theta, const double *y, double *out);
 

@@ -20,7 +20,7 @@ static void matrices_are_by_columns(CHECK_STATE)
   model_free(m);
 }
 
-/* Halves that rounding made unequal become equal, half way; what differs by more than 1e-10 of its diagonal is meant. */
+/* Halves that rounding made unequal become equal, half way; beyond 1e-10 of the diagonal they are meant. */
 static void what_is_symmetric_but_for_rounding_is_symmetric(CHECK_STATE)
 {
   for (int meant = 0; meant < 2; ++meant) {

@@ -1,0 +1,37 @@
+/* events_newton.h - the linear equations of an implicit step of a structure with the exact law, between two changes of
+ * contact state, where y = (x, p, z), z the directions of slips that turn (law_kind.h):
+ *
+ *     (I - gamma J) (x, p, z) = (a, b, d):   step_equations.h with
+ *     f_j = t_u u_j + t_v v_j of contact_track_forces;   where it turns also f_k += s_v v + s_z z, with
+ *     z = d + gamma (r_v v + r_z z + sum_k r_k t_k . p),   gamma t_k . p = u_k - t_k . a
+ *
+ * Nothing is allocated after events_newton_make. */
+#ifndef HC_TIMEINT_EVENTS_NEWTON_H
+#define HC_TIMEINT_EVENTS_NEWTON_H
+
+#include "timeint/cvode/step_equations.h"
+#include "timeint/law/contact_track.h"
+
+typedef struct events_newton { /* from events_newton_make, to events_newton_free */
+  step_equations step;
+  const contact_track *track;       /* [n_contacts] the owner's, as of all that follows: */
+  const contact_forces_linear *law; /* [n_contacts] */
+  const int *own_of;                /* [n_contacts] which entry of z is the contact's; -1: none */
+  law_slopes *slopes;               /* [n_contacts] of those that turn, where the equations were linearised */
+} events_newton;
+
+/* HC_NO_MEMORY; free it in any case. */
+hc_status events_newton_make(events_newton *s, const modal_base *base, const contact_track *track,
+                             const contact_forces_linear *law, const int *own_of);
+void events_newton_free(events_newton *s);
+
+/* The law's derivatives at y. */
+void events_newton_linearise(events_newton *s, const scaled_model *m, const double *y);
+
+/* Factors for that gamma and *m's coefficients; false: singular. */
+bool events_newton_factor(events_newton *s, const scaled_model *m, double gamma);
+
+/* r[] := (I - gamma J)^-1 r. */
+void events_newton_solve(events_newton *s, double *r);
+
+#endif

@@ -1,0 +1,163 @@
+/* step_equations.c - see step_equations.h. Proof: tests/timeint/test_large.c. */
+#include "timeint/cvode/step_equations.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/dense.h"
+
+hc_status step_equations_make(step_equations *s, const modal_base *base)
+{
+  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts;
+  const bool diagonal = base->diagonal_K && base->diagonal_C;
+  *s = (step_equations){.base = base, .n = base->n, .n_contacts = base->n_contacts};
+  if (contact_rows_make(&s->rows, base) != HC_OK) return HC_NO_MEMORY;
+  s->n_rows = s->rows.count;
+  const size_t rows = (size_t)s->n_rows;
+  const struct {
+    double **array;
+    size_t count;
+  } parts[] = {{&s->D, diagonal ? n : n * n},
+               {&s->pulled, n * rows},
+               {&s->compliant, rows * rows},
+               {&s->small, rows * rows},
+               {&s->force, rows},
+               {&s->q, rows},
+               {&s->p, n}};
+  size_t count = 0, used = 0;
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
+  s->numbers = calloc(count, sizeof *s->numbers);
+  s->contact = calloc(contacts + 1, sizeof *s->contact);
+  s->pivot = calloc(rows + n, sizeof *s->pivot);
+  if (!s->numbers || !s->contact || !s->pivot) return HC_NO_MEMORY;
+  s->small_pivot = s->pivot + n;
+  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
+    *parts[k].array = s->numbers + used;
+    used += parts[k].count;
+  }
+  return HC_OK;
+}
+
+void step_equations_free(step_equations *s)
+{
+  free(s->numbers);
+  free(s->contact);
+  free(s->pivot);
+  contact_rows_free(&s->rows);
+}
+
+double step_equations_motion(const step_equations *s, int j, int directions, double u[2])
+{
+  u[0] = contact_rows_at(s->q, s->rows.along[j]);
+  u[1] = directions == 2 ? contact_rows_at(s->q, s->rows.along[j + 1]) : 0;
+  return contact_rows_at(s->q, s->rows.across[j]);
+}
+
+/* ---- D ------------------------------------------------------------------------------------------------- */
+
+static bool is_diagonal(const step_equations *s) { return s->base->diagonal_K && s->base->diagonal_C; }
+
+static void add(int n, bool from_diagonal, double by, const double *A, bool to_diagonal, double *D)
+{
+  const size_t step = (size_t)n + 1;
+  if (!from_diagonal)
+    for (size_t i = 0; i < (size_t)n * (size_t)n; ++i) D[i] += by * A[i];
+  else
+    for (size_t i = 0; i < (size_t)n; ++i) D[to_diagonal ? i : i * step] += by * A[i];
+}
+
+static bool factor_D(step_equations *s)
+{
+  const modal_base *b = s->base;
+  const bool diagonal = is_diagonal(s);
+  const size_t n = (size_t)s->n, step = diagonal ? 1 : n + 1;
+  memset(s->D, 0, (diagonal ? n : n * n) * sizeof *s->D);
+  for (size_t i = 0; i < n; ++i) s->D[i * step] = 1;
+  add(s->n, b->diagonal_C, s->gamma * s->by_C, b->C, diagonal, s->D);
+  add(s->n, b->diagonal_K, s->gamma * s->gamma * s->by_K, b->K, diagonal, s->D);
+  if (!diagonal) return dense_factor(s->n, s->D, s->pivot) == HC_OK;
+  for (size_t i = 0; i < n; ++i)
+    if (!(fabs(s->D[i]) > 0)) return false;
+  return true;
+}
+
+static void solve_D(const step_equations *s, double *x)
+{
+  if (!is_diagonal(s)) {
+    dense_solve(s->n, s->D, s->pivot, 1, x);
+    return;
+  }
+  for (int i = 0; i < s->n; ++i) x[i] /= s->D[i];
+}
+
+/* ---- the contacts ---------------------------------------------------------------------------------------- */
+
+/* Column `row` of I + gamma^2 G S gets what a force on row `by` that is `force` per unit of it does. */
+static void add_force(step_equations *s, int by, double force, int row)
+{
+  if (by < 0 || row < 0) return;
+  const size_t n = (size_t)s->n_rows;
+  const double *G = s->compliant + (size_t)by * n;
+  double *column = s->small + (size_t)row * n;
+  for (size_t i = 0; i < n; ++i) column[i] += s->gamma * s->gamma * force * G[i];
+}
+
+/* G = B D^-1 B^T. */
+static void find_compliance(step_equations *s)
+{
+  const size_t n = (size_t)s->n, rows = (size_t)s->n_rows;
+  memcpy(s->pulled, s->rows.row, n * rows * sizeof *s->pulled);
+  for (size_t r = 0; r < rows; ++r) solve_D(s, s->pulled + r * n);
+  dense_multiply(s->n_rows, s->n_rows, s->n, s->rows.turned, s->pulled, s->compliant);
+}
+
+bool step_equations_factor(step_equations *s, const scaled_model *m)
+{
+  const size_t rows = (size_t)s->n_rows;
+  s->by_K = m->by_K;
+  s->by_C = m->by_C;
+  if (!factor_D(s)) return false;
+  find_compliance(s);
+  memset(s->small, 0, rows * rows * sizeof *s->small);
+  for (size_t r = 0; r < rows; ++r) s->small[r * (rows + 1)] = 1;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const step_contact *f = &s->contact[j];
+    for (int a = 0; a < f->directions; ++a) {
+      for (int b = 0; b < f->directions; ++b) add_force(s, s->rows.along[j + a], f->by_u[a][b], s->rows.along[j + b]);
+      add_force(s, s->rows.along[j + a], f->by_v[a], s->rows.across[j]);
+      add_force(s, s->rows.across[j + a], f->n_v, s->rows.across[j]);
+    }
+  }
+  return dense_factor(s->n_rows, s->small, s->small_pivot) == HC_OK;
+}
+
+/* s->force += S q */
+static void add_forces(step_equations *s)
+{
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const step_contact *f = &s->contact[j];
+    double u[2];
+    const double v = step_equations_motion(s, j, f->directions, u);
+    for (int a = 0; a < f->directions; ++a) {
+      const double t = f->by_v[a] * v + f->by_u[a][0] * u[0] + f->by_u[a][1] * u[1];
+      step_equations_add(s->force, s->rows.along[j + a], t);
+      step_equations_add(s->force, s->rows.across[j + a], f->n_v * v);
+    }
+  }
+}
+
+void step_equations_solve(step_equations *s, double *a, double *b)
+{
+  const int n = s->n;
+  const double gamma = s->gamma;
+  modal_base_subtract_K(s->base, gamma * s->by_K, a, b);
+  solve_D(s, b); /* p without contacts */
+  for (int i = 0; i < n; ++i) s->p[i] = a[i] + gamma * b[i];
+  contact_rows_motion(&s->rows, s->p, s->q);
+  dense_times_vector(s->n_rows, s->n_rows, -gamma * gamma, s->compliant, s->force, 1, s->q);
+  dense_solve(s->n_rows, s->small, s->small_pivot, 1, s->q);
+  add_forces(s);
+  dense_times_vector(n, s->n_rows, -gamma, s->pulled, s->force, 1, b);
+  for (int i = 0; i < n; ++i) a[i] += gamma * b[i];
+}
