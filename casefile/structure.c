@@ -301,6 +301,20 @@ const char *structure_response_name(const scene_structure *s, int r, char *text,
   return text;
 }
 
+bool structure_unsymmetric(int n, const double *A, int *row, int *column)
+{
+  const double tolerance = 1e-10;
+  const size_t ld = (size_t)n;
+  for (size_t j = 0; j < ld; ++j)
+    for (size_t i = j + 1; i < ld; ++i) {
+      const double both = sqrt(fabs(A[i * (ld + 1)])) * sqrt(fabs(A[j * (ld + 1)]));
+      if (fabs(A[i + ld * j] - A[j + ld * i]) <= tolerance * both) continue;
+      *row = (int)i, *column = (int)j;
+      return true;
+    }
+  return false;
+}
+
 /* A matrix, or its symmetric part where no more than the rounding of a reduction is between the two: the methods for
  * symmetric structures (modes of their own, exact to rounding and faster) ask for equal halves. */
 static void put_matrix(int n, const double *given, double *to)

@@ -163,11 +163,11 @@ contact structure_contact_law(const structure_contact *c);
 /* Cosine and sine of an angle [deg], exact at multiples of 90. */
 void structure_cosine_sine(double angle_deg, double *cosine, double *sine);
 
-/* ---- what its matrices must be: rules, without words (structure_check.c) ---- */
-
 /* Is A[n][n] not symmetric, beyond the 1e-10 of its diagonal that a reduction leaves? Then the first such entry, from
  * 0, i > j. */
 bool structure_unsymmetric(int n, const double *A, int *i, int *j);
+
+/* ---- what its matrices must be: rules, without words (structure_check.c) ---- */
 
 /* *order = 0 for a symmetric M[n][n] that is positive definite beyond rounding; else the order of its first leading
  * minor that is not positive. HC_NO_MEMORY. */

@@ -11,18 +11,6 @@
 
 #define AT(A, i, j) ((A)[(size_t)(i) + (size_t)n * (size_t)(j)])
 
-bool structure_unsymmetric(int n, const double *A, int *row, int *column)
-{
-  const double tolerance = 1e-10;
-  for (int j = 0; j < n; ++j)
-    for (int i = j + 1; i < n; ++i) {
-      if (fabs(AT(A, i, j) - AT(A, j, i)) <= tolerance * sqrt(fabs(AT(A, i, i))) * sqrt(fabs(AT(A, j, j)))) continue;
-      *row = i, *column = j;
-      return true;
-    }
-  return false;
-}
-
 /* Cholesky, by columns: what is left of a pivot is compared with what rounding makes of 0. */
 static int factor(int n, double *L)
 {

@@ -10,7 +10,6 @@
 #define HC_TIMEINT_MASS_SCALING_H
 
 #include "timeint/law/modal_base.h"
-#include "timeint/steady/steady.h"
 
 /* [omega] Of the plates (cases/structures/plates.yaml, 138 Hz) amplitudes are off by 1.8e-5, 1.1e-6, 4e-7, 3e-9 with
  * 100, 200, 400, 800, and a chord step with that matrix leaves 0.17, 0.02 of the distance with 100, 200. */
@@ -25,11 +24,5 @@ bool mass_scaling_may_pay(const modal_base *whole);
 /* [rad/time] The fastest mode to be left at omega: MASS_SCALING_FASTEST omega, to within 9 %, so that neighbouring
  * frequencies have the same; INFINITY where that is not half of what the structure has. */
 double mass_scaling_fastest(const modal_base *whole, double omega);
-
-/* What r[n], CVODE's results of the first n responses with slowed modes, are off by: the distance of the orbit of k
- * periods through closed->y, which has none, from that with slowed modes, closed->slowed, and that one's from r: what
- * integration and the regularisation cost. out[n]. Errors of orbits. */
-hc_status mass_scaling_error(timeint *closed, int k, const hc_monitor *monitor, int n, const timeint_result *r,
-                             motion_error *out);
 
 #endif

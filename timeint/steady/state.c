@@ -5,6 +5,10 @@
 
 #include "base/constants.h"
 #include "numerics/norm.h"
+#include "timeint/closed_form/integrate_closed_form.h"
+#include "timeint/cvode/integrate_events.h"
+#include "timeint/cvode/integrate_regularised.h"
+#include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/timeint_private.h"
 
 /* The unit of length for a model at rest without force: the largest gap, or 1. */
@@ -66,6 +70,42 @@ static double size_of(const timeint *ti)
   double size = 0;
   for (int i = 0; i < 2 * ti->n_dof; ++i) size = hypot(size, ti->y[i]);
   return size;
+}
+
+static hc_status make_integrator(const timeint *ti, transient_law law, integrator **out)
+{
+  const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM, exact = law == TRANSIENT_LAW_EXACT;
+  if (closed) return integrate_new_closed_form(ti->base, INTERVAL_MODES_STIFF, out);
+  return (exact ? integrate_new_events : integrate_new_regularised)(ti->base, ti->tolerance, out);
+}
+
+hc_status timeint_make_integrators(timeint *ti)
+{
+  const bool exact = ti->how.law == TRANSIENT_LAW_EXACT;
+  if (ti->in) ti->periods_before += integrate_periods(ti->in);
+  if (ti->exact) ti->periods_before += integrate_periods(ti->exact);
+  integrate_free(ti->in);
+  integrate_free(ti->exact);
+  ti->in = ti->exact = NULL;
+  ti->scaled.base = ti->base;
+  hc_status st = make_integrator(ti, ti->how.law, &ti->in);
+  if (st == HC_OK && !exact && !ti->how.scout) st = make_integrator(ti, TRANSIENT_LAW_EXACT, &ti->exact);
+  return st;
+}
+
+hc_status timeint_slow_modes(timeint *ti, double omega)
+{
+  const double fastest = ti->may_slow ? mass_scaling_fastest(ti->whole, omega) : INFINITY;
+  modal_base *slowed = NULL;
+  if (fastest == ti->fastest) return HC_OK;
+  hc_status st = isfinite(fastest) ? modal_base_slowed(ti->whole, ti->model, fastest, &slowed) : HC_OK;
+  if (st != HC_OK) return st;
+  modal_base *before = ti->base;
+  ti->base = slowed ? slowed : ti->whole;
+  ti->fastest = fastest;
+  st = timeint_make_integrators(ti);
+  if (before != ti->whole) modal_base_free(before);
+  return st;
 }
 
 hc_status timeint_begin(timeint *ti, double omega, const double *state)

@@ -58,6 +58,9 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double *memory;            /* of all the arrays above                                                       */
 };
 
+/* ti->in and ti->exact, of ti->base, whatever they were of before. HC_NO_MEMORY. */
+hc_status timeint_make_integrators(timeint *ti);
+
 /* ti->base and its integrators for omega, where fast modes may be slowed. HC_NO_MEMORY. */
 hc_status timeint_slow_modes(timeint *ti, double omega);
 
