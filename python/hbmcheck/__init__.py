@@ -12,11 +12,11 @@ friction and gap contacts, and another program's curve held against both.
 
 The equations are those of library/hbmcheck.h. Units: any consistent set; omega is in rad per unit time.
 """
-from ._errors import BadInput, Error, Interrupted, Stopped
+from ._errors import BadInput, Error, Interrupted, MissingFile, Stopped
 from ._library import library_version
 from .model import Model
 from .results import Comparison, ContactForce, Curve, Solutions, Transient, Verification
 
 __version__ = "0.1.0"
-__all__ = ["BadInput", "Comparison", "ContactForce", "Curve", "Error", "Interrupted", "Model", "Solutions", "Stopped",
-           "Transient", "Verification", "library_version"]
+__all__ = ["BadInput", "Comparison", "ContactForce", "Curve", "Error", "Interrupted", "MissingFile", "Model", "Solutions",
+           "Stopped", "Transient", "Verification", "library_version"]

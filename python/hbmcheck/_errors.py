@@ -10,6 +10,10 @@ class BadInput(Error, ValueError):
     """A case file or an argument is wrong: FILE:LINE:COLUMN, what is wrong, and what was expected."""
 
 
+class MissingFile(Error, FileNotFoundError):
+    """There is no such file."""
+
+
 class Stopped(Error, RuntimeError):
     """The work could not be finished.
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import ctypes
+import difflib
 import os
 from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
@@ -10,6 +11,7 @@ import numpy as np
 from . import _structs as structs
 from ._arrays import finite, omegas, pointer
 from ._compose import case_text
+from ._errors import MissingFile
 from ._library import BAD_INPUT, BadInput, check, lib
 from ._monitor import Watch
 from ._owner import Owner
@@ -18,6 +20,8 @@ from .results import (Comparison, ContactForce, Curve, Solutions, Transient, Ver
 
 Progress = Callable[[Optional[float]], Any]
 MESSAGE = 2048  # holds any
+SHOWN = 6  # names in repr()
+SECTIONS = ("title", "units", "hbm", "transient", "compare", "gate")  # of a case file, beside those that have a name here
 
 
 def _assignments(settings):
@@ -33,13 +37,21 @@ def _assignments(settings):
     return len(listed), (ctypes.c_char_p * max(len(listed), 1))(*listed)
 
 
-def _case(call, settings):
-    """A case by call(n_set, set, message, size, place)."""
+def _case(call, settings, file=None):
+    """A case by call(n_set, set, message, size, place), from that file if it is one's."""
     place, message = ctypes.c_void_p(), ctypes.create_string_buffer(MESSAGE)
     n, listed = _assignments(settings)
     status = call(n, listed, message, MESSAGE, ctypes.byref(place))
+    if file is not None and status not in (0, BAD_INPUT) and not os.path.exists(file):
+        raise MissingFile(message.value.decode(errors="replace"))
     check(status, message.value.decode(errors="replace"))
     return place.value
+
+
+def _listed(what, names):
+    """3 contacts (a, b, c)."""
+    shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
+    return f"{len(names)} {what}{'' if len(names) == 1 else 's'}" + (f" ({shown})" if names else "")
 
 
 def _name(call, case, number):
@@ -65,7 +77,8 @@ class Model:
     sections  others of a case file: title="...", hbm={"harmonics": 20}, transient={...}, compare={...}, gate={...}
 
     BadInput: something is wrong, in words; .text of a model is the case file that stands for it.
-    A model may be used by several threads, one at a time; to work at the same time each takes a model of its own.
+    A model may be used by several threads, one at a time; to work at the same time each takes a model of its own. A pickle
+    of it holds its text, or the name of its file, which is read again.
     """
 
     text: Optional[str]
@@ -73,6 +86,10 @@ class Model:
     def __init__(self, M: Any, C: Any, K: Any, *, contacts: Sequence[Mapping] = (), forcing: Any = (),
                  response: Optional[Sequence] = None, names: Optional[Sequence[str]] = None,
                  sweep: Optional[Sequence[float]] = None, **sections: Any) -> None:
+        for name in sections:
+            if name not in SECTIONS:
+                near = difflib.get_close_matches(name, ["contacts", "forcing", "response", "names", "sweep", *SECTIONS], 1, 0.5)
+                raise BadInput(f"{name}: unknown argument" + (f", did you mean `{near[0]}`?" if near else ""))
         if sweep is not None:
             sections["sweep"] = {"omega": [float(w) for w in sweep]}
         text = case_text(M, C, K, contacts, forcing, response, names, sections)
@@ -82,9 +99,10 @@ class Model:
     def from_yaml(cls, path: Union[str, os.PathLike], set: Optional[Mapping[str, Any]] = None) -> Model:
         """The case file at path; set: fields that are other than there, {"hbm.harmonics": 10, "contacts[0].gap": -1}."""
         model = cls.__new__(cls)
+        model._made = (cls.from_yaml, (os.fspath(path), set))
         name = os.fsencode(path)
         model.text = None
-        model._own(_case(lambda *a: lib.case_read(name, *a), set))
+        model._own(_case(lambda *a: lib.case_read(name, *a), set, name))
         return model
 
     @classmethod
@@ -95,6 +113,7 @@ class Model:
         return model
 
     def _adopt(self, name, text, settings):
+        self._made = (Model.from_text, (text, settings, name))
         self.text, data = text, text.encode()
         self._own(_case(lambda *a: lib.case_parse(name.encode(), data, len(data), *a), settings))
 
@@ -106,6 +125,9 @@ class Model:
     def close(self) -> None:
         """Free it now; ValueError of every use afterwards. Without, it is freed with the last reference."""
         self._owner.close()
+
+    def __reduce__(self) -> tuple:
+        return self._made
 
     def __enter__(self) -> Model:
         return self
@@ -220,4 +242,4 @@ class Model:
         raise BadInput(f"{what}: the case has no {asked!r}, expected one of {', '.join(names) or 'none'}")
 
     def __repr__(self) -> str:
-        return f"<Model: responses {', '.join(self.responses)}; contacts {', '.join(self.contacts) or 'none'}>"
+        return f"<Model: {_listed('response', self.responses)}; {_listed('contact', self.contacts)}>"

@@ -1,8 +1,10 @@
 """What the library found, as tables: every column an array with one entry a row, rows as in the command's csv."""
 from __future__ import annotations
 
+import copy
 import ctypes
-from typing import Any, Iterator, NamedTuple, Optional
+import html
+from typing import Any, Iterator, NamedTuple, Optional, Sequence
 
 import numpy as np
 
@@ -13,8 +15,25 @@ from ._library import check, lib
 Array = np.ndarray
 
 
+_STABLE = {1: "yes", -1: "no", 0: "unknown"}
+_SHOWN = 60  # rows of a notebook's table
+
+
+def _said(name, values):
+    """A column in the words of the csv: flags and stability as yes and no."""
+    if values.dtype == bool:
+        return np.where(values, "yes", "no")
+    return np.array([_STABLE[s] for s in values], dtype=str) if name == "stable" else values
+
+
 class Table:
-    """Columns of equal length. t.omega and t["omega"] are the same array; len(t) is the number of rows."""
+    """Columns of equal length. t.omega and t["omega"] are the same array; len(t) is the number of rows.
+
+    t[2:5], t[t.omega > 6], t[[0, 3]]: a table of these rows (of a Curve, its Solutions), without .contacts. Tables can be
+    pickled. pandas.DataFrame(t.rows()) has the columns and words of the command's csv, as has what a notebook shows.
+    """
+
+    csv: Sequence[str] = ()  # the command's columns that are first in rows(), in its order
 
     def __init__(self, columns: dict, responses: list) -> None:
         self.columns: dict[str, Array] = columns
@@ -26,8 +45,15 @@ class Table:
             return columns[name]
         raise AttributeError(f"no column {name}, expected one of {', '.join(columns)}")
 
-    def __getitem__(self, name: str) -> Array:
-        return self.columns[name]
+    def __getitem__(self, asked: Any) -> Any:
+        return self.columns[asked] if isinstance(asked, str) else self._kept(np.arange(len(self))[asked])
+
+    def _kept(self, rows):
+        found = copy.copy(self)
+        found.columns = {name: column[np.atleast_1d(rows)] for name, column in self.columns.items()}
+        if found.__dict__.get("contacts") is not None:
+            found.contacts = None
+        return found
 
     def __dir__(self) -> list:
         return [*super().__dir__(), *self.columns]
@@ -35,21 +61,50 @@ class Table:
     def __len__(self) -> int:
         return len(next(iter(self.columns.values())))
 
+    def _names(self):
+        """{column: its names}, of columns that count in names; no names: the csv has no such column."""
+        return {"response": self.responses if self.responses != ["x"] else []}  # x: of an oscillator
+
+    def _words(self):
+        """Columns of one value a row, in the order and the words of the csv."""
+        named = self._names()
+        flat = [name for name, column in self.columns.items() if column.ndim == 1]
+        for name in [*(n for n in self.csv if n in flat), *(n for n in flat if n not in self.csv)]:
+            if named.get(name):
+                yield name, np.array(named[name])[self.columns[name]]
+            elif name not in named:
+                yield name, _said(name, self.columns[name])
+
     def rows(self) -> Iterator[dict]:
-        """Row by row, as {column: value}."""
+        """Row by row, as {column: value}, in the columns and words of the command's csv, then what else there is: flags
+        and `stable` as "yes", "no", "unknown", responses and contacts by name. Series ([rows, n]) are not among them."""
+        said = dict(self._words())
         for k in range(len(self)):
-            yield {name: column[k] for name, column in self.columns.items()}
+            yield {name: column[k].item() for name, column in said.items()}
 
     def of(self, response: Any) -> Table:
         """The rows of one response, by its name or its number from 0."""
         if isinstance(response, str) and response not in self.responses:
             raise KeyError(f"no response {response}, expected one of {', '.join(self.responses)}")
         number = self.responses.index(response) if isinstance(response, str) else int(response)
-        kept = self.columns["response"] == number
-        return Table({name: column[kept] for name, column in self.columns.items()}, self.responses)
+        return self._kept(self.columns["response"] == number)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {len(self)} rows of {', '.join(self.columns)}>"
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows."""
+        said = dict(self._words())
+        head = "".join(f"<th>{html.escape(name)}</th>" for name in said)
+        cells = ("".join(f"<td>{html.escape(_short(column[k].item()))}</td>" for column in said.values())
+                 for k in range(min(len(self), _SHOWN)))
+        body = "".join(f"<tr>{row}</tr>" for row in cells)
+        more = f"<p>{len(self) - _SHOWN} more rows</p>" if len(self) > _SHOWN else ""
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+
+
+def _short(value):
+    return f"{value:.7g}" if isinstance(value, float) else str(value)
 
 
 class Contacts(Table):
@@ -66,12 +121,14 @@ class Contacts(Table):
         super().__init__(columns, [])
         self.names: list[str] = names
 
+    def _names(self):
+        return {"contact": self.names}
+
     def of(self, contact: Any) -> Contacts:
         """The rows of one contact, by its name or its number from 0."""
         if isinstance(contact, str) and contact not in self.names:
             raise KeyError(f"no contact {contact}, expected one of {', '.join(self.names)}")
-        kept = self.columns["contact"] == (self.names.index(contact) if isinstance(contact, str) else int(contact))
-        return Contacts({name: column[kept] for name, column in self.columns.items()}, self.names)
+        return self._kept(self.columns["contact"] == (self.names.index(contact) if isinstance(contact, str) else int(contact)))
 
 
 def _flat(found):
@@ -134,18 +191,22 @@ class Solutions(Table):
     contacts: what each does there, by the exact law, or None: not asked for.
     """
 
+    csv = "omega branch response amplitude max min rms mean harmonic_1 stable multiplier contact iterations residual mean_free".split()
     contacts: Optional[Contacts] = None
 
 
 class Curve(Solutions):
-    """A response curve, with the means to search it again."""
+    """A response curve, with the means to search it again. Copies, parts and pickles of it are Solutions."""
 
     def __init__(self, owner: Any, columns: dict, responses: list, names: list, contacts: bool = False) -> None:
         super().__init__(columns, responses)
-        self._owner, self._names = owner, names  # the owner of the hbmcheck_curve, the contacts' names
+        self._owner, self._contacts = owner, names  # the owner of the hbmcheck_curve, the contacts' names
         if contacts:
             with owner as curve:
                 self.contacts = curve_contacts(curve, lib.curve_points(curve), columns, names)
+
+    def __reduce__(self) -> tuple:
+        return Solutions, (self.columns, self.responses), {"contacts": self.contacts}
 
     def at(self, omega: Any, contacts: bool = False) -> Solutions:
         """Every solution on the curve at omega, a number or [n] [rad/time] > 0, each solved for; contacts: with what each
@@ -160,7 +221,7 @@ class Curve(Solutions):
                 try:
                     if place:
                         parts.append(solution_columns(place, self.responses))
-                        acting += [curve_contacts(curve, place, parts[-1], self._names)] if contacts else []
+                        acting += [curve_contacts(curve, place, parts[-1], self._contacts)] if contacts else []
                 finally:
                     lib.solutions_free(place)
             if contacts and place:
@@ -169,7 +230,7 @@ class Curve(Solutions):
             wrong = wrong or status
         found = Solutions(_joined(parts) if parts else _none_of(self), self.responses)
         if acting:
-            found.contacts = Contacts({name: np.concatenate([a[name] for a in acting]) for name in acting[0].columns}, self._names)
+            found.contacts = Contacts({name: np.concatenate([a[name] for a in acting]) for name in acting[0].columns}, self._contacts)
         check(wrong or 0, result=found)
         return found
 
@@ -226,6 +287,8 @@ class Transient(Table):
     contacts: what each does, by the law that was integrated, or None: not asked for.
     """
 
+    csv = ("omega response amplitude max min rms mean harmonic_1 periods closure period_multiple steps contact multiplier "
+           "free_sliders from_regularisation").split()
     contacts: Optional[Contacts] = None
 
 
@@ -264,6 +327,9 @@ class Comparison(Table):
     does on both sides, or None: not asked for.
     """
 
+    csv = ("omega branch response verdict hbm_amplitude transient_amplitude amplitude_error harmonic_1_error mean_error "
+           "waveform_error from_aliasing from_truncation from_regularisation from_integration from_settling "
+           "orbit_amplitude orbit_error hbm_predicted transient_predicted unexpected mean_free").split()
     contacts: Optional[Contacts] = None
     exit_code: int
     gate: Optional[dict]

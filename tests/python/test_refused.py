@@ -18,6 +18,7 @@ class Refused(Test):
     def test_case_files(self):
         read = hbmcheck.Model.from_yaml
         self.refuses("/no/such/file: cannot be opened", read, "/no/such/file", kind=hbmcheck.Error)
+        self.refuses("/no/such/file: cannot be opened", read, "/no/such/file", kind=FileNotFoundError)
         self.refuses("hbm.harmonic", read, CASE2, set={"hbm.harmonic": 3})
         with tempfile.NamedTemporaryFile("w", suffix=".yaml") as case:
             case.write("oscillator: {mas: 1}\n")
@@ -110,7 +111,17 @@ class Refused(Test):
         found = hbmcheck.Model.from_yaml(CHAIN).frf(at=1.9)
         self.refuses("no column amplitud, expected one of omega", lambda: found.amplitud, kind=AttributeError)
         self.refuses("no response 4, expected one of 1, 2, 3", found.of, "4", kind=KeyError)
-        self.assertEqual([row["response"] for row in found.rows()], [0, 1, 2])
+        self.assertEqual([row["response"] for row in found.rows()], ["1", "2", "3"])
+
+    def test_keywords(self):
+        self.refuses("force: unknown argument, did you mean `forcing`?", hbmcheck.Model, 1, 0.4, 40, force=1, sweep=(1, 2))
+        self.refuses("hmb: unknown argument, did you mean `hbm`?", hbmcheck.Model, 1, 0.4, 40, forcing=1, hmb={})
+        self.refuses("colour: unknown argument", hbmcheck.Model, 1, 0.4, 40, forcing=1, colour="red")
+
+    def test_a_model_counts_its_contacts(self):
+        model = hbmcheck.Model.from_yaml(CHAIN)
+        self.assertEqual(repr(model), "<Model: 3 responses (1, 2, 3); 3 contacts (ground, between, stop)>")
+        self.assertEqual(repr(hbmcheck.Model(1, 0.4, 40, forcing=1, sweep=(1, 9))), "<Model: 1 response (x); 0 contacts>")
 
 
 if __name__ == "__main__":
