@@ -121,12 +121,14 @@ static void *value_of(cli_common *common, const cli_option *o)
 
 /* The first key of a command's own options, which come in the order of their table. */
 enum { OWN_KEY = 0x200 };
+static int own_key(const cli_option *o, int i) { return o->letter ? o->letter : OWN_KEY + i; }
 
 static error_t read_own_option(int key, char *text, struct argp_state *state)
 {
   const parse_input *input = state->input;
-  if (key < OWN_KEY || key >= OWN_KEY + CLI_MOST_OPTIONS) return ARGP_ERR_UNKNOWN;
-  const cli_option *o = &input->common->command->options[key - OWN_KEY];
+  const cli_option *o = input->common->command->options;
+  for (int i = 0; o && o->name && key != own_key(o, i); ++i) ++o;
+  if (!o || !o->name) return ARGP_ERR_UNKNOWN;
   read_value(state, o, text, value_of(input->common, o));
   return 0;
 }
@@ -228,7 +230,7 @@ static void parse(const cli_command *self, int argc, char **argv, cli_common *co
   struct argp_option options[CLI_MOST_OPTIONS + 1] = {{0}};
   for (int i = 0; self->options && self->options[i].name; ++i) {
     const cli_option *o = &self->options[i];
-    options[i] = (struct argp_option){o->name, OWN_KEY + i, o->argument, 0, o->help, o->group ? o->group : 1};
+    options[i] = (struct argp_option){o->name, own_key(o, i), o->argument, 0, o->help, o->group ? o->group : 1};
   }
   const struct argp own_argp = {options, read_own_option, NULL, NULL, NULL, NULL, NULL};
   const struct argp_child children[] = {{&own_argp, 0, NULL, 0}, {0}};

@@ -47,6 +47,7 @@ typedef struct cli_option {
   int group;        /* of the help; 0 is the first one */
   const char *file; /* what messages call the file it names, "--junit"; NULL: none */
   cli_file_use use; /* of that file */
+  char letter;      /* 'j' of -j; 0: none */
 } cli_option;
 
 enum { CLI_MOST_OPTIONS = 16, CLI_MOST_TEXTS = 16 };

@@ -11,6 +11,7 @@
 #include "command/commands.h"
 #include "compare/duration.h"
 #include "compare/gate/gate.h"
+#include "numerics/workers.h"
 #include "output/output.h"
 #include "output/progress.h"
 
@@ -21,8 +22,8 @@ static const char help[] =
     "every transient must match some HBM solution. Each response of a structure is held to the limits by itself. "
     "Limits: gate.amplitude, harmonic_1, mean, waveform; the same with range_ in front, in gate.ranges; "
     "gate.iterations and gate.evaluations of the response curve (hbmcheck describe gate).\n"
-    "A number passes up to 1.000001 times its limit, so that rounding decides nothing. Every case is read before "
-    "anything runs; what is wrong in one is in the JUnit file, too.\n"
+    "A number passes up to 1.000001 times its limit, so that rounding decides nothing. A case file that is wrong fails "
+    "its own test, in the JUnit file, too; the others run.\n"
     "exit: 0 all within  1 something is not  2 a case file is wrong  3 something could not be compared or written  "
     "64 usage\n"
     "example: hbmcheck gate cases/paper/case2.yaml --junit gate.xml";
@@ -31,6 +32,7 @@ typedef struct gate_options {
   number_list at;    /* n = 0: each case's */
   const char *junit; /* NULL: not written */
   bool all;          /* --all */
+  int jobs;          /* 0: not given */
 } gate_options;
 
 static const cli_option options[] = {
@@ -41,6 +43,8 @@ static const cli_option options[] = {
     {CLI_LIST, "at", "LIST",
      "At these " CLI_FREQUENCIES ", in every case [each case's compare.omega or compare.points]",
      offsetof(gate_options, at)},
+    {CLI_INTEGER, "jobs", "N", "Cases judged at a time [1]", offsetof(gate_options, jobs), 1, CLI_MAX_JOBS,
+     .letter = 'j'},
     {0},
 };
 
@@ -64,30 +68,28 @@ typedef struct gate_call {
   cli_common *common;
   const gate_options *own;
   read_case *of;    /* [n_arguments] */
-  gate_case *cases; /* [n_arguments], of which n_judged are filled */
-  int n_judged;
+  gate_case *cases; /* [n_arguments] */
   unsigned extra;   /* columns that one of them has */
   bool short_names; /* their names differ without their folders, too: so they stand on the screen */
   output *junit;    /* opened before anything runs: a name that cannot be written to is found at once */
 } gate_call;
 
-/* Every case, however many are wrong. 0 or the exit code after the messages. */
-static int read_cases(gate_call *call)
+/* Every case; what is wrong in one is said, and *wrong counts them. 0, or the exit code after the message. */
+static int read_cases(gate_call *call, int *wrong)
 {
-  int wrong = 0;
   for (int i = 0; i < call->common->n_arguments; ++i) {
     read_case *of = &call->of[i];
-    int code = cli_load_case(call->common, call->common->arguments[i], &of->sc, &of->error);
+    const char *name = call->common->arguments[i];
+    const int code = cli_load_case(call->common, name, &of->sc, &of->error);
     if (code == EXIT_NO_SOLUTION) return code;
-    if (code) wrong = code;
-    if (code) continue;
-    if (!cli_frequencies_fit(call->common, &call->own->at, true, &of->sc, of->error.message)) {
-      cli_message(call->common, "%s: %s", call->common->arguments[i], of->error.message);
-      wrong = EXIT_BAD_CASE;
-    }
-    call->extra |= cli_extra_columns(&of->sc);
+    if (!code && !cli_frequencies_fit(call->common, &call->own->at, true, &of->sc, of->error.message))
+      cli_message(call->common, "%s: %s", name, of->error.message);
+    else if (!code) call->extra |= cli_extra_columns(&of->sc);
+    if (!*of->error.message) continue;
+    call->cases[i] = gate_of_wrong_case(name, of->error.message);
+    ++*wrong;
   }
-  return wrong;
+  return 0;
 }
 
 static int open_junit(gate_call *call)
@@ -105,6 +107,7 @@ static void foretell_time(const gate_call *call)
   for (int i = 0; i < call->common->n_arguments && !call->common->quiet; ++i) {
     duration_units u;
     compare_setup setup;
+    if (call->cases[i].wrong) continue;
     if (scene_setup(&call->of[i].sc, &setup) == HC_OK) {
       duration_measure(&setup, &u);
       const int n = duration_frequencies(&setup);
@@ -116,30 +119,34 @@ static void foretell_time(const gate_call *call)
   cli_foretell_time(call->common, seconds, frequencies, NULL);
 }
 
+static hc_status judge_case(void *self, int i, const hc_monitor *monitor)
+{
+  gate_call *call = self;
+  gate_case *g = &call->cases[i];
+  read_case *of = &call->of[i];
+  compare_setup setup;
+  if (g->wrong) return HC_OK;
+  hc_status st = scene_setup(&of->sc, &setup);
+  if (st == HC_OK) st = gate_run(call->common->arguments[i], &setup, monitor, g);
+  if (st == HC_OK) st = cli_response_names(&of->sc, &of->responses);
+  g->responses = (const char(*)[RESPONSE_NAME])of->responses;
+  scene_setup_clear(&setup);
+  return st;
+}
+
 static int judge_cases(gate_call *call)
 {
+  const cli_common *common = call->common;
+  const char *name = common->n_arguments == 1 ? common->arguments[0] : "gate";
   foretell_time(call);
-  for (; call->n_judged < call->common->n_arguments; ++call->n_judged) {
-    const char *name = call->common->arguments[call->n_judged];
-    progress *bar = progress_start(name, call->common->quiet);
-    hc_monitor monitor = progress_monitor(bar);
-    compare_setup setup;
-    gate_case *g = &call->cases[call->n_judged];
-    read_case *of = &call->of[call->n_judged];
-    call->common->scene = &of->sc;
-    hc_status st = scene_setup(&of->sc, &setup);
-    if (st == HC_OK) st = gate_run(name, &setup, &monitor, g);
-    if (st == HC_OK) st = cli_response_names(&of->sc, &of->responses);
-    g->responses = (const char(*)[RESPONSE_NAME])of->responses;
-    scene_setup_clear(&setup);
-    progress_end(bar);
-    if (st == HC_OK) continue;
-    if (st == HC_INTERRUPTED) cli_message(call->common, "stopped on request: nothing is written, half a gate is none");
-    else cli_solver_failed(call->common, CLI_BOTH, name, st, 0);
-    gate_clear(g);
-    return EXIT_NO_SOLUTION;
-  }
-  return 0;
+  progress *bar = progress_start(name, common->quiet);
+  hc_monitor monitor = progress_monitor(bar);
+  const hc_status st = workers_run(call->own->jobs, common->n_arguments, judge_case, call, &monitor);
+  progress_end(bar);
+  if (st == HC_OK) return 0;
+  if (st == HC_INTERRUPTED) cli_message(common, "stopped on request: nothing is written, half a gate is none");
+  else cli_solver_failed(common, CLI_BOTH, name, st, 0);
+  return EXIT_NO_SOLUTION;
 }
 
 /* ---- results ---- */
@@ -153,16 +160,18 @@ static table_value number_cell(bool people, double x, char text[NUMBER_TEXT])
 static table *checks_table(gate_call *call)
 {
   const bool people = call->common->format == FORMAT_TABLE;
+  const int n = call->common->n_arguments;
   table *t = people ? cli_own_table("Gate", call->extra, CLI_COLUMNS(columns_for_people))
                     : cli_own_table("Gate", call->extra, CLI_COLUMNS(columns));
   table_wrap(t, cli_width(call->common)); /* the reasons are sentences */
   table_spare(t, spare_columns);
-  if (call->n_judged == 1 && !call->common->wide) table_hide(t, "case"); /* the remark below has it */
+  if (n == 1 && !call->common->wide) table_hide(t, "case"); /* the remark below has it */
   call->short_names = !call->common->wide;
-  for (int i = 0; i < call->n_judged; ++i)
+  for (int i = 0; i < n; ++i)
     for (int k = 0; k < i; ++k)
-      call->short_names &= strcmp(path_name(call->cases[i].name, NULL), path_name(call->cases[k].name, NULL)) != 0;
-  for (int i = 0; i < call->n_judged; ++i) {
+      call->short_names &=
+          strcmp(path_name(call->common->arguments[i], NULL), path_name(call->common->arguments[k], NULL)) != 0;
+  for (int i = 0; i < n; ++i) {
     const gate_case *g = &call->cases[i];
     for (int k = 0; k < g->n; ++k) {
       const gate_check *c = &g->checks[k];
@@ -179,8 +188,10 @@ static table *checks_table(gate_call *call)
                   CELL_IF(*c->reason, c->reason));
       }
     }
-    table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made, %d not applicable", g->name, g->n,
-               g->n - g->failures - g->errors - g->not_applicable, g->failures, g->errors, g->not_applicable);
+    if (g->wrong) table_note(t, "%s: not judged, the case file is wrong", g->name);
+    else
+      table_note(t, "%s: %d checks, %d passed, %d failed, %d could not be made, %d not applicable", g->name, g->n,
+                 g->n - g->failures - g->errors - g->not_applicable, g->failures, g->errors, g->not_applicable);
     if (g->linear) table_note(t, "%s: " COMPARISON_LINEAR, g->name, g->n_rows);
   }
   return t;
@@ -194,48 +205,34 @@ static int close_junit(gate_call *call, hc_status st)
   return st == HC_OK ? 0 : cli_file_failed(call->common, call->own->junit, st);
 }
 
-/* Where a case file is wrong: the JUnit file with its message, so that CI shows why nothing was judged. Returns the
- * exit code, which is that of the wrong file even if this one cannot be written. */
-static int report_unread(gate_call *call, int code)
-{
-  const char *wrong[CLI_MAX_ARGUMENTS];
-  for (int i = 0; i < call->common->n_arguments; ++i)
-    wrong[i] = *call->of[i].error.message ? call->of[i].error.message : NULL;
-  if (open_junit(call) != 0 || !call->junit) return code;
-  hc_status st =
-      gate_write_junit_unread(call->common->n_arguments, call->common->arguments, wrong, output_stream(call->junit));
-  close_junit(call, st);
-  return code;
-}
-
 /* The cases read, judged, and told in the table and in JUnit. Returns the exit code. */
 static int read_and_judge(gate_call *call)
 {
-  int code = read_cases(call), reported = 0;
-  if (code == EXIT_BAD_CASE) code = report_unread(call, code);
-  if (!code) code = open_junit(call);
+  const int n = call->common->n_arguments;
+  int wrong = 0, code = read_cases(call, &wrong), reported = 0;
+  if (!code && (code = open_junit(call)) != 0 && wrong) code = EXIT_BAD_CASE;
   if (!code) code = judge_cases(call);
   if (code) return code;
   table *t = checks_table(call); /* each is written even if the other one fails */
   const int shown = cli_write(call->common, 1, &t);
-  if (call->junit)
-    reported = close_junit(call, gate_write_junit(call->n_judged, call->cases, output_stream(call->junit)));
+  if (call->junit) reported = close_junit(call, gate_write_junit(n, call->cases, output_stream(call->junit)));
   table_free(t);
-  if ((code = gate_exit_code(call->n_judged, call->cases)) != 0) return code;
+  if (wrong) return EXIT_BAD_CASE;
+  if ((code = gate_exit_code(n, call->cases)) != 0) return code;
   return shown ? shown : reported;
 }
 
 static int run_gate(cli_common *common, void *own, scene *sc)
 {
   const size_t n = (size_t)common->n_arguments;
-  gate_call call = {common, own, .n_judged = 0};
+  gate_call call = {common, own};
   (void)sc;
   call.of = calloc(n, sizeof *call.of);
   call.cases = calloc(n, sizeof *call.cases);
   const int code =
       call.of && call.cases ? read_and_judge(&call) : cli_solver_failed(common, CLI_BOTH, "gate", HC_NO_MEMORY, 0);
   output_abandon(call.junit);
-  for (int i = 0; i < call.n_judged; ++i) gate_clear(&call.cases[i]);
+  for (size_t i = 0; call.cases && i < n; ++i) gate_clear(&call.cases[i]);
   free(call.cases);
   for (size_t i = 0; call.of && i < n; ++i) {
     free(call.of[i].responses);

@@ -101,8 +101,8 @@ static const cli_option options[] = {
      offsetof(stress_options, plan.journal), .file = "--results", .use = CLI_RESULTS},
     {CLI_POSITIVE, "seconds", "S", "Processor time for one check, which beyond it is given up as too_dear [1]",
      offsetof(stress_options, plan.seconds)},
-    {CLI_INTEGER, "jobs", "N", "Scenes at once [one a processor]", offsetof(stress_options, plan.jobs), 1,
-     CLI_MAX_JOBS},
+    {CLI_INTEGER, "jobs", "N", "Scenes at once [one a processor]", offsetof(stress_options, plan.jobs), 1, CLI_MAX_JOBS,
+     .letter = 'j'},
     {0},
 };
 

@@ -38,7 +38,7 @@ typedef struct study_options {
 
 static const cli_option options[] = {
     {CLI_INTEGER, "jobs", "N", "Scenes computed at a time [the processors that are online]",
-     offsetof(study_options, jobs), 1, CLI_MAX_JOBS},
+     offsetof(study_options, jobs), 1, CLI_MAX_JOBS, .letter = 'j'},
     {CLI_TEXT, "results", "FILE",
      "SQLite file of the results, or a folder for it; :memory: keeps nothing [STUDY's name with .sqlite, here]",
      offsetof(study_options, results)},

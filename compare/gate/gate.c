@@ -10,6 +10,7 @@
 #include "base/constants.h"
 #include "base/growing.h"
 #include "base/number.h"
+#include "base/thread_clock.h"
 #include "base/utf8.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
@@ -213,11 +214,18 @@ hc_status gate_run(const char *name, const compare_setup *setup, const hc_monito
   comparison c;
   compare_setup spare = *setup;
   spare.spare = true;
+  const double began = thread_seconds();
   hc_status st = comparison_run(&spare, monitor, &c);
   hc_status judged = gate_judge(name, setup, &c, out);
+  out->seconds = thread_seconds() - began;
   comparison_clear(&c);
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
   return st != HC_OK && judged == HC_OK ? judge_failure(st, out) : judged;
+}
+
+gate_case gate_of_wrong_case(const char *name, const char *wrong)
+{
+  return (gate_case){.name = name, .wrong = wrong, .errors = 1};
 }
 
 void gate_clear(gate_case *g)
@@ -310,31 +318,11 @@ static void put_attribute(junit *x, const char *name, const char *value)
   putc('"', x->to);
 }
 
-static void put_counts(junit *x, int tests, int failures, int errors, int skipped)
+/* The counts and the time of one case, or the sums of several. */
+static void put_counts(junit *x, const gate_case *g)
 {
-  fprintf(x->to, " tests=\"%d\" failures=\"%d\" errors=\"%d\" skipped=\"%d\" time=\"0\">\n", tests, failures, errors,
-          skipped);
-}
-
-static junit begin_suites(FILE *to, int tests, int failures, int errors, int skipped)
-{
-  junit x = {to, HC_OK};
-  fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"hbmcheck gate\"", to);
-  put_counts(&x, tests, failures, errors, skipped);
-  return x;
-}
-
-static hc_status end_suites(junit *x)
-{
-  fputs("</testsuites>\n", x->to);
-  return x->st != HC_OK ? x->st : ferror(x->to) ? HC_IO : HC_OK;
-}
-
-static void begin_suite(junit *x, const char *name, int tests, int failures, int errors, int skipped)
-{
-  fputs("  <testsuite", x->to);
-  put_attribute(x, "name", name);
-  put_counts(x, tests, failures, errors, skipped);
+  fprintf(x->to, " tests=\"%d\" failures=\"%d\" errors=\"%d\" skipped=\"%d\" time=\"%.3f\">\n", g->wrong ? 1 : g->n,
+          g->failures, g->errors, g->not_applicable, g->seconds);
 }
 
 static void begin_case(junit *x, const char *suite, const char *name)
@@ -342,7 +330,6 @@ static void begin_case(junit *x, const char *suite, const char *name)
   fputs("    <testcase", x->to);
   put_attribute(x, "classname", suite);
   put_attribute(x, "name", name);
-  fputs(" time=\"0\"", x->to);
 }
 
 static void name_check(const gate_case *g, const gate_check *c, char *text, size_t size)
@@ -396,37 +383,38 @@ static void put_check(junit *x, const gate_case *g, const gate_check *c)
   fputs("\n    </testcase>\n", x->to);
 }
 
+static void put_wrong(junit *x, const gate_case *g)
+{
+  begin_case(x, g->name, "case file");
+  fputs(">\n      <error", x->to);
+  put_attribute(x, "message", g->wrong);
+  put_attribute(x, "type", "case file");
+  putc('>', x->to);
+  put_text(x, g->wrong);
+  fputs("</error>\n    </testcase>\n", x->to);
+}
+
 hc_status gate_write_junit(int n, const gate_case *cases, FILE *to)
 {
-  int tests = 0, failures = 0, errors = 0, skipped = 0;
+  junit x = {to, HC_OK};
+  gate_case all = {0};
   for (int i = 0; i < n; ++i) {
-    tests += cases[i].n, failures += cases[i].failures;
-    errors += cases[i].errors, skipped += cases[i].not_applicable;
+    const gate_case *g = &cases[i];
+    all.n += g->wrong ? 1 : g->n;
+    all.failures += g->failures, all.errors += g->errors, all.not_applicable += g->not_applicable;
+    all.seconds += g->seconds;
   }
-  junit x = begin_suites(to, tests, failures, errors, skipped);
+  fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"hbmcheck gate\"", to);
+  put_counts(&x, &all);
   for (int i = 0; i < n && x.st == HC_OK; ++i) {
     const gate_case *g = &cases[i];
-    begin_suite(&x, g->name, g->n, g->failures, g->errors, g->not_applicable);
+    fputs("  <testsuite", to);
+    put_attribute(&x, "name", g->name);
+    put_counts(&x, g);
+    if (g->wrong) put_wrong(&x, g);
     for (int k = 0; k < g->n && x.st == HC_OK; ++k) put_check(&x, g, &g->checks[k]);
     fputs("  </testsuite>\n", to);
   }
-  return end_suites(&x);
-}
-
-hc_status gate_write_junit_unread(int n, const char *const *names, const char *const *wrong, FILE *to)
-{
-  int errors = 0;
-  for (int i = 0; i < n; ++i) errors += wrong[i] != NULL;
-  junit x = begin_suites(to, n, 0, errors, n - errors);
-  for (int i = 0; i < n && x.st == HC_OK; ++i) {
-    begin_suite(&x, names[i], 1, 0, wrong[i] != NULL, !wrong[i]);
-    begin_case(&x, names[i], "case file");
-    fprintf(to, ">\n      <%s", wrong[i] ? "error" : "skipped");
-    put_attribute(&x, "message", wrong[i] ? wrong[i] : "not run: another case file is wrong");
-    if (wrong[i]) put_attribute(&x, "type", "case file");
-    putc('>', to);
-    if (wrong[i]) put_text(&x, wrong[i]);
-    fprintf(to, "</%s>\n    </testcase>\n  </testsuite>\n", wrong[i] ? "error" : "skipped");
-  }
-  return end_suites(&x);
+  fputs("</testsuites>\n", to);
+  return x.st != HC_OK ? x.st : ferror(to) ? HC_IO : HC_OK;
 }

@@ -54,9 +54,11 @@ typedef struct gate_case {
   int n;
   gate_check *checks; /* [n] in the order of the comparison's rows, the curve last */
   int failures, errors, not_applicable;
-  int n_rows;     /* of the comparison */
-  bool linear;    /* no contact changed its state in any of them */
-  bool in_cycles; /* of the limits: frequencies are named in cycles per time */
+  int n_rows;        /* of the comparison */
+  bool linear;       /* no contact changed its state in any of them */
+  double seconds;    /* of processor time that gate_run took */
+  const char *wrong; /* the caller's, where the case file is wrong: what is; then there are no checks, and one error */
+  bool in_cycles;    /* of the limits: frequencies are named in cycles per time */
 } gate_case;
 
 /* Compare, then judge. HC_OK whatever the checks say, and where a solver could not even begin: then a check
@@ -82,12 +84,11 @@ bool gate_is_worst(const gate_case *g, int i);
 /* Exit code (docs/interface.md, 5): 1 if a check failed, else 3 if one is an error, else 0. */
 int gate_exit_code(int n, const gate_case *cases);
 
-/* The checks as JUnit XML: a testsuite a case, a testcase a check, <failure> and <error>. No times and no dates:
- * equal results are equal bytes. HC_IO, HC_NO_MEMORY. */
-hc_status gate_write_junit(int n, const gate_case *cases, FILE *to);
+/* The case file is wrong, in the caller's words. */
+gate_case gate_of_wrong_case(const char *name, const char *wrong);
 
-/* The same where a case file is wrong, so that none was judged: a testsuite with one testcase for each of names[n], an
- * <error> with the message wrong[i], or <skipped> where that is NULL. HC_IO, HC_NO_MEMORY. */
-hc_status gate_write_junit_unread(int n, const char *const *names, const char *const *wrong, FILE *to);
+/* The checks as JUnit XML: a testsuite a case, with its processor time, a testcase a check, <failure> and <error>; of a
+ * wrong case file a testcase "case file". HC_IO, HC_NO_MEMORY. */
+hc_status gate_write_junit(int n, const gate_case *cases, FILE *to);
 
 #endif
