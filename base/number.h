@@ -27,7 +27,7 @@ enum { NUMBER_TEXT = 32 };
 const char *number_write(double value, char text[NUMBER_TEXT]);
 
 /* A short list of numbers by value, as options and case files give them. */
-enum { NUMBER_LIST_MAX = 256 };
+enum { NUMBER_LIST_MAX = 1024 };
 
 typedef struct number_list {
   int n;

@@ -86,7 +86,7 @@ static const char *number_hint(const field_item *it, number_fault fault)
   switch (fault) {
   case NUMBER_NOT_FINITE: return "it must be finite";
   case NUMBER_TOO_LARGE: return "too large to be held";
-  case NUMBER_TOO_SMALL: return "too small to be told from 0";
+  case NUMBER_TOO_SMALL: return "too small to be distinguished from 0";
   case NUMBER_NOT_INTEGER: return "write it in digits only";
   default: return memchr(it->text, ',', it->length) ? "the decimal sign is a point" : NULL;
   }
@@ -131,14 +131,14 @@ static bool store_list(const field *f, void *to, const field_value *v, message *
   number_list list = {0};
   const char *hint;
   bool pair = f->kind == FIELD_PAIR, fits = pair ? v->n == 2 : v->n >= 1 && v->n <= NUMBER_LIST_MAX;
-  if (!fits) return refuse(f, v, -1, pair ? NULL : "1 to 256 of them", m);
+  if (!fits) return refuse(f, v, -1, pair ? NULL : "1 to 1024 of them", m);
   for (; list.n < v->n; ++list.n)
     if (!read_number(f, &v->item[list.n], &list.v[list.n], &hint)) return refuse(f, v, *bad = list.n, hint, m);
   if (pair) memcpy(to, list.v, 2 * sizeof *list.v);
   else *(number_list *)to = list;
   return true;
 }
-_Static_assert(NUMBER_LIST_MAX == 256, "store_list says so in words");
+_Static_assert(NUMBER_LIST_MAX == 1024, "store_list says so in words");
 
 static bool store_flag(const field *f, void *to, const field_value *v, message *m)
 {

@@ -44,15 +44,19 @@ static const struct argp_option common_options[] = {
 
 /* ---- values of options: what cannot be read ends the program with a message (exit 64) ---- */
 
+/* A number that stands there twice is taken once, and said. */
 static void read_list(struct argp_state *state, const char *option, const char *text, number_list *out)
 {
-  out->n = 0;
+  if (out->n > 0) argp_error(state, "--%s is given twice, expected one list like 5,7,9", option);
   for (const char *at = text;;) {
     size_t length = strcspn(at, ",");
+    int same = 0;
     if (out->n == NUMBER_LIST_MAX) argp_error(state, "--%s takes at most %d numbers", option, NUMBER_LIST_MAX);
     if (number_read(at, length, &out->v[out->n]) != NUMBER_FINE || !(out->v[out->n] > 0))
       argp_error(state, "--%s: '%.*s' is not a positive number; expected a list like 5,7,9", option, (int)length, at);
-    ++out->n;
+    while (out->v[same] != out->v[out->n]) ++same;
+    if (same == out->n) ++out->n;
+    else fprintf(state->err_stream, "%s: --%s: %g stands there twice, taken once\n", state->name, option, out->v[same]);
     if (!at[length]) return;
     at += length + 1;
   }
@@ -568,6 +572,7 @@ int cli_solver_failed(const cli_common *common, cli_solver solver, const char *w
 int cli_file_failed(const cli_common *common, const char *path, hc_status st)
 {
   const char *why = st == HC_IO && errno ? strerror(errno) : hc_status_text(st);
+  if (!path && st == HC_IO && errno == EPIPE) return EXIT_NO_SOLUTION; /* who reads it has seen enough: `| head` */
   return cli_failed(common, st == HC_BUG ? EXIT_BUG : EXIT_NO_SOLUTION, "%s: %s", path ? path : "standard output", why);
 }
 

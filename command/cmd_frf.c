@@ -116,7 +116,8 @@ static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const h
     snprintf(amplitude, sizeof amplitude, "amplitude of %s",
              structure_response_name(sc->structure, 0, name, sizeof name));
   if (!hbm_specials_follow_each(s))
-    table_note(t, "contact changes are told where the strongest state of all contacts changes: there are more than 24");
+    table_note(t,
+               "contact changes are listed where the strongest state of all contacts changes: there are more than 24");
   hc_status st = hbm_specials(s, c, SHOWN, special, &n);
   for (int i = 0; i < n && i < SHOWN; ++i) {
     const hbm_special *p = &special[i];

@@ -32,7 +32,7 @@ static void usage(FILE *to)
 static int written(const char *what)
 {
   if (fflush(stdout) == 0 && !ferror(stdout)) return 0;
-  fprintf(stderr, "hbmcheck %s: standard output: %s\n", what, strerror(errno));
+  if (errno != EPIPE) fprintf(stderr, "hbmcheck %s: standard output: %s\n", what, strerror(errno));
   return EXIT_NO_SOLUTION;
 }
 
@@ -47,7 +47,7 @@ static int unknown_command(const char *asked)
 
 int main(int argc, char **argv)
 {
-  signal(SIGPIPE, SIG_IGN);    /* a closed pipe then is a write error, with a message and exit code 3 */
+  signal(SIGPIPE, SIG_IGN);    /* a closed pipe then is a write error, with exit code 3 */
   signal(SIGCHLD, SIG_DFL);    /* if our parent ignored it, waitpid could not tell how gnuplot and python3 ended */
   gsl_set_error_handler_off(); /* GSL's default handler aborts; we check its statuses */
   progress_install_signals(EXIT_NO_SOLUTION);

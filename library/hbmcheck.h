@@ -250,7 +250,7 @@ void hbmcheck_curve_free(hbmcheck_curve *curve);
 
 /* ---- time integration ---- */
 
-enum { HBMCHECK_MAX_OMEGAS = 256 /* in one run, as in a case file */ };
+enum { HBMCHECK_MAX_OMEGAS = 1024 /* in one run, as in a case file */ };
 
 /* One steady state. Measures are of the orbit found, over all its period_multiple periods; NaN unless status is
  * HBMCHECK_OK, HBMCHECK_NOT_SETTLED or HBMCHECK_APERIODIC. In the latter two they are those of the last period. */

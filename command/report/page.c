@@ -90,15 +90,19 @@ static void write_budget(page *p)
   html_table_end(p->to);
 }
 
+/* A long table is closed until it is asked for. */
 static void write_specials(page *p)
 {
+  enum { MOST_OPEN = 12 };
   size_t i;
   const json_t *special;
   const json_t *list = json_object_get(p->d->response, "specials");
-  if (json_array_size(list) == 0) {
+  const size_t n = json_array_size(list);
+  if (n == 0) {
     fputs("<p>Nothing special happens on the curve.</p>\n", p->to);
     return;
   }
+  fprintf(p->to, "<details%s><summary>What happens on the curve, %zu</summary>\n", n <= MOST_OPEN ? " open" : "", n);
   html_table(p->to, "What happens on the curve, in its order", 5,
              (const char *const[]){"what", "omega", p->d->sc->in_cycles ? "frequency" : NULL, "amplitude", "branch"});
   json_array_foreach(list, i, special)
@@ -113,6 +117,7 @@ static void write_specials(page *p)
     html_row_end(p->to);
   }
   html_table_end(p->to);
+  fputs("</details>\n", p->to);
 }
 
 /* ---- the structure --------------------------------------------------------------------------- */

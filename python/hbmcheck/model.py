@@ -168,7 +168,7 @@ class Model:
             free(place)
         words = ""
         if status == BAD_INPUT:
-            words = f"omega: {'the case has no compare.omega' if at is None else f'{len(at)} of them'}, expected 1 to 256"
+            words = f"omega: {'the case has no compare.omega' if at is None else f'{len(at)} of them'}, expected 1 to 1024"
         watch.check(status, words, result)
         return result
 

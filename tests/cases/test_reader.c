@@ -117,7 +117,7 @@ static const mistake extra[] = {
     {"compare: {omega: 5}", "f:4:18: ", "compare.omega is `5`, expected a list of numbers > 0"},
     {"compare: {omega: [1, [2]]}", "f:4:22: ", "compare.omega has a list inside"},
     {"compare: {omega: []}",
-     "f:4:18: ", "compare.omega is a list of 0, expected a list of numbers > 0 (1 to 256 of them)"},
+     "f:4:18: ", "compare.omega is a list of 0, expected a list of numbers > 0 (1 to 1024 of them)"},
     {"title: [a]", "f:4:8: ", "title is a list, expected text"},
     {"title:", "f:4:7: ", "title is empty"},
     {"title: \"a\\nb\"", "f:4:8: ", "title is `a\\x0Ab`, expected text of at most 127 bytes (on one line"},
@@ -157,8 +157,8 @@ static const mistake extra[] = {
     {"compare: {omega: [1, 0, 2]}", "f:4:22: ", "compare.omega has the entry `0`, expected a list of numbers > 0"},
     {"compare: {harmonics: [1, 201]}", "f:4:26: ", "integers 1..200"},
     {"compare: {samples: [2]}", "f:4:21: ", "integers 3.."},
-    {"compare: {points: 0}", "f:4:19: ", "1..256"},
-    {"compare: {points: 257}", "f:4:19: ", "1..256"}, /* as many as a number_list holds */
+    {"compare: {points: 0}", "f:4:19: ", "1..1024"},
+    {"compare: {points: 1025}", "f:4:19: ", "1..1024"}, /* as many as a number_list holds */
     {"gate: {waveform: 0}", "f:4:18: ", "expected a number > 0"},
     {"gate: {iterations: -1}", "f:4:20: ", "gate.iterations is `-1`, expected an integer 0.."},
     {"gate: {amplitud: 1e-3}", "f:4:8: ", "did you mean `amplitude`?"},
@@ -256,7 +256,7 @@ static void too_many_are_refused(CHECK_STATE)
   accepted(text, NULL, &sc);
   assert_int_equal(sc.compare.omega.n, NUMBER_LIST_MAX);
   snprintf(text + n, sizeof text - n, ", 3]\n");
-  refused(text, NULL, "f:5:10: ", "compare.omega is a list of 257");
+  refused(text, NULL, "f:5:10: ", "compare.omega is a list of 1025");
 }
 
 CHECK_TESTS("cases.reader", 60, everything_lands_where_it_belongs, harmless_forms_are_read, frequency_becomes_omega,

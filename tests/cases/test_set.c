@@ -116,7 +116,7 @@ static void mistakes_name_the_assignment(CHECK_STATE)
       {"sweep.omega=3,3",
        "the sweep ends where it starts, expected FROM and TO to differ (single frequencies: compare.omega, or --at)"},
       {"compare.omega=5,,6", "compare.omega has an empty entry, expected a list of numbers > 0"},
-      {"compare.omega=[]", "compare.omega is a list of 0, expected a list of numbers > 0 (1 to 256 of them)"},
+      {"compare.omega=[]", "compare.omega is a list of 0, expected a list of numbers > 0 (1 to 1024 of them)"},
       {"hbm.harmonics=200", NULL},
       {"hbm.samples=10", NULL}, /* too few to sample with, but the exact force does not sample */
       {"contacts=[{gap: x}]", "contacts[0].gap is `x`, expected a number"},

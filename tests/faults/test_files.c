@@ -53,16 +53,13 @@ static void wrong_places(CHECK_STATE)
 /* Descriptor 3 writes into a pipe that nobody reads any more. */
 #define UNREAD "rm -f pipe; mkfifo pipe; exec 4<>pipe 3>pipe 4<&-; "
 
-/* With SIGPIPE as it is by default and ignored; where the reader leaves at once there may be nothing to say, but
- * never a signal. */
+/* With SIGPIPE as it is by default and ignored: never a signal, and no message, for whoever reads has seen enough. */
 static void closed_pipe(CHECK_STATE)
 {
   expect("{ $H describe 2>err; echo $? >code; } | true; cat code err", 0, "");
-  expect(UNREAD "$H describe 2>err >&3; echo $?; cat err", 0, "3\nhbmcheck describe: ");
-  expect(UNREAD "$H frf small.yaml -q --format csv 2>err >&3; echo $?; cat err", 0,
-         "3\nhbmcheck frf: standard output: Broken pipe");
-  expect("trap '' PIPE; " UNREAD "$H frf small.yaml -q 2>err >&3; echo $?; cat err", 0,
-         "3\nhbmcheck frf: standard output: Broken pipe");
+  expect(UNREAD "$H describe 2>err >&3; echo $?; cat err", 0, "3\n");
+  expect(UNREAD "$H frf small.yaml -q --format csv 2>err >&3; echo $?; wc -c <err", 0, "3\n0");
+  expect("trap '' PIPE; " UNREAD "$H frf small.yaml -q 2>err >&3; echo $?; wc -c <err", 0, "3\n0");
   expect("$H frf small.yaml -q --format csv | head -1", 0, "# small: H = 3");
 }
 

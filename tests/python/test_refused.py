@@ -56,7 +56,7 @@ class Refused(Test):
             self.refuses("omega: shape (1, 2), expected one dimension", call, [[1, 2]])
             self.refuses("omega: not an array of real numbers", call, ["fast"])
         self.refuses("omega: empty", model.transient, [])
-        self.refuses("257 of them, expected 1 to 256", model.transient, np.linspace(3, 4, 257))
+        self.refuses("1025 of them, expected 1 to 1024", model.transient, np.linspace(3, 4, 1025))
         self.refuses("the case has no compare.omega", hbmcheck.Model(1, 0.1, 1, forcing=1, sweep=(1, 2)).transient)
 
     def test_curves_to_verify(self):

@@ -123,6 +123,17 @@ static void page_is_small_and_complete(CHECK_STATE)
   free(page[1]);
 }
 
+/* 2 folds and 2 contact changes are open; with 128 samples the curve has many false turning points. */
+static void a_long_table_of_special_points_is_closed(CHECK_STATE)
+{
+  char *few = page_of(CASE2 SMALL, 0, NULL),
+       *many = page_of(CASE2 SMALL "--set hbm.force=sampled --set hbm.samples=64", 1, NULL);
+  assert_non_null(strstr(few, "<details open><summary>What happens on the curve, "));
+  assert_non_null(strstr(many, "<details><summary>What happens on the curve, "));
+  free(few);
+  free(many);
+}
+
 /* With the case's stiffness, the h-th H and the omega-th omega. */
 static const json_t *state_of(const json_t *data, size_t h, size_t omega)
 {
@@ -191,8 +202,8 @@ static void sampling_gains_a_branch_that_truncation_lost(CHECK_STATE)
 
 static void hostile_titles_are_text(CHECK_STATE)
 {
-  char *page = page_of(CASE2 SMALL "--at 9 --set 'title=</script></title><b>x</b>{{data}}&' --set 'units.length=</scr'",
-                       0, NULL);
+  char *page =
+      page_of(CASE2 SMALL "--set 'title=</script></title><b>x</b>{{data}}&' --set 'units.length=</scr'", 0, NULL);
   count(page, "</script>", 3);
   count(page, "</title>", 1);
   assert_null(strstr(page, "<b>x</b>"));
@@ -338,6 +349,7 @@ int main(void)
       cmocka_unit_test(harmonics_are_those_of_the_force_that_is_drawn),
       cmocka_unit_test(sampling_gains_a_branch_that_truncation_lost),
       cmocka_unit_test(hostile_titles_are_text),
+      cmocka_unit_test(a_long_table_of_special_points_is_closed),
       cmocka_unit_test(a_structure_shows_its_shape_and_its_loops),
       cmocka_unit_test(linear_cases_have_a_page),
       cmocka_unit_test(failures_touch_no_file),
