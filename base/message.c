@@ -12,16 +12,6 @@ void message_start(message *m, char *text, size_t size)
   text[0] = '\0';
 }
 
-/* End the text in "...", cut at the start of a character so that no part of one is left. */
-static void end_in_dots(message *m)
-{
-  size_t end = m->used < m->size - 4 ? m->used : m->size - 4;
-  while (end > 0 && ((unsigned char)m->text[end] & 0xC0) == 0x80) --end;
-  memcpy(m->text + end, "...", 4);
-  m->used = end + 3;
-  m->full = true;
-}
-
 void message_add_list(message *m, const char *format, va_list args)
 {
   if (m->full) return;
@@ -31,7 +21,12 @@ void message_add_list(message *m, const char *format, va_list args)
     m->used += (size_t)n;
   } else {
     m->used = m->size - 1;
-    end_in_dots(m);
+    /* End the text in "...", cut at the start of a character so that no part of one is left. */
+    size_t end = m->used < m->size - 4 ? m->used : m->size - 4;
+    while (end > 0 && ((unsigned char)m->text[end] & 0xC0) == 0x80) --end;
+    memcpy(m->text + end, "...", 4);
+    m->used = end + 3;
+    m->full = true;
   }
 }
 

@@ -36,28 +36,6 @@ static void describe_briefly(const field *f, FILE *to)
   fprintf(to, "\n      %s%s%s\n", *f->symbol ? f->symbol : "", *f->symbol ? ", " : "", f->meaning);
 }
 
-static void describe_section(const field_section *s, FILE *to)
-{
-  if (*s->name) fprintf(to, "%s: %s\n", s->name, s->meaning);
-  for (int i = 0; i < field_count(); ++i)
-    if (!strcmp(field_at(i)->section, s->name)) describe_briefly(field_at(i), to);
-}
-
-static void describe_field(const field *f, FILE *to)
-{
-  char path[FIELD_PATH], text[128];
-  fprintf(to, "%s: %s\n", field_path(f, -1, path), f->meaning);
-  if (*f->symbol) fprintf(to, "  symbol    %s\n", f->symbol);
-  if (*f->unit) fprintf(to, "  unit      [%s]\n", f->unit);
-  fprintf(to, "  expected  %s\n  default   ", expected(f, text));
-  write_default(f, to);
-  const field *rival;
-  for (int i = 0; !either_of_two(f) && (rival = field_rival(f, i)) != NULL; ++i)
-    fprintf(to, "%s%s.%s", i ? ", " : "\n  instead   ", rival->section, rival->name);
-  const char *example = f->fallback && *f->fallback ? f->fallback : f->choices ? f->choices[0] : "VALUE";
-  fprintf(to, "\n  set it    --set '%s=%s'\n", field_path(f, 0, path), example);
-}
-
 /* The length of a section's name without the brackets of a list: forcing[] is forcing, too. */
 static int stem_length(const char *section) { return (int)strcspn(section, "["); }
 
@@ -83,14 +61,26 @@ hc_status case_describe(const char *asked, FILE *to, case_error *err)
     const bool meant = !asked || !strcmp(s->name, asked) || (!strncmp(s->name, asked, (size_t)stem) && !asked[stem]);
     if (!meant) continue;
     if (n++) putc('\n', to);
-    describe_section(s, to);
+    if (*s->name) fprintf(to, "%s: %s\n", s->name, s->meaning);
+    for (int k = 0; k < field_count(); ++k)
+      if (!strcmp(field_at(k)->section, s->name)) describe_briefly(field_at(k), to);
   }
   bool sections = n > 0;
   for (int i = 0; i < field_count() && !sections; ++i) {
     const field *f = field_at(i);
     if (!case_field_asked(f, asked)) continue;
     if (n++) putc('\n', to);
-    describe_field(f, to);
+    char path[FIELD_PATH], text[128];
+    fprintf(to, "%s: %s\n", field_path(f, -1, path), f->meaning);
+    if (*f->symbol) fprintf(to, "  symbol    %s\n", f->symbol);
+    if (*f->unit) fprintf(to, "  unit      [%s]\n", f->unit);
+    fprintf(to, "  expected  %s\n  default   ", expected(f, text));
+    write_default(f, to);
+    const field *rival;
+    for (int k = 0; !either_of_two(f) && (rival = field_rival(f, k)) != NULL; ++k)
+      fprintf(to, "%s%s.%s", k ? ", " : "\n  instead   ", rival->section, rival->name);
+    const char *example = f->fallback && *f->fallback ? f->fallback : f->choices ? f->choices[0] : "VALUE";
+    fprintf(to, "\n  set it    --set '%s=%s'\n", field_path(f, 0, path), example);
   }
   if (asked && n == 0) return unknown_field(asked, err);
   return ferror(to) ? HC_IO : HC_OK;

@@ -15,17 +15,6 @@ static hc_status file_failed(case_reader *r, const char *words)
   return HC_IO;
 }
 
-/* "dir/case2.yaml" is titled "case2". */
-static void title_from_name(const char *name, char title[SCENE_MAX_TEXT])
-{
-  int stem;
-  const char *base = path_name(name, &stem);
-  message m;
-  message_start(&m, title, SCENE_MAX_TEXT);
-  message_add_input(&m, base, (size_t)stem, SCENE_MAX_TEXT);
-  memset(title + m.used, 0, SCENE_MAX_TEXT - m.used);
-}
-
 void case_reader_start(case_reader *r, const char *name, const char *const *set, case_error *err)
 {
   memset(r, 0, sizeof *r);
@@ -45,7 +34,15 @@ static hc_status read_scene(case_reader *r, const char *text, size_t length, int
   yaml_document_delete(&r->doc);
   for (int k = 1; k <= n_set && st == HC_OK; ++k) st = case_set_apply(r, k);
   if (st == HC_OK) st = case_check(r);
-  if (st == HC_OK && r->at[field_index(field_named("", "title"))].line == 0) title_from_name(r->name, r->sc.title);
+  /* "dir/case2.yaml" is titled "case2". */
+  if (st == HC_OK && r->at[field_index(field_named("", "title"))].line == 0) {
+    int stem;
+    const char *base = path_name(r->name, &stem);
+    message m;
+    message_start(&m, r->sc.title, SCENE_MAX_TEXT);
+    message_add_input(&m, base, (size_t)stem, SCENE_MAX_TEXT);
+    memset(r->sc.title + m.used, 0, SCENE_MAX_TEXT - m.used);
+  }
   return st;
 }
 

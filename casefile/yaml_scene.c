@@ -84,17 +84,6 @@ static hc_status check_sections(case_reader *r, const case_place *given, const y
   return HC_OK;
 }
 
-/* What a section holds, wherever it stands. */
-static hc_status read_section_value(case_reader *r, const field_section *s, const yaml_node_t *value)
-{
-  const bool contacts = !strcmp(s->name, "contacts");
-  if (!strcmp(s->name, "structure")) return yaml_structure_read(r, value);
-  if (r->sc.structure && contacts) return yaml_contacts_read(r, value);
-  if (r->sc.structure && !strcmp(s->name, "forcing")) return yaml_loads_read(r, value);
-  if (contacts) return yaml_scene_contacts(r, value);
-  return read_section(r, s, -1, &r->sc, value);
-}
-
 static hc_status read_top_level(case_reader *r, const yaml_node_t *key, const yaml_node_t *value, case_place *given)
 {
   hc_status st = yaml_check_key(r, key);
@@ -110,7 +99,13 @@ static hc_status read_top_level(case_reader *r, const yaml_node_t *key, const ya
   case_place *at = &given[s - field_section_at(0)];
   if (at->line > 0) return yaml_duplicate_key(r, key, *at);
   *at = yaml_place(r, key);
-  return read_section_value(r, s, value);
+  /* What a section holds, wherever it stands. */
+  const bool contacts = !strcmp(s->name, "contacts");
+  if (!strcmp(s->name, "structure")) return yaml_structure_read(r, value);
+  if (r->sc.structure && contacts) return yaml_contacts_read(r, value);
+  if (r->sc.structure && !strcmp(s->name, "forcing")) return yaml_loads_read(r, value);
+  if (contacts) return yaml_scene_contacts(r, value);
+  return read_section(r, s, -1, &r->sc, value);
 }
 
 /* The first key of that name, -1 if there is none. */

@@ -104,12 +104,6 @@ static hc_status check_events(case_reader *r, yaml_parser_t *p)
   return HC_BAD_INPUT;
 }
 
-static hc_status out_of_memory(case_reader *r)
-{
-  message_add(case_blame(r, (case_place){.set = r->set_now, .line = 1, .column = 1}), "out of memory");
-  return HC_NO_MEMORY;
-}
-
 hc_status yaml_text_load(case_reader *r, const char *text, size_t length)
 {
   yaml_parser_t p;
@@ -121,7 +115,10 @@ hc_status yaml_text_load(case_reader *r, const char *text, size_t length)
   if (starts_with(text, length, "\xEF\xBB\xBF")) text += 3, length -= 3;
   hc_status st = check_characters(r, text, length);
   for (int pass = 0; pass < 2 && st == HC_OK; ++pass) {
-    if (!yaml_parser_initialize(&p)) return out_of_memory(r);
+    if (!yaml_parser_initialize(&p)) {
+      message_add(case_blame(r, (case_place){.set = r->set_now, .line = 1, .column = 1}), "out of memory");
+      return HC_NO_MEMORY;
+    }
     yaml_parser_set_encoding(&p, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&p, (const unsigned char *)text, length);
     st = pass == 0 ? check_events(r, &p) : yaml_parser_load(&p, &r->doc) ? HC_OK : parser_failed(r, &p);

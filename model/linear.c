@@ -28,18 +28,6 @@ void linear_free_motion(double mass, double damping, double stiffness, double t,
   e[1][1] = co - a * si;
 }
 
-/* Powers of t: s = sum s_n t^n, (n + 2)(n + 1) s_(n+2) = -c (n + 1) s_(n+1) - k s_n, s_2 = 1/2. */
-static double step_series(double c, double k, double t)
-{
-  double before = 0, term = 0.5 * t * t, sum = term; /* s_(n+1) t^(n+1), s_(n+2) t^(n+2) */
-  for (int n = 1; n < 100 && fabs(term) + fabs(before) > 0.25 * DBL_EPSILON * fabs(sum); ++n) {
-    const double next = -(c * t * (n + 1) * term + k * t * t * before) / ((n + 2) * (n + 1));
-    before = term;
-    sum += term = next;
-  }
-  return sum;
-}
-
 double linear_step_response(double c, double k, double t)
 {
   const bool far_apart = c * t > 4 && c * c > 8 * k; /* the roots, which are real */
@@ -48,7 +36,16 @@ double linear_step_response(double c, double k, double t)
     linear_free_motion(1, c, k, t, e);
     return (1 - e[0][0]) / k;
   }
-  if (!far_apart) return step_series(c, k, t);
+  /* Powers of t: s = sum s_n t^n, (n + 2)(n + 1) s_(n+2) = -c (n + 1) s_(n+1) - k s_n, s_2 = 1/2. */
+  if (!far_apart) {
+    double before = 0, term = 0.5 * t * t, sum = term; /* s_(n+1) t^(n+1), s_(n+2) t^(n+2) */
+    for (int n = 1; n < 100 && fabs(term) + fabs(before) > 0.25 * DBL_EPSILON * fabs(sum); ++n) {
+      const double next = -(c * t * (n + 1) * term + k * t * t * before) / ((n + 2) * (n + 1));
+      before = term;
+      sum += term = next;
+    }
+    return sum;
+  }
   /* the slow root is not a difference, nor is what it does */
   const double root = sqrt(0.25 * c * c - k), fast = -0.5 * c - root, slow = -k / (0.5 * c + root);
   const double by_slow = slow != 0 ? expm1(slow * t) / slow : t;

@@ -19,25 +19,6 @@ static double *take(double **next, size_t length)
   return taken;
 }
 
-/* Every pointer into the block, in one order. */
-static void divide_block(model *m)
-{
-  double *next = m->numbers;
-  const size_t n = (size_t)m->n;
-  m->mass = take(&next, n * n);
-  m->damping = take(&next, n * n);
-  m->stiffness = take(&next, n * n);
-  for (int i = 0; i < m->n_loads; ++i) {
-    m->loads[i].cosine = take(&next, n);
-    m->loads[i].sine = take(&next, n);
-  }
-  for (int j = 0; j < m->n_contacts; ++j) {
-    m->contacts[j].tangent = take(&next, n);
-    m->contacts[j].normal = take(&next, n);
-  }
-  m->responses = take(&next, n * (size_t)m->n_responses);
-}
-
 hc_status model_new(int n, int n_loads, int n_contacts, int n_responses, model **out)
 {
   *out = NULL;
@@ -55,7 +36,21 @@ hc_status model_new(int n, int n_loads, int n_contacts, int n_responses, model *
     model_free(m);
     return HC_NO_MEMORY;
   }
-  divide_block(m);
+  /* Every pointer into the block, in one order. */
+  double *next = m->numbers;
+  const size_t length = (size_t)m->n;
+  m->mass = take(&next, length * length);
+  m->damping = take(&next, length * length);
+  m->stiffness = take(&next, length * length);
+  for (int i = 0; i < m->n_loads; ++i) {
+    m->loads[i].cosine = take(&next, length);
+    m->loads[i].sine = take(&next, length);
+  }
+  for (int j = 0; j < m->n_contacts; ++j) {
+    m->contacts[j].tangent = take(&next, length);
+    m->contacts[j].normal = take(&next, length);
+  }
+  m->responses = take(&next, length * (size_t)m->n_responses);
   *out = m;
   return HC_OK;
 }
