@@ -159,12 +159,6 @@ static error_t read_common_option(int key, char *text, struct argp_state *state)
   }
 }
 
-/* `usage` is a command's "CASE...". */
-static const char *what_arguments_are(const char *usage)
-{
-  return !strncmp(usage, "CASE", 4) ? "the case file" : !strncmp(usage, "STUDY", 5) ? "the study" : NULL;
-}
-
 /* A list of options, which ends in {0}: the one that name[length] is or begins, for getopt takes both. NULL: none. */
 static const struct argp_option *known_option(const struct argp_option *o, const char *name, size_t length)
 {
@@ -259,7 +253,11 @@ static void parse(const cli_command *self, int argc, char **argv, cli_common *co
 
 int cli_run(const cli_command *self, int argc, char **argv)
 {
-  cli_common common = {.command = self, .argument_is = what_arguments_are(self->arguments)};
+  /* `usage` is a command's "CASE...". */
+  cli_common common = {.command = self,
+                       .argument_is = (!strncmp(self->arguments, "CASE", 4)    ? "the case file"
+                                       : !strncmp(self->arguments, "STUDY", 5) ? "the study"
+                                                                               : NULL)};
   scene sc = {.structure = NULL};
   common.own = calloc(1, self->own_size + 1);
   if (!common.own) return cli_failed(&common, EXIT_NO_SOLUTION, "%s", hc_status_text(HC_NO_MEMORY));

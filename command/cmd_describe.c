@@ -235,19 +235,6 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
   return written ? HC_OK : HC_NO_MEMORY;
 }
 
-/* In the order of the table of fields, entry after entry of its lists. */
-static hc_status put_values(table *t, const described *d)
-{
-  hc_status st = HC_OK;
-  for (int i = 0, end; i < field_count() && st == HC_OK; i = end) {
-    const unsigned list = field_at(i)->flags & (FIELD_IN_CONTACT | FIELD_IN_LOAD);
-    for (end = i + 1; list && end < field_count() && field_at(end)->flags & list;) ++end;
-    for (int j = 0; j < count_values(d->sc, field_at(i)); ++j)
-      for (int k = i; k < end && st == HC_OK; ++k) st = put_value(t, d, field_at(k), j);
-  }
-  return st;
-}
-
 static hc_status put_derived(table *t, const scene *sc)
 {
   case_derived all[CASE_DERIVED_MAX];
@@ -264,7 +251,14 @@ static int write_values(const cli_common *common, const described *d)
 {
   table *tables[2] = {table_new("Values", CLI_COLUMNS(value_columns)),
                       table_new("Derived", CLI_COLUMNS(derived_columns))};
-  hc_status st = put_values(tables[0], d);
+  /* In the order of the table of fields, entry after entry of its lists. */
+  hc_status st = HC_OK;
+  for (int i = 0, end; i < field_count() && st == HC_OK; i = end) {
+    const unsigned list = field_at(i)->flags & (FIELD_IN_CONTACT | FIELD_IN_LOAD);
+    for (end = i + 1; list && end < field_count() && field_at(end)->flags & list;) ++end;
+    for (int j = 0; j < count_values(d->sc, field_at(i)); ++j)
+      for (int k = i; k < end && st == HC_OK; ++k) st = put_value(tables[0], d, field_at(k), j);
+  }
   table_spare(tables[0], spare_value_columns);
   table_note(tables[0], "%s", d->sc->title);
   const hc_status derived = put_derived(tables[1], d->sc);

@@ -291,19 +291,6 @@ static int keep_finding(const stress_call *call, long index, stress_kind kind, c
   return code;
 }
 
-static int keep_findings(const stress_call *call)
-{
-  int code = 0;
-  progress *bar = progress_start("shrinking findings", call->common->quiet);
-  const hc_monitor monitor = progress_monitor(bar);
-  for (long i = 0; i < call->own->plan.scenes && !code; ++i)
-    for (int k = 0; k < STRESS_N_CHECKS && !code; ++k)
-      if (call->results[i].there && call->results[i].check[k].outcome == STRESS_FINDING)
-        code = keep_finding(call, call->results[i].index, (stress_kind)k, &monitor);
-  progress_end(bar);
-  return code;
-}
-
 /* ---- running ---- */
 
 /* The progress: a line with the number of scenes done. */
@@ -373,7 +360,14 @@ static int run_stress(cli_common *common, void *given, scene *sc)
     return cli_solver_failed(common, CLI_BOTH, "stress", HC_NO_MEMORY, 0);
   int stopped = classify_scenes(&call), code = stopped && call.classified == 0 ? stopped : write_tables(&call);
   if (!stopped && own->findings && code == EXIT_DISAGREED) {
-    int kept = keep_findings(&call);
+    int kept = 0;
+    progress *bar = progress_start("shrinking findings", call.common->quiet);
+    const hc_monitor monitor = progress_monitor(bar);
+    for (long i = 0; i < call.own->plan.scenes && !kept; ++i)
+      for (int k = 0; k < STRESS_N_CHECKS && !kept; ++k)
+        if (call.results[i].there && call.results[i].check[k].outcome == STRESS_FINDING)
+          kept = keep_finding(&call, call.results[i].index, (stress_kind)k, &monitor);
+    progress_end(bar);
     if (kept) code = kept;
   }
   free(call.results);

@@ -336,12 +336,6 @@ static bool not_interrupted(void *self, double done)
   return !progress_interrupted();
 }
 
-static void run_other_rank(const study_call *call)
-{
-  hc_monitor monitor = {not_interrupted, NULL};
-  for (int n = 0; n < call->n_studies && cluster_agree(0) == 0; ++n) cluster_work(call->studies[n].s, &monitor);
-}
-
 static int run_study(cli_common *common, void *own, scene *sc)
 {
   study_call *call = calloc(1, sizeof *call);
@@ -385,7 +379,10 @@ static int run_study(cli_common *common, void *own, scene *sc)
   if (!code && call->rank == 0) code = open_stores(call);
   int agreed = cluster_agree(code);
   if (!agreed && call->rank == 0) code = run_rank_0(call);
-  else if (!agreed) run_other_rank(call);
+  else if (!agreed) {
+    hc_monitor monitor = {not_interrupted, NULL};
+    for (int n = 0; n < call->n_studies && cluster_agree(0) == 0; ++n) cluster_work(call->studies[n].s, &monitor);
+  }
   for (int i = 0; i < call->n_studies; ++i) {
     study_store_close(call->studies[i].store);
     study_free(call->studies[i].s);

@@ -87,33 +87,6 @@ static bool on_curve(const curve_shape *c, const curve_point *p, double wide, do
   return false;
 }
 
-/* The sweep from the other end. If it fails nothing of it is drawn; the only error is HC_NO_MEMORY. */
-static hc_status trace_other(const scene *sc, double from, double to, curve_shape *out)
-{
-  hbm_solver *s = NULL;
-  hbm_curve back = {0};
-  hc_status st = scene_hbm_solver(sc, &s);
-  if (st == HC_OK) hbm_trace(s, from, to, NULL, &back);
-  if (st == HC_OK && back.n > 0) st = sample_curve(s, &back, (drawn_as){0, false}, &out->other, &out->n_other);
-  /* Drops the points of `other` that lie on the curve; a gap stands where some were dropped. */
-  if (st == HC_OK) {
-    int kept = 0;
-    double high = 0;
-    for (int k = 0; k < out->n; ++k) high = fmax(high, out->points[k].amplitude);
-    for (int k = 0; k < out->n_other; ++k) {
-      const curve_point p = out->other[k];
-      bool off =
-          p.omega >= out->low && p.omega <= out->high && !on_curve(out, &p, out->high - out->low, high > 0 ? high : 1);
-      if (off) out->other[kept++] = p;
-      else if (kept && !isnan(out->other[kept - 1].omega)) out->other[kept++] = (curve_point){.omega = NAN};
-    }
-    out->n_other = kept;
-  } else out->n_other = 0;
-  hbm_curve_free(&back);
-  hbm_solver_free(s);
-  return st == HC_NO_MEMORY ? st : HC_OK;
-}
-
 /* ---- made and freed ---- */
 
 void curve_response_name(const scene *sc, int r, char text[RESPONSE_NAME])
@@ -134,7 +107,32 @@ hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve,
   hc_status st = sample_curve(s, curve, (drawn_as){0, true}, &out->points, &out->n);
   if (st == HC_OK && curve->n > 0) hbm_specials(s, curve, CURVE_MOST_SPECIALS, out->special, &out->n_special);
   if (out->n_special > CURVE_MOST_SPECIALS) out->n_special = CURVE_MOST_SPECIALS;
-  if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT) st = trace_other(sc, sc->omega_to, sc->omega_from, out);
+  /* The sweep from the other end. If it fails nothing of it is drawn; the only error is HC_NO_MEMORY. */
+  if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT) {
+    hbm_solver *reverse = NULL;
+    hbm_curve back = {0};
+    hc_status traced = scene_hbm_solver(sc, &reverse);
+    if (traced == HC_OK) hbm_trace(reverse, sc->omega_to, sc->omega_from, NULL, &back);
+    if (traced == HC_OK && back.n > 0)
+      traced = sample_curve(reverse, &back, (drawn_as){0, false}, &out->other, &out->n_other);
+    /* Drops the points of `other` that lie on the curve; a gap stands where some were dropped. */
+    if (traced == HC_OK) {
+      int kept = 0;
+      double high = 0;
+      for (int k = 0; k < out->n; ++k) high = fmax(high, out->points[k].amplitude);
+      for (int k = 0; k < out->n_other; ++k) {
+        const curve_point p = out->other[k];
+        bool off = p.omega >= out->low && p.omega <= out->high &&
+                   !on_curve(out, &p, out->high - out->low, high > 0 ? high : 1);
+        if (off) out->other[kept++] = p;
+        else if (kept && !isnan(out->other[kept - 1].omega)) out->other[kept++] = (curve_point){.omega = NAN};
+      }
+      out->n_other = kept;
+    } else out->n_other = 0;
+    hbm_curve_free(&back);
+    hbm_solver_free(reverse);
+    st = traced == HC_NO_MEMORY ? traced : HC_OK;
+  }
   return st;
 }
 

@@ -115,23 +115,6 @@ bool plot_can(const char *path)
 
 /* ---- the terminal ---- */
 
-/* As wide as the terminal, or as COLUMNS says; two lines less high, so that the prompt leaves all of it visible. */
-static void set_letters(figure *g)
-{
-  struct winsize size;
-  const char *columns = getenv("COLUMNS");
-  int width = columns ? (int)strtol(columns, NULL, 10) : 0, height = 0;
-  if (isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
-    width = size.ws_col;
-    height = size.ws_row - 2;
-  }
-  if (width <= 0) width = PLAIN_WIDTH;
-  width = width < LEAST_WIDTH ? LEAST_WIDTH : width > MOST_WIDTH ? MOST_WIDTH : width;
-  if (height <= 0 || height > width / 2) height = width > 2 * PLAIN_HEIGHT ? PLAIN_HEIGHT : width / 2;
-  figure_script(g, "set terminal dumb enhanced mono size %d,%d\n", width,
-                height < LEAST_HEIGHT ? LEAST_HEIGHT : height);
-}
-
 hc_status figure_open(figure *g, plot_order *p, int width, int height)
 {
   *g = (figure){.order = p, .letters = !strcmp(p->path, "-"), .x_unit = 1};
@@ -141,8 +124,20 @@ hc_status figure_open(figure *g, plot_order *p, int width, int height)
   p->why[0] = 0;
   const char *path = g->order->path;
   figure_script(g, "set encoding utf8\n");
-  if (g->letters) set_letters(g);
-  else if (ends_in(path, ".svg"))
+  /* As wide as the terminal, or as COLUMNS says; two lines less high, so that the prompt leaves all of it visible. */
+  if (g->letters) {
+    struct winsize size;
+    const char *columns = getenv("COLUMNS");
+    int across = columns ? (int)strtol(columns, NULL, 10) : 0, down = 0;
+    if (isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+      across = size.ws_col;
+      down = size.ws_row - 2;
+    }
+    if (across <= 0) across = PLAIN_WIDTH;
+    across = across < LEAST_WIDTH ? LEAST_WIDTH : across > MOST_WIDTH ? MOST_WIDTH : across;
+    if (down <= 0 || down > across / 2) down = across > 2 * PLAIN_HEIGHT ? PLAIN_HEIGHT : across / 2;
+    figure_script(g, "set terminal dumb enhanced mono size %d,%d\n", across, down < LEAST_HEIGHT ? LEAST_HEIGHT : down);
+  } else if (ends_in(path, ".svg"))
     figure_script(g, "set terminal svg enhanced size %d,%d font 'sans,13' background rgb 'white'\n", width, height);
   else if (ends_in(path, ".png"))
     figure_script(g,

@@ -121,13 +121,12 @@ hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curv
 
 static bool has_transient(const comparison_row *r) { return motion_is_measured(r->transient_status); }
 
-static bool has_hbm(const comparison_row *r) { return r->branch >= 0 && r->hbm_status == HC_OK; }
-
 /* Is the verdict drawn at the HBM solution? It is where the transient left that solution or has no result; all others
  * are drawn at the transient. */
 static bool stands_at_hbm(const comparison_row *r)
 {
-  return has_hbm(r) && (r->verdict == VERDICT_UNSTABLE || r->verdict == VERDICT_OTHER_BRANCH || !has_transient(r));
+  return (r->branch >= 0 && r->hbm_status == HC_OK) &&
+         (r->verdict == VERDICT_UNSTABLE || r->verdict == VERDICT_OTHER_BRANCH || !has_transient(r));
 }
 
 static const char *compared_point(const void *rows, int i, double *x, double *y, char text[24])
