@@ -95,38 +95,6 @@ typedef struct answer {
   bool too_long;
 } answer;
 
-static void solve_hbm(timed_method *t, const bench_start *at, answer *a)
-{
-  hbm_point point;
-  hbm_measures m;
-  memcpy(t->trial, t->X, (size_t)hbm_n_coefficients(t->hbm) * sizeof *t->X);
-  a->status = hbm_solve(t->hbm, at->omega, t->trial, &point);
-  if (a->status == HC_OK) a->status = hbm_measure(t->hbm, t->trial, &m);
-}
-
-static void solve_transient(timed_method *t, const bench_start *at, const hc_monitor *monitor, timeint_result *r,
-                            answer *a)
-{
-  const bool marches = t->setup.transient.steady == TRANSIENT_STEADY_MARCH;
-  work_limit l = {.outer = monitor, .until = thread_seconds() + (marches ? bench_longest : bench_longest_shot)};
-  hc_monitor limited = {work_limit_tick, &l};
-  memcpy(t->state, at->state, (size_t)at->n_states * sizeof *t->state);
-  timeint_forget(t->ti); /* the same solution is asked for again and again */
-  a->status = timeint_steady(t->ti, at->omega, t->state, &limited, r);
-  a->too_long = a->status == HC_INTERRUPTED && !l.stopped;
-}
-
-/* The motion of every response of the last solution. */
-static hc_status find_motions(timed_method *t, const bench_start *at, timeint_result *r)
-{
-  hc_status st = HC_OK;
-  for (int i = 0; i < at->n_responses && st == HC_OK; ++i) {
-    if (t->hbm) st = motion_of_response(t->hbm, at->omega, t->trial, i, NULL, &t->motion[i]);
-    else if (i == 0 || (st = timeint_response(t->ti, i, r)) == HC_OK) t->motion[i] = motion_of_transient(r);
-  }
-  return st;
-}
-
 /* A batch of solutions; the time of one. */
 static double solve(timed_method *t, const bench_start *at, const hc_monitor *monitor, answer *a)
 {
@@ -134,12 +102,33 @@ static double solve(timed_method *t, const bench_start *at, const hc_monitor *mo
   *a = (answer){.status = HC_OK};
   const double began = thread_seconds();
   for (int i = 0; i < t->batch; ++i) {
-    if (t->hbm) solve_hbm(t, at, a);
-    else solve_transient(t, at, monitor, &r, a);
+    if (t->hbm) {
+      hbm_point point;
+      hbm_measures m;
+      memcpy(t->trial, t->X, (size_t)hbm_n_coefficients(t->hbm) * sizeof *t->X);
+      a->status = hbm_solve(t->hbm, at->omega, t->trial, &point);
+      if (a->status == HC_OK) a->status = hbm_measure(t->hbm, t->trial, &m);
+    } else {
+      const bool marches = t->setup.transient.steady == TRANSIENT_STEADY_MARCH;
+      work_limit l = {.outer = monitor, .until = thread_seconds() + (marches ? bench_longest : bench_longest_shot)};
+      hc_monitor limited = {work_limit_tick, &l};
+      memcpy(t->state, at->state, (size_t)at->n_states * sizeof *t->state);
+      timeint_forget(t->ti); /* the same solution is asked for again and again */
+      a->status = timeint_steady(t->ti, at->omega, t->state, &limited, &r);
+      a->too_long = a->status == HC_INTERRUPTED && !l.stopped;
+    }
   }
   const double took = thread_seconds() - began;
   t->spent += took;
-  if (a->status == HC_OK) a->status = find_motions(t, at, &r);
+  /* The motion of every response of the last solution. */
+  if (a->status == HC_OK) {
+    hc_status st = HC_OK;
+    for (int i = 0; i < at->n_responses && st == HC_OK; ++i) {
+      if (t->hbm) st = motion_of_response(t->hbm, at->omega, t->trial, i, NULL, &t->motion[i]);
+      else if (i == 0 || (st = timeint_response(t->ti, i, &r)) == HC_OK) t->motion[i] = motion_of_transient(&r);
+    }
+    a->status = st;
+  }
   return took / t->batch;
 }
 
@@ -176,28 +165,23 @@ static hc_status make(const bench_start *at, const hc_monitor *monitor, timed_me
   return hbm_solve(t->hbm, at->neighbour, t->X, &point) == HC_OK ? HC_OK : from_own_curve(at, monitor, t);
 }
 
-/* The largest of each difference between n motions and their references, over `size`; NaN stays. */
-static motion_distance error_of(int n, const periodic_motion *found, const periodic_motion *reference, double size)
-{
-  motion_distance worst = {0};
-  for (int i = 0; i < n; ++i) {
-    const motion_distance gap = motion_between(&found[i], &reference[i]);
-    if (!(gap.waveform <= worst.waveform)) worst.waveform = gap.waveform;
-    if (!(gap.amplitude <= worst.amplitude)) worst.amplitude = gap.amplitude;
-    if (!(gap.harmonic_1 <= worst.harmonic_1)) worst.harmonic_1 = gap.harmonic_1;
-  }
-  return (motion_distance){.amplitude = discrepancy_relative(worst.amplitude, size),
-                           .harmonic_1 = discrepancy_relative(worst.harmonic_1, size),
-                           .mean = NAN,
-                           .waveform = discrepancy_relative(worst.waveform, size)};
-}
-
 static void record_answer(const timed_method *t, const answer *a, const bench_start *at, double took, bench_row *row)
 {
   row->status = a->status;
   row->outcome = a->status == HC_OK ? BENCH_SOLVED : a->too_long ? BENCH_TOO_LONG : BENCH_FAILED;
   if (a->status != HC_OK) return;
-  const motion_distance error = error_of(at->n_responses, t->motion, at->reference, at->size);
+  /* The largest of each difference between n motions and their references, over `size`; NaN stays. */
+  motion_distance worst = {0};
+  for (int i = 0; i < at->n_responses; ++i) {
+    const motion_distance gap = motion_between(&t->motion[i], &at->reference[i]);
+    if (!(gap.waveform <= worst.waveform)) worst.waveform = gap.waveform;
+    if (!(gap.amplitude <= worst.amplitude)) worst.amplitude = gap.amplitude;
+    if (!(gap.harmonic_1 <= worst.harmonic_1)) worst.harmonic_1 = gap.harmonic_1;
+  }
+  const motion_distance error = (motion_distance){.amplitude = discrepancy_relative(worst.amplitude, at->size),
+                                                  .harmonic_1 = discrepancy_relative(worst.harmonic_1, at->size),
+                                                  .mean = NAN,
+                                                  .waveform = discrepancy_relative(worst.waveform, at->size)};
   if (!(error.waveform <= other_orbit)) row->outcome = BENCH_OTHER_ORBIT;
   if (row->outcome != BENCH_SOLVED) return;
   row->error = error.amplitude;
@@ -350,41 +334,11 @@ static bool hopeless(const bench_row *rows, int i)
   return false;
 }
 
-/* All rows once: what they find; and the curves. */
-static hc_status first_round(bench_work *w, bench_frequency *p)
-{
-  bench_row *rows = w->out->rows + p->first;
-  hc_status st = HC_OK;
-  for (int i = 0; i < p->n && st == HC_OK; ++i) {
-    w->done = 0.1 + 0.5 * i / p->n;
-    if (hopeless(rows, i)) rows[i].outcome = BENCH_TOO_LONG;
-    else if (!hc_monitor_tick(&w->monitor, -1)) st = HC_INTERRUPTED;
-    else if ((st = timed_method_start(w->setup, &w->start, &rows[i], w->options->repeats, &w->monitor,
-                                      &w->methods[i])) == HC_OK)
-      st = timed_method_curve(&w->methods[i], &w->monitor);
-  }
-  return st;
-}
-
 static bool has_enough(const timed_method *t, const bench_row *row)
 {
   if (row->outcome != BENCH_SOLVED || t->runs == t->cap) return true;
   int fewest = row->seconds > timed_method_slow ? 1 : FEWEST;
   return t->runs >= fewest && t->spent > enough; /* spent: the first run included */
-}
-
-static hc_status rounds(bench_work *w, const bench_frequency *p)
-{
-  const int n = w->options->repeats;
-  hc_status st = HC_OK;
-  for (int round = 0; round < n && st == HC_OK; ++round)
-    for (int i = 0; i < p->n && st == HC_OK; ++i) {
-      w->done = 0.6 + 0.3 * (round * p->n + i) / ((double)n * p->n);
-      if (!hc_monitor_tick(&w->monitor, -1)) st = HC_INTERRUPTED;
-      else if (!has_enough(&w->methods[i], &w->out->rows[p->first + i]))
-        st = timed_method_run(&w->methods[i], &w->start, &w->monitor);
-    }
-  return st;
 }
 
 static hc_status measure_ours(bench_work *w, bench_frequency *p)
@@ -394,8 +348,28 @@ static hc_status measure_ours(bench_work *w, bench_frequency *p)
   for (int i = 0; i < N_FAMILIES && st == HC_OK; ++i) st = add_family(w->out, &families[i], p->omega);
   p->n = w->out->n_rows - p->first;
   if (st == HC_OK && !(w->methods = calloc((size_t)p->n, sizeof *w->methods))) st = HC_NO_MEMORY;
-  if (st == HC_OK) st = first_round(w, p);
-  if (st == HC_OK) st = rounds(w, p);
+  /* All rows once: what they find; and the curves. */
+  if (st == HC_OK) {
+    bench_row *rows = w->out->rows + p->first;
+    for (int i = 0; i < p->n && st == HC_OK; ++i) {
+      w->done = 0.1 + 0.5 * i / p->n;
+      if (hopeless(rows, i)) rows[i].outcome = BENCH_TOO_LONG;
+      else if (!hc_monitor_tick(&w->monitor, -1)) st = HC_INTERRUPTED;
+      else if ((st = timed_method_start(w->setup, &w->start, &rows[i], w->options->repeats, &w->monitor,
+                                        &w->methods[i])) == HC_OK)
+        st = timed_method_curve(&w->methods[i], &w->monitor);
+    }
+  }
+  if (st == HC_OK) {
+    const int n = w->options->repeats;
+    for (int round = 0; round < n && st == HC_OK; ++round)
+      for (int i = 0; i < p->n && st == HC_OK; ++i) {
+        w->done = 0.6 + 0.3 * (round * p->n + i) / ((double)n * p->n);
+        if (!hc_monitor_tick(&w->monitor, -1)) st = HC_INTERRUPTED;
+        else if (!has_enough(&w->methods[i], &w->out->rows[p->first + i]))
+          st = timed_method_run(&w->methods[i], &w->start, &w->monitor);
+      }
+  }
   for (int i = 0; w->methods && i < p->n; ++i) timed_method_finish(&w->methods[i]);
   free(w->methods);
   w->methods = NULL;
@@ -432,13 +406,6 @@ static hc_status measure_scipy(bench_work *w, bench_frequency *p)
 
 /* ---- the front -------------------------------------------------------------------------------- */
 
-/* At settings no coarser than a's in any respect? NaN is no setting. */
-static bool no_coarser(const bench_row *b, const bench_row *a)
-{
-  return b->method == a->method && b->harmonics >= a->harmonics && b->samples >= a->samples &&
-         !(b->regularisation > a->regularisation) && !(b->tolerance > a->tolerance);
-}
-
 static bool beats(const bench_row *b, const bench_row *a)
 {
   bool as_good = b->error_finer <= a->error_finer && b->seconds <= a->seconds;
@@ -452,8 +419,10 @@ void bench_judge(int n, bench_row *rows, double floor)
     r->error_finer = NAN;
     if (r->outcome != BENCH_SOLVED) continue;
     r->error_finer = fmax(r->error, floor);
-    for (int k = 0; k < n; ++k)
-      if (rows[k].outcome == BENCH_SOLVED && no_coarser(&rows[k], r))
+    for (int k = 0; k < n; ++k) /* At settings no coarser than a's in any respect? NaN is no setting. */
+      if (rows[k].outcome == BENCH_SOLVED &&
+          (rows[k].method == r->method && rows[k].harmonics >= r->harmonics && rows[k].samples >= r->samples &&
+           !(rows[k].regularisation > r->regularisation) && !(rows[k].tolerance > r->tolerance)))
         r->error_finer = fmax(r->error_finer, rows[k].error);
   }
   for (int i = 0; i < n; ++i) {

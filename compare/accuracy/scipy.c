@@ -86,18 +86,6 @@ static bool start(child *c, arguments *a)
   return ready;
 }
 
-/* Kills it if it still runs. Its exit code; -1: a signal ended it, or this process ignores SIGCHLD, and then the system
- * keeps no exit codes: waitpid waits for the end and fails with ECHILD. */
-static int finish(child *c)
-{
-  int status = 0;
-  close(c->from);
-  if (!c->ended) kill(c->pid, SIGKILL);
-  while (waitpid(c->pid, &status, 0) < 0)
-    if (errno != EINTR) return -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 static double wall(void)
 {
   struct timespec t;
@@ -157,7 +145,14 @@ static int run(const char *python, arguments *a, const hc_monitor *monitor, scip
     if (line[0] == '#') snprintf(text, 96, "%.90s", line + 2);
     else take(line, runs, n);
   }
-  return finish(&c);
+  /* Kills it if it still runs. Its exit code; -1: a signal ended it, or this process ignores SIGCHLD, and then the system
+   * keeps no exit codes: waitpid waits for the end and fails with ECHILD. */
+  int status = 0;
+  close(c.from);
+  if (!c.ended) kill(c.pid, SIGKILL);
+  while (waitpid(c.pid, &status, 0) < 0)
+    if (errno != EINTR) return -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 hc_status scipy_lsoda(const model *m, const bench_start *at, double multiplier, int repeats, const hc_monitor *monitor,

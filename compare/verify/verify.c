@@ -128,20 +128,6 @@ static void add_equations(message *m, const verify_equations *e)
   if (e->samples) message_add(m, ", N = %d%s", e->samples, slider_words(e->restart));
 }
 
-/* "hbm.static: false, H = 10, N = 32; values = 2 x amplitude" */
-static void add_settings(message *m, const verify_hypothesis *h)
-{
-  char name[VERIFY_QUANTITY_TEXT];
-  add_equations(m, &h->equations);
-  if (h->omega_factor != 1) message_add(m, "; frequencies = %.6g x the true ones", 1 / h->omega_factor);
-  if (h->omega_scale) message_add(m, " (%s?)", h->omega_scale);
-  message_add(m, "; values = ");
-  if (h->decibel) message_add(m, "%s", h->quantity.decibel ? "10^(dB/20) of " : "dB of ");
-  if (h->value_factor != 1) message_add(m, "%.4g x ", h->value_factor);
-  message_add(m, "%s", verify_quantity_name(&h->quantity, name));
-  if (h->value_scale) message_add(m, " (%s?)", h->value_scale);
-}
-
 static void add_causes(message *m, verify_causes bits)
 {
   const verify_causes no_traction = VERIFY_BIT(CAUSE_NO_FRICTION) | VERIFY_BIT(CAUSE_NO_KT);
@@ -161,42 +147,18 @@ static void add_causes(message *m, verify_causes bits)
 static void add_fit(message *m, const verify_hypothesis *h)
 {
   message_add(m, " (");
-  add_settings(m, h);
+  /* "hbm.static: false, H = 10, N = 32; values = 2 x amplitude" */
+  char name[VERIFY_QUANTITY_TEXT];
+  add_equations(m, &h->equations);
+  if (h->omega_factor != 1) message_add(m, "; frequencies = %.6g x the true ones", 1 / h->omega_factor);
+  if (h->omega_scale) message_add(m, " (%s?)", h->omega_scale);
+  message_add(m, "; values = ");
+  if (h->decibel) message_add(m, "%s", h->quantity.decibel ? "10^(dB/20) of " : "dB of ");
+  if (h->value_factor != 1) message_add(m, "%.4g x ", h->value_factor);
+  message_add(m, "%s", verify_quantity_name(&h->quantity, name));
+  if (h->value_scale) message_add(m, " (%s?)", h->value_scale);
   message_add(m, " fits to ");
   add_distance(m, h->distance);
-}
-
-/* "; the same curve has: gap times 10; ..." */
-static void add_reasons(message *m, const verify_report *r)
-{
-  const char *before = "; the same curve has: ";
-  for (int i = 1, n = 0; i < r->n_hypotheses && n < VERIFY_SHOWN; ++i) {
-    if (!verify_reason(r, i)) continue;
-    const verify_equations *e = &r->hypotheses[i].equations;
-    message_add(m, "%s", before);
-    add_change(m, e);
-    before = ", ";
-    ++n;
-  }
-}
-
-static void say_guess(message *m, const verify_report *r)
-{
-  const bool fits = verify_fits(r);
-  message_add(m, fits ? "more than one cause fits: " : "no cause fits well; nearest guess: ");
-  add_causes(m, r->hypotheses[0].causes);
-  add_fit(m, &r->hypotheses[0]);
-  message_add(m, ", the truth is ");
-  add_distance(m, r->truth_distance);
-  message_add(m, " off)");
-  for (int i = 1, n = 1; i < r->n_hypotheses && n < VERIFY_SHOWN; ++i) {
-    if (!verify_rival(r, i)) continue;
-    message_add(m, "; or ");
-    add_causes(m, r->hypotheses[i].causes);
-    add_fit(m, &r->hypotheses[i]);
-    message_add(m, ")");
-    ++n;
-  }
 }
 
 static void say_unexplained(message *m, const verify_report *r)
@@ -211,7 +173,21 @@ static void say_unexplained(message *m, const verify_report *r)
   } else if (r->n_hypotheses == 0) {
     message_add(m, "%d point%s, too few to tell why", off, off == 1 ? " differs" : "s differ");
   } else if (r->nearest_guess) {
-    say_guess(m, r);
+    const bool fits = verify_fits(r);
+    message_add(m, fits ? "more than one cause fits: " : "no cause fits well; nearest guess: ");
+    add_causes(m, r->hypotheses[0].causes);
+    add_fit(m, &r->hypotheses[0]);
+    message_add(m, ", the truth is ");
+    add_distance(m, r->truth_distance);
+    message_add(m, " off)");
+    for (int i = 1, n = 1; i < r->n_hypotheses && n < VERIFY_SHOWN; ++i) {
+      if (!verify_rival(r, i)) continue;
+      message_add(m, "; or ");
+      add_causes(m, r->hypotheses[i].causes);
+      add_fit(m, &r->hypotheses[i]);
+      message_add(m, ")");
+      ++n;
+    }
   } else {
     message_add(m, "no hypothesis fits better than ");
     add_distance(m, r->hypotheses[0].distance);
@@ -239,7 +215,16 @@ const char *verify_sentence(const verify_report *r, char text[VERIFY_TEXT])
       message_add(&m, ", the truth is ");
       add_distance(&m, r->truth_distance);
       message_add(&m, " off)");
-      add_reasons(&m, r);
+      /* "; the same curve has: gap times 10; ..." */
+      const char *before = "; the same curve has: ";
+      for (int i = 1, n = 0; i < r->n_hypotheses && n < VERIFY_SHOWN; ++i) {
+        if (!verify_reason(r, i)) continue;
+        const verify_equations *e = &r->hypotheses[i].equations;
+        message_add(&m, "%s", before);
+        add_change(&m, e);
+        before = ", ";
+        ++n;
+      }
     }
     for (int i = 0; i < VERIFY_CAUSES; ++i)
       if (r->causes & VERIFY_BIT(i)) message_add(&m, "; %s", verify_cause_remedy(i));

@@ -154,14 +154,12 @@ static const struct {
     {"pp", "double_amplitude"},
 };
 
-static char lower(char c) { return (char)(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); }
-
 static plain_name plain_of(const field *f)
 {
   plain_name p = {{0}, {0}};
   char *to = p.name, *end = p.name + PLAIN - 1;
   for (size_t i = 0; i < f->length; ++i) {
-    const char c = lower(f->text[i]);
+    const char c = (char)(f->text[i] >= 'A' && f->text[i] <= 'Z' ? f->text[i] - 'A' + 'a' : f->text[i]);
     if (c == '[' || c == '(') to = p.unit, end = p.unit + PLAIN - 1;
     else if (to < end && !strchr(" _-|\"])", c) && c) *to++ = c;
   }

@@ -116,23 +116,20 @@ static void change_contact(int n, model_contact *c, verify_change change, double
   }
 }
 
-/* Every contact stuck for good. */
-static void stick(model *m)
-{
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const model_contact *c = &m->contacts[j];
-    add_outer(m->n, c->law.kt, c->tangent, c->tangent, m->stiffness);
-    add_outer(m->n, c->law.kn, c->normal, c->normal, m->stiffness);
-  }
-}
-
 static void change_matrices(model *m, verify_change change, double factor)
 {
   const size_t entries = (size_t)m->n * (size_t)m->n;
   if (change == CHANGE_MASS) scale(entries, factor, m->mass);
   if (change == CHANGE_DAMPING) scale(entries, factor, m->damping);
   if (change == CHANGE_STIFFNESS) scale(entries, factor, m->stiffness);
-  if (change == CHANGE_STUCK) stick(m);
+  /* Every contact stuck for good. */
+  if (change == CHANGE_STUCK) {
+    for (int j = 0; j < m->n_contacts; ++j) {
+      const model_contact *c = &m->contacts[j];
+      add_outer(m->n, c->law.kt, c->tangent, c->tangent, m->stiffness);
+      add_outer(m->n, c->law.kn, c->normal, c->normal, m->stiffness);
+    }
+  }
   if (change == CHANGE_STUCK || change == CHANGE_NO_CONTACT) m->n_contacts = 0;
   if (change == CHANGE_DAMPING_TRANSPOSED) transpose(m->n, m->damping);
   if (change == CHANGE_STIFFNESS_TRANSPOSED) transpose(m->n, m->stiffness);
@@ -143,20 +140,6 @@ static void move_load(int n, int to, double *load)
   double sum = 0;
   for (int i = 0; i < n; ++i) sum += load[i], load[i] = 0;
   load[to] = sum;
-}
-
-static void change_loads(model *m, verify_change change, double factor, int dof)
-{
-  const size_t n = (size_t)m->n;
-  for (int l = 0; l < m->n_loads; ++l) {
-    model_load *load = &m->loads[l];
-    const bool fixed = load->harmonic == 0;
-    if (change == CHANGE_FORCE && !fixed) scale(n, factor, load->cosine), scale(n, factor, load->sine);
-    if (change == CHANGE_NO_STATIC_LOAD && fixed) scale(n, 0, load->cosine);
-    if (change == CHANGE_PHASE_SIGN) scale(n, -1, load->sine);
-    if (change == CHANGE_LOAD_DOF && dof >= 0 && !fixed)
-      move_load(m->n, dof, load->cosine), move_load(m->n, dof, load->sine);
-  }
 }
 
 /* Degrees of freedom i and k exchanged in the matrices, or in the contacts. */
@@ -185,19 +168,6 @@ static hc_status solve(int n, double *A, double *d)
   return factored ? HC_OK : HC_BAD_INPUT;
 }
 
-/* The contacts' gaps follow the displacement d. HC_BAD_INPUT if that opens a contact under preload. */
-static hc_status follow(model *m, const double *d, bool all_linear)
-{
-  for (int j = 0; j < m->n_contacts; ++j) {
-    model_contact *c = &m->contacts[j];
-    const double before = c->law.gap;
-    if (is_zero(m->n, c->normal)) continue;
-    c->law.gap += dot_product(m->n, c->normal, d);
-    if (!all_linear && (c->law.gap > 0) != (before > 0)) return HC_BAD_INPUT;
-  }
-  return HC_OK;
-}
-
 /* The displacement by a constant force[n], with mean_factor times the contacts' force in the balance; the gaps follow
  * it, *offset is what the first response gets of it. HC_BAD_INPUT if that opens a contact under preload. */
 static hc_status displace(model *m, double *force, double mean_factor, bool all_linear, double *offset)
@@ -214,7 +184,15 @@ static hc_status displace(model *m, double *force, double mean_factor, bool all_
   free(K);
   if (st != HC_OK) return st;
   *offset = dot_product(n, m->responses, force);
-  return follow(m, force, all_linear);
+  /* The contacts' gaps follow the displacement d. HC_BAD_INPUT if that opens a contact under preload. */
+  for (int j = 0; j < m->n_contacts; ++j) {
+    model_contact *c = &m->contacts[j];
+    const double before = c->law.gap;
+    if (is_zero(m->n, c->normal)) continue;
+    c->law.gap += dot_product(m->n, c->normal, force);
+    if (!all_linear && (c->law.gap > 0) != (before > 0)) return HC_BAD_INPUT;
+  }
+  return HC_OK;
 }
 
 /* p[n] = factor sum_j n_j kn_j gap_j of the contacts under preload, or of those with a clearance. */
@@ -302,9 +280,6 @@ static bool any_preload(const model *m)
   return any;
 }
 
-/* A fit passes through it. */
-static bool factor_is_one(verify_change c, double factor) { return verify_changes[c].factor && factor == 1; }
-
 /* p[n]: room for a constant force. */
 static hc_status change_copy(const model *m, const verify_changed *how, bool keep_mean, double *p, model *own,
                              double *offset, double *mean_error)
@@ -312,7 +287,16 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
   const verify_change c = how->change;
   const int which = how->which - 1;
   change_matrices(own, c, how->factor);
-  change_loads(own, c, how->factor, which);
+  const size_t n = (size_t)own->n;
+  for (int l = 0; l < own->n_loads; ++l) {
+    model_load *load = &own->loads[l];
+    const bool fixed = load->harmonic == 0;
+    if (c == CHANGE_FORCE && !fixed) scale(n, how->factor, load->cosine), scale(n, how->factor, load->sine);
+    if (c == CHANGE_NO_STATIC_LOAD && fixed) scale(n, 0, load->cosine);
+    if (c == CHANGE_PHASE_SIGN) scale(n, -1, load->sine);
+    if (c == CHANGE_LOAD_DOF && which >= 0 && !fixed)
+      move_load(own->n, which, load->cosine), move_load(own->n, which, load->sine);
+  }
   if (verify_changes[c].part == PART_PAIR && which >= 0) change_numbering(own, c, which / m->n, which % m->n);
   for (int j = 0, whole = -1; j < own->n_contacts; ++j) {
     whole += own->contacts[j].pair != CONTACT_SECOND;
@@ -332,7 +316,8 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
   if (c == CHANGE_PRELOAD_ADDED && (!keep_mean || !preload)) return HC_BAD_INPUT;
   scale((size_t)m->n, -1, p);
   if (c == CHANGE_PRELOAD_ADDED) return displace(own, p, 1, false, offset);
-  return factor_is_one(c, how->factor) || !same_model(m, own) ? HC_OK : HC_BAD_INPUT;
+  /* A fit passes through it. */
+  return (verify_changes[c].factor && how->factor == 1) || !same_model(m, own) ? HC_OK : HC_BAD_INPUT;
 }
 
 hc_status verify_changed_model(const model *m, const verify_changed *how, bool keep_mean, model **out, double *offset,

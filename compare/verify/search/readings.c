@@ -67,20 +67,17 @@ hc_status verify_sample_new(const verify_report *r, const verify_quantity *quant
 
 /* ---- distances ---- */
 
-static double geometric_mean(int n, const double *d)
-{
-  const double least = 1e-6; /* as good as nothing */
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += log(fmax(d[i], least));
-  return exp(sum / n);
-}
-
 /* The distance that a part of them, nine of ten, is within. The median would not do: where the contacts do nothing,
  * points fit any hypothesis about them. */
 static double within(int n, double *d, double part)
 {
   if (n == 0) return 0;
-  if (part == 0) return geometric_mean(n, d);
+  if (part == 0) {
+    const double least = 1e-6; /* as good as nothing */
+    double sum = 0;
+    for (int i = 0; i < n; ++i) sum += log(fmax(d[i], least));
+    return exp(sum / n);
+  }
   qsort(d, (size_t)n, sizeof *d, ascending);
   return d[(int)ceil(part * n - 1e-9) - 1];
 }
@@ -163,21 +160,15 @@ static void add_scale(verify_scale *out, int *n, double factor, const char *name
   if (isfinite(factor) && factor > 0 && factor != 1) out[(*n)++] = (verify_scale){factor, name};
 }
 
-/* The largest amplitude of a load at one degree of freedom that is not static. */
-static double largest_load(const model *m)
-{
-  double most = 0;
-  for (int l = 0; l < m->n_loads; ++l)
-    for (int i = 0; i < m->n && m->loads[l].harmonic > 0; ++i)
-      most = fmax(most, hypot(m->loads[l].cosine[i], m->loads[l].sine[i]));
-  return most;
-}
-
 int verify_value_scales(const model *m, verify_scale out[VERIFY_MOST_SCALES])
 {
   int n = 0;
   if (!model_is_oscillator(m)) {
-    const double largest = largest_load(m);
+    /* The largest amplitude of a load at one degree of freedom that is not static. */
+    double largest = 0;
+    for (int l = 0; l < m->n_loads; ++l)
+      for (int i = 0; i < m->n && m->loads[l].harmonic > 0; ++i)
+        largest = fmax(largest, hypot(m->loads[l].cosine[i], m->loads[l].sine[i]));
     add_scale(out, &n, 1 / largest, "1/F, the largest load");
     add_scale(out, &n, largest, "F, the largest load");
     return n;
@@ -247,18 +238,15 @@ static double close_to(const verify_report *r, const verify_hypothesis *best)
   return rival * fmax(best->distance, r->gate / 10);
 }
 
-static bool is_rival(const verify_report *r, const verify_hypothesis *best, const verify_hypothesis *other)
+bool verify_rival(const verify_report *r, int i)
 {
+  if (i <= 0 || i >= r->n_hypotheses || i >= VERIFY_HYPOTHESES) return false;
+  const verify_hypothesis *best = &r->hypotheses[0];
+  const verify_hypothesis *other = &r->hypotheses[i];
   const verify_causes both = best->causes & other->causes;
   if (both == best->causes || both == other->causes || explains(other, best)) return false;
   if (verify_cause_count(other->causes) > verify_cause_count(best->causes)) return false;
   return other->distance <= close_to(r, best);
-}
-
-bool verify_rival(const verify_report *r, int i)
-{
-  if (i <= 0 || i >= r->n_hypotheses || i >= VERIFY_HYPOTHESES) return false;
-  return is_rival(r, &r->hypotheses[0], &r->hypotheses[i]);
 }
 
 bool verify_reason(const verify_report *r, int i)

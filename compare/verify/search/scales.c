@@ -129,15 +129,6 @@ static double apart_at(const outline *o, double omega, double value)
   return least;
 }
 
-/* Mean over the points, of frequencies times omega and values divided by the other factor. */
-static double outline_distance(const search *s, const outline *o, double omega_factor, double value_factor)
-{
-  double sum = 0;
-  for (int i = 0; i < s->points.n; ++i)
-    sum += apart_at(o, omega_factor * s->points.omega[i], s->points.value[i] / value_factor);
-  return sum / s->points.n;
-}
-
 typedef struct stretching {
   search *s;
   const outline *o;
@@ -147,7 +138,11 @@ typedef struct stretching {
 static hc_status stretched(void *self, double log_factor, double *out)
 {
   const stretching *t = self;
-  *out = outline_distance(t->s, t->o, exp(log_factor), t->value_factor);
+  /* Mean over the points, of frequencies times omega and values divided by the other factor. */
+  double sum = 0;
+  for (int i = 0; i < t->s->points.n; ++i)
+    sum += apart_at(t->o, exp(log_factor) * t->s->points.omega[i], t->s->points.value[i] / t->value_factor);
+  *out = sum / t->s->points.n;
   return HC_OK;
 }
 

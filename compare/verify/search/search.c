@@ -139,12 +139,6 @@ static hc_status try_every_change(search *s)
   return try_changes(s, &own, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
 }
 
-static hc_status try_every_change_without_mean(search *s)
-{
-  const verify_equations without = search_equations(s->own, false);
-  return try_changes(s, &without, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
-}
-
 /* The other law of two tangents, or one tangent alone: what programs differ in, and before what is dear. All of them,
  * since a response across which nothing slips has one curve for several. */
 static hc_status try_limits(search *s)
@@ -432,33 +426,6 @@ static hc_status run_stages(search *s, size_t n, const stage *stages)
 /* Is the best hypothesis a factor without a name? Factors of the model's numbers may do what it does. */
 static bool free_factor(const search *s) { return s->out->hypotheses[0].fitted; } /* false where there is none yet */
 
-static hc_status try_everything(search *s)
-{
-  const bool contacts = s->setup->model->n_contacts > 0, oscillator = model_is_oscillator(s->setup->model);
-  hc_status st = oscillator ? run_stages(s, STAGES(of_oscillator)) : run_stages(s, STAGES(of_structure));
-  if (st == HC_OK && oscillator && free_factor(s)) st = search_fits(s);
-  const bool fits_done = free_factor(s);
-  if (st == HC_OK && contacts) st = run_stages(s, STAGES(sampled));
-  if (st == HC_OK && !search_explained(s) && !fits_done) st = search_fits(s);
-  if (st == HC_OK && contacts && !search_explained(s) && !verify_fits(s->out)) st = try_every_change_without_mean(s);
-  return st;
-}
-
-/* Another reading of the frequencies is tried if all points that differ are then within a factor 2 of the sweep. */
-static void choose_frequencies(search *s)
-{
-  double low = fmin(s->setup->omega_from, s->setup->omega_to) / 2,
-         high = fmax(s->setup->omega_from, s->setup->omega_to) * 2;
-  for (int f = 0; f < SEARCH_FREQUENCIES; ++f) {
-    int inside = 0;
-    for (int i = 0; i < s->points.n; ++i) {
-      double omega = search_omega_factor(f) * s->points.omega[i];
-      inside += omega >= low && omega <= high;
-    }
-    s->scaled[f] = f == 0 || inside == s->points.n;
-  }
-}
-
 hc_status verify_search(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
                         verify_report *out)
 {
@@ -472,8 +439,27 @@ hc_status verify_search(const compare_setup *setup, const verify_data *data, con
   out->n_hypotheses = 0;
   out->truth_distance = NAN;
   if (st == HC_OK) {
-    choose_frequencies(s);
-    st = try_everything(s);
+    /* Another reading of the frequencies is tried if all points that differ are then within a factor 2 of the sweep. */
+    double low = fmin(s->setup->omega_from, s->setup->omega_to) / 2,
+           high = fmax(s->setup->omega_from, s->setup->omega_to) * 2;
+    for (int f = 0; f < SEARCH_FREQUENCIES; ++f) {
+      int inside = 0;
+      for (int i = 0; i < s->points.n; ++i) {
+        double omega = search_omega_factor(f) * s->points.omega[i];
+        inside += omega >= low && omega <= high;
+      }
+      s->scaled[f] = f == 0 || inside == s->points.n;
+    }
+    const bool contacts = s->setup->model->n_contacts > 0, oscillator = model_is_oscillator(s->setup->model);
+    st = oscillator ? run_stages(s, STAGES(of_oscillator)) : run_stages(s, STAGES(of_structure));
+    if (st == HC_OK && oscillator && free_factor(s)) st = search_fits(s);
+    const bool fits_done = free_factor(s);
+    if (st == HC_OK && contacts) st = run_stages(s, STAGES(sampled));
+    if (st == HC_OK && !search_explained(s) && !fits_done) st = search_fits(s);
+    if (st == HC_OK && contacts && !search_explained(s) && !verify_fits(s->out)) {
+      const verify_equations without = search_equations(s->own, false);
+      st = try_changes(s, &without, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
+    }
   }
   if (st == HC_OK) search_judge(out);
   for (int i = 0; i < 2 * SEARCH_FREQUENCIES; ++i) verify_solutions_clear(&s->many[i % 2][i / 2]);

@@ -149,19 +149,6 @@ static double local_average(const neighbours *p, int i, int *n)
   return sum / *n;
 }
 
-static void allow_noise(const neighbours *p, double said, verify_report *r)
-{
-  for (int i = 0; i < p->n; ++i) {
-    verify_row *row = &r->rows[p->row[i] - r->rows];
-    int n;
-    const double average = local_average(p, i, &n);
-    const bool alone = row->error <= r->gate + deviations * said,
-               together = fabs(average) <= r->gate + deviations * said / sqrt(n);
-    if (row->verdict != VERDICT_DIFFERS || !alone || !together) continue;
-    row->verdict = row->stable < 0 ? VERDICT_UNSTABLE : VERDICT_MATCH;
-  }
-}
-
 hc_status points_noise(verify_report *r)
 {
   neighbours p;
@@ -172,7 +159,17 @@ hc_status points_noise(verify_report *r)
     if (p.row[i - 1]->branch == p.row[i]->branch && p.row[i]->branch == p.row[i + 1]->branch)
       p.scratch[n++] = fabs(p.offset[i - 1] - 2 * p.offset[i] + p.offset[i + 1]);
   if (p.n >= LEAST_POINTS && n >= LEAST_DIFFERENCES) r->noise = normal * quantile(n, p.scratch, 0.5) / sqrt(6);
-  if (r->noise_said > 0) allow_noise(&p, r->noise_said, r);
+  if (r->noise_said > 0) {
+    for (int i = 0; i < p.n; ++i) {
+      verify_row *row = &r->rows[p.row[i] - r->rows];
+      int m;
+      const double average = local_average(&p, i, &m);
+      const bool alone = row->error <= r->gate + deviations * r->noise_said,
+                 together = fabs(average) <= r->gate + deviations * r->noise_said / sqrt(m);
+      if (row->verdict != VERDICT_DIFFERS || !alone || !together) continue;
+      row->verdict = row->stable < 0 ? VERDICT_UNSTABLE : VERDICT_MATCH;
+    }
+  }
   workspace_free(&p.memory);
   return HC_OK;
 }

@@ -169,19 +169,6 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
   return st;
 }
 
-/* What is read of the solutions becomes that of response r. */
-static void turn(verify_solutions *s, problem *p, const double *omega, int r)
-{
-  for (int i = 0; i < s->n; ++i)
-    for (int k = s->first[i]; k < s->first[i + 1]; ++k) {
-      hbm_measures m;
-      verify_motion motion;
-      const double *X = s->X + (size_t)k * s->n_coef;
-      if (verify_motion_of_solution(p->hbm, omega[i], X, r, p->series, &m, &motion) == HC_OK)
-        s->of[k] = read_all(&s->asked, p, motion);
-    }
-}
-
 hc_status verify_solutions_of_dofs(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
                                    const verify_places *at, const hc_monitor *monitor, verify_keep_dof *keep,
                                    void *self)
@@ -194,7 +181,15 @@ hc_status verify_solutions_of_dofs(const compare_setup *setup, const verify_equa
   own.model = all;
   if (st == HC_OK) st = follow_curve(&own, e, asked, at, monitor, &p, &of);
   for (int r = 0; r < setup->model->n && st == HC_OK; ++r) {
-    turn(&of, &p, at->omega, r);
+    /* What is read of the solutions becomes that of response r. */
+    for (int i = 0; i < of.n; ++i)
+      for (int k = of.first[i]; k < of.first[i + 1]; ++k) {
+        hbm_measures m;
+        verify_motion motion;
+        const double *X = of.X + (size_t)k * of.n_coef;
+        if (verify_motion_of_solution(p.hbm, at->omega[i], X, r, p.series, &m, &motion) == HC_OK)
+          of.of[k] = read_all(&of.asked, &p, motion);
+      }
     keep(self, r, &of);
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
   }

@@ -33,14 +33,6 @@ static series_jet motion_at(const verify_motion *motion, double th)
   return series_at(motion->n_harm, motion->X, cos(th), sin(th));
 }
 
-/* The slider where the contact touches again between two instants: on the chord of u, where that of v + gap is 0. */
-static double slider_at_touch(const model_contact *c, const instant *from, const instant *to)
-{
-  const double open = *c->normal * from->x.x + c->law.gap, closed = *c->normal * to->x.x + c->law.gap,
-               part = open / (open - closed);
-  return *c->tangent * (from->x.x + part * (to->x.x - from->x.x));
-}
-
 /* x'' at to->th, the sliders being from->w before; to->x and to->w get what they are then. */
 static double follow(const model *m, const verify_motion *motion, const instant *from, instant *to)
 {
@@ -50,7 +42,12 @@ static double follow(const model *m, const verify_motion *motion, const instant 
     const model_contact *c = &m->contacts[j];
     const double u = *c->tangent * to->x.x, v = *c->normal * to->x.x, v_before = *c->normal * from->x.x;
     double traction = 0, w = from->w[j];
-    if (v_before + c->law.gap < 0 && v + c->law.gap > 0) w = slider_at_touch(c, from, to);
+    /* The slider where the contact touches again between two instants: on the chord of u, where that of v + gap is 0. */
+    if (v_before + c->law.gap < 0 && v + c->law.gap > 0) {
+      const double open = *c->normal * from->x.x + c->law.gap, closed = *c->normal * to->x.x + c->law.gap,
+                   part = open / (open - closed);
+      w = *c->tangent * (from->x.x + part * (to->x.x - from->x.x));
+    }
     if (contact_has_friction(&c->law)) contact_step(&c->law, u, v, &w, &traction);
     to->w[j] = w;
     force -= *c->tangent * traction + *c->normal * contact_normal_change(&c->law, v);
@@ -414,18 +411,6 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
 
 /* ---- all points ---- */
 
-static hc_status judge_all(truth *t)
-{
-  hc_status st = HC_OK;
-  t->out->n_rows = 0;
-  for (int i = 0; i < t->data->n && st == HC_OK; ++i) {
-    st = judge_point(t, &t->data->points[i], &t->out->rows[i]);
-    if (st == HC_OK) t->out->n_rows = i + 1;
-    if (!hc_monitor_tick(t->monitor, 0.5 * (i + 1) / t->data->n)) st = HC_INTERRUPTED;
-  }
-  return st;
-}
-
 /* The curve with H harmonics, and everything on it. */
 static hc_status with_harmonics(truth *t, int harmonics)
 {
@@ -441,7 +426,13 @@ static hc_status with_harmonics(truth *t, int harmonics)
   t->out->curve_end = t->response.curve.end;
   t->out->curve_omega = t->response.curve.n ? t->response.curve.points[t->response.curve.n - 1].omega : t->from;
   if (st != HC_OK) return st;
-  const hc_status judged = judge_all(t);
+  hc_status judged = HC_OK;
+  t->out->n_rows = 0;
+  for (int i = 0; i < t->data->n && judged == HC_OK; ++i) {
+    judged = judge_point(t, &t->data->points[i], &t->out->rows[i]);
+    if (judged == HC_OK) t->out->n_rows = i + 1;
+    if (!hc_monitor_tick(t->monitor, 0.5 * (i + 1) / t->data->n)) judged = HC_INTERRUPTED;
+  }
   return judged == HC_OK ? truth_check(t) : judged;
 }
 
@@ -452,32 +443,6 @@ static hc_status put_line_point(truth *t, double omega, const double *X, int sta
   measured m;
   hc_status st = truth_measure(t, omega, X, &m);
   if (st == HC_OK) t->out->line[t->out->n_line++] = (verify_line){omega, m.value, stable};
-  return st;
-}
-
-/* The curve as it is drawn into out->line: its points, and some between them, since a drawing joins them by straight
- * lines. HC_NO_MEMORY, or why it cannot be measured. */
-static hc_status draw_line(truth *t)
-{
-  const hbm_curve *c = &t->response.curve;
-  verify_report *out = t->out;
-  double *X = malloc(((size_t)c->n_coef + 1) * sizeof *X);
-  out->n_line = 0;
-  out->line = calloc((size_t)BETWEEN * (size_t)c->n + 1, sizeof *out->line);
-  hc_status st = X && out->line ? HC_OK : HC_NO_MEMORY;
-  for (int k = 0; k < c->n && st == HC_OK; ++k) {
-    const double *here = c->X + (size_t)k * (size_t)c->n_coef;
-    const int stable = truth_stable(t, c->points[k].omega, here, &st);
-    if (st == HC_OK) st = put_line_point(t, c->points[k].omega, here, stable);
-    if (k + 1 == c->n) break;
-    const hbm_segment segment = hbm_segment_between(c, k);
-    for (int i = 1; i < BETWEEN && st == HC_OK; ++i) {
-      double omega;
-      hbm_segment_at(&segment, (double)i / BETWEEN, X, &omega, NULL, NULL);
-      st = put_line_point(t, omega, X, stable);
-    }
-  }
-  free(X);
   return st;
 }
 
@@ -500,7 +465,28 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
     st = with_harmonics(&t, harmonics);
     again = out->checked_error > 0.1 * out->gate && 2 * harmonics <= ENOUGH_HARMONICS;
   }
-  if (st == HC_OK && data->with_line) st = draw_line(&t);
+  /* The curve as it is drawn into out->line: its points, and some between them, since a drawing joins them by straight
+   * lines. HC_NO_MEMORY, or why it cannot be measured. */
+  if (st == HC_OK && data->with_line) {
+    const hbm_curve *c = &t.response.curve;
+    double *X = malloc(((size_t)c->n_coef + 1) * sizeof *X);
+    out->n_line = 0;
+    out->line = calloc((size_t)BETWEEN * (size_t)c->n + 1, sizeof *out->line);
+    st = X && out->line ? HC_OK : HC_NO_MEMORY;
+    for (int k = 0; k < c->n && st == HC_OK; ++k) {
+      const double *here = c->X + (size_t)k * (size_t)c->n_coef;
+      const int stable = truth_stable(&t, c->points[k].omega, here, &st);
+      if (st == HC_OK) st = put_line_point(&t, c->points[k].omega, here, stable);
+      if (k + 1 == c->n) break;
+      const hbm_segment segment = hbm_segment_between(c, k);
+      for (int i = 1; i < BETWEEN && st == HC_OK; ++i) {
+        double omega;
+        hbm_segment_at(&segment, (double)i / BETWEEN, X, &omega, NULL, NULL);
+        st = put_line_point(&t, omega, X, stable);
+      }
+    }
+    free(X);
+  }
   response_curve_free(&t.response);
   workspace_free(&t.memory);
   timeint_free(t.referee);
