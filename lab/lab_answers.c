@@ -34,44 +34,6 @@ static void print(const lab *l, const char *question, int status)
       printf("%.17g%c", v[(size_t)i * (size_t)columns + (size_t)c], c + 1 < columns ? ' ' : '\n');
 }
 
-static void ask_about_curves(lab *l, const numbers *omegas)
-{
-  static const char *const forces[] = {[LAB_EXACT] = "exact", [LAB_SAMPLED] = "sampled"};
-  char question[64];
-  for (int force = LAB_EXACT; force <= LAB_SAMPLED; ++force) {
-    snprintf(question, sizeof question, "curve %s", forces[force]);
-    print(l, question, lab_curve(l, force));
-    snprintf(question, sizeof question, "specials %s", forces[force]);
-    print(l, question, lab_specials(l, force));
-    for (int i = 0; i < omegas->n; ++i) {
-      snprintf(question, sizeof question, "at %s %d", forces[force], i);
-      print(l, question, lab_curve_at(l, force, omegas->v[i]));
-    }
-  }
-}
-
-/* About the exact curve that ask_about_curves has asked for. */
-static void ask_about_neighbours(lab *l, const numbers *omegas)
-{
-  char question[64];
-  for (int i = 0; i < omegas->n; ++i) {
-    snprintf(question, sizeof question, "near %d", i);
-    print(l, question, lab_neighbours_at(l, omegas->v[i]));
-  }
-}
-
-static void ask_about_motion(lab *l, const numbers *X, double omega)
-{
-  double *to = lab_motion(l, (X->n - 1) / 2);
-  if (!to) exit(WRONG_USAGE);
-  memcpy(to, X->v, (size_t)X->n * sizeof *to);
-  print(l, "signal exact", lab_signal(l, LAB_EXACT, SAMPLES));
-  print(l, "signal sampled", lab_signal(l, LAB_SAMPLED, SAMPLES));
-  print(l, "spectrum", lab_spectrum(l, SAMPLES, SHOWN));
-  print(l, "work", lab_work(l));
-  print(l, "errors", lab_errors(l, omega));
-}
-
 int main(int argc, char **argv)
 {
   if (argc != 3) return WRONG_USAGE;
@@ -80,9 +42,32 @@ int main(int argc, char **argv)
   lab *l = lab_new();
   int status = text && l ? WRONG_CASE : BUG;
   if (text && l && fread(text, 1, MOST_TEXT, stdin) > 0 && lab_read(l, text) == 0) {
-    ask_about_curves(l, &omegas);
-    ask_about_neighbours(l, &omegas);
-    ask_about_motion(l, &X, omegas.v[0]);
+    static const char *const forces[] = {[LAB_EXACT] = "exact", [LAB_SAMPLED] = "sampled"};
+    char question[64];
+    for (int force = LAB_EXACT; force <= LAB_SAMPLED; ++force) {
+      snprintf(question, sizeof question, "curve %s", forces[force]);
+      print(l, question, lab_curve(l, force));
+      snprintf(question, sizeof question, "specials %s", forces[force]);
+      print(l, question, lab_specials(l, force));
+      for (int i = 0; i < omegas.n; ++i) {
+        snprintf(question, sizeof question, "at %s %d", forces[force], i);
+        print(l, question, lab_curve_at(l, force, omegas.v[i]));
+      }
+    }
+    /* About the exact curve that ask_about_curves has asked for. */
+    char near[64];
+    for (int i = 0; i < omegas.n; ++i) {
+      snprintf(near, sizeof near, "near %d", i);
+      print(l, near, lab_neighbours_at(l, omegas.v[i]));
+    }
+    double *to = lab_motion(l, (X.n - 1) / 2);
+    if (!to) exit(WRONG_USAGE);
+    memcpy(to, X.v, (size_t)X.n * sizeof *to);
+    print(l, "signal exact", lab_signal(l, LAB_EXACT, SAMPLES));
+    print(l, "signal sampled", lab_signal(l, LAB_SAMPLED, SAMPLES));
+    print(l, "spectrum", lab_spectrum(l, SAMPLES, SHOWN));
+    print(l, "work", lab_work(l));
+    print(l, "errors", lab_errors(l, omegas.v[0]));
     print(l, "transients", lab_transients(l, omegas.n, omegas.v));
     status = 0;
   }

@@ -55,16 +55,6 @@ static int answer_question(lab *l, const char *question)
   exit(WRONG_USAGE);
 }
 
-static void print(const lab *l, int status)
-{
-  const int columns = lab_columns(l);
-  const double *v = lab_values(l);
-  printf("%d %d %d\n", status, lab_rows(l), columns);
-  for (int i = 0; i < lab_rows(l); ++i)
-    for (int c = 0; c < columns; ++c)
-      printf("%.17g%c", v[(size_t)i * (size_t)columns + (size_t)c], c + 1 < columns ? ' ' : '\n');
-}
-
 int main(void)
 {
   char question[16];
@@ -72,7 +62,12 @@ int main(void)
   lab *l = lab_new();
   if (!l) return BUG;
   while (scanf("%15s", question) == 1) status = answer_question(l, question);
-  print(l, status);
+  const int columns = lab_columns(l);
+  const double *v = lab_values(l);
+  printf("%d %d %d\n", status, lab_rows(l), columns);
+  for (int i = 0; i < lab_rows(l); ++i)
+    for (int c = 0; c < columns; ++c)
+      printf("%.17g%c", v[(size_t)i * (size_t)columns + (size_t)c], c + 1 < columns ? ' ' : '\n');
   lab_free(l);
   return 0;
 }

@@ -111,15 +111,6 @@ static hc_status sampled_harmonics(const lab *l, const model *m, int n, double *
   return st;
 }
 
-/* h, cosine and sine of both. */
-static hc_status add_harmonics(lab *l, int n_shown, const double *F, const double *sampled)
-{
-  hc_status st = LAB_ADD(l, 0, F[0], 0, sampled[0], 0);
-  for (int h = 1; h <= n_shown && st == HC_OK; ++h)
-    st = LAB_ADD(l, h, F[2 * h - 1], F[2 * h], sampled[2 * h - 1], sampled[2 * h]);
-  return st;
-}
-
 int lab_spectrum(lab *l, int n, int n_shown)
 {
   enum { COLUMNS = 5 };
@@ -138,7 +129,12 @@ int lab_spectrum(lab *l, int n, int n_shown)
     exact_force_free(e);
   }
   if (st == HC_OK) st = sampled_harmonics(l, m, n, sampled);
-  if (st == HC_OK) st = add_harmonics(l, n_shown, F, sampled);
+  /* h, cosine and sine of both. */
+  if (st == HC_OK) {
+    st = LAB_ADD(l, 0, F[0], 0, sampled[0], 0);
+    for (int h = 1; h <= n_shown && st == HC_OK; ++h)
+      st = LAB_ADD(l, h, F[2 * h - 1], F[2 * h], sampled[2 * h - 1], sampled[2 * h]);
+  }
   model_free(m);
   return lab_answer(l, st);
 }

@@ -95,26 +95,24 @@ static const contact_comparison *contacts_of(const hbmcheck_comparison *c, const
   return NULL;
 }
 
-static hbmcheck_contact_row contact_row_of(const contact_comparison *c)
-{
-  const hbmcheck_contact_period unknown = {NAN, NAN, NAN, NAN, NAN, HBMCHECK_CONTACT_LINEAR};
-  return (hbmcheck_contact_row){.hbm = c->hbm_status == HC_OK ? library_period(&c->hbm) : unknown,
-                                .transient = c->transient_status == HC_OK ? library_period(&c->transient) : unknown,
-                                .work_error = c->work_error,
-                                .normal_error = c->normal_error,
-                                .compared = contact_comparison_made(c),
-                                .differs = c->differs,
-                                .hbm_status = public_status(c->hbm_status),
-                                .transient_status = public_status(c->transient_status)};
-}
-
 hbmcheck_status hbmcheck_comparison_contacts(const hbmcheck_comparison *c, int k, int cap, hbmcheck_contact_row *out,
                                              int *n)
 {
   if (!c || !n || k < 0 || k >= c->found.n_rows || cap < 0 || (cap > 0 && !out)) return HBMCHECK_BAD_INPUT;
   const contact_comparison *found = contacts_of(c, &c->found.rows[k]);
   *n = found ? c->n_contacts : 0;
-  for (int j = 0; j < cap && j < *n; ++j) out[j] = contact_row_of(&found[j]);
+  for (int j = 0; j < cap && j < *n; ++j) {
+    const hbmcheck_contact_period unknown = {NAN, NAN, NAN, NAN, NAN, HBMCHECK_CONTACT_LINEAR};
+    out[j] = (hbmcheck_contact_row){
+        .hbm = found[j].hbm_status == HC_OK ? library_period(&found[j].hbm) : unknown,
+        .transient = found[j].transient_status == HC_OK ? library_period(&found[j].transient) : unknown,
+        .work_error = found[j].work_error,
+        .normal_error = found[j].normal_error,
+        .compared = contact_comparison_made(&found[j]),
+        .differs = found[j].differs,
+        .hbm_status = public_status(found[j].hbm_status),
+        .transient_status = public_status(found[j].transient_status)};
+  }
   return HBMCHECK_OK;
 }
 

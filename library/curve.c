@@ -24,26 +24,6 @@ struct hbmcheck_curve {
 
 /* ---- HBM solutions ---- */
 
-static hbmcheck_solution solution_of(const response_row *r)
-{
-  const hbm_measures *m = &r->measures;
-  return (hbmcheck_solution){.omega = r->point.omega,
-                             .amplitude = m->amplitude,
-                             .max = m->max,
-                             .min = m->min,
-                             .rms = m->rms,
-                             .mean = m->mean,
-                             .harmonic_1 = m->harmonic_1,
-                             .multiplier = r->stability_known ? r->stability.multiplier : NAN,
-                             .residual = r->point.residual,
-                             .stable = r->stability_known ? hbm_stability_verdict(&r->stability) : 0,
-                             .branch = r->point.branch,
-                             .harmonics = r->point.harmonics,
-                             .iterations = r->point.iterations,
-                             .contact = (hbmcheck_contact)m->contact.regime,
-                             .mean_free = m->contact.free_sliders > 0};
-}
-
 static double *solution_series(const hbmcheck_solutions *s, int k, int r)
 {
   return s->series + ((size_t)k * (size_t)s->n_responses + (size_t)r) * (size_t)s->length;
@@ -66,7 +46,23 @@ static hc_status measure_solutions(hbm_solver *solver, int n_responses, hbmcheck
     hc_status st = response_row_of(solver, &s->curve, s->n, &row);
     for (int r = 0; r < s->n_responses && st == HC_OK; ++r) {
       if (r > 0) st = response_row_turn(solver, &s->curve, s->n, r, &row);
-      s->list[s->n * s->n_responses + r] = solution_of(&row);
+      const hbm_measures *m = &row.measures;
+      s->list[s->n * s->n_responses + r] =
+          (hbmcheck_solution){.omega = row.point.omega,
+                              .amplitude = m->amplitude,
+                              .max = m->max,
+                              .min = m->min,
+                              .rms = m->rms,
+                              .mean = m->mean,
+                              .harmonic_1 = m->harmonic_1,
+                              .multiplier = row.stability_known ? row.stability.multiplier : NAN,
+                              .residual = row.point.residual,
+                              .stable = row.stability_known ? hbm_stability_verdict(&row.stability) : 0,
+                              .branch = row.point.branch,
+                              .harmonics = row.point.harmonics,
+                              .iterations = row.point.iterations,
+                              .contact = (hbmcheck_contact)m->contact.regime,
+                              .mean_free = m->contact.free_sliders > 0};
       if (st == HC_OK)
         st = hbm_response(solver, row.point.omega, hbm_curve_X(&s->curve, s->n), r, solution_series(s, s->n, r));
     }
@@ -132,29 +128,23 @@ void hbmcheck_solutions_free(hbmcheck_solutions *s)
 
 /* ---- HBM response curve ---- */
 
-static hc_status trace(const scene *sc, const hbmcheck_monitor *monitor, hbmcheck_curve *curve)
-{
-  const hc_monitor inner = library_monitor(monitor);
-  compare_setup setup;
-  hc_status st = scene_setup(sc, &setup);
-  curve->points.of = curve;
-  curve->n_contacts = scene_contact_count(sc);
-  if (st == HC_OK) st = guided_hbm_solver_new(setup.model, &setup.hbm, &curve->solver);
-  if (st == HC_OK) {
-    st = hbm_trace(curve->solver, setup.omega_from, setup.omega_to, &inner, &curve->points.curve);
-    st = finish_search(curve->solver, st, setup.model->n_responses, &curve->points);
-  }
-  scene_setup_clear(&setup);
-  return st;
-}
-
 hbmcheck_status hbmcheck_curve_trace(const hbmcheck_case *c, const hbmcheck_monitor *monitor, hbmcheck_curve **out)
 {
   if (out) *out = NULL;
   if (!c || !out) return HBMCHECK_BAD_INPUT;
   hbmcheck_curve *curve = calloc(1, sizeof *curve);
   if (!curve) return HBMCHECK_NO_MEMORY;
-  hc_status st = trace(&c->sc, monitor, curve);
+  const hc_monitor inner = library_monitor(monitor);
+  compare_setup setup;
+  hc_status st = scene_setup(&c->sc, &setup);
+  curve->points.of = curve;
+  curve->n_contacts = scene_contact_count(&c->sc);
+  if (st == HC_OK) st = guided_hbm_solver_new(setup.model, &setup.hbm, &curve->solver);
+  if (st == HC_OK) {
+    st = hbm_trace(curve->solver, setup.omega_from, setup.omega_to, &inner, &curve->points.curve);
+    st = finish_search(curve->solver, st, setup.model->n_responses, &curve->points);
+  }
+  scene_setup_clear(&setup);
   if (has_result(st)) *out = curve;
   else hbmcheck_curve_free(curve);
   return public_status(st);

@@ -259,23 +259,6 @@ static int width_of(const char *text, size_t bytes)
   return width;
 }
 
-/* The widest text of a column and its longest word, header included. */
-static void measure_column(const table *t, const wrapped *w, int column)
-{
-  column_style *style = &w->style[column];
-  for (int i = 0; i <= table_row_count(t); ++i) {
-    const char *text = w->texts[i * t->n_columns + column];
-    const int width = utf8_width(text);
-    if (width > style->width) style->width = width;
-    for (const char *at = text; *at; at += strspn(at, " ")) {
-      const size_t bytes = strcspn(at, " ");
-      const int word = width_of(at, bytes);
-      if (word > style->word) style->word = word;
-      at += bytes;
-    }
-  }
-}
-
 /* The widest column that is wider than it has to be: than its longest word, or else, once no such one is left, than
  * NARROWEST. -1: none is. */
 static int column_to_narrow(const table *t, const column_style *style)
@@ -372,7 +355,19 @@ hc_status table_write_wrapped(const table *t, FILE *to)
   if (good) {
     for (int j = 0; j < t->n_columns; ++j) {
       w.style[j].shown = !t->hidden[j];
-      measure_column(t, &w, j);
+      /* The widest text of a column and its longest word, header included. */
+      column_style *style = &w.style[j];
+      for (int i = 0; i <= table_row_count(t); ++i) {
+        const char *text = w.texts[i * t->n_columns + j];
+        const int width = utf8_width(text);
+        if (width > style->width) style->width = width;
+        for (const char *at = text; *at; at += strspn(at, " ")) {
+          const size_t bytes = strcspn(at, " ");
+          const int word = width_of(at, bytes);
+          if (word > style->word) style->word = word;
+          at += bytes;
+        }
+      }
     }
     const int wanted = count_shown(t, w.style);
     drop_columns(t, w.style, t->wrap, true, false); /* while the words of the others do not fit side by side */

@@ -236,34 +236,6 @@ static void add_product(const solved_scene *s, const double *A, double by, const
                 &b->size[to * n + i]);
 }
 
-static void add_structure(const solved_scene *s, const double *x, balance *b)
-{
-  const model *m = s->model;
-  for (int c = 0; c < s->n_coef; ++c) {
-    const int h = (c + 1) / 2, other = c == 0 ? 0 : c % 2 ? c + 1 : c - 1;
-    const double w = h * s->omega;
-    add_product(s, m->stiffness, 1, x, c, c, b);
-    add_product(s, m->mass, -w * w, x, c, c, b);
-    add_product(s, m->damping, c % 2 ? w : -w, x, other, c, b); /* of a cos + b sin: w b cos - w a sin */
-  }
-  for (int l = 0; l < m->n_loads; ++l) {
-    const model_load *p = &m->loads[l];
-    const int cosine = p->harmonic ? 2 * p->harmonic - 1 : 0;
-    for (int i = 0; i < s->n; ++i) {
-      add_force(-p->cosine[i], &b->left[cosine * s->n + i], &b->size[cosine * s->n + i]);
-      if (p->harmonic) add_force(-p->sine[i], &b->left[(cosine + 1) * s->n + i], &b->size[(cosine + 1) * s->n + i]);
-    }
-  }
-}
-
-/* What a contact's force is made of: kt u and kn v, themselves sums over x. */
-static double spring_size(const solved_scene *s, double stiffness, const double *direction, const double *x)
-{
-  double sum = 0;
-  for (int i = 0; i < s->n; ++i) sum += fabs(direction[i] * x[i]);
-  return stiffness * sum;
-}
-
 /* Its force as it is located, or where N > 0 stepped through N instants; *bound then grows by what that may do.
  * HC_INTERRUPTED: the slider has not settled. */
 static hc_status add_contact(const solved_scene *s, int j, const double *x, int N, balance *b, double *bound)
@@ -277,7 +249,10 @@ static hc_status add_contact(const solved_scene *s, int j, const double *x, int 
   for (int d = 0; d < c.n_dof && st == HC_OK; ++d)
     for (int k = 0; k < s->n_coef; ++k) {
       const double force = c.force[d * s->n_coef + k];
-      const double size = fabs(force) + spring_size(s, c.stiffness[d], c.direction[d], x + k * s->n);
+      /* What a contact's force is made of: kt u and kn v, themselves sums over x. */
+      double sum = 0;
+      for (int i = 0; i < s->n; ++i) sum += fabs(c.direction[d][i] * (x + k * s->n)[i]);
+      const double size = fabs(force) + c.stiffness[d] * sum;
       for (int i = 0; i < s->n; ++i) {
         b->left[k * s->n + i] += c.direction[d][i] * force;
         b->size[k * s->n + i] += fabs(c.direction[d][i]) * size;
@@ -294,7 +269,24 @@ double stress_imbalance_sampled(solved_scene *s, const double *x, int N, double 
   double left = 0, size = 0;
   *bound = 0;
   hc_status st = b.left && b.size ? HC_OK : HC_NO_MEMORY;
-  if (st == HC_OK) add_structure(s, x, &b);
+  if (st == HC_OK) {
+    const model *m = s->model;
+    for (int c = 0; c < s->n_coef; ++c) {
+      const int h = (c + 1) / 2, other = c == 0 ? 0 : c % 2 ? c + 1 : c - 1;
+      const double w = h * s->omega;
+      add_product(s, m->stiffness, 1, x, c, c, &b);
+      add_product(s, m->mass, -w * w, x, c, c, &b);
+      add_product(s, m->damping, c % 2 ? w : -w, x, other, c, &b); /* of a cos + b sin: w b cos - w a sin */
+    }
+    for (int l = 0; l < m->n_loads; ++l) {
+      const model_load *p = &m->loads[l];
+      const int cosine = p->harmonic ? 2 * p->harmonic - 1 : 0;
+      for (int i = 0; i < s->n; ++i) {
+        add_force(-p->cosine[i], &b.left[cosine * s->n + i], &b.size[cosine * s->n + i]);
+        if (p->harmonic) add_force(-p->sine[i], &b.left[(cosine + 1) * s->n + i], &b.size[(cosine + 1) * s->n + i]);
+      }
+    }
+  }
   for (int j = 0; j < s->model->n_contacts && st == HC_OK; ++j) st = add_contact(s, j, x, N, &b, bound);
   for (size_t i = s->how.keep_mean ? 0 : (size_t)s->n; i < length && st == HC_OK; ++i) {
     if (isnan(b.left[i])) st = HC_NOT_FINITE;

@@ -166,19 +166,6 @@ static double shoot_from(solved_scene *s, const stress_motion *from, stress_path
   return path->status == HC_OK ? motion_off(s, from, path) : NAN;
 }
 
-/* A bound of the change by more harmonics, of any degree of freedom, over that amplitude. */
-static double moved(const solved_scene *s, const stress_motion *coarse, const stress_motion *fine, double amplitude)
-{
-  const int n_coef = series_length(coarse->harmonics), n_fine = series_length(fine->harmonics);
-  double most = 0;
-  for (int i = 0; i < s->n; ++i) {
-    double sum = 0;
-    for (int c = 0; c < n_fine; ++c) sum += fabs(fine->x[c * s->n + i] - (c < n_coef ? coarse->x[c * s->n + i] : 0));
-    most = fmax(most, sum);
-  }
-  return most / amplitude;
-}
-
 /* HBM of m, the base model or one rewritten with its coordinates, from the harmonics of the orbit `shift` samples
  * later; with as many as s->fine has. stress_motion_free in any case. */
 static void motion_beside(solved_scene *s, const model *m, const stress_path *path, int shift, stress_motion *out)
@@ -235,7 +222,15 @@ static bool refine(solved_scene *s, double *error, double *step)
     return false;
   }
   *error = shoot_from(s, &finer, &path);
-  *step = moved(s, &s->fine, &finer, path.status == HC_OK ? path.amplitude : finer.m.amplitude);
+  /* A bound of the change by more harmonics, of any degree of freedom, over that amplitude. */
+  const int n_coef = series_length(s->fine.harmonics), n_fine = series_length(finer.harmonics);
+  double most = 0;
+  for (int i = 0; i < s->n; ++i) {
+    double sum = 0;
+    for (int c = 0; c < n_fine; ++c) sum += fabs(finer.x[c * s->n + i] - (c < n_coef ? s->fine.x[c * s->n + i] : 0));
+    most = fmax(most, sum);
+  }
+  *step = most / (path.status == HC_OK ? path.amplitude : finer.m.amplitude);
   stress_motion_free(&s->fine);
   stress_path_free(&s->path);
   s->fine = finer;

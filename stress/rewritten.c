@@ -214,15 +214,6 @@ hc_status rewritten_copies(const model *m, rewritten *out)
   return st;
 }
 
-/* The largest entry of K; where there is none, of a contact: far stiffer, it would only bring rounding. */
-static double some_stiffness(const model *m)
-{
-  double most = largest(m->stiffness, m->n * m->n);
-  const bool none = most == 0;
-  for (int j = 0; j < m->n_contacts && none; ++j) most = fmax(most, fmax(m->contacts[j].law.kt, m->contacts[j].law.kn));
-  return most;
-}
-
 hc_status rewritten_bystander(const model *m, uint64_t *random, rewritten *out)
 {
   const int n = m->n, last = n * (n + 2);
@@ -231,7 +222,11 @@ hc_status rewritten_bystander(const model *m, uint64_t *random, rewritten *out)
   hc_status st = beside(m, 1, 1, &straight);
   if (st != HC_OK) return st;
   straight->mass[last] = largest(m->mass, n * n);
-  straight->stiffness[last] = some_stiffness(m);
+  /* The largest entry of K; where there is none, of a contact: far stiffer, it would only bring rounding. */
+  double most = largest(m->stiffness, m->n * m->n);
+  const bool none = most == 0;
+  for (int j = 0; j < m->n_contacts && none; ++j) most = fmax(most, fmax(m->contacts[j].law.kt, m->contacts[j].law.kn));
+  straight->stiffness[last] = most;
   straight->damping[last] = largest(m->damping, n * n);
   st = turn(straight, draw_rotation, random, out);
   model_free(straight);

@@ -80,14 +80,6 @@ static void first_line(const stress_plan *plan, char line[LINE])
            plan->seconds);
 }
 
-static void write_heading(const stress_plan *plan, FILE *file)
-{
-  char line[LINE];
-  first_line(plan, line);
-  fputs(line, file);
-  for (int i = 0; i < N_LISTS; ++i) fputs(lists[i], file);
-}
-
 /* Is it of this version, of this plan, with these lists? */
 static hc_status read_heading(const stress_plan *plan, FILE *file)
 {
@@ -186,7 +178,12 @@ static hc_status open_journal(const stress_plan *plan, stress_result *results, l
   hc_status st = read_all(plan, file, results, there, &end);
   /* half a line is cut off; a heading at its beginning */
   if (st == HC_OK && (fseek(file, end, SEEK_SET) != 0 || ftruncate(fileno(file), end) != 0)) st = HC_IO;
-  if (st == HC_OK && end == 0) write_heading(plan, file);
+  if (st == HC_OK && end == 0) {
+    char line[LINE];
+    first_line(plan, line);
+    fputs(line, file);
+    for (int i = 0; i < N_LISTS; ++i) fputs(lists[i], file);
+  }
   if (st == HC_OK && (fflush(file) != 0 || ferror(file))) st = HC_IO;
   const int why = errno;
   if (st == HC_OK) *out = file;
@@ -217,27 +214,6 @@ static stress_result *next_result(pool *p)
   return r;
 }
 
-/* On disk when this returns HC_OK, if it is to be anywhere. */
-static hc_status store_result(pool *p, const stress_result *r)
-{
-  FILE *journal = p->journal;
-  hc_status st = HC_OK;
-  pthread_mutex_lock(&p->workers.lock);
-  if (journal) {
-    fprintf(journal, "%ld %.3f", r->index, r->seconds);
-    for (int k = 0; k < STRESS_N_CHECKS; ++k) {
-      const stress_check *c = &r->check[k];
-      fprintf(journal, "  %d %d %d %.17g %.17g %.3f", (int)c->outcome, (int)c->reason, (int)c->status, c->error,
-              c->bound, c->seconds);
-    }
-    fputs(" .\n", journal);
-    if (fflush(journal) != 0 || ferror(journal)) st = HC_IO;
-  }
-  ++p->done;
-  pthread_mutex_unlock(&p->workers.lock);
-  return st;
-}
-
 static void *work(void *self)
 {
   pool *p = self;
@@ -250,7 +226,24 @@ static void *work(void *self)
     if (st != HC_OK) break;
     st = stress_scene(&sc, p->plan->seconds, &monitor, r);
     case_clear(&sc);
-    if (st == HC_OK) st = store_result(p, r);
+    /* On disk when this returns HC_OK, if it is to be anywhere. */
+    if (st == HC_OK) {
+      FILE *journal = p->journal;
+      st = HC_OK;
+      pthread_mutex_lock(&p->workers.lock);
+      if (journal) {
+        fprintf(journal, "%ld %.3f", r->index, r->seconds);
+        for (int k = 0; k < STRESS_N_CHECKS; ++k) {
+          const stress_check *c = &r->check[k];
+          fprintf(journal, "  %d %d %d %.17g %.17g %.3f", (int)c->outcome, (int)c->reason, (int)c->status, c->error,
+                  c->bound, c->seconds);
+        }
+        fputs(" .\n", journal);
+        if (fflush(journal) != 0 || ferror(journal)) st = HC_IO;
+      }
+      ++p->done;
+      pthread_mutex_unlock(&p->workers.lock);
+    }
   }
   stress_scenes_free(scenes);
   if (st != HC_OK) workers_stop(&p->workers, st);

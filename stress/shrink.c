@@ -69,18 +69,6 @@ static void round_number(shrinker *s, scene *sc, double *number, bool frequency)
   }
 }
 
-static void round_numbers(shrinker *s, scene *sc)
-{
-  round_number(s, sc, &sc->compare.omega.v[0], true);
-  double *const own[] = {&sc->mass, &sc->damping, &sc->stiffness, &sc->force};
-  for (int i = 0; i < 4; ++i) round_number(s, sc, own[i], false);
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    scene_contact *c = &sc->contacts[j];
-    double *const its[] = {&c->law.kn, &c->law.kt, &c->law.mu, &c->law.gap, &c->angle_deg};
-    for (int i = 0; i < 5; ++i) round_number(s, sc, its[i], false);
-  }
-}
-
 /* ---- its parts ----
  *
  * What a scene may do without, one at a time and the last first; drop() is false where it cannot be. */
@@ -155,18 +143,6 @@ static bool is_line(int n, const double *a, const double *b)
   return ab * ab >= (1 - 4e-12) * dot_product(n, a, a) * dot_product(n, b, b);
 }
 
-/* Could a case file say it? No contact may have lost what it acts along. */
-static bool is_whole(const scene_structure *t)
-{
-  for (int j = 0; j < t->n_contacts; ++j) {
-    const structure_contact *c = &t->contacts[j];
-    if ((c->given.law.kt != 0 && is_zero(t->n, c->tangent)) || (c->given.law.kn != 0 && is_zero(t->n, c->normal)))
-      return false;
-    if (!is_zero(t->n, c->tangent_2) && is_line(t->n, c->tangent, c->tangent_2)) return false;
-  }
-  return true;
-}
-
 /* Degree of freedom k held: of a structure without names, nodes and damping by modes. */
 static bool hold_dof(scene *sc, int k)
 {
@@ -183,7 +159,14 @@ static bool hold_dof(scene *sc, int k)
   structure_clear_responses(t);
   t->how = STRUCTURE_DAMPING_MATRIX;
   --t->n;
-  return is_whole(t);
+  /* Could a case file say it? No contact may have lost what it acts along. */
+  for (int j = 0; j < t->n_contacts; ++j) {
+    const structure_contact *c = &t->contacts[j];
+    if ((c->given.law.kt != 0 && is_zero(t->n, c->tangent)) || (c->given.law.kn != 0 && is_zero(t->n, c->normal)))
+      return false;
+    if (!is_zero(t->n, c->tangent_2) && is_line(t->n, c->tangent, c->tangent_2)) return false;
+  }
+  return true;
 }
 
 /* With the fewest: a structure not without the harmonics of its loads. */
@@ -209,6 +192,15 @@ hc_status stress_shrink(scene *sc, stress_kind kind, double seconds, const hc_mo
   shrinker s = {kind, seconds, monitor, HC_OK};
   for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) drop_parts(&s, sc, &parts[i]);
   fewer_harmonics(&s, sc);
-  if (!sc->structure) round_numbers(&s, sc);
+  if (!sc->structure) {
+    round_number(&s, sc, &sc->compare.omega.v[0], true);
+    double *const own[] = {&sc->mass, &sc->damping, &sc->stiffness, &sc->force};
+    for (int i = 0; i < 4; ++i) round_number(&s, sc, own[i], false);
+    for (int j = 0; j < sc->n_contacts; ++j) {
+      scene_contact *c = &sc->contacts[j];
+      double *const its[] = {&c->law.kn, &c->law.kt, &c->law.mu, &c->law.gap, &c->angle_deg};
+      for (int i = 0; i < 5; ++i) round_number(&s, sc, its[i], false);
+    }
+  }
   return s.status;
 }

@@ -88,18 +88,6 @@ static double reach(const solved_scene *s, const double *d, const double *x)
   return sum;
 }
 
-/* Where the motion starts, its sliders at 0. */
-static void start_of(const solved_scene *s, const double *x, double *state)
-{
-  for (int i = 0; i < s->n; ++i) {
-    state[i] = x[i];
-    for (int h = 1; 2 * h < s->n_coef; ++h) {
-      state[i] += x[(2 * h - 1) * s->n + i];
-      state[s->n + i] += h * s->omega * x[2 * h * s->n + i];
-    }
-  }
-}
-
 /* HBM by Newton from 1.4 times the solution, and the orbit next to it, against the closed form. The mean of a stuck
  * contact's motion depends on where its slider rests: HBM's is left out. */
 static stress_check hold_linear(solved_scene *s, const model *m, const linear_motion *exact, bool means_out)
@@ -123,7 +111,14 @@ static stress_check hold_linear(solved_scene *s, const model *m, const linear_mo
     stress_motion_free(&hbm);
   }
   if (s->fatal == HC_OK && c.outcome == STRESS_AGREED) {
-    start_of(s, exact->x, start);
+    /* Where the motion starts, its sliders at 0. */
+    for (int i = 0; i < s->n; ++i) {
+      start[i] = exact->x[i];
+      for (int h = 1; 2 * h < s->n_coef; ++h) {
+        start[i] += exact->x[(2 * h - 1) * s->n + i];
+        start[s->n + i] += h * s->omega * exact->x[2 * h * s->n + i];
+      }
+    }
     stress_path_of(s, m, start, &path);
     /* undamped, no period map has one orbit */
     if (path.status == HC_OK)
@@ -132,19 +127,6 @@ static stress_check hold_linear(solved_scene *s, const model *m, const linear_mo
   }
   free(guess), free(start);
   return c;
-}
-
-/* Contact j of m so that the motion x, whose largest entry is `moves`, never closes it, or never slips nor opens. */
-static void keep_linear(const solved_scene *s, const double *x, double moves, bool stuck, int j, model *m)
-{
-  model_contact *c = &m->contacts[j];
-  contact *law = &c->law;
-  const double v = reach(s, c->normal, x);
-  const double u = reach(s, c->tangent, x) + (c->pair == CONTACT_FIRST ? reach(s, c[1].tangent, x) : 0);
-  if (c->pair == CONTACT_SECOND) *law = c[-1].law; /* one law for both */
-  else if (!stuck) law->gap = -3 * (v + 1e-3 * moves), law->load = 0;
-  else if (law->kn > 0) law->gap = 10 * (v + moves + law->kt * u / (law->mu * law->kn));
-  else law->load = 10 * law->kt * (u + moves) / law->mu;
 }
 
 /* The model with other contacts, against the closed form of K with the springs of those that stick. */
@@ -167,7 +149,18 @@ static stress_check check_contacts(solved_scene *s, bool stuck)
   stress_check c = st == HC_OK ? stress_skip(STRESS_NOT_APPLICABLE) : stress_refuse(s, st);
   double moves = 0;
   for (int i = 0; i < s->n * s->n_coef && st == HC_OK; ++i) moves = fmax(moves, fabs(exact.x[i]));
-  for (int j = 0; exact.x && moves > 0 && j < m->n_contacts; ++j) keep_linear(s, exact.x, moves, stuck, j, m);
+  /* Contact j of m so that the motion x, whose largest entry is `moves`, never closes it, or never slips nor opens. */
+  for (int j = 0; exact.x && moves > 0 && j < m->n_contacts; ++j) {
+    model_contact *of = &m->contacts[j];
+    contact *law = &of->law;
+    const double v = reach(s, of->normal, exact.x);
+    const double u =
+        reach(s, of->tangent, exact.x) + (of->pair == CONTACT_FIRST ? reach(s, of[1].tangent, exact.x) : 0);
+    if (of->pair == CONTACT_SECOND) *law = of[-1].law; /* one law for both */
+    else if (!stuck) law->gap = -3 * (v + 1e-3 * moves), law->load = 0;
+    else if (law->kn > 0) law->gap = 10 * (v + moves + law->kt * u / (law->mu * law->kn));
+    else law->load = 10 * law->kt * (u + moves) / law->mu;
+  }
   if (exact.x && moves > 0 && exact.bound < solvable && moves < 1e150) c = hold_linear(s, m, &exact, stuck);
   free(exact.x);
   model_free(m);

@@ -53,21 +53,6 @@ static void add_full(uint64_t *r, int n, double *A, double scale)
   }
 }
 
-/* Entries are of the order of 1: a chain, a tree, or full matrices. Where nothing of its own holds it, contacts have
- * to. */
-static void draw_matrices(uint64_t *r, const double *p, scene_structure *s)
-{
-  const int n = s->n;
-  double *M = s->mass.v, *K = s->stiffness.v;
-  const bool full = p[SHAPE] > 0.7, chain = p[SHAPE] < 0.4, held = p[HELD] < 0.9;
-  for (int i = 0; i < n; ++i) AT(M, i, i) = geometric(r, 0.2, 5);
-  if (full) add_full(r, n, M, 0.3 / n);
-  if (full && held) add_full(r, n, K, 2.0 / n);
-  for (int i = held ? 0 : 1; i < n; ++i)
-    add_between(n, K, geometric(r, 0.1, 10), i, chain ? i - 1 : i == 0 ? -1 : random_int(r, 0, i - 1));
-  if (chain && held && random_unit(r) < 0.3) add_between(n, K, geometric(r, 0.1, 10), n - 1, -1);
-}
-
 /* A += scale (G - G^T) */
 static void add_skew(uint64_t *r, int n, double *A, double scale)
 {
@@ -219,23 +204,6 @@ static void scale(double *v, int n, double by)
   for (int i = 0; i < n; ++i) v[i] *= by;
 }
 
-/* Masses, stiffnesses and lengths, all of the order of 1 so far, in units of these; the unit of time follows. */
-static void give_units(double mass, double stiffness, double length, scene *sc)
-{
-  scene_structure *s = sc->structure;
-  const double rate = sqrt(stiffness / mass);
-  scale(s->mass.v, s->n * s->n, mass);
-  scale(s->stiffness.v, s->n * s->n, stiffness);
-  if (s->how == STRUCTURE_DAMPING_MATRIX) scale(s->damping.v, s->n * s->n, sqrt(stiffness * mass));
-  s->rayleigh[0] *= rate, s->rayleigh[1] /= rate;
-  for (int i = 0; i < s->n_loads; ++i) s->loads[i].amplitude *= stiffness * length;
-  for (int j = 0; j < s->n_contacts; ++j) {
-    scene_contact *g = &s->contacts[j].given;
-    g->law.kt *= stiffness, g->law.kn *= stiffness, g->law.gap *= length, g->preload *= stiffness * length;
-  }
-  scale(sc->compare.omega.v, 1, rate);
-}
-
 /* ---- the whole --------------------------------------------------------------------------------------- */
 
 /* MOST_UNKNOWNS at most, but for the coordinates that their number keeps. */
@@ -252,7 +220,17 @@ static hc_status draw_structure(uint64_t *r, const double *p, int n_contacts, in
   const double stiffness = 1e-2 * pow(1e5, p[CONTACT_STIFFNESS]);
   double x[MOST_DOFS];
   bool adrift;
-  draw_matrices(r, p, s);
+  /* Entries are of the order of 1: a chain, a tree, or full matrices. Where nothing of its own holds it, contacts have
+   * to. */
+  const int n = s->n;
+  double *M = s->mass.v, *K = s->stiffness.v;
+  const bool full = p[SHAPE] > 0.7, chain = p[SHAPE] < 0.4, held = p[HELD] < 0.9;
+  for (int i = 0; i < n; ++i) AT(M, i, i) = geometric(r, 0.2, 5);
+  if (full) add_full(r, n, M, 0.3 / n);
+  if (full && held) add_full(r, n, K, 2.0 / n);
+  for (int i = held ? 0 : 1; i < n; ++i)
+    add_between(n, K, geometric(r, 0.1, 10), i, chain ? i - 1 : i == 0 ? -1 : random_int(r, 0, i - 1));
+  if (chain && held && random_unit(r) < 0.3) add_between(n, K, geometric(r, 0.1, 10), n - 1, -1);
   hc_status st = draw_damping(r, p, s);
   for (int j = 0; j < n_contacts && st == HC_OK; ++j) {
     structure_contact *c = structure_add_contact(s);
@@ -305,7 +283,21 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
   hc_status st = s->mass.v && s->stiffness.v ? draw_structure(&r, p, n_contacts, sc.hbm.harmonics, s) : HC_NO_MEMORY;
   if (st == HC_OK) st = choose_motion(&r, p, &sc);
   if (st == HC_OK) {
-    give_units(1e-3 * pow(1e6, p[MASS]), pow(1e6, p[STIFFNESS]), 1e-4 * pow(1e4, p[LENGTH]), &sc);
+    /* Masses, stiffnesses and lengths, all of the order of 1 so far, in units of these; the unit of time follows. */
+    const double mass = 1e-3 * pow(1e6, p[MASS]);
+    const double stiffness = pow(1e6, p[STIFFNESS]);
+    const double length = 1e-4 * pow(1e4, p[LENGTH]);
+    const double rate = sqrt(stiffness / mass);
+    scale(s->mass.v, s->n * s->n, mass);
+    scale(s->stiffness.v, s->n * s->n, stiffness);
+    if (s->how == STRUCTURE_DAMPING_MATRIX) scale(s->damping.v, s->n * s->n, sqrt(stiffness * mass));
+    s->rayleigh[0] *= rate, s->rayleigh[1] /= rate;
+    for (int i = 0; i < s->n_loads; ++i) s->loads[i].amplitude *= stiffness * length;
+    for (int j = 0; j < s->n_contacts; ++j) {
+      scene_contact *g = &s->contacts[j].given;
+      g->law.kt *= stiffness, g->law.kn *= stiffness, g->law.gap *= length, g->preload *= stiffness * length;
+    }
+    scale(sc.compare.omega.v, 1, rate);
     st = structure_resolve_damping(s);
   }
   sc.omega_from = 0.97 * sc.compare.omega.v[0];

@@ -12,18 +12,14 @@
 #include "compare/motion.h"
 #include "stress/solved_scene.h"
 
-/* Largest ratio of the gate; above 1: beyond. */
-static double gate_ratio(const discrepancy *e, const discrepancy *g, bool free)
-{
-  double worst = fmax(e->amplitude / g->amplitude, fmax(e->harmonic_1 / g->harmonic_1, e->waveform / g->waveform));
-  return free ? worst : fmax(worst, e->mean / g->mean);
-}
-
 static double known(double part) { return part > 0 ? part : 0; }
 
 static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
 {
-  *ratio = gate_ratio(&r->errors, g, motion_mean_is_free(&r->transient));
+  /* Largest ratio of the gate; above 1: beyond. */
+  double worst = fmax(r->errors.amplitude / g->amplitude,
+                      fmax(r->errors.harmonic_1 / g->harmonic_1, r->errors.waveform / g->waveform));
+  *ratio = motion_mean_is_free(&r->transient) ? worst : fmax(worst, r->errors.mean / g->mean);
   if (r->still) return false; /* not compared */
   bool orbit = r->orbit_status == HC_OK && !r->transient.left_orbit && budget_same_orbit(&r->transient, &r->orbit);
   switch (r->verdict) {

@@ -181,13 +181,6 @@ static void put_answer(const study_claim *c, int which, const said *a, table *t,
   table_note(t, "not as expected%s: %s: %s", with[which], c->source.text ? c->source.text : "a claim", c->says.text);
 }
 
-static void put_seconds(const char *text, table *t)
-{
-  double x;
-  if (number_read(text, strlen(text), &x) == NUMBER_FINE) table_put_real(t, (double)(long long)(x * 1e5 + 0.5) / 1e5);
-  else table_put_missing(t);
-}
-
 static void put_claim(const study_claim *c, const said a[STUDY_ANSWERS], table *const t[STUDY_CLAIM_TABLES],
                       study_claims_tally *tally)
 {
@@ -209,7 +202,12 @@ static void put_claim(const study_claim *c, const said a[STUDY_ANSWERS], table *
   if (!(c->seconds >= 0) && !*a[STUDY_PAPER].seconds && !*a[STUDY_OURS].seconds) return;
   table_put_text(t[STUDY_SECONDS], c->source.text);
   table_put_real(t[STUDY_SECONDS], c->seconds);
-  for (int k = STUDY_PAPER; k <= STUDY_OURS; ++k) put_seconds(a[k].seconds, t[STUDY_SECONDS]);
+  for (int k = STUDY_PAPER; k <= STUDY_OURS; ++k) {
+    double x;
+    if (number_read(a[k].seconds, strlen(a[k].seconds), &x) == NUMBER_FINE)
+      table_put_real(t[STUDY_SECONDS], (double)(long long)(x * 1e5 + 0.5) / 1e5);
+    else table_put_missing(t[STUDY_SECONDS]);
+  }
   table_put_text(t[STUDY_SECONDS], c->says.text);
 }
 

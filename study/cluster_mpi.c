@@ -42,17 +42,6 @@ int cluster_agree(int code)
   return worst;
 }
 
-static void receive_result(const cluster_desk *desk, const MPI_Status *from)
-{
-  int size;
-  MPI_Get_count(from, MPI_BYTE, &size);
-  char *packed = malloc((size_t)size + 1);
-  if (!packed) MPI_Abort(MPI_COMM_WORLD, 1); /* what is kept is kept; the study goes on from there */
-  MPI_Recv(packed, size, MPI_BYTE, from->MPI_SOURCE, TAG_RESULT, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-  desk->store(desk->self, packed, (size_t)size);
-  free(packed);
-}
-
 static void answer(const cluster_desk *desk, int rank)
 {
   long ids[HANDFUL];
@@ -69,22 +58,17 @@ bool cluster_serve(const cluster_desk *desk)
     MPI_Status from;
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &waiting, &from);
     if (!waiting) break;
-    if (from.MPI_TAG == TAG_RESULT) receive_result(desk, &from);
-    else answer(desk, from.MPI_SOURCE);
+    if (from.MPI_TAG == TAG_RESULT) {
+      int size;
+      MPI_Get_count(&from, MPI_BYTE, &size);
+      char *packed = malloc((size_t)size + 1);
+      if (!packed) MPI_Abort(MPI_COMM_WORLD, 1); /* what is kept is kept; the study goes on from there */
+      MPI_Recv(packed, size, MPI_BYTE, from.MPI_SOURCE, TAG_RESULT, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+      desk->store(desk->self, packed, (size_t)size);
+      free(packed);
+    } else answer(desk, from.MPI_SOURCE);
   }
   return at_work > 0;
-}
-
-static bool compute(const study *s, long id, const hc_monitor *monitor)
-{
-  study_result r;
-  char *packed = NULL;
-  size_t size;
-  bool good = study_solve(s, id, monitor, &r) == HC_OK && study_result_pack(&r, &packed, &size) == HC_OK;
-  if (good) MPI_Send(packed, (int)size, MPI_BYTE, 0, TAG_RESULT, MPI_COMM_WORLD);
-  free(packed);
-  study_result_clear(&r);
-  return good;
 }
 
 void cluster_work(const study *s, const hc_monitor *monitor)
@@ -96,6 +80,14 @@ void cluster_work(const study *s, const hc_monitor *monitor)
     MPI_Send(NULL, 0, MPI_BYTE, 0, TAG_ASK, MPI_COMM_WORLD);
     MPI_Recv(ids, HANDFUL, MPI_LONG, 0, TAG_SCENES, MPI_COMM_WORLD, &answer);
     MPI_Get_count(&answer, MPI_LONG, &n);
-    for (int i = 0; i < n && good; ++i) good = compute(s, ids[i], monitor);
+    for (int i = 0; i < n && good; ++i) {
+      study_result r;
+      char *packed = NULL;
+      size_t size;
+      good = study_solve(s, ids[i], monitor, &r) == HC_OK && study_result_pack(&r, &packed, &size) == HC_OK;
+      if (good) MPI_Send(packed, (int)size, MPI_BYTE, 0, TAG_RESULT, MPI_COMM_WORLD);
+      free(packed);
+      study_result_clear(&r);
+    }
   }
 }

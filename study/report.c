@@ -138,17 +138,6 @@ static json_t *json_cell(sqlite3_stmt *q, int j)
   }
 }
 
-static bool write_json_row(sqlite3_stmt *q, FILE *to)
-{
-  json_t *object = json_object();
-  bool good = object != NULL;
-  for (int j = 0; good && j < sqlite3_column_count(q); ++j)
-    good = json_object_set_new(object, sqlite3_column_name(q, j), json_cell(q, j)) == 0;
-  good = good && (json_dumpf(object, to, JSON_REAL_PRECISION(17)) == 0 || ferror(to));
-  json_decref(object);
-  return good;
-}
-
 hc_status study_export(const study *s, study_store *store, table_format format, bool timings, const char *response,
                        FILE *to)
 {
@@ -167,8 +156,14 @@ hc_status study_export(const study *s, study_store *store, table_format format, 
   else write_csv_row(q, true, to);
   for (long n = 0; good && (code = sqlite3_step(q)) == SQLITE_ROW; ++n) {
     if (json) fputs(n ? ",\n    " : "\n    ", to);
-    if (json) good = write_json_row(q, to);
-    else write_csv_row(q, false, to);
+    if (json) {
+      json_t *object = json_object();
+      good = object != NULL;
+      for (int j = 0; good && j < sqlite3_column_count(q); ++j)
+        good = json_object_set_new(object, sqlite3_column_name(q, j), json_cell(q, j)) == 0;
+      good = good && (json_dumpf(object, to, JSON_REAL_PRECISION(17)) == 0 || ferror(to));
+      json_decref(object);
+    } else write_csv_row(q, false, to);
   }
   if (json) fputs("\n  ],\n  \"notes\": []\n}\n", to);
   sqlite3_finalize(q);

@@ -54,20 +54,6 @@ static void name_response(const scene *sc, int i, char *text)
   if (sc->structure) structure_response_name(sc->structure, i, text, RESPONSE_NAME);
 }
 
-/* A row for each response of solution k. */
-static hc_status put_solution(hbm_solver *s, const scene *sc, const hbm_curve *found, int k, study_result *r)
-{
-  const int n = sc->structure ? structure_response_count(sc->structure) : 1;
-  response_row row;
-  hc_status st = response_row_of(s, found, k, &row);
-  for (int i = 0; i < n && st == HC_OK; ++i) {
-    if (i > 0) st = response_row_turn(s, found, k, i, &row);
-    name_response(sc, i, row.response);
-    if (st == HC_OK) rows_cells(ROWS_FRF, &row, r->extra, next_row(r));
-  }
-  return st;
-}
-
 static hc_status put_solutions(hbm_solver *s, const scene *sc, const hbm_curve *curve, study_result *r)
 {
   hbm_curve found = {0};
@@ -77,7 +63,15 @@ static hc_status put_solutions(hbm_solver *s, const scene *sc, const hbm_curve *
   if (at == HC_NO_MEMORY) st = at; /* says nothing about the scene: it is not kept */
   else if (at != HC_OK) fail_with(r, "no solution", at, failed_at);
   for (int k = 0; k < found.n && st == HC_OK; ++k) {
-    const hc_status one = put_solution(s, sc, &found, k, r);
+    /* A row for each response of solution k. */
+    const int n = sc->structure ? structure_response_count(sc->structure) : 1;
+    response_row row;
+    hc_status one = response_row_of(s, &found, k, &row);
+    for (int i = 0; i < n && one == HC_OK; ++i) {
+      if (i > 0) one = response_row_turn(s, &found, k, i, &row);
+      name_response(sc, i, row.response);
+      if (one == HC_OK) rows_cells(ROWS_FRF, &row, r->extra, next_row(r));
+    }
     if (one == HC_NO_MEMORY) st = one;
     else if (one != HC_OK) fail_with(r, "harmonic balance", one, found.points[k].omega);
   }
@@ -140,17 +134,6 @@ static hc_status solve_transient(const scene *sc, const hc_monitor *monitor, stu
   return st;
 }
 
-static void tell_failures(const comparison *c, study_result *r)
-{
-  for (int i = 0; i < c->n_rows; ++i) {
-    const comparison_row *row = &c->rows[i];
-    if (row->hbm_status != HC_OK) fail_with(r, "harmonic balance", row->hbm_status, row->omega);
-    else if (row->transient_status != HC_OK) fail_with(r, "time integration", row->transient_status, row->omega);
-  }
-  if (c->curve.end != HC_OK)
-    fail_with(r, "the response curve stopped", c->curve.end, c->curve.n ? c->curve.points[c->curve.n - 1].omega : 0);
-}
-
 static hc_status solve_compare(const scene *sc, const hc_monitor *monitor, study_result *r)
 {
   comparison c = {0};
@@ -166,7 +149,13 @@ static hc_status solve_compare(const scene *sc, const hc_monitor *monitor, study
       name_response(sc, c.rows[i].response, c.rows[i].response_name);
       rows_cells(ROWS_COMPARE, &c.rows[i], r->extra, next_row(r));
     }
-    tell_failures(&c, r);
+    for (int i = 0; i < c.n_rows; ++i) {
+      const comparison_row *row = &c.rows[i];
+      if (row->hbm_status != HC_OK) fail_with(r, "harmonic balance", row->hbm_status, row->omega);
+      else if (row->transient_status != HC_OK) fail_with(r, "time integration", row->transient_status, row->omega);
+    }
+    if (c.curve.end != HC_OK)
+      fail_with(r, "the response curve stopped", c.curve.end, c.curve.n ? c.curve.points[c.curve.n - 1].omega : 0);
   }
   comparison_clear(&c);
   return st;

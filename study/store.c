@@ -29,11 +29,6 @@ struct study_store { /* from study_store_open, to study_store_close */
 
 /* ---- columns ---- */
 
-static const char *type_of(table_kind kind)
-{
-  return kind == TABLE_REAL ? "REAL" : kind == TABLE_INTEGER ? "INTEGER" : "TEXT";
-}
-
 static const char *type_of_field(const field *f)
 {
   if (f->kind == FIELD_REAL) return "REAL";
@@ -44,7 +39,11 @@ static void write_columns(rows_kind kind, unsigned extra, FILE *to)
 {
   int n;
   const table_column *columns = rows_columns(kind, extra, &n);
-  for (int i = 0; i < n; ++i) fprintf(to, ", \"%s\" %s", columns[i].name, type_of(columns[i].kind));
+  for (int i = 0; i < n; ++i)
+    fprintf(to, ", \"%s\" %s", columns[i].name,
+            (columns[i].kind == TABLE_REAL      ? "REAL"
+             : columns[i].kind == TABLE_INTEGER ? "INTEGER"
+                                                : "TEXT"));
 }
 
 /* CREATE TABLE ... for the study, to free; NULL when out of memory. */
@@ -201,23 +200,6 @@ static hc_status refuse_sql(case_error *err, const char *path, sqlite3 *db)
 
 /* ---- the file, before SQLite sees it ---- */
 
-static hc_status check_header(int fd, const char *path, bool *is_new, case_error *err)
-{
-  static const char magic[16] = "SQLite format 3";
-  unsigned char head[HEADER];
-  ssize_t n = pread(fd, head, sizeof head, 0);
-  if (n < 0) return refuse_errno(err, path, "cannot be read", errno);
-  *is_new = n == 0;
-  if (*is_new) return HC_OK;
-  if (n < HEADER || memcmp(head, magic, sizeof magic))
-    return refuse(err, path, HC_IO, "not an SQLite file, expected the results of a study, or a new name (--results)");
-  uint32_t id = 0;
-  for (int i = 0; i < 4; ++i) id = id << 8 | head[ID_AT + i];
-  if (id == APPLICATION_ID) return HC_OK;
-  return refuse(err, path, HC_IO,
-                "an SQLite file of another program, expected the results of a study, or a new name (--results)");
-}
-
 /* The descriptor is kept until the database is closed: closing it earlier would drop SQLite's own locks. */
 static hc_status lock_file(const char *path, int *fd, bool *is_new, case_error *err)
 {
@@ -232,7 +214,19 @@ static hc_status lock_file(const char *path, int *fd, bool *is_new, case_error *
     return refuse(err, path, HC_IO,
                   "another hbmcheck is writing these results; let it finish, or give another name with --results");
   }
-  return check_header(*fd, path, is_new, err);
+  static const char magic[16] = "SQLite format 3";
+  unsigned char head[HEADER];
+  ssize_t n = pread((*fd), head, sizeof head, 0);
+  if (n < 0) return refuse_errno(err, path, "cannot be read", errno);
+  *is_new = n == 0;
+  if (*is_new) return HC_OK;
+  if (n < HEADER || memcmp(head, magic, sizeof magic))
+    return refuse(err, path, HC_IO, "not an SQLite file, expected the results of a study, or a new name (--results)");
+  uint32_t id = 0;
+  for (int i = 0; i < 4; ++i) id = id << 8 | head[ID_AT + i];
+  if (id == APPLICATION_ID) return HC_OK;
+  return refuse(err, path, HC_IO,
+                "an SQLite file of another program, expected the results of a study, or a new name (--results)");
 }
 
 /* ---- the database ---- */

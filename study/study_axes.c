@@ -111,15 +111,6 @@ static hc_status range_value(study_reader *q, const study_field *sf, const range
 
 /* ---- lists ---- */
 
-static void add_number(const field *f, const field_item *it, message *m)
-{
-  char text[NUMBER_TEXT];
-  double x;
-  bool number = f->kind != FIELD_CHOICE && f->kind != FIELD_FLAG && f->kind != FIELD_TEXT;
-  if (number && number_read(it->text, it->length, &x) == NUMBER_FINE) message_add(m, "%s", number_write(x, text));
-  else message_add(m, "%.*s", (int)it->length, it->text);
-}
-
 /* The value as --set takes it, numbers in their shortest form. It has been accepted before. */
 static char *canonical(study_reader *q, const field *f, const yaml_node_t *node)
 {
@@ -134,7 +125,12 @@ static char *canonical(study_reader *q, const field *f, const yaml_node_t *node)
   if (v.list) message_add(&m, "[");
   for (int i = 0; i < v.n; ++i) {
     if (i) message_add(&m, ", ");
-    add_number(f, &v.item[i], &m);
+    char shortest[NUMBER_TEXT];
+    double x;
+    bool number = f->kind != FIELD_CHOICE && f->kind != FIELD_FLAG && f->kind != FIELD_TEXT;
+    if (number && number_read(v.item[i].text, v.item[i].length, &x) == NUMBER_FINE)
+      message_add(&m, "%s", number_write(x, shortest));
+    else message_add(&m, "%.*s", (int)v.item[i].length, v.item[i].text);
   }
   if (v.list) message_add(&m, "]");
   return text;

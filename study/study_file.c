@@ -203,23 +203,6 @@ static hc_status read_set(study_reader *q, const yaml_node_t *node)
   return st;
 }
 
-/* The assignments of the command line; they may repeat what the file sets, but not what it varies. */
-static hc_status apply_options(study_reader *q, int n_set)
-{
-  hc_status st = HC_OK;
-  for (int k = 1; k <= n_set && st == HC_OK; ++k) {
-    case_target t;
-    char path[FIELD_PATH];
-    const char *text = q->r.set[k - 1];
-    if ((st = case_set_apply(&q->r, k)) != HC_OK) break;
-    while (*text == ' ') ++text;
-    if (case_find_target(&q->r, text, strcspn(text, "= "), &t) == HC_OK && t.f)
-      st = study_note_given(q, field_path(t.f, t.index, path), (case_place){.set = k, .line = 1, .column = 1});
-  }
-  q->r.set_now = 0;
-  return st;
-}
-
 static hc_status read_base(study_reader *q, const yaml_node_t *node)
 {
   study_value name = {0};
@@ -310,7 +293,20 @@ static hc_status read_study(study_reader *q, const yaml_node_t *root, int n_set)
   if (st == HC_OK && value[KEY_MAY_FAIL]) st = read_may_fail(q, value[KEY_MAY_FAIL]);
   if (st == HC_OK) st = value[KEY_BASE] ? read_base(q, value[KEY_BASE]) : read_case(q, value[KEY_CASE]);
   if (st == HC_OK && value[KEY_SET]) st = read_set(q, value[KEY_SET]);
-  if (st == HC_OK) st = apply_options(q, n_set);
+  /* The assignments of the command line; they may repeat what the file sets, but not what it varies. */
+  if (st == HC_OK) {
+    st = HC_OK;
+    for (int k = 1; k <= n_set && st == HC_OK; ++k) {
+      case_target t;
+      char path[FIELD_PATH];
+      const char *text = q->r.set[k - 1];
+      if ((st = case_set_apply(&q->r, k)) != HC_OK) break;
+      while (*text == ' ') ++text;
+      if (case_find_target(&q->r, text, strcspn(text, "= "), &t) == HC_OK && t.f)
+        st = study_note_given(q, field_path(t.f, t.index, path), (case_place){.set = k, .line = 1, .column = 1});
+    }
+    q->r.set_now = 0;
+  }
   if (st == HC_OK) st = study_read_axes(q, value[KEY_VARY]);
   if (st == HC_OK && value[KEY_VIEWS]) st = read_views(q, value[KEY_VIEWS]);
   if (st == HC_OK && value[KEY_CLAIMS]) st = read_claims(q, value[KEY_CLAIMS]);

@@ -6,27 +6,23 @@
 
 #include "base/nearest.h"
 
-static void unknown_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words)
-{
-  const char *text = yaml_node_text(key), *guess = nearest_word(words, text, key->data.scalar.length);
-  message *m = yaml_blame(&q->r, key);
-  message_add(m, "unknown key %s in %s", YAML_QUOTED(key), where);
-  if (guess) message_add(m, ", did you mean `%s`?", guess);
-  else if (field_find_section(text, strcspn(text, ".[")))
-    message_add(m, ", expected fields of the case in `case`, `set` or `vary`");
-  else {
-    message_add(m, ", expected one of");
-    for (int i = 0; words[i]; ++i) message_add(m, "%s %s", i ? "," : "", words[i]);
-  }
-}
-
 int study_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words, case_place *seen)
 {
   if (yaml_check_key(&q->r, key) != HC_OK) return -1;
   int k = 0;
   while (words[k] && !yaml_node_is(key, words[k])) ++k;
-  if (!words[k]) unknown_key(q, key, where, words);
-  else if (seen[k].line > 0) yaml_duplicate_key(&q->r, key, seen[k]);
+  if (!words[k]) {
+    const char *text = yaml_node_text(key), *guess = nearest_word(words, text, key->data.scalar.length);
+    message *m = yaml_blame(&q->r, key);
+    message_add(m, "unknown key %s in %s", YAML_QUOTED(key), where);
+    if (guess) message_add(m, ", did you mean `%s`?", guess);
+    else if (field_find_section(text, strcspn(text, ".[")))
+      message_add(m, ", expected fields of the case in `case`, `set` or `vary`");
+    else {
+      message_add(m, ", expected one of");
+      for (int i = 0; words[i]; ++i) message_add(m, "%s %s", i ? "," : "", words[i]);
+    }
+  } else if (seen[k].line > 0) yaml_duplicate_key(&q->r, key, seen[k]);
   else {
     seen[k] = yaml_place(&q->r, key);
     return k;
