@@ -102,20 +102,14 @@ static void shorten_exponent(char *text)
   memmove(zeros, zeros + n, strlen(zeros + n) + 1);
 }
 
-/* Is a text that is a number digits alone, after a sign? */
-static bool is_integer(const char *text, size_t length)
-{
-  for (size_t i = text[0] == '+' || text[0] == '-'; i < length; ++i)
-    if (text[i] < '0' || text[i] > '9') return false;
-  return true;
-}
-
 number_fault number_read_integer(const char *text, size_t length, int *value)
 {
   double x;
   number_fault fault = number_read(text, length, &x);
   if (fault != NUMBER_FINE) return fault;
-  if (!is_integer(text, length)) return NUMBER_NOT_INTEGER;
+  /* Is a text that is a number digits alone, after a sign? */
+  for (size_t i = text[0] == '+' || text[0] == '-'; i < length; ++i)
+    if (text[i] < '0' || text[i] > '9') return NUMBER_NOT_INTEGER;
   if (!(x >= INT_MIN && x <= INT_MAX)) return NUMBER_TOO_LARGE;
   *value = (int)x;
   return NUMBER_FINE;

@@ -215,18 +215,6 @@ static bool write_of_structure(const scene_structure *s, const char *section, FI
 
 /* ---- the scene ---- */
 
-static bool choices_are_known(const scene *sc)
-{
-  for (int i = 0; i < field_count(); ++i) {
-    const field *f = field_at(i);
-    if (f->kind != FIELD_CHOICE || f->flags & FIELD_ELSEWHERE) continue;
-    int n = 0, value = *(const int *)field_look(f, sc);
-    while (f->choices[n]) ++n;
-    if (value < 0 || value >= n) return false;
-  }
-  return sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS;
-}
-
 /* The rival in force is written: of those that give the sweep the one that did; else the list if it is not
  * empty (compare.omega), else the other (compare.points). */
 bool case_field_counts(const field *f, const scene *sc)
@@ -242,7 +230,14 @@ bool case_field_counts(const field *f, const scene *sc)
 
 hc_status case_echo(const scene *sc, FILE *to)
 {
-  if (!choices_are_known(sc)) return HC_BAD_INPUT;
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i);
+    if (f->kind != FIELD_CHOICE || f->flags & FIELD_ELSEWHERE) continue;
+    int n = 0, value = *(const int *)field_look(f, sc);
+    while (f->choices[n]) ++n;
+    if (value < 0 || value >= n) return HC_BAD_INPUT;
+  }
+  if (!(sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS)) return HC_BAD_INPUT;
   const field_section *s;
   for (int i = 0; (s = field_section_at(i)) != NULL; ++i) {
     if (sc->structure && write_of_structure(sc->structure, s->name, to)) continue;

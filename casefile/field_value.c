@@ -116,16 +116,6 @@ static bool read_number(const field *f, const field_item *it, double *out, const
   return isfinite(*out);
 }
 
-static bool store_number(const field *f, void *to, const field_value *v, message *m)
-{
-  double x;
-  const char *hint;
-  if (!read_number(f, &v->item[0], &x, &hint)) return refuse(f, v, -1, hint, m);
-  if (f->kind == FIELD_INTEGER) *(int *)to = (int)x;
-  else *(double *)to = x;
-  return true;
-}
-
 static bool store_list(const field *f, void *to, const field_value *v, message *m, int *bad)
 {
   number_list list = {0};
@@ -140,50 +130,11 @@ static bool store_list(const field *f, void *to, const field_value *v, message *
 }
 _Static_assert(NUMBER_LIST_MAX == 1024, "store_list says so in words");
 
-static bool store_flag(const field *f, void *to, const field_value *v, message *m)
-{
-  const field_item *it = &v->item[0];
-  bool yes = is_word(it, "true");
-  if (it->quoted || !(yes || is_word(it, "false")))
-    return refuse(f, v, -1, it->quoted ? "in quotes it is text" : NULL, m);
-  *(bool *)to = yes;
-  return true;
-}
-
 /* An enum is stored by its bytes, as large as an int: the table does not know which one it is. */
 _Static_assert(sizeof(hbm_force) == sizeof(int) && sizeof(hbm_restart) == sizeof(int) &&
                    sizeof(hbm_continuation) == sizeof(int) && sizeof(transient_law) == sizeof(int) &&
                    sizeof(transient_steady) == sizeof(int) && sizeof(transient_start) == sizeof(int),
                "enums of the settings are as large as an int");
-static bool store_choice(const field *f, void *to, const field_value *v, message *m)
-{
-  for (int i = 0; f->choices[i]; ++i)
-    if (is_word(&v->item[0], f->choices[i])) {
-      memcpy(to, &i, sizeof i);
-      return true;
-    }
-  const field_item *it = &v->item[0];
-  const char *near = nearest_word(f->choices, it->text, it->length);
-  refuse(f, v, -1, NULL, m);
-  if (near) message_add(m, ", did you mean `%s`?", near);
-  return false;
-}
-
-static bool store_text(const field *f, void *to, const field_value *v, message *m)
-{
-  const field_item *it = &v->item[0];
-  if (it->length >= f->size) return refuse(f, v, -1, "too long", m);
-  if (it->length == 0 && !it->quoted) return refuse(f, v, -1, "write \"\" for no text", m);
-  for (size_t i = 0, n; i < it->length; i += n) {
-    unsigned long code;
-    n = utf8_character(it->text + i, it->length - i, &code);
-    if (n == 0 || utf8_is_control(code)) return refuse(f, v, -1, "on one line, without control characters", m);
-  }
-  memset(to, 0, f->size);
-  memcpy(to, it->text, it->length);
-  return true;
-}
-
 bool field_store(const field *f, void *base, const field_value *v, message *m, int *bad)
 {
   void *to = field_place(f, base);
@@ -191,10 +142,47 @@ bool field_store(const field *f, void *base, const field_value *v, message *m, i
   if (v->list != is_list(f)) return refuse(f, v, -1, NULL, m);
   switch (f->kind) {
   case FIELD_REAL:
-  case FIELD_INTEGER: return store_number(f, to, v, m);
-  case FIELD_FLAG: return store_flag(f, to, v, m);
-  case FIELD_CHOICE: return store_choice(f, to, v, m);
-  case FIELD_TEXT: return store_text(f, to, v, m);
+  case FIELD_INTEGER: {
+    double x;
+    const char *hint;
+    if (!read_number(f, &v->item[0], &x, &hint)) return refuse(f, v, -1, hint, m);
+    if (f->kind == FIELD_INTEGER) *(int *)to = (int)x;
+    else *(double *)to = x;
+    return true;
+  }
+  case FIELD_FLAG: {
+    const field_item *it = &v->item[0];
+    bool yes = is_word(it, "true");
+    if (it->quoted || !(yes || is_word(it, "false")))
+      return refuse(f, v, -1, it->quoted ? "in quotes it is text" : NULL, m);
+    *(bool *)to = yes;
+    return true;
+  }
+  case FIELD_CHOICE: {
+    for (int i = 0; f->choices[i]; ++i)
+      if (is_word(&v->item[0], f->choices[i])) {
+        memcpy(to, &i, sizeof i);
+        return true;
+      }
+    const field_item *it = &v->item[0];
+    const char *near = nearest_word(f->choices, it->text, it->length);
+    refuse(f, v, -1, NULL, m);
+    if (near) message_add(m, ", did you mean `%s`?", near);
+    return false;
+  }
+  case FIELD_TEXT: {
+    const field_item *it = &v->item[0];
+    if (it->length >= f->size) return refuse(f, v, -1, "too long", m);
+    if (it->length == 0 && !it->quoted) return refuse(f, v, -1, "write \"\" for no text", m);
+    for (size_t i = 0, n; i < it->length; i += n) {
+      unsigned long code;
+      n = utf8_character(it->text + i, it->length - i, &code);
+      if (n == 0 || utf8_is_control(code)) return refuse(f, v, -1, "on one line, without control characters", m);
+    }
+    memset(to, 0, f->size);
+    memcpy(to, it->text, it->length);
+    return true;
+  }
   default: break;
   }
   if (!store_list(f, to, v, m, bad)) return false;

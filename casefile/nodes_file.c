@@ -91,14 +91,6 @@ static hc_status read_lines(matrix_text *t, scene_structure *s)
 
 static const char axes[] = "xyz"; /* DOFs 1, 2, 3 */
 
-/* The first line that says something: a comment, a keyword or a number begins it. */
-static bool is_mesh(const char *text, size_t length)
-{
-  const char *first = text, *end = text + length;
-  while (first < end && strchr(" \t\r\n", *first) && *first) ++first;
-  return first < end && (*first == '*' || (*first >= '0' && *first <= '9'));
-}
-
 /* NODE.DIRECTION of the current line. */
 static bool read_dof(matrix_text *t, int *node, int *direction)
 {
@@ -160,7 +152,10 @@ static hc_status read_labels(matrix_text *t, scene_structure *s)
 hc_status nodes_file_parse(const char *name, const char *text, size_t length, scene_structure *s, message *m)
 {
   matrix_text t = matrix_text_start(name, text, length, s->n, m);
-  if (!is_mesh(text, length)) return read_lines(&t, s);
+  /* The first line that says something: a comment, a keyword or a number begins it. */
+  const char *first = text, *end = text + length;
+  while (first < end && strchr(" \t\r\n", *first) && *first) ++first;
+  if (!(first < end && (*first == '*' || (*first >= '0' && *first <= '9')))) return read_lines(&t, s);
   const bool lines = matrix_text_next(&t) && t.n_words == 1 && memchr(t.words[0].text, '.', t.words[0].length);
   return lines ? read_dofs(&t, s) : read_labels(&t, s);
 }

@@ -3,22 +3,6 @@
 
 #include "casefile/case_reader.h"
 
-static hc_status check_missing(case_reader *r, const field_section *s, const yaml_node_t *node, int j)
-{
-  for (int i = 0; i < field_count(); ++i) {
-    const field *f = field_at(i), *rival = field_rival(f, 0);
-    if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_STRUCTURE) continue;
-    if (case_given(r, f) || yaml_given_rival(r, f)) continue;
-    message *m = yaml_blame(r, node);
-    message_add(m, j >= 0 ? "missing key `%s` in `%s[%d]" : "missing key `%s` in `%s", f->name, s->name, j);
-    message_add(m, "`, expected ");
-    field_expected(f, m);
-    if (rival) message_add(m, ", or `%s`", rival->name);
-    return HC_BAD_INPUT;
-  }
-  return HC_OK;
-}
-
 /* A section that is a mapping, or one contact of an oscillator. */
 static hc_status read_section(case_reader *r, const field_section *s, int j, void *base, const yaml_node_t *node)
 {
@@ -32,7 +16,19 @@ static hc_status read_section(case_reader *r, const field_section *s, int j, voi
     return HC_BAD_INPUT;
   }
   const hc_status st = yaml_fields_read(r, node, s->name, j, base, false);
-  return st == HC_OK ? check_missing(r, s, node, j) : st;
+  if (st != HC_OK) return st;
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i), *rival = field_rival(f, 0);
+    if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_STRUCTURE) continue;
+    if (case_given(r, f) || yaml_given_rival(r, f)) continue;
+    message *m = yaml_blame(r, node);
+    message_add(m, j >= 0 ? "missing key `%s` in `%s[%d]" : "missing key `%s` in `%s", f->name, s->name, j);
+    message_add(m, "`, expected ");
+    field_expected(f, m);
+    if (rival) message_add(m, ", or `%s`", rival->name);
+    return HC_BAD_INPUT;
+  }
+  return HC_OK;
 }
 
 hc_status yaml_scene_contact(case_reader *r, const yaml_node_t *node, int j)
@@ -58,28 +54,6 @@ hc_status yaml_scene_contacts(case_reader *r, const yaml_node_t *node)
       return yaml_refuse(r, entry, "one contact too many, expected at most %d", SCENE_MAX_CONTACTS);
     hc_status st = yaml_scene_contact(r, entry, r->sc.n_contacts++);
     if (st != HC_OK) return st;
-  }
-  return HC_OK;
-}
-
-static hc_status check_sections(case_reader *r, const case_place *given, const yaml_node_t *root)
-{
-  const field_section *s;
-  for (int i = 1; (s = field_section_at(i)) != NULL; ++i) {
-    message *m = NULL;
-    /* a structure has neither mass nor force as an oscillator has */
-    const bool of_oscillator = !strcmp(s->name, "oscillator") || !strcmp(s->name, "forcing");
-    if (given[i].line > 0 || (r->sc.structure && of_oscillator)) continue;
-    for (int j = 0; j < field_count(); ++j) {
-      const field *f = field_at(j);
-      if (strcmp(f->section, s->name) || f->fallback || f->scale != 0) continue;
-      if (f->flags & (FIELD_ELSEWHERE | FIELD_STRUCTURE)) continue;
-      if (!m) message_add(m = yaml_blame(r, root), "missing section `%s`, expected `%s: {", s->name, s->name);
-      else message_add(m, ", ");
-      message_add(m, "%s: ...", f->name);
-    }
-    if (m) message_add(m, "}`%s", !strcmp(s->name, "oscillator") ? ", or `structure`" : "");
-    if (m) return HC_BAD_INPUT;
   }
   return HC_OK;
 }
@@ -135,5 +109,23 @@ hc_status yaml_scene_read(case_reader *r, const yaml_node_t *root)
   if (structure >= 0) st = read_top_level(r, yaml_key(r, root, structure), yaml_value(r, root, structure), given);
   for (int i = 0; i < yaml_keys(root) && st == HC_OK; ++i)
     if (i != structure) st = read_top_level(r, yaml_key(r, root, i), yaml_value(r, root, i), given);
-  return st == HC_OK ? check_sections(r, given, root) : st;
+  if (st != HC_OK) return st;
+  const field_section *s;
+  for (int i = 1; (s = field_section_at(i)) != NULL; ++i) {
+    message *m = NULL;
+    /* a structure has neither mass nor force as an oscillator has */
+    const bool of_oscillator = !strcmp(s->name, "oscillator") || !strcmp(s->name, "forcing");
+    if (given[i].line > 0 || (r->sc.structure && of_oscillator)) continue;
+    for (int j = 0; j < field_count(); ++j) {
+      const field *f = field_at(j);
+      if (strcmp(f->section, s->name) || f->fallback || f->scale != 0) continue;
+      if (f->flags & (FIELD_ELSEWHERE | FIELD_STRUCTURE)) continue;
+      if (!m) message_add(m = yaml_blame(r, root), "missing section `%s`, expected `%s: {", s->name, s->name);
+      else message_add(m, ", ");
+      message_add(m, "%s: ...", f->name);
+    }
+    if (m) message_add(m, "}`%s", !strcmp(s->name, "oscillator") ? ", or `structure`" : "");
+    if (m) return HC_BAD_INPUT;
+  }
+  return HC_OK;
 }

@@ -208,20 +208,6 @@ static void refuse_unknown_option(const cli_command *self, const struct argp_opt
   }
 }
 
-/* --plot - may not mix with csv, json or an export on standard output. */
-static void check_plot(cli_common *common)
-{
-  bool exporting = false;
-  for (const cli_option *o = common->command->options; o && o->name; ++o)
-    if (o->kind == CLI_FORMAT) exporting |= *(const table_format *)value_of(common, o) != FORMAT_TABLE;
-  const bool to_screen = common->drawing.path && !strcmp(common->drawing.path, "-");
-  const bool screen = common->format == FORMAT_TABLE;
-  if (!to_screen || common->output || (screen && !exporting)) return;
-  cli_message(common, "--plot - would mix a drawing into %s; give one of them a file",
-              screen ? "the export" : "csv or json");
-  exit(EXIT_USAGE);
-}
-
 /* The arguments into *common and its own struct. Does not return on --help, --version or wrong usage. */
 static void parse(const cli_command *self, int argc, char **argv, cli_common *common)
 {
@@ -248,7 +234,16 @@ static void parse(const cli_command *self, int argc, char **argv, cli_common *co
   if (required && common->n_arguments == 0)
     exit(cli_failed(common, EXIT_USAGE, "no %.*s given\nTry 'hbmcheck %s --help'.", (int)strcspn(self->arguments, "."),
                     self->arguments, self->name));
-  check_plot(common);
+  /* --plot - may not mix with csv, json or an export on standard output. */
+  bool exporting = false;
+  for (const cli_option *o = common->command->options; o && o->name; ++o)
+    if (o->kind == CLI_FORMAT) exporting |= *(const table_format *)value_of(common, o) != FORMAT_TABLE;
+  const bool to_screen = common->drawing.path && !strcmp(common->drawing.path, "-");
+  const bool screen = common->format == FORMAT_TABLE;
+  if (!to_screen || common->output || (screen && !exporting)) return;
+  cli_message(common, "--plot - would mix a drawing into %s; give one of them a file",
+              screen ? "the export" : "csv or json");
+  exit(EXIT_USAGE);
 }
 
 int cli_run(const cli_command *self, int argc, char **argv)

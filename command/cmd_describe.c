@@ -68,14 +68,6 @@ static void write_part(const scene_structure *s, const field *f, FILE *to)
   else if (!strcmp(f->name, "nodes") && s->n_nodes > 0) fprintf(to, "%d", s->n_nodes);
 }
 
-static void write_of_contact(const scene_structure *s, const field *f, const structure_contact *c, FILE *to)
-{
-  const bool without = !strcmp(f->name, "preload") && !(c->given.preload > 0);
-  if (f->kind == FIELD_PART && f->size > 0) write_direction(s, field_direction(f, c), to);
-  else if (!strcmp(f->name, "name")) fputs(c->given.name, to);
-  else if (f->kind != FIELD_PART && !without && case_contact_field_counts(s, c, f)) field_write(f, &c->given, to);
-}
-
 static void write_of_load(const scene_structure *s, const field *f, const structure_load *load, FILE *to)
 {
   if (!strcmp(f->name, "direction")) write_direction(s, load->direction, to);
@@ -208,8 +200,13 @@ static void write_value(const described *d, const field *f, int j, FILE *to)
     if (f->kind == FIELD_TEXT) fputs(field_look(f, base), to);
     else field_write(f, base, to);
   } else if (f->flags & FIELD_IN_LOAD) write_of_load(s, f, &s->loads[j], to);
-  else if (f->flags & FIELD_IN_CONTACT) write_of_contact(s, f, &s->contacts[j], to);
-  else write_part(s, f, to);
+  else if (f->flags & FIELD_IN_CONTACT) {
+    const structure_contact *c = &s->contacts[j];
+    const bool without = !strcmp(f->name, "preload") && !(c->given.preload > 0);
+    if (f->kind == FIELD_PART && f->size > 0) write_direction(s, field_direction(f, c), to);
+    else if (!strcmp(f->name, "name")) fputs(c->given.name, to);
+    else if (f->kind != FIELD_PART && !without && case_contact_field_counts(s, c, f)) field_write(f, &c->given, to);
+  } else write_part(s, f, to);
 }
 
 /* A row for f, of entry j if it is one of a list's; without a value where the field does not count. HC_NO_MEMORY. */

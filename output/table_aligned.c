@@ -302,28 +302,6 @@ static bool anything_left(const table *t, const wrapped *w)
   return false;
 }
 
-/* Returns how many lines it takes. */
-static int write_wrapped_row(const table *t, const wrapped *w, int row, FILE *to)
-{
-  for (int j = 0; j < t->n_columns; ++j) w->style[j].rest = w->style[j].shown ? w->texts[row * t->n_columns + j] : "";
-  int lines = 0;
-  do {
-    int spaces = 0;
-    for (int j = 0; j < t->n_columns; ++j) {
-      column_style *c = &w->style[j];
-      const char *from;
-      if (!c->shown) continue;
-      size_t n = next_part(&c->rest, c->width, &from);
-      int own = width_of(from, n);
-      if (n) fprintf(to, "%*s%.*s", spaces, "", (int)n, from);
-      spaces = (n ? 0 : spaces) + c->width - own + BETWEEN;
-    }
-    putc('\n', to);
-    ++lines;
-  } while (anything_left(t, w));
-  return lines;
-}
-
 static char *wrapped_text(const table *t, int row, int column)
 {
   const table_cell *cell = table_at(t, row, column);
@@ -377,7 +355,23 @@ hc_status table_write_wrapped(const table *t, FILE *to)
     if (*t->title) write_line(&line, t->title);
     for (int i = 0, lines = 1; i <= table_row_count(t); ++i) {
       if (i > 1 && lines > 1) putc('\n', to);
-      lines = write_wrapped_row(t, &w, i, to);
+      /* the row, in as many lines as it takes */
+      for (int j = 0; j < t->n_columns; ++j) w.style[j].rest = w.style[j].shown ? w.texts[i * t->n_columns + j] : "";
+      lines = 0;
+      do {
+        int spaces = 0;
+        for (int j = 0; j < t->n_columns; ++j) {
+          column_style *c = &w.style[j];
+          const char *from;
+          if (!c->shown) continue;
+          size_t n = next_part(&c->rest, c->width, &from);
+          int own = width_of(from, n);
+          if (n) fprintf(to, "%*s%.*s", spaces, "", (int)n, from);
+          spaces = (n ? 0 : spaces) + c->width - own + BETWEEN;
+        }
+        putc('\n', to);
+        ++lines;
+      } while (anything_left(t, &w));
     }
     write_notes(&line, t, wanted, count_shown(t, w.style));
   }

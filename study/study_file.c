@@ -91,25 +91,6 @@ static hc_status read_seconds(study_reader *q, const char *key, const yaml_node_
                      QUOTED(c->reported.text, length));
 }
 
-/* What a whole claim can lack, or have too much of. */
-static hc_status check_claim(study_reader *q, const yaml_node_t *node, const study_claim *c,
-                             const case_place seen[N_CLAIM_KEYS])
-{
-  bool plain = c->answers[STUDY_PLAIN].holds.text != NULL,
-       sided = seen[CLAIM_PAPER].line > 0 || seen[CLAIM_OURS].line > 0 || seen[CLAIM_FIXED_STEP].line > 0;
-  const char *lacks = !c->says.text ? "says" : !plain && !sided ? "holds" : NULL;
-  if (lacks)
-    return yaml_refuse(&q->r, node, "missing key `%s` in a claim, expected %s", lacks,
-                       c->says.text ? "an SQL query that gives 0 or 1" : "what is claimed, in words");
-  if (!sided) return HC_OK;
-  for (int k = CLAIM_FOUND; k <= CLAIM_EXPECT; ++k) {
-    if (seen[k].line == 0) continue;
-    return case_refuse(&q->r, seen[k], "`%s` beside `paper`, `ours` or `fixed_step`, expected it within them",
-                       claim_keys[k]);
-  }
-  return HC_OK;
-}
-
 static hc_status read_claim(study_reader *q, const yaml_node_t *node, study_claim *c)
 {
 #define ANSWER(which) offsetof(study_claim, answers) + (which) * sizeof(study_answer)
@@ -130,7 +111,21 @@ static hc_status read_claim(study_reader *q, const yaml_node_t *node, study_clai
                        "a claim is %s, expected {source: ..., says: ..., found: \"SELECT ...\", holds: \"SELECT ...\"}",
                        yaml_node_what(node));
   const hc_status st = read_values(q, node, "a claim", claim_keys, values, c, seen);
-  return st == HC_OK ? check_claim(q, node, c, seen) : st;
+  if (st != HC_OK) return st;
+  /* What a whole claim can lack, or have too much of. */
+  bool plain = c->answers[STUDY_PLAIN].holds.text != NULL,
+       sided = seen[CLAIM_PAPER].line > 0 || seen[CLAIM_OURS].line > 0 || seen[CLAIM_FIXED_STEP].line > 0;
+  const char *lacks = !c->says.text ? "says" : !plain && !sided ? "holds" : NULL;
+  if (lacks)
+    return yaml_refuse(&q->r, node, "missing key `%s` in a claim, expected %s", lacks,
+                       c->says.text ? "an SQL query that gives 0 or 1" : "what is claimed, in words");
+  if (!sided) return HC_OK;
+  for (int k = CLAIM_FOUND; k <= CLAIM_EXPECT; ++k) {
+    if (seen[k].line == 0) continue;
+    return case_refuse(&q->r, seen[k], "`%s` beside `paper`, `ours` or `fixed_step`, expected it within them",
+                       claim_keys[k]);
+  }
+  return HC_OK;
 }
 
 static hc_status read_claims(study_reader *q, const yaml_node_t *node)

@@ -38,30 +38,22 @@ static int by_time(const void *a, const void *b)
   return x[0] != y[0] ? (x[0] > y[0]) - (x[0] < y[0]) : (x[1] < y[1]) - (x[1] > y[1]);
 }
 
-static hc_status write_front(figure *g, const bench *b, const bench_frequency *p, int k_omega)
+static hc_status put_panel(figure *g, const scene *sc, const bench *b, int k_omega)
 {
-  int n = 0;
+  const bench_frequency *p = &b->frequencies[k_omega];
+  int count[BENCH_METHODS], n_front = 0;
   double(*at)[2] = malloc((size_t)(p->n > 0 ? p->n : 1) * sizeof *at);
   if (!at) return HC_NO_MEMORY;
   for (int i = p->first; i < p->first + p->n; ++i) {
     if (!b->rows[i].front || !is_drawn(&b->rows[i])) continue;
-    at[n][0] = b->rows[i].seconds;
-    at[n++][1] = drawn_error(&b->rows[i], p);
+    at[n_front][0] = b->rows[i].seconds;
+    at[n_front++][1] = drawn_error(&b->rows[i], p);
   }
-  qsort(at, (size_t)n, sizeof *at, by_time);
+  qsort(at, (size_t)n_front, sizeof *at, by_time);
   figure_block(g, "front%d", k_omega);
-  for (int i = 0; i < n; ++i) figure_point(g, at[i][0], at[i][1]);
+  for (int i = 0; i < n_front; ++i) figure_point(g, at[i][0], at[i][1]);
   figure_block_end(g);
   free(at);
-  return HC_OK;
-}
-
-static hc_status put_panel(figure *g, const scene *sc, const bench *b, int k_omega)
-{
-  const bench_frequency *p = &b->frequencies[k_omega];
-  int count[BENCH_METHODS];
-  hc_status st = write_front(g, b, p, k_omega);
-  if (st != HC_OK) return st;
   for (int m = 0; m < BENCH_METHODS; ++m) {
     int n = 0;
     figure_block(g, "p%dm%d", k_omega, m);

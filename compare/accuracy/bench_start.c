@@ -31,18 +31,6 @@ static const double marching = 1e-12;   /* transient.tolerance of a reference th
 static const double first_distance = 1e-3, nearby = 0.3; /* [omega] of the neighbour; [amplitude] how far apart
                                                                two neighbours may be */
 
-static hc_status make_workspace(finder *f)
-{
-  const model *m = f->setup.model;
-  const size_t n_states = (size_t)(f->n_states = 2 * m->n + m->n_contacts);
-  f->X = workspace_doubles(&f->memory, (size_t)hbm_n_coefficients(f->response.hbm));
-  f->state = workspace_doubles(&f->memory, n_states);
-  f->other = workspace_doubles(&f->memory, n_states);
-  f->trial = workspace_doubles(&f->memory, n_states);
-  f->motion = workspace_array(&f->memory, (size_t)m->n_responses, sizeof *f->motion);
-  return f->memory.failed ? HC_NO_MEMORY : HC_OK;
-}
-
 hc_status finder_start(const compare_setup *setup, const number_list *at, const hc_monitor *monitor, finder *f)
 {
   *f = (finder){.setup = method_setup(setup, BENCH_HBM_EXACT, CURVE_HARMONICS, 0, NAN, NAN)};
@@ -51,7 +39,15 @@ hc_status finder_start(const compare_setup *setup, const number_list *at, const 
                    &f->setup.omega_to);
   hc_status st = response_trace(&f->setup, &f->setup.compare.omega, monitor, &f->response);
   if (st == HC_OK && f->response.curve.n == 0) st = f->response.status;
-  return st == HC_OK ? make_workspace(f) : st;
+  if (st != HC_OK) return st;
+  const model *m = f->setup.model;
+  const size_t n_states = (size_t)(f->n_states = 2 * m->n + m->n_contacts);
+  f->X = workspace_doubles(&f->memory, (size_t)hbm_n_coefficients(f->response.hbm));
+  f->state = workspace_doubles(&f->memory, n_states);
+  f->other = workspace_doubles(&f->memory, n_states);
+  f->trial = workspace_doubles(&f->memory, n_states);
+  f->motion = workspace_array(&f->memory, (size_t)m->n_responses, sizeof *f->motion);
+  return f->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 void finder_free(finder *f)

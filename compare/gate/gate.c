@@ -332,17 +332,6 @@ static void begin_case(junit *x, const char *suite, const char *name)
   put_attribute(x, "name", name);
 }
 
-static void name_check(const gate_case *g, const gate_check *c, char *text, size_t size)
-{
-  char place[GATE_PLACE];
-  const char *response = gate_response(g, c);
-  if (isnan(c->omega)) snprintf(text, size, "response curve: %s", c->quantity);
-  else if (c->branch < 0) snprintf(text, size, "%s: %s", gate_place(g, c->omega, place), c->quantity);
-  else
-    snprintf(text, size, "%s branch %d%s%s: %s", gate_place(g, c->omega, place), c->branch,
-             response ? " response " : "", response ? response : "", c->quantity);
-}
-
 static void say_check(const gate_check *c, char *text, size_t size)
 {
   char found[NUMBER_TEXT], allowed[NUMBER_TEXT];
@@ -360,7 +349,13 @@ static void put_check(junit *x, const gate_case *g, const gate_check *c)
   static const char *const tags[] = {
       [GATE_PASS] = "", [GATE_FAIL] = "failure", [GATE_ERROR] = "error", [GATE_NOT_APPLICABLE] = "skipped"};
   char name[512], words[GATE_REASON + 96];
-  name_check(g, c, name, sizeof name);
+  char place[GATE_PLACE];
+  const char *response = gate_response(g, c);
+  if (isnan(c->omega)) snprintf(name, sizeof name, "response curve: %s", c->quantity);
+  else if (c->branch < 0) snprintf(name, sizeof name, "%s: %s", gate_place(g, c->omega, place), c->quantity);
+  else
+    snprintf(name, sizeof name, "%s branch %d%s%s: %s", gate_place(g, c->omega, place), c->branch,
+             response ? " response " : "", response ? response : "", c->quantity);
   say_check(c, words, sizeof words);
   begin_case(x, g->name, name);
   if (c->result == GATE_PASS) {

@@ -154,18 +154,6 @@ static const struct {
     {"pp", "double_amplitude"},
 };
 
-static plain_name plain_of(const field *f)
-{
-  plain_name p = {{0}, {0}};
-  char *to = p.name, *end = p.name + PLAIN - 1;
-  for (size_t i = 0; i < f->length; ++i) {
-    const char c = (char)(f->text[i] >= 'A' && f->text[i] <= 'Z' ? f->text[i] - 'A' + 'a' : f->text[i]);
-    if (c == '[' || c == '(') to = p.unit, end = p.unit + PLAIN - 1;
-    else if (to < end && !strchr(" _-|\"])", c) && c) *to++ = c;
-  }
-  return p;
-}
-
 static bool among(const char *const *words, const char *name)
 {
   for (; *words; ++words)
@@ -192,7 +180,13 @@ static bool quantity_of(const char *name, verify_quantity *out)
 
 static meaning meaning_of(const field *f, verify_quantity *q)
 {
-  const plain_name p = plain_of(f);
+  plain_name p = {{0}, {0}};
+  char *to = p.name, *end = p.name + PLAIN - 1;
+  for (size_t i = 0; i < f->length; ++i) {
+    const char c = (char)(f->text[i] >= 'A' && f->text[i] <= 'Z' ? f->text[i] - 'A' + 'a' : f->text[i]);
+    if (c == '[' || c == '(') to = p.unit, end = p.unit + PLAIN - 1;
+    else if (to < end && !strchr(" _-|\"])", c) && c) *to++ = c;
+  }
   const bool radians = strstr(p.unit, "rad"), hertz = !strcmp(p.unit, "hz") || !strcmp(p.unit, "khz");
   if (among(omega_names, p.name)) return hertz ? MEANS_NOTHING : MEANS_OMEGA; /* omega in Hz: which of the two? */
   if (among(cycle_names, p.name)) return radians ? MEANS_OMEGA : !strcmp(p.unit, "khz") ? MEANS_NOTHING : MEANS_CYCLES;
@@ -410,15 +404,6 @@ static hc_status convert(reader *r, verify_point *p)
   }
 }
 
-static hc_status add_point(reader *r, verify_point p)
-{
-  if (r->out->n == VERIFY_MOST_POINTS)
-    return blame(r, 1, "one point too many, expected at most %d", VERIFY_MOST_POINTS);
-  if (!GROW(r->out->points, r->out->n)) return HC_NO_MEMORY;
-  r->out->points[r->out->n++] = p;
-  return HC_OK;
-}
-
 static hc_status read_point(reader *r)
 {
   verify_point p = {.line = r->line};
@@ -432,7 +417,12 @@ static hc_status read_point(reader *r)
   if (st == HC_OK) st = read_number(r, r->value, verify_quantity_name(&r->columns.quantity, name), &p.value);
   if (st == HC_OK) st = convert(r, &p);
   if (st == HC_OK && !(p.omega > 0)) return ++r->out->left_out, HC_OK;
-  return st == HC_OK ? add_point(r, p) : st;
+  if (st != HC_OK) return st;
+  if (r->out->n == VERIFY_MOST_POINTS)
+    return blame(r, 1, "one point too many, expected at most %d", VERIFY_MOST_POINTS);
+  if (!GROW(r->out->points, r->out->n)) return HC_NO_MEMORY;
+  r->out->points[r->out->n++] = p;
+  return HC_OK;
 }
 
 static hc_status read_line(reader *r, const char *text, size_t length)

@@ -49,21 +49,15 @@ static bool only_unstable(const verify_report *r)
   return low <= high;
 }
 
-/* Do the omegas ascend or descend strictly, one value each? */
-static bool one_value_each(const verify_report *r)
-{
-  double way = r->n_rows > 1 ? r->rows[1].omega - r->rows[0].omega : 0;
-  for (int i = 1; i < r->n_rows; ++i)
-    if (!((r->rows[i].omega - r->rows[i - 1].omega) * way > 0)) return false;
-  return true;
-}
-
 /* Stretches of points on one stable branch, between points on another that exists along all of the stretch, get the
  * verdict other_branch. True if there are any. */
 static bool mark_hops(verify_report *r)
 {
   bool any = false;
-  if (!one_value_each(r)) return false;
+  /* Do the omegas ascend or descend strictly, one value each? */
+  double way = r->n_rows > 1 ? r->rows[1].omega - r->rows[0].omega : 0;
+  for (int i = 1; i < r->n_rows; ++i)
+    if (!((r->rows[i].omega - r->rows[i - 1].omega) * way > 0)) return false;
   for (int from = 1, to; from < r->n_rows; from = to) {
     const verify_row *before = &r->rows[from - 1];
     bool odd = before->verdict == VERDICT_MATCH && r->rows[from].branch != before->branch;
