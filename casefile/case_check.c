@@ -200,14 +200,8 @@ static hc_status check_contact(case_reader *r, int j)
 
 /* ---- what nothing holds ---- */
 
-/* The rules of a structure, whose damping matrix is made here. */
-static hc_status check_structure(case_reader *r)
+static hc_status check_held(case_reader *r)
 {
-  hc_status st = case_own_structure(r);
-  if (st == HC_OK) st = check_damping(r);
-  if (st == HC_OK) st = check_loads(r);
-  for (int j = 0; j < r->sc.structure->n_contacts && st == HC_OK; ++j) st = check_contact(r, j);
-  if (st != HC_OK) return st;
   const scene_structure *s = r->sc.structure;
   double *x = malloc((size_t)s->n * sizeof *x);
   bool is_free;
@@ -223,6 +217,16 @@ static hc_status check_structure(case_reader *r)
   }
   free(x);
   return is_free ? HC_BAD_INPUT : HC_OK;
+}
+
+/* The rules of a structure, whose damping matrix is made here. */
+static hc_status check_structure(case_reader *r)
+{
+  hc_status st = case_own_structure(r);
+  if (st == HC_OK) st = check_damping(r);
+  if (st == HC_OK) st = check_loads(r);
+  for (int j = 0; j < r->sc.structure->n_contacts && st == HC_OK; ++j) st = check_contact(r, j);
+  return st == HC_OK ? check_held(r) : st;
 }
 
 /* ---- all of them ---- */

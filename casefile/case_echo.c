@@ -127,6 +127,30 @@ static void write_damping(const scene_structure *s, FILE *to)
   fputs("}\n", to);
 }
 
+static void write_structure(const scene_structure *s, FILE *to)
+{
+  fputs("structure:\n", to);
+  write_matrix("mass", s->mass.v, s->n, to);
+  write_matrix("stiffness", s->stiffness.v, s->n, to);
+  write_damping(s, to);
+  for (int i = 0; s->names && i < s->n; ++i) {
+    fputs(i == 0 ? "  names: [" : ", ", to);
+    write_text(s->names[i], to);
+  }
+  if (s->names) fputs("]\n", to);
+  for (int i = 0; i < s->n_nodes; ++i) {
+    fputs(i == 0 ? "  nodes: [[" : ", [", to);
+    write_dof(s, s->nodes[i].dof, to);
+    fprintf(to, ", %d, %c]", s->nodes[i].node, s->nodes[i].direction);
+  }
+  if (s->n_nodes > 0) fputs("]\n", to);
+  for (int i = 0; i < s->n_responses; ++i) {
+    fputs(i == 0 ? "response: [" : ", ", to);
+    write_direction(s, s->responses[i].direction, to);
+  }
+  if (s->n_responses > 0) fputs("]\n", to);
+}
+
 /* Has the contact that direction? One given by its angle has a tangent and a normal. */
 static bool has_direction(const scene_structure *s, const structure_contact *c, const char *along)
 {
@@ -182,26 +206,7 @@ static void begin_list(const char *name, int n, FILE *to) { fprintf(to, n > 0 ? 
 static bool write_of_structure(const scene_structure *s, const char *section, FILE *to)
 {
   if (!strcmp(section, "structure")) {
-    fputs("structure:\n", to);
-    write_matrix("mass", s->mass.v, s->n, to);
-    write_matrix("stiffness", s->stiffness.v, s->n, to);
-    write_damping(s, to);
-    for (int i = 0; s->names && i < s->n; ++i) {
-      fputs(i == 0 ? "  names: [" : ", ", to);
-      write_text(s->names[i], to);
-    }
-    if (s->names) fputs("]\n", to);
-    for (int i = 0; i < s->n_nodes; ++i) {
-      fputs(i == 0 ? "  nodes: [[" : ", [", to);
-      write_dof(s, s->nodes[i].dof, to);
-      fprintf(to, ", %d, %c]", s->nodes[i].node, s->nodes[i].direction);
-    }
-    if (s->n_nodes > 0) fputs("]\n", to);
-    for (int i = 0; i < s->n_responses; ++i) {
-      fputs(i == 0 ? "response: [" : ", ", to);
-      write_direction(s, s->responses[i].direction, to);
-    }
-    if (s->n_responses > 0) fputs("]\n", to);
+    write_structure(s, to);
   } else if (!strcmp(section, "forcing[]")) {
     begin_list("forcing", s->n_loads, to);
     for (int j = 0; j < s->n_loads; ++j) write_entry(section, s, NULL, &s->loads[j], &s->loads[j], to);
@@ -214,6 +219,18 @@ static bool write_of_structure(const scene_structure *s, const char *section, FI
 }
 
 /* ---- the scene ---- */
+
+static bool choices_are_known(const scene *sc)
+{
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i);
+    if (f->kind != FIELD_CHOICE || f->flags & FIELD_ELSEWHERE) continue;
+    int n = 0, value = *(const int *)field_look(f, sc);
+    while (f->choices[n]) ++n;
+    if (value < 0 || value >= n) return false;
+  }
+  return sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS;
+}
 
 /* The rival in force is written: of those that give the sweep the one that did; else the list if it is not
  * empty (compare.omega), else the other (compare.points). */
@@ -228,30 +245,28 @@ bool case_field_counts(const field *f, const scene *sc)
   return true;
 }
 
-hc_status case_echo(const scene *sc, FILE *to)
+static void write_section(const field_section *s, const scene *sc, FILE *to)
 {
+  bool begun = !*s->name;
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
-    if (f->kind != FIELD_CHOICE || f->flags & FIELD_ELSEWHERE) continue;
-    int n = 0, value = *(const int *)field_look(f, sc);
-    while (f->choices[n]) ++n;
-    if (value < 0 || value >= n) return HC_BAD_INPUT;
+    if (strcmp(f->section, s->name) || !case_field_counts(f, sc)) continue;
+    if (!begun) fprintf(to, "%s:\n", s->name);
+    begun = true;
+    fprintf(to, "%s%s: ", *s->name ? "  " : "", f->name);
+    field_write(f, sc, to);
+    putc('\n', to);
   }
-  if (!(sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS)) return HC_BAD_INPUT;
+}
+
+hc_status case_echo(const scene *sc, FILE *to)
+{
+  if (!choices_are_known(sc)) return HC_BAD_INPUT;
   const field_section *s;
   for (int i = 0; (s = field_section_at(i)) != NULL; ++i) {
     if (sc->structure && write_of_structure(sc->structure, s->name, to)) continue;
     if (strcmp(s->name, "contacts")) {
-      bool begun = !*s->name;
-      for (int k = 0; k < field_count(); ++k) {
-        const field *f = field_at(k);
-        if (strcmp(f->section, s->name) || !case_field_counts(f, sc)) continue;
-        if (!begun) fprintf(to, "%s:\n", s->name);
-        begun = true;
-        fprintf(to, "%s%s: ", *s->name ? "  " : "", f->name);
-        field_write(f, sc, to);
-        putc('\n', to);
-      }
+      write_section(s, sc, to);
       continue;
     }
     begin_list("contacts", sc->n_contacts, to);

@@ -63,6 +63,17 @@ static hc_status read_name(case_reader *r, const char *s, const char *stop, cons
                      QUOTED(s + 1, length));
 }
 
+/* An entry one past the last is new, but a structure's has no field yet: it is to be given as a whole. */
+static hc_status check_index(case_reader *r, case_target t)
+{
+  const int n = t.list == CASE_LOADS ? r->sc.structure->n_loads : scene_contact_count(&r->sc);
+  const bool one_more = !(r->sc.structure ? t.f != NULL : n == SCENE_MAX_CONTACTS);
+  if (t.index < n + one_more) return HC_OK;
+  return case_refuse(r, r->here, "the case has %d %s, expected an index 0..%d%s", n,
+                     t.list == CASE_LOADS ? "loads" : "contacts", n - 1 + one_more,
+                     one_more ? " (the last one appends)" : "");
+}
+
 /* A list and what follows: nothing, an index or name, a field of that entry. */
 static hc_status find_in_list(case_reader *r, const char *path, size_t length, case_list list, case_target *t)
 {
@@ -80,13 +91,7 @@ static hc_status find_in_list(case_reader *r, const char *path, size_t length, c
     t->f = *s == '.' ? field_find(section, s + 1, (size_t)(stop - s - 1)) : NULL;
     if (!t->f) return unknown_path(r, path, length, t->index);
   }
-  /* An entry one past the last is new, but a structure's has no field yet: it is to be given as a whole. */
-  const int n = t->list == CASE_LOADS ? r->sc.structure->n_loads : scene_contact_count(&r->sc);
-  const bool one_more = !(r->sc.structure ? t->f != NULL : n == SCENE_MAX_CONTACTS);
-  if (t->index < n + one_more) return HC_OK;
-  return case_refuse(r, r->here, "the case has %d %s, expected an index 0..%d%s", n,
-                     t->list == CASE_LOADS ? "loads" : "contacts", n - 1 + one_more,
-                     one_more ? " (the last one appends)" : "");
+  return check_index(r, *t);
 }
 
 /* A structure has no field of an oscillator, and an oscillator none of a structure. */
