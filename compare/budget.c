@@ -173,16 +173,6 @@ static hc_status integrate_again(budgeter *b, timeint **ti, double tolerance, co
   return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
-/* Could the integration's error be seen beside the other parts, or is it asked for? Its size is expected to be what
- * the integration itself says. */
-static bool integration_matters(const budgeter *b, const budget_case *from, const chain *c)
-{
-  const timeint_result *tr = &from->transient[c->most];
-  const link *lead = &c->of[c->most];
-  const double whole = motion_between(&lead->h, &lead->transient).waveform, expected = tr->closure + tr->attainable;
-  return !b->setup.spare || !(expected * tr->amplitude <= negligible * whole);
-}
-
 static hc_status find_finer(budgeter *b, const budget_case *from, const hc_monitor *monitor, chain *c)
 {
   const double tolerance = b->setup.transient.tolerance;
@@ -191,7 +181,12 @@ static hc_status find_finer(budgeter *b, const budget_case *from, const hc_monit
     c->of[i].finer = c->of[i].transient;
   }
   if ((c->has_finer = from->transient->method == TIMEINT_BY_CLOSED_FORM)) return HC_OK;
-  if (!integration_matters(b, from, c)) return HC_OK;
+  /* Could the integration's error be seen beside the other parts, or is it asked for? Its size is expected to be what
+   * the integration itself says. */
+  const timeint_result *tr = &from->transient[c->most];
+  const link *lead = &c->of[c->most];
+  const double whole = motion_between(&lead->h, &lead->transient).waveform, expected = tr->closure + tr->attainable;
+  if (b->setup.spare && expected * tr->amplitude <= negligible * whole) return HC_OK;
   const double fine = fmin(finest, 0.1 * tolerance);
   hc_status st = integrate_again(b, &b->finer, fine, from, monitor, c, &c->has_finer);
   if (st != HC_OK || c->has_finer) return st;
@@ -237,24 +232,19 @@ static budget_parts split(const chain *c, bool exact_law, double settling, doubl
   return p;
 }
 
-/* Where a solution of the chain is missing, its neighbours are taken for each other: T for T', T' for O. */
-static distances measure_distances(const chain *c, const link *of, bool exact_law)
+static void fill_budget(const chain *c, const link *of, bool exact_law, error_budget *out)
 {
+  /* Where a solution of the chain is missing, its neighbours are taken for each other: T for T', T' for O. */
   const periodic_motion *last = c->has_finer ? &of->finer : &of->transient;
   const periodic_motion *orbit = c->has_transient && (exact_law || !c->has_orbit) ? last : &of->orbit;
   const periodic_motion *end = c->has_transient ? &of->transient : orbit;
-  return (distances){.observed = motion_between(&of->h, end),
-                     .direct = motion_between(&of->h, orbit),
-                     .aliasing = motion_between(&of->h, &of->hx),
-                     .truncation = motion_between(&of->hx, orbit),
-                     .regularisation = c->has_transient ? motion_between(orbit, last) : (motion_distance){0},
-                     .integration =
-                         c->has_transient ? motion_between(&of->finer, &of->transient) : (motion_distance){0}};
-}
-
-static void fill_budget(const chain *c, const link *of, bool exact_law, error_budget *out)
-{
-  const distances d = measure_distances(c, of, exact_law);
+  const distances d = {.observed = motion_between(&of->h, end),
+                       .direct = motion_between(&of->h, orbit),
+                       .aliasing = motion_between(&of->h, &of->hx),
+                       .truncation = motion_between(&of->hx, orbit),
+                       .regularisation = c->has_transient ? motion_between(orbit, last) : (motion_distance){0},
+                       .integration =
+                           c->has_transient ? motion_between(&of->finer, &of->transient) : (motion_distance){0}};
   const double unit = c->has_transient ? of->transient.amplitude : of->orbit.amplitude;
   out->amplitude = split(c, exact_law, of->settling, unit, &d, offsetof(motion_distance, amplitude));
   out->harmonic_1 = split(c, exact_law, of->settling, unit, &d, offsetof(motion_distance, harmonic_1));
@@ -271,25 +261,20 @@ static bool on_orbit(const budget_case *from)
   return from->orbit_status != HC_OK || budget_same_orbit(tr, from->orbit);
 }
 
-static void begin_chain(const budget_case *from, chain *c)
-{
-  c->has_orbit = from->orbit_status == HC_OK;
-  c->has_transient = on_orbit(from);
-  for (int i = 0; i < c->n; ++i) {
-    link *l = &c->of[i];
-    *l = (link){.h = from->motion[i]};
-    if (l->h.amplitude > c->of[c->most].h.amplitude) c->most = i;
-    if (c->has_orbit) l->orbit = motion_of_transient(&from->orbit[i]);
-    if (c->has_transient) l->transient = motion_of_transient(&from->transient[i]);
-  }
-}
-
 hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *monitor, error_budget *out)
 {
   chain c = {.n = b->setup.model->n_responses, .of = b->link};
   hc_status st = HC_OK;
   for (int i = 0; i < c.n; ++i) out[i] = budget_nothing();
-  begin_chain(from, &c);
+  c.has_orbit = from->orbit_status == HC_OK;
+  c.has_transient = on_orbit(from);
+  for (int i = 0; i < c.n; ++i) {
+    link *l = &c.of[i];
+    *l = (link){.h = from->motion[i]};
+    if (l->h.amplitude > c.of[c.most].h.amplitude) c.most = i;
+    if (c.has_orbit) l->orbit = motion_of_transient(&from->orbit[i]);
+    if (c.has_transient) l->transient = motion_of_transient(&from->transient[i]);
+  }
   const bool any = c.has_orbit || c.has_transient;
   if (any) st = find_alias_free(b, from, &c);
   if (st == HC_OK && c.has_transient) st = find_finer(b, from, monitor, &c);

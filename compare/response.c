@@ -102,15 +102,6 @@ void comparison_sweep(double omega_from, double omega_to, const number_list *ask
   *to = up ? high : low;
 }
 
-static void sort_unique(number_list *list)
-{
-  qsort(list->v, (size_t)list->n, sizeof *list->v, ascending);
-  int n = 0;
-  for (int i = 0; i < list->n; ++i)
-    if (n == 0 || list->v[i] != list->v[n - 1]) list->v[n++] = list->v[i];
-  list->n = n;
-}
-
 /* length[k]: arc length of the plotted curve from its start to point k. */
 static hc_status drawn_lengths(hbm_solver *hbm, const hbm_curve *c, double *amplitude, double *length)
 {
@@ -156,6 +147,10 @@ hc_status comparison_frequencies(const compare_settings *where, double omega_fro
     free(work);
   }
   if (out->n == 0) out->v[out->n++] = omega_from; /* no curve at all: one row that says so */
-  sort_unique(out);
+  qsort(out->v, (size_t)out->n, sizeof *out->v, ascending);
+  int n = 0;
+  for (int i = 0; i < out->n; ++i)
+    if (n == 0 || out->v[i] != out->v[n - 1]) out->v[n++] = out->v[i];
+  out->n = n;
   return st;
 }

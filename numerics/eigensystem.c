@@ -55,10 +55,20 @@ static void add_product(wide_complex *to, wide_complex a, wide_complex b)
 static wide_complex widen(double complex z) { return (wide_complex){creal(z), cimag(z)}; }
 static double complex narrow(wide_complex z) { return (double)z.re + I * (double)z.im; }
 
-/* residual = A V - V D */
-static void find_residual(eigensystem *e, const long double *A)
+/* factors: LU of V. */
+static hc_status factor(eigensystem *e)
+{
+  for (size_t i = 0; i < square(e->n); ++i) e->factors[i] = narrow(e->vectors[i]);
+  return dense_factor_complex(e->n, e->factors, e->pivot);
+}
+
+/* One Newton step; what is left to do in largest[2]. */
+static hc_status improve(eigensystem *e, const long double *A, double least, double largest[2])
 {
   const size_t n = (size_t)e->n;
+  hc_status st = factor(e);
+  if (st != HC_OK) return st;
+  /* residual = A V - V D */
   for (size_t j = 0; j < n; ++j) {
     const wide_complex *v = e->vectors + j * n, minus = {-e->values[j].re, -e->values[j].im};
     wide_complex *r = e->residual + j * n;
@@ -70,37 +80,6 @@ static void find_residual(eigensystem *e, const long double *A)
       }
     for (size_t i = 0; i < n; ++i) add_product(&r[i], minus, v[i]);
   }
-}
-
-/* factors: LU of V. */
-static hc_status factor(eigensystem *e)
-{
-  for (size_t i = 0; i < square(e->n); ++i) e->factors[i] = narrow(e->vectors[i]);
-  return dense_factor_complex(e->n, e->factors, e->pivot);
-}
-
-/* E of column j from F in its place; largest[0]: of its entries; largest[1]: of F_ij/D_j of eigenvalues no farther
- * apart than `least`, or so close to each other that any basis of theirs will do. */
-static void divide(const eigensystem *e, size_t j, double least, double complex *F, double largest[2])
-{
-  const double complex at = narrow(e->values[j]);
-  for (size_t i = 0; i < (size_t)e->n; ++i) {
-    const double complex other = narrow(e->values[i]), apart = at - other;
-    const double size = cabs(at) + cabs(other);
-    const bool one = !(cabs(apart) > fmax(least, same * size));
-    const double entry = i == j || cabs(F[i]) == 0 ? 0 : cabs(F[i]) / (one ? size : cabs(apart));
-    if (!(entry <= largest[one])) largest[one] = entry; /* NaN stays */
-    F[i] = i == j || one ? 0 : F[i] / apart;
-  }
-}
-
-/* One Newton step; what is left to do in largest[2]. */
-static hc_status improve(eigensystem *e, const long double *A, double least, double largest[2])
-{
-  const size_t n = (size_t)e->n;
-  hc_status st = factor(e);
-  if (st != HC_OK) return st;
-  find_residual(e, A);
   for (size_t i = 0; i < n * n; ++i) e->correction[i] = narrow(e->residual[i]);
   dense_solve_complex(e->n, e->factors, e->pivot, false, e->n, e->correction);
   largest[0] = largest[1] = 0;
@@ -109,7 +88,20 @@ static hc_status improve(eigensystem *e, const long double *A, double least, dou
     e->values[j].re += creal(F[j]);
     e->values[j].im += cimag(F[j]);
   }
-  for (size_t j = 0; j < n; ++j) divide(e, j, least, e->correction + j * n, largest);
+  /* E of column j from F in its place; largest[0]: of its entries; largest[1]: of F_ij/D_j of eigenvalues no farther
+   * apart than `least`, or so close to each other that any basis of theirs will do. */
+  for (size_t j = 0; j < n; ++j) {
+    double complex *F = e->correction + j * n;
+    const double complex at = narrow(e->values[j]);
+    for (size_t i = 0; i < (size_t)e->n; ++i) {
+      const double complex other = narrow(e->values[i]), apart = at - other;
+      const double size = cabs(at) + cabs(other);
+      const bool one = !(cabs(apart) > fmax(least, same * size));
+      const double entry = i == j || cabs(F[i]) == 0 ? 0 : cabs(F[i]) / (one ? size : cabs(apart));
+      if (!(entry <= largest[one])) largest[one] = entry; /* NaN stays */
+      F[i] = i == j || one ? 0 : F[i] / apart;
+    }
+  }
   wide_complex *better = e->residual;
   memcpy(better, e->vectors, n * n * sizeof *better);
   for (size_t j = 0; j < n; ++j)
@@ -149,20 +141,6 @@ static hc_status invert(eigensystem *e)
   return HC_OK;
 }
 
-/* Exactly real what is real. */
-static void settle_real(eigensystem *e)
-{
-  const size_t n = (size_t)e->n;
-  for (size_t k = 0; k < n; ++k) {
-    const bool real = cimag(e->lambda[k]) == 0;
-    e->lambda[k] = real ? (double)e->values[k].re : narrow(e->values[k]);
-    for (size_t i = 0; i < n && real; ++i) {
-      e->V[k * n + i] = creal(e->V[k * n + i]);
-      e->W[k * n + i] = creal(e->W[k * n + i]);
-    }
-  }
-}
-
 static double length(size_t n, const double complex *a)
 {
   double sum = 0;
@@ -189,7 +167,15 @@ hc_status eigensystem_find(eigensystem *e, const long double *A)
     if (st != HC_OK) return st;
   }
   if ((st = invert(e)) != HC_OK) return st;
-  settle_real(e);
+  /* Exactly real what is real. */
+  for (size_t k = 0; k < n; ++k) {
+    const bool real = cimag(e->lambda[k]) == 0;
+    e->lambda[k] = real ? (double)e->values[k].re : narrow(e->values[k]);
+    for (size_t i = 0; i < n && real; ++i) {
+      e->V[k * n + i] = creal(e->V[k * n + i]);
+      e->W[k * n + i] = creal(e->W[k * n + i]);
+    }
+  }
   for (size_t k = 0; k < n; ++k)
     if (!(length(n, e->V + k * n) * length(n, e->W + k * n) <= most_skewed)) return HC_SINGULAR;
   return HC_OK;

@@ -45,11 +45,6 @@ void exponential_sum_measure(const exponentials *e, exponential_sum *s)
   s->noise = fmax(s->noise, rounding * sum);
 }
 
-static void evaluate(exponentials *e, double tau)
-{
-  for (int k = 0; k < e->n; ++k) e->now[k] = exponential(e->rate[k], tau, &e->size[k]);
-}
-
 /* Root in [a, b], where it falls from fa >= 0 to below 0 without turning: Newton, kept inside by bisection. */
 static double falling_root(const exponentials *e, const exponential_sum *s, double a, double fa, double b)
 {
@@ -112,22 +107,17 @@ static double clear_step(const exponentials *e, const exponential_sum *s, double
   return one_way;
 }
 
-/* Over it no term grows by more than e. */
-static double longest_step(const exponentials *e)
-{
-  double most = 0;
-  for (int k = 0; k < e->n; ++k) most = fmax(most, creal(e->rate[k]));
-  return 1 / most;
-}
-
 int exponentials_first_fall(exponentials *e, int n_sums, const exponential_sum *sums, double from, double to,
                             double *at)
 {
-  const double longest = longest_step(e);
+  /* Over it no term grows by more than e. */
+  double most = 0;
+  for (int k = 0; k < e->n; ++k) most = fmax(most, creal(e->rate[k]));
+  const double longest = 1 / most;
   int first = -1;
   for (double tau = from; tau < to;) {
     double h = fmin(to - tau, longest);
-    evaluate(e, tau);
+    for (int k = 0; k < e->n; ++k) e->now[k] = exponential(e->rate[k], tau, &e->size[k]);
     for (int i = 0; i < n_sums; ++i) {
       double root, clear = clear_step(e, &sums[i], tau, h, &root);
       if (!(tau + clear > tau)) root = tau; /* no step is short enough: a root here */

@@ -7,8 +7,6 @@
 
 static double at_least_rounding(double tolerance, double x) { return fmax(tolerance, 4 * DBL_EPSILON * fabs(x)); }
 
-static bool opposite(double fa, double fb) { return !isnan(fa) && !isnan(fb) && (fa > 0) != (fb > 0); }
-
 /* HC_NOT_CONVERGED if no more evaluation is allowed. */
 static hc_status count_evaluation(root_point *out)
 {
@@ -26,13 +24,6 @@ static hc_status evaluate(root_function *f, void *self, double x, root_point *ou
 typedef struct bracket {
   double a, fa, b, fb, c, fc;
 } bracket;
-
-static void replace_end(bracket *k, double x, double f)
-{
-  if ((f > 0) == (k->fa > 0)) k->c = k->a, k->fc = k->fa;
-  else k->c = k->b, k->fc = k->fb, k->b = k->a, k->fb = k->fa;
-  k->a = x, k->fa = f;
-}
 
 /* Part of the way from a to b at which to look next: where x, as the quadratic in f through the three points, has
  * f = 0. Chandrupatla's condition: that quadratic is monotone over the bracket; else one half. */
@@ -56,7 +47,7 @@ hc_status root_between(root_function *f, void *self, double a, double fa, double
 {
   bracket k = {a, fa, b, fb, a, fa};
   *out = (root_point){NAN, NAN, 0, NAN};
-  if (!isfinite(a) || !isfinite(b) || !opposite(fa, fb)) return HC_BAD_INPUT;
+  if (!isfinite(a) || !isfinite(b) || !(!isnan(fa) && !isnan(fb) && (fa > 0) != (fb > 0))) return HC_BAD_INPUT;
   double part = isfinite(fa - fb) ? fa / (fa - fb) : 0.5; /* the secant */
   for (;;) {
     report_better_end(&k, out);
@@ -66,7 +57,9 @@ hc_status root_between(root_function *f, void *self, double a, double fa, double
     double x = k.a + fmin(fmax(part, least), 1 - least) * (k.b - k.a);
     hc_status st = evaluate(f, self, x, out, &value);
     if (st != HC_OK) return st;
-    replace_end(&k, x, value);
+    if ((value > 0) == (k.fa > 0)) k.c = k.a, k.fc = k.fa;
+    else k.c = k.b, k.fc = k.fb, k.b = k.a, k.fb = k.fa;
+    k.a = x, k.fa = value;
     if (value == 0) {
       out->x = x, out->f = 0;
       return HC_OK;

@@ -43,23 +43,6 @@ void series_grid_table_fill(int n_harm, double *table)
     }
 }
 
-/* Sums over even harmonics, [0], and odd ones, [1], of x and two derivatives at the first half of the grid. */
-static void sum_harmonics(int n_harm, const double *X, const double *table, double sum[2][3][HALF])
-{
-  for (int i = 0; i < HALF; ++i) sum[0][0][i] = X[0];
-  for (int h = 1; h <= n_harm; ++h) {
-    const double *restrict c = table + (h - 1) * SERIES_GRID, *restrict s = c + HALF;
-    double *restrict x = sum[h & 1][0], *restrict d1 = sum[h & 1][1], *restrict d2 = sum[h & 1][2];
-    double a = X[2 * h - 1], b = X[2 * h], h1 = h, h2 = h1 * h1;
-    for (int i = 0; i < HALF; ++i) {
-      double even = a * c[i] + b * s[i], odd = b * c[i] - a * s[i];
-      x[i] += even;
-      d1[i] += h1 * odd;
-      d2[i] -= h2 * even;
-    }
-  }
-}
-
 static void fill_coordinate(series_grid *g, int d, const double *table)
 {
   g->size[0][d] = fabs(g->m.X[d][0]);
@@ -71,7 +54,19 @@ static void fill_coordinate(series_grid *g, int d, const double *table)
     g->size[2][d] += (double)h * h * size;
   }
   double sum[2][3][HALF] = {{{0}}};
-  sum_harmonics(g->m.n_harm, g->m.X[d], table, sum);
+  /* Sums over even harmonics, [0], and odd ones, [1], of x and two derivatives at the first half of the grid. */
+  for (int i = 0; i < HALF; ++i) sum[0][0][i] = g->m.X[d][0];
+  for (int h = 1; h <= g->m.n_harm; ++h) {
+    const double *restrict c = table + (h - 1) * SERIES_GRID, *restrict s = c + HALF;
+    double *restrict x = sum[h & 1][0], *restrict d1 = sum[h & 1][1], *restrict d2 = sum[h & 1][2];
+    double a = g->m.X[d][2 * h - 1], b = g->m.X[d][2 * h], h1 = h, h2 = h1 * h1;
+    for (int i = 0; i < HALF; ++i) {
+      double even = a * c[i] + b * s[i], odd = b * c[i] - a * s[i];
+      x[i] += even;
+      d1[i] += h1 * odd;
+      d2[i] -= h2 * even;
+    }
+  }
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < HALF; ++i) {
       g->node[i].d[k][d] = sum[0][k][i] + sum[1][k][i];

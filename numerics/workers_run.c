@@ -44,23 +44,20 @@ static bool tick_frozen(void *self, double done)
   return hc_monitor_tick(s->whole, s->done);
 }
 
-static hc_status run_here(int n, workers_task task, void *self, const hc_monitor *monitor)
-{
-  frozen_progress at = {monitor, 0};
-  hc_monitor inner = {tick_frozen, &at};
-  hc_status st = HC_OK;
-  for (int i = 0; i < n && st == HC_OK; ++i) {
-    at.done = (double)i / n;
-    st = hc_monitor_tick(monitor, at.done) ? task(self, i, &inner) : HC_INTERRUPTED;
-  }
-  return st;
-}
-
 hc_status workers_run(int jobs, int n, workers_task task, void *self, const hc_monitor *monitor)
 {
   enum { WATCH_MS = 50 };
   task_list l = {.task = task, .self = self, .n = n};
-  if (jobs <= 1 || n <= 1) return run_here(n, task, self, monitor);
+  if (jobs <= 1 || n <= 1) {
+    frozen_progress at = {monitor, 0};
+    hc_monitor inner = {tick_frozen, &at};
+    hc_status st = HC_OK;
+    for (int i = 0; i < n && st == HC_OK; ++i) {
+      at.done = (double)i / n;
+      st = hc_monitor_tick(monitor, at.done) ? task(self, i, &inner) : HC_INTERRUPTED;
+    }
+    return st;
+  }
   hc_status st = workers_init(&l.workers);
   if (st != HC_OK) return st;
   workers_start(&l.workers, jobs < n ? jobs : n, work_on_list, &l);

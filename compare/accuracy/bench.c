@@ -178,10 +178,10 @@ static void record_answer(const timed_method *t, const answer *a, const bench_st
     if (!(gap.amplitude <= worst.amplitude)) worst.amplitude = gap.amplitude;
     if (!(gap.harmonic_1 <= worst.harmonic_1)) worst.harmonic_1 = gap.harmonic_1;
   }
-  const motion_distance error = (motion_distance){.amplitude = discrepancy_relative(worst.amplitude, at->size),
-                                                  .harmonic_1 = discrepancy_relative(worst.harmonic_1, at->size),
-                                                  .mean = NAN,
-                                                  .waveform = discrepancy_relative(worst.waveform, at->size)};
+  const motion_distance error = {.amplitude = discrepancy_relative(worst.amplitude, at->size),
+                                 .harmonic_1 = discrepancy_relative(worst.harmonic_1, at->size),
+                                 .mean = NAN,
+                                 .waveform = discrepancy_relative(worst.waveform, at->size)};
   if (!(error.waveform <= other_orbit)) row->outcome = BENCH_OTHER_ORBIT;
   if (row->outcome != BENCH_SOLVED) return;
   row->error = error.amplitude;

@@ -145,8 +145,8 @@ static int run(const char *python, arguments *a, const hc_monitor *monitor, scip
     if (line[0] == '#') snprintf(text, 96, "%.90s", line + 2);
     else take(line, runs, n);
   }
-  /* Kills it if it still runs. Its exit code; -1: a signal ended it, or this process ignores SIGCHLD, and then the system
-   * keeps no exit codes: waitpid waits for the end and fails with ECHILD. */
+  /* Kills it if it still runs. Its exit code; -1: a signal ended it, or this process ignores SIGCHLD, and then the
+   * system keeps no exit codes: waitpid waits for the end and fails with ECHILD. */
   int status = 0;
   close(c.from);
   if (!c.ended) kill(c.pid, SIGKILL);

@@ -34,25 +34,6 @@ struct aft {
   workspace memory;           /* of all of these */
 };
 
-static hc_status make_tables(aft *a)
-{
-  const size_t n = (size_t)a->n_time, n_coef = (size_t)series_length(a->n_harm);
-  workspace *w = &a->memory;
-  double **const samples[] = {&a->x, &a->f, &a->k, &a->y};
-  for (size_t i = 0; i < sizeof samples / sizeof *samples; ++i) *samples[i] = workspace_doubles(w, n);
-  a->inv_step = workspace_array(w, 2 * (size_t)a->n_harm + 1, sizeof *a->inv_step);
-  a->symbol = workspace_doubles(w, (size_t)force_jacobian_symbol_length(a->n_harm));
-  a->left = workspace_doubles(w, n_coef);
-  a->right = workspace_doubles(w, (size_t)a->n_dof * n_coef);
-  a->intervals = workspace_array(w, (size_t)a->n_contacts * n + 1, sizeof *a->intervals); /* few are used */
-  a->settling = workspace_array(w, n, sizeof *a->settling);
-  a->n_intervals = workspace_array(w, (size_t)a->n_contacts + 1, sizeof *a->n_intervals);
-  hc_status st = period_samples_make(a->n_harm, a->n_time, w, &a->of);
-  for (int h = 1; h <= 2 * a->n_harm && st == HC_OK; ++h)
-    a->inv_step[h] = 1 / (a->of.root[h % a->n_time] - 1); /* 2 H < N */
-  return st;
-}
-
 hc_status aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, int n_contacts,
                   const moving_contact *contacts, aft **out)
 {
@@ -69,7 +50,22 @@ hc_status aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, int n_
   a->contacts = workspace_array(&a->memory, (size_t)n_contacts + 1, sizeof *a->contacts);
   hc_status st = a->contacts ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK && n_contacts) memcpy(a->contacts, contacts, (size_t)n_contacts * sizeof *contacts);
-  if (st == HC_OK) st = make_tables(a);
+  if (st == HC_OK) {
+    const size_t n = (size_t)a->n_time, n_coef = (size_t)series_length(a->n_harm);
+    workspace *w = &a->memory;
+    double **const samples[] = {&a->x, &a->f, &a->k, &a->y};
+    for (size_t i = 0; i < sizeof samples / sizeof *samples; ++i) *samples[i] = workspace_doubles(w, n);
+    a->inv_step = workspace_array(w, 2 * (size_t)a->n_harm + 1, sizeof *a->inv_step);
+    a->symbol = workspace_doubles(w, (size_t)force_jacobian_symbol_length(a->n_harm));
+    a->left = workspace_doubles(w, n_coef);
+    a->right = workspace_doubles(w, (size_t)a->n_dof * n_coef);
+    a->intervals = workspace_array(w, (size_t)a->n_contacts * n + 1, sizeof *a->intervals); /* few are used */
+    a->settling = workspace_array(w, n, sizeof *a->settling);
+    a->n_intervals = workspace_array(w, (size_t)a->n_contacts + 1, sizeof *a->n_intervals);
+    st = period_samples_make(a->n_harm, a->n_time, w, &a->of);
+    for (int h = 1; h <= 2 * a->n_harm && st == HC_OK; ++h)
+      a->inv_step[h] = 1 / (a->of.root[h % a->n_time] - 1); /* 2 H < N */
+  }
   if (st == HC_OK) {
     *out = a;
     return HC_OK;
@@ -110,26 +106,6 @@ static contact_regime regime_of(int n, const sampled_interval *s)
   return slips ? CONTACT_SLIPS : CONTACT_STUCK;
 }
 
-/* One step of the law maps w to the nearest point of an interval, and so does a whole period: applied once more it
- * changes nothing, so the slider is periodic in the second. That it is not can only be rounding or a defect. */
-static hc_status evaluate_contact(aft *a, int j, double size, contact_report *report)
-{
-  const moving_contact *c = &a->contacts[j];
-  sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
-  double *f = j == 0 ? a->f : a->of.sample, *again = a->k; /* k is made afterwards, if at all */
-  slider_motion motion = {a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
-  if (a->n_dof > 1)
-    motion = (slider_motion){a->x, a->y, 1, 1, 1, 0}; /* the force on u, where v is another coordinate */
-  slider_report found = slider_follow(&c->law, a->restart, a->n_time, &motion, f, again, s, a->settling);
-  a->n_intervals[j] = found.n_intervals;
-  for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->of.sample[i];
-  contact_regime regime = regime_of(found.n_intervals, s);
-  if (regime > report->regime) report->regime = regime;
-  report->transitions += found.transitions;
-  report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(c, a->n_dof);
-  return fabs(found.w - found.settled) <= 1e-12 * (fabs(found.settled) + size) ? HC_OK : HC_NOT_CLOSED;
-}
-
 hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
 {
   contact_report local;
@@ -143,7 +119,24 @@ hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_repo
   if (a->n_dof > 1) period_samples_of(&a->of, X + n_coef, a->y);
   if (a->n_contacts == 0) memset(a->f, 0, (size_t)a->n_time * sizeof(double));
   hc_status st = HC_OK;
-  for (int j = 0; j < a->n_contacts && st == HC_OK; ++j) st = evaluate_contact(a, j, size, report);
+  /* One step of the law maps w to the nearest point of an interval, and so does a whole period: applied once more it
+   * changes nothing, so the slider is periodic in the second. That it is not can only be rounding or a defect. */
+  for (int j = 0; j < a->n_contacts && st == HC_OK; ++j) {
+    const moving_contact *c = &a->contacts[j];
+    sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
+    double *f = j == 0 ? a->f : a->of.sample, *again = a->k; /* k is made afterwards, if at all */
+    slider_motion motion = {a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
+    if (a->n_dof > 1)
+      motion = (slider_motion){a->x, a->y, 1, 1, 1, 0}; /* the force on u, where v is another coordinate */
+    slider_report found = slider_follow(&c->law, a->restart, a->n_time, &motion, f, again, s, a->settling);
+    a->n_intervals[j] = found.n_intervals;
+    for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->of.sample[i];
+    contact_regime regime = regime_of(found.n_intervals, s);
+    if (regime > report->regime) report->regime = regime;
+    report->transitions += found.transitions;
+    report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(c, a->n_dof);
+    st = fabs(found.w - found.settled) <= 1e-12 * (fabs(found.settled) + size) ? HC_OK : HC_NOT_CLOSED;
+  }
   if (st != HC_OK) return st;
   period_samples_series(&a->of, a->f, a->n_harm, F);
   if (a->n_dof > 1) { /* N - N0: its contact's T is in the first coordinate */

@@ -163,19 +163,6 @@ static void subtract_stick_interval(exact_force *e, const moving_contact *c, con
     }
 }
 
-/* Changes of state over the period. An interval is followed by another one (one change, or none if both are parts of
- * the same state), or by a separation and then an interval (two). */
-static int count_changes(const contact_interval *p, int n)
-{
-  int changes = 0;
-  for (int i = 0; i < n; ++i) {
-    const contact_interval *next = &p[(i + 1) % n];
-    bool meets = next->from == p[i].to || next->from == p[i].to - TWO_PI;
-    changes += meets ? next->state != p[i].state : 2;
-  }
-  return changes;
-}
-
 /* Slider at th = 0: from the interval that covers it; w = u while separated. */
 static double slider_at_zero(const exact_force *e, int j)
 {
@@ -194,17 +181,6 @@ static double slider_at_zero(const exact_force *e, int j)
     return s ? u - s * c->law.mu * contact_normal(&c->law, v) / c->law.kt : p[i].held / c->law.kt;
   }
   return u;
-}
-
-static void fill_report(const exact_force *e, contact_report *report)
-{
-  *report = (contact_report){.regime = CONTACT_LINEAR};
-  for (int j = 0; j < e->n_contacts; ++j) {
-    contact_regime regime = transitions_regime(e->n_intervals[j], e->intervals + (size_t)j * e->cap);
-    if (regime > report->regime) report->regime = regime;
-    report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(&e->contacts[j], e->n_dof);
-    report->transitions += count_changes(e->intervals + (size_t)j * e->cap, e->n_intervals[j]);
-  }
 }
 
 hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *jac, contact_report *report)
@@ -237,7 +213,24 @@ hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *j
   for (int j = 0; jac && j < e->n_contacts; ++j)
     for (int i = 0; i < e->n_intervals[j]; ++i)
       subtract_stick_interval(e, &e->contacts[j], e->intervals + (size_t)j * e->cap + i, jac);
-  if (report) fill_report(e, report);
+  if (report) {
+    *report = (contact_report){.regime = CONTACT_LINEAR};
+    for (int j = 0; j < e->n_contacts; ++j) {
+      contact_regime regime = transitions_regime(e->n_intervals[j], e->intervals + (size_t)j * e->cap);
+      if (regime > report->regime) report->regime = regime;
+      report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(&e->contacts[j], e->n_dof);
+      /* Changes of state over the period. An interval is followed by another one (one change, or none if both are
+       * parts of the same state), or by a separation and then an interval (two). */
+      const contact_interval *p = e->intervals + (size_t)j * e->cap;
+      int changes = 0;
+      for (int i = 0; i < e->n_intervals[j]; ++i) {
+        const contact_interval *next = &p[(i + 1) % e->n_intervals[j]];
+        bool meets = next->from == p[i].to || next->from == p[i].to - TWO_PI;
+        changes += meets ? next->state != p[i].state : 2;
+      }
+      report->transitions += changes;
+    }
+  }
   return HC_OK;
 }
 

@@ -103,32 +103,6 @@ static bool first_change(const scan *w, const series_node *a, const series_node 
   return found || found_minus;
 }
 
-/* Slip with sign s ends at `at` in stick, or stick in slip with sign s. */
-static hc_status change_state(scan *w, int s, const series_node *at)
-{
-  hc_status st = close_interval(w, at->th);
-  w->now.from = at->th;
-  if (contact_slip_sign(w->now.state)) {
-    come_to_rest(w, s, at);
-    w->now.state = CONTACT_STICK;
-  } else {
-    w->now.state = s > 0 ? CONTACT_SLIP_PLUS : CONTACT_SLIP_MINUS;
-  }
-  return st;
-}
-
-/* Where T, N and their rates are all 0 to rounding at angle th, which state follows cannot be told there. It can a
- * little later, where they are still small: the scan goes on from that angle, a stuck slider in the middle of its
- * limits. */
-static series_node skip_degenerate(scan *w, double th, double end)
-{
-  const double little = 1e-8;
-  series_node later = series_vector_at(&w->grid->m, fmin(th + little, end));
-  if (!contact_slip_sign(w->now.state))
-    w->now.held = 0.5 * (guard_value(&w->stick[1], &later) - guard_value(&w->stick[0], &later));
-  return later;
-}
-
 enum { MAX_CHANGES_AT_ANGLE = 3, MAX_CHANGES_PER_HARMONIC = 64 };
 
 /* From a to b, neighbouring nodes, in contact all the way. */
@@ -144,7 +118,14 @@ static hc_status scan_interval(scan *w, series_node a, const series_node *b)
     repeated = root.th > last_root ? 0 : repeated + 1;
     last_root = root.th;
     if (repeated > MAX_CHANGES_AT_ANGLE) {
-      a = skip_degenerate(w, last_root, b->th);
+      /* Where T, N and their rates are all 0 to rounding at angle th, which state follows cannot be told there. It
+       * can a little later, where they are still small: the scan goes on from that angle, a stuck slider in the
+       * middle of its limits. */
+      const double little = 1e-8;
+      series_node later = series_vector_at(&w->grid->m, fmin(last_root + little, b->th));
+      if (!contact_slip_sign(w->now.state))
+        w->now.held = 0.5 * (guard_value(&w->stick[1], &later) - guard_value(&w->stick[0], &later));
+      a = later;
       continue;
     }
     a = root;
@@ -153,7 +134,17 @@ static hc_status scan_interval(scan *w, series_node a, const series_node *b)
     /* |T| exceeds mu N by rounding and decreases already, as where T and N vanish together: stick goes on with the
      * slider moved to the limit. */
     if (returns && repeated == 0) w->now.held = held_at_limit(w, s, &root);
-    else st = change_state(w, s, &root);
+    /* Slip with sign s ends at `at` in stick, or stick in slip with sign s. */
+    else {
+      st = close_interval(w, root.th);
+      w->now.from = root.th;
+      if (contact_slip_sign(w->now.state)) {
+        come_to_rest(w, s, &root);
+        w->now.state = CONTACT_STICK;
+      } else {
+        w->now.state = s > 0 ? CONTACT_SLIP_PLUS : CONTACT_SLIP_MINUS;
+      }
+    }
   }
   return st;
 }
@@ -181,27 +172,6 @@ static hc_status scan_contact(scan *w, const series_node *a, const series_node *
 /* The state of a contact that carries no tangential force: T = kt u with kt = 0, or mu N with mu = 0. */
 static contact_state frictionless(const contact *law) { return law->kt > 0 ? CONTACT_SLIP_PLUS : CONTACT_STICK; }
 
-/* Touch-down at `at`: T = N = 0 and w = u, in stick or in slip by the velocities there. */
-static void touch_down(scan *w, const series_node *at)
-{
-  const contact *law = &w->c->law;
-  double u = 0, du = 0, dv = 0;
-  for (int d = 0; d < w->grid->m.dim; ++d) {
-    u += w->c->cu[d] * at->d[0][d];
-    du += w->c->cu[d] * at->d[1][d];
-    dv += w->c->cv[d] * at->d[1][d];
-  }
-  w->now.from = w->now.origin = at->th;
-  w->now.held = law->kt * u;
-  w->now.state = w->friction ? contact_on_touch(law, du, dv) : frictionless(law);
-  /* d held = kt (du_origin + u' d th); the angle of touch-down moves by d th = -dv_origin/v' */
-  double u_per_v = dv > 0 ? du / dv : 0;
-  for (int d = 0; d < w->grid->m.dim; ++d) {
-    double fixed_angle = w->c->cu[d], moved_angle = u_per_v * w->c->cv[d], sum = fixed_angle - moved_angle;
-    w->now.held_by_x[d] = fabs(sum) > 4 * DBL_EPSILON * fabs(fixed_angle) ? law->kt * sum : 0;
-  }
-}
-
 /* First angle in [a, until) where the guard falls through 0, over grid nodes. */
 static bool first_over_grid(const scan *w, const guard *g, const series_node *a, double until, series_node *root)
 {
@@ -219,7 +189,23 @@ static hc_status scan_with_separations(scan *w, series_node a)
   series_node on, off;
   w->recording = true;
   while (st == HC_OK && first_over_grid(w, &separated, &a, end, &on)) {
-    touch_down(w, &on);
+    /* Touch-down at `at`: T = N = 0 and w = u, in stick or in slip by the velocities there. */
+    const contact *law = &w->c->law;
+    double u = 0, du = 0, dv = 0;
+    for (int d = 0; d < w->grid->m.dim; ++d) {
+      u += w->c->cu[d] * on.d[0][d];
+      du += w->c->cu[d] * on.d[1][d];
+      dv += w->c->cv[d] * on.d[1][d];
+    }
+    w->now.from = w->now.origin = on.th;
+    w->now.held = law->kt * u;
+    w->now.state = w->friction ? contact_on_touch(law, du, dv) : frictionless(law);
+    /* d held = kt (du_origin + u' d th); the angle of touch-down moves by d th = -dv_origin/v' */
+    double u_per_v = dv > 0 ? du / dv : 0;
+    for (int d = 0; d < w->grid->m.dim; ++d) {
+      double fixed_angle = w->c->cu[d], moved_angle = u_per_v * w->c->cv[d], sum = fixed_angle - moved_angle;
+      w->now.held_by_x[d] = fabs(sum) > 4 * DBL_EPSILON * fabs(fixed_angle) ? law->kt * sum : 0;
+    }
     if (!first_over_grid(w, &w->normal, &on, end, &off)) { /* by rounding: the end is an angle of separation */
       off = a;
       off.th = end;

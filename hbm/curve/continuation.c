@@ -297,23 +297,6 @@ static hc_status end_at_limit(path *p, bool *done)
 static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from_above, const hc_monitor *monitor,
                        hbm_curve *curve);
 
-/* The solution at p->from as the end of a curve that comes down from well above every resonance: inertia dominates
- * there, and Newton converges from the linear response. */
-static hc_status come_from_above(path *p, const hc_monitor *monitor)
-{
-  const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor};
-  hbm_curve down = {0};
-  double high = LOOP_RANGE * fmax(p->from, p->s->sys.scales.highest);
-  hc_status st = trace(p->s, high, p->from, false, &aside, &down);
-  if (st == HC_OK && down.left_at_start) st = HC_NOT_CONVERGED;
-  if (st == HC_OK) {
-    memcpy(p->X, hbm_curve_X(&down, down.n - 1), (size_t)p->s->sys.n_coef * sizeof(double));
-    st = hbm_solve_fixed(p->s, p->from, norm_2(p->s->sys.n_coef, p->X), p->X, &p->point);
-  }
-  hbm_curve_free(&down);
-  return st;
-}
-
 static hc_status first_point(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
@@ -321,7 +304,20 @@ static hc_status first_point(path *p, const hc_monitor *monitor)
   hc_status st = s->ramp ? hbm_solve_fixed(s, p->from, hbm_ramp_start(s->ramp, &s->sys, p->X), p->X, &p->point)
                          : hbm_first_solution(s, p->from, monitor, p->X, &p->point);
   bool no_solution = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED;
-  if (no_solution && p->may_come_from_above) st = come_from_above(p, monitor);
+  /* The solution at p->from as the end of a curve that comes down from well above every resonance: inertia dominates
+   * there, and Newton converges from the linear response. */
+  if (no_solution && p->may_come_from_above) {
+    const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor};
+    hbm_curve down = {0};
+    double high = LOOP_RANGE * fmax(p->from, p->s->sys.scales.highest);
+    st = trace(p->s, high, p->from, false, &aside, &down);
+    if (st == HC_OK && down.left_at_start) st = HC_NOT_CONVERGED;
+    if (st == HC_OK) {
+      memcpy(p->X, hbm_curve_X(&down, down.n - 1), (size_t)p->s->sys.n_coef * sizeof(double));
+      st = hbm_solve_fixed(p->s, p->from, norm_2(p->s->sys.n_coef, p->X), p->X, &p->point);
+    }
+    hbm_curve_free(&down);
+  }
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
   if (st != HC_OK) return st;
   p->orientation = newton_sign(p->s->fixed) * (p->direction > 0 ? 1 : -1);

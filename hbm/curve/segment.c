@@ -279,26 +279,6 @@ static hc_status solve_from_ends(hbm_solver *s, const hbm_curve *c, int k, doubl
   return at->n > before ? HC_OK : HC_NOT_CONVERGED;
 }
 
-/* Solutions that are there twice: interpolants of steep segments may overshoot into the next one. */
-static void drop_twins(hbm_curve *at, int before)
-{
-  const size_t row = (size_t)at->n_coef * sizeof(double);
-  int n = before;
-  for (int i = before; i < at->n; ++i) {
-    const int all = at->n;
-    at->n = n;
-    const double *X = hbm_curve_X(at, i);
-    const bool twin = has_point(at, before, X, SAME * norm_2(at->n_coef, X));
-    at->n = all;
-    if (twin) continue;
-    at->points[n] = at->points[i];
-    memmove(hbm_curve_X(at, n), hbm_curve_X(at, i), row);
-    memmove(hbm_curve_dX(at, n), hbm_curve_dX(at, i), row);
-    ++n;
-  }
-  at->n = n;
-}
-
 hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
 {
   const int before = at->n;
@@ -310,7 +290,24 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curv
     if (st != HC_OK && s->edges) st = solve_from_ends(s, c, k, omega, before, at);
     if (st != HC_OK) worst = st;
   }
-  if (s->edges) drop_twins(at, before);
+  /* Solutions that are there twice: interpolants of steep segments may overshoot into the next one. */
+  if (s->edges) {
+    const size_t row = (size_t)at->n_coef * sizeof(double);
+    int n = before;
+    for (int i = before; i < at->n; ++i) {
+      const int all = at->n;
+      at->n = n;
+      const double *X = hbm_curve_X(at, i);
+      const bool twin = has_point(at, before, X, SAME * norm_2(at->n_coef, X));
+      at->n = all;
+      if (twin) continue;
+      at->points[n] = at->points[i];
+      memmove(hbm_curve_X(at, n), hbm_curve_X(at, i), row);
+      memmove(hbm_curve_dX(at, n), hbm_curve_dX(at, i), row);
+      ++n;
+    }
+    at->n = n;
+  }
   const bool stopped = at->n == before && c->n > 0 && c->end != HC_OK;
   return stopped && s->edges ? append_solution(s, c, NULL, omega, before, at) : worst;
 }

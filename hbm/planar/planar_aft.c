@@ -70,8 +70,16 @@ static void let_go(void *self)
   free(a);
 }
 
-static void make_arrays(planar_aft *a)
+static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
 {
+  const contact *law = &c->moved.law;
+  *self = NULL;
+  if (how->n_harm < 1 || how->n_harm > HBM_MAX_HARMONICS || how->n_time < 2 * how->n_harm + 1) return HC_BAD_INPUT;
+  if (c->n_dof < 2 || c->n_dof > 3 || !contact_has_friction(law)) return HC_BAD_INPUT;
+  planar_aft *a = calloc(1, sizeof *a);
+  if (!a) return HC_NO_MEMORY;
+  *a = (planar_aft){
+      .n_dof = c->n_dof, .n_harm = how->n_harm, .n_time = how->n_time, .restart = how->restart, .law = *law};
   const size_t n = (size_t)a->n_time, length = (size_t)series_length(a->n_harm), n_col = (size_t)a->n_dof * length + 2;
   workspace *w = &a->memory;
   for (int d = 0; d < 3; ++d) a->motion[d] = workspace_doubles(w, n);
@@ -84,19 +92,6 @@ static void make_arrays(planar_aft *a)
   }
   a->held = workspace_doubles(w, length);
   a->whole = workspace_doubles(w, 2 * length * n_col);
-}
-
-static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
-{
-  const contact *law = &c->moved.law;
-  *self = NULL;
-  if (how->n_harm < 1 || how->n_harm > HBM_MAX_HARMONICS || how->n_time < 2 * how->n_harm + 1) return HC_BAD_INPUT;
-  if (c->n_dof < 2 || c->n_dof > 3 || !contact_has_friction(law)) return HC_BAD_INPUT;
-  planar_aft *a = calloc(1, sizeof *a);
-  if (!a) return HC_NO_MEMORY;
-  *a = (planar_aft){
-      .n_dof = c->n_dof, .n_harm = how->n_harm, .n_time = how->n_time, .restart = how->restart, .law = *law};
-  make_arrays(a);
   const hc_status st = period_samples_make(a->n_harm, a->n_time, &a->memory, &a->of);
   if (st == HC_OK) *self = a;
   else let_go(a);
@@ -122,15 +117,6 @@ static planar_move planar_aft_step(const planar_aft *a, int i, bool entering, do
   return planar_slider_step(a->restart, &from, &to, w, slope);
 }
 
-/* A = slope.w A */
-static void chain(const planar_slope *slope, double A[2][2])
-{
-  for (int c = 0; c < 2; ++c) {
-    const double a0 = A[0][c], a1 = A[1][c];
-    for (int d = 0; d < 2; ++d) A[d][c] = slope->w[d][0] * a0 + slope->w[d][1] * a1;
-  }
-}
-
 typedef struct period {
   bool slips, separates;
   double A[2][2]; /* dw at the end/dw at the start; not where it separates and forgets */
@@ -150,7 +136,13 @@ static period drag(planar_aft *a, bool entering, bool apart_somewhere, double w[
     if (i == 0) memcpy(a->first, w, sizeof a->first);
     p.slips |= move == PLANAR_SLIPPED;
     p.separates |= move == PLANAR_APART;
-    if (differentiated && (move == PLANAR_SLIPPED || move == PLANAR_PLACED)) chain(&slope, p.A);
+    /* A = slope.w A */
+    if (differentiated && (move == PLANAR_SLIPPED || move == PLANAR_PLACED)) {
+      for (int c = 0; c < 2; ++c) {
+        const double a0 = p.A[0][c], a1 = p.A[1][c];
+        for (int d = 0; d < 2; ++d) p.A[d][c] = slope.w[d][0] * a0 + slope.w[d][1] * a1;
+      }
+    }
   }
   return p;
 }
@@ -191,20 +183,6 @@ static hc_status close_orbit(planar_aft *a, bool apart, double w[2], double enou
   return missed <= most ? HC_OK : HC_NOT_CLOSED;
 }
 
-static hc_status follow(planar_aft *a, double size)
-{
-  double least = a->motion[2][0];
-  for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]);
-  const bool apart = !(least > 0);
-  const bool once = a->restart == HBM_RESTART_ONE_PASS || a->restart == HBM_RESTART_ONE_PASS_SAMPLE;
-  double w[2] = {0};
-  a->passes = 0;
-  a->orbit = PLANAR_ONE_PASS;
-  memset(a->start, 0, sizeof a->start);
-  drag(a, true, apart, w);
-  return once ? HC_OK : close_orbit(a, apart, w, 1e-15 * size, 1e-12 * (hypot(w[0], w[1]) + size));
-}
-
 /* ---- the force ---------------------------------------------------------------------------------------- */
 
 /* The state at a sample: separated, stuck or slipping. */
@@ -241,7 +219,16 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
     period_samples_series(&a->of, a->of.sample, a->n_harm, F + 2 * length);
   }
   radius(a);
-  const hc_status st = follow(a, size);
+  double least = a->motion[2][0];
+  for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]);
+  const bool apart = !(least > 0);
+  const bool once = a->restart == HBM_RESTART_ONE_PASS || a->restart == HBM_RESTART_ONE_PASS_SAMPLE;
+  double w[2] = {0};
+  a->passes = 0;
+  a->orbit = PLANAR_ONE_PASS;
+  memset(a->start, 0, sizeof a->start);
+  drag(a, true, apart, w);
+  const hc_status st = once ? HC_OK : close_orbit(a, apart, w, 1e-15 * size, 1e-12 * (hypot(w[0], w[1]) + size));
   if (st != HC_OK) return st;
   for (int d = 0; d < 2; ++d) period_samples_series(&a->of, a->traction[d], a->n_harm, F + d * length);
   if (report) fill_report(a, report);

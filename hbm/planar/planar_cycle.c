@@ -50,18 +50,6 @@ static guarded_point guard_new_at(const stick_guard *s, double th)
   return guard_at(s, &p);
 }
 
-/* On an interval of the grid that begins in stick |u - w| grows to no more than the largest R and what u moves. */
-static stick_guard make_guard(const planar_motion *m, const double w[2])
-{
-  const double *U = m->of_u, *R = m->of_R, step = TWO_PI / SERIES_GRID;
-  const double pulled = fmin(R[0] + U[1] * step, U[0] + hypot(w[0], w[1]));
-  stick_guard s = {.m = m, .w = {w[0], w[1]}};
-  s.bound2 = 2 * (R[1] * R[1] + R[0] * R[2] + U[1] * U[1] + pulled * U[2]);
-  s.bound3 = 2 * (3 * R[1] * R[2] + R[0] * R[3] + 3 * U[1] * U[2] + pulled * U[3]);
-  s.noise = DBL_EPSILON * R[0] * (32 * (U[0] + hypot(w[0], w[1]) + R[0]) + 64 * (R[1] + U[1]));
-  return s;
-}
-
 /* Root of g in [a, b], falling through 0 once, perhaps after it has risen: Newton kept inside by bisection. */
 static guarded_point falling_root(const stick_guard *s, guarded_point a, guarded_point b)
 {
@@ -129,7 +117,13 @@ static bool find_first(const stick_guard *s, guarded_point a, guarded_point b, i
 static bool stick_ends(const planar_motion *m, const planar_point *grid, const double w[2], const planar_point *from,
                        double to, planar_point *root)
 {
-  const stick_guard s = make_guard(m, w);
+  /* On an interval of the grid that begins in stick |u - w| grows to no more than the largest R and what u moves. */
+  const double *U = m->of_u, *R = m->of_R, step = TWO_PI / SERIES_GRID;
+  const double pulled = fmin(R[0] + U[1] * step, U[0] + hypot(w[0], w[1]));
+  stick_guard s = {.m = m, .w = {w[0], w[1]}};
+  s.bound2 = 2 * (R[1] * R[1] + R[0] * R[2] + U[1] * U[1] + pulled * U[2]);
+  s.bound3 = 2 * (3 * R[1] * R[2] + R[0] * R[3] + 3 * U[1] * U[2] + pulled * U[3]);
+  s.noise = DBL_EPSILON * R[0] * (32 * (U[0] + hypot(w[0], w[1]) + R[0]) + 64 * (R[1] + U[1]));
   const planar_point *next = grid + (int)(from->th * (SERIES_GRID / TWO_PI));
   guarded_point a = guard_at(&s, from), found;
   while (next->th <= a.p.th) ++next;
@@ -165,18 +159,6 @@ static void swing(double phi, double R, double dphi, double dw[2])
 {
   dw[0] = R * sin(phi) * dphi;
   dw[1] = -R * cos(phi) * dphi;
-}
-
-/* Passes lead no two sliders apart, so that none moves by more than the start. */
-static bool shift_is_small(const planar_cycle *c, double moved)
-{
-  for (int i = 0; i < c->n; ++i) {
-    const planar_interval *p = &c->interval[i];
-    if (p->state == CONTACT_STICK) continue;
-    const double R = planar_motion_at(c->m, p->from).R;
-    if (!(moved <= SHIFT_MOST * R)) return false;
-  }
-  return true;
 }
 
 /* From the start, or from the interval before, into interval i. */
@@ -219,7 +201,13 @@ static double move_panel(const collocation *c, planar_panel *p, double dphi)
 static bool shift_pass(planar_cycle *c, const double dw0[2])
 {
   double dw[2] = {dw0[0], dw0[1]}, dphi = 0;
-  if (!shift_is_small(c, hypot(dw[0], dw[1]))) return false;
+  /* Passes lead no two sliders apart, so that none moves by more than the start. */
+  for (int i = 0; i < c->n; ++i) {
+    const planar_interval *p = &c->interval[i];
+    if (p->state == CONTACT_STICK) continue;
+    const double R = planar_motion_at(c->m, p->from).R;
+    if (!(hypot(dw[0], dw[1]) <= SHIFT_MOST * R)) return false;
+  }
   for (int i = 0; i < c->n; ++i) {
     planar_interval *p = &c->interval[i];
     shift_into(c, i, dw, &dphi);

@@ -74,46 +74,6 @@ void planar_flow_free(planar_flow *f)
 
 /* ---- K_j -------------------------------------------------------------------------------------------- */
 
-static void fill_stiffness(planar_flow *f, const contact_interval *const *interval, int n_slipping,
-                           const planar_slipping *slipping)
-{
-  const model *m = f->m;
-  memcpy(f->K, m->stiffness, (size_t)f->n * (size_t)f->n * sizeof *f->K);
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const model_contact *c = &m->contacts[j];
-    if (!interval[j]) continue;
-    add_outer(f->n, c->law.kn, c->normal, c->normal, f->K);
-    add_outer(f->n, contact_interval_stiffness(&c->law, interval[j]), c->tangent,
-              contact_slip_sign(interval[j]->state) ? c->normal : c->tangent, f->K);
-  }
-  for (int k = 0; k < n_slipping; ++k) { /* of both halves */
-    const model_contact *c = &m->contacts[slipping[k].contact];
-    add_outer(f->n, 2 * c->law.kn, c->normal, c->normal, f->K);
-  }
-}
-
-/* [1/time] No frequency of K_j and M is higher: the largest sum over a row of |K|, over the least of M that a row
- * leaves. */
-static double highest_frequency(const planar_flow *f)
-{
-  double most = 0;
-  for (int i = 0; i < f->n; ++i) {
-    double k = 0, mass = 2 * f->m->mass[(size_t)i * (size_t)(f->n + 1)];
-    for (int j = 0; j < f->n; ++j) {
-      k += fabs(f->K[(size_t)j * (size_t)f->n + (size_t)i]);
-      mass -= fabs(f->m->mass[(size_t)j * (size_t)f->n + (size_t)i]);
-    }
-    const double least = 0.1 * f->m->mass[(size_t)i * (size_t)(f->n + 1)];
-    most = fmax(most, k / fmax(mass, least));
-  }
-  for (int k = 0; k < f->m->n_contacts; ++k) { /* kt of planar contacts, in no K */
-    const model_contact *c = &f->m->contacts[k];
-    for (int i = 0; i < f->n; ++i)
-      most = fmax(most, 2 * c->law.kt * fabs(c->tangent[i]) / f->m->mass[(size_t)i * (size_t)(f->n + 1)]);
-  }
-  return sqrt(most);
-}
-
 /* ---- a step ------------------------------------------------------------------------------------------ */
 
 /* What angles of the period are where the interval covers them. */
@@ -304,8 +264,37 @@ hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *int
                               double *phi)
 {
   const double turns_a_step = 3;
-  fill_stiffness(f, interval, n_slipping, slipping);
-  const double width = turns_a_step * omega / highest_frequency(f);
+  const model *m = f->m;
+  memcpy(f->K, m->stiffness, (size_t)f->n * (size_t)f->n * sizeof *f->K);
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j];
+    if (!interval[j]) continue;
+    add_outer(f->n, c->law.kn, c->normal, c->normal, f->K);
+    add_outer(f->n, contact_interval_stiffness(&c->law, interval[j]), c->tangent,
+              contact_slip_sign(interval[j]->state) ? c->normal : c->tangent, f->K);
+  }
+  for (int k = 0; k < n_slipping; ++k) { /* of both halves */
+    const model_contact *c = &m->contacts[slipping[k].contact];
+    add_outer(f->n, 2 * c->law.kn, c->normal, c->normal, f->K);
+  }
+  /* [1/time] No frequency of K_j and M is higher: the largest sum over a row of |K|, over the least of M that a row
+   * leaves. */
+  double most = 0;
+  for (int i = 0; i < f->n; ++i) {
+    double k = 0, mass = 2 * f->m->mass[(size_t)i * (size_t)(f->n + 1)];
+    for (int j = 0; j < f->n; ++j) {
+      k += fabs(f->K[(size_t)j * (size_t)f->n + (size_t)i]);
+      mass -= fabs(f->m->mass[(size_t)j * (size_t)f->n + (size_t)i]);
+    }
+    const double least = 0.1 * f->m->mass[(size_t)i * (size_t)(f->n + 1)];
+    most = fmax(most, k / fmax(mass, least));
+  }
+  for (int k = 0; k < f->m->n_contacts; ++k) { /* kt of planar contacts, in no K */
+    const model_contact *c = &f->m->contacts[k];
+    for (int i = 0; i < f->n; ++i)
+      most = fmax(most, 2 * c->law.kt * fabs(c->tangent[i]) / f->m->mass[(size_t)i * (size_t)(f->n + 1)]);
+  }
+  const double width = turns_a_step * omega / sqrt(most);
   hc_status st = HC_OK;
   for (double at = from; at < to && st == HC_OK;) {
     const double end = planar_slipping_step(n_slipping, slipping, at, to, width);

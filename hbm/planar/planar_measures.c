@@ -69,21 +69,6 @@ static void add_panel(const planar_cycle *c, const planar_panel *p, double sum[2
   }
 }
 
-static void measure_intervals(const contact *law, const planar_cycle *c, double *square, contact_period *out)
-{
-  double sum[2] = {0}, distance = 0;
-  for (int i = 0; i < c->n; ++i) {
-    const planar_interval *p = &c->interval[i];
-    const bool sticks = p->state == CONTACT_STICK;
-    distance = fmax(distance, sticks ? stick_distance(c->m, p, square) : slip_distance(c->m, p));
-    for (int k = p->panel; k < p->panel + p->n_panels; ++k) add_panel(c, &c->slip.panel[k], sum);
-  }
-  /* |u - w| may exceed the limit by rounding where stick becomes slip */
-  out->traction_max = fmin(law->kt * distance, law->mu * out->normal_max);
-  out->slip_distance = sum[0];
-  out->work = law->kt * sum[1];
-}
-
 static hc_status measure(const contact *half, int n_harm, int n_dof, const double *X, double *F, double *square,
                          contact_period out[2])
 {
@@ -100,7 +85,17 @@ static hc_status measure(const contact *half, int n_harm, int n_dof, const doubl
     out[0].normal_min = contact_normal(half, least);
     out[0].normal_max = contact_normal(half, most);
     out[1] = out[0];
-    measure_intervals(half, c, square, &out[0]);
+    double sum[2] = {0}, distance = 0;
+    for (int i = 0; i < c->n; ++i) {
+      const planar_interval *p = &c->interval[i];
+      const bool sticks = p->state == CONTACT_STICK;
+      distance = fmax(distance, sticks ? stick_distance(c->m, p, square) : slip_distance(c->m, p));
+      for (int k = p->panel; k < p->panel + p->n_panels; ++k) add_panel(c, &c->slip.panel[k], sum);
+    }
+    /* |u - w| may exceed the limit by rounding where stick becomes slip */
+    out[0].traction_max = fmin(half->kt * distance, half->mu * out[0].normal_max);
+    out[0].slip_distance = sum[0];
+    out[0].work = half->kt * sum[1];
   }
   planar_force_free(f);
   return st;

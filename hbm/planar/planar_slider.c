@@ -66,16 +66,6 @@ planar_move planar_slider_enter(const planar_sample *to, double w[2], planar_slo
   return PLANAR_SLIPPED;
 }
 
-/* slope = that of `later`, whose start is a fixed place of the motion at `from`, or nowhere. */
-static void slope_from_start(bool on_motion, planar_slope *slope)
-{
-  for (int d = 0; d < 2; ++d)
-    for (int c = 0; c < 2; ++c) {
-      slope->from[d][c] = on_motion ? slope->w[d][c] : 0;
-      slope->w[d][c] = 0;
-    }
-}
-
 /* Contact was made since `from`: w is u there; by mistake it is 0, or where it was before the separation. */
 static planar_move return_after_separation(hbm_restart restart, const planar_sample *from, const planar_sample *to,
                                            double w[2], planar_slope *slope)
@@ -85,7 +75,14 @@ static planar_move return_after_separation(hbm_restart restart, const planar_sam
   for (int d = 0; d < 2; ++d) w[d] = on_motion ? from->u[d] : 0;
   if (slope) *slope = (planar_slope){.w = {{1, 0}, {0, 1}}};
   const planar_move move = planar_slider_enter(to, w, slope);
-  if (slope) slope_from_start(on_motion, slope);
+  /* slope = that of `later`, whose start is a fixed place of the motion at `from`, or nowhere. */
+  if (slope) {
+    for (int d = 0; d < 2; ++d)
+      for (int c = 0; c < 2; ++c) {
+        slope->from[d][c] = on_motion ? slope->w[d][c] : 0;
+        slope->w[d][c] = 0;
+      }
+  }
   return move == PLANAR_HELD ? PLANAR_PLACED : move;
 }
 
@@ -132,25 +129,6 @@ static double slip_begins(const double p[2], const double d[2], double r, double
   return fmin(fmax(t, 0), 1);
 }
 
-static void turn_along(const planar_sample *to, slip_line *l)
-{
-  const double *n = l->n, *e = l->e0, c = dot(n, e), s = n[0] * e[1] - n[1] * e[0];
-  const double A = c < 0 ? s * s / (1 - c) : 1 + c, B = c > 0 ? s * s / (1 + c) : 1 - c;
-  double mean, first, last;
-  shares_of_radius((to->r - l->r_t) / l->r_t, &mean, &first, &last);
-  const double part = (1 - l->t) / l->r_t;
-  l->M = part * mean;
-  l->by_r0 = part * part * first;
-  l->by_r1 = part / l->r_t * (l->t * (first + last) + (1 - l->t) * last);
-  const double E = exp(-l->length * l->M), whole = A + B * E * E;
-  l->G = 2 * E / whole;
-  l->one_less_G = -expm1(-l->length * l->M) * (A - B * E) / whole;
-  l->sin_1 = l->G * s;
-  const double cos_1 = (A - B * E * E) / whole;
-  l->e1[0] = cos_1 * n[0] - l->sin_1 * n[1];
-  l->e1[1] = cos_1 * n[1] + l->sin_1 * n[0];
-}
-
 static void slope_of_line(const planar_sample *to, const slip_line *l, planar_slope *slope)
 {
   const double toward[2] = {-l->e0[1] * l->G / l->r_t, l->e0[0] * l->G / l->r_t};
@@ -178,7 +156,21 @@ static planar_move go_along_line(const planar_sample *from, const planar_sample 
   const double size = hypot(l.e0[0], l.e0[1]);
   for (int k = 0; k < 2; ++k) l.e0[k] /= size;
   for (int k = 0; k < 2; ++k) l.n[k] = l.length > 0 ? d[k] / l.length : l.e0[k];
-  turn_along(to, &l);
+  const double *n = l.n, *e = l.e0, c = dot(n, e), s = n[0] * e[1] - n[1] * e[0];
+  const double A = c < 0 ? s * s / (1 - c) : 1 + c, B = c > 0 ? s * s / (1 + c) : 1 - c;
+  double mean, first, last;
+  shares_of_radius((to->r - l.r_t) / l.r_t, &mean, &first, &last);
+  const double part = (1 - l.t) / l.r_t;
+  l.M = part * mean;
+  l.by_r0 = part * part * first;
+  l.by_r1 = part / l.r_t * (l.t * (first + last) + (1 - l.t) * last);
+  const double E = exp(-l.length * l.M), whole = A + B * E * E;
+  l.G = 2 * E / whole;
+  l.one_less_G = -expm1(-l.length * l.M) * (A - B * E) / whole;
+  l.sin_1 = l.G * s;
+  const double cos_1 = (A - B * E * E) / whole;
+  l.e1[0] = cos_1 * n[0] - l.sin_1 * n[1];
+  l.e1[1] = cos_1 * n[1] + l.sin_1 * n[0];
   for (int k = 0; k < 2; ++k) w[k] = to->u[k] - to->r * l.e1[k];
   if (slope) slope_of_line(to, &l, slope);
   return PLANAR_SLIPPED;

@@ -136,22 +136,6 @@ double hbm_linear_response(hbm_system *sys, double omega, double *X)
   return norm_2(sys->n_coef, X);
 }
 
-/* dq_h = -(S + K')^-1 (dS q_h - dp), harmonic by harmonic: the rows of the equations' derivative. */
-static void differentiate_response(hbm_system *sys, double omega, const double *X, double *R, double *dX)
-{
-  const int dim = sys->dim;
-  memset(dX, 0, (size_t)sys->n_coef * sizeof(double));
-  hbm_system_domega(sys, omega, X, R);
-  for (int l = 0; l < sys->model->n_loads; ++l) {
-    const int h = sys->model->loads[l].harmonic;
-    if (h == 0 || factor(sys, h) != HC_OK) continue;
-    const double *a = R + (2 * h - 1) * dim - sys->first;
-    for (int d = 0; d < dim; ++d) sys->z[d] = -(a[d] - I * a[dim + d]);
-    dense_solve_complex(dim, sys->A, sys->pivot, false, 1, sys->z);
-    put_amplitude(sys, h, sys->z, dX);
-  }
-}
-
 bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, double *dX, hbm_point *point)
 {
   hbm_system *sys = &s->sys;
@@ -165,7 +149,18 @@ bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, doubl
   residual /= hbm_system_scale(sys, omega);
   if (!(residual <= sys->how.tolerance)) return false;
   memcpy(X, linear, (size_t)sys->n_coef * sizeof(double));
-  differentiate_response(sys, omega, X, R, dX);
+  /* dq_h = -(S + K')^-1 (dS q_h - dp), harmonic by harmonic: the rows of the equations' derivative. */
+  const int dim = sys->dim;
+  memset(dX, 0, (size_t)sys->n_coef * sizeof(double));
+  hbm_system_domega(sys, omega, X, R);
+  for (int l = 0; l < sys->model->n_loads; ++l) {
+    const int h = sys->model->loads[l].harmonic;
+    if (h == 0 || factor(sys, h) != HC_OK) continue;
+    const double *a = R + (2 * h - 1) * dim - sys->first;
+    for (int d = 0; d < dim; ++d) sys->z[d] = -(a[d] - I * a[dim + d]);
+    dense_solve_complex(dim, sys->A, sys->pivot, false, 1, sys->z);
+    put_amplitude(sys, h, sys->z, dX);
+  }
   *point = (hbm_point){.omega = omega, .residual = residual, .harmonics = sys->n_harm, .error = NAN};
   return true;
 }

@@ -94,20 +94,6 @@ static void make_sum_arrays(mode_sum *m)
   m->series = workspace_doubles(w, (rows * dim + LANES) * TERMS);
 }
 
-/* Mode i becomes the one numbered `from` in the table. */
-static void take_mode(mode_sum *m, int i, const mode_table *of, int from)
-{
-  if (of->lambda) m->lambda[i] = of->lambda[from];
-  else m->k[i] = of->k[from], m->c[i] = of->c[from];
-  for (int a = 0; a < m->rows; ++a) {
-    const size_t at = (size_t)a * (size_t)m->n + (size_t)from;
-    m->lr[a * m->n + i] = of->lambda ? creal(of->left[at]) : of->x[at];
-    if (!of->lambda) continue;
-    m->li[a * m->n + i] = cimag(of->left[at]);
-    m->rr[a * m->n + i] = creal(of->right[at]), m->ri[a * m->n + i] = cimag(of->right[at]);
-  }
-}
-
 /* For a < dim and all b < rows. HC_NO_MEMORY: *out is NULL. */
 static hc_status mode_sum_new(const mode_table *of, int dim, int rows, mode_sum **out)
 {
@@ -127,7 +113,16 @@ static hc_status mode_sum_new(const mode_table *of, int dim, int rows, mode_sum 
   qsort(order, (size_t)n, sizeof *order, by_distance);
   for (int i = 0; i < n; ++i) {
     m->distance[i] = order[i].distance;
-    take_mode(m, i, of, order[i].mode);
+    /* Mode i becomes the one numbered `from` in the table. */
+    if (of->lambda) m->lambda[i] = of->lambda[order[i].mode];
+    else m->k[i] = of->k[order[i].mode], m->c[i] = of->c[order[i].mode];
+    for (int a = 0; a < m->rows; ++a) {
+      const size_t at = (size_t)a * (size_t)m->n + (size_t)order[i].mode;
+      m->lr[a * m->n + i] = of->lambda ? creal(of->left[at]) : of->x[at];
+      if (!of->lambda) continue;
+      m->li[a * m->n + i] = cimag(of->left[at]);
+      m->rr[a * m->n + i] = creal(of->right[at]), m->ri[a * m->n + i] = cimag(of->right[at]);
+    }
   }
   free(order);
   return HC_OK;
@@ -144,40 +139,6 @@ static double *coefficient(const mode_sum *m, size_t entry, int t)
   return m->series + (entry / LANES * TERMS + (size_t)t) * LANES + entry % LANES;
 }
 
-/* Coefficient t of every far mode's series in s/reach, from those before it. Of a mode, 1/(k + c s + s^2): g_t =
- * -(c reach g_(t-1) + reach^2 g_(t-2))/k. Of a pole, 1/(s - lambda): -(reach/lambda)^t/lambda, and its conjugate's. */
-static void next_coefficients(mode_sum *m, int t, double *now, double *before)
-{
-  for (int i = m->near; i < m->n; ++i) {
-    if (m->poles) {
-      m->power[i] = t == 0 ? -1 / m->lambda[i] : m->power[i] * (m->reach / m->lambda[i]);
-      continue;
-    }
-    const double g = t == 0 ? 1 / m->k[i] : -(m->c[i] * m->reach * now[i] + m->reach * m->reach * before[i]) / m->k[i];
-    before[i] = t == 0 ? 0 : now[i];
-    now[i] = g;
-  }
-}
-
-static void add_term(mode_sum *m, int t, const double *now)
-{
-  const int dim = m->dim;
-  for (int i = m->near; i < m->n; ++i) {
-    const double complex power = m->poles ? m->power[i] * (cimag(m->lambda[i]) > 0 ? 2 : 1) : now[i];
-    for (int a = 0; a < dim; ++a) {
-      const double complex z = (m->lr[a * m->n + i] + (m->poles ? I * m->li[a * m->n + i] : 0)) * power;
-      m->product[i * dim + a] = creal(z);
-      if (m->poles) m->turned[i * dim + a] = -cimag(z);
-    }
-  }
-  const int behind = m->n - m->near, first = m->near;
-  const double *right = (m->poles ? m->rr : m->lr) + first;
-  dense_add_product(dim, m->rows, behind, 1, m->product + first * dim, dim, right, m->n, 0, m->term, dim);
-  if (m->poles)
-    dense_add_product(dim, m->rows, behind, 1, m->turned + first * dim, dim, m->ri + first, m->n, 1, m->term, dim);
-  for (size_t e = 0; e < (size_t)m->rows * (size_t)dim; ++e) *coefficient(m, e, t) = m->term[e];
-}
-
 static void make_series(mode_sum *m, double reach)
 {
   double *now = m->weight, *before = now + m->n;
@@ -185,8 +146,34 @@ static void make_series(mode_sum *m, double reach)
   m->near = 0;
   while (m->near < m->n && !(m->distance[m->near] > FAR * reach)) ++m->near;
   for (int t = 0; t < TERMS; ++t) {
-    next_coefficients(m, t, now, before);
-    add_term(m, t, now);
+    /* Coefficient t of every far mode's series in s/reach, from those before it. Of a mode, 1/(k + c s + s^2): g_t =
+     * -(c reach g_(t-1) + reach^2 g_(t-2))/k. Of a pole, 1/(s - lambda): -(reach/lambda)^t/lambda, and its
+     * conjugate's. */
+    for (int i = m->near; i < m->n; ++i) {
+      if (m->poles) {
+        m->power[i] = t == 0 ? -1 / m->lambda[i] : m->power[i] * (m->reach / m->lambda[i]);
+        continue;
+      }
+      const double g =
+          t == 0 ? 1 / m->k[i] : -(m->c[i] * m->reach * now[i] + m->reach * m->reach * before[i]) / m->k[i];
+      before[i] = t == 0 ? 0 : now[i];
+      now[i] = g;
+    }
+    const int dim = m->dim;
+    for (int i = m->near; i < m->n; ++i) {
+      const double complex power = m->poles ? m->power[i] * (cimag(m->lambda[i]) > 0 ? 2 : 1) : now[i];
+      for (int a = 0; a < dim; ++a) {
+        const double complex z = (m->lr[a * m->n + i] + (m->poles ? I * m->li[a * m->n + i] : 0)) * power;
+        m->product[i * dim + a] = creal(z);
+        if (m->poles) m->turned[i * dim + a] = -cimag(z);
+      }
+    }
+    const int behind = m->n - m->near, first = m->near;
+    const double *right = (m->poles ? m->rr : m->lr) + first;
+    dense_add_product(dim, m->rows, behind, 1, m->product + first * dim, dim, right, m->n, 0, m->term, dim);
+    if (m->poles)
+      dense_add_product(dim, m->rows, behind, 1, m->turned + first * dim, dim, m->ri + first, m->n, 1, m->term, dim);
+    for (size_t e = 0; e < (size_t)m->rows * (size_t)dim; ++e) *coefficient(m, e, t) = m->term[e];
   }
 }
 
@@ -216,22 +203,6 @@ static inline void sum_derivatives(const double *restrict T, double v, lane_sums
   }
 }
 
-/* += the series and, if by_s is not NULL, its derivative, at s = i w. Of v = (s/reach)^2 < 0: even powers are real. */
-static void add_series(const mode_sum *m, double w, int from, int to, double complex *G, double complex *by_s)
-{
-  const double x = w / m->reach, v = -x * x;
-  const int first = from * m->dim, end = to * m->dim;
-  for (int block = first - first % LANES; block < end; block += LANES) {
-    const double *T = m->series + (size_t)block * TERMS;
-    const int low = block < first ? first - block : 0, high = block + LANES > end ? end - block : LANES;
-    lane_sums s;
-    if (G) sum_terms(T, v, &s);
-    for (int k = low; G && k < high; ++k) G[block + k - first] += s.even[k] + I * x * s.odd[k];
-    if (by_s) sum_derivatives(T, v, &s);
-    for (int k = low; by_s && k < high; ++k) by_s[block + k - first] += (s.odd[k] + I * x * s.even[k]) / m->reach;
-  }
-}
-
 /* ---- a value ------------------------------------------------------------------------------------- */
 
 /* weight: real and imaginary parts of 1/z of the first n modes, by `square` of 1/z^2 factor_i. */
@@ -245,26 +216,6 @@ static double complex of_mode(const mode_sum *m, int i, double w, double d, want
   const double a = creal(inverse), b = cimag(inverse);
   const double complex square = (a * a - b * b) + I * (2 * a * b);
   return what == BY_S ? -square * ((m->c[i] + d) + I * (2 * w)) : -square * (I * w);
-}
-
-/* Into weight[4][n]: what real and imaginary parts of products are multiplied by. */
-static bool fill_weights(mode_sum *m, int n, double w, double d, wanted what)
-{
-  double *ar = m->weight, *ai = ar + m->n, *br = ai + m->n, *bi = br + m->n, sum = 0;
-  for (int i = 0; i < n; ++i) {
-    double complex z, conjugate = 0;
-    if (!m->poles) z = of_mode(m, i, w, d, what);
-    else {
-      const bool pair = cimag(m->lambda[i]) > 0;
-      z = 1 / (I * w - m->lambda[i]);
-      if (pair) conjugate = 1 / (I * w - conj(m->lambda[i]));
-      if (what == BY_S) z = -z * z, conjugate = -conjugate * conjugate;
-    }
-    ar[i] = creal(z + conjugate), ai[i] = cimag(z + conjugate);
-    br[i] = -cimag(z - conjugate), bi[i] = creal(z - conjugate); /* i (z - conjugate) */
-    sum += ar[i] + ai[i];
-  }
-  return isfinite(sum);
 }
 
 /* += the sum over the first n modes. With l r = p + i q: p (z + z') + q i (z - z'). */
@@ -291,7 +242,22 @@ static void add_modes(mode_sum *m, int n, int from, int to, double complex *G)
 static hc_status add_up(mode_sum *m, int n, double w, double d, wanted what, int from, int to, double complex *G)
 {
   memset(G, 0, (size_t)(to - from) * (size_t)m->dim * sizeof *G);
-  if (!fill_weights(m, n, w, d, what)) return HC_NOT_FINITE;
+  /* Into weight[4][n]: what real and imaginary parts of products are multiplied by. */
+  double *ar = m->weight, *ai = ar + m->n, *br = ai + m->n, *bi = br + m->n, sum = 0;
+  for (int i = 0; i < n; ++i) {
+    double complex z, conjugate = 0;
+    if (!m->poles) z = of_mode(m, i, w, d, what);
+    else {
+      const bool pair = cimag(m->lambda[i]) > 0;
+      z = 1 / (I * w - m->lambda[i]);
+      if (pair) conjugate = 1 / (I * w - conj(m->lambda[i]));
+      if (what == BY_S) z = -z * z, conjugate = -conjugate * conjugate;
+    }
+    ar[i] = creal(z + conjugate), ai[i] = cimag(z + conjugate);
+    br[i] = -cimag(z - conjugate), bi[i] = creal(z - conjugate); /* i (z - conjugate) */
+    sum += ar[i] + ai[i];
+  }
+  if (!isfinite(sum)) return HC_NOT_FINITE;
   add_modes(m, n, from, to, G);
   return HC_OK;
 }
@@ -309,7 +275,21 @@ static hc_status mode_sum_at(mode_sum *m, double w, double reach, double d, int 
   hc_status st = G ? add_up(m, n, w, d, VALUE, from, to, G) : HC_OK;
   if (st == HC_OK && by_s) st = add_up(m, n, w, d, BY_S, from, to, by_s);
   if (st == HC_OK && by_d) st = add_up(m, n, w, d, BY_D, from, to, by_d);
-  if (st == HC_OK && by_series) add_series(m, w, from, to, G, by_s);
+  /* += the series and, if by_s is not NULL, its derivative, at s = i w. Of v = (s/reach)^2 < 0: even powers are
+   * real. */
+  if (st == HC_OK && by_series) {
+    const double x = w / m->reach, v = -x * x;
+    const int first = from * m->dim, end = to * m->dim;
+    for (int block = first - first % LANES; block < end; block += LANES) {
+      const double *T = m->series + (size_t)block * TERMS;
+      const int low = block < first ? first - block : 0, high = block + LANES > end ? end - block : LANES;
+      lane_sums s;
+      if (G) sum_terms(T, v, &s);
+      for (int k = low; G && k < high; ++k) G[block + k - first] += s.even[k] + I * x * s.odd[k];
+      if (by_s) sum_derivatives(T, v, &s);
+      for (int k = low; by_s && k < high; ++k) by_s[block + k - first] += (s.odd[k] + I * x * s.even[k]) / m->reach;
+    }
+  }
   return st;
 }
 
@@ -463,18 +443,6 @@ static hc_status sum_poles(const model *m, int dim, const modal_form *f, complia
 
 /* ---- made and freed --------------------------------------------------------------------------------- */
 
-static hc_status make_workspace(const model *m, int dim, compliance *c)
-{
-  const size_t columns = (size_t)dim + 2 * (size_t)m->n_loads + (size_t)m->n_responses,
-               rows = (size_t)(dim > m->n_responses ? dim : m->n_responses);
-  c->G = workspace_array(&c->memory, columns * rows, sizeof *c->G);
-  c->by_s = workspace_array(&c->memory, columns * rows, sizeof *c->by_s);
-  c->by_d = workspace_array(&c->memory, columns * rows, sizeof *c->by_d);
-  c->work = workspace_array(&c->memory, DENSE_INVERT_WORK * (size_t)dim, sizeof *c->work);
-  c->pivot = workspace_array(&c->memory, (size_t)dim, sizeof *c->pivot);
-  return c->memory.failed ? HC_NO_MEMORY : HC_OK;
-}
-
 hc_status compliance_new(const model *m, int dim, const double *B, compliance **out)
 {
   modal_form f = {.n = 0};
@@ -488,7 +456,16 @@ hc_status compliance_new(const model *m, int dim, const double *B, compliance **
   for (size_t i = 0; i < (size_t)m->n && st == HC_OK; ++i) damped &= f.C[i * (size_t)(m->n + 1)] > 0;
   if (st == HC_OK && damped)
     st = dense_is_diagonal(f.n, f.C, f.n) ? sum_modes(m, dim, &f, c) : sum_poles(m, dim, &f, c);
-  if (st == HC_OK && c->of_responses) st = make_workspace(m, dim, c);
+  if (st == HC_OK && c->of_responses) {
+    const size_t columns = (size_t)dim + 2 * (size_t)m->n_loads + (size_t)m->n_responses,
+                 rows = (size_t)(dim > m->n_responses ? dim : m->n_responses);
+    c->G = workspace_array(&c->memory, columns * rows, sizeof *c->G);
+    c->by_s = workspace_array(&c->memory, columns * rows, sizeof *c->by_s);
+    c->by_d = workspace_array(&c->memory, columns * rows, sizeof *c->by_d);
+    c->work = workspace_array(&c->memory, DENSE_INVERT_WORK * (size_t)dim, sizeof *c->work);
+    c->pivot = workspace_array(&c->memory, (size_t)dim, sizeof *c->pivot);
+    st = c->memory.failed ? HC_NO_MEMORY : HC_OK;
+  }
   workspace_free(&f.memory);
   const bool usable = st == HC_OK && c->of_responses;
   if (usable) *out = c;

@@ -142,19 +142,6 @@ static hc_status choose_modes(const model *m, condensation_basis *b)
   return st;
 }
 
-/* By the choice of Y the rest's blocks of M and K are diagonal, and K couples it with q nowhere: what is left there is
- * rounding. */
-static void drop_rounding(condensation_basis *b)
-{
-  const int n = b->n, dim = b->dim;
-  for (int j = 0; j < n; ++j)
-    for (int i = dim; i < n; ++i) {
-      if (i == j) continue;
-      if (j >= dim) b->M[(size_t)i + (size_t)j * (size_t)n] = 0;
-      b->K[(size_t)i + (size_t)j * (size_t)n] = b->K[(size_t)j + (size_t)i * (size_t)n] = 0;
-    }
-}
-
 /* ---- everything in the new coordinates ---------------------------------------------------------- */
 
 static void transform(const condensation_basis *b, int columns, const double *x, double *out)
@@ -198,7 +185,17 @@ hc_status condensation_basis_make(const model *m, condensation_basis *b)
     dense_congruence(m->n, m->n, b->T, m->damping, work, b->C);
     dense_congruence(m->n, m->n, b->T, m->stiffness, work, b->K);
     transform_vectors(m, b);
-    if (modes) drop_rounding(b);
+    /* By the choice of Y the rest's blocks of M and K are diagonal, and K couples it with q nowhere: what is left
+     * there is rounding. */
+    if (modes) {
+      const int n = b->n, dim = b->dim;
+      for (int j = 0; j < n; ++j)
+        for (int i = dim; i < n; ++i) {
+          if (i == j) continue;
+          if (j >= dim) b->M[(size_t)i + (size_t)j * (size_t)n] = 0;
+          b->K[(size_t)i + (size_t)j * (size_t)n] = b->K[(size_t)j + (size_t)i * (size_t)n] = 0;
+        }
+    }
     b->modes = modes;
     b->diagonal = modes && dense_is_diagonal(b->rest, b->C + (size_t)b->dim * (size_t)(m->n + 1), m->n);
   }

@@ -116,23 +116,18 @@ static hc_status pass(by_series *in, int j, track_event event, bool varies, int 
   return HC_OK;
 }
 
-/* At the end of the step. */
-static void note_turning(by_series *in)
-{
-  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
-    if (!in->track[j].turns) continue;
-    const contact_motion at = scaled_motion_at(in->m, j, in->end);
-    contact_track_note(&in->track[j], &in->m->contact[j], &at);
-  }
-}
-
 /* Contact `changing` passes the event at the end of the step, if it is not -1; then on to the next step, at theta. */
 static hc_status end_step(by_series *in, int changing, track_event event, bool varies, double theta, int *count)
 {
   hc_status st = changing >= 0 ? pass(in, changing, event, varies, count) : HC_OK;
   if (st != HC_OK) return st;
   memcpy(in->y, in->end, 2 * (size_t)in->n * sizeof *in->y);
-  note_turning(in);
+  /* At the end of the step. */
+  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
+    if (!in->track[j].turns) continue;
+    const contact_motion at = scaled_motion_at(in->m, j, in->end);
+    contact_track_note(&in->track[j], &in->m->contact[j], &at);
+  }
   in->theta = theta;
   return HC_OK;
 }

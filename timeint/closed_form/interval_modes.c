@@ -196,20 +196,6 @@ static void take_mode(const interval_modes *p, complex_modes *s, int k, int from
   }
 }
 
-/* All of them but the second of each pair, slowest first. */
-static void take_modes(interval_modes *p, complex_modes *s)
-{
-  const double complex *lambda = p->eigen.lambda;
-  s->count = 0;
-  for (int k = 0; k < 2 * p->base->n; ++k) {
-    if (cimag(lambda[k]) < 0) continue;
-    int at = s->count++;
-    for (; at > 0 && cabs(lambda[p->order[at - 1]]) > cabs(lambda[k]); --at) p->order[at] = p->order[at - 1];
-    p->order[at] = k;
-  }
-  for (int k = 0; k < s->count; ++k) take_mode(p, s, k, p->order[k]);
-}
-
 /* The one that has these states, or the one to be overwritten. */
 static complex_modes *look_up(interval_modes *p, bool *found)
 {
@@ -242,7 +228,18 @@ hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const cont
     fill_matrix(p, m, track);
     hc_status st = eigensystem_find(&p->eigen, p->matrix);
     if (st == HC_NO_MEMORY || st == HC_NOT_FINITE) return st;
-    if (st == HC_OK) take_modes(p, s);
+    /* All of them but the second of each pair, slowest first. */
+    if (st == HC_OK) {
+      const double complex *lambda = p->eigen.lambda;
+      s->count = 0;
+      for (int k = 0; k < 2 * p->base->n; ++k) {
+        if (cimag(lambda[k]) < 0) continue;
+        int at = s->count++;
+        for (; at > 0 && cabs(lambda[p->order[at - 1]]) > cabs(lambda[k]); --at) p->order[at] = p->order[at - 1];
+        p->order[at] = k;
+      }
+      for (int k = 0; k < s->count; ++k) take_mode(p, s, k, p->order[k]);
+    }
   }
   if (s->count > 0) *out = s;
   return HC_OK;

@@ -39,22 +39,17 @@ static double complex divided_difference(double complex root, double tau)
   return cexp(root * tau) * (cabs(apart) > 0 ? expm1_complex(apart * tau) / apart : tau);
 }
 
-/* Near resonance c^2/4 < k: the roots are -c/2 +- i w, w near 1. */
-static void resonant_response(const mode *m, double tau, mode_flow *out)
-{
-  const double w = sqrt(m->k - 0.25 * m->c * m->c);
-  const double complex one = -0.5 * m->c + I * w, two = conj(one);
-  const double complex first = divided_difference(one, tau), second = divided_difference(two, tau);
-  out->r = (first - second) / (one - two);
-  out->dr = (one * first - two * second) / (one - two);
-}
-
 void mode_advance(const mode *m, double tau, mode_flow *out)
 {
   linear_free_motion(1, m->c, m->k, tau, out->e);
   out->s = m->soft ? linear_step_response(m->c, m->k, tau) : (1 - out->e[0][0]) / m->k;
   if (m->resonant) {
-    resonant_response(m, tau, out);
+    /* Near resonance c^2/4 < k: the roots are -c/2 +- i w, w near 1. */
+    const double w = sqrt(m->k - 0.25 * m->c * m->c);
+    const double complex one = -0.5 * m->c + I * w, two = conj(one);
+    const double complex first = divided_difference(one, tau), second = divided_difference(two, tau);
+    out->r = (first - second) / (one - two);
+    out->dr = (one * first - two * second) / (one - two);
     return;
   }
   const double co = cos(tau), si = sin(tau);
@@ -170,18 +165,12 @@ static double clear_step(search *s, const modal_guard *g, const modal_point *now
   return one_way;
 }
 
-static double cap(const modal_motion *m)
-{
-  double h = longest_step;
-  for (int i = 0; i < m->n; ++i)
-    if (m->mode[i].grows * h > 1) h = 1 / m->mode[i].grows;
-  return h;
-}
-
 int modal_first_crossing(const modal_motion *m, double span, int n_guards, const modal_guard *guards, modal_point *at,
                          modal_point *scratch, long *evaluations)
 {
-  const double longest = cap(m);
+  double longest = longest_step;
+  for (int i = 0; i < m->n; ++i)
+    if (m->mode[i].grows * longest > 1) longest = 1 / m->mode[i].grows;
   search s = {m, scratch, 1};
   double limit = span;
   int first = -1;

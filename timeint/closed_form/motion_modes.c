@@ -154,9 +154,10 @@ bool motion_modes_begin(motion_modes *mm, const complex_modes *modes, const scal
   return true;
 }
 
-/* eta and deta: the derivative of that order, and the next. */
-static void find_eta(motion_modes *mm, double tau, int order)
+void motion_modes_at(motion_modes *mm, double tau, int order, double *out)
 {
+  const size_t n = (size_t)mm->base->n;
+  /* eta and deta: the derivative of that order, and the next. */
   const size_t loads = (size_t)mm->base->n_loads, count = (size_t)mm->modes->count;
   for (size_t k = 0; k < count; ++k) {
     const double complex mu = mm->rate[loads + k], z = mm->c[k] * cexp(mu * tau);
@@ -171,12 +172,6 @@ static void find_eta(motion_modes *mm, double tau, int order)
       mm->deta[k] += order == 0 ? turns * (forward - back) : turns * turns * (forward + back);
     }
   }
-}
-
-void motion_modes_at(motion_modes *mm, double tau, int order, double *out)
-{
-  const size_t n = (size_t)mm->base->n;
-  find_eta(mm, tau, order);
   memset(out, 0, 2 * n * sizeof *out);
   for (size_t k = 0; k < (size_t)mm->modes->count; ++k) {
     const double complex *V = mm->modes->V + k * n, eta = mm->modes->weight[k] * mm->eta[k],
@@ -196,19 +191,6 @@ contact_motion motion_modes_contact(const motion_modes *mm, int j, int direction
   return at;
 }
 
-/* The condition on the motion (u, v) as a sum. */
-static void make_guard(const motion_modes *mm, const track_condition *g, const exponential_sum *u,
-                       const exponential_sum *v, exponential_sum *guard)
-{
-  guard->constant =
-      g->of_rates ? 0 : g->by_v * (v->constant + g->gap) + g->constant + g->by_u * (u->constant - g->from_u);
-  for (int k = 0; k < mm->e.n; ++k) {
-    const double complex by = g->by_u * u->by[k] + g->by_v * v->by[k];
-    guard->by[k] = g->of_rates ? mm->rate[k] * by : by;
-  }
-  exponential_sum_measure(&mm->e, guard);
-}
-
 int motion_modes_first_event(motion_modes *mm, const scaled_model *m, const contact_track *track, double *tau,
                              track_event *event)
 {
@@ -219,7 +201,17 @@ int motion_modes_first_event(motion_modes *mm, const scaled_model *m, const cont
     const int more = contact_track_conditions(&track[j], &m->contact[j], conditions);
     for (int i = 0; i < more; ++i, ++n) {
       mm->guard[n].noise = contact_track_noise(&conditions[i], &m->contact[j], &at);
-      make_guard(mm, &conditions[i], &mm->u[j], &mm->v[j], &mm->guard[n]);
+      /* The condition on the motion (u, v) as a sum. */
+      mm->guard[n].constant = conditions[i].of_rates
+                                  ? 0
+                                  : conditions[i].by_v * (mm->v[j].constant + conditions[i].gap) +
+                                        conditions[i].constant +
+                                        conditions[i].by_u * (mm->u[j].constant - conditions[i].from_u);
+      for (int k = 0; k < mm->e.n; ++k) {
+        const double complex by = conditions[i].by_u * mm->u[j].by[k] + conditions[i].by_v * mm->v[j].by[k];
+        mm->guard[n].by[k] = conditions[i].of_rates ? mm->rate[k] * by : by;
+      }
+      exponential_sum_measure(&mm->e, &mm->guard[n]);
       mm->of[n] = j;
       mm->event[n] = conditions[i].event;
     }
@@ -259,22 +251,17 @@ void motion_modes_fourier(const motion_modes *mm, int i, double tau0, double tau
   out[2] = cimag(turned);
 }
 
-/* +-r' as a guard. */
-static void make_rate(const motion_modes *mm, const exponential_sum *r, double sign, exponential_sum *guard)
-{
-  guard->constant = 0;
-  for (int k = 0; k < mm->e.n; ++k) guard->by[k] = sign * mm->rate[k] * r->by[k];
-  guard->noise = rounding;
-  exponential_sum_measure(&mm->e, guard);
-}
-
 void motion_modes_extremes(motion_modes *mm, int i, double tau0, double tau1, double *max, double *min)
 {
   const exponential_sum *r = &mm->response[i];
   double rate, x = exponential_sum_at(&mm->e, r, tau0, &rate), sign = rate < 0 ? -1 : 1;
   *max = *min = x;
   for (double tau = tau0; tau < tau1; sign = -sign) {
-    make_rate(mm, r, sign, mm->guard);
+    /* +-r' as a guard. */
+    mm->guard->constant = 0;
+    for (int k = 0; k < mm->e.n; ++k) mm->guard->by[k] = sign * mm->rate[k] * r->by[k];
+    mm->guard->noise = rounding;
+    exponential_sum_measure(&mm->e, mm->guard);
     double next = tau1;
     exponentials_first_fall(&mm->e, 1, mm->guard, tau, tau1, &next);
     x = exponential_sum_at(&mm->e, r, next, NULL);

@@ -45,21 +45,6 @@ static double largest(int n, const double *a)
   return most;
 }
 
-/* The loads' coefficient k, from that of their cosine and sine. */
-static void add_loads(motion_series *s, const scaled_model *m, double theta, int k, double *force)
-{
-  const modal_base *b = m->base;
-  for (int l = 0; l < b->n_loads; ++l) {
-    double *c = s->load + 2 * l;
-    const double h = b->harmonic[l], before = c[0];
-    if (k == 0) c[0] = cos(h * theta), c[1] = sin(h * theta);
-    else c[0] = -h * c[1] / k, c[1] = h * before / k;
-    const double by_cosine = m->by_load * c[0], by_sine = m->by_load * c[1];
-    const double *cosine = b->cosine + (size_t)l * (size_t)s->n, *sine = b->sine + (size_t)l * (size_t)s->n;
-    for (int i = 0; i < s->n; ++i) force[i] += by_cosine * cosine[i] + by_sine * sine[i];
-  }
-}
-
 /* Coefficient k of every contact's motion. */
 static void project(motion_series *s, int k)
 {
@@ -74,17 +59,6 @@ static void project(motion_series *s, int k)
 static void add_pull(motion_series *s, int row, double force)
 {
   if (row >= 0) s->pull[row] += force;
-}
-
-/* What the contacts take from coefficient k: constants only in the first. */
-static void add_contacts(motion_series *s, int k)
-{
-  for (int j = 0; j < s->n_contacts; ++j) {
-    const contact_forces_linear *f = &s->law[j];
-    const size_t at = (size_t)j * TERMS + (size_t)k;
-    add_pull(s, s->rows.along[j], f->t_u * s->u[at] + f->t_v * s->v[at] + (k == 0 ? f->t_0 : 0));
-    add_pull(s, s->rows.across[j], f->n_v * s->v[at] + (k == 0 ? f->n_0 : 0));
-  }
 }
 
 /* What T of the slips that turn takes from coefficient k. */
@@ -123,11 +97,28 @@ static double expand(motion_series *s, const scaled_model *m, bool loaded, doubl
     const double *x = s->x + (size_t)k * n;
     double *force = s->force, *next = s->x + (size_t)(k + 2) * n;
     memset(force, 0, n * sizeof *force);
-    if (loaded) add_loads(s, m, theta, k, force);
+    /* The loads' coefficient k, from that of their cosine and sine. */
+    if (loaded) {
+      for (int l = 0; l < b->n_loads; ++l) {
+        double *c = s->load + 2 * l;
+        const double h = b->harmonic[l], before = c[0];
+        if (k == 0) c[0] = cos(h * theta), c[1] = sin(h * theta);
+        else c[0] = -h * c[1] / k, c[1] = h * before / k;
+        const double by_cosine = m->by_load * c[0], by_sine = m->by_load * c[1];
+        const double *cosine = b->cosine + (size_t)l * (size_t)s->n, *sine = b->sine + (size_t)l * (size_t)s->n;
+        for (int i = 0; i < s->n; ++i) force[i] += by_cosine * cosine[i] + by_sine * sine[i];
+      }
+    }
     modal_base_subtract_K(b, m->by_K, x, force);
     modal_base_subtract_C(b, m->by_C * (k + 1), x + n, force);
     memset(s->pull, 0, (size_t)s->rows.count * sizeof *s->pull);
-    add_contacts(s, k);
+    /* What the contacts take from coefficient k: constants only in the first. */
+    for (int j = 0; j < s->n_contacts; ++j) {
+      const contact_forces_linear *f = &s->law[j];
+      const size_t at = (size_t)j * TERMS + (size_t)k;
+      add_pull(s, s->rows.along[j], f->t_u * s->u[at] + f->t_v * s->v[at] + (k == 0 ? f->t_0 : 0));
+      add_pull(s, s->rows.across[j], f->n_v * s->v[at] + (k == 0 ? f->n_0 : 0));
+    }
     add_turning(s, m, k);
     contact_rows_pull(&s->rows, 1, s->pull, force);
     for (size_t i = 0; i < n; ++i) next[i] = force[i] / ((k + 1) * (k + 2));

@@ -109,14 +109,6 @@ static void add_row(series_columns *s, const double *row)
   memcpy(s->rows + (size_t)s->n_rows++ * (size_t)s->n, row, (size_t)s->n * sizeof *row);
 }
 
-/* The contact whose first direction is j, and whose slip turns. */
-static void add_slipping(series_columns *s, const modal_base *b, int j)
-{
-  const size_t n = (size_t)s->n, i = (size_t)s->n_slipping++;
-  memcpy(s->slip_tangents + 2 * n * i, b->tangent + (size_t)j * n, 2 * n * sizeof *s->slip_tangents);
-  memcpy(s->slip_normals + n * i, b->normal + (size_t)j * n, n * sizeof *s->slip_normals);
-}
-
 /* Two directions have half of N each: the first gets all of it. */
 static void join_normals(series_columns *s, int j)
 {
@@ -134,7 +126,12 @@ void series_columns_begin(series_columns *s, const scaled_model *m, const contac
     if (m->contact[j].direction > 0) join_normals(s, j);
   }
   for (int j = 0; j < s->n_contacts; ++j) {
-    if (track[j].turns && m->contact[j].direction == 0) add_slipping(s, b, j);
+    /* The contact whose first direction is j, and whose slip turns. */
+    if (track[j].turns && m->contact[j].direction == 0) {
+      const size_t n = (size_t)s->n, i = (size_t)s->n_slipping++;
+      memcpy(s->slip_tangents + 2 * n * i, b->tangent + (size_t)j * n, 2 * n * sizeof *s->slip_tangents);
+      memcpy(s->slip_normals + n * i, b->normal + (size_t)j * n, n * sizeof *s->slip_normals);
+    }
     if (has_tangent(&s->law[j])) add_row(s, b->tangent + (size_t)j * (size_t)s->n);
     if (has_normal(&s->law[j])) add_row(s, b->normal + (size_t)j * (size_t)s->n);
   }
@@ -163,9 +160,12 @@ static void subtract(series_columns *s, int width, bool diagonal, const double *
   }
 }
 
-/* s->motion := the forces that by dW_j of the contacts that stick are, row by row. */
-static void push_sliders(series_columns *s, int width, double by)
+/* out -= by (contacts of z), by the matrix of all of them. */
+static void subtract_whole(series_columns *s, int width, bool first, double by, const double *z, double *out)
 {
+  subtract(s, width, false, NULL, s->resistance, by, z, out);
+  if (!first) return;
+  /* s->motion := the forces that by dW_j of the contacts that stick are, row by row. */
   const size_t w = (size_t)width;
   double *row = s->motion;
   memset(s->motion, 0, (size_t)s->n_rows * w * sizeof *s->motion);
@@ -174,14 +174,6 @@ static void push_sliders(series_columns *s, int width, double by)
     for (size_t q = 0; has_tangent(f) && q < w; ++q) row[q] = by * f->t_w * s->slider[(size_t)j * w + q];
     row += (size_t)(has_tangent(f) + has_normal(f)) * w;
   }
-}
-
-/* out -= by (contacts of z), by the matrix of all of them. */
-static void subtract_whole(series_columns *s, int width, bool first, double by, const double *z, double *out)
-{
-  subtract(s, width, false, NULL, s->resistance, by, z, out);
-  if (!first) return;
-  push_sliders(s, width, by);
   dense_add_product(width, s->n, s->n_rows, -1, s->motion, width, s->turned, s->n_rows, 1, out, width);
 }
 

@@ -36,30 +36,27 @@ void events_newton_linearise(events_newton *s, const scaled_model *m, const doub
 /* dz/dd where nothing moves. */
 static double share_of(const events_newton *s, int j) { return 1 / (1 - s->step.gamma * s->slopes[j].rate_own); }
 
-static void eliminate(events_newton *s, int j)
-{
-  const int directions = s->step.contact[j].directions;
-  step_contact f = {.directions = directions};
-  for (int k = 0; k < directions; ++k) {
-    f.by_u[k][k] = s->law[j + k].t_u;
-    f.by_v[k] = s->law[j + k].t_v;
-    f.n_v = s->law[j + k].n_v;
-  }
-  if (directions > 0 && s->track[j].turns) {
-    const law_slopes *l = &s->slopes[j];
-    for (int k = 0; k < directions; ++k) {
-      const double by_z = l->t_own[k] * share_of(s, j);
-      for (int i = 0; i < directions; ++i) f.by_u[k][i] += by_z * l->rate_du[i];
-      f.by_v[k] += l->t_v[k] + by_z * s->step.gamma * l->rate_v;
-    }
-  }
-  s->step.contact[j] = f;
-}
-
 bool events_newton_factor(events_newton *s, const scaled_model *m, double gamma)
 {
   s->step.gamma = gamma;
-  for (int j = 0; j < s->step.n_contacts; ++j) eliminate(s, j);
+  for (int j = 0; j < s->step.n_contacts; ++j) {
+    const int directions = s->step.contact[j].directions;
+    step_contact f = {.directions = directions};
+    for (int k = 0; k < directions; ++k) {
+      f.by_u[k][k] = s->law[j + k].t_u;
+      f.by_v[k] = s->law[j + k].t_v;
+      f.n_v = s->law[j + k].n_v;
+    }
+    if (directions > 0 && s->track[j].turns) {
+      const law_slopes *l = &s->slopes[j];
+      for (int k = 0; k < directions; ++k) {
+        const double by_z = l->t_own[k] * share_of(s, j);
+        for (int i = 0; i < directions; ++i) f.by_u[k][i] += by_z * l->rate_du[i];
+        f.by_v[k] += l->t_v[k] + by_z * s->step.gamma * l->rate_v;
+      }
+    }
+    s->step.contact[j] = f;
+  }
   return step_equations_factor(&s->step, m);
 }
 

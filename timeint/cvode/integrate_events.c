@@ -310,24 +310,19 @@ static hc_status integrate_to_end(events *in, integrate_watch *watch, void *self
   return integrate_check_end(&in->base, theta, in->n_equations);
 }
 
-/* Which contacts have a state of their own. */
-static void number_own_states(events *in)
-{
-  in->n_own = 0;
-  for (int j = 0; j < in->n_contacts; ++j) {
-    const scaled_contact *c = &in->base.m->contact[j];
-    in->own_of[j] = c->kind->own_begin && c->direction == 0 ? in->n_own++ : -1;
-  }
-  for (int i = in->n_own; i < in->n_equations - 2 * in->n; ++i) own_states(in)[i] = 0; /* without friction */
-}
-
 static hc_status begin(events *in, const double *y, int *count)
 {
   double size = 0;
   for (int i = 0; i < in->base.m->n_states; ++i) size += fabs(y[i]);
   if (!isfinite(size)) return HC_NOT_FINITE;
   memcpy(NV_DATA_S(in->base.y), y, 2 * (size_t)in->n * sizeof *y);
-  number_own_states(in);
+  /* Which contacts have a state of their own. */
+  in->n_own = 0;
+  for (int j = 0; j < in->n_contacts; ++j) {
+    const scaled_contact *c = &in->base.m->contact[j];
+    in->own_of[j] = c->kind->own_begin && c->direction == 0 ? in->n_own++ : -1;
+  }
+  for (int i = in->n_own; i < in->n_equations - 2 * in->n; ++i) own_states(in)[i] = 0; /* without friction */
   in->passed = 0;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
     const contact_motion at = scaled_motion_at(in->base.m, j, y);

@@ -139,14 +139,6 @@ static int start_variations(regularised *in)
   return CVodeSensReInit(in->base.cv, CV_STAGGERED, in->s);
 }
 
-static hc_status start_period(regularised *in, bool varies)
-{
-  int flag = CVodeReInit(in->base.cv, 0.0, in->base.y);
-  if (flag == CV_SUCCESS) flag = varies ? start_variations(in) : CVodeSensToggleOff(in->base.cv);
-  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, TWO_PI);
-  return integrate_translate(&in->base, flag);
-}
-
 /* To the end of the period in one call. At tout == tstop 6.4 says CV_SUCCESS, 7 says CV_TSTOP_RETURN. */
 static hc_status integrate_unwatched(regularised *in)
 {
@@ -188,7 +180,10 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   hc_status st = integrate_begin_period(&in->base);
   if (st != HC_OK) return st;
   memcpy(NV_DATA_S(in->base.y), y, bytes);
-  st = start_period(in, monodromy != NULL);
+  int flag = CVodeReInit(in->base.cv, 0.0, in->base.y);
+  if (flag == CV_SUCCESS) flag = (monodromy != NULL) ? start_variations(in) : CVodeSensToggleOff(in->base.cv);
+  if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, TWO_PI);
+  st = integrate_translate(&in->base, flag);
   if (st == HC_OK) st = watch ? integrate_watched(in, watch, self) : integrate_unwatched(in);
   hc_status counted = integrate_add_counts(&in->base);
   if (st == HC_OK) st = counted;

@@ -114,21 +114,6 @@ bool structure_newton_factor(structure_newton *s, const scaled_model *m, double 
   return step_equations_factor(&s->step, m);
 }
 
-/* s->step.force := what contacts' forces are where x = 0: -by_u d. */
-static void find_constants(structure_newton *s, const double *d)
-{
-  step_equations *step = &s->step;
-  memset(step->force, 0, (size_t)step->n_rows * sizeof *step->force);
-  for (int j = 0; j < step->n_contacts; ++j) {
-    const step_contact *f = &step->contact[j];
-    for (int a = 0; a < f->directions; ++a) {
-      double t = 0;
-      for (int b = 0; b < f->directions; ++b) t -= f->by_u[a][b] * d[j + b];
-      step_equations_add(step->force, step->rows.along[j + a], t);
-    }
-  }
-}
-
 /* d[] of contact j := its slider, of d. */
 static void find_slider(const structure_newton *s, int j, double *d)
 {
@@ -148,30 +133,19 @@ void structure_newton_solve(structure_newton *s, double *r)
 {
   const int n = s->step.n;
   double *d = r + 2 * n;
-  find_constants(s, d);
+  /* s->step.force := what contacts' forces are where x = 0: -by_u d. */
+  step_equations *step = &s->step;
+  memset(step->force, 0, (size_t)step->n_rows * sizeof *step->force);
+  for (int j = 0; j < step->n_contacts; ++j) {
+    const step_contact *f = &step->contact[j];
+    for (int a = 0; a < f->directions; ++a) {
+      double t = 0;
+      for (int b = 0; b < f->directions; ++b) t -= f->by_u[a][b] * d[j + b];
+      step_equations_add(step->force, step->rows.along[j + a], t);
+    }
+  }
   step_equations_solve(&s->step, r, r + n);
   for (int j = 0; j < s->step.n_contacts; ++j) find_slider(s, j, d + j);
-}
-
-/* What contact j does where the motion is s->step.q and z: its forces into s->step.force, its sliders' rates into
- * rate[]. */
-static void multiply_contact(structure_newton *s, int j, const double *slider, double *rate)
-{
-  const step_equations *step = &s->step;
-  const planar_derivatives *l = &s->law[j];
-  const int directions = step->contact[j].directions;
-  double u[2];
-  const double v = step_equations_motion(step, j, directions, u);
-  for (int a = 0; a < directions; ++a) {
-    double t = l->t_v[a] * v;
-    rate[a] = l->rate_v[a] * v;
-    for (int b = 0; b < directions; ++b) {
-      t += l->t_u[a][b] * (u[b] - slider[b]);
-      rate[a] += l->rate_u[a][b] * (u[b] - slider[b]);
-    }
-    step_equations_add(step->force, step->rows.along[j + a], t);
-    step_equations_add(step->force, step->rows.across[j + a], l->n_v * v);
-  }
 }
 
 void structure_newton_multiply(structure_newton *s, const scaled_model *m, const double *z, double *out)
@@ -181,7 +155,26 @@ void structure_newton_multiply(structure_newton *s, const scaled_model *m, const
   double *force = out + n;
   contact_rows_motion(&step->rows, z, step->q);
   memset(step->force, 0, (size_t)step->n_rows * sizeof *step->force);
-  for (int j = 0; j < step->n_contacts; ++j) multiply_contact(s, j, z + 2 * n + j, out + 2 * n + j);
+  /* What contact j does where the motion is s->step.q and z: its forces into s->step.force, its sliders' rates into
+   * rate[]. */
+  for (int j = 0; j < step->n_contacts; ++j) {
+    const double *slider = z + 2 * n + j;
+    double *rate = out + 2 * n + j;
+    const planar_derivatives *l = &s->law[j];
+    const int directions = step->contact[j].directions;
+    double u[2];
+    const double v = step_equations_motion(step, j, directions, u);
+    for (int a = 0; a < directions; ++a) {
+      double t = l->t_v[a] * v;
+      rate[a] = l->rate_v[a] * v;
+      for (int b = 0; b < directions; ++b) {
+        t += l->t_u[a][b] * (u[b] - slider[b]);
+        rate[a] += l->rate_u[a][b] * (u[b] - slider[b]);
+      }
+      step_equations_add(step->force, step->rows.along[j + a], t);
+      step_equations_add(step->force, step->rows.across[j + a], l->n_v * v);
+    }
+  }
   memcpy(out, z + n, (size_t)n * sizeof *out);
   memset(force, 0, (size_t)n * sizeof *force);
   modal_base_subtract_K(step->base, m->by_K, z, force);

@@ -197,15 +197,12 @@ void contact_track_slider_rate(const contact_track *t, const scaled_contact *c, 
   for (int a = 0; a < c->kind->directions; ++a) dw[a] = free ? rates->u[a] : s * t[a].along;
 }
 
-static void note(contact_track *t, double w)
-{
-  const double far = t->state == CONTACT_SEPARATED ? INFINITY : fabs(w - t->from);
-  if (!(far <= t->most)) t->most = far;
-}
-
 void contact_track_end(contact_track *t, int n_contacts, const double *w)
 {
-  for (int j = 0; j < n_contacts; ++j) note(&t[j], w[j]);
+  for (int j = 0; j < n_contacts; ++j) {
+    const double far = t[j].state == CONTACT_SEPARATED ? INFINITY : fabs(w[j] - t[j].from);
+    if (!(far <= t[j].most)) t[j].most = far;
+  }
 }
 
 void contact_track_note(contact_track *t, const scaled_contact *c, const contact_motion *at)

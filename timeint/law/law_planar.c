@@ -162,16 +162,6 @@ static track_guard guard_of(track_event event, double value, double rate, double
   return (track_guard){.event = event, .noise = noise, .g = {value, rate}};
 }
 
-/* mu N - |T|; where T = 0 its rate is that of the T to come. */
-static track_guard end_of_stick(const contact_track *t, const scaled_contact *c, const contact_motion *at)
-{
-  const double s[2] = {at->u[0] - t[0].rest, at->u[1] - t[1].rest}, size = hypot(s[0], s[1]);
-  const double grows = size > 0 ? (s[0] * at->du[0] + s[1] * at->du[1]) / size : hypot(at->du[0], at->du[1]);
-  const double noise = contact_track_force_noise(c, hypot(at->u[0], at->u[1]), at->v, hypot(t[0].rest, t[1].rest));
-  return guard_of(TRACK_SLIPS_PLUS, contact_track_limit(c, at->v) - c->law.kt * size,
-                  friction_of(c) * at->dv - c->law.kt * grows, noise);
-}
-
 /* kt U'.e - mu kn V'. */
 static track_guard end_of_slip(const scaled_contact *c, const law_instant *now, double turn)
 {
@@ -200,7 +190,14 @@ static int own_guards(const contact_track *t, const scaled_contact *c, const law
                           apart * now->at.dv, contact_track_distance_noise(c, now->at.v));
   if (t->state == CONTACT_SEPARATED) return n;
   if (t->state == CONTACT_STICK) {
-    guard[n++] = end_of_stick(t, c, &now->at);
+    /* mu N - |T|; where T = 0 its rate is that of the T to come. */
+    const double s[2] = {now->at.u[0] - t[0].rest, now->at.u[1] - t[1].rest}, size = hypot(s[0], s[1]);
+    const double grows =
+        size > 0 ? (s[0] * now->at.du[0] + s[1] * now->at.du[1]) / size : hypot(now->at.du[0], now->at.du[1]);
+    const double noise =
+        contact_track_force_noise(c, hypot(now->at.u[0], now->at.u[1]), now->at.v, hypot(t[0].rest, t[1].rest));
+    guard[n++] = guard_of(TRACK_SLIPS_PLUS, contact_track_limit(c, now->at.v) - c->law.kt * size,
+                          friction_of(c) * now->at.dv - c->law.kt * grows, noise);
     return n;
   }
   if (!t->turns) {

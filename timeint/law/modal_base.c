@@ -58,22 +58,6 @@ static bool keep_diagonal(int n, const double *phi, const double *of, double *A)
   return true;
 }
 
-/* The longest row in modes with phi^T M phi = 1. */
-static double longest_row(const modal_base *b)
-{
-  double longest = 0;
-  const struct {
-    int count;
-    const double *row;
-  } sets[] = {{b->n_contacts, b->tangent}, {b->n_contacts, b->normal}, {b->n_responses, b->response}};
-  for (size_t k = 0; k < sizeof sets / sizeof *sets; ++k)
-    for (int j = 0; j < sets[k].count; ++j) {
-      const double *row = sets[k].row + (size_t)j * (size_t)b->n;
-      longest = fmax(longest, sqrt(dot_product(b->n, row, row)));
-    }
-  return longest > 0 ? longest : 1;
-}
-
 static void scale(size_t count, double *a, double by)
 {
   for (size_t i = 0; i < count; ++i) a[i] *= by;
@@ -112,7 +96,18 @@ static void fill(modal_base *b, const model *m, const double *omega2, double *ve
     transposed_times(n, m->mass, phi + (size_t)col * ld, vector);
     for (size_t row = 0; row < ld; ++row) b->inverse[row * ld + (size_t)col] = vector[row];
   }
-  b->s = longest_row(b);
+  /* The longest row in modes with phi^T M phi = 1. */
+  double longest = 0;
+  const struct {
+    int count;
+    const double *row;
+  } sets[] = {{b->n_contacts, b->tangent}, {b->n_contacts, b->normal}, {b->n_responses, b->response}};
+  for (size_t k = 0; k < sizeof sets / sizeof *sets; ++k)
+    for (int j = 0; j < sets[k].count; ++j) {
+      const double *row = sets[k].row + (size_t)j * (size_t)b->n;
+      longest = fmax(longest, sqrt(dot_product(b->n, row, row)));
+    }
+  b->s = longest > 0 ? longest : 1;
   scale(contacts * ld, b->tangent, 1 / b->s);
   scale(contacts * ld, b->normal, 1 / b->s);
   scale((size_t)b->n_responses * ld, b->response, 1 / b->s);
@@ -210,19 +205,6 @@ hc_status modal_base_new(const model *m, modal_base **out)
   return st;
 }
 
-/* out := (K + sum_j kt t_j t_j^T + kn n_j n_j^T) x, of the contacts of m; K diagonal. */
-static void times_stuck(const modal_base *b, const model *m, const double *x, double *out)
-{
-  const size_t n = (size_t)b->n;
-  for (size_t i = 0; i < n; ++i) out[i] = b->K[i] * x[i];
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const double *t = b->tangent + (size_t)j * n, *normal = b->normal + (size_t)j * n, mass = 1 / (b->s * b->s);
-    const double along = m->contacts[j].law.kt / mass * dot_product(b->n, t, x);
-    const double across = m->contacts[j].law.kn / mass * dot_product(b->n, normal, x);
-    for (size_t i = 0; i < n; ++i) out[i] += along * t[i] + across * normal[i];
-  }
-}
-
 /* The highest natural frequency, contacts stuck, by the power iteration from the contacts' rows: a percent below it at
  * worst, which lengthens the first try of a step. x[n], y[n]: room. */
 static double highest_stuck(const modal_base *b, const model *m, double *x, double *y)
@@ -231,7 +213,15 @@ static double highest_stuck(const modal_base *b, const model *m, double *x, doub
   double highest = 0;
   for (int i = 0; i < b->n; ++i) x[i] = 1 / sqrt(b->n);
   for (int it = 0; it < ITERATIONS; ++it) {
-    times_stuck(b, m, x, y);
+    /* out := (K + sum_j kt t_j t_j^T + kn n_j n_j^T) x, of the contacts of m; K diagonal. */
+    const size_t n = (size_t)b->n;
+    for (size_t i = 0; i < n; ++i) y[i] = b->K[i] * x[i];
+    for (int j = 0; j < m->n_contacts; ++j) {
+      const double *t = b->tangent + (size_t)j * n, *normal = b->normal + (size_t)j * n, mass = 1 / (b->s * b->s);
+      const double along = m->contacts[j].law.kt / mass * dot_product(b->n, t, x);
+      const double across = m->contacts[j].law.kn / mass * dot_product(b->n, normal, x);
+      for (size_t i = 0; i < n; ++i) y[i] += along * t[i] + across * normal[i];
+    }
     highest = norm_2(b->n, y);
     if (!(highest > 0)) return 0;
     for (int i = 0; i < b->n; ++i) x[i] = y[i] / highest;

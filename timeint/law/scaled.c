@@ -77,15 +77,6 @@ double scaled_response(const scaled_model *m, int r, const double *x)
 
 int scaled_n_responses(const scaled_model *m) { return m->base->n_responses; }
 
-/* The regularised law of the contact whose first direction is j, at y. */
-static planar_value value_of(const scaled_model *m, int j, const double *y)
-{
-  const scaled_contact *c = &m->contact[j];
-  double u[2], v;
-  scaled_contact_motion(m, j, y, u, &v);
-  return c->kind->evaluate(&c->law, u, v, y + 2 * m->n + j);
-}
-
 contact_state scaled_state_of(const scaled_model *m, int j, double v, const planar_value *at)
 {
   const law_regularised *law = &m->contact[j].law;
@@ -131,7 +122,11 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
   double *force = dy + n, sum = 0;
   scaled_linear_force(m, theta, y, force);
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
-    const planar_value l = value_of(m, j, y);
+    /* The regularised law of the contact whose first direction is j, at y. */
+    const scaled_contact *c = &m->contact[j];
+    double u[2], v;
+    scaled_contact_motion(m, j, y, u, &v);
+    const planar_value l = c->kind->evaluate(&c->law, u, v, y + 2 * m->n + j);
     for (int a = 0; a < scaled_directions(m, j); ++a) {
       const size_t at = (size_t)(j + a) * (size_t)n;
       const double *t = m->base->tangent + at, *normal = m->base->normal + at;

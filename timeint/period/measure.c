@@ -214,14 +214,6 @@ unsigned char measure_seen(contact_state state)
   return state == CONTACT_STICK ? SEEN_STUCK : SEEN_SLIPPING;
 }
 
-static void watch_contact(measure *me, int j, contact_state now, const double *y)
-{
-  const double w = y[2 * me->m->n + j];
-  me->seen[j] |= measure_seen(now);
-  me->slider[2 * j] = fmin(me->slider[2 * j], w);
-  me->slider[2 * j + 1] = fmax(me->slider[2 * j + 1], w);
-}
-
 hc_status measure_step(void *self, const integrator *in, double theta0, double theta1)
 {
   measure *me = self;
@@ -237,7 +229,12 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
     if ((st = add_peaks(me, in, i, theta0, theta1, &end)) != HC_OK) return st;
     begin_step(&me->response[i], &end);
   }
-  for (int j = 0; j < me->m->n_contacts; ++j) watch_contact(me, j, me->state[j], y);
+  for (int j = 0; j < me->m->n_contacts; ++j) {
+    const double w = y[2 * me->m->n + j];
+    me->seen[j] |= measure_seen(me->state[j]);
+    me->slider[2 * j] = fmin(me->slider[2 * j], w);
+    me->slider[2 * j + 1] = fmax(me->slider[2 * j + 1], w);
+  }
   return HC_OK;
 }
 

@@ -48,20 +48,6 @@ static double distance(int n, const double *a, const double *b)
   return most;
 }
 
-/* The state now joins the ring. */
-static void note_returns(measurement *m)
-{
-  timeint *ti = m->ti;
-  const int now = m->n_past++;
-  double *point = ti->point[0];
-  timeint_point(ti, point);
-  for (int k = 1; k <= SETTLE_MAX_MULTIPLE && k <= now; ++k) {
-    const double *before = ti->past + (now - k) % SETTLE_MAX_MULTIPLE * ti->n;
-    m->returned[k - 1] = fmax(m->returned[k - 1], distance(ti->n, point, before));
-  }
-  memcpy(ti->past + now % SETTLE_MAX_MULTIPLE * ti->n, point, sizeof *point * (size_t)ti->n);
-}
-
 /* One period of the motion and of a neighbour at ti->y + d, d = ti->separation; d becomes their difference afterwards,
  * scaled to its old length, and *log_growth the log of the factor by which it grew, no less than log(DBL_EPSILON):
  * the two may have met. */
@@ -92,7 +78,17 @@ static hc_status integrate_batch(measurement *m, bool first, double *rate)
     hc_status st = integrate_neighbours(ti, &one);
     if (st != HC_OK) return st;
     *rate += one / BATCH;
-    if (first) note_returns(m);
+    /* The state now joins the ring. */
+    if (first) {
+      const int now = m->n_past++;
+      double *point = ti->point[0];
+      timeint_point(ti, point);
+      for (int k = 1; k <= SETTLE_MAX_MULTIPLE && k <= now; ++k) {
+        const double *before = ti->past + (now - k) % SETTLE_MAX_MULTIPLE * ti->n;
+        m->returned[k - 1] = fmax(m->returned[k - 1], distance(ti->n, point, before));
+      }
+      memcpy(ti->past + now % SETTLE_MAX_MULTIPLE * ti->n, point, sizeof *point * (size_t)ti->n);
+    }
   }
   return HC_OK;
 }
@@ -123,12 +119,6 @@ static double folds_of_leaving(const measurement *m)
   return log(2 * timeint_motion_size(m->ti) / nearest);
 }
 
-static bool rate_is_positive(const measurement *m)
-{
-  const double n = m->batches, mean = m->sum / n;
-  return mean > STANDARD_ERRORS * sqrt(fmax(m->square / n - mean * mean, 0) / (n - 1));
-}
-
 static bool periods_left(const timeint *ti, int batches)
 {
   return ti->periods + 2 * batches * BATCH < ti->how.max_periods;
@@ -146,7 +136,8 @@ hc_status chaos_test(timeint *ti, const hc_monitor *monitor, bool *chaos, double
   for (double latest = 1; !*chaos && latest > 0 && isfinite(enough) && periods_left(ti, BATCHES);) {
     if ((st = integrate_round(&m, &latest)) != HC_OK) return st;
     *rate = m.sum / m.batches;
-    if (!rate_is_positive(&m)) return HC_OK;
+    const double n = m.batches, mean = m.sum / n;
+    if (!(mean > STANDARD_ERRORS * sqrt(fmax(m.square / n - mean * mean, 0) / (n - 1)))) return HC_OK;
     *chaos = m.sum * BATCH >= enough;
   }
   return HC_OK;

@@ -113,26 +113,6 @@ motion_error *closed_start_predictions(timeint *ti, const double *state, const d
   return NULL;
 }
 
-static void remember(timeint *ti, int k, const double *start, const timeint_result *r)
-{
-  struct memory *m = ti->confirmed;
-  struct confirmed *c = &m->orbit[m->next];
-  m->next = (m->next + 1) % REMEMBERED;
-  c->k = k;
-  c->omega = ti->omega;
-  c->result = *r;
-  for (int i = 0; i < ti->measure.n_responses; ++i) c->predicted[i] = (motion_error){NAN, NAN, NAN};
-  memcpy(c->start, start, sizeof *start * (size_t)ti->n);
-  timeint_get_state(ti, c->state);
-}
-
-/* What a result says of its orbit. */
-static shoot_report report_of(const timeint_result *r)
-{
-  return (shoot_report){
-      .distance = INFINITY, .multiplier = r->multiplier_re + I * r->multiplier_im, .free_sliders = r->free_sliders};
-}
-
 /* By CVODE alone, next to the closed form's orbit at ti->y; stable, unless an orbit was asked for whatever its
  * stability. */
 static hc_status shoot_beside(timeint *ti, int k, bool stable, const hc_monitor *monitor, timeint_result *r)
@@ -152,7 +132,10 @@ static hc_status confirm(timeint *ti, const double *start, const timeint_result 
   const int k = first->period_multiple;
   const bool left_orbit = r->left_orbit;
   const int periods = r->closed_form_periods;
-  shoot_report found = report_of(first);
+  /* What a result says of its orbit. */
+  shoot_report found = {.distance = INFINITY,
+                        .multiplier = first->multiplier_re + I * first->multiplier_im,
+                        .free_sliders = first->free_sliders};
   if (linear_regime_steady(ti, r)) return HC_OK;
   const struct confirmed *known = recall(ti, k, start);
   if (known) {
@@ -165,7 +148,17 @@ static hc_status confirm(timeint *ti, const double *start, const timeint_result 
   hc_status st = shoot_confirm(ti->shoot, k, orbit_goal(ti), off, monitor, &found, r);
   r->contraction = first->contraction; /* its multiplier may be that of several times k periods */
   if (shoot_found_no_orbit(st)) st = shoot_beside(ti, k, stable, monitor, r);
-  if (st == HC_OK) remember(ti, k, start, r);
+  if (st == HC_OK) {
+    struct memory *m = ti->confirmed;
+    struct confirmed *c = &m->orbit[m->next];
+    m->next = (m->next + 1) % REMEMBERED;
+    c->k = k;
+    c->omega = ti->omega;
+    c->result = *r;
+    for (int i = 0; i < ti->measure.n_responses; ++i) c->predicted[i] = (motion_error){NAN, NAN, NAN};
+    memcpy(c->start, start, sizeof *start * (size_t)ti->n);
+    timeint_get_state(ti, c->state);
+  }
   return st;
 }
 

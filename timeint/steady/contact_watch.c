@@ -192,13 +192,6 @@ static hc_status make_watch(contact_watch *w)
   return st;
 }
 
-static void free_watch(contact_watch *w)
-{
-  contact_rows_free(&w->rows);
-  free(w->of);
-  free(w->q);
-}
-
 /* [rad/rad] */
 static double stiffest_frequency(const timeint *ti) { return ti->base->highest / ti->omega; }
 
@@ -214,6 +207,8 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
   if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   for (int i = 0; i < k && st == HC_OK; ++i) st = integrate_period(ti->in, &ti->scaled, y, watch_step, &w);
   if (st == HC_OK) report(&w, k, out);
-  free_watch(&w);
+  contact_rows_free(&w.rows);
+  free(w.of);
+  free(w.q);
   return st;
 }

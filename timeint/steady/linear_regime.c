@@ -101,32 +101,6 @@ static double complex slowest_multiplier(double c, double k)
   return exp(-TWO_PI * k / (0.5 * c + sqrt(d))); /* c/2 - sqrt(d) without cancellation */
 }
 
-static void fill_measures(const linear *l, double length, timeint_result *r)
-{
-  const double amplitude = cabs(l->steady);
-  r->amplitude = r->harmonic_1 = amplitude * length;
-  r->max = (l->center + amplitude) * length;
-  r->min = (l->center - amplitude) * length;
-  r->mean = l->center * length;
-  r->rms = hypot(l->center, amplitude * sqrt(0.5)) * length;
-  r->a1 = creal(l->steady) * length; /* Re(Z e^{i theta}) = Re Z cos - Im Z sin */
-  r->b1 = -cimag(l->steady) * length;
-  for (int i = 0; i < TIMEINT_WAVE; ++i) {
-    double theta = TWO_PI * i / TIMEINT_WAVE;
-    r->wave[i] = l->center * length + r->a1 * cos(theta) + r->b1 * sin(theta);
-  }
-}
-
-static void fill_stability(const linear *l, timeint_result *r)
-{
-  const double complex lambda = slowest_multiplier(l->c, l->k);
-  r->multiplier = r->contraction = cabs(lambda);
-  r->multiplier_re = creal(lambda);
-  r->multiplier_im = cimag(lambda);
-  r->period_multiple = 1;
-  r->closure = r->attainable = 0;
-}
-
 bool linear_regime_steady(timeint *ti, timeint_result *r)
 {
   if (!linear_regime_is_final(ti)) return false;
@@ -146,8 +120,24 @@ bool linear_regime_steady(timeint *ti, timeint_result *r)
       ti->y[2 + j] = c.cosine * (l.center + creal(l.steady / (1 + I * lag)));
     }
   }
-  fill_measures(&l, ti->length, r);
-  fill_stability(&l, r);
+  const double amplitude = cabs(l.steady);
+  r->amplitude = r->harmonic_1 = amplitude * ti->length;
+  r->max = (l.center + amplitude) * ti->length;
+  r->min = (l.center - amplitude) * ti->length;
+  r->mean = l.center * ti->length;
+  r->rms = hypot(l.center, amplitude * sqrt(0.5)) * ti->length;
+  r->a1 = creal(l.steady) * ti->length; /* Re(Z e^{i theta}) = Re Z cos - Im Z sin */
+  r->b1 = -cimag(l.steady) * ti->length;
+  for (int i = 0; i < TIMEINT_WAVE; ++i) {
+    double theta = TWO_PI * i / TIMEINT_WAVE;
+    r->wave[i] = l.center * ti->length + r->a1 * cos(theta) + r->b1 * sin(theta);
+  }
+  const double complex lambda = slowest_multiplier(l.c, l.k);
+  r->multiplier = r->contraction = cabs(lambda);
+  r->multiplier_re = creal(lambda);
+  r->multiplier_im = cimag(lambda);
+  r->period_multiple = 1;
+  r->closure = r->attainable = 0;
   ti->y[0] = l.center + creal(l.steady);
   ti->y[1] = -cimag(l.steady);
   return true;

@@ -19,14 +19,6 @@ static double any_length(const model *m)
   return length > 0 ? length : 1;
 }
 
-static void set_length(timeint *ti, double length)
-{
-  const double ratio = ti->length / length;
-  for (int i = 0; i < ti->scaled.n_states; ++i) ti->y[i] *= ratio;
-  ti->length = length;
-  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, length);
-}
-
 static bool state_ok(const timeint *ti, const double *state)
 {
   bool ok = true;
@@ -149,7 +141,12 @@ static const double unit_factor = 4;
 static void follow_length(timeint *ti)
 {
   double size = timeint_motion_size(ti);
-  if (size > unit_factor * ti->length || size * unit_factor < ti->length) set_length(ti, size);
+  if (size > unit_factor * ti->length || size * unit_factor < ti->length) {
+    const double ratio = ti->length / size;
+    for (int i = 0; i < ti->scaled.n_states; ++i) ti->y[i] *= ratio;
+    ti->length = size;
+    scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, size);
+  }
 }
 
 const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor)

@@ -65,8 +65,6 @@ static double distance_to_past(const approach *a, int k)
   return most;
 }
 
-static void remember(approach *a) { timeint_point(a->ti, past_state(a, a->n_past++)); }
-
 /* The next k > `after` for which the state k periods ago is nearer than half of `within`; 0: none up to 16. */
 static int next_return(const approach *a, int after, double within)
 {
@@ -85,7 +83,7 @@ static hc_status integrate_stretch(approach *a, int periods, bool *linear)
   for (int i = 0; i < periods && st == HC_OK && ti->periods < most - 1; ++i) {
     if ((*linear = linear_regime_is_final(ti))) return HC_OK;
     if (!hc_monitor_tick(a->monitor, (double)ti->periods / most)) return HC_INTERRUPTED;
-    remember(a);
+    timeint_point(a->ti, past_state(a, a->n_past++));
     st = timeint_period(ti, false);
     if (st == HC_OK && !(timeint_size(ti) <= unbounded * ti->least_length)) st = HC_NOT_FINITE;
   }
@@ -231,25 +229,6 @@ int timeint_stability(const timeint_result *r)
   return r->multiplier > 1 + border ? -1 : 0;
 }
 
-static void clear_result(timeint_result *r, double omega)
-{
-  memset(r, 0, sizeof *r);
-  r->omega = omega;
-  r->amplitude = r->max = r->min = r->rms = r->mean = r->a1 = r->b1 = r->harmonic_1 = r->closure = r->attainable =
-      r->contraction = NAN;
-  r->multiplier = r->multiplier_re = r->multiplier_im = r->lyapunov = r->second_frequency = NAN;
-  r->predicted = (motion_error){NAN, NAN, NAN};
-  for (int i = 0; i < TIMEINT_WAVE; ++i) r->wave[i] = NAN;
-}
-
-static void fill_counts(const timeint *ti, timeint_result *r)
-{
-  r->periods = ti->periods;
-  r->steps = integrate_steps(ti->in) - ti->steps0;
-  r->rhs = integrate_rhs(ti->in) - ti->rhs0;
-  r->cvode_flag = integrate_flag(ti->in);
-}
-
 /* The orbit of k periods next to the state, stable or not. */
 static hc_status to_nearest_orbit(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r)
 {
@@ -320,7 +299,14 @@ static hc_status reach(timeint *ti, double omega, int k, bool at_state, double *
                        timeint_result *result)
 {
   bool done = false;
-  clear_result(result, omega);
+  memset(result, 0, sizeof *result);
+  result->omega = omega;
+  result->amplitude = result->max = result->min = result->rms = result->mean = result->a1 = result->b1 =
+      result->harmonic_1 = result->closure = result->attainable = result->contraction = NAN;
+  result->multiplier = result->multiplier_re = result->multiplier_im = result->lyapunov = result->second_frequency =
+      NAN;
+  result->predicted = (motion_error){NAN, NAN, NAN};
+  for (int i = 0; i < TIMEINT_WAVE; ++i) result->wave[i] = NAN;
   if (k < 0 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;
   hc_status st = timeint_begin(ti, omega, state);
   if (st != HC_OK) return st;
@@ -331,7 +317,10 @@ static hc_status reach(timeint *ti, double omega, int k, bool at_state, double *
   if (st == HC_OK && !done) st = k > 0 ? to_nearest_orbit(ti, k, monitor, result) : by_itself(ti, monitor, result);
   timeint_get_state(ti, state); /* on failure, the last one that was reached */
   timeint_hear(ti, before);
-  fill_counts(ti, result);
+  result->periods = ti->periods;
+  result->steps = integrate_steps(ti->in) - ti->steps0;
+  result->rhs = integrate_rhs(ti->in) - ti->rhs0;
+  result->cvode_flag = integrate_flag(ti->in);
   return st;
 }
 

@@ -26,20 +26,16 @@ static bool all_finite(size_t count, const double *a)
   return ok;
 }
 
-static bool structure_ok(const model *m)
+static hc_status check_input(const model *m, const transient_settings *how)
 {
   const size_t n = (size_t)m->n;
-  if (m->n == 1 && !(positive(*m->mass) && not_negative(*m->damping) && not_negative(*m->stiffness))) return false;
+  if (m->n == 1 && !(positive(*m->mass) && not_negative(*m->damping) && not_negative(*m->stiffness)))
+    return HC_BAD_INPUT;
   bool ok = all_finite(n * n, m->mass) && all_finite(n * n, m->damping) && all_finite(n * n, m->stiffness);
   for (int l = 0; l < m->n_loads; ++l) ok = ok && all_finite(n, m->loads[l].cosine) && all_finite(n, m->loads[l].sine);
   for (int j = 0; j < m->n_contacts; ++j)
     ok = ok && all_finite(n, m->contacts[j].tangent) && all_finite(n, m->contacts[j].normal);
-  return ok && m->n_responses > 0;
-}
-
-static hc_status check_input(const model *m, const transient_settings *how)
-{
-  if (!structure_ok(m)) return HC_BAD_INPUT;
+  if (!(ok && m->n_responses > 0)) return HC_BAD_INPUT;
   for (int j = 0; j < m->n_contacts; ++j)
     if (!contact_ok(&m->contacts[j])) return HC_BAD_INPUT;
   if (how->method == TRANSIENT_METHOD_CLOSED_FORM && how->law != TRANSIENT_LAW_EXACT) return HC_BAD_INPUT;

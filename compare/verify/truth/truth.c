@@ -42,7 +42,8 @@ static double follow(const model *m, const verify_motion *motion, const instant 
     const model_contact *c = &m->contacts[j];
     const double u = *c->tangent * to->x.x, v = *c->normal * to->x.x, v_before = *c->normal * from->x.x;
     double traction = 0, w = from->w[j];
-    /* The slider where the contact touches again between two instants: on the chord of u, where that of v + gap is 0. */
+    /* The slider where the contact touches again between two instants: on the chord of u, where that of v + gap is
+     * 0. */
     if (v_before + c->law.gap < 0 && v + c->law.gap > 0) {
       const double open = *c->normal * from->x.x + c->law.gap, closed = *c->normal * to->x.x + c->law.gap,
                    part = open / (open - closed);
