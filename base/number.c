@@ -62,14 +62,6 @@ static bool convert(const char *text, double *value)
   return *end == '\0';
 }
 
-static bool terminate(const char *text, size_t length, char copy[LONGEST])
-{
-  if (length >= LONGEST || memchr(text, '\0', length)) return false;
-  memcpy(copy, text, length);
-  copy[length] = '\0';
-  return true;
-}
-
 static bool has_nonzero_digit(const char *s)
 {
   for (; *s && *s != 'e' && *s != 'E'; ++s)
@@ -82,7 +74,9 @@ number_fault number_read(const char *text, size_t length, double *value)
   char copy[LONGEST];
   double x;
   int before = errno;
-  if (!terminate(text, length, copy)) return NUMBER_NONE;
+  if (length >= LONGEST || memchr(text, '\0', length)) return NUMBER_NONE;
+  memcpy(copy, text, length);
+  copy[length] = '\0';
   if (is_not_finite(copy)) return NUMBER_NOT_FINITE;
   if (!is_decimal(copy) || !convert(copy, &x)) return NUMBER_NONE;
   errno = before; /* strtod sets ERANGE for subnormal numbers, which are accepted */

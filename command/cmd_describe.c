@@ -191,24 +191,6 @@ typedef struct described {
   const char *asked; /* NULL: everything */
 } described;
 
-/* Writes the value of f as a case file would have it, text without its quotes; of entry j if it is one of a list's. */
-static void write_value(const described *d, const field *f, int j, FILE *to)
-{
-  const scene_structure *s = d->sc->structure;
-  if (!s || !describes_structure(f)) {
-    const void *base = f->flags & FIELD_IN_CONTACT ? (const void *)&d->sc->contacts[j] : d->sc;
-    if (f->kind == FIELD_TEXT) fputs(field_look(f, base), to);
-    else field_write(f, base, to);
-  } else if (f->flags & FIELD_IN_LOAD) write_of_load(s, f, &s->loads[j], to);
-  else if (f->flags & FIELD_IN_CONTACT) {
-    const structure_contact *c = &s->contacts[j];
-    const bool without = !strcmp(f->name, "preload") && !(c->given.preload > 0);
-    if (f->kind == FIELD_PART && f->size > 0) write_direction(s, field_direction(f, c), to);
-    else if (!strcmp(f->name, "name")) fputs(c->given.name, to);
-    else if (f->kind != FIELD_PART && !without && case_contact_field_counts(s, c, f)) field_write(f, &c->given, to);
-  } else write_part(s, f, to);
-}
-
 /* A row for f, of entry j if it is one of a list's; without a value where the field does not count. HC_NO_MEMORY. */
 static hc_status put_value(table *t, const described *d, const field *f, int j)
 {
@@ -220,7 +202,23 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
   const case_place at = part ? place_of(d->sc->structure, f, j) : case_field_place(d->places, f, in_contact ? j : -1);
   bool counts = part || in_contact || case_field_counts(f, d->sc);
   FILE *to = open_memstream(&text, &size);
-  if (to && counts) write_value(d, f, j, to);
+  /* Writes the value of f as a case file would have it, text without its quotes; of entry j if it is one of a
+   * list's. */
+  if (to && counts) {
+    const scene_structure *s = d->sc->structure;
+    if (!s || !describes_structure(f)) {
+      const void *base = f->flags & FIELD_IN_CONTACT ? (const void *)&d->sc->contacts[j] : d->sc;
+      if (f->kind == FIELD_TEXT) fputs(field_look(f, base), to);
+      else field_write(f, base, to);
+    } else if (f->flags & FIELD_IN_LOAD) write_of_load(s, f, &s->loads[j], to);
+    else if (f->flags & FIELD_IN_CONTACT) {
+      const structure_contact *c = &s->contacts[j];
+      const bool without = !strcmp(f->name, "preload") && !(c->given.preload > 0);
+      if (f->kind == FIELD_PART && f->size > 0) write_direction(s, field_direction(f, c), to);
+      else if (!strcmp(f->name, "name")) fputs(c->given.name, to);
+      else if (f->kind != FIELD_PART && !without && case_contact_field_counts(s, c, f)) field_write(f, &c->given, to);
+    } else write_part(s, f, to);
+  }
   const bool written = to && fclose(to) == 0;
   counts = counts && (size > 0 || !part);
   const bool in_file = counts && at.line > 0 && at.set == 0;

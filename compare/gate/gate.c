@@ -332,18 +332,6 @@ static void begin_case(junit *x, const char *suite, const char *name)
   put_attribute(x, "name", name);
 }
 
-static void say_check(const gate_check *c, char *text, size_t size)
-{
-  char found[NUMBER_TEXT], allowed[NUMBER_TEXT];
-  number_write(gate_shown(c), found);
-  number_write(c->allowed, allowed);
-  if (*c->reason) snprintf(text, size, "%s", c->reason);
-  else if (!strcmp(c->against, "limit")) snprintf(text, size, "%s %s, at most %s allowed", found, c->quantity, allowed);
-  else
-    snprintf(text, size, "%s is off the %s by %s of its amplitude, %s allowed (verdict %s)", c->quantity, c->against,
-             found, allowed, c->verdict);
-}
-
 static void put_check(junit *x, const gate_case *g, const gate_check *c)
 {
   static const char *const tags[] = {
@@ -356,7 +344,15 @@ static void put_check(junit *x, const gate_case *g, const gate_check *c)
   else
     snprintf(name, sizeof name, "%s branch %d%s%s: %s", gate_place(g, c->omega, place), c->branch,
              response ? " response " : "", response ? response : "", c->quantity);
-  say_check(c, words, sizeof words);
+  char found[NUMBER_TEXT], allowed[NUMBER_TEXT];
+  number_write(gate_shown(c), found);
+  number_write(c->allowed, allowed);
+  if (*c->reason) snprintf(words, sizeof words, "%s", c->reason);
+  else if (!strcmp(c->against, "limit"))
+    snprintf(words, sizeof words, "%s %s, at most %s allowed", found, c->quantity, allowed);
+  else
+    snprintf(words, sizeof words, "%s is off the %s by %s of its amplitude, %s allowed (verdict %s)", c->quantity,
+             c->against, found, allowed, c->verdict);
   begin_case(x, g->name, name);
   if (c->result == GATE_PASS) {
     fputs("/>\n", x->to);

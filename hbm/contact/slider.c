@@ -31,15 +31,6 @@ typedef struct slider {
   slider_origin origin; /* of w */
 } slider;
 
-static followed followed_contact(const contact *law, hbm_restart restart, const slider_motion *m)
-{
-  followed k = {law, restart, *m, law->kt, law->kn, law->mu, law->gap, law->gap, 0};
-  if (law->gap > 0) k.shift = 0;
-  k.apart = 0 - contact_preload(law) * k.m.of_n;
-  if (law->load > 0) k.kn = 1, k.gap = law->load, k.m.s = k.m.of_n = 0; /* N = load, whatever the motion */
-  return k;
-}
-
 /* ---- does the interval go on, at one sample of along and across? ------------------------------- */
 
 static inline bool touches(const followed *k, double across) { return k->kn * (k->m.s * across + k->gap) > 0; }
@@ -166,14 +157,6 @@ static int follow_interval(const followed *k, int n, double *f, int i, slider *t
   return next;
 }
 
-/* Do two sliders in these intervals, at a sample of both, have the same to come? Their origins may differ, but each
- * interval that sticks begins with a new one. */
-static bool same_from_here(const followed *k, const sampled_interval *a, const sampled_interval *b)
-{
-  const bool remembers = a->state == CONTACT_STICK || (a->state == CONTACT_SEPARATED && k->restart == HBM_RESTART_KEPT);
-  return a->state == b->state && (!remembers || a->w == b->w);
-}
-
 /* The second, where it differs from the first, whose force is in f. `again` gets the second's force: blocks write past
  * the end of an interval. */
 static int settle_again(const followed *k, int n, double *f, double *again, slider *t, const sampled_interval *first,
@@ -185,7 +168,12 @@ static int settle_again(const followed *k, int n, double *f, double *again, slid
   while (i < n && !met) {
     i = follow_interval(k, n, again, i, t, &out[count++]);
     while (m + 1 < n_first && first[m + 1].first < i) ++m;
-    met = same_from_here(k, &out[count - 1], &first[m]);
+    /* Do two sliders in these intervals, at a sample of both, have the same to come? Their origins may differ, but each
+     * interval that sticks begins with a new one. */
+    const sampled_interval *a = &out[count - 1];
+    const bool remembers =
+        a->state == CONTACT_STICK || (a->state == CONTACT_SEPARATED && k->restart == HBM_RESTART_KEPT);
+    met = a->state == first[m].state && (!remembers || a->w == first[m].w);
   }
   memcpy(f, again, (size_t)i * sizeof *f);
   if (!met) return count;
@@ -198,7 +186,10 @@ static int settle_again(const followed *k, int n, double *f, double *again, slid
 slider_report slider_follow(const contact *law, hbm_restart restart, int n, const slider_motion *m, double *f,
                             double *again, sampled_interval *intervals, sampled_interval *settling)
 {
-  const followed k = followed_contact(law, restart, m);
+  followed k = {law, restart, *m, law->kt, law->kn, law->mu, law->gap, law->gap, 0};
+  if (law->gap > 0) k.shift = 0;
+  k.apart = 0 - contact_preload(law) * k.m.of_n;
+  if (law->load > 0) k.kn = 1, k.gap = law->load, k.m.s = k.m.of_n = 0; /* N = load, whatever the motion */
   slider_report found;
   slider t = {.state = CONTACT_STICK};
   if (!(contact_normal(law, k.m.s * m->across[n - 1]) > 0)) t.state = CONTACT_SEPARATED;

@@ -134,8 +134,8 @@ static hc_status scan_interval(scan *w, series_node a, const series_node *b)
     /* |T| exceeds mu N by rounding and decreases already, as where T and N vanish together: stick goes on with the
      * slider moved to the limit. */
     if (returns && repeated == 0) w->now.held = held_at_limit(w, s, &root);
-    /* Slip with sign s ends at `at` in stick, or stick in slip with sign s. */
     else {
+      /* Slip with sign s ends at `at` in stick, or stick in slip with sign s. */
       st = close_interval(w, root.th);
       w->now.from = root.th;
       if (contact_slip_sign(w->now.state)) {

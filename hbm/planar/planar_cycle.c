@@ -402,14 +402,6 @@ static bool slips(const planar_cycle *c)
   return false;
 }
 
-/* (1 - A)^-1 r into r; as it is where that does not exist, or is longer than `most`. */
-static void solve_fixed_point(double A[2][2], double most, double r[2])
-{
-  const double a = 1 - A[0][0], b = -A[0][1], d = -A[1][0], e = 1 - A[1][1], det = a * e - b * d;
-  const double x = (e * r[0] - b * r[1]) / det, y = (a * r[1] - d * r[0]) / det;
-  if (fabs(det) > DBL_EPSILON && hypot(x, y) <= most) r[0] = x, r[1] = y;
-}
-
 /* [length] */
 static double size_of(const planar_cycle *c) { return c->m->of_u[0] + c->m->of_R[0]; }
 
@@ -428,7 +420,10 @@ static hc_status try_from(planar_cycle *c, const double w[2], closing *out)
   *out = (closing){.w = {w[0], w[1]}, .end = {end[0], end[1]}, .step = {end[0] - w[0], end[1] - w[1]}};
   out->distance = hypot(out->step[0], out->step[1]);
   out->left = hypot(hypot(A[0][0], A[0][1]), hypot(A[1][0], A[1][1]));
-  solve_fixed_point(A, size_of(c), out->step);
+  /* (1 - A)^-1 r into r; as it is where that does not exist, or is longer than `most`. */
+  const double a = 1 - A[0][0], b = -A[0][1], d = -A[1][0], e = 1 - A[1][1], det = a * e - b * d;
+  const double x = (e * out->step[0] - b * out->step[1]) / det, y = (a * out->step[1] - d * out->step[0]) / det;
+  if (fabs(det) > DBL_EPSILON && hypot(x, y) <= size_of(c)) out->step[0] = x, out->step[1] = y;
   return st;
 }
 

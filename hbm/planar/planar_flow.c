@@ -158,23 +158,6 @@ static void fill_motion_block(planar_flow *f, int n_slipping, const planar_slipp
   }
 }
 
-/* The same of the equations of slip. */
-static void fill_slip_block(planar_flow *f, int n_slipping, const planar_slipping *slipping, double h, int i, int j)
-{
-  const size_t n = (size_t)f->n, of_point = n + (size_t)n_slipping, ld = N * of_point;
-  const double once = h * f->c.a[i][j], twice = h * h * f->twice[i][j];
-  for (int k = 0; k < n_slipping; ++k) {
-    const double weight = f->at[k * N + i].weight;
-    const planar_state *a = &f->at[k * N + i].is;
-    const double *perp = f->perp + (size_t)(k * N + i) * n, *normal = f->m->contacts[slipping[k].contact].normal;
-    const double by_v = a->turning * radius_by_v(f, &slipping[k]);
-    double *row = f->matrix + (size_t)j * of_point * ld + (size_t)i * of_point + n + (size_t)k;
-    for (size_t q = 0; q < n; ++q) row[q * ld] = weight * a->R * (twice * by_v * normal[q] - once * perp[q]);
-    for (int l = 0; l < n_slipping; ++l) row[(n + (size_t)l) * ld] = 0;
-    row[(n + (size_t)k) * ld] = weight * ((i == j) * a->R + once * a->speed);
-  }
-}
-
 /* Right sides at every point for the column in f->now, into to[N][n + n_slipping]. */
 static void fill_right(const planar_flow *f, const contact_interval *const *interval, int n_slipping,
                        const planar_slipping *slipping, double h, double *to)
@@ -243,7 +226,19 @@ static hc_status advance_step(planar_flow *f, const contact_interval *const *int
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) {
       fill_motion_block(f, n_slipping, slipping, h, i, j);
-      fill_slip_block(f, n_slipping, slipping, h, i, j);
+      /* The same of the equations of slip. */
+      const size_t n = (size_t)f->n, of_point = n + (size_t)n_slipping, ld = N * of_point;
+      const double once = h * f->c.a[i][j], twice = h * h * f->twice[i][j];
+      for (int k = 0; k < n_slipping; ++k) {
+        const double weight = f->at[k * N + i].weight;
+        const planar_state *a = &f->at[k * N + i].is;
+        const double *perp = f->perp + (size_t)(k * N + i) * n, *normal = f->m->contacts[slipping[k].contact].normal;
+        const double by_v = a->turning * radius_by_v(f, &slipping[k]);
+        double *row = f->matrix + (size_t)j * of_point * ld + (size_t)i * of_point + n + (size_t)k;
+        for (size_t q = 0; q < n; ++q) row[q * ld] = weight * a->R * (twice * by_v * normal[q] - once * perp[q]);
+        for (int l = 0; l < n_slipping; ++l) row[(n + (size_t)l) * ld] = 0;
+        row[(n + (size_t)k) * ld] = weight * ((i == j) * a->R + once * a->speed);
+      }
     }
   if (dense_factor(unknowns, f->matrix, f->pivot) != HC_OK) return HC_SINGULAR;
   for (size_t q = 0; q < (size_t)columns; ++q) {

@@ -165,18 +165,6 @@ static void fill_bases(planar_force *f, const planar_panel *p)
   }
 }
 
-static void evaluate_points(planar_force *f, const planar_panel *p, slip_points *q)
-{
-  const double width = p->to - p->from;
-  planar_panel_directions(p, q->cosine, q->sine);
-  for (int i = 0; i < N; ++i) {
-    q->weight[i] = width * f->rule.a[N - 1][i] / PI;
-    q->R[i] = p->R[i];
-    q->pull[i] = p->du[0][i] * q->cosine[i] + p->du[1][i] * q->sine[i];
-  }
-  fill_bases(f, p);
-}
-
 /* Whole rows of a loop of constant length. */
 static inline void subtract_row(double factor, const double *restrict row, double *restrict from)
 {
@@ -236,26 +224,20 @@ static void fill_change(const planar_force *f, const slip_points *q, int i, doub
     first[2 * L + k] += e * c * base[k], second[2 * L + k] += e * s * base[k];
 }
 
-/* Its integrals with the harmonics; of a mean half of that. */
-static void add_slip_derivatives(planar_force *f, const slip_points *q)
-{
-  const size_t n = (size_t)f->n_col;
-  const int L = f->n_coef;
-  double *change[2] = {f->node + N * n, f->node + 2 * N * n};
-  for (int i = 0; i < N; ++i) fill_change(f, q, i, change[0] + (size_t)i * n, change[1] + (size_t)i * n);
-  dense_transpose(L, N, f->base, f->test);
-  for (int i = 0; i < N; ++i) f->test[i] = 0.5;
-  for (int d = 0; d < 2; ++d)
-    dense_add_product(f->n_col, L, N, 1, change[d], f->n_col, f->test, N, 1, f->by + (size_t)(d * L) * n, f->n_col);
-}
-
 /* += a panel's integrals over pi of R e with 1/2, cos, sin .. of h th, into F; if wanted with their derivatives, into
  * by, dphi being those of phi where it begins, and then where it ends. */
 static void add_panel(planar_force *f, const planar_panel *p, bool derive)
 {
   const int L = f->n_coef;
   slip_points q;
-  evaluate_points(f, p, &q);
+  const double width = p->to - p->from;
+  planar_panel_directions(p, q.cosine, q.sine);
+  for (int i = 0; i < N; ++i) {
+    q.weight[i] = width * f->rule.a[N - 1][i] / PI;
+    q.R[i] = p->R[i];
+    q.pull[i] = p->du[0][i] * q.cosine[i] + p->du[1][i] * q.sine[i];
+  }
+  fill_bases(f, p);
   for (int i = 0; i < N; ++i) {
     const double *base = f->base + (size_t)i * (size_t)f->n_coef;
     const double T[2] = {q.weight[i] * q.R[i] * q.cosine[i], q.weight[i] * q.R[i] * q.sine[i]};
@@ -266,7 +248,14 @@ static void add_panel(planar_force *f, const planar_panel *p, bool derive)
   }
   if (!derive) return;
   follow_angle(f, p, &q);
-  add_slip_derivatives(f, &q);
+  /* Its integrals with the harmonics; of a mean half of that. */
+  const size_t n = (size_t)f->n_col;
+  double *change[2] = {f->node + N * n, f->node + 2 * N * n};
+  for (int i = 0; i < N; ++i) fill_change(f, &q, i, change[0] + (size_t)i * n, change[1] + (size_t)i * n);
+  dense_transpose(L, N, f->base, f->test);
+  for (int i = 0; i < N; ++i) f->test[i] = 0.5;
+  for (int d = 0; d < 2; ++d)
+    dense_add_product(f->n_col, L, N, 1, change[d], f->n_col, f->test, N, 1, f->by + (size_t)(d * L) * n, f->n_col);
 }
 
 /* ---- made and freed ---------------------------------------------------------------------------------- */
@@ -420,39 +409,6 @@ static void add_intervals(planar_force *f, bool derive)
   come_to_rest(f, base, c->slip.panel[last->panel + last->n_panels - 1].phi[N - 1], at.R);
 }
 
-/* On the closed orbit d w0 = A d w0 + B: of what dw has after a pass from w0, into dw; then by += (derivatives by w0)
- * d w0. */
-static void close_derivatives(planar_force *f)
-{
-  const int n = f->n_size;
-  const double a = 1 - f->dw[0][n], b = -f->dw[0][n + 1], c = -f->dw[1][n], d = 1 - f->dw[1][n + 1],
-               det = a * d - b * c;
-  for (int q = 0; q < n; ++q) {
-    const double x = f->dw[0][q], y = f->dw[1][q];
-    f->dw[0][q] = (d * x - b * y) / det;
-    f->dw[1][q] = (a * y - c * x) / det;
-  }
-  for (size_t i = 0; i < 2 * (size_t)f->n_coef; ++i) {
-    double *by = f->by + i * (size_t)f->n_col;
-    const double *by_w0 = by + n;
-    for (int q = 0; q < n; ++q) by[q] += by_w0[0] * f->dw[0][q] + by_w0[1] * f->dw[1][q];
-  }
-}
-
-/* Free to rest anywhere: the passes from w = 0 that brought it where it is, once more. */
-static hc_status march_again(planar_force *f)
-{
-  double w[2] = {0};
-  hc_status st = HC_OK;
-  clear_row(f, f->dw[0]);
-  clear_row(f, f->dw[1]);
-  for (int i = 0; i < f->cycle.marched && st == HC_OK; ++i) {
-    st = planar_cycle_pass(&f->cycle, w, NULL);
-    if (st == HC_OK) add_intervals(f, true);
-  }
-  return st == HC_OK ? planar_cycle_pass(&f->cycle, w, NULL) : st;
-}
-
 /* Derivatives of the corner it rests in. */
 static void follow_corner(planar_force *f)
 {
@@ -482,10 +438,36 @@ static hc_status integrate(planar_force *f, bool derive)
     f->dw[d][f->n_size + d] = 1;
   }
   if (derive && f->cycle.cornered) follow_corner(f);
-  else if (derive && f->cycle.always && !closes) st = march_again(f);
+  else if (derive && f->cycle.always && !closes) {
+    /* Free to rest anywhere: the passes from w = 0 that brought it where it is, once more. */
+    double w[2] = {0};
+    clear_row(f, f->dw[0]);
+    clear_row(f, f->dw[1]);
+    for (int i = 0; i < f->cycle.marched && st == HC_OK; ++i) {
+      st = planar_cycle_pass(&f->cycle, w, NULL);
+      if (st == HC_OK) add_intervals(f, true);
+    }
+    st = st == HC_OK ? planar_cycle_pass(&f->cycle, w, NULL) : st;
+  }
   if (st != HC_OK) return st;
   add_intervals(f, derive);
-  if (closes) close_derivatives(f);
+  /* On the closed orbit d w0 = A d w0 + B: of what dw has after a pass from w0, into dw; then by += (derivatives by w0)
+   * d w0. */
+  if (closes) {
+    const int n = f->n_size;
+    const double a = 1 - f->dw[0][n], b = -f->dw[0][n + 1], c = -f->dw[1][n], d = 1 - f->dw[1][n + 1],
+                 det = a * d - b * c;
+    for (int q = 0; q < n; ++q) {
+      const double x = f->dw[0][q], y = f->dw[1][q];
+      f->dw[0][q] = (d * x - b * y) / det;
+      f->dw[1][q] = (a * y - c * x) / det;
+    }
+    for (size_t i = 0; i < 2 * (size_t)f->n_coef; ++i) {
+      double *by = f->by + i * (size_t)f->n_col;
+      const double *by_w0 = by + n;
+      for (int q = 0; q < n; ++q) by[q] += by_w0[0] * f->dw[0][q] + by_w0[1] * f->dw[1][q];
+    }
+  }
   return HC_OK;
 }
 

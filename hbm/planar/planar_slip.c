@@ -67,22 +67,6 @@ static inline void subtract_row(double factor, const double *restrict row, doubl
   for (int j = 0; j < N + 2; ++j) from[j] -= factor * row[j];
 }
 
-/* Gauss's elimination: A x = b for both right-hand sides, the last two columns, in place. Without row exchanges: A is a
- * diagonal >= 0 plus Radau's matrix, each row times a number > 0 while it slips, of which elimination is stable as it
- * is. Where it is not, Newton does not arrive, and a narrower panel is tried, whose diagonal has more weight. */
-static inline void solve_both(double A[N][N + 2])
-{
-  double inverse[N];
-  for (int k = 0; k < N; ++k) {
-    inverse[k] = 1 / A[k][k];
-    for (int i = k + 1; i < N; ++i) subtract_row(A[i][k] * inverse[k], A[k], A[i]);
-  }
-  for (int k = N - 1; k >= 0; --k) {
-    A[k][N] *= inverse[k], A[k][N + 1] *= inverse[k];
-    for (int i = 0; i < k; ++i) A[i][N] -= A[i][k] * A[k][N], A[i][N + 1] -= A[i][k] * A[k][N + 1];
-  }
-}
-
 typedef struct panel_points {
   planar_rates at;
   double rise[N];      /* [rad] phi - phi0 */
@@ -118,7 +102,19 @@ WIDE_VECTORS static double newton_step(const collocation *c, planar_panel *p, pa
     A[i][N] = turn[i];
     A[i][N + 1] = -pull[i];
   }
-  solve_both(A);
+  /* Gauss's elimination: A x = b for both right-hand sides, the last two columns, in place. Without row exchanges: A
+   * is a diagonal >= 0 plus Radau's matrix, each row times a number > 0 while it slips, of which elimination is
+   * stable as it is. Where it is not, Newton does not arrive, and a narrower panel is tried, whose diagonal has more
+   * weight. */
+  double inverse[N];
+  for (int k = 0; k < N; ++k) {
+    inverse[k] = 1 / A[k][k];
+    for (int i = k + 1; i < N; ++i) subtract_row(A[i][k] * inverse[k], A[k], A[i]);
+  }
+  for (int k = N - 1; k >= 0; --k) {
+    A[k][N] *= inverse[k], A[k][N + 1] *= inverse[k];
+    for (int i = 0; i < k; ++i) A[i][N] -= A[i][k] * A[k][N], A[i][N + 1] -= A[i][k] * A[k][N + 1];
+  }
   p->growth = 1;
   for (int i = 0; i < N; ++i) {
     p->slope[i] += A[i][N];
@@ -128,14 +124,6 @@ WIDE_VECTORS static double newton_step(const collocation *c, planar_panel *p, pa
   }
   set_angles(c, p, q);
   return moved;
-}
-
-/* The two last coefficients of the slope, as an angle. */
-static double unresolved(const collocation *c, const planar_panel *p)
-{
-  double last = 0, before = 0;
-  for (int j = 0; j < N; ++j) last += c->mode[N - 1][j] * p->slope[j], before += c->mode[N - 2][j] * p->slope[j];
-  return (p->to - p->from) * (fabs(last) + fabs(before)) / (2 * N);
 }
 
 /* The panel from p->from, p->phi0 to p->to, unless what it leaves unresolved is `hopeless` on the way; its slopes to
@@ -151,7 +139,10 @@ static bool make_panel(const collocation *c, const planar_motion *m, double enou
   double moved = 1;
   for (int k = 0; k < MAX_NEWTON && moved > enough; ++k) {
     moved = newton_step(c, p, q);
-    q->mismatch = unresolved(c, p);
+    /* The two last coefficients of the slope, as an angle. */
+    double last = 0, before = 0;
+    for (int j = 0; j < N; ++j) last += c->mode[N - 1][j] * p->slope[j], before += c->mode[N - 2][j] * p->slope[j];
+    q->mismatch = (p->to - p->from) * (fabs(last) + fabs(before)) / (2 * N);
     const double beyond = moved < 1 ? moved * moved : 1; /* [rad] what the next step may still change */
     if (!(q->mismatch <= hopeless + beyond)) return false;
   }
@@ -282,16 +273,6 @@ static void guess_from_start(const planar_slip *s, const planar_point *at, doubl
   for (int i = 0; i < N; ++i) p->slope[i] = first + bend * (p->to - p->from) * s->c->x[i];
 }
 
-/* The same where slip goes on: those of the panel before, continued if that is not too far beyond it. */
-static void guess_slopes(const planar_slip *s, const planar_point *at, double phi, planar_panel *p)
-{
-  const planar_panel *before = s->n > 0 ? p - 1 : p;
-  const bool goes_on = s->n > 0 && before->to == p->from && before->phi[N - 1] == p->phi0;
-  const double ratio = (p->to - p->from) / (before->to - before->from);
-  if (goes_on && ratio < 3) collocation_slopes(s->c, before->slope, 1, ratio, p->slope);
-  else guess_from_start(s, at, phi, p);
-}
-
 /* [rad] A step of Newton's after which the next one would be of its square. */
 static double enough(const planar_slip *s) { return s->resolved > PLANAR_RESOLVED ? 1e-3 : 1e-7; }
 
@@ -305,7 +286,12 @@ static hc_status next_panel(planar_slip *s, const planar_point *at, double phi, 
   const double allowed = s->resolved / sqrt(share(s, at, left, lifts_off));
   double width = width_to_try(s, at, phi, left);
   *p = (planar_panel){.from = at->th, .to = width < left ? at->th + width : to, .phi0 = phi};
-  guess_slopes(s, at, phi, p);
+  /* The same where slip goes on: those of the panel before, continued if that is not too far beyond it. */
+  const planar_panel *before = s->n > 0 ? p - 1 : p;
+  const bool goes_on = s->n > 0 && before->to == p->from && before->phi[N - 1] == p->phi0;
+  const double ratio = (p->to - p->from) / (before->to - before->from);
+  if (goes_on && ratio < 3) collocation_slopes(s->c, before->slope, 1, ratio, p->slope);
+  else guess_from_start(s, at, phi, p);
   for (int tries = 0;; ++tries) {
     const bool made = make_panel(s->c, s->m, enough(s), width > least_width ? allowed : INFINITY, p, q);
     const double factor = isfinite(q->mismatch) ? 0.9 * pow(allowed / (q->mismatch + 1e-300), 1.0 / N) : 0.25;

@@ -251,20 +251,6 @@ static bool fill_by_compliance(condensation *c, int h)
   return true;
 }
 
-/* Without a rest S = Z, and loads are as the model has them. */
-static void fill_whole(condensation *c)
-{
-  const size_t entries = (size_t)c->basis.dim * (size_t)c->basis.dim;
-  double complex *S = c->S;
-  for (int h = 0; h <= c->n_harm; ++h) {
-    const condensation_change dynamic = dynamic_at(c, h);
-    for (size_t at = 0; at < entries; ++at) *S++ = Z_at(c, dynamic, at);
-  }
-  for (int l = 0; l < c->m->n_loads && !c->loaded; ++l)
-    if (c->m->loads[l].harmonic <= c->n_harm) fill_load(c, l);
-  c->loaded = true;
-}
-
 hc_status condensation_at(condensation *c, double omega, double more_damping)
 {
   if (c->known && omega == c->omega && more_damping == c->more_damping) return HC_OK;
@@ -272,7 +258,18 @@ hc_status condensation_at(condensation *c, double omega, double more_damping)
   c->more_damping = more_damping;
   c->known = false;
   hc_status st = HC_OK;
-  if (c->basis.rest == 0) fill_whole(c);
+  /* Without a rest S = Z, and loads are as the model has them. */
+  if (c->basis.rest == 0) {
+    const size_t entries = (size_t)c->basis.dim * (size_t)c->basis.dim;
+    double complex *S = c->S;
+    for (int h = 0; h <= c->n_harm; ++h) {
+      const condensation_change dynamic = dynamic_at(c, h);
+      for (size_t at = 0; at < entries; ++at) *S++ = Z_at(c, dynamic, at);
+    }
+    for (int l = 0; l < c->m->n_loads && !c->loaded; ++l)
+      if (c->m->loads[l].harmonic <= c->n_harm) fill_load(c, l);
+    c->loaded = true;
+  }
   for (int h = 0; h <= c->n_harm && st == HC_OK && c->basis.rest > 0; ++h) {
     c->by_compliance[h] = fill_by_compliance(c, h);
     if (!c->by_compliance[h]) st = fill_by_rest(c, h);

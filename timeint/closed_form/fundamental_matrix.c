@@ -304,14 +304,6 @@ static hc_status find_following(fundamental_matrix *v, const scaled_model *m, co
   return st;
 }
 
-/* In column q, of a state, slowed modes as springs. */
-static void let_follow(fundamental_matrix *v, int state, int q)
-{
-  const bool rate = state >= v->n && state < 2 * v->n;
-  const double *follow = v->follow + (size_t)(rate ? state - v->n : state) * (size_t)v->n_slowed;
-  for (int f = 0; f < v->n_slowed; ++f) row_of(v, v->fast[f] + (rate ? v->n : 0))[q] = follow[f];
-}
-
 hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
                                    const double *y)
 {
@@ -327,7 +319,12 @@ hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m,
         j < 0 ? m->base->slowed[i % v->n] == 1 : (m->contact[j].law.has_friction && (track[j].since_start || on_limit));
     if (!moves) continue;
     row_of(v, i)[v->n_columns] = 1;
-    if (v->n_slowed > 0) let_follow(v, i, v->n_columns);
+    /* In column q, of a state, slowed modes as springs. */
+    if (v->n_slowed > 0) {
+      const bool rate = i >= v->n && i < 2 * v->n;
+      const double *follow = v->follow + (size_t)(rate ? i - v->n : i) * (size_t)v->n_slowed;
+      for (int f = 0; f < v->n_slowed; ++f) row_of(v, v->fast[f] + (rate ? v->n : 0))[v->n_columns] = follow[f];
+    }
     v->state[v->n_columns++] = i;
   }
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {

@@ -110,13 +110,6 @@ bool interval_modes_pay(const interval_modes *p, double omega, double span)
   return p && p->fastest > p->stiff * omega && p->fastest * span > short_span * omega;
 }
 
-/* What contact j adds to the matrix of the interval: its state, or NO_CONTACT for nothing. */
-static unsigned char state_of(const contact_track *track, const contact_forces_linear *f)
-{
-  const bool nothing = f->t_u == 0 && f->t_v == 0 && f->n_v == 0;
-  return nothing ? NO_CONTACT : (unsigned char)track->state;
-}
-
 /* -(K + K_contacts) [1/time^2] in the lower left of the first-order matrix, whose upper half is (0 1). */
 static void fill_stiffness(const interval_modes *p, const scaled_model *m, const contact_track *track, long double *A)
 {
@@ -218,7 +211,9 @@ hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const cont
   *out = NULL;
   for (int j = 0; j < p->base->n_contacts; ++j) {
     const contact_forces_linear f = contact_track_forces(&track[j], &m->contact[j]);
-    p->wanted[j] = state_of(&track[j], &f);
+    /* What contact j adds to the matrix of the interval: its state, or NO_CONTACT for nothing. */
+    const bool nothing = f.t_u == 0 && f.t_v == 0 && f.n_v == 0;
+    p->wanted[j] = nothing ? NO_CONTACT : (unsigned char)track[j].state;
   }
   complex_modes *s = look_up(p, &found);
   s->asked = ++p->asked;

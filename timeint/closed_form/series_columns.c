@@ -263,15 +263,6 @@ static bool is_rounding(series_columns *s, int width, int k, double h, const dou
   return small;
 }
 
-/* What power k adds to the motion at h and to its rate. */
-static void add_term(size_t count, double by_rate, const double *restrict z, double *restrict x, double *restrict p)
-{
-  for (size_t i = 0; i < count; ++i) {
-    x[i] += z[i];
-    p[i] += by_rate * z[i];
-  }
-}
-
 /* s->x and s->p to s->x_end and s->p_end over a step h; the last power of it that was taken, LAST + 1 if those up to
  * LAST do not suffice. */
 static int expand(series_columns *s, const scaled_model *m, int width, double h)
@@ -293,7 +284,11 @@ static int expand(series_columns *s, const scaled_model *m, int width, double h)
     subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, second);
     subtract_contacts(s, width, k == 2, by * h, z, second);
     subtract_turning(s, width, k - 2, by * h, z, next, second);
-    add_term(count, k / h, second, s->x_end, s->p_end);
+    /* What power k adds to the motion at h and to its rate. */
+    for (size_t i = 0; i < count; ++i) {
+      s->x_end[i] += second[i];
+      s->p_end[i] += (k / h) * second[i];
+    }
     if (k == 2) add_squares(s, width, 2 / h, second, s->size); /* a column that begins with its slider alone */
     if (!s->along || s->rounding > DBL_EPSILON) small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
     if (small == 2) return k; /* two: without damping even powers know nothing of odd ones */

@@ -183,15 +183,6 @@ static void report(const contact_watch *w, int k, contact_period *out)
   }
 }
 
-static hc_status make_watch(contact_watch *w)
-{
-  w->of = calloc((size_t)w->n_contacts + 1, sizeof *w->of);
-  hc_status st = w->of ? contact_rows_make(&w->rows, w->ti->base) : HC_NO_MEMORY;
-  if (st == HC_OK && !(w->q = calloc(2 * (size_t)w->rows.count + 1, sizeof *w->q))) st = HC_NO_MEMORY;
-  if (st == HC_OK) w->dq = w->q + w->rows.count;
-  return st;
-}
-
 /* [rad/rad] */
 static double stiffest_frequency(const timeint *ti) { return ti->base->highest / ti->omega; }
 
@@ -201,7 +192,10 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
   double *y = ti->point[2];
   contact_watch w = {
       .ti = ti, .n_contacts = n_contacts, .stiffest = stiffest_frequency(ti), .y = ti->point[0], .dy = ti->point[1]};
-  hc_status st = make_watch(&w);
+  w.of = calloc((size_t)w.n_contacts + 1, sizeof *w.of);
+  hc_status st = w.of ? contact_rows_make(&w.rows, w.ti->base) : HC_NO_MEMORY;
+  if (st == HC_OK && !(w.q = calloc(2 * (size_t)w.rows.count + 1, sizeof *w.q))) st = HC_NO_MEMORY;
+  if (st == HC_OK) w.dq = w.q + w.rows.count;
   for (int j = 0; j < n_contacts && st == HC_OK; ++j) w.of[j].normal_min = INFINITY;
   memcpy(y, ti->y, (size_t)ti->n * sizeof *y);
   if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));

@@ -275,21 +275,18 @@ static hc_status from_orbit(timeint *ti, const hc_monitor *monitor, timeint_resu
   return approach_attractor(ti, STRETCH_FROM_UNSTABLE, monitor, r);
 }
 
-static hc_status to_attractor(timeint *ti, const hc_monitor *monitor, timeint_result *r)
-{
-  if (linear_regime_steady(ti, r)) return HC_OK;
-  hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
-  if (st != HC_OK) return st;
-  return ti->how.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r)
-                                              : approach_attractor(ti, FIRST_STRETCH, monitor, r);
-}
-
 static hc_status by_itself(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
   switch (ti->how.steady) {
   case TRANSIENT_STEADY_MARCH: return settle_by_integration(ti, monitor, r);
   case TRANSIENT_STEADY_SHOOTING: return to_nearest_orbit(ti, 1, monitor, r);
-  default: return to_attractor(ti, monitor, r);
+  default: {
+    if (linear_regime_steady(ti, r)) return HC_OK;
+    hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
+    if (st != HC_OK) return st;
+    return ti->how.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r)
+                                                : approach_attractor(ti, FIRST_STRETCH, monitor, r);
+  }
   }
 }
 

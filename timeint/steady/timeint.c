@@ -26,23 +26,6 @@ static bool all_finite(size_t count, const double *a)
   return ok;
 }
 
-static hc_status check_input(const model *m, const transient_settings *how)
-{
-  const size_t n = (size_t)m->n;
-  if (m->n == 1 && !(positive(*m->mass) && not_negative(*m->damping) && not_negative(*m->stiffness)))
-    return HC_BAD_INPUT;
-  bool ok = all_finite(n * n, m->mass) && all_finite(n * n, m->damping) && all_finite(n * n, m->stiffness);
-  for (int l = 0; l < m->n_loads; ++l) ok = ok && all_finite(n, m->loads[l].cosine) && all_finite(n, m->loads[l].sine);
-  for (int j = 0; j < m->n_contacts; ++j)
-    ok = ok && all_finite(n, m->contacts[j].tangent) && all_finite(n, m->contacts[j].normal);
-  if (!(ok && m->n_responses > 0)) return HC_BAD_INPUT;
-  for (int j = 0; j < m->n_contacts; ++j)
-    if (!contact_ok(&m->contacts[j])) return HC_BAD_INPUT;
-  if (how->method == TRANSIENT_METHOD_CLOSED_FORM && how->law != TRANSIENT_LAW_EXACT) return HC_BAD_INPUT;
-  if (!positive(how->regularisation) || !positive(how->tolerance) || how->max_periods < 1) return HC_BAD_INPUT;
-  return HC_OK;
-}
-
 static hc_status make_memory(timeint *ti)
 {
   double **const vectors[] = {
@@ -68,7 +51,19 @@ static hc_status make_parts(timeint *ti)
 static hc_status make(const model *m, const transient_settings *how, bool may_slow, timeint **out)
 {
   *out = NULL;
-  hc_status st = check_input(m, how);
+  const size_t n = (size_t)m->n;
+  if (m->n == 1 && !(positive(*m->mass) && not_negative(*m->damping) && not_negative(*m->stiffness)))
+    return HC_BAD_INPUT;
+  bool ok = all_finite(n * n, m->mass) && all_finite(n * n, m->damping) && all_finite(n * n, m->stiffness);
+  for (int l = 0; l < m->n_loads; ++l) ok = ok && all_finite(n, m->loads[l].cosine) && all_finite(n, m->loads[l].sine);
+  for (int j = 0; j < m->n_contacts; ++j)
+    ok = ok && all_finite(n, m->contacts[j].tangent) && all_finite(n, m->contacts[j].normal);
+  if (!(ok && m->n_responses > 0)) return HC_BAD_INPUT;
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (!contact_ok(&m->contacts[j])) return HC_BAD_INPUT;
+  if (how->method == TRANSIENT_METHOD_CLOSED_FORM && how->law != TRANSIENT_LAW_EXACT) return HC_BAD_INPUT;
+  if (!positive(how->regularisation) || !positive(how->tolerance) || how->max_periods < 1) return HC_BAD_INPUT;
+  hc_status st = HC_OK;
   if (st != HC_OK) return st;
   if (m->n_contacts > MOST_STATES - 2 * m->n) return HC_NO_MEMORY;
   timeint *ti = calloc(1, sizeof *ti); /* zeroed, so free works half-built */
