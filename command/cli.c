@@ -11,7 +11,6 @@
 #include <sqlite3.h>
 #include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sundials/sundials_version.h>

@@ -9,7 +9,6 @@
 #include "compare/first_guess.h"
 #include "compare/motion.h"
 #include "compare/response.h"
-#include "numerics/series.h"
 #include "timeint/steady/sweep.h"
 
 const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }

@@ -2,7 +2,6 @@
 #include "compare/response.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 
 #include "base/number.h"

@@ -9,7 +9,6 @@
 #include "base/growing.h"
 #include "base/workspace.h"
 #include "compare/comparison.h"
-#include "compare/first_guess.h"
 #include "compare/motion.h"
 #include "compare/response.h"
 #include "timeint/steady/contact_watch.h"
@@ -82,29 +81,6 @@ static double regularisation_error(steady_work *w, const timeint_result *r, hc_s
   return budget_regularisation(r, &orbit);
 }
 
-/* Appends what each contact does in the periods that w->ti holds. */
-static hc_status add_contacts(steady_work *w, const steady_row *row)
-{
-  const model *m = w->setup->model;
-  const int n = model_whole_contacts(m);
-  steady_states *out = w->out;
-  contact_period *periods = calloc((size_t)m->n_contacts + 1, sizeof *periods);
-  hc_status measured = periods ? timeint_contacts(w->ti, &row->result, periods) : HC_NO_MEMORY;
-  if (measured == HC_OK) contact_periods_merge(m, periods);
-  lock_found(w);
-  steady_contact *grown = growing_by(out->contacts, out->n_contacts, n, sizeof *grown);
-  if (grown) out->contacts = grown;
-  else measured = HC_NO_MEMORY;
-  for (int j = 0; j < n && measured == HC_OK; ++j) {
-    steady_contact *c = &out->contacts[out->n_contacts++];
-    *c = (steady_contact){.omega = row->result.omega, .contact = j, .period = periods[j]};
-    snprintf(c->start, sizeof c->start, "%s", row->start);
-  }
-  unlock_found(w);
-  free(periods);
-  return measured == HC_NO_MEMORY ? measured : HC_OK;
-}
-
 /* Appends the rows of the other responses, from the periods that w->ti holds. */
 static hc_status add_other_responses(steady_work *w, steady_row *row)
 {
@@ -128,7 +104,27 @@ static hc_status steady_settle(steady_work *w, double omega, const char *start, 
   if (row.status == HC_OK) row.from_regularisation = regularisation_error(w, &row.result, &row.status);
   if (row.status == HC_NO_MEMORY) return HC_NO_MEMORY;
   hc_status st = add_row(w, &row);
-  if (st == HC_OK && w->setup->contacts && motion_is_measured(row.status)) st = add_contacts(w, &row);
+  /* Appends what each contact does in the periods that w->ti holds. */
+  if (st == HC_OK && w->setup->contacts && motion_is_measured(row.status)) {
+    const model *m = w->setup->model;
+    const int n = model_whole_contacts(m);
+    steady_states *out = w->out;
+    contact_period *periods = calloc((size_t)m->n_contacts + 1, sizeof *periods);
+    hc_status measured = periods ? timeint_contacts(w->ti, &row.result, periods) : HC_NO_MEMORY;
+    if (measured == HC_OK) contact_periods_merge(m, periods);
+    lock_found(w);
+    steady_contact *grown = growing_by(out->contacts, out->n_contacts, n, sizeof *grown);
+    if (grown) out->contacts = grown;
+    else measured = HC_NO_MEMORY;
+    for (int j = 0; j < n && measured == HC_OK; ++j) {
+      steady_contact *c = &out->contacts[out->n_contacts++];
+      *c = (steady_contact){.omega = row.result.omega, .contact = j, .period = periods[j]};
+      snprintf(c->start, sizeof c->start, "%s", row.start);
+    }
+    unlock_found(w);
+    free(periods);
+    st = measured == HC_NO_MEMORY ? measured : HC_OK;
+  }
   if (st == HC_OK) st = add_other_responses(w, &row);
   if (w->setup->added) w->setup->added(w->setup->added_to);
   return row.status == HC_INTERRUPTED ? HC_INTERRUPTED : st;

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "numerics/dense.h"
 #include "numerics/norm.h"

@@ -73,7 +73,8 @@ typedef struct outlook {
 
 static double growth(double complex rate, double h) { return creal(rate) > 0 ? exp(creal(rate) * h) : 1; }
 
-static outlook look(const exponentials *e, const exponential_sum *s, double h)
+/* How far the sum surely stays positive from tau on, at most h; if it falls to 0 within that, *root is where. */
+static double clear_step(const exponentials *e, const exponential_sum *s, double tau, double h, double *root)
 {
   outlook o = {.f = s->constant};
   double fast = 0; /* the sizes of the terms not yet added */
@@ -90,13 +91,6 @@ static outlook look(const exponentials *e, const exponential_sum *s, double h)
     fast = fmax(fast - size, 0);
   }
   o.safe = fmax(o.safe, safe_step(fmax(o.f, 0) + (1 - nothing) * s->noise, o.slope, o.bend));
-  return o;
-}
-
-/* How far the sum surely stays positive from tau on, at most h; if it falls to 0 within that, *root is where. */
-static double clear_step(const exponentials *e, const exponential_sum *s, double tau, double h, double *root)
-{
-  const outlook o = look(e, s, h);
   *root = INFINITY;
   if (!(o.f >= -s->noise)) return *root = tau, 0; /* NaN, too */
   if (o.safe >= h) return h;

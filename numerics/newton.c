@@ -239,9 +239,21 @@ static hc_status polish(newton *nw, const newton_options *opt, newton_report *re
   return on_residual(nw->z, nw->r, nw) ? nw->refusal : HC_OK;
 }
 
-/* The status of a solve: from KINSOL's flag, and from the residual evaluated again at its z. */
-static hc_status check_answer(newton *nw, int flag, const newton_options *opt, newton_report *report)
+/* A solve from nw->start by KINSOL's strategy. */
+static hc_status solve_from_start(newton *nw, int strategy, const newton_options *opt, newton_report *report)
 {
+  size_t bytes = (size_t)nw->problem.n * sizeof(double);
+  memcpy(N_VGetArrayPointer(nw->z), nw->start, bytes);
+  int bad = KINSetFuncNormTol(nw->kin, opt->tolerance) | KINSetMaxNewtonStep(nw->kin, opt->max_step);
+  bad |= KINSetNumMaxIters(nw->kin, opt->max_iterations);
+  if (bad) return HC_BAD_INPUT;
+  nw->refusal = HC_OK;
+  int flag = KINSol(nw->kin, nw->z, strategy, nw->z_scale, nw->r_scale);
+  long iterations = 0;
+  KINGetNumNonlinSolvIters(nw->kin, &iterations);
+  report->iterations += (int)iterations;
+  if (nw->refusal == HC_NO_MEMORY) return HC_NO_MEMORY;
+  /* The status of a solve: from KINSOL's flag, and from the residual evaluated again at its z. */
   hc_status refusal = nw->refusal;
   bool finite = on_residual(nw->z, nw->r, nw) == 0;
   report->residual = finite ? norm_weighted_max(nw->problem.n, opt->r_scale, N_VGetArrayPointer(nw->r)) : NAN;
@@ -259,23 +271,6 @@ static hc_status check_answer(newton *nw, int flag, const newton_options *opt, n
   case KIN_REPTD_SYSFUNC_ERR: return refusal != HC_OK ? refusal : HC_NOT_FINITE;
   default: return HC_NOT_CONVERGED; /* so is any new flag */
   }
-}
-
-/* A solve from nw->start by KINSOL's strategy. */
-static hc_status solve_from_start(newton *nw, int strategy, const newton_options *opt, newton_report *report)
-{
-  size_t bytes = (size_t)nw->problem.n * sizeof(double);
-  memcpy(N_VGetArrayPointer(nw->z), nw->start, bytes);
-  int bad = KINSetFuncNormTol(nw->kin, opt->tolerance) | KINSetMaxNewtonStep(nw->kin, opt->max_step);
-  bad |= KINSetNumMaxIters(nw->kin, opt->max_iterations);
-  if (bad) return HC_BAD_INPUT;
-  nw->refusal = HC_OK;
-  int flag = KINSol(nw->kin, nw->z, strategy, nw->z_scale, nw->r_scale);
-  long iterations = 0;
-  KINGetNumNonlinSolvIters(nw->kin, &iterations);
-  report->iterations += (int)iterations;
-  if (nw->refusal == HC_NO_MEMORY) return HC_NO_MEMORY;
-  return check_answer(nw, flag, opt, report);
 }
 
 hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_report *report)

@@ -331,32 +331,29 @@ static void draw_second_tangent(uint64_t *r, int n, structure_contact *c)
   for (int i = 0; i < n; ++i) c->tangent_2[i] = along * c->tangent[i] + by * c->tangent_2[i];
 }
 
-static hc_status in_space(stress_scenes *scenes, long index, scene *out)
-{
-  const uint64_t other = 0x5eedULL << 48; /* than that of structures.c */
-  hc_status st = stress_structures_at(scenes, index, out);
-  if (st != HC_OK) return st;
-  scene_structure *s = out->structure;
-  uint64_t key = (((uint64_t)stress_scenes_seed(scenes) << 32) + (uint64_t)index) ^ other, r = random_bits(&key);
-  snprintf(out->title, sizeof out->title, "Stress structure in space %ld of seed %lu", index,
-           stress_scenes_seed(scenes));
-  int directions = 2 * s->n_contacts;
-  for (int j = 0; j < s->n_contacts && s->n > 1; ++j) {
-    structure_contact *c = &s->contacts[j];
-    if (is_zero(s->n, c->tangent) || random_unit(&r) > 0.7) continue;
-    draw_second_tangent(&r, s->n, c);
-    c->given.limit = random_unit(&r) < 0.8 ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
-    ++directions;
-  }
-  const int most = most_harmonics(s->n, directions);
-  if (out->hbm.harmonics > most) out->hbm.harmonics = most;
-  return HC_OK;
-}
-
 hc_status stress_scene_of(stress_scenes *scenes, stress_family family, long index, scene *out)
 {
   switch (family) {
-  case STRESS_SPACE: return in_space(scenes, index, out);
+  case STRESS_SPACE: {
+    const uint64_t other = 0x5eedULL << 48; /* than that of structures.c */
+    hc_status st = stress_structures_at(scenes, index, out);
+    if (st != HC_OK) return st;
+    scene_structure *s = out->structure;
+    uint64_t key = (((uint64_t)stress_scenes_seed(scenes) << 32) + (uint64_t)index) ^ other, r = random_bits(&key);
+    snprintf(out->title, sizeof out->title, "Stress structure in space %ld of seed %lu", index,
+             stress_scenes_seed(scenes));
+    int directions = 2 * s->n_contacts;
+    for (int j = 0; j < s->n_contacts && s->n > 1; ++j) {
+      structure_contact *c = &s->contacts[j];
+      if (is_zero(s->n, c->tangent) || random_unit(&r) > 0.7) continue;
+      draw_second_tangent(&r, s->n, c);
+      c->given.limit = random_unit(&r) < 0.8 ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
+      ++directions;
+    }
+    const int most = most_harmonics(s->n, directions);
+    if (out->hbm.harmonics > most) out->hbm.harmonics = most;
+    return HC_OK;
+  }
   case STRESS_STRUCTURES: return stress_structures_at(scenes, index, out);
   case STRESS_OSCILLATORS: break;
   }

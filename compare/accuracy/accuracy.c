@@ -66,6 +66,22 @@ static bool orbit_next_to(const comparison *c, timeint *ti, double *state, hbm_s
   return true;
 }
 
+static hc_status targets_at(const comparison *c, timeint *ti, double *state, hbm_solver *hbm, const hbm_curve *curve,
+                            double omega, const hc_monitor *monitor, reference *r)
+{
+  hbm_curve at = {0};
+  hc_status st = hbm_curve_at(hbm, curve, omega, &at) == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK;
+  for (int k = 0; k < at.n && st == HC_OK; ++k) {
+    const double *X = at.X + (size_t)k * at.n_coef;
+    periodic_motion orbit;
+    if (!orbit_next_to(c, ti, state, hbm, X, omega, monitor, &orbit) || is_known(r, omega, &orbit)) continue;
+    if (GROW(r->targets, r->n)) r->targets[r->n++] = (target){omega, orbit};
+    else st = HC_NO_MEMORY;
+  }
+  hbm_curve_free(&at);
+  return st;
+}
+
 typedef struct climber {
   timeint *ti;
   const double *state; /* [n_states] next to an orbit */
@@ -123,6 +139,22 @@ static bool climb(const compare_setup *setup, climber *c, double omega, referenc
   return out->peak_by_orbit = true;
 }
 
+static void find_peak(const compare_setup *setup, timeint *ti, double *states, hbm_solver *hbm, const hbm_curve *curve,
+                      reference *out)
+{
+  hbm_curve peak = {0};
+  hbm_measures m;
+  out->peak_amplitude = out->peak_omega = NAN;
+  if (curve->n > 0 && hbm_curve_peak(hbm, curve, &peak) == HC_OK && peak.n > 0 &&
+      hbm_measure(hbm, peak.X, &m) == HC_OK) {
+    double omega = peak.points[0].omega;
+    climber c = {ti, states, states + timeint_n_states(ti)};
+    if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK || !climb(setup, &c, omega, out))
+      out->peak_amplitude = m.amplitude, out->peak_omega = omega;
+  }
+  hbm_curve_free(&peak);
+}
+
 /* From the curve of `hbm`, whose forces are exact. out->targets is the caller's to free in any case. */
 static hc_status reference_make(const compare_setup *setup, const comparison *c, hbm_solver *hbm,
                                 const hbm_curve *curve, const hc_monitor *monitor, reference *out)
@@ -135,33 +167,9 @@ static hc_status reference_make(const compare_setup *setup, const comparison *c,
   for (int i = 0; i < c->n_rows && st == HC_OK; ++i) {
     if (i > 0 && c->rows[i].omega == c->rows[i - 1].omega) continue;
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
-    else {
-      const double omega = c->rows[i].omega;
-      hbm_curve at = {0};
-      st = hbm_curve_at(hbm, curve, omega, &at) == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK;
-      for (int k = 0; k < at.n && st == HC_OK; ++k) {
-        const double *X = at.X + (size_t)k * at.n_coef;
-        periodic_motion orbit;
-        if (!orbit_next_to(c, ti, states, hbm, X, omega, monitor, &orbit) || is_known(out, omega, &orbit)) continue;
-        if (GROW(out->targets, out->n)) out->targets[out->n++] = (target){omega, orbit};
-        else st = HC_NO_MEMORY;
-      }
-      hbm_curve_free(&at);
-    }
+    else st = targets_at(c, ti, states, hbm, curve, c->rows[i].omega, monitor, out);
   }
-  if (st == HC_OK) {
-    hbm_curve peak = {0};
-    hbm_measures m;
-    out->peak_amplitude = out->peak_omega = NAN;
-    if (curve->n > 0 && hbm_curve_peak(hbm, curve, &peak) == HC_OK && peak.n > 0 &&
-        hbm_measure(hbm, peak.X, &m) == HC_OK) {
-      double omega = peak.points[0].omega;
-      climber climbing = {ti, states, states + timeint_n_states(ti)};
-      if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK || !climb(setup, &climbing, omega, out))
-        out->peak_amplitude = m.amplitude, out->peak_omega = omega;
-    }
-    hbm_curve_free(&peak);
-  }
+  if (st == HC_OK) find_peak(setup, ti, states, hbm, curve, out);
   free(states);
   timeint_free(ti);
   return st;
@@ -244,33 +252,52 @@ static bool nearest_pair(const table_work *w, const solutions *s, int first, int
   return least < INFINITY;
 }
 
+/* The targets first..last-1, of one frequency, get the solutions of the curve there: each at most one, the nearest
+ * pairs first. */
+static hc_status assign(const table_work *w, response_curve *t, int first, int last, solutions *s)
+{
+  hbm_curve at = {0};
+  hc_status st = hbm_curve_at(t->hbm, &t->curve, w->ref.targets[first].omega, &at);
+  periodic_motion *found = calloc((size_t)at.n + 1, sizeof *found);
+  bool *taken = calloc((size_t)at.n + 1, sizeof *taken);
+  int i = 0, k = 0;
+  st = st == HC_NO_MEMORY || !found || !taken ? HC_NO_MEMORY : HC_OK;
+  for (int b = 0; b < at.n && st == HC_OK; ++b) {
+    const double *X = at.X + (size_t)b * at.n_coef;
+    s->iterations += at.points[b].iterations;
+    taken[b] = motion_of_response(t->hbm, at.points[b].omega, X, 0, NULL, &found[b]) != HC_OK; /* not to be had */
+  }
+  while (st == HC_OK && nearest_pair(w, s, first, last, &at, found, taken, &i, &k)) {
+    taken[k] = true;
+    keep_solution(s, i, t->hbm, at.points[k].omega, at.X + (size_t)k * at.n_coef);
+  }
+  free(found);
+  free(taken);
+  hbm_curve_free(&at);
+  return st;
+}
+
 static hc_status solve_exact(const table_work *w, response_curve *t, solutions *s)
 {
   hc_status st = solutions_new(w->ref.n, hbm_n_coefficients(t->hbm), s);
   for (int first = 0, last; first < w->ref.n && st == HC_OK; first = last) {
     for (last = first; last < w->ref.n && w->ref.targets[last].omega == w->ref.targets[first].omega;) ++last;
-    /* The targets first..last-1, of one frequency, get the solutions of the curve there: each at most one, the nearest
-     * pairs first. */
-    hbm_curve at = {0};
-    st = hbm_curve_at(t->hbm, &t->curve, w->ref.targets[first].omega, &at);
-    periodic_motion *found = calloc((size_t)at.n + 1, sizeof *found);
-    bool *taken = calloc((size_t)at.n + 1, sizeof *taken);
-    int i = 0, k = 0;
-    st = st == HC_NO_MEMORY || !found || !taken ? HC_NO_MEMORY : HC_OK;
-    for (int b = 0; b < at.n && st == HC_OK; ++b) {
-      const double *X = at.X + (size_t)b * at.n_coef;
-      s->iterations += at.points[b].iterations;
-      taken[b] = motion_of_response(t->hbm, at.points[b].omega, X, 0, NULL, &found[b]) != HC_OK; /* not to be had */
-    }
-    while (st == HC_OK && nearest_pair(w, s, first, last, &at, found, taken, &i, &k)) {
-      taken[k] = true;
-      keep_solution(s, i, t->hbm, at.points[k].omega, at.X + (size_t)k * at.n_coef);
-    }
-    free(found);
-    free(taken);
-    hbm_curve_free(&at);
+    st = assign(w, t, first, last, s);
   }
   return st;
+}
+
+/* Where two starts converged to the same solution, the one that came from farther away is dropped. */
+static void drop_doubles(const table_work *w, const solutions *from, solutions *s)
+{
+  for (int a = 0; a < s->n; ++a)
+    for (int b = 0; b < s->n; ++b) {
+      if (a == b || !s->there[a] || !s->there[b] || w->ref.targets[a].omega != w->ref.targets[b].omega) continue;
+      if (!(motion_between(&s->motion[a], &s->motion[b]).waveform <= 1e-6 * s->motion[b].amplitude)) continue;
+      double da = motion_between(&s->motion[a], &from->motion[a]).waveform,
+             db = motion_between(&s->motion[b], &from->motion[b]).waveform;
+      if (da > db || (da == db && a > b)) s->there[a] = false;
+    }
 }
 
 /* The sampled solutions, each from the one with exact forces. */
@@ -288,17 +315,7 @@ static hc_status solve_sampled(const table_work *w, response_curve *t, const sol
     s->iterations += point.iterations;
   }
   free(X);
-  /* Where two starts converged to the same solution, the one that came from farther away is dropped. */
-  if (st == HC_OK) {
-    for (int a = 0; a < s->n; ++a)
-      for (int b = 0; b < s->n; ++b) {
-        if (a == b || !s->there[a] || !s->there[b] || w->ref.targets[a].omega != w->ref.targets[b].omega) continue;
-        if (!(motion_between(&s->motion[a], &s->motion[b]).waveform <= 1e-6 * s->motion[b].amplitude)) continue;
-        double da = motion_between(&s->motion[a], &from->motion[a]).waveform,
-               db = motion_between(&s->motion[b], &from->motion[b]).waveform;
-        if (da > db || (da == db && a > b)) s->there[a] = false;
-      }
-  }
+  if (st == HC_OK) drop_doubles(w, from, s);
   return st;
 }
 
@@ -324,10 +341,8 @@ static hc_status put_errors(const table_work *w, const solutions *s, const solut
   return HC_OK;
 }
 
-static hc_status make_row(const table_work *w, response_curve *t, int samples, const solutions *s,
-                          const plain_solutions *plain, double began, accuracy_row *row)
+static hc_status put_curve(const table_work *w, response_curve *t, accuracy_row *row)
 {
-  *row = (accuracy_row){.harmonics = plain->n_harm, .samples = samples, .possible = true};
   response_summary curve = {.peak_amplitude = NAN, .peak_omega = NAN};
   hc_status st = t->hbm ? response_summarise(t->hbm, &t->curve, &curve) : HC_OK;
   row->status = t->status;
@@ -339,6 +354,14 @@ static hc_status make_row(const table_work *w, response_curve *t, int samples, c
   row->rejected = t->curve.rejected;
   row->iterations = t->curve.iterations;
   row->evaluations = t->curve.evaluations;
+  return st;
+}
+
+static hc_status make_row(const table_work *w, response_curve *t, int samples, const solutions *s,
+                          const plain_solutions *plain, double began, accuracy_row *row)
+{
+  *row = (accuracy_row){.harmonics = plain->n_harm, .samples = samples, .possible = true};
+  hc_status st = put_curve(w, t, row);
   if (st != HC_OK) return st;
   row->iterations += s->iterations;
   row->false_turning_points =
@@ -346,6 +369,21 @@ static hc_status make_row(const table_work *w, response_curve *t, int samples, c
   st = put_errors(w, s, &plain->s, row);
   row->seconds = t->seconds + thread_seconds() - began;
   return st;
+}
+
+static accuracy_row impossible_row(int n_harm, int samples)
+{
+  return (accuracy_row){.harmonics = n_harm,
+                        .samples = samples,
+                        .status = HC_BAD_INPUT,
+                        .worst = NAN,
+                        .median = NAN,
+                        .aliasing = NAN,
+                        .peak_amplitude = NAN,
+                        .peak_omega = NAN,
+                        .peak_error = NAN,
+                        .peak_omega_error = NAN,
+                        .seconds = NAN};
 }
 
 /* The row of the i-th H with exact forces, and the solutions that the sampled ones start from. */
@@ -368,17 +406,7 @@ static hc_status sampled_row(const table_work *w, int samples, const plain_solut
   response_curve t;
   solutions s = {0};
   if (samples < 2 * plain->n_harm + 2) {
-    *row = (accuracy_row){.harmonics = plain->n_harm,
-                          .samples = samples,
-                          .status = HC_BAD_INPUT,
-                          .worst = NAN,
-                          .median = NAN,
-                          .aliasing = NAN,
-                          .peak_amplitude = NAN,
-                          .peak_omega = NAN,
-                          .peak_error = NAN,
-                          .peak_omega_error = NAN,
-                          .seconds = NAN};
+    *row = impossible_row(plain->n_harm, samples);
     return HC_OK;
   }
   hc_status st = trace(w, plain->n_harm, samples, monitor, &t);
@@ -409,6 +437,22 @@ static void put_order(accuracy *out, const char *quantity, int n_harm, int n, co
   order_fit fit = order_fit_to(n, x, e, floor);
   if (fit.points > 1)
     out->orders[out->n_orders++] = (order_row){.quantity = quantity, .harmonics = n_harm, .omega = NAN, .fit = fit};
+}
+
+/* The orders of the aliasing error in N for each H, and of the truncation error in H with exact forces. */
+static void put_orders(const table_work *w, accuracy *out)
+{
+  double x[NUMBER_LIST_MAX], e[NUMBER_LIST_MAX], h[NUMBER_LIST_MAX], truncation[NUMBER_LIST_MAX];
+  int n = 0, n_h = 0;
+  for (int i = 0; i < out->n_rows; ++i) {
+    const accuracy_row *row = &out->rows[i];
+    if (row->samples == EXACT) h[n_h] = row->harmonics, truncation[n_h++] = row->worst;
+    else x[n] = row->samples, e[n++] = row->aliasing;
+    bool last = i + 1 == out->n_rows || out->rows[i + 1].harmonics != row->harmonics;
+    if (last) put_order(out, "samples", row->harmonics, n, x, e, 1e2 * w->setup->hbm.tolerance), n = 0;
+  }
+  put_order(out, "harmonics", 0, n_h, h, truncation, floor_of_orbits);
+  if (w->regularisation.fit.points > 1) out->orders[out->n_orders++] = w->regularisation;
 }
 
 /* The orbits to compare with, and the rows with exact forces. */
@@ -442,6 +486,17 @@ static hc_status do_task(void *self, int task, const hc_monitor *monitor)
   return st;
 }
 
+static void put_reference(const table_work *w, accuracy *out)
+{
+  out->orbits = w->ref.n;
+  for (int i = 0; i < w->ref.n; ++i)
+    out->frequencies += i == 0 || w->ref.targets[i].omega != w->ref.targets[i - 1].omega;
+  out->peak_harmonics = w->ref.harmonics;
+  out->peak_by_orbit = w->ref.peak_by_orbit;
+  out->peak_amplitude = w->ref.peak_amplitude;
+  out->peak_omega = w->ref.peak_omega;
+}
+
 hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, accuracy *out)
 {
   int harmonics[NUMBER_LIST_MAX], samples[NUMBER_LIST_MAX];
@@ -461,25 +516,8 @@ hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc
   if (out->rows && out->orders && w.there) {
     for (size_t i = 0; i < most_rows; ++i) /* those that are there move together, in their order */
       if (w.there[i]) out->rows[out->n_rows++] = out->rows[i];
-    /* The orders of the aliasing error in N for each H, and of the truncation error in H with exact forces. */
-    double x[NUMBER_LIST_MAX], e[NUMBER_LIST_MAX], h[NUMBER_LIST_MAX], truncation[NUMBER_LIST_MAX];
-    int n = 0, n_h = 0;
-    for (int i = 0; i < out->n_rows; ++i) {
-      const accuracy_row *row = &out->rows[i];
-      if (row->samples == EXACT) h[n_h] = row->harmonics, truncation[n_h++] = row->worst;
-      else x[n] = row->samples, e[n++] = row->aliasing;
-      bool last = i + 1 == out->n_rows || out->rows[i + 1].harmonics != row->harmonics;
-      if (last) put_order(out, "samples", row->harmonics, n, x, e, 1e2 * w.setup->hbm.tolerance), n = 0;
-    }
-    put_order(out, "harmonics", 0, n_h, h, truncation, floor_of_orbits);
-    if (w.regularisation.fit.points > 1) out->orders[out->n_orders++] = w.regularisation;
-    out->orbits = w.ref.n;
-    for (int i = 0; i < w.ref.n; ++i)
-      out->frequencies += i == 0 || w.ref.targets[i].omega != w.ref.targets[i - 1].omega;
-    out->peak_harmonics = w.ref.harmonics;
-    out->peak_by_orbit = w.ref.peak_by_orbit;
-    out->peak_amplitude = w.ref.peak_amplitude;
-    out->peak_omega = w.ref.peak_omega;
+    put_orders(&w, out);
+    put_reference(&w, out);
   }
   for (int i = 0; i < w.n_harm; ++i) workspace_free(&w.plain[i].s.memory);
   free(w.ref.targets);

@@ -3,11 +3,8 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/number.h"
-#include "base/thread_clock.h"
-#include "compare/first_guess.h"
 #include "compare/response.h"
 
 bool method_is_hbm(bench_method m) { return m == BENCH_HBM_EXACT || m == BENCH_HBM_SAMPLED; }

@@ -191,25 +191,6 @@ static void fill_right(const planar_flow *f, const contact_interval *const *inte
   }
 }
 
-/* The column in f->now at the end of the step, from its accelerations. */
-static void finish_column(planar_flow *f, int n_slipping, const planar_slipping *slipping, double h,
-                          const double *acceleration)
-{
-  const int n = f->n, of_point = n + n_slipping;
-  double *x = f->now, *v = x + n, *state = v + n;
-  for (int r = 0; r < n; ++r) {
-    double once = 0, twice = 0;
-    for (int j = 0; j < N; ++j) {
-      once += f->c.a[N - 1][j] * acceleration[j * of_point + r];
-      twice += f->twice[N - 1][j] * acceleration[j * of_point + r];
-    }
-    x[r] += h * v[r] + h * h * twice;
-    v[r] += h * once;
-  }
-  for (int k = 0; k < n_slipping; ++k)
-    for (int j = 0; j < N; ++j) state[slipping[k].contact] += h * f->c.a[N - 1][j] * acceleration[j * of_point + n + k];
-}
-
 static void load_column(planar_flow *f, const double *phi, size_t q)
 {
   for (size_t i = 0; i < (size_t)f->n_states; ++i) f->now[i] = phi[i * (size_t)f->n_states + q];
@@ -248,7 +229,22 @@ static hc_status advance_step(planar_flow *f, const contact_interval *const *int
   dense_solve(unknowns, f->matrix, f->pivot, columns, f->right);
   for (size_t q = 0; q < (size_t)columns; ++q) {
     load_column(f, phi, q);
-    finish_column(f, n_slipping, slipping, h, f->right + q * (size_t)unknowns);
+    /* The column in f->now at the end of the step, from its accelerations. */
+    const double *acceleration = f->right + q * (size_t)unknowns;
+    const int n = f->n, of_point = n + n_slipping;
+    double *x = f->now, *v = x + n, *state = v + n;
+    for (int r = 0; r < n; ++r) {
+      double once = 0, twice = 0;
+      for (int j = 0; j < N; ++j) {
+        once += f->c.a[N - 1][j] * acceleration[j * of_point + r];
+        twice += f->twice[N - 1][j] * acceleration[j * of_point + r];
+      }
+      x[r] += h * v[r] + h * h * twice;
+      v[r] += h * once;
+    }
+    for (int k = 0; k < n_slipping; ++k)
+      for (int j = 0; j < N; ++j)
+        state[slipping[k].contact] += h * f->c.a[N - 1][j] * acceleration[j * of_point + n + k];
     for (size_t i = 0; i < states; ++i) phi[i * states + q] = f->now[i];
   }
   return isfinite(phi[0]) ? HC_OK : HC_NOT_FINITE;

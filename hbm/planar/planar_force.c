@@ -473,26 +473,6 @@ static hc_status integrate(planar_force *f, bool derive)
 
 /* ---- put together --------------------------------------------------------------------------------------- */
 
-/* F_d = kt (K u_d + rest), K being Toeplitz + Hankel of stick; and its derivatives. */
-static void put_tangential(planar_force *f, const double *X, double *F, double *jac)
-{
-  const size_t L = (size_t)f->n_coef, n = (size_t)f->n_size;
-  const double kt = f->law.kt;
-  memset(f->matrix, 0, L * L * sizeof *f->matrix);
-  force_jacobian_add(f->n_harm, f->symbol, f->n_coef, f->matrix);
-  for (size_t d = 0; d < 2; ++d) {
-    for (size_t q = 0; q < L; ++q)
-      for (size_t i = 0; i < L; ++i) f->F[d * L + i] += f->matrix[i + L * q] * X[d * L + q];
-    for (size_t i = 0; i < L; ++i) F[d * L + i] = kt * f->F[d * L + i];
-    for (size_t i = 0; jac && i < L; ++i) {
-      const double *by = f->by + (d * L + i) * (size_t)f->n_col;
-      for (size_t q = 0; q < n; ++q) jac[d * L + i + n * q] = kt * by[q];
-    }
-    for (size_t q = 0; jac && q < L; ++q)
-      for (size_t i = 0; i < L; ++i) jac[d * L + i + n * (d * L + q)] += kt * f->matrix[i + L * q];
-  }
-}
-
 static void put_normal(const planar_force *f, double *F, double *jac)
 {
   const size_t L = (size_t)f->n_coef, n = (size_t)f->n_size;
@@ -524,7 +504,22 @@ hc_status planar_force_eval(planar_force *f, const double *X, double *F, double 
   hc_status st = find_orbit(f, f->X);
   if (st == HC_OK) st = integrate(f, jac != NULL);
   if (st != HC_OK) return st;
-  put_tangential(f, X, F, jac);
+  /* F_d = kt (K u_d + rest), K being Toeplitz + Hankel of stick; and its derivatives. */
+  const size_t L = (size_t)f->n_coef, n = (size_t)f->n_size;
+  const double kt = f->law.kt;
+  memset(f->matrix, 0, L * L * sizeof *f->matrix);
+  force_jacobian_add(f->n_harm, f->symbol, f->n_coef, f->matrix);
+  for (size_t d = 0; d < 2; ++d) {
+    for (size_t q = 0; q < L; ++q)
+      for (size_t i = 0; i < L; ++i) f->F[d * L + i] += f->matrix[i + L * q] * X[d * L + q];
+    for (size_t i = 0; i < L; ++i) F[d * L + i] = kt * f->F[d * L + i];
+    for (size_t i = 0; jac && i < L; ++i) {
+      const double *by = f->by + (d * L + i) * (size_t)f->n_col;
+      for (size_t q = 0; q < n; ++q) jac[d * L + i + n * q] = kt * by[q];
+    }
+    for (size_t q = 0; jac && q < L; ++q)
+      for (size_t i = 0; i < L; ++i) jac[d * L + i + n * (d * L + q)] += kt * f->matrix[i + L * q];
+  }
   put_normal(f, F, jac);
   if (report) fill_report(f, report);
   return HC_OK;

@@ -3,7 +3,6 @@
 #include "hbm/solver/hbm_solver.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"

@@ -9,7 +9,6 @@
 #include "hbm/solver/ramp.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "hbm/solver/linear_solution.h"
 

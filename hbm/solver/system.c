@@ -134,9 +134,15 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   return drop_means(sys, R);
 }
 
-/* jac += S. */
-static void add_linear_stiffness(const hbm_system *sys, int ld, double *jac)
+void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
 {
+  const double *dF = contact_forces_jacobian(sys->contacts);
+  for (int col = 0; col < sys->n; ++col) {
+    const double *from = dF + (size_t)sys->n_coef * (size_t)(col + sys->first) + sys->first;
+    memcpy(jac + (size_t)ld * (size_t)col, from, (size_t)sys->n * sizeof *jac);
+  }
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
+  /* jac += S. */
   const size_t dim = (size_t)sys->dim, n = (size_t)ld;
   const double complex *S = condensation_stiffness(sys->linear, 0);
   for (size_t e = 0; e < dim; ++e)
@@ -153,17 +159,6 @@ static void add_linear_stiffness(const hbm_system *sys, int ld, double *jac)
         jac[b + d + n * (a + e)] -= im;
       }
   }
-}
-
-void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
-{
-  const double *dF = contact_forces_jacobian(sys->contacts);
-  for (int col = 0; col < sys->n; ++col) {
-    const double *from = dF + (size_t)sys->n_coef * (size_t)(col + sys->first) + sys->first;
-    memcpy(jac + (size_t)ld * (size_t)col, from, (size_t)sys->n * sizeof *jac);
-  }
-  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
-  add_linear_stiffness(sys, ld, jac);
   /* jac is whole but for the mistakes. */
   const hbm_mistakes *wrong = &sys->how.mistakes;
   for (int col = 0; sys->first == 0 && wrong->mean_error != 0 && col < sys->n; ++col)

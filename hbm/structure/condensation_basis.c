@@ -81,27 +81,6 @@ static void keep_rows(const model *m, const double *const *row, const int *pivot
   }
 }
 
-static hc_status choose_coordinates(const model *m, condensation_basis *b)
-{
-  const int n = m->n, most = 2 * m->n_contacts + 1;
-  workspace own = {0};
-  const double **row = workspace_array(&own, (size_t)most, sizeof *row);
-  int *pivot = workspace_array(&own, (size_t)most, sizeof *pivot);
-  double *triangle = workspace_doubles(&own, square(most < n ? most : n));
-  hc_status st = own.failed ? HC_NO_MEMORY : HC_OK;
-  b->dim = 0;
-  if (st == HC_OK) st = dense_span(n, collect_rows(m, row), row, dependent, &b->dim, pivot, b->T, triangle);
-  b->rest = n - b->dim;
-  if (st == HC_OK) keep_rows(m, row, pivot, triangle, b);
-  if (st == HC_OK && b->rest > 0) make_unit_motions(n, b->dim, triangle, b->T);
-  if (st == HC_OK && b->rest == 0) {
-    memset(b->T, 0, square(n) * sizeof *b->T);
-    for (int i = 0; i < n; ++i) b->T[(size_t)i * (size_t)(n + 1)] = 1;
-  }
-  workspace_free(&own);
-  return st;
-}
-
 /* ---- modes of the rest ------------------------------------------------------------------------- */
 
 /* Y := Y phi, then P := P - Y lambda^-1 (Y^T K P): static forces of q move no y. work[2 n n]. */
@@ -174,7 +153,24 @@ hc_status condensation_basis_make(const model *m, condensation_basis *b)
 {
   *b = (condensation_basis){.n = m->n};
   hc_status st = allocate(m, b);
-  if (st == HC_OK) st = choose_coordinates(m, b);
+  if (st == HC_OK) {
+    const int n = m->n, most = 2 * m->n_contacts + 1;
+    workspace own = {0};
+    const double **row = workspace_array(&own, (size_t)most, sizeof *row);
+    int *pivot = workspace_array(&own, (size_t)most, sizeof *pivot);
+    double *triangle = workspace_doubles(&own, square(most < n ? most : n));
+    st = own.failed ? HC_NO_MEMORY : HC_OK;
+    b->dim = 0;
+    if (st == HC_OK) st = dense_span(n, collect_rows(m, row), row, dependent, &b->dim, pivot, b->T, triangle);
+    b->rest = n - b->dim;
+    if (st == HC_OK) keep_rows(m, row, pivot, triangle, b);
+    if (st == HC_OK && b->rest > 0) make_unit_motions(n, b->dim, triangle, b->T);
+    if (st == HC_OK && b->rest == 0) {
+      memset(b->T, 0, square(n) * sizeof *b->T);
+      for (int i = 0; i < n; ++i) b->T[(size_t)i * (size_t)(n + 1)] = 1;
+    }
+    workspace_free(&own);
+  }
   if (st != HC_OK) return st;
   const bool modes = b->rest > 0 && dense_is_symmetric(m->n, m->stiffness);
   if (modes) st = choose_modes(m, b);

@@ -5,7 +5,6 @@
  * the same law, with the same u_1 and v. Kinds: stuck from the first pass, slips, separates. All kinds are timed in
  * turn, ROUNDS times; a time is the least of processor time, a ratio that of one round's two, its median. */
 #include "hbm/contact/exact_force.h"
-#include "hbm/hbm_settings.h"
 #include "hbm/planar/planar_force.h"
 #include "numerics/series.h"
 #include "tests/bench/bench.h"
@@ -40,21 +39,6 @@ static void random_series(uint64_t *seed, double decay, double *X)
     for (int k = 2 * h - 1; k <= 2 * h; ++k) X[k] = random_signed(seed) * pow(h, -decay);
 }
 
-static contact random_law(uint64_t *seed)
-{
-  const double size = pow(10, random_signed(seed));
-  return (contact){
-      .kt = size, .kn = size * pow(10, 0.7 * random_signed(seed)), .mu = 0.4, .gap = 3 * random_signed(seed)};
-}
-
-static void make(const contact *law, pair *s)
-{
-  const contact half = {law->kt, law->kn / 2, 2 * law->mu, law->gap, law->load / 2};
-  const moving_contact on_line = {.law = *law, .cu = {1, 0}, .cv = {0, 1}};
-  must(planar_force_new(H, 3, &half, &s->circle), "bench_circles");
-  must(exact_force_new(H, 2, 1, &on_line, &s->one), "bench_circles");
-}
-
 static void drop(pair *s)
 {
   planar_force_free(s->circle);
@@ -85,11 +69,16 @@ static void fill_kinds(double decay, kind *k)
   uint64_t seed = 7;
   for (int missing = KINDS * MOTIONS; missing > 0;) {
     pair s;
-    const contact law = random_law(&seed);
+    const double size = pow(10, random_signed(&seed));
+    const contact law = (contact){
+        .kt = size, .kn = size * pow(10, 0.7 * random_signed(&seed)), .mu = 0.4, .gap = 3 * random_signed(&seed)};
     for (size_t d = 0; d < 3; ++d) random_series(&seed, decay, s.X + d * L);
     memcpy(s.line, s.X, L * sizeof *s.X);
     memcpy(s.line + L, s.X + 2 * L, L * sizeof *s.X);
-    make(&law, &s);
+    const contact half = {law.kt, law.kn / 2, 2 * law.mu, law.gap, law.load / 2};
+    const moving_contact on_line = {.law = law, .cu = {1, 0}, .cv = {0, 1}};
+    must(planar_force_new(H, 3, &half, &s.circle), "bench_circles");
+    must(exact_force_new(H, 2, 1, &on_line, &s.one), "bench_circles");
     const contact_regime regime = evaluate(&s, true);
     bool kept = regime == evaluate(&s, false);
     int i = 0;
@@ -107,14 +96,6 @@ static double time_all(kind *k, bool circle)
   for (int r = 0; r < repeated; ++r)
     for (int i = 0; i < MOTIONS; ++i) evaluate(&k->scene[i], circle);
   return 1e3 * (cpu_ms() - from) / (MOTIONS * repeated);
-}
-
-static void print(const kind *k, int decay)
-{
-  printf("1/h^%d  %-9s  %8.2f  %8.2f  %6.1f [%.1f, %.1f]  %5.1f  %6.1f\n", decay, k->name,
-         quantile(rounds, k->us[1], 0), quantile(rounds, k->us[0], 0), quantile(rounds, k->ratio, 0.5),
-         quantile(rounds, k->ratio, 0.25), quantile(rounds, k->ratio, 0.75), (double)k->pieces / MOTIONS,
-         (double)k->panels / MOTIONS);
 }
 
 int main(int argc, char **argv)
@@ -141,7 +122,11 @@ int main(int argc, char **argv)
   printf("size   kind         circle  one line   ratio  pieces  panels\n");
   for (int d = 0; d < DECAYS; ++d)
     for (int i = 0; i < KINDS; ++i) {
-      print(&kinds[d][i], d + 1);
+      printf("1/h^%d  %-9s  %8.2f  %8.2f  %6.1f [%.1f, %.1f]  %5.1f  %6.1f\n", (d + 1), kinds[d][i].name,
+             quantile(rounds, kinds[d][i].us[1], 0), quantile(rounds, kinds[d][i].us[0], 0),
+             quantile(rounds, kinds[d][i].ratio, 0.5), quantile(rounds, kinds[d][i].ratio, 0.25),
+             quantile(rounds, kinds[d][i].ratio, 0.75), (double)kinds[d][i].pieces / MOTIONS,
+             (double)kinds[d][i].panels / MOTIONS);
       for (int s = 0; s < MOTIONS; ++s) drop(&kinds[d][i].scene[s]);
       free(kinds[d][i].scene);
     }

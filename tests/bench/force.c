@@ -114,20 +114,6 @@ static void evaluate(config *c)
   sink += F[0] + jac[0];
 }
 
-static double mean_pieces(config *c)
-{
-  double sum = 0;
-  for (int v = 0; v < VARIANTS; ++v) {
-    evaluate(c);
-    for (int j = 0; j < c->n_contacts; ++j) {
-      int n;
-      exact_force_intervals(c->located, j, &n);
-      sum += n;
-    }
-  }
-  return sum / VARIANTS;
-}
-
 static void add_config(const scene *sc, int scene_index, int h, int n_time, int n_contacts)
 {
   if (n_configs == MAX_CONFIGS) must(HC_NO_MEMORY, "too many configurations");
@@ -146,33 +132,18 @@ static void add_config(const scene *sc, int scene_index, int h, int n_time, int 
   for (int i = 0; i < 16; ++i) evaluate(c);
   t = (cpu_ms() - t) / 16;
   while (c->batch * t < 1) c->batch += OMEGAS; /* whole sets of omegas */
-  if (c->located) c->pieces = mean_pieces(c);
-}
-
-static void add_scene(const scene *sc, int k)
-{
-  for (int h = 0; h < N_HARMONICS; ++h) {
-    make_motions(sc, &scenes[k], harmonics[h], &all_motions[k][h]);
-    add_config(sc, k, h, EXACT, 1);
-    for (int n = 64; n <= 16384; n *= 2)
-      if (n > 2 * harmonics[h]) add_config(sc, k, h, n, 1);
-  }
-  for (int n = 2; n <= 8; ++n) {
-    add_config(sc, k, 1, EXACT, n);
-    add_config(sc, k, 1, 256, n);
-  }
-}
-
-static void measure(void)
-{
-  for (int r = 0; r < rounds; ++r)
-    for (int i = 0; i < n_configs; ++i) {
-      config *c = &configs[i];
-      evaluate(c); /* warm its memory */
-      const double from = cpu_ms();
-      for (int k = 0; k < c->batch; ++k) evaluate(c);
-      c->us[r] = 1e3 * (cpu_ms() - from) / c->batch;
+  if (c->located) {
+    double sum = 0;
+    for (int v = 0; v < VARIANTS; ++v) {
+      evaluate(c);
+      for (int j = 0; j < c->n_contacts; ++j) {
+        int n;
+        exact_force_intervals(c->located, j, &n);
+        sum += n;
+      }
     }
+    c->pieces = sum / VARIANTS;
+  }
 }
 
 static const config *find(int scene_index, int n_harm, int n_time, int n_contacts)
@@ -241,26 +212,6 @@ static void print_exponents(int k)
   }
 }
 
-static void print_table(int k)
-{
-  printf("\n%s, one contact: microseconds an evaluation with Jacobian, median [quartiles]\n%8s", scenes[k].name, "");
-  for (int h = 0; h < N_HARMONICS; ++h) printf("%24s%2d", "H = ", harmonics[h]);
-  printf("\n%8s", "exact");
-  for (int n = 0; n <= 16384; n = n ? 2 * n : 64) {
-    if (n) printf("\nN =%5d", n);
-    for (int h = 0; h < N_HARMONICS; ++h) {
-      const config *c = find(k, harmonics[h], n, 1);
-      if (c)
-        printf("%10.2f [%6.2f,%6.2f]", quantile(rounds, c->us, 0.5), quantile(rounds, c->us, 0.25),
-               quantile(rounds, c->us, 0.75));
-      else printf("%26s", "-");
-    }
-  }
-  printf("\n%8s", "pieces");
-  for (int h = 0; h < N_HARMONICS; ++h) printf("%26.1f", find(k, harmonics[h], EXACT, 1)->pieces);
-  printf("\n\n");
-}
-
 static void print_machine(void)
 {
   char line[256] = "";
@@ -295,11 +246,42 @@ int main(int argc, char **argv)
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", dir, scenes[k].file);
     const scene sc = read_case(path, 0, NULL);
-    add_scene(&sc, k);
+    for (int h = 0; h < N_HARMONICS; ++h) {
+      make_motions(&sc, &scenes[k], harmonics[h], &all_motions[k][h]);
+      add_config(&sc, k, h, EXACT, 1);
+      for (int n = 64; n <= 16384; n *= 2)
+        if (n > 2 * harmonics[h]) add_config(&sc, k, h, n, 1);
+    }
+    for (int n = 2; n <= 8; ++n) {
+      add_config(&sc, k, 1, EXACT, n);
+      add_config(&sc, k, 1, 256, n);
+    }
   }
-  measure();
+  for (int r = 0; r < rounds; ++r)
+    for (int i = 0; i < n_configs; ++i) {
+      config *c = &configs[i];
+      evaluate(c); /* warm its memory */
+      const double from = cpu_ms();
+      for (int k = 0; k < c->batch; ++k) evaluate(c);
+      c->us[r] = 1e3 * (cpu_ms() - from) / c->batch;
+    }
   for (int k = 0; k < SCENES; ++k) {
-    print_table(k);
+    printf("\n%s, one contact: microseconds an evaluation with Jacobian, median [quartiles]\n%8s", scenes[k].name, "");
+    for (int h = 0; h < N_HARMONICS; ++h) printf("%24s%2d", "H = ", harmonics[h]);
+    printf("\n%8s", "exact");
+    for (int n = 0; n <= 16384; n = n ? 2 * n : 64) {
+      if (n) printf("\nN =%5d", n);
+      for (int h = 0; h < N_HARMONICS; ++h) {
+        const config *c = find(k, harmonics[h], n, 1);
+        if (c)
+          printf("%10.2f [%6.2f,%6.2f]", quantile(rounds, c->us, 0.5), quantile(rounds, c->us, 0.25),
+                 quantile(rounds, c->us, 0.75));
+        else printf("%26s", "-");
+      }
+    }
+    printf("\n%8s", "pieces");
+    for (int h = 0; h < N_HARMONICS; ++h) printf("%26.1f", find(k, harmonics[h], EXACT, 1)->pieces);
+    printf("\n\n");
     print_ratio(k, 5, 256);
     print_ratio(k, 10, 512);
     print_exponents(k);

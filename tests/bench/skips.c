@@ -59,30 +59,25 @@ typedef struct result {
   hc_status status;
 } result;
 
-static void run_once(const scene *sc, result *r, int at)
-{
-  hbm_solver *s = NULL;
-  hbm_curve c = {0};
-  double t = cpu_ms();
-  r->status = scene_hbm_solver(sc, &s);
-  if (r->status == HC_OK) r->status = hbm_trace(s, sc->omega_from, sc->omega_to, NULL, &c);
-  r->ms[at] = cpu_ms() - t;
-  r->evaluations = c.evaluations;
-  r->iterations = c.iterations;
-  r->points = c.n;
-  if (s) r->harmonics = hbm_n_harmonics(s);
-  if (s) r->samples = hbm_n_samples(s);
-  hbm_curve_free(&c);
-  hbm_solver_free(s);
-}
-
 static void run_group(const char *name, const scene *base, const group *g, int repeats)
 {
   static result results[MAX_WAYS];
   for (int i = 0; i < repeats; ++i)
     for (int w = 0; w < g->n; ++w) {
       scene sc = with(*base, &g->ways[w]);
-      run_once(&sc, &results[w], i);
+      hbm_solver *s = NULL;
+      hbm_curve c = {0};
+      double t = cpu_ms();
+      results[w].status = scene_hbm_solver(&sc, &s);
+      if (results[w].status == HC_OK) results[w].status = hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &c);
+      results[w].ms[i] = cpu_ms() - t;
+      results[w].evaluations = c.evaluations;
+      results[w].iterations = c.iterations;
+      results[w].points = c.n;
+      if (s) results[w].harmonics = hbm_n_harmonics(s);
+      if (s) results[w].samples = hbm_n_samples(s);
+      hbm_curve_free(&c);
+      hbm_solver_free(s);
     }
   for (int w = 0; w < g->n; ++w) {
     const result *r = &results[w];

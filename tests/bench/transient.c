@@ -81,46 +81,27 @@ static bool attempt(trial *t, const bench_case *c, const way *w, double toleranc
   return t->error <= accuracy;
 }
 
-/* The settings of a way, looked for with shooting: waiting finds the same orbits. */
-static void choose(trial *t, const bench_case *c, const way *w, double accuracy)
-{
-  way shot = *w;
-  double found[2] = {accuracy, 0.1 * sqrt(accuracy)}; /* tolerance, regularisation; a guess where shooting finds
-                                                         nothing */
-  bool met = false;
-  shot.steady = TRANSIENT_STEADY_SHOOTING;
-  for (int fine = 0; fine < 2 && !met; ++fine)
-    for (int k = 0; k < (w->law == TRANSIENT_LAW_EXACT ? 1 : HALF_DECADES) && !met; ++k) {
-      double settings[2] = {fine ? accuracy / 10 : accuracy, pow(10, -1 - 0.5 * k)};
-      met = attempt(t, c, &shot, settings[0], settings[1], accuracy);
-      if (met) memcpy(found, settings, sizeof found);
-    }
-  if (w->steady == TRANSIENT_STEADY_MARCH && !attempt(t, c, w, found[0], found[1], accuracy))
-    attempt(t, c, w, found[0] / 10, found[1], accuracy);
-}
-
-static void print_row(const bench_case *c, double accuracy, const way *w, const trial *t, const trial *best, int rounds)
-{
-  double ratio[BENCH_MOST_ROUNDS];
-  char rho[16] = "-";
-  for (int i = 0; i < rounds; ++i) ratio[i] = best ? t->ms[i] / best->ms[i] : NAN;
-  if (w->law == TRANSIENT_LAW_REGULARISED) snprintf(rho, sizeof rho, "%.1e", t->sc.transient.regularisation);
-  printf("| %-3s | %.0e | %-23s | %7s | %.0e | %8.1e | %7d | %9ld | %9.3f | ", c->name, accuracy, w->name, rho,
-         t->sc.transient.tolerance, t->error, t->r.periods, t->r.steps, quantile(rounds, t->ms, 0.5));
-  if (t->error <= accuracy) printf("%7.1f |\n", quantile(rounds, ratio, 0.5));
-  else
-    printf("%s |\n", t->status == HC_OK            ? "not met"
-                     : t->status == HC_INTERRUPTED ? "took too long"
-                                                   : hc_status_text(t->status));
-  fflush(stdout);
-}
-
 static void table_of(const bench_case *c, double accuracy, int rounds)
 {
   static trial trials[WAYS];
   const trial *best = NULL;
   double least = INFINITY;
-  for (int w = 0; w < WAYS; ++w) choose(&trials[w], c, &ways[w], accuracy);
+  /* The settings of a way, looked for with shooting: waiting finds the same orbits. */
+  for (int w = 0; w < WAYS; ++w) {
+    way shot = ways[w];
+    double found[2] = {accuracy, 0.1 * sqrt(accuracy)}; /* tolerance, regularisation; a guess where shooting finds
+                                                           nothing */
+    bool met = false;
+    shot.steady = TRANSIENT_STEADY_SHOOTING;
+    for (int fine = 0; fine < 2 && !met; ++fine)
+      for (int k = 0; k < (ways[w].law == TRANSIENT_LAW_EXACT ? 1 : HALF_DECADES) && !met; ++k) {
+        double settings[2] = {fine ? accuracy / 10 : accuracy, pow(10, -1 - 0.5 * k)};
+        met = attempt(&trials[w], c, &shot, settings[0], settings[1], accuracy);
+        if (met) memcpy(found, settings, sizeof found);
+      }
+    if (ways[w].steady == TRANSIENT_STEADY_MARCH && !attempt(&trials[w], c, &ways[w], found[0], found[1], accuracy))
+      attempt(&trials[w], c, &ways[w], found[0] / 10, found[1], accuracy);
+  }
   for (int i = 0; i < rounds; ++i)
     for (int w = 0; w < WAYS; ++w) {
       if (trials[w].status == HC_OK) run(&trials[w], c, i);
@@ -131,7 +112,20 @@ static void table_of(const bench_case *c, double accuracy, int rounds)
     if (trials[w].error <= accuracy && m < least) least = m, best = &trials[w];
   }
   for (int w = 0; w < WAYS; ++w) {
-    print_row(c, accuracy, &ways[w], &trials[w], best, rounds);
+    double ratio[BENCH_MOST_ROUNDS];
+    char rho[16] = "-";
+    for (int i = 0; i < rounds; ++i) ratio[i] = best ? trials[w].ms[i] / best->ms[i] : NAN;
+    if (ways[w].law == TRANSIENT_LAW_REGULARISED)
+      snprintf(rho, sizeof rho, "%.1e", trials[w].sc.transient.regularisation);
+    printf("| %-3s | %.0e | %-23s | %7s | %.0e | %8.1e | %7d | %9ld | %9.3f | ", c->name, accuracy, ways[w].name, rho,
+           trials[w].sc.transient.tolerance, trials[w].error, trials[w].r.periods, trials[w].r.steps,
+           quantile(rounds, trials[w].ms, 0.5));
+    if (trials[w].error <= accuracy) printf("%7.1f |\n", quantile(rounds, ratio, 0.5));
+    else
+      printf("%s |\n", trials[w].status == HC_OK            ? "not met"
+                       : trials[w].status == HC_INTERRUPTED ? "took too long"
+                                                            : hc_status_text(trials[w].status));
+    fflush(stdout);
     timeint_free(trials[w].ti);
     trials[w].ti = NULL;
   }

@@ -4,7 +4,6 @@
 
 #include <string.h>
 
-#include "hbm/curve/continuation.h"
 #include "study/scene_solvers.h"
 #include "tests/check.h"
 #include "tests/hbm/scenes.h"
@@ -155,36 +154,30 @@ static void the_motion_from_rest_is_a_guess(CHECK_STATE)
   model_free(m);
 }
 
-/* The same oscillator as two halves that a stiff spring holds together, each with half of everything: their motion is
- * x = y. The guess is of all degrees of freedom, and leads to the oscillator's solution. */
-static model *halves(const scene *sc)
+static void a_structure_is_guessed_whole(CHECK_STATE)
 {
+  const scene sc = impacts();
+  /* The same oscillator as two halves that a stiff spring holds together, each with half of everything: their motion is
+   * x = y. The guess is of all degrees of freedom, and leads to the oscillator's solution. */
   model *m;
-  const double K = 1e3 * sc->stiffness;
+  const double K = 1e3 * sc.stiffness;
   double tangent, normal;
   assert_int_equal(model_new(2, 1, 1, 2, &m), HC_OK);
   for (int i = 0; i < 2; ++i) {
-    m->mass[3 * i] = 0.5 * sc->mass;
-    m->damping[3 * i] = 0.5 * sc->damping;
-    m->stiffness[3 * i] = 0.5 * sc->stiffness + K;
-    m->loads[0].cosine[i] = 0.5 * sc->force;
+    m->mass[3 * i] = 0.5 * sc.mass;
+    m->damping[3 * i] = 0.5 * sc.damping;
+    m->stiffness[3 * i] = 0.5 * sc.stiffness + K;
+    m->loads[0].cosine[i] = 0.5 * sc.force;
     m->responses[3 * i] = 1;
   }
   m->stiffness[1] = m->stiffness[2] = -K;
   m->loads[0].harmonic = 1;
-  model_direction(sc->contacts[0].angle_deg, &tangent, &normal);
+  model_direction(sc.contacts[0].angle_deg, &tangent, &normal);
   for (int i = 0; i < 2; ++i) {
     m->contacts[0].tangent[i] = 0.5 * tangent;
     m->contacts[0].normal[i] = 0.5 * normal;
   }
-  m->contacts[0].law = sc->contacts[0].law;
-  return m;
-}
-
-static void a_structure_is_guessed_whole(CHECK_STATE)
-{
-  const scene sc = impacts();
-  model *m = halves(&sc);
+  m->contacts[0].law = sc.contacts[0].law;
   check_guesses(m, &sc.hbm);
   model_free(m);
 }

@@ -70,22 +70,6 @@ static double waveform_error(const structure_case *c, int H, double omega, const
  * four times as large as those of H^-3, change of it about H = 16: 4/16. Both together must tell order 3 from 2, 4. */
 static const double next_term = 0.25;
 
-static void check_order(const char *name, const double *error)
-{
-  double slope = 0, weight = 0, mean = 0, scatter = 0;
-  for (int k = 0; k < SIZES; ++k) {
-    const double x = log2_size(k) - log2_size(SIZES / 2);
-    slope += x * error[k];
-    weight += x * x;
-    mean += error[k] / SIZES;
-  }
-  slope /= weight;
-  for (int k = 0; k < SIZES; ++k) scatter += pow(error[k] - mean - slope * (log2_size(k) - log2_size(SIZES / 2)), 2);
-  const double own = sqrt(scatter / (SIZES - 2) / weight);
-  CHECK_LE(4 * own + next_term, 0.9, "%s: the slope is known well enough", name);
-  CHECK_NEAR(slope, -3, 4 * own + next_term, "%s: scatter of the slope %g", name, own);
-}
-
 static void harmonics_tend_to_the_transient(CHECK_STATE)
 {
   static const struct {
@@ -103,7 +87,18 @@ static void harmonics_tend_to_the_transient(CHECK_STATE)
       for (int k = 0; k < SIZES; ++k)
         error[k] += log2(waveform_error(&c, (int)lround(exp2(log2_size(k))), omega, r)) / FREQUENCIES;
     }
-    check_order(at[q].name, error);
+    double slope = 0, weight = 0, mean = 0, scatter = 0;
+    for (int k = 0; k < SIZES; ++k) {
+      const double x = log2_size(k) - log2_size(SIZES / 2);
+      slope += x * error[k];
+      weight += x * x;
+      mean += error[k] / SIZES;
+    }
+    slope /= weight;
+    for (int k = 0; k < SIZES; ++k) scatter += pow(error[k] - mean - slope * (log2_size(k) - log2_size(SIZES / 2)), 2);
+    const double own = sqrt(scatter / (SIZES - 2) / weight);
+    CHECK_LE(4 * own + next_term, 0.9, "%s: the slope is known well enough", at[q].name);
+    CHECK_NEAR(slope, -3, 4 * own + next_term, "%s: scatter of the slope %g", at[q].name, own);
     model_free(c.model);
   }
 }

@@ -27,36 +27,6 @@ static const struct expected {
     {"brake", 2, 0, 0, 0, 1},
 };
 
-static scene read_case(const char *name)
-{
-  char path[256], set[32];
-  const char *const sets[] = {set};
-  scene sc;
-  case_error err;
-  snprintf(path, sizeof path, SOURCE_DIR "/cases/structures/%s.yaml", name);
-  snprintf(set, sizeof set, "hbm.harmonics=%d", HARMONICS);
-  if (case_read(path, 1, sets, &sc, &err) != HC_OK) fail_msg("%s", err.message);
-  return sc;
-}
-
-/* y: where the transient of the row's HBM solution starts. */
-static void start_of(const compare_setup *setup, const comparison *c, const comparison_row *row, double *y)
-{
-  hbm_solver *h;
-  hbm_curve at = {0};
-  bool found = false;
-  assert_int_equal(hbm_solver_new(setup->model, &setup->hbm, &h), HC_OK);
-  assert_int_equal(hbm_curve_at(h, &c->curve, row->omega, &at), HC_OK);
-  for (int k = 0; k < at.n && !found; ++k) {
-    if (at.points[k].branch != row->branch) continue;
-    assert_int_equal(comparison_orbit_start(h, hbm_curve_X(&at, k), row->omega, y), HC_OK);
-    found = true;
-  }
-  assert_true(found);
-  hbm_curve_free(&at);
-  hbm_solver_free(h);
-}
-
 /* Where the motion goes from y, a little beside which it begins; x and v move, sliders stay. */
 static hc_status march_from(const compare_setup *setup, double omega, const double *y, timeint_result *r)
 {
@@ -90,7 +60,20 @@ static void check_row(const compare_setup *setup, const comparison *c, int i)
     return;
   }
   double y[STATES];
-  start_of(setup, c, row, y);
+  /* y: where the transient of the row's HBM solution starts. */
+  hbm_solver *h;
+  hbm_curve at = {0};
+  bool found = false;
+  assert_int_equal(hbm_solver_new(setup->model, &setup->hbm, &h), HC_OK);
+  assert_int_equal(hbm_curve_at(h, &c->curve, row->omega, &at), HC_OK);
+  for (int k = 0; k < at.n && !found; ++k) {
+    if (at.points[k].branch != row->branch) continue;
+    assert_int_equal(comparison_orbit_start(h, hbm_curve_X(&at, k), row->omega, y), HC_OK);
+    found = true;
+  }
+  assert_true(found);
+  hbm_curve_free(&at);
+  hbm_solver_free(h);
   const hc_status st = march_from(setup, row->omega, y, &r);
   const double moved = fabs(r.amplitude - row->hbm.amplitude) / row->hbm.amplitude;
   switch (row->verdict) {
@@ -115,7 +98,13 @@ static void check_row(const compare_setup *setup, const comparison *c, int i)
 
 static void check_case(const struct expected *e)
 {
-  scene sc = read_case(e->name);
+  char path[256], set[32];
+  const char *const sets[] = {set};
+  scene sc;
+  case_error err;
+  snprintf(path, sizeof path, SOURCE_DIR "/cases/structures/%s.yaml", e->name);
+  snprintf(set, sizeof set, "hbm.harmonics=%d", HARMONICS);
+  if (case_read(path, 1, sets, &sc, &err) != HC_OK) fail_msg("%s", err.message);
   compare_setup setup;
   comparison c;
   int seen[VERDICT_COUNT] = {0};

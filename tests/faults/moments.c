@@ -53,20 +53,15 @@ void moments_raise(void *self)
   raise(number);
 }
 
-static void pass_gate(void)
-{
-  if (pthread_equal(first, pthread_self())) return;
-  pthread_mutex_lock(&gate);
-  while (closed) pthread_cond_wait(&opened, &gate);
-  pthread_mutex_unlock(&gate);
-}
-
 static void moment(void)
 {
   long n = atomic_fetch_add(&passed, 1) + 1;
   if (child_count) *child_count = n;
   if (n == expected) act(acts_on);
-  pass_gate();
+  if (pthread_equal(first, pthread_self())) return;
+  pthread_mutex_lock(&gate);
+  while (closed) pthread_cond_wait(&opened, &gate);
+  pthread_mutex_unlock(&gate);
 }
 
 #define MOMENT(type, name, parameters, arguments)                                                                      \

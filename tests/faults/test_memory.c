@@ -193,15 +193,6 @@ static void describe(CHECK_STATE)
   try("describe hbm.samples -q -o result");
 }
 
-/* at N one|all|limit "ARG ...": that failure here and now, for a debugger. */
-static int at_one(char **argv)
-{
-  memory_fail(strtol(argv[2], NULL, 10), !strcmp(argv[3], "all")     ? MEMORY_ALL_FROM
-                                         : !strcmp(argv[3], "limit") ? MEMORY_LIMIT
-                                                                     : MEMORY_ONE);
-  return child_command(argv[4]);
-}
-
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -212,6 +203,12 @@ int main(int argc, char **argv)
       cmocka_unit_test(describe),
   };
   every = argc > 1 && !strcmp(argv[1], "every");
-  if (argc == 5 && !strcmp(argv[1], "at")) return at_one(argv);
+  /* at N one|all|limit "ARG ...": that failure here and now, for a debugger. */
+  if (argc == 5 && !strcmp(argv[1], "at")) {
+    memory_fail(strtol(argv[2], NULL, 10), !strcmp(argv[3], "all")     ? MEMORY_ALL_FROM
+                                           : !strcmp(argv[3], "limit") ? MEMORY_LIMIT
+                                                                       : MEMORY_ONE);
+    return child_command(argv[4]);
+  }
   return SMALL_MAIN("memory", tests, every ? 3000 : 600);
 }

@@ -165,25 +165,6 @@ static void kinsol_lies(CHECK_STATE)
 static double right_amplitude[2];
 static scene_state near_orbit[2];
 
-static void find_orbits(void)
-{
-  for (int law = 0; law < 2; ++law) {
-    scene sc = small_scene(law ? exactly : smoothly);
-    timeint *ti;
-    timeint_result r;
-    assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-    near_orbit[law] = (scene_state){.x = 0};
-    assert_int_equal(timeint_steady(ti, 6.5, near_orbit[law].all, NULL, &r), HC_OK);
-    near_orbit[law].x *= 1.001;
-    timeint_free(ti); /* one that has found an orbit remembers it */
-    assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
-    scene_state start = near_orbit[law];
-    assert_int_equal(timeint_steady(ti, 6.5, start.all, NULL, &r), HC_OK);
-    right_amplitude[law] = r.amplitude;
-    timeint_free(ti);
-  }
-}
-
 /* The steady state with these faults, in a handle that is asked again without. */
 static hc_status steady_with(int law, fault f, fault *which, timeint_result *r)
 {
@@ -318,6 +299,20 @@ int main(void)
       cmocka_unit_test(kinsol_fails), cmocka_unit_test(kinsol_lies),    cmocka_unit_test(cvode_fails),
       cmocka_unit_test(cvode_lies),   cmocka_unit_test(shooting_fails), cmocka_unit_test(failures_are_told),
   };
-  find_orbits();
+  for (int law = 0; law < 2; ++law) {
+    scene sc = small_scene(law ? exactly : smoothly);
+    timeint *ti;
+    timeint_result r;
+    assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+    near_orbit[law] = (scene_state){.x = 0};
+    assert_int_equal(timeint_steady(ti, 6.5, near_orbit[law].all, NULL, &r), HC_OK);
+    near_orbit[law].x *= 1.001;
+    timeint_free(ti); /* one that has found an orbit remembers it */
+    assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+    scene_state start = near_orbit[law];
+    assert_int_equal(timeint_steady(ti, 6.5, start.all, NULL, &r), HC_OK);
+    right_amplitude[law] = r.amplitude;
+    timeint_free(ti);
+  }
   return SMALL_MAIN("solvers", tests, 300);
 }

@@ -6,21 +6,6 @@
 #include "compare/verify/curve_file/csv.h"
 #include "tests/fuzz/fuzz.h"
 
-static void data_is_in_range(const verify_data *d, const char *text, size_t length)
-{
-  long lines = 1;
-  for (size_t i = 0; i < length; ++i) lines += text[i] == '\n';
-  must(d->n >= VERIFY_LEAST_POINTS && d->n <= VERIFY_MOST_POINTS, "%d points", d->n);
-  for (int i = 0; i < d->n; ++i) {
-    const verify_point *p = &d->points[i];
-    must(isfinite(p->omega) && p->omega > 0 && isfinite(p->value) &&
-             (p->value >= 0 || verify_quantity_signed(&d->quantity)),
-         "point %d is (%g, %g)", i, p->omega, p->value);
-    must(p->line > (i ? d->points[i - 1].line : 0) && p->line <= lines, "point %d stands on line %ld of %ld", i,
-         p->line, lines);
-  }
-}
-
 static void read_file(const char *text, size_t length, const verify_columns *columns)
 {
   char path[FUZZ_PATH], words[VERIFY_TEXT];
@@ -32,7 +17,17 @@ static void read_file(const char *text, size_t length, const verify_columns *col
     must(!*words, "read, with a message: %s", words);
     must(columns->by_header || verify_quantity_same(&d.quantity, &columns->quantity), "quantity %d, not %d",
          (int)d.quantity.kind, (int)columns->quantity.kind);
-    data_is_in_range(&d, text, length);
+    long lines = 1;
+    for (size_t i = 0; i < length; ++i) lines += text[i] == '\n';
+    must(d.n >= VERIFY_LEAST_POINTS && d.n <= VERIFY_MOST_POINTS, "%d points", d.n);
+    for (int i = 0; i < d.n; ++i) {
+      const verify_point *p = &d.points[i];
+      must(isfinite(p->omega) && p->omega > 0 && isfinite(p->value) &&
+               (p->value >= 0 || verify_quantity_signed(&d.quantity)),
+           "point %d is (%g, %g)", i, p->omega, p->value);
+      must(p->line > (i ? d.points[i - 1].line : 0) && p->line <= lines, "point %d stands on line %ld of %ld", i,
+           p->line, lines);
+    }
   } else {
     ++fuzz_refused;
     must(st == HC_BAD_INPUT, "status %d: %s", (int)st, words);

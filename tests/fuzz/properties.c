@@ -153,25 +153,6 @@ static void vector_is_finite(const double *v, size_t n)
   for (size_t i = 0; i < n; ++i) must(isfinite(v[i]), "entry %zu of a vector is %g", i, v[i]);
 }
 
-static void structure_is_in_range(const scene_structure *s)
-{
-  const size_t n = (size_t)s->n;
-  must(s->n >= 1, "%d degrees of freedom", s->n);
-  vector_is_finite(s->mass.v, n * n);
-  vector_is_finite(s->stiffness.v, n * n);
-  vector_is_finite(s->damping.v, n * n);
-  for (int j = 0; j < s->n_contacts; ++j) {
-    list_fields_are_in_range(FIELD_IN_CONTACT, &s->contacts[j].given);
-    vector_is_finite(s->contacts[j].tangent, n);
-    vector_is_finite(s->contacts[j].normal, n);
-  }
-  for (int i = 0; i < s->n_loads; ++i) {
-    list_fields_are_in_range(FIELD_IN_LOAD, &s->loads[i]);
-    vector_is_finite(s->loads[i].direction, n);
-  }
-  for (int i = 0; i < s->n_responses; ++i) vector_is_finite(s->responses[i].direction, n);
-}
-
 void scene_is_in_range(const scene *sc)
 {
   must(sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS, "%d contacts", sc->n_contacts);
@@ -187,7 +168,23 @@ void scene_is_in_range(const scene *sc)
   must(h->force != HBM_FORCE_SAMPLED || !both_told || h->samples >= 2 * h->harmonics + 1, "%d samples for %d harmonics",
        h->samples, h->harmonics);
   must(sc->gate.ranges.ends.n % 2 == 0, "half a range");
-  if (sc->structure) structure_is_in_range(sc->structure);
+  if (sc->structure) {
+    const size_t n = (size_t)sc->structure->n;
+    must(sc->structure->n >= 1, "%d degrees of freedom", sc->structure->n);
+    vector_is_finite(sc->structure->mass.v, n * n);
+    vector_is_finite(sc->structure->stiffness.v, n * n);
+    vector_is_finite(sc->structure->damping.v, n * n);
+    for (int j = 0; j < sc->structure->n_contacts; ++j) {
+      list_fields_are_in_range(FIELD_IN_CONTACT, &sc->structure->contacts[j].given);
+      vector_is_finite(sc->structure->contacts[j].tangent, n);
+      vector_is_finite(sc->structure->contacts[j].normal, n);
+    }
+    for (int i = 0; i < sc->structure->n_loads; ++i) {
+      list_fields_are_in_range(FIELD_IN_LOAD, &sc->structure->loads[i]);
+      vector_is_finite(sc->structure->loads[i].direction, n);
+    }
+    for (int i = 0; i < sc->structure->n_responses; ++i) vector_is_finite(sc->structure->responses[i].direction, n);
+  }
 }
 
 static char *echo(const scene *sc, size_t *length)

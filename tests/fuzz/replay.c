@@ -21,19 +21,6 @@ static void run(const char *text, size_t length)
   free(own);
 }
 
-static void replay_file(const char *path)
-{
-  static char text[LARGEST];
-  FILE *from = fopen(path, "rb");
-  must(from != NULL, "%s cannot be opened", path);
-  size_t length = fread(text, 1, sizeof text, from);
-  must(!ferror(from) && length < sizeof text, "%s cannot be read, or is too large", path);
-  fclose(from);
-  fprintf(stderr, "%s\n", path); /* the last one named is the one that failed */
-  run(text, length);
-  for (size_t part = 0; length <= SMALL && part < length; ++part) run(text, part);
-}
-
 static int replay_folder(const char *path)
 {
   DIR *folder = opendir(path);
@@ -43,7 +30,15 @@ static int replay_folder(const char *path)
     char name[4096];
     if (entry->d_name[0] == '.') continue;
     snprintf(name, sizeof name, "%s/%s", path, entry->d_name);
-    replay_file(name);
+    static char text[LARGEST];
+    FILE *from = fopen(name, "rb");
+    must(from != NULL, "%s cannot be opened", name);
+    size_t length = fread(text, 1, sizeof text, from);
+    must(!ferror(from) && length < sizeof text, "%s cannot be read, or is too large", name);
+    fclose(from);
+    fprintf(stderr, "%s\n", name); /* the last one named is the one that failed */
+    run(text, length);
+    for (size_t part = 0; length <= SMALL && part < length; ++part) run(text, part);
     ++files;
   }
   closedir(folder);

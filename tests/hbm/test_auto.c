@@ -82,15 +82,6 @@ static double worst_distance(const solved_curve *a, const solved_curve *b, const
   return worst;
 }
 
-/* The most harmonics' point of an auto curve. */
-static double hardest(const solved_curve *r)
-{
-  int k = 0;
-  for (int i = 1; i < r->c.n; ++i)
-    if (r->c.points[i].harmonics > r->c.points[k].harmonics) k = i;
-  return r->c.points[k].omega;
-}
-
 static const char *const names[] = {"c2", "b10", "gap1", "r2"};
 
 /* The estimate is one Newton step of twice the harmonics: the error but for the error of 2H, a sixteenth of it once
@@ -115,7 +106,11 @@ static void auto_harmonics_keep_the_accuracy(CHECK_STATE)
                accuracies[a], hbm_n_harmonics(r.s));
       for (int k = 0; k + 1 < r.c.n; ++k)
         CHECK_LE(r.c.points[k].error, accuracies[a], "%s, accuracy %g, point %d", names[q], accuracies[a], k);
-      omega[FREQUENCIES] = hardest(&r);
+      /* The most harmonics' point of an auto curve. */
+      int k = 0;
+      for (int i = 1; i < r.c.n; ++i)
+        if (r.c.points[i].harmonics > r.c.points[k].harmonics) k = i;
+      omega[FREQUENCIES] = r.c.points[k].omega;
       int need = 0;
       for (size_t i = 0; i < sizeof ladder / sizeof *ladder && !need; ++i) {
         sc.hbm.harmonics = ladder[i];

@@ -9,21 +9,6 @@ enum { N = 60, CONTACTS = 3, H = 5, DIM = 8 };
 typedef enum damping { RAYLEIGH, MODAL, LOCAL, ANY, GYROSCOPIC, DAMPINGS } damping;
 static const char *const names[] = {"Rayleigh", "modal", "dashpots beside Rayleigh", "any", "gyroscopic"};
 
-/* M Phi diag(2 z omega) Phi^T M, a ratio of its own for each mode. */
-static void damp_modes(uint64_t *seed, model *m)
-{
-  double lambda[N], *phi = malloc(4 * N * N * sizeof *phi), *P = phi + N * N, *turned = P + N * N;
-  assert_int_equal(dense_modes(N, m->stiffness, m->mass, lambda, phi), HC_OK);
-  dense_multiply(N, N, N, m->mass, phi, P);
-  for (int k = 0; k < N; ++k) {
-    const double share = sqrt(2 * (0.005 + 0.02 * random_unit(seed)) * sqrt(lambda[k]));
-    for (int i = 0; i < N; ++i) P[k * N + i] *= share;
-  }
-  dense_transpose(N, N, P, turned);
-  dense_multiply(N, N, N, P, turned, m->damping);
-  free(phi);
-}
-
 /* Natural frequencies from 4 to 300. */
 static model *large_structure(uint64_t *seed, damping how)
 {
@@ -34,7 +19,19 @@ static model *large_structure(uint64_t *seed, damping how)
   for (int j = 0; j < N; ++j) /* but for rounding it is */
     for (int i = 0; i < j; ++i) m->stiffness[j * N + i] = m->stiffness[i * N + j];
   for (int i = 0; i < N * N && how != ANY; ++i) m->damping[i] = 0.1 * m->mass[i] + 1e-3 * m->stiffness[i];
-  if (how == MODAL) damp_modes(seed, m);
+  /* M Phi diag(2 z omega) Phi^T M, a ratio of its own for each mode. */
+  if (how == MODAL) {
+    double lambda[N], *phi = malloc(4 * N * N * sizeof *phi), *P = phi + N * N, *turned = P + N * N;
+    assert_int_equal(dense_modes(N, m->stiffness, m->mass, lambda, phi), HC_OK);
+    dense_multiply(N, N, N, m->mass, phi, P);
+    for (int k = 0; k < N; ++k) {
+      const double share = sqrt(2 * (0.005 + 0.02 * random_unit(seed)) * sqrt(lambda[k]));
+      for (int i = 0; i < N; ++i) P[k * N + i] *= share;
+    }
+    dense_transpose(N, N, P, turned);
+    dense_multiply(N, N, N, P, turned, m->damping);
+    free(phi);
+  }
   if (how == LOCAL) m->damping[7 * (N + 1)] += 3, m->damping[N * N - 1] += 5;
   for (int k = 0; k < 10 && how == GYROSCOPIC; ++k) {
     const int i = random_int(seed, 0, N - 2);

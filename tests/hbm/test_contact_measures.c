@@ -143,18 +143,6 @@ static model *all_seen(uint64_t *seed, int n, int n_contacts)
 
 enum { MOST_N = 8, MOST_CONTACTS = 5, MOST_X = LENGTH * (2 * MOST_CONTACTS + 1) };
 
-/* closed integral p . dx over a period: load k does pi k (p_k . b_k - q_k . a_k), x = a cos + b sin. */
-static double input(const model *m, double (*x)[LENGTH])
-{
-  double sum = 0;
-  for (int l = 0; l < m->n_loads; ++l) {
-    const int k = m->loads[l].harmonic;
-    for (int i = 0; i < m->n && k > 0; ++i)
-      sum += PI * k * (m->loads[l].cosine[i] * x[i][2 * k] - m->loads[l].sine[i] * x[i][2 * k - 1]);
-  }
-  return sum;
-}
-
 /* closed integral x' . C dx = pi omega sum h^2 (a . C a + b . C b), for a symmetric C. */
 static double damped(const model *m, double omega, double (*x)[LENGTH])
 {
@@ -199,7 +187,13 @@ static void what_goes_in_is_dissipated(CHECK_STATE)
         slipped += period[j].work > 0;
         opened += period[j].regime == CONTACT_SEPARATES;
       }
-      const double in = input(m, x);
+      /* closed integral p . dx over a period: load k does pi k (p_k . b_k - q_k . a_k), x = a cos + b sin. */
+      double in = 0;
+      for (int l = 0; l < m->n_loads; ++l) {
+        const int k = m->loads[l].harmonic;
+        for (int i = 0; i < m->n && k > 0; ++i)
+          in += PI * k * (m->loads[l].cosine[i] * x[i][2 * k] - m->loads[l].sine[i] * x[i][2 * k - 1]);
+      }
       CHECK_NEAR(in, work + damped(m, omega, x), 1e-12 * in, "trial %d, n = %d, friction %g", trial, n, work / in);
       ++solved;
     }

@@ -6,15 +6,6 @@
 #include "study/scene_solvers.h"
 #include "tests/check.h"
 
-static void make(const char *harmonics, scene *sc, hbm_solver **s)
-{
-  const char *const set[] = {harmonics};
-  case_error err;
-  if (case_read(SOURCE_DIR "/cases/structures/blade_damper.yaml", 1, set, sc, &err) != HC_OK)
-    fail_msg("%s", err.message);
-  assert_int_equal(scene_hbm_solver(sc, s), HC_OK);
-}
-
 typedef struct visitor {
   int ticks, stop_at; /* and from then on */
   double done;        /* the last that was known */
@@ -38,7 +29,11 @@ static void a_request_to_stop_is_heard_in_a_step(CHECK_STATE)
   visitor through = {.stop_at = 1 << 30}, stops = {.stop_at = AT};
   scene sc;
   hbm_solver *s;
-  make("hbm.harmonics=1", &sc, &s);
+  const char *const set[] = {"hbm.harmonics=1"};
+  case_error err;
+  if (case_read(SOURCE_DIR "/cases/structures/blade_damper.yaml", 1, set, &sc, &err) != HC_OK)
+    fail_msg("%s", err.message);
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
   const double to = sc.omega_from + 0.3 * (sc.omega_to - sc.omega_from);
   hbm_curve whole = {0}, part = {0};
   assert_int_equal(hbm_trace(s, sc.omega_from, to, &(hc_monitor){tick, &through}, &whole), HC_OK);

@@ -7,7 +7,6 @@
 #include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "hbm/solver/stability.h"
-#include "hbm/stability/modal_flow.h"
 #include "tests/hbm/random_structures.h"
 #include "tests/hbm/structure_cases.h"
 
@@ -33,25 +32,6 @@ static void pair_up(model *m, int j, contact whole)
     c->circle = true;
     memcpy(c->normal, m->contacts[j].normal, (size_t)m->n * sizeof *c->normal);
   }
-}
-
-/* With modes up to a hundred times the lowest one, half of its contacts circles. */
-static model *drawn(uint64_t *seed, int n)
-{
-  const int contacts = 2 * random_int(seed, 2, 4);
-  model *m = random_structure(seed, n, contacts);
-  for (int i = 0; i < n; i += 3) m->stiffness[i * (n + 1)] *= pow(10, 3 * random_unit(seed));
-  for (int j = 0; j < n; ++j) /* it is but for rounding of larger terms */
-    for (int i = 0; i < j; ++i) m->stiffness[i * n + j] = m->stiffness[j * n + i];
-  damp(m, 0.05, 0.001);
-  for (int j = 0; j < contacts; j += 4) {
-    contact whole = {.kt = 10 + 50 * random_unit(seed), .kn = 10 + 50 * random_unit(seed), .mu = 0.2};
-    whole.gap = random_unit(seed) < 0.5 ? 0.3 : -0.05;
-    for (int d = 0; d < 2; ++d) random_direction(seed, n, m->contacts[j + d].tangent);
-    random_direction(seed, n, m->contacts[j].normal);
-    pair_up(m, j, whole);
-  }
-  return m;
 }
 
 static int multipliers_by(monodromy_method method, const model *m, const contact_forces *orbit, double omega,
@@ -94,7 +74,20 @@ static void multipliers_are_those_by_intervals(CHECK_STATE)
   for (int k = 0; k < 20; ++k) {
     const int n = 10 + k * 50 / 19;
     const double omega = 3 + 2 * random_unit(&seed);
-    model *m = drawn(&seed, n);
+    /* With modes up to a hundred times the lowest one, half of its contacts circles. */
+    const int contacts = 2 * random_int(&seed, 2, 4);
+    model *m = random_structure(&seed, n, contacts);
+    for (int i = 0; i < n; i += 3) m->stiffness[i * (n + 1)] *= pow(10, 3 * random_unit(&seed));
+    for (int j = 0; j < n; ++j) /* it is but for rounding of larger terms */
+      for (int i = 0; i < j; ++i) m->stiffness[i * n + j] = m->stiffness[j * n + i];
+    damp(m, 0.05, 0.001);
+    for (int j = 0; j < contacts; j += 4) {
+      contact whole = {.kt = 10 + 50 * random_unit(&seed), .kn = 10 + 50 * random_unit(&seed), .mu = 0.2};
+      whole.gap = random_unit(&seed) < 0.5 ? 0.3 : -0.05;
+      for (int d = 0; d < 2; ++d) random_direction(&seed, n, m->contacts[j + d].tangent);
+      random_direction(&seed, n, m->contacts[j].normal);
+      pair_up(m, j, whole);
+    }
     hbm_solver *s;
     const contact_forces *orbit;
     contact_report report;

@@ -9,20 +9,6 @@
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
 
-/* Number of intervals of contact that the solution X consists of. */
-static int intervals_of(hbm_solver *s, const double *X)
-{
-  const contact_forces *e;
-  contact_report report;
-  int sum = 0;
-  assert_int_equal(hbm_located_orbit(s, X, &e, &report), HC_OK);
-  for (int j = 0, n; j < s->model->n_contacts; ++j) {
-    contact_forces_intervals(e, j, &n);
-    sum += n;
-  }
-  return sum;
-}
-
 /* The stability of the first solution at omega, and the solution itself into X[2H+1]. */
 static hbm_stability first_stability(const scene *sc, double omega, double *X, contact_regime *regime, int *intervals)
 {
@@ -35,7 +21,16 @@ static hbm_stability first_stability(const scene *sc, double omega, double *X, c
   assert_int_equal(hbm_measure(s, X, &m), HC_OK);
   assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
   *regime = m.contact.regime;
-  *intervals = intervals_of(s, X);
+  /* Number of intervals of contact that the solution X consists of. */
+  const contact_forces *e;
+  contact_report report;
+  int sum = 0;
+  assert_int_equal(hbm_located_orbit(s, X, &e, &report), HC_OK);
+  for (int j = 0, n; j < s->model->n_contacts; ++j) {
+    contact_forces_intervals(e, j, &n);
+    sum += n;
+  }
+  *intervals = sum;
   hbm_solver_free(s);
   return st;
 }
@@ -279,36 +274,6 @@ static flow settled(const scene *sc, double omega, double x, double v)
   return f;
 }
 
-static hbm_stability by_differences(const flow *at, double delta)
-{
-  double T = 2 * PI / at->omega, phi[2][2];
-  for (int q = 0; q < 2; ++q) {
-    flow end[2];
-    for (int i = 0; i < 2; ++i) {
-      end[i] = *at;
-      *(q ? &end[i].v : &end[i].x) += (i ? 1 : -1) * delta;
-      flow_to(&end[i], at->t + T, T / STEPS);
-    }
-    phi[0][q] = (end[1].x - end[0].x) / (2 * delta);
-    phi[1][q] = (end[1].v - end[0].v) / (2 * delta);
-  }
-  double trace = phi[0][0] + phi[1][1], det = phi[0][0] * phi[1][1] - phi[0][1] * phi[1][0];
-  double complex root = csqrt(0.25 * trace * trace - det), l = 0.5 * trace + (trace < 0 ? -root : root);
-  return (hbm_stability){cabs(l), creal(l), cimag(l), 1 + trace + det, 1 - trace + det, det, false};
-}
-
-/* How far the trace and determinant of an H-harmonic orbit may be from the true orbit's. At an event x''' jumps by
- * kappa x' (in th), kappa = dk/(M omega^2) with dk the stiffness that comes or goes. Each leaves coefficients kappa
- * x'/(pi n^4) or less, so the E events of a period move x by at most E kappa x'/(3 pi H^3) and an event's angle by E
- * kappa/(3 pi H^3). An angle's error d enters phi as a stiffness dk for a time d: kappa d, E times: (E kappa)^2/(3
- * pi H^3), times |phi|, here at most 1 + kappa. Differences: 1e-5 of x' steps through x'' of order 1 + kappa, below
- * 1e-4; RK4 1e-7. */
-static double truncation_bound(double dk, const scene *sc, double omega, int events, int n_harm)
-{
-  double kappa = dk / (sc->mass * omega * omega);
-  return events * events * kappa * kappa * (1 + kappa) / (3 * PI * pow(n_harm, 3)) + 1e-4;
-}
-
 static void check_slipping(const scene *sc, double omega, const char *what)
 {
   double X[2 * 80 + 1], dk = 0, x = 0, v = 0;
@@ -320,10 +285,30 @@ static void check_slipping(const scene *sc, double omega, const char *what)
     v += h ? h * omega * X[2 * h] : 0;
   }
   flow f = settled(sc, omega, x, v);
-  hbm_stability fd = by_differences(&f, 1e-6);
+  double T = 2 * PI / f.omega, phi[2][2];
+  for (int q = 0; q < 2; ++q) {
+    flow end[2];
+    for (int i = 0; i < 2; ++i) {
+      end[i] = f;
+      *(q ? &end[i].v : &end[i].x) += (i ? 1 : -1) * 1e-6;
+      flow_to(&end[i], f.t + T, T / STEPS);
+    }
+    phi[0][q] = (end[1].x - end[0].x) / (2 * 1e-6);
+    phi[1][q] = (end[1].v - end[0].v) / (2 * 1e-6);
+  }
+  double trace = phi[0][0] + phi[1][1], det = phi[0][0] * phi[1][1] - phi[0][1] * phi[1][0];
+  double complex root = csqrt(0.25 * trace * trace - det), l = 0.5 * trace + (trace < 0 ? -root : root);
+  hbm_stability fd = (hbm_stability){cabs(l), creal(l), cimag(l), 1 + trace + det, 1 - trace + det, det, false};
   /* E dk = sum of E_j dk_j, as many events each */
   for (int j = 0; j < sc->n_contacts; ++j) dk += scene_stuck_stiffness(&sc->contacts[j]) / sc->n_contacts;
-  double tol = truncation_bound(dk, sc, omega, f.events, n_harm);
+  /* How far the trace and determinant of an H-harmonic orbit may be from the true orbit's. At an event x''' jumps by
+   * kappa x' (in th), kappa = dk/(M omega^2) with dk the stiffness that comes or goes. Each leaves coefficients kappa
+   * x'/(pi n^4) or less, so the E events of a period move x by at most E kappa x'/(3 pi H^3) and an event's angle by E
+   * kappa/(3 pi H^3). An angle's error d enters phi as a stiffness dk for a time d: kappa d, E times: (E kappa)^2/(3
+   * pi H^3), times |phi|, here at most 1 + kappa. Differences: 1e-5 of x' steps through x'' of order 1 + kappa, below
+   * 1e-4; RK4 1e-7. */
+  double kappa = dk / (sc->mass * omega * omega);
+  double tol = f.events * f.events * kappa * kappa * (1 + kappa) / (3 * PI * pow(n_harm, 3)) + 1e-4;
   if (getenv("HC_TEST_PRINT"))
     print_message(
         "%s omega=%g H=%d intervals=%d/%d: multiplier %.8f (%.8f %+.8fi) differences %.8f (%.8f %+.8fi) det %.2e %.2e "

@@ -2,7 +2,6 @@
  * write the same structure changes nothing. */
 #include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"
-#include "hbm/solver/linear_solution.h"
 #include "tests/hbm/random_structures.h"
 
 enum { MOST = 4000 };
@@ -158,23 +157,6 @@ static void check_the_same(int H, double (*x)[41], double (*y)[41], double toler
   CHECK_LE(off, tolerance * size, "%s", what);
 }
 
-/* An orthogonal matrix: Householder's reflection by a random vector, after another. */
-static void random_rotation(uint64_t *seed, int n, double *Q)
-{
-  double A[64 * 64];
-  for (int i = 0; i < n * n; ++i) Q[i] = i % (n + 1) == 0;
-  for (int k = 0; k < 2; ++k) {
-    double v[64], size = 0;
-    for (int i = 0; i < n; ++i) v[i] = random_signed(seed), size += v[i] * v[i];
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        A[j * n + i] = Q[j * n + i];
-        for (int l = 0; l < n; ++l) A[j * n + i] -= 2 / size * v[i] * v[l] * Q[j * n + l];
-      }
-    memcpy(Q, A, (size_t)(n * n) * sizeof *Q);
-  }
-}
-
 static void random_permutation(uint64_t *seed, int n, double *Q)
 {
   int at[64];
@@ -243,7 +225,19 @@ static void another_way_to_write_it_changes_nothing(CHECK_STATE)
     if (solve(m, H, omega, x, &regime)) {
       ++solved;
       separated += regime == CONTACT_SEPARATES;
-      random_rotation(&seed, n, Q);
+      /* An orthogonal matrix: Householder's reflection by a random vector, after another. */
+      double A[64 * 64];
+      for (int i = 0; i < n * n; ++i) Q[i] = i % (n + 1) == 0;
+      for (int k = 0; k < 2; ++k) {
+        double v[64], size = 0;
+        for (int i = 0; i < n; ++i) v[i] = random_signed(&seed), size += v[i] * v[i];
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < n; ++i) {
+            A[j * n + i] = Q[j * n + i];
+            for (int l = 0; l < n; ++l) A[j * n + i] -= 2 / size * v[i] * v[l] * Q[j * n + l];
+          }
+        memcpy(Q, A, (size_t)(n * n) * sizeof *Q);
+      }
       model *turned = turned_structure(m, Q);
       random_permutation(&seed, n, Q);
       model *permuted = turned_structure(m, Q), *scaled = in_other_units(m), *split = with_contacts_split(m);

@@ -24,30 +24,6 @@ static void errors(const structure_case *c, double omega, const double *X, doubl
   }
 }
 
-/* Where on its spacing a transition falls decides the factor of the square, which scatters by 2^1 or so from one N
- * to the next. A straight line through log2 of the errors over log2 N, one slope for all frequencies and a height
- * for each: the scatter about it, over the square root of the sum of squared distances from the middle, is the
- * slope's own. Four times that is allowed, and must be little enough to tell order 2 from 1 and 3. */
-static void check_order(const char *name, int order, double (*error)[SIZES], int n)
-{
-  double slope = 0, weight = 0, scatter = 0;
-  for (int f = 0; f < n; ++f)
-    for (int k = 0; k < SIZES; ++k) {
-      const double x = k - 0.5 * (SIZES - 1);
-      slope += x * error[f][k];
-      weight += x * x;
-    }
-  slope /= weight;
-  for (int f = 0; f < n; ++f) {
-    double mean = 0;
-    for (int k = 0; k < SIZES; ++k) mean += error[f][k] / SIZES;
-    for (int k = 0; k < SIZES; ++k) scatter += pow(error[f][k] - mean - slope * (k - 0.5 * (SIZES - 1)), 2);
-  }
-  const double own = sqrt(scatter / (n * (SIZES - 1) - 1) / weight);
-  CHECK_LE(4 * own, 0.35, "%s: the slope is known well enough", name);
-  CHECK_NEAR(slope, -order, 4 * own, "%s: order %d, scatter of the slope %g", name, order, own);
-}
-
 /* With friction 0.6 the wedge touches down and sticks, so that where its slider then starts counts: on a sample, it
  * is order 1 (docs/aliasing.md). Of each case where its contacts slip or separate, mostly; sampled at none of the
  * frequencies does it fail to converge. */
@@ -88,7 +64,26 @@ static void sampled_tends_to_exact(CHECK_STATE)
       errors(&c, omega, X, error[f]);
     }
     assert_true(as_expected > FREQUENCIES / 2);
-    check_order(at[q].name, at[q].order, error, FREQUENCIES);
+    /* Where on its spacing a transition falls decides the factor of the square, which scatters by 2^1 or so from one N
+     * to the next. A straight line through log2 of the errors over log2 N, one slope for all frequencies and a height
+     * for each: the scatter about it, over the square root of the sum of squared distances from the middle, is the
+     * slope's own. Four times that is allowed, and must be little enough to tell order 2 from 1 and 3. */
+    double slope = 0, weight = 0, scatter = 0;
+    for (int f = 0; f < FREQUENCIES; ++f)
+      for (int k = 0; k < SIZES; ++k) {
+        const double x = k - 0.5 * (SIZES - 1);
+        slope += x * error[f][k];
+        weight += x * x;
+      }
+    slope /= weight;
+    for (int f = 0; f < FREQUENCIES; ++f) {
+      double mean = 0;
+      for (int k = 0; k < SIZES; ++k) mean += error[f][k] / SIZES;
+      for (int k = 0; k < SIZES; ++k) scatter += pow(error[f][k] - mean - slope * (k - 0.5 * (SIZES - 1)), 2);
+    }
+    const double own = sqrt(scatter / (FREQUENCIES * (SIZES - 1) - 1) / weight);
+    CHECK_LE(4 * own, 0.35, "%s: the slope is known well enough", at[q].name);
+    CHECK_NEAR(slope, -at[q].order, 4 * own, "%s: order %d, scatter of the slope %g", at[q].name, at[q].order, own);
     hbm_solver_free(s);
     model_free(c.model);
   }

@@ -12,26 +12,6 @@ typedef struct reference {
   double omega, is[N_MEASURES];
 } reference;
 
-static int read_rows(reference *row)
-{
-  char line[512];
-  int n = 0;
-  FILE *f = fopen(SOURCE_DIR "/tests/reference/structures_hbm.csv", "r");
-  assert_non_null(f);
-  assert_non_null(fgets(line, sizeof line, f));
-  assert_string_equal(line, "case,harmonics,omega,solution,response,amplitude,max,min,rms,mean,a1,b1\n");
-  while (fgets(line, sizeof line, f)) {
-    assert_true(n < MOST_ROWS);
-    reference *r = &row[n++];
-    double *v = r->is;
-    const int got = sscanf(line, "%23[^,],%d,%lf,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf", r->name, &r->n_harm, &r->omega,
-                           &r->solution, &r->dof, v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6);
-    if (got != 12) fail_msg("structures_hbm.csv, row %d: %s", n, line);
-  }
-  fclose(f);
-  return n;
-}
-
 /* The response of the case that is this degree of freedom. */
 static int response_of(const model *m, int dof)
 {
@@ -114,7 +94,21 @@ static void check_frequency(hbm_solver *s, const model *m, const hbm_curve *curv
 static void every_solution_is_found(CHECK_STATE)
 {
   static reference row[MOST_ROWS];
-  const int n = read_rows(row);
+  char line[512];
+  int n = 0;
+  FILE *f = fopen(SOURCE_DIR "/tests/reference/structures_hbm.csv", "r");
+  assert_non_null(f);
+  assert_non_null(fgets(line, sizeof line, f));
+  assert_string_equal(line, "case,harmonics,omega,solution,response,amplitude,max,min,rms,mean,a1,b1\n");
+  while (fgets(line, sizeof line, f)) {
+    assert_true(n < MOST_ROWS);
+    reference *r = &row[n++];
+    double *v = r->is;
+    const int got = sscanf(line, "%23[^,],%d,%lf,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf", r->name, &r->n_harm, &r->omega,
+                           &r->solution, &r->dof, v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6);
+    if (got != 12) fail_msg("structures_hbm.csv, row %d: %s", n, line);
+  }
+  fclose(f);
   assert_int_equal(n, 353);
   for (int i = 0, rows; i < n; i += rows) {
     rows = count_alike(row + i, n - i, false, false);

@@ -94,20 +94,6 @@ static void a_free_body_has_no_eigenvectors(CHECK_STATE)
   model_free(m);
 }
 
-/* Two masses, a Jenkins element on both, and a damper on the second one, whose motions die out in an interval. A period
- * slips and then sticks, from where the mass was then: dheld = kt t . dx. */
-static model *damped_masses(double kt)
-{
-  model *m;
-  assert_int_equal(model_new(2, 0, 1, 1, &m), HC_OK);
-  m->mass[0] = m->mass[3] = 1;
-  m->stiffness[0] = 40, m->stiffness[1] = m->stiffness[2] = -15, m->stiffness[3] = 1e5;
-  m->damping[0] = 0.5, m->damping[3] = 600;
-  m->contacts[0].law = (contact){.kt = kt, .mu = 1, .load = 1};
-  m->contacts[0].tangent[0] = 1, m->contacts[0].tangent[1] = -0.5;
-  return m;
-}
-
 enum { SLIP, STUCK, STATES = 5 };
 
 /* Over the period that ends with the interval `last`: the map of all states, or only what lasts. */
@@ -157,7 +143,15 @@ static void what_a_interval_leaves_has_all_the_multipliers(CHECK_STATE)
   static const double stiffness[] = {100, 1e9};
   for (int i = 0; i < 4; ++i) {
     const int last = i % 2 ? STUCK : SLIP;
-    model *m = damped_masses(stiffness[i / 2]);
+    /* Two masses, a Jenkins element on both, and a damper on the second one, whose motions die out in an interval. A
+     * period slips and then sticks, from where the mass was then: dheld = kt t . dx. */
+    model *m;
+    assert_int_equal(model_new(2, 0, 1, 1, &m), HC_OK);
+    m->mass[0] = m->mass[3] = 1;
+    m->stiffness[0] = 40, m->stiffness[1] = m->stiffness[2] = -15, m->stiffness[3] = 1e5;
+    m->damping[0] = 0.5, m->damping[3] = 600;
+    m->contacts[0].law = (contact){.kt = stiffness[i / 2], .mu = 1, .load = 1};
+    m->contacts[0].tangent[0] = 1, m->contacts[0].tangent[1] = -0.5;
     double fold[2], flip[2];
     int columns[2];
     for (int all = 0; all < 2; ++all) products_of(m, last, all, &fold[all], &flip[all], &columns[all]);

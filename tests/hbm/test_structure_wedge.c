@@ -67,18 +67,6 @@ static double stuck_margin(const model *m, double omega)
   return least;
 }
 
-/* Where the curve is a function of omega it sticks if and only if it can; elsewhere it can where it does. Points within
- * 1e-9 of the limit may be either. */
-static void check_sticking(const wedge *w, const char *what)
-{
-  for (int k = 0; k < w->curve.n; ++k) {
-    const double omega = w->curve.points[k].omega, margin = stuck_margin(w->model, omega);
-    const bool sticks = regime_at(w, k) == CONTACT_STUCK;
-    if (fabs(margin) <= 1e-9 || (w->curve.turning_points > 0 && !sticks)) continue;
-    if (sticks != (margin > 0)) fail_msg("%s at %.10g: sticks %d, margin %g", what, omega, sticks, margin);
-  }
-}
-
 /* 1e-12 of the largest force: Newton's tolerance 1e-13 of the sum of them, and rounding of the reduction. */
 static void check_equations(const wedge *w, int every, const char *what)
 {
@@ -113,7 +101,14 @@ static void whole_curves(CHECK_STATE)
       trace(loads[i].name, loads[i].force, ldexp(1, press), &w);
       snprintf(what, sizeof what, "%s x %g, static load x %g", loads[i].name, loads[i].force, ldexp(1, press));
       check_equations(&w, 5, what);
-      check_sticking(&w, what);
+      /* Where the curve is a function of omega it sticks if and only if it can; elsewhere it can where it does.
+       * Points within 1e-9 of the limit may be either. */
+      for (int k = 0; k < w.curve.n; ++k) {
+        const double omega = w.curve.points[k].omega, margin = stuck_margin(w.model, omega);
+        const bool sticks = regime_at(&w, k) == CONTACT_STUCK;
+        if (fabs(margin) <= 1e-9 || (w.curve.turning_points > 0 && !sticks)) continue;
+        if (sticks != (margin > 0)) fail_msg("%s at %.10g: sticks %d, margin %g", what, omega, sticks, margin);
+      }
       for (int k = 0; k < w.curve.n; ++k)
         if (regime_at(&w, k) > worst) worst = regime_at(&w, k);
       if (press == 0 && worst != loads[i].worst) fail_msg("%s: %s", what, contact_regime_name(worst));

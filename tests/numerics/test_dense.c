@@ -14,24 +14,6 @@ static void random_matrix(uint64_t *seed, int n, double *a)
   for (int i = 0; i < n * n; ++i) a[i] = random_signed(seed);
 }
 
-/* Row i of P^-1 L U is row i of A: the rows of |L||U| in the order of A, times |x|, into bound[n]. */
-static void lu_times(int n, const double *f, const int *pivot, const double *x, double *bound)
-{
-  for (int i = 0; i < n; ++i) {
-    bound[i] = 0;
-    for (int j = 0; j < n; ++j) {
-      double sum = 0;
-      for (int k = 0; k <= (i < j ? i : j); ++k) sum += (k == i ? 1 : fabs(f[i + n * k])) * fabs(f[k + n * j]);
-      bound[i] += sum * fabs(x[j]);
-    }
-  }
-  for (int k = n - 1; k >= 0; --k) {
-    double swap = bound[k];
-    bound[k] = bound[pivot[k] - 1];
-    bound[pivot[k] - 1] = swap;
-  }
-}
-
 /* The computed x solves (A + E) x = b with |E| <= gamma_3n |L||U| (Higham, Accuracy and Stability, theorem 9.4),
  * gamma_m = m u/(1 - m u), u = eps/2. Multiplying by the pivot's reciprocal rounds each entry of L once more and the
  * reciprocal itself: 3n + 2. With partial pivoting |L| <= 1, so the right-hand side is at most n growth eps max|A|
@@ -51,7 +33,20 @@ static void solves_within_the_bound_of_rounding_theory(CHECK_STATE)
       memcpy(f, a, sizeof f);
       assert_int_equal(dense_factor(n, f, pivot), HC_OK);
       dense_solve(n, f, pivot, 1, x);
-      lu_times(n, f, pivot, x, bound);
+      /* Row i of P^-1 L U is row i of A: the rows of |L||U| in the order of A, times |x|, into bound[n]. */
+      for (int i = 0; i < n; ++i) {
+        bound[i] = 0;
+        for (int j = 0; j < n; ++j) {
+          double sum = 0;
+          for (int k = 0; k <= (i < j ? i : j); ++k) sum += (k == i ? 1 : fabs(f[i + n * k])) * fabs(f[k + n * j]);
+          bound[i] += sum * fabs(x[j]);
+        }
+      }
+      for (int k = n - 1; k >= 0; --k) {
+        double swap = bound[k];
+        bound[k] = bound[pivot[k] - 1];
+        bound[pivot[k] - 1] = swap;
+      }
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
           biggest = fmax(biggest, fabs(a[i + n * j]));

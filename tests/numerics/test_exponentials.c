@@ -1,8 +1,6 @@
 /* test_exponentials.c - where sums of exponentials fall through 0: against dense sampling, and grazes made by hand. */
 #include "numerics/exponentials.h"
 
-#include <float.h>
-
 #include "tests/check.h"
 #include "tests/random.h"
 

@@ -354,9 +354,11 @@ static void long_text_is_cut_except_at_the_end(CHECK_STATE)
 
 enum { N_RANDOM = 20000 };
 
-/* All bit patterns are equally likely: every exponent, both signs; the first ones are the extremes. */
-static table *random_table(double *values)
+static void doubles_come_back_bit_for_bit(CHECK_STATE)
 {
+  double *values = calloc(N_RANDOM, sizeof *values);
+  assert_non_null(values);
+  /* All bit patterns are equally likely: every exponent, both signs; the first ones are the extremes. */
   static const double extreme[] = {0.0, -0.0, 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, 0.1, 1e23};
   const int n_extreme = (int)(sizeof extreme / sizeof *extreme);
   uint64_t s = 88172645463325252u;
@@ -369,14 +371,6 @@ static table *random_table(double *values)
       } while (!isfinite(values[i]));
     table_put_real(t, values[i]);
   }
-  return t;
-}
-
-static void doubles_come_back_bit_for_bit(CHECK_STATE)
-{
-  double *values = calloc(N_RANDOM, sizeof *values);
-  assert_non_null(values);
-  table *t = random_table(values);
   char *csv = written(1, &t, FORMAT_CSV), *json = written(1, &t, FORMAT_JSON), *p = strchr(csv, '\n');
   json_t *root = json_loads(json, 0, NULL);
   assert_non_null(root);

@@ -10,7 +10,6 @@
 #include "compare/comparison.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/hbm.h"
-#include "stress/rewritten.h"
 #include "stress/scenes.h"
 #include "stress/solved_scene.h"
 #include "tests/check.h"
@@ -48,21 +47,18 @@ WRAP(hc_status, hbm_response, (hbm_solver * s, double omega, const double *X, in
   return st;
 }
 
-static void transpose(int n, double *A)
-{
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < j; ++i) {
-      const double kept = A[j * n + i];
-      A[j * n + i] = A[i * n + j];
-      A[i * n + j] = kept;
-    }
-}
-
 WRAP(hc_status, hbm_solver_new, (const model *m, const hbm_settings *how, hbm_solver **out))
 {
   model *other;
   assert_int_equal(model_copy(m, &other), HC_OK);
-  if (spoiled == DAMPING_TRANSPOSED) transpose(m->n, other->damping);
+  if (spoiled == DAMPING_TRANSPOSED) {
+    for (int j = 0; j < m->n; ++j)
+      for (int i = 0; i < j; ++i) {
+        const double kept = other->damping[j * m->n + i];
+        other->damping[j * m->n + i] = other->damping[i * m->n + j];
+        other->damping[i * m->n + j] = kept;
+      }
+  }
   for (int j = 0; j < m->n_contacts && spoiled == LIMIT_SQUARE; ++j) other->contacts[j].circle = false;
   for (int j = 0; j < m->n_contacts && spoiled == SAMPLES_STIFFER && how->force == HBM_FORCE_SAMPLED; ++j)
     other->contacts[j].law.kt *= 1 + 1e-5, other->contacts[j].law.kn *= 1 + 1e-5;

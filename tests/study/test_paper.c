@@ -8,15 +8,6 @@
 #include "study/store.h"
 #include "tests/check.h"
 
-/* A claim may tell only; one on the paper must say what it expects, so that no verdict changes unseen. */
-static void check_expectations(const char *path, const study_claim *c)
-{
-  assert_non_null(c->source.text);
-  for (int k = STUDY_PAPER; k < STUDY_ANSWERS; ++k)
-    if (c->answers[k].holds.text && c->answers[k].expect == STUDY_EXPECT_NOTHING)
-      fail_msg("%s:%zu: %s: nothing is expected", path, c->answers[k].holds.line, c->says.text);
-}
-
 static int check_file(const char *folder, const char *name)
 {
   char path[512];
@@ -29,7 +20,13 @@ static int check_file(const char *folder, const char *name)
   if (st == HC_OK) st = study_claims_check(s, &err);
   if (st != HC_OK) fail_msg("%s", err.message);
   assert_true(s->n_claims > 0);
-  for (int i = 0; i < s->n_claims; ++i) check_expectations(path, &s->claims[i]);
+  /* A claim may tell only; one on the paper must say what it expects, so that no verdict changes unseen. */
+  for (int i = 0; i < s->n_claims; ++i) {
+    assert_non_null(s->claims[i].source.text);
+    for (int k = STUDY_PAPER; k < STUDY_ANSWERS; ++k)
+      if (s->claims[i].answers[k].holds.text && s->claims[i].answers[k].expect == STUDY_EXPECT_NOTHING)
+        fail_msg("%s:%zu: %s: nothing is expected", path, s->claims[i].answers[k].holds.line, s->claims[i].says.text);
+  }
   for (long id = 0; id < s->n_scenes; ++id) {
     scene sc;
     if (study_scene(s, id, &sc, &err) != HC_OK) fail_msg("%s, scene %ld: %s", path, id, err.message);

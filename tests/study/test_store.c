@@ -92,14 +92,6 @@ static void others_are_refused(CHECK_STATE)
   unlink(file);
 }
 
-static void run_sql(const char *sql)
-{
-  sqlite3 *db;
-  assert_int_equal(sqlite3_open(file, &db), SQLITE_OK);
-  assert_int_equal(sqlite3_exec(db, sql, NULL, NULL, NULL), SQLITE_OK);
-  sqlite3_close(db);
-}
-
 static void foreign_files_are_refused(CHECK_STATE)
 {
   study *s = good_study(LINEAR);
@@ -112,7 +104,12 @@ static void foreign_files_are_refused(CHECK_STATE)
     folder_put("r.sqlite", "short");
     refuse_unchanged(s, fresh, "not an SQLite file");
     unlink(file);
-    run_sql("CREATE TABLE study(key, value); INSERT INTO study VALUES('schema', '1')");
+    sqlite3 *db;
+    assert_int_equal(sqlite3_open(file, &db), SQLITE_OK);
+    assert_int_equal(
+        sqlite3_exec(db, "CREATE TABLE study(key, value); INSERT INTO study VALUES('schema', '1')", NULL, NULL, NULL),
+        SQLITE_OK);
+    sqlite3_close(db);
     refuse_unchanged(s, fresh, "an SQLite file of another program");
     unlink(file);
   }

@@ -1,6 +1,5 @@
 /* test_circle.c - time integration of contacts with two tangents under the law of the circle: against an independent
  * program, against the law of one tangent where the motion is on one line, and against differences. */
-#include <float.h>
 
 #include "base/constants.h"
 #include "numerics/norm.h"
@@ -9,7 +8,6 @@
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/events_newton.h"
 #include "timeint/cvode/integrate_events.h"
-#include "timeint/cvode/integrate_regularised.h"
 #include "timeint/steady/contact_watch.h"
 #include "timeint/steady/steady.h"
 
@@ -259,26 +257,6 @@ typedef struct between_events {
   double y[MOST];
 } between_events;
 
-static void draw_between_events(uint64_t *seed, between_events *b)
-{
-  draw(seed, TRANSIENT_LAW_EXACT, &b->d);
-  const scaled_model *m = &b->d.scaled;
-  b->n = 2 * m->n, b->turning = 0;
-  for (int i = 0; i < b->n; ++i) b->y[i] = random_signed(seed);
-  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
-    const law_kind *kind = m->contact[j].kind;
-    const contact_motion at = scaled_motion_at(m, j, b->y);
-    const double w[2] = {random_signed(seed), random_signed(seed)};
-    contact_track_begin(&b->track[j], &m->contact[j], &at, w);
-    b->own_of[j] = -1;
-    if (!kind->own_begin) continue;
-    b->own_of[j] = b->n - 2 * m->n;
-    b->y[b->n++] = b->track[j].turns ? kind->own_begin(&b->track[j]) : 0;
-    b->turning += b->track[j].turns;
-  }
-  for (int j = 0; j < m->n_contacts; ++j) b->law[j] = contact_track_forces(&b->track[j], &m->contact[j]);
-}
-
 /* dy at y: forces and rates contact by contact. */
 static void rate_between_events(const between_events *b, const double *y, double *dy)
 {
@@ -311,7 +289,22 @@ static void newton_of_the_exact_law_solves_its_equations(CHECK_STATE)
     between_events b;
     events_newton s;
     double z[MOST], r[MOST], f[2][MOST], size = 1;
-    draw_between_events(&seed, &b);
+    draw(&seed, TRANSIENT_LAW_EXACT, &b.d);
+    const scaled_model *m = &b.d.scaled;
+    b.n = 2 * m->n, b.turning = 0;
+    for (int i = 0; i < b.n; ++i) b.y[i] = random_signed(&seed);
+    for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
+      const law_kind *kind = m->contact[j].kind;
+      const contact_motion at = scaled_motion_at(m, j, b.y);
+      const double w[2] = {random_signed(&seed), random_signed(&seed)};
+      contact_track_begin(&b.track[j], &m->contact[j], &at, w);
+      b.own_of[j] = -1;
+      if (!kind->own_begin) continue;
+      b.own_of[j] = b.n - 2 * m->n;
+      b.y[b.n++] = b.track[j].turns ? kind->own_begin(&b.track[j]) : 0;
+      b.turning += b.track[j].turns;
+    }
+    for (int j = 0; j < m->n_contacts; ++j) b.law[j] = contact_track_forces(&b.track[j], &m->contact[j]);
     const double gamma = pow(10, -4 + 4 * random_unit(&seed)), h = 1e-5;
     turning += b.turning;
     for (int i = 0; i < b.n; ++i) z[i] = r[i] = random_signed(&seed);

@@ -90,22 +90,6 @@ static const transient_settings closed_form = {.law = TRANSIENT_LAW_EXACT,
                                                .tolerance = 1e-10,
                                                .max_periods = 20000};
 
-/* The frequencies of a case's rows with that start, ascending; how many. */
-static int frequencies(const char *name, transient_start start, double *omega)
-{
-  int n = 0;
-  for (int i = 0; i < N_ROWS; ++i) {
-    if (strcmp(rows[i].name, name) != 0 || rows[i].start != start) continue;
-    int at = n;
-    while (at > 0 && omega[at - 1] > rows[i].omega) --at;
-    if (at > 0 && omega[at - 1] == rows[i].omega) continue;
-    memmove(omega + at + 1, omega + at, (size_t)(n - at) * sizeof *omega);
-    omega[at] = rows[i].omega;
-    ++n;
-  }
-  return n;
-}
-
 /* The reference's marching stops at 1e-9 of the state or better where a mean creeps. */
 static void check_rows(timeint *ti, const char *name, transient_start start, double omega, timeint_result *r)
 {
@@ -135,7 +119,17 @@ static void check_start(const char *name, transient_start start)
   how.start = start;
   timeint *ti;
   timeint_result r;
-  const int n = frequencies(name, start, omega);
+  /* The frequencies of a case's rows with that start, ascending; how many. */
+  int n = 0;
+  for (int i = 0; i < N_ROWS; ++i) {
+    if (strcmp(rows[i].name, name) != 0 || rows[i].start != start) continue;
+    int at = n;
+    while (at > 0 && omega[at - 1] > rows[i].omega) --at;
+    if (at > 0 && omega[at - 1] == rows[i].omega) continue;
+    memmove(omega + at + 1, omega + at, (size_t)(n - at) * sizeof *omega);
+    omega[at] = rows[i].omega;
+    ++n;
+  }
   assert_int_equal(timeint_new(c.model, &how, &ti), HC_OK);
   for (int i = 0; i < n; ++i) {
     const double at = omega[start == DOWN ? n - 1 - i : i], from = i > 0 ? omega[start == DOWN ? n - i : i - 1] : at;

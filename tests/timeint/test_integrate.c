@@ -2,7 +2,6 @@
 #include "tests/check.h"
 
 #include <complex.h>
-#include <float.h>
 
 #include <cvodes/cvodes.h>
 

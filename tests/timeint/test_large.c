@@ -54,21 +54,6 @@ static double compliance(const modal_base *of, const modal_base *slow, bool fast
   return sum;
 }
 
-/* As springs all modes stay what they are: rounding of n terms, each of a handful of operations. */
-static void check_statics(const modal_base *whole, const modal_base *slow)
-{
-  const double *of[2][MOST_VECTORS];
-  const int count = vectors_of(whole, of[0]);
-  double size;
-  vectors_of(slow, of[1]);
-  for (int a = 0; a < count; ++a)
-    for (int b = 0; b < count; ++b) {
-      const double there = compliance(slow, slow, false, of[1][a], of[1][b], &size);
-      const double here = compliance(whole, slow, false, of[0][a], of[0][b], &size);
-      CHECK_NEAR(there, here, (whole->n + 16) * DBL_EPSILON * size, "compliance [%d, %d]", a, b);
-    }
-}
-
 /* Under a force of frequency Omega = e^1/2 fastest, on its own vector, a mode of frequency a fastest, a > 1, moves by
  * its static compliance g over 1 - e/a^2 - less than with more mass, g/(1 - e): off by 0 to g e/(1 - e). */
 static void check_dynamics(const modal_base *whole, const modal_base *slow, double fastest)
@@ -92,30 +77,6 @@ static void check_dynamics(const modal_base *whole, const modal_base *slow, doub
       CHECK_LE(-rounding, off, "e = %g, vector %d: more mass, more motion", e, v);
       CHECK_LE(off, most + rounding, "e = %g, vector %d", e, v);
     }
-}
-
-/* C_ij sqrt(a_i a_j) is what it was, and K_ii is capped: so are damping ratios C_ii/(2 omega_i). */
-static void check_modes(const modal_base *whole, const modal_base *slow, double fastest)
-{
-  const int n = whole->n;
-  double slowest = INFINITY, decay = 0;
-  for (int i = 0; i < n; ++i) {
-    const double omega = sqrt(whole->K[i]), by = fmax(1, omega / fastest);
-    CHECK_NEAR(slow->slowed[i], by, 4 * DBL_EPSILON * by, "mode %d", i);
-    CHECK_NEAR(sqrt(slow->K[i]), fmin(omega, fastest), 8 * DBL_EPSILON * fastest, "frequency %d", i);
-    for (int j = 0; j < n; ++j) {
-      if (whole->diagonal_C && i != j) continue;
-      const int at = whole->diagonal_C ? i : i + n * j;
-      const double want = whole->C[at] / sqrt(by * fmax(1, sqrt(whole->K[j]) / fastest));
-      CHECK_NEAR(slow->C[at], want, 16 * DBL_EPSILON * fabs(want), "C[%d, %d]", i, j);
-    }
-    const double C = slow->C[whole->diagonal_C ? i : i * (n + 1)];
-    slowest = fmin(slowest, C / 2);
-    decay = fmax(decay, C);
-  }
-  CHECK_NEAR(slow->slowest, slowest, 0, "slowest decay");
-  CHECK_NEAR(slow->decay, decay, 0, "fastest decay");
-  CHECK_NEAR(slow->s, whole->s, 0, "unit");
 }
 
 /* x -> q -> x, and what rows make of q: rounding of n^2 terms of the transformations. */
@@ -184,9 +145,38 @@ static void check_slowed(uint64_t *seed, const model *m, double fastest)
   assert_int_equal(modal_base_new(m, &whole), HC_OK);
   assert_int_equal(modal_base_slowed(whole, m, fastest, &slow), HC_OK);
   assert_true(slow->slowed[0] == 1 && slow->slowed[m->n - 1] > 1);
-  check_statics(whole, slow);
+  /* As springs all modes stay what they are: rounding of n terms, each of a handful of operations. */
+  const double *of[2][MOST_VECTORS];
+  const int count = vectors_of(whole, of[0]);
+  double size;
+  vectors_of(slow, of[1]);
+  for (int a = 0; a < count; ++a)
+    for (int b = 0; b < count; ++b) {
+      const double there = compliance(slow, slow, false, of[1][a], of[1][b], &size);
+      const double here = compliance(whole, slow, false, of[0][a], of[0][b], &size);
+      CHECK_NEAR(there, here, (whole->n + 16) * DBL_EPSILON * size, "compliance [%d, %d]", a, b);
+    }
   check_dynamics(whole, slow, fastest);
-  check_modes(whole, slow, fastest);
+  /* C_ij sqrt(a_i a_j) is what it was, and K_ii is capped: so are damping ratios C_ii/(2 omega_i). */
+  const int n = whole->n;
+  double slowest = INFINITY, decay = 0;
+  for (int i = 0; i < n; ++i) {
+    const double omega = sqrt(whole->K[i]), by = fmax(1, omega / fastest);
+    CHECK_NEAR(slow->slowed[i], by, 4 * DBL_EPSILON * by, "mode %d", i);
+    CHECK_NEAR(sqrt(slow->K[i]), fmin(omega, fastest), 8 * DBL_EPSILON * fastest, "frequency %d", i);
+    for (int j = 0; j < n; ++j) {
+      if (whole->diagonal_C && i != j) continue;
+      const int at = whole->diagonal_C ? i : i + n * j;
+      const double want = whole->C[at] / sqrt(by * fmax(1, sqrt(whole->K[j]) / fastest));
+      CHECK_NEAR(slow->C[at], want, 16 * DBL_EPSILON * fabs(want), "C[%d, %d]", i, j);
+    }
+    const double C = slow->C[whole->diagonal_C ? i : i * (n + 1)];
+    slowest = fmin(slowest, C / 2);
+    decay = fmax(decay, C);
+  }
+  CHECK_NEAR(slow->slowest, slowest, 0, "slowest decay");
+  CHECK_NEAR(slow->decay, decay, 0, "fastest decay");
+  CHECK_NEAR(slow->s, whole->s, 0, "unit");
   check_motion(seed, whole, slow);
   check_highest(m, slow);
   modal_base_free(slow);
@@ -296,20 +286,6 @@ static int check_rate(uint64_t *seed, const drawn *d, int trial)
   return entries;
 }
 
-/* The first `circles` pairs of contacts become circles of friction. */
-static void make_circles(uint64_t *seed, model *m, int circles)
-{
-  for (int j = 0; j < 2 * circles; ++j) {
-    model_contact *c = &m->contacts[j], *first = &m->contacts[j - j % 2];
-    c->pair = j % 2 ? CONTACT_SECOND : CONTACT_FIRST;
-    c->circle = true;
-    c->law = (contact){.kt = 40, .kn = 30, .mu = 0.4, .gap = 0.1};
-    random_direction(seed, m->n, c->tangent);
-    random_direction(seed, m->n, first->normal);
-    memcpy(c->normal, first->normal, (size_t)m->n * sizeof *c->normal);
-  }
-}
-
 /* Of one tangent and of two, and with fewer and more entries in the rows than BLAS is called for (dense.c: 1024). */
 static void rates_by_rows_are_the_equations(CHECK_STATE)
 {
@@ -320,7 +296,17 @@ static void rates_by_rows_are_the_equations(CHECK_STATE)
     const int n = large ? random_int(&seed, 50, 64) : random_int(&seed, 1, 12);
     const int contacts = large ? MOST_CONTACTS : random_int(&seed, 1, MOST_CONTACTS);
     drawn d = {.m = random_structure(&seed, n, contacts)};
-    make_circles(&seed, d.m, random_int(&seed, 0, contacts / 2));
+    /* The first `circles` pairs of contacts become circles of friction. */
+    const int circles = random_int(&seed, 0, contacts / 2);
+    for (int j = 0; j < 2 * circles; ++j) {
+      model_contact *c = &d.m->contacts[j], *first = &d.m->contacts[j - j % 2];
+      c->pair = j % 2 ? CONTACT_SECOND : CONTACT_FIRST;
+      c->circle = true;
+      c->law = (contact){.kt = 40, .kn = 30, .mu = 0.4, .gap = 0.1};
+      random_direction(&seed, d.m->n, c->tangent);
+      random_direction(&seed, d.m->n, first->normal);
+      memcpy(c->normal, first->normal, (size_t)d.m->n * sizeof *c->normal);
+    }
     scale_drawn(&d, TRANSIENT_LAW_REGULARISED, 3 + 10 * random_unit(&seed));
     const int entries = check_rate(&seed, &d, trial);
     if (entries > most) most = entries;
@@ -496,17 +482,6 @@ static double amplitude_of(const double *wave, int n)
   return (extreme(wave, n, top) - extreme(wave, n, bottom)) / 2;
 }
 
-/* How far from `o` a period of the other integrator from its state leads, in units of the motion. */
-static double distance_back(const steps_state *from, const steps_state *to, const struct orbit *o, int n)
-{
-  double apart = 0, size = 0;
-  for (int i = 0; i < n; ++i) {
-    apart = hypot(apart, hypot(to->q[i] - from->q[i], (to->dq[i] - from->dq[i]) / o->omega));
-    size = hypot(size, hypot(from->q[i], from->dq[i] / o->omega));
-  }
-  return apart / size;
-}
-
 /* A period of force_steps.h from the orbit's state, with 2048, 4096, 8192 and 16384 steps. Errors are of second order:
  * they fall by 4 each time. A kink is somewhere in its step, which changes its share of the error by a factor of 0 to
  * 1: all kinks together, some 24 to 48, by less than 2: each time by 2 to 8, three times by 4^3 / 2 or more. By what
@@ -529,7 +504,13 @@ static void orbits_are_those_of_another_integrator(CHECK_STATE)
       steps_state to = from;
       const int steps = FEWEST_STEPS << l, each = steps / TIMEINT_WAVE;
       force_steps_period(&s, o->omega, steps, &to, wave[l]);
-      back[l] = distance_back(&from, &to, o, n);
+      /* How far from `o` a period of the other integrator from its state leads, in units of the motion. */
+      double apart = 0, size = 0;
+      for (int i = 0; i < n; ++i) {
+        apart = hypot(apart, hypot(to.q[i] - from.q[i], (to.dq[i] - from.dq[i]) / o->omega));
+        size = hypot(size, hypot(from.q[i], from.dq[i] / o->omega));
+      }
+      back[l] = apart / size;
       for (int i = 0; i < TIMEINT_WAVE; ++i) {
         const double here = wave[l][i * each], coarser = l > 0 ? wave[l - 1][i * each / 2] : NAN;
         error[l] = fmax(error[l], fabs(here - o->r.wave[i]) / o->r.amplitude);

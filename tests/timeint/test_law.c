@@ -50,28 +50,6 @@ static void softplus_errs_by_second_order(CHECK_STATE)
   }
 }
 
-/* Central differences, step h: error h^2/6 |f'''| + eps |f|/h. f''' of N is <= kn/(6 sqrt 3 width^2) (largest of
- * softplus'''), of w' mu times that over eta. Points keep farther than h from the corners of max, where there is no
- * derivative. */
-static void check_derivatives(const law_regularised *c, double u, double v, double w)
-{
-  const double h = 1e-5;
-  law_derivatives s = law_regularised_derivatives(c, u, v, w);
-  law_value up = law_regularised_eval(c, u + h, v, w), um = law_regularised_eval(c, u - h, v, w);
-  law_value vp = law_regularised_eval(c, u, v + h, w), vm = law_regularised_eval(c, u, v - h, w);
-  law_value wp = law_regularised_eval(c, u, v, w + h), wm = law_regularised_eval(c, u, v, w - h);
-  double size = c->kn * (fabs(v) + 1) + c->kt * (fabs(u) + fabs(w) + 1);
-  double tol = h * h / 6 * c->kn / (6 * sqrt(3) * c->width * c->width) + 8 * DBL_EPSILON * size / h;
-  double tol_rate = tol * (1 + c->mu) / c->eta;
-  CHECK_NEAR(s.n_v, (vp.n - vm.n) / (2 * h), tol, "dN/dv at %g %g %g", u, v, w);
-  CHECK_NEAR(s.t_u, (up.t - um.t) / (2 * h), tol, "dT/du at %g %g %g", u, v, w);
-  CHECK_NEAR(s.t_v, (vp.t - vm.t) / (2 * h), tol, "dT/dv at %g %g %g", u, v, w);
-  CHECK_NEAR(-s.t_u, (wp.t - wm.t) / (2 * h), tol, "dT/dw at %g %g %g", u, v, w);
-  CHECK_NEAR(s.rate_u, (up.rate - um.rate) / (2 * h), tol_rate, "dw'/du at %g %g %g", u, v, w);
-  CHECK_NEAR(s.rate_v, (vp.rate - vm.rate) / (2 * h), tol_rate, "dw'/dv at %g %g %g", u, v, w);
-  CHECK_NEAR(-s.rate_u, (wp.rate - wm.rate) / (2 * h), tol_rate, "dw'/dw at %g %g %g", u, v, w);
-}
-
 static void derivatives_are_those_of_the_values(CHECK_STATE)
 {
   law_regularised c = law_regularised_make(&steel, 0.5, 1e-2);
@@ -83,7 +61,24 @@ static void derivatives_are_those_of_the_values(CHECK_STATE)
       double limit = c.mu * law_regularised_eval(&c, u, v, w).n;
       if (fabs(fabs(t) - limit) < 1e-3 || fabs(v + c.gap) > 38 * c.width) continue;
       stuck += fabs(t)<limit, forward += t> limit, backward += t < -limit;
-      check_derivatives(&c, u, v, w);
+      /* Central differences, step h: error h^2/6 |f'''| + eps |f|/h. f''' of N is <= kn/(6 sqrt 3 width^2) (largest
+       * of softplus'''), of w' mu times that over eta. Points keep farther than h from the corners of max, where
+       * there is no derivative. */
+      const double h = 1e-5;
+      law_derivatives s = law_regularised_derivatives(&c, u, v, w);
+      law_value up = law_regularised_eval(&c, u + h, v, w), um = law_regularised_eval(&c, u - h, v, w);
+      law_value vp = law_regularised_eval(&c, u, v + h, w), vm = law_regularised_eval(&c, u, v - h, w);
+      law_value wp = law_regularised_eval(&c, u, v, w + h), wm = law_regularised_eval(&c, u, v, w - h);
+      double size = c.kn * (fabs(v) + 1) + c.kt * (fabs(u) + fabs(w) + 1);
+      double tol = h * h / 6 * c.kn / (6 * sqrt(3) * c.width * c.width) + 8 * DBL_EPSILON * size / h;
+      double tol_rate = tol * (1 + c.mu) / c.eta;
+      CHECK_NEAR(s.n_v, (vp.n - vm.n) / (2 * h), tol, "dN/dv at %g %g %g", u, v, w);
+      CHECK_NEAR(s.t_u, (up.t - um.t) / (2 * h), tol, "dT/du at %g %g %g", u, v, w);
+      CHECK_NEAR(s.t_v, (vp.t - vm.t) / (2 * h), tol, "dT/dv at %g %g %g", u, v, w);
+      CHECK_NEAR(-s.t_u, (wp.t - wm.t) / (2 * h), tol, "dT/dw at %g %g %g", u, v, w);
+      CHECK_NEAR(s.rate_u, (up.rate - um.rate) / (2 * h), tol_rate, "dw'/du at %g %g %g", u, v, w);
+      CHECK_NEAR(s.rate_v, (vp.rate - vm.rate) / (2 * h), tol_rate, "dw'/dv at %g %g %g", u, v, w);
+      CHECK_NEAR(-s.rate_u, (wp.rate - wm.rate) / (2 * h), tol_rate, "dw'/dw at %g %g %g", u, v, w);
     }
   CHECK_LE(100, stuck, "points in stick");
   CHECK_LE(100, forward < backward ? forward : backward, "points in slip, each way");

@@ -18,20 +18,6 @@ static integrator *make(const scaled_model *m, double tolerance)
   return in;
 }
 
-/* Central differences of fourth order. */
-static void differences(integrator *in, const scaled_model *m, const double *y, double h, double *monodromy)
-{
-  static const double at[4] = {1, -1, 2, -2}, weight[4] = {8, -8, -1, 1};
-  memset(monodromy, 0, sizeof *monodromy * N * N);
-  for (int j = 0; j < N; ++j)
-    for (int k = 0; k < 4; ++k) {
-      double z[N] = {y[0], y[1], y[2]};
-      z[j] += at[k] * h;
-      assert_int_equal(integrate_period(in, m, z, NULL, NULL), HC_OK);
-      for (int i = 0; i < N; ++i) monodromy[i + j * N] += weight[k] * z[i] / (12 * h);
-    }
-}
-
 /* Every step errs by up to 1e-6 of the variations (variation_tolerance); some 1300 steps, corners among them, add up
  * like independent errors to 4e-5. Allowed: 1e-4 (worst seen: 2.4e-5). The differences: a period at 1e-13 scatters by
  * up to 250 times that (timeint.c), over h = 1e-5 that is 4e-6. Their truncation has no bound here; that it is small
@@ -45,7 +31,16 @@ static void compare(const scene *from, const char *name, double omega, double le
   integrator *fine = make(&m, 1e-13);
   double y[N] = {0.7, 0.5, 0.4}, want[N * N], monodromy[N * N], alone[2][2], apart = 0;
   for (int i = 0; i < 50; ++i) assert_int_equal(integrate_period(fine, &m, y, NULL, NULL), HC_OK);
-  differences(fine, &m, y, 1e-5, want);
+  /* Central differences of fourth order. */
+  static const double at[4] = {1, -1, 2, -2}, weight[4] = {8, -8, -1, 1};
+  memset(want, 0, sizeof *want * N * N);
+  for (int j = 0; j < N; ++j)
+    for (int k = 0; k < 4; ++k) {
+      double z[N] = {y[0], y[1], y[2]};
+      z[j] += at[k] * 1e-5;
+      assert_int_equal(integrate_period(fine, &m, z, NULL, NULL), HC_OK);
+      for (int i = 0; i < N; ++i) want[i + j * N] += weight[k] * z[i] / (12 * 1e-5);
+    }
   linear_free_motion(1, scene_c(&m), scene_k(&m), 2 * PI, alone);
   for (int i = 0; i < 4; ++i) apart = fmax(apart, fabs(want[i % 2 + i / 2 * N] - alone[i % 2][i / 2]));
   CHECK_LE(0.1, apart, "%s at %g: the contact takes part", name, omega);

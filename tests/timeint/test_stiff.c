@@ -1,11 +1,9 @@
 /* test_stiff.c - motions of structures by complex modes: against power series, which decompose nothing. */
-#include <float.h>
 
 #include "tests/check.h"
 #include "tests/hbm/random_structures.h"
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/closed_form/motion_modes.h"
-#include "timeint/closed_form/motion_series.h"
 #include "timeint/cvode/integrate_events.h"
 
 enum { MOST = 64, PERIODS = 3 };

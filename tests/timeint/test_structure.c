@@ -1,6 +1,5 @@
 /* test_structure.c - time integration of structures: against an independent program, against the closed form of one
  * degree of freedom, and its two integrators of the exact law against each other. */
-#include <float.h>
 
 #include "tests/check.h"
 #include "tests/hbm/structure_cases.h"
@@ -133,21 +132,6 @@ static void regularised_meets_the_reference(CHECK_STATE)
 
 /* ---- one degree of freedom ----------------------------------------------------------------------------- */
 
-/* The same model with a second load, of no force: then its motion goes by series. */
-static model *with_second_load(const model *m)
-{
-  model *two;
-  assert_int_equal(model_new(1, 2, m->n_contacts, 1, &two), HC_OK);
-  *two->mass = *m->mass, *two->damping = *m->damping, *two->stiffness = *m->stiffness, *two->responses = 1;
-  two->loads[0].harmonic = 1, *two->loads[0].cosine = model_force(m);
-  two->loads[1].harmonic = 2;
-  for (int j = 0; j < m->n_contacts; ++j) {
-    two->contacts[j].law = m->contacts[j].law;
-    *two->contacts[j].tangent = *m->contacts[j].tangent, *two->contacts[j].normal = *m->contacts[j].normal;
-  }
-  return two;
-}
-
 /* Case 2 of the paper and others by series and in closed form: other code from transition to transition. Each is exact
  * but for rounding, of some thousand steps. */
 static void series_and_closed_form_agree(CHECK_STATE)
@@ -166,7 +150,17 @@ static void series_and_closed_form_agree(CHECK_STATE)
       transient_settings how = scenes[k].transient;
       how.law = TRANSIENT_LAW_EXACT;
       assert_int_equal(scene_model(&scenes[k], &m[0]), HC_OK);
-      m[1] = with_second_load(m[0]);
+      /* The same model with a second load, of no force: then its motion goes by series. */
+      model *two;
+      assert_int_equal(model_new(1, 2, m[0]->n_contacts, 1, &two), HC_OK);
+      *two->mass = *m[0]->mass, *two->damping = *m[0]->damping, *two->stiffness = *m[0]->stiffness, *two->responses = 1;
+      two->loads[0].harmonic = 1, *two->loads[0].cosine = model_force(m[0]);
+      two->loads[1].harmonic = 2;
+      for (int j = 0; j < m[0]->n_contacts; ++j) {
+        two->contacts[j].law = m[0]->contacts[j].law;
+        *two->contacts[j].tangent = *m[0]->contacts[j].tangent, *two->contacts[j].normal = *m[0]->contacts[j].normal;
+      }
+      m[1] = two;
       for (int i = 0; i < 2; ++i) {
         assert_int_equal(modal_base_new(m[i], &base[i]), HC_OK);
         scaled[i] = (scaled_model){.base = base[i], .contact = contacts[i]};
@@ -235,20 +229,6 @@ static void series_and_events_agree(CHECK_STATE)
   assert_true(changing > 45);
 }
 
-/* Where state q of y moves by that much, sliders that are tied to the motion go with it. */
-static void follow_with_sliders(const scaled_model *m, const double *y, int q, double by, double *z)
-{
-  const int n = m->n;
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const double *t = m->base->tangent + j * n, *normal = m->base->normal + j * n;
-    const contact_motion at = scaled_motion_at(m, j, y);
-    contact_track begun;
-    contact_track_begin(&begun, &m->contact[j], &at, &y[2 * n + j]);
-    if (begun.since_start || q >= n) continue;
-    z[2 * n + j] += contact_track_vary_slider(&begun, &m->contact[j], by * t[q], by * normal[q]);
-  }
-}
-
 /* Column q of phi, at y, against differences of the period map: of e and 2 e, extrapolated, where the order of
  * transitions stays; where it does not the map has but one derivative less, and the test would compare nothing: those
  * are few. How many of its entries are off. */
@@ -262,7 +242,19 @@ static int differences_off(const drawn *d, integrator *in, const double *y, cons
       double *z = end[k][side];
       memcpy(z, y, sizeof end[k][side]);
       z[q] += (side ? 1 : -1) * ldexp(1e-5, k);
-      if (q < moving) follow_with_sliders(&d->scaled, y, q, z[q] - y[q], z);
+      /* Where state q of y moves by that much, sliders that are tied to the motion go with it. */
+      if (q < moving) {
+        const double by = z[q] - y[q];
+        const int n = d->scaled.n;
+        for (int j = 0; j < d->scaled.n_contacts; ++j) {
+          const double *t = d->scaled.base->tangent + j * n, *normal = d->scaled.base->normal + j * n;
+          const contact_motion at = scaled_motion_at(&d->scaled, j, y);
+          contact_track begun;
+          contact_track_begin(&begun, &d->scaled.contact[j], &at, &y[2 * n + j]);
+          if (begun.since_start || q >= n) continue;
+          z[2 * n + j] += contact_track_vary_slider(&begun, &d->scaled.contact[j], by * t[q], by * normal[q]);
+        }
+      }
       assert_int_equal(integrate_period(in, &d->scaled, z, NULL, NULL), HC_OK);
     }
   for (int i = 0; i < moving; ++i) {
@@ -339,16 +331,6 @@ static void jacobian_is_the_derivative(CHECK_STATE)
   }
 }
 
-/* The same with damping that its modes diagonalise. */
-static void damp_in_proportion(drawn *d)
-{
-  for (int i = 0; i < d->m->n * d->m->n; ++i) d->m->damping[i] = 0.3 * d->m->mass[i];
-  modal_base_free(d->base);
-  assert_int_equal(modal_base_new(d->m, &d->base), HC_OK);
-  assert_true(d->base->diagonal_C);
-  d->scaled.base = d->base;
-}
-
 /* (I - gamma J) z = r by elimination, against the dense matrix times what it finds: rounding, times what the stiffest
  * contact, with its width of 1e-2, makes of the entries. */
 static void newton_solves_the_dense_equations(CHECK_STATE)
@@ -358,7 +340,14 @@ static void newton_solves_the_dense_equations(CHECK_STATE)
     drawn d;
     double y[MOST], r[MOST], z[MOST], Jz[MOST], jac[MOST * MOST], largest = 0;
     draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
-    if (trial % 2) damp_in_proportion(&d);
+    /* The same with damping that its modes diagonalise. */
+    if (trial % 2) {
+      for (int i = 0; i < d.m->n * d.m->n; ++i) d.m->damping[i] = 0.3 * d.m->mass[i];
+      modal_base_free(d.base);
+      assert_int_equal(modal_base_new(d.m, &d.base), HC_OK);
+      assert_true(d.base->diagonal_C);
+      d.scaled.base = d.base;
+    }
     for (int j = 0; j < d.scaled.n_contacts; ++j) d.contacts[j].law.overstress = trial % 4 < 2;
     const int n = d.scaled.n_states;
     const double gamma = pow(10, -4 * random_unit(&seed));

@@ -62,34 +62,6 @@ static void multiply(const modes_columns *s, int count, double complex by, const
   }
 }
 
-/* count columns over `span`, contacts in the states of track[] and of the modes. The matrix as series_columns_advance
- * has it. */
-static void modes_columns_advance(modes_columns *s, const scaled_model *m, const complex_modes *modes,
-                                  const contact_track *track, double span, int count, int ld, double *matrix)
-{
-  const size_t n = (size_t)s->n, row = (size_t)ld, apart = (size_t)s->n_columns;
-  for (size_t k = 0; k < (size_t)modes->count; ++k) {
-    const double complex mu = modes->lambda[k] * m->by_C, grown = cexp(mu * span);
-    double *change = s->change + k * 2 * apart, *rate = s->rate + k * 2 * apart;
-    find_eta(s, m, modes, track, k, count, ld, matrix, change);
-    multiply(s, count, modes->weight[k] * grown * mu, change, rate);
-    multiply(s, count, modes->weight[k] * (grown - 1), change, change);
-  }
-  for (size_t i = 0; i < n; ++i) {
-    double *x = matrix + i * row, *p = matrix + (n + i) * row;
-    memset(p, 0, (size_t)count * sizeof *p);
-    for (size_t k = 0; k < (size_t)modes->count; ++k) {
-      const double complex V = modes->V[k * n + i];
-      const double *change = s->change + k * 2 * apart, *rate = s->rate + k * 2 * apart;
-      add_real(count, creal(V), change, x);
-      add_real(count, creal(V), rate, p);
-      if (cimag(V) == 0) continue;
-      add_real(count, -cimag(V), change + apart, x);
-      add_real(count, -cimag(V), rate + apart, p);
-    }
-  }
-}
-
 static hc_status make_slowed(fundamental_matrix *v, const modal_base *base)
 {
   const size_t slowed = (size_t)v->n_slowed;
@@ -351,7 +323,29 @@ hc_status fundamental_matrix_advance(fundamental_matrix *v, const scaled_model *
   if (interval_modes_pay(v->modes, 1 / m->by_C, span)) st = interval_modes_of(v->modes, m, track, &modes);
   if (st != HC_OK) return st;
   if (modes) {
-    modes_columns_advance(&v->by_modes, m, modes, track, span, v->n_columns, v->n_states, v->rows);
+    /* count columns over `span`, contacts in the states of track[] and of the modes. The matrix as
+     * series_columns_advance has it. */
+    const size_t n = (size_t)v->by_modes.n, row = (size_t)v->n_states, apart = (size_t)v->by_modes.n_columns;
+    for (size_t k = 0; k < (size_t)modes->count; ++k) {
+      const double complex mu = modes->lambda[k] * m->by_C, grown = cexp(mu * span);
+      double *change = v->by_modes.change + k * 2 * apart, *rate = v->by_modes.rate + k * 2 * apart;
+      find_eta(&v->by_modes, m, modes, track, k, v->n_columns, v->n_states, v->rows, change);
+      multiply(&v->by_modes, v->n_columns, modes->weight[k] * grown * mu, change, rate);
+      multiply(&v->by_modes, v->n_columns, modes->weight[k] * (grown - 1), change, change);
+    }
+    for (size_t i = 0; i < n; ++i) {
+      double *x = v->rows + i * row, *p = v->rows + (n + i) * row;
+      memset(p, 0, (size_t)v->n_columns * sizeof *p);
+      for (size_t k = 0; k < (size_t)modes->count; ++k) {
+        const double complex V = modes->V[k * n + i];
+        const double *change = v->by_modes.change + k * 2 * apart, *rate = v->by_modes.rate + k * 2 * apart;
+        add_real(v->n_columns, creal(V), change, x);
+        add_real(v->n_columns, creal(V), rate, p);
+        if (cimag(V) == 0) continue;
+        add_real(v->n_columns, -cimag(V), change + apart, x);
+        add_real(v->n_columns, -cimag(V), rate + apart, p);
+      }
+    }
     return HC_OK;
   }
   series_columns_begin(&v->series, m, track);

@@ -129,26 +129,6 @@ static void fill_stiffness(const interval_modes *p, const scaled_model *m, const
   }
 }
 
-/* The first-order matrix of (scale q, q'), scale_i the frequency of q_i alone, so that eigenvectors are orthogonal
- * where nothing damps and couples. */
-static void fill_matrix(const interval_modes *p, const scaled_model *m, const contact_track *track)
-{
-  const modal_base *b = p->base;
-  const size_t n = (size_t)b->n, ld = 2 * n;
-  long double *A = p->matrix;
-  memset(A, 0, ld * ld * sizeof *A);
-  fill_stiffness(p, m, track, A);
-  const double least = p->fastest > 0 ? 1e-6 * p->fastest : 1; /* of a body that nothing holds */
-  for (size_t i = 0; i < n; ++i) p->scale[i] = fmax(sqrt(fabs((double)A[i * ld + n + i])), least);
-  for (size_t col = 0; col < n; ++col) {
-    A[(n + col) * ld + col] = p->scale[col];
-    for (size_t row = 0; row < n; ++row) {
-      A[col * ld + n + row] /= p->scale[col];
-      A[(n + col) * ld + n + row] = b->diagonal_C ? (row == col ? -(long double)b->C[col] : 0) : -b->C[col * n + row];
-    }
-  }
-}
-
 static double complex dot_complex(int n, const double *a, const double complex *z)
 {
   double complex sum = 0;
@@ -220,7 +200,22 @@ hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const cont
   if (!found) {
     s->count = 0;
     memcpy(s->states, p->wanted, (size_t)p->base->n_contacts);
-    fill_matrix(p, m, track);
+    /* The first-order matrix of (scale q, q'), scale_i the frequency of q_i alone, so that eigenvectors are orthogonal
+     * where nothing damps and couples. */
+    const modal_base *b = p->base;
+    const size_t n = (size_t)b->n, ld = 2 * n;
+    long double *A = p->matrix;
+    memset(A, 0, ld * ld * sizeof *A);
+    fill_stiffness(p, m, track, A);
+    const double least = p->fastest > 0 ? 1e-6 * p->fastest : 1; /* of a body that nothing holds */
+    for (size_t i = 0; i < n; ++i) p->scale[i] = fmax(sqrt(fabs((double)A[i * ld + n + i])), least);
+    for (size_t col = 0; col < n; ++col) {
+      A[(n + col) * ld + col] = p->scale[col];
+      for (size_t row = 0; row < n; ++row) {
+        A[col * ld + n + row] /= p->scale[col];
+        A[(n + col) * ld + n + row] = b->diagonal_C ? (row == col ? -(long double)b->C[col] : 0) : -b->C[col * n + row];
+      }
+    }
     hc_status st = eigensystem_find(&p->eigen, p->matrix);
     if (st == HC_NO_MEMORY || st == HC_NOT_FINITE) return st;
     /* All of them but the second of each pair, slowest first. */

@@ -3,7 +3,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stddef.h>
 
 #include "model/linear.h"
 #include "numerics/exponentials.h"

@@ -107,31 +107,6 @@ static jet jet_of(const scaled_model *m, int i, const double *y, const double *r
   return (jet){scaled_response(m, i, y), scaled_response(m, i, y + m->n), scaled_response(m, i, rate + m->n)};
 }
 
-/* Integrals of response i, times 1, cos, sin, over the step from theta0, where it began, to theta1: the
- * integrator's, or from both ends. Not over a step so long that this is not as good as the step itself: then sums
- * over the instants must do. */
-static void add_integrals(measure *me, const integrator *in, int i, double theta0, double theta1, const jet *end)
-{
-  response_measure *r = &me->response[i];
-  double step[3] = {0};
-  const double h = theta1 - theta0, ends[2][3] = {{r->x, r->p, r->a}, {end->x, end->p, end->a}};
-  if (!integrate_fourier(in, i, step)) {
-    double plain[2][3], by_cos[2][3], by_sin[2][3];
-    me->no_integrals = me->no_integrals || h > INTEGRATE_LONGEST_STEP;
-    for (int e = 0; e < 2; ++e) {
-      const double co = cos(e ? theta1 : theta0), si = sin(e ? theta1 : theta0);
-      const double x = ends[e][0], p = ends[e][1], bend = ends[e][2] - x;
-      for (int k = 0; k < 3; ++k) plain[e][k] = ends[e][k];
-      by_cos[e][0] = x * co, by_cos[e][1] = p * co - x * si, by_cos[e][2] = bend * co - 2 * p * si;
-      by_sin[e][0] = x * si, by_sin[e][1] = p * si + x * co, by_sin[e][2] = bend * si + 2 * p * co;
-    }
-    step[0] = integral_of(h, plain);
-    step[1] = integral_of(h, by_cos);
-    step[2] = integral_of(h, by_sin);
-  }
-  for (int k = 0; k < 3; ++k) r->integral[k] += step[k];
-}
-
 /* Where the next step begins. */
 static void begin_step(response_measure *r, const jet *at)
 {
@@ -225,7 +200,27 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
   integrate_at_end(in, me->m, theta1, y, me->end_rate, me->state);
   for (int i = 0; i < me->n_responses; ++i) {
     const jet end = jet_of(me->m, i, y, me->end_rate);
-    add_integrals(me, in, i, theta0, theta1, &end);
+    /* Integrals of response i, times 1, cos, sin, over the step from theta0, where it began, to theta1: the
+     * integrator's, or from both ends. Not over a step so long that this is not as good as the step itself: then sums
+     * over the instants must do. */
+    response_measure *r = &me->response[i];
+    double step[3] = {0};
+    const double h = theta1 - theta0, ends[2][3] = {{r->x, r->p, r->a}, {end.x, end.p, end.a}};
+    if (!integrate_fourier(in, i, step)) {
+      double plain[2][3], by_cos[2][3], by_sin[2][3];
+      me->no_integrals = me->no_integrals || h > INTEGRATE_LONGEST_STEP;
+      for (int e = 0; e < 2; ++e) {
+        const double co = cos(e ? theta1 : theta0), si = sin(e ? theta1 : theta0);
+        const double x = ends[e][0], p = ends[e][1], bend = ends[e][2] - x;
+        for (int k = 0; k < 3; ++k) plain[e][k] = ends[e][k];
+        by_cos[e][0] = x * co, by_cos[e][1] = p * co - x * si, by_cos[e][2] = bend * co - 2 * p * si;
+        by_sin[e][0] = x * si, by_sin[e][1] = p * si + x * co, by_sin[e][2] = bend * si + 2 * p * co;
+      }
+      step[0] = integral_of(h, plain);
+      step[1] = integral_of(h, by_cos);
+      step[2] = integral_of(h, by_sin);
+    }
+    for (int k = 0; k < 3; ++k) r->integral[k] += step[k];
     if ((st = add_peaks(me, in, i, theta0, theta1, &end)) != HC_OK) return st;
     begin_step(&me->response[i], &end);
   }

@@ -5,8 +5,6 @@
 #include <string.h>
 
 #include "timeint/steady/closed_form_start.h"
-#include "timeint/steady/linear_regime.h"
-#include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
@@ -110,30 +108,6 @@ static hc_status regularised_part(timeint *ti, const double *state, const hc_mon
   return st;
 }
 
-/* What r[n], CVODE's results of the first n responses with slowed modes, are off by: the distance of the orbit of k
- * periods through closed->y, which has none, from that with slowed modes, closed->slowed, and that one's from r: what
- * integration and the regularisation cost. out[n]. Errors of orbits. */
-static hc_status mass_scaling_error(timeint *closed, int k, const hc_monitor *monitor, int n, const timeint_result *r,
-                                    motion_error *out)
-{
-  timeint *slowed = closed->slowed;
-  timeint_result here, there;
-  timeint_get_state(closed, closed->point[0]);
-  hc_status st = orbit_measure(closed, k, &here);
-  if (st == HC_OK) st = timeint_begin(slowed, closed->omega, closed->point[0]);
-  if (st == HC_OK) st = shoot_slowed(closed->shoot, k, monitor);
-  if (st == HC_OK) st = orbit_measure(slowed, k, &there);
-  for (int i = 0; i < n && st == HC_OK; ++i) {
-    st = timeint_response(closed, i, &here);
-    if (st == HC_OK) st = timeint_response(slowed, i, &there);
-    if (st != HC_OK) break;
-    const motion_error slowed_by = timeint_change(&here, &there), rest = timeint_change(&there, &r[i]);
-    out[i] = (motion_error){slowed_by.amplitude + rest.amplitude, slowed_by.harmonic_1 + rest.harmonic_1,
-                            slowed_by.waveform + rest.waveform};
-  }
-  return st;
-}
-
 /* Of slowed modes and the regularisation, out[n]: by the closed form's orbits without and with slowed modes. */
 static hc_status slowed_part(timeint *ti, const double *state, const hc_monitor *monitor, int n,
                              const timeint_result *r, motion_error *out)
@@ -143,7 +117,27 @@ static hc_status slowed_part(timeint *ti, const double *state, const hc_monitor 
   if (!closed || !closed->slowed) return HC_OK;
   hc_status st = find_closed_form(ti, r->omega, r->period_multiple, state, monitor);
   if (st == HC_OK) st = timeint_begin(closed, r->omega, ti->closed_form_state);
-  if (st == HC_OK) st = mass_scaling_error(closed, r->period_multiple, monitor, n, r, out);
+  /* What r[n], CVODE's results of the first n responses with slowed modes, are off by: the distance of the orbit of k
+   * periods through closed->y, which has none, from that with slowed modes, closed->slowed, and that one's from r: what
+   * integration and the regularisation cost. out[n]. Errors of orbits. */
+  if (st == HC_OK) {
+    const int k = r->period_multiple;
+    timeint *slowed = closed->slowed;
+    timeint_result here, there;
+    timeint_get_state(closed, closed->point[0]);
+    st = orbit_measure(closed, k, &here);
+    if (st == HC_OK) st = timeint_begin(slowed, closed->omega, closed->point[0]);
+    if (st == HC_OK) st = shoot_slowed(closed->shoot, k, monitor);
+    if (st == HC_OK) st = orbit_measure(slowed, k, &there);
+    for (int i = 0; i < n && st == HC_OK; ++i) {
+      st = timeint_response(closed, i, &here);
+      if (st == HC_OK) st = timeint_response(slowed, i, &there);
+      if (st != HC_OK) break;
+      const motion_error slowed_by = timeint_change(&here, &there), rest = timeint_change(&there, &r[i]);
+      out[i] = (motion_error){slowed_by.amplitude + rest.amplitude, slowed_by.harmonic_1 + rest.harmonic_1,
+                              slowed_by.waveform + rest.waveform};
+    }
+  }
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 

@@ -7,7 +7,6 @@
 #include "timeint/steady/steady.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 #include "timeint/steady/aperiodic.h"

@@ -165,9 +165,21 @@ static hc_status advance_to(sweep *s, double omega, double *state, bool *arrived
   return st;
 }
 
-static hc_status sweep_with_this_law(timeint *ti, double omega_from, double omega_to, double *state,
-                                     const hc_monitor *monitor)
+/* The other integrator, and its law in the settings; the equations follow in timeint_begin. */
+static void swap_law(timeint *ti, transient_law law)
 {
+  integrator *in = ti->in;
+  ti->in = ti->exact;
+  ti->exact = in;
+  ti->how.law = law;
+}
+
+hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, double *state, const hc_monitor *monitor)
+{
+  const transient_law law = ti->how.law;
+  if (ti->closed_form) return timeint_sweep(ti->closed_form, omega_from, omega_to, state, monitor);
+  const hc_monitor *before = timeint_hear(ti, monitor);
+  if (law != TRANSIENT_LAW_EXACT) swap_law(ti, TRANSIENT_LAW_EXACT);
   hc_status st = timeint_begin(ti, omega_from, state);
   if (st == HC_OK && !(omega_to > 0 && isfinite(omega_to))) st = HC_BAD_INPUT;
   if (st == HC_OK) st = timeint_set_tolerance(ti, fmax(sweep_tolerance, timeint_final_tolerance(ti)));
@@ -185,25 +197,6 @@ static hc_status sweep_with_this_law(timeint *ti, double omega_from, double omeg
     if (begun) s.step = next_step(ti, s.step, s.moved);
     begun = true;
   }
-  return st;
-}
-
-/* The other integrator, and its law in the settings; the equations follow in timeint_begin. */
-static void swap_law(timeint *ti, transient_law law)
-{
-  integrator *in = ti->in;
-  ti->in = ti->exact;
-  ti->exact = in;
-  ti->how.law = law;
-}
-
-hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, double *state, const hc_monitor *monitor)
-{
-  const transient_law law = ti->how.law;
-  if (ti->closed_form) return timeint_sweep(ti->closed_form, omega_from, omega_to, state, monitor);
-  const hc_monitor *before = timeint_hear(ti, monitor);
-  if (law != TRANSIENT_LAW_EXACT) swap_law(ti, TRANSIENT_LAW_EXACT);
-  hc_status st = sweep_with_this_law(ti, omega_from, omega_to, state, monitor);
   if (law != TRANSIENT_LAW_EXACT) swap_law(ti, law);
   timeint_hear(ti, before);
   return st;

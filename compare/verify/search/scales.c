@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/constants.h"
 #include "base/number.h"
 #include "compare/response.h"
 #include "compare/verify/search/search.h"

@@ -32,13 +32,6 @@ static size_t slurp(const char *name)
   return n;
 }
 
-static int count(const char *what)
-{
-  int n = 0;
-  for (const char *at = text; (at = strstr(at, what)); at += strlen(what)) ++n;
-  return n;
-}
-
 static void expect_words(const char *name, const char *const *words)
 {
   for (; *words; ++words)
@@ -57,7 +50,9 @@ static void check_svg_of(const char *name, const char *args, int code, int plots
   snprintf(file, sizeof file, "%s.svg", name);
   assert_true(slurp(file) > 2000);
   expect_words(file, words);
-  const int drawn = count("id=\"gnuplot_plot_");
+  const char *what = "id=\"gnuplot_plot_";
+  int drawn = 0;
+  for (const char *at = text; (at = strstr(at, what)); at += strlen(what)) ++drawn;
   if (drawn != plots) fail_msg("%s: %d things drawn, expected %d", name, drawn, plots);
 }
 

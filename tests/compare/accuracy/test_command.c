@@ -1,6 +1,5 @@
 /* test_command.c - hbmcheck bench as people use it: columns, errors that fall along each family, wrong usage. Times
  * are never judged. */
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* test_acceleration.c - x'' from the equation of motion, against motions x = A cos(th) for which it is known: with
  * C = 0, M x'' = (F0 - K A) c - f(A c), c = cos(th), which has its extrema at c = -1, c = 1 or a kink of f. They need
  * not be solutions. */
-#include "base/constants.h"
 #include "compare/verify/truth/truth.h"
 #include "tests/check.h"
 
@@ -13,13 +12,6 @@ static double acceleration(const model *m, double amplitude)
   double room[8] = {0};
   assert_true(acceleration_room(m) <= 8);
   return acceleration_amplitude(m, &motion, room);
-}
-
-static model *oscillator(double M, double C, double K, double F)
-{
-  model *m;
-  assert_int_equal(model_oscillator(M, C, K, F, 0, &m), HC_OK);
-  return m;
 }
 
 static model *in_contact(double M, double K, double F, const contact *law, double tangent, double normal)
@@ -41,7 +33,8 @@ static void without_contact(CHECK_STATE)
 {
   const double M = 3, C = 0.5, K = 7, omega = 2, F = 10, real = K - M * omega * omega, imaginary = C * omega,
                size = real * real + imaginary * imaginary;
-  model *m = oscillator(M, C, K, F);
+  model *m;
+  assert_int_equal(model_oscillator(M, C, K, F, 0, &m), HC_OK);
   const double X[3] = {0, F * real / size, F * imaginary / size};
   const verify_motion motion = verify_motion_of(omega, 1, X);
   double room[1];

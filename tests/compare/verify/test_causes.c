@@ -16,17 +16,6 @@ typedef struct prepared {
   spoiling how;
 } prepared;
 
-static void say(const prepared *p, const verify_report *r)
-{
-  char text[VERIFY_TEXT];
-  print_error("%s (%s), expected %s: %s\n", p->name, p->scene, p->cause, verify_sentence(r, text));
-  for (int i = 0; i < r->n_hypotheses && i < 5; ++i) {
-    const verify_hypothesis *h = &r->hypotheses[i];
-    print_error("  %s: %.3g (score %.3g; H %d N %d restart %d)\n", verify_cause_words(h->causes, text), h->distance,
-                h->score, h->equations.harmonics, h->equations.samples, h->equations.restart);
-  }
-}
-
 /* The report of one prepared curve, its cause checked. */
 static verify_report named(const prepared *p)
 {
@@ -36,7 +25,13 @@ static verify_report named(const prepared *p)
   char words[VERIFY_TEXT];
   assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
   if (strcmp(verify_cause_words(r.causes, words), p->cause)) {
-    say(p, &r);
+    char text[VERIFY_TEXT];
+    print_error("%s (%s), expected %s: %s\n", p->name, p->scene, p->cause, verify_sentence(&r, text));
+    for (int i = 0; i < r.n_hypotheses && i < 5; ++i) {
+      const verify_hypothesis *h = &r.hypotheses[i];
+      print_error("  %s: %.3g (score %.3g; H %d N %d restart %d)\n", verify_cause_words(h->causes, text), h->distance,
+                  h->score, h->equations.harmonics, h->equations.samples, h->equations.restart);
+    }
     fail();
   }
   assert_int_equal(verify_exit_code(&r), strcmp(p->cause, "none") ? 1 : 0);
