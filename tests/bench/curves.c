@@ -47,43 +47,6 @@ static double compare_curves(hbm_solver *s, const hbm_curve *a, const hbm_curve 
   return worst;
 }
 
-static int trace_both(const char *name, scene *sc)
-{
-  hbm_solver *s = NULL;
-  hbm_curve up = {0}, down = {0}, half = {0};
-  double retrace = 0, halved = 0, t = cpu_ms(), low = fmin(sc->omega_from, sc->omega_to),
-         high = fmax(sc->omega_from, sc->omega_to);
-  hc_status st = scene_hbm_solver(sc, &s), back = HC_OK;
-  if (st == HC_OK) st = hbm_trace(s, low, high, NULL, &up);
-  t = cpu_ms() - t;
-  if (st == HC_OK) back = hbm_trace(s, high, low, NULL, &down);
-  hc_status fine = HC_OK;
-  int differ = 0, differ_half = 0;
-  if (st == HC_OK) {
-    hbm_scale_steps(s, 0.5);
-    fine = hbm_trace(s, low, high, NULL, &half);
-    hbm_scale_steps(s, 1);
-  }
-  if (st == HC_OK && back == HC_OK) retrace = compare_curves(s, &up, &down, low, high, &differ);
-  if (st == HC_OK && fine == HC_OK) halved = compare_curves(s, &up, &half, low, high, &differ_half);
-  double worst = 0;
-  for (int k = 0; k < up.n; ++k) worst = fmax(worst, up.points[k].residual);
-  printf("%-22s %3d %d %10g %5d %6ld %5d %3d %6ld %8.2f %8.1e  %8.1e  %8.1e", name, sc->hbm.harmonics,
-         sc->hbm.keep_mean, up.n ? up.points[up.n - 1].omega : 0, up.n, up.iterations, up.rejected, up.turning_points,
-         up.evaluations, t, worst, retrace, halved);
-  if (differ) printf("  %d of 16 frequencies with other solutions from the other end", differ);
-  if (differ_half) printf("  %d with half the step", differ_half);
-  if (fine != HC_OK) printf("  HALF STEP at %g: %s", half.n ? half.points[half.n - 1].omega : 0, hc_status_text(fine));
-  if (st != HC_OK) printf("  UP: %s", hc_status_text(st));
-  if (back != HC_OK) printf("  DOWN at %g: %s", down.n ? down.points[down.n - 1].omega : 0, hc_status_text(back));
-  printf("\n");
-  hbm_curve_free(&up);
-  hbm_curve_free(&down);
-  hbm_curve_free(&half);
-  hbm_solver_free(s);
-  return st != HC_OK || back != HC_OK || fine != HC_OK || differ_half;
-}
-
 static int run_case(const char *path)
 {
   scene sc = read_case(path, 0, NULL);
@@ -94,7 +57,41 @@ static int run_case(const char *path)
       sc.hbm.harmonics = harmonics[h];
       sc.hbm.keep_mean = keep;
       sc.hbm.force = HBM_FORCE_EXACT;
-      bad += trace_both(file_name(path), &sc);
+      const char *name = file_name(path);
+      hbm_solver *s = NULL;
+      hbm_curve up = {0}, down = {0}, half = {0};
+      double retrace = 0, halved = 0, t = cpu_ms(), low = fmin(sc.omega_from, sc.omega_to),
+             high = fmax(sc.omega_from, sc.omega_to);
+      hc_status st = scene_hbm_solver(&sc, &s), back = HC_OK;
+      if (st == HC_OK) st = hbm_trace(s, low, high, NULL, &up);
+      t = cpu_ms() - t;
+      if (st == HC_OK) back = hbm_trace(s, high, low, NULL, &down);
+      hc_status fine = HC_OK;
+      int differ = 0, differ_half = 0;
+      if (st == HC_OK) {
+        hbm_scale_steps(s, 0.5);
+        fine = hbm_trace(s, low, high, NULL, &half);
+        hbm_scale_steps(s, 1);
+      }
+      if (st == HC_OK && back == HC_OK) retrace = compare_curves(s, &up, &down, low, high, &differ);
+      if (st == HC_OK && fine == HC_OK) halved = compare_curves(s, &up, &half, low, high, &differ_half);
+      double worst = 0;
+      for (int k = 0; k < up.n; ++k) worst = fmax(worst, up.points[k].residual);
+      printf("%-22s %3d %d %10g %5d %6ld %5d %3d %6ld %8.2f %8.1e  %8.1e  %8.1e", name, sc.hbm.harmonics,
+             sc.hbm.keep_mean, up.n ? up.points[up.n - 1].omega : 0, up.n, up.iterations, up.rejected,
+             up.turning_points, up.evaluations, t, worst, retrace, halved);
+      if (differ) printf("  %d of 16 frequencies with other solutions from the other end", differ);
+      if (differ_half) printf("  %d with half the step", differ_half);
+      if (fine != HC_OK)
+        printf("  HALF STEP at %g: %s", half.n ? half.points[half.n - 1].omega : 0, hc_status_text(fine));
+      if (st != HC_OK) printf("  UP: %s", hc_status_text(st));
+      if (back != HC_OK) printf("  DOWN at %g: %s", down.n ? down.points[down.n - 1].omega : 0, hc_status_text(back));
+      printf("\n");
+      hbm_curve_free(&up);
+      hbm_curve_free(&down);
+      hbm_curve_free(&half);
+      hbm_solver_free(s);
+      bad += st != HC_OK || back != HC_OK || fine != HC_OK || differ_half;
     }
   return bad;
 }

@@ -82,36 +82,6 @@ static double time_iteration(hbm_solver *s, double omega, const double *X)
   return best;
 }
 
-static cost measure(const bar *b)
-{
-  const hbm_settings how = {.harmonics = b->harmonics, .keep_mean = true, .tolerance = 1e-10, .skip_linear = true};
-  cost c = {.condensation = INFINITY, .point = INFINITY};
-  model *m = make_bar(b);
-  hbm_solver *s;
-  double start = cpu_ms();
-  if (hbm_solver_new(m, &how, &s) != HC_OK) abort();
-  c.setup = cpu_ms() - start;
-  c.unknowns = s->sys.n;
-  condensation_at(s->sys.linear, 1.2, 0);
-  for (int k = 0; k < 15; ++k) {
-    start = cpu_ms();
-    condensation_at(s->sys.linear, 0.8 + 0.01 * k, 0);
-    c.condensation = fmin(c.condensation, cpu_ms() - start);
-  }
-  for (int k = 0; k < 3; ++k) {
-    hbm_curve curve = {0};
-    start = cpu_ms();
-    if (hbm_trace(s, 0.6, 1.6, NULL, &curve) != HC_OK) printf("curve: %s\n", hc_status_text(curve.end));
-    c.points = curve.n;
-    c.point = fmin(c.point, (cpu_ms() - start) / curve.n);
-    if (k == 2) c.iteration = time_iteration(s, curve.points[curve.n / 2].omega, hbm_curve_X(&curve, curve.n / 2));
-    hbm_curve_free(&curve);
-  }
-  hbm_solver_free(s);
-  model_free(m);
-  return c;
-}
-
 /* The slope of log y over log x. */
 static double exponent(int n, const double *x, const double *y)
 {
@@ -132,7 +102,31 @@ static void run(const char *what, int rows, const bar *bars, const double *x)
          what);
   for (int i = 0; i < rows; ++i) {
     const bar *b = &bars[i];
-    const cost c = measure(b);
+    const hbm_settings how = {.harmonics = b->harmonics, .keep_mean = true, .tolerance = 1e-10, .skip_linear = true};
+    cost c = {.condensation = INFINITY, .point = INFINITY};
+    model *m = make_bar(b);
+    hbm_solver *s;
+    double start = cpu_ms();
+    if (hbm_solver_new(m, &how, &s) != HC_OK) abort();
+    c.setup = cpu_ms() - start;
+    c.unknowns = s->sys.n;
+    condensation_at(s->sys.linear, 1.2, 0);
+    for (int k = 0; k < 15; ++k) {
+      start = cpu_ms();
+      condensation_at(s->sys.linear, 0.8 + 0.01 * k, 0);
+      c.condensation = fmin(c.condensation, cpu_ms() - start);
+    }
+    for (int k = 0; k < 3; ++k) {
+      hbm_curve curve = {0};
+      start = cpu_ms();
+      if (hbm_trace(s, 0.6, 1.6, NULL, &curve) != HC_OK) printf("curve: %s\n", hc_status_text(curve.end));
+      c.points = curve.n;
+      c.point = fmin(c.point, (cpu_ms() - start) / curve.n);
+      if (k == 2) c.iteration = time_iteration(s, curve.points[curve.n / 2].omega, hbm_curve_X(&curve, curve.n / 2));
+      hbm_curve_free(&curve);
+    }
+    hbm_solver_free(s);
+    model_free(m);
     setup[i] = c.setup, condensing[i] = c.condensation, iteration[i] = c.iteration, point[i] = c.point;
     printf("%4d  %8d %2d  %-8s  %8d  %8.1f  %15.1f  %12.1f  %8.1f  %6d\n", b->n, b->contacts, b->harmonics,
            damping_names[b->damping], c.unknowns, c.setup, 1e3 * c.condensation, 1e3 * c.iteration, 1e3 * c.point,

@@ -282,33 +282,6 @@ static void settle(map *p)
   }
 }
 
-/* lambda[n_states] by central differences of e and 2 e of the states' size, extrapolated. */
-static void map_multipliers(const map *p, double complex *lambda)
-{
-  const int n = p->n_states;
-  double A[MOST_STATES * MOST_STATES], start[MOST_STATES], most = 0;
-  const double e = 1e-4;
-  states_of(p, &p->orbit, start);
-  for (int i = 0; i < p->m->n; ++i) most = fmax(most, hypot(p->x[i][1], p->x[i][2]));
-  for (int q = 0; q < n; ++q) {
-    double d[2][MOST_STATES];
-    const double size = most * (q >= p->m->n && q < 2 * p->m->n ? p->omega : 1);
-    for (int k = 0; k < 2; ++k) {
-      double y[MOST_STATES], end[2][MOST_STATES];
-      for (int sign = 0; sign < 2; ++sign) {
-        memcpy(y, start, sizeof y);
-        y[q] += (sign ? -1 : 1) * ldexp(e, k) * size;
-        side orbit = p->orbit, other = side_of(p, y);
-        follow(p, &orbit, &other);
-        states_of(p, &other, end[sign]);
-      }
-      for (int i = 0; i < n; ++i) d[k][i] = (end[0][i] - end[1][i]) / (2 * ldexp(e, k) * size);
-    }
-    for (int i = 0; i < n; ++i) A[i * n + q] = (4 * d[0][i] - d[1][i]) / 3;
-  }
-  eigenvalues_of(n, A, lambda);
-}
-
 /* The solution's at omega; the map's product of 1 + multiplier, as a part of its factors. */
 static double check(const char *what, const structure_case *c, double omega)
 {
@@ -321,7 +294,29 @@ static double check(const char *what, const structure_case *c, double omega)
   assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
   for (int i = 0; i < c->model->n; ++i) assert_int_equal(hbm_response(s, omega, X, i, p.x[i]), HC_OK);
   settle(&p);
-  map_multipliers(&p, lambda);
+  /* lambda[n_states] by central differences of e and 2 e of the states' size, extrapolated. */
+  const int n = p.n_states;
+  double A[MOST_STATES * MOST_STATES], start[MOST_STATES], most = 0;
+  const double e = 1e-4;
+  states_of(&p, &p.orbit, start);
+  for (int i = 0; i < p.m->n; ++i) most = fmax(most, hypot(p.x[i][1], p.x[i][2]));
+  for (int q = 0; q < n; ++q) {
+    double d[2][MOST_STATES];
+    const double size = most * (q >= p.m->n && q < 2 * p.m->n ? p.omega : 1);
+    for (int k = 0; k < 2; ++k) {
+      double y[MOST_STATES], end[2][MOST_STATES];
+      for (int sign = 0; sign < 2; ++sign) {
+        memcpy(y, start, sizeof y);
+        y[q] += (sign ? -1 : 1) * ldexp(e, k) * size;
+        side orbit = p.orbit, other = side_of(&p, y);
+        follow(&p, &orbit, &other);
+        states_of(&p, &other, end[sign]);
+      }
+      for (int i = 0; i < n; ++i) d[k][i] = (end[0][i] - end[1][i]) / (2 * ldexp(e, k) * size);
+    }
+    for (int i = 0; i < n; ++i) A[i * n + q] = (4 * d[0][i] - d[1][i]) / 3;
+  }
+  eigenvalues_of(n, A, lambda);
   check_multipliers(what, s, omega, X, p.n_states, lambda);
   for (int i = 0; i < p.n_states; ++i) flip *= 1 + lambda[i], factors *= 1 + cabs(lambda[i]);
   hbm_solver_free(s);

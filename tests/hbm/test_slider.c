@@ -20,7 +20,7 @@ static whole full; /* too large for a stack */
 static double f[MAX_N], again[MAX_N];
 static sampled_interval found[MAX_N], settling[MAX_N];
 
-static void follow_fully(const moving_contact *c, hbm_restart restart, int n)
+static void check_the_same(const moving_contact *c, hbm_restart restart, int n, int seen[4])
 {
   const contact *law = &c->law;
   contact_state state = contact_normal(law, c->cv[0] * full.x[n - 1]) > 0 ? CONTACT_STICK : CONTACT_SEPARATED;
@@ -48,11 +48,6 @@ static void follow_fully(const moving_contact *c, hbm_restart restart, int n)
       full.transitions += state != last;
     }
   }
-}
-
-static void check_the_same(const moving_contact *c, hbm_restart restart, int n, int seen[4])
-{
-  follow_fully(c, restart, n);
   const slider_motion motion = {full.x, full.x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
   slider_report r = slider_follow(&c->law, restart, n, &motion, f, again, found, settling);
   int touching = 0, slipping = 0;

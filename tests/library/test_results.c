@@ -235,42 +235,6 @@ static void transient(CHECK_STATE)
   assert_true(seen.aperiodic && seen.period_4 && seen.unstable && seen.not_settled && seen.at_rest);
 }
 
-static void check_row(const hbmcheck_comparison *both, const comparison *all, int k)
-{
-  const comparison_row *r = &all->rows[k];
-  const bool hbm = r->branch >= 0 && r->hbm_status == HC_OK, orbit = r->orbit_status == HC_OK;
-  const bool moves =
-      r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
-  hbmcheck_row found;
-  assert_int_equal(hbmcheck_comparison_get(both, k, &found), HBMCHECK_OK);
-  SAME(found.omega, r->omega);
-  assert_string_equal(hbmcheck_verdict_name(found.verdict), verdict_name(r->verdict));
-  assert_int_equal(found.hbm_status, r->hbm_status);
-  assert_int_equal(found.transient_status, r->transient_status);
-  assert_int_equal(found.orbit_status, r->orbit_status);
-  assert_int_equal(found.branch, r->branch);
-  assert_int_equal(found.stable, hbm ? hbm_stability_verdict(&r->stability) : 0);
-  assert_int_equal(found.period_multiple, r->transient_status == HC_OK ? r->transient.period_multiple : 0);
-  assert_int_equal(found.accounted, r->accounted);
-  SAME(found.multiplier, hbm ? r->stability.multiplier : NAN);
-  SAME(found.hbm_amplitude, hbm ? r->hbm.amplitude : NAN);
-  SAME(found.transient_amplitude, moves ? r->transient.amplitude : NAN);
-  SAME(found.orbit_amplitude, orbit ? r->orbit.amplitude : NAN);
-  SAME(found.amplitude_error, r->errors.amplitude);
-  SAME(found.harmonic_1_error, r->errors.harmonic_1);
-  SAME(found.mean_error, r->errors.mean);
-  SAME(found.waveform_error, r->errors.waveform);
-  SAME(found.orbit_error, r->orbit_errors.waveform);
-  SAME(found.from_aliasing, r->budget.amplitude.aliasing);
-  SAME(found.from_truncation, r->budget.amplitude.truncation);
-  SAME(found.from_regularisation, r->budget.amplitude.regularisation);
-  SAME(found.from_integration, r->budget.amplitude.integration);
-  SAME(found.from_settling, r->budget.amplitude.settling);
-  SAME(found.hbm_predicted, r->hbm_predicted.amplitude);
-  SAME(found.transient_predicted, r->transient_predicted.amplitude);
-  assert_int_equal(found.unexpected, r->unexpected);
-}
-
 static void check_comparison(const char *const *set, int exit_code, int gate_code)
 {
   scene sc;
@@ -285,7 +249,40 @@ static void check_comparison(const char *const *set, int exit_code, int gate_cod
   assert_int_equal(hbmcheck_comparison_run(c, 0, NULL, NULL, &both), HBMCHECK_OK);
   hbmcheck_case_free(c);
   assert_int_equal(hbmcheck_comparison_count(both), expected.n_rows);
-  for (int k = 0; k < expected.n_rows; ++k) check_row(both, &expected, k);
+  for (int k = 0; k < expected.n_rows; ++k) {
+    const comparison_row *r = &expected.rows[k];
+    const bool hbm = r->branch >= 0 && r->hbm_status == HC_OK, orbit = r->orbit_status == HC_OK;
+    const bool moves =
+        r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
+    hbmcheck_row found;
+    assert_int_equal(hbmcheck_comparison_get(both, k, &found), HBMCHECK_OK);
+    SAME(found.omega, r->omega);
+    assert_string_equal(hbmcheck_verdict_name(found.verdict), verdict_name(r->verdict));
+    assert_int_equal(found.hbm_status, r->hbm_status);
+    assert_int_equal(found.transient_status, r->transient_status);
+    assert_int_equal(found.orbit_status, r->orbit_status);
+    assert_int_equal(found.branch, r->branch);
+    assert_int_equal(found.stable, hbm ? hbm_stability_verdict(&r->stability) : 0);
+    assert_int_equal(found.period_multiple, r->transient_status == HC_OK ? r->transient.period_multiple : 0);
+    assert_int_equal(found.accounted, r->accounted);
+    SAME(found.multiplier, hbm ? r->stability.multiplier : NAN);
+    SAME(found.hbm_amplitude, hbm ? r->hbm.amplitude : NAN);
+    SAME(found.transient_amplitude, moves ? r->transient.amplitude : NAN);
+    SAME(found.orbit_amplitude, orbit ? r->orbit.amplitude : NAN);
+    SAME(found.amplitude_error, r->errors.amplitude);
+    SAME(found.harmonic_1_error, r->errors.harmonic_1);
+    SAME(found.mean_error, r->errors.mean);
+    SAME(found.waveform_error, r->errors.waveform);
+    SAME(found.orbit_error, r->orbit_errors.waveform);
+    SAME(found.from_aliasing, r->budget.amplitude.aliasing);
+    SAME(found.from_truncation, r->budget.amplitude.truncation);
+    SAME(found.from_regularisation, r->budget.amplitude.regularisation);
+    SAME(found.from_integration, r->budget.amplitude.integration);
+    SAME(found.from_settling, r->budget.amplitude.settling);
+    SAME(found.hbm_predicted, r->hbm_predicted.amplitude);
+    SAME(found.transient_predicted, r->transient_predicted.amplitude);
+    assert_int_equal(found.unexpected, r->unexpected);
+  }
   assert_int_equal(hbmcheck_comparison_exit_code(both), exit_code);
   assert_int_equal(comparison_exit_code(&expected), exit_code);
   assert_int_equal(hbmcheck_comparison_gate(both, &gate), HBMCHECK_OK);
