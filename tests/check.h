@@ -91,16 +91,20 @@ static inline int check_run(const char *group, char *names, size_t n, const CMUn
   return check_ended(_cmocka_run_group_tests(group, tests, n, setup, teardown));
 }
 
+/* Runs these functions as the tests of a group; as main does below, or one that has something to do before. */
+#define CHECK_FUNCTIONS(...)                                                                                           \
+  (CMUnitTestFunction[]) { __VA_ARGS__ }
+#define CHECK_COUNT(...) (sizeof CHECK_FUNCTIONS(__VA_ARGS__) / sizeof(CMUnitTestFunction))
+#define CHECK_RUN(name, setup, teardown, ...)                                                                          \
+  check_run(name, (char[]){#__VA_ARGS__}, CHECK_COUNT(__VA_ARGS__), CHECK_FUNCTIONS(__VA_ARGS__), setup, teardown)
+
 /* The main of a test program whose tests are these functions. */
 #define CHECK_TESTS_WITH(name, seconds, setup, teardown, ...)                                                          \
   int main(void)                                                                                                       \
   {                                                                                                                    \
-    static const CMUnitTestFunction tests_[] = {__VA_ARGS__};                                                          \
-    static char names_[] = #__VA_ARGS__;                                                                               \
-    const size_t n_ = sizeof tests_ / sizeof *tests_;                                                                  \
-    _Static_assert(sizeof tests_ / sizeof *tests_ <= CHECK_MOST_TESTS, "more tests than check_run has room for");      \
+    _Static_assert(CHECK_COUNT(__VA_ARGS__) <= CHECK_MOST_TESTS, "more tests than check_run has room for");            \
     check_watchdog(seconds);                                                                                           \
-    return check_run(name, names_, n_, tests_, setup, teardown);                                                       \
+    return CHECK_RUN(name, setup, teardown, __VA_ARGS__);                                                              \
   }
 #define CHECK_TESTS(name, seconds, ...) CHECK_TESTS_WITH(name, seconds, NULL, NULL, __VA_ARGS__)
 

@@ -259,17 +259,10 @@ static void advice_names_cause_and_remedy(CHECK_STATE)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(advice_names_cause_and_remedy),
-      cmocka_unit_test(fewer_samples_are_aliasing),
-      cmocka_unit_test(fewer_harmonics_are_truncation),
-      cmocka_unit_test(more_regularisation_is_regularisation),
-      cmocka_unit_test(integration_is_the_distance_to_fine_steps),
-      cmocka_unit_test(a_loose_tolerance_is_integration_or_settling),
-      cmocka_unit_test(one_cause_is_accounted_for_in_full),
-      cmocka_unit_test(two_causes_may_cancel_but_seldom),
-  };
   check_watchdog(600);
   n_reference = read_reference_rows(reference_rows);
-  return cmocka_run_group_tests_name("compare.budget_parts", tests, NULL, NULL);
+  return CHECK_RUN("compare.budget_parts", NULL, NULL, advice_names_cause_and_remedy, fewer_samples_are_aliasing,
+                   fewer_harmonics_are_truncation, more_regularisation_is_regularisation,
+                   integration_is_the_distance_to_fine_steps, a_loose_tolerance_is_integration_or_settling,
+                   one_cause_is_accounted_for_in_full, two_causes_may_cancel_but_seldom);
 }

@@ -78,17 +78,18 @@ static inline void small_clean(const char *name)
 }
 
 /* The main() of tests that work in that folder, as faults.NAME. */
-static inline int small_main(const char *name, const struct CMUnitTest *tests, size_t n, unsigned seconds)
+static inline int small_main(const char *name, unsigned seconds, char *names, size_t n, const CMUnitTestFunction *tests)
 {
   char folder[100], group[100];
   snprintf(folder, sizeof folder, "/tmp/hbmcheck-%s-XXXXXX", name);
   snprintf(group, sizeof group, "faults.%s", name);
   small_watchdog(seconds);
   small_folder(folder);
-  const int failed = check_ended(_cmocka_run_group_tests(group, tests, n, NULL, NULL));
+  const int failed = check_run(group, names, n, tests, NULL, NULL);
   small_clean(folder);
   return failed;
 }
-#define SMALL_MAIN(name, tests, seconds) small_main(name, tests, sizeof(tests) / sizeof *(tests), seconds)
+#define SMALL_MAIN(name, seconds, ...)                                                                                 \
+  small_main(name, seconds, (char[]){#__VA_ARGS__}, CHECK_COUNT(__VA_ARGS__), CHECK_FUNCTIONS(__VA_ARGS__))
 
 #endif

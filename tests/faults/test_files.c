@@ -107,11 +107,7 @@ static void locked_results(CHECK_STATE)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(full_disk),      cmocka_unit_test(disk_fills_up),   cmocka_unit_test(wrong_places),
-      cmocka_unit_test(closed_pipe),    cmocka_unit_test(damaged_results), cmocka_unit_test(changed_study),
-      cmocka_unit_test(locked_results),
-  };
   setenv("H", HBMCHECK_COMMAND, 1);
-  return SMALL_MAIN("files", tests, 200);
+  return SMALL_MAIN("files", 200, full_disk, disk_fills_up, wrong_places, closed_pipe, damaged_results, changed_study,
+                    locked_results);
 }

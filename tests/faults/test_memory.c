@@ -195,13 +195,6 @@ static void describe(CHECK_STATE)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(frf),           cmocka_unit_test(first_point_from_a_ramp),
-      cmocka_unit_test(transient),     cmocka_unit_test(compare),
-      cmocka_unit_test(contact_force), cmocka_unit_test(gate),
-      cmocka_unit_test(study),         cmocka_unit_test(verify),
-      cmocka_unit_test(describe),
-  };
   every = argc > 1 && !strcmp(argv[1], "every");
   /* at N one|all|limit "ARG ...": that failure here and now, for a debugger. */
   if (argc == 5 && !strcmp(argv[1], "at")) {
@@ -210,5 +203,6 @@ int main(int argc, char **argv)
                                                                        : MEMORY_ONE);
     return child_command(argv[4]);
   }
-  return SMALL_MAIN("memory", tests, every ? 3000 : 600);
+  return SMALL_MAIN("memory", every ? 3000 : 600, frf, first_point_from_a_ramp, transient, compare, contact_force, gate,
+                    study, verify, describe);
 }

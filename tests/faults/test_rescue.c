@@ -169,14 +169,7 @@ static void nothing_found_yet(CHECK_STATE)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_found_before_are_written),
-      cmocka_unit_test(steady_states_are_kept_too),
-      cmocka_unit_test(a_second_signal_loses_none_of_them),
-      cmocka_unit_test(rows_appear_when_they_are_found),
-      cmocka_unit_test(json_is_closed),
-      cmocka_unit_test(the_table_says_that_it_is_not_whole),
-      cmocka_unit_test(nothing_found_yet),
-  };
-  return SMALL_MAIN("rescue", tests, 600);
+  return SMALL_MAIN("rescue", 600, rows_found_before_are_written, steady_states_are_kept_too,
+                    a_second_signal_loses_none_of_them, rows_appear_when_they_are_found, json_is_closed,
+                    the_table_says_that_it_is_not_whole, nothing_found_yet);
 }

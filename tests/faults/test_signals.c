@@ -152,11 +152,7 @@ static void study(CHECK_STATE)
 
 int main(int argc, char **argv)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(frf),  cmocka_unit_test(compare), cmocka_unit_test(transient),
-      cmocka_unit_test(gate), cmocka_unit_test(report),  cmocka_unit_test(study),
-  };
   if (argc > 1 && !strcmp(argv[1], "every")) times = 20;
   setenv("H", HBMCHECK_COMMAND, 1);
-  return SMALL_MAIN("signals", tests, times > 4 ? 3000 : 300);
+  return SMALL_MAIN("signals", times > 4 ? 3000 : 300, frf, compare, transient, gate, report, study);
 }

@@ -295,10 +295,6 @@ static void failures_are_told(CHECK_STATE)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(kinsol_fails), cmocka_unit_test(kinsol_lies),    cmocka_unit_test(cvode_fails),
-      cmocka_unit_test(cvode_lies),   cmocka_unit_test(shooting_fails), cmocka_unit_test(failures_are_told),
-  };
   for (int law = 0; law < 2; ++law) {
     scene sc = small_scene(law ? exactly : smoothly);
     timeint *ti;
@@ -314,5 +310,6 @@ int main(void)
     right_amplitude[law] = r.amplitude;
     timeint_free(ti);
   }
-  return SMALL_MAIN("solvers", tests, 300);
+  return SMALL_MAIN("solvers", 300, kinsol_fails, kinsol_lies, cvode_fails, cvode_lies, shooting_fails,
+                    failures_are_told);
 }

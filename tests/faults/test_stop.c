@@ -87,11 +87,7 @@ static void files_beside_are_removed(CHECK_STATE)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(reading_or_writing_a_pipe), cmocka_unit_test(inside_one_evaluation),
-      cmocka_unit_test(amid_thousands_of_scenes),  cmocka_unit_test(waiting_for_gnuplot),
-      cmocka_unit_test(files_beside_are_removed),
-  };
   setenv("H", HBMCHECK_COMMAND, 1);
-  return SMALL_MAIN("stop", tests, 600);
+  return SMALL_MAIN("stop", 600, reading_or_writing_a_pipe, inside_one_evaluation, amid_thousands_of_scenes,
+                    waiting_for_gnuplot, files_beside_are_removed);
 }

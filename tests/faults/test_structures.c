@@ -115,12 +115,6 @@ static void with_more_harmonics(CHECK_STATE)
 static void with_modes(CHECK_STATE) { fails_honestly(true); }
 static void with_any_damping(CHECK_STATE) { fails_honestly(false); }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(with_more_harmonics),
-    cmocka_unit_test(with_modes),
-    cmocka_unit_test(with_any_damping),
-};
-
 static int without_handler(void **state)
 {
   (void)state;
@@ -128,4 +122,4 @@ static int without_handler(void **state)
   return 0;
 }
 
-CHECK_MAIN_WITH("faults.structures", tests, 240, without_handler, NULL)
+CHECK_TESTS_WITH("faults.structures", 240, without_handler, NULL, with_more_harmonics, with_modes, with_any_damping)

@@ -187,8 +187,7 @@ static void right_hand_side_with_a_scout(CHECK_STATE)
 }
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(located_force), cmocka_unit_test(sampled_force),
-                                     cmocka_unit_test(right_hand_side), cmocka_unit_test(right_hand_side_with_a_scout)};
   small_watchdog(300);
-  return cmocka_run_group_tests_name("faults.values", tests, NULL, NULL);
+  return CHECK_RUN("faults.values", NULL, NULL, located_force, sampled_force, right_hand_side,
+                   right_hand_side_with_a_scout);
 }

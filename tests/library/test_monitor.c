@@ -104,9 +104,7 @@ static void silent(CHECK_STATE)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(curve), cmocka_unit_test(transient), cmocka_unit_test(comparison),
-                                     cmocka_unit_test(silent)};
   check_watchdog(300);
   if (sigaction(SIGINT, &(struct sigaction){.sa_handler = on_interrupt}, NULL)) return 1;
-  return cmocka_run_group_tests_name("library.monitor", tests, NULL, NULL);
+  return CHECK_RUN("library.monitor", NULL, NULL, curve, transient, comparison, silent);
 }

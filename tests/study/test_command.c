@@ -306,15 +306,9 @@ static void usage_is_checked(CHECK_STATE)
   unsetenv("OMPI_COMM_WORLD_SIZE");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(killed_and_resumed),      cmocka_unit_test(threads_change_nothing),
-    cmocka_unit_test(stopped_by_a_signal),     cmocka_unit_test(a_second_process_is_refused),
-    cmocka_unit_test(changed_and_foreign),     cmocka_unit_test(claims_are_held),
-    cmocka_unit_test(claims_have_two_sides),   cmocka_unit_test(claims_are_answered_in_fixed_steps),
-    cmocka_unit_test(long_claims_are_wrapped), cmocka_unit_test(a_failure_is_a_row),
-    cmocka_unit_test(usage_is_checked),
-};
-
 static int make_folder(void **state) { return setenv("COLUMNS", "80", 1) == 0 ? folder_make(state) : -1; }
 
-CHECK_MAIN_WITH("study.command", tests, 300, make_folder, folder_remove)
+CHECK_TESTS_WITH("study.command", 300, make_folder, folder_remove, killed_and_resumed, threads_change_nothing,
+                 stopped_by_a_signal, a_second_process_is_refused, changed_and_foreign, claims_are_held,
+                 claims_have_two_sides, claims_are_answered_in_fixed_steps, long_claims_are_wrapped, a_failure_is_a_row,
+                 usage_is_checked)

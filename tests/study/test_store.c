@@ -203,16 +203,6 @@ static void results_travel(CHECK_STATE)
   study_free(s);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(scenes_are_kept_once),
-    cmocka_unit_test(others_are_refused),
-    cmocka_unit_test(foreign_files_are_refused),
-    cmocka_unit_test(damaged_files_are_refused),
-    cmocka_unit_test(places_that_cannot_be),
-    cmocka_unit_test(claims_only_read),
-    cmocka_unit_test(results_travel),
-};
-
 static int make_folder(void **state)
 {
   const int failed = folder_make(state);
@@ -220,4 +210,6 @@ static int make_folder(void **state)
   return failed;
 }
 
-CHECK_MAIN_WITH("study.store", tests, 60, make_folder, folder_remove)
+CHECK_TESTS_WITH("study.store", 60, make_folder, folder_remove, scenes_are_kept_once, others_are_refused,
+                 foreign_files_are_refused, damaged_files_are_refused, places_that_cannot_be, claims_only_read,
+                 results_travel)

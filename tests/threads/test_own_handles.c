@@ -229,5 +229,5 @@ static void together_as_alone(CHECK_STATE)
   free(w);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(together_as_alone)};
-CHECK_MAIN_WITH("threads.own_handles", tests, 300, run_alone, NULL) /* the thread sanitizer takes ten times as long */
+/* the thread sanitizer takes ten times as long */
+CHECK_TESTS_WITH("threads.own_handles", 300, run_alone, NULL, together_as_alone)

@@ -126,7 +126,5 @@ static void a_scout_allocates_nothing(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(marching_allocates_nothing),
-                                          cmocka_unit_test(shooting_and_sweeping_allocate_nothing),
-                                          cmocka_unit_test(a_scout_allocates_nothing)};
-CHECK_MAIN("timeint.allocation", tests, 120)
+CHECK_TESTS("timeint.allocation", 120, marching_allocates_nothing, shooting_and_sweeping_allocate_nothing,
+            a_scout_allocates_nothing)

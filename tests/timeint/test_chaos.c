@@ -146,11 +146,5 @@ static void an_interruption_is_no_chaos(CHECK_STATE)
   timeint_free(ti);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(narrow_bands),
-    cmocka_unit_test(narrow_bands_whoever_integrates),
-    cmocka_unit_test(cascade_and_windows),
-    cmocka_unit_test(leaving_an_orbit_is_not_chaos),
-    cmocka_unit_test(an_interruption_is_no_chaos),
-};
-CHECK_MAIN("timeint.chaos", tests, 60)
+CHECK_TESTS("timeint.chaos", 60, narrow_bands, narrow_bands_whoever_integrates, cascade_and_windows,
+            leaving_an_orbit_is_not_chaos, an_interruption_is_no_chaos)

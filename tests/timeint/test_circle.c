@@ -612,20 +612,9 @@ static void a_long_period_hears_the_monitor(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(series_meet_the_reference),
-    cmocka_unit_test(events_meet_the_reference),
-    cmocka_unit_test(regularised_meets_the_reference),
-    cmocka_unit_test(a_circle_that_sticks_is_free_once),
-    cmocka_unit_test(jacobian_is_the_derivative),
-    cmocka_unit_test(newton_solves_the_dense_equations),
-    cmocka_unit_test(newton_of_the_exact_law_solves_its_equations),
-    cmocka_unit_test(a_motion_on_a_line_is_that_of_one_tangent),
-    cmocka_unit_test(turned_tangents_change_nothing),
-    cmocka_unit_test(monodromy_is_the_derivative),
-    cmocka_unit_test(series_and_events_agree),
-    cmocka_unit_test(a_slider_that_comes_back_has_travelled),
-    cmocka_unit_test(friction_takes_what_the_loads_give),
-    cmocka_unit_test(a_long_period_hears_the_monitor),
-};
-CHECK_MAIN("timeint.circle", tests, 600)
+CHECK_TESTS("timeint.circle", 600, series_meet_the_reference, events_meet_the_reference,
+            regularised_meets_the_reference, a_circle_that_sticks_is_free_once, jacobian_is_the_derivative,
+            newton_solves_the_dense_equations, newton_of_the_exact_law_solves_its_equations,
+            a_motion_on_a_line_is_that_of_one_tangent, turned_tangents_change_nothing, monodromy_is_the_derivative,
+            series_and_events_agree, a_slider_that_comes_back_has_travelled, friction_takes_what_the_loads_give,
+            a_long_period_hears_the_monitor)

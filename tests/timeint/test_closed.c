@@ -494,17 +494,7 @@ static void monodromy_is_that_of_the_period(CHECK_STATE)
   check_monodromies(&way);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(scenes_follow_the_oracle),
-    cmocka_unit_test(slip_that_begins_on_a_flat_guard),
-    cmocka_unit_test(random_scenes_follow_cvode),
-    cmocka_unit_test(soft_and_overdamped_scenes_follow_cvode),
-    cmocka_unit_test(measures_are_those_of_the_motion),
-    cmocka_unit_test(ends_at_a_turn),
-    cmocka_unit_test(a_transition_at_the_end_of_the_period),
-    cmocka_unit_test(monodromy_is_that_of_the_period),
-    cmocka_unit_test(every_row_of_the_reference),
-    cmocka_unit_test(rest_stays_at_rest),
-    cmocka_unit_test(failures_are_reported),
-};
-CHECK_MAIN_WITH("timeint.closed", tests, 120, read_rows, NULL)
+CHECK_TESTS_WITH("timeint.closed", 120, read_rows, NULL, scenes_follow_the_oracle, slip_that_begins_on_a_flat_guard,
+                 random_scenes_follow_cvode, soft_and_overdamped_scenes_follow_cvode, measures_are_those_of_the_motion,
+                 ends_at_a_turn, a_transition_at_the_end_of_the_period, monodromy_is_that_of_the_period,
+                 every_row_of_the_reference, rest_stays_at_rest, failures_are_reported)

@@ -185,13 +185,6 @@ static void a_stuck_contact_does_no_work(CHECK_STATE)
   model_free(c.model);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(closed_form_balances),
-    cmocka_unit_test(events_balance),
-    cmocka_unit_test(the_regularised_law_balances),
-    cmocka_unit_test(one_degree_of_freedom_balances),
-    cmocka_unit_test(a_jenkins_element_loses_the_closed_form_work),
-    cmocka_unit_test(extrema_are_between_the_steps),
-    cmocka_unit_test(a_stuck_contact_does_no_work),
-};
-CHECK_MAIN("timeint.contact_watch", tests, 60)
+CHECK_TESTS("timeint.contact_watch", 60, closed_form_balances, events_balance, the_regularised_law_balances,
+            one_degree_of_freedom_balances, a_jenkins_element_loses_the_closed_form_work, extrema_are_between_the_steps,
+            a_stuck_contact_does_no_work)

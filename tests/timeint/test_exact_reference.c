@@ -86,5 +86,4 @@ static void blades(CHECK_STATE)
   both_ways("r2", scene_r2(), 600, 1100);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(paper_scenes), cmocka_unit_test(blades)};
-CHECK_MAIN_WITH("timeint.exact_reference", tests, 300, read_rows, NULL)
+CHECK_TESTS_WITH("timeint.exact_reference", 300, read_rows, NULL, paper_scenes, blades)

@@ -209,11 +209,4 @@ static void marching_counts_them_too(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(from_rest),
-    cmocka_unit_test(swept_up),
-    cmocka_unit_test(swept_down),
-    cmocka_unit_test(two_stable_motions),
-    cmocka_unit_test(marching_counts_them_too),
-};
-CHECK_MAIN("timeint.families", tests, 100)
+CHECK_TESTS("timeint.families", 100, from_rest, swept_up, swept_down, two_stable_motions, marching_counts_them_too)

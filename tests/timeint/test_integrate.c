@@ -116,10 +116,5 @@ static void failures_are_reported(CHECK_STATE)
   assert_null(in);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(linear_period_is_the_closed_form),
-    cmocka_unit_test(watched_period_is_the_same),
-    cmocka_unit_test(a_period_has_no_memory),
-    cmocka_unit_test(failures_are_reported),
-};
-CHECK_MAIN("timeint.integrate", tests, 120)
+CHECK_TESTS("timeint.integrate", 120, linear_period_is_the_closed_form, watched_period_is_the_same,
+            a_period_has_no_memory, failures_are_reported)

@@ -319,18 +319,7 @@ static void monodromy_is_that_of_the_period(CHECK_STATE)
   check_monodromies(&way);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(scenes_follow_the_closed_form),
-    cmocka_unit_test(degenerate_contacts_follow_it_too),
-    cmocka_unit_test(bilinear_contacts_need_no_friction),
-    cmocka_unit_test(two_contacts_are_one_of_double_stiffness),
-    cmocka_unit_test(grazing_is_not_stepped_over),
-    cmocka_unit_test(a_transition_at_the_end_of_the_period),
-    cmocka_unit_test(monodromy_is_that_of_the_period),
-    cmocka_unit_test(steady_states_are_the_references),
-    cmocka_unit_test(rest_stays_at_rest),
-    cmocka_unit_test(any_start_follows_the_closed_form),
-    cmocka_unit_test(watched_period_is_the_same),
-    cmocka_unit_test(failures_are_reported),
-};
-CHECK_MAIN("timeint.integrate_exact", tests, 120)
+CHECK_TESTS("timeint.integrate_exact", 120, scenes_follow_the_closed_form, degenerate_contacts_follow_it_too,
+            bilinear_contacts_need_no_friction, two_contacts_are_one_of_double_stiffness, grazing_is_not_stepped_over,
+            a_transition_at_the_end_of_the_period, monodromy_is_that_of_the_period, steady_states_are_the_references,
+            rest_stays_at_rest, any_start_follows_the_closed_form, watched_period_is_the_same, failures_are_reported)

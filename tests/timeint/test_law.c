@@ -104,11 +104,5 @@ static void limits(CHECK_STATE)
   CHECK_LE(1, isnan(law_regularised_eval(&c, 0, NAN, 0).n), "NaN is not swallowed");
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(branches_are_exact),
-    cmocka_unit_test(sign_follows_the_motion),
-    cmocka_unit_test(softplus_errs_by_second_order),
-    cmocka_unit_test(derivatives_are_those_of_the_values),
-    cmocka_unit_test(limits),
-};
-CHECK_MAIN("timeint.law", tests, 60)
+CHECK_TESTS("timeint.law", 60, branches_are_exact, sign_follows_the_motion, softplus_errs_by_second_order,
+            derivatives_are_those_of_the_values, limits)

@@ -470,15 +470,5 @@ static void multipliers(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(rows_of_the_table),
-    cmocka_unit_test(measures),
-    cmocka_unit_test(a_slider_keeps_another_contact_open_or_closed),
-    cmocka_unit_test(a_yes_is_right),
-    cmocka_unit_test(edges),
-    cmocka_unit_test(from_rest),
-    cmocka_unit_test(undamped),
-    cmocka_unit_test(no_stiffness_and_no_number),
-    cmocka_unit_test(multipliers),
-};
-CHECK_MAIN("timeint.linear_regime", tests, 300)
+CHECK_TESTS("timeint.linear_regime", 300, rows_of_the_table, measures, a_slider_keeps_another_contact_open_or_closed,
+            a_yes_is_right, edges, from_rest, undamped, no_stiffness_and_no_number, multipliers)

@@ -144,14 +144,8 @@ static void sweep(CHECK_STATE)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(equations_are_those_of_one),
-      cmocka_unit_test(shooting),
-      cmocka_unit_test(marching),
-      cmocka_unit_test(more_transitions_than_few_contacts_may_have),
-      cmocka_unit_test(sweep),
-  };
   gsl_set_error_handler_off(); /* as the command does: eigenvalues that do not converge are a status */
   check_watchdog(300);
-  return cmocka_run_group_tests_name("timeint.many_contacts", tests, NULL, NULL);
+  return CHECK_RUN("timeint.many_contacts", NULL, NULL, equations_are_those_of_one, shooting, marching,
+                   more_transitions_than_few_contacts_may_have, sweep);
 }

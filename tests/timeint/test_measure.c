@@ -117,6 +117,4 @@ static void a_failure_of_dense_output_is_told(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(free_vibration), cmocka_unit_test(regimes),
-                                          cmocka_unit_test(a_failure_of_dense_output_is_told)};
-CHECK_MAIN("timeint.measure", tests, 60)
+CHECK_TESTS("timeint.measure", 60, free_vibration, regimes, a_failure_of_dense_output_is_told)

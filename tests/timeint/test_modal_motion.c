@@ -505,14 +505,6 @@ static void integrals_are_those_of_the_motion(CHECK_STATE)
   print_message("worst: %.2f of 4\n", worst);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(each_mode_obeys_its_equation),
-    cmocka_unit_test(no_random_crossing_is_missed),
-    cmocka_unit_test(grazes),
-    cmocka_unit_test(guards_that_vanish_together_or_at_once),
-    cmocka_unit_test(a_mode_that_is_driven_away),
-    cmocka_unit_test(ends_of_the_range),
-    cmocka_unit_test(samples_are_the_motion),
-    cmocka_unit_test(integrals_are_those_of_the_motion),
-};
-CHECK_MAIN("timeint.modal_motion", tests, 120)
+CHECK_TESTS("timeint.modal_motion", 120, each_mode_obeys_its_equation, no_random_crossing_is_missed, grazes,
+            guards_that_vanish_together_or_at_once, a_mode_that_is_driven_away, ends_of_the_range,
+            samples_are_the_motion, integrals_are_those_of_the_motion)

@@ -121,10 +121,5 @@ static void not_finite_is_noticed(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(rhs_is_the_printed_equation),
-    cmocka_unit_test(jacobian_is_the_derivative),
-    cmocka_unit_test(scale_drops_out),
-    cmocka_unit_test(not_finite_is_noticed),
-};
-CHECK_MAIN("timeint.model", tests, 60)
+CHECK_TESTS("timeint.model", 60, rhs_is_the_printed_equation, jacobian_is_the_derivative, scale_drops_out,
+            not_finite_is_noticed)

@@ -117,9 +117,5 @@ static void a_period_with_monodromy_does_not_affect_the_next(CHECK_STATE)
   integrate_free(in);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(monodromy_is_the_difference_of_periods),
-    cmocka_unit_test(stuck_period_is_the_closed_form),
-    cmocka_unit_test(a_period_with_monodromy_does_not_affect_the_next),
-};
-CHECK_MAIN("timeint.monodromy", tests, 120)
+CHECK_TESTS("timeint.monodromy", 120, monodromy_is_the_difference_of_periods, stuck_period_is_the_closed_form,
+            a_period_with_monodromy_does_not_affect_the_next)

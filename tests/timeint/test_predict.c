@@ -80,6 +80,4 @@ static void integration_is_predicted(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(regularisation_is_predicted),
-                                          cmocka_unit_test(integration_is_predicted)};
-CHECK_MAIN("timeint.predict", tests, 120)
+CHECK_TESTS("timeint.predict", 120, regularisation_is_predicted, integration_is_predicted)

@@ -79,8 +79,4 @@ static void gap1(void **state)
   both_ways(&sc, REF_GAP1, 3, 30);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a10),     cmocka_unit_test(b10),  cmocka_unit_test(c2),
-    cmocka_unit_test(c2kt1e4), cmocka_unit_test(gap1),
-};
-CHECK_MAIN("timeint.reference", tests, 600)
+CHECK_TESTS("timeint.reference", 600, a10, b10, c2, c2kt1e4, gap1)

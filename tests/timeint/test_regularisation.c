@@ -79,9 +79,5 @@ static void overstress_is_first_order(CHECK_STATE)
   }
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(slip_is_second_order),
-    cmocka_unit_test(closing_in_stick_is_first_order),
-    cmocka_unit_test(overstress_is_first_order),
-};
-CHECK_MAIN("timeint.regularisation", tests, 120)
+CHECK_TESTS("timeint.regularisation", 120, slip_is_second_order, closing_in_stick_is_first_order,
+            overstress_is_first_order)

@@ -297,15 +297,6 @@ static void an_orbit_far_away_is_not_confirmed(CHECK_STATE)
   timeint_free(ti);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(an_orbit_far_away_is_not_confirmed),
-    cmocka_unit_test(reference_scenes_exactly),
-    cmocka_unit_test(reference_scenes_regularised),
-    cmocka_unit_test(sub_harmonics_and_chaos),
-    cmocka_unit_test(a_slow_case),
-    cmocka_unit_test(tolerances_and_limits),
-    cmocka_unit_test(an_orbit_run_through_several_times),
-    cmocka_unit_test(an_interrupt_is_heeded),
-    cmocka_unit_test(a_spoiled_orbit),
-};
-CHECK_MAIN("timeint.scout", tests, 300)
+CHECK_TESTS("timeint.scout", 300, an_orbit_far_away_is_not_confirmed, reference_scenes_exactly,
+            reference_scenes_regularised, sub_harmonics_and_chaos, a_slow_case, tolerances_and_limits,
+            an_orbit_run_through_several_times, an_interrupt_is_heeded, a_spoiled_orbit)

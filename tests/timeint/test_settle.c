@@ -159,12 +159,5 @@ static void restart_forgets(CHECK_STATE)
   settle_free(s);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(never_early_never_late),
-    cmocka_unit_test(slow_real_multiplier_is_measured),
-    cmocka_unit_test(noise_is_neither_contraction_nor_doom),
-    cmocka_unit_test(no_limit_is_never_settled),
-    cmocka_unit_test(cycles_are_counted),
-    cmocka_unit_test(restart_forgets),
-};
-CHECK_MAIN("timeint.settle", tests, 120)
+CHECK_TESTS("timeint.settle", 120, never_early_never_late, slow_real_multiplier_is_measured,
+            noise_is_neither_contraction_nor_doom, no_limit_is_never_settled, cycles_are_counted, restart_forgets)

@@ -262,11 +262,5 @@ static void unstable_orbits_are_found_and_named(CHECK_STATE)
   timeint_free(ti);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(finds_what_marching_finds),
-    cmocka_unit_test(few_periods_whatever_the_damping),
-    cmocka_unit_test(k_periods_multiply),
-    cmocka_unit_test(a_free_slider_is_left_alone),
-    cmocka_unit_test(unstable_orbits_are_found_and_named),
-};
-CHECK_MAIN("timeint.shoot", tests, 120)
+CHECK_TESTS("timeint.shoot", 120, finds_what_marching_finds, few_periods_whatever_the_damping, k_periods_multiply,
+            a_free_slider_is_left_alone, unstable_orbits_are_found_and_named)

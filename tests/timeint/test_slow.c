@@ -57,6 +57,4 @@ static void distance_is_no_larger_than_closure(CHECK_STATE)
   assert_true(known > 1);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(bent_peak_is_climbed),
-                                          cmocka_unit_test(distance_is_no_larger_than_closure)};
-CHECK_MAIN("timeint.slow", tests, 400)
+CHECK_TESTS("timeint.slow", 400, bent_peak_is_climbed, distance_is_no_larger_than_closure)

@@ -193,9 +193,5 @@ static void stopped_and_refused(CHECK_STATE)
   assert_null(ti);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(without_contacts), cmocka_unit_test(stuck_all_period),    cmocka_unit_test(linear_contacts),
-    cmocka_unit_test(any_scale),        cmocka_unit_test(start_of_any_size),   cmocka_unit_test(without_force),
-    cmocka_unit_test(sub_harmonics),    cmocka_unit_test(stopped_and_refused),
-};
-CHECK_MAIN("timeint.steady", tests, 300)
+CHECK_TESTS("timeint.steady", 300, without_contacts, stuck_all_period, linear_contacts, any_scale, start_of_any_size,
+            without_force, sub_harmonics, stopped_and_refused)

@@ -294,9 +294,5 @@ static void events_of_stiff_structures(CHECK_STATE)
   undraw(&d);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(modes_and_series_agree),     cmocka_unit_test(sets_give_way),
-    cmocka_unit_test(a_watch_is_told_the_same),   cmocka_unit_test(proportional_damping_is_told),
-    cmocka_unit_test(events_of_stiff_structures), cmocka_unit_test(a_constant_force_that_cancels_is_told),
-};
-CHECK_MAIN("timeint.stiff", tests, 600)
+CHECK_TESTS("timeint.stiff", 600, modes_and_series_agree, sets_give_way, a_watch_is_told_the_same,
+            proportional_damping_is_told, events_of_stiff_structures, a_constant_force_that_cancels_is_told)

@@ -439,18 +439,8 @@ static void a_massless_freedom_is_refused(CHECK_STATE)
   model_free(m);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(series_meet_the_reference),
-    cmocka_unit_test(events_meet_the_reference),
-    cmocka_unit_test(regularised_meets_the_reference),
-    cmocka_unit_test(series_and_closed_form_agree),
-    cmocka_unit_test(series_and_events_agree),
-    cmocka_unit_test(monodromy_is_the_derivative),
-    cmocka_unit_test(monodromy_of_many_columns),
-    cmocka_unit_test(newton_solves_the_dense_equations),
-    cmocka_unit_test(regularised_monodromy_is_the_derivative),
-    cmocka_unit_test(jacobian_is_the_derivative),
-    cmocka_unit_test(other_coordinates_change_nothing),
-    cmocka_unit_test(a_massless_freedom_is_refused),
-};
-CHECK_MAIN("timeint.structure", tests, 120)
+CHECK_TESTS("timeint.structure", 120, series_meet_the_reference, events_meet_the_reference,
+            regularised_meets_the_reference, series_and_closed_form_agree, series_and_events_agree,
+            monodromy_is_the_derivative, monodromy_of_many_columns, newton_solves_the_dense_equations,
+            regularised_monodromy_is_the_derivative, jacobian_is_the_derivative, other_coordinates_change_nothing,
+            a_massless_freedom_is_refused)

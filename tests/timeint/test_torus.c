@@ -192,11 +192,5 @@ static void what_has_come_to_an_orbit_is_not_chaos(CHECK_STATE)
   model_free(c.model);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_curve_has_one_rotation),
-    cmocka_unit_test(a_torus_turns_as_its_multipliers),
-    cmocka_unit_test(by_whichever_way),
-    cmocka_unit_test(growth_without_bound_is_told),
-    cmocka_unit_test(what_has_come_to_an_orbit_is_not_chaos),
-};
-CHECK_MAIN("timeint.torus", tests, 300)
+CHECK_TESTS("timeint.torus", 300, a_curve_has_one_rotation, a_torus_turns_as_its_multipliers, by_whichever_way,
+            growth_without_bound_is_told, what_has_come_to_an_orbit_is_not_chaos)

@@ -126,9 +126,5 @@ static void swept_up_to_period_4(CHECK_STATE)
   timeint_free(ti);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(multiplier_passes_minus_one), cmocka_unit_test(period_1_above),
-    cmocka_unit_test(sub_harmonics_of_case_2),     cmocka_unit_test(sub_harmonics_with_a_stiff_contact),
-    cmocka_unit_test(swept_up_to_period_4),
-};
-CHECK_MAIN("timeint.verdicts", tests, 120)
+CHECK_TESTS("timeint.verdicts", 120, multiplier_passes_minus_one, period_1_above, sub_harmonics_of_case_2,
+            sub_harmonics_with_a_stiff_contact, swept_up_to_period_4)

@@ -253,25 +253,12 @@ static void hostile_words_are_words(CHECK_STATE)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(response_curves),
-      cmocka_unit_test(responses_of_a_structure),
-      cmocka_unit_test(transients),
-      cmocka_unit_test(curves_of_others),
-      cmocka_unit_test(accuracy),
-      cmocka_unit_test(contacts),
-      cmocka_unit_test(contacts_in_a_plane),
-      cmocka_unit_test(studies),
-      cmocka_unit_test(benchmarks),
-      cmocka_unit_test(endings_make_the_kind),
-      cmocka_unit_test(letters),
-      cmocka_unit_test(what_can_go_wrong),
-      cmocka_unit_test(hostile_words_are_words),
-  };
   if (system("command -v gnuplot >/dev/null") != 0) {
     printf("skipped: gnuplot is not installed\n");
     return 77;
   }
   check_watchdog(600);
-  return cmocka_run_group_tests_name("compare.plot", tests, folder_make, folder_remove);
+  return CHECK_RUN("compare.plot", folder_make, folder_remove, response_curves, responses_of_a_structure, transients,
+                   curves_of_others, accuracy, contacts, contacts_in_a_plane, studies, benchmarks,
+                   endings_make_the_kind, letters, what_can_go_wrong, hostile_words_are_words);
 }

@@ -327,23 +327,13 @@ static void missing_charts_are_named(CHECK_STATE) { expect("report " CASE2 " 2>&
 
 int main(void)
 {
-  static const struct CMUnitTest without[] = {cmocka_unit_test(missing_charts_are_named)};
-  static const struct CMUnitTest with[] = {
-      cmocka_unit_test(page_is_small_and_complete),
-      cmocka_unit_test(sampled_mean_is_what_folds_onto_it),
-      cmocka_unit_test(harmonics_are_those_of_the_force_that_is_drawn),
-      cmocka_unit_test(sampling_gains_a_branch_that_truncation_lost),
-      cmocka_unit_test(hostile_titles_are_text),
-      cmocka_unit_test(a_long_table_of_special_points_is_closed),
-      cmocka_unit_test(a_structure_shows_its_shape_and_its_loops),
-      cmocka_unit_test(linear_cases_have_a_page),
-      cmocka_unit_test(failures_touch_no_file),
-      cmocka_unit_test(disagreement_is_said),
-      cmocka_unit_test(cycles_are_spoken_where_the_sweep_is_in_cycles),
-      cmocka_unit_test(what_is_not_unique_is_said),
-      cmocka_unit_test(advice_on_samples_knows_the_forces_in_use),
-  };
   check_watchdog(600);
-  return HAVE_CHARTJS ? cmocka_run_group_tests_name("compare_report.page", with, folder_make, folder_remove)
-                      : cmocka_run_group_tests_name("compare_report.page", without, NULL, NULL);
+  return HAVE_CHARTJS ? CHECK_RUN("compare_report.page", folder_make, folder_remove, page_is_small_and_complete,
+                                  sampled_mean_is_what_folds_onto_it, harmonics_are_those_of_the_force_that_is_drawn,
+                                  sampling_gains_a_branch_that_truncation_lost, hostile_titles_are_text,
+                                  a_long_table_of_special_points_is_closed, a_structure_shows_its_shape_and_its_loops,
+                                  linear_cases_have_a_page, failures_touch_no_file, disagreement_is_said,
+                                  cycles_are_spoken_where_the_sweep_is_in_cycles, what_is_not_unique_is_said,
+                                  advice_on_samples_knows_the_forces_in_use)
+                      : CHECK_RUN("compare_report.page", NULL, NULL, missing_charts_are_named);
 }
