@@ -1,6 +1,5 @@
 /* growing.h - lists with room for a power of two of entries. */
-#ifndef HC_GROWING_H
-#define HC_GROWING_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdlib.h>
@@ -29,5 +28,3 @@ static inline bool grow_in_place(void *variable, int count, size_t size)
   if (list) memcpy(variable, &list, sizeof list);
   return list != NULL;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* message.h - building one line of text that never overflows and never carries a control character of the input. */
-#ifndef HC_MESSAGE_H
-#define HC_MESSAGE_H
+#pragma once
 
 #include <stdarg.h>
 #include <stdbool.h>
@@ -35,5 +34,3 @@ void message_add_quoted(message *m, const char *text, size_t length);
 enum { MESSAGE_QUOTE = 256 /* 60 bytes as \xNN, and what is around them */ };
 const char *message_quote(const char *text, size_t length, char quote[MESSAGE_QUOTE]);
 #define QUOTED(text, length) message_quote(text, length, (char[MESSAGE_QUOTE]){0}) /* lives as long as its block */
-
-#endif

@@ -1,6 +1,5 @@
 /* nearest.h - which word was meant by one that is not known, by their edit distance. */
-#ifndef HC_NEAREST_H
-#define HC_NEAREST_H
+#pragma once
 
 #include <stddef.h>
 
@@ -18,5 +17,3 @@ const char *nearest_word(const char *const *words, const char *key, size_t lengt
  * hint. */
 enum { NEAREST_HINT = 64 };
 const char *nearest_hint(const char *const *words, const char *key, char hint[NEAREST_HINT]);
-
-#endif

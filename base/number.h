@@ -1,8 +1,7 @@
 /* number.h - numbers as text, strictly and the same in every locale: reading a whole text as one finite number, and
  * the shortest text that reads back to the same bits. Safe from several threads; the host program's locale is
  * neither used nor changed. A text need not be terminated: text[length] and what comes after is not looked at. */
-#ifndef HC_NUMBER_H
-#define HC_NUMBER_H
+#pragma once
 
 #include <stddef.h>
 
@@ -40,5 +39,3 @@ static inline int ascending(const void *a, const void *b)
   double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* path.h - names of files, taken apart and put together. */
-#ifndef HC_PATH_H
-#define HC_PATH_H
+#pragma once
 
 #include <string.h>
 
@@ -14,5 +13,3 @@ static inline const char *path_name(const char *path, int *stem)
 
 /* name[length] in the folder of `path`, or itself if absolute: to be freed; NULL: out of memory. */
 char *path_beside(const char *path, const char *name, size_t length);
-
-#endif

@@ -1,7 +1,6 @@
 /* status.h - every answer of a call that may fail: code and words, in one list.
  * Every fallible function of the library returns an hc_status; none prints, exits or sets errno for the caller. */
-#ifndef HC_STATUS_H
-#define HC_STATUS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -51,5 +50,3 @@ static inline bool hc_monitor_tick_aside(void *self, double done)
   (void)done;
   return hc_monitor_tick((const hc_monitor *)self, -1);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* thread_clock.h - how long the calling thread has computed, and how long it took. */
-#ifndef HC_THREAD_CLOCK_H
-#define HC_THREAD_CLOCK_H
+#pragma once
 
 #include <time.h>
 
@@ -15,5 +14,3 @@ static inline double clock_seconds(clockid_t clock)
 /* Processor time of this thread, in which waiting does not count; time on the wall. */
 static inline double thread_seconds(void) { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 static inline double wall_seconds(void) { return clock_seconds(CLOCK_MONOTONIC); }
-
-#endif

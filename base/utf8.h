@@ -1,6 +1,5 @@
 /* utf8.h - characters of UTF-8 text and the terminal columns they take, whatever locale a host program has set. */
-#ifndef HC_UTF8_H
-#define HC_UTF8_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -29,5 +28,3 @@ size_t utf8_fit(const char *text, int columns, int *width);
 /* A copy, valid UTF-8 whatever came in (U+FFFD for what was not); free() it. one_line: control characters become
  * spaces, and spaces at the end go. NULL when out of memory. */
 char *utf8_clean(const char *text, bool one_line);
-
-#endif

@@ -1,7 +1,6 @@
 /* workspace.h - the arrays of one object, which live and die together: each is taken where it is needed, whether all of
  * them were to be had is asked once, and one call frees them. */
-#ifndef HC_WORKSPACE_H
-#define HC_WORKSPACE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -44,5 +43,3 @@ static inline void workspace_free(workspace *w)
     w->last = before;
   }
 }
-
-#endif

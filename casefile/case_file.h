@@ -1,8 +1,7 @@
 /* case_file.h - a scene from a YAML case file and from --set; the table of fields that drives reading, setting, echo
  * and describe. Every mistake is one message "FILE:LINE:COLUMN: what is wrong, what was expected" (suggestion
  * included where a key is nearly right). */
-#ifndef HC_CASE_FILE_H
-#define HC_CASE_FILE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdio.h>
@@ -35,5 +34,3 @@ hc_status case_echo(const scene *sc, FILE *to);
 /* Describe one field or section, or all (asked = NULL), as text for a terminal: name, unit, default, range, meaning.
  * HC_BAD_INPUT with a suggestion in err if there is no such field. */
 hc_status case_describe(const char *asked, FILE *to, case_error *err);
-
-#endif

@@ -2,8 +2,7 @@
  * speaks the same language (study/). The public face is case_file.h.
  *
  *     text --yaml_text_load--> document --yaml_scene_read--> scene --case_set_apply--> scene --case_check--> done */
-#ifndef HC_CASE_READER_H
-#define HC_CASE_READER_H
+#pragma once
 
 #include <yaml.h>
 
@@ -247,5 +246,3 @@ hc_status case_set_apply(case_reader *r, int k);
 
 /* What depends on several fields, once all of them are known. */
 hc_status case_check(case_reader *r);
-
-#endif

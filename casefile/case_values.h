@@ -1,7 +1,6 @@
 /* case_values.h - a case file as it was resolved: every field with its value and where that is from, and what follows
  * from them before anything is solved. For those who show cases (hbmcheck describe). */
-#ifndef HC_CASE_VALUES_H
-#define HC_CASE_VALUES_H
+#pragma once
 
 #include "casefile/case_file.h"
 #include "casefile/fields.h"
@@ -43,5 +42,3 @@ enum { CASE_DERIVED_MAX = 7 + 3 * SCENE_MAX_CONTACTS };
 
 /* Into out[CASE_DERIVED_MAX]; how many. */
 int case_derive(const scene *sc, case_derived *out);
-
-#endif

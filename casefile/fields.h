@@ -1,8 +1,7 @@
 /* fields.h - every field of a case file, in one table: name, kind, unit, default, range, meaning, and where it lives
  * in a scene. The reader, --set, the echo and describe all work from it; a new field is a new row in fields.c and
  * nothing else. */
-#ifndef HC_FIELDS_H
-#define HC_FIELDS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -142,5 +141,3 @@ suggestion suggest_key(const char *section, const char *key, size_t length);
 
 /* The same for a whole path, "hbm.sample". */
 suggestion suggest_path(const char *path, size_t length);
-
-#endif

@@ -2,8 +2,7 @@
  * parts only the structure has memory, which copies share, and which belongs to whoever read the case (case_clear,
  * case_file.h). Solvers get parts of it: the model and their settings (scene_setup).
  * Names, units, defaults, ranges and meanings of the fields are in fields.c and nowhere else. */
-#ifndef HC_SCENE_H
-#define HC_SCENE_H
+#pragma once
 
 #include "base/status.h"
 #include "compare/compare_settings.h"
@@ -83,5 +82,3 @@ hc_status scene_model(const scene *sc, model **out);
  * Free with scene_setup_clear in any case. HC_NO_MEMORY. */
 hc_status scene_setup(const scene *sc, compare_setup *out);
 void scene_setup_clear(compare_setup *setup);
-
-#endif

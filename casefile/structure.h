@@ -1,8 +1,7 @@
 /* structure.h - what a case file says with `structure`, its list of loads, its contacts and its responses: plain data,
  * as it was written, the damping matrix that follows from it, and its model. Degrees of freedom are counted from 0
  * here, from 1 in a file. Vectors are dense: [n], one entry a degree of freedom. */
-#ifndef HC_STRUCTURE_H
-#define HC_STRUCTURE_H
+#pragma once
 
 #include "casefile/matrices/matrix_file.h"
 #include "casefile/scene.h"
@@ -193,5 +192,3 @@ void structure_describe_motion(const scene_structure *s, double *x, message *m);
  * Dynamics, 2006, chapter 10), K being symmetric then. HC_BAD_INPUT if a mode's omega^2 is negative beyond rounding;
  * HC_NO_MEMORY, HC_NOT_CONVERGED. */
 hc_status structure_resolve_damping(scene_structure *s);
-
-#endif

@@ -1,7 +1,6 @@
 /* case_names.h - options that name a part of the case: one of its responses, one of its contacts, what its tables
  * go over. */
-#ifndef HC_CASE_NAMES_H
-#define HC_CASE_NAMES_H
+#pragma once
 
 #include "command/cli.h"
 
@@ -38,5 +37,3 @@ typedef struct table_lists {
 
 /* The lists that were given in the place of the scene's. 0, or the exit code after the message. */
 int compare_lists(const cli_common *common, const table_lists *lists, scene *sc);
-
-#endif

@@ -1,8 +1,7 @@
 /* cli.h - what the commands share: the options every command has, readers for the values of their own options, exit
  * codes, and the one place where a failure is put into words. Results go to stdout or --output, everything else to
  * stderr. The commands are listed in commands.h; command/README.md says how to add one, and where an option goes. */
-#ifndef HC_CLI_H
-#define HC_CLI_H
+#pragma once
 
 #include <argp.h>
 #include <stdbool.h>
@@ -212,5 +211,3 @@ const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text
 
 /* "hbmcheck 0.1.0" and the versions of the libraries it runs with. The signature argp wants for its --version. */
 void cli_print_version(FILE *to, struct argp_state *state);
-
-#endif

@@ -1,8 +1,7 @@
 /* commands.h - every command, in the order in which hbmcheck --help lists them. This list declares them and fills
  * main's table: a new command is a new name here and its definition, const cli_command cmd_NAME, in cmd_NAME.c
  * (command/README.md goes through it step by step). */
-#ifndef HC_COMMANDS_H
-#define HC_COMMANDS_H
+#pragma once
 
 #include "command/cli.h"
 
@@ -15,5 +14,3 @@
 #define COMMANDS_DECLARE(name) extern const cli_command cmd_##name;
 COMMANDS(COMMANDS_DECLARE)
 #undef COMMANDS_DECLARE
-
-#endif

@@ -4,8 +4,7 @@
  * change nothing.
  *
  *     keep_found_begin -> the work, which holds `found` whenever it changes what it has found -> keep_found_end */
-#ifndef HC_KEEP_FOUND_H
-#define HC_KEEP_FOUND_H
+#pragma once
 
 #include <pthread.h>
 #include <stdbool.h>
@@ -41,5 +40,3 @@ typedef struct shown_rows {
 void shown_rows_begin(shown_rows *s, bool several);
 void shown_rows_write(shown_rows *s, const cli_common *common);
 void shown_rows_end(shown_rows *s);
-
-#endif

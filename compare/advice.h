@@ -1,7 +1,6 @@
 /* advice.h - what to change in a case: after a solver failed, and (budget_advice, budget.h) about a discrepancy. Every
  * setting that hbmcheck ever advises comes from here, and none that is so already. */
-#ifndef HC_ADVICE_H
-#define HC_ADVICE_H
+#pragma once
 
 #include "base/status.h"
 #include "hbm/hbm_settings.h"
@@ -19,5 +18,3 @@ const char *advice_on_size(double damping);
 #define ADVICE_ON_STRUCTURE /* the same of a structure, whose damping is a matrix */                                   \
   "numbers became too large or too small: does the motion grow without bound (a mode without damping, a stiffness "    \
   "that is not symmetric)? are units right?"
-
-#endif

@@ -10,8 +10,7 @@
  * The parts are sizes without signs: where two of opposite sign cancel, their sum is larger than |h - T|. Where the
  * transient is not on the orbit next to h, the budget is that of |h - O|, and only the first two parts exist. All are
  * relative to the transient's amplitude (to O's without it). NaN: not there, or could not be computed. */
-#ifndef HC_BUDGET_H
-#define HC_BUDGET_H
+#pragma once
 
 #include "compare/compare_settings.h"
 #include "hbm/hbm.h"
@@ -78,5 +77,3 @@ const char *budget_largest(const error_budget *b, double *share);
 enum { BUDGET_TEXT = 160 };
 const char *budget_advice(const error_budget *b, const compare_setup *setup, double goal, int n_harm,
                           char text[BUDGET_TEXT]);
-
-#endif

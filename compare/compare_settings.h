@@ -1,8 +1,7 @@
 /* compare_settings.h - the frequencies, harmonics and samples of a comparison; with the model, the settings of both
  * sides and the limits, all that a comparison works from. Names, defaults, ranges and meanings of the fields are those
  * of `compare` in a case file (casefile/fields.c). */
-#ifndef HC_COMPARE_SETTINGS_H
-#define HC_COMPARE_SETTINGS_H
+#pragma once
 
 #include "base/number.h"
 #include "hbm/hbm_settings.h"
@@ -34,5 +33,3 @@ typedef struct compare_setup {
   void *added_to;
   int jobs; /* threads for the tables of accuracy.h; 0 and 1: the calling one alone */
 } compare_setup;
-
-#endif

@@ -7,8 +7,7 @@
  * the transient. An error is |hbm - transient| / the transient's amplitude. Phases are never aligned: the forcing
  * fixes them. How far off each side is by its own reckoning is asked before the two meet (as in ASME V&V 20): a
  * discrepancy beyond both is a mistake of one of them. */
-#ifndef HC_COMPARISON_H
-#define HC_COMPARISON_H
+#pragma once
 
 #include "base/status.h"
 #include "compare/budget.h"
@@ -165,5 +164,3 @@ const double *comparison_state(const comparison *c, int i);
 
 /* state[timeint_n_states]: x(t), x'(t) and sliders at t = 0 of an HBM solution, where its transient starts. */
 hc_status comparison_orbit_start(hbm_solver *hbm, const double *X, double omega, double *state);
-
-#endif

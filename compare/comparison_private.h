@@ -1,8 +1,7 @@
 /* comparison_private.h - the settings and solvers of one comparison, and what is found of the HBM solution under way;
  * for comparison.c, which goes through frequencies and branches, and solution.c, which knows what one row's numbers
  * mean. */
-#ifndef HC_COMPARISON_PRIVATE_H
-#define HC_COMPARISON_PRIVATE_H
+#pragma once
 
 #include "base/workspace.h"
 #include "compare/comparison.h"
@@ -44,5 +43,3 @@ void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const 
 
 /* c[model_whole_contacts]: of the same solution X. HC_NO_MEMORY. */
 hc_status solution_contacts(comparison_work *w, const double *X, const comparison_row *row, contact_comparison *c);
-
-#endif

@@ -1,6 +1,5 @@
 /* discrepancy.h - how far a harmonic-balance solution is from a motion, by the four measures that are compared. */
-#ifndef HC_DISCREPANCY_H
-#define HC_DISCREPANCY_H
+#pragma once
 
 #include <math.h>
 
@@ -17,5 +16,3 @@ static inline double discrepancy_relative(double difference, double amplitude)
 {
   return difference == 0 ? 0 : fabs(difference) / amplitude;
 }
-
-#endif

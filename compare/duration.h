@@ -7,8 +7,7 @@
  * How many: duration.c. Where all solutions are like the measured one, and each frequency has one, that is right
  * within a factor of three. Not foreseen: motions that have no periodic orbit, or leave it; several solutions a
  * frequency; what `verify` searches where points differ. */
-#ifndef HC_COMPARE_DURATION_H
-#define HC_COMPARE_DURATION_H
+#pragma once
 
 #include "compare/compare_settings.h"
 #include "timeint/steady/period_times.h"
@@ -37,5 +36,3 @@ double duration_of_steady_states(const duration_units *u, int n);
 double duration_of_tables(const duration_units *u, const compare_settings *how);
 double duration_of_report(const duration_units *u, int n, const compare_settings *how);
 double duration_of_verification(const duration_units *u, int n);
-
-#endif

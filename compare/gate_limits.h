@@ -1,8 +1,7 @@
 /* gate_limits.h - the largest discrepancies that still count as agreement, and the most that a response curve may
  * cost. Only the gate and the rule that calls a row a match look inside. Names, defaults, ranges and meanings of the
  * fields are those of `gate` in a case file (casefile/fields.c). */
-#ifndef HC_GATE_LIMITS_H
-#define HC_GATE_LIMITS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -32,5 +31,3 @@ discrepancy gate_limits_at(const gate_limits *l, double omega);
 /* Is every discrepancy within the limits that hold at omega? The mean does not count where it is free (a slider that
  * never slips leaves it to history). NaN is not within any limit. */
 bool gate_limits_hold(const gate_limits *l, double omega, const discrepancy *d, bool mean_free);
-
-#endif

@@ -7,12 +7,9 @@
  *     a transient       S^2: monodromy matrices, factors                                S states
  * How many arrays of a kind live at once was measured; the sum is right within a factor of two. Other memory of the
  * program, some MB, is included. Nothing is allocated, nothing can fail. */
-#ifndef HC_COMPARE_MEMORY_H
-#define HC_COMPARE_MEMORY_H
+#pragma once
 
 #include "compare/compare_settings.h"
 
 double memory_of_curve(const model *m, const hbm_settings *how); /* [bytes] */
 double memory_of_comparison(const compare_setup *setup);         /* [bytes] */
-
-#endif

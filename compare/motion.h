@@ -1,6 +1,5 @@
 /* motion.h - the solutions of both sides as periodic motions, and the discrepancy of two. */
-#ifndef HC_MOTION_H
-#define HC_MOTION_H
+#pragma once
 
 #include "compare/discrepancy.h"
 #include "hbm/hbm.h"
@@ -27,5 +26,3 @@ bool motion_mean_is_free(const timeint_result *r);
 
 /* motion_between(a, b) relative to b's amplitude; of the mean NaN where that of one of them is free. */
 discrepancy motion_discrepancy(const periodic_motion *a, const periodic_motion *b);
-
-#endif

@@ -1,7 +1,6 @@
 /* response.h - the HBM response curve, the frequencies at which both sides are compared, and what is reported of the
  * curve: one row for each solution, and a summary. */
-#ifndef HC_RESPONSE_H
-#define HC_RESPONSE_H
+#pragma once
 
 #include "compare/compare_settings.h"
 #include "hbm/hbm.h"
@@ -67,5 +66,3 @@ typedef struct response_summary {
 } response_summary;
 /* HC_NO_MEMORY, or HC_OK also where no peak was found: NaN. */
 hc_status response_summarise(hbm_solver *s, const hbm_curve *c, response_summary *out);
-
-#endif

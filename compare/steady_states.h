@@ -1,7 +1,6 @@
 /* steady_states.h - the steady states of a model by time integration at the frequencies of compare.omega, from where
  * transient.start says: on each HBM solution's orbit, at rest, or swept from an end of the sweep, as on a shaker. */
-#ifndef HC_STEADY_STATES_H
-#define HC_STEADY_STATES_H
+#pragma once
 
 #include "base/status.h"
 #include "compare/compare_settings.h"
@@ -47,5 +46,3 @@ void steady_states_clear(steady_states *s);
 /* "settled", "unstable" (by shooting alone), "period_2", "aperiodic", "not_settled", "solver_failed", into text[24],
  * which is returned. */
 const char *steady_verdict_text(const steady_row *row, char text[24]);
-
-#endif

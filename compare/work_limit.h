@@ -1,7 +1,6 @@
 /* work_limit.h - a monitor that stops after a number of ticks, or at a processor time; `stopped` tells a request to
  * stop from that. */
-#ifndef HC_WORK_LIMIT_H
-#define HC_WORK_LIMIT_H
+#pragma once
 
 #include "base/status.h"
 #include "base/thread_clock.h"
@@ -23,5 +22,3 @@ static inline bool work_limit_tick(void *self, double done)
   l->stopped = l->stopped || !hc_monitor_tick(l->outer, done);
   return !l->stopped && (l->most == 0 || ++l->ticks <= l->most) && (l->until == 0 || thread_seconds() < l->until);
 }
-
-#endif

@@ -12,8 +12,7 @@
  * special_points.h   turning points, period doublings, Neimark-Sacker points and contact changes of a curve
  *
  * Not here: time integration (timeint/), verdicts (compare/). */
-#ifndef HC_HBM_H
-#define HC_HBM_H
+#pragma once
 
 #include "hbm/contact/contact_measures.h"
 #include "hbm/curve/continuation.h"
@@ -23,5 +22,3 @@
 #include "hbm/curve/special_points.h"
 #include "hbm/solver/hbm_solver.h"
 #include "hbm/solver/stability.h"
-
-#endif

@@ -1,7 +1,6 @@
 /* hbm_settings.h - how harmonic balance solves a model. Plain data: copy it freely. Names, defaults, ranges and
  * meanings of the fields are those of `hbm` in a case file (casefile/fields.c). */
-#ifndef HC_HBM_SETTINGS_H
-#define HC_HBM_SETTINGS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -48,5 +47,3 @@ typedef struct hbm_settings {
   bool skip_linear; /* points where nothing happens at the contacts come from the closed form */
   hbm_mistakes mistakes;
 } hbm_settings;
-
-#endif

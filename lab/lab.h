@@ -8,8 +8,7 @@
  * table all the same. The library's words for it are in lab_message. Nothing is printed. One lab, one thread.
  *
  *     X[2H+1]    x(th) = X[0] + sum_{h=1..H} X[2h-1] cos(h th) + X[2h] sin(h th) */
-#ifndef HC_LAB_H
-#define HC_LAB_H
+#pragma once
 
 typedef struct lab lab;
 
@@ -109,5 +108,3 @@ int lab_transients(lab *l, int n, const double *omega);
  * solution, relative; Newton's systems put to solve it. HC_BAD_INPUT: no motion, or no omega. Errors of timeint_orbit.
  */
 int lab_errors(lab *l, double omega);
-
-#endif

@@ -1,6 +1,5 @@
 /* lab_inside.h - what the parts of the lab share: its case, the table of the last answer, the curves it keeps. */
-#ifndef HC_LAB_INSIDE_H
-#define HC_LAB_INSIDE_H
+#pragma once
 
 #include "casefile/case_file.h"
 #include "hbm/hbm.h"
@@ -44,5 +43,3 @@ hc_status lab_scene(const lab *l, int force, scene *out);
 hc_status lab_solver(const scene *sc, hbm_solver **out);
 
 void lab_drop_curves(lab *l);
-
-#endif

@@ -1,6 +1,5 @@
 /* inside.h - what the parts of the C API share: a case, and how arguments and statuses come in and go out. */
-#ifndef HC_LIBRARY_INSIDE_H
-#define HC_LIBRARY_INSIDE_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -39,5 +38,3 @@ hbmcheck_contact_period library_period(const contact_period *p);
 
 /* The first of the n values `from`, as many as there is room for. */
 void library_copy(int n, const double *from, int cap, double *to);
-
-#endif

@@ -18,8 +18,7 @@
  * While it slips, the direction e = (cos phi, sin phi) follows the motion: (mu N/kt) phi' = u'.e_perp, e_perp =
  * (-sin phi, cos phi). With u, w and T on one line it is the law above. Source: Yang and Menq 1998, J. Sound Vib. 217,
  * 909-925 (the radial limit); the angle's equation is derived from it by differentiating w = u - (mu N/kt) e. */
-#ifndef HC_CONTACT_LAW_H
-#define HC_CONTACT_LAW_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -94,5 +93,3 @@ static inline double contact_guard_slip(const contact *c, int s, double du, doub
 {
   return s * c->kt * du - c->mu * c->kn * dv;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* contact_period.h - what a contact does over one period of a motion, in numbers. hbm/contact/contact_measures.h
  * fills it from a motion, timeint/steady/contact_watch.h along its own. */
-#ifndef HC_CONTACT_PERIOD_H
-#define HC_CONTACT_PERIOD_H
+#pragma once
 
 #include "model/contact_law.h"
 #include "model/model.h"
@@ -24,5 +23,3 @@ contact_period contact_period_of_pair(const contact_period *first, const contact
 /* p[m->n_contacts], one for each contact of the model -> one for each contact of the case: the first
  * model_whole_contacts(m) of p. */
 void contact_periods_merge(const model *m, contact_period *p);
-
-#endif

@@ -1,7 +1,6 @@
 /* linear.h - the linear oscillator in closed form: M x'' + C x' + k x = F cos(omega t). libm only.
  * In each contact state of the exact law the model is one. */
-#ifndef HC_LINEAR_H
-#define HC_LINEAR_H
+#pragma once
 
 #include <complex.h>
 
@@ -15,5 +14,3 @@ double linear_step_response(double c, double k, double t);
 
 /* X of the steady state x = Re X exp(i omega t); infinite at an undamped resonance. */
 double complex linear_response(double mass, double damping, double stiffness, double force, double omega);
-
-#endif

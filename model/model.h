@@ -9,8 +9,7 @@
  * and K may be singular. A model owns its memory. Solvers read it and never change it. How it is solved stands in
  * hbm/hbm_settings.h and timeint/transient_settings.h. Source: Colonna et al. 2025, eq. 1-12 ([1] in README.md), for
  * n = 1; Krack and Gross, Harmonic Balance for Nonlinear Vibration Problems, Springer 2019, chapter 3, for more. */
-#ifndef HC_MODEL_H
-#define HC_MODEL_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -90,5 +89,3 @@ double model_stuck_stiffness(const model_contact *c);
 
 /* Largest stiffness [force/length] that an oscillator's x can see: K and every contact stuck. */
 double model_max_stiffness(const model *m);
-
-#endif

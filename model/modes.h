@@ -1,6 +1,5 @@
 /* modes.h - natural frequencies of a model's linear limits: every contact apart, or every contact stuck. */
-#ifndef HC_MODEL_MODES_H
-#define HC_MODEL_MODES_H
+#pragma once
 
 #include "model/model.h"
 
@@ -26,5 +25,3 @@ typedef struct model_scales {
 
 /* Errors of model_modes. */
 hc_status model_find_scales(const model *m, model_scales *out);
-
-#endif

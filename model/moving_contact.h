@@ -1,6 +1,5 @@
 /* moving_contact.h - a contact and the one or two coordinates that move it, for evaluators of its force. */
-#ifndef HC_MOVING_CONTACT_H
-#define HC_MOVING_CONTACT_H
+#pragma once
 
 #include <stdlib.h>
 
@@ -39,5 +38,3 @@ static inline bool moving_contact_has_slider(const moving_contact *c, int n_dof)
   for (int d = 0; d < n_dof; ++d) moves |= c->cu[d] != 0;
   return moves && contact_has_friction(&c->law);
 }
-
-#endif

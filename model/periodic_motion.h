@@ -5,8 +5,7 @@
  *
  * Harmonic balance fills it from a series (motion_of_series), time integration from its dense output
  * (compare/motion.h). Nothing is allocated, nothing can fail; NaN in gives NaN out. */
-#ifndef HC_PERIODIC_MOTION_H
-#define HC_PERIODIC_MOTION_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -47,5 +46,3 @@ typedef struct motion_distance {
   double waveform; /* largest |difference| of the samples, the means made equal where one of them is free */
 } motion_distance;
 motion_distance motion_between(const periodic_motion *a, const periodic_motion *b);
-
-#endif

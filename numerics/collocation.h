@@ -5,8 +5,7 @@
  *
  * As an implicit Runge-Kutta method (Radau IIA: Hairer and Wanner, Solving Ordinary Differential Equations II, section
  * IV.5) it has order 2 n - 1 at the panels' ends, and what is stiff decays. libm only, nothing is allocated. */
-#ifndef HC_COLLOCATION_H
-#define HC_COLLOCATION_H
+#pragma once
 
 enum { COLLOCATION_POINTS = 10 };
 
@@ -28,5 +27,3 @@ void collocation_slopes(const collocation *c, const double k[COLLOCATION_POINTS]
 
 /* y(x) - y(0) for any x in [0, 1], from the slopes k at the points, of a panel of width 1. */
 double collocation_rise(const collocation *c, const double k[COLLOCATION_POINTS], double x);
-
-#endif

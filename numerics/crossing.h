@@ -1,7 +1,6 @@
 /* crossing.h - the first angle where a guard, a trigonometric polynomial plus a constant, falls through 0 in an
  * interval. libm only. */
-#ifndef HC_CROSSING_H
-#define HC_CROSSING_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -36,5 +35,3 @@ bool crossing_first(const series_vector *m, const guard *g, const series_node *a
 
 /* Largest and smallest value of sum a[d] x_d on [from, to], to rounding: every extremum is found. */
 void guard_extrema(const series_vector *m, const double *a, double from, double to, double *max, double *min);
-
-#endif

@@ -1,8 +1,7 @@
 /* dense.h - dense linear algebra by BLAS and LAPACK, matrices by columns. What they call a failure comes back as a
  * status; nothing is printed. Which BLAS is there changes rounding and time alone: OpenBLAS, kept to one thread, takes
  * a fifth of the reference one's time from some 100 unknowns on. */
-#ifndef HC_DENSE_H
-#define HC_DENSE_H
+#pragma once
 
 #include <complex.h>
 
@@ -79,5 +78,3 @@ void dense_solve_complex(int n, const double complex *A, const int *pivot, bool 
 /* A := A^-1; pivot[n], work[DENSE_INVERT_WORK n]. HC_SINGULAR as dense_factor_complex. */
 enum { DENSE_INVERT_WORK = 32 }; /* columns that zgetri takes at a time */
 hc_status dense_invert_complex(int n, double complex *A, int *pivot, double complex *work);
-
-#endif

@@ -4,8 +4,7 @@
  *     F = V^-1 (A V - V D),   D += diag F,   V += V E,   E_ij = F_ij/(D_j - D_i)
  * It converges quadratically while the eigenvalues are apart. Source: Ogita and Aishima, Japan J. Indust. Appl. Math.
  * 35 (2018) 1007, for symmetric matrices; without symmetry V^-1 stands in for V^T. */
-#ifndef HC_EIGENSYSTEM_H
-#define HC_EIGENSYSTEM_H
+#pragma once
 
 #include <complex.h>
 
@@ -33,5 +32,3 @@ void eigensystem_free(eigensystem *e);
 /* The eigensystem of A[n][n], by columns. HC_SINGULAR: the eigenvectors are so nearly dependent (a double eigenvalue
  * with one eigenvector, a free body) that more than four digits would be lost; HC_NO_MEMORY, HC_NOT_CONVERGED. */
 hc_status eigensystem_find(eigensystem *e, const long double *A);
-
-#endif

@@ -6,8 +6,7 @@
  *     g(tau + h) >= slow + slow' h - h^2/2 sum_slow |rate|^2 |by e^{rate tau}| - sum_fast |by e^{rate tau}|
  * and the split that reaches farthest counts: a fast mode that hardly moves, or has died away, costs nothing. No root
  * is missed but an excursion below -noise. */
-#ifndef HC_EXPONENTIALS_H
-#define HC_EXPONENTIALS_H
+#pragma once
 
 #include <complex.h>
 #include <math.h>
@@ -47,5 +46,3 @@ static inline double safe_step(double f, double slope, double bound)
   if (slope < 0) return 2 * f / (root - slope); /* without cancellation */
   return bound > 0 ? (slope + root) / bound : INFINITY;
 }
-
-#endif

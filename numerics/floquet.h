@@ -1,6 +1,5 @@
 /* floquet.h - multipliers of a periodic orbit from its monodromy matrix. */
-#ifndef HC_FLOQUET_H
-#define HC_FLOQUET_H
+#pragma once
 
 #include <complex.h>
 
@@ -19,5 +18,3 @@ hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column
 
 /* The one of largest modulus; 0 if there are none. */
 double complex floquet_largest(int m, const double complex *lambda);
-
-#endif

@@ -1,7 +1,6 @@
 /* gauss.h - integrals by Gauss's rule of sixteen points (Abramowitz and Stegun 1964, table 25.4) on panels of equal
  * width. Exact for polynomials of degree 31 on each. Nothing is allocated, nothing can fail. */
-#ifndef HC_GAUSS_H
-#define HC_GAUSS_H
+#pragma once
 
 /* value[2] = two functions at x; self is the caller's. */
 typedef void gauss_functions(const void *self, double x, double value[2]);
@@ -14,5 +13,3 @@ void gauss_integrals(gauss_functions *f, const void *self, double from, double t
 enum { GAUSS_POINTS = 16, GAUSS_FEW = 4 };
 double gauss_node(int points, int i);
 double gauss_weight(int points, int i);
-
-#endif

@@ -1,8 +1,7 @@
 /* newton.h - full Newton by KINSOL for a square system r(z) = 0, with the answer checked by us. Memory is allocated
  * once and reused: a solve allocates nothing, except that SUNDIALS 7 composes and frees a message when KINSol fails.
  * A handle serves one thread. */
-#ifndef HC_NEWTON_H
-#define HC_NEWTON_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -54,5 +53,3 @@ int newton_sign(const newton *nw);
 
 /* How many Jacobians have been factored so far. */
 long newton_factorings(const newton *nw);
-
-#endif

@@ -1,6 +1,5 @@
 /* norm.h - norms and products of vectors. libm only. */
-#ifndef HC_NORM_H
-#define HC_NORM_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -54,5 +53,3 @@ static inline double norm_weighted_max(int n, const double *weight, const double
   }
   return max;
 }
-
-#endif

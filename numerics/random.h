@@ -1,7 +1,6 @@
 /* random.h - random numbers, of the stress scenes and of the tests: splitmix64 (Steele, Lea, Flood 2014), all 64 bits
  * good, any seed good. The seed is the caller's, so that every run and every machine sees the same. */
-#ifndef HC_RANDOM_H
-#define HC_RANDOM_H
+#pragma once
 
 #include <stdint.h>
 
@@ -24,5 +23,3 @@ static inline double random_unit(uint64_t *seed) { return (double)(random_bits(s
 
 /* [-1, 1), multiples of 2^-52. */
 static inline double random_signed(uint64_t *seed) { return 2 * random_unit(seed) - 1; }
-
-#endif

@@ -9,8 +9,7 @@
  * end in words and exit 3; without the question, 7 of its 8 tests see commands end by a signal at some of the 60 limits
  * tried with each (Debian 12: SUNDIALS 6.4.1, FFTW 3.3.10). What another thread takes between question and call, and
  * the kernel's killing of a process that it had promised memory, cannot be helped. */
-#ifndef HC_ROOM_H
-#define HC_ROOM_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdlib.h>
@@ -25,5 +24,3 @@ static inline bool hc_room_for(size_t bytes)
   free(probe);
   return there;
 }
-
-#endif

@@ -6,8 +6,7 @@
  * that is NaN included), HC_NOT_FINITE where the function is NaN, HC_NOT_CONVERGED after ROOTS_MAX_EVALUATIONS, else
  * the status of the function if that is not HC_OK; *out then holds the best point so far. A tolerance is absolute; less
  * than 4 roundings of x count as 4 roundings. */
-#ifndef HC_ROOTS_H
-#define HC_ROOTS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -49,5 +48,3 @@ hc_status root_change(root_predicate *beyond, void *self, double a, double b, do
  * is not counted, and where it fails, it is as if it were wrong. */
 hc_status root_change_guided(root_predicate *beyond, root_predicate *likely, void *self, double a, double b,
                              double tolerance, root_point *out);
-
-#endif

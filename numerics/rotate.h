@@ -1,7 +1,6 @@
 /* rotate.h - cosines and sines of several angles near one whose own are known: a polynomial instead of a call of libm
  * for each, which the compiler does for two or more of them at a time. Needs nothing, allocates nothing. */
-#ifndef HC_ROTATE_H
-#define HC_ROTATE_H
+#pragma once
 
 /* [rad] The polynomials' remainders, x^22/22! and x^23/23!, are below 0.15 roundings of 1 up to here. */
 #define ROTATE_MOST 1.6
@@ -28,5 +27,3 @@ static inline void rotate(int n, double c, double s, const double *restrict x, d
     sine[i] = s + (s * less + c * turn);
   }
 }
-
-#endif

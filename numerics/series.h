@@ -3,8 +3,7 @@
  *     x(th) = X[0] + sum_{h=1..H} X[2h-1] cos(h th) + X[2h] sin(h th),      th = omega t [rad]
  *
  * stored as X[2H+1]. Needs libm only, allocates nothing. */
-#ifndef HC_SERIES_H
-#define HC_SERIES_H
+#pragma once
 
 /* Value, d/dth, d2/dth2. */
 typedef struct series_jet {
@@ -65,5 +64,3 @@ static inline int series_grid_table_length(int n_harm) { return SERIES_GRID * n_
 void series_grid_table_fill(int n_harm, double *table);
 
 void series_grid_fill(series_grid *g, const series_vector *m, const double *table);
-
-#endif

@@ -1,7 +1,6 @@
 /* sundials_compat.h - the few places where SUNDIALS 6.4 and 7.x differ. For the files that call SUNDIALS: newton.c here
  * and the integrators of timeint/. */
-#ifndef HC_SUNDIALS_COMPAT_H
-#define HC_SUNDIALS_COMPAT_H
+#pragma once
 
 #include "numerics/room.h"
 
@@ -49,5 +48,4 @@ static inline int hc_sundials_context(SUNContext *ctx) { return hc_room_for(0) ?
 #define HC_KINSOL_QUIET(mem) KINSetErrHandlerFn(mem, hc_sundials_quiet_handler, NULL)
 #define HC_CVODE_QUIET(mem)  CVodeSetErrHandlerFn(mem, hc_sundials_quiet_handler, NULL)
 
-#endif
 #endif

@@ -1,8 +1,7 @@
 /* workers.h - several threads at work on the same list of tasks until none is left or they are told to stop, and the
  * calling thread, which waits for them and may stop them. The tasks and their results are the caller's: its data that
  * the threads share are read and written under the lock as well. */
-#ifndef HC_WORKERS_H
-#define HC_WORKERS_H
+#pragma once
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -46,5 +45,3 @@ hc_status workers_join(workers *w);
  * begun are not done, and those under way were told to stop. */
 typedef hc_status (*workers_task)(void *self, int task, const hc_monitor *monitor);
 hc_status workers_run(int jobs, int n, workers_task task, void *self, const hc_monitor *monitor);
-
-#endif

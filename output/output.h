@@ -3,8 +3,7 @@
  * symbolic link keeps pointing and its target is replaced. What is no regular file (/dev/null, a fifo) is written
  * straight to, and so is a name for standard output itself (/dev/stdout). A new file gets 0666 less the umask, a
  * replaced one keeps its permissions. */
-#ifndef HC_OUTPUT_H
-#define HC_OUTPUT_H
+#pragma once
 
 #include <stdio.h>
 
@@ -28,5 +27,3 @@ hc_status output_finish(output *o, hc_status st);
 /* Removes what is being written beside the names asked for, for a signal handler that then ends the program: nothing
  * else works on an output after it. Async-signal-safe. */
 void output_abandon_all(void);
-
-#endif

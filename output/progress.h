@@ -4,8 +4,7 @@
  *     a signal -> ticks answer false, the work ends by itself and says what it has found
  *              -> 0.7 s later, where no tick came (reading a pipe, inside one long evaluation, waiting for gnuplot):
  *                 the program ends at once, files whole or as they were */
-#ifndef HC_PROGRESS_H
-#define HC_PROGRESS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -57,5 +56,3 @@ const char *progress_time(double seconds, char text[PROGRESS_TIME]);
 
 /* The line itself, without control sequences: elapsed in seconds, at most `columns` wide and size - 1 bytes long. */
 void progress_line(char *line, size_t size, const char *label, double done, double elapsed, int columns);
-
-#endif

@@ -1,8 +1,7 @@
 /* rows.h - the columns of results, one table a kind, for everything that shows or keeps them: the commands, the
  * study. Names: docs/interface.md, 3. A new column is a new line in rows.c and nothing else. Not here: how they are
  * written (output/table.h). */
-#ifndef HC_ROWS_H
-#define HC_ROWS_H
+#pragma once
 
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
@@ -54,5 +53,3 @@ const char *rows_special_text(const hbm_special *p, char text[ROWS_SPECIAL]);
 
 /* Entry i of rows[] of that type. */
 const void *rows_at(rows_kind kind, const void *rows, int i);
-
-#endif

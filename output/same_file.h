@@ -1,8 +1,7 @@
 /* same_file.h - do two names mean one file? By device and inode number, so that symbolic and hard links and other
  * spellings (./a, b/../a) do not hide it; of what is not there yet, by its folder and its name in it. Only regular
  * files count: a terminal, a pipe or /dev/null may be written to under any number of names. */
-#ifndef HC_SAME_FILE_H
-#define HC_SAME_FILE_H
+#pragma once
 
 #include <stdbool.h>
 #include <sys/stat.h>
@@ -28,5 +27,3 @@ bool file_is_in(const char *path, const char *folder);
 /* Where the links at the end of `path` lead, whether or not anything is there: to be freed. NULL and errno: ENOMEM, or
  * ELOOP for links in a circle. */
 char *file_follow_links(const char *path);
-
-#endif

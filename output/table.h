@@ -2,8 +2,7 @@
  * Column names: docs/interface.md, 3. A value that is not there (NaN, NULL) is empty in csv and table, null in json.
  * Infinities are inf and -inf in csv and table, null in json. The decimal point is '.' whatever locale the host
  * program has set; text comes out as valid UTF-8. Not here: the file it goes to (output.h). */
-#ifndef HC_TABLE_H
-#define HC_TABLE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -132,5 +131,3 @@ typedef struct table_begun {
 hc_status table_write_begun(const table *t, table_format format, FILE *to, table_begun *begun);
 /* All that is left: tables[0] has the rows and the remarks that were written, and maybe more. */
 hc_status table_write_rest(int n, table *const *tables, table_format format, FILE *to, const table_begun *begun);
-
-#endif

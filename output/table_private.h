@@ -1,6 +1,5 @@
 /* table_private.h - what a table holds, for table.c and the writers of each format. */
-#ifndef HC_TABLE_PRIVATE_H
-#define HC_TABLE_PRIVATE_H
+#pragma once
 
 #include "output/table.h"
 
@@ -49,5 +48,3 @@ void table_write_csv_text(const char *s, FILE *to);
 hc_status table_write_json(int n, table *const *tables, FILE *to, const table_begun *begun);
 /* The rows of the first table from begun->rows on, with what stands before the first one. */
 hc_status table_write_json_begun(const table *t, FILE *to, const table_begun *begun);
-
-#endif

@@ -1,8 +1,7 @@
 /* rewritten.h - a structure written in another way: the same motions, other numbers. Each has the responses of the
  * model it was made of, first the case's, then that model's degrees of freedom: what they say of a solution is what
  * they must say of the other. */
-#ifndef HC_STRESS_REWRITTEN_H
-#define HC_STRESS_REWRITTEN_H
+#pragma once
 
 #include <stdint.h>
 
@@ -51,5 +50,3 @@ hc_status rewritten_other_tangents(const model *m, uint64_t *random, rewritten *
 /* Every matrix and vector, each contact's numbers and every load changed by `part` of their largest entry, at random;
  * what is 0 altogether, and what is symmetric, stays so. Its motions are others. */
 hc_status rewritten_nudged(const model *m, double part, uint64_t *random, rewritten *out);
-
-#endif

@@ -1,7 +1,6 @@
 /* scenes.h - the scenes of a stress run: one point of a shifted Sobol sequence each, mapped onto the whole range of
  * every quantity. */
-#ifndef HC_STRESS_SCENES_H
-#define HC_STRESS_SCENES_H
+#pragma once
 
 #include "base/status.h"
 #include "casefile/scene.h"
@@ -30,5 +29,3 @@ unsigned long stress_scenes_seed(const stress_scenes *s);
 
 /* Point number `index` of the shifted sequence, each entry in [0, 1). */
 void stress_scenes_point(stress_scenes *s, long index, double p[STRESS_DIMENSIONS]);
-
-#endif

@@ -1,8 +1,7 @@
 /* solved_scene.h - a scene under stress: its harmonic-balance solution as the checks need it, in all degrees of
  * freedom, and the checks. Nothing here knows the condensed coordinates: motions are x[2H+1][n], every coefficient's n
  * together. */
-#ifndef HC_STRESS_SOLVED_SCENE_H
-#define HC_STRESS_SOLVED_SCENE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -130,5 +129,3 @@ stress_check stress_worse(stress_check a, stress_check b);
 #define STRESS_FUNCTION(code, name, function, meaning) stress_check function(solved_scene *);
 STRESS_CHECKS(STRESS_FUNCTION)
 #undef STRESS_FUNCTION
-
-#endif

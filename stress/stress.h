@@ -10,8 +10,7 @@
  *     finding     two methods differ and no reason was found: an error of this program
  *     skipped     there was nothing to compare
  * Not here: how it is shown (command/cmd_stress.c). */
-#ifndef HC_STRESS_H
-#define HC_STRESS_H
+#pragma once
 
 #include <stdio.h>
 
@@ -153,5 +152,3 @@ hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_
 /* Simplify *sc while the check `kind` still ends in a finding: fewer contacts, loads, degrees of freedom and harmonics,
  * an oscillator's numbers of one to three digits. HC_NO_MEMORY, HC_INTERRUPTED. */
 hc_status stress_shrink(scene *sc, stress_kind kind, double seconds, const hc_monitor *monitor);
-
-#endif

@@ -1,8 +1,7 @@
 /* cluster.h - a study shared between processes started together by mpirun (CMake option HBMCHECK_MPI; cluster_none.c
  * without it). Rank 0 has the store and hands out scenes, the others compute them, each one at a time. Call from the
  * main thread. */
-#ifndef HC_STUDY_CLUSTER_H
-#define HC_STUDY_CLUSTER_H
+#pragma once
 
 #include "study/study.h"
 
@@ -27,5 +26,3 @@ bool cluster_serve(const cluster_desk *desk);
 
 /* The other ranks' side: compute what rank 0 hands out until there is no more. */
 void cluster_work(const study *s, const hc_monitor *monitor);
-
-#endif

@@ -1,7 +1,6 @@
 /* scene_solvers.h - solvers and evaluators of what a case file says, for those who have a scene in hand. Each makes the
  * scene's model, gives it to the solver, which copies it, and frees it. Errors are those of the solver's own _new. */
-#ifndef HC_SCENE_SOLVERS_H
-#define HC_SCENE_SOLVERS_H
+#pragma once
 
 #include "casefile/scene.h"
 #include "hbm/contact/aft.h"
@@ -24,5 +23,3 @@ hc_status scene_hbm_solver(const scene *sc, hbm_solver **out);
 hc_status scene_timeint(const scene *sc, timeint **out);
 hc_status scene_aft(const scene *sc, int n_harm, int n_time, aft **out);
 hc_status scene_exact(const scene *sc, int n_harm, exact_force **out);
-
-#endif

@@ -5,8 +5,7 @@
  * once; a machine that loses power may lose the last of them, which are then computed again. One process at a time
  * writes: an flock on the file, gone with the process. A file that is not the results of this very study is refused
  * unchanged. One thread at a time. */
-#ifndef HC_STUDY_STORE_H
-#define HC_STUDY_STORE_H
+#pragma once
 
 #include <sqlite3.h>
 
@@ -94,5 +93,3 @@ hc_status study_claims_check(const study *s, case_error *err);
 /* Evaluate; one row a claim into each table it belongs to. `stop` ends a query that takes too long: HC_INTERRUPTED. */
 hc_status study_claims_run(const study *s, study_store *store, const hc_monitor *stop,
                            table *const t[STUDY_CLAIM_TABLES], study_claims_tally *tally, case_error *err);
-
-#endif

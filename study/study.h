@@ -2,8 +2,7 @@
  * from a scene's number to the scene. Format, schema and guarantees: study/README.md. Nothing is printed.
  *
  *     study_read -> study -> study_scene(id), 0 <= id < n_scenes, the last axis fastest */
-#ifndef HC_STUDY_H
-#define HC_STUDY_H
+#pragma once
 
 #include <stdint.h>
 
@@ -114,5 +113,3 @@ void study_result_clear(study_result *r);
 /* As bytes, to send to a process of the same program: packed is to be freed. */
 hc_status study_result_pack(const study_result *r, char **packed, size_t *size);
 hc_status study_result_unpack(const char *packed, size_t size, study_result *out);
-
-#endif

@@ -2,8 +2,7 @@
  * are the case reader's.
  *
  *     study_file.c: the file, base, set, views, claims     study_axes.c: vary */
-#ifndef HC_STUDY_READER_H
-#define HC_STUDY_READER_H
+#pragma once
 
 #include "casefile/case_reader.h"
 #include "study/study.h"
@@ -39,5 +38,3 @@ hc_status study_read_text(study_reader *q, const char *what, const yaml_node_t *
 
 /* s->fingerprint, once all the rest is there. */
 hc_status study_take_fingerprint(study *s);
-
-#endif

@@ -1,7 +1,6 @@
 /* check.h - what every test needs on top of cmocka: comparisons that print both sides and fail on NaN, and a watchdog.
  * A test file has one group; its tests are named folder.file.what and run as one ctest. */
-#ifndef HC_TESTS_CHECK_H
-#define HC_TESTS_CHECK_H
+#pragma once
 
 #include <math.h>
 #include <setjmp.h>
@@ -107,5 +106,3 @@ static inline int check_run(const char *group, char *names, size_t n, const CMUn
     return CHECK_RUN(name, setup, teardown, __VA_ARGS__);                                                              \
   }
 #define CHECK_TESTS(name, seconds, ...) CHECK_TESTS_WITH(name, seconds, NULL, NULL, __VA_ARGS__)
-
-#endif

@@ -1,6 +1,5 @@
 /* folder.h - a new folder of the test program's own, in /tmp: $D in lines for sh, in which $H is the built hbmcheck. */
-#ifndef HC_TESTS_FOLDER_H
-#define HC_TESTS_FOLDER_H
+#pragma once
 
 #include <string.h>
 
@@ -54,5 +53,3 @@ static inline char *folder_read(const char *name, size_t *length)
   if (length) *length = n;
   return text;
 }
-
-#endif

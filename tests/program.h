@@ -1,6 +1,5 @@
 /* program.h - the built hbmcheck (HBMCHECK_COMMAND) as people and scripts run it: what it says, and its exit code. */
-#ifndef HC_TESTS_PROGRAM_H
-#define HC_TESTS_PROGRAM_H
+#pragma once
 
 #include "tests/shell.h"
 
@@ -19,5 +18,3 @@ static inline void expect(const char *args, int code, const char *fragment)
 {
   shell_check(args, run(args), out, code, fragment);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* reference_scenes.h - the eight scenes of the reference numbers in tests/reference/, once: what is simulated, and a
  * sweep that holds every reference frequency. What a solver needs beside them is its tests' own. */
-#ifndef HC_TESTS_REFERENCE_SCENES_H
-#define HC_TESTS_REFERENCE_SCENES_H
+#pragma once
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,5 +36,3 @@ static inline const reference_scene *reference_scene_named(const char *name)
   fprintf(stderr, "no reference scene %s\n", name);
   abort();
 }
-
-#endif

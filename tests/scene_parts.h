@@ -1,7 +1,6 @@
 /* scene_parts.h - the parts of a scene that tests look at from inside: a contact's direction, the equations of time
  * integration. */
-#ifndef HC_TESTS_SCENE_PARTS_H
-#define HC_TESTS_SCENE_PARTS_H
+#pragma once
 
 #include "study/scene_solvers.h"
 #include "tests/check.h"
@@ -86,5 +85,3 @@ static inline void scene_measure_report(const measure *me, const scene *sc, doub
   measure_report(me, from, 0, length, r);
   model_free(from);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* scene_runs.h - the runs of compare/ on a scene, for tests that have one in hand: set up, run, cleared. */
-#ifndef HC_TESTS_SCENE_RUNS_H
-#define HC_TESTS_SCENE_RUNS_H
+#pragma once
 
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
@@ -41,5 +40,3 @@ static inline hc_status scene_gate_judge(const char *name, const scene *sc, cons
 {
   SCENE_RUN(gate_judge(name, &setup, c, out));
 }
-
-#endif

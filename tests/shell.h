@@ -1,7 +1,6 @@
 /* shell.h - a line for sh, for tests of the command: its exit code, what it says, and both held against
  * expectations. */
-#ifndef HC_TESTS_SHELL_H
-#define HC_TESTS_SHELL_H
+#pragma once
 
 #include <string.h>
 #include <sys/wait.h>
@@ -27,5 +26,3 @@ static inline void shell_check(const char *line, int code, const char *out, int 
   print_error("%s\nexit %d, expected %d; expected to read '%s' in:\n%s\n", line, code, expected, fragment, out);
   fail();
 }
-
-#endif

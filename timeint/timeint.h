@@ -7,8 +7,7 @@
  * A state is an array of timeint_n_states doubles, memory of the caller: x [length], v [length/time], and the slider
  * w_j [length] of contact j. Phase: t = 0 is the forcing's maximum; every state passed in or out is at a whole
  * number of forcing periods. Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
-#ifndef HC_TIMEINT_H
-#define HC_TIMEINT_H
+#pragma once
 
 #include "base/status.h"
 #include "model/model.h"
@@ -41,5 +40,3 @@ int timeint_n_states(const timeint *ti);
 
 /* state[timeint_n_states]: at rest, x = v = w_j = 0: in equilibrium where there are no static loads. */
 void timeint_rest(const timeint *ti, double *state);
-
-#endif

@@ -1,6 +1,5 @@
 /* timeint_result.h - what time integration says of one steady state. Plain data. */
-#ifndef HC_TIMEINT_RESULT_H
-#define HC_TIMEINT_RESULT_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -50,5 +49,3 @@ typedef struct timeint_result {
   int cvode_flag;            /* CVODE's own flag when the status is HC_INTEGRATOR */
   double wave[TIMEINT_WAVE]; /* [length] x at t = i T / TIMEINT_WAVE of the reported period */
 } timeint_result;
-
-#endif

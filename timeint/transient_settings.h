@@ -1,7 +1,6 @@
 /* transient_settings.h - how a steady state is found by time integration. Plain data: copy it freely. Names, defaults,
  * ranges and meanings of the fields are those of `transient` in a case file (casefile/fields.c). */
-#ifndef HC_TRANSIENT_SETTINGS_H
-#define HC_TRANSIENT_SETTINGS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -34,5 +33,3 @@ typedef struct transient_settings {
   double tolerance; /* [1] relative distance to the periodic orbit */
   int max_periods;
 } transient_settings;
-
-#endif

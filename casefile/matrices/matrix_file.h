@@ -3,8 +3,7 @@
  * file of single entries is 0. Matrix Market (https://math.nist.gov/MatrixMarket/formats.html): coordinate or array,
  * real or integer, general, symmetric or skew-symmetric, of the two symmetries the lower triangle, as the format says.
  */
-#ifndef HC_MATRIX_FILE_H
-#define HC_MATRIX_FILE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -34,5 +33,3 @@ hc_status matrix_file_parse(const char *name, const char *text, size_t length, c
 /* Where the file at `path`, which has been read before, gives entry (row, column) of the part, both from 0, or by
  * symmetry its transpose: line and column from 1, or *line = 0 where it does not. */
 void matrix_file_place(const char *path, const char *part, int row, int column, size_t *line, size_t *place);
-
-#endif

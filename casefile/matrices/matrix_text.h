@@ -1,7 +1,6 @@
 /* matrix_text.h - a file of numbers as lines of words, and the matrix that grows out of it: what the readers of
  * matrices' formats share, and these formats. A message starts with the place, "NAME:LINE:COLUMN: ". */
-#ifndef HC_MATRIX_TEXT_H
-#define HC_MATRIX_TEXT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -108,5 +107,3 @@ hc_status labelled_triplets_parse(matrix_text *r);
  * the one that r->part names, in capitals without blanks; if NULL, the first. r->labels where the header tells all of
  * them. abaqus_element.c */
 hc_status abaqus_element_parse(matrix_text *r);
-
-#endif

@@ -1,6 +1,5 @@
 /* curve.h - a response curve as it is drawn: shared by the figures of frf, compare and transient. */
-#ifndef HC_PLOT_CURVE_H
-#define HC_PLOT_CURVE_H
+#pragma once
 
 #include "command/plot/figure.h"
 
@@ -60,5 +59,3 @@ typedef struct curve_window {
 bool curve_shape_window(const curve_shape *c, curve_window *out);
 /* "H = 10, exact forces" */
 const char *curve_shape_settings(const scene *sc, const curve_shape *c, char text[96]);
-
-#endif

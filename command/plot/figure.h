@@ -2,8 +2,7 @@
  * outside goes through figure_text, which writes what gnuplot or its markup could act on as octal escapes: a title can
  * neither end its string nor run anything. The names of data blocks are our own. A write that failed is reported by
  * figure_close. */
-#ifndef HC_PLOT_FIGURE_H
-#define HC_PLOT_FIGURE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -93,5 +92,3 @@ void panels_end(figure *g);
 
 /* Heat map over N x H, error over N, error over H: three panels. */
 void panels_accuracy(figure *g, const accuracy *a);
-
-#endif

@@ -6,8 +6,7 @@
  * The ending of the file's name says what it becomes; "-" is a drawing of letters on standard output. Solid, dashed
  * and dotted lines and shapes tell things apart, colours only help. Prints nothing but the drawing of letters.
  * Not here: what the numbers mean. */
-#ifndef HC_PLOT_H
-#define HC_PLOT_H
+#pragma once
 
 #include "compare/accuracy/accuracy.h"
 #include "compare/accuracy/bench.h"
@@ -76,5 +75,3 @@ hc_status plot_bench(plot_order *p, const scene *sc, const bench *b);
 
 /* Another program's curve over ours, each point by its verdict; the report holds ours (verify_data.with_line). */
 hc_status plot_verify(plot_order *p, const scene *sc, const verify_data *data, const verify_report *r);
-
-#endif

@@ -1,6 +1,5 @@
 /* html.h - text, numbers and tables as HTML. Everything that comes from a case file passes through html_text. */
-#ifndef HC_REPORT_HTML_H
-#define HC_REPORT_HTML_H
+#pragma once
 
 #include <jansson.h>
 #include <stdbool.h>
@@ -38,5 +37,3 @@ void html_rows(FILE *to, const char *caption, rows_kind kind, unsigned extra, in
 
 /* JSON that may stand in a script element: no "<" in it. HC_NO_MEMORY, HC_OK. */
 hc_status html_json(FILE *to, const json_t *value);
-
-#endif

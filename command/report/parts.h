@@ -1,6 +1,5 @@
 /* parts.h - private to command/report/: what the files of the page have from each other. */
-#ifndef HC_REPORT_PARTS_H
-#define HC_REPORT_PARTS_H
+#pragma once
 
 #include <jansson.h>
 #include <math.h>
@@ -59,5 +58,3 @@ enum { ALIASING_MOST_OMEGAS = 4 };
  * whatever their number; only the calling one ticks *monitor. HC_INTERRUPTED, HC_NO_MEMORY: *out is NULL. */
 hc_status aliasing_answers(const scene *sc, int n_omega, const double *omega, int first, int jobs,
                            const hc_monitor *monitor, json_t **out);
-
-#endif

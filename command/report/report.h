@@ -7,8 +7,7 @@
  * The page needs no network and no other file: page.html, page.css, the scripts and the installed Chart.js are built
  * into the program (embed.cmake). Same input, same bytes: no dates, no seconds. Nothing is printed; not here:
  * options and files (command/cmd_report.c). */
-#ifndef HC_REPORT_REPORT_H
-#define HC_REPORT_REPORT_H
+#pragma once
 
 #include <jansson.h>
 #include <stdio.h>
@@ -49,5 +48,3 @@ void report_clear(report_data *d);
 
 /* The page. HC_IO once the stream has failed, HC_NO_MEMORY. */
 hc_status report_write(const report_data *d, const report_origin *origin, FILE *to);
-
-#endif

@@ -1,8 +1,7 @@
 /* accuracy.h - error and cost of harmonic balance over truncation orders H and sampling rates N (accuracy_run), and the
  * orders at which its errors fall with N, H and the regularisation (order_fit). The header of this folder. Nothing is
  * printed. Not here: what the discrepancy of one solution is made of (compare/budget.h), verdicts. */
-#ifndef HC_ACCURACY_H
-#define HC_ACCURACY_H
+#pragma once
 
 #include "base/status.h"
 #include "compare/budget.h"
@@ -70,5 +69,3 @@ void accuracy_clear(accuracy *a);
  * points when there is none, or the law is exact. */
 hc_status order_of_regularisation(const compare_setup *setup, const comparison *c, const hc_monitor *monitor,
                                   order_row *out);
-
-#endif

@@ -9,8 +9,7 @@
  *
  * The branch is that of the largest stable response at omega. Methods take turns; nothing is printed. Not here:
  * whole curves over H and N (accuracy.h; tests/bench). */
-#ifndef HC_BENCH_H
-#define HC_BENCH_H
+#pragma once
 
 #include "base/status.h"
 #include "compare/compare_settings.h"
@@ -98,5 +97,3 @@ const bench_row *bench_cheapest(int n, const bench_row *rows, double goal, const
 /* "H = 10, N = 1024", "regularisation 1e-4, tolerance 1e-6": in text[BENCH_TEXT], which is returned. */
 enum { BENCH_TEXT = 64 };
 const char *bench_settings(const bench_row *r, char text[BENCH_TEXT]);
-
-#endif

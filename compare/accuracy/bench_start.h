@@ -1,7 +1,6 @@
 /* bench_start.h - what the methods of bench.h start from and are compared with: the exact law's orbit at a frequency,
  * as tight as rounding allows, and the solutions at a neighbouring one. Private to compare/accuracy/. */
-#ifndef HC_BENCH_START_H
-#define HC_BENCH_START_H
+#pragma once
 
 #include "base/workspace.h"
 #include "compare/accuracy/bench.h"
@@ -45,5 +44,3 @@ hc_status finder_default(finder *f, double *omega);
 /* The largest stable response at omega, into *at and *start, of bench_start_new. HC_NOT_CONVERGED: there is none, or no
  * neighbour of it. */
 hc_status finder_frequency(finder *f, double omega, const hc_monitor *monitor, bench_frequency *at, bench_start *start);
-
-#endif

@@ -1,7 +1,6 @@
 /* method.h - one method with one choice of settings: what it finds, how far that is from the reference, and what it
  * costs. The tables over H and N (accuracy.c) and the benchmark at one frequency (bench.c) are made of these. */
-#ifndef HC_ACCURACY_METHOD_H
-#define HC_ACCURACY_METHOD_H
+#pragma once
 
 #include "compare/accuracy/bench.h"
 #include "compare/motion.h"
@@ -17,5 +16,3 @@ compare_setup method_setup(const compare_setup *setup, bench_method method, int 
 
 /* Median and quartiles of v[n], which is sorted; NaN of none. */
 void method_quartiles(int n, double *v, double *low, double *median, double *high);
-
-#endif

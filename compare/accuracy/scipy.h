@@ -1,7 +1,6 @@
 /* scipy.h - the same steady state by scipy's LSODA without events, which is a usual way: python3 runs a script as a
  * process. */
-#ifndef HC_SCIPY_H
-#define HC_SCIPY_H
+#pragma once
 
 #include "compare/accuracy/bench_start.h"
 
@@ -20,5 +19,3 @@ typedef struct scipy_run {
  * HC_INTERRUPTED, HC_NO_MEMORY. */
 hc_status scipy_lsoda(const model *m, const bench_start *at, double multiplier, int repeats, const hc_monitor *monitor,
                       scipy_run *runs, int *n, char text[96]);
-
-#endif

@@ -16,8 +16,7 @@
  * A number passes if found <= allowed (1 + GATE_SLACK); costs, being whole numbers, if found <= allowed. Rounding on
  * another machine changes numbers by far less than GATE_SLACK, so it changes a verdict only where a limit is equal to
  * what is found within that. Nothing is printed. Not here: how the two sides are compared (compare/comparison.h). */
-#ifndef HC_GATE_H
-#define HC_GATE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -90,5 +89,3 @@ gate_case gate_of_wrong_case(const char *name, const char *wrong);
 /* The checks as JUnit XML: a testsuite a case, with its processor time, a testcase a check, <failure> and <error>; of a
  * wrong case file a testcase "case file". HC_IO, HC_NO_MEMORY. */
 hc_status gate_write_junit(int n, const gate_case *cases, FILE *to);
-
-#endif

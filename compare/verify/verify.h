@@ -9,8 +9,7 @@
  *                 that the points lie on names the cause
  *
  * What is not connected to the branch that begins at the sweep's first omega is not seen. Nothing is printed. */
-#ifndef HC_VERIFY_H
-#define HC_VERIFY_H
+#pragma once
 
 #include "compare/verify/truth/report.h"
 
@@ -29,5 +28,3 @@ const char *verify_word(const verify_report *r, char text[VERIFY_TEXT]);
 
 /* 0 every point lies on a solution and on the right one; 1 not; 3 some could not be judged. */
 int verify_exit_code(const verify_report *r);
-
-#endif

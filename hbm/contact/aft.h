@@ -1,6 +1,5 @@
 /* aft.h - contact force harmonics from displacement harmonics by sampling (alternating frequency/time). */
-#ifndef HC_AFT_H
-#define HC_AFT_H
+#pragma once
 
 #include "base/status.h"
 #include "hbm/contact/contact_evaluator.h"
@@ -30,5 +29,3 @@ void aft_jacobian(aft *a, double *jac);
 void aft_sliders(const aft *a, double *w);
 
 extern const contact_evaluator aft_evaluator; /* of one contact with one tangent */
-
-#endif

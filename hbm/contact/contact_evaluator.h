@@ -3,8 +3,7 @@
  * A contact is evaluated in coordinates x[n_dof] of its own, each a direction of the structure's q; F[n_dof] are the
  * forces on them. What moves a contact is a relative displacement, so one coordinate is enough for a spring, and those
  * of a contact with friction are u and v (or the one that both are multiples of), or u_1, u_2 and v. */
-#ifndef HC_HBM_CONTACT_EVALUATOR_H
-#define HC_HBM_CONTACT_EVALUATOR_H
+#pragma once
 
 #include "hbm/contact/contact_report.h"
 #include "hbm/contact/transitions.h"
@@ -64,5 +63,3 @@ typedef struct slip_edges {
   double located;       /* [1] part of omega to which its place can be told */
   int most, bisections; /* edges of a curve; halvings of omega to locate one */
 } slip_edges;
-
-#endif

@@ -7,8 +7,7 @@
  * nothing slips, and a short slip keeps its relative accuracy. Intervals are those of transitions.h, extrema are
  * found as roots of derivatives, and the integrals are Gauss's of sixteen points on panels so short that what is
  * integrated, a trigonometric polynomial of degree 2H, is exact to rounding. */
-#ifndef HC_CONTACT_MEASURES_H
-#define HC_CONTACT_MEASURES_H
+#pragma once
 
 #include "base/status.h"
 #include "hbm/hbm_settings.h"
@@ -17,5 +16,3 @@
 /* For the motion u[2 n_harm + 1], v[2 n_harm + 1] [length] (numerics/series.h), n_harm >= 1; where the history decides,
  * the slider starts from w = 0. HC_BAD_INPUT, HC_NO_MEMORY, HC_NOT_FINITE, and the errors of transitions_find. */
 hc_status contact_measures_of(const contact *law, int n_harm, const double *u, const double *v, contact_period *out);
-
-#endif

@@ -1,6 +1,5 @@
 /* contact_report.h - what an evaluation of the contact force, sampled or exact, finds besides the force. */
-#ifndef HC_CONTACT_REPORT_H
-#define HC_CONTACT_REPORT_H
+#pragma once
 
 #include "model/contact_law.h"
 
@@ -10,5 +9,3 @@ typedef struct contact_report {
   int free_sliders;      /* contacts with friction that stick all the time: where their sliders rest, and with them the
                             mean, depends on the history, not on the equations alone */
 } contact_report;
-
-#endif

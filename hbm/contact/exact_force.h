@@ -2,8 +2,7 @@
  * transitions the force is linear in the motion. With the transitions located (transitions.h) its Fourier integrals
  * follow from the Fourier coefficients of piecewise constant functions, in closed form. libm only; nothing is allocated
  * after exact_force_new. */
-#ifndef HC_EXACT_FORCE_H
-#define HC_EXACT_FORCE_H
+#pragma once
 
 #include "hbm/contact/contact_evaluator.h"
 
@@ -28,5 +27,3 @@ void exact_force_sliders(const exact_force *e, double *w);
 const contact_interval *exact_force_intervals(const exact_force *e, int j, int *n);
 
 extern const contact_evaluator exact_force_evaluator; /* of one contact with one tangent */
-
-#endif

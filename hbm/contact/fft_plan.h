@@ -2,8 +2,7 @@
  * planner keeps tables of the whole process and is not thread-safe; executing plans is. Every plan of this program is
  * made here (.ci/layering checks it). Plans are ESTIMATE: made in microseconds, the same on every run, and the arrays
  * keep their contents. */
-#ifndef HC_FFT_PLAN_H
-#define HC_FFT_PLAN_H
+#pragma once
 
 #include <complex.h> /* before fftw3.h: fftw_complex is C's own type then */
 
@@ -44,5 +43,3 @@ void period_samples_series(const period_samples *p, double *samples, int n_harm,
 
 /* to[2 n_harm + 1] += weight times what the harmonics are at sample i. */
 void period_samples_add(const period_samples *p, double weight, int i, double *to);
-
-#endif

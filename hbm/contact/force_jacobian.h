@@ -6,8 +6,7 @@
  *
  *     d(cosine p of F)/d(cosine q of x) = (C_|p-q| + C_{p+q})/2,      C_0 = 2 k0
  */
-#ifndef HC_FORCE_JACOBIAN_H
-#define HC_FORCE_JACOBIAN_H
+#pragma once
 
 #include "numerics/series.h"
 
@@ -17,5 +16,3 @@ static inline int force_jacobian_symbol_length(int n_harm) { return 4 * n_harm +
 /* jac[row + ld col], rows and columns 0 .. 2 n_harm, += the Toeplitz + Hankel matrix of symbol[4 n_harm + 1]
  * [force/length]. */
 void force_jacobian_add(int n_harm, const double *symbol, int ld, double *jac);
-
-#endif

@@ -1,8 +1,7 @@
 /* interval_series.h - the Fourier series of a function that is 1 on a part of the period and 0 elsewhere. Its harmonics
  * are written with the part's middle m and half width w, sin(h w) cos(h m). As a difference of values at the ends they
  * would lose the relative accuracy of a short part. */
-#ifndef HC_HBM_INTERVAL_SERIES_H
-#define HC_HBM_INTERVAL_SERIES_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -32,5 +31,3 @@ static inline void interval_series_fill(int n, const double *weight, double from
     I[2 * h] = size * sm_h;
   }
 }
-
-#endif

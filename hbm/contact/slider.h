@@ -1,7 +1,6 @@
 /* slider.h - one contact followed over the samples of a period until its slider repeats itself: the force at every
  * sample, and the intervals of samples in which nothing but the motion changes. */
-#ifndef HC_HBM_SLIDER_H
-#define HC_HBM_SLIDER_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -42,5 +41,3 @@ typedef struct slider_report {
  * nothing. */
 slider_report slider_follow(const contact *law, hbm_restart restart, int n, const slider_motion *m, double *f,
                             double *again, sampled_interval *intervals, sampled_interval *settling);
-
-#endif

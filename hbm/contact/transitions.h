@@ -10,8 +10,7 @@
  * A crossing is searched between neighbouring angles of a grid. No crossing is missed, double roots (grazing)
  * included: an interval is dismissed only if max|f''| proves it empty, else it is divided at its extremum or in the
  * middle (numerics/crossing.h). */
-#ifndef HC_TRANSITIONS_H
-#define HC_TRANSITIONS_H
+#pragma once
 
 #include "base/status.h"
 #include "model/moving_contact.h"
@@ -60,5 +59,3 @@ static inline bool contact_interval_holds(const contact *law, const contact_inte
 
 /* T [force] at an instant of that interval, or of none: kt u less held while stuck, +-mu N while it slips. */
 double contact_interval_traction(const contact *law, const contact_interval *at, double u, double normal);
-
-#endif

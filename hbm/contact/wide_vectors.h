@@ -3,8 +3,7 @@
  * that results are the same to the last bit. Elsewhere, and under sanitizers (which start later than the choice), there
  * is one copy. For loops over a panel's ten points, which a call of BLAS would not pay for (without it the response
  * curve of structures/plane takes 8 % longer, the least of 15 runs), and over samples (slider.c). */
-#ifndef HC_HBM_WIDE_VECTORS_H
-#define HC_HBM_WIDE_VECTORS_H
+#pragma once
 
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && !defined(__AVX2__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -12,6 +11,4 @@
 #define WIDE_VECTORS __attribute__((target_clones("avx2", "default")))
 #else
 #define WIDE_VECTORS
-#endif
-
 #endif

@@ -1,6 +1,5 @@
 /* continuation.h - the response curve over a range of omega, and a solution without a guess. Method: continuation.c. */
-#ifndef HC_HBM_CONTINUATION_H
-#define HC_HBM_CONTINUATION_H
+#pragma once
 
 #include "hbm/curve/response_curve.h"
 
@@ -17,5 +16,3 @@ void hbm_scale_steps(hbm_solver *s, double scale);
 /* hbm_solve_first that a monitor may stop: a solution X[n_coef] at omega, whatever X is at first. HC_OK,
  * HC_INTERRUPTED, HC_NO_MEMORY, or why the last ramp ended. */
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point);
-
-#endif

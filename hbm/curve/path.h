@@ -1,8 +1,7 @@
 /* path.h - a response curve while it is followed: where the next point is predicted and corrected. continuation.c
  * decides which way and how far. Lengths are in the curve's metric
  * (response_curve.h), the harmonics measured by the norm of the last point's. */
-#ifndef HC_HBM_PATH_H
-#define HC_HBM_PATH_H
+#pragma once
 
 #include "hbm/curve/response_curve.h"
 #include "hbm/solver/hbm_solver_impl.h"
@@ -80,5 +79,3 @@ hc_status path_adapt(path *p);
 /* The curve's rows cut to the harmonics it needed, and the solver set to them: what is solved on the curve later (an
  * omega between its points, the peak) must not have fewer. HC_NO_MEMORY. */
 hc_status path_finish(hbm_solver *s, hbm_curve *c);
-
-#endif

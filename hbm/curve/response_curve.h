@@ -1,7 +1,6 @@
 /* response_curve.h - the points of a response curve, with the tangent at each. Lengths along the curve are in its
  * metric: |dz|^2 = |dX|^2/|X|^2 + domega^2/omega_scale^2. */
-#ifndef HC_HBM_RESPONSE_CURVE_H
-#define HC_HBM_RESPONSE_CURVE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -34,5 +33,3 @@ void hbm_curve_free(hbm_curve *curve);
 /* [n_coef] of point k. */
 static inline double *hbm_curve_X(const hbm_curve *c, int k) { return c->X + (size_t)k * c->n_coef; }
 static inline double *hbm_curve_dX(const hbm_curve *c, int k) { return c->dX + (size_t)k * c->n_coef; }
-
-#endif

@@ -1,8 +1,7 @@
 /* segment.h - a response curve between two neighbouring points k and k + 1, its segment k: cubic Hermite interpolation
  * from the points and their tangents, and solutions found by Newton from the interpolant as guess. Lengths are in the
  * curve's metric (response_curve.h). */
-#ifndef HC_HBM_SEGMENT_H
-#define HC_HBM_SEGMENT_H
+#pragma once
 
 #include "hbm/curve/response_curve.h"
 
@@ -77,5 +76,3 @@ hc_status hbm_narrowing_point(hbm_solver *s, const hbm_narrowing *p, double sigm
 /* x, at sigma, becomes the end that comes first, or else the last. Nothing happens where the part would become so
  * short that the ends' rounding shows in the interpolant. */
 void hbm_narrowing_move(hbm_narrowing *p, bool first, double sigma, const hbm_candidate *x);
-
-#endif

@@ -1,6 +1,5 @@
 /* special_points.h - where a response curve changes its nature. */
-#ifndef HC_HBM_SPECIAL_POINTS_H
-#define HC_HBM_SPECIAL_POINTS_H
+#pragma once
 
 #include "hbm/curve/response_curve.h"
 
@@ -25,5 +24,3 @@ hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, int cap, hbm_speci
 /* Where there are more than 24 contacts (directions, where two belong to one) some pattern changes on every bit of a
  * curve: a contact change is then one of the strongest state of all of them. */
 bool hbm_specials_follow_each(const hbm_solver *s);
-
-#endif

@@ -6,8 +6,7 @@
  *
  * Harmonics are ordered by coefficient, then by coordinate: X[c dim + d] is coefficient c (numerics/series.h) of
  * coordinate d. */
-#ifndef HC_HBM_CONTACT_FORCES_H
-#define HC_HBM_CONTACT_FORCES_H
+#pragma once
 
 #include "hbm/forces/contact_kind.h"
 #include "hbm/planar/planar_cycle.h"
@@ -46,5 +45,3 @@ void contact_forces_held_by(const contact_forces *f, int j, const contact_interv
 /* For the planar contact that j is the first half of, what the last evaluation found, of
  * located forces only; NULL of any other contact. Valid until the next evaluation. */
 const planar_cycle *contact_forces_planar(const contact_forces *f, int j);
-
-#endif

@@ -1,8 +1,7 @@
 /* contact_kind.h - the contact laws as the equations see them: one row of a table for each, chosen where contacts are
  * taken up, and not asked for again. A new law is one more evaluator or two (contact_evaluator.h) in a file of its own,
  * and a row in contact_kind.c. */
-#ifndef HC_HBM_CONTACT_KIND_H
-#define HC_HBM_CONTACT_KIND_H
+#pragma once
 
 #include "hbm/contact/contact_evaluator.h"
 #include "model/contact_period.h"
@@ -25,5 +24,3 @@ const slip_edges *contact_edges_of(const model *m);
 /* Contact j of the model, whose directions are left to be set but for a second one of two tangents under one limit.
  * Without friction two tangents share none, and each is a spring. */
 placed_contact placed_contact_of(const model *m, int j);
-
-#endif

@@ -4,8 +4,7 @@
  * A contact with two tangents is two halves (model.h), whose normal forces add up. Under the square law each half is a
  * contact with one tangent, moved by its own u and the v of both; where they share a limit, and with friction, the two
  * are evaluated together. */
-#ifndef HC_HBM_GIVEN_MOTION_H
-#define HC_HBM_GIVEN_MOTION_H
+#pragma once
 
 #include "hbm/hbm_settings.h"
 #include "model/moving_contact.h"
@@ -40,5 +39,3 @@ int given_motion_planar_dof(const contact *law);
 
 /* N0 of one contact [force]: that of its gap and of its load, of both halves. */
 double given_motion_preload(const given_motion *m);
-
-#endif

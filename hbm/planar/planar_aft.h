@@ -7,11 +7,8 @@
  * evaluate: HC_NOT_FINITE; HC_NOT_CLOSED if it does not come back within 400 periods; allocates nothing; report may be
  * NULL. jacobian: that of the sampled F, aliasing included. Where it slips, the slider's closed orbit moves with X.
  * Where it never does, it stays where the first periods, from w = 0, have dragged it. */
-#ifndef HC_HBM_PLANAR_AFT_H
-#define HC_HBM_PLANAR_AFT_H
+#pragma once
 
 #include "hbm/contact/contact_evaluator.h"
 
 extern const contact_evaluator planar_aft_evaluator;
-
-#endif

@@ -6,8 +6,7 @@
  *
  * a period's slip shrinking by the square of the lens's half angle: passes, and Newton on them, would be as inexact as
  * rounding over that square. By these equations it is rounding over the angle. libm only, nothing is allocated. */
-#ifndef HC_HBM_PLANAR_CORNER_H
-#define HC_HBM_PLANAR_CORNER_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -28,5 +27,3 @@ bool planar_corner_find(const planar_motion *m, const double w[2], const double 
 void planar_corner_move(const planar_corner *c, const double grows[2], double dw[2]);
 
 extern const slip_edges planar_edges; /* where the corner's lens closes, or slip all round begins */
-
-#endif

@@ -9,8 +9,7 @@
  * (planar_cycle.c). A slider that does not slip after some pass stays where marching left it; one that is dragged to
  * and fro by two circles that only just leave it room is brought where that ends (planar_corner.h). libm only, nothing
  * is allocated. */
-#ifndef HC_HBM_PLANAR_CYCLE_H
-#define HC_HBM_PLANAR_CYCLE_H
+#pragma once
 
 #include "base/status.h"
 #include "hbm/planar/planar_corner.h"
@@ -63,5 +62,3 @@ contact_regime planar_cycle_regime(const planar_cycle *c);
 
 /* w [length] at th = 0. */
 void planar_cycle_slider(const planar_cycle *c, double w[2]);
-
-#endif

@@ -7,8 +7,7 @@
  * whose coefficients vary with phi: no exponentials. By collocation (numerics/collocation.h) on steps no longer than
  * the panels of phi, and than 3 over the structure's highest frequency: of order 19, the error of a step is 1e-14 of
  * what moves fastest. y, unlike d phi, stays small where contact is made or lost (R = 0). */
-#ifndef HC_HBM_PLANAR_FLOW_H
-#define HC_HBM_PLANAR_FLOW_H
+#pragma once
 
 #include "hbm/contact/transitions.h"
 #include "hbm/planar/planar_cycle.h"
@@ -45,5 +44,3 @@ void planar_flow_free(planar_flow *f); /* NULL is allowed */
 hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *interval, int n_slipping,
                               const planar_slipping *slipping, double from, double to, double omega, int columns,
                               double *phi);
-
-#endif

@@ -10,8 +10,7 @@
  * sums: phi's variational equation is linear and scalar, and is solved at the same points. Moving the ends of intervals
  * changes nothing to first order, since the force is continuous there. libm only; nothing is allocated after
  * planar_force_new. */
-#ifndef HC_HBM_PLANAR_FORCE_H
-#define HC_HBM_PLANAR_FORCE_H
+#pragma once
 
 #include "hbm/contact/contact_evaluator.h"
 #include "hbm/planar/planar_cycle.h"
@@ -41,5 +40,3 @@ void planar_force_slider(const planar_force *f, double w[2]);
 const planar_cycle *planar_force_cycle(const planar_force *f);
 
 extern const contact_evaluator planar_force_evaluator;
-
-#endif

@@ -4,8 +4,7 @@
  *     work = closed integral T . du = sum over slip intervals of integral mu N |dw|,   |w'| = s = u'.e - R'
  *
  * on the panels of planar_slip.h, by their own sums. */
-#ifndef HC_HBM_PLANAR_MEASURES_H
-#define HC_HBM_PLANAR_MEASURES_H
+#pragma once
 
 #include "base/status.h"
 #include "model/contact_period.h"
@@ -15,5 +14,3 @@
  * w = 0. HC_BAD_INPUT, HC_NO_MEMORY, and the errors of planar_force_eval. */
 hc_status planar_measures_of(const contact *half, int n_harm, const double *u1, const double *u2, const double *v,
                              contact_period out[2]);
-
-#endif

@@ -1,8 +1,7 @@
 /* planar_motion.h - what moves a contact of two tangents with one limit, as lengths: u(th) in the plane and the
  * radius R(th) = mu N/kt of the circle that holds the slider (planar_slip.h). While it is in contact R is
  * linear in v, so it is a trigonometric polynomial like u. libm only, nothing is allocated. */
-#ifndef HC_HBM_PLANAR_MOTION_H
-#define HC_HBM_PLANAR_MOTION_H
+#pragma once
 
 #include "model/contact_law.h"
 #include "numerics/collocation.h"
@@ -43,5 +42,3 @@ void planar_motion_grid(const planar_motion *m, const double *table, planar_poin
 
 /* [length] What u and R are known to, from the rounding of their sums. */
 double planar_motion_noise(const planar_motion *m);
-
-#endif

@@ -11,8 +11,7 @@
  *                      with the restart `sample` and the mistakes that hbm_settings.h lists. Order 1 where the
  *                      direction of slip turns, as each step takes the direction that it ends with.
  * On a straight motion both are the law of one tangent. libm only, nothing is allocated, cannot fail. */
-#ifndef HC_HBM_PLANAR_SLIDER_H
-#define HC_HBM_PLANAR_SLIDER_H
+#pragma once
 
 #include "hbm/hbm_settings.h"
 
@@ -43,5 +42,3 @@ planar_move planar_slider_enter(const planar_sample *to, double w[2], planar_slo
 
 /* Does the slider forget where it was when contact is lost? By HBM_RESTART_KEPT it does not. */
 static inline bool planar_slider_forgets(hbm_restart restart) { return restart != HBM_RESTART_KEPT; }
-
-#endif

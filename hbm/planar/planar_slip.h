@@ -6,8 +6,7 @@
  * the width, are at most PLANAR_RESOLVED rad. What is integrated over a panel, and phi at its end, is then better by
  * about the square of that (superconvergence: the error is that of phi times that of the functions it is integrated
  * with): 1e-15. Between the points phi is good to PLANAR_RESOLVED. libm only, nothing is allocated. */
-#ifndef HC_HBM_PLANAR_SLIP_H
-#define HC_HBM_PLANAR_SLIP_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -61,5 +60,3 @@ double planar_slip_slope(const planar_motion *m, const planar_point *p, double p
 /* s = u'.e - R' and its derivative. */
 double planar_slip_speed(const planar_point *p, double phi);
 double planar_slip_acceleration(const planar_motion *m, const planar_point *p, double phi);
-
-#endif

@@ -6,8 +6,7 @@
  * The paper is [1] in README.md. normal = D t for a tangent t, where D is the metric of the curve: 1/x_scale^2 on the
  * harmonics, 1/omega_scale^2 on omega. X has 2H+1 entries; the unknowns are its n last ones (system.h). While a ramp is
  * followed the place on it stands for omega in all of these. */
-#ifndef HC_HBM_CORRECTOR_H
-#define HC_HBM_CORRECTOR_H
+#pragma once
 
 #include "hbm/solver/hbm_solver.h"
 
@@ -37,5 +36,3 @@ hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, do
 
 /* Sign of det dR/dX at (X, omega) in *det_sign, 0 if it is singular. */
 hc_status hbm_det_sign_at(hbm_solver *s, double omega, const double *X, int *det_sign);
-
-#endif

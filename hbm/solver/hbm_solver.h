@@ -7,8 +7,7 @@
  *
  * R is system.h's; the solution is KINSOL's (corrector.h). A solver serves one thread and is opaque; nothing is
  * printed. */
-#ifndef HC_HBM_SOLVER_H
-#define HC_HBM_SOLVER_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -107,5 +106,3 @@ hc_status hbm_sliders(hbm_solver *s, const double *X, double *w);
 /* out[hbm_n_contacts]: of the solution X, every contact by the exact law, also where the equations sample it, those of
  * the case first (contact_periods_merge). Errors of contact_measures_of, planar_measures_of. */
 hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out);
-
-#endif

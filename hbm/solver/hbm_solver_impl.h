@@ -1,6 +1,5 @@
 /* hbm_solver_impl.h - what a solver consists of; for the files of this folder only. */
-#ifndef HC_HBM_SOLVER_IMPL_H
-#define HC_HBM_SOLVER_IMPL_H
+#pragma once
 
 #include "hbm/solver/hbm_solver.h"
 #include "hbm/solver/ramp.h"
@@ -61,5 +60,3 @@ hc_status hbm_located_orbit(hbm_solver *s, const double *X, const contact_forces
 /* The multipliers along an orbit of hbm_located_orbit, X at omega: monodromy_stability. */
 hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, const double *X,
                           hbm_stability *out);
-
-#endif

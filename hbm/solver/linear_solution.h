@@ -5,8 +5,7 @@
  *
  * The static state is that of the loads of harmonic 0 with all contacts stuck or apart, found by trying: from those
  * that are preloaded (gap > 0) or, under such loads, from all. */
-#ifndef HC_HBM_LINEAR_SOLUTION_H
-#define HC_HBM_LINEAR_SOLUTION_H
+#pragma once
 
 #include "hbm/solver/hbm_solver.h"
 #include "hbm/solver/system.h"
@@ -22,5 +21,3 @@ hc_status hbm_linear_rest(hbm_system *sys, double *N);
 /* If the linear response is near the guess X (to `near` of its size) and satisfies the equations, it becomes X, with
  * its derivative by omega in dX, both [n_coef], and *point. Otherwise false, and X, dX and *point are untouched. */
 bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, double *dX, hbm_point *point);
-
-#endif

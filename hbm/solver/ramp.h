@@ -4,8 +4,7 @@
  *
  *     damping   p from 2 to 1:   D = most (exp(rate (p - 1)) - 1) / (exp(rate) - 1)
  *     force     p from 1e-4 to 1:  phi = p */
-#ifndef HC_HBM_RAMP_H
-#define HC_HBM_RAMP_H
+#pragma once
 
 #include "hbm/solver/system.h"
 
@@ -30,5 +29,3 @@ void hbm_ramp_leave(hbm_system *sys);
 
 /* dR/dp [n] at X and p. */
 void hbm_ramp_derivative(const hbm_ramp *r, double p, hbm_system *sys, const double *X, double *dR);
-
-#endif

@@ -2,8 +2,7 @@
  * R' the residual of twice the harmonics (or samples), J' its Jacobian and X the solution padded with zeros, X - J'^-1
  * R'(X) is their solution to second order, so |J'^-1 R'(X)| / |X| estimates the relative error of X, low harmonics
  * included. The difference of solutions for H and H + 1 is no estimate: convergence in H is not monotone. */
-#ifndef HC_REFINE_H
-#define HC_REFINE_H
+#pragma once
 
 #include "hbm/solver/system.h"
 
@@ -35,5 +34,3 @@ enum { REFINE_FEWEST_HARMONICS = 14 };
 /* The ladder of truncation orders that auto climbs: the next above (up) or below, HBM_MAX_HARMONICS / 2 at most. */
 enum { REFINE_MOST_HARMONICS = HBM_MAX_HARMONICS / 2, REFINE_MOST_SAMPLES = 1 << 20 };
 int refine_next_harmonics(int n_harm, bool up);
-
-#endif

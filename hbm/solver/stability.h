@@ -1,6 +1,5 @@
 /* stability.h - is a periodic solution stable? Its Floquet multipliers, along its event-located orbit (monodromy.h). */
-#ifndef HC_HBM_STABILITY_H
-#define HC_HBM_STABILITY_H
+#pragma once
 
 #include "hbm/solver/hbm_solver.h"
 #include "hbm/stability/multipliers.h"
@@ -27,5 +26,3 @@ void hbm_leave_stability(hbm_solver *s);
 /* +1 stable, -1 unstable, 0 unknown: the largest multiplier is within 1e-9 of 1 in size, or the truncated equations
  * disagree. */
 int hbm_stability_verdict(const hbm_stability *st);
-
-#endif

@@ -9,8 +9,7 @@
  * ramp (ramp.h). Without harmonic 0 (the paper's mode) the means are 0 and their rows are dropped. The mistakes of
  * hbm_settings.h: harmonic 0 of F is multiplied, or the rows of even harmonics become (K + M omega^2) X = 0. Vectors
  * have dim (2H+1) entries, the means included; the unknowns are the n entries from X[first] on. */
-#ifndef HC_SYSTEM_H
-#define HC_SYSTEM_H
+#pragma once
 
 #include "base/workspace.h"
 #include "hbm/forces/contact_forces.h"
@@ -78,5 +77,3 @@ double hbm_system_scale(const hbm_system *sys, double omega);
  * coordinate, so that one part of a structure is not solved less well for another part's larger forces, but no less
  * than `least` of the sum over all. 1 where there is no force at all; NaN where condensation_at fails. */
 void hbm_system_weights(const hbm_system *sys, double omega, double least, double *weight);
-
-#endif

@@ -7,8 +7,7 @@
  * linear and constant. An orbit, and a whole curve, visits few combinations of contact states, and A depends on nothing
  * else: each is decomposed once, A = V diag(lambda) V^-1, and moves by exponentials of lambda t. Where A has no
  * eigenvectors to go by (a free body without damping), by the matrix exponential (GSL, scaling and squaring). */
-#ifndef HC_HBM_INTERVAL_FLOW_H
-#define HC_HBM_INTERVAL_FLOW_H
+#pragma once
 
 #include "hbm/contact/transitions.h"
 
@@ -37,5 +36,3 @@ hc_status interval_flow_leave(interval_flow *f, const contact_interval *const *i
                               int *slider, const bool *goes_on, double *phi, int *columns);
 hc_status interval_flow_left(interval_flow *f, const contact_interval *const *interval, const int *slider, int columns,
                              const double *phi, double *left);
-
-#endif

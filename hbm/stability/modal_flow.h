@@ -25,8 +25,7 @@
  * norms of all tangents and all normals together. All other modes are then followed in steps of at most 3 rad, which
  * take 1e-4 of an oscillation. Not proved: that a mode of F moves apart from the slow ones, which shake it far below
  * its frequency. */
-#ifndef HC_HBM_MODAL_FLOW_H
-#define HC_HBM_MODAL_FLOW_H
+#pragma once
 
 #include "hbm/contact/transitions.h"
 #include "hbm/planar/planar_flow.h"
@@ -57,5 +56,3 @@ double modal_flow_operations(const modal_flow *f);
 hc_status modal_flow_advance(modal_flow *f, const contact_interval *const *interval, int n_slipping,
                              const planar_slipping *slipping, double from, double to, double omega, int columns,
                              double *phi);
-
-#endif

@@ -7,8 +7,7 @@
  * is a matrix exponential (interval_flow.h), but where contacts of two tangents with one
  * limit slip: there it is integrated (planar_flow.h). Nothing is truncated: unlike Hill's method it
  * needs no decay of the Jacobian's harmonics. Check: without slip the determinant is exp(-trace(M^-1 C) T). */
-#ifndef HC_HBM_MONODROMY_H
-#define HC_HBM_MONODROMY_H
+#pragma once
 
 #include <complex.h>
 
@@ -34,5 +33,3 @@ hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces
 
 /* Those multipliers themselves: their number, and *lambda, valid until the next one is asked for. */
 int monodromy_multipliers(const monodromy *w, const double complex **lambda);
-
-#endif

@@ -1,6 +1,5 @@
 /* multipliers.h - the Floquet multipliers of a solution, in numbers. */
-#ifndef HC_HBM_MULTIPLIERS_H
-#define HC_HBM_MULTIPLIERS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -14,5 +13,3 @@ typedef struct hbm_stability {
   double pair;        /* modulus of the complex pair nearest to the circle, NaN without one */
   bool agrees;        /* det dR/dX has the sign of `fold`; it need not where few harmonics move the turning point */
 } hbm_stability;
-
-#endif

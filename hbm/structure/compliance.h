@@ -6,8 +6,7 @@
  * Z^-1 is a sum over modes where C is diagonal in them, as modal and Rayleigh damping are, and else over
  * the eigenvectors of the first-order form, found once. Either way a harmonic costs O(n dim^2) at most. Not for s = 0,
  * where a structure that is free to move has no Z^-1. */
-#ifndef HC_HBM_COMPLIANCE_H
-#define HC_HBM_COMPLIANCE_H
+#pragma once
 
 #include <complex.h>
 
@@ -34,5 +33,3 @@ hc_status compliance_change(compliance *c, double w, double reach, double d, dou
 /* G_r[dim] and g_r[n_loads][2] of response r. */
 hc_status compliance_of_response(compliance *c, double w, double reach, double d, int r, double complex *G_r,
                                  double complex *g_r);
-
-#endif

@@ -13,8 +13,7 @@
  * dim^2 where C is diagonal in the rest's modes, or an LU of the rest. Nothing is dropped. Source: Krack and Gross,
  * Harmonic Balance for Nonlinear Vibration Problems, Springer 2019, section 4.1; modes with q held: Craig and Bampton
  * 1968. */
-#ifndef HC_HBM_CONDENSATION_H
-#define HC_HBM_CONDENSATION_H
+#pragma once
 
 #include <complex.h>
 
@@ -70,5 +69,3 @@ void condensation_response(condensation *c, int h, int r, double factor, double 
 /* x[n]: harmonic h of the whole structure, where that of q[dim] is known; loads times factor. HC_NOT_FINITE as in
  * condensation_at. */
 hc_status condensation_motion(condensation *c, int h, const double complex *q, double factor, double complex *x);
-
-#endif

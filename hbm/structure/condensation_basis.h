@@ -1,6 +1,5 @@
 /* condensation_basis.h - the coordinates of condensation.h, and the structure's matrices in them; private to hbm/. */
-#ifndef HC_HBM_CONDENSATION_BASIS_H
-#define HC_HBM_CONDENSATION_BASIS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -24,5 +23,3 @@ typedef struct condensation_basis {
  * condensation_basis_clear in any case. */
 hc_status condensation_basis_make(const model *m, condensation_basis *out);
 void condensation_basis_clear(condensation_basis *b);
-
-#endif

@@ -1,7 +1,6 @@
 /* scenes.h - a scene of cases/adversarial, changed as the command line would change it, and all its HBM solutions at
  * a frequency. */
-#ifndef HC_TESTS_ADVERSARIAL_SCENES_H
-#define HC_TESTS_ADVERSARIAL_SCENES_H
+#pragma once
 
 #include "tests/check.h"
 
@@ -96,5 +95,3 @@ static inline void same_answers(const scene *a, const scene *b, double factor, d
   response_free(&of_a);
   response_free(&of_b);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* steady_references.h - the reference scenes with everything both solvers need, and the steady states they are known to
  * have. */
-#ifndef HC_TESTS_STEADY_REFERENCES_H
-#define HC_TESTS_STEADY_REFERENCES_H
+#pragma once
 
 #include "hbm/hbm.h"
 #include "tests/hbm/scenes.h"
@@ -56,5 +55,3 @@ static inline scene_state orbit_start(hbm_solver *s, int n_harm, const double *X
   assert_int_equal(hbm_sliders(s, X, state.w), HC_OK);
   return state;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* bench.h - what the benchmarks share: the clock, medians, the case file, an end with words where something fails (a
  * benchmark that goes on without a figure misleads). */
-#ifndef HC_BENCH_BENCH_H
-#define HC_BENCH_BENCH_H
+#pragma once
 
 #include <math.h>
 #include <stdio.h>
@@ -60,5 +59,3 @@ static inline const char *file_name(const char *path)
   const char *slash = strrchr(path, '/');
   return slash ? slash + 1 : path;
 }
-
-#endif

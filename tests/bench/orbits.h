@@ -1,7 +1,6 @@
 /* orbits.h - what the benchmarks of steady states share beside bench.h: scenes with their sweeps, the start on the HBM
  * orbit, the reference orbit. */
-#ifndef HC_BENCH_ORBITS_H
-#define HC_BENCH_ORBITS_H
+#pragma once
 
 #include "compare/comparison.h"
 #include "study/scene_solvers.h"
@@ -91,5 +90,3 @@ static inline timeint_result reference_orbit(scene sc, double omega, scene_state
             decade > -11 ? ", then by waiting to 1e-12" : "");
   return r;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* case_text.h - what the tests of the reader share: a smallest case, and reading it. */
-#ifndef HC_TESTS_CASE_TEXT_H
-#define HC_TESTS_CASE_TEXT_H
+#pragma once
 
 #include <string.h>
 
@@ -66,5 +65,3 @@ static inline void check_message(const case_error *err)
   assert_in_range(n, 1, sizeof err->message - 1);
   for (size_t i = 0; i < n; ++i) assert_true((unsigned char)err->message[i] >= 0x20 && err->message[i] != 0x7F);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* child.h - a piece of work in a process of its own, so that it may crash, leak, hang or call exit() and the test
  * goes on; and the command hbmcheck as such work, its main() linked in under the name hbmcheck_main. */
-#ifndef HC_TESTS_FAULTS_CHILD_H
-#define HC_TESTS_FAULTS_CHILD_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -26,5 +25,3 @@ int hbmcheck_main(int argc, char **argv);
 
 /* One line for a test that failed. */
 void child_show(const outcome *o, const char *what);
-
-#endif

@@ -3,8 +3,7 @@
  * refuse, or pass on to the C library or the sanitizer. A few calls of SUNDIALS and FFTW that crash without memory
  * are sheltered from the first two modes: nothing fails inside them. What the library does about those is in
  * numerics/room.h. */
-#ifndef HC_TESTS_FAULTS_MEMORY_H
-#define HC_TESTS_FAULTS_MEMORY_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -18,5 +17,3 @@ void memory_fail(long n, memory_mode mode);
 long memory_asked(void); /* allocations since memory_fail */
 long memory_refused(void);
 long memory_peak(void); /* most bytes in use beyond those that the limit counts from */
-
-#endif

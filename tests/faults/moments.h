@@ -1,8 +1,7 @@
 /* moments.h - something done to the command at a known place of its work, whatever the machine is busy with: each
  * call of the functions in moments.c, and each write of SQLite's, is a moment, and they are counted. For a child
  * (child.h) that runs hbmcheck_main. */
-#ifndef HC_TESTS_FAULTS_MOMENTS_H
-#define HC_TESTS_FAULTS_MOMENTS_H
+#pragma once
 
 /* At the n-th moment from here on, what(self) is called by the thread that came to it; n = 0: never. The count goes
  * into *child_count as it grows. */
@@ -12,5 +11,3 @@ void moments_expect(long n, void (*what)(void *self), void *self);
  * until the command has told them to stop: it looks for signals some twenty times a second, and might be done by
  * then. */
 void moments_raise(void *self);
-
-#endif

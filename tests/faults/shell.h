@@ -1,7 +1,6 @@
 /* shell.h - a line for sh, with $H for the built hbmcheck, in the current folder; its exit code and what it says are
  * held against expectations. */
-#ifndef HC_TESTS_FAULTS_SHELL_H
-#define HC_TESTS_FAULTS_SHELL_H
+#pragma once
 
 #include <stdio.h>
 #include <string.h>
@@ -25,5 +24,3 @@ static inline void expect(const char *line, int code, const char *fragment)
   said s = shell(line);
   shell_check(line, s.code, s.text, code, fragment);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* small.h - the scene of these tests: two contacts that open and close, three harmonics, one frequency to compare
  * at; milliseconds. */
-#ifndef HC_TESTS_FAULTS_SMALL_H
-#define HC_TESTS_FAULTS_SMALL_H
+#pragma once
 
 #include <signal.h>
 #include <stdio.h>
@@ -91,5 +90,3 @@ static inline int small_main(const char *name, unsigned seconds, char *names, si
 }
 #define SMALL_MAIN(name, seconds, ...)                                                                                 \
   small_main(name, seconds, (char[]){#__VA_ARGS__}, CHECK_COUNT(__VA_ARGS__), CHECK_FUNCTIONS(__VA_ARGS__))
-
-#endif

@@ -1,8 +1,7 @@
 /* fuzz.h - what the fuzz targets share: the properties that hold for any input, beyond not crashing. A property
  * that does not hold ends the process with its words on stderr: a finding for libFuzzer, a failure for ctest.
  * Targets: README.md. */
-#ifndef HC_TESTS_FUZZ_H
-#define HC_TESTS_FUZZ_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -49,5 +48,3 @@ bool scene_is_marked(const scene *sc);
  * where that is. */
 enum { FUZZ_PATH = 128 };
 void fuzz_write(const char *name, const char *text, size_t length, char path[FUZZ_PATH]);
-
-#endif

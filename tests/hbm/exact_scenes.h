@@ -1,8 +1,7 @@
 /* exact_scenes.h - for the tests of exact_force.c: one evaluation, random contacts and motions of one or two
  * coordinates, those that graze, and the contact force sampled the slow way for independent u and v, with how far
  * from the exact one it may be. */
-#ifndef HC_TESTS_HBM_EXACT_SCENES_H
-#define HC_TESTS_HBM_EXACT_SCENES_H
+#pragma once
 
 #include "hbm/contact/exact_force.h"
 #include "numerics/series.h"
@@ -204,5 +203,3 @@ static inline double exact_rounding(int n_harm, int n_dof, const moving_contact 
   for (int d = 0; d < n_dof; ++d) projection = fmax(projection, fabs(c->cu[d]) + fabs(c->cv[d]));
   return projection * DBL_EPSILON * (16 * (n_harm + 8) * force_size(c, &m, 0) + 64 * force_size(c, &m, 1));
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* full_equations.h - the equations of motion of a structure, nothing condensed, at a harmonic-balance solution: what is
  * left of them in each harmonic. Contact forces by marching the law along the motion (marched_law.h) and integrating by
  * Gauss and Legendre's rule between its changes. */
-#ifndef HC_TESTS_FULL_EQUATIONS_H
-#define HC_TESTS_FULL_EQUATIONS_H
+#pragma once
 
 #include "model/model.h"
 #include "tests/hbm/marched_law.h"
@@ -144,5 +143,3 @@ static inline double full_residual(const full_motion *f)
       if (!(fabs(left[i][k]) <= worst)) worst = fabs(left[i][k]);
   return worst / scale;
 }
-
-#endif

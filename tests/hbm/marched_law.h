@@ -3,8 +3,7 @@
  * Written from the law as model/contact_law.h states it; nothing of hbm/ or of the law's own functions is used.
  *
  *     x(t0 + s) = sum_k x[k] s^k,  k = 0..TAYLOR */
-#ifndef HC_TESTS_MARCHED_LAW_H
-#define HC_TESTS_MARCHED_LAW_H
+#pragma once
 
 #include <string.h>
 
@@ -205,5 +204,3 @@ static inline double marched_slider(const marched *m, double u, double v)
   if (m->state == APART || c->kt == 0) return u;
   return u - marched_sign(m->state) * c->mu * (c->kn * (v + c->gap) + c->load) / c->kt;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* multipliers.h - Floquet multipliers that a test has found by itself, from the derivative of a period map, and what
  * hbm/solver/stability.h says held against them. */
-#ifndef HC_TESTS_HBM_MULTIPLIERS_H
-#define HC_TESTS_HBM_MULTIPLIERS_H
+#pragma once
 
 #include <complex.h>
 #include <gsl/gsl_eigen.h>
@@ -44,5 +43,3 @@ static inline void check_multipliers(const char *name, hbm_solver *s, double ome
   CHECK_NEAR(st.flip, creal(flip), n * tolerance * factors, "%s at %g, flip", name, omega);
   CHECK_NEAR(st.fold, creal(fold), n * tolerance * factors, "%s at %g, fold", name, omega);
 }
-
-#endif

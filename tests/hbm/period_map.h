@@ -6,8 +6,7 @@
  *
  * f is what makes the given motion, which harmonic balance has truncated, an exact solution: the left-hand side at it.
  * Its multipliers are then those along the given motion, whatever the number of harmonics. */
-#ifndef HC_TESTS_PERIOD_MAP_H
-#define HC_TESTS_PERIOD_MAP_H
+#pragma once
 
 #include "tests/hbm/full_equations.h"
 #include "tests/hbm/multipliers.h"
@@ -219,5 +218,3 @@ static inline void map_multipliers(const period_map *p, const double *start, dou
   }
   eigenvalues_of(n, A, lambda);
 }
-
-#endif

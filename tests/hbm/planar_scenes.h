@@ -1,6 +1,5 @@
 /* planar_scenes.h - contacts with two tangents, and motions in their plane, for tests. */
-#ifndef HC_TESTS_HBM_PLANAR_SCENES_H
-#define HC_TESTS_HBM_PLANAR_SCENES_H
+#pragma once
 
 #include <string.h>
 
@@ -88,5 +87,3 @@ static inline void circle_product(int rows, const double *jac, const double *d, 
     for (int q = 0; q < rows; ++q) product[p] += jac[p + rows * q] * d[q];
   }
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* random_structures.h - structures drawn at random, and the same structure written in another way. */
-#ifndef HC_TESTS_RANDOM_STRUCTURES_H
-#define HC_TESTS_RANDOM_STRUCTURES_H
+#pragma once
 
 #include <string.h>
 
@@ -111,5 +110,3 @@ static inline model *turned_structure(const model *m, const double *Q)
   for (int r = 0; r < m->n_responses; ++r) turn_vector(n, Q, m->responses + r * n, t->responses + r * n);
   return t;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* scenes.h - what the tests of hbm/ share: the reference scenes with settings, the reference numbers of
  * tests/reference/, and random motions. */
-#ifndef HC_TESTS_HBM_SCENES_H
-#define HC_TESTS_HBM_SCENES_H
+#pragma once
 
 #include <float.h>
 #include <stdbool.h>
@@ -131,5 +130,3 @@ static inline double sum_abs(int n, const double *v)
   for (int i = 0; i < n; ++i) sum += fabs(v[i]);
   return sum;
 }
-
-#endif

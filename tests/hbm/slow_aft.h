@@ -1,8 +1,7 @@
 /* slow_aft.h - the sampled contact force the slow way, for tests: direct sums instead of FFTs, the law written as a
  * clamp, six periods instead of two, no Jacobian. Shares nothing with hbm/contact/aft.c but the definition of what is
  * to be computed. */
-#ifndef HC_TESTS_HBM_SLOW_AFT_H
-#define HC_TESTS_HBM_SLOW_AFT_H
+#pragma once
 
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
@@ -133,5 +132,3 @@ static inline scene random_contacts(uint64_t *seed, int n_contacts)
   }
   return sc;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* structure_cases.h - the models of cases/structures, their settings, and solutions of them at one frequency. */
-#ifndef HC_TESTS_STRUCTURE_CASES_H
-#define HC_TESTS_STRUCTURE_CASES_H
+#pragma once
 
 #include <string.h>
 
@@ -67,5 +66,3 @@ static inline model *with_all_responses(const model *m)
   assert_int_equal(model_copy_all_seen(m, &all), HC_OK);
   return all;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* stuck_response.h - the closed form of a structure's response while contacts stay stuck, or open, by Gauss in long
  * double: for tests that hold harmonic balance against it. */
-#ifndef HC_TESTS_STUCK_RESPONSE_H
-#define HC_TESTS_STUCK_RESPONSE_H
+#pragma once
 
 #include <complex.h>
 
@@ -97,5 +96,3 @@ static inline void shake_down(const model *m, const bool *stuck, const number *x
   gauss(m->n, A, b);
   for (int i = 0; i < m->n; ++i) x0[i] = b[i];
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* traced.h - a response curve, what must hold for every one of them, and the linear response in closed form. */
-#ifndef HC_TESTS_HBM_TRACED_H
-#define HC_TESTS_HBM_TRACED_H
+#pragma once
 
 #include <complex.h>
 
@@ -130,5 +129,3 @@ static inline void check_linear_point(const scene *sc, double k, const double *X
   for (int h = 2; h <= sc->hbm.harmonics; ++h)
     CHECK_LE(hypot(X[2 * h - 1], X[2 * h]), linear_tolerance(sc, k, omega, h), "%s at %.17g, h=%d", what, omega, h);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* case2.h - case 2 of the paper as a public case, with assignments. */
-#ifndef HC_TESTS_LIBRARY_CASE2_H
-#define HC_TESTS_LIBRARY_CASE2_H
+#pragma once
 
 #include <string.h>
 
@@ -30,5 +29,3 @@ static hbmcheck_case *case2_with(const char *const *set)
 }
 
 #define CASE2(...) case2_with((const char *const[CASE2_MOST_SET + 1]){__VA_ARGS__})
-
-#endif

@@ -1,6 +1,5 @@
 /* study_text.h - a study from text, by way of a file in a folder of the test's own. */
-#ifndef HC_TESTS_STUDY_TEXT_H
-#define HC_TESTS_STUDY_TEXT_H
+#pragma once
 
 #include <string.h>
 
@@ -37,5 +36,3 @@ static inline study *good_study(const char *text)
   if (!s) fail_msg("refused: %s\n%s", text, err.message);
   return s;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* drawn.h - random structures as time integration sees them, and what is asked of their regularised law in the plane
  * as on a line. */
-#ifndef HC_TESTS_TIMEINT_DRAWN_H
-#define HC_TESTS_TIMEINT_DRAWN_H
+#pragma once
 
 #include "tests/check.h"
 #include "tests/hbm/random_structures.h"
@@ -63,5 +62,3 @@ static inline void eliminate(const drawn *d, const double *y, double gamma, doub
   structure_newton_multiply(&s, &d->scaled, z, product);
   structure_newton_free(&s);
 }
-
-#endif

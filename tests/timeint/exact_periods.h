@@ -1,7 +1,6 @@
 /* exact_periods.h - periods of the exact law of oscillators, whoever integrates them: scenes, and the monodromy matrix
  * against differences. */
-#ifndef HC_TESTS_EXACT_PERIODS_H
-#define HC_TESTS_EXACT_PERIODS_H
+#pragma once
 
 #include "tests/check.h"
 
@@ -116,5 +115,3 @@ static void check_monodromies(const exact_way *way)
   check_monodromy(way, "gap1, stuck", scene_gap1(), 7, 1, NULL, 50, true);
   for (int i = 1; i < 6; ++i) check_monodromy(way, "three", three_contacts(), 6 + 0.3 * i, 2, NULL, 10 * i, false);
 }
-
-#endif

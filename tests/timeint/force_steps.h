@@ -11,8 +11,7 @@
  *         tan(d/2) = tan(d0/2) exp(-integral ds/R),   s the way of u, R linear in s      (R d' = -sin d, contact_law.h)
  *     from a touch on in the direction of u', if |u'| > R', else stick where it touched
  * What is left is the bend of forces and motions in a step: second order, at kinks of the law, too. */
-#ifndef HC_TESTS_FORCE_STEPS_H
-#define HC_TESTS_FORCE_STEPS_H
+#pragma once
 
 #include <string.h>
 
@@ -257,5 +256,3 @@ static inline void force_steps_period(force_steps *s, double omega, int steps, s
     memcpy(p0, p1, sizeof p0);
   }
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* oracle.h - the exact law's motion in closed form, a period at a time, with a law of its own: states by name,
  * guards looked at 4000 times a period, then bisected. What lasts less than 2 pi/4000 it may miss. */
-#ifndef HC_TESTS_ORACLE_H
-#define HC_TESTS_ORACLE_H
+#pragma once
 
 #include <complex.h>
 
@@ -118,5 +117,3 @@ static inline double oracle_slider(const oracle *o, int j)
   return scene_cosine(o->m, c) * o->x -
          slip_of(o->state[j]) * c->law.mu * c->law.kn * (scene_sine(o->m, c) * o->x + c->law.gap) / c->law.kt;
 }
-
-#endif

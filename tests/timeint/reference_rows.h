@@ -1,8 +1,7 @@
 /* reference_rows.h - the steady state of the printed equation at single frequencies, swept up and down from the ends
  * of the sweep. Closed form in each contact phase, transitions to rounding; computed by a program independent of
  * this one; good to about 1e-9. Rows of one case and direction follow each other in the order of the sweep. */
-#ifndef HC_TESTS_REFERENCE_ROWS_H
-#define HC_TESTS_REFERENCE_ROWS_H
+#pragma once
 
 enum { REF_A10, REF_B10, REF_C2, REF_C2KT1E4, REF_GAP1, REF_CASES };
 enum { REF_UP, REF_DOWN };
@@ -101,5 +100,3 @@ static const reference_row reference_rows[] = {
   {REF_GAP1, REF_DOWN, 5, 0.176990041573, 0.176990041573, 0},
 };
 /* clang-format on */
-
-#endif

@@ -1,6 +1,5 @@
 /* scenes.h - what the tests of timeint/ share: the reference scenes and others, settings at their defaults. */
-#ifndef HC_TESTS_SCENES_H
-#define HC_TESTS_SCENES_H
+#pragma once
 
 #include <string.h>
 
@@ -50,5 +49,3 @@ static inline scene scene_c2kt1e4(void) { return scene_reference("c2kt1e4"); }
 static inline scene scene_gap1(void) { return scene_reference("gap1"); }
 static inline scene scene_r1(void) { return scene_reference("r1"); }
 static inline scene scene_r2(void) { return scene_reference("r2"); }
-
-#endif

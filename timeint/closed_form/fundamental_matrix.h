@@ -8,8 +8,7 @@
  *
  * Of a base with slowed modes (modal_base.h) there are columns of the others and of sliders alone: slowed modes follow
  * these at theta = 0 as springs do, and what they deviate from that dies away in a period; its columns are 0. */
-#ifndef HC_TIMEINT_FUNDAMENTAL_MATRIX_H
-#define HC_TIMEINT_FUNDAMENTAL_MATRIX_H
+#pragma once
 
 #include "timeint/closed_form/interval_modes.h"
 #include "timeint/closed_form/motion_series.h"
@@ -68,5 +67,3 @@ void fundamental_matrix_pass(fundamental_matrix *v, const scaled_model *m, int j
 /* The rows of sliders that are tied to the motion y[2 n], when the period is over. */
 void fundamental_matrix_end(fundamental_matrix *v, const scaled_model *m, const contact_track *track, const double *y,
                             double *monodromy);
-
-#endif

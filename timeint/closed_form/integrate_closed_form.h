@@ -4,8 +4,7 @@
  * (motion_modes.h). A change is a root of guards that are polynomials, or sums of exponentials; none is missed but
  * excursions below rounding. Period map, monodromy matrix, peaks and harmonics have no error but rounding: there is no
  * tolerance. */
-#ifndef HC_TIMEINT_INTEGRATE_CLOSED_FORM_H
-#define HC_TIMEINT_INTEGRATE_CLOSED_FORM_H
+#pragma once
 
 #include "timeint/closed_form/interval_modes.h" /* INTERVAL_MODES_STIFF */
 #include "timeint/period/integrate.h"
@@ -13,5 +12,3 @@
 /* By complex modes where the fastest rate is more than `stiff` times omega (INTERVAL_MODES_STIFF; 0: wherever there are
  * any; INFINITY: never). HC_NO_MEMORY. */
 hc_status integrate_new_closed_form(const modal_base *base, double stiff, integrator **out);
-
-#endif

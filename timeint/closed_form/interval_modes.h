@@ -6,8 +6,7 @@
  * They depend on what the contacts do, not on omega: each set of states is decomposed once and kept, the one that was
  * not asked for longest gives way. Eigenvectors nearly dependent (a free body, critical damping): no modes; the motion
  * is then motion_series.h's. */
-#ifndef HC_TIMEINT_INTERVAL_MODES_H
-#define HC_TIMEINT_INTERVAL_MODES_H
+#pragma once
 
 #include "numerics/eigensystem.h"
 #include "timeint/law/contact_track.h"
@@ -48,5 +47,3 @@ bool interval_modes_pay(const interval_modes *p, double omega, double span);
  * HC_NO_MEMORY, HC_NOT_FINITE. */
 hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const contact_track *track,
                             const complex_modes **out);
-
-#endif

@@ -12,8 +12,7 @@
  * bounded by its second derivative: with y = q' (or q''), y'' + c y' + k y is at most |f|, so sqrt(y'^2 + |k| y^2)
  * grows by at most |f| a unit of theta (and, where k < 0, by the factor e^(sqrt(-k) h) over h). The search steps only
  * as far as that bound lets the guard stay positive: no root is missed but an excursion below -noise. */
-#ifndef HC_TIMEINT_MODAL_MOTION_H
-#define HC_TIMEINT_MODAL_MOTION_H
+#pragma once
 
 #include <complex.h>
 #include <stdbool.h>
@@ -75,5 +74,3 @@ void modal_samples(const modal_motion *m, int i, double from, double step, int c
 /* Integrals of q_i, q_i cos(theta), q_i sin(theta) between two points of the motion; false where the mode is
  * so soft or resonant that the formulas lose digits. */
 bool modal_fourier(const modal_motion *m, int i, const modal_point *from, const modal_point *to, double out[3]);
-
-#endif

@@ -5,8 +5,7 @@
  * mu_k = lambda_k/omega; fixed_k is of constant contact forces, l are the loads. Whatever is linear in the motion is a
  * sum of exponentials (numerics/exponentials.h). What is lost where the parts cancel each other (a load at an undamped
  * mode's frequency, nearly dependent eigenvectors) is measured: where that is much, there is no motion here. */
-#ifndef HC_TIMEINT_MOTION_MODES_H
-#define HC_TIMEINT_MOTION_MODES_H
+#pragma once
 
 #include "numerics/exponentials.h"
 #include "timeint/closed_form/interval_modes.h"
@@ -50,5 +49,3 @@ int motion_modes_first_event(motion_modes *mm, const scaled_model *m, const cont
 double motion_modes_response(const motion_modes *mm, int i, double tau);
 void motion_modes_fourier(const motion_modes *mm, int i, double tau0, double tau1, double out[3]);
 void motion_modes_extremes(motion_modes *mm, int i, double tau0, double tau1, double *max, double *min);
-
-#endif

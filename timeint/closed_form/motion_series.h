@@ -9,8 +9,7 @@
  * Experimental Mathematics 14 (2005) 99, for the length of a step. Where a circle slips its T is not linear in the
  * motion, the equation is no exponential, and the series converges as far as the nearest singularity: planar_series.h.
  * Nothing is allocated after motion_series_make. */
-#ifndef HC_TIMEINT_MOTION_SERIES_H
-#define HC_TIMEINT_MOTION_SERIES_H
+#pragma once
 
 #include "timeint/closed_form/planar_series.h"
 #include "timeint/law/contact_rows.h"
@@ -62,5 +61,3 @@ double series_slope(const double *c, double tau);
 /* The first tau of [0, h] at which the guard falls through 0; one that is below its noise at 0 has fallen there.
  * INFINITY: it does not, but for an excursion below its noise. */
 double series_first_fall(const track_guard *guard, double h);
-
-#endif

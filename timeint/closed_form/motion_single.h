@@ -1,7 +1,6 @@
 /* motion_single.h - the motion of a single mass between two changes of contact state, in closed form (modal_motion.h):
  * exact to rounding however long the interval is, where a power series takes steps. */
-#ifndef HC_TIMEINT_MOTION_SINGLE_H
-#define HC_TIMEINT_MOTION_SINGLE_H
+#pragma once
 
 #include "timeint/closed_form/modal_motion.h"
 #include "timeint/law/contact_track.h"
@@ -41,5 +40,3 @@ bool motion_single_integrals(const scaled_model *m, const contact_track *track, 
 
 /* Integrals over the interval; false where the formulas would lose digits (modal_fourier). */
 bool motion_single_fourier(const motion_single *s, double out[3]);
-
-#endif

@@ -8,8 +8,7 @@
  * one starts along U', e_0 = U'_0/|U'_0|, and is a power series as well, q_{k-1} being in (U'.e_perp)_k, too:
  *     (mu N_1 + kt |U'_0|/k) q_{k-1} = kt (U'.e_perp)_k without it - sum_{i=2}^{k} mu N_i q_{k-i}
  * The slider slips as long as s = U'.e - (mu N)'/kt >= 0. */
-#ifndef HC_TIMEINT_PLANAR_SERIES_H
-#define HC_TIMEINT_PLANAR_SERIES_H
+#pragma once
 
 #include "timeint/law/contact_track.h"
 
@@ -70,5 +69,3 @@ void planar_columns_term(planar_columns *c, int width, int k);
 
 /* dphi at the end of the step, of terms up to k: angle[width]. */
 void planar_columns_end(const planar_columns *c, int width, int k, double *angle);
-
-#endif

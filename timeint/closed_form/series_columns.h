@@ -8,8 +8,7 @@
  * motion are left out. So many terms are taken that what is left out of any column is below its rounding (of a base
  * with slowed modes, below 1e-11 of it: its matrix is an approximation); a step is as long as LAST terms allow, about 2
  * over the highest frequency. Nothing is allocated after series_columns_make. */
-#ifndef HC_TIMEINT_SERIES_COLUMNS_H
-#define HC_TIMEINT_SERIES_COLUMNS_H
+#pragma once
 
 #include "timeint/closed_form/motion_series.h"
 
@@ -55,5 +54,3 @@ hc_status series_columns_advance(series_columns *s, const scaled_model *m, doubl
  * is dphi. */
 void series_columns_turn(series_columns *s, const scaled_model *m, const motion_series *along, double h, int count,
                          int ld, double *matrix);
-
-#endif

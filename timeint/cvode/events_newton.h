@@ -6,8 +6,7 @@
  *     z = d + gamma (r_v v + r_z z + sum_k r_k t_k . p),   gamma t_k . p = u_k - t_k . a
  *
  * Nothing is allocated after events_newton_make. */
-#ifndef HC_TIMEINT_EVENTS_NEWTON_H
-#define HC_TIMEINT_EVENTS_NEWTON_H
+#pragma once
 
 #include "timeint/cvode/step_equations.h"
 #include "timeint/law/contact_track.h"
@@ -33,5 +32,3 @@ bool events_newton_factor(events_newton *s, const scaled_model *m, double gamma)
 
 /* r[] := (I - gamma J)^-1 r. */
 void events_newton_solve(events_newton *s, double *r);
-
-#endif

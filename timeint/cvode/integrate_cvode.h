@@ -1,6 +1,5 @@
 /* integrate_cvode.h - what the two integrators by CVODE share; for integrate_*.c alone. */
-#ifndef HC_TIMEINT_INTEGRATE_CVODE_H
-#define HC_TIMEINT_INTEGRATE_CVODE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -58,5 +57,3 @@ int integrate_first_flag(const int *flags, size_t n);
 hc_status integrate_dense_samples(const integrator *in, int r, double theta, double step, int count, double *x);
 bool integrate_no_fourier(const integrator *in, int r, double out[3]);
 hc_status integrate_cvode_tolerance(integrator *in, double tolerance);
-
-#endif

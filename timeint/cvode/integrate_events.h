@@ -3,12 +3,9 @@
  * Adams' method, or BDF where damping makes the structure stiff: where its largest rate is 60 times the lowest natural
  * frequency or more (beam16: 4000 steps a period, not 22 000). A contact with two tangents that slips under the law of
  * the circle adds the angle of its traction to the states (law_planar.c). */
-#ifndef HC_TIMEINT_INTEGRATE_EVENTS_H
-#define HC_TIMEINT_INTEGRATE_EVENTS_H
+#pragma once
 
 #include "timeint/period/integrate.h"
 
 /* tolerance: CVODE's, relative and absolute. HC_NO_MEMORY. */
 hc_status integrate_new_events(const modal_base *base, double tolerance, integrator **out);
-
-#endif

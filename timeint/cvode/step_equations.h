@@ -9,8 +9,7 @@
  *     (I + gamma^2 B D^-1 B^T S) B x = B (a + gamma D^-1 (b - gamma K a)) - gamma^2 B D^-1 B^T c
  * is a small dense system, whatever n. A solve costs O(n contacts), factors O(n contacts^2) where the factors of the
  * whole matrix cost (2 n + contacts)^3. Nothing is allocated after step_equations_make. */
-#ifndef HC_TIMEINT_STEP_EQUATIONS_H
-#define HC_TIMEINT_STEP_EQUATIONS_H
+#pragma once
 
 #include "timeint/law/contact_rows.h"
 #include "timeint/law/scaled.h"
@@ -54,5 +53,3 @@ static inline void step_equations_add(double *force, int row, double f)
 {
   if (row >= 0) force[row] += f;
 }
-
-#endif

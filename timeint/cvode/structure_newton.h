@@ -5,8 +5,7 @@
  *
  * where two directions share the law of a circle r_u, t_u are matrices of two rows. Nothing is allocated after
  * structure_newton_make. */
-#ifndef HC_TIMEINT_STRUCTURE_NEWTON_H
-#define HC_TIMEINT_STRUCTURE_NEWTON_H
+#pragma once
 
 #include "timeint/cvode/step_equations.h"
 
@@ -36,5 +35,3 @@ void structure_newton_solve(structure_newton *s, double *r);
 
 /* out[n_states] := J z. */
 void structure_newton_multiply(structure_newton *s, const scaled_model *m, const double *z, double *out);
-
-#endif

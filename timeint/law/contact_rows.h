@@ -1,7 +1,6 @@
 /* contact_rows.h - the rows t_j and n_j of a structure's contacts, each that is not 0 once: the directions of a contact
  * share its normal. libm and BLAS. */
-#ifndef HC_TIMEINT_CONTACT_ROWS_H
-#define HC_TIMEINT_CONTACT_ROWS_H
+#pragma once
 
 #include "timeint/law/modal_base.h"
 
@@ -23,5 +22,3 @@ void contact_rows_pull(const contact_rows *c, double by, const double *force, do
 
 /* Entry of q, or of a force, that may not be there. */
 static inline double contact_rows_at(const double *q, int row) { return row < 0 ? 0 : q[row]; }
-
-#endif

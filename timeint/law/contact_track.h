@@ -19,8 +19,7 @@
  * `most` is how far a slider has been from where the period began, from its places at changes of state. Between two of
  * these that of one tangent is monotonic; where e turns it may come back to where it was: its places in between are to
  * be noted, or that e turned. */
-#ifndef HC_TIMEINT_CONTACT_TRACK_H
-#define HC_TIMEINT_CONTACT_TRACK_H
+#pragma once
 
 #include "timeint/law/scaled.h"
 
@@ -79,5 +78,3 @@ double contact_track_vary_touch(const contact_motion *at, int a, double du, doub
 
 /* Variation of a direction's W where the slider is tied to the motion, e as it is. */
 double contact_track_vary_slider(const contact_track *t, const scaled_contact *c, double du, double dv);
-
-#endif

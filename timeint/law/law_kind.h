@@ -4,8 +4,7 @@
  * A contact has one direction in the tangent plane, or two under the law of the circle, which are neighbours (model.h):
  * U, W, S and T are vectors of so many entries, and so are the arrays w[], t[] of what a direction has. N is half of
  * the contact's for either of two directions, and mu twice as large. Functions need libm only and cannot fail. */
-#ifndef HC_TIMEINT_LAW_KIND_H
-#define HC_TIMEINT_LAW_KIND_H
+#pragma once
 
 #include "timeint/law/law_regularised.h"
 
@@ -131,5 +130,3 @@ struct scaled_contact {
   int direction;  /* of the kind's: 0, 1 */
   double preload; /* N0 */
 };
-
-#endif

@@ -15,8 +15,7 @@
  * Measured figures: README.md. Written in the tangential motion u and the normal motion v [length]; the caller derives
  * them from the degrees of freedom. Any consistent units. Needs libm only, allocates nothing, keeps no state, cannot
  * fail. */
-#ifndef HC_TIMEINT_LAW_REGULARISED_H
-#define HC_TIMEINT_LAW_REGULARISED_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -52,5 +51,3 @@ law_value law_regularised_eval(const law_regularised *c, double u, double v, dou
 
 /* Derivatives where the law has them; on the corner |S| = mu N those of stick. */
 law_derivatives law_regularised_derivatives(const law_regularised *c, double u, double v, double w);
-
-#endif

@@ -6,8 +6,7 @@
  * t_j ...) All modes are kept, so nothing is lost; s makes a unit of q about a unit of motion at the contacts and
  * responses. C and K are diagonal where the structure's are (symmetric K, Rayleigh or modal damping), else full: where
  * what is left beside the diagonal cannot be told from rounding of the matrices' own entries. */
-#ifndef HC_TIMEINT_MODAL_BASE_H
-#define HC_TIMEINT_MODAL_BASE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -52,5 +51,3 @@ void modal_base_to_model(const modal_base *b, const double *q, double *x);
 /* out[n] -= by K x, by C x. */
 void modal_base_subtract_K(const modal_base *b, double by, const double *x, double *out);
 void modal_base_subtract_C(const modal_base *b, double by, const double *x, double *out);
-
-#endif

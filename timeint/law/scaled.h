@@ -13,8 +13,7 @@
  *
  * For the exact law the corner's width is 0, and X', P' of scaled_rhs are then exact for any state whose slider obeys
  * |T| <= mu N; the sliders' own motion is contact_track.h's. */
-#ifndef HC_TIMEINT_SCALED_H
-#define HC_TIMEINT_SCALED_H
+#pragma once
 
 #include <stddef.h>
 
@@ -68,5 +67,3 @@ int scaled_n_responses(const scaled_model *m);
 
 /* The length of contact j's tangent in X: what T of 1 does to the motion. */
 double scaled_pull(const scaled_model *m, int j);
-
-#endif

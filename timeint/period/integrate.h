@@ -10,8 +10,7 @@
  * integrate_events.h: the exact law by CVODE, event-driven: one smooth right-hand side for each set of contact states,
  * from one change of state (transition) to the next.
  * integrate_closed_form.h: the same law without CVODE, to rounding. */
-#ifndef HC_TIMEINT_INTEGRATE_H
-#define HC_TIMEINT_INTEGRATE_H
+#pragma once
 
 #include "base/status.h"
 #include "timeint/law/scaled.h"
@@ -86,5 +85,3 @@ long integrate_steps(const integrator *in);
 long integrate_rhs(const integrator *in);
 long integrate_transitions(const integrator *in);
 int integrate_flag(const integrator *in);
-
-#endif

@@ -1,6 +1,5 @@
 /* integrate_private.h - what an integrator is made of; for integrate*.c alone. */
-#ifndef HC_TIMEINT_INTEGRATE_PRIVATE_H
-#define HC_TIMEINT_INTEGRATE_PRIVATE_H
+#pragma once
 
 #include "timeint/period/integrate.h"
 
@@ -48,5 +47,3 @@ static inline bool integrate_goes_on(integrator *in)
   in->unheard = 0;
   return hc_monitor_tick(in->monitor, -1);
 }
-
-#endif

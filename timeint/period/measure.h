@@ -6,8 +6,7 @@
  * the integrator's own where a step solves a linear equation, else of the quintic through both ends of a step. Sums
  * over the instants would alias: x has a continuous second derivative, its harmonics fall like h^-4, but with a
  * factor that a stiff contact makes large (1e-9 of x on case 2 with kn = 1e4, 1e-6 with kn = 4e6 times the spring). */
-#ifndef HC_TIMEINT_MEASURE_H
-#define HC_TIMEINT_MEASURE_H
+#pragma once
 
 #include "timeint/period/integrate.h"
 #include "timeint/timeint_result.h"
@@ -60,5 +59,3 @@ int measure_resting_sliders(const measure *me);
 /* Of response i: max, min, amplitude, rms, mean, a1, b1, harmonic_1, wave (of the last period), and the regime of all
  * contacts, into *r; L = length. */
 void measure_report(const measure *me, const model *from, int i, double length, timeint_result *r);
-
-#endif

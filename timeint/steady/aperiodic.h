@@ -20,8 +20,7 @@
  * Told by averages over two windows, one after the other, each weighted by w(t) = exp(-1/(t (1 - t))): on a torus they
  * converge faster than any power of the window's length (S. Das, Y. Saiki, E. Sander, J. A. Yorke, Nonlinearity 30,
  * 2017), in chaos like its root, and while a motion settles, or grows, they move. */
-#ifndef HC_TIMEINT_APERIODIC_H
-#define HC_TIMEINT_APERIODIC_H
+#pragma once
 
 #include "timeint/steady/steady.h"
 
@@ -38,5 +37,3 @@ hc_status torus_test(timeint *ti, const hc_monitor *monitor, double *nu);
 /* The same of what was seen: two windows of n values each of two things, the first of which may stand still. The part
  * of torus_test that integrates nothing. */
 double torus_rotation(int n, const double *seen, const double *size);
-
-#endif

@@ -2,8 +2,7 @@
  * (transient.scout). ti->closed_form is a handle of its own: the same model and settings, the exact law in closed form.
  * What is reported are CVODE's periods; the closed form decides which orbit, of how many periods, or that there is
  * none. */
-#ifndef HC_TIMEINT_CLOSED_FORM_START_H
-#define HC_TIMEINT_CLOSED_FORM_START_H
+#pragma once
 
 #include "timeint/steady/steady.h"
 
@@ -27,5 +26,3 @@ hc_status closed_start_confirm(timeint *ti, int k, const hc_monitor *monitor, ti
 /* Of the remembered orbit through `state`: where the closed form's was, start[n], and the predictions [responses], to
  * be read or filled, NaN so far; NULL: it is not remembered. */
 motion_error *closed_start_predictions(timeint *ti, const double *state, const double **start);
-
-#endif

@@ -8,8 +8,7 @@
  * integrated there is smooth: the rule is exact to rounding, the work as good as the motion. The regularised law has
  * corners inside steps; CVODE cuts its steps there until they do not matter. Extrema of N and T are at ends of steps,
  * at points of the rule, or where u' or v' changes sign between these: found as roots, to rounding. */
-#ifndef HC_TIMEINT_CONTACT_WATCH_H
-#define HC_TIMEINT_CONTACT_WATCH_H
+#pragma once
 
 #include "model/contact_period.h"
 #include "timeint/steady/steady.h"
@@ -18,5 +17,3 @@
  * repeats after k periods the work and the slip path are those of one, on average. Of the two directions of a circle
  * each has half of N; |T|, path and work in the plane are in the first's. HC_NO_MEMORY, errors of integration. */
 hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period *out);
-
-#endif

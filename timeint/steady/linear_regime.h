@@ -8,8 +8,7 @@
  * stays within |Z| plus that of d/k. Every guard of a contact is linear in X and so least at an end of that range:
  * if it is positive at both ends, the contact keeps its state. The condition is sufficient, not necessary: the free
  * motion and the response need not reach their largest values together. */
-#ifndef HC_TIMEINT_LINEAR_REGIME_H
-#define HC_TIMEINT_LINEAR_REGIME_H
+#pragma once
 
 #include "timeint/steady/steady.h"
 
@@ -23,5 +22,3 @@ bool linear_regime_is_final(const timeint *ti);
  * are where the law has them on the orbit. The multiplier is the oscillator's; that of the regularised slider of a
  * separated contact, exp(-2 pi/regularisation), is left out: it has no influence on X. */
 bool linear_regime_steady(timeint *ti, timeint_result *r);
-
-#endif

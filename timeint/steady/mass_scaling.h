@@ -6,8 +6,7 @@
  * that. The closed form's own periods are always the whole model's; an orbit is that of its period map, whatever
  * matrix Newton takes. What CVODE's orbits are off by it is measured, between orbits of the closed form with and
  * without, and is part of transient_predicted. */
-#ifndef HC_TIMEINT_MASS_SCALING_H
-#define HC_TIMEINT_MASS_SCALING_H
+#pragma once
 
 #include "timeint/law/modal_base.h"
 
@@ -24,5 +23,3 @@ bool mass_scaling_may_pay(const modal_base *whole);
 /* [rad/time] The fastest mode to be left at omega: MASS_SCALING_FASTEST omega, to within 9 %, so that neighbouring
  * frequencies have the same; INFINITY where that is not half of what the structure has. */
 double mass_scaling_fastest(const modal_base *whole, double omega);
-
-#endif

@@ -1,6 +1,5 @@
 /* period_times.h - how much processor time a period takes, for who wants to know beforehand what steady states will. */
-#ifndef HC_TIMEINT_PERIOD_TIMES_H
-#define HC_TIMEINT_PERIOD_TIMES_H
+#pragma once
 
 #include "timeint/timeint.h"
 
@@ -19,5 +18,3 @@ typedef struct period_times {
  * thousands of steps. HC_BAD_INPUT, errors of integration, HC_NO_MEMORY; of a stopped period HC_OK. */
 hc_status timeint_time_periods(timeint *ti, double omega, const double *state, const hc_monitor *monitor,
                                period_times *out);
-
-#endif

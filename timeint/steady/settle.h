@@ -18,8 +18,7 @@
  * No estimate before 2 B + 17 states. B = 2/(1 - rho) a priori: two e-folds, 16 to 512 periods.
  * A multiplier near a k-th root of 1 other than 1, such as -1, makes D_m small at multiples m of k though the states
  * still move: so the drift D_1 must be small too. */
-#ifndef HC_TIMEINT_SETTLE_H
-#define HC_TIMEINT_SETTLE_H
+#pragma once
 
 #include "timeint/steady/steady.h"
 
@@ -66,5 +65,3 @@ settle_estimate settle_judge(const settle *s, double goal);
 /* From ti->y to the steady state, its measures into *r. HC_NOT_SETTLED after max_periods: *r is then the last
  * period. */
 hc_status settle_by_integration(timeint *ti, const hc_monitor *monitor, timeint_result *r);
-
-#endif

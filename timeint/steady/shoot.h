@@ -10,8 +10,7 @@
  * (KINSOL's fixed point) needs no Phi: used where Newton fails. Of a large structure in closed form Phi is that of
  * ti->slowed, nearly its own at a tenth of the cost, and kept as long as steps contract (chord steps). Works on ti->y
  * in the unit of length ti->length, at CVODE's present tolerance. */
-#ifndef HC_TIMEINT_SHOOT_H
-#define HC_TIMEINT_SHOOT_H
+#pragma once
 
 #include <complex.h>
 
@@ -96,5 +95,3 @@ hc_status orbit_report_none(timeint *ti, hc_status why, timeint_result *r);
  * max_periods; what integration answers; HC_INTERRUPTED. ti->y is then where it was. */
 hc_status shoot_confirm(shoot *s, int k, double goal, double off, const hc_monitor *monitor, shoot_report *found,
                         timeint_result *r);
-
-#endif

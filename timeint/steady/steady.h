@@ -1,6 +1,5 @@
 /* steady.h - the steady state of a model at one frequency, and the periodic orbit next to a state. */
-#ifndef HC_TIMEINT_STEADY_H
-#define HC_TIMEINT_STEADY_H
+#pragma once
 
 #include "timeint/timeint.h"
 #include "timeint/timeint_result.h"
@@ -52,5 +51,3 @@ void timeint_forget(timeint *ti);
 
 /* Stable by its multiplier: +1; -1 not; 0 unknown, or within 1e-9 of the border. */
 int timeint_stability(const timeint_result *result);
-
-#endif

@@ -1,6 +1,5 @@
 /* sweep.h - a state carried from one frequency to another as on a shaker, so that it stays on its branch. */
-#ifndef HC_TIMEINT_SWEEP_H
-#define HC_TIMEINT_SWEEP_H
+#pragma once
 
 #include "timeint/timeint.h"
 
@@ -8,5 +7,3 @@
  * branch, partially settling at each; with the exact law whatever the settings' law. It does not settle at omega_to:
  * call timeint_steady for that. HC_BAD_INPUT, HC_INTERRUPTED, and what integration answers. */
 hc_status timeint_sweep(timeint *ti, double omega_from, double omega_to, double *state, const hc_monitor *monitor);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * The motion is at a whole number of periods, at the state y in the scaled model's units; whoever moves it keeps
  * `scaled` in step with omega and length. */
-#ifndef HC_TIMEINT_PRIVATE_H
-#define HC_TIMEINT_PRIVATE_H
+#pragma once
 
 #include "timeint/law/scaled.h"
 #include "timeint/period/integrate.h"
@@ -109,5 +108,3 @@ motion_error timeint_change(const timeint_result *one, const timeint_result *oth
 
 /* CVODE's tolerance for a steady state within transient.tolerance. */
 double timeint_final_tolerance(const timeint *ti);
-
-#endif

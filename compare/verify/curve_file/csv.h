@@ -2,8 +2,7 @@
  * is wrong, what was expected. '#' starts a line of remarks; blank lines are skipped; a first line without a
  * number is a header. CRLF and a byte order mark are accepted. Points at omega <= 0, to which a continuation may
  * wander, are counted and left out. */
-#ifndef HC_VERIFY_CSV_H
-#define HC_VERIFY_CSV_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -57,5 +56,3 @@ hc_status verify_data_of(const char *quantity, double noise, int n, const double
 /* HC_OK, or HC_BAD_INPUT, HC_IO, HC_NO_MEMORY with message[VERIFY_TEXT]. Free with verify_data_clear in any case. */
 hc_status verify_data_read(const char *path, const verify_columns *columns, verify_data *out, char *message);
 void verify_data_clear(verify_data *d);
-
-#endif

@@ -4,8 +4,7 @@
  *
  * Everything is of a motion truncated after H harmonics: a program that keeps H of them reports these of its own
  * solution. */
-#ifndef HC_VERIFY_QUANTITY_H
-#define HC_VERIFY_QUANTITY_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -89,5 +88,3 @@ double verify_quantity_scale(const verify_quantity *q, const verify_motion *m);
 /* From the column's number to the quantity, and back: the same but in dB. */
 double verify_quantity_from_column(const verify_quantity *q, double number);
 double verify_quantity_to_column(const verify_quantity *q, double value);
-
-#endif

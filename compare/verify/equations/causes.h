@@ -1,6 +1,5 @@
 /* causes.h - what may be wrong with a curve: one bit each, its word in csv and json, its meaning, its remedy. */
-#ifndef HC_VERIFY_CAUSES_H
-#define HC_VERIFY_CAUSES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -112,5 +111,3 @@ const char *verify_cause_words(verify_causes causes, char text[VERIFY_TEXT]);
 
 /* How many there are. */
 int verify_cause_count(verify_causes causes);
-
-#endif

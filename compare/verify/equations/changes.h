@@ -1,8 +1,7 @@
 /* changes.h - the case's model with one mistake in it. Every one of them is a model again, which the exact evaluator
  * solves: two contacts make one that does not separate, and a preload that acts on the mass is a static displacement
  * and another gap. Private to compare/verify/. */
-#ifndef HC_VERIFY_CHANGES_H
-#define HC_VERIFY_CHANGES_H
+#pragma once
 
 #include "compare/verify/equations/causes.h"
 #include "model/model.h"
@@ -81,5 +80,3 @@ typedef struct verify_changed {
  * HC_BAD_INPUT: it changes nothing of this model, or makes no sense in it; HC_NO_MEMORY: *out is NULL. */
 hc_status verify_changed_model(const model *m, const verify_changed *how, bool keep_mean, model **out, double *offset,
                                double *mean_error);
-
-#endif

@@ -1,8 +1,7 @@
 /* search.h - which of our own equations, and which reading of the columns, the points lie on; private to
  * compare/verify/. Below the first part what the files of the search have from each other: search.c (the stages),
  * readings.c (hypotheses, which cause is named), scales.c (free factors). */
-#ifndef HC_VERIFY_SEARCH_H
-#define HC_VERIFY_SEARCH_H
+#pragma once
 
 #include "compare/verify/truth/report.h"
 #include "compare/verify/truth/solutions.h"
@@ -143,5 +142,3 @@ hc_status search_scales(search *s);
 
 /* scales.c: factors of the model's numbers. */
 hc_status search_fits(search *s);
-
-#endif

@@ -1,6 +1,5 @@
 /* report.h - what verify finds: each point's verdict, the hypotheses, the causes. */
-#ifndef HC_VERIFY_REPORT_H
-#define HC_VERIFY_REPORT_H
+#pragma once
 
 #include "base/status.h"
 #include "compare/compare_settings.h"
@@ -93,5 +92,3 @@ typedef struct verify_report {
   double noise;      /* [1] standard deviation from point to point around the truth; NaN: not estimated */
   double noise_said; /* [1] what the values are said to scatter by */
 } verify_report;
-
-#endif

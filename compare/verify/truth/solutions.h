@@ -1,7 +1,6 @@
 /* solutions.h - the solutions, at given omegas, of equations that the other program may have solved; private to
  * compare/verify/. */
-#ifndef HC_VERIFY_SOLUTIONS_H
-#define HC_VERIFY_SOLUTIONS_H
+#pragma once
 
 #include "compare/verify/truth/report.h"
 #include "hbm/hbm.h"
@@ -62,5 +61,3 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
                                 const double *omega, verify_solutions *out);
 
 void verify_solutions_clear(verify_solutions *s);
-
-#endif

@@ -1,6 +1,5 @@
 /* truth.h - what the points should be, and what they tell by themselves; private to compare/verify/. */
-#ifndef HC_VERIFY_TRUTH_H
-#define HC_VERIFY_TRUTH_H
+#pragma once
 
 #include "base/message.h"
 #include "compare/verify/truth/report.h"
@@ -48,5 +47,3 @@ hc_status points_scatter(const verify_report *r, verify_causes *out);
 
 /* " (line 7: 35 % off)" of outliers, " (by 1 % from one to the next)" of noise, or nothing. */
 void points_say(message *m, const verify_report *r);
-
-#endif

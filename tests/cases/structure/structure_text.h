@@ -1,6 +1,5 @@
 /* structure_text.h - what the tests of structures share: texts of cases, and the model of one. */
-#ifndef HC_TESTS_STRUCTURE_TEXT_H
-#define HC_TESTS_STRUCTURE_TEXT_H
+#pragma once
 
 #include <stdlib.h>
 #include <unistd.h>
@@ -80,5 +79,3 @@ static inline void remove_file(const own_file *f)
   unlink(f->path);
   rmdir(f->folder);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* run.h - a page written by the built command. */
-#ifndef HC_TESTS_REPORT_RUN_H
-#define HC_TESTS_REPORT_RUN_H
+#pragma once
 
 #include <stdbool.h>
 #include <string.h>
@@ -11,5 +10,3 @@
 /* A comparison of two frequencies, tables of two orders: what a page has, in a second. */
 #define CASE2 "cases/paper/case2.yaml"
 #define SMALL " --at 8,9 --harmonics 1,5 --samples 32,512 -q "
-
-#endif

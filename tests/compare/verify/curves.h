@@ -1,7 +1,6 @@
 /* curves.h - prepared curves: what our own harmonic balance gives with one known mistake in it, as the file of
  * somebody else would say it. */
-#ifndef HC_TESTS_VERIFY_CURVES_H
-#define HC_TESTS_VERIFY_CURVES_H
+#pragma once
 
 #include <string.h>
 
@@ -96,5 +95,3 @@ static inline verify_data curve_make(const scene *sc, const spoiling *how, doubl
   hbm_solver_free(hbm);
   return d;
 }
-
-#endif
