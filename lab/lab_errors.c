@@ -38,19 +38,6 @@ static void solve(const lab *l, double omega, double orbit, double *X, error_row
   e->error = fabs(m.amplitude - orbit) / orbit;
 }
 
-/* Where the time integration starts: on the lab's motion, its sliders by exact forces. */
-static hc_status state_of_motion(const lab *l, double omega, double *state)
-{
-  scene sc;
-  hbm_solver *s = NULL;
-  hc_status st = lab_scene(l, LAB_EXACT, &sc);
-  sc.hbm.harmonics = l->n_harm;
-  if (st == HC_OK) st = lab_solver(&sc, &s);
-  if (st == HC_OK) st = comparison_orbit_start(s, l->X, omega, state);
-  hbm_solver_free(s);
-  return st;
-}
-
 int lab_errors(lab *l, double omega)
 {
   enum { COLUMNS = 6 };
@@ -67,7 +54,16 @@ int lab_errors(lab *l, double omega)
   sc.transient.law = TRANSIENT_LAW_EXACT;
   hc_status st = scene_setup(&sc, &setup);
   if (st == HC_OK) st = comparison_referee(&setup, NULL, &ti);
-  if (st == HC_OK) st = state_of_motion(l, omega, state);
+  /* Where the time integration starts: on the lab's motion, its sliders by exact forces. */
+  if (st == HC_OK) {
+    scene exact;
+    hbm_solver *solver = NULL;
+    st = lab_scene(l, LAB_EXACT, &exact);
+    exact.hbm.harmonics = l->n_harm;
+    if (st == HC_OK) st = lab_solver(&exact, &solver);
+    if (st == HC_OK) st = comparison_orbit_start(solver, l->X, omega, state);
+    hbm_solver_free(solver);
+  }
   if (st == HC_OK) st = timeint_orbit(ti, omega, 1, state, NULL, &found);
   if (st == HC_OK) orbit = found.amplitude;
   timeint_free(ti);

@@ -35,13 +35,6 @@ static double part_of_way(const bracket *k)
          (k->c - k->a) / (k->b - k->a) * (k->fa / (k->fc - k->fa)) * (k->fb / (k->fc - k->fb));
 }
 
-static void report_better_end(const bracket *k, root_point *out)
-{
-  bool a = fabs(k->fa) <= fabs(k->fb);
-  out->x = a ? k->a : k->b;
-  out->f = a ? k->fa : k->fb;
-}
-
 hc_status root_between(root_function *f, void *self, double a, double fa, double b, double fb, double tolerance,
                        root_point *out)
 {
@@ -50,7 +43,9 @@ hc_status root_between(root_function *f, void *self, double a, double fa, double
   if (!isfinite(a) || !isfinite(b) || !(!isnan(fa) && !isnan(fb) && (fa > 0) != (fb > 0))) return HC_BAD_INPUT;
   double part = isfinite(fa - fb) ? fa / (fa - fb) : 0.5; /* the secant */
   for (;;) {
-    report_better_end(&k, out);
+    bool by_low = fabs(k.fa) <= fabs(k.fb);
+    out->x = by_low ? k.a : k.b;
+    out->f = by_low ? k.fa : k.fb;
     double width = fabs(k.b - k.a), wanted = at_least_rounding(tolerance, out->x);
     if (width <= wanted) return HC_OK;
     double least = fmin(0.5, 0.5 * wanted / width), value;

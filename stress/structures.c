@@ -249,19 +249,6 @@ static hc_status draw_structure(uint64_t *r, const double *p, int n_contacts, in
   return st == HC_OK ? structure_resolve_damping(s) : st;
 }
 
-static hc_status choose_motion(uint64_t *r, const double *p, scene *sc)
-{
-  scene_structure *s = sc->structure;
-  double complex x[MOST_DOFS];
-  model *m;
-  hc_status st = structure_model(s, &m);
-  if (st == HC_OK) st = draw_frequency(r, p, m, &sc->compare.omega.v[0]);
-  if (st == HC_OK) st = free_response(m, sc->compare.omega.v[0], x);
-  for (int j = 0; j < s->n_contacts && st == HC_OK; ++j) draw_limits(r, s->n, x, &s->contacts[j]);
-  model_free(m);
-  return st;
-}
-
 hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
 {
   double p[STRESS_DIMENSIONS];
@@ -281,7 +268,15 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
   s->mass.v = calloc((size_t)n * (size_t)n, sizeof(double));
   s->stiffness.v = calloc((size_t)n * (size_t)n, sizeof(double));
   hc_status st = s->mass.v && s->stiffness.v ? draw_structure(&r, p, n_contacts, sc.hbm.harmonics, s) : HC_NO_MEMORY;
-  if (st == HC_OK) st = choose_motion(&r, p, &sc);
+  if (st == HC_OK) {
+    double complex x[MOST_DOFS];
+    model *m;
+    st = structure_model(s, &m);
+    if (st == HC_OK) st = draw_frequency(&r, p, m, &sc.compare.omega.v[0]);
+    if (st == HC_OK) st = free_response(m, sc.compare.omega.v[0], x);
+    for (int j = 0; j < s->n_contacts && st == HC_OK; ++j) draw_limits(&r, s->n, x, &s->contacts[j]);
+    model_free(m);
+  }
   if (st == HC_OK) {
     /* Masses, stiffnesses and lengths, all of the order of 1 so far, in units of these; the unit of time follows. */
     const double mass = 1e-3 * pow(1e6, p[MASS]);

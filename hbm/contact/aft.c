@@ -218,22 +218,18 @@ static void add_block(aft *a, const double stiffness[4], double *block)
   force_jacobian_add(a->n_harm, a->symbol, 2 * series_length(a->n_harm), block);
 }
 
-static void differentiate_two_coordinates(aft *a, double *jac)
-{
-  const contact *law = &a->contacts[0].law;
-  const size_t n_coef = (size_t)series_length(a->n_harm), rows = 2 * n_coef;
-  const double friction = law->mu * law->kn;
-  add_block(a, (double[4]){[CONTACT_STICK] = law->kt}, jac); /* dT/du */
-  add_block(a, (double[4]){[CONTACT_SLIP_PLUS] = friction, [CONTACT_SLIP_MINUS] = -friction}, jac + rows * n_coef);
-  add_block(a, (double[4]){0, law->kn, law->kn, law->kn}, jac + rows * n_coef + n_coef); /* d(N - N0)/dv */
-}
-
 void aft_jacobian(aft *a, double *jac)
 {
   const size_t rows = (size_t)a->n_dof * (size_t)series_length(a->n_harm);
   memset(jac, 0, rows * rows * sizeof(double));
-  if (a->n_dof > 1) differentiate_two_coordinates(a, jac);
-  else {
+  if (a->n_dof > 1) {
+    const contact *law = &a->contacts[0].law;
+    const size_t n_coef = (size_t)series_length(a->n_harm), block = 2 * n_coef;
+    const double friction = law->mu * law->kn;
+    add_block(a, (double[4]){[CONTACT_STICK] = law->kt}, jac); /* dT/du */
+    add_block(a, (double[4]){[CONTACT_SLIP_PLUS] = friction, [CONTACT_SLIP_MINUS] = -friction}, jac + block * n_coef);
+    add_block(a, (double[4]){0, law->kn, law->kn, law->kn}, jac + block * n_coef + n_coef); /* d(N - N0)/dv */
+  } else {
     if (a->n_contacts == 0) memset(a->k, 0, (size_t)a->n_time * sizeof(double));
     for (int j = 0; j < a->n_contacts; ++j)
       for (int m = 0; m < a->n_intervals[j]; ++m) {

@@ -122,19 +122,6 @@ static bool take_in(found_point *one, const found_point *other)
   return one->special.before != one->special.after || one->transitions_before != one->transitions_after;
 }
 
-/* One point of those that cannot be told apart. */
-static void merge_twins(detector *d)
-{
-  int n = 0;
-  for (int i = 0; i < d->n; ++i) {
-    const int k = twin_of(d->found, n, &d->found[i]);
-    if (k < 0) d->found[n++] = d->found[i];
-    else if (!take_in(&d->found[k], &d->found[i]))
-      memmove(&d->found[k], &d->found[k + 1], (size_t)(--n - k) * sizeof *d->found);
-  }
-  d->n = n;
-}
-
 /* A search along segment k. */
 typedef struct segment_search {
   detector *d;
@@ -328,7 +315,15 @@ hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *
     if (found != HC_OK) not_located = found; /* the search goes on: the others are still to be found */
     before = here;
   }
-  merge_twins(&d);
+  /* One point of those that cannot be told apart. */
+  int kept = 0;
+  for (int i = 0; i < d.n; ++i) {
+    const int k = twin_of(d.found, kept, &d.found[i]);
+    if (k < 0) d.found[kept++] = d.found[i];
+    else if (!take_in(&d.found[k], &d.found[i]))
+      memmove(&d.found[k], &d.found[k + 1], (size_t)(--kept - k) * sizeof *d.found);
+  }
+  d.n = kept;
   for (int i = 0; i < d.n && i < cap; ++i) out[i] = d.found[i].special;
   *n = d.n;
   hbm_curve_free(&d.near.ends);

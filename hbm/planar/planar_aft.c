@@ -249,24 +249,6 @@ static void harmonics_at(const planar_aft *a, int i, double *basis)
   period_samples_add(&a->of, 1, i, basis);
 }
 
-/* by = slope of the step applied to it, and to the motion at the samples before and after. */
-static void carry(planar_aft *a, const planar_slope *s)
-{
-  const int length = series_length(a->n_harm), n = columns(a);
-  const double radius = a->law.mu * a->law.kn / a->law.kt;
-  double *by[2] = {a->by[0], a->by[1]};
-  for (int q = 0; q < n + 2; ++q) {
-    const double b0 = by[0][q], b1 = by[1][q];
-    for (int d = 0; d < 2; ++d) by[d][q] = s->w[d][0] * b0 + s->w[d][1] * b1;
-  }
-  for (int d = 0; d < 2; ++d)
-    for (int c = 0; c < a->n_dof; ++c) {
-      const double weight = c < 2 ? 1 : radius, from = weight * s->from[d][c], to = weight * s->to[d][c];
-      double *row = by[d] + c * length;
-      for (int m = 0; m < length; ++m) row[m] += from * a->basis[0][m] + to * a->basis[1][m];
-    }
-}
-
 /* whole -= kt dw at the samples whose harmonics add up to `sum`. */
 static void subtract(planar_aft *a, const double *restrict sum)
 {
@@ -302,7 +284,20 @@ static void differentiate_step(planar_aft *a, int i, planar_move move, const pla
   if (move == PLANAR_APART && planar_slider_forgets(a->restart)) clear_rows(a);
   if (move == PLANAR_SLIPPED || move == PLANAR_PLACED) {
     harmonics_at(a, i ? i - 1 : a->n_time - 1, a->basis[0]);
-    carry(a, slope);
+    /* by = slope of the step applied to it, and to the motion at the samples before and after. */
+    const int stride = series_length(a->n_harm), n = columns(a);
+    const double radius = a->law.mu * a->law.kn / a->law.kt;
+    double *by[2] = {a->by[0], a->by[1]};
+    for (int q = 0; q < n + 2; ++q) {
+      const double b0 = by[0][q], b1 = by[1][q];
+      for (int d = 0; d < 2; ++d) by[d][q] = slope->w[d][0] * b0 + slope->w[d][1] * b1;
+    }
+    for (int d = 0; d < 2; ++d)
+      for (int c = 0; c < a->n_dof; ++c) {
+        const double weight = c < 2 ? 1 : radius, from = weight * slope->from[d][c], to = weight * slope->to[d][c];
+        double *row = by[d] + c * stride;
+        for (int m = 0; m < stride; ++m) row[m] += from * a->basis[0][m] + to * a->basis[1][m];
+      }
   }
   if (!forces) return;
   if (move == PLANAR_SLIPPED) subtract(a, a->basis[1]);

@@ -78,22 +78,6 @@ static void mode_sum_free(mode_sum *m)
   free(m);
 }
 
-static void make_sum_arrays(mode_sum *m)
-{
-  const size_t modes = (size_t)m->n, rows = (size_t)m->rows, dim = (size_t)m->dim, parts = m->poles ? 4 : 1;
-  workspace *w = &m->memory;
-  double **const lists[] = {&m->k, &m->c, &m->distance}, **const tables[] = {&m->lr, &m->li, &m->rr, &m->ri};
-  for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i) *lists[i] = workspace_doubles(w, modes);
-  for (size_t i = 0; i < parts; ++i) *tables[i] = workspace_doubles(w, rows * modes);
-  m->lambda = workspace_array(w, modes, sizeof *m->lambda);
-  m->power = workspace_array(w, modes, sizeof *m->power);
-  m->weight = workspace_doubles(w, 4 * modes);
-  m->product = workspace_doubles(w, 2 * dim * modes);
-  m->turned = workspace_doubles(w, m->poles ? 2 * dim * modes : 0);
-  m->term = workspace_doubles(w, rows * dim);
-  m->series = workspace_doubles(w, (rows * dim + LANES) * TERMS);
-}
-
 /* For a < dim and all b < rows. HC_NO_MEMORY: *out is NULL. */
 static hc_status mode_sum_new(const mode_table *of, int dim, int rows, mode_sum **out)
 {
@@ -101,7 +85,20 @@ static hc_status mode_sum_new(const mode_table *of, int dim, int rows, mode_sum 
   ranked *order = malloc(((size_t)n + 1) * sizeof *order);
   mode_sum *m = *out = calloc(1, sizeof *m);
   if (m) *m = (mode_sum){.n = n, .dim = dim, .rows = rows, .poles = of->lambda};
-  if (m) make_sum_arrays(m);
+  if (m) {
+    const size_t modes = (size_t)m->n, of_rows = (size_t)m->rows, of_dim = (size_t)m->dim, parts = m->poles ? 4 : 1;
+    workspace *w = &m->memory;
+    double **const lists[] = {&m->k, &m->c, &m->distance}, **const tables[] = {&m->lr, &m->li, &m->rr, &m->ri};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i) *lists[i] = workspace_doubles(w, modes);
+    for (size_t i = 0; i < parts; ++i) *tables[i] = workspace_doubles(w, of_rows * modes);
+    m->lambda = workspace_array(w, modes, sizeof *m->lambda);
+    m->power = workspace_array(w, modes, sizeof *m->power);
+    m->weight = workspace_doubles(w, 4 * modes);
+    m->product = workspace_doubles(w, 2 * of_dim * modes);
+    m->turned = workspace_doubles(w, m->poles ? 2 * of_dim * modes : 0);
+    m->term = workspace_doubles(w, of_rows * of_dim);
+    m->series = workspace_doubles(w, (of_rows * of_dim + LANES) * TERMS);
+  }
   if (!order || !m || m->memory.failed) {
     free(order);
     mode_sum_free(m);

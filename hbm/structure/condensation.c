@@ -178,20 +178,6 @@ static void fill_couplings(condensation *c, int h, condensation_change dynamic)
   solve_rest(c, h, true, dim, c->by_y + start);
 }
 
-static void fill_stiffness(condensation *c, int h, condensation_change dynamic)
-{
-  const int dim = c->basis.dim, rest = c->basis.rest;
-  const double complex *by_q = c->by_q + (size_t)h * (size_t)dim * (size_t)rest;
-  for (int e = 0; e < dim; ++e)
-    for (int d = 0; d < dim; ++d) {
-      const size_t at = entry(c, d, e), to = ((size_t)h * (size_t)dim + (size_t)e) * (size_t)dim + (size_t)d;
-      double complex sum = Z_at(c, dynamic, at);
-      for (int i = 0; i < rest; ++i)
-        sum -= Z_at(c, dynamic, entry(c, d, dim + i)) * by_q[(size_t)e * (size_t)rest + (size_t)i];
-      c->S[to] = sum;
-    }
-}
-
 /* p and Z_yy^-1 p_y of load l. */
 static void fill_load(condensation *c, int l)
 {
@@ -220,7 +206,16 @@ static hc_status fill_by_rest(condensation *c, int h)
     for (int d = 0; d < dim; ++d) c->S[e * dim + d] = c->basis.K[entry(c, d, e)];
   if (!uncoupled) {
     fill_couplings(c, h, dynamic);
-    fill_stiffness(c, h, dynamic);
+    const int of_dim = c->basis.dim, rest = c->basis.rest;
+    const double complex *by_q = c->by_q + (size_t)h * (size_t)of_dim * (size_t)rest;
+    for (int e = 0; e < of_dim; ++e)
+      for (int d = 0; d < of_dim; ++d) {
+        const size_t at = entry(c, d, e), to = ((size_t)h * (size_t)of_dim + (size_t)e) * (size_t)of_dim + (size_t)d;
+        double complex sum = Z_at(c, dynamic, at);
+        for (int i = 0; i < rest; ++i)
+          sum -= Z_at(c, dynamic, entry(c, d, of_dim + i)) * by_q[(size_t)e * (size_t)rest + (size_t)i];
+        c->S[to] = sum;
+      }
   }
   for (int l = 0; l < c->m->n_loads; ++l)
     if (c->m->loads[l].harmonic == h) fill_load(c, l);

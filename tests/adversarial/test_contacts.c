@@ -1,7 +1,6 @@
 /* test_contacts.c - the scenes of cases/adversarial about single contacts, by harmonic balance: what must come out,
  * from closed forms or from a scene that is the same in another guise. What both solvers say together:
  * test_verdicts.c. */
-#include "study/scene_solvers.h"
 #include "tests/adversarial/scenes.h"
 
 /* Newton is quadratic: once hbm.tolerance, 1e-10 of the forces, is met the error is its square, and what is left is

@@ -1,7 +1,6 @@
 /* test_curves.c - the scenes of cases/adversarial about response curves and motions as a whole: resonance with next
  * to no damping, sweeps that end on a fold or run downwards, branches that only one direction reaches, the most
  * harmonics, nothing at all. */
-#include "study/scene_solvers.h"
 #include "tests/adversarial/scenes.h"
 
 #include <complex.h>

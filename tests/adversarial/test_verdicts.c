@@ -3,8 +3,6 @@
  * test_curves.c. */
 #include "tests/program.h"
 
-#include <string.h>
-
 /* The third column, `verdict`, of the rows of a csv, one letter each: m match, u unstable, o other_branch, ... */
 static void letters(char *csv, char *found, size_t size)
 {

@@ -5,7 +5,6 @@
  * order is log(error before/error)/log(ratio of H, or of the regularisation). */
 #include "base/constants.h"
 #include "numerics/series.h"
-#include "study/scene_solvers.h"
 #include "tests/bench/orbits.h"
 
 enum { MEASURES = 4, LEVELS = 4, DECADES = 5 };

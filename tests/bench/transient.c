@@ -13,7 +13,6 @@
  * Ways take turns, ROUNDS times; a time is the median of its rounds [ms
  * of processor], a ratio the median of ratios within a round to the way that is cheapest among those that met the
  * accuracy. The handle is made beforehand: one serves a whole sweep. */
-#include "study/scene_solvers.h"
 #include "tests/bench/orbits.h"
 
 enum { WAYS = 4, ACCURACIES = 4, CASES = 3, HALF_DECADES = 15 };

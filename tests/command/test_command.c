@@ -1,7 +1,5 @@
 /* test_command.c - the command as people and scripts use it: exit codes, columns, messages, files written whole or
  * not at all. Runs the built hbmcheck (HBMCHECK_COMMAND) in a shell; what it computes is tested elsewhere. */
-#include <string.h>
-
 #include "tests/folder.h"
 #include "tests/program.h"
 

@@ -3,7 +3,6 @@
 #include <signal.h>
 #include <stdbool.h>
 
-#include "tests/check.h"
 #include "tests/shell.h"
 
 /* The first thing that the command says on stderr, into out[size]; then it is ended, whatever it is at. */

@@ -1,6 +1,4 @@
 /* test_formats.c - one model in every format of matrices that is read, up to what is printed of it. */
-#include <string.h>
-
 #include "tests/shell.h"
 
 #define AT "cases/formats/"

@@ -1,7 +1,4 @@
 /* test_frequency.c - frequencies in the unit of the sweep everywhere, and a word where they lie outside it. */
-#include <math.h>
-#include <stdlib.h>
-
 #include "base/constants.h"
 #include "tests/program.h"
 

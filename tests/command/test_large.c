@@ -1,9 +1,5 @@
 /* test_large.c - a structure of 96 degrees of freedom and 24 contacts (cases/structures/README.md), through all of it:
  * monodromy matrices of 192 columns, BDF steps of 216 states; a reduced mesh of 84 coordinates and 12 node pairs. */
-#include <string.h>
-
-#include "base/constants.h"
-#include "tests/check.h"
 #include "tests/shell.h"
 
 static char out[1 << 20];

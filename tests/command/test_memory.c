@@ -1,10 +1,8 @@
 /* test_memory.c - what a run takes is told beforehand within a factor of two, and said where it is much. */
-#include <string.h>
 #include <sys/resource.h>
 
 #include "casefile/case_file.h"
 #include "compare/memory.h"
-#include "tests/check.h"
 #include "tests/shell.h"
 
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__

@@ -1,6 +1,5 @@
 /* test_structures.c - the commands on structures, and what they say of single contacts and responses. */
 #include <stdbool.h>
-#include <string.h>
 
 #include "tests/program.h"
 

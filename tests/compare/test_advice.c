@@ -1,7 +1,5 @@
 /* test_advice.c - what is advised is never what is set already: every failure of either side under every combination of
  * the settings that advice names, and budgets at the ends of the settings' ranges. */
-#include <string.h>
-
 #include "compare/advice.h"
 #include "compare/budget.h"
 #include "tests/check.h"

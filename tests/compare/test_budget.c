@@ -1,8 +1,6 @@
 /* test_budget.c - the error budget over the eight reference scenes: what it accounts for is the row's own error, one
  * cause alone is accounted for in full, and the largest part is the cause where that is known. Parts are sizes, so that
  * two of opposite sign make the sum larger than what is observed; how often is printed. */
-#include "compare/accuracy/accuracy.h"
-#include "tests/check.h"
 
 #if defined __SANITIZE_ADDRESS__
 #define SANITIZED 1

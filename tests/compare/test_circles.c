@@ -1,9 +1,6 @@
 /* test_circles.c - the comparison of contacts with two tangents under the law of the circle: both sides agree, and
  * where they are made to differ the cause is named and as large as it must be. */
-#include <string.h>
-
 #include "casefile/case_file.h"
-#include "compare/comparison.h"
 #include "tests/check.h"
 #include "tests/scene_runs.h"
 

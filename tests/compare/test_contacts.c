@@ -1,8 +1,5 @@
 /* test_contacts.c - contacts compared: made up so that the answer is plain, and of structures. */
-#include <string.h>
-
 #include "casefile/case_file.h"
-#include "compare/comparison.h"
 #include "tests/check.h"
 #include "tests/scene_runs.h"
 

@@ -2,10 +2,7 @@
  * guess, and only there; what becomes of answers and refusals. */
 #include "compare/first_guess.h"
 
-#include <string.h>
-
 #include "study/scene_solvers.h"
-#include "tests/check.h"
 #include "tests/hbm/scenes.h"
 #include "timeint/steady/steady.h"
 

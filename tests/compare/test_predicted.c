@@ -1,9 +1,6 @@
 /* test_predicted.c - what both sides expect of themselves, and that a discrepancy beyond it is said to be unexpected.
  * The linker gives this program hbm_predict and timeint_predict by other names, so that each side says what it is told
  * to. */
-#include <string.h>
-
-#include "tests/check.h"
 #include "tests/faults/child.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_runs.h"

@@ -1,7 +1,5 @@
 /* test_structure_verdicts.c - what compare says of the cases in cases/structures, with harmonics enough, and that it is
  * so: every verdict is tried by marching, period after period in plain closed form, from beside the motion it is of. */
-#include <string.h>
-
 #include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "tests/check.h"

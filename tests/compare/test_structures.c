@@ -1,10 +1,7 @@
 /* test_structures.c - the comparison of structures: every response predicts its error, and a mistake in the model of
  * one side alone is seen. The linker gives this program hbm_solver_new by another name, so that harmonic balance can be
  * given another structure than time integration. */
-#include <string.h>
-
 #include "casefile/case_file.h"
-#include "compare/comparison.h"
 #include "tests/check.h"
 #include "tests/scene_runs.h"
 #include "tests/wrap.h"

@@ -2,8 +2,6 @@
 #include "tests/faults/child.h"
 
 #include <signal.h>
-#include <stdio.h>
-#include <string.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 

@@ -5,8 +5,6 @@
  * (ctest -C Thorough), else for the first ones and then in growing strides. */
 #include <dirent.h>
 #include <limits.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "tests/faults/child.h"
 #include "tests/faults/memory.h"

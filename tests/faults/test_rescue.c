@@ -3,8 +3,6 @@
  * stopped, the first table says that it is not whole, the exit code is 3; however many signals come. Where no row was
  * found yet, it ends as everything does. */
 #include <jansson.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include "tests/faults/child.h"
 #include "tests/faults/small.h"

@@ -2,13 +2,10 @@
  * curve with more and more harmonics, where each allocation in turn fails: out of memory, or the same answer.
  * test_memory.c tries commands, on small scenes. */
 #include <gsl/gsl_errno.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "hbm/hbm.h"
 #include "numerics/norm.h"
 #include "study/scene_solvers.h"
-#include "tests/check.h"
 #include "tests/faults/memory.h"
 #include "tests/faults/small.h"
 

@@ -7,9 +7,7 @@
  * g = f cos h th or f sin h th, f continuous and made of constants and A cos th: |jump of f^(j)| <= J of A's size
  * for j >= 1, hence |J_m| <= J ((1 + h)^m - h^m), and a tail falling like (1 + h) s/(2 pi). */
 #include "hbm/contact/aft.h"
-#include "study/scene_solvers.h"
 #include "tests/hbm/slow_aft.h"
-#include "tests/scene_parts.h"
 
 static slow_aft slow; /* too large for a stack */
 

@@ -1,6 +1,5 @@
 /* test_contact_measures.c - what a contact does over a period: closed forms, and the balance of work of solutions. */
 #include <float.h>
-#include <string.h>
 
 #include "hbm/hbm.h"
 #include "tests/hbm/random_structures.h"

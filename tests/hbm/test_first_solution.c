@@ -6,7 +6,6 @@
 
 #include "hbm/curve/continuation.h"
 #include "hbm/solver/hbm_solver_impl.h"
-#include "study/scene_solvers.h"
 #include "tests/hbm/traced.h"
 
 typedef struct refused_scene {

@@ -1,7 +1,5 @@
 /* test_many_unknowns.c - harmonic balance of many contacts: a request to stop is heard at every evaluation, and what is
  * foretold of it is foretold at a price that can be paid. Scene: 36 node pairs in space, 327 unknowns at H = 1. */
-#include <string.h>
-
 #include "casefile/case_file.h"
 #include "study/scene_solvers.h"
 #include "tests/check.h"

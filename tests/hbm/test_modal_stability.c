@@ -4,7 +4,6 @@
 #include <complex.h>
 
 #include "base/constants.h"
-#include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "hbm/solver/stability.h"
 #include "tests/hbm/random_structures.h"

@@ -1,7 +1,6 @@
 /* test_predict.c - what hbm_predict says an HBM solution is off by, against what it is off by: the distance to the
  * solution of 80 harmonics with exact forces and harmonic 0, which is off by (30/80)^3 = 1/19 of H = 30 itself. The
  * rule that both must keep is the one predictions are used by: three times. */
-#include <float.h>
 
 #include "hbm/hbm.h"
 #include "numerics/series.h"

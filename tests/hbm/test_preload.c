@@ -5,7 +5,6 @@
  * force itself. Found by `stress`. */
 #include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
-#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
 

@@ -5,7 +5,6 @@
 
 #include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"
-#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
 

@@ -1,7 +1,6 @@
 /* test_system.c - what residuals are compared with: the sizes of the forces, added by hand. */
 #include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"
-#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
 

@@ -1,9 +1,5 @@
 /* test_neighbours.c - sampled solutions next to the exact curve's: they are the sampled equations', at the exact ones'
  * omegas, and where there is none next to a point that is said. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "base/status.h"
 #include "lab/lab.h"
 #include "tests/check.h"

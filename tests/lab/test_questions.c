@@ -1,7 +1,4 @@
 /* test_questions.c - the lab's questions against those they come from, and against what the numbers must be. */
-#include <math.h>
-#include <string.h>
-
 #include "casefile/case_file.h"
 #include "compare/first_guess.h"
 #include "compare/response.h"

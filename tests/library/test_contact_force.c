@@ -1,6 +1,4 @@
 /* test_contact_force.c - the forces of one contact under a motion that is given, through the C API. */
-#include <math.h>
-
 #include "base/constants.h"
 #include "tests/library/case2.h"
 

@@ -1,7 +1,5 @@
 /* test_contacts.c - what each contact does (--contacts) through the C API: the numbers of those it calls, of every
  * solution, steady state and row; where they were not asked for, none. */
-#include <math.h>
-
 #include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"

@@ -1,7 +1,5 @@
 /* test_verification.c - another program's curve through the C API: the verdicts, numbers and words of those it calls,
  * arrays that are none refused in words, a monitor that stops it. */
-#include <math.h>
-
 #include "casefile/case_file.h"
 #include "compare/verify/verify.h"
 #include "tests/library/case2.h"

@@ -2,7 +2,6 @@
 #include "tests/check.h"
 
 #include <float.h>
-#include <string.h>
 
 #include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"

@@ -1,7 +1,6 @@
 /* test_dense.c - LU factors: residuals against the bound of rounding theory, signs of determinants, and what must be
  * refused. */
 #include <complex.h>
-#include <float.h>
 #include <pthread.h>
 
 #include "numerics/dense.h"

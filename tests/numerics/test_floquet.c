@@ -2,7 +2,6 @@
 #include "numerics/floquet.h"
 
 #include <float.h>
-#include <math.h>
 
 #include "tests/check.h"
 

@@ -1,7 +1,6 @@
 /* test_roots.c - scalar searches against roots and minima known from mathematics, with functions that are smooth,
  * flat, have a jump or a kink, fail or are NaN. */
 #include <float.h>
-#include <string.h>
 
 #include "numerics/roots.h"
 #include "tests/check.h"

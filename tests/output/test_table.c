@@ -2,7 +2,6 @@
  * for bit. */
 #include <jansson.h>
 #include <locale.h>
-#include <string.h>
 
 #include "base/utf8.h"
 #include "output/table.h"

@@ -1,7 +1,5 @@
 /* test_command.c - hbmcheck stress as people use it: 200 scenes without a finding, stopped and resumed, one scene
  * again. Runs the built command (HBMCHECK_COMMAND) in a shell, in a folder of its own. */
-#include <string.h>
-
 #include "tests/folder.h"
 #include "tests/shell.h"
 

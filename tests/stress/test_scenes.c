@@ -1,7 +1,6 @@
 /* test_scenes.c - the scenes of a stress run: the whole of every range, its special points, and the same scene from
  * the same numbers. */
 #include <float.h>
-#include <string.h>
 
 #include "casefile/case_file.h"
 #include "stress/scenes.h"

@@ -1,9 +1,6 @@
 /* test_structures.c - random structures: what is drawn, and that the checks can fail. Each is given an answer that is
  * wrong by a little, where it arrives (the linker puts the functions below in front of the library's own, --wrap), and
  * must call it a finding; unspoiled, the same scene ends without one. Oscillators go the same ways. */
-#include <math.h>
-#include <string.h>
-
 #include "casefile/case_file.h"
 #include "casefile/fields.h"
 #include "casefile/structure.h"

@@ -2,9 +2,6 @@
  * claimed. Runs the built hbmcheck (HBMCHECK_COMMAND) in a folder of its own; what is stopped or held up at a certain
  * place is the command in a child of the test (tests/faults/moments.h). */
 #include <signal.h>
-#include <stdbool.h>
-#include <string.h>
-#include <sys/wait.h>
 
 #include "tests/faults/child.h"
 #include "tests/faults/moments.h"

@@ -2,7 +2,6 @@
  * that the file expects; the quick ones give it, which are those that tests/hbm/test_paper.c settles from below. Runs
  * the built hbmcheck (HBMCHECK_COMMAND) on cases/. All of them: study.paper_verdicts (CMakeLists.txt), slow. */
 #include <dirent.h>
-#include <string.h>
 #include <sys/wait.h>
 
 #include "study/store.h"

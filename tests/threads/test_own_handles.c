@@ -4,7 +4,6 @@
 #include "tests/check.h"
 
 #include <pthread.h>
-#include <string.h>
 
 #include "library/hbmcheck.h"
 

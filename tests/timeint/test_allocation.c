@@ -1,6 +1,5 @@
 /* test_allocation.c - neither marching nor shooting allocates: every malloc, calloc and realloc of the process,
  * SUNDIALS' included, passes through here and is counted. */
-#include "tests/check.h"
 
 #include "numerics/sundials_compat.h"
 #include "tests/scene_parts.h"

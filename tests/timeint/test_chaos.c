@@ -3,7 +3,6 @@
  * percent of itself after each period. */
 #include "tests/check.h"
 
-#include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/steady/aperiodic.h"
 #include "timeint/steady/timeint_private.h"

@@ -1,9 +1,7 @@
 /* test_circle.c - time integration of contacts with two tangents under the law of the circle: against an independent
  * program, against the law of one tangent where the motion is on one line, and against differences. */
 
-#include "base/constants.h"
 #include "numerics/norm.h"
-#include "tests/check.h"
 #include "tests/timeint/drawn.h"
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/events_newton.h"

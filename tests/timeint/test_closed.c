@@ -1,12 +1,6 @@
 /* test_closed.c - the exact law in closed form (integrate_closed_form.h): against the oracle, against CVODE's
  * event-driven periods, its monodromy matrix against differences, the table of reference, what must not break it. */
-#include "tests/check.h"
 
-#include <complex.h>
-#include <string.h>
-
-#include "base/constants.h"
-#include "model/linear.h"
 #include "tests/random.h"
 #include "tests/timeint/exact_periods.h"
 #include "tests/timeint/oracle.h"

@@ -2,9 +2,6 @@
  * of all eight cases. */
 #include "tests/check.h"
 
-#include <string.h>
-
-#include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 typedef struct row {

@@ -1,6 +1,5 @@
 /* test_families.c - steady states that are members of a family: a slider that never slips rests where the start put it.
  * From rest, and swept up and down, against an independent program. */
-#include "tests/check.h"
 #include "tests/hbm/structure_cases.h"
 #include "timeint/steady/steady.h"
 #include "timeint/steady/sweep.h"

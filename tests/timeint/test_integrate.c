@@ -1,5 +1,4 @@
 /* test_integrate.c - one period by CVODE: against a closed form, bit for bit again, and what its flags become. */
-#include "tests/check.h"
 
 #include <complex.h>
 

@@ -1,12 +1,8 @@
 /* test_integrate_exact.c - periods of the exact law by CVODE: against closed forms, its monodromy matrix against
  * differences, and transitions that coincide, graze or end the period. */
-#include "tests/check.h"
-
-#include <complex.h>
 
 #include <cvodes/cvodes.h>
 
-#include "model/linear.h"
 #include "tests/timeint/exact_periods.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/reference_rows.h"

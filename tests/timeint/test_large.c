@@ -5,7 +5,6 @@
 #include <float.h>
 
 #include "compare/comparison.h"
-#include "tests/check.h"
 #include "tests/hbm/structure_cases.h"
 #include "tests/timeint/drawn.h"
 #include "tests/timeint/force_steps.h"

@@ -1,13 +1,10 @@
 /* test_linear_regime.c - the closed form against the table and against integration. Where linear_regime_is_final says
  * yes no contact changes its state; and it says yes up to where one does. */
-#include "tests/check.h"
 
 #include <complex.h>
 #include <float.h>
-#include <string.h>
 
 #include "model/linear.h"
-#include "study/scene_solvers.h"
 #include "tests/random.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/reference_rows.h"

@@ -1,6 +1,5 @@
 /* test_many_contacts.c - n equal contacts of stiffness k/n are one of stiffness k: the same equations, the same
  * orbit. n beyond what a case file lists. */
-#include "tests/check.h"
 
 #include <float.h>
 

@@ -1,12 +1,10 @@
 /* test_measure.c - peaks, sums and regimes of a period that is known in closed form. */
-#include "tests/check.h"
 
 #include <complex.h>
 
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/period/integrate_private.h"
-#include "timeint/period/measure.h"
 
 /* Undamped, unforced: x = sum of what the start gives: x = p cos(s theta) + q sin(s theta), s^2 = k; here s = 2.5,
  * so that a period holds two and a half waves, the highest peak is sqrt(p^2 + q^2) and lies between steps, and the

@@ -4,7 +4,6 @@
 
 #include <complex.h>
 #include <float.h>
-#include <string.h>
 
 #include "tests/random.h"
 #include "timeint/closed_form/modal_motion.h"

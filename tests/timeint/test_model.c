@@ -1,11 +1,9 @@
 /* test_model.c - the equations without dimensions and their Jacobian. */
-#include "tests/check.h"
 
 #include <float.h>
 
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/law/scaled.h"
 
 /* Against the printed equation in the scene's own units, where both laws are exact (no corner within 40 widths):
  * rounding only, of the largest term. */

@@ -1,8 +1,5 @@
 /* test_monodromy.c - the monodromy matrix of a period (regularised law): against differences of periods and against
  * closed forms. */
-#include "tests/check.h"
-
-#include <string.h>
 
 #include "model/linear.h"
 #include "tests/scene_parts.h"

@@ -2,7 +2,6 @@
  * against the exact law's in closed form, which the prediction has not seen. */
 #include "tests/check.h"
 
-#include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 static timeint *made(scene sc, transient_law law, transient_method method, bool scout, double regularisation)

@@ -2,7 +2,6 @@
  * the exact law. */
 #include "tests/check.h"
 
-#include "study/scene_solvers.h"
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"
 

@@ -1,11 +1,8 @@
 /* test_regularisation.c - the law's error falls at the order it claims. Exact values: reference_rows.h. */
-#include "tests/check.h"
 
-#include "study/scene_solvers.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/period/integrate.h"
-#include "timeint/period/measure.h"
 
 static const double b10_exact = 1.40757735095, c2_exact = 9.45555672271; /* |X1| at omega 7 */
 

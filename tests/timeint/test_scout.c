@@ -2,9 +2,6 @@
  * same orbits; and an orbit that is not there is not confirmed. */
 #include "tests/check.h"
 
-#include <string.h>
-
-#include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"

@@ -1,12 +1,8 @@
 /* test_shoot.c - orbits as fixed points of the period map, with both laws: in few periods, the same orbit as marching
  * finds, unstable ones too; refused where there is none next to the start. */
-#include "tests/check.h"
-
-#include <complex.h>
 
 #include <gsl/gsl_eigen.h>
 
-#include "study/scene_solvers.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/scenes.h"

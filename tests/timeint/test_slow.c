@@ -4,7 +4,6 @@
 
 #include <complex.h>
 
-#include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 /* Swept up onto the branch that ends at 708.6, as far as 708.5, where the peak bends over by 1.5 rad/s. Exact

@@ -5,7 +5,6 @@
 #include <complex.h>
 #include <float.h>
 
-#include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 static double complex response(const scene *sc, double stiffness, double omega)

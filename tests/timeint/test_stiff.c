@@ -1,6 +1,5 @@
 /* test_stiff.c - motions of structures by complex modes: against power series, which decompose nothing. */
 
-#include "tests/check.h"
 #include "tests/hbm/random_structures.h"
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/closed_form/motion_modes.h"

@@ -1,16 +1,11 @@
 /* test_structure.c - time integration of structures: against an independent program, against the closed form of one
  * degree of freedom, and its two integrators of the exact law against each other. */
 
-#include "tests/check.h"
 #include "tests/hbm/structure_cases.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/drawn.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/closed_form/integrate_closed_form.h"
-#include "timeint/cvode/integrate_events.h"
-#include "timeint/cvode/integrate_regularised.h"
 #include "timeint/law/contact_track.h"
-#include "timeint/steady/steady.h"
 
 /* ---- an independent program -------------------------------------------------------------------------- */
 

@@ -1,7 +1,6 @@
 /* test_torus.c - motions that repeat after no number of periods: tori beyond a Neimark-Sacker bifurcation, their second
  * frequency, what is none; a motion without bound; and chaos that ends. */
 #include "numerics/random.h"
-#include "tests/check.h"
 #include "tests/hbm/structure_cases.h"
 #include "timeint/steady/aperiodic.h"
 #include "timeint/steady/sweep.h"

@@ -3,7 +3,6 @@
  * another program and from AUTO. */
 #include "tests/check.h"
 
-#include "study/scene_solvers.h"
 #include "tests/timeint/scenes.h"
 
 static scene exactly(scene sc)

@@ -145,25 +145,6 @@ static void add(int width, double by_x, const double *restrict x, double by_y, c
   for (int q = 0; q < width; ++q) sum[q] += by_x * x[q] + by_y * y[q];
 }
 
-/* sum += kt (dU'.e_perp)_k */
-static void add_across(const planar_columns *c, int width, int k, double *sum)
-{
-  for (int i = 0; i <= k; ++i) {
-    const double by = c->kt * (i + 1) / c->h;
-    add(width, -by * c->e[1][k - i], term(c->u[0], c, i + 1), by * c->e[0][k - i], term(c->u[1], c, i + 1), sum);
-  }
-}
-
-/* sum -= (q d(mu N))_k + (kt U'.e dphi + mu N dphi')_k with dphi up to `known`. */
-static void subtract_rest(const planar_columns *c, int width, int k, int known, double *sum)
-{
-  for (int i = 0; i <= k; ++i) {
-    const double *angle = term(i <= known ? c->angle : c->v, c, i);
-    const double by = i <= known ? -c->kt * c->slide[k - i] - (i > 0 ? c->limit[k + 1 - i] * i / c->h : 0) : 0;
-    add(width, -c->turn[k - i] * c->friction, term(c->v, c, i), by, angle, sum);
-  }
-}
-
 /* dphi_k */
 static void find_angle(planar_columns *c, int width, int k)
 {
@@ -173,8 +154,20 @@ static void find_angle(planar_columns *c, int width, int k)
   const double by = c->fresh ? (k > 0 ? k * c->limit[1] / c->h : 0) + c->kt * c->slide[0] : k * c->limit[0] / c->h;
   double *sum = c->sum;
   memset(sum, 0, (size_t)width * sizeof *sum);
-  add_across(c, width, order, sum);
-  subtract_rest(c, width, order, k - 1, sum);
+  /* sum += kt (dU'.e_perp)_k */
+  for (int i = 0; i <= order; ++i) {
+    const double factor = c->kt * (i + 1) / c->h;
+    add(width, -factor * c->e[1][order - i], term(c->u[0], c, i + 1), factor * c->e[0][order - i],
+        term(c->u[1], c, i + 1), sum);
+  }
+  /* sum -= (q d(mu N))_k + (kt U'.e dphi + mu N dphi')_k with dphi up to `known`. */
+  const int known = k - 1;
+  for (int i = 0; i <= order; ++i) {
+    const double *of_angle = term(i <= known ? c->angle : c->v, c, i);
+    const double factor =
+        i <= known ? -c->kt * c->slide[order - i] - (i > 0 ? c->limit[order + 1 - i] * i / c->h : 0) : 0;
+    add(width, -c->turn[order - i] * c->friction, term(c->v, c, i), factor, of_angle, sum);
+  }
   for (int q = 0; q < width; ++q) angle[q] = sum[q] / by;
 }
 

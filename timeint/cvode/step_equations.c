@@ -103,22 +103,17 @@ static void add_force(step_equations *s, int by, double force, int row)
   for (size_t i = 0; i < n; ++i) column[i] += s->gamma * s->gamma * force * G[i];
 }
 
-/* G = B D^-1 B^T. */
-static void find_compliance(step_equations *s)
-{
-  const size_t n = (size_t)s->n, rows = (size_t)s->n_rows;
-  memcpy(s->pulled, s->rows.row, n * rows * sizeof *s->pulled);
-  for (size_t r = 0; r < rows; ++r) solve_D(s, s->pulled + r * n);
-  dense_multiply(s->n_rows, s->n_rows, s->n, s->rows.turned, s->pulled, s->compliant);
-}
-
 bool step_equations_factor(step_equations *s, const scaled_model *m)
 {
   const size_t rows = (size_t)s->n_rows;
   s->by_K = m->by_K;
   s->by_C = m->by_C;
   if (!factor_D(s)) return false;
-  find_compliance(s);
+  /* G = B D^-1 B^T. */
+  const size_t n = (size_t)s->n, count = (size_t)s->n_rows;
+  memcpy(s->pulled, s->rows.row, n * count * sizeof *s->pulled);
+  for (size_t r = 0; r < count; ++r) solve_D(s, s->pulled + r * n);
+  dense_multiply(s->n_rows, s->n_rows, s->n, s->rows.turned, s->pulled, s->compliant);
   memset(s->small, 0, rows * rows * sizeof *s->small);
   for (size_t r = 0; r < rows; ++r) s->small[r * (rows + 1)] = 1;
   for (int j = 0; j < s->n_contacts; ++j) {
@@ -132,21 +127,6 @@ bool step_equations_factor(step_equations *s, const scaled_model *m)
   return dense_factor(s->n_rows, s->small, s->small_pivot) == HC_OK;
 }
 
-/* s->force += S q */
-static void add_forces(step_equations *s)
-{
-  for (int j = 0; j < s->n_contacts; ++j) {
-    const step_contact *f = &s->contact[j];
-    double u[2];
-    const double v = step_equations_motion(s, j, f->directions, u);
-    for (int a = 0; a < f->directions; ++a) {
-      const double t = f->by_v[a] * v + f->by_u[a][0] * u[0] + f->by_u[a][1] * u[1];
-      step_equations_add(s->force, s->rows.along[j + a], t);
-      step_equations_add(s->force, s->rows.across[j + a], f->n_v * v);
-    }
-  }
-}
-
 void step_equations_solve(step_equations *s, double *a, double *b)
 {
   const int n = s->n;
@@ -157,7 +137,17 @@ void step_equations_solve(step_equations *s, double *a, double *b)
   contact_rows_motion(&s->rows, s->p, s->q);
   dense_times_vector(s->n_rows, s->n_rows, -gamma * gamma, s->compliant, s->force, 1, s->q);
   dense_solve(s->n_rows, s->small, s->small_pivot, 1, s->q);
-  add_forces(s);
+  /* s->force += S q */
+  for (int j = 0; j < s->n_contacts; ++j) {
+    const step_contact *f = &s->contact[j];
+    double u[2];
+    const double v = step_equations_motion(s, j, f->directions, u);
+    for (int k = 0; k < f->directions; ++k) {
+      const double t = f->by_v[k] * v + f->by_u[k][0] * u[0] + f->by_u[k][1] * u[1];
+      step_equations_add(s->force, s->rows.along[j + k], t);
+      step_equations_add(s->force, s->rows.across[j + k], f->n_v * v);
+    }
+  }
   dense_times_vector(n, s->n_rows, -gamma, s->pulled, s->force, 1, b);
   for (int i = 0; i < n; ++i) a[i] += gamma * b[i];
 }

@@ -91,26 +91,22 @@ static void invert_rates(const planar_derivatives *l, double gamma, int directio
   share[1][0] = -c / det, share[1][1] = a / det;
 }
 
-/* f = by_u (u - d) + by_v v where the slider is w = share (d + gamma (r_u u + r_v v)). */
-static void eliminate(structure_newton *s, int j)
-{
-  const planar_derivatives *l = &s->law[j];
-  const double gamma = s->step.gamma;
-  const int directions = s->step.contact[j].directions;
-  step_contact f = {.directions = directions, .by_v = {l->t_v[0], l->t_v[1]}, .n_v = l->n_v};
-  if (directions > 0) invert_rates(l, gamma, directions, s->share[j]);
-  for (int a = 0; a < directions; ++a)
-    for (int b = 0; b < directions; ++b) {
-      for (int k = 0; k < directions; ++k) f.by_u[a][b] += l->t_u[a][k] * s->share[j][k][b];
-      f.by_v[a] -= f.by_u[a][b] * gamma * l->rate_v[b];
-    }
-  s->step.contact[j] = f;
-}
-
 bool structure_newton_factor(structure_newton *s, const scaled_model *m, double gamma)
 {
   s->step.gamma = gamma;
-  for (int j = 0; j < s->step.n_contacts; ++j) eliminate(s, j);
+  /* f = by_u (u - d) + by_v v where the slider is w = share (d + gamma (r_u u + r_v v)). */
+  for (int j = 0; j < s->step.n_contacts; ++j) {
+    const planar_derivatives *l = &s->law[j];
+    const int directions = s->step.contact[j].directions;
+    step_contact f = {.directions = directions, .by_v = {l->t_v[0], l->t_v[1]}, .n_v = l->n_v};
+    if (directions > 0) invert_rates(l, gamma, directions, s->share[j]);
+    for (int a = 0; a < directions; ++a)
+      for (int b = 0; b < directions; ++b) {
+        for (int k = 0; k < directions; ++k) f.by_u[a][b] += l->t_u[a][k] * s->share[j][k][b];
+        f.by_v[a] -= f.by_u[a][b] * gamma * l->rate_v[b];
+      }
+    s->step.contact[j] = f;
+  }
   return step_equations_factor(&s->step, m);
 }
 

@@ -234,23 +234,6 @@ static void scale_column(size_t rows, size_t ld, double by, double *first)
   for (size_t r = 0; r < rows; ++r) first[r * ld] *= by;
 }
 
-/* Mode i is slowed by `a`. */
-static void slow_mode(modal_base *b, size_t i, double a)
-{
-  const size_t n = (size_t)b->n, contacts = (size_t)b->n_contacts, loads = (size_t)b->n_loads;
-  b->slowed[i] = a;
-  b->K[i] /= a * a;
-  if (b->diagonal_C) b->C[i] /= a;
-  else scale_column(n, n, 1 / sqrt(a), b->C + i), scale(n, b->C + i * n, 1 / sqrt(a));
-  scale(n, b->shape + i * n, 1 / a);
-  scale_column(n, n, a, b->inverse + i);
-  scale_column(contacts, n, 1 / a, b->tangent + i);
-  scale_column(contacts, n, 1 / a, b->normal + i);
-  scale_column((size_t)b->n_responses, n, 1 / a, b->response + i);
-  scale_column(loads, n, 1 / a, b->cosine + i);
-  scale_column(loads, n, 1 / a, b->sine + i);
-}
-
 hc_status modal_base_slowed(const modal_base *b, const model *m, double fastest, modal_base **out)
 {
   const size_t n = (size_t)b->n;
@@ -265,7 +248,21 @@ hc_status modal_base_slowed(const modal_base *b, const model *m, double fastest,
     copy->slowest = INFINITY, copy->decay = 0;
     for (size_t i = 0; i < n; ++i) {
       const double a = sqrt(fmax(b->K[i], 0)) / fastest, *C = copy->C + (b->diagonal_C ? i : i * (n + 1));
-      if (a > 1) slow_mode(copy, i, a);
+      /* Mode i is slowed by `a`. */
+      if (a > 1) {
+        const size_t count = (size_t)copy->n, contacts = (size_t)copy->n_contacts, loads = (size_t)copy->n_loads;
+        copy->slowed[i] = a;
+        copy->K[i] /= a * a;
+        if (copy->diagonal_C) copy->C[i] /= a;
+        else scale_column(count, count, 1 / sqrt(a), copy->C + i), scale(count, copy->C + i * count, 1 / sqrt(a));
+        scale(count, copy->shape + i * count, 1 / a);
+        scale_column(count, count, a, copy->inverse + i);
+        scale_column(contacts, count, 1 / a, copy->tangent + i);
+        scale_column(contacts, count, 1 / a, copy->normal + i);
+        scale_column((size_t)copy->n_responses, count, 1 / a, copy->response + i);
+        scale_column(loads, count, 1 / a, copy->cosine + i);
+        scale_column(loads, count, 1 / a, copy->sine + i);
+      }
       copy->slowest = fmax(0, fmin(copy->slowest, 0.5 * *C));
       copy->decay = fmax(copy->decay, *C);
     }

@@ -142,22 +142,6 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
   return isfinite(sum);
 }
 
-/* Without contacts: jac[ld * ld], ld >= 2 n, of which the rest is 0. */
-static void linear_jacobian(const scaled_model *m, size_t ld, double *jac)
-{
-  const modal_base *b = m->base;
-  const size_t n = (size_t)m->n;
-  memset(jac, 0, ld * ld * sizeof *jac);
-  for (size_t col = 0; col < n; ++col) {
-    double *by_x = jac + col * ld, *by_p = jac + (n + col) * ld;
-    by_p[col] = 1;
-    if (b->diagonal_K) by_x[n + col] = -m->by_K * b->K[col];
-    if (b->diagonal_C) by_p[n + col] = -m->by_C * b->C[col];
-    for (size_t row = 0; row < n && !b->diagonal_K; ++row) by_x[n + row] = -m->by_K * b->K[col * n + row];
-    for (size_t row = 0; row < n && !b->diagonal_C; ++row) by_p[n + row] = -m->by_C * b->C[col * n + row];
-  }
-}
-
 /* What motion along direction b of a contact, tangents t[][n], does to direction a of it. */
 static void add_direction(double *jac, size_t n, size_t ld, size_t w, const double *t, int a, int b,
                           const planar_derivatives *s)
@@ -176,7 +160,20 @@ static void add_direction(double *jac, size_t n, size_t ld, size_t w, const doub
 void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
 {
   const size_t n = (size_t)m->n, ld = (size_t)m->n_states;
-  linear_jacobian(m, ld, jac);
+  /* Without contacts: jac[ld * ld], ld >= 2 n, of which the rest is 0. */
+  const modal_base *base = m->base;
+  const size_t count = (size_t)m->n;
+  memset(jac, 0, ld * ld * sizeof *jac);
+  for (size_t col = 0; col < count; ++col) {
+    double *by_x = jac + col * ld, *by_p = jac + (count + col) * ld;
+    by_p[col] = 1;
+    if (base->diagonal_K) by_x[count + col] = -m->by_K * base->K[col];
+    if (base->diagonal_C) by_p[count + col] = -m->by_C * base->C[col];
+    for (size_t row = 0; row < count && !base->diagonal_K; ++row)
+      by_x[count + row] = -m->by_K * base->K[col * count + row];
+    for (size_t row = 0; row < count && !base->diagonal_C; ++row)
+      by_p[count + row] = -m->by_C * base->C[col * count + row];
+  }
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     const size_t w = 2 * n + (size_t)j;
     const int directions = scaled_directions(m, j);

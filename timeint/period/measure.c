@@ -61,18 +61,6 @@ static void extend(response_measure *r, double x)
   if (x < r->min) r->min = x;
 }
 
-/* Sums over the instants of a whole period. */
-static void add_sums(const measure *me, response_measure *r)
-{
-  for (int i = 0; i < TIMEINT_WAVE; ++i) {
-    const double x = r->wave[i];
-    r->sum += x;
-    r->sum_sq += x * x;
-    r->sum_cos += x * me->circle[2 * i];
-    r->sum_sin += x * me->circle[2 * i + 1];
-  }
-}
-
 /* The instants of the wave from me->next to theta1. */
 static hc_status add_instants(measure *me, const integrator *in, double theta1)
 {
@@ -84,7 +72,16 @@ static hc_status add_instants(measure *me, const integrator *in, double theta1)
     response_measure *r = &me->response[i];
     hc_status st = integrate_samples(in, i, TWO_PI * me->next / TIMEINT_WAVE, step, count, r->wave + me->next);
     if (st != HC_OK) return st;
-    if (last == TIMEINT_WAVE) add_sums(me, r);
+    /* Sums over the instants of a whole period. */
+    if (last == TIMEINT_WAVE) {
+      for (int k = 0; k < TIMEINT_WAVE; ++k) {
+        const double x = r->wave[k];
+        r->sum += x;
+        r->sum_sq += x * x;
+        r->sum_cos += x * me->circle[2 * k];
+        r->sum_sin += x * me->circle[2 * k + 1];
+      }
+    }
   }
   me->next = last;
   return HC_OK;

@@ -113,18 +113,6 @@ motion_error *closed_start_predictions(timeint *ti, const double *state, const d
   return NULL;
 }
 
-/* By CVODE alone, next to the closed form's orbit at ti->y; stable, unless an orbit was asked for whatever its
- * stability. */
-static hc_status shoot_beside(timeint *ti, int k, bool stable, const hc_monitor *monitor, timeint_result *r)
-{
-  shoot_report found;
-  const double size = timeint_scaled_size(ti);
-  hc_status st = shoot_newton(ti->shoot, k, ORBIT_NEXT_TO * size, orbit_goal(ti), monitor, &found);
-  if (st == HC_OK && (!(found.moved <= ORBIT_NEXT_TO * size) || (stable && !(cabs(found.multiplier) < 1))))
-    st = HC_NOT_CONVERGED;
-  return st == HC_OK ? orbit_report(ti, k, TIMEINT_BY_SHOOTING, &found, r) : st;
-}
-
 /* From the closed form's orbit, at `start`, to CVODE's. */
 static hc_status confirm(timeint *ti, const double *start, const timeint_result *first, bool stable,
                          const hc_monitor *monitor, timeint_result *r)
@@ -147,7 +135,16 @@ static hc_status confirm(timeint *ti, const double *start, const timeint_result 
   const double off = ti->how.law == TRANSIENT_LAW_EXACT ? 0 : ti->how.regularisation * timeint_scaled_size(ti);
   hc_status st = shoot_confirm(ti->shoot, k, orbit_goal(ti), off, monitor, &found, r);
   r->contraction = first->contraction; /* its multiplier may be that of several times k periods */
-  if (shoot_found_no_orbit(st)) st = shoot_beside(ti, k, stable, monitor, r);
+  /* By CVODE alone, next to the closed form's orbit at ti->y; stable, unless an orbit was asked for whatever its
+   * stability. */
+  if (shoot_found_no_orbit(st)) {
+    shoot_report beside;
+    const double size = timeint_scaled_size(ti);
+    hc_status tried = shoot_newton(ti->shoot, k, ORBIT_NEXT_TO * size, orbit_goal(ti), monitor, &beside);
+    if (tried == HC_OK && (!(beside.moved <= ORBIT_NEXT_TO * size) || (stable && !(cabs(beside.multiplier) < 1))))
+      tried = HC_NOT_CONVERGED;
+    st = tried == HC_OK ? orbit_report(ti, k, TIMEINT_BY_SHOOTING, &beside, r) : tried;
+  }
   if (st == HC_OK) {
     struct memory *m = ti->confirmed;
     struct confirmed *c = &m->orbit[m->next];

@@ -167,22 +167,6 @@ static hc_status watch_step(void *self, const integrator *in, double theta0, dou
   return st == HC_OK ? go_to(w, here, theta1, 0) : st;
 }
 
-static void report(const contact_watch *w, int k, contact_period *out)
-{
-  const timeint *ti = w->ti;
-  const double length = ti->length, force = scaled_force_unit(&ti->scaled, ti->omega, length);
-  for (int j = 0; j < w->n_contacts; ++j) {
-    const contact_sums *s = &w->of[j];
-    const bool slipped = s->seen & SEEN_SLIPPING; /* else the closed integral of T u' is 0 but for rounding */
-    out[j] = (contact_period){.regime = measure_seen_regime(s->seen),
-                              .normal_min = s->normal_min * force,
-                              .normal_max = s->normal_max * force,
-                              .traction_max = s->traction_max * force,
-                              .slip_distance = s->slip * length / k,
-                              .work = slipped ? s->work * force * length / k : 0};
-  }
-}
-
 /* [rad/rad] */
 static double stiffest_frequency(const timeint *ti) { return ti->base->highest / ti->omega; }
 
@@ -200,7 +184,20 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
   memcpy(y, ti->y, (size_t)ti->n * sizeof *y);
   if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   for (int i = 0; i < k && st == HC_OK; ++i) st = integrate_period(ti->in, &ti->scaled, y, watch_step, &w);
-  if (st == HC_OK) report(&w, k, out);
+  if (st == HC_OK) {
+    const timeint *of = w.ti;
+    const double length = of->length, force = scaled_force_unit(&of->scaled, of->omega, length);
+    for (int j = 0; j < w.n_contacts; ++j) {
+      const contact_sums *s = &w.of[j];
+      const bool slipped = s->seen & SEEN_SLIPPING; /* else the closed integral of T u' is 0 but for rounding */
+      out[j] = (contact_period){.regime = measure_seen_regime(s->seen),
+                                .normal_min = s->normal_min * force,
+                                .normal_max = s->normal_max * force,
+                                .traction_max = s->traction_max * force,
+                                .slip_distance = s->slip * length / k,
+                                .work = slipped ? s->work * force * length / k : 0};
+    }
+  }
   contact_rows_free(&w.rows);
   free(w.of);
   free(w.q);

@@ -11,14 +11,6 @@
 #include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/timeint_private.h"
 
-/* The unit of length for a model at rest without force: the largest gap, or 1. */
-static double any_length(const model *m)
-{
-  double length = 0;
-  for (int j = 0; j < m->n_contacts; ++j) length = fmax(length, fabs(m->contacts[j].law.gap));
-  return length > 0 ? length : 1;
-}
-
 static bool state_ok(const timeint *ti, const double *state)
 {
   bool ok = true;
@@ -115,7 +107,12 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   ti->least_length = least_length(ti);
   take_state(ti, state, 1, ti->y);
   double length = fmax(ti->least_length, size_of(ti));
-  if (!(length > 0)) length = any_length(m);
+  /* The unit of length for a model at rest without force: the largest gap, or 1. */
+  if (!(length > 0)) {
+    double l = 0;
+    for (int j = 0; j < m->n_contacts; ++j) l = fmax(l, fabs(m->contacts[j].law.gap));
+    length = l > 0 ? l : 1;
+  }
   if (!(ti->least_length > 0)) ti->least_length = length;
   ti->length = length;
   take_state(ti, state, length, ti->y);

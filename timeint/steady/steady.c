@@ -242,18 +242,6 @@ static hc_status to_nearest_orbit(timeint *ti, int k, const hc_monitor *monitor,
   return st == HC_OK ? orbit_report(ti, k, method, &found, r) : st;
 }
 
-/* From an unstable orbit at ti->y, found next to the saved state, where the motion began: back to that state, and a
- * small step in the direction in which neighbours leave the orbit, to the side the state is on. */
-static void leave_unstable_orbit(timeint *ti)
-{
-  const double size = timeint_size(ti) / ti->length, *began = ti->saved, *direction = ti->direction;
-  double along = 0;
-  shoot_direction(ti->shoot, ti->direction);
-  for (int i = 0; i < ti->n; ++i) along += direction[i] * (began[i] - ti->y[i]);
-  const double step = (along < 0 ? -perturbation : perturbation) * size;
-  for (int i = 0; i < ti->n; ++i) ti->y[i] = began[i] + step * direction[i];
-}
-
 /* From next to an orbit: that one, if it is stable, else where the motion goes from there. */
 static hc_status from_orbit(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
@@ -269,7 +257,14 @@ static hc_status from_orbit(timeint *ti, const hc_monitor *monitor, timeint_resu
     return approach_attractor(ti, FIRST_STRETCH, monitor, r);
   }
   if (cabs(found.multiplier) < 1) return orbit_report(ti, 1, method, &found, r);
-  leave_unstable_orbit(ti);
+  /* From an unstable orbit at ti->y, found next to the saved state, where the motion began: back to that state, and a
+   * small step in the direction in which neighbours leave the orbit, to the side the state is on. */
+  const double reach = timeint_size(ti) / ti->length, *began = ti->saved, *direction = ti->direction;
+  double along = 0;
+  shoot_direction(ti->shoot, ti->direction);
+  for (int i = 0; i < ti->n; ++i) along += direction[i] * (began[i] - ti->y[i]);
+  const double step = (along < 0 ? -perturbation : perturbation) * reach;
+  for (int i = 0; i < ti->n; ++i) ti->y[i] = began[i] + step * direction[i];
   r->left_orbit = true;
   return approach_attractor(ti, STRETCH_FROM_UNSTABLE, monitor, r);
 }

@@ -1,6 +1,4 @@
 /* test_assignments.c - --set on the parts of a structure. */
-#include <math.h>
-
 #include "tests/cases/structure/structure_text.h"
 
 #define LISTS                                                                                                          \

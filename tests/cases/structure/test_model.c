@@ -1,8 +1,5 @@
 /* test_model.c - from the case file of a structure to its model. */
-#include <math.h>
-
 #include "base/constants.h"
-#include "casefile/structure.h"
 #include "tests/cases/structure/structure_text.h"
 
 static void matrices_are_by_columns(CHECK_STATE)

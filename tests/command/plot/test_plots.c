@@ -3,7 +3,6 @@
  * a shell, in a folder of its own. Needs gnuplot, or is skipped; xmllint checks that svg is XML where it is
  * installed. That pictures please the eye is not tested. */
 #include <stdbool.h>
-#include <string.h>
 
 #include "tests/folder.h"
 #include "tests/shell.h"

@@ -1,8 +1,5 @@
 /* test_command.c - hbmcheck bench as people use it: columns, errors that fall along each family, wrong usage. Times
  * are never judged. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "tests/folder.h"
 #include "tests/program.h"
 

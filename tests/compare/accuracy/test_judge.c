@@ -1,6 +1,4 @@
 /* test_judge.c - the Pareto front and the cheapest way, on rows made up so that the answer is plain. */
-#include <string.h>
-
 #include "compare/accuracy/method.h"
 #include "tests/check.h"
 

@@ -1,6 +1,4 @@
 /* test_orders.c - observed orders: of made-up errors whose order is known, and of case 2. */
-#include "compare/accuracy/accuracy.h"
-#include "tests/check.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_runs.h"
 

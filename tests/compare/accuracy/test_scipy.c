@@ -2,7 +2,6 @@
  * is read, and the call ends also where exit codes cannot be had because SIGCHLD is ignored, as some parents leave
  * it. */
 #include <signal.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "compare/accuracy/scipy.h"

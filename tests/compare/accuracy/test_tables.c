@@ -1,11 +1,9 @@
 /* test_tables.c - the table over samples and truncation order: its reference, its counts, and what it says of case
  * 2. */
-#include "compare/accuracy/accuracy.h"
 
 #include <limits.h>
 #include <pthread.h>
 
-#include "tests/check.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_runs.h"
 

@@ -2,7 +2,6 @@
  * not us. Runs the built hbmcheck (HBMCHECK_COMMAND) in a shell, in a folder of its own; what passes and what fails
  * is tested in test_judge.c. */
 #include <stdbool.h>
-#include <string.h>
 
 #include "tests/folder.h"
 #include "tests/shell.h"

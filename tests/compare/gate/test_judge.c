@@ -1,8 +1,5 @@
 /* test_judge.c - what passes the gate and what does not, on comparisons made up so that the answer is plain; and
  * their JUnit. */
-#include <string.h>
-
-#include "compare/gate/gate.h"
 #include "tests/check.h"
 #include "tests/scene_runs.h"
 

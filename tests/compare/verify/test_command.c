@@ -1,6 +1,4 @@
 /* test_command.c - hbmcheck verify as people use it: the shipped example, exit codes, columns, messages. */
-#include <string.h>
-
 #include "tests/folder.h"
 #include "tests/program.h"
 

@@ -1,7 +1,5 @@
 /* test_peers.c - curves that NLvib and tmdsimpy computed (cases/verify/README.md), in their own quantities: right ones
  * match at every point, folds included, and what is wrong with the others is named. */
-#include <string.h>
-
 #include "tests/shell.h"
 
 #define CASE2     "cases/verify/case2.yaml"

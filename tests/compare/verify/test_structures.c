@@ -1,8 +1,6 @@
 /* test_structures.c - hbmcheck verify on structures: curves of several responses, and mistakes that one degree of
  * freedom cannot have. The curves are our own harmonic balance's, of the same structure with one thing changed; what is
  * tested is that the mistake is told from all others that are tried. Runs the built hbmcheck in a folder of its own. */
-#include <string.h>
-
 #include "tests/folder.h"
 #include "tests/shell.h"
 
