@@ -4,6 +4,7 @@
 #include "tests/random.h"
 #include "tests/timeint/exact_periods.h"
 #include "tests/timeint/oracle.h"
+#include "tests/timeint/reference_rows.h"
 #include "timeint/period/measure.h"
 
 static integrator *closed_of(const scaled_model *m)
@@ -324,33 +325,6 @@ static void a_transition_at_the_end_of_the_period(CHECK_STATE)
   integrate_free(in);
 }
 
-typedef struct row {
-  char name[16], sweep[8], digits[4][32];
-  double omega, amplitude, harmonic_1, mean;
-  int events;
-} row;
-
-enum { MAX_ROWS = 256 };
-static row rows[MAX_ROWS];
-static int n_rows;
-
-static int read_rows(CHECK_STATE)
-{
-  char line[512];
-  FILE *f = fopen(SOURCE_DIR "/tests/reference/transient_exact.csv", "r");
-  if (!f || !fgets(line, sizeof line, f)) return -1;
-  while (n_rows < MAX_ROWS && fgets(line, sizeof line, f)) {
-    row *r = &rows[n_rows];
-    int n = sscanf(line, "%15[^,],%7[^,],%lf,%31[^,],%*[^,],%*[^,],%31[^,],%31[^,],%d", r->name, r->sweep, &r->omega,
-                   r->digits[0], r->digits[1], r->digits[2], &r->events);
-    if (n != 7) return -1;
-    r->amplitude = atof(r->digits[0]), r->harmonic_1 = atof(r->digits[1]), r->mean = atof(r->digits[2]);
-    ++n_rows;
-  }
-  fclose(f);
-  return n_rows == 134 ? 0 : -1;
-}
-
 /* Half a unit of the last digit printed: the table has 12 significant ones, or fewer where the rest are 0. */
 static double half_a_digit(double x) { return x != 0 ? 0.5 * pow(10, floor(log10(fabs(x))) - 11) : 0; }
 
@@ -364,8 +338,8 @@ static double follow(const scene *sc, const char *name, const char *sweep, doubl
   double worst = 0;
   assert_int_equal(scene_timeint(sc, &ti), HC_OK);
   scene_state y = {.x = 0};
-  for (int i = 0; i < n_rows; ++i) {
-    const row *want = &rows[i];
+  for (int i = 0; i < N_REFERENCE_ROWS; ++i) {
+    const reference_row *want = &reference_rows[i];
     if (strcmp(want->name, name) || strcmp(want->sweep, sweep)) continue;
     if (reference_is_behind_chaos(name, !strcmp(sweep, "down"), want->omega)) y = reference_behind_chaos;
     else assert_int_equal(timeint_sweep(ti, from, want->omega, y.all, NULL), HC_OK);
@@ -488,7 +462,7 @@ static void monodromy_is_that_of_the_period(CHECK_STATE)
   check_monodromies(&way);
 }
 
-CHECK_TESTS_WITH("timeint.closed", 120, read_rows, NULL, scenes_follow_the_oracle, slip_that_begins_on_a_flat_guard,
-                 random_scenes_follow_cvode, soft_and_overdamped_scenes_follow_cvode, measures_are_those_of_the_motion,
-                 ends_at_a_turn, a_transition_at_the_end_of_the_period, monodromy_is_that_of_the_period,
-                 every_row_of_the_reference, rest_stays_at_rest, failures_are_reported)
+CHECK_TESTS_WITH("timeint.closed", 120, read_reference_rows, NULL, scenes_follow_the_oracle,
+                 slip_that_begins_on_a_flat_guard, random_scenes_follow_cvode, soft_and_overdamped_scenes_follow_cvode,
+                 measures_are_those_of_the_motion, ends_at_a_turn, a_transition_at_the_end_of_the_period,
+                 monodromy_is_that_of_the_period, every_row_of_the_reference, rest_stays_at_rest, failures_are_reported)

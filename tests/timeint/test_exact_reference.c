@@ -2,33 +2,8 @@
  * of all eight cases. */
 #include "tests/check.h"
 
+#include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"
-
-typedef struct row {
-  char name[16], sweep[8];
-  double omega, amplitude, max, min, harmonic_1, mean;
-  int events;
-} row;
-
-enum { MAX_ROWS = 256 };
-static row rows[MAX_ROWS];
-static int n_rows;
-
-static int read_rows(CHECK_STATE)
-{
-  char line[512];
-  FILE *f = fopen(SOURCE_DIR "/tests/reference/transient_exact.csv", "r");
-  if (!f || !fgets(line, sizeof line, f)) return -1;
-  while (n_rows < MAX_ROWS && fgets(line, sizeof line, f)) {
-    row *r = &rows[n_rows];
-    int n = sscanf(line, "%15[^,],%7[^,],%lf,%lf,%lf,%lf,%lf,%lf,%d", r->name, r->sweep, &r->omega, &r->amplitude,
-                   &r->max, &r->min, &r->harmonic_1, &r->mean, &r->events);
-    if (n != 9) return -1;
-    ++n_rows;
-  }
-  fclose(f);
-  return n_rows == 134 ? 0 : -1;
-}
 
 /* Amplitude and first harmonic to 1e-8: the table's 12 digits, "good to about 1e-9", and ours, transient.tolerance =
  * 1e-9 of the motion. The mean where it is unique: it is not where a slider never slips (free_sliders), and then
@@ -40,8 +15,8 @@ static void follow(const scene *sc, const char *name, const char *sweep, double 
   int seen = 0;
   assert_int_equal(scene_timeint(sc, &ti), HC_OK);
   scene_state y = {.x = 0};
-  for (int i = 0; i < n_rows; ++i) {
-    const row *want = &rows[i];
+  for (int i = 0; i < N_REFERENCE_ROWS; ++i) {
+    const reference_row *want = &reference_rows[i];
     if (strcmp(want->name, name) || strcmp(want->sweep, sweep)) continue;
     assert_int_equal(timeint_sweep(ti, from, want->omega, y.all, NULL), HC_OK);
     assert_int_equal(timeint_steady(ti, from = want->omega, y.all, NULL, &r), HC_OK);
@@ -83,4 +58,4 @@ static void blades(CHECK_STATE)
   both_ways("r2", scene_r2(), 600, 1100);
 }
 
-CHECK_TESTS_WITH("timeint.exact_reference", 300, read_rows, NULL, paper_scenes, blades)
+CHECK_TESTS_WITH("timeint.exact_reference", 300, read_reference_rows, NULL, paper_scenes, blades)

@@ -87,22 +87,21 @@ static double middle(const scene *sc, double omega)
 /* The table has 12 digits: 5e-12 at worst, of a number that begins with 1. */
 static void rows_of_the_table(CHECK_STATE)
 {
-  const scene scenes[REF_CASES] = {scene_a10(), scene_b10(), scene_c2(), scene_c2kt1e4(), scene_gap1()};
   int n = 0;
-  for (size_t i = 0; i < sizeof reference_rows / sizeof *reference_rows; ++i) {
+  for (int i = 0; i < N_REFERENCE_ROWS; ++i) {
     const reference_row *row = &reference_rows[i];
     if (row->events > 0) continue;
-    scene sc = scenes[row->which];
+    scene sc = scene_reference(row->name);
     const double w[SCENE_MAX_CONTACTS] = {sc.contacts[0].law.gap > 0 ? middle(&sc, row->omega) : 0};
     for (int law = 0; law < 2; ++law) {
       sc.transient.law = law;
       timeint *ti = make(&sc);
       scene_state st = state_of(&sc, row->omega, w, 0, 0);
       timeint_result r;
-      CHECK_LE(1, is_final_from(ti, row->omega, &st), "case %d at %g", row->which, row->omega);
+      CHECK_LE(1, is_final_from(ti, row->omega, &st), "case %s at %g", row->name, row->omega);
       linear_regime_steady(ti, &r);
-      CHECK_NEAR(r.amplitude, row->amplitude, 1e-11 * row->amplitude, "case %d at %g", row->which, row->omega);
-      CHECK_NEAR(r.harmonic_1, row->harmonic_1, 1e-11 * row->amplitude, "case %d at %g", row->which, row->omega);
+      CHECK_NEAR(r.amplitude, row->amplitude, 1e-11 * row->amplitude, "case %s at %g", row->name, row->omega);
+      CHECK_NEAR(r.harmonic_1, row->harmonic_1, 1e-11 * row->amplitude, "case %s at %g", row->name, row->omega);
       timeint_free(ti);
       ++n;
     }
@@ -467,5 +466,6 @@ static void multipliers(CHECK_STATE)
   }
 }
 
-CHECK_TESTS("timeint.linear_regime", 300, rows_of_the_table, measures, a_slider_keeps_another_contact_open_or_closed,
-            a_yes_is_right, edges, from_rest, undamped, no_stiffness_and_no_number, multipliers)
+CHECK_TESTS_WITH("timeint.linear_regime", 300, read_reference_rows, NULL, rows_of_the_table, measures,
+                 a_slider_keeps_another_contact_open_or_closed, a_yes_is_right, edges, from_rest, undamped,
+                 no_stiffness_and_no_number, multipliers)
