@@ -1,7 +1,6 @@
 /* cli.c - see cli.h. */
 #include "command/cli.h"
 
-#include <argp.h>
 #include <errno.h>
 #include <fftw3.h>
 #include <float.h>
@@ -10,7 +9,6 @@
 #include <math.h>
 #include <sqlite3.h>
 #include <stdarg.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sundials/sundials_version.h>
@@ -22,7 +20,6 @@
 #include "base/message.h"
 #include "base/nearest.h"
 #include "base/number.h"
-#include "casefile/case_file.h"
 #include "casefile/structure.h"
 #include "compare/advice.h"
 #include "output/output.h"

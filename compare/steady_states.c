@@ -10,7 +10,6 @@
 #include "base/workspace.h"
 #include "compare/comparison.h"
 #include "compare/motion.h"
-#include "compare/response.h"
 #include "timeint/steady/contact_watch.h"
 #include "timeint/steady/sweep.h"
 

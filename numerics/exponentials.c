@@ -2,7 +2,6 @@
 #include "numerics/exponentials.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 

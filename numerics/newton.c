@@ -8,7 +8,6 @@
 #include <kinsol/kinsol.h>
 #include <math.h>
 #include <nvector/nvector_serial.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sundials/sundials_linearsolver.h>

@@ -1,14 +1,10 @@
 /* report.c - see report.h: everything the page shows is computed here, in stages. */
 #include "command/report/report.h"
 
-#include <jansson.h>
 #include <math.h>
-#include <stdio.h>
 
-#include "casefile/scene.h"
 #include "casefile/structure.h"
 #include "command/report/parts.h"
-#include "compare/comparison.h"
 #include "compare/motion.h"
 #include "compare/response.h"
 #include "output/rows.h"

@@ -2,10 +2,7 @@
 #include "timeint/cvode/integrate_cvode.h"
 
 #include <math.h>
-#include <nvector/nvector_serial.h>
 #include <string.h>
-#include <sundials/sundials_linearsolver.h>
-#include <sundials/sundials_matrix.h>
 
 #include "base/constants.h"
 #include "numerics/sundials_compat.h"

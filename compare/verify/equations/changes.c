@@ -10,7 +10,6 @@
 
 #include "base/constants.h"
 #include "base/message.h"
-#include "compare/verify/equations/causes.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 
