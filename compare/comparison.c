@@ -9,6 +9,7 @@
 #include "compare/first_guess.h"
 #include "compare/motion.h"
 #include "compare/response.h"
+#include "numerics/series.h"
 #include "timeint/steady/sweep.h"
 
 const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }
@@ -137,28 +138,31 @@ hc_status comparison_referee(const compare_setup *setup, timeint *beside, timein
   return HC_OK;
 }
 
+static hc_status make_states(comparison_work *w)
+{
+  const size_t n = (size_t)(w->out->n_states = timeint_n_states(w->ti));
+  const size_t responses = (size_t)w->setup->model->n_responses, contacts = (size_t)w->setup->model->n_contacts;
+  workspace *memory = &w->memory;
+  w->swept = workspace_doubles(memory, n);
+  w->state = workspace_doubles(memory, n);
+  w->scratch = workspace_doubles(memory, n);
+  w->responses = workspace_array(memory, responses, sizeof *w->responses);
+  w->orbits = workspace_array(memory, responses, sizeof *w->orbits);
+  w->expected = workspace_array(memory, responses, sizeof *w->expected);
+  w->motions = workspace_array(memory, responses, sizeof *w->motions);
+  w->budgets = workspace_array(memory, responses, sizeof *w->budgets);
+  w->acting = workspace_array(memory, contacts, sizeof *w->acting);
+  w->balanced = workspace_array(memory, contacts, sizeof *w->balanced);
+  return memory->failed ? HC_NO_MEMORY : HC_OK;
+}
+
 hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out)
 {
   *out = (comparison){0};
   comparison_work w = {.setup = setup, .monitor = monitor, .out = out};
   hc_status st = guided_hbm_solver_new(setup->model, &setup->hbm, &w.hbm);
   if (st == HC_OK) st = timeint_new(setup->model, &setup->transient, &w.ti);
-  if (st == HC_OK) {
-    const size_t n = (size_t)(w.out->n_states = timeint_n_states(w.ti));
-    const size_t responses = (size_t)w.setup->model->n_responses, contacts = (size_t)w.setup->model->n_contacts;
-    workspace *memory = &w.memory;
-    w.swept = workspace_doubles(memory, n);
-    w.state = workspace_doubles(memory, n);
-    w.scratch = workspace_doubles(memory, n);
-    w.responses = workspace_array(memory, responses, sizeof *w.responses);
-    w.orbits = workspace_array(memory, responses, sizeof *w.orbits);
-    w.expected = workspace_array(memory, responses, sizeof *w.expected);
-    w.motions = workspace_array(memory, responses, sizeof *w.motions);
-    w.budgets = workspace_array(memory, responses, sizeof *w.budgets);
-    w.acting = workspace_array(memory, contacts, sizeof *w.acting);
-    w.balanced = workspace_array(memory, contacts, sizeof *w.balanced);
-    st = memory->failed ? HC_NO_MEMORY : HC_OK;
-  }
+  if (st == HC_OK) st = make_states(&w);
   if (st == HC_OK) st = comparison_referee(setup, w.ti, &w.exact);
   if (st == HC_OK) st = budgeter_new(setup, &w.budgeter);
   if (st == HC_OK) {

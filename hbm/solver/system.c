@@ -4,17 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
+static void make_arrays(hbm_system *sys)
 {
-  *sys = (hbm_system){.model = m, .how = *how, .n_harm = n_harm, .force_factor = 1};
-  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || model_highest_load(m) > n_harm) return HC_BAD_INPUT;
-  hc_status st = model_find_scales(m, &sys->scales);
-  if (st == HC_OK) st = condensation_new(m, n_harm, &sys->linear);
-  if (st != HC_OK) return st;
-  sys->dim = condensation_dim(sys->linear);
-  sys->n_coef = hbm_system_length(sys, n_harm);
-  sys->first = how->keep_mean ? 0 : sys->dim;
-  sys->n = sys->n_coef - sys->first;
   const size_t n = (size_t)sys->n_coef, dim = (size_t)sys->dim;
   workspace *w = &sys->memory;
   sys->X = workspace_doubles(w, n);
@@ -26,6 +17,20 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->A = workspace_array(w, dim * dim, sizeof *sys->A);
   sys->z = workspace_array(w, dim, sizeof *sys->z);
   sys->pivot = workspace_array(w, dim, sizeof *sys->pivot);
+}
+
+hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
+{
+  *sys = (hbm_system){.model = m, .how = *how, .n_harm = n_harm, .force_factor = 1};
+  if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || model_highest_load(m) > n_harm) return HC_BAD_INPUT;
+  hc_status st = model_find_scales(m, &sys->scales);
+  if (st == HC_OK) st = condensation_new(m, n_harm, &sys->linear);
+  if (st != HC_OK) return st;
+  sys->dim = condensation_dim(sys->linear);
+  sys->n_coef = hbm_system_length(sys, n_harm);
+  sys->first = how->keep_mean ? 0 : sys->dim;
+  sys->n = sys->n_coef - sys->first;
+  make_arrays(sys);
   if (sys->memory.failed) return HC_NO_MEMORY;
   const evaluator_settings by = {n_harm, n_time, how->restart};
   return contact_forces_new(m, sys->linear, how->force, &by, &sys->contacts);
@@ -81,6 +86,24 @@ hc_status hbm_system_any_response(hbm_system *sys, double omega, const double *X
 static size_t cosines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(h ? 2 * h - 1 : 0); }
 static size_t sines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(2 * h); }
 
+/* rows += S X. */
+static void add_linear_forces(const hbm_system *sys, const double *restrict X, double *restrict rows)
+{
+  const int dim = sys->dim;
+  const double complex *S = condensation_stiffness(sys->linear, 0);
+  for (int e = 0; e < dim; ++e)
+    for (int d = 0; d < dim; ++d) rows[d] += creal(*S++) * X[e];
+  const double *a = X + dim, *b = a + dim;
+  double *of_a = rows + dim, *of_b = of_a + dim;
+  for (int h = 1; h <= sys->n_harm; ++h, a += 2 * dim, b += 2 * dim, of_a += 2 * dim, of_b += 2 * dim)
+    for (int e = 0; e < dim; ++e)
+      for (int d = 0; d < dim; ++d, ++S) {
+        const double re = creal(*S), im = cimag(*S);
+        of_a[d] += re * a[e] + im * b[e];
+        of_b[d] += re * b[e] - im * a[e];
+      }
+}
+
 /* rows of harmonic h -= factor p, a complex amplitude a - i b. */
 static void subtract_load(hbm_system *sys, const double complex *p, int h, double factor)
 {
@@ -110,20 +133,7 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   if (st == HC_OK) st = condensation_at(sys->linear, omega, sys->more_damping);
   if (st != HC_OK) return st;
   memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
-  /* rows += S X. */
-  const int dim = sys->dim;
-  const double complex *S = condensation_stiffness(sys->linear, 0);
-  for (int e = 0; e < dim; ++e)
-    for (int d = 0; d < dim; ++d) sys->rows[d] += creal(*S++) * X[e];
-  const double *a = X + dim, *b = a + dim;
-  double *of_a = sys->rows + dim, *of_b = of_a + dim;
-  for (int h = 1; h <= sys->n_harm; ++h, a += 2 * dim, b += 2 * dim, of_a += 2 * dim, of_b += 2 * dim)
-    for (int e = 0; e < dim; ++e)
-      for (int d = 0; d < dim; ++d, ++S) {
-        const double re = creal(*S), im = cimag(*S);
-        of_a[d] += re * a[e] + im * b[e];
-        of_b[d] += re * b[e] - im * a[e];
-      }
+  add_linear_forces(sys, X, sys->rows);
   for (int i = 0; i < sys->n_coef; ++i) sys->rows[i] += sys->F[i];
   for (int l = 0; l < sys->model->n_loads; ++l)
     subtract_load(sys, condensation_load(sys->linear, l), sys->model->loads[l].harmonic, sys->force_factor);
@@ -134,15 +144,9 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   return drop_means(sys, R);
 }
 
-void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
+/* jac += S. */
+static void add_linear_stiffness(const hbm_system *sys, int ld, double *jac)
 {
-  const double *dF = contact_forces_jacobian(sys->contacts);
-  for (int col = 0; col < sys->n; ++col) {
-    const double *from = dF + (size_t)sys->n_coef * (size_t)(col + sys->first) + sys->first;
-    memcpy(jac + (size_t)ld * (size_t)col, from, (size_t)sys->n * sizeof *jac);
-  }
-  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
-  /* jac += S. */
   const size_t dim = (size_t)sys->dim, n = (size_t)ld;
   const double complex *S = condensation_stiffness(sys->linear, 0);
   for (size_t e = 0; e < dim; ++e)
@@ -159,7 +163,11 @@ void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
         jac[b + d + n * (a + e)] -= im;
       }
   }
-  /* jac is whole but for the mistakes. */
+}
+
+/* jac is whole but for the mistakes. */
+static void differentiate_mistakes(const hbm_system *sys, double omega, const double *dF, int ld, double *jac)
+{
   const hbm_mistakes *wrong = &sys->how.mistakes;
   for (int col = 0; sys->first == 0 && wrong->mean_error != 0 && col < sys->n; ++col)
     for (int d = 0; d < sys->dim; ++d)
@@ -170,6 +178,18 @@ void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
         const size_t row = i - (size_t)sys->first;
         jac[row + (size_t)ld * (size_t)col] = (size_t)col == row ? dropped(sys->model, omega) : 0;
       }
+}
+
+void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
+{
+  const double *dF = contact_forces_jacobian(sys->contacts);
+  for (int col = 0; col < sys->n; ++col) {
+    const double *from = dF + (size_t)sys->n_coef * (size_t)(col + sys->first) + sys->first;
+    memcpy(jac + (size_t)ld * (size_t)col, from, (size_t)sys->n * sizeof *jac);
+  }
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
+  add_linear_stiffness(sys, ld, jac);
+  differentiate_mistakes(sys, omega, dF, ld, jac);
 }
 
 /* Harmonic h of X as complex amplitudes. */
@@ -223,12 +243,9 @@ void hbm_system_dforce(hbm_system *sys, double omega, double *dR)
   drop_means(sys, dR);
 }
 
-/* The sum of force[dim], which is filled; NaN where condensation_at fails. */
-static double sum_sizes(const hbm_system *sys, double omega, double *force)
+/* force[dim]: what each coordinate's rows of the residual are made of, by size, added up over all harmonics. */
+static void add_sizes(const hbm_system *sys, double *force)
 {
-  double sum = 0;
-  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return NAN;
-  /* force[dim]: what each coordinate's rows of the residual are made of, by size, added up over all harmonics. */
   const int dim = sys->dim;
   for (int d = 0; d < dim; ++d) force[d] = 0;
   for (int h = 0; h <= sys->n_harm; ++h) {
@@ -242,6 +259,14 @@ static double sum_sizes(const hbm_system *sys, double omega, double *force)
   }
   for (int l = 0; l < sys->model->n_loads; ++l)
     for (int d = 0; d < dim; ++d) force[d] += sys->force_factor * cabs(condensation_load(sys->linear, l)[d]);
+}
+
+/* The sum of force[dim], which is filled; NaN where condensation_at fails. */
+static double sum_sizes(const hbm_system *sys, double omega, double *force)
+{
+  double sum = 0;
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return NAN;
+  add_sizes(sys, force);
   for (int d = 0; d < sys->dim; ++d) sum += force[d];
   return sum;
 }

@@ -7,6 +7,7 @@
 #include "timeint/steady/steady.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "timeint/steady/aperiodic.h"
@@ -228,6 +229,17 @@ int timeint_stability(const timeint_result *r)
   return r->multiplier > 1 + border ? -1 : 0;
 }
 
+static void clear_result(timeint_result *r, double omega)
+{
+  memset(r, 0, sizeof *r);
+  r->omega = omega;
+  r->amplitude = r->max = r->min = r->rms = r->mean = r->a1 = r->b1 = r->harmonic_1 = r->closure = r->attainable =
+      r->contraction = NAN;
+  r->multiplier = r->multiplier_re = r->multiplier_im = r->lyapunov = r->second_frequency = NAN;
+  r->predicted = (motion_error){NAN, NAN, NAN};
+  for (int i = 0; i < TIMEINT_WAVE; ++i) r->wave[i] = NAN;
+}
+
 /* The orbit of k periods next to the state, stable or not. */
 static hc_status to_nearest_orbit(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r)
 {
@@ -240,6 +252,18 @@ static hc_status to_nearest_orbit(timeint *ti, int k, const hc_monitor *monitor,
   /* an orbit, but not the one next to the start */
   if (st == HC_OK && !(found.moved <= next_to * size)) st = HC_NOT_CONVERGED;
   return st == HC_OK ? orbit_report(ti, k, method, &found, r) : st;
+}
+
+/* From an unstable orbit at ti->y, found next to the saved state, where the motion began: back to that state, and a
+ * small step in the direction in which neighbours leave the orbit, to the side the state is on. */
+static void leave_unstable_orbit(timeint *ti)
+{
+  const double size = timeint_size(ti) / ti->length, *began = ti->saved, *direction = ti->direction;
+  double along = 0;
+  shoot_direction(ti->shoot, ti->direction);
+  for (int i = 0; i < ti->n; ++i) along += direction[i] * (began[i] - ti->y[i]);
+  const double step = (along < 0 ? -perturbation : perturbation) * size;
+  for (int i = 0; i < ti->n; ++i) ti->y[i] = began[i] + step * direction[i];
 }
 
 /* From next to an orbit: that one, if it is stable, else where the motion goes from there. */
@@ -257,16 +281,18 @@ static hc_status from_orbit(timeint *ti, const hc_monitor *monitor, timeint_resu
     return approach_attractor(ti, FIRST_STRETCH, monitor, r);
   }
   if (cabs(found.multiplier) < 1) return orbit_report(ti, 1, method, &found, r);
-  /* From an unstable orbit at ti->y, found next to the saved state, where the motion began: back to that state, and a
-   * small step in the direction in which neighbours leave the orbit, to the side the state is on. */
-  const double reach = timeint_size(ti) / ti->length, *began = ti->saved, *direction = ti->direction;
-  double along = 0;
-  shoot_direction(ti->shoot, ti->direction);
-  for (int i = 0; i < ti->n; ++i) along += direction[i] * (began[i] - ti->y[i]);
-  const double step = (along < 0 ? -perturbation : perturbation) * reach;
-  for (int i = 0; i < ti->n; ++i) ti->y[i] = began[i] + step * direction[i];
+  leave_unstable_orbit(ti);
   r->left_orbit = true;
   return approach_attractor(ti, STRETCH_FROM_UNSTABLE, monitor, r);
+}
+
+static hc_status to_attractor(timeint *ti, const hc_monitor *monitor, timeint_result *r)
+{
+  if (linear_regime_steady(ti, r)) return HC_OK;
+  hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
+  if (st != HC_OK) return st;
+  return ti->how.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r)
+                                              : approach_attractor(ti, FIRST_STRETCH, monitor, r);
 }
 
 static hc_status by_itself(timeint *ti, const hc_monitor *monitor, timeint_result *r)
@@ -274,13 +300,7 @@ static hc_status by_itself(timeint *ti, const hc_monitor *monitor, timeint_resul
   switch (ti->how.steady) {
   case TRANSIENT_STEADY_MARCH: return settle_by_integration(ti, monitor, r);
   case TRANSIENT_STEADY_SHOOTING: return to_nearest_orbit(ti, 1, monitor, r);
-  default: {
-    if (linear_regime_steady(ti, r)) return HC_OK;
-    hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
-    if (st != HC_OK) return st;
-    return ti->how.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r)
-                                                : approach_attractor(ti, FIRST_STRETCH, monitor, r);
-  }
+  default: return to_attractor(ti, monitor, r);
   }
 }
 
@@ -290,14 +310,7 @@ static hc_status reach(timeint *ti, double omega, int k, bool at_state, double *
                        timeint_result *result)
 {
   bool done = false;
-  memset(result, 0, sizeof *result);
-  result->omega = omega;
-  result->amplitude = result->max = result->min = result->rms = result->mean = result->a1 = result->b1 =
-      result->harmonic_1 = result->closure = result->attainable = result->contraction = NAN;
-  result->multiplier = result->multiplier_re = result->multiplier_im = result->lyapunov = result->second_frequency =
-      NAN;
-  result->predicted = (motion_error){NAN, NAN, NAN};
-  for (int i = 0; i < TIMEINT_WAVE; ++i) result->wave[i] = NAN;
+  clear_result(result, omega);
   if (k < 0 || k > SETTLE_MAX_MULTIPLE) return HC_BAD_INPUT;
   hc_status st = timeint_begin(ti, omega, state);
   if (st != HC_OK) return st;
