@@ -155,14 +155,6 @@ static error_t read_common_option(int key, char *text, struct argp_state *state)
   }
 }
 
-/* A list of options, which ends in {0}: the one that name[length] is or begins, for getopt takes both. NULL: none. */
-static const struct argp_option *known_option(const struct argp_option *o, const char *name, size_t length)
-{
-  for (; o->name; ++o)
-    if (!strncmp(o->name, name, length)) return o;
-  return NULL;
-}
-
 /* -o FILE, -qo FILE: is what comes next the value of these short options? */
 static bool value_follows(const struct argp_option *all, const char *letters)
 {
@@ -190,10 +182,11 @@ static void refuse_unknown_option(const cli_command *self, const struct argp_opt
     }
     const char *name = argv[i] + 2, *meant = NULL;
     const size_t length = strcspn(name, "=");
-    const struct argp_option *known = known_option(all, name, length);
+    const struct argp_option *known = all; /* what name[length] is or begins, for getopt takes both; or the last, {0} */
+    while (known->name && strncmp(known->name, name, length)) ++known;
     int least = NEAREST_FAR;
-    if (known) i += known->arg && !name[length];
-    for (const struct argp_option *o = all; o->name && !known; ++o) {
+    i += known->arg && !name[length];
+    for (const struct argp_option *o = all; o->name && !known->name; ++o) {
       const int d = nearest_distance(name, length, o->name);
       if (d < least) meant = o->name, least = d;
     }

@@ -140,15 +140,6 @@ static void show_found(void *self)
   shown_rows_write(&f->shown, f->common);
 }
 
-static void foretell_time(const cli_common *common, const compare_setup *setup)
-{
-  duration_units u;
-  if (common->quiet) return;
-  duration_measure(setup, &u);
-  const int n = duration_frequencies(setup);
-  cli_foretell_time(common, duration_of_steady_states(&u, n), n, setup->model);
-}
-
 static int run_transient(cli_common *common, void *given, scene *sc)
 {
   const transient_options *own = given;
@@ -161,7 +152,12 @@ static int run_transient(cli_common *common, void *given, scene *sc)
   steady_states found = {0};
   compare_setup setup;
   hc_status st = scene_setup(sc, &setup);
-  if (st == HC_OK) foretell_time(common, &setup);
+  if (st == HC_OK && !common->quiet) {
+    duration_units u;
+    duration_measure(&setup, &u);
+    const int n = duration_frequencies(&setup);
+    cli_foretell_time(common, duration_of_steady_states(&u, n), n, setup.model);
+  }
   progress *bar = progress_start("time integration", common->quiet);
   hc_monitor monitor = progress_monitor(bar);
   found_states so_far = {.common = common, .contacts = own->contacts, .found = &found};

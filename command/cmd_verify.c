@@ -349,28 +349,23 @@ static int worse(int a, int b)
   return a ? a : b;
 }
 
-/* All curves of the file are held against the same model. */
-static void foretell_time(const verify_call *call, const compare_setup *setup)
-{
-  duration_units u;
-  double seconds = 0;
-  int points = 0;
-  if (call->common->quiet) return;
-  duration_measure(setup, &u);
-  for (int k = 0; k < call->n; ++k) {
-    seconds += duration_of_verification(&u, call->of[k].data.n);
-    points += call->of[k].data.n;
-  }
-  cli_foretell_time(call->common, seconds, points, setup->model);
-}
-
 /* The exit code, after a message where one is due; *st of the last curve that was begun. */
 static int verify_curves(verify_call *call, hc_status *st)
 {
   compare_setup setup;
   int code = 0;
   *st = scene_setup(call->sc, &setup);
-  if (*st == HC_OK) foretell_time(call, &setup);
+  if (*st == HC_OK && !call->common->quiet) { /* all curves of the file are held against the same model */
+    duration_units u;
+    double seconds = 0;
+    int points = 0;
+    duration_measure(&setup, &u);
+    for (int k = 0; k < call->n; ++k) {
+      seconds += duration_of_verification(&u, call->of[k].data.n);
+      points += call->of[k].data.n;
+    }
+    cli_foretell_time(call->common, seconds, points, setup.model);
+  }
   progress *bar = progress_start("verifying", call->common->quiet);
   hc_monitor monitor = progress_monitor(bar);
   for (int k = 0; k < call->n && *st == HC_OK; ++k) {

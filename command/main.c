@@ -36,15 +36,6 @@ static int written(const char *what)
   return EXIT_NO_SOLUTION;
 }
 
-static int unknown_command(const char *asked)
-{
-  char hint[NEAREST_HINT];
-  fprintf(stderr, "hbmcheck: '%s' is not a command%s\n", asked, nearest_hint(names, asked, hint));
-  fputs(*hint ? "Try 'hbmcheck --help'.\n" : "\n", stderr);
-  if (!*hint) usage(stderr);
-  return EXIT_USAGE;
-}
-
 int main(int argc, char **argv)
 {
   signal(SIGPIPE, SIG_IGN);    /* a closed pipe then is a write error, with exit code 3 */
@@ -68,6 +59,10 @@ int main(int argc, char **argv)
   const cli_command *command = NULL;
   for (int i = 0; i < N_COMMANDS && !command; ++i)
     if (!strcmp(name, commands[i]->name)) command = commands[i];
-  char *ask[] = {argv[0], "--help", NULL};
-  return !command ? unknown_command(name) : cli_run(command, help ? 2 : argc - 1, help ? ask : argv + 1);
+  char *ask[] = {argv[0], "--help", NULL}, hint[NEAREST_HINT];
+  if (command) return cli_run(command, help ? 2 : argc - 1, help ? ask : argv + 1);
+  fprintf(stderr, "hbmcheck: '%s' is not a command%s\n", name, nearest_hint(names, name, hint));
+  fputs(*hint ? "Try 'hbmcheck --help'.\n" : "\n", stderr);
+  if (!*hint) usage(stderr);
+  return EXIT_USAGE;
 }

@@ -435,13 +435,6 @@ static const struct verdict_look {
 };
 enum { N_VERDICT_LOOKS = sizeof verdict_looks / sizeof *verdict_looks };
 
-static int verdict_look_of(const char *name)
-{
-  for (int i = 0; i < N_VERDICT_LOOKS; ++i)
-    if (!strcmp(verdict_looks[i].name, name)) return i;
-  return N_VERDICT_LOOKS - 1; /* period_2, period_3, ... */
-}
-
 /* The place of a verdict, a new one if there is room. */
 static int verdict_place(verdicts *v, const char *name)
 {
@@ -473,7 +466,8 @@ void verdicts_data(figure *g, verdicts *v, int n, const void *rows, verdict_poin
 void verdicts_items(figure *g, const verdicts *v, const char *of)
 {
   for (int i = 0; i < v->n; ++i) {
-    const int k = verdict_look_of(v->name[i]);
+    int k = 0;
+    while (k < N_VERDICT_LOOKS - 1 && strcmp(verdict_looks[k].name, v->name[i])) ++k; /* last: period_2, period_3 */
     figure_item(g, figure_look(g, 10 + k, "%s", verdict_looks[k].look),
                 figure_words(g, "%s: %s (%d)", of, v->name[i], v->count[i]), "$verdict%d using 1:2 with points", i);
   }
