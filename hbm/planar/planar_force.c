@@ -14,7 +14,7 @@
 #include "hbm/contact/exact_force.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/interval_series.h"
-#include "hbm/contact/wide_vectors.h"
+#include "numerics/wide_vectors.h"
 #include "hbm/hbm_settings.h"
 #include "numerics/dense.h"
 #include "numerics/rotate.h"

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/constants.h"
-#include "hbm/contact/wide_vectors.h"
+#include "numerics/wide_vectors.h"
 #include "numerics/rotate.h"
 #include "numerics/series.h"
 

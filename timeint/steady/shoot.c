@@ -37,6 +37,8 @@ static const double same_state = 1e-6; /* [size] a state that returns as near is
 static const double same_matrix = 1e-4;  /* [size] a state as near has the same monodromy matrix, but for some 1e-4 */
 static const double scatter_seen = 1e-6; /* [size] a chord step of CVODE's that short, and no shorter than the last, is
                                             the scatter of periods: of fast modes it is not known beforehand */
+static const double chord_contracts_to = 0.1; /* [last step] the next, as a rule */
+static const double slowed_near = 1e-7;       /* [size] the slowed orbit is where the whole model's begins, 1e-6 off */
 static const double chord_contracts = 0.5; /* [least residual] a chord step that leaves more is idle */
 static const double chord_leads_away = 10; /* [least residual] the matrix is renewed at once where one leaves that */
 
@@ -66,10 +68,12 @@ struct shoot { /* from shoot_new, to shoot_free */
   double *travel;               /* [n] of each slider, the farthest it was in a period from where that began */
   double *start, *first;        /* [n] where the solve began, and F^k of that */
   bool known, begun;            /* z, f, phi are valid; start, first are valid */
+  bool measures;                /* the next point is expected on the orbit of a large structure: measured, too */
   double *before;               /* [n] ti->y when the solve began */
   double *found_from;           /* [n] the same of the last orbit of a large structure, in closed form: s->best; */
   double found_omega, found_length;
-  int found_k;                   /* 0: none */
+  int found_k;                   /* 0: none; and what was reported of it */
+  shoot_report found;
   double *iterate, *step, *best; /* [n] of a solve; Newton's step from there; the iterate nearest to the orbit */
   double *ones;                  /* [n] 1: weights of Newton's unknowns and residuals */
   double *vector, *other;        /* [n] for what one function needs */
@@ -115,20 +119,41 @@ static hc_status add_period(shoot *s, integrator *in, const scaled_model *m, int
   return HC_OK;
 }
 
+/* ti->measure is of the orbit of k periods that ended at end[n]. */
+static void note_measured(timeint *ti, int k, const double *end, int switches, int returns)
+{
+  ti->last.k = k;
+  ti->last.omega = ti->omega;
+  ti->last.length = ti->length;
+  ti->last.switches = switches;
+  ti->last.returns = returns;
+  memcpy(ti->last.end, end, sizeof *end * (size_t)ti->n);
+}
+
 /* s->f becomes F^k(s->f), s->phi the monodromy matrix of these k periods, unless another is to give it. */
 static hc_status integrate_k_periods(shoot *s)
 {
   timeint *ti = s->ti;
+  const bool measured = s->measures && s->k == 1;
+  const long transitions = integrate_transitions(ti->in);
   memset(s->travel, 0, (size_t)s->n * sizeof *s->travel);
+  if (measured) {
+    measure_begin(&ti->measure, &ti->scaled);
+    measure_period(&ti->measure, s->f);
+    ti->measured = false;
+    ti->last.k = 0;
+  }
   for (int i = 0; i < s->k; ++i) {
     if (ti->periods >= ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
-    hc_status st = matrix_giver(ti) ? integrate_period(ti->in, &ti->scaled, s->f, NULL, NULL)
+    integrate_watch *watch = measured ? measure_step : NULL;
+    hc_status st = matrix_giver(ti) ? integrate_period(ti->in, &ti->scaled, s->f, watch, &ti->measure)
                                     : add_period(s, ti->in, &ti->scaled, i, s->f);
     if (st != HC_OK) return st;
     ++ti->periods;
     note_travel(s);
   }
+  if (measured) note_measured(ti, 1, s->f, (int)(integrate_transitions(ti->in) - transitions), 1);
   return HC_OK;
 }
 
@@ -369,7 +394,7 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
   memcpy(s->iterate, s->ti->y, bytes);
   s->k = k;
   s->monitor = monitor;
-  s->known = s->begun = false;
+  s->known = s->begun = s->measures = false;
 }
 
 /* Is the solve that begins at ti->y the one that found s->best? */
@@ -380,8 +405,9 @@ static bool is_found(const shoot *s, int k)
          !memcmp(s->found_from, ti->y, sizeof *ti->y * (size_t)s->n);
 }
 
-static void note_found(shoot *s)
+static void note_found(shoot *s, const shoot_report *report)
 {
+  s->found = *report;
   memcpy(s->found_from, s->before, sizeof *s->before * (size_t)s->n);
   s->found_omega = s->ti->omega;
   s->found_length = s->ti->length;
@@ -541,9 +567,9 @@ static hc_status factor_slowed_matrix(shoot *s, bool renewed)
   return dense_factor(s->n, s->matrix, s->pivot);
 }
 
-/* s->iterate to where |z - F^k(z)| <= enough, by steps no longer than `reach` with one matrix as long as some of them
- * contract: one that does not may have let sliders slip to where they rest. */
-static hc_status by_chords(shoot *s, double reach, double enough)
+/* s->iterate to where |z - F^k(z)| <= enough, or the orbit is no farther than `near`, by steps no longer than `reach`
+ * with one matrix as long as some of them contract: one that does not may have let sliders slip to where they rest. */
+static hc_status by_chords(shoot *s, double reach, double enough, double near)
 {
   double *z = s->iterate, least = INFINITY;
   for (int steps = 0, renewals = 0, idle = 0; steps < CHORD_STEPS; ++steps) {
@@ -562,6 +588,8 @@ static hc_status by_chords(shoot *s, double reach, double enough)
     dense_solve(s->n, s->matrix, s->pivot, 1, s->step);
     const double length = norm_2(s->n, s->step), share = length > reach ? reach / length : 1;
     if (!isfinite(length)) return HC_NOT_FINITE;
+    if (length <= near) return HC_OK;
+    s->measures = s->ti->slowed && chord_contracts_to * length <= near;
     for (int i = 0; i < s->n; ++i) z[i] -= share * s->step[i];
   }
   return HC_NOT_CONVERGED;
@@ -579,7 +607,8 @@ static hc_status begin_with_slowed(shoot *s, double reach, double enough)
   if (st != HC_OK || !isfinite(giver->fastest)) return st; /* nothing is slowed at this frequency */
   const double unit = giver->length / ti->length;
   begin(of, s->k, s->monitor);
-  st = by_chords(of, reach / unit, fmax(enough, orbit_scatter(giver, s->k)) / unit);
+  st = by_chords(of, reach / unit, fmax(enough, orbit_scatter(giver, s->k)) / unit,
+                 slowed_near * timeint_scaled_size(giver));
   if (st == HC_OK) st = find_matrix(of);
   if (st != HC_OK) return shoot_found_no_orbit(st) ? HC_OK : st;
   memcpy(giver->y, of->iterate, sizeof *giver->y * (size_t)s->n);
@@ -592,22 +621,21 @@ static hc_status begin_with_slowed(shoot *s, double reach, double enough)
 }
 
 /* s->iterate next to the orbit of a large structure. */
-static hc_status by_chords_from_start(shoot *s, double reach, double enough)
+static hc_status by_chords_from_start(shoot *s, double reach, double enough, double goal)
 {
-  if (is_found(s, s->k)) {
-    memcpy(s->iterate, s->best, sizeof *s->iterate * (size_t)s->n);
-    memcpy(s->start, s->before, sizeof *s->start * (size_t)s->n);
-    s->begun = true;
-    return HC_OK;
-  }
   s->found_k = 0;
   hc_status st = s->ti->slowed ? begin_with_slowed(s, reach, enough) : HC_OK;
-  return st == HC_OK ? by_chords(s, reach, enough) : st;
+  return st == HC_OK ? by_chords(s, reach, enough, goal) : st;
 }
 
 hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report)
 {
   newton_report iterations;
+  if (is_found(s, k) && s->found.distance <= goal && cabs(s->found.multiplier) < 1) {
+    memcpy(s->ti->y, s->best, sizeof *s->best * (size_t)s->n);
+    *report = s->found;
+    return HC_OK;
+  }
   begin(s, k, monitor);
   const newton_options options = {.z_scale = s->ones,
                                   .r_scale = s->ones,
@@ -615,11 +643,11 @@ hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_moni
                                   .max_step = reach,
                                   .max_iterations = NEWTON_ITERATIONS};
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
-  hc_status st = matrix_giver(s->ti) ? by_chords_from_start(s, reach, options.tolerance)
+  hc_status st = matrix_giver(s->ti) ? by_chords_from_start(s, reach, options.tolerance, goal)
                                      : newton_solve(s->newton, s->iterate, &options, &iterations);
   if (st == HC_OK) st = finish(s, goal, report);
   if (st != HC_OK) memcpy(s->ti->y, s->before, sizeof *s->before * (size_t)s->n);
-  else if (s->ti->slowed) note_found(s);
+  else if (s->ti->slowed) note_found(s, report);
   return st;
 }
 
@@ -702,16 +730,6 @@ static bool is_measured(timeint *ti, int k)
   return true;
 }
 
-static void note_measured(timeint *ti, int k, const timeint_result *r)
-{
-  ti->last.k = k;
-  ti->last.omega = ti->omega;
-  ti->last.length = ti->length;
-  ti->last.switches = r->switches;
-  ti->last.returns = r->period_multiple;
-  memcpy(ti->last.end, ti->y, sizeof *ti->y * (size_t)ti->n);
-}
-
 static void report_measured(timeint *ti, timeint_result *r)
 {
   measure_report(&ti->measure, ti->model, 0, ti->length, r);
@@ -742,7 +760,7 @@ hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
   report_measured(ti, r);
   r->switches = (int)(integrate_transitions(ti->in) - transitions);
   r->period_multiple = shortest_period(k, timeint_size(ti) / ti->length, returned);
-  if (ti->slowed) note_measured(ti, k, r);
+  if (ti->slowed) note_measured(ti, k, ti->y, r->switches, r->period_multiple);
   return HC_OK;
 }
 

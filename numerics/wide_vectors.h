@@ -3,8 +3,8 @@
  * that results are the same to the last bit. Elsewhere, and under sanitizers (which start later than the choice), there
  * is one copy. For loops over a panel's ten points, which a call of BLAS would not pay for (without it the response
  * curve of structures/plane takes 8 % longer, the least of 15 runs), and over samples (slider.c). */
-#ifndef HC_HBM_WIDE_VECTORS_H
-#define HC_HBM_WIDE_VECTORS_H
+#ifndef HC_NUMERICS_WIDE_VECTORS_H
+#define HC_NUMERICS_WIDE_VECTORS_H
 
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && !defined(__AVX2__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
