@@ -34,6 +34,7 @@ enum { EDGE_SCATTERS = 100 }; /* sliders are moved off the edge of slip by so mu
 
 static const double same_state = 1e-6; /* [size] a state that returns as near is the same, but for integration errors */
 
+static const double same_frequency = 2e-4; /* [omega] where no multiplier is asked for, a matrix serves as far away */
 static const double same_matrix = 1e-4;  /* [size] a state as near has the same monodromy matrix, but for some 1e-4 */
 static const double scatter_seen = 1e-6; /* [size] a chord step of CVODE's that short, and no shorter than the last, is
                                             the scatter of periods: of fast modes it is not known beforehand */
@@ -63,7 +64,8 @@ struct shoot { /* from shoot_new, to shoot_free */
   double *z, *f;                /* [n] the last point, and F^k of it */
   double *phi;                  /* [n][n] column by column, dF^k/dz there; as giver of it: */
   double *phi_at;               /* [n] where, */
-  double phi_omega, phi_length; /* at which frequency, in which unit */
+  double phi_omega, phi_length; /* at which frequency, in which unit, */
+  double phi_fastest;           /* with modes slowed to this, */
   int phi_k;                    /* and of how many periods; 0: none */
   double *travel;               /* [n] of each slider, the farthest it was in a period from where that began */
   double *start, *first;        /* [n] where the solve began, and F^k of that */
@@ -226,14 +228,17 @@ static hc_status find_slowed_matrix(const shoot *s, const double *z)
   of->phi_k = s->k;
   of->phi_omega = ti->omega;
   of->phi_length = ti->length;
+  of->phi_fastest = giver->fastest;
   return HC_OK;
 }
 
 /* Has the giver a matrix of these periods? */
 static bool has_slowed_matrix(const shoot *s)
 {
-  const shoot *of = matrix_giver(s->ti)->shoot;
-  return of->phi_k == s->k && of->phi_omega == s->ti->omega;
+  timeint *ti = s->ti, *giver = matrix_giver(ti);
+  const shoot *of = giver->shoot;
+  const double within = ti->no_multipliers ? same_frequency * ti->omega : 0;
+  return of->phi_k == s->k && of->phi_fastest == giver->fastest && fabs(of->phi_omega - ti->omega) <= within;
 }
 
 /* s->phi: the giver's, in the units of s->ti. */
@@ -254,7 +259,7 @@ static hc_status find_matrix(shoot *s)
   hc_status st = HC_OK;
   if (!giver) return HC_OK;
   const shoot *of = giver->shoot;
-  for (int i = 0; i < s->n && has_slowed_matrix(s); ++i)
+  for (int i = 0; i < s->n && has_slowed_matrix(s) && !s->ti->no_multipliers; ++i)
     apart = fmax(apart, fabs(s->z[i] - of->phi_at[i] / unit_ratio(giver, s->ti, i) * of->phi_length / s->ti->length));
   if (!has_slowed_matrix(s) || !(apart <= same_matrix * timeint_scaled_size(s->ti))) st = find_slowed_matrix(s, s->z);
   if (st == HC_OK) take_slowed_matrix(s);
@@ -549,9 +554,10 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   if (st == HC_OK && r->distance < INFINITY) st = evaluate(s, s->best);
   if (st == HC_OK && r->distance < INFINITY) st = find_matrix(s);
   if (st != HC_OK || !(r->distance < INFINITY)) return st != HC_OK ? st : HC_NOT_CONVERGED;
+  const bool asked = !(matrix_giver(s->ti) && s->ti->no_multipliers);
   r->moved = distance_2(s->n, s->start, s->best);
   r->nonlinear = nonlinear_part(s, s->best);
-  if ((st = take_side_that_sticks(s)) != HC_OK || (st = find_multiplier(s, r)) != HC_OK) return st;
+  if ((st = take_side_that_sticks(s)) != HC_OK || (st = asked ? find_multiplier(s, r) : HC_OK) != HC_OK) return st;
   memcpy(s->ti->y, s->best, bytes);
   r->attainable = attainable(s);
   return r->distance <= fmax(goal, r->attainable) ? HC_OK : HC_NOT_CONVERGED;
