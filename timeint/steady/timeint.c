@@ -113,6 +113,11 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   return keep_or_free(ti, st, out);
 }
 
+bool timeint_slows_modes(const timeint *ti, double omega)
+{
+  return ti->may_slow && isfinite(mass_scaling_fastest(ti->whole, omega));
+}
+
 void timeint_leave_multipliers(timeint *ti)
 {
   ti->no_multipliers = true;
