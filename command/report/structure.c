@@ -18,8 +18,8 @@
 enum { MOST_OMEGAS = 12, MOST_SOLUTIONS = 24, MOST_CONTACTS = 24, SAMPLES = 240, STEPS = 20, DIGITS = 6, NAME = 64 };
 
 typedef struct shown {
-  const model *m; /* the case's */
-  hbm_solver *s;  /* of the model with those responses */
+  const model *m;          /* the case's */
+  hbm_solver *s;           /* of the model with those responses */
   double *series[3];       /* [2H+1] each: u, v and of two tangents the second u of a contact, or one of x */
   double *w;               /* [n_contacts] sliders at t = 0 */
   contact_period *periods; /* [n_contacts], as the case counts them */

@@ -35,13 +35,13 @@ enum { EDGE_SCATTERS = 100 }; /* sliders are moved off the edge of slip by so mu
 static const double same_state = 1e-6; /* [size] a state that returns as near is the same, but for integration errors */
 
 static const double same_frequency = 2e-4; /* [omega] where no multiplier is asked for, a matrix serves as far away */
-static const double same_matrix = 1e-4;  /* [size] a state as near has the same monodromy matrix, but for some 1e-4 */
+static const double same_matrix = 1e-4;    /* [size] a state as near has the same monodromy matrix, but for some 1e-4 */
 static const double scatter_seen = 1e-6; /* [size] a chord step of CVODE's that short, and no shorter than the last, is
                                             the scatter of periods: of fast modes it is not known beforehand */
 static const double chord_contracts_to = 0.1; /* [last step] the next, as a rule */
 static const double slowed_near = 1e-7;       /* [size] the slowed orbit is where the whole model's begins, 1e-6 off */
-static const double chord_contracts = 0.5; /* [least residual] a chord step that leaves more is idle */
-static const double chord_leads_away = 10; /* [least residual] the matrix is renewed at once where one leaves that */
+static const double chord_contracts = 0.5;    /* [least residual] a chord step that leaves more is idle */
+static const double chord_leads_away = 10;    /* [least residual] the matrix is renewed at once where one leaves that */
 
 static const double coarse_scatter = 0.02; /* [expected step] what coarse periods may scatter, at worst, */
 static const double coarsest = 1e-8;       /* their tolerance at most */
@@ -74,7 +74,7 @@ struct shoot { /* from shoot_new, to shoot_free */
   double *before;               /* [n] ti->y when the solve began */
   double *found_from;           /* [n] the same of the last orbit of a large structure, in closed form: s->best; */
   double found_omega, found_length;
-  int found_k;                   /* 0: none; and what was reported of it */
+  int found_k; /* 0: none; and what was reported of it */
   shoot_report found;
   double *iterate, *step, *best; /* [n] of a solve; Newton's step from there; the iterate nearest to the orbit */
   double *ones;                  /* [n] 1: weights of Newton's unknowns and residuals */
@@ -631,7 +631,7 @@ static hc_status by_chords_from_start(shoot *s, double reach, double enough, dou
 {
   s->found_k = 0;
   hc_status st = s->ti->slowed ? begin_with_slowed(s, reach, enough) : HC_OK;
-  return st == HC_OK ? by_chords(s, reach, enough, goal) : st;
+  return st == HC_OK ? by_chords(s, reach, enough, share_of_goal * goal) : st;
 }
 
 hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report)
