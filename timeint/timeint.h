@@ -32,6 +32,13 @@ timeint *timeint_closed_form_of(timeint *ti);
  * of `of`; what is found in closed form counts as periods of `of`. */
 hc_status timeint_new_beside(timeint *of, const transient_settings *how, timeint **out);
 
+/* Does CVODE see modes slowed at omega (steady/mass_scaling.h)? */
+bool timeint_slows_modes(const timeint *ti, double omega);
+
+/* Orbits are asked for, not their multipliers, which are then NAN where each would need a matrix of its own: of a large
+ * structure those of a neighbouring frequency do for its steps. */
+void timeint_leave_multipliers(timeint *ti);
+
 /* Adds the periods integrated since the handle was made, by CVODE and in closed form; of no handle (NULL) none. */
 void timeint_count(const timeint *ti, long *by_cvode, long *closed_form);
 

@@ -18,9 +18,8 @@
 enum { MOST_OMEGAS = 12, MOST_SOLUTIONS = 24, MOST_CONTACTS = 24, SAMPLES = 240, STEPS = 20, DIGITS = 6, NAME = 64 };
 
 typedef struct shown {
-  const model *m; /* the case's */
-  hbm_solver *s;  /* of the model with those responses */
-  hbm_curve curve;
+  const model *m;          /* the case's */
+  hbm_solver *s;           /* of the model with those responses */
   double *series[3];       /* [2H+1] each: u, v and of two tangents the second u of a contact, or one of x */
   double *w;               /* [n_contacts] sliders at t = 0 */
   contact_period *periods; /* [n_contacts], as the case counts them */
@@ -52,19 +51,13 @@ static hc_status model_to_look_at(const model *m, model **out)
   return HC_OK;
 }
 
-static hc_status shown_open(const scene *sc, const comparison *c, shown *d)
+static hc_status shown_open(const scene *sc, shown *d)
 {
   model *looked_at;
-  double from, to;
-  number_list asked = {0};
-  for (int i = 0; i < c->n_rows && asked.n < NUMBER_LIST_MAX; ++i) asked.v[asked.n++] = c->rows[i].omega;
-  comparison_sweep(sc->omega_from, sc->omega_to, &asked, &from, &to);
   hc_status st = model_to_look_at(d->m, &looked_at);
-  if (st == HC_OK) st = guided_hbm_solver_new(looked_at, &sc->hbm, &d->s);
+  if (st == HC_OK) st = hbm_solver_new(looked_at, &sc->hbm, &d->s);
   model_free(looked_at);
   if (st != HC_OK) return st;
-  st = hbm_trace(d->s, from, to, d->monitor, &d->curve);
-  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
   const size_t length = 2 * (size_t)hbm_n_harmonics(d->s) + 1, n = (size_t)d->m->n_contacts + 1;
   for (int i = 0; i < 3; ++i) d->series[i] = malloc(length * sizeof *d->series[i]);
   d->w = calloc(n, sizeof *d->w);
@@ -164,13 +157,13 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
   if (st != HC_OK) return st;
   shown d = {.m = m, .monitor = monitor};
   json_t *list = json_array();
-  st = shown_open(sc, c, &d);
+  st = shown_open(sc, &d);
   if (st == HC_OK) {
     double omega[MOST_OMEGAS];
     const int n = choose_omegas(c, omega);
     for (int i = 0; i < n && st == HC_OK; ++i) {
       hbm_curve at = {0};
-      if (hbm_curve_at(d.s, &d.curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
+      if (hbm_curve_at(d.s, &c->curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
       for (int k = 0; k < at.n && json_array_size(list) < MOST_SOLUTIONS && st == HC_OK; ++k)
         st = append_solution(&d, &at.points[k], at.X + (size_t)k * at.n_coef, list);
       hbm_curve_free(&at);
@@ -199,7 +192,6 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
   for (int i = 0; i < 3; ++i) free(d.series[i]);
   free(d.w);
   free(d.periods);
-  hbm_curve_free(&d.curve);
   hbm_solver_free(d.s);
   model_free(m);
   return st == HC_OK && !*out ? HC_NO_MEMORY : st;

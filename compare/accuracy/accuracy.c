@@ -84,8 +84,8 @@ static hc_status targets_at(const comparison *c, timeint *ti, double *state, hbm
 
 typedef struct climber {
   timeint *ti;
-  const double *state; /* [n_states] next to an orbit */
-  double *here;        /* [n_states] on it */
+  double *state; /* [n_states] next to an orbit, on the last one found */
+  double *here;  /* [n_states] memory */
 } climber;
 
 /* *value = -amplitude of the orbit at omega next to the climber's state; NaN where there is none. */
@@ -93,8 +93,10 @@ static hc_status minus_amplitude(void *self, double omega, double *value)
 {
   const climber *c = self;
   timeint_result r;
-  memcpy(c->here, c->state, (size_t)timeint_n_states(c->ti) * sizeof *c->here);
+  const size_t bytes = (size_t)timeint_n_states(c->ti) * sizeof *c->here;
+  memcpy(c->here, c->state, bytes);
   hc_status st = timeint_orbit(c->ti, omega, 1, c->here, NULL, &r);
+  if (st == HC_OK) memcpy(c->state, c->here, bytes);
   *value = st == HC_OK ? -r.amplitude : NAN;
   return st;
 }
@@ -163,6 +165,7 @@ static hc_status reference_make(const compare_setup *setup, const comparison *c,
   double *states = NULL; /* [2][n_states] */
   *out = (reference){.harmonics = hbm_n_harmonics(hbm)};
   hc_status st = comparison_referee(setup, NULL, &ti);
+  if (st == HC_OK) timeint_leave_multipliers(ti);
   if (st == HC_OK && !(states = calloc(2 * (size_t)timeint_n_states(ti), sizeof *states))) st = HC_NO_MEMORY;
   for (int i = 0; i < c->n_rows && st == HC_OK; ++i) {
     if (i > 0 && c->rows[i].omega == c->rows[i - 1].omega) continue;
@@ -177,7 +180,9 @@ static hc_status reference_make(const compare_setup *setup, const comparison *c,
 
 /* ---- the table ---- */
 
-enum { LEAST_REFERENCE = 20, EXACT = 0 };
+/* Of more than LARGE degrees of freedom curves cost minutes, and orbits are known from the comparison's rows or next to
+ * coarser solutions. */
+enum { LEAST_REFERENCE = 20, LARGE = 64, LEAST_OF_LARGE = 10, EXACT = 0 };
 
 static const double floor_of_orbits = 1e-8; /* [1] ten times the error of the referee's orbits */
 
@@ -458,7 +463,8 @@ static void put_orders(const table_work *w, accuracy *out)
 /* The orbits to compare with, and the rows with exact forces. */
 static hc_status exact_rows(table_work *w)
 {
-  int most = w->harmonics[w->n_harm - 1] > LEAST_REFERENCE ? w->harmonics[w->n_harm - 1] : LEAST_REFERENCE;
+  const int least = w->setup->model->n > LARGE ? LEAST_OF_LARGE : LEAST_REFERENCE;
+  const int most = w->harmonics[w->n_harm - 1] > least ? w->harmonics[w->n_harm - 1] : least;
   response_curve finest, t = {.hbm = NULL};
   hc_status st = trace(w, most, EXACT, w->monitor, &finest);
   if (st == HC_OK && !finest.hbm) st = finest.status;

@@ -89,10 +89,20 @@ static hc_status error_at(const compare_setup *setup, double regularisation, con
   return st == HC_NO_MEMORY ? st : p.stopped ? HC_INTERRUPTED : HC_OK;
 }
 
+/* What slowed modes cost CVODE's orbits does not fall with the regularisation, and is larger than its error. */
+static bool slows_modes(const compare_setup *setup, double omega)
+{
+  timeint *ti = NULL;
+  const bool slows = timeint_new(setup->model, &setup->transient, &ti) == HC_OK && timeint_slows_modes(ti, omega);
+  timeint_free(ti);
+  return slows;
+}
+
 hc_status order_of_regularisation(const compare_setup *setup, const comparison *c, const hc_monitor *monitor,
                                   order_row *out)
 {
   const comparison_row *row = setup->transient.law == TRANSIENT_LAW_EXACT ? NULL : most_regularised(c);
+  if (row && slows_modes(setup, row->omega)) row = NULL;
   *out = (order_row){.quantity = "regularisation", .omega = row ? row->omega : NAN, .fit = no_fit};
   if (!row) return HC_OK;
   double x[LEVELS], e[LEVELS], rho = setup->transient.regularisation;

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "hbm/contact/wide_vectors.h"
+#include "numerics/wide_vectors.h"
 
 enum { BLOCK = 16 }; /* samples looked at before asking whether one of them ends the interval */
 

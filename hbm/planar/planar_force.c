@@ -14,11 +14,11 @@
 #include "hbm/contact/exact_force.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/interval_series.h"
-#include "hbm/contact/wide_vectors.h"
 #include "hbm/hbm_settings.h"
 #include "numerics/dense.h"
 #include "numerics/rotate.h"
 #include "numerics/series.h"
+#include "numerics/wide_vectors.h"
 
 enum { N = COLLOCATION_POINTS };
 

@@ -5,9 +5,9 @@
 #include <math.h>
 
 #include "base/constants.h"
-#include "hbm/contact/wide_vectors.h"
 #include "numerics/rotate.h"
 #include "numerics/series.h"
+#include "numerics/wide_vectors.h"
 
 /* bound[k] += factor times a bound of the k-th derivative's modulus. */
 static void add_bounds(int n_harm, const double *X, double factor, double bound[4])

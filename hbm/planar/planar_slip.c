@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "hbm/contact/wide_vectors.h"
 #include "numerics/rotate.h"
+#include "numerics/wide_vectors.h"
 
 enum { N = COLLOCATION_POINTS, MAX_NEWTON = 12, MAX_STEPS = 60 };
 

@@ -714,6 +714,66 @@ static void the_multiplier_is_that_of_the_whole_model(CHECK_STATE)
   }
 }
 
+/* ---- an orbit asked again, nearby, from rest ---- */
+
+/* The state and the result of an orbit of the plates next to orbits[1]; *periods: of the whole model and the slowed. */
+static void ask_next(timeint *ti, double omega, timeint_result *r, long *periods)
+{
+  double *state = calloc((size_t)timeint_n_states(ti), sizeof *state);
+  long cvode = 0, before = 0, after = 0;
+  memcpy(state, orbits[1].state, (size_t)timeint_n_states(ti) * sizeof *state);
+  timeint_count(ti, &cvode, &before);
+  assert_int_equal(timeint_orbit(ti, omega, 1, state, NULL, r), HC_OK);
+  timeint_count(ti, &cvode, &after);
+  *periods = after - before;
+  free(state);
+}
+
+/* Both are within the tolerance of the orbit, relative to the state's size, up to 1.4 amplitudes (the waveform of the
+ * response is nearly all of it): 4 of them. Without multipliers a matrix of another frequency does, and no period is
+ * integrated for one: at the second frequency a matrix more is a period more. */
+static void orbits_need_no_matrix_of_their_own(CHECK_STATE)
+{
+  timeint *plain, *bare;
+  timeint_result at[2], again, one;
+  long periods[2], bare_periods[2], none;
+  assert_int_equal(timeint_new(plates, &closed_form, &plain), HC_OK);
+  assert_int_equal(timeint_new(plates, &closed_form, &bare), HC_OK);
+  timeint_leave_multipliers(bare);
+  for (int k = 0; k < 2; ++k) {
+    const double omega = orbits[1].omega * (1 + 1e-4 * k);
+    ask_next(plain, omega, &at[k], &periods[k]);
+    ask_next(plain, omega, &again, &none);
+    assert_int_equal(none, 0);
+    CHECK_LE(fabs(again.amplitude - at[k].amplitude), 0, "asked again");
+    assert_int_equal(again.switches, at[k].switches);
+    ask_next(bare, omega, &one, &bare_periods[k]);
+    CHECK_LE(fabs(one.amplitude - at[k].amplitude), 4 * closed_form.tolerance * at[k].amplitude, "%d", k);
+    assert_true(isnan(one.multiplier) && at[k].multiplier < 1);
+  }
+  assert_true(bare_periods[1] < periods[1]);
+  timeint_free(plain);
+  timeint_free(bare);
+}
+
+/* The motion from rest goes where the copy with slowed modes has gone before: to the only orbit there is at 138 Hz. */
+static void rest_leads_to_the_orbit(CHECK_STATE)
+{
+  timeint *ti;
+  timeint_result r;
+  transient_settings how = closed_form;
+  how.start = TRANSIENT_START_REST;
+  how.steady = TRANSIENT_STEADY_AUTO;
+  assert_int_equal(timeint_new(plates, &how, &ti), HC_OK);
+  double *y = calloc((size_t)timeint_n_states(ti), sizeof *y);
+  timeint_rest(ti, y);
+  assert_int_equal(timeint_steady(ti, orbits[1].omega, y, NULL, &r), HC_OK);
+  CHECK_LE(fabs(r.amplitude - orbits[1].r.amplitude), 4 * how.tolerance * r.amplitude, "from rest");
+  assert_true(r.periods < 20); /* of the whole model: those of the orbit, none of the way there */
+  timeint_free(ti);
+  free(y);
+}
+
 /* ---- CVODE ---- */
 
 /* The orbit by CVODE with that law, whose fast modes are slowed, is off from the whole model's in closed form by no
@@ -753,4 +813,5 @@ CHECK_TESTS_WITH("timeint.large", 120, find_orbits, free_orbits, slowed_modes_st
                  neighbours_share_the_fastest_mode, small_or_unsymmetric_structures_are_not_slowed,
                  rates_by_rows_are_the_equations, orbits_close, orbits_are_found_where_nothing_is_slowed,
                  orbits_are_those_of_another_integrator, slowed_modes_follow_in_columns,
-                 the_multiplier_is_that_of_the_whole_model, cvode_is_off_by_what_it_predicts)
+                 the_multiplier_is_that_of_the_whole_model, orbits_need_no_matrix_of_their_own, rest_leads_to_the_orbit,
+                 cvode_is_off_by_what_it_predicts)

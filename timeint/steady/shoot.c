@@ -34,11 +34,14 @@ enum { EDGE_SCATTERS = 100 }; /* sliders are moved off the edge of slip by so mu
 
 static const double same_state = 1e-6; /* [size] a state that returns as near is the same, but for integration errors */
 
-static const double same_matrix = 1e-4;  /* [size] a state as near has the same monodromy matrix, but for some 1e-4 */
+static const double same_frequency = 2e-4; /* [omega] where no multiplier is asked for, a matrix serves as far away */
+static const double same_matrix = 1e-4;    /* [size] a state as near has the same monodromy matrix, but for some 1e-4 */
 static const double scatter_seen = 1e-6; /* [size] a chord step of CVODE's that short, and no shorter than the last, is
                                             the scatter of periods: of fast modes it is not known beforehand */
-static const double chord_contracts = 0.5; /* [least residual] a chord step that leaves more is idle */
-static const double chord_leads_away = 10; /* [least residual] the matrix is renewed at once where one leaves that */
+static const double chord_contracts_to = 0.1; /* [last step] the next, as a rule */
+static const double slowed_near = 1e-7;       /* [size] the slowed orbit is where the whole model's begins, 1e-6 off */
+static const double chord_contracts = 0.5;    /* [least residual] a chord step that leaves more is idle */
+static const double chord_leads_away = 10;    /* [least residual] the matrix is renewed at once where one leaves that */
 
 static const double coarse_scatter = 0.02; /* [expected step] what coarse periods may scatter, at worst, */
 static const double coarsest = 1e-8;       /* their tolerance at most */
@@ -61,15 +64,18 @@ struct shoot { /* from shoot_new, to shoot_free */
   double *z, *f;                /* [n] the last point, and F^k of it */
   double *phi;                  /* [n][n] column by column, dF^k/dz there; as giver of it: */
   double *phi_at;               /* [n] where, */
-  double phi_omega, phi_length; /* at which frequency, in which unit */
+  double phi_omega, phi_length; /* at which frequency, in which unit, */
+  double phi_fastest;           /* with modes slowed to this, */
   int phi_k;                    /* and of how many periods; 0: none */
   double *travel;               /* [n] of each slider, the farthest it was in a period from where that began */
   double *start, *first;        /* [n] where the solve began, and F^k of that */
   bool known, begun;            /* z, f, phi are valid; start, first are valid */
+  bool measures;                /* the next point is expected on the orbit of a large structure: measured, too */
   double *before;               /* [n] ti->y when the solve began */
   double *found_from;           /* [n] the same of the last orbit of a large structure, in closed form: s->best; */
   double found_omega, found_length;
-  int found_k;                   /* 0: none */
+  int found_k; /* 0: none; and what was reported of it */
+  shoot_report found;
   double *iterate, *step, *best; /* [n] of a solve; Newton's step from there; the iterate nearest to the orbit */
   double *ones;                  /* [n] 1: weights of Newton's unknowns and residuals */
   double *vector, *other;        /* [n] for what one function needs */
@@ -115,20 +121,41 @@ static hc_status add_period(shoot *s, integrator *in, const scaled_model *m, int
   return HC_OK;
 }
 
+/* ti->measure is of the orbit of k periods that ended at end[n]. */
+static void note_measured(timeint *ti, int k, const double *end, int switches, int returns)
+{
+  ti->last.k = k;
+  ti->last.omega = ti->omega;
+  ti->last.length = ti->length;
+  ti->last.switches = switches;
+  ti->last.returns = returns;
+  memcpy(ti->last.end, end, sizeof *end * (size_t)ti->n);
+}
+
 /* s->f becomes F^k(s->f), s->phi the monodromy matrix of these k periods, unless another is to give it. */
 static hc_status integrate_k_periods(shoot *s)
 {
   timeint *ti = s->ti;
+  const bool measured = s->measures && s->k == 1;
+  const long transitions = integrate_transitions(ti->in);
   memset(s->travel, 0, (size_t)s->n * sizeof *s->travel);
+  if (measured) {
+    measure_begin(&ti->measure, &ti->scaled);
+    measure_period(&ti->measure, s->f);
+    ti->measured = false;
+    ti->last.k = 0;
+  }
   for (int i = 0; i < s->k; ++i) {
     if (ti->periods >= ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
-    hc_status st = matrix_giver(ti) ? integrate_period(ti->in, &ti->scaled, s->f, NULL, NULL)
+    integrate_watch *watch = measured ? measure_step : NULL;
+    hc_status st = matrix_giver(ti) ? integrate_period(ti->in, &ti->scaled, s->f, watch, &ti->measure)
                                     : add_period(s, ti->in, &ti->scaled, i, s->f);
     if (st != HC_OK) return st;
     ++ti->periods;
     note_travel(s);
   }
+  if (measured) note_measured(ti, 1, s->f, (int)(integrate_transitions(ti->in) - transitions), 1);
   return HC_OK;
 }
 
@@ -201,14 +228,17 @@ static hc_status find_slowed_matrix(const shoot *s, const double *z)
   of->phi_k = s->k;
   of->phi_omega = ti->omega;
   of->phi_length = ti->length;
+  of->phi_fastest = giver->fastest;
   return HC_OK;
 }
 
 /* Has the giver a matrix of these periods? */
 static bool has_slowed_matrix(const shoot *s)
 {
-  const shoot *of = matrix_giver(s->ti)->shoot;
-  return of->phi_k == s->k && of->phi_omega == s->ti->omega;
+  timeint *ti = s->ti, *giver = matrix_giver(ti);
+  const shoot *of = giver->shoot;
+  const double within = ti->no_multipliers ? same_frequency * ti->omega : 0;
+  return of->phi_k == s->k && of->phi_fastest == giver->fastest && fabs(of->phi_omega - ti->omega) <= within;
 }
 
 /* s->phi: the giver's, in the units of s->ti. */
@@ -229,7 +259,7 @@ static hc_status find_matrix(shoot *s)
   hc_status st = HC_OK;
   if (!giver) return HC_OK;
   const shoot *of = giver->shoot;
-  for (int i = 0; i < s->n && has_slowed_matrix(s); ++i)
+  for (int i = 0; i < s->n && has_slowed_matrix(s) && !s->ti->no_multipliers; ++i)
     apart = fmax(apart, fabs(s->z[i] - of->phi_at[i] / unit_ratio(giver, s->ti, i) * of->phi_length / s->ti->length));
   if (!has_slowed_matrix(s) || !(apart <= same_matrix * timeint_scaled_size(s->ti))) st = find_slowed_matrix(s, s->z);
   if (st == HC_OK) take_slowed_matrix(s);
@@ -369,7 +399,7 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
   memcpy(s->iterate, s->ti->y, bytes);
   s->k = k;
   s->monitor = monitor;
-  s->known = s->begun = false;
+  s->known = s->begun = s->measures = false;
 }
 
 /* Is the solve that begins at ti->y the one that found s->best? */
@@ -380,8 +410,9 @@ static bool is_found(const shoot *s, int k)
          !memcmp(s->found_from, ti->y, sizeof *ti->y * (size_t)s->n);
 }
 
-static void note_found(shoot *s)
+static void note_found(shoot *s, const shoot_report *report)
 {
+  s->found = *report;
   memcpy(s->found_from, s->before, sizeof *s->before * (size_t)s->n);
   s->found_omega = s->ti->omega;
   s->found_length = s->ti->length;
@@ -523,9 +554,10 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   if (st == HC_OK && r->distance < INFINITY) st = evaluate(s, s->best);
   if (st == HC_OK && r->distance < INFINITY) st = find_matrix(s);
   if (st != HC_OK || !(r->distance < INFINITY)) return st != HC_OK ? st : HC_NOT_CONVERGED;
+  const bool asked = !(matrix_giver(s->ti) && s->ti->no_multipliers);
   r->moved = distance_2(s->n, s->start, s->best);
   r->nonlinear = nonlinear_part(s, s->best);
-  if ((st = take_side_that_sticks(s)) != HC_OK || (st = find_multiplier(s, r)) != HC_OK) return st;
+  if ((st = take_side_that_sticks(s)) != HC_OK || (st = asked ? find_multiplier(s, r) : HC_OK) != HC_OK) return st;
   memcpy(s->ti->y, s->best, bytes);
   r->attainable = attainable(s);
   return r->distance <= fmax(goal, r->attainable) ? HC_OK : HC_NOT_CONVERGED;
@@ -541,9 +573,9 @@ static hc_status factor_slowed_matrix(shoot *s, bool renewed)
   return dense_factor(s->n, s->matrix, s->pivot);
 }
 
-/* s->iterate to where |z - F^k(z)| <= enough, by steps no longer than `reach` with one matrix as long as some of them
- * contract: one that does not may have let sliders slip to where they rest. */
-static hc_status by_chords(shoot *s, double reach, double enough)
+/* s->iterate to where |z - F^k(z)| <= enough, or the orbit is no farther than `near`, by steps no longer than `reach`
+ * with one matrix as long as some of them contract: one that does not may have let sliders slip to where they rest. */
+static hc_status by_chords(shoot *s, double reach, double enough, double near)
 {
   double *z = s->iterate, least = INFINITY;
   for (int steps = 0, renewals = 0, idle = 0; steps < CHORD_STEPS; ++steps) {
@@ -562,6 +594,8 @@ static hc_status by_chords(shoot *s, double reach, double enough)
     dense_solve(s->n, s->matrix, s->pivot, 1, s->step);
     const double length = norm_2(s->n, s->step), share = length > reach ? reach / length : 1;
     if (!isfinite(length)) return HC_NOT_FINITE;
+    if (length <= near) return HC_OK;
+    s->measures = s->ti->slowed && chord_contracts_to * length <= near;
     for (int i = 0; i < s->n; ++i) z[i] -= share * s->step[i];
   }
   return HC_NOT_CONVERGED;
@@ -579,7 +613,8 @@ static hc_status begin_with_slowed(shoot *s, double reach, double enough)
   if (st != HC_OK || !isfinite(giver->fastest)) return st; /* nothing is slowed at this frequency */
   const double unit = giver->length / ti->length;
   begin(of, s->k, s->monitor);
-  st = by_chords(of, reach / unit, fmax(enough, orbit_scatter(giver, s->k)) / unit);
+  st = by_chords(of, reach / unit, fmax(enough, orbit_scatter(giver, s->k)) / unit,
+                 slowed_near * timeint_scaled_size(giver));
   if (st == HC_OK) st = find_matrix(of);
   if (st != HC_OK) return shoot_found_no_orbit(st) ? HC_OK : st;
   memcpy(giver->y, of->iterate, sizeof *giver->y * (size_t)s->n);
@@ -592,22 +627,21 @@ static hc_status begin_with_slowed(shoot *s, double reach, double enough)
 }
 
 /* s->iterate next to the orbit of a large structure. */
-static hc_status by_chords_from_start(shoot *s, double reach, double enough)
+static hc_status by_chords_from_start(shoot *s, double reach, double enough, double goal)
 {
-  if (is_found(s, s->k)) {
-    memcpy(s->iterate, s->best, sizeof *s->iterate * (size_t)s->n);
-    memcpy(s->start, s->before, sizeof *s->start * (size_t)s->n);
-    s->begun = true;
-    return HC_OK;
-  }
   s->found_k = 0;
   hc_status st = s->ti->slowed ? begin_with_slowed(s, reach, enough) : HC_OK;
-  return st == HC_OK ? by_chords(s, reach, enough) : st;
+  return st == HC_OK ? by_chords(s, reach, enough, share_of_goal * goal) : st;
 }
 
 hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_monitor *monitor, shoot_report *report)
 {
   newton_report iterations;
+  if (is_found(s, k) && s->found.distance <= goal && cabs(s->found.multiplier) < 1) {
+    memcpy(s->ti->y, s->best, sizeof *s->best * (size_t)s->n);
+    *report = s->found;
+    return HC_OK;
+  }
   begin(s, k, monitor);
   const newton_options options = {.z_scale = s->ones,
                                   .r_scale = s->ones,
@@ -615,11 +649,11 @@ hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_moni
                                   .max_step = reach,
                                   .max_iterations = NEWTON_ITERATIONS};
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
-  hc_status st = matrix_giver(s->ti) ? by_chords_from_start(s, reach, options.tolerance)
+  hc_status st = matrix_giver(s->ti) ? by_chords_from_start(s, reach, options.tolerance, goal)
                                      : newton_solve(s->newton, s->iterate, &options, &iterations);
   if (st == HC_OK) st = finish(s, goal, report);
   if (st != HC_OK) memcpy(s->ti->y, s->before, sizeof *s->before * (size_t)s->n);
-  else if (s->ti->slowed) note_found(s);
+  else if (s->ti->slowed) note_found(s, report);
   return st;
 }
 
@@ -702,16 +736,6 @@ static bool is_measured(timeint *ti, int k)
   return true;
 }
 
-static void note_measured(timeint *ti, int k, const timeint_result *r)
-{
-  ti->last.k = k;
-  ti->last.omega = ti->omega;
-  ti->last.length = ti->length;
-  ti->last.switches = r->switches;
-  ti->last.returns = r->period_multiple;
-  memcpy(ti->last.end, ti->y, sizeof *ti->y * (size_t)ti->n);
-}
-
 static void report_measured(timeint *ti, timeint_result *r)
 {
   measure_report(&ti->measure, ti->model, 0, ti->length, r);
@@ -742,7 +766,7 @@ hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
   report_measured(ti, r);
   r->switches = (int)(integrate_transitions(ti->in) - transitions);
   r->period_multiple = shortest_period(k, timeint_size(ti) / ti->length, returned);
-  if (ti->slowed) note_measured(ti, k, r);
+  if (ti->slowed) note_measured(ti, k, ti->y, r->switches, r->period_multiple);
   return HC_OK;
 }
 

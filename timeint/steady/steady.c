@@ -13,6 +13,7 @@
 #include "timeint/steady/aperiodic.h"
 #include "timeint/steady/closed_form_start.h"
 #include "timeint/steady/linear_regime.h"
+#include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/settle.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
@@ -286,13 +287,26 @@ static hc_status from_orbit(timeint *ti, const hc_monitor *monitor, timeint_resu
   return approach_attractor(ti, STRETCH_FROM_UNSTABLE, monitor, r);
 }
 
+/* Of a large structure in closed form the copy with slowed modes, whose periods take a fifth, goes ahead: is the motion
+ * next to where that has come to now, an orbit of one period? */
+static bool follows_slowed(timeint *ti, const hc_monitor *monitor, timeint_result *r)
+{
+  double *state = ti->past;
+  if (!ti->slowed || !isfinite(mass_scaling_fastest(ti->whole, ti->omega))) return false;
+  timeint_get_state(ti, state);
+  hc_status st = timeint_steady(ti->slowed, ti->omega, state, monitor, r);
+  const bool arrived = st == HC_OK && r->period_multiple == 1;
+  clear_result(r, ti->omega);
+  return arrived && timeint_begin(ti, ti->omega, state) == HC_OK;
+}
+
 static hc_status to_attractor(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
   if (linear_regime_steady(ti, r)) return HC_OK;
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   if (st != HC_OK) return st;
-  return ti->how.start == TRANSIENT_START_HBM ? from_orbit(ti, monitor, r)
-                                              : approach_attractor(ti, FIRST_STRETCH, monitor, r);
+  const bool near = ti->how.start == TRANSIENT_START_HBM || follows_slowed(ti, monitor, r);
+  return near ? from_orbit(ti, monitor, r) : approach_attractor(ti, FIRST_STRETCH, monitor, r);
 }
 
 static hc_status by_itself(timeint *ti, const hc_monitor *monitor, timeint_result *r)

@@ -104,6 +104,18 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   return keep_or_free(ti, st, out);
 }
 
+bool timeint_slows_modes(const timeint *ti, double omega)
+{
+  return ti->may_slow && isfinite(mass_scaling_fastest(ti->whole, omega));
+}
+
+void timeint_leave_multipliers(timeint *ti)
+{
+  ti->no_multipliers = true;
+  if (ti->slowed) timeint_leave_multipliers(ti->slowed);
+  if (ti->closed_form) timeint_leave_multipliers(ti->closed_form);
+}
+
 timeint *timeint_closed_form_of(timeint *ti)
 {
   if (!ti->closed_form || !ti->closed_form->slowed) return NULL;

@@ -19,6 +19,7 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double fastest;         /* [rad/time] its fastest mode; INFINITY: none is slowed                      */
   timeint *slowed;        /* of a closed form whose fastest modes are not slowed: the same, but that they
                              are; it gives monodromy matrices; or NULL                                  */
+  bool no_multipliers;    /* nobody asks for them: timeint_leave_multipliers                            */
   int n_dof, n;           /* degrees of freedom; number of states, 2 n_dof + contacts                   */
   integrator *in;
   integrator *exact; /* of the exact law, for sweeps, where `in` is not and there is no closed_form; else NULL */
