@@ -48,8 +48,8 @@ static inline int hbm_system_length(const hbm_system *sys, int n_harm) { return 
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time);
 void hbm_system_clear(hbm_system *sys);
 
-/* Contact force at X into sys->F, with what hbm_system_jacobian takes where `derive`; nothing to do if X is where it was
- * evaluated last. Errors of contact_forces_eval. */
+/* Contact force at X into sys->F, where `derive` with what hbm_system_jacobian takes; nothing to do if X is where it
+ * was evaluated last. Errors of contact_forces_eval. */
 hc_status hbm_system_contact(hbm_system *sys, const double *X, bool derive);
 
 /* The first response's series x[2 n_harm + 1] of the motion X. */
