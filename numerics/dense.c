@@ -233,27 +233,52 @@ hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *
 
 /* ---- LU factors ------------------------------------------------------------------------------------ */
 
-/* dgetrf for matrices so small that its call costs more than the work (table in dense.h): by columns, pivots from 1. */
+/* x -= L of the columns of a PANEL, x beginning where they do: four at a time, so that x is loaded and stored once. */
+enum { PANEL = 4 };
+static inline void subtract_panel(int n, const double *a, int ld, double *restrict x)
+{
+  const double *b = a + ld, *c = b + ld, *d = c + ld, x0 = x[0], x1 = x[1] - x0 * a[1],
+               x2 = x[2] - x0 * a[2] - x1 * b[2], x3 = x[3] - x0 * a[3] - x1 * b[3] - x2 * c[3];
+  x[1] = x1, x[2] = x2, x[3] = x3;
+  for (int i = PANEL; i < n; ++i) x[i] = x[i] - x0 * a[i] - x1 * b[i] - x2 * c[i] - x3 * d[i];
+}
+
+/* x -= column k of L x[k]. */
+static inline void subtract_column(int n, const double *A, int k, double *restrict x)
+{
+  const double *column = A + n * k, factor = x[k];
+  for (int i = k + 1; i < n; ++i) x[i] -= factor * column[i];
+}
+
+/* Column k's pivot, from 1, into its place, and the column becomes L's; false where it is 0. */
+static bool take_pivot(int n, double *A, int k, int *pivot)
+{
+  double *column = A + n * k;
+  int p = k;
+  for (int i = k + 1; i < n; ++i)
+    if (fabs(column[i]) > fabs(column[p])) p = i;
+  *pivot = p + 1;
+  if (!(fabs(column[p]) > 0)) return false;
+  for (int j = 0; j < n && p != k; ++j) {
+    const double kept = A[k + n * j];
+    A[k + n * j] = A[p + n * j];
+    A[p + n * j] = kept;
+  }
+  const double inverse = 1 / column[k];
+  for (int i = k + 1; i < n; ++i) column[i] *= inverse;
+  return true;
+}
+
+/* dgetrf for matrices so small that its calls cost more than they gain (table in dense.h). */
 static bool factor_small(int n, double *A, int *pivot)
 {
-  for (int k = 0; k < n; ++k) {
-    double *restrict pivot_column = A + n * k;
-    int p = k;
-    for (int i = k + 1; i < n; ++i)
-      if (fabs(pivot_column[i]) > fabs(pivot_column[p])) p = i;
-    pivot[k] = p + 1;
-    if (!(fabs(pivot_column[p]) > 0)) return false;
-    for (int j = 0; j < n && p != k; ++j) {
-      const double kept = A[k + n * j];
-      A[k + n * j] = A[p + n * j];
-      A[p + n * j] = kept;
+  for (int first = 0; first < n; first += PANEL) {
+    const int end = first + PANEL < n ? first + PANEL : n;
+    for (int k = first; k < end; ++k) {
+      if (!take_pivot(n, A, k, pivot + k)) return false;
+      for (int j = k + 1; j < end; ++j) subtract_column(n, A, k, A + n * j);
     }
-    const double inverse = 1 / pivot_column[k];
-    for (int i = k + 1; i < n; ++i) pivot_column[i] *= inverse;
-    for (int j = k + 1; j < n; ++j) {
-      double *restrict column = A + n * j, factor = column[k];
-      for (int i = k + 1; i < n; ++i) column[i] -= factor * pivot_column[i];
-    }
+    for (int j = end; j < n; ++j) subtract_panel(n - first, A + n * first + first, n, A + n * j + first);
   }
   return true;
 }
@@ -276,11 +301,10 @@ static void solve_small(int n, const double *restrict A, const int *pivot, doubl
     x[k] = x[pivot[k] - 1];
     x[pivot[k] - 1] = kept;
   }
-  for (int k = 0; k < n; ++k) {
-    const double *column = A + n * k, xk = x[k];
-    for (int i = k + 1; i < n; ++i) x[i] -= xk * column[i];
-  }
-  for (int k = n - 1; k >= 0; --k) {
+  int k = 0;
+  for (; k + PANEL <= n; k += PANEL) subtract_panel(n - k, A + n * k + k, n, x + k);
+  for (; k < n; ++k) subtract_column(n, A, k, x);
+  for (k = n - 1; k >= 0; --k) {
     const double *column = A + n * k, xk = x[k] /= column[k];
     for (int i = 0; i < k; ++i) x[i] -= xk * column[i];
   }

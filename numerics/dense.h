@@ -26,11 +26,11 @@ void dense_transpose(int rows, int columns, const double *A, double *B);
 
 /* Up to so many unknowns, a real system is solved by code of our own, since a call of LAPACK costs more than the work.
  * Factors, microseconds on one thread, OpenBLAS 0.3.21 and reference LAPACK 3.11, the least of 15, same run:
- *     n               3     5     8     11    16    21    24    32    64    201
- *     here            0.02  0.07  0.18  0.39  1.1   2.5   3.5   11    73    1850
- *     OpenBLAS        0.10  0.20  0.44  0.80  1.7   2.7   3.6   9.9   34    275
- *     reference       0.18  0.38  0.73  1.2   2.3   4.0   5.1   12    63    1320 */
-enum { DENSE_SMALL = 24 };
+ *     n               3     5     8     11    16    21    24    32    42    64    96    201
+ *     here            0.02  0.04  0.10  0.17  0.33  0.65  0.92  1.9   3.9   12.6  40    345
+ *     OpenBLAS        0.05  0.10  0.24  0.43  0.87  1.6   2.2   4.0   5.5   13.4  27    157
+ *     reference       0.08  0.17  0.37  0.64  1.3   2.4   3.1   6.0   11    33    100   782 */
+enum { DENSE_SMALL = 64 };
 
 /* LU factors with partial pivoting of A[n][n], in its place; pivot[k], from 1, is the row exchanged with row k.
  * HC_SINGULAR for a pivot that is 0 or not finite. */

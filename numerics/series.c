@@ -83,13 +83,28 @@ void series_grid_fill(series_grid *g, const series_vector *m, const double *tabl
   for (int i = 0; i <= 2 * SERIES_GRID; ++i) g->node[i].th = TWO_PI * i / SERIES_GRID;
 }
 
-series_node series_vector_at(const series_vector *m, double th)
+/* One turn serves all coordinates. */
+static inline series_node sum_at(const series_vector *m, double th, double c, double s, int dim)
 {
   series_node node = {.th = th};
-  const double c = cos(th), s = sin(th);
-  for (int d = 0; d < m->dim; ++d) {
-    const series_jet j = series_at(m->n_harm, m->X[d], c, s);
-    node.d[0][d] = j.x, node.d[1][d] = j.d1, node.d[2][d] = j.d2;
+  double ch = 1, sh = 0, x[SERIES_MAX_DIM], d1[SERIES_MAX_DIM] = {0}, d2[SERIES_MAX_DIM] = {0};
+  for (int d = 0; d < dim; ++d) x[d] = m->X[d][0];
+  for (int h = 1; h <= m->n_harm; ++h) {
+    series_turn(c, s, &ch, &sh);
+    for (int d = 0; d < dim; ++d) {
+      const double a = m->X[d][2 * h - 1], b = m->X[d][2 * h], even = a * ch + b * sh, odd = b * ch - a * sh;
+      x[d] += even;
+      d1[d] += h * odd;
+      d2[d] -= (double)h * h * even;
+    }
   }
+  for (int d = 0; d < dim; ++d) node.d[0][d] = x[d], node.d[1][d] = d1[d], node.d[2][d] = d2[d];
   return node;
+}
+
+series_node series_vector_at(const series_vector *m, double th)
+{
+  _Static_assert(SERIES_MAX_DIM == 2, "one loop for each number of coordinates");
+  const double c = cos(th), s = sin(th);
+  return m->dim == 1 ? sum_at(m, th, c, s, 1) : sum_at(m, th, c, s, 2);
 }

@@ -180,7 +180,7 @@ static void scatter(const contact_forces *f, const combination *of, const double
   }
 }
 
-static hc_status evaluate(contact_forces *f, const double *X, double *F, bool derive, contact_report *report)
+hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, bool derive, contact_report *report)
 {
   hc_status st = HC_OK;
   f->assembled = false;
@@ -199,17 +199,6 @@ static hc_status evaluate(contact_forces *f, const double *X, double *F, bool de
     report->free_sliders += own.free_sliders;
   }
   return st;
-}
-
-hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report)
-{
-  return evaluate(f, X, F, true, report);
-}
-
-hc_status contact_forces_only(contact_forces *f, const double *X, double *F)
-{
-  contact_report report;
-  return evaluate(f, X, F, false, &report);
 }
 
 /* ---- Jacobian ---------------------------------------------------------------------------------- */

@@ -24,14 +24,12 @@ hc_status contact_forces_new(const model *m, const condensation *c, hbm_force fo
                              contact_forces **out);
 void contact_forces_free(contact_forces *f); /* NULL is allowed */
 
-/* F[dim (2H+1)] [force] at X [length]. Errors of the evaluators: exact_force_eval, planar_force_eval, aft_eval,
- * planar_aft_eval. */
-hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, contact_report *report);
+/* F[dim (2H+1)] [force] at X [length], and what the Jacobian needs where `derive`. Errors of the evaluators:
+ * exact_force_eval, planar_force_eval, aft_eval, planar_aft_eval. */
+hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, bool derive, contact_report *report);
 
-/* The same force alone, without what its Jacobian would need. */
-hc_status contact_forces_only(contact_forces *f, const double *X, double *F);
-
-/* dF/dX, [dim (2H+1)]^2 by columns, at the last evaluation, which ended with HC_OK; valid until the next one. */
+/* dF/dX, [dim (2H+1)]^2 by columns, at the last evaluation, which derived and ended with HC_OK; valid until the next
+ * one. */
 const double *contact_forces_jacobian(contact_forces *f);
 
 /* w[n_contacts] [length]: the sliders at th = 0 on the closed orbit of the last evaluation. */

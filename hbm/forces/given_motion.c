@@ -42,6 +42,7 @@ hc_status given_motion_force(const given_motion *m, hbm_restart restart, int n_t
   const size_t size = (size_t)m->n_dof * (size_t)n;
   const evaluator_settings how = {m->n_harm, n_time, restart};
   contact_forces *f = NULL;
+  contact_report report;
   placed_contact *placed = calloc((size_t)contacts + 1, sizeof *placed);
   double *X = calloc(2 * size, sizeof *X), *force = X ? X + size : NULL; /* by coefficient, then by coordinate */
   hc_status st = placed && X ? HC_OK : HC_NO_MEMORY;
@@ -51,7 +52,7 @@ hc_status given_motion_force(const given_motion *m, hbm_restart restart, int n_t
     st = contact_forces_new_of(m->n_dof, contacts, placed, by, &how, &f);
   }
   for (size_t i = 0; i < size && st == HC_OK; ++i) X[i % n * m->n_dof + i / n] = m->X[i];
-  if (st == HC_OK) st = contact_forces_only(f, X, force);
+  if (st == HC_OK) st = contact_forces_eval(f, X, force, false, &report);
   for (size_t i = 0; i < size && st == HC_OK; ++i) F[i] = force[i % n * m->n_dof + i / n];
   contact_forces_free(f);
   free(placed);

@@ -58,7 +58,6 @@ static void free_equations(hbm_solver *s)
                     .how = s->how,
                     .monodromy = s->monodromy,
                     .multipliers_unknown = s->multipliers_unknown,
-                    .n_known_stability = s->n_known_stability,
                     .known_stability = s->known_stability,
                     .ramp = s->ramp,
                     .guess = s->guess,
@@ -147,7 +146,7 @@ static void measure_series(int n_harm, const double *x, hbm_measures *out)
 
 hc_status hbm_measure(hbm_solver *s, const double *X, hbm_measures *out)
 {
-  hc_status st = hbm_system_contact(&s->sys, X);
+  hc_status st = hbm_system_contact(&s->sys, X, false);
   if (st != HC_OK) return st;
   hbm_system_response(&s->sys, s->sys.n_harm, X, s->x);
   measure_series(s->sys.n_harm, s->x, out);
@@ -193,7 +192,7 @@ hc_status hbm_response(hbm_solver *s, double omega, const double *X, int r, doub
 hc_status hbm_measure_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *out)
 {
   hc_status st = hbm_response(s, omega, X, r, s->x);
-  if (st == HC_OK) st = hbm_system_contact(&s->sys, X);
+  if (st == HC_OK) st = hbm_system_contact(&s->sys, X, false);
   if (st != HC_OK) return st;
   measure_series(s->sys.n_harm, s->x, out);
   out->contact = s->sys.report;
@@ -223,7 +222,7 @@ hc_status hbm_preloads(hbm_solver *s, double *N) { return hbm_linear_rest(&s->sy
 
 hc_status hbm_sliders(hbm_solver *s, const double *X, double *w)
 {
-  hc_status st = hbm_system_contact(&s->sys, X);
+  hc_status st = hbm_system_contact(&s->sys, X, false);
   if (st != HC_OK) return st;
   contact_forces_sliders(s->sys.contacts, w);
   return HC_OK;
@@ -233,10 +232,10 @@ hc_status hbm_located_orbit(hbm_solver *s, const double *X, const contact_forces
 {
   if (s->orbit) {
     *orbit = s->orbit;
-    return contact_forces_eval(s->orbit, X, s->X, report); /* s->X gets the force, which is not needed */
+    return contact_forces_eval(s->orbit, X, s->X, false, report); /* s->X gets the force, which is not needed */
   }
   *orbit = s->sys.contacts;
-  hc_status st = hbm_system_contact(&s->sys, X);
+  hc_status st = hbm_system_contact(&s->sys, X, false);
   if (st == HC_OK) *report = s->sys.report;
   return st;
 }

@@ -8,24 +8,24 @@
 #include "hbm/stability/monodromy.h"
 #include "numerics/newton.h"
 
-/* A solution's multipliers, by a fingerprint of it. */
+/* A solution's multipliers, by a fingerprint of it; a later one in the same place of the solver's table replaces it. */
+enum { KNOWN_STABILITIES = 1024 };
 typedef struct known_stability {
   uint64_t key;
   hbm_stability stability;
 } known_stability;
 
-struct hbm_solver {         /* from hbm_solver_new, to hbm_solver_free; not shared between threads */
-  model *model;             /* a copy: the caller may drop theirs */
-  hbm_settings how;         /* a copy */
-  hbm_system sys;           /* the equations */
-  int n_time;               /* samples per period, for sampled forces */
-  newton *fixed, *plane;    /* the two forms of corrector.h */
-  const slip_edges *edges;  /* of the model's response curves; NULL: there are none */
-  contact_forces *orbit;    /* locates the transitions of a solution of sampled equations; NULL when sys does */
-  monodromy *monodromy;     /* NULL until it is needed */
-  bool multipliers_unknown; /* hbm_stability_is_unknown */
-  int n_known_stability;
-  known_stability *known_stability; /* of solutions asked about, in the modes of a large structure */
+struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; not shared between threads */
+  model *model;                     /* a copy: the caller may drop theirs */
+  hbm_settings how;                 /* a copy */
+  hbm_system sys;                   /* the equations */
+  int n_time;                       /* samples per period, for sampled forces */
+  newton *fixed, *plane;            /* the two forms of corrector.h */
+  const slip_edges *edges;          /* of the model's response curves; NULL: there are none */
+  contact_forces *orbit;            /* locates the transitions of a solution of sampled equations; NULL when sys does */
+  monodromy *monodromy;             /* NULL until it is needed */
+  bool multipliers_unknown;         /* hbm_stability_is_unknown */
+  known_stability *known_stability; /* [KNOWN_STABILITIES] of solutions asked about; NULL until the first */
   refinement *finer_harmonics; /* tells auto the error of this many harmonics; NULL where the settings give a number */
   refinement *finer_samples;   /* the same of samples */
   refinement *exact_finer;     /* hbm_predict's equations; NULL until it is asked */

@@ -2,9 +2,9 @@
 #include "hbm/solver/stability.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
 
@@ -40,31 +40,25 @@ static uint64_t fingerprint(const hbm_solver *s, double omega, const double *X)
     memcpy(byte, i < 0 ? &omega : &X[i], sizeof byte);
     for (size_t k = 0; k < sizeof byte; ++k) hash = (hash ^ byte[k]) * 1099511628211u;
   }
-  return hash;
-}
-
-/* One by the modes of a large structure. */
-static hc_status keep(hbm_solver *s, uint64_t key, const hbm_stability *st)
-{
-  if (!GROW(s->known_stability, s->n_known_stability)) return HC_NO_MEMORY;
-  s->known_stability[s->n_known_stability++] = (known_stability){key, *st};
-  return HC_OK;
+  return hash | 1; /* 0: an empty place */
 }
 
 hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, const double *X, hbm_stability *out)
 {
   *out = (hbm_stability){NAN, NAN, NAN, NAN, NAN, NAN, 0, NAN, false};
   const bool modal = in_modes(s->model);
-  const uint64_t key = modal ? fingerprint(s, omega, X) : 0;
+  const uint64_t key = fingerprint(s, omega, X);
+  if (!s->known_stability) s->known_stability = calloc(KNOWN_STABILITIES, sizeof *s->known_stability);
+  if (!s->known_stability) return HC_NO_MEMORY;
+  known_stability *known = &s->known_stability[key / 2 % KNOWN_STABILITIES];
+  if (known->key == key) return *out = known->stability, HC_OK;
   hc_status st = HC_OK;
-  for (int k = 0; k < s->n_known_stability; ++k)
-    if (s->known_stability[k].key == key) return *out = s->known_stability[k].stability, HC_OK;
   if (!s->monodromy && !s->multipliers_unknown)
     st = monodromy_new(s->model, modal ? MONODROMY_IN_MODES : MONODROMY_BY_INTERVALS, &s->monodromy);
   if (modal && st == HC_BAD_INPUT) s->multipliers_unknown = true;
   if (!s->monodromy && s->multipliers_unknown) return HC_OK;
   if (st == HC_OK) st = monodromy_stability(s->monodromy, s->model, orbit, omega, out);
-  if (modal && st == HC_OK) st = keep(s, key, out);
+  if (st == HC_OK) *known = (known_stability){key, *out};
   if (!modal || st != HC_NOT_CONVERGED) return st;
   s->multipliers_unknown = true;
   return HC_OK;
@@ -75,10 +69,10 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
   const contact_forces *orbit;
   contact_report report;
   int det_sign;
+  const bool regular = hbm_det_sign_at(s, omega, X, &det_sign) == HC_OK; /* first: it evaluates what the orbit is of */
   hc_status st = hbm_located_orbit(s, X, &orbit, &report);
   if (st == HC_OK) st = hbm_multipliers(s, orbit, omega, X, out);
   if (st != HC_OK) return st;
-  bool regular = hbm_det_sign_at(s, omega, X, &det_sign) == HC_OK;
   out->agrees = regular && (det_sign > 0) == (out->fold > 0);
   return HC_OK;
 }

@@ -44,16 +44,17 @@ void hbm_system_clear(hbm_system *sys)
   *sys = (hbm_system){0};
 }
 
-hc_status hbm_system_contact(hbm_system *sys, const double *X)
+hc_status hbm_system_contact(hbm_system *sys, const double *X, bool derive)
 {
   size_t bytes = (size_t)sys->n_coef * sizeof(double);
-  if (sys->evaluated && memcmp(X, sys->X, bytes) == 0) return HC_OK;
+  if (sys->evaluated && (sys->derived || !derive) && memcmp(X, sys->X, bytes) == 0) return HC_OK;
   sys->evaluated = false;
   ++sys->evaluations;
-  hc_status st = contact_forces_eval(sys->contacts, X, sys->F, &sys->report);
+  hc_status st = contact_forces_eval(sys->contacts, X, sys->F, derive, &sys->report);
   if (st != HC_OK) return st;
   memcpy(sys->X, X, bytes);
   sys->evaluated = true;
+  sys->derived = derive;
   return HC_OK;
 }
 
@@ -129,7 +130,7 @@ static size_t behind(const hbm_system *sys, int h) { return sines(sys, h) + (siz
 
 hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R)
 {
-  hc_status st = hbm_system_contact(sys, X);
+  hc_status st = hbm_system_contact(sys, X, true);
   if (st == HC_OK) st = condensation_at(sys->linear, omega, sys->more_damping);
   if (st != HC_OK) return st;
   memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));

@@ -28,8 +28,8 @@ typedef struct hbm_system {
   model_scales scales;
   double *X, *F; /* [n_coef] the last evaluation: where, and the contact force */
   contact_report report;
-  bool evaluated; /* X, F and report belong together */
-  double *rows;   /* [n_coef] residual or its derivative with the means' rows, which may have to be dropped */
+  bool evaluated, derived; /* X, F and report belong together; and the contacts' Jacobian with them */
+  double *rows;            /* [n_coef] residual or its derivative with the means' rows, which may have to be dropped */
   double complex *amplitudes; /* [2][dim] */
   long evaluations;           /* of the contact force */
   bool *stuck;                /* [n_contacts] of linear_solution.c, and all that follows: */
@@ -47,9 +47,9 @@ static inline int hbm_system_length(const hbm_system *sys, int n_harm) { return 
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time);
 void hbm_system_clear(hbm_system *sys);
 
-/* Contact force at X into sys->F; nothing to do if X is where it was evaluated last. Errors of
- * contact_forces_eval. */
-hc_status hbm_system_contact(hbm_system *sys, const double *X);
+/* Contact force at X into sys->F, where `derive` with what hbm_system_jacobian takes; nothing to do if X is where it
+ * was evaluated last. Errors of contact_forces_eval. */
+hc_status hbm_system_contact(hbm_system *sys, const double *X, bool derive);
 
 /* The first response's series x[2 n_harm + 1] of the motion X. */
 void hbm_system_response(const hbm_system *sys, int n_harm, const double *X, double *x);

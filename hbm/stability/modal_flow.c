@@ -320,62 +320,125 @@ void modal_flow_begin(modal_flow *f, double omega, int changes)
   f->h = 0;
 }
 
-/* A -= by b_r b_t^T of the modes fast.., in the rows of eta', the columns of omega eta. */
-static void subtract_stiffness(const modal_flow *f, double by, int r, int t, double *A)
-{
-  const size_t n = (size_t)(f->n - f->fast);
-  const double *to = f->direction + (size_t)r * (size_t)f->n + f->fast,
-               *from = f->direction + (size_t)t * (size_t)f->n + f->fast, *lambda = f->lambda + f->fast;
-  for (size_t col = 0; col < n && by != 0; ++col)
-    for (size_t row = 0; row < n; ++row) A[col * 2 * n + n + row] -= by * to[row] * from[col] / sqrt(lambda[col]);
-}
-
-/* The contacts' stiffness for motions far faster than slip turns: across slip a circle is stuck. */
-static void subtract_contact(const modal_flow *f, const contact_site *s, const contact_interval *at,
-                             const planar_slipping *slipping, double th, double *A)
+/* The contacts' stiffness for motions far faster than slip turns, from direction t to direction r at Z[r + rows t]:
+ * across slip a circle is stuck. */
+static void add_contact(const modal_flow *f, const contact_site *s, const contact_interval *at,
+                        const planar_slipping *slipping, double th, double *Z)
 {
   const contact *c = law_of(f, s);
-  const int normal = s->first + s->rows - 1;
-  if (at || slipping) subtract_stiffness(f, c->kn * (is_circle(s) ? 2 : 1), normal, normal, A);
+  const int rows = f->rows, normal = s->first + s->rows - 1;
+  double *own = Z + s->first * (rows + 1), *of_normal = Z + normal * rows + s->first;
+  if (at || slipping) Z[normal * (rows + 1)] += c->kn * (is_circle(s) ? 2 : 1);
   if (slipping) {
     const planar_state now = planar_slipping_at(&f->c, slipping, th, th, f->omega);
     const double across[2] = {-now.e[1], now.e[0]};
     for (int t = 0; t < 2; ++t) {
-      subtract_stiffness(f, mu_kn(c) * now.e[t], s->first + t, normal, A);
-      for (int o = 0; o < 2; ++o) subtract_stiffness(f, c->kt * across[t] * across[o], s->first + t, s->first + o, A);
+      of_normal[t] += mu_kn(c) * now.e[t];
+      for (int o = 0; o < 2; ++o) own[t + o * rows] += c->kt * across[t] * across[o];
     }
   } else
     for (int t = 0; at && t < s->rows - 1; ++t)
-      subtract_stiffness(f, contact_interval_stiffness(c, at), s->first + t,
-                         contact_interval_holds(c, at) ? s->first + t : normal, A);
+      *(contact_interval_holds(c, at) ? &own[t + t * rows] : &of_normal[t]) += contact_interval_stiffness(c, at);
+}
+
+/* Entries of a symmetric matrix beside its diagonal: the sum of their squares, each over the diagonal's two. Below 1 it
+ * is positive definite, since that bounds what stands beside a diagonal of ones. */
+typedef struct dominance {
+  double sum;
+  bool positive;
+} dominance;
+
+static void add_entry(dominance *of, double entry, double one, double other)
+{
+  of->positive = of->positive && one > 0 && other > 0;
+  of->sum += entry * entry / (one * other);
+}
+
+/* Are modal_flow.h's L and Q positive definite, for the modes fast.. held by K[n][n]? b[n][n], bK = b K. */
+static bool energy_decays(const modal_flow *f, int n, const double *K, const double *b, const double *bK)
+{
+  const double *w2 = f->lambda + f->fast, *c = f->damping + f->fast, rate = 0.5 * f->least_damping[f->fast];
+  dominance L = {0, true}, Q = {0, true};
+  for (int k = 0; k < n; ++k)
+    for (int l = 0; l < n; ++l) {
+      const double kl = K[k + (size_t)l * n], lk = K[l + (size_t)k * n], skew = 0.5 * (kl - lk),
+                   by = b[k + (size_t)l * n], a = by != 0 ? skew + by * w2[l] : 0, sum = 0.5 * (kl + lk) + a,
+                   k_k = w2[k] + K[k + (size_t)k * n], k_l = w2[l] + K[l + (size_t)l * n], Lk = k_k + 0.5 * c[k] * c[k],
+                   Ll = k_l + 0.5 * c[l] * c[l], Qk = c[k] * k_k - rate * Lk, Ql = c[l] * k_l - rate * Ll,
+                   Qv_k = c[k] - rate, Qv_l = c[l] - rate, cross = bK[l + (size_t)k * n] + (by != 0 ? 0 : -skew);
+      if (k != l) {
+        add_entry(&L, sum, Lk, Ll);
+        add_entry(&L, by, 1, 1);
+        add_entry(&Q, 0.5 * (c[k] * kl + c[l] * lk) - rate * sum, Qk, Ql);
+        add_entry(&Q, by * (c[k] + c[l] - rate), Qv_k, Qv_l);
+        add_entry(&Q, cross, Qk, Qv_l), add_entry(&Q, cross, Qk, Qv_l);
+      } else {
+        add_entry(&L, 0.5 * c[k], Lk, 1), add_entry(&L, 0.5 * c[k], Lk, 1);
+        add_entry(&Q, cross - 0.5 * rate * c[k], Qk, Qv_k), add_entry(&Q, cross - 0.5 * rate * c[k], Qk, Qv_k);
+      }
+    }
+  return L.positive && Q.positive && L.sum < 1 && Q.sum < 1;
+}
+
+/* The same of K = left turned; work[2 n n + n rows]. */
+static bool has_energy(const modal_flow *f, int n, const double *K, const double *left, double *work)
+{
+  const double most = 0.02, *w2 = f->lambda + f->fast;
+  double *b = work, *bK = b + (size_t)n * (size_t)n, *b_left = bK + (size_t)n * (size_t)n;
+  for (int l = 0; l < n; ++l)
+    for (int k = 0; k < n; ++k) {
+      const double by = (K[k + (size_t)l * n] - K[l + (size_t)k * n]) / (w2[k] - w2[l]);
+      b[k + (size_t)l * n] = fabs(by) < most ? by : 0; /* NaN: two modes of one frequency, or one */
+    }
+  dense_multiply(n, f->rows, n, b, left, b_left);
+  dense_multiply(n, n, f->rows, b_left, f->turned + (size_t)f->fast * (size_t)f->rows, bK);
+  return energy_decays(f, n, K, b, bK);
+}
+
+/* Are the roots of s^2 + c s + omega^2 + K to the left of -c/4, by the eigenvalues of a matrix in A[4 n n + 4 n]? */
+static hc_status roots_decay(const modal_flow *f, size_t n, const double *K, double *A, bool *decays)
+{
+  double complex *root = (double complex *)(A + 4 * n * n);
+  memset(A, 0, 4 * n * n * sizeof *A);
+  for (size_t k = 0; k < n; ++k) {
+    const double omega = sqrt(f->lambda[(size_t)f->fast + k]);
+    A[(n + k) * 2 * n + k] = omega;
+    for (size_t row = 0; row < n; ++row) A[k * 2 * n + n + row] = -K[k * n + row] / omega;
+    A[k * 2 * n + n + k] -= omega;
+    A[(n + k) * 2 * n + n + k] = -f->damping[(size_t)f->fast + k];
+  }
+  const hc_status st = dense_eigen(2 * (int)n, A, root, NULL, NULL);
+  *decays = st == HC_OK;
+  for (size_t k = 0; k < 2 * n && *decays; ++k) *decays = creal(root[k]) <= -0.25 * f->least_damping[f->fast];
+  return st == HC_NOT_CONVERGED ? HC_OK : st;
 }
 
 hc_status modal_flow_check(modal_flow *f, const contact_interval *const *interval, int n_slipping,
                            const planar_slipping *slipping, double th)
 {
-  const size_t n = (size_t)(f->n - f->fast);
+  const size_t n = (size_t)(f->n - f->fast), rows = (size_t)f->rows;
+  const double *turned = f->turned + (size_t)f->fast * rows;
+  workspace own = {0};
   if (f->fast >= f->first_fast) return HC_OK;
-  double *A = calloc(4 * n * n + 4 * n, sizeof *A);
-  if (!A) return HC_NO_MEMORY;
-  double complex *root = (double complex *)(A + 4 * n * n);
-  for (size_t k = 0; k < n; ++k) {
-    const double omega = sqrt(f->lambda[(size_t)f->fast + k]);
-    A[(n + k) * 2 * n + k] = omega;
-    A[k * 2 * n + n + k] = -omega;
-    A[(n + k) * 2 * n + n + k] = -f->damping[(size_t)f->fast + k];
-  }
-  for (int s = 0; s < f->n_sites; ++s) {
+  double *Z = workspace_doubles(&own, rows * rows), *left = workspace_doubles(&own, n * rows),
+         *K = workspace_doubles(&own, n * n), *work = workspace_doubles(&own, 4 * n * n + n * (rows + 4));
+  hc_status st = own.failed ? HC_NO_MEMORY : HC_OK;
+  for (int s = 0; s < f->n_sites && st == HC_OK; ++s) {
     const planar_slipping *slips = NULL;
     for (int k = 0; k < n_slipping && !slips; ++k)
       if (slipping[k].contact == f->site[s].contact) slips = &slipping[k];
-    subtract_contact(f, &f->site[s], interval[f->site[s].contact], slips, th, A);
+    add_contact(f, &f->site[s], interval[f->site[s].contact], slips, th, Z);
   }
-  const hc_status st = dense_eigen(2 * (int)n, A, root, NULL, NULL);
-  bool decays = st == HC_OK;
-  for (size_t k = 0; k < 2 * n && decays; ++k) decays = creal(root[k]) <= -0.25 * f->least_damping[f->fast];
-  if (!decays) set_width(f, f->first_fast);
-  free(A);
-  return st == HC_NOT_CONVERGED ? HC_OK : st;
+  if (st == HC_OK) {
+    bool decays;
+    dense_add_product((int)n, f->rows, f->rows, 1, f->direction + f->fast, f->n, Z, f->rows, 0, left, (int)n);
+    dense_multiply((int)n, (int)n, f->rows, left, turned, K);
+    decays = has_energy(f, (int)n, K, left, work);
+    if (!decays) st = roots_decay(f, n, K, work, &decays);
+    if (!decays) set_width(f, f->first_fast);
+  }
+  workspace_free(&own);
+  return st;
 }
 
 /* ---- modes over a step of one length -------------------------------------------------------------------- */

@@ -71,8 +71,8 @@ static void moment(void)
     return __real_##name arguments;                                                                                    \
   }
 
-MOMENT(hc_status, contact_forces_eval, (contact_forces * f, const double *X, double *F, contact_report *report),
-       (f, X, F, report))
+MOMENT(hc_status, contact_forces_eval,
+       (contact_forces * f, const double *X, double *F, bool derive, contact_report *report), (f, X, F, derive, report))
 MOMENT(int, CVode, (void *cv, sunrealtype to, N_Vector y, sunrealtype *t, int task), (cv, to, y, t, task))
 MOMENT(hc_status, output_open, (const char *path, output **out), (path, out))
 MOMENT(hc_status, output_commit, (output * o), (o))

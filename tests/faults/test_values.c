@@ -30,9 +30,10 @@ static bool strikes(void)
   return now.at > 0 && (now.stays ? now.calls >= now.at : now.calls == now.at);
 }
 
-WRAP(hc_status, contact_forces_eval, (contact_forces * f, const double *X, double *F, contact_report *report))
+WRAP(hc_status, contact_forces_eval,
+     (contact_forces * f, const double *X, double *F, bool derive, contact_report *report))
 {
-  hc_status st = __real_contact_forces_eval(f, X, F, report);
+  hc_status st = __real_contact_forces_eval(f, X, F, derive, report);
   now.struck = strikes();
   if (!now.struck) return st;
   if (!now.jacobian) F[1] = now.value;
