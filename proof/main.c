@@ -17,8 +17,8 @@ typedef struct options {
 } options;
 
 static const char usage[] =
-    "usage: hbmcheck-proof check CERTIFICATE... [--format text|json]\n"
-    "       hbmcheck-proof complete CANDIDATE -o CERTIFICATE [--precision-bits N]\n"
+    "Usage: hbmcheck-proof check CERTIFICATE... [--format text|json]\n"
+    "  or:  hbmcheck-proof complete CANDIDATE -o CERTIFICATE [--precision-bits N]\n"
     "Decide in ball arithmetic whether there is a periodic orbit where a certificate says so; or make a certificate\n"
     "of an orbit that is known in double precision, and decide that.\n"
     "  -                   standard input: one JSON object a line, answered by one a line; -o - is standard output\n"
@@ -183,6 +183,8 @@ int main(int argc, char **argv)
   options o = {0};
   if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0))
     return fputs(usage, stdout) < 0 ? EXIT_WRONG : 0;
+  if (argc == 2 && strcmp(argv[1], "--version") == 0)
+    return printf("hbmcheck-proof %s\nFLINT %s\n", HBMCHECK_VERSION, flint_version) < 0 ? EXIT_WRONG : 0;
   if (argc < 3) return refuse("a command and a file were expected");
   o.complete = strcmp(argv[1], "complete") == 0;
   if (!o.complete && strcmp(argv[1], "check") != 0) return refuse("the commands are check and complete");
