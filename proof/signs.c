@@ -111,8 +111,10 @@ static bool list_conditions(sequence *q)
 
 /* ---- whether they hold ---- */
 
+/* The last that is said stands. Returns false. */
 static bool ended(const sequence *q, const condition *c, double a, double b, const char *what)
 {
+  q->f->reason[0] = 0;
   q->f->from = q->from + a * q->width;
   q->f->to = q->from + b * q->width;
   return refute(q->f, q->segment, c->contact, "segment %d, t = %.9g to %.9g, contact %d, %s: %s", q->segment,
@@ -120,8 +122,8 @@ static bool ended(const sequence *q, const condition *c, double a, double b, con
 }
 
 /* Is G > 0 on the part [a, b] of the substep, but for allowed zeros at the segment's ends? Bernstein coefficients stand
- * at `level`: of G, of its derivative at the start (`starts`), of the one at the end (`ends`). *decided: false where
- * depth ran out. */
+ * at `level`: of G, of its derivative at the start (`starts`), of the one at the end (`ends`). false: it is negative
+ * somewhere. true with *decided false: depth ran out, and no part is negative as a whole. */
 static bool positive_on(sequence *q, const condition *c, int degree, int depth, int level, double a, double b,
                         bool starts, bool ends, bool *decided)
 {
@@ -135,8 +137,9 @@ static bool positive_on(sequence *q, const condition *c, int degree, int depth, 
   if (value == SIDE_NEGATIVE || (starts && rises == SIDE_NEGATIVE) || (ends && falls == SIDE_POSITIVE))
     return ended(q, c, a, b, "it is negative");
   if (level == depth || ++q->parts > PARTS) {
+    if (*decided) ended(q, c, a, b, "sign not decided");
     *decided = false;
-    return ended(q, c, a, b, "sign not decided");
+    return true;
   }
   const double middle = 0.5 * (a + b);
   arb_ptr left = g + 3 * n;
@@ -149,12 +152,11 @@ static bool positive_on(sequence *q, const condition *c, int degree, int depth, 
   return positive_on(q, c, degree, depth, level + 1, middle, b, false, ends, decided);
 }
 
-static bool expand(sequence *q, const walk *w, arb_srcptr row, int degree, arb_ptr b)
+static void expand(sequence *q, const walk *w, arb_srcptr row, int degree, arb_ptr b)
 {
   LOCAL(mag) rest = ZERO;
   walk_polynomial(w, row, q->polynomial, rest);
   bernstein(b, q->polynomial, w->degree, degree < w->degree ? degree : w->degree, rest, q->o->precision);
-  return true;
 }
 
 static bool holds_on_substep(sequence *q, const walk *w, const condition *c)
@@ -170,9 +172,9 @@ static bool holds_on_substep(sequence *q, const walk *w, const condition *c)
     expand(q, w, c->row, degree, q->coefficients);
     if (starts) expand(q, w, c->row + c->start * o->largest, degree, q->coefficients + n);
     if (ends) expand(q, w, c->row + o->largest, degree, q->coefficients + 2 * n);
-    if (positive_on(q, c, degree, depths[attempt], 0, 0, 1, starts, ends, &decided)) return true;
-    if (decided || attempt == 2) return false;
-    *q->f = (failure){.segment = -1, .contact = -1, .from = NAN, .to = NAN};
+    if (!positive_on(q, c, degree, depths[attempt], 0, 0, 1, starts, ends, &decided)) return false;
+    if (decided) return true;
+    if (attempt < 2) *q->f = (failure){.segment = -1, .contact = -1, .from = NAN, .to = NAN};
   }
   return false;
 }

@@ -132,6 +132,27 @@ class Accepted(unittest.TestCase):
         self.assertRegex(apart["reason"], "^two independent transitions at once")
 
 
+    def test_a_slider_that_sticks_all_period_may_rest_within_its_limits(self):
+        # x = z cos(2 t - phi) + kt w/(k + kt); |T| = kt |x - w| <= mu P asks for |z - k w/(k + kt)| and |z + ...| <= 0.5
+        z = 3 / complex(10 + 20 - 4, 0.2)
+        size, answers_at = abs(z), {}
+        for w in ("0", "1.15", "1.16", "-1.16"):
+            model = {"mass": [["1"]], "damping": [["0.1"]], "stiffness": [["10"]], "forcing": [{"harmonic": 1, "cos": ["3"], "sin": ["0"]}],
+                     "contacts": [{"tangent": ["1"], "tangential_stiffness": "20", "friction": "0.5", "preload": "20"}]}
+            candidate = {"model": model, "omega": "2", "rest": {"0": w},
+                         "events": [{"section": 1, "t": "0", "x": [z.real + 20 * float(w) / 30], "v": [-2 * z.imag], "state": "S"}]}
+            answers_at[w], = complete([candidate])
+        self.assertTrue(size + 10 * 1.15 / 30 < 0.5 < size + 10 * 1.16 / 30)
+        self.assertEqual([a["verdict"] for a in answers_at.values()], ["accepted", "accepted", "rejected", "rejected"])
+        self.assertRegex(answers_at["1.16"]["reason"], "stick T > -mu N: it is negative")
+        self.assertRegex(answers_at["-1.16"]["reason"], "stick T < mu N: it is negative")
+        for w in ("0", "1.15"):
+            low, high = map(float, answers_at[w]["mean"])
+            self.assertTrue(low - 1e-15 <= 20 * float(w) / 30 <= high + 1e-15)
+        missing, = complete([dict(candidate, rest={})])
+        self.assertEqual(missing["verdict"], "wrong")
+
+
 class Rejected(unittest.TestCase):
     """One thing is changed, and the statement with it."""
 
@@ -253,6 +274,27 @@ class Rejected(unittest.TestCase):
         answer, = complete([candidate])
         self.assertEqual(answer["verdict"], "rejected")
         self.assertRegex(answer["reason"], "closed.*it is negative")
+
+
+    def test_slip_that_goes_on_while_the_motion_turns(self):
+        z = 3 / complex(10 - 4, 0.2)
+        model = {"mass": [["1"]], "damping": [["0.1"]], "stiffness": [["10"]], "forcing": [{"harmonic": 1, "cos": ["3"], "sin": ["0"]}],
+                 "contacts": [{"tangent": ["1"], "tangential_stiffness": "20", "friction": "0.5", "preload": "0.2"}]}
+        for letter, force in (("+", 0.1), ("-", -0.1)):
+            event = {"section": 1, "t": "0", "x": [z.real - force / 10], "v": [-2 * z.imag], "state": letter}
+            answer, = complete([{"model": model, "omega": "2", "events": [event]}])
+            self.assertRegex(answer["reason"], r"contact 0, slip \%s: it is negative" % letter)
+
+    def test_the_edge_of_the_cone(self):
+        candidates = []
+        for friction in ("0.1", "0.1000001", "0.0999999"):  # kt cos(45) = mu kn sin(45) at 0.1
+            candidates.append(rounded(STORED["case2_9_stable"]))
+            candidates[-1]["model"] = copy.deepcopy(candidates[-1]["model"])
+            candidates[-1]["model"]["contacts"][0]["friction"] = friction
+        edge, inside_it, outside = complete(candidates)
+        self.assertRegex(edge["reason"], "^edge of the cone: segment 0, contact 0")
+        self.assertEqual(inside_it["verdict"], "accepted")
+        self.assertRegex(outside["reason"], "segment 0, contact 0, stick .*it is negative")
 
 
 class Wrong(unittest.TestCase):
