@@ -9,7 +9,7 @@ import random
 import subprocess
 import sys
 import unittest
-from decimal import Decimal
+from decimal import Decimal, localcontext
 from fractions import Fraction
 
 from oscillator import Oscillator
@@ -103,10 +103,15 @@ class Accepted(unittest.TestCase):
                 self.assertEqual(fitting[0]["stability"], "stable" if float(multiplier) < 1 else "unstable")
 
     def test_the_open_orbit_is_proven_up_to_grazing_and_refused_beyond(self):
-        graze, unit = Decimal("5.09958315093793"), Decimal("1e-14")
+        # (40 - u)^2 + 0.16 u = (100 sin(45)/5)^2 = 200, u = omega^2
+        with localcontext() as context:
+            context.prec = 60
+            graze, unit = ((Decimal("79.84") - (Decimal("79.84") ** 2 - 5600).sqrt()) / 2).sqrt(), Decimal("1e-24")
+            around = [graze - unit, graze + unit]
+        self.assertTrue(str(graze).startswith("5.099583150937923"))
         o = Oscillator(float(graze))
         candidates = []
-        for omega in (graze - unit, graze + unit):
+        for omega in around:
             z = 100 / complex(40 - float(omega) ** 2, 0.4 * float(omega))
             candidates.append(dict(o.candidate((z.real, -float(omega) * z.imag, [])), omega=str(omega)))
         before, beyond = complete(candidates)
