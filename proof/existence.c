@@ -1,0 +1,302 @@
+/* existence.c - the shooting equations F(y) = 0, their derivative, and Krawczyk's test. */
+#include "proof/orbit.h"
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- F and dF/dy ---- */
+
+/* Sets the entry *at, which is new only when the pattern is made: it is the same in every box. Equal places add up. */
+static void put(jacobian *d, int *at, int column, const arb_t value)
+{
+  if (!d) return;
+  if (*at == d->room) {
+    d->room = d->room ? 2 * d->room : 256;
+    d->column = flint_realloc(d->column, (size_t)d->room * sizeof *d->column);
+    d->value = flint_realloc(d->value, (size_t)d->room * sizeof *d->value);
+    for (int i = *at; i < d->room; i++) arb_init(d->value + i);
+  }
+  d->column[*at] = column;
+  arb_set(d->value + *at, value);
+  if (++*at > d->n) d->n = *at;
+}
+
+/* Entries of factor d w/d x in the columns of the event where the stick of a contact began. */
+static void put_slider(const orbit *o, const orbit_segment *s, int contact, const arb_t factor, jacobian *d, int *at)
+{
+  arb_ptr gradient = o->scratch;
+  if (!d || s->began[contact] < 0) return; /* a slider that always sticks is a number */
+  slider_gradient(o, contact, s->from[contact], gradient);
+  for (int c = 0; c < o->n; c++) {
+    arb_mul(gradient + c, gradient + c, factor, o->precision);
+    put(d, at, s->began[contact] * (2 * o->n + 1) + c, gradient + c);
+  }
+}
+
+/* The guard of event i: what vanishes when the letter of its contact changes. */
+static void guard_equation(const orbit *o, int i, arb_t f, jacobian *d, int *at)
+{
+  const orbit_segment *s =
+      &o->segments[(i + o->m - 1) % o->m]; /* the one that ends here: its sliders are still there */
+  const int j = orbit_guarded(o, i), n = o->n;
+  const char before = orbit_letter(o, i - 1, j), after = orbit_letter(o, i, j);
+  const guard kind = guard_of(before, after);
+  arb_ptr row = o->scratch + n, z = row + s->size;
+  if (kind == GUARD_TOUCH) row_gap(o, s, j, 1, row);                    /* any <-> O: n.x + gap = 0                  */
+  else if (kind == GUARD_SLIP) row_limit(o, s, j, sign_of(after), row); /* S -> s: mu N - s kt (t.x - w) = 0          */
+  else row_slip(o, s, j, sign_of(before), row);                         /* s -> S: s kt t.v - mu kn n.v = 0           */
+  _arb_vec_set(z, s->start, s->size);
+  _arb_vec_set(z, orbit_event(o, i), 2 * n);
+  if (f) arb_dot(f, NULL, 0, row, 1, z, 1, s->size, o->precision);
+  for (int c = 0; c < 2 * n; c++)
+    if (!arb_is_zero(row + c)) put(d, at, i * (2 * n + 1) + c, row + c);
+  if (kind == GUARD_SLIP) put_slider(o, s, j, row + s->slider[j], d, at);
+}
+
+bool shooting_equations(orbit *o, arb_ptr f, jacobian *d)
+{
+  const int n = o->n, stride = 2 * n + 1;
+  const slong p = o->precision;
+  arb_ptr end = _arb_vec_init((slong)o->largest * (2 * n + o->contacts + 3)), rate = end + o->largest,
+          columns = rate + 2 * o->largest;
+  arb_t entry;
+  int at = 0;
+  bool fine = true;
+  arb_init(entry);
+  for (int i = 0; i < o->m && fine; i++) {
+    const orbit_segment *s = &o->segments[i];
+    const int next = (i + 1) % o->m;
+    arb_ptr start_rate = rate + o->largest;
+    fine = flow_end(o, i, end, d ? columns : NULL);
+    if (!fine) break;
+    flow_apply(o, s, end, rate);
+    flow_apply(o, s, s->start, start_rate);
+    for (int r = 0; r < 2 * n; r++) {
+      if (f) arb_sub(f + i * stride + r, end + r, orbit_event(o, next) + r, p);
+      if (!d) continue;
+      d->row[i * stride + r] = at;
+      for (int c = 0; c < 2 * n; c++) put(d, &at, i * stride + c, columns + c * s->size + r); /* exp(A tau) */
+      arb_set_si(entry, -1);
+      put(d, &at, next * stride + r, entry);
+      for (int j = 0; j < o->contacts; j++)
+        if (s->slider[j] >= 0)
+          put_slider(o, s, j, columns + (s->slider[j] - 1 - 2 * o->harmonics) * s->size + r, d, &at);
+      if (o->c->section) continue;
+      /* t_i: exp(A tau) (dZ/dt_i - A Z), where loads move as they should: what is left is minus exp(A tau) (v, v'). t_(i+1): A Z(end). */
+      arb_dot(entry, NULL, 1, columns + r, s->size, start_rate, 1, 2 * n, p);
+      put(d, &at, i * stride + 2 * n, entry);
+      put(d, &at, next * stride + 2 * n, rate + r);
+    }
+    if (o->c->section) continue;
+    if (d) d->row[i * stride + 2 * n] = at;
+    guard_equation(o, i, f ? f + i * stride + 2 * n : NULL, d, &at);
+  }
+  if (d) d->row[o->unknowns] = at;
+  _arb_vec_clear(end, (slong)o->largest * (2 * n + o->contacts + 3));
+  arb_clear(entry);
+  return fine;
+}
+
+void box_set(orbit *o, mag_srcptr radius)
+{
+  _arb_vec_set(o->box, o->centre, (slong)o->m * (2 * o->n + 1));
+  for (int c = 0; c < o->unknowns && radius; c++) arb_add_error_mag(o->box + c, radius + c);
+  orbit_starts(o);
+}
+
+/* ---- the approximate inverse ---- */
+
+static double number_near(const arb_t x) { return arf_get_d(arb_midref(x), ARF_RND_NEAR); }
+
+/* a[n][n] becomes its inverse, by Gauss-Jordan with row pivots; nothing is assumed of how good it is. swap: [n] */
+static bool invert(double *a, int n, int *swap)
+{
+  for (int k = 0; k < n; k++) {
+    int best = k;
+    for (int i = k + 1; i < n; i++)
+      if (fabs(a[(size_t)i * n + k]) > fabs(a[(size_t)best * n + k])) best = i;
+    swap[k] = best;
+    double *pivot = a + (size_t)k * n, *other = a + (size_t)best * n;
+    const double scale = 1 / other[k];
+    if (!isfinite(scale)) return false;
+    for (int c = 0; c < n && best != k; c++) {
+      const double x = pivot[c];
+      pivot[c] = other[c];
+      other[c] = x;
+    }
+    pivot[k] = 1;
+    for (int c = 0; c < n; c++) pivot[c] *= scale;
+    for (int i = 0; i < n; i++) {
+      double *row = a + (size_t)i * n;
+      const double factor = row[k];
+      if (i == k || factor == 0) continue;
+      row[k] = 0;
+      for (int c = 0; c < n; c++) row[c] -= factor * pivot[c];
+    }
+  }
+  for (int k = n - 1; k >= 0; k--)
+    for (int i = 0; i < n && swap[k] != k; i++) {
+      double *row = a + (size_t)i * n, x = row[k];
+      row[k] = row[swap[k]];
+      row[swap[k]] = x;
+    }
+  return true;
+}
+
+/* B: the inverse of `middle` with scaled columns and equilibrated rows, without which stiff cases look singular. */
+static bool approximate_inverse(krawczyk *k)
+{
+  const orbit *o = k->o;
+  const jacobian *d = &k->derivative;
+  const int n = o->unknowns;
+  double *rows = flint_calloc((size_t)n, sizeof *rows);
+  int *swap = flint_calloc((size_t)n, sizeof *swap);
+  for (int r = 0; r < n; r++) {
+    double *row = k->inverse + (size_t)r * n;
+    for (int c = 0; c < n; c++) row[c] = 0;
+    for (int e = d->row[r]; e < d->row[r + 1]; e++)
+      row[d->column[e]] += k->middle[e] * number_near(o->scale + d->column[e] % (2 * o->n + 1));
+    for (int c = 0; c < n; c++) rows[r] = fmax(rows[r], fabs(row[c]));
+    for (int c = 0; c < n; c++) row[c] /= rows[r];
+  }
+  bool fine = invert(k->inverse, n, swap);
+  for (int r = 0; r < n && fine; r++)
+    for (int c = 0; c < n; c++) {
+      double *entry = k->inverse + (size_t)r * n + c;
+      *entry *= number_near(o->scale + r % (2 * o->n + 1)) / rows[c];
+      fine = fine && isfinite(*entry);
+    }
+  flint_free(rows);
+  flint_free(swap);
+  return fine;
+}
+
+/* ---- Krawczyk ---- */
+
+/* sum over c of |I - B middle|_rc scale_c, and |B F|_r. */
+void existence_measure(krawczyk *k)
+{
+  enum { BITS = 64 }; /* B and `middle` have 53 */
+  const orbit *o = k->o;
+  const jacobian *d = &k->derivative;
+  const int n = o->unknowns;
+  arb_ptr row = _arb_vec_init(2 * n + d->n), inverse = row + n, middle = inverse + n;
+  arb_t sum;
+  mag_t entry, scale;
+  arb_init(sum);
+  mag_init(entry);
+  mag_init(scale);
+  for (int e = 0; e < d->n; e++) arb_set_d(middle + e, k->middle[e]);
+  for (int r = 0; r < n; r++) {
+    _arb_vec_zero(row, n);
+    arb_one(row + r);
+    for (int c = 0; c < n; c++) {
+      arb_set_d(inverse + c, k->inverse[(size_t)r * n + c]);
+      if (arb_is_zero(inverse + c)) continue;
+      for (int e = d->row[c]; e < d->row[c + 1]; e++) arb_submul(row + d->column[e], inverse + c, middle + e, BITS);
+    }
+    mag_zero(k->defect + r);
+    for (int c = 0; c < n; c++) {
+      arb_get_mag(entry, row + c);
+      arb_get_mag(scale, o->scale + c % (2 * o->n + 1));
+      mag_addmul(k->defect + r, entry, scale);
+    }
+    arb_dot(sum, NULL, 0, inverse, 1, k->value, 1, n, o->precision);
+    arb_get_mag(k->shift + r, sum);
+  }
+  _arb_vec_clear(row, 2 * n + d->n);
+  arb_clear(sum);
+  mag_clear(entry);
+  mag_clear(scale);
+}
+
+bool existence_prepare(krawczyk *k, orbit *o, failure *f)
+{
+  const int n = o->unknowns;
+  jacobian *d = &k->derivative;
+  if (!k->o) {
+    d->row = flint_calloc((size_t)n + 1, sizeof *d->row);
+    k->inverse = flint_calloc((size_t)n * (size_t)n, sizeof *k->inverse);
+    k->value = _arb_vec_init(n);
+    k->defect = _mag_vec_init(n);
+    k->shift = _mag_vec_init(n);
+    k->image = _mag_vec_init(n);
+  }
+  k->o = o;
+  box_set(o, NULL);
+  bool fine = shooting_equations(o, k->value, d);
+  k->middle = flint_realloc(k->middle, ((size_t)d->n + 1) * sizeof *k->middle);
+  for (int e = 0; e < d->n; e++) k->middle[e] = number_near(d->value + e);
+  fine = fine && approximate_inverse(k);
+  return fine || fail(f, -1, -1, "the shooting equations are singular");
+}
+
+bool existence_holds(krawczyk *k, const arb_t radius, double *ratio)
+{
+  orbit *o = k->o;
+  const jacobian *d = &k->derivative;
+  const int n = o->unknowns;
+  mag_ptr half = _mag_vec_init(2 * n), spread = half + n;
+  mag_t entry;
+  arb_t bound;
+  mag_init(entry);
+  arb_init(bound);
+  bool holds = true;
+  *ratio = 0;
+  for (int c = 0; c < n; c++) {
+    arb_mul(bound, radius, o->scale + c % (2 * o->n + 1), o->precision);
+    arb_get_mag(half + c, bound); /* not below radius scale */
+  }
+  box_set(o, half);
+  if (shooting_equations(o, NULL, &k->derivative)) {
+    /* spread_k = sum over c of |dF/dy(Y) - middle|_kc scale_c */
+    for (int r = 0; r < n; r++)
+      for (int e = d->row[r]; e < d->row[r + 1]; e++) {
+        arb_t *value = (arb_t *)(d->value + e);
+        arf_set_d(arb_midref(bound), k->middle[e]);
+        mag_zero(arb_radref(bound));
+        arb_sub(bound, *value, bound, o->precision);
+        arb_get_mag(entry, bound);
+        mag_mul(entry, entry, half + d->column[e]);
+        mag_add(spread + r, spread + r, entry);
+      }
+    for (int r = 0; r < n; r++) {
+      /* |B F(y0)| + |I - B dF/dy(Y)| radius scale < radius scale: F has exactly one zero in Y, and it is in the image. */
+      mag_set(k->image + r, k->shift + r);
+      arb_get_mag(entry, radius);
+      mag_addmul(k->image + r, k->defect + r, entry);
+      for (int c = 0; c < n; c++) {
+        mag_set_d(entry, fabs(k->inverse[(size_t)r * n + c]));
+        mag_addmul(k->image + r, entry, spread + c);
+      }
+      arb_mul(bound, radius, o->scale + r % (2 * o->n + 1), o->precision);
+      arb_get_mag_lower(entry, bound);
+      holds = holds && mag_cmp(k->image + r, entry) < 0;
+      const double share = mag_get_d(k->image + r) / mag_get_d(entry);
+      *ratio = share > *ratio || isnan(share) ? share : *ratio;
+    }
+  } else {
+    holds = false;
+    *ratio = INFINITY;
+  }
+  _mag_vec_clear(half, 2 * n);
+  mag_clear(entry);
+  arb_clear(bound);
+  return holds;
+}
+
+void existence_free(krawczyk *k)
+{
+  if (!k->o) return;
+  const int n = k->o->unknowns;
+  flint_free(k->derivative.row);
+  flint_free(k->derivative.column);
+  for (int i = 0; i < k->derivative.room; i++) arb_clear(k->derivative.value + i);
+  flint_free(k->derivative.value);
+  flint_free(k->inverse);
+  flint_free(k->middle);
+  _arb_vec_clear(k->value, n);
+  _mag_vec_clear(k->defect, n);
+  _mag_vec_clear(k->shift, n);
+  _mag_vec_clear(k->image, n);
+  *k = (krawczyk){0};
+}

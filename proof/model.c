@@ -1,0 +1,554 @@
+/* model.c - what follows from the certificate's model and letters alone: the matrix A of every segment, the guards, and the refusal of
+ * sequences for which the theorem does not hold. */
+#include "proof/orbit.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool fail(failure *f, int segment, int contact, const char *format, ...)
+{
+  va_list args;
+  if (f->reason[0]) return false;
+  va_start(args, format);
+  vsnprintf(f->reason, sizeof f->reason, format, args);
+  va_end(args);
+  f->segment = segment;
+  f->contact = contact;
+  return false;
+}
+
+static void balls(arb_ptr to, const fmpq *from, slong n, slong precision)
+{
+  for (slong i = 0; i < n; i++) arb_set_fmpq(to + i, from + i, precision);
+}
+
+/* ---- contacts ---- */
+
+/* Is a[n] = ratio b[n] exactly, b not 0? */
+static bool proportional(const fmpq *a, const fmpq *b, int n, fmpq_t ratio)
+{
+  int pivot = 0;
+  while (pivot < n && fmpq_is_zero(b + pivot)) pivot++;
+  if (pivot == n) return false;
+  fmpq_div(ratio, a + pivot, b + pivot);
+  bool all = true;
+  fmpq_t product;
+  fmpq_init(product);
+  for (int i = 0; i < n; i++) {
+    fmpq_mul(product, ratio, b + i);
+    all = all && fmpq_equal(product, a + i);
+  }
+  fmpq_clear(product);
+  return all;
+}
+
+static void friction_set(contact_balls *f, const contact_given *k, const fmpq *rest, int n, slong precision)
+{
+  f->t = _arb_vec_init(n);
+  f->n = _arb_vec_init(n);
+  arb_ptr constants[] = {f->kt, f->mu, f->kn, f->gap, f->load, f->rest, f->ratio};
+  const fmpq *given[] = {k->kt, k->mu, k->kn, k->gap, k->load, rest, NULL};
+  for (size_t i = 0; i < sizeof constants / sizeof *constants; i++) {
+    arb_init(constants[i]);
+    if (given[i]) arb_set_fmpq(constants[i], given[i], precision);
+  }
+  balls(f->t, k->t, n, precision);
+  balls(f->n, k->n, n, precision);
+  fmpq_t ratio;
+  fmpq_init(ratio);
+  if (k->angled) { /* u and v are proportional by construction, whatever the cosine is */
+    arb_t sine, cosine;
+    arb_init(sine);
+    arb_init(cosine);
+    fmpq_set_ui(ratio, 180, 1);
+    fmpq_div(ratio, k->angle, ratio);
+    arb_sin_cos_pi_fmpq(sine, cosine, ratio, precision);
+    _arb_vec_scalar_mul(f->t, f->t, n, cosine, precision);
+    _arb_vec_scalar_mul(f->n, f->n, n, sine, precision);
+    arb_div(f->ratio, cosine, sine, precision);
+    f->parallel = true;
+    arb_clear(sine);
+    arb_clear(cosine);
+  } else if (k->tangential && k->normal && proportional(k->t, k->n, n, ratio)) {
+    arb_set_fmpq(f->ratio, ratio, precision);
+    f->parallel = true;
+  }
+  fmpq_clear(ratio);
+}
+
+/* ---- rows ---- */
+
+static void add_direction(const orbit *o, arb_ptr row, arb_srcptr direction, const arb_t factor)
+{
+  for (int i = 0; i < o->n; i++) arb_addmul(row + i, direction + i, factor, o->precision);
+}
+
+void row_gap(const orbit *o, const orbit_segment *s, int contact, int sign, arb_ptr row)
+{
+  const contact_balls *f = &o->friction[contact];
+  _arb_vec_zero(row, s->size);
+  _arb_vec_set(row, f->n, o->n);
+  arb_set(row + 2 * o->n, f->gap);
+  if (sign < 0) _arb_vec_neg(row, row, s->size);
+}
+
+void row_limit(const orbit *o, const orbit_segment *s, int contact, int sign, arb_ptr row)
+{
+  const contact_balls *f = &o->friction[contact];
+  arb_t factor;
+  arb_init(factor);
+  _arb_vec_zero(row, s->size);
+  if (o->c->contacts[contact].normal) {
+    arb_mul(factor, f->mu, f->kn, o->precision);
+    add_direction(o, row, f->n, factor);
+    arb_mul(row + 2 * o->n, factor, f->gap, o->precision);
+  } else arb_mul(row + 2 * o->n, f->mu, f->load, o->precision);
+  arb_mul_si(factor, f->kt, -sign, o->precision);
+  add_direction(o, row, f->t, factor);
+  arb_mul_si(row + s->slider[contact], f->kt, sign, o->precision);
+  arb_clear(factor);
+}
+
+void row_slip(const orbit *o, const orbit_segment *s, int contact, int sign, arb_ptr row)
+{
+  const contact_balls *f = &o->friction[contact];
+  arb_t factor;
+  arb_init(factor);
+  _arb_vec_zero(row, s->size);
+  arb_mul_si(factor, f->kt, sign, o->precision);
+  add_direction(o, row + o->n, f->t, factor);
+  if (o->c->contacts[contact].normal) {
+    arb_mul(factor, f->mu, f->kn, o->precision);
+    arb_neg(factor, factor);
+    add_direction(o, row + o->n, f->n, factor);
+  }
+  arb_clear(factor);
+}
+
+void slider_gradient(const orbit *o, int contact, char before, arb_ptr gradient)
+{
+  const contact_balls *f = &o->friction[contact];
+  _arb_vec_set(gradient, f->t, o->n);
+  if (before == 'O' || !o->c->contacts[contact].normal) return;
+  arb_t factor;
+  arb_init(factor);
+  arb_mul(factor, f->mu, f->kn, o->precision);
+  arb_div(factor, factor, f->kt, o->precision);
+  arb_mul_si(factor, factor, -sign_of(before), o->precision);
+  add_direction(o, gradient, f->n, factor);
+  arb_clear(factor);
+}
+
+/* ---- the matrix of a segment ---- */
+
+/* Rows v of A before the mass: -(K + contacts) x - C v - constants + loads. */
+static void forces(const orbit *o, const orbit_segment *s, arb_mat_t r)
+{
+  const certificate *c = o->c;
+  const int n = o->n;
+  const slong p = o->precision;
+  arb_t stiffness, other;
+  arb_init(stiffness);
+  arb_init(other);
+  for (int i = 0; i < n; i++) {
+    balls(arb_mat_entry(r, i, 0), c->stiffness + (size_t)i * (size_t)n, n, p);
+    balls(arb_mat_entry(r, i, n), c->damping + (size_t)i * (size_t)n, n, p);
+  }
+  for (int j = 0; j < o->contacts; j++) {
+    const contact_balls *f = &o->friction[j];
+    const bool normal = c->contacts[j].normal, closed = s->letters[j] != 'O';
+    const int sign = sign_of(s->letters[j]), column = s->slider[j];
+    for (int i = 0; i < n; i++) {
+      arb_ptr row = arb_mat_entry(r, i, 0);
+      arb_mul(stiffness, f->kn, f->n + i, p); /* n (N - N0): kn (n.x + gap) less kn max(gap, 0) */
+      if (normal && closed) _arb_vec_scalar_addmul(row, f->n, n, stiffness, p);
+      if (normal && closed && fmpq_sgn(c->contacts[j].gap) < 0) arb_addmul(row + 2 * n, stiffness, f->gap, p);
+      if (normal && !closed && fmpq_sgn(c->contacts[j].gap) > 0) arb_submul(row + 2 * n, stiffness, f->gap, p);
+      if (column >= 0) { /* stick: t kt (t.x - w) */
+        arb_mul(stiffness, f->kt, f->t + i, p);
+        _arb_vec_scalar_addmul(row, f->t, n, stiffness, p);
+        arb_sub(row + column, row + column, stiffness, p);
+      } else if (sign) { /* slip: t sign mu N */
+        arb_mul(stiffness, f->mu, f->t + i, p);
+        arb_mul_si(stiffness, stiffness, sign, p);
+        arb_mul(other, stiffness, normal ? f->kn : f->load, p);
+        if (normal) _arb_vec_scalar_addmul(row, f->n, n, other, p);
+        if (normal) arb_addmul(row + 2 * n, other, f->gap, p);
+        else arb_add(row + 2 * n, row + 2 * n, other, p);
+      }
+    }
+  }
+  arb_mat_neg(r, r);
+  for (int h = 0; h < c->n_harmonics; h++) {
+    int column = 2 * n;
+    for (int k = 0; k < o->harmonics; k++)
+      if (o->forcing[k] == h) column = 2 * n + 1 + 2 * k;
+    for (int i = 0; i < n; i++) {
+      arb_set_fmpq(other, c->cosine + (size_t)h * (size_t)n + i, p);
+      arb_add(arb_mat_entry(r, i, column), arb_mat_entry(r, i, column), other, p);
+      if (c->harmonic[h] > 0) arb_set_fmpq(arb_mat_entry(r, i, column + 1), c->sine + (size_t)h * (size_t)n + i, p);
+    }
+  }
+  arb_clear(stiffness);
+  arb_clear(other);
+}
+
+static double upper(const arb_t x)
+{
+  mag_t m;
+  mag_init(m);
+  arb_get_mag(m, x);
+  const double d = mag_get_d(m);
+  mag_clear(m);
+  return d;
+}
+
+/* Powers of two that balance A: 1 for x, Omega for v, Omega^2/|f| for what loads the masses. Any choice is right, a good one makes few substeps. */
+static void choose_weights(const orbit *o, orbit_segment *s)
+{
+  const int n = o->n;
+  double stiffness = 0;
+  for (int i = 0; i < n; i++) {
+    double sum = 0;
+    for (int j = 0; j < n; j++) sum += upper(arb_mat_entry(s->a, n + i, j));
+    stiffness = fmax(stiffness, sum);
+  }
+  if (!(stiffness > 0)) stiffness = pow(upper(o->omega), 2);
+  const double frequency = log2(stiffness) / 2;
+  for (int j = 0; j < s->size; j++) {
+    s->weight[j] = j < n ? 0 : lround(frequency);
+    if (j < 2 * n) continue;
+    const int pair =
+        j > 2 * n && j <= 2 * n + 2 * o->harmonics ? (j - 2 * n) % 2 ? j + 1 : j - 1 : j; /* cosine and sine alike */
+    double load = 0;
+    for (int i = 0; i < n; i++)
+      load = fmax(load, fmax(upper(arb_mat_entry(s->a, n + i, j)), upper(arb_mat_entry(s->a, n + i, pair))));
+    s->weight[j] = load > 0 ? lround(2 * frequency - log2(load)) : 0;
+  }
+}
+
+static void segment_set(orbit *o, int i)
+{
+  orbit_segment *s = &o->segments[i];
+  const int n = o->n;
+  const slong p = o->precision;
+  s->letters = o->c->letters + (size_t)i * (size_t)o->contacts;
+  s->size = 2 * n + 1 + 2 * o->harmonics;
+  for (int j = 0; j < o->contacts; j++) {
+    s->slider[j] = s->began[j] = -1;
+    if (s->letters[j] != 'S') continue;
+    s->slider[j] = s->size++;
+    for (int e = i; e > i - o->m && s->began[j] < 0; e--) {
+      s->from[j] = orbit_letter(o, e - 1, j);
+      if (s->from[j] != 'S') s->began[j] = (e + o->m) % o->m;
+    }
+  }
+  if (s->size > o->largest) o->largest = s->size;
+  arb_mat_init(s->a, s->size, s->size);
+  s->start = _arb_vec_init(s->size);
+  s->first = flint_calloc((size_t)s->size, sizeof(int));
+  s->length = flint_calloc((size_t)s->size, sizeof(int));
+  s->weight = flint_calloc((size_t)s->size, sizeof(slong));
+  mag_init(s->norm);
+  arb_init(s->span);
+  arb_init(s->step);
+  arb_mat_t force, acceleration;
+  arb_mat_init(force, n, s->size);
+  arb_mat_init(acceleration, n, s->size);
+  forces(o, s, force);
+  arb_mat_mul(acceleration, o->inverse_mass, force, p);
+  for (int r = 0; r < n; r++) {
+    arb_one(arb_mat_entry(s->a, r, n + r));
+    _arb_vec_set(arb_mat_entry(s->a, n + r, 0), arb_mat_entry(acceleration, r, 0), s->size);
+  }
+  for (int h = 0; h < o->harmonics; h++) {
+    const int cosine = 2 * n + 1 + 2 * h, sine = cosine + 1;
+    arb_mul_si(arb_mat_entry(s->a, sine, cosine), o->omega, o->harmonic[h], p);
+    arb_neg(arb_mat_entry(s->a, cosine, sine), arb_mat_entry(s->a, sine, cosine));
+  }
+  arb_mat_clear(force);
+  arb_mat_clear(acceleration);
+  choose_weights(o, s);
+  mag_t sum, entry;
+  mag_init(sum);
+  mag_init(entry);
+  for (int r = 0; r < s->size; r++) {
+    int last = -1;
+    mag_zero(sum);
+    for (int j = 0; j < s->size; j++) {
+      if (arb_is_zero(arb_mat_entry(s->a, r, j))) continue;
+      if (last < 0) s->first[r] = j;
+      last = j;
+      arb_get_mag(entry, arb_mat_entry(s->a, r, j));
+      mag_mul_2exp_si(entry, entry, s->weight[j] - s->weight[r]);
+      mag_add(sum, sum, entry);
+    }
+    s->length[r] = last < 0 ? 0 : last - s->first[r] + 1;
+    if (mag_cmp(sum, s->norm) > 0) mag_set(s->norm, sum);
+  }
+  mag_clear(sum);
+  mag_clear(entry);
+}
+
+/* ---- sequences that the theorem covers ---- */
+
+guard guard_of(char before, char after)
+{
+  return before == 'O' || after == 'O' ? GUARD_TOUCH : before == 'S' ? GUARD_SLIP : GUARD_STICK;
+}
+
+int orbit_guarded(const orbit *o, int i)
+{
+  for (int j = 0; j < o->contacts; j++)
+    if (orbit_letter(o, i - 1, j) != orbit_letter(o, i, j)) return j;
+  return -1;
+}
+
+static bool same(const fmpq *a, const fmpq *b, int n)
+{
+  for (int i = 0; i < n; i++)
+    if (a && b && !fmpq_equal(a + i, b + i)) return false;
+  return (a == NULL) == (b == NULL);
+}
+
+/* Are two contacts equal, with equal histories? */
+static bool twins(const orbit *o, int a, int b)
+{
+  const contact_given *k = &o->c->contacts[a], *l = &o->c->contacts[b];
+  for (int i = 0; i < o->m; i++)
+    if (orbit_letter(o, i, a) != orbit_letter(o, i, b)) return false;
+  return k->tangential == l->tangential && k->angled == l->angled && same(k->t, l->t, o->n) && same(k->n, l->n, o->n) &&
+         same(k->angle, l->angle, 1) && same(k->kt, l->kt, 1) && same(k->mu, l->mu, 1) && same(k->kn, l->kn, 1) &&
+         same(k->gap, l->gap, 1) && same(k->load, l->load, 1) && same(o->c->rest + a, o->c->rest + b, 1);
+}
+
+/* The guard's row of a contact, exactly, but for a factor that is not 0: [coordinates + 1], the last for its constant. false: it is none. */
+static bool guard_shape(const orbit *o, int contact, guard kind, int sign, fmpq *shape)
+{
+  const contact_given *k = &o->c->contacts[contact];
+  bool some = kind == GUARD_TOUCH;
+  fmpq_t friction;
+  fmpq_init(friction);
+  for (int i = 0; i < o->n; i++) {
+    fmpq *row = shape + i;
+    if (kind == GUARD_TOUCH || k->angled) fmpq_set(row, k->n + i);
+    else {
+      fmpq_mul(row, k->kt, k->t + i);
+      if (sign < 0) fmpq_neg(row, row);
+      if (k->normal) fmpq_mul(friction, k->mu, k->kn);
+      if (k->normal) fmpq_submul(row, friction, k->n + i);
+    }
+    some = some || !fmpq_is_zero(row);
+  }
+  fmpq_zero(shape + o->n);
+  if (kind == GUARD_TOUCH) fmpq_set(shape + o->n, k->gap);
+  else if (k->angled) { /* (sign kt cos - mu kn sin) d: is the factor a number other than 0? */
+    const contact_balls *f = &o->friction[contact];
+    arb_t factor, load;
+    arb_init(factor);
+    arb_init(load);
+    arb_mul(factor, f->kt, f->ratio, o->precision);
+    arb_mul_si(factor, factor, sign, o->precision);
+    arb_mul(load, f->mu, f->kn, o->precision);
+    arb_sub(factor, factor, load, o->precision);
+    some = some && !arb_contains_zero(factor);
+    arb_clear(factor);
+    arb_clear(load);
+  }
+  fmpq_clear(friction);
+  return some;
+}
+
+/* Several contacts may change at one event if their guards are exactly proportional: the one that stands in F is 0 where they are. */
+static bool changes_together(const orbit *o, int event, int a, int b)
+{
+  const contact_given *k = &o->c->contacts[a], *l = &o->c->contacts[b];
+  const char before_a = orbit_letter(o, event - 1, a), before_b = orbit_letter(o, event - 1, b);
+  const guard kind = guard_of(before_a, orbit_letter(o, event, a));
+  if (kind != guard_of(before_b, orbit_letter(o, event, b))) return false;
+  if (twins(o, a, b)) return true;
+  if (kind == GUARD_SLIP) return false;
+  if (kind == GUARD_TOUCH && !(fmpq_is_zero(k->gap) && fmpq_is_zero(l->gap)) &&
+      (k->angled != l->angled || (k->angled && !fmpq_equal(k->angle, l->angle))))
+    return false;
+  fmpq *shapes = _fmpq_vec_init(2 * (o->n + 1));
+  fmpq_t ratio;
+  fmpq_init(ratio);
+  const bool together = guard_shape(o, a, kind, sign_of(before_a), shapes) &&
+                        guard_shape(o, b, kind, sign_of(before_b), shapes + o->n + 1) &&
+                        proportional(shapes, shapes + o->n + 1, o->n + 1, ratio);
+  fmpq_clear(ratio);
+  _fmpq_vec_clear(shapes, 2 * (o->n + 1));
+  return together;
+}
+
+static bool sequence_possible(const orbit *o, failure *f)
+{
+  for (int i = 0; i < o->m && !o->c->section; i++) {
+    const int guarded = orbit_guarded(o, i);
+    for (int j = 0; j < o->contacts; j++) {
+      const char before = orbit_letter(o, i - 1, j), after = orbit_letter(o, i, j);
+      if (before == after) continue;
+      if (sign_of(before) * sign_of(after) < 0)
+        return fail(f, i, j, "segment %d, contact %d: slip does not turn without stick", i, j);
+      /* Stick -> O: |T| <= mu N, so T and N would vanish at once, which is generic only where they are proportional. */
+      if (before == 'S' && after == 'O') {
+        const orbit_segment *s = &o->segments[(i + o->m - 1) % o->m];
+        if (!o->friction[j].parallel || s->from[j] != 'O')
+          return fail(
+              f, i, j,
+              "segment %d, contact %d: stick that ends by separation must have begun by touching, with proportional motions",
+              i, j);
+      }
+      if (j != guarded && !changes_together(o, i, guarded, j))
+        return fail(f, i, j, "two independent transitions at once: event %d, contacts %d and %d", i, guarded, j);
+    }
+  }
+  return true;
+}
+
+/* ---- the orbit ---- */
+
+void orbit_time(const orbit *o, int event, arb_t t)
+{
+  arb_set(t, orbit_event(o, event) + 2 * o->n);
+  if (event == o->m) arb_add(t, t, o->duration, o->precision);
+}
+
+void orbit_starts(orbit *o)
+{
+  const int n = o->n;
+  const slong p = o->precision;
+  arb_t angle;
+  arb_init(angle);
+  for (int i = 0; i < o->m; i++) {
+    orbit_segment *s = &o->segments[i];
+    arb_srcptr event = orbit_event(o, i);
+    _arb_vec_set(s->start, event, 2 * n);
+    arb_one(s->start + 2 * n);
+    for (int h = 0; h < o->harmonics; h++) {
+      arb_mul(angle, o->omega, event + 2 * n, p);
+      arb_mul_si(angle, angle, o->harmonic[h], p);
+      arb_sin_cos(s->start + 2 * n + 2 + 2 * h, s->start + 2 * n + 1 + 2 * h, angle, p);
+    }
+    for (int j = 0; j < o->contacts; j++) {
+      const contact_balls *f = &o->friction[j];
+      if (s->slider[j] < 0) continue;
+      arb_ptr w = s->start + s->slider[j];
+      if (s->began[j] < 0) {
+        arb_set(w, f->rest);
+        continue;
+      }
+      /* w = t.x from O, t.x - sign mu N/kt from slip: a gradient in x, and a constant */
+      const int sign = sign_of(s->from[j]);
+      slider_gradient(o, j, s->from[j], o->scratch);
+      arb_dot(w, NULL, 0, o->scratch, 1, orbit_event(o, s->began[j]), 1, n, p);
+      if (!sign) continue;
+      arb_mul(angle, f->mu, f->load, p);
+      if (o->c->contacts[j].normal) {
+        arb_mul(angle, f->mu, f->kn, p);
+        arb_mul(angle, angle, f->gap, p);
+      }
+      arb_div(angle, angle, f->kt, p);
+      if (sign > 0) arb_sub(w, w, angle, p);
+      else arb_add(w, w, angle, p);
+    }
+  }
+  arb_clear(angle);
+}
+
+orbit *orbit_new(const certificate *c, failure *f)
+{
+  orbit *o = flint_calloc(1, sizeof *o);
+  const int n = c->n;
+  const slong p = c->precision;
+  o->c = c;
+  o->precision = p;
+  o->n = n;
+  o->m = c->n_events;
+  o->contacts = c->n_contacts;
+  o->unknowns = c->section ? 2 * n : o->m * (2 * n + 1);
+  const slong all = (slong)o->m * (2 * n + 1);
+  arb_mat_init(o->inverse_mass, n, n);
+  arb_init(o->omega);
+  arb_init(o->duration);
+  o->centre = _arb_vec_init(all);
+  o->box = _arb_vec_init(all);
+  o->scale = _arb_vec_init(2 * n + 1);
+  arb_set_fmpq(o->omega, c->omega, p);
+  arb_const_pi(o->duration, p);
+  arb_mul_si(o->duration, o->duration, 2L * c->multiple, p);
+  arb_div(o->duration, o->duration, o->omega, p);
+  for (int i = 0; i < o->m; i++) {
+    balls(o->centre + (size_t)i * (2 * (size_t)n + 1), c->state + 2L * i * n, 2L * n, p);
+    balls(o->centre + (size_t)i * (2 * (size_t)n + 1) + 2 * n, c->time + i, 1, p);
+  }
+  _arb_vec_set(o->box, o->centre, all);
+  for (int i = 0; i <= 2 * n; i++) arb_set_fmpq(o->scale + i, c->scales + (i < n ? 0 : i < 2 * n ? 1 : 2), p);
+  /* the loads' harmonics, and the first, with which a1 and b1 are made */
+  int first = -1;
+  for (int h = 0; h < c->n_harmonics; h++) {
+    if (c->harmonic[h] == 0) continue;
+    if (c->harmonic[h] == 1) first = o->harmonics;
+    o->harmonic[o->harmonics] = c->harmonic[h];
+    o->forcing[o->harmonics++] = h;
+  }
+  if (first < 0) {
+    first = o->harmonics;
+    o->harmonic[o->harmonics] = 1;
+    o->forcing[o->harmonics++] = -1;
+  }
+  o->first_harmonic = 2 * n + 1 + 2 * first;
+  o->friction = flint_calloc((size_t)o->contacts + 1, sizeof *o->friction);
+  for (int j = 0; j < o->contacts; j++) friction_set(&o->friction[j], &c->contacts[j], c->rest + j, n, p);
+  o->segments = flint_calloc((size_t)o->m, sizeof *o->segments);
+  arb_mat_t mass;
+  arb_mat_init(mass, n, n);
+  for (int i = 0; i < n; i++) balls(arb_mat_entry(mass, i, 0), c->mass + (size_t)i * (size_t)n, n, p);
+  const bool regular = arb_mat_inv(o->inverse_mass, mass, p);
+  arb_mat_clear(mass);
+  for (int i = 0; i < o->m; i++) segment_set(o, i);
+  o->scratch = _arb_vec_init(o->unknowns + 4 * o->largest);
+  if (!regular) fail(f, -1, -1, "the mass matrix is singular");
+  if (regular && sequence_possible(o, f)) return o;
+  orbit_free(o);
+  return NULL;
+}
+
+void orbit_free(orbit *o)
+{
+  if (!o) return;
+  const slong all = (slong)o->m * (2 * o->n + 1);
+  for (int i = 0; i < o->m; i++) {
+    orbit_segment *s = &o->segments[i];
+    if (s->power)
+      for (int b = 0; b <= s->levels; b++) arb_mat_clear(s->power[b]);
+    flint_free(s->power);
+    arb_mat_clear(s->a);
+    _arb_vec_clear(s->start, s->size);
+    flint_free(s->first);
+    flint_free(s->length);
+    flint_free(s->weight);
+    mag_clear(s->norm);
+    arb_clear(s->span);
+    arb_clear(s->step);
+  }
+  flint_free(o->segments);
+  for (int j = 0; j < o->contacts; j++) {
+    contact_balls *f = &o->friction[j];
+    arb_ptr constants[] = {f->kt, f->mu, f->kn, f->gap, f->load, f->rest, f->ratio};
+    for (size_t i = 0; i < sizeof constants / sizeof *constants; i++) arb_clear(constants[i]);
+    _arb_vec_clear(f->t, o->n);
+    _arb_vec_clear(f->n, o->n);
+  }
+  flint_free(o->friction);
+  _arb_vec_clear(o->scratch, o->unknowns + 4 * o->largest);
+  _arb_vec_clear(o->centre, all);
+  _arb_vec_clear(o->box, all);
+  _arb_vec_clear(o->scale, 2 * o->n + 1);
+  arb_mat_clear(o->inverse_mass);
+  arb_clear(o->omega);
+  arb_clear(o->duration);
+  flint_free(o);
+}

@@ -1,0 +1,193 @@
+/* multipliers.c - the monodromy matrix of the orbit, and where its eigenvalues are. */
+#include "proof/orbit.h"
+
+/* Where w of a contact stands in the state after the event that starts the segment: x, v, then the w of the sliders that stick there and
+ * that geometry does not fix. -1: nowhere. *size: of that state. */
+static int place_of(const orbit *o, const orbit_segment *s, int contact, int *size)
+{
+  int place = -1;
+  *size = 2 * o->n;
+  for (int j = 0; j < o->contacts; j++) {
+    if (s->slider[j] < 0 || slider_fixed(o, s, j)) continue;
+    if (j == contact) place = *size;
+    ++*size;
+  }
+  return place;
+}
+
+/* d w of a contact that begins to stick at event i, over dx there: [n]. v: velocities at the event. */
+static void new_slider(const orbit *o, int contact, char before, arb_srcptr v, arb_ptr gradient)
+{
+  const contact_balls *f = &o->friction[contact];
+  slider_gradient(o, contact, before, gradient);
+  if (before != 'O')
+    return; /* s -> S: the gradient of t.x - s mu N/kt; no part of the time, whose derivative vanishes there */
+  /* O -> S: dw = (t - (u'/v') n).dx, since the instant of touching moves */
+  arb_t u, w;
+  arb_init(u);
+  arb_init(w);
+  arb_dot(u, NULL, 0, f->t, 1, v, 1, o->n, o->precision);
+  arb_dot(w, NULL, 0, f->n, 1, v, 1, o->n, o->precision);
+  arb_div(u, u, w, o->precision);
+  arb_neg(u, u);
+  _arb_vec_scalar_addmul(gradient, f->n, o->n, u, o->precision);
+  arb_clear(u);
+  arb_clear(w);
+}
+
+/* The derivative of the state after event i + 1 by that after event i. */
+static void transfer(const orbit *o, int i, arb_srcptr columns, arb_mat_t m)
+{
+  const orbit_segment *s = &o->segments[i], *t = &o->segments[(i + 1) % o->m];
+  const int n = o->n, next = (i + 1) % o->m;
+  int old_size, new_size;
+  place_of(o, s, -1, &old_size);
+  place_of(o, t, -1, &new_size);
+  arb_mat_init(m, new_size, old_size);
+  /* x, v: the flow, and the identity at the event, since forces are continuous */
+  for (int c = 0; c < 2 * n; c++)
+    for (int r = 0; r < 2 * n; r++) arb_set(arb_mat_entry(m, r, c), columns + c * s->size + r);
+  for (int j = 0; j < o->contacts; j++) {
+    const int column = place_of(o, s, j, &old_size);
+    if (column < 0) continue;
+    const int number = s->slider[j] - 1 - 2 * o->harmonics;
+    for (int r = 0; r < 2 * n; r++) arb_set(arb_mat_entry(m, r, column), columns + number * s->size + r);
+  }
+  /* w: kept while the stick goes on, dropped when it ends, new where one begins */
+  arb_ptr gradient = o->scratch;
+  for (int j = 0; j < o->contacts; j++) {
+    const int row = place_of(o, t, j, &new_size), column = place_of(o, s, j, &old_size);
+    if (row < 0) continue;
+    if (s->slider[j] >= 0) {
+      arb_one(arb_mat_entry(m, row, column));
+      continue;
+    }
+    new_slider(o, j, t->from[j], orbit_event(o, next) + n, gradient);
+    for (int c = 0; c < old_size; c++)
+      arb_dot(arb_mat_entry(m, row, c), NULL, 0, gradient, 1, arb_mat_entry(m, 0, c),
+              arb_mat_entry(m, 1, 0) - arb_mat_entry(m, 0, 0), n, o->precision);
+  }
+}
+
+int monodromy(const orbit *o, arb_mat_t product, failure *f)
+{
+  /* Start at the event with the fewest sliders in the state, so that no multiplier is a 0 that means nothing. */
+  int first = 0, fewest = 0, size;
+  for (int i = 0; i < o->m; i++) {
+    place_of(o, &o->segments[i], -1, &size);
+    if (i == 0 || size < fewest) fewest = size, first = i;
+  }
+  arb_mat_init(product, fewest, fewest);
+  arb_mat_one(product);
+  arb_ptr end = _arb_vec_init((slong)o->largest * (2 * o->n + o->contacts + 1)), columns = end + o->largest;
+  bool fine = true;
+  for (int k = 0; k < o->m && fine; k++) {
+    arb_mat_t one, both;
+    fine = flow_end(o, (first + k) % o->m, end, columns);
+    transfer(o, (first + k) % o->m, columns, one);
+    arb_mat_init(both, arb_mat_nrows(one), fewest);
+    arb_mat_mul(both, one, product, o->precision);
+    arb_mat_swap(both, product);
+    arb_mat_clear(one);
+    arb_mat_clear(both);
+  }
+  _arb_vec_clear(end, (slong)o->largest * (2 * o->n + o->contacts + 1));
+  if (!fine) fail(f, -1, -1, "stability unproven: the precision does not suffice");
+  return fewest;
+}
+
+/* Gershgorin discs of e[n][n]: a group that hangs together has as many eigenvalues as discs. So the largest modulus is not above all
+ * discs, and not below the nearest point of any group. */
+static void largest_modulus(const acb_mat_t e, int n, arb_t modulus, slong precision)
+{
+  int *group = flint_calloc((size_t)n, sizeof *group);
+  arb_ptr radius = _arb_vec_init(2 * n + 1), disc = radius + n, gap = disc + n;
+  acb_t between;
+  mag_t entry;
+  arf_t least, most, nearest, bound;
+  acb_init(between);
+  mag_init(entry);
+  arf_init(least);
+  arf_init(most);
+  arf_init(nearest);
+  arf_init(bound);
+  for (int i = 0; i < n; i++) {
+    mag_t sum;
+    mag_init(sum);
+    for (int j = 0; j < n; j++) {
+      acb_get_mag(entry, acb_mat_entry(e, i, j));
+      if (j != i) mag_add(sum, sum, entry);
+    }
+    arf_set_mag(arb_midref(radius + i), sum);
+    acb_abs(disc + i, acb_mat_entry(e, i, i), precision);
+    arb_add_error_mag(disc + i, sum);
+    arb_get_ubound_arf(bound, disc + i, precision);
+    if (arf_cmp(bound, most) > 0) arf_set(most, bound);
+    mag_clear(sum);
+    group[i] = i;
+    for (int j = 0; j < i; j++) {
+      acb_sub(between, acb_mat_entry(e, i, i), acb_mat_entry(e, j, j), precision);
+      acb_abs(gap, between, precision);
+      arb_sub(gap, gap, radius + i, precision);
+      arb_sub(gap, gap, radius + j, precision);
+      const int joined = group[j];
+      for (int k = 0; k <= i && !arb_is_positive(gap); k++) /* discs that may touch are one group */
+        if (group[k] == joined) group[k] = group[i];
+    }
+  }
+  for (int g = 0; g < n; g++) {
+    arf_pos_inf(nearest);
+    for (int i = 0; i < n; i++) {
+      if (group[i] != g) continue;
+      arb_get_lbound_arf(bound, disc + i, precision);
+      arf_min(nearest, nearest, bound);
+    }
+    if (arf_is_finite(nearest)) arf_max(least, least, nearest);
+  }
+  arb_set_interval_arf(modulus, least, most, precision);
+  flint_free(group);
+  _arb_vec_clear(radius, 2 * n + 1);
+  acb_clear(between);
+  mag_clear(entry);
+  arf_clear(least);
+  arf_clear(most);
+  arf_clear(nearest);
+  arf_clear(bound);
+}
+
+void multipliers(const orbit *o, quantities *q, failure *f)
+{
+  const certificate *c = o->c;
+  const slong p = o->precision;
+  arb_mat_t m;
+  const int n = monodromy(o, m, f);
+  q->stability = STABILITY_UNPROVEN;
+  if (c->n_vectors == n && !f->reason[0]) {
+    acb_mat_t v, product, e;
+    acb_mat_init(v, n, n);
+    acb_mat_init(product, n, n);
+    acb_mat_init(e, n, n);
+    for (int i = 0; i < n; i++)
+      for (int j = 0; j < n; j++) {
+        const fmpq *entry = c->vectors + 2 * ((size_t)i * (size_t)n + (size_t)j);
+        arb_set_fmpq(acb_realref(acb_mat_entry(v, i, j)), entry, p);
+        arb_set_fmpq(acb_imagref(acb_mat_entry(v, i, j)), entry + 1, p);
+      }
+    acb_mat_set_arb_mat(e, m);
+    acb_mat_mul(product, e, v, p);
+    if (acb_mat_solve(e, v, product, p)) { /* V^-1 M V: the same eigenvalues */
+      arb_t one;
+      arb_init(one);
+      arb_one(one);
+      largest_modulus(e, n, q->value[CLAIM_MULTIPLIER], p);
+      q->multiplier_known = arb_is_finite(q->value[CLAIM_MULTIPLIER]);
+      if (q->multiplier_known && arb_lt(q->value[CLAIM_MULTIPLIER], one)) q->stability = STABILITY_STABLE;
+      if (q->multiplier_known && arb_gt(q->value[CLAIM_MULTIPLIER], one)) q->stability = STABILITY_UNSTABLE;
+      arb_clear(one);
+    }
+    acb_mat_clear(v);
+    acb_mat_clear(product);
+    acb_mat_clear(e);
+  }
+  arb_mat_clear(m);
+}

@@ -1,0 +1,217 @@
+/* prove.c - from a certificate to a verdict, and the verdict as decimals that are rounded outward. */
+#include "proof/prove.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void decision_init(decision *v)
+{
+  *v = (decision){.failure = {.segment = -1, .contact = -1, .from = NAN, .to = NAN}};
+  for (int q = 0; q < CLAIMS; q++) arb_init(v->quantities.value[q]);
+}
+
+void decision_clear(decision *v)
+{
+  for (int q = 0; q < CLAIMS; q++) arb_clear(v->quantities.value[q]);
+}
+
+/* ---- the decision ---- */
+
+bool prove_orbit(orbit *o, decision *v)
+{
+  if (!sequence_check(o, &v->failure)) return false;
+  multipliers(o, &v->quantities, &v->failure);
+  return response_quantities(o, &v->quantities, &v->failure);
+}
+
+/* A claimed interval must contain what was found. */
+static bool claims_hold(const certificate *c, decision *v)
+{
+  static const char *const words[] = {"", "stable", "unstable", "unproven"};
+  const quantities *q = &v->quantities;
+  const slong precision = 2L * c->precision + 64;
+  arb_t low, high;
+  bool hold = true;
+  arb_init(low);
+  arb_init(high);
+  if ((c->stability == STABILITY_STABLE || c->stability == STABILITY_UNSTABLE) && q->stability != c->stability)
+    hold = q->stability == STABILITY_UNPROVEN
+               ? fail(&v->failure, -1, -1, "stability unproven")
+               : fail(&v->failure, -1, -1, "claim is false: it is %s", words[q->stability]);
+  for (int i = 0; i < CLAIMS && hold; i++) {
+    if (!c->claimed[i]) continue;
+    arb_set_fmpq(low, c->claims + 2L * i, precision);
+    arb_set_fmpq(high, c->claims + 2L * i + 1, precision);
+    if (i == CLAIM_MULTIPLIER && !q->multiplier_known) hold = fail(&v->failure, -1, -1, "stability unproven");
+    else if (arb_lt(q->value[i], low) || arb_gt(q->value[i], high))
+      hold = fail(&v->failure, -1, -1, "claim is false: %s", claim_names[i]);
+    else if (!arb_le(low, q->value[i]) || !arb_le(q->value[i], high))
+      hold = fail(&v->failure, -1, -1, "claim is too narrow: %s", claim_names[i]);
+  }
+  arb_clear(low);
+  arb_clear(high);
+  return hold;
+}
+
+bool prove(const certificate *c, decision *v)
+{
+  krawczyk k = {0};
+  failure *f = &v->failure;
+  orbit *o = orbit_new(c, f);
+  bool holds = o && flow_prepare(o, f) && existence_prepare(&k, o, f);
+  if (holds) {
+    /* the larger radius first: the image that is left is that of the smaller one */
+    arb_t radius;
+    double ratio;
+    arb_init(radius);
+    existence_measure(&k);
+    for (int i = 1; i >= 0 && holds; i--) {
+      arb_set_fmpq(radius, c->radii + i, o->precision);
+      holds = existence_holds(&k, radius, &ratio);
+      if (!holds)
+        fail(f, -1, -1, "existence: Krawczyk gives %.2g of the %s", ratio, i ? "uniqueness radius" : "radius");
+    }
+    v->exists = holds;
+    arb_clear(radius);
+  }
+  if (holds) box_set(o, k.image);
+  holds = holds && prove_orbit(o, v) && claims_hold(c, v);
+  existence_free(&k);
+  orbit_free(o);
+  return holds;
+}
+
+/* ---- decimals ---- */
+
+slong decimal_place(const arf_t x, slong otherwise)
+{
+  mag_t m;
+  mag_init(m);
+  arf_get_mag(m, x);
+  const double log2 = mag_is_special(m) ? NAN : mag_get_d_log2_approx(m);
+  mag_clear(m);
+  return isfinite(log2) && fabs(log2) < 20000 ? (slong)floor(log2 * 0.30102999566398120) : otherwise;
+}
+
+/* digits 10^place as text: 0.00125, 1250, or 1.25e-12 */
+static char *place_point(const char *digits, slong place)
+{
+  const bool negative = *digits == '-';
+  digits += negative;
+  const size_t n = strlen(digits);
+  const slong lead = place + (slong)n - 1;
+  char *text = malloc(n + 64), *at = text;
+  if (!text) abort();
+  if (negative) *at++ = '-';
+  if (strcmp(digits, "0") == 0) strcpy(text, "0");
+  else if (lead < -5 || lead > 20 || place > 0) {
+    *at++ = digits[0];
+    if (n > 1) at += sprintf(at, ".%s", digits + 1);
+    sprintf(at, "e%ld", (long)lead);
+  } else if (lead < 0) sprintf(at, "0.%0*d%s", (int)(-lead - 1), 0, digits);
+  else if (place == 0) strcpy(at, digits);
+  else sprintf(at, "%.*s.%s", (int)(n + (size_t)place), digits, digits + n + place);
+  if (lead == -1 && n > 0 && strcmp(digits, "0") != 0) sprintf(at, "0.%s", digits);
+  return text;
+}
+
+char *decimal_write(const arf_t x, slong place, int round)
+{
+  fmpz_t power, integer;
+  arf_t scaled;
+  fmpz_init(power);
+  fmpz_init(integer);
+  arf_init(scaled);
+  fmpz_ui_pow_ui(power, 10, (ulong)labs(place));
+  if (place <= 0) {
+    arf_mul_fmpz(scaled, x, power, ARF_PREC_EXACT, ARF_RND_DOWN);
+    arf_get_fmpz(integer, scaled, round < 0 ? ARF_RND_FLOOR : round > 0 ? ARF_RND_CEIL : ARF_RND_NEAR);
+  } else { /* what is left of the point is enough, rounded the same way twice */
+    arf_get_fmpz(integer, x, round > 0 ? ARF_RND_CEIL : ARF_RND_FLOOR);
+    if (round > 0) fmpz_cdiv_q(integer, integer, power);
+    else fmpz_fdiv_q(integer, integer, power);
+  }
+  char *digits = fmpz_get_str(NULL, 10, integer), *text = place_point(digits, place);
+  flint_free(digits);
+  fmpz_clear(power);
+  fmpz_clear(integer);
+  arf_clear(scaled);
+  return text;
+}
+
+json_t *decimal_interval(const arb_t x, const mag_t pad, slong precision)
+{
+  enum { WIDTH_DIGITS = 3, MOST_DIGITS = 60 };
+  arf_t low, high, width;
+  arf_init(low);
+  arf_init(high);
+  arf_init(width);
+  arf_set_mag(width, pad);
+  arb_get_lbound_arf(low, x, precision);
+  arb_get_ubound_arf(high, x, precision);
+  arf_sub(low, low, width, precision, ARF_RND_FLOOR);
+  arf_add(high, high, width, precision, ARF_RND_CEIL);
+  arf_sub(width, high, low, 30, ARF_RND_UP);
+  const slong lead = decimal_place(arf_cmpabs(low, high) > 0 ? low : high, 0);
+  slong place = decimal_place(width, lead - MOST_DIGITS) - WIDTH_DIGITS;
+  if (place < lead - MOST_DIGITS) place = lead - MOST_DIGITS;
+  char *from = decimal_write(low, place, -1), *to = decimal_write(high, place, 1);
+  json_t *interval = json_pack("[s, s]", from, to);
+  free(from);
+  free(to);
+  arf_clear(low);
+  arf_clear(high);
+  arf_clear(width);
+  return interval;
+}
+
+/* ---- the answer ---- */
+
+static json_t *radius_json(const fmpq *radius)
+{
+  arf_t r;
+  arf_init(r);
+  arf_set_fmpq(r, radius, 64, ARF_RND_UP);
+  char *text = decimal_write(r, decimal_place(r, 0) - 2, 0);
+  json_t *json = json_string(text);
+  free(text);
+  arf_clear(r);
+  return json;
+}
+
+json_t *answer_json(const certificate *c, const decision *v, const char *why)
+{
+  const bool decided = !why;
+  const failure *f = decided ? &v->failure : NULL;
+  const quantities *q = decided ? &v->quantities : NULL;
+  json_t *answer = json_object();
+  mag_t none;
+  mag_init(none);
+  json_object_set_new(answer, "verdict", json_string(!decided ? "wrong" : f->reason[0] ? "rejected" : "accepted"));
+  json_object_set_new(answer, "reason",
+                      !decided       ? json_string(why)
+                      : f->reason[0] ? json_string(f->reason)
+                                     : json_null());
+  json_object_set_new(answer, "segment", decided && f->segment >= 0 ? json_integer(f->segment) : json_null());
+  json_object_set_new(answer, "time",
+                      decided && isfinite(f->from) && isfinite(f->to) ? json_pack("[f, f]", f->from, f->to)
+                                                                      : json_null());
+  json_object_set_new(answer, "contact", decided && f->contact >= 0 ? json_integer(f->contact) : json_null());
+  const bool exists = decided && v->exists;
+  json_object_set_new(answer, "radius", exists ? radius_json(c->radii) : json_null());
+  json_object_set_new(answer, "uniqueness_radius", exists ? radius_json(c->radii + 1) : json_null());
+  json_object_set_new(answer, "stability",
+                      decided && q->stability ? json_string(stability_names[q->stability]) : json_null());
+  for (int i = CLAIMS - 1; i >= 0; i--) {
+    const bool known = decided && (i == CLAIM_MULTIPLIER ? q->multiplier_known : q->known);
+    json_object_set_new(answer, claim_names[i],
+                        known ? decimal_interval(q->value[i], none, c->precision + 30L) : json_null());
+  }
+  json_t *states = c ? json_array() : json_null();
+  for (int i = 0; c && i < c->n_events; i++)
+    json_array_append_new(states, json_stringn(c->letters + (size_t)i * (size_t)c->n_contacts, (size_t)c->n_contacts));
+  json_object_set_new(answer, "states", states);
+  json_object_set_new(answer, "transitions", c ? json_integer(c->section ? 0 : c->n_events) : json_null());
+  mag_clear(none);
+  return answer;
+}
