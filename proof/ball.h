@@ -16,5 +16,41 @@
 #include <flint/fmpq.h>
 #include <flint/fmpq_vec.h>
 #endif
+#include <stddef.h>
+
+/* A number that is cleared where its block ends: LOCAL(arb) x = ZERO, y = ZERO; all bits 0 are an initialised 0. */
+#define LOCAL(type) __attribute__((cleanup(clear_##type))) type##_t
+#define ZERO                                                                                                           \
+  {                                                                                                                    \
+    0                                                                                                                  \
+  }
+#define ZERO_FMPQ                                                                                                      \
+  {                                                                                                                    \
+    {                                                                                                                  \
+      0, 1                                                                                                             \
+    }                                                                                                                  \
+  }
+static inline void clear_arb(arb_t *x) { arb_clear(*x); }
+static inline void clear_acb(acb_t *x) { acb_clear(*x); }
+static inline void clear_arf(arf_t *x) { arf_clear(*x); }
+static inline void clear_mag(mag_t *x) { mag_clear(*x); }
+static inline void clear_fmpz(fmpz_t *x) { fmpz_clear(*x); }
+static inline void clear_fmpq(fmpq_t *x) { fmpq_clear(*x); }
+static inline void clear_arb_mat(arb_mat_t *x) { arb_mat_clear(*x); }
+static inline void clear_acb_mat(acb_mat_t *x) { acb_mat_clear(*x); }
+
+/* Arrays that are cleared together: a pool of {0}, in an object or LOCAL(pool). All entries are 0 at first. Memory that is not to be had
+ * ends the program, as it does inside FLINT; what certificates may hold is bounded. */
+typedef enum pool_kind { POOL_BYTES, POOL_BALLS, POOL_MAGS, POOL_RATIONALS, POOL_MATRICES } pool_kind;
+typedef struct pool_block pool_block;
+typedef struct pool {
+  pool_block *last;
+} pool, pool_t[1];
+void *pool_take(pool *p, pool_kind kind, size_t n);
+void pool_clear(pool *p);
+static inline void clear_pool(pool_t *p) { pool_clear(*p); }
+static inline arb_ptr pool_balls(pool *p, slong n) { return pool_take(p, POOL_BALLS, (size_t)n); }
+static inline mag_ptr pool_mags(pool *p, slong n) { return pool_take(p, POOL_MAGS, (size_t)n); }
+static inline fmpq *pool_rationals(pool *p, slong n) { return pool_take(p, POOL_RATIONALS, (size_t)n); }
 
 #endif

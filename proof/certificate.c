@@ -9,12 +9,6 @@
 const char *const claim_names[CLAIMS] = {"max", "min", "amplitude", "mean", "a1", "b1", "harmonic_1", "multiplier"};
 const char *const stability_names[] = {NULL, "stable", "unstable", "unproven"};
 
-typedef struct certificate_block {
-  struct certificate_block *before;
-  fmpq *first;
-  slong n;
-} certificate_block;
-
 typedef struct reading {
   certificate *c;
   bool candidate; /* JSON numbers stand for decimals, and what has a default may be missing */
@@ -85,15 +79,6 @@ bool decimal_read(const char *text, size_t length, fmpq_t value)
   return true;
 }
 
-/* n rationals that live as long as the certificate, all 0. */
-static fmpq *rationals(certificate *c, slong n)
-{
-  certificate_block *block = flint_malloc(sizeof *block);
-  *block = (certificate_block){c->blocks, _fmpq_vec_init(n > 0 ? n : 1), n > 0 ? n : 1};
-  c->blocks = block;
-  return block->first;
-}
-
 static void number(reading *r, const json_t *json, const char *where, fmpq *value)
 {
   char text[40];
@@ -123,7 +108,7 @@ static void list(reading *r, const json_t *json, const char *where, slong n, fmp
 static fmpq *one_number(reading *r, const json_t *object, const char *where, const char *key)
 {
   char name[80];
-  fmpq *value = rationals(r->c, 1);
+  fmpq *value = pool_rationals(&r->c->pool, 1);
   snprintf(name, sizeof name, "%s%s", where, key);
   number(r, json_object_get(object, key), name, value);
   return value;
@@ -133,7 +118,7 @@ static void matrix(reading *r, const json_t *object, const char *key, fmpq **val
 {
   const int n = r->c->n;
   const json_t *rows = json_object_get(object, key);
-  *values = rationals(r->c, (slong)n * n);
+  *values = pool_rationals(&r->c->pool, (slong)n * n);
   if (!json_is_array(rows) || json_array_size(rows) != (size_t)n) {
     wrong(r, "model.%s: %d rows were expected", key, n);
     return;
@@ -192,8 +177,8 @@ static void read_contact(reading *r, json_t *json, contact_given *k)
   const bool has_tangent = k->angled || json_object_get(json, "tangent"),
              preloaded = json_object_get(json, "preload") != NULL;
   k->normal = !preloaded;
-  k->t = rationals(c, c->n);
-  k->n = rationals(c, c->n);
+  k->t = pool_rationals(&c->pool, c->n);
+  k->n = pool_rationals(&c->pool, c->n);
   k->angle = k->kt = k->mu = k->kn = k->gap = k->load = NULL;
   if (k->angled && (preloaded || json_object_get(json, "tangent") || json_object_get(json, "normal"))) {
     wrong(r, "model.contacts: `direction` stands for `tangent` and `normal`");
@@ -213,14 +198,12 @@ static void read_contact(reading *r, json_t *json, contact_given *k)
     k->angle = one_number(r, json, where, "angle_deg");
     list(r, json_object_get(json, "direction"), "model.contacts.direction", c->n, k->t);
     for (int i = 0; i < c->n; i++) fmpq_set(k->n + i, k->t + i);
-    fmpq_t quarters;
-    fmpq_init(quarters);
+    LOCAL(fmpq) quarters = ZERO_FMPQ;
     fmpq_set_ui(quarters, 90, 1);
     fmpq_div(quarters, k->angle, quarters);
     if (fmpz_is_one(fmpq_denref(quarters)))
       wrong(r,
             "model.contacts.angle_deg: a multiple of 90 is written as a contact with `preload`, or with `normal` only");
-    fmpq_clear(quarters);
   } else {
     if (has_tangent) list(r, json_object_get(json, "tangent"), "model.contacts.tangent", c->n, k->t);
     if (k->normal) list(r, json_object_get(json, "normal"), "model.contacts.normal", c->n, k->n);
@@ -266,8 +249,8 @@ static void read_model(reading *r, json_t *model)
   matrix(r, model, "mass", &c->mass);
   matrix(r, model, "damping", &c->damping);
   matrix(r, model, "stiffness", &c->stiffness);
-  c->cosine = rationals(c, (slong)c->n_harmonics * c->n);
-  c->sine = rationals(c, (slong)c->n_harmonics * c->n);
+  c->cosine = pool_rationals(&c->pool, (slong)c->n_harmonics * c->n);
+  c->sine = pool_rationals(&c->pool, (slong)c->n_harmonics * c->n);
   for (int h = 0; h < c->n_harmonics && !r->failed; h++) {
     json_t *load = json_array_get(forcing, (size_t)h);
     only(r, load, "model.forcing", forcing_keys);
@@ -294,9 +277,9 @@ static void read_events(reading *r, const json_t *events)
     return;
   }
   c->n_events = (int)json_array_size(events);
-  c->time = rationals(c, c->n_events);
-  c->state = rationals(c, 2L * c->n_events * c->n);
-  c->letters = flint_calloc((size_t)c->n_events * (size_t)c->n_contacts + 1, 1);
+  c->time = pool_rationals(&c->pool, c->n_events);
+  c->state = pool_rationals(&c->pool, 2L * c->n_events * c->n);
+  c->letters = pool_take(&c->pool, POOL_BYTES, (size_t)c->n_events * (size_t)c->n_contacts);
   for (int i = 0; i < c->n_events && !r->failed; i++) {
     const json_t *event = json_array_get(events, (size_t)i), *letters = json_object_get(event, "state");
     number(r, json_object_get(event, "t"), "events.t", c->time + i);
@@ -327,7 +310,7 @@ static void read_events(reading *r, const json_t *events)
 static void read_rest(reading *r, json_t *rest)
 {
   certificate *c = r->c;
-  c->rest = rationals(c, c->n_contacts);
+  c->rest = pool_rationals(&c->pool, c->n_contacts);
   if (!rest && r->candidate) return;
   if (!json_is_object(rest)) {
     wrong(r, "rest: an object was expected");
@@ -358,31 +341,27 @@ static void read_rest(reading *r, json_t *rest)
 /* The largest of n numbers in size, or 1 if all are 0, as a decimal scale of two digits would be: any positive number serves. */
 static void size_of(fmpq *scale, const fmpq *values, slong n)
 {
-  fmpq_t size;
-  fmpq_init(size);
+  LOCAL(fmpq) size = ZERO_FMPQ;
   fmpq_zero(scale);
   for (slong i = 0; i < n; i++) {
     fmpq_abs(size, values + i);
     if (fmpq_cmp(size, scale) > 0) fmpq_set(scale, size);
   }
   if (fmpq_is_zero(scale)) fmpq_one(scale);
-  fmpq_clear(size);
 }
 
 static void read_scales(reading *r, const json_t *scales)
 {
   certificate *c = r->c;
   static const char *const names[] = {"x", "v", "t"};
-  c->scales = rationals(c, 3);
+  c->scales = pool_rationals(&c->pool, 3);
   if (!scales && r->candidate) {
     for (int i = 0; i < c->n_events; i++) {
-      fmpq_t size;
-      fmpq_init(size);
+      LOCAL(fmpq) size = ZERO_FMPQ;
       for (int part = 0; part < 2; part++) {
         size_of(size, c->state + (2L * i + part) * c->n, c->n);
         if (fmpq_cmp(size, c->scales + part) > 0) fmpq_set(c->scales + part, size);
       }
-      fmpq_clear(size);
     }
     fmpq_inv(c->scales + 2, c->omega);
     return;
@@ -427,7 +406,7 @@ static void read_vectors(reading *r, const json_t *vectors)
     return;
   }
   c->n_vectors = (int)n;
-  c->vectors = rationals(c, (slong)(2 * n * n));
+  c->vectors = pool_rationals(&c->pool, (slong)(2 * n * n));
   for (size_t i = 0; i < n; i++) {
     const json_t *row = json_array_get(vectors, i);
     if (!json_is_array(row) || json_array_size(row) != n) {
@@ -449,12 +428,12 @@ certificate *certificate_read(const json_t *json, bool candidate, char *why, siz
     c->precision = integer(&r, json, "precision_bits", 32, LIMIT_PRECISION, candidate ? 128 : 0);
     c->omega = one_number(&r, json, "", "omega");
     if (!r.failed && fmpq_sgn(c->omega) <= 0) wrong(&r, "omega: must be positive");
-    c->radii = rationals(c, 2);
-    c->claims = rationals(c, 2L * CLAIMS);
+    c->radii = pool_rationals(&c->pool, 2);
+    c->claims = pool_rationals(&c->pool, 2L * CLAIMS);
   }
   if (!r.failed) {
     const json_t *response = json_object_get(json, "response");
-    c->response = rationals(c, c->n);
+    c->response = pool_rationals(&c->pool, c->n);
     if (response || !candidate) list(&r, response, "response", c->n, c->response);
     else fmpq_one(c->response);
     read_events(&r, json_object_get(json, "events"));
@@ -474,13 +453,6 @@ certificate *certificate_read(const json_t *json, bool candidate, char *why, siz
 
 void certificate_free(certificate *c)
 {
-  if (!c) return;
-  while (c->blocks) {
-    certificate_block *block = c->blocks;
-    c->blocks = block->before;
-    _fmpq_vec_clear(block->first, block->n);
-    flint_free(block);
-  }
-  flint_free(c->letters);
+  if (c) pool_clear(&c->pool);
   flint_free(c);
 }

@@ -66,8 +66,8 @@ typedef struct certificate {
   fmpq *claims; /* [CLAIMS][2]                               */
   stability stability;
   int n_vectors;
-  fmpq *vectors;                    /* [n_vectors][n_vectors][2]                 */
-  struct certificate_block *blocks; /* what certificate_free() frees             */
+  fmpq *vectors; /* [n_vectors][n_vectors][2]                 */
+  pool pool;     /* of all arrays                             */
 } certificate;
 
 /* Reads a certificate; with `candidate` one that lacks claims, vectors and what has a default. NULL: `why`[size] says what was expected. */

@@ -47,14 +47,12 @@ static json_t *as_strings(const json_t *json)
 
 static double largest_of(const fmpq *values, slong n)
 {
-  arb_t x;
-  arb_init(x);
+  LOCAL(arb) x = ZERO;
   double largest = 0;
   for (slong i = 0; i < n; i++) {
     arb_set_fmpq(x, values + i, 53);
     largest = fmax(largest, fabs(arf_get_d(arb_midref(x), ARF_RND_NEAR)));
   }
-  arb_clear(x);
   return largest;
 }
 
@@ -93,11 +91,11 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
 {
   const int n = o->unknowns, stride = 2 * o->n + 1;
   const double enough = pow(10, -(double)digits_of(o->precision) - 4);
-  arb_ptr row = _arb_vec_init(n);
-  arb_t step;
+  LOCAL(pool) own = ZERO;
+  arb_ptr row = pool_balls(own, n);
+  LOCAL(arb) step = ZERO;
   double last = INFINITY, largest = INFINITY;
   bool fine = existence_prepare(k, o, f);
-  arb_init(step);
   for (int i = 0; i < NEWTON_STEPS && fine; i++) {
     if (i > 0) {
       box_set(o, NULL);
@@ -117,8 +115,6 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
     if (!(largest < 10)) fine = false;
     if (largest <= enough || (largest < 100 * enough && largest > 0.5 * last)) break;
   }
-  arb_clear(step);
-  _arb_vec_clear(row, n);
   if (!fine || !(largest < 1e4 * enough))
     return fail(f, -1, -1, "Newton does not converge: its last step was %.1e of the scales", largest);
   return true;
@@ -129,8 +125,7 @@ static void write_events(json_t *draft, orbit *o)
 {
   const slong digits = digits_of(o->precision);
   const int n = o->n;
-  fmpq_t exact;
-  fmpq_init(exact);
+  LOCAL(fmpq) exact = ZERO_FMPQ;
   for (int i = 0; i < o->m; i++) {
     json_t *event = json_array_get(json_object_get(draft, "events"), (size_t)i),
            *lists[] = {json_array(), json_array()};
@@ -147,7 +142,6 @@ static void write_events(json_t *draft, orbit *o)
     json_object_set_new(event, "x", lists[0]);
     json_object_set_new(event, "v", lists[1]);
   }
-  fmpq_clear(exact);
 }
 
 /* Powers of ten: the smallest radius, about 8 |B F|, and the largest that pass. Leaves the box at the smallest. */
@@ -155,10 +149,8 @@ static bool find_radii(krawczyk *k, json_t *claims, failure *f)
 {
   const orbit *o = k->o;
   double largest = 0, ratio = INFINITY;
-  arb_t radius, ten;
+  LOCAL(arb) radius = ZERO, ten = ZERO;
   char text[40];
-  arb_init(radius);
-  arb_init(ten);
   arb_set_ui(ten, 10);
   for (int r = 0; r < o->unknowns; r++)
     largest =
@@ -185,8 +177,6 @@ static bool find_radii(krawczyk *k, json_t *claims, failure *f)
     snprintf(text, sizeof text, "1e%ld", (long)best);
     json_object_set_new(claims, "uniqueness_radius", json_string(text));
   } else fail(f, -1, -1, "existence: Krawczyk gives %.2g of the radius", ratio);
-  arb_clear(radius);
-  arb_clear(ten);
   return holds;
 }
 
@@ -226,10 +216,8 @@ static void write_vectors(json_t *draft, const orbit *o, slong digits, failure *
 static void write_claims(json_t *claims, const orbit *o, const quantities *q, const arb_t radius)
 {
   for (int i = 0; i < CLAIMS; i++) {
-    mag_t pad, wide;
+    LOCAL(mag) pad = ZERO, wide = ZERO;
     if (!(i == CLAIM_MULTIPLIER ? q->multiplier_known : q->known)) continue;
-    mag_init(pad);
-    mag_init(wide);
     arb_get_mag(pad, radius);
     arb_get_mag(wide, o->scale);
     if (i != CLAIM_MULTIPLIER) mag_mul(pad, pad, wide);
@@ -237,8 +225,6 @@ static void write_claims(json_t *claims, const orbit *o, const quantities *q, co
     mag_mul_2exp_si(wide, arb_radref(q->value[i]), 1);
     mag_add(pad, pad, wide);
     json_object_set_new(claims, claim_names[i], decimal_interval(q->value[i], pad, o->precision));
-    mag_clear(pad);
-    mag_clear(wide);
   }
   json_object_set_new(claims, "stability",
                       json_string(stability_names[q->stability ? q->stability : STABILITY_UNPROVEN]));
@@ -277,11 +263,9 @@ static bool make(json_t *draft, const certificate *c, krawczyk *k, decision *v)
     if (v->quantities.stability != STABILITY_UNPROVEN) break;
   }
   if (fine && (fine = prove_orbit(o, v))) {
-    arb_t radius;
-    arb_init(radius);
+    LOCAL(arb) radius = ZERO;
     arb_set_fmpq(radius, read->radii, o->precision);
     write_claims(claims, o, &v->quantities, radius);
-    arb_clear(radius);
   }
   existence_free(k);
   orbit_free(o);

@@ -25,7 +25,7 @@ static void put_slider(const orbit *o, const orbit_segment *s, int contact, cons
 {
   arb_ptr gradient = o->scratch;
   if (!d || s->began[contact] < 0) return; /* a slider that always sticks is a number */
-  slider_gradient(o, contact, s->from[contact], gradient);
+  slider_line(o, contact, s->from[contact], gradient);
   for (int c = 0; c < o->n; c++) {
     arb_mul(gradient + c, gradient + c, factor, o->precision);
     put(d, at, s->began[contact] * (2 * o->n + 1) + c, gradient + c);
@@ -40,7 +40,7 @@ static void guard_equation(const orbit *o, int i, arb_t f, jacobian *d, int *at)
   const int j = orbit_guarded(o, i), n = o->n;
   const char before = orbit_letter(o, i - 1, j), after = orbit_letter(o, i, j);
   const guard kind = guard_of(before, after);
-  arb_ptr row = o->scratch + n, z = row + s->size;
+  arb_ptr row = o->scratch + s->size, z = row + s->size;
   if (kind == GUARD_TOUCH) row_gap(o, s, j, 1, row);                    /* any <-> O: n.x + gap = 0                  */
   else if (kind == GUARD_SLIP) row_limit(o, s, j, sign_of(after), row); /* S -> s: mu N - s kt (t.x - w) = 0          */
   else row_slip(o, s, j, sign_of(before), row);                         /* s -> S: s kt t.v - mu kn n.v = 0           */
@@ -56,12 +56,12 @@ bool shooting_equations(orbit *o, arb_ptr f, jacobian *d)
 {
   const int n = o->n, stride = 2 * n + 1;
   const slong p = o->precision;
-  arb_ptr end = _arb_vec_init((slong)o->largest * (2 * n + o->contacts + 3)), rate = end + o->largest,
+  LOCAL(pool) own = ZERO;
+  arb_ptr end = pool_balls(own, (slong)o->largest * (2 * n + o->contacts + 3)), rate = end + o->largest,
           columns = rate + 2 * o->largest;
-  arb_t entry;
+  LOCAL(arb) entry = ZERO;
   int at = 0;
   bool fine = true;
-  arb_init(entry);
   for (int i = 0; i < o->m && fine; i++) {
     const orbit_segment *s = &o->segments[i];
     const int next = (i + 1) % o->m;
@@ -91,8 +91,6 @@ bool shooting_equations(orbit *o, arb_ptr f, jacobian *d)
     guard_equation(o, i, f ? f + i * stride + 2 * n : NULL, d, &at);
   }
   if (d) d->row[o->unknowns] = at;
-  _arb_vec_clear(end, (slong)o->largest * (2 * n + o->contacts + 3));
-  arb_clear(entry);
   return fine;
 }
 
@@ -148,8 +146,9 @@ static bool approximate_inverse(krawczyk *k)
   const orbit *o = k->o;
   const jacobian *d = &k->derivative;
   const int n = o->unknowns;
-  double *rows = flint_calloc((size_t)n, sizeof *rows);
-  int *swap = flint_calloc((size_t)n, sizeof *swap);
+  LOCAL(pool) own = ZERO;
+  double *rows = pool_take(own, POOL_BYTES, (size_t)n * sizeof *rows);
+  int *swap = pool_take(own, POOL_BYTES, (size_t)n * sizeof *swap);
   for (int r = 0; r < n; r++) {
     double *row = k->inverse + (size_t)r * n;
     for (int c = 0; c < n; c++) row[c] = 0;
@@ -165,8 +164,6 @@ static bool approximate_inverse(krawczyk *k)
       *entry *= number_near(o->scale + r % (2 * o->n + 1)) / rows[c];
       fine = fine && isfinite(*entry);
     }
-  flint_free(rows);
-  flint_free(swap);
   return fine;
 }
 
@@ -179,12 +176,10 @@ void existence_measure(krawczyk *k)
   const orbit *o = k->o;
   const jacobian *d = &k->derivative;
   const int n = o->unknowns;
-  arb_ptr row = _arb_vec_init(2 * n + d->n), inverse = row + n, middle = inverse + n;
-  arb_t sum;
-  mag_t entry, scale;
-  arb_init(sum);
-  mag_init(entry);
-  mag_init(scale);
+  LOCAL(pool) own = ZERO;
+  arb_ptr row = pool_balls(own, 2L * n + d->n), inverse = row + n, middle = inverse + n;
+  LOCAL(arb) sum = ZERO;
+  LOCAL(mag) entry = ZERO, scale = ZERO;
   for (int e = 0; e < d->n; e++) arb_set_d(middle + e, k->middle[e]);
   for (int r = 0; r < n; r++) {
     _arb_vec_zero(row, n);
@@ -203,10 +198,6 @@ void existence_measure(krawczyk *k)
     arb_dot(sum, NULL, 0, inverse, 1, k->value, 1, n, o->precision);
     arb_get_mag(k->shift + r, sum);
   }
-  _arb_vec_clear(row, 2 * n + d->n);
-  arb_clear(sum);
-  mag_clear(entry);
-  mag_clear(scale);
 }
 
 bool existence_prepare(krawczyk *k, orbit *o, failure *f)
@@ -214,12 +205,12 @@ bool existence_prepare(krawczyk *k, orbit *o, failure *f)
   const int n = o->unknowns;
   jacobian *d = &k->derivative;
   if (!k->o) {
-    d->row = flint_calloc((size_t)n + 1, sizeof *d->row);
-    k->inverse = flint_calloc((size_t)n * (size_t)n, sizeof *k->inverse);
-    k->value = _arb_vec_init(n);
-    k->defect = _mag_vec_init(n);
-    k->shift = _mag_vec_init(n);
-    k->image = _mag_vec_init(n);
+    d->row = pool_take(&k->pool, POOL_BYTES, ((size_t)n + 1) * sizeof *d->row);
+    k->inverse = pool_take(&k->pool, POOL_BYTES, (size_t)n * (size_t)n * sizeof *k->inverse);
+    k->value = pool_balls(&k->pool, n);
+    k->defect = pool_mags(&k->pool, n);
+    k->shift = pool_mags(&k->pool, n);
+    k->image = pool_mags(&k->pool, n);
   }
   k->o = o;
   box_set(o, NULL);
@@ -235,11 +226,10 @@ bool existence_holds(krawczyk *k, const arb_t radius, double *ratio)
   orbit *o = k->o;
   const jacobian *d = &k->derivative;
   const int n = o->unknowns;
-  mag_ptr half = _mag_vec_init(2 * n), spread = half + n;
-  mag_t entry;
-  arb_t bound;
-  mag_init(entry);
-  arb_init(bound);
+  LOCAL(pool) own = ZERO;
+  mag_ptr half = pool_mags(own, 2L * n), spread = half + n;
+  LOCAL(mag) entry = ZERO;
+  LOCAL(arb) bound = ZERO;
   bool holds = true;
   *ratio = 0;
   for (int c = 0; c < n; c++) {
@@ -278,25 +268,14 @@ bool existence_holds(krawczyk *k, const arb_t radius, double *ratio)
     holds = false;
     *ratio = INFINITY;
   }
-  _mag_vec_clear(half, 2 * n);
-  mag_clear(entry);
-  arb_clear(bound);
   return holds;
 }
 
 void existence_free(krawczyk *k)
 {
-  if (!k->o) return;
-  const int n = k->o->unknowns;
-  flint_free(k->derivative.row);
-  flint_free(k->derivative.column);
   for (int i = 0; i < k->derivative.room; i++) arb_clear(k->derivative.value + i);
+  flint_free(k->derivative.column);
   flint_free(k->derivative.value);
-  flint_free(k->inverse);
   flint_free(k->middle);
-  _arb_vec_clear(k->value, n);
-  _mag_vec_clear(k->defect, n);
-  _mag_vec_clear(k->shift, n);
-  _mag_vec_clear(k->image, n);
-  *k = (krawczyk){0};
+  pool_clear(&k->pool);
 }

@@ -14,51 +14,43 @@ enum {
  *     |A h|^(degree + 1) / (degree + 1)! exp |A h| */
 static void remainder_bound(mag_t rest, const mag_t norm, int degree)
 {
-  mag_t growth;
-  mag_init(growth);
+  LOCAL(mag) growth = ZERO;
   mag_exp(growth, norm);
   mag_pow_ui(rest, norm, (ulong)degree + 1);
   mag_mul(rest, rest, growth);
   mag_rfac_ui(growth, (ulong)degree + 1);
   mag_mul(rest, rest, growth);
-  mag_clear(growth);
 }
 
 /* The smallest degree that leaves less than 2^-bits; at most LIMIT_TERMS. */
 static int degree_for(const mag_t norm, slong bits)
 {
   int degree = 1;
-  mag_t rest;
-  mag_init(rest);
+  LOCAL(mag) rest = ZERO;
   do remainder_bound(rest, norm, ++degree);
   while (mag_cmp_2exp_si(rest, -bits) > 0 && degree < LIMIT_TERMS);
-  mag_clear(rest);
   return degree;
 }
 
 static void norm_of(mag_t norm, const orbit_segment *s, arb_srcptr z)
 {
-  mag_t entry;
-  mag_init(entry);
+  LOCAL(mag) entry = ZERO;
   mag_zero(norm);
   for (int i = 0; i < s->size; i++) {
     arb_get_mag(entry, z + i);
     mag_mul_2exp_si(entry, entry, -s->weight[i]);
     mag_max(norm, norm, entry);
   }
-  mag_clear(entry);
 }
 
 /* Adds to every component what a vector of this norm may hold. */
 static void add_rest(const orbit_segment *s, arb_ptr z, const mag_t norm)
 {
-  mag_t entry;
-  mag_init(entry);
+  LOCAL(mag) entry = ZERO;
   for (int i = 0; i < s->size; i++) {
     mag_mul_2exp_si(entry, norm, s->weight[i]);
     arb_add_error_mag(z + i, entry);
   }
-  mag_clear(entry);
 }
 
 void flow_apply(const orbit *o, const orbit_segment *s, arb_srcptr z, arb_ptr derivative)
@@ -73,12 +65,10 @@ void flow_apply(const orbit *o, const orbit_segment *s, arb_srcptr z, arb_ptr de
 static void exponential(const orbit *o, const orbit_segment *s, const arb_t h, const mag_t norm, arb_ptr z, int columns)
 {
   const int size = s->size, degree = degree_for(norm, o->precision + 8);
-  arb_ptr term = _arb_vec_init(2 * size), next = term + size;
-  arb_t factor;
-  mag_t rest, whole;
-  arb_init(factor);
-  mag_init(rest);
-  mag_init(whole);
+  LOCAL(pool) own = ZERO;
+  arb_ptr term = pool_balls(own, 2L * size), next = term + size;
+  LOCAL(arb) factor = ZERO;
+  LOCAL(mag) rest = ZERO, whole = ZERO;
   for (int c = 0; c < columns; c++, z += size) {
     norm_of(whole, s, z);
     _arb_vec_set(term, z, size);
@@ -92,31 +82,24 @@ static void exponential(const orbit *o, const orbit_segment *s, const arb_t h, c
     mag_mul(rest, rest, whole);
     add_rest(s, z, rest);
   }
-  _arb_vec_clear(term, 2 * size);
-  arb_clear(factor);
-  mag_clear(rest);
-  mag_clear(whole);
 }
 
 /* ---- segments ---- */
 
 void flow_duration(const orbit *o, int i, arb_t tau)
 {
-  arb_t from;
-  arb_init(from);
+  LOCAL(arb) from = ZERO;
   orbit_time(o, i, from);
   orbit_time(o, i + 1, tau);
   if (o->c->section) arb_set(tau, o->duration); /* its time is fixed */
   else arb_sub(tau, tau, from, o->precision);
-  arb_clear(from);
 }
 
 /* Substeps of |A| step <= 2, a power of two of them. */
 static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *entries)
 {
   orbit_segment *s = &o->segments[i];
-  mag_t norm;
-  mag_init(norm);
+  LOCAL(mag) norm = ZERO;
   flow_duration(o, i, s->span);
   bool fine = arb_is_finite(s->span) && arb_is_positive(s->span);
   if (!fine) fail(f, i, -1, "times not in order: segment %d", i);
@@ -130,7 +113,6 @@ static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *entri
   if (*steps > LIMIT_STEPS || *entries > LIMIT_ENTRIES)
     fine = fail(f, i, -1, "too stiff: more than %d substeps, or too many coordinates", LIMIT_STEPS);
   arb_mul_2exp_si(s->step, s->span, -s->levels);
-  mag_clear(norm);
   return fine;
 }
 
@@ -138,45 +120,39 @@ bool flow_prepare(orbit *o, failure *f)
 {
   long steps = 0;
   double entries = 0;
-  mag_t norm;
+  LOCAL(mag) norm = ZERO;
   for (int i = 0; i < o->m; i++)
     if (!choose_steps(o, i, f, &steps, &entries)) return false;
-  mag_init(norm);
   mag_set_ui(norm, 2);
   o->degree = degree_for(norm, o->precision - 20);
-  arb_ptr columns = _arb_vec_init((slong)o->largest * o->largest);
+  LOCAL(pool) own = ZERO;
+  arb_ptr columns = pool_balls(own, (slong)o->largest * o->largest);
   for (int i = 0; i < o->m; i++) {
     orbit_segment *s = &o->segments[i];
     const int size = s->size;
-    s->power = flint_calloc((size_t)s->levels + 1, sizeof *s->power);
-    for (int b = 0; b <= s->levels; b++) arb_mat_init(s->power[b], size, size);
+    s->power = pool_take(&o->pool, POOL_MATRICES, (size_t)s->levels + 1);
+    for (int b = 0; b <= s->levels; b++) arb_mat_init(s->power + b, size, size);
     _arb_vec_zero(columns, (slong)size * size);
     for (int c = 0; c < size; c++) arb_one(columns + c * size + c);
     arb_get_mag(norm, s->step);
     mag_mul(norm, norm, s->norm);
     exponential(o, s, s->step, norm, columns, size);
     for (int r = 0; r < size; r++)
-      for (int c = 0; c < size; c++) arb_set(arb_mat_entry(s->power[0], r, c), columns + c * size + r);
-    for (int b = 1; b <= s->levels; b++) arb_mat_sqr(s->power[b], s->power[b - 1], o->precision);
+      for (int c = 0; c < size; c++) arb_set(arb_mat_entry(s->power, r, c), columns + c * size + r);
+    for (int b = 1; b <= s->levels; b++) arb_mat_sqr(s->power + b, s->power + b - 1, o->precision);
   }
-  _arb_vec_clear(columns, (slong)o->largest * o->largest);
-  mag_clear(norm);
   return true;
 }
 
 bool flow_correct(const orbit *o, const orbit_segment *s, const arb_t tau, arb_ptr z, int columns)
 {
-  arb_t h;
-  mag_t norm;
-  arb_init(h);
-  mag_init(norm);
+  LOCAL(arb) h = ZERO;
+  LOCAL(mag) norm = ZERO;
   arb_sub(h, tau, s->span, o->precision);
   arb_get_mag(norm, h);
   mag_mul(norm, norm, s->norm);
   const bool small = mag_cmp_2exp_si(norm, 4) < 0;
   if (small) exponential(o, s, h, norm, z, columns);
-  arb_clear(h);
-  mag_clear(norm);
   return small;
 }
 
@@ -190,22 +166,20 @@ bool flow_end(const orbit *o, int i, arb_ptr end, arb_ptr columns)
 {
   const orbit_segment *s = &o->segments[i];
   const int sliders = 2 * o->n + 1 + 2 * o->harmonics;
-  arb_t tau;
-  arb_init(tau);
+  LOCAL(arb) tau = ZERO;
   flow_duration(o, i, tau);
-  times_vector(end, s->power[s->levels], s->start, o->precision);
+  times_vector(end, s->power + s->levels, s->start, o->precision);
   bool fine = flow_correct(o, s, tau, end, 1);
   if (columns && fine) {
     int count = 0;
     for (int c = 0; c < s->size; c++) {
       if (c >= 2 * o->n && c < sliders) continue;
       for (int r = 0; r < s->size; r++)
-        arb_set(columns + count * s->size + r, arb_mat_entry(s->power[s->levels], r, c));
+        arb_set(columns + count * s->size + r, arb_mat_entry(s->power + s->levels, r, c));
       count++;
     }
     fine = flow_correct(o, s, tau, columns, count);
   }
-  arb_clear(tau);
   return fine;
 }
 
@@ -213,8 +187,7 @@ bool flow_end(const orbit *o, int i, arb_ptr end, arb_ptr columns)
 
 static void walk_width(walk *w, const arb_t width)
 {
-  mag_t norm;
-  mag_init(norm);
+  LOCAL(mag) norm = ZERO;
   arb_set(w->width, width);
   arb_get_mag(norm, width);
   mag_mul(norm, norm, w->s->norm);
@@ -222,19 +195,15 @@ static void walk_width(walk *w, const arb_t width)
   if (w->degree > w->o->degree) w->degree = w->o->degree;
   remainder_bound(w->rest, norm, w->degree);
   for (int j = 0; j < w->degree; j++) arb_div_ui(w->factor + j, width, (ulong)j + 1, w->o->precision);
-  mag_clear(norm);
 }
 
 void walk_start(walk *w, const orbit *o, int i)
 {
   const orbit_segment *s = &o->segments[i];
   *w = (walk){.o = o, .s = s, .steps = 1L << s->levels, .k = -1};
-  arb_init(w->width);
-  arb_init(w->end);
-  mag_init(w->rest);
-  w->at = _arb_vec_init((s->levels + 1L) * s->size);
-  w->series = _arb_vec_init((o->degree + 1L) * s->size);
-  w->factor = _arb_vec_init(o->degree);
+  w->at = pool_balls(&w->pool, (s->levels + 1L) * s->size);
+  w->series = pool_balls(&w->pool, (o->degree + 1L) * s->size);
+  w->factor = pool_balls(&w->pool, o->degree);
   walk_width(w, s->step);
   arb_one(w->end);
 }
@@ -257,11 +226,9 @@ bool walk_next(walk *w)
   const int slot = trailing(w, w->k);
   arb_ptr z = w->at + (slong)slot * size;
   if (w->k == 0) _arb_vec_set(z, s->start, size);
-  else times_vector(z, s->power[slot], w->at + (slong)trailing(w, w->k & (w->k - 1)) * size, o->precision);
+  else times_vector(z, s->power + slot, w->at + (slong)trailing(w, w->k & (w->k - 1)) * size, o->precision);
   if (w->k == w->steps - 1) { /* as long as the segment may last */
-    arb_t left, length;
-    arb_init(left);
-    arb_init(length);
+    LOCAL(arb) left = ZERO, length = ZERO;
     flow_duration(o, (int)(s - o->segments), left);
     arb_mul_si(length, s->step, w->k, o->precision);
     arb_sub(left, left, length, o->precision);
@@ -269,8 +236,6 @@ bool walk_next(walk *w)
     mag_zero(arb_radref(length));
     walk_width(w, length);
     arb_div(w->end, left, length, o->precision);
-    arb_clear(left);
-    arb_clear(length);
   }
   _arb_vec_set(w->series, z, size);
   for (int j = 0; j < w->degree; j++) {
@@ -283,9 +248,7 @@ bool walk_next(walk *w)
 
 void walk_end(walk *w)
 {
-  _arb_vec_clear(w->at, (w->s->levels + 1L) * w->s->size);
-  _arb_vec_clear(w->series, (w->o->degree + 1L) * w->s->size);
-  _arb_vec_clear(w->factor, w->o->degree);
+  pool_clear(&w->pool);
   arb_clear(w->width);
   arb_clear(w->end);
   mag_clear(w->rest);
@@ -294,7 +257,7 @@ void walk_end(walk *w)
 void walk_polynomial(const walk *w, arb_srcptr row, arb_ptr polynomial, mag_t rest)
 {
   const int size = w->s->size;
-  mag_t entry;
+  LOCAL(mag) entry = ZERO;
   int first = 0, last = size;
   while (first < size && arb_is_zero(row + first)) first++;
   while (last > first && arb_is_zero(row + last - 1)) last--;
@@ -302,7 +265,6 @@ void walk_polynomial(const walk *w, arb_srcptr row, arb_ptr polynomial, mag_t re
     arb_dot(polynomial + j, NULL, 0, row + first, 1, w->series + (slong)j * size + first, 1, last - first,
             w->o->precision);
   /* |row rest| <= sum |row_i| 2^weight_i times the rest's norm, which is relative to the norm of Z */
-  mag_init(entry);
   mag_zero(rest);
   for (int i = first; i < last; i++) {
     arb_get_mag(entry, row + i);
@@ -312,24 +274,20 @@ void walk_polynomial(const walk *w, arb_srcptr row, arb_ptr polynomial, mag_t re
   norm_of(entry, w->s, w->series);
   mag_mul(rest, rest, entry);
   mag_mul(rest, rest, w->rest);
-  mag_clear(entry);
 }
 
 /* ---- polynomials on [0, 1] ---- */
 
 void bernstein(arb_ptr b, arb_srcptr polynomial, int full, int degree, const mag_t rest, slong precision)
 {
-  mag_t error, term;
-  mag_init(error);
-  mag_init(term);
+  LOCAL(mag) error = ZERO, term = ZERO;
   mag_set(error, rest);
   for (int k = degree + 1; k <= full; k++) {
     arb_get_mag(term, polynomial + k);
     mag_add(error, error, term);
   }
   /* b_i = sum over k <= i of binomial(i, k) / binomial(degree, k) c_k, by repeated sums */
-  fmpz_t binomial;
-  fmpz_init(binomial);
+  LOCAL(fmpz) binomial = ZERO;
   fmpz_one(binomial);
   for (int k = 0; k <= degree; k++) {
     arb_div_fmpz(b + k, polynomial + k, binomial, precision);
@@ -339,9 +297,6 @@ void bernstein(arb_ptr b, arb_srcptr polynomial, int full, int degree, const mag
   for (int round = 1; round <= degree; round++)
     for (int i = degree; i >= round; i--) arb_add(b + i, b + i, b + i - 1, precision);
   for (int i = 0; i <= degree; i++) arb_add_error_mag(b + i, error);
-  fmpz_clear(binomial);
-  mag_clear(error);
-  mag_clear(term);
 }
 
 /* de Casteljau at 1/2; `left` may be b itself. */

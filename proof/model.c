@@ -33,34 +33,29 @@ static bool proportional(const fmpq *a, const fmpq *b, int n, fmpq_t ratio)
   if (pivot == n) return false;
   fmpq_div(ratio, a + pivot, b + pivot);
   bool all = true;
-  fmpq_t product;
-  fmpq_init(product);
+  LOCAL(fmpq) product = ZERO_FMPQ;
   for (int i = 0; i < n; i++) {
     fmpq_mul(product, ratio, b + i);
     all = all && fmpq_equal(product, a + i);
   }
-  fmpq_clear(product);
   return all;
 }
 
-static void friction_set(contact_balls *f, const contact_given *k, const fmpq *rest, int n, slong precision)
+static void contact_set(orbit *o, contact_balls *f, const contact_given *k, const fmpq *rest)
 {
-  f->t = _arb_vec_init(n);
-  f->n = _arb_vec_init(n);
-  arb_ptr constants[] = {f->kt, f->mu, f->kn, f->gap, f->load, f->rest, f->ratio};
-  const fmpq *given[] = {k->kt, k->mu, k->kn, k->gap, k->load, rest, NULL};
-  for (size_t i = 0; i < sizeof constants / sizeof *constants; i++) {
-    arb_init(constants[i]);
-    if (given[i]) arb_set_fmpq(constants[i], given[i], precision);
-  }
+  const int n = o->n;
+  const slong precision = o->precision;
+  arb_ptr constants = pool_balls(&o->pool, 7 + 2L * n);
+  f->kt = constants, f->mu = constants + 1, f->kn = constants + 2, f->gap = constants + 3, f->load = constants + 4;
+  f->rest = constants + 5, f->ratio = constants + 6, f->t = constants + 7, f->n = f->t + n;
+  const fmpq *given[] = {k->kt, k->mu, k->kn, k->gap, k->load, rest};
+  for (int i = 0; i < 6; i++)
+    if (given[i]) arb_set_fmpq(constants + i, given[i], precision);
   balls(f->t, k->t, n, precision);
   balls(f->n, k->n, n, precision);
-  fmpq_t ratio;
-  fmpq_init(ratio);
+  LOCAL(fmpq) ratio = ZERO_FMPQ;
   if (k->angled) { /* u and v are proportional by construction, whatever the cosine is */
-    arb_t sine, cosine;
-    arb_init(sine);
-    arb_init(cosine);
+    LOCAL(arb) sine = ZERO, cosine = ZERO;
     fmpq_set_ui(ratio, 180, 1);
     fmpq_div(ratio, k->angle, ratio);
     arb_sin_cos_pi_fmpq(sine, cosine, ratio, precision);
@@ -68,21 +63,13 @@ static void friction_set(contact_balls *f, const contact_given *k, const fmpq *r
     _arb_vec_scalar_mul(f->n, f->n, n, sine, precision);
     arb_div(f->ratio, cosine, sine, precision);
     f->parallel = true;
-    arb_clear(sine);
-    arb_clear(cosine);
   } else if (k->tangential && k->normal && proportional(k->t, k->n, n, ratio)) {
     arb_set_fmpq(f->ratio, ratio, precision);
     f->parallel = true;
   }
-  fmpq_clear(ratio);
 }
 
 /* ---- rows ---- */
-
-static void add_direction(const orbit *o, arb_ptr row, arb_srcptr direction, const arb_t factor)
-{
-  for (int i = 0; i < o->n; i++) arb_addmul(row + i, direction + i, factor, o->precision);
-}
 
 void row_gap(const orbit *o, const orbit_segment *s, int contact, int sign, arb_ptr row)
 {
@@ -93,91 +80,92 @@ void row_gap(const orbit *o, const orbit_segment *s, int contact, int sign, arb_
   if (sign < 0) _arb_vec_neg(row, row, s->size);
 }
 
-void row_limit(const orbit *o, const orbit_segment *s, int contact, int sign, arb_ptr row)
+/* N of a closed contact: kn (n.x + gap), or the constant load */
+static void row_load(const orbit *o, const orbit_segment *s, int contact, arb_ptr row)
 {
   const contact_balls *f = &o->friction[contact];
-  arb_t factor;
-  arb_init(factor);
+  row_gap(o, s, contact, 1, row);
+  if (o->c->contacts[contact].normal) _arb_vec_scalar_mul(row, row, s->size, f->kn, o->precision);
+  else arb_set(row + 2 * o->n, f->load);
+}
+
+/* T: in stick kt (t.x - w), in slip sign mu N */
+static void row_traction(const orbit *o, const orbit_segment *s, int contact, arb_ptr row)
+{
+  const contact_balls *f = &o->friction[contact];
+  const int column = s->slider[contact];
+  if (column < 0) {
+    row_load(o, s, contact, row);
+    _arb_vec_scalar_mul(row, row, s->size, f->mu, o->precision);
+    if (sign_of(s->letters[contact]) < 0) _arb_vec_neg(row, row, s->size);
+    return;
+  }
   _arb_vec_zero(row, s->size);
-  if (o->c->contacts[contact].normal) {
-    arb_mul(factor, f->mu, f->kn, o->precision);
-    add_direction(o, row, f->n, factor);
-    arb_mul(row + 2 * o->n, factor, f->gap, o->precision);
-  } else arb_mul(row + 2 * o->n, f->mu, f->load, o->precision);
-  arb_mul_si(factor, f->kt, -sign, o->precision);
-  add_direction(o, row, f->t, factor);
-  arb_mul_si(row + s->slider[contact], f->kt, sign, o->precision);
-  arb_clear(factor);
+  _arb_vec_scalar_mul(row, f->t, o->n, f->kt, o->precision);
+  arb_neg(row + column, f->kt);
+}
+
+void row_limit(const orbit *o, const orbit_segment *s, int contact, int sign, arb_ptr row)
+{
+  arb_ptr traction = o->scratch;
+  row_load(o, s, contact, row);
+  _arb_vec_scalar_mul(row, row, s->size, o->friction[contact].mu, o->precision);
+  row_traction(o, s, contact, traction);
+  if (sign > 0) _arb_vec_sub(row, row, traction, s->size, o->precision);
+  else _arb_vec_add(row, row, traction, s->size, o->precision);
 }
 
 void row_slip(const orbit *o, const orbit_segment *s, int contact, int sign, arb_ptr row)
 {
   const contact_balls *f = &o->friction[contact];
-  arb_t factor;
-  arb_init(factor);
   _arb_vec_zero(row, s->size);
-  arb_mul_si(factor, f->kt, sign, o->precision);
-  add_direction(o, row + o->n, f->t, factor);
-  if (o->c->contacts[contact].normal) {
-    arb_mul(factor, f->mu, f->kn, o->precision);
-    arb_neg(factor, factor);
-    add_direction(o, row + o->n, f->n, factor);
-  }
-  arb_clear(factor);
+  slider_line(o, contact, sign > 0 ? '+' : '-', row + o->n); /* sign kt (t.v - sign mu kn n.v/kt) */
+  arb_zero(row + 2 * o->n);
+  _arb_vec_scalar_mul(row + o->n, row + o->n, o->n, f->kt, o->precision);
+  if (sign < 0) _arb_vec_neg(row, row, s->size);
 }
 
-void slider_gradient(const orbit *o, int contact, char before, arb_ptr gradient)
+void slider_line(const orbit *o, int contact, char before, arb_ptr line)
 {
   const contact_balls *f = &o->friction[contact];
-  _arb_vec_set(gradient, f->t, o->n);
-  if (before == 'O' || !o->c->contacts[contact].normal) return;
-  arb_t factor;
-  arb_init(factor);
-  arb_mul(factor, f->mu, f->kn, o->precision);
-  arb_div(factor, factor, f->kt, o->precision);
-  arb_mul_si(factor, factor, -sign_of(before), o->precision);
-  add_direction(o, gradient, f->n, factor);
-  arb_clear(factor);
+  const bool normal = o->c->contacts[contact].normal;
+  LOCAL(arb) factor = ZERO;
+  _arb_vec_set(line, f->t, o->n);
+  arb_zero(line + o->n);
+  if (before == 'O') return;
+  arb_div(factor, f->mu, f->kt, o->precision);
+  arb_mul(factor, factor, normal ? f->kn : f->load, o->precision);
+  if (sign_of(before) > 0) arb_neg(factor, factor);
+  if (normal) _arb_vec_scalar_addmul(line, f->n, o->n, factor, o->precision);
+  if (normal) arb_mul(line + o->n, factor, f->gap, o->precision);
+  else arb_set(line + o->n, factor);
 }
 
 /* ---- the matrix of a segment ---- */
 
-/* Rows v of A before the mass: -(K + contacts) x - C v - constants + loads. */
-static void forces(const orbit *o, const orbit_segment *s, arb_mat_t r)
+/* Rows v of A before the mass: -K x - C v - sum [ t T + n (N - N0) ] + loads. row: [size] */
+static void forces(const orbit *o, const orbit_segment *s, arb_mat_t r, arb_ptr row)
 {
   const certificate *c = o->c;
   const int n = o->n;
   const slong p = o->precision;
-  arb_t stiffness, other;
-  arb_init(stiffness);
-  arb_init(other);
+  LOCAL(arb) load = ZERO;
   for (int i = 0; i < n; i++) {
     balls(arb_mat_entry(r, i, 0), c->stiffness + (size_t)i * (size_t)n, n, p);
     balls(arb_mat_entry(r, i, n), c->damping + (size_t)i * (size_t)n, n, p);
   }
   for (int j = 0; j < o->contacts; j++) {
     const contact_balls *f = &o->friction[j];
-    const bool normal = c->contacts[j].normal, closed = s->letters[j] != 'O';
-    const int sign = sign_of(s->letters[j]), column = s->slider[j];
-    for (int i = 0; i < n; i++) {
-      arb_ptr row = arb_mat_entry(r, i, 0);
-      arb_mul(stiffness, f->kn, f->n + i, p); /* n (N - N0): kn (n.x + gap) less kn max(gap, 0) */
-      if (normal && closed) _arb_vec_scalar_addmul(row, f->n, n, stiffness, p);
-      if (normal && closed && fmpq_sgn(c->contacts[j].gap) < 0) arb_addmul(row + 2 * n, stiffness, f->gap, p);
-      if (normal && !closed && fmpq_sgn(c->contacts[j].gap) > 0) arb_submul(row + 2 * n, stiffness, f->gap, p);
-      if (column >= 0) { /* stick: t kt (t.x - w) */
-        arb_mul(stiffness, f->kt, f->t + i, p);
-        _arb_vec_scalar_addmul(row, f->t, n, stiffness, p);
-        arb_sub(row + column, row + column, stiffness, p);
-      } else if (sign) { /* slip: t sign mu N */
-        arb_mul(stiffness, f->mu, f->t + i, p);
-        arb_mul_si(stiffness, stiffness, sign, p);
-        arb_mul(other, stiffness, normal ? f->kn : f->load, p);
-        if (normal) _arb_vec_scalar_addmul(row, f->n, n, other, p);
-        if (normal) arb_addmul(row + 2 * n, other, f->gap, p);
-        else arb_add(row + 2 * n, row + 2 * n, other, p);
-      }
+    const bool closed = s->letters[j] != 'O';
+    if (c->contacts[j].normal) {
+      _arb_vec_zero(row, s->size);
+      if (closed) row_load(o, s, j, row);
+      if (fmpq_sgn(c->contacts[j].gap) > 0) arb_submul(row + 2 * n, f->kn, f->gap, p); /* N0 = max(kn gap, 0) */
+      for (int i = 0; i < n; i++) _arb_vec_scalar_addmul(arb_mat_entry(r, i, 0), row, s->size, f->n + i, p);
     }
+    if (!closed || !c->contacts[j].tangential) continue;
+    row_traction(o, s, j, row);
+    for (int i = 0; i < n; i++) _arb_vec_scalar_addmul(arb_mat_entry(r, i, 0), row, s->size, f->t + i, p);
   }
   arb_mat_neg(r, r);
   for (int h = 0; h < c->n_harmonics; h++) {
@@ -185,23 +173,18 @@ static void forces(const orbit *o, const orbit_segment *s, arb_mat_t r)
     for (int k = 0; k < o->harmonics; k++)
       if (o->forcing[k] == h) column = 2 * n + 1 + 2 * k;
     for (int i = 0; i < n; i++) {
-      arb_set_fmpq(other, c->cosine + (size_t)h * (size_t)n + i, p);
-      arb_add(arb_mat_entry(r, i, column), arb_mat_entry(r, i, column), other, p);
+      arb_set_fmpq(load, c->cosine + (size_t)h * (size_t)n + i, p);
+      arb_add(arb_mat_entry(r, i, column), arb_mat_entry(r, i, column), load, p);
       if (c->harmonic[h] > 0) arb_set_fmpq(arb_mat_entry(r, i, column + 1), c->sine + (size_t)h * (size_t)n + i, p);
     }
   }
-  arb_clear(stiffness);
-  arb_clear(other);
 }
 
 static double upper(const arb_t x)
 {
-  mag_t m;
-  mag_init(m);
+  LOCAL(mag) m = ZERO;
   arb_get_mag(m, x);
-  const double d = mag_get_d(m);
-  mag_clear(m);
-  return d;
+  return mag_get_d(m);
 }
 
 /* Powers of two that balance A: 1 for x, Omega for v, Omega^2/|f| for what loads the masses. Any choice is right, a good one makes few substeps. */
@@ -246,17 +229,14 @@ static void segment_set(orbit *o, int i)
   }
   if (s->size > o->largest) o->largest = s->size;
   arb_mat_init(s->a, s->size, s->size);
-  s->start = _arb_vec_init(s->size);
-  s->first = flint_calloc((size_t)s->size, sizeof(int));
-  s->length = flint_calloc((size_t)s->size, sizeof(int));
-  s->weight = flint_calloc((size_t)s->size, sizeof(slong));
-  mag_init(s->norm);
-  arb_init(s->span);
-  arb_init(s->step);
-  arb_mat_t force, acceleration;
+  s->start = pool_balls(&o->pool, s->size);
+  s->first = pool_take(&o->pool, POOL_BYTES, 2 * (size_t)s->size * sizeof *s->first);
+  s->length = s->first + s->size;
+  s->weight = pool_take(&o->pool, POOL_BYTES, (size_t)s->size * sizeof *s->weight);
+  LOCAL(arb_mat) force = ZERO, acceleration = ZERO;
   arb_mat_init(force, n, s->size);
   arb_mat_init(acceleration, n, s->size);
-  forces(o, s, force);
+  forces(o, s, force, s->start);
   arb_mat_mul(acceleration, o->inverse_mass, force, p);
   for (int r = 0; r < n; r++) {
     arb_one(arb_mat_entry(s->a, r, n + r));
@@ -267,12 +247,8 @@ static void segment_set(orbit *o, int i)
     arb_mul_si(arb_mat_entry(s->a, sine, cosine), o->omega, o->harmonic[h], p);
     arb_neg(arb_mat_entry(s->a, cosine, sine), arb_mat_entry(s->a, sine, cosine));
   }
-  arb_mat_clear(force);
-  arb_mat_clear(acceleration);
   choose_weights(o, s);
-  mag_t sum, entry;
-  mag_init(sum);
-  mag_init(entry);
+  LOCAL(mag) sum = ZERO, entry = ZERO;
   for (int r = 0; r < s->size; r++) {
     int last = -1;
     mag_zero(sum);
@@ -287,8 +263,6 @@ static void segment_set(orbit *o, int i)
     s->length[r] = last < 0 ? 0 : last - s->first[r] + 1;
     if (mag_cmp(sum, s->norm) > 0) mag_set(s->norm, sum);
   }
-  mag_clear(sum);
-  mag_clear(entry);
 }
 
 /* ---- sequences that the theorem covers ---- */
@@ -328,8 +302,7 @@ static bool guard_shape(const orbit *o, int contact, guard kind, int sign, fmpq 
 {
   const contact_given *k = &o->c->contacts[contact];
   bool some = kind == GUARD_TOUCH;
-  fmpq_t friction;
-  fmpq_init(friction);
+  LOCAL(fmpq) friction = ZERO_FMPQ;
   for (int i = 0; i < o->n; i++) {
     fmpq *row = shape + i;
     if (kind == GUARD_TOUCH || k->angled) fmpq_set(row, k->n + i);
@@ -345,18 +318,13 @@ static bool guard_shape(const orbit *o, int contact, guard kind, int sign, fmpq 
   if (kind == GUARD_TOUCH) fmpq_set(shape + o->n, k->gap);
   else if (k->angled) { /* (sign kt cos - mu kn sin) d: is the factor a number other than 0? */
     const contact_balls *f = &o->friction[contact];
-    arb_t factor, load;
-    arb_init(factor);
-    arb_init(load);
+    LOCAL(arb) factor = ZERO, load = ZERO;
     arb_mul(factor, f->kt, f->ratio, o->precision);
     arb_mul_si(factor, factor, sign, o->precision);
     arb_mul(load, f->mu, f->kn, o->precision);
     arb_sub(factor, factor, load, o->precision);
     some = some && !arb_contains_zero(factor);
-    arb_clear(factor);
-    arb_clear(load);
   }
-  fmpq_clear(friction);
   return some;
 }
 
@@ -372,15 +340,12 @@ static bool changes_together(const orbit *o, int event, int a, int b)
   if (kind == GUARD_TOUCH && !(fmpq_is_zero(k->gap) && fmpq_is_zero(l->gap)) &&
       (k->angled != l->angled || (k->angled && !fmpq_equal(k->angle, l->angle))))
     return false;
-  fmpq *shapes = _fmpq_vec_init(2 * (o->n + 1));
-  fmpq_t ratio;
-  fmpq_init(ratio);
-  const bool together = guard_shape(o, a, kind, sign_of(before_a), shapes) &&
-                        guard_shape(o, b, kind, sign_of(before_b), shapes + o->n + 1) &&
-                        proportional(shapes, shapes + o->n + 1, o->n + 1, ratio);
-  fmpq_clear(ratio);
-  _fmpq_vec_clear(shapes, 2 * (o->n + 1));
-  return together;
+  LOCAL(pool) own = ZERO;
+  fmpq *shapes = pool_rationals(own, 2L * (o->n + 1));
+  LOCAL(fmpq) ratio = ZERO_FMPQ;
+  return guard_shape(o, a, kind, sign_of(before_a), shapes) &&
+         guard_shape(o, b, kind, sign_of(before_b), shapes + o->n + 1) &&
+         proportional(shapes, shapes + o->n + 1, o->n + 1, ratio);
 }
 
 static bool sequence_possible(const orbit *o, failure *f)
@@ -396,10 +361,8 @@ static bool sequence_possible(const orbit *o, failure *f)
       if (before == 'S' && after == 'O') {
         const orbit_segment *s = &o->segments[(i + o->m - 1) % o->m];
         if (!o->friction[j].parallel || s->from[j] != 'O')
-          return fail(
-              f, i, j,
-              "segment %d, contact %d: stick that ends by separation must have begun by touching, with proportional motions",
-              i, j);
+          return fail(f, i, j,
+                      "segment %d, contact %d: stick ends by separation, but not where motions are proportional", i, j);
       }
       if (j != guarded && !changes_together(o, i, guarded, j))
         return fail(f, i, j, "two independent transitions at once: event %d, contacts %d and %d", i, guarded, j);
@@ -420,8 +383,7 @@ void orbit_starts(orbit *o)
 {
   const int n = o->n;
   const slong p = o->precision;
-  arb_t angle;
-  arb_init(angle);
+  LOCAL(arb) angle = ZERO;
   for (int i = 0; i < o->m; i++) {
     orbit_segment *s = &o->segments[i];
     arb_srcptr event = orbit_event(o, i);
@@ -433,29 +395,16 @@ void orbit_starts(orbit *o)
       arb_sin_cos(s->start + 2 * n + 2 + 2 * h, s->start + 2 * n + 1 + 2 * h, angle, p);
     }
     for (int j = 0; j < o->contacts; j++) {
-      const contact_balls *f = &o->friction[j];
       if (s->slider[j] < 0) continue;
       arb_ptr w = s->start + s->slider[j];
       if (s->began[j] < 0) {
-        arb_set(w, f->rest);
+        arb_set(w, o->friction[j].rest);
         continue;
       }
-      /* w = t.x from O, t.x - sign mu N/kt from slip: a gradient in x, and a constant */
-      const int sign = sign_of(s->from[j]);
-      slider_gradient(o, j, s->from[j], o->scratch);
-      arb_dot(w, NULL, 0, o->scratch, 1, orbit_event(o, s->began[j]), 1, n, p);
-      if (!sign) continue;
-      arb_mul(angle, f->mu, f->load, p);
-      if (o->c->contacts[j].normal) {
-        arb_mul(angle, f->mu, f->kn, p);
-        arb_mul(angle, angle, f->gap, p);
-      }
-      arb_div(angle, angle, f->kt, p);
-      if (sign > 0) arb_sub(w, w, angle, p);
-      else arb_add(w, w, angle, p);
+      slider_line(o, j, s->from[j], o->scratch);
+      arb_dot(w, o->scratch + n, 0, o->scratch, 1, orbit_event(o, s->began[j]), 1, n, p);
     }
   }
-  arb_clear(angle);
 }
 
 orbit *orbit_new(const certificate *c, failure *f)
@@ -471,11 +420,9 @@ orbit *orbit_new(const certificate *c, failure *f)
   o->unknowns = c->section ? 2 * n : o->m * (2 * n + 1);
   const slong all = (slong)o->m * (2 * n + 1);
   arb_mat_init(o->inverse_mass, n, n);
-  arb_init(o->omega);
-  arb_init(o->duration);
-  o->centre = _arb_vec_init(all);
-  o->box = _arb_vec_init(all);
-  o->scale = _arb_vec_init(2 * n + 1);
+  o->centre = pool_balls(&o->pool, all);
+  o->box = pool_balls(&o->pool, all);
+  o->scale = pool_balls(&o->pool, 2 * n + 1);
   arb_set_fmpq(o->omega, c->omega, p);
   arb_const_pi(o->duration, p);
   arb_mul_si(o->duration, o->duration, 2L * c->multiple, p);
@@ -500,16 +447,15 @@ orbit *orbit_new(const certificate *c, failure *f)
     o->forcing[o->harmonics++] = -1;
   }
   o->first_harmonic = 2 * n + 1 + 2 * first;
-  o->friction = flint_calloc((size_t)o->contacts + 1, sizeof *o->friction);
-  for (int j = 0; j < o->contacts; j++) friction_set(&o->friction[j], &c->contacts[j], c->rest + j, n, p);
-  o->segments = flint_calloc((size_t)o->m, sizeof *o->segments);
-  arb_mat_t mass;
+  o->friction = pool_take(&o->pool, POOL_BYTES, (size_t)o->contacts * sizeof *o->friction);
+  for (int j = 0; j < o->contacts; j++) contact_set(o, &o->friction[j], &c->contacts[j], c->rest + j);
+  o->segments = pool_take(&o->pool, POOL_BYTES, (size_t)o->m * sizeof *o->segments);
+  LOCAL(arb_mat) mass = ZERO;
   arb_mat_init(mass, n, n);
   for (int i = 0; i < n; i++) balls(arb_mat_entry(mass, i, 0), c->mass + (size_t)i * (size_t)n, n, p);
   const bool regular = arb_mat_inv(o->inverse_mass, mass, p);
-  arb_mat_clear(mass);
+  o->scratch = pool_balls(&o->pool, 4L * (2 * n + 1 + 2 * o->harmonics + o->contacts));
   for (int i = 0; i < o->m; i++) segment_set(o, i);
-  o->scratch = _arb_vec_init(o->unknowns + 4 * o->largest);
   if (!regular) fail(f, -1, -1, "the mass matrix is singular");
   if (regular && sequence_possible(o, f)) return o;
   orbit_free(o);
@@ -519,36 +465,16 @@ orbit *orbit_new(const certificate *c, failure *f)
 void orbit_free(orbit *o)
 {
   if (!o) return;
-  const slong all = (slong)o->m * (2 * o->n + 1);
   for (int i = 0; i < o->m; i++) {
     orbit_segment *s = &o->segments[i];
-    if (s->power)
-      for (int b = 0; b <= s->levels; b++) arb_mat_clear(s->power[b]);
-    flint_free(s->power);
-    arb_mat_clear(s->a);
-    _arb_vec_clear(s->start, s->size);
-    flint_free(s->first);
-    flint_free(s->length);
-    flint_free(s->weight);
     mag_clear(s->norm);
     arb_clear(s->span);
     arb_clear(s->step);
+    arb_mat_clear(s->a);
   }
-  flint_free(o->segments);
-  for (int j = 0; j < o->contacts; j++) {
-    contact_balls *f = &o->friction[j];
-    arb_ptr constants[] = {f->kt, f->mu, f->kn, f->gap, f->load, f->rest, f->ratio};
-    for (size_t i = 0; i < sizeof constants / sizeof *constants; i++) arb_clear(constants[i]);
-    _arb_vec_clear(f->t, o->n);
-    _arb_vec_clear(f->n, o->n);
-  }
-  flint_free(o->friction);
-  _arb_vec_clear(o->scratch, o->unknowns + 4 * o->largest);
-  _arb_vec_clear(o->centre, all);
-  _arb_vec_clear(o->box, all);
-  _arb_vec_clear(o->scale, 2 * o->n + 1);
-  arb_mat_clear(o->inverse_mass);
   arb_clear(o->omega);
   arb_clear(o->duration);
+  arb_mat_clear(o->inverse_mass);
+  pool_clear(&o->pool);
   flint_free(o);
 }

@@ -19,20 +19,16 @@ static int place_of(const orbit *o, const orbit_segment *s, int contact, int *si
 static void new_slider(const orbit *o, int contact, char before, arb_srcptr v, arb_ptr gradient)
 {
   const contact_balls *f = &o->friction[contact];
-  slider_gradient(o, contact, before, gradient);
+  slider_line(o, contact, before, gradient);
   if (before != 'O')
     return; /* s -> S: the gradient of t.x - s mu N/kt; no part of the time, whose derivative vanishes there */
   /* O -> S: dw = (t - (u'/v') n).dx, since the instant of touching moves */
-  arb_t u, w;
-  arb_init(u);
-  arb_init(w);
+  LOCAL(arb) u = ZERO, w = ZERO;
   arb_dot(u, NULL, 0, f->t, 1, v, 1, o->n, o->precision);
   arb_dot(w, NULL, 0, f->n, 1, v, 1, o->n, o->precision);
   arb_div(u, u, w, o->precision);
   arb_neg(u, u);
   _arb_vec_scalar_addmul(gradient, f->n, o->n, u, o->precision);
-  arb_clear(u);
-  arb_clear(w);
 }
 
 /* The derivative of the state after event i + 1 by that after event i. */
@@ -79,7 +75,8 @@ int monodromy(const orbit *o, arb_mat_t product, failure *f)
   }
   arb_mat_init(product, fewest, fewest);
   arb_mat_one(product);
-  arb_ptr end = _arb_vec_init((slong)o->largest * (2 * o->n + o->contacts + 1)), columns = end + o->largest;
+  LOCAL(pool) own = ZERO;
+  arb_ptr end = pool_balls(own, (slong)o->largest * (2 * o->n + o->contacts + 1)), columns = end + o->largest;
   bool fine = true;
   for (int k = 0; k < o->m && fine; k++) {
     arb_mat_t one, both;
@@ -91,7 +88,6 @@ int monodromy(const orbit *o, arb_mat_t product, failure *f)
     arb_mat_clear(one);
     arb_mat_clear(both);
   }
-  _arb_vec_clear(end, (slong)o->largest * (2 * o->n + o->contacts + 1));
   if (!fine) fail(f, -1, -1, "stability unproven: the precision does not suffice");
   return fewest;
 }
@@ -100,20 +96,14 @@ int monodromy(const orbit *o, arb_mat_t product, failure *f)
  * discs, and not below the nearest point of any group. */
 static void largest_modulus(const acb_mat_t e, int n, arb_t modulus, slong precision)
 {
-  int *group = flint_calloc((size_t)n, sizeof *group);
-  arb_ptr radius = _arb_vec_init(2 * n + 1), disc = radius + n, gap = disc + n;
-  acb_t between;
-  mag_t entry;
-  arf_t least, most, nearest, bound;
-  acb_init(between);
-  mag_init(entry);
-  arf_init(least);
-  arf_init(most);
-  arf_init(nearest);
-  arf_init(bound);
+  LOCAL(pool) own = ZERO;
+  int *group = pool_take(own, POOL_BYTES, (size_t)n * sizeof *group);
+  arb_ptr radius = pool_balls(own, 2L * n + 1), disc = radius + n, gap = disc + n;
+  LOCAL(acb) between = ZERO;
+  LOCAL(mag) entry = ZERO;
+  LOCAL(arf) least = ZERO, most = ZERO, nearest = ZERO, bound = ZERO;
   for (int i = 0; i < n; i++) {
-    mag_t sum;
-    mag_init(sum);
+    LOCAL(mag) sum = ZERO;
     for (int j = 0; j < n; j++) {
       acb_get_mag(entry, acb_mat_entry(e, i, j));
       if (j != i) mag_add(sum, sum, entry);
@@ -123,7 +113,6 @@ static void largest_modulus(const acb_mat_t e, int n, arb_t modulus, slong preci
     arb_add_error_mag(disc + i, sum);
     arb_get_ubound_arf(bound, disc + i, precision);
     if (arf_cmp(bound, most) > 0) arf_set(most, bound);
-    mag_clear(sum);
     group[i] = i;
     for (int j = 0; j < i; j++) {
       acb_sub(between, acb_mat_entry(e, i, i), acb_mat_entry(e, j, j), precision);
@@ -145,14 +134,6 @@ static void largest_modulus(const acb_mat_t e, int n, arb_t modulus, slong preci
     if (arf_is_finite(nearest)) arf_max(least, least, nearest);
   }
   arb_set_interval_arf(modulus, least, most, precision);
-  flint_free(group);
-  _arb_vec_clear(radius, 2 * n + 1);
-  acb_clear(between);
-  mag_clear(entry);
-  arf_clear(least);
-  arf_clear(most);
-  arf_clear(nearest);
-  arf_clear(bound);
 }
 
 void multipliers(const orbit *o, quantities *q, failure *f)
@@ -176,14 +157,12 @@ void multipliers(const orbit *o, quantities *q, failure *f)
     acb_mat_set_arb_mat(e, m);
     acb_mat_mul(product, e, v, p);
     if (acb_mat_solve(e, v, product, p)) { /* V^-1 M V: the same eigenvalues */
-      arb_t one;
-      arb_init(one);
+      LOCAL(arb) one = ZERO;
       arb_one(one);
       largest_modulus(e, n, q->value[CLAIM_MULTIPLIER], p);
       q->multiplier_known = arb_is_finite(q->value[CLAIM_MULTIPLIER]);
       if (q->multiplier_known && arb_lt(q->value[CLAIM_MULTIPLIER], one)) q->stability = STABILITY_STABLE;
       if (q->multiplier_known && arb_gt(q->value[CLAIM_MULTIPLIER], one)) q->stability = STABILITY_UNSTABLE;
-      arb_clear(one);
     }
     acb_mat_clear(v);
     acb_mat_clear(product);

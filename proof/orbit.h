@@ -18,9 +18,9 @@ bool fail(failure *f, int segment, int contact, const char *format, ...); /* kee
 /* A contact in balls. */
 typedef struct contact_balls {
   arb_ptr t, n; /* [coordinates]                                                           */
-  arb_t kt, mu, kn, gap, load, rest;
+  arb_ptr kt, mu, kn, gap, load, rest;
   bool parallel; /* t = ratio n: tangential and normal motions are proportional             */
-  arb_t ratio;
+  arb_ptr ratio;
 } contact_balls;
 
 /* A segment's law and flow. Column of Z: x at 0, v at n, 1 at 2 n, then cos and sin of each harmonic, then the sliders that stick. */
@@ -36,8 +36,8 @@ typedef struct orbit_segment {
   mag_t norm;                 /* of A in it                                               */
   arb_t span, step;           /* exact: about the segment's duration; span / 2^levels     */
   int levels;
-  arb_mat_t *power; /* [levels + 1] exp(A step 2^b)                             */
-  arb_ptr start;    /* [size] Z at its start, for all y in the box              */
+  arb_mat_struct *power; /* [levels + 1] exp(A step 2^b)                             */
+  arb_ptr start;         /* [size] Z at its start, for all y in the box              */
 } orbit_segment;
 
 /* dF/dy, by rows. */
@@ -49,6 +49,7 @@ typedef struct jacobian {
 } jacobian;
 
 typedef struct orbit {
+  pool pool; /* of all arrays */
   const certificate *c;
   slong precision;
   int n, m, contacts, unknowns;
@@ -61,7 +62,7 @@ typedef struct orbit {
   orbit_segment *segments; /* [m]                               */
   arb_ptr centre, box;     /* [m][2 n + 1] y0; y                */
   arb_ptr scale;           /* [2 n + 1]                         */
-  arb_ptr scratch;         /* [unknowns + 4 size]               */
+  arb_ptr scratch;         /* [4 size], of whoever is at work    */
   int largest;             /* Z of the segments                 */
   int degree;              /* of a substep's Taylor series, at most */
 } orbit;
@@ -86,8 +87,8 @@ int orbit_guarded(const orbit *o, int i);
 typedef enum guard { GUARD_TOUCH, GUARD_SLIP, GUARD_STICK } guard;
 guard guard_of(char before, char after);
 static inline int sign_of(char letter) { return letter == '+' ? 1 : letter == '-' ? -1 : 0; }
-/* d w / d x at the event where the stick of a contact began, from the letter before it: [n]. From O it is for a w = t.x there. */
-void slider_gradient(const orbit *o, int contact, char before, arb_ptr gradient);
+/* w of a contact whose stick begins, as a line in x: [n], and its constant. From O: t.x; from slip s: t.x - s mu N/kt. */
+void slider_line(const orbit *o, int contact, char before, arb_ptr line);
 /* Functions of Z that are linear, as rows [size]. */
 void row_gap(const orbit *o, const orbit_segment *s, int contact, int sign,
              arb_ptr row); /* sign (n.x + gap)            */
@@ -113,6 +114,7 @@ bool flow_end(const orbit *o, int i, arb_ptr end, arb_ptr columns);
 
 /* The substeps of a segment, one after the other: lengths `step`, the last as long as the segment may last at most. */
 typedef struct walk {
+  pool pool;
   const orbit *o;
   const orbit_segment *s;
   long steps, k; /* of steps; the one that was walked last                                          */
@@ -138,6 +140,7 @@ known_sign bernstein_side(arb_srcptr b, int degree);
 
 /* ---- existence.c ---- */
 typedef struct krawczyk {
+  pool pool;
   orbit *o;
   jacobian derivative;
   arb_ptr value;   /* [unknowns] F(y0)                             */

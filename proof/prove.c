@@ -30,10 +30,8 @@ static bool claims_hold(const certificate *c, decision *v)
   static const char *const words[] = {"", "stable", "unstable", "unproven"};
   const quantities *q = &v->quantities;
   const slong precision = 2L * c->precision + 64;
-  arb_t low, high;
+  LOCAL(arb) low = ZERO, high = ZERO;
   bool hold = true;
-  arb_init(low);
-  arb_init(high);
   if ((c->stability == STABILITY_STABLE || c->stability == STABILITY_UNSTABLE) && q->stability != c->stability)
     hold = q->stability == STABILITY_UNPROVEN
                ? fail(&v->failure, -1, -1, "stability unproven")
@@ -48,8 +46,6 @@ static bool claims_hold(const certificate *c, decision *v)
     else if (!arb_le(low, q->value[i]) || !arb_le(q->value[i], high))
       hold = fail(&v->failure, -1, -1, "claim is too narrow: %s", claim_names[i]);
   }
-  arb_clear(low);
-  arb_clear(high);
   return hold;
 }
 
@@ -61,9 +57,8 @@ bool prove(const certificate *c, decision *v)
   bool holds = o && flow_prepare(o, f) && existence_prepare(&k, o, f);
   if (holds) {
     /* the larger radius first: the image that is left is that of the smaller one */
-    arb_t radius;
+    LOCAL(arb) radius = ZERO;
     double ratio;
-    arb_init(radius);
     existence_measure(&k);
     for (int i = 1; i >= 0 && holds; i--) {
       arb_set_fmpq(radius, c->radii + i, o->precision);
@@ -72,7 +67,6 @@ bool prove(const certificate *c, decision *v)
         fail(f, -1, -1, "existence: Krawczyk gives %.2g of the %s", ratio, i ? "uniqueness radius" : "radius");
     }
     v->exists = holds;
-    arb_clear(radius);
   }
   if (holds) box_set(o, k.image);
   holds = holds && prove_orbit(o, v) && claims_hold(c, v);
@@ -85,11 +79,9 @@ bool prove(const certificate *c, decision *v)
 
 slong decimal_place(const arf_t x, slong otherwise)
 {
-  mag_t m;
-  mag_init(m);
+  LOCAL(mag) m = ZERO;
   arf_get_mag(m, x);
   const double log2 = mag_is_special(m) ? NAN : mag_get_d_log2_approx(m);
-  mag_clear(m);
   return isfinite(log2) && fabs(log2) < 20000 ? (slong)floor(log2 * 0.30102999566398120) : otherwise;
 }
 
@@ -117,11 +109,8 @@ static char *place_point(const char *digits, slong place)
 
 char *decimal_write(const arf_t x, slong place, int round)
 {
-  fmpz_t power, integer;
-  arf_t scaled;
-  fmpz_init(power);
-  fmpz_init(integer);
-  arf_init(scaled);
+  LOCAL(fmpz) power = ZERO, integer = ZERO;
+  LOCAL(arf) scaled = ZERO;
   fmpz_ui_pow_ui(power, 10, (ulong)labs(place));
   if (place <= 0) {
     arf_mul_fmpz(scaled, x, power, ARF_PREC_EXACT, ARF_RND_DOWN);
@@ -133,19 +122,13 @@ char *decimal_write(const arf_t x, slong place, int round)
   }
   char *digits = fmpz_get_str(NULL, 10, integer), *text = place_point(digits, place);
   flint_free(digits);
-  fmpz_clear(power);
-  fmpz_clear(integer);
-  arf_clear(scaled);
   return text;
 }
 
 json_t *decimal_interval(const arb_t x, const mag_t pad, slong precision)
 {
   enum { WIDTH_DIGITS = 3, MOST_DIGITS = 60 };
-  arf_t low, high, width;
-  arf_init(low);
-  arf_init(high);
-  arf_init(width);
+  LOCAL(arf) low = ZERO, high = ZERO, width = ZERO;
   arf_set_mag(width, pad);
   arb_get_lbound_arf(low, x, precision);
   arb_get_ubound_arf(high, x, precision);
@@ -159,9 +142,6 @@ json_t *decimal_interval(const arb_t x, const mag_t pad, slong precision)
   json_t *interval = json_pack("[s, s]", from, to);
   free(from);
   free(to);
-  arf_clear(low);
-  arf_clear(high);
-  arf_clear(width);
   return interval;
 }
 
@@ -169,13 +149,11 @@ json_t *decimal_interval(const arb_t x, const mag_t pad, slong precision)
 
 static json_t *radius_json(const fmpq *radius)
 {
-  arf_t r;
-  arf_init(r);
+  LOCAL(arf) r = ZERO;
   arf_set_fmpq(r, radius, 64, ARF_RND_UP);
   char *text = decimal_write(r, decimal_place(r, 0) - 2, 0);
   json_t *json = json_string(text);
   free(text);
-  arf_clear(r);
   return json;
 }
 
@@ -185,8 +163,7 @@ json_t *answer_json(const certificate *c, const decision *v, const char *why)
   const failure *f = decided ? &v->failure : NULL;
   const quantities *q = decided ? &v->quantities : NULL;
   json_t *answer = json_object();
-  mag_t none;
-  mag_init(none);
+  LOCAL(mag) none = ZERO;
   json_object_set_new(answer, "verdict", json_string(!decided ? "wrong" : f->reason[0] ? "rejected" : "accepted"));
   json_object_set_new(answer, "reason",
                       !decided       ? json_string(why)
@@ -212,6 +189,5 @@ json_t *answer_json(const certificate *c, const decision *v, const char *why)
     json_array_append_new(states, json_stringn(c->letters + (size_t)i * (size_t)c->n_contacts, (size_t)c->n_contacts));
   json_object_set_new(answer, "states", states);
   json_object_set_new(answer, "transitions", c ? json_integer(c->section ? 0 : c->n_events) : json_null());
-  mag_clear(none);
   return answer;
 }

@@ -12,6 +12,7 @@ typedef struct piece {
 } piece;
 
 typedef struct extremum {
+  pool pool;
   const orbit *o;
   int n;
   piece *pieces;
@@ -25,20 +26,16 @@ typedef struct extremum {
 
 static void attained(extremum *e, const arb_t value)
 {
-  arf_t bound;
-  arf_init(bound);
+  LOCAL(arf) bound = ZERO;
   arb_get_lbound_arf(bound, value, e->o->precision);
   if (arf_cmp(bound, e->low) > 0) arf_set(e->low, bound);
-  arf_clear(bound);
 }
 
 static void not_above(extremum *e, const arb_t value)
 {
-  arf_t bound;
-  arf_init(bound);
+  LOCAL(arf) bound = ZERO;
   arb_get_ubound_arf(bound, value, e->o->precision);
   if (arf_cmp(bound, e->high) > 0) arf_set(e->high, bound);
-  arf_clear(bound);
 }
 
 /* The polynomial at a ball: its value in the middle, and the slope on the ball times what it is wide. */
@@ -46,32 +43,24 @@ static void value_at(const extremum *e, const piece *p, const arb_t at, arb_t va
 {
   const int n = e->o->degree + 1;
   const slong precision = e->o->precision;
-  arb_t middle, slope;
-  arb_init(middle);
-  arb_init(slope);
+  LOCAL(arb) middle = ZERO, slope = ZERO;
   arb_get_mid_arb(middle, at);
   _arb_poly_evaluate(value, p->polynomial, n, middle, precision);
   if (!arb_is_exact(at)) {
     _arb_poly_evaluate(slope, p->polynomial + n, n, at, precision);
-    mag_t wide;
-    mag_init(wide);
+    LOCAL(mag) wide = ZERO;
     arb_get_mag(wide, slope);
     mag_mul(wide, wide, arb_radref(at));
     arb_add_error_mag(value, wide);
-    mag_clear(wide);
   }
-  arb_clear(middle);
-  arb_clear(slope);
 }
 
 static void both(extremum *e, const piece *p, const arb_t at)
 {
-  arb_t value;
-  arb_init(value);
+  LOCAL(arb) value = ZERO;
   value_at(e, p, at, value);
   attained(e, value);
   not_above(e, value);
-  arb_clear(value);
 }
 
 /* The maximum of a concave piece over [a, b]: bisect the slope; where its sign is lost, the second order is all that is left. */
@@ -79,11 +68,7 @@ static void concave(extremum *e, const piece *p, const arb_t a, const arb_t b)
 {
   const slong precision = e->o->precision;
   const int n = e->o->degree + 1;
-  arb_t low, high, middle, slope;
-  arb_init(low);
-  arb_init(high);
-  arb_init(middle);
-  arb_init(slope);
+  LOCAL(arb) low = ZERO, high = ZERO, middle = ZERO, slope = ZERO;
   arb_set(low, a);
   arb_set(high, b);
   for (int i = 0; i < BISECTIONS; i++) {
@@ -97,8 +82,7 @@ static void concave(extremum *e, const piece *p, const arb_t a, const arb_t b)
   }
   /* No sign at the middle: close in on it from both sides while there is one. */
   for (int i = 0; i < BISECTIONS; i++) {
-    arb_t quarter;
-    arb_init(quarter);
+    LOCAL(arb) quarter = ZERO;
     bool moved = false;
     for (int side = 0; side < 2; side++) {
       arb_add(quarter, side ? high : low, middle, precision);
@@ -108,7 +92,6 @@ static void concave(extremum *e, const piece *p, const arb_t a, const arb_t b)
       if (!side && arb_is_positive(slope) && arb_gt(quarter, low)) arb_set(low, quarter), moved = true;
       if (side && arb_is_negative(slope) && arb_lt(quarter, high)) arb_set(high, quarter), moved = true;
     }
-    arb_clear(quarter);
     if (!moved) break;
   }
   /* Where b is the segment's end, a ball, the maximum may be there. */
@@ -116,10 +99,6 @@ static void concave(extremum *e, const piece *p, const arb_t a, const arb_t b)
   arb_min(high, high, b, precision);
   arb_union(middle, low, high, precision);
   both(e, p, middle);
-  arb_clear(low);
-  arb_clear(high);
-  arb_clear(middle);
-  arb_clear(slope);
 }
 
 /* The maximum over [a, b] of the piece; its Bernstein coefficients, and those of two derivatives, stand at `level`. */
@@ -127,12 +106,8 @@ static void bound_on(extremum *e, const piece *p, int level, double a, double b)
 {
   const int n = e->o->degree + 1, degree = e->o->degree;
   arb_ptr g = e->coefficients + 3L * n * level;
-  arf_t bound, least;
-  arb_t from, to;
-  arf_init(bound);
-  arf_init(least);
-  arb_init(from);
-  arb_init(to);
+  LOCAL(arf) bound = ZERO, least = ZERO;
+  LOCAL(arb) from = ZERO, to = ZERO;
   arb_set_d(from, a);
   arb_set_d(to, b);
   if (b == 1) arb_set(to, &p->end); /* never beyond the segment's end */
@@ -161,10 +136,6 @@ static void bound_on(extremum *e, const piece *p, int level, double a, double b)
     bound_on(e, p, level + 1, middle, b);
   }
 done:
-  arf_clear(bound);
-  arf_clear(least);
-  arb_clear(from);
-  arb_clear(to);
 }
 
 /* The largest value of sign times the response over all pieces, given what is attained. */
@@ -172,8 +143,7 @@ static void largest(extremum *e, int sign, arb_t value)
 {
   const orbit *o = e->o;
   const int n = o->degree + 1;
-  mag_t none;
-  mag_init(none);
+  LOCAL(mag) none = ZERO;
   for (int i = 0; i < e->n; i++) {
     const piece *p = &e->pieces[i];
     for (int d = 0; d < 3; d++)
@@ -183,7 +153,6 @@ static void largest(extremum *e, int sign, arb_t value)
   arf_max(e->high, e->high, e->low); /* where no piece can exceed what is attained */
   arb_set_interval_arf(value, e->low, e->high, o->precision);
   if (sign < 0) arb_neg(value, value);
-  mag_clear(none);
 }
 
 /* Keeps the substep unless the response stays below what is attained elsewhere. */
@@ -191,10 +160,8 @@ static void consider(extremum *e, const walk *w, arb_srcptr rows, int sign, arb_
 {
   const orbit *o = e->o;
   const int n = o->degree + 1;
-  mag_t rest;
-  arf_t bound;
-  mag_init(rest);
-  arf_init(bound);
+  LOCAL(mag) rest = ZERO;
+  LOCAL(arf) bound = ZERO;
   walk_polynomial(w, rows, polynomial, rest);
   if (sign < 0) _arb_vec_neg(polynomial, polynomial, w->degree + 1);
   attained(e, polynomial); /* a substep starts inside the segment */
@@ -204,12 +171,11 @@ static void consider(extremum *e, const walk *w, arb_srcptr rows, int sign, arb_
     arb_get_ubound_arf(bound, rough + i, o->precision);
     above = above || arf_cmp(bound, e->low) >= 0;
   }
-  arf_clear(bound);
   if (above) {
     if ((e->n & (e->n - 1)) == 0)
       e->pieces = flint_realloc(e->pieces, (e->n ? 2 * (size_t)e->n : 1) * sizeof *e->pieces);
     piece *p = &e->pieces[e->n++];
-    p->polynomial = _arb_vec_init(3L * n);
+    p->polynomial = pool_balls(&e->pool, 3L * n);
     arb_init(&p->end);
     arb_set(&p->end, w->end);
     _arb_vec_set(p->polynomial, polynomial, w->degree + 1);
@@ -223,7 +189,6 @@ static void consider(extremum *e, const walk *w, arb_srcptr rows, int sign, arb_
       if (sign < 0) _arb_vec_neg(derivative, derivative, w->degree + 1);
     }
   }
-  mag_clear(rest);
 }
 
 /* ---- mean and harmonic 1 ---- */
@@ -240,15 +205,8 @@ static void integrate(fourier *f, const walk *w, arb_srcptr polynomial, const ma
 {
   const orbit *o = w->o;
   const slong p = o->precision;
-  arb_t angle, moment, cosine, sine;
-  mag_t error, term, truncated;
-  arb_init(angle);
-  arb_init(moment);
-  arb_init(cosine);
-  arb_init(sine);
-  mag_init(error);
-  mag_init(term);
-  mag_init(truncated);
+  LOCAL(arb) angle = ZERO, moment = ZERO, cosine = ZERO, sine = ZERO;
+  LOCAL(mag) error = ZERO, term = ZERO, truncated = ZERO;
   if (w->k == 0 || w->k == w->steps - 1) {
     arb_one(moment);
     for (int k = 0; k < 2 * w->degree + 2; k++) {
@@ -290,13 +248,6 @@ static void integrate(fourier *f, const walk *w, arb_srcptr polynomial, const ma
   arb_add_error_mag(sine, error);
   arb_addmul(f->cosine, cosine, w->width, p);
   arb_addmul(f->sine, sine, w->width, p);
-  arb_clear(angle);
-  arb_clear(moment);
-  arb_clear(cosine);
-  arb_clear(sine);
-  mag_clear(error);
-  mag_clear(term);
-  mag_clear(truncated);
 }
 
 /* ---- all of them ---- */
@@ -305,27 +256,20 @@ bool response_quantities(const orbit *o, quantities *q, failure *f)
 {
   const slong p = o->precision, n = o->degree + 1, coefficients = 3 * n * (DEPTH + 2);
   extremum extrema[2] = {{.o = o}, {.o = o}};
-  fourier integral;
-  arb_ptr rows = _arb_vec_init(3L * o->largest + 6 * n + 3), polynomial = rows + 3L * o->largest,
+  fourier integral = {0};
+  LOCAL(pool) own = ZERO;
+  arb_ptr rows = pool_balls(own, 3L * o->largest + 6 * n + 3), polynomial = rows + 3L * o->largest,
           rough = polynomial + n;
-  arb_t value;
-  mag_t rest;
-  arb_init(value);
-  mag_init(rest);
+  LOCAL(arb) value = ZERO;
+  LOCAL(mag) rest = ZERO;
   integral.c = rough + n;
   integral.s = integral.c + n;
   integral.power = integral.s + n;
-  arb_init(integral.mean);
-  arb_init(integral.cosine);
-  arb_init(integral.sine);
   for (int side = 0; side < 2; side++) {
     extremum *e = &extrema[side];
-    arf_init(e->low);
-    arf_init(e->high);
-    arf_init(e->close);
     arf_neg_inf(e->low);
     arf_neg_inf(e->high);
-    e->coefficients = _arb_vec_init(coefficients);
+    e->coefficients = pool_balls(&e->pool, coefficients);
   }
   for (int i = 0; i < o->n; i++) arb_set_fmpq(rows + i, o->c->response + i, p);
   for (int i = 0; i < o->m; i++) { /* every event is attained: with these, few substeps need a second look */
@@ -374,21 +318,15 @@ bool response_quantities(const orbit *o, quantities *q, failure *f)
   if (!q->known) fail(f, -1, -1, "the precision does not suffice");
   for (int side = 0; side < 2; side++) {
     extremum *e = &extrema[side];
-    for (int i = 0; i < e->n; i++) {
-      _arb_vec_clear(e->pieces[i].polynomial, 3 * n);
-      arb_clear(&e->pieces[i].end);
-    }
+    for (int i = 0; i < e->n; i++) arb_clear(&e->pieces[i].end);
     flint_free(e->pieces);
+    pool_clear(&e->pool);
     arf_clear(e->low);
     arf_clear(e->high);
     arf_clear(e->close);
-    _arb_vec_clear(e->coefficients, coefficients);
   }
-  _arb_vec_clear(rows, 3L * o->largest + 6 * n + 3);
   arb_clear(integral.mean);
   arb_clear(integral.cosine);
   arb_clear(integral.sine);
-  arb_clear(value);
-  mag_clear(rest);
   return q->known;
 }

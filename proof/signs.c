@@ -15,6 +15,7 @@ typedef struct condition {
 } condition;
 
 typedef struct sequence {
+  pool pool;
   const orbit *o;
   int segment;
   failure *f;
@@ -53,16 +54,12 @@ static bool inside_cone(const sequence *q, int contact)
 {
   const orbit *o = q->o;
   const contact_balls *f = &o->friction[contact];
-  arb_t normal, tangential;
-  arb_init(normal);
-  arb_init(tangential);
+  LOCAL(arb) normal = ZERO, tangential = ZERO;
   arb_mul(normal, f->mu, f->kn, o->precision);
   arb_mul(tangential, f->kt, f->ratio, o->precision);
   arb_abs(tangential, tangential);
   arb_sub(normal, normal, tangential, o->precision);
   const bool inside = arb_is_positive(normal), outside = arb_is_negative(normal);
-  arb_clear(normal);
-  arb_clear(tangential);
   if (!inside && !outside)
     return fail(q->f, q->segment, contact, "edge of the cone: segment %d, contact %d", q->segment, contact);
   if (outside)
@@ -153,11 +150,9 @@ static bool positive_on(sequence *q, const condition *c, int degree, int depth, 
 
 static bool expand(sequence *q, const walk *w, arb_srcptr row, int degree, arb_ptr b)
 {
-  mag_t rest;
-  mag_init(rest);
+  LOCAL(mag) rest = ZERO;
   walk_polynomial(w, row, q->polynomial, rest);
   bernstein(b, q->polynomial, w->degree, degree < w->degree ? degree : w->degree, rest, q->o->precision);
-  mag_clear(rest);
   return true;
 }
 
@@ -176,7 +171,7 @@ static bool holds_on_substep(sequence *q, const walk *w, const condition *c)
     if (ends) expand(q, w, c->row + o->largest, degree, q->coefficients + 2 * n);
     if (positive_on(q, c, degree, depths[attempt], 0, 0, 1, starts, ends, &decided)) return true;
     if (decided || attempt == 2) return false;
-    q->f->reason[0] = 0;
+    *q->f = (failure){.segment = -1, .contact = -1, .from = NAN, .to = NAN};
   }
   return false;
 }
@@ -206,13 +201,11 @@ bool sequence_check(const orbit *o, failure *f)
   sequence *q = flint_calloc(1, sizeof *q);
   q->o = o;
   q->f = f;
-  q->rows = _arb_vec_init(rows);
-  q->polynomial = _arb_vec_init(o->degree + 1);
-  q->coefficients = _arb_vec_init(coefficients);
+  q->rows = pool_balls(&q->pool, rows);
+  q->polynomial = pool_balls(&q->pool, o->degree + 1);
+  q->coefficients = pool_balls(&q->pool, coefficients);
   bool holds = true;
-  arb_t left, span;
-  arb_init(left);
-  arb_init(span);
+  LOCAL(arb) left = ZERO, span = ZERO;
   for (int i = 0; i < o->m && holds; i++) {
     const orbit_segment *s = &o->segments[i];
     flow_duration(o, i, left);
@@ -220,11 +213,7 @@ bool sequence_check(const orbit *o, failure *f)
     if (!arb_is_positive(left) || !arb_gt(left, span)) holds = fail(f, i, -1, "times not in order: segment %d", i);
   }
   for (q->segment = 0; q->segment < o->m && holds; q->segment++) holds = segment_holds(q);
-  arb_clear(left);
-  arb_clear(span);
-  _arb_vec_clear(q->rows, rows);
-  _arb_vec_clear(q->polynomial, o->degree + 1);
-  _arb_vec_clear(q->coefficients, coefficients);
+  pool_clear(&q->pool);
   flint_free(q);
   return holds;
 }
