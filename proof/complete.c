@@ -116,7 +116,7 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
     if (largest <= enough || (largest < 100 * enough && largest > 0.5 * last)) break;
   }
   if (!fine || !(largest < 1e4 * enough))
-    return fail(f, -1, -1, "Newton does not converge: its last step was %.1e of the scales", largest);
+    return refute(f, -1, -1, "Newton does not converge: its last step was %.1e of the scales", largest);
   return true;
 }
 
@@ -176,7 +176,7 @@ static bool find_radii(krawczyk *k, json_t *claims, failure *f)
     json_object_set_new(claims, "radius", json_string(text));
     snprintf(text, sizeof text, "1e%ld", (long)best);
     json_object_set_new(claims, "uniqueness_radius", json_string(text));
-  } else fail(f, -1, -1, "existence: Krawczyk gives %.2g of the radius", ratio);
+  } else refute(f, -1, -1, "existence: Krawczyk gives %.2g of the radius", ratio);
   return holds;
 }
 
@@ -256,7 +256,7 @@ static bool make(json_t *draft, const certificate *c, krawczyk *k, decision *v)
     write_vectors(draft, o, digits[attempt], f);
     certificate_free(read);
     read = certificate_read(draft, false, why, sizeof why);
-    if (!read) fine = fail(f, -1, -1, "%s", why);
+    if (!read) fine = refute(f, -1, -1, "%s", why);
     if (!fine) break;
     o->c = read; /* with its vectors */
     multipliers(o, &v->quantities, f);

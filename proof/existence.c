@@ -218,7 +218,7 @@ bool existence_prepare(krawczyk *k, orbit *o, failure *f)
   k->middle = flint_realloc(k->middle, ((size_t)d->n + 1) * sizeof *k->middle);
   for (int e = 0; e < d->n; e++) k->middle[e] = number_near(d->value + e);
   fine = fine && approximate_inverse(k);
-  return fine || fail(f, -1, -1, "the shooting equations are singular");
+  return fine || refute(f, -1, -1, "the shooting equations are singular");
 }
 
 bool existence_holds(krawczyk *k, const arb_t radius, double *ratio)

@@ -102,16 +102,16 @@ static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *entri
   LOCAL(mag) norm = ZERO;
   flow_duration(o, i, s->span);
   bool fine = arb_is_finite(s->span) && arb_is_positive(s->span);
-  if (!fine) fail(f, i, -1, "times not in order: segment %d", i);
+  if (!fine) refute(f, i, -1, "times not in order: segment %d", i);
   arb_get_mid_arb(s->span, s->span);
-  arb_get_mag(norm, s->span);
+  arf_get_mag(norm, arb_midref(s->span));
   mag_mul(norm, norm, s->norm);
   for (s->levels = 0; fine && mag_cmp_2exp_si(norm, s->levels + 1) > 0;)
     if (1L << ++s->levels > LIMIT_STEPS) break;
   *steps += 1L << s->levels;
   *entries += (s->levels + 1.0) * s->size * s->size;
   if (*steps > LIMIT_STEPS || *entries > LIMIT_ENTRIES)
-    fine = fail(f, i, -1, "too stiff: more than %d substeps, or too many coordinates", LIMIT_STEPS);
+    fine = refute(f, i, -1, "too stiff: more than %d substeps, or too many coordinates", LIMIT_STEPS);
   arb_mul_2exp_si(s->step, s->span, -s->levels);
   return fine;
 }

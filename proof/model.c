@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool fail(failure *f, int segment, int contact, const char *format, ...)
+bool refute(failure *f, int segment, int contact, const char *format, ...)
 {
   va_list args;
   if (f->reason[0]) return false;
@@ -356,16 +356,17 @@ static bool sequence_possible(const orbit *o, failure *f)
       const char before = orbit_letter(o, i - 1, j), after = orbit_letter(o, i, j);
       if (before == after) continue;
       if (sign_of(before) * sign_of(after) < 0)
-        return fail(f, i, j, "segment %d, contact %d: slip does not turn without stick", i, j);
+        return refute(f, i, j, "segment %d, contact %d: slip does not turn without stick", i, j);
       /* Stick -> O: |T| <= mu N, so T and N would vanish at once, which is generic only where they are proportional. */
       if (before == 'S' && after == 'O') {
         const orbit_segment *s = &o->segments[(i + o->m - 1) % o->m];
         if (!o->friction[j].parallel || s->from[j] != 'O')
-          return fail(f, i, j,
-                      "segment %d, contact %d: stick ends by separation, but not where motions are proportional", i, j);
+          return refute(f, i, j,
+                        "segment %d, contact %d: stick ends by separation, but not where motions are proportional", i,
+                        j);
       }
       if (j != guarded && !changes_together(o, i, guarded, j))
-        return fail(f, i, j, "two independent transitions at once: event %d, contacts %d and %d", i, guarded, j);
+        return refute(f, i, j, "two independent transitions at once: event %d, contacts %d and %d", i, guarded, j);
     }
   }
   return true;
@@ -456,7 +457,7 @@ orbit *orbit_new(const certificate *c, failure *f)
   const bool regular = arb_mat_inv(o->inverse_mass, mass, p);
   o->scratch = pool_balls(&o->pool, 4L * (2 * n + 1 + 2 * o->harmonics + o->contacts));
   for (int i = 0; i < o->m; i++) segment_set(o, i);
-  if (!regular) fail(f, -1, -1, "the mass matrix is singular");
+  if (!regular) refute(f, -1, -1, "the mass matrix is singular");
   if (regular && sequence_possible(o, f)) return o;
   orbit_free(o);
   return NULL;

@@ -88,7 +88,7 @@ int monodromy(const orbit *o, arb_mat_t product, failure *f)
     arb_mat_clear(one);
     arb_mat_clear(both);
   }
-  if (!fine) fail(f, -1, -1, "stability unproven: the precision does not suffice");
+  if (!fine) refute(f, -1, -1, "stability unproven: the precision does not suffice");
   return fewest;
 }
 

@@ -13,7 +13,7 @@ typedef struct failure {
   int segment, contact; /* -1: none */
   double from, to;      /* of time; NaN: none */
 } failure;
-bool fail(failure *f, int segment, int contact, const char *format, ...); /* keeps the first; returns false */
+bool refute(failure *f, int segment, int contact, const char *format, ...); /* keeps the first; returns false */
 
 /* A contact in balls. */
 typedef struct contact_balls {

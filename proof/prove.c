@@ -34,17 +34,17 @@ static bool claims_hold(const certificate *c, decision *v)
   bool hold = true;
   if ((c->stability == STABILITY_STABLE || c->stability == STABILITY_UNSTABLE) && q->stability != c->stability)
     hold = q->stability == STABILITY_UNPROVEN
-               ? fail(&v->failure, -1, -1, "stability unproven")
-               : fail(&v->failure, -1, -1, "claim is false: it is %s", words[q->stability]);
+               ? refute(&v->failure, -1, -1, "stability unproven")
+               : refute(&v->failure, -1, -1, "claim is false: it is %s", words[q->stability]);
   for (int i = 0; i < CLAIMS && hold; i++) {
     if (!c->claimed[i]) continue;
     arb_set_fmpq(low, c->claims + 2L * i, precision);
     arb_set_fmpq(high, c->claims + 2L * i + 1, precision);
-    if (i == CLAIM_MULTIPLIER && !q->multiplier_known) hold = fail(&v->failure, -1, -1, "stability unproven");
+    if (i == CLAIM_MULTIPLIER && !q->multiplier_known) hold = refute(&v->failure, -1, -1, "stability unproven");
     else if (arb_lt(q->value[i], low) || arb_gt(q->value[i], high))
-      hold = fail(&v->failure, -1, -1, "claim is false: %s", claim_names[i]);
+      hold = refute(&v->failure, -1, -1, "claim is false: %s", claim_names[i]);
     else if (!arb_le(low, q->value[i]) || !arb_le(q->value[i], high))
-      hold = fail(&v->failure, -1, -1, "claim is too narrow: %s", claim_names[i]);
+      hold = refute(&v->failure, -1, -1, "claim is too narrow: %s", claim_names[i]);
   }
   return hold;
 }
@@ -64,7 +64,7 @@ bool prove(const certificate *c, decision *v)
       arb_set_fmpq(radius, c->radii + i, o->precision);
       holds = existence_holds(&k, radius, &ratio);
       if (!holds)
-        fail(f, -1, -1, "existence: Krawczyk gives %.2g of the %s", ratio, i ? "uniqueness radius" : "radius");
+        refute(f, -1, -1, "existence: Krawczyk gives %.2g of the %s", ratio, i ? "uniqueness radius" : "radius");
     }
     v->exists = holds;
   }

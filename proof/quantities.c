@@ -118,7 +118,7 @@ static void bound_on(extremum *e, const piece *p, int level, double a, double b)
   }
   arf_add(least, e->low, e->close, e->o->precision, ARF_RND_FLOOR);
   const known_sign slope = bernstein_side(g + n, degree), curvature = bernstein_side(g + 2 * n, degree);
-  if (arf_cmp(bound, e->low) <= 0) goto done; /* not here */
+  if (arf_cmp(bound, e->low) <= 0) return; /* not here */
   if (slope == SIDE_POSITIVE) both(e, p, to);
   else if (slope == SIDE_NEGATIVE) both(e, p, from);
   else if (curvature == SIDE_NEGATIVE) concave(e, p, from, to);
@@ -135,7 +135,6 @@ static void bound_on(extremum *e, const piece *p, int level, double a, double b)
     _arb_vec_swap(below, g, 3 * n);
     bound_on(e, p, level + 1, middle, b);
   }
-done:
 }
 
 /* The largest value of sign times the response over all pieces, given what is attained. */
@@ -315,7 +314,7 @@ bool response_quantities(const orbit *o, quantities *q, failure *f)
   arb_sqrtpos(q->value[CLAIM_HARMONIC_1], value, p);
   q->known = true;
   for (int c = CLAIM_MAX; c <= CLAIM_HARMONIC_1; c++) q->known = q->known && arb_is_finite(q->value[c]);
-  if (!q->known) fail(f, -1, -1, "the precision does not suffice");
+  if (!q->known) refute(f, -1, -1, "the precision does not suffice");
   for (int side = 0; side < 2; side++) {
     extremum *e = &extrema[side];
     for (int i = 0; i < e->n; i++) arb_clear(&e->pieces[i].end);

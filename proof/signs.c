@@ -61,10 +61,10 @@ static bool inside_cone(const sequence *q, int contact)
   arb_sub(normal, normal, tangential, o->precision);
   const bool inside = arb_is_positive(normal), outside = arb_is_negative(normal);
   if (!inside && !outside)
-    return fail(q->f, q->segment, contact, "edge of the cone: segment %d, contact %d", q->segment, contact);
+    return refute(q->f, q->segment, contact, "edge of the cone: segment %d, contact %d", q->segment, contact);
   if (outside)
-    return fail(q->f, q->segment, contact, "segment %d, contact %d, stick |T| < mu N: it is negative", q->segment,
-                contact);
+    return refute(q->f, q->segment, contact, "segment %d, contact %d, stick |T| < mu N: it is negative", q->segment,
+                  contact);
   return true;
 }
 
@@ -115,8 +115,8 @@ static bool ended(const sequence *q, const condition *c, double a, double b, con
 {
   q->f->from = q->from + a * q->width;
   q->f->to = q->from + b * q->width;
-  return fail(q->f, q->segment, c->contact, "segment %d, t = %.9g to %.9g, contact %d, %s: %s", q->segment, q->f->from,
-              q->f->to, c->contact, c->words, what);
+  return refute(q->f, q->segment, c->contact, "segment %d, t = %.9g to %.9g, contact %d, %s: %s", q->segment,
+                q->f->from, q->f->to, c->contact, c->words, what);
 }
 
 /* Is G > 0 on the part [a, b] of the substep, but for allowed zeros at the segment's ends? Bernstein coefficients stand at `level`: of G,
@@ -210,7 +210,7 @@ bool sequence_check(const orbit *o, failure *f)
     const orbit_segment *s = &o->segments[i];
     flow_duration(o, i, left);
     arb_sub(span, s->span, s->step, o->precision); /* all substeps but the last are in the segment, too */
-    if (!arb_is_positive(left) || !arb_gt(left, span)) holds = fail(f, i, -1, "times not in order: segment %d", i);
+    if (!arb_is_positive(left) || !arb_gt(left, span)) holds = refute(f, i, -1, "times not in order: segment %d", i);
   }
   for (q->segment = 0; q->segment < o->m && holds; q->segment++) holds = segment_holds(q);
   pool_clear(&q->pool);
