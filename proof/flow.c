@@ -43,13 +43,13 @@ static void norm_of(mag_t norm, const orbit_segment *s, arb_srcptr z)
   }
 }
 
-/* Adds to every component what a vector of this norm may hold. */
+/* Adds to every component what a vector of this norm may hold; those whose row is empty are constants, of which no series leaves a rest. */
 static void add_rest(const orbit_segment *s, arb_ptr z, const mag_t norm)
 {
   LOCAL(mag) entry = ZERO;
   for (int i = 0; i < s->size; i++) {
     mag_mul_2exp_si(entry, norm, s->weight[i]);
-    arb_add_error_mag(z + i, entry);
+    if (s->length[i]) arb_add_error_mag(z + i, entry);
   }
 }
 
@@ -269,7 +269,7 @@ void walk_polynomial(const walk *w, arb_srcptr row, arb_ptr polynomial, mag_t re
   for (int i = first; i < last; i++) {
     arb_get_mag(entry, row + i);
     mag_mul_2exp_si(entry, entry, w->s->weight[i]);
-    mag_add(rest, rest, entry);
+    if (w->s->length[i]) mag_add(rest, rest, entry);
   }
   norm_of(entry, w->s, w->series);
   mag_mul(rest, rest, entry);

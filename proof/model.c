@@ -187,9 +187,12 @@ static double upper(const arb_t x)
   return mag_get_d(m);
 }
 
-/* Powers of two that balance A: 1 for x, Omega for v, Omega^2/|f| for what loads the masses. Any choice is right, a good one makes few substeps. */
+static slong weight_of(double log2) { return lround(fmax(-4000, fmin(4000, log2))); }
+
+/* Powers of two that balance A: 1 for x, Omega for v, Omega^2/|f| for what loads the masses, but not far above what x is. Any choice is right, a good one makes few substeps. */
 static void choose_weights(const orbit *o, orbit_segment *s)
 {
+  enum { ROOM = 20 };
   const int n = o->n;
   double stiffness = 0;
   for (int i = 0; i < n; i++) {
@@ -200,14 +203,14 @@ static void choose_weights(const orbit *o, orbit_segment *s)
   if (!(stiffness > 0)) stiffness = pow(upper(o->omega), 2);
   const double frequency = log2(stiffness) / 2;
   for (int j = 0; j < s->size; j++) {
-    s->weight[j] = j < n ? 0 : lround(frequency);
+    s->weight[j] = j < n ? 0 : weight_of(frequency);
     if (j < 2 * n) continue;
     const int pair =
         j > 2 * n && j <= 2 * n + 2 * o->harmonics ? (j - 2 * n) % 2 ? j + 1 : j - 1 : j; /* cosine and sine alike */
     double load = 0;
     for (int i = 0; i < n; i++)
       load = fmax(load, fmax(upper(arb_mat_entry(s->a, n + i, j)), upper(arb_mat_entry(s->a, n + i, pair))));
-    s->weight[j] = load > 0 ? lround(2 * frequency - log2(load)) : 0;
+    s->weight[j] = weight_of(fmin(2 * frequency - log2(load), ROOM - log2(upper(o->scale))));
   }
 }
 
