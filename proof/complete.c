@@ -7,6 +7,7 @@
 #include <string.h>
 
 enum { NEWTON_STEPS = 30, WIDE_DIGITS = 40 };
+static const double ROOM = 0.03;
 
 /* Decimal digits of an event's numbers, relative to the scales: what the precision leaves for the growth over a period. */
 static slong digits_of(slong precision)
@@ -144,7 +145,8 @@ static void write_events(json_t *draft, orbit *o)
   }
 }
 
-/* Powers of ten: the smallest radius, about 8 |B F|, and the largest that pass. Leaves the box at the smallest. */
+/* Powers of ten: the smallest radius, about 8 |B F|, and the largest that passes with room for another checker's balls. Leaves the box at
+ * the smallest. */
 static bool find_radii(krawczyk *k, json_t *claims, failure *f)
 {
   const orbit *o = k->o;
@@ -167,7 +169,7 @@ static bool find_radii(krawczyk *k, json_t *claims, failure *f)
     while (best < 0 && fails - best > 1) { /* 1 passes where F is linear */
       const slong middle = fails == 1 ? 0 : (best + fails) / 2 - ((best + fails) % 2 < 0);
       arb_pow_fmpz(radius, ten, (fmpz[]){middle}, o->precision);
-      if (existence_holds(k, radius, &ratio)) best = middle;
+      if (existence_holds(k, radius, &ratio) && ratio < ROOM) best = middle;
       else fails = middle;
     }
     arb_pow_fmpz(radius, ten, (fmpz[]){smallest}, o->precision);

@@ -4,6 +4,7 @@
 
 enum {
   LIMIT_STEPS = 1 << 15,   /* substeps of all segments                  */
+  LIMIT_WORK = 1 << 24,    /* of them, times size^2 (precision/128)^2   */
   LIMIT_ENTRIES = 1 << 22, /* of all exponentials that are kept         */
   LIMIT_TERMS = 600
 };
@@ -96,7 +97,7 @@ void flow_duration(const orbit *o, int i, arb_t tau)
 }
 
 /* Substeps of |A| step <= 2, a power of two of them. */
-static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *entries)
+static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *work, double *entries)
 {
   orbit_segment *s = &o->segments[i];
   LOCAL(mag) norm = ZERO;
@@ -109,9 +110,10 @@ static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *entri
   for (s->levels = 0; fine && mag_cmp_2exp_si(norm, s->levels + 1) > 0;)
     if (1L << ++s->levels > LIMIT_STEPS) break;
   *steps += 1L << s->levels;
+  *work += pow(2, s->levels) * pow((double)s->size * (double)o->precision / 128, 2);
   *entries += (s->levels + 1.0) * s->size * s->size;
-  if (*steps > LIMIT_STEPS || *entries > LIMIT_ENTRIES)
-    fine = refute(f, i, -1, "too stiff: more than %d substeps, or too many coordinates", LIMIT_STEPS);
+  if (fine && (*steps > LIMIT_STEPS || *work > LIMIT_WORK || *entries > LIMIT_ENTRIES))
+    fine = refute(f, i, -1, "too stiff: more substeps than %d, or too large for so many", LIMIT_STEPS);
   arb_mul_2exp_si(s->step, s->span, -s->levels);
   return fine;
 }
@@ -119,10 +121,10 @@ static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *entri
 bool flow_prepare(orbit *o, failure *f)
 {
   long steps = 0;
-  double entries = 0;
+  double work = 0, entries = 0;
   LOCAL(mag) norm = ZERO;
   for (int i = 0; i < o->m; i++)
-    if (!choose_steps(o, i, f, &steps, &entries)) return false;
+    if (!choose_steps(o, i, f, &steps, &work, &entries)) return false;
   mag_set_ui(norm, 2);
   o->degree = degree_for(norm, o->precision - 20);
   LOCAL(pool) own = ZERO;

@@ -23,7 +23,7 @@ static const char usage[] =
     "of an orbit that is known in double precision, and decide that.\n"
     "  -                   standard input: one JSON object a line, answered by one a line; -o - is standard output\n"
     "  --format FORMAT     text or json: an object a line                                              [text]\n"
-    "  --precision-bits N  of the balls, where the candidate says nothing, 32..2048                    [128]\n"
+    "  --precision-bits N  of the balls, where the candidate says nothing, 32..1024                    [128]\n"
     "exit: 0 all accepted  1 one rejected  2 a file is wrong  64 usage\n"
     "example: hbmcheck-proof check orbit.json\n";
 

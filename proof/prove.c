@@ -95,15 +95,11 @@ static char *place_point(const char *digits, slong place)
   char *text = malloc(n + 64), *at = text;
   if (!text) abort();
   if (negative) *at++ = '-';
-  if (strcmp(digits, "0") == 0) strcpy(text, "0");
-  else if (lead < -5 || lead > 20 || place > 0) {
-    *at++ = digits[0];
-    if (n > 1) at += sprintf(at, ".%s", digits + 1);
-    sprintf(at, "e%ld", (long)lead);
-  } else if (lead < 0) sprintf(at, "0.%0*d%s", (int)(-lead - 1), 0, digits);
-  else if (place == 0) strcpy(at, digits);
-  else sprintf(at, "%.*s.%s", (int)(n + (size_t)place), digits, digits + n + place);
-  if (lead == -1 && n > 0 && strcmp(digits, "0") != 0) sprintf(at, "0.%s", digits);
+  if (*digits == '0') strcpy(text, "0");
+  else if (lead < -5 || lead > 20 || place > 0)
+    sprintf(at, "%c%s%se%ld", *digits, n > 1 ? "." : "", digits + 1, (long)lead);
+  else if (lead < 0) sprintf(at, "0.%.*s%s", (int)(-lead - 1), "0000", digits);
+  else sprintf(at, "%.*s%s%s", (int)lead + 1, digits, place < 0 ? "." : "", digits + lead + 1);
   return text;
 }
 

@@ -168,7 +168,7 @@ static void consider(extremum *e, const walk *w, arb_srcptr rows, int sign, arb_
   bool above = false;
   for (int i = 0; i <= ROUGH && i <= w->degree; i++) {
     arb_get_ubound_arf(bound, rough + i, o->precision);
-    above = above || arf_cmp(bound, e->low) >= 0;
+    above = above || arf_cmp(bound, e->low) > 0;
   }
   if (above) {
     if ((e->n & (e->n - 1)) == 0)

@@ -1,0 +1,216 @@
+/* test_balls.c - the checker's balls against exact fractions: whatever it computes from rational numbers contains what fractions
+ * give, and is not much wider. */
+#include "proof/prove.h"
+#include "tests/check.h"
+
+enum { BITS = 128, ROUNDS = 200 };
+
+static void holds(const arb_t ball, const fmpq_t exact, slong bits, const char *what)
+{
+  if (!arb_contains_fmpq(ball, exact)) fail_msg("%s: the fraction is outside", what);
+  if (mag_cmp_2exp_si(arb_radref(ball), -bits) > 0) fail_msg("%s: the radius is above 2^-%ld", what, (long)bits);
+}
+
+static void small_fraction(fmpq_t x, flint_rand_t random)
+{
+  fmpq_set_si(x, (slong)n_randint(random, 2001) - 1000, 1 + n_randint(random, 300));
+}
+
+/* ---- decimals ---- */
+
+static void decimals_are_exact(CHECK_STATE)
+{
+  static const struct {
+    const char *text;
+    slong numerator, denominator;
+  } good[] = {{"0", 0, 1},  {"-0.0", 0, 1}, {"12.5", 25, 2},   {"+1.25e-3", 1, 800},
+              {".5", 1, 2}, {"5.", 5, 1},   {"-3E2", -300, 1}, {"1e+0", 1, 1}};
+  static const char *const bad[] = {"",       "-",    "e5",    "1e",  "1e401",
+                                    "1e-401", "0x10", "1 ",    "nan", "1.2.3",
+                                    "1,5",    "--1",  "1e5.5", "inf", "1e99999999999999999999",
+                                    "1\t"};
+  LOCAL(fmpq) value = ZERO_FMPQ, exact = ZERO_FMPQ;
+  for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+    fmpq_set_si(exact, good[i].numerator, (ulong)good[i].denominator);
+    assert_true(decimal_read(good[i].text, strlen(good[i].text), value));
+    if (!fmpq_equal(value, exact)) fail_msg("%s is read as another number", good[i].text);
+  }
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+    if (decimal_read(bad[i], strlen(bad[i]), value)) fail_msg("\"%s\" is read as a number", bad[i]);
+  char long_one[LIMIT_DIGITS + 2];
+  memset(long_one, '1', sizeof long_one);
+  assert_true(decimal_read(long_one, LIMIT_DIGITS, value));
+  assert_false(decimal_read(long_one, LIMIT_DIGITS + 1, value));
+}
+
+/* Written down and up they are the two neighbours of x among the multiples of 10^place. */
+static void decimals_are_rounded_outward(CHECK_STATE)
+{
+  flint_rand_t random;
+  flint_randinit(random);
+  LOCAL(arf) x = ZERO;
+  LOCAL(fmpq) exact = ZERO_FMPQ, low = ZERO_FMPQ, high = ZERO_FMPQ, unit = ZERO_FMPQ, ten = ZERO_FMPQ;
+  fmpq_set_si(ten, 10, 1);
+  for (int i = 0; i < 20 * ROUNDS; i++) {
+    arf_randtest(x, random, 100, 6);
+    const slong place = (slong)n_randint(random, 50) - 40;
+    char *down = decimal_write(x, place, -1), *up = decimal_write(x, place, 1);
+    arf_get_fmpq(exact, x);
+    fmpq_pow_si(unit, ten, place);
+    if (!decimal_read(down, strlen(down), low) || !decimal_read(up, strlen(up), high))
+      fail_msg("%s, %s: not decimals", down, up);
+    if (fmpq_cmp(low, exact) > 0 || fmpq_cmp(high, exact) < 0) fail_msg("%s to %s: the number is outside", down, up);
+    fmpq_add(low, low, unit);
+    if (fmpq_cmp(low, high) < 0) fail_msg("%s to %s: more than one unit of 10^%ld", down, up, (long)place);
+    free(down);
+    free(up);
+  }
+  flint_randclear(random);
+}
+
+/* ---- Bernstein ---- */
+
+/* On both halves of [0, 1] the coefficients enclose the polynomial; the first and last are its values. */
+static void bernstein_encloses_the_polynomial(CHECK_STATE)
+{
+  enum { DEGREE = 9 };
+  flint_rand_t random;
+  flint_randinit(random);
+  LOCAL(pool) own = ZERO;
+  arb_ptr c = pool_balls(own, DEGREE + 1), b = pool_balls(own, DEGREE + 1), left = pool_balls(own, DEGREE + 1);
+  fmpq *exact = pool_rationals(own, DEGREE + 1);
+  LOCAL(mag) none = ZERO;
+  LOCAL(arb) hull = ZERO;
+  LOCAL(fmpq) s = ZERO_FMPQ, value = ZERO_FMPQ;
+  for (int round = 0; round < ROUNDS; round++) {
+    for (int k = 0; k <= DEGREE; k++) {
+      small_fraction(exact + k, random);
+      arb_set_fmpq(c + k, exact + k, BITS);
+    }
+    const int degree = round % 3 ? DEGREE : 5; /* what is above becomes radius */
+    bernstein(b, c, DEGREE, degree, none, BITS);
+    holds(b, exact, degree == DEGREE ? 100 : -20, "first coefficient");
+    bernstein_halve(b, left, b, degree, BITS);
+    for (int part = 0; part < 2; part++) {
+      arb_srcptr half = part ? b : left;
+      arb_set(hull, half);
+      for (int i = 1; i <= degree; i++) arb_union(hull, hull, half + i, BITS);
+      for (int i = 0; i <= 8; i++) {
+        fmpq_set_si(s, 8 * part + i, 16);
+        fmpq_zero(value);
+        for (int k = DEGREE; k >= 0; k--) {
+          fmpq_mul(value, value, s);
+          fmpq_add(value, value, exact + k);
+        }
+        holds(hull, value, -30, "hull of a half");
+        if ((i == 0 || i == 8) && degree == DEGREE) holds(i ? half + degree : half, value, 90, "coefficient at an end");
+      }
+    }
+  }
+  flint_randclear(random);
+}
+
+/* ---- the flow ---- */
+
+/* A certificate of one mass with a constant load; `stiffness` and `mass` as decimals. */
+static certificate *one_mass(const char *mass, const char *stiffness, const char *load, const char *x, const char *v)
+{
+  char why[256];
+  json_t *json = json_pack("{s{s[[s]]s[[s]]s[[s]]s[{sis[s]s[s]}]s[]}sss[{sisss[s]s[s]ss}]}", "model", "mass", mass,
+                           "damping", "0", "stiffness", stiffness, "forcing", "harmonic", 0, "cos", load, "sin", "0",
+                           "contacts", "omega", "1", "events", "section", 1, "t", "0", "x", x, "v", v, "state", "");
+  assert_non_null(json);
+  certificate *c = certificate_read(json, true, why, sizeof why);
+  if (!c) fail_msg("%s", why);
+  json_decref(json);
+  return c;
+}
+
+/* z at its end after `time`, all of it and substep by substep. */
+static void flow(const certificate *c, const fmpq_t time, arb_t end, arb_t along)
+{
+  failure f = {.segment = -1};
+  LOCAL(pool) own = ZERO;
+  LOCAL(mag) rest = ZERO;
+  orbit *o = orbit_new(c, &f);
+  assert_non_null(o);
+  arb_set_fmpq(o->duration, time, BITS);
+  assert_true(flow_prepare(o, &f));
+  box_set(o, NULL);
+  arb_ptr z = pool_balls(own, o->largest), row = pool_balls(own, o->largest), series = pool_balls(own, o->degree + 1);
+  assert_true(flow_end(o, 0, z, NULL));
+  arb_set(end, z);
+  walk w;
+  walk_start(&w, o, 0);
+  arb_one(row);
+  while (walk_next(&w)) {
+    _arb_vec_zero(series, o->degree + 1);
+    walk_polynomial(&w, row, series, rest);
+    _arb_poly_evaluate(along, series, o->degree + 1, w.end, BITS);
+    arb_add_error_mag(along, rest);
+  }
+  walk_end(&w);
+  orbit_free(o);
+}
+
+/* Without a spring x = x0 + v0 t + f t^2/(2 m), a fraction. */
+static void a_free_mass_moves_as_fractions_say(CHECK_STATE)
+{
+  LOCAL(fmpq) time = ZERO_FMPQ, exact = ZERO_FMPQ, term = ZERO_FMPQ;
+  LOCAL(arb) end = ZERO, along = ZERO;
+  certificate *c = one_mass("3", "0", "7.5", "0.7", "-1.3");
+  for (int i = 1; i < 40; i++) {
+    fmpq_set_si(time, i, 7);
+    fmpq_set_si(exact, 7, 10);
+    fmpq_set_si(term, -13, 10);
+    fmpq_mul(term, term, time);
+    fmpq_add(exact, exact, term);
+    fmpq_set_si(term, 5, 4);
+    fmpq_mul(term, term, time);
+    fmpq_mul(term, term, time);
+    fmpq_add(exact, exact, term);
+    flow(c, time, end, along);
+    holds(end, exact, 85, "end");
+    holds(along, exact, 80, "last substep");
+  }
+  certificate_free(c);
+}
+
+/* With k = m = 1, x0 = 1, v0 = 0: x = cos t, between two neighbouring partial sums of its alternating series. */
+static void a_spring_swings_as_the_cosine(CHECK_STATE)
+{
+  LOCAL(fmpq) time = ZERO_FMPQ, sum = ZERO_FMPQ, term = ZERO_FMPQ, before = ZERO_FMPQ;
+  LOCAL(arb) end = ZERO, along = ZERO;
+  certificate *c = one_mass("1", "1", "0", "1", "0");
+  for (int i = 1; i < 30; i++) {
+    fmpq_set_si(time, i, 3);
+    fmpq_one(sum);
+    fmpq_one(term);
+    for (int k = 1; k < 60; k++) {
+      fmpq_set(before, sum);
+      fmpq_mul(term, term, time);
+      fmpq_mul(term, term, time);
+      fmpq_div_fmpz(term, term, (fmpz[]){2 * k * (2 * k - 1)});
+      fmpq_neg(term, term);
+      fmpq_add(sum, sum, term);
+    }
+    flow(c, time, end, along); /* the sums differ by less than (29/3)^118/118! = 2^-258 */
+    holds(end, sum, 90, "end");
+    holds(end, before, 90, "end");
+    holds(along, sum, 80, "last substep");
+  }
+  certificate_free(c);
+}
+
+int main(void)
+{
+  check_watchdog(60);
+  const struct CMUnitTest proof_balls[] = {
+      cmocka_unit_test(decimals_are_exact),
+      cmocka_unit_test(decimals_are_rounded_outward),
+      cmocka_unit_test(bernstein_encloses_the_polynomial),
+      cmocka_unit_test(a_free_mass_moves_as_fractions_say),
+      cmocka_unit_test(a_spring_swings_as_the_cosine),
+  };
+  return check_ended(cmocka_run_group_tests(proof_balls, NULL, NULL));
+}
