@@ -79,30 +79,27 @@ bool decimal_read(const char *text, size_t length, fmpq_t value)
   return true;
 }
 
-static void number(reading *r, const json_t *json, const char *where, fmpq *value)
+static bool number(reading *r, const json_t *json, const char *where, fmpq *value)
 {
   char text[40];
   if (json_is_string(json)) {
     if (!decimal_read(json_string_value(json), json_string_length(json), value))
       wrong(r, "%s: not a decimal number of at most %d characters and exponents to %d", where, LIMIT_DIGITS,
             LIMIT_EXPONENT);
-    return;
+    return !r->failed;
   }
-  if (!r->candidate || !json_is_number(json)) {
-    wrong(r, "%s: a decimal number as a string was expected", where);
-    return;
-  }
+  if (!r->candidate || !json_is_number(json)) return wrong(r, "%s: a decimal number as a string was expected", where);
   int length = snprintf(text, sizeof text, "%.17g", json_number_value(json));
   if (!decimal_read(text, (size_t)length, value)) wrong(r, "%s: not a number between 1e-400 and 1e400", where);
+  return !r->failed;
 }
 
-static void list(reading *r, const json_t *json, const char *where, slong n, fmpq *values)
+static bool list(reading *r, const json_t *json, const char *where, slong n, fmpq *values)
 {
-  if (!json_is_array(json) || json_array_size(json) != (size_t)n) {
-    wrong(r, "%s: a list of %ld numbers was expected", where, (long)n);
-    return;
-  }
+  if (!json_is_array(json) || json_array_size(json) != (size_t)n)
+    return wrong(r, "%s: a list of %ld numbers was expected", where, (long)n);
   for (slong i = 0; i < n; i++) number(r, json_array_get(json, (size_t)i), where, values + i);
+  return !r->failed;
 }
 
 static fmpq *one_number(reading *r, const json_t *object, const char *where, const char *key)
@@ -114,16 +111,15 @@ static fmpq *one_number(reading *r, const json_t *object, const char *where, con
   return value;
 }
 
-static void matrix(reading *r, const json_t *object, const char *key, fmpq **values)
+static bool matrix(reading *r, const json_t *object, const char *key, fmpq **values)
 {
   const int n = r->c->n;
   const json_t *rows = json_object_get(object, key);
   *values = pool_rationals(&r->c->pool, (slong)n * n);
-  if (!json_is_array(rows) || json_array_size(rows) != (size_t)n) {
-    wrong(r, "model.%s: %d rows were expected", key, n);
-    return;
-  }
+  if (!json_is_array(rows) || json_array_size(rows) != (size_t)n)
+    return wrong(r, "model.%s: %d rows were expected", key, n);
   for (int i = 0; i < n; i++) list(r, json_array_get(rows, (size_t)i), key, n, *values + (size_t)i * n);
+  return !r->failed;
 }
 
 static int integer(reading *r, const json_t *object, const char *key, int from, int to, int otherwise)
@@ -139,20 +135,18 @@ static int integer(reading *r, const json_t *object, const char *key, int from, 
 /* ---- the model ---- */
 
 /* Refuses keys that are not among known[], which ends in NULL. */
-static void only(reading *r, json_t *object, const char *where, const char *const *known)
+static bool only(reading *r, json_t *object, const char *where, const char *const *known)
 {
   const char *key;
   json_t *value;
-  if (!json_is_object(object)) {
-    wrong(r, "%s: an object was expected", where);
-    return;
-  }
+  if (!json_is_object(object)) return wrong(r, "%s: an object was expected", where);
   json_object_foreach(object, key, value)
   {
     const char *const *name = known;
     while (*name && strcmp(*name, key) != 0) name++;
     if (!*name) wrong(r, "%s: %s is not a key of it", where, QUOTED(key, strlen(key)));
   }
+  return !r->failed;
 }
 
 static bool all_zero(const fmpq *v, int n)
@@ -162,7 +156,7 @@ static bool all_zero(const fmpq *v, int n)
   return true;
 }
 
-static void read_contact(reading *r, json_t *json, contact_given *k)
+static bool read_contact(reading *r, json_t *json, contact_given *k)
 {
   static const char *const known[] = {"tangent",          "tangential_stiffness",
                                       "friction",         "normal",
@@ -171,44 +165,32 @@ static void read_contact(reading *r, json_t *json, contact_given *k)
                                       "angle_deg",        NULL};
   static const char where[] = "model.contacts.";
   certificate *c = r->c;
-  only(r, json, "model.contacts", known);
-  if (r->failed) return;
-  k->angled = json_object_get(json, "direction") != NULL;
-  const bool has_tangent = k->angled || json_object_get(json, "tangent"),
-             preloaded = json_object_get(json, "preload") != NULL;
+  if (!only(r, json, "model.contacts", known)) return false;
+  bool has[9];
+  for (int i = 0; i < 9; i++) has[i] = json_object_get(json, known[i]) != NULL;
+  const bool tangent = has[0], normal = has[3] || has[4] || has[5], preloaded = has[6];
+  k->angled = has[7];
   k->normal = !preloaded;
+  if (k->angled != has[8] || (k->angled && (tangent || has[3] || preloaded)) || (preloaded && normal) ||
+      (!tangent && !k->angled && (preloaded || has[1] || has[2])))
+    return wrong(r, "model.contacts: `direction` and `angle_deg`, or `tangent` and a normal direction or `preload`, "
+                    "or a normal direction alone");
   k->t = pool_rationals(&c->pool, c->n);
   k->n = pool_rationals(&c->pool, c->n);
-  k->angle = k->kt = k->mu = k->kn = k->gap = k->load = NULL;
-  if (k->angled && (preloaded || json_object_get(json, "tangent") || json_object_get(json, "normal"))) {
-    wrong(r, "model.contacts: `direction` stands for `tangent` and `normal`");
-    return;
-  }
-  if (preloaded &&
-      (json_object_get(json, "normal") || json_object_get(json, "normal_stiffness") || json_object_get(json, "gap"))) {
-    wrong(r, "model.contacts: `preload` stands for `normal`, `normal_stiffness` and `gap`");
-    return;
-  }
-  if (!k->angled && !has_tangent && preloaded) wrong(r, "model.contacts: a contact without directions");
-  if (k->angled != (json_object_get(json, "angle_deg") != NULL))
-    wrong(r, "model.contacts: `direction` and `angle_deg` belong together");
-  if (!has_tangent && (json_object_get(json, "friction") || json_object_get(json, "tangential_stiffness")))
-    wrong(r, "model.contacts: friction without `tangent`");
   if (k->angled) {
-    k->angle = one_number(r, json, where, "angle_deg");
     list(r, json_object_get(json, "direction"), "model.contacts.direction", c->n, k->t);
-    for (int i = 0; i < c->n; i++) fmpq_set(k->n + i, k->t + i);
+    list(r, json_object_get(json, "direction"), "model.contacts.direction", c->n, k->n);
+    k->angle = one_number(r, json, where, "angle_deg");
     LOCAL(fmpq) quarters = ZERO_FMPQ;
     fmpq_set_ui(quarters, 90, 1);
     fmpq_div(quarters, k->angle, quarters);
     if (fmpz_is_one(fmpq_denref(quarters)))
-      wrong(r,
-            "model.contacts.angle_deg: a multiple of 90 is written as a contact with `preload`, or with `normal` only");
+      wrong(r, "model.contacts.angle_deg: at a multiple of 90 write `preload`, or `normal` only");
   } else {
-    if (has_tangent) list(r, json_object_get(json, "tangent"), "model.contacts.tangent", c->n, k->t);
+    if (tangent) list(r, json_object_get(json, "tangent"), "model.contacts.tangent", c->n, k->t);
     if (k->normal) list(r, json_object_get(json, "normal"), "model.contacts.normal", c->n, k->n);
   }
-  if (has_tangent) {
+  if (tangent || k->angled) {
     k->kt = one_number(r, json, where, "tangential_stiffness");
     k->mu = one_number(r, json, where, "friction");
     if (fmpq_sgn(k->kt) < 0 || fmpq_sgn(k->mu) < 0)
@@ -217,23 +199,23 @@ static void read_contact(reading *r, json_t *json, contact_given *k)
   if (k->normal) {
     k->kn = one_number(r, json, where, "normal_stiffness");
     k->gap = one_number(r, json, where, "gap");
-    if (fmpq_sgn(k->kn) <= 0) wrong(r, "model.contacts.normal_stiffness: must be positive");
-    if (all_zero(k->n, c->n)) wrong(r, "model.contacts: the normal direction is zero");
+    if (fmpq_sgn(k->kn) <= 0 || all_zero(k->n, c->n))
+      wrong(r, "model.contacts: normal_stiffness must be positive, and the normal direction not 0");
   } else {
     k->load = one_number(r, json, where, "preload");
     if (fmpq_sgn(k->load) < 0) wrong(r, "model.contacts.preload: must not be negative");
   }
-  k->tangential = has_tangent && !r->failed && !fmpq_is_zero(k->kt) && !fmpq_is_zero(k->mu) &&
-                  (k->normal || !fmpq_is_zero(k->load)) && !all_zero(k->t, c->n);
+  k->tangential = k->kt && !fmpq_is_zero(k->kt) && !fmpq_is_zero(k->mu) && (k->normal || !fmpq_is_zero(k->load)) &&
+                  !all_zero(k->t, c->n);
+  return !r->failed;
 }
 
-static void read_model(reading *r, json_t *model)
+static bool read_model(reading *r, json_t *model)
 {
   static const char *const known[] = {"mass", "damping", "stiffness", "forcing", "contacts", NULL};
   static const char *const forcing_keys[] = {"harmonic", "cos", "sin", NULL};
   certificate *c = r->c;
-  only(r, model, "model", known);
-  if (r->failed) return;
+  if (!only(r, model, "model", known)) return false;
   const json_t *mass = json_object_get(model, "mass"), *forcing = json_object_get(model, "forcing"),
                *contacts = json_object_get(model, "contacts");
   if (!json_is_array(mass) || json_array_size(mass) < 1 || json_array_size(mass) > LIMIT_COORDINATES)
@@ -242,7 +224,7 @@ static void read_model(reading *r, json_t *model)
     wrong(r, "model.forcing: a list of at most %d harmonics was expected", LIMIT_HARMONICS);
   if (!json_is_array(contacts) || json_array_size(contacts) > LIMIT_CONTACTS)
     wrong(r, "model.contacts: a list of at most %d contacts was expected", LIMIT_CONTACTS);
-  if (r->failed) return;
+  if (r->failed) return false;
   c->n = (int)json_array_size(mass);
   c->n_harmonics = (int)json_array_size(forcing);
   c->n_contacts = (int)json_array_size(contacts);
@@ -264,18 +246,17 @@ static void read_model(reading *r, json_t *model)
   }
   for (int j = 0; j < c->n_contacts && !r->failed; j++)
     read_contact(r, json_array_get(contacts, (size_t)j), &c->contacts[j]);
+  return !r->failed;
 }
 
 /* ---- the orbit ---- */
 
-static void read_events(reading *r, const json_t *events)
+static bool read_events(reading *r, const json_t *events)
 {
   certificate *c = r->c;
   const size_t most = LIMIT_UNKNOWNS / (2 * (size_t)c->n + 1);
-  if (!json_is_array(events) || json_array_size(events) < 1 || json_array_size(events) > most) {
-    wrong(r, "events: a list of 1 to %zu was expected", most);
-    return;
-  }
+  if (!json_is_array(events) || json_array_size(events) < 1 || json_array_size(events) > most)
+    return wrong(r, "events: a list of 1 to %zu was expected", most);
   c->n_events = (int)json_array_size(events);
   c->time = pool_rationals(&c->pool, c->n_events);
   c->state = pool_rationals(&c->pool, 2L * c->n_events * c->n);
@@ -285,10 +266,8 @@ static void read_events(reading *r, const json_t *events)
     number(r, json_object_get(event, "t"), "events.t", c->time + i);
     list(r, json_object_get(event, "x"), "events.x", c->n, c->state + 2L * i * c->n);
     list(r, json_object_get(event, "v"), "events.v", c->n, c->state + (2L * i + 1) * c->n);
-    if (!json_is_string(letters) || json_string_length(letters) != (size_t)c->n_contacts) {
-      wrong(r, "events.state: %d letters were expected, one a contact", c->n_contacts);
-      return;
-    }
+    if (!json_is_string(letters) || json_string_length(letters) != (size_t)c->n_contacts)
+      return wrong(r, "events.state: %d letters were expected, one a contact", c->n_contacts);
     for (int j = 0; j < c->n_contacts; j++) {
       const contact_given *k = &c->contacts[j];
       const char letter = json_string_value(letters)[j], *possible = k->tangential ? k->normal ? "OS+-" : "S+-"
@@ -305,80 +284,49 @@ static void read_events(reading *r, const json_t *events)
     const char *before = c->letters + (size_t)((i + c->n_events - 1) % c->n_events) * (size_t)c->n_contacts;
     if (memcmp(before, after, (size_t)c->n_contacts) == 0) wrong(r, "events: at number %d no letter changes", i);
   }
+  return !r->failed;
 }
 
-static void read_rest(reading *r, json_t *rest)
+static bool read_rest(reading *r, const json_t *rest)
 {
   certificate *c = r->c;
   c->rest = pool_rationals(&c->pool, c->n_contacts);
-  if (!rest && r->candidate) return;
-  if (!json_is_object(rest)) {
-    wrong(r, "rest: an object was expected");
-    return;
-  }
-  const char *key;
-  json_t *value;
-  json_object_foreach(rest, key, value)
-  {
-    char expected[16];
-    const int j = atoi(key);
-    snprintf(expected, sizeof expected, "%d", j);
-    if (strcmp(expected, key) != 0 || j < 0 || j >= c->n_contacts) {
-      wrong(r, "rest: %s is no contact's number", QUOTED(key, strlen(key)));
-      return;
-    }
-    c->has_rest[j] = true;
-    number(r, value, "rest", c->rest + j);
-  }
+  if (!rest && r->candidate) return !r->failed;
+  if (!json_is_object(rest)) return wrong(r, "rest: an object was expected");
+  size_t found = 0;
   for (int j = 0; j < c->n_contacts; j++) {
+    char key[16];
     bool always = true;
-    for (int i = 0; i < c->n_events; i++)
-      always = always && c->letters[(size_t)i * (size_t)c->n_contacts + (size_t)j] == 'S';
-    if (always != c->has_rest[j]) wrong(r, "rest: contact %d %s all period", j, always ? "sticks" : "does not stick");
+    snprintf(key, sizeof key, "%d", j);
+    for (int i = 0; i < c->n_events; i++) always = always && c->letters[i * c->n_contacts + j] == 'S';
+    const json_t *w = json_object_get(rest, key);
+    if (always != (w != NULL)) wrong(r, "rest: contact %d %s all period", j, always ? "sticks" : "does not stick");
+    if (!w) continue;
+    found++;
+    number(r, w, "rest", c->rest + j);
   }
+  if (found != json_object_size(rest)) wrong(r, "rest: keys are numbers of contacts");
+  return !r->failed;
 }
 
-/* The largest of n numbers in size, or 1 if all are 0, as a decimal scale of two digits would be: any positive number serves. */
-static void size_of(fmpq *scale, const fmpq *values, slong n)
-{
-  LOCAL(fmpq) size = ZERO_FMPQ;
-  fmpq_zero(scale);
-  for (slong i = 0; i < n; i++) {
-    fmpq_abs(size, values + i);
-    if (fmpq_cmp(size, scale) > 0) fmpq_set(scale, size);
-  }
-  if (fmpq_is_zero(scale)) fmpq_one(scale);
-}
-
-static void read_scales(reading *r, const json_t *scales)
+static bool read_scales(reading *r, const json_t *scales)
 {
   certificate *c = r->c;
   static const char *const names[] = {"x", "v", "t"};
   c->scales = pool_rationals(&c->pool, 3);
-  if (!scales && r->candidate) {
-    for (int i = 0; i < c->n_events; i++) {
-      LOCAL(fmpq) size = ZERO_FMPQ;
-      for (int part = 0; part < 2; part++) {
-        size_of(size, c->state + (2L * i + part) * c->n, c->n);
-        if (fmpq_cmp(size, c->scales + part) > 0) fmpq_set(c->scales + part, size);
-      }
-    }
-    fmpq_inv(c->scales + 2, c->omega);
-    return;
-  }
+  for (int i = 0; i < 3; i++) fmpq_one(c->scales + i);
+  if (!scales && r->candidate) return !r->failed; /* complete.c will say */
   for (int i = 0; i < 3; i++) {
     number(r, json_object_get(scales, names[i]), "scales", c->scales + i);
     if (!r->failed && fmpq_sgn(c->scales + i) <= 0) wrong(r, "scales.%s: must be positive", names[i]);
   }
+  return !r->failed;
 }
 
-static void read_claims(reading *r, const json_t *claims)
+static bool read_claims(reading *r, const json_t *claims)
 {
   certificate *c = r->c;
-  if (!json_is_object(claims)) {
-    wrong(r, "claims: an object was expected");
-    return;
-  }
+  if (!json_is_object(claims)) return wrong(r, "claims: an object was expected");
   number(r, json_object_get(claims, "radius"), "claims.radius", c->radii);
   number(r, json_object_get(claims, "uniqueness_radius"), "claims.uniqueness_radius", c->radii + 1);
   for (int i = 0; i < 2; i++)
@@ -394,27 +342,25 @@ static void read_claims(reading *r, const json_t *claims)
       if (json_is_string(word) && strcmp(json_string_value(word), stability_names[s]) == 0) c->stability = (stability)s;
     if (!c->stability) wrong(r, "claims.stability: stable, unstable or unproven was expected");
   }
+  return !r->failed;
 }
 
-static void read_vectors(reading *r, const json_t *vectors)
+static bool read_vectors(reading *r, const json_t *vectors)
 {
   certificate *c = r->c;
-  if (!vectors || json_is_null(vectors)) return;
+  if (!vectors || json_is_null(vectors)) return !r->failed;
   const size_t n = json_array_size(vectors);
-  if (!json_is_array(vectors) || n > 2 * (size_t)c->n + (size_t)c->n_contacts) {
-    wrong(r, "vectors: at most %d rows were expected", 2 * c->n + c->n_contacts);
-    return;
-  }
+  if (!json_is_array(vectors) || n > 2 * (size_t)c->n + (size_t)c->n_contacts)
+    return wrong(r, "vectors: at most %d rows were expected", 2 * c->n + c->n_contacts);
   c->n_vectors = (int)n;
   c->vectors = pool_rationals(&c->pool, (slong)(2 * n * n));
   for (size_t i = 0; i < n; i++) {
     const json_t *row = json_array_get(vectors, i);
-    if (!json_is_array(row) || json_array_size(row) != n) {
-      wrong(r, "vectors: rows of %zu pairs were expected", n);
-      return;
-    }
+    if (!json_is_array(row) || json_array_size(row) != n)
+      return wrong(r, "vectors: rows of %zu pairs were expected", n);
     for (size_t j = 0; j < n; j++) list(r, json_array_get(row, j), "vectors", 2, c->vectors + 2 * (i * n + j));
   }
+  return !r->failed;
 }
 
 certificate *certificate_read(const json_t *json, bool candidate, char *why, size_t size)
@@ -436,16 +382,11 @@ certificate *certificate_read(const json_t *json, bool candidate, char *why, siz
     c->response = pool_rationals(&c->pool, c->n);
     if (response || !candidate) list(&r, response, "response", c->n, c->response);
     else fmpq_one(c->response);
-    read_events(&r, json_object_get(json, "events"));
   }
-  if (!r.failed) {
-    read_rest(&r, json_object_get(json, "rest"));
-    read_scales(&r, json_object_get(json, "scales"));
-    if (!candidate) {
-      read_claims(&r, json_object_get(json, "claims"));
-      read_vectors(&r, json_object_get(json, "vectors"));
-    }
-  }
+  const bool orbit = !r.failed && read_events(&r, json_object_get(json, "events")) &&
+                     read_rest(&r, json_object_get(json, "rest")) && read_scales(&r, json_object_get(json, "scales"));
+  if (orbit && !candidate && read_claims(&r, json_object_get(json, "claims")))
+    read_vectors(&r, json_object_get(json, "vectors"));
   if (!r.failed) return c;
   certificate_free(c);
   return NULL;

@@ -56,12 +56,11 @@ typedef struct certificate {
   fmpq *cosine, *sine;              /* [n_harmonics][n]                          */
   contact_given contacts[LIMIT_CONTACTS];
   fmpq *omega, *response, *rest; /* [1], [n], [n_contacts]                    */
-  bool has_rest[LIMIT_CONTACTS];
-  fmpq *scales;  /* [3] of x, v, t                            */
-  fmpq *time;    /* [n_events]                                */
-  fmpq *state;   /* [n_events][2 n] x, v                      */
-  char *letters; /* [n_events][n_contacts] after each event   */
-  fmpq *radii;   /* [2] radius, uniqueness radius             */
+  fmpq *scales;                  /* [3] of x, v, t                            */
+  fmpq *time;                    /* [n_events]                                */
+  fmpq *state;                   /* [n_events][2 n] x, v                      */
+  char *letters;                 /* [n_events][n_contacts] after each event   */
+  fmpq *radii;                   /* [2] radius, uniqueness radius             */
   bool claimed[CLAIMS];
   fmpq *claims; /* [CLAIMS][2]                               */
   stability stability;
