@@ -1,5 +1,5 @@
-/* ball.h - FLINT's balls: a number of type arb_t is a midpoint and a radius, and every result contains what it would be for all
- * numbers in its operands. The headers moved when Arb (Debian 12) became a part of FLINT 3 (Debian 13). */
+/* ball.h - FLINT's balls: an arb_t is a midpoint and a radius, and every result contains what it is for all numbers in
+ * its operands. The headers moved when Arb (Debian 12) became a part of FLINT 3 (Debian 13). */
 #ifndef HC_PROOF_BALL_H
 #define HC_PROOF_BALL_H
 
@@ -39,8 +39,8 @@ static inline void clear_fmpq(fmpq_t *x) { fmpq_clear(*x); }
 static inline void clear_arb_mat(arb_mat_t *x) { arb_mat_clear(*x); }
 static inline void clear_acb_mat(acb_mat_t *x) { acb_mat_clear(*x); }
 
-/* Arrays that are cleared together: a pool of {0}, in an object or LOCAL(pool). All entries are 0 at first. Memory that is not to be had
- * ends the program, as it does inside FLINT; what certificates may hold is bounded. */
+/* Arrays that are cleared together: a pool of {0}, in an object or LOCAL(pool). All entries are 0 at first. Memory that
+ * is not to be had ends the program, as it does inside FLINT; what certificates may hold is bounded. */
 typedef enum pool_kind { POOL_BYTES, POOL_BALLS, POOL_MAGS, POOL_RATIONALS, POOL_MATRICES } pool_kind;
 typedef struct pool_block pool_block;
 typedef struct pool {

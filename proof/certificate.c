@@ -1,5 +1,5 @@
-/* certificate.c - reading: every number is exact, every list has the length it must have, everything is bounded. Text that is not
- * understood inside the model is refused, since a theorem about another model would be worse than none. */
+/* certificate.c - reading: every number is exact, every list has its length, everything is bounded. A key of the model
+ * that is not known is refused: a theorem about another model would be worse than none. */
 #include "proof/certificate.h"
 #include "base/message.h"
 #include <stdarg.h>

@@ -69,7 +69,8 @@ typedef struct certificate {
   pool pool;     /* of all arrays                             */
 } certificate;
 
-/* Reads a certificate; with `candidate` one that lacks claims, vectors and what has a default. NULL: `why`[size] says what was expected. */
+/* Reads a certificate; with `candidate` one that lacks claims, vectors and what has a default. NULL: why[size] has the
+ * reason. */
 certificate *certificate_read(const json_t *json, bool candidate, char *why, size_t size);
 void certificate_free(certificate *c);
 

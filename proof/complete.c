@@ -1,5 +1,5 @@
-/* complete.c - Newton in extended precision, the radii that pass, approximate eigenvectors, and claims that leave room for a checker
- * whose enclosures are wider. The certificate is then read and decided like any other. */
+/* complete.c - Newton in extended precision, the radii that pass, approximate eigenvectors, and claims that leave room
+ * for a checker whose enclosures are wider. The certificate is then read and decided like any other. */
 #include "proof/complete.h"
 #include "base/number.h"
 #include <math.h>
@@ -9,7 +9,7 @@
 enum { NEWTON_STEPS = 30, WIDE_DIGITS = 40 };
 static const double ROOM = 0.03;
 
-/* Decimal digits of an event's numbers, relative to the scales: what the precision leaves for the growth over a period. */
+/* Decimal digits of an event's numbers, of the scales: what the precision leaves for the growth over a period. */
 static slong digits_of(slong precision)
 {
   const slong digits = (slong)((double)(precision - 45) * 0.30103);
@@ -145,8 +145,8 @@ static void write_events(json_t *draft, orbit *o)
   }
 }
 
-/* Powers of ten: the smallest radius, about 8 |B F|, and the largest that passes with room for another checker's balls. Leaves the box at
- * the smallest. */
+/* Powers of ten: the smallest radius, about 8 |B F|, and the largest that passes with room for another checker's balls.
+ * Leaves the box at the smallest. */
 static bool find_radii(krawczyk *k, json_t *claims, failure *f)
 {
   const orbit *o = k->o;

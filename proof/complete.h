@@ -1,4 +1,4 @@
-/* complete.h - from a candidate in double precision to a certificate. Nothing here is trusted: what it writes is checked. */
+/* complete.h - from a candidate in double precision to a certificate. Not trusted: what it writes is checked. */
 #ifndef HC_PROOF_COMPLETE_H
 #define HC_PROOF_COMPLETE_H
 

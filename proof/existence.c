@@ -81,7 +81,7 @@ bool shooting_equations(orbit *o, arb_ptr f, jacobian *d)
         if (s->slider[j] >= 0)
           put_slider(o, s, j, columns + (s->slider[j] - 1 - 2 * o->harmonics) * s->size + r, d, &at);
       if (o->c->section) continue;
-      /* t_i: exp(A tau) (dZ/dt_i - A Z), where loads move as they should: what is left is minus exp(A tau) (v, v'). t_(i+1): A Z(end). */
+      /* t_i: exp(A tau) (dZ/dt_i - A Z) = -exp(A tau) (v, v'), since the loads move as A says. t_(i+1): A Z(end). */
       arb_dot(entry, NULL, 1, columns + r, s->size, start_rate, 1, 2 * n, p);
       put(d, &at, i * stride + 2 * n, entry);
       put(d, &at, next * stride + 2 * n, rate + r);
@@ -250,7 +250,7 @@ bool existence_holds(krawczyk *k, const arb_t radius, double *ratio)
         mag_add(spread + r, spread + r, entry);
       }
     for (int r = 0; r < n; r++) {
-      /* |B F(y0)| + |I - B dF/dy(Y)| radius scale < radius scale: F has exactly one zero in Y, and it is in the image. */
+      /* |B F(y0)| + |I - B dF/dy(Y)| radius scale < radius scale: exactly one zero is in Y, and it is in the image. */
       mag_set(k->image + r, k->shift + r);
       arb_get_mag(entry, radius);
       mag_addmul(k->image + r, k->defect + r, entry);

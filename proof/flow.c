@@ -1,4 +1,5 @@
-/* flow.c - Z(t) = exp(A t) Z(0), in balls: Taylor series with the rows' empty parts left out, a remainder from the norm, squarings. */
+/* flow.c - Z(t) = exp(A t) Z(0), in balls: Taylor series that leave out the empty parts of rows, a remainder from the
+ * norm, squarings. */
 #include "proof/orbit.h"
 #include <math.h>
 
@@ -44,7 +45,8 @@ static void norm_of(mag_t norm, const orbit_segment *s, arb_srcptr z)
   }
 }
 
-/* Adds to every component what a vector of this norm may hold; those whose row is empty are constants, of which no series leaves a rest. */
+/* Adds to every component what a vector of this norm may hold, but to constants, whose rows are empty: they leave no
+ * rest. */
 static void add_rest(const orbit_segment *s, arb_ptr z, const mag_t norm)
 {
   LOCAL(mag) entry = ZERO;
@@ -62,7 +64,7 @@ void flow_apply(const orbit *o, const orbit_segment *s, arb_srcptr z, arb_ptr de
             o->precision);
 }
 
-/* z[columns][size] becomes exp(A h) z; norm: |A| |h|. The components of z that never change keep no radius: their rows are empty. */
+/* z[columns][size] becomes exp(A h) z; norm: |A| |h| */
 static void exponential(const orbit *o, const orbit_segment *s, const arb_t h, const mag_t norm, arb_ptr z, int columns)
 {
   const int size = s->size, degree = degree_for(norm, o->precision + 8);

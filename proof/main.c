@@ -87,7 +87,7 @@ static json_t *answer_text(const options *o, const char *text, size_t length)
   return answer;
 }
 
-/* The next text of a stream: a line, or all of it. NULL: none, or too long (*length is then past the limit). To be freed. */
+/* The next text of a stream: a line, or all of it. NULL: none, or too long: *length is then past the limit. To free. */
 static char *next_text(FILE *from, bool line, size_t *length)
 {
   size_t room = 1 << 16;

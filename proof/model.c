@@ -1,5 +1,5 @@
-/* model.c - what follows from the certificate's model and letters alone: the matrix A of every segment, the guards, and the refusal of
- * sequences for which the theorem does not hold. */
+/* model.c - what follows from the model and the letters alone: the matrix A of every segment, the functions that guards
+ * and conditions are made of, and the refusal of sequences that the theorem does not cover. */
 #include "proof/orbit.h"
 #include <math.h>
 #include <stdarg.h>
@@ -189,7 +189,8 @@ static double upper(const arb_t x)
 
 static slong weight_of(double log2) { return lround(fmax(-4000, fmin(4000, log2))); }
 
-/* Powers of two that balance A: 1 for x, Omega for v, Omega^2/|f| for what loads the masses, but not far above what x is. Any choice is right, a good one makes few substeps. */
+/* Powers of two that balance A: 1 for x, Omega for v, Omega^2/|f| for what loads the masses, but not far above what x
+ * is. Any choice is right, a good one makes few substeps. */
 static void choose_weights(const orbit *o, orbit_segment *s)
 {
   enum { ROOM = 20 };
@@ -300,7 +301,8 @@ static bool twins(const orbit *o, int a, int b)
          same(k->gap, l->gap, 1) && same(k->load, l->load, 1) && same(o->c->rest + a, o->c->rest + b, 1);
 }
 
-/* The guard's row of a contact, exactly, but for a factor that is not 0: [coordinates + 1], the last for its constant. false: it is none. */
+/* The guard's row of a contact, exactly, but for a factor that is not 0: [coordinates + 1], the last for its constant.
+ * false: it is none. */
 static bool guard_shape(const orbit *o, int contact, guard kind, int sign, fmpq *shape)
 {
   const contact_given *k = &o->c->contacts[contact];
@@ -331,7 +333,7 @@ static bool guard_shape(const orbit *o, int contact, guard kind, int sign, fmpq 
   return some;
 }
 
-/* Several contacts may change at one event if their guards are exactly proportional: the one that stands in F is 0 where they are. */
+/* Several contacts may change at one event if their guards are exactly proportional: F has one of them. */
 static bool changes_together(const orbit *o, int event, int a, int b)
 {
   const contact_given *k = &o->c->contacts[a], *l = &o->c->contacts[b];

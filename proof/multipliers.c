@@ -1,8 +1,8 @@
 /* multipliers.c - the monodromy matrix of the orbit, and where its eigenvalues are. */
 #include "proof/orbit.h"
 
-/* Where w of a contact stands in the state after the event that starts the segment: x, v, then the w of the sliders that stick there and
- * that geometry does not fix. -1: nowhere. *size: of that state. */
+/* Where w of a contact stands in the state after the event that starts the segment: x, v, then w of the sliders that
+ * stick there and that geometry does not fix. -1: nowhere. *size: of that state. */
 static int place_of(const orbit *o, const orbit_segment *s, int contact, int *size)
 {
   int place = -1;
@@ -92,8 +92,8 @@ int monodromy(const orbit *o, arb_mat_t product, failure *f)
   return fewest;
 }
 
-/* Gershgorin discs of e[n][n]: a group that hangs together has as many eigenvalues as discs. So the largest modulus is not above all
- * discs, and not below the nearest point of any group. */
+/* Gershgorin discs of e[n][n]: a group that hangs together has as many eigenvalues as discs. So the largest modulus is
+ * not above all discs, and not below the nearest point of any group. */
 static void largest_modulus(const acb_mat_t e, int n, arb_t modulus, slong precision)
 {
   LOCAL(pool) own = ZERO;

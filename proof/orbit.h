@@ -1,7 +1,7 @@
 /* orbit.h - the theorem's objects. Between two events the letters are fixed and Z' = A Z, with the state
  *     Z = (x, v, 1, cos k omega t, sin k omega t of every harmonic, w of every slider that sticks)
- * Unknowns y: x, v, t of every event, [n_events][2 n + 1]; of a section x and v only. In this folder a segment i runs from event i to
- * event i + 1; the last ends at event 0, multiple periods later. */
+ * Unknowns y: x, v, t of every event, [n_events][2 n + 1]; of a section x and v only. Segment i runs from event i to
+ * event i + 1; the last ends at event 0, `multiple` periods later. */
 #ifndef HC_PROOF_ORBIT_H
 #define HC_PROOF_ORBIT_H
 
@@ -23,7 +23,7 @@ typedef struct contact_balls {
   arb_ptr ratio;
 } contact_balls;
 
-/* A segment's law and flow. Column of Z: x at 0, v at n, 1 at 2 n, then cos and sin of each harmonic, then the sliders that stick. */
+/* A segment's law and flow. In Z: x at 0, v at n, 1 at 2 n, then cos and sin of harmonics, then sliders that stick. */
 typedef struct orbit_segment {
   const char *letters;        /* [contacts] */
   int size;                   /* of Z                                                     */
@@ -87,7 +87,7 @@ int orbit_guarded(const orbit *o, int i);
 typedef enum guard { GUARD_TOUCH, GUARD_SLIP, GUARD_STICK } guard;
 guard guard_of(char before, char after);
 static inline int sign_of(char letter) { return letter == '+' ? 1 : letter == '-' ? -1 : 0; }
-/* w of a contact whose stick begins, as a line in x: [n], and its constant. From O: t.x; from slip s: t.x - s mu N/kt. */
+/* w of a contact whose stick begins, linear in x: [n] and its constant. From O: t.x; from slip s: t.x - s mu N/kt. */
 void slider_line(const orbit *o, int contact, char before, arb_ptr line);
 /* Functions of Z that are linear, as rows [size]. */
 void row_gap(const orbit *o, const orbit_segment *s, int contact, int sign,
@@ -109,7 +109,7 @@ void flow_duration(const orbit *o, int i, arb_t tau); /* of segment i, in the bo
 /* z = exp(A (tau - span)) z, columns of z: [columns][size]. */
 bool flow_correct(const orbit *o, const orbit_segment *s, const arb_t tau, arb_ptr z, int columns);
 void flow_apply(const orbit *o, const orbit_segment *s, arb_srcptr z, arb_ptr derivative); /* A z */
-/* Z at the end of segment i, and, if not NULL, the columns of exp(A tau) that belong to x, v and w: [size] columns of [size]. */
+/* Z at the end of segment i, and, if not NULL, the columns [size] of exp(A tau) that belong to x, v and w. */
 bool flow_end(const orbit *o, int i, arb_ptr end, arb_ptr columns);
 
 /* The substeps of a segment, one after the other: lengths `step`, the last as long as the segment may last at most. */
@@ -132,7 +132,8 @@ void walk_end(walk *w);
 /* Taylor coefficients [degree + 1] of row.Z on the substep, and a bound of the rest of it. */
 void walk_polynomial(const walk *w, arb_srcptr row, arb_ptr polynomial, mag_t rest);
 
-/* Bernstein coefficients [degree + 1] on [0, 1] of a polynomial of `full` degree and a rest; higher terms and rest become radius. */
+/* Bernstein coefficients [degree + 1] on [0, 1] of a polynomial of `full` degree and a rest: what is above the degree,
+ * and the rest, become radius. */
 void bernstein(arb_ptr b, arb_srcptr polynomial, int full, int degree, const mag_t rest, slong precision);
 void bernstein_halve(arb_srcptr b, arb_ptr left, arb_ptr right, int degree, slong precision);
 typedef enum known_sign { SIDE_BOTH, SIDE_POSITIVE, SIDE_NEGATIVE } known_sign; /* SIDE_BOTH: not known */
@@ -153,7 +154,7 @@ typedef struct krawczyk {
 /* F, dF/dy and B at the centre; *k is {0} at first. */
 bool existence_prepare(krawczyk *k, orbit *o, failure *f);
 void existence_measure(krawczyk *k); /* what existence_holds() needs of them */
-/* Has F exactly one zero in the box y0 +- radius scale? *ratio: the largest of what must be below 1. Leaves the box as it tried it. */
+/* Has F exactly one zero in the box y0 +- radius scale? *ratio: the largest of what must be below 1. The box stays so. */
 bool existence_holds(krawczyk *k, const arb_t radius, double *ratio);
 void existence_free(krawczyk *k);
 bool shooting_equations(orbit *o, arb_ptr f, jacobian *derivative); /* in the box; either may be NULL */

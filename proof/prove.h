@@ -12,7 +12,7 @@ typedef struct decision {
 void decision_init(decision *v);
 void decision_clear(decision *v);
 
-/* Does the theorem hold as the certificate claims it? Checks in order: existence, sequence, stability, quantities, claims. */
+/* Does the theorem hold as claimed? In this order: existence, sequence, stability, quantities, claims. */
 bool prove(const certificate *c, decision *v);
 /* The part after existence, for all y in the box: sequence, stability, quantities. */
 bool prove_orbit(orbit *o, decision *v);

@@ -1,11 +1,11 @@
-/* quantities.c - bounds of the orbit's amplitude, mean and harmonic 1: of the motion as it is between all instants, by its series. */
+/* quantities.c - bounds of the orbit's amplitude, mean and harmonic 1: of the motion at all times, by its series. */
 #include "proof/orbit.h"
 #include <math.h>
 
 enum { DEPTH = 60, PARTS = 4000, ROUGH = 12, BISECTIONS = 160 };
 
-/* A substep on which the response may have its maximum: the response and its two derivatives in time, in Taylor coefficients whose
- * constant term carries the rest. */
+/* A substep on which the response may have its maximum: Taylor coefficients of the response and its two derivatives by
+ * the place on the substep; the constant term carries the rest. */
 typedef struct piece {
   arb_ptr polynomial; /* [3][degree + 1]                     */
   arb_struct end;     /* where the segment ends, at most 1   */
@@ -63,7 +63,7 @@ static void both(extremum *e, const piece *p, const arb_t at)
   not_above(e, value);
 }
 
-/* The maximum of a concave piece over [a, b]: bisect the slope; where its sign is lost, the second order is all that is left. */
+/* The maximum of a concave piece over [a, b]: bisect the slope; where it has no sign, a second-order error is left. */
 static void concave(extremum *e, const piece *p, const arb_t a, const arb_t b)
 {
   const slong precision = e->o->precision;
@@ -110,7 +110,8 @@ static void bound_on(extremum *e, const piece *p, int level, double a, double b)
   LOCAL(arb) from = ZERO, to = ZERO;
   arb_set_d(from, a);
   arb_set_d(to, b);
-  if (b == 1) arb_set(to, &p->end); /* never beyond the segment's end */
+  arb_min(from, from, &p->end, e->o->precision); /* never beyond the segment's end, which may be a ball */
+  arb_min(to, to, &p->end, e->o->precision);
   arb_get_ubound_arf(bound, g, e->o->precision);
   for (int i = 1; i < n; i++) {
     arb_get_ubound_arf(least, g + i, e->o->precision);
@@ -198,8 +199,8 @@ typedef struct fourier {
   arb_ptr c, s;             /* [degree + 1]                                                 */
 } fourier;
 
-/* Adds the substep's part: with x = sum p_i s^i, the moments of x are m_j = sum p_i end^(i + j + 1)/(i + j + 1), and the integral of
- * x cos is sum c_j m_j, with a truncation of at most |x - p| + |p| |cos - c|. */
+/* Adds the substep's part: with x = sum p_i s^i, its moments are m_j = sum p_i end^(i + j + 1)/(i + j + 1), and the
+ * integral of x cos is sum c_j m_j, with a truncation of at most |x - p| + |p| |cos - c|. */
 static void integrate(fourier *f, const walk *w, arb_srcptr polynomial, const mag_t rest)
 {
   const orbit *o = w->o;

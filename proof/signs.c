@@ -1,7 +1,7 @@
-/* signs.c - is the sequence of letters the law's? On every segment each contact must satisfy its inequalities, strictly inside. At an
- * end a function may be exactly 0 (a guard vanishes there, or w is defined so); then it is enough that the derivative of that order has
- * a sign on a whole neighbourhood of the end. With these, the state after each transition is the prescribed one, and every transition is
- * transversal: the same inequalities say so just before and just after the event. */
+/* signs.c - is the sequence of letters the law's? On every segment each contact must satisfy its inequalities, strictly
+ * inside. At an end a function may be exactly 0 (a guard vanishes there, or w is defined so); it is enough then that the
+ * derivative of that order has a sign on a whole neighbourhood of the end. With these, the state after each transition
+ * is the prescribed one, and every transition is transversal: the same inequalities say so just before and after it. */
 #include "proof/orbit.h"
 #include <math.h>
 
@@ -48,8 +48,8 @@ static void derive(const orbit *o, const orbit_segment *s, arb_srcptr row, arb_p
                              o->precision);
 }
 
-/* Stick that began by touching where u and v are proportional: both limits are exactly (mu kn -+ kt t/n)(v + gap), so the signs of two
- * constants and the gap's condition decide. Balls would see 0/0 at both ends. */
+/* Stick that began by touching where u and v are proportional: both limits are exactly (mu kn -+ kt t/n)(v + gap), so
+ * the signs of two constants and the gap's condition decide. Balls would see 0/0 at both ends. */
 static bool inside_cone(const sequence *q, int contact)
 {
   const orbit *o = q->o;
@@ -85,8 +85,8 @@ static bool list_conditions(sequence *q)
     }
     /* Closed, with a normal direction: n.x + gap > 0; simple zeros after O and before O. */
     if (k->normal) row_gap(o, s, j, 1, new_row(q, j, "closed n.x + gap > 0", opened, opens));
-    /* Stick: mu N -+ kt (t.x - w) > 0, both. At the start from O: simple zeros, both. From slip s: double for s (value by the definition
-     * of w, derivative by the guard), none for -s. At the end to slip s: simple for s. */
+    /* Stick: mu N -+ kt (t.x - w) > 0, both. At the start from O: simple zeros, both. From slip s: double for s (value
+     * by the definition of w, derivative by the guard), none for -s. At the end to slip s: simple for s. */
     if (letter == 'S') {
       if (o->friction[j].parallel && s->began[j] >= 0 && s->from[j] == 'O') {
         if (!inside_cone(q, j)) return false;
@@ -98,7 +98,7 @@ static bool list_conditions(sequence *q)
         row_limit(o, s, j, side, new_row(q, j, side > 0 ? "stick T < mu N" : "stick T > -mu N", start, end));
       }
     }
-    /* Slip s: s kt t.v - mu kn n.v > 0; no zero at the start, not even from S or O; a simple one at the end if stick follows. */
+    /* Slip s: s kt t.v - mu kn n.v > 0; no zero at the start, not even from S or O; a simple one before stick. */
     if (sign) row_slip(o, s, j, sign, new_row(q, j, sign > 0 ? "slip +" : "slip -", 0, after == 'S'));
   }
   for (int c = 0; c < q->n; c++) {
@@ -119,8 +119,9 @@ static bool ended(const sequence *q, const condition *c, double a, double b, con
                 q->f->from, q->f->to, c->contact, c->words, what);
 }
 
-/* Is G > 0 on the part [a, b] of the substep, but for allowed zeros at the segment's ends? Bernstein coefficients stand at `level`: of G,
- * of its derivative at the start (`starts`), of the one at the end (`ends`). *decided: false where depth ran out. */
+/* Is G > 0 on the part [a, b] of the substep, but for allowed zeros at the segment's ends? Bernstein coefficients stand
+ * at `level`: of G, of its derivative at the start (`starts`), of the one at the end (`ends`). *decided: false where
+ * depth ran out. */
 static bool positive_on(sequence *q, const condition *c, int degree, int depth, int level, double a, double b,
                         bool starts, bool ends, bool *decided)
 {

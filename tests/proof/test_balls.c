@@ -1,5 +1,5 @@
-/* test_balls.c - the checker's balls against exact fractions: whatever it computes from rational numbers contains what fractions
- * give, and is not much wider. */
+/* test_balls.c - the checker's balls against exact fractions: what it computes from rational numbers contains what
+ * fractions give, and is not much wider. */
 #include "proof/prove.h"
 #include "tests/check.h"
 
