@@ -366,7 +366,8 @@ static bool read_vectors(reading *r, const json_t *vectors)
 certificate *certificate_read(const json_t *json, bool candidate, char *why, size_t size)
 {
   certificate *c = flint_calloc(1, sizeof *c);
-  reading r = {c, candidate, false, why, size};
+  reading r = {.c = c, .candidate = candidate, .size = size};
+  r.why = why;
   if (!json_is_object(json)) wrong(&r, "an object was expected");
   else {
     read_model(&r, json_object_get(json, "model"));

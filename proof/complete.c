@@ -19,12 +19,11 @@ static slong digits_of(slong precision)
 /* ---- what a candidate may lack ---- */
 
 /* Numbers become strings, everywhere in the value but in integers that are no theorem's numbers. */
-static json_t *as_strings(const json_t *json)
+static json_t *as_strings(json_t *json)
 {
   static const char *const counts[] = {"harmonic", "multiple", "precision_bits", "section"};
   const char *key;
   json_t *value;
-  size_t index;
   char text[NUMBER_TEXT];
   if (json_is_number(json)) {
     const double number = json_number_value(json);
@@ -32,12 +31,12 @@ static json_t *as_strings(const json_t *json)
   }
   if (json_is_array(json)) {
     json_t *list = json_array();
-    json_array_foreach((json_t *)(size_t)json, index, value) json_array_append_new(list, as_strings(value));
+    for (size_t i = 0; i < json_array_size(json); i++) json_array_append_new(list, as_strings(json_array_get(json, i)));
     return list;
   }
   if (!json_is_object(json)) return json_deep_copy(json);
   json_t *object = json_object();
-  json_object_foreach((json_t *)(size_t)json, key, value)
+  json_object_foreach(json, key, value)
   {
     bool count = false;
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) count = count || strcmp(key, counts[i]) == 0;
@@ -185,8 +184,8 @@ static bool find_radii(krawczyk *k, json_t *claims, failure *f)
 /* Approximate eigenvectors of the monodromy matrix, to so many digits. */
 static void write_vectors(json_t *draft, const orbit *o, slong digits, failure *f)
 {
-  arb_mat_t m;
-  acb_mat_t a, v;
+  LOCAL(arb_mat) m = ZERO;
+  LOCAL(acb_mat) a = ZERO, v = ZERO;
   const int n = monodromy(o, m, f);
   acb_ptr values = _acb_vec_init(n);
   json_t *rows = json_array();
@@ -209,9 +208,6 @@ static void write_vectors(json_t *draft, const orbit *o, slong digits, failure *
   }
   json_object_set_new(draft, "vectors", rows);
   _acb_vec_clear(values, n);
-  acb_mat_clear(a);
-  acb_mat_clear(v);
-  arb_mat_clear(m);
 }
 
 /* The enclosures, three times as wide, and a radius more. */
@@ -264,7 +260,7 @@ static bool make(json_t *draft, const certificate *c, krawczyk *k, decision *v)
     multipliers(o, &v->quantities, f);
     if (v->quantities.stability != STABILITY_UNPROVEN) break;
   }
-  if (fine && (fine = prove_orbit(o, v))) {
+  if (fine && read && (fine = prove_orbit(o, v))) {
     LOCAL(arb) radius = ZERO;
     arb_set_fmpq(radius, read->radii, o->precision);
     write_claims(claims, o, &v->quantities, radius);
@@ -275,7 +271,7 @@ static bool make(json_t *draft, const certificate *c, krawczyk *k, decision *v)
   return fine;
 }
 
-json_t *complete(const json_t *candidate, int precision)
+json_t *complete(json_t *candidate, int precision)
 {
   char why[256] = "";
   krawczyk k = {0};

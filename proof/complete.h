@@ -5,6 +5,6 @@
 #include "proof/prove.h"
 
 /* The answer to a candidate, as README.md has it; precision: of the balls if it says nothing, 0: 128 bits. */
-json_t *complete(const json_t *candidate, int precision);
+json_t *complete(json_t *candidate, int precision);
 
 #endif

@@ -94,7 +94,8 @@ static char *next_text(FILE *from, bool line, size_t *length)
   char *text = malloc(room);
   int c = EOF;
   *length = 0;
-  while (text && *length <= LIMIT_BYTES && (c = getc(from)) != EOF && !(line && c == '\n')) {
+  if (!text) return NULL;
+  while (*length <= LIMIT_BYTES && (c = getc(from)) != EOF && !(line && c == '\n')) {
     if (*length == room) {
       char *more = realloc(text, room *= 2);
       if (!more) {
@@ -105,7 +106,7 @@ static char *next_text(FILE *from, bool line, size_t *length)
     }
     text[(*length)++] = (char)c;
   }
-  if (text && *length <= LIMIT_BYTES && (*length > 0 || c != EOF)) return text;
+  if (*length <= LIMIT_BYTES && (*length > 0 || c != EOF)) return text;
   free(text);
   return NULL;
 }

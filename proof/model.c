@@ -211,7 +211,8 @@ static void choose_weights(const orbit *o, orbit_segment *s)
     double load = 0;
     for (int i = 0; i < n; i++)
       load = fmax(load, fmax(upper(arb_mat_entry(s->a, n + i, j)), upper(arb_mat_entry(s->a, n + i, pair))));
-    s->weight[j] = weight_of(fmin(2 * frequency - log2(load), ROOM - log2(upper(o->scale))));
+    const double most = ROOM - log2(upper(o->scale));
+    s->weight[j] = weight_of(load > 0 ? fmin(2 * frequency - log2(load), most) : most);
   }
 }
 

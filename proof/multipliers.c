@@ -79,14 +79,12 @@ int monodromy(const orbit *o, arb_mat_t product, failure *f)
   arb_ptr end = pool_balls(own, (slong)o->largest * (2 * o->n + o->contacts + 1)), columns = end + o->largest;
   bool fine = true;
   for (int k = 0; k < o->m && fine; k++) {
-    arb_mat_t one, both;
+    LOCAL(arb_mat) one = ZERO, both = ZERO;
     fine = flow_end(o, (first + k) % o->m, end, columns);
     transfer(o, (first + k) % o->m, columns, one);
     arb_mat_init(both, arb_mat_nrows(one), fewest);
     arb_mat_mul(both, one, product, o->precision);
     arb_mat_swap(both, product);
-    arb_mat_clear(one);
-    arb_mat_clear(both);
   }
   if (!fine) refute(f, -1, -1, "stability unproven: the precision does not suffice");
   return fewest;
@@ -140,11 +138,11 @@ void multipliers(const orbit *o, quantities *q, failure *f)
 {
   const certificate *c = o->c;
   const slong p = o->precision;
-  arb_mat_t m;
+  LOCAL(arb_mat) m = ZERO;
   const int n = monodromy(o, m, f);
   q->stability = STABILITY_UNPROVEN;
   if (c->n_vectors == n && !f->reason[0]) {
-    acb_mat_t v, product, e;
+    LOCAL(acb_mat) v = ZERO, product = ZERO, e = ZERO;
     acb_mat_init(v, n, n);
     acb_mat_init(product, n, n);
     acb_mat_init(e, n, n);
@@ -164,9 +162,5 @@ void multipliers(const orbit *o, quantities *q, failure *f)
       if (q->multiplier_known && arb_lt(q->value[CLAIM_MULTIPLIER], one)) q->stability = STABILITY_STABLE;
       if (q->multiplier_known && arb_gt(q->value[CLAIM_MULTIPLIER], one)) q->stability = STABILITY_UNSTABLE;
     }
-    acb_mat_clear(v);
-    acb_mat_clear(product);
-    acb_mat_clear(e);
   }
-  arb_mat_clear(m);
 }

@@ -154,7 +154,7 @@ typedef struct krawczyk {
 /* F, dF/dy and B at the centre; *k is {0} at first. */
 bool existence_prepare(krawczyk *k, orbit *o, failure *f);
 void existence_measure(krawczyk *k); /* what existence_holds() needs of them */
-/* Has F exactly one zero in the box y0 +- radius scale? *ratio: the largest of what must be below 1. The box stays so. */
+/* Has F exactly one zero in the box y0 +- radius scale? *ratio: what must be below 1. It stays the box. */
 bool existence_holds(krawczyk *k, const arb_t radius, double *ratio);
 void existence_free(krawczyk *k);
 bool shooting_equations(orbit *o, arb_ptr f, jacobian *derivative); /* in the box; either may be NULL */

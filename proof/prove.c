@@ -95,7 +95,7 @@ static char *place_point(const char *digits, slong place)
   char *text = malloc(n + 64), *at = text;
   if (!text) abort();
   if (negative) *at++ = '-';
-  if (*digits == '0') strcpy(text, "0");
+  if (*digits == '0') memcpy(text, "0", 2);
   else if (lead < -5 || lead > 20 || place > 0)
     sprintf(at, "%c%s%se%ld", *digits, n > 1 ? "." : "", digits + 1, (long)lead);
   else if (lead < 0) sprintf(at, "0.%.*s%s", (int)(-lead - 1), "0000", digits);

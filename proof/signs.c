@@ -1,6 +1,6 @@
 /* signs.c - is the sequence of letters the law's? On every segment each contact must satisfy its inequalities, strictly
- * inside. At an end a function may be exactly 0 (a guard vanishes there, or w is defined so); it is enough then that the
- * derivative of that order has a sign on a whole neighbourhood of the end. With these, the state after each transition
+ * inside. At an end a function may be exactly 0 (a guard vanishes there, or w is defined so); then it is enough that
+ * the derivative of that order has a sign on a whole neighbourhood of the end. With these, the state after a transition
  * is the prescribed one, and every transition is transversal: the same inequalities say so just before and after it. */
 #include "proof/orbit.h"
 #include <math.h>
