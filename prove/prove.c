@@ -16,9 +16,9 @@
 
 enum {
   MOST_PERIODS = 2000, /* from an unstable orbit to where the motion goes */
-  MOST_MOVES = 3       /* of sliders that never slip, until all have room */
+  MOST_MOVES = 10      /* of sliders that never slip: the motion follows them, some of the way */
 };
-static const double room = 0.02;       /* [1] of a slider's interval, left at either end */
+static const double enough = 0.01, room = 0.02; /* [1] of a slider's interval: nearer to an end, it is moved so far in */
 static const double same_orbit = 1e-6; /* [1] of the amplitude: measures that differ by less are of one orbit */
 static const double same_branch = 0.5; /* [1] by how much a slider that is moved may change the amplitude */
 
@@ -85,18 +85,18 @@ static void read_answer(const json_t *answer, proof_row *row)
 
 /* ---- an orbit ---- */
 
-/* Sliders that never slip into the middle of where they may be; *moved: one was too near an end. */
+/* Sliders that never slip and are on the verge of it away from there; false: one has no place. */
 static bool move_sliders(const prover *p, const orbit_events *e, bool *moved)
 {
   double *w = p->state + 2 * e->n_dof;
   *moved = false;
   for (int j = 0; j < e->n_contacts; ++j) {
-    const double length = e->highest[j] - e->lowest[j];
+    const double length = e->highest[j] - e->lowest[j], at = (e->rest[j] - e->lowest[j]) / length;
     if (isnan(e->rest[j])) continue;
     if (!(length > 0)) return false;
-    const double low = e->lowest[j] + room * length, high = e->highest[j] - room * length;
-    w[j] = fmin(fmax(e->rest[j], low), high);
-    *moved |= w[j] != e->rest[j];
+    if (at > enough && at < 1 - enough) continue;
+    w[j] = e->lowest[j] + (at < 0.5 ? room : 1 - room) * length;
+    *moved = true;
   }
   return true;
 }

@@ -11,7 +11,7 @@
 #include "timeint/steady/timeint_private.h"
 
 static const double one_event = 1e-11; /* [1] of a period: closer events are one */
-enum { LOOKS = 64 };                   /* a period, for the extrema of the sliders' limits: two percent are left there */
+enum { LOOKS = 256 };                  /* a period, for the extrema of the sliders' limits: off by (pi/256)^2/2 of their range */
 
 typedef struct events_watch {
   const timeint *ti;
