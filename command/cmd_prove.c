@@ -9,6 +9,7 @@
 #include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/commands.h"
+#include "command/proofs.h"
 #include "output/output.h"
 #include "output/progress.h"
 
@@ -74,8 +75,9 @@ static hc_status keep_certificate(void *self, proof_row *row, const json_t *cert
   return st == HC_IO ? HC_INTERRUPTED : st;
 }
 
-static table *table_of_rows(const cli_common *common, const proofs *p)
+table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
 {
+  const char *title = common->scene->title;
   int proven = 0, for_reason[PROOF_N_REASONS] = {0}, moved = 0;
   char of[RESPONSE_NAME], at[SCENE_WHERE];
   table *t = cli_table(common, "Proofs", ROWS_PROVE);
@@ -87,19 +89,34 @@ static table *table_of_rows(const cli_common *common, const proofs *p)
     if (r->proven) continue;
     ++for_reason[r->reason];
     if (*r->detail && !common->quiet)
-      cli_message(common, "at %s, branch %d: unproven, %s", scene_where(common->scene, r->omega, at), r->branch, r->detail);
+      cli_message(common, "at %s, branch %d: unproven, %s", scene_where(common->scene, r->omega, at), r->branch,
+                  r->detail);
   }
-  table_note(t, "%s: %d of %d proven", common->scene->title, proven, p->n);
+  table_note(t, "%s%s%d of %d proven", title, *title ? ": " : "", proven, p->n);
   for (int k = 0; k < PROOF_N_REASONS; ++k)
     if (for_reason[k])
       table_note(t, "%d unproven, %s: %s", for_reason[k], proof_reason_text((proof_reason)k),
                  proof_reason_meaning((proof_reason)k));
   if (moved)
-    table_note(t, "%d row%s about another member of a family: a slider that never slips was on the verge of it, and rests "
-                  "2 %% of its room farther in", moved, moved == 1 ? " is" : "s are");
+    table_note(t,
+               "%d row%s about another member of a family: a slider that never slips was on the verge of it, and "
+               "rests 2 %% of its room farther in",
+               moved, moved == 1 ? " is" : "s are");
   if (common->scene->structure)
     table_note(t, "by the response %s", structure_response_name(common->scene->structure, 0, of, sizeof of));
+  if (st != HC_OK) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
   return t;
+}
+
+int proofs_ended(const cli_common *common, const proofs *p, hc_status st, int error)
+{
+  if (st == HC_IO)
+    return cli_failed(common, EXIT_NO_SOLUTION,
+                      "hbmcheck-proof, which decides about certificates: %s; it is looked for beside hbmcheck and in "
+                      "PATH, or HBMCHECK_PROOF names it",
+                      error ? strerror(error) : "it ended");
+  if (st != HC_OK) return cli_solver_failed(common, CLI_BOTH, "proving", st, 0);
+  return p->curve_end == HC_OK ? 0 : cli_solver_failed(common, CLI_HBM, "the HBM response curve", p->curve_end, 0);
 }
 
 static int run_prove(cli_common *common, void *given, scene *sc)
@@ -119,16 +136,8 @@ static int run_prove(cli_common *common, void *given, scene *sc)
   if (st == HC_OK) st = prove_run(sc, &setup, &monitor, keep_certificate, &folder, &found);
   const int error = errno;
   progress_end(bar);
-  if (st == HC_IO)
-    code = cli_failed(common, EXIT_NO_SOLUTION,
-                      "hbmcheck-proof, which decides about certificates: %s; it is looked for beside hbmcheck and in "
-                      "PATH, or HBMCHECK_PROOF names it", error ? strerror(error) : "it ended");
-  else if (folder.failed) code = EXIT_NO_SOLUTION;
-  else if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "proving", st, 0);
-  else if (found.curve_end != HC_OK)
-    code = cli_solver_failed(common, CLI_HBM, "the HBM response curve", found.curve_end, 0);
-  table *t = table_of_rows(common, &found);
-  if (st != HC_OK) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
+  code = folder.failed ? EXIT_NO_SOLUTION : proofs_ended(common, &found, st, error);
+  table *t = proofs_table(common, &found, st);
   int written = found.n ? cli_write(common, 1, &t) : 0, unproven = 0;
   for (int i = 0; i < found.n; ++i) unproven += !found.rows[i].proven;
   if (!code && own->strict && (unproven || !found.n)) code = EXIT_NO_SOLUTION;

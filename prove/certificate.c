@@ -32,9 +32,9 @@ static json_t *forcing(const model *m)
 {
   json_t *loads = json_array();
   for (int l = 0; l < m->n_loads; ++l)
-    json_array_append_new(loads, json_pack("{s:i,s:o,s:o}", "harmonic", m->loads[l].harmonic, "cos",
-                                           vector(m->n, m->loads[l].cosine, 1), "sin",
-                                           vector(m->n, m->loads[l].sine, 1)));
+    json_array_append_new(loads,
+                          json_pack("{s:i,s:o,s:o}", "harmonic", m->loads[l].harmonic, "cos",
+                                    vector(m->n, m->loads[l].cosine, 1), "sin", vector(m->n, m->loads[l].sine, 1)));
   return loads;
 }
 
@@ -148,7 +148,8 @@ bool certificate_is_of(const json_t *certificate, const certificate_model *c, do
 {
   char text[NUMBER_TEXT];
   const char *own = json_string_value(json_object_get(certificate, "omega"));
-  return own && !strcmp(own, number_write(omega, text)) && json_equal(json_object_get(certificate, "model"), c->model) &&
+  return own && !strcmp(own, number_write(omega, text)) &&
+         json_equal(json_object_get(certificate, "model"), c->model) &&
          json_equal(json_object_get(certificate, "response"), c->response) &&
          json_integer_value(json_object_get(certificate, "multiple")) == k;
 }

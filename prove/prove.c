@@ -18,7 +18,8 @@ enum {
   MOST_PERIODS = 2000, /* from an unstable orbit to where the motion goes */
   MOST_MOVES = 10      /* of sliders that never slip: the motion follows them, some of the way */
 };
-static const double enough = 0.01, room = 0.02; /* [1] of a slider's interval: nearer to an end, it is moved so far in */
+static const double enough = 0.01,
+                    room = 0.02;       /* [1] of a slider's interval: nearer to an end, it is moved so far in */
 static const double same_orbit = 1e-6; /* [1] of the amplitude: measures that differ by less are of one orbit */
 static const double same_branch = 0.5; /* [1] by how much a slider that is moved may change the amplitude */
 
@@ -56,8 +57,12 @@ static proof_reason reason_of(const char *words)
     const char *key;
     proof_reason reason;
   } keys[] = {
-      {"transitions at once", PROOF_TWO_AT_ONCE}, {"edge of the cone", PROOF_CONE_EDGE}, {"singular", PROOF_FOLD},
-      {"Krawczyk", PROOF_FOLD},   {"is negative", PROOF_NO_ORBIT}, {"not decided", PROOF_GRAZE},
+      {"transitions at once", PROOF_TWO_AT_ONCE},
+      {"edge of the cone", PROOF_CONE_EDGE},
+      {"singular", PROOF_FOLD},
+      {"Krawczyk", PROOF_FOLD},
+      {"is negative", PROOF_NO_ORBIT},
+      {"not decided", PROOF_GRAZE},
       {"Newton", PROOF_NO_ORBIT},
   };
   for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
@@ -193,8 +198,14 @@ static hc_status remember(prover *p, const timeint_result *r)
 static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *leads_on)
 {
   const double *X = hbm_curve_X(at, k), omega = at->points[k].omega;
-  proof_row row = {.omega = omega, .branch = at->points[k].branch, .multiple = 1, .radius = NAN,
-                   .amplitude = {NAN, NAN}, .mean = {NAN, NAN}, .harmonic_1 = {NAN, NAN}, .error = {NAN, NAN},
+  proof_row row = {.omega = omega,
+                   .branch = at->points[k].branch,
+                   .multiple = 1,
+                   .radius = NAN,
+                   .amplitude = {NAN, NAN},
+                   .mean = {NAN, NAN},
+                   .harmonic_1 = {NAN, NAN},
+                   .error = {NAN, NAN},
                    .predicted = NAN};
   hbm_measures measures;
   motion_error expected;
@@ -216,8 +227,8 @@ static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *lea
 /* Where time integration goes from there, if that is not known yet. */
 static hc_status prove_steady(prover *p, double omega)
 {
-  proof_row row = {.omega = omega, .branch = -1, .radius = NAN, .error = {NAN, NAN}, .predicted = NAN,
-                   .hbm_amplitude = NAN};
+  proof_row row = {
+      .omega = omega, .branch = -1, .radius = NAN, .error = {NAN, NAN}, .predicted = NAN, .hbm_amplitude = NAN};
   timeint_result r;
   const hc_status st = timeint_steady(p->ti, omega, p->state, p->monitor, &r);
   if (fatal(st)) return st;
@@ -250,8 +261,8 @@ static hc_status prove_at(prover *p, double omega)
 static hc_status prove_all(prover *p)
 {
   number_list omega;
-  hc_status st = comparison_frequencies(&p->setup->compare, p->setup->omega_from, p->response.hbm, &p->response.curve,
-                                        &omega);
+  hc_status st =
+      comparison_frequencies(&p->setup->compare, p->setup->omega_from, p->response.hbm, &p->response.curve, &omega);
   for (int i = 0; i < omega.n && st == HC_OK; ++i) {
     st = prove_at(p, omega.v[i]);
     if (st == HC_OK && !hc_monitor_tick(p->monitor, (i + 1.0) / omega.n)) st = HC_INTERRUPTED;
@@ -276,7 +287,9 @@ hc_status prove_run(const scene *sc, const compare_setup *setup, const hc_monito
   if (st == HC_OK) st = certificate_model_make(sc, setup->model, 0, &p.model);
   if (st == HC_OK) st = timeint_new(setup->model, &how, &p.ti);
   if (st == HC_OK && !(p.state = calloc((size_t)timeint_n_states(p.ti), sizeof *p.state))) st = HC_NO_MEMORY;
-  if (st == HC_OK) st = response_trace(setup, &setup->compare.omega, &(hc_monitor){hc_monitor_tick_aside, (void *)(size_t)monitor}, &p.response);
+  if (st == HC_OK)
+    st = response_trace(setup, &setup->compare.omega, &(hc_monitor){hc_monitor_tick_aside, (void *)(size_t)monitor},
+                        &p.response);
   if (st == HC_OK) {
     out->curve_end = p.response.status;
     st = p.response.hbm ? prove_all(&p) : p.response.status;

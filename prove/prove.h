@@ -14,7 +14,8 @@
 #define PROOF_REASONS(X)                                                                                               \
   X(PROOF_NO_REASON, "", "")                                                                                           \
   X(PROOF_GRAZE, "graze", "a contact's condition is met with nothing to spare: it just touches, or just slips")        \
-  X(PROOF_TWO_AT_ONCE, "two transitions at once", "two contacts that have nothing to do with each other change together") \
+  X(PROOF_TWO_AT_ONCE, "two transitions at once",                                                                      \
+    "two contacts that have nothing to do with each other change together")                                            \
   X(PROOF_CONE_EDGE, "edge of the cone", "a contact that touches neither sticks nor slips for certain")                \
   X(PROOF_SLIDER_AT_LIMIT, "slider at its limit", "a slider that never slips is on the verge of it")                   \
   X(PROOF_FOLD, "fold", "two orbits next to each other, or one that is about to vanish: the equations are singular")   \
@@ -40,19 +41,19 @@ typedef struct proof_row {
   double omega;
   int branch; /* of the HBM solution; -1: a steady state beside them */
   bool proven;
-  proof_reason reason;         /* where it is not */
-  char detail[PROOF_DETAIL];   /* what the checker said, for a message */
-  char states[PROOF_STATES];   /* letters of the contacts, interval by interval */
-  int transitions, multiple;   /* of the orbit's period; of how many forcing periods */
-  double radius;               /* [1] of the certificate's scales: the orbit is no farther from its numbers */
-  bool moved;                  /* sliders that never slip had to be moved for it */
-  int stability;               /* +1 proven stable, -1 proven unstable, 0 unproven */
+  proof_reason reason;       /* where it is not */
+  char detail[PROOF_DETAIL]; /* what the checker said, for a message */
+  char states[PROOF_STATES]; /* letters of the contacts, interval by interval */
+  int transitions, multiple; /* of the orbit's period; of how many forcing periods */
+  double radius;             /* [1] of the certificate's scales: the orbit is no farther from its numbers */
+  bool moved;                /* sliders that never slip had to be moved for it */
+  int stability;             /* +1 proven stable, -1 proven unstable, 0 unproven */
   proof_bounds amplitude, mean, harmonic_1; /* [length] of the orbit */
-  proof_bounds multiplier;     /* [1] of the largest Floquet multiplier's modulus, over the orbit's period */
-  proof_bounds error;          /* [length] of HBM's amplitude: its value minus the bounds above */
+  proof_bounds multiplier;         /* [1] of the largest Floquet multiplier's modulus, over the orbit's period */
+  proof_bounds error;              /* [length] of HBM's amplitude: its value minus the bounds above */
   double hbm_amplitude, predicted; /* [length] its value, and how far off it expected to be; NaN: not known */
-  double seconds;              /* of wall time: the checker's, refining and deciding */
-  char certificate[PROOF_NAME]; /* name of the file, where there is one */
+  double seconds;                  /* of wall time: the checker's, refining and deciding */
+  char certificate[PROOF_NAME];    /* name of the file, where there is one */
 } proof_row;
 
 typedef struct proofs {

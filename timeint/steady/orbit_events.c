@@ -11,7 +11,7 @@
 #include "timeint/steady/timeint_private.h"
 
 static const double one_event = 1e-11; /* [1] of a period: closer events are one */
-enum { LOOKS = 256 };                  /* a period, for the extrema of the sliders' limits: off by (pi/256)^2/2 of their range */
+enum { LOOKS = 256 }; /* a period, for the extrema of the sliders' limits: off by (pi/256)^2/2 of their range */
 
 typedef struct events_watch {
   const timeint *ti;
@@ -89,7 +89,8 @@ static hc_status watch_step(void *self, const integrator *in, double theta0, dou
   events_watch *w = self;
   orbit_events *e = w->out;
   bool changed = e->n == 0;
-  for (int j = 0; j < e->n_contacts && !changed; ++j) changed = states_of(e, e->n - 1)[j] != integrate_contact(in, j, w->y);
+  for (int j = 0; j < e->n_contacts && !changed; ++j)
+    changed = states_of(e, e->n - 1)[j] != integrate_contact(in, j, w->y);
   hc_status st = changed ? add_event(w, in, theta0) : HC_OK;
   const int looks = 1 + (int)((theta1 - theta0) * LOOKS / TWO_PI);
   for (int i = 0; i <= looks && st == HC_OK; ++i) {
