@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/growing.h"
+#include "base/number.h"
 #include "base/thread_clock.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
@@ -50,24 +51,29 @@ typedef struct prover {
 
 /* ---- what the checker says ---- */
 
-/* The reason that its words are about: the first whose key they contain. */
-static proof_reason reason_of(const char *words)
+/* The multiplier's distance from +1 within which a failure is put down to the fold. */
+static const double near_fold = 1e-2;
+
+/* The reason that the answer's words are about: the first whose key they contain. */
+static proof_reason reason_of(const json_t *answer, const json_t *rest, const timeint_result *r)
 {
   static const struct {
     const char *key;
     proof_reason reason;
-  } keys[] = {
-      {"transitions at once", PROOF_TWO_AT_ONCE},
-      {"edge of the cone", PROOF_CONE_EDGE},
-      {"singular", PROOF_FOLD},
-      {"Krawczyk", PROOF_FOLD},
-      {"is negative", PROOF_NO_ORBIT},
-      {"not decided", PROOF_GRAZE},
-      {"Newton", PROOF_NO_ORBIT},
-  };
-  for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
-    if (strstr(words, keys[i].key)) return keys[i].reason;
-  return PROOF_NO_DIGITS;
+  } keys[] = {{"transitions at once", PROOF_TWO_AT_ONCE}, {"edge of the cone", PROOF_CONE_EDGE},
+              {"singular", PROOF_FOLD},                   {"not decided", PROOF_GRAZE},
+              {"is negative", PROOF_GRAZE},               {"Newton", PROOF_NO_ORBIT}};
+  const json_t *at = json_object_get(answer, "contact");
+  const char *words = json_string_value(json_object_get(answer, "reason"));
+  proof_reason reason = PROOF_NO_DIGITS;
+  for (size_t i = sizeof keys / sizeof *keys; i-- > 0;)
+    if (words && strstr(words, keys[i].key)) reason = keys[i].reason;
+  const bool folds = hypot(r->multiplier_re - 1, r->multiplier_im) < near_fold;
+  if (folds && (reason == PROOF_NO_DIGITS || reason == PROOF_NO_ORBIT)) reason = PROOF_FOLD;
+  if (reason == PROOF_GRAZE && json_is_integer(at) &&
+      json_object_get(rest, number_write((double)json_integer_value(at), (char[NUMBER_TEXT]){0})))
+    reason = PROOF_SLIDER_AT_LIMIT;
+  return reason;
 }
 
 static proof_bounds bounds_of(const json_t *claims, const char *name)
@@ -127,7 +133,8 @@ static hc_status find_events(prover *p, timeint_result *r, proof_row *row, orbit
 }
 
 /* The checker's answer on the candidate into *row, and *certificate where it is proven. */
-static hc_status ask(prover *p, const orbit_events *e, proof_row *row, json_t **certificate)
+static hc_status ask(prover *p, const timeint_result *r, const orbit_events *e, proof_row *row,
+                     json_t **certificate)
 {
   json_t *candidate = certificate_of(&p->model, row->omega, row->multiple, e), *answer = NULL;
   const double began = wall_seconds();
@@ -137,7 +144,7 @@ static hc_status ask(prover *p, const orbit_events *e, proof_row *row, json_t **
   const char *said = json_string_value(json_object_get(answer, "verdict"));
   const char *words = json_string_value(json_object_get(answer, "reason"));
   row->proven = said && !strcmp(said, "accepted") && certificate_is_of(refined, &p->model, row->omega, row->multiple);
-  row->reason = row->proven ? PROOF_NO_REASON : reason_of(words ? words : "");
+  row->reason = row->proven ? PROOF_NO_REASON : reason_of(answer, json_object_get(candidate, "rest"), r);
   certificate_letters(candidate, row->states, sizeof row->states);
   snprintf(row->detail, sizeof row->detail, "%s", words ? words : "");
   if (row->proven) read_answer(answer, row);
@@ -169,7 +176,7 @@ static hc_status prove_orbit(prover *p, hc_status found, timeint_result *r, proo
   if (found == HC_OK) {
     row->multiple = r->period_multiple;
     row->transitions = e.n > 1 ? e.n : 0;
-    found = ask(p, &e, row, &certificate);
+    found = ask(p, r, &e, row, &certificate);
   }
   orbit_events_free(&e);
   return fatal(found) ? found : add_row(p, row, certificate);
