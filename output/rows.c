@@ -220,19 +220,19 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(TEXT,    "verdict",         true, r->proven ? "proven" : "unproven")    \
   X(TEXT,    "reason",          !r->proven, proof_reason_text(r->reason))   \
   X(TEXT,    "states",          *r->states, r->states)                      \
-  X(INTEGER, "transitions",     *r->states, r->transitions)                 \
+  X(INTEGER, "transitions",     r->multiple > 0, r->transitions)                 \
   X(REAL,    "radius",          r->proven, r->radius)                       \
   X(TEXT,    "stability",       r->proven, stability_text(r->stability))    \
   BOUNDS(X, "amplitude", r->amplitude)                                      \
   BOUNDS(X, "error", r->error)                                              \
   X(TEXT,    "certificate",     *r->certificate, r->certificate)            \
-  X(INTEGER, "period_multiple", *r->states, r->multiple)                    \
+  X(INTEGER, "period_multiple", r->multiple > 0, r->multiple)                    \
   BOUNDS(X, "mean", r->mean)                                                \
   BOUNDS(X, "harmonic_1", r->harmonic_1)                                    \
   BOUNDS(X, "multiplier", r->multiplier)                                    \
   X(REAL,    "hbm_amplitude",   true, r->hbm_amplitude)                     \
   X(REAL,    "error_predicted", true, r->predicted)                         \
-  X(REAL,    "seconds",         *r->states, r->seconds)
+  X(REAL,    "seconds",         r->multiple > 0, r->seconds)
 /* clang-format on */
 
 static void fill_REAL(row_cell *c, bool there, double value)

@@ -207,7 +207,6 @@ static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *lea
   const double *X = hbm_curve_X(at, k), omega = at->points[k].omega;
   proof_row row = {.omega = omega,
                    .branch = at->points[k].branch,
-                   .multiple = 1,
                    .radius = NAN,
                    .amplitude = {NAN, NAN},
                    .mean = {NAN, NAN},
