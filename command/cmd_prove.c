@@ -1,4 +1,4 @@
-/* cmd_prove.c - hbmcheck prove: next to each solution, is there a periodic orbit of the exact law, and where exactly? */
+/* cmd_prove.c - hbmcheck prove: next to each solution, is there a periodic orbit of the exact law, and where? */
 #include <errno.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 #include "output/progress.h"
 
 static const char help[] =
-    "Prove, next to each harmonic-balance solution of CASE and where time integration goes from the unstable ones, that "
+    "Prove, next to each harmonic-balance solution of CASE and where time integration goes from unstable ones, that "
     "there is a periodic orbit of the exact contact law: its sequence of contact states, its stability, and bounds of "
     "its amplitude, mean and first harmonic, and with them of the solution's error. What decides is hbmcheck-proof, in "
     "ball arithmetic. With -o FOLDER the certificates are written there, a file each; the table goes to standard "

@@ -150,8 +150,7 @@ static int run_report(cli_common *common, void *given, scene *sc)
   hc_status st = report_gather(sc, cli_processors(), bar, &d);
   const hc_monitor monitor = progress_monitor(bar);
   progress_relabel(bar, "proving");
-  const hc_status proved =
-      st == HC_OK && own->prove ? prove_run(sc, &d.setup, &monitor, NULL, NULL, &d.proofs) : HC_OK;
+  const hc_status proved = st == HC_OK && own->prove ? prove_run(sc, &d.setup, &monitor, NULL, NULL, &d.proofs) : HC_OK;
   const int error = errno;
   progress_end(bar);
   if (proved != HC_OK) {

@@ -12,16 +12,16 @@
 #include "prove/prove.h"
 
 typedef enum {
-  ROWS_FRF,            /* of response_row      */
-  ROWS_TRANSIENT,      /* of steady_row        */
-  ROWS_COMPARE,        /* of comparison_row    */
-  ROWS_CURVE,          /* of response_summary  */
-  ROWS_ACCURACY,       /* of accuracy_row      */
-  ROWS_ORDER,          /* of order_row         */
-  ROWS_CONTACT,        /* of contact_row       */
-  ROWS_STEADY_CONTACT, /* of steady_contact    */
+  ROWS_FRF,             /* of response_row      */
+  ROWS_TRANSIENT,       /* of steady_row        */
+  ROWS_COMPARE,         /* of comparison_row    */
+  ROWS_CURVE,           /* of response_summary  */
+  ROWS_ACCURACY,        /* of accuracy_row      */
+  ROWS_ORDER,           /* of order_row         */
+  ROWS_CONTACT,         /* of contact_row       */
+  ROWS_STEADY_CONTACT,  /* of steady_contact    */
   ROWS_COMPARE_CONTACT, /* of contact_comparison */
-  ROWS_PROVE           /* of proof_row          */
+  ROWS_PROVE            /* of proof_row          */
 } rows_kind;
 
 /* Columns that only some cases have: frequencies in cycles per time beside the omegas; the name of the response or

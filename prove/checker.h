@@ -1,5 +1,5 @@
 /* checker.h - hbmcheck-proof (../proof), the program that decides about certificates, as a child process: one for all
- * questions, a line of JSON each way. It is the program that HBMCHECK_PROOF names, or that beside this one, or in PATH. */
+ * questions, a line of JSON each way. HBMCHECK_PROOF names it; else it stands beside this program, or in PATH. */
 #ifndef HC_PROVE_CHECKER_H
 #define HC_PROVE_CHECKER_H
 

@@ -1,6 +1,6 @@
 /* prove.h - from compared to proven: next to each harmonic-balance solution, and where time integration goes from those
- * that are unstable, the orbit of the exact law as a certificate, about which hbmcheck-proof decides (../proof). What is
- * found here needs no trust: a wrong candidate is not proven. The theorems: docs/proof.md. */
+ * that are unstable, the orbit of the exact law as a certificate, about which hbmcheck-proof decides (../proof). What
+ * is found here needs no trust: a wrong candidate is not proven. What proven means: docs/proof.md. */
 #ifndef HC_PROVE_H
 #define HC_PROVE_H
 

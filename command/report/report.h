@@ -25,7 +25,7 @@ typedef struct report_data {
   compare_setup setup; /* made from it */
   comparison comparison;
   accuracy accuracy;
-  proofs proofs;       /* the caller's to fill in, if they are asked for; report_clear frees them */
+  proofs proofs;     /* the caller's to fill in, if they are asked for; report_clear frees them */
   hc_status tabled;  /* status of the tables; the rows found are shown whatever it is */
   json_t *response;  /* the curve and what stands on it, of the first response */
   json_t *structure; /* other responses, shapes and contacts (parts.h); JSON null for one degree of freedom */

@@ -1,5 +1,5 @@
-/* orbit_events.h - the changes of contact state along the periods that a steady state of the exact law repeats, and where
- * the sliders that never slip may rest. What a certificate is made of (prove/): found to rounding, not proven. */
+/* orbit_events.h - the changes of contact state along the periods that a steady state of the exact law repeats, and
+ * where the sliders that never slip may rest. What a certificate is made of (prove/): found to rounding, not proven. */
 #ifndef HC_TIMEINT_ORBIT_EVENTS_H
 #define HC_TIMEINT_ORBIT_EVENTS_H
 
