@@ -89,8 +89,8 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
     if (r->proven) continue;
     ++for_reason[r->reason];
     if (*r->detail && !common->quiet)
-      cli_message(common, "at %s, branch %d: unproven, %s", scene_where(common->scene, r->omega, at), r->branch,
-                  r->detail);
+      cli_message(common, "at %s, branch %s: unproven, %s", scene_where(common->scene, r->omega, at),
+                  r->branch >= 0 ? number_write(r->branch, (char[NUMBER_TEXT]){0}) : "none", r->detail);
   }
   table_note(t, "%s%s%d of %d proven", title, *title ? ": " : "", proven, p->n);
   for (int k = 0; k < PROOF_N_REASONS; ++k)

@@ -127,7 +127,7 @@ static json_t *event(const certificate_model *c, const orbit_events *e, int i)
   return to;
 }
 
-json_t *certificate_of(const certificate_model *c, double omega, int k, const orbit_events *e)
+json_t *certificate_of(const certificate_model *c, double omega, int k, double amplitude, const orbit_events *e)
 {
   const size_t n = (size_t)e->n * (size_t)e->n_dof;
   json_t *events = json_array(), *rest = json_object();
@@ -138,8 +138,9 @@ json_t *certificate_of(const certificate_model *c, double omega, int k, const or
   }
   for (int i = 0; i < e->n; ++i) json_array_append_new(events, event(c, e, i));
   if (e->n == 1) json_object_set_new(json_array_get(events, 0), "section", json_integer(1));
-  json_t *scales = json_pack("{s:o,s:o,s:o}", "x", decimal(largest(e->x, n)), "v", decimal(largest(e->v, n)), "t",
-                             decimal(1 / omega));
+  double x = fmax(largest(e->x, n), amplitude), v = fmax(largest(e->v, n), omega * amplitude);
+  if (!(x > 0)) x = v = 1; /* nothing moves */
+  json_t *scales = json_pack("{s:o,s:o,s:o}", "x", decimal(x), "v", decimal(v), "t", decimal(1 / omega));
   return json_pack("{s:O,s:o,s:i,s:i,s:O,s:o,s:o,s:o}", "model", c->model, "omega", decimal(omega), "multiple", k,
                    "precision_bits", 128, "response", c->response, "rest", rest, "scales", scales, "events", events);
 }

@@ -22,8 +22,9 @@ typedef struct certificate_model {
 hc_status certificate_model_make(const scene *sc, const model *m, int r, certificate_model *out);
 void certificate_model_free(certificate_model *c);
 
-/* A certificate without claims of the orbit of k periods at omega, to json_decref; NULL: out of memory. */
-json_t *certificate_of(const certificate_model *c, double omega, int k, const orbit_events *e);
+/* A certificate without claims of the orbit of k periods at omega, whose response has that amplitude, to json_decref;
+ * NULL: out of memory. */
+json_t *certificate_of(const certificate_model *c, double omega, int k, double amplitude, const orbit_events *e);
 
 /* Has this certificate the case's model, omega, period and response, text by text? */
 bool certificate_is_of(const json_t *certificate, const certificate_model *c, double omega, int k);

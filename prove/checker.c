@@ -104,6 +104,7 @@ void proof_checker_free(proof_checker *c)
 hc_status proof_checker_ask(proof_checker *c, const json_t *question, json_t **answer)
 {
   *answer = NULL;
+  errno = 0; /* at the end of a stream there is none */
   if (json_dumpf(question, c->to, JSON_COMPACT) < 0 || putc('\n', c->to) == EOF || fflush(c->to) != 0) return HC_IO;
   const ssize_t length = getline(&c->line, &c->room, c->from);
   if (length > 0) *answer = json_loadb(c->line, (size_t)length, 0, NULL);

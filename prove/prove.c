@@ -60,9 +60,13 @@ static proof_reason reason_of(const json_t *answer, const json_t *rest, const ti
   static const struct {
     const char *key;
     proof_reason reason;
-  } keys[] = {{"transitions at once", PROOF_TWO_AT_ONCE}, {"edge of the cone", PROOF_CONE_EDGE},
-              {"singular", PROOF_FOLD},                   {"not decided", PROOF_GRAZE},
-              {"is negative", PROOF_GRAZE},               {"Newton", PROOF_NO_ORBIT}};
+  } keys[] = {{"transitions at once", PROOF_TWO_AT_ONCE},
+              {"edge of the cone", PROOF_CONE_EDGE},
+              {"singular", PROOF_FOLD},
+              {"too stiff", PROOF_STIFF},
+              {"not decided", PROOF_GRAZE},
+              {"is negative", PROOF_GRAZE},
+              {"Newton", PROOF_NO_ORBIT}};
   const json_t *at = json_object_get(answer, "contact");
   const char *words = json_string_value(json_object_get(answer, "reason"));
   proof_reason reason = PROOF_NO_DIGITS;
@@ -133,13 +137,13 @@ static hc_status find_events(prover *p, timeint_result *r, proof_row *row, orbit
 }
 
 /* The checker's answer on the candidate into *row, and *certificate where it is proven. */
-static hc_status ask(prover *p, const timeint_result *r, const orbit_events *e, proof_row *row,
-                     json_t **certificate)
+static hc_status ask(prover *p, const timeint_result *r, const orbit_events *e, proof_row *row, json_t **certificate)
 {
-  json_t *candidate = certificate_of(&p->model, row->omega, row->multiple, e), *answer = NULL;
+  json_t *candidate = certificate_of(&p->model, row->omega, row->multiple, r->amplitude, e), *answer = NULL;
   const double began = wall_seconds();
   hc_status st = candidate ? proof_checker_ask(p->checker, candidate, &answer) : HC_NO_MEMORY;
   row->seconds = wall_seconds() - began;
+  if (st == HC_IO && !hc_monitor_tick(p->monitor, -1)) st = HC_INTERRUPTED; /* the signal ended both */
   const json_t *refined = json_object_get(answer, "certificate");
   const char *said = json_string_value(json_object_get(answer, "verdict"));
   const char *words = json_string_value(json_object_get(answer, "reason"));
@@ -230,7 +234,7 @@ static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *lea
   return prove_orbit(p, st, &r, &row);
 }
 
-/* Where time integration goes from there, if that is not known yet. */
+/* Where time integration goes from p->state, if that is not known yet. */
 static hc_status prove_steady(prover *p, double omega)
 {
   proof_row row = {
@@ -243,22 +247,25 @@ static hc_status prove_steady(prover *p, double omega)
   return kept == HC_OK ? prove_orbit(p, st, &r, &row) : kept;
 }
 
+/* Every solution first, so that what motions go to from unstable ones is told once. */
 static hc_status prove_at(prover *p, double omega)
 {
   hbm_curve at = {0};
   hc_status st = hbm_curve_at(p->response.hbm, &p->response.curve, omega, &at);
+  bool *leads_on = calloc((size_t)at.n + 1, sizeof *leads_on);
   p->n_found = 0;
+  if (!leads_on) st = HC_NO_MEMORY;
+  for (int k = 0; k < at.n && !fatal(st); ++k) st = prove_solution(p, &at, k, &leads_on[k]);
+  for (int k = 0; k < at.n && !fatal(st); ++k) {
+    if (!leads_on[k]) continue;
+    st = comparison_orbit_start(p->response.hbm, hbm_curve_X(&at, k), omega, p->state);
+    if (st == HC_OK) st = prove_steady(p, omega);
+  }
   if (at.n == 0 && !fatal(st) && !model_has_circle(p->setup->model)) {
     timeint_rest(p->ti, p->state);
     st = prove_steady(p, omega);
   }
-  for (int k = 0; k < at.n && !fatal(st); ++k) {
-    bool leads_on = false;
-    st = prove_solution(p, &at, k, &leads_on);
-    if (fatal(st) || !leads_on) continue;
-    st = comparison_orbit_start(p->response.hbm, hbm_curve_X(&at, k), omega, p->state);
-    if (st == HC_OK) st = prove_steady(p, omega);
-  }
+  free(leads_on);
   hbm_curve_free(&at);
   return fatal(st) ? st : HC_OK;
 }
