@@ -22,7 +22,7 @@
   X(PROOF_CIRCLE, "circle", "friction in a plane, whose slip is not linear")                                           \
   X(PROOF_SMOOTH, "smooth law", "a contact's law is not made of straight pieces")                                      \
   X(PROOF_NO_ORBIT, "no orbit found", "no periodic orbit of the exact law was found there")                            \
-  X(PROOF_STIFF, "too stiff", "so many steps, or so large a structure, that the checker does not begin")               \
+  X(PROOF_TOO_LARGE, "too large", "so many coordinates, transitions or steps that the checker does not begin")         \
   X(PROOF_NO_DIGITS, "out of digits", "the bounds are too wide in the numbers that were used")
 
 #define PROOF_ENUM(code, words, meaning) code,

@@ -59,7 +59,7 @@ class Prove(unittest.TestCase):
         self.assertEqual(list(rows[0])[:13], COLUMNS)
         for omega, letters, amplitude, multiplier, stability in KNOWN:
             # Digits that are cut or rounded: to one unit of the last.
-            near = [r for r in rows if r["omega"] == omega and float(r["amplitude_low"]) <= float(Fraction(amplitude) + unit(amplitude))
+            near = [r for r in rows if float(r["omega"]) == float(omega) and float(r["amplitude_low"]) <= float(Fraction(amplitude) + unit(amplitude))
                     and float(r["amplitude_high"]) >= float(Fraction(amplitude) - unit(amplitude))]
             self.assertEqual(len(near), 1, (omega, amplitude))
             r = near[0]
@@ -72,11 +72,13 @@ class Prove(unittest.TestCase):
     def test_the_error_is_enclosed(self):
         _, rows, _ = prove(CASE2, "--at", "9", "--set", "hbm.harmonics=10")
         r = max(rows, key=lambda r: float(r["amplitude_low"]))
-        # The difference of two doubles near 23.7: two units of 3.6e-15 each at either end.
-        low, high = float(r["error_low"]), float(r["error_high"])
-        self.assertLessEqual(low, 0.00841439917376)
-        self.assertGreaterEqual(high, 0.00841439917375)
+        # Truth to 24 digits, of the reference's certificate. The difference of two doubles near 23.7, whose last digits are worth 3.6e-15: one at either
+        # end of each. HBM's own rounding: 1e-14 of it.
+        low, high = Fraction(r["error_low"]), Fraction(r["error_high"])
+        error = Fraction(float(r["hbm_amplitude"])) - Fraction("23.71530459163172779939495")
+        self.assertTrue(low <= error <= high, (float(low), float(error), float(high)))
         self.assertLess(high - low, 2e-14)
+        self.assertLess(abs(error - Fraction("0.008414399173755")), 1e-12)
 
     def test_certificates_are_accepted_and_have_the_numbers_of_the_case(self):
         code, rows, _ = prove(CASE2, "--at", "9.10", "--set", "oscillator.damping=0.40", "--set", "contacts[0].angle_deg=44.9", "-o", f"{self.folder}/proofs")
