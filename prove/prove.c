@@ -86,6 +86,12 @@ static proof_bounds bounds_of(const json_t *claims, const char *name)
   return (proof_bounds){certificate_bound(claims, name, 0, -1), certificate_bound(claims, name, 1, +1)};
 }
 
+/* A difference that was rounded to nearest, so that the true one is not beyond it; 0 is exact. */
+static double rounded(double difference, double towards)
+{
+  return difference == 0 ? 0 : nextafter(difference, towards);
+}
+
 static void read_answer(const json_t *answer, proof_row *row)
 {
   const char *stability = json_string_value(json_object_get(answer, "stability"));
@@ -94,8 +100,8 @@ static void read_answer(const json_t *answer, proof_row *row)
   row->mean = bounds_of(answer, "mean");
   row->harmonic_1 = bounds_of(answer, "harmonic_1");
   row->multiplier = bounds_of(answer, "multiplier");
-  row->error.low = nextafter(row->hbm_amplitude - row->amplitude.high, -INFINITY);
-  row->error.high = nextafter(row->hbm_amplitude - row->amplitude.low, INFINITY);
+  row->error.low = rounded(row->hbm_amplitude - row->amplitude.high, -INFINITY);
+  row->error.high = rounded(row->hbm_amplitude - row->amplitude.low, INFINITY);
   row->stability = stability ? !strcmp(stability, "stable") - !strcmp(stability, "unstable") : 0;
 }
 
