@@ -100,7 +100,7 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
   if (moved)
     table_note(t,
                "%d row%s about another member of a family: a slider that never slips was on the verge of it, and "
-               "rests 2 %% of its room farther in",
+               "rests 2 %% of its room or more farther in",
                moved, moved == 1 ? " is" : "s are");
   if (common->scene->structure)
     table_note(t, "by the response %s", structure_response_name(common->scene->structure, 0, of, sizeof of));

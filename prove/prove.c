@@ -17,7 +17,7 @@
 
 enum {
   MOST_PERIODS = 2000, /* from an unstable orbit to where the motion goes */
-  MOST_MOVES = 10      /* of sliders that never slip: the motion follows them, some of the way */
+  MOST_MOVES = 8       /* of sliders that never slip: the motion follows them, some of the way */
 };
 static const double enough = 0.01,
                     room = 0.02;       /* [1] of a slider's interval: nearer to an end, it is moved so far in */
@@ -107,8 +107,9 @@ static void read_answer(const json_t *answer, proof_row *row)
 
 /* ---- an orbit ---- */
 
-/* Sliders that never slip and are on the verge of it away from there; false: one has no place. */
-static bool move_sliders(const prover *p, const orbit_events *e, bool *moved)
+/* Sliders that never slip and are on the verge of it away from there, by a share of their intervals; false: one has no
+ * place. */
+static bool move_sliders(const prover *p, const orbit_events *e, double share, bool *moved)
 {
   double *w = p->state + 2 * e->n_dof;
   *moved = false;
@@ -117,7 +118,8 @@ static bool move_sliders(const prover *p, const orbit_events *e, bool *moved)
     if (isnan(e->rest[j])) continue;
     if (!(length > 0)) return false;
     if (at > enough && at < 1 - enough) continue;
-    w[j] = e->lowest[j] + (at < 0.5 ? room : 1 - room) * length;
+    w[j] =
+        at < 0.5 ? fmax(e->rest[j], e->lowest[j]) + share * length : fmin(e->rest[j], e->highest[j]) - share * length;
     *moved = true;
   }
   return true;
@@ -128,9 +130,10 @@ static hc_status find_events(prover *p, timeint_result *r, proof_row *row, orbit
 {
   const double amplitude = r->amplitude;
   hc_status st = timeint_events(p->ti, r, e);
-  for (int moves = 0; st == HC_OK; ++moves) {
+  double share = room;
+  for (int moves = 0; st == HC_OK; ++moves, share *= 2) { /* a motion that follows wants more */
     bool moved;
-    const bool possible = move_sliders(p, e, &moved);
+    const bool possible = move_sliders(p, e, share, &moved);
     if (possible && !moved) return HC_OK;
     row->reason = PROOF_SLIDER_AT_LIMIT;
     if (!possible || moves == MOST_MOVES) return HC_NOT_CONVERGED;
