@@ -98,10 +98,11 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
       table_note(t, "%d unproven, %s: %s", for_reason[k], proof_reason_text((proof_reason)k),
                  proof_reason_meaning((proof_reason)k));
   if (moved)
-    table_note(t,
-               "%d row%s about another member of a family: a slider that never slips was on the verge of it, and "
-               "rests 2 %% of its room or more farther in",
-               moved, moved == 1 ? " is" : "s are");
+    table_note(
+        t,
+        "in %d row%s a slider that never slips was on the verge of it, and rests 2 %% of its room or more farther "
+        "in: the mean is another's, and where the amplitude is too, HBM's error is left out",
+        moved, moved == 1 ? "" : "s");
   if (common->scene->structure)
     table_note(t, "by the response %s", structure_response_name(common->scene->structure, 0, of, sizeof of));
   if (st != HC_OK) table_note(t, "INCOMPLETE: %s", hc_status_text(st));

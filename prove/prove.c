@@ -20,9 +20,10 @@ enum {
   MOST_MOVES = 8       /* of sliders that never slip: the motion follows them, some of the way */
 };
 static const double enough = 0.01,
-                    room = 0.02;       /* [1] of a slider's interval: nearer to an end, it is moved so far in */
-static const double same_orbit = 1e-6; /* [1] of the amplitude: measures that differ by less are of one orbit */
-static const double same_branch = 0.5; /* [1] by how much a slider that is moved may change the amplitude */
+                    room = 0.02;        /* [1] of a slider's interval: nearer to an end, it is moved so far in */
+static const double same_orbit = 1e-6;  /* [1] of the amplitude: measures that differ by less are of one orbit */
+static const double same_motion = 1e-9; /* [1] of the amplitude: a slider that was moved changed no more */
+static const double same_branch = 0.5;  /* [1] by how much a slider that is moved may change the amplitude */
 
 static const struct {
   const char *words, *meaning;
@@ -103,6 +104,7 @@ static void read_answer(const json_t *answer, proof_row *row)
   row->error.low = rounded(row->hbm_amplitude - row->amplitude.high, -INFINITY);
   row->error.high = rounded(row->hbm_amplitude - row->amplitude.low, INFINITY);
   row->stability = stability ? !strcmp(stability, "stable") - !strcmp(stability, "unstable") : 0;
+  if (row->other_member) row->error = (proof_bounds){NAN, NAN};
 }
 
 /* ---- an orbit ---- */
@@ -141,6 +143,7 @@ static hc_status find_events(prover *p, timeint_result *r, proof_row *row, orbit
     orbit_events_free(e);
     st = timeint_orbit(p->ti, r->omega, r->period_multiple, p->state, p->monitor, r);
     if (st == HC_OK && !(fabs(r->amplitude - amplitude) <= same_branch * amplitude)) st = HC_NOT_CONVERGED;
+    row->other_member = st == HC_OK && !(fabs(r->amplitude - amplitude) <= same_motion * amplitude);
     if (st == HC_OK) st = timeint_events(p->ti, r, e);
   }
   return st;

@@ -47,7 +47,8 @@ typedef struct proof_row {
   char states[PROOF_STATES]; /* letters of the contacts, interval by interval */
   int transitions, multiple; /* of the orbit's period; of how many forcing periods */
   double radius;             /* [1] of the certificate's scales: the orbit is no farther from its numbers */
-  bool moved;                /* sliders that never slip had to be moved for it */
+  bool moved;                /* sliders that never slip had to be moved for it, */
+  bool other_member;         /* which changed its amplitude: the error of HBM's is not known */
   int stability;             /* +1 proven stable, -1 proven unstable, 0 unproven */
   proof_bounds amplitude, mean, harmonic_1; /* [length] of the orbit */
   proof_bounds multiplier;         /* [1] of the largest Floquet multiplier's modulus, over the orbit's period */

@@ -198,6 +198,9 @@ hc_status gate_add_proof(gate_case *g, const compare_setup *setup, double omega,
   c.branch = branch;
   if (branch >= 0) c.allowed = gate_limits_at(setup->limits, omega).amplitude;
   if (unproven) not_passed(&c, GATE_FAIL, "unproven: %s", unproven);
+  else if (branch >= 0 && isnan(error))
+    not_passed(&c, GATE_NOT_APPLICABLE,
+               "not applicable: a slider was on the verge of slip; proven is another one's orbit");
   else if (branch >= 0 && !within(c.found = error, c.allowed)) c.result = GATE_FAIL;
   add(&j, &c);
   return j.st;
