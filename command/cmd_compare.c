@@ -324,7 +324,7 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   keep_found_end(&found.beside);
   progress_end(bar);
   if (st == HC_OK && own->prove) tables[n_tables++] = proofs_table(common, &p, proved);
-  if (proved != HC_OK) proofs_ended(common, &p, proved, error);
+  if (proved != HC_OK) proofs_ended(common, p.curve_end, proved, error);
   if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the comparison", st, 0);
   else code = comparison_exit_code(&c);
   if (proved != HC_OK) code = EXIT_NO_SOLUTION;

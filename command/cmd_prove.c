@@ -109,7 +109,7 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
   return t;
 }
 
-int proofs_ended(const cli_common *common, const proofs *p, hc_status st, int error)
+int proofs_ended(const cli_common *common, hc_status curve_end, hc_status st, int error)
 {
   if (st == HC_IO)
     return cli_failed(common, EXIT_NO_SOLUTION,
@@ -117,7 +117,7 @@ int proofs_ended(const cli_common *common, const proofs *p, hc_status st, int er
                       "PATH, or HBMCHECK_PROOF names it",
                       error ? strerror(error) : "it ended");
   if (st != HC_OK) return cli_solver_failed(common, CLI_BOTH, "proving", st, 0);
-  return p->curve_end == HC_OK ? 0 : cli_solver_failed(common, CLI_HBM, "the HBM response curve", p->curve_end, 0);
+  return curve_end == HC_OK ? 0 : cli_solver_failed(common, CLI_HBM, "the HBM response curve", curve_end, 0);
 }
 
 static int run_prove(cli_common *common, void *given, scene *sc)
@@ -137,7 +137,7 @@ static int run_prove(cli_common *common, void *given, scene *sc)
   if (st == HC_OK) st = prove_run(sc, &setup, &monitor, keep_certificate, &folder, &found);
   const int error = errno;
   progress_end(bar);
-  code = folder.failed ? EXIT_NO_SOLUTION : proofs_ended(common, &found, st, error);
+  code = folder.failed ? EXIT_NO_SOLUTION : proofs_ended(common, found.curve_end, st, error);
   table *t = proofs_table(common, &found, st);
   int written = found.n ? cli_write(common, 1, &t) : 0, unproven = 0;
   for (int i = 0; i < found.n; ++i) unproven += !found.rows[i].proven;

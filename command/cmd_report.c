@@ -154,7 +154,7 @@ static int run_report(cli_common *common, void *given, scene *sc)
   const int error = errno;
   progress_end(bar);
   if (proved != HC_OK) {
-    code = proofs_ended(common, &d.proofs, proved, error);
+    code = proofs_ended(common, d.proofs.curve_end, proved, error);
     report_clear(&d);
     return code;
   }
