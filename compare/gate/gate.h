@@ -70,8 +70,9 @@ hc_status gate_run(const char *name, const compare_setup *setup, const hc_monito
 hc_status gate_judge(const char *name, const compare_setup *setup, const comparison *c, gate_case *out);
 void gate_clear(gate_case *g);
 
-/* One check more, for gate.proven: of a solution (branch -1: a steady state beside them) at omega whose orbit is proven,
- * with an error of its amplitude of at most `error`, relative (NaN: it is another orbit of a family); or is unproven, why in words. */
+/* One check more, for gate.proven: of a solution (branch -1: a steady state beside them) at omega whose orbit is
+ * proven, with an error of its amplitude of at most `error`, relative (NaN: it is another orbit of a family); or is
+ * unproven, why in words. */
 hc_status gate_add_proof(gate_case *g, const compare_setup *setup, double omega, int branch, const char *unproven,
                          double error);
 
