@@ -224,6 +224,8 @@ static const field table[] = {
    .meaning = "anywhere in the period"},
   {"gate", "nonlinear", "", CHOICE(nonlinear_names, gate.nonlinear), .fallback = "any",
    .meaning = "required: fail if no contact changes its state at any frequency; any: only say so"},
+  {"gate", "proven", "", FIELD_FLAG, .unit = "", SCENE(gate.proven), .fallback = "false",
+   .meaning = "fail unless each orbit is proven, and its error below gate.amplitude (hbmcheck prove)"},
   {"gate", "ranges", "", FIELD_REALS, .unit = "rad/time", SCENE(gate.ranges.ends), .fallback = "", POSITIVE,
    .meaning = "FROM, TO, ...: where the limits below hold, the last range first; in the sweep's unit"},
   {"gate", "range_amplitude", "", FIELD_REALS, .unit = "1", SCENE(gate.ranges.amplitude), .fallback = "", POSITIVE,

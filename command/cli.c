@@ -13,6 +13,7 @@
 #include <string.h>
 #include <sundials/sundials_version.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <yaml.h>
 
@@ -556,6 +557,15 @@ int cli_file_failed(const cli_common *common, const char *path, hc_status st)
   const char *why = st == HC_IO && errno ? strerror(errno) : hc_status_text(st);
   if (!path && st == HC_IO && errno == EPIPE) return EXIT_NO_SOLUTION; /* who reads it has seen enough: `| head` */
   return cli_failed(common, st == HC_BUG ? EXIT_BUG : EXIT_NO_SOLUTION, "%s: %s", path ? path : "standard output", why);
+}
+
+int cli_make_folder(const cli_common *common, const char *path)
+{
+  struct stat st;
+  if (!path || mkdir(path, 0777) == 0) return 0;
+  if (errno == EEXIST && stat(path, &st) == 0 && S_ISDIR(st.st_mode)) return 0;
+  if (errno == EEXIST) errno = ENOTDIR;
+  return cli_file_failed(common, path, HC_IO);
 }
 
 /* ---- results ---- */

@@ -203,6 +203,9 @@ void cli_foretell_memory(const cli_common *common, double bytes);
  * frequencies, 84 degrees of freedom, 24 contact rows", without sizes where m is NULL. */
 void cli_foretell_time(const cli_common *common, double seconds, int frequencies, const model *m);
 
+/* A folder for results (NULL: none), made if it is not there. 0, or the exit code after the message. */
+int cli_make_folder(const cli_common *common, const char *path);
+
 /* After common->drawing ended with st: 0, or the exit code after the message that there is none and why. */
 int cli_plotted(const cli_common *common, hc_status st);
 

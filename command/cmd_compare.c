@@ -1,4 +1,5 @@
 /* cmd_compare.c - hbmcheck compare: harmonic balance and time integration at the same frequencies. */
+#include <errno.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -7,6 +8,7 @@
 #include "command/case_names.h"
 #include "command/commands.h"
 #include "command/keep_found.h"
+#include "command/proofs.h"
 #include "compare/comparison.h"
 #include "compare/duration.h"
 #include "compare/memory.h"
@@ -30,6 +32,7 @@ typedef struct compare_options {
   number_list at;       /* n = 0: the case's */
   bool tables;          /* --tables */
   bool contacts;        /* --contacts */
+  bool prove;           /* --prove */
   const char *response; /* NULL: all of them */
   table_lists lists;    /* one that is not empty implies tables */
 } compare_options;
@@ -48,6 +51,8 @@ static const cli_option options[] = {
     {CLI_FLAG, "contacts", NULL,
      "A table of the contacts: regime, forces, slip path and dissipated work of each from both sides, and how far off",
      offsetof(compare_options, contacts)},
+    {CLI_FLAG, "prove", NULL, "A table of proofs at the same frequencies, as hbmcheck prove has it",
+     offsetof(compare_options, prove)},
     CLI_PLOT_OPTION,
     {0},
 };
@@ -281,7 +286,8 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   const compare_options *own = given;
   comparison c = {0};
   accuracy a = {0};
-  table *tables[4] = {NULL};
+  proofs p = {0};
+  table *tables[5] = {NULL};
   int code = compare_lists(common, &own->lists, sc);
   if (!code) code = cli_keep_response(common, sc, own->response);
   if (!code) code = cli_take_frequencies(common, &own->at, true, sc);
@@ -298,7 +304,7 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   setup.spare =
       common->format == FORMAT_TABLE && !common->wide && !common->drawing.path; /* from_integration is not shown */
   found_rows found = {.common = common, .setup = &setup, .c = &c};
-  shown_rows_begin(&found.shown, own->contacts || with_tables);
+  shown_rows_begin(&found.shown, own->contacts || with_tables || own->prove);
   keep_found_begin(&found.beside, write_found, &found);
   setup.found = &found.beside.found;
   if (cli_shows_rows(common)) setup.added = show_found, setup.added_to = &found;
@@ -312,10 +318,16 @@ static int run_compare(cli_common *common, void *given, scene *sc)
     tabled = compare_tables(common, &setup, &c, &monitor, tables + n_tables, &a);
     n_tables += 2;
   }
+  hc_status proved = HC_OK;
+  if (st == HC_OK && own->prove) proved = prove_run(sc, &setup, &monitor, NULL, NULL, &p);
+  const int error = errno;
   keep_found_end(&found.beside);
   progress_end(bar);
+  if (st == HC_OK && own->prove) tables[n_tables++] = proofs_table(common, &p, proved);
+  if (proved != HC_OK) proofs_ended(common, p.curve_end, proved, error);
   if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the comparison", st, 0);
   else code = comparison_exit_code(&c);
+  if (proved != HC_OK) code = EXIT_NO_SOLUTION;
   if (tabled != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the tables", tabled, 0);
   print_failures(common, &c);
   say_unexpected(common, &c, NULL);
@@ -326,6 +338,7 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   for (int i = 0; i < n_tables; ++i) table_free(tables[i]);
   shown_rows_end(&found.shown);
   accuracy_clear(&a);
+  proofs_clear(&p);
   comparison_clear(&c);
   scene_setup_clear(&setup);
   return code ? code : written;

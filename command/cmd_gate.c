@@ -1,4 +1,5 @@
 /* cmd_gate.c - hbmcheck gate: are the discrepancies of case files within the limits they set? For CI. */
+#include <errno.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -9,6 +10,7 @@
 #include "base/path.h"
 #include "command/case_names.h"
 #include "command/commands.h"
+#include "command/proofs.h"
 #include "compare/duration.h"
 #include "compare/gate/gate.h"
 #include "numerics/workers.h"
@@ -62,6 +64,7 @@ typedef struct read_case {
   scene sc;
   char (*responses)[RESPONSE_NAME]; /* their names, of a structure */
   case_error error;                 /* what is wrong with the case file, or empty */
+  int no_checker;                   /* errno where hbmcheck-proof was asked for and could not be asked */
 } read_case;
 
 typedef struct gate_call {
@@ -119,6 +122,21 @@ static void foretell_time(const gate_call *call)
   cli_foretell_time(call->common, seconds, frequencies, NULL);
 }
 
+/* For gate.proven. */
+static hc_status judge_proofs(read_case *of, const compare_setup *setup, const hc_monitor *monitor, gate_case *g)
+{
+  proofs p;
+  hc_status st = prove_run(&of->sc, setup, monitor, NULL, NULL, &p);
+  if (st == HC_IO) of->no_checker = errno;
+  for (int i = 0; i < p.n && st == HC_OK; ++i) {
+    const proof_row *r = &p.rows[i];
+    const double most = fmax(fabs(r->error.low), fabs(r->error.high)) / r->amplitude.low;
+    st = gate_add_proof(g, setup, r->omega, r->branch, r->proven ? NULL : proof_reason_text(r->reason), most);
+  }
+  proofs_clear(&p);
+  return st;
+}
+
 static hc_status judge_case(void *self, int i, const hc_monitor *monitor)
 {
   gate_call *call = self;
@@ -128,6 +146,7 @@ static hc_status judge_case(void *self, int i, const hc_monitor *monitor)
   if (g->wrong) return HC_OK;
   hc_status st = scene_setup(&of->sc, &setup);
   if (st == HC_OK) st = gate_run(call->common->arguments[i], &setup, monitor, g);
+  if (st == HC_OK && of->sc.gate.proven) st = judge_proofs(of, &setup, monitor, g);
   if (st == HC_OK) st = cli_response_names(&of->sc, &of->responses);
   g->responses = (const char(*)[RESPONSE_NAME])of->responses;
   scene_setup_clear(&setup);
@@ -144,6 +163,9 @@ static int judge_cases(gate_call *call)
   const hc_status st = workers_run(call->own->jobs, common->n_arguments, judge_case, call, &monitor);
   progress_end(bar);
   if (st == HC_OK) return 0;
+  int error = 0;
+  for (int i = 0; i < common->n_arguments && !error; ++i) error = call->of[i].no_checker;
+  if (st == HC_IO) return proofs_ended(common, HC_OK, st, error);
   if (st == HC_INTERRUPTED) cli_message(common, "stopped on request: nothing is written, half a gate is none");
   else cli_solver_failed(common, CLI_BOTH, name, st, 0);
   return EXIT_NO_SOLUTION;

@@ -1,4 +1,5 @@
 /* cmd_report.c - hbmcheck report: the comparison as one HTML page. */
+#include <errno.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,6 +8,7 @@
 #include "base/path.h"
 #include "command/case_names.h"
 #include "command/commands.h"
+#include "command/proofs.h"
 #include "command/report/report.h"
 #include "compare/duration.h"
 #include "output/output.h"
@@ -24,6 +26,7 @@ static const char help[] =
 typedef struct report_options {
   number_list at; /* n = 0: the case's */
   table_lists lists;
+  bool prove;
 } report_options;
 
 static const cli_option options[] = {
@@ -33,6 +36,7 @@ static const cli_option options[] = {
      offsetof(report_options, lists.harmonics)},
     {CLI_LIST, "samples", "LIST", "Samples per period of the tables, at least 2 H + 2 [compare.samples]",
      offsetof(report_options, lists.samples)},
+    {CLI_FLAG, "prove", NULL, "Also a table of proofs, as hbmcheck prove has it", offsetof(report_options, prove)},
     {0},
 };
 
@@ -85,6 +89,7 @@ static hc_status write_page(const cli_common *common, const report_options *own,
   write_list(to, "at", &own->at);
   write_list(to, "harmonics", &own->lists.harmonics);
   write_list(to, "samples", &own->lists.samples);
+  if (own->prove) fputs(" --prove", to);
   write_sets(to, common);
   fputc(0, to);
   fputs("hbmcheck lab --case", to);
@@ -143,7 +148,16 @@ static int run_report(cli_common *common, void *given, scene *sc)
   foretell_time(common, sc);
   progress *bar = progress_start("comparing", common->quiet);
   hc_status st = report_gather(sc, cli_processors(), bar, &d);
+  const hc_monitor monitor = progress_monitor(bar);
+  progress_relabel(bar, "proving");
+  const hc_status proved = st == HC_OK && own->prove ? prove_run(sc, &d.setup, &monitor, NULL, NULL, &d.proofs) : HC_OK;
+  const int error = errno;
   progress_end(bar);
+  if (proved != HC_OK) {
+    code = proofs_ended(common, d.proofs.curve_end, proved, error);
+    report_clear(&d);
+    return code;
+  }
   if (st == HC_INTERRUPTED) code = cli_failed(common, EXIT_NO_SOLUTION, "stopped on request; no page was written");
   else if (st != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the report", st, 0);
   else if ((st = write_page(common, own, &d, path)) == HC_OK) {

@@ -56,16 +56,6 @@ static bool may_be_replaced(unsigned long seed, const char *folder, const char *
   return same;
 }
 
-/* The folder of --findings (NULL: none), made if it is not there. 0, or the exit code after the message. */
-static int stress_make_folder(const cli_common *common, const char *findings)
-{
-  struct stat st;
-  if (!findings || mkdir(findings, 0777) == 0) return 0;
-  if (errno == EEXIST && stat(findings, &st) == 0 && S_ISDIR(st.st_mode)) return 0;
-  if (errno == EEXIST) errno = ENOTDIR;
-  return cli_file_failed(common, findings, HC_IO);
-}
-
 static const char help[] =
     "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and "
     "compare each with every other. Every check ends as agreed, explained (by a reason that was computed, too), "
@@ -354,7 +344,7 @@ static int run_stress(cli_common *common, void *given, scene *sc)
     case_clear(&first);
     return code;
   }
-  const int refused = stress_make_folder(common, own->findings);
+  const int refused = cli_make_folder(common, own->findings);
   if (refused) return refused;
   if (!(call.results = calloc((size_t)own->plan.scenes, sizeof *call.results)))
     return cli_solver_failed(common, CLI_BOTH, "stress", HC_NO_MEMORY, 0);

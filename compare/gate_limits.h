@@ -22,6 +22,7 @@ typedef struct gate_limits {
   discrepancy most; /* [1] largest relative discrepancy */
   gate_ranges ranges;
   gate_nonlinear nonlinear;
+  bool proven; /* is the orbit next to each solution to be proven, and its error in amplitude below the limit? */
   int iterations, evaluations; /* most for the response curve; 0: no limit */
 } gate_limits;
 

@@ -37,6 +37,8 @@ static const char *stable_text(const response_row *r)
   return stable > 0 ? "yes" : stable < 0 ? "no" : "unknown";
 }
 
+static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "unstable" : "unproven"; }
+
 /* clang-format off */
 /* ---- what several kinds have ---- */
 #define AT_OMEGA(X, C, at) \
@@ -207,6 +209,30 @@ static const char *stable_text(const response_row *r)
   BOTH_SIDES(X, "normal_max", normal_max)                                   \
   BOTH_SIDES(X, "traction_max", traction_max)                               \
   BOTH_SIDES(X, "slip_distance", slip_distance)
+
+#define BOUNDS(X, name, b)                                                     \
+  X(REAL,    name "_low",       r->proven, (b).low)                         \
+  X(REAL,    name "_high",      r->proven, (b).high)
+
+#define PROVE_COLUMNS(X, C, R)                                                 \
+  AT_OMEGA(X, C, r->omega) \
+  X(INTEGER, "branch",          r->branch >= 0, r->branch)                  \
+  X(TEXT,    "verdict",         true, r->proven ? "proven" : "unproven")    \
+  X(TEXT,    "reason",          !r->proven, proof_reason_text(r->reason))   \
+  X(TEXT,    "states",          *r->states, r->states)                      \
+  X(INTEGER, "transitions",     r->multiple > 0, r->transitions)                 \
+  X(REAL,    "radius",          r->proven, r->radius)                       \
+  X(TEXT,    "stability",       r->proven, stability_text(r->stability))    \
+  BOUNDS(X, "amplitude", r->amplitude)                                      \
+  BOUNDS(X, "error", r->error)                                              \
+  X(TEXT,    "certificate",     *r->certificate, r->certificate)            \
+  X(INTEGER, "period_multiple", r->multiple > 0, r->multiple)                    \
+  BOUNDS(X, "mean", r->mean)                                                \
+  BOUNDS(X, "harmonic_1", r->harmonic_1)                                    \
+  BOUNDS(X, "multiplier", r->multiplier)                                    \
+  X(REAL,    "hbm_amplitude",   true, r->hbm_amplitude)                     \
+  X(REAL,    "error_predicted", true, r->predicted)                         \
+  X(REAL,    "seconds",         r->multiple > 0, r->seconds)
 /* clang-format on */
 
 static void fill_REAL(row_cell *c, bool there, double value)
@@ -257,6 +283,11 @@ static const char *const of_compare_contact[] = {
     "hbm_traction_max", "transient_traction_max", "hbm_normal_min", "transient_normal_min",
     "normal_error", "verdict", NULL};
 
+static const char *const of_prove[] = {
+    "omega", "seconds", "mean_low", "mean_high", "harmonic_1_low", "harmonic_1_high", "multiplier_low",
+    "multiplier_high", "hbm_amplitude", "period_multiple", "radius", "transitions", "error_predicted", "certificate",
+    "states", "amplitude_high", "reason", NULL};
+
 static const char *const of_others[] = {"omega", NULL};
 /* clang-format on */
 
@@ -295,7 +326,8 @@ static const char *const of_others[] = {"omega", NULL};
   X(ROWS_ORDER, order, order_row, ORDER_COLUMNS, of_others) \
   X(ROWS_CONTACT, contact, contact_row, CONTACT_COLUMNS, of_contact) \
   X(ROWS_STEADY_CONTACT, steady_contact, steady_contact, STEADY_CONTACT_COLUMNS, of_contact) \
-  X(ROWS_COMPARE_CONTACT, compare_contact, contact_comparison, COMPARE_CONTACT_COLUMNS, of_compare_contact)
+  X(ROWS_COMPARE_CONTACT, compare_contact, contact_comparison, COMPARE_CONTACT_COLUMNS, of_compare_contact) \
+  X(ROWS_PROVE, prove, proof_row, PROVE_COLUMNS, of_prove)
 KINDS(KIND_OF)
 
 #define KIND(kind, name, row, LIST, spare) \

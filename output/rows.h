@@ -8,24 +8,26 @@
 #include "compare/response.h"
 #include "compare/steady_states.h"
 #include "output/table.h"
+#include "prove/prove.h"
 
 typedef enum {
-  ROWS_FRF,            /* of response_row      */
-  ROWS_TRANSIENT,      /* of steady_row        */
-  ROWS_COMPARE,        /* of comparison_row    */
-  ROWS_CURVE,          /* of response_summary  */
-  ROWS_ACCURACY,       /* of accuracy_row      */
-  ROWS_ORDER,          /* of order_row         */
-  ROWS_CONTACT,        /* of contact_row       */
-  ROWS_STEADY_CONTACT, /* of steady_contact    */
-  ROWS_COMPARE_CONTACT /* of contact_comparison */
+  ROWS_FRF,             /* of response_row      */
+  ROWS_TRANSIENT,       /* of steady_row        */
+  ROWS_COMPARE,         /* of comparison_row    */
+  ROWS_CURVE,           /* of response_summary  */
+  ROWS_ACCURACY,        /* of accuracy_row      */
+  ROWS_ORDER,           /* of order_row         */
+  ROWS_CONTACT,         /* of contact_row       */
+  ROWS_STEADY_CONTACT,  /* of steady_contact    */
+  ROWS_COMPARE_CONTACT, /* of contact_comparison */
+  ROWS_PROVE            /* of proof_row          */
 } rows_kind;
 
 /* Columns that only some cases have: frequencies in cycles per time beside the omegas; the name of the response or
  * contact. */
 enum { ROWS_IN_CYCLES = 1, ROWS_RESPONSES = 2 };
 
-enum { ROWS_MOST = 48, ROWS_TEXT = 32 }; /* columns of a kind, asserted; bytes of a text, the end included */
+enum { ROWS_MOST = 48, ROWS_TEXT = 64 }; /* columns of a kind, asserted; bytes of a text, the end included */
 
 typedef struct row_cell {
   table_kind kind;

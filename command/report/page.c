@@ -249,11 +249,14 @@ static void write_piece(page *p, const char *name, size_t length)
        d->accuracy.orders},
       {"contacts", "Contacts over one period, on both sides; work: what friction dissipates", ROWS_COMPARE_CONTACT,
        d->comparison.n_contacts, d->comparison.contacts},
+      {"proofs", "Proven orbits next to the solutions, and bounds of HBM's error (hbmcheck prove)", ROWS_PROVE,
+       d->proofs.n, d->proofs.rows},
   };
   for (size_t i = 0; i < sizeof tables / sizeof *tables; ++i) {
     const struct row_table *t = &tables[i];
     if (strlen(t->name) != length || memcmp(t->name, name, length) != 0) continue;
-    if (t->kind != ROWS_COMPARE_CONTACT || d->sc->structure)
+    const bool shown = t->kind == ROWS_PROVE ? t->n > 0 : t->kind != ROWS_COMPARE_CONTACT || d->sc->structure;
+    if (shown)
       html_rows(p->to, t->caption, t->kind,
                 (d->sc->in_cycles ? ROWS_IN_CYCLES : 0u) | (d->sc->structure ? ROWS_RESPONSES : 0u), t->n, t->rows,
                 without);

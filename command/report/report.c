@@ -184,6 +184,7 @@ void report_clear(report_data *d)
   json_decref(d->structure);
   json_decref(d->aliasing);
   accuracy_clear(&d->accuracy);
+  proofs_clear(&d->proofs);
   comparison_clear(&d->comparison);
   scene_setup_clear(&d->setup);
   *d = (report_data){0};

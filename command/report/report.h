@@ -17,12 +17,14 @@
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
 #include "output/progress.h"
+#include "prove/prove.h"
 
 typedef struct report_data {
   const scene *sc;     /* the caller's */
   compare_setup setup; /* made from it */
   comparison comparison;
   accuracy accuracy;
+  proofs proofs;     /* the caller's to fill in, if they are asked for; report_clear frees them */
   hc_status tabled;  /* status of the tables; the rows found are shown whatever it is */
   json_t *response;  /* the curve and what stands on it, of the first response */
   json_t *structure; /* other responses, shapes and contacts (parts.h); JSON null for one degree of freedom */

@@ -189,6 +189,23 @@ static void judge_nonlinearity(judge *j)
   add(j, &c);
 }
 
+hc_status gate_add_proof(gate_case *g, const compare_setup *setup, double omega, int branch, const char *unproven,
+                         double error)
+{
+  judge j = {.setup = setup, .out = g, .st = HC_OK};
+  gate_check c = check_of(NULL, "proven", isnan(error) ? NULL : "orbit");
+  c.omega = omega;
+  c.branch = branch;
+  if (branch >= 0) c.allowed = gate_limits_at(setup->limits, omega).amplitude;
+  if (unproven) not_passed(&c, GATE_FAIL, "unproven: %s", unproven);
+  else if (branch >= 0 && isnan(error))
+    not_passed(&c, GATE_NOT_APPLICABLE,
+               "not applicable: a slider was on the verge of slip; proven is another one's orbit");
+  else if (branch >= 0 && !within(c.found = error, c.allowed)) c.result = GATE_FAIL;
+  add(&j, &c);
+  return j.st;
+}
+
 hc_status gate_judge(const char *name, const compare_setup *setup, const comparison *c, gate_case *out)
 {
   *out = (gate_case){.name = name, .in_cycles = setup->limits->ranges.in_cycles};

@@ -39,7 +39,7 @@ typedef struct gate_check {
   int response;          /* of the model, counted from 0; -1: about the curve */
   char verdict[24];      /* of the comparison's row, empty for the curve */
   const char *quantity;  /* "amplitude", "harmonic_1", "mean", "waveform", "transient" (matched by some HBM
-                           solution?), "orbit" and "solution" (errors only), of the curve: "curve" (an error),
+                           solution?), "proven", "orbit" and "solution" (errors only), of the curve: "curve" (an error),
                            "iterations", "evaluations", "nonlinear" */
   const char *against;   /* "transient", "orbit" or "limit"; NULL: nothing */
   double allowed, found; /* NaN where there are none */
@@ -68,6 +68,12 @@ hc_status gate_run(const char *name, const compare_setup *setup, const hc_monito
 /* The second half: the checks of a comparison of setup. HC_NO_MEMORY. */
 hc_status gate_judge(const char *name, const compare_setup *setup, const comparison *c, gate_case *out);
 void gate_clear(gate_case *g);
+
+/* One check more, for gate.proven: of a solution (branch -1: a steady state beside them) at omega whose orbit is
+ * proven, with an error of its amplitude of at most `error`, relative (NaN: it is another orbit of a family); or is
+ * unproven, why in words. */
+hc_status gate_add_proof(gate_case *g, const compare_setup *setup, double omega, int branch, const char *unproven,
+                         double error);
 
 /* The name of the response that the check is about; NULL: about none, or they have no names. */
 const char *gate_response(const gate_case *g, const gate_check *c);

@@ -105,8 +105,8 @@ static void mistakes_name_the_assignment(CHECK_STATE)
       {"contacts[-1].gap=1", "unknown field `contacts[-1].gap`, did you mean `contacts[0].gap`?"},
       {"contacts[99999].gap=1", "unknown field `contacts[99999].gap`, did you mean `contacts[0].gap`?"},
       {"gate=1", "`gate` is a section, expected one of its fields: gate.amplitude, gate.harmonic_1, gate.mean, "
-                 "gate.waveform, gate.nonlinear, gate.ranges, gate.range_amplitude, gate.range_harmonic_1, "
-                 "gate.range_mean, gate.range_waveform, gate.iterations, gate.evaluations"},
+                 "gate.waveform, gate.nonlinear, gate.proven, gate.ranges, gate.range_amplitude, "
+                 "gate.range_harmonic_1, gate.range_mean, gate.range_waveform, gate.iterations, gate.evaluations"},
       {"hbm.samples", "no `=`, expected PATH=VALUE such as hbm.harmonics=10"},
       {"hbm.samples=", "hbm.samples is empty, expected an integer 3..16777216 or auto"},
       {"oscillator.mass=0", "oscillator.mass is `0`, expected a number > 0"},

@@ -143,7 +143,9 @@ def main(hbmcheck, source, *pages):
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(pathlib.Path(source, "cases"), folder / "cases")
         (folder / "bin").mkdir()
-        (folder / "bin" / "hbmcheck").symlink_to(pathlib.Path(hbmcheck).absolute())
+        program = pathlib.Path(hbmcheck).absolute()
+        (folder / "bin" / "hbmcheck").symlink_to(program)
+        (folder / "bin" / "hbmcheck-proof").symlink_to(program.with_name("hbmcheck-proof"))
         search, os.environ["PATH"] = os.environ["PATH"], f"{folder / 'bin'}{os.pathsep}{os.environ['PATH']}"
         try:
             print(f"{page.name}: {check(page, folder, page.resolve().parent == documentation)} outputs as printed")

@@ -1,0 +1,15 @@
+/* proofs.h - what prove_run found, as a table and as messages, for every command that proves (cmd_prove.c). */
+#ifndef HC_COMMAND_PROOFS_H
+#define HC_COMMAND_PROOFS_H
+
+#include "command/cli.h"
+#include "prove/prove.h"
+
+/* Also where it ended with another st than HC_OK: it says so then. On stderr, why rows are unproven, unless quiet. */
+table *proofs_table(const cli_common *common, const proofs *p, hc_status st);
+
+/* The messages after prove_run ended with st, `error` being its errno, the curve with `curve_end`. 0, or the exit
+ * code. */
+int proofs_ended(const cli_common *common, hc_status curve_end, hc_status st, int error);
+
+#endif

@@ -1,0 +1,336 @@
+/* prove.c - see prove.h: frequencies, solutions, orbits; what the checker answers, as rows. */
+#include "prove/prove.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/growing.h"
+#include "base/number.h"
+#include "base/thread_clock.h"
+#include "compare/comparison.h"
+#include "compare/first_guess.h"
+#include "hbm/hbm.h"
+#include "prove/certificate.h"
+#include "prove/checker.h"
+
+enum {
+  MOST_PERIODS = 2000, /* from an unstable orbit to where the motion goes */
+  MOST_MOVES = 8       /* of sliders that never slip: the motion follows them, some of the way */
+};
+static const double enough = 0.01,
+                    room = 0.02;        /* [1] of a slider's interval: nearer to an end, it is moved so far in */
+static const double same_orbit = 1e-6;  /* [1] of the amplitude: measures that differ by less are of one orbit */
+static const double same_motion = 1e-9; /* [1] of the amplitude: a slider that was moved changed no more */
+static const double same_branch = 0.5;  /* [1] by how much a slider that is moved may change the amplitude */
+
+static const struct {
+  const char *words, *meaning;
+} reasons[] = {
+#define REASON_WORDS(code, words, meaning) {words, meaning},
+    PROOF_REASONS(REASON_WORDS)
+#undef REASON_WORDS
+};
+const char *proof_reason_text(proof_reason r) { return reasons[r].words; }
+const char *proof_reason_meaning(proof_reason r) { return reasons[r].meaning; }
+
+typedef struct prover {
+  const compare_setup *setup;
+  const hc_monitor *monitor;
+  response_curve response;
+  timeint *ti; /* the exact law in closed form */
+  proof_checker *checker;
+  certificate_model model;
+  double *state; /* [n_states] */
+  proof_keep *keep;
+  void *keeper;
+  proofs *out;
+  int n_found; /* orbits at this frequency */
+  timeint_result *found;
+} prover;
+
+/* ---- what the checker says ---- */
+
+/* The multiplier's distance from +1 within which a failure is put down to the fold. */
+static const double near_fold = 1e-2;
+
+/* The reason that the answer's words are about: the first whose key they contain. */
+static proof_reason reason_of(const json_t *answer, const json_t *rest, const timeint_result *r)
+{
+  static const struct {
+    const char *key;
+    proof_reason reason;
+  } keys[] = {{"transitions at once", PROOF_TWO_AT_ONCE},
+              {"edge of the cone", PROOF_CONE_EDGE},
+              {"singular", PROOF_FOLD},
+              {"too stiff", PROOF_TOO_LARGE},
+              {"a list of", PROOF_TOO_LARGE}, /* longer than it reads */
+              {"not decided", PROOF_GRAZE},
+              {"is negative", PROOF_GRAZE},
+              {"Newton", PROOF_NO_ORBIT}};
+  const json_t *at = json_object_get(answer, "contact");
+  const char *words = json_string_value(json_object_get(answer, "reason"));
+  proof_reason reason = PROOF_NO_DIGITS;
+  for (size_t i = sizeof keys / sizeof *keys; i-- > 0;)
+    if (words && strstr(words, keys[i].key)) reason = keys[i].reason;
+  const bool folds = hypot(r->multiplier_re - 1, r->multiplier_im) < near_fold;
+  if (folds && (reason == PROOF_NO_DIGITS || reason == PROOF_NO_ORBIT)) reason = PROOF_FOLD;
+  if (reason == PROOF_GRAZE && json_is_integer(at) &&
+      json_object_get(rest, number_write((double)json_integer_value(at), (char[NUMBER_TEXT]){0})))
+    reason = PROOF_SLIDER_AT_LIMIT;
+  return reason;
+}
+
+static proof_bounds bounds_of(const json_t *claims, const char *name)
+{
+  return (proof_bounds){certificate_bound(claims, name, 0, -1), certificate_bound(claims, name, 1, +1)};
+}
+
+/* A difference that was rounded to nearest, so that the true one is not beyond it; 0 is exact. */
+static double rounded(double difference, double towards)
+{
+  return difference == 0 ? 0 : nextafter(difference, towards);
+}
+
+static void read_answer(const json_t *answer, proof_row *row)
+{
+  const char *stability = json_string_value(json_object_get(answer, "stability"));
+  row->radius = certificate_bound(answer, "radius", -1, 0);
+  row->amplitude = bounds_of(answer, "amplitude");
+  row->mean = bounds_of(answer, "mean");
+  row->harmonic_1 = bounds_of(answer, "harmonic_1");
+  row->multiplier = bounds_of(answer, "multiplier");
+  row->error.low = rounded(row->hbm_amplitude - row->amplitude.high, -INFINITY);
+  row->error.high = rounded(row->hbm_amplitude - row->amplitude.low, INFINITY);
+  row->stability = stability ? !strcmp(stability, "stable") - !strcmp(stability, "unstable") : 0;
+  if (row->other_member) row->error = (proof_bounds){NAN, NAN};
+}
+
+/* ---- an orbit ---- */
+
+/* Sliders that never slip and are on the verge of it away from there, by a share of their intervals; false: one has no
+ * place. */
+static bool move_sliders(const prover *p, const orbit_events *e, double share, bool *moved)
+{
+  double *w = p->state + 2 * e->n_dof;
+  *moved = false;
+  for (int j = 0; j < e->n_contacts; ++j) {
+    const double length = e->highest[j] - e->lowest[j], at = (e->rest[j] - e->lowest[j]) / length;
+    if (isnan(e->rest[j])) continue;
+    if (!(length > 0)) return false;
+    if (at > enough && at < 1 - enough) continue;
+    w[j] =
+        at < 0.5 ? fmax(e->rest[j], e->lowest[j]) + share * length : fmin(e->rest[j], e->highest[j]) - share * length;
+    *moved = true;
+  }
+  return true;
+}
+
+/* The events of the orbit *r, p->state on it, and of one next to it where sliders that never slip had no room. */
+static hc_status find_events(prover *p, timeint_result *r, proof_row *row, orbit_events *e)
+{
+  const double amplitude = r->amplitude;
+  hc_status st = timeint_events(p->ti, r, e);
+  double share = room;
+  for (int moves = 0; st == HC_OK; ++moves, share *= 2) { /* a motion that follows wants more */
+    bool moved;
+    const bool possible = move_sliders(p, e, share, &moved);
+    if (possible && !moved) return HC_OK;
+    row->reason = PROOF_SLIDER_AT_LIMIT;
+    if (!possible || moves == MOST_MOVES) return HC_NOT_CONVERGED;
+    row->moved = true;
+    orbit_events_free(e);
+    st = timeint_orbit(p->ti, r->omega, r->period_multiple, p->state, p->monitor, r);
+    if (st == HC_OK && !(fabs(r->amplitude - amplitude) <= same_branch * amplitude)) st = HC_NOT_CONVERGED;
+    row->other_member = st == HC_OK && !(fabs(r->amplitude - amplitude) <= same_motion * amplitude);
+    if (st == HC_OK) st = timeint_events(p->ti, r, e);
+  }
+  return st;
+}
+
+/* The checker's answer on the candidate into *row, and *certificate where it is proven. */
+static hc_status ask(prover *p, const timeint_result *r, const orbit_events *e, proof_row *row, json_t **certificate)
+{
+  json_t *candidate = certificate_of(&p->model, row->omega, row->multiple, r->amplitude, e), *answer = NULL;
+  const double began = wall_seconds();
+  hc_status st = candidate ? proof_checker_ask(p->checker, candidate, &answer) : HC_NO_MEMORY;
+  row->seconds = wall_seconds() - began;
+  if (st == HC_IO && !hc_monitor_tick(p->monitor, -1)) st = HC_INTERRUPTED; /* the signal ended both */
+  const json_t *refined = json_object_get(answer, "certificate");
+  const char *said = json_string_value(json_object_get(answer, "verdict"));
+  const char *words = json_string_value(json_object_get(answer, "reason"));
+  row->proven = said && !strcmp(said, "accepted") && certificate_is_of(refined, &p->model, row->omega, row->multiple);
+  row->reason = row->proven ? PROOF_NO_REASON : reason_of(answer, json_object_get(candidate, "rest"), r);
+  certificate_letters(candidate, row->states, sizeof row->states);
+  snprintf(row->detail, sizeof row->detail, "%s", words ? words : "");
+  if (row->proven) read_answer(answer, row);
+  if (row->proven) *certificate = json_incref((json_t *)refined);
+  json_decref(candidate);
+  json_decref(answer);
+  return st;
+}
+
+static hc_status add_row(prover *p, proof_row *row, json_t *certificate)
+{
+  hc_status st = p->keep ? p->keep(p->keeper, row, certificate) : HC_OK;
+  json_decref(certificate);
+  if (st == HC_OK && !GROW(p->out->rows, p->out->n)) st = HC_NO_MEMORY;
+  if (st == HC_OK) p->out->rows[p->out->n++] = *row;
+  return st;
+}
+
+static bool fatal(hc_status st) { return st == HC_NO_MEMORY || st == HC_INTERRUPTED || st == HC_IO; }
+
+/* The row of the orbit *r, p->state on it; without one where found is not HC_OK. */
+static hc_status prove_orbit(prover *p, hc_status found, timeint_result *r, proof_row *row)
+{
+  orbit_events e = {0};
+  json_t *certificate = NULL;
+  if (fatal(found)) return found;
+  row->reason = PROOF_NO_ORBIT;
+  if (found == HC_OK) found = find_events(p, r, row, &e);
+  if (found == HC_OK) {
+    row->multiple = r->period_multiple;
+    row->transitions = e.n > 1 ? e.n : 0;
+    found = ask(p, r, &e, row, &certificate);
+  }
+  orbit_events_free(&e);
+  return fatal(found) ? found : add_row(p, row, certificate);
+}
+
+/* ---- a frequency ---- */
+
+static bool known(const prover *p, const timeint_result *r)
+{
+  for (int i = 0; i < p->n_found; ++i) {
+    const timeint_result *o = &p->found[i];
+    const double apart = fmax(fabs(o->max - r->max), fmax(fabs(o->min - r->min), fabs(o->rms - r->rms)));
+    if (apart <= same_orbit * r->amplitude) return true;
+  }
+  return false;
+}
+
+static hc_status remember(prover *p, const timeint_result *r)
+{
+  if (!GROW(p->found, p->n_found)) return HC_NO_MEMORY;
+  p->found[p->n_found++] = *r;
+  return HC_OK;
+}
+
+/* The orbit next to solution k. *leads_on: it is none that motions stay on. */
+static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *leads_on)
+{
+  const double *X = hbm_curve_X(at, k), omega = at->points[k].omega;
+  proof_row row = {.omega = omega,
+                   .branch = at->points[k].branch,
+                   .radius = NAN,
+                   .amplitude = {NAN, NAN},
+                   .mean = {NAN, NAN},
+                   .harmonic_1 = {NAN, NAN},
+                   .error = {NAN, NAN},
+                   .predicted = NAN};
+  hbm_measures measures;
+  motion_error expected;
+  timeint_result r;
+  hc_status st = hbm_measure(p->response.hbm, X, &measures);
+  row.hbm_amplitude = st == HC_OK ? measures.amplitude : NAN;
+  if (st == HC_OK && hbm_predict(p->response.hbm, omega, X, &expected) == HC_OK) row.predicted = expected.amplitude;
+  if (model_has_circle(p->setup->model)) {
+    row.reason = PROOF_CIRCLE;
+    return add_row(p, &row, NULL);
+  }
+  if (st == HC_OK) st = comparison_orbit_start(p->response.hbm, X, omega, p->state);
+  if (st == HC_OK) st = timeint_orbit(p->ti, omega, 1, p->state, p->monitor, &r);
+  *leads_on = st != HC_OK || timeint_stability(&r) < 0;
+  if (st == HC_OK && remember(p, &r) != HC_OK) st = HC_NO_MEMORY;
+  return prove_orbit(p, st, &r, &row);
+}
+
+/* Where time integration goes from p->state, if that is not known yet. */
+static hc_status prove_steady(prover *p, double omega)
+{
+  proof_row row = {
+      .omega = omega, .branch = -1, .radius = NAN, .error = {NAN, NAN}, .predicted = NAN, .hbm_amplitude = NAN};
+  timeint_result r;
+  const hc_status st = timeint_steady(p->ti, omega, p->state, p->monitor, &r);
+  if (fatal(st)) return st;
+  if (st != HC_OK || known(p, &r)) return HC_OK;
+  const hc_status kept = remember(p, &r);
+  return kept == HC_OK ? prove_orbit(p, st, &r, &row) : kept;
+}
+
+/* Every solution first, so that what motions go to from unstable ones is told once. */
+static hc_status prove_at(prover *p, double omega)
+{
+  hbm_curve at = {0};
+  hc_status st = hbm_curve_at(p->response.hbm, &p->response.curve, omega, &at);
+  bool *leads_on = calloc((size_t)at.n + 1, sizeof *leads_on);
+  p->n_found = 0;
+  if (!leads_on) st = HC_NO_MEMORY;
+  for (int k = 0; k < at.n && !fatal(st); ++k) st = prove_solution(p, &at, k, &leads_on[k]);
+  for (int k = 0; k < at.n && !fatal(st); ++k) {
+    if (!leads_on[k]) continue;
+    st = comparison_orbit_start(p->response.hbm, hbm_curve_X(&at, k), omega, p->state);
+    if (st == HC_OK) st = prove_steady(p, omega);
+  }
+  if (at.n == 0 && !fatal(st) && !model_has_circle(p->setup->model)) {
+    timeint_rest(p->ti, p->state);
+    st = prove_steady(p, omega);
+  }
+  free(leads_on);
+  hbm_curve_free(&at);
+  return fatal(st) ? st : HC_OK;
+}
+
+/* Each frequency is a part of the whole. */
+static hc_status prove_all(prover *p)
+{
+  number_list omega;
+  hc_status st =
+      comparison_frequencies(&p->setup->compare, p->setup->omega_from, p->response.hbm, &p->response.curve, &omega);
+  for (int i = 0; i < omega.n && st == HC_OK; ++i) {
+    st = prove_at(p, omega.v[i]);
+    if (st == HC_OK && !hc_monitor_tick(p->monitor, (i + 1.0) / omega.n)) st = HC_INTERRUPTED;
+  }
+  return st;
+}
+
+hc_status prove_run(const scene *sc, const compare_setup *setup, const hc_monitor *monitor, proof_keep *keep,
+                    void *keeper, proofs *out)
+{
+  prover p = {.setup = setup, .monitor = monitor, .keep = keep, .keeper = keeper, .out = out};
+  transient_settings how = setup->transient;
+  how.law = TRANSIENT_LAW_EXACT;
+  how.method = TRANSIENT_METHOD_CLOSED_FORM;
+  how.scout = false;
+  how.steady = TRANSIENT_STEADY_AUTO;
+  how.start = TRANSIENT_START_HBM;
+  how.tolerance = fmin(how.tolerance, 1e-10);
+  if (how.max_periods > MOST_PERIODS) how.max_periods = MOST_PERIODS;
+  *out = (proofs){0};
+  hc_status st = proof_checker_new(&p.checker);
+  if (st == HC_OK) st = certificate_model_make(sc, setup->model, 0, &p.model);
+  if (st == HC_OK) st = timeint_new(setup->model, &how, &p.ti);
+  if (st == HC_OK && !(p.state = calloc((size_t)timeint_n_states(p.ti), sizeof *p.state))) st = HC_NO_MEMORY;
+  if (st == HC_OK)
+    st = response_trace(setup, &setup->compare.omega, &(hc_monitor){hc_monitor_tick_aside, (void *)(size_t)monitor},
+                        &p.response);
+  if (st == HC_OK) {
+    out->curve_end = p.response.status;
+    st = p.response.hbm ? prove_all(&p) : p.response.status;
+  }
+  response_curve_free(&p.response);
+  timeint_free(p.ti);
+  certificate_model_free(&p.model);
+  proof_checker_free(p.checker);
+  free(p.state);
+  free(p.found);
+  return st;
+}
+
+void proofs_clear(proofs *p)
+{
+  free(p->rows);
+  *p = (proofs){0};
+}
