@@ -93,6 +93,11 @@ static hc_status from_faces(const patch *p, double sign, const double *given, in
                 v->node);
     return HC_BAD_INPUT;
   }
+  if (given && !p->sheet && sign * dot_product(3, given, v->normal) <= 0) {
+    message_add(why, "axes.normal does not point out of the first body at its face of node %d, expected the other way",
+                v->node);
+    return HC_BAD_INPUT;
+  }
   to->area = v->area;
   for (int d = 0; d < 3; ++d) to->normal[d] = given ? given[d] : sign * v->normal[d] / length;
   return HC_OK;
@@ -258,7 +263,13 @@ hc_status pairing_make(const patch *a, const patch *b, double within, const doub
   if (st == HC_OK && (out->n == 0 || (2 * out->n < a->n && 2 * out->n < b->n)))
     st = too_few(a, b, within, out->n, of_a.distance, why);
   if (st == HC_OK) st = add_geometry(a, b, normal, out, why);
-  for (int i = 0; i < out->n; ++i) out->area += out->pairs[i].area;
+  for (int i = 0; i < out->n && st == HC_OK; ++i) {
+    out->area += out->pairs[i].area;
+    if (out->pairs[i].area > 0) continue;
+    message_add(why, "node %d has no area, expected elements, or a file of pairs with areas",
+                a->v[out->pairs[i].a].node);
+    st = HC_BAD_INPUT;
+  }
   free(of_a.of);
   free(of_a.distance);
   return st;
