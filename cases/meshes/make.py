@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """A blade with a platform that rubs on an arm beside it: mesh (CalculiX .inp), stiffness and mass, sparse.
 
-    make.py small FOLDER     1188 degrees of freedom, 12 contact nodes a side, lumped mass: what stands in blade/
-    make.py large FOLDER     some 56 000, 36 a side, consistent mass
+    make.py small FOLDER     1044 degrees of freedom, 6 contact nodes a side, lumped mass: what stands in blade/
+    make.py large FOLDER     57 870, 36 a side, consistent mass
 
 FOLDER gets mesh.inp (nodes, elements C3D8, sets CLAMPED, PLATFORM, ARM, TIP), job.inp (for `ccx job`, which writes the
 same matrices), blade.sti and blade.mas (lower triangle, row column value), blade.dof (NODE.DIRECTION a row). Units: kg, N,
@@ -14,7 +14,7 @@ import numpy as np
 E, NU, RHO = 2.1e11, 0.3, 7850.0
 #        cells along x: to the airfoil, across it, to the shank's end, to the contact, over it, to the arm's end; along y;
 #        along z: shank, platform, airfoil; arm
-SIZES = {"small": ((2, 2, 2, 1, 2, 4), 3, (4, 2, 10), 2), "large": ((8, 8, 8, 6, 5, 24), 5, (26, 8, 180), 16)}
+SIZES = {"small": ((1, 2, 1, 3, 1, 5), 2, (8, 2, 12), 2), "large": ((4, 8, 4, 9, 5, 24), 5, (60, 8, 160), 16)}
 
 
 def lines(ends, cells):
@@ -26,8 +26,8 @@ def lines(ends, cells):
 def shape_of(p):
     """The straight blocks bent: platform and arm dip where they touch, the airfoil tapers and twists."""
     x, y, z = p.T
-    dip = np.where((x > 0.018) & (z > 0.01), 0.0015 * (1 - np.cos(2 * np.pi * (x - 0.018) / 0.042)), 0)
-    s = np.clip((z - 0.026) / 0.084, 0, None)
+    dip = np.where(x > 0.015, 0.0015 * (1 - np.cos(2 * np.pi * (x - 0.015) / 0.045)), 0)
+    s = np.clip((z - 0.051) / 0.084, 0, None)
     turn, u, v = 0.6 * s, (x - 0.009) * (1 - 0.4 * s), y - 0.015
     return np.stack([0.009 + u * np.cos(turn) - v * np.sin(turn), 0.015 + u * np.sin(turn) + v * np.cos(turn), z - dip], 1)
 
@@ -35,10 +35,10 @@ def shape_of(p):
 def mesh(size):
     """Nodes [n][3] and elements [m][8], both from 0, and sets of nodes."""
     along, across, up, thick = SIZES[size]
-    x, ex = lines([0, 0.006, 0.012, 0.018, 0.024, 0.036, 0.060], along)
+    x, ex = lines([0.003, 0.006, 0.012, 0.015, 0.024, 0.036, 0.060], along)
     y, _ = lines([0, 0.03], [across])
-    z, ez = lines([0, 0.02, 0.026, 0.11], up)
-    za, _ = lines([0.014, 0.02], [thick])
+    z, ez = lines([0, 0.045, 0.051, 0.135], up)
+    za, _ = lines([0.039, 0.045], [thick])
     blade = [(0, i, j, k) for k in range(ez[3]) for j in range(across) for i in range(ex[5])
              if (i < ex[3] if k < ez[1] else True if k < ez[2] else ex[1] <= i < ex[2])]
     arm = [(1, i, j, k) for k in range(thick) for j in range(across) for i in range(ex[4], ex[6])]
