@@ -143,8 +143,8 @@ static const field table[] = {
    .meaning = "of two tangents: |(T_1, T_2)| <= mu N; square: |T_1| and |T_2| <= mu N each"},
   {"contacts", "normal", "", ACROSS(normal),
    .unit = "1", .fallback = "", .meaning = "v = normal . x; none: N = preload, constant"},
-  {"contacts", "pairs", "", PART(FIELD_IN_CONTACT, "a csv file node_a,node_b[,gap][,preload][,area], such rows, or "
-   "{between: [SET, SET], within: DISTANCE}"), .unit = "", .fallback = "",
+  {"contacts", "pairs", "", PART(FIELD_IN_CONTACT, "a csv file node_a,node_b[,gap][,preload][,area], rows, or "
+   "{between: ...}"), .unit = "", .fallback = "",
    .meaning = "a contact for each pair of nodes; stiffnesses are per area"},
   {"contacts", "axes", "", PART(FIELD_IN_CONTACT, "{normal: [X, Y, Z], tangent: [X, Y, Z]}, tangent_2: none"),
    .unit = "1", .fallback = "", .meaning = "of pairs, of a's motion less b's; tangent_2 is normal x tangent"},
