@@ -195,8 +195,8 @@ static void write_entry(const char *section, const scene_structure *s, const str
     const field *f = field_at(i);
     const bool is_direction = f->kind == FIELD_PART && f->size > 0 && strcmp(f->name, "dof") != 0;
     if (!is_direction || strcmp(f->section, section) || is_zero(s->n, field_direction(f, entry))) continue;
-    const structure_load *load = c ? NULL : entry;
-    const structure_node *node = load ? node_of(s, load->by_node, load->direction) : NULL;
+    const structure_node *node =
+        c ? NULL : node_of(s, ((const structure_load *)entry)->by_node, field_direction(f, entry));
     if (node) fprintf(to, "%snode: %d\n", before, node->node), before = "    ";
     begin_line(&before, f, to);
     if (node) putc(node->direction, to);

@@ -629,17 +629,15 @@ static void add_face(const mesh *s, const mesh_element *e, const char *face, con
   } cuts[] = {{"012", 1}, {"012230123301", 0}, {"035314542345", 4}, {"047415526637456674567745", 4}};
   const bool triangle = corners_of(face) == 3;
   bool between = strlen(face) > 4; /* and those nodes are of the patch, too */
-  patch_node *v[8];
-  for (size_t i = 0; i < strlen(face); ++i) {
-    const int k = row[s->corners[e->first + face[i] - 'a']];
-    if (k < 0) between = false;
-    v[i] = k < 0 ? NULL : &to->v[k];
-  }
+  for (const char *c = face; *c; ++c) between = between && row[s->corners[e->first + *c - 'a']] >= 0;
   const int cut = 2 * between + !triangle;
   for (int t = 0; cuts[cut].triangles[3 * t]; ++t) {
     patch_node *corner[3];
     double side[2][3], area[3];
-    for (int i = 0; i < 3; ++i) corner[i] = v[cuts[cut].triangles[3 * t + i] - '0'];
+    for (int i = 0; i < 3; ++i) {
+      const char c = face[cuts[cut].triangles[3 * t + i] - '0'];
+      corner[i] = &to->v[row[s->corners[e->first + c - 'a']]];
+    }
     for (int i = 0; i < 3; ++i)
       side[0][i] = corner[2]->x[i] - corner[0]->x[i], side[1][i] = corner[1]->x[i] - corner[0]->x[i];
     const double third = (t < cuts[cut].half ? 1 : 0.5) / 6;

@@ -189,10 +189,10 @@ static int convex_hull(point *v, int n, point *hull)
 static hc_status share_plane(const patch *a, const double *normal, pairing *out)
 {
   const size_t n = (size_t)a->n;
-  point *at = malloc(9 * n * sizeof *at), *sorted = at + n, *hull = sorted + n, *cell = hull + 2 * n,
-        *other = cell + 2 * n;
-  double along[2][3] = {{0}};
+  point *at = malloc(9 * n * sizeof *at);
   if (!at) return HC_NO_MEMORY;
+  point *sorted = at + n, *hull = sorted + n, *cell = hull + 2 * n, *other = cell + 2 * n;
+  double along[2][3] = {{0}};
   along[0][fabs(normal[0]) < 0.7 ? 0 : 1] = 1;
   const double part = dot_product(3, along[0], normal);
   for (int d = 0; d < 3; ++d) along[0][d] -= part * normal[d];

@@ -44,8 +44,7 @@ hc_status structure_note(scene_structure *s, const char *line)
   const size_t used = s->notes ? strlen(s->notes) : 0, more = strlen(line);
   char *longer = realloc(s->notes, used + more + 2);
   if (!longer) return HC_NO_MEMORY;
-  memcpy(longer + used, line, more);
-  memcpy(longer + used + more, "\n", 2);
+  snprintf(longer + used, more + 2, "%s\n", line);
   s->notes = longer;
   return HC_OK;
 }

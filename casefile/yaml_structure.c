@@ -245,15 +245,6 @@ static hc_status read_nodes(case_reader *r, const yaml_node_t *node)
 
 /* ---- the mesh ---- */
 
-hc_status case_mesh_read(case_reader *r, const yaml_node_t *node)
-{
-  const char *path = r->sc.structure->mesh;
-  if (r->mesh || !path) return HC_OK;
-  const hc_status st = mesh_read(path, &r->mesh, &r->msg);
-  if (st == HC_NO_MEMORY) return case_out_of_memory(r);
-  return st == HC_IO ? yaml_file_failed(r, node, "structure.mesh", path, "a mesh of CalculiX or Abaqus (.inp)") : st;
-}
-
 static hc_status read_mesh(case_reader *r, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;

@@ -38,7 +38,7 @@ static double area_of(const patch *p)
 }
 
 /* ---- two bodies, each a layer of bricks nx by ny, that meet in a face at z = 0, `gap` apart; the face is a plane of
- * lengths 3 and 2, or with R > 0 the part of a cylinder about y that stands for it. `seed` shuffles the numbers. ---- */
+ * lengths 3 and 2, or with R > 0 the part of a cylinder about y that stands for it. seed shuffles numbers. ---- */
 
 enum { NX = 6, NY = 4, FACE = (NX + 1) * (NY + 1), NODES = 4 * FACE };
 static const double LX = 3, LY = 2;
@@ -539,15 +539,14 @@ static void an_entry_is_set_at_once(CHECK_STATE)
   const own_file f = write_file("m.inp", CUBES, strlen(CUBES));
   char text[4096];
   scene sc;
-  snprintf(
-      text, sizeof text, CASE, f.path,
-      "contacts:\n  - {name: face, pairs: {between: [ONE, ONCE], within: 0.1}, axes: {normal: [0, 0, 1], tangent: [1, 0, 0]},\n"
-      "     tangential_stiffness: 20, normal_stiffness: 30, friction: 0.3}\n");
+  snprintf(text, sizeof text, CASE, f.path,
+           "contacts:\n  - {name: face, pairs: {between: [ONE, ONCE], within: 0.1}, axes: {normal: [0, 0, 1]},\n"
+           "     tangential_stiffness: 20, normal_stiffness: 30, friction: 0.3}\n");
   refused(text, NULL, "f:9:35: ", "node 3 has no area");
-  snprintf(
-      text, sizeof text, CASE, f.path,
-      "contacts:\n  - {name: face, pairs: [[node_a, node_b, area], [3, 7, 2], [7, ground, 0.5]], axes: {normal: [0, 0, 1], tangent: [1, 0, 0]},\n"
-      "     tangential_stiffness: 20, normal_stiffness: 30, friction: 0.3}\n");
+  snprintf(text, sizeof text, CASE, f.path,
+           "contacts:\n  - {name: face, pairs: [[node_a, node_b, area], [3, 7, 2], [7, ground, 0.5]],\n"
+           "     axes: {normal: [0, 0, 1], tangent: [1, 0, 0]},"
+           "     tangential_stiffness: 20, normal_stiffness: 30, friction: 0.3}\n");
   accepted(text, "contacts[face].friction=0.2", &sc);
   const structure_contact *c = sc.structure->contacts;
   assert_true(c[0].given.law.mu == 0.2 && c[1].given.law.mu == 0.2 && c[0].given.law.kt == 40);
