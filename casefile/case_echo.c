@@ -224,12 +224,12 @@ static bool write_of_structure(const scene_structure *s, const char *section, FI
     write_structure(s, to);
   } else if (!strcmp(section, "forcing[]")) {
     begin_list("forcing", s->n_loads, to);
-    for (int j = 0; j < s->n_loads; ++j) write_entry(section, s, NULL, &s->loads[j], &s->loads[j], to);
+    for (int j = 0; s->loads && j < s->n_loads; ++j) write_entry(section, s, NULL, &s->loads[j], &s->loads[j], to);
   } else if (!strcmp(section, "contacts")) {
     for (const char *note = s->notes; note && *note; note = strchr(note, '\n') + 1)
       fprintf(to, "# %.*s\n", (int)strcspn(note, "\n"), note);
     begin_list("contacts", s->n_contacts, to);
-    for (int j = 0; j < s->n_contacts; ++j)
+    for (int j = 0; s->contacts && j < s->n_contacts; ++j)
       write_entry(section, s, &s->contacts[j], &s->contacts[j], &s->contacts[j].given, to);
   } else return !strcmp(section, "oscillator") || !strcmp(section, "forcing");
   return true;

@@ -92,6 +92,7 @@ static void make_bodies(bodies *b, double R, double gap, unsigned seed)
     for (int i = 0; i <= NX; ++i)
       for (int j = 0; j <= NY; ++j) fprintf(to, "%d%s", b->id[body][1][i][j], j < NY ? ", " : "\n");
   }
+  fputs("*NSET, NSET=BOTH, GENERATE\n1, 1000\n", to);
   fclose(to);
 }
 
@@ -143,6 +144,20 @@ static void flat_faces_pair(CHECK_STATE)
     }
     forget(&b, side, &p);
   }
+}
+
+/* Of a set of all nodes the faces between two elements are none: each body has the surface of a box. */
+static void faces_are_outside(CHECK_STATE)
+{
+  bodies b;
+  make_bodies(&b, 0, 0.3, 1);
+  mesh *s = mesh_of(b.text);
+  patch all = patch_of(s, "both");
+  assert_int_equal(all.n, NODES);
+  assert_int_equal(all.n_faces, 4 * (NX * NY + NX + NY));
+  CHECK_NEAR(area_of(&all), 4 * (LX * LY + 0.5 * LX + 0.5 * LY), 1e4 * DBL_EPSILON, "two boxes");
+  free(all.v), free(b.text);
+  mesh_free(s);
 }
 
 /* Facets of the same size around a node have the radius as their mean; at the edge there is one, half a facet's angle
@@ -374,6 +389,7 @@ static void what_does_not_match(CHECK_STATE)
        "node 4 may belong to ",
        0},
       {4, 2, 11, {SQUARE}, {{0, 0, .1}, {1, 0, .1}}, 0.2, NULL, 2},
+      {5, 4, 11, {SQUARE, {5, 0, 0}}, {{0, 0, .1}, {1, 0, .1}, {1, 1, .1}, {0, 1, .1}}, 20, NULL, 4},
       {4, 4, 11, {SQUARE}, {{0, 0, .1}, {5, 0, .1}, {5, 1, .1}, {5, 2, .1}}, 0.2, "1 of 4 and 4 nodes", 0},
       {4, 4, 11, {SQUARE}, {{0, 0, 3}, {1, 0, 3}, {1, 1, 3}, {0, 1, 3}}, 0.2, "the nearest ones are 3 to 3 away", 0},
       {4, 4, 1, {SQUARE}, {{0, 0, 0}, {1, 0, .1}, {1, 1, .1}, {0, 1, .1}}, 0.2, "node 1 is in both", 0},
@@ -598,6 +614,6 @@ static void responses_are_named_by_node(CHECK_STATE)
   }
 }
 
-CHECK_TESTS("structure.pairing", 60, flat_faces_pair, normals_of_a_cylinder, faces_of_all_elements, sets_and_includes,
-            mistakes_in_a_mesh, what_does_not_match, a_plane_through_nodes_alone, by_position_as_by_rows, in_a_case,
-            an_entry_is_set_at_once, responses_are_named_by_node)
+CHECK_TESTS("structure.pairing", 60, flat_faces_pair, faces_are_outside, normals_of_a_cylinder, faces_of_all_elements,
+            sets_and_includes, mistakes_in_a_mesh, what_does_not_match, a_plane_through_nodes_alone,
+            by_position_as_by_rows, in_a_case, an_entry_is_set_at_once, responses_are_named_by_node)
