@@ -107,6 +107,14 @@ static void write_direction(const scene_structure *s, const double *direction, F
   putc('}', to);
 }
 
+/* The node that a direction was given by, or NULL. */
+static const structure_node *node_of(const scene_structure *s, bool by_node, const double *direction)
+{
+  int dof = 0;
+  while (direction[dof] == 0) ++dof;
+  return by_node ? structure_node_of(s, dof) : NULL;
+}
+
 static void write_damping(const scene_structure *s, FILE *to)
 {
   switch (s->how) {
@@ -146,7 +154,10 @@ static void write_structure(const scene_structure *s, FILE *to)
   if (s->n_nodes > 0) fputs("]\n", to);
   for (int i = 0; i < s->n_responses; ++i) {
     fputs(i == 0 ? "response: [" : ", ", to);
-    write_direction(s, s->responses[i].direction, to);
+    const structure_response *response = &s->responses[i];
+    const structure_node *node = node_of(s, response->by_node, response->direction);
+    if (node) fprintf(to, "{node: %d, direction: %c}", node->node, node->direction);
+    else write_direction(s, response->direction, to);
   }
   if (s->n_responses > 0) fputs("]\n", to);
 }
@@ -184,8 +195,12 @@ static void write_entry(const char *section, const scene_structure *s, const str
     const field *f = field_at(i);
     const bool is_direction = f->kind == FIELD_PART && f->size > 0 && strcmp(f->name, "dof") != 0;
     if (!is_direction || strcmp(f->section, section) || is_zero(s->n, field_direction(f, entry))) continue;
+    const structure_node *node =
+        c ? NULL : node_of(s, ((const structure_load *)entry)->by_node, field_direction(f, entry));
+    if (node) fprintf(to, "%snode: %d\n", before, node->node), before = "    ";
     begin_line(&before, f, to);
-    write_direction(s, field_direction(f, entry), to);
+    if (node) putc(node->direction, to);
+    else write_direction(s, field_direction(f, entry), to);
     putc('\n', to);
   }
   if (c && c->by_angle) fprintf(to, "%.3s\n", before), before = "    ";
@@ -209,10 +224,12 @@ static bool write_of_structure(const scene_structure *s, const char *section, FI
     write_structure(s, to);
   } else if (!strcmp(section, "forcing[]")) {
     begin_list("forcing", s->n_loads, to);
-    for (int j = 0; j < s->n_loads; ++j) write_entry(section, s, NULL, &s->loads[j], &s->loads[j], to);
+    for (int j = 0; s->loads && j < s->n_loads; ++j) write_entry(section, s, NULL, &s->loads[j], &s->loads[j], to);
   } else if (!strcmp(section, "contacts")) {
+    for (const char *note = s->notes; note && *note; note = strchr(note, '\n') + 1)
+      fprintf(to, "# %.*s\n", (int)strcspn(note, "\n"), note);
     begin_list("contacts", s->n_contacts, to);
-    for (int j = 0; j < s->n_contacts; ++j)
+    for (int j = 0; s->contacts && j < s->n_contacts; ++j)
       write_entry(section, s, &s->contacts[j], &s->contacts[j], &s->contacts[j].given, to);
   } else return !strcmp(section, "oscillator") || !strcmp(section, "forcing");
   return true;

@@ -56,6 +56,8 @@ hc_status case_reader_take(case_reader *r, hc_status st, scene *out)
 {
   if (st == HC_OK) *out = r->sc;
   else if (r->owns_structure) structure_free(r->sc.structure);
+  mesh_free(r->mesh);
+  r->mesh = NULL;
   r->sc.structure = NULL;
   r->owns_structure = false;
   return st;

@@ -188,3 +188,12 @@ void yaml_forget_fields(case_reader *r, unsigned of)
   for (int i = 0; i < field_count(); ++i)
     if (field_at(i)->flags & of) r->at[i] = (case_place){0};
 }
+
+hc_status case_mesh_read(case_reader *r, const yaml_node_t *node)
+{
+  const char *path = r->sc.structure->mesh;
+  if (r->mesh || !path) return HC_OK;
+  const hc_status st = mesh_read(path, &r->mesh, &r->msg);
+  if (st == HC_NO_MEMORY) return case_out_of_memory(r);
+  return st == HC_IO ? yaml_file_failed(r, node, "structure.mesh", path, "a mesh of CalculiX or Abaqus (.inp)") : st;
+}

@@ -10,6 +10,7 @@
 #include "casefile/case_file.h"
 #include "casefile/case_values.h"
 #include "casefile/fields.h"
+#include "casefile/mesh_file.h"
 #include "casefile/structure.h"
 
 enum { CASE_LARGEST = 16 << 20 }; /* bytes of a case file; an echoed one holds matrices of some 500 rows */
@@ -24,6 +25,7 @@ typedef struct case_reader {
   case_place here;        /* of the path being resolved or the value being set       */
   case_place end;         /* of the file's text; line = 0 before it is known         */
   scene sc;               /* as far as it has been read                              */
+  mesh *mesh;             /* of sc.structure->mesh, once it was asked for; or NULL   */
   bool owns_structure;    /* or shares it with the scene it was started from         */
   /* [field_index] where each field was last given; of contacts' fields, in the contact being read */
   case_place at[FIELD_MAX];
@@ -176,6 +178,9 @@ hc_status yaml_contacts_read(case_reader *r, const yaml_node_t *node);
 hc_status yaml_contact_read(case_reader *r, const yaml_node_t *node, int j);
 hc_status yaml_responses_read(case_reader *r, const yaml_node_t *node);
 
+/* r->mesh from the structure's file, unless it is there already or the case names none; the node is where to blame. */
+hc_status case_mesh_read(case_reader *r, const yaml_node_t *node);
+
 /* An entry of contacts with `pairs` and `axes`: a new contact for each pair of nodes. */
 hc_status yaml_pairs_read(case_reader *r, const yaml_node_t *node);
 
@@ -215,16 +220,20 @@ typedef enum case_list { CASE_NO_LIST, CASE_CONTACTS, CASE_LOADS } case_list;
 typedef struct case_target {
   const field *f;
   case_list list;
-  int index; /* in the list; -1: all of it, or no list */
+  int index;  /* in the list; -1: all of it, or no list */
+  bool whole; /* and case_target_next: all contacts of an entry of pairs, whose stiffnesses are per area */
 } case_target;
-static inline case_target case_target_of(const field *f, int index)
+static inline case_target case_target_of(const field *f, int index, bool whole)
 {
   const case_list list = f->flags & FIELD_IN_CONTACT ? CASE_CONTACTS
                          : f->flags & FIELD_IN_LOAD  ? CASE_LOADS
                                                      : CASE_NO_LIST;
-  return (case_target){f, list, index};
+  return (case_target){f, list, index, whole};
 }
 hc_status case_find_target(case_reader *r, const char *path, size_t length, case_target *t);
+
+/* t becomes the next contact of its entry; false: it was the last one, or is no entry's. */
+bool case_target_next(const case_reader *r, case_target *t);
 
 /* What t.f is stored in (fields.h): the scene, its structure, or the contact or load of t; an oscillator's contact is
  * appended if it is the one past the last. NULL, with the message made: out of memory, for a structure that is shared

@@ -1,6 +1,7 @@
 /* case_set.c - assignments PATH=VALUE on top of a case file.
  *   hbm.samples=2048   title=Any text   sweep.omega=[3,20] or 3,20
  *   contacts[0].gap=-1   contacts[joint].gap=-1   contacts[0]={...}   contacts=[...]   forcing[0].amplitude=3
+ *   contacts[face].gap=-1, of all contacts that an entry of pairs with that name made: face-1, face-2, ...
  *   structure.damping.modal=0.02   structure.mass=mass.mtx
  * An index one past the last contact appends one. Of rivals (sweep.omega, sweep.frequency) the one assigned last
  * counts. */
@@ -39,8 +40,29 @@ static int read_index(const char *s, const char *stop, const char **end)
   return index;
 }
 
-/* "[joint]" at s, with *end behind it: the contact of that name. *index = -1 if it is no word in brackets. */
-static hc_status read_name(case_reader *r, const char *s, const char *stop, const char **end, int *index)
+/* The first contact from number `from` on that an entry of that name has made, NAME-1, NAME-2, ...; -1: none. */
+static int find_of_entry(const scene_structure *s, int from, const char *name, size_t length)
+{
+  for (int j = from; j < s->n_contacts; ++j) {
+    const char *own = s->contacts[j].given.name;
+    if (strlen(own) <= length + 1 || memcmp(own, name, length) != 0 || own[length] != '-') continue;
+    if (!own[length + 1 + strspn(own + length + 1, "0123456789")]) return j;
+  }
+  return -1;
+}
+
+bool case_target_next(const case_reader *r, case_target *t)
+{
+  if (!t->whole) return false;
+  const char *name = r->sc.structure->contacts[t->index].given.name;
+  const int next = find_of_entry(r->sc.structure, t->index + 1, name, (size_t)(strrchr(name, '-') - name));
+  if (next >= 0) t->index = next;
+  return next >= 0;
+}
+
+/* "[joint]" at s, with *end behind it: the contact of that name, or with *whole the first one of that entry. *index =
+ * -1 if it is no word in brackets. */
+static hc_status read_name(case_reader *r, const char *s, const char *stop, const char **end, int *index, bool *whole)
 {
   const scene_structure *own = r->sc.structure;
   const char *close = s < stop && *s == '[' ? memchr(s, ']', (size_t)(stop - s)) : NULL;
@@ -50,6 +72,9 @@ static hc_status read_name(case_reader *r, const char *s, const char *stop, cons
   const size_t length = (size_t)(close - s - 1);
   *index = structure_contact_named(own, s + 1, length);
   if (*index >= 0) return HC_OK;
+  *index = find_of_entry(own, 0, s + 1, length);
+  *whole = *index >= 0;
+  if (*whole) return HC_OK;
   int near = -1, least = NEAREST_FAR;
   for (int j = 0; j < own->n_contacts; ++j) {
     const char *name = own->contacts[j].given.name;
@@ -83,13 +108,17 @@ static hc_status find_in_list(case_reader *r, const char *path, size_t length, c
   const char *bracket = s;
   t->index = read_index(bracket, stop, &s);
   hc_status st = HC_OK;
-  if (t->index < 0 && list == CASE_CONTACTS) st = read_name(r, bracket, stop, &s, &t->index);
+  if (t->index < 0 && list == CASE_CONTACTS) st = read_name(r, bracket, stop, &s, &t->index, &t->whole);
   if (st != HC_OK) return st;
   if (t->index < 0) return unknown_path(r, path, length, 0);
   if (s < stop) {
     const char *section = list == CASE_LOADS ? "forcing[]" : "contacts";
     t->f = *s == '.' ? field_find(section, s + 1, (size_t)(stop - s - 1)) : NULL;
     if (!t->f) return unknown_path(r, path, length, t->index);
+  }
+  if (t->whole && (!t->f || t->f == field_named("contacts", "name"))) {
+    return case_refuse(r, r->here, "%s is several contacts, expected a field of them, or one by its own name or number",
+                       QUOTED(path, length));
   }
   return check_index(r, *t);
 }
@@ -166,8 +195,12 @@ void case_target_given(case_reader *r, case_target t)
 {
   scene_structure *s = r->sc.structure;
   if (s && t.list == CASE_LOADS) s->loads[t.index].place = r->here;
-  else if (s && t.list == CASE_CONTACTS) s->contacts[t.index].place = r->here;
-  else if (t.list == CASE_CONTACTS) {
+  else if (s && t.list == CASE_CONTACTS) {
+    structure_contact *c = &s->contacts[t.index];
+    c->place = r->here;
+    if (t.whole && t.f == field_named("contacts", "tangential_stiffness") && c->area > 0) c->given.law.kt *= c->area;
+    if (t.whole && t.f == field_named("contacts", "normal_stiffness") && c->area > 0) c->given.law.kn *= c->area;
+  } else if (t.list == CASE_CONTACTS) {
     r->contact_has[t.index] |= case_field_bit(t.f);
     r->contact_field_at[t.index][field_index(t.f)] = r->here;
   } else r->at[field_index(t.f)] = r->here;
@@ -263,5 +296,7 @@ hc_status case_set_apply(case_reader *r, int k)
   while (length > 0 && path[length - 1] == ' ') --length;
   hc_status st = case_find_target(r, path, length, &t);
   if (st != HC_OK) return st;
-  return is_plain(t.f) ? set_field(r, t, equals + 1) : set_document(r, t, equals + 1);
+  do st = is_plain(t.f) ? set_field(r, t, equals + 1) : set_document(r, t, equals + 1);
+  while (st == HC_OK && case_target_next(r, &t));
+  return st;
 }

@@ -104,6 +104,8 @@ static const field table[] = {
    .meaning = "of the DOFs"},
   {"structure", "nodes", "", PART(0, "a FILE (csv, .dof), or a list of [DOF, NODE, x|y|z]"), .unit = "",
    .fallback = "", .meaning = "then {node: 17, direction: y} means a DOF, too"},
+  {"structure", "mesh", "", PART(0, "a FILE of CalculiX or Abaqus (.inp)"), .unit = "", .fallback = "",
+   .meaning = "whose sets of nodes `pairs: {between: ...}` names"},
 
   {"forcing", "amplitude", "F0", FIELD_REAL, .unit = "force", SCENE(force), NOT_NEGATIVE,
    .meaning = "of the force F0 cos(omega t)"},
@@ -141,8 +143,9 @@ static const field table[] = {
    .meaning = "of two tangents: |(T_1, T_2)| <= mu N; square: |T_1| and |T_2| <= mu N each"},
   {"contacts", "normal", "", ACROSS(normal),
    .unit = "1", .fallback = "", .meaning = "v = normal . x; none: N = preload, constant"},
-  {"contacts", "pairs", "", PART(FIELD_IN_CONTACT, "a csv file node_a,node_b[,gap][,preload][,area], or such rows"),
-   .unit = "", .fallback = "", .meaning = "a contact for each pair of nodes; stiffnesses are per area"},
+  {"contacts", "pairs", "", PART(FIELD_IN_CONTACT, "a csv file node_a,node_b[,gap][,preload][,area], rows, or "
+   "{between: ...}"), .unit = "", .fallback = "",
+   .meaning = "a contact for each pair of nodes; stiffnesses are per area"},
   {"contacts", "axes", "", PART(FIELD_IN_CONTACT, "{normal: [X, Y, Z], tangent: [X, Y, Z]}, tangent_2: none"),
    .unit = "1", .fallback = "", .meaning = "of pairs, of a's motion less b's; tangent_2 is normal x tangent"},
   {"contacts", "gap", "g", FIELD_REAL, .unit = "length", CONTACT(law.gap), .fallback = "0", UNBOUNDED,

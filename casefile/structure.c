@@ -35,6 +35,18 @@ void structure_clear_loads(scene_structure *s) { s->loads = cleared(s->loads, si
 void structure_clear_contacts(scene_structure *s)
 {
   s->contacts = cleared(s->contacts, sizeof *s->contacts, &s->n_contacts);
+  free(s->notes);
+  s->notes = NULL;
+}
+
+hc_status structure_note(scene_structure *s, const char *line)
+{
+  const size_t used = s->notes ? strlen(s->notes) : 0, more = strlen(line);
+  char *longer = realloc(s->notes, used + more + 2);
+  if (!longer) return HC_NO_MEMORY;
+  snprintf(longer + used, more + 2, "%s\n", line);
+  s->notes = longer;
+  return HC_OK;
 }
 
 void structure_clear_responses(scene_structure *s)
@@ -52,6 +64,7 @@ void structure_free(scene_structure *s)
   for (int i = 0; s->names && i < s->n; ++i) free(s->names[i]);
   free(s->names);
   free(s->nodes);
+  free(s->mesh);
   structure_clear_loads(s);
   structure_clear_contacts(s);
   structure_clear_responses(s);
@@ -146,6 +159,8 @@ scene_structure *structure_copy(const scene_structure *s)
   if (!to) return NULL;
   *to = *s;
   to->names = NULL;
+  to->mesh = copied(s->mesh, s->mesh ? strlen(s->mesh) + 1 : 0, &failed);
+  to->notes = copied(s->notes, s->notes ? strlen(s->notes) + 1 : 0, &failed);
   to->loads = copied_list(s->loads, sizeof *to->loads, s->n_loads, vector, &failed);
   to->contacts = copied_list(s->contacts, sizeof *to->contacts, s->n_contacts, 3 * vector, &failed);
   to->responses = copied_list(s->responses, sizeof *to->responses, s->n_responses, vector, &failed);
@@ -182,6 +197,13 @@ int structure_node_dof(const scene_structure *s, int node, char direction)
   for (int i = 0; i < s->n_nodes; ++i)
     if (s->nodes[i].node == node && s->nodes[i].direction == direction) return s->nodes[i].dof;
   return -1;
+}
+
+const structure_node *structure_node_of(const scene_structure *s, int dof)
+{
+  for (int i = 0; i < s->n_nodes; ++i)
+    if (s->nodes[i].dof == dof) return &s->nodes[i];
+  return NULL;
 }
 
 int structure_contact_named(const scene_structure *s, const char *name, size_t length)
@@ -281,11 +303,18 @@ static int harmonics(const scene_structure *s, int *harmonic)
   return n;
 }
 
-/* The response where the case names none. */
+/* The load whose place is the response where the case names none; n_loads: there is none. */
+static int first_load(const scene_structure *s)
+{
+  int first = 0;
+  while (first < s->n_loads && s->loads[first].harmonic == 0) ++first;
+  return first;
+}
+
 static int forced_dof(const scene_structure *s)
 {
-  int first = 0, most = 0;
-  while (first < s->n_loads && s->loads[first].harmonic == 0) ++first;
+  const int first = first_load(s);
+  int most = 0;
   for (int i = 1; i < s->n && first < s->n_loads; ++i)
     if (fabs(s->loads[first].direction[i]) > fabs(s->loads[first].direction[most])) most = i;
   return most;
@@ -296,8 +325,17 @@ int structure_response_count(const scene_structure *s) { return s->n_responses >
 const char *structure_response_name(const scene_structure *s, int r, char *text, size_t size)
 {
   char name[STRUCTURE_WORD];
-  if (s->n_responses > 0) return structure_direction_name(s, s->responses[r].direction, text, size);
-  snprintf(text, size, "%s", structure_dof_name(s, forced_dof(s), name));
+  int dof = 0;
+  if (s->n_responses > 0 && !s->responses[r].by_node)
+    return structure_direction_name(s, s->responses[r].direction, text, size);
+  if (s->n_responses == 0) dof = forced_dof(s);
+  else
+    while (s->responses[r].direction[dof] == 0) ++dof;
+  const int load = first_load(s);
+  const bool by_node = s->n_responses > 0 || (load < s->n_loads && s->loads[load].by_node);
+  const structure_node *node = by_node ? structure_node_of(s, dof) : NULL;
+  if (node) snprintf(text, size, "%d %c", node->node, node->direction);
+  else snprintf(text, size, "%s", structure_dof_name(s, dof, name));
   return text;
 }
 

@@ -35,18 +35,21 @@ typedef struct structure_load { /* amplitude cos(harmonic omega t + phase) along
   double amplitude;             /* [force] */
   double phase_deg;             /* [deg] */
   int harmonic;                 /* >= 0; 0: a static load */
+  bool by_node;                 /* its place was given as a node */
   case_place place;
 } structure_load;
 
 typedef struct structure_contact {
   double *tangent, *tangent_2, *normal; /* [n] [1] u = tangent . x, v = normal . x; all 0 where there is none */
   scene_contact given;                  /* its scalars; kt = mu = 0 without a tangent, kn = gap = 0 without a normal */
-  bool by_angle;                        /* they came from given.angle_deg: one degree of freedom */
+  double area;   /* of a pair of nodes, given.law's stiffnesses being per area times this; 0: none */
+  bool by_angle; /* they came from given.angle_deg: one degree of freedom */
   case_place place;
 } structure_contact;
 
 typedef struct structure_response {
   double *direction; /* [n] [1] */
+  bool by_node;      /* it was given as a node, and is named by it */
   case_place place;
 } structure_response;
 
@@ -76,6 +79,8 @@ struct scene_structure {
   char **names;       /* [n], then NULL; or NULL */
   int n_nodes;
   structure_node *nodes;
+  char *mesh;  /* path of the file that sets of nodes are in, or NULL */
+  char *notes; /* how pairs of nodes were found, a line an entry, or NULL */
   int n_loads;
   structure_load *loads;
   int n_contacts;
@@ -93,7 +98,10 @@ void structure_free(scene_structure *s);
 /* Forget a matrix. */
 void structure_free_matrix(structure_matrix *m);
 
-/* Remove all loads, contacts or responses. */
+/* One more line of notes. HC_NO_MEMORY. */
+hc_status structure_note(scene_structure *s, const char *line);
+
+/* Remove all loads, contacts with their notes, or responses. */
 void structure_clear_loads(scene_structure *s);
 void structure_clear_contacts(scene_structure *s);
 void structure_clear_responses(scene_structure *s);
@@ -111,6 +119,9 @@ int structure_dof(const scene_structure *s, const char *text, size_t length);
 
 /* The degree of freedom of a node in a direction, -1 if there is none. */
 int structure_node_dof(const scene_structure *s, int node, char direction);
+
+/* The node and direction that a degree of freedom moves; NULL: none is known. */
+const structure_node *structure_node_of(const scene_structure *s, int dof);
 
 /* The contact of that name, -1 if there is none. */
 int structure_contact_named(const scene_structure *s, const char *name, size_t length);
@@ -152,7 +163,8 @@ bool structure_contact_is_pair(const scene_structure *s, const structure_contact
 /* The first of the model's contacts that contact j is, for 0 <= j <= n_contacts: n_contacts gives their number. */
 int structure_model_contact(const scene_structure *s, int j);
 
-/* How many responses its model has, and the name of one: that of its direction, into text[size], which is returned. */
+/* How many responses its model has, and the name of one: its node, `1328 z`, where it was asked for by node, else that
+ * of its direction; into text[size], which is returned. */
 int structure_response_count(const scene_structure *s);
 const char *structure_response_name(const scene_structure *s, int r, char *text, size_t size);
 

@@ -44,6 +44,7 @@ hc_status yaml_entry_part(case_reader *r, const field *f, int j, const yaml_node
   scene_structure *s = r->sc.structure;
   char path[FIELD_PATH];
   if (is_of_pairs(f)) return not_of_one(r, node, f->name);
+  if (f->flags & FIELD_IN_LOAD) s->loads[j].by_node = false;
   const void *entry = f->flags & FIELD_IN_LOAD ? (const void *)&s->loads[j] : (const void *)&s->contacts[j];
   return yaml_direction(r, field_path(f, j, path), node, field_direction(f, entry));
 }
@@ -102,7 +103,7 @@ hc_status yaml_load_read(case_reader *r, const yaml_node_t *node, int j)
   field_load_defaults(&s->loads[j]);
   memset(s->loads[j].direction, 0, (size_t)s->n * sizeof(double));
   s->loads[j].place = yaml_place(r, node);
-  const bool by_node = yaml_find(r, node, "node") != NULL;
+  const bool by_node = s->loads[j].by_node = yaml_find(r, node, "node") != NULL;
   st = yaml_fields_read(r, node, "forcing[]", j, &s->loads[j], by_node);
   if (st == HC_OK && by_node) st = yaml_direction(r, "forcing", node, s->loads[j].direction);
   return st == HC_OK ? check_load(r, j, by_node) : st;
@@ -211,6 +212,7 @@ hc_status yaml_responses_read(case_reader *r, const yaml_node_t *node)
     structure_response *new = structure_add_response(s);
     if (!new) return case_out_of_memory(r);
     new->place = yaml_place(r, entry);
+    new->by_node = entry->type == YAML_MAPPING_NODE &&yaml_find(r, entry, "node");
     if ((st = yaml_direction(r, "response", entry, new->direction)) != HC_OK) return st;
     for (int k = 0; k < s->n_responses - 1; ++k)
       if (!memcmp(s->responses[k].direction, new->direction, bytes))

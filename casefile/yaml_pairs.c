@@ -1,6 +1,7 @@
 /* yaml_pairs.c - an entry of contacts with `pairs`: a contact for each pair of nodes, see case_reader.h.
  *
  *     - {pairs: pairs.csv, axes: {normal: [1, 0, 0], tangent: [0, 1, 0]}, tangential_stiffness: 4e9, ...}
+ *     - {pairs: {between: [SET, nodes.csv], within: 1e-4}, tangential_stiffness: 4e9, ...}
  *
  * Of nodes a and b with motions x_a and x_b in space: u = tangent . (x_a - x_b), v = normal . (x_a - x_b); stiffnesses
  * are per area. What comes out are contacts like any others. */
@@ -13,9 +14,23 @@
 #include "casefile/case_reader.h"
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
+#include "casefile/pairing.h"
 #include "numerics/norm.h"
 
-/* ---- the rows of `pairs`, which nodes touch, from a csv file or from the case itself ----
+typedef enum axis { NORMAL, TANGENT, TANGENT_2, AXES } axis;
+
+static const char *const axis_names[AXES] = {"normal", "tangent", "tangent_2"};
+
+typedef struct pairs_entry {
+  scene_contact given; /* of every contact, stiffnesses per area */
+  case_place place;
+  int first; /* of its contacts */
+  double axes[AXES][3];
+  bool has[AXES];
+  bool normal_given; /* else each pair has its own */
+} pairs_entry;
+
+/* ---- the rows of `pairs`, which nodes touch, from a csv file, from the case itself, or found by position ----
  *
  *     node_a,node_b[,gap][,preload][,area]      node_b may be `ground`
  *
@@ -28,6 +43,7 @@ enum { PAIR_GROUND = -1 };
 typedef struct pair_row {
   int a, b;                  /* nodes; b may be PAIR_GROUND */
   double gap, preload, area; /* 0, 0 and 1 where there is no such column */
+  const double *normal;      /* [3] of this pair alone; NULL: of the entry */
 } pair_row;
 
 typedef struct pair_rows {
@@ -39,6 +55,8 @@ typedef struct pair_rows {
   matrix_text text;           /* the file, and the words of the current row of any kind */
   int columns;                /* in a row                                               */
   int column[PAIR_COLUMNS];   /* where each stands in a row; -1: nowhere                */
+  patch side[2];              /* that `between` names; side[0].v = NULL: it is not given */
+  pairing found;              /* between them                                            */
 } pair_rows;
 
 static const size_t most_bytes = (size_t)16 << 20;
@@ -53,9 +71,10 @@ static hc_status
 refuse(pair_rows *p, int i, bool quoted, const char *format, ...)
 {
   const char *at = i < 0 ? p->text.line_text : p->text.words[i].text;
-  message *m = !p->list ? matrix_text_blame(&p->text, at)
-               : i < 0  ? yaml_blame(p->r, p->current)
-                        : yaml_blame(p->r, yaml_entry(p->r, p->current, i));
+  message *m = p->side[0].v ? yaml_blame(p->r, p->current)
+               : !p->list   ? matrix_text_blame(&p->text, at)
+               : i < 0      ? yaml_blame(p->r, p->current)
+                            : yaml_blame(p->r, yaml_entry(p->r, p->current, i));
   va_list args;
   va_start(args, format);
   if (quoted) message_add_quoted(m, at, p->text.words[i].length);
@@ -127,16 +146,107 @@ static hc_status open_list(pair_rows *p, const yaml_node_t *node)
   return HC_OK;
 }
 
-/* Open what the node of `pairs` names or holds, up to the names of the columns. path and bytes are to be freed however
- * this ended. */
-static hc_status pair_rows_open(pair_rows *p, case_reader *r, const yaml_node_t *node)
+static hc_status read_side(pair_rows *p, const yaml_node_t *node, patch *to)
 {
-  *p = (pair_rows){.r = r};
+  case_reader *r = p->r;
+  const char *name = node->type == YAML_SCALAR_NODE ? yaml_node_text(node) : "";
+  const size_t length = strlen(name);
+  hc_status st = HC_OK;
+  if (length > 4 && !strcmp(name + length - 4, ".csv")) {
+    char *path = path_beside(r->name, name, length);
+    st = path ? patch_read(path, to, &r->msg) : HC_NO_MEMORY;
+    if (st == HC_IO) st = yaml_file_failed(r, node, "pairs.between", path, "a csv file node,x,y,z");
+    free(path);
+  } else {
+    st = case_mesh_read(r, node);
+    const int set = r->mesh ? mesh_find(r->mesh, name, length) : -1;
+    if (st != HC_OK) return st;
+    const char *near = r->mesh ? mesh_nearest(r->mesh, name, length) : NULL;
+    if (set < 0)
+      return yaml_refuse(r, node,
+                         "no set of nodes %s in structure.mesh%s, expected one, or a FILE.csv node,x,y,z%s%s%s",
+                         QUOTED(name, length), r->mesh ? "" : ", which is not given", near ? "; did you mean `" : "",
+                         near ? near : "", near ? "`?" : "");
+    st = mesh_patch(r->mesh, set, to, &r->msg);
+  }
+  if (st == HC_NO_MEMORY) return case_out_of_memory(r);
+  if (st == HC_OK && to->n == 0)
+    return yaml_refuse(r, node, "no node in %s, expected nodes of one side of the contact", QUOTED(name, length));
+  return st;
+}
+
+/* ", 2 nodes of PLAT_A without a partner: 17, 18" */
+static void note_alone(const pair_rows *p, int side, const char *name, message *m)
+{
+  const patch *of = &p->side[side];
+  int alone = of->n - p->found.n;
+  if (alone > 0) message_add(m, "; %d node%s of %s without a partner:", alone, alone > 1 ? "s" : "", name);
+  for (int i = 0, told = 0; i < of->n && told < alone; ++i) {
+    bool has = false;
+    for (int k = 0; k < p->found.n && !has; ++k) has = i == (side == 0 ? p->found.pairs[k].a : p->found.pairs[k].b);
+    if (has) continue;
+    message_add(m, "%s %d", told > 0 ? "," : "", of->v[i].node);
+    ++told;
+  }
+}
+
+static hc_status note_pairs(const pair_rows *p, const yaml_node_t *sides)
+{
+  char text[1024];
+  const char *name[2];
+  message m;
+  message_start(&m, text, sizeof text);
+  for (int i = 0; i < 2; ++i) name[i] = yaml_node_text(yaml_entry(p->r, sides, i));
+  message_add(&m, "%d pairs between %s and %s, up to %.3g apart, area %.6g in all; normals and areas from ", p->found.n,
+              name[0], name[1], p->found.farthest, p->found.area);
+  if (p->found.from == PAIRING_PLANE) message_add(&m, "a plane through the nodes of %s, which have no faces", name[0]);
+  else message_add(&m, "the faces of %s", name[p->found.from == PAIRING_FACES_B]);
+  for (int i = 0; i < 2; ++i) note_alone(p, i, name[i], &m);
+  return structure_note(p->r->sc.structure, text);
+}
+
+/* {between: [A, B], within: DISTANCE} */
+static hc_status open_between(pair_rows *p, const yaml_node_t *node, const pairs_entry *e)
+{
+  case_reader *r = p->r;
+  const yaml_node_t *sides = yaml_find(r, node, "between"), *distance = yaml_find(r, node, "within");
+  double within;
+  char words[384];
+  message why;
+  if (yaml_keys(node) != 2 || !sides || !distance || sides->type != YAML_SEQUENCE_NODE || yaml_length(sides) != 2)
+    return yaml_refuse(r, node,
+                       "pairs is a mapping of something else, expected {between: [SET, SET], within: DISTANCE}");
+  hc_status st = yaml_number(r, distance, "pairs.within", &within);
+  if (st == HC_OK && !(within > 0))
+    return yaml_refuse(r, distance, "pairs.within is not positive, expected a distance");
+  for (int i = 0; i < 2 && st == HC_OK; ++i) st = read_side(p, yaml_entry(r, sides, i), &p->side[i]);
+  if (st != HC_OK) return st;
+  message_start(&why, words, sizeof words);
+  st = pairing_make(&p->side[0], &p->side[1], within, e->normal_given ? e->axes[NORMAL] : NULL, &p->found, &why);
+  if (st == HC_OK) st = note_pairs(p, sides);
+  if (st == HC_BAD_INPUT) return yaml_refuse(r, sides, "%s", words);
+  return st == HC_NO_MEMORY ? case_out_of_memory(r) : st;
+}
+
+/* Open what the node of `pairs` names or holds, up to the names of the columns. To be closed however this ended. */
+static hc_status pair_rows_open(pair_rows *p, case_reader *r, const yaml_node_t *node, const pairs_entry *e)
+{
+  *p = (pair_rows){.r = r, .current = node};
   for (int c = 0; c < PAIR_COLUMNS; ++c) p->column[c] = -1;
+  if (node->type == YAML_MAPPING_NODE) return open_between(p, node, e);
   if (node->type == YAML_SEQUENCE_NODE) return open_list(p, node);
   if (node->type == YAML_SCALAR_NODE && node->data.scalar.length > 0) return open_file(p, node);
-  return yaml_refuse(r, node, "pairs is %s, expected a csv file %s, or such rows", yaml_node_what(node),
-                     expected_columns);
+  return yaml_refuse(r, node, "pairs is %s, expected %s", yaml_node_what(node),
+                     field_named("contacts", "pairs")->expects);
+}
+
+static void pair_rows_close(pair_rows *p)
+{
+  free(p->path);
+  free(p->bytes);
+  free(p->side[0].v);
+  free(p->side[1].v);
+  free(p->found.pairs);
 }
 
 static hc_status read_node(pair_rows *p, pair_column c, int *node)
@@ -164,6 +274,13 @@ static hc_status pair_rows_next(pair_rows *p, pair_row *row, bool *more)
 {
   hc_status st;
   *row = (pair_row){.area = 1};
+  if (p->side[0].v) {
+    *more = p->next < p->found.n;
+    if (!*more) return HC_OK;
+    const node_pair *k = &p->found.pairs[p->next++];
+    *row = (pair_row){p->side[0].v[k->a].node, p->side[1].v[k->b].node, 0, 0, k->area, k->normal};
+    return HC_OK;
+  }
   *more = next_row(p, &st);
   if (!*more) return st;
   if (p->text.n_words != p->columns)
@@ -176,18 +293,6 @@ static hc_status pair_rows_next(pair_rows *p, pair_row *row, bool *more)
   if (st != HC_OK || row->a != row->b) return st;
   return refuse(p, -1, false, "node %d against itself, expected two nodes", row->a);
 }
-
-typedef enum axis { NORMAL, TANGENT, TANGENT_2, AXES } axis;
-
-static const char *const axis_names[AXES] = {"normal", "tangent", "tangent_2"};
-
-typedef struct pairs_entry {
-  scene_contact given; /* of every contact, stiffnesses per area */
-  case_place place;
-  int first; /* of its contacts */
-  double axes[AXES][3];
-  bool has[AXES];
-} pairs_entry;
 
 /* ---- axes ---- */
 
@@ -221,9 +326,24 @@ static hc_status check_orthonormal(case_reader *r, const yaml_node_t *node, cons
   return HC_OK;
 }
 
-static hc_status read_axes(case_reader *r, const yaml_node_t *node, pairs_entry *e)
+/* tangent_2 = normal x tangent */
+static void put_across(double axes[AXES][3])
+{
+  for (int d = 0; d < 3; ++d) {
+    const int j = (d + 1) % 3, k = (d + 2) % 3;
+    axes[TANGENT_2][d] = axes[NORMAL][j] * axes[TANGENT][k] - axes[NORMAL][k] * axes[TANGENT][j];
+  }
+}
+
+/* Of pairs that are found by position any axis may be left out: normals are those of the faces, tangents are put across
+ * them; `tangent: none` leaves the normal alone. */
+static hc_status read_axes(case_reader *r, const yaml_node_t *node, bool between, pairs_entry *e)
 {
   bool seen[AXES] = {false};
+  if (!node) {
+    for (int k = 0; k < AXES; ++k) e->has[k] = true;
+    return HC_OK;
+  }
   if (node->type != YAML_MAPPING_NODE)
     return yaml_refuse(r, node, "axes is %s, expected %s", yaml_node_what(node),
                        field_named("contacts", "axes")->expects);
@@ -237,10 +357,19 @@ static hc_status read_axes(case_reader *r, const yaml_node_t *node, pairs_entry 
       return yaml_refuse(r, key, "%s in axes, expected normal, tangent and tangent_2, each once",
                          k == AXES ? "another key" : "a key again");
     seen[k] = true;
-    if (k == TANGENT_2 && yaml_node_is(value, "none")) continue;
+    if ((k == TANGENT_2 || (k == TANGENT && between)) && yaml_node_is(value, "none")) continue;
+    if (k == TANGENT_2 && between) return yaml_refuse(r, value, "axes.tangent_2 beside `between`, expected none");
     st = read_vector(r, value, (axis)k, e->axes[k]);
     if (st != HC_OK) return st;
     e->has[k] = true;
+  }
+  if (between) {
+    const hc_status st = check_orthonormal(r, node, e);
+    e->normal_given = e->has[NORMAL];
+    e->has[NORMAL] = true;
+    e->has[TANGENT] |= !seen[TANGENT];
+    e->has[TANGENT_2] = e->has[TANGENT] && !seen[TANGENT_2];
+    return st;
   }
   const bool alone = !e->has[TANGENT] && (e->has[TANGENT_2] || !e->has[NORMAL]);
   if (alone)
@@ -249,11 +378,30 @@ static hc_status read_axes(case_reader *r, const yaml_node_t *node, pairs_entry 
                        field_named("contacts", "axes")->expects);
   const hc_status st = check_orthonormal(r, node, e);
   if (st != HC_OK || !e->has[NORMAL] || !e->has[TANGENT] || seen[TANGENT_2]) return st;
-  for (int d = 0; d < 3; ++d) { /* tangent_2 = normal x tangent */
-    const int j = (d + 1) % 3, k = (d + 2) % 3;
-    e->axes[TANGENT_2][d] = e->axes[NORMAL][j] * e->axes[TANGENT][k] - e->axes[NORMAL][k] * e->axes[TANGENT][j];
-  }
+  put_across(e->axes);
   e->has[TANGENT_2] = true;
+  return HC_OK;
+}
+
+/* The axes of one pair: the entry's, or with its own normal the part of the entry's tangent across that; where the
+ * entry has none, of the axis of space that it is most nearly across. */
+static hc_status axes_of(pair_rows *rows, const pairs_entry *e, const pair_row *row, double axes[AXES][3])
+{
+  memcpy(axes, e->axes, sizeof e->axes);
+  if (!row->normal) return HC_OK;
+  const double *n = row->normal;
+  double *t = axes[TANGENT];
+  memcpy(axes[NORMAL], n, sizeof axes[NORMAL]);
+  if (is_zero(3, t))
+    t[fabs(n[0]) <= fabs(n[1]) ? fabs(n[0]) <= fabs(n[2]) ? 0 : 2 : fabs(n[1]) <= fabs(n[2]) ? 1 : 2] = 1;
+  const double along = dot_product(3, t, n);
+  for (int d = 0; d < 3; ++d) t[d] -= along * n[d];
+  const double length = norm_2(3, t);
+  if (!(length > 1e-3))
+    return refuse(rows, -1, false, "axes.tangent is the normal of the pair %d, %d, expected one across all normals",
+                  row->a, row->b);
+  for (int d = 0; d < 3; ++d) t[d] /= length;
+  put_across(axes);
   return HC_OK;
 }
 
@@ -348,6 +496,7 @@ static hc_status add_contact(pair_rows *rows, const pairs_entry *e, int k, const
   if (!c) return case_out_of_memory(r);
   c->given = e->given;
   c->place = e->place;
+  c->area = row->area;
   c->given.law.kt *= row->area;
   c->given.law.kn *= row->area;
   if (rows->column[PAIR_GAP] >= 0) c->given.law.gap = row->gap;
@@ -356,12 +505,13 @@ static hc_status add_contact(pair_rows *rows, const pairs_entry *e, int k, const
   if (!name_contact(e, k, row, c->given.name) || !isfinite(c->given.law.kt) || !isfinite(c->given.law.kn))
     return refuse(rows, rows->column[PAIR_NODE_A], false,
                   "a pair whose name or stiffness becomes too large, expected a shorter name or a smaller area");
+  double axes[AXES][3];
   double *const to[AXES] = {[NORMAL] = c->normal, [TANGENT] = c->tangent, [TANGENT_2] = c->tangent_2};
-  hc_status st = HC_OK;
+  hc_status st = axes_of(rows, e, row, axes);
   for (int i = 0; i < AXES && st == HC_OK; ++i) {
     if (!e->has[i]) continue;
-    st = add_motion(rows, s, PAIR_NODE_A, row->a, e->axes[i], 1, to[i]);
-    if (st == HC_OK && row->b != PAIR_GROUND) st = add_motion(rows, s, PAIR_NODE_B, row->b, e->axes[i], -1, to[i]);
+    st = add_motion(rows, s, PAIR_NODE_A, row->a, axes[i], 1, to[i]);
+    if (st == HC_OK && row->b != PAIR_GROUND) st = add_motion(rows, s, PAIR_NODE_B, row->b, axes[i], -1, to[i]);
   }
   return st;
 }
@@ -394,19 +544,19 @@ hc_status yaml_pairs_read(case_reader *r, const yaml_node_t *node)
   yaml_forget_fields(r, FIELD_IN_CONTACT);
   field_contact_defaults(&e.given);
   hc_status st = read_keys(r, node, &e, &given[0], &given[1]);
+  const bool between = given[0] && given[0]->type == YAML_MAPPING_NODE;
   for (int i = 0; i < 2 && st == HC_OK; ++i) {
-    if (given[i]) continue;
+    if (given[i] || between) continue;
     return case_refuse(r, e.place, "missing key `%s` beside `%s`, expected %s", needed[i], needed[1 - i],
                        field_named("contacts", needed[i])->expects);
   }
-  if (st == HC_OK) st = read_axes(r, given[1], &e);
+  if (st == HC_OK) st = read_axes(r, given[1], between, &e);
   if (st != HC_OK) return st;
-  st = pair_rows_open(&rows, r, given[0]);
+  st = pair_rows_open(&rows, r, given[0], &e);
   if (st == HC_OK) st = check_entry(r, &e, &rows);
   pair_row *all = st == HC_OK ? malloc(MATRIX_MOST_ROWS * sizeof *all) : NULL;
   if (st == HC_OK) st = all ? read_rows(&rows, &e, all) : case_out_of_memory(r);
   free(all);
-  free(rows.path);
-  free(rows.bytes);
+  pair_rows_close(&rows);
   return st;
 }

@@ -243,6 +243,22 @@ static hc_status read_nodes(case_reader *r, const yaml_node_t *node)
   return st;
 }
 
+/* ---- the mesh ---- */
+
+static hc_status read_mesh(case_reader *r, const yaml_node_t *node)
+{
+  scene_structure *s = r->sc.structure;
+  mesh_free(r->mesh);
+  r->mesh = NULL;
+  free(s->mesh);
+  s->mesh = NULL;
+  if (node->type != YAML_SCALAR_NODE || node->data.scalar.length == 0)
+    return yaml_refuse(r, node, "structure.mesh is %s, expected %s", yaml_node_what(node),
+                       field_named("structure", "mesh")->expects);
+  s->mesh = path_beside(r->name, yaml_node_text(node), node->data.scalar.length);
+  return s->mesh ? case_mesh_read(r, node) : case_out_of_memory(r);
+}
+
 /* ---- the section ---- */
 
 hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t *node)
@@ -250,8 +266,9 @@ hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t 
   static const struct {
     const char *name;
     hc_status (*read)(case_reader *, const yaml_node_t *);
-  } parts[] = {{"mass", read_mass},   {"stiffness", read_stiffness}, {"damping", read_damping},
-               {"names", read_names}, {"nodes", read_nodes},         {"response", yaml_responses_read}};
+  } parts[] = {
+      {"mass", read_mass},   {"stiffness", read_stiffness}, {"damping", read_damping},        {"names", read_names},
+      {"nodes", read_nodes}, {"mesh", read_mesh},           {"response", yaml_responses_read}};
   size_t i = 0;
   if (f->flags & FIELD_IN_STRUCTURE) return read_damping_value(r, f, node);
   while (strcmp(parts[i].name, f->name)) ++i;

@@ -380,12 +380,19 @@ int cli_not_read(hc_status st, const case_error *err)
   return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
 }
 
+void cli_say_notes(const cli_common *common, const scene *sc)
+{
+  if (sc->structure && sc->structure->notes && !common->quiet) fputs(sc->structure->notes, stderr);
+}
+
 int cli_load_case(cli_common *common, const char *path, scene *sc, case_error *err)
 {
   *err = (case_error){{0}};
   common->scene = sc;
   const hc_status st = case_read(path, common->n_set, common->set, sc, err);
-  return st == HC_OK ? 0 : cli_not_read(st, err);
+  if (st != HC_OK) return cli_not_read(st, err);
+  cli_say_notes(common, sc);
+  return 0;
 }
 
 /* ---- frequencies, and the sweep. Proof: tests/command/test_frequency.c ---- */

@@ -139,6 +139,9 @@ int cli_processors(void);
 /* Read the case with --set applied; sc is common->scene from then on. 0, or the exit code after the message, which is
  * in err, too. */
 int cli_load_case(cli_common *common, const char *path, scene *sc, case_error *err);
+
+/* On stderr, unless quiet: what the reader says of pairs that were found by position. */
+void cli_say_notes(const cli_common *common, const scene *sc);
 /* The message for a file that cannot be read as what it should be, err's or else st's. Returns the exit code. */
 int cli_not_read(hc_status st, const case_error *err);
 

@@ -271,6 +271,7 @@ static int describe_case(const cli_common *common, const char *path)
   case_places *places = malloc(sizeof *places);
   hc_status st = places ? case_read_placed(path, common->n_set, common->set, &sc, places, &err) : HC_NO_MEMORY;
   const described d = {&sc, places, common->arguments[0]};
+  cli_say_notes(common, &sc);
   const int code = st == HC_OK ? write_values(common, &d) : cli_not_read(st, &err);
   case_clear(&sc);
   free(places);

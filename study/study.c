@@ -27,15 +27,17 @@ static hc_status apply(case_reader *r, const study_field *sf, const study_value 
   message why;
   char words[16];
   int bad;
-  const case_target t = case_target_of(sf->f, sf->contact);
+  case_target t = case_target_of(sf->f, sf->contact, sf->whole);
   r->here = (case_place){.line = value->line, .column = value->column};
-  void *base = case_target_base(r, t);
-  if (!base) return HC_NO_MEMORY;
-  case_drop_rivals(r, sf->f, base);
-  message_start(&why, words, sizeof words);
-  field_split(sf->f, value->text, strlen(value->text), &v);
-  field_store(sf->f, base, &v, &why, &bad);
-  case_target_given(r, t);
+  do {
+    void *base = case_target_base(r, t);
+    if (!base) return HC_NO_MEMORY;
+    case_drop_rivals(r, sf->f, base);
+    message_start(&why, words, sizeof words);
+    field_split(sf->f, value->text, strlen(value->text), &v);
+    field_store(sf->f, base, &v, &why, &bad);
+    case_target_given(r, t);
+  } while (case_target_next(r, &t));
   return HC_OK;
 }
 

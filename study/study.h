@@ -24,6 +24,7 @@ typedef struct study_value {
 typedef struct study_field {
   const field *f;
   int contact; /* its number, or that of the load; -1 outside such lists */
+  bool whole;  /* all contacts of its entry of pairs */
   char path[FIELD_PATH];
   size_t line, column;
   study_value *values; /* [axis.n] */

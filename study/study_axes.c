@@ -192,7 +192,7 @@ static hc_status read_field(study_reader *q, study_axis *a, const yaml_node_t *k
                        part ? "a number, a choice or a flag, such as structure.damping.modal"
                             : "a field of a contact that the base case has, such as contacts[0].gap");
   sf->f = t.f;
-  sf->contact = t.index;
+  sf->contact = t.index, sf->whole = t.whole;
   sf->line = key->start_mark.line + 1;
   sf->column = key->start_mark.column + 1;
   ++a->n_fields;

@@ -193,7 +193,9 @@ static hc_status read_set(study_reader *q, const yaml_node_t *node)
     case_target t;
     char path[FIELD_PATH];
     st = study_give(q, yaml_key(&q->r, node, i), &t, path);
-    if (st == HC_OK) st = case_target_read(&q->r, t, yaml_value(&q->r, node, i));
+    if (st != HC_OK) break;
+    do st = case_target_read(&q->r, t, yaml_value(&q->r, node, i));
+    while (st == HC_OK && case_target_next(&q->r, &t));
   }
   return st;
 }
@@ -349,6 +351,7 @@ hc_status study_read(const char *path, int n_set, const char *const *set, study 
   hc_status st = q->s && (q->s->name = strdup(name)) ? read_document(q, n_set) : HC_NO_MEMORY;
   if (st == HC_OK) *out = q->s;
   else study_free(q->s);
+  mesh_free(q->r.mesh);
   free(q);
   return st;
 }

@@ -67,7 +67,8 @@ hc_status study_give(study_reader *q, const yaml_node_t *key, case_target *t, ch
   if (st == HC_OK) st = case_find_target(&q->r, yaml_node_text(key), key->data.scalar.length, t);
   if (st != HC_OK) return st;
   const char *list = t->list == CASE_LOADS ? "forcing" : "contacts";
-  if (t->f) field_path(t->f, t->index, path);
+  if (t->whole) snprintf(path, FIELD_PATH, "%.*s", (int)key->data.scalar.length, yaml_node_text(key));
+  else if (t->f) field_path(t->f, t->index, path);
   else snprintf(path, FIELD_PATH, t->index < 0 ? "%s" : "%s[%d]", list, t->index);
   for (int i = 0; i < q->n_given; ++i) {
     if (!(t->f ? clashes(q->given[i].path, t->f, path) : !strcmp(q->given[i].path, path))) continue;

@@ -142,7 +142,7 @@ static void mistakes_in_an_entry(CHECK_STATE)
       {"{pairs: [[7, 8]], " AXES ", tangent: 1, " LAW "}", "8:70: ", "tangent beside `pairs`, expected `axes`"},
       {"{pairs: [[7, 8]], " AXES ", angle_deg: 1, " LAW "}", "8:70: ", "angle_deg beside `pairs`, expected `axes`"},
       {"{pairs: [[7, 8]], pairs: [[7, 8]], " AXES ", " LAW "}", "8:23: ", "duplicate key `pairs`"},
-      {"{pairs: {a: 1}, " AXES ", " LAW "}", "8:13: ", "pairs is a mapping, expected a csv file"},
+      {"{pairs: {a: 1}, " AXES ", " LAW "}", "8:13: ", "pairs is a mapping of something else, expected {between"},
       {"{pairs: [], " AXES ", " LAW "}", "8:13: ", "pairs is an empty list"},
       {"{pairs: [7, 8], " AXES ", " LAW "}", "8:14: ", "a single value stands where a row of pairs should"},
       {"{pairs: [[7, 8], [7]], " AXES ", " LAW "}", "8:22: ", "1 values in a row of pairs, expected 2"},
