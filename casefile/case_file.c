@@ -99,6 +99,31 @@ hc_status case_reader_slurp(case_reader *r, char **text, size_t *length)
   return st;
 }
 
+hc_status case_read_sparse(const char *path, int n_set, const char *const *set, scene *out, case_source *source,
+                           case_error *err)
+{
+  case_reader r;
+  char *text = NULL;
+  size_t length = 0;
+  case_reader_start(&r, !strcmp(path, "-") ? "<stdin>" : path, set, err);
+  r.keeps_sparse = true;
+  r.source = source;
+  if (source) *source = (case_source){0};
+  hc_status st = case_reader_slurp(&r, &text, &length);
+  if (st == HC_OK) st = read_scene(&r, text, length, n_set);
+  if (source) source->text = text, source->length = length;
+  else free(text);
+  return case_reader_take(&r, st, out);
+}
+
+void case_source_free(case_source *source)
+{
+  for (int i = 0; i < source->n_mentions; ++i) free(source->mentions[i].file);
+  free(source->mentions);
+  free(source->text);
+  *source = (case_source){0};
+}
+
 hc_status case_read_placed(const char *path, int n_set, const char *const *set, scene *out, case_places *places,
                            case_error *err)
 {
