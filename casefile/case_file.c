@@ -33,6 +33,7 @@ void case_reader_start(case_reader *r, const char *name, const char *const *set,
   r->noun = "case";
   r->required = "`oscillator`, `forcing` and `sweep`";
   r->set = set;
+  r->most_dense = MATRIX_MOST_DENSE;
   message_start(&r->msg, err->message, sizeof err->message);
   field_defaults(&r->sc);
 }
@@ -99,14 +100,15 @@ hc_status case_reader_slurp(case_reader *r, char **text, size_t *length)
   return st;
 }
 
-hc_status case_read_sparse(const char *path, int n_set, const char *const *set, scene *out, case_source *source,
-                           case_error *err)
+hc_status case_read_sparse(const char *path, int n_set, const char *const *set, int most_dense, scene *out,
+                           case_source *source, case_error *err)
 {
   case_reader r;
   char *text = NULL;
   size_t length = 0;
   case_reader_start(&r, !strcmp(path, "-") ? "<stdin>" : path, set, err);
-  r.keeps_sparse = true;
+  r.takes_large = true;
+  r.most_dense = most_dense;
   r.source = source;
   if (source) *source = (case_source){0};
   hc_status st = case_reader_slurp(&r, &text, &length);

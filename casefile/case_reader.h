@@ -26,7 +26,8 @@ typedef struct case_reader {
   case_place end;         /* of the file's text; line = 0 before it is known         */
   scene sc;               /* as far as it has been read                              */
   bool owns_structure;    /* or shares it with the scene it was started from         */
-  bool keeps_sparse;      /* matrices are kept as they come, of any size: case_read_sparse */
+  bool takes_large;       /* matrices of more than most_dense rows are kept sparse, not refused */
+  int most_dense;
   case_source *source;    /* or NULL: what another model needs of the text           */
   /* [field_index] where each field was last given; of contacts' fields, in the contact being read */
   case_place at[FIELD_MAX];

@@ -94,7 +94,7 @@ static hc_status too_large(case_reader *r, const char *what, const yaml_node_t *
   return yaml_refuse(r, node,
                      "%s has %d rows, with which a frequency takes about %.0f GB, expected at most %d: `hbmcheck reduce "
                      "CASE -o FOLDER` makes a smaller model of it",
-                     what, n, 80 * 8e-9 * n * n, (int)MATRIX_MOST_DENSE);
+                     what, n, 80 * 8e-9 * n * n, r->most_dense);
 }
 
 static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
@@ -118,8 +118,9 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
   const hc_status st = matrix_file_read(out->file, out->part, expected, &out->kept, &out->labels, &r->msg);
   *n = out->kept.n;
   if (st == HC_NO_MEMORY) return case_out_of_memory(r);
-  if (st == HC_OK && !r->keeps_sparse && *n > MATRIX_MOST_DENSE) return too_large(r, what, node, *n);
-  if (st == HC_OK && !r->keeps_sparse) {
+  const bool dense = *n <= r->most_dense;
+  if (st == HC_OK && !dense && !r->takes_large) return too_large(r, what, node, *n);
+  if (st == HC_OK && dense) {
     out->v = sparse_to_dense(&out->kept);
     sparse_free(&out->kept);
     if (!out->v) return case_out_of_memory(r);
@@ -145,7 +146,7 @@ hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *
     *given.v = x + 0.0; /* -0 is 0 */
     st = HC_OK;
   }
-  if (st == HC_OK && r->keeps_sparse && given.v) {
+  if (st == HC_OK && given.v && *n > r->most_dense) {
     if (sparse_from_dense(*n, given.v, &given.kept) != HC_OK) st = case_out_of_memory(r);
     free(given.v);
     given.v = NULL;

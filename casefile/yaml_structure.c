@@ -17,7 +17,7 @@ static hc_status check_mass(case_reader *r, const structure_matrix *mass, int n)
 {
   int order;
   const hc_status symmetric = yaml_matrix_symmetric(r, "structure.mass", mass, n);
-  if (symmetric != HC_OK || r->keeps_sparse) return symmetric;
+  if (symmetric != HC_OK || !mass->v) return symmetric;
   if (structure_not_definite(n, mass->v, &order) == HC_NO_MEMORY) return case_out_of_memory(r);
   if (order == 0) return HC_OK;
   message *m = yaml_matrix_blame(r, mass, order - 1, order - 1);
@@ -62,7 +62,7 @@ static hc_status read_mass(case_reader *r, const yaml_node_t *node)
   hc_status st = yaml_matrix_read(r, "structure.mass", node, s->n, &n, &mass);
   if (st == HC_OK) st = check_mass(r, &mass, n);
   structure_free_matrix(st == HC_OK ? &s->mass : &mass);
-  if (st == HC_OK) s->mass = mass, s->n = n;
+  if (st == HC_OK) s->mass = mass, s->n = n, s->is_sparse = !mass.v;
   if (st == HC_OK) st = check_labels(r, &s->stiffness, "structure.stiffness"); /* of before */
   return st;
 }
@@ -117,7 +117,7 @@ static hc_status read_matrix(case_reader *r, const char *what, const yaml_node_t
 {
   int n;
   hc_status st = yaml_matrix_read(r, what, node, r->sc.structure->n, &n, to);
-  if (st == HC_OK && r->keeps_sparse && to == &r->sc.structure->stiffness) st = yaml_matrix_symmetric(r, what, to, n);
+  if (st == HC_OK && !to->v && to == &r->sc.structure->stiffness) st = yaml_matrix_symmetric(r, what, to, n);
   return st == HC_OK ? check_labels(r, to, what) : st;
 }
 
@@ -293,7 +293,6 @@ hc_status yaml_structure_read(case_reader *r, const yaml_node_t *node)
   if (!(r->sc.structure = structure_new())) return case_out_of_memory(r);
   r->owns_structure = true;
   r->sc.structure->place = at;
-  r->sc.structure->is_sparse = r->keeps_sparse;
   if (r->source) r->source->from = node->start_mark.index, r->source->to = content_end(r, node);
   for (int i = 0; i < yaml_keys(node) && st == HC_OK; ++i) {
     const yaml_node_t *key = yaml_key(r, node, i);

@@ -173,7 +173,7 @@ static int run_reduce(cli_common *common, void *own, scene *sc)
   if (common->n_set > 0)
     return cli_failed(common, EXIT_USAGE, "--set does not go into the reduced case; write it into CASE, or --set it there");
   common->scene = sc;
-  const hc_status st = case_read_sparse(common->arguments[0], 0, NULL, sc, &source, &err);
+  const hc_status st = case_read_sparse(common->arguments[0], 0, NULL, 0, sc, &source, &err);
   int code = st == HC_OK ? 0 : cli_not_read(st, &err);
   if (!code && !sc->structure) {
     fprintf(stderr, "%s: an oscillator, expected `structure`, which can be reduced\n", common->arguments[0]);

@@ -45,6 +45,20 @@ void sparse_multiply(const sparse *A, int columns, const double *X, double *Y)
       for (int k = A->start[j]; k < A->start[j + 1] && X[j] != 0; ++k) Y[A->row[k]] += A->value[k] * X[j];
 }
 
+hc_status sparse_sum(const sparse *A, const sparse *B, sparse *out)
+{
+  const hc_status st = sparse_new(A->n, A->start[A->n] + B->start[B->n], out);
+  for (int j = 0, k = 0; j < A->n && st == HC_OK; out->start[++j] = k)
+    for (int a = A->start[j], b = B->start[j]; a < A->start[j + 1] || b < B->start[j + 1]; ++k) {
+      const int row_a = a < A->start[j + 1] ? A->row[a] : A->n, row_b = b < B->start[j + 1] ? B->row[b] : A->n;
+      out->row[k] = row_a < row_b ? row_a : row_b;
+      out->value[k] = 0;
+      if (row_a == out->row[k]) out->value[k] += A->value[a++];
+      if (row_b == out->row[k]) out->value[k] += B->value[b++];
+    }
+  return st;
+}
+
 double *sparse_to_dense(const sparse *A)
 {
   const size_t n = (size_t)A->n;

@@ -23,6 +23,9 @@ double sparse_at(const sparse *A, int i, int j);
 /* Y = A X; X[columns][n], Y likewise, apart from each other. */
 void sparse_multiply(const sparse *A, int columns, const double *X, double *Y);
 
+/* A + B. HC_NO_MEMORY. */
+hc_status sparse_sum(const sparse *A, const sparse *B, sparse *out);
+
 /* [n][n] by columns, to free, and back without the zeros; NULL, HC_NO_MEMORY: out of memory. */
 double *sparse_to_dense(const sparse *A);
 hc_status sparse_from_dense(int n, const double *A, sparse *out);

@@ -7,16 +7,6 @@
 #include "numerics/dense.h"
 #include "reduce/lowest_modes.h"
 
-/* No entry but 0 in the row of K or M: no part of the structure. */
-static bool is_empty(const scene_structure *s, int i)
-{
-  const sparse *const both[] = {&s->stiffness.kept, &s->mass.kept};
-  for (int m = 0; m < 2; ++m)
-    for (int k = both[m]->start[i]; k < both[m]->start[i + 1]; ++k)
-      if (both[m]->value[k] != 0) return false;
-  return true;
-}
-
 static size_t square(int n) { return (size_t)n * (size_t)n; }
 
 enum { ROWS = 256 }; /* of long vectors, transposed at a time */
@@ -107,7 +97,7 @@ hc_status craig_bampton_new(const scene_structure *s, int n_kept, const int *kep
   if (st == HC_OK) {
     cb->M = cb->K + b * b, cb->first = cb->M + b * b, cb->second = cb->first + b * b;
     memcpy(cb->kept, kept, b * sizeof *kept);
-    for (int i = 0; i < cb->n; ++i) cb->held[i] = is_empty(s, i);
+    factor_hold_empty(&s->stiffness.kept, &s->mass.kept, cb->held);
     for (size_t k = 0; k < b; ++k) cb->held[kept[k]] = true;
     st = factor_shifted(&s->stiffness.kept, &s->mass.kept, cb->held, floating, &cb->shift, &cb->inner);
   }

@@ -13,6 +13,16 @@ struct factor {
   cholmod_dense *answer, *Y, *E; /* room of cholmod_solve2, which it keeps */
 };
 
+void factor_hold_empty(const sparse *K, const sparse *M, bool *held)
+{
+  for (int i = 0; i < K->n; ++i) {
+    bool empty = true;
+    for (int k = K->start[i]; k < K->start[i + 1]; ++k) empty &= K->value[k] == 0;
+    for (int k = M->start[i]; k < M->start[i + 1]; ++k) empty &= M->value[k] == 0;
+    held[i] |= empty;
+  }
+}
+
 /* CHOLMOD's view of a sparse matrix's lower triangle. */
 static cholmod_sparse view(const sparse *A)
 {
@@ -105,8 +115,6 @@ hc_status factor_solve(factor *f, int columns, double *X)
   }
   return HC_OK;
 }
-
-double factor_bytes(const factor *f) { return 8.0 * (double)f->L->xsize; }
 
 hc_status factor_shifted(const sparse *K, const sparse *M, const bool *held, double shift_floating, double *shift,
                          factor **out)

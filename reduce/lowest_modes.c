@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 
 /* y = M x with the rows that are held 0. */
 static void times_mass(const sparse *M, const bool *held, const double *x, double *y)
@@ -77,5 +78,94 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
   free(M_phi);
   free(share);
   free(select);
+  return st;
+}
+
+/* ---- of a structure ---- */
+
+/* The stiffness of all contacts stuck, on the rows that they move. */
+static hc_status contact_stiffness(const scene_structure *s, sparse *out)
+{
+  int *row = malloc((size_t)s->n * sizeof *row), touched = 0;
+  if (!row) return HC_NO_MEMORY;
+  for (int i = 0; i < s->n; ++i) {
+    bool any = false;
+    for (int j = 0; j < s->n_contacts; ++j) {
+      const structure_contact *c = &s->contacts[j];
+      any |= c->tangent[i] != 0 || c->tangent_2[i] != 0 || c->normal[i] != 0;
+    }
+    if (any) row[touched++] = i;
+  }
+  const size_t t = (size_t)touched;
+  double *K = calloc(t * t + 3 * t + 1, sizeof *K);
+  hc_status st = K ? sparse_new(s->n, touched * touched, out) : HC_NO_MEMORY;
+  for (int j = 0; j < s->n_contacts && st == HC_OK; ++j) {
+    const structure_contact *c = &s->contacts[j];
+    const contact law = structure_contact_law(c);
+    const double *const from[] = {c->tangent, c->tangent_2, c->normal};
+    for (int d = 0; d < 3; ++d) {
+      double *along = K + t * t, k = d == 2 ? law.kn : contact_has_friction(&law) ? law.kt : 0;
+      for (int i = 0; i < touched; ++i) along[i] = from[d][row[i]];
+      add_outer(touched, k, along, along, K);
+    }
+  }
+  for (int j = 0, at = 0, k = 0; j < s->n && st == HC_OK; out->start[++j] = k) {
+    if (at == touched || row[at] != j) continue;
+    for (int i = 0; i < touched; ++i) out->row[k] = row[i], out->value[k++] = K[(size_t)i + t * (size_t)at];
+    ++at;
+  }
+  free(row);
+  free(K);
+  return st;
+}
+
+/* phi^T C phi/(2 omega) of mode k; room[n]. */
+static double damping_ratio(const scene_structure *s, bool stuck, int k, double omega, const double *phi, double *room)
+{
+  double sum = 0;
+  switch (s->how) {
+  case STRUCTURE_DAMPING_MODAL: return stuck ? NAN : s->modal;
+  case STRUCTURE_DAMPING_MODES: return stuck ? NAN : s->ratios[k];
+  case STRUCTURE_DAMPING_RAYLEIGH:
+    sparse_multiply(&s->stiffness.kept, 1, phi, room);
+    for (int i = 0; i < s->n; ++i) sum += phi[i] * room[i];
+    return (s->rayleigh[0] + s->rayleigh[1] * sum) / (2 * omega);
+  case STRUCTURE_DAMPING_MATRIX:
+    sparse_multiply(&s->damping.kept, 1, phi, room);
+    for (int i = 0; i < s->n; ++i) sum += phi[i] * room[i];
+    return sum / (2 * omega);
+  }
+  return NAN;
+}
+
+hc_status lowest_of_structure(const scene_structure *s, bool stuck, int count, model_mode *modes, int *found)
+{
+  const size_t n = (size_t)s->n;
+  sparse contacts = {0}, both = {0};
+  factor *f = NULL;
+  double shift = 0;
+  bool *held = calloc(n, sizeof *held);
+  double *lambda = malloc((size_t)count * sizeof *lambda), *phi = malloc(n * (size_t)(count + 1) * sizeof *phi);
+  hc_status st = held && lambda && phi ? HC_OK : HC_NO_MEMORY;
+  *found = 0;
+  if (st == HC_OK && stuck) st = contact_stiffness(s, &contacts);
+  if (st == HC_OK && stuck) st = sparse_sum(&s->stiffness.kept, &contacts, &both);
+  const sparse *K = stuck ? &both : &s->stiffness.kept;
+  if (st == HC_OK) {
+    factor_hold_empty(K, &s->mass.kept, held);
+    st = factor_shifted(K, &s->mass.kept, held, 0, &shift, &f);
+  }
+  if (st == HC_OK) st = lowest_modes(f, &s->mass.kept, held, 0, count, lambda, phi, found);
+  for (int k = 0; k < *found && st == HC_OK; ++k) {
+    const double omega2 = lambda[k] - shift, omega = omega2 > 0 ? sqrt(omega2) : 0;
+    const double damping = damping_ratio(s, stuck, k, omega, phi + n * (size_t)k, phi + n * (size_t)count);
+    modes[k] = (model_mode){omega, omega > 0 ? damping : NAN};
+  }
+  factor_free(f);
+  sparse_free(&contacts);
+  sparse_free(&both);
+  free(held);
+  free(lambda);
+  free(phi);
   return st;
 }

@@ -2,6 +2,8 @@
 #ifndef HC_REDUCE_LOWEST_MODES_H
 #define HC_REDUCE_LOWEST_MODES_H
 
+#include "casefile/structure.h"
+#include "model/modes.h"
 #include "reduce/factor.h"
 
 /* A phi = lambda M phi, A being what f is the factor of, M symmetric and positive semidefinite: beside the `known` modes
@@ -10,5 +12,10 @@
  * The same arguments give the same bits. */
 hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, int more, double *lambda, double *phi,
                        int *found);
+
+/* The `count` lowest modes of s, which is_sparse, its contacts apart or all stuck, into modes[count], *found of them.
+ * Damping is NaN with contacts stuck where it is modal: it takes all modes to tell. HC_SINGULAR: neither K nor M holds a
+ * motion; and as lowest_modes. */
+hc_status lowest_of_structure(const scene_structure *s, bool stuck, int count, model_mode *modes, int *found);
 
 #endif
