@@ -103,6 +103,7 @@ static const char *stable_text(const response_row *r)
   X(REAL,    "from_regularisation", true, r->budget.amplitude.regularisation) \
   X(REAL,    "from_integration",    true, r->budget.amplitude.integration)  \
   X(REAL,    "from_settling",       true, r->budget.amplitude.settling)     \
+  R(REAL,    "from_reduction",      true, r->budget.reduction)              \
   X(REAL,    "hbm_harmonic_1",      has_hbm(r), r->hbm.harmonic_1)          \
   X(REAL,    "transient_harmonic_1", has_transient(r), r->transient.harmonic_1) \
   X(INTEGER, "periods",             has_transient(r), r->transient.periods) \
@@ -241,7 +242,7 @@ static const char *const of_transient[] = {
 static const char *const of_compare[] = {
     "omega", "hbm_predicted_harmonic_1", "hbm_predicted_waveform", "transient_predicted_harmonic_1",
     "transient_predicted_waveform", "budget_sum", "budget_observed", "orbit_multiplier", "orbit_amplitude",
-    "hbm_harmonic_1", "transient_harmonic_1", "periods", "from_settling", "from_integration", "unexpected",
+    "hbm_harmonic_1", "transient_harmonic_1", "periods", "from_reduction", "from_settling", "from_integration", "unexpected",
     "orbit_error", "from_aliasing", "from_truncation", "from_regularisation", "transient_predicted", "hbm_predicted",
     "mean_error", "harmonic_1_error", "largest_part", "waveform_error", NULL};
 

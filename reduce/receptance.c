@@ -61,10 +61,24 @@ static void find_directions(receptance *r, const model *m)
   for (int i = 0; i < m->n_responses; ++i) add_direction(r, m->responses + n * (size_t)i);
 }
 
+/* Modes with the contacts stuck are damped by half the least ratio of those apart, at least: of a body that contacts
+ * alone hold they have next to none, and are never met, since contacts that resonate slip. */
+static void damp_stuck_modes(receptance *r, double low)
+{
+  double least = INFINITY;
+  for (int k = 0; k < r->n; ++k) {
+    const double omega = sqrt(fmax(r->omega2[0][k], 0));
+    if (omega >= low) least = fmin(least, r->c[0][k] / (2 * omega));
+  }
+  for (int k = 0; k < r->n && isfinite(least); ++k)
+    r->c[1][k] = fmax(r->c[1][k], least * sqrt(fmax(r->omega2[1][k], 0)));
+}
+
 /* Those of the sweep times h, both states. */
 static void find_frequencies(receptance *r, const scene *sc)
 {
   const double low = fmin(sc->omega_from, sc->omega_to), high = fmax(sc->omega_from, sc->omega_to);
+  damp_stuck_modes(r, low);
   for (int h = 1; h <= HARMONICS; ++h)
     for (int state = 0; state < 2; ++state) {
       const double weight = 1.0 / (h * h);

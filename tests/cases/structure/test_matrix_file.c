@@ -73,7 +73,7 @@ static void mistakes_are_named_where_they_stand(CHECK_STATE)
   is_refused(HEAD("array", "real", "general") "2 2\n", 3, "m:2:1: a matrix of 2 x 2, expected 3 x 3");
   is_refused(HEAD("array", "real", "general") "0 0\n", 0,
              "m:2:1: `0`, expected the number of rows, an integer 1..10000000");
-  is_refused(HEAD("array", "real", "general") "2 4001\n", 0, "m:2:3: `4001`, expected the number of columns");
+  is_refused(HEAD("array", "real", "general") "2 10000001\n", 0, "m:2:3: `10000001`, expected the number of columns");
   is_refused(HEAD("array", "real", "general") "2.0 2\n", 0, "m:2:1: `2.0`, expected the number of rows");
   is_refused(HEAD("coordinate", "real", "general") "2 2 5\n", 0,
              "m:2:5: `5`, expected the number of entries, an integer 0..4");
@@ -105,28 +105,27 @@ static void files_are_found_and_searched(CHECK_STATE)
 {
   static const char text[] = HEAD("coordinate", "real", "symmetric") "3 3 3\n1 1 1\n3 1 5\n2 2 1\n";
   const own_file f = write_file("m.mtx", text, sizeof text - 1);
-  double *v;
-  int n;
+  sparse A;
   size_t line, column;
   char words[256];
   message m;
   message_start(&m, words, sizeof words);
-  assert_int_equal(matrix_file_read(f.path, NULL, 3, &n, &v, NULL, &m), HC_OK);
-  assert_true(n == 3 && v[2] == 5 && v[6] == 5);
-  free(v);
+  assert_int_equal(matrix_file_read(f.path, NULL, 3, &A, NULL, &m), HC_OK);
+  assert_true(A.n == 3 && sparse_at(&A, 2, 0) == 5 && sparse_at(&A, 0, 2) == 5 && sparse_at(&A, 1, 0) == 0);
+  sparse_free(&A);
   matrix_file_place(f.path, NULL, 2, 0, &line, &column);
   assert_true(line == 4 && column == 1);
   matrix_file_place(f.path, NULL, 0, 2, &line, &column); /* by symmetry */
   assert_true(line == 4 && column == 1);
   matrix_file_place(f.path, NULL, 1, 0, &line, &column); /* not there */
   assert_true(line == 0 && column == 0);
-  assert_int_equal(matrix_file_read(f.folder, NULL, 3, &n, &v, NULL, &m), HC_IO);
+  assert_int_equal(matrix_file_read(f.folder, NULL, 3, &A, NULL, &m), HC_IO);
   assert_string_equal(words, "is no file");
   message_start(&m, words, sizeof words);
-  assert_int_equal(matrix_file_read("no/such/file", NULL, 3, &n, &v, NULL, &m), HC_IO);
+  assert_int_equal(matrix_file_read("no/such/file", NULL, 3, &A, NULL, &m), HC_IO);
   assert_non_null(strstr(words, "cannot be opened: "));
   message_start(&m, words, sizeof words);
-  assert_int_equal(matrix_file_read("/dev/zero", NULL, 3, &n, &v, NULL, &m), HC_IO);
+  assert_int_equal(matrix_file_read("/dev/zero", NULL, 3, &A, NULL, &m), HC_IO);
   remove_file(&f);
 }
 
