@@ -163,10 +163,13 @@ hc_status craig_bampton_more(craig_bampton *cb, const scene_structure *s, int mo
                          lengthen(&cb->share, (size_t)cb->n_kept * all)
                      ? HC_OK
                      : HC_NO_MEMORY;
-  if (st == HC_OK)
+  for (; st == HC_OK && !cb->whole && more > 0; more -= found) {
     st = lowest_modes(cb->inner, &s->mass.kept, cb->held, cb->n_modes, more, cb->lambda, cb->phi, &found);
-  for (int k = cb->n_modes; st == HC_OK && k < cb->n_modes + found; ++k) find_share(cb, s, k, M_phi, M_phi + n);
-  if (st == HC_OK) cb->whole = found < more, cb->n_modes += found;
+    if (st != HC_OK) break;
+    cb->whole = found == 0;
+    for (int k = cb->n_modes; k < cb->n_modes + found; ++k) find_share(cb, s, k, M_phi, M_phi + n);
+    cb->n_modes += found;
+  }
   free(M_phi);
   return st;
 }

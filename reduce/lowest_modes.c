@@ -33,8 +33,9 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
   for (int i = 0; i < n; ++i) left += !held[i] && sparse_at(M, i, i) > 0;
   left -= known;
   *found = 0;
-  if (more > left - 1) more = left - 1; /* ARPACK's limit */
-  if (more < 1) return HC_OK;
+  if (left < 1) return HC_OK;
+  const bool last = left == 1;
+  if (more >= left) more = last ? 1 : left - 1; /* ARPACK's limit */
   const int vectors = 2 * more + 20 < left ? 2 * more + 20 : left, work = vectors * (vectors + 8);
   const size_t rows = (size_t)n;
   double *V = malloc(rows * (size_t)vectors * sizeof *V), *room = malloc((size_t)work * sizeof *room);
@@ -50,9 +51,20 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
     times_mass(M, held, residual, basis);
     st = factor_solve(f, 1, basis);
     memcpy(residual, basis, rows * sizeof *basis);
-    remove_known(n, known, phi, M_phi, residual, share);
+    for (int twice = 0; twice < 2; ++twice) remove_known(n, known, phi, M_phi, residual, share);
   }
-  while (st == HC_OK && ido != 99) {
+  if (st == HC_OK && last) { /* it is what is left, and lambda = phi^T A phi = 1/(M phi)^T A^-1 (M phi) */
+    double mass = 0, flexibility = 0, *x = phi + rows * (size_t)known;
+    times_mass(M, held, residual, basis);
+    for (int i = 0; i < n; ++i) mass += residual[i] * basis[i];
+    for (int i = 0; i < n; ++i) x[i] = residual[i] / sqrt(mass), basis[i] /= sqrt(mass);
+    memcpy(basis + rows, basis, rows * sizeof *basis);
+    st = factor_solve(f, 1, basis);
+    for (int i = 0; i < n; ++i) flexibility += basis[i] * basis[i + n];
+    lambda[known] = 1 / flexibility;
+    *found = 1;
+  }
+  while (st == HC_OK && !last && ido != 99) {
     dsaupd_c(&ido, "G", n, "LM", more, 1e-13, residual, vectors, V, n, parameters, pointers, basis, room, work, &info);
     if (ido != -1 && ido != 1 && ido != 2) break;
     double *x = basis + pointers[0] - 1, *y = basis + pointers[1] - 1;
@@ -65,8 +77,8 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
     st = factor_solve(f, 1, y);
     remove_known(n, known, phi, M_phi, y, share);
   }
-  if (st == HC_OK && (info < 0 || parameters[4] < more)) st = HC_NOT_CONVERGED;
-  if (st == HC_OK) {
+  if (st == HC_OK && !last && (info < 0 || parameters[4] < more)) st = HC_NOT_CONVERGED;
+  if (st == HC_OK && !last) {
     dseupd_c(1, "A", select, lambda + known, phi + rows * (size_t)known, n, 0, "G", n, "LM", more, 1e-13, residual,
              vectors, V, n, parameters, pointers, basis, room, work, &info);
     if (info != 0) st = HC_NOT_CONVERGED;
