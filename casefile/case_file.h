@@ -30,7 +30,7 @@ typedef struct case_mention {
 } case_mention;
 typedef struct case_source {
   char *text;
-  size_t length; /* in bytes */
+  size_t length;   /* in bytes */
   size_t from, to; /* the value of `structure` */
   int n_mentions;
   case_mention *mentions;

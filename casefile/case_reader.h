@@ -28,7 +28,7 @@ typedef struct case_reader {
   bool owns_structure;    /* or shares it with the scene it was started from         */
   bool takes_large;       /* matrices of more than most_dense rows are kept sparse, not refused */
   int most_dense;
-  case_source *source;    /* or NULL: what another model needs of the text           */
+  case_source *source; /* or NULL: what another model needs of the text           */
   /* [field_index] where each field was last given; of contacts' fields, in the contact being read */
   case_place at[FIELD_MAX];
   /* where each contact of an oscillator appeared; case_field_bit: that field of it has been given */

@@ -105,7 +105,8 @@ static const field table[] = {
   {"structure", "nodes", "", PART(0, "a FILE (csv, .dof), or a list of [DOF, NODE, x|y|z]"), .unit = "",
    .fallback = "", .meaning = "then {node: 17, direction: y} means a DOF, too"},
 
-  {"structure", "reduction", "", PART(0, "{error: 2e-4, at: 500}, both numbers >= 0"), .unit = "1, rad/time", .fallback = "",
+  {"structure", "reduction", "", PART(0, "{error: 2e-4, at: 500}, both numbers >= 0"),
+   .unit = "1, rad/time", .fallback = "",
    .meaning = "largest relative error of the receptance, as `reduce` states it, and at which frequency"},
 
   {"forcing", "amplitude", "F0", FIELD_REAL, .unit = "force", SCENE(force), NOT_NEGATIVE,

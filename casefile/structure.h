@@ -77,7 +77,7 @@ struct scene_structure {
   double modal;       /* [1] of critical */
   double *ratios;     /* [n] [1], for STRUCTURE_DAMPING_MODES */
   char **names;       /* [n], then NULL; or NULL */
-  int n_nodes; /* in order of node, then direction */
+  int n_nodes;        /* in order of node, then direction */
   structure_node *nodes;
   int n_loads;
   structure_load *loads;

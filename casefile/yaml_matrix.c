@@ -91,10 +91,11 @@ static const char how_matlab_writes[] =
 /* Measured: 80 matrices at a frequency of `frf`, docs/models.md. */
 static hc_status too_large(case_reader *r, const char *what, const yaml_node_t *node, int n)
 {
-  return yaml_refuse(r, node,
-                     "%s has %d rows, with which a frequency takes about %.0f GB, expected at most %d: `hbmcheck reduce "
-                     "CASE -o FOLDER` makes a smaller model of it",
-                     what, n, 80 * 8e-9 * n * n, r->most_dense);
+  return yaml_refuse(
+      r, node,
+      "%s has %d rows, with which a frequency takes about %.0f GB, expected at most %d: `hbmcheck reduce "
+      "CASE -o FOLDER` makes a smaller model of it",
+      what, n, 80 * 8e-9 * n * n, r->most_dense);
 }
 
 static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,

@@ -374,7 +374,8 @@ static hc_status read_rows(pair_rows *rows, const pairs_entry *e, pair_row *all)
     st = pair_rows_next(rows, &row, &more);
     if (st != HC_OK || !more) return st;
     if (k == MATRIX_MOST_DENSE)
-      return refuse(rows, rows->column[PAIR_NODE_A], false, "another pair, expected at most %d", (int)MATRIX_MOST_DENSE);
+      return refuse(rows, rows->column[PAIR_NODE_A], false, "another pair, expected at most %d",
+                    (int)MATRIX_MOST_DENSE);
     for (int i = 0; i < k; ++i)
       if ((all[i].a == row.a && all[i].b == row.b) || (all[i].a == row.b && all[i].b == row.a))
         return refuse(rows, rows->column[PAIR_NODE_A], false, "the same two nodes again, expected each pair once");

@@ -245,12 +245,14 @@ static hc_status read_reduction(case_reader *r, const yaml_node_t *node)
   scene_structure *s = r->sc.structure;
   double *const to[] = {&s->reduction_error, &s->reduction_at};
   for (int i = 0; i < 2; ++i) {
-    const yaml_node_t *value = node->type == YAML_MAPPING_NODE && yaml_keys(node) == 2 ? yaml_find(r, node, names[i]) : NULL;
+    const yaml_node_t *value =
+        node->type == YAML_MAPPING_NODE && yaml_keys(node) == 2 ? yaml_find(r, node, names[i]) : NULL;
     if (!value)
       return yaml_refuse(r, node, "structure.reduction, expected %s", field_named("structure", "reduction")->expects);
     const hc_status st = yaml_number(r, value, i == 0 ? "structure.reduction.error" : "structure.reduction.at", to[i]);
     if (st != HC_OK) return st;
-    if (*to[i] < 0) return yaml_refuse(r, value, "structure.reduction.%s is negative, expected a number >= 0", names[i]);
+    if (*to[i] < 0)
+      return yaml_refuse(r, value, "structure.reduction.%s is negative, expected a number >= 0", names[i]);
   }
   return HC_OK;
 }
@@ -261,8 +263,9 @@ static hc_status read_reduction(case_reader *r, const yaml_node_t *node)
 static size_t content_end(case_reader *r, const yaml_node_t *node)
 {
   const bool mapping = node->type == YAML_MAPPING_NODE;
-  const bool block = mapping ? node->data.mapping.style != YAML_FLOW_MAPPING_STYLE
-                             : node->type == YAML_SEQUENCE_NODE && node->data.sequence.style != YAML_FLOW_SEQUENCE_STYLE;
+  const bool block = mapping
+                         ? node->data.mapping.style != YAML_FLOW_MAPPING_STYLE
+                         : node->type == YAML_SEQUENCE_NODE && node->data.sequence.style != YAML_FLOW_SEQUENCE_STYLE;
   const int n = !block ? 0 : mapping ? yaml_keys(node) : yaml_length(node);
   if (n == 0) return node->end_mark.index;
   return content_end(r, mapping ? yaml_value(r, node, n - 1) : yaml_entry(r, node, n - 1));
@@ -273,8 +276,8 @@ hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t 
   static const struct {
     const char *name;
     hc_status (*read)(case_reader *, const yaml_node_t *);
-  } parts[] = {{"mass", read_mass},   {"stiffness", read_stiffness}, {"damping", read_damping},
-               {"names", read_names}, {"nodes", read_nodes},         {"response", yaml_responses_read},
+  } parts[] = {{"mass", read_mass},          {"stiffness", read_stiffness}, {"damping", read_damping},
+               {"names", read_names},        {"nodes", read_nodes},         {"response", yaml_responses_read},
                {"reduction", read_reduction}};
   size_t i = 0;
   if (f->flags & FIELD_IN_STRUCTURE) return read_damping_value(r, f, node);

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "base/constants.h"
-#include "command/commands.h"
 #include "casefile/structure.h"
+#include "command/commands.h"
 #include "model/modes.h"
 #include "reduce/lowest_modes.h"
 #include "study/scene_solvers.h"
@@ -16,7 +16,8 @@ static const char help[] =
     "\vContact stiffnesses are chosen so that the stuck frequencies are those of the bonded structure, as measured or "
     "from a finite-element model. A damping ratio is that of the mode's own shape, phi' C phi/(2 omega) with "
     "phi' M phi = 1; where the damping couples modes this is an estimate. The symmetric part of the stiffness "
-    "counts. Of a structure of more than 2000 degrees of freedom, kept sparse, the lowest modes.\nexit: 0 done  2 case file wrong  3 could not  64 usage\nexample: hbmcheck modes cases/paper/case2.yaml";
+    "counts. Of a structure of more than 2000 degrees of freedom, kept sparse, the lowest modes.\n"
+    "exit: 0 done  2 case file wrong  3 could not  64 usage\nexample: hbmcheck modes cases/paper/case2.yaml";
 
 static const table_column mode_columns[] = {INTEGER("mode"),      REAL("omega_open"),  REAL("frequency_open"),
                                             REAL("damping_open"), REAL("omega_stuck"), REAL("frequency_stuck"),
@@ -50,8 +51,8 @@ static int run_large(cli_common *common, int count, const scene *sc)
   for (int i = 0; i < found[0] && i < found[1] && st == HC_OK; ++i)
     TABLE_ROW(t, CELL(i + 1), MODE_CELLS(modes[i]), MODE_CELLS(modes[count + i]));
   table_note(t, "the lowest of %d degrees of freedom; contacts at rest: after `hbmcheck reduce`", sc->structure->n);
-  const int code = st == HC_OK ? cli_write(common, 1, &t)
-                               : cli_failed(common, EXIT_NO_SOLUTION, "no modes: %s", hc_status_text(st));
+  const int code =
+      st == HC_OK ? cli_write(common, 1, &t) : cli_failed(common, EXIT_NO_SOLUTION, "no modes: %s", hc_status_text(st));
   table_free(t);
   free(modes);
   return code;
@@ -65,8 +66,8 @@ static int run_modes(cli_common *common, void *own, scene *sc)
   int code = cli_check_files(common, 0, NULL);
   if (code) return code;
   common->scene = sc;
-  const hc_status read = case_read_sparse(common->arguments[0], common->n_set, common->set, MATRIX_MOST_DENSE, sc, NULL,
-                                          &err);
+  const hc_status read =
+      case_read_sparse(common->arguments[0], common->n_set, common->set, MATRIX_MOST_DENSE, sc, NULL, &err);
   if (read != HC_OK) return cli_not_read(read, &err);
   if (sc->structure && sc->structure->is_sparse) return run_large(common, count, sc);
   table *tables[] = {table_new("Modes", CLI_COLUMNS(mode_columns)),
@@ -105,7 +106,7 @@ static int run_modes(cli_common *common, void *own, scene *sc)
     free(N);
   }
   code = st != HC_OK ? cli_solver_failed(common, CLI_HBM, "modes", st, 0)
-                               : cli_write(common, m->n_contacts ? 2 : 1, tables);
+                     : cli_write(common, m->n_contacts ? 2 : 1, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
   model_free(m);
   return code;

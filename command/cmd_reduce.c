@@ -13,11 +13,11 @@
 static const char help[] =
     "Reduce the structure of CASE to the nodes that its contacts, loads and responses name and to its lowest "
     "fixed-interface modes (Craig-Bampton), and write the case on that model to FOLDER: mass.mtx, stiffness.mtx, the "
-    "damping, nodes.csv, copies of the files that CASE names, and CASE itself with its `structure` replaced. Matrices are "
-    "kept sparse: memory grows with the factor of the stiffness."
-    "\vThe error is that of the receptance between contacts, loads and responses, of all modes left out, at frequencies "
-    "over the sweep and its harmonics 2 and 3 (these divided by 4 and 9), contacts apart and stuck. It goes into the "
-    "case as structure.reduction, and compare counts it. Modes are added until it is E, unless N or a frequency is given.\n"
+    "damping, nodes.csv, copies of the files that CASE names, and CASE itself with its `structure` replaced. Matrices "
+    "are kept sparse: memory grows with the factor of the stiffness."
+    "\vThe error is that of the receptance between contacts, loads and responses, of all modes left out, over the "
+    "sweep and its harmonics 2 and 3 (these divided by 4 and 9), contacts apart and stuck. It goes into the case as "
+    "structure.reduction, and compare counts it. Modes are added until it is E, unless N or a frequency is given.\n"
     "exit: 0 done  2 case file wrong  3 could not  64 usage\nexample: hbmcheck reduce blade.yaml -o reduced";
 
 typedef struct reduce_options {
@@ -33,8 +33,8 @@ static const cli_option options[] = {
     {CLI_POSITIVE, "error", "E", "Keep as many as make the stated error E [1e-3]", offsetof(reduce_options, error)},
     {0}};
 
-static const table_column columns[] = {INTEGER("rows"),          INTEGER("kept"), INTEGER("modes"),
-                                       REAL("highest_frequency"), REAL("error"),   REAL("at"), TEXT("contacts")};
+static const table_column columns[] = {INTEGER("rows"), INTEGER("kept"), INTEGER("modes"), REAL("highest_frequency"),
+                                       REAL("error"),   REAL("at"),      TEXT("contacts")};
 
 enum { FIRST_MODES = 12, MOST_ROWS = 2000 };
 
@@ -140,8 +140,9 @@ static int reduce(cli_common *common, const reduce_options *o, const scene *sc, 
   } else if (st == HC_OK) {
     st = craig_bampton_new(sc->structure, n_kept, kept, from * from, &cb);
     if (st == HC_SINGULAR) {
-      fprintf(stderr, "%s: structure.stiffness and structure.mass are not positive on what contacts, loads and "
-                      "responses do not name: neither holds it, expected a stiffness or a mass for every motion\n",
+      fprintf(stderr,
+              "%s: structure.stiffness and structure.mass are not positive on what contacts, loads and "
+              "responses do not name: neither holds it, expected a stiffness or a mass for every motion\n",
               common->arguments[0]);
       code = EXIT_BAD_CASE;
     }
@@ -171,7 +172,8 @@ static int run_reduce(cli_common *common, void *own, scene *sc)
   case_error err = {{0}};
   if (!common->output) return cli_failed(common, EXIT_USAGE, "no -o FOLDER given");
   if (common->n_set > 0)
-    return cli_failed(common, EXIT_USAGE, "--set does not go into the reduced case; write it into CASE, or --set it there");
+    return cli_failed(common, EXIT_USAGE,
+                      "--set does not go into the reduced case; write it into CASE, or --set it there");
   common->scene = sc;
   const hc_status st = case_read_sparse(common->arguments[0], 0, NULL, 0, sc, &source, &err);
   int code = st == HC_OK ? 0 : cli_not_read(st, &err);

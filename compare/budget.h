@@ -33,8 +33,8 @@ typedef struct error_budget {
                                                    the period */
   double reduction; /* [1] how far the stated error of a reduced model moves the amplitude (hbm_predict_reduction): both
                        sides share it, so that it is no part of what lies between them */
-  bool known;                                   /* there is an observed discrepancy */
-  bool against_transient;                       /* it is |h - T|; else |h - O| */
+  bool known;       /* there is an observed discrepancy */
+  bool against_transient; /* it is |h - T|; else |h - O| */
 } error_budget;
 
 /* Nothing known. */

@@ -242,9 +242,9 @@ static const char *const of_transient[] = {
 static const char *const of_compare[] = {
     "omega", "hbm_predicted_harmonic_1", "hbm_predicted_waveform", "transient_predicted_harmonic_1",
     "transient_predicted_waveform", "budget_sum", "budget_observed", "orbit_multiplier", "orbit_amplitude",
-    "hbm_harmonic_1", "transient_harmonic_1", "periods", "from_reduction", "from_settling", "from_integration", "unexpected",
-    "orbit_error", "from_aliasing", "from_truncation", "from_regularisation", "transient_predicted", "hbm_predicted",
-    "mean_error", "harmonic_1_error", "largest_part", "waveform_error", NULL};
+    "hbm_harmonic_1", "transient_harmonic_1", "periods", "from_reduction", "from_settling", "from_integration",
+    "unexpected", "orbit_error", "from_aliasing", "from_truncation", "from_regularisation", "transient_predicted",
+    "hbm_predicted", "mean_error", "harmonic_1_error", "largest_part", "waveform_error", NULL};
 
 static const char *const of_accuracy[] = {
     "peak_omega", "amplitude_error_median", "peak_omega_error", "peak_amplitude_error", "iterations", "rejected",

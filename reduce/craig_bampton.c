@@ -17,7 +17,8 @@ static void inner_products(int n, int m, const double *A, int k, const double *B
   for (int from = 0; from < n; from += ROWS) {
     const int rows = n - from < ROWS ? n - from : ROWS;
     for (int i = 0; i < m; ++i)
-      for (int r = 0; r < rows; ++r) room[i + (size_t)m * (size_t)r] = A[(size_t)from + (size_t)r + (size_t)n * (size_t)i];
+      for (int r = 0; r < rows; ++r)
+        room[i + (size_t)m * (size_t)r] = A[(size_t)from + (size_t)r + (size_t)n * (size_t)i];
     dense_add_product(m, k, rows, 1, room, m, B + from, n, from > 0, C, m);
   }
 }
@@ -252,8 +253,7 @@ hc_status craig_bampton_structure(const craig_bampton *cb, const scene_structure
   to->stiffness.v = malloc(square(r) * sizeof(double));
   to->damping.v = malloc(square(r) * sizeof(double));
   to->ratios = s->ratios ? malloc((size_t)r * sizeof(double)) : NULL;
-  hc_status st =
-      to->mass.v && to->stiffness.v && to->damping.v && (to->ratios || !s->ratios) ? HC_OK : HC_NO_MEMORY;
+  hc_status st = to->mass.v && to->stiffness.v && to->damping.v && (to->ratios || !s->ratios) ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) put_matrices(cb, modes, to->stiffness.v, to->mass.v);
   if (st == HC_OK && s->ratios) memcpy(to->ratios, s->ratios, (size_t)r * sizeof *to->ratios);
   if (st == HC_OK && s->how == STRUCTURE_DAMPING_MATRIX) st = project_damping(cb, &s->damping.kept, r, to->damping.v);

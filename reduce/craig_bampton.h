@@ -1,5 +1,6 @@
-/* craig_bampton.h - a large structure on the rows that are kept and its lowest fixed-interface modes (Craig and Bampton
- * 1968, [19] in README.md), and what the modes that are left out would add.
+/* craig_bampton.h - a large structure on the rows that are kept and its lowest fixed-interface modes (Craig and
+ * Bampton, Coupling of Substructures for Dynamic Analyses, AIAA Journal 6, 1968), and what the modes that are left out
+ * would add.
  *
  * Rows: b are kept, i the others. In x = T q, q = (x_b, a): x_i = Psi x_b + Phi a,
  *     K_ii Psi = -K_ib,    K_ii phi = lambda M_ii phi,    Phi^T M_ii Phi = 1.
@@ -27,7 +28,8 @@ typedef struct craig_bampton {
 
 /* Of s, which is_sparse, with the rows kept[n_kept], ascending, without modes as yet; floating: the shift to take if
  * one is needed. HC_SINGULAR where rows have neither stiffness nor mass; HC_NO_MEMORY. */
-hc_status craig_bampton_new(const scene_structure *s, int n_kept, const int *kept, double floating, craig_bampton **out);
+hc_status craig_bampton_new(const scene_structure *s, int n_kept, const int *kept, double floating,
+                            craig_bampton **out);
 void craig_bampton_free(craig_bampton *cb);
 
 /* `more` modes, or as many as there are. HC_NO_MEMORY, HC_NOT_CONVERGED. */

@@ -69,7 +69,8 @@ hc_status factor_new(const sparse *K, const sparse *M, double shift, const bool 
   f->common.supernodal = CHOLMOD_SUPERNODAL;
   sparse diagonal; /* each entry of it is there, so that held rows have one */
   hc_status st = sparse_new(K->n, K->n, &diagonal);
-  for (int i = 0; i < K->n && st == HC_OK; ++i) diagonal.start[i + 1] = i + 1, diagonal.row[i] = i, diagonal.value[i] = 0;
+  for (int i = 0; i < K->n && st == HC_OK; ++i)
+    diagonal.start[i + 1] = i + 1, diagonal.row[i] = i, diagonal.value[i] = 0;
   if (st == HC_OK) {
     cholmod_sparse stiffness = view(K), mass = view(shift != 0 ? M : &diagonal), all = view(&diagonal);
     cholmod_sparse *part_sum = cholmod_add(&stiffness, &mass, one, part, 1, 1, &f->common);

@@ -18,8 +18,8 @@ void factor_free(factor *f);
 /* X := A^-1 X, rows that are held set to 0; X[columns][n]. HC_NO_MEMORY. */
 hc_status factor_solve(factor *f, int columns, double *X);
 
-/* Of the structure K and M with these rows held: *shift = 0 where K holds the rest alone; else, where it floats, a shift
- * of the order of `shift_floating` with which K + shift M can be factored. HC_SINGULAR: no mass either. */
+/* Of the structure K and M with these rows held: *shift = 0 where K holds the rest alone; else, where it floats, a
+ * shift of the order of `shift_floating` with which K + shift M can be factored. HC_SINGULAR: no mass either. */
 hc_status factor_shifted(const sparse *K, const sparse *M, const bool *held, double shift_floating, double *shift,
                          factor **out);
 

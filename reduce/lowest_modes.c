@@ -44,8 +44,7 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
   int *select = malloc((size_t)vectors * sizeof *select);
   hc_status st = V && room && residual && M_phi && share && select ? HC_OK : HC_NO_MEMORY;
   double *basis = st == HC_OK ? residual + rows : NULL; /* [3][n] workd, and one of ours */
-  for (int k = 0; k < known && st == HC_OK; ++k)
-    times_mass(M, held, phi + rows * (size_t)k, M_phi + rows * (size_t)k);
+  for (int k = 0; k < known && st == HC_OK; ++k) times_mass(M, held, phi + rows * (size_t)k, M_phi + rows * (size_t)k);
   for (int i = 0; i < n && st == HC_OK; ++i) residual[i] = 1 + 0.37 * sin(7.0 * i + 1); /* of no symmetry */
   if (st == HC_OK) { /* into what has mass and is held by nothing */
     times_mass(M, held, residual, basis);

@@ -21,8 +21,8 @@ typedef struct frequency {
 struct receptance {
   const craig_bampton *cb;
   int n, n_kept, n_directions, n_frequencies;
-  double *p;                   /* [n_directions][n] */
-  double *omega2[2], *c[2];    /* [n] contacts apart, stuck */
+  double *p;                     /* [n_directions][n] */
+  double *omega2[2], *c[2];      /* [n] contacts apart, stuck */
   double *to_kept[2], *p_phi[2]; /* [n][n_kept] phi's kept rows; [n_directions][n] phi^T p */
   frequency *at;
   double *R, *G, *RG, *H, *half; /* [n_kept][n_kept], [2][n_directions][n_kept] twice, [4][n_directions]^2, [n_d][n] */
@@ -126,8 +126,8 @@ hc_status receptance_new(const craig_bampton *cb, const scene *sc, receptance **
     r->cb = cb, r->n = m->n, r->n_kept = cb->n_kept;
     const size_t n = (size_t)r->n, b = (size_t)r->n_kept;
     const size_t most = (size_t)(2 * m->n_contacts + 2 * m->n_loads + m->n_responses);
-    double *room = r->p = calloc(most * n + 2 * (2 * n + n * b + most * n) + b * b + 4 * b * most + 4 * most * most +
-                                     most * n, sizeof *room);
+    double *room = r->p = calloc(
+        most * n + 2 * (2 * n + n * b + most * n) + b * b + 4 * b * most + 4 * most * most + most * n, sizeof *room);
     r->at = malloc(2 * HARMONICS * (SPREAD + n) * sizeof *r->at);
     st = room && r->at ? HC_OK : HC_NO_MEMORY;
     for (int state = 0; state < 2 && st == HC_OK; ++state) {

@@ -13,9 +13,9 @@ typedef struct receptance_error {
   bool stuck;   /* with the contacts stuck; else apart */
 } receptance_error;
 
-/* The receptance H between the directions of contacts, loads and responses of sc's structure, from all modes that cb has,
- * at frequencies of sc's sweep and its harmonics up to 3: evenly spread ones and the resonances, the contacts all apart
- * and all stuck. HC_NO_MEMORY, or as model_modes and structure_resolve_damping. */
+/* The receptance H between the directions of contacts, loads and responses of sc's structure, from all modes that cb
+ * has, at frequencies of sc's sweep and its harmonics up to 3: evenly spread ones and the resonances, the contacts all
+ * apart and all stuck. HC_NO_MEMORY, or as model_modes and structure_resolve_damping. */
 hc_status receptance_new(const craig_bampton *cb, const scene *sc, receptance **out);
 void receptance_free(receptance *r);
 

@@ -38,8 +38,8 @@ typedef struct matrix_text {
   size_t line;           /* its number, from 1     */
   int n_words;           /* at most MATRIX_WORDS are kept, and one more counted */
   matrix_word words[MATRIX_WORDS];
-  const char *part;     /* of those in the file the one that is asked for, or NULL */
-  int expected, n;      /* rows; expected = 0: any number */
+  const char *part; /* of those in the file the one that is asked for, or NULL */
+  int expected, n;  /* rows; expected = 0: any number */
   int n_entries;
   matrix_entry *entries; /* as they come; mirrored with that sign beside the diagonal, 0: given as they are */
   int mirrored;
