@@ -129,6 +129,14 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
   return st != HC_IO ? st : yaml_file_failed(r, node, what, out->file, "a matrix as " ANY_MATRIX);
 }
 
+static hc_status keep_sparse(case_reader *r, int n, structure_matrix *m)
+{
+  const hc_status st = sparse_from_dense(n, m->v, &m->kept);
+  free(m->v);
+  m->v = NULL;
+  return st == HC_OK ? st : case_out_of_memory(r);
+}
+
 hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
                            structure_matrix *out)
 {
@@ -147,14 +155,10 @@ hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *
     *given.v = x + 0.0; /* -0 is 0 */
     st = HC_OK;
   }
-  if (st == HC_OK && given.v && *n > r->most_dense) {
-    if (sparse_from_dense(*n, given.v, &given.kept) != HC_OK) st = case_out_of_memory(r);
-    free(given.v);
-    given.v = NULL;
-  }
   structure_free_matrix(st == HC_OK ? out : &given);
-  if (st == HC_OK) *out = given;
-  return st;
+  if (st != HC_OK) return st;
+  *out = given;
+  return out->v && *n > r->most_dense ? keep_sparse(r, *n, out) : HC_OK;
 }
 
 hc_status yaml_matrix_symmetric(case_reader *r, const char *what, const structure_matrix *m, int n)

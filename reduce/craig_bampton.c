@@ -158,7 +158,7 @@ static void find_share(craig_bampton *cb, const scene_structure *s, int k, doubl
 hc_status craig_bampton_more(craig_bampton *cb, const scene_structure *s, int more)
 {
   int found;
-  const size_t n = (size_t)cb->n, all = (size_t)(cb->n_modes + more);
+  const size_t n = (size_t)cb->n, all = (size_t)cb->n_modes + (size_t)more;
   double *M_phi = malloc(2 * n * sizeof *M_phi);
   hc_status st = M_phi && lengthen(&cb->lambda, all) && lengthen(&cb->phi, n * all) &&
                          lengthen(&cb->share, (size_t)cb->n_kept * all)

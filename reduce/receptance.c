@@ -125,7 +125,7 @@ hc_status receptance_new(const craig_bampton *cb, const scene *sc, receptance **
   if (st == HC_OK) {
     r->cb = cb, r->n = m->n, r->n_kept = cb->n_kept;
     const size_t n = (size_t)r->n, b = (size_t)r->n_kept;
-    const size_t most = (size_t)(2 * m->n_contacts + 2 * m->n_loads + m->n_responses);
+    const size_t most = 2 * (size_t)m->n_contacts + 2 * (size_t)m->n_loads + (size_t)m->n_responses;
     double *room = r->p = calloc(
         most * n + 2 * (2 * n + n * b + most * n) + b * b + 4 * b * most + 4 * most * most + most * n, sizeof *room);
     r->at = malloc(2 * HARMONICS * (SPREAD + n) * sizeof *r->at);

@@ -207,7 +207,7 @@ hc_status matrix_text_assemble(matrix_text *r)
 {
   const size_t both = 2 * (size_t)r->n_entries;
   hc_status st = sparse_new(r->n, r->n_entries << (r->mirrored != 0), &r->matrix);
-  int *first = calloc((size_t)r->n + 2, sizeof *first), *order = malloc((2 * both + 1) * sizeof *order);
+  int *first = calloc((size_t)r->n + 2, sizeof *first), *order = calloc(2 * both + 1, sizeof *order);
   if (!first || !order) st = HC_NO_MEMORY;
   if (st == HC_OK && both > 0) {
     sort_entries(r, first, order, order + both);

@@ -44,7 +44,7 @@ def rows(text):
 def modes(case, column, *more):
     text = run("modes", case, "--format", "json", "-q", *more).stdout
     table = json.loads(text)
-    table = table["Modes"] if isinstance(table, dict) else table
+    table = table.get("Modes", table.get("rows")) if isinstance(table, dict) else table
     return np.array([r[column] if r[column] is not None else 0 for r in table], float)
 
 
