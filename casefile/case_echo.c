@@ -152,6 +152,13 @@ static void write_structure(const scene_structure *s, FILE *to)
     fprintf(to, ", %d, %c]", s->nodes[i].node, s->nodes[i].direction);
   }
   if (s->n_nodes > 0) fputs("]\n", to);
+  if (s->reduction_error > 0) {
+    fputs("  reduction: {error: ", to);
+    write_number(s->reduction_error, to);
+    fputs(", at: ", to);
+    write_number(s->reduction_at, to);
+    fputs("}\n", to);
+  }
   for (int i = 0; i < s->n_responses; ++i) {
     fputs(i == 0 ? "response: [" : ", ", to);
     const structure_response *response = &s->responses[i];

@@ -22,6 +22,7 @@ void case_reader_start(case_reader *r, const char *name, const char *const *set,
   r->noun = "case";
   r->required = "`oscillator`, `forcing` and `sweep`";
   r->set = set;
+  r->most_dense = MATRIX_MOST_DENSE;
   message_start(&r->msg, err->message, sizeof err->message);
   field_defaults(&r->sc);
 }
@@ -96,6 +97,32 @@ hc_status case_reader_slurp(case_reader *r, char **text, size_t *length)
   }
   if (!standard_input) fclose(from);
   return st;
+}
+
+hc_status case_read_sparse(const char *path, int n_set, const char *const *set, int most_dense, scene *out,
+                           case_source *source, case_error *err)
+{
+  case_reader r;
+  char *text = NULL;
+  size_t length = 0;
+  case_reader_start(&r, !strcmp(path, "-") ? "<stdin>" : path, set, err);
+  r.takes_large = true;
+  r.most_dense = most_dense;
+  r.source = source;
+  if (source) *source = (case_source){0};
+  hc_status st = case_reader_slurp(&r, &text, &length);
+  if (st == HC_OK) st = read_scene(&r, text, length, n_set);
+  if (source) source->text = text, source->length = length;
+  else free(text);
+  return case_reader_take(&r, st, out);
+}
+
+void case_source_free(case_source *source)
+{
+  for (int i = 0; i < source->n_mentions; ++i) free(source->mentions[i].file);
+  free(source->mentions);
+  free(source->text);
+  *source = (case_source){0};
 }
 
 hc_status case_read_placed(const char *path, int n_set, const char *const *set, scene *out, case_places *places,

@@ -20,6 +20,28 @@ typedef struct case_error {
  * case names with its place there. */
 hc_status case_read(const char *path, int n_set, const char *const *set, scene *out, case_error *err);
 
+/* What a case's text says of its model, so that another one can take its place: where `structure` stands, and where
+ * degrees of freedom go by number and files by name. Characters of the text are counted from 0. */
+typedef struct case_mention {
+  size_t from, to;
+  int dof;    /* from 0; or -1: */
+  char *file; /* its path, to free */
+} case_mention;
+typedef struct case_source {
+  char *text;
+  size_t length;   /* in bytes */
+  size_t from, to; /* the value of `structure` */
+  int n_mentions;
+  case_mention *mentions;
+} case_source;
+
+/* Read a case with matrices of any size: a structure of more than `most_dense` rows is_sparse, which is for reduce/
+ * alone, not for solvers, and what depends on all entries of its matrices is not checked. *source, if not NULL, is to
+ * be freed in any case. */
+hc_status case_read_sparse(const char *path, int n_set, const char *const *set, int most_dense, scene *out,
+                           case_source *source, case_error *err);
+void case_source_free(case_source *source);
+
 /* The same from memory; `name` stands for the file in messages. */
 hc_status case_parse(const char *name, const char *text, size_t length, int n_set, const char *const *set, scene *out,
                      case_error *err);

@@ -1,7 +1,11 @@
 /* case_reader.c - what every part of the case reader uses: messages with their place, nodes of the document. */
 #include "casefile/case_reader.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+#include "base/growing.h"
+#include "base/path.h"
 
 message *case_blame(case_reader *r, case_place place)
 {
@@ -26,6 +30,24 @@ hc_status case_refuse(case_reader *r, case_place place, const char *format, ...)
   message_add_list(case_blame(r, place), format, args);
   va_end(args);
   return HC_BAD_INPUT;
+}
+
+hc_status yaml_mention(case_reader *r, const yaml_node_t *node, int dof, const char *file)
+{
+  case_source *s = r->source;
+  if (!s || r->set_now > 0) return HC_OK;
+  char *own = file ? strdup(file) : NULL;
+  if ((file && !own) || !GROW(s->mentions, s->n_mentions)) return free(own), HC_NO_MEMORY;
+  s->mentions[s->n_mentions++] = (case_mention){node->start_mark.index, node->end_mark.index, dof, own};
+  return HC_OK;
+}
+
+char *yaml_file_beside(case_reader *r, const yaml_node_t *node)
+{
+  char *path = path_beside(r->name, yaml_node_text(node), node->data.scalar.length);
+  if (!path || yaml_mention(r, node, -1, path) == HC_OK) return path;
+  free(path);
+  return NULL;
 }
 
 hc_status yaml_file_failed(case_reader *r, const yaml_node_t *node, const char *what, const char *path,

@@ -27,6 +27,9 @@ typedef struct case_reader {
   scene sc;               /* as far as it has been read                              */
   mesh *mesh;             /* of sc.structure->mesh, once it was asked for; or NULL   */
   bool owns_structure;    /* or shares it with the scene it was started from         */
+  bool takes_large;       /* matrices of more than most_dense rows are kept sparse, not refused */
+  int most_dense;
+  case_source *source; /* or NULL: what another model needs of the text           */
   /* [field_index] where each field was last given; of contacts' fields, in the contact being read */
   case_place at[FIELD_MAX];
   /* where each contact of an oscillator appeared; case_field_bit: that field of it has been given */
@@ -201,6 +204,16 @@ hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *
 
 /* Start the message with the place of entry (i, j), from 0, of a matrix: in its file, or else in the case. */
 message *yaml_matrix_blame(case_reader *r, const structure_matrix *m, int i, int j);
+
+/* The entries (i, j) and (j, i) of a matrix, kept either way, are the same but for rounding; else the message. */
+hc_status yaml_matrix_symmetric(case_reader *r, const char *what, const structure_matrix *m, int n);
+
+/* The path of the file that a scalar names, to free, which r->source is told; NULL: out of memory. */
+char *yaml_file_beside(case_reader *r, const yaml_node_t *node);
+
+/* Told to r->source, if there is one: the node names that DOF by its number, or else, dof < 0, a file.
+ * HC_NO_MEMORY. */
+hc_status yaml_mention(case_reader *r, const yaml_node_t *node, int dof, const char *file);
 
 /* A degree of freedom by name or number, or as {node: 17, direction: y}. */
 hc_status yaml_dof(case_reader *r, const yaml_node_t *node, int *dof);

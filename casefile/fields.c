@@ -107,6 +107,10 @@ static const field table[] = {
   {"structure", "mesh", "", PART(0, "a FILE of CalculiX or Abaqus (.inp)"), .unit = "", .fallback = "",
    .meaning = "whose sets of nodes `pairs: {between: ...}` names"},
 
+  {"structure", "reduction", "", PART(0, "{error: 2e-4, at: 500}, both numbers >= 0"),
+   .unit = "1, rad/time", .fallback = "",
+   .meaning = "largest relative error of the receptance, as `reduce` states it, and at which frequency"},
+
   {"forcing", "amplitude", "F0", FIELD_REAL, .unit = "force", SCENE(force), NOT_NEGATIVE,
    .meaning = "of the force F0 cos(omega t)"},
 

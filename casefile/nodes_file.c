@@ -4,20 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
 #include "base/number.h"
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
 
 enum { COLUMNS = 3 };
-static const size_t most_bytes = (size_t)1 << 29; /* it may be a matrix */
-
-hc_status nodes_add(scene_structure *s, int dof, int node, char direction)
-{
-  if (!GROW(s->nodes, s->n_nodes)) return HC_NO_MEMORY;
-  s->nodes[s->n_nodes++] = (structure_node){.dof = dof, .node = node, .direction = direction};
-  return HC_OK;
-}
+static const size_t most_bytes = (size_t)1 << 31; /* it may be a matrix */
 
 /* ---- dof,node,direction ---- */
 
@@ -125,23 +117,21 @@ static hc_status read_dofs(matrix_text *t, scene_structure *s)
 
 static hc_status read_labels(matrix_text *t, scene_structure *s)
 {
-  int n;
-  double *values;
+  sparse matrix;
   matrix_label *labels;
-  hc_status st =
-      matrix_file_parse(t->name, t->text, (size_t)(t->end - t->text), NULL, s->n, &n, &values, &labels, t->m);
+  hc_status st = matrix_file_parse(t->name, t->text, (size_t)(t->end - t->text), NULL, s->n, &matrix, &labels, t->m);
   if (st == HC_OK && !labels) {
     matrix_text_rewind(t);
     st = matrix_text_refuse(
         t, t->text,
         "a matrix that does not say which nodes its rows are, expected one that does, or lines dof,node,direction");
   }
-  for (int i = 0; i < n && labels && st == HC_OK; ++i) {
+  for (int i = 0; i < matrix.n && labels && st == HC_OK; ++i) {
     if (labels[i].dof < 1 || labels[i].dof > 3 || structure_node_dof(s, labels[i].node, axes[labels[i].dof - 1]) >= 0)
       continue;
     st = nodes_add(s, i, labels[i].node, axes[labels[i].dof - 1]);
   }
-  free(values);
+  sparse_free(&matrix);
   free(labels);
   return st;
 }

@@ -80,7 +80,8 @@ hc_status scene_setup(const scene *sc, compare_setup *out)
                          .hbm = sc->hbm,
                          .transient = sc->transient,
                          .compare = sc->compare,
-                         .limits = &sc->gate};
+                         .limits = &sc->gate,
+                         .reduction = sc->structure ? sc->structure->reduction_error : 0};
   return st;
 }
 

@@ -17,6 +17,7 @@ scene_structure *structure_new(void) { return calloc(1, sizeof(scene_structure))
 void structure_free_matrix(structure_matrix *m)
 {
   free(m->v);
+  sparse_free(&m->kept);
   free(m->file);
   free(m->labels);
 }
@@ -130,6 +131,7 @@ static void *copied(const void *from, size_t bytes, bool *failed)
 static structure_matrix copied_matrix(const structure_matrix *from, size_t n, bool *failed)
 {
   structure_matrix to = *from;
+  to.kept = (sparse){0};
   to.v = copied(from->v, n * n * sizeof *to.v, failed);
   to.file = copied(from->file, from->file ? strlen(from->file) + 1 : 0, failed);
   to.labels = copied(from->labels, n * sizeof *to.labels, failed);
@@ -192,11 +194,33 @@ int structure_dof(const scene_structure *s, const char *text, size_t length)
   return counted && number >= 1 && number <= s->n ? number - 1 : -1;
 }
 
+/* The first of the nodes that is not before this one. */
+static int node_place(const scene_structure *s, int node, char direction)
+{
+  int low = 0, high = s->n_nodes;
+  while (low < high) {
+    const int middle = low + (high - low) / 2;
+    const structure_node *is = &s->nodes[middle];
+    if (is->node < node || (is->node == node && is->direction < direction)) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
 int structure_node_dof(const scene_structure *s, int node, char direction)
 {
-  for (int i = 0; i < s->n_nodes; ++i)
-    if (s->nodes[i].node == node && s->nodes[i].direction == direction) return s->nodes[i].dof;
-  return -1;
+  const int i = node_place(s, node, direction);
+  const bool found = i < s->n_nodes && s->nodes[i].node == node && s->nodes[i].direction == direction;
+  return found ? s->nodes[i].dof : -1;
+}
+
+hc_status nodes_add(scene_structure *s, int dof, int node, char direction)
+{
+  if (!GROW(s->nodes, s->n_nodes)) return HC_NO_MEMORY;
+  structure_node *at = s->nodes + node_place(s, node, direction);
+  memmove(at + 1, at, (size_t)(s->nodes + s->n_nodes++ - at) * sizeof *at);
+  *at = (structure_node){.dof = dof, .node = node, .direction = direction};
+  return HC_OK;
 }
 
 const structure_node *structure_node_of(const scene_structure *s, int dof)
@@ -341,7 +365,7 @@ const char *structure_response_name(const scene_structure *s, int r, char *text,
 
 bool structure_unsymmetric(int n, const double *A, int *row, int *column)
 {
-  const double tolerance = 1e-10;
+  const double tolerance = STRUCTURE_SYMMETRY;
   const size_t ld = (size_t)n;
   for (size_t j = 0; j < ld; ++j)
     for (size_t i = j + 1; i < ld; ++i) {

@@ -22,7 +22,8 @@ typedef enum structure_damping {
 
 /* One matrix as it was given. */
 typedef struct structure_matrix {
-  double *v;            /* [n][n] by columns, or NULL if it has not been given */
+  double *v;            /* [n][n] by columns, or NULL if it has not been given, or is kept sparse */
+  sparse kept;          /* of a structure that is kept sparse; start NULL: it has not been given */
   char *file;           /* that it came from, or NULL */
   const char *part;     /* of that file: the one it is where the file has several, a constant; or NULL */
   matrix_label *labels; /* [n], what the file says that its rows are, or NULL */
@@ -71,13 +72,14 @@ typedef struct structure_node { /* of the finite-element mesh: which degree of f
 
 struct scene_structure {
   int n;
+  bool is_sparse; /* case_read_sparse: its matrices are kept as they came, and neither checked nor resolved */
   structure_matrix mass, stiffness, damping; /* damping.v: what results from any kind of damping */
   structure_damping how;
   double rayleigh[2]; /* alpha [1/time], beta [time] */
   double modal;       /* [1] of critical */
   double *ratios;     /* [n] [1], for STRUCTURE_DAMPING_MODES */
   char **names;       /* [n], then NULL; or NULL */
-  int n_nodes;
+  int n_nodes;        /* in order of node, then direction */
   structure_node *nodes;
   char *mesh;  /* path of the file that sets of nodes are in, or NULL */
   char *notes; /* how pairs of nodes were found, a line an entry, or NULL */
@@ -87,6 +89,8 @@ struct scene_structure {
   structure_contact *contacts;
   int n_responses; /* 0: the default */
   structure_response *responses;
+  double reduction_error; /* [1] of the receptance, that a reduction stated; 0: none did */
+  double reduction_at;    /* the frequency where, in the sweep's unit */
   case_place place;
 };
 
@@ -140,7 +144,8 @@ const char *structure_direction_name(const scene_structure *s, const double *dir
  * line itself the first; CalculiX' JOB.dof; or a matrix file of Abaqus or CalculiX that says what its rows are
  * (matrix_file.h). The first line tells which. */
 
-/* One more node of s, which is known not to be there yet. HC_NO_MEMORY. */
+/* One more node of s, which is known not to be there yet. They are kept in order of node and direction.
+ * HC_NO_MEMORY. */
 hc_status nodes_add(scene_structure *s, int dof, int node, char direction);
 
 /* The file at `path` into s->nodes. HC_BAD_INPUT with "PATH:LINE:COLUMN: ..." in m, HC_IO with words that are to follow
@@ -173,6 +178,8 @@ contact structure_contact_law(const structure_contact *c);
 
 /* Cosine and sine of an angle [deg], exact at multiples of 90. */
 void structure_cosine_sine(double angle_deg, double *cosine, double *sine);
+
+#define STRUCTURE_SYMMETRY 1e-10
 
 /* Is A[n][n] not symmetric, beyond the 1e-10 of its diagonal that a reduction leaves? Then the first such entry, from
  * 0, i > j. */

@@ -231,7 +231,11 @@ static hc_status named_dof(case_reader *r, const yaml_node_t *node, int *dof)
     return yaml_refuse(r, node, "%s stands where a DOF should, expected its name or number", yaml_node_what(node));
   const char *text = yaml_node_text(node);
   const size_t length = node->data.scalar.length;
-  if ((*dof = structure_dof(s, text, length)) >= 0) return HC_OK;
+  if ((*dof = structure_dof(s, text, length)) >= 0) {
+    int number;
+    const bool counted = number_read_integer(text, length, &number) == NUMBER_FINE; /* a name is none */
+    return !counted || yaml_mention(r, node, *dof, NULL) == HC_OK ? HC_OK : case_out_of_memory(r);
+  }
   const char *near = s->names ? nearest_word((const char *const *)s->names, text, length) : NULL;
   if (near) return yaml_refuse(r, node, "no DOF %s, did you mean `%s`?", QUOTED(text, length), near);
   return yaml_refuse(r, node, "no DOF %s, expected a number 1..%d%s", QUOTED(text, length), s->n,

@@ -5,7 +5,6 @@
 #include <strings.h>
 
 #include "base/number.h"
-#include "base/path.h"
 #include "casefile/case_reader.h"
 #include "casefile/matrices/matrix_file.h"
 #include "casefile/matrices/text_file.h"
@@ -47,9 +46,9 @@ static hc_status read_list(case_reader *r, const char *what, const yaml_node_t *
 {
   *n = yaml_length(node);
   const bool rows = *n > 0 && yaml_entry(r, node, 0)->type == YAML_SEQUENCE_NODE;
-  if (*n < 1 || *n > MATRIX_MOST_ROWS)
+  if (*n < 1 || *n > MATRIX_MOST_DENSE)
     return yaml_refuse(r, node, "%s is a list of %d, expected 1 to %d rows, or a diagonal", what, *n,
-                       (int)MATRIX_MOST_ROWS);
+                       (int)MATRIX_MOST_DENSE);
   if (expected > 0 && *n != expected)
     return yaml_refuse(r, node, "%s has %d %s, expected %d", what, *n, rows ? "rows" : "entries", expected);
   if (!(*v = calloc((size_t)*n * (size_t)*n, sizeof **v))) return case_out_of_memory(r);
@@ -89,6 +88,16 @@ static const char how_matlab_writes[] =
     "fprintf(f,'%%%%MatrixMarket matrix coordinate real general\\n%d %d %d\\n',size(M),numel(v)); "
     "fprintf(f,'%d %d %.17g\\n',[i j v]'); fclose(f)";
 
+/* Measured: 80 matrices at a frequency of `frf`, docs/models.md. */
+static hc_status too_large(case_reader *r, const char *what, const yaml_node_t *node, int n)
+{
+  return yaml_refuse(
+      r, node,
+      "%s has %d rows, with which a frequency takes about %.0f GB, expected at most %d: `hbmcheck reduce "
+      "CASE -o FOLDER` makes a smaller model of it",
+      what, n, 80 * 8e-9 * n * n, r->most_dense);
+}
+
 static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
                            structure_matrix *out)
 {
@@ -101,15 +110,31 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
     message_add(m, ", expected %s", ANY_MATRIX);
     return HC_BAD_INPUT;
   }
-  if (!(out->file = path_beside(r->name, name, length))) return case_out_of_memory(r);
+  if (!(out->file = yaml_file_beside(r, node))) return case_out_of_memory(r);
   out->part = part_of(what);
   if (is_matlab_name(out->file)) {
     message_add(&r->msg, "is a MATLAB file, which is not read");
     return yaml_file_failed(r, node, what, out->file, how_matlab_writes);
   }
-  const hc_status st = matrix_file_read(out->file, out->part, expected, n, &out->v, &out->labels, &r->msg);
+  const hc_status st = matrix_file_read(out->file, out->part, expected, &out->kept, &out->labels, &r->msg);
+  *n = out->kept.n;
   if (st == HC_NO_MEMORY) return case_out_of_memory(r);
+  const bool dense = *n <= r->most_dense;
+  if (st == HC_OK && !dense && !r->takes_large) return too_large(r, what, node, *n);
+  if (st == HC_OK && dense) {
+    out->v = sparse_to_dense(&out->kept);
+    sparse_free(&out->kept);
+    if (!out->v) return case_out_of_memory(r);
+  }
   return st != HC_IO ? st : yaml_file_failed(r, node, what, out->file, "a matrix as " ANY_MATRIX);
+}
+
+static hc_status keep_sparse(case_reader *r, int n, structure_matrix *m)
+{
+  const hc_status st = sparse_from_dense(n, m->v, &m->kept);
+  free(m->v);
+  m->v = NULL;
+  return st == HC_OK ? st : case_out_of_memory(r);
 }
 
 hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
@@ -131,8 +156,23 @@ hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *
     st = HC_OK;
   }
   structure_free_matrix(st == HC_OK ? out : &given);
-  if (st == HC_OK) *out = given;
-  return st;
+  if (st != HC_OK) return st;
+  *out = given;
+  return out->v && *n > r->most_dense ? keep_sparse(r, *n, out) : HC_OK;
+}
+
+hc_status yaml_matrix_symmetric(case_reader *r, const char *what, const structure_matrix *m, int n)
+{
+  char a[NUMBER_TEXT], b[NUMBER_TEXT];
+  int i, j;
+  if (!(m->v ? structure_unsymmetric(n, m->v, &i, &j) : sparse_unsymmetric(&m->kept, STRUCTURE_SYMMETRY, &i, &j)))
+    return HC_OK;
+  const double ij = m->v ? m->v[i + j * (size_t)n] : sparse_at(&m->kept, i, j);
+  const double ji = m->v ? m->v[j + i * (size_t)n] : sparse_at(&m->kept, j, i);
+  message_add(yaml_matrix_blame(r, m, i, j),
+              "%s is not symmetric: entry (%d, %d) is %s, but (%d, %d) is %s, expected a symmetric matrix", what, i + 1,
+              j + 1, number_write(ij, a), j + 1, i + 1, number_write(ji, b));
+  return HC_BAD_INPUT;
 }
 
 message *yaml_matrix_blame(case_reader *r, const structure_matrix *m, int i, int j)

@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "base/path.h"
 #include "casefile/case_reader.h"
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
@@ -121,7 +120,7 @@ static hc_status read_names(pair_rows *p)
 static hc_status open_file(pair_rows *p, const yaml_node_t *node)
 {
   size_t length = 0;
-  p->path = path_beside(p->r->name, yaml_node_text(node), node->data.scalar.length);
+  p->path = yaml_file_beside(p->r, node);
   const hc_status st = p->path ? text_file_read(p->path, most_bytes, &p->bytes, &length, &p->r->msg) : HC_NO_MEMORY;
   if (st == HC_NO_MEMORY) return case_out_of_memory(p->r);
   if (st != HC_OK)
@@ -524,8 +523,9 @@ static hc_status read_rows(pair_rows *rows, const pairs_entry *e, pair_row *all)
     pair_row row;
     st = pair_rows_next(rows, &row, &more);
     if (st != HC_OK || !more) return st;
-    if (k == MATRIX_MOST_ROWS)
-      return refuse(rows, rows->column[PAIR_NODE_A], false, "another pair, expected at most %d", (int)MATRIX_MOST_ROWS);
+    if (k == MATRIX_MOST_DENSE)
+      return refuse(rows, rows->column[PAIR_NODE_A], false, "another pair, expected at most %d",
+                    (int)MATRIX_MOST_DENSE);
     for (int i = 0; i < k; ++i)
       if ((all[i].a == row.a && all[i].b == row.b) || (all[i].a == row.b && all[i].b == row.a))
         return refuse(rows, rows->column[PAIR_NODE_A], false, "the same two nodes again, expected each pair once");
@@ -554,7 +554,7 @@ hc_status yaml_pairs_read(case_reader *r, const yaml_node_t *node)
   if (st != HC_OK) return st;
   st = pair_rows_open(&rows, r, given[0], &e);
   if (st == HC_OK) st = check_entry(r, &e, &rows);
-  pair_row *all = st == HC_OK ? malloc(MATRIX_MOST_ROWS * sizeof *all) : NULL;
+  pair_row *all = st == HC_OK ? malloc(MATRIX_MOST_DENSE * sizeof *all) : NULL;
   if (st == HC_OK) st = all ? read_rows(&rows, &e, all) : case_out_of_memory(r);
   free(all);
   pair_rows_close(&rows);

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "base/path.h"
 #include "base/utf8.h"
 #include "casefile/matrices/text_file.h"
 
@@ -16,15 +15,9 @@
  * singular, not indefinite, the motion that has no mass is told, and what to do about it. */
 static hc_status check_mass(case_reader *r, const structure_matrix *mass, int n)
 {
-  char a[NUMBER_TEXT], b[NUMBER_TEXT];
-  int i, j, order;
-  if (structure_unsymmetric(n, mass->v, &i, &j)) {
-    message_add(
-        yaml_matrix_blame(r, mass, i, j),
-        "structure.mass is not symmetric: entry (%d, %d) is %s, but (%d, %d) is %s, expected a symmetric matrix", i + 1,
-        j + 1, number_write(mass->v[i + j * (size_t)n], a), j + 1, i + 1, number_write(mass->v[j + i * (size_t)n], b));
-    return HC_BAD_INPUT;
-  }
+  int order;
+  const hc_status symmetric = yaml_matrix_symmetric(r, "structure.mass", mass, n);
+  if (symmetric != HC_OK || !mass->v) return symmetric;
   if (structure_not_definite(n, mass->v, &order) == HC_NO_MEMORY) return case_out_of_memory(r);
   if (order == 0) return HC_OK;
   message *m = yaml_matrix_blame(r, mass, order - 1, order - 1);
@@ -69,7 +62,7 @@ static hc_status read_mass(case_reader *r, const yaml_node_t *node)
   hc_status st = yaml_matrix_read(r, "structure.mass", node, s->n, &n, &mass);
   if (st == HC_OK) st = check_mass(r, &mass, n);
   structure_free_matrix(st == HC_OK ? &s->mass : &mass);
-  if (st == HC_OK) s->mass = mass, s->n = n;
+  if (st == HC_OK) s->mass = mass, s->n = n, s->is_sparse = !mass.v;
   if (st == HC_OK) st = check_labels(r, &s->stiffness, "structure.stiffness"); /* of before */
   return st;
 }
@@ -123,7 +116,8 @@ static hc_status read_damping_value(case_reader *r, const field *f, const yaml_n
 static hc_status read_matrix(case_reader *r, const char *what, const yaml_node_t *node, structure_matrix *to)
 {
   int n;
-  const hc_status st = yaml_matrix_read(r, what, node, r->sc.structure->n, &n, to);
+  hc_status st = yaml_matrix_read(r, what, node, r->sc.structure->n, &n, to);
+  if (st == HC_OK && !to->v && to == &r->sc.structure->stiffness) st = yaml_matrix_symmetric(r, what, to, n);
   return st == HC_OK ? check_labels(r, to, what) : st;
 }
 
@@ -218,7 +212,7 @@ static hc_status read_node(case_reader *r, const yaml_node_t *entry)
 
 static hc_status read_nodes_file(case_reader *r, const yaml_node_t *node)
 {
-  char *path = path_beside(r->name, yaml_node_text(node), node->data.scalar.length);
+  char *path = yaml_file_beside(r, node);
   hc_status st = path ? nodes_file_read(path, r->sc.structure, &r->msg) : HC_NO_MEMORY;
   if (st == HC_NO_MEMORY) case_out_of_memory(r);
   if (st == HC_IO)
@@ -259,16 +253,53 @@ static hc_status read_mesh(case_reader *r, const yaml_node_t *node)
   return s->mesh ? case_mesh_read(r, node) : case_out_of_memory(r);
 }
 
+/* ---- what a reduction stated ---- */
+
+static hc_status read_reduction(case_reader *r, const yaml_node_t *node)
+{
+  static const char *const names[] = {"error", "at"};
+  scene_structure *s = r->sc.structure;
+  double *const to[] = {&s->reduction_error, &s->reduction_at};
+  for (int i = 0; i < 2; ++i) {
+    const yaml_node_t *value =
+        node->type == YAML_MAPPING_NODE && yaml_keys(node) == 2 ? yaml_find(r, node, names[i]) : NULL;
+    if (!value)
+      return yaml_refuse(r, node, "structure.reduction, expected %s", field_named("structure", "reduction")->expects);
+    const hc_status st = yaml_number(r, value, i == 0 ? "structure.reduction.error" : "structure.reduction.at", to[i]);
+    if (st != HC_OK) return st;
+    if (*to[i] < 0)
+      return yaml_refuse(r, value, "structure.reduction.%s is negative, expected a number >= 0", names[i]);
+  }
+  return HC_OK;
+}
+
 /* ---- the section ---- */
+
+/* The character behind the last one of what a node says; libyaml has a block end where the next key stands. */
+static size_t content_end(case_reader *r, const yaml_node_t *node)
+{
+  const bool mapping = node->type == YAML_MAPPING_NODE;
+  const bool block = mapping
+                         ? node->data.mapping.style != YAML_FLOW_MAPPING_STYLE
+                         : node->type == YAML_SEQUENCE_NODE && node->data.sequence.style != YAML_FLOW_SEQUENCE_STYLE;
+  const int n = !block ? 0 : mapping ? yaml_keys(node) : yaml_length(node);
+  if (n == 0) return node->end_mark.index;
+  return content_end(r, mapping ? yaml_value(r, node, n - 1) : yaml_entry(r, node, n - 1));
+}
 
 hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t *node)
 {
   static const struct {
     const char *name;
     hc_status (*read)(case_reader *, const yaml_node_t *);
-  } parts[] = {
-      {"mass", read_mass},   {"stiffness", read_stiffness}, {"damping", read_damping},        {"names", read_names},
-      {"nodes", read_nodes}, {"mesh", read_mesh},           {"response", yaml_responses_read}};
+  } parts[] = {{"mass", read_mass},
+               {"stiffness", read_stiffness},
+               {"damping", read_damping},
+               {"names", read_names},
+               {"nodes", read_nodes},
+               {"mesh", read_mesh},
+               {"response", yaml_responses_read},
+               {"reduction", read_reduction}};
   size_t i = 0;
   if (f->flags & FIELD_IN_STRUCTURE) return read_damping_value(r, f, node);
   while (strcmp(parts[i].name, f->name)) ++i;
@@ -286,6 +317,7 @@ hc_status yaml_structure_read(case_reader *r, const yaml_node_t *node)
   if (!(r->sc.structure = structure_new())) return case_out_of_memory(r);
   r->owns_structure = true;
   r->sc.structure->place = at;
+  if (r->source) r->source->from = node->start_mark.index, r->source->to = content_end(r, node);
   for (int i = 0; i < yaml_keys(node) && st == HC_OK; ++i) {
     const yaml_node_t *key = yaml_key(r, node, i);
     const field *f = yaml_key_field(r, key, "structure");

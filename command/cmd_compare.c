@@ -1,5 +1,6 @@
 /* cmd_compare.c - hbmcheck compare: harmonic balance and time integration at the same frequencies. */
 #include <errno.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -202,6 +203,7 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
   const scene *sc = common->scene;
   table *t = table_of_rows(common, c);
   const comparison_row *top = NULL; /* with the largest budget of the amplitude */
+  double reduction = 0;
   int unaccounted = 0, unknown = 0, mean_free = 0, family = 0, still = 0;
   put_rows(common, c, t);
   for (int i = 0; i < c->n_rows; ++i) {
@@ -212,6 +214,7 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
     mean_free += comparison_mean_free(r);
     family += r->family;
     still += r->still;
+    reduction = fmax(reduction, r->budget.reduction);
   }
   if (unaccounted)
     table_note(t, "%d transient%s NO HBM solution of this curve within the gate", unaccounted,
@@ -221,6 +224,10 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
   char text[BUDGET_TEXT], at[WHERE];
   if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
   if (top) table_note(t, "largest budget, %s: %s", row_where(sc, top, at), text);
+  if (setup->reduction > 0)
+    table_note(t, "a reduced model: the error of %.2g that structure.reduction states moves amplitudes by up to %.2g%s",
+               setup->reduction, reduction, reduction > sc->gate.most.amplitude ? ", MORE THAN THE GATE" : "");
+  else table_hide(t, "from_reduction");
   note_rows(t, unknown, "without a budget: no periodic orbit was found next to the HBM solution");
   say_unexpected(common, c, t);
   if (mean_free == 0) table_hide(t, "mean_free");

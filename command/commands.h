@@ -7,7 +7,7 @@
 
 /* clang-format off */
 #define COMMANDS(X) \
-  X(compare) X(frf) X(modes) X(transient) X(study) X(bench) X(gate) X(verify) X(prove) X(stress) X(report) X(lab) \
+  X(compare) X(frf) X(modes) X(reduce) X(transient) X(study) X(bench) X(gate) X(verify) X(prove) X(stress) X(report) X(lab) \
   X(contact) X(describe)
 /* clang-format on */
 

@@ -78,7 +78,7 @@ void budgeter_count(const budgeter *b, long *solves, long *periods, long *closed
 error_budget budget_nothing(void)
 {
   const budget_parts none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-  return (error_budget){.amplitude = none, .harmonic_1 = none, .waveform = none};
+  return (error_budget){.amplitude = none, .harmonic_1 = none, .waveform = none, .reduction = NAN};
 }
 
 bool budget_same_orbit(const timeint_result *a, const timeint_result *b)

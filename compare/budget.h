@@ -30,8 +30,10 @@ typedef struct budget_parts {
 typedef struct error_budget {
   budget_parts amplitude, harmonic_1, waveform; /* |difference| of (max - min)/2, of |a1 + i b1|, largest of x over
                                                    the period */
-  bool known;                                   /* there is an observed discrepancy */
-  bool against_transient;                       /* it is |h - T|; else |h - O| */
+  double reduction; /* [1] how far the stated error of a reduced model moves the amplitude (hbm_predict_reduction): both
+                       sides share it, so that it is no part of what lies between them */
+  bool known;       /* there is an observed discrepancy */
+  bool against_transient; /* it is |h - T|; else |h - O| */
 } error_budget;
 
 /* Nothing known. */

@@ -26,6 +26,7 @@ typedef struct compare_setup {
   transient_settings transient;
   compare_settings compare;
   const gate_limits *limits; /* what is within them is a match */
+  double reduction;          /* [1] stated error of the receptance of a model that was reduced; 0: none */
   bool spare;                /* leave out parts of the budget that nobody asks for and no verdict depends on */
   bool contacts;             /* what each contact does, too */
   pthread_mutex_t *found;    /* held while rows are added to the results; NULL: nobody else looks */

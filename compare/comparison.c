@@ -151,6 +151,8 @@ static hc_status make_states(comparison_work *w)
   w->expected = workspace_array(memory, responses, sizeof *w->expected);
   w->motions = workspace_array(memory, responses, sizeof *w->motions);
   w->budgets = workspace_array(memory, responses, sizeof *w->budgets);
+  const size_t longest = (size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)w->setup->model->n;
+  w->moved = workspace_doubles(memory, w->setup->reduction > 0 ? 2 * longest : 0);
   w->acting = workspace_array(memory, contacts, sizeof *w->acting);
   w->balanced = workspace_array(memory, contacts, sizeof *w->balanced);
   return memory->failed ? HC_NO_MEMORY : HC_OK;

@@ -26,6 +26,7 @@ struct comparison_work {
   motion_error *expected;
   periodic_motion *motions;
   error_budget *budgets;
+  double *moved; /* [2][n_coef] of from_reduction; as long as any solution may be */
   /* [n_contacts] of the model, filled as the case counts them (model_whole_contacts), of the row under way: what the
    * transient's contacts do, where that is HC_OK, and the solution's */
   contact_period *acting, *balanced;

@@ -177,6 +177,27 @@ static void referee(comparison_work *w, comparison_row *row, const double *X)
   }
 }
 
+/* How far the reduction's stated error moves the amplitude of every response. Of the first, which is one of the
+ * coordinates, that is all; of another the structure's own answer to its loads comes on top. */
+static hc_status find_from_reduction(comparison_work *w, const double *X, double omega)
+{
+  const double error = w->setup->reduction;
+  const hc_status st = error > 0 ? hbm_predict_reduction(w->hbm, omega, X, error, w->moved) : HC_OK;
+  if (st != HC_OK || error <= 0) return st == HC_NO_MEMORY ? st : HC_OK; /* not known */
+  for (int r = 0; r < w->setup->model->n_responses; ++r) {
+    double square = 0;
+    for (int k = 0; k < 2; ++k) {
+      periodic_motion moved;
+      if (motion_of_response(w->hbm, omega, w->moved + k * hbm_n_coefficients(w->hbm), r, NULL, &moved) != HC_OK)
+        return HC_OK;
+      const double d = motion_between(&w->motions[r], &moved).amplitude;
+      square += d * d;
+    }
+    w->budgets[r].reduction = discrepancy_relative(sqrt(square), w->motions[r].amplitude) + (r > 0 ? error : 0);
+  }
+  return HC_OK;
+}
+
 /* What the discrepancy is made of, in every response. */
 static hc_status account(comparison_work *w, const hbm_curve *at, int k, comparison_row *row)
 {
@@ -197,6 +218,7 @@ static hc_status account(comparison_work *w, const hbm_curve *at, int k, compari
                             .by = w->ti};
   if (st != HC_OK) return HC_OK;
   st = budgeter_run(w->budgeter, &from, w->monitor, w->budgets);
+  if (st == HC_OK) st = find_from_reduction(w, X, row->omega);
   row->budget = w->budgets[0];
   return st;
 }

@@ -105,6 +105,7 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(REAL,    "from_regularisation", true, r->budget.amplitude.regularisation) \
   X(REAL,    "from_integration",    true, r->budget.amplitude.integration)  \
   X(REAL,    "from_settling",       true, r->budget.amplitude.settling)     \
+  R(REAL,    "from_reduction",      true, r->budget.reduction)              \
   X(REAL,    "hbm_harmonic_1",      has_hbm(r), r->hbm.harmonic_1)          \
   X(REAL,    "transient_harmonic_1", has_transient(r), r->transient.harmonic_1) \
   X(INTEGER, "periods",             has_transient(r), r->transient.periods) \
@@ -267,9 +268,9 @@ static const char *const of_transient[] = {
 static const char *const of_compare[] = {
     "omega", "hbm_predicted_harmonic_1", "hbm_predicted_waveform", "transient_predicted_harmonic_1",
     "transient_predicted_waveform", "budget_sum", "budget_observed", "orbit_multiplier", "orbit_amplitude",
-    "hbm_harmonic_1", "transient_harmonic_1", "periods", "from_settling", "from_integration", "unexpected",
-    "orbit_error", "from_aliasing", "from_truncation", "from_regularisation", "transient_predicted", "hbm_predicted",
-    "mean_error", "harmonic_1_error", "largest_part", "waveform_error", NULL};
+    "hbm_harmonic_1", "transient_harmonic_1", "periods", "from_reduction", "from_settling", "from_integration",
+    "unexpected", "orbit_error", "from_aliasing", "from_truncation", "from_regularisation", "transient_predicted",
+    "hbm_predicted", "mean_error", "harmonic_1_error", "largest_part", "waveform_error", NULL};
 
 static const char *const of_accuracy[] = {
     "peak_omega", "amplitude_error_median", "peak_omega_error", "peak_amplitude_error", "iterations", "rejected",

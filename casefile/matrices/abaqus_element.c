@@ -19,8 +19,6 @@ typedef struct element {
   int n_labels;
   matrix_label *labels;
   int place, n_dofs, dofs[MATRIX_WORDS]; /* of every node from that place on, from 0 */
-  int n_values;
-  double *packed; /* [n_values] the lower triangle, row by row */
 } element;
 
 /* The current line in capitals and without blanks, cut to size. */
@@ -97,8 +95,8 @@ static hc_status read_header(matrix_text *r, element *e)
 
 /* ---- matrices ---- */
 
-/* The numbers of a line into row *row, of which *column is next. */
-static hc_status read_row_line(matrix_text *r, element *e, int *row, int *column)
+/* The numbers of a line, of row *row, of which *column is next; kept if wanted. */
+static hc_status read_row_line(matrix_text *r, bool wanted, int *row, int *column)
 {
   for (int i = 0; i < r->n_words; ++i) {
     double value;
@@ -107,42 +105,34 @@ static hc_status read_row_line(matrix_text *r, element *e, int *row, int *column
           r, i < MATRIX_WORDS ? r->words[i].text : r->words[0].text,
           "another number, expected row %d of the lower triangle to have %d, and the next one to begin a line", *row,
           *row);
-    if (*row == MATRIX_MOST_ROWS)
-      return matrix_text_refuse(r, r->words[i].text, "another row, expected at most %d", (int)MATRIX_MOST_ROWS);
+    if (*row == MATRIX_MOST_DENSE)
+      return matrix_text_refuse(r, r->words[i].text, "another row, expected at most %d", (int)MATRIX_MOST_DENSE);
     if (!matrix_text_number(r, i, &value)) return HC_BAD_INPUT;
-    if (!GROW(e->packed, e->n_values)) return HC_NO_MEMORY;
-    e->packed[e->n_values++] = value;
-    matrix_text_watch(r, *row, *column, r->words[i].text);
-    matrix_text_watch(r, *column, *row, r->words[i].text);
+    if (wanted && matrix_text_put(r, *row, *column, value, r->words[i].text) != HC_OK) return HC_NO_MEMORY;
     if (++*column > *row) ++*row, *column = 0;
   }
   return HC_OK;
 }
 
 /* From behind *MATRIX to the next keyword or the end; more tells which. */
-static hc_status read_rows(matrix_text *r, element *e, int *rows, bool *more)
+static hc_status read_rows(matrix_text *r, bool wanted, int *rows, bool *more)
 {
   int column = 0;
   hc_status st = HC_OK;
-  *rows = e->n_values = 0;
+  *rows = 0;
   while ((*more = matrix_text_next(r)) && st == HC_OK && !(r->words[0].length > 0 && *r->words[0].text == '*'))
-    st = read_row_line(r, e, rows, &column);
+    st = read_row_line(r, wanted, rows, &column);
   if (st != HC_OK || (*rows > 0 && column == 0)) return st;
   return matrix_text_refuse(r, *more ? r->words[0].text : NULL,
                             "row %d of the lower triangle ends after %d numbers, expected %d", *rows + 1, column,
                             *rows + 1);
 }
 
-static hc_status unpack(matrix_text *r, element *e, int n)
+static hc_status assemble(matrix_text *r, element *e, int n)
 {
   hc_status st = matrix_text_check_rows(r, n);
-  if (st == HC_OK) st = matrix_text_square(r, n);
-  const double *next = e->packed;
-  for (int i = 0; i < n && st == HC_OK; ++i)
-    for (int j = 0; j <= i; ++j, ++next) {
-      r->values[(size_t)i + (size_t)n * (size_t)j] = *next + 0.0;
-      r->values[(size_t)j + (size_t)n * (size_t)i] = *next + 0.0;
-    }
+  r->n = n;
+  if (st == HC_OK) st = matrix_text_assemble(r);
   if (st != HC_OK || e->n_labels != n) return st;
   r->labels = e->labels;
   e->labels = NULL;
@@ -162,15 +152,12 @@ static hc_status read_matrices(matrix_text *r, element *e)
       return matrix_text_refuse(r, r->words[0].text, "%s, expected *MATRIX,TYPE=STIFFNESS or the like",
                                 MATRIX_QUOTED(r->words[0]));
     type += strlen(start);
-    const bool wanted = !r->values && (!r->part || !strcmp(type, r->part));
-    const int row = r->watch_row;
-    if (!wanted) r->watch_row = -1;
-    hc_status st = read_rows(r, e, &rows, &more);
-    r->watch_row = row;
-    if (st == HC_OK && wanted) st = unpack(r, e, rows);
+    const bool wanted = r->n == 0 && (!r->part || !strcmp(type, r->part));
+    hc_status st = read_rows(r, wanted, &rows, &more);
+    if (st == HC_OK && wanted) st = assemble(r, e, rows);
     if (st != HC_OK) return st;
   }
-  if (r->values) return HC_OK;
+  if (r->n > 0) return HC_OK;
   return matrix_text_refuse(r, NULL, "no *MATRIX,TYPE=%s in this file, expected one", r->part);
 }
 
@@ -178,12 +165,12 @@ hc_status abaqus_element_parse(matrix_text *r)
 {
   element e = {0};
   char words[KEYWORD];
+  r->mirrored = 1;
   matrix_text_rewind(r);
   hc_status st = matrix_text_next(r) ? HC_OK : HC_BAD_INPUT;
   if (st == HC_OK && strstr(keyword(r, words), "*USERELEMENT") == words) st = read_header(r, &e);
   if (st == HC_OK) st = read_matrices(r, &e);
   free(e.nodes);
   free(e.labels);
-  free(e.packed);
   return st;
 }

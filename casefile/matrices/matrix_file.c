@@ -7,7 +7,7 @@
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
 
-static const size_t most_bytes = (size_t)1 << 29; /* 33 an entry of the largest matrix */
+static const size_t most_bytes = (size_t)1 << 31;
 
 static bool begins(const matrix_text *r, const char *words)
 {
@@ -56,30 +56,28 @@ static hc_status parse(matrix_text *r)
 }
 
 hc_status matrix_file_parse(const char *name, const char *text, size_t length, const char *part, int expected,
-                            int *rows, double **values, matrix_label **labels, message *m)
+                            sparse *out, matrix_label **labels, message *m)
 {
   matrix_text r = matrix_text_start(name, text, length, expected, m);
   r.part = part;
   const hc_status st = parse(&r);
-  *rows = st == HC_OK ? r.n : 0;
-  *values = NULL;
+  *out = (sparse){0};
   if (labels) *labels = NULL;
-  if (st == HC_OK) *values = r.values, r.values = NULL;
+  if (st == HC_OK) *out = r.matrix, r.matrix = (sparse){0};
   if (st == HC_OK && labels) *labels = r.labels, r.labels = NULL;
   matrix_text_free(&r);
   return st;
 }
 
-hc_status matrix_file_read(const char *path, const char *part, int expected, int *rows, double **values,
-                           matrix_label **labels, message *m)
+hc_status matrix_file_read(const char *path, const char *part, int expected, sparse *out, matrix_label **labels,
+                           message *m)
 {
   char *text;
   size_t length;
-  *rows = 0;
-  *values = NULL;
+  *out = (sparse){0};
   if (labels) *labels = NULL;
   hc_status st = text_file_read(path, most_bytes, &text, &length, m);
-  if (st == HC_OK) st = matrix_file_parse(path, text, length, part, expected, rows, values, labels, m);
+  if (st == HC_OK) st = matrix_file_parse(path, text, length, part, expected, out, labels, m);
   free(text);
   return st;
 }
@@ -94,8 +92,11 @@ void matrix_file_place(const char *path, const char *part, int row, int column, 
   if (text_file_read(path, most_bytes, &text, &length, &m) == HC_OK) {
     matrix_text r = matrix_text_start(path, text, length, 0, &m);
     r.part = part;
-    r.watch_row = row, r.watch_column = column;
-    if (parse(&r) == HC_OK) *line = r.watched_line, *place = r.watched_place;
+    for (int k = parse(&r) == HC_OK ? r.n_entries : 0; k-- > 0;) {
+      const matrix_entry *e = &r.entries[k];
+      const bool itself = e->row == row && e->column == column, mirror = e->row == column && e->column == row;
+      if (itself || (mirror && r.mirrored && *line == 0)) *line = e->line, *place = e->place;
+    }
     matrix_text_free(&r);
   }
   free(text);

@@ -9,26 +9,30 @@
 
 #include "base/message.h"
 #include "base/status.h"
+#include "numerics/sparse.h"
 
 /* What a row of a matrix stands for, where its file says it. */
 typedef struct matrix_label {
   int node, dof; /* 1..3 along x, y, z; 4..6 rotations; others as the program has them */
 } matrix_label;
 
-enum { MATRIX_MOST_ROWS = 4000 }; /* a matrix is kept dense: 128 MB */
+enum {
+  MATRIX_MOST_ROWS = 10000000, /* of a file of single entries */
+  MATRIX_MOST_DENSE = 2000     /* of a matrix that is kept, or given, whole */
+};
 
-/* (*values)[n][n], n = *rows, by columns and to free in any case, from the file at `path`: of several matrices in it
+/* *out, to free in any case, from the file at `path`: of several matrices in it
  * the one that `part` names ("MASS", "STIFFNESS", "VISCOUSDAMPING"; NULL: the first). It must have `expected` rows
  * unless expected = 0. (*labels)[n], to free in any case, or NULL where there are none; labels may be NULL.
  * HC_BAD_INPUT with "PATH:LINE:COLUMN: what is wrong, what was expected" in m; HC_IO where there is no such file or
  * none that can be read, with the words for it alone ("cannot be opened: ..."), which are the caller's to place;
  * HC_NO_MEMORY. */
-hc_status matrix_file_read(const char *path, const char *part, int expected, int *rows, double **values,
-                           matrix_label **labels, message *m);
+hc_status matrix_file_read(const char *path, const char *part, int expected, sparse *out, matrix_label **labels,
+                           message *m);
 
 /* The same from text[length], which `name` stands for. */
 hc_status matrix_file_parse(const char *name, const char *text, size_t length, const char *part, int expected,
-                            int *rows, double **values, matrix_label **labels, message *m);
+                            sparse *out, matrix_label **labels, message *m);
 
 /* Where the file at `path`, which has been read before, gives entry (row, column) of the part, both from 0, or by
  * symmetry its transpose: line and column from 1, or *line = 0 where it does not. */

@@ -1,5 +1,7 @@
 /* matrix_market.c - Matrix Market files, see matrix_text.h. Banner, size and entries are lines of words; comments
  * and blank lines between them are skipped. */
+#include <limits.h>
+
 #include "casefile/matrices/matrix_text.h"
 
 /* Which of names[], ending in NULL, word i is; -1 with the message made. */
@@ -53,19 +55,14 @@ static hc_status read_size(matrix_text *t, int *entries)
   if (columns != t->n)
     return matrix_text_refuse(t, t->words[0].text, "a matrix of %d x %d, expected as many columns as rows", t->n,
                               columns);
-  const int below = t->n * (t->n - 1) / 2;
-  *entries = t->symmetry == MATRIX_GENERAL ? t->n * t->n : t->symmetry == MATRIX_SYMMETRIC ? below + t->n : below;
+  if (!t->coordinate && t->n > MATRIX_MOST_DENSE)
+    return matrix_text_refuse(t, t->words[0].text, "an array of %d rows, expected at most %d, or coordinate", t->n,
+                              (int)MATRIX_MOST_DENSE);
+  const long n = t->n, below = n * (n - 1) / 2;
+  const long most = t->symmetry == MATRIX_GENERAL ? n * n : t->symmetry == MATRIX_SYMMETRIC ? below + n : below;
+  *entries = (int)(most < INT_MAX / 2 ? most : INT_MAX / 2);
   return t->coordinate && !matrix_text_integer(t, 2, 0, *entries, "the number of entries", entries) ? HC_BAD_INPUT
                                                                                                     : HC_OK;
-}
-
-/* Entry (i, j), and by symmetry (j, i), of the line that `at` is in. */
-static void store(matrix_text *t, int i, int j, double value, const char *at)
-{
-  matrix_text_put(t, i, j, value, at);
-  if (t->symmetry == MATRIX_GENERAL) return;
-  t->values[(size_t)j + (size_t)t->n * (size_t)i] = (t->symmetry == MATRIX_SKEW ? -value : value) + 0.0;
-  matrix_text_watch(t, j, i, at);
 }
 
 static hc_status read_coordinate(matrix_text *t)
@@ -81,11 +78,8 @@ static hc_status read_coordinate(matrix_text *t)
     return matrix_text_refuse(
         t, t->words[0].text, "entry (%d, %d) of a %s matrix, expected its lower triangle alone, row %s column", i, j,
         t->symmetry == MATRIX_SKEW ? "skew-symmetric" : "symmetric", t->symmetry == MATRIX_SKEW ? ">" : ">=");
-  if (matrix_text_seen(t, i - 1, j - 1))
-    return matrix_text_refuse(t, t->words[0].text, "a second entry (%d, %d), expected each once", i, j);
   if (!matrix_text_number(t, 2, &value)) return HC_BAD_INPUT;
-  store(t, i - 1, j - 1, value, t->words[0].text);
-  return HC_OK;
+  return matrix_text_put(t, i - 1, j - 1, value, t->words[0].text);
 }
 
 /* A value a line, down the columns; (*i, *j) moves on to the next one. */
@@ -94,7 +88,7 @@ static hc_status read_array(matrix_text *t, int *i, int *j)
   double value;
   if (t->n_words != 1) return matrix_text_refuse(t, t->words[1].text, "a second word, expected one value a line");
   if (!matrix_text_number(t, 0, &value)) return HC_BAD_INPUT;
-  store(t, *i, *j, value, t->words[0].text);
+  if (matrix_text_put(t, *i, *j, value, t->words[0].text) != HC_OK) return HC_NO_MEMORY;
   if (++*i == t->n) ++*j, *i = t->symmetry == MATRIX_GENERAL ? 0 : *j + (t->symmetry == MATRIX_SKEW);
   return HC_OK;
 }
@@ -120,6 +114,7 @@ hc_status matrix_market_parse(matrix_text *t)
   matrix_text_rewind(t);
   hc_status st = read_banner(t);
   if (st == HC_OK) st = read_size(t, &entries);
-  if (st == HC_OK) st = matrix_text_square(t, t->n);
-  return st == HC_OK ? read_entries(t, entries) : st;
+  t->mirrored = t->symmetry == MATRIX_GENERAL ? 0 : t->symmetry == MATRIX_SKEW ? -1 : 1;
+  if (st == HC_OK) st = read_entries(t, entries);
+  return st == HC_OK ? matrix_text_assemble(t) : st;
 }

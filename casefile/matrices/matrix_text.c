@@ -1,9 +1,11 @@
 /* matrix_text.c - see matrix_text.h. */
 #include "casefile/matrices/matrix_text.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/growing.h"
 #include "base/number.h"
 
 matrix_text matrix_text_start(const char *name, const char *text, size_t length, int expected, message *m)
@@ -16,16 +18,15 @@ matrix_text matrix_text_start(const char *name, const char *text, size_t length,
                        .line_text = text,
                        .next = text,
                        .expected = expected,
-                       .watch_row = -1,
                        .m = m};
 }
 
 void matrix_text_free(matrix_text *r)
 {
-  free(r->values);
-  free(r->seen);
+  free(r->entries);
+  sparse_free(&r->matrix);
   free(r->labels);
-  r->values = NULL, r->seen = NULL, r->labels = NULL;
+  r->entries = NULL, r->labels = NULL;
 }
 
 void matrix_text_rewind(matrix_text *r)
@@ -52,6 +53,16 @@ hc_status matrix_text_refuse(matrix_text *r, const char *at, const char *format,
   va_list args;
   va_start(args, format);
   message_add_list(matrix_text_blame(r, at), format, args);
+  va_end(args);
+  return HC_BAD_INPUT;
+}
+
+hc_status matrix_text_refuse_entry(matrix_text *r, const matrix_entry *e, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  r->line = e->line, r->line_text = r->text;
+  message_add_list(matrix_text_blame(r, r->text + e->place - 1), format, args);
   va_end(args);
   return HC_BAD_INPUT;
 }
@@ -132,36 +143,82 @@ bool matrix_text_number(matrix_text *r, int i, double *value)
 
 /* ---- the matrix ---- */
 
-static size_t bit_of(const matrix_text *r, int i, int j) { return (size_t)i + (size_t)r->n * (size_t)j; }
-
-hc_status matrix_text_square(matrix_text *r, int n)
+hc_status matrix_text_put(matrix_text *r, int i, int j, double value, const char *at)
 {
-  const size_t square = (size_t)n * (size_t)n;
-  r->n = n;
-  r->values = calloc(square, sizeof *r->values);
-  r->seen = calloc(square / 8 + 1, 1);
-  return r->values && r->seen ? HC_OK : HC_NO_MEMORY;
+  if (r->n_entries == INT_MAX / 2 || !GROW(r->entries, r->n_entries)) return HC_NO_MEMORY;
+  r->entries[r->n_entries++] = (matrix_entry){.row = i,
+                                              .column = j,
+                                              .value = value + 0.0, /* -0 is 0 */
+                                              .line = (unsigned)r->line,
+                                              .place = (unsigned)(at - r->line_text) + 1};
+  return HC_OK;
 }
 
-bool matrix_text_seen(const matrix_text *r, int i, int j)
+/* What k of 0 .. 2 n_entries - 1 stands for: an entry, or from n_entries on its image. */
+static matrix_entry image(const matrix_text *r, int k)
 {
-  const size_t bit = bit_of(r, i, j);
-  return r->seen[bit / 8] >> bit % 8 & 1;
+  matrix_entry e = r->entries[k % r->n_entries];
+  if (k < r->n_entries) return e;
+  const int row = e.row;
+  e.row = e.column, e.column = row;
+  e.value = r->mirrored * e.value + 0.0;
+  return e;
 }
 
-void matrix_text_put(matrix_text *r, int i, int j, double value, const char *at)
+static bool has_image(const matrix_text *r, int k)
 {
-  const size_t bit = bit_of(r, i, j);
-  r->seen[bit / 8] = (unsigned char)(r->seen[bit / 8] | 1u << bit % 8);
-  r->values[bit] = value + 0.0; /* -0 is 0 */
-  matrix_text_watch(r, i, j, at);
+  return k < r->n_entries || (r->mirrored && image(r, k).row != image(r, k).column);
 }
 
-void matrix_text_watch(matrix_text *r, int i, int j, const char *at)
+/* Sorted by rows first, order[], then row by row into columns, whose rows ascend so. source[] tells where each is
+ * from. */
+static void sort_entries(const matrix_text *r, int *first, int *order, int *source)
 {
-  if (i != r->watch_row || j != r->watch_column) return;
-  r->watched_line = r->line;
-  r->watched_place = (size_t)(at - r->line_text) + 1;
+  sparse *A = (sparse *)&r->matrix;
+  const int n = r->n, both = 2 * r->n_entries;
+  for (int k = 0; k < both; ++k)
+    if (has_image(r, k)) ++first[image(r, k).row + 1], ++A->start[image(r, k).column + 1];
+  for (int i = 0; i < n; ++i) first[i + 1] += first[i], A->start[i + 1] += A->start[i];
+  for (int k = 0; k < both; ++k)
+    if (has_image(r, k)) order[first[image(r, k).row]++] = k;
+  for (int at = 0; at < A->start[n]; ++at) {
+    const matrix_entry e = image(r, order[at]);
+    const int to = A->start[e.column]++;
+    A->row[to] = e.row, A->value[to] = e.value, source[to] = order[at];
+  }
+  memmove(A->start + 1, A->start, (size_t)n * sizeof *A->start);
+  A->start[0] = 0;
+}
+
+/* The first entry in the file that is there for the second time, or NULL. */
+static const matrix_entry *repeated(const matrix_text *r, const int *source)
+{
+  const matrix_entry *found = NULL;
+  for (int j = 0; j < r->n; ++j)
+    for (int k = r->matrix.start[j] + 1; k < r->matrix.start[j + 1]; ++k) {
+      if (r->matrix.row[k] != r->matrix.row[k - 1]) continue;
+      const int a = source[k] % r->n_entries, b = source[k - 1] % r->n_entries, later = a > b ? a : b;
+      if (!found || &r->entries[later] < found) found = &r->entries[later];
+    }
+  return found;
+}
+
+hc_status matrix_text_assemble(matrix_text *r)
+{
+  const size_t both = 2 * (size_t)r->n_entries;
+  hc_status st = sparse_new(r->n, r->n_entries << (r->mirrored != 0), &r->matrix);
+  int *first = calloc((size_t)r->n + 2, sizeof *first), *order = calloc(2 * both + 1, sizeof *order);
+  if (!first || !order) st = HC_NO_MEMORY;
+  if (st == HC_OK && both > 0) {
+    sort_entries(r, first, order, order + both);
+    const matrix_entry *again = repeated(r, order + both);
+    if (again)
+      st = matrix_text_refuse_entry(r, again, "a second entry (%d, %d), expected each once", again->row + 1,
+                                    again->column + 1);
+  }
+  free(first);
+  free(order);
+  return st;
 }
 
 hc_status matrix_text_check_rows(matrix_text *r, int n)

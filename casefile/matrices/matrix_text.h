@@ -1,4 +1,4 @@
-/* matrix_text.h - a file of numbers as lines of words, and the matrix that grows out of it: what the readers of
+/* matrix_text.h - a file of numbers as lines of words, and the entries of a matrix in it: what the readers of
  * matrices' formats share, and these formats. A message starts with the place, "NAME:LINE:COLUMN: ". */
 #pragma once
 
@@ -18,6 +18,13 @@ typedef struct matrix_word {
 
 typedef enum matrix_symmetry { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matrix_symmetry;
 
+/* As a line gives it; row and column from 0. */
+typedef struct matrix_entry {
+  int row, column;
+  double value;
+  unsigned line, place; /* of the file; column of the line, from 1 */
+} matrix_entry;
+
 typedef struct matrix_text {
   const char *name, *text, *end;
   const char *comment; /* what lines of comment start with */
@@ -30,19 +37,19 @@ typedef struct matrix_text {
   size_t line;           /* its number, from 1     */
   int n_words;           /* at most MATRIX_WORDS are kept, and one more counted */
   matrix_word words[MATRIX_WORDS];
-  const char *part;     /* of those in the file the one that is asked for, or NULL */
-  int expected, n;      /* rows; expected = 0: any number */
-  double *values;       /* [n][n] by columns */
-  unsigned char *seen;  /* a bit an entry */
+  const char *part; /* of those in the file the one that is asked for, or NULL */
+  int expected, n;  /* rows; expected = 0: any number */
+  int n_entries;
+  matrix_entry *entries; /* as they come; mirrored with that sign beside the diagonal, 0: given as they are */
+  int mirrored;
+  sparse matrix;        /* of them */
   matrix_label *labels; /* [n], or NULL where the format has none */
-  int watch_row, watch_column;
-  size_t watched_line, watched_place; /* where that entry stands; 0: nowhere yet */
   message *m;
 } matrix_text;
 
 matrix_text matrix_text_start(const char *name, const char *text, size_t length, int expected, message *m);
 
-/* Frees what is left of values and labels. */
+/* Frees what is left of entries, matrix and labels. */
 void matrix_text_free(matrix_text *r);
 
 /* Before the first line again. */
@@ -72,22 +79,25 @@ matrix_text_refuse(matrix_text *r, const char *at, const char *format, ...);
 bool matrix_text_integer(matrix_text *r, int i, int from, long to, const char *what, int *value);
 bool matrix_text_number(matrix_text *r, int i, double *value);
 
-/* Room for n rows, all 0, and no entry seen. HC_NO_MEMORY. */
-hc_status matrix_text_square(matrix_text *r, int n);
+/* Entry (i, j), from 0, is given by the current line, at `at`. HC_NO_MEMORY. */
+hc_status matrix_text_put(matrix_text *r, int i, int j, double value, const char *at);
 
-/* Entry (i, j), from 0, has been given before; it is given by the current line, at `at`. */
-bool matrix_text_seen(const matrix_text *r, int i, int j);
-void matrix_text_put(matrix_text *r, int i, int j, double value, const char *at);
+/* r->matrix of all entries, r->n rows. HC_BAD_INPUT with the message if one is there twice; HC_NO_MEMORY. */
+hc_status matrix_text_assemble(matrix_text *r);
 
-/* Is (i, j) the entry that is watched? Then its place is noted. */
-void matrix_text_watch(matrix_text *r, int i, int j, const char *at);
+/* The same about an entry's place. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+hc_status
+matrix_text_refuse_entry(matrix_text *r, const matrix_entry *e, const char *format, ...);
 
 /* The matrix has r->n rows, read to its end. HC_BAD_INPUT with the message if others are expected. */
 hc_status matrix_text_check_rows(matrix_text *r, int n);
 
 /* ---- the formats, each recognised by what its first line says; matrix_file.c chooses ----
  *
- * Each reads all of r's text into r->values, or returns HC_BAD_INPUT with the message made, or HC_NO_MEMORY. */
+ * Each reads all of r's text into r->matrix, or returns HC_BAD_INPUT with the message made, or HC_NO_MEMORY. */
 
 /* Matrix Market, https://math.nist.gov/MatrixMarket/formats.html: its banner comes first. matrix_market.c */
 hc_status matrix_market_parse(matrix_text *r);

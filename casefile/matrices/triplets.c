@@ -105,65 +105,49 @@ static hc_status read_entries(matrix_text *r, bool *lower, bool *upper)
     int i, j;
     double value;
     if (!read_place(r, &i, &j)) return HC_BAD_INPUT;
-    if (matrix_text_seen(r, i, j))
-      return matrix_text_refuse(r, r->words[0].text, "a second entry (%d, %d), expected each once", i + 1, j + 1);
     if (!matrix_text_number(r, r->n_words - 1, &value)) return HC_BAD_INPUT;
-    matrix_text_put(r, i, j, value, r->words[0].text);
+    if (matrix_text_put(r, i, j, value, r->words[0].text) != HC_OK) return HC_NO_MEMORY;
     *lower = *lower || i > j;
     *upper = *upper || i < j;
   }
   return HC_OK;
 }
 
-/* A triangle stands for both. */
-static void mirror(matrix_text *r)
+static bool is_there(const sparse *A, int i, int j)
 {
-  const size_t n = (size_t)r->n;
-  for (int i = 0; i < r->n; ++i)
-    for (int j = 0; j < r->n; ++j)
-      if (i != j && matrix_text_seen(r, i, j))
-        r->values[(size_t)j + n * (size_t)i] = r->values[(size_t)i + n * (size_t)j];
+  for (int k = A->start[j]; k < A->start[j + 1]; ++k)
+    if (A->row[k] == i) return true;
+  return false;
 }
 
 /* Entries on both sides: the first one without its mirror image is a triangle's that has lost its way. */
 static hc_status check_mirrors(matrix_text *r)
 {
-  matrix_text_rewind(r);
-  while (matrix_text_next(r)) {
-    int i, j;
-    if (!read_place(r, &i, &j)) return HC_BAD_INPUT;
-    if (matrix_text_seen(r, j, i)) continue;
-    return matrix_text_refuse(
-        r, r->words[0].text,
+  for (int k = 0; k < r->n_entries; ++k) {
+    const matrix_entry *e = &r->entries[k];
+    if (is_there(&r->matrix, e->column, e->row)) continue;
+    return matrix_text_refuse_entry(
+        r, e,
         "entry (%d, %d) without (%d, %d), where both sides of the diagonal have entries, expected one side "
         "alone, or every entry of both",
-        i + 1, j + 1, j + 1, i + 1);
+        e->row + 1, e->column + 1, e->column + 1, e->row + 1);
   }
   return HC_OK;
 }
 
 static hc_status parse(matrix_text *r, hc_status (*count)(matrix_text *, int *))
 {
-  int n;
   bool lower, upper;
   matrix_text_rewind(r);
-  hc_status st = count(r, &n);
-  if (st == HC_OK && n == 0) st = matrix_text_refuse(r, NULL, "no entries on the diagonal, expected a matrix");
-  if (st == HC_OK) st = matrix_text_check_rows(r, n);
-  if (st == HC_OK) st = matrix_text_square(r, n);
+  hc_status st = count(r, &r->n);
+  if (st == HC_OK && r->n == 0) st = matrix_text_refuse(r, NULL, "no entries on the diagonal, expected a matrix");
+  if (st == HC_OK) st = matrix_text_check_rows(r, r->n);
   matrix_text_rewind(r);
   if (st == HC_OK) st = read_entries(r, &lower, &upper);
   if (st != HC_OK) return st;
-  if (lower && upper) return check_mirrors(r);
-  mirror(r);
-  if (r->watched_line == 0) { /* the other one of two that are the same */
-    const int row = r->watch_row;
-    r->watch_row = r->watch_column, r->watch_column = row;
-    matrix_text_rewind(r);
-    for (int i, j; r->watch_row >= 0 && matrix_text_next(r);)
-      if (read_place(r, &i, &j)) matrix_text_watch(r, i, j, r->words[0].text);
-  }
-  return HC_OK;
+  r->mirrored = !(lower && upper); /* a triangle stands for both */
+  st = matrix_text_assemble(r);
+  return st == HC_OK && !r->mirrored ? check_mirrors(r) : st;
 }
 
 hc_status triplets_parse(matrix_text *r) { return parse(r, count_rows); }

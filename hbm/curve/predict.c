@@ -146,3 +146,18 @@ hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int
   const periodic_motion better = motion_of(refinement_harmonics(s->exact_finer), s->x);
   return error_between(s, &ours, &better, out);
 }
+
+hc_status hbm_predict_reduction(hbm_solver *s, double omega, const double *X, double error, double *moved)
+{
+  const hbm_system *sys = &s->sys;
+  s->omega = s->z[sys->n] = omega;
+  memcpy(s->z, X + sys->first, (size_t)sys->n * sizeof *s->z);
+  hc_status st = newton_factor_at(s->fixed, s->z);
+  for (int turned = 0; turned < 2 && st == HC_OK; ++turned, moved += sys->n_coef) {
+    hbm_system_linear(&s->sys, X, turned, s->z);
+    st = newton_backsolve(s->fixed, s->z);
+    memcpy(moved, X, (size_t)sys->n_coef * sizeof *moved);
+    for (int i = 0; i < sys->n; ++i) moved[sys->first + i] += error * s->z[i];
+  }
+  return st;
+}

@@ -31,4 +31,12 @@ hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error
  * solved again. HC_BAD_INPUT: there is no such response. */
 hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int r, motion_error *out);
 
+/* Where the solution X at omega moves if the structure's receptance H is off by dH = error e^(i theta) H, as by a
+ * reduction that states this error: q = H (p - F(q)), so that with R = S q + F - p, S = H^-1,
+ *     dq = dH (p - F) - H F' dq,    (S + F') dq = error e^(i theta) S q.
+ * moved[2][n_coef] is X + dq for theta = 0 and pi/2; of the dq between the two, which add up with cos theta and sin
+ * theta, the largest change of anything is at most the root of the sum of the squares of both. Errors of the contact
+ * force, HC_SINGULAR. */
+hc_status hbm_predict_reduction(hbm_solver *s, double omega, const double *X, double error, double *moved);
+
 #endif

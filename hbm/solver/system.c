@@ -145,6 +145,20 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
   return drop_means(sys, R);
 }
 
+void hbm_system_linear(hbm_system *sys, const double *X, bool turned, double *rows)
+{
+  memset(sys->rows, 0, (size_t)sys->n_coef * sizeof(double));
+  add_linear_forces(sys, X, sys->rows);
+  for (int h = 0; h <= sys->n_harm && turned; ++h)
+    for (int d = 0; d < sys->dim; ++d) { /* i (a - i b) = b - i (-a) */
+      double *a = &sys->rows[cosines(sys, h) + (size_t)d], *b = h > 0 ? &sys->rows[sines(sys, h) + (size_t)d] : NULL;
+      const double was = *a;
+      *a = b ? *b : 0;
+      if (b) *b = -was;
+    }
+  drop_means(sys, rows);
+}
+
 /* jac += S. */
 static void add_linear_stiffness(const hbm_system *sys, int ld, double *jac)
 {

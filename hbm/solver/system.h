@@ -64,6 +64,9 @@ hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, do
 /* dR/dX into jac[row + ld col], n x n, at the X of the last residual. */
 void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac);
 
+/* rows[n] = S X at X and the omega of the last residual; turned: i S X, each amplitude a - i b times i, the means 0. */
+void hbm_system_linear(hbm_system *sys, const double *X, bool turned, double *rows);
+
 /* dR/domega [n] at X and the omega of the last residual; dR/dD; dR/dphi. */
 void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *dR);
 void hbm_system_ddamping(hbm_system *sys, double omega, const double *X, double *dR);

@@ -11,11 +11,22 @@
 
 enum { WORDS = 512, LARGE = 50 /* rows: what is larger is zeros for the most part, and takes long to write */ };
 
+/* What is larger is zeros for the most part: a number stands for it. */
+static double *sparse_to_dense_if_small(const sparse *A)
+{
+  return A->n <= LARGE ? sparse_to_dense(A) : calloc(1, sizeof(double));
+}
+
 static hc_status parse(const char *text, size_t size, int expected, int *n, double **v, char words[WORDS])
 {
   message m;
+  sparse A;
   message_start(&m, words, WORDS);
-  return matrix_file_parse("f", text, size, NULL, expected, n, v, NULL, &m);
+  const hc_status st = matrix_file_parse("f", text, size, NULL, expected, &A, NULL, &m);
+  *n = A.n;
+  *v = st == HC_OK ? sparse_to_dense_if_small(&A) : NULL;
+  sparse_free(&A);
+  return st;
 }
 
 static void array_reads_back(int n, const double *v)
@@ -40,18 +51,17 @@ static void array_reads_back(int n, const double *v)
 static void part_is_one_of_them(const char *text, size_t size, const char *part)
 {
   char words[WORDS];
-  double *v;
+  sparse A;
   matrix_label *labels;
-  int n;
   message m;
   message_start(&m, words, WORDS);
-  const hc_status st = matrix_file_parse("f", text, size, part, 0, &n, &v, &labels, &m);
+  const hc_status st = matrix_file_parse("f", text, size, part, 0, &A, &labels, &m);
   must(st == HC_OK || st == HC_BAD_INPUT, "status %d: %s", (int)st, words);
   if (st != HC_OK) place_is_inside(words, "f", text, size, false);
-  must((st == HC_OK) == (v != NULL) && (st == HC_OK || !labels), "%d, but %p and %p", (int)st, (void *)v,
+  must((st == HC_OK) == (A.start != NULL) && (st == HC_OK || !labels), "%d, but %p and %p", (int)st, (void *)A.start,
        (void *)labels);
-  for (int i = 0; labels && i < n; ++i) must(labels[i].dof > 0, "row %d is DOF %d", i, labels[i].dof);
-  free(v);
+  for (int i = 0; labels && i < A.n; ++i) must(labels[i].dof > 0, "row %d is DOF %d", i, labels[i].dof);
+  sparse_free(&A);
   free(labels);
 }
 

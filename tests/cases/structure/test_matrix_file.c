@@ -6,19 +6,20 @@
 
 static void reads(const char *text, int n, const double *rows)
 {
-  double *v;
-  int found;
+  sparse A;
   char words[256];
   message m;
   message_start(&m, words, sizeof words);
-  if (matrix_file_parse("m", text, strlen(text), NULL, 0, &found, &v, NULL, &m) != HC_OK) fail_msg("%s", words);
-  assert_int_equal(found, n);
+  if (matrix_file_parse("m", text, strlen(text), NULL, 0, &A, NULL, &m) != HC_OK) fail_msg("%s", words);
+  assert_int_equal(A.n, n);
+  double *v = sparse_to_dense(&A);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       assert_true(v[i + n * j] == rows[n * i + j]);
       assert_true(v[i + n * j] != 0 || !signbit(v[i + n * j]));
     }
   free(v);
+  sparse_free(&A);
 }
 
 static void every_format_is_read(CHECK_STATE)
@@ -40,16 +41,15 @@ static void every_format_is_read(CHECK_STATE)
 
 static void is_refused(const char *text, int expected, const char *words)
 {
-  double *v = (double *)text;
-  int n = 7;
+  sparse A = {.n = 7};
   char said[256];
   message m;
   message_start(&m, said, sizeof said);
-  const hc_status st = matrix_file_parse("m", text, strlen(text), NULL, expected, &n, &v, NULL, &m);
+  const hc_status st = matrix_file_parse("m", text, strlen(text), NULL, expected, &A, NULL, &m);
   if (st != HC_BAD_INPUT || strncmp(said, words, strlen(words)))
     fail_msg("%s\ngave `%s`\nnot  `%s...`", text, said, words);
-  assert_null(v);
-  assert_int_equal(n, 0);
+  assert_null(A.value);
+  assert_int_equal(A.n, 0);
 }
 
 static void mistakes_are_named_where_they_stand(CHECK_STATE)
@@ -70,8 +70,8 @@ static void mistakes_are_named_where_they_stand(CHECK_STATE)
   is_refused(HEAD("array", "real", "general") "2 3\n", 0, "m:2:1: a matrix of 2 x 3, expected as many columns as rows");
   is_refused(HEAD("array", "real", "general") "2 2\n", 3, "m:2:1: a matrix of 2 x 2, expected 3 x 3");
   is_refused(HEAD("array", "real", "general") "0 0\n", 0,
-             "m:2:1: `0`, expected the number of rows, an integer 1..4000");
-  is_refused(HEAD("array", "real", "general") "2 4001\n", 0, "m:2:3: `4001`, expected the number of columns");
+             "m:2:1: `0`, expected the number of rows, an integer 1..10000000");
+  is_refused(HEAD("array", "real", "general") "2 10000001\n", 0, "m:2:3: `10000001`, expected the number of columns");
   is_refused(HEAD("array", "real", "general") "2.0 2\n", 0, "m:2:1: `2.0`, expected the number of rows");
   is_refused(HEAD("coordinate", "real", "general") "2 2 5\n", 0,
              "m:2:5: `5`, expected the number of entries, an integer 0..4");
@@ -103,28 +103,27 @@ static void files_are_found_and_searched(CHECK_STATE)
 {
   static const char text[] = HEAD("coordinate", "real", "symmetric") "3 3 3\n1 1 1\n3 1 5\n2 2 1\n";
   const own_file f = write_file("m.mtx", text, sizeof text - 1);
-  double *v;
-  int n;
+  sparse A;
   size_t line, column;
   char words[256];
   message m;
   message_start(&m, words, sizeof words);
-  assert_int_equal(matrix_file_read(f.path, NULL, 3, &n, &v, NULL, &m), HC_OK);
-  assert_true(n == 3 && v[2] == 5 && v[6] == 5);
-  free(v);
+  assert_int_equal(matrix_file_read(f.path, NULL, 3, &A, NULL, &m), HC_OK);
+  assert_true(A.n == 3 && sparse_at(&A, 2, 0) == 5 && sparse_at(&A, 0, 2) == 5 && sparse_at(&A, 1, 0) == 0);
+  sparse_free(&A);
   matrix_file_place(f.path, NULL, 2, 0, &line, &column);
   assert_true(line == 4 && column == 1);
   matrix_file_place(f.path, NULL, 0, 2, &line, &column); /* by symmetry */
   assert_true(line == 4 && column == 1);
   matrix_file_place(f.path, NULL, 1, 0, &line, &column); /* not there */
   assert_true(line == 0 && column == 0);
-  assert_int_equal(matrix_file_read(f.folder, NULL, 3, &n, &v, NULL, &m), HC_IO);
+  assert_int_equal(matrix_file_read(f.folder, NULL, 3, &A, NULL, &m), HC_IO);
   assert_string_equal(words, "is no file");
   message_start(&m, words, sizeof words);
-  assert_int_equal(matrix_file_read("no/such/file", NULL, 3, &n, &v, NULL, &m), HC_IO);
+  assert_int_equal(matrix_file_read("no/such/file", NULL, 3, &A, NULL, &m), HC_IO);
   assert_non_null(strstr(words, "cannot be opened: "));
   message_start(&m, words, sizeof words);
-  assert_int_equal(matrix_file_read("/dev/zero", NULL, 3, &n, &v, NULL, &m), HC_IO);
+  assert_int_equal(matrix_file_read("/dev/zero", NULL, 3, &A, NULL, &m), HC_IO);
   remove_file(&f);
 }
 

@@ -9,8 +9,13 @@ static hc_status parse_part(const char *text, const char *part, int expected, in
                             char words[WORDS])
 {
   message m;
+  sparse A;
   message_start(&m, words, WORDS);
-  return matrix_file_parse("m", text, strlen(text), part, expected, n, v, labels, &m);
+  const hc_status st = matrix_file_parse("m", text, strlen(text), part, expected, &A, labels, &m);
+  *n = A.n;
+  *v = st == HC_OK ? sparse_to_dense(&A) : NULL;
+  sparse_free(&A);
+  return st;
 }
 
 /* text's part is rows[n][n], its rows being labels[n], or no labels where NULL. */
@@ -97,8 +102,8 @@ static void mistakes_in_triplets(CHECK_STATE)
 {
   is_refused("1 1 1\n2 2\n", NULL, 0, "m:2:1: ", "2 words, expected row, column and value");
   is_refused("1 1 1\n2 2 1 5\n", NULL, 0, "m:2:1: ", "4 words, expected row, column and value");
-  is_refused("1 1 1\n2 0 1\n", NULL, 0, "m:2:3: ", "`0`, expected a column, an integer 1..4000");
-  is_refused("1 1 1\n4001 1 1\n", NULL, 0, "m:2:1: ", "`4001`, expected a row, an integer 1..4000");
+  is_refused("1 1 1\n2 0 1\n", NULL, 0, "m:2:3: ", "`0`, expected a column, an integer 1..10000000");
+  is_refused("1 1 1\n10000001 1 1\n", NULL, 0, "m:2:1: ", "`10000001`, expected a row, an integer 1..10000000");
   is_refused("1 1 1\n1.0 1 1\n", NULL, 0, "m:2:1: ", "`1.0`, expected a row");
   is_refused("1 1 1\n1 2 2\n1 1 3\n", NULL, 0, "m:3:1: ", "a second entry (1, 1), expected each once");
   is_refused("1 1 1\n1 2 nan\n", NULL, 0, "m:2:5: ", "`nan`, expected a finite number");

@@ -28,7 +28,7 @@ static void in_the_section(CHECK_STATE)
       /* matrices */
       {STRUCTURE("mass: {a: 1}"),
        "f:1:19: ", "structure.mass is a mapping, expected rows, a diagonal, or a file of Matrix Market"},
-      {STRUCTURE("mass: []"), "f:1:19: ", "structure.mass is a list of 0, expected 1 to 4000"},
+      {STRUCTURE("mass: []"), "f:1:19: ", "structure.mass is a list of 0, expected 1 to 2000"},
       {STRUCTURE("mass: [[1, 2], [3]]"), "f:1:28: ", "structure.mass[1] has 1 entries, expected 2"},
       {STRUCTURE("mass: [[1, 2], 3]"), "f:1:28: ", "structure.mass[1] is a single value, expected a row of 2 numbers"},
       {STRUCTURE("mass: [[1, 2]]"), "f:1:20: ", "structure.mass[0] has 2 entries, expected 1"},
