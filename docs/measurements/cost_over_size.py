@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What one steady state costs over the number of coordinates and of contacts: the tables of large_models.md, on standard
+"""What one steady state costs over the number of coordinates and of contacts: the tables of docs/benchmarks.md, on standard
 output; needs NumPy.
 
     docs/measurements/cost_over_size.py HBMCHECK [coordinates] [pairs]     both where neither is named
