@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What one steady state costs over the number of coordinates and of contacts: the tables of large_models.md, on standard
-output; needs NumPy.
+"""What one steady state costs over the number of coordinates and of contacts: the tables of docs/benchmarks.md, on
+standard output; needs NumPy.
 
     docs/measurements/cost_over_size.py HBMCHECK [coordinates] [pairs]     both where neither is named
 
