@@ -254,6 +254,18 @@ class Rejected(unittest.TestCase):
                     yield (key, what), dict(stored, claims=dict(claims, **{key: [str(end) for end in moved]}))
         self.refused(self.each(change), "claim|existence|stability")
 
+    def test_claims_that_cut_what_is_found(self):
+        found = dict(zip(STORED, check(STORED.values())))
+
+        def change(stored):
+            answer, = [found[name] for name in STORED if STORED[name] is stored]
+            for key in QUANTITIES:
+                low, high = map(Decimal, answer[key])
+                middle = str((low + high) / 2)
+                for what, cut in (("below", [middle, stored["claims"][key][1]]), ("above", [stored["claims"][key][0], middle])):
+                    yield (key, what), dict(stored, claims=dict(stored["claims"], **{key: cut}))
+        self.refused(self.each(change), "^claim is too narrow")
+
     def test_vectors(self):
         def change(stored):
             n = len(stored["vectors"])
