@@ -35,7 +35,7 @@ def scene(rng):
                 stiffness[a][b] += k if a == b else -k
     damping = [[float(text(stiffness[i][j] * 0.01 + mass[i][j] * 0.3, 3)) for j in range(n)] for i in range(n)]
     omega = math.sqrt(stiffness[0][0] / mass[0][0]) * rng.uniform(0.5, 1.8)
-    amplitude = rng.uniform(2, 60)
+    amplitude = rng.uniform(5, 120)
     unit = lambda j: [text(float(i == j)) for i in range(n)]
     load = [text(amplitude * (j == rng.randrange(n) or n == 1)) for j in range(n)]
     if not any(map(float, load)):
@@ -49,14 +49,14 @@ def scene(rng):
         other = rng.randrange(n)
         direction = [a - b if j != other and rng.random() < 0.5 else a for a, b in zip(map(float, unit(j)), map(float, unit(other)))]
         direction = [text(v) for v in direction]
-        kt, kn, mu = text(rng.uniform(20, 200), 3), text(rng.uniform(20, 800), 3), text(rng.uniform(0.05, 1), 2)
+        kt, kn, mu = text(rng.uniform(20, 200), 3), text(rng.uniform(20, 800), 3), text(rng.choice((rng.uniform(0.05, 0.6), rng.uniform(0.05, 1.5))), 2)
         gap = text(rng.choice((-1, 1)) * rng.uniform(0.02, 1), 2)
         rub = {"tangential_stiffness": kt, "friction": mu}
         push = {"normal_stiffness": kn, "gap": gap}
         if kind == "angle":
             contacts.append({"direction": direction, "angle_deg": text(rng.uniform(10, 80), 3)} | rub | push)
         elif kind == "friction":
-            contacts.append({"tangent": direction, "preload": text(rng.uniform(2, 30), 3)} | rub)
+            contacts.append({"tangent": direction, "preload": text(rng.uniform(0.5, 20), 3)} | rub)
         elif kind == "stop":
             contacts.append({"normal": direction} | push)
         else:
@@ -126,7 +126,7 @@ def candidate(data, m, multiple, T):
     if len(merged) == 1 or len({e[3] for e in merged}) == 1:
         merged = []
     out = json.loads(json.dumps(data))
-    out["multiple"] = multiple
+    out["multiple"] = multiple if merged else 1
     fixed = {c for c in range(len(m.law.contacts)) if all(e[3][c] == "S" for e in merged) and (merged or first[2][c] == "S")}
     out["rest"] = {str(c): repr(first[3][c]) for c in sorted(fixed)}
     if merged:
