@@ -5,7 +5,8 @@
     python3 falsify.py resolved FOLDER COUNT SEED [--other COMMAND]   a wrong sequence of letters, solved so that the equations hold
     python3 falsify.py true     FOLDER COUNT SEED [--other COMMAND]   the certificates of FOLDER themselves, each confirmed by march.py
 
-FOLDER holds true certificates (find.py). COMMAND is another checker, such as "build/release/hbmcheck-proof check"; its verdicts are compared.
+FOLDER holds true certificates (find.py). COMMAND is another checker, such as "build/release/hbmcheck-proof check"; its verdicts are compared. --keep FOLDER:
+what is made is kept there.
 What is accepted although it should be false is confirmed by an integration of the law in time, or else printed. Exit 1 if anything is left.
 """
 import json
@@ -273,12 +274,13 @@ def resolved(data, rng):
 
 # ---- both checkers -----------------------------------------------------------------------------------------------------------------------
 class Judges:
-    def __init__(self, other):
-        self.other, self.folder = other, Path(tempfile.mkdtemp())
+    def __init__(self, other, keep):
+        self.other, self.keeps, self.folder = other, keep is not None, Path(keep or tempfile.mkdtemp())
+        self.folder.mkdir(parents=True, exist_ok=True)
         self.tally, self.differ, self.left = {}, 0, 0
 
     def both(self, name, data):
-        path = self.folder / "certificate.json"
+        path = self.folder / (f"{name}.json" if self.keeps else "certificate.json")
         path.write_text(json.dumps(data))
         answers = [check.examine(str(path))]
         if self.other:
@@ -305,14 +307,14 @@ def cause(reason):
 
 
 def main():
-    arguments = sys.argv[1:]
-    other = None
-    if "--other" in arguments:
-        k = arguments.index("--other")
-        other = arguments[k + 1]
-        del arguments[k:k + 2]
+    arguments, options = sys.argv[1:], {}
+    for name in ("--other", "--keep"):
+        if name in arguments:
+            k = arguments.index(name)
+            options[name] = arguments[k + 1]
+            del arguments[k:k + 2]
     kind, folder, count, seed = arguments[0], Path(arguments[1]), int(arguments[2]), int(arguments[3])
-    files, rng, judges = sorted(folder.glob("*.json")), random.Random(seed), Judges(other)
+    files, rng, judges = sorted(folder.glob("*.json")), random.Random(seed), Judges(options.get("--other"), options.get("--keep"))
     made = tries = 0
     while made < count and tries < 60 * count:
         file = files[tries % len(files)] if kind == "true" else rng.choice(files)
@@ -327,7 +329,7 @@ def main():
         if false is None:
             continue
         made += 1
-        name = f"{file.stem}-{tries}"
+        name = f"{words.split()[0]}-{file.stem}-{seed}-{tries}"
         answer, *others = judges.both(name, false)
         if any(a["verdict"] == "accepted" for a in [answer] + others):
             differs = confirm(false)

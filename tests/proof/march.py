@@ -130,7 +130,7 @@ class March:
                     continue
             if letter == "S" and not (c["parallel"] and i in self.touched):
                 force, limit = c["kt"] * (dot(c["t"], x) - self.w[i]), c["mu"] * self.law.normal(c, x)
-                if abs(force) > limit + slack * c["kt"]:
+                if abs(force) > limit + 1e-11 * (limit + abs(force)) + slack * c["kt"]:  # stick begins at the limit, but for rounding
                     out[i] = "+" if force > 0 else "-"
             elif letter in "+-" and c["t"]:
                 s = 1 if letter == "+" else -1
