@@ -242,7 +242,7 @@ def complete(data, signs=True):
         return data, None
     if largest.hi < unit or largest.lo > unit:
         claims["stability"] = "stable" if largest.hi < unit else "unstable"
-        claims["multiplier"] = widen(largest, int(1e-15 * unit))
+        claims["multiplier"] = widen(largest, int(1e-15 * unit) + 1000 * largest.r)
         data["vectors"] = vectors
     return data, None
 
