@@ -113,10 +113,6 @@ def between(lo, hi):
     return Ball(m, hi - m)
 
 
-def hull(*balls):
-    return between(min(b.lo for b in balls), max(b.hi for b in balls))
-
-
 def pi():
     """Machin: pi = 16 arctan(1/5) - 4 arctan(1/239), alternating series, 32 more bits than asked."""
     one = 1 << (Ball.bits + 32)
@@ -280,6 +276,8 @@ class Contact:
     def __init__(self, c, where, n):
         angled, normal = "direction" in c if isinstance(c, dict) else False, "normal" in c if isinstance(c, dict) else False
         tangent = angled or isinstance(c, dict) and "tangent" in c
+        if not tangent and not normal:
+            raise Wrong(f"{where}: a contact without directions")
         needed = ("direction", "angle_deg") if angled else ("tangent",) * tangent + ("normal",) * normal
         needed += ("tangential_stiffness", "friction") * tangent + (("normal_stiffness", "gap") if angled or normal else ("preload",))
         fields(c, where, needed)
@@ -288,9 +286,9 @@ class Contact:
         self.gap = decimal(c["gap"], where + ".gap") if "gap" in c else Fraction(0)
         self.t = self.n = self.ratio = None
         if angled:
-            direction, self.angle = vector(c["direction"], where + ".direction", n), get("angle_deg")
-            if not self.angle < 90:
-                raise Wrong(f"{where}.angle_deg: a number between 0 and 90 is expected")
+            direction, self.angle = vector(c["direction"], where + ".direction", n), decimal(c["angle_deg"], where + ".angle_deg")
+            if self.angle % 90 == 0:
+                raise Wrong(f"{where}.angle_deg: at a multiple of 90 the contact is written with `preload`, or with `normal` only")
             self.t, self.n = {f"cos {self.angle}": direction}, {f"sin {self.angle}": direction}
         else:
             self.t = {"": vector(c["tangent"], where + ".tangent", n)} if tangent else None
@@ -324,8 +322,6 @@ class Certificate:
         model = fields(data["model"], "model", ("mass", "damping", "stiffness", "forcing", "contacts"))
         self.n = n = len(items(model["mass"], "model.mass", 1, MOST_DOFS))
         self.mass, self.damping, self.stiffness = (square_matrix(model[k], f"model.{k}", n) for k in ("mass", "damping", "stiffness"))
-        if any(self.mass[i][j] != self.mass[j][i] for i in range(n) for j in range(i)):
-            raise Wrong("model.mass: it is not symmetric")
         self.omega = positive(data["omega"], "omega")
         self.multiple = whole(data["multiple"], "multiple", 1, 1000)
         self.precision = whole(data["precision_bits"], "precision_bits", 32, MOST_BITS)
@@ -335,6 +331,10 @@ class Certificate:
             where = f"model.forcing[{i}]"
             fields(f, where, ("harmonic", "cos", "sin"))
             self.forcing.append((whole(f["harmonic"], where + ".harmonic", 0, 1000), vector(f["cos"], where + ".cos", n), vector(f["sin"], where + ".sin", n)))
+            if self.forcing[-1][0] == 0 and any(self.forcing[-1][2]):
+                raise Wrong(f"{where}: harmonic 0 has no sine")
+        if len({h for h, _, _ in self.forcing}) < len(self.forcing):
+            raise Wrong("model.forcing: a harmonic is there twice")
         contacts = items(model["contacts"], "model.contacts", 0, MOST_CONTACTS)
         self.contacts = [Contact(c, f"model.contacts[{i}]", n) for i, c in enumerate(contacts)]
         scales = fields(data["scales"], "scales", ("x", "v", "t"), data["scales"])
@@ -345,15 +345,12 @@ class Certificate:
                 raise Wrong(f"rest: `{key[:20]}` is not the number of a contact")
             self.rest[int(key)] = decimal(value, f"rest.{key}")
         self.read_events(data["events"])
-        claims = fields(data["claims"], "claims", ("radius", "uniqueness_radius", "stability") + BOUNDS, data["claims"])
+        claims = fields(data["claims"], "claims", ("radius", "uniqueness_radius"), data["claims"])  # what is not claimed is not checked
         self.radius, self.uniqueness = positive(claims["radius"], "claims.radius"), positive(claims["uniqueness_radius"], "claims.uniqueness_radius")
-        self.stability = claims["stability"]
+        self.stability = claims.get("stability", "unproven")
         if self.stability not in ("stable", "unstable", "unproven"):
             raise Wrong("claims.stability: stable, unstable or unproven is expected")
-        names = BOUNDS + (("multiplier",) if "multiplier" in claims else ())
-        self.bounds = {name: vector(claims[name], f"claims.{name}", 2) for name in names}
-        if self.stability != "unproven" and ("multiplier" not in claims or "vectors" not in data):
-            raise Wrong("claims: a stability needs `multiplier` and `vectors`")
+        self.bounds = {name: vector(claims[name], f"claims.{name}", 2) for name in BOUNDS + ("multiplier",) if name in claims}
         self.vectors = data.get("vectors")
         if self.vectors is not None:
             size = len(items(self.vectors, "vectors", 2 * n, 2 * n + len(contacts)))
@@ -362,7 +359,9 @@ class Certificate:
     def read_events(self, events):
         n, self.events = self.n, []
         items(events, "events", 1, max(MOST_UNKNOWNS // (2 * n + 1), 1))
-        self.section = len(events) == 1 and isinstance(events[0], dict) and "section" in events[0]
+        self.section = isinstance(events[0], dict) and "section" in events[0]
+        if len(events) > 1 and any(isinstance(e, dict) and "section" in e for e in events):
+            raise Wrong("events: a section stands alone")
         for i, e in enumerate(events):
             where = f"events[{i}]"
             fields(e, where, ("t", "x", "v", "state"), e)
@@ -411,9 +410,10 @@ def inverse_exactly(matrix):
     n = len(matrix)
     rows = [list(row) + [Fraction(i == j) for j in range(n)] for i, row in enumerate(matrix)]
     for k in range(n):
-        # The pivots of a symmetric positive definite matrix are positive without any exchange of rows.
-        if rows[k][k] <= 0:
-            raise Wrong("model.mass: it is not positive definite")
+        p = next((i for i in range(k, n) if rows[i][k]), None)
+        if p is None:
+            raise Unproven("the mass matrix is singular")
+        rows[k], rows[p] = rows[p], rows[k]
         rows[k] = [v / rows[k][k] for v in rows[k]]
         for i in range(n):
             if i != k and rows[i][k]:
@@ -735,7 +735,7 @@ class Krawczyk:
             out.append(matmul(flow, segment.exponential(Ball(0, spread.size))))
         return out
 
-    def image(self, rho):
+    def image(self, rho, name="radius"):
         """The half widths |B F(y0)| + |I - B DF(Y)| rho in scaled unknowns, in units; an error if they are not within rho."""
         wide = Ball.of(rho)
         y = [Ball(v.m, v.r + (s * wide).size) for v, s in zip(self.y, self.orbit.scale)]
@@ -755,7 +755,7 @@ class Krawczyk:
             widths.append(self.step[i] + (contraction * wide.hi >> Ball.bits) + 1)
         # Strictly inside, in every component.
         if not max(widths) < wide.lo:
-            raise Unproven(f"Krawczyk gives {float(min(Fraction(max(widths), max(wide.lo, 1)), Fraction(10 ** 99))):.3g} of the box {float(rho):.3g}")
+            raise Unproven(f"Krawczyk gives {float(min(Fraction(max(widths), max(wide.lo, 1)), Fraction(10 ** 99))):.2g} of the {name}")
         return widths
 
     def box(self, rho):
@@ -1006,7 +1006,7 @@ def decide(cert, answer):
     try:
         y = test.box(cert.radius)
         answer["radius"] = decimal_text(cert.radius)
-        test.image(cert.uniqueness)
+        test.image(cert.uniqueness, "uniqueness radius")
         answer["uniqueness_radius"] = decimal_text(cert.uniqueness)
     except Unproven as error:
         raise Unproven(f"existence: {error}") from None
@@ -1028,17 +1028,19 @@ def decide(cert, answer):
     found = measures.found()
     answer.update({name: outward(value) for name, value in found.items()})
     answer["stability"] = "unproven"
-    if cert.stability != "unproven":
-        largest_modulus = multipliers(monodromy(orbit, y, flows), cert.vectors)
+    if cert.stability != "unproven" or "multiplier" in cert.bounds:
+        if not cert.vectors:
+            raise Unproven("stability unproven: no vectors")
+        found["multiplier"] = largest_modulus = multipliers(monodromy(orbit, y, flows), cert.vectors)
         answer["multiplier"] = outward(largest_modulus)
+        # All discs inside the unit circle; or a connected group of discs outside.
         answer["stability"] = "stable" if largest_modulus.hi < unit else "unstable" if largest_modulus.lo > unit else "unproven"
-        if answer["stability"] == "unproven":
+        if cert.stability != "unproven" and answer["stability"] == "unproven":
             raise Unproven("stability unproven: the largest multiplier may have modulus 1")
-        if answer["stability"] != cert.stability:
+        if cert.stability not in ("unproven", answer["stability"]):
             raise Unproven("claim is false: stability")
-        found["multiplier"] = largest_modulus
-    for name, value in found.items():
-        check_claim(name, value, cert.bounds[name], unit)
+    for name, claimed in cert.bounds.items():
+        check_claim(name, found[name], claimed, unit)
 
 
 def decimal_text(value):
@@ -1096,8 +1098,9 @@ def main(arguments):
         if as_json:
             print(json.dumps(answer), flush=True)
         else:
-            detail = answer["reason"] or f"{answer['stability']}, amplitude {answer['amplitude'][0]} to {answer['amplitude'][1]}"
-            print(f"{path}: {answer['verdict']}: {detail}", flush=True)
+            bounds = "; ".join(f"{name} {' to '.join(answer[name])}" for name in ("amplitude", "mean", "harmonic_1", "multiplier") if answer[name])
+            radii = f"radius {answer['radius']}, alone within {answer['uniqueness_radius']}"
+            print(f"{path}: {answer['verdict']}" + (f": {answer['reason']}" if answer["reason"] else f", {answer['stability']}; {bounds}; {radii}"), flush=True)
     return worst
 
 
