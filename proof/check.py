@@ -375,6 +375,9 @@ class Certificate:
         self.letters = [e[3] for e in self.events]
         if self.section:
             whole(events[0]["section"], "events[0].section", 1, 1)
+        for i, letters in enumerate(self.letters):
+            if not self.section and letters == self.letters[i - 1]:
+                raise Wrong(f"events: at number {i} no letter changes")
         for c in range(len(self.contacts)):
             if all(s[c] == "S" for s in self.letters) != (c in self.rest):
                 raise Wrong(f"rest: contact {c} " + ("does not stick all period" if c in self.rest else "sticks all period: where it rests is missing"))
@@ -576,8 +579,6 @@ class Orbit:
         """The equation of event i: (row on x, v of the event, constant, contact whose w enters or None, its coefficient)."""
         cert, n, before, after = self.cert, self.cert.n, self.cert.letters[i - 1], self.cert.letters[i]
         changed = [c for c in range(len(before)) if before[c] != after[c]]
-        if not changed:
-            raise Wrong(f"events[{i}]: no contact changes")
         out, forms = None, []
         for c in changed:
             contact, change = cert.contacts[c], before[c] + after[c]
