@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """check.py - decides whether a certificate of a periodic orbit under the exact contact law is true.
 
-    python3 check.py CERTIFICATE... [--format text|json]
+    python3 check.py CERTIFICATE... [--format text|json]      exit 0 all accepted, 1 one rejected, 2 a file is wrong, 64 usage
+
+`-` is standard input, a certificate a line; there, and with --format json, an answer is a line of JSON. README.md has the format and the keys of answers.
+
 
 Between two transitions of contacts the law is linear: Z' = A Z with Z = (x, v, 1, cos k omega t, sin k omega t, w of every
 sticking slider), so the flow is exp(A tau) and an orbit is finitely many numbers: time and state at each transition. The certificate
@@ -386,9 +389,12 @@ class Certificate:
 def read(path):
     try:
         with open(path, "rb") as file:
-            text = file.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise Wrong(error.strerror or "cannot be read") from None
+            return file.read(MOST_BYTES + 1)
+    except (OSError, ValueError) as error:
+        raise Wrong(getattr(error, "strerror", None) or "cannot be read") from None
+
+
+def parse(text):
     if len(text) > MOST_BYTES:
         raise Wrong(f"it is longer than {MOST_BYTES} bytes")
 
@@ -1059,11 +1065,12 @@ def outward(ball, digits=30):
 KEYS = ("verdict", "reason", "segment", "time", "contact", "radius", "uniqueness_radius", "stability", "multiplier") + BOUNDS + ("states", "transitions")
 
 
-def examine(path):
+def examine(path, text=None):
+    """The answer on a file, or on the bytes given."""
     answer = dict.fromkeys(KEYS)
     answer["file"] = path
     try:
-        decide(read(path), answer)
+        decide(parse(read(path) if text is None else text), answer)
         answer["verdict"] = "accepted"
     except Wrong as error:
         answer.update(verdict="wrong", reason=str(error))
@@ -1072,6 +1079,12 @@ def examine(path):
     except OverflowError:
         answer.update(verdict="rejected", reason="existence: a number is too large")
     return answer
+
+
+def lines_of(file):
+    while line := file.readline(MOST_BYTES + 2):
+        if line.strip():
+            yield line
 
 
 def main(arguments):
@@ -1093,10 +1106,9 @@ def main(arguments):
         print("usage: check.py CERTIFICATE... [--format text|json]", file=sys.stderr)
         return 64
     worst = 0
-    for path in paths:
-        answer = examine(path)
+    for path, answer in ((p, a) for p in paths for a in ([examine(p)] if p != "-" else (examine(p, line) for line in lines_of(sys.stdin.buffer)))):
         worst = max(worst, {"accepted": 0, "rejected": 1, "wrong": 2}[answer["verdict"]])
-        if as_json:
+        if as_json or path == "-":
             print(json.dumps(answer), flush=True)
         else:
             bounds = "; ".join(f"{name} {' to '.join(answer[name])}" for name in ("amplitude", "mean", "harmonic_1", "multiplier") if answer[name])
