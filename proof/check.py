@@ -405,9 +405,13 @@ def parse(text):
         return names
 
     def constant(name):
-        raise ValueError(f"{name} is no number")
+        raise ValueError(f"{name[:40]} is no number")
+
+    def within(kind, most):
+        return lambda digits: value if abs(value := kind(digits[:400])) < most else constant(digits)
     try:
-        return Certificate(json.loads(text.decode("utf-8"), object_pairs_hook=once, parse_constant=constant))
+        return Certificate(json.loads(text.decode("utf-8"), object_pairs_hook=once, parse_constant=constant,
+                                      parse_int=within(int, 1 << 63), parse_float=within(float, math.inf)))
     except RecursionError:
         raise Wrong("nested too deeply") from None
     except ValueError as error:
