@@ -882,6 +882,8 @@ def check_condition(motion, series, k, begin, c, words, rows, start, end):
         seen = 0 if first and last else functions[start].sign() if first else -functions[1].sign() if last else functions[0].sign()
         if seen > 0:
             continue
+        if not (first or last) and min(functions[0].b[0], functions[0].b[-1]) < -functions[0].r:
+            seen = -1  # G has a value below 0 at an end of this part
         if seen < 0 or depth == MOST_DEPTH or not (first or last) and all(abs(v) <= functions[0].r for v in functions[0].b):
             i, (low, high) = motion.segment.i, (begin + (k + s) * float(motion.h) for s in (a, b))
             raise Unproven(f"segment {i}, t = {low:.6g} to {high:.6g}, contact {c}: {words}: " + ("it is negative" if seen < 0 else "sign not decided"),

@@ -161,7 +161,7 @@ class Signs(unittest.TestCase):
                 ([1, 0, 0, 0], 0, 0, ""), ([-1, 0, 0, 0], 0, 0, "it is negative"), ([0, 1, 0, 0], 1, 0, ""), ([0, -1, 0, 0], 1, 0, "it is negative"),
                 ([0, 1, -1, 0], 1, 1, ""), ([0, 0, 1, 0], 2, 0, ""), ([0, 0, -1, 0], 2, 0, "it is negative"), ([0, 0, 1, -1], 2, 1, ""),
                 ([1, -1, 0, 0], 0, 1, ""), ([-1, 1, 0, 0], 0, 1, "it is negative"), ([0, 1, 0, 0], 0, 0, "sign not decided"), ([1, -1, 0, 0], 0, 0, "sign not decided"),
-                ([0, 0, 1, 0], 1, 0, "sign not decided"), ([0.25, -1, 1, 0], 0, 0, "sign not decided"), ([0.2500001, -1, 1, 0], 0, 0, ""), ([0, 0, 0, 0], 0, 0, "sign not decided")):
+                ([0, 0, 1, 0], 1, 0, "sign not decided"), ([0.25, -1, 1, 0], 0, 0, "sign not decided"), ([0.2500001, -1, 1, 0], 0, 0, ""), ([0, 0, 0, 0], 0, 0, "sign not decided"), ([1, -2, 0, 0], 0, 0, "it is negative")):
             self.assertEqual(self.decided(coefficients, start, end), words, (coefficients, start, end))
 
     def test_proportional_guards(self):
