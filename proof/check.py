@@ -405,9 +405,13 @@ def parse(text):
         return names
 
     def constant(name):
-        raise ValueError(f"{name} is no number")
+        raise ValueError(f"{name[:40]} is no number")
+
+    def within(kind, most):
+        return lambda digits: value if abs(value := kind(digits[:400])) < most else constant(digits)
     try:
-        return Certificate(json.loads(text.decode("utf-8"), object_pairs_hook=once, parse_constant=constant))
+        return Certificate(json.loads(text.decode("utf-8"), object_pairs_hook=once, parse_constant=constant,
+                                      parse_int=within(int, 1 << 63), parse_float=within(float, math.inf)))
     except RecursionError:
         raise Wrong("nested too deeply") from None
     except ValueError as error:
@@ -878,6 +882,8 @@ def check_condition(motion, series, k, begin, c, words, rows, start, end):
         seen = 0 if first and last else functions[start].sign() if first else -functions[1].sign() if last else functions[0].sign()
         if seen > 0:
             continue
+        if not (first or last) and min(functions[0].b[0], functions[0].b[-1]) < -functions[0].r:
+            seen = -1  # G has a value below 0 at an end of this part
         if seen < 0 or depth == MOST_DEPTH or not (first or last) and all(abs(v) <= functions[0].r for v in functions[0].b):
             i, (low, high) = motion.segment.i, (begin + (k + s) * float(motion.h) for s in (a, b))
             raise Unproven(f"segment {i}, t = {low:.6g} to {high:.6g}, contact {c}: {words}: " + ("it is negative" if seen < 0 else "sign not decided"),

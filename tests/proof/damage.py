@@ -3,6 +3,7 @@
 
     python3 damage.py FOLDER COUNT SEED [--other COMMAND]     exit 1 if one took over 60 s, over 1 GB, or raised an error; COMMAND: falsify.py
 """
+import copy
 import json
 import random
 import resource
@@ -42,6 +43,7 @@ def damaged(text, rng):
             data[at:end] = (b"", bytes([rng.randrange(256)]), data[at:end] * 2, rng.choice((b"[" * 3000, b"{", b"}", b'"', b"\\", b"\\ud800", b"9" * 300, b"e9", b"\0")))[how]
         return bytes(data)
     data = json.loads(text)
+    sys.setrecursionlimit(20000)  # for nodes(); the checker is given the usual one
     for _ in range(rng.choice((1, 1, 1, 2, 5))):
         every = nodes(data, [])
         holder, key = rng.choice(every)
@@ -59,8 +61,10 @@ def damaged(text, rng):
         elif how == 5 and isinstance(holder[key], list):
             holder[key] = holder[key] * rng.choice((2, 3, 50))
         else:
-            holder[key] = rng.choice(VALUES)
-    return json.dumps(data).encode()
+            holder[key] = copy.deepcopy(rng.choice(VALUES))
+    out = json.dumps(data).encode()
+    sys.setrecursionlimit(1000)
+    return out
 
 
 def main():
