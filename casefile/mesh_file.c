@@ -167,7 +167,9 @@ static matrix_word trimmed(const char *from, const char *to)
 /* VALUE of `name=VALUE` in the keyword's line, or the end of `name` alone; false: not there. */
 static bool parameter(const matrix_text *t, const char *name, matrix_word *value)
 {
-  const char *end = t->next, *comma = memchr(t->line_text, ',', (size_t)(end - t->line_text));
+  const char *end = t->next;
+  while (end > t->line_text && strchr("\r\n", end[-1]) && end[-1]) --end;
+  const char *comma = memchr(t->line_text, ',', (size_t)(end - t->line_text));
   while (comma) {
     const char *from = comma + 1;
     comma = memchr(from, ',', (size_t)(end - from));
@@ -550,7 +552,8 @@ static hc_status mark(const mesh *s, int set, int depth, marks *to, message *m)
   hc_status st = HC_OK;
   if (to->seen[set]) return HC_OK;
   to->seen[set] = 1;
-  for (const mesh_item *item = s->items, *end = item + s->n_items; item < end && st == HC_OK; ++item) {
+  for (int i = 0; i < s->n_items && st == HC_OK; ++i) {
+    const mesh_item *item = &s->items[i];
     if (item->set != set) continue;
     if (item->other < 0) {
       st = mark_numbers(s, item, kind == NODES || kind == NODES_OF_SURFACE, to, m);
