@@ -67,7 +67,7 @@ static hc_status find_modes(const reduce_options *o, const scene *sc, craig_bamp
     if (st == HC_OK) st = receptance_new(cb, sc, &r);
     if (st != HC_OK) return st;
     int n = 0; /* up to `last` */
-    while (n < cb->n_modes && cb->lambda[n] - cb->shift <= last * last) ++n;
+    while (n < cb->n_modes && cb->lambda[n] <= last * last) ++n;
     bool enough = cb->whole || n < cb->n_modes;
     if (o->modes >= 0) n = o->modes < cb->n_modes ? o->modes : cb->n_modes, enough = true;
     *modes = n;
@@ -131,19 +131,19 @@ static int reduce(cli_common *common, const reduce_options *o, const scene *sc, 
   int *kept = NULL, n_kept, modes = 0, code = 0;
   craig_bampton *cb = NULL;
   receptance_error stated = {0};
-  const double from = fmin(sc->omega_from, sc->omega_to);
   hc_status st = reduced_case_rows(sc->structure, source, &n_kept, &kept);
   if (st == HC_OK && n_kept > MOST_ROWS) {
     fprintf(stderr, "%s: contacts, loads and responses name %d degrees of freedom, expected at most %d\n",
             common->arguments[0], n_kept, (int)MOST_ROWS);
     code = EXIT_BAD_CASE;
   } else if (st == HC_OK) {
-    st = craig_bampton_new(sc->structure, n_kept, kept, from * from, &cb);
+    st = craig_bampton_new(sc->structure, n_kept, kept, &cb);
     if (st == HC_SINGULAR) {
+      const case_place at = sc->structure->stiffness.place;
       fprintf(stderr,
-              "%s: structure.stiffness and structure.mass are not positive on what contacts, loads and "
-              "responses do not name: neither holds it, expected a stiffness or a mass for every motion\n",
-              common->arguments[0]);
+              "%s:%zu:%zu: structure.stiffness does not hold a motion that leaves contacts, loads and responses at "
+              "rest, and nothing else does, expected a spring or a contact against it\n",
+              common->arguments[0], at.line, at.column);
       code = EXIT_BAD_CASE;
     }
   }
@@ -152,7 +152,7 @@ static int reduce(cli_common *common, const reduce_options *o, const scene *sc, 
   if (!code) code = write_folder(common, sc, source, cb, modes, &stated);
   if (!code) {
     table *t = table_new("Reduction", CLI_COLUMNS(columns));
-    const double highest = modes > 0 ? sqrt(fmax(cb->lambda[modes - 1] - cb->shift, 0)) : NAN;
+    const double highest = modes > 0 ? sqrt(fmax(cb->lambda[modes - 1], 0)) : NAN;
     TABLE_ROW(t, CELL(sc->structure->n), CELL(n_kept), CELL(modes), CELL(highest / TWO_PI), CELL(stated.error),
               CELL(scene_frequency(sc, stated.omega)), CELL(stated.stuck ? "stuck" : "open"));
     if (o->modes < 0 && o->up_to == 0 && !(stated.error <= o->error))

@@ -32,18 +32,6 @@ static void make_symmetric(int n, double *A)
     }
 }
 
-/* Y = (K + shift M) X. */
-static void times_shifted(const craig_bampton *cb, const scene_structure *s, const double *X, double *Y, double *room)
-{
-  const size_t n = (size_t)cb->n;
-  for (int c = 0; c < cb->n_kept; ++c, X += n, Y += n) {
-    sparse_multiply(&s->stiffness.kept, 1, X, Y);
-    if (cb->shift == 0) continue;
-    sparse_multiply(&s->mass.kept, 1, X, room);
-    for (size_t i = 0; i < n; ++i) Y[i] += cb->shift * room[i];
-  }
-}
-
 /* The matrices of Psi, and the sums over all modes; W and room [n_kept][n]. */
 static hc_status static_part(craig_bampton *cb, const scene_structure *s, double *W, double *room)
 {
@@ -51,11 +39,11 @@ static hc_status static_part(craig_bampton *cb, const scene_structure *s, double
   double *T = cb->T_b;
   memset(T, 0, n * b * sizeof *T);
   for (size_t k = 0; k < b; ++k) T[k * n + (size_t)cb->kept[k]] = 1;
-  times_shifted(cb, s, T, W, room);
+  sparse_multiply(&s->stiffness.kept, cb->n_kept, T, W);
   hc_status st = factor_solve(cb->inner, cb->n_kept, W);
   if (st != HC_OK) return st;
   for (size_t k = 0; k < n * b; ++k) T[k] -= W[k];
-  times_shifted(cb, s, T, W, room); /* on rows i 0 */
+  sparse_multiply(&s->stiffness.kept, cb->n_kept, T, W); /* on rows i 0 */
   for (size_t j = 0; j < b; ++j)
     for (size_t i = 0; i < b; ++i) cb->K[i + b * j] = W[(size_t)cb->kept[i] + n * j];
   sparse_multiply(&s->mass.kept, cb->n_kept, T, W);
@@ -83,7 +71,7 @@ static hc_status sums_over_modes(craig_bampton *cb, const scene_structure *s, do
   return HC_OK;
 }
 
-hc_status craig_bampton_new(const scene_structure *s, int n_kept, const int *kept, double floating, craig_bampton **out)
+hc_status craig_bampton_new(const scene_structure *s, int n_kept, const int *kept, craig_bampton **out)
 {
   const size_t n = (size_t)s->n, b = (size_t)n_kept;
   craig_bampton *cb = *out = calloc(1, sizeof *cb);
@@ -92,7 +80,7 @@ hc_status craig_bampton_new(const scene_structure *s, int n_kept, const int *kep
   cb->kept = malloc(b * sizeof *cb->kept);
   cb->held = calloc(n, sizeof *cb->held);
   cb->K = malloc(4 * b * b * sizeof *cb->K);
-  double *W = malloc(n * b * sizeof *W), *room = malloc((n + ROWS * b) * sizeof *room);
+  double *W = malloc(n * b * sizeof *W), *room = malloc(ROWS * b * sizeof *room);
   cb->T_b = malloc(n * b * sizeof *cb->T_b);
   hc_status st = cb->kept && cb->held && cb->K && W && room && cb->T_b ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) {
@@ -100,7 +88,7 @@ hc_status craig_bampton_new(const scene_structure *s, int n_kept, const int *kep
     memcpy(cb->kept, kept, b * sizeof *kept);
     factor_hold_empty(&s->stiffness.kept, &s->mass.kept, cb->held);
     for (size_t k = 0; k < b; ++k) cb->held[kept[k]] = true;
-    st = factor_shifted(&s->stiffness.kept, &s->mass.kept, cb->held, floating, &cb->shift, &cb->inner);
+    st = factor_new(&s->stiffness.kept, &s->mass.kept, 0, cb->held, &cb->inner);
   }
   if (st == HC_OK) st = static_part(cb, s, W, room);
   if (st == HC_OK && s->how == STRUCTURE_DAMPING_MATRIX) {
@@ -141,8 +129,8 @@ static bool lengthen(double **list, size_t length)
   return longer != NULL;
 }
 
-/* phi^T (M_ib + M_ii Psi): with A = K + shift M, A_ii phi = lambda M_ii phi and A_ii Psi = -A_ib the second part is
- * -phi^T A_ib/lambda. */
+/* phi^T (M_ib + M_ii Psi): with K_ii phi = lambda M_ii phi and K_ii Psi = -K_ib the second part is
+ * -phi^T K_ib/lambda. */
 static void find_share(craig_bampton *cb, const scene_structure *s, int k, double *M_phi, double *K_phi)
 {
   const size_t n = (size_t)cb->n, b = (size_t)cb->n_kept;
@@ -151,7 +139,7 @@ static void find_share(craig_bampton *cb, const scene_structure *s, int k, doubl
   sparse_multiply(&s->stiffness.kept, 1, phi, K_phi);
   for (size_t i = 0; i < b; ++i) {
     const size_t row = (size_t)cb->kept[i];
-    cb->share[b * (size_t)k + i] = M_phi[row] - (K_phi[row] + cb->shift * M_phi[row]) / cb->lambda[k];
+    cb->share[b * (size_t)k + i] = M_phi[row] - K_phi[row] / cb->lambda[k];
   }
 }
 
@@ -197,15 +185,13 @@ static void put_matrices(const craig_bampton *cb, int modes, double *K, double *
   memset(K, 0, r * r * sizeof *K);
   memset(M, 0, r * r * sizeof *M);
   for (size_t j = 0; j < b; ++j)
-    for (size_t i = 0; i < b; ++i)
-      K[i + r * j] = cb->K[i + b * j] - cb->shift * cb->M[i + b * j], M[i + r * j] = cb->M[i + b * j];
+    for (size_t i = 0; i < b; ++i) K[i + r * j] = cb->K[i + b * j], M[i + r * j] = cb->M[i + b * j];
   for (size_t k = 0; k < (size_t)modes; ++k) {
     const size_t row = b + k;
-    K[row * (r + 1)] = cb->lambda[k] - cb->shift, M[row * (r + 1)] = 1;
+    K[row * (r + 1)] = cb->lambda[k], M[row * (r + 1)] = 1;
     for (size_t i = 0; i < b; ++i) {
       const double share = cb->share[b * k + i];
       M[row + r * i] = M[i + r * row] = share;
-      K[row + r * i] = K[i + r * row] = -cb->shift * share;
     }
   }
 }
@@ -268,7 +254,7 @@ hc_status craig_bampton_structure(const craig_bampton *cb, const scene_structure
 bool craig_bampton_rest(const craig_bampton *cb, int modes, double omega, double *R)
 {
   const size_t b = (size_t)cb->n_kept;
-  const double w = omega * omega + cb->shift;
+  const double w = omega * omega;
   const double next = modes < cb->n_modes ? cb->lambda[modes] : modes > 0 ? cb->lambda[modes - 1] : 0;
   const bool none = cb->whole && modes == cb->n_modes; /* is left out */
   memset(R, 0, b * b * sizeof *R);
