@@ -152,7 +152,7 @@ static hc_status read_side(pair_rows *p, const yaml_node_t *node, patch *to)
   const size_t length = strlen(name);
   hc_status st = HC_OK;
   if (length > 4 && !strcmp(name + length - 4, ".csv")) {
-    char *path = path_beside(r->name, name, length);
+    char *path = yaml_file_beside(r, node);
     st = path ? patch_read(path, to, &r->msg) : HC_NO_MEMORY;
     if (st == HC_IO) st = yaml_file_failed(r, node, "pairs.between", path, "a csv file node,x,y,z");
     free(path);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/path.h"
 #include "base/utf8.h"
 #include "casefile/matrices/text_file.h"
 

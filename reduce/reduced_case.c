@@ -186,6 +186,7 @@ static void put_structure(const scene *sc, const craig_bampton *cb, int modes, c
   for (int k = 0; k < modes && s->names; ++k) fprintf(to, ", 'inner mode %d'", k + 1);
   if (s->names) putc(']', to);
   if (s->n_nodes > 0) fputs(", nodes: nodes.csv", to);
+  if (s->mesh) fputs(", mesh: mesh.inp", to);
   fputs(", reduction: {error: ", to);
   put_number(stated->error, to);
   fputs(", at: ", to);
@@ -196,7 +197,7 @@ static void put_structure(const scene *sc, const craig_bampton *cb, int modes, c
 /* The name that mention i's file has in the folder: its own, or with its number where another one has that. */
 static const char *copy_name(const case_source *source, int i, char name[256])
 {
-  static const char *const taken[] = {"mass.mtx", "stiffness.mtx", "damping.mtx", "nodes.csv"};
+  static const char *const taken[] = {"mass.mtx", "stiffness.mtx", "damping.mtx", "nodes.csv", "mesh.inp"};
   const char *own = path_name(source->mentions[i].file, NULL);
   bool alone = true;
   for (size_t k = 0; k < sizeof taken / sizeof *taken; ++k) alone &= strcmp(own, taken[k]) != 0;
@@ -269,6 +270,7 @@ hc_status reduced_case_write(const char *part, const char *name, case_source *so
   if (st == HC_OK && small->how == STRUCTURE_DAMPING_MATRIX)
     st = write_matrix(part, "damping.mtx", small->n, small->damping.v);
   if (st == HC_OK && sc->structure->n_nodes > 0) st = write_nodes(part, sc->structure, cb);
+  if (st == HC_OK && sc->structure->mesh) st = copy_file(sc->structure->mesh, part, "mesh.inp");
   if (st == HC_OK) st = write_case(part, name, source, sc, cb, modes, stated);
   structure_free(small);
   return st;

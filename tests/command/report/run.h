@@ -8,5 +8,6 @@
 #include "tests/program.h"
 
 /* A comparison of two frequencies, tables of two orders: what a page has, in a second. */
-#define CASE2 "cases/paper/case2.yaml"
-#define SMALL " --at 8,9 --harmonics 1,5 --samples 32,512 -q "
+#define CASE2  "cases/paper/case2.yaml"
+#define TABLES " --harmonics 1,5 --samples 32,512 -q "
+#define SMALL  " --at 8,9" TABLES

@@ -56,7 +56,7 @@ static void every_plot_is_drawn_and_every_control_works(CHECK_STATE)
     skip();
   }
   for (size_t i = 0; i < sizeof pages / sizeof *pages; ++i)
-    open_page(CASE2 SMALL, pages[i].set, pages[i].code, pages[i].scheme);
+    open_page(strstr(pages[i].set, "--at") ? CASE2 TABLES : CASE2 SMALL, pages[i].set, pages[i].code, pages[i].scheme);
   open_page("cases/structures/jenkins2.yaml -q ", "--at 24,25.9 --harmonics 5 --samples 64,256", 1, DARK);
   open_page("cases/structures/stop2.yaml -q ", "--at 0.6 --harmonics 5 --samples 64", 1, "");
 }
