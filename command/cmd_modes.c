@@ -69,6 +69,7 @@ static int run_modes(cli_common *common, void *own, scene *sc)
   const hc_status read =
       case_read_sparse(common->arguments[0], common->n_set, common->set, MATRIX_MOST_DENSE, sc, NULL, &err);
   if (read != HC_OK) return cli_not_read(read, &err);
+  cli_say_notes(common, sc);
   if (sc->structure && sc->structure->is_sparse) return run_large(common, count, sc);
   table *tables[] = {table_new("Modes", CLI_COLUMNS(mode_columns)),
                      table_new("Contacts at rest", CLI_COLUMNS(contact_columns))};

@@ -181,6 +181,7 @@ static int run_reduce(cli_common *common, void *own, scene *sc)
     fprintf(stderr, "%s: an oscillator, expected `structure`, which can be reduced\n", common->arguments[0]);
     code = EXIT_BAD_CASE;
   }
+  if (!code) cli_say_notes(common, sc);
   if (!code) code = reduce(common, own, sc, &source);
   case_source_free(&source);
   return code;

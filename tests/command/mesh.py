@@ -4,7 +4,7 @@
     mesh.py HBMCHECK ROOT
 
 make.py writes the files that are stored. The whole model (1044 degrees of freedom) gives its natural frequencies; for the
-curve it is reduced by Craig and Bampton, here by NumPy: reduced() is what a command of hbmcheck may take over. Pairs come
+curve `reduce` makes it small. Pairs come
 from the sets of the mesh in both, and are the same."""
 import csv
 import os
@@ -55,34 +55,18 @@ def stored_is_made(folder):
         assert (p[:, :2] == q[:, :2]).all() and abs(p - q).max() <= 1e-13 * abs(q).max(), name
 
 
-def reduced(folder):
-    """The case file of the reduced model: contact nodes and the tip are kept, and eight fixed-interface modes."""
+def whole_frequencies():
+    """Natural frequencies of the whole mesh, by NumPy."""
     with open(os.path.join(MESHES, "blade", "blade.dof"), encoding="ascii") as f:
-        dofs = f.read().split()
-    _, _, sets = make.mesh("small")
-    nodes = [q + 1 for name in ("PLATFORM", "ARM", "TIP") for q in sets[name]]
-    kept = [f"{q}.{d}" for q in nodes for d in (1, 2, 3)]
-    K, M = (triangle(os.path.join(MESHES, "blade", "blade" + end), len(dofs)) for end in (".sti", ".mas"))
-    k, m = solid_elements.craig_bampton(K, M, [dofs.index(d) for d in kept], 8)
-    solid_elements.write_matrix(os.path.join(folder, "K.mtx"), (k + k.T) / 2)
-    solid_elements.write_matrix(os.path.join(folder, "M.mtx"), (m + m.T) / 2)
-    solid_elements.write(os.path.join(folder, "nodes.csv"), ["dof,node,direction"] + [
-        f"{i + 1},{d[:-2]},{'xyz'[int(d[-1]) - 1]}" for i, d in enumerate(kept)])
-    with open(os.path.join(MESHES, "blade.yaml"), encoding="ascii") as f:
-        text = f.read()
-    for old, new in (("blade/blade.mas", "M.mtx"), ("blade/blade.sti", "K.mtx"), ("blade/blade.dof", "nodes.csv"),
-                     ("blade/mesh.inp", os.path.join(MESHES, "blade", "mesh.inp"))):
-        assert old in text
-        text = text.replace(old, new)
-    path = os.path.join(folder, "reduced.yaml")
-    solid_elements.write(path, text.splitlines())
-    return path, solid_elements.frequencies(K, M)
+        n = len(f.read().split())
+    return solid_elements.frequencies(*(triangle(os.path.join(MESHES, "blade", "blade" + end), n) for end in (".sti", ".mas")))
 
 
 def main(folder):
     whole = os.path.join(MESHES, "blade.yaml")
     stored_is_made(os.path.join(folder, "made"))
-    case, frequencies = reduced(folder)
+    run("reduce", whole, "-o", os.path.join(folder, "reduced"))
+    case, frequencies = os.path.join(folder, "reduced", "blade.yaml"), whole_frequencies()
 
     said = run("describe", "--case", whole, "contacts")
     assert "6 pairs between PLATFORM and ARM, up to 0 apart" in said.stderr and "normals and areas from the faces of PLATFORM" in said.stderr
