@@ -189,7 +189,7 @@ static void begin_own(events *in, int j, double theta)
   const scaled_contact *c = &in->base.m->contact[j];
   double *y = NV_DATA_S(in->base.y);
   contact_track *t = &in->track[j];
-  if (!t->turns) return;
+  if (!t->turns || !c->kind->own_begin) return; /* only a law with a state of its own turns */
   own_states(in)[in->own_of[j]] = c->kind->own_begin(t);
   if (!t->fresh) return;
   for (int a = 0; a < c->kind->directions; ++a) t[a].fresh = false;
