@@ -238,11 +238,9 @@ static void parse(const cli_command *self, int argc, char **argv, cli_common *co
 
 int cli_run(const cli_command *self, int argc, char **argv)
 {
-  /* `usage` is a command's "CASE...". */
-  cli_common common = {.command = self,
-                       .argument_is = (!strncmp(self->arguments, "CASE", 4)    ? "the case file"
-                                       : !strncmp(self->arguments, "STUDY", 5) ? "the study"
-                                                                               : NULL)};
+  cli_common common = {.command = self};
+  if (!strncmp(self->arguments, "CASE", 4)) common.argument_is = "the case file";
+  if (!strncmp(self->arguments, "STUDY", 5)) common.argument_is = "the study";
   scene sc = {.structure = NULL};
   common.own = calloc(1, self->own_size + 1);
   if (!common.own) return cli_failed(&common, EXIT_NO_SOLUTION, "%s", hc_status_text(HC_NO_MEMORY));

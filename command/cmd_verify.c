@@ -48,6 +48,11 @@ static entry entry_at(const char *text)
   return e;
 }
 
+static bool is_frequency(const entry *e)
+{
+  return (e->name == 5 && !memcmp(e->text, "omega", 5)) || (e->name == 9 && !memcmp(e->text, "frequency", 9));
+}
+
 static bool set_response(const cli_common *common, const char *name, verify_curve *out)
 {
   const scene *sc = common->scene;
@@ -65,9 +70,7 @@ static bool keep_one(const cli_common *common, const char *list, const char *kep
   for (const char *text = list;; ++text) {
     const entry e = entry_at(text);
     const size_t behind = e.at ? strcspn(e.at, "=,") : 0;
-    const bool wanted =
-        ((e.name == 5 && !memcmp(e.text, "omega", 5)) || (e.name == 9 && !memcmp(e.text, "frequency", 9))) ||
-        text == kept;
+    const bool wanted = is_frequency(&e) || text == kept;
     if (wanted && used + e.length + 2 > sizeof out->columns) return false;
     if (wanted) {
       const char *rest = e.at ? e.at + behind : e.text + e.name;
