@@ -22,7 +22,7 @@ static char *contents(const char *name, char *text)
   if (!from) return NULL;
   text[fread(text, 1, TEXT - 1, from)] = 0;
   fclose(from);
-  return text;
+  return small_without_times(text);
 }
 
 /* Removes files written beside others; how many there were. */
