@@ -37,7 +37,7 @@ static const cli_option options[] = {{CLI_INTEGER, "count", "N",
                                       offsetof(modes_options, count), 1, 2000},
                                      {0}};
 
-/* Of a structure that is kept sparse: the lowest modes, by ARPACK. */
+/* The lowest modes of a structure whose matrices are kept sparse, by ARPACK. */
 static int run_large(cli_common *common, int count, const scene *sc)
 {
   enum { DEFAULT = 20 };

@@ -358,7 +358,7 @@ static int verify_curves(verify_call *call, hc_status *st)
   compare_setup setup;
   int code = 0;
   *st = scene_setup(call->sc, &setup);
-  if (*st == HC_OK && !call->common->quiet) { /* all curves of the file are held against the same model */
+  if (*st == HC_OK && !call->common->quiet) { /* one model for all curves of the file */
     duration_units u;
     double seconds = 0;
     int points = 0;

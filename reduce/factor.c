@@ -23,67 +23,64 @@ void factor_hold_empty(const sparse *K, const sparse *M, bool *held)
   }
 }
 
-/* CHOLMOD's view of a sparse matrix's lower triangle. */
-static cholmod_sparse view(const sparse *A)
+static int entries_below(const sparse *A)
 {
-  return (cholmod_sparse){.nrow = (size_t)A->n,
-                          .ncol = (size_t)A->n,
-                          .nzmax = (size_t)A->start[A->n],
-                          .p = A->start,
-                          .i = A->row,
-                          .x = A->value,
-                          .stype = -1,
-                          .itype = CHOLMOD_INT,
-                          .xtype = CHOLMOD_REAL,
-                          .dtype = CHOLMOD_DOUBLE,
-                          .sorted = 1,
-                          .packed = 1};
+  int entries = 0;
+  for (int j = 0; j < A->n; ++j)
+    for (int k = A->start[j]; k < A->start[j + 1]; ++k) entries += A->row[k] > j;
+  return entries;
 }
 
-/* Of A's columns the held ones become those of the identity, and the others lose the held rows. */
-static void hold(cholmod_sparse *A, const bool *held)
+/* The lower triangle of K + shift M. The held columns and rows are those of the identity, so every column has its
+ * diagonal, first. */
+static hc_status shifted(const sparse *K, const sparse *M, double shift, const bool *held, sparse *A)
 {
-  int *start = A->p, *row = A->i, to = 0;
-  double *value = A->x;
-  for (int j = 0, from = 0; j < (int)A->ncol; ++j) {
-    const int end = start[j + 1];
-    start[j] = to;
-    for (; from < end; ++from) {
-      const bool diagonal = held[j] && row[from] == j;
-      if (!diagonal && (held[j] || held[row[from]])) continue;
-      row[to] = row[from], value[to++] = diagonal ? 1 : value[from];
+  const int n = K->n, with_mass = shift != 0;
+  const hc_status st = sparse_new(n, entries_below(K) + with_mass * entries_below(M) + n, A);
+  for (int j = 0, to = 0; j < n && st == HC_OK; A->start[++j] = to) {
+    int k = K->start[j], m = M->start[j];
+    const int end_k = held[j] ? k : K->start[j + 1], end_m = held[j] || !with_mass ? m : M->start[j + 1];
+    A->row[to] = j, A->value[to++] = held[j] ? 1 : sparse_at(K, j, j) + shift * sparse_at(M, j, j);
+    while (k < end_k || m < end_m) {
+      const int row_k = k < end_k ? K->row[k] : n, row_m = m < end_m ? M->row[m] : n;
+      const int i = row_k < row_m ? row_k : row_m;
+      const double value = (row_k == i ? K->value[k++] : 0) + (row_m == i ? shift * M->value[m++] : 0);
+      if (i > j && !held[i]) A->row[to] = i, A->value[to++] = value;
     }
   }
-  start[A->ncol] = to;
+  return st;
 }
 
 hc_status factor_new(const sparse *K, const sparse *M, double shift, const bool *held, factor **out)
 {
   const double least = 1e-13; /* reciprocal condition, from the factor's diagonal: below, what is left is rounding */
-  double one[2] = {1, 0}, part[2] = {shift, 0};
   factor *f = *out = calloc(1, sizeof *f);
   if (!f) return HC_NO_MEMORY;
   f->held = held;
   cholmod_start(&f->common);
   f->common.print = 0;
   f->common.supernodal = CHOLMOD_SUPERNODAL;
-  sparse diagonal; /* each entry of it is there, so that held rows have one */
-  hc_status st = sparse_new(K->n, K->n, &diagonal);
-  for (int i = 0; i < K->n && st == HC_OK; ++i)
-    diagonal.start[i + 1] = i + 1, diagonal.row[i] = i, diagonal.value[i] = 0;
+  sparse A = {0};
+  hc_status st = shifted(K, M, shift, held, &A);
   if (st == HC_OK) {
-    cholmod_sparse stiffness = view(K), mass = view(shift != 0 ? M : &diagonal), all = view(&diagonal);
-    cholmod_sparse *part_sum = cholmod_add(&stiffness, &mass, one, part, 1, 1, &f->common);
-    cholmod_sparse *A = part_sum ? cholmod_add(part_sum, &all, one, one, 1, 1, &f->common) : NULL;
-    cholmod_free_sparse(&part_sum, &f->common);
-    if (A) hold(A, held);
-    f->L = A ? cholmod_analyze(A, &f->common) : NULL;
-    if (f->L) cholmod_factorize(A, f->L, &f->common);
-    cholmod_free_sparse(&A, &f->common);
+    cholmod_sparse lower = {.nrow = (size_t)A.n,
+                            .ncol = (size_t)A.n,
+                            .nzmax = (size_t)A.start[A.n],
+                            .p = A.start,
+                            .i = A.row,
+                            .x = A.value,
+                            .stype = -1,
+                            .itype = CHOLMOD_INT,
+                            .xtype = CHOLMOD_REAL,
+                            .dtype = CHOLMOD_DOUBLE,
+                            .sorted = 1,
+                            .packed = 1};
+    f->L = cholmod_analyze(&lower, &f->common);
+    if (f->L) cholmod_factorize(&lower, f->L, &f->common);
     if (!f->L || f->common.status < CHOLMOD_OK) st = HC_NO_MEMORY;
     else if (f->common.status == CHOLMOD_NOT_POSDEF || !(cholmod_rcond(f->L, &f->common) > least)) st = HC_SINGULAR;
   }
-  sparse_free(&diagonal);
+  sparse_free(&A);
   if (st == HC_OK) return HC_OK;
   factor_free(f);
   *out = NULL;

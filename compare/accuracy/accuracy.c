@@ -180,8 +180,8 @@ static hc_status reference_make(const compare_setup *setup, const comparison *c,
 
 /* ---- the table ---- */
 
-/* Of more than LARGE degrees of freedom curves cost minutes, and orbits are known from the comparison's rows or next to
- * coarser solutions. */
+/* A structure of more than LARGE degrees of freedom begins its reference at fewer harmonics: there a curve costs
+ * minutes, and orbits are known from the comparison's rows or next to coarser solutions. */
 enum { LEAST_REFERENCE = 20, LARGE = 64, LEAST_OF_LARGE = 10, EXACT = 0 };
 
 static const double floor_of_orbits = 1e-8; /* [1] ten times the error of the referee's orbits */
