@@ -2,7 +2,6 @@
 #include "casefile/case_file.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 

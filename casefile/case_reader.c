@@ -1,9 +1,6 @@
 /* case_reader.c - what every part of the case reader uses: messages with their place, nodes of the document. */
 #include "casefile/case_reader.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/growing.h"
 #include "base/path.h"
 

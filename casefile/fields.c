@@ -1,8 +1,6 @@
 /* fields.c - the table of fields; see fields.h. Defaults and ranges stand here and nowhere else. */
 #include "casefile/fields.h"
 
-#include <string.h>
-
 #include "base/constants.h"
 #include "base/nearest.h"
 

@@ -1,7 +1,6 @@
 /* scene.c - see scene.h. */
 #include "casefile/scene.h"
 
-#include <stddef.h>
 #include <stdio.h>
 
 #include "base/constants.h"

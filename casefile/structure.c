@@ -1,15 +1,11 @@
 /* structure.c - see structure.h. */
 #include "casefile/structure.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
 #include "base/growing.h"
-#include "base/message.h"
-#include "base/number.h"
 #include "numerics/norm.h"
 
 scene_structure *structure_new(void) { return calloc(1, sizeof(scene_structure)); }

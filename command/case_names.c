@@ -1,15 +1,6 @@
 /* case_names.c - see case_names.h. */
 #include "command/case_names.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "base/message.h"
-#include "base/number.h"
-#include "casefile/structure.h"
-
 enum { MOST_LISTED = 12 };
 
 /* Response r in full; the column shows its first RESPONSE_NAME - 1 letters. */

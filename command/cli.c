@@ -5,12 +5,6 @@
 #include <fftw3.h>
 #include <float.h>
 #include <gsl/gsl_version.h>
-#include <jansson.h>
-#include <math.h>
-#include <sqlite3.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sundials/sundials_version.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -18,10 +12,7 @@
 #include <yaml.h>
 
 #include "base/constants.h"
-#include "base/message.h"
 #include "base/nearest.h"
-#include "base/number.h"
-#include "casefile/structure.h"
 #include "compare/advice.h"
 #include "output/output.h"
 #include "output/progress.h"

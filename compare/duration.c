@@ -1,7 +1,6 @@
 /* duration.c - see duration.h. Proof: tests/compare/test_duration.c. */
 #include "compare/duration.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

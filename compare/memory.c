@@ -1,9 +1,6 @@
 /* memory.c - see memory.h. Proof: tests/command/test_memory.c. */
 #include "compare/memory.h"
 
-#include <math.h>
-#include <stdbool.h>
-
 static const double program = 6e6; /* [bytes] */
 
 /* Matrices of a kind at once. */

@@ -1,7 +1,6 @@
 /* motion.c - see motion.h. */
 #include "compare/motion.h"
 
-#include <math.h>
 #include <string.h>
 
 _Static_assert((int)TIMEINT_WAVE == (int)MOTION_SAMPLES, "a transient's wave is taken as it is");

@@ -1,10 +1,8 @@
 /* response.c - see response.h. */
 #include "compare/response.h"
 
-#include <math.h>
 #include <stdlib.h>
 
-#include "base/number.h"
 #include "base/thread_clock.h"
 #include "compare/first_guess.h"
 

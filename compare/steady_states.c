@@ -1,7 +1,6 @@
 /* steady_states.c - see steady_states.h. */
 #include "compare/steady_states.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

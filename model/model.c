@@ -1,7 +1,6 @@
 /* model.c - see model.h. */
 #include "model/model.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

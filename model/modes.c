@@ -1,7 +1,6 @@
 /* modes.c - see modes.h. */
 #include "model/modes.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "numerics/dense.h"

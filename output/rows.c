@@ -4,8 +4,6 @@
  *   only where the model is a structure */
 #include "output/rows.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/constants.h"

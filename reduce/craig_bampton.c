@@ -1,7 +1,6 @@
 /* craig_bampton.c - see craig_bampton.h. */
 #include "reduce/craig_bampton.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/dense.h"

@@ -2,8 +2,6 @@
 #include "reduce/lowest_modes.h"
 
 #include <arpack/arpack.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/dense.h"

@@ -4,8 +4,6 @@
 #include "reduce/receptance.h"
 
 #include <complex.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "model/modes.h"

@@ -3,12 +3,10 @@
 
 #include <dirent.h>
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/number.h"
 #include "base/path.h"
 #include "casefile/matrices/text_file.h"
 

@@ -1,7 +1,6 @@
 /* rewritten.c - see rewritten.h. */
 #include "stress/rewritten.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

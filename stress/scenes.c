@@ -11,9 +11,6 @@
 
 #include <gsl/gsl_qrng.h>
 #include <gsl/gsl_rng.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "casefile/fields.h"
 

@@ -1,15 +1,11 @@
 /* solved_scene.c - see solved_scene.h. */
 #include "stress/solved_scene.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/thread_clock.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
-#include "hbm/curve/continuation.h"
-#include "numerics/series.h"
 
 /* Rounding is seen only if Newton does not stop before. */
 static const double tight = 1e-12;

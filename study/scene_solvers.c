@@ -1,8 +1,6 @@
 /* scene_solvers.c - see scene_solvers.h. */
 #include "study/scene_solvers.h"
 
-#include <stddef.h>
-
 #include "compare/first_guess.h"
 
 hc_status scene_hbm_solver(const scene *sc, hbm_solver **out)

@@ -8,14 +8,9 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include "base/number.h"
 
 enum { APPLICATION_ID = 0x68626d63 /* "hbmc" */, HEADER = 100, ID_AT = 68, BUSY_MS = 10000 };
 static const char schema_version[] = "1";

@@ -1,10 +1,6 @@
 /* study.c - from the number of a scene to the scene; see study.h. Reading the file: study_file.c, study_axes.c. */
 #include "study/study.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "study/study_reader.h"
 
 const char *study_kind_name(study_kind kind)

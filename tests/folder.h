@@ -1,8 +1,6 @@
 /* folder.h - a new folder of the test program's own, in /tmp: $D in lines for sh, in which $H is the built hbmcheck. */
 #pragma once
 
-#include <string.h>
-
 #include "tests/check.h"
 
 static char folder[] = "/tmp/hbmcheck-test-XXXXXX";

@@ -7,7 +7,6 @@
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/integrate_events.h"
 #include "timeint/cvode/integrate_regularised.h"
-#include "timeint/law/scaled.h"
 #include "timeint/period/measure.h"
 
 static inline void scene_direction(const scene_contact *c, double *tangent, double *normal)

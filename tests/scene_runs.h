@@ -2,7 +2,6 @@
 #pragma once
 
 #include "compare/accuracy/accuracy.h"
-#include "compare/comparison.h"
 #include "compare/gate/gate.h"
 #include "compare/verify/verify.h"
 #include "study/scene_solvers.h"

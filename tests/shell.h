@@ -2,7 +2,6 @@
  * expectations. */
 #pragma once
 
-#include <string.h>
 #include <sys/wait.h>
 
 #include "tests/check.h"

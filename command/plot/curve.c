@@ -1,14 +1,7 @@
 /* curve.c - see curve.h. */
 #include "command/plot/curve.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/constants.h"
-#include "casefile/structure.h"
-#include "compare/response.h"
-#include "hbm/curve/segment.h"
 #include "study/scene_solvers.h"
 
 /* [1] A point farther from the curve than this fraction of the drawing is on another branch. */

@@ -3,18 +3,12 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <math.h>
 #include <signal.h>
 #include <spawn.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/message.h"
-#include "base/status.h"
 #include "base/utf8.h"
 #include "output/output.h"
 #include "output/progress.h"

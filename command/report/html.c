@@ -1,9 +1,7 @@
 /* html.c - see html.h. */
 #include "command/report/html.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "casefile/case_file.h"

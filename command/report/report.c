@@ -1,12 +1,9 @@
 /* report.c - see report.h: everything the page shows is computed here, in stages. */
 #include "command/report/report.h"
 
-#include <math.h>
-
 #include "casefile/structure.h"
 #include "command/report/parts.h"
 #include "compare/motion.h"
-#include "compare/response.h"
 #include "output/rows.h"
 #include "study/scene_solvers.h"
 

@@ -3,12 +3,10 @@
  *     the curve with exact forces and most harmonics -> the exact law's orbits to compare with, the response's peak
  *     each H: the curve with exact forces -> a solution next to each orbit
  *     each H and N: the same solutions, from there; and the curve. Independent of each other, so by threads */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/growing.h"
-#include "base/number.h"
 #include "base/thread_clock.h"
 #include "base/workspace.h"
 #include "compare/accuracy/accuracy.h"

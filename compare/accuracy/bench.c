@@ -2,13 +2,11 @@
  * the Pareto front of error and time. */
 #include "compare/accuracy/bench.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/growing.h"
-#include "base/number.h"
 #include "base/thread_clock.h"
 #include "compare/accuracy/bench_start.h"
 #include "compare/accuracy/scipy.h"

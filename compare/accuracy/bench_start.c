@@ -1,8 +1,6 @@
 /* bench_start.c - see bench_start.h. */
 #include "compare/accuracy/bench_start.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "compare/comparison.h"

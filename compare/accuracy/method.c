@@ -1,10 +1,8 @@
 /* method.c - see method.h. */
 #include "compare/accuracy/method.h"
 
-#include <math.h>
 #include <stdlib.h>
 
-#include "base/number.h"
 #include "compare/response.h"
 
 bool method_is_hbm(bench_method m) { return m == BENCH_HBM_EXACT || m == BENCH_HBM_SAMPLED; }

@@ -1,15 +1,12 @@
 /* gate.c - see gate.h. What is compared with what is decided in judge_solution(), and nowhere else. */
 #include "compare/gate/gate.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
 #include "base/growing.h"
-#include "base/number.h"
 #include "base/thread_clock.h"
 #include "base/utf8.h"
 #include "compare/gate_limits.h"

@@ -7,7 +7,6 @@
  * the dynamic stiffness (system.c). */
 #include "hbm/contact/aft.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/workspace.h"

@@ -1,8 +1,6 @@
 /* contact_measures.c - see contact_measures.h. */
 #include "hbm/contact/contact_measures.h"
 
-#include <math.h>
-
 #include "base/workspace.h"
 #include "hbm/contact/transitions.h"
 #include "numerics/crossing.h"

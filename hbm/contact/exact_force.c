@@ -6,16 +6,12 @@
  * Moving a transition changes nothing to first order, since the force is continuous there. */
 #include "hbm/contact/exact_force.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
 #include "base/workspace.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/interval_series.h"
-#include "hbm/hbm_settings.h"
-#include "numerics/series.h"
 
 struct exact_force {
   int n_harm, n_dof, n_coef, n_contacts, cap;

@@ -8,7 +8,6 @@
  * both have, as a rule. */
 #include "hbm/contact/slider.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "numerics/wide_vectors.h"

@@ -3,7 +3,6 @@
 #include "hbm/contact/transitions.h"
 
 #include <float.h>
-#include <math.h>
 #include <string.h>
 
 #include "base/constants.h"

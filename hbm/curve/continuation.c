@@ -13,7 +13,6 @@
  * `fixed_step` has none of this: path_fixed_step. */
 #include "hbm/curve/continuation.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* path.c - see path.h. */
 #include "hbm/curve/path.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "hbm/curve/segment.h"

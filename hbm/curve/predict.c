@@ -1,7 +1,6 @@
 /* predict.c - see predict.h. Proof: tests/hbm/test_predict.c. */
 #include "hbm/curve/predict.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

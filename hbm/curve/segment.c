@@ -3,7 +3,6 @@
  * length, and if it was not found already from another sigma. */
 #include "hbm/curve/segment.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -8,7 +8,6 @@
  * that begin at once, two contacts that are alike. */
 #include "hbm/curve/special_points.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

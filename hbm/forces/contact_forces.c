@@ -1,12 +1,10 @@
 /* contact_forces.c - see contact_forces.h. */
 #include "hbm/forces/contact_forces.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/workspace.h"
 #include "numerics/dense.h"
-#include "numerics/series.h"
 
 /* One of a contact's coordinates as a combination of few of q. */
 typedef struct combination {

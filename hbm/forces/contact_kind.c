@@ -1,7 +1,6 @@
 /* contact_kind.c - see contact_kind.h. */
 #include "hbm/forces/contact_kind.h"
 
-#include <math.h>
 #include <stddef.h>
 
 #include "hbm/contact/aft.h"

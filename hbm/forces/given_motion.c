@@ -1,10 +1,7 @@
 /* given_motion.c - see given_motion.h. */
 #include "hbm/forces/given_motion.h"
 
-#include <stdlib.h>
-
 #include "hbm/forces/contact_forces.h"
-#include "numerics/series.h"
 
 given_motion given_motion_of_contact(const model *of, int j, moving_contact *place)
 {

@@ -7,15 +7,12 @@
  * bring it nearer, it is dragged on. */
 #include "hbm/planar/planar_aft.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/workspace.h"
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/planar/planar_slider.h"
-#include "numerics/series.h"
 
 enum {
   PLANAR_PLAIN_PASSES = 4, /* periods dragged before any is guessed */

@@ -3,7 +3,6 @@
 #include "hbm/planar/planar_corner.h"
 
 #include <float.h>
-#include <math.h>
 
 enum { MAX_NEWTON = 60, MAX_ANGLE_STEPS = 8 };
 

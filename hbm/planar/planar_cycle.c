@@ -2,7 +2,6 @@
 #include "hbm/planar/planar_cycle.h"
 
 #include <float.h>
-#include <math.h>
 #include <string.h>
 
 #include "base/constants.h"

@@ -2,8 +2,6 @@
  * of each: x', x and y follow by one or two integrations with the collocation's weights. */
 #include "hbm/planar/planar_flow.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"

@@ -5,8 +5,6 @@
  * dX with A, B the derivatives of the pass; the last two columns are then eliminated. */
 #include "hbm/planar/planar_force.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
@@ -14,10 +12,8 @@
 #include "hbm/contact/exact_force.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/interval_series.h"
-#include "hbm/hbm_settings.h"
 #include "numerics/dense.h"
 #include "numerics/rotate.h"
-#include "numerics/series.h"
 #include "numerics/wide_vectors.h"
 
 enum { N = COLLOCATION_POINTS };

@@ -2,7 +2,6 @@
  * trigonometric polynomial of degree 2H. */
 #include "hbm/planar/planar_measures.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,11 +2,9 @@
 #include "hbm/planar/planar_motion.h"
 
 #include <float.h>
-#include <math.h>
 
 #include "base/constants.h"
 #include "numerics/rotate.h"
-#include "numerics/series.h"
 #include "numerics/wide_vectors.h"
 
 /* bound[k] += factor times a bound of the k-th derivative's modulus. */

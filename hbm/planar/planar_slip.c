@@ -8,7 +8,6 @@
 #include "hbm/planar/planar_slip.h"
 
 #include <float.h>
-#include <math.h>
 #include <string.h>
 
 #include "numerics/rotate.h"

@@ -2,7 +2,6 @@
 #include "hbm/solver/corrector.h"
 
 #include <float.h>
-#include <math.h>
 #include <string.h>
 
 #include "hbm/solver/hbm_solver_impl.h"

@@ -1,9 +1,6 @@
 /* linear_solution.c - see linear_solution.h. */
 #include "hbm/solver/linear_solution.h"
 
-#include <complex.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "hbm/solver/hbm_solver_impl.h"

@@ -8,8 +8,6 @@
  * alone, but its turning points are other ones: it may be short where the other is not. */
 #include "hbm/solver/ramp.h"
 
-#include <math.h>
-
 #include "hbm/solver/linear_solution.h"
 
 static const double least_force = 1e-4, least_damping = 1e-9; /* [1] of the whole; of `most` */

@@ -2,11 +2,8 @@
 #include "hbm/solver/refine.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 

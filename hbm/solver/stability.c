@@ -1,7 +1,6 @@
 /* stability.c - see stability.h. */
 #include "hbm/solver/stability.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* system.c - see system.h for the equations. */
 #include "hbm/solver/system.h"
 
-#include <math.h>
 #include <string.h>
 
 static void make_arrays(hbm_system *sys)

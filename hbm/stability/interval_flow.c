@@ -7,8 +7,6 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_matrix.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/workspace.h"

@@ -11,8 +11,6 @@
 #include "hbm/stability/modal_flow.h"
 
 #include <complex.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"

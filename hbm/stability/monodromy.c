@@ -10,9 +10,6 @@
  *     to rest      dw = du - dR e - y e_perp */
 #include "hbm/stability/monodromy.h"
 
-#include <complex.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"

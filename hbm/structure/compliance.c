@@ -5,7 +5,6 @@
  *                                                                            w: lower half of the left one */
 #include "hbm/structure/compliance.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

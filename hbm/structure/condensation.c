@@ -1,7 +1,6 @@
 /* condensation.c - see condensation.h. */
 #include "hbm/structure/condensation.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

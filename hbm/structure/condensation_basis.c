@@ -6,8 +6,6 @@
  * Where the rows span everything, q = x. */
 #include "hbm/structure/condensation_basis.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/dense.h"

@@ -4,12 +4,8 @@
 
 #include "tests/check.h"
 
-#include <string.h>
-
 #include "casefile/case_file.h"
-#include "hbm/hbm.h"
 #include "study/scene_solvers.h"
-#include "timeint/timeint.h"
 
 /* set: "PATH=VALUE", ended by NULL. */
 static inline scene load(const char *name, const char *const *set)

@@ -7,7 +7,6 @@
 #include <locale.h>
 #include <sys/mman.h>
 
-#include "base/number.h"
 #include "tests/cases/case_text.h"
 
 static void numbers_are_read_whole(CHECK_STATE)

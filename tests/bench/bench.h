@@ -2,13 +2,9 @@
  * benchmark that goes on without a figure misleads). */
 #pragma once
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "base/number.h"
 #include "casefile/case_file.h"
 
 enum { BENCH_MOST_ROUNDS = 1001 };

@@ -6,7 +6,6 @@
  * turn, ROUNDS times; a time is the least of processor time, a ratio that of one round's two, its median. */
 #include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_force.h"
-#include "numerics/series.h"
 #include "tests/bench/bench.h"
 #include "tests/random.h"
 

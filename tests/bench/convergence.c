@@ -4,7 +4,6 @@
  * |a1 + i b1|, of a1 + i b1 in the plane, of the amplitude (max - min)/2, and the largest of x over the period. An
  * order is log(error before/error)/log(ratio of H, or of the regularisation). */
 #include "base/constants.h"
-#include "numerics/series.h"
 #include "tests/bench/orbits.h"
 
 enum { MEASURES = 4, LEVELS = 4, DECADES = 5 };

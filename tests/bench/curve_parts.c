@@ -5,7 +5,6 @@
  * responses at its points, special points. Columns: degrees of freedom, contacts, points; processor milliseconds of
  * all but the case file (median), for versus_peer.py, and of the curve; the other parts in terms of the curve. */
 #include "compare/response.h"
-#include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "study/scene_solvers.h"
 #include "tests/bench/bench.h"

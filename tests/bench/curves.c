@@ -4,7 +4,6 @@
  * 1e7) One line a curve: how it ended, points, iterations, rejected steps, turning points, contact evaluations,
  * milliseconds, and the largest distance, relative to the amplitude, between its solutions at 16 frequencies and
  * those of the curve from the other end and with half the step. */
-#include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/bench/bench.h"
 

@@ -7,9 +7,6 @@
  * batch of about a millisecond each, ROUNDS times; a figure is the median of its batches, a ratio the median of the
  * ratios within a round, with quartiles. The machine is shared: microseconds are for orientation, the ratios are the
  * result. Contacts 1..8 share the stiffness of one, and their gaps differ by a percent each. */
-#include "hbm/contact/aft.h"
-#include "hbm/contact/exact_force.h"
-#include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/bench/bench.h"
 #include "tests/random.h"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "compare/comparison.h"
-#include "study/scene_solvers.h"
 #include "tests/bench/bench.h"
 #include "tests/timeint/scenes.h"
 

@@ -2,7 +2,6 @@
  * three scenes, groups of ways to trace the same curve; the ways of a group take turns, REPEATS times, in one run,
  * and the first of a group is what the others' ratios refer to. Columns: force evaluations, Newton iterations,
  * points, milliseconds (median, and the quartiles around it), ratio. */
-#include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/bench/bench.h"
 #include "tests/reference_scenes.h"

@@ -1,8 +1,6 @@
 /* case_text.h - what the tests of the reader share: a smallest case, and reading it. */
 #pragma once
 
-#include <string.h>
-
 #include "casefile/case_file.h"
 #include "tests/check.h"
 #include "tests/random.h"

@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "base/message.h"
 #include "casefile/case_reader.h"
 #include "tests/cases/case_text.h"
 

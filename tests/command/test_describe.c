@@ -1,6 +1,5 @@
 /* test_describe.c - hbmcheck describe for programs: the table of fields, and with --case a case's values, where each is
  * from, and what follows from them. */
-#include "base/constants.h"
 #include "tests/shell.h"
 
 #define CASE2 "cases/paper/case2.yaml"

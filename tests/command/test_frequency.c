@@ -1,5 +1,4 @@
 /* test_frequency.c - frequencies in the unit of the sweep everywhere, and a word where they lie outside it. */
-#include "base/constants.h"
 #include "tests/program.h"
 
 #define CASE2  SOURCE_DIR "/cases/paper/case2.yaml "

@@ -4,7 +4,6 @@
 
 #include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
-#include "timeint/steady/steady.h"
 
 /* Somebody to ask: counts, and answers as told. */
 typedef struct oracle {

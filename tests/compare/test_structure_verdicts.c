@@ -3,7 +3,6 @@
 #include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "tests/check.h"
-#include "timeint/steady/steady.h"
 
 enum { STATES = 64, HARMONICS = 31 };
 

@@ -3,10 +3,7 @@
 #include "tests/faults/moments.h"
 
 #include <cvodes/cvodes.h>
-#include <pthread.h>
 #include <signal.h>
-#include <stdatomic.h>
-#include <stddef.h>
 #include <sys/syscall.h>
 #include <sys/types.h>
 #include <unistd.h>

@@ -2,9 +2,6 @@
  * held against expectations. */
 #pragma once
 
-#include <stdio.h>
-#include <string.h>
-
 #include "tests/shell.h"
 
 typedef struct said {

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <signal.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "casefile/case_file.h"
 #include "tests/check.h"

@@ -6,12 +6,10 @@
 #include <kinsol/kinsol.h>
 #include <nvector/nvector_serial.h>
 
-#include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/faults/child.h"
 #include "tests/faults/small.h"
 #include "tests/wrap.h"
-#include "timeint/timeint.h"
 
 typedef enum {
   RETURN_FLAG /* and do nothing else */,

@@ -3,7 +3,6 @@
  * test_memory.c tries commands, on small scenes. */
 #include <gsl/gsl_errno.h>
 
-#include "hbm/hbm.h"
 #include "numerics/norm.h"
 #include "study/scene_solvers.h"
 #include "tests/faults/memory.h"

@@ -3,12 +3,10 @@
  * it owes: no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers,
  * bit for bit. */
 #include "hbm/forces/contact_forces.h"
-#include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/faults/small.h"
 #include "tests/wrap.h"
 #include "timeint/cvode/structure_newton.h"
-#include "timeint/timeint.h"
 
 enum { H3 = 7 /* coefficients of three harmonics */ };
 

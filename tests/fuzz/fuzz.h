@@ -3,8 +3,6 @@
  * Targets: README.md. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
 #include "casefile/case_file.h"

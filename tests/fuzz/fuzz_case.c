@@ -1,6 +1,5 @@
 /* fuzz_case.c - bytes as a case file: read, in range and echoed bit for bit, or refused with a place and the scene
  * left alone. */
-#include <string.h>
 
 #include "casefile/case_reader.h"
 #include "tests/fuzz/fuzz.h"

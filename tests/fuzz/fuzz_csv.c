@@ -1,6 +1,4 @@
 /* fuzz_csv.c - bytes as what `hbmcheck verify` is given: the first line is --columns, the rest is the file. */
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "compare/verify/curve_file/csv.h"

@@ -1,11 +1,7 @@
 /* fuzz_matrix.c - bytes as a matrix file of any format: read, finite, and the same again when written as a Matrix
  * Market array; or refused with a place. */
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/message.h"
-#include "base/number.h"
 #include "casefile/matrices/matrix_file.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,9 +1,7 @@
 /* fuzz_mesh.c - bytes as an input file of CalculiX: finite coordinates; each set or surface a patch whose nodes ascend
  * and whose shares of area are not negative, or refused with a place; and the first two
  * of them paired: each node in at most one pair. */
-#include <math.h>
 
-#include "base/message.h"
 #include "casefile/pairing.h"
 #include "tests/fuzz/fuzz.h"
 

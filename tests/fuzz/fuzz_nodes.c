@@ -1,6 +1,5 @@
 /* fuzz_nodes.c - bytes as a file of nodes for a structure of three degrees of freedom: each node and direction once,
  * its DOF in range; or refused with a place. */
-#include "base/message.h"
 #include "casefile/structure.h"
 #include "tests/fuzz/fuzz.h"
 

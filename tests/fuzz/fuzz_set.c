@@ -1,6 +1,5 @@
 /* fuzz_set.c - bytes as assignments on top of a good case, one or several of them: "PATH=VALUE", each further one
  * after a line end and "--set ". */
-#include <stdlib.h>
 #include <string.h>
 
 #include "tests/fuzz/fuzz.h"

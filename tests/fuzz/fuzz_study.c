@@ -1,7 +1,5 @@
 /* fuzz_study.c - bytes as a study file beside a base.yaml: refused with a place in one of the two, or a grid whose
  * scenes are the ones that --set makes of the echoed base. */
-#include <stdlib.h>
-#include <string.h>
 
 #include "study/study.h"
 #include "tests/fuzz/fuzz.h"

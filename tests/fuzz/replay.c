@@ -2,8 +2,6 @@
  * (a file cut short is the commonest broken file). Ends in an error if all were read, or all refused: then it is not
  * the corpus it should be. */
 #include <dirent.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 

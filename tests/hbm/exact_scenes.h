@@ -4,7 +4,6 @@
 #pragma once
 
 #include "hbm/contact/exact_force.h"
-#include "numerics/series.h"
 #include "tests/hbm/scenes.h"
 
 enum { EXACT_MAX_HARM = 60, EXACT_MAX_COEF = 2 * (2 * EXACT_MAX_HARM + 1), EXACT_MAX_PIECES = 2000 };

@@ -5,8 +5,6 @@
  *     x(t0 + s) = sum_k x[k] s^k,  k = 0..TAYLOR */
 #pragma once
 
-#include <string.h>
-
 #include "model/contact_law.h"
 #include "tests/check.h"
 

@@ -1,12 +1,7 @@
 /* planar_scenes.h - contacts with two tangents, and motions in their plane, for tests. */
 #pragma once
 
-#include <string.h>
-
-#include "hbm/hbm_settings.h"
 #include "hbm/planar/planar_aft.h"
-#include "numerics/series.h"
-#include "tests/check.h"
 #include "tests/hbm/scenes.h"
 
 enum { CIRCLE_MAX_H = 25, CIRCLE_MAX_LENGTH = 2 * CIRCLE_MAX_H + 1, CIRCLE_MAX_X = 3 * CIRCLE_MAX_LENGTH };

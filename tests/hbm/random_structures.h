@@ -1,8 +1,6 @@
 /* random_structures.h - structures drawn at random, and the same structure written in another way. */
 #pragma once
 
-#include <string.h>
-
 #include "model/model.h"
 #include "tests/check.h"
 #include "tests/random.h"

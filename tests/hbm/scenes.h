@@ -3,10 +3,6 @@
 #pragma once
 
 #include <float.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "casefile/scene.h"
 #include "tests/check.h"

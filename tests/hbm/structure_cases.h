@@ -1,8 +1,6 @@
 /* structure_cases.h - the models of cases/structures, their settings, and solutions of them at one frequency. */
 #pragma once
 
-#include <string.h>
-
 #include "casefile/case_file.h"
 #include "hbm/hbm.h"
 #include "tests/check.h"

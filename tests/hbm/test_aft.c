@@ -6,7 +6,6 @@
  * s^{m+1} J_m B_{m+1}(t) / ((m+1)! 2 pi), where |B_2| <= 1/6, |B_3| <= 0.0482, |B_4| <= 1/30, |B_5| <= 0.0245. With
  * g = f cos h th or f sin h th, f continuous and made of constants and A cos th: |jump of f^(j)| <= J of A's size
  * for j >= 1, hence |J_m| <= J ((1 + h)^m - h^m), and a tail falling like (1 + h) s/(2 pi). */
-#include "hbm/contact/aft.h"
 #include "tests/hbm/slow_aft.h"
 
 static slow_aft slow; /* too large for a stack */

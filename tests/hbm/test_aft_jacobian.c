@@ -1,7 +1,5 @@
 /* test_aft_jacobian.c - the Jacobian of the sampled contact force against differences, and what time shifts do to
  * both. */
-#include "hbm/contact/aft.h"
-#include "study/scene_solvers.h"
 #include "tests/hbm/slow_aft.h"
 
 enum { MAX_H = 50, MAX_COEF = 2 * MAX_H + 1 };

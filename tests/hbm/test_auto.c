@@ -1,6 +1,5 @@
 /* test_auto.c - hbm.harmonics: auto and hbm.samples: auto keep hbm.accuracy, what they cost, and every switch that
  * saves work changes nothing else. */
-#include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 

@@ -1,5 +1,4 @@
 /* test_exact.c - event-located contact force harmonics: closed forms, symmetries, and the limit of sampling. */
-#include "hbm/contact/aft.h"
 #include "study/scene_solvers.h"
 #include "tests/hbm/exact_scenes.h"
 

@@ -2,9 +2,7 @@
  *
  * The scenes are from `stress` with seed 1, their numbers cut to six digits. Each was refused as long as a ramp was
  * climbed by steps of a fixed force, or of fixed contacts, which cannot pass a turning point. */
-#include "hbm/curve/continuation.h"
 
-#include "hbm/curve/continuation.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "tests/hbm/traced.h"
 

@@ -1,11 +1,8 @@
 /* test_modal_stability.c - multipliers of large structures with circles, which are followed in modes (modal_flow.h):
  * against the monodromy matrix by intervals along the same orbits; special points of a small structure that fast modes
  * are added to; flutter of two fast modes; and a structure that has no modes to go by. */
-#include <complex.h>
 
-#include "base/constants.h"
 #include "hbm/solver/hbm_solver_impl.h"
-#include "hbm/solver/stability.h"
 #include "tests/hbm/random_structures.h"
 #include "tests/hbm/structure_cases.h"
 

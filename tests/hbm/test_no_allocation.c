@@ -20,9 +20,6 @@
 #include <fftw3.h>
 #include <nvector/nvector_serial.h>
 
-#include "hbm/contact/aft.h"
-#include "hbm/contact/exact_force.h"
-#include "hbm/hbm.h"
 #include "hbm/planar/planar_force.h"
 #include "numerics/sundials_compat.h"
 #include "study/scene_solvers.h"

@@ -1,7 +1,6 @@
 /* test_planar_force.c - located forces of contacts with two tangents under the law of the circle: on one line the law
  * of one tangent, closed forms on a circle, the sampled forces' limit, invariances, and the Jacobian against
  * differences. */
-#include <float.h>
 
 #include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_force.h"

@@ -5,7 +5,6 @@
  *     M x'' + C x' + K x + sum over circles t_1 T_1 + t_2 T_2 + n (N - N0) = f(t)
  *
  * f makes the given motion, which harmonic balance has truncated, an exact solution, as in period_map.h. M = 1. */
-#include "base/constants.h"
 #include "tests/hbm/multipliers.h"
 #include "tests/hbm/structure_cases.h"
 

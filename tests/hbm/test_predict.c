@@ -2,8 +2,6 @@
  * solution of 80 harmonics with exact forces and harmonic 0, which is off by (30/80)^3 = 1/19 of H = 30 itself. The
  * rule that both must keep is the one predictions are used by: three times. */
 
-#include "hbm/hbm.h"
-#include "numerics/series.h"
 #include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 

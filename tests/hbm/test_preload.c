@@ -3,8 +3,6 @@
  * kn gap = 8e8, a motion of 1e-10: in contact all the time and stuck, the force is (kt cos^2 + kn sin^2) x, with
  * nothing left of the preload. As a difference N - N0 it would carry 8e8 units of 1e-16, five orders more than the
  * force itself. Found by `stress`. */
-#include "hbm/contact/aft.h"
-#include "hbm/contact/exact_force.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
 

@@ -1,7 +1,6 @@
 /* test_slider.c - the slider followed interval by interval, the second period only in part, against contact_step at
  * every sample of two whole periods: bit for bit. */
 #include "hbm/contact/slider.h"
-#include "numerics/series.h"
 #include "tests/hbm/slow_aft.h"
 
 enum { MAX_H = 12, MAX_N = 1100 };

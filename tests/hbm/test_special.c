@@ -1,7 +1,6 @@
 /* test_special.c - grazing onsets, folds and period doublings of the paper's case 2: against a closed form, against
  * what a fold is, and against the values of the true orbit (docs/theory.md, 9: time integration and AUTO-07p), to which
  * truncation must tend. */
-#include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 

@@ -1,9 +1,7 @@
 /* test_stability.c - Floquet multipliers: where the oscillator is linear against its eigenvalues, where nothing
  * slips by their product, where it slips against finite differences of a period map integrated here, by another way:
  * RK4 in time with events, no harmonics, no intervals. */
-#include <complex.h>
 
-#include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"

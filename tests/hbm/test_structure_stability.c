@@ -1,6 +1,5 @@
 /* test_structure_stability.c - multipliers of structures: of oscillators side by side they are those of each, which a
  * closed form has; where eigenvectors fail, those of the matrix exponential; and a structure that has none to go by. */
-#include <complex.h>
 
 #include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"

@@ -1,5 +1,4 @@
 /* test_system.c - what residuals are compared with: the sizes of the forces, added by hand. */
-#include "hbm/hbm.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"

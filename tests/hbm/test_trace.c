@@ -1,6 +1,5 @@
 /* test_trace.c - how a trace goes and how it may end: turning points that are real, folds, limits, interruptions,
  * nonsense. */
-#include "hbm/contact/aft.h"
 #include "tests/hbm/traced.h"
 
 /* Sign of det dR/dX of the fixed form at X, omega, by elimination with pivots; Z as in system.h, dF from the

@@ -3,7 +3,6 @@
 
 #include <complex.h>
 
-#include "hbm/hbm.h"
 #include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 

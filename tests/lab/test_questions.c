@@ -2,7 +2,6 @@
 #include "casefile/case_file.h"
 #include "compare/first_guess.h"
 #include "compare/response.h"
-#include "hbm/hbm.h"
 #include "lab/lab.h"
 #include "tests/check.h"
 

@@ -1,8 +1,6 @@
 /* case2.h - case 2 of the paper as a public case, with assignments. */
 #pragma once
 
-#include <string.h>
-
 #include "library/hbmcheck.h"
 #include "tests/check.h"
 

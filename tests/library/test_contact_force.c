@@ -1,5 +1,4 @@
 /* test_contact_force.c - the forces of one contact under a motion that is given, through the C API. */
-#include "base/constants.h"
 #include "tests/library/case2.h"
 
 enum { H = 9, LENGTH = 2 * H + 1 };

@@ -4,7 +4,6 @@
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
 #include "compare/steady_states.h"
-#include "hbm/hbm.h"
 #include "library/hbmcheck.h"
 #include "tests/check.h"
 

@@ -4,7 +4,6 @@
 
 #include "casefile/case_file.h"
 #include "compare/gate/gate.h"
-#include "compare/response.h"
 #include "compare/steady_states.h"
 
 /* The same real number, or both NaN. */

@@ -5,7 +5,6 @@
 
 #include "casefile/case_file.h"
 #include "compare/gate/gate.h"
-#include "compare/response.h"
 #include "compare/steady_states.h"
 #include "tests/wrap.h"
 

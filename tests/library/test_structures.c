@@ -2,7 +2,6 @@
 #include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
-#include "compare/response.h"
 #include "compare/steady_states.h"
 #include "library/hbmcheck.h"
 #include "tests/check.h"

@@ -1,7 +1,6 @@
 /* test_contact_law.c - the exact contact law, branch by branch, and what holds between branches. */
 #include <float.h>
 
-#include "casefile/scene.h"
 #include "tests/cases/case_text.h"
 #include "tests/scene_parts.h"
 

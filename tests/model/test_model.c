@@ -6,7 +6,6 @@
 #include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/hbm.h"
-#include "model/model.h"
 
 enum { H = 5, N_COEF = 2 * H + 1, MANY = 40 };
 

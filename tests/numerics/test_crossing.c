@@ -2,7 +2,6 @@
  * against roots that are known. Here "noise" is what crossing.c does not distinguish from 0, eps (16 scale +
  * 32 sqrt(size bound2)), which is also the error of an evaluation: dips shallower than that may be found or not. */
 #include "numerics/crossing.h"
-#include "numerics/series.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_HARM = 200, MAX_COEF = 2 * MAX_HARM + 1 };

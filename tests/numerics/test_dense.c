@@ -1,7 +1,5 @@
 /* test_dense.c - LU factors: residuals against the bound of rounding theory, signs of determinants, and what must be
  * refused. */
-#include <complex.h>
-#include <pthread.h>
 
 #include "numerics/dense.h"
 #include "tests/hbm/scenes.h"

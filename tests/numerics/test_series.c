@@ -2,7 +2,6 @@
  * square. eps = DBL_EPSILON throughout. The direct sums are long double (64-bit mantissa on x86): their own error is
  * 2000 times smaller. */
 #include "numerics/rotate.h"
-#include "numerics/series.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_COEF = 2 * HBM_MAX_HARMONICS + 1 };

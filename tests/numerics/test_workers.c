@@ -1,7 +1,6 @@
 /* test_workers.c - every piece of work is done once, the first reason to stop is kept, and what the system cannot give
  * (locks, threads) is a status. The linker wraps the calls that are made to fail. */
 #include <errno.h>
-#include <pthread.h>
 
 #include "numerics/workers.h"
 #include "tests/check.h"

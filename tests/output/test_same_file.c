@@ -1,7 +1,6 @@
 /* test_same_file.c - one file under several names is known as one, two files are two. */
 #include <errno.h>
 #include <fcntl.h>
-#include <sys/stat.h>
 
 #include "output/same_file.h"
 #include "tests/folder.h"

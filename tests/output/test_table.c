@@ -4,7 +4,6 @@
 #include <locale.h>
 
 #include "base/utf8.h"
-#include "output/table.h"
 #include "output/table_private.h"
 #include "tests/check.h"
 #include "tests/random.h"

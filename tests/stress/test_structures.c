@@ -3,15 +3,12 @@
  * must call it a finding; unspoiled, the same scene ends without one. Oscillators go the same ways. */
 #include "casefile/case_file.h"
 #include "casefile/fields.h"
-#include "casefile/structure.h"
 #include "compare/comparison.h"
 #include "hbm/contact/exact_force.h"
-#include "hbm/hbm.h"
 #include "stress/scenes.h"
 #include "stress/solved_scene.h"
 #include "tests/check.h"
 #include "tests/wrap.h"
-#include "timeint/steady/steady.h"
 
 typedef enum spoil {
   NOTHING,

@@ -1,8 +1,6 @@
 /* study_text.h - a study from text, by way of a file in a folder of the test's own. */
 #pragma once
 
-#include <string.h>
-
 #include "study/study.h"
 #include "tests/folder.h"
 

@@ -1,5 +1,4 @@
 /* test_grid.c - the grid of a study: lists, ranges and fields that go together, against values worked out by hand. */
-#include "casefile/structure.h"
 #include "tests/study/study_text.h"
 
 static scene scene_of(const study *s, long id)

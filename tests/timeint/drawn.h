@@ -2,7 +2,6 @@
  * as on a line. */
 #pragma once
 
-#include "tests/check.h"
 #include "tests/hbm/random_structures.h"
 #include "timeint/cvode/structure_newton.h"
 

@@ -2,14 +2,10 @@
  * against differences. */
 #pragma once
 
-#include "tests/check.h"
-
 #include <float.h>
-#include <string.h>
 
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/period/integrate.h"
 
 typedef struct exact_way {
   integrator *(*make)(const scaled_model *m);

@@ -13,8 +13,6 @@
  * What is left is the bend of forces and motions in a step: second order, at kinks of the law, too. */
 #pragma once
 
-#include <string.h>
-
 #include "model/model.h"
 #include "numerics/dense.h"
 #include "tests/check.h"

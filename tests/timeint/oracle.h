@@ -2,8 +2,6 @@
  * guards looked at 4000 times a period, then bisected. What lasts less than 2 pi/4000 it may miss. */
 #pragma once
 
-#include <complex.h>
-
 #include "model/linear.h"
 #include "tests/check.h"
 #include "timeint/law/scaled.h"

@@ -1,12 +1,8 @@
 /* scenes.h - what the tests of timeint/ share: the reference scenes and others, settings at their defaults. */
 #pragma once
 
-#include <string.h>
-
 #include "study/scene_solvers.h"
 #include "tests/reference_scenes.h"
-#include "timeint/steady/steady.h"
-#include "timeint/timeint.h"
 
 static inline scene scene_linear(double mass, double damping, double stiffness, double force)
 {

@@ -7,7 +7,6 @@
 #include "timeint/cvode/events_newton.h"
 #include "timeint/cvode/integrate_events.h"
 #include "timeint/steady/contact_watch.h"
-#include "timeint/steady/steady.h"
 
 /* ---- scenes ---------------------------------------------------------------------------------------------- */
 

@@ -5,7 +5,6 @@
 #include "tests/timeint/exact_periods.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/reference_rows.h"
-#include "timeint/period/measure.h"
 
 static integrator *closed_of(const scaled_model *m)
 {

@@ -1,5 +1,4 @@
 /* test_contact_watch.c - what contacts do along a steady state: the balance of work, and closed forms. */
-#include "model/periodic_motion.h"
 #include "tests/hbm/structure_cases.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/steady/contact_watch.h"

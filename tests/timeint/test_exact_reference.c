@@ -1,6 +1,5 @@
 /* test_exact_reference.c - the exact law, swept up and down, against tests/reference/transient_exact.csv: every row
  * of all eight cases. */
-#include "tests/check.h"
 
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"

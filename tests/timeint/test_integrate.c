@@ -1,12 +1,9 @@
 /* test_integrate.c - one period by CVODE: against a closed form, bit for bit again, and what its flags become. */
 
-#include <complex.h>
-
 #include <cvodes/cvodes.h>
 
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/period/integrate.h"
 
 /* x'' + c x' + k x = f cos(theta) from x = x' = 0: the forced motion plus the free one that cancels it at 0. */
 static double complex linear_state(const scaled_model *m, double theta)

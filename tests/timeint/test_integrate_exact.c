@@ -6,7 +6,6 @@
 #include "tests/timeint/exact_periods.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/reference_rows.h"
-#include "timeint/period/measure.h"
 
 static const double tol = 1e-12; /* CVODE's. A period is some 200 steps, each of which may err by it */
 

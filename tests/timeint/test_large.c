@@ -1,7 +1,6 @@
 /* test_large.c - what makes steady states of structures of more than 64 modes affordable: fast modes slowed
  * (mass_scaling.h), products with the rows of contacts (structure_newton.h), orbits by chord steps (shoot.h); against
  * what the equations say of it, and on cases/structures/plates.yaml against an integrator of the tests' own. */
-#include <complex.h>
 #include <float.h>
 
 #include "compare/comparison.h"
@@ -9,9 +8,7 @@
 #include "tests/timeint/drawn.h"
 #include "tests/timeint/force_steps.h"
 #include "timeint/closed_form/integrate_closed_form.h"
-#include "timeint/law/contact_track.h"
 #include "timeint/steady/mass_scaling.h"
-#include "timeint/steady/steady.h"
 
 /* ---- modes slowed ---------------------------------------------------------------------------------------- */
 

@@ -1,7 +1,6 @@
 /* test_linear_regime.c - the closed form against the table and against integration. Where linear_regime_is_final says
  * yes no contact changes its state; and it says yes up to where one does. */
 
-#include <complex.h>
 #include <float.h>
 
 #include "model/linear.h"

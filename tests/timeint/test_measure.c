@@ -1,7 +1,5 @@
 /* test_measure.c - peaks, sums and regimes of a period that is known in closed form. */
 
-#include <complex.h>
-
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/period/integrate_private.h"

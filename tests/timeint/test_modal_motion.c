@@ -2,7 +2,6 @@
  * guards first fall through 0, against a dense scan; samples and integrals. */
 #include "tests/check.h"
 
-#include <complex.h>
 #include <float.h>
 
 #include "tests/random.h"

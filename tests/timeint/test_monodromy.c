@@ -4,7 +4,6 @@
 #include "model/linear.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/period/integrate.h"
 
 enum { N = 3 }; /* X, P and one slider */
 

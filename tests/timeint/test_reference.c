@@ -1,6 +1,5 @@
 /* test_reference.c - swept up and down through frequencies whose steady state was computed by another program with
  * the exact law. */
-#include "tests/check.h"
 
 #include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"

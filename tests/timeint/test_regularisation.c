@@ -2,7 +2,6 @@
 
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/period/integrate.h"
 
 static const double b10_exact = 1.40757735095, c2_exact = 9.45555672271; /* |X1| at omega 7 */
 

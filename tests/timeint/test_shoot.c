@@ -6,7 +6,6 @@
 #include "tests/scene_parts.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/period/integrate.h"
 #include "timeint/steady/timeint_private.h"
 
 static timeint *made(scene sc, int law, int steady, int start)

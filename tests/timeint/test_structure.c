@@ -5,7 +5,6 @@
 #include "tests/scene_parts.h"
 #include "tests/timeint/drawn.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/law/contact_track.h"
 
 /* ---- an independent program -------------------------------------------------------------------------- */
 

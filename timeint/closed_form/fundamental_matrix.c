@@ -1,7 +1,6 @@
 /* fundamental_matrix.c - see fundamental_matrix.h. Proof: tests/timeint/test_structure.c. */
 #include "timeint/closed_form/fundamental_matrix.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

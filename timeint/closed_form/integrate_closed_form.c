@@ -1,7 +1,6 @@
 /* integrate_closed_form.c - see integrate_closed_form.h. Proof: tests/timeint/test_structure.c. */
 #include "timeint/closed_form/integrate_closed_form.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* interval_modes.c - see interval_modes.h. Proof: tests/timeint/test_stiff.c. */
 #include "timeint/closed_form/interval_modes.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

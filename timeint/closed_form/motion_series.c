@@ -2,7 +2,6 @@
 #include "timeint/closed_form/motion_series.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,7 +2,6 @@
 #include "timeint/closed_form/motion_single.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 
 static const double up = 1, down = -1; /* slopes of the guard P, of -P */

@@ -3,7 +3,6 @@
 #include "timeint/closed_form/series_columns.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

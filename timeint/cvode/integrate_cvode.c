@@ -1,7 +1,6 @@
 /* integrate_cvode.c - see integrate_cvode.h. */
 #include "timeint/cvode/integrate_cvode.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/constants.h"

@@ -11,7 +11,6 @@
 #include "timeint/cvode/integrate_events.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* step_equations.c - see step_equations.h. Proof: tests/timeint/test_large.c. */
 #include "timeint/cvode/step_equations.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* structure_newton.c - see structure_newton.h. Proof: tests/timeint/test_large.c. */
 #include "timeint/cvode/structure_newton.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,7 +2,6 @@
 #include "timeint/law/contact_track.h"
 
 #include <float.h>
-#include <math.h>
 
 #include "base/constants.h"
 

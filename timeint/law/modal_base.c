@@ -2,7 +2,6 @@
 #include "timeint/law/modal_base.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

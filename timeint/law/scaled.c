@@ -1,7 +1,6 @@
 /* scaled.c - see scaled.h; the equations stand there. */
 #include "timeint/law/scaled.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "numerics/norm.h"

@@ -2,12 +2,10 @@
 #include "timeint/period/measure.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
-#include "model/periodic_motion.h"
 #include "numerics/roots.h"
 
 hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts)

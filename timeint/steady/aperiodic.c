@@ -3,7 +3,6 @@
 
 #include <complex.h>
 #include <float.h>
-#include <math.h>
 #include <string.h>
 
 #include "base/constants.h"

@@ -2,7 +2,6 @@
 #include "timeint/steady/closed_form_start.h"
 
 #include <complex.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

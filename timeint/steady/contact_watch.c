@@ -3,7 +3,6 @@
 #include "timeint/steady/contact_watch.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

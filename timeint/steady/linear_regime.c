@@ -2,7 +2,6 @@
 #include "timeint/steady/linear_regime.h"
 
 #include <complex.h>
-#include <math.h>
 
 #include "base/constants.h"
 #include "model/linear.h"

@@ -1,8 +1,6 @@
 /* mass_scaling.c - see mass_scaling.h. */
 #include "timeint/steady/mass_scaling.h"
 
-#include <math.h>
-
 static const double pays = 2; /* fewer steps by less than that are not worth an error */
 
 bool mass_scaling_may_pay(const modal_base *whole) { return whole->n > MASS_SCALING_MODES && whole->diagonal_K; }

@@ -1,7 +1,6 @@
 /* orbit_events.c - see orbit_events.h. Proof: tests/timeint/test_orbit_events.c. */
 #include "timeint/steady/orbit_events.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

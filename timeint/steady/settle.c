@@ -3,8 +3,6 @@
 #include "timeint/steady/settle.h"
 
 #include <float.h>
-#include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

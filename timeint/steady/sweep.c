@@ -13,7 +13,6 @@
 #include "timeint/steady/sweep.h"
 
 #include <complex.h>
-#include <math.h>
 
 #include "timeint/steady/linear_regime.h"
 #include "timeint/steady/shoot.h"

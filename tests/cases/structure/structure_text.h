@@ -1,9 +1,6 @@
 /* structure_text.h - what the tests of structures share: texts of cases, and the model of one. */
 #pragma once
 
-#include <stdlib.h>
-#include <unistd.h>
-
 #include "casefile/structure.h"
 #include "tests/cases/case_text.h"
 

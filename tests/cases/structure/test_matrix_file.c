@@ -1,5 +1,4 @@
 /* test_matrix_file.c - Matrix Market files: what is read, and every mistake with its place. */
-#include "casefile/matrices/matrix_file.h"
 #include "tests/cases/structure/structure_text.h"
 
 #define HEAD(format, kind, symmetry) "%%MatrixMarket matrix " format " " kind " " symmetry "\n"

@@ -1,6 +1,5 @@
 /* test_matrix_formats.c - matrices as CalculiX and Abaqus write them: what is read, that files of one model are the
  * same model, and every mistake with its place. */
-#include "casefile/matrices/matrix_file.h"
 #include "tests/cases/structure/structure_text.h"
 
 enum { WORDS = 512 };

@@ -1,5 +1,4 @@
 /* test_model.c - from the case file of a structure to its model. */
-#include "base/constants.h"
 #include "tests/cases/structure/structure_text.h"
 
 static void matrices_are_by_columns(CHECK_STATE)

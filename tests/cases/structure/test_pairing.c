@@ -2,7 +2,6 @@
  * every mistake with its place. */
 #include <float.h>
 
-#include "casefile/mesh_file.h"
 #include "casefile/pairing.h"
 #include "numerics/norm.h"
 #include "tests/cases/structure/structure_text.h"

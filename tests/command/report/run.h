@@ -2,7 +2,6 @@
 #pragma once
 
 #include <stdbool.h>
-#include <string.h>
 
 #include "tests/folder.h"
 #include "tests/program.h"

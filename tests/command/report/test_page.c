@@ -2,7 +2,6 @@
  * safe with any title. What a browser makes of it: test_browser.c. */
 #include <jansson.h>
 
-#include "base/constants.h"
 #include "tests/command/report/run.h"
 
 enum { MOST_BYTES = 1000000 }; /* "under 1 MB" */

@@ -2,7 +2,6 @@
  * 2. */
 
 #include <limits.h>
-#include <pthread.h>
 
 #include "tests/hbm/scenes.h"
 #include "tests/scene_runs.h"

@@ -2,8 +2,6 @@
  * somebody else would say it. */
 #pragma once
 
-#include <string.h>
-
 #include "casefile/case_file.h"
 #include "compare/verify/verify.h"
 #include "study/scene_solvers.h"

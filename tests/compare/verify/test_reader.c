@@ -1,6 +1,5 @@
 /* test_reader.c - files of columns as people have them, and what is said about those that are wrong:
  * FILE:LINE:COLUMN, what, expected what. */
-#include "compare/verify/curve_file/csv.h"
 #include "compare/verify/search/search.h"
 #include "tests/check.h"
 
