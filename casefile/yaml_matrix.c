@@ -88,16 +88,6 @@ static const char how_matlab_writes[] =
     "fprintf(f,'%%%%MatrixMarket matrix coordinate real general\\n%d %d %d\\n',size(M),numel(v)); "
     "fprintf(f,'%d %d %.17g\\n',[i j v]'); fclose(f)";
 
-/* Measured: 80 matrices at a frequency of `frf`, docs/models.md. */
-static hc_status too_large(case_reader *r, const char *what, const yaml_node_t *node, int n)
-{
-  return yaml_refuse(
-      r, node,
-      "%s has %d rows, with which a frequency takes about %.0f GB, expected at most %d: `hbmcheck reduce "
-      "CASE -o FOLDER` makes a smaller model of it",
-      what, n, 80 * 8e-9 * n * n, r->most_dense);
-}
-
 static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
                            structure_matrix *out)
 {
@@ -120,7 +110,14 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
   *n = out->kept.n;
   if (st == HC_NO_MEMORY) return case_out_of_memory(r);
   const bool dense = *n <= r->most_dense;
-  if (st == HC_OK && !dense && !r->takes_large) return too_large(r, what, node, *n);
+  if (st == HC_OK && !dense && !r->takes_large) {
+    /* Measured: 80 matrices at a frequency of `frf`, docs/models.md. */
+    return yaml_refuse(
+        r, node,
+        "%s has %d rows, with which a frequency takes about %.0f GB, expected at most %d: `hbmcheck reduce "
+        "CASE -o FOLDER` makes a smaller model of it",
+        what, *n, 80 * 8e-9 * *n * *n, r->most_dense);
+  }
   if (st == HC_OK && dense) {
     out->v = sparse_to_dense(&out->kept);
     sparse_free(&out->kept);

@@ -211,25 +211,22 @@ static hc_status read_node(case_reader *r, const yaml_node_t *entry)
   return nodes_add(s, dof, id, *yaml_node_text(axis)) == HC_OK ? HC_OK : case_out_of_memory(r);
 }
 
-static hc_status read_nodes_file(case_reader *r, const yaml_node_t *node)
-{
-  char *path = yaml_file_beside(r, node);
-  hc_status st = path ? nodes_file_read(path, r->sc.structure, &r->msg) : HC_NO_MEMORY;
-  if (st == HC_NO_MEMORY) case_out_of_memory(r);
-  if (st == HC_IO)
-    st = yaml_file_failed(r, node, "structure.nodes", path,
-                          "a csv file dof,node,direction, or the .dof of CalculiX or a matrix of Abaqus");
-  free(path);
-  return st;
-}
-
 static hc_status read_nodes(case_reader *r, const yaml_node_t *node)
 {
   scene_structure *s = r->sc.structure;
   free(s->nodes);
   s->nodes = NULL;
   s->n_nodes = 0;
-  if (node->type == YAML_SCALAR_NODE && node->data.scalar.length > 0) return read_nodes_file(r, node);
+  if (node->type == YAML_SCALAR_NODE && node->data.scalar.length > 0) {
+    char *path = yaml_file_beside(r, node);
+    hc_status st = path ? nodes_file_read(path, r->sc.structure, &r->msg) : HC_NO_MEMORY;
+    if (st == HC_NO_MEMORY) case_out_of_memory(r);
+    if (st == HC_IO)
+      st = yaml_file_failed(r, node, "structure.nodes", path,
+                            "a csv file dof,node,direction, or the .dof of CalculiX or a matrix of Abaqus");
+    free(path);
+    return st;
+  }
   if (node->type != YAML_SEQUENCE_NODE)
     return yaml_refuse(r, node, "structure.nodes is %s, expected %s", yaml_node_what(node),
                        field_named("structure", "nodes")->expects);

@@ -31,16 +31,6 @@ static const char *other_format(const matrix_text *r)
   return NULL;
 }
 
-static hc_status unknown_format(matrix_text *r)
-{
-  const char *other = other_format(r);
-  message *m = matrix_text_blame(r, r->line_text);
-  message_add(m, "no matrix's first line, expected `%%%%MatrixMarket matrix coordinate real general` or the like, "
-                 "lines `row column value` (CalculiX) or `node,dof,node,dof,value` (Abaqus), or *MATRIX,TYPE=...");
-  if (other) message_add(m, " (%s)", other);
-  return HC_BAD_INPUT;
-}
-
 /* By the first line that says something. */
 static hc_status parse(matrix_text *r)
 {
@@ -52,7 +42,12 @@ static hc_status parse(matrix_text *r)
   if (matrix_word_is(&first, abaqus) || matrix_word_is(&first, element)) return abaqus_element_parse(r);
   if (digit && r->n_words == 3) return triplets_parse(r);
   if (digit && r->n_words == 5) return labelled_triplets_parse(r);
-  return unknown_format(r);
+  const char *other = other_format(r);
+  message *m = matrix_text_blame(r, r->line_text);
+  message_add(m, "no matrix's first line, expected `%%%%MatrixMarket matrix coordinate real general` or the like, "
+                 "lines `row column value` (CalculiX) or `node,dof,node,dof,value` (Abaqus), or *MATRIX,TYPE=...");
+  if (other) message_add(m, " (%s)", other);
+  return HC_BAD_INPUT;
 }
 
 hc_status matrix_file_parse(const char *name, const char *text, size_t length, const char *part, int expected,

@@ -269,13 +269,6 @@ static void leave_stick(const planar_cycle *c, slider *k, const planar_point *at
   memcpy(k->dw, dw, sizeof dw);
 }
 
-static void touch_down(slider *k, const planar_point *at)
-{
-  *k = (slider){.begin = PLANAR_TOUCHES, .w = {at->u[0], at->u[1]}};
-  k->slips = hypot(at->du[0], at->du[1]) > at->dR;
-  k->phi = atan2(at->du[1], at->du[0]);
-}
-
 /* At th = 0 from w, put into the circle. */
 static void start(const planar_cycle *c, slider *k, const double w[2])
 {
@@ -387,8 +380,10 @@ static hc_status follow_contacts(planar_cycle *c)
   begin_pass(c);
   for (int i = 0; i < c->n_contacts && st == HC_OK; ++i) {
     const planar_point at = planar_motion_at(c->m, c->contact[i].from);
-    slider k;
-    touch_down(&k, &at);
+    slider k = {.begin = PLANAR_TOUCHES,
+                .w = {at.u[0], at.u[1]},
+                .slips = hypot(at.du[0], at.du[1]) > at.dR,
+                .phi = atan2(at.du[1], at.du[0])};
     st = follow(c, &k, at, c->contact[i].to);
   }
   return st;

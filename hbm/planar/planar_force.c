@@ -478,18 +478,6 @@ static void put_normal(const planar_force *f, double *F, double *jac)
     for (size_t i = 0; i < L; ++i) jac[2 * L + i + n * q] = q < 2 * L ? 0 : f->jac_normal[i + L * (q - 2 * L)];
 }
 
-static void fill_report(const planar_force *f, contact_report *report)
-{
-  const planar_cycle *c = &f->cycle;
-  *report = (contact_report){.regime = planar_cycle_regime(c)};
-  report->free_sliders = report->regime == CONTACT_STUCK;
-  for (int i = 0; i < c->n; ++i) {
-    const planar_interval *p = &c->interval[i], *next = &c->interval[(i + 1) % c->n];
-    const bool meets = next->from == p->to || next->from == p->to - TWO_PI;
-    report->transitions += meets ? next->state != p->state : 2;
-  }
-}
-
 hc_status planar_force_eval(planar_force *f, const double *X, double *F, double *jac, contact_report *report)
 {
   double size = 0;
@@ -517,7 +505,16 @@ hc_status planar_force_eval(planar_force *f, const double *X, double *F, double 
       for (size_t i = 0; i < L; ++i) jac[d * L + i + n * (d * L + q)] += kt * f->matrix[i + L * q];
   }
   put_normal(f, F, jac);
-  if (report) fill_report(f, report);
+  if (report) {
+    const planar_cycle *c = &f->cycle;
+    *report = (contact_report){.regime = planar_cycle_regime(c)};
+    report->free_sliders = report->regime == CONTACT_STUCK;
+    for (int i = 0; i < c->n; ++i) {
+      const planar_interval *p = &c->interval[i], *next = &c->interval[(i + 1) % c->n];
+      const bool meets = next->from == p->to || next->from == p->to - TWO_PI;
+      report->transitions += meets ? next->state != p->state : 2;
+    }
+  }
   return HC_OK;
 }
 

@@ -3,21 +3,6 @@
 
 #include <string.h>
 
-static void make_arrays(hbm_system *sys)
-{
-  const size_t n = (size_t)sys->n_coef, dim = (size_t)sys->dim;
-  workspace *w = &sys->memory;
-  sys->X = workspace_doubles(w, n);
-  sys->F = workspace_doubles(w, n);
-  sys->rows = workspace_doubles(w, n);
-  sys->amplitudes = workspace_array(w, 2 * dim, sizeof *sys->amplitudes);
-  sys->stuck = workspace_array(w, (size_t)sys->model->n_contacts, sizeof *sys->stuck);
-  sys->stiffness = workspace_doubles(w, dim * dim);
-  sys->A = workspace_array(w, dim * dim, sizeof *sys->A);
-  sys->z = workspace_array(w, dim, sizeof *sys->z);
-  sys->pivot = workspace_array(w, dim, sizeof *sys->pivot);
-}
-
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
 {
   *sys = (hbm_system){.model = m, .how = *how, .n_harm = n_harm, .force_factor = 1};
@@ -29,7 +14,17 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->n_coef = hbm_system_length(sys, n_harm);
   sys->first = how->keep_mean ? 0 : sys->dim;
   sys->n = sys->n_coef - sys->first;
-  make_arrays(sys);
+  const size_t n = (size_t)sys->n_coef, dim = (size_t)sys->dim;
+  workspace *w = &sys->memory;
+  sys->X = workspace_doubles(w, n);
+  sys->F = workspace_doubles(w, n);
+  sys->rows = workspace_doubles(w, n);
+  sys->amplitudes = workspace_array(w, 2 * dim, sizeof *sys->amplitudes);
+  sys->stuck = workspace_array(w, (size_t)sys->model->n_contacts, sizeof *sys->stuck);
+  sys->stiffness = workspace_doubles(w, dim * dim);
+  sys->A = workspace_array(w, dim * dim, sizeof *sys->A);
+  sys->z = workspace_array(w, dim, sizeof *sys->z);
+  sys->pivot = workspace_array(w, dim, sizeof *sys->pivot);
   if (sys->memory.failed) return HC_NO_MEMORY;
   const evaluator_settings by = {n_harm, n_time, how->restart};
   return contact_forces_new(m, sys->linear, how->force, &by, &sys->contacts);
@@ -179,9 +174,16 @@ static void add_linear_stiffness(const hbm_system *sys, int ld, double *jac)
   }
 }
 
-/* jac is whole but for the mistakes. */
-static void differentiate_mistakes(const hbm_system *sys, double omega, const double *dF, int ld, double *jac)
+void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
 {
+  const double *dF = contact_forces_jacobian(sys->contacts);
+  for (int col = 0; col < sys->n; ++col) {
+    const double *from = dF + (size_t)sys->n_coef * (size_t)(col + sys->first) + sys->first;
+    memcpy(jac + (size_t)ld * (size_t)col, from, (size_t)sys->n * sizeof *jac);
+  }
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
+  add_linear_stiffness(sys, ld, jac);
+  /* jac is whole but for the mistakes. */
   const hbm_mistakes *wrong = &sys->how.mistakes;
   for (int col = 0; sys->first == 0 && wrong->mean_error != 0 && col < sys->n; ++col)
     for (int d = 0; d < sys->dim; ++d)
@@ -192,18 +194,6 @@ static void differentiate_mistakes(const hbm_system *sys, double omega, const do
         const size_t row = i - (size_t)sys->first;
         jac[row + (size_t)ld * (size_t)col] = (size_t)col == row ? dropped(sys->model, omega) : 0;
       }
-}
-
-void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
-{
-  const double *dF = contact_forces_jacobian(sys->contacts);
-  for (int col = 0; col < sys->n; ++col) {
-    const double *from = dF + (size_t)sys->n_coef * (size_t)(col + sys->first) + sys->first;
-    memcpy(jac + (size_t)ld * (size_t)col, from, (size_t)sys->n * sizeof *jac);
-  }
-  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
-  add_linear_stiffness(sys, ld, jac);
-  differentiate_mistakes(sys, omega, dF, ld, jac);
 }
 
 /* Harmonic h of X as complex amplitudes. */
@@ -257,9 +247,12 @@ void hbm_system_dforce(hbm_system *sys, double omega, double *dR)
   drop_means(sys, dR);
 }
 
-/* force[dim]: what each coordinate's rows of the residual are made of, by size, added up over all harmonics. */
-static void add_sizes(const hbm_system *sys, double *force)
+/* The sum of force[dim], which is filled; NaN where condensation_at fails. */
+static double sum_sizes(const hbm_system *sys, double omega, double *force)
 {
+  double sum = 0;
+  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return NAN;
+  /* force[dim]: what each coordinate's rows of the residual are made of, by size, added up over all harmonics. */
   const int dim = sys->dim;
   for (int d = 0; d < dim; ++d) force[d] = 0;
   for (int h = 0; h <= sys->n_harm; ++h) {
@@ -273,14 +266,6 @@ static void add_sizes(const hbm_system *sys, double *force)
   }
   for (int l = 0; l < sys->model->n_loads; ++l)
     for (int d = 0; d < dim; ++d) force[d] += sys->force_factor * cabs(condensation_load(sys->linear, l)[d]);
-}
-
-/* The sum of force[dim], which is filled; NaN where condensation_at fails. */
-static double sum_sizes(const hbm_system *sys, double omega, double *force)
-{
-  double sum = 0;
-  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return NAN;
-  add_sizes(sys, force);
   for (int d = 0; d < sys->dim; ++d) sum += force[d];
   return sum;
 }

@@ -24,41 +24,36 @@ typedef struct sizes {
   int n, contacts, points;
 } sizes;
 
-static void run_parts(const char *path, int n_set, char **set, double *ms, sizes *z)
-{
-  hbm_solver *s = NULL;
-  hbm_curve c = {0};
-  hbm_special found[SPECIALS];
-  int n;
-  double t = cpu_ms();
-  scene sc = read_case(path, n_set, (const char *const *)set);
-  ms[READ] = lap(&t);
-  must(scene_hbm_solver(&sc, &s), path);
-  ms[SET_UP] = lap(&t);
-  must(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &c), path);
-  ms[CURVE] = lap(&t);
-  for (int k = 0; k < c.n; ++k) {
-    response_row row;
-    must(response_row_of(s, &c, k, &row), path);
-    for (int r = 1; r < s->model->n_responses; ++r) must(response_row_turn(s, &c, k, r, &row), path);
-  }
-  ms[STABILITY] = lap(&t);
-  must(hbm_specials(s, &c, SPECIALS, found, &n), path);
-  ms[SPECIAL] = lap(&t);
-  ms[WHOLE] = ms[SET_UP] + ms[CURVE] + ms[STABILITY] + ms[SPECIAL];
-  *z = (sizes){s->model->n, s->model->n_contacts, c.n};
-  hbm_curve_free(&c);
-  hbm_solver_free(s);
-  case_clear(&sc);
-}
-
 static void run_case(const char *path, int n_set, char **set, int rounds)
 {
   static double ms[PARTS][BENCH_MOST_ROUNDS];
   double once[PARTS], median[PARTS];
   sizes z = {0};
   for (int i = 0; i < rounds; ++i) {
-    run_parts(path, n_set, set, once, &z);
+    hbm_solver *s = NULL;
+    hbm_curve c = {0};
+    hbm_special found[SPECIALS];
+    int n;
+    double t = cpu_ms();
+    scene sc = read_case(path, n_set, (const char *const *)set);
+    once[READ] = lap(&t);
+    must(scene_hbm_solver(&sc, &s), path);
+    once[SET_UP] = lap(&t);
+    must(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &c), path);
+    once[CURVE] = lap(&t);
+    for (int k = 0; k < c.n; ++k) {
+      response_row row;
+      must(response_row_of(s, &c, k, &row), path);
+      for (int r = 1; r < s->model->n_responses; ++r) must(response_row_turn(s, &c, k, r, &row), path);
+    }
+    once[STABILITY] = lap(&t);
+    must(hbm_specials(s, &c, SPECIALS, found, &n), path);
+    once[SPECIAL] = lap(&t);
+    once[WHOLE] = once[SET_UP] + once[CURVE] + once[STABILITY] + once[SPECIAL];
+    z = (sizes){s->model->n, s->model->n_contacts, c.n};
+    hbm_curve_free(&c);
+    hbm_solver_free(s);
+    case_clear(&sc);
     for (int p = 0; p < PARTS; ++p) ms[p][i] = once[p];
   }
   for (int p = 0; p < PARTS; ++p) median[p] = quantile(rounds, ms[p], 0.5);

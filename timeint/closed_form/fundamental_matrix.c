@@ -151,16 +151,6 @@ static void tie(fundamental_matrix *v, const scaled_model *m, int j, const conta
   }
 }
 
-/* At the start of a period, where w has just been put on the limit: dphi; dW where it sticks there. */
-static void begin_on_limit(fundamental_matrix *v, const scaled_model *m, int j, const contact_track *t, const double *y)
-{
-  const double *w = y + 2 * v->n + j;
-  double u[2], normal;
-  scaled_contact_motion(m, j, y, u, &normal);
-  if (scaled_directions(m, j) > 1) begin_to_turn(v, m, j, t, hypot(u[0] - w[0], u[1] - w[1]));
-  if (t->state == CONTACT_STICK) tie(v, m, j, t, contact_track_radius(&m->contact[j], normal));
-}
-
 void fundamental_matrix_pass(fundamental_matrix *v, const scaled_model *m, int j, const contact_track *before,
                              const contact_track *after, const contact_motion *at)
 {
@@ -302,8 +292,14 @@ hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m,
   }
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     const contact_track *t = &track[j];
-    if (t->state != CONTACT_SEPARATED && m->contact[j].law.has_friction && !t->since_start)
-      begin_on_limit(v, m, j, t, y);
+    if (t->state != CONTACT_SEPARATED && m->contact[j].law.has_friction && !t->since_start) {
+      /* At the start of a period, where w has just been put on the limit: dphi; dW where it sticks there. */
+      const double *w = y + 2 * v->n + j;
+      double u[2], normal;
+      scaled_contact_motion(m, j, y, u, &normal);
+      if (scaled_directions(m, j) > 1) begin_to_turn(v, m, j, t, hypot(u[0] - w[0], u[1] - w[1]));
+      if (t->state == CONTACT_STICK) tie(v, m, j, t, contact_track_radius(&m->contact[j], normal));
+    }
   }
   return HC_OK;
 }
