@@ -3,14 +3,7 @@
 #include "study/scene_solvers.h"
 #include "tests/adversarial/steady_references.h"
 #include "tests/scene_parts.h"
-
-static steady_reference rows[N_STEADY_REFERENCES];
-
-static int read_rows(CHECK_STATE)
-{
-  read_steady_references(rows);
-  return 0;
-}
+#include "tests/timeint/reference_rows.h"
 
 /* What one HBM curve is worth against the exact transient. */
 typedef struct accuracy_of {
@@ -79,13 +72,13 @@ static accuracy_of accuracy_at(const char *name, double from, double to, int n_h
   assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
   assert_int_equal(hbm_trace(s, from, to, NULL, &curve), HC_OK);
   for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
-    if (strcmp(rows[i].name, name)) continue;
-    a.clearance = fmin(a.clearance, clearance(&sc, &rows[i]));
-    if (!(clearance(&sc, &rows[i]) >= GRAZING)) {
+    if (strcmp(steady_references[i].name, name)) continue;
+    a.clearance = fmin(a.clearance, clearance(&sc, &steady_references[i]));
+    if (!(clearance(&sc, &steady_references[i]) >= GRAZING)) {
       ++a.grazing;
       continue;
     }
-    judge_row(s, ti, &curve, &rows[i], n_harm, &a);
+    judge_row(s, ti, &curve, &steady_references[i], n_harm, &a);
   }
   hbm_curve_free(&curve);
   timeint_free(ti);
@@ -135,4 +128,4 @@ static void the_first_harmonic_is_good_to_a_millionth(CHECK_STATE)
   assert_int_equal(compared, N_STEADY_REFERENCES); /* none grazes */
 }
 
-CHECK_TESTS_WITH("adversarial.accuracy", 900, read_rows, NULL, the_first_harmonic_is_good_to_a_millionth)
+CHECK_TESTS_WITH("adversarial.accuracy", 900, read_steady_references, NULL, the_first_harmonic_is_good_to_a_millionth)

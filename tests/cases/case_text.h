@@ -1,6 +1,8 @@
 /* case_text.h - what the tests of the reader share: a smallest case, and reading it. */
 #pragma once
 
+#include <dirent.h>
+
 #include "casefile/case_file.h"
 #include "tests/check.h"
 #include "tests/random.h"
@@ -62,4 +64,25 @@ static inline void check_message(const case_error *err)
   size_t n = strnlen(err->message, sizeof err->message);
   assert_in_range(n, 1, sizeof err->message - 1);
   for (size_t i = 0; i < n; ++i) assert_true((unsigned char)err->message[i] >= 0x20 && err->message[i] != 0x7F);
+}
+
+/* Each case file of the folder is read and checked; how many there are. */
+static inline int each_case_of(const char *folder, void (*check)(const scene *sc))
+{
+  DIR *dir = opendir(folder);
+  int n = 0;
+  assert_non_null(dir);
+  for (struct dirent *e; (e = readdir(dir)) != NULL;) {
+    char path[1024];
+    scene sc;
+    case_error err;
+    if (!strstr(e->d_name, ".yaml")) continue;
+    snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
+    if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+    check(&sc);
+    case_clear(&sc);
+    ++n;
+  }
+  closedir(dir);
+  return n;
 }

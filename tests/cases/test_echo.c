@@ -1,6 +1,5 @@
 /* test_echo.c - what is echoed reads back to the same bytes; the paper's scenes are all readable and are what they
  * say. */
-#include <dirent.h>
 
 #include "casefile/fields.h"
 #include "tests/cases/case_text.h"
@@ -147,27 +146,17 @@ static void what_is_no_scene_is_not_echoed(CHECK_STATE)
   free(echoed(&sc, HC_BAD_INPUT));
 }
 
+static void check_a_scene_of_the_paper(const scene *sc)
+{
+  check_round_trip(sc);
+  assert_true(sc->n_contacts >= 1 && sc->contacts[0].law.mu == 0.3 && sc->contacts[0].angle_deg == 45 &&
+              sc->damping == 0.4); /* all of them */
+  assert_true(sc->hbm.keep_mean);
+}
+
 static void the_papers_scenes_are_all_readable(CHECK_STATE)
 {
-  const char *folder = SOURCE_DIR "/cases/paper";
-  DIR *dir = opendir(folder);
-  int n = 0;
-  assert_non_null(dir);
-  for (struct dirent *e; (e = readdir(dir)) != NULL;) {
-    char path[1024];
-    scene sc;
-    case_error err;
-    if (!strstr(e->d_name, ".yaml")) continue;
-    snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
-    if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
-    check_round_trip(&sc);
-    assert_true(sc.n_contacts >= 1 && sc.contacts[0].law.mu == 0.3 && sc.contacts[0].angle_deg == 45 &&
-                sc.damping == 0.4); /* all of them */
-    assert_true(sc.hbm.keep_mean);
-    ++n;
-  }
-  closedir(dir);
-  assert_true(n >= 25);
+  assert_true(each_case_of(SOURCE_DIR "/cases/paper", check_a_scene_of_the_paper) >= 25);
 }
 
 /* Against tests/reference/README.md: M, K, F0, kt, kn, gap. */

@@ -1,6 +1,7 @@
 /* test_structure_orders.c - on structures harmonic balance tends to time integration with the number of harmonics, and
  * the regularised law to the exact one with its parameter; the three ways of time integration meet. */
 #include "compare/motion.h"
+#include "tests/closed_form.h"
 #include "tests/hbm/structure_cases.h"
 
 enum { SIZES = 7, FREQUENCIES = 3 };
@@ -8,13 +9,7 @@ enum { SIZES = 7, FREQUENCIES = 3 };
 /* The numbers of harmonics: 8 to 64 by the square root of two. */
 static double log2_size(int k) { return 3 + 0.5 * k; }
 
-static const transient_settings in_closed_form = {.law = TRANSIENT_LAW_EXACT,
-                                                  .method = TRANSIENT_METHOD_CLOSED_FORM,
-                                                  .regularisation = 1e-4,
-                                                  .steady = TRANSIENT_STEADY_AUTO,
-                                                  .start = TRANSIENT_START_REST,
-                                                  .tolerance = 1e-12,
-                                                  .max_periods = 20000};
+static const transient_settings in_closed_form = CLOSED_FORM(1e-12, 20000);
 
 /* The steady state from rest, all its responses. */
 static void steady_from_rest(const model *m, transient_settings how, double omega, timeint_result *r)

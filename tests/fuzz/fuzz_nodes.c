@@ -15,15 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   message_start(&m, words, sizeof words);
   const char *text = size ? (const char *)data : "";
   const hc_status st = nodes_file_parse("f", text, size, s, &m);
-  must(st == HC_OK || st == HC_BAD_INPUT, "status %d: %s", (int)st, words);
-  if (st == HC_OK) {
-    ++fuzz_accepted;
-    must(!*words, "read, with a message: %s", words);
-  } else {
-    ++fuzz_refused;
-    message_is_clean(words, sizeof words);
-    place_is_inside(words, "f", text, size, false);
-  }
+  fuzz_was_read(st, words, sizeof words, text, size);
   for (int i = 0; i < s->n_nodes; ++i) {
     const structure_node *node = &s->nodes[i];
     must(node->dof >= 0 && node->dof < DOFS && node->direction >= 'x' && node->direction <= 'z', "node %d", i);

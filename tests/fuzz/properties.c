@@ -78,6 +78,19 @@ void place_is_inside(const char *words, const char *name, const char *text, size
        line, most, words);
 }
 
+bool fuzz_was_read(hc_status st, const char *words, size_t size, const char *text, size_t length)
+{
+  must(st == HC_OK || st == HC_BAD_INPUT, "status %d: %s", (int)st, words);
+  ++*(st == HC_OK ? &fuzz_accepted : &fuzz_refused);
+  if (st == HC_OK) {
+    must(!*words, "read, with a message: %s", words);
+    return true;
+  }
+  message_is_clean(words, size);
+  place_is_inside(words, "f", text, length, false);
+  return false;
+}
+
 /* ---- scenes ---- */
 
 static void number_is_in_range(const field *f, double x)

@@ -11,6 +11,14 @@ enum { MAX_CALLS = 5000 };
 
 typedef struct probe probe;
 typedef hc_status equation(const probe *p, double z, double *r, double *slope);
+#define EQUATION(name, value, derivative)                                                                              \
+  static hc_status name(const probe *p, double z, double *r, double *slope)                                            \
+  {                                                                                                                    \
+    (void)p;                                                                                                           \
+    *slope = (derivative);                                                                                             \
+    *r = (value);                                                                                                      \
+    return HC_OK;                                                                                                      \
+  }
 
 struct probe {
   int residuals, jacobians;
@@ -150,13 +158,7 @@ static void backsolve_is_the_inverse_at_the_end(CHECK_STATE)
 }
 
 /* z + 0.1 z^3 = 1 from 0, where KINSOL's default longest step (1000 |z_0|) would be 0. */
-static hc_status cubic(const probe *p, double z, double *r, double *slope)
-{
-  (void)p;
-  *slope = 1 + 0.3 * z * z;
-  *r = z + 0.1 * z * z * z - 1;
-  return HC_OK;
-}
+EQUATION(cubic, z + 0.1 * z * z * z - 1, 1 + 0.3 * z * z)
 
 static void starts_from_zero(CHECK_STATE)
 {
@@ -209,13 +211,7 @@ static hc_status fails_untouched(newton *nw, int n, const double *start, const n
 }
 
 /* x^2 + 1: no root; Newton wanders chaotically, the line search settles at the minimum x = 0, where J = 0. */
-static hc_status no_root(const probe *p, double z, double *r, double *slope)
-{
-  (void)p;
-  *slope = 2 * z;
-  *r = z * z + 1;
-  return HC_OK;
-}
+EQUATION(no_root, z *z + 1, 2 * z)
 
 static void no_root_is_never_ok(CHECK_STATE)
 {
@@ -234,13 +230,7 @@ static void no_root_is_never_ok(CHECK_STATE)
 }
 
 /* atan x = 0 from 3: plain Newton runs away (it does beyond 1.39), the line search does not. */
-static hc_status atan_equation(const probe *p, double z, double *r, double *slope)
-{
-  (void)p;
-  *slope = 1 / (1 + z * z);
-  *r = atan(z);
-  return HC_OK;
-}
+EQUATION(atan_equation, atan(z), 1 / (1 + z * z))
 
 static void the_line_search_helps_out(CHECK_STATE)
 {
@@ -254,13 +244,7 @@ static void the_line_search_helps_out(CHECK_STATE)
 }
 
 /* |x| + 1: ends in the kink, where no step lowers it. A stall, and said to be one. */
-static hc_status kink(const probe *p, double z, double *r, double *slope)
-{
-  (void)p;
-  *slope = z < 0 ? -1 : 1;
-  *r = fabs(z) + 1;
-  return HC_OK;
-}
+EQUATION(kink, fabs(z) + 1, z < 0 ? -1 : 1)
 
 static void a_stall_is_said(CHECK_STATE)
 {
@@ -307,13 +291,7 @@ static hc_status logarithm(const probe *p, double z, double *r, double *slope)
 }
 
 /* The same, but leaving the NaN of log(-8) in r and saying all is well. */
-static hc_status nan_logarithm(const probe *p, double z, double *r, double *slope)
-{
-  (void)p;
-  *slope = 1 / z;
-  *r = log(z) + 1;
-  return HC_OK;
-}
+EQUATION(nan_logarithm, log(z) + 1, 1 / z)
 
 static void refusals_are_passed_on(CHECK_STATE)
 {

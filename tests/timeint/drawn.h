@@ -50,6 +50,19 @@ static inline void check_jacobian(drawn *d, double *y, int trial)
   }
 }
 
+static inline void check_jacobians(void (*draw)(uint64_t *seed, transient_law law, drawn *d))
+{
+  uint64_t seed = 3;
+  for (int trial = 0; trial < 100; ++trial) {
+    drawn d;
+    double y[MOST];
+    draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
+    for (int i = 0; i < d.scaled.n_states; ++i) y[i] = random_signed(&seed);
+    check_jacobian(&d, y, trial);
+    undraw(&d);
+  }
+}
+
 /* z: (I - gamma J)^-1 z by elimination; product: J times that. */
 static inline void eliminate(const drawn *d, const double *y, double gamma, double *z, double *product)
 {

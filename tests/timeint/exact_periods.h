@@ -111,3 +111,32 @@ static void check_monodromies(const exact_way *way)
   check_monodromy(way, "gap1, stuck", scene_gap1(), 7, 1, NULL, 50, true);
   for (int i = 1; i < 6; ++i) check_monodromy(way, "three", three_contacts(), 6 + 0.3 * i, 2, NULL, 10 * i, false);
 }
+
+/* The contact's edge where the separated motion ends its period, to a few roundings: the transition falls on 2 pi,
+ * before, after, or just does not happen. By how much more than roundings X, and P, may be off by that: a contact of
+ * 1e-10/|P|, a few steps more, or a root in the last one. */
+static void check_transition_at_the_end(const exact_way *way, double of_x, double of_p)
+{
+  scaled_model m = exact_model(one(100, 300, 200, 0.3, -0.5, 45), 7.3, 10);
+  const double start[SCENE_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
+  m.contact[0].law.gap = -100;
+  integrator *in = way->make(&m);
+  double end[SCENE_MAX_STATES];
+  memcpy(end, start, sizeof end);
+  run(in, &m, end, 1);
+  int touched = 0, n = 0;
+  for (double off = 0; off<1e-10; off = off> 0 ? 1.3 * off : 1e-17)
+    for (int sign = -1; sign <= 1; sign += 2, ++n) {
+      double y[SCENE_MAX_STATES], monodromy[9];
+      memcpy(y, start, sizeof y);
+      m.contact[0].law.gap = -scene_sine(&m, &m.contact[0]) * (end[0] + sign * off);
+      long before = integrate_transitions(in);
+      assert_int_equal(integrate_monodromy(in, &m, y, monodromy), HC_OK);
+      touched += integrate_transitions(in) > before;
+      CHECK_NEAR(y[0], end[0], of_x, "x, off %g", off);
+      CHECK_NEAR(y[1], end[1], of_p, "p, off %g", off);
+      run(in, &m, y, 1); /* and from there */
+    }
+  assert_true(touched > n / 3 && touched < n);
+  integrate_free(in);
+}

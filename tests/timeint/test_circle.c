@@ -2,6 +2,7 @@
  * program, against the law of one tangent where the motion is on one line, and against differences. */
 
 #include "numerics/norm.h"
+#include "tests/closed_form.h"
 #include "tests/timeint/drawn.h"
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/events_newton.h"
@@ -133,13 +134,7 @@ static const struct {
 };
 enum { N_REFERENCE = sizeof reference / sizeof *reference };
 
-static const transient_settings closed_form = {.law = TRANSIENT_LAW_EXACT,
-                                               .method = TRANSIENT_METHOD_CLOSED_FORM,
-                                               .regularisation = 1e-4,
-                                               .steady = TRANSIENT_STEADY_AUTO,
-                                               .start = TRANSIENT_START_REST,
-                                               .tolerance = 1e-10,
-                                               .max_periods = 20000};
+static const transient_settings closed_form = CLOSED_FORM(1e-10, 20000);
 
 /* Tolerance relative to the largest response of the row's frequency. */
 static void check_reference(transient_settings how, double tolerance)
@@ -207,18 +202,7 @@ static void a_circle_that_sticks_is_free_once(CHECK_STATE)
 
 /* ---- the regularised law --------------------------------------------------------------------------------- */
 
-static void jacobian_is_the_derivative(CHECK_STATE)
-{
-  uint64_t seed = 3;
-  for (int trial = 0; trial < 100; ++trial) {
-    drawn d;
-    double y[MOST];
-    draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
-    for (int i = 0; i < d.scaled.n_states; ++i) y[i] = random_signed(&seed);
-    check_jacobian(&d, y, trial);
-    undraw(&d);
-  }
-}
+static void jacobian_is_the_derivative(CHECK_STATE) { check_jacobians(draw); }
 
 /* (I - gamma J) z = r by elimination, against the dense matrix times what it finds: rounding times the entries. */
 static void newton_solves_the_dense_equations(CHECK_STATE)

@@ -296,32 +296,10 @@ static void ends_at_a_turn(CHECK_STATE)
   }
 }
 
-/* The contact's edge where the separated motion ends its period, to a few roundings: the transition falls on 2 pi,
- * before, after, or just does not happen. */
 static void a_transition_at_the_end_of_the_period(CHECK_STATE)
 {
-  scaled_model m = exact_model(one(100, 300, 200, 0.3, -0.5, 45), 7.3, 10);
-  const double start[SCENE_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
-  m.contact[0].law.gap = -100;
-  integrator *in = closed_of(&m);
-  double end[SCENE_MAX_STATES];
-  memcpy(end, start, sizeof end);
-  run(in, &m, end, 1);
-  int touched = 0, n = 0;
-  for (double off = 0; off<1e-10; off = off> 0 ? 1.3 * off : 1e-17)
-    for (int sign = -1; sign <= 1; sign += 2, ++n) {
-      double y[SCENE_MAX_STATES], monodromy[9];
-      memcpy(y, start, sizeof y);
-      m.contact[0].law.gap = -scene_sine(&m, &m.contact[0]) * (end[0] + sign * off);
-      long before = integrate_transitions(in);
-      assert_int_equal(integrate_monodromy(in, &m, y, monodromy), HC_OK);
-      touched += integrate_transitions(in) > before;
-      CHECK_NEAR(y[0], end[0], 1e-13, "x, off %g", off);
-      CHECK_NEAR(y[1], end[1], 1e-9, "p, off %g", off); /* in contact for 1e-10/|P| */
-      run(in, &m, y, 1);                                /* and from there */
-    }
-  assert_true(touched > n / 3 && touched < n);
-  integrate_free(in);
+  const exact_way way = {closed_of, 0};
+  check_transition_at_the_end(&way, 1e-13, 1e-9);
 }
 
 /* Half a unit of the last digit printed: the table has 12 significant ones, or fewer where the rest are 0. */
@@ -337,8 +315,8 @@ static double follow(const scene *sc, const char *name, const char *sweep, doubl
   double worst = 0;
   assert_int_equal(scene_timeint(sc, &ti), HC_OK);
   scene_state y = {.x = 0};
-  for (int i = 0; i < N_REFERENCE_ROWS; ++i) {
-    const reference_row *want = &reference_rows[i];
+  for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
+    const steady_reference *want = &steady_references[i];
     if (strcmp(want->name, name) || strcmp(want->sweep, sweep)) continue;
     if (reference_is_behind_chaos(name, !strcmp(sweep, "down"), want->omega)) y = reference_behind_chaos;
     else assert_int_equal(timeint_sweep(ti, from, want->omega, y.all, NULL), HC_OK);
@@ -461,7 +439,7 @@ static void monodromy_is_that_of_the_period(CHECK_STATE)
   check_monodromies(&way);
 }
 
-CHECK_TESTS_WITH("timeint.closed", 120, read_reference_rows, NULL, scenes_follow_the_oracle,
+CHECK_TESTS_WITH("timeint.closed", 120, read_steady_references, NULL, scenes_follow_the_oracle,
                  slip_that_begins_on_a_flat_guard, random_scenes_follow_cvode, soft_and_overdamped_scenes_follow_cvode,
                  measures_are_those_of_the_motion, ends_at_a_turn, a_transition_at_the_end_of_the_period,
                  monodromy_is_that_of_the_period, every_row_of_the_reference, rest_stays_at_rest, failures_are_reported)

@@ -1,16 +1,12 @@
 /* test_contact_watch.c - what contacts do along a steady state: the balance of work, and closed forms. */
+#include "tests/closed_form.h"
 #include "tests/hbm/structure_cases.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/steady/contact_watch.h"
 
 enum { MOST_N = 16, MOST_CONTACTS = 8, HIGHEST = 250, LENGTH = 2 * HIGHEST + 1 };
 
-static const transient_settings closed = {.law = TRANSIENT_LAW_EXACT,
-                                          .method = TRANSIENT_METHOD_CLOSED_FORM,
-                                          .regularisation = 1e-4,
-                                          .start = TRANSIENT_START_REST,
-                                          .tolerance = 1e-10,
-                                          .max_periods = 20000};
+static const transient_settings closed = CLOSED_FORM(1e-10, 20000);
 
 static transient_settings by_cvode(transient_law law)
 {

@@ -14,8 +14,8 @@ static void follow(const scene *sc, const char *name, const char *sweep, double 
   int seen = 0;
   assert_int_equal(scene_timeint(sc, &ti), HC_OK);
   scene_state y = {.x = 0};
-  for (int i = 0; i < N_REFERENCE_ROWS; ++i) {
-    const reference_row *want = &reference_rows[i];
+  for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
+    const steady_reference *want = &steady_references[i];
     if (strcmp(want->name, name) || strcmp(want->sweep, sweep)) continue;
     assert_int_equal(timeint_sweep(ti, from, want->omega, y.all, NULL), HC_OK);
     assert_int_equal(timeint_steady(ti, from = want->omega, y.all, NULL, &r), HC_OK);
@@ -57,4 +57,4 @@ static void blades(CHECK_STATE)
   both_ways("r2", scene_r2(), 600, 1100);
 }
 
-CHECK_TESTS_WITH("timeint.exact_reference", 300, read_reference_rows, NULL, paper_scenes, blades)
+CHECK_TESTS_WITH("timeint.exact_reference", 300, read_steady_references, NULL, paper_scenes, blades)

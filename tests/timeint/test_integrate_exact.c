@@ -132,32 +132,10 @@ static void grazing_is_not_stepped_over(CHECK_STATE)
   }
 }
 
-/* The contact's edge where the separated motion ends its period, to a few roundings: the transition falls on 2 pi,
- * before, after, or just does not happen. What contact does in such a time is below rounding. */
 static void a_transition_at_the_end_of_the_period(CHECK_STATE)
 {
-  scaled_model m = exact_model(one(100, 300, 200, 0.3, -0.5, 45), 7.3, 10);
-  const double start[SCENE_MAX_STATES] = {0.02, -0.578, 0}; /* ends at its largest X, rising */
-  m.contact[0].law.gap = -100;
-  integrator *in = integrator_of(&m);
-  double end[SCENE_MAX_STATES];
-  memcpy(end, start, sizeof end);
-  run(in, &m, end, 1);
-  int touched = 0, n = 0;
-  for (double off = 0; off<1e-10; off = off> 0 ? 1.3 * off : 1e-17)
-    for (int sign = -1; sign <= 1; sign += 2, ++n) {
-      double y[SCENE_MAX_STATES];
-      memcpy(y, start, sizeof y);
-      m.contact[0].law.gap = -scene_sine(&m, &m.contact[0]) * (end[0] + sign * off);
-      long before = integrate_transitions(in);
-      run(in, &m, y, 1);
-      touched += integrate_transitions(in) > before;
-      CHECK_NEAR(y[0], end[0], tol, "x, off %g", off); /* a few steps more, or a root in the last one */
-      CHECK_NEAR(y[1], end[1], tol, "p, off %g", off);
-      run(in, &m, y, 1); /* and from there */
-    }
-  assert_true(touched > n / 3 && touched < n);
-  integrate_free(in);
+  const exact_way way = {integrator_of, 0};
+  check_transition_at_the_end(&way, tol, tol);
 }
 
 /* Rows that rest reaches, and c2's upper branch from a state near it; damping makes what is left of the start
@@ -171,7 +149,7 @@ static void steady_states_are_the_references(CHECK_STATE)
   } rows[] = {{"a10", 13, 0}, {"a10", 14, 0},  {"b10", 6, 0},      {"b10", 7, 0}, {"c2", 6, 0},
               {"c2", 7, 0},   {"c2", 9, 23.4}, {"c2", 9.15, 25.7}, {"c2", 10, 0}};
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
-    const reference_row *r = reference_rows;
+    const steady_reference *r = steady_references;
     while (strcmp(r->name, rows[i].name) || r->omega != rows[i].omega) ++r; /* the first such row: swept up */
     const scene sc = scene_reference(r->name);
     const double length = r->amplitude;
@@ -313,7 +291,7 @@ static void monodromy_is_that_of_the_period(CHECK_STATE)
   check_monodromies(&way);
 }
 
-CHECK_TESTS_WITH("timeint.integrate_exact", 120, read_reference_rows, NULL, scenes_follow_the_closed_form,
+CHECK_TESTS_WITH("timeint.integrate_exact", 120, read_steady_references, NULL, scenes_follow_the_closed_form,
                  degenerate_contacts_follow_it_too, bilinear_contacts_need_no_friction,
                  two_contacts_are_one_of_double_stiffness, grazing_is_not_stepped_over,
                  a_transition_at_the_end_of_the_period, monodromy_is_that_of_the_period,

@@ -87,8 +87,8 @@ static double middle(const scene *sc, double omega)
 static void rows_of_the_table(CHECK_STATE)
 {
   int n = 0;
-  for (int i = 0; i < N_REFERENCE_ROWS; ++i) {
-    const reference_row *row = &reference_rows[i];
+  for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
+    const steady_reference *row = &steady_references[i];
     if (row->events > 0) continue;
     scene sc = scene_reference(row->name);
     const double w[SCENE_MAX_CONTACTS] = {sc.contacts[0].law.gap > 0 ? middle(&sc, row->omega) : 0};
@@ -465,6 +465,6 @@ static void multipliers(CHECK_STATE)
   }
 }
 
-CHECK_TESTS_WITH("timeint.linear_regime", 300, read_reference_rows, NULL, rows_of_the_table, measures,
+CHECK_TESTS_WITH("timeint.linear_regime", 300, read_steady_references, NULL, rows_of_the_table, measures,
                  a_slider_keeps_another_contact_open_or_closed, a_yes_is_right, edges, from_rest, undamped,
                  no_stiffness_and_no_number, multipliers)

@@ -7,7 +7,7 @@
 /* Linear rows (no transition in a period): as test_steady's check_harmonic, 10 tolerances; the table has 12 digits.
  * Others: the regularised law's error, which at regularisation rho is of the order of rho kt cos(alpha) w'/(force),
  * below 1e-4 wherever the curve is not vertical: the figure asked for. */
-static double allowed(const scene *sc, const reference_row *row)
+static double allowed(const scene *sc, const steady_reference *row)
 {
   return row->events == 0 ? 10 * sc->transient.tolerance : 1e-4;
 }
@@ -19,8 +19,8 @@ static void follow(const scene *sc, const char *name, const char *sweep, double 
   scene_state y = {.x = 0};
   timeint_result r;
   int rows = 0;
-  for (int i = 0; i < N_REFERENCE_ROWS; ++i) {
-    const reference_row *row = &reference_rows[i];
+  for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
+    const steady_reference *row = &steady_references[i];
     if (strcmp(row->name, name) || strcmp(row->sweep, sweep)) continue;
     if (reference_is_behind_chaos(name, !strcmp(sweep, "down"), row->omega)) y = reference_behind_chaos;
     else assert_int_equal(timeint_sweep(ti, omega, row->omega, y.all, NULL), HC_OK);
@@ -50,4 +50,4 @@ static void c2(CHECK_STATE) { both_ways("c2", 3, 20); }
 static void c2kt1e4(CHECK_STATE) { both_ways("c2kt1e4", 3, 20); }
 static void gap1(CHECK_STATE) { both_ways("gap1", 3, 30); }
 
-CHECK_TESTS_WITH("timeint.reference", 600, read_reference_rows, NULL, a10, b10, c2, c2kt1e4, gap1)
+CHECK_TESTS_WITH("timeint.reference", 600, read_steady_references, NULL, a10, b10, c2, c2kt1e4, gap1)

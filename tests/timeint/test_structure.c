@@ -1,6 +1,7 @@
 /* test_structure.c - time integration of structures: against an independent program, against the closed form of one
  * degree of freedom, and its two integrators of the exact law against each other. */
 
+#include "tests/closed_form.h"
 #include "tests/hbm/structure_cases.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/drawn.h"
@@ -91,13 +92,7 @@ static void check_reference(const char *name, transient_settings how, double tol
 
 static const char *const named[] = {"jenkins2", "chain3",    "tangent_normal_F50", "tangent_normal_F100",
                                     "wedge_F2", "wedge_F10", "wedge_F20"};
-static const transient_settings from_rest = {.law = TRANSIENT_LAW_EXACT,
-                                             .method = TRANSIENT_METHOD_CLOSED_FORM,
-                                             .regularisation = 1e-4,
-                                             .steady = TRANSIENT_STEADY_AUTO,
-                                             .start = TRANSIENT_START_REST,
-                                             .tolerance = 1e-10,
-                                             .max_periods = 20000};
+static const transient_settings from_rest = CLOSED_FORM(1e-10, 20000);
 
 /* The reference's own 1e-11; an orbit is closed to 1e-10 of its size at most. */
 static void series_meet_the_reference(CHECK_STATE)
@@ -312,18 +307,7 @@ static void monodromy_of_many_columns(CHECK_STATE)
   CHECK_LE(off, 0.02 * compared, "of %d derivatives", compared);
 }
 
-static void jacobian_is_the_derivative(CHECK_STATE)
-{
-  uint64_t seed = 3;
-  for (int trial = 0; trial < 100; ++trial) {
-    drawn d;
-    double y[MOST];
-    draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
-    for (int i = 0; i < d.scaled.n_states; ++i) y[i] = random_signed(&seed);
-    check_jacobian(&d, y, trial);
-    undraw(&d);
-  }
-}
+static void jacobian_is_the_derivative(CHECK_STATE) { check_jacobians(draw); }
 
 /* (I - gamma J) z = r by elimination, against the dense matrix times what it finds: rounding, times what the stiffest
  * contact, with its width of 1e-2, makes of the entries. */

@@ -1,6 +1,7 @@
 /* test_torus.c - motions that repeat after no number of periods: tori beyond a Neimark-Sacker bifurcation, their second
  * frequency, what is none; a motion without bound; and chaos that ends. */
 #include "numerics/random.h"
+#include "tests/closed_form.h"
 #include "tests/hbm/structure_cases.h"
 #include "timeint/steady/aperiodic.h"
 #include "timeint/steady/sweep.h"
@@ -8,13 +9,7 @@
 
 enum { N = 1024, STATES = 16 };
 
-static const transient_settings closed_form = {.law = TRANSIENT_LAW_EXACT,
-                                               .method = TRANSIENT_METHOD_CLOSED_FORM,
-                                               .regularisation = 1e-4,
-                                               .steady = TRANSIENT_STEADY_AUTO,
-                                               .start = TRANSIENT_START_REST,
-                                               .tolerance = 1e-9,
-                                               .max_periods = 20000};
+static const transient_settings closed_form = CLOSED_FORM(1e-9, 20000);
 
 /* ---- sequences whose rotation is known ------------------------------------------------------------------- */
 

@@ -274,6 +274,7 @@ hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m,
   hc_status st = v->n_slowed > 0 ? find_following(v, m, track) : HC_OK;
   if (st != HC_OK) return st;
   memset(v->rows, 0, n * n * sizeof *v->rows);
+  v->theta = 0;
   v->n_columns = 0;
   for (int i = 0; i < v->n_states; ++i) {
     const int j = i - 2 * v->n;
@@ -301,6 +302,7 @@ hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m,
       if (t->state == CONTACT_STICK) tie(v, m, j, t, contact_track_radius(&m->contact[j], normal));
     }
   }
+  fundamental_matrix_follow(v, m, track, y);
   return HC_OK;
 }
 

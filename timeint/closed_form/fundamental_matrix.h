@@ -51,8 +51,7 @@ void fundamental_matrix_free(fundamental_matrix *v);
 hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
                                    const double *y);
 
-/* From v->theta on the motion is that of y[2 n], its contacts those of track[]: after fundamental_matrix_begin, and
- * whenever a contact has changed its state. */
+/* From v->theta on the motion is that of y[2 n], its contacts those of track[]: whenever one has changed its state. */
 void fundamental_matrix_follow(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
                                const double *y);
 

@@ -235,11 +235,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   in->m = m;
   if (m->n != in->n || m->n_contacts != in->n_contacts) return HC_BUG;
   hc_status st = begin(in, y);
-  if (st == HC_OK && monodromy) {
-    in->variations.theta = 0;
-    st = fundamental_matrix_begin(&in->variations, m, in->track, y);
-    fundamental_matrix_follow(&in->variations, m, in->track, y);
-  }
+  if (st == HC_OK && monodromy) st = fundamental_matrix_begin(&in->variations, m, in->track, y);
   if (st == HC_OK) st = run(in, monodromy != NULL, watch, self, &count);
   if (st == HC_OK && monodromy) st = fundamental_matrix_advance(&in->variations, m, in->track, TWO_PI);
   base->transitions += count;
@@ -335,20 +331,6 @@ static bool extremes(const integrator *base, int i, double *max, double *min)
   return in->by_modes || in->by_single;
 }
 
-static contact_state state(const integrator *base, int j, const double *y)
-{
-  (void)y;
-  return ((const by_series *)base)->track[j].state;
-}
-
-static double travel(const integrator *base, int j) { return ((const by_series *)base)->track[j].most; }
-
-static hc_status tolerance(integrator *base, double ignored)
-{
-  (void)base, (void)ignored;
-  return HC_OK;
-}
-
 static void release(integrator *base)
 {
   by_series *in = (by_series *)base;
@@ -362,15 +344,8 @@ static void release(integrator *base)
   free(in);
 }
 
-static const integrator_class class = {.period = period,
-                                       .dense = dense,
-                                       .samples = samples,
-                                       .fourier = fourier,
-                                       .extremes = extremes,
-                                       .state = state,
-                                       .travel = travel,
-                                       .tolerance = tolerance,
-                                       .free = release};
+static const integrator_class class = {
+    .period = period, .dense = dense, .samples = samples, .fourier = fourier, .extremes = extremes, .free = release};
 
 hc_status integrate_new_closed_form(const modal_base *base, double stiff, integrator **out)
 {
@@ -381,7 +356,7 @@ hc_status integrate_new_closed_form(const modal_base *base, double stiff, integr
   in->base.does = &class;
   in->n = base->n;
   in->n_contacts = base->n_contacts;
-  in->track = calloc(contacts + 1, sizeof *in->track);
+  in->base.track = in->track = calloc(contacts + 1, sizeof *in->track);
   in->y = calloc(4 * n + TRACK_ORDER + 1, sizeof *in->y);
   hc_status st = in->track && in->y ? motion_series_make(&in->series, base) : HC_NO_MEMORY;
   if (st == HC_OK) st = interval_modes_new(base, stiff, &in->modes);

@@ -329,13 +329,8 @@ static hc_status begin(events *in, const double *y, int *count)
     begin_own(in, j, 0);
   }
   use_states(in);
-  if (in->varies) {
-    in->variations.theta = 0;
-    hc_status st = fundamental_matrix_begin(&in->variations, in->base.m, in->track, y);
-    if (st != HC_OK) return st;
-    fundamental_matrix_follow(&in->variations, in->base.m, in->track, y);
-  }
-  return pass_fallen(in, 0, count);
+  hc_status st = in->varies ? fundamental_matrix_begin(&in->variations, in->base.m, in->track, y) : HC_OK;
+  return st == HC_OK ? pass_fallen(in, 0, count) : st;
 }
 
 /* Sliders of the motion y (order 0), or their rates where y is its derivative; slips that turn in the directions of
@@ -415,14 +410,6 @@ static bool fourier(const integrator *base, int i, double out[3])
   return true;
 }
 
-static contact_state state(const integrator *base, int j, const double *y)
-{
-  (void)y;
-  return ((const events *)base)->track[j].state;
-}
-
-static double travel(const integrator *base, int j) { return ((const events *)base)->track[j].most; }
-
 static void release(integrator *base)
 {
   events *in = (events *)base;
@@ -442,8 +429,6 @@ static const integrator_class class = {.period = period,
                                        .dense = dense,
                                        .samples = integrate_dense_samples,
                                        .fourier = fourier,
-                                       .state = state,
-                                       .travel = travel,
                                        .tolerance = integrate_cvode_tolerance,
                                        .free = release};
 
@@ -487,7 +472,7 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   in->tolerance = tolerance;
   in->held_pull = fmax(1e-17, 1e-3 * tolerance);
   in->is_single = motion_single_fits(base) && base->n_planar == 0;
-  in->track = calloc(contacts + 1, sizeof *in->track);
+  in->base.base.track = in->track = calloc(contacts + 1, sizeof *in->track);
   in->law = calloc(contacts + 1, sizeof *in->law);
   in->info = calloc(ROOTS * contacts + 1, sizeof *in->info);
   in->n_equations = 2 * base->n + base->n_planar;

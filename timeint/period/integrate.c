@@ -16,7 +16,10 @@ const hc_monitor *integrate_hear(integrator *in, const hc_monitor *monitor)
   return before;
 }
 
-hc_status integrate_tolerance(integrator *in, double tolerance) { return in->does->tolerance(in, tolerance); }
+hc_status integrate_tolerance(integrator *in, double tolerance)
+{
+  return in->does->tolerance ? in->does->tolerance(in, tolerance) : HC_OK;
+}
 
 hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self)
 {
@@ -49,7 +52,10 @@ bool integrate_extremes(const integrator *in, int r, double *max, double *min)
   return in->does->extremes && in->does->extremes(in, r, max, min);
 }
 
-contact_state integrate_contact(const integrator *in, int j, const double *y) { return in->does->state(in, j, y); }
+contact_state integrate_contact(const integrator *in, int j, const double *y)
+{
+  return in->track ? in->track[j].state : in->does->state(in, j, y);
+}
 
 void integrate_at_end(const integrator *in, const scaled_model *m, double theta, const double *y, double *rate,
                       contact_state *states)
@@ -59,10 +65,10 @@ void integrate_at_end(const integrator *in, const scaled_model *m, double theta,
     return;
   }
   scaled_rhs(m, theta, y, rate);
-  for (int j = 0; j < m->n_contacts; ++j) states[j] = in->does->state(in, j, y);
+  for (int j = 0; j < m->n_contacts; ++j) states[j] = integrate_contact(in, j, y);
 }
 
-double integrate_travel(const integrator *in, int j) { return in->does->travel ? in->does->travel(in, j) : INFINITY; }
+double integrate_travel(const integrator *in, int j) { return in->track ? in->track[j].most : INFINITY; }
 
 double integrate_scatter(const integrator *in) { return in->scatter; }
 long integrate_periods(const integrator *in) { return in->periods; }

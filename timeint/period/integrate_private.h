@@ -10,11 +10,10 @@ typedef struct integrator_class {
   hc_status (*samples)(const integrator *, int r, double theta, double step, int count, double *x);
   bool (*fourier)(const integrator *, int r, double out[3]);
   bool (*extremes)(const integrator *, int r, double *max, double *min); /* NULL: cannot tell */
-  contact_state (*state)(const integrator *, int j, const double *y);
+  contact_state (*state)(const integrator *, int j, const double *y);    /* NULL: as `track` says */
   void (*at_end)(const integrator *, double theta, const double *y, double *rate,
-                 contact_state *states);       /* NULL: as below */
-  double (*travel)(const integrator *, int j); /* NULL: cannot tell */
-  hc_status (*tolerance)(integrator *, double tolerance);
+                 contact_state *states);                  /* NULL: as below */
+  hc_status (*tolerance)(integrator *, double tolerance); /* NULL: it has none */
   void (*free)(integrator *);
 } integrator_class;
 
@@ -29,6 +28,7 @@ static inline int integrate_most_transitions(int n_contacts) { return n_contacts
 
 struct integrator { /* the first member of each kind */
   const integrator_class *does;
+  const contact_track *track;   /* [n_contacts] of the step under way by the exact law; NULL: not kept */
   long steps, rhs, transitions; /* of all finished periods */
   long periods;                 /* begun */
   double scatter;               /* [tolerance] by how much a period may be off, cut into other steps; by CVODE */

@@ -1,5 +1,4 @@
 /* test_echo.c - an echoed structure reads back to the same bits, whatever its files were. */
-#include <dirent.h>
 
 #include "tests/cases/structure/structure_text.h"
 
@@ -93,26 +92,15 @@ static void random_structures_come_back_bit_for_bit(CHECK_STATE)
   }
 }
 
+static void check_a_structure(const scene *sc)
+{
+  assert_non_null(sc->structure);
+  if (sc->structure->n <= 300) check_round_trip(sc); /* of more rows it is larger than a case file may be */
+}
+
 static void the_cases_of_structures_are_all_readable(CHECK_STATE)
 {
-  const char *folder = SOURCE_DIR "/cases/structures";
-  DIR *dir = opendir(folder);
-  int n = 0;
-  assert_non_null(dir);
-  for (struct dirent *e; (e = readdir(dir)) != NULL;) {
-    char path[1024];
-    scene sc;
-    case_error err;
-    if (!strstr(e->d_name, ".yaml")) continue;
-    snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
-    if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
-    assert_non_null(sc.structure);
-    if (sc.structure->n <= 300) check_round_trip(&sc); /* of more rows it is larger than a case file may be */
-    case_clear(&sc);
-    ++n;
-  }
-  closedir(dir);
-  assert_true(n >= 20);
+  assert_true(each_case_of(SOURCE_DIR "/cases/structures", check_a_structure) >= 20);
 }
 
 CHECK_TESTS("structure.echo", 60, every_form_comes_back, the_cases_of_structures_are_all_readable,
