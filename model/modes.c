@@ -36,10 +36,6 @@ static double modal_damping(const model *m, const double *phi)
 
 hc_status model_find_scales(const model *m, model_scales *out)
 {
-  if (model_is_oscillator(m)) {
-    *out = (model_scales){sqrt(model_max_stiffness(m) / *m->mass), 0.5 * *m->damping / *m->mass};
-    return HC_OK;
-  }
   const size_t n = (size_t)m->n;
   double *omega2 = malloc(n * sizeof *omega2), *phi = malloc(2 * n * n * sizeof *phi),
          *C_phi = phi ? phi + n * n : NULL;
