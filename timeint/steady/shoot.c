@@ -22,6 +22,7 @@ enum {
   ANDERSON_DEPTH = 4,        /* about the states of an oscillator: with as many as states it is the secant method */
   LAST_STEPS = 4,            /* digits double: from 1e-2 to rounding in three, and one that shows it */
   CONFIRM_STEPS = 8,         /* 0.3^8 = 7e-5: slower than that Newton with variational equations is cheaper */
+  USUAL_STEPS = 1000,        /* of a period, or fewer: on such ones its scatter was measured */
   CHORD_STEPS = 60,          /* of 0.5 at worst, from 1 to rounding */
   REST_TRIES = 4,            /* the second shows that all rest, as a rule */
   CHORD_IDLE = 3,            /* steps before the matrix is renewed: it costs 25 to 150 of them */
@@ -908,8 +909,11 @@ hc_status shoot_confirm(shoot *s, int k, double goal, double off, const hc_monit
     found->distance = length;
     if (st != HC_OK || length <= (large ? fmax(goal, found->attainable) : goal)) break;
     if (tries == CONFIRM_STEPS || !(length <= contracts * last)) { /* as near as periods can tell, or not at all */
-      if (large && length <= scatter_seen * size) found->attainable = fmax(found->attainable, length);
-      if (!(length <= found->attainable)) st = HC_NOT_CONVERGED;
+      /* Errors of steps add up as their square root does: a period of many scatters by more. */
+      const double steps = (double)(integrate_steps(ti->in) - ti->steps0) / (double)ti->periods;
+      const double within = large ? scatter_seen * size : found->attainable * sqrt(fmax(steps / USUAL_STEPS, 1));
+      if (length <= within) found->attainable = fmax(found->attainable, length);
+      else st = HC_NOT_CONVERGED;
       break;
     }
     for (int i = 0; i < s->n; ++i) s->iterate[i] -= s->step[i];
