@@ -62,13 +62,6 @@ static bool convert(const char *text, double *value)
   return *end == '\0';
 }
 
-static bool has_nonzero_digit(const char *s)
-{
-  for (; *s && *s != 'e' && *s != 'E'; ++s)
-    if (*s >= '1' && *s <= '9') return true;
-  return false;
-}
-
 number_fault number_read(const char *text, size_t length, double *value)
 {
   char copy[LONGEST];
@@ -81,7 +74,7 @@ number_fault number_read(const char *text, size_t length, double *value)
   if (!is_decimal(copy) || !convert(copy, &x)) return NUMBER_NONE;
   errno = before; /* strtod sets ERANGE for subnormal numbers, which are accepted */
   if (!isfinite(x)) return NUMBER_TOO_LARGE;
-  if (x == 0 && has_nonzero_digit(copy)) return NUMBER_TOO_SMALL;
+  if (x == 0 && strcspn(copy, "123456789") < strcspn(copy, "eE")) return NUMBER_TOO_SMALL; /* a digit is not 0 */
   *value = x;
   return NUMBER_FINE;
 }

@@ -25,14 +25,6 @@ static void add_range(const field *f, message *m)
   else message_add(m, " %s..%s", low, number_write(f->high, high));
 }
 
-static void add_choices(const field *f, message *m)
-{
-  for (int i = 0; f->choices[i]; ++i) {
-    const char *before = i == 0 ? "" : f->choices[i + 1] ? ", " : " or ";
-    message_add(m, "%s%s", before, f->choices[i]);
-  }
-}
-
 void field_expected(const field *f, message *m)
 {
   static const char *const nouns[] = {[FIELD_REAL] = "a number",
@@ -46,7 +38,10 @@ void field_expected(const field *f, message *m)
   }
   switch (f->kind) {
   case FIELD_FLAG: message_add(m, "true or false"); return;
-  case FIELD_CHOICE: add_choices(f, m); return;
+  case FIELD_CHOICE:
+    for (int i = 0; f->choices[i]; ++i)
+      message_add(m, "%s%s", i == 0 ? "" : f->choices[i + 1] ? ", " : " or ", f->choices[i]);
+    return;
   case FIELD_TEXT: message_add(m, "text of at most %zu bytes", f->size - 1); return;
   default: break;
   }

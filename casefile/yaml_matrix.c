@@ -58,13 +58,6 @@ static hc_status read_list(case_reader *r, const char *what, const yaml_node_t *
   return st;
 }
 
-/* May a matrix of one number stand there? Then *x. */
-static bool is_number(const yaml_node_t *node, int expected, double *x)
-{
-  return expected <= 1 && !yaml_node_item(node).quoted &&
-         number_read(yaml_node_text(node), node->data.scalar.length, x) == NUMBER_FINE;
-}
-
 /* What Abaqus calls the matrix of that path. */
 static const char *part_of(const char *what)
 {
@@ -126,14 +119,6 @@ static hc_status read_file(case_reader *r, const char *what, const yaml_node_t *
   return st != HC_IO ? st : yaml_file_failed(r, node, what, out->file, "a matrix as " ANY_MATRIX);
 }
 
-static hc_status keep_sparse(case_reader *r, int n, structure_matrix *m)
-{
-  const hc_status st = sparse_from_dense(n, m->v, &m->kept);
-  free(m->v);
-  m->v = NULL;
-  return st == HC_OK ? st : case_out_of_memory(r);
-}
-
 hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
                            structure_matrix *out)
 {
@@ -144,9 +129,10 @@ hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *
     st = read_list(r, what, node, expected, n, &given.v);
   } else if (node->type != YAML_SCALAR_NODE) {
     st = yaml_refuse(r, node, "%s is %s, expected %s", what, yaml_node_what(node), ANY_MATRIX);
-  } else if (!is_number(node, expected, &x)) {
+  } else if (expected > 1 || yaml_node_item(node).quoted ||
+             number_read(yaml_node_text(node), node->data.scalar.length, &x) != NUMBER_FINE) {
     st = read_file(r, what, node, expected, n, &given);
-  } else {
+  } else { /* one number */
     *n = 1;
     if (!(given.v = malloc(sizeof x))) return case_out_of_memory(r);
     *given.v = x + 0.0; /* -0 is 0 */
@@ -155,7 +141,11 @@ hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *
   structure_free_matrix(st == HC_OK ? out : &given);
   if (st != HC_OK) return st;
   *out = given;
-  return out->v && *n > r->most_dense ? keep_sparse(r, *n, out) : HC_OK;
+  if (!out->v || *n <= r->most_dense) return HC_OK;
+  st = sparse_from_dense(*n, out->v, &out->kept);
+  free(out->v);
+  out->v = NULL;
+  return st == HC_OK ? st : case_out_of_memory(r);
 }
 
 hc_status yaml_matrix_symmetric(case_reader *r, const char *what, const structure_matrix *m, int n)

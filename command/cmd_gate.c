@@ -95,13 +95,6 @@ static int read_cases(gate_call *call, int *wrong)
   return 0;
 }
 
-static int open_junit(gate_call *call)
-{
-  if (!call->own->junit) return 0;
-  hc_status st = output_open(call->own->junit, &call->junit);
-  return st == HC_OK ? 0 : cli_file_failed(call->common, call->own->junit, st);
-}
-
 /* Of all cases together. */
 static void foretell_time(const gate_call *call)
 {
@@ -219,25 +212,22 @@ static table *checks_table(gate_call *call)
   return t;
 }
 
-/* After writing ended with st. 0 or the exit code after the message. */
-static int close_junit(gate_call *call, hc_status st)
-{
-  st = output_finish(call->junit, st);
-  call->junit = NULL;
-  return st == HC_OK ? 0 : cli_file_failed(call->common, call->own->junit, st);
-}
-
 /* The cases read, judged, and told in the table and in JUnit. Returns the exit code. */
 static int read_and_judge(gate_call *call)
 {
   const int n = call->common->n_arguments;
+  const char *junit = call->own->junit;
   int wrong = 0, code = read_cases(call, &wrong), reported = 0;
-  if (!code && (code = open_junit(call)) != 0 && wrong) code = EXIT_BAD_CASE;
+  hc_status st = !code && junit ? output_open(junit, &call->junit) : HC_OK;
+  if (st != HC_OK) code = cli_file_failed(call->common, junit, st);
+  if (st != HC_OK && wrong) code = EXIT_BAD_CASE;
   if (!code) code = judge_cases(call);
   if (code) return code;
   table *t = checks_table(call); /* each is written even if the other one fails */
   const int shown = cli_write(call->common, 1, &t);
-  if (call->junit) reported = close_junit(call, gate_write_junit(n, call->cases, output_stream(call->junit)));
+  if (call->junit) st = output_finish(call->junit, gate_write_junit(n, call->cases, output_stream(call->junit)));
+  if (st != HC_OK) reported = cli_file_failed(call->common, junit, st);
+  call->junit = NULL;
   table_free(t);
   if (wrong) return EXIT_BAD_CASE;
   if ((code = gate_exit_code(n, call->cases)) != 0) return code;

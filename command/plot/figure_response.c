@@ -196,14 +196,6 @@ static const char *steady_point(const void *rows, int i, double *x, double *y, c
 
 enum { MOST_WAVES = 12 };
 
-/* Where contact j closes, if the motions pass there: x sin(alpha) + gap = 0. */
-static bool closes_at(const scene *sc, int j, double low, double high, double *x)
-{
-  const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-  *x = c.cv[0] > 0 ? -c.law.gap / c.cv[0] : NAN;
-  return *x >= low && *x <= high;
-}
-
 static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states *found)
 {
   figure g = {0};
@@ -235,11 +227,14 @@ static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states 
     figure_item(&g, figure_line(&g, i, 2),
                 figure_words(&g, "start: %s; %s", wave[i]->start, steady_verdict_text(wave[i], word)),
                 "$wave%d using 1:2 with lines", i);
-  double x;
-  for (int j = 0; j < sc->n_contacts; ++j)
-    if (closes_at(sc, j, low, high, &x))
+  /* Where contacts close, if the motions pass there: x sin(alpha) + gap = 0. */
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    const double x = c.cv[0] > 0 ? -c.law.gap / c.cv[0] : NAN;
+    if (x >= low && x <= high)
       figure_item(&g, figure_look(&g, 7, "lw 1 dt 3 lc rgb '#777777'"), figure_words(&g, "contact %d closes above", j),
                   "%.10g with lines", x);
+  }
   figure_draw(&g);
   return figure_close(&g, HC_OK);
 }

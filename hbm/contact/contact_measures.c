@@ -62,16 +62,15 @@ static void slip_rates(const void *self, double th, double value[2])
   value[1] = law->mu * contact_normal(law, at.d[0][1]) * value[0];
 }
 
-/* Panels on which the product of two motions, a trigonometric polynomial of degree 2 n_harm, turns by no more than 8
- * rad to either side. The rule's error is at most 2^33 16!^4/(33 32!^3) of the 32nd derivative: 3e-46 8^32 < 3e-17. */
-static int panels_of(const contact_interval *p, int n_harm) { return 1 + (int)(n_harm * (p->to - p->from) / 8); }
-
 static void add_slip(const measured_motion *m, const contact_interval *p, contact_period *out)
 {
   const slip of = {m, contact_slip_sign(p->state)};
   double sum[2];
   if (!of.sign) return;
-  gauss_integrals(slip_rates, &of, p->from, p->to, panels_of(p, m->grid.m.n_harm), sum);
+  /* Panels on which the product of two motions, a trigonometric polynomial of degree 2 n_harm, turns by no more than 8
+   * rad to either side. The rule's error is at most 2^33 16!^4/(33 32!^3) of the 32nd derivative: 3e-46 8^32 < 3e-17. */
+  const int panels = 1 + (int)(m->grid.m.n_harm * (p->to - p->from) / 8);
+  gauss_integrals(slip_rates, &of, p->from, p->to, panels, sum);
   out->slip_distance += sum[0];
   out->work += sum[1];
 }

@@ -1,7 +1,7 @@
 /* test_orbit_events.c - events of orbits that are known: between two of them the motion is linear. */
 #include "model/linear.h"
-#include "study/scene_solvers.h"
-#include "tests/check.h"
+#include "tests/scene_parts.h"
+#include "tests/timeint/scenes.h"
 #include "timeint/steady/orbit_events.h"
 
 static const transient_settings closed = {.law = TRANSIENT_LAW_EXACT,
@@ -13,13 +13,8 @@ static const transient_settings closed = {.law = TRANSIENT_LAW_EXACT,
 /* Case 2 of the paper, its contact as `n` equal ones. */
 static model *case_2(int n)
 {
-  model *m;
-  assert_int_equal(model_oscillator(1, 0.4, 40, 100, n, &m), HC_OK);
-  for (int j = 0; j < n; ++j) {
-    m->contacts[j].law = (contact){.kt = 100.0 / n, .kn = 1000.0 / n, .mu = 0.3, .gap = -5};
-    model_direction(45, m->contacts[j].tangent, m->contacts[j].normal);
-  }
-  return m;
+  const scene sc = scene_c2();
+  return scene_split_model(&sc, n);
 }
 
 static void settle(const model *m, double omega, orbit_events *e)

@@ -17,8 +17,6 @@ static hc_status modes_columns_make(modes_columns *s, const modal_base *base)
   return s->change ? HC_OK : HC_NO_MEMORY;
 }
 
-static void modes_columns_free(modes_columns *s) { free(s->change); }
-
 /* to[count] += by from[count] */
 static void add_real(int count, double by, const double *restrict from, double *restrict to)
 {
@@ -96,7 +94,7 @@ hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base,
 void fundamental_matrix_free(fundamental_matrix *v)
 {
   series_columns_free(&v->series);
-  modes_columns_free(&v->by_modes);
+  free(v->by_modes.change);
   motion_series_free(&v->motion);
   free(v->spring);
   free(v->fast);

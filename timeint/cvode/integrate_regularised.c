@@ -130,15 +130,6 @@ static void release(integrator *base)
   free(base);
 }
 
-static int start_variations(regularised *in)
-{
-  for (int j = 0; j < in->n; ++j) {
-    N_VConst(0.0, in->s[j]);
-    NV_Ith_S(in->s[j], j) = 1;
-  }
-  return CVodeSensReInit(in->base.cv, CV_STAGGERED, in->s);
-}
-
 /* To the end of the period in one call. At tout == tstop 6.4 says CV_SUCCESS, 7 says CV_TSTOP_RETURN. */
 static hc_status integrate_unwatched(regularised *in)
 {
@@ -163,14 +154,6 @@ static hc_status integrate_watched(regularised *in, integrate_watch *watch, void
   }
 }
 
-static hc_status copy_monodromy(regularised *in, double *monodromy)
-{
-  sunrealtype theta;
-  int flag = CVodeGetSens(in->base.cv, &theta, in->s);
-  for (int j = 0; j < in->n; ++j) memcpy(monodromy + j * in->n, NV_DATA_S(in->s[j]), sizeof *monodromy * (size_t)in->n);
-  return integrate_translate(&in->base, flag);
-}
-
 static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
                         void *self)
 {
@@ -181,13 +164,22 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   if (st != HC_OK) return st;
   memcpy(NV_DATA_S(in->base.y), y, bytes);
   int flag = CVodeReInit(in->base.cv, 0.0, in->base.y);
-  if (flag == CV_SUCCESS) flag = (monodromy != NULL) ? start_variations(in) : CVodeSensToggleOff(in->base.cv);
+  for (int j = 0; monodromy && j < in->n; ++j) {
+    N_VConst(0.0, in->s[j]);
+    NV_Ith_S(in->s[j], j) = 1;
+  }
+  if (flag == CV_SUCCESS)
+    flag = monodromy ? CVodeSensReInit(in->base.cv, CV_STAGGERED, in->s) : CVodeSensToggleOff(in->base.cv);
   if (flag == CV_SUCCESS) flag = CVodeSetStopTime(in->base.cv, TWO_PI);
   st = integrate_translate(&in->base, flag);
   if (st == HC_OK) st = watch ? integrate_watched(in, watch, self) : integrate_unwatched(in);
   hc_status counted = integrate_add_counts(&in->base);
   if (st == HC_OK) st = counted;
-  if (st == HC_OK && monodromy) st = copy_monodromy(in, monodromy);
+  if (st == HC_OK && monodromy) {
+    sunrealtype theta;
+    st = integrate_translate(&in->base, CVodeGetSens(in->base.cv, &theta, in->s));
+    for (int j = 0; j < in->n; ++j) memcpy(monodromy + j * in->n, NV_DATA_S(in->s[j]), bytes);
+  }
   if (st == HC_OK) memcpy(y, NV_DATA_S(in->base.y), bytes);
   return st;
 }

@@ -214,14 +214,6 @@ static hc_status use_tolerance(timeint *ti, progress *p, double tolerance)
   return timeint_set_tolerance(ti, tolerance);
 }
 
-static hc_status start(timeint *ti, progress *p)
-{
-  *p = (progress){.contraction = NAN, .amplitude = INFINITY};
-  settle_start(ti->settle, ti->contraction);
-  push(ti);
-  return use_tolerance(ti, p, timeint_final_tolerance(ti));
-}
-
 /* After each period: a coarser tolerance after the first, a finer one once the state moves too little for the
  * present. */
 static hc_status adapt_tolerance(timeint *ti, progress *p)
@@ -266,8 +258,10 @@ static int seems_settled(const timeint *ti, double amplitude)
 hc_status settle_by_integration(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
   const int most = ti->how.max_periods;
-  progress p;
-  hc_status st = start(ti, &p);
+  progress p = {.contraction = NAN, .amplitude = INFINITY};
+  settle_start(ti->settle, ti->contraction);
+  push(ti);
+  hc_status st = use_tolerance(ti, &p, timeint_final_tolerance(ti));
   r->method = TIMEINT_BY_MARCHING;
   while (st == HC_OK && ti->periods < most - 1) {
     if (!hc_monitor_tick(monitor, (double)ti->periods / most)) return HC_INTERRUPTED;
