@@ -67,8 +67,9 @@ static void add_slip(const measured_motion *m, const contact_interval *p, contac
   const slip of = {m, contact_slip_sign(p->state)};
   double sum[2];
   if (!of.sign) return;
-  /* Panels on which the product of two motions, a trigonometric polynomial of degree 2 n_harm, turns by no more than 8
-   * rad to either side. The rule's error is at most 2^33 16!^4/(33 32!^3) of the 32nd derivative: 3e-46 8^32 < 3e-17. */
+  /* Panels on which the product of two motions, a trigonometric polynomial of degree 2 n_harm, turns by no more than
+   * 8 rad to either side. The rule's error is at most 2^33 16!^4/(33 32!^3) of the 32nd derivative:
+   * 3e-46 8^32 < 3e-17. */
   const int panels = 1 + (int)(m->grid.m.n_harm * (p->to - p->from) / 8);
   gauss_integrals(slip_rates, &of, p->from, p->to, panels, sum);
   out->slip_distance += sum[0];

@@ -29,8 +29,8 @@ void message_is_clean(const char *words, size_t size);
  * a CR alone ends a line. */
 void place_is_inside(const char *words, const char *name, const char *text, size_t length, bool yaml);
 
-/* A reader of "f" ended with st on text[length]: counted, and read without a message (true), or refused with a clean one
- * that has a place. */
+/* A reader of "f" ended with st on text[length]: counted, and read without a message (true), or refused with a clean
+ * one that has a place. */
 bool fuzz_was_read(hc_status st, const char *words, size_t size, const char *text, size_t length);
 
 /* Every field is finite and within the range that `hbmcheck describe` tells, and fields go together. */
