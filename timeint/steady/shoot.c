@@ -22,7 +22,7 @@ enum {
   ANDERSON_DEPTH = 4,        /* about the states of an oscillator: with as many as states it is the secant method */
   LAST_STEPS = 4,            /* digits double: from 1e-2 to rounding in three, and one that shows it */
   CONFIRM_STEPS = 8,         /* 0.3^8 = 7e-5: slower than that Newton with variational equations is cheaper */
-  USUAL_STEPS = 1000,        /* of a period, or fewer: on such ones its scatter was measured */
+  USUAL_STEPS = 2000,        /* of a period, or fewer: on such ones its scatter was measured */
   CHORD_STEPS = 60,          /* of 0.5 at worst, from 1 to rounding */
   REST_TRIES = 4,            /* the second shows that all rest, as a rule */
   CHORD_IDLE = 3,            /* steps before the matrix is renewed: it costs 25 to 150 of them */
