@@ -32,7 +32,7 @@ static model *large_structure(uint64_t *seed, damping how)
     dense_multiply(N, N, N, P, turned, m->damping);
     free(phi);
   }
-  if (how == LOCAL) m->damping[7 * (N + 1)] += 3, m->damping[N * N - 1] += 5;
+  if (how == LOCAL) m->damping[7 * (N + 1)] += 300, m->damping[N * N - 1] += 5; /* overdamped: real poles, too */
   for (int k = 0; k < 10 && how == GYROSCOPIC; ++k) {
     const int i = random_int(seed, 0, N - 2);
     m->damping[i + 1 + N * i] += 2, m->damping[i + N * (i + 1)] -= 2;

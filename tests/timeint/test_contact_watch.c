@@ -179,6 +179,23 @@ static void a_stuck_contact_does_no_work(CHECK_STATE)
   model_free(c.model);
 }
 
+/* Its slider follows the motion over no surface. */
+static void a_separated_contact_has_no_path(CHECK_STATE)
+{
+  const transient_settings hows[] = {closed, by_cvode(TRANSIENT_LAW_EXACT), by_cvode(TRANSIENT_LAW_REGULARISED)};
+  scene sc = scene_linear(1, 0.4, 40, 100);
+  static steady_contacts s;
+  model *m;
+  scene_add(&sc, 100, 1000, 0.3, -50, 45); /* |x| is about 11 */
+  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  for (int k = 0; k < 3; ++k) {
+    settle(m, &hows[k], 7, &s);
+    assert_int_equal(s.contact[0].regime, CONTACT_LINEAR);
+    assert_true(s.contact[0].slip_distance == 0 && s.contact[0].work == 0 && s.contact[0].traction_max == 0);
+  }
+  model_free(m);
+}
+
 CHECK_TESTS("timeint.contact_watch", 60, closed_form_balances, events_balance, the_regularised_law_balances,
             one_degree_of_freedom_balances, a_jenkins_element_loses_the_closed_form_work, extrema_are_between_the_steps,
-            a_stuck_contact_does_no_work)
+            a_stuck_contact_does_no_work, a_separated_contact_has_no_path)
