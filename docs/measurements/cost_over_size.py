@@ -131,4 +131,5 @@ def main():
             table(sys.argv[1], "pairs, 60 coordinates", (case(*mesh) for mesh in ((2, 1), (4, 2), (4, 8), (8, 14))))
 
 
-main()
+if __name__ == "__main__":
+    main()

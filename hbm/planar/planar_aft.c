@@ -13,10 +13,12 @@
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/planar/planar_slider.h"
+#include "numerics/dense.h"
 
 enum {
   PLANAR_PLAIN_PASSES = 4, /* periods dragged before any is guessed */
-  PLANAR_AFT_PASSES = 400  /* at most */
+  PLANAR_AFT_PASSES = 400, /* at most */
+  PANEL = 16               /* products added up at once by BLAS */
 };
 
 /* How the orbit of the last evaluation came about: what its slider depends on. */
@@ -45,7 +47,10 @@ typedef struct planar_aft {
   double *basis[2]; /* [2H+1] harmonics at the sample before and at the one that is looked at */
   double *held;     /* [2H+1] their sum since w moved last */
   double *by[2];    /* [n_col] dw_1, dw_2 */
-  double *whole;    /* [2 (2H+1)][n_col] by columns: d(T_1, T_2) */
+  double *whole;    /* [n_col][2 (2H+1)] d(T_1, T_2) */
+  int n_panel;      /* products of harmonics and dw that `whole` is still to lose, at most PANEL */
+  double *harmonic; /* [PANEL][2H+1] */
+  double *moved;    /* [n_col][2][PANEL] */
   workspace memory; /* of all of these */
 } planar_aft;
 
@@ -88,6 +93,8 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
   }
   a->held = workspace_doubles(w, length);
   a->whole = workspace_doubles(w, 2 * length * n_col);
+  a->harmonic = workspace_doubles(w, PANEL * length);
+  a->moved = workspace_doubles(w, 2 * PANEL * n_col);
   const hc_status st = period_samples_make(a->n_harm, a->n_time, &a->memory, &a->of);
   if (st == HC_OK) *self = a;
   else let_go(a);
@@ -115,25 +122,37 @@ static planar_move planar_aft_step(const planar_aft *a, int i, bool entering, do
 
 typedef struct period {
   bool slips, separates;
-  double A[2][2]; /* dw at the end/dw at the start; not where it separates and forgets */
+  double A[2][2]; /* dw at the end/dw at the start, where it was asked for */
 } period;
 
-/* Tractions and moves of one period, from w before sample 0 to w at the last one. */
-static period drag(planar_aft *a, bool entering, bool apart_somewhere, double w[2])
+/* Tractions and moves of one period, from w before sample 0 to w at the last one. `again`: those of the period before
+ * are known, at whose end w was. Where the slider comes to where it was then, all that follows is the same. */
+static period drag(planar_aft *a, bool entering, bool again, bool differentiated, double w[2])
 {
   period p = {.A = {{1, 0}, {0, 1}}};
   planar_slope slope;
-  const bool differentiated = !(apart_somewhere && planar_slider_forgets(a->restart));
+  const double end[2] = {w[0], w[1]};
+  bool same = false;
   for (int i = 0; i < a->n_time; ++i) {
-    const planar_move move = planar_aft_step(a, i, entering, w, differentiated ? &slope : NULL);
-    const double kt = move == PLANAR_APART ? 0 : a->law.kt;
-    a->move[i] = (unsigned char)move;
-    for (int d = 0; d < 2; ++d) a->traction[d][i] = kt * (a->motion[d][i] - w[d]);
-    if (i == 0) memcpy(a->first, w, sizeof a->first);
+    if (!same) {
+      const planar_move move = planar_aft_step(a, i, entering, w, differentiated ? &slope : NULL);
+      const double kt = move == PLANAR_APART ? 0 : a->law.kt;
+      same = again && (move != PLANAR_APART || planar_slider_forgets(a->restart));
+      for (int d = 0; d < 2; ++d) {
+        const double traction = kt * (a->motion[d][i] - w[d]);
+        same &= traction == a->traction[d][i];
+        a->traction[d][i] = traction;
+      }
+      same &= (move == PLANAR_APART) == (a->move[i] == PLANAR_APART);
+      a->move[i] = (unsigned char)move;
+      if (i == 0) memcpy(a->first, w, sizeof a->first);
+      if (same) memcpy(w, end, sizeof end);
+    }
+    const planar_move move = a->move[i];
     p.slips |= move == PLANAR_SLIPPED;
     p.separates |= move == PLANAR_APART;
     /* A = slope.w A */
-    if (differentiated && (move == PLANAR_SLIPPED || move == PLANAR_PLACED)) {
+    if (differentiated && !same && (move == PLANAR_SLIPPED || move == PLANAR_PLACED)) {
       for (int c = 0; c < 2; ++c) {
         const double a0 = p.A[0][c], a1 = p.A[1][c];
         for (int d = 0; d < 2; ++d) p.A[d][c] = slope.w[d][0] * a0 + slope.w[d][1] * a1;
@@ -162,13 +181,14 @@ static hc_status close_orbit(planar_aft *a, bool apart, double w[2], double enou
   bool guessed = false, stepped = false;
   for (a->passes = 1; a->passes < PLANAR_AFT_PASSES; ++a->passes) {
     memcpy(a->start, w, sizeof a->start);
-    const period p = drag(a, false, apart, w);
+    const bool guesses = a->passes >= PLANAR_PLAIN_PASSES;
+    const period p = drag(a, false, !stepped, guesses && !(apart && planar_slider_forgets(a->restart)), w);
     const double step[2] = {w[0] - a->start[0], w[1] - a->start[1]};
     missed = hypot(step[0], step[1]);
     a->orbit = p.slips || p.separates ? PLANAR_CLOSED : guessed ? PLANAR_GUESSED : PLANAR_DRAGGED;
     if (missed <= enough || (missed <= most && !(missed < 0.5 * before) && stepped)) return HC_OK;
     if (p.slips) memcpy(a->last, a->start, sizeof a->last);
-    const bool guess = a->passes >= PLANAR_PLAIN_PASSES && (!stepped || missed < 0.5 * before);
+    const bool guess = guesses && (!stepped || missed < 0.5 * before);
     before = missed;
     double change[2];
     stepped = guess && planar_aft_fixed_point((double(*)[2])p.A, step, change);
@@ -223,7 +243,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   a->passes = 0;
   a->orbit = PLANAR_ONE_PASS;
   memset(a->start, 0, sizeof a->start);
-  drag(a, true, apart, w);
+  drag(a, true, false, false, w);
   const hc_status st = once ? HC_OK : close_orbit(a, apart, w, 1e-15 * size, 1e-12 * (hypot(w[0], w[1]) + size));
   if (st != HC_OK) return st;
   for (int d = 0; d < 2; ++d) period_samples_series(&a->of, a->traction[d], a->n_harm, F + d * length);
@@ -246,24 +266,30 @@ static void harmonics_at(const planar_aft *a, int i, double *basis)
   period_samples_add(&a->of, 1, i, basis);
 }
 
+static void empty_panel(planar_aft *a)
+{
+  const int length = series_length(a->n_harm), n = columns(a) + 2;
+  dense_add_product(length, 2 * n, a->n_panel, -1, a->harmonic, length, a->moved, PANEL, 1, a->whole, length);
+  a->n_panel = 0;
+}
+
 /* whole -= kt dw at the samples whose harmonics add up to `sum`. */
 static void subtract(planar_aft *a, const double *restrict sum)
 {
   const int length = series_length(a->n_harm), n = columns(a) + 2;
   const double scale = 2 * a->law.kt / a->n_time;
+  double *harmonic = a->harmonic + (size_t)a->n_panel * (size_t)length, *moved = a->moved + a->n_panel;
+  memcpy(harmonic, sum, (size_t)length * sizeof *sum);
+  harmonic[0] *= 0.5;
   for (int q = 0; q < n; ++q)
-    for (int d = 0; d < 2; ++d) {
-      double *restrict to = a->whole + ((size_t)q * 2 + (size_t)d) * (size_t)length;
-      const double weight = scale * a->by[d][q];
-      if (weight == 0) continue;
-      to[0] -= 0.5 * weight * sum[0];
-      for (int m = 1; m < length; ++m) to[m] -= weight * sum[m];
-    }
+    for (int d = 0; d < 2; ++d) moved[(2 * q + d) * PANEL] = scale * a->by[d][q];
+  if (++a->n_panel == PANEL) empty_panel(a);
 }
 
 static void subtract_held(planar_aft *a)
 {
   const size_t bytes = (size_t)series_length(a->n_harm) * sizeof(double);
+  if (a->held[0] == 0) return; /* of no sample */
   subtract(a, a->held);
   memset(a->held, 0, bytes);
 }
@@ -273,14 +299,14 @@ static void clear_rows(planar_aft *a)
   for (int d = 0; d < 2; ++d) memset(a->by[d], 0, ((size_t)columns(a) + 2) * sizeof(double));
 }
 
-/* One step to sample i, whose harmonics are in basis[1]; with `forces`, what T does there. */
+/* One step to sample i; with `forces`, what T does there. */
 static void differentiate_step(planar_aft *a, int i, planar_move move, const planar_slope *slope, bool forces)
 {
-  const int length = series_length(a->n_harm);
   if (move != PLANAR_HELD && forces) subtract_held(a);
   if (move == PLANAR_APART && planar_slider_forgets(a->restart)) clear_rows(a);
   if (move == PLANAR_SLIPPED || move == PLANAR_PLACED) {
     harmonics_at(a, i ? i - 1 : a->n_time - 1, a->basis[0]);
+    harmonics_at(a, i, a->basis[1]);
     /* by = slope of the step applied to it, and to the motion at the samples before and after. */
     const int stride = series_length(a->n_harm), n = columns(a);
     const double radius = a->law.mu * a->law.kn / a->law.kt;
@@ -298,20 +324,22 @@ static void differentiate_step(planar_aft *a, int i, planar_move move, const pla
   }
   if (!forces) return;
   if (move == PLANAR_SLIPPED) subtract(a, a->basis[1]);
-  else if (move != PLANAR_APART)
-    for (int m = 0; m < length; ++m) a->held[m] += a->basis[1][m];
+  else if (move != PLANAR_APART) period_samples_add(&a->of, 1, i, a->held);
 }
 
-/* The rows carried on over a period that begins with the slider w. */
+/* The rows carried on over a period that begins with the slider w; with `forces`, the orbit, whose moves are known. */
 static void differentiate_period(planar_aft *a, bool entering, double w[2], bool forces)
 {
   planar_slope slope;
   for (int i = 0; i < a->n_time; ++i) {
-    const planar_move move = planar_aft_step(a, i, entering, w, &slope);
-    harmonics_at(a, i, a->basis[1]);
+    const bool held = forces && a->move[i] == PLANAR_HELD;
+    const planar_move move = held ? PLANAR_HELD : planar_aft_step(a, i, entering, w, &slope);
     differentiate_step(a, i, move, &slope, forces);
   }
-  if (forces) subtract_held(a);
+  if (forces) {
+    subtract_held(a);
+    empty_panel(a);
+  }
 }
 
 static void start_rows(planar_aft *a)

@@ -23,6 +23,8 @@
 
 static double dot(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
 
+static double norm(const double a[2]) { return sqrt(dot(a, a)); }
+
 /* Is w within r of u? The slider is put on the circle by u - r e: farther out by rounding only, it has not slipped. */
 static bool stays(const planar_sample *to, const double w[2], double distance)
 {
@@ -55,7 +57,7 @@ static void slope_of_slip(const planar_sample *to, const double e[2], const turn
 
 planar_move planar_slider_enter(const planar_sample *to, double w[2], planar_slope *slope)
 {
-  const double q[2] = {to->u[0] - w[0], to->u[1] - w[1]}, size = hypot(q[0], q[1]);
+  const double q[2] = {to->u[0] - w[0], to->u[1] - w[1]}, size = norm(q);
   if (stays(to, w, size)) return PLANAR_HELD;
   const double e[2] = {q[0] / size, q[1] / size};
   for (int d = 0; d < 2; ++d) w[d] = to->u[d] - to->r * e[d];
@@ -111,7 +113,7 @@ static void shares_of_radius(double x, double *mean, double *first, double *last
     return;
   }
   double power = 1;
-  for (int k = 1; k < 10; ++k) {
+  for (int k = 1; k < 10 && fabs(power) > 1e-18; ++k) { /* less than rounding of each sum */
     power *= -x;
     *mean += power / (k + 1);
     *first += power / (k + 2);
@@ -123,7 +125,7 @@ static void shares_of_radius(double x, double *mean, double *first, double *last
 static double slip_begins(const double p[2], const double d[2], double r, double dr)
 {
   const double a = dot(d, d) - dr * dr, b = dot(p, d) - r * dr;
-  const double c = fmin((hypot(p[0], p[1]) - r) * (hypot(p[0], p[1]) + r), 0);
+  const double c = fmin((norm(p) - r) * (norm(p) + r), 0);
   const double root = sqrt(fmax(b * b - a * c, 0));
   const double t = b > 0 ? -c / (b + root) : (root - b) / a;
   return fmin(fmax(t, 0), 1);
@@ -148,12 +150,12 @@ static void slope_of_line(const planar_sample *to, const slip_line *l, planar_sl
 static planar_move go_along_line(const planar_sample *from, const planar_sample *to, double w[2], planar_slope *slope)
 {
   const double q[2] = {to->u[0] - w[0], to->u[1] - w[1]};
-  if (stays(to, w, hypot(q[0], q[1]))) return PLANAR_HELD; /* and all the way: |u - w| - r is convex */
+  if (stays(to, w, norm(q))) return PLANAR_HELD; /* and all the way: |u - w| - r is convex */
   const double p[2] = {from->u[0] - w[0], from->u[1] - w[1]}, d[2] = {to->u[0] - from->u[0], to->u[1] - from->u[1]};
-  slip_line l = {.t = slip_begins(p, d, from->r, to->r - from->r), .length = hypot(d[0], d[1])};
+  slip_line l = {.t = slip_begins(p, d, from->r, to->r - from->r), .length = norm(d)};
   l.r_t = from->r + l.t * (to->r - from->r);
   for (int k = 0; k < 2; ++k) l.e0[k] = p[k] + l.t * d[k];
-  const double size = hypot(l.e0[0], l.e0[1]);
+  const double size = norm(l.e0);
   for (int k = 0; k < 2; ++k) l.e0[k] /= size;
   for (int k = 0; k < 2; ++k) l.n[k] = l.length > 0 ? d[k] / l.length : l.e0[k];
   const double *n = l.n, *e = l.e0, c = dot(n, e), s = n[0] * e[1] - n[1] * e[0];
@@ -166,7 +168,7 @@ static planar_move go_along_line(const planar_sample *from, const planar_sample 
   l.by_r1 = part / l.r_t * (l.t * (first + last) + (1 - l.t) * last);
   const double E = exp(-l.length * l.M), whole = A + B * E * E;
   l.G = 2 * E / whole;
-  l.one_less_G = -expm1(-l.length * l.M) * (A - B * E) / whole;
+  l.one_less_G = slope ? -expm1(-l.length * l.M) * (A - B * E) / whole : 0;
   l.sin_1 = l.G * s;
   const double cos_1 = (A - B * E * E) / whole;
   l.e1[0] = cos_1 * n[0] - l.sin_1 * n[1];
@@ -181,7 +183,7 @@ static planar_move go_along_line(const planar_sample *from, const planar_sample 
 static planar_move touch_on_line(const planar_sample *from, const planar_sample *to, double w[2], planar_slope *slope)
 {
   const double rise = to->r - from->r, t = -from->r / rise;
-  const double d[2] = {to->u[0] - from->u[0], to->u[1] - from->u[1]}, length = hypot(d[0], d[1]);
+  const double d[2] = {to->u[0] - from->u[0], to->u[1] - from->u[1]}, length = norm(d);
   if (slope) memset(slope, 0, sizeof *slope);
   if ((1 - t) * length > to->r) {
     const double e[2] = {d[0] / length, d[1] / length}, turn[2] = {-e[1] / length, e[0] / length};
