@@ -374,8 +374,7 @@ static bool peak_by_slope(peak_search *p, double highest)
   double slope[3], minus_amplitude;
   for (int i = 0; i < 3; ++i) {
     const int k = p->top - 1 + i;
-    slope[i] =
-        amplitude_slope(p->s, p->c, &p->c->points[k], hbm_curve_X(p->c, k), hbm_curve_dX(p->c, k), p->x->guess);
+    slope[i] = amplitude_slope(p->s, p->c, &p->c->points[k], hbm_curve_X(p->c, k), hbm_curve_dX(p->c, k), p->x->guess);
   }
   const int from = slope[1] > 0 ? 1 : 0;
   if (!(slope[from] > 0 && slope[from + 1] <= 0)) return false;

@@ -253,7 +253,7 @@ hc_status modal_flow_new(const model *m, modal_flow **out)
 {
   const size_t n = (size_t)m->n;
   modal_flow *f = calloc(1, sizeof *f);
-  double *phi = malloc((n * n + n) * sizeof *phi), *lambda = phi ? phi + n * n : NULL;
+  double *phi = malloc((2 * n * n + n) * sizeof *phi), *lambda = phi ? phi + n * n : NULL;
   hc_status st = f && phi ? HC_OK : HC_NO_MEMORY;
   *out = NULL;
   if (st == HC_OK) {
@@ -262,9 +262,10 @@ hc_status modal_flow_new(const model *m, modal_flow **out)
     take_memory(f);
     st = f->memory.failed ? HC_NO_MEMORY : model_modes(m, true, f->stuck, phi);
   }
-  for (size_t k = 0; k < n && st == HC_OK; ++k) {
-    const double *mode = phi + k * n;
-    for (size_t i = 0; i < n; ++i) f->stuck_c[k] += mode[i] * dot_product(m->n, m->damping + i * n, mode);
+  if (st == HC_OK) {
+    double *C_phi = lambda + n;
+    dense_multiply(m->n, m->n, m->n, m->damping, phi, C_phi);
+    for (size_t k = 0; k < n; ++k) f->stuck_c[k] = dot_product(m->n, phi + k * n, C_phi + k * n);
   }
   if (st == HC_OK) st = model_modes(m, false, lambda, phi);
   if (st == HC_OK) st = make_modal(m, phi, lambda, f);

@@ -51,6 +51,7 @@ struct monodromy {
   double *size;     /* [n_states] of a state, in the columns of phi */
   interval_flow *flow;
   modal_flow *modal;                 /* instead of flow and planar; else NULL */
+  bool from_all;                     /* no survivors are looked for */
   double *factor;                    /* [n_states][n_states] of compress */
   double *carry;                     /* [n_states][n_states] the period's columns by those of phi, which are fewer */
   const contact_interval **interval; /* [n_states] of each contact, the current one; NULL while separated */
@@ -340,7 +341,8 @@ hc_status monodromy_new(const model *m, monodromy_method how, monodromy **out)
   hc_status st = w->boundary && !w->memory.failed ? floquet_new(w->n_states, &w->floquet) : HC_NO_MEMORY;
   for (int j = 0; j < m->n_contacts && st == HC_OK; j += w->track[j].law->contacts)
     w->track[j].law = &laws[placed_contact_of(m, j).planar ? PLANAR : LINE];
-  if (how == MONODROMY_IN_MODES) {
+  w->from_all = how == MONODROMY_FROM_ALL_STATES;
+  if (how != MONODROMY_BY_INTERVALS) {
     w->carry = workspace_array(&w->memory, n * n, sizeof *w->carry);
     w->factor = workspace_array(&w->memory, n * n, sizeof *w->factor);
     if (st == HC_OK) st = !w->memory.failed ? modal_flow_new(m, &w->modal) : HC_NO_MEMORY;
@@ -543,6 +545,130 @@ static hc_status choose_steps(monodromy *w, const contact_forces *orbit, double 
   return st == HC_OK && modal_flow_operations(w->modal) > MOST_OPERATIONS ? HC_NOT_CONVERGED : st;
 }
 
+/* phi over intervals first..end-1, of n. */
+static hc_status follow_intervals(monodromy *w, const contact_forces *orbit, double omega, int n, int first, int end,
+                                  bool compressed)
+{
+  const model *m = modal_flow_model(w->modal);
+  const int every = n > PARTS ? n / PARTS : 1;
+  hc_status st = HC_OK;
+  for (int i = first; i < end && st == HC_OK; ++i) {
+    if (is_empty(w, n, i)) continue;
+    enter_interval(w, m, orbit, n, i);
+    for (int j = 0; j < m->n_contacts; j += w->track[j].law->contacts)
+      w->track[j].law->begin(w, m, orbit, j, w->boundary[i]);
+    st = modal_flow_advance(w->modal, w->interval, w->n_slipping, w->slipping, w->boundary[i], end_of_interval(w, n, i),
+                            omega, w->columns, w->phi);
+    if (st == HC_OK && compressed && (i + 1) % every == 0) compress(w, m, omega);
+  }
+  return st;
+}
+
+static void carry_nothing(monodromy *w)
+{
+  const size_t states = (size_t)w->n_states;
+  memset(w->carry, 0, states * states * sizeof *w->carry);
+  for (size_t q = 0; q < (size_t)w->columns; ++q) w->carry[q * states + q] = 1;
+}
+
+/* All active states as columns. */
+static void begin_with_active(monodromy *w, const model *m, double omega)
+{
+  const size_t states = (size_t)w->n_states;
+  w->columns = w->n_active;
+  memset(w->phi, 0, states * states * sizeof *w->phi);
+  for (size_t q = 0; q < (size_t)w->n_active; ++q) {
+    const size_t state = (size_t)w->active[q];
+    w->phi[state * states + q] = 1 / weight_of_state(w, m, omega, (int)state);
+  }
+  carry_nothing(w);
+}
+
+/* ---- of large structures: what outlasts a part of the period is fewer than a hundredth of all states, and is found
+ * from as many random ones. The period then begins behind that part, with a basis of it, and its map is that of the
+ * basis's coordinates: cyclic products have the same multipliers but for 0. */
+
+enum { FIRST = 3, MANY_STATES = 400, SPARE = 16 };
+
+/* The first intervals, as long as one of PARTS. */
+static int first_part(const monodromy *w, int n)
+{
+  int end = 0;
+  while (end < n - 1 && w->boundary[end] - w->boundary[0] < 0.99 * TWO_PI * FIRST / PARTS) ++end;
+  return end;
+}
+
+/* phi = a basis of what is behind interval end - 1; false where it takes all states. */
+static hc_status find_survivors(monodromy *w, const contact_forces *orbit, double omega, int n, int end, bool *found)
+{
+  const model *m = modal_flow_model(w->modal);
+  const size_t states = (size_t)w->n_states;
+  const int active = w->n_active;
+  unsigned long long random = 1;
+  hc_status st = HC_OK;
+  *found = false;
+  for (int columns = MANY_STATES; st == HC_OK && !*found && columns < active / 2; columns *= 2) {
+    enter_interval(w, m, orbit, n, n - 1);
+    memset(w->phi, 0, states * states * sizeof *w->phi);
+    for (int a = 0; a < active; ++a)
+      for (int q = 0; q < columns; ++q) {
+        random = random * 6364136223846793005ULL + 1442695040888963407ULL;
+        w->phi[(size_t)w->active[a] * states + (size_t)q] =
+            ((double)(random >> 11) * 0x1p-52 - 1) / weight_of_state(w, m, omega, w->active[a]);
+      }
+    w->columns = columns;
+    st = follow_intervals(w, orbit, omega, n, 0, end, false);
+    w->n_active = 0;
+    if (st == HC_OK) compress(w, m, omega);
+    w->n_active = active;
+    *found = st == HC_OK && w->columns + SPARE <= columns;
+  }
+  if (*found) carry_nothing(w);
+  return st;
+}
+
+/* columns[w->columns][states] = phi times the weights of its states. */
+static void weigh_columns(const monodromy *w, const model *m, double omega, double *columns)
+{
+  const size_t states = (size_t)w->n_states;
+  for (size_t i = 0; i < states; ++i) {
+    const double weight = weight_of_state(w, m, omega, (int)i);
+    for (size_t q = 0; q < (size_t)w->columns; ++q) columns[q * states + i] = weight * w->phi[i * states + q];
+  }
+}
+
+/* w->factor[rank][columns] by rows: coordinates of phi, after the first part once more, in basis[rank][states]. */
+static hc_status close_period(monodromy *w, const contact_forces *orbit, double omega, int n, int end, int rank,
+                              const double *basis)
+{
+  const model *m = modal_flow_model(w->modal);
+  const size_t states = (size_t)w->n_states, square = (size_t)rank * (size_t)rank;
+  workspace own = {0};
+  double *turned = workspace_doubles(&own, (size_t)rank * states), *gram = workspace_doubles(&own, square),
+         *C = workspace_doubles(&own, square);
+  bool *kept = workspace_array(&own, states, sizeof *kept);
+  int *pivot = workspace_array(&own, (size_t)rank, sizeof *pivot);
+  hc_status st = own.failed ? HC_NO_MEMORY : HC_OK;
+  for (int a = 0; a < w->n_active && st == HC_OK; ++a) kept[w->active[a]] = true;
+  for (size_t i = 0; i < states && st == HC_OK; ++i)
+    if (!kept[i]) memset(w->phi + i * states, 0, states * sizeof *w->phi);
+  if (st == HC_OK) st = follow_intervals(w, orbit, omega, n, 0, end, false);
+  if (st == HC_OK) {
+    weigh_columns(w, m, omega, w->left);
+    dense_transpose((int)states, rank, basis, turned);
+    dense_multiply(rank, rank, (int)states, turned, basis, gram);
+    dense_multiply(rank, w->columns, (int)states, turned, w->left, C);
+    st = dense_factor(rank, gram, pivot);
+  }
+  if (st == HC_OK) {
+    dense_solve(rank, gram, pivot, w->columns, C);
+    for (size_t a = 0; a < (size_t)rank; ++a)
+      for (size_t q = 0; q < (size_t)w->columns; ++q) w->factor[a * states + q] = C[q * (size_t)rank + a];
+  }
+  workspace_free(&own);
+  return st;
+}
+
 /* w->lambda[n_active]. */
 static hc_status follow_in_modes(monodromy *w, const contact_forces *orbit, double omega, int n)
 {
@@ -550,33 +676,33 @@ static hc_status follow_in_modes(monodromy *w, const contact_forces *orbit, doub
   hc_status st = choose_steps(w, orbit, omega, n);
   if (st != HC_OK) return st;
   const size_t states = (size_t)w->n_states;
-  const int last = n - 1;
-  const int every = n > PARTS ? n / PARTS : 1;
-  collect_states(w, m, orbit, n, last);
-  w->columns = w->n_active;
-  memset(w->phi, 0, states * states * sizeof *w->phi);
-  memset(w->carry, 0, states * states * sizeof *w->carry);
-  for (size_t q = 0; q < (size_t)w->n_active; ++q) {
-    const size_t state = (size_t)w->active[q];
-    w->phi[state * states + q] = 1 / weight_of_state(w, m, omega, (int)state);
-    w->carry[q * states + q] = 1;
+  const int end = first_part(w, n);
+  bool few = false;
+  double *basis = NULL;
+  collect_states(w, m, orbit, n, n - 1);
+  if (end > 0 && !w->from_all) st = find_survivors(w, orbit, omega, n, end, &few);
+  const int rank = w->columns;
+  if (st == HC_OK && few && !(basis = malloc((size_t)rank * states * sizeof *basis))) st = HC_NO_MEMORY;
+  if (st == HC_OK && few) {
+    const int active = w->n_active;
+    weigh_columns(w, m, omega, basis);
+    w->n_active = rank; /* columns of carry */
+    st = follow_intervals(w, orbit, omega, n, end, n, true);
+    w->n_active = active;
+    if (st == HC_OK) st = close_period(w, orbit, omega, n, end, rank, basis);
+    w->n_active = rank;
+  } else if (st == HC_OK) {
+    enter_interval(w, m, orbit, n, n - 1);
+    begin_with_active(w, m, omega);
+    st = follow_intervals(w, orbit, omega, n, 0, n, true);
+    for (size_t a = 0; a < (size_t)w->n_active && st == HC_OK; ++a) {
+      const double weight = weight_of_state(w, m, omega, w->active[a]);
+      for (size_t q = 0; q < (size_t)w->columns; ++q)
+        w->factor[a * states + q] = weight * w->phi[(size_t)w->active[a] * states + q];
+    }
   }
-  for (int k = 0; k < n && st == HC_OK; ++k) {
-    const int i = (last + 1 + k) % n;
-    if (is_empty(w, n, i)) continue;
-    enter_interval(w, m, orbit, n, i);
-    for (int j = 0; j < m->n_contacts; j += w->track[j].law->contacts)
-      w->track[j].law->begin(w, m, orbit, j, w->boundary[i]);
-    st = modal_flow_advance(w->modal, w->interval, w->n_slipping, w->slipping, w->boundary[i], end_of_interval(w, n, i),
-                            omega, w->columns, w->phi);
-    if (st == HC_OK && (k + 1) % every == 0) compress(w, m, omega);
-  }
+  free(basis);
   if (st != HC_OK) return st;
-  for (size_t a = 0; a < (size_t)w->n_active; ++a) {
-    const double weight = weight_of_state(w, m, omega, w->active[a]);
-    for (size_t q = 0; q < (size_t)w->columns; ++q)
-      w->factor[a * states + q] = weight * w->phi[(size_t)w->active[a] * states + q];
-  }
   dense_add_product(w->columns, w->columns, w->n_active, 1, w->factor, w->n_states, w->carry, w->n_states, 0, w->left,
                     w->n_states);
   w->n_active = w->columns;

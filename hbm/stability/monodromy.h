@@ -16,8 +16,13 @@
 
 typedef struct monodromy monodromy;
 
-/* How intervals are followed: as above; or all of them in the modes of a large structure (modal_flow.h). */
-typedef enum monodromy_method { MONODROMY_BY_INTERVALS, MONODROMY_IN_MODES } monodromy_method;
+/* How intervals are followed: as above; or all of them in the modes of a large structure (modal_flow.h), from what
+ * outlasts a part of the period where that is far less than all states, or, to compare with, from all of them. */
+typedef enum monodromy_method {
+  MONODROMY_BY_INTERVALS,
+  MONODROMY_IN_MODES,
+  MONODROMY_FROM_ALL_STATES
+} monodromy_method;
 
 /* Room for orbits of m, which must live as long. HC_NO_MEMORY; HC_SINGULAR if its mass is; in modes also the errors of
  * modal_flow_new: *out is NULL. */
