@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""What one steady state costs over the number of coordinates and of contacts: the tables of docs/benchmarks.md, on
-standard output; needs NumPy.
+"""What one steady state costs over the number of coordinates and of contacts, on standard output; needs NumPy.
 
-    docs/measurements/cost_over_size.py HBMCHECK [coordinates] [pairs]     both where neither is named
+    docs/measurements/cost_over_size.py HBMCHECK [coordinates[=N,...]] [pairs] [COMMAND...]     all where none is named
 
 The two plates of cases/structures/plates/ with a finer mesh, in the first modes of the whole with all contacts stuck:
-12 pairs in 20 to 2000 modes, 4 to 120 pairs in 60 modes. `transient` with the exact law in closed form and with the
-regularised law by CVODE, from the solution of harmonic balance (H = 3) at 138 Hz; and `frf` at that frequency alone,
-whose time stands for what comes before. Processor time of one process (BLAS kept to one thread), one run an entry. The
-exponent of a column is the slope of a straight line through the logarithms of all its entries."""
+12 pairs in 20 to 2000 modes, 4 to 120 pairs in 60 modes. COMMAND: `frf` (H = 3, with stability), `closed_form` and
+`cvode`, `transient` with the exact law in closed form and with the regularised law by CVODE, which begin with the same
+harmonic balance. Each is run at 138 Hz, and at 138 and 138.01 Hz: the difference is one steady state, and what is left
+of the first run is what comes once, mostly eigenvectors of the structure and reading its matrices. Processor time of one
+process (BLAS kept to one thread), one run an entry. The exponent of a column is the slope of a straight line through the
+logarithms of all its entries."""
 import os
 import subprocess
 import sys
@@ -23,10 +24,9 @@ import make  # noqa: E402
 from solid_elements import write_matrix  # noqa: E402
 
 TANGENTIAL, NORMAL, PRESS = 2.0e10, 2.5e10, 100.0  # as plates.yaml
-FREQUENCY = 138
-COMMANDS = [("frf", ["frf", "--at", str(FREQUENCY)]),
-            ("closed form", ["transient", "--at", str(FREQUENCY), "--set", "transient.law=exact", "--set", "transient.method=closed_form"]),
-            ("CVODE, regularised", ["transient", "--at", str(FREQUENCY), "--set", "transient.law=regularised"])]
+COMMANDS = {"frf": ["frf"],
+            "closed_form": ["transient", "--set", "transient.law=exact", "--set", "transient.method=closed_form"],
+            "cvode": ["transient", "--set", "transient.law=regularised"]}
 
 
 def plates(n_x, n_y):
@@ -88,25 +88,28 @@ def write_case(folder, K, pairs, tip, modes):
     return name + ".yaml"
 
 
-def took(program, case, arguments):
-    """[s] of processor time; None where the command fails."""
+def took(program, case, arguments, at):
+    """[s] of processor time; NaN where the command fails."""
     environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    command = [program, arguments[0], case, *arguments[1:], "--quiet"]
+    command = [program, arguments[0], case, *arguments[1:], "--at", at, "--quiet"]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
     _, status, used = os.wait4(process.pid, 0)
-    return used.ru_utime + used.ru_stime if os.waitstatus_to_exitcode(status) == 0 else None
+    return used.ru_utime + used.ru_stime if os.waitstatus_to_exitcode(status) == 0 else np.nan
 
 
-def table(program, what, cases):
+def table(program, what, cases, commands):
     """`cases`: (size, path) of a case each."""
-    print(f"| {what} | " + " | ".join(f"{name} [s]" for name, _ in COMMANDS) + " |")
-    print("|---" * (len(COMMANDS) + 1) + "|", flush=True)
+    print(f"| {what} | " + " | ".join(f"{name}: once [s] | one steady state [s]" for name in commands) + " |")
+    print("|---" * (2 * len(commands) + 1) + "|", flush=True)
     times = []
     for size, path in cases:
-        runs = [took(program, path, arguments) for _, arguments in COMMANDS]
-        times.append([size] + [np.nan if run is None else run for run in runs])
-        print(f"| {size} | " + " | ".join("-" if run is None else f"{run:.2f}" for run in runs) + " |", flush=True)
-    logs = np.log(np.array(times))
+        row = [size]
+        for name in commands:
+            first, both = (took(program, path, COMMANDS[name], at) for at in ("138", "138,138.01"))
+            row += [2 * first - both, both - first]
+        times.append(row)
+        print(f"| {size} | " + " | ".join("-" if np.isnan(run) else f"{run:.2f}" for run in row[1:]) + " |", flush=True)
+    logs = np.log(np.maximum(np.array(times), 1e-2))
     slopes = [np.polyfit(logs[there, 0], logs[there, k], 1)[0] if there.sum() > 1 else np.nan
               for k in range(1, logs.shape[1]) for there in [np.isfinite(logs[:, k])]]
     print("| exponent | " + " | ".join(f"{slope:.2f}" for slope in slopes) + " |\n", flush=True)
@@ -115,20 +118,26 @@ def table(program, what, cases):
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    asked = sys.argv[2:] or ["coordinates", "pairs"]
+    tables = [word for word in sys.argv[2:] if word not in COMMANDS] or ["coordinates", "pairs"]
+    commands = [word for word in sys.argv[2:] if word in COMMANDS] or list(COMMANDS)
     with tempfile.TemporaryDirectory() as folder:
-        if "coordinates" in asked:
-            make.STEP = 0.002
-            K, M, pairs, tip = plates(4, 2)
-            modes = in_modes(K, M, pairs)
-            table(sys.argv[1], "coordinates, 12 pairs",
-                  ((n, write_case(folder, K, pairs, tip, modes[:, :n])) for n in (20, 40, 80, 160, 320, 640, 1280, 2000)))
-        if "pairs" in asked:
-            make.STEP = 0.01
-            def case(n_x, n_y):
-                K, M, pairs, tip = plates(n_x, n_y)
-                return len(pairs), write_case(folder, K, pairs, tip, in_modes(K, M, pairs)[:, :60])
-            table(sys.argv[1], "pairs, 60 coordinates", (case(*mesh) for mesh in ((2, 1), (4, 2), (4, 8), (8, 14))))
+        for word in tables:
+            name, _, sizes = word.partition("=")
+            if name == "coordinates":
+                make.STEP = 0.002
+                K, M, pairs, tip = plates(4, 2)
+                modes = in_modes(K, M, pairs)
+                table(sys.argv[1], "coordinates, 12 pairs",
+                      ((n, write_case(folder, K, pairs, tip, modes[:, :n]))
+                       for n in map(int, (sizes or "20,80,320,640,1280,2000").split(","))), commands)
+            else:
+                make.STEP = 0.01
+
+                def case(n_x, n_y):
+                    K, M, pairs, tip = plates(n_x, n_y)
+                    return len(pairs), write_case(folder, K, pairs, tip, in_modes(K, M, pairs)[:, :60])
+                table(sys.argv[1], "pairs, 60 coordinates",
+                      (case(*mesh) for mesh in ((2, 1), (4, 2), (4, 8), (8, 14))), commands)
 
 
 if __name__ == "__main__":

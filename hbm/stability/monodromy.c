@@ -682,7 +682,7 @@ static hc_status follow_in_modes(monodromy *w, const contact_forces *orbit, doub
   collect_states(w, m, orbit, n, n - 1);
   if (end > 0 && !w->from_all) st = find_survivors(w, orbit, omega, n, end, &few);
   const int rank = w->columns;
-  if (st == HC_OK && few && !(basis = malloc((size_t)rank * states * sizeof *basis))) st = HC_NO_MEMORY;
+  if (st == HC_OK && few && !(basis = malloc(((size_t)rank * states + 1) * sizeof *basis))) st = HC_NO_MEMORY;
   if (st == HC_OK && few) {
     const int active = w->n_active;
     weigh_columns(w, m, omega, basis);
