@@ -340,10 +340,12 @@ static void add_contact(const modal_flow *f, const contact_site *s, const contac
       *(contact_interval_holds(c, at) ? &own[t + t * rows] : &of_normal[t]) += contact_interval_stiffness(c, at);
 }
 
-/* Entries of a symmetric matrix beside its diagonal: the sum of their squares, each over the diagonal's two. Below 1 it
- * is positive definite, since that bounds what stands beside a diagonal of ones. */
+/* A symmetric matrix whose rows and columns are divided by the roots of its diagonal: `own`, the largest entry between
+ * a mode's displacement and its own velocity, and the sum of the squares of all others beside the diagonal. With
+ * sqrt(sum) < 1 - own it is positive definite: no eigenvalue of those entries is larger, and a mode's two rows alone
+ * have none below 1 - own. */
 typedef struct dominance {
-  double sum;
+  double sum, own;
   bool positive;
 } dominance;
 
@@ -353,11 +355,20 @@ static void add_entry(dominance *of, double entry, double one, double other)
   of->sum += entry * entry / (one * other);
 }
 
+static void add_own(dominance *of, double entry, double one, double other)
+{
+  const double own = fabs(entry) / sqrt(one * other);
+  of->positive = of->positive && one > 0 && other > 0;
+  if (!(own <= of->own)) of->own = own; /* NaN, too */
+}
+
+static bool is_positive(const dominance *of) { return of->positive && of->own < 1 && sqrt(of->sum) < 1 - of->own; }
+
 /* Are modal_flow.h's L and Q positive definite, for the modes fast.. held by K[n][n]? b[n][n], bK = b K. */
 static bool energy_decays(const modal_flow *f, int n, const double *K, const double *b, const double *bK)
 {
   const double *w2 = f->lambda + f->fast, *c = f->damping + f->fast, rate = 0.5 * f->least_damping[f->fast];
-  dominance L = {0, true}, Q = {0, true};
+  dominance L = {.positive = true}, Q = {.positive = true};
   for (int k = 0; k < n; ++k)
     for (int l = 0; l < n; ++l) {
       const double kl = K[k + (size_t)l * n], lk = K[l + (size_t)k * n], skew = 0.5 * (kl - lk),
@@ -372,11 +383,11 @@ static bool energy_decays(const modal_flow *f, int n, const double *K, const dou
         add_entry(&Q, by * (c[k] + c[l] - rate), Qv_k, Qv_l);
         add_entry(&Q, cross, Qk, Qv_l), add_entry(&Q, cross, Qk, Qv_l);
       } else {
-        add_entry(&L, 0.5 * c[k], Lk, 1), add_entry(&L, 0.5 * c[k], Lk, 1);
-        add_entry(&Q, cross - 0.5 * rate * c[k], Qk, Qv_k), add_entry(&Q, cross - 0.5 * rate * c[k], Qk, Qv_k);
+        add_own(&L, 0.5 * c[k], Lk, 1);
+        add_own(&Q, cross - 0.5 * rate * c[k], Qk, Qv_k);
       }
     }
-  return L.positive && Q.positive && L.sum < 1 && Q.sum < 1;
+  return is_positive(&L) && is_positive(&Q);
 }
 
 /* The same of K = left turned; work[2 n n + n rows]. */

@@ -53,6 +53,7 @@ struct monodromy {
   modal_flow *modal;                 /* instead of flow and planar; else NULL */
   bool from_all;                     /* no survivors are looked for */
   double *factor;                    /* [n_states][n_states] of compress */
+  double *share;                     /* [n_states] of one column in the others */
   double *carry;                     /* [n_states][n_states] the period's columns by those of phi, which are fewer */
   const contact_interval **interval; /* [n_states] of each contact, the current one; NULL while separated */
   int n_active, *active;             /* [n_states] the initial states that the multipliers are made of */
@@ -343,6 +344,7 @@ hc_status monodromy_new(const model *m, monodromy_method how, monodromy **out)
     w->track[j].law = &laws[placed_contact_of(m, j).planar ? PLANAR : LINE];
   w->from_all = how == MONODROMY_FROM_ALL_STATES;
   if (how != MONODROMY_BY_INTERVALS) {
+    w->share = workspace_array(&w->memory, n, sizeof *w->share);
     w->carry = workspace_array(&w->memory, n * n, sizeof *w->carry);
     w->factor = workspace_array(&w->memory, n * n, sizeof *w->factor);
     if (st == HC_OK) st = !w->memory.failed ? modal_flow_new(m, &w->modal) : HC_NO_MEMORY;
@@ -490,8 +492,9 @@ static void swap_columns(size_t n, double *A, int a, int b)
   }
 }
 
-/* phi = basis factor by Gram and Schmidt, the largest column first; carry = factor carry. The basis need not be
- * orthogonal to rounding: only the product counts. */
+/* phi = basis factor by Gram and Schmidt, the largest column first, each as long as what it is of phi, so that in later
+ * parts, too, LOST is of the largest; carry = factor carry. The basis need not be orthogonal to rounding: only the
+ * product counts. */
 static void compress(monodromy *w, const model *m, double omega)
 {
   const size_t states = (size_t)w->n_states;
@@ -512,16 +515,17 @@ static void compress(monodromy *w, const model *m, double omega)
     w->slider[rank] = w->slider[pivot], w->slider[pivot] = moved;
     double *now = Q + (size_t)rank * states, *row = R + (size_t)rank * states;
     for (size_t i = 0; i < states; ++i) now[i] /= size;
-    row[w->slider[rank]] = size;
-    for (int q = rank + 1; q < w->columns; ++q) {
-      double *other = Q + (size_t)q * states;
-      const double share = row[w->slider[q]] = dot_product((int)states, now, other);
-      for (size_t i = 0; i < states; ++i) other[i] -= share * now[i];
-    }
+    row[w->slider[rank]] = 1, w->size[rank] = size;
+    const int others = w->columns - rank - 1;
+    double *share = w->share, *other = now + states;
+    dense_add_product(1, others, w->n_states, 1, now, 1, other, w->n_states, 0, share, 1);
+    dense_add_product(w->n_states, others, 1, -1, now, w->n_states, share, 1, 1, other, w->n_states);
+    for (int q = 0; q < others; ++q) row[w->slider[rank + 1 + q]] = share[q] / size;
   }
   for (size_t i = 0; i < states; ++i) {
     const double weight = weight_of_state(w, m, omega, (int)i);
-    for (size_t q = 0; q < (size_t)rank; ++q) w->phi[i * states + q] = weight > 0 ? Q[q * states + i] / weight : 0;
+    for (size_t q = 0; q < (size_t)rank; ++q)
+      w->phi[i * states + q] = weight > 0 ? w->size[q] * Q[q * states + i] / weight : 0;
   }
   dense_add_product(w->n_active, rank, w->columns, 1, w->carry, w->n_states, R, w->n_states, 0, w->left, w->n_states);
   for (size_t r = 0; r < (size_t)rank; ++r)
@@ -550,7 +554,7 @@ static hc_status follow_intervals(monodromy *w, const contact_forces *orbit, dou
                                   bool compressed)
 {
   const model *m = modal_flow_model(w->modal);
-  const int every = n > PARTS ? n / PARTS : 1;
+  int every = n > PARTS ? n / PARTS : 1, next = first + every;
   hc_status st = HC_OK;
   for (int i = first; i < end && st == HC_OK; ++i) {
     if (is_empty(w, n, i)) continue;
@@ -559,7 +563,11 @@ static hc_status follow_intervals(monodromy *w, const contact_forces *orbit, dou
       w->track[j].law->begin(w, m, orbit, j, w->boundary[i]);
     st = modal_flow_advance(w->modal, w->interval, w->n_slipping, w->slipping, w->boundary[i], end_of_interval(w, n, i),
                             omega, w->columns, w->phi);
-    if (st == HC_OK && compressed && (i + 1) % every == 0) compress(w, m, omega);
+    if (st != HC_OK || !compressed || i + 1 < next) continue;
+    const int before = w->columns;
+    compress(w, m, omega);
+    if (2 * w->columns > before && before == w->n_active) every *= 2; /* hardly anything is lost so soon */
+    next += every;
   }
   return st;
 }
@@ -623,7 +631,10 @@ static hc_status find_survivors(monodromy *w, const contact_forces *orbit, doubl
     w->n_active = active;
     *found = st == HC_OK && w->columns + SPARE <= columns;
   }
-  if (*found) carry_nothing(w);
+  if (!*found) return st;
+  for (size_t i = 0; i < states; ++i)
+    for (size_t q = 0; q < (size_t)w->columns; ++q) w->phi[i * states + q] /= w->size[q];
+  carry_nothing(w);
   return st;
 }
 
