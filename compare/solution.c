@@ -215,6 +215,7 @@ static hc_status account(comparison_work *w, const hbm_curve *at, int k, compari
                             .orbit_status = row->orbit_status,
                             .orbit = w->orbits,
                             .state = w->state,
+                            .family = row->family,
                             .by = w->ti};
   if (st != HC_OK) return HC_OK;
   st = budgeter_run(w->budgeter, &from, w->monitor, w->budgets);
@@ -398,6 +399,31 @@ bool comparison_mean_free(const comparison_row *row)
   if (row->transient_status == HC_OK) return motion_mean_is_free(&row->transient);
   if (row->orbit_status == HC_OK) return motion_mean_is_free(&row->orbit);
   return row->hbm_status == HC_OK && row->hbm.contact.free_sliders > 0;
+}
+
+const comparison_row *comparison_worst(const comparison *c, const gate_limits *limits)
+{
+  const comparison_row *worst = NULL;
+  double most = -1;
+  bool differs = false; /* the worst so far */
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *row = &c->rows[i];
+    const discrepancy at = gate_limits_at(limits, row->omega);
+    const double ratio = budget_find_worst(&row->budget, &at).ratio;
+    const bool also = row->verdict == VERDICT_DIFFERS;
+    if (also == differs ? ratio > most : also && ratio >= 0) most = ratio, worst = row, differs = also;
+  }
+  return worst;
+}
+
+const char *comparison_worst_text(const comparison *c, const comparison_row *worst, const gate_limits *limits,
+                                  char text[COMPARISON_WORST_TEXT])
+{
+  const discrepancy at = gate_limits_at(limits, worst->omega);
+  char budget[BUDGET_TEXT];
+  budget_text(&worst->budget, &at, budget);
+  snprintf(text, COMPARISON_WORST_TEXT, "%s%s%s", budget, *c->advice ? "; " : "", c->advice);
+  return text;
 }
 
 bool comparison_nonlinear(const comparison *c)

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Is what hbmcheck advises right?
+
+usage: advice.py followed HBMCHECK [ROWS]        the advice of `compare` on rows that differ, followed once
+       advice.py settings HBMCHECK [SCENES]      the settings of `advise`, held against time integration
+Scenes: `hbmcheck stress --case --first 0, 1, ...`, one in three a structure, solved with settings drawn at random (seed
+1). Standard library only."""
+import csv, itertools, os, random, re, resource, statistics, subprocess, sys, tempfile
+
+SECONDS = 60  # [s] a run of hbmcheck may take
+
+
+def run(args):
+    """(standard output, processor time [s]); None where it took too long."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    try: out = subprocess.run(args, capture_output=True, text=True, timeout=SECONDS).stdout
+    except subprocess.TimeoutExpired: return None, SECONDS
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return out, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def table(text): return list(csv.DictReader(l for l in text.splitlines() if l and not l.startswith("#")))
+
+
+def scene(exe, i, folder):
+    path = os.path.join(folder, "scene.yaml")
+    subprocess.run([exe, "stress", "--case", "--first", str(i), "-o", path] + (["--structures"] if i % 3 == 2 else []), check=True)
+    return path
+
+
+def compare(exe, path, sets, at=()):
+    args = [exe, "compare", path, "--quiet", "--format", "csv"] + [x for s in sets for x in ("--set", s)]
+    return run(args + (["--at", ",".join(map(repr, at))] if at else []))
+
+
+def drawn(rng):
+    h = rng.choice([1, 2, 3, 5, 7, 10])
+    sets = [f"hbm.harmonics={h}", f"hbm.static={rng.choice(['true'] * 5 + ['false'])}"]
+    if rng.random() < 0.5: sets += ["hbm.force=sampled", f"hbm.samples={max(2 * h + 2, rng.choice([16, 32, 64, 128]))}"]
+    if rng.random() < 0.3: sets += [f"transient.regularisation={rng.choice(['3e-2', '1e-2', '1e-3'])}"]
+    if rng.random() < 0.2: sets += ["transient.law=exact"]
+    if rng.random() < 0.2: sets += ["transient.start=rest"]
+    return sets
+
+
+def settings_in(advice):
+    """["hbm.harmonics=9", ...] of "use hbm.harmonics >= 9 and ..."."""
+    return [re.sub(r" >= | <= |: ", "=", s) for s in re.findall(r"(?:hbm|transient)\.\w+(?: >= |: | <= )\S+", advice.split(" or ")[0].replace(",", ""))]
+
+
+def key(r): return float(r["transient_amplitude"] or "nan")
+
+
+def worst_row(rows, advice):
+    """The row that the advice is about."""
+    m = re.search(r"branch (-?\d+)(?:, ([^:]*))?:", advice)
+    return next((r for r in rows if r["branch"] == m.group(1) and r.get("response", "") in (m.group(2) or "", "")), None)
+
+
+def followed(exe, wanted):
+    rng, seen, passed, nothing, helped, other, causes = random.Random(1), 0, 0, 0, 0, [], {}
+    with tempfile.TemporaryDirectory() as folder:
+        for i in itertools.count():
+            if seen >= wanted: break
+            path, sets = scene(exe, i, folder), drawn(rng)
+            out, _ = compare(exe, path, sets)
+            said = re.search(r"# largest budget, .*", out or "")
+            if not said: continue
+            row = worst_row(table(out), said.group())
+            if not row or row["verdict"] != "differs" or "within the gate" in said.group(): continue
+            seen += 1
+            cause = re.search(r"%: (\w+)", said.group()).group(1)
+            causes[cause] = causes.get(cause, 0) + 1
+            if "use " not in said.group():
+                nothing += 1
+                limits = ["hbm.static=true", "hbm.force=exact", "transient.law=exact", "transient.start=hbm", "transient.tolerance=1e-10"]
+                for h in (20, 50, 100, 200) if nothing <= 50 else ():
+                    again, _ = compare(exe, path, sets + limits + [f"hbm.harmonics={h}"])
+                    near = nearest(table(again or ""), row)
+                    if near and near["verdict"] == "match":
+                        helped += 1
+                        print("helped after all", i, sets, h, said.group(), flush=True)
+                        break
+                continue
+            again, _ = compare(exe, path, sets + settings_in(said.group().split("; ", 1)[1]))
+            near = nearest(table(again or ""), row)
+            if near and near["verdict"] == "match": passed += 1
+            else:
+                other.append(i)
+                print("not", i, sets, said.group(), row["transient_amplitude"], near and near["verdict"], near and near["transient_amplitude"], flush=True)
+    asked = seen - nothing
+    print(f"{seen} rows that differ in {i} scenes, by cause {causes}; advised {asked}: {passed} pass ({100 * passed / max(asked, 1):.1f} %); "
+          f"nothing helps: {nothing}, of {min(nothing, 50)} tried {helped} did")
+
+
+def nearest(rows, row):
+    """Of the same response, whose transient is nearest to that row's."""
+    same = [r for r in rows if r.get("response", "") == row.get("response", "") and r["transient_amplitude"]]
+    return min(same, key=lambda r: abs(key(r) - key(row)), default=None)
+
+
+if __name__ == "__main__":
+    {"followed": followed}[sys.argv[1]](sys.argv[2], int(sys.argv[3]) if len(sys.argv) > 3 else 1000)
