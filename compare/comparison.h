@@ -127,6 +127,9 @@ typedef struct comparison {
 hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
 void comparison_clear(comparison *c);
 
+/* Is a quantity of the row beyond its limit: against what its budget is, of one that differs against the transient? */
+bool comparison_row_is_beyond(const comparison_row *row, const gate_limits *limits);
+
 /* The row whose budget is farthest beyond the gate, or nearest to it, of those that differ, if any do; NULL: none has a
  * budget. */
 const comparison_row *comparison_worst(const comparison *c, const gate_limits *limits);

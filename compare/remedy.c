@@ -31,6 +31,7 @@ typedef struct remedy_search {
   trial given;
   int n_harm;           /* of the row's solution */
   double *X, *guess;    /* [n_coef of most harmonics] that solution, and where Newton starts */
+  bool by_transient;    /* else the orbit is what the row is held against */
   double work, seconds; /* spent */
   int most_tried;       /* harmonics */
   /* What the solution is held against: the row's own transient or orbit, or that of the settings under way. */
@@ -44,7 +45,7 @@ static void start_from(const remedy_search *s, const hbm_solver *hbm, int n_harm
 {
   const size_t n = (size_t)hbm_n_coefficients(hbm);
   const comparison_row *row = s->row;
-  if (hbm_n_dof(hbm) == 1 && (row->orbit_status == HC_OK || row->budget.against_transient)) {
+  if (hbm_n_dof(hbm) == 1 && (row->orbit_status == HC_OK || s->by_transient)) {
     const periodic_motion orbit = motion_of_transient(row->orbit_status == HC_OK ? &row->orbit : &row->transient);
     motion_harmonics(&orbit, n_harm, X);
     return;
@@ -57,7 +58,7 @@ static void start_from(const remedy_search *s, const hbm_solver *hbm, int n_harm
 /* Which member of a family a transient that starts on the solution runs on depends on the solution. */
 static bool target_moves(const remedy_search *s, const trial *t)
 {
-  return s->row->family && s->row->budget.against_transient && t->transient.start == TRANSIENT_START_HBM;
+  return s->row->family && s->by_transient && t->transient.start == TRANSIENT_START_HBM;
 }
 
 /* s->target becomes the transient of the trial; sweeps, which come from far, are not repeated. */
@@ -102,6 +103,7 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
     start_from(s, hbm, n_harm, s->guess);
     st = hbm_solve(hbm, s->row->omega, s->guess, &point);
   }
+  if (st != HC_OK && !s->given.hbm.keep_mean) st = hbm_solve_first(hbm, s->row->omega, s->guess, &point);
   if (st == HC_OK) st = motion_of_response(hbm, s->row->omega, s->guess, s->row->response, NULL, &motion);
   const bool solved = st == HC_OK;
   if (solved && (!s->has_target || target_moves(s, t))) st = integrate(s, t, hbm, s->guess);
@@ -162,7 +164,7 @@ static bool change(const remedy_search *s, move m, trial *t)
   case HARMONICS: return true;
   default: break; /* the others change the transient */
   }
-  if (!s->row->budget.against_transient) return false;
+  if (!s->by_transient) return false;
   if (m == START) {
     if (t->transient.start == TRANSIENT_START_HBM) return false;
     t->transient.start = TRANSIENT_START_HBM;
@@ -183,16 +185,18 @@ static hc_status try_with(remedy_search *s, bool more_harmonics, bool transient_
   const comparison_row *row = s->row;
   s->n_harm = n_harm;
   memcpy(s->X, X, (size_t)hbm_n_coefficients(s->w->hbm) * sizeof *X);
-  s->target = row->budget.against_transient ? row->transient : row->orbit;
+  s->target = s->by_transient ? row->transient : row->orbit;
   s->has_target = !transient_too;
   s->failed = false;
   return more_harmonics ? try_harmonics(s, t, n_harm, yes) : try_it(s, t, yes);
 }
 
 /* What acts on the largest part of what failed. */
-static move first_move(const comparison_row *row, const discrepancy *limits)
+static move first_move(const comparison_row *row, const gate_limits *limits)
 {
-  const budget_parts *p = budget_find_worst(&row->budget, limits).parts;
+  const discrepancy at = gate_limits_at(limits, row->omega);
+  const budget_parts *p = budget_find_worst(&row->budget, &at).parts;
+  if (!p || (row->verdict == VERDICT_DIFFERS && !row->budget.against_transient)) return LAW;
   const double hbm = fmax(p->truncation, p->aliasing), time = fmax(p->integration, p->settling);
   if (p->regularisation >= fmax(hbm, time)) return row->budget.family ? START : LAW;
   return time > hbm ? TOLERANCE : STATIC;
@@ -268,13 +272,12 @@ static int solution_of(comparison_work *w, const hbm_curve *at, const comparison
 
 hc_status remedy_find(comparison_work *w, const comparison_row *row, char text[COMPARISON_ADVICE_TEXT])
 {
-  const discrepancy limits = gate_limits_at(w->setup->limits, row->omega);
-  const budget_worst worst = budget_find_worst(&row->budget, &limits);
   text[0] = 0;
-  if (!worst.quantity || worst.ratio <= 1) return HC_OK;
+  if (!comparison_row_is_beyond(row, w->setup->limits)) return HC_OK;
   const size_t longest = (size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)w->setup->model->n;
   workspace memory = {0};
   remedy_search s = {.w = w, .row = row, .given = {w->setup->hbm, w->setup->transient}};
+  s.by_transient = row->budget.against_transient || row->verdict == VERDICT_DIFFERS;
   s.X = workspace_doubles(&memory, longest);
   s.guess = workspace_doubles(&memory, longest);
   hbm_curve at = {0};
@@ -284,11 +287,14 @@ hc_status remedy_find(comparison_work *w, const comparison_row *row, char text[C
     trial t;
     bool yes = false;
     const double *X = at.X + (size_t)k * at.n_coef;
-    st = find(&s, first_move(row, &limits), X, at.points[k].harmonics, &t, &yes);
+    st = find(&s, first_move(row, w->setup->limits), X, at.points[k].harmonics, &t, &yes);
     message m;
     if (st == HC_OK && yes) {
       say(&s, &t, text);
-      const bool exact_alone = t.hbm.force != s.given.hbm.force && t.hbm.harmonics == s.given.hbm.harmonics;
+      const transient_settings *a = &t.transient, *b = &s.given.transient;
+      const bool exact_alone = t.hbm.force != s.given.hbm.force && t.hbm.harmonics == s.given.hbm.harmonics &&
+                               t.hbm.keep_mean == s.given.hbm.keep_mean && a->law == b->law && a->start == b->start &&
+                               a->tolerance == b->tolerance;
       if (exact_alone) {
         trial sampled = t;
         sampled.hbm.force = HBM_FORCE_SAMPLED;
@@ -299,7 +305,7 @@ hc_status remedy_find(comparison_work *w, const comparison_row *row, char text[C
     } else if (st == HC_OK) {
       message_start(&m, text, COMPARISON_ADVICE_TEXT);
       message_add(&m, "nothing within %d harmonics, exact forces%s passes", s.most_tried,
-                  row->budget.against_transient ? ", the exact law and transient.tolerance >= 1e-10" : "");
+                  s.by_transient ? ", the exact law and transient.tolerance >= 1e-10" : "");
     }
   }
   hbm_curve_free(&at);

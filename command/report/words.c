@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "command/report/html.h"
-#include "compare/gate_limits.h"
 
 /* "omega = 7", or with the frequency where the sweep is in cycles. */
 static void write_where(const report_data *d, double omega, FILE *to)
@@ -147,8 +146,7 @@ void words_what_to_do(const report_data *d, FILE *to)
   char text[COMPARISON_WORST_TEXT];
   for (int i = 0; i < c->n_rows; ++i) unknown += !c->rows[i].budget.known;
   if (top) {
-    const discrepancy limits = gate_limits_at(d->setup.limits, top->omega);
-    open_item(to, budget_find_worst(&top->budget, &limits).ratio <= 1 ? "good" : "bad");
+    open_item(to, comparison_row_is_beyond(top, d->setup.limits) ? "bad" : "good");
     fputs("Largest error at ", to);
     write_where(d, top->omega, to);
     html_printf(to, ", branch %d: %s.", top->branch,
