@@ -69,7 +69,8 @@ def followed(exe, wanted):
             row = worst_row(table(out), said.group())
             if not row or row["verdict"] != "differs" or "within the gate" in said.group(): continue
             seen += 1
-            cause = re.search(r"%: (\w+)", said.group()).group(1)
+            if seen % 50 == 0: print(seen, i, passed, nothing, helped, flush=True)
+            cause = "orbit left" if "left the orbit" in said.group() else re.search(r"%: (\w+)", said.group()).group(1)
             causes[cause] = causes.get(cause, 0) + 1
             if "use " not in said.group():
                 nothing += 1
@@ -98,5 +99,48 @@ def verdicts(rows, row):
             abs(key(r) - key(row)) <= 0.05 * key(row)]
 
 
+def worst(rows, error):
+    """The largest error of any row on one orbit; of an unstable one that of the waveform against the orbit."""
+    top, family = 0, False
+    for r in rows:
+        if r["verdict"] in ("match", "differs"):
+            e = [float(r[q + "_error"] or 0) for q in ("amplitude", "harmonic_1", "waveform")] + [float(r["mean_error"] or 0) * (r["mean_free"] != "yes")]
+        elif r["verdict"] == "unstable" and r["orbit_error"]: e = [float(r["orbit_error"])]
+        else: continue
+        if max(e) > error and r["mean_free"] == "yes": family = True
+        top = max(top, *e)
+    return top, family
+
+
+def settings(exe, wanted):
+    rng, seen, kept, broken, smaller, seconds, why = random.Random(1), 0, 0, 0, 0, [], []
+    exact = ["transient.law=exact", "transient.method=closed_form", "transient.start=hbm"]
+    with tempfile.TemporaryDirectory() as folder:
+        for i in itertools.count():
+            if seen >= wanted: break
+            path, error = scene(exe, i, folder), rng.choice([1e-2, 1e-3, 1e-4])
+            out, took = run([exe, "advise", path, "--error", repr(error), "--format", "csv", "--quiet"])
+            found = [r for r in table((out or "").split("\n\n")[0]) if r.get("harmonics")]
+            if len(found) != 2 or "nothing nonlinear" in out: continue  # linear, or too few harmonics
+            seen += 1
+            seconds.append(took)
+            low, high = sorted(map(float, re.search(r"omega: \[(.*), (.*)\]\n", open(path).read()).groups()))
+            strip = [(float(a), float(b)) for a, b in re.findall(r"left out: within (\S+) of the turning point at omega = (\S+)", out)]
+            at = [w for w in (low + (high - low) * (k + rng.random()) / 120 for k in range(120)) if all(abs(w / b - 1) > a for a, b in strip)]
+            for r in found:
+                force = ["hbm.force=" + r["force"]]
+                here, family = worst(table(compare(exe, path, exact + force + [f"hbm.harmonics={r['harmonics']}"] + ([f"hbm.samples={r['samples']}"] if r["samples"] else []), at)[0] or ""), error)
+                kept += here <= error
+                if here > error: why.append((i, r["force"], error, here, "family" if family else "")); print("above", *why[-1], r, flush=True)
+                if not r["next_smaller"]: continue
+                smaller += 1
+                next_sets = [f"hbm.{n}={v}" for n, v in zip(("harmonics", "samples"), re.findall(r"= (\d+)", r["next_smaller"]))]
+                there, _ = worst(table(compare(exe, path, exact + force + next_sets, at)[0] or ""), error)
+                broken += there > 0.9 * error or float(r["next_smaller_error"]) > 0.9 * error
+                if not broken: print("next keeps", i, r, there, flush=True)
+            if seen % 25 == 0: print(f"{seen} scenes of {i + 1}, {2 * seen} settings: {kept} kept; the next smaller of {smaller} breaks {broken}; "
+                                     f"median {statistics.median(seconds):.2f} s, most {max(seconds):.2f} s", flush=True)
+
+
 if __name__ == "__main__":
-    {"followed": followed}[sys.argv[1]](sys.argv[2], int(sys.argv[3]) if len(sys.argv) > 3 else 1000)
+    {"followed": followed, "settings": settings}[sys.argv[1]](sys.argv[2], int(sys.argv[3]) if len(sys.argv) > 3 else 1000)
