@@ -36,8 +36,8 @@ static const cli_option options[] = {
 };
 
 static const table_column columns[] = {
-    TEXT("force"),    INTEGER("harmonics"), INTEGER("samples"),   TEXT("static"),   REAL("error"),
-    TEXT("quantity"), REAL("omega"),        REAL("frequency"),    TEXT("next_smaller"), REAL("next_smaller_error")};
+    TEXT("force"),    INTEGER("harmonics"), INTEGER("samples"), TEXT("static"),       REAL("error"),
+    TEXT("quantity"), REAL("omega"),        REAL("frequency"),  TEXT("next_smaller"), REAL("next_smaller_error")};
 static const char *const spare_columns[] = {"omega", "quantity", NULL};
 static const table_column peer_columns[] = {TEXT("static"), TEXT("program"), TEXT("settings")};
 
@@ -62,8 +62,9 @@ static void put_row(table *t, const scene *sc, const sufficient_row *r)
 {
   char next[64];
   const bool found = r->harmonics > 0;
-  TABLE_ROW(t, CELL(r->sampled ? "sampled" : "exact"), CELL_IF(found, r->harmonics), CELL_IF(r->samples > 0, r->samples),
-            CELL(r->keep_mean ? "yes" : "no"), CELL(r->error), CELL(found ? r->quantity : NULL), CELL(r->omega),
+  TABLE_ROW(t, CELL(r->sampled ? "sampled" : "exact"), CELL_IF(found, r->harmonics),
+            CELL_IF(r->samples > 0, r->samples), CELL(r->keep_mean ? "yes" : "no"), CELL(r->error),
+            CELL(found ? r->quantity : NULL), CELL(r->omega),
             CELL_OF(sc->in_cycles, found ? scene_frequency(sc, r->omega) : NAN),
             CELL((char *)setting_text(r, r->next_harmonics, r->next_samples, next)),
             CELL(r->next_harmonics > 0 ? r->next_error : NAN));

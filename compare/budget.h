@@ -30,7 +30,8 @@ typedef struct budget_parts {
 } budget_parts;
 
 typedef struct error_budget {
-  budget_parts amplitude, harmonic_1, mean, waveform; /* |difference| of (max - min)/2, of |a1 + i b1|, of the means (NaN
+  budget_parts amplitude, harmonic_1, mean,
+      waveform;     /* |difference| of (max - min)/2, of |a1 + i b1|, of the means (NaN
                                                          observed: free), largest of x over the period */
   double reduction; /* [1] how far the stated error of a reduced model moves the amplitude (hbm_predict_reduction): both
                        sides share it, so that it is no part of what lies between them */

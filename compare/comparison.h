@@ -117,7 +117,7 @@ typedef struct comparison {
   int n_states;             /* in a state of time integration */
   double *states;           /* [n_rows][n_states] of each row: where the transient ended */
   comparison_cost cost;
-  int harmonics, samples; /* in use: for auto, the most the curve needed; samples 0 for exact forces */
+  int harmonics, samples;              /* in use: for auto, the most the curve needed; samples 0 for exact forces */
   char advice[COMPARISON_ADVICE_TEXT]; /* with setup.advise: what brings comparison_worst within the gate, as tried */
 } comparison;
 

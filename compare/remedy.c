@@ -27,7 +27,7 @@ typedef struct trial {
 
 typedef struct remedy_search {
   comparison_work *w;
-  const comparison_row *row;
+  const comparison_row *row, *first; /* first: of the same solution, a row for each response */
   trial given;
   int n_harm;           /* of the row's solution */
   double *X, *guess;    /* [n_coef of most harmonics] that solution, and where Newton starts */
@@ -35,7 +35,7 @@ typedef struct remedy_search {
   double work, seconds; /* spent */
   int most_tried;       /* harmonics */
   /* What the solution is held against: the row's own transient or orbit, or that of the settings under way. */
-  timeint_result target;
+  timeint_result *target; /* [responses] */
   bool has_target, failed;
 } remedy_search;
 
@@ -74,22 +74,40 @@ static hc_status integrate(remedy_search *s, const trial *t, hbm_solver *hbm, co
   if (st == HC_OK && start == TRANSIENT_START_REST) timeint_rest(ti, s->w->scratch);
   else if (st == HC_OK) st = comparison_orbit_start(hbm, X, s->row->omega, s->w->scratch);
   if (st == HC_OK)
-    st = timeint_steady(ti, s->row->omega, s->w->scratch, &(hc_monitor){work_limit_tick, &limit}, &s->target);
-  if (st == HC_OK) st = timeint_response(ti, s->row->response, &s->target);
+    st = timeint_steady(ti, s->row->omega, s->w->scratch, &(hc_monitor){work_limit_tick, &limit}, s->target);
+  for (int r = 1; r < s->w->setup->model->n_responses && st == HC_OK; ++r) {
+    s->target[r] = s->target[0];
+    st = timeint_response(ti, r, &s->target[r]);
+  }
   timeint_free(ti);
   s->seconds += thread_seconds() - began;
-  s->has_target = st == HC_OK && s->target.period_multiple == 1;
+  s->has_target = st == HC_OK && s->target[0].period_multiple == 1;
   s->failed = !s->has_target;
   return limit.stopped ? HC_INTERRUPTED : st == HC_NO_MEMORY ? st : HC_OK;
 }
 
-/* *yes: with these settings the row is within the limits. */
+/* *yes: every response of the solution X that is compared is within the limits of the target. */
+static hc_status hold_against_target(const remedy_search *s, hbm_solver *hbm, const double *X, bool *yes)
+{
+  hc_status st = HC_OK;
+  *yes = true;
+  for (int r = 0; r < s->w->setup->model->n_responses && *yes && st == HC_OK; ++r) {
+    if (s->first[r].still) continue;
+    periodic_motion motion;
+    const periodic_motion target = motion_of_transient(&s->target[r]);
+    st = motion_of_response(hbm, s->row->omega, X, r, NULL, &motion);
+    const discrepancy d = motion_discrepancy(&motion, &target);
+    *yes = st == HC_OK && gate_limits_hold(s->w->setup->limits, s->row->omega, &d, motion_mean_is_free(&s->target[r]));
+  }
+  return st;
+}
+
+/* *yes: with these settings the row's solution is within the limits, in all responses. */
 static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
 {
   const model *m = s->w->setup->model;
   hbm_solver *hbm;
   hbm_point point;
-  periodic_motion motion;
   *yes = false;
   hc_status st = guided_hbm_solver_new(m, &t->hbm, &hbm);
   if (st != HC_OK) return st == HC_NO_MEMORY ? st : HC_OK;
@@ -104,14 +122,9 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
     st = hbm_solve(hbm, s->row->omega, s->guess, &point);
   }
   if (st != HC_OK && !s->given.hbm.keep_mean) st = hbm_solve_first(hbm, s->row->omega, s->guess, &point);
-  if (st == HC_OK) st = motion_of_response(hbm, s->row->omega, s->guess, s->row->response, NULL, &motion);
   const bool solved = st == HC_OK;
   if (solved && (!s->has_target || target_moves(s, t))) st = integrate(s, t, hbm, s->guess);
-  if (solved && st == HC_OK && s->has_target) {
-    const periodic_motion target = motion_of_transient(&s->target);
-    const discrepancy d = motion_discrepancy(&motion, &target);
-    *yes = gate_limits_hold(s->w->setup->limits, s->row->omega, &d, motion_mean_is_free(&s->target));
-  }
+  if (solved && st == HC_OK && s->has_target) st = hold_against_target(s, hbm, s->guess, yes);
   if (solved) { /* the next one starts here */
     s->n_harm = n_harm;
     memcpy(s->X, s->guess, (size_t)hbm_n_coefficients(hbm) * sizeof *s->X);
@@ -182,10 +195,10 @@ static bool change(const remedy_search *s, move m, trial *t)
 static hc_status try_with(remedy_search *s, bool more_harmonics, bool transient_too, const double *X, int n_harm,
                           trial *t, bool *yes)
 {
-  const comparison_row *row = s->row;
   s->n_harm = n_harm;
   memcpy(s->X, X, (size_t)hbm_n_coefficients(s->w->hbm) * sizeof *X);
-  s->target = s->by_transient ? row->transient : row->orbit;
+  for (int r = 0; r < s->w->setup->model->n_responses; ++r)
+    s->target[r] = s->by_transient ? s->first[r].transient : s->first[r].orbit;
   s->has_target = !transient_too;
   s->failed = false;
   return more_harmonics ? try_harmonics(s, t, n_harm, yes) : try_it(s, t, yes);
@@ -276,10 +289,11 @@ hc_status remedy_find(comparison_work *w, const comparison_row *row, char text[C
   if (!comparison_row_is_beyond(row, w->setup->limits)) return HC_OK;
   const size_t longest = (size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)w->setup->model->n;
   workspace memory = {0};
-  remedy_search s = {.w = w, .row = row, .given = {w->setup->hbm, w->setup->transient}};
+  remedy_search s = {.w = w, .row = row, .first = row - row->response, .given = {w->setup->hbm, w->setup->transient}};
   s.by_transient = row->budget.against_transient || row->verdict == VERDICT_DIFFERS;
   s.X = workspace_doubles(&memory, longest);
   s.guess = workspace_doubles(&memory, longest);
+  s.target = workspace_array(&memory, (size_t)w->setup->model->n_responses, sizeof *s.target);
   hbm_curve at = {0};
   hc_status st = memory.failed ? HC_NO_MEMORY : hbm_curve_at(w->hbm, &w->out->curve, row->omega, &at);
   const int k = memory.failed ? -1 : solution_of(w, &at, row);

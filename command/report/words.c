@@ -149,8 +149,7 @@ void words_what_to_do(const report_data *d, FILE *to)
     open_item(to, comparison_row_is_beyond(top, d->setup.limits) ? "bad" : "good");
     fputs("Largest error at ", to);
     write_where(d, top->omega, to);
-    html_printf(to, ", branch %d: %s.", top->branch,
-                comparison_worst_text(c, top, d->setup.limits, text));
+    html_printf(to, ", branch %d: %s.", top->branch, comparison_worst_text(c, top, d->setup.limits, text));
     fputs("</li>\n", to);
   }
   if (unknown)

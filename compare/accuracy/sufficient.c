@@ -11,11 +11,11 @@
 
 enum { TRACED = 20, POINTS = 32, OF_CURVE = 48, FIRST_TRUTH = 40, MOST_SAMPLES = 65536, ROUNDS = 3, REFINED = 3 };
 static const double least_strip = 1e-3;
-static const double proven = 0.05;       /* of the error: the truth's own */
-static const double most_work = 5e10;    /* [unknowns^3] of a search */
+static const double proven = 0.05;         /* of the error: the truth's own */
+static const double most_work = 5e10;      /* [unknowns^3] of a search */
 static const double chance_to_miss = 0.75; /* aliasing errors jump from frequency to frequency: the largest of those
                                               looked at is so much of the largest there is */
-static const double still = 1e-9;        /* of the largest amplitude: a response that is not looked at */
+static const double still = 1e-9;          /* of the largest amplitude: a response that is not looked at */
 
 /* One solution that settings are held against. */
 typedef struct target {
@@ -240,6 +240,28 @@ static hc_status try_setting(search *s, const hbm_settings *how, double enough, 
   return st;
 }
 
+/* Where an error is within `allowed`, does the curve that such settings follow go there? Few harmonics may have another
+ * one, which begins where the sweep does. Asked of PROBES targets. */
+static hc_status follows(search *s, const hbm_settings *how, bool *yes)
+{
+  enum { PROBES = 6 };
+  compare_setup setup = *s->setup;
+  response_curve c;
+  setup.hbm = *how;
+  hc_status st = response_trace(&setup, &setup.compare.omega, s->monitor, &c);
+  *yes = st == HC_OK && c.hbm;
+  for (int i = 0; i < PROBES && i < s->n && *yes; ++i) {
+    target *t = &s->targets[i * s->n / (s->n < PROBES ? s->n : PROBES)];
+    hbm_curve at = {0};
+    st = hbm_curve_at(c.hbm, &c.curve, t->omega, &at) == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK;
+    *yes = false;
+    for (int k = 0; k < at.n && !*yes; ++k) *yes = distance(s, c.hbm, hbm_curve_X(&at, k), t) <= s->allowed;
+    hbm_curve_free(&at);
+  }
+  response_curve_free(&c);
+  return st;
+}
+
 static hc_status error_of(search *s, const hbm_settings *how, sufficient_row *row)
 {
   const target *where = NULL;
@@ -312,13 +334,18 @@ static hc_status exact_row(search *s, bool keep_mean, int most, sufficient_row *
   hc_status st = HC_OK;
   how.keep_mean = keep_mean;
   *row = (sufficient_row){.keep_mean = keep_mean, .error = NAN, .next_error = NAN, .omega = NAN};
-  for (int round = 0; round <= ROUNDS && st == HC_OK; ++round) { /* what was between the frequencies may be worse */
+  for (int round = 0; round <= ROUNDS && st == HC_OK;) {
     st = least_harmonics(s, how, most, row);
     if (st != HC_OK || row->harmonics == 0) return st;
+    bool yes;
     how.harmonics = row->harmonics;
+    st = follows(s, &how, &yes);
+    if (st == HC_OK && !yes) row->by_chance = row->harmonics++;
+    if (st != HC_OK || !yes) continue;
+    ++round; /* what is between the frequencies may be worse */
     st = error_of(s, &how, row);
     const int before = s->n;
-    if (st == HC_OK && round < ROUNDS && s->setup->compare.omega.n == 0) st = refine(s);
+    if (st == HC_OK && round <= ROUNDS && s->setup->compare.omega.n == 0) st = refine(s);
     if (s->n == before) break;
   }
   sufficient_row next;
@@ -343,7 +370,8 @@ static hc_status sampled_row(search *s, const sufficient_row *exact, sufficient_
   hc_status st = HC_OK;
   how.force = HBM_FORCE_SAMPLED;
   how.keep_mean = exact->keep_mean;
-  *row = (sufficient_row){.sampled = true, .keep_mean = exact->keep_mean, .error = NAN, .next_error = NAN, .omega = NAN};
+  *row =
+      (sufficient_row){.sampled = true, .keep_mean = exact->keep_mean, .error = NAN, .next_error = NAN, .omega = NAN};
   row->most_harmonics = exact->most_harmonics;
   if (exact->harmonics == 0) return HC_OK;
   const int most = exact->harmonics + 4 + exact->harmonics / 4;
@@ -361,6 +389,9 @@ static hc_status sampled_row(search *s, const sufficient_row *exact, sufficient_
       if (!kept && first) by_chance = first;
       first = !kept ? 0 : first ? first : n;
       if (first == 0 || (n < 4 * first && n < MOST_SAMPLES)) continue;
+      bool yes;
+      how.samples = first;
+      if ((st = follows(s, &how, &yes)) != HC_OK || !yes) break;
       cheapest = cost(s, h, first);
       row->harmonics = h;
       row->samples = first;

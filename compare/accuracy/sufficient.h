@@ -6,7 +6,7 @@
  * or less: the same solutions, without a second's integration, and neither mean nor family open between the two.
  *
  * "Least" is from here on: all greater settings that were tried keep the error, too. A smaller one may keep it by chance,
- * as errors pass through 0: `by_chance`. Proof: tests/compare/accuracy/test_sufficient.c. */
+ * as errors pass through 0: `by_chance`. Proof: tests/command/advice.py. */
 #pragma once
 
 #include "base/status.h"
@@ -15,9 +15,9 @@
 
 typedef struct sufficient_row {
   bool sampled, keep_mean;
-  int harmonics, samples;           /* harmonics 0: nothing up to most_harmonics keeps it; samples 0: exact forces */
-  double error;                     /* [1] largest over frequencies, solutions, responses and quantities */
-  const char *quantity;             /* which, and where */
+  int harmonics, samples; /* harmonics 0: nothing up to most_harmonics keeps it; samples 0: exact forces */
+  double error;           /* [1] largest over frequencies, solutions, responses and quantities */
+  const char *quantity;   /* which, and where */
   double omega;
   int next_harmonics, next_samples; /* the next smaller setting; harmonics 0: there is none */
   double next_error;                /* INFINITY: a solution is missing */
