@@ -10,12 +10,12 @@
 
 static const char help[] =
     "The least harmonics with exact forces, and the cheapest harmonics and samples, that keep amplitude, harmonic 1, "
-    "mean and waveform of CASE within E of the amplitude along the whole curve or at the frequencies of --at; the error "
-    "there and at the next smaller setting; and the same in other programs' words."
+    "mean and waveform of CASE within E of the amplitude along the whole curve or at the frequencies of --at; the "
+    "error there and at the next smaller setting; and the same in other programs' words."
     "\vHeld against harmonic balance with exact forces and so many harmonics that its own predicted error is E/20 or "
-    "less. Least means from here on: all greater settings tried keep E, too; a smaller one that does so by chance is in "
-    "a remark. Samples are powers of two. Within E (at least 0.1 %) of a turning point's frequency nothing is compared: "
-    "few harmonics turn elsewhere.\n"
+    "less. Least means from here on: all greater settings tried keep E, too; a smaller one that does so by chance is "
+    "in a remark. Samples are powers of two. Within E (at least 0.1 %) of a turning point's frequency nothing is "
+    "compared: few harmonics turn elsewhere.\n"
     "exit: 0 done  2 case file wrong  3 nothing keeps E, or it could not be found out  64 usage\n"
     "example: hbmcheck advise cases/paper/case2.yaml --error 1e-3";
 

@@ -9,8 +9,8 @@
  *
  * The parts are sizes without signs: where two of opposite sign cancel, their sum is larger than |h - T|. Where the
  * transient is not on the orbit next to h, the budget is that of |h - O|, and only the first two parts exist. Of a
- * family of steady states (comparison_row.family) |O - T'| is the distance between two of its members, whatever the law.
- * All are relative to the transient's amplitude (to O's without it). NaN: not there, or could not be computed. */
+ * family of steady states (comparison_row.family) |O - T'| is the distance between two of its members, whatever the
+ * law. All are relative to the transient's amplitude (to O's without it). NaN: not there, or could not be computed. */
 #pragma once
 
 #include "compare/compare_settings.h"

@@ -401,8 +401,8 @@ bool comparison_mean_free(const comparison_row *row)
   return row->hbm_status == HC_OK && row->hbm.contact.free_sliders > 0;
 }
 
-/* What is farthest beyond its limit, as budget_find_worst has it; of a transient that left the orbit beside the solution
- * by the row's errors, with no parts. */
+/* What is farthest beyond its limit, as budget_find_worst has it; of a transient that left the orbit beside the
+ * solution by the row's errors, with no parts. */
 static budget_worst worst_of(const comparison_row *row, const gate_limits *limits)
 {
   const discrepancy at = gate_limits_at(limits, row->omega), *e = &row->errors;

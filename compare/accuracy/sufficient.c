@@ -204,8 +204,8 @@ static double distance(search *s, hbm_solver *hbm, const double *X, target *t)
   return worst;
 }
 
-/* *error: the largest, of which the targets keep theirs; or INFINITY. No more are tried after one is above `enough`, and
- * that one is first next time. HC_TOO_MANY_POINTS: too much work. */
+/* *error: the largest, of which the targets keep theirs; or INFINITY. No more are tried after one is above `enough`,
+ * and that one is first next time. HC_TOO_MANY_POINTS: too much work. */
 static hc_status try_setting(search *s, const hbm_settings *how, double enough, double *error, const target **where)
 {
   hbm_solver *hbm;

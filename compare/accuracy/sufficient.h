@@ -2,11 +2,11 @@
  * where a slider leaves it open) and waveform of every response, relative to its amplitude, along the whole curve.
  *
  * What it is held against is harmonic balance itself, with exact forces, harmonic 0 and so many harmonics that its own
- * prediction (hbm_predict), held against time integration and theorems in docs/prediction.md, is a twentieth of the error
- * or less: the same solutions, without a second's integration, and neither mean nor family open between the two.
+ * prediction (hbm_predict), held against time integration and theorems in docs/prediction.md, is a twentieth of the
+ * error or less: the same solutions, without a second's integration, and neither mean nor family open between the two.
  *
- * "Least" is from here on: all greater settings that were tried keep the error, too. A smaller one may keep it by chance,
- * as errors pass through 0: `by_chance`. Proof: tests/command/advice.py. */
+ * "Least" is from here on: all greater settings that were tried keep the error, too. A smaller one may keep it by
+ * chance, as errors pass through 0: `by_chance`. Proof: tests/command/advice.py. */
 #pragma once
 
 #include "base/status.h"
