@@ -14,8 +14,8 @@ static const char help[] =
     "error there and at the next smaller setting; and the same in other programs' words."
     "\vHeld against harmonic balance with exact forces and so many harmonics that its own predicted error is E/20 or "
     "less. Least means from here on: all greater settings tried keep E, too; a smaller one that does so by chance is "
-    "in a remark. Samples are powers of two. Within E (at least 0.1 %) of a turning point's frequency nothing is "
-    "compared: few harmonics turn elsewhere.\n"
+    "in a remark. Samples are powers of two. Within E (at least 0.1 %, and of 50 half widths where those are "
+    "less) of a turning point's frequency nothing is compared: few harmonics turn elsewhere.\n"
     "exit: 0 done  2 case file wrong  3 nothing keeps E, or it could not be found out  64 usage\n"
     "example: hbmcheck advise cases/paper/case2.yaml --error 1e-3";
 

@@ -8,11 +8,12 @@
 #include "base/growing.h"
 #include "base/workspace.h"
 #include "compare/motion.h"
+#include "model/modes.h"
 
 enum { TRACED = 20, POINTS = 32, OF_CURVE = 48, FIRST_TRUTH = 40, MOST_SAMPLES = 65536, ROUNDS = 3, REFINED = 3 };
-static const double least_strip = 1e-3;
-static const double proven = 0.05;         /* of the error: the truth's own */
-static const double most_work = 5e10;      /* [unknowns^3] of a search */
+static const double least_strip = 1e-3, widths = 50; /* of omega; half widths of the resonances instead, if less */
+static const double proven = 0.05;                   /* of the error: the truth's own */
+static const double most_work = 5e10;                /* [unknowns^3] of a search */
 static const double chance_to_miss = 0.75; /* aliasing errors jump from frequency to frequency: the largest of those
                                               looked at is so much of the largest there is */
 static const double still = 1e-9;          /* of the largest amplitude: a response that is not looked at */
@@ -376,7 +377,7 @@ static hc_status sampled_row(search *s, const sufficient_row *exact, sufficient_
   if (exact->harmonics == 0) return HC_OK;
   const int most = exact->harmonics + 4 + exact->harmonics / 4;
   for (int h = exact->harmonics; h <= most && h <= HBM_MAX_HARMONICS && st == HC_OK; ++h) {
-    int first = 0, by_chance = 0, n = 8;
+    int first = 0, by_chance = 0, n = 4;
     while (n < 2 * h + 2) n *= 2;
     row->most_harmonics = how.harmonics = h;
     for (; n <= MOST_SAMPLES && cost(s, h, first ? first : n) < cheapest && st == HC_OK; n *= 2) {
@@ -416,10 +417,19 @@ static hc_status sampled_row(search *s, const sufficient_row *exact, sufficient_
   return st;
 }
 
+/* [1] of omega: so near to a turning point nothing is compared. */
+static double strip_of(const compare_setup *setup, double error)
+{
+  model_scales scales;
+  const double least = fmin(setup->omega_from, setup->omega_to);
+  const bool damped = model_find_scales(setup->model, &scales) == HC_OK && scales.half_width > 0;
+  return fmax(error, least_strip) * (damped ? fmin(1, widths * scales.half_width / least) : 1);
+}
+
 hc_status sufficient_run(const compare_setup *setup, double error, bool without_mean, const hc_monitor *monitor,
                          sufficient *out)
 {
-  *out = (sufficient){.strip = fmax(error, least_strip)};
+  *out = (sufficient){.strip = strip_of(setup, error)};
   search s = {.setup = setup, .monitor = monitor, .allowed = error, .out = out};
   compare_setup traced = *setup;
   number_list omega = {.n = 0};
@@ -432,7 +442,7 @@ hc_status sufficient_run(const compare_setup *setup, double error, bool without_
   if (st == HC_OK && s.curve.curve.n == 0) st = out->end;
   if (st == HC_OK) st = choose_frequencies(&s, &omega);
   if (st == HC_OK) st = find_truth(&s, &omega);
-  for (int mean = 1; mean >= !without_mean && st == HC_OK; --mean) {
+  for (int mean = 1; mean >= (without_mean ? 0 : 1) && st == HC_OK; --mean) {
     sufficient_row *row = &out->rows[out->n];
     const int most = mean ? HBM_MAX_HARMONICS : 2 * TRACED;
     s.work = 0;
