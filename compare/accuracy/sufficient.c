@@ -14,9 +14,9 @@ enum { TRACED = 20, POINTS = 32, OF_CURVE = 48, FIRST_TRUTH = 40, MOST_SAMPLES =
 static const double least_strip = 1e-3, widths = 50; /* of omega; half widths of the resonances instead, if less */
 static const double proven = 0.05;                   /* of the error: the truth's own */
 static const double most_work = 5e10;                /* [unknowns^3] of a search */
-static const double chance_to_miss = 0.75; /* aliasing errors jump from frequency to frequency: the largest of those
+static const double chance_to_miss = 0.9; /* aliasing errors jump from frequency to frequency: the largest of those
                                               looked at is so much of the largest there is */
-static const double still = 1e-9;          /* of the largest amplitude: a response that is not looked at */
+static const double still = 1e-9;         /* of the largest amplitude: a response that is not looked at */
 
 /* One solution that settings are held against. */
 typedef struct target {
@@ -150,6 +150,7 @@ static hc_status choose_frequencies(search *s, number_list *out)
   if (hbm_curve_peak(s->curve.hbm, c, &peak) == HC_OK && peak.n > 0 && out->n < NUMBER_LIST_MAX)
     out->v[out->n++] = peak.points[0].omega;
   hbm_curve_free(&peak);
+  for (int end = 0; end < 2 && out->n < NUMBER_LIST_MAX; ++end) out->v[out->n++] = end ? high : low;
   for (int i = 0; i < s->out->n_folds; ++i)
     for (int side = -1; side <= 1 && out->n < NUMBER_LIST_MAX; side += 2)
       out->v[out->n++] = s->out->folds[i] * (1 + side * s->out->strip);
@@ -364,9 +365,39 @@ static double cost(const search *s, int harmonics, int samples)
   return s->setup->model->n_contacts * (10 * log2(samples) + 20) * samples + 2 * n * n * n / 3;
 }
 
+/* The cheapest pair that keeps `allowed` from here on, into row; how: the rest. */
+static hc_status cheapest_pair(search *s, int least, hbm_settings how, sufficient_row *row)
+{
+  const double allowed = chance_to_miss * s->allowed;
+  const int most = least + 4 + least / 4;
+  double cheapest = INFINITY;
+  hc_status st = HC_OK;
+  row->harmonics = row->samples = row->by_chance = 0;
+  for (int h = least; h <= most && h <= HBM_MAX_HARMONICS && st == HC_OK; ++h) {
+    int first = 0, by_chance = 0, n = 4;
+    while (n < 2 * h + 2) n *= 2;
+    row->most_harmonics = how.harmonics = h;
+    for (; n <= MOST_SAMPLES && cost(s, h, first ? first : n) < cheapest && st == HC_OK; n *= 2) {
+      const target *where;
+      double error;
+      bool yes;
+      how.samples = n;
+      if ((st = try_setting(s, &how, allowed, &error, &where)) != HC_OK) break;
+      if (!(error <= allowed) && first) by_chance = first;
+      first = !(error <= allowed) ? 0 : first ? first : n;
+      if (first == 0 || (n < 4 * first && n < MOST_SAMPLES)) continue;
+      how.samples = first;
+      if ((st = follows(s, &how, &yes)) != HC_OK || !yes) break;
+      cheapest = cost(s, h, first);
+      row->harmonics = h, row->samples = first, row->by_chance = by_chance;
+      break;
+    }
+  }
+  return st == HC_TOO_MANY_POINTS ? HC_OK : st;
+}
+
 static hc_status sampled_row(search *s, const sufficient_row *exact, sufficient_row *row)
 {
-  double cheapest = INFINITY;
   hbm_settings how = exact_settings(s, exact->harmonics);
   hc_status st = HC_OK;
   how.force = HBM_FORCE_SAMPLED;
@@ -375,43 +406,22 @@ static hc_status sampled_row(search *s, const sufficient_row *exact, sufficient_
       (sufficient_row){.sampled = true, .keep_mean = exact->keep_mean, .error = NAN, .next_error = NAN, .omega = NAN};
   row->most_harmonics = exact->most_harmonics;
   if (exact->harmonics == 0) return HC_OK;
-  const int most = exact->harmonics + 4 + exact->harmonics / 4;
-  for (int h = exact->harmonics; h <= most && h <= HBM_MAX_HARMONICS && st == HC_OK; ++h) {
-    int first = 0, by_chance = 0, n = 4;
-    while (n < 2 * h + 2) n *= 2;
-    row->most_harmonics = how.harmonics = h;
-    for (; n <= MOST_SAMPLES && cost(s, h, first ? first : n) < cheapest && st == HC_OK; n *= 2) {
-      const target *where;
-      double error;
-      how.samples = n;
-      st = try_setting(s, &how, chance_to_miss * s->allowed, &error, &where);
-      if (st != HC_OK) break;
-      const bool kept = error <= chance_to_miss * s->allowed;
-      if (!kept && first) by_chance = first;
-      first = !kept ? 0 : first ? first : n;
-      if (first == 0 || (n < 4 * first && n < MOST_SAMPLES)) continue;
-      bool yes;
-      how.samples = first;
-      if ((st = follows(s, &how, &yes)) != HC_OK || !yes) break;
-      cheapest = cost(s, h, first);
-      row->harmonics = h;
-      row->samples = first;
-      row->by_chance = by_chance;
-      break;
-    }
+  for (int round = 0; round <= ROUNDS && st == HC_OK; ++round) {
+    if (!(row->error <= s->allowed)) st = cheapest_pair(s, exact->harmonics, how, row);
+    if (st != HC_OK || row->harmonics == 0) return st;
+    s->work = 0;
+    how.harmonics = row->harmonics, how.samples = row->samples;
+    st = error_of(s, &how, row);
+    const int before = s->n;
+    if (st == HC_OK && round < ROUNDS && s->setup->compare.omega.n == 0) st = refine(s);
+    if (s->n == before) break;
+    if (st == HC_OK) st = error_of(s, &how, row);
   }
-  if (st == HC_TOO_MANY_POINTS) st = HC_OK;
-  if (st != HC_OK || row->harmonics == 0) return st;
-  s->work = 0;
-  how.harmonics = row->harmonics;
-  how.samples = row->samples;
-  st = error_of(s, &how, row);
-  if (st != HC_OK) return st;
   const bool halved = row->samples / 2 >= 2 * row->harmonics + 2;
   sufficient_row next;
   row->next_harmonics = how.harmonics = halved ? row->harmonics : row->harmonics - 1;
   row->next_samples = how.samples = halved ? row->samples / 2 : row->samples;
-  if (how.harmonics == 0) return HC_OK;
+  if (st != HC_OK || how.harmonics == 0) return st;
   st = error_of(s, &how, &next);
   row->next_error = next.error;
   return st;

@@ -118,7 +118,7 @@ def worst(rows, error):
 
 def settings(exe, wanted):
     rng, seen, kept, broken, smaller, seconds, why = random.Random(1), 0, 0, 0, 0, [], []
-    exact = ["transient.law=exact", "transient.method=closed_form", "transient.start=hbm"]
+    exact = ["transient.law=exact", "transient.method=closed_form", "transient.start=hbm", "hbm.static=true"]
     with tempfile.TemporaryDirectory() as folder:
         for i in itertools.count():
             if seen >= wanted: break
