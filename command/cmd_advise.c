@@ -93,7 +93,8 @@ static void put_notes(table *t, const scene *sc, const advise_options *own, cons
   if (s->end != HC_OK) table_note(t, "the curve STOPPED early: %s", hc_status_text(s->end));
 }
 
-static int write_advice(const cli_common *common, const scene *sc, const advise_options *own, const sufficient *s)
+static int write_advice(const cli_common *common, const scene *sc, const advise_options *own, const sufficient *s,
+                        hc_status st)
 {
   table *tables[2] = {cli_own_table("Sufficient settings", cli_extra_columns(sc), CLI_COLUMNS(columns)),
                       cli_own_table("In other programs", 0, CLI_COLUMNS(peer_columns))};
@@ -111,6 +112,7 @@ static int write_advice(const cli_common *common, const scene *sc, const advise_
     }
   }
   put_notes(tables[0], sc, own, s);
+  if (st != HC_OK) table_note(tables[0], "INCOMPLETE: %s", hc_status_text(st));
   const int code = cli_write(common, 2, tables);
   for (int i = 0; i < 2; ++i) table_free(tables[i]);
   return code;
@@ -132,9 +134,11 @@ static int run_advise(cli_common *common, void *given, scene *sc)
   scene_setup_clear(&setup);
   progress_end(bar);
   if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "harmonic balance", st, 0);
-  const int written = found.n ? write_advice(common, sc, own, &found) : 0;
+  const int written = found.n ? write_advice(common, sc, own, &found, st) : 0;
   for (int i = 0; i < found.n; ++i)
-    if (found.rows[i].keep_mean && found.rows[i].harmonics == 0) code = EXIT_NO_SOLUTION;
+    if (st == HC_OK && found.rows[i].keep_mean && found.rows[i].harmonics == 0)
+      code = cli_failed(common, EXIT_NO_SOLUTION, "%s forces: nothing tried keeps an error of %g",
+                        found.rows[i].sampled ? "sampled" : "exact", own->error);
   return code ? code : written;
 }
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Is what hbmcheck advises right?
 
-usage: advice.py followed HBMCHECK [ROWS]        the advice of `compare` on rows that differ, followed once
-       advice.py settings HBMCHECK [SCENES]      the settings of `advise`, held against time integration
-Scenes: `hbmcheck stress --case --first 0, 1, ...`, one in six a structure, solved with settings drawn at random (seed
-1). Standard library only."""
+usage: advice.py followed HBMCHECK [ROWS [FIRST]]     the advice of `compare` on rows that differ, followed once
+       advice.py settings HBMCHECK [SCENES [FIRST]]   the settings of `advise`, held against time integration
+Scenes: `hbmcheck stress --case --first FIRST, FIRST + 1, ...`, one in six a structure, solved with settings drawn at random (seed
+1 + FIRST). Standard library only."""
 import csv, itertools, os, random, re, resource, statistics, subprocess, sys, tempfile
 
 SECONDS = 15  # [s] a run of hbmcheck may take
@@ -57,10 +57,10 @@ def worst_row(rows, advice):
     return next((r for r in rows if r["branch"] == m.group(1) and r.get("response", "") in (m.group(2) or "", "")), None)
 
 
-def followed(exe, wanted):
-    rng, seen, passed, nothing, helped, other, causes = random.Random(1), 0, 0, 0, 0, [], {}
+def followed(exe, wanted, start):
+    rng, seen, passed, nothing, helped, other, causes = random.Random(1 + start), 0, 0, 0, 0, [], {}
     with tempfile.TemporaryDirectory() as folder:
-        for i in itertools.count():
+        for i in itertools.count(start):
             if seen >= wanted: break
             path, sets = scene(exe, i, folder), drawn(rng)
             out, _ = compare(exe, path, sets)
@@ -116,11 +116,11 @@ def worst(rows, error):
     return top, family
 
 
-def settings(exe, wanted):
-    rng, seen, kept, broken, smaller, seconds, why = random.Random(1), 0, 0, 0, 0, [], []
+def settings(exe, wanted, start):
+    rng, seen, kept, broken, smaller, seconds, why = random.Random(1 + start), 0, 0, 0, 0, [], []
     exact = ["transient.law=exact", "transient.method=closed_form", "transient.start=hbm", "hbm.static=true"]
     with tempfile.TemporaryDirectory() as folder:
-        for i in itertools.count():
+        for i in itertools.count(start):
             if seen >= wanted: break
             path, error = scene(exe, i, folder), rng.choice([1e-2, 1e-3, 1e-4])
             out, took = run([exe, "advise", path, "--error", repr(error), "--format", "csv", "--quiet"])
@@ -148,4 +148,4 @@ def settings(exe, wanted):
 
 
 if __name__ == "__main__":
-    {"followed": followed, "settings": settings}[sys.argv[1]](sys.argv[2], int(sys.argv[3]) if len(sys.argv) > 3 else 1000)
+    {"followed": followed, "settings": settings}[sys.argv[1]](sys.argv[2], int(sys.argv[3]) if len(sys.argv) > 3 else 1000, int(sys.argv[4]) if len(sys.argv) > 4 else 0)
