@@ -10,6 +10,7 @@
 #include "compare/first_guess.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
+#include "compare/response.h"
 #include "compare/work_limit.h"
 
 /* What may be changed, in the order in which it is tried. */
@@ -17,7 +18,7 @@ typedef enum move { STATIC, EXACT_FORCES, HARMONICS, START, LAW, TOLERANCE, N_MO
 
 enum { AFTERWARDS = 2, MOST_SAMPLES = 65536 }; /* greater H that have to pass, too */
 static const double most_work = 3e9;           /* [unknowns^3] of all solutions tried: about 2 s */
-static const double patience = 5;              /* [s] of all transients tried */
+static const double patience = 5;              /* [s] of all transients and curves tried */
 static const double fine = 1e-10;              /* transient.tolerance below which shooting seldom converges */
 
 typedef struct trial {
@@ -37,6 +38,7 @@ typedef struct remedy_search {
   /* What the solution is held against: the row's own transient or orbit, or that of the settings under way. */
   timeint_result *target; /* [responses] */
   bool has_target, failed;
+  bool cut; /* work or time did not suffice for something that was to be tried */
 } remedy_search;
 
 /* Where Newton starts with n_harm harmonics: next to the orbit, else the transient, where one response's harmonics are
@@ -81,6 +83,7 @@ static hc_status integrate(remedy_search *s, const trial *t, hbm_solver *hbm, co
   }
   timeint_free(ti);
   s->seconds += thread_seconds() - began;
+  s->cut |= s->seconds >= patience;
   s->has_target = st == HC_OK && s->target[0].period_multiple == 1;
   s->failed = !s->has_target;
   return limit.stopped ? HC_INTERRUPTED : st == HC_NO_MEMORY ? st : HC_OK;
@@ -114,7 +117,7 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
   const int n_harm = hbm_n_harmonics(hbm);
   const double work = pow(hbm_newton_work(hbm).unknowns, 3);
   if (!hc_monitor_tick(s->w->monitor, -1)) st = HC_INTERRUPTED;
-  else if (s->work + work > most_work) st = HC_TOO_MANY_POINTS;
+  else if (s->work + work > most_work) st = HC_TOO_MANY_POINTS, s->cut = true;
   else {
     s->work += work;
     if (n_harm > s->most_tried) s->most_tried = n_harm;
@@ -133,6 +136,28 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 
+/* *yes: the curve of these settings has such a solution. Newton found it next to the orbit; the curve may be another,
+ * which begins where the sweep does, or longer than there is time for. */
+static hc_status confirm(remedy_search *s, const trial *t, bool *yes)
+{
+  const double began = thread_seconds();
+  compare_setup setup = *s->w->setup;
+  response_curve c;
+  hbm_curve at = {0};
+  work_limit limit = {.outer = s->w->monitor, .until = began + patience - s->seconds};
+  setup.hbm = t->hbm;
+  *yes = false;
+  hc_status st = response_trace(&setup, &setup.compare.omega, &(hc_monitor){work_limit_tick, &limit}, &c);
+  if (st == HC_OK && c.hbm && c.curve.n) st = hbm_curve_at(c.hbm, &c.curve, s->row->omega, &at);
+  for (int k = 0; k < at.n && !*yes && st != HC_NO_MEMORY; ++k)
+    st = hold_against_target(s, c.hbm, hbm_curve_X(&at, k), yes);
+  hbm_curve_free(&at);
+  response_curve_free(&c);
+  s->seconds += thread_seconds() - began;
+  s->cut |= s->seconds >= patience;
+  return limit.stopped ? HC_INTERRUPTED : st == HC_NO_MEMORY ? st : HC_OK;
+}
+
 /* More harmonics than t has: the first that pass, and after which AFTERWARDS more do. */
 static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
 {
@@ -146,7 +171,7 @@ static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
       st = try_it(s, t, &still);
     }
     t->hbm.harmonics = n;
-    *yes = still && st == HC_OK;
+    if (still && st == HC_OK) st = confirm(s, t, yes);
   }
   return st;
 }
@@ -161,6 +186,7 @@ static hc_status try_samples(remedy_search *s, trial *t, bool *yes)
   for (; n <= MOST_SAMPLES && !*yes && st == HC_OK; n *= 2) {
     t->hbm.samples = n;
     st = try_it(s, t, yes);
+    if (*yes && st == HC_OK) st = confirm(s, t, yes);
   }
   return st;
 }
@@ -201,7 +227,9 @@ static hc_status try_with(remedy_search *s, bool more_harmonics, bool transient_
     s->target[r] = s->by_transient ? s->first[r].transient : s->first[r].orbit;
   s->has_target = !transient_too;
   s->failed = false;
-  return more_harmonics ? try_harmonics(s, t, n_harm, yes) : try_it(s, t, yes);
+  if (more_harmonics) return try_harmonics(s, t, n_harm, yes);
+  const hc_status st = try_it(s, t, yes);
+  return *yes && st == HC_OK ? confirm(s, t, yes) : st;
 }
 
 /* What acts on the largest part of what failed. */
@@ -318,8 +346,8 @@ hc_status remedy_find(comparison_work *w, const comparison_row *row, char text[C
       }
     } else if (st == HC_OK) {
       message_start(&m, text, COMPARISON_ADVICE_TEXT);
-      message_add(&m, "nothing within %d harmonics, exact forces%s passes", s.most_tried,
-                  s.by_transient ? ", the exact law and transient.tolerance >= 1e-10" : "");
+      message_add(&m, "nothing %swithin %d harmonics, exact forces%s passes", s.cut ? "that was tried " : "",
+                  s.most_tried, s.by_transient ? ", the exact law and transient.tolerance >= 1e-10" : "");
     }
   }
   hbm_curve_free(&at);
