@@ -202,13 +202,12 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
 {
   const scene *sc = common->scene;
   table *t = table_of_rows(common, c);
-  const comparison_row *top = NULL; /* with the largest budget of the amplitude */
+  const comparison_row *top = comparison_worst(c, setup->limits);
   double reduction = 0;
   int unaccounted = 0, unknown = 0, mean_free = 0, family = 0, still = 0;
   put_rows(common, c, t);
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
-    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
     unknown += !r->budget.known && r->response == 0;
     unaccounted += comparison_unaccounted(r);
     mean_free += comparison_mean_free(r);
@@ -221,9 +220,9 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
                unaccounted == 1 ? " matches" : "s match");
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
-  char text[BUDGET_TEXT], at[WHERE];
-  if (top) budget_advice(&top->budget, setup, sc->gate.most.amplitude, c->harmonics, text);
-  if (top) table_note(t, "largest budget, %s: %s", row_where(sc, top, at), text);
+  char text[COMPARISON_WORST_TEXT], at[WHERE];
+  if (top)
+    table_note(t, "largest budget, %s: %s", row_where(sc, top, at), comparison_worst_text(c, top, setup->limits, text));
   if (setup->reduction > 0)
     table_note(t, "a reduced model: the error of %.2g that structure.reduction states moves amplitudes by up to %.2g%s",
                setup->reduction, reduction, reduction > sc->gate.most.amplitude ? ", MORE THAN THE GATE" : "");
@@ -308,6 +307,7 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   hc_monitor monitor = progress_monitor(bar);
   setup.jobs = cli_processors();
   setup.contacts = own->contacts;
+  setup.advise = true;
   setup.spare =
       common->format == FORMAT_TABLE && !common->wide && !common->drawing.path; /* from_integration is not shown */
   found_rows found = {.common = common, .setup = &setup, .c = &c};

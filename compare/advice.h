@@ -1,5 +1,5 @@
-/* advice.h - what to change in a case: after a solver failed, and (budget_advice, budget.h) about a discrepancy. Every
- * setting that hbmcheck ever advises comes from here, and none that is so already. */
+/* advice.h - what to change in a case after a solver failed: no setting that is so already. About a discrepancy:
+ * remedy.h. */
 #pragma once
 
 #include "base/status.h"

@@ -1,9 +1,10 @@
 /* budget.c - see budget.h. The solutions between the HBM solution and the transient are found first; then the distances
- * between neighbours are taken, for each measure of discrepancy.h but the mean. */
+ * between neighbours are taken, for each measure of discrepancy.h. */
 #include "compare/budget.h"
 
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -78,7 +79,7 @@ void budgeter_count(const budgeter *b, long *solves, long *periods, long *closed
 error_budget budget_nothing(void)
 {
   const budget_parts none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-  return (error_budget){.amplitude = none, .harmonic_1 = none, .waveform = none, .reduction = NAN};
+  return (error_budget){.amplitude = none, .harmonic_1 = none, .mean = none, .waveform = none, .reduction = NAN};
 }
 
 bool budget_same_orbit(const timeint_result *a, const timeint_result *b)
@@ -209,7 +210,7 @@ static double relative(const motion_distance *d, size_t measure, double unit)
 }
 
 /* The parts in one measure. */
-static budget_parts split(const chain *c, bool exact_law, double settling, double unit, const distances *d,
+static budget_parts split(const chain *c, bool one_law, double settling, double unit, const distances *d,
                           size_t measure)
 {
   budget_parts p = budget_nothing().amplitude;
@@ -220,7 +221,7 @@ static budget_parts split(const chain *c, bool exact_law, double settling, doubl
   } else
     p.aliasing = relative(&d->direct, measure, unit); /* exact forces have no solution here: h is there by aliasing */
   if (c->has_transient) {
-    p.regularisation = exact_law ? 0 : c->has_orbit ? relative(&d->regularisation, measure, unit) : NAN;
+    p.regularisation = one_law ? 0 : c->has_orbit ? relative(&d->regularisation, measure, unit) : NAN;
     p.settling = settling;
     if (c->has_finer || c->finer_is_coarser)
       p.integration = fmax(relative(&d->integration, measure, unit) - known(settling), 0);
@@ -232,11 +233,12 @@ static budget_parts split(const chain *c, bool exact_law, double settling, doubl
   return p;
 }
 
-static void fill_budget(const chain *c, const link *of, bool exact_law, error_budget *out)
+/* one_law: O and T' are the same orbit but for errors of integration. */
+static void fill_budget(const chain *c, const link *of, bool one_law, error_budget *out)
 {
   /* Where a solution of the chain is missing, its neighbours are taken for each other: T for T', T' for O. */
   const periodic_motion *last = c->has_finer ? &of->finer : &of->transient;
-  const periodic_motion *orbit = c->has_transient && (exact_law || !c->has_orbit) ? last : &of->orbit;
+  const periodic_motion *orbit = c->has_transient && (one_law || !c->has_orbit) ? last : &of->orbit;
   const periodic_motion *end = c->has_transient ? &of->transient : orbit;
   const distances d = {.observed = motion_between(&of->h, end),
                        .direct = motion_between(&of->h, orbit),
@@ -246,9 +248,11 @@ static void fill_budget(const chain *c, const link *of, bool exact_law, error_bu
                        .integration =
                            c->has_transient ? motion_between(&of->finer, &of->transient) : (motion_distance){0}};
   const double unit = c->has_transient ? of->transient.amplitude : of->orbit.amplitude;
-  out->amplitude = split(c, exact_law, of->settling, unit, &d, offsetof(motion_distance, amplitude));
-  out->harmonic_1 = split(c, exact_law, of->settling, unit, &d, offsetof(motion_distance, harmonic_1));
-  out->waveform = split(c, exact_law, of->settling, unit, &d, offsetof(motion_distance, waveform));
+  out->amplitude = split(c, one_law, of->settling, unit, &d, offsetof(motion_distance, amplitude));
+  out->harmonic_1 = split(c, one_law, of->settling, unit, &d, offsetof(motion_distance, harmonic_1));
+  out->mean = split(c, one_law, of->settling, unit, &d, offsetof(motion_distance, mean));
+  if (of->h.mean_free || (c->has_transient ? of->transient : of->orbit).mean_free) out->mean.observed = NAN;
+  out->waveform = split(c, one_law, of->settling, unit, &d, offsetof(motion_distance, waveform));
   out->known = true;
   out->against_transient = c->has_transient;
 }
@@ -278,7 +282,66 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
   const bool any = c.has_orbit || c.has_transient;
   if (any) st = find_alias_free(b, from, &c);
   if (st == HC_OK && c.has_transient) st = find_finer(b, from, monitor, &c);
-  for (int i = 0; i < c.n && st == HC_OK && any; ++i)
-    fill_budget(&c, &c.of[i], b->setup.transient.law == TRANSIENT_LAW_EXACT, &out[i]);
+  const bool one_law = b->setup.transient.law == TRANSIENT_LAW_EXACT && !from->family;
+  for (int i = 0; i < c.n && st == HC_OK && any; ++i) {
+    fill_budget(&c, &c.of[i], one_law, &out[i]);
+    out[i].family = from->family;
+  }
   return st;
+}
+
+/* ---- in words ---- */
+
+enum { REGULARISATION = 2 }; /* among the parts */
+
+static const char *largest_of(const budget_parts *p, bool family, double *share)
+{
+  static const char *const names[BUDGET_N_PARTS] = {
+#define NAME(part) #part,
+      BUDGET_PARTS(NAME)
+#undef NAME
+  };
+  const double parts[BUDGET_N_PARTS] = {
+#define VALUE(part) p->part,
+      BUDGET_PARTS(VALUE)
+#undef VALUE
+  };
+  int top = -1;
+  for (int i = 0; i < BUDGET_N_PARTS; ++i)
+    if (parts[i] > (top < 0 ? 0 : parts[top])) top = i;
+  *share = top < 0 ? NAN : isinf(parts[top]) ? 1 : parts[top] / p->sum;
+  return top < 0 ? NULL : top == REGULARISATION && family ? "family" : names[top];
+}
+
+const char *budget_largest(const error_budget *b, double *share)
+{
+  *share = NAN;
+  return b->known ? largest_of(&b->amplitude, b->family, share) : NULL;
+}
+
+budget_worst budget_find_worst(const error_budget *b, const discrepancy *limits)
+{
+  const budget_worst of[] = {{"amplitude", &b->amplitude, limits->amplitude},
+                             {"harmonic_1", &b->harmonic_1, limits->harmonic_1},
+                             {"mean", &b->mean, limits->mean},
+                             {"waveform", &b->waveform, limits->waveform}};
+  budget_worst top = {.ratio = -1};
+  for (size_t i = 0; i < sizeof of / sizeof *of && b->known; ++i) {
+    const double ratio = of[i].parts->observed / of[i].ratio;
+    if (ratio > top.ratio) top = of[i], top.ratio = ratio;
+  }
+  return top;
+}
+
+const char *budget_text(const error_budget *b, const discrepancy *limits, char text[BUDGET_TEXT])
+{
+  const budget_worst worst = budget_find_worst(b, limits);
+  double share;
+  const char *name = worst.quantity ? largest_of(worst.parts, b->family, &share) : NULL;
+  if (!worst.quantity) snprintf(text, BUDGET_TEXT, "no orbit to account for");
+  else if (!name) snprintf(text, BUDGET_TEXT, "%s 0 %%", worst.quantity);
+  else
+    snprintf(text, BUDGET_TEXT, "%s %.2g %%: %s (%.0f %%)%s", worst.quantity, 100 * worst.parts->observed, name,
+             100 * share, worst.ratio <= 1 ? "; within the gate" : "");
+  return text;
 }

@@ -8,11 +8,13 @@
  *     T     the transient                       from_settling        its estimated distance to its own orbit
  *
  * The parts are sizes without signs: where two of opposite sign cancel, their sum is larger than |h - T|. Where the
- * transient is not on the orbit next to h, the budget is that of |h - O|, and only the first two parts exist. All are
- * relative to the transient's amplitude (to O's without it). NaN: not there, or could not be computed. */
+ * transient is not on the orbit next to h, the budget is that of |h - O|, and only the first two parts exist. Of a
+ * family of steady states (comparison_row.family) |O - T'| is the distance between two of its members, whatever the
+ * law. All are relative to the transient's amplitude (to O's without it). NaN: not there, or could not be computed. */
 #pragma once
 
 #include "compare/compare_settings.h"
+#include "compare/discrepancy.h"
 #include "hbm/hbm.h"
 #include "timeint/steady/steady.h"
 
@@ -28,12 +30,14 @@ typedef struct budget_parts {
 } budget_parts;
 
 typedef struct error_budget {
-  budget_parts amplitude, harmonic_1, waveform; /* |difference| of (max - min)/2, of |a1 + i b1|, largest of x over
-                                                   the period */
+  budget_parts amplitude, harmonic_1, mean,
+      waveform;     /* |difference| of (max - min)/2, of |a1 + i b1|, of the means (NaN
+                                                         observed: free), largest of x over the period */
   double reduction; /* [1] how far the stated error of a reduced model moves the amplitude (hbm_predict_reduction): both
                        sides share it, so that it is no part of what lies between them */
   bool known;       /* there is an observed discrepancy */
   bool against_transient; /* it is |h - T|; else |h - O| */
+  bool family;            /* `regularisation` is the distance between members */
 } error_budget;
 
 /* Nothing known. */
@@ -48,6 +52,7 @@ typedef struct budget_case {
   hc_status transient_status, orbit_status;
   const timeint_result *transient, *orbit; /* [responses] valid where the status is HC_OK */
   const double *state;                     /* [timeint_n_states] on the transient's orbit */
+  bool family;                             /* of steady states */
   timeint *by;                             /* which found it: what it knows in closed form is used again; may be NULL */
 } budget_case;
 
@@ -71,11 +76,18 @@ bool budget_same_orbit(const timeint_result *a, const timeint_result *b);
  * not the same orbit. */
 double budget_regularisation(const timeint_result *tr, const timeint_result *orbit);
 
-/* The part that is largest in amplitude, "aliasing", ... and its share of the sum; NULL where there is none. */
+/* The part that is largest in amplitude, "aliasing", ..., "family", and its share of the sum; NULL: there is none. */
 const char *budget_largest(const error_budget *b, double *share);
 
-/* "4.1 %: truncation (97 %); use hbm.harmonics >= 14". One line in text[BUDGET_TEXT], which is returned; n_harm as
- * in use. */
+/* What is farthest beyond its limit, or nearest to it. */
+typedef struct budget_worst {
+  const char *quantity;      /* "amplitude", "harmonic_1", "mean", "waveform"; NULL: nothing is known */
+  const budget_parts *parts; /* of b */
+  double ratio;              /* [1] observed/limit; > 1: beyond it */
+} budget_worst;
+budget_worst budget_find_worst(const error_budget *b, const discrepancy *limits);
+
+/* "amplitude 4.1 %: truncation (97 %)", "waveform 0.2 %: family (91 %); within the gate". One line in
+ * text[BUDGET_TEXT], which is returned. */
 enum { BUDGET_TEXT = 160 };
-const char *budget_advice(const error_budget *b, const compare_setup *setup, double goal, int n_harm,
-                          char text[BUDGET_TEXT]);
+const char *budget_text(const error_budget *b, const discrepancy *limits, char text[BUDGET_TEXT]);

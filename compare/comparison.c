@@ -8,6 +8,7 @@
 #include "compare/comparison_private.h"
 #include "compare/first_guess.h"
 #include "compare/motion.h"
+#include "compare/remedy.h"
 #include "compare/response.h"
 #include "numerics/series.h"
 #include "timeint/steady/sweep.h"
@@ -124,6 +125,19 @@ static hc_status compare_all(comparison_work *w)
   return st;
 }
 
+static hc_status advise(comparison_work *w)
+{
+  const compare_setup *setup = w->setup;
+  const comparison_row *worst = comparison_worst(w->out, setup->limits);
+  char text[COMPARISON_ADVICE_TEXT];
+  const hc_status st = worst ? remedy_find(w, worst, text) : HC_OK;
+  if (st != HC_OK || !worst) return st;
+  if (setup->found) pthread_mutex_lock(setup->found);
+  memcpy(w->out->advice, text, sizeof text);
+  if (setup->found) pthread_mutex_unlock(setup->found);
+  return HC_OK;
+}
+
 hc_status comparison_referee(const compare_setup *setup, timeint *beside, timeint **out)
 {
   transient_settings how = setup->transient;
@@ -177,6 +191,7 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
     hc_status summed = response_summarise(w.hbm, &out->curve, &out->summary);
     if (summed != HC_OK) st = summed;
     if (st != HC_INTERRUPTED && st != HC_NO_MEMORY) st = compare_all(&w); /* as far as the curve goes */
+    if (st == HC_OK && setup->advise) st = advise(&w);
     comparison_cost *cost = &out->cost;
     *cost = (comparison_cost){.hbm_solves = hbm_solves(w.hbm)};
     timeint_count(w.ti, &cost->periods, &cost->closed_form);

@@ -98,6 +98,8 @@ typedef struct comparison_row {
   bool unexpected; /* comparison_unexpected() */
 } comparison_row;
 
+enum { COMPARISON_ADVICE_TEXT = 192 };
+
 /* What a comparison took: nothing is solved twice. */
 typedef struct comparison_cost {
   long hbm_solves;  /* systems that Newton was put to, the curve's included */
@@ -115,7 +117,8 @@ typedef struct comparison {
   int n_states;             /* in a state of time integration */
   double *states;           /* [n_rows][n_states] of each row: where the transient ended */
   comparison_cost cost;
-  int harmonics, samples; /* in use: for auto, the most the curve needed; samples 0 for exact forces */
+  int harmonics, samples;              /* in use: for auto, the most the curve needed; samples 0 for exact forces */
+  char advice[COMPARISON_ADVICE_TEXT]; /* with setup.advise: what brings comparison_worst within the gate, as tried */
 } comparison;
 
 /* Compare at the frequencies of *setup (compare.omega, or compare.points chosen along the response curve). Rows found
@@ -123,6 +126,19 @@ typedef struct comparison {
  * comparison_clear in any case. */
 hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
 void comparison_clear(comparison *c);
+
+/* Is a quantity of the row beyond its limit: against what its budget is, of one that differs against the transient? */
+bool comparison_row_is_beyond(const comparison_row *row, const gate_limits *limits);
+
+/* The row whose budget is farthest beyond the gate, or nearest to it, of those that differ, if any do; NULL: none has a
+ * budget. */
+const comparison_row *comparison_worst(const comparison *c, const gate_limits *limits);
+
+/* Its budget in words, and what helps: "amplitude 4.1 %: truncation (97 %); use hbm.harmonics >= 14". One line in
+ * text[COMPARISON_WORST_TEXT], which is returned. */
+enum { COMPARISON_WORST_TEXT = BUDGET_TEXT + COMPARISON_ADVICE_TEXT + 2 };
+const char *comparison_worst_text(const comparison *c, const comparison_row *worst, const gate_limits *limits,
+                                  char text[COMPARISON_WORST_TEXT]);
 
 /* "match", "period_2", ...: the row's verdict in text[24], which is returned. */
 const char *comparison_verdict_text(const comparison_row *row, char text[24]);

@@ -215,6 +215,7 @@ static hc_status account(comparison_work *w, const hbm_curve *at, int k, compari
                             .orbit_status = row->orbit_status,
                             .orbit = w->orbits,
                             .state = w->state,
+                            .family = row->family,
                             .by = w->ti};
   if (st != HC_OK) return HC_OK;
   st = budgeter_run(w->budgeter, &from, w->monitor, w->budgets);
@@ -398,6 +399,53 @@ bool comparison_mean_free(const comparison_row *row)
   if (row->transient_status == HC_OK) return motion_mean_is_free(&row->transient);
   if (row->orbit_status == HC_OK) return motion_mean_is_free(&row->orbit);
   return row->hbm_status == HC_OK && row->hbm.contact.free_sliders > 0;
+}
+
+/* What is farthest beyond its limit, as budget_find_worst has it; of a transient that left the orbit beside the
+ * solution by the row's errors, with no parts. */
+static budget_worst worst_of(const comparison_row *row, const gate_limits *limits)
+{
+  const discrepancy at = gate_limits_at(limits, row->omega), *e = &row->errors;
+  if (row->verdict != VERDICT_DIFFERS || row->budget.against_transient) return budget_find_worst(&row->budget, &at);
+  const budget_worst of[] = {{"amplitude", NULL, e->amplitude / at.amplitude},
+                             {"harmonic_1", NULL, e->harmonic_1 / at.harmonic_1},
+                             {"waveform", NULL, e->waveform / at.waveform},
+                             {"mean", NULL, comparison_mean_free(row) ? NAN : e->mean / at.mean}};
+  budget_worst top = {.ratio = -1};
+  for (int i = 0; i < 4; ++i)
+    if (of[i].ratio > top.ratio) top = of[i];
+  return top;
+}
+
+bool comparison_row_is_beyond(const comparison_row *row, const gate_limits *limits)
+{
+  return worst_of(row, limits).ratio > 1;
+}
+
+const comparison_row *comparison_worst(const comparison *c, const gate_limits *limits)
+{
+  const comparison_row *worst = NULL;
+  double most = -1;
+  bool differs = false; /* the worst so far */
+  for (int i = 0; i < c->n_rows; ++i) {
+    const bool also = c->rows[i].verdict == VERDICT_DIFFERS;
+    const double ratio = worst_of(&c->rows[i], limits).ratio;
+    if (also == differs ? ratio > most : also && ratio >= 0) most = ratio, worst = &c->rows[i], differs = also;
+  }
+  return worst;
+}
+
+const char *comparison_worst_text(const comparison *c, const comparison_row *worst, const gate_limits *limits,
+                                  char text[COMPARISON_WORST_TEXT])
+{
+  const discrepancy at = gate_limits_at(limits, worst->omega);
+  const budget_worst of = worst_of(worst, limits);
+  const bool left = of.quantity && !of.parts;
+  char budget[BUDGET_TEXT];
+  if (left) snprintf(budget, BUDGET_TEXT, "%s: the transient left the orbit next to the solution", of.quantity);
+  else budget_text(&worst->budget, &at, budget);
+  snprintf(text, COMPARISON_WORST_TEXT, "%s%s%s", budget, *c->advice ? "; " : "", c->advice);
+  return text;
 }
 
 bool comparison_nonlinear(const comparison *c)

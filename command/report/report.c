@@ -149,6 +149,7 @@ hc_status report_gather(const scene *sc, int jobs, progress *bar, report_data *o
   hc_status st = scene_setup(sc, &out->setup);
   out->setup.jobs = jobs;
   out->setup.contacts = sc->structure != NULL;
+  out->setup.advise = true;
   if (st == HC_OK) st = comparison_run(&out->setup, monitor, &out->comparison);
   if (st != HC_OK) return st;
   comparison *c = &out->comparison;

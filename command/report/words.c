@@ -141,20 +141,15 @@ void words_what_to_do(const report_data *d, FILE *to)
 {
   fputs("<ul class=\"advice\">\n", to);
   const comparison *c = &d->comparison;
-  const comparison_row *top = NULL;
+  const comparison_row *top = comparison_worst(c, d->setup.limits);
   int unknown = 0;
-  char text[BUDGET_TEXT];
-  for (int i = 0; i < c->n_rows; ++i) {
-    const comparison_row *r = &c->rows[i];
-    unknown += !r->budget.known;
-    if (r->budget.known && (!top || r->budget.amplitude.sum > top->budget.amplitude.sum)) top = r;
-  }
+  char text[COMPARISON_WORST_TEXT];
+  for (int i = 0; i < c->n_rows; ++i) unknown += !c->rows[i].budget.known;
   if (top) {
-    open_item(to, top->budget.amplitude.sum <= d->sc->gate.most.amplitude ? "good" : "bad");
+    open_item(to, comparison_row_is_beyond(top, d->setup.limits) ? "bad" : "good");
     fputs("Largest error at ", to);
     write_where(d, top->omega, to);
-    html_printf(to, ", branch %d: %s.", top->branch,
-                budget_advice(&top->budget, &d->setup, d->sc->gate.most.amplitude, c->harmonics, text));
+    html_printf(to, ", branch %d: %s.", top->branch, comparison_worst_text(c, top, d->setup.limits, text));
     fputs("</li>\n", to);
   }
   if (unknown)

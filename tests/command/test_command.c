@@ -224,7 +224,7 @@ static void advice_is_about_the_side_that_failed(CHECK_STATE)
 
 static void help_works_everywhere(CHECK_STATE)
 {
-  static const char *const commands[] = {"compare", "frf",    "transient", "study", "bench",   "gate",
+  static const char *const commands[] = {"compare", "frf",    "transient", "study", "bench",   "advise",  "gate",
                                          "verify",  "stress", "report",    "lab",   "contact", "describe"};
   for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i) {
     char args[64];

@@ -1,7 +1,6 @@
 /* test_advice.c - what is advised is never what is set already: every failure of either side under every combination of
- * the settings that advice names, and budgets at the ends of the settings' ranges. */
+ * the settings that advice names. About a discrepancy: tests/command/advice.py. */
 #include "compare/advice.h"
-#include "compare/budget.h"
 #include "tests/check.h"
 
 /* `advised` in the text only where it would change something; the text is "" or begins as advice does. */
@@ -70,37 +69,5 @@ static void advice_is_a_sentence(CHECK_STATE)
                       "try --set transient.law=regularised --set transient.method=cvode, which count no transitions");
 }
 
-static void expect_remedy(const compare_setup *setup, int n_harm, budget_parts parts, const char *remedy)
-{
-  char text[BUDGET_TEXT];
-  error_budget b = budget_nothing();
-  b.known = true;
-  b.amplitude = parts;
-  budget_advice(&b, setup, 1e-3, n_harm, text);
-  const char *said = strchr(text, ';');
-  assert_string_equal(said ? said + 2 : "", remedy);
-}
-
-static void budgets_are_never_advised_what_is_set(CHECK_STATE)
-{
-  compare_setup setup = {.hbm = {.harmonics = 5, .keep_mean = true, .accuracy = 1e-4},
-                         .transient = {.tolerance = 1e-9}};
-  /* the largest part alone is within the goal, the sum is not: 5 harmonics are no advice to one who has them */
-  expect_remedy(&setup, 5, (budget_parts){.truncation = 9e-4, .regularisation = 2e-4, .sum = 1.1e-3},
-                "use hbm.harmonics >= 6");
-  expect_remedy(&setup, HBM_MAX_HARMONICS, (budget_parts){.truncation = 1, .sum = 1}, "200 harmonics are the most");
-  setup.hbm.harmonics = HBM_AUTO;
-  expect_remedy(&setup, 5, (budget_parts){.truncation = 1, .sum = 1}, "use hbm.accuracy <= 1e-05");
-  setup.hbm.accuracy = HBM_LEAST_ACCURACY;
-  expect_remedy(&setup, 5, (budget_parts){.truncation = 1, .sum = 1}, "");
-  expect_remedy(&setup, 5, (budget_parts){.aliasing = 1, .sum = 1}, "");
-  expect_remedy(&setup, 5, (budget_parts){.regularisation = 1, .sum = 1}, "use transient.law: exact");
-  setup.transient.law = TRANSIENT_LAW_EXACT;
-  expect_remedy(&setup, 5, (budget_parts){.regularisation = 1, .sum = 1}, "");
-  expect_remedy(&setup, 5, (budget_parts){.settling = 1, .sum = 1}, "use transient.tolerance <= 1e-10");
-  setup.transient.tolerance = TRANSIENT_LEAST_TOLERANCE;
-  expect_remedy(&setup, 5, (budget_parts){.settling = 1, .sum = 1}, "");
-}
-
 CHECK_TESTS("compare.advice", 60, hbm_is_never_advised_what_it_has, the_transient_is_never_advised_what_it_has,
-            advice_is_a_sentence, budgets_are_never_advised_what_is_set)
+            advice_is_a_sentence)

@@ -185,6 +185,8 @@ static void verify(CHECK_STATE)
       "transient.law=exact");
 }
 
+static void advise(CHECK_STATE) { try("advise small.yaml -q -o result --error 0.1"); }
+
 static void describe(CHECK_STATE)
 {
   try("describe -o result");
@@ -202,5 +204,5 @@ int main(int argc, char **argv)
     return child_command(argv[4]);
   }
   return SMALL_MAIN("memory", every ? 3000 : 600, frf, first_point_from_a_ramp, transient, compare, contact_force, gate,
-                    study, verify, describe);
+                    study, verify, advise, describe);
 }
