@@ -231,7 +231,7 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   BOUNDS(X, "multiplier", r->multiplier)                                    \
   X(REAL,    "hbm_amplitude",   true, r->hbm_amplitude)                     \
   X(REAL,    "error_predicted", true, r->predicted)                         \
-  X(INTEGER, "harmonics",       r->harmonics > 0, r->harmonics)             \
+  X(INTEGER, "harmonics",       r->harmonics > 0 && r->multiple > 0, r->harmonics) \
   X(REAL,    "seconds",         r->multiple > 0, r->seconds)
 /* clang-format on */
 
