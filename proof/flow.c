@@ -10,7 +10,7 @@ enum {
   LIMIT_TERMS = 600,
   REACH = 1, /* powers of two: of |A| step */
   FAR = 4,   /* and where |A| duration is above */
-  STIFF = 9
+  STIFF = 13
 };
 
 /* ---- Taylor series ---- */
