@@ -284,7 +284,7 @@ static const char *const of_compare_contact[] = {
     "normal_error", "verdict", NULL};
 
 static const char *const of_prove[] = {
-    "omega", "seconds", "mean_low", "mean_high", "harmonic_1_low", "harmonic_1_high", "multiplier_low",
+    "omega", "seconds", "harmonics", "mean_low", "mean_high", "harmonic_1_low", "harmonic_1_high", "multiplier_low",
     "multiplier_high", "hbm_amplitude", "period_multiple", "radius", "transitions", "error_predicted", "certificate",
     "states", "amplitude_high", "reason", NULL};
 
