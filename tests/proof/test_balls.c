@@ -218,7 +218,9 @@ static void the_defect_of_an_inverse_is_bounded(CHECK_STATE)
   json_t *json = json_load_file("tests/proof/certificates/case2_9_stable.json", 0, NULL);
   certificate *c = certificate_read(json, false, why, sizeof why);
   orbit *o = c ? orbit_new(c, &f) : NULL;
-  assert_true(o && flow_prepare(o, &f) && existence_prepare(&k, o, false, &f));
+  assert_non_null(o);
+  if (!o) return;
+  assert_true(flow_prepare(o, &f) && existence_prepare(&k, o, false, &f));
   const int n = o->unknowns;
   flint_randinit(random);
   LOCAL(arb) sum = ZERO, size = ZERO, entry = ZERO, b = ZERO, m = ZERO, all = ZERO, most = ZERO, defect = ZERO;
