@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum { NEWTON_STEPS = 60, WIDE_DIGITS = 40 };
-static const double ROOM = 0.03, NEAR = 1e-8;
+static const double ROOM = 0.001, NEAR = 1e-8;
 
 /* Decimal digits of an event's numbers, of the scales: what the precision leaves for the growth over a period. */
 static slong digits_of(slong precision)

@@ -19,7 +19,7 @@ enum {
   MOST_PERIODS = 2000, /* from an unstable orbit to where the motion goes */
   MOST_MOVES = 8,      /* of sliders that never slip: the motion follows them, some of the way */
   MOST_UNKNOWNS = 800, /* of HBM with more harmonics: some tenths of a second a solution */
-  MOST_FAILURES = 12   /* of HBM in a row, each with an eighth more harmonics: with four times as many */
+  MOST_FAILURES = 8    /* of HBM in a row, each with a quarter more harmonics: with six times as many */
 };
 static const double enough = 0.01,
                     room = 0.02;        /* [1] of a slider's interval: nearer to an end, it is moved so far in */
@@ -244,8 +244,8 @@ static hc_status orbit_by_harmonics(prover *p, double omega, const double *X, ti
   double *finer = calloc((size_t)dim * (2 * HBM_MAX_HARMONICS + 1), sizeof *finer);
   if (!finer) return HC_NO_MEMORY;
   memcpy(finer, X, (size_t)length * sizeof *finer);
-  int h = p->setup->hbm.keep_mean ? own + own / 8 + (own < 8) : own;
-  for (int failures = 0; st != HC_OK && !fatal(st) && failures < MOST_FAILURES; h += h / 8 + (h < 8)) {
+  int h = p->setup->hbm.keep_mean ? own + own / 4 + (own < 4) : own;
+  for (int failures = 0; st != HC_OK && !fatal(st) && failures < MOST_FAILURES; h += h / 4 + (h < 4)) {
     if (h > HBM_MAX_HARMONICS || dim * (2 * h + 1) > MOST_UNKNOWNS) break;
     st = solved = solve_finer(p, h, omega, finer);
     failures = solved == HC_OK ? 0 : failures + 1;
