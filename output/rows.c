@@ -231,6 +231,7 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   BOUNDS(X, "multiplier", r->multiplier)                                    \
   X(REAL,    "hbm_amplitude",   true, r->hbm_amplitude)                     \
   X(REAL,    "error_predicted", true, r->predicted)                         \
+  X(INTEGER, "harmonics",       r->harmonics > 0 && r->multiple > 0, r->harmonics) \
   X(REAL,    "seconds",         r->multiple > 0, r->seconds)
 /* clang-format on */
 
@@ -283,7 +284,7 @@ static const char *const of_compare_contact[] = {
     "normal_error", "verdict", NULL};
 
 static const char *const of_prove[] = {
-    "omega", "seconds", "mean_low", "mean_high", "harmonic_1_low", "harmonic_1_high", "multiplier_low",
+    "omega", "seconds", "harmonics", "mean_low", "mean_high", "harmonic_1_low", "harmonic_1_high", "multiplier_low",
     "multiplier_high", "hbm_amplitude", "period_multiple", "radius", "transitions", "error_predicted", "certificate",
     "states", "amplitude_high", "reason", NULL};
 

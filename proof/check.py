@@ -23,8 +23,8 @@ import re
 import sys
 from fractions import Fraction
 
-MOST_BYTES, MOST_CHARACTERS, MOST_EXPONENT = 1 << 24, 120, 400
-MOST_DOFS, MOST_CONTACTS, MOST_HARMONICS, MOST_UNKNOWNS, MOST_BITS, MOST_SPREAD = 40, 40, 20, 1200, 1024, 1500
+MOST_BYTES, MOST_CHARACTERS, MOST_EXPONENT = 1 << 23, 120, 400
+MOST_DOFS, MOST_CONTACTS, MOST_HARMONICS, MOST_UNKNOWNS, MOST_BITS, MOST_SPREAD = 64, 64, 16, 2048, 1024, 1500
 MOST_WORK, MOST_DEPTH, MOST_PARTS = 1 << 21, 120, 20000  # work: substeps times the square of Z's size
 
 
@@ -348,8 +348,9 @@ class Certificate:
                 raise Wrong(f"rest: `{key[:20]}` is not the number of a contact")
             self.rest[int(key)] = decimal(value, f"rest.{key}")
         self.read_events(data["events"])
-        claims = fields(data["claims"], "claims", ("radius", "uniqueness_radius"), data["claims"])  # what is not claimed is not checked
-        self.radius, self.uniqueness = positive(claims["radius"], "claims.radius"), positive(claims["uniqueness_radius"], "claims.uniqueness_radius")
+        claims = fields(data["claims"], "claims", ("radius", "uniqueness_radius"), data["claims"])
+        claims = {name: value for name, value in claims.items() if value is not None}  # what is not claimed, or null, is not checked
+        self.radius, self.uniqueness = (positive(claims.get(k), f"claims.{k}") for k in ("radius", "uniqueness_radius"))
         self.stability = claims.get("stability", "unproven")
         if self.stability not in ("stable", "unstable", "unproven"):
             raise Wrong("claims.stability: stable, unstable or unproven is expected")

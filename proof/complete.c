@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NEWTON_STEPS = 30, WIDE_DIGITS = 40 };
-static const double ROOM = 0.03;
+enum { NEWTON_STEPS = 60, WIDE_DIGITS = 40 };
+static const double ROOM = 0.001, NEAR = 1e-8;
 
 /* Decimal digits of an event's numbers, of the scales: what the precision leaves for the growth over a period. */
 static slong digits_of(slong precision)
@@ -95,11 +95,12 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
   arb_ptr row = pool_balls(own, n);
   LOCAL(arb) step = ZERO;
   double last = INFINITY, largest = INFINITY;
-  bool fine = existence_prepare(k, o, f);
+  bool fine = existence_prepare(k, o, false, f);
   for (int i = 0; i < NEWTON_STEPS && fine; i++) {
     if (i > 0) {
       box_set(o, NULL);
-      fine = largest > 1e-3 * last || i == 1 ? existence_prepare(k, o, f) : shooting_equations(o, k->value, NULL);
+      const bool near = i == 1 ? largest < NEAR : largest <= 1e-3 * last; /* so that one B does for all steps */
+      fine = near ? shooting_equations(o, k->value, NULL) : existence_prepare(k, o, false, f);
       if (!fine) break;
     }
     last = largest;
@@ -241,7 +242,7 @@ static bool make(json_t *draft, const certificate *c, krawczyk *k, decision *v)
   if (!fine) json_object_del(draft, "events"); /* no certificate */
   if (fine) {
     write_events(draft, o);
-    fine = existence_prepare(k, o, f);
+    fine = existence_prepare(k, o, true, f);
   }
   if (fine) {
     existence_measure(k);

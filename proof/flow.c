@@ -5,9 +5,12 @@
 
 enum {
   LIMIT_STEPS = 1 << 15,   /* substeps of all segments                  */
-  LIMIT_WORK = 1 << 24,    /* of them, times size^2 (precision/128)^2   */
+  LIMIT_WORK = 1 << 26,    /* of them, times size^2 (precision/128)^2   */
   LIMIT_ENTRIES = 1 << 22, /* of all exponentials that are kept         */
-  LIMIT_TERMS = 600
+  LIMIT_TERMS = 600,
+  REACH = 1, /* powers of two: of |A| step */
+  FAR = 4,   /* and where |A| duration is above */
+  STIFF = 13
 };
 
 /* ---- Taylor series ---- */
@@ -98,7 +101,7 @@ void flow_duration(const orbit *o, int i, arb_t tau)
   else arb_sub(tau, tau, from, o->precision);
 }
 
-/* Substeps of |A| step <= 2, a power of two of them. */
+/* Substeps of |A| step <= 2^reach, a power of two of them. */
 static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *work, double *entries)
 {
   orbit_segment *s = &o->segments[i];
@@ -109,8 +112,11 @@ static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *work,
   arb_get_mid_arb(s->span, s->span);
   arf_get_mag(norm, arb_midref(s->span));
   mag_mul(norm, norm, s->norm);
-  for (s->levels = 0; fine && mag_cmp_2exp_si(norm, s->levels + 1) > 0;)
+  int reach = REACH;
+  if (mag_cmp_2exp_si(norm, STIFF) > 0) reach = FAR; /* the motion itself is slow then, and a longer series cheaper */
+  for (s->levels = 0; fine && mag_cmp_2exp_si(norm, s->levels + reach) > 0;)
     if (1L << ++s->levels > LIMIT_STEPS) break;
+  if (reach > o->reach) o->reach = reach;
   *steps += 1L << s->levels;
   *work += pow(2, s->levels) * pow((double)s->size * (double)o->precision / 128, 2);
   *entries += (s->levels + 1.0) * s->size * s->size;
@@ -127,7 +133,7 @@ bool flow_prepare(orbit *o, failure *f)
   LOCAL(mag) norm = ZERO;
   for (int i = 0; i < o->m; i++)
     if (!choose_steps(o, i, f, &steps, &work, &entries)) return false;
-  mag_set_ui(norm, 2);
+  mag_set_ui(norm, 1ul << o->reach);
   o->degree = degree_for(norm, o->precision - 20);
   LOCAL(pool) own = ZERO;
   arb_ptr columns = pool_balls(own, (slong)o->largest * o->largest);

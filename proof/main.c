@@ -144,19 +144,13 @@ static int stream(const options *o)
 static int one_file(const options *o, const char *path)
 {
   FILE *file = fopen(path, "r");
-  if (!file) {
-    fprintf(stderr, "hbmcheck-proof: %s: %s\n", path, strerror(errno));
-    return EXIT_WRONG;
-  }
-  size_t length;
-  char *text = next_text(file, false, &length);
-  fclose(file);
-  if (!text) {
-    fprintf(stderr, "hbmcheck-proof: %s: %s\n", path, length ? "too long" : "empty");
-    return EXIT_WRONG;
-  }
-  json_t *answer = answer_text(o, text, length), *made = json_object_get(answer, "certificate");
+  size_t length = 0;
+  char *text = file ? next_text(file, false, &length) : NULL;
+  const char *why = !file ? strerror(errno) : length ? "too long" : "empty";
+  json_t *answer = text ? answer_text(o, text, length) : answer_json(NULL, NULL, why);
+  json_t *made = json_object_get(answer, "certificate");
   int status = status_of(answer);
+  if (file) fclose(file);
   free(text);
   json_object_set_new(answer, "file", json_string(path));
   const bool whole = o->output && json_is_object(made);

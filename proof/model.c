@@ -189,28 +189,42 @@ static double upper(const arb_t x)
 
 static slong weight_of(double log2) { return lround(fmax(-4000, fmin(4000, log2))); }
 
-/* Powers of two that balance A: 1 for x, Omega for v, Omega^2/|f| for what loads the masses, but not far above what x
- * is. Any choice is right, a good one makes few substeps. */
+/* |A_ij| of the accelerations by Z, in the weights of x: those of v are by a frequency more. */
+static double weighed(const orbit *o, const orbit_segment *s, int i, int j)
+{
+  return ldexp(upper(arb_mat_entry(s->a, o->n + i, j)), (int)((j < o->n ? s->weight[j] : 0) - s->weight[i]));
+}
+
+/* Powers of two that balance A: of x so that rows and columns of the stiffness are alike (Osborne), by Omega more of v,
+ * Omega^2/|f| of what loads the masses, but not far above what x is. Any choice is right, a good one makes few
+ * substeps. */
 static void choose_weights(const orbit *o, orbit_segment *s)
 {
-  enum { ROOM = 20 };
+  enum { ROOM = 20, SWEEPS = 8 };
   const int n = o->n;
   double stiffness = 0;
+  for (int i = 0; i < SWEEPS * n; i++) {
+    double row = 0, column = 0;
+    for (int j = 0; j < n; j++) {
+      row += j == i % n ? 0 : weighed(o, s, i % n, j);
+      column += j == i % n ? 0 : weighed(o, s, j, i % n);
+    }
+    if (row > 0 && column > 0) s->weight[i % n] += lround(log2(row / column) / 2);
+  }
   for (int i = 0; i < n; i++) {
     double sum = 0;
-    for (int j = 0; j < n; j++) sum += upper(arb_mat_entry(s->a, n + i, j));
+    for (int j = 0; j < n; j++) sum += weighed(o, s, i, j);
     stiffness = fmax(stiffness, sum);
   }
   if (!(stiffness > 0)) stiffness = pow(upper(o->omega), 2);
   const double frequency = log2(stiffness) / 2;
-  for (int j = 0; j < s->size; j++) {
-    s->weight[j] = j < n ? 0 : weight_of(frequency);
+  for (int j = n; j < s->size; j++) {
+    s->weight[j] = j < 2 * n ? s->weight[j - n] + weight_of(frequency) : weight_of(frequency);
     if (j < 2 * n) continue;
     const int pair =
         j > 2 * n && j <= 2 * n + 2 * o->harmonics ? (j - 2 * n) % 2 ? j + 1 : j - 1 : j; /* cosine and sine alike */
     double load = 0;
-    for (int i = 0; i < n; i++)
-      load = fmax(load, fmax(upper(arb_mat_entry(s->a, n + i, j)), upper(arb_mat_entry(s->a, n + i, pair))));
+    for (int i = 0; i < n; i++) load = fmax(load, fmax(weighed(o, s, i, j), weighed(o, s, i, pair)));
     const double most = ROOM - log2(upper(o->scale));
     s->weight[j] = weight_of(load > 0 ? fmin(2 * frequency - log2(load), most) : most);
   }

@@ -154,7 +154,8 @@ void multipliers(const orbit *o, quantities *q, failure *f)
       }
     acb_mat_set_arb_mat(e, m);
     acb_mat_mul(product, e, v, p);
-    if (acb_mat_solve(e, v, product, p)) { /* V^-1 M V: the same eigenvalues */
+    /* V^-1 M V: the same eigenvalues; with an approximate inverse first, since V may be almost singular */
+    if (acb_mat_solve_precond(e, v, product, p)) {
       LOCAL(arb) one = ZERO;
       arb_one(one);
       largest_modulus(e, n, q->value[CLAIM_MULTIPLIER], p);

@@ -64,6 +64,7 @@ typedef struct orbit {
   arb_ptr scale;           /* [2 n + 1]                         */
   arb_ptr scratch;         /* [4 size], of whoever is at work    */
   int largest;             /* Z of the segments                 */
+  int reach;               /* substeps have |A| step <= 2^reach */
   int degree;              /* of a substep's Taylor series, at most */
 } orbit;
 
@@ -151,8 +152,8 @@ typedef struct krawczyk {
   mag_ptr shift;   /* [unknowns] |B F(y0)|                         */
   mag_ptr image;   /* [unknowns] |y - y0| <= image after existence_holds() */
 } krawczyk;
-/* F, dF/dy and B at the centre; *k is {0} at first. */
-bool existence_prepare(krawczyk *k, orbit *o, failure *f);
+/* F, dF/dy and, unless it is to keep the one it has, B at the centre; *k is {0} at first. */
+bool existence_prepare(krawczyk *k, orbit *o, bool keep, failure *f);
 void existence_measure(krawczyk *k); /* what existence_holds() needs of them */
 /* Has F exactly one zero in the box y0 +- radius scale? *ratio: what must be below 1. It stays the box. */
 bool existence_holds(krawczyk *k, const arb_t radius, double *ratio);

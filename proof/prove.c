@@ -54,7 +54,7 @@ bool prove(const certificate *c, decision *v)
   krawczyk k = {0};
   failure *f = &v->failure;
   orbit *o = orbit_new(c, f);
-  bool holds = o && flow_prepare(o, f) && existence_prepare(&k, o, f);
+  bool holds = o && flow_prepare(o, f) && existence_prepare(&k, o, false, f);
   if (holds) {
     /* the larger radius first: the image that is left is that of the smaller one */
     LOCAL(arb) radius = ZERO;

@@ -17,7 +17,9 @@
 
 enum {
   MOST_PERIODS = 2000, /* from an unstable orbit to where the motion goes */
-  MOST_MOVES = 8       /* of sliders that never slip: the motion follows them, some of the way */
+  MOST_MOVES = 8,      /* of sliders that never slip: the motion follows them, some of the way */
+  MOST_UNKNOWNS = 800, /* of HBM with more harmonics: some tenths of a second a solution */
+  MOST_FAILURES = 8    /* of HBM in a row, each with a quarter more harmonics: with six times as many */
 };
 static const double enough = 0.01,
                     room = 0.02;        /* [1] of a slider's interval: nearer to an end, it is moved so far in */
@@ -188,7 +190,7 @@ static hc_status prove_orbit(prover *p, hc_status found, timeint_result *r, proo
   orbit_events e = {0};
   json_t *certificate = NULL;
   if (fatal(found)) return found;
-  row->reason = PROOF_NO_ORBIT;
+  row->reason = row->too_few ? PROOF_TOO_FEW : PROOF_NO_ORBIT;
   if (found == HC_OK) found = find_events(p, r, row, &e);
   if (found == HC_OK) {
     row->multiple = r->period_multiple;
@@ -218,6 +220,43 @@ static hc_status remember(prover *p, const timeint_result *r)
   return HC_OK;
 }
 
+/* X becomes HBM's solution with h harmonics, the mean and exact forces, from X on; p->state is on it. */
+static hc_status solve_finer(prover *p, int h, double omega, double *X)
+{
+  hbm_settings how = p->setup->hbm;
+  hbm_solver *finer;
+  hbm_point point;
+  how.harmonics = h, how.keep_mean = true, how.force = HBM_FORCE_EXACT;
+  hc_status st = hbm_solver_new(p->setup->model, &how, &finer);
+  if (st == HC_OK) st = hbm_solve(finer, omega, X, &point);
+  if (st == HC_OK) st = comparison_orbit_start(finer, X, omega, p->state);
+  hbm_solver_free(finer);
+  return st;
+}
+
+/* No orbit is next to X: HBM goes on from there with ever more harmonics, and the mean, until one is. What has no
+ * solution then is of too few harmonics; where one fails the next may not. */
+static hc_status orbit_by_harmonics(prover *p, double omega, const double *X, timeint_result *r, proof_row *row)
+{
+  const int length = hbm_n_coefficients(p->response.hbm), own = hbm_n_harmonics(p->response.hbm);
+  const int dim = length / (2 * own + 1);
+  hc_status st = HC_NOT_CONVERGED, solved = HC_NOT_CONVERGED;
+  double *finer = calloc((size_t)dim * (2 * HBM_MAX_HARMONICS + 1), sizeof *finer);
+  if (!finer) return HC_NO_MEMORY;
+  memcpy(finer, X, (size_t)length * sizeof *finer);
+  int h = p->setup->hbm.keep_mean ? own + own / 4 + (own < 4) : own;
+  for (int failures = 0; st != HC_OK && !fatal(st) && failures < MOST_FAILURES; h += h / 4 + (h < 4)) {
+    if (h > HBM_MAX_HARMONICS || dim * (2 * h + 1) > MOST_UNKNOWNS) break;
+    st = solved = solve_finer(p, h, omega, finer);
+    failures = solved == HC_OK ? 0 : failures + 1;
+    if (st == HC_OK) st = timeint_orbit(p->ti, omega, 1, p->state, p->monitor, r);
+    row->harmonics = h;
+  }
+  row->too_few = solved != HC_OK;
+  free(finer);
+  return st;
+}
+
 /* The orbit next to solution k. *leads_on: it is none that motions stay on. */
 static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *leads_on)
 {
@@ -242,6 +281,7 @@ static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *lea
   }
   if (st == HC_OK) st = comparison_orbit_start(p->response.hbm, X, omega, p->state);
   if (st == HC_OK) st = timeint_orbit(p->ti, omega, 1, p->state, p->monitor, &r);
+  if (st != HC_OK && !fatal(st)) st = orbit_by_harmonics(p, omega, X, &r, &row);
   *leads_on = st != HC_OK || timeint_stability(&r) < 0;
   if (st == HC_OK && remember(p, &r) != HC_OK) st = HC_NO_MEMORY;
   return prove_orbit(p, st, &r, &row);

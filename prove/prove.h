@@ -22,6 +22,8 @@
   X(PROOF_CIRCLE, "circle", "friction in a plane, whose slip is not linear")                                           \
   X(PROOF_SMOOTH, "smooth law", "a contact's law is not made of straight pieces")                                      \
   X(PROOF_NO_ORBIT, "no orbit found", "no periodic orbit of the exact law was found there")                            \
+  X(PROOF_TOO_FEW, "too few harmonics",                                                                                \
+    "with more of them, and the mean, harmonic balance has no solution there, and no orbit was found")                 \
   X(PROOF_TOO_LARGE, "too large", "so many coordinates, transitions or steps that the checker does not begin")         \
   X(PROOF_NO_DIGITS, "out of digits", "the bounds are too wide in the numbers that were used")
 
@@ -47,6 +49,8 @@ typedef struct proof_row {
   char states[PROOF_STATES]; /* letters of the contacts, interval by interval */
   int transitions, multiple; /* of the orbit's period; of how many forcing periods */
   double radius;             /* [1] of the certificate's scales: the orbit is no farther from its numbers */
+  int harmonics;             /* of the HBM solution that led to the orbit, where the case's own did not; else 0, */
+  bool too_few;              /* or with the most that were tried there is no solution */
   bool moved;                /* sliders that never slip had to be moved for it, */
   bool other_member;         /* which changed its amplitude: the error of HBM's is not known */
   int stability;             /* +1 proven stable, -1 proven unstable, 0 unproven */

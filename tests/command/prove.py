@@ -109,11 +109,23 @@ class Prove(unittest.TestCase):
         self.assertEqual(code, 0, err)
         self.assertIn("a slider that never slips was on the verge of it", out)
 
-    def test_circle_and_no_orbit(self):
+    def test_circle(self):
         code, rows, _ = prove(f"{CASES}/structures/plane.yaml")
         self.assertEqual((code, {(r["verdict"], r["reason"], r["certificate"]) for r in rows}), (0, {("unproven", "circle", "")}))
-        code, rows, _ = prove(f"{CASES}/paper/fig09_gap_0.yaml", "--at", "3.2673654961781202")
-        self.assertIn(("unproven", "no orbit found"), {(r["verdict"], r["reason"]) for r in rows if r["branch"]})
+
+    def test_more_harmonics_lead_to_the_orbit(self):
+        code, rows, err = prove(f"{CASES}/paper/fig09_gap_0.yaml", "--at", "3.2673654961781202", "--strict")
+        self.assertEqual(code, 0, err)
+        led = [r for r in rows if r["harmonics"]]
+        self.assertTrue(led and all(int(r["harmonics"]) > 5 and r["branch"] for r in led), rows)  # the case has 5
+        self.assertIn("from more harmonics", run("prove", f"{CASES}/paper/fig09_gap_0.yaml", "--at", "3.2673654961781202")[1])
+
+    def test_too_few_harmonics(self):
+        case = f"{self.folder}/one_harmonic.yaml"
+        with open(case, "w") as file:
+            file.write(run("stress", "--first", "48", "--scenes", "1", "--case")[1])  # one harmonic, without the mean
+        _, rows, err = prove(case)
+        self.assertEqual([(r["verdict"], r["reason"]) for r in rows], [("unproven", "too few harmonics")], err)
 
     def test_every_reason_of_the_checker(self):
         for words, contact, reason in (("segment 0, t = 0 to 1, contact 0: gap: sign not decided", 0, "graze"),

@@ -2,6 +2,8 @@
  * fractions give, and is not much wider. */
 #include "proof/prove.h"
 #include "tests/check.h"
+#include <float.h>
+#include <math.h>
 
 enum { BITS = 128, ROUNDS = 200 };
 
@@ -202,6 +204,66 @@ static void a_spring_swings_as_the_cosine(CHECK_STATE)
   certificate_free(c);
 }
 
+/* ---- the float inverse ---- */
+
+/* |I - B M| scale, row by row, is above the exact sum, and above it by no more than the roundings of long double allow:
+ * 2 (n + 4) epsilons of |B| |M| scale. B is spoilt by ever less, so that the sum goes from 1 to roundings. */
+static void the_defect_of_an_inverse_is_bounded(CHECK_STATE)
+{
+  enum { EXACT = 400 };
+  char why[256];
+  failure f = {.segment = -1};
+  krawczyk k = {0};
+  flint_rand_t random;
+  json_t *json = json_load_file("tests/proof/certificates/case2_9_stable.json", 0, NULL);
+  certificate *c = certificate_read(json, false, why, sizeof why);
+  orbit *o = c ? orbit_new(c, &f) : NULL;
+  assert_non_null(o);
+  if (!o) return;
+  assert_true(flow_prepare(o, &f) && existence_prepare(&k, o, false, &f));
+  const int n = o->unknowns;
+  flint_randinit(random);
+  LOCAL(arb) sum = ZERO, size = ZERO, entry = ZERO, b = ZERO, m = ZERO, all = ZERO, most = ZERO, defect = ZERO;
+  for (int round = 0; round <= 18; round++) {
+    for (int i = 0; i < n * n; i++) k.inverse[i] *= 1 + pow(10, -round) * ((double)n_randint(random, 2001) / 1000 - 1);
+    existence_measure(&k);
+    for (int r = 0; r < n; r++) {
+      arb_zero(all);
+      arb_zero(most);
+      for (int column = 0; column < n; column++) {
+        arb_set_si(sum, r == column);
+        arb_set_si(size, r == column);
+        for (int row = 0; row < n; row++)
+          for (int e = k.derivative.row[row]; e < k.derivative.row[row + 1]; e++) {
+            if (k.derivative.column[e] != column) continue;
+            arb_set_d(b, k.inverse[r * n + row]);
+            arb_set_d(m, k.middle[e]);
+            arb_mul(entry, b, m, EXACT);
+            arb_sub(sum, sum, entry, EXACT);
+            arb_abs(entry, entry);
+            arb_add(size, size, entry, EXACT);
+          }
+        arb_abs(sum, sum);
+        arb_addmul(all, sum, o->scale + column % (2 * o->n + 1), EXACT);
+        arb_addmul(most, size, o->scale + column % (2 * o->n + 1), EXACT);
+      }
+      arb_set_interval_mag(defect, k.defect + r, k.defect + r, 64);
+      arb_set_d(b, 2 * (n + 4) * (double)LDBL_EPSILON);
+      arb_mul(most, most, b, 64);
+      arb_set_d(b, 1 + 1e-6); /* a mag has 30 bits */
+      arb_addmul(most, all, b, 64);
+      if (!arb_ge(defect, all)) fail_msg("row %d, spoilt by 1e-%d: the bound is below the sum", r, round);
+      if (!arb_le(defect, most)) fail_msg("row %d, spoilt by 1e-%d: the bound is far above the sum", r, round);
+    }
+    assert_true(existence_prepare(&k, o, false, &f));
+  }
+  flint_randclear(random);
+  existence_free(&k);
+  orbit_free(o);
+  certificate_free(c);
+  json_decref(json);
+}
+
 int main(void)
 {
   check_watchdog(60);
@@ -211,6 +273,7 @@ int main(void)
       cmocka_unit_test(bernstein_encloses_the_polynomial),
       cmocka_unit_test(a_free_mass_moves_as_fractions_say),
       cmocka_unit_test(a_spring_swings_as_the_cosine),
+      cmocka_unit_test(the_defect_of_an_inverse_is_bounded),
   };
   return check_ended(cmocka_run_group_tests(proof_balls, NULL, NULL));
 }

@@ -230,6 +230,14 @@ class Certificates(unittest.TestCase):
         data["events"].reverse()
         self.assertTrue(changed().startswith("times not in order"))
 
+    def test_null_is_no_claim(self):
+        data = json.loads(CERTIFICATES[0].read_text())
+        for name in data["claims"]:
+            wanted = "wrong" if "radius" in name else "accepted"
+            self.assertEqual(judged({**data, "claims": {**data["claims"], name: None}})["verdict"], wanted, name)
+        self.assertEqual(judged({**data, "claims": None})["verdict"], "wrong")
+        self.assertEqual(judged({**data, "claims": {**data["claims"], "stability": None, "multiplier": None}, "vectors": None})["verdict"], "accepted")
+
     def test_another_orbit_within_the_radius_of_uniqueness(self):
         """case2_9_stable and _unstable have the same letters: a radius that holds both is refused."""
         stable, other = (json.loads((HERE / f"certificates/case2_9_{name}.json").read_text()) for name in ("stable", "unstable"))
@@ -250,7 +258,7 @@ class Certificates(unittest.TestCase):
     def test_damaged_files(self):
         good = CERTIFICATES[0].read_text()
         data = json.loads(good)
-        broken = ["{", "[" * 100000, "[]", "null", good[:-20], good.replace('"-5.0"', '"1e999999999"'), good.replace('"-5.0"', '"1e401"'),
+        broken = ["", " ", "{", "[" * 100000, "[]", "null", good[:-20], good.replace('"-5.0"', '"1e999999999"'), good.replace('"-5.0"', '"1e401"'),
                   good.replace('"-5.0"', "-5.0"), good.replace('"-5.0"', '"NaN"'), good.replace('"-5.0"', "NaN"), good.replace('"-5.0"', '"' + "1" * 121 + '"'),
                   good.replace('"multiple": 1', '"multiple": ' + "9" * 5000), good.replace('"multiple": 1', '"multiple": true'), good + "x",
                   good.replace('"O"', '"OO"'), good.replace('"O"', '"N"'), good.replace('"45.0"', '"90"'), '{"model":' * 5000]
