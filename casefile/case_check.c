@@ -89,6 +89,7 @@ static hc_status check_contacts(case_reader *r)
     for (int i = 0; i < field_count(); ++i) {
       const field *f = field_at(i);
       if (!(f->flags & FIELD_IN_CONTACT) || f->fallback || r->contact_has[j] & case_field_bit(f)) continue;
+      if (f->flags & FIELD_STRUCTURE || !field_is_of_law(f, &r->sc.contacts[j])) continue;
       message *m = case_blame(r, r->contact_at[j]);
       message_add(m, "this appends a contact without `%s`, expected contacts[%d].%s=VALUE too: ", f->name, j, f->name);
       field_expected(f, m);

@@ -471,7 +471,8 @@ static double work_unit(int n, const model_contact *contacts, const contact_comp
     most = fmax(most, fmax(c[j].hbm.work, c[j].transient.work));
     most = fmax(most, negligible_work * spring_energy(&of->law, &c[j].hbm));
     most = fmax(most, negligible_work * spring_energy(&of->law, &c[j].transient));
-    of += of->pair == CONTACT_FIRST ? 2 : 1;
+    do ++of;
+    while (contact_goes_on(of->pair)); /* the list ends with an empty one */
   }
   return most;
 }

@@ -12,7 +12,7 @@ int hbmcheck_case_contact_tangents(const hbmcheck_case *c, int j)
 {
   model *of;
   if (!has_contact(c, j) || scene_model(&c->sc, &of) != HC_OK) return 0;
-  const int tangents = of->contacts[scene_model_contact(&c->sc, j)].pair == CONTACT_ALONE ? 1 : 2;
+  const int tangents = of->contacts[scene_model_contact(&c->sc, j)].pair != CONTACT_FIRST ? 1 : 2;
   model_free(of);
   return tangents;
 }

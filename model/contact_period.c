@@ -15,7 +15,7 @@ void contact_periods_merge(const model *m, contact_period *p)
 {
   int n = 0;
   for (int j = 0; j < m->n_contacts; ++j) {
-    const bool second = m->contacts[j].pair == CONTACT_SECOND && n > 0;
+    const bool second = contact_goes_on(m->contacts[j].pair) && n > 0;
     if (second) p[n - 1] = contact_period_of_pair(&p[n - 1], &p[j]);
     else p[n++] = p[j];
   }

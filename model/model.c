@@ -117,7 +117,7 @@ void model_free(model *m)
 int model_whole_contacts(const model *m)
 {
   int n = 0;
-  for (int j = 0; j < m->n_contacts; ++j) n += m->contacts[j].pair != CONTACT_SECOND;
+  for (int j = 0; j < m->n_contacts; ++j) n += !contact_goes_on(m->contacts[j].pair);
   return n;
 }
 
@@ -125,6 +125,13 @@ bool model_has_circle(const model *m)
 {
   for (int j = 0; j < m->n_contacts; ++j)
     if (m->contacts[j].circle) return true;
+  return false;
+}
+
+bool model_is_smooth(const model *m)
+{
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (m->contacts[j].law.smooth != CONTACT_KINKED) return true;
   return false;
 }
 

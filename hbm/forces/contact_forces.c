@@ -294,6 +294,14 @@ const planar_cycle *contact_forces_planar(const contact_forces *f, int j)
   return m->first == j && m->by->in_plane ? m->by->in_plane(m->evaluator) : NULL;
 }
 
+bool contact_forces_bends(const contact_forces *f, int j) { return member_of(f, j)->by->slopes != NULL; }
+
+contact_slopes contact_forces_slopes(const contact_forces *f, int j, double th)
+{
+  const member *m = member_of(f, j);
+  return m->by->slopes(m->evaluator, th);
+}
+
 /* Both u and v may be multiples of one coordinate: d held/du is that by the coordinate over du/dx. */
 void contact_forces_held_by(const contact_forces *f, int j, const contact_interval *p, double by[2])
 {

@@ -6,6 +6,7 @@
 #include "hbm/contact/aft.h"
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"
+#include "hbm/contact/smooth_force.h"
 #include "hbm/planar/planar_aft.h"
 #include "hbm/planar/planar_corner.h"
 #include "hbm/planar/planar_force.h"
@@ -66,14 +67,20 @@ static hc_status line_measures(const contact *law, int n_harm, const double *u, 
   return contact_measures_of(law, n_harm, u, v, out);
 }
 
-enum { LINE, PLANE };
+enum { LINE, PLANE, POLYNOMIAL };
 
 static const contact_kind kinds[] = {
     [LINE] = {1, line_coordinates, &exact_force_evaluator, &aft_evaluator, line_measures, NULL},
+    [POLYNOMIAL] = {1, line_coordinates, &polynomial_evaluator, &polynomial_sampled_evaluator, polynomial_measures_of,
+                    NULL},
     [PLANE] = {2, plane_coordinates, &planar_force_evaluator, &planar_aft_evaluator, planar_measures_of, &planar_edges},
 };
 
-const contact_kind *contact_kind_of(const placed_contact *c) { return &kinds[c->planar ? PLANE : LINE]; }
+const contact_kind *contact_kind_of(const placed_contact *c)
+{
+  if (c->law.smooth == CONTACT_POLYNOMIAL) return &kinds[POLYNOMIAL];
+  return &kinds[c->planar ? PLANE : LINE];
+}
 
 placed_contact placed_contact_of(const model *m, int j)
 {

@@ -79,18 +79,19 @@ typedef struct law_instant {
   double theta, own;
 } law_instant;
 
-/* T that is not linear in the motion, and the rate of the own state z; what they follow: dT_a/dV, dT_a/dz, dz'/dU'_a,
- * dz'/dV, dz'/dz. */
+/* T and N - N0 that are not linear in the motion, and the rate of the own state z; what they follow: dT_a/dV, dT_a/dz,
+ * dz'/dU'_a, dz'/dV, dz'/dz; of smooth laws, of one tangent, dT/dU' and dN/dV. */
 typedef struct law_pull {
-  double t[2], rate;
+  double t[2], n, rate;
 } law_pull;
 typedef struct law_slopes {
-  double t_v[2], t_own[2], rate_du[2], rate_v, rate_own;
+  double t_v[2], t_own[2], rate_du[2], rate_v, rate_own, t_du, n_v;
 } law_slopes;
 
 typedef struct scaled_contact scaled_contact;
 typedef struct law_kind {
   int directions;
+  bool smooth; /* beside forces linear in the motion there are those of pull, in all states, without a state z */
 
   planar_value (*evaluate)(const law_regularised *c, const double *u, double v, const double *w);
   /* Where the law has them; on the limit |S| = mu N those of stick. */
@@ -123,6 +124,7 @@ typedef struct law_kind {
 } law_kind;
 
 extern const law_kind law_line, law_planar; /* one tangent; two under the law of the circle */
+extern const law_kind law_polynomial;
 
 struct scaled_contact {
   law_regularised law; /* without dimensions */

@@ -5,8 +5,9 @@
 
 #include "numerics/norm.h"
 
-/* By whether two directions share a limit. */
+/* Of kinked laws by whether two directions share a limit; of smooth ones. */
 static const law_kind *const kinds[] = {&law_line, &law_planar};
+static const law_kind *const smooth_kinds[] = {[CONTACT_POLYNOMIAL] = &law_polynomial};
 
 /* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force.
  * Where a contact opens or closes the motion is at least as large as the gap; a gap of 0 leaves the static motion. */
@@ -24,11 +25,18 @@ static void make_contact(scaled_contact *sc, const model_contact *from, double u
                  .kn = from->law.kn / unit,
                  .mu = from->law.mu,
                  .gap = from->law.gap / length,
-                 .load = from->law.load / (unit * length)};
+                 .load = from->law.load / (unit * length),
+                 .smooth = from->law.smooth};
+  double power_unit = unit; /* [force/length^p] */
+  for (int i = 0; i < CONTACT_POWERS && law.smooth != CONTACT_KINKED; ++i) {
+    power_unit /= length;
+    law.power[i] = from->law.power[i] / power_unit;
+  }
   if (!moves_along) law.kt = 0; /* u = 0 always: the tangential spring does no work */
   sc->law = law_regularised_make(&law, width / length, how->regularisation);
   sc->preload = contact_preload(&law);
-  sc->kind = kinds[from->circle && from->pair != CONTACT_ALONE && sc->law.has_friction];
+  sc->kind = law.smooth != CONTACT_KINKED ? smooth_kinds[law.smooth]
+                                          : kinds[from->circle && sc->law.has_friction];
   sc->direction = sc->kind->directions > 1 && from->pair == CONTACT_SECOND;
 }
 

@@ -189,7 +189,7 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
     for (int j = 0; j < w.n_contacts; ++j) {
       const contact_sums *s = &w.of[j];
       const bool slipped = s->seen & SEEN_SLIPPING; /* else the closed integral of T u' is 0 but for rounding */
-      out[j] = (contact_period){.regime = measure_seen_regime(s->seen),
+      out[j] = (contact_period){.regime = measure_seen_regime(s->seen, &of->model->contacts[j].law),
                                 .normal_min = s->normal_min * force,
                                 .normal_max = s->normal_max * force,
                                 .traction_max = s->traction_max * force,
