@@ -65,7 +65,8 @@ static hc_status read_points(case_reader *r, const field *f, int j, scene_contac
     }
     if (i == 0) continue;
     if (!(at[0] > at[-2]))
-      return yaml_refuse(r, point, "%s has the distance %.10g behind %.10g, expected ascending ones", path, at[0], at[-2]);
+      return yaml_refuse(r, point, "%s has the distance %.10g behind %.10g, expected ascending ones", path, at[0],
+                         at[-2]);
     if (!isfinite((at[1] - at[-1]) / (at[0] - at[-2])))
       return yaml_refuse(r, point, "%s has a slope too large to be held, expected a finite one", path);
   }
@@ -118,7 +119,11 @@ contact scene_contact_law(const scene_contact *c)
     law = (contact){.kn = c->law.kn, .mu = c->law.mu, .gap = c->law.gap, .smooth = CONTACT_TANH};
     law.epsilon = c->law.epsilon;
     return law;
-  default: law = c->law; law.epsilon = 0; memset(law.power, 0, sizeof law.power); return law;
+  default:
+    law = c->law;
+    law.epsilon = 0;
+    memset(law.power, 0, sizeof law.power);
+    return law;
   }
 }
 

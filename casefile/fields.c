@@ -63,9 +63,10 @@ static const field_section sections[] = {
   DIRECTION(FIELD_IN_CONTACT, structure_contact, member, "a DOF, or factors of DOFs such as {tip: 1, root: -1}")
 #define POWER(p)                                                                                                       \
   {                                                                                                                    \
-    "contacts", "coefficients." #p, "", FIELD_REAL, .unit = "force/length^" #p,                                        \
-        .flags = FIELD_IN_CONTACT, .offset = offsetof(scene_contact, law.power[p - CONTACT_LEAST_POWER]),              \
-        .fallback = "0", UNBOUNDED, .laws = SCENE_LAWS(SCENE_LAW_POLYNOMIAL), .meaning = "one of them, for --set and studies" \
+    "contacts", "coefficients." #p, "", FIELD_REAL,                                                                    \
+        .unit = "force/length^" #p, .flags = FIELD_IN_CONTACT,                                                         \
+        .offset = offsetof(scene_contact, law.power[p - CONTACT_LEAST_POWER]), .fallback = "0", UNBOUNDED,             \
+        .laws = SCENE_LAWS(SCENE_LAW_POLYNOMIAL), .meaning = "one of them, for --set and studies"                      \
   }
 #define RUBS (SCENE_LAWS(SCENE_LAW_CONTACT) | SCENE_LAWS(SCENE_LAW_TANH))
 #define TEXT(member)                                                                                                   \

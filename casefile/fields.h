@@ -52,7 +52,7 @@ typedef struct field {
                         them in one file; or NULL */
   const char *along; /* the direction of a contact without which the field says nothing, and with which it is required
                         unless it has a default; or NULL */
-  unsigned laws; /* of a contact's: SCENE_LAWS of those that have it; 0: `contact`; SCENE_ANY_LAW */
+  unsigned laws;     /* of a contact's: SCENE_LAWS of those that have it; 0: `contact`; SCENE_ANY_LAW */
   const char *expects; /* what may stand there, in words, where kind and range do not say it: all of FIELD_PART */
   const char *meaning;
 } field;
@@ -91,7 +91,7 @@ static inline const void *field_look(const field *f, const void *base) { return 
 
 /* Has a contact of that law the field; and is it written for this one? */
 #define SCENE_LAWS(kind) (1u << (kind))
-#define SCENE_ANY_LAW 15u
+#define SCENE_ANY_LAW    15u
 bool field_is_of_law(const field *f, const scene_contact *c);
 bool field_is_echoed(const field *f, const scene_contact *c);
 

@@ -20,8 +20,7 @@ const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE])
 moving_contact scene_moving_contact(const scene_contact *c)
 {
   moving_contact out = {.law = scene_contact_law(c), .cv = {1}};
-  if (c->kind == SCENE_LAW_CONTACT || c->kind == SCENE_LAW_TANH)
-    model_direction(c->angle_deg, &out.cu[0], &out.cv[0]);
+  if (c->kind == SCENE_LAW_CONTACT || c->kind == SCENE_LAW_TANH) model_direction(c->angle_deg, &out.cu[0], &out.cv[0]);
   return out;
 }
 

@@ -262,7 +262,8 @@ contact structure_contact_law(const structure_contact *c)
 {
   contact law = scene_contact_law(&c->given);
   if (c->given.preload > 0 && law.kn > 0) law.gap = c->given.preload / law.kn;
-  if (!(law.kn > 0) && (c->given.kind == SCENE_LAW_CONTACT || c->given.kind == SCENE_LAW_TANH)) law.load = c->given.preload;
+  if (!(law.kn > 0) && (c->given.kind == SCENE_LAW_CONTACT || c->given.kind == SCENE_LAW_TANH))
+    law.load = c->given.preload;
   return law;
 }
 

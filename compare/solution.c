@@ -113,7 +113,7 @@ static hc_status perturbed_motion(comparison_work *w, double omega, int directio
   transient_settings how = w->setup->transient;
   timeint *ti;
   how.law = TRANSIENT_LAW_EXACT;
-  how.method = TRANSIENT_METHOD_CLOSED_FORM;
+  how.method = model_is_smooth(w->setup->model) ? TRANSIENT_METHOD_CVODE : TRANSIENT_METHOD_CLOSED_FORM;
   how.steady = TRANSIENT_STEADY_MARCH;
   how.scout = false;
   if (how.max_periods > PERTURBED_PERIODS) how.max_periods = PERTURBED_PERIODS;
@@ -355,7 +355,7 @@ hc_status solution_contacts(comparison_work *w, const double *X, const compariso
 {
   const model *m = w->setup->model;
   const int n = model_whole_contacts(m);
-  const hc_status measured = hbm_measure_contacts(w->hbm, X, w->balanced);
+  const hc_status measured = hbm_measure_contacts(w->hbm, row->omega, X, w->balanced);
   for (int j = 0; j < n; ++j) {
     c[j] = (contact_comparison){.omega = row->omega,
                                 .branch = row->branch,

@@ -118,7 +118,7 @@ static hc_status append_solution(shown *d, const hbm_point *p, const double *X, 
   hc_status st = shape_of(d, p->omega, X, amplitude, cosine, sine);
   if (st == HC_OK) {
     st = hbm_sliders(d->s, X, d->w);
-    if (st == HC_OK) st = hbm_measure_contacts(d->s, X, d->periods);
+    if (st == HC_OK) st = hbm_measure_contacts(d->s, p->omega, X, d->periods);
     for (int j = 0, first = 0; first < d->m->n_contacts && j < MOST_CONTACTS && st == HC_OK; ++j, ++first) {
       const bool pair = d->m->contacts[first].pair == CONTACT_FIRST;
       for (int i = 0; i < 2 + pair && st == HC_OK; ++i)

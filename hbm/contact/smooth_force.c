@@ -21,6 +21,9 @@ typedef struct spring {
   workspace memory;
 } spring;
 
+/* Where all coefficients are 0, too. */
+static int degree_of(const contact *law) { return contact_degree(law) > 2 ? contact_degree(law) : 2; }
+
 static void free_spring(void *self)
 {
   spring *s = self;
@@ -52,7 +55,7 @@ static hc_status make_with(const contact_coordinates *c, int n_harm, int n_time,
 
 static hc_status make_exact(const contact_coordinates *c, const evaluator_settings *how, void **self)
 {
-  return make_with(c, how->n_harm, (contact_degree(&c->moved.law) + 1) * how->n_harm + 1, self);
+  return make_with(c, how->n_harm, (degree_of(&c->moved.law) + 1) * how->n_harm + 1, self);
 }
 
 static hc_status make_sampled(const contact_coordinates *c, const evaluator_settings *how, void **self)
@@ -91,13 +94,14 @@ static void sliders(const void *self, double *w) { (void)self, *w = 0; }
 
 static const contact_interval *intervals(const void *self, int *n) { return (void)self, *n = 0, NULL; }
 
-static contact_slopes slopes(const void *self, double th)
+static contact_slopes slopes(const void *self, double th, double omega)
 {
+  (void)omega;
   const spring *s = self;
   contact_slopes at = {0};
   const double v = s->normal * series_at(s->n_harm, s->X, cos(th), sin(th)).x;
   contact_polynomial(&s->law, v, &at.n_v);
-  at.step = 6.0 / ((contact_degree(&s->law) - 1) * s->n_harm);
+  at.step = 6.0 / ((degree_of(&s->law) - 1) * s->n_harm);
   return at;
 }
 
@@ -114,7 +118,7 @@ const contact_evaluator polynomial_sampled_evaluator = {
 hc_status polynomial_measures_of(const contact *law, int n_harm, const double *u, const double *u_2, const double *v,
                                  contact_period *out)
 {
-  const int degree = contact_degree(law), all = degree * n_harm, n = series_length(n_harm);
+  const int all = degree_of(law) * n_harm, n = series_length(n_harm);
   const contact_coordinates along = {.n_dof = 1, .moved = {.law = *law, .cv = {1}}};
   contact_report report;
   void *self;

@@ -121,8 +121,16 @@ static void add_product(int n, double k, const double *a, const double *b, doubl
     for (int r = 0; r < n; ++r) A[(size_t)q * (size_t)n + (size_t)r] += k * a[r] * b[q];
 }
 
+/* The slopes of contact j on that interval; false: it has none, or does not touch. */
+static bool bends(const planar_flow *f, const contact_interval *const *interval, int j, double th, double omega,
+                  contact_slopes *out)
+{
+  const bool touches = interval[j] || f->m->contacts[j].law.smooth == CONTACT_POLYNOMIAL;
+  return touches && f->bends(f->orbit, j, th, omega, out);
+}
+
 /* K and C at the points of a step. */
-static void fill_slopes(planar_flow *f, double from, double to)
+static void fill_slopes(planar_flow *f, const contact_interval *const *interval, double from, double to, double omega)
 {
   const size_t square = (size_t)f->n * (size_t)f->n;
   for (size_t i = 0; i < N; ++i) {
@@ -132,7 +140,7 @@ static void fill_slopes(planar_flow *f, double from, double to)
     for (int j = 0; j < f->m->n_contacts && f->bends; ++j) {
       const model_contact *c = &f->m->contacts[j];
       contact_slopes at;
-      if (!f->bends(f->orbit, j, from + (to - from) * f->c.x[i], &at)) continue;
+      if (!bends(f, interval, j, from + (to - from) * f->c.x[i], omega, &at)) continue;
       add_product(f->n, at.n_v, c->normal, c->normal, K);
       add_product(f->n, at.t_v, c->tangent, c->normal, K);
       add_product(f->n, at.t_du, c->tangent, c->tangent, C);
@@ -234,7 +242,7 @@ static hc_status advance_step(planar_flow *f, const contact_interval *const *int
   const int unknowns = N * (f->n + n_slipping);
   const double h = (to - from) / omega;
   fill_states(f, n_slipping, slipping, from, to, omega);
-  fill_slopes(f, from, to);
+  fill_slopes(f, interval, from, to, omega);
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) {
       fill_motion_block(f, n_slipping, slipping, h, i, j);
@@ -321,7 +329,7 @@ hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *int
     double width = turns_a_step * omega / sqrt(most), stiffest = most;
     for (int j = 0; j < m->n_contacts && f->bends; ++j) { /* as they are at the step's beginning */
       contact_slopes slopes;
-      if (!f->bends(f->orbit, j, at, &slopes)) continue;
+      if (!bends(f, interval, j, at, omega, &slopes)) continue;
       for (int i = 0; i < f->n; ++i)
         stiffest += fabs(slopes.n_v) * m->contacts[j].normal[i] * m->contacts[j].normal[i] /
                     m->mass[(size_t)i * (size_t)(f->n + 1)];

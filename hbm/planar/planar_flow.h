@@ -16,7 +16,7 @@
 typedef struct planar_flow planar_flow;
 
 /* The derivatives of smooth contacts along the orbit: those of contact j at th; false: it is none. */
-typedef bool planar_bends(const void *self, int j, double th, contact_slopes *out);
+typedef bool planar_bends(const void *self, int j, double th, double omega, contact_slopes *out);
 
 /* A planar contact that slips: its first half, and its interval. */
 typedef struct planar_slipping {

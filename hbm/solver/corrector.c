@@ -109,6 +109,7 @@ static void weigh_rows(hbm_solver *s, double omega)
 /* Weights for KINSOL: X by its size, R by the forces it is made of at the guess. */
 static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const double *X)
 {
+  hbm_system_at(&s->sys, omega_at(s, omega));
   hc_status st = hbm_system_contact(&s->sys, X, true);
   if (st != HC_OK) return st;
   weigh_rows(s, omega);

@@ -421,10 +421,10 @@ static hc_status begin_period(monodromy *w, const model *m, const contact_forces
   return st;
 }
 
-static bool slopes_of(const void *orbit, int j, double th, contact_slopes *out)
+static bool slopes_of(const void *orbit, int j, double th, double omega, contact_slopes *out)
 {
   if (!contact_forces_bends(orbit, j)) return false;
-  *out = contact_forces_slopes(orbit, j, th);
+  *out = contact_forces_slopes(orbit, j, th, omega);
   return true;
 }
 

@@ -69,8 +69,7 @@ static void add_curved(const events *in, const double *y, double *dy)
     const contact_motion at = scaled_motion_at(in->base.m, j, y);
     const law_pull pull = c->kind->pull(&in->track[j], c, &at, own >= 0 ? y[2 * n + own] : 0);
     if (own >= 0) dy[2 * n + own] = pull.rate;
-    for (int a = 0; a < c->kind->directions; ++a)
-      step_equations_add(step->force, step->rows.along[j + a], pull.t[a]);
+    for (int a = 0; a < c->kind->directions; ++a) step_equations_add(step->force, step->rows.along[j + a], pull.t[a]);
     step_equations_add(step->force, step->rows.across[j], pull.n);
   }
 }
@@ -366,7 +365,10 @@ static hc_status differ(events *in, const double *y, double *monodromy)
 {
   const scaled_model *m = in->base.m;
   const size_t n = (size_t)m->n_states;
-  const double h = 1e-4;
+  double h = 1e-4;
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (m->contact[j].law.smooth.smooth == CONTACT_TANH)
+      h = fmin(h, fmax(1e-2 * m->contact[j].law.smooth.epsilon, 1e-6));
   const long transitions = in->base.base.transitions;
   double *ends = calloc(2 * n, sizeof *ends);
   hc_status st = ends ? HC_OK : HC_NO_MEMORY;
