@@ -193,14 +193,13 @@ static void begin_line(const char **before, const field *f, FILE *to)
   *before = "    ";
 }
 
-static void write_points(const char *before, const scene_contact *c, FILE *to)
+void case_write_points(const scene_contact *c, FILE *to)
 {
-  fprintf(to, "%spoints: [", before);
   for (int i = 0; i < c->n_points; ++i) {
-    fputs(i ? ", " : "", to);
+    fputs(i ? ", " : "[", to);
     write_list(c->points[i], 2, 1, 0, to);
   }
-  fputs("]\n", to);
+  fputs("]", to);
 }
 
 /* An entry of a list, a field a line: its directions that are not 0, then its scalars in base. s and c are NULL for an
@@ -227,7 +226,10 @@ static void write_entry(const char *section, const scene_structure *s, const str
     const field *f = field_at(i);
     if (strcmp(f->section, section)) continue;
     if (f->kind == FIELD_PART) {
-      if (!strcmp(f->name, "points") && field_is_of_law(f, base)) write_points(before, base, to), before = "    ";
+      if (strcmp(f->name, "points") || !field_is_of_law(f, base)) continue;
+      begin_line(&before, f, to);
+      case_write_points(base, to);
+      putc('\n', to);
       continue;
     }
     if (!s && !field_is_echoed(f, base)) continue;

@@ -41,6 +41,7 @@ static hc_status read_coefficients(case_reader *r, const field *f, int j, scene_
     if (*before) return yaml_refuse(r, key, "%s gives a power twice, expected each once", field_path(f, j, path));
     *before = true;
     if ((st = yaml_scene_value(r, one, j, c, yaml_value(r, node, i))) != HC_OK) return st;
+    r->at[field_index(one)] = yaml_place(r, yaml_value(r, node, i));
   }
   return HC_OK;
 }
@@ -141,6 +142,16 @@ double scene_contact_slope(const scene_contact *c)
 {
   double k = c->kind == SCENE_LAW_TABLE ? slope(c, 0) : 0;
   for (int i = 1; c->kind == SCENE_LAW_TABLE && i + 1 < c->n_points; ++i) k += fmin(slope(c, i) - slope(c, i - 1), 0);
+  return k;
+}
+
+double scene_contact_stiffness(const scene_contact *c, bool at_rest)
+{
+  double k = scene_contact_slope(c);
+  for (int i = 1; c->kind == SCENE_LAW_TABLE && i + 1 < c->n_points; ++i) {
+    const double change = slope(c, i) - slope(c, i - 1);
+    if (!at_rest || change * c->points[i][0] < 0) k += fabs(change);
+  }
   return k;
 }
 

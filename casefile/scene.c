@@ -29,7 +29,7 @@ double scene_max_stiffness(const scene *sc)
   double k = sc->stiffness;
   for (int j = 0; j < sc->n_contacts; ++j) {
     const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-    k += moving_contact_stuck_stiffness(&c) + scene_contact_slope(&sc->contacts[j]);
+    k += moving_contact_stuck_stiffness(&c) + scene_contact_stiffness(&sc->contacts[j], false);
   }
   return k;
 }
@@ -54,7 +54,7 @@ bool scene_adrift(const scene *sc)
   bool held = sc->structure || sc->stiffness > 0; /* of a structure the reader sees to it */
   for (int j = 0; j < sc->n_contacts; ++j) {
     const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-    held |= scene_contact_slope(&sc->contacts[j]) > 0;
+    held |= scene_contact_stiffness(&sc->contacts[j], true) > 0;
     held |= c.law.gap > 0 && moving_contact_stuck_stiffness(&c) > 0;
   }
   return !held;

@@ -29,13 +29,13 @@ enum { SCENE_MOST_POINTS = 32 };
 
 typedef struct scene_contact {
   contact law; /* as it was given: scene_contact_law */
-  scene_law kind;
-  int n_points;
-  double points[SCENE_MOST_POINTS][2]; /* [length] ascending, [force] of a table */
   double angle_deg;                    /* [deg] 0..90, of the contact's tangent to x */
   double preload; /* [force] >= 0, of a structure's contact: kn gap, or its constant normal force without normal */
   char name[SCENE_NAME]; /* of a structure's contact, or "" */
   contact_limit limit;   /* of a structure's contact with two tangents */
+  scene_law kind;
+  int n_points;
+  double points[SCENE_MOST_POINTS][2]; /* [length] ascending, [force] of a table */
 } scene_contact;
 
 typedef struct scene {
@@ -69,6 +69,7 @@ contact scene_contact_law(const scene_contact *c);
  * and these, along direction[n]. f(0) is taken as held by the rest position, as N0 is. */
 int scene_contact_parts(const scene_contact *c);
 double scene_contact_slope(const scene_contact *c);
+double scene_contact_stiffness(const scene_contact *c, bool at_rest); /* with all of them; at_rest: closed at d = 0 */
 void scene_contact_put(const scene_contact *c, int n, const double *direction, model_contact *to);
 
 /* The contact with its direction to x; not of a table. */

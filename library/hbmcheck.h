@@ -131,7 +131,8 @@ typedef enum hbmcheck_contact {
   HBMCHECK_CONTACT_LINEAR,    /* no contact is ever closed */
   HBMCHECK_CONTACT_STICK,     /* those that are closed stay closed and stick */
   HBMCHECK_CONTACT_SLIP,      /* those that are closed stay closed, and one of them slips */
-  HBMCHECK_CONTACT_SEPARATION /* one opens and closes */
+  HBMCHECK_CONTACT_SEPARATION, /* one opens and closes */
+  HBMCHECK_CONTACT_SMOOTH      /* none slips or opens, and one has a smooth law: between stick and slip */
 } hbmcheck_contact;
 
 /* What one contact does over a period of a motion, as the commands say with --contacts; two tangents are one. */
@@ -143,7 +144,7 @@ typedef struct hbmcheck_contact_period {
   hbmcheck_contact regime;       /* of this contact: never closed, closed and sticking, ... */
 } hbmcheck_contact_period;
 
-/* "linear", "stick", "slip", "separation"; a constant string, never NULL. */
+/* "linear", "stick", "slip", "separation", "smooth"; a constant string, never NULL. */
 const char *hbmcheck_contact_name(hbmcheck_contact contact);
 
 /* One solution. */

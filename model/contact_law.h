@@ -42,16 +42,23 @@ typedef struct contact {
 
 typedef enum contact_state { CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS, CONTACT_SLIP_MINUS } contact_state;
 
-/* What happens to a contact over a period, in ascending order: it never touches, sticks all the time, follows a smooth
- * law, slips but stays in contact, separates and touches. The `contact` column of tables shows the largest of all contacts. */
+/* What happens to a contact over a period, in ascending order: it never touches, sticks all the time, slips but stays
+ * in contact, separates and touches. A smooth law comes between stick and slip. The `contact` column of tables shows the
+ * largest of all contacts: contact_regime_larger. */
 typedef enum contact_regime {
   CONTACT_LINEAR,
   CONTACT_STUCK,
-  CONTACT_BENDS, /* a smooth law */
   CONTACT_SLIPS,
-  CONTACT_SEPARATES
+  CONTACT_SEPARATES,
+  CONTACT_BENDS
 } contact_regime;
 const char *contact_regime_name(contact_regime regime); /* "linear", "stick", "smooth", "slip", "separation" */
+
+static inline contact_regime contact_regime_larger(contact_regime a, contact_regime b)
+{
+  if (b == CONTACT_BENDS) return a > CONTACT_STUCK ? a : b;
+  return a == CONTACT_BENDS ? (b > CONTACT_STUCK ? b : a) : a > b ? a : b;
+}
 
 /* Can it resist a tangential motion? Without friction T = 0, and there is no slider. */
 static inline bool contact_has_friction(const contact *c)

@@ -3,7 +3,7 @@
 
 contact_period contact_period_of_pair(const contact_period *first, const contact_period *second)
 {
-  return (contact_period){.regime = first->regime > second->regime ? first->regime : second->regime,
+  return (contact_period){.regime = contact_regime_larger(first->regime, second->regime),
                           .normal_min = first->normal_min + second->normal_min,
                           .normal_max = first->normal_max + second->normal_max,
                           .traction_max = fmax(first->traction_max, second->traction_max),

@@ -192,7 +192,7 @@ hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, boo
     m->differentiated = derive && !m->by->jacobian;
     for (int d = 0; d < m->n_dof && st == HC_OK && !f->itself; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);
     if (st != HC_OK) continue;
-    if (own.regime > report->regime) report->regime = own.regime;
+    report->regime = contact_regime_larger(report->regime, own.regime);
     report->transitions += own.transitions;
     report->free_sliders += own.free_sliders;
   }

@@ -267,7 +267,6 @@ void measure_report(const measure *me, const model *from, int i, double length, 
   for (int k = 0; k < TIMEINT_WAVE; ++k) r->wave[k] = of->wave[k] * length;
   r->regime = CONTACT_LINEAR;
   for (int j = 0; j < from->n_contacts; ++j) {
-    contact_regime one = measure_seen_regime(me->seen[j], &from->contacts[j].law);
-    if (one > r->regime) r->regime = one;
+    r->regime = contact_regime_larger(r->regime, measure_seen_regime(me->seen[j], &from->contacts[j].law));
   }
 }
