@@ -193,6 +193,18 @@ static void begin_line(const char **before, const field *f, FILE *to)
   *before = "    ";
 }
 
+static void write_coefficients(const scene_contact *c, FILE *to)
+{
+  const char *before = "{";
+  for (int i = 0; i < CONTACT_POWERS; ++i) {
+    if (c->law.power[i] == 0 && !(i == 0 && contact_degree(&c->law) == 0)) continue;
+    fprintf(to, "%s%d: ", before, i + CONTACT_LEAST_POWER);
+    write_number(c->law.power[i], to);
+    before = ", ";
+  }
+  putc('}', to);
+}
+
 void case_write_points(const scene_contact *c, FILE *to)
 {
   for (int i = 0; i < c->n_points; ++i) {
@@ -226,13 +238,14 @@ static void write_entry(const char *section, const scene_structure *s, const str
     const field *f = field_at(i);
     if (strcmp(f->section, section)) continue;
     if (f->kind == FIELD_PART) {
-      if (strcmp(f->name, "points") || !field_is_of_law(f, base)) continue;
+      const bool points = !strcmp(f->name, "points");
+      if (!(points || !strcmp(f->name, "coefficients")) || !field_is_of_law(f, base)) continue;
       begin_line(&before, f, to);
-      case_write_points(base, to);
+      (points ? case_write_points : write_coefficients)(base, to);
       putc('\n', to);
       continue;
     }
-    if (!s && !field_is_echoed(f, base)) continue;
+    if (f->flags & FIELD_NO_ECHO || (!s && !field_is_echoed(f, base))) continue;
     if (s ? c && !case_contact_field_counts(s, c, f) : f->flags & FIELD_STRUCTURE) continue;
     begin_line(&before, f, to);
     field_write(f, base, to);
