@@ -135,6 +135,18 @@ bool model_is_smooth(const model *m)
   return false;
 }
 
+bool model_is_symmetric(const model *m)
+{
+  bool all = model_is_smooth(m);
+  for (int l = 0; l < m->n_loads; ++l) all = all && m->loads[l].harmonic % 2;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const contact *c = &m->contacts[j].law;
+    all = all && c->kn == 0;
+    for (int i = 0; i < CONTACT_POWERS; ++i) all = all && (c->power[i] == 0 || (i + CONTACT_LEAST_POWER) % 2);
+  }
+  return all;
+}
+
 contact model_half_law(const contact *whole)
 {
   contact half = *whole;

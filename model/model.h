@@ -78,6 +78,9 @@ bool model_has_circle(const model *m);
 /* Does any contact follow a smooth law? */
 bool model_is_smooth(const model *m);
 
+/* Do smooth contacts and all others, without normal springs, and odd loads leave it -x(t + T/2) a solution with x(t)? */
+bool model_is_symmetric(const model *m);
+
 /* The law of either of a pair's two, from the whole contact's. */
 contact model_half_law(const contact *whole);
 

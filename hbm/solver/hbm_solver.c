@@ -55,6 +55,7 @@ static void free_equations(hbm_solver *s)
   workspace_free(&s->memory);
   *s = (hbm_solver){.model = s->model,
                     .edges = s->edges,
+                    .symmetric = s->symmetric,
                     .how = s->how,
                     .monodromy = s->monodromy,
                     .multipliers_unknown = s->multipliers_unknown,
@@ -90,6 +91,7 @@ hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **o
   s->how = *how;
   s->step_scale = 1;
   hc_status st = model_copy(m, &s->model);
+  if (st == HC_OK) s->symmetric = model_is_symmetric(s->model);
   if (st == HC_OK) s->edges = contact_edges_of(s->model);
   if (st == HC_OK) st = make_equations(s, n_harm, n_time);
   if (st == HC_OK) {
