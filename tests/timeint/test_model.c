@@ -96,14 +96,14 @@ static void jacobian_of_smooth_laws_is_the_derivative(CHECK_STATE)
   const transient_settings how = {.law = TRANSIENT_LAW_REGULARISED, .regularisation = 0.3};
   model *m;
   modal_base *base;
-  scaled_contact contact[3];
+  scaled_contact scaled_contacts[3];
   assert_int_equal(model_oscillator(1, 0.4, 2, 1, 3, &m), HC_OK);
   for (int j = 0; j < 3; ++j) {
     m->contacts[j].law = laws[j];
     *m->contacts[j].tangent = 0.8, *m->contacts[j].normal = j == 1 ? 0 : 0.6;
   }
   assert_int_equal(modal_base_new(m, &base), HC_OK);
-  scaled_model scaled = {.base = base, .contact = contact};
+  scaled_model scaled = {.base = base, .contact = scaled_contacts};
   scaled_make(&scaled, m, &how, 1.3, 0.9);
   uint64_t seed = 5;
   for (int i = 0; i < 50; ++i) {
