@@ -28,9 +28,9 @@ typedef enum scene_law { SCENE_LAW_CONTACT, SCENE_LAW_POLYNOMIAL, SCENE_LAW_TABL
 enum { SCENE_MOST_POINTS = 32 };
 
 typedef struct scene_contact {
-  contact law; /* as it was given: scene_contact_law */
-  double angle_deg;                    /* [deg] 0..90, of the contact's tangent to x */
-  double preload; /* [force] >= 0, of a structure's contact: kn gap, or its constant normal force without normal */
+  contact law;      /* as it was given: scene_contact_law */
+  double angle_deg; /* [deg] 0..90, of the contact's tangent to x */
+  double preload;   /* [force] >= 0, of a structure's contact: kn gap, or its constant normal force without normal */
   char name[SCENE_NAME]; /* of a structure's contact, or "" */
   contact_limit limit;   /* of a structure's contact with two tangents */
   scene_law kind;

@@ -512,7 +512,8 @@ enum { HBMCHECK_MAX_HARMONICS = 200 };
  * finite. u, u2, v may be NULL: no such motion; u2 and T2 must be NULL of a contact with one tangent. samples 0: exact,
  * no aliasing; else by that many samples a period, >= 2 harmonics + 1, the slider as hbm.slider_restart says.
  * Of a polynomial N is its force along v; of tanh omega is 1. HBMCHECK_OK; T, T2 and N are not touched after
- * HBMCHECK_BAD_INPUT (also: u where the contact has no tangent, v where it has no normal; a table, which is several), HBMCHECK_NO_MEMORY, HBMCHECK_NOT_FINITE, HBMCHECK_CHATTER, HBMCHECK_NOT_CLOSED,
+ * HBMCHECK_BAD_INPUT (also: u where the contact has no tangent, v where it has no normal; a table, which is several),
+ * HBMCHECK_NO_MEMORY, HBMCHECK_NOT_FINITE, HBMCHECK_CHATTER, HBMCHECK_NOT_CLOSED,
  * HBMCHECK_NOT_CONVERGED, HBMCHECK_SINGULAR. */
 hbmcheck_status hbmcheck_contact_force(const hbmcheck_case *c, int j, int harmonics, const double *u, const double *u2,
                                        const double *v, int samples, double *T, double *T2, double *N);

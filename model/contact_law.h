@@ -43,8 +43,8 @@ typedef struct contact {
 typedef enum contact_state { CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS, CONTACT_SLIP_MINUS } contact_state;
 
 /* What happens to a contact over a period, in ascending order: it never touches, sticks all the time, slips but stays
- * in contact, separates and touches. A smooth law comes between stick and slip. The `contact` column of tables shows the
- * largest of all contacts: contact_regime_larger. */
+ * in contact, separates and touches. A smooth law comes between stick and slip. The `contact` column of tables shows
+ * the largest of all contacts: contact_regime_larger. */
 typedef enum contact_regime {
   CONTACT_LINEAR,
   CONTACT_STUCK,

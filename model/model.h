@@ -78,7 +78,7 @@ bool model_has_circle(const model *m);
 /* Does any contact follow a smooth law? */
 bool model_is_smooth(const model *m);
 
-/* Do smooth contacts and all others, without normal springs, and odd loads leave it -x(t + T/2) a solution with x(t)? */
+/* Has it smooth contacts, and is -x(t + T/2) a solution with each x(t)? Odd forces, no normal springs, odd loads. */
 bool model_is_symmetric(const model *m);
 
 /* The law of either of a pair's two, from the whole contact's. */

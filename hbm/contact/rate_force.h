@@ -2,9 +2,9 @@
  *
  *     T = mu N tanh(omega u'/epsilon),      N - N0 by located transitions (exact_force.h)
  *
- * Without aliasing: T's integrals by Gauss's rule on panels of each time in contact, no longer than 0.65 of the distance
- * to the nearest pole of tanh, i pi epsilon/2 beside where u' = 0: to rounding, however small epsilon is. The other
- * evaluator samples T and N - N0 at n_time instants. The Jacobian is that of u and v, and of u' by harmonics. */
+ * Without aliasing: T's integrals by Gauss's rule on panels of each time in contact, no longer than 0.65 of the
+ * distance to the nearest pole of tanh, i pi epsilon/2 beside where u' = 0: to rounding, however small epsilon is. The
+ * other evaluator samples T and N - N0 at n_time instants. The Jacobian is that of u and v, and of u' by harmonics. */
 #pragma once
 
 #include "hbm/contact/contact_evaluator.h"

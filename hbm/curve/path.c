@@ -81,8 +81,8 @@ double path_predict(path *p, double h)
   return ratio;
 }
 
-/* Where a symmetric solution's symmetry breaks the determinant changes its sign, and the curve does not turn: it goes on
- * along the last tangent. */
+/* Where a symmetric solution's symmetry breaks the determinant changes its sign, and the curve does not turn: it goes
+ * on along the last tangent. */
 static void orient_by_last_tangent(path *p)
 {
   const hbm_curve *c = p->curve;

@@ -1,5 +1,6 @@
 /* planar_flow.h - how a perturbation of a structure's orbit moves while contacts of two tangents with one limit slip
- * (planar_motion.h, planar_slip.h), or where contacts follow smooth laws, whose slopes are in C and K as they vary. With e = (cos phi, sin phi), e_perp across it and y = R d phi [length]:
+ * (planar_motion.h, planar_slip.h), or where contacts follow smooth laws, whose slopes are in C and K as they vary.
+ * With e = (cos phi, sin phi), e_perp across it and y = R d phi [length]:
  *
  *     M dx'' + C dx' + K_j dx + sum over planar contacts kt (t.e dR + t.e_perp y) = sum over stuck contacts t_j dheld_j
  *     R y' = R (du'.e_perp - phi' dR) - s y,      s = u'.e - R' >= 0,      dR = (mu kn/kt) dv

@@ -152,9 +152,7 @@ static void tanh_without_aliasing_is_what_many_samples_give(CHECK_STATE)
   contact_forces_free(sampled);
 }
 
-/* A N^-1 law's limit: as epsilon falls, T = mu N sign(u') but for a time of the order of epsilon around each turn, whose
- * two halves cancel: u = A cos th has b_1 = 4 mu N/pi sign to second order. The work is 4 mu N A less pi^2/6 of epsilon^2
- * over A omega^2 a turn. */
+/* u = A cos th: as epsilon falls the work tends to 4 mu N A, with an error of the order of epsilon^2. */
 static void tanh_tends_to_coulombs_law(CHECK_STATE)
 {
   double u[LENGTH] = {0, 2}, v[LENGTH] = {0}, off[3];

@@ -1,5 +1,5 @@
-/* law_smooth.c - see law_kind.h: laws without a state or an event of their own (model/contact_law.h), the same under the
- * exact law and the regularised one. Proof: tests/timeint/test_smooth.c. */
+/* law_smooth.c - see law_kind.h: laws without a state or an event of their own (model/contact_law.h), the same under
+ * the exact law and the regularised one. Proof: tests/timeint/test_model.c, tests/command/laws.py. */
 #include "timeint/law/law_kind.h"
 
 static planar_value polynomial_value(const law_regularised *c, const contact_motion *at, const double *w)

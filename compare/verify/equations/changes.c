@@ -87,7 +87,8 @@ static void change_pair(model_contact *c, verify_change change)
 
 static void change_contact(int n, model_contact *c, verify_change change, double factor)
 {
-  const double halves = c->pair == CONTACT_ALONE || c->pair == CONTACT_MORE ? 1 : 2; /* of the normal stiffness (model.h) */
+  /* Of the normal stiffness (model.h). */
+  const double halves = c->pair == CONTACT_ALONE || c->pair == CONTACT_MORE ? 1 : 2;
   const double kt = c->law.kt, angle = n == 1 ? atan2(*c->normal, *c->tangent) : 0, degree = TWO_PI / 360;
   switch (change) {
   case CHANGE_KT: c->law.kt *= factor; break;
