@@ -75,7 +75,7 @@ static hc_status make_with(const contact_coordinates *c, int n_harm, int n_time,
   r->n_coef = series_length(n_harm);
   r->n_time = n_time;
   r->omega = 1;
-  const size_t all = (size_t)(r->n_dof * r->n_coef), symbol = (size_t)force_jacobian_symbol_length(n_harm);
+  const size_t all = (size_t)r->n_dof * (size_t)r->n_coef, symbol = (size_t)force_jacobian_symbol_length(n_harm);
   r->X = workspace_doubles(&r->memory, all);
   r->inner = workspace_doubles(&r->memory, all * all);
   double **const symbols[] = {&r->by_du, &r->by_v, &r->by_n};
@@ -183,8 +183,10 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   /* T. */
   r->bend = 0;
   for (int d = 0; d < r->n_dof; ++d)
-    for (size_t q = 1; q < n; ++q)
-      r->bend += fabs(r->moved.cu[d] * X[(size_t)d * n + q]) * (double)((q + 1) / 2 * ((q + 1) / 2));
+    for (size_t q = 1; q < n; ++q) {
+      const size_t h = (q + 1) / 2;
+      r->bend += fabs(r->moved.cu[d] * X[(size_t)d * n + q]) * (double)(h * h);
+    }
   double *const series[] = {r->t, r->turned, r->n}, *const symbols[] = {r->by_du, r->by_v, r->by_n};
   for (int i = 0; i < 3; ++i) {
     memset(series[i], 0, n * sizeof *X);
@@ -233,7 +235,7 @@ hc_status tanh_measures_of(const contact *law, int n_harm, const double *u, cons
 {
   const contact_coordinates all = {.n_dof = 2, .moved = {.law = *law, .cu = {1, 0}, .cv = {0, 1}}};
   const size_t n = (size_t)series_length(n_harm);
-  contact_report report;
+  contact_report report = {.regime = CONTACT_LINEAR};
   void *self;
   (void)u_2;
   hc_status st = contact_measures_of(law, n_harm, u, v, out);
