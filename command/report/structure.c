@@ -125,6 +125,7 @@ static hc_status append_solution(shown *d, const hbm_point *p, const double *X, 
         st = hbm_response(d->s, p->omega, X, d->m->n + 2 * first + i, d->series[i]);
       if (st == HC_OK) json_array_append_new(loops, loop_of(d, j, first));
       first += pair;
+      while (d->m->contacts[first + 1].pair == CONTACT_MORE) ++first; /* the list ends with an empty one */
     }
   }
   json_t *solution = json_pack("{s:f, s:i, s:i, s:o, s:o, s:o, s:o}", "omega", p->omega, "branch", p->branch, "stable",
