@@ -46,10 +46,17 @@ static hc_status check_fixed_step(case_reader *r)
                      name, name);
 }
 
-/* The regularised law has no closed form. */
+/* Neither the regularised law nor a smooth one has a closed form. */
 static hc_status check_method(case_reader *r)
 {
   const transient_settings *t = &r->sc.transient;
+  for (int j = 0; j < scene_contact_count(&r->sc) && t->method == TRANSIENT_METHOD_CLOSED_FORM; ++j) {
+    const contact law = scene_contact_law(scene_contact_at(&r->sc, j));
+    if (law.smooth == CONTACT_KINKED) continue;
+    return case_refuse(r, r->at[field_index(field_named("transient", "method"))],
+                       "contacts[%d] follows a smooth law, which has no closed form, expected transient.method: cvode",
+                       j);
+  }
   if (t->method != TRANSIENT_METHOD_CLOSED_FORM || t->law == TRANSIENT_LAW_EXACT) return HC_OK;
   return case_refuse(
       r, last_given(r, "transient", "method", "law"),
@@ -89,6 +96,7 @@ static hc_status check_contacts(case_reader *r)
     for (int i = 0; i < field_count(); ++i) {
       const field *f = field_at(i);
       if (!(f->flags & FIELD_IN_CONTACT) || f->fallback || r->contact_has[j] & case_field_bit(f)) continue;
+      if (f->flags & FIELD_STRUCTURE || !field_is_of_law(f, &r->sc.contacts[j])) continue;
       message *m = case_blame(r, r->contact_at[j]);
       message_add(m, "this appends a contact without `%s`, expected contacts[%d].%s=VALUE too: ", f->name, j, f->name);
       field_expected(f, m);

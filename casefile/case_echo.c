@@ -180,6 +180,7 @@ static bool has_direction(const scene_structure *s, const structure_contact *c, 
 bool case_contact_field_counts(const scene_structure *s, const structure_contact *c, const field *f)
 {
   const bool preload = !strcmp(f->name, "preload");
+  if (!field_is_echoed(f, &c->given)) return false;
   if (!strcmp(f->name, "angle_deg")) return c->by_angle;
   if (!strcmp(f->name, "name")) return *c->given.name;
   if (f->along && !has_direction(s, c, f->along)) return false;
@@ -192,6 +193,27 @@ static void begin_line(const char **before, const field *f, FILE *to)
   *before = "    ";
 }
 
+static void write_coefficients(const scene_contact *c, FILE *to)
+{
+  const char *before = "{";
+  for (int i = 0; i < CONTACT_POWERS; ++i) {
+    if (c->law.power[i] == 0 && !(i == 0 && contact_degree(&c->law) == 0)) continue;
+    fprintf(to, "%s%d: ", before, i + CONTACT_LEAST_POWER);
+    write_number(c->law.power[i], to);
+    before = ", ";
+  }
+  putc('}', to);
+}
+
+void case_write_points(const scene_contact *c, FILE *to)
+{
+  for (int i = 0; i < c->n_points; ++i) {
+    fputs(i ? ", " : "[", to);
+    write_list(c->points[i], 2, 1, 0, to);
+  }
+  fputs("]", to);
+}
+
 /* An entry of a list, a field a line: its directions that are not 0, then its scalars in base. s and c are NULL for an
  * oscillator's contact, c alone for a load. */
 static void write_entry(const char *section, const scene_structure *s, const structure_contact *c, const void *entry,
@@ -201,6 +223,7 @@ static void write_entry(const char *section, const scene_structure *s, const str
   for (int i = 0; i < field_count() && s; ++i) {
     const field *f = field_at(i);
     const bool is_direction = f->kind == FIELD_PART && f->size > 0 && strcmp(f->name, "dof") != 0;
+    if (c && !field_is_of_law(f, &c->given)) continue;
     if (!is_direction || strcmp(f->section, section) || is_zero(s->n, field_direction(f, entry))) continue;
     const structure_node *node =
         c ? NULL : node_of(s, ((const structure_load *)entry)->by_node, field_direction(f, entry));
@@ -213,7 +236,16 @@ static void write_entry(const char *section, const scene_structure *s, const str
   if (c && c->by_angle) fprintf(to, "%.3s\n", before), before = "    ";
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
-    if (strcmp(f->section, section) || f->kind == FIELD_PART) continue;
+    if (strcmp(f->section, section)) continue;
+    if (f->kind == FIELD_PART) {
+      const bool points = !strcmp(f->name, "points");
+      if (!(points || !strcmp(f->name, "coefficients")) || !field_is_of_law(f, base)) continue;
+      begin_line(&before, f, to);
+      (points ? case_write_points : write_coefficients)(base, to);
+      putc('\n', to);
+      continue;
+    }
+    if (f->flags & FIELD_NO_ECHO || (!s && !field_is_echoed(f, base))) continue;
     if (s ? c && !case_contact_field_counts(s, c, f) : f->flags & FIELD_STRUCTURE) continue;
     begin_line(&before, f, to);
     field_write(f, base, to);

@@ -194,6 +194,13 @@ hc_status yaml_field_read(case_reader *r, const field *f, const yaml_node_t *key
 hc_status yaml_fields_read(case_reader *r, const yaml_node_t *node, const char *section, int j, void *base,
                            bool by_node);
 
+/* The coefficients or points of contact j, of an oscillator or a structure; and whether the field is one of these. */
+hc_status yaml_law_part(case_reader *r, const field *f, int j, const yaml_node_t *node);
+bool yaml_is_law_part(const field *f);
+
+/* Contact j, whose fields r->at tells the places of, has none of another law, and what its own needs. */
+hc_status case_check_law(case_reader *r, int j, const scene_contact *c, case_place place);
+
 /* One part of load or contact j: a degree of freedom or direction. */
 hc_status yaml_entry_part(case_reader *r, const field *f, int j, const yaml_node_t *node);
 

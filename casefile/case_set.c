@@ -264,6 +264,7 @@ hc_status case_target_read(case_reader *r, case_target t, const yaml_node_t *nod
   }
   hc_status st = case_own_structure(r);
   if (st != HC_OK) return st;
+  if (t.f && yaml_is_law_part(t.f) && !case_target_base(r, t)) return HC_NO_MEMORY;
   if (r->sc.structure) r->sc.structure->place = r->here;
   if (!t.f) return read_list(r, t, node);
   if (t.list == CASE_NO_LIST) return yaml_structure_part(r, t.f, node);

@@ -22,6 +22,9 @@ bool case_field_counts(const field *f, const scene *sc);
 /* Does this field say something of a structure's contact? Of gap and preload the one that was given does. */
 bool case_contact_field_counts(const scene_structure *s, const structure_contact *c, const field *f);
 
+/* A table's points as a case file has them: [[-1, -5], [0, 0], [1, 20]]. */
+void case_write_points(const scene_contact *c, FILE *to);
+
 /* Where the value of f is from, of contact j if it is one of a contact's: its own place, or else, where it stores what
  * a rival gave (compare.omega, compare.frequency), the rival's. line = 0: the default. */
 case_place case_field_place(const case_places *places, const field *f, int j);

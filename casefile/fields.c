@@ -26,6 +26,11 @@ static const char *const start_names[] = {[TRANSIENT_START_HBM] = "hbm",
                                           [TRANSIENT_START_DOWN] = "down",
                                           NULL};
 
+static const char *const contact_law_names[] = {[SCENE_LAW_CONTACT] = "contact",
+                                                [SCENE_LAW_POLYNOMIAL] = "polynomial",
+                                                [SCENE_LAW_TABLE] = "table",
+                                                [SCENE_LAW_TANH] = "tanh",
+                                                NULL};
 static const char *const limit_names[] = {[CONTACT_LIMIT_CIRCLE] = "circle", [CONTACT_LIMIT_SQUARE] = "square", NULL};
 static const char *const nonlinear_names[] = {
     [GATE_NONLINEAR_ANY] = "any", [GATE_NONLINEAR_REQUIRED] = "required", NULL};
@@ -56,6 +61,14 @@ static const field_section sections[] = {
   PART(within, words), .offset = offsetof(type, member), .size = sizeof(double *)
 #define ACROSS(member)                                                                                                 \
   DIRECTION(FIELD_IN_CONTACT, structure_contact, member, "a DOF, or factors of DOFs such as {tip: 1, root: -1}")
+#define POWER(p)                                                                                                       \
+  {                                                                                                                    \
+    "contacts", "coefficients." #p, "", FIELD_REAL,                                                                    \
+        .unit = "force/length^" #p, .flags = FIELD_IN_CONTACT | FIELD_NO_ECHO,                                         \
+        .offset = offsetof(scene_contact, law.power[p - CONTACT_LEAST_POWER]), .fallback = "0", UNBOUNDED,             \
+        .laws = SCENE_LAWS(SCENE_LAW_POLYNOMIAL), .meaning = "one of them, for --set and studies"                      \
+  }
+#define RUBS (SCENE_LAWS(SCENE_LAW_CONTACT) | SCENE_LAWS(SCENE_LAW_TANH))
 #define TEXT(member)                                                                                                   \
   .kind = FIELD_TEXT, .unit = "", .offset = offsetof(scene, member), .size = sizeof((scene *)0)->member
 #define CHOICE(names, member)                                                                                          \
@@ -124,18 +137,18 @@ static const field table[] = {
   {"forcing[]", "harmonic", "", FIELD_INTEGER, .unit = "1", LOAD(harmonic), .fallback = "1",
    WITHIN(0, HBM_MAX_HARMONICS), .meaning = "of omega; 0: a static load"},
 
-  {"contacts", "name", "", FIELD_TEXT, .unit = "", .flags = FIELD_IN_CONTACT | FIELD_STRUCTURE,
+  {"contacts", "name", "", FIELD_TEXT, .laws = SCENE_ANY_LAW, .unit = "", .flags = FIELD_IN_CONTACT | FIELD_STRUCTURE,
    .offset = offsetof(scene_contact, name), .size = SCENE_NAME, .fallback = "",
    .meaning = "then contacts[NAME] means it, too"},
   {"contacts", "tangential_stiffness", "kt", FIELD_REAL, .unit = "force/length", CONTACT(law.kt), NOT_NEGATIVE,
    .along = "tangent", .meaning = "of the spring along the contact, in series with the slider"},
   {"contacts", "normal_stiffness", "kn", FIELD_REAL, .unit = "force/length", CONTACT(law.kn), NOT_NEGATIVE,
-   .along = "normal", .meaning = "of the spring across the contact: N = max(kn (v + gap), 0)"},
+   .laws = RUBS, .along = "normal", .meaning = "of the spring across the contact: N = max(kn (v + gap), 0)"},
   {"contacts", "friction", "mu", FIELD_REAL, .unit = "1", CONTACT(law.mu), NOT_NEGATIVE, .along = "tangent",
-   .meaning = "Coulomb's coefficient: |T| <= mu N"},
-  {"contacts", "angle_deg", "alpha", FIELD_REAL, .unit = "deg", CONTACT(angle_deg), WITHIN(0, 90),
+   .laws = RUBS, .meaning = "Coulomb's coefficient: |T| <= mu N"},
+  {"contacts", "angle_deg", "alpha", FIELD_REAL, .laws = RUBS, .unit = "deg", CONTACT(angle_deg), WITHIN(0, 90),
    .meaning = "from x to the tangent: u = x cos(alpha), v = x sin(alpha); of one DOF"},
-  {"contacts", "tangent", "", ACROSS(tangent),
+  {"contacts", "tangent", "", ACROSS(tangent), .laws = RUBS,
    .unit = "1", .fallback = "", .meaning = "u = tangent . x; none: a spring across the contact alone"},
   {"contacts", "tangent_2", "", ACROSS(tangent_2),
    .unit = "1", .fallback = "", .meaning = "a second tangent, across the first: the traction is a vector then"},
@@ -143,18 +156,34 @@ static const field table[] = {
    .flags = FIELD_IN_CONTACT | FIELD_STRUCTURE,
    .offset = offsetof(scene_contact, limit), .fallback = "circle", .along = "tangent_2",
    .meaning = "of two tangents: |(T_1, T_2)| <= mu N; square: |T_1| and |T_2| <= mu N each"},
-  {"contacts", "normal", "", ACROSS(normal),
+  {"contacts", "normal", "", ACROSS(normal), .laws = RUBS,
    .unit = "1", .fallback = "", .meaning = "v = normal . x; none: N = preload, constant"},
   {"contacts", "pairs", "", PART(FIELD_IN_CONTACT, "a csv file node_a,node_b[,gap][,preload][,area], rows, or "
    "{between: ...}"), .unit = "", .fallback = "",
    .meaning = "a contact for each pair of nodes; stiffnesses are per area"},
   {"contacts", "axes", "", PART(FIELD_IN_CONTACT, "{normal: [X, Y, Z], tangent: [X, Y, Z]}, tangent_2: none"),
    .unit = "1", .fallback = "", .meaning = "of pairs, of a's motion less b's; tangent_2 is normal x tangent"},
-  {"contacts", "gap", "g", FIELD_REAL, .unit = "length", CONTACT(law.gap), .fallback = "0", UNBOUNDED,
+  {"contacts", "gap", "g", FIELD_REAL, .laws = RUBS, .unit = "length", CONTACT(law.gap), .fallback = "0", UNBOUNDED,
    .group = "preload", .along = "normal", .meaning = "> 0: preload, N0 = kn gap; < 0: clearance"},
-  {"contacts", "preload", "", FIELD_REAL, .unit = "force", .flags = FIELD_IN_CONTACT | FIELD_STRUCTURE,
+  {"contacts", "preload", "", FIELD_REAL, .laws = RUBS, .unit = "force", .flags = FIELD_IN_CONTACT | FIELD_STRUCTURE,
    .offset = offsetof(scene_contact, preload), .fallback = "0", NOT_NEGATIVE, .group = "preload",
    .meaning = "instead of gap = preload/kn; without normal: N itself"},
+
+  {"contacts", "law", "", FIELD_CHOICE, .unit = "", .laws = SCENE_ANY_LAW, .choices = contact_law_names,
+   .flags = FIELD_IN_CONTACT, .offset = offsetof(scene_contact, kind), .fallback = "contact",
+   .meaning = "contact: friction and gap, as above; the others have the fields below"},
+  {"contacts", "direction", "", ACROSS(normal), .laws = SCENE_LAWS(SCENE_LAW_POLYNOMIAL) | SCENE_LAWS(SCENE_LAW_TABLE),
+   .unit = "1", .fallback = "", .meaning = "of a polynomial or a table: d = direction . x; of one DOF d = x"},
+  {"contacts", "coefficients", "", FIELD_PART, .flags = FIELD_IN_CONTACT, .laws = SCENE_LAWS(SCENE_LAW_POLYNOMIAL),
+   .expects = "{POWER: COEFFICIENT, ...}, powers 2..9", .unit = "force/length^POWER",
+   .meaning = "of a polynomial: the force is the sum of coefficient d^power"},
+  POWER(2), POWER(3), POWER(4), POWER(5), POWER(6), POWER(7), POWER(8), POWER(9),
+  {"contacts", "points", "", FIELD_PART, .flags = FIELD_IN_CONTACT, .laws = SCENE_LAWS(SCENE_LAW_TABLE),
+   .expects = "[[DISTANCE, FORCE], ...], 2 to 32 points, distances ascending", .unit = "length, force",
+   .meaning = "of a table: the force is linear between them, and goes on with the slopes at its ends"},
+  {"contacts", "epsilon", "", FIELD_REAL, .unit = "length/time", .flags = FIELD_IN_CONTACT | FIELD_OPEN,
+   .offset = offsetof(scene_contact, law.epsilon), .fallback = "", WITHIN(0, INFINITY),
+   .laws = SCENE_LAWS(SCENE_LAW_TANH), .meaning = "of tanh: the traction is mu N tanh(u'/epsilon)"},
 
   {"", "response", "", PART(0, "a list of DOFs or directions such as [tip, {tip: 1, root: -1}]"), .unit = "",
    .fallback = "", .meaning = "what is reported of a structure, first one first; none: the forced DOF"},

@@ -52,6 +52,7 @@ typedef struct field {
                         them in one file; or NULL */
   const char *along; /* the direction of a contact without which the field says nothing, and with which it is required
                         unless it has a default; or NULL */
+  unsigned laws;     /* of a contact's: SCENE_LAWS of those that have it; 0: `contact`; SCENE_ANY_LAW */
   const char *expects; /* what may stand there, in words, where kind and range do not say it: all of FIELD_PART */
   const char *meaning;
 } field;
@@ -60,7 +61,7 @@ typedef struct field_section {
   const char *name, *meaning;
 } field_section;
 
-enum { FIELD_MAX = 96, FIELD_PATH = 64 }; /* rows at most, asserted; characters of a path */
+enum { FIELD_MAX = 112, FIELD_PATH = 64 }; /* rows at most, asserted; characters of a path */
 
 int field_count(void);
 const field *field_at(int i); /* 0 <= i < field_count(), in the order of the echo, sections together */
@@ -87,6 +88,12 @@ static inline bool field_is_in_list(const field *f) { return f->flags & (FIELD_I
  * tell. Not for FIELD_PART. */
 static inline void *field_place(const field *f, void *base) { return (char *)base + f->offset; }
 static inline const void *field_look(const field *f, const void *base) { return (const char *)base + f->offset; }
+
+/* Has a contact of that law the field; and is it written for this one? */
+#define SCENE_LAWS(kind) (1u << (kind))
+#define SCENE_ANY_LAW    15u
+bool field_is_of_law(const field *f, const scene_contact *c);
+bool field_is_echoed(const field *f, const scene_contact *c);
 
 /* A direction among the fields of a load or contact: entry is the structure_load or structure_contact. */
 static inline double *field_direction(const field *f, const void *entry)

@@ -19,8 +19,8 @@ const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE])
 
 moving_contact scene_moving_contact(const scene_contact *c)
 {
-  moving_contact out = {.law = c->law};
-  model_direction(c->angle_deg, &out.cu[0], &out.cv[0]);
+  moving_contact out = {.law = scene_contact_law(c), .cv = {1}};
+  if (c->kind == SCENE_LAW_CONTACT || c->kind == SCENE_LAW_TANH) model_direction(c->angle_deg, &out.cu[0], &out.cv[0]);
   return out;
 }
 
@@ -29,7 +29,7 @@ double scene_max_stiffness(const scene *sc)
   double k = sc->stiffness;
   for (int j = 0; j < sc->n_contacts; ++j) {
     const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-    k += moving_contact_stuck_stiffness(&c);
+    k += moving_contact_stuck_stiffness(&c) + scene_contact_stiffness(&sc->contacts[j], false);
   }
   return k;
 }
@@ -43,7 +43,10 @@ const scene_contact *scene_contact_at(const scene *sc, int j)
 
 int scene_model_contact(const scene *sc, int j)
 {
-  return sc->structure ? structure_model_contact(sc->structure, j) : j;
+  int first = 0;
+  if (sc->structure) return structure_model_contact(sc->structure, j);
+  for (int k = 0; k < j; ++k) first += scene_contact_parts(&sc->contacts[k]);
+  return first;
 }
 
 bool scene_adrift(const scene *sc)
@@ -51,6 +54,7 @@ bool scene_adrift(const scene *sc)
   bool held = sc->structure || sc->stiffness > 0; /* of a structure the reader sees to it */
   for (int j = 0; j < sc->n_contacts; ++j) {
     const moving_contact c = scene_moving_contact(&sc->contacts[j]);
+    held |= scene_contact_stiffness(&sc->contacts[j], true) > 0;
     held |= c.law.gap > 0 && moving_contact_stuck_stiffness(&c) > 0;
   }
   return !held;
@@ -59,12 +63,16 @@ bool scene_adrift(const scene *sc)
 hc_status scene_model(const scene *sc, model **out)
 {
   if (sc->structure) return structure_model(sc->structure, out);
-  hc_status st = model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, sc->n_contacts, out);
+  const int n_contacts = scene_model_contact(sc, sc->n_contacts);
+  hc_status st = model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, n_contacts, out);
   if (st != HC_OK) return st;
-  model *m = *out;
-  for (int j = 0; j < sc->n_contacts; ++j) {
-    m->contacts[j].law = sc->contacts[j].law;
-    model_direction(sc->contacts[j].angle_deg, m->contacts[j].tangent, m->contacts[j].normal);
+  model_contact *to = (*out)->contacts;
+  for (int j = 0; j < sc->n_contacts; to += scene_contact_parts(&sc->contacts[j++])) {
+    const scene_contact *c = &sc->contacts[j];
+    const moving_contact one = scene_moving_contact(c);
+    *(*out)->stiffness += scene_contact_slope(c);
+    to->law = one.law, *to->tangent = one.cu[0], *to->normal = one.cv[0];
+    if (c->kind == SCENE_LAW_TABLE) scene_contact_put(c, 1, (double[]){1}, to);
   }
   return HC_OK;
 }

@@ -23,12 +23,19 @@ typedef struct scene_structure scene_structure; /* structure.h */
 /* How a contact with two tangents limits its traction (T_1, T_2): as a vector, or each direction alone. */
 typedef enum contact_limit { CONTACT_LIMIT_CIRCLE, CONTACT_LIMIT_SQUARE } contact_limit;
 
+/* A contact's law in the case: `contact` is friction and gap; a table is as many unilateral springs as it has kinks. */
+typedef enum scene_law { SCENE_LAW_CONTACT, SCENE_LAW_POLYNOMIAL, SCENE_LAW_TABLE, SCENE_LAW_TANH } scene_law;
+enum { SCENE_MOST_POINTS = 32 };
+
 typedef struct scene_contact {
-  contact law;
+  contact law;      /* as it was given: scene_contact_law */
   double angle_deg; /* [deg] 0..90, of the contact's tangent to x */
   double preload;   /* [force] >= 0, of a structure's contact: kn gap, or its constant normal force without normal */
   char name[SCENE_NAME]; /* of a structure's contact, or "" */
   contact_limit limit;   /* of a structure's contact with two tangents */
+  scene_law kind;
+  int n_points;
+  double points[SCENE_MOST_POINTS][2]; /* [length] ascending, [force] of a table */
 } scene_contact;
 
 typedef struct scene {
@@ -55,7 +62,17 @@ double scene_frequency(const scene *sc, double omega);
 enum { SCENE_WHERE = 64 };
 const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE]);
 
-/* The contact with its direction to x. */
+/* The law in the model, but for the load; of a table nothing. */
+contact scene_contact_law(const scene_contact *c);
+
+/* A table's contacts in the model: how many, 1 of any other law; the stiffness of the spring that is left beside them;
+ * and these, along direction[n]. f(0) is taken as held by the rest position, as N0 is. */
+int scene_contact_parts(const scene_contact *c);
+double scene_contact_slope(const scene_contact *c);
+double scene_contact_stiffness(const scene_contact *c, bool at_rest); /* with all of them; at_rest: closed at d = 0 */
+void scene_contact_put(const scene_contact *c, int n, const double *direction, model_contact *to);
+
+/* The contact with its direction to x; not of a table. */
 moving_contact scene_moving_contact(const scene_contact *c);
 
 /* Largest stiffness [force/length] that an oscillator's x can see: K and every contact stuck. */

@@ -260,9 +260,10 @@ const char *structure_direction_name(const scene_structure *s, const double *dir
 
 contact structure_contact_law(const structure_contact *c)
 {
-  contact law = c->given.law;
+  contact law = scene_contact_law(&c->given);
   if (c->given.preload > 0 && law.kn > 0) law.gap = c->given.preload / law.kn;
-  if (!(law.kn > 0)) law.load = c->given.preload;
+  if (!(law.kn > 0) && (c->given.kind == SCENE_LAW_CONTACT || c->given.kind == SCENE_LAW_TANH))
+    law.load = c->given.preload;
   return law;
 }
 
@@ -288,7 +289,8 @@ bool structure_contact_is_pair(const scene_structure *s, const structure_contact
 int structure_model_contact(const scene_structure *s, int j)
 {
   int first = j;
-  for (int k = 0; k < j; ++k) first += structure_contact_is_pair(s, &s->contacts[k]);
+  for (int k = 0; k < j; ++k)
+    first += structure_contact_is_pair(s, &s->contacts[k]) + scene_contact_parts(&s->contacts[k].given) - 1;
   return first;
 }
 
@@ -412,7 +414,10 @@ hc_status structure_model(const scene_structure *s, model **out)
   model_contact *to = m->contacts;
   for (int j = 0; j < s->n_contacts; ++j) {
     const structure_contact *c = &s->contacts[j];
-    if (structure_contact_is_pair(s, c)) set_pair(s, c, to), to += 2;
+    add_outer(s->n, scene_contact_slope(&c->given), c->normal, c->normal, m->stiffness);
+    if (c->given.kind == SCENE_LAW_TABLE)
+      scene_contact_put(&c->given, s->n, c->normal, to), to += scene_contact_parts(&c->given);
+    else if (structure_contact_is_pair(s, c)) set_pair(s, c, to), to += 2;
     else set_contact(s, c, c->tangent, to++);
   }
   for (int i = 0; i < s->n_responses; ++i) memcpy(m->responses + n * (size_t)i, s->responses[i].direction, vector);

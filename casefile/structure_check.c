@@ -52,6 +52,7 @@ static void stuck_stiffness(const scene_structure *s, bool at_rest, double *A)
   for (int j = 0; j < s->n_contacts; ++j) {
     const structure_contact *c = &s->contacts[j];
     const bool holds = c->given.law.mu > 0 && (c->given.law.kn > 0 || c->given.preload > 0);
+    add_outer(s->n, scene_contact_stiffness(&c->given, at_rest), c->normal, c->normal, A);
     if (at_rest && !is_pressed(&c->given)) continue;
     add_outer(s->n, holds ? c->given.law.kt : 0, c->tangent, c->tangent, A);
     add_outer(s->n, holds ? c->given.law.kt : 0, c->tangent_2, c->tangent_2, A);

@@ -44,6 +44,7 @@ hc_status yaml_entry_part(case_reader *r, const field *f, int j, const yaml_node
   scene_structure *s = r->sc.structure;
   char path[FIELD_PATH];
   if (is_of_pairs(f)) return not_of_one(r, node, f->name);
+  if (yaml_is_law_part(f)) return yaml_law_part(r, f, j, node);
   if (f->flags & FIELD_IN_LOAD) s->loads[j].by_node = false;
   const void *entry = f->flags & FIELD_IN_LOAD ? (const void *)&s->loads[j] : (const void *)&s->contacts[j];
   return yaml_direction(r, field_path(f, j, path), node, field_direction(f, entry));
@@ -135,6 +136,7 @@ static hc_status check_needed(case_reader *r, int j, const char *direction)
 {
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
+    if (!field_is_of_law(f, &r->sc.structure->contacts[j].given)) continue;
     if (f->along && !strcmp(f->along, direction) && !f->fallback && !case_given(r, f))
       return missing(r, j, f, direction);
   }
@@ -148,7 +150,16 @@ static hc_status check_contact(case_reader *r, int j)
   const bool tangent = place(r, "contacts", "tangent").line > 0, normal = place(r, "contacts", "normal").line > 0;
   const case_place angle = place(r, "contacts", "angle_deg"), tangent_2 = place(r, "contacts", "tangent_2"),
                    limit = place(r, "contacts", "limit");
+  const scene_law law = c->given.kind;
   c->by_angle = angle.line > 0;
+  hc_status st = case_check_law(r, j, &c->given, c->place);
+  if (st != HC_OK) return st;
+  if (law == SCENE_LAW_POLYNOMIAL || law == SCENE_LAW_TABLE) {
+    const char *const part = law == SCENE_LAW_TABLE ? "points" : "coefficients";
+    if (one_dof && place(r, "contacts", "direction").line == 0) *c->normal = 1;
+    if (is_zero(r->sc.structure->n, c->normal)) return missing(r, j, field_named("contacts", "direction"), "law");
+    return place(r, "contacts", part).line > 0 ? HC_OK : missing(r, j, field_named("contacts", part), "law");
+  }
   if (c->by_angle && (tangent || normal || !one_dof))
     return case_refuse(r, angle, "angle_deg in `contacts[%d]`, expected `tangent` and `normal`%s", j,
                        one_dof ? " or `angle_deg`, not both" : ": an angle is for one DOF");
@@ -159,7 +170,7 @@ static hc_status check_contact(case_reader *r, int j)
                        j);
   if (!tangent && !normal && !c->by_angle)
     return case_refuse(r, c->place, "contacts[%d] moves nothing, expected `tangent`, `normal` or both", j);
-  hc_status st = tangent || c->by_angle ? check_needed(r, j, "tangent") : HC_OK;
+  st = tangent || c->by_angle ? check_needed(r, j, "tangent") : HC_OK;
   if (st != HC_OK || normal || c->by_angle) return st == HC_OK ? check_needed(r, j, "normal") : st;
   const field *preload = field_named("contacts", "preload");
   return case_given(r, preload) ? HC_OK : missing(r, j, preload, "tangent but no normal");

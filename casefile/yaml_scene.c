@@ -20,6 +20,7 @@ static hc_status read_section(case_reader *r, const field_section *s, int j, voi
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i), *rival = field_rival(f, 0);
     if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_STRUCTURE) continue;
+    if (j >= 0 && !field_is_of_law(f, base)) continue;
     if (case_given(r, f) || yaml_given_rival(r, f)) continue;
     message *m = yaml_blame(r, node);
     message_add(m, j >= 0 ? "missing key `%s` in `%s[%d]" : "missing key `%s` in `%s", f->name, s->name, j);
@@ -38,6 +39,7 @@ hc_status yaml_scene_contact(case_reader *r, const yaml_node_t *node, int j)
   r->contact_has[j] = ~0ull; /* what is missing is found here and now */
   r->contact_at[j] = yaml_place(r, node);
   hc_status st = read_section(r, field_find_section("contacts", 8), j, &r->sc.contacts[j], node);
+  if (st == HC_OK) st = case_check_law(r, j, &r->sc.contacts[j], r->contact_at[j]);
   memcpy(r->contact_field_at[j], r->at, sizeof r->at);
   return st;
 }

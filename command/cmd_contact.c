@@ -12,6 +12,7 @@
 #include "command/commands.h"
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"
+#include "hbm/forces/contact_kind.h"
 #include "hbm/forces/given_motion.h"
 #include "hbm/planar/planar_force.h"
 #include "hbm/planar/planar_measures.h"
@@ -160,6 +161,8 @@ static int contact_motion_find(const cli_common *common, const contact_options *
   model *of = NULL;
   int code = choose_contact(common, own, m);
   if (code) return code;
+  if (m->one >= 0 && scene_contact_at(sc, m->one)->kind == SCENE_LAW_TABLE)
+    return cli_failed(common, EXIT_USAGE, "--contact: a table is several springs, of which --motion moves all");
   hc_status st = scene_model(sc, &of);
   m->in_model = m->one < 0 ? -1 : scene_model_contact(sc, m->one);
   if (st == HC_OK) st = take_contacts(of, m);
@@ -199,6 +202,7 @@ static hc_status note_pieces(table *t, const cli_common *common, const given_mot
   if (st == HC_OK) st = exact_force_eval(e, of->X, F, NULL, NULL);
   for (int j = 0, n; j < of->n_contacts && st == HC_OK; ++j) {
     const contact_interval *p = exact_force_intervals(e, j, &n);
+    if (of->contacts[j].law.smooth == CONTACT_POLYNOMIAL) continue;
     snprintf(name, sizeof name, "%s%s", cli_contact_name(common, first + j, (char[CLI_NAME]){0}), part);
     for (int i = 0; i < n && i < SHOWN; ++i)
       table_note(t, "contact %s: %s from %.12g to %.12g rad", name, words[p[i].state], p[i].from, p[i].to);
@@ -256,8 +260,10 @@ static hc_status contact_force_note(table *t, const cli_common *common, const co
                  : m->of.pair                   ? note_halves(t, common, m, p)
                                                 : note_pieces(t, common, &m->of, m->one, "");
   if (st == HC_OK && m->of.pair) p[0] = contact_period_of_pair(&p[0], &p[1]);
-  else if (st == HC_OK)
-    st = contact_measures_of(&m->contacts->law, m->of.n_harm, m->given[CONTACT_U], m->given[CONTACT_V], p);
+  else if (st == HC_OK) {
+    const placed_contact one = {.law = m->contacts->law};
+    st = contact_kind_of(&one)->measures(&one.law, m->of.n_harm, m->given[CONTACT_U], NULL, m->given[CONTACT_V], p);
+  }
   if (st == HC_OK)
     table_note(t, "contact %s: N from %.9g to %.9g, |T| at most %.9g, slip path %.9g, work %.9g in a period", name,
                p->normal_min, p->normal_max, p->traction_max, p->slip_distance, p->work);

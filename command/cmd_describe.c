@@ -199,6 +199,10 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
   size_t size = 0;
   if (!case_field_asked(f, d->asked) || (!part && f->flags & FIELD_STRUCTURE))
     return HC_OK; /* an oscillator has none */
+  const scene_contact *own = in_contact ? scene_contact_at(d->sc, j) : NULL;
+  const bool points = own && !strcmp(f->name, "points"), is_law = own && !strcmp(f->name, "law");
+  if (own && (points ? !field_is_of_law(f, own) : !is_law && !field_is_echoed(f, own))) return HC_OK;
+  if (own && !strcmp(f->name, "coefficients")) return HC_OK; /* each has a row */
   const case_place at = part ? place_of(d->sc->structure, f, j) : case_field_place(d->places, f, in_contact ? j : -1);
   bool counts = part || in_contact || case_field_counts(f, d->sc);
   FILE *to = open_memstream(&text, &size);
@@ -208,13 +212,15 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
     const scene_structure *s = d->sc->structure;
     if (!s || !describes_structure(f)) {
       const void *base = f->flags & FIELD_IN_CONTACT ? (const void *)&d->sc->contacts[j] : d->sc;
-      if (f->kind == FIELD_TEXT) fputs(field_look(f, base), to);
+      if (points) case_write_points(own, to);
+      else if (f->kind == FIELD_TEXT) fputs(field_look(f, base), to);
       else field_write(f, base, to);
     } else if (f->flags & FIELD_IN_LOAD) write_of_load(s, f, &s->loads[j], to);
     else if (f->flags & FIELD_IN_CONTACT) {
       const structure_contact *c = &s->contacts[j];
       const bool without = !strcmp(f->name, "preload") && !(c->given.preload > 0);
-      if (f->kind == FIELD_PART && f->size > 0) write_direction(s, field_direction(f, c), to);
+      if (points) case_write_points(own, to);
+      else if (f->kind == FIELD_PART && f->size > 0) write_direction(s, field_direction(f, c), to);
       else if (!strcmp(f->name, "name")) fputs(c->given.name, to);
       else if (f->kind != FIELD_PART && !without && case_contact_field_counts(s, c, f)) field_write(f, &c->given, to);
     } else write_part(s, f, to);

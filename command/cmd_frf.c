@@ -64,7 +64,7 @@ static hc_status put_contacts(const cli_common *common, hbm_solver *s, const hbm
   contact_period *periods = calloc((size_t)hbm_n_contacts(s) + 1, sizeof *periods);
   hc_status st = periods ? HC_OK : HC_NO_MEMORY;
   for (int k = 0; k < c->n && st == HC_OK; ++k) {
-    st = hbm_measure_contacts(s, c->X + (size_t)k * (size_t)c->n_coef, periods);
+    st = hbm_measure_contacts(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, periods);
     for (int j = 0; j < n && st == HC_OK; ++j) {
       contact_row row = {c->points[k].omega, c->points[k].branch, .contact = j, .period = periods[j]};
       snprintf(row.name, sizeof row.name, "%s", scene_contact_at(sc, j)->name);

@@ -16,7 +16,7 @@ typedef struct guide { /* made with the first question, freed with the solver */
 static hc_status make(guide *g, const model *m)
 {
   const transient_settings how = {.law = TRANSIENT_LAW_EXACT,
-                                  .method = TRANSIENT_METHOD_CLOSED_FORM,
+                                  .method = model_is_smooth(m) ? TRANSIENT_METHOD_CVODE : TRANSIENT_METHOD_CLOSED_FORM,
                                   .regularisation = 1,
                                   .steady = TRANSIENT_STEADY_AUTO,
                                   .start = TRANSIENT_START_REST,

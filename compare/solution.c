@@ -113,7 +113,7 @@ static hc_status perturbed_motion(comparison_work *w, double omega, int directio
   transient_settings how = w->setup->transient;
   timeint *ti;
   how.law = TRANSIENT_LAW_EXACT;
-  how.method = TRANSIENT_METHOD_CLOSED_FORM;
+  how.method = model_is_smooth(w->setup->model) ? TRANSIENT_METHOD_CVODE : TRANSIENT_METHOD_CLOSED_FORM;
   how.steady = TRANSIENT_STEADY_MARCH;
   how.scout = false;
   if (how.max_periods > PERTURBED_PERIODS) how.max_periods = PERTURBED_PERIODS;
@@ -356,7 +356,7 @@ hc_status solution_contacts(comparison_work *w, const double *X, const compariso
 {
   const model *m = w->setup->model;
   const int n = model_whole_contacts(m);
-  const hc_status measured = hbm_measure_contacts(w->hbm, X, w->balanced);
+  const hc_status measured = hbm_measure_contacts(w->hbm, row->omega, X, w->balanced);
   for (int j = 0; j < n; ++j) {
     c[j] = (contact_comparison){.omega = row->omega,
                                 .branch = row->branch,
@@ -519,7 +519,8 @@ static double work_unit(int n, const model_contact *contacts, const contact_comp
     most = fmax(most, fmax(c[j].hbm.work, c[j].transient.work));
     most = fmax(most, negligible_work * spring_energy(&of->law, &c[j].hbm));
     most = fmax(most, negligible_work * spring_energy(&of->law, &c[j].transient));
-    of += of->pair == CONTACT_FIRST ? 2 : 1;
+    do ++of;
+    while (contact_goes_on(of->pair)); /* the list ends with an empty one */
   }
   return most;
 }

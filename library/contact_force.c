@@ -12,7 +12,7 @@ int hbmcheck_case_contact_tangents(const hbmcheck_case *c, int j)
 {
   model *of;
   if (!has_contact(c, j) || scene_model(&c->sc, &of) != HC_OK) return 0;
-  const int tangents = of->contacts[scene_model_contact(&c->sc, j)].pair == CONTACT_ALONE ? 1 : 2;
+  const int tangents = of->contacts[scene_model_contact(&c->sc, j)].pair != CONTACT_FIRST ? 1 : 2;
   model_free(of);
   return tangents;
 }
@@ -48,7 +48,8 @@ hbmcheck_status hbmcheck_contact_force(const hbmcheck_case *c, int j, int harmon
   model *of;
   moving_contact place;
   double X[GIVEN_MOST_DOF * GIVEN_MOST_COEF], F[GIVEN_MOST_DOF * GIVEN_MOST_COEF];
-  if (!has_contact(c, j) || harmonics < 1 || harmonics > HBM_MAX_HARMONICS || samples < 0 || !T || !N)
+  if (!has_contact(c, j) || scene_contact_at(&c->sc, j)->kind == SCENE_LAW_TABLE || harmonics < 1 ||
+      harmonics > HBM_MAX_HARMONICS || samples < 0 || !T || !N)
     return HBMCHECK_BAD_INPUT;
   if (scene_model(&c->sc, &of) != HC_OK) return HBMCHECK_NO_MEMORY;
   const int at = scene_model_contact(&c->sc, j), length = 2 * harmonics + 1;

@@ -174,7 +174,8 @@ hbmcheck_status hbmcheck_curve_contacts(hbmcheck_curve *curve, const hbmcheck_so
     return HBMCHECK_BAD_INPUT;
   contact_period *periods = calloc((size_t)hbm_n_contacts(curve->solver) + 1, sizeof *periods);
   hc_status st = periods ? HC_OK : HC_NO_MEMORY;
-  if (st == HC_OK && cap > 0) st = hbm_measure_contacts(curve->solver, hbm_curve_X(&s->curve, k), periods);
+  if (st == HC_OK && cap > 0)
+    st = hbm_measure_contacts(curve->solver, s->curve.points[k].omega, hbm_curve_X(&s->curve, k), periods);
   if (st == HC_OK) *n = curve->n_contacts;
   for (int j = 0; st == HC_OK && j < cap && j < curve->n_contacts; ++j) out[j] = library_period(&periods[j]);
   free(periods);

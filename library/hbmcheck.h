@@ -128,10 +128,11 @@ void hbmcheck_case_watch_contacts(hbmcheck_case *c, int on);
 
 /* The strongest thing that happens to any contact in a period. */
 typedef enum hbmcheck_contact {
-  HBMCHECK_CONTACT_LINEAR,    /* no contact is ever closed */
-  HBMCHECK_CONTACT_STICK,     /* those that are closed stay closed and stick */
-  HBMCHECK_CONTACT_SLIP,      /* those that are closed stay closed, and one of them slips */
-  HBMCHECK_CONTACT_SEPARATION /* one opens and closes */
+  HBMCHECK_CONTACT_LINEAR,     /* no contact is ever closed */
+  HBMCHECK_CONTACT_STICK,      /* those that are closed stay closed and stick */
+  HBMCHECK_CONTACT_SLIP,       /* those that are closed stay closed, and one of them slips */
+  HBMCHECK_CONTACT_SEPARATION, /* one opens and closes */
+  HBMCHECK_CONTACT_SMOOTH      /* none slips or opens, and one has a smooth law: between stick and slip */
 } hbmcheck_contact;
 
 /* What one contact does over a period of a motion, as the commands say with --contacts; two tangents are one. */
@@ -143,7 +144,7 @@ typedef struct hbmcheck_contact_period {
   hbmcheck_contact regime;       /* of this contact: never closed, closed and sticking, ... */
 } hbmcheck_contact_period;
 
-/* "linear", "stick", "slip", "separation"; a constant string, never NULL. */
+/* "linear", "stick", "slip", "separation", "smooth"; a constant string, never NULL. */
 const char *hbmcheck_contact_name(hbmcheck_contact contact);
 
 /* One solution. */
@@ -510,8 +511,9 @@ enum { HBMCHECK_MAX_HARMONICS = 200 };
  * [2 harmonics + 1] in the order X[0], a1, b1, a2, ... of harmonic balance, 1 <= harmonics <= HBMCHECK_MAX_HARMONICS,
  * finite. u, u2, v may be NULL: no such motion; u2 and T2 must be NULL of a contact with one tangent. samples 0: exact,
  * no aliasing; else by that many samples a period, >= 2 harmonics + 1, the slider as hbm.slider_restart says.
- * HBMCHECK_OK; T, T2 and N are not touched after HBMCHECK_BAD_INPUT (also: u where the contact has no tangent, v where
- * it has no normal), HBMCHECK_NO_MEMORY, HBMCHECK_NOT_FINITE, HBMCHECK_CHATTER, HBMCHECK_NOT_CLOSED,
+ * Of a polynomial N is its force along v; of tanh omega is 1. HBMCHECK_OK; T, T2 and N are not touched after
+ * HBMCHECK_BAD_INPUT (also: u where the contact has no tangent, v where it has no normal; a table, which is several),
+ * HBMCHECK_NO_MEMORY, HBMCHECK_NOT_FINITE, HBMCHECK_CHATTER, HBMCHECK_NOT_CLOSED,
  * HBMCHECK_NOT_CONVERGED, HBMCHECK_SINGULAR. */
 hbmcheck_status hbmcheck_contact_force(const hbmcheck_case *c, int j, int harmonics, const double *u, const double *u2,
                                        const double *v, int samples, double *T, double *T2, double *N);

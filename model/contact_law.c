@@ -48,6 +48,7 @@ const char *contact_regime_name(contact_regime regime)
   switch (regime) {
   case CONTACT_LINEAR: return "linear";
   case CONTACT_STUCK: return "stick";
+  case CONTACT_BENDS: return "smooth";
   case CONTACT_SLIPS: return "slip";
   case CONTACT_SEPARATES: return "separation";
   }

@@ -23,20 +23,42 @@
 #include <math.h>
 #include <stdbool.h>
 
+/* Laws that are smooth, and need no slider:
+ *     polynomial   across the contact f(v) = sum over p of power_p v^p, and nothing else (kt = kn = mu = load = 0)
+ *     tanh         T = mu N tanh(u'/epsilon) instead of the slider (kt = 0), N as above */
+typedef enum contact_smooth { CONTACT_KINKED, CONTACT_POLYNOMIAL, CONTACT_TANH } contact_smooth;
+enum { CONTACT_LEAST_POWER = 2, CONTACT_MOST_POWER = 9, CONTACT_POWERS = CONTACT_MOST_POWER - CONTACT_LEAST_POWER + 1 };
+
 typedef struct contact {
   double kt;   /* [force/length] >= 0, tangential stiffness */
   double kn;   /* [force/length] >= 0, normal stiffness */
   double mu;   /* [1] >= 0, friction coefficient */
   double gap;  /* [length] > 0: preload N0 = kn gap; < 0: clearance */
   double load; /* [force] >= 0, N of a contact without a normal spring (kn = 0): a Jenkins element */
+  contact_smooth smooth;
+  double epsilon;               /* [length/time] > 0 of tanh */
+  double power[CONTACT_POWERS]; /* [force/length^p] of a polynomial, p = 2..9 */
 } contact;
 
 typedef enum contact_state { CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS, CONTACT_SLIP_MINUS } contact_state;
 
 /* What happens to a contact over a period, in ascending order: it never touches, sticks all the time, slips but stays
- * in contact, separates and touches. The `contact` column of tables shows the largest of all contacts. */
-typedef enum contact_regime { CONTACT_LINEAR, CONTACT_STUCK, CONTACT_SLIPS, CONTACT_SEPARATES } contact_regime;
-const char *contact_regime_name(contact_regime regime); /* "linear", "stick", "slip", "separation" */
+ * in contact, separates and touches. A smooth law comes between stick and slip. The `contact` column of tables shows
+ * the largest of all contacts: contact_regime_larger. */
+typedef enum contact_regime {
+  CONTACT_LINEAR,
+  CONTACT_STUCK,
+  CONTACT_SLIPS,
+  CONTACT_SEPARATES,
+  CONTACT_BENDS
+} contact_regime;
+const char *contact_regime_name(contact_regime regime); /* "linear", "stick", "smooth", "slip", "separation" */
+
+static inline contact_regime contact_regime_larger(contact_regime a, contact_regime b)
+{
+  if (b == CONTACT_BENDS) return a > CONTACT_STUCK ? a : b;
+  return a == CONTACT_BENDS ? (b > CONTACT_STUCK ? b : a) : a > b ? a : b;
+}
 
 /* Can it resist a tangential motion? Without friction T = 0, and there is no slider. */
 static inline bool contact_has_friction(const contact *c)
@@ -52,6 +74,27 @@ static inline double contact_normal(const contact *c, double v)
 {
   double g = v + c->gap;
   return (g > 0 ? c->kn * g : 0.0) + c->load;
+}
+
+/* f(v) of a polynomial [force]; *slope = df/dv. */
+static inline double contact_polynomial(const contact *c, double v, double *slope)
+{
+  double f = 0, by_v = 0;
+  for (int i = CONTACT_POWERS; i-- > 0;) {
+    by_v = by_v * v + f;
+    f = f * v + c->power[i];
+  }
+  *slope = v * (2 * f + v * by_v); /* of v^2 f */
+  return v * v * f;
+}
+
+/* The highest power of a polynomial that is there; 0 of any other law. */
+static inline int contact_degree(const contact *c)
+{
+  int degree = 0;
+  for (int i = 0; i < CONTACT_POWERS; ++i)
+    if (c->power[i] != 0) degree = i + CONTACT_LEAST_POWER;
+  return degree;
 }
 
 /* +1 while slipping forward, -1 backward, 0 otherwise. */

@@ -117,7 +117,7 @@ void model_free(model *m)
 int model_whole_contacts(const model *m)
 {
   int n = 0;
-  for (int j = 0; j < m->n_contacts; ++j) n += m->contacts[j].pair != CONTACT_SECOND;
+  for (int j = 0; j < m->n_contacts; ++j) n += !contact_goes_on(m->contacts[j].pair);
   return n;
 }
 
@@ -126,6 +126,25 @@ bool model_has_circle(const model *m)
   for (int j = 0; j < m->n_contacts; ++j)
     if (m->contacts[j].circle) return true;
   return false;
+}
+
+bool model_is_smooth(const model *m)
+{
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (m->contacts[j].law.smooth != CONTACT_KINKED) return true;
+  return false;
+}
+
+bool model_is_symmetric(const model *m)
+{
+  bool all = model_is_smooth(m);
+  for (int l = 0; l < m->n_loads; ++l) all = all && m->loads[l].harmonic % 2;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const contact *c = &m->contacts[j].law;
+    all = all && c->kn == 0;
+    for (int i = 0; i < CONTACT_POWERS; ++i) all = all && (c->power[i] == 0 || (i + CONTACT_LEAST_POWER) % 2);
+  }
+  return all;
 }
 
 contact model_half_law(const contact *whole)

@@ -20,7 +20,11 @@
  * with half of kn and load and twice mu. So mu N of either is the contact's, their normal forces add up to the
  * contact's, and all that is linear needs to know nothing of it. Under the square law |T_1|, |T_2| <= mu N they are two
  * contacts and nothing else; under that of the circle |(T_1, T_2)| <= mu N the limit is theirs together. */
-typedef enum contact_pair { CONTACT_ALONE, CONTACT_FIRST, CONTACT_SECOND } contact_pair;
+/* A contact that is several springs across it (a table of forces) is one ALONE, and behind it its others: MORE. */
+typedef enum contact_pair { CONTACT_ALONE, CONTACT_FIRST, CONTACT_SECOND, CONTACT_MORE } contact_pair;
+
+/* Does it belong to the contact of the case that the one before it does? */
+static inline bool contact_goes_on(contact_pair pair) { return pair >= CONTACT_SECOND; }
 
 typedef struct model_contact {
   contact law;
@@ -70,6 +74,12 @@ int model_whole_contacts(const model *m);
 
 /* Does any contact follow the law of the circle? */
 bool model_has_circle(const model *m);
+
+/* Does any contact follow a smooth law? */
+bool model_is_smooth(const model *m);
+
+/* Has it smooth contacts, and is -x(t + T/2) a solution with each x(t)? Odd forces, no normal springs, odd loads. */
+bool model_is_symmetric(const model *m);
 
 /* The law of either of a pair's two, from the whole contact's. */
 contact model_half_law(const contact *whole);

@@ -83,7 +83,7 @@ hc_status certificate_model_make(const scene *sc, const model *m, int r, certifi
   for (int j = 0, of_case = 0; j < m->n_contacts && out->contact && out->friction; ++j) {
     json_t *one = contact_of(m, &m->contacts[j], inclined(sc, of_case), &out->friction[out->n_contacts]);
     if (one && !json_array_append_new(contacts, one)) out->contact[out->n_contacts++] = j;
-    of_case += m->contacts[j].pair != CONTACT_FIRST;
+    of_case += !contact_goes_on(m->contacts[j + 1].pair); /* the list ends with an empty one */
   }
   out->response = vector(m->n, m->responses + (size_t)r * (size_t)m->n, 1);
   out->model = json_pack("{s:o,s:o,s:o,s:o,s:o}", "mass", matrix(m->n, m->mass), "damping", matrix(m->n, m->damping),

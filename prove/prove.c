@@ -257,6 +257,9 @@ static hc_status orbit_by_harmonics(prover *p, double omega, const double *X, ti
   return st;
 }
 
+/* Does a law have no straight pieces? */
+static bool is_curved(const model *m) { return model_has_circle(m) || model_is_smooth(m); }
+
 /* The orbit next to solution k. *leads_on: it is none that motions stay on. */
 static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *leads_on)
 {
@@ -275,8 +278,8 @@ static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *lea
   hc_status st = hbm_measure(p->response.hbm, X, &measures);
   row.hbm_amplitude = st == HC_OK ? measures.amplitude : NAN;
   if (st == HC_OK && hbm_predict(p->response.hbm, omega, X, &expected) == HC_OK) row.predicted = expected.amplitude;
-  if (model_has_circle(p->setup->model)) {
-    row.reason = PROOF_CIRCLE;
+  if (is_curved(p->setup->model)) {
+    row.reason = model_is_smooth(p->setup->model) ? PROOF_SMOOTH : PROOF_CIRCLE;
     return add_row(p, &row, NULL);
   }
   if (st == HC_OK) st = comparison_orbit_start(p->response.hbm, X, omega, p->state);
@@ -314,7 +317,7 @@ static hc_status prove_at(prover *p, double omega)
     st = comparison_orbit_start(p->response.hbm, hbm_curve_X(&at, k), omega, p->state);
     if (st == HC_OK) st = prove_steady(p, omega);
   }
-  if (at.n == 0 && !fatal(st) && !model_has_circle(p->setup->model)) {
+  if (at.n == 0 && !fatal(st) && !is_curved(p->setup->model)) {
     timeint_rest(p->ti, p->state);
     st = prove_steady(p, omega);
   }
@@ -342,7 +345,7 @@ hc_status prove_run(const scene *sc, const compare_setup *setup, const hc_monito
   prover p = {.setup = setup, .monitor = monitor, .keep = keep, .keeper = keeper, .out = out};
   transient_settings how = setup->transient;
   how.law = TRANSIENT_LAW_EXACT;
-  how.method = TRANSIENT_METHOD_CLOSED_FORM;
+  how.method = model_is_smooth(setup->model) ? TRANSIENT_METHOD_CVODE : TRANSIENT_METHOD_CLOSED_FORM;
   how.scout = false;
   how.steady = TRANSIENT_STEADY_AUTO;
   how.start = TRANSIENT_START_HBM;

@@ -118,13 +118,14 @@ static hc_status append_solution(shown *d, const hbm_point *p, const double *X, 
   hc_status st = shape_of(d, p->omega, X, amplitude, cosine, sine);
   if (st == HC_OK) {
     st = hbm_sliders(d->s, X, d->w);
-    if (st == HC_OK) st = hbm_measure_contacts(d->s, X, d->periods);
+    if (st == HC_OK) st = hbm_measure_contacts(d->s, p->omega, X, d->periods);
     for (int j = 0, first = 0; first < d->m->n_contacts && j < MOST_CONTACTS && st == HC_OK; ++j, ++first) {
       const bool pair = d->m->contacts[first].pair == CONTACT_FIRST;
       for (int i = 0; i < 2 + pair && st == HC_OK; ++i)
         st = hbm_response(d->s, p->omega, X, d->m->n + 2 * first + i, d->series[i]);
       if (st == HC_OK) json_array_append_new(loops, loop_of(d, j, first));
       first += pair;
+      while (d->m->contacts[first + 1].pair == CONTACT_MORE) ++first; /* the list ends with an empty one */
     }
   }
   json_t *solution = json_pack("{s:f, s:i, s:i, s:o, s:o, s:o, s:o}", "omega", p->omega, "branch", p->branch, "stable",

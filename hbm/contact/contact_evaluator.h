@@ -33,6 +33,12 @@ typedef struct evaluator_settings {
   hbm_restart restart;
 } evaluator_settings;
 
+/* A smooth law's derivatives at an instant of the last evaluation's motion, by u', v [force time/length, force/length];
+ * and the step [rad] over which they are followed by collocation (numerics/collocation.h) to rounding. */
+typedef struct contact_slopes {
+  double t_du, t_v, n_v, step;
+} contact_slopes;
+
 /* A law in one way of integrating it over the period. F[n_dof][2H+1] [force], X likewise [length]; jac[row + ld col],
  * ld = n_dof (2H+1). */
 typedef struct contact_evaluator {
@@ -50,6 +56,12 @@ typedef struct contact_evaluator {
    * with two tangents, for whoever follows a perturbation along it. NULL where there is none. */
   const contact_interval *(*intervals)(const void *self, int *n);
   const struct planar_cycle *(*in_plane)(const void *self);
+  contact_slopes (*slopes)(const void *self, double th, double omega); /* of a smooth law, as it is in contact */
+
+  /* Of a law that depends on rates, else NULL: the frequency [rad/time] of evaluations to come; and F's derivative by
+   * it at the last one, which derived. */
+  void (*at_omega)(void *self, double omega);
+  const double *(*by_omega)(const void *self);
 } contact_evaluator;
 
 /* Edges of slip in a law's response curves (README.md): X goes like a root of the distance from them on either side,

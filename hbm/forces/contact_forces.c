@@ -192,7 +192,7 @@ hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, boo
     m->differentiated = derive && !m->by->jacobian;
     for (int d = 0; d < m->n_dof && st == HC_OK && !f->itself; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);
     if (st != HC_OK) continue;
-    if (own.regime > report->regime) report->regime = own.regime;
+    report->regime = contact_regime_larger(report->regime, own.regime);
     report->transitions += own.transitions;
     report->free_sliders += own.free_sliders;
   }
@@ -292,6 +292,35 @@ const planar_cycle *contact_forces_planar(const contact_forces *f, int j)
 {
   const member *m = member_of(f, j);
   return m->first == j && m->by->in_plane ? m->by->in_plane(m->evaluator) : NULL;
+}
+
+bool contact_forces_bends(const contact_forces *f, int j) { return member_of(f, j)->by->slopes != NULL; }
+
+contact_slopes contact_forces_slopes(const contact_forces *f, int j, double th, double omega)
+{
+  const member *m = member_of(f, j);
+  return m->by->slopes(m->evaluator, th, omega);
+}
+
+bool contact_forces_at(contact_forces *f, double omega)
+{
+  bool any = false;
+  for (int j = 0; j < f->n_members; ++j) {
+    member *m = &f->members[j];
+    if (!m->by->at_omega) continue;
+    m->by->at_omega(m->evaluator, omega);
+    any = true;
+  }
+  return any;
+}
+
+void contact_forces_add_by_omega(const contact_forces *f, double *dF)
+{
+  for (int j = 0; j < f->n_members; ++j) {
+    const member *m = &f->members[j];
+    const double *by = m->by->by_omega ? m->by->by_omega(m->evaluator) : NULL;
+    for (int d = 0; d < m->n_dof && by; ++d) scatter(f, &m->of[d], by + d * f->length, dF);
+  }
 }
 
 /* Both u and v may be multiples of one coordinate: d held/du is that by the coordinate over du/dx. */

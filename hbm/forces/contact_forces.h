@@ -40,6 +40,15 @@ void contact_forces_sliders(const contact_forces *f, double *w);
 const contact_interval *contact_forces_intervals(const contact_forces *f, int j, int *n);
 void contact_forces_held_by(const contact_forces *f, int j, const contact_interval *p, double by[2]);
 
+/* Does contact j follow a smooth law, of located forces; and its slopes at th along the last evaluation's motion. */
+bool contact_forces_bends(const contact_forces *f, int j);
+contact_slopes contact_forces_slopes(const contact_forces *f, int j, double th, double omega);
+
+/* The frequency of evaluations to come: true if any force depends on it. dF[dim (2H+1)] += dF/domega at the last
+ * evaluation, which derived. */
+bool contact_forces_at(contact_forces *f, double omega);
+void contact_forces_add_by_omega(const contact_forces *f, double *dF);
+
 /* For the planar contact that j is the first half of, what the last evaluation found, of
  * located forces only; NULL of any other contact. Valid until the next evaluation. */
 const planar_cycle *contact_forces_planar(const contact_forces *f, int j);

@@ -6,7 +6,7 @@
 given_motion given_motion_of_contact(const model *of, int j, moving_contact *place)
 {
   const model_contact *c = &of->contacts[j];
-  const bool pair = c->pair != CONTACT_ALONE;
+  const bool pair = c->pair == CONTACT_FIRST || c->pair == CONTACT_SECOND;
   *place = (moving_contact){.law = c->law, .cu = {1, 0}, .cv = {0, 1}};
   return (given_motion){
       .pair = pair, .circle = pair && c->circle, .n_dof = 2 + pair, .n_contacts = 1, .contacts = place};

@@ -22,7 +22,10 @@ struct planar_flow {
   int n, n_states;
   collocation c;
   double twice[N][N];   /* a a: from accelerations to positions */
-  double *K;            /* [n][n] by columns, K_j of the interval */
+  double *K, *C;        /* [n][n] by columns, K_j of the interval, C */
+  double *K_at, *C_at;  /* [N][n][n] the same at the points of a step, with the slopes of smooth laws */
+  planar_bends *bends;  /* NULL: there are none */
+  const void *orbit;    /* of bends */
   double *matrix;       /* [N (n + planar)]^2 by columns */
   int *pivot;           /* [N (n + planar)] */
   double *right;        /* [n_states][N (n + planar)] right sides, then accelerations, of every column of phi */
@@ -43,7 +46,7 @@ hc_status planar_flow_new(const model *m, planar_flow **out)
   f->m = m;
   f->n = m->n;
   f->n_states = 2 * m->n + m->n_contacts;
-  f->K = workspace_array(&f->memory, n * n, sizeof *f->K);
+  f->K = workspace_array(&f->memory, 2 * (N + 1) * n * n, sizeof *f->K);
   f->matrix = workspace_array(&f->memory, unknowns * unknowns, sizeof *f->matrix);
   f->pivot = workspace_array(&f->memory, unknowns, sizeof *f->pivot);
   f->right = workspace_array(&f->memory, (size_t)f->n_states * unknowns, sizeof *f->right);
@@ -56,6 +59,8 @@ hc_status planar_flow_new(const model *m, planar_flow **out)
     for (int j = 0; j < N; ++j)
       for (int k = 0; k < N; ++k) f->twice[i][j] += f->c.a[i][k] * f->c.a[k][j];
   if (!f->memory.failed) {
+    f->C = f->K + n * n, f->K_at = f->C + n * n, f->C_at = f->K_at + N * n * n;
+    memcpy(f->C, m->damping, n * n * sizeof *f->C);
     *out = f;
     return HC_OK;
   }
@@ -70,7 +75,7 @@ void planar_flow_free(planar_flow *f)
   free(f);
 }
 
-/* ---- K_j -------------------------------------------------------------------------------------------- */
+void planar_flow_bend(planar_flow *f, planar_bends *bends, const void *self) { f->bends = bends, f->orbit = self; }
 
 /* ---- a step ------------------------------------------------------------------------------------------ */
 
@@ -109,6 +114,40 @@ planar_state planar_slipping_at(const collocation *c, const planar_slipping *s, 
   return a;
 }
 
+/* A += k a b^T, by columns. */
+static void add_product(int n, double k, const double *a, const double *b, double *A)
+{
+  for (int q = 0; q < n && k != 0; ++q)
+    for (int r = 0; r < n; ++r) A[(size_t)q * (size_t)n + (size_t)r] += k * a[r] * b[q];
+}
+
+/* The slopes of contact j on that interval; false: it has none, or does not touch. */
+static bool bends(const planar_flow *f, const contact_interval *const *interval, int j, double th, double omega,
+                  contact_slopes *out)
+{
+  const bool touches = interval[j] || f->m->contacts[j].law.smooth == CONTACT_POLYNOMIAL;
+  return touches && f->bends(f->orbit, j, th, omega, out);
+}
+
+/* K and C at the points of a step. */
+static void fill_slopes(planar_flow *f, const contact_interval *const *interval, double from, double to, double omega)
+{
+  const size_t square = (size_t)f->n * (size_t)f->n;
+  for (size_t i = 0; i < N; ++i) {
+    double *K = f->K_at + i * square, *C = f->C_at + i * square;
+    memcpy(K, f->K, square * sizeof *K);
+    memcpy(C, f->C, square * sizeof *C);
+    for (int j = 0; j < f->m->n_contacts && f->bends; ++j) {
+      const model_contact *c = &f->m->contacts[j];
+      contact_slopes at;
+      if (!bends(f, interval, j, from + (to - from) * f->c.x[i], omega, &at)) continue;
+      add_product(f->n, at.n_v, c->normal, c->normal, K);
+      add_product(f->n, at.t_v, c->tangent, c->normal, K);
+      add_product(f->n, at.t_du, c->tangent, c->tangent, C);
+    }
+  }
+}
+
 static void fill_states(planar_flow *f, int n_slipping, const planar_slipping *slipping, double from, double to,
                         double omega)
 {
@@ -141,10 +180,11 @@ static void fill_motion_block(planar_flow *f, int n_slipping, const planar_slipp
 {
   const size_t n = (size_t)f->n, of_point = n + (size_t)n_slipping, ld = N * of_point;
   const double once = h * f->c.a[i][j], twice = h * h * f->twice[i][j];
+  const double *K = f->K_at + (size_t)i * n * n, *C = f->C_at + (size_t)i * n * n;
   double *block = f->matrix + (size_t)j * of_point * ld + (size_t)i * of_point;
   for (size_t q = 0; q < n; ++q)
     for (size_t r = 0; r < n; ++r)
-      block[q * ld + r] = (i == j) * f->m->mass[q * n + r] + once * f->m->damping[q * n + r] + twice * f->K[q * n + r];
+      block[q * ld + r] = (i == j) * f->m->mass[q * n + r] + once * C[q * n + r] + twice * K[q * n + r];
   for (int k = 0; k < n_slipping; ++k) {
     const model_contact *c = &f->m->contacts[slipping[k].contact];
     const double *along = f->along + (size_t)(k * N + i) * n, *perp = f->perp + (size_t)(k * N + i) * n,
@@ -165,12 +205,12 @@ static void fill_right(const planar_flow *f, const contact_interval *const *inte
   const double *x = f->now, *v = x + n, *state = v + n;
   for (int i = 0; i < N; ++i) {
     double *right = to + (size_t)i * (size_t)(n + n_slipping);
-    const double t = h * f->c.x[i];
+    const double t = h * f->c.x[i], *K = f->K_at + (size_t)(i * n * n), *C = f->C_at + (size_t)(i * n * n);
     for (int r = 0; r < n; ++r) right[r] = 0;
     for (int q = 0; q < n; ++q)
       for (int r = 0; r < n; ++r) {
         const size_t at = (size_t)q * (size_t)n + (size_t)r;
-        right[r] -= m->damping[at] * v[q] + f->K[at] * (x[q] + t * v[q]);
+        right[r] -= C[at] * v[q] + K[at] * (x[q] + t * v[q]);
       }
     for (int j = 0; j < m->n_contacts; ++j)
       for (int r = 0; r < n && contact_interval_holds(&m->contacts[j].law, interval[j]); ++r)
@@ -202,6 +242,7 @@ static hc_status advance_step(planar_flow *f, const contact_interval *const *int
   const int unknowns = N * (f->n + n_slipping);
   const double h = (to - from) / omega;
   fill_states(f, n_slipping, slipping, from, to, omega);
+  fill_slopes(f, interval, from, to, omega);
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) {
       fill_motion_block(f, n_slipping, slipping, h, i, j);
@@ -283,9 +324,17 @@ hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *int
     for (int i = 0; i < f->n; ++i)
       most = fmax(most, 2 * c->law.kt * fabs(c->tangent[i]) / f->m->mass[(size_t)i * (size_t)(f->n + 1)]);
   }
-  const double width = turns_a_step * omega / sqrt(most);
   hc_status st = HC_OK;
   for (double at = from; at < to && st == HC_OK;) {
+    double width = turns_a_step * omega / sqrt(most), stiffest = most;
+    for (int j = 0; j < m->n_contacts && f->bends; ++j) { /* as they are at the step's beginning */
+      contact_slopes slopes;
+      if (!bends(f, interval, j, at, omega, &slopes)) continue;
+      for (int i = 0; i < f->n; ++i)
+        stiffest += fabs(slopes.n_v) * m->contacts[j].normal[i] * m->contacts[j].normal[i] /
+                    m->mass[(size_t)i * (size_t)(f->n + 1)];
+      width = fmin(fmin(width, slopes.step), turns_a_step * omega / sqrt(stiffest));
+    }
     const double end = planar_slipping_step(n_slipping, slipping, at, to, width);
     st = advance_step(f, interval, n_slipping, slipping, at, end, omega, columns, phi);
     at = end;

@@ -1,5 +1,6 @@
 /* planar_flow.h - how a perturbation of a structure's orbit moves while contacts of two tangents with one limit slip
- * (planar_motion.h, planar_slip.h). With e = (cos phi, sin phi), e_perp across it and y = R d phi [length]:
+ * (planar_motion.h, planar_slip.h), or where contacts follow smooth laws, whose slopes are in C and K as they vary.
+ * With e = (cos phi, sin phi), e_perp across it and y = R d phi [length]:
  *
  *     M dx'' + C dx' + K_j dx + sum over planar contacts kt (t.e dR + t.e_perp y) = sum over stuck contacts t_j dheld_j
  *     R y' = R (du'.e_perp - phi' dR) - s y,      s = u'.e - R' >= 0,      dR = (mu kn/kt) dv
@@ -9,11 +10,14 @@
  * what moves fastest. y, unlike d phi, stays small where contact is made or lost (R = 0). */
 #pragma once
 
-#include "hbm/contact/transitions.h"
+#include "hbm/contact/contact_evaluator.h"
 #include "hbm/planar/planar_cycle.h"
 #include "model/model.h"
 
 typedef struct planar_flow planar_flow;
+
+/* The derivatives of smooth contacts along the orbit: those of contact j at th; false: it is none. */
+typedef bool planar_bends(const void *self, int j, double th, double omega, contact_slopes *out);
 
 /* A planar contact that slips: its first half, and its interval. */
 typedef struct planar_slipping {
@@ -37,6 +41,9 @@ double planar_slipping_step(int n_slipping, const planar_slipping *slipping, dou
 /* For m, which must live as long. HC_NO_MEMORY. */
 hc_status planar_flow_new(const model *m, planar_flow **out);
 void planar_flow_free(planar_flow *f); /* NULL is allowed */
+
+/* The orbit that is followed from here on: `bends` is asked with self. */
+void planar_flow_bend(planar_flow *f, planar_bends *bends, const void *self);
 
 /* phi[2 n + n_contacts][2 n + n_contacts], by rows dx, dx' [1/time], dheld_j, its first `columns` columns, over the
  * interval from..to [rad]; y of a slipping planar contact is in the row of its first half. interval[j] of the other

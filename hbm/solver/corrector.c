@@ -109,12 +109,34 @@ static void weigh_rows(hbm_solver *s, double omega)
 /* Weights for KINSOL: X by its size, R by the forces it is made of at the guess. */
 static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const double *X)
 {
+  hbm_system_at(&s->sys, omega_at(s, omega));
   hc_status st = hbm_system_contact(&s->sys, X, true);
   if (st != HC_OK) return st;
   weigh_rows(s, omega);
   if (!(x_scale > 0)) x_scale = 1;
   for (int i = 0; i < s->sys.n; ++i) s->z_scale[i] = 1 / x_scale;
   return HC_OK;
+}
+
+static void clear_even(const hbm_solver *s, double *X)
+{
+  for (int h = 0; h <= s->sys.n_harm; h += 2)
+    for (int i = s->sys.dim * (h ? 2 * h - 1 : 0); i < s->sys.dim * (2 * h + 1); ++i) X[i] = 0;
+}
+
+/* A symmetric solution of a symmetric model stays one: where its symmetry breaks the equations are singular, and the
+ * rounding of even harmonics would grow into a step to the other branch, or many that are too short. */
+static void keep_symmetry(hbm_solver *s, double *X)
+{
+  const double rounding = 1e-6;
+  double even = 0, all = 0;
+  for (int i = 0; i < s->sys.n_coef && s->symmetric; ++i) {
+    const int h = (i / s->sys.dim + 1) / 2;
+    all = fmax(all, fabs(X[i]));
+    if (h % 2 == 0) even = fmax(even, fabs(X[i]));
+  }
+  s->on_symmetric = s->symmetric && even <= rounding * all;
+  if (s->on_symmetric) clear_even(s, X);
 }
 
 /* Newton from s->z, whose last entry is omega, by either form. KINSOL weighted the residual by the forces at the guess;
@@ -133,6 +155,7 @@ static hc_status solve(hbm_solver *s, newton *form, const newton_options *opt, d
   point->residual = norm_weighted_max(s->sys.n, s->r_scale, newton_residual(form));
   if (!(point->residual <= 10 * s->how.tolerance)) return HC_NOT_CONVERGED;
   unpack(s, s->z, X, omega);
+  keep_symmetry(s, X);
   return HC_OK;
 }
 
@@ -181,6 +204,7 @@ hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX)
   hc_status st = newton_backsolve(s->fixed, s->z);
   for (int i = 0; i < s->sys.first; ++i) dX[i] = 0;
   for (int i = 0; i < s->sys.n; ++i) dX[i + s->sys.first] = -s->z[i];
+  if (s->on_symmetric) clear_even(s, dX);
   return st;
 }
 
@@ -190,6 +214,7 @@ hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega)
   s->z[s->sys.n] = 1;
   hc_status st = newton_backsolve(s->plane, s->z);
   unpack(s, s->z, dX, d_omega);
+  if (s->on_symmetric) clear_even(s, dX);
   return st;
 }
 

@@ -55,6 +55,7 @@ static void free_equations(hbm_solver *s)
   workspace_free(&s->memory);
   *s = (hbm_solver){.model = s->model,
                     .edges = s->edges,
+                    .symmetric = s->symmetric,
                     .how = s->how,
                     .monodromy = s->monodromy,
                     .multipliers_unknown = s->multipliers_unknown,
@@ -90,6 +91,7 @@ hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **o
   s->how = *how;
   s->step_scale = 1;
   hc_status st = model_copy(m, &s->model);
+  if (st == HC_OK) s->symmetric = model_is_symmetric(s->model);
   if (st == HC_OK) s->edges = contact_edges_of(s->model);
   if (st == HC_OK) st = make_equations(s, n_harm, n_time);
   if (st == HC_OK) {
@@ -163,16 +165,17 @@ static void along(const hbm_system *sys, const double *X, const double *directio
   }
 }
 
-hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out)
+hc_status hbm_measure_contacts(hbm_solver *s, double omega, const double *X, contact_period *out)
 {
   const hbm_system *sys = &s->sys;
   double u[2][2 * HBM_MAX_HARMONICS + 1], v[2 * HBM_MAX_HARMONICS + 1];
   hc_status st = HC_OK;
   for (int j = 0; j < s->model->n_contacts && st == HC_OK;) {
-    const placed_contact c = placed_contact_of(s->model, j);
+    placed_contact c = placed_contact_of(s->model, j);
     const contact_kind *kind = contact_kind_of(&c);
     for (int k = 0; k < kind->contacts; ++k) along(sys, X, condensation_tangent(sys->linear, j + k), u[k]);
     along(sys, X, condensation_normal(sys->linear, j), v);
+    c.law.epsilon /= omega;
     st = kind->measures(&c.law, sys->n_harm, u[0], u[1], v, &out[j]);
     j += kind->contacts;
   }

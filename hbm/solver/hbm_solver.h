@@ -103,6 +103,6 @@ hc_status hbm_preloads(hbm_solver *s, double *N);
 /* w[n_contacts] [length]: the sliders at t = 0 of the motion X. Errors of the contact force. */
 hc_status hbm_sliders(hbm_solver *s, const double *X, double *w);
 
-/* out[hbm_n_contacts]: of the solution X, every contact by the exact law, also where the equations sample it, those of
- * the case first (contact_periods_merge). Errors of contact_measures_of, planar_measures_of. */
-hc_status hbm_measure_contacts(hbm_solver *s, const double *X, contact_period *out);
+/* out[hbm_n_contacts]: of the solution X at omega, every contact by the exact law, also where the equations sample it,
+ * those of the case first (contact_periods_merge). Errors of contact_measures_of, planar_measures_of. */
+hc_status hbm_measure_contacts(hbm_solver *s, double omega, const double *X, contact_period *out);

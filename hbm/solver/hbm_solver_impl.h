@@ -21,6 +21,7 @@ struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; 
   hbm_system sys;                   /* the equations */
   int n_time;                       /* samples per period, for sampled forces */
   newton *fixed, *plane;            /* the two forms of corrector.h */
+  bool symmetric, on_symmetric;     /* model_is_symmetric; and the last solution has no even harmonics */
   const slip_edges *edges;          /* of the model's response curves; NULL: there are none */
   contact_forces *orbit;            /* locates the transitions of a solution of sampled equations; NULL when sys does */
   monodromy *monodromy;             /* NULL until it is needed */

@@ -7,19 +7,19 @@
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
 
-/* A structure of more degrees of freedom is large; with planar friction, whose slip is followed step by step, one of
- * more states. Large ones with planar friction are followed in their modes: up to 24 planar contacts (two each in the
- * list) a solution of the plates of cases/structures takes as long as 10 to 20 points of a curve, and the cube of that
- * many times more beyond. */
+/* A structure of more degrees of freedom is large; with planar friction or smooth laws, which are followed step by
+ * step, one of more states. Large ones with planar friction are followed in their modes: up to 24 planar contacts (two
+ * each in the list) a solution of the plates of cases/structures takes as long as 10 to 20 points of a curve, and the
+ * cube of that many times more beyond. */
 enum { LARGE = 50, LARGE_WITH_PLANAR = 12, MOST_IN_MODES = 48 };
 
-static bool in_modes(const model *m) { return m->n > LARGE && model_has_circle(m); }
+static bool in_modes(const model *m) { return m->n > LARGE && model_has_circle(m) && !model_is_smooth(m); }
 
 bool hbm_stability_is_costly(const hbm_solver *s)
 {
   const model *m = s->model;
   if (in_modes(m)) return m->n_contacts > MOST_IN_MODES;
-  return m->n > LARGE || (model_has_circle(m) && m->n + m->n_contacts > LARGE_WITH_PLANAR);
+  return m->n > LARGE || ((model_has_circle(m) || model_is_smooth(m)) && m->n + m->n_contacts > LARGE_WITH_PLANAR);
 }
 
 void hbm_leave_stability(hbm_solver *s)

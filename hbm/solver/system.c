@@ -122,8 +122,16 @@ static double dropped(const model *m, double omega) { return *m->stiffness + *m-
 /* The first coefficient behind those of harmonic h. */
 static size_t behind(const hbm_system *sys, int h) { return sines(sys, h) + (size_t)sys->dim; }
 
+void hbm_system_at(hbm_system *sys, double omega)
+{
+  if (omega == sys->omega) return;
+  sys->omega = omega;
+  if (contact_forces_at(sys->contacts, omega)) sys->evaluated = false;
+}
+
 hc_status hbm_system_residual(hbm_system *sys, double omega, const double *X, double *R)
 {
+  hbm_system_at(sys, omega);
   hc_status st = hbm_system_contact(sys, X, true);
   if (st == HC_OK) st = condensation_at(sys->linear, omega, sys->more_damping);
   if (st != HC_OK) return st;
@@ -221,6 +229,7 @@ static void differentiate(hbm_system *sys, condensation_change (*by)(const conde
     condensation_load_change(sys->linear, l, by(sys->linear, h), a);
     subtract_load(sys, a, h, sys->force_factor);
   }
+  if (by == condensation_by_omega) contact_forces_add_by_omega(sys->contacts, sys->rows);
   drop_means(sys, dR);
 }
 

@@ -28,6 +28,7 @@ typedef struct hbm_system {
   model_scales scales;
   double *X, *F; /* [n_coef] the last evaluation: where, and the contact force */
   contact_report report;
+  double omega;            /* [rad/time] of the last residual, where forces depend on it */
   bool evaluated, derived; /* X, F and report belong together; and the contacts' Jacobian with them */
   double *rows;            /* [n_coef] residual or its derivative with the means' rows, which may have to be dropped */
   double complex *amplitudes; /* [2][dim] */
@@ -46,6 +47,9 @@ static inline int hbm_system_length(const hbm_system *sys, int n_harm) { return 
  * HC_NO_MEMORY, HC_SINGULAR (condensation_new): *sys still has to be cleared. */
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time);
 void hbm_system_clear(hbm_system *sys);
+
+/* The frequency of evaluations to come. */
+void hbm_system_at(hbm_system *sys, double omega);
 
 /* Contact force at X into sys->F, where `derive` with what hbm_system_jacobian takes; nothing to do if X is where it
  * was evaluated last. Errors of contact_forces_eval. */

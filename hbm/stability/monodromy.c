@@ -58,7 +58,8 @@ struct monodromy {
   const contact_interval **interval; /* [n_states] of each contact, the current one; NULL while separated */
   int n_active, *active;             /* [n_states] the initial states that the multipliers are made of */
   contact_track *track;              /* [contacts] */
-  planar_flow *planar;               /* NULL: the model has no planar friction */
+  bool bends;                        /* a contact follows a smooth law */
+  planar_flow *planar;               /* NULL: the model has neither planar friction nor smooth laws */
   int n_slipping;                    /* planar contacts that slip on the current interval */
   planar_slipping *slipping;         /* [contacts] */
   int *slider;                       /* [n_states] of interval_flow_leave, and which of them go on */
@@ -350,7 +351,8 @@ hc_status monodromy_new(const model *m, monodromy_method how, monodromy **out)
     if (st == HC_OK) st = !w->memory.failed ? modal_flow_new(m, &w->modal) : HC_NO_MEMORY;
   } else {
     if (st == HC_OK) st = interval_flow_new(m, &w->flow);
-    if (st == HC_OK && model_has_circle(m)) st = planar_flow_new(m, &w->planar);
+    w->bends = model_is_smooth(m);
+    if (st == HC_OK && (w->bends || model_has_circle(m))) st = planar_flow_new(m, &w->planar);
   }
   if (st == HC_OK) return HC_OK;
   monodromy_free(w);
@@ -423,6 +425,13 @@ static hc_status begin_period(monodromy *w, const model *m, const contact_forces
   return st;
 }
 
+static bool slopes_of(const void *orbit, int j, double th, double omega, contact_slopes *out)
+{
+  if (!contact_forces_bends(orbit, j)) return false;
+  *out = contact_forces_slopes(orbit, j, th, omega);
+  return true;
+}
+
 /* w->left: what the states that the period begins with have become at its end. */
 static hc_status follow_period(monodromy *w, const model *m, const contact_forces *orbit, double omega, int n)
 {
@@ -430,13 +439,14 @@ static hc_status follow_period(monodromy *w, const model *m, const contact_force
   for (int i = 1; i < n; ++i)
     if (end_of_interval(w, n, i) - w->boundary[i] > end_of_interval(w, n, last) - w->boundary[last]) last = i;
   hc_status st = begin_period(w, m, orbit, omega, n, last);
+  if (w->bends) planar_flow_bend(w->planar, slopes_of, orbit);
   for (int k = 1; k <= n && st == HC_OK; ++k) {
     const int i = (last + k) % n;
     const double a = w->boundary[i], b = end_of_interval(w, n, i);
     if (is_empty(w, n, i)) continue;
     enter_interval(w, m, orbit, n, i);
     for (int j = 0; j < m->n_contacts; j += w->track[j].law->contacts) w->track[j].law->begin(w, m, orbit, j, a);
-    if (w->n_slipping)
+    if (w->n_slipping || w->bends)
       st = planar_flow_advance(w->planar, w->interval, w->n_slipping, w->slipping, a, b, omega, w->columns, w->phi);
     else st = interval_flow_advance(w->flow, w->interval, (b - a) / omega, w->columns, w->phi);
   }

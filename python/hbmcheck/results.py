@@ -111,7 +111,7 @@ class Contacts(Table):
     """What each contact does in each solution, steady state or row of a comparison.
 
     row (of the table whose .contacts this is, its first response's), omega [rad/time], branch (of solutions), contact (a
-    number in .names), regime ("linear": never closed, "stick", "slip", "separation"), normal_min, normal_max,
+    number in .names), regime ("linear": never closed, "stick", "smooth", "slip", "separation"), normal_min, normal_max,
     traction_max [force], slip_distance [length], work [force length] dissipated in a period. Of a comparison the last six
     are there twice, as hbm_regime, ..., transient_regime, ..., with work_error, normal_error [1], compared, differs
     (bool), hbm_status, transient_status (words).
@@ -185,7 +185,7 @@ class Solutions(Table):
     """Solutions of harmonic balance, in the order of the curve they lie on; of a structure a row for each response.
 
     omega [rad/time], amplitude, max, min, rms, mean, harmonic_1 [length], multiplier, residual [1], stable (1, -1; 0
-    unknown), branch, harmonics, iterations, contact ("linear", "stick", "slip", "separation"), mean_free (bool),
+    unknown), branch, harmonics, iterations, contact ("linear", "stick", "smooth", "slip", "separation"), mean_free (bool),
     response (a number in .responses), coefficients [rows, 2H+1] [length]: X0, a1, b1, a2, b2, ...
 
     contacts: what each does there, by the exact law, or None: not asked for.

@@ -86,6 +86,21 @@ static void mend_gate_ranges(gate_ranges *r)
   if (r->ends.n > 2) memset(limits[r->ends.n % 3], 0, sizeof *limits[0]); /* not every limit need differ there */
 }
 
+/* A contact of some law, with that law's fields alone. */
+static void random_contact(scene_contact *c, uint64_t *s)
+{
+  field_contact_defaults(c);
+  random_field(field_named("contacts", "law"), c, s);
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i);
+    const bool plain = f->flags & FIELD_IN_CONTACT && !(f->flags & FIELD_STRUCTURE) && f->kind != FIELD_PART;
+    if (plain && field_is_of_law(f, c) && strcmp(f->name, "law") != 0) random_field(f, c, s);
+  }
+  if (c->kind != SCENE_LAW_TABLE) return;
+  c->n_points = random_int(s, 2, SCENE_MOST_POINTS);
+  for (int i = 0; i < c->n_points; ++i) c->points[i][0] = i + random_unit(s) / 2, c->points[i][1] = random_signed(s);
+}
+
 /* Any scene a reader could have made. Of compare's rivals one is at its default, and the samples suffice. */
 static void random_scene(scene *sc, uint64_t *s)
 {
@@ -94,12 +109,15 @@ static void random_scene(scene *sc, uint64_t *s)
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
     if (f->flags & FIELD_STRUCTURE) continue;
-    bool in_contact = f->flags & FIELD_IN_CONTACT;
-    for (int j = 0; in_contact && j < sc->n_contacts; ++j) random_field(f, &sc->contacts[j], s);
-    if (!in_contact && !(f->flags & FIELD_NO_ECHO)) random_field(f, sc, s);
+    if (!(f->flags & FIELD_IN_CONTACT) && !(f->flags & FIELD_NO_ECHO)) random_field(f, sc, s);
     if (f->scale != 0 && !(f->flags & FIELD_NO_ECHO)) { /* as the reader stores it */
       sc->omega_from *= f->scale, sc->omega_to *= f->scale;
     }
+  }
+  bool smooth = false;
+  for (int j = 0; j < sc->n_contacts; ++j) {
+    random_contact(&sc->contacts[j], s);
+    smooth |= sc->contacts[j].kind == SCENE_LAW_POLYNOMIAL || sc->contacts[j].kind == SCENE_LAW_TANH;
   }
   mend_gate_ranges(&sc->gate.ranges);
   if (random_bits(s) % 2) sc->compare.points = 20;
@@ -108,7 +126,7 @@ static void random_scene(scene *sc, uint64_t *s)
   if (adapts && sc->hbm.continuation == HBM_CONTINUATION_FIXED_STEP) sc->hbm.continuation = HBM_CONTINUATION_AUTO;
   if (sc->hbm.samples != HBM_AUTO && sc->hbm.samples < 2 * sc->hbm.harmonics + 1)
     sc->hbm.samples = 2 * sc->hbm.harmonics + 1;
-  if (sc->transient.law != TRANSIENT_LAW_EXACT) sc->transient.method = TRANSIENT_METHOD_CVODE;
+  if (sc->transient.law != TRANSIENT_LAW_EXACT || smooth) sc->transient.method = TRANSIENT_METHOD_CVODE;
   if (sc->omega_from == sc->omega_to) sc->omega_to = sc->omega_from > 1 ? 1 : 2;
   if (sc->transient.method == TRANSIENT_METHOD_CLOSED_FORM) sc->transient.law = TRANSIENT_LAW_EXACT;
 }

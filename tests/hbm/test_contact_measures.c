@@ -179,7 +179,7 @@ static void what_goes_in_is_dissipated(CHECK_STATE)
     assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
     if (hbm_solve_first(s, omega, X, &point) == HC_OK && point.residual <= 1e-13) {
       for (int i = 0; i < n; ++i) assert_int_equal(hbm_response(s, omega, X, i, x[i]), HC_OK);
-      assert_int_equal(hbm_measure_contacts(s, X, period), HC_OK);
+      assert_int_equal(hbm_measure_contacts(s, omega, X, period), HC_OK);
       for (int j = 0; j < n_contacts; ++j) {
         assert_true(period[j].normal_min <= period[j].normal_max && period[j].work >= 0);
         work += period[j].work;

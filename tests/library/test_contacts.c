@@ -65,13 +65,13 @@ static void every_solution_has_its_contacts(CHECK_STATE)
     assert_int_equal(hbm_curve_at(s, &traced, omega[i], &there), HC_OK);
     assert_in_range(there.n, 1, 8);
     for (int k = 0; k < there.n; ++k) {
-      assert_int_equal(hbm_measure_contacts(s, hbm_curve_X(&there, k), expected), HC_OK);
+      assert_int_equal(hbm_measure_contacts(s, there.points[k].omega, hbm_curve_X(&there, k), expected), HC_OK);
       assert_int_equal(hbmcheck_curve_contacts(curve, at, k, MOST, found, &n), HBMCHECK_OK);
       assert_int_equal(n, contacts[i]);
       for (int j = 0; j < n; ++j) assert_true(same(&found[j], &expected[j]));
     }
     const int last = traced.n - 1;
-    assert_int_equal(hbm_measure_contacts(s, hbm_curve_X(&traced, last), expected), HC_OK);
+    assert_int_equal(hbm_measure_contacts(s, traced.points[last].omega, hbm_curve_X(&traced, last), expected), HC_OK);
     assert_int_equal(hbmcheck_curve_contacts(curve, hbmcheck_curve_points(curve), last, MOST, found, &n), HBMCHECK_OK);
     assert_true(same(&found[0], &expected[0]) && found[0].normal_max > 0);
     hbm_curve_free(&there);

@@ -53,11 +53,16 @@ static void free_vibration(CHECK_STATE)
 /* What a contact was seen to do, and the strongest of it. */
 static void regimes(CHECK_STATE)
 {
-  assert_int_equal(measure_seen_regime(0), CONTACT_LINEAR);
-  assert_int_equal(measure_seen_regime(SEEN_SEPARATED), CONTACT_LINEAR);
-  assert_int_equal(measure_seen_regime(SEEN_STUCK), CONTACT_STUCK);
-  assert_int_equal(measure_seen_regime(SEEN_STUCK | SEEN_SLIPPING), CONTACT_SLIPS);
-  assert_int_equal(measure_seen_regime(SEEN_SEPARATED | SEEN_STUCK), CONTACT_SEPARATES);
+  const contact kinked = {0}, polynomial = {.smooth = CONTACT_POLYNOMIAL}, rate = {.smooth = CONTACT_TANH};
+  assert_int_equal(measure_seen_regime(SEEN_SEPARATED, &polynomial), CONTACT_BENDS);
+  assert_int_equal(measure_seen_regime(SEEN_SEPARATED, &rate), CONTACT_LINEAR);
+  assert_int_equal(measure_seen_regime(SEEN_STUCK, &rate), CONTACT_BENDS);
+  assert_int_equal(measure_seen_regime(SEEN_SEPARATED | SEEN_STUCK, &rate), CONTACT_SEPARATES);
+  assert_int_equal(measure_seen_regime(0, &kinked), CONTACT_LINEAR);
+  assert_int_equal(measure_seen_regime(SEEN_SEPARATED, &kinked), CONTACT_LINEAR);
+  assert_int_equal(measure_seen_regime(SEEN_STUCK, &kinked), CONTACT_STUCK);
+  assert_int_equal(measure_seen_regime(SEEN_STUCK | SEEN_SLIPPING, &kinked), CONTACT_SLIPS);
+  assert_int_equal(measure_seen_regime(SEEN_SEPARATED | SEEN_STUCK, &kinked), CONTACT_SEPARATES);
 }
 
 /* An integrator whose motion is x = sin(2 theta), and whose dense output fails at the call of that number. */

@@ -2,6 +2,7 @@
 
 #include <float.h>
 
+#include "tests/random.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 
@@ -86,6 +87,40 @@ static void jacobian_is_the_derivative(CHECK_STATE)
   CHECK_LE(400, tried, "points off the corners");
 }
 
+/* Smooth laws, of numbers of the order of 1 and third derivatives of the order of 10: differences are 1e-9 off. */
+static void jacobian_of_smooth_laws_is_the_derivative(CHECK_STATE)
+{
+  const contact laws[] = {{.smooth = CONTACT_POLYNOMIAL, .power = {0.1, 0.2, 0, -0.1}},
+                          {.smooth = CONTACT_TANH, .mu = 0.3, .load = 2, .epsilon = 3},
+                          {.smooth = CONTACT_TANH, .mu = 0.3, .kn = 2, .gap = -0.2, .epsilon = 3}};
+  const transient_settings how = {.law = TRANSIENT_LAW_REGULARISED, .regularisation = 0.3};
+  model *m;
+  modal_base *base;
+  scaled_contact scaled_contacts[3];
+  assert_int_equal(model_oscillator(1, 0.4, 2, 1, 3, &m), HC_OK);
+  for (int j = 0; j < 3; ++j) {
+    m->contacts[j].law = laws[j];
+    *m->contacts[j].tangent = 0.8, *m->contacts[j].normal = j == 1 ? 0 : 0.6;
+  }
+  assert_int_equal(modal_base_new(m, &base), HC_OK);
+  scaled_model scaled = {.base = base, .contact = scaled_contacts};
+  scaled_make(&scaled, m, &how, 1.3, 0.9);
+  uint64_t seed = 5;
+  for (int i = 0; i < 50; ++i) {
+    double y[5], jac[25], f[2][5];
+    for (int k = 0; k < 5; ++k) y[k] = random_signed(&seed);
+    scaled_jacobian(&scaled, y, jac);
+    for (int k = 0; k < 5; ++k) {
+      const double at = y[k], h = 1e-5;
+      for (int s = 0; s < 2; ++s) y[k] = at + (s ? -h : h), assert_true(scaled_rhs(&scaled, 1, y, f[s]));
+      y[k] = at;
+      for (int r = 0; r < 5; ++r) CHECK_NEAR(jac[5 * k + r], (f[0][r] - f[1][r]) / (2 * h), 1e-8, "%d by %d", r, k);
+    }
+  }
+  modal_base_free(base);
+  model_free(m);
+}
+
 /* x -> 1e9 x and 1e-9 x: scaling force, gaps and L scales nothing that the solver sees; rounding of the quotients
  * only. */
 static void scale_drops_out(CHECK_STATE)
@@ -119,5 +154,5 @@ static void not_finite_is_noticed(CHECK_STATE)
   }
 }
 
-CHECK_TESTS("timeint.model", 60, rhs_is_the_printed_equation, jacobian_is_the_derivative, scale_drops_out,
-            not_finite_is_noticed)
+CHECK_TESTS("timeint.model", 60, rhs_is_the_printed_equation, jacobian_is_the_derivative,
+            jacobian_of_smooth_laws_is_the_derivative, scale_drops_out, not_finite_is_noticed)

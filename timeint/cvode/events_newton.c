@@ -11,14 +11,16 @@ hc_status events_newton_make(events_newton *s, const modal_base *base, const con
   s->law = law;
   s->own_of = own_of;
   s->slopes = calloc((size_t)base->n_contacts + 1, sizeof *s->slopes);
+  s->curved = calloc((size_t)base->n_contacts + 1, sizeof *s->curved);
   const hc_status st = step_equations_make(&s->step, base);
-  return s->slopes ? st : HC_NO_MEMORY;
+  return s->slopes && s->curved ? st : HC_NO_MEMORY;
 }
 
 void events_newton_free(events_newton *s)
 {
   step_equations_free(&s->step);
   free(s->slopes);
+  free(s->curved);
 }
 
 void events_newton_linearise(events_newton *s, const scaled_model *m, const double *y)
@@ -27,9 +29,10 @@ void events_newton_linearise(events_newton *s, const scaled_model *m, const doub
     const scaled_contact *c = &m->contact[j];
     s->step.contact[j].directions = scaled_directions(m, j);
     if (scaled_directions(m, j) == 2) s->step.contact[j + 1].directions = 0;
-    if (!s->track[j].turns) continue;
+    s->curved[j] = s->track[j].turns || c->kind->smooth;
+    if (!s->curved[j]) continue;
     const contact_motion at = scaled_motion_at(m, j, y);
-    s->slopes[j] = c->kind->slopes(&s->track[j], c, &at, y[2 * s->step.n + s->own_of[j]]);
+    s->slopes[j] = c->kind->slopes(&s->track[j], c, &at, s->own_of[j] < 0 ? 0 : y[2 * s->step.n + s->own_of[j]]);
   }
 }
 
@@ -47,13 +50,15 @@ bool events_newton_factor(events_newton *s, const scaled_model *m, double gamma)
       f.by_v[k] = s->law[j + k].t_v;
       f.n_v = s->law[j + k].n_v;
     }
-    if (directions > 0 && s->track[j].turns) {
+    if (directions > 0 && s->curved[j]) {
       const law_slopes *l = &s->slopes[j];
       for (int k = 0; k < directions; ++k) {
         const double by_z = l->t_own[k] * share_of(s, j);
         for (int i = 0; i < directions; ++i) f.by_u[k][i] += by_z * l->rate_du[i];
         f.by_v[k] += l->t_v[k] + by_z * s->step.gamma * l->rate_v;
       }
+      f.by_u[0][0] += l->t_du / gamma;
+      f.n_v += l->n_v;
     }
     s->step.contact[j] = f;
   }
@@ -68,16 +73,18 @@ void events_newton_solve(events_newton *s, double *r)
   contact_rows_motion(&step->rows, r, step->q);
   memset(step->force, 0, (size_t)step->n_rows * sizeof *step->force);
   for (int j = 0; j < step->n_contacts; ++j) {
-    if (step->contact[j].directions == 0 || !s->track[j].turns) continue;
+    if (step->contact[j].directions == 0 || !s->curved[j]) continue;
     const law_slopes *l = &s->slopes[j];
     double *z = d + s->own_of[j];
-    step_equations_motion(step, j, 2, u);
+    step_equations_motion(step, j, step->contact[j].directions, u);
+    step_equations_add(step->force, step->rows.along[j], -l->t_du / step->gamma * u[0]); /* t_du t . p where x = 0 */
+    if (s->own_of[j] < 0) continue;
     *z = share_of(s, j) * (*z - l->rate_du[0] * u[0] - l->rate_du[1] * u[1]); /* z where x = 0 */
     for (int k = 0; k < 2; ++k) step_equations_add(step->force, step->rows.along[j + k], l->t_own[k] * *z);
   }
   step_equations_solve(step, r, r + n);
   for (int j = 0; j < step->n_contacts; ++j) {
-    if (step->contact[j].directions == 0 || !s->track[j].turns) continue;
+    if (step->contact[j].directions == 0 || !s->curved[j] || s->own_of[j] < 0) continue;
     const law_slopes *l = &s->slopes[j];
     const double v = step_equations_motion(step, j, 2, u);
     d[s->own_of[j]] += share_of(s, j) * (step->gamma * l->rate_v * v + l->rate_du[0] * u[0] + l->rate_du[1] * u[1]);

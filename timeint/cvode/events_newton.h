@@ -3,7 +3,8 @@
  *
  *     (I - gamma J) (x, p, z) = (a, b, d):   step_equations.h with
  *     f_j = t_u u_j + t_v v_j of contact_track_forces;   where it turns also f_k += s_v v + s_z z, with
- *     z = d + gamma (r_v v + r_z z + sum_k r_k t_k . p),   gamma t_k . p = u_k - t_k . a
+ *     z = d + gamma (r_v v + r_z z + sum_k r_k t_k . p),   gamma t_k . p = u_k - t_k . a;   of smooth laws also
+ *     t_du t . p, and n_v of theirs
  *
  * Nothing is allocated after events_newton_make. */
 #pragma once
@@ -16,7 +17,8 @@ typedef struct events_newton { /* from events_newton_make, to events_newton_free
   const contact_track *track;       /* [n_contacts] the owner's, as of all that follows: */
   const contact_forces_linear *law; /* [n_contacts] */
   const int *own_of;                /* [n_contacts] which entry of z is the contact's; -1: none */
-  law_slopes *slopes;               /* [n_contacts] of those that turn, where the equations were linearised */
+  law_slopes *slopes;               /* [n_contacts] of those that turn or are smooth, where they were linearised */
+  bool *curved;                     /* [n_contacts] which these are */
 } events_newton;
 
 /* HC_NO_MEMORY; free it in any case. */

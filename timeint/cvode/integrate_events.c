@@ -47,6 +47,7 @@ typedef struct events { /* from integrate_new_events, to integrate_free; not sha
   events_newton newton;
   double held_pull; /* what a held direction may change of a rate until N = 0 */
   int passed;       /* events since the period began */
+  bool is_smooth;   /* a contact's law is: the monodromy matrix then comes from differences */
   bool varies;      /* the monodromy is asked for */
   fundamental_matrix variations;
   interval_modes *modes; /* for them */
@@ -54,21 +55,22 @@ typedef struct events { /* from integrate_new_events, to integrate_free; not sha
 
 /* ---- equations -------------------------------------------------------------------------------------- */
 
-/* T that is not linear in the motion, to contacts' forces, and the rates of contacts' own states into dy. */
-static void add_turning(const events *in, const double *y, double *dy)
+/* Forces that are not linear in the motion, and the rates of contacts' own states into dy. */
+static void add_curved(const events *in, const double *y, double *dy)
 {
   const step_equations *step = &in->newton.step;
   const int n = in->n;
   memset(dy + 2 * n, 0, (size_t)(in->n_equations - 2 * n) * sizeof *dy); /* without friction, too */
-  if (in->n_own == 0) return;
+  if (in->n_own == 0 && !in->is_smooth) return;
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
     const scaled_contact *c = &in->base.m->contact[j];
-    const int own = 2 * n + in->own_of[j];
-    if (!in->track[j].turns) continue;
+    const int own = in->own_of[j];
+    if (!in->track[j].turns && !c->kind->smooth) continue;
     const contact_motion at = scaled_motion_at(in->base.m, j, y);
-    const law_pull pull = c->kind->pull(&in->track[j], c, &at, y[own]);
-    dy[own] = pull.rate;
-    for (int a = 0; a < 2; ++a) step_equations_add(step->force, step->rows.along[j + a], pull.t[a]);
+    const law_pull pull = c->kind->pull(&in->track[j], c, &at, own >= 0 ? y[2 * n + own] : 0);
+    if (own >= 0) dy[2 * n + own] = pull.rate;
+    for (int a = 0; a < c->kind->directions; ++a) step_equations_add(step->force, step->rows.along[j + a], pull.t[a]);
+    step_equations_add(step->force, step->rows.across[j], pull.n);
   }
 }
 
@@ -87,7 +89,7 @@ static void events_rate(const events *in, double theta, const double *y, double 
     step_equations_add(step->force, step->rows.along[j], f->t_u * u + f->t_v * v + f->t_0);
     step_equations_add(step->force, step->rows.across[j], f->n_v * v + f->n_0);
   }
-  add_turning(in, y, dy);
+  add_curved(in, y, dy);
   contact_rows_pull(&step->rows, 1, step->force, dy + n);
   memcpy(dy, y + n, (size_t)n * sizeof *dy);
 }
@@ -355,12 +357,48 @@ static void set_sliders(const events *in, int order, const double *own, double *
 }
 
 static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
+                        void *self);
+
+/* Central differences of the period map, of a step of 1e-4 of a motion of the order of 1: of the order of 1e-8 off, as
+ * the step's square and a period's rounding over it both are. */
+static hc_status differ(events *in, const double *y, double *monodromy)
+{
+  const scaled_model *m = in->base.m;
+  const size_t n = (size_t)m->n_states;
+  double h = 1e-4;
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (m->contact[j].law.smooth.smooth == CONTACT_TANH)
+      h = fmin(h, fmax(1e-2 * m->contact[j].law.smooth.epsilon, 1e-6));
+  const long transitions = in->base.base.transitions;
+  double *ends = calloc(2 * n, sizeof *ends);
+  hc_status st = ends ? HC_OK : HC_NO_MEMORY;
+  for (size_t j = 0; j < n; ++j) {
+    for (size_t s = 0; s < 2 && st == HC_OK; ++s) {
+      memcpy(ends + s * n, y, n * sizeof *y);
+      ends[s * n + j] += s ? -h : h;
+      st = period(&in->base.base, m, ends + s * n, NULL, NULL, NULL);
+    }
+    for (size_t i = 0; i < n && st == HC_OK; ++i) monodromy[j * n + i] = (ends[i] - ends[n + i]) / (2 * h);
+  }
+  in->base.base.transitions = transitions;
+  free(ends);
+  return st;
+}
+
+static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
                         void *self)
 {
   events *in = (events *)base;
   int count = 0;
   if (m->n != in->n || m->n_contacts != in->n_contacts) return HC_BUG;
   in->base.m = m;
+  in->is_smooth = false;
+  for (int j = 0; j < m->n_contacts; ++j) in->is_smooth |= m->contact[j].kind->smooth;
+  if (in->is_smooth && monodromy) {
+    hc_status st = differ(in, y, monodromy);
+    if (st != HC_OK) return st;
+    monodromy = NULL;
+  }
   in->varies = monodromy != NULL;
   hc_status st = integrate_begin_period(&in->base);
   if (st == HC_OK) st = begin(in, y, &count);
@@ -403,7 +441,7 @@ static bool fourier(const integrator *base, int i, double out[3])
 {
   const events *in = (const events *)base;
   const scaled_model *m = in->base.m;
-  if (!in->is_single ||
+  if (!in->is_single || in->is_smooth ||
       !motion_single_integrals(m, in->track, in->theta0, in->began, in->theta1, NV_DATA_S(in->base.y), out))
     return false;
   for (int k = 0; k < 3; ++k) out[k] *= m->base->response[i];

@@ -4,13 +4,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Contact j's motion, and rates, of the rows' motion in the step's q and the newton's dq. */
+static contact_motion moves_of(const structure_newton *s, const scaled_model *m, int j, int directions)
+{
+  contact_motion at = {0};
+  at.v = step_equations_motion(&s->step, j, directions, at.u);
+  if (m->by_rates) at.du[0] = contact_rows_at(s->dq, s->step.rows.along[j]); /* of one tangent: tanh's */
+  return at;
+}
+
+static void find_motion(const structure_newton *s, const scaled_model *m, const double *y)
+{
+  contact_rows_motion(&s->step.rows, y, s->step.q);
+  if (m->by_rates) contact_rows_motion(&s->step.rows, y + s->step.n, s->dq);
+}
+
 hc_status structure_newton_make(structure_newton *s, const modal_base *base)
 {
   const size_t contacts = (size_t)base->n_contacts;
   s->law = calloc(contacts + 1, sizeof *s->law);
   s->share = calloc(contacts + 1, sizeof *s->share);
   const hc_status st = step_equations_make(&s->step, base);
-  return s->law && s->share ? st : HC_NO_MEMORY;
+  s->dq = calloc((size_t)s->step.n_rows + 1, sizeof *s->dq);
+  return s->law && s->share && s->dq ? st : HC_NO_MEMORY;
 }
 
 void structure_newton_free(structure_newton *s)
@@ -18,6 +34,7 @@ void structure_newton_free(structure_newton *s)
   step_equations_free(&s->step);
   free(s->law);
   free(s->share);
+  free(s->dq);
 }
 
 bool structure_newton_rate(const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy)
@@ -26,14 +43,13 @@ bool structure_newton_rate(const structure_newton *s, const scaled_model *m, dou
   const int n = step->n;
   double sum = 0;
   scaled_linear_force(m, theta, y, dy + n);
-  contact_rows_motion(&step->rows, y, step->q);
+  find_motion(s, m, y);
   memset(step->force, 0, (size_t)step->n_rows * sizeof *step->force);
   for (int j = 0, directions; j < step->n_contacts; j += directions) {
     const scaled_contact *c = &m->contact[j];
     directions = scaled_directions(m, j);
-    double u[2];
-    const double v = step_equations_motion(step, j, directions, u);
-    const planar_value l = c->kind->evaluate(&c->law, u, v, y + 2 * n + j);
+    const contact_motion moves = moves_of(s, m, j, directions);
+    const planar_value l = c->kind->evaluate(&c->law, &moves, y + 2 * n + j);
     for (int a = 0; a < directions; ++a) {
       step_equations_add(step->force, step->rows.along[j + a], l.t[a]);
       step_equations_add(step->force, step->rows.across[j + a], l.change);
@@ -50,28 +66,26 @@ bool structure_newton_rate(const structure_newton *s, const scaled_model *m, dou
 void structure_newton_states(const structure_newton *s, const scaled_model *m, const double *y, contact_state *state)
 {
   const step_equations *step = &s->step;
-  contact_rows_motion(&step->rows, y, step->q);
+  find_motion(s, m, y);
   for (int j = 0, directions; j < step->n_contacts; j += directions) {
     const scaled_contact *c = &m->contact[j];
     directions = scaled_directions(m, j);
-    double u[2];
-    const double v = step_equations_motion(step, j, directions, u);
-    const planar_value at = c->kind->evaluate(&c->law, u, v, y + 2 * step->n + j);
-    for (int a = 0; a < directions; ++a) state[j + a] = scaled_state_of(m, j, v, &at);
+    const contact_motion moves = moves_of(s, m, j, directions);
+    const planar_value at = c->kind->evaluate(&c->law, &moves, y + 2 * step->n + j);
+    for (int a = 0; a < directions; ++a) state[j + a] = scaled_state_of(m, j, moves.v, &at);
   }
 }
 
 void structure_newton_linearise(structure_newton *s, const scaled_model *m, const double *y)
 {
   step_equations *step = &s->step;
-  contact_rows_motion(&step->rows, y, step->q);
+  find_motion(s, m, y);
   for (int j = 0; j < step->n_contacts; ++j) {
     const int directions = m->contact[j].direction > 0 ? 0 : scaled_directions(m, j);
     const scaled_contact *c = &m->contact[j];
-    double u[2];
-    const double v = step_equations_motion(step, j, directions, u);
+    const contact_motion moves = moves_of(s, m, j, directions);
     step->contact[j].directions = directions;
-    if (directions > 0) s->law[j] = c->kind->derivatives(&c->law, u, v, y + 2 * step->n + j);
+    if (directions > 0) s->law[j] = c->kind->derivatives(&c->law, &moves, y + 2 * step->n + j);
   }
 }
 
@@ -104,6 +118,7 @@ bool structure_newton_factor(structure_newton *s, const scaled_model *m, double 
         for (int k = 0; k < directions; ++k) f.by_u[a][b] += l->t_u[a][k] * s->share[j][k][b];
         f.by_v[a] -= f.by_u[a][b] * gamma * l->rate_v[b];
       }
+    if (directions > 0) f.by_u[0][0] += l->t_du / gamma; /* t . p = (u - t . a)/gamma */
     s->step.contact[j] = f;
   }
   return step_equations_factor(&s->step, m);
@@ -128,14 +143,18 @@ void structure_newton_solve(structure_newton *s, double *r)
 {
   const int n = s->step.n;
   double *d = r + 2 * n;
-  /* s->step.force := what contacts' forces are where x = 0: -by_u d. */
+  /* s->step.force := what contacts' forces are where x = 0: -by_u d, of tanh, which has no slider, -by_u t . a. */
   step_equations *step = &s->step;
+  bool rates = false;
+  for (int j = 0; j < step->n_contacts && !rates; ++j) rates = s->law[j].t_du != 0;
+  if (rates) contact_rows_motion(&step->rows, r, s->dq);
   memset(step->force, 0, (size_t)step->n_rows * sizeof *step->force);
   for (int j = 0; j < step->n_contacts; ++j) {
     const step_contact *f = &step->contact[j];
     for (int a = 0; a < f->directions; ++a) {
       double t = 0;
-      for (int b = 0; b < f->directions; ++b) t -= f->by_u[a][b] * d[j + b];
+      const double along = s->law[j].t_du != 0 ? contact_rows_at(s->dq, step->rows.along[j]) : d[j];
+      for (int b = 0; b < f->directions; ++b) t -= f->by_u[a][b] * (b == 0 ? along : d[j + b]);
       step_equations_add(step->force, step->rows.along[j + a], t);
     }
   }
@@ -148,7 +167,7 @@ void structure_newton_multiply(structure_newton *s, const scaled_model *m, const
   const step_equations *step = &s->step;
   const int n = step->n;
   double *force = out + n;
-  contact_rows_motion(&step->rows, z, step->q);
+  find_motion(s, m, z);
   memset(step->force, 0, (size_t)step->n_rows * sizeof *step->force);
   /* What contact j does where the motion is s->step.q and z: its forces into s->step.force, its sliders' rates into
    * rate[]. */
@@ -161,6 +180,7 @@ void structure_newton_multiply(structure_newton *s, const scaled_model *m, const
     const double v = step_equations_motion(step, j, directions, u);
     for (int a = 0; a < directions; ++a) {
       double t = l->t_v[a] * v;
+      if (m->by_rates) t += l->t_du * contact_rows_at(s->dq, step->rows.along[j]);
       rate[a] = l->rate_v[a] * v;
       for (int b = 0; b < directions; ++b) {
         t += l->t_u[a][b] * (u[b] - slider[b]);

@@ -13,6 +13,7 @@ typedef struct structure_newton { /* from structure_newton_make, to structure_ne
   step_equations step;
   planar_derivatives *law; /* [n_contacts] where the equations were linearised */
   double (*share)[2][2];   /* [n_contacts] (1 + gamma r_u)^-1 */
+  double *dq;              /* [n_rows] rates of the contacts' motion, where a law depends on them */
 } structure_newton;
 
 hc_status structure_newton_make(structure_newton *s, const modal_base *base); /* HC_NO_MEMORY; free it in any case */

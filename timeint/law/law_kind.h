@@ -14,17 +14,17 @@ typedef struct planar_value {
   double n, change, t[2], rate[2];
 } planar_value; /* N and N - N0 of either direction; T [force], w' [length/time] */
 
-/* dN/dv of either direction, dT_a/du_b in t_u[a][b], dT_a/dv ...; w enters as u - w. */
+/* dN/dv of either direction, dT_a/du_b in t_u[a][b], dT_a/dv ...; w enters as u - w; of tanh dT/du'. */
 typedef struct planar_derivatives {
-  double n_v, t_u[2][2], t_v[2], rate_u[2][2], rate_v[2];
+  double n_v, t_u[2][2], t_v[2], rate_u[2][2], rate_v[2], t_du;
 } planar_derivatives;
-
-/* ---- exact (contact_track.h) ----------------------------------------------------------------------------------- */
 
 /* U, V and their rates at one instant. */
 typedef struct contact_motion {
   double u[2], v, du[2], dv;
 } contact_motion;
+
+/* ---- exact (contact_track.h) ----------------------------------------------------------------------------------- */
 
 /* What CVODE knows of a slip in two directions, where phi, the angle of e, is a state of its equations. */
 typedef struct law_opening {
@@ -79,22 +79,24 @@ typedef struct law_instant {
   double theta, own;
 } law_instant;
 
-/* T that is not linear in the motion, and the rate of the own state z; what they follow: dT_a/dV, dT_a/dz, dz'/dU'_a,
- * dz'/dV, dz'/dz. */
+/* T and N - N0 that are not linear in the motion, and the rate of the own state z; what they follow: dT_a/dV, dT_a/dz,
+ * dz'/dU'_a, dz'/dV, dz'/dz; of smooth laws, of one tangent, dT/dU' and dN/dV. */
 typedef struct law_pull {
-  double t[2], rate;
+  double t[2], n, rate;
 } law_pull;
 typedef struct law_slopes {
-  double t_v[2], t_own[2], rate_du[2], rate_v, rate_own;
+  double t_v[2], t_own[2], rate_du[2], rate_v, rate_own, t_du, n_v;
 } law_slopes;
 
 typedef struct scaled_contact scaled_contact;
 typedef struct law_kind {
   int directions;
+  bool smooth; /* beside forces linear in the motion there are those of pull, in all states, without a state z */
 
-  planar_value (*evaluate)(const law_regularised *c, const double *u, double v, const double *w);
+  /* U', V' are not looked at but by tanh. */
+  planar_value (*evaluate)(const law_regularised *c, const contact_motion *at, const double *w);
   /* Where the law has them; on the limit |S| = mu N those of stick. */
-  planar_derivatives (*derivatives)(const law_regularised *c, const double *u, double v, const double *w);
+  planar_derivatives (*derivatives)(const law_regularised *c, const contact_motion *at, const double *w);
 
   /* Guards of a contact with friction that touches, but the end of contact. Those that are linear in the motion (NULL:
    * none); those that are not (NULL: none), as series, from those of U and V: u[directions][TRACK_TERMS],
@@ -123,6 +125,7 @@ typedef struct law_kind {
 } law_kind;
 
 extern const law_kind law_line, law_planar; /* one tangent; two under the law of the circle */
+extern const law_kind law_polynomial, law_tanh;
 
 struct scaled_contact {
   law_regularised law; /* without dimensions */

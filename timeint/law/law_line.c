@@ -5,15 +5,15 @@
  * are its guards. Proof: tests/timeint/test_law.c, test_structure.c. */
 #include "timeint/law/law_kind.h"
 
-static planar_value evaluate(const law_regularised *c, const double *u, double v, const double *w)
+static planar_value evaluate(const law_regularised *c, const contact_motion *at, const double *w)
 {
-  const law_value l = law_regularised_eval(c, *u, v, *w);
+  const law_value l = law_regularised_eval(c, *at->u, at->v, *w);
   return (planar_value){.n = l.n, .change = l.change, .t = {l.t}, .rate = {l.rate}};
 }
 
-static planar_derivatives derivatives(const law_regularised *c, const double *u, double v, const double *w)
+static planar_derivatives derivatives(const law_regularised *c, const contact_motion *at, const double *w)
 {
-  const law_derivatives s = law_regularised_derivatives(c, *u, v, *w);
+  const law_derivatives s = law_regularised_derivatives(c, *at->u, at->v, *w);
   return (planar_derivatives){
       .n_v = s.n_v, .t_u = {{s.t_u}}, .t_v = {s.t_v}, .rate_u = {{s.rate_u}}, .rate_v = {s.rate_v}};
 }

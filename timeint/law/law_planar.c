@@ -39,8 +39,9 @@ static overload load_of(const law_regularised *c, const double u[2], double n, c
   return o;
 }
 
-static planar_value evaluate(const law_regularised *c, const double *u, double v, const double *w)
+static planar_value evaluate(const law_regularised *c, const contact_motion *at, const double *w)
 {
+  const double *u = at->u, v = at->v;
   const law_value normal = law_regularised_eval(c, 0, v, 0); /* T = 0: of N alone */
   planar_value r = {.n = normal.n, .change = normal.change};
   if (!c->has_friction) return r;
@@ -53,8 +54,9 @@ static planar_value evaluate(const law_regularised *c, const double *u, double v
   return r;
 }
 
-static planar_derivatives derivatives(const law_regularised *c, const double *u, double v, const double *w)
+static planar_derivatives derivatives(const law_regularised *c, const contact_motion *at, const double *w)
 {
+  const double *u = at->u, v = at->v;
   const double n = law_regularised_eval(c, 0, v, 0).n;
   planar_derivatives r = {.n_v = law_regularised_derivatives(c, 0, v, 0).n_v};
   if (!c->has_friction) return r;

@@ -6,6 +6,7 @@ law_regularised law_regularised_make(const contact *c, double width, double rela
   law_regularised r = {
       .kt = c->kt, .kn = c->kn, .mu = c->mu, .gap = c->gap, .load = c->load, .width = width, .eta = relaxation * c->kt};
   r.has_friction = contact_has_friction(c);
+  if (c->smooth != CONTACT_KINKED) r.smooth = *c;
   return r;
 }
 

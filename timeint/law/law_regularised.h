@@ -31,6 +31,7 @@ typedef struct law_regularised {
   double eta;                   /* [force time/length] > 0 where has_friction */
   bool overstress;              /* the dashpot's force reaches the mass; law_regularised_make says no */
   bool has_friction;            /* kt, kn and mu all > 0; otherwise T = 0, as in the exact law, and w' = 0 */
+  contact smooth;               /* of a smooth law, all of it; else nothing */
 } law_regularised;
 
 typedef struct law_value {

@@ -5,8 +5,9 @@
 
 #include "numerics/norm.h"
 
-/* By whether two directions share a limit. */
+/* Of kinked laws by whether two directions share a limit; of smooth ones. */
 static const law_kind *const kinds[] = {&law_line, &law_planar};
+static const law_kind *const smooth_kinds[] = {[CONTACT_POLYNOMIAL] = &law_polynomial, [CONTACT_TANH] = &law_tanh};
 
 /* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force.
  * Where a contact opens or closes the motion is at least as large as the gap; a gap of 0 leaves the static motion. */
@@ -17,18 +18,25 @@ static double corner_width(const scaled_model *to, const transient_settings *how
 }
 
 /* unit [force/length]: of forces, divided by length. */
-static void make_contact(scaled_contact *sc, const model_contact *from, double unit, double length, double width,
-                         const transient_settings *how, bool moves_along)
+static void make_contact(scaled_contact *sc, const model_contact *from, double unit, double omega, double length,
+                         double width, const transient_settings *how, bool moves_along)
 {
   contact law = {.kt = from->law.kt / unit,
                  .kn = from->law.kn / unit,
                  .mu = from->law.mu,
                  .gap = from->law.gap / length,
-                 .load = from->law.load / (unit * length)};
+                 .load = from->law.load / (unit * length),
+                 .smooth = from->law.smooth,
+                 .epsilon = from->law.epsilon / (omega * length)};
+  double power_unit = unit; /* [force/length^p] */
+  for (int i = 0; i < CONTACT_POWERS && law.smooth != CONTACT_KINKED; ++i) {
+    power_unit /= length;
+    law.power[i] = from->law.power[i] / power_unit;
+  }
   if (!moves_along) law.kt = 0; /* u = 0 always: the tangential spring does no work */
   sc->law = law_regularised_make(&law, width / length, how->regularisation);
   sc->preload = contact_preload(&law);
-  sc->kind = kinds[from->circle && from->pair != CONTACT_ALONE && sc->law.has_friction];
+  sc->kind = law.smooth != CONTACT_KINKED ? smooth_kinds[law.smooth] : kinds[from->circle && sc->law.has_friction];
   sc->direction = sc->kind->directions > 1 && from->pair == CONTACT_SECOND;
 }
 
@@ -46,10 +54,12 @@ void scaled_make(scaled_model *m, const model *from, const transient_settings *h
   m->n_states = 2 * from->n + from->n_contacts;
   m->by_K = 1 / (omega * omega);
   m->by_C = 1 / omega;
+  m->by_rates = false;
   m->by_load = 1 / (omega * omega * length);
   for (int j = 0; j < from->n_contacts; ++j) {
     const model_contact *c = &from->contacts[j];
-    make_contact(&m->contact[j], c, unit, length, corner_width(m, how, &c->law), how, scaled_pull(m, j) > 0);
+    m->by_rates |= c->law.smooth == CONTACT_TANH;
+    make_contact(&m->contact[j], c, unit, omega, length, corner_width(m, how, &c->law), how, scaled_pull(m, j) > 0);
   }
 }
 
@@ -66,6 +76,14 @@ contact_motion scaled_motion_at(const scaled_model *m, int j, const double *y)
   contact_motion at;
   scaled_contact_motion(m, j, y, at.u, &at.v);
   scaled_contact_motion(m, j, y + m->n, at.du, &at.dv);
+  return at;
+}
+
+contact_motion scaled_law_motion(const scaled_model *m, int j, const double *y)
+{
+  contact_motion at = {0};
+  if (m->by_rates) return scaled_motion_at(m, j, y);
+  scaled_contact_motion(m, j, y, at.u, &at.v);
   return at;
 }
 
@@ -87,10 +105,9 @@ contact_state scaled_state_of(const scaled_model *m, int j, double v, const plan
 contact_state scaled_contact_state(const scaled_model *m, int j, const double *y)
 {
   const int first = scaled_first(m, j);
-  double u[2], v;
-  scaled_contact_motion(m, first, y, u, &v);
-  const planar_value at = m->contact[first].kind->evaluate(&m->contact[first].law, u, v, y + 2 * m->n + first);
-  return scaled_state_of(m, first, v, &at);
+  const contact_motion moves = scaled_law_motion(m, first, y);
+  const planar_value at = m->contact[first].kind->evaluate(&m->contact[first].law, &moves, y + 2 * m->n + first);
+  return scaled_state_of(m, first, moves.v, &at);
 }
 
 double scaled_pull(const scaled_model *m, int j)
@@ -123,9 +140,8 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     /* The regularised law of the contact whose first direction is j, at y. */
     const scaled_contact *c = &m->contact[j];
-    double u[2], v;
-    scaled_contact_motion(m, j, y, u, &v);
-    const planar_value l = c->kind->evaluate(&c->law, u, v, y + 2 * m->n + j);
+    const contact_motion moves = scaled_law_motion(m, j, y);
+    const planar_value l = c->kind->evaluate(&c->law, &moves, y + 2 * m->n + j);
     for (int a = 0; a < scaled_directions(m, j); ++a) {
       const size_t at = (size_t)(j + a) * (size_t)n;
       const double *t = m->base->tangent + at, *normal = m->base->normal + at;
@@ -177,9 +193,10 @@ void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
     const size_t w = 2 * n + (size_t)j;
     const int directions = scaled_directions(m, j);
     const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
-    double u[2], v;
-    scaled_contact_motion(m, j, y, u, &v);
-    const planar_derivatives s = m->contact[j].kind->derivatives(&m->contact[j].law, u, v, y + w);
+    const contact_motion moves = scaled_law_motion(m, j, y);
+    const planar_derivatives s = m->contact[j].kind->derivatives(&m->contact[j].law, &moves, y + w);
+    for (size_t col = 0; col < n && s.t_du != 0; ++col)
+      for (size_t row = 0; row < n; ++row) jac[(n + col) * ld + n + row] -= s.t_du * t[row] * t[col];
     for (int a = 0; a < directions; ++a)
       for (int b = 0; b < directions; ++b) add_direction(jac, n, ld, w, t, a, b, &s);
     for (int a = 0; a < directions; ++a) {

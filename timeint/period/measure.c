@@ -243,8 +243,9 @@ int measure_resting_sliders(const measure *me)
   return resting;
 }
 
-contact_regime measure_seen_regime(unsigned char seen)
+contact_regime measure_seen_regime(unsigned char seen, const contact *law)
 {
+  if (law->smooth == CONTACT_POLYNOMIAL || (law->smooth == CONTACT_TANH && seen == SEEN_STUCK)) return CONTACT_BENDS;
   if (!(seen & (SEEN_STUCK | SEEN_SLIPPING))) return CONTACT_LINEAR;
   if (seen & SEEN_SEPARATED) return CONTACT_SEPARATES;
   return seen & SEEN_SLIPPING ? CONTACT_SLIPS : CONTACT_STUCK;
@@ -266,7 +267,6 @@ void measure_report(const measure *me, const model *from, int i, double length, 
   for (int k = 0; k < TIMEINT_WAVE; ++k) r->wave[k] = of->wave[k] * length;
   r->regime = CONTACT_LINEAR;
   for (int j = 0; j < from->n_contacts; ++j) {
-    contact_regime one = measure_seen_regime(me->seen[j]);
-    if (one > r->regime) r->regime = one;
+    r->regime = contact_regime_larger(r->regime, measure_seen_regime(me->seen[j], &from->contacts[j].law));
   }
 }

@@ -24,7 +24,7 @@ typedef struct response_measure { /* of one response r, an oscillator's is X */
 /* What a contact was seen to do: a sum of these. */
 enum { SEEN_SEPARATED = 1, SEEN_STUCK = 2, SEEN_SLIPPING = 4 };
 unsigned char measure_seen(contact_state state);
-contact_regime measure_seen_regime(unsigned char seen);
+contact_regime measure_seen_regime(unsigned char seen, const contact *law);
 
 typedef struct measure { /* lengths in units of the model's L, until measure_report */
   const scaled_model *m;

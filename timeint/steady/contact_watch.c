@@ -51,9 +51,10 @@ static contact_instant contact_at(const contact_watch *w, int j)
   const scaled_contact *c = &m->contact[first];
   const double *slider = w->y + 2 * m->n + first, *slides = w->dy + 2 * m->n + first;
   const bool exact = w->ti->how.law == TRANSIENT_LAW_EXACT;
-  double u[2], du[2];
-  const double v = motion_of(w, w->q, first, u), dv = motion_of(w, w->dq, first, du);
-  const planar_value value = c->kind->evaluate(&c->law, u, v, slider);
+  contact_motion moves;
+  moves.v = motion_of(w, w->q, first, moves.u), moves.dv = motion_of(w, w->dq, first, moves.du);
+  const double *u = moves.u, *du = moves.du, v = moves.v, dv = moves.dv;
+  const planar_value value = c->kind->evaluate(&c->law, &moves, slider);
   contact_instant at = {.du = du[j - first], .dv = dv, .normal = value.n};
   at.state = exact ? integrate_contact(w->in, j, w->y) : scaled_state_of(m, first, v, &value);
   if (j > first) { /* the first has all but N */
@@ -61,6 +62,11 @@ static contact_instant contact_at(const contact_watch *w, int j)
     return at;
   }
   if (directions > 1) at.du = (u[0] - slider[0]) * du[0] + (u[1] - slider[1]) * du[1];
+  if (c->kind->smooth) {
+    at.pull = value.t[0];
+    at.slip = value.n > 0 ? fabs(at.du) : 0;
+    at.loss = value.t[0] * at.du;
+  }
   if (!c->law.has_friction || at.state == CONTACT_SEPARATED) return at;
   const bool slips = at.state != CONTACT_STICK;
   const double *rate = exact ? slides : value.rate;
@@ -188,8 +194,10 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
     const double length = of->length, force = scaled_force_unit(&of->scaled, of->omega, length);
     for (int j = 0; j < w.n_contacts; ++j) {
       const contact_sums *s = &w.of[j];
-      const bool slipped = s->seen & SEEN_SLIPPING; /* else the closed integral of T u' is 0 but for rounding */
-      out[j] = (contact_period){.regime = measure_seen_regime(s->seen),
+      const bool slipped =
+          s->seen & SEEN_SLIPPING ||
+          of->scaled.contact[j].kind->smooth; /* else the closed integral of T u' is 0 but for rounding */
+      out[j] = (contact_period){.regime = measure_seen_regime(s->seen, &of->model->contacts[j].law),
                                 .normal_min = s->normal_min * force,
                                 .normal_max = s->normal_max * force,
                                 .traction_max = s->traction_max * force,

@@ -66,7 +66,7 @@ static bool keeps_state(const one_contact *c, double x, double w, double center,
 {
   const law_regularised *law = c->law;
   const double clear = LAW_SOFT_END * law->width;
-  if (law->load != 0) return false;
+  if (law->load != 0 || law->smooth.smooth != CONTACT_KINKED) return false;
   if (law->kn == 0) return true;     /* N = 0 always */
   if (law->overstress) return false; /* the slider of a separated contact acts on X as a dashpot */
   if (!closed(c, x)) return positive_within(-law->gap - clear, -c->sine, center, reach);

@@ -61,7 +61,8 @@ static hc_status make(const model *m, const transient_settings *how, bool may_sl
   if (!(ok && m->n_responses > 0)) return HC_BAD_INPUT;
   for (int j = 0; j < m->n_contacts; ++j)
     if (!contact_ok(&m->contacts[j])) return HC_BAD_INPUT;
-  if (how->method == TRANSIENT_METHOD_CLOSED_FORM && how->law != TRANSIENT_LAW_EXACT) return HC_BAD_INPUT;
+  if (how->method == TRANSIENT_METHOD_CLOSED_FORM && (how->law != TRANSIENT_LAW_EXACT || model_is_smooth(m)))
+    return HC_BAD_INPUT;
   if (!positive(how->regularisation) || !positive(how->tolerance) || how->max_periods < 1) return HC_BAD_INPUT;
   hc_status st = HC_OK;
   if (st != HC_OK) return st;
@@ -69,6 +70,7 @@ static hc_status make(const model *m, const transient_settings *how, bool may_sl
   timeint *ti = calloc(1, sizeof *ti); /* zeroed, so free works half-built */
   if (!ti) return HC_NO_MEMORY;
   ti->how = *how;
+  ti->how.scout = how->scout && !model_is_smooth(m); /* which has no closed form */
   ti->owners = 1;
   ti->may_slow = may_slow;
   ti->fastest = INFINITY;
@@ -100,7 +102,7 @@ hc_status timeint_new(const model *m, const transient_settings *how, timeint **o
   *out = NULL;
   hc_status st = make(m, how, !closed, &ti);
   if (st == HC_OK && closed && mass_scaling_may_pay(ti->whole)) st = make(m, how, true, &ti->slowed);
-  if (st == HC_OK && !closed && how->scout) st = closed_start_new(ti);
+  if (st == HC_OK && !closed && ti->how.scout) st = closed_start_new(ti);
   return keep_or_free(ti, st, out);
 }
 

@@ -80,14 +80,15 @@ static void turn_one_side(int n, double *direction)
 static void change_pair(model_contact *c, verify_change change)
 {
   const contact_pair without = change == CHANGE_NO_TANGENT_1 ? CONTACT_FIRST : CONTACT_SECOND;
-  if (c->pair == CONTACT_ALONE) return;
+  if (c->pair == CONTACT_ALONE || c->pair == CONTACT_MORE) return;
   c->circle = change == CHANGE_CIRCLE_LIMIT;
   if ((change == CHANGE_NO_TANGENT_1 || change == CHANGE_NO_TANGENT_2) && c->pair == without) c->law.mu = 0;
 }
 
 static void change_contact(int n, model_contact *c, verify_change change, double factor)
 {
-  const double halves = c->pair == CONTACT_ALONE ? 1 : 2; /* of the normal stiffness (model.h) */
+  /* Of the normal stiffness (model.h). */
+  const double halves = c->pair == CONTACT_ALONE || c->pair == CONTACT_MORE ? 1 : 2;
   const double kt = c->law.kt, angle = n == 1 ? atan2(*c->normal, *c->tangent) : 0, degree = TWO_PI / 360;
   switch (change) {
   case CHANGE_KT: c->law.kt *= factor; break;
@@ -298,7 +299,7 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
   }
   if (verify_changes[c].part == PART_PAIR && which >= 0) change_numbering(own, c, which / m->n, which % m->n);
   for (int j = 0, whole = -1; j < own->n_contacts; ++j) {
-    whole += own->contacts[j].pair != CONTACT_SECOND;
+    whole += !contact_goes_on(own->contacts[j].pair);
     if (which < 0 || which == whole) change_contact(m->n, &own->contacts[j], c, how->factor);
   }
   if (c == CHANGE_RESPONSE && which >= 0)

@@ -1,0 +1,106 @@
+/* contact_kinds.c - contacts whose law the case names: coefficients and points as they are read, and which field is
+ * whose. What they are in the model: contact_model.c. */
+#include <math.h>
+#include <string.h>
+
+#include "casefile/case_reader.h"
+
+bool field_is_of_law(const field *f, const scene_contact *c)
+{
+  const unsigned laws = f->laws ? f->laws : SCENE_LAWS(SCENE_LAW_CONTACT);
+  return f->laws == SCENE_ANY_LAW || laws & SCENE_LAWS(c->kind);
+}
+
+bool field_is_echoed(const field *f, const scene_contact *c)
+{
+  if (!strcmp(f->name, "law")) return c->kind != SCENE_LAW_CONTACT;
+  if (!strncmp(f->name, "coefficients.", 13)) return *(const double *)field_look(f, c) != 0;
+  return field_is_of_law(f, c);
+}
+
+/* ---- reading -------------------------------------------------------------------------------------- */
+
+static hc_status read_coefficients(case_reader *r, const field *f, int j, scene_contact *c, const yaml_node_t *node)
+{
+  char path[FIELD_PATH], name[FIELD_PATH];
+  bool seen[CONTACT_POWERS] = {false};
+  if (node->type != YAML_MAPPING_NODE || yaml_keys(node) == 0)
+    return yaml_refuse(r, node, "%s is %s, expected %s", field_path(f, j, path),
+                       node->type == YAML_MAPPING_NODE ? "empty" : yaml_node_what(node), f->expects);
+  memset(c->law.power, 0, sizeof c->law.power);
+  for (int i = 0; i < yaml_keys(node); ++i) {
+    const yaml_node_t *key = yaml_key(r, node, i);
+    hc_status st = yaml_check_key(r, key);
+    if (st != HC_OK) return st;
+    snprintf(name, sizeof name, "coefficients.%.20s", yaml_node_text(key));
+    const field *one = field_named("contacts", name);
+    if (!one)
+      return yaml_refuse(r, key, "%s has the power %s, expected one of 2..9 (a linear spring is part of the stiffness)",
+                         field_path(f, j, path), YAML_QUOTED(key));
+    bool *before = &seen[(double *)field_place(one, c) - c->law.power];
+    if (*before) return yaml_refuse(r, key, "%s gives a power twice, expected each once", field_path(f, j, path));
+    *before = true;
+    if ((st = yaml_scene_value(r, one, j, c, yaml_value(r, node, i))) != HC_OK) return st;
+    r->at[field_index(one)] = yaml_place(r, yaml_value(r, node, i));
+  }
+  return HC_OK;
+}
+
+static hc_status read_points(case_reader *r, const field *f, int j, scene_contact *c, const yaml_node_t *node)
+{
+  char path[FIELD_PATH];
+  const int n = node->type == YAML_SEQUENCE_NODE ? yaml_length(node) : -1;
+  field_path(f, j, path);
+  if (n < 2 || n > SCENE_MOST_POINTS)
+    return yaml_refuse(r, node, n < 0 ? "%s is %s, expected %s" : "%s is %s of too few or too many, expected %s", path,
+                       yaml_node_what(node), f->expects);
+  c->n_points = n;
+  for (int i = 0; i < n; ++i) {
+    const yaml_node_t *point = yaml_entry(r, node, i);
+    double *at = c->points[i];
+    if (point->type != YAML_SEQUENCE_NODE || yaml_length(point) != 2)
+      return yaml_refuse(r, point, "%s has %s as a point, expected [DISTANCE, FORCE]", path, yaml_node_what(point));
+    for (int k = 0; k < 2; ++k) {
+      const hc_status st = yaml_number(r, yaml_entry(r, point, k), path, &at[k]);
+      if (st != HC_OK) return st;
+    }
+    if (i == 0) continue;
+    if (!(at[0] > at[-2]))
+      return yaml_refuse(r, point, "%s has the distance %.10g behind %.10g, expected ascending ones", path, at[0],
+                         at[-2]);
+    if (!isfinite((at[1] - at[-1]) / (at[0] - at[-2])))
+      return yaml_refuse(r, point, "%s has a slope too large to be held, expected a finite one", path);
+  }
+  return HC_OK;
+}
+
+bool yaml_is_law_part(const field *f)
+{
+  return f->kind == FIELD_PART && (!strcmp(f->name, "coefficients") || !strcmp(f->name, "points"));
+}
+
+hc_status yaml_law_part(case_reader *r, const field *f, int j, const yaml_node_t *node)
+{
+  scene_contact *c = r->sc.structure ? &r->sc.structure->contacts[j].given : &r->sc.contacts[j];
+  return (*f->name == 'c' ? read_coefficients : read_points)(r, f, j, c, node);
+}
+
+hc_status case_check_law(case_reader *r, int j, const scene_contact *c, case_place place)
+{
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i);
+    if (!(f->flags & FIELD_IN_CONTACT) || !case_given(r, f) || field_is_of_law(f, c)) continue;
+    const field *law = field_named("contacts", "law");
+    message *m = case_blame(r, r->at[i]);
+    message_add(m, "%s in `contacts[%d]`, whose law is %s, expected one of", f->name, j, law->choices[c->kind]);
+    for (int k = 0, n = 0; k < field_count(); ++k)
+      if (field_at(k)->flags & FIELD_IN_CONTACT && field_is_of_law(field_at(k), c) && !strchr(field_at(k)->name, '.'))
+        message_add(m, "%s %s", n++ ? "," : "", field_at(k)->name);
+    return HC_BAD_INPUT;
+  }
+  if (c->kind == SCENE_LAW_TABLE && c->n_points < 2)
+    return case_refuse(r, place, "contacts[%d] is a table without `points`, expected [[DISTANCE, FORCE], ...]", j);
+  if (c->kind == SCENE_LAW_TANH && !(c->law.epsilon > 0))
+    return case_refuse(r, place, "contacts[%d] is a tanh without `epsilon`, expected a number > 0", j);
+  return HC_OK;
+}

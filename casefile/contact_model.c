@@ -1,0 +1,65 @@
+/* contact_model.c - the contacts of the model that a contact of the case is; see scene.h. */
+#include <math.h>
+#include <string.h>
+
+#include "casefile/scene.h"
+
+contact scene_contact_law(const scene_contact *c)
+{
+  contact law = {0};
+  switch (c->kind) {
+  case SCENE_LAW_POLYNOMIAL:
+    law.smooth = CONTACT_POLYNOMIAL;
+    memcpy(law.power, c->law.power, sizeof law.power);
+    return law;
+  case SCENE_LAW_TABLE: return law;
+  case SCENE_LAW_TANH:
+    law = (contact){.kn = c->law.kn, .mu = c->law.mu, .gap = c->law.gap, .smooth = CONTACT_TANH};
+    law.epsilon = c->law.epsilon;
+    return law;
+  default:
+    law = c->law;
+    law.epsilon = 0;
+    memset(law.power, 0, sizeof law.power);
+    return law;
+  }
+}
+
+int scene_contact_parts(const scene_contact *c)
+{
+  return c->kind == SCENE_LAW_TABLE && c->n_points > 3 ? c->n_points - 2 : 1;
+}
+
+static double slope(const scene_contact *c, int i)
+{
+  return (c->points[i + 1][1] - c->points[i][1]) / (c->points[i + 1][0] - c->points[i][0]);
+}
+
+double scene_contact_slope(const scene_contact *c)
+{
+  double k = c->kind == SCENE_LAW_TABLE ? slope(c, 0) : 0;
+  for (int i = 1; c->kind == SCENE_LAW_TABLE && i + 1 < c->n_points; ++i) k += fmin(slope(c, i) - slope(c, i - 1), 0);
+  return k;
+}
+
+double scene_contact_stiffness(const scene_contact *c, bool at_rest)
+{
+  double k = scene_contact_slope(c);
+  for (int i = 1; c->kind == SCENE_LAW_TABLE && i + 1 < c->n_points; ++i) {
+    const double change = slope(c, i) - slope(c, i - 1);
+    if (!at_rest || change * c->points[i][0] < 0) k += fabs(change);
+  }
+  return k;
+}
+
+/* Where the table's slope rises by k at d, there is one spring more: it closes there. Where it falls, one less: it
+ * opens there, k long before that; hence the mirrored direction, and scene_contact_slope. */
+void scene_contact_put(const scene_contact *c, int n, const double *direction, model_contact *to)
+{
+  for (int i = 0; i < scene_contact_parts(c); ++i) {
+    const double k = i + 2 < c->n_points ? slope(c, i + 1) - slope(c, i) : 0, side = k < 0 ? -1 : 1;
+    to[i].law = (contact){.kn = fabs(k), .gap = k == 0 ? 0 : -side * c->points[i + 1][0]};
+    to[i].pair = i == 0 ? CONTACT_ALONE : CONTACT_MORE;
+    for (int d = 0; d < n; ++d) to[i].normal[d] = side * direction[d];
+  }
+}

@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""Polynomial springs, tables and tanh friction, from the case file to the verdict.
+
+    laws.py HBMCHECK ROOT
+
+Both sides meet; what is a table is what it stands for; what is wrong is refused with its place."""
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+
+HBMCHECK, ROOT = sys.argv[1:3]
+FOLDER = tempfile.mkdtemp()
+DUFFING = """title: Duffing
+oscillator: {mass: 1, damping: 0.05, stiffness: 1}
+forcing: {amplitude: 0.05}
+contacts:
+  - {law: polynomial, coefficients: {3: 3}}
+sweep: {omega: [0.5, 2.0]}
+hbm: {harmonics: 15}
+"""
+MIXED = """title: mixed laws
+structure: {mass: [1, 0.5, 0.2], stiffness: [[3, -1, 0], [-1, 2, -1], [0, -1, 1.5]], damping: {rayleigh: [0.02, 0.01]}}
+forcing: [{dof: 1, amplitude: 1}, {dof: 3, amplitude: 0.2, harmonic: 2, phase_deg: 30}]
+contacts:
+  - {name: cubic, law: polynomial, direction: {1: 1, 2: -1}, coefficients: {3: 0.5, 2: 0.1}}
+  - {tangential_stiffness: 2, friction: 0.3, preload: 1, tangent: {3: 1}}
+  - {name: stop, law: table, direction: {2: 1}, points: [[-2, -1], [0, 0], [0.3, 0.1], [1, 3]]}
+  - {law: tanh, friction: 0.2, normal_stiffness: 2, gap: 0.4, epsilon: 0.2, tangent: {1: 1}, normal: {3: 1}}
+sweep: {omega: [0.8, 2.0]}
+hbm: {harmonics: 15}
+"""
+GAP = """oscillator: {mass: 1, damping: 0.1, stiffness: 1}
+forcing: {amplitude: 1}
+contacts:
+  - CONTACT
+sweep: {omega: [0.5, 3.0]}
+hbm: {harmonics: 15}
+"""
+
+
+def write(text, name="case.yaml"):
+    path = os.path.join(FOLDER, name)
+    with open(path, "w", encoding="ascii") as f:
+        f.write(text)
+    return path
+
+
+def run(*words, code=0):
+    p = subprocess.run([HBMCHECK, *words], capture_output=True, text=True, check=False)
+    assert p.returncode == code, f"{words} gave {p.returncode}: {p.stdout[-400:]} {p.stderr[-400:]}"
+    return p
+
+
+def rows(*words, code=0):
+    text = run(*words, "--wide", "--format", "csv", code=code).stdout
+    return list(csv.DictReader(line for line in text.splitlines() if line and line[0] != "#"))
+
+
+def near(a, b, tolerance, what):
+    assert abs(float(a) - float(b)) <= tolerance, f"{what}: {a}, {b}"
+
+
+def duffing_meets_time_integration():
+    """H = 15 leaves less than 1e-9 of the amplitude (harmonic 17 of a cubic spring at these amplitudes), and time
+    integration is within its tolerance of 1e-9; multipliers of the regularised law's variational equations, and of the
+    exact law's differences, which are good to 1e-7."""
+    case = write(DUFFING)
+    for law in ("regularised", "exact"):
+        found = rows("compare", case, "--at", "0.8,1.2,1.4", "--set", f"transient.law={law}")
+        matches = [r for r in found if r["verdict"] == "match"]
+        assert len(found) == 7 and len(matches) == 5 and all(r["verdict"] in ("match", "unstable") for r in found)
+        for r in matches:
+            assert float(r["amplitude_error"]) < 1e-9, r
+        balance = rows("frf", case, "--at", "1.2")
+        for k, r in enumerate(rows("transient", case, "--at", "1.2", "--set", f"transient.law={law}")):
+            if balance[k]["stable"] == "yes":
+                near(r["multiplier"], balance[k]["multiplier"], 2e-7, law)
+                assert r["contact"] == balance[k]["contact"] == "smooth"
+
+
+def mixed_laws_meet():
+    """To what 15 harmonics leave of kinks; three times as many leave some 3^-3 of that."""
+    case = write(MIXED)
+    errors = []
+    for harmonics in (15, 45):
+        for law in ("regularised", "exact"):
+            found = rows("compare", case, "--at", "1.5", "--set", f"hbm.harmonics={harmonics}", "--set",
+                         f"transient.law={law}")
+            assert [r["verdict"] for r in found] == ["match"], found
+        errors.append(max(float(r["amplitude_error"]) for r in found))
+    assert errors[0] < 1e-3 and errors[1] < errors[0] / 9, errors
+    echoed = run("describe", "--case", case).stdout
+    assert "[[-2, -1], [0, 0], [0.3, 0.1], [1, 3]]" in echoed and "contacts[0].coefficients.3" in echoed
+    prove = rows("prove", case, "--at", "0.9")
+    assert prove[0]["verdict"] == "unproven" and prove[0]["reason"] == "smooth law"
+
+
+def a_table_is_what_it_stands_for():
+    """Two points are a spring, three a gap: the same equations but for the rounding of slopes."""
+    gap = "{tangential_stiffness: 0, normal_stiffness: 4, friction: 0, angle_deg: 90, gap: -0.5}"
+    pairs = (("{law: table, points: [[-1, 0], [0.5, 0], [1.5, 4]]}", gap, "1"),
+             ("{law: table, points: [[-1, -3], [1, 3]]}", "", "4"),
+             ("{law: table, points: [[-3, -1], [-0.5, 0], [1.5, 0]]}", None, "1"))
+    for table, other, stiffness in pairs:
+        one = write(GAP.replace("CONTACT", table))
+        if other is None:  # mirrored: what it does to cos(omega t) the other does half a period later
+            other = "{law: table, points: [[-1.5, 0], [0.5, 0], [3, 1]]}"
+        text = GAP.replace("CONTACT", other) if other else GAP.replace("\n  - CONTACT", " []")
+        two = write(text.replace("stiffness: 1}", f"stiffness: {stiffness}}}"), "other.yaml")
+        a, b = (rows("frf", c, "--at", "1.5,2.2") for c in (one, two))
+        assert len(a) == len(b) == 2
+        for r, s in zip(a, b):
+            near(r["amplitude"], s["amplitude"], 1e-12, table)
+            near(r["multiplier"], s["multiplier"], 1e-12, table)
+        found = rows("compare", one, "--at", "1.5", "--set", "transient.law=exact", "--set", "transient.method=closed_form")
+        assert found[0]["verdict"] == "match", found
+        assert rows("prove", one, "--at", "1.5")[0]["verdict"] == "proven"
+
+
+def what_is_wrong_is_refused():
+    wrong = (
+        ("{law: polynomial}", "4:5: missing key `coefficients`"),
+        ("{law: polynomial, coefficients: {}}", "4:37: contacts[0].coefficients is empty"),
+        ("{law: polynomial, coefficients: 3}", "4:37: contacts[0].coefficients is a single value"),
+        ("{law: polynomial, coefficients: {1: 3}}", "4:38: contacts[0].coefficients has the power `1`"),
+        ("{law: polynomial, coefficients: {10: 3}}", "4:38: contacts[0].coefficients has the power `10`"),
+        ("{law: polynomial, coefficients: {2.5: 3}}", "4:38: contacts[0].coefficients has the power `2.5`"),
+        ("{law: polynomial, coefficients: {3: nan}}", "4:41: contacts[0].coefficients.3 is `nan`"),
+        ("{law: polynomial, coefficients: {3: 1e400}}", "4:41: contacts[0].coefficients.3 is `1e400`"),
+        ("{law: polynomial, coefficients: {3: 1, 3: 2}}", "4:44: contacts[0].coefficients gives a power twice"),
+        ("{law: polynomial, coefficients: {3: 1}, friction: 0.3}", "4:55: friction in `contacts[0]`, whose law is polynomial"),
+        ("{law: table, points: []}", "4:26: contacts[0].points is a list of too few or too many"),
+        ("{law: table, points: [[0, 0]]}", "4:26: contacts[0].points is a list of too few or too many"),
+        ("{law: table, points: [[0, 0], [0, 1]]}", "4:35: contacts[0].points has the distance 0 behind 0"),
+        ("{law: table, points: [[1, 0], [0, 1]]}", "4:35: contacts[0].points has the distance 0 behind 1"),
+        ("{law: table, points: [[0, 0], [1, nan]]}", "4:39: contacts[0].points is `nan`"),
+        ("{law: table, points: [[0, 0], [1, 2, 3]]}", "4:35: contacts[0].points has a list as a point"),
+        ("{law: table, points: [[0, 0], [1e-300, 1e300]]}", "4:35: contacts[0].points has a slope too large"),
+        ("{law: tanh, normal_stiffness: 1, friction: 0.3, angle_deg: 0, epsilon: 0}", "4:76: contacts[0].epsilon is `0`"),
+        ("{law: tanh, normal_stiffness: 1, friction: 0.3, angle_deg: 0, epsilon: -1}", "4:76: contacts[0].epsilon is `-1`"),
+        ("{law: tanh, normal_stiffness: 1, friction: 0.3, angle_deg: 0}", "4:5: contacts[0] is a tanh without `epsilon`"),
+        ("{law: cubic, coefficients: {3: 1}}", "4:11: contacts[0].law is `cubic`, expected contact, polynomial, table or tanh"),
+    )
+    for contact, words in wrong:
+        path = write(GAP.replace("CONTACT", contact))
+        said = run("frf", path, code=2).stderr
+        assert f"{path}:{words}" in said, f"{contact}: {said} is not {words}"
+    path = write(DUFFING)
+    said = run("transient", path, "--at", "1", "--set", "transient.law=exact", "--set", "transient.method=closed_form",
+               code=2).stderr
+    assert "smooth law, which has no closed form" in said, said
+
+
+def assignments_reach_them():
+    case = write(DUFFING)
+    plain = rows("frf", case, "--at", "1")[0]["amplitude"]
+    for words in ("contacts[0].coefficients.3=3", "contacts[0].coefficients={3: 3}", "contacts[0]={law: polynomial, coefficients: {3: 3}}"):
+        assert rows("frf", case, "--at", "1", "--set", "contacts[0].coefficients.3=1", "--set", words)[0]["amplitude"] == plain
+    softer = rows("frf", case, "--at", "1", "--set", "contacts[0].coefficients.3=0")[0]
+    near(softer["amplitude"], 1, 1e-12, "without the cubic spring: F0/(C omega)")
+
+
+duffing_meets_time_integration()
+mixed_laws_meet()
+a_table_is_what_it_stands_for()
+what_is_wrong_is_refused()
+assignments_reach_them()
