@@ -31,6 +31,7 @@ typedef struct placed_contact {
 typedef struct evaluator_settings {
   int n_harm, n_time; /* n_time: of sampled forces */
   hbm_restart restart;
+  hbm_mistakes mistakes; /* contact_forces.h makes those of friction */
 } evaluator_settings;
 
 /* A law in one way of integrating it over the period. F[n_dof][2H+1] [force], X likewise [length]; jac[row + ld col],
