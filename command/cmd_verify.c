@@ -142,7 +142,7 @@ static const char help[] =
     "omega=1,harmonic_1=2";
 
 typedef struct verify_options {
-  const char *against, *noise; /* NULL: not given */
+  const char *against, *noise, *patience; /* NULL: not given */
   verify_asked asked;
 } verify_options;
 
@@ -158,6 +158,8 @@ static const cli_option options[] = {
      offsetof(verify_options, asked.responses)},
     {CLI_TEXT, "noise", "S", "A measured curve: standard deviation of its values relative to the amplitude [0]",
      offsetof(verify_options, noise)},
+    {CLI_TEXT, "patience", "SECONDS", "Processor time to search for the cause; what is found until then is said [30]",
+     offsetof(verify_options, patience)},
     CLI_PLOT_OPTION,
     {0},
 };
@@ -178,19 +180,16 @@ static const char *const spare_hypothesis_columns[] = {"slider_restart", "omega_
                                                        "static",         "truth_distance", "quantity",
                                                        "samples",        "harmonics",      NULL};
 
-/* A curve of the file, and what came of it. */
-typedef struct verified {
-  verify_curve curve;
-  verify_data data;
-  verify_report report;
-} verified;
-
+/* The curves of the file, and what came of them. */
 typedef struct verify_call {
   cli_common *common;
   const verify_options *own;
   scene *sc;
-  int n;        /* curves */
-  verified *of; /* [n] */
+  int n;                                   /* curves */
+  verify_curve curves[VERIFY_MOST_CURVES]; /* [n] */
+  verify_data data[VERIFY_MOST_CURVES];    /* [n] */
+  verify_report *reports;                  /* [n] */
+  verify_effort effort;
 } verify_call;
 
 static const char *meaning_for_point(verdict v)
@@ -237,6 +236,8 @@ static void note_verification(table *t, const scene *sc, const verify_data *data
   table_note(t, "%s", verify_sentence(r, text));
   table_note(t, "cause: %s", verify_word(r, text));
   if (r->nearest_guess) table_note(t, "nearest guess: %s", verify_cause_words(r->nearest_guess, text));
+  if (!r->causes && *r->tried) table_note(t, "tried: %s", r->tried);
+  if (*r->not_tried) table_note(t, "NOT tried, out of patience (--patience): %s", r->not_tried);
 }
 
 /* Points and what came out; the table on a screen has no summary, since the remarks say it, csv the points alone. */
@@ -252,15 +253,16 @@ static int write_tables(const verify_call *call)
   int n = 1, n_hypotheses = 0;
   table_note(points, "%s", sc->title);
   for (int k = 0; k < call->n; ++k) {
-    const verified *v = &call->of[k];
-    const verify_report *r = &v->report;
+    const verify_report *r = &call->reports[k];
+    const verify_data *data = &call->data[k];
+    const char *response = call->curves[k].name;
     for (int i = 0; i < r->n_rows; ++i) {
       const verify_row *row = &r->rows[i];
-      const verify_quantity *q = &v->data.quantity;
+      const verify_quantity *q = &data->quantity;
       const char *stable = row->stable > 0 ? "yes" : row->stable < 0 ? "no" : "unknown";
       TABLE_ROW(points, CELL(row->omega), CELL_OF(sc->in_cycles, scene_frequency(sc, row->omega)),
                 CELL(verify_quantity_to_column(q, row->value)), CELL(verify_quantity_to_column(q, row->nearest)),
-                CELL_IF(row->branch >= 0, row->branch), CELL_OF(of_structure, v->curve.name),
+                CELL_IF(row->branch >= 0, row->branch), CELL_OF(of_structure, response),
                 CELL_IF(row->branch >= 0, stable), CELL(row->error),
                 CELL(row->skipped ? "skipped" : verdict_name(row->verdict)), CELL(row->line));
     }
@@ -268,21 +270,21 @@ static int write_tables(const verify_call *call)
       const verify_hypothesis *h = &r->hypotheses[i];
       const verify_equations *e = &h->equations;
       const bool linear = verify_equations_linear(e);
-      TABLE_ROW(hypotheses, CELL_OF(of_structure, v->curve.name), CELL(verify_cause_words(h->causes, words)),
+      TABLE_ROW(hypotheses, CELL_OF(of_structure, response), CELL(verify_cause_words(h->causes, words)),
                 CELL(h->distance), CELL(r->truth_distance), CELL_IF(!linear, e->harmonics),
                 CELL_IF(!linear, e->keep_mean ? "true" : "false"), CELL_IF(e->samples > 0, e->samples),
                 CELL_IF(e->samples > 0, e->restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated"),
                 CELL(h->omega_factor), CELL(h->value_factor), CELL(verify_quantity_name(&h->quantity, name)));
     }
     n_hypotheses += r->n_hypotheses;
-    TABLE_ROW(summary, CELL_OF(of_structure, v->curve.name), CELL(verify_word(r, words)),
+    TABLE_ROW(summary, CELL_OF(of_structure, response), CELL(verify_word(r, words)),
               CELL(r->nearest_guess ? verify_cause_words(r->nearest_guess, guess) : NULL),
-              CELL(verify_quantity_name(&v->data.quantity, name)), CELL(r->n_rows), CELL(r->count[VERDICT_MATCH]),
+              CELL(verify_quantity_name(&data->quantity, name)), CELL(r->n_rows), CELL(r->count[VERDICT_MATCH]),
               CELL(r->count[VERDICT_DIFFERS]), CELL(r->count[VERDICT_UNSTABLE]), CELL(r->count[VERDICT_OTHER_BRANCH]),
               CELL(r->count[VERDICT_SOLVER_FAILED]), CELL(r->skipped), CELL(r->left_out), CELL(r->reversals),
               CELL(r->truth_distance), CELL(r->noise), CELL(verify_sentence(r, sentence)));
-    if (sc->structure) table_note(points, "response %s", v->curve.name);
-    note_verification(points, sc, &v->data, r);
+    if (sc->structure) table_note(points, "response %s", response);
+    note_verification(points, sc, data, r);
   }
   table_spare(hypotheses, spare_hypothesis_columns);
   if (n_hypotheses && call->common->format != FORMAT_CSV) tables[n++] = hypotheses;
@@ -294,27 +296,28 @@ static int write_tables(const verify_call *call)
   return code;
 }
 
-/* A curve of --against, read as --columns and --quantity say. 0 or the exit code after the message. */
-static int read_curve(const verify_call *call, double noise, verified *v)
+/* Curve k of --against, read as --columns and --quantity say. 0 or the exit code after the message. */
+static int read_curve(verify_call *call, double noise, int k)
 {
   const cli_common *common = call->common;
-  const char *list = *v->curve.columns ? v->curve.columns : NULL;
+  const verify_curve *curve = &call->curves[k];
+  verify_data *data = &call->data[k];
   verify_columns where;
   char words[VERIFY_TEXT];
-  if (verify_columns_read(list, call->own->asked.quantity, &where, words) != HC_OK)
+  if (verify_columns_read(*curve->columns ? curve->columns : NULL, call->own->asked.quantity, &where, words) != HC_OK)
     return cli_failed(common, EXIT_USAGE, "%s", words);
-  where.response = call->sc->structure ? v->curve.name : NULL;
-  hc_status st = verify_data_read(call->own->against, &where, &v->data, words);
-  v->data.noise = noise;
-  v->data.response = v->curve.response;
-  v->data.with_line = call->common->drawing.path;
+  where.response = call->sc->structure ? curve->name : NULL;
+  hc_status st = verify_data_read(call->own->against, &where, data, words);
+  data->noise = noise;
+  data->response = curve->response;
+  data->with_line = common->drawing.path;
   if (st != HC_OK) {
     fprintf(stderr, "%s\n", words);
     return st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE;
   }
-  const char *refused = call->sc->structure ? verify_quantity_refused_of_structure(&v->data.quantity) : NULL;
+  const char *refused = call->sc->structure ? verify_quantity_refused_of_structure(&data->quantity) : NULL;
   if (refused) return cli_failed(common, EXIT_BAD_CASE, "%s", refused);
-  if (call->own->asked.responses.n > 1 && !v->data.by_response)
+  if (call->own->asked.responses.n > 1 && !data->by_response)
     return cli_failed(common, EXIT_USAGE,
                       "several --response, and %s has no column `response`; expected one, or --columns with "
                       "QUANTITY@RESPONSE for each",
@@ -322,26 +325,39 @@ static int read_curve(const verify_call *call, double noise, verified *v)
   return 0;
 }
 
+/* What is heard of a search that takes longer. */
+static void say_so_far(void *self, const verify_report *r)
+{
+  const verify_call *call = self;
+  char text[VERIFY_TEXT];
+  const verify_causes found = r->causes | r->nearest_guess;
+  progress_erase();
+  cli_message(call->common, "so far: %s; the search goes on (--patience)",
+              found ? verify_cause_words(found, text) : "no cause fits");
+}
+
 /* All of them. 0 or the exit code after the message. */
 static int read_curves(verify_call *call)
 {
-  verify_curve curves[VERIFY_MOST_CURVES];
-  const char *said = call->own->noise;
+  const char *said = call->own->noise, *patience = call->own->patience;
   double noise = 0;
   if (!call->own->against) return cli_failed(call->common, EXIT_USAGE, "no --against given, expected --against FILE");
-  const int n = verify_curves_of(call->common, &call->own->asked, curves);
+  const int n = verify_curves_of(call->common, &call->own->asked, call->curves);
   if (n == 0) return EXIT_USAGE;
   if (n > 1 && call->common->drawing.path)
     return cli_failed(call->common, EXIT_USAGE, "--plot draws one response, and there are %d; name one", n);
   if (said && (number_read(said, strlen(said), &noise) != NUMBER_FINE || !(noise >= 0) || noise > 1))
     return cli_failed(call->common, EXIT_USAGE,
                       "--noise: '%.40s' is no scatter, expected a number from 0 to 1 such as 1e-2", said);
-  if (!(call->of = calloc((size_t)n, sizeof *call->of)))
+  double *seconds = &call->effort.patience;
+  if (patience && (number_read(patience, strlen(patience), seconds) != NUMBER_FINE || !(*seconds > 0)))
+    return cli_failed(call->common, EXIT_USAGE, "--patience: '%.40s' is no time, expected seconds > 0 such as 30",
+                      patience);
+  if (!call->common->quiet) call->effort.say = say_so_far, call->effort.self = call;
+  if (!(call->reports = calloc((size_t)n, sizeof *call->reports)))
     return cli_solver_failed(call->common, CLI_BOTH, "the verification", HC_NO_MEMORY, 0);
-  for (int code; call->n < n; ++call->n) {
-    call->of[call->n].curve = curves[call->n];
-    if ((code = read_curve(call, noise, &call->of[call->n])) != 0) return ++call->n, code;
-  }
+  for (int code; call->n < n; ++call->n)
+    if ((code = read_curve(call, noise, call->n)) != 0) return ++call->n, code;
   return 0;
 }
 
@@ -364,17 +380,15 @@ static int verify_curves(verify_call *call, hc_status *st)
     int points = 0;
     duration_measure(&setup, &u);
     for (int k = 0; k < call->n; ++k) {
-      seconds += duration_of_verification(&u, call->of[k].data.n);
-      points += call->of[k].data.n;
+      seconds += duration_of_verification(&u, call->data[k].n);
+      points += call->data[k].n;
     }
     cli_foretell_time(call->common, seconds, points, setup.model);
   }
   progress *bar = progress_start("verifying", call->common->quiet);
   hc_monitor monitor = progress_monitor(bar);
-  for (int k = 0; k < call->n && *st == HC_OK; ++k) {
-    *st = verify_run(&setup, &call->of[k].data, &monitor, &call->of[k].report);
-    if (*st == HC_OK) code = worse(code, verify_exit_code(&call->of[k].report));
-  }
+  if (*st == HC_OK) *st = verify_run(&setup, call->n, call->data, &call->effort, &monitor, call->reports);
+  for (int k = 0; k < call->n && *st == HC_OK; ++k) code = worse(code, verify_exit_code(&call->reports[k]));
   scene_setup_clear(&setup);
   progress_end(bar);
   if (*st != HC_OK) return cli_solver_failed(call->common, CLI_BOTH, "the verification", *st, 0);
@@ -385,18 +399,23 @@ static int verify_curves(verify_call *call, hc_status *st)
 
 static int run_verify(cli_common *common, void *own, scene *sc)
 {
-  verify_call call = {.common = common, .own = own, .sc = sc};
-  int written = 0, code = read_curves(&call);
-  if (!code && call.of) {
+  verify_call *call = calloc(1, sizeof *call);
+  if (!call) return cli_solver_failed(common, CLI_BOTH, "the verification", HC_NO_MEMORY, 0);
+  call->common = common, call->own = own, call->sc = sc;
+  int written = 0, code = read_curves(call);
+  if (!code) {
     hc_status st;
-    code = verify_curves(&call, &st);
-    const verified *first = &call.of[0];
-    written = first->report.n_rows ? write_tables(&call) : 0;
+    code = verify_curves(call, &st);
+    written = call->reports->n_rows ? write_tables(call) : 0;
     if (common->drawing.path && st != HC_NO_MEMORY && !written)
-      written = cli_plotted(common, plot_verify(&common->drawing, sc, &first->data, &first->report));
+      written = cli_plotted(common, plot_verify(&common->drawing, sc, call->data, call->reports));
   }
-  for (int k = 0; k < call.n; ++k) verify_clear(&call.of[k].report), verify_data_clear(&call.of[k].data);
-  free(call.of);
+  for (int k = 0; k < call->n; ++k) {
+    if (call->reports) verify_clear(&call->reports[k]);
+    verify_data_clear(&call->data[k]);
+  }
+  free(call->reports);
+  free(call);
   return code ? code : written;
 }
 

@@ -30,7 +30,7 @@ static hc_status judge(const hbmcheck_case *c, const hbmcheck_monitor *monitor, 
   const hc_monitor inner = library_monitor(monitor);
   compare_setup setup;
   hc_status st = scene_setup(&c->sc, &setup);
-  if (st == HC_OK) st = verify_run(&setup, &v->data, &inner, &v->report);
+  if (st == HC_OK) st = verify_run(&setup, 1, &v->data, NULL, &inner, &v->report);
   scene_setup_clear(&setup);
   if (!has_result(st)) return st;
   verify_word(&v->report, v->cause);

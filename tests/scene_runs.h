@@ -32,7 +32,7 @@ static inline hc_status scene_order_of_regularisation(const scene *sc, const com
 static inline hc_status scene_verify_run(const scene *sc, const verify_data *data, const hc_monitor *monitor,
                                          verify_report *out)
 {
-  SCENE_RUN(verify_run(&setup, data, monitor, out));
+  SCENE_RUN(verify_run(&setup, 1, data, NULL, monitor, out));
 }
 
 static inline hc_status scene_gate_judge(const char *name, const scene *sc, const comparison *c, gate_case *out)

@@ -1,5 +1,6 @@
-/* verify.c - see verify.h. Here: the order of the steps. What the points tell by themselves comes first, since no other
- * equations are needed for it; but noise last, since a mistake may look like it. */
+/* verify.c - see verify.h. Here: the order of the steps. What the points of a response tell by themselves comes first,
+ * since no other equations are needed for it; but noise that was not asked for last, since a mistake may look like it.
+ * What is left is searched for in all responses together. */
 #include "compare/verify/verify.h"
 
 #include <math.h>
@@ -18,16 +19,6 @@ static int differing(const verify_report *r)
   return n;
 }
 
-/* The causes that the rows show, and those that the search finds where many differ. */
-static hc_status find_causes(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
-                             verify_report *out)
-{
-  out->causes = points_branches(out) | points_outliers(out);
-  if (out->causes || differing(out) < VERIFY_LEAST_DIFFERING) return HC_OK;
-  hc_status st = points_scatter(out, &out->causes);
-  return st == HC_OK && !out->causes ? verify_search(setup, data, monitor, out) : st;
-}
-
 /* *setup with a model, the caller's, of which the response asked for is the only one. */
 static hc_status setup_of_response(const compare_setup *setup, int response, compare_setup *own, model **one)
 {
@@ -43,22 +34,102 @@ static hc_status setup_of_response(const compare_setup *setup, int response, com
   return HC_OK;
 }
 
-hc_status verify_run(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor, verify_report *out)
+/* The truth of one response, and what its points tell by themselves. */
+static hc_status judge_response(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
+                                verify_report *out)
 {
   model *one;
   compare_setup own;
-  *out = (verify_report){.truth_distance = NAN,
-                         .noise = NAN,
-                         .noise_said = data->noise,
-                         .left_out = data->left_out,
-                         .reversals = points_reversals(data)};
   hc_status st = setup_of_response(setup, data->response, &own, &one);
   if (st == HC_OK) st = verify_truth(&own, data, monitor, out);
   if (st == HC_OK) st = points_noise(out);
-  if (st == HC_OK) st = find_causes(&own, data, monitor, out);
   model_free(one);
-  for (int i = 0; i < out->n_rows; ++i) ++*(out->rows[i].skipped ? &out->skipped : &out->count[out->rows[i].verdict]);
-  return out->status = st;
+  if (st != HC_OK) return st;
+  out->causes = points_branches(out) | points_outliers(out);
+  if (!out->causes && differing(out) >= VERIFY_LEAST_DIFFERING) {
+    out->causes = points_interpolated(out) ? points_interpolated(out) : points_scattered(out);
+    if (!out->causes) st = points_anywhere(out, &out->causes);
+    if (st != HC_OK) return st;
+  }
+  return !out->causes && data->noise > 0 && differing(out) ? points_scatter(out, &out->causes) : HC_OK;
+}
+
+/* One cause of all responses that are wrong without one of their own: the search's, and if that has none, what the
+ * points of all of them look like. */
+static hc_status find_cause(const compare_setup *setup, int n, const verify_judged *judged, const int *number,
+                            const verify_effort *effort, const hc_monitor *monitor, verify_report *out)
+{
+  int response[SEARCH_MOST_RESPONSES], first = -1;
+  compare_setup own = *setup;
+  model *seen;
+  for (int k = n - 1; k >= 0; --k) {
+    response[k] = judged[k].data->response;
+    if (judged[k].wrong) first = k;
+  }
+  hc_status st = verify_model_seen(setup->model, n, response, &seen);
+  own.model = seen;
+  verify_report *found = &out[number[first]];
+  if (st == HC_OK) st = verify_search(&own, n, judged, effort, monitor, found);
+  model_free(seen);
+  verify_causes scatter = 0;
+  for (int k = 0; k < n && st == HC_OK && !found->causes; ++k) {
+    verify_causes one;
+    if (!judged[k].wrong) continue;
+    st = points_scatter(judged[k].report, &one);
+    scatter = k == first ? one : scatter & one;
+  }
+  if (scatter && !verify_fits(found)) found->nearest_guess = scatter;
+  for (int k = 0; k < n; ++k) {
+    verify_report *to = &out[number[k]];
+    if (!judged[k].wrong || to == found) continue;
+    to->causes = found->causes;
+    to->nearest_guess = found->nearest_guess;
+    to->n_hypotheses = found->n_hypotheses;
+    to->truth_distance = found->truth_distance;
+    memcpy(to->hypotheses, found->hypotheses, sizeof found->hypotheses);
+    memcpy(to->tried, found->tried, sizeof found->tried);
+    memcpy(to->not_tried, found->not_tried, sizeof found->not_tried);
+  }
+  return st;
+}
+
+/* Those that are searched together: the wrong ones first, then as many right ones as there is room for. */
+static hc_status find_causes(const compare_setup *setup, int n, const verify_data *data, const verify_effort *effort,
+                             const hc_monitor *monitor, verify_report *out)
+{
+  verify_judged judged[SEARCH_MOST_RESPONSES];
+  int number[SEARCH_MOST_RESPONSES], together = 0, wrong = 0;
+  for (int right = 0; right < 2; ++right) {
+    for (int k = 0; k < n && together < SEARCH_MOST_RESPONSES; ++k) {
+      const bool off = differing(&out[k]) >= VERIFY_LEAST_DIFFERING;
+      if (out[k].causes || off == right) continue;
+      number[together] = k;
+      judged[together++] = (verify_judged){&data[k], &out[k], off};
+      wrong += off;
+    }
+  }
+  return wrong ? find_cause(setup, together, judged, number, effort, monitor, out) : HC_OK;
+}
+
+hc_status verify_run(const compare_setup *setup, int n, const verify_data *data, const verify_effort *effort,
+                     const hc_monitor *monitor, verify_report *out)
+{
+  hc_status st = HC_OK;
+  for (int k = 0; k < n; ++k) {
+    out[k] = (verify_report){.truth_distance = NAN,
+                             .noise = NAN,
+                             .noise_said = data[k].noise,
+                             .left_out = data[k].left_out,
+                             .reversals = points_reversals(&data[k])};
+    if (st == HC_OK) st = judge_response(setup, &data[k], monitor, &out[k]);
+  }
+  if (st == HC_OK) st = find_causes(setup, n, data, effort, monitor, out);
+  for (int k = 0; k < n; ++k) {
+    verify_report *r = &out[k];
+    for (int i = 0; i < r->n_rows; ++i) ++*(r->rows[i].skipped ? &r->skipped : &r->count[r->rows[i].verdict]);
+    r->status = st;
+  }
+  return st;
 }
 
 void verify_clear(verify_report *r)
@@ -114,7 +185,8 @@ static void add_change(message *m, const verify_equations *e)
     case PART_PAIR: message_add(m, " DOFs %d and %d", (e->which - 1) / e->n + 1, (e->which - 1) % e->n + 1); break;
     case PART_ALL: break;
     }
-  if (verify_changes[e->change].factor) message_add(m, " times %.4g", e->factor);
+  if (verify_changes[e->change].scan == SCAN_FACTOR) message_add(m, " times %.4g", e->factor);
+  if (verify_changes[e->change].scan == SCAN_TURN) message_add(m, " by %.4g degrees", e->factor);
 }
 
 static void add_equations(message *m, const verify_equations *e)
@@ -138,7 +210,7 @@ static void add_causes(message *m, verify_causes bits)
     before = ", and ";
   }
   for (int i = 0; i < VERIFY_CAUSES; ++i)
-    if (bits & VERIFY_BIT(i)) {
+    if (verify_has(bits, i)) {
       message_add(m, "%s%s", before, verify_cause_meaning(i));
       before = ", and ";
     }
@@ -172,6 +244,10 @@ static void say_unexplained(message *m, const verify_report *r)
     message_add(m, "%d points could not be judged", r->count[VERDICT_SOLVER_FAILED]);
   } else if (r->n_hypotheses == 0) {
     message_add(m, "%d point%s, too few to tell why", off, off == 1 ? " differs" : "s differ");
+  } else if (verify_has(r->nearest_guess, CAUSE_NOISE)) {
+    message_add(m, "no cause explains the points; they scatter around the truth");
+    points_say(m, r);
+    message_add(m, ". Measured, or computed? --noise says how much a measured curve scatters");
   } else if (r->nearest_guess) {
     const bool fits = verify_fits(r);
     message_add(m, fits ? "more than one cause fits: " : "no cause fits well; nearest guess: ");
@@ -227,7 +303,7 @@ const char *verify_sentence(const verify_report *r, char text[VERIFY_TEXT])
       }
     }
     for (int i = 0; i < VERIFY_CAUSES; ++i)
-      if (r->causes & VERIFY_BIT(i)) message_add(&m, "; %s", verify_cause_remedy(i));
+      if (verify_has(r->causes, i)) message_add(&m, "; %s", verify_cause_remedy(i));
   }
   return text;
 }

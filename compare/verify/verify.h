@@ -13,10 +13,11 @@
 
 #include "compare/verify/truth/report.h"
 
-/* Judges the points of data->response. HC_INTERRUPTED, HC_NO_MEMORY, or why there is no truth; rows found until then
- * are kept. verify_clear in any case. */
-hc_status verify_run(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
-                     verify_report *out);
+/* Judges the points of data[n], of one program's curves of the same case: their responses' causes are one, or it is
+ * none. HC_INTERRUPTED, HC_NO_MEMORY, or why there is no truth; rows found until then are kept. verify_clear of each
+ * in any case. */
+hc_status verify_run(const compare_setup *setup, int n, const verify_data *data, const verify_effort *effort,
+                     const hc_monitor *monitor, verify_report *out);
 void verify_clear(verify_report *r);
 
 /* The cause in a sentence, or that there is none: in text[VERIFY_TEXT], which is returned. */

@@ -20,7 +20,10 @@ typedef struct member {
   double cu[SERIES_MAX_DIM], cv[SERIES_MAX_DIM];
   const contact_evaluator *by;
   void *evaluator;
-  double *jac; /* [n_dof (2H+1)]^2 */
+  int n_tangents;         /* the first of its coordinates, those that friction alone acts on */
+  double kt, sign;        /* [force/length] of each, by x; of the friction force */
+  hbm_friction_mean mean; /* a mistake, as the sign is */
+  double *jac;            /* [n_dof (2H+1)]^2 */
   bool differentiated;
 } member;
 
@@ -61,6 +64,11 @@ static hc_status make_member(const placed_contact *c, int dim, hbm_force force, 
   kind->coordinates(c, dim, &x);
   m->contacts = kind->contacts;
   m->n_dof = x.n_dof;
+  if (m->n_dof > 1) m->n_tangents = c->planar ? 2 : 1;
+  else m->n_tangents = x.moved.cv[0] == 0 && contact_has_friction(&c->law);
+  m->kt = c->law.kt * (m->n_dof == 1 ? x.moved.cu[0] * x.moved.cu[0] : 1);
+  m->sign = how->mistakes.turned >> (m->first < 31 ? m->first : 31) & 1 ? -1 : 1;
+  m->mean = how->mistakes.mean;
   m->by = force == HBM_FORCE_SAMPLED ? kind->sampled : kind->exact;
   memcpy(m->cu, x.moved.cu, sizeof m->cu);
   memcpy(m->cv, x.moved.cv, sizeof m->cv);
@@ -178,6 +186,22 @@ static void scatter(const contact_forces *f, const combination *of, const double
   }
 }
 
+/* The mistakes about the friction force F of the motion x; without F those of the Jacobian. */
+static void spoil_friction(member *m, int length, const double *x, double *F)
+{
+  const size_t rows = (size_t)m->n_dof * (size_t)length;
+  for (size_t d = 0; d < (size_t)m->n_tangents && (m->sign < 0 || m->mean != HBM_FRICTION_MEAN); ++d) {
+    const size_t first = d * (size_t)length;
+    const double kt = m->mean == HBM_FRICTION_MEAN_OF_U ? m->kt : 0;
+    if (F && m->mean != HBM_FRICTION_MEAN) F[first] = kt * x[first];
+    for (size_t q = 0; q < rows && !F && m->mean != HBM_FRICTION_MEAN; ++q)
+      m->jac[q * rows + first] = q == first ? kt : 0;
+    for (size_t p = first; p < first + (size_t)length && F; ++p) F[p] *= m->sign;
+    for (size_t q = 0; q < rows && !F; ++q)
+      for (size_t p = first; p < first + (size_t)length; ++p) m->jac[q * rows + p] *= m->sign;
+  }
+}
+
 hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, bool derive, contact_report *report)
 {
   hc_status st = HC_OK;
@@ -190,6 +214,8 @@ hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, boo
     for (int d = 0; d < m->n_dof && !f->itself; ++d) gather(f, &m->of[d], X, f->x + d * f->length);
     st = m->by->evaluate(m->evaluator, f->itself ? X : f->x, f->itself ? F : f->f, derive ? m->jac : NULL, &own);
     m->differentiated = derive && !m->by->jacobian;
+    if (st == HC_OK) spoil_friction(m, f->length, f->itself ? X : f->x, f->itself ? F : f->f);
+    if (st == HC_OK && m->differentiated) spoil_friction(m, f->length, NULL, NULL);
     for (int d = 0; d < m->n_dof && st == HC_OK && !f->itself; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);
     if (st != HC_OK) continue;
     report->regime = contact_regime_larger(report->regime, own.regime);
@@ -262,7 +288,7 @@ const double *contact_forces_jacobian(contact_forces *f)
   if (f->assembled) return f->jac;
   for (int j = 0; j < f->n_members; ++j) {
     member *m = &f->members[j];
-    if (!m->differentiated) m->by->jacobian(m->evaluator, m->jac);
+    if (!m->differentiated) m->by->jacobian(m->evaluator, m->jac), spoil_friction(m, f->length, NULL, NULL);
     m->differentiated = true;
   }
   if (f->itself) return f->members->jac;

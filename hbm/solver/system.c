@@ -10,6 +10,7 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   hc_status st = model_find_scales(m, &sys->scales);
   if (st == HC_OK) st = condensation_new(m, n_harm, &sys->linear);
   if (st != HC_OK) return st;
+  if (how->mistakes.hysteretic) condensation_make_hysteretic(sys->linear);
   sys->dim = condensation_dim(sys->linear);
   sys->n_coef = hbm_system_length(sys, n_harm);
   sys->first = how->keep_mean ? 0 : sys->dim;
@@ -26,7 +27,7 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->z = workspace_array(w, dim, sizeof *sys->z);
   sys->pivot = workspace_array(w, dim, sizeof *sys->pivot);
   if (sys->memory.failed) return HC_NO_MEMORY;
-  const evaluator_settings by = {n_harm, n_time, how->restart};
+  const evaluator_settings by = {n_harm, n_time, how->restart, how->mistakes};
   return contact_forces_new(m, sys->linear, how->force, &by, &sys->contacts);
 }
 

@@ -17,6 +17,7 @@ struct condensation {
   double more_mass;       /* [1/mass] n/trace M */
   /* at the omega asked for last; of harmonic h at [h] */
   double omega, more_damping;
+  bool hysteretic; /* condensation_make_hysteretic */
   bool known;
   bool loaded;               /* without a rest: loads, the same at every omega, are there */
   bool *by_compliance;       /* [n_harm + 1] the harmonic is by it */
@@ -38,7 +39,7 @@ struct condensation {
 static condensation_change dynamic_at(const condensation *c, int h)
 {
   const double w = h * c->omega;
-  return (condensation_change){-w * w + I * (w * c->more_damping * c->more_mass), I * w};
+  return (condensation_change){-w * w + I * (w * c->more_damping * c->more_mass), I * (c->hysteretic ? h > 0 : w)};
 }
 
 static size_t entry(const condensation *c, int row, int column)
@@ -107,6 +108,13 @@ void condensation_free(condensation *c)
   compliance_free(c->compliance);
   workspace_free(&c->memory);
   free(c);
+}
+
+void condensation_make_hysteretic(condensation *c)
+{
+  c->hysteretic = true;
+  compliance_free(c->compliance); /* knows viscous damping alone */
+  c->compliance = NULL;
 }
 
 int condensation_dim(const condensation *c) { return c->basis.dim; }
@@ -307,7 +315,8 @@ const double complex *condensation_load(const condensation *c, int i)
 
 condensation_change condensation_by_omega(const condensation *c, int h)
 {
-  return (condensation_change){-2.0 * h * h * c->omega + I * (h * c->more_damping * c->more_mass), I * h};
+  return (condensation_change){-2.0 * h * h * c->omega + I * (h * c->more_damping * c->more_mass),
+                               c->hysteretic ? 0 : I * h};
 }
 
 condensation_change condensation_by_damping(const condensation *c, int h)

@@ -26,6 +26,9 @@ typedef struct condensation condensation;
 hc_status condensation_new(const model *m, int n_harm, condensation **out);
 void condensation_free(condensation *c); /* NULL is allowed */
 
+/* From now on the damping force of harmonic h > 0 is i C x at every frequency: a mistake that compare/verify/ makes. */
+void condensation_make_hysteretic(condensation *c);
+
 /* How many coordinates q there are. */
 int condensation_dim(const condensation *c);
 

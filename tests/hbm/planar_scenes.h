@@ -16,7 +16,7 @@ static inline contact circle_half(contact whole)
 static inline hc_status make_sampled(int H, int N, hbm_restart restart, int n_dof, const contact *half, void **out)
 {
   const contact_coordinates c = {.n_dof = n_dof, .moved = {.law = *half}};
-  const evaluator_settings how = {H, N, restart};
+  const evaluator_settings how = {.n_harm = H, .n_time = N, .restart = restart};
   return planar_aft_evaluator.make(&c, &how, out);
 }
 

@@ -1,6 +1,7 @@
 /* causes.h - what may be wrong with a curve: one bit each, its word in csv and json, its meaning, its remedy. */
 #pragma once
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* clang-format off */
@@ -18,6 +19,10 @@
     "while separated the slider is where the contact is: w = u") \
   X(CAUSE_SLIDER_KEPT, "slider_kept", "the slider is kept over a separation", \
     "while separated the slider is where the contact is: w = u") \
+  X(CAUSE_FRICTION_SIGN, "friction_sign", "a friction force has the other sign", \
+    "T acts along the tangent as its motion u grows: + t T on the left of the equations") \
+  X(CAUSE_SLIDER_MEAN, "slider_mean", "the friction force lacks the slider's mean", \
+    "harmonic 0 of T = kt (u - w) is kt times that of u - w: keep it") \
   X(CAUSE_NO_SEPARATION, "no_separation", "the contacts do not separate", "N = max(kn (v + gap), 0)") \
   X(CAUSE_CONSTANT_N, "constant_normal_force", "the normal force does not change with the motion", \
     "the limit of friction is mu N with N = max(kn (v + gap), 0)") \
@@ -35,12 +40,15 @@
   X(CAUSE_FORCE, "wrong_force", "the forcing has another amplitude", "compare the forcing with the case's") \
   X(CAUSE_MASS, "wrong_mass", "the mass is another", "compare the mass with the case's") \
   X(CAUSE_DAMPING, "wrong_damping", "the damping is another", "compare the damping with the case's") \
+  X(CAUSE_DAMPING_KIND, "damping_kind", "the damping is of another kind", \
+    "compare the damping matrix: modal, proportional to M or to K, hysteretic") \
   X(CAUSE_STIFFNESS, "wrong_stiffness", "the stiffness is another", "compare the stiffness with the case's") \
   X(CAUSE_KT, "wrong_tangential_stiffness", "the tangential stiffness is another", "compare it with the case's") \
   X(CAUSE_KN, "wrong_normal_stiffness", "the normal stiffness is another", "compare it with the case's") \
   X(CAUSE_FRICTION, "wrong_friction", "the friction coefficient is another", "compare it with the case's") \
   X(CAUSE_GAP, "wrong_gap", "the gap is another", "compare the gap with the case's") \
   X(CAUSE_GAP_SIGN, "gap_sign", "the gap has the other sign", "here gap > 0 is a preload, gap < 0 a clearance") \
+  X(CAUSE_ANGLE, "wrong_angle", "the angle of the contact is another", "compare it with the case's") \
   X(CAUSE_ANGLE_COMPLEMENT, "angle_complement", "the angle is counted from the other axis", \
     "here it is the one between the motion and the contact's tangent") \
   X(CAUSE_ANGLE_UNIT, "angle_unit", "degrees and radians are mixed up", "give the angle in degrees") \
@@ -86,10 +94,14 @@
   X(CAUSE_VALUE_SCALE, "value_scale", "all values are off by one factor", "give them in the case's units") \
   X(CAUSE_OMEGA_SCALE, "omega_scale", "all frequencies are off by one factor", "give them in the case's units") \
   X(CAUSE_OMEGA_OFFSET, "frequency_offset", "all frequencies are a little off", "calibrate the frequency axis") \
-  /* the points */ \
+  /* the points: one of these stands alone */ \
   X(CAUSE_OUTLIER, "outlier", "few points are far off and the others are right", "look at these points alone") \
   X(CAUSE_NOISE, "noise", "the points scatter around the truth", \
-    "say how much a measured curve scatters: --noise") \
+    "measured, or computed? Say how much a measured curve scatters: --noise") \
+  X(CAUSE_NOT_CONVERGED, "not_converged", "points lie anywhere, as where Newton ended before it converged", \
+    "check the residuals of these points") \
+  X(CAUSE_INTERPOLATED, "interpolated", "points lie on chords of the curve, between others", \
+    "give the points that were computed, without those between") \
   X(CAUSE_UNSTABLE, "unstable_branch", "the points run along an unstable branch", \
     "no motion stays there: follow a stable one where there is one") \
   X(CAUSE_OTHER_BRANCH, "other_branch", "the points hop to another stable branch and back", \
@@ -99,8 +111,18 @@
 enum { VERIFY_CAUSE_LIST(VERIFY_CAUSE_NUMBER) VERIFY_CAUSES };
 #undef VERIFY_CAUSE_NUMBER
 
-typedef uint64_t verify_causes; /* bits */
-#define VERIFY_BIT(cause) ((verify_causes)1 << (cause))
+/* Bits; those of the points are one of several, with the highest bit. */
+typedef uint64_t verify_causes;
+enum { VERIFY_POINTS_BIT = 63 };
+#define VERIFY_BIT(cause)                                                                                              \
+  ((cause) < CAUSE_OUTLIER ? (verify_causes)1 << (cause)                                                               \
+                           : (verify_causes)1 << VERIFY_POINTS_BIT | (verify_causes)((cause)-CAUSE_OUTLIER))
+static inline bool verify_has(verify_causes causes, int cause)
+{
+  const bool of_points = cause >= CAUSE_OUTLIER;
+  if (of_points || causes >> VERIFY_POINTS_BIT) return causes == VERIFY_BIT(cause);
+  return (causes & VERIFY_BIT(cause)) != 0;
+}
 
 const char *verify_cause_meaning(int cause);
 const char *verify_cause_remedy(int cause);

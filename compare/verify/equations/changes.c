@@ -14,12 +14,12 @@
 #include "numerics/norm.h"
 
 const verify_change_kind verify_changes[] = {
-#define VERIFY_CHANGE_WORDS(code, cause, words, factor, part) {cause, words, factor, part},
+#define VERIFY_CHANGE_WORDS(code, cause, words, scan, part) {cause, words, scan, part},
     VERIFY_CHANGE_LIST(VERIFY_CHANGE_WORDS)
 #undef VERIFY_CHANGE_WORDS
 };
 
-enum { MOST_SINGLE_CONTACTS = 12, MOST_DOFS = 200, MOST_PAIRED_DOFS = 8 };
+enum { MOST_SINGLE_CONTACTS = 12, MOST_PAIRED_DOFS = 8 };
 
 int verify_change_variants(const model *m, verify_change c)
 {
@@ -27,7 +27,7 @@ int verify_change_variants(const model *m, verify_change c)
   switch (verify_changes[c].part) {
   case PART_CONTACT: return 1 + (m->n > 1 && contacts > 1 && contacts <= MOST_SINGLE_CONTACTS) * contacts;
   case PART_ONE_CONTACT: return contacts <= MOST_SINGLE_CONTACTS ? 1 + contacts : 1;
-  case PART_DOF: return m->n > 1 && m->n <= MOST_DOFS ? 1 + m->n : 1;
+  case PART_DOF: return m->n > 1 && m->n <= VERIFY_MOST_DOFS ? 1 + m->n : 1;
   case PART_PAIR: return m->n > 1 && m->n <= MOST_PAIRED_DOFS ? 1 + m->n * m->n : 1;
   default: return 1;
   }
@@ -76,6 +76,18 @@ static void turn_one_side(int n, double *direction)
   if (entries > 1) direction[last] = -direction[last];
 }
 
+/* Tangent and normal by an angle in the plane that they span. */
+static void turn_both(int n, model_contact *c, double angle_deg)
+{
+  double along, across;
+  model_direction(angle_deg, &along, &across);
+  for (int i = 0; i < n; ++i) {
+    const double t = c->tangent[i], v = c->normal[i];
+    c->tangent[i] = along * t - across * v;
+    c->normal[i] = along * v + across * t;
+  }
+}
+
 /* Each direction by itself, or only one of the two. */
 static void change_pair(model_contact *c, verify_change change)
 {
@@ -95,6 +107,9 @@ static void change_contact(int n, model_contact *c, verify_change change, double
   case CHANGE_KN: c->law.kn *= factor; break;
   case CHANGE_FRICTION: c->law.mu *= factor; break;
   case CHANGE_GAP: c->law.gap *= factor; break;
+  case CHANGE_TURNED:
+    if (c->pair == CONTACT_ALONE && !is_zero(n, c->tangent) && !is_zero(n, c->normal)) turn_both(n, c, factor);
+    break;
   case CHANGE_CONTACT_FORCE: c->law.kt *= factor, c->law.kn *= factor, c->law.load *= factor; break;
   case CHANGE_GAP_SIGN: c->law.gap = -c->law.gap; break;
   case CHANGE_ANGLE_COMPLEMENT:
@@ -135,6 +150,49 @@ static void change_matrices(model *m, verify_change change, double factor)
   if (change == CHANGE_STIFFNESS_TRANSPOSED) transpose(m->n, m->stiffness);
 }
 
+static double trace(int n, const double *A)
+{
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += A[(size_t)i * (size_t)(n + 1)];
+  return sum;
+}
+
+/* C of the same damping ratio in every mode, the factor times the mean of theirs: M Phi diag(2 zeta omega) Phi^T M. */
+static hc_status damp_modes(model *m, double factor)
+{
+  const int n = m->n;
+  const size_t square = (size_t)n * (size_t)n;
+  double *phi = malloc((4 * square + (size_t)n) * sizeof *phi);
+  if (!phi) return HC_NO_MEMORY;
+  double *P = phi + square, *room = P + square, *lambda = room + 2 * square, ratio = 0;
+  hc_status st = dense_modes(n, m->stiffness, m->mass, lambda, phi);
+  if (st == HC_OK) dense_congruence(n, n, phi, m->damping, room, P);
+  for (int k = 0; k < n && st == HC_OK; ++k) {
+    const double w = sqrt(fmax(lambda[k], 0));
+    if (w > 0) ratio += factor * P[(size_t)k * (size_t)(n + 1)] / (2 * w * n);
+  }
+  if (st == HC_OK) dense_multiply(n, n, n, m->mass, phi, P);
+  for (int k = 0; k < n && st == HC_OK; ++k) scale((size_t)n, sqrt(2 * ratio * sqrt(fmax(lambda[k], 0))), P + k * n);
+  if (st == HC_OK) dense_transpose(n, n, P, room), dense_multiply(n, n, n, P, room, m->damping);
+  free(phi);
+  return st == HC_NO_MEMORY ? st : st == HC_OK && ratio > 0 ? HC_OK : HC_BAD_INPUT;
+}
+
+/* Damping of another kind, of the same trace times the factor. */
+static hc_status change_damping(model *m, verify_change change, double factor)
+{
+  const double *like = change == CHANGE_DAMPING_OF_M ? m->mass : m->stiffness;
+  const double stiff = trace(m->n, m->stiffness), share = trace(m->n, m->damping) / trace(m->n, like),
+               omega = change == CHANGE_HYSTERETIC ? sqrt(stiff / trace(m->n, m->mass)) : 1;
+  if (!verify_change_of_kind(change)) return HC_OK;
+  if (m->n == 1 && change != CHANGE_HYSTERETIC) return HC_BAD_INPUT;
+  if (change == CHANGE_DAMPING_MODAL) return damp_modes(m, factor);
+  if (!(share > 0) || !isfinite(share * omega)) return HC_BAD_INPUT;
+  memcpy(m->damping, like, (size_t)m->n * (size_t)m->n * sizeof *like);
+  scale((size_t)m->n * (size_t)m->n, factor * share * omega, m->damping);
+  return HC_OK;
+}
+
 static void move_load(int n, int to, double *load)
 {
   double sum = 0;
@@ -169,7 +227,7 @@ static hc_status solve(int n, double *A, double *d)
 }
 
 /* The displacement by a constant force[n], with mean_factor times the contacts' force in the balance; the gaps follow
- * it, *offset is what the first response gets of it. HC_BAD_INPUT if that opens a contact under preload. */
+ * it, offset[r] is what response r gets of it. HC_BAD_INPUT if that opens a contact under preload. */
 static hc_status displace(model *m, double *force, double mean_factor, bool all_linear, double *offset)
 {
   const int n = m->n;
@@ -183,7 +241,7 @@ static hc_status displace(model *m, double *force, double mean_factor, bool all_
   hc_status st = solve(n, K, force);
   free(K);
   if (st != HC_OK) return st;
-  *offset = dot_product(n, m->responses, force);
+  for (int r = 0; r < m->n_responses; ++r) offset[r] = dot_product(n, m->responses + (size_t)r * (size_t)n, force);
   /* The contacts' gaps follow the displacement d. HC_BAD_INPUT if that opens a contact under preload. */
   for (int j = 0; j < m->n_contacts; ++j) {
     model_contact *c = &m->contacts[j];
@@ -282,11 +340,14 @@ static bool any_preload(const model *m)
 
 /* p[n]: room for a constant force. */
 static hc_status change_copy(const model *m, const verify_changed *how, bool keep_mean, double *p, model *own,
-                             double *offset, double *mean_error)
+                             double *offset, hbm_mistakes *mistakes)
 {
   const verify_change c = how->change;
   const int which = how->which - 1;
   change_matrices(own, c, how->factor);
+  const hc_status damped = change_damping(own, c, how->factor);
+  if (damped != HC_OK) return damped;
+  mistakes->hysteretic = c == CHANGE_HYSTERETIC;
   const size_t n = (size_t)own->n;
   for (int l = 0; l < own->n_loads; ++l) {
     model_load *load = &own->loads[l];
@@ -301,14 +362,18 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
   for (int j = 0, whole = -1; j < own->n_contacts; ++j) {
     whole += !contact_goes_on(own->contacts[j].pair);
     if (which < 0 || which == whole) change_contact(m->n, &own->contacts[j], c, how->factor);
+    const bool rubs = contact_has_friction(&own->contacts[j].law) && j < 32;
+    if (c == CHANGE_FRICTION_SIGN && rubs && (which < 0 || which == whole)) mistakes->turned |= 1U << j;
+    if (c == CHANGE_SLIDER_MEAN && rubs) mistakes->mean = HBM_FRICTION_MEAN_OF_U;
+    if (c == CHANGE_FRICTION_MEAN && rubs) mistakes->mean = HBM_FRICTION_NO_MEAN;
   }
-  if (c == CHANGE_RESPONSE && which >= 0)
-    for (int i = 0; i < m->n; ++i) own->responses[i] = i == which;
+  if (c >= CHANGE_FRICTION_SIGN && c <= CHANGE_FRICTION_MEAN)
+    return m->n > 1 && (mistakes->turned || (mistakes->mean && keep_mean)) ? HC_OK : HC_BAD_INPUT;
   static_force(m, true, 1, p);
   const bool preload = !is_zero(m->n, p);
   if (c == CHANGE_MEAN || c == CHANGE_MEAN_OF_N) {
     if (!keep_mean || m->n_contacts == 0) return HC_BAD_INPUT;
-    *mean_error = how->factor - 1;
+    mistakes->mean_error = how->factor - 1;
     if (c == CHANGE_MEAN) return HC_OK;
     scale((size_t)m->n, -(how->factor - 1), p);
     return preload ? displace(own, p, how->factor, false, offset) : HC_BAD_INPUT;
@@ -317,21 +382,22 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
   scale((size_t)m->n, -1, p);
   if (c == CHANGE_PRELOAD_ADDED) return displace(own, p, 1, false, offset);
   /* A fit passes through it. */
-  return (verify_changes[c].factor && how->factor == 1) || !same_model(m, own) ? HC_OK : HC_BAD_INPUT;
+  const double none = verify_changes[c].scan == SCAN_TURN ? 0 : 1;
+  return (verify_changes[c].scan && how->factor == none) || !same_model(m, own) ? HC_OK : HC_BAD_INPUT;
 }
 
 hc_status verify_changed_model(const model *m, const verify_changed *how, bool keep_mean, model **out, double *offset,
-                               double *mean_error)
+                               hbm_mistakes *mistakes)
 {
   const verify_change c = how->change;
   const bool constant = c >= CHANGE_CONSTANT_N && c <= CHANGE_CONSTANT_LIMIT_LINEAR;
   *out = NULL;
-  *offset = *mean_error = 0;
+  memset(offset, 0, (size_t)m->n_responses * sizeof *offset);
   if (doubles(c) && (m->n_contacts == 0 || (constant && !any_preload(m)))) return HC_BAD_INPUT;
   double *p = malloc((size_t)m->n * sizeof *p);
   if (!p) return HC_NO_MEMORY;
   hc_status st = doubles(c) ? double_contacts(m, c, keep_mean, p, out, offset) : model_copy(m, out);
-  if (st == HC_OK && c != CHANGE_NONE && !doubles(c)) st = change_copy(m, how, keep_mean, p, *out, offset, mean_error);
+  if (st == HC_OK && c != CHANGE_NONE && !doubles(c)) st = change_copy(m, how, keep_mean, p, *out, offset, mistakes);
   free(p);
   if (st == HC_OK) return HC_OK;
   model_free(*out);
@@ -341,7 +407,7 @@ hc_status verify_changed_model(const model *m, const verify_changed *how, bool k
 
 /* ---- the causes ---- */
 
-_Static_assert(VERIFY_CAUSES <= 64, "one bit each");
+_Static_assert((int)CAUSE_OUTLIER <= (int)VERIFY_POINTS_BIT, "one bit each");
 
 static const struct {
   const char *word, *meaning, *remedy;
@@ -359,7 +425,7 @@ const char *verify_cause_words(verify_causes bits, char text[VERIFY_TEXT])
   message m;
   message_start(&m, text, VERIFY_TEXT);
   for (int i = 0; i < VERIFY_CAUSES; ++i)
-    if (bits & VERIFY_BIT(i)) message_add(&m, "%s%s", m.used ? "+" : "", causes[i].word);
+    if (verify_has(bits, i)) message_add(&m, "%s%s", m.used ? "+" : "", causes[i].word);
   if (!m.used) message_add(&m, "none");
   return text;
 }

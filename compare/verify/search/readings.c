@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/number.h"
+#include "base/thread_clock.h"
 #include "compare/response.h"
 
 static const struct {
@@ -23,13 +24,17 @@ static const struct {
     {1e2, VERIFY_BIT(CAUSE_LENGTH)},
     {1e-2, VERIFY_BIT(CAUSE_LENGTH)},
 };
-enum {
-  FACTORS = sizeof factors / sizeof *factors,
-  MOST_DIFFERING = 48,
-  MOST_MATCHING = SEARCH_MOST_POINTS - MOST_DIFFERING
-};
+enum { FACTORS = sizeof factors / sizeof *factors, MOST_DIFFERING = 48, FEW_DIFFERING = 10, FEW_MATCHING = 3 };
+_Static_assert(FACTORS + 1 == SEARCH_FACTORS, "and dB");
 
 /* ---- the sample ---- */
+
+/* A point of the file: the rows at one omega, of every response the one that is the same in number there. */
+typedef struct place {
+  double omega;
+  const verify_row *row[SEARCH_MOST_RESPONSES];
+  bool differs; /* any of them */
+} place;
 
 static int by_omega(const void *a, const void *b)
 {
@@ -38,31 +43,77 @@ static int by_omega(const void *a, const void *b)
   return (p->line > q->line) - (p->line < q->line);
 }
 
-/* Of the rows that differ and of those that do not as many as there is room for, evenly spread. */
-hc_status verify_sample_new(const verify_report *r, const verify_quantity *quantity, verify_sample *out)
+/* Is number i of n one of `wanted` that are evenly spread, `taken` of them being before it? */
+static bool is_taken(int i, int n, int wanted, int taken)
 {
-  const int most[] = {MOST_MATCHING, MOST_DIFFERING};
-  int there[2] = {0}, seen[2] = {0}, taken[2] = {0};
-  verify_quantity other = *quantity;
-  other.decibel = true;
-  *out = (verify_sample){.quantity = *quantity, .part = 0.9};
-  const verify_row **rows = malloc((size_t)r->n_rows * sizeof *rows + 1);
-  if (!rows) return HC_NO_MEMORY;
-  for (int i = 0; i < r->n_rows; ++i) rows[i] = &r->rows[i], ++there[verify_row_differs(rows[i])];
-  qsort(rows, (size_t)r->n_rows, sizeof *rows, by_omega);
-  for (int i = 0; i < r->n_rows; ++i) {
-    const bool off = verify_row_differs(rows[i]);
-    const int wanted = there[off] < most[off] ? there[off] : most[off];
-    if (taken[off] == wanted || (long)seen[off]++ * wanted < (long)taken[off] * there[off]) continue;
-    ++taken[off];
-    out->omega[out->n] = rows[i]->omega;
-    out->value[out->n] = rows[i]->value;
-    out->decibel[out->n] = quantity->decibel ? verify_quantity_to_column(&other, rows[i]->value)
-                                             : verify_quantity_from_column(&other, rows[i]->value);
-    out->differs[out->n++] = off;
+  return taken < wanted && (long)i * wanted >= (long)taken * n;
+}
+
+static void put_place(const place *from, int n, const verify_judged *responses, verify_sample *out)
+{
+  const int i = out->n++;
+  out->omega[i] = from->omega;
+  for (int r = 0; r < n; ++r) {
+    const verify_row *row = from->row[r];
+    verify_quantity other = responses[r].data->quantity;
+    const bool decibel = other.decibel;
+    other.decibel = true;
+    out->value[r][i] = row ? row->value : NAN;
+    out->decibel[r][i] = !row      ? NAN
+                         : decibel ? verify_quantity_to_column(&other, row->value)
+                                   : verify_quantity_from_column(&other, row->value);
+    out->differs[r][i] = row && verify_row_differs(row);
   }
-  free(rows);
-  return HC_OK;
+}
+
+/* Of the points that differ and of those that do not as many as there is room for, evenly spread; few of these. */
+hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample *out)
+{
+  size_t rows = 1;
+  *out = (verify_sample){.n_responses = n, .part = 0.9};
+  for (int r = n - 1; r >= 0; --r) {
+    rows += (size_t)responses[r].report->n_rows;
+    out->quantity[r] = responses[r].data->quantity;
+    out->wrong[r] = responses[r].wrong;
+    if (responses[r].wrong) out->first = r;
+  }
+  place *places = calloc(rows, sizeof *places);
+  const verify_row **sorted = malloc(rows * sizeof *sorted);
+  int count = 0;
+  for (int r = 0; r < n && places && sorted; ++r) {
+    const verify_report *of = responses[r].report;
+    for (int i = 0; i < of->n_rows; ++i) sorted[i] = &of->rows[i];
+    qsort(sorted, (size_t)of->n_rows, sizeof *sorted, by_omega);
+    /* Both ascend: each row goes to the next place of its omega that has none of its response, or to a new one. */
+    for (int i = 0, at = 0; i < of->n_rows; ++i) {
+      if (sorted[i]->skipped) continue;
+      while (at < count &&
+             (places[at].omega < sorted[i]->omega || (places[at].omega == sorted[i]->omega && places[at].row[r])))
+        ++at;
+      if (at == count || places[at].omega != sorted[i]->omega) {
+        memmove(places + at + 1, places + at, (size_t)(count++ - at) * sizeof *places);
+        places[at] = (place){.omega = sorted[i]->omega};
+      }
+      places[at].row[r] = sorted[i];
+      places[at].differs |= verify_row_differs(sorted[i]);
+    }
+  }
+  int there[2] = {0}, seen[2] = {0}, chosen[2] = {0}, looked[2] = {0};
+  for (int i = 0; i < count; ++i) ++there[places[i].differs];
+  const int most[] = {SEARCH_MOST_POINTS - MOST_DIFFERING, MOST_DIFFERING}, few[] = {FEW_MATCHING, FEW_DIFFERING};
+  for (int i = 0; i < count; ++i) {
+    const bool off = places[i].differs;
+    const int wanted = there[off] < most[off] ? there[off] : most[off];
+    if (!is_taken(seen[off]++, there[off], wanted, chosen[off])) continue;
+    const int of_few = wanted < few[off] ? wanted : few[off];
+    out->few[out->n] = is_taken(chosen[off]++, wanted, of_few, looked[off]);
+    looked[off] += out->few[out->n];
+    put_place(&places[i], n, responses, out);
+  }
+  const hc_status st = places && sorted ? HC_OK : HC_NO_MEMORY;
+  free(places);
+  free(sorted);
+  return st;
 }
 
 /* ---- distances ---- */
@@ -88,69 +139,103 @@ static double relative(double a, double b, double least)
   return d == 0 ? 0 : d <= scale ? d / scale : 1; /* NaN is as far as can be */
 }
 
-/* How far value i is from the nearest solution at its omega, read as quantity q times the factor. */
-static double nearest(const double *value, const verify_solutions *s, int i, int q, double factor)
+/* How far the value is from the nearest solution at omega number i, read as quantity q of response r times the
+ * factor. */
+static double nearest(double value, const verify_solutions *s, int i, int r, int q, double factor)
 {
   double least = 1;
-  for (int k = s->first[i]; k < s->first[i + 1]; ++k)
-    least = fmin(least, relative(value[i], factor * s->of[k].q[q], factor * s->of[k].scale[q]));
+  for (int k = s->first[i]; k < s->first[i + 1]; ++k) {
+    const verify_solution *of = &s->of[k * s->n_responses + r];
+    least = fmin(least, relative(value, factor * of->q[q], factor * of->scale[q]));
+  }
   return least;
 }
 
-static double distance(const verify_sample *p, const double *value, const verify_solutions *s, int q, double factor)
+static bool looked_at(const verify_sample *p, int r, int i)
+{
+  return (p->few[i] || !p->only_few) && !isnan(p->value[r][i]);
+}
+
+/* Of one response, in number r of the solutions. */
+static double distance_of(const verify_sample *p, int r, bool decibel, const verify_solutions *s, int q, double factor)
 {
   int off = 0, on = 0;
   double far[SEARCH_MOST_POINTS], near[SEARCH_MOST_POINTS];
+  const bool read = p->wrong[r];
+  const double *value = read && decibel ? p->decibel[r] : p->value[r];
   for (int i = 0; i < p->n; ++i) {
-    const double least = nearest(value, s, i, q, factor);
-    if (p->differs[i]) far[off++] = least;
+    if (!looked_at(p, r, i)) continue;
+    const double least = nearest(value[i], s, i, r, read ? q : 0, read ? factor : 1);
+    if (p->differs[r][i]) far[off++] = least;
     else near[on++] = least;
   }
-  double of_far = within(off, far, p->part), of_near = within(on, near, p->part);
-  return fmax(of_far, of_near);
+  return fmax(within(off, far, p->part), within(on, near, p->part));
+}
+
+static double distance(const verify_sample *p, bool decibel, const verify_solutions *s, int q, double factor)
+{
+  double most = 0;
+  for (int r = 0; r < p->n_responses; ++r) most = fmax(most, distance_of(p, r, decibel, s, q, factor));
+  return most;
+}
+
+void search_distances_of(const verify_sample *p, int response, const verify_solutions *of, search_distances out)
+{
+  for (int f = 0; f < SEARCH_FACTORS; ++f)
+    for (int i = 0; i < VERIFY_READINGS; ++i)
+      out[f * VERIFY_READINGS + i] =
+          distance_of(p, response, f == FACTORS, of, i, f == FACTORS ? 1 : factors[f].factor);
 }
 
 static void rank(verify_hypothesis *h, double floor)
 {
-  h->score = fmax(h->distance, floor) * pow(3, verify_cause_count(h->causes));
+  const double of_fit = h->fitted ? 1.01 : 1; /* of equals the one that nothing was fitted of */
+  h->score = of_fit * fmax(h->distance, floor) * pow(3, verify_cause_count(h->causes));
 }
 
 void verify_read_one(const verify_sample *p, const verify_solutions *s, int reading, double factor, double floor,
                      verify_hypothesis *h)
 {
   verify_causes ignored;
-  verify_reading(reading, &p->quantity, &h->quantity, &ignored);
+  verify_reading(reading, &p->quantity[p->first], &h->quantity, &ignored);
   h->value_factor = factor;
-  h->distance = distance(p, p->value, s, reading, factor);
+  h->distance = distance(p, false, s, reading, factor);
   rank(h, floor);
 }
 
-double verify_read_plain(const verify_sample *p, const verify_solutions *s) { return distance(p, p->value, s, 0, 1); }
+double verify_read_plain(const verify_sample *p, const verify_solutions *s) { return distance(p, false, s, 0, 1); }
 
 double verify_closeness(const verify_sample *p, const verify_solutions *s)
 {
   const double most = 0.3; /* farther is as bad: points on a branch that is not there must not lead a fit */
   double sum = 0;
-  for (int i = 0; i < p->n; ++i) sum += fmin(most, nearest(p->value, s, i, 0, 1));
-  return sum / p->n;
+  int n = 0;
+  for (int r = 0; r < p->n_responses; ++r)
+    for (int i = 0; i < p->n; ++i)
+      if (looked_at(p, r, i)) sum += fmin(most, nearest(p->value[r][i], s, i, r, 0, 1)), ++n;
+  return sum / n;
 }
 
-double verify_apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b)
+/* Of one response. */
+static double apart_of(const verify_sample *p, int r, const verify_solutions *a, const verify_solutions *b)
 {
   int n = 0;
   double far[SEARCH_MOST_POINTS];
   for (int i = 0; i < p->n; ++i) {
-    if (!p->differs[i]) continue;
+    if (!p->differs[r][i] || !looked_at(p, r, i)) continue;
     double worst = a->first[i] < a->first[i + 1] ? 0 : 1;
-    for (int k = a->first[i]; k < a->first[i + 1]; ++k) {
-      double least = 1;
-      for (int j = b->first[i]; j < b->first[i + 1]; ++j)
-        least = fmin(least, relative(a->of[k].q[0], b->of[j].q[0], b->of[j].scale[0]));
-      worst = fmax(worst, least);
-    }
+    for (int k = a->first[i]; k < a->first[i + 1]; ++k)
+      worst = fmax(worst, nearest(a->of[k * a->n_responses + r].q[0], b, i, r, 0, 1));
     far[n++] = worst;
   }
   return within(n, far, p->part);
+}
+
+double verify_apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b)
+{
+  double most = 0;
+  for (int r = 0; r < p->n_responses; ++r) most = fmax(most, apart_of(p, r, a, b));
+  return most;
 }
 
 /* ---- what a column may have been divided by ---- */
@@ -213,8 +298,9 @@ const verify_scale *verify_scale_near(const verify_scale *s, int n, double facto
  *            much
  *   alone    no other set of causes, not larger, comes within a factor `rival` of that distance, or of a tenth of the
  *            gate if that is larger
- * One that fits alone is named; else it, and its rivals, are the nearest guess. Causes that are among the best's, and
- * those with more to them, are no rivals: they say nothing else. Nor are changes of the model that leave its contacts
+ * One that fits alone is named; else it, and its rivals, are the nearest guess. A fit is no rival of what nothing was
+ * fitted of. Causes that are among the best's, and those with more to them, are no rivals: they say nothing else. Nor
+ * are changes of the model that leave its contacts
  * apart, or stuck, where that is the best: they may be why. */
 static const double good = 0.01, much_better = 0.2, much_better_fitted = 0.1, rival = 3, guess_worth = 0.2;
 
@@ -246,6 +332,7 @@ bool verify_rival(const verify_report *r, int i)
   const verify_causes both = best->causes & other->causes;
   if (both == best->causes || both == other->causes || explains(other, best)) return false;
   if (verify_cause_count(other->causes) > verify_cause_count(best->causes)) return false;
+  if (other->fitted && !best->fitted) return false;
   return other->distance <= close_to(r, best);
 }
 
@@ -288,7 +375,20 @@ double search_omega_factor(int frequency)
 bool search_tick(search *s)
 {
   double part = (double)++s->done / s->expected;
+  if (!s->said && clock_seconds(CLOCK_THREAD_CPUTIME_ID) - s->begun > VERIFY_FIRST_ANSWER) search_say(s);
   return hc_monitor_tick(s->monitor, 0.5 + 0.5 * (part < 1 ? part : 1));
+}
+
+void search_say(search *s)
+{
+  verify_report *out = s->out;
+  s->said = true;
+  if (!s->effort || !s->effort->say) return;
+  search_judge(out);
+  const verify_causes now = out->causes | out->nearest_guess;
+  if (now != s->said_causes) s->effort->say(s->effort->self, out);
+  s->said_causes = now;
+  out->causes = out->nearest_guess = 0;
 }
 
 verify_equations search_equations(int harmonics, bool keep_mean)
@@ -353,19 +453,43 @@ static verify_causes causes_of(const search *s, const verify_equations *e, int f
   return causes | (too_few_harmonics(s, e, frequency) ? VERIFY_BIT(CAUSE_HARMONICS) : 0);
 }
 
+const int search_orders[SEARCH_ORDERS] = {0, 10, 7, 5, 3, 15};
+const double search_factors[SEARCH_USUAL_FACTORS] = {2, 0.5, 10, 0.1, 0};
+
+/* Is the number of the change, if it has one, none that was fitted? */
+static bool usual_number(const verify_equations *e)
+{
+  bool usual = verify_changes[e->change].scan == SCAN_NONE;
+  for (int i = 0; i < SEARCH_USUAL_FACTORS; ++i) usual |= e->factor == search_factors[i];
+  return usual;
+}
+
 void search_read(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
 {
+  search_distances d = {0}, one;
+  for (int r = 0; r < s->points.n_responses; ++r) {
+    search_distances_of(&s->points, r, of, one);
+    for (int k = 0; k < SEARCH_DISTANCES; ++k) d[k] = fmax(d[k], one[k]);
+  }
+  search_read_distances(s, e, frequency, d);
+}
+
+void search_read_distances(search *s, const verify_equations *e, int frequency, const search_distances d)
+{
   const verify_sample *p = &s->points;
+  const verify_quantity *asked = &p->quantity[p->first];
   const verify_causes otherwise = e->harmonics < s->out->harmonics ? VERIFY_BIT(CAUSE_HARMONICS) : 0;
-  const verify_hypothesis given = {
-      .equations = *e, .omega_factor = search_omega_factor(frequency), .causes = causes_of(s, e, frequency)};
+  const verify_hypothesis given = {.equations = *e,
+                                   .omega_factor = search_omega_factor(frequency),
+                                   .fitted = !s->oscillator && !usual_number(e),
+                                   .causes = causes_of(s, e, frequency)};
   for (int f = 0; f <= FACTORS; ++f) /* the last is dB */
     for (int i = 0; i < VERIFY_READINGS; ++i) {
       verify_hypothesis h = given;
       verify_causes of_reading;
       const bool decibel = f == FACTORS;
       const verify_causes of_factor = decibel ? VERIFY_BIT(CAUSE_DECIBEL) : factors[f].cause;
-      if (!verify_reading(i, &p->quantity, &h.quantity, &of_reading)) continue;
+      if (!verify_reading(i, asked, &h.quantity, &of_reading)) continue;
       if ((of_reading & of_factor) || (of_reading && of_factor == VERIFY_BIT(CAUSE_RMS))) continue;
       if (of_factor == VERIFY_BIT(CAUSE_LENGTH) && verify_scale_near(s->scales, s->n_scales, factors[f].factor, 1e-3))
         continue;                                            /* the unit may be what the values were divided by */
@@ -374,32 +498,111 @@ void search_read(search *s, const verify_equations *e, int frequency, const veri
       if (!h.causes && !(h.causes = otherwise)) continue; /* the truth as it stands is no hypothesis */
       h.decibel = decibel;
       h.value_factor = decibel ? 1 : factors[f].factor;
-      h.distance = distance(p, decibel ? p->decibel : p->value, of, i, h.value_factor);
+      h.distance = d[f * VERIFY_READINGS + i];
       rank(&h, s->floor);
       search_keep(s, &h);
     }
 }
 
-hc_status search_solve(search *s, const verify_equations *e, double omega_factor, verify_solutions *out)
+static verify_places places_of(const search *s, double omega_factor, double *omega)
 {
-  double omega[SEARCH_MOST_POINTS];
-  const int n = s->points.n;
-  verify_places at = {s->from, s->to, n, omega};
-  for (int i = 0; i < n; ++i) omega[i] = omega_factor * s->points.omega[i];
+  const verify_sample *p = &s->points;
+  verify_places at = {.from = s->from,
+                      .to = s->to,
+                      .n = p->n,
+                      .omega = omega,
+                      .only = p->only_few ? p->few : NULL,
+                      .n_responses = p->n_responses,
+                      .asked = p->quantity};
+  for (int i = 0; i < p->n; ++i) omega[i] = omega_factor * p->omega[i];
   if (omega_factor != 1) {
-    number_list ends = {.n = 2, .v = {omega[0], omega[n - 1]}};
+    number_list ends = {.n = 2, .v = {omega[0], omega[p->n - 1]}};
     comparison_sweep(s->setup->omega_from, s->setup->omega_to, &ends, &at.from, &at.to);
   }
-  return verify_solutions_of(s->setup, e, &s->points.quantity, &at, s->monitor, out);
+  return at;
 }
 
-hc_status search_fit(search *s, verify_hypothesis h)
+hc_status search_follow(search *s, const verify_equations *e, double omega_factor, verify_solutions *out)
+{
+  double omega[SEARCH_MOST_POINTS];
+  const verify_places at = places_of(s, omega_factor, omega);
+  return verify_solutions_of(s->setup, e, &at, s->monitor, out);
+}
+
+hc_status search_near(search *s, const verify_equations *e, double omega_factor, const verify_solutions *near,
+                      verify_solutions *out)
+{
+  double omega[SEARCH_MOST_POINTS];
+  const verify_places at = places_of(s, omega_factor, omega);
+  return verify_solutions_near(s->setup, e, near, &at, out);
+}
+
+/* The least distance of a reading. */
+static double least_distance(const search *s, const verify_solutions *of, double part)
+{
+  double least = 1;
+  verify_sample p = s->points;
+  p.part = part;
+  for (int f = 0; f <= FACTORS; ++f)
+    for (int i = 0; i < VERIFY_READINGS; ++i)
+      least = fmin(least, distance(&p, f == FACTORS, of, i, f == FACTORS ? 1 : factors[f].factor));
+  return least;
+}
+
+/* Do the points nearly fit, or those at which there are solutions? */
+static bool promising(const search *s, double nine_of_ten, const verify_solutions *of)
+{
+  const double nearly = 0.03;
+  return nine_of_ten <= nearly || least_distance(s, of, 0) <= 3 * s->out->gate;
+}
+
+/* Every reading of these equations' solutions; of a number of harmonics also, whether it matters. */
+static void read_tried(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
+{
+  order *o = s->current;
+  const verify_solutions *many = &s->many[e->keep_mean][frequency];
+  if (o && e->harmonics < s->out->harmonics) o->matters[frequency] = verify_apart(&s->points, of, many) > s->out->gate;
+  if (o) o->score = fmin(o->score, verify_closeness(&s->points, of));
+  search_read(s, e, frequency, of);
+}
+
+hc_status search_try(search *s, const verify_equations *e, int frequency, const verify_solutions *near,
+                     verify_solutions *out)
+{
+  const double omega_factor = search_omega_factor(frequency);
+  *out = (verify_solutions){0};
+  s->points.only_few = near;
+  hc_status st = near ? search_near(s, e, omega_factor, near, out) : search_follow(s, e, omega_factor, out);
+  s->last = st == HC_OK ? least_distance(s, out, s->points.part) : 1;
+  const bool more = near && st == HC_OK && promising(s, s->last, out);
+  if (more) {
+    s->points.only_few = false;
+    verify_solutions_clear(out);
+    st = search_near(s, e, omega_factor, near, out);
+  }
+  if (st == HC_OK) read_tried(s, e, frequency, out);
+  if (more && st == HC_OK && e->samples == 0 && least_distance(s, out, s->points.part) > s->out->gate &&
+      least_distance(s, out, 0) <= 3 * s->out->gate) {
+    verify_solutions_clear(out);
+    st = search_follow(s, e, omega_factor, out);
+    if (st == HC_OK) read_tried(s, e, frequency, out);
+  }
+  return st;
+}
+
+hc_status search_fit(search *s, verify_hypothesis h, const verify_solutions *near)
 {
   verify_solutions of = {0};
-  hc_status st = search_solve(s, &h.equations, h.omega_factor, &of);
-  if (st == HC_OK) verify_read_one(&s->points, &of, 0, h.value_factor, s->floor, &h);
-  if (st == HC_OK) search_keep(s, &h);
-  verify_solutions_clear(&of);
+  s->points.only_few = false;
+  hc_status st = HC_OK;
+  for (int followed = !near; followed < 2 && st == HC_OK; ++followed) {
+    st = followed ? search_follow(s, &h.equations, h.omega_factor, &of)
+                  : search_near(s, &h.equations, h.omega_factor, near, &of);
+    if (st == HC_OK) verify_read_one(&s->points, &of, 0, h.value_factor, s->floor, &h);
+    if (st == HC_OK) search_keep(s, &h);
+    verify_solutions_clear(&of);
+    if (h.distance <= s->out->gate) break;
+  }
   return st;
 }
 

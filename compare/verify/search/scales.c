@@ -16,12 +16,13 @@
 static double median_ratio(const verify_sample *p, const verify_solutions *of, double *room)
 {
   enum { ENOUGH = 8 };
+  const int r = p->first;
   int n = 0;
   for (int many = 0; many < 2 && n < ENOUGH; ++many)
     for (int i = 0, most = p->n; i < most; ++i) {
       const int there = of->first[i + 1] - of->first[i];
-      if (!p->differs[i] || (many ? there < 2 : there != 1)) continue;
-      const double ratio = p->value[i] / of->of[of->first[i]].q[0];
+      if (!p->differs[r][i] || (many ? there < 2 : there != 1)) continue;
+      const double ratio = p->value[r][i] / of->of[of->first[i] * of->n_responses + r].q[0];
       if (isfinite(ratio) && ratio > 0) room[n++] = ratio;
     }
   if (n == 0) return NAN;
@@ -72,7 +73,7 @@ static hc_status keep_force_scale(search *s)
                          .causes = VERIFY_BIT(CAUSE_FORCE)};
   h.equations.change = CHANGE_FORCE;
   h.equations.factor = best->value_factor;
-  return search_fit(s, h);
+  return search_fit(s, h, s->oscillator ? NULL : &s->many[true][0]);
 }
 
 /* ---- the frequencies ---- */
@@ -103,9 +104,9 @@ static hc_status outline_new(search *s, outline *out)
     for (int i = 0; i < BETWEEN; ++i) {
       double *const omega = &out->omega[out->n];
       hbm_segment_at(&seg, (double)i / BETWEEN, X, omega, NULL, NULL);
-      if (hbm_response(truth.hbm, *omega, X, 0, series) != HC_OK) continue;
+      if (hbm_response(truth.hbm, *omega, X, s->points.first, series) != HC_OK) continue;
       const verify_motion motion = verify_motion_of(*omega, n_harm, series);
-      out->omega[room + (size_t)out->n++] = verify_quantity_of(&s->points.quantity, &motion);
+      out->omega[room + (size_t)out->n++] = verify_quantity_of(&s->points.quantity[s->points.first], &motion);
     }
   }
   out->value = out->omega ? out->omega + room : NULL;
@@ -137,10 +138,11 @@ typedef struct stretching {
 static hc_status stretched(void *self, double log_factor, double *out)
 {
   const stretching *t = self;
+  const double *values = t->s->points.value[t->s->points.first];
   /* Mean over the points, of frequencies times omega and values divided by the other factor. */
   double sum = 0;
   for (int i = 0; i < t->s->points.n; ++i)
-    sum += apart_at(t->o, exp(log_factor) * t->s->points.omega[i], t->s->points.value[i] / t->value_factor);
+    if (!isnan(values[i])) sum += apart_at(t->o, exp(log_factor) * t->s->points.omega[i], values[i] / t->value_factor);
   *out = sum / t->s->points.n;
   return HC_OK;
 }
@@ -171,6 +173,33 @@ static bool is_frequency_unit(double omega_factor)
   return false;
 }
 
+static hc_status stretched_closeness(void *self, double log_factor, double *out)
+{
+  search *s = self;
+  const verify_equations e = search_equations(s->out->harmonics, true);
+  verify_solutions of = {0};
+  hc_status st = search_follow(s, &e, exp(log_factor), &of);
+  if (st == HC_OK) *out = verify_closeness(&s->points, &of);
+  verify_solutions_clear(&of);
+  return st == HC_OK && !search_tick(s) ? HC_INTERRUPTED : st;
+}
+
+/* The factor of the frequencies that the outline gives, from solutions, where it nearly fits. */
+static hc_status polish_stretch(search *s, double *omega_factor)
+{
+  const double nearly = 0.02, around = 1e-3, precise = 2e-6; /* [1] */
+  const double at = log(*omega_factor);
+  double middle, ends[2];
+  root_point least;
+  hc_status st = stretched_closeness(s, at, &middle);
+  if (st != HC_OK || middle > nearly) return st;
+  for (int k = 0; k < 2 && st == HC_OK; ++k) st = stretched_closeness(s, at + (k ? around : -around), &ends[k]);
+  if (st != HC_OK || middle > fmin(ends[0], ends[1])) return st;
+  st = root_minimum(stretched_closeness, s, at - around, ends[0], at, middle, at + around, ends[1], precise, &least);
+  if (st == HC_OK) *omega_factor = exp(least.x);
+  return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
+}
+
 /* omega_factor: true = factor times theirs. */
 static hc_status keep_stretch(search *s, double omega_factor, double value_factor)
 {
@@ -180,6 +209,10 @@ static hc_status keep_stretch(search *s, double omega_factor, double value_facto
   const verify_scale *named = verify_scale_near(names, n, 1 / omega_factor, 0.005),
                      *value = verify_scale_near(s->scales, s->n_scales, value_factor, 0.005);
   if (is_frequency_unit(omega_factor) || fabs(omega_factor - 1) < nothing) return HC_OK;
+  if (!named && value_factor == 1) {
+    const hc_status polished = polish_stretch(s, &omega_factor);
+    if (polished != HC_OK) return polished == HC_BAD_INPUT ? HC_OK : polished;
+  }
   verify_hypothesis h = {.equations = search_equations(s->out->harmonics, true),
                          .causes =
                              VERIFY_BIT(fabs(omega_factor - 1) < offset ? CAUSE_OMEGA_OFFSET : CAUSE_OMEGA_SCALE) |
@@ -189,9 +222,9 @@ static hc_status keep_stretch(search *s, double omega_factor, double value_facto
                          .value_factor = value_factor != 1 && value ? value->factor : value_factor,
                          .omega_scale = named ? named->name : NULL,
                          .value_scale = value_factor != 1 && value ? value->name : NULL};
-  hc_status st = search_fit(s, h);
+  hc_status st = search_fit(s, h, NULL);
   h.equations = search_own(s);
-  return st == HC_OK && s->own != s->out->harmonics ? search_fit(s, h) : st;
+  return st == HC_OK && s->own != s->out->harmonics && s->oscillator ? search_fit(s, h, NULL) : st;
 }
 
 /* Factors of the frequencies that leave the points within the sweep, and those near 1. */
@@ -203,7 +236,7 @@ static hc_status try_stretches(search *s, const outline *o)
   const double from = log(low / first) - near, to = log(high / last) + near;
   double largest = 0, theirs = 0;
   for (int i = 0; i < o->n; ++i) largest = fmax(largest, fabs(o->value[i]));
-  for (int i = 0; i < s->points.n; ++i) theirs = fmax(theirs, fabs(s->points.value[i]));
+  for (int i = 0; i < s->points.n; ++i) theirs = fmax(theirs, fabs(s->points.value[s->points.first][i]));
   hc_status st = keep_stretch(s, best_stretch(s, o, 1, -near, near), 1);
   if (st != HC_OK || !(from < to)) return st;
   st = keep_stretch(s, best_stretch(s, o, 1, from, to), 1);
@@ -228,64 +261,135 @@ hc_status search_scales(search *s)
   return st;
 }
 
-/* ---- factors of the model's numbers ---- */
+/* ---- numbers of the model ---- */
 
-/* One number of the model is another, by a factor that is fitted: the smallest mean distance of the points,
- * bracketed among a few factors, then by parabolas. Factors within small_factor of 1 are no mistakes that somebody
- * makes, and would imitate errors of other kinds. */
-static const double fit_factors[] = {0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85, 1, 1.2, 1.45, 2, 3, 5, 10, 20};
-enum { FACTORS = sizeof fit_factors / sizeof *fit_factors };
-static const double small_factor = 0.02, precise_factor = 2e-4; /* [1] */
+/* One number of the model is another, by a factor or an angle that is fitted: the smallest mean distance of the points,
+ * bracketed among a few, then by parabolas. Factors within small_factor of 1 are no mistakes that somebody makes, and
+ * would imitate errors of other kinds; likewise angles. */
+static const double fit_factors[] = {0.05, 0.1,  0.2,  0.35, 0.5, 0.63, 0.75, 0.85, 0.93, 1,
+                                     1.08, 1.18, 1.33, 1.6,  2,   3,    5,    10,   20},
+                    fit_angles[] = {-80, -65, -50, -40, -30, -20, -12, -6, -2, 0, 2, 6, 12, 20, 30, 40, 50, 65, 80};
+enum { SCANNED = sizeof fit_factors / sizeof *fit_factors, UNCHANGED = 9, USUAL_HARMONICS = 10 };
+static const double small_factor = 0.02, small_angle = 0.5,
+                    precise_factor = 3e-5; /* [1], [degree], of log and degree */
 
 typedef struct fit {
   search *s;
   verify_equations equations;
+  bool turn;
+  verify_solutions last; /* where Newton starts: of a structure, the nearest factor's that was tried */
 } fit;
 
-static hc_status closeness_at(void *self, double log_factor, double *out)
+static double parameter(const fit *f, int i) { return f->turn ? fit_angles[i] : log(fit_factors[i]); }
+
+static hc_status closeness_at(void *self, double at, double *out)
 {
   fit *f = self;
+  search *s = f->s;
   verify_solutions of = {0};
-  f->equations.factor = exp(log_factor);
-  hc_status st = search_solve(f->s, &f->equations, 1, &of);
-  if (st == HC_OK) *out = verify_closeness(&f->s->points, &of);
+  f->equations.factor = f->turn ? at : exp(at);
+  s->points.only_few = !s->oscillator;
+  hc_status st = s->oscillator ? search_follow(s, &f->equations, 1, &of)
+                               : search_near(s, &f->equations, 1, f->last.n ? &f->last : &s->many[true][0], &of);
+  if (st == HC_OK) *out = verify_closeness(&s->points, &of);
+  if (st == HC_OK && 2 * of.count > s->many[true][0].count * 3 / 10) {
+    verify_solutions_clear(&f->last);
+    f->last = of;
+    of = (verify_solutions){0};
+  }
   verify_solutions_clear(&of);
-  if (st == HC_OK && !search_tick(f->s)) st = HC_INTERRUPTED;
+  s->points.only_few = false;
+  if (st == HC_OK && !search_tick(s)) st = HC_INTERRUPTED;
   return st;
 }
 
-/* HC_BAD_INPUT: there are no such equations. */
-static hc_status fit_factor(search *s, verify_change change)
+/* From number i on in steps of `by` as long as it comes closer, or to the end. */
+static hc_status walk(fit *f, int from, int by, bool to_the_end, double *values, int *best)
 {
-  fit f = {s, search_own(s)};
-  double values[FACTORS];
-  int best = 0;
-  root_point least;
-  f.equations.change = change;
-  for (int i = 0; i < FACTORS; ++i) {
-    hc_status st = closeness_at(&f, log(fit_factors[i]), &values[i]);
+  hc_status st = HC_OK;
+  verify_solutions_clear(&f->last);
+  for (int i = from + by; i >= 0 && i < SCANNED && st == HC_OK; i += by) {
+    st = closeness_at(f, parameter(f, i), &values[i]);
     if (st != HC_OK) return st;
-    if (values[i] < values[best]) best = i;
+    if (values[i] < values[*best]) *best = i;
+    else if (!to_the_end && values[i] > values[i - by]) break;
   }
-  if (best == 0 || best == FACTORS - 1) return HC_OK;
-  hc_status st = root_minimum(closeness_at, &f, log(fit_factors[best - 1]), values[best - 1], log(fit_factors[best]),
-                              values[best], log(fit_factors[best + 1]), values[best + 1], precise_factor, &least);
+  return st;
+}
+
+/* The usual number of harmonics that comes closest, and the number of the model with that. */
+static hc_status fit_harmonics(fit *f, root_point *least)
+{
+  const double around = f->turn ? 1 : 0.03; /* [degree], of the logarithm */
+  const int before = f->equations.harmonics;
+  int best = before;
+  double value, closest = least->f, ends[2];
+  hc_status st = HC_OK;
+  for (int i = 0; i < SEARCH_ORDERS && st == HC_OK; ++i) {
+    f->equations.harmonics = i > 0 ? search_orders[i] : f->s->out->harmonics;
+    if (f->equations.harmonics == before) continue;
+    st = closeness_at(f, least->x, &value);
+    if (st == HC_OK && value < closest) closest = value, best = f->equations.harmonics;
+  }
+  f->equations.harmonics = best;
+  for (int k = 0; k < 2 && best != before && st == HC_OK; ++k)
+    st = closeness_at(f, least->x + (k ? around : -around), &ends[k]);
+  if (st != HC_OK || best == before) return st;
+  root_point finer;
+  st = root_minimum(closeness_at, f, least->x - around, ends[0], least->x, closest, least->x + around, ends[1],
+                    precise_factor, &finer);
+  if (st == HC_OK || st == HC_NOT_CONVERGED) *least = finer;
+  return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+/* HC_BAD_INPUT: there are no such equations. */
+static hc_status fit_number(search *s, fit *f)
+{
+  const double much_closer = 0.5;
+  const verify_change change = f->equations.change;
+  const bool kind = verify_change_of_kind(change); /* the factor 1 is not the truth */
+  double values[SCANNED];
+  int best = UNCHANGED;
+  root_point least;
+  for (int i = 0; i < SCANNED; ++i) values[i] = INFINITY;
+  hc_status st = closeness_at(f, parameter(f, UNCHANGED), &values[UNCHANGED]);
+  for (int by = -1; by <= 1 && st == HC_OK; by += 2) st = walk(f, UNCHANGED, by, kind, values, &best);
+  if (st != HC_OK) return st;
+  if (best == 0 || best == SCANNED - 1 || (best == UNCHANGED && !kind)) return HC_OK;
+  verify_solutions_clear(&f->last);
+  st = root_minimum(closeness_at, f, parameter(f, best - 1), values[best - 1], parameter(f, best), values[best],
+                    parameter(f, best + 1), values[best + 1], precise_factor, &least);
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
-  if (fabs(least.x) <= small_factor) return HC_OK;
-  f.equations.factor = exp(least.x);
-  return search_fit(s, (verify_hypothesis){.equations = f.equations,
-                                           .omega_factor = 1,
-                                           .value_factor = 1,
-                                           .fitted = true,
-                                           .causes = VERIFY_BIT(verify_changes[change].cause)});
+  if (!kind && fabs(least.x) <= (f->turn ? small_angle : small_factor)) return HC_OK;
+  if (!s->oscillator && least.f > much_closer * values[UNCHANGED]) return HC_OK;
+  st = s->oscillator ? HC_OK : fit_harmonics(f, &least);
+  if (st != HC_OK) return st;
+  verify_hypothesis h = {.equations = f->equations,
+                         .omega_factor = 1,
+                         .value_factor = 1,
+                         .fitted = true,
+                         .causes = VERIFY_BIT(verify_changes[change].cause)};
+  h.equations.factor = f->turn ? least.x : exp(least.x);
+  for (int i = 0; i < SEARCH_USUAL_FACTORS && !f->turn && !s->oscillator; ++i)
+    if (fabs(h.equations.factor / search_factors[i] - 1) < 1e-3)
+      h.equations.factor = search_factors[i], h.fitted = kind;
+  return search_fit(s, h, s->oscillator ? NULL : &s->many[true][0]);
 }
 
 hc_status search_fits(search *s)
 {
+  const model *m = s->setup->model;
   hc_status st = HC_OK;
-  for (int c = CHANGE_FORCE; c <= CHANGE_MEAN_OF_N && st == HC_OK; ++c) {
-    st = fit_factor(s, c);
-    if (st == HC_BAD_INPUT) st = HC_OK;
-  }
+  for (int c = CHANGE_FORCE; c < VERIFY_CHANGES && st == HC_OK; ++c)
+    for (int which = 0; which < verify_change_variants(m, c) && verify_changes[c].scan && st == HC_OK; ++which) {
+      fit f = {.s = s, .equations = search_own(s), .turn = verify_changes[c].scan == SCAN_TURN};
+      f.equations.change = c;
+      f.equations.which = which;
+      f.equations.n = m->n;
+      if (!s->oscillator && f.equations.harmonics < USUAL_HARMONICS) f.equations.harmonics = USUAL_HARMONICS;
+      st = fit_number(s, &f);
+      verify_solutions_clear(&f.last);
+      if (st == HC_BAD_INPUT) st = HC_OK;
+    }
   return st;
 }

@@ -1,41 +1,50 @@
-/* search.c - see search.h. In stages, the later ones only if none before explains the points:
+/* search.c - see search.h. In stages, the later ones only if none before explains the points, and as long as the
+ * patience lasts:
  *   exact    every number of harmonics with and without harmonic 0, odd ones only, and every change of the model, with
  *            every reading of the columns; one factor of all values or frequencies
  *   sampled  for the likeliest of these, every number of samples: too few, and mistakes in following the slider.
  *            Solutions come by Newton from those with exact forces, at a small part of what the sampled curve would
  *            cost; the likeliest are followed along their own curves, which have solutions that no exact one is near to
- *   fits     a free factor of one number of the model
+ *   numbers  a free factor, or angle, of one number of the model
  *   pairs    changes of the model without harmonic 0, with few harmonics, or few samples
- * A number of harmonics counts as a cause where its solutions are farther than the gate from those of many. */
+ * A number of harmonics counts as a cause where its solutions are farther than the gate from those of many. Of a
+ * structure all but the truth comes by Newton from the truth, first at few of the points. */
 #include "compare/verify/search/search.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/thread_clock.h"
 #include "compare/response.h"
 #include "compare/verify/truth/truth.h"
 
 static const int harmonics_tried[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20};
-static const double factors_tried[] = {2, 0.5, 10, 0.1};
 /* The powers of two first: they are tried with every likely number of harmonics. Around the best, every number is. */
 static const int samples_tried[] = {16, 32, 64, 128, 256, 512, 1024, 3,   4,   5,   6,   8,   10,  12,  20,
                                     24, 40, 48, 80,  96,  100, 160,  192, 200, 250, 320, 400, 500, 1000};
 enum {
   HARMONICS_TRIED = sizeof harmonics_tried / sizeof *harmonics_tried,
-  FACTORS_TRIED = sizeof factors_tried / sizeof *factors_tried,
   SAMPLES_TRIED = sizeof samples_tried / sizeof *samples_tried,
   POWERS_OF_TWO = 7,
   MOST_BASES = 15,
   USUAL_HARMONICS = 10
 };
 
-/* Every reading of the solutions of *e, for one reading of the frequency. Errors of search_solve. */
+/* Where Newton starts for one reading of the frequency; NULL: the curve is followed. */
+static const verify_solutions *start_of(const search *s, int frequency)
+{
+  const verify_solutions *truth = &s->many[true][frequency];
+  return s->oscillator || !truth->n ? NULL : truth;
+}
+
+/* Every reading of the solutions of *e, for one reading of the frequency. Errors of search_try. */
 static hc_status try_at(search *s, const verify_equations *e, int frequency)
 {
   verify_solutions of = {0};
-  hc_status st = search_solve(s, e, search_omega_factor(frequency), &of);
-  if (st == HC_OK) search_read(s, e, frequency, &of);
+  hc_status st = search_try(s, e, frequency, start_of(s, frequency), &of);
+  s->points.only_few = false;
   verify_solutions_clear(&of);
   return st;
 }
@@ -71,16 +80,18 @@ static hc_status try_order(search *s, int harmonics, bool keep_mean)
   order *o = &s->orders[s->n_orders++];
   hc_status st = HC_OK;
   *o = (order){.harmonics = harmonics, .keep_mean = keep_mean, .score = INFINITY};
+  s->current = o;
   for (int f = 0; f < SEARCH_FREQUENCIES && st == HC_OK; ++f) {
     if (!s->scaled[f]) continue;
-    verify_solutions own = {0}, *of = many ? &s->many[keep_mean][f] : &own;
-    st = search_solve(s, &e, search_omega_factor(f), of);
-    if (st == HC_OK && !many) o->matters[f] = verify_apart(&s->points, of, &s->many[keep_mean][f]) > s->out->gate;
-    if (st == HC_OK && many && keep_mean && f == 0) s->out->truth_distance = verify_read_plain(&s->points, of);
-    if (st == HC_OK) o->score = fmin(o->score, verify_closeness(&s->points, of));
-    if (st == HC_OK) search_read(s, &e, f, of);
-    verify_solutions_clear(&own);
+    verify_solutions of = {0};
+    /* What others start from is of all points. */
+    st = search_try(s, &e, f, many ? NULL : start_of(s, f), &of);
+    if (st == HC_OK && many && keep_mean && f == 0) s->out->truth_distance = verify_read_plain(&s->points, &of);
+    if (many) s->many[keep_mean][f] = of;
+    else verify_solutions_clear(&of);
+    s->points.only_few = false;
   }
+  s->current = NULL;
   return st == HC_OK && !search_tick(s) ? HC_INTERRUPTED : st;
 }
 
@@ -111,6 +122,19 @@ static hc_status try_odd_only(search *s)
 
 /* ---- changes of the model ---- */
 
+/* With other usual numbers of harmonics, where that may be what is left. */
+static hc_status try_orders_of(search *s, const verify_equations *e)
+{
+  const double nearly = 0.08;
+  verify_equations other = *e;
+  hc_status st = HC_OK;
+  for (int i = 0; i < SEARCH_ORDERS && s->last <= nearly && s->last > s->out->gate / 2 && st == HC_OK; ++i) {
+    other.harmonics = i > 0 ? search_orders[i] : s->out->harmonics;
+    if (other.harmonics != e->harmonics) st = try_equations(s, &other);
+  }
+  return st;
+}
+
 /* The changes first..last in each way they can be made, in equations that are otherwise *like; those with a factor at
  * the usual ones. Of another response: try_responses. */
 static hc_status try_changes(search *s, const verify_equations *like, verify_change first, verify_change last)
@@ -119,15 +143,20 @@ static hc_status try_changes(search *s, const verify_equations *like, verify_cha
   hc_status st = HC_OK;
   for (int c = first; c <= (int)last && st == HC_OK; ++c) {
     const int variants = verify_change_variants(m, c);
-    const bool factor = verify_changes[c].factor;
-    for (int i = 0; i < (factor ? FACTORS_TRIED : 1) * variants && c != CHANGE_RESPONSE && st == HC_OK; ++i) {
+    const bool factor = verify_changes[c].scan == SCAN_FACTOR;
+    const int numbers = factor ? SEARCH_USUAL_FACTORS - (verify_changes[c].cause != CAUSE_GAP) : 1;
+    for (int i = 0; i < numbers * variants && c != CHANGE_RESPONSE && st == HC_OK; ++i) {
+      /* Of a single contact search_fits knows all but the factor 0. */
+      if (factor && !s->oscillator && i % variants > 0 && search_factors[i / variants] != 0) continue;
       verify_equations e = *like;
       e.change = c;
       e.which = i % variants;
       e.n = m->n;
-      e.factor = factor ? factors_tried[i / variants] : 1;
+      if (verify_changes[c].scan == SCAN_TURN || verify_change_of_kind(c)) break; /* no number is usual */
+      e.factor = factor ? search_factors[i / variants] : 1;
       if (verify_equations_linear(&e)) e.harmonics = 1;
       st = try_equations(s, &e);
+      if (st == HC_OK && !s->oscillator && !verify_equations_linear(&e)) st = try_orders_of(s, &e);
     }
   }
   return st;
@@ -171,34 +200,47 @@ static hc_status try_orders_of_changed(search *s)
 
 /* ---- another response ---- */
 
-typedef struct response_reader {
-  search *s;
-  verify_equations equations;
-} response_reader;
-
-static void read_dof(void *self, int dof, const verify_solutions *of)
-{
-  const response_reader *r = self;
-  const model *m = r->s->setup->model;
-  bool asked = true; /* is it the response itself? */
-  for (int i = 0; i < m->n; ++i) asked &= m->responses[i] == (i == dof);
-  verify_equations e = r->equations;
-  e.change = CHANGE_RESPONSE;
-  e.which = dof + 1;
-  e.n = m->n;
-  if (!asked) search_read(r->s, &e, 0, of);
-}
-
-/* Every degree of freedom in the place of the response, by the truth and with the case's own harmonics. */
+/* For every response that is wrong the degree of freedom whose motion fits best, by the truth and with the case's own
+ * harmonics; the hypothesis names the first's. */
 static hc_status try_responses(search *s)
 {
-  const int orders[] = {s->out->harmonics, s->own};
-  const verify_places at = {s->from, s->to, s->points.n, s->points.omega};
+  const int orders[] = {s->out->harmonics, s->own}, n = s->setup->model->n;
+  const verify_sample *p = &s->points;
+  const verify_places at = {.n = p->n, .omega = p->omega, .n_responses = p->n_responses, .asked = p->quantity};
   hc_status st = HC_OK;
-  for (int i = 0; i < 2 && s->setup->model->n > 1 && st == HC_OK && !search_explained(s); ++i) {
-    response_reader r = {s, search_equations(orders[i], true)};
-    st = verify_solutions_of_dofs(s->setup, &r.equations, &s->points.quantity, &at, s->monitor, read_dof, &r);
-    if (st == HC_OK && !search_tick(s)) st = HC_INTERRUPTED;
+  for (int i = 0; i < 2 && n > 1 && n <= VERIFY_MOST_DOFS && st == HC_OK && !search_explained(s); ++i) {
+    verify_equations e = search_equations(orders[i], true);
+    verify_solutions of;
+    search_distances best[SEARCH_MOST_RESPONSES], one;
+    int dof[SEARCH_DISTANCES] = {0}, least = 0;
+    for (int r = 0; r < p->n_responses; ++r)
+      for (int k = 0; k < SEARCH_DISTANCES; ++k) best[r][k] = 1;
+    st = search_near(s, &e, 1, &s->many[true][0], &of);
+    for (int d = 0; d < n && st == HC_OK; ++d) {
+      verify_solutions_move(&of, &at, n, d);
+      for (int r = 0; r < p->n_responses; ++r) {
+        const double *row = s->setup->model->responses + (size_t)r * (size_t)n;
+        bool asked = p->wrong[r]; /* is it the response itself? */
+        for (int k = 0; k < n; ++k) asked &= row[k] == (k == d);
+        search_distances_of(p, r, &of, one);
+        for (int k = 0; k < SEARCH_DISTANCES && !asked; ++k) {
+          if (!(one[k] < best[r][k])) continue;
+          best[r][k] = one[k];
+          if (r == p->first) dof[k] = d;
+        }
+      }
+      if (!search_tick(s)) st = HC_INTERRUPTED;
+    }
+    /* One dof a reading is named: that of the reading that fits best. */
+    for (int k = 0; k < SEARCH_DISTANCES; ++k) {
+      for (int r = 1; r < p->n_responses; ++r) best[0][k] = fmax(best[0][k], best[r][k]);
+      if (best[0][k] < best[0][least]) least = k;
+    }
+    e.change = CHANGE_RESPONSE;
+    e.which = dof[least] + 1;
+    e.n = n;
+    if (st == HC_OK) search_read_distances(s, &e, 0, best[0]);
+    verify_solutions_clear(&of);
   }
   return st;
 }
@@ -222,15 +264,15 @@ static void note_likely(search *s, const verify_equations *e, double score)
 typedef struct base {
   verify_equations equations;
   int frequency;
-  double omega[SEARCH_MOST_POINTS];
   verify_solutions exact;
 } base;
 
 static hc_status base_solve(search *s, const verify_equations *e, int frequency, base *out)
 {
   *out = (base){.equations = *e, .frequency = frequency};
-  for (int i = 0; i < s->points.n; ++i) out->omega[i] = search_omega_factor(frequency) * s->points.omega[i];
-  return search_solve(s, e, search_omega_factor(frequency), &out->exact);
+  const double factor = search_omega_factor(frequency);
+  const verify_solutions *near = start_of(s, frequency);
+  return near ? search_near(s, e, factor, near, &out->exact) : search_follow(s, e, factor, &out->exact);
 }
 
 static hc_status try_rate(search *s, const base *b, int samples, int restart)
@@ -240,13 +282,17 @@ static hc_status try_rate(search *s, const base *b, int samples, int restart)
   e.samples = samples;
   e.restart = restart;
   if (samples < 2 * e.harmonics + 1) return HC_OK;
-  hc_status st = verify_solutions_near(s->setup, &e, &b->exact, b->omega, &of);
-  if (st == HC_OK) search_read(s, &e, b->frequency, &of);
+  hc_status st = HC_OK;
+  if (s->oscillator) {
+    st = search_near(s, &e, search_omega_factor(b->frequency), &b->exact, &of);
+    if (st == HC_OK) search_read(s, &e, b->frequency, &of);
+  } else st = search_try(s, &e, b->frequency, &b->exact, &of);
   if (st == HC_OK) {
     s->points.part = 0; /* some points fit to rounding, and others' solutions were not found: a likely one, too */
     note_likely(s, &e, verify_read_plain(&s->points, &of));
     s->points.part = 0.9;
   }
+  s->points.only_few = false;
   verify_solutions_clear(&of);
   if (st == HC_OK && !search_tick(s)) st = HC_INTERRUPTED;
   return st;
@@ -266,6 +312,7 @@ static hc_status try_order_sampled(search *s, int i, int n, const int *samples, 
 {
   const verify_equations e = search_equations(s->orders[i].harmonics, s->orders[i].keep_mean);
   base b;
+  if (s->setup->model->n_contacts == 0) return HC_OK;
   hc_status st = base_solve(s, &e, s->frequency, &b);
   if (st == HC_OK) st = try_rates(s, &b, n, samples, last_restart);
   verify_solutions_clear(&b.exact);
@@ -363,11 +410,12 @@ static hc_status try_small(search *s)
   static const int rates[] = {3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64};
   hc_status st = HC_OK;
   for (int i = 0; i < s->n_orders && st == HC_OK && !search_explained(s); ++i) {
-    const int harmonics = s->orders[i].harmonics;
+    const int harmonics = s->orders[i].harmonics, least[] = {2 * harmonics + 1, 2 * harmonics + 2, 4 * harmonics + 1};
     int n = 0;
     while (n < (int)(sizeof rates / sizeof *rates) && rates[n] <= SMALL * harmonics) ++n;
     if (harmonics > SMALL || harmonics == s->own) continue;
     st = try_order_sampled(s, i, n, rates, HBM_RESTART_INTERPOLATED);
+    if (st == HC_OK) st = try_order_sampled(s, i, 3, least, HBM_RESTART_INTERPOLATED);
   }
   return st;
 }
@@ -376,7 +424,11 @@ static hc_status try_curves(search *s)
 {
   const int n = s->n_likely;
   hc_status st = HC_OK;
-  for (int i = 0; i < n && st == HC_OK && !search_explained(s); ++i) st = try_at(s, &s->likely[i], s->frequency);
+  for (int i = 0; i < n && st == HC_OK && !search_explained(s); ++i) {
+    verify_solutions of;
+    st = search_try(s, &s->likely[i], s->frequency, NULL, &of);
+    verify_solutions_clear(&of);
+  }
   return st;
 }
 
@@ -398,69 +450,140 @@ static hc_status try_sliders(search *s)
 typedef struct stage {
   hc_status (*run)(search *s);
   bool always; /* else only if nothing explains the points so far */
+  const char *words;
 } stage;
-
-/* Curves of a structure are dearer, and more may be wrong: the plainest first, until one explains the points. */
-static const stage of_structure[] = {
-    {try_truth, true},         {try_limits, false},       {try_responses, false},
-    {try_other_orders, false}, {try_every_change, false}, {search_scales, false},
-    {try_odd_only, false},     {try_sliders, false},      {try_orders_of_changed, false}};
-static const stage of_oscillator[] = {
-    {try_truth, true},        {try_other_orders, true}, {search_scales, true},         {try_odd_only, true},
-    {try_every_change, true}, {try_sliders, false},     {try_orders_of_changed, false}};
-static const stage sampled[] = {{try_bases, false},
-                                {try_small, false},
-                                {try_near_likeliest, false},
-                                {try_likeliest_with_orders, false},
-                                {try_curves, false}};
-#define STAGES(list) sizeof(list) / sizeof *(list), (list)
-
-static hc_status run_stages(search *s, size_t n, const stage *stages)
-{
-  hc_status st = HC_OK;
-  for (size_t i = 0; i < n && st == HC_OK; ++i)
-    if (stages[i].always || !search_explained(s)) st = stages[i].run(s);
-  return st;
-}
 
 /* Is the best hypothesis a factor without a name? Factors of the model's numbers may do what it does. */
 static bool free_factor(const search *s) { return s->out->hypotheses[0].fitted; } /* false where there is none yet */
 
-hc_status verify_search(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
-                        verify_report *out)
+static hc_status try_fits_of_factor(search *s) { return free_factor(s) ? search_fits(s) : HC_OK; }
+
+static hc_status try_fits_of_rest(search *s) { return free_factor(s) ? HC_OK : search_fits(s); }
+
+static hc_status try_pairs(search *s)
+{
+  const verify_equations without = search_equations(s->own, false);
+  if (verify_fits(s->out)) return HC_OK;
+  return try_changes(s, &without, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
+}
+
+/* Curves of a structure are dearer, and more may be wrong: the plainest first, until one explains the points. */
+static const stage of_structure[] = {{try_truth, true, "columns"},
+                                     {try_limits, false, "limits of friction"},
+                                     {try_responses, false, "responses"},
+                                     {try_other_orders, false, "harmonics"},
+                                     {try_every_change, false, "equations"},
+                                     {try_odd_only, false, NULL},
+                                     {try_small, false, "samples"},
+                                     {search_fits, false, "numbers of the model"},
+                                     {try_bases, false, "samples"},
+                                     {search_scales, false, "scales"},
+                                     {try_near_likeliest, false, "samples"},
+                                     {try_likeliest_with_orders, false, NULL},
+                                     {try_orders_of_changed, false, "equations with other harmonics"},
+                                     {try_sliders, false, "sliders"},
+                                     {try_curves, false, "samples' own curves"},
+                                     {try_pairs, false, "equations without harmonic 0"}};
+static const stage of_oscillator[] = {{try_truth, true, "columns"},
+                                      {try_other_orders, true, "harmonics"},
+                                      {search_scales, true, "scales"},
+                                      {try_odd_only, true, NULL},
+                                      {try_every_change, true, "equations"},
+                                      {try_sliders, false, "sliders"},
+                                      {try_orders_of_changed, false, "equations with other harmonics"},
+                                      {try_fits_of_factor, true, NULL},
+                                      {try_bases, false, "samples"},
+                                      {try_small, false, NULL},
+                                      {try_near_likeliest, false, NULL},
+                                      {try_likeliest_with_orders, false, NULL},
+                                      {try_curves, false, "samples' own curves"},
+                                      {try_fits_of_rest, false, "numbers of the model"},
+                                      {try_pairs, false, "equations without harmonic 0"}};
+enum {
+  OF_STRUCTURE = sizeof of_structure / sizeof *of_structure,
+  OF_OSCILLATOR = sizeof of_oscillator / sizeof *of_oscillator
+};
+
+static void add_words(char *text, size_t size, const char *words)
+{
+  const size_t used = strlen(text);
+  if (words && !strstr(text, words)) snprintf(text + used, size - used, "%s%s", used ? ", " : "", words);
+}
+
+static hc_status run_stages(search *s, int n, const stage *stages)
+{
+  verify_report *out = s->out;
+  hc_status st = HC_OK;
+  int i = 0;
+  for (; i < n && st == HC_OK; ++i) {
+    if (!stages[i].always && search_explained(s)) continue;
+    st = stages[i].run(s);
+    if (st == HC_OK) add_words(out->tried, sizeof out->tried, stages[i].words);
+    if (st == HC_OK && s->said) search_say(s);
+  }
+  for (i = st == HC_INTERRUPTED ? i - 1 : n; i < n; ++i)
+    if (!stages[i].words || !strstr(out->tried, stages[i].words))
+      add_words(out->not_tried, sizeof out->not_tried, stages[i].words);
+  return st;
+}
+
+/* A monitor that loses its patience. */
+typedef struct patience {
+  const hc_monitor *whole;
+  double end; /* [s] on the thread's clock */
+  bool over;
+} patience;
+
+static bool patient(void *self, double done)
+{
+  patience *p = self;
+  p->over = clock_seconds(CLOCK_THREAD_CPUTIME_ID) > p->end;
+  return !p->over && hc_monitor_tick(p->whole, done);
+}
+
+/* Another reading of the frequencies is tried if all points that differ are then within a factor 2 of the sweep. */
+static void find_frequencies(search *s)
+{
+  double low = fmin(s->setup->omega_from, s->setup->omega_to) / 2,
+         high = fmax(s->setup->omega_from, s->setup->omega_to) * 2;
+  for (int f = 0; f < SEARCH_FREQUENCIES; ++f) {
+    int inside = 0;
+    for (int i = 0; i < s->points.n; ++i) {
+      double omega = search_omega_factor(f) * s->points.omega[i];
+      inside += omega >= low && omega <= high;
+    }
+    s->scaled[f] = f == 0 || inside == s->points.n;
+  }
+}
+
+hc_status verify_search(const compare_setup *setup, int n, const verify_judged *responses, const verify_effort *effort,
+                        const hc_monitor *monitor, verify_report *out)
 {
   search *s = calloc(1, sizeof *s);
   if (!s) return HC_NO_MEMORY;
-  *s = (search){.setup = setup, .monitor = monitor, .out = out, .floor = out->gate / 10, .expected = 200};
+  const double now = clock_seconds(CLOCK_THREAD_CPUTIME_ID),
+               asked = effort && effort->patience > 0 ? effort->patience : VERIFY_PATIENCE;
+  patience left = {monitor, now + asked, false};
+  const hc_monitor impatient = {patient, &left};
+  *s = (search){.setup = setup,
+                .monitor = &impatient,
+                .effort = effort,
+                .out = out,
+                .oscillator = model_is_oscillator(setup->model),
+                .begun = now,
+                .floor = out->gate / 10,
+                .expected = 200};
   s->own = setup->hbm.harmonics == HBM_AUTO ? USUAL_HARMONICS : setup->hbm.harmonics;
   s->n_scales = verify_value_scales(setup->model, s->scales);
-  verify_window(setup, data, &s->from, &s->to);
-  hc_status st = verify_sample_new(out, &data->quantity, &s->points);
+  hc_status st = verify_sample_of(n, responses, &s->points);
+  verify_window(setup, responses[s->points.first].data, &s->from, &s->to);
   out->n_hypotheses = 0;
   out->truth_distance = NAN;
   if (st == HC_OK) {
-    /* Another reading of the frequencies is tried if all points that differ are then within a factor 2 of the sweep. */
-    double low = fmin(s->setup->omega_from, s->setup->omega_to) / 2,
-           high = fmax(s->setup->omega_from, s->setup->omega_to) * 2;
-    for (int f = 0; f < SEARCH_FREQUENCIES; ++f) {
-      int inside = 0;
-      for (int i = 0; i < s->points.n; ++i) {
-        double omega = search_omega_factor(f) * s->points.omega[i];
-        inside += omega >= low && omega <= high;
-      }
-      s->scaled[f] = f == 0 || inside == s->points.n;
-    }
-    const bool contacts = s->setup->model->n_contacts > 0, oscillator = model_is_oscillator(s->setup->model);
-    st = oscillator ? run_stages(s, STAGES(of_oscillator)) : run_stages(s, STAGES(of_structure));
-    if (st == HC_OK && oscillator && free_factor(s)) st = search_fits(s);
-    const bool fits_done = free_factor(s);
-    if (st == HC_OK && contacts) st = run_stages(s, STAGES(sampled));
-    if (st == HC_OK && !search_explained(s) && !fits_done) st = search_fits(s);
-    if (st == HC_OK && contacts && !search_explained(s) && !verify_fits(s->out)) {
-      const verify_equations without = search_equations(s->own, false);
-      st = try_changes(s, &without, CHANGE_NONE + 1, VERIFY_CHANGES - 1);
-    }
+    find_frequencies(s);
+    st = s->oscillator ? run_stages(s, OF_OSCILLATOR, of_oscillator) : run_stages(s, OF_STRUCTURE, of_structure);
   }
+  if (st == HC_INTERRUPTED && left.over) st = HC_OK;
   if (st == HC_OK) search_judge(out);
   for (int i = 0; i < 2 * SEARCH_FREQUENCIES; ++i) verify_solutions_clear(&s->many[i % 2][i / 2]);
   free(s);

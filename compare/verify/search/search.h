@@ -9,9 +9,17 @@
 
 enum { VERIFY_LEAST_DIFFERING = 3 }; /* fewer points are met by many hypotheses, and tell none from another */
 
-/* out->rows are judged already; fills out->hypotheses, best first, and truth_distance. */
-hc_status verify_search(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
-                        verify_report *out);
+/* A response of the model, and what of its rows was judged. */
+typedef struct verify_judged {
+  const verify_data *data;
+  const verify_report *report;
+  bool wrong; /* rows differ, and nothing else says why */
+} verify_judged;
+
+/* All n responses together, in setup->model as verify_model_seen has them; those that are right must stay it. Fills
+ * out->hypotheses, best first, truth_distance, causes or nearest_guess, tried, not_tried. */
+hc_status verify_search(const compare_setup *setup, int n, const verify_judged *responses, const verify_effort *effort,
+                        const hc_monitor *monitor, verify_report *out);
 
 /* Does the best hypothesis explain the points? */
 bool verify_fits(const verify_report *r);
@@ -40,21 +48,31 @@ const verify_scale *verify_scale_near(const verify_scale *s, int n, double facto
 
 /* ---- how the columns may be meant ---- */
 
-enum { SEARCH_MOST_POINTS = 64 };
+enum { SEARCH_MOST_POINTS = 64, SEARCH_MOST_RESPONSES = 8 };
 
 /* The points that hypotheses are held against: some that differ from the truth and some that do not, omega
- * ascending. */
+ * ascending. A reading of the columns is of the responses that are wrong: the others' columns are right. */
 typedef struct verify_sample {
-  int n;
-  double omega[SEARCH_MOST_POINTS], value[SEARCH_MOST_POINTS];
-  double decibel[SEARCH_MOST_POINTS]; /* the values if they are in dB where the file says not, or the other way */
-  bool differs[SEARCH_MOST_POINTS];
-  verify_quantity quantity; /* what the file says it is */
-  double part;              /* [1] a distance is what this part of the points is within, 0.9; 0: their geometric mean */
+  int n, n_responses;
+  double omega[SEARCH_MOST_POINTS];
+  double value[SEARCH_MOST_RESPONSES][SEARCH_MOST_POINTS];   /* NaN: none */
+  double decibel[SEARCH_MOST_RESPONSES][SEARCH_MOST_POINTS]; /* if they are in dB where the file says not, or not */
+  bool differs[SEARCH_MOST_RESPONSES][SEARCH_MOST_POINTS];
+  verify_quantity quantity[SEARCH_MOST_RESPONSES]; /* what the file says they are */
+  bool wrong[SEARCH_MOST_RESPONSES];
+  int first;                              /* of these */
+  bool few[SEARCH_MOST_POINTS], only_few; /* some of the points, for a first look; are only these looked at? */
+  double part; /* [1] a distance is what this part of the points is within, 0.9; 0: their geometric mean */
 } verify_sample;
 
 /* HC_NO_MEMORY. */
-hc_status verify_sample_new(const verify_report *r, const verify_quantity *quantity, verify_sample *out);
+hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample *out);
+
+/* [1] The largest distance of a response: of each factor of the values (the last: dB) and reading. */
+enum { SEARCH_FACTORS = 9 };
+enum { SEARCH_DISTANCES = SEARCH_FACTORS * VERIFY_READINGS };
+typedef double search_distances[SEARCH_DISTANCES]; /* the readings of one factor together */
+void search_distances_of(const verify_sample *p, int response, const verify_solutions *of, search_distances out);
 
 /* One reading: number `reading` of verify_reading, times `factor`, into *h. Distances below `floor` are
  * all the same. */
@@ -90,9 +108,14 @@ typedef struct order {
 
 typedef struct search {
   const compare_setup *setup;
-  const hc_monitor *monitor;
+  const hc_monitor *monitor; /* which the patience is in */
+  const verify_effort *effort;
   verify_report *out;
   verify_sample points;
+  bool oscillator; /* its curves are followed; of a structure solutions come by Newton from the truth's */
+  bool said;       /* effort->say was called */
+  double begun;    /* [s] on the thread's clock */
+  verify_causes said_causes;
   double from, to; /* the sweep that covers the points as they stand */
   double floor;    /* distances below are all the same */
   int own;         /* the case's harmonics */
@@ -102,32 +125,54 @@ typedef struct search {
   verify_solutions many[2][SEARCH_FREQUENCIES]; /* with the truth's harmonics: without harmonic 0, with */
   int n_orders;
   order orders[SEARCH_MOST_ORDERS];
-  int n_likely;  /* sampled equations that may be it, likeliest first */
-  int frequency; /* the reading of it that these have */
+  order *current; /* the one that is tried now; NULL: none */
+  int n_likely;   /* sampled equations that may be it, likeliest first */
+  int frequency;  /* the reading of it that these have */
   verify_equations likely[SEARCH_MOST_LIKELY];
   double likely_score[SEARCH_MOST_LIKELY];
+  double last;        /* [1] distance of the best reading of what was tried last, at few points */
   int done, expected; /* equations, for the monitor */
 } search;
 
+/* Numbers of harmonics that programs usually keep; the first stands for the truth's. */
+enum { SEARCH_ORDERS = 6 };
+extern const int search_orders[SEARCH_ORDERS];
+
+/* Factors of the model's numbers that are no fits; the last of a gap alone. */
+enum { SEARCH_USUAL_FACTORS = 5 };
+extern const double search_factors[SEARCH_USUAL_FACTORS];
+
 double search_omega_factor(int frequency); /* 0: as it stands */
 
-/* False: interrupted. */
+/* False: interrupted, or out of patience. */
 bool search_tick(search *s);
+
+/* The best so far, to whoever wants to hear of it, if it is another than last time. */
+void search_say(search *s);
 
 /* Equations with exact forces and so many harmonics; with the case's own. */
 verify_equations search_equations(int harmonics, bool keep_mean);
 verify_equations search_own(const search *s);
 
-/* Their solutions at the points' omegas times the factor, along their curve. HC_BAD_INPUT: there are no such
- * equations. */
-hc_status search_solve(search *s, const verify_equations *e, double omega_factor, verify_solutions *out);
+/* Their solutions at the points' omegas times the factor: along their curve, or by Newton from `near`. HC_BAD_INPUT:
+ * there are no such equations. */
+hc_status search_follow(search *s, const verify_equations *e, double omega_factor, verify_solutions *out);
+hc_status search_near(search *s, const verify_equations *e, double omega_factor, const verify_solutions *near,
+                      verify_solutions *out);
 
-/* Every reading of the points for these solutions, among the hypotheses. A unit of length is no cause where it is one
+/* By the one that pays, and every reading of them among the hypotheses. Of a structure first at few of the points, then
+ * at all if these are promising, and along the curve if most of those fit. *out is the caller's to clear; only_few
+ * says which points it is of. */
+hc_status search_try(search *s, const verify_equations *e, int frequency, const verify_solutions *near,
+                     verify_solutions *out);
+
+/* Every reading of the points among the hypotheses, by its distance. A unit of length is no cause where it is one
  * of s->scales, which may be meant. */
 void search_read(search *s, const verify_equations *e, int frequency, const verify_solutions *of);
+void search_read_distances(search *s, const verify_equations *e, int frequency, const search_distances d);
 
 /* The hypothesis with its equations and factors, as the file says the quantity: solved, and among the hypotheses. */
-hc_status search_fit(search *s, verify_hypothesis h);
+hc_status search_fit(search *s, verify_hypothesis h, const verify_solutions *near);
 
 void search_keep(search *s, const verify_hypothesis *h);
 

@@ -49,15 +49,21 @@ static bool only_unstable(const verify_report *r)
   return low <= high;
 }
 
+/* Do the omegas ascend or descend strictly, one value each? */
+static bool one_value_each(const verify_report *r)
+{
+  const double way = r->n_rows > 1 ? r->rows[1].omega - r->rows[0].omega : 0;
+  for (int i = 1; i < r->n_rows; ++i)
+    if (!((r->rows[i].omega - r->rows[i - 1].omega) * way > 0)) return false;
+  return true;
+}
+
 /* Stretches of points on one stable branch, between points on another that exists along all of the stretch, get the
  * verdict other_branch. True if there are any. */
 static bool mark_hops(verify_report *r)
 {
   bool any = false;
-  /* Do the omegas ascend or descend strictly, one value each? */
-  double way = r->n_rows > 1 ? r->rows[1].omega - r->rows[0].omega : 0;
-  for (int i = 1; i < r->n_rows; ++i)
-    if (!((r->rows[i].omega - r->rows[i - 1].omega) * way > 0)) return false;
+  if (!one_value_each(r)) return false;
   for (int from = 1, to; from < r->n_rows; from = to) {
     const verify_row *before = &r->rows[from - 1];
     bool odd = before->verdict == VERDICT_MATCH && r->rows[from].branch != before->branch;
@@ -215,11 +221,92 @@ hc_status points_scatter(const verify_report *r, verify_causes *out)
   return HC_OK;
 }
 
+/* ---- points that were not computed, or whose computation ended early ---- */
+
+verify_causes points_interpolated(const verify_report *r)
+{
+  const double on_chord = 2e-6, least_bend = 0.1; /* [1] digits of a file; of the gate */
+  int chords = 0, off = 0, beside = 0;
+  bool last = false;
+  for (int i = 0; i < r->n_rows; ++i) {
+    const verify_row *row = &r->rows[i];
+    if (!verify_row_differs(row)) {
+      last = false;
+      continue;
+    }
+    ++off;
+    bool chord = false;
+    for (int k = i > 0 ? i - 1 : 0; k <= i && i + 1 < r->n_rows; ++k) { /* between its neighbours, or behind a chord */
+      const verify_row *a = &r->rows[k > 0 ? k - 1 : 0], *b = &r->rows[k], *c = &r->rows[k + 1];
+      if (k != i || !((b->omega - a->omega) * (c->omega - b->omega) > 0) || a->branch < 0 || c->branch < 0) continue;
+      const double part = (b->omega - a->omega) / (c->omega - a->omega);
+      const double of_chord = a->value + part * (c->value - a->value),
+                   of_truth = a->nearest + part * (c->nearest - a->nearest);
+      chord = fabs(b->value - of_chord) <= on_chord * fabs(b->value) &&
+              fabs(b->nearest - of_truth) > least_bend * r->gate * b->scale;
+    }
+    chords += chord;
+    beside += !chord && last; /* a knot's neighbour */
+    last = chord;
+  }
+  return chords >= 3 && 2 * chords >= off - beside ? VERIFY_BIT(CAUSE_INTERPOLATED) : 0;
+}
+
+/* Where a computation ended early, points are anywhere, one by one: alone or in twos and threes between right ones, by
+ * more than an outlier's offset. */
+verify_causes points_scattered(const verify_report *r)
+{
+  const double limit = fmax(far, gates * r->gate) + 2 * deviations * r->noise_said;
+  int off = 0, large = 0, runs = 0, right = 0;
+  for (int i = 0; i < r->n_rows; ++i) {
+    if (r->rows[i].skipped) continue;
+    right += !differs(r, i);
+    if (!differs(r, i)) continue;
+    ++off;
+    runs += !differs(r, i - 1);
+    large += r->rows[i].error > limit;
+  }
+  const bool alone = 3 * runs >= 2 * off && runs >= 3;
+  return off >= 3 && alone && one_value_each(r) && right >= off && 10 * large >= 8 * off
+             ? VERIFY_BIT(CAUSE_NOT_CONVERGED)
+             : 0;
+}
+
+/* Standard deviation of the logarithm from one point of the file to the next, of the values or of the truth. */
+static double roughness(const verify_report *r, bool of_truth, double *room)
+{
+  int n = 0;
+  double last[3] = {0};
+  for (int i = 0; i < r->n_rows; ++i) {
+    const verify_row *row = &r->rows[i];
+    last[0] = last[1], last[1] = last[2], last[2] = log(fabs(of_truth ? row->nearest : row->value));
+    const double bend = fabs(last[0] - 2 * last[1] + last[2]);
+    if (i > 1 && isfinite(bend)) room[n++] = bend;
+  }
+  return n < LEAST_DIFFERENCES ? 0 : normal * quantile(n, room, 0.5) / sqrt(6);
+}
+
+hc_status points_anywhere(const verify_report *r, verify_causes *out)
+{
+  const double rough = 0.15, rougher = 5; /* no measured curve scatters so; times the truth's */
+  neighbours p;
+  *out = 0;
+  if (!one_value_each(r)) return HC_OK;
+  hc_status st = neighbours_of(r, &p);
+  if (st != HC_OK) return st;
+  const double theirs = roughness(r, false, p.scratch);
+  if (r->n_rows >= LEAST_POINTS && theirs > rough && theirs > rougher * roughness(r, true, p.scratch))
+    *out = VERIFY_BIT(CAUSE_NOT_CONVERGED);
+  workspace_free(&p.memory);
+  return HC_OK;
+}
+
 void points_say(message *m, const verify_report *r)
 {
   int said = 0;
-  if (r->causes & VERIFY_BIT(CAUSE_NOISE)) message_add(m, " (by %.2g %% from one to the next)", 100 * r->noise);
-  if (!(r->causes & VERIFY_BIT(CAUSE_OUTLIER))) return;
+  if (verify_has(r->causes | r->nearest_guess, CAUSE_NOISE))
+    message_add(m, " (by %.2g %% from one to the next)", 100 * r->noise);
+  if (!verify_has(r->causes, CAUSE_OUTLIER) && !verify_has(r->causes, CAUSE_NOT_CONVERGED)) return;
   for (int i = 0; i < r->n_rows; ++i) {
     if (!differs(r, i)) continue;
     if (said++ < MOST_LINES)

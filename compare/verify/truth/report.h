@@ -89,6 +89,16 @@ typedef struct verify_report {
   hc_status status;                                /* of verify_run */
   verify_causes causes;                            /* suspected; 0: none, or none found */
   verify_causes nearest_guess;                     /* where no cause is sure; 0: none */
-  double noise;      /* [1] standard deviation from point to point around the truth; NaN: not estimated */
-  double noise_said; /* [1] what the values are said to scatter by */
+  char tried[256], not_tried[256]; /* kinds of causes, by their words; not_tried: the patience ended before */
+  double noise;                    /* [1] standard deviation from point to point around the truth; NaN: not estimated */
+  double noise_said;               /* [1] what the values are said to scatter by */
 } verify_report;
+
+/* How long may be searched, and who hears of what is found until then. */
+typedef struct verify_effort {
+  double patience; /* [s] of processor time; 0: VERIFY_PATIENCE */
+  /* of the best so far, after VERIFY_FIRST_ANSWER and then after every stage that changes it; NULL */
+  void (*say)(void *self, const verify_report *r);
+  void *self;
+} verify_effort;
+enum { VERIFY_PATIENCE = 30, VERIFY_FIRST_ANSWER = 3 };

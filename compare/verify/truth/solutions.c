@@ -8,6 +8,7 @@
 #include "base/growing.h"
 #include "compare/first_guess.h"
 
+enum { FEW_SAMPLES = 4 };               /* a harmonic */
 static const double close_omegas = 0.1; /* [1] a step that Newton may take in one go */
 
 compare_setup verify_settings(const compare_setup *setup, const verify_equations *e)
@@ -35,22 +36,46 @@ hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double 
 /* Equations ready to be solved. */
 typedef struct problem {
   hbm_solver *hbm;
-  double offset;                            /* [length] their response is the solver's plus this */
+  int dofs, first_dof;                      /* of the responses that is the motion of the first */
+  double *offset, *X;                       /* [responses] [length] theirs are the solver's plus these; [n_coef] */
   double series[2 * HBM_MAX_HARMONICS + 1]; /* of a response */
 } problem;
+
+static void problem_clear(problem *p)
+{
+  hbm_solver_free(p->hbm);
+  free(p->offset);
+  free(p->X);
+}
 
 static hc_status problem_new(const compare_setup *setup, const verify_equations *e, problem *out)
 {
   compare_setup own = verify_settings(setup, e);
   model *theirs;
-  *out = (problem){0};
+  *out = (problem){.dofs = setup->model->n, .first_dof = setup->model->n_responses - setup->model->n};
+  if (!(out->offset = calloc((size_t)setup->model->n_responses, sizeof *out->offset))) return HC_NO_MEMORY;
   const verify_changed how = {e->change, e->factor, e->which};
-  hc_status st = verify_changed_model(setup->model, &how, e->keep_mean && !e->odd_only, &theirs, &out->offset,
-                                      &own.hbm.mistakes.mean_error);
+  hc_status st =
+      verify_changed_model(setup->model, &how, e->keep_mean && !e->odd_only, &theirs, out->offset, &own.hbm.mistakes);
   if (st != HC_OK) return st;
-  if (own.hbm.mistakes.mean_error != 0) own.hbm.skip_linear = false;
+  const hbm_mistakes *wrong = &own.hbm.mistakes;
+  if (wrong->mean_error != 0 || wrong->turned || wrong->mean || wrong->hysteretic) own.hbm.skip_linear = false;
   st = guided_hbm_solver_new(theirs, &own.hbm, &out->hbm);
   model_free(theirs);
+  if (st == HC_OK && !(out->X = calloc((size_t)hbm_n_coefficients(out->hbm), sizeof *out->X))) st = HC_NO_MEMORY;
+  return st;
+}
+
+hc_status verify_model_seen(const model *m, int n, const int *response, model **out)
+{
+  const size_t dofs = (size_t)m->n;
+  if (model_is_oscillator(m)) return model_copy(m, out); /* and stays one: its response is its motion */
+  hc_status st = model_copy_sized(m, m->n_contacts, n + m->n, out);
+  for (size_t r = 0; st == HC_OK && r < (size_t)n + dofs; ++r) {
+    double *row = (*out)->responses + r * dofs;
+    const double *from = r < (size_t)n ? m->responses + (size_t)response[r] * dofs : NULL;
+    for (size_t i = 0; i < dofs; ++i) row[i] = from ? from[i] : i == r - (size_t)n;
+  }
   return st;
 }
 
@@ -87,13 +112,10 @@ bool verify_reading(int i, const verify_quantity *asked, verify_quantity *out, v
   return i == 0 || out->kind != asked->kind || out->harmonic != asked->harmonic;
 }
 
-/* Every reading of the motion, whose series is the problem's, plus the problem's offset. */
-static verify_solution read_all(const verify_quantity *asked, problem *p, verify_motion motion)
+/* Every reading of the motion. */
+static verify_solution read_all(const verify_quantity *asked, verify_motion motion)
 {
   verify_solution s;
-  p->series[0] += p->offset;
-  motion.max += p->offset;
-  motion.min += p->offset;
   verify_motion_find_rates(&motion);
   for (int i = 0; i < VERIFY_READINGS; ++i) {
     verify_quantity q;
@@ -105,131 +127,127 @@ static verify_solution read_all(const verify_quantity *asked, problem *p, verify
   return s;
 }
 
-static bool same_solution(const verify_solutions *s, int k, const double *X, double amplitude)
+static bool same_motion(const verify_solutions *s, int k, const double *x)
 {
-  const double *other = s->X + (size_t)k * s->n_coef;
-  double most = 0;
-  for (int i = 0; i < s->n_coef; ++i) most = fmax(most, fabs(X[i] - other[i]));
-  return most <= 1e-8 * amplitude;
+  const double *other = s->x + (size_t)k * (size_t)s->length;
+  double apart = 0, most = 0;
+  for (int i = 0; i < s->length; ++i) apart = fmax(apart, fabs(x[i] - other[i])), most = fmax(most, fabs(x[i]));
+  return apart <= 1e-8 * most;
 }
 
-/* X, measured, among the solutions at the omega that began with number `from`; not twice. */
-static hc_status add(verify_solutions *s, problem *p, double omega, int from, const double *X)
+/* The solution p->X, measured, among those at the omega that began with number `from`; not twice. */
+static hc_status add(verify_solutions *s, problem *p, const verify_places *at, double omega, int from)
 {
-  hbm_measures m;
-  verify_motion motion;
-  if (verify_motion_of_solution(p->hbm, omega, X, 0, p->series, &m, &motion) != HC_OK) return HC_OK;
-  for (int k = from; k < s->count; ++k)
-    if (same_solution(s, k, X, m.amplitude)) return HC_OK;
-  verify_solution *of = growing(s->of, s->count, sizeof *of);
+  verify_solution *of = growing(s->of, s->count, (size_t)s->n_responses * sizeof *of);
   if (of) s->of = of;
-  double *all = growing(s->X, s->count, (size_t)s->n_coef * sizeof *all);
-  if (all) s->X = all;
+  double *all = growing(s->x, s->count, (size_t)s->length * sizeof *all);
+  if (all) s->x = all;
   if (!of || !all) return HC_NO_MEMORY;
-  memcpy(all + (size_t)s->count * s->n_coef, X, (size_t)s->n_coef * sizeof *X);
-  of[s->count++] = read_all(&s->asked, p, motion);
+  double *x = all + (size_t)s->count * (size_t)s->length;
+  const int coefficients = s->length / p->dofs;
+  for (int d = 0; d < p->dofs; ++d) {
+    if (hbm_response(p->hbm, omega, p->X, p->first_dof + d, p->series) != HC_OK) return HC_OK;
+    for (int c = 0; c < coefficients; ++c) x[c * p->dofs + d] = p->series[c];
+  }
+  for (int k = from; k < s->count; ++k)
+    if (same_motion(s, k, x)) return HC_OK;
+  for (int r = 0; r < s->n_responses; ++r) {
+    if (hbm_response(p->hbm, omega, p->X, r, p->series) != HC_OK) return HC_OK;
+    p->series[0] += p->offset[r];
+    of[s->count * s->n_responses + r] =
+        read_all(&at->asked[r], verify_motion_of(omega, hbm_n_harmonics(p->hbm), p->series));
+  }
+  ++s->count;
   return HC_OK;
 }
 
-static hc_status start(verify_solutions *s, const verify_quantity *asked, int n, int n_coef)
+void verify_solutions_move(verify_solutions *s, const verify_places *at, int dofs, int dof)
 {
-  *s = (verify_solutions){.asked = *asked, .n = n, .n_coef = n_coef, .first = calloc((size_t)n + 1, sizeof *s->first)};
-  return s->first ? HC_OK : HC_NO_MEMORY;
+  double series[2 * HBM_MAX_HARMONICS + 1];
+  const int coefficients = s->length / dofs;
+  for (int i = 0; i < s->n; ++i)
+    for (int k = s->first[i]; k < s->first[i + 1]; ++k) {
+      const double *x = s->x + (size_t)k * (size_t)s->length;
+      for (int c = 0; c < coefficients; ++c) series[c] = x[c * dofs + dof];
+      const verify_motion motion = verify_motion_of(at->omega[i], coefficients / 2, series);
+      for (int r = 0; r < s->n_responses; ++r) s->of[k * s->n_responses + r] = read_all(&at->asked[r], motion);
+    }
 }
 
-/* The curve, and its solutions at every omega. The problem is the caller's to clear. */
-static hc_status follow_curve(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                              const verify_places *places, const hc_monitor *monitor, problem *p, verify_solutions *out)
+/* The equations, and no solutions of them yet. The problem is the caller's to clear. */
+static hc_status start(const compare_setup *setup, const verify_equations *e, const verify_places *at, problem *p,
+                       verify_solutions *s)
 {
+  hc_status st = problem_new(setup, e, p);
+  *s = (verify_solutions){.n = at->n,
+                          .n_responses = at->n_responses,
+                          .length = p->hbm ? setup->model->n * (2 * hbm_n_harmonics(p->hbm) + 1) : 0,
+                          .first = calloc((size_t)at->n + 1, sizeof *s->first)};
+  return s->first ? st : HC_NO_MEMORY;
+}
+
+static bool asked_at(const verify_places *at, int i) { return !at->only || at->only[i]; }
+
+hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_places *at,
+                              const hc_monitor *monitor, verify_solutions *out)
+{
+  problem p;
   hbm_curve curve = {0};
-  hc_status st = problem_new(setup, e, p),
-            started = start(out, asked, places->n, p->hbm ? hbm_n_coefficients(p->hbm) : 0);
-  if (started != HC_OK) st = started;
-  if (st == HC_OK) st = hbm_trace(p->hbm, places->from, places->to, monitor, &curve);
-  if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && p->hbm) st = HC_OK; /* as far as it came */
-  for (int i = 0; i < places->n && st == HC_OK; ++i) {
-    hbm_curve at = {0};
-    if (hbm_curve_at(p->hbm, &curve, places->omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
-    for (int k = 0; k < at.n && st == HC_OK; ++k)
-      st = add(out, p, places->omega[i], out->first[i], at.X + (size_t)k * at.n_coef);
+  hc_status st = start(setup, e, at, &p, out);
+  if (st == HC_OK) st = hbm_trace(p.hbm, at->from, at->to, monitor, &curve);
+  if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && p.hbm) st = HC_OK; /* as far as it came */
+  for (int i = 0; i < at->n && st == HC_OK; ++i) {
+    hbm_curve there = {0};
+    if (asked_at(at, i) && hbm_curve_at(p.hbm, &curve, at->omega[i], &there) == HC_NO_MEMORY) st = HC_NO_MEMORY;
+    for (int k = 0; k < there.n && st == HC_OK; ++k) {
+      memcpy(p.X, there.X + (size_t)k * there.n_coef, (size_t)there.n_coef * sizeof *p.X);
+      st = add(out, &p, at, at->omega[i], out->first[i]);
+    }
     out->first[i + 1] = out->count;
-    hbm_curve_free(&at);
+    hbm_curve_free(&there);
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
   }
   hbm_curve_free(&curve);
+  problem_clear(&p);
   return st;
 }
 
-hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                              const verify_places *at, const hc_monitor *monitor, verify_solutions *out)
-{
-  problem p = {0};
-  hc_status st = follow_curve(setup, e, asked, at, monitor, &p, out);
-  hbm_solver_free(p.hbm);
-  return st;
-}
-
-hc_status verify_solutions_of_dofs(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                                   const verify_places *at, const hc_monitor *monitor, verify_keep_dof *keep,
-                                   void *self)
-{
-  problem p = {0};
-  verify_solutions of = {0};
-  compare_setup own = *setup;
-  model *all;
-  hc_status st = model_copy_all_seen(setup->model, &all);
-  own.model = all;
-  if (st == HC_OK) st = follow_curve(&own, e, asked, at, monitor, &p, &of);
-  for (int r = 0; r < setup->model->n && st == HC_OK; ++r) {
-    /* What is read of the solutions becomes that of response r. */
-    for (int i = 0; i < of.n; ++i)
-      for (int k = of.first[i]; k < of.first[i + 1]; ++k) {
-        hbm_measures m;
-        verify_motion motion;
-        const double *X = of.X + (size_t)k * of.n_coef;
-        if (verify_motion_of_solution(p.hbm, at->omega[i], X, r, p.series, &m, &motion) == HC_OK)
-          of.of[k] = read_all(&of.asked, &p, motion);
-      }
-    keep(self, r, &of);
-    if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
-  }
-  verify_solutions_clear(&of);
-  hbm_solver_free(p.hbm);
-  model_free(all);
-  return st;
-}
-
-/* From guess number k of *from, X[n_coef] being room for it. */
-static hc_status solve_from(verify_solutions *s, problem *p, int i, double omega, const verify_solutions *from, int k,
-                            double *X)
+/* From guess number k of *from; guess[length] is room. */
+static hc_status solve_from(verify_solutions *s, problem *p, const verify_places *at, int i,
+                            const verify_solutions *from, int k, double *guess)
 {
   hbm_point point;
   if (s->count - s->first[i] >= VERIFY_MOST_SOLUTIONS) return HC_OK;
-  memcpy(X, from->X + (size_t)k * from->n_coef, (size_t)s->n_coef * sizeof *X);
-  hc_status st = hbm_solve(p->hbm, omega, X, &point);
-  if (st == HC_OK) return add(s, p, omega, s->first[i], X);
+  const int both = from->length < s->length ? from->length : s->length;
+  memset(guess, 0, (size_t)s->length * sizeof *guess);
+  memcpy(guess, from->x + (size_t)k * (size_t)from->length, (size_t)both * sizeof *guess);
+  hbm_guess_of(p->hbm, guess, p->X);
+  hc_status st = hbm_solve(p->hbm, at->omega[i], p->X, &point);
+  if (st == HC_OK) return add(s, p, at, at->omega[i], s->first[i]);
   return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
 hc_status verify_solutions_near(const compare_setup *setup, const verify_equations *e, const verify_solutions *near,
-                                const double *omega, verify_solutions *out)
+                                const verify_places *at, verify_solutions *out)
 {
-  problem p = {0};
-  double *X = malloc((size_t)near->n_coef * sizeof *X);
-  hc_status st = start(out, &near->asked, near->n, near->n_coef);
-  if (!X) st = HC_NO_MEMORY;
-  if (st == HC_OK) st = problem_new(setup, e, &p);
-  if (st == HC_OK && hbm_n_coefficients(p.hbm) != near->n_coef) st = HC_BAD_INPUT; /* guesses of something else */
-  for (int i = 0; i < near->n && st == HC_OK; ++i) {
-    bool close = i > 0 && omega[i] - omega[i - 1] <= close_omegas * omega[i];
-    for (int k = near->first[i]; k < near->first[i + 1] && st == HC_OK; ++k)
-      st = solve_from(out, &p, i, omega[i], near, k, X);
-    for (int k = close ? out->first[i - 1] : 0; close && k < out->first[i] && st == HC_OK; ++k)
-      st = solve_from(out, &p, i, omega[i], out, k, X);
+  problem p;
+  hc_status st = start(setup, e, at, &p, out);
+  double *guess = malloc(((size_t)out->length + 1) * sizeof *guess);
+  if (!guess) st = HC_NO_MEMORY;
+  for (int i = 0, last = -1; i < near->n && st == HC_OK; ++i) {
+    /* Few samples have many solutions: from the neighbours' guesses, too. */
+    const int more = e->samples > 0 && e->samples <= FEW_SAMPLES * e->harmonics;
+    const int from = near->first[i > more ? i - more : 0],
+              to = near->first[i + more < near->n ? i + more + 1 : near->n];
+    for (int k = from; k < to && asked_at(at, i) && st == HC_OK; ++k) st = solve_from(out, &p, at, i, near, k, guess);
+    const bool close = asked_at(at, i) && last >= 0 && at->omega[i] - at->omega[last] <= close_omegas * at->omega[i];
+    for (int k = close ? out->first[last] : 0; close && k < out->first[last + 1] && st == HC_OK; ++k)
+      st = solve_from(out, &p, at, i, out, k, guess);
     out->first[i + 1] = out->count;
+    if (asked_at(at, i)) last = i;
   }
-  free(X);
-  hbm_solver_free(p.hbm);
+  free(guess);
+  problem_clear(&p);
   return st;
 }
 
@@ -237,6 +255,6 @@ void verify_solutions_clear(verify_solutions *s)
 {
   free(s->first);
   free(s->of);
-  free(s->X);
+  free(s->x);
   *s = (verify_solutions){0};
 }

@@ -19,13 +19,16 @@ bool verify_reading(int i, const verify_quantity *asked, verify_quantity *out, v
 
 /* Solutions first[i] .. first[i+1]-1 are those at omega[i]. */
 typedef struct verify_solutions {
-  verify_quantity asked;
-  int n, n_coef; /* omegas; numbers of a solution */
-  int *first;    /* [n+1] */
+  int n, n_responses, length; /* omegas; responses that are read; numbers of a motion */
+  int *first;                 /* [n+1] */
   int count;
-  verify_solution *of; /* [count] */
-  double *X;           /* [count][n_coef] */
+  verify_solution *of; /* [count][n_responses] */
+  double *x; /* [count][length] the motion of all degrees of freedom, [2H+1][dofs], which Newton may start from */
 } verify_solutions;
+
+/* *m with the responses that are asked for, and every degree of freedom behind them (an oscillator as it is): what all
+ * below is asked of. HC_NO_MEMORY: *out is NULL. */
+hc_status verify_model_seen(const model *m, int n, const int *response, model **out);
 
 /* The motion of a response of the solution X at omega, and its measures. series[2H+1] is room that the motion
  * refers to from then on. Errors of hbm_measure and hbm_response. */
@@ -35,29 +38,27 @@ hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double 
 /* *setup with these equations for its own, but for the change of its model. */
 compare_setup verify_settings(const compare_setup *setup, const verify_equations *e);
 
-/* Where solutions are asked for, and the sweep of the curve that passes there. */
+/* Where solutions are asked for, and the sweep of the curve that passes there; what of the first responses is read. */
 typedef struct verify_places {
   double from, to;
   int n;
-  const double *omega; /* [n] */
+  const double *omega; /* [n] ascending */
+  const bool *only;    /* [n] at these alone; NULL: at all */
+  int n_responses;
+  const verify_quantity *asked; /* [n_responses] */
 } verify_places;
 
 /* Along their response curve, as far as it comes. A solution that is not found is none.
  * HC_INTERRUPTED, HC_NO_MEMORY, or why there are no such equations. */
-hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                              const verify_places *at, const hc_monitor *monitor, verify_solutions *out);
+hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_places *at,
+                              const hc_monitor *monitor, verify_solutions *out);
 
-/* The same of every degree of freedom in turn: keep(self, i, its solutions), which are gone when it returns. The curve
- * is followed once. */
-typedef void verify_keep_dof(void *self, int dof, const verify_solutions *of);
-hc_status verify_solutions_of_dofs(const compare_setup *setup, const verify_equations *e, const verify_quantity *asked,
-                                   const verify_places *at, const hc_monitor *monitor, verify_keep_dof *keep,
-                                   void *self);
+/* Of a degree of freedom in the place of every response: of[k][r] of the motions that are there. */
+void verify_solutions_move(verify_solutions *s, const verify_places *at, int dofs, int dof);
 
-/* By Newton from the solutions `near` of equations with as many harmonics at the same omegas, and from those at the
- * omega before if that is close: sampled equations from exact ones, at a small part of what their curve would cost.
- * omega[] ascends. */
+/* By Newton from the solutions `near` of other equations at the same omegas, and from those at the omega before if that
+ * is close: at a small part of what their curve would cost. */
 hc_status verify_solutions_near(const compare_setup *setup, const verify_equations *e, const verify_solutions *near,
-                                const double *omega, verify_solutions *out);
+                                const verify_places *at, verify_solutions *out);
 
 void verify_solutions_clear(verify_solutions *s);

@@ -45,5 +45,12 @@ verify_causes points_outliers(const verify_report *r);
 /* CAUSE_NOISE: r->noise is all that is wrong, everywhere alike; else 0. HC_NO_MEMORY. */
 hc_status points_scatter(const verify_report *r, verify_causes *out);
 
+/* CAUSE_INTERPOLATED: points that differ lie on the chords of their neighbours in the file, and the truth does not. */
+verify_causes points_interpolated(const verify_report *r);
+
+/* CAUSE_NOT_CONVERGED: points far off between right ones; or all over the place. */
+verify_causes points_scattered(const verify_report *r);
+hc_status points_anywhere(const verify_report *r, verify_causes *out); /* HC_NO_MEMORY */
+
 /* " (line 7: 35 % off)" of outliers, " (by 1 % from one to the next)" of noise, or nothing. */
 void points_say(message *m, const verify_report *r);

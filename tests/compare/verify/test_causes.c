@@ -249,12 +249,13 @@ static void stopping_keeps_rows(CHECK_STATE)
   int among = 0, before = 0;
   assert_int_equal(scene_verify_run(&sc, &d, NULL, &whole), HC_OK);
   assert_int_equal(whole.n_rows, d.n);
-  for (int ticks = 1; ticks < 2000; ticks += 1 + ticks / 16) {
+  for (int ticks = 1, end = 0; !end && ticks < 400; ticks += 1 + ticks / 8) {
     int left = ticks;
     const hc_monitor monitor = {stop, &left};
     verify_report r;
-    assert_int_equal(scene_verify_run(&sc, &d, &monitor, &r), HC_INTERRUPTED);
-    assert_int_equal(left, 0); /* nobody asks again after a stop */
+    end = scene_verify_run(&sc, &d, &monitor, &r) == HC_OK;
+    assert_true(end || r.status == HC_INTERRUPTED);
+    if (!end) assert_int_equal(left, 0); /* nobody asks again after a stop */
     assert_true(r.n_rows >= before && r.n_rows <= whole.n_rows);
     before = r.n_rows;
     among += r.n_rows > 0 && r.n_rows < whole.n_rows;

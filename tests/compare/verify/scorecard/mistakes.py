@@ -210,7 +210,7 @@ UNSEEN = [
     preloaded("traction_not_projected", code={"traction_projected": False}),
     preloaded("force_late", code={"samples": 64, "late": 1}),
     preloaded("cubic", code={"cubic": 5.0}),
-    preloaded("hysteretic", code={"hysteretic": True}),
+    preloaded("hysteretic", "damping_kind", code={"hysteretic": True}),
 ]
 
 MISTAKES = EQUATIONS + NUMBERS + COLUMNS + POINTS + TWO + UNSEEN

@@ -66,6 +66,8 @@ def ask(binary, m):
 def outcome(m, a):
     if a.named:
         return "right" if a.named in m.right else "wrong"
+    if frozenset({"noise"}) in m.right and a.guessed == frozenset({"noise"}):  # a remark, without --noise
+        return "right"
     if frozenset() in m.right:
         return "right" if a.exit_code in (0, 1, 3) and not a.guessed else "nothing"
     return "guess" if a.guessed else "nothing"
@@ -73,7 +75,7 @@ def outcome(m, a):
 
 def shown(m, a):
     """The outcome as a person reads it."""
-    if a.guessed and not a.named:
+    if a.guessed and not a.named and outcome(m, a) != "right":
         return ("good guess: " if a.guessed in m.right else "guess: ") + "+".join(sorted(a.guessed))
     kind = outcome(m, a)
     return kind if kind in ("right", "nothing") else f"{kind}: " + "+".join(sorted(a.named))
