@@ -88,7 +88,7 @@ static void the_cause_is_named(CHECK_STATE)
   compare_setup setup;
   assert_int_equal(case_read(FOLDER "case2.yaml", 0, NULL, &sc, &err), HC_OK);
   assert_int_equal(scene_setup(&sc, &setup), HC_OK);
-  assert_int_equal(verify_run(&setup, &data, NULL, &expected), HC_OK);
+  assert_int_equal(verify_run(&setup, 1, &data, NULL, NULL, &expected), HC_OK);
   hbmcheck_point p;
   assert_int_equal(hbmcheck_verification_count(v), expected.n_rows);
   for (int i = 0; i < expected.n_rows; ++i) {
