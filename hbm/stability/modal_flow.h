@@ -23,7 +23,8 @@
  *     Q = -dL/dt - 2 r L:    Q11 = sym(C (Omega^2 + K_j)) - 2 r L11,    Q12 = (b K_j)^T - r C,
  *     Q22 = C + b C + C b - 2 r L22
  * where L and Q are positive definite: beside a diagonal of ones, the entries' Frobenius norm is below 1, less the
- * largest entry between a mode's displacement and its own velocity, which is left out of the norm. b takes out of Q12 what N couples at frequencies apart, b < 0.02; elsewhere it is 0 and -N stays.
+ * largest entry between a mode's displacement and its own velocity, which is left out of the norm. b takes out of Q12
+ * what N couples at frequencies apart, b < 0.02; elsewhere it is 0 and -N stays.
  * Where that fails, the roots themselves are found, in n^3 operations.
  * Where the last fails, F is only what must be stable in all states: with z the shape of a motion in F, m = z* z,
  * c = z* C z, k = z* K z and i nu = z* N z of the skew part N of K_j, m s^2 + c s + k + i nu has its roots on the left

@@ -37,9 +37,9 @@ static verify_report judged(const scene *sc, const verify_data *d, const char *c
   return r;
 }
 
-/* Noise that was not said is a remark, after everything else was tried. A standard deviation estimated from n = 59 second differences of 61 points: by the median of moduli its relative
- * deviation is 1.17/sqrt(n) for independent ones, here at most 3 times the variance as each point is in three: 26 %,
- * and 3 of them are allowed. */
+/* Noise that was not said is a remark, after everything else was tried. A standard deviation estimated from n = 59
+ * second differences of 61 points: by the median of moduli its relative deviation is 1.17/sqrt(n) for independent ones,
+ * here at most 3 times the variance as each point is in three: 26 %, and 3 of them are allowed. */
 static void noise_is_remarked_and_estimated(CHECK_STATE)
 {
   const scene sc = curve_scene(case2);
