@@ -96,7 +96,7 @@ typedef struct verify_changed {
 } verify_changed;
 
 /* The other program's model: *out, the caller's, whose response r plus offset[r] [length] is theirs, and mistakes in
- * the equations. Without harmonic 0 no constant force matters. HC_BAD_INPUT: it changes nothing of this model, or makes no
- * sense in it; HC_NO_MEMORY: *out is NULL. */
+ * the equations. Without harmonic 0 no constant force matters. HC_BAD_INPUT: it changes nothing of this model, or makes
+ * no sense in it; HC_NO_MEMORY: *out is NULL. */
 hc_status verify_changed_model(const model *m, const verify_changed *how, bool keep_mean, model **out, double *offset,
                                hbm_mistakes *mistakes);
