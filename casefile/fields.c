@@ -65,7 +65,7 @@ static const field_section sections[] = {
   {                                                                                                                    \
     "contacts", "coefficients." #p, "", FIELD_REAL,                                                                    \
         .unit = "force/length^" #p, .flags = FIELD_IN_CONTACT | FIELD_NO_ECHO,                                         \
-        .offset = offsetof(scene_contact, law.power[p - CONTACT_LEAST_POWER]), .fallback = "0", UNBOUNDED,             \
+        .offset = offsetof(scene_contact, law.power[(p)-CONTACT_LEAST_POWER]), .fallback = "0", UNBOUNDED,             \
         .laws = SCENE_LAWS(SCENE_LAW_POLYNOMIAL), .meaning = "one of them, for --set and studies"                      \
   }
 #define RUBS (SCENE_LAWS(SCENE_LAW_CONTACT) | SCENE_LAWS(SCENE_LAW_TANH))
