@@ -4,6 +4,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -488,6 +489,28 @@ hc_status mesh_read(const char *path, mesh **out, message *m)
   free(text);
   return st;
 }
+
+static hc_status copy_text(const char *path, int depth, FILE *to, message *m)
+{
+  char *text;
+  size_t length;
+  hc_status st = depth <= MOST_DEEP ? text_file_read(path, most_bytes, &text, &length, m) : HC_BAD_INPUT;
+  if (st != HC_OK) return st;
+  matrix_text t = matrix_text_start(path, text, length, 0, m);
+  while (st == HC_OK && matrix_text_line(&t)) {
+    matrix_word file;
+    if (!strncasecmp(t.line_text, "*include", strlen("*include")) && parameter(&t, "input", &file)) {
+      char *inner = path_beside(path, file.text, file.length);
+      st = inner ? copy_text(inner, depth + 1, to, m) : HC_NO_MEMORY;
+      free(inner);
+    } else fwrite(t.line_text, 1, (size_t)(t.next - t.line_text), to);
+  }
+  if (length > 0 && text[length - 1] != '\n') fputc('\n', to);
+  free(text);
+  return st;
+}
+
+hc_status mesh_copy(const char *path, FILE *to, message *m) { return copy_text(path, 1, to, m); }
 
 /* ---- sets ---- */
 

@@ -5,11 +5,11 @@
  * S4R; others have no faces here), *NSET and *ELSET (GENERATE, names of other sets), *SURFACE of faces or nodes, and
  * *INCLUDE; all else is passed over. A set may stand before what it holds. Parts, instances and generated nodes are
  * refused. Names are the same in any case of letters. */
-#ifndef HC_MESH_FILE_H
-#define HC_MESH_FILE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/message.h"
 #include "base/status.h"
@@ -39,6 +39,9 @@ hc_status mesh_read(const char *path, mesh **out, message *m);
 hc_status mesh_parse(const char *name, const char *text, size_t length, mesh **out, message *m);
 void mesh_free(mesh *s);
 
+/* A mesh that was read as one file: what *INCLUDE names stands in its place. Statuses as of mesh_read. */
+hc_status mesh_copy(const char *path, FILE *to, message *m);
+
 /* The surface or else set of nodes of that name, -1 if there is none; then the name that was meant, or NULL. */
 int mesh_find(const mesh *s, const char *name, size_t length);
 const char *mesh_nearest(const mesh *s, const char *name, size_t length);
@@ -48,4 +51,3 @@ const char *mesh_nearest(const mesh *s, const char *name, size_t length);
  * any case. */
 hc_status mesh_patch(const mesh *s, int set, patch *out, message *m);
 
-#endif

@@ -1,6 +1,5 @@
 /* pairing.h - which nodes of two patches touch, and along which normal and over which area each pair does. */
-#ifndef HC_PAIRING_H
-#define HC_PAIRING_H
+#pragma once
 
 #include "casefile/mesh_file.h"
 
@@ -31,4 +30,3 @@ hc_status pairing_make(const patch *a, const patch *b, double within, const doub
 /* A csv file of nodes alone into a patch, lines node,x,y,z, that line itself the first. Statuses as of mesh_read. */
 hc_status patch_read(const char *path, patch *out, message *m);
 
-#endif

@@ -1,6 +1,5 @@
 /* proofs.h - what prove_run found, as a table and as messages, for every command that proves (cmd_prove.c). */
-#ifndef HC_COMMAND_PROOFS_H
-#define HC_COMMAND_PROOFS_H
+#pragma once
 
 #include "command/cli.h"
 #include "prove/prove.h"
@@ -12,4 +11,3 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st);
  * code. */
 int proofs_ended(const cli_common *common, hc_status curve_end, hc_status st, int error);
 
-#endif

@@ -1,6 +1,5 @@
 /* sparse.h - sparse matrices by columns: what readers of files make, and what large structures are kept as. */
-#ifndef HC_SPARSE_H
-#define HC_SPARSE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -34,4 +33,3 @@ hc_status sparse_from_dense(int n, const double *A, sparse *out);
  * the first such entry, i > j. */
 bool sparse_unsymmetric(const sparse *A, double tolerance, int *i, int *j);
 
-#endif

@@ -1,7 +1,6 @@
 /* ball.h - FLINT's balls: an arb_t is a midpoint and a radius, and every result contains what it is for all numbers in
  * its operands. The headers moved when Arb (Debian 12) became a part of FLINT 3 (Debian 13). */
-#ifndef HC_PROOF_BALL_H
-#define HC_PROOF_BALL_H
+#pragma once
 
 #if __has_include(<flint/arb.h>)
 #include <flint/acb_mat.h>
@@ -53,4 +52,3 @@ static inline arb_ptr pool_balls(pool *p, slong n) { return pool_take(p, POOL_BA
 static inline mag_ptr pool_mags(pool *p, slong n) { return pool_take(p, POOL_MAGS, (size_t)n); }
 static inline fmpq *pool_rationals(pool *p, slong n) { return pool_take(p, POOL_RATIONALS, (size_t)n); }
 
-#endif

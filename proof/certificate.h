@@ -1,6 +1,5 @@
 /* certificate.h - a certificate as it is read: exact rational numbers and letters. README.md has the format. */
-#ifndef HC_PROOF_CERTIFICATE_H
-#define HC_PROOF_CERTIFICATE_H
+#pragma once
 
 #include "proof/ball.h"
 #include <jansson.h>
@@ -77,4 +76,3 @@ void certificate_free(certificate *c);
 /* The decimal text[length] as a rational; false: not one, or too long, or of an absurd exponent. */
 bool decimal_read(const char *text, size_t length, fmpq_t value);
 
-#endif

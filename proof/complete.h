@@ -1,10 +1,8 @@
 /* complete.h - from a candidate in double precision to a certificate. Not trusted: what it writes is checked. */
-#ifndef HC_PROOF_COMPLETE_H
-#define HC_PROOF_COMPLETE_H
+#pragma once
 
 #include "proof/prove.h"
 
 /* The answer to a candidate, as README.md has it; precision: of the balls if it says nothing, 0: 128 bits. */
 json_t *complete(json_t *candidate, int precision);
 
-#endif

@@ -2,8 +2,7 @@
  *     Z = (x, v, 1, cos k omega t, sin k omega t of every harmonic, w of every slider that sticks)
  * Unknowns y: x, v, t of every event, [n_events][2 n + 1]; of a section x and v only. Segment i runs from event i to
  * event i + 1; the last ends at event 0, `multiple` periods later. */
-#ifndef HC_PROOF_ORBIT_H
-#define HC_PROOF_ORBIT_H
+#pragma once
 
 #include "proof/certificate.h"
 
@@ -173,4 +172,3 @@ int monodromy(const orbit *o, arb_mat_t product, failure *f);
 void multipliers(const orbit *o, quantities *q, failure *f);
 bool response_quantities(const orbit *o, quantities *q, failure *f);
 
-#endif

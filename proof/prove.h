@@ -1,6 +1,5 @@
 /* prove.h - the whole decision about one certificate, and its words. */
-#ifndef HC_PROOF_PROVE_H
-#define HC_PROOF_PROVE_H
+#pragma once
 
 #include "proof/orbit.h"
 
@@ -27,4 +26,3 @@ json_t *decimal_interval(const arb_t x, const mag_t pad, slong precision);
 /* The answer as README.md has it. certificate: a certificate, or NULL; why: of a file that is wrong, else NULL. */
 json_t *answer_json(const certificate *c, const decision *v, const char *why);
 
-#endif

@@ -1,8 +1,7 @@
 /* certificate.h - a case and an orbit of it as a certificate, the text that hbmcheck-proof reads and decides about
  * (proof/README.md has its format). All numbers are decimal strings: the shortest that read back to the case's doubles,
  * which are those of the file where that has no more than 15 digits. */
-#ifndef HC_PROVE_CERTIFICATE_H
-#define HC_PROVE_CERTIFICATE_H
+#pragma once
 
 #include <jansson.h>
 
@@ -36,4 +35,3 @@ void certificate_letters(const json_t *certificate, char *text, size_t size);
  * is none. */
 double certificate_bound(const json_t *claims, const char *name, int i, int towards);
 
-#endif

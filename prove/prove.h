@@ -1,8 +1,7 @@
 /* prove.h - from compared to proven: next to each harmonic-balance solution, and where time integration goes from those
  * that are unstable, the orbit of the exact law as a certificate, about which hbmcheck-proof decides (../proof). What
  * is found here needs no trust: a wrong candidate is not proven. What proven means: docs/proof.md. */
-#ifndef HC_PROVE_H
-#define HC_PROVE_H
+#pragma once
 
 #include <jansson.h>
 
@@ -78,4 +77,3 @@ hc_status prove_run(const scene *sc, const compare_setup *setup, const hc_monito
                     void *keeper, proofs *out);
 void proofs_clear(proofs *p);
 
-#endif

@@ -6,8 +6,7 @@
  *     K_ii Psi = -K_ib,    K_ii phi = lambda M_ii phi,    Phi^T M_ii Phi = 1.
  * With all modes the model is exact. Where K_ii is singular there is a motion that leaves the kept rows, and so all
  * contacts, at rest: nothing holds it, and such structures are refused. */
-#ifndef HC_REDUCE_CRAIG_BAMPTON_H
-#define HC_REDUCE_CRAIG_BAMPTON_H
+#pragma once
 
 #include "casefile/structure.h"
 #include "reduce/factor.h"
@@ -44,4 +43,3 @@ hc_status craig_bampton_structure(const craig_bampton *cb, const scene_structure
  * the rest, too: an upper bound. Damping is left out of it. False where it is none: w has passed the first of them. */
 bool craig_bampton_rest(const craig_bampton *cb, int modes, double omega, double *R);
 
-#endif

@@ -1,7 +1,6 @@
 /* factor.h - a symmetric positive definite sparse matrix, factored by CHOLMOD: its supernodal L L^T, rows ordered for
  * few entries. Memory is that of the factor's entries. */
-#ifndef HC_REDUCE_FACTOR_H
-#define HC_REDUCE_FACTOR_H
+#pragma once
 
 #include "numerics/sparse.h"
 
@@ -23,4 +22,3 @@ hc_status factor_solve(factor *f, int columns, double *X);
 hc_status factor_shifted(const sparse *K, const sparse *M, const bool *held, double shift_floating, double *shift,
                          factor **out);
 
-#endif

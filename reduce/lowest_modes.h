@@ -1,6 +1,5 @@
 /* lowest_modes.h - the lowest modes of a large structure: ARPACK, shifted and inverted by a factor. */
-#ifndef HC_REDUCE_LOWEST_MODES_H
-#define HC_REDUCE_LOWEST_MODES_H
+#pragma once
 
 #include "casefile/structure.h"
 #include "model/modes.h"
@@ -18,4 +17,3 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
  * a motion; and as lowest_modes. */
 hc_status lowest_of_structure(const scene_structure *s, bool stuck, int count, model_mode *modes, int *found);
 
-#endif

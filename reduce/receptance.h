@@ -1,6 +1,5 @@
 /* receptance.h - how far the receptance of a reduced structure is from that of the large one. */
-#ifndef HC_REDUCE_RECEPTANCE_H
-#define HC_REDUCE_RECEPTANCE_H
+#pragma once
 
 #include "casefile/scene.h"
 #include "reduce/craig_bampton.h"
@@ -25,4 +24,3 @@ void receptance_free(receptance *r);
  * where that bound does not hold: 1. at, if not NULL: there alone. */
 receptance_error receptance_compare(receptance *r, int modes, const receptance_error *at);
 
-#endif

@@ -9,6 +9,7 @@
 
 #include "base/path.h"
 #include "casefile/matrices/text_file.h"
+#include "casefile/mesh_file.h"
 
 /* ---- which rows ---- */
 
@@ -255,6 +256,19 @@ static hc_status write_case(const char *folder, const char *name, case_source *s
   return st == HC_OK ? last : st;
 }
 
+static hc_status copy_mesh(const char *path, const char *folder)
+{
+  FILE *to;
+  char words[160];
+  message m;
+  message_start(&m, words, sizeof words);
+  hc_status st = open_in(folder, "mesh.inp", &to);
+  if (st != HC_OK) return st;
+  st = mesh_copy(path, to, &m);
+  const hc_status end = closed(to);
+  return st == HC_OK ? end : st;
+}
+
 hc_status reduced_case_write(const char *part, const char *name, case_source *source, const scene *sc,
                              const craig_bampton *cb, int modes, const receptance_error *stated)
 {
@@ -268,7 +282,7 @@ hc_status reduced_case_write(const char *part, const char *name, case_source *so
   if (st == HC_OK && small->how == STRUCTURE_DAMPING_MATRIX)
     st = write_matrix(part, "damping.mtx", small->n, small->damping.v);
   if (st == HC_OK && sc->structure->n_nodes > 0) st = write_nodes(part, sc->structure, cb);
-  if (st == HC_OK && sc->structure->mesh) st = copy_file(sc->structure->mesh, part, "mesh.inp");
+  if (st == HC_OK && sc->structure->mesh) st = copy_mesh(sc->structure->mesh, part);
   if (st == HC_OK) st = write_case(part, name, source, sc, cb, modes, stated);
   structure_free(small);
   return st;

@@ -1,6 +1,5 @@
 /* reduced_case.h - a folder with a reduced structure and the case on it. */
-#ifndef HC_REDUCE_REDUCED_CASE_H
-#define HC_REDUCE_REDUCED_CASE_H
+#pragma once
 
 #include "casefile/case_file.h"
 #include "reduce/receptance.h"
@@ -21,4 +20,3 @@ hc_status reduced_case_write(const char *part, const char *name, case_source *so
 bool reduced_case_place(const char *part, const char *folder);
 void reduced_case_remove(const char *part);
 
-#endif

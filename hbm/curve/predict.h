@@ -13,8 +13,7 @@
  * is open shows in the transient only, and leaving it in errs on the large side.
  *
  * Nothing finer is affordable above HBM_MAX_HARMONICS/2 harmonics: there n = H/2, and the error is d/7. */
-#ifndef HC_HBM_PREDICT_H
-#define HC_HBM_PREDICT_H
+#pragma once
 
 #include "hbm/solver/hbm_solver.h"
 #include "model/periodic_motion.h"
@@ -39,4 +38,3 @@ hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int
  * force, HC_SINGULAR. */
 hc_status hbm_predict_reduction(hbm_solver *s, double omega, const double *X, double error, double *moved);
 
-#endif

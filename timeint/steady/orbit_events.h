@@ -1,7 +1,6 @@
 /* orbit_events.h - the changes of contact state along the periods that a steady state of the exact law repeats, and
  * where the sliders that never slip may rest. What a certificate is made of (prove/): found to rounding, not proven. */
-#ifndef HC_TIMEINT_ORBIT_EVENTS_H
-#define HC_TIMEINT_ORBIT_EVENTS_H
+#pragma once
 
 #include "timeint/steady/steady.h"
 
@@ -23,4 +22,3 @@ typedef struct orbit_events {
 hc_status timeint_events(timeint *ti, const timeint_result *r, orbit_events *out);
 void orbit_events_free(orbit_events *e);
 
-#endif
