@@ -50,4 +50,3 @@ const char *mesh_nearest(const mesh *s, const char *name, size_t length);
  * whose corners are all in the set: of solids, or else of shells. Statuses as of mesh_parse; out->v is to be freed in
  * any case. */
 hc_status mesh_patch(const mesh *s, int set, patch *out, message *m);
-

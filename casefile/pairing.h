@@ -29,4 +29,3 @@ hc_status pairing_make(const patch *a, const patch *b, double within, const doub
 
 /* A csv file of nodes alone into a patch, lines node,x,y,z, that line itself the first. Statuses as of mesh_read. */
 hc_status patch_read(const char *path, patch *out, message *m);
-

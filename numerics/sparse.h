@@ -32,4 +32,3 @@ hc_status sparse_from_dense(int n, const double *A, sparse *out);
 /* Does A differ from its transpose by more than `tolerance` of the two diagonal entries' geometric mean anywhere? Then
  * the first such entry, i > j. */
 bool sparse_unsymmetric(const sparse *A, double tolerance, int *i, int *j);
-

@@ -51,4 +51,3 @@ static inline void clear_pool(pool_t *p) { pool_clear(*p); }
 static inline arb_ptr pool_balls(pool *p, slong n) { return pool_take(p, POOL_BALLS, (size_t)n); }
 static inline mag_ptr pool_mags(pool *p, slong n) { return pool_take(p, POOL_MAGS, (size_t)n); }
 static inline fmpq *pool_rationals(pool *p, slong n) { return pool_take(p, POOL_RATIONALS, (size_t)n); }
-

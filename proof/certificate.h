@@ -75,4 +75,3 @@ void certificate_free(certificate *c);
 
 /* The decimal text[length] as a rational; false: not one, or too long, or of an absurd exponent. */
 bool decimal_read(const char *text, size_t length, fmpq_t value);
-

@@ -5,4 +5,3 @@
 
 /* The answer to a candidate, as README.md has it; precision: of the balls if it says nothing, 0: 128 bits. */
 json_t *complete(json_t *candidate, int precision);
-

@@ -171,4 +171,3 @@ bool sequence_check(const orbit *o, failure *f);
 int monodromy(const orbit *o, arb_mat_t product, failure *f);
 void multipliers(const orbit *o, quantities *q, failure *f);
 bool response_quantities(const orbit *o, quantities *q, failure *f);
-

@@ -25,4 +25,3 @@ json_t *decimal_interval(const arb_t x, const mag_t pad, slong precision);
 
 /* The answer as README.md has it. certificate: a certificate, or NULL; why: of a file that is wrong, else NULL. */
 json_t *answer_json(const certificate *c, const decision *v, const char *why);
-

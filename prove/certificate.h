@@ -34,4 +34,3 @@ void certificate_letters(const json_t *certificate, char *text, size_t size);
 /* The decimal string `name` (index i of a list, i < 0: itself) rounded down (towards < 0) or up to a double; NaN: there
  * is none. */
 double certificate_bound(const json_t *claims, const char *name, int i, int towards);
-

@@ -14,4 +14,3 @@ void proof_checker_free(proof_checker *c); /* ends it; NULL is allowed */
 
 /* What it answers to that line, to json_decref. HC_IO: it has ended, or answers what is no JSON; HC_NO_MEMORY. */
 hc_status proof_checker_ask(proof_checker *c, const json_t *question, json_t **answer);
-

@@ -76,4 +76,3 @@ typedef hc_status proof_keep(void *self, proof_row *row, const json_t *certifica
 hc_status prove_run(const scene *sc, const compare_setup *setup, const hc_monitor *monitor, proof_keep *keep,
                     void *keeper, proofs *out);
 void proofs_clear(proofs *p);
-

@@ -42,4 +42,3 @@ hc_status craig_bampton_structure(const craig_bampton *cb, const scene_structure
  * over those behind `modes`, from the first two terms of the series in w/lambda_k, of which the second one stands for
  * the rest, too: an upper bound. Damping is left out of it. False where it is none: w has passed the first of them. */
 bool craig_bampton_rest(const craig_bampton *cb, int modes, double omega, double *R);
-

@@ -21,4 +21,3 @@ hc_status factor_solve(factor *f, int columns, double *X);
  * shift of the order of `shift_floating` with which K + shift M can be factored. HC_SINGULAR: no mass either. */
 hc_status factor_shifted(const sparse *K, const sparse *M, const bool *held, double shift_floating, double *shift,
                          factor **out);
-

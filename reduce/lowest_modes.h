@@ -16,4 +16,3 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
  * Damping is NaN with contacts stuck where it is modal: it takes all modes to tell. HC_SINGULAR: neither K nor M holds
  * a motion; and as lowest_modes. */
 hc_status lowest_of_structure(const scene_structure *s, bool stuck, int count, model_mode *modes, int *found);
-

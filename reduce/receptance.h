@@ -23,4 +23,3 @@ void receptance_free(receptance *r);
  *     dH = -H R H,    |dH|/|H|/h^2,    R from craig_bampton_rest
  * where that bound does not hold: 1. at, if not NULL: there alone. */
 receptance_error receptance_compare(receptance *r, int modes, const receptance_error *at);
-

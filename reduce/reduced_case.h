@@ -19,4 +19,3 @@ hc_status reduced_case_write(const char *part, const char *name, case_source *so
  * errno, where it cannot be, or holds what is not in `part`. reduced_case_remove: the folder and the files in it. */
 bool reduced_case_place(const char *part, const char *folder);
 void reduced_case_remove(const char *part);
-

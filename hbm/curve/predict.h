@@ -37,4 +37,3 @@ hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int
  * theta, the largest change of anything is at most the root of the sum of the squares of both. Errors of the contact
  * force, HC_SINGULAR. */
 hc_status hbm_predict_reduction(hbm_solver *s, double omega, const double *X, double error, double *moved);
-

@@ -21,4 +21,3 @@ typedef struct orbit_events {
  * of integration; HC_UNSUPPORTED: the law is not the exact one of lines. */
 hc_status timeint_events(timeint *ti, const timeint_result *r, orbit_events *out);
 void orbit_events_free(orbit_events *e);
-
