@@ -134,8 +134,8 @@ static const char help[] =
     "log10 of it. docs/verify.md has the formulas and all causes.\n"
     "A point matches within the case's gate.amplitude, gate.harmonic_1 or gate.mean. Where a slider never slips the "
     "mean is open, and what contains it is not compared. With --noise S, points match that are within the gate and 4 "
-    "S, and on the average of m neighbours, up to 25, within the gate and 4 S/sqrt(m). With csv only the points are "
-    "written, with the cause in the remarks before them.\n"
+    "S, and on the average of m neighbours, up to 25, within the gate and 4 S/sqrt(m). With csv only the points, the cause in the "
+    "remarks.\n"
     "exit: 0 every point matches  1 some do not, or run along the wrong branch  2 a file is wrong  3 could not be "
     "judged  64 usage\n"
     "example: hbmcheck verify cases/verify/case2.yaml --against cases/verify/no_static.csv --columns "
@@ -154,11 +154,11 @@ static const cli_option options[] = {
      offsetof(verify_options, asked.columns)},
     {CLI_TEXT, "quantity", "QUANTITY", "What the column named value is, or which is meant",
      offsetof(verify_options, asked.quantity)},
-    {CLI_TEXTS, "response", "NAME", "Of a structure: whose values [the first response's]",
+    {CLI_TEXTS, "response", "NAME", "Of a structure: whose values [the first]",
      offsetof(verify_options, asked.responses)},
     {CLI_TEXT, "noise", "S", "A measured curve: standard deviation of its values relative to the amplitude [0]",
      offsetof(verify_options, noise)},
-    {CLI_TEXT, "patience", "SECONDS", "Processor time to search for the cause; what is found until then is said [30]",
+    {CLI_TEXT, "patience", "SECONDS", "Processor time of the search for a cause [30]",
      offsetof(verify_options, patience)},
     CLI_PLOT_OPTION,
     {0},

@@ -125,7 +125,7 @@ hc_status polynomial_measures_of(const contact *law, int n_harm, const double *u
   (void)u, (void)u_2;
   *out = (contact_period){.regime = CONTACT_BENDS};
   hc_status st = make_with(&along, n_harm, 2 * all + 1, &self);
-  double *F = calloc((size_t)(series_length(all) + n), sizeof *F);
+  double *F = calloc((size_t)series_length(all) + (size_t)n, sizeof *F);
   if (st == HC_OK) st = F ? evaluate(self, v, F, NULL, &report) : HC_NO_MEMORY;
   if (st == HC_OK) {
     const spring *s = self;

@@ -147,11 +147,19 @@ static bool is_of_oscillator(const field *f)
   return !strcmp(f->section, "oscillator") || !strcmp(f->section, "forcing");
 }
 
-static void list_fields_are_in_range(unsigned of, const void *base)
+static void fields_of_contact_are_in_range(const scene_contact *c)
 {
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
-    if (f->kind != FIELD_PART && f->flags & of) field_is_in_range(f, base);
+    if (f->kind != FIELD_PART && f->flags & FIELD_IN_CONTACT && field_is_of_law(f, c)) field_is_in_range(f, c);
+  }
+}
+
+static void fields_of_load_are_in_range(const structure_load *load)
+{
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i);
+    if (f->kind != FIELD_PART && f->flags & FIELD_IN_LOAD) field_is_in_range(f, load);
   }
 }
 
@@ -168,7 +176,8 @@ void scene_is_in_range(const scene *sc)
     const field *f = field_at(i);
     if (f->flags & FIELD_STRUCTURE || (sc->structure && is_of_oscillator(f))) continue;
     if (!(f->flags & FIELD_IN_CONTACT)) field_is_in_range(f, sc);
-    for (int j = 0; f->flags & FIELD_IN_CONTACT && j < sc->n_contacts; ++j) field_is_in_range(f, &sc->contacts[j]);
+    for (int j = 0; f->flags & FIELD_IN_CONTACT && j < sc->n_contacts; ++j)
+      if (field_is_of_law(f, &sc->contacts[j])) field_is_in_range(f, &sc->contacts[j]);
   }
   const hbm_settings *h = &sc->hbm;
   bool both_told = h->harmonics != HBM_AUTO && h->samples != HBM_AUTO;
@@ -183,12 +192,12 @@ void scene_is_in_range(const scene *sc)
     vector_is_finite(sc->structure->stiffness.v, n * n);
     vector_is_finite(sc->structure->damping.v, n * n);
     for (int j = 0; j < sc->structure->n_contacts; ++j) {
-      list_fields_are_in_range(FIELD_IN_CONTACT, &sc->structure->contacts[j].given);
+      fields_of_contact_are_in_range(&sc->structure->contacts[j].given);
       vector_is_finite(sc->structure->contacts[j].tangent, n);
       vector_is_finite(sc->structure->contacts[j].normal, n);
     }
     for (int i = 0; i < sc->structure->n_loads; ++i) {
-      list_fields_are_in_range(FIELD_IN_LOAD, &sc->structure->loads[i]);
+      fields_of_load_are_in_range(&sc->structure->loads[i]);
       vector_is_finite(sc->structure->loads[i].direction, n);
     }
     for (int i = 0; i < sc->structure->n_responses; ++i) vector_is_finite(sc->structure->responses[i].direction, n);

@@ -115,7 +115,7 @@ enum { VERIFY_CAUSE_LIST(VERIFY_CAUSE_NUMBER) VERIFY_CAUSES };
 typedef uint64_t verify_causes;
 enum { VERIFY_POINTS_BIT = 63 };
 #define VERIFY_BIT(cause)                                                                                              \
-  ((cause) < CAUSE_OUTLIER ? (verify_causes)1 << (cause)                                                               \
+  ((cause) < CAUSE_OUTLIER ? (verify_causes)1 << ((cause) % VERIFY_POINTS_BIT)                                         \
                            : (verify_causes)1 << VERIFY_POINTS_BIT | (verify_causes)((cause)-CAUSE_OUTLIER))
 static inline bool verify_has(verify_causes causes, int cause)
 {

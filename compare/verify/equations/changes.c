@@ -362,7 +362,7 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
   for (int j = 0, whole = -1; j < own->n_contacts; ++j) {
     whole += !contact_goes_on(own->contacts[j].pair);
     if (which < 0 || which == whole) change_contact(m->n, &own->contacts[j], c, how->factor);
-    const bool rubs = contact_has_friction(&own->contacts[j].law) && j < 32;
+    const bool rubs = j < 32 && contact_has_friction(&own->contacts[j].law);
     if (c == CHANGE_FRICTION_SIGN && rubs && (which < 0 || which == whole)) mistakes->turned |= 1U << j;
     if (c == CHANGE_SLIDER_MEAN && rubs) mistakes->mean = HBM_FRICTION_MEAN_OF_U;
     if (c == CHANGE_FRICTION_MEAN && rubs) mistakes->mean = HBM_FRICTION_NO_MEAN;

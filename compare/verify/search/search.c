@@ -211,7 +211,7 @@ static hc_status try_responses(search *s)
   for (int i = 0; i < 2 && n > 1 && n <= VERIFY_MOST_DOFS && st == HC_OK && !search_explained(s); ++i) {
     verify_equations e = search_equations(orders[i], true);
     verify_solutions of;
-    search_distances best[SEARCH_MOST_RESPONSES], one;
+    search_distances best[SEARCH_MOST_RESPONSES] = {{0}}, one;
     int dof[SEARCH_DISTANCES] = {0}, least = 0;
     for (int r = 0; r < p->n_responses; ++r)
       for (int k = 0; k < SEARCH_DISTANCES; ++k) best[r][k] = 1;
