@@ -20,7 +20,6 @@
 #include "hbm/stability/modal_flow.h"
 #include "numerics/dense.h"
 #include "numerics/floquet.h"
-#include "numerics/norm.h"
 
 /* What a law is to a perturbation, of its first contact j. */
 typedef struct perturbed_law {
@@ -53,7 +52,7 @@ struct monodromy {
   modal_flow *modal;                 /* instead of flow and planar; else NULL */
   bool from_all;                     /* no survivors are looked for */
   double *factor;                    /* [n_states][n_states] of compress */
-  double *share;                     /* [n_states] of one column in the others */
+  double *squares;                   /* [n_states] of the sizes of compress's columns */
   double *carry;                     /* [n_states][n_states] the period's columns by those of phi, which are fewer */
   const contact_interval **interval; /* [n_states] of each contact, the current one; NULL while separated */
   int n_active, *active;             /* [n_states] the initial states that the multipliers are made of */
@@ -345,7 +344,7 @@ hc_status monodromy_new(const model *m, monodromy_method how, monodromy **out)
     w->track[j].law = &laws[placed_contact_of(m, j).planar ? PLANAR : LINE];
   w->from_all = how == MONODROMY_FROM_ALL_STATES;
   if (how != MONODROMY_BY_INTERVALS) {
-    w->share = workspace_array(&w->memory, n, sizeof *w->share);
+    w->squares = workspace_array(&w->memory, n, sizeof *w->squares);
     w->carry = workspace_array(&w->memory, n * n, sizeof *w->carry);
     w->factor = workspace_array(&w->memory, n * n, sizeof *w->factor);
     if (st == HC_OK) st = !w->memory.failed ? modal_flow_new(m, &w->modal) : HC_NO_MEMORY;
@@ -481,16 +480,15 @@ static double weight_of_state(const monodromy *w, const model *m, double omega, 
   return w->track[j].law && slips(w->track[j].interval) ? root : 0;
 }
 
-/* The largest of the columns first.. of Q[columns][n]; its size. */
-static double largest_column(size_t n, int first, int columns, const double *Q, int *which)
+/* Of long vectors: four sums, which do not wait for each other. */
+static double long_product(size_t n, const double *a, const double *b)
 {
-  double most = 0;
-  *which = first;
-  for (int q = first; q < columns; ++q) {
-    const double size = norm_2((int)n, Q + (size_t)q * n);
-    if (size > most) most = size, *which = q;
-  }
-  return most;
+  double sum[4] = {0};
+  size_t i = 0;
+  for (; i + 4 <= n; i += 4)
+    for (size_t k = 0; k < 4; ++k) sum[k] += a[i + k] * b[i + k];
+  for (; i < n; ++i) sum[0] += a[i] * b[i];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 static void swap_columns(size_t n, double *A, int a, int b)
@@ -509,28 +507,35 @@ static void compress(monodromy *w, const model *m, double omega)
 {
   const size_t states = (size_t)w->n_states;
   double *Q = w->left, *R = w->factor, first = 0; /* columns of Q[columns][states], rows of R[states][columns] */
-  int rank = 0, pivot;
+  double *left = w->squares;
+  int rank = 0;
   memset(R, 0, states * states * sizeof *R);
   for (int q = 0; q < w->columns; ++q) w->slider[q] = q;
   for (size_t i = 0; i < states; ++i) {
     const double weight = weight_of_state(w, m, omega, (int)i);
     for (size_t q = 0; q < (size_t)w->columns; ++q) Q[q * states + i] = weight * w->phi[i * states + q];
   }
+  for (int q = 0; q < w->columns; ++q) left[q] = long_product(states, Q + (size_t)q * states, Q + (size_t)q * states);
   for (; rank < w->columns; ++rank) {
-    const double size = largest_column(states, rank, w->columns, Q, &pivot);
+    int pivot = rank;
+    for (int q = rank + 1; q < w->columns; ++q)
+      if (left[q] > left[pivot]) pivot = q;
+    const double size = sqrt(left[pivot]);
     if (rank == 0) first = size;
     if (!(size > LOST * first)) break;
     swap_columns(states, Q, rank, pivot);
     const int moved = w->slider[rank];
-    w->slider[rank] = w->slider[pivot], w->slider[pivot] = moved;
+    w->slider[rank] = w->slider[pivot], w->slider[pivot] = moved, left[pivot] = left[rank];
     double *now = Q + (size_t)rank * states, *row = R + (size_t)rank * states;
     for (size_t i = 0; i < states; ++i) now[i] /= size;
     row[w->slider[rank]] = 1, w->size[rank] = size;
-    const int others = w->columns - rank - 1;
-    double *share = w->share, *other = now + states;
-    dense_add_product(1, others, w->n_states, 1, now, 1, other, w->n_states, 0, share, 1);
-    dense_add_product(w->n_states, others, 1, -1, now, w->n_states, share, 1, 1, other, w->n_states);
-    for (int q = 0; q < others; ++q) row[w->slider[rank + 1 + q]] = share[q] / size;
+    for (int q = rank + 1; q < w->columns; ++q) {
+      double *restrict other = Q + (size_t)q * states;
+      const double share = long_product(states, now, other);
+      for (size_t i = 0; i < states; ++i) other[i] -= share * now[i];
+      left[q] = long_product(states, other, other);
+      row[w->slider[q]] = share / size;
+    }
   }
   for (size_t i = 0; i < states; ++i) {
     const double weight = weight_of_state(w, m, omega, (int)i);
