@@ -13,7 +13,7 @@
 #include "casefile/case_reader.h"
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
-#include "casefile/pairing.h"
+#include "casefile/mesh/pairing.h"
 #include "numerics/norm.h"
 
 typedef enum axis { NORMAL, TANGENT, TANGENT_2, AXES } axis;

@@ -9,7 +9,7 @@
 
 #include "base/path.h"
 #include "casefile/matrices/text_file.h"
-#include "casefile/mesh_file.h"
+#include "casefile/mesh/mesh_file.h"
 
 /* ---- which rows ---- */
 

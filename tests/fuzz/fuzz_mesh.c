@@ -2,7 +2,7 @@
  * and whose shares of area are not negative, or refused with a place; and the first two
  * of them paired: each node in at most one pair. */
 
-#include "casefile/pairing.h"
+#include "casefile/mesh/pairing.h"
 #include "tests/fuzz/fuzz.h"
 
 enum { SETS = 4 };

@@ -2,7 +2,7 @@
  * every mistake with its place. */
 #include <float.h>
 
-#include "casefile/pairing.h"
+#include "casefile/mesh/pairing.h"
 #include "numerics/norm.h"
 #include "tests/cases/structure/structure_text.h"
 

@@ -1,7 +1,7 @@
 /* pairing.h - which nodes of two patches touch, and along which normal and over which area each pair does. */
 #pragma once
 
-#include "casefile/mesh_file.h"
+#include "casefile/mesh/mesh_file.h"
 
 typedef enum pairing_source { PAIRING_FACES_A, PAIRING_FACES_B, PAIRING_PLANE } pairing_source;
 

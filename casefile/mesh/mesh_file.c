@@ -1,6 +1,6 @@
 /* mesh_file.c - see mesh_file.h. A file becomes lists of nodes, elements and items of sets, in its order; what the
  * names in them mean is found when a set is asked for. */
-#include "casefile/mesh_file.h"
+#include "casefile/mesh/mesh_file.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* pairing.c - see pairing.h. */
-#include "casefile/pairing.h"
+#include "casefile/mesh/pairing.h"
 
 #include <limits.h>
 #include <math.h>
