@@ -82,7 +82,7 @@ static void put_notes(table *t, const scene *sc, const advise_options *own, cons
   char at[SCENE_WHERE];
   table_note(t, "%s%serror %g; %d solutions at %d frequencies, %d of them linear", sc->title, *sc->title ? ": " : "",
              own->error, s->solutions, s->frequencies, s->linear);
-  table_note(t, "held against %d harmonics, exact forces, whose own predicted error is %.2g at most", s->harmonics,
+  table_note(t, "compared with %d harmonics, exact forces, whose own predicted error is %.2g at most", s->harmonics,
              s->predicted);
   if (s->lost)
     table_note(t, "%d solution%s left out: of few harmonics alone, or not known to E with %d", s->lost,

@@ -18,7 +18,7 @@ static const double chance_to_miss = 0.9; /* aliasing errors jump from frequency
                                               looked at is so much of the largest there is */
 static const double still = 1e-9;         /* of the largest amplitude: a response that is not looked at */
 
-/* One solution that settings are held against. */
+/* One solution that settings are compared with. */
 typedef struct target {
   double omega, error; /* error: of the setting tried last */
   const char *quantity;

@@ -1,9 +1,9 @@
 /* sufficient.h - how many harmonics and samples keep harmonic balance within an error: amplitude, harmonic 1, mean (but
  * where a slider leaves it open) and waveform of every response, relative to its amplitude, along the whole curve.
  *
- * What it is held against is harmonic balance itself, with exact forces, harmonic 0 and so many harmonics that its own
- * prediction (hbm_predict), held against time integration and theorems in docs/prediction.md, is a twentieth of the
- * error or less: the same solutions, without a second's integration, and neither mean nor family open between the two.
+ * The reference is harmonic balance itself, with exact forces, harmonic 0 and so many harmonics that its own prediction
+ * (hbm_predict), which docs/prediction.md compares with time integration and theorems, is a twentieth of the error or
+ * less: the same solutions, without a second's integration, and neither mean nor family open between the two.
  *
  * "Least" is from here on: all greater settings that were tried keep the error, too. A smaller one may keep it by
  * chance, as errors pass through 0: `by_chance`. Proof: tests/command/advice.py. */
@@ -33,7 +33,7 @@ typedef struct sufficient {
   int frequencies, solutions; /* looked at */
   int linear;                 /* of them: no contact changes its state, and any number of harmonics is right */
   int lost;                   /* without a solution of many harmonics next to them, or with an error beyond reach */
-  int harmonics;              /* of what they are held against */
+  int harmonics;              /* of the reference               */
   double predicted;           /* [1] its error as predicted, the largest */
   /* Frequencies so near to a turning point have no solution of few harmonics, or one far away: left out. */
   double strip; /* [1] of omega */

@@ -2,7 +2,7 @@
 """Is what hbmcheck advises right?
 
 usage: advice.py followed HBMCHECK [ROWS [FIRST]]     the advice of `compare` on rows that differ, followed once
-       advice.py settings HBMCHECK [SCENES [FIRST]]   the settings of `advise`, held against time integration
+       advice.py settings HBMCHECK [SCENES [FIRST]]   the settings of `advise`, compared with time integration
 Scenes: `hbmcheck stress --case --first FIRST, FIRST + 1, ...`, one in six a structure, solved with settings drawn at random (seed
 1 + FIRST). Standard library only."""
 import csv, itertools, os, random, re, resource, statistics, subprocess, sys, tempfile
