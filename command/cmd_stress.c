@@ -285,25 +285,28 @@ static int keep_finding(const stress_call *call, long index, stress_kind kind, c
 
 /* The progress: a line with the number of scenes done. */
 typedef struct scene_progress {
+  const stress_call *of;
   progress *bar;
   hc_monitor monitor;
 } scene_progress;
 
-static bool scenes_done(void *self, long done, long scenes)
+static bool scenes_done(void *self, double part)
 {
   scene_progress *w = self;
   char label[64];
-  snprintf(label, sizeof label, "%ld of %ld scenes", done, scenes);
+  const long scenes = w->of->own->plan.scenes, resumed = w->of->resumed;
+  const double done = (double)resumed + part * (double)(scenes - resumed);
+  snprintf(label, sizeof label, "%ld of %ld scenes", lround(done), scenes);
   progress_relabel(w->bar, label);
-  return hc_monitor_tick(&w->monitor, (double)done / (double)scenes);
+  return hc_monitor_tick(&w->monitor, done / (double)scenes);
 }
 
 /* Classify the scenes of the plan. 0 or the exit code after the message. */
 static int classify_scenes(stress_call *call)
 {
-  scene_progress w = {.bar = progress_start("stress", call->common->quiet)};
+  scene_progress w = {.of = call, .bar = progress_start("stress", call->common->quiet)};
   w.monitor = progress_monitor(w.bar);
-  const stress_watch watching = {scenes_done, &w};
+  const hc_monitor watching = {scenes_done, &w};
   hc_status st = stress_run(&call->own->plan, &watching, call->results, &call->resumed);
   int failure = errno;
   progress_end(w.bar);

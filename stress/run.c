@@ -1,6 +1,5 @@
-/* run.c - all checks of one scene; many scenes by several threads, which take the next one under the workers' lock
- * while the calling thread watches; and their results, kept as they come: a text file, a line a scene, from which a
- * run that was killed goes on.
+/* run.c - all checks of one scene; many scenes by several threads; and their results, kept as they come: a text file, a
+ * line a scene, from which a run that was killed goes on.
  *
  *     # hbmcheck stress 4, seed 1, 2 s          or: 4, structures of seed 1, 2 s, structures in space of ...
  *     # checks: contact_force balance ...     the names behind the columns and codes below, in their order
@@ -13,6 +12,7 @@
  * what a kill left of one is cut off. */
 #include <errno.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -192,83 +192,64 @@ static hc_status open_journal(const stress_plan *plan, stress_result *results, l
   return st;
 }
 
-/* ---- threads -------------------------------------------------------------------------------------------- */
-
-enum { WATCH_MS = 50 };
+/* ---- all of them ---------------------------------------------------------------------------------------- */
 
 typedef struct pool {
   const stress_plan *plan;
   stress_result *results;
-  FILE *journal;
-  workers workers; /* its lock is of what follows, and of the journal */
-  long next, done;
+  long *left;           /* places in results of the scenes to classify, rising */
+  pthread_mutex_t lock; /* of what follows */
+  int next;             /* of left: scenes are drawn in their order, which is cheap */
+  stress_scenes *scenes;
+  FILE *journal; /* NULL: none */
 } pool;
 
-static stress_result *next_result(pool *p)
-{
-  stress_result *r = NULL;
-  pthread_mutex_lock(&p->workers.lock);
-  while (p->next < p->plan->scenes && p->results[p->next].there) ++p->next;
-  if (p->next < p->plan->scenes && !workers_stopped(&p->workers)) r = &p->results[p->next++];
-  pthread_mutex_unlock(&p->workers.lock);
-  return r;
-}
-
-static void *work(void *self)
+/* On disk when this returns HC_OK, if it is to be anywhere. */
+static hc_status classify(void *self, int task, const hc_monitor *monitor)
 {
   pool *p = self;
-  const hc_monitor monitor = {workers_tick, &p->workers};
-  stress_scenes *scenes;
-  hc_status st = stress_scenes_new(p->plan->seed, &scenes);
-  for (stress_result *r; st == HC_OK && (r = next_result(p));) {
-    scene sc;
-    st = stress_scene_of(scenes, p->plan->family, r->index, &sc);
-    if (st != HC_OK) break;
-    st = stress_scene(&sc, p->plan->seconds, &monitor, r);
-    case_clear(&sc);
-    /* On disk when this returns HC_OK, if it is to be anywhere. */
-    if (st == HC_OK) {
-      FILE *journal = p->journal;
-      st = HC_OK;
-      pthread_mutex_lock(&p->workers.lock);
-      if (journal) {
-        fprintf(journal, "%ld %.3f", r->index, r->seconds);
-        for (int k = 0; k < STRESS_N_CHECKS; ++k) {
-          const stress_check *c = &r->check[k];
-          fprintf(journal, "  %d %d %d %.17g %.17g %.3f", (int)c->outcome, (int)c->reason, (int)c->status, c->error,
-                  c->bound, c->seconds);
-        }
-        fputs(" .\n", journal);
-        if (fflush(journal) != 0 || ferror(journal)) st = HC_IO;
-      }
-      ++p->done;
-      pthread_mutex_unlock(&p->workers.lock);
-    }
+  scene sc;
+  (void)task;
+  pthread_mutex_lock(&p->lock);
+  stress_result *r = &p->results[p->left[p->next++]];
+  hc_status st = stress_scene_of(p->scenes, p->plan->family, r->index, &sc);
+  pthread_mutex_unlock(&p->lock);
+  if (st != HC_OK) return st;
+  st = stress_scene(&sc, p->plan->seconds, monitor, r);
+  case_clear(&sc);
+  if (st != HC_OK || !p->journal) return st;
+  pthread_mutex_lock(&p->lock);
+  fprintf(p->journal, "%ld %.3f", r->index, r->seconds);
+  for (int k = 0; k < STRESS_N_CHECKS; ++k) {
+    const stress_check *c = &r->check[k];
+    fprintf(p->journal, "  %d %d %d %.17g %.17g %.3f", (int)c->outcome, (int)c->reason, (int)c->status, c->error,
+            c->bound, c->seconds);
   }
-  stress_scenes_free(scenes);
-  if (st != HC_OK) workers_stop(&p->workers, st);
-  workers_leave(&p->workers);
-  return NULL;
+  fputs(" .\n", p->journal);
+  if (fflush(p->journal) != 0 || ferror(p->journal)) st = HC_IO;
+  pthread_mutex_unlock(&p->lock);
+  return st;
 }
 
-hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_result *results, long *resumed)
+hc_status stress_run(const stress_plan *plan, const hc_monitor *monitor, stress_result *results, long *resumed)
 {
-  pool p = {.plan = plan, .results = results};
+  pool p = {.plan = plan, .results = results, .left = malloc((size_t)plan->scenes * sizeof *p.left)};
+  int n = 0;
+  *resumed = 0;
   for (long i = 0; i < plan->scenes; ++i) results[i] = (stress_result){.index = plan->first + i};
-  hc_status st = open_journal(plan, results, &p.done, &p.journal);
-  *resumed = p.done;
-  if (st == HC_OK && (st = workers_init(&p.workers)) != HC_OK && p.journal) fclose(p.journal);
-  if (st != HC_OK) return st;
-  workers_start(&p.workers, plan->jobs, work, &p);
-  for (bool running = true; running;) {
-    running = workers_wait(&p.workers, WATCH_MS);
-    pthread_mutex_lock(&p.workers.lock);
-    const long done = p.done;
-    pthread_mutex_unlock(&p.workers.lock);
-    if (watch->tick && !watch->tick(watch->self, done, plan->scenes) && running)
-      workers_stop(&p.workers, HC_INTERRUPTED);
+  hc_status st = p.left ? open_journal(plan, results, resumed, &p.journal) : HC_NO_MEMORY;
+  for (long i = 0; i < plan->scenes && st == HC_OK; ++i)
+    if (!results[i].there) p.left[n++] = i;
+  if (st == HC_OK) st = stress_scenes_new(plan->seed, &p.scenes);
+  if (st == HC_OK && pthread_mutex_init(&p.lock, NULL) != 0) st = HC_NO_MEMORY;
+  else if (st == HC_OK) {
+    st = workers_run(plan->jobs, n, classify, &p, monitor);
+    pthread_mutex_destroy(&p.lock);
   }
-  hc_status worst = workers_join(&p.workers);
-  st = !p.journal || fclose(p.journal) == 0 ? HC_OK : HC_IO;
-  return worst != HC_OK ? worst : st;
+  const int why = errno;
+  if (p.journal && fclose(p.journal) != 0 && st == HC_OK) st = HC_IO;
+  else errno = why;
+  stress_scenes_free(p.scenes);
+  free(p.left);
+  return st;
 }

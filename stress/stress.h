@@ -138,16 +138,11 @@ typedef struct stress_plan {
 /* All checks on one scene. HC_OK whatever they say; HC_INTERRUPTED, HC_NO_MEMORY. */
 hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out);
 
-/* Called by the calling thread some twenty times a second. false: stop. */
-typedef struct stress_watch {
-  bool (*tick)(void *self, long done, long scenes);
-  void *self;
-} stress_watch;
-
-/* The whole plan by several threads, into results[plan->scenes]. HC_INTERRUPTED keeps what is there; HC_BAD_INPUT:
- * the journal belongs to another plan, is none or is damaged, HC_UNSUPPORTED: it is of another version of this program,
- * with other checks; HC_IO: it cannot be written (errno says why). *resumed: scenes that the journal had. */
-hc_status stress_run(const stress_plan *plan, const stress_watch *watch, stress_result *results, long *resumed);
+/* The whole plan by several threads, into results[plan->scenes]. *resumed, from before the first tick: scenes that the
+ * journal had; ticks tell the part of the others that is done. HC_INTERRUPTED keeps what is there; HC_BAD_INPUT: the
+ * journal belongs to another plan, is none or is damaged, HC_UNSUPPORTED: it is of another version of this program, with
+ * other checks; HC_IO: it cannot be written (errno says why). */
+hc_status stress_run(const stress_plan *plan, const hc_monitor *monitor, stress_result *results, long *resumed);
 
 /* Simplify *sc while the check `kind` still ends in a finding: fewer contacts, loads, degrees of freedom and harmonics,
  * an oscillator's numbers of one to three digits. HC_NO_MEMORY, HC_INTERRUPTED. */
