@@ -119,8 +119,7 @@ static double ratio(double a, double b) { return b > 0 ? a / b : NAN; }
 
 int case_derive(const scene *sc, case_derived *out)
 {
-  /* With all contacts open, and with all of them closed and sticking: the two linear oscillators between which the
-   * contacts move it. */
+  /* The linear oscillators with all contacts open, and with all closed and sticking. */
   const double open = sqrt(sc->stiffness / sc->mass), stuck = sqrt(scene_max_stiffness(sc) / sc->mass);
   const case_derived of_oscillator[] = {
       {"omega_open", open, "rad/time", "natural frequency, every contact open"},

@@ -214,8 +214,7 @@ void case_write_points(const scene_contact *c, FILE *to)
   fputs("]", to);
 }
 
-/* An entry of a list, a field a line: its directions that are not 0, then its scalars in base. s and c are NULL for an
- * oscillator's contact, c alone for a load. */
+/* An entry of a list: directions that are not 0, then scalars in base. s, c NULL: an oscillator's; c: a load. */
 static void write_entry(const char *section, const scene_structure *s, const structure_contact *c, const void *entry,
                         const void *base, FILE *to)
 {
@@ -288,8 +287,7 @@ static bool choices_are_known(const scene *sc)
   return sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS;
 }
 
-/* The rival in force is written: of those that give the sweep the one that did; else the list if it is not
- * empty (compare.omega), else the other (compare.points). */
+/* Of rivals: of the sweep's the one that gave it; else the list if it is not empty, else the other. */
 bool case_field_counts(const field *f, const scene *sc)
 {
   if (f->flags & (FIELD_NO_ECHO | FIELD_STRUCTURE | FIELD_IN_CONTACT)) return false; /* those have ways of their own */

@@ -56,8 +56,7 @@ hc_status case_reader_take(case_reader *r, hc_status st, scene *out);
 
 /* ---- messages ---- */
 
-/* Where a mark of libyaml stands. If the last line has no line end, libyaml's mark may stand on a line after it, which
- * the file does not have: then r->end. */
+/* Where a mark of libyaml stands; r->end where it is behind the file's last line, as without a line end. */
 static inline case_place case_place_of(const case_reader *r, yaml_mark_t mark)
 {
   if (r->set_now == 0 && r->end.line > 0 && mark.line + 1 > r->end.line) return r->end;
@@ -88,8 +87,7 @@ hc_status case_out_of_memory(case_reader *r);
 hc_status yaml_file_failed(case_reader *r, const yaml_node_t *node, const char *what, const char *path,
                            const char *expected);
 
-/* ", did you mean `x`?" if there is something to suggest. Fields show their whole path unless they are of `section`
- * (NULL: always). */
+/* ", did you mean `x`?", if there is one; with its whole path unless it is of `section` (NULL: always). */
 bool case_suggest(message *m, suggestion s, const char *section, int j);
 
 /* ---- documents ---- */
@@ -97,8 +95,7 @@ bool case_suggest(message *m, suggestion s, const char *section, int j);
 /* r->doc from text, without aliases, anchors, tags and depth, to be freed with yaml_document_delete when HC_OK. */
 hc_status yaml_text_load(case_reader *r, const char *text, size_t length);
 
-/* The text of a scalar node, between backquotes for a message's %s, and what a node is in words: "a mapping", "a list",
- * "a single value", "empty". */
+/* The text of a scalar node; in backquotes; what a node is: "a mapping", "a list", "a single value", "empty". */
 static inline const char *yaml_node_text(const yaml_node_t *n) { return (const char *)n->data.scalar.value; }
 #define YAML_QUOTED(n) QUOTED(yaml_node_text(n), (n)->data.scalar.length)
 const char *yaml_node_what(const yaml_node_t *n);
@@ -108,8 +105,7 @@ field_item yaml_node_item(const yaml_node_t *n);           /* of a scalar */
 
 static inline const yaml_node_t *yaml_get(case_reader *r, int index) { return yaml_document_get_node(&r->doc, index); }
 
-/* How many entries a list has, and entry i; how many keys a mapping, key i and its value; the value of the first such
- * key, or NULL. */
+/* Lists: length, entry i. Mappings: number of keys, key i, its value, the value of the first such key or NULL. */
 static inline int yaml_length(const yaml_node_t *list)
 {
   return (int)(list->data.sequence.items.top - list->data.sequence.items.start);
@@ -167,8 +163,7 @@ hc_status yaml_scene_contact(case_reader *r, const yaml_node_t *node, int j);
 
 /* ---- of a structure, into r->sc.structure ---- */
 
-/* The section `structure` into a new structure. It comes first, whatever the order of the file: the other sections
- * speak of its degrees of freedom. */
+/* The section `structure` into a new structure; read first, since the others speak of its degrees of freedom. */
 hc_status yaml_structure_read(case_reader *r, const yaml_node_t *node);
 
 /* One part of it, `structure.mass`, or one number, `structure.damping.modal`. */
@@ -187,8 +182,7 @@ hc_status case_mesh_read(case_reader *r, const yaml_node_t *node);
 /* An entry of contacts with `pairs` and `axes`: a new contact for each pair of nodes. */
 hc_status yaml_pairs_read(case_reader *r, const yaml_node_t *node);
 
-/* A field of the scene, a section, or contact or load j, given once by a key, into base; all those of a mapping.
- * by_node: of a load, `node` and `direction` say where. */
+/* One field, or all of a mapping, into base. by_node: of a load, `node` and `direction` say where. */
 hc_status yaml_field_read(case_reader *r, const field *f, const yaml_node_t *key, const yaml_node_t *value, int j,
                           void *base);
 hc_status yaml_fields_read(case_reader *r, const yaml_node_t *node, const char *section, int j, void *base,
@@ -204,8 +198,7 @@ hc_status case_check_law(case_reader *r, int j, const scene_contact *c, case_pla
 /* One part of load or contact j: a degree of freedom or direction. */
 hc_status yaml_entry_part(case_reader *r, const field *f, int j, const yaml_node_t *node);
 
-/* A matrix of `expected` rows, or with expected = 0 of any number of rows, into *out, which it replaces. `what` is its
- * path. */
+/* A matrix of `expected` rows (0: any number) into *out, which it replaces. `what` is its path. */
 hc_status yaml_matrix_read(case_reader *r, const char *what, const yaml_node_t *node, int expected, int *n,
                            structure_matrix *out);
 
@@ -218,8 +211,7 @@ hc_status yaml_matrix_symmetric(case_reader *r, const char *what, const structur
 /* The path of the file that a scalar names, to free, which r->source is told; NULL: out of memory. */
 char *yaml_file_beside(case_reader *r, const yaml_node_t *node);
 
-/* Told to r->source, if there is one: the node names that DOF by its number, or else, dof < 0, a file.
- * HC_NO_MEMORY. */
+/* Tells r->source, if any, that the node names a DOF by number, or else, dof < 0, a file. HC_NO_MEMORY. */
 hc_status yaml_mention(case_reader *r, const yaml_node_t *node, int dof, const char *file);
 
 /* A degree of freedom by name or number, or as {node: 17, direction: y}. */

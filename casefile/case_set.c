@@ -60,8 +60,7 @@ bool case_target_next(const case_reader *r, case_target *t)
   return next >= 0;
 }
 
-/* "[joint]" at s, with *end behind it: the contact of that name, or with *whole the first one of that entry. *index =
- * -1 if it is no word in brackets. */
+/* "[joint]" at s, up to *end: that contact, or with *whole the first of that entry; *index = -1: no such word. */
 static hc_status read_name(case_reader *r, const char *s, const char *stop, const char **end, int *index, bool *whole)
 {
   const scene_structure *own = r->sc.structure;

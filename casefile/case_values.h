@@ -29,8 +29,7 @@ void case_write_points(const scene_contact *c, FILE *to);
  * a rival gave (compare.omega, compare.frequency), the rival's. line = 0: the default. */
 case_place case_field_place(const case_places *places, const field *f, int j);
 
-/* Is f what `asked` names: a path (with or without the contact's index), a section, a name or a symbol? NULL names
- * all. */
+/* Is f what `asked` names: a path (with or without index), a section, a name or a symbol? NULL names all. */
 bool case_field_asked(const field *f, const char *asked);
 
 /* Quantities that follow from a scene. value: NaN where there is none. */

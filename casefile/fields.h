@@ -84,8 +84,7 @@ void field_expected(const field *f, message *m);
 /* Is it one of those of a contact or a load, of which a list has many? */
 static inline bool field_is_in_list(const field *f) { return f->flags & (FIELD_IN_CONTACT | FIELD_IN_LOAD); }
 
-/* Where the field lives: base is the scene; or the scene_contact, structure_load or scene_structure that the flags
- * tell. Not for FIELD_PART. */
+/* Where the field lives in base: the scene, or what its flags tell. Not for FIELD_PART. */
 static inline void *field_place(const field *f, void *base) { return (char *)base + f->offset; }
 static inline const void *field_look(const field *f, const void *base) { return (const char *)base + f->offset; }
 

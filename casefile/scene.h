@@ -57,8 +57,7 @@ typedef struct scene {
 double scene_omega(const scene *sc, double given);
 double scene_frequency(const scene *sc, double omega);
 
-/* "omega = 7", or "frequency = 345 (omega = 2167.698935)" where the sweep is in cycles; in text[SCENE_WHERE], which is
- * returned. */
+/* "omega = 7", in cycles "frequency = 345 (omega = 2167.698935)"; in text[SCENE_WHERE], which is returned. */
 enum { SCENE_WHERE = 64 };
 const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE]);
 
@@ -85,8 +84,7 @@ const scene_contact *scene_contact_at(const scene *sc, int j);
 /* Contact j in the model of the scene: the first of its one or two contacts there (contact_pair, model.h). */
 int scene_model_contact(const scene *sc, int j);
 
-/* Does nothing hold the mass while no contact touches? That is so with stiffness 0 and no contact under a preload; its
- * mean is then undetermined. */
+/* Is the mean undetermined: stiffness 0, and no contact under a preload? */
 bool scene_adrift(const scene *sc);
 #define SCENE_ADRIFT                                                                                                   \
   "the mean is undetermined while nothing touches: oscillator.stiffness is 0 and no contact has a gap > 0 that gives " \
@@ -95,7 +93,6 @@ bool scene_adrift(const scene *sc);
 /* The model of the scene, to free with model_free. HC_NO_MEMORY: *out is NULL. */
 hc_status scene_model(const scene *sc, model **out);
 
-/* All that a comparison works from: the model, and the settings and limits of *sc, which must live as long.
- * Free with scene_setup_clear in any case. HC_NO_MEMORY. */
+/* The model, settings and limits of *sc, which must live as long; scene_setup_clear in any case. HC_NO_MEMORY. */
 hc_status scene_setup(const scene *sc, compare_setup *out);
 void scene_setup_clear(compare_setup *setup);

@@ -70,8 +70,7 @@ void structure_free(scene_structure *s)
 
 /* ---- lists that grow ---- */
 
-/* The list with one more entry, all zeros but for the pointer to a vector[length] of zeros that it begins with; NULL:
- * out of memory, and the list is as it was. */
+/* The list with one more entry of zeros but for its pointer to vector[length]; NULL: no memory, nothing changed. */
 static void *with_entry(void *list, size_t size, int n, size_t length)
 {
   double *vector = calloc(length, sizeof *vector);

@@ -6,8 +6,7 @@
 #include "casefile/matrices/matrix_file.h"
 #include "casefile/scene.h"
 
-/* Where something was given, for messages: the set-th assignment, counted from 1, or for set = 0 a line and column of
- * the file. line = 0: nowhere. */
+/* Where something was given: the set-th assignment from 1, or 0 and a line and column of the file; line 0: nowhere. */
 typedef struct case_place {
   int set;
   size_t line, column;
@@ -134,8 +133,7 @@ int structure_contact_named(const scene_structure *s, const char *name, size_t l
 enum { STRUCTURE_WORD = 32 };
 const char *structure_dof_name(const scene_structure *s, int dof, char text[STRUCTURE_WORD]);
 
-/* A direction in words: `tip`, `tip-root`, `0.5*tip+root`, for the column `response`; cut to size with "..." at its
- * end. Returns text. */
+/* `tip`, `tip-root`, `0.5*tip+root` into text[size], cut with "..." at its end. Returns text. */
 const char *structure_direction_name(const scene_structure *s, const double *direction, char *text, size_t size);
 
 /* ---- files of nodes (nodes_file.c) ----
@@ -144,8 +142,7 @@ const char *structure_direction_name(const scene_structure *s, const double *dir
  * line itself the first; CalculiX' JOB.dof; or a matrix file of Abaqus or CalculiX that says what its rows are
  * (matrix_file.h). The first line tells which. */
 
-/* One more node of s, which is known not to be there yet. They are kept in order of node and direction.
- * HC_NO_MEMORY. */
+/* One more node of s, in order of node and direction; it must not be there yet. HC_NO_MEMORY. */
 hc_status nodes_add(scene_structure *s, int dof, int node, char direction);
 
 /* The file at `path` into s->nodes. HC_BAD_INPUT with "PATH:LINE:COLUMN: ..." in m, HC_IO with words that are to follow
@@ -168,8 +165,7 @@ bool structure_contact_is_pair(const scene_structure *s, const structure_contact
 /* The first of the model's contacts that contact j is, for 0 <= j <= n_contacts: n_contacts gives their number. */
 int structure_model_contact(const scene_structure *s, int j);
 
-/* How many responses its model has, and the name of one: its node, `1328 z`, where it was asked for by node, else that
- * of its direction; into text[size], which is returned. */
+/* The number of responses; the name of one, its node `1328 z` or its direction, in text[size], which is returned. */
 int structure_response_count(const scene_structure *s);
 const char *structure_response_name(const scene_structure *s, int r, char *text, size_t size);
 
@@ -181,14 +177,12 @@ void structure_cosine_sine(double angle_deg, double *cosine, double *sine);
 
 #define STRUCTURE_SYMMETRY 1e-10
 
-/* Is A[n][n] not symmetric, beyond the 1e-10 of its diagonal that a reduction leaves? Then the first such entry, from
- * 0, i > j. */
+/* Is A[n][n] unsymmetric beyond 1e-10 of its diagonal? Then the first such entry, from 0, i > j. */
 bool structure_unsymmetric(int n, const double *A, int *i, int *j);
 
 /* ---- what its matrices must be: rules, without words (structure_check.c) ---- */
 
-/* *order = 0 for a symmetric M[n][n] that is positive definite beyond rounding; else the order of its first leading
- * minor that is not positive. HC_NO_MEMORY. */
+/* *order = 0: M[n][n] is positive definite beyond rounding; else of the first minor that is not. HC_NO_MEMORY. */
 hc_status structure_not_definite(int n, const double *M, int *order);
 
 /* A motion x[n], largest entry 1, that neither K nor any contact resists: *free_motion = true if there is one. The

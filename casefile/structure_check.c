@@ -83,8 +83,7 @@ static double row_sum(int n, const double *A, int i)
   return sum;
 }
 
-/* A := D A D with rows of the order of 1, so that neither units nor stiff contacts hide a spring that is soft. Returns
- * the largest row sum, 0 for a matrix of zeros. */
+/* A := D A D with rows of the order of 1: soft springs show. Returns the largest row sum, 0 for a matrix of zeros. */
 static double equilibrate(int n, double *A, double *d)
 {
   double most = 0;
@@ -125,8 +124,7 @@ void structure_describe_motion(const scene_structure *s, double *x, message *m)
   }
 }
 
-/* A motion x, largest entry 1, that the symmetric A resists least, and whether to rounding it does not resist at all;
- * A is used up, d[n] and pivot[n] are room. */
+/* The motion x, largest entry 1, that symmetric A resists least; true: not at all. A is used up; d, pivot: room. */
 static bool unresisted(int n, double *A, double *d, int *pivot, double *x)
 {
   const double scale = equilibrate(n, A, d), rounding = n * DBL_EPSILON * scale;

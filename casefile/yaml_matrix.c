@@ -1,5 +1,4 @@
-/* yaml_matrix.c - a matrix of a structure: rows, a diagonal, a number where there is one degree of freedom, or the name
- * of a file. */
+/* yaml_matrix.c - a matrix of a structure: rows, a diagonal, a number (n = 1), or the name of a file. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>

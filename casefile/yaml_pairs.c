@@ -334,8 +334,7 @@ static void put_across(double axes[AXES][3])
   }
 }
 
-/* Pairs found by position need no axes: their normals are those of the faces, their tangents are put across them.
- * `tangent: none` leaves the normal alone. */
+/* Pairs found by position take normals from the faces, tangents across; `tangent: none` leaves the normal alone. */
 static hc_status read_axes(case_reader *r, const yaml_node_t *node, bool between, pairs_entry *e)
 {
   bool seen[AXES] = {false};

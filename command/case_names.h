@@ -1,5 +1,4 @@
-/* case_names.h - options that name a part of the case: one of its responses, one of its contacts, what its tables
- * go over. */
+/* case_names.h - options that name a response, a contact, or the lists of the tables. */
 #pragma once
 
 #include "command/cli.h"
@@ -9,8 +8,7 @@
  * that lists those there are. */
 int cli_response_named(const cli_common *common, const char *name);
 
-/* The names of a structure's responses, as the column `response` has them, into *out: the caller's, to free; NULL of an
- * oscillator. HC_NO_MEMORY. */
+/* A structure's response names into *out, to free; NULL of an oscillator. HC_NO_MEMORY. */
 hc_status cli_response_names(const scene *sc, char (**out)[RESPONSE_NAME]);
 
 /* The contact called `name`, or of that number from 0; -1 after a message that lists those there are. */

@@ -156,8 +156,7 @@ static bool value_follows(const struct argp_option *all, const char *letters)
   return false;
 }
 
-/* "--tabels" ends the program with what was meant; argp, which only knows that it is not known, is not asked then. What
- * is near to nothing is left to argp. */
+/* "--tabels" ends the program with what was meant; what is near to nothing is left to argp. */
 static void refuse_unknown_option(const cli_command *self, const struct argp_option *own, int argc, char **argv)
 {
   static const struct argp_option by_argp[] = {

@@ -96,8 +96,7 @@ struct cli_common {
   const scene *scene;           /* the case at work, for messages; NULL before cli_load_case */
 };
 
-/* Runs a command with its arguments, argv[0] its name. Returns its exit code, but does not return on --help, --version
- * or wrong usage (exit 64). */
+/* Runs a command, argv[0] its name; its exit code. Ends the program on --help, --version and wrong usage (64). */
 int cli_run(const cli_command *self, int argc, char **argv);
 
 /* What --at takes, in its help. */
@@ -136,8 +135,7 @@ int cli_check_files(cli_common *common, int n, const cli_file *files);
 /* Scenes computed at a time by default: the processors that are online, 1..CLI_MAX_JOBS. */
 int cli_processors(void);
 
-/* Read the case with --set applied; sc is common->scene from then on. 0, or the exit code after the message, which is
- * in err, too. */
+/* Read the case with --set into sc, then common->scene. 0, or the exit code after the message, also in err. */
 int cli_load_case(cli_common *common, const char *path, scene *sc, case_error *err);
 
 /* On stderr, unless quiet: what the reader says of pairs that were found by position. */
@@ -163,16 +161,13 @@ void cli_message(const cli_common *common, const char *format, ...) __attribute_
 /* Whose settings the advice in a message is about. */
 typedef enum cli_solver { CLI_HBM, CLI_TRANSIENT, CLI_BOTH } cli_solver;
 
-/* The message for a solver's failure: `what` failed, where, why, and what to try. omega <= 0: at no particular one.
- * Returns the exit code (docs/interface.md, 5). */
+/* Says that `what` failed, where (omega <= 0: nowhere), why, and what to try. Returns the exit code. */
 int cli_solver_failed(const cli_common *common, cli_solver solver, const char *what, hc_status st, double omega);
 
-/* The message for a file (NULL: standard output) that could not be written; errno as the failure left it. Returns the
- * exit code. */
+/* Says why the file (NULL: standard output) was not written, by errno. Returns the exit code. */
 int cli_file_failed(const cli_common *common, const char *path, hc_status st);
 
-/* An empty table of a command's own columns[n], without `frequency` where `extra` has no ROWS_IN_CYCLES, and without
- * `response` where it has no ROWS_RESPONSES. */
+/* A table of own columns[n], without `frequency` and `response` where `extra` lacks ROWS_IN_CYCLES, ROWS_RESPONSES. */
 table *cli_own_table(const char *title, unsigned extra, int n, const table_column *columns);
 #define CLI_COLUMNS(list) (int)(sizeof(list) / sizeof *(list)), list
 
@@ -183,12 +178,10 @@ unsigned cli_extra_columns(const scene *sc);
 table *cli_table(const cli_common *common, const char *title, rows_kind kind);
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void *row);
 
-/* How long a line on the screen may be: the terminal's columns; where results do not go to one, what COLUMNS says, or
- * 100. At least 40. */
+/* The length of a line: the terminal's columns; elsewhere what COLUMNS says, or 100. At least 40. */
 int cli_width(const cli_common *common);
 
-/* Write the tables to stdout or --output, whole or not at all; in the format table within cli_width, or with --wide
- * every column. 0 or the exit code. Frees nothing. */
+/* Write the tables to stdout or --output, whole or not at all, within cli_width unless --wide. 0 or the exit code. */
 int cli_write(const cli_common *common, int n, table *const *tables);
 
 /* Rows as they are found, with --format csv or json on standard output: cli_shows_rows is true there. cli_show_rows
@@ -198,8 +191,7 @@ bool cli_shows_rows(const cli_common *common);
 void cli_show_rows(const cli_common *common, const table *t, table_begun *begun);
 int cli_write_rest(const cli_common *common, int n, table *const *tables, const table_begun *begun);
 
-/* On stderr, unless quiet, if that many bytes are much: what a run will take, and whether the machine has it. Before a
- * progress line is drawn. */
+/* Unless quiet, says if that is much memory, and whether the machine has it. Before a progress line is drawn. */
 void cli_foretell_memory(const cli_common *common, double bytes);
 
 /* The same of processor time, if that is more than 10 s (compare/duration.h): "takes about 40 s of processor time: 3

@@ -79,8 +79,7 @@ static void put_cheapest(table *t, const scene *sc, const bench *b, const bench_
   }
 }
 
-/* The fastest method for each accuracy, decade by decade: "hbm_exact from 1e-01 to 1e-06; exact_shooting from 1e-07 to
- * 1e-11"; no method reached what is beyond. */
+/* The fastest method for each accuracy, decade by decade: "hbm_exact from 1e-01 to 1e-06; ...". */
 static void note_winners(table *t, const scene *sc, const bench *b, const bench_frequency *p)
 {
   char text[512];

@@ -23,8 +23,7 @@
 
 /* ---- the motion that is asked about ------------------------------------------------------------ */
 
-/* x of one degree of freedom, which moves all of its contacts, or u and v of one contact; with two tangents u_1, u_2
- * and v. */
+/* x of one degree of freedom, which moves all contacts; or u (u_1, u_2) and v of one contact. */
 enum { CONTACT_X, CONTACT_U, CONTACT_U2, CONTACT_V, CONTACT_MOTIONS };
 typedef struct contact_options {
   const char *contact;                 /* NULL: not given */
@@ -62,8 +61,7 @@ static int read_motion(const cli_common *common, const char *option, const char 
   return n / 2;
 }
 
-/* Which contact: the one that is named, or the only one there is where u or v is given. 0 or the exit code after the
- * message. */
+/* The contact that is named, or the only one where u or v is given. 0 or the exit code after the message. */
 static int choose_contact(const cli_common *common, const contact_options *own, contact_motion *m)
 {
   const scene *sc = common->scene;
@@ -153,8 +151,7 @@ static hc_status take_contacts(const model *of, contact_motion *m)
   return HC_OK;
 }
 
-/* What the options ask for, with as many harmonics as the motion or the case has, at least 1. 0, or the exit code after
- * the message. m->contacts is to be freed in any case. */
+/* The motion, of as many harmonics as it or the case has. 0 or the exit code; m->contacts is to be freed. */
 static int contact_motion_find(const cli_common *common, const contact_options *own, contact_motion *m)
 {
   const scene *sc = common->scene;
@@ -248,8 +245,7 @@ static hc_status note_halves(table *t, const cli_common *common, const contact_m
   return st;
 }
 
-/* Remarks under the table: when each contact sticks and slips; of one contact extrema, slip path and work, too. Errors
- * as above. */
+/* Below the table: when each contact sticks and slips; of one contact extrema, slip path and work, too. */
 static hc_status contact_force_note(table *t, const cli_common *common, const contact_motion *m)
 {
   char name[CLI_NAME];

@@ -206,8 +206,7 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
   const case_place at = part ? place_of(d->sc->structure, f, j) : case_field_place(d->places, f, in_contact ? j : -1);
   bool counts = part || in_contact || case_field_counts(f, d->sc);
   FILE *to = open_memstream(&text, &size);
-  /* Writes the value of f as a case file would have it, text without its quotes; of entry j if it is one of a
-   * list's. */
+  /* The value of f as a case file has it, text without quotes; of entry j of a list. */
   if (to && counts) {
     const scene_structure *s = d->sc->structure;
     if (!s || !describes_structure(f)) {

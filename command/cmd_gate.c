@@ -50,8 +50,7 @@ static const cli_option options[] = {
     {0},
 };
 
-/* allowed and found: numbers in csv and json; on the screen texts, because a column of numbers has one notation and
- * these range from discrepancies to costs. */
+/* allowed and found are texts on the screen, where a column of numbers has one notation; else numbers. */
 /* clang-format off */
 #define COLUMNS(number) \
   TEXT("case"), REAL("omega"), REAL("frequency"), INTEGER("branch"), TEXT("response"), TEXT("verdict"), \

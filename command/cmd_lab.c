@@ -35,8 +35,7 @@ static const cli_option options[] = {
 
 enum { MOST_PATH = 4096 };
 
-/* The page, to free in any case: beside the program as installed, or as built; then where it was to be installed.
- * HC_IO: there is none. HC_NO_MEMORY. */
+/* The page, to free: beside the program, or where it was to be installed. HC_IO: there is none. HC_NO_MEMORY. */
 static hc_status read_page(char **text)
 {
   static const char *const from_program[] = {"/../share/hbmcheck/lab.html", "/lab/lab.html"};

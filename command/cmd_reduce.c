@@ -38,8 +38,7 @@ static const table_column columns[] = {INTEGER("rows"), INTEGER("kept"), INTEGER
 
 enum { FIRST_MODES = 12, MOST_ROWS = 2000 };
 
-/* The first `modes` of cb's modes with which the stated error is at most `target`; *stated: theirs. It falls with each,
- * as far as is known where it is largest. */
+/* The fewest modes of cb whose stated error is at most `target`, if it falls with each; *stated: theirs. */
 static int fewest_modes(receptance *r, int most, double target, receptance_error *stated)
 {
   const receptance_error worst = *stated;

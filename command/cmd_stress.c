@@ -243,8 +243,7 @@ static hc_status scene_at(const stress_call *call, long index, scene *sc)
   return st;
 }
 
-/* The comment (lines, or "") and the scene into a file, or with path = NULL to standard output. 0 or the exit code
- * after the message. */
+/* comment ("" or lines) and scene into a file (NULL: standard output). 0 or the exit code after the message. */
 static int write_case(const stress_call *call, const char *path, const char *comment, const scene *sc)
 {
   output *out = NULL;

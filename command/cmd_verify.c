@@ -1,5 +1,4 @@
-/* cmd_verify.c - hbmcheck verify: another code's response curve, point by point, and the suspected cause where it is
- * off. */
+/* cmd_verify.c - hbmcheck verify: another code's curve, point by point, and the suspected cause. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -104,8 +103,7 @@ static int curves_of_list(const cli_common *common, const verify_asked *asked, v
   return n;
 }
 
-/* "omega=1,rms@tip=2,rms@root=3" is two curves; without @ it is one of each --response, or of the first. How many, into
- * out[VERIFY_MOST_CURVES]; 0 after a message. */
+/* "omega=1,rms@tip=2,rms@root=3" is two curves; without @ one of each --response, or the first. 0 after a message. */
 static int verify_curves_of(const cli_common *common, const verify_asked *asked, verify_curve *out)
 {
   memset(out, 0, VERIFY_MOST_CURVES * sizeof *out);

@@ -7,6 +7,5 @@
 /* Also where it ended with another st than HC_OK: it says so then. On stderr, why rows are unproven, unless quiet. */
 table *proofs_table(const cli_common *common, const proofs *p, hc_status st);
 
-/* The messages after prove_run ended with st, `error` being its errno, the curve with `curve_end`. 0, or the exit
- * code. */
+/* The messages after prove_run ended with st, errno `error` and the curve `curve_end`. 0 or the exit code. */
 int proofs_ended(const cli_common *common, hc_status curve_end, hc_status st, int error);

@@ -1,5 +1,4 @@
-/* advice.h - what to change in a case after a solver failed: no setting that is so already. About a discrepancy:
- * remedy.h. */
+/* advice.h - what to change in a case after a solver failed. About a discrepancy: remedy.h. */
 #pragma once
 
 #include "base/status.h"

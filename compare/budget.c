@@ -112,8 +112,7 @@ static double way_by(const link *l, const periodic_motion *hx)
   return motion_between(&l->h, hx).waveform + motion_between(hx, &l->orbit).waveform;
 }
 
-/* The solution with exact forces next to b->X becomes c's hx if there is none yet, or if it lies nearer to both h and
- * the orbit (sum of the two distances). */
+/* Newton's exact solution becomes c's hx if it is the first, or nearer to both h and the orbit. */
 static void try_alias_free(budgeter *b, const budget_case *from, chain *c)
 {
   hbm_point point;
@@ -182,8 +181,7 @@ static hc_status find_finer(budgeter *b, const budget_case *from, const hc_monit
     c->of[i].finer = c->of[i].transient;
   }
   if ((c->has_finer = from->transient->method == TIMEINT_BY_CLOSED_FORM)) return HC_OK;
-  /* Could the integration's error be seen beside the other parts, or is it asked for? Its size is expected to be what
-   * the integration itself says. */
+  /* Could the integration's error, as large as it says itself, be seen beside the other parts, or is it asked for? */
   const timeint_result *tr = &from->transient[c->most];
   const link *lead = &c->of[c->most];
   const double whole = motion_between(&lead->h, &lead->transient).waveform, expected = tr->closure + tr->attainable;

@@ -72,8 +72,7 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
  * stable, the other not? Laws and integrations differ by far less, branches by more. */
 bool budget_same_orbit(const timeint_result *a, const timeint_result *b);
 
-/* |difference of amplitudes|, relative, of a transient and the exact law's orbit next to it; NaN where the two are
- * not the same orbit. */
+/* |difference of amplitudes|, relative, of a transient and the exact law's orbit; NaN: not the same orbit. */
 double budget_regularisation(const timeint_result *tr, const timeint_result *orbit);
 
 /* The part that is largest in amplitude, "aliasing", ..., "family", and its share of the sum; NULL: there is none. */
@@ -87,7 +86,6 @@ typedef struct budget_worst {
 } budget_worst;
 budget_worst budget_find_worst(const error_budget *b, const discrepancy *limits);
 
-/* "amplitude 4.1 %: truncation (97 %)", "waveform 0.2 %: family (91 %); within the gate". One line in
- * text[BUDGET_TEXT], which is returned. */
+/* "amplitude 4.1 %: truncation (97 %)", "...; within the gate", in text[BUDGET_TEXT], which is returned. */
 enum { BUDGET_TEXT = 160 };
 const char *budget_text(const error_budget *b, const discrepancy *limits, char text[BUDGET_TEXT]);

@@ -92,8 +92,7 @@ typedef struct comparison_row {
   discrepancy orbit_errors; /* of the HBM solution against that orbit, NaN without it */
   error_budget budget;      /* what the discrepancy is made of */
   discrepancy errors;       /* of the HBM solution against the transient, NaN where there is nothing to compare */
-  /* What each side expects of itself, relative to its own amplitude, before it sees the other; `mean` is not predicted.
-   * NaN: not known. */
+  /* What each side expects of itself, relative to its own amplitude; `mean` is not predicted. NaN: not known. */
   discrepancy hbm_predicted, transient_predicted;
   bool unexpected; /* comparison_unexpected() */
 } comparison_row;
@@ -130,12 +129,10 @@ void comparison_clear(comparison *c);
 /* Is a quantity of the row beyond its limit: against what its budget is, of one that differs against the transient? */
 bool comparison_row_is_beyond(const comparison_row *row, const gate_limits *limits);
 
-/* The row whose budget is farthest beyond the gate, or nearest to it, of those that differ, if any do; NULL: none has a
- * budget. */
+/* The row whose budget is farthest beyond, or nearest to, the gate; of those that differ, if any. NULL: none. */
 const comparison_row *comparison_worst(const comparison *c, const gate_limits *limits);
 
-/* Its budget in words, and what helps: "amplitude 4.1 %: truncation (97 %); use hbm.harmonics >= 14". One line in
- * text[COMPARISON_WORST_TEXT], which is returned. */
+/* "amplitude 4.1 %: truncation (97 %); use hbm.harmonics >= 14", in text[COMPARISON_WORST_TEXT], returned. */
 enum { COMPARISON_WORST_TEXT = BUDGET_TEXT + COMPARISON_ADVICE_TEXT + 2 };
 const char *comparison_worst_text(const comparison *c, const comparison_row *worst, const gate_limits *limits,
                                   char text[COMPARISON_WORST_TEXT]);
@@ -167,8 +164,7 @@ bool comparison_unexpected(const comparison_row *row);
 enum { COMPARISON_UNEXPECTED_TEXT = 192 };
 const char *comparison_unexpected_text(const comparison_row *row, char text[COMPARISON_UNEXPECTED_TEXT]);
 
-/* Exit code (docs/interface.md, 5): 0 agreed; 1 a transient differs from every HBM solution, or has another period; 3
- * something could not be compared. */
+/* 0 agreed; 1 a transient differs from every HBM solution, or in period; 3 something could not be compared. */
 int comparison_exit_code(const comparison *c);
 
 /* The time integration that HBM solutions are held against: the model, with the exact law. For timeint_orbit.

@@ -37,8 +37,7 @@ struct comparison_work {
  * others and the contacts are made of. HC_NO_MEMORY, HC_INTERRUPTED: no going on. */
 hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, comparison_row *row);
 
-/* *row becomes that of response r > 0 of the same solution, `first` being the row of the first: its errors,
- * predictions, budget and verdict. */
+/* *row becomes that of response r > 0 of the solution whose first row is `first`. */
 void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,
                    comparison_row *row);
 

@@ -41,8 +41,7 @@ typedef struct remedy_search {
   bool cut; /* work or time did not suffice for something that was to be tried */
 } remedy_search;
 
-/* Where Newton starts with n_harm harmonics: next to the orbit, else the transient, where one response's harmonics are
- * all; else from the solution that was tried last. */
+/* Newton's start: next to the orbit, else the transient if one response's harmonics are all, else the last one. */
 static void start_from(const remedy_search *s, const hbm_solver *hbm, int n_harm, double *X)
 {
   const size_t n = (size_t)hbm_n_coefficients(hbm);

@@ -1,5 +1,4 @@
-/* response.h - the HBM response curve, the frequencies at which both sides are compared, and what is reported of the
- * curve: one row for each solution, and a summary. */
+/* response.h - the response curve, the frequencies to compare at, a row a solution, and a summary. */
 #pragma once
 
 #include "compare/compare_settings.h"

@@ -106,8 +106,7 @@ static hc_status march_perturbed(comparison_work *w, timeint *ti, double omega, 
   return timeint_steady(ti, omega, y, w->monitor, r);
 }
 
-/* Where the motion goes that is pushed off w->state to that side (+1, -1), marched with the exact law in closed form.
- * As timeint_steady. */
+/* Where the motion goes from w->state, pushed to that side (+1, -1), by the exact law in closed form. */
 static hc_status perturbed_motion(comparison_work *w, double omega, int direction, timeint_result *r)
 {
   transient_settings how = w->setup->transient;
@@ -287,8 +286,7 @@ static double largest_amplitude(const comparison_work *w)
   return most;
 }
 
-/* Response r in *row, which knows how the solution's and the transient's computations ended: the measures of both, of
- * the orbit, their errors and what was expected of them. */
+/* Response r in *row: the measures of HBM, transient and orbit, their errors, and what was expected of them. */
 static void measure_response(comparison_work *w, const hbm_curve *at, int k, int r, comparison_row *row)
 {
   const double *X = at->X + (size_t)k * at->n_coef;
@@ -401,8 +399,7 @@ bool comparison_mean_free(const comparison_row *row)
   return row->hbm_status == HC_OK && row->hbm.contact.free_sliders > 0;
 }
 
-/* What is farthest beyond its limit, as budget_find_worst has it; of a transient that left the orbit beside the
- * solution by the row's errors, with no parts. */
+/* What is farthest beyond its limit; of a transient that left the orbit by the row's errors, with no parts. */
 static budget_worst worst_of(const comparison_row *row, const gate_limits *limits)
 {
   const discrepancy at = gate_limits_at(limits, row->omega), *e = &row->errors;

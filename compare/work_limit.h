@@ -1,5 +1,4 @@
-/* work_limit.h - a monitor that stops after a number of ticks, or at a processor time; `stopped` tells a request to
- * stop from that. */
+/* work_limit.h - a monitor that stops after some ticks, or at a processor time; `stopped`: it was told to. */
 #pragma once
 
 #include "base/status.h"

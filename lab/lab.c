@@ -1,5 +1,4 @@
-/* lab.c - see lab.h: the case, the table, the words. Questions: lab_curve.c, lab_motion.c, lab_transient.c,
- * lab_errors.c. */
+/* lab.c - see lab.h: the case, the table, the words. Questions: the other files. */
 #include "lab/lab.h"
 
 #include <math.h>

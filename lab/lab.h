@@ -72,8 +72,7 @@ int lab_neighbours(lab *l);
 /* The same of every exact solution at omega. Errors of hbm_curve_at. */
 int lab_neighbours_at(lab *l, double omega);
 
-/* The curve's special points: omega, amplitude, branch, hbm_special_kind, contact_regime before and after. Errors of
- * hbm_specials. */
+/* Special points: omega, amplitude, branch, hbm_special_kind, contact_regime before and after. */
 int lab_specials(lab *l, int force);
 
 /* ---- one motion X[2 n_harm + 1] ---- */
@@ -90,8 +89,7 @@ int lab_signal(lab *l, int force, int n);
  * period (0 above n_harm and where n is too small for n_harm). Errors of exact_force_eval, aft_eval. */
 int lab_spectrum(lab *l, int n, int n_shown);
 
-/* A row for each contact: contact_regime, smallest and largest N, largest |T|, slip path, dissipated work per period,
- * all by the exact law. */
+/* A row a contact, by the exact law: contact_regime, least and largest N, largest |T|, slip path, work. */
 int lab_work(lab *l);
 
 /* ---- time integration in closed form, exact law ---- */

@@ -1,5 +1,4 @@
-/* lab_curve.c - see lab.h: the response curve, its solutions at an omega, the sampled ones
- * next to them, its special points. */
+/* lab_curve.c - see lab.h: the curve, its solutions at an omega, sampled ones beside, special points. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -24,6 +24,5 @@ void output_abandon(output *o);
 /* After writing ended with st: the commit; or the abandoning, and st. */
 hc_status output_finish(output *o, hc_status st);
 
-/* Removes what is being written beside the names asked for, for a signal handler that then ends the program: nothing
- * else works on an output after it. Async-signal-safe. */
+/* Removes what is written beside, in a signal handler that ends the program. Async-signal-safe. */
 void output_abandon_all(void);

@@ -40,8 +40,7 @@ int progress_interrupted(void);
  * whose ticks still answer false after a signal. */
 progress *progress_start(const char *label, bool quiet);
 
-/* For long work; one thread at a time may tick. done is 0..1, or negative when unknown: then the time spent is
- * shown. */
+/* For long work; one thread at a time may tick. done is 0..1, or negative: unknown, the time is shown. */
 hc_monitor progress_monitor(progress *p);
 
 /* From the next drawing on, another label. */

@@ -23,8 +23,7 @@ typedef enum {
   ROWS_PROVE            /* of proof_row          */
 } rows_kind;
 
-/* Columns that only some cases have: frequencies in cycles per time beside the omegas; the name of the response or
- * contact. */
+/* Columns of some cases: frequencies in cycles beside the omegas; the name of response or contact. */
 enum { ROWS_IN_CYCLES = 1, ROWS_RESPONSES = 2 };
 
 enum { ROWS_MOST = 48, ROWS_TEXT = 64 }; /* columns of a kind, asserted; bytes of a text, the end included */
@@ -45,8 +44,7 @@ const table_column *rows_columns(rows_kind kind, unsigned extra, int *n);
 /* For table_spare: which of them a narrow screen does without, the first ones first. */
 const char *const *rows_spare(rows_kind kind, bool in_cycles);
 
-/* One row, of the kind's type: cells[n] in the columns' order. A real that is not a number is not
- * there. Cannot fail. */
+/* One row: cells[n] in the columns' order. A real that is no number is not there. Cannot fail. */
 void rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells);
 
 /* "turning point", "contact goes from slip to separation": what happens there. Returns text. */

@@ -14,8 +14,7 @@ typedef struct file_identity {
   char *name; /* FILE_TO_COME: its name there; else NULL */
 } file_identity;
 
-/* The identity of `path`, or with path = NULL of what the open descriptor fd writes to or reads from. False: out of
- * memory. Free with file_forget in any case. */
+/* Of `path`, or with NULL of the open descriptor fd. False: out of memory. file_forget in any case. */
 bool file_identify(const char *path, int fd, file_identity *out);
 void file_forget(file_identity *f);
 
@@ -24,6 +23,5 @@ bool file_same(const file_identity *a, const file_identity *b);
 /* Would `path` be a file right in the folder `folder`? False where there is no such folder. */
 bool file_is_in(const char *path, const char *folder);
 
-/* Where the links at the end of `path` lead, whether or not anything is there: to be freed. NULL and errno: ENOMEM, or
- * ELOOP for links in a circle. */
+/* Where the links at its end lead, to be freed. NULL and errno: ENOMEM, or ELOOP for a circle. */
 char *file_follow_links(const char *path);

@@ -1,5 +1,4 @@
-/* table.c - the table itself, and csv. The other formats: table_aligned.c, table_json.c. Proof:
- * tests/output/test_table.c. */
+/* table.c - the table itself, and csv. The other formats: table_aligned.c, table_json.c. */
 #include "output/table.h"
 
 #include <limits.h>

@@ -78,12 +78,10 @@ static inline table_value table_real(bool has, bool there, double real)
 {
   return (table_value){TABLE_REAL, has, there, .as.real = real};
 }
-/* A remark about the whole table, one line: after it in `table`, as "# ..." lines before the header in csv, under
- * "notes" in json. */
+/* A remark, one line: after the table; in csv "# ..." before the header, in json under "notes". */
 void table_note(table *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Rows may be shown while others are found (table_write_begun): the remarks from here on are about them, and stand
- * behind the rows in csv, too. */
+/* For table_write_begun: remarks from here on are about the rows, and stand behind them in csv, too. */
 void table_notes_of_rows(table *t);
 
 /* In the format table, carry words over to further lines instead of cutting texts, so that no line is longer than

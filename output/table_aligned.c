@@ -69,8 +69,7 @@ static void end_line(line_writer *l)
   putc('\n', l->to);
 }
 
-/* Exponent of v, finite and not 0, rounded to 7 significant digits, and how many of the 6 mantissa decimals are
- * needed. */
+/* Exponent of v, finite and not 0, to 7 significant digits, and how many of 6 mantissa decimals it needs. */
 static void significant_digits(double v, int *exponent, int *mantissa)
 {
   char text[NUMBER_ROOM];
@@ -258,8 +257,7 @@ static int width_of(const char *text, size_t bytes)
   return width;
 }
 
-/* The widest column that is wider than it has to be: than its longest word, or else, once no such one is left, than
- * NARROWEST. -1: none is. */
+/* The widest column wider than its longest word, or if none is, than NARROWEST; -1: none. */
 static int column_to_narrow(const table *t, const column_style *style)
 {
   int whole = -1, any = -1;
@@ -272,8 +270,7 @@ static int column_to_narrow(const table *t, const column_style *style)
   return whole >= 0 ? whole : any;
 }
 
-/* Bytes of the next line of *rest, which is moved past them and past the spaces before them; where it starts goes
- * into *from. */
+/* Bytes of the next line of *rest, which moves past them and the spaces before; it starts at *from. */
 static size_t next_part(const char **rest, int width, const char **from)
 {
   int own;

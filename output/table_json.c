@@ -70,8 +70,7 @@ static hc_status write_notes(const table *t, const char *indent, FILE *to)
   return st;
 }
 
-/* The title, or when an earlier table or "notes" has it, the title with a number: no table may hide another. Goes
- * into `taken`. */
+/* The title; with a number where an earlier table or "notes" has it. Goes into `taken`. */
 static json_t *make_key(const table *t, json_t *taken)
 {
   const char *title = *t->title ? t->title : "table";

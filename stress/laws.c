@@ -18,8 +18,7 @@
 
 /* ---- one contact ---------------------------------------------------------------------------------------- */
 
-/* One contact by itself: its force as hbm/ locates it, and its law stepped through. A contact with two tangents and one
- * limit, two of the model's (model.h), is taken as one. */
+/* One contact by itself, located and stepped through; two halves with one limit (model.h) are taken as one. */
 enum { ONE_CONTACT_MOST = 3 };
 
 typedef struct one_contact {
@@ -78,8 +77,7 @@ static hc_status locate(int n_harm, one_contact *c)
   return st;
 }
 
-/* Contact j in the motion x[2H+1][n]. HC_NO_MEMORY and the errors of exact_force_eval, planar_force_eval;
- * one_contact_clear in any case. */
+/* Contact j in the motion x[2H+1][n]. HC_NO_MEMORY, the evaluators' errors; one_contact_clear in any case. */
 static hc_status one_contact_locate(const solved_scene *s, int j, const double *x, one_contact *c)
 {
   *c = contact_of(s->model, j);
@@ -113,8 +111,7 @@ typedef struct stepper {
   bool begun;
 } stepper;
 
-/* f[n_dof], T and N - N0 at the instant that is reached by motion[n_dof]. A contact on a line is one in the plane whose
- * second tangent does not move. */
+/* f[n_dof], T and N - N0, at motion[n_dof]. A line is a plane whose second tangent does not move. */
 static void step(const one_contact *c, const double *motion, stepper *s, double *f)
 {
   const contact *law = c->law;
@@ -236,8 +233,7 @@ static void add_product(const solved_scene *s, const double *A, double by, const
                 &b->size[to * n + i]);
 }
 
-/* Its force as it is located, or where N > 0 stepped through N instants; *bound then grows by what that may do.
- * HC_INTERRUPTED: the slider has not settled. */
+/* Its force as located, or stepped through N > 0 instants, with *bound more. HC_INTERRUPTED: not settled. */
 static hc_status add_contact(const solved_scene *s, int j, const double *x, int N, balance *b, double *bound)
 {
   one_contact c;
@@ -306,8 +302,7 @@ stress_check stress_check_balance(solved_scene *s)
 
 /* ---- a contact's force and work ------------------------------------------------------------------------ */
 
-/* Steps are made finer until the largest difference is 1e-6 of the largest force of the springs, or no more than it
- * must be. */
+/* Steps get finer until the difference is 1e-6 of the springs' largest force, or what it must be. */
 static stress_check hold_force(solved_scene *s, const one_contact *c)
 {
   enum { LEAST = 512, MOST = 131072 };
@@ -332,8 +327,7 @@ static stress_check hold_force(solved_scene *s, const one_contact *c)
   return error <= bound ? stress_explain(STRESS_ALIASED, error, bound) : stress_find(STRESS_DISAGREES, error, bound);
 }
 
-/* A motion of the same harmonics, falling as 1/h^2, that crosses the gap or the friction limit: the solution may do
- * neither. */
+/* A motion falling as 1/h^2 that crosses the gap or the friction limit, as the solution may not. */
 static void draw_motion(solved_scene *s, one_contact *c)
 {
   const contact *law = c->law;

@@ -24,8 +24,7 @@ typedef enum path_way {
   PATH_STEADY /* timeint_steady: where the motion goes from the start */
 } path_way;
 
-/* Bounds are relative to the largest response. Closed forms: rounding through (I - Phi)^-1 is counted besides. CVODE's
- * are those of docs/transient.md. */
+/* Relative to the largest response; rounding through (I - Phi)^-1 comes besides. CVODE's: docs/transient.md. */
 static const double close_enough = 1e-6, same_orbit = 1e-3, same_in_closed_form = 1e-9, same_by_cvode = 1e-8;
 static const double same_law = 1e-6, beside = 1e-5, nearby = 1e-4, tolerance = 1e-10;
 enum { MOST_PERIODS = 400, MOST_HARMONICS = 160, MOST_UNKNOWNS = 1500 };
@@ -45,8 +44,7 @@ static transient_settings path_settings(void)
 
 static size_t state_length(const model *m) { return 2 * (size_t)m->n + (size_t)m->n_contacts; }
 
-/* An orbit to be found: of m, whose responses 1 .. n are the base model's degrees of freedom, and of whose units of
- * length `length` are one of the base model's. */
+/* An orbit to find: of m, with the base model's DOFs as responses 1 .. n, in units `length` to one. */
 typedef struct search {
   const model *m;
   transient_settings how;
@@ -186,8 +184,7 @@ static void motion_beside(solved_scene *s, const model *m, const stress_path *pa
   free(one);
 }
 
-/* Is the highest frequency of the stuck structure above a tenth of the finest solution's last harmonic's? After each
- * transition it rings at that frequency. */
+/* Does the stuck structure ring, after each transition, above a tenth of the last harmonic? */
 static bool beyond_harmonics(solved_scene *s)
 {
   model_scales scales;
@@ -485,16 +482,14 @@ stress_check stress_check_cvode(solved_scene *s)
   return hold_found(s, &at, s->path.state, 0, same_by_cvode);
 }
 
-/* Where a slider never slips beside other contacts, and with another law rests elsewhere, the orbit is another member
- * of the family. */
+/* A slider that never slips may rest elsewhere by another law: another member of the family. */
 static stress_check unless_family(const solved_scene *s, stress_check c)
 {
   const bool family = s->model->n_contacts > 1 && s->path.r.free_sliders > 0;
   return c.outcome == STRESS_FINDING && family ? stress_explain(STRESS_FAMILY, c.error, c.bound) : c;
 }
 
-/* The error is of first or second order: with a tenth of the regularisation the difference falls to a quarter or
- * less. */
+/* With a tenth of the regularisation an error of first or second order falls to a quarter or less. */
 stress_check stress_check_regularised(solved_scene *s)
 {
   search at = next_to(s);

@@ -137,8 +137,7 @@ static bool parse(const char *line, stress_result *r)
   return r->there;
 }
 
-/* Read what is there; *end is where the last whole line ends, 0: nothing is there. A line that has its newline and does
- * not parse is none of ours. */
+/* *end: where the last whole line ends, 0: there is none. A whole line that does not parse is damage. */
 static hc_status read_all(const stress_plan *plan, FILE *file, stress_result *results, long *there, long *end)
 {
   char line[LINE];

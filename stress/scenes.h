@@ -1,5 +1,4 @@
-/* scenes.h - the scenes of a stress run: one point of a shifted Sobol sequence each, mapped onto the whole range of
- * every quantity. */
+/* scenes.h - the scenes of a stress run, points of a shifted Sobol sequence over every range. */
 #pragma once
 
 #include "base/status.h"
@@ -17,8 +16,7 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out);
 /* The structure of that number, likewise: structures.c. To be cleared with case_clear. */
 hc_status stress_structures_at(stress_scenes *s, long index, scene *out);
 
-/* The scene of that number in any of the families, of which that in space has the structure of that number with a
- * second tangent of some of its contacts. */
+/* Of any family; one in space has the structure of that number with more tangents. */
 hc_status stress_scene_of(stress_scenes *s, stress_family family, long index, scene *out);
 
 /* ---- what both files draw from ---- */

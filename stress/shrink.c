@@ -1,5 +1,4 @@
-/* shrink.c - stress_shrink: the fewest contacts, loads, degrees of freedom, harmonics and digits with which a finding
- * is still one. */
+/* shrink.c - stress_shrink: the fewest contacts, loads, DOFs, harmonics and digits of a finding. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,8 +25,7 @@ static bool copy(shrinker *s, const scene *sc, scene *out)
   return s->status == HC_OK;
 }
 
-/* *smaller takes *sc's place where it is still a finding, and nothing is adrift, which a case file could not say; else
- * it is forgotten. */
+/* *smaller becomes *sc if it still finds and holds together, as a case file must; else it is forgotten. */
 static bool take(shrinker *s, scene *sc, scene *smaller)
 {
   const scene_structure *t = smaller->structure;

@@ -1,5 +1,4 @@
-/* solutions.c - checks of the HBM solution against closed forms, against samples, and against the response curve
- * through it. */
+/* solutions.c - the HBM solution against closed forms, samples, and its response curve. */
 #include <complex.h>
 #include <float.h>
 #include <math.h>

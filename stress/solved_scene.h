@@ -112,12 +112,10 @@ stress_check stress_agree(double error, double bound);
 stress_check stress_explain(stress_reason why, double error, double bound);
 stress_check stress_find(stress_reason why, double error, double bound);
 
-/* [1] A sensitivity above it explains nothing: where it makes more than that of rounding and tolerances, nothing can be
- * held against anything. */
+/* [1] A sensitivity above it explains nothing: nothing can be held against anything there. */
 #define STRESS_SAYS_SOMETHING 1e-3
 
-/* Agreed up to `least`; beyond it, but within what the scene's own sensitivity makes of errors, explained as
- * ill-conditioned, or where it says nothing skipped. */
+/* Agreed up to `least`; explained as ill-conditioned up to `sensitive`, or skipped where that says nothing. */
 stress_check stress_agree_within(double error, double least, double sensitive);
 
 /* The words for a solver's status; a bug is a finding. HC_NO_MEMORY goes to s->fatal. */

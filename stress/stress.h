@@ -17,8 +17,7 @@
 #include "base/status.h"
 #include "casefile/scene.h"
 
-/* X(code, name, function of solved_scene.h, meaning), in the order in which they run: later ones use what earlier ones
- * found. */
+/* X(code, name, function, meaning) in the order of their run: later ones use what earlier ones found. */
 #define STRESS_CHECKS(X)                                                                                               \
   X(STRESS_FORCE, "contact_force", stress_check_force,                                                                 \
     "each contact's force harmonics, located exactly and stepped through ever finer")                                  \
@@ -140,8 +139,8 @@ hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monito
 
 /* The whole plan by several threads, into results[plan->scenes]. *resumed, from before the first tick: scenes that the
  * journal had; ticks tell the part of the others that is done. HC_INTERRUPTED keeps what is there; HC_BAD_INPUT: the
- * journal belongs to another plan, is none or is damaged, HC_UNSUPPORTED: it is of another version of this program, with
- * other checks; HC_IO: it cannot be written (errno says why). */
+ * journal is of another plan, is none or is damaged; HC_UNSUPPORTED: of another version, with other checks; HC_IO: it
+ * cannot be written (errno says why). */
 hc_status stress_run(const stress_plan *plan, const hc_monitor *monitor, stress_result *results, long *resumed);
 
 /* Simplify *sc while the check `kind` still ends in a finding: fewer contacts, loads, degrees of freedom and harmonics,

@@ -213,15 +213,13 @@ static int most_harmonics(int n, int n_directions)
   return most < MOST_HARMONICS ? most : MOST_HARMONICS;
 }
 
-/* All but the limits that are of the order of the motion. Where neither matrix nor contacts hold it, which a case file
- * could not say, a spring to the ground does. */
+/* All but the limits of the order of the motion. What nothing holds gets a spring to the ground. */
 static hc_status draw_structure(uint64_t *r, const double *p, int n_contacts, int n_harm, scene_structure *s)
 {
   const double stiffness = 1e-2 * pow(1e5, p[CONTACT_STIFFNESS]);
   double x[MOST_DOFS];
   bool adrift;
-  /* Entries are of the order of 1: a chain, a tree, or full matrices. Where nothing of its own holds it, contacts have
-   * to. */
+  /* Entries of the order of 1: a chain, a tree, or full; not held by itself, contacts have to. */
   const int n = s->n;
   double *M = s->mass.v, *K = s->stiffness.v;
   const bool full = p[SHAPE] > 0.7, chain = p[SHAPE] < 0.4, held = p[HELD] < 0.9;

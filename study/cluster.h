@@ -13,8 +13,7 @@ void cluster_end(void);
 /* The largest of what the processes say, to all. */
 int cluster_agree(int code);
 
-/* Rank 0's side: next_scenes() writes the numbers of at most `most` scenes to compute into ids and answers how
- * many, store() gets the packed result of one. */
+/* Rank 0's side: next_scenes() writes up to `most` scene numbers into ids; store() gets a packed result. */
 typedef struct cluster_desk {
   int (*next_scenes)(void *self, int most, long *ids);
   void (*store)(void *self, const char *packed, size_t size);

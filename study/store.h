@@ -33,14 +33,12 @@ hc_status study_sql_status(sqlite3 *db);
 /* For queries on the results; whatever is prepared from now on can only read. */
 sqlite3 *study_store_readonly(study_store *st);
 
-/* Give a query a name, for this connection only: nothing is written to the file. `select` is one SELECT. HC_IO:
- * study_store_error tells. */
+/* Names a SELECT, for this connection only. HC_IO: study_store_error tells. */
 hc_status study_store_view(study_store *st, const char *name, const char *select);
 
 /* ---- computed (run.c) ---- */
 
-/* Called by the calling thread some ten times a second: of `scenes`, `done` are there, `now` of them since the
- * start. false: stop. */
+/* Called some ten times a second: of `scenes`, `done` are there, `now` since the start. false: stop. */
 typedef struct study_watch {
   bool (*tick)(void *self, long done, long now, long scenes);
   void *self;
@@ -81,13 +79,11 @@ typedef struct study_claims_tally {
   int unexpected; /* not as `expect` says */
 } study_claims_tally;
 
-/* Claims answered once; those answered with the settings of their source and with ours; those of them that are answered
- * in fixed steps too; seconds, where a claim has some. */
+/* Claims answered once; with their source's settings and ours; in fixed steps too; with seconds. */
 enum { STUDY_CLAIMS, STUDY_SIDES, STUDY_STEPS, STUDY_SECONDS, STUDY_CLAIM_TABLES };
 const table_column *study_claims_columns(int which, int *n);
 
-/* Can every query be run? Held against empty tables, before anything is computed. HC_BAD_INPUT with
- * "FILE:LINE:COLUMN: ..." in err. */
+/* Can every query be run? On empty tables, before anything is computed. HC_BAD_INPUT, err filled. */
 hc_status study_claims_check(const study *s, case_error *err);
 
 /* Evaluate; one row a claim into each table it belongs to. `stop` ends a query that takes too long: HC_INTERRUPTED. */

@@ -75,8 +75,7 @@ typedef struct study {
 hc_status study_read(const char *path, int n_set, const char *const *set, study **out, case_error *err);
 void study_free(study *s);
 
-/* Scene number id, to clear with case_clear (case_file.h). HC_BAD_INPUT with err filled when its fields do not go
- * together (fewer samples than harmonics need). */
+/* Scene number id, to clear with case_clear. HC_BAD_INPUT, err filled: its fields do not go together. */
 hc_status study_scene(const study *s, long id, scene *out, case_error *err);
 
 /* Which value of axis `axis` scene id has, 0..n-1. */

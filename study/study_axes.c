@@ -1,5 +1,4 @@
-/* study_axes.c - what varies: lists, ranges and fields that go together, each value held against its field before
- * anything runs. */
+/* study_axes.c - what varies: lists, ranges, fields that go together; values are checked before anything runs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

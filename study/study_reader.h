@@ -20,8 +20,7 @@ typedef struct study_reader {
   study_given given[STUDY_MOST_FIELDS];
 } study_reader;
 
-/* Which of words[] (ending in NULL) this key is, noted in seen[]. -1 with the message made: no word, unknown, or
- * there twice. */
+/* Which of words[] (NULL at the end) the key is, noted in seen[]; -1 with the message: none, or twice. */
 int study_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words, case_place *seen);
 
 /* The field a key names goes into *t, its full name into path. Given before, it or its rival, is a mistake. */

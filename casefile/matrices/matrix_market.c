@@ -1,5 +1,4 @@
-/* matrix_market.c - Matrix Market files, see matrix_text.h. Banner, size and entries are lines of words; comments
- * and blank lines between them are skipped. */
+/* matrix_market.c - Matrix Market files, see matrix_text.h. Between banner, size and entries comments may stand. */
 #include <limits.h>
 
 #include "casefile/matrices/matrix_text.h"

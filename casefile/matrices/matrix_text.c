@@ -170,8 +170,7 @@ static bool has_image(const matrix_text *r, int k)
   return k < r->n_entries || (r->mirrored && image(r, k).row != image(r, k).column);
 }
 
-/* Sorted by rows first, order[], then row by row into columns, whose rows ascend so. source[] tells where each is
- * from. */
+/* Sorted by rows, order[], then row by row into columns, whose rows ascend so. source[]: where each is from. */
 static void sort_entries(const matrix_text *r, int *first, int *order, int *source)
 {
   sparse *A = (sparse *)&r->matrix;

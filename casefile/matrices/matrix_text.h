@@ -64,8 +64,7 @@ bool matrix_text_next(matrix_text *r);
 /* Is it that word, in any case of letters? `name` is in lower case. */
 bool matrix_word_is(const matrix_word *w, const char *name);
 
-/* Start the message with the place of `at` in the current line, or for NULL of the end of the text, where
- * matrix_text_next has come to. */
+/* Start the message with the place of `at` in the current line; NULL: of the text's end. */
 message *matrix_text_blame(matrix_text *r, const char *at);
 
 /* The whole message, printf-style, about that place. Always HC_BAD_INPUT. */

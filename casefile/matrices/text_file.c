@@ -13,8 +13,7 @@ static hc_status cannot_open(int error, message *m)
   return error == ENOMEM ? HC_NO_MEMORY : HC_IO;
 }
 
-/* The file at `path` for reading, of *size bytes. Only what lies on a disk has an end that is known; opening anything
- * else may wait for ever. */
+/* The file at `path`, of *size bytes; regular ones only: anything else may have no end, or wait for ever. */
 static hc_status open_file(const char *path, size_t most, FILE **from, size_t *size, message *m)
 {
   struct stat info;

@@ -1,5 +1,4 @@
-/* mesh_file.c - see mesh_file.h. A file becomes lists of nodes, elements and items of sets, in its order; what the
- * names in them mean is found when a set is asked for. */
+/* mesh_file.c - see mesh_file.h. Nodes, elements and sets in the file's order; names are resolved when asked for. */
 #include "casefile/mesh/mesh_file.h"
 
 #include <limits.h>

@@ -9,8 +9,7 @@ static const double off_curve = 0.01;
 
 /* ---- where the curve goes ---- */
 
-/* The curve is drawn with straight lines, so points are added: BETWEEN steps from one to the next, on the cubic of
- * hbm/curve/segment.h. */
+/* Straight lines need more points: BETWEEN steps between two, on the cubic of hbm/curve/segment.h. */
 enum { BETWEEN = 4 };
 
 /* A curve is drawn by one response of the model; `judge`: with stability. */
@@ -31,8 +30,7 @@ static hc_status measure_point(hbm_solver *s, double omega, const double *X, dra
   return HC_OK;
 }
 
-/* points[BETWEEN (n - 1) + 1]. Points added between two of equal stability have theirs; between others the stability
- * of each is computed. */
+/* points[BETWEEN (n - 1) + 1]. Stability is computed between points that differ in it, else theirs. */
 static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, drawn_as as, curve_point **points, int *n)
 {
   hc_status st = HC_OK;
@@ -129,8 +127,7 @@ hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve,
   return st;
 }
 
-/* A special point is known by omega and the first response's amplitude: where that lies on the curve drawn, the other
- * response has its amplitude. */
+/* The response's amplitude where the first one's point lies on its curve. */
 static double amplitude_there(const curve_shape *first, const curve_point *points, const hbm_special *p)
 {
   const curve_point at = {p->omega, p->amplitude, 0};

@@ -31,8 +31,7 @@ hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve,
 /* The same curve, of which `first` is the shape, by response r; without what the other end finds. */
 hc_status curve_shape_response(const curve_shape *first, const scene *sc, hbm_solver *s, const hbm_curve *curve, int r,
                                curve_shape *out);
-/* Computes the curve over the scene's sweep, widened to `asked`. HC_OK or HC_NO_MEMORY: a curve that stops early is
- * drawn as far as it goes. */
+/* Computes the curve over the sweep, widened to `asked`, as far as it goes. HC_OK, HC_NO_MEMORY. */
 hc_status curve_shape_trace(const scene *sc, const number_list *asked, curve_shape *out);
 void curve_shape_clear(curve_shape *c);
 

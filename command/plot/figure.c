@@ -19,8 +19,7 @@ extern char **environ;
 
 enum { WORDS = 400 };
 
-/* Starts gnuplot with these as its three streams, the default action for SIGPIPE, and without the user's settings.
- * Returns 0 or an errno. */
+/* Starts gnuplot on these streams, SIGPIPE as by default, without the user's settings. 0 or an errno. */
 static int start_gnuplot(FILE *script, FILE *drawing, FILE *words, pid_t *pid)
 {
   char name[] = "gnuplot", settings[] = "--default-settings", *argv[] = {name, settings, NULL};
@@ -208,8 +207,7 @@ void figure_script(figure *g, const char *format, ...)
   va_end(args);
 }
 
-/* For a string in double quotes: letters, digits, spaces and some punctuation as they are, all else in octal; the
- * characters of gnuplot's markup with a backslash before. */
+/* Inside double quotes: plain characters as they are, gnuplot's markup behind a backslash, all else octal. */
 static void write_escaped(FILE *to, const char *text)
 {
   char *clean = utf8_clean(text, true);
@@ -389,8 +387,7 @@ const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT
   return text;
 }
 
-/* Small values are light. The palette darkens evenly, so the map reads the same in grey; the numbers in cells are white
- * on the darker half. */
+/* Small values are light; the palette darkens evenly, also in grey. Numbers on the darker half are white. */
 void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high)
 {
   if (!(high > low)) high = low + (low != 0 ? 1e-6 * fabs(low) : 1); /* one value only */

@@ -42,16 +42,14 @@ void figure_point(figure *g, double x, double y);
 void figure_gap(figure *g);
 void figure_block_end(figure *g);
 
-/* One more of a plot's items, figure_item(g, look, title, "$a%d using 1:2 with lines", i); no title: NULL. figure_draw
- * ends the plot. */
+/* One more item of a plot, figure_item(g, look, title or NULL, "$a%d using 1:2 with lines", i); figure_draw ends it. */
 void figure_item(figure *g, const char *look, const char *title, const char *what, ...)
     __attribute__((format(printf, 4, 5)));
 void figure_draw(figure *g);
 /* For its title. */
 const char *figure_words(figure *g, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Looks for figure_item: a given one, or in a drawing of letters line type n; line n of several, line and point told
- * apart by dashes and shapes. */
+/* Looks: a given one (letters: line type n); line n; line and point n, told apart by dashes and shapes. */
 const char *figure_look(figure *g, int n, const char *look, ...) __attribute__((format(printf, 3, 4)));
 const char *figure_line(figure *g, int n, double width);
 const char *figure_colour(int n);
@@ -67,8 +65,7 @@ void figure_log(figure *g, const char *axis);
 enum { FIGURE_UNIT = 64 };
 const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT]);
 
-/* Cells (column, row, value), from the data block $cells, low <= value <= high, light to dark and each with its
- * value. Axes and tics are the caller's. */
+/* Cells (column, row, value) of $cells, low <= value <= high, each with its value. Axes and tics are the caller's. */
 void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high);
 
 /* Points drawn by their verdict, in order of appearance. */

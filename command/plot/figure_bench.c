@@ -6,8 +6,7 @@
 
 enum { MOST_FREQUENCIES = 4 };
 
-/* Shapes that differ in grey, too: filled for harmonic balance, open for our time integration, crosses for other
- * programs. */
+/* Filled: harmonic balance; open: our time integration; crosses: other programs. */
 static const char *const looks[BENCH_METHODS] = {
     [BENCH_HBM_EXACT] = "pt 7 ps 1.1 lc rgb '#0072B2'",
     [BENCH_HBM_SAMPLED] = "pt 5 ps 0.7 lc rgb '#56B4E9'",

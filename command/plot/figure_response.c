@@ -1,5 +1,4 @@
-/* figure_response.c - amplitude over omega: frf, compare, transient at several frequencies, and verify, where another
- * program's points stand on our curve. */
+/* figure_response.c - amplitude over omega: frf, compare, transient, and verify with another program's points. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,8 +35,7 @@ static void draw_layers(figure *g, const layers *l)
   figure_draw(g);
 }
 
-/* The whole curve; beside it its detail, if it has a small part with all special points, and with a, three panels of
- * discrepancy. */
+/* The whole curve; beside it the part with all special points, if it is small, and with a its three panels. */
 static void response_panels(figure *g, const scene *sc, const layers *l, const char *about, const accuracy *a)
 {
   curve_window w;
@@ -64,8 +62,7 @@ static int response_width(const curve_shape *shape)
 
 /* ---- frf ---- */
 
-/* The shapes of the responses, n of them, into shape[n + 1]: behind them the first response's, of which the others have
- * their stability. To clear, all n + 1. */
+/* The responses' shapes into shape[n + 1]; the last, the first response's, has their stability. To clear, all. */
 static hc_status make_shapes(const scene *sc, hbm_solver *s, const hbm_curve *curve, plot_responses of, int n,
                              curve_shape *shape)
 {
@@ -121,8 +118,7 @@ hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curv
 
 static bool has_transient(const comparison_row *r) { return motion_is_measured(r->transient_status); }
 
-/* Is the verdict drawn at the HBM solution? It is where the transient left that solution or has no result; all others
- * are drawn at the transient. */
+/* Verdicts stand at the transient; at the HBM solution where it left that or has no result. */
 static bool stands_at_hbm(const comparison_row *r)
 {
   return (r->branch >= 0 && r->hbm_status == HC_OK) &&

@@ -123,8 +123,7 @@ static const study_field *scale_of(const study_axis *a)
   return NULL;
 }
 
-/* c->x: the first axis with a scale of three or more values, else the first with a scale, else the first that
- * varies. */
+/* c->x: the first axis with a scale of three or more values, else with any scale, else that varies. */
 static void choose_axes(chart *c)
 {
   const study *s = c->s;

@@ -30,25 +30,21 @@ typedef struct plot_order {
 /* Does the name have an ending that can be drawn, or is it "-"? */
 bool plot_can(const char *path);
 
-/* Each of these returns HC_OK, HC_NO_MEMORY, HC_BAD_INPUT (there is nothing to draw) or HC_IO (no gnuplot, or the file
- * could not be written). */
+/* Each returns HC_OK, HC_NO_MEMORY, HC_BAD_INPUT (nothing to draw) or HC_IO (no gnuplot, or not written). */
 
 /* The responses of a model from `first` to `last`. */
 typedef struct plot_responses {
   int first, last;
 } plot_responses;
 
-/* The response curve with its stability and where it changes its nature; what the sweep from the other end finds
- * besides is faint. `asked`: solutions to mark, or NULL. */
+/* The curve, its stability and special points, faint what the sweep's other end finds. `asked` (or NULL): marked. */
 hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked,
                    plot_responses of);
 
-/* The same by the first response, with the transients and their verdicts on it. a (or NULL): the discrepancy over
- * samples and harmonics, in panels beside it. */
+/* The same with the transients by verdict; a (or NULL): panels over samples and harmonics beside it. */
 hc_status plot_compare(plot_order *p, const scene *sc, const comparison *c, const accuracy *a);
 
-/* By the first response: at one frequency the motion over a period, at several the amplitudes over the response
- * curve. */
+/* By the first response: at one frequency the motion, at several the amplitudes on the curve. */
 hc_status plot_transient(plot_order *p, const scene *sc, const steady_states *found);
 
 /* Contacts under a given motion. */
@@ -66,8 +62,7 @@ hc_status plot_contact(plot_order *p, const scene *sc, const plot_motion *m);
  * over the first axis that is a scale, a line for each value of the others; a heat map for two axes of four values
  * and more. */
 hc_status plot_study(plot_order *p, const study *s, study_store *store, const char *measure, const char *response);
-/* Does the study have that measure, of that response of a structure (NULL: of the first)? HC_BAD_INPUT: no, and p->why
- * says which there are. */
+/* Does the study (of a structure: that response) have the measure? HC_BAD_INPUT: p->why says which there are. */
 hc_status plot_study_check(plot_order *p, const study *s, const char *measure, const char *response);
 
 /* Error over time, a panel each frequency. */

@@ -170,8 +170,7 @@ static double size_of(const double *F, int h)
   return h ? hypot(F[2 * h - 1], F[2 * h]) : fabs(F[0]);
 }
 
-/* With samples[k]: the solution that Newton finds from `start`; what the samples of `at` miss, with the true harmonics
- * F of its force, F NULL: it touches nothing. */
+/* With samples[k]: Newton's solution from `start`; what the samples of `at` miss of F (NULL: touches nothing). */
 static json_t *sampled_answer(const force_workspace *w, int k, double omega, const solution *at, const double *start,
                               const double *F, double largest)
 {

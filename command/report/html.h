@@ -8,8 +8,7 @@
 #include "casefile/scene.h"
 #include "output/rows.h"
 
-/* Text between tags or in a quoted attribute: <, >, &, quotes escaped; control characters but line breaks become
- * spaces. */
+/* Text between tags or in an attribute: <, >, &, quotes escaped, control characters as spaces. */
 void html_text(FILE *to, const char *text);
 /* Text as a part of an address (RFC 3986): all but unreserved characters as %XX, a byte each. */
 void html_percent(FILE *to, const char *text);
@@ -19,15 +18,13 @@ void html_printf(FILE *to, const char *format, ...) __attribute__((format(printf
 /* write(to, the resolved case), as html_text or html_percent. HC_NO_MEMORY. */
 hc_status html_case(FILE *to, const scene *sc, void (*write)(FILE *to, const char *text));
 
-/* A table: html_table with the names of its columns, of which NULL is none, html_row before each row, one cell after
- * another, html_row_end, html_table_end. */
+/* A table: html_table with its columns (NULL: none), html_row, cells, html_row_end, html_table_end. */
 void html_table(FILE *to, const char *caption, int n, const char *const *heads);
 void html_row(FILE *to);
 void html_row_end(FILE *to);
 void html_cell_text(FILE *to, const char *text);
 void html_cell_number(FILE *to, double value); /* 6 significant digits; NaN: empty */
-/* A part of an error budget or an error [1], with a bar from 1e-12 to 1 on a logarithmic scale; marked when beyond
- * the limit. */
+/* An error [1] with a bar from 1e-12 to 1, logarithmic; marked when beyond the limit. */
 void html_cell_bar(FILE *to, double value, double limit);
 void html_table_end(FILE *to);
 

@@ -1,5 +1,4 @@
-/* structure.c - see parts.h. The responses of the model that is solved here are its degrees of freedom, and then
- * the contacts' u and v. */
+/* structure.c - see parts.h. Responses of the model solved here: its DOFs, then the contacts' u and v. */
 #include "command/report/parts.h"
 
 #include <math.h>

@@ -104,8 +104,7 @@ static void advise_on_harmonics(const report_data *d, FILE *to)
   fputs("</li>\n", to);
 }
 
-/* For the number of harmonics of the table next to the one kept: the fewest samples from which on aliasing stays
- * below the limit. */
+/* For the H next to the one kept: the fewest samples from which on aliasing stays below the limit. */
 static void advise_on_samples(const report_data *d, FILE *to)
 {
   const accuracy *a = &d->accuracy;

@@ -255,8 +255,7 @@ static bool nearest_pair(const table_work *w, const solutions *s, int first, int
   return least < INFINITY;
 }
 
-/* The targets first..last-1, of one frequency, get the solutions of the curve there: each at most one, the nearest
- * pairs first. */
+/* Targets first..last-1, of one frequency, get at most one solution of the curve each, the nearest pairs first. */
 static hc_status assign(const table_work *w, response_curve *t, int first, int last, solutions *s)
 {
   hbm_curve at = {0};

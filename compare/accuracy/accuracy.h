@@ -65,7 +65,6 @@ typedef struct accuracy {
 hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, accuracy *out);
 void accuracy_clear(accuracy *a);
 
-/* The regularisation's order at the row of *c where it matters most, from rho, rho/4, rho/16, rho/64. A fit without
- * points when there is none, or the law is exact. */
+/* At the row where it matters most, from rho, rho/4, rho/16, rho/64; no points without one or by the exact law. */
 hc_status order_of_regularisation(const compare_setup *setup, const comparison *c, const hc_monitor *monitor,
                                   order_row *out);

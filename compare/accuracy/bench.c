@@ -1,5 +1,4 @@
-/* bench.c - see bench.h: the settings of each method, one solution timed, the rounds in which methods take turns, and
- * the Pareto front of error and time. */
+/* bench.c - see bench.h: each method's settings, solutions timed in turns, and the Pareto front. */
 #include "compare/accuracy/bench.h"
 
 #include <stdio.h>
@@ -151,8 +150,7 @@ static hc_status from_own_curve(const bench_start *at, const hc_monitor *monitor
   return st == HC_OK && most < 0 ? HC_NOT_CONVERGED : st;
 }
 
-/* Workspace and start. The neighbour's solution with these settings is next to that with many harmonics, or on the
- * method's own curve. */
+/* Workspace and start: the neighbour's solution, or where Newton fails one of the method's own curve. */
 static hc_status make(const bench_start *at, const hc_monitor *monitor, timed_method *t)
 {
   hbm_point point;
@@ -319,8 +317,7 @@ static hc_status add_family(bench *b, const family *f, double omega)
   return st;
 }
 
-/* True if the row marches and one with settings no finer took too long. Not asked of shooting, whose time does not rise
- * with finer settings. */
+/* It marches, and with settings no finer took too long; shooting's time does not rise with finer ones. */
 static bool hopeless(const bench_row *rows, int i)
 {
   if (rows[i].method != BENCH_EXACT_MARCHING && rows[i].method != BENCH_REGULARISED_MARCHING) return false;

@@ -90,8 +90,7 @@ void bench_clear(bench *b);
 /* error_finer and front of the n rows of one frequency. */
 void bench_judge(int n, bench_row *rows, double floor);
 
-/* The fastest of the solved rows whose error_finer is within the goal, or NULL; *second is the fastest of the other
- * methods, or NULL. */
+/* The fastest solved row with error_finer within the goal, and of the other methods *second; or NULL. */
 const bench_row *bench_cheapest(int n, const bench_row *rows, double goal, const bench_row **second);
 
 /* "H = 10, N = 1024", "regularisation 1e-4, tolerance 1e-6": in text[BENCH_TEXT], which is returned. */

@@ -132,8 +132,7 @@ static hc_status march_for(finder *f, double omega, const hc_monitor *monitor, b
   return HC_OK;
 }
 
-/* The largest of the curve's solutions at omega (by its first response) whose orbit is stable, into f->X and
- * f->state. */
+/* The largest solution at omega whose orbit is stable, into f->X and f->state. */
 static hc_status largest_stable(finder *f, double omega, const hc_monitor *monitor, bench_start *start,
                                 timeint_result *best, double *floor)
 {

@@ -41,6 +41,5 @@ void finder_free(finder *f);
 /* That of the compared frequencies where the curve's response is largest. */
 hc_status finder_default(finder *f, double *omega);
 
-/* The largest stable response at omega, into *at and *start, of bench_start_new. HC_NOT_CONVERGED: there is none, or no
- * neighbour of it. */
+/* The largest stable response at omega. HC_NOT_CONVERGED: there is none, or no neighbour of it. */
 hc_status finder_frequency(finder *f, double omega, const hc_monitor *monitor, bench_frequency *at, bench_start *start);

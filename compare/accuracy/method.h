@@ -9,8 +9,7 @@
 
 bool method_is_hbm(bench_method m);
 
-/* *setup with the method's settings: harmonics and samples (0: as they are) of harmonic balance, or the regularisation
- * (NaN: exact law) and tolerance of time integration. */
+/* *setup with the method's settings; samples 0: as they are, regularisation NaN: the exact law. */
 compare_setup method_setup(const compare_setup *setup, bench_method method, int harmonics, int samples,
                            double regularisation, double tolerance);
 

@@ -68,8 +68,7 @@ static const comparison_row *most_regularised(const comparison *c)
   return top && top->orbit_status == HC_OK ? top : NULL;
 }
 
-/* Amplitude error of the orbit next to `row`'s at that regularisation; NaN where it is not to be had. `state`, next to
- * that orbit, moves onto it. */
+/* Amplitude error of the orbit next to `row`'s, onto which `state` moves; NaN: not to be had. */
 static hc_status error_at(const compare_setup *setup, double regularisation, const comparison_row *row, double *state,
                           const hc_monitor *monitor, double *e)
 {

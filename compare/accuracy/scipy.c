@@ -61,8 +61,7 @@ static hc_status fill(arguments *a, const model *m, const bench_start *at, int p
   return HC_OK;
 }
 
-/* Its standard error goes to /dev/null, so that messages of Python's are not taken for ours. Signals are handled as in
- * a new program. */
+/* Python's messages go to /dev/null; signals are handled as in a new program. */
 static bool start(child *c, arguments *a)
 {
   int ends[2];

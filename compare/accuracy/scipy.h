@@ -1,5 +1,4 @@
-/* scipy.h - the same steady state by scipy's LSODA without events, which is a usual way: python3 runs a script as a
- * process. */
+/* scipy.h - the same steady state by scipy's LSODA without events, a script that python3 runs. */
 #pragma once
 
 #include "compare/accuracy/bench_start.h"

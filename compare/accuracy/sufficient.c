@@ -118,8 +118,7 @@ static hc_status add_frequency(search *s, double omega, double *predicted)
   return st;
 }
 
-/* Those of the curve's own points at which a contact changes its state, OF_CURVE of them or fewer: the curve has many
- * where much happens. */
+/* At most OF_CURVE of the curve's points at which a contact changes its state. */
 static void add_nonlinear_points(search *s, number_list *out)
 {
   const hbm_curve *c = &s->curve.curve;

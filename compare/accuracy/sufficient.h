@@ -42,7 +42,6 @@ typedef struct sufficient {
   hc_status end; /* of the curve */
 } sufficient;
 
-/* At the frequencies of setup->compare.omega; without any along the curve. without_mean: rows without harmonic 0, too.
- * HC_NO_MEMORY, HC_INTERRUPTED; errors of hbm_solver_new. */
+/* At setup->compare.omega, or along the curve. HC_NO_MEMORY, HC_INTERRUPTED; errors of hbm_solver_new. */
 hc_status sufficient_run(const compare_setup *setup, double error, bool without_mean, const hc_monitor *monitor,
                          sufficient *out);

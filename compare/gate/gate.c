@@ -309,8 +309,7 @@ typedef struct junit {
   hc_status st; /* HC_NO_MEMORY from then on */
 } junit;
 
-/* In an attribute or between tags. What XML 1.0 cannot hold even escaped, control characters and U+FFFE, U+FFFF,
- * utf8_clean makes spaces. */
+/* In an attribute or between tags; what XML 1.0 cannot hold utf8_clean makes spaces. */
 static void put_text(junit *x, const char *raw)
 {
   char *text = x->st == HC_OK ? utf8_clean(raw, true) : NULL;

@@ -78,12 +78,10 @@ hc_status gate_add_proof(gate_case *g, const compare_setup *setup, double omega,
 /* The name of the response that the check is about; NULL: about none, or they have no names. */
 const char *gate_response(const gate_case *g, const gate_check *c);
 
-/* What was found, as it is shown: to 3 digits, or as many more as it takes to be on the right side of the limit; 0
- * below GATE_SLACK of it. */
+/* Found, to 3 digits or as many as show its side of the limit; 0 below GATE_SLACK of it. */
 double gate_shown(const gate_check *c);
 
-/* Is check i the one nearest to its limit, or farthest beyond, of its quantity? One that is not applicable is so only
- * where all of its quantity are. */
+/* Is check i its quantity's nearest to the limit, or farthest beyond? Not applicable ones count last. */
 bool gate_is_worst(const gate_case *g, int i);
 
 /* Exit code (docs/interface.md, 5): 1 if a check failed, else 3 if one is an error, else 0. */
