@@ -1,5 +1,4 @@
-/* scenes.h - a scene of cases/adversarial, changed as the command line would change it, and all its HBM solutions at
- * a frequency. */
+/* scenes.h - a scene of cases/adversarial with fields changed, and all its HBM solutions at a frequency. */
 #pragma once
 
 #include "tests/check.h"
@@ -70,8 +69,7 @@ static inline double norm_of(int n, const double *X)
 
 static inline const double *solution(const hbm_curve *at, int k) { return at->X + (size_t)k * at->n_coef; }
 
-/* Both scenes have the same solutions at all of the first one's compare.omega, b's being `factor` times a's, to
- * `tolerance` of their size. */
+/* b's solutions are `factor` times a's at all of a's compare.omega, to `tolerance` of their size. */
 static inline void same_answers(const scene *a, const scene *b, double factor, double tolerance)
 {
   response of_a = response_of(a), of_b = response_of(b);

@@ -1,5 +1,4 @@
-/* test_accuracy.c - how good is harmonic balance with exact forces and 30 harmonics? Held against the exact
- * transient at every reference row. */
+/* test_accuracy.c - harmonic balance with 30 harmonics against the exact transient at every reference row. */
 #include "study/scene_solvers.h"
 #include "tests/adversarial/steady_references.h"
 #include "tests/scene_parts.h"
@@ -105,8 +104,7 @@ static void print_row(const accuracy_of *a, int n_harm)
       a->name, n_harm, a->rows, a->grazing, a->worst, a->omega, a->clearance, a->settled);
 }
 
-/* With 30 harmonics, and with as many as asked where 30 do not do: a case that 30 suffice for has no excuse, and one
- * that is excused needs it. */
+/* With 30 harmonics, or as many as asked where 30 do not do: an excuse is there if it is needed, and only then. */
 static void the_first_harmonic_is_good_to_a_millionth(CHECK_STATE)
 {
   int compared = 0;

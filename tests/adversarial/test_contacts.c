@@ -47,8 +47,7 @@ static void amplitude_equal_to_the_gap(CHECK_STATE)
   hbm_curve_free(&at);
 }
 
-/* From touching to separating T = mu N exactly, and an ulp below or above it: the force is the same as where it
- * sticks, with ten times mu. */
+/* Where T = mu N exactly, and an ulp beside it: the same force as where it sticks, with ten times mu. */
 static void on_the_edge_of_the_cone(CHECK_STATE)
 {
   scene sc = load("cone_edge", NULL), sticks = LOAD("cone_edge", "contacts[0].friction=5"), beside = sc;
@@ -61,8 +60,7 @@ static void on_the_edge_of_the_cone(CHECK_STATE)
   same_answers(&sc, &beside, 1, SOLVED);
 }
 
-/* Once separated, never slips: kt cos < mu kn sin. Not so before, and at other angles: the premise is checked by
- * friction a tenth. */
+/* Once separated, never slips: kt cos < mu kn sin; with a tenth of the friction it does. */
 static void tangential_and_normal_force_vanish_together(CHECK_STATE)
 {
   scene sc = load("vanishing_together", NULL), sticks = LOAD("vanishing_together", "contacts[0].friction=1000");

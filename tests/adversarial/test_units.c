@@ -64,8 +64,7 @@ static double solutions_apart(const char *name, const response *a, const respons
   return worst;
 }
 
-/* Rounding alone: 1e-16, a hundred times over, enlarged by the steepness of the response, 3000 at most (r1, r2; Q =
- * 2800). */
+/* Rounding, 1e-14, enlarged by the steepness of the response, 3000 at most (r1, r2; Q = 2800). */
 static const double INVARIANT = 1e-10;
 
 static void hbm_with(int force, int n_scenes)
@@ -110,8 +109,7 @@ static double integrated(const timeint_result *r)
   return 4 * 2 * 1e-14 * (double)r->steps / r->periods / hypot(1 - r->multiplier_re, r->multiplier_im);
 }
 
-/* Largest difference of x(t) over the period, relative to the amplitude, of the orbits next to the HBM solutions at
- * omega. */
+/* Largest difference of x(t), relative to the amplitude, of the orbits next to the HBM solutions at omega. */
 static double orbits_apart(timeint *a, timeint *b, const response *from, const reference_scene *r, double omega,
                            const units *u)
 {

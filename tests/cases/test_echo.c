@@ -1,5 +1,4 @@
-/* test_echo.c - what is echoed reads back to the same bytes; the paper's scenes are all readable and are what they
- * say. */
+/* test_echo.c - what is echoed reads back to the same bytes; the paper's scenes are what they say. */
 
 #include "casefile/fields.h"
 #include "tests/cases/case_text.h"

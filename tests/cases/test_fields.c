@@ -1,5 +1,4 @@
-/* test_fields.c - the table of fields is sound: defaults inside their ranges, names unique, rivals mutual; and
- * describe shows it all. */
+/* test_fields.c - defaults inside their ranges, names unique, rivals mutual; describe shows all fields. */
 #include "casefile/fields.h"
 #include "tests/cases/case_text.h"
 

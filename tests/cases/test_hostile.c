@@ -156,8 +156,7 @@ static void small_buffers_are_never_overrun(CHECK_STATE)
   }
 }
 
-/* Bytes of a good case changed at random: it is read, or refused in one clean line; never anything else (sanitizers
- * watch). */
+/* Bytes of a good case changed at random: it is read, or refused in one clean line (sanitizers watch). */
 static void mutants_are_read_or_refused(CHECK_STATE)
 {
   static const char good[] = "title: \"T\"\n" SMALLEST "contacts:\n  - " CONTACT_1

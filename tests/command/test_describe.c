@@ -1,5 +1,4 @@
-/* test_describe.c - hbmcheck describe for programs: the table of fields, and with --case a case's values, where each is
- * from, and what follows from them. */
+/* test_describe.c - hbmcheck describe for programs: fields, values, where each is from, and what follows. */
 #include "tests/shell.h"
 
 #define CASE2 "cases/paper/case2.yaml"

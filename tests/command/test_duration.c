@@ -1,5 +1,4 @@
-/* test_duration.c - commands that will take long say so before they begin; those that will not say nothing. The
- * arithmetic: tests/compare/test_duration.c. */
+/* test_duration.c - commands that take long say so first. The arithmetic: tests/compare/test_duration.c. */
 #include <signal.h>
 #include <stdbool.h>
 

@@ -172,8 +172,7 @@ static void every_contact_of_every_solution_has_a_row(CHECK_STATE)
 
 /* ---- contact --------------------------------------------------------------------------------------- */
 
-/* ground: kt = 20, mu N = 1. Under u = A cos, A = 0.1, it slips by 0.2 in all: work = 0.2 = -pi A b1. Rounding of
- * numbers of the order of 1. */
+/* ground: kt = 20, mu N = 1; under u = 0.1 cos it slips by 0.2 in all: work = 0.2 = -pi A b1, but for rounding. */
 static void a_jenkins_element_has_its_closed_form(CHECK_STATE)
 {
   expect("contact " CHAIN "--contact ground --motion-u 0,0.1,0 --samples 64 --format csv", 0,

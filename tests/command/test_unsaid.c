@@ -1,5 +1,4 @@
-/* test_unsaid.c - what a comparison would hide if it did not say it: means that are a matter of history, and that
- * nothing nonlinear was compared. */
+/* test_unsaid.c - what a comparison must say: means that are a matter of history, nothing nonlinear compared. */
 #include "tests/program.h"
 
 #define CASE2 SOURCE_DIR "/cases/paper/case2.yaml "

@@ -60,8 +60,7 @@ static void count_row(const char *name, int n_harm, const comparison_row *r, tal
   }
 }
 
-/* scenes: how many of the eight; the last, r2, has many false solutions at N = 64, each of which takes seconds with
- * the regularised law. */
+/* scenes: how many of the eight; the last, r2, takes seconds with many false solutions at N = 64. */
 typedef struct variant {
   const char *name;
   int force, samples, law, scenes;
@@ -116,8 +115,7 @@ static void two_causes_may_cancel_but_seldom(CHECK_STATE)
   }
 }
 
-/* One cause made worse, the others far below it: in every row where something happens at the contact, that part is
- * the largest. */
+/* One cause made worse, the others far below it: wherever the contact does something it is the largest part. */
 static void expect_cause(const char *cause, const scene *sc, double visible_from)
 {
   comparison c;
@@ -207,8 +205,7 @@ static void integration_is_the_distance_to_fine_steps(CHECK_STATE)
   comparison_clear(&loose);
 }
 
-/* Waiting with a loose tolerance: CVODE's steps and the distance left are the error, and H = 40 leaves 1e-6 for the
- * rest. */
+/* Waiting, loosely: CVODE's steps and the distance left are the error; H = 40 leaves 1e-6 for the rest. */
 static void a_loose_tolerance_is_integration_or_settling(CHECK_STATE)
 {
   scene sc = known_scene(40);

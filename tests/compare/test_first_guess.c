@@ -118,8 +118,7 @@ static void a_guess_is_where_newton_begins(CHECK_STATE)
   hbm_solver_free(s);
 }
 
-/* The guess of compare/: a solution of harmonic balance, near the motion from rest, with fewer systems to solve than a
- * ramp takes. */
+/* compare/'s guess: a solution near the motion from rest, with fewer systems to solve than a ramp takes. */
 static void check_guesses(const model *m, const hbm_settings *how)
 {
   int solved = 0, cheaper = 0;

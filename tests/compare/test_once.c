@@ -40,8 +40,7 @@ static void exact_law(CHECK_STATE)
   comparison_clear(&c);
 }
 
-/* The regularised law: at most three periods an orbit, one or two for the prediction, one for the exact law's orbit
- * beside. */
+/* Regularised: at most three periods an orbit, one or two for the prediction, one for the exact orbit. */
 static void regularised_law(CHECK_STATE)
 {
   comparison c = compared(0, NULL, true);

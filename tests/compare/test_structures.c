@@ -73,8 +73,7 @@ static void every_response_predicts_its_error(CHECK_STATE)
 /* Beside springs that are alike everywhere: a C that is not symmetric. */
 #define SKEW "structure.damping=[[0.04, -0.05, 0], [0.01, 0.04, -0.02], [0, -0.02, 0.04]]"
 
-/* Harmonic balance with the mistake, at one frequency of few errors: how many rows, of how many, are beyond the gate,
- * and said to be unexpected. */
+/* HBM with the mistake at one frequency: how many rows, of how many, are beyond the gate and unexpected. */
 static void see(const char *name, const char *at, void (*made)(model *m), int *differ, int *unexpected, int *rows)
 {
   const char *const set[] = {"hbm.harmonics=15", at, "transient.law=exact", SKEW};

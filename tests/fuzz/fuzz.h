@@ -29,8 +29,7 @@ void message_is_clean(const char *words, size_t size);
  * a CR alone ends a line. */
 void place_is_inside(const char *words, const char *name, const char *text, size_t length, bool yaml);
 
-/* A reader of "f" ended with st on text[length]: counted, and read without a message (true), or refused with a clean
- * one that has a place. */
+/* A reader of "f" ended with st: counted, and read without a message (true), or refused with a clean one. */
 bool fuzz_was_read(hc_status st, const char *words, size_t size, const char *text, size_t length);
 
 /* Every field is finite and within the range that `hbmcheck describe` tells, and fields go together. */
@@ -46,7 +45,6 @@ void scene_echoes(const scene *sc);
 void scene_mark(scene *sc);
 bool scene_is_marked(const scene *sc);
 
-/* The folder of this process' own, made when first asked for, and `length` bytes as its file `name`; path[] gets
- * where that is. */
+/* This process' own folder, made when first asked for; length bytes as its file `name`, its path in path[]. */
 enum { FUZZ_PATH = 128 };
 void fuzz_write(const char *name, const char *text, size_t length, char path[FUZZ_PATH]);

@@ -1,5 +1,4 @@
-/* fuzz_case.c - bytes as a case file: read, in range and echoed bit for bit, or refused with a place and the scene
- * left alone. */
+/* fuzz_case.c - bytes as a case file: read and echoed bit for bit, or refused with a place. */
 
 #include "casefile/case_reader.h"
 #include "tests/fuzz/fuzz.h"

@@ -1,5 +1,4 @@
-/* fuzz_certificate.c - bytes as a certificate, and as a candidate: read within the limits and decided, or refused in
- * words. */
+/* fuzz_certificate.c - bytes as a certificate and as a candidate: decided, or refused in words. */
 #include "proof/prove.h"
 #include "tests/fuzz/fuzz.h"
 #include <string.h>

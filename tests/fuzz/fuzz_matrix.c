@@ -1,5 +1,4 @@
-/* fuzz_matrix.c - bytes as a matrix file of any format: read, finite, and the same again when written as a Matrix
- * Market array; or refused with a place. */
+/* fuzz_matrix.c - bytes as a matrix file: read, and the same written as Matrix Market; or refused. */
 #include <string.h>
 
 #include "casefile/matrices/matrix_file.h"

@@ -1,5 +1,4 @@
-/* fuzz_nodes.c - bytes as a file of nodes for a structure of three degrees of freedom: each node and direction once,
- * its DOF in range; or refused with a place. */
+/* fuzz_nodes.c - bytes as a file of nodes: each node and direction once, DOFs in range; or refused. */
 #include "casefile/structure.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,5 +1,4 @@
-/* fuzz_set.c - bytes as assignments on top of a good case, one or several of them: "PATH=VALUE", each further one
- * after a line end and "--set ". */
+/* fuzz_set.c - bytes as assignments "PATH=VALUE" on a good case, parted by a line end and "--set ". */
 #include <string.h>
 
 #include "tests/fuzz/fuzz.h"

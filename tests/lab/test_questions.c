@@ -201,8 +201,7 @@ static void loop_encloses_the_work(CHECK_STATE)
   lab_free(l);
 }
 
-/* What is sampled n times a period is the sum of all harmonics k n + h: with one period's force sampled as it is, to
- * what the shown ones leave out. */
+/* Sampled n times a period: the sum of all harmonics k n + h, to what the shown ones leave out. */
 static void sampled_harmonics_fold(CHECK_STATE)
 {
   enum { N = 64, SHOWN = 200 };

@@ -1,5 +1,4 @@
-/* test_arguments.c - what is no argument is HBMCHECK_BAD_INPUT, whatever stands beside it: nothing is written but NULL
- * into the place of a handle. */
+/* test_arguments.c - HBMCHECK_BAD_INPUT: nothing is written but NULL into the place of a handle. */
 #include "tests/library/case2.h"
 
 #define BAD(call) assert_int_equal((call), HBMCHECK_BAD_INPUT)

@@ -83,8 +83,7 @@ static void every_solution_has_its_contacts(CHECK_STATE)
   }
 }
 
-/* Several states at one frequency, and equal starts at two: each must find its own; every response of a state has the
- * state's. */
+/* Several states at one frequency, equal starts at two: each finds its own; every response has its state's. */
 static void every_steady_state_has_its_contacts(CHECK_STATE)
 {
   const double omega[] = {1.2, 1.3, 1.485};

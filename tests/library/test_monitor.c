@@ -1,5 +1,4 @@
-/* test_monitor.c - a monitor hears how far the work is, and stops it: at once when it is asked to, with what was found
- * until then, as at Ctrl-C. */
+/* test_monitor.c - a monitor hears how far the work is, and stops it with what was found. */
 #include "tests/library/case2.h"
 
 #include <signal.h>

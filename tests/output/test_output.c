@@ -290,8 +290,7 @@ static void a_fifo_is_written_straight_and_its_end_noticed(CHECK_STATE)
   assert_int_equal(files(false), 1);
 }
 
-/* In a child whose standard output is `to`: writes "first" there, then "second" through an output of that name; the
- * commit's status. */
+/* In a child whose standard output is `to`: "first", then "second" through an output of that name. */
 static int commit_in_child(const char *to, const char *name)
 {
   fflush(NULL);

@@ -174,8 +174,7 @@ static void lines_say_how_long_it_takes(CHECK_STATE)
   expect_line("label", 0.37, 0, 2, 100, "  37 %");
 }
 
-/* What becomes of a child that runs `work` after installing the handlers: its exit code, or 100 plus the signal that
- * killed it. */
+/* The exit code of a child that runs `work` with the handlers, or 100 plus the signal that killed it. */
 static int fate(int (*work)(void), void (*sigint)(int))
 {
   fflush(NULL);

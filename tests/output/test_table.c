@@ -1,5 +1,4 @@
-/* test_table.c - what the three formats look like, byte for byte, and that csv and json give back every double bit
- * for bit. */
+/* test_table.c - the three formats, byte for byte; csv and json give back every double bit for bit. */
 #include <jansson.h>
 #include <locale.h>
 

@@ -1,5 +1,4 @@
-/* test_scenes.c - the scenes of a stress run: the whole of every range, its special points, and the same scene from
- * the same numbers. */
+/* test_scenes.c - scenes cover every range and its special points; the same numbers give the same scene. */
 #include <float.h>
 
 #include "casefile/case_file.h"
@@ -30,8 +29,7 @@ static void take(range *r, double x)
   r->most = fmax(r->most, x);
 }
 
-/* Of 4000 points the extreme ones lie within a hundredth of the range's ends: a shifted Sobol sequence fills every
- * hundredth some 40 times. */
+/* 4000 points reach within a hundredth of each end: a Sobol sequence fills every hundredth some 40 times. */
 static void check_reach(const range *r, bool geometric)
 {
   double low = geometric ? log(r->low) : r->low, high = geometric ? log(r->high) : r->high;

@@ -434,8 +434,7 @@ static void findings_of_other_seeds_are_none(CHECK_STATE)
   }
 }
 
-/* A difference as large as the scene's own sensitivity allows is not called an agreement, and where it allows
- * more than 1e-3 nothing is said. */
+/* Up to the scene's own sensitivity a difference is explained, no agreement; beyond 1e-3 nothing is said. */
 static void what_only_sensitivity_allows_is_ill_conditioned(CHECK_STATE)
 {
   static const struct {

@@ -230,8 +230,7 @@ static void claims_have_two_sides(CHECK_STATE)
   expect("u.yaml -q --results :memory:", 1, "not as expected with ours: s: x");
 }
 
-/* A third answer, in fixed steps, has a table of its own with the verdicts of the other two beside it. What cannot be
- * said can be what is expected. */
+/* Fixed steps have a table of their own, with the other two verdicts; "cannot be said" may be expected. */
 static void claims_are_answered_in_fixed_steps(CHECK_STATE)
 {
   folder_put("f.yaml", "study: f\n" LINEAR

@@ -87,8 +87,7 @@ static void a_scene_may_be_impossible(CHECK_STATE)
   study_free(s);
 }
 
-/* The fingerprint is of what is computed: how a value is written, titles and claims are not part of it; everything
- * else is. */
+/* The fingerprint is of what is computed, not of spelling, titles and claims. */
 static void the_fingerprint_is_of_what_is_computed(CHECK_STATE)
 {
   static const char *const same[] = {

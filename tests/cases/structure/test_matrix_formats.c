@@ -1,5 +1,4 @@
-/* test_matrix_formats.c - matrices as CalculiX and Abaqus write them: what is read, that files of one model are the
- * same model, and every mistake with its place. */
+/* test_matrix_formats.c - matrices of CalculiX and Abaqus: what is read, and every mistake with its place. */
 #include "tests/cases/structure/structure_text.h"
 
 enum { WORDS = 512 };

@@ -1,5 +1,4 @@
-/* test_pairing.c - pairs of nodes by position: what is read of a mesh, faces' areas and normals, which nodes pair, and
- * every mistake with its place. */
+/* test_pairing.c - pairs by position: the mesh, areas and normals, which nodes pair, every mistake with its place. */
 #include <float.h>
 
 #include "casefile/mesh/pairing.h"

@@ -62,8 +62,7 @@ static void check_svg(const char *name, const char *args, int plots, const char 
 
 #define WORDS(...) ((const char *const[]){__VA_ARGS__, NULL})
 
-/* Case 2 has a stable and an unstable part, two turning points, two period doublings and two changes of contact:
- * five items. */
+/* Case 2: a stable and an unstable part, turning points, period doublings, changes of contact: five items. */
 static void response_curves(CHECK_STATE)
 {
   check_svg("frf", "frf " CASE2, 5,
@@ -192,8 +191,7 @@ static void letters(CHECK_STATE)
   expect("$H study $D/heat.yaml --results :memory: -q --plot -", 0, "amplitude = 80");
 }
 
-/* The results are there all the same, the file that stood there stays, and the exit code says that something is
- * missing. */
+/* The results are there, the old file stays, and the exit code says that something is missing. */
 static void what_can_go_wrong(CHECK_STATE)
 {
   expect("echo before >$D/old.svg; PATH=$D $H frf " CASE2 "-q --plot $D/old.svg 2>&1", 3, "gnuplot is not installed");
@@ -227,8 +225,7 @@ static void what_can_go_wrong(CHECK_STATE)
   assert_string_equal(text, "0\n"); /* nothing is left beside */
 }
 
-/* Nothing a title or a label says is obeyed: quotes, backticks, gnuplot's and the shell's ways to run things, its
- * markup, XML's and Pango's. */
+/* No title or label is obeyed: quotes, backticks, gnuplot's and the shell's commands, markup of any kind. */
 static void hostile_words_are_words(CHECK_STATE)
 {
   folder_put(

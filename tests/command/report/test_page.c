@@ -312,8 +312,7 @@ static void failures_touch_no_file(CHECK_STATE)
   expect("report --help", 0, "example");
 }
 
-/* Dropping harmonic 0 is the worst one can do to case 2: the page says so, names the cure, and the exit code is
- * compare's. */
+/* Without harmonic 0 case 2 is far off: the page says so, names the cure, and the exit code is compare's. */
 static void disagreement_is_said(CHECK_STATE)
 {
   static const char *const words[] = {"They do not agree.", "use hbm.static: true", "no number of harmonics mends it",

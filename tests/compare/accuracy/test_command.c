@@ -1,5 +1,4 @@
-/* test_command.c - hbmcheck bench as people use it: columns, errors that fall along each family, wrong usage. Times
- * are never judged. */
+/* test_command.c - hbmcheck bench: columns, errors that fall along each family, wrong usage; no times. */
 #include "tests/folder.h"
 #include "tests/program.h"
 

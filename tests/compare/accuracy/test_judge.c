@@ -32,8 +32,7 @@ static void dominated_rows_are_not_on_the_front(CHECK_STATE)
     if (rows[i].front != expected[i]) fail_msg("row %d: front is %d", i, rows[i].front);
 }
 
-/* H = 3 is near by luck: H = 10 is farther off, so H = 3 may not be counted on to be nearer. Not so the other way
- * round. */
+/* H = 3 is near by luck: H = 10 is farther off, so it may not be counted on. Not so the other way round. */
 static void luck_does_not_count(CHECK_STATE)
 {
   bench_row rows[] = {row(BENCH_HBM_EXACT, 3, NAN, 1e-7, 1), row(BENCH_HBM_EXACT, 10, NAN, 1e-3, 2),

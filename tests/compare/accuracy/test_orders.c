@@ -99,8 +99,7 @@ static void aliasing_of_case_2_is_of_first_or_second_order(CHECK_STATE)
   }
 }
 
-/* x's coefficients decay like 1/n^4, so what is left out of x itself is of order 3 and more (docs/theory.md, 3: H^-3,
- * |X1| H^-4). */
+/* x's coefficients decay like 1/n^4: what is left out of x is of order 3 and more (docs/theory.md, 3). */
 static void truncation_of_case_2_is_of_third_order_or_more(CHECK_STATE)
 {
   scene sc = case2();

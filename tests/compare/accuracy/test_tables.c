@@ -1,5 +1,4 @@
-/* test_tables.c - the table over samples and truncation order: its reference, its counts, and what it says of case
- * 2. */
+/* test_tables.c - the table over samples and truncation order: its reference, counts, and case 2. */
 
 #include <limits.h>
 
