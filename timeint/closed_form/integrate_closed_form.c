@@ -183,8 +183,8 @@ static hc_status step_in_closed_form(by_series *in, bool varies, integrate_watch
   hc_status st = motion_single_go(&in->single, in->m, in->track, in->theta, in->y, watch != NULL, &in->length,
                                   &changing, &event, &in->base.rhs);
   const double end = in->length < left ? in->theta + in->length : TWO_PI;
-  in->end[0] = in->single.end.q[0];
-  in->end[1] = in->single.end.p[0];
+  in->end[0] = in->single.end.q;
+  in->end[1] = in->single.end.p;
   ++in->base.steps;
   if (st == HC_OK && watch && end > in->theta) st = watch(self, &in->base, in->theta, end);
   return st == HC_OK ? end_step(in, changing, event, varies, end, count) : st;
@@ -267,7 +267,7 @@ static hc_status samples(const integrator *base, int i, double theta, double ste
   const by_series *in = (const by_series *)base;
   if (in->by_single) {
     const double r = in->m->base->response[i];
-    modal_samples(&in->single.motion, 0, theta, step, count, x);
+    modal_samples(&in->single.motion, theta, step, count, x);
     for (int k = 0; k < count && r != 1; ++k) x[k] *= r;
     return HC_OK;
   }

@@ -66,79 +66,47 @@ static void move(const mode_flow *flow, double d, double complex f, double *q, d
 
 static double complex on_circle(double theta) { return cos(theta) + I * sin(theta); }
 
-void modal_at(const modal_motion *m, double tau, modal_point *at)
+modal_point modal_at(const modal_motion *m, double tau)
 {
-  at->tau = tau;
-  const double complex turn = on_circle(m->theta), now = on_circle(m->theta + tau);
-  for (int i = 0; i < m->n; ++i) {
-    const mode *one = &m->mode[i];
-    const double complex force = m->f[i] * now;
-    mode_flow flow;
-    mode_advance(one, tau, &flow);
-    at->q[i] = m->q[i];
-    at->p[i] = m->p[i];
-    move(&flow, m->d[i], m->f[i] * turn, &at->q[i], &at->p[i]);
-    at->a[i] = m->d[i] + creal(force) - one->c * at->p[i] - one->k * at->q[i];
-    at->j[i] = -cimag(force) - one->c * at->a[i] - one->k * at->p[i];
-  }
+  const double complex turn = on_circle(m->theta), force = m->f * on_circle(m->theta + tau);
+  modal_point at = {.tau = tau, .q = m->q, .p = m->p};
+  mode_flow flow;
+  mode_advance(&m->mode, tau, &flow);
+  move(&flow, m->d, m->f * turn, &at.q, &at.p);
+  at.a = m->d + creal(force) - m->mode.c * at.p - m->mode.k * at.q;
+  at.j = -cimag(force) - m->mode.c * at.a - m->mode.k * at.p;
+  return at;
 }
 
-static double guard_value(const modal_motion *m, const modal_guard *g, const modal_point *at)
+static double guard_value(const modal_guard *g, const modal_point *at)
 {
-  double f = g->constant;
-  for (int i = 0; i < m->n && g->by_q; ++i) f += g->by_q[i] * at->q[i];
-  for (int i = 0; i < m->n && g->by_p; ++i) f += g->by_p[i] * at->p[i];
-  return f;
+  return g->constant + g->by_q * at->q + g->by_p * at->p;
 }
 
-static double guard_slope(const modal_motion *m, const modal_guard *g, const modal_point *at)
-{
-  double f = 0;
-  for (int i = 0; i < m->n && g->by_q; ++i) f += g->by_q[i] * at->p[i];
-  for (int i = 0; i < m->n && g->by_p; ++i) f += g->by_p[i] * at->a[i];
-  return f;
-}
+static double guard_slope(const modal_guard *g, const modal_point *at) { return g->by_q * at->p + g->by_p * at->a; }
 
 /* Bound of |g''| from the point on, over h. */
 static double guard_bound(const modal_motion *m, const modal_guard *g, const modal_point *at, double h)
 {
-  double bound = 0;
-  for (int i = 0; i < m->n; ++i) {
-    const mode *one = &m->mode[i];
-    const double k = fabs(one->k), more = cabs(m->f[i]) * h, grow = one->grows > 0 ? exp(one->grows * h) : 1;
-    const double a = at->a[i], p = at->p[i], j = at->j[i];
-    if (g->by_q) bound += fabs(g->by_q[i]) * (sqrt(a * a + k * p * p) + more) * grow;
-    if (g->by_p) bound += fabs(g->by_p[i]) * (sqrt(j * j + k * a * a) + more) * grow;
-  }
-  return bound;
+  const double k = fabs(m->mode.k), more = cabs(m->f) * h, grow = m->mode.grows > 0 ? exp(m->mode.grows * h) : 1;
+  return fabs(g->by_q) * (sqrt(at->a * at->a + k * at->p * at->p) + more) * grow +
+         fabs(g->by_p) * (sqrt(at->j * at->j + k * at->a * at->a) + more) * grow;
 }
 
-/* A search under way: the motion, a guard of it, and where points are evaluated. */
-typedef struct search {
-  const modal_motion *m;
-  modal_point *at;
-  long evaluations;
-} search;
-
-static void evaluate(search *s, double tau)
-{
-  modal_at(s->m, tau, s->at);
-  ++s->evaluations;
-}
-
-/* Root of g in [a, b], where it falls from fa >= 0 to fb < 0 without turning: Newton kept inside by bisection. s->at is
- * at b. */
-static double falling_root(search *s, const modal_guard *g, double a, double fa, double b, double fb)
+/* Root of g in [a, b], where it falls from fa >= 0 to fb < 0 without turning: Newton kept inside by bisection. */
+static double falling_root(const modal_motion *m, const modal_guard *g, double a, double fa, double b, double fb,
+                           long *evaluations)
 {
   if (!(fa > 0)) return a;
   double x = a + (b - a) * fa / (fa - fb);
   for (int it = 0; it < MAX_NEWTON; ++it) {
-    evaluate(s, x);
-    const double f = guard_value(s->m, g, s->at), slope = guard_slope(s->m, g, s->at);
+    const modal_point at = modal_at(m, x);
+    const double f = guard_value(g, &at), slope = guard_slope(g, &at);
+    ++*evaluations;
     if (f > 0) a = x;
     else b = x;
     double next = x - f / slope;
-    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x + s->m->theta);
+    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x + m->theta);
     if (close) break;
     if (!(next > a && next < b)) next = 0.5 * (a + b);
     if (next == x) break;
@@ -148,36 +116,36 @@ static double falling_root(search *s, const modal_guard *g, double a, double fa,
 }
 
 /* How far the guard surely stays positive from *now on, at most h; if it falls to 0 within that, *root is where. */
-static double clear_step(search *s, const modal_guard *g, const modal_point *now, double h, double *root)
+static double clear_step(const modal_motion *m, const modal_guard *g, const modal_point *now, double h, double *root,
+                         long *evaluations)
 {
-  const double f = guard_value(s->m, g, now), slope = guard_slope(s->m, g, now), bound = guard_bound(s->m, g, now, h);
+  const double f = guard_value(g, now), slope = guard_slope(g, now), bound = guard_bound(m, g, now, h);
   const double safe = safe_step(fmax(f, 0) + g->noise, slope, bound);
   *root = INFINITY;
   if (f < -g->noise) return *root = now->tau, 0;
   if (safe >= h) return h;
   const double one_way = slope < 0 ? fmin(h, -slope / bound) : 0; /* it falls at least that far */
   if (!(one_way > safe)) return safe;
-  evaluate(s, now->tau + one_way);
-  const double end = guard_value(s->m, g, s->at);
+  const modal_point at = modal_at(m, now->tau + one_way);
+  const double end = guard_value(g, &at);
+  ++*evaluations;
   if (end >= 0) return one_way;
-  *root = falling_root(s, g, now->tau, f, now->tau + one_way, end);
+  *root = falling_root(m, g, now->tau, f, now->tau + one_way, end, evaluations);
   return one_way;
 }
 
 int modal_first_crossing(const modal_motion *m, double span, int n_guards, const modal_guard *guards, modal_point *at,
-                         modal_point *scratch, long *evaluations)
+                         long *evaluations)
 {
-  double longest = longest_step;
-  for (int i = 0; i < m->n; ++i)
-    if (m->mode[i].grows * longest > 1) longest = 1 / m->mode[i].grows;
-  search s = {m, scratch, 1};
+  const double longest = m->mode.grows * longest_step > 1 ? 1 / m->mode.grows : longest_step;
   double limit = span;
   int first = -1;
-  for (modal_at(m, 0, at); at->tau < limit;) {
+  ++*evaluations;
+  for (*at = modal_at(m, 0); at->tau < limit;) {
     const double tau = at->tau;
     double h = fmin(limit - tau, longest);
     for (int i = 0; i < n_guards; ++i) {
-      double root, clear = clear_step(&s, &guards[i], at, h, &root);
+      double root, clear = clear_step(m, &guards[i], at, h, &root, evaluations);
       if (root < limit || (root == limit && first < 0)) {
         limit = root;
         first = i;
@@ -186,28 +154,27 @@ int modal_first_crossing(const modal_motion *m, double span, int n_guards, const
       h = fmin(h, clear);
     }
     const double next = tau + h < limit ? tau + h : limit;
-    modal_at(m, next, at);
-    ++s.evaluations;
+    *at = modal_at(m, next);
+    ++*evaluations;
     if (!(next > tau)) break; /* NaN, or a root here */
   }
-  *evaluations += s.evaluations;
   return first;
 }
 
-void modal_samples(const modal_motion *m, int i, double from, double step, int count, double *samples)
+void modal_samples(const modal_motion *m, double from, double step, int count, double *samples)
 {
   mode_flow one, start;
   const double complex turn = on_circle(step);
-  mode_advance(&m->mode[i], step, &one);
+  mode_advance(&m->mode, step, &one);
   for (int k = 0; k < count; k += RESTART) { /* rounding adds up over 32 samples only */
     const double theta = from + k * step;
-    double q = m->q[i], p = m->p[i];
-    mode_advance(&m->mode[i], theta - m->theta, &start);
-    move(&start, m->d[i], m->f[i] * on_circle(m->theta), &q, &p);
-    double complex f = m->f[i] * on_circle(theta);
+    double q = m->q, p = m->p;
+    mode_advance(&m->mode, theta - m->theta, &start);
+    move(&start, m->d, m->f * on_circle(m->theta), &q, &p);
+    double complex f = m->f * on_circle(theta);
     for (int j = k; j < count && j < k + RESTART; ++j) {
       samples[j] = q;
-      move(&one, m->d[i], f, &q, &p);
+      move(&one, m->d, f, &q, &p);
       f *= turn;
     }
   }
@@ -215,18 +182,18 @@ void modal_samples(const modal_motion *m, int i, double from, double step, int c
 
 /* The equation of the mode times e^{-i theta} (or 1), integrated by parts: the integrals of q follow from values at the
  * ends, with J of the force:  (k - 1 + i c) int q e^{-i theta} = J - [p e^{-i theta}] - (i + c) [q e^{-i theta}]. */
-bool modal_fourier(const modal_motion *m, int i, const modal_point *from, const modal_point *to, double out[3])
+bool modal_fourier(const modal_motion *m, const modal_point *from, const modal_point *to, double out[3])
 {
-  const double c = m->mode[i].c, k = m->mode[i].k, d = m->d[i];
-  const double complex by = k - 1 + I * c, f = m->f[i];
-  if (m->mode[i].soft || cabs(by) < resonant_digits) return false;
+  const double c = m->mode.c, k = m->mode.k, d = m->d;
+  const double complex by = k - 1 + I * c, f = m->f;
+  if (m->mode.soft || cabs(by) < resonant_digits) return false;
   const double start = m->theta + from->tau, end = m->theta + to->tau;
   const double complex u0 = conj(on_circle(start)), u1 = conj(on_circle(end)); /* e^{-i theta} */
-  const double complex q = to->q[i] * u1 - from->q[i] * u0, p = to->p[i] * u1 - from->p[i] * u0;
+  const double complex q = to->q * u1 - from->q * u0, p = to->p * u1 - from->p * u0;
   const double complex force = I * d * (u1 - u0) + 0.5 * f * (end - start) + 0.25 * I * conj(f) * (u1 * u1 - u0 * u0);
   const double complex first = (force - p - (I + c) * q) / by;
   const double load = d * (end - start) + cimag(f * conj(u1 - u0));
-  out[0] = (load - (to->p[i] - from->p[i]) - c * (to->q[i] - from->q[i])) / k;
+  out[0] = (load - (to->p - from->p) - c * (to->q - from->q)) / k;
   out[1] = creal(first);
   out[2] = -cimag(first);
   return true;

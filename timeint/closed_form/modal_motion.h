@@ -1,9 +1,7 @@
-/* modal_motion.h - a linear motion in closed form, and where it leaves a region. libm only, nothing is allocated.
+/* modal_motion.h - the motion of one mode in closed form, and where it leaves a region. libm only, nothing is allocated.
  *
- * Between two changes of contact state the exact law's motion is that of n modes, each
  *     q'' + c q' + k q = d + Re(f e^{i theta})          c >= 0; k of either sign, or 0
- * with constant c, k, d, f. A contact state is a set of (c, k); for one degree of freedom there is one mode, the
- * oscillator itself. From (q, p) at `theta`, tau later:
+ * with constant c, k, d, f. From (q, p) at `theta`, tau later:
  *     (q, p) = E(tau) (q, p) + d (s, s') + Re(f e^{i theta} (r, r'))
  * E the free motion, s and r the responses from rest to 1 and to e^{i tau}. Written from rest, nothing is large where a
  * mode is soft (k near 0) or resonant (k near 1, c near 0).
@@ -38,39 +36,34 @@ typedef struct mode_flow {
 
 void mode_advance(const mode *m, double tau, mode_flow *out);
 
-/* From theta on. The arrays are the owner's. */
 typedef struct modal_motion {
-  int n;             /* modes */
-  double theta;      /* [rad] where it begins */
-  const mode *mode;  /* [n] */
-  double *q, *p;     /* [n] there */
-  double *d;         /* [n] */
-  double complex *f; /* [n] */
+  mode mode;
+  double theta;   /* [rad] where it begins */
+  double q, p, d; /* there */
+  double complex f;
 } modal_motion;
 
-/* q, p and the next two derivatives, tau after the beginning. */
+/* tau after the beginning; a = p', j = a'. */
 typedef struct modal_point {
-  double tau;
-  double *q, *p, *a, *j; /* [n] j = a' */
+  double tau, q, p, a, j;
 } modal_point;
 
-void modal_at(const modal_motion *m, double tau, modal_point *at);
+modal_point modal_at(const modal_motion *m, double tau);
 
-/* g = sum by_q[i] q_i + by_p[i] p_i + constant. NULL: all 0. Below -noise it is negative. */
+/* g = by_q q + by_p p + constant. Below -noise it is negative. */
 typedef struct modal_guard {
-  const double *by_q, *by_p; /* [n] */
-  double constant, noise;
+  double by_q, by_p, constant, noise;
 } modal_guard;
 
 /* The first guard to fall through 0 within `span` of the beginning: its number, and in *at the point where it does;
  * -1 if none does, *at is then the point at `span`. A guard that is below -noise at the beginning is there already.
- * *evaluations is increased by the points evaluated. scratch: room for another point. */
+ * *evaluations is increased by the points evaluated. */
 int modal_first_crossing(const modal_motion *m, double span, int n_guards, const modal_guard *guards, modal_point *at,
-                         modal_point *scratch, long *evaluations);
+                         long *evaluations);
 
-/* q_i at theta = from + j step, j = 0..count-1, all at or after the beginning. */
-void modal_samples(const modal_motion *m, int i, double from, double step, int count, double *samples);
+/* q at theta = from + j step, j = 0..count-1, all at or after the beginning. */
+void modal_samples(const modal_motion *m, double from, double step, int count, double *samples);
 
-/* Integrals of q_i, q_i cos(theta), q_i sin(theta) between two points of the motion; false where the mode is
- * so soft or resonant that the formulas lose digits. */
-bool modal_fourier(const modal_motion *m, int i, const modal_point *from, const modal_point *to, double out[3]);
+/* Integrals of q, q cos(theta), q sin(theta) between two points of the motion; false where the mode is so soft or
+ * resonant that the formulas lose digits. */
+bool modal_fourier(const modal_motion *m, const modal_point *from, const modal_point *to, double out[3]);

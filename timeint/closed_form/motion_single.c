@@ -4,13 +4,6 @@
 #include <float.h>
 #include <stdlib.h>
 
-static const double up = 1, down = -1; /* slopes of the guard P, of -P */
-
-static modal_point point_in(double numbers[4])
-{
-  return (modal_point){.q = &numbers[0], .p = &numbers[1], .a = &numbers[2], .j = &numbers[3]};
-}
-
 bool motion_single_fits(const modal_base *base)
 {
   bool fits = base->n == 1;
@@ -22,16 +15,14 @@ hc_status motion_single_make(motion_single *s, const modal_base *base)
 {
   const size_t guards = TRACK_GUARDS * (size_t)base->n_contacts + 1;
   *s = (motion_single){.guard = calloc(guards, sizeof *s->guard),
-                       .by = calloc(guards, sizeof *s->by),
                        .of = calloc(guards, sizeof *s->of),
                        .event = calloc(guards, sizeof *s->event)};
-  return s->guard && s->by && s->of && s->event ? HC_OK : HC_NO_MEMORY;
+  return s->guard && s->of && s->event ? HC_OK : HC_NO_MEMORY;
 }
 
 void motion_single_free(motion_single *s)
 {
   free(s->guard);
-  free(s->by);
   free(s->of);
   free(s->event);
 }
@@ -42,27 +33,22 @@ static int sign_of(double a) { return (a > 0) - (a < 0); }
 static void begin(motion_single *s, const scaled_model *m, const contact_track *track, double theta, const double *y)
 {
   const modal_base *b = m->base;
-  double k = m->by_K * b->K[0];
-  s->q = y[0];
-  s->p = y[1];
-  s->d = 0;
-  s->f = 0;
+  double k = m->by_K * b->K[0], d = 0;
+  double complex load = 0;
   for (int l = 0; l < b->n_loads; ++l) {
-    if (b->harmonic[l] == 0) s->d += m->by_load * b->cosine[l];
-    else s->f += m->by_load * (b->cosine[l] - I * b->sine[l]);
+    if (b->harmonic[l] == 0) d += m->by_load * b->cosine[l];
+    else load += m->by_load * (b->cosine[l] - I * b->sine[l]);
   }
   for (int j = 0; j < m->n_contacts; ++j) {
     const contact_forces_linear f = contact_track_forces(&track[j], &m->contact[j]);
     const double t = b->tangent[j], n = b->normal[j];
     k += t * (f.t_u * t + f.t_v * n) + n * f.n_v * n;
-    s->d -= t * f.t_0 + n * f.n_0;
+    d -= t * f.t_0 + n * f.n_0;
   }
-  s->mode = mode_make(m->by_C * b->C[0], k);
-  s->motion = (modal_motion){.n = 1, .theta = theta, .mode = &s->mode, .q = &s->q, .p = &s->p, .d = &s->d, .f = &s->f};
-  s->end = point_in(s->numbers[0]);
-  s->scratch = point_in(s->numbers[1]);
-  s->way = sign_of(s->p);
-  if (s->way == 0) s->way = sign_of(s->d + creal(s->f) * cos(theta) - cimag(s->f) * sin(theta) - k * s->q);
+  s->motion =
+      (modal_motion){.mode = mode_make(m->by_C * b->C[0], k), .theta = theta, .q = y[0], .p = y[1], .d = d, .f = load};
+  s->way = sign_of(y[1]);
+  if (s->way == 0) s->way = sign_of(d + creal(load) * cos(theta) - cimag(load) * sin(theta) - k * y[0]);
 }
 
 /* Does the guard fall(q) = by q + constant of a contact that sticks reach 0 where N does, to rounding? It does where
@@ -83,7 +69,8 @@ static int find_guards(motion_single *s, const scaled_model *m, const contact_tr
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     track_condition conditions[TRACK_GUARDS];
     const double t = m->base->tangent[j], normal = m->base->normal[j];
-    const contact_motion at = {{t * s->q}, normal * s->q, {t * s->p}, normal * s->p};
+    const double q = s->motion.q, p = s->motion.p;
+    const contact_motion at = {{t * q}, normal * q, {t * p}, normal * p};
     const int more = contact_track_conditions(&track[j], &m->contact[j], conditions);
     for (int i = 0; i < more; ++i) {
       const track_condition *g = &conditions[i];
@@ -91,17 +78,14 @@ static int find_guards(motion_single *s, const scaled_model *m, const contact_tr
       const double constant = g->of_rates ? 0 : g->by_v * g->gap + g->constant - g->by_u * g->from_u;
       const double noise = contact_track_noise(g, &m->contact[j], &at);
       if (falls_with_normal_force(g, &m->contact[j], normal, by, constant)) continue;
-      s->by[n] = by;
-      s->guard[n] = (modal_guard){.constant = constant, .noise = noise};
-      if (g->of_rates) s->guard[n].by_p = &s->by[n];
-      else s->guard[n].by_q = &s->by[n];
+      s->guard[n] = (modal_guard){g->of_rates ? 0 : by, g->of_rates ? by : 0, constant, noise};
       s->of[n] = j;
       s->event[n++] = g->event;
     }
   }
   if (!to_turn) return n;
   s->of[n] = -1;
-  s->guard[n++] = (modal_guard){.by_p = s->way > 0 ? &up : &down, .noise = DBL_EPSILON};
+  s->guard[n++] = (modal_guard){.by_p = s->way > 0 ? 1 : -1, .noise = DBL_EPSILON};
   return n;
 }
 
@@ -111,23 +95,21 @@ hc_status motion_single_go(motion_single *s, const scaled_model *m, const contac
 {
   begin(s, m, track, theta, y);
   const int n = find_guards(s, m, track, to_turn);
-  const int hit = modal_first_crossing(&s->motion, *span, n, s->guard, &s->end, &s->scratch, evaluations);
+  const int hit = modal_first_crossing(&s->motion, *span, n, s->guard, &s->end, evaluations);
   *whose = hit < 0 ? -1 : s->of[hit];
-  if (!isfinite(s->end.q[0] + s->end.p[0] + s->end.a[0])) return HC_NOT_FINITE;
+  if (!isfinite(s->end.q + s->end.p + s->end.a)) return HC_NOT_FINITE;
   if (hit < 0) return HC_OK;
   *span = s->end.tau;
   *event = s->event[hit];
-  if (s->of[hit] < 0) s->end.p[0] = 0;
+  if (s->of[hit] < 0) s->end.p = 0;
   return HC_OK;
 }
 
 void motion_single_at(const motion_single *s, double tau, int order, double out[2])
 {
-  double numbers[4];
-  modal_point at = point_in(numbers);
-  modal_at(&s->motion, tau, &at);
-  out[0] = numbers[order];
-  out[1] = numbers[order + 1];
+  const modal_point at = modal_at(&s->motion, tau);
+  out[0] = order ? at.p : at.q;
+  out[1] = order ? at.a : at.p;
 }
 
 bool motion_single_integrals(const scaled_model *m, const contact_track *track, double theta0, const double *y0,
@@ -135,15 +117,12 @@ bool motion_single_integrals(const scaled_model *m, const contact_track *track, 
 {
   motion_single s;
   begin(&s, m, track, theta0, y0);
-  s.end.tau = theta1 - theta0;
-  s.end.q[0] = y1[0];
-  s.end.p[0] = y1[1];
+  s.end = (modal_point){.tau = theta1 - theta0, .q = y1[0], .p = y1[1]};
   return motion_single_fourier(&s, out);
 }
 
 bool motion_single_fourier(const motion_single *s, double out[3])
 {
-  double numbers[4] = {s->q, s->p};
-  const modal_point from = point_in(numbers);
-  return modal_fourier(&s->motion, 0, &from, &s->end, out);
+  const modal_point from = {.q = s->motion.q, .p = s->motion.p};
+  return modal_fourier(&s->motion, &from, &s->end, out);
 }

@@ -7,15 +7,10 @@
 
 typedef struct motion_single { /* from motion_single_make, to motion_single_free */
   modal_motion motion;
-  mode mode;
-  double q, p, d; /* of `motion` */
-  double complex f;
-  modal_point end, scratch; /* the end of the interval */
-  double numbers[2][4];     /* q, p, a, j of the two points */
-  int way;                  /* sign of P in the interval */
-  modal_guard *guard;       /* [TRACK_GUARDS n_contacts + 1] */
-  double *by;               /* [TRACK_GUARDS n_contacts] their slopes */
-  int *of;                  /* [TRACK_GUARDS n_contacts + 1] whose guard; -1: the turn's */
+  modal_point end;    /* of the interval */
+  int way;            /* sign of P in the interval */
+  modal_guard *guard; /* [TRACK_GUARDS n_contacts + 1] */
+  int *of;            /* [TRACK_GUARDS n_contacts + 1] whose guard; -1: the turn's */
   track_event *event;
 } motion_single;
 
