@@ -3,7 +3,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/dense.h"
@@ -17,31 +16,19 @@ enum { MOST_STEPS = 5 };
 
 static size_t square(int n) { return (size_t)n * (size_t)n; }
 
-hc_status eigensystem_make(eigensystem *e, int n)
+hc_status eigensystem_make(eigensystem *e, int n, workspace *w)
 {
   const size_t size = (size_t)n;
-  *e = (eigensystem){.n = n,
-                     .lambda = calloc(size, sizeof *e->lambda),
-                     .V = calloc(4 * square(n), sizeof *e->V),
-                     .values = calloc(size + 2 * square(n), sizeof *e->values),
-                     .narrow = calloc(square(n), sizeof *e->narrow),
-                     .pivot = calloc(size, sizeof *e->pivot)};
-  if (!e->lambda || !e->V || !e->values || !e->narrow || !e->pivot) return HC_NO_MEMORY;
-  e->W = e->V + square(n);
-  e->factors = e->W + square(n);
-  e->correction = e->factors + square(n);
-  e->vectors = e->values + size;
-  e->residual = e->vectors + square(n);
-  return HC_OK;
-}
-
-void eigensystem_free(eigensystem *e)
-{
-  free(e->lambda);
-  free(e->V);
-  free(e->values);
-  free(e->narrow);
-  free(e->pivot);
+  double complex **const matrices[] = {&e->V, &e->W, &e->factors, &e->correction};
+  e->n = n;
+  for (size_t i = 0; i < 4; ++i) *matrices[i] = workspace_array(w, square(n), sizeof(double complex));
+  e->lambda = workspace_array(w, size, sizeof *e->lambda);
+  e->values = workspace_array(w, size, sizeof *e->values);
+  e->vectors = workspace_array(w, square(n), sizeof *e->vectors);
+  e->residual = workspace_array(w, square(n), sizeof *e->residual);
+  e->narrow = workspace_doubles(w, square(n));
+  e->pivot = workspace_array(w, size, sizeof *e->pivot);
+  return w->failed ? HC_NO_MEMORY : HC_OK;
 }
 
 /* to += a b */

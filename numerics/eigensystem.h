@@ -9,12 +9,13 @@
 #include <complex.h>
 
 #include "base/status.h"
+#include "base/workspace.h"
 
 typedef struct wide_complex {
   long double re, im;
 } wide_complex;
 
-typedef struct eigensystem { /* from eigensystem_make, to eigensystem_free */
+typedef struct eigensystem {
   int n;
   double complex *lambda; /* [n] a pair's one after the other */
   double complex *V;      /* [n][n] right eigenvectors, by columns, as long as 1 */
@@ -26,8 +27,7 @@ typedef struct eigensystem { /* from eigensystem_make, to eigensystem_free */
   int *pivot;
 } eigensystem;
 
-hc_status eigensystem_make(eigensystem *e, int n); /* HC_NO_MEMORY; free it then, too */
-void eigensystem_free(eigensystem *e);
+hc_status eigensystem_make(eigensystem *e, int n, workspace *memory); /* arrays are memory's; HC_NO_MEMORY */
 
 /* The eigensystem of A[n][n], by columns. HC_SINGULAR: the eigenvectors are so nearly dependent (a double eigenvalue
  * with one eigenvector, a free body) that more than four digits would be lost; HC_NO_MEMORY, HC_NOT_CONVERGED. */

@@ -76,14 +76,15 @@ hc_status craig_bampton_new(const scene_structure *s, int n_kept, const int *kep
   craig_bampton *cb = *out = calloc(1, sizeof *cb);
   if (!cb) return HC_NO_MEMORY;
   cb->n = s->n, cb->n_kept = n_kept;
-  cb->kept = malloc(b * sizeof *cb->kept);
-  cb->held = calloc(n, sizeof *cb->held);
-  cb->K = malloc(4 * b * b * sizeof *cb->K);
+  workspace *w = &cb->memory;
+  cb->kept = workspace_array(w, b, sizeof *cb->kept);
+  cb->held = workspace_array(w, n, sizeof *cb->held);
+  double **const squares[] = {&cb->K, &cb->M, &cb->first, &cb->second};
+  for (size_t i = 0; i < 4; ++i) *squares[i] = workspace_doubles(w, b * b);
   double *W = malloc(n * b * sizeof *W), *room = malloc(ROWS * b * sizeof *room);
   cb->T_b = malloc(n * b * sizeof *cb->T_b);
-  hc_status st = cb->kept && cb->held && cb->K && W && room && cb->T_b ? HC_OK : HC_NO_MEMORY;
+  hc_status st = !w->failed && W && room && cb->T_b ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) {
-    cb->M = cb->K + b * b, cb->first = cb->M + b * b, cb->second = cb->first + b * b;
     memcpy(cb->kept, kept, b * sizeof *kept);
     factor_hold_empty(&s->stiffness.kept, &s->mass.kept, cb->held);
     for (size_t k = 0; k < b; ++k) cb->held[kept[k]] = true;
@@ -111,9 +112,7 @@ void craig_bampton_free(craig_bampton *cb)
 {
   if (!cb) return;
   factor_free(cb->inner);
-  free(cb->kept);
-  free(cb->held);
-  free(cb->K);
+  workspace_free(&cb->memory);
   free(cb->T_b);
   free(cb->lambda);
   free(cb->phi);

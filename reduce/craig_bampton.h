@@ -8,6 +8,7 @@
  * contacts, at rest: nothing holds it, and such structures are refused. */
 #pragma once
 
+#include "base/workspace.h"
 #include "casefile/structure.h"
 #include "reduce/factor.h"
 
@@ -22,6 +23,7 @@ typedef struct craig_bampton {
   double *lambda, *phi;   /* [most modes], [most modes][n] ascending */
   double *T_b;            /* [n_kept][n] (1, Psi); kept for a damping matrix, else NULL */
   double *first, *second; /* [n_kept][n_kept] sums over all modes of share share^T/lambda and share share^T/lambda^2 */
+  workspace memory;       /* of all that are as long from the start */
 } craig_bampton;
 
 /* Of s, which is_sparse, with the rows kept[n_kept], ascending, without modes as yet. HC_SINGULAR where nothing holds

@@ -4,6 +4,7 @@
 #include <arpack/arpack.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 
@@ -36,12 +37,12 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
   if (more >= left) more = last ? 1 : left - 1; /* ARPACK's limit */
   const int vectors = 2 * more + 20 < left ? 2 * more + 20 : left, work = vectors * (vectors + 8);
   const size_t rows = (size_t)n;
-  double *V = malloc(rows * (size_t)vectors * sizeof *V), *room = malloc((size_t)work * sizeof *room);
-  double *residual = malloc(5 * rows * sizeof *residual), *M_phi = malloc((rows * (size_t)known + 1) * sizeof *M_phi);
-  double *share = malloc(((size_t)known + 1) * sizeof *share);
-  int *select = malloc((size_t)vectors * sizeof *select);
-  hc_status st = V && room && residual && M_phi && share && select ? HC_OK : HC_NO_MEMORY;
-  double *basis = st == HC_OK ? residual + rows : NULL; /* [3][n] workd, and one of ours */
+  workspace memory = {0};
+  double *V = workspace_doubles(&memory, rows * (size_t)vectors), *room = workspace_doubles(&memory, (size_t)work),
+         *residual = workspace_doubles(&memory, rows), *M_phi = workspace_doubles(&memory, rows * (size_t)known),
+         *share = workspace_doubles(&memory, (size_t)known), *basis = workspace_doubles(&memory, 3 * rows); /* workd */
+  int *select = workspace_array(&memory, (size_t)vectors, sizeof *select);
+  hc_status st = memory.failed ? HC_NO_MEMORY : HC_OK;
   for (int k = 0; k < known && st == HC_OK; ++k) times_mass(M, held, phi + rows * (size_t)k, M_phi + rows * (size_t)k);
   for (int i = 0; i < n && st == HC_OK; ++i) residual[i] = 1 + 0.37 * sin(7.0 * i + 1); /* of no symmetry */
   if (st == HC_OK) { /* into what has mass and is held by nothing */
@@ -81,12 +82,7 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
     if (info != 0) st = HC_NOT_CONVERGED;
     else *found = more;
   }
-  free(V);
-  free(room);
-  free(residual);
-  free(M_phi);
-  free(share);
-  free(select);
+  workspace_free(&memory);
   return st;
 }
 
@@ -153,9 +149,11 @@ hc_status lowest_of_structure(const scene_structure *s, bool stuck, int count, m
   sparse contacts = {0}, both = {0};
   factor *f = NULL;
   double shift = 0;
-  bool *held = calloc(n, sizeof *held);
-  double *lambda = malloc((size_t)count * sizeof *lambda), *phi = malloc(n * (size_t)(count + 1) * sizeof *phi);
-  hc_status st = held && lambda && phi ? HC_OK : HC_NO_MEMORY;
+  workspace memory = {0};
+  bool *held = workspace_array(&memory, n, sizeof *held);
+  double *lambda = workspace_doubles(&memory, (size_t)count),
+         *phi = workspace_doubles(&memory, n * (size_t)(count + 1));
+  hc_status st = memory.failed ? HC_NO_MEMORY : HC_OK;
   *found = 0;
   if (st == HC_OK && stuck) st = contact_stiffness(s, &contacts);
   if (st == HC_OK && stuck) st = sparse_sum(&s->stiffness.kept, &contacts, &both);
@@ -173,8 +171,6 @@ hc_status lowest_of_structure(const scene_structure *s, bool stuck, int count, m
   factor_free(f);
   sparse_free(&contacts);
   sparse_free(&both);
-  free(held);
-  free(lambda);
-  free(phi);
+  workspace_free(&memory);
   return st;
 }

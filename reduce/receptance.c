@@ -6,8 +6,10 @@
 #include <complex.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "model/modes.h"
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 
 enum { HARMONICS = 3, SPREAD = 11 /* frequencies of each */ };
 
@@ -24,21 +26,15 @@ struct receptance {
   double *to_kept[2], *p_phi[2]; /* [n][n_kept] phi's kept rows; [n_directions][n] phi^T p */
   frequency *at;
   double *R, *G, *RG, *H, *half; /* [n_kept][n_kept], [2][n_directions][n_kept] twice, [4][n_directions]^2, [n_d][n] */
+  workspace memory;
 };
-
-static double norm(size_t n, const double *x)
-{
-  double sum = 0;
-  for (size_t i = 0; i < n; ++i) sum += x[i] * x[i];
-  return sqrt(sum);
-}
 
 /* ---- directions and frequencies ---- */
 
 static void add_direction(receptance *r, const double *direction)
 {
   const size_t n = (size_t)r->n;
-  const double length = norm(n, direction);
+  const double length = norm_2(r->n, direction);
   double *to = r->p + n * (size_t)r->n_directions;
   if (length == 0) return;
   for (size_t i = 0; i < n; ++i) to[i] = direction[i] / length;
@@ -124,21 +120,22 @@ hc_status receptance_new(const craig_bampton *cb, const scene *sc, receptance **
     r->cb = cb, r->n = m->n, r->n_kept = cb->n_kept;
     const size_t n = (size_t)r->n, b = (size_t)r->n_kept;
     const size_t most = 2 * (size_t)m->n_contacts + 2 * (size_t)m->n_loads + (size_t)m->n_responses;
-    double *room = r->p = calloc(
-        most * n + 2 * (2 * n + n * b + most * n) + b * b + 4 * b * most + 4 * most * most + most * n, sizeof *room);
-    r->at = malloc(2 * HARMONICS * (SPREAD + n) * sizeof *r->at);
-    st = room && r->at ? HC_OK : HC_NO_MEMORY;
-    for (int state = 0; state < 2 && st == HC_OK; ++state) {
-      r->omega2[state] = state == 0 ? room + most * n : r->p_phi[0] + most * n;
-      r->c[state] = r->omega2[state] + n;
-      r->to_kept[state] = r->c[state] + n;
-      r->p_phi[state] = r->to_kept[state] + n * b;
+    workspace *w = &r->memory;
+    r->p = workspace_doubles(w, most * n);
+    r->at = workspace_array(w, 2 * HARMONICS * (SPREAD + n), sizeof *r->at);
+    for (int state = 0; state < 2; ++state) {
+      r->omega2[state] = workspace_doubles(w, n);
+      r->c[state] = workspace_doubles(w, n);
+      r->to_kept[state] = workspace_doubles(w, n * b);
+      r->p_phi[state] = workspace_doubles(w, most * n);
     }
-    if (st == HC_OK) {
-      r->R = r->p_phi[1] + most * n;
-      r->G = r->R + b * b, r->RG = r->G + 2 * b * most, r->H = r->RG + 2 * b * most, r->half = r->H + 4 * most * most;
-      find_directions(r, m);
-    }
+    r->R = workspace_doubles(w, b * b);
+    r->G = workspace_doubles(w, 2 * b * most);
+    r->RG = workspace_doubles(w, 2 * b * most);
+    r->H = workspace_doubles(w, 4 * most * most);
+    r->half = workspace_doubles(w, most * n);
+    st = w->failed ? HC_NO_MEMORY : HC_OK;
+    if (st == HC_OK) find_directions(r, m);
     for (int state = 0; state < 2 && st == HC_OK; ++state) st = find_modes(r, m, state);
     if (st == HC_OK) find_frequencies(r, sc);
   }
@@ -153,8 +150,7 @@ hc_status receptance_new(const craig_bampton *cb, const scene *sc, receptance **
 void receptance_free(receptance *r)
 {
   if (!r) return;
-  free(r->p);
-  free(r->at);
+  workspace_free(&r->memory);
   free(r);
 }
 
@@ -193,7 +189,7 @@ static double relative(receptance *r, int modes, double omega, bool stuck)
     for (int i = 0; i < b; ++i) turned[j + (size_t)d * (size_t)i] = r->p[(size_t)i + (size_t)r->n * (size_t)j];
   for (int part = 0; part < 2; ++part)
     dense_multiply(d, d, b, turned, r->G + (size_t)part * G, r->H + (size_t)(2 + part) * H);
-  return norm(2 * H, r->H) / norm(2 * H, r->H + 2 * H);
+  return norm_2(2 * d * d, r->H) / norm_2(2 * d * d, r->H + 2 * H);
 }
 
 receptance_error receptance_compare(receptance *r, int modes, const receptance_error *at)

@@ -79,7 +79,10 @@ static hc_status closed(FILE *to)
   return fclose(to) != 0 || failed ? HC_IO : HC_OK;
 }
 
-static void put_number(double value, FILE *to) { fputs(number_write(value, (char[NUMBER_TEXT]){0}), to); }
+static void put_number(const char *before, double value, FILE *to)
+{
+  fprintf(to, "%s%s", before, number_write(value, (char[NUMBER_TEXT]){0}));
+}
 
 static hc_status write_matrix(const char *folder, const char *name, int n, const double *A)
 {
@@ -97,7 +100,7 @@ static hc_status write_matrix(const char *folder, const char *name, int n, const
       const double value = A[(size_t)i + (size_t)n * (size_t)j];
       if (value == 0) continue;
       fprintf(to, "%d %d ", i + 1, j + 1);
-      put_number(value, to);
+      put_number("", value, to);
       putc('\n', to);
     }
   return closed(to);
@@ -151,22 +154,16 @@ static void put_damping(const scene_structure *s, int n, FILE *to)
   switch (s->how) {
   case STRUCTURE_DAMPING_MATRIX: fputs("damping.mtx", to); return;
   case STRUCTURE_DAMPING_RAYLEIGH:
-    fputs("{rayleigh: [", to);
-    put_number(s->rayleigh[0], to);
-    fputs(", ", to);
-    put_number(s->rayleigh[1], to);
+    put_number("{rayleigh: [", s->rayleigh[0], to);
+    put_number(", ", s->rayleigh[1], to);
     fputs("]}", to);
     return;
   case STRUCTURE_DAMPING_MODAL:
-    fputs("{modal: ", to);
-    put_number(s->modal, to);
+    put_number("{modal: ", s->modal, to);
     putc('}', to);
     return;
   case STRUCTURE_DAMPING_MODES:
-    for (int k = 0; k < n; ++k) {
-      fputs(k == 0 ? "{modal: [" : ", ", to);
-      put_number(s->ratios[k], to);
-    }
+    for (int k = 0; k < n; ++k) put_number(k == 0 ? "{modal: [" : ", ", s->ratios[k], to);
     fputs("]}", to);
     return;
   }
@@ -186,10 +183,8 @@ static void put_structure(const scene *sc, const craig_bampton *cb, int modes, c
   if (s->names) putc(']', to);
   if (s->n_nodes > 0) fputs(", nodes: nodes.csv", to);
   if (s->mesh) fputs(", mesh: mesh.inp", to);
-  fputs(", reduction: {error: ", to);
-  put_number(stated->error, to);
-  fputs(", at: ", to);
-  put_number(scene_frequency(sc, stated->omega), to);
+  put_number(", reduction: {error: ", stated->error, to);
+  put_number(", at: ", scene_frequency(sc, stated->omega), to);
   fputs("}}", to);
 }
 

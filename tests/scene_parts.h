@@ -69,18 +69,19 @@ static inline double scene_sine(const scaled_model *m, const scaled_contact *c)
   return m->base->normal[c - m->contact];
 }
 
-/* A measure with memory for the states of any scene; measure_free frees it. */
-static inline measure scene_measure(void)
+/* A period from y on, in lengths of `length`, and its measures in *r. */
+static inline void scene_measured_period(const scene *sc, const scaled_model *m, double length, integrator *in,
+                                         double *y, timeint_result *r)
 {
   measure me;
-  assert_int_equal(measure_make(&me, SCENE_MAX_STATES, 1, SCENE_MAX_CONTACTS), HC_OK);
-  return me;
-}
-
-static inline void scene_measure_report(const measure *me, const scene *sc, double length, timeint_result *r)
-{
+  workspace memory = {0};
   model *from;
   assert_int_equal(scene_model(sc, &from), HC_OK);
-  measure_report(me, from, 0, length, r);
+  assert_int_equal(measure_make(&me, m->n_states, 1, m->n_contacts, &memory), HC_OK);
+  measure_begin(&me, m);
+  measure_period(&me, y);
+  assert_int_equal(integrate_period(in, m, y, measure_step, &me), HC_OK);
+  measure_report(&me, from, 0, length, r);
   model_free(from);
+  workspace_free(&memory);
 }

@@ -50,7 +50,8 @@ static void small_ones_are_as_good_as_large(CHECK_STATE)
 {
   uint64_t seed = 2;
   eigensystem e;
-  assert_int_equal(eigensystem_make(&e, N), HC_OK);
+  workspace memory = {0};
+  assert_int_equal(eigensystem_make(&e, N, &memory), HC_OK);
   for (int trial = 0; trial < 50; ++trial) {
     double complex lambda[N];
     long double A[N * N];
@@ -69,7 +70,7 @@ static void small_ones_are_as_good_as_large(CHECK_STATE)
         CHECK_LE(cabs(one - (i == j)), 1e-13, "trial %d: left and right [%d, %d]", trial, i, j);
       }
   }
-  eigensystem_free(&e);
+  workspace_free(&memory);
 }
 
 /* Equal eigenvalues with as many eigenvectors are one space, which any basis spans. */
@@ -77,14 +78,15 @@ static void equal_ones(CHECK_STATE)
 {
   uint64_t seed = 3;
   eigensystem e;
+  workspace memory = {0};
   double complex lambda[N];
   long double A[N * N];
   for (int k = 0; k < N; k += 2) lambda[k] = k < 6 ? -1 + 3 * I : -1e5 - k;
   draw(&seed, lambda, A);
-  assert_int_equal(eigensystem_make(&e, N), HC_OK);
+  assert_int_equal(eigensystem_make(&e, N, &memory), HC_OK);
   assert_int_equal(eigensystem_find(&e, A), HC_OK);
   for (int k = 0; k < N; k += 2) CHECK_LE(nearest(&e, lambda[k]), 1e-10 * cabs(lambda[k]), "%d", k);
-  eigensystem_free(&e);
+  workspace_free(&memory);
 }
 
 /* A double eigenvalue with one eigenvector, exactly and nearly. */
@@ -92,7 +94,8 @@ static void defective_ones_are_refused(CHECK_STATE)
 {
   const double nearly[] = {0, 1e-14, 1e-10};
   eigensystem e;
-  assert_int_equal(eigensystem_make(&e, 3), HC_OK);
+  workspace memory = {0};
+  assert_int_equal(eigensystem_make(&e, 3, &memory), HC_OK);
   for (size_t i = 0; i < sizeof nearly / sizeof *nearly; ++i) {
     const long double A[9] = {0, nearly[i], 0, 1, 0, 0, 0, 0, -1e6};
     assert_int_equal(eigensystem_find(&e, A), HC_SINGULAR);
@@ -101,7 +104,7 @@ static void defective_ones_are_refused(CHECK_STATE)
   assert_int_equal(eigensystem_find(&e, free_of_it), HC_OK);
   const long double nonsense[9] = {0, NAN, 0, 1, 0, 0, 0, 0, -1e6};
   assert_int_equal(eigensystem_find(&e, nonsense), HC_NOT_FINITE);
-  eigensystem_free(&e);
+  workspace_free(&memory);
 }
 
 CHECK_TESTS("numerics.eigensystem", 600, small_ones_are_as_good_as_large, equal_ones, defective_ones_are_refused)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "tests/check.h"
+#include "tests/timeint/scenes.h"
 
 typedef struct steady_reference {
   char name[16], sweep[8]; /* "c2"; "up", "down" */
@@ -31,4 +32,57 @@ static int read_steady_references(CHECK_STATE)
   const int whole = n == N_STEADY_REFERENCES && !fgets(line, sizeof line, f);
   fclose(f);
   return whole ? 0 : -1;
+}
+
+/* Half a unit of the last digit printed: the table has 12 significant ones, or fewer where the rest are 0. */
+static inline double half_a_digit(double x) { return x != 0 ? 0.5 * pow(10, floor(log10(fabs(x))) - 11) : 0; }
+
+/* The rows of a case in one direction, from the sweep's end `from`: amplitude, first harmonic and mean to half a digit
+ * and `off` of the amplitude, `linear_off` where there is no transition. The mean where it is unique: it is not where a
+ * slider never slips (free_sliders), and then both programs' histories differ. The worst, of what it may be. */
+static inline double follow_rows(const scene *sc, const char *name, const char *sweep, double from, double off,
+                                 double linear_off)
+{
+  timeint *ti;
+  timeint_result r;
+  int rows = 0;
+  double worst = 0;
+  const bool exact = sc->transient.law == TRANSIENT_LAW_EXACT,
+             closed = sc->transient.method == TRANSIENT_METHOD_CLOSED_FORM;
+  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
+  scene_state y = {.x = 0};
+  for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
+    const steady_reference *want = &steady_references[i];
+    if (strcmp(want->name, name) || strcmp(want->sweep, sweep)) continue;
+    if (reference_is_behind_chaos(name, !strcmp(sweep, "down"), want->omega)) y = reference_behind_chaos;
+    else assert_int_equal(timeint_sweep(ti, from, want->omega, y.all, NULL), HC_OK);
+    assert_int_equal(timeint_steady(ti, from = want->omega, y.all, NULL, &r), HC_OK);
+    const double ours = (want->events == 0 ? linear_off : off) * want->amplitude;
+    const double got[] = {r.amplitude, r.harmonic_1, r.mean}, table[] = {want->amplitude, want->harmonic_1, want->mean};
+    for (int k = 0; k < (exact && r.free_sliders == 0 ? 3 : 2); ++k) {
+      const double bound = half_a_digit(table[k]) + ours;
+      worst = fmax(worst, fabs(got[k] - table[k]) / bound);
+      CHECK_NEAR(got[k], table[k], bound, "%s %s at %g: amplitude, harmonic_1, mean [%d]", name, sweep, want->omega, k);
+    }
+    /* 3: touch, separation, and a slip of no length where traction and limit vanish together (reference/README.md) */
+    if (closed) assert_int_equal(r.switches, want->events == 3 ? 2 : want->events);
+    if (exact) assert_true((r.switches > 0) == (want->events > 0));
+    else assert_true((r.regime > CONTACT_STUCK) == (want->events > 0));
+    if (closed) assert_true(r.closed_form_periods == 0 && r.cvode_flag == 0);
+    assert_int_equal(r.period_multiple, 1);
+    CHECK_LE(r.multiplier, 1, "%s %s is stable at %g", name, sweep, want->omega);
+    ++rows;
+  }
+  timeint_free(ti);
+  CHECK_LE(4, rows, "%s %s", name, sweep);
+  return worst;
+}
+
+/* The same both ways. */
+static inline double follow_reference(const char *name, scene sc, double off, double linear_off)
+{
+  const reference_scene *of = reference_scene_named(name);
+  const bool blade = of->stiffness > 1000;
+  const double up = follow_rows(&sc, name, "up", blade ? 600 : 3, off, linear_off);
+  return fmax(up, follow_rows(&sc, name, "down", blade ? 1100 : of->omega_to, off, linear_off));
 }

@@ -3,7 +3,6 @@
 
 #include "tests/random.h"
 #include "tests/timeint/exact_periods.h"
-#include "tests/timeint/oracle.h"
 #include "tests/timeint/reference_rows.h"
 
 static integrator *closed_of(const scaled_model *m)
@@ -20,56 +19,14 @@ static integrator *cvode_of(const scaled_model *m)
   return in;
 }
 
-/* From rest (w = 0: stuck if touching). The oracle adds up the roundings of 4000 small steps and leaves a slip's limit
- * at a slack of 1e-13: 1e-11 a period, of which the damping leaves 5 or fewer. */
-static double follows_oracle(const char *what, scene sc, double omega, double length, int periods)
-{
-  scaled_model m = exact_model(sc, omega, length);
-  oracle o = {.m = &m};
-  for (int j = 0; j < m.n_contacts; ++j)
-    o.state[j] = m.contact[j].law.kn > 0 && m.contact[j].law.gap > 0 ? STUCK : APART;
-  integrator *in = closed_of(&m);
-  double y[SCENE_MAX_STATES] = {0}, worst = 0;
-  for (int i = 0; i < periods; ++i) {
-    run(in, &m, y, 1);
-    oracle_period(&o);
-    const double bound = 5e-11;
-    worst = fmax(worst, fmax(fabs(y[SCALED_X] - o.x), fabs(y[SCALED_P] - o.p)));
-    CHECK_NEAR(y[SCALED_X], o.x, bound, "%s x in period %d", what, i);
-    CHECK_NEAR(y[SCALED_P], o.p, bound, "%s p in period %d", what, i);
-    for (int j = 0; j < m.n_contacts; ++j)
-      CHECK_NEAR(y[SCALED_W + j], oracle_slider(&o, j), bound, "%s w%d in period %d", what, j, i);
-    assert_int_equal(integrate_transitions(in), o.events);
-  }
-  integrate_free(in);
-  return worst;
-}
+/* The oracle adds up the roundings of 4000 small steps and leaves a slip's limit at a slack of 1e-13: 1e-11 a period,
+ * of which the damping leaves 5 or fewer. By differences a period's roundings are seen. */
+static const exact_way way = {.make = closed_of, .noise = 100 * DBL_EPSILON, .off = 5e-11};
 
-static void scenes_follow_the_oracle(CHECK_STATE)
-{
-  double worst = 0;
-#define FOLLOW(...) worst = fmax(worst, follows_oracle(__VA_ARGS__))
-  FOLLOW("linear", scene_linear(1, 0.4, 40, 100), 7, 10, 20);
-  FOLLOW("c2", scene_c2(), 7, 10, 20);
-  FOLLOW("c2kn1e4", scene_c2kn1e4(), 7, 10, 20);
-  FOLLOW("b10", scene_b10(), 7, 1, 20);
-  FOLLOW("a10", scene_a10(), 13, 0.7, 20);
-  FOLLOW("c2kt1e4", scene_c2kt1e4(), 7, 10, 20);
-  FOLLOW("gap1", scene_gap1(), 9, 10, 20);
-  FOLLOW("r1", scene_r1(), 930, 0.3, 200);
-  FOLLOW("r2", scene_r2(), 708.5, 0.3, 200); /* first touch after 150 periods */
-  FOLLOW("three", three_contacts(), 7, 2, 20);
-  FOLLOW("alpha 0", one(100, 100, 200, 0.3, 0.5, 0), 9, 2, 20);
-  FOLLOW("alpha 0, apart", one(100, 100, 200, 0.3, -0.5, 0), 9, 2, 5);
-  FOLLOW("alpha 90", one(100, 100, 200, 0.3, -0.5, 90), 9, 2, 20);
-  FOLLOW("mu 0", one(100, 100, 200, 0, -0.5, 45), 9, 2, 20);
-  FOLLOW("kt 0", one(100, 0, 200, 0.3, 0.5, 45), 9, 2, 20);
-  FOLLOW("kn 0", one(100, 100, 0, 0.3, 0.5, 45), 9, 2, 5);
-  FOLLOW("gap 0, sticks", one(100, 50, 200, 0.3, 0, 45), 9, 2, 20);
-  FOLLOW("gap 0, slips", one(100, 300, 200, 0.3, 0, 45), 9, 2, 20);
-#undef FOLLOW
-  print_message("worst: %.2g\n", worst);
-}
+static void they_follow_the_oracle(CHECK_STATE) { scenes_follow_the_oracle(&way); }
+static void rest_stays_at_rest(CHECK_STATE) { check_rest(&way); }
+static void monodromy_is_that_of_the_period(CHECK_STATE) { check_monodromies(&way); }
+static void a_transition_at_the_end_of_the_period(CHECK_STATE) { check_transition_at_the_end(&way, 1e-13, 1e-9); }
 
 /* Where kt cos is next to mu kn sin (to an eighth here) the X at which slip begins is the guard over a small slope,
  * and its rounding is many times X's. Found twice it would be two X, the second behind the one that the motion has
@@ -79,7 +36,7 @@ static void slip_that_begins_on_a_flat_guard(CHECK_STATE)
   scene sc = scene_linear(8.13, 0.88, 13.2, 23.2);
   scene_add(&sc, 20.35, 4.05, 0.46, 2.8, 0);
   scene_add(&sc, 12.98, 40.99, 0.47, 3.8, 30.5);
-  for (int i = 0; i <= 20; ++i) follows_oracle("a flat guard", sc, 1.9 + 0.01 * i, 1, 15);
+  for (int i = 0; i <= 20; ++i) follow_oracle(&way, "a flat guard", sc, 1.9 + 0.01 * i, 1, 15);
 }
 
 static scene random_scene(uint64_t *seed)
@@ -189,17 +146,6 @@ static void random_scenes_follow_cvode(CHECK_STATE)
   print_message("worst: %.2g, of the matrix %.2g; %d transitions\n", worst, worst_matrix, transitions);
 }
 
-/* What the period ends at, watched by a measure or not; the measures into *r if watched. */
-static void period_of(const scene *sc, const scaled_model *m, integrator *in, double *y, timeint_result *r)
-{
-  measure me = scene_measure();
-  measure_begin(&me, m);
-  measure_period(&me, y);
-  assert_int_equal(integrate_period(in, m, y, measure_step, &me), HC_OK);
-  scene_measure_report(&me, sc, 1, r);
-  measure_free(&me);
-}
-
 /* Watched, a period is cut at the turns too: the same but for roundings of it (1e-12 of the motion where P = 30).
  * Peaks, mean, first harmonic and wave against CVODE's dense output, good to some 1e-11 of the motion at 1e-13; sums
  * over 512 instants err by the motion's corners 512^-2 here, where the period does not close, so integrals are compared
@@ -221,8 +167,8 @@ static void measures_are_those_of_the_motion(CHECK_STATE)
     scaled_rhs(&m, 0, y, rate);
     const double x0 = y[SCALED_X], p0 = y[SCALED_P];
     run(in, &m, w, 1);
-    period_of(&sc, &m, in, y, &got);
-    period_of(&sc, &m, ref, z, &want);
+    scene_measured_period(&sc, &m, 1, in, y, &got);
+    scene_measured_period(&sc, &m, 1, ref, z, &want);
     for (int i = 0; i < m.n_states; ++i) size = fmax(size, fabs(y[i]));
     size = fmax(size, fmax(got.max, -got.min));
     for (int i = 0; i < m.n_states; ++i) CHECK_NEAR(y[i], w[i], 1e-12 * size, "watched or not, trial %d", trial);
@@ -284,7 +230,7 @@ static void ends_at_a_turn(CHECK_STATE)
       run(in, &m, y, 3);
       scene sc = one(100, 100 + trial, 200, 0.3, 0.5, angle);
       timeint_result r = {0};
-      for (int i = 0; i < 3; ++i) period_of(&sc, &m, in, watched, &r);
+      for (int i = 0; i < 3; ++i) scene_measured_period(&sc, &m, 1, in, watched, &r);
       CHECK_NEAR(y[0], creal(X), 1e-12 * cabs(X), "X, trial %d, %d roundings", trial, off);
       CHECK_NEAR(y[1], -cimag(X), 1e-12 * cabs(X), "P, trial %d, %d roundings", trial, off);
       CHECK_NEAR(watched[0], creal(X), 1e-12 * cabs(X), "X watched, trial %d, %d roundings", trial, off);
@@ -296,82 +242,19 @@ static void ends_at_a_turn(CHECK_STATE)
   }
 }
 
-static void a_transition_at_the_end_of_the_period(CHECK_STATE)
-{
-  const exact_way way = {closed_of, 0};
-  check_transition_at_the_end(&way, 1e-13, 1e-9);
-}
-
-/* Half a unit of the last digit printed: the table has 12 significant ones, or fewer where the rest are 0. */
-static double half_a_digit(double x) { return x != 0 ? 0.5 * pow(10, floor(log10(fabs(x))) - 11) : 0; }
-
-/* The table's numbers as far as they are printed, and 1e-12 of the amplitude: ours, at transient.tolerance 1e-12. The
- * mean where it is unique (test_exact_reference.c). */
-static double follow(const scene *sc, const char *name, const char *sweep, double from)
-{
-  timeint *ti;
-  timeint_result r;
-  int seen = 0;
-  double worst = 0;
-  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
-  scene_state y = {.x = 0};
-  for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
-    const steady_reference *want = &steady_references[i];
-    if (strcmp(want->name, name) || strcmp(want->sweep, sweep)) continue;
-    if (reference_is_behind_chaos(name, !strcmp(sweep, "down"), want->omega)) y = reference_behind_chaos;
-    else assert_int_equal(timeint_sweep(ti, from, want->omega, y.all, NULL), HC_OK);
-    assert_int_equal(timeint_steady(ti, from = want->omega, y.all, NULL, &r), HC_OK);
-    const double ours = 1e-12 * want->amplitude;
-    worst = fmax(worst, fabs(r.amplitude - want->amplitude) / (half_a_digit(want->amplitude) + ours));
-    worst = fmax(worst, fabs(r.harmonic_1 - want->harmonic_1) / (half_a_digit(want->harmonic_1) + ours));
-    CHECK_NEAR(r.amplitude, want->amplitude, half_a_digit(want->amplitude) + ours, "%s %s amplitude at %g", name, sweep,
-               want->omega);
-    CHECK_NEAR(r.harmonic_1, want->harmonic_1, half_a_digit(want->harmonic_1) + ours, "%s %s harmonic_1 at %g", name,
-               sweep, want->omega);
-    if (r.free_sliders == 0)
-      CHECK_NEAR(r.mean, want->mean, half_a_digit(want->mean) + ours, "%s %s mean at %g", name, sweep, want->omega);
-    /* 3: touch, separation, and a slip of no length where traction and limit vanish together (reference/README.md) */
-    assert_int_equal(r.switches, want->events == 3 ? 2 : want->events);
-    assert_int_equal(r.period_multiple, 1);
-    assert_true(r.closed_form_periods == 0 && r.cvode_flag == 0);
-    CHECK_LE(r.multiplier, 1, "%s %s is stable at %g", name, sweep, want->omega);
-    ++seen;
-  }
-  timeint_free(ti);
-  CHECK_LE(4, seen, "%s %s", name, sweep);
-  return worst;
-}
-
+/* The table's numbers as far as they are printed, and 1e-12 of the amplitude: ours, at transient.tolerance 1e-12. */
 static void every_row_of_the_reference(CHECK_STATE)
 {
   double worst = 0;
   for (int i = 0; i < N_REFERENCE_SCENES; ++i) {
-    const reference_scene *of = &reference_scenes[i];
-    const bool blade = of->stiffness > 1000;
-    scene sc = scene_reference(of->name);
+    scene sc = scene_reference(reference_scenes[i].name);
     sc.transient.law = TRANSIENT_LAW_EXACT;
     sc.transient.method = TRANSIENT_METHOD_CLOSED_FORM;
     sc.transient.start = TRANSIENT_START_UP;
     sc.transient.tolerance = 1e-12;
-    worst = fmax(worst, follow(&sc, of->name, "up", blade ? 600 : 3));
-    worst = fmax(worst, follow(&sc, of->name, "down", blade ? 1100 : of->omega_to));
+    worst = fmax(worst, follow_reference(reference_scenes[i].name, sc, 1e-12, 1e-12));
   }
   print_message("worst: %.2f of the table's digits and 1e-12\n", worst);
-}
-
-/* No force, at rest, also at the edge of contacts. */
-static void rest_stays_at_rest(CHECK_STATE)
-{
-  const double gap[] = {0.5, 0, -0.5};
-  for (int i = 0; i < 3; ++i)
-    for (int angle = 0; angle <= 90; angle += 45) {
-      scaled_model m = exact_model(one(0, 100, 200, 0.3, gap[i], angle), 7, 1);
-      integrator *in = closed_of(&m);
-      double y[SCENE_MAX_STATES] = {0};
-      run(in, &m, y, 5);
-      CHECK_NEAR(fabs(y[0]) + fabs(y[1]) + fabs(y[2]), 0, 0, "gap %g", gap[i]);
-      integrate_free(in);
-    }
 }
 
 /* No spring of the mass's own; damping up to 1e4 times critical: soft and resonant phases, roots far apart. */
@@ -433,13 +316,7 @@ static void failures_are_reported(CHECK_STATE)
   integrate_free(in);
 }
 
-static void monodromy_is_that_of_the_period(CHECK_STATE)
-{
-  const exact_way way = {closed_of, 100 * DBL_EPSILON}; /* roundings of a period */
-  check_monodromies(&way);
-}
-
-CHECK_TESTS_WITH("timeint.closed", 120, read_steady_references, NULL, scenes_follow_the_oracle,
+CHECK_TESTS_WITH("timeint.closed", 120, read_steady_references, NULL, they_follow_the_oracle,
                  slip_that_begins_on_a_flat_guard, random_scenes_follow_cvode, soft_and_overdamped_scenes_follow_cvode,
                  measures_are_those_of_the_motion, ends_at_a_turn, a_transition_at_the_end_of_the_period,
                  monodromy_is_that_of_the_period, every_row_of_the_reference, rest_stays_at_rest, failures_are_reported)

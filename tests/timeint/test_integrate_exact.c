@@ -4,10 +4,8 @@
 #include <cvodes/cvodes.h>
 
 #include "tests/timeint/exact_periods.h"
-#include "tests/timeint/oracle.h"
-#include "tests/timeint/reference_rows.h"
 
-static const double tol = 1e-12; /* CVODE's. A period is some 200 steps, each of which may err by it */
+#define tol 1e-12 /* CVODE's. A period is some 200 steps, each of which may err by it */
 
 static integrator *integrator_of(const scaled_model *m)
 {
@@ -16,54 +14,15 @@ static integrator *integrator_of(const scaled_model *m)
   return in;
 }
 
-/* From rest (w = 0: stuck if touching). CVODE's errors of a period, 200 tol, are carried on; where the motion is
- * stable they do not grow for long: all the periods' together, times 5. The oracle's own: rounding, 1e-13 of slack. */
-static void follows_oracle(const char *what, scene sc, double omega, double length, int periods)
-{
-  scaled_model m = exact_model(sc, omega, length);
-  oracle o = {.m = &m};
-  for (int j = 0; j < m.n_contacts; ++j)
-    o.state[j] = m.contact[j].law.kn > 0 && m.contact[j].law.gap > 0 ? STUCK : APART;
-  integrator *in = integrator_of(&m);
-  double y[SCENE_MAX_STATES] = {0};
-  for (int i = 0; i < periods; ++i) {
-    run(in, &m, y, 1);
-    oracle_period(&o);
-    const double bound = 5 * 200 * tol * (i + 1);
-    CHECK_NEAR(y[SCALED_X], o.x, bound, "%s x in period %d", what, i);
-    CHECK_NEAR(y[SCALED_P], o.p, bound, "%s p in period %d", what, i);
-    for (int j = 0; j < m.n_contacts; ++j)
-      CHECK_NEAR(y[SCALED_W + j], oracle_slider(&o, j), bound, "%s w%d in period %d", what, j, i);
-    /* at rest on the edge of contact a stick of no length comes before the slip */
-    const bool at_edge = m.n_contacts == 1 && m.contact[0].law.gap == 0;
-    CHECK_NEAR((double)integrate_transitions(in), (double)o.events, at_edge ? 1 : 0, "%s transitions", what);
-  }
-  integrate_free(in);
-}
+/* CVODE's errors of a period, 200 tol, are carried on; where the motion is stable they do not grow for long: all the
+ * periods' together, times 5. By differences half of a period's steps are seen, times Richardson's 5/3. */
+static const exact_way way = {
+    .make = integrator_of, .noise = 100 * tol * 5 / 3, .off = 5 * 200 * tol, .off_grows = 5 * 200 * tol};
 
-static void scenes_follow_the_closed_form(CHECK_STATE)
-{
-  follows_oracle("linear", scene_linear(1, 0.4, 40, 100), 7, 10, 20);
-  follows_oracle("c2", scene_c2(), 7, 10, 20); /* bilinear */
-  follows_oracle("b10", scene_b10(), 7, 1, 20);
-  follows_oracle("a10", scene_a10(), 13, 0.7, 20);
-  follows_oracle("c2kt1e4", scene_c2kt1e4(), 7, 10, 20);
-  follows_oracle("gap1", scene_gap1(), 9, 10, 20);
-  follows_oracle("r2", scene_r2(), 708.5, 0.3, 200); /* first touch after 150 periods */
-  follows_oracle("three", three_contacts(), 7, 2, 20);
-}
-
-static void degenerate_contacts_follow_it_too(CHECK_STATE)
-{
-  follows_oracle("alpha 0", one(100, 100, 200, 0.3, 0.5, 0), 9, 2, 20); /* Jenkins: constant limit */
-  follows_oracle("alpha 0, apart", one(100, 100, 200, 0.3, -0.5, 0), 9, 2, 5);
-  follows_oracle("alpha 90", one(100, 100, 200, 0.3, -0.5, 90), 9, 2, 20);
-  follows_oracle("mu 0", one(100, 100, 200, 0, -0.5, 45), 9, 2, 20);
-  follows_oracle("kt 0", one(100, 0, 200, 0.3, 0.5, 45), 9, 2, 20);
-  follows_oracle("kn 0", one(100, 100, 0, 0.3, 0.5, 45), 9, 2, 5);
-  follows_oracle("gap 0, sticks", one(100, 50, 200, 0.3, 0, 45), 9, 2, 20);
-  follows_oracle("gap 0, slips", one(100, 300, 200, 0.3, 0, 45), 9, 2, 20);
-}
+static void they_follow_the_oracle(CHECK_STATE) { scenes_follow_the_oracle(&way); }
+static void rest_stays_at_rest(CHECK_STATE) { check_rest(&way); }
+static void monodromy_is_that_of_the_period(CHECK_STATE) { check_monodromies(&way); }
+static void a_transition_at_the_end_of_the_period(CHECK_STATE) { check_transition_at_the_end(&way, tol, tol); }
 
 /* Where kt cos <= mu kn sin a contact that touches sticks until it separates, T and N vanishing together: the
  * frictionless contact of the same stiffness against x, kn' = kn + kt at 45 degrees. Equality: the slip's guard is 0
@@ -132,47 +91,6 @@ static void grazing_is_not_stepped_over(CHECK_STATE)
   }
 }
 
-static void a_transition_at_the_end_of_the_period(CHECK_STATE)
-{
-  const exact_way way = {integrator_of, 0};
-  check_transition_at_the_end(&way, tol, tol);
-}
-
-/* Rows that rest reaches, and c2's upper branch from a state near it; damping makes what is left of the start
- * exp(-0.2 * 2 pi/omega) a period: below 1e-12 after 220. Reference good to 1e-9; the amplitude's own error is that
- * of x. */
-static void steady_states_are_the_references(CHECK_STATE)
-{
-  const struct {
-    const char *name;
-    double omega, x0;
-  } rows[] = {{"a10", 13, 0}, {"a10", 14, 0},  {"b10", 6, 0},      {"b10", 7, 0}, {"c2", 6, 0},
-              {"c2", 7, 0},   {"c2", 9, 23.4}, {"c2", 9.15, 25.7}, {"c2", 10, 0}};
-  for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
-    const steady_reference *r = steady_references;
-    while (strcmp(r->name, rows[i].name) || r->omega != rows[i].omega) ++r; /* the first such row: swept up */
-    const scene sc = scene_reference(r->name);
-    const double length = r->amplitude;
-    scaled_model m = exact_model(sc, r->omega, length);
-    integrator *in = integrator_of(&m);
-    double y[SCENE_MAX_STATES] = {rows[i].x0 / length, 0, 0.7 * rows[i].x0 / length};
-    run(in, &m, y, 400);
-    measure me = scene_measure();
-    timeint_result result = {0};
-    measure_begin(&me, &m);
-    measure_period(&me, y);
-    assert_int_equal(integrate_period(in, &m, y, measure_step, &me), HC_OK);
-    scene_measure_report(&me, &sc, length, &result);
-    CHECK_NEAR(result.amplitude, r->amplitude, 1e-8 * r->amplitude, "case %s omega %g", r->name, r->omega);
-    CHECK_NEAR(result.harmonic_1, r->harmonic_1, 1e-8 * r->amplitude, "case %s omega %g", r->name, r->omega);
-    long before = integrate_transitions(in);
-    run(in, &m, y, 1);
-    assert_true(r->events == 0 ? integrate_transitions(in) == before : integrate_transitions(in) > before);
-    measure_free(&me);
-    integrate_free(in);
-  }
-}
-
 typedef struct seen {
   const scaled_model *m;
   double last, worst;
@@ -220,21 +138,6 @@ static void watched_period_is_the_same(CHECK_STATE)
   /* The step after a restart: order 1, error h^2 |y''|/2 = tol, that of the derivative h |y''|, |y''| < 50. */
   CHECK_LE(s.worst, sqrt(2 * tol * 50), "dense output");
   integrate_free(in);
-}
-
-/* No force, at rest, also at the edge of contacts: the root function of P is not exactly 0 all the time, which would be
- * an error to CVODE. */
-static void rest_stays_at_rest(CHECK_STATE)
-{
-  const double gap[] = {0.5, 0, -0.5};
-  for (int i = 0; i < 3; ++i) {
-    scaled_model m = exact_model(one(0, 100, 200, 0.3, gap[i], 45), 7, 1);
-    integrator *in = integrator_of(&m);
-    double y[SCENE_MAX_STATES] = {0};
-    run(in, &m, y, 5);
-    CHECK_NEAR(fabs(y[0]) + fabs(y[1]) + fabs(y[2]), 0, 0, "gap %g", gap[i]);
-    integrate_free(in);
-  }
 }
 
 /* One period from many states, most of them far from any orbit: turns within a step, short slips, short contacts.
@@ -285,15 +188,7 @@ static void failures_are_reported(CHECK_STATE)
   assert_null(in);
 }
 
-static void monodromy_is_that_of_the_period(CHECK_STATE)
-{
-  const exact_way way = {integrator_of, 100 * tol * 5 / 3}; /* half of a period's steps, times Richardson's 5/3 */
-  check_monodromies(&way);
-}
-
-CHECK_TESTS_WITH("timeint.integrate_exact", 120, read_steady_references, NULL, scenes_follow_the_closed_form,
-                 degenerate_contacts_follow_it_too, bilinear_contacts_need_no_friction,
-                 two_contacts_are_one_of_double_stiffness, grazing_is_not_stepped_over,
-                 a_transition_at_the_end_of_the_period, monodromy_is_that_of_the_period,
-                 steady_states_are_the_references, rest_stays_at_rest, any_start_follows_the_closed_form,
-                 watched_period_is_the_same, failures_are_reported)
+CHECK_TESTS("timeint.integrate_exact", 120, they_follow_the_oracle, bilinear_contacts_need_no_friction,
+            two_contacts_are_one_of_double_stiffness, grazing_is_not_stepped_over,
+            a_transition_at_the_end_of_the_period, monodromy_is_that_of_the_period, rest_stays_at_rest,
+            any_start_follows_the_closed_form, watched_period_is_the_same, failures_are_reported)

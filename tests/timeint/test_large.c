@@ -259,9 +259,10 @@ static void small_or_unsymmetric_structures_are_not_slowed(CHECK_STATE)
 static int check_rate(uint64_t *seed, const drawn *d, int trial)
 {
   structure_newton s;
+  workspace memory = {0};
   const int n = d->scaled.n_states;
   double *y = calloc(3 * (size_t)n, sizeof *y), *dy[2] = {y + n, y + 2 * n};
-  assert_int_equal(structure_newton_make(&s, d->base), HC_OK);
+  assert_int_equal(structure_newton_make(&s, d->base, &memory), HC_OK);
   for (int at = 0; at < 3; ++at) {
     double size = 1;
     for (int i = 0; i < n; ++i) y[i] = random_signed(seed), dy[0][i] = dy[1][i] = NAN;
@@ -277,7 +278,7 @@ static int check_rate(uint64_t *seed, const drawn *d, int trial)
     assert_false(structure_newton_rate(&s, &d->scaled, 1, y, dy[1]));
   }
   const int entries = s.step.n_rows * d->scaled.n;
-  structure_newton_free(&s);
+  workspace_free(&memory);
   free(y);
   return entries;
 }

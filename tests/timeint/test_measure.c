@@ -27,16 +27,12 @@ static void free_vibration(CHECK_STATE)
   scene sc = scene_linear(1, 0, s * s, 0);
   scaled_model m;
   integrator *in;
-  measure me = scene_measure();
   scene_scaled(&m, &sc, 1, 1);
   assert_int_equal(integrate_new_regularised(m.base, 1e-13, &in), HC_OK);
   double y[SCENE_MAX_STATES] = {p, s * q};
-  measure_begin(&me, &m);
-  measure_period(&me, y);
-  assert_int_equal(integrate_period(in, &m, y, measure_step, &me), HC_OK);
   timeint_result r;
-  scene_measure_report(&me, &sc, 10, &r); /* L = 10: lengths come out ten times as large */
-  double complex X = 10 * (p - I * q);    /* x = Re(X e^{i s theta}) */
+  scene_measured_period(&sc, &m, 10, in, y, &r); /* L = 10: lengths come out ten times as large */
+  double complex X = 10 * (p - I * q);           /* x = Re(X e^{i s theta}) */
   CHECK_NEAR(r.max, 10, 10 * tol, "highest peak");
   CHECK_NEAR(r.min, -10, 10 * tol, "lowest");
   CHECK_NEAR(r.amplitude, 10, 10 * tol, "amplitude");
@@ -47,7 +43,6 @@ static void free_vibration(CHECK_STATE)
   for (int i = 0; i < TIMEINT_WAVE; ++i)
     CHECK_NEAR(r.wave[i], creal(X * cexp(I * s * 2 * PI * i / TIMEINT_WAVE)), 10 * tol, "wave[%d]", i);
   integrate_free(in);
-  measure_free(&me);
 }
 
 /* What a contact was seen to do, and the strongest of it. */
@@ -100,22 +95,24 @@ static void a_failure_of_dense_output_is_told(CHECK_STATE)
   static const double ends[] = {1.2, 3.0};
   scene sc = scene_linear(1, 0, 4, 0);
   scaled_model m;
+  measure me;
+  workspace memory = {0};
   scene_scaled(&m, &sc, 1, 1);
+  assert_int_equal(measure_make(&me, m.n_states, 1, m.n_contacts, &memory), HC_OK);
   for (int i = 0; i < 2; ++i) {
     failing f = {.base = {.does = &class}};
     int calls = 1;
     for (f.fails_at = 0; f.fails_at <= calls; ++f.fails_at) {
-      measure me = scene_measure();
       const double y[SCENE_MAX_STATES] = {0, 2};
       f.calls = 0;
       measure_begin(&me, &m);
       measure_period(&me, y);
       assert_int_equal(measure_step(&me, &f.base, 0, ends[i]), f.fails_at ? HC_INTEGRATOR : HC_OK);
       if (f.fails_at == 0) calls = f.calls;
-      measure_free(&me);
     }
     assert_true(calls > 2);
   }
+  workspace_free(&memory);
 }
 
 CHECK_TESTS("timeint.measure", 60, free_vibration, regimes, a_failure_of_dense_output_is_told)

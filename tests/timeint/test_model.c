@@ -1,9 +1,10 @@
-/* test_model.c - the equations without dimensions and their Jacobian. */
+/* test_model.c - the equations without dimensions, and their Jacobian for smooth laws. */
 
 #include <float.h>
 
 #include "tests/random.h"
 #include "tests/scene_parts.h"
+#include "tests/timeint/drawn.h"
 #include "tests/timeint/scenes.h"
 
 /* Against the printed equation in the scene's own units, where both laws are exact (no corner within 40 widths):
@@ -28,65 +29,6 @@ static void rhs_is_the_printed_equation(CHECK_STATE)
   CHECK_NEAR(dy[0] * omega * L, v, 4 * DBL_EPSILON * 5, "x'");
 }
 
-/* Central differences as in test_law.c: h^2/6 times the third derivative of softplus (kn/(6 sqrt 3 width^2) per
- * contact, over eta in w'), plus rounding. */
-static void check_jacobian(const scaled_model *m, const double *y)
-{
-  const double h = 1e-5;
-  const int n = m->n_states;
-  double jac[SCENE_MAX_STATES * SCENE_MAX_STATES];
-  scaled_jacobian(m, y, jac);
-  for (int j = 0; j < n; ++j) {
-    double yp[SCENE_MAX_STATES], ym[SCENE_MAX_STATES], fp[SCENE_MAX_STATES], fm[SCENE_MAX_STATES];
-    memcpy(yp, y, sizeof yp), memcpy(ym, y, sizeof ym);
-    yp[j] += h, ym[j] -= h;
-    scaled_rhs(m, 0.3, yp, fp), scaled_rhs(m, 0.3, ym, fm);
-    for (int i = 0; i < n; ++i) {
-      double third = 0, gain = 1;
-      for (int c = 0; c < m->n_contacts; ++c)
-        third += m->contact[c].law.kn / (6 * sqrt(3) * m->contact[c].law.width * m->contact[c].law.width);
-      if (i >= SCALED_W) gain = m->contact[i - SCALED_W].law.mu / m->contact[i - SCALED_W].law.eta;
-      double tol = h * h / 6 * third * (gain + 1) + 16 * DBL_EPSILON * (fabs(fp[i]) + 100 * (1 + gain)) / h;
-      CHECK_NEAR(jac[i + j * n], (fp[i] - fm[i]) / (2 * h), tol, "d%d/d%d", i, j);
-    }
-  }
-}
-
-/* Farther from |S| = mu N than a step of the differences can reach? */
-static bool off_corners(const scaled_model *m, const double *y)
-{
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const scaled_contact *c = &m->contact[j];
-    if (!c->law.has_friction) continue;
-    double u = scene_cosine(m, c) * y[SCALED_X], v = scene_sine(m, c) * y[SCALED_X];
-    double s = fabs(c->law.kt * (u - y[SCALED_W + j])), limit = c->law.mu * law_regularised_eval(&c->law, u, v, 0).n;
-    if (fabs(s - limit) < 1e-4 * (c->law.kt + c->law.kn)) return false;
-  }
-  return true;
-}
-
-static void jacobian_is_the_derivative(CHECK_STATE)
-{
-  scene sc = scene_linear(1, 0.4, 40, 100);
-  sc.transient.regularisation = 0.1; /* wide corners: differences resolve them */
-  scene_add(&sc, 100, 1000, 0.3, -5, 45);
-  scene_add(&sc, 50, 60, 0.5, 2, 20);
-  scene_add(&sc, 50, 60, 0.5, 2, 90);
-  scene_add(&sc, 0, 60, 0.5, -2, 70);
-  scaled_model m;
-  scene_scaled(&m, &sc, 7, 5);
-  int tried = 0;
-  for (int both = 0; both < 2; ++both)
-    for (int i = 0; i < 400; ++i) {
-      double y[SCENE_MAX_STATES] = {2 * sin(1.1 * i), cos(2.0 * i), 2 * sin(0.7 * i), 2 * cos(0.9 * i), 0.1, 0.2};
-      for (int j = 0; j < m.n_contacts; ++j) m.contact[j].law.overstress = both;
-      if (!off_corners(&m, y)) continue;
-      check_jacobian(&m, y);
-      ++tried;
-    }
-  CHECK_LE(400, tried, "points off the corners");
-}
-
 /* Smooth laws, of numbers of the order of 1 and third derivatives of the order of 10: differences are 1e-9 off. */
 static void jacobian_of_smooth_laws_is_the_derivative(CHECK_STATE)
 {
@@ -109,7 +51,7 @@ static void jacobian_of_smooth_laws_is_the_derivative(CHECK_STATE)
   for (int i = 0; i < 50; ++i) {
     double y[5], jac[25], f[2][5];
     for (int k = 0; k < 5; ++k) y[k] = random_signed(&seed);
-    scaled_jacobian(&scaled, y, jac);
+    jacobian_of(&scaled, y, jac);
     for (int k = 0; k < 5; ++k) {
       const double at = y[k], h = 1e-5;
       for (int s = 0; s < 2; ++s) y[k] = at + (s ? -h : h), assert_true(scaled_rhs(&scaled, 1, y, f[s]));
@@ -154,5 +96,5 @@ static void not_finite_is_noticed(CHECK_STATE)
   }
 }
 
-CHECK_TESTS("timeint.model", 60, rhs_is_the_printed_equation, jacobian_is_the_derivative,
-            jacobian_of_smooth_laws_is_the_derivative, scale_drops_out, not_finite_is_noticed)
+CHECK_TESTS("timeint.model", 60, rhs_is_the_printed_equation, jacobian_of_smooth_laws_is_the_derivative,
+            scale_drops_out, not_finite_is_noticed)

@@ -50,17 +50,12 @@ static double with_overstress(double eta)
   scene_scaled(&m, &sc, 7, 1.4);
   m.contact[0].law.overstress = true;
   integrator *in;
-  measure me = scene_measure();
   double y[SCENE_MAX_STATES] = {1.04 / 1.4, 1 / 1.4, 0.6 / 1.4};
   assert_int_equal(integrate_new_regularised(m.base, 1e-11, &in), HC_OK);
   for (int i = 0; i < 200; ++i) assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
-  measure_begin(&me, &m);
-  measure_period(&me, y);
-  assert_int_equal(integrate_period(in, &m, y, measure_step, &me), HC_OK);
   timeint_result r;
-  scene_measure_report(&me, &sc, 1.4, &r);
+  scene_measured_period(&sc, &m, 1.4, in, y, &r);
   integrate_free(in);
-  measure_free(&me);
   return r.harmonic_1;
 }
 

@@ -205,6 +205,7 @@ static void a_constant_force_that_cancels_is_told(CHECK_STATE)
   interval_modes *kept;
   const complex_modes *modes;
   motion_modes motion;
+  workspace memory = {0};
   assert_int_equal(model_new(1, 1, 1, 1, &d.m), HC_OK);
   d.m->mass[0] = d.m->responses[0] = d.m->contacts[0].tangent[0] = 1;
   d.m->stiffness[0] = 1e-3;
@@ -216,10 +217,10 @@ static void a_constant_force_that_cancels_is_told(CHECK_STATE)
   scaled_make(&d.scaled, d.m, &how, 1, 1);
   assert_int_equal(interval_modes_new(d.base, 0, &kept), HC_OK);
   assert_int_equal(interval_modes_of(kept, &d.scaled, &slips, &modes), HC_OK);
-  assert_int_equal(motion_modes_make(&motion, d.base), HC_OK);
+  assert_int_equal(motion_modes_make(&motion, d.base, &memory), HC_OK);
   assert_false(motion_modes_begin(&motion, modes, &d.scaled, &slips, 0, (double[]){0, 1, 0}));
   assert_true(motion_modes_begin(&motion, modes, &d.scaled, &slips, 0, (double[]){-500, 1, 0}));
-  motion_modes_free(&motion);
+  workspace_free(&memory);
   interval_modes_free(kept);
   undraw(&d);
 }

@@ -307,42 +307,7 @@ static void monodromy_of_many_columns(CHECK_STATE)
   CHECK_LE(off, 0.02 * compared, "of %d derivatives", compared);
 }
 
-static void jacobian_is_the_derivative(CHECK_STATE) { check_jacobians(draw); }
-
-/* (I - gamma J) z = r by elimination, against the dense matrix times what it finds: rounding, times what the stiffest
- * contact, with its width of 1e-2, makes of the entries. */
-static void newton_solves_the_dense_equations(CHECK_STATE)
-{
-  uint64_t seed = 9;
-  for (int trial = 0; trial < 100; ++trial) {
-    drawn d;
-    double y[MOST], r[MOST], z[MOST], Jz[MOST], jac[MOST * MOST], largest = 0;
-    draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
-    /* The same with damping that its modes diagonalise. */
-    if (trial % 2) {
-      for (int i = 0; i < d.m->n * d.m->n; ++i) d.m->damping[i] = 0.3 * d.m->mass[i];
-      modal_base_free(d.base);
-      assert_int_equal(modal_base_new(d.m, &d.base), HC_OK);
-      assert_true(d.base->diagonal_C);
-      d.scaled.base = d.base;
-    }
-    for (int j = 0; j < d.scaled.n_contacts; ++j) d.contacts[j].law.overstress = trial % 4 < 2;
-    const int n = d.scaled.n_states;
-    const double gamma = pow(10, -4 * random_unit(&seed));
-    for (int i = 0; i < n; ++i) y[i] = random_signed(&seed), r[i] = z[i] = random_signed(&seed);
-    scaled_jacobian(&d.scaled, y, jac);
-    eliminate(&d, y, gamma, z, Jz);
-    for (int i = 0; i < n * n; ++i) largest = fmax(largest, fabs(jac[i]));
-    for (int i = 0; i < n; ++i) {
-      double dense = 0, size = 0;
-      for (int q = 0; q < n; ++q) dense += jac[i + q * n] * z[q], size = fmax(size, fabs(z[q]));
-      const double near = 1e-13 * (1 + largest) * (1 + size);
-      CHECK_NEAR(Jz[i], dense, near, "trial %d [%d]: product", trial, i);
-      CHECK_NEAR(z[i] - gamma * dense, r[i], near, "trial %d [%d], gamma %g", trial, i, gamma);
-    }
-    undraw(&d);
-  }
-}
+static void newton_solves_the_equations(CHECK_STATE) { check_newton(draw); }
 
 /* The monodromy matrix of the regularised law against differences of its period map: of what CVODE's tolerance leaves
  * of them, 1e-12/1e-5 times some hundred, and of the variations' own 1e-6 a step. */
@@ -419,6 +384,5 @@ static void a_massless_freedom_is_refused(CHECK_STATE)
 
 CHECK_TESTS("timeint.structure", 120, series_meet_the_reference, events_meet_the_reference,
             regularised_meets_the_reference, series_and_closed_form_agree, series_and_events_agree,
-            monodromy_is_the_derivative, monodromy_of_many_columns, newton_solves_the_dense_equations,
-            regularised_monodromy_is_the_derivative, jacobian_is_the_derivative, other_coordinates_change_nothing,
-            a_massless_freedom_is_refused)
+            monodromy_is_the_derivative, monodromy_of_many_columns, newton_solves_the_equations,
+            regularised_monodromy_is_the_derivative, other_coordinates_change_nothing, a_massless_freedom_is_refused)

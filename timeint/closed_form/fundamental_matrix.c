@@ -1,21 +1,11 @@
 /* fundamental_matrix.c - see fundamental_matrix.h. Proof: tests/timeint/test_structure.c. */
 #include "timeint/closed_form/fundamental_matrix.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "model/linear.h"
 #include "numerics/dense.h"
 #include "timeint/closed_form/modal_motion.h"
-
-static hc_status modes_columns_make(modes_columns *s, const modal_base *base)
-{
-  const size_t n = (size_t)base->n, columns = 2 * n + (size_t)base->n_contacts;
-  *s = (modes_columns){.n = base->n, .n_columns = (int)columns};
-  s->change = calloc(2 * 4 * n * columns, sizeof *s->change);
-  s->rate = s->change ? s->change + 4 * n * columns : NULL;
-  return s->change ? HC_OK : HC_NO_MEMORY;
-}
 
 /* to[count] += by from[count] */
 static void add_real(int count, double by, const double *restrict from, double *restrict to)
@@ -59,48 +49,35 @@ static void multiply(const modes_columns *s, int count, double complex by, const
   }
 }
 
-static hc_status make_slowed(fundamental_matrix *v, const modal_base *base)
+static void make_slowed(fundamental_matrix *v, const modal_base *base, workspace *w)
 {
   const size_t slowed = (size_t)v->n_slowed;
-  v->spring = calloc(slowed * (slowed + (size_t)v->n_states), sizeof *v->spring);
-  v->fast = calloc(2 * slowed, sizeof *v->fast);
-  if (!v->spring || !v->fast) return HC_NO_MEMORY;
-  v->follow = v->spring + slowed * slowed;
-  v->pivot = v->fast + slowed;
-  for (int i = 0, f = 0; i < base->n; ++i)
+  v->spring = workspace_doubles(w, slowed * slowed);
+  v->follow = workspace_doubles(w, slowed * (size_t)v->n_states);
+  v->fast = workspace_array(w, slowed, sizeof *v->fast);
+  v->pivot = workspace_array(w, slowed, sizeof *v->pivot);
+  for (int i = 0, f = 0; i < base->n && !w->failed; ++i)
     if (base->slowed[i] != 1) v->fast[f++] = i;
-  return HC_OK;
 }
 
-hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base, interval_modes *modes)
+hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base, interval_modes *modes, workspace *w)
 {
-  const size_t states = 2 * (size_t)base->n + (size_t)base->n_contacts;
+  const size_t n = (size_t)base->n, states = 2 * n + (size_t)base->n_contacts;
   *v = (fundamental_matrix){.n = base->n, .n_states = (int)states, .modes = modes};
-  v->rows = calloc(states * (states + 4), sizeof *v->rows);
-  v->state = calloc(states, sizeof *v->state);
-  v->track = calloc(states, sizeof *v->track);
-  if (!v->rows || !v->state || !v->track) return HC_NO_MEMORY;
-  v->du[0] = v->rows + states * states;
-  v->du[1] = v->du[0] + states;
-  v->dv = v->du[1] + states;
-  v->y = v->dv + states;
+  v->rows = workspace_doubles(w, states * states);
+  double **const vectors[] = {&v->du[0], &v->du[1], &v->dv, &v->y};
+  for (size_t i = 0; i < 4; ++i) *vectors[i] = workspace_doubles(w, states);
+  v->state = workspace_array(w, states, sizeof *v->state);
+  v->track = workspace_array(w, states, sizeof *v->track);
   for (int i = 0; i < base->n; ++i) v->n_slowed += base->slowed[i] != 1;
-  hc_status st = v->n_slowed > 0 ? make_slowed(v, base) : HC_OK;
-  if (st == HC_OK) st = series_columns_make(&v->series, base);
-  if (st == HC_OK && base->n_planar > 0) st = motion_series_make(&v->motion, base);
-  return st == HC_OK && modes ? modes_columns_make(&v->by_modes, base) : st;
-}
-
-void fundamental_matrix_free(fundamental_matrix *v)
-{
-  series_columns_free(&v->series);
-  free(v->by_modes.change);
-  motion_series_free(&v->motion);
-  free(v->spring);
-  free(v->fast);
-  free(v->track);
-  free(v->rows);
-  free(v->state);
+  if (v->n_slowed > 0) make_slowed(v, base, w);
+  if (modes) {
+    v->by_modes = (modes_columns){.n = base->n, .n_columns = (int)states};
+    v->by_modes.change = workspace_doubles(w, 4 * n * states);
+    v->by_modes.rate = workspace_doubles(w, 4 * n * states);
+  }
+  const hc_status st = series_columns_make(&v->series, base, w);
+  return st == HC_OK && base->n_planar > 0 ? motion_series_make(&v->motion, base, w) : st;
 }
 
 static double *row_of(const fundamental_matrix *v, int i) { return v->rows + (size_t)i * (size_t)v->n_states; }
@@ -247,7 +224,8 @@ static double force_on(const fundamental_matrix *v, const scaled_model *m, const
 static hc_status find_following(fundamental_matrix *v, const scaled_model *m, const contact_track *track)
 {
   const size_t slowed = (size_t)v->n_slowed;
-  memset(v->spring, 0, slowed * (slowed + (size_t)v->n_states) * sizeof *v->spring);
+  memset(v->spring, 0, slowed * slowed * sizeof *v->spring);
+  memset(v->follow, 0, slowed * (size_t)v->n_states * sizeof *v->follow);
   for (size_t f = 0; f < slowed; ++f) v->spring[f * (slowed + 1)] = m->by_K * m->base->K[v->fast[f]];
   for (int j = 0; j < v->n_states - 2 * v->n; ++j) {
     const contact_forces_linear law = contact_track_forces(&track[j], &m->contact[j]);

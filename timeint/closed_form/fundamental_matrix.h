@@ -18,34 +18,34 @@
  *
  *     eta_k = by_x . D + by_v . D' - eta_k of where sliders that stick hold the variation
  *     D += sum_k Re V_k (e^{mu_k span} - 1) eta_k,   D' = sum_k Re V_k mu_k e^{mu_k span} eta_k */
-typedef struct modes_columns { /* from modes_columns_make, to modes_columns_free */
-  int n, n_columns;            /* modes of the structure; the most columns */
-  double *change, *rate;       /* [2 n][2][n_columns] real and imaginary parts */
+typedef struct modes_columns {
+  int n, n_columns;      /* modes of the structure; the most columns */
+  double *change, *rate; /* [2 n][2][n_columns] real and imaginary parts */
 } modes_columns;
 
-typedef struct fundamental_matrix { /* from fundamental_matrix_make, to fundamental_matrix_free */
-  int n, n_states;                  /* modes; 2 n + contacts */
-  double theta;                     /* up to which `rows` has come */
-  int n_columns, *state;            /* [n_states] the first of them: states that the motion depends on, ascending */
-  double *rows;         /* [n_states][n_states] row i is that of state i, column q that of state[q]; a slider's row is
+typedef struct fundamental_matrix {
+  int n, n_states;       /* modes; 2 n + contacts */
+  double theta;          /* up to which `rows` has come */
+  int n_columns, *state; /* [n_states] the first of them: states that the motion depends on, ascending */
+  double *rows;          /* [n_states][n_states] row i is that of state i, column q that of state[q]; a slider's row is
                    valid while its contact sticks; while a slip turns that of its first is that of e's angle */
-  double *du[2], *dv;   /* [n_states] of a contact, all columns */
-  int n_slowed;         /* modes of the base that are, */
-  int *fast;            /* [n_slowed] which, */
-  double *spring;       /* [n_slowed][n_slowed] their stiffness with contacts as they begin; factored */
-  double *follow;       /* [n_states][n_slowed] what they do where a state is 1 */
-  int *pivot;           /* [n_slowed] */
-  double *y;            /* [2 n] the motion at `theta`, and its contacts, */
-  contact_track *track; /* [n_contacts] where a slip turns */
-  motion_series motion; /* of that */
+  double *du[2], *dv;    /* [n_states] of a contact, all columns */
+  int n_slowed;          /* modes of the base that are, */
+  int *fast;             /* [n_slowed] which, */
+  double *spring;        /* [n_slowed][n_slowed] their stiffness with contacts as they begin; factored */
+  double *follow;        /* [n_states][n_slowed] what they do where a state is 1 */
+  int *pivot;            /* [n_slowed] */
+  double *y;             /* [2 n] the motion at `theta`, and its contacts, */
+  contact_track *track;  /* [n_contacts] where a slip turns */
+  motion_series motion;  /* of that */
   series_columns series;
   modes_columns by_modes;
   interval_modes *modes; /* the owner's, or NULL */
 } fundamental_matrix;
 
-/* With complex modes where `modes` is not NULL and they pay. HC_NO_MEMORY; free it then, too. */
-hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base, interval_modes *modes);
-void fundamental_matrix_free(fundamental_matrix *v);
+/* With complex modes where `modes` is not NULL and they pay. Arrays are memory's. HC_NO_MEMORY. */
+hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base, interval_modes *modes,
+                                  workspace *memory);
 
 /* The identity at theta = 0, contacts as they begin there at y[n_states]. HC_SINGULAR: slowed modes are no springs. */
 hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track,

@@ -30,6 +30,7 @@ typedef struct by_series { /* from integrate_new_closed_form, to integrate_free;
   motion_single single; /* where that: the motion of the present step, if by_single */
   bool by_modes, by_single;
   fundamental_matrix variations;
+  workspace memory; /* of all arrays */
 } by_series;
 
 static hc_status begin(by_series *in, const double *y)
@@ -334,13 +335,8 @@ static bool extremes(const integrator *base, int i, double *max, double *min)
 static void release(integrator *base)
 {
   by_series *in = (by_series *)base;
-  fundamental_matrix_free(&in->variations);
-  motion_series_free(&in->series);
-  motion_modes_free(&in->stiff);
-  motion_single_free(&in->single);
   interval_modes_free(in->modes);
-  free(in->track);
-  free(in->y);
+  workspace_free(&in->memory);
   free(in);
 }
 
@@ -356,17 +352,18 @@ hc_status integrate_new_closed_form(const modal_base *base, double stiff, integr
   in->base.does = &class;
   in->n = base->n;
   in->n_contacts = base->n_contacts;
-  in->base.track = in->track = calloc(contacts + 1, sizeof *in->track);
-  in->y = calloc(4 * n + TRACK_ORDER + 1, sizeof *in->y);
-  hc_status st = in->track && in->y ? motion_series_make(&in->series, base) : HC_NO_MEMORY;
-  if (st == HC_OK) st = interval_modes_new(base, stiff, &in->modes);
-  if (st == HC_OK) st = motion_modes_make(&in->stiff, base);
+  workspace *w = &in->memory;
+  in->base.track = in->track = workspace_array(w, contacts, sizeof *in->track);
+  in->y = workspace_doubles(w, 2 * n);
+  in->end = workspace_doubles(w, 2 * n);
+  in->response = workspace_doubles(w, TRACK_TERMS);
   in->fits_single = motion_single_fits(base);
-  if (st == HC_OK && in->fits_single) st = motion_single_make(&in->single, base);
-  if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes);
+  hc_status st = motion_series_make(&in->series, base, w);
+  if (st == HC_OK) st = interval_modes_new(base, stiff, &in->modes);
+  if (st == HC_OK) st = motion_modes_make(&in->stiff, base, w);
+  if (st == HC_OK && in->fits_single) st = motion_single_make(&in->single, base, w);
+  if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes, w);
   if (st == HC_OK) {
-    in->end = in->y + 2 * n;
-    in->response = in->y + 4 * n;
     *out = &in->base;
     return HC_OK;
   }

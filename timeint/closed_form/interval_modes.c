@@ -1,9 +1,9 @@
 /* interval_modes.c - see interval_modes.h. Proof: tests/timeint/test_stiff.c. */
 #include "timeint/closed_form/interval_modes.h"
 
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/workspace.h"
 #include "numerics/norm.h"
 
 static const double short_span = 20;        /* [rad of the fastest mode] some ten steps of a series */
@@ -16,14 +16,13 @@ struct interval_modes { /* from interval_modes_new, to interval_modes_free */
   double stiff;   /* fastest over omega from where on modes pay */
   long asked;     /* how often */
   int n_sets, used;
-  complex_modes *set; /* [n_sets], `used` of them filled */
-  double *weights;
-  double complex *numbers;
-  unsigned char *states, *wanted; /* of all; [n_contacts] of the interval */
-  long double *matrix;            /* [2 n][2 n] */
-  double *scale;                  /* [n] of x in it */
-  int *order;                     /* [2 n] */
+  complex_modes *set;    /* [n_sets], `used` of them filled */
+  unsigned char *wanted; /* [n_contacts] of the interval */
+  long double *matrix;   /* [2 n][2 n] */
+  double *scale;         /* [n] of x in it */
+  int *order;            /* [2 n] */
   eigensystem eigen;
+  workspace memory; /* of these arrays and those of the sets */
 };
 
 /* Complex numbers of one set. */
@@ -33,45 +32,44 @@ static size_t room_of(const modal_base *b)
   return 2 * n * (1 + 3 * n + rows);
 }
 
-static void place(interval_modes *p, int i)
+static void make_set(workspace *w, const modal_base *b, complex_modes *s)
 {
-  const modal_base *b = p->base;
-  const size_t n = (size_t)b->n, most = 2 * n, contacts = (size_t)b->n_contacts, at = (size_t)i;
-  complex_modes *s = &p->set[i];
-  s->states = p->states + at * contacts;
-  s->weight = p->weights + 2 * at * most;
-  s->largest = s->weight + most;
-  s->lambda = p->numbers + at * room_of(b);
-  s->V = s->lambda + most;
-  s->by_x = s->V + most * n;
-  s->by_v = s->by_x + most * n;
-  s->u = s->by_v + most * n;
-  s->v = s->u + most * contacts;
-  s->along = s->v + most * contacts;
-  s->across = s->along + most * contacts;
-  s->response = s->across + most * contacts;
-  s->load = s->response + most * (size_t)b->n_responses;
-  s->load_back = s->load + most * (size_t)b->n_loads;
+  const size_t n = (size_t)b->n, most = 2 * n, contacts = (size_t)b->n_contacts;
+  s->states = workspace_array(w, contacts, 1);
+  s->weight = workspace_doubles(w, most);
+  s->largest = workspace_doubles(w, most);
+  const struct {
+    double complex **array;
+    size_t count;
+  } parts[] = {{&s->lambda, 1},
+               {&s->V, n},
+               {&s->by_x, n},
+               {&s->by_v, n},
+               {&s->u, contacts},
+               {&s->v, contacts},
+               {&s->along, contacts},
+               {&s->across, contacts},
+               {&s->response, (size_t)b->n_responses},
+               {&s->load, (size_t)b->n_loads},
+               {&s->load_back, (size_t)b->n_loads}};
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
+    *parts[i].array = workspace_array(w, most * parts[i].count, sizeof(double complex));
 }
 
 static hc_status make(interval_modes *p)
 {
   const modal_base *b = p->base;
-  const size_t n = (size_t)b->n, contacts = (size_t)b->n_contacts, fit = most_bytes / (room_of(b) * sizeof *p->numbers);
+  const size_t n = (size_t)b->n, fit = most_bytes / (room_of(b) * sizeof(double complex));
+  workspace *w = &p->memory;
   p->n_sets = fit < MOST_SETS ? fit > 4 ? (int)fit : 4 : MOST_SETS;
-  const size_t sets = (size_t)p->n_sets;
   p->fastest = fmax(b->highest, b->decay);
-  p->set = calloc(sets, sizeof *p->set);
-  p->weights = calloc(2 * 2 * n * sets, sizeof *p->weights);
-  p->numbers = calloc(room_of(b) * sets, sizeof *p->numbers);
-  p->states = calloc(contacts * sets + contacts + 1, 1);
-  p->matrix = calloc(4 * n * n, sizeof *p->matrix);
-  p->scale = calloc(n, sizeof *p->scale);
-  p->order = calloc(2 * n, sizeof *p->order);
-  if (!p->set || !p->weights || !p->numbers || !p->states || !p->matrix || !p->scale || !p->order) return HC_NO_MEMORY;
-  p->wanted = p->states + contacts * sets;
-  for (int i = 0; i < p->n_sets; ++i) place(p, i);
-  return eigensystem_make(&p->eigen, 2 * b->n);
+  p->set = workspace_array(w, (size_t)p->n_sets, sizeof *p->set);
+  for (int i = 0; i < p->n_sets && !w->failed; ++i) make_set(w, b, &p->set[i]);
+  p->wanted = workspace_array(w, (size_t)b->n_contacts, 1);
+  p->matrix = workspace_array(w, 4 * n * n, sizeof *p->matrix);
+  p->scale = workspace_doubles(w, n);
+  p->order = workspace_array(w, 2 * n, sizeof *p->order);
+  return w->failed ? HC_NO_MEMORY : eigensystem_make(&p->eigen, 2 * b->n, w);
 }
 
 hc_status interval_modes_new(const modal_base *base, double stiff, interval_modes **out)
@@ -93,14 +91,7 @@ hc_status interval_modes_new(const modal_base *base, double stiff, interval_mode
 void interval_modes_free(interval_modes *p)
 {
   if (!p) return;
-  eigensystem_free(&p->eigen);
-  free(p->set);
-  free(p->weights);
-  free(p->numbers);
-  free(p->states);
-  free(p->matrix);
-  free(p->scale);
-  free(p->order);
+  workspace_free(&p->memory);
   free(p);
 }
 

@@ -2,7 +2,6 @@
 #include "timeint/closed_form/motion_modes.h"
 
 #include <float.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/norm.h"
@@ -10,51 +9,42 @@
 static const double most_cancelled = 100;        /* sum of the parts over what they add up to */
 static const double rounding = 64 * DBL_EPSILON; /* of a response's rate, of sums of some tens of terms */
 
-static exponential_sum take_sum(double complex **numbers, double **sizes, size_t terms)
+static exponential_sum *make_sums(workspace *w, size_t count, size_t terms)
 {
-  const exponential_sum s = {.by = *numbers, .size = *sizes};
-  *numbers += terms;
-  *sizes += terms;
-  return s;
+  exponential_sum *sums = workspace_array(w, count, sizeof *sums);
+  for (size_t i = 0; i < count && !w->failed; ++i)
+    sums[i] =
+        (exponential_sum){.by = workspace_array(w, terms, sizeof(double complex)), .size = workspace_doubles(w, terms)};
+  return sums;
 }
 
-hc_status motion_modes_make(motion_modes *mm, const modal_base *base)
+hc_status motion_modes_make(motion_modes *mm, const modal_base *base, workspace *w)
 {
   const size_t n = (size_t)base->n, loads = (size_t)base->n_loads, contacts = (size_t)base->n_contacts,
-               responses = (size_t)base->n_responses, terms = loads + 2 * n,
-               sums = 2 * contacts + responses + TRACK_GUARDS * contacts + 1;
+               terms = loads + 2 * n, guards = TRACK_GUARDS * contacts + 1;
   *mm = (motion_modes){.base = base};
-  mm->numbers = calloc(2 * terms + 4 * 2 * n + 2 * 2 * n * loads + sums * terms, sizeof *mm->numbers);
-  mm->sizes = calloc((1 + sums) * terms, sizeof *mm->sizes);
-  mm->sums = calloc(sums, sizeof *mm->sums);
-  mm->of = calloc(TRACK_GUARDS * contacts + 1, sizeof *mm->of);
-  mm->event = calloc(TRACK_GUARDS * contacts + 1, sizeof *mm->event);
-  if (!mm->numbers || !mm->sizes || !mm->sums || !mm->of || !mm->event) return HC_NO_MEMORY;
-  mm->rate = mm->numbers;
-  mm->c = mm->rate + 2 * terms;
-  mm->fixed = mm->c + 2 * n;
-  mm->eta = mm->fixed + 2 * n;
-  mm->deta = mm->eta + 2 * n;
-  mm->forward = mm->deta + 2 * n;
-  mm->back = mm->forward + 2 * n * loads;
-  mm->e = (exponentials){.rate = mm->rate, .now = mm->rate + terms, .size = mm->sizes};
-  double complex *numbers = mm->back + 2 * n * loads;
-  double *sizes = mm->sizes + terms;
-  for (size_t i = 0; i < sums; ++i) mm->sums[i] = take_sum(&numbers, &sizes, terms);
-  mm->u = mm->sums;
-  mm->v = mm->u + contacts;
-  mm->response = mm->v + contacts;
-  mm->guard = mm->response + responses;
-  return HC_OK;
-}
-
-void motion_modes_free(motion_modes *mm)
-{
-  free(mm->numbers);
-  free(mm->sizes);
-  free(mm->sums);
-  free(mm->of);
-  free(mm->event);
+  const struct {
+    double complex **array;
+    size_t count;
+  } parts[] = {{&mm->rate, terms},
+               {&mm->e.now, terms},
+               {&mm->c, 2 * n},
+               {&mm->fixed, 2 * n},
+               {&mm->eta, 2 * n},
+               {&mm->deta, 2 * n},
+               {&mm->forward, 2 * n * loads},
+               {&mm->back, 2 * n * loads}};
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
+    *parts[i].array = workspace_array(w, parts[i].count, sizeof(double complex));
+  mm->e.rate = mm->rate;
+  mm->e.size = workspace_doubles(w, terms);
+  mm->u = make_sums(w, contacts, terms);
+  mm->v = make_sums(w, contacts, terms);
+  mm->response = make_sums(w, (size_t)base->n_responses, terms);
+  mm->guard = make_sums(w, guards, terms);
+  mm->of = workspace_array(w, guards, sizeof *mm->of);
+  mm->event = workspace_array(w, guards, sizeof *mm->event);
+  return w->failed ? HC_NO_MEMORY : HC_OK;
 }
 
 static double complex on_circle(double angle) { return cos(angle) + I * sin(angle); }

@@ -7,10 +7,11 @@
  * mode's frequency, nearly dependent eigenvectors) is measured: where that is much, there is no motion here. */
 #pragma once
 
+#include "base/workspace.h"
 #include "numerics/exponentials.h"
 #include "timeint/closed_form/interval_modes.h"
 
-typedef struct motion_modes { /* from motion_modes_make, to motion_modes_free */
+typedef struct motion_modes {
   const modal_base *base;
   const complex_modes *modes;
   double theta;                               /* [rad] where it begins */
@@ -23,13 +24,10 @@ typedef struct motion_modes { /* from motion_modes_make, to motion_modes_free */
   exponential_sum *guard;                     /* [TRACK_GUARDS n_contacts], or +-r' */
   int *of;                                    /* [TRACK_GUARDS n_contacts] whose guard */
   track_event *event;
-  double complex *numbers;
-  double *sizes;
-  exponential_sum *sums;
 } motion_modes;
 
-hc_status motion_modes_make(motion_modes *mm, const modal_base *base); /* HC_NO_MEMORY; free in any case */
-void motion_modes_free(motion_modes *mm);
+/* Arrays are memory's. HC_NO_MEMORY. */
+hc_status motion_modes_make(motion_modes *mm, const modal_base *base, workspace *memory);
 
 /* From X = y[0..n-1], X' = y[n..2n-1] at theta on; false: more than two digits would cancel. */
 bool motion_modes_begin(motion_modes *mm, const complex_modes *modes, const scaled_model *m, const contact_track *track,

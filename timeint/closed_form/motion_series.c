@@ -2,7 +2,6 @@
 #include "timeint/closed_form/motion_series.h"
 
 #include <float.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/exponentials.h"
@@ -10,30 +9,20 @@
 
 enum { TERMS = TRACK_TERMS, MAX_NEWTON = 60 };
 
-hc_status motion_series_make(motion_series *s, const modal_base *base)
+hc_status motion_series_make(motion_series *s, const modal_base *base, workspace *w)
 {
   const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, loads = (size_t)base->n_loads;
   *s = (motion_series){.n = base->n, .n_contacts = base->n_contacts};
-  s->x = calloc((TERMS + 1) * n, sizeof *s->x);
-  s->force = s->x ? s->x + TERMS * n : NULL;
-  s->u = calloc((2 * TERMS + 4) * contacts + 2 * loads + 1, sizeof *s->u);
-  s->v = s->u ? s->u + TERMS * contacts : NULL;
-  s->q = s->v ? s->v + TERMS * contacts : NULL;
-  s->pull = s->q ? s->q + 2 * contacts : NULL;
-  s->load = s->pull ? s->pull + 2 * contacts : NULL;
-  s->law = calloc(contacts + 1, sizeof *s->law);
-  s->turning = calloc((size_t)base->n_planar + 1, sizeof *s->turning);
-  const hc_status st = contact_rows_make(&s->rows, base);
-  return s->x && s->u && s->law && s->turning ? st : HC_NO_MEMORY;
-}
-
-void motion_series_free(motion_series *s)
-{
-  contact_rows_free(&s->rows);
-  free(s->x);
-  free(s->u);
-  free(s->law);
-  free(s->turning);
+  s->x = workspace_doubles(w, TERMS * n);
+  s->force = workspace_doubles(w, n);
+  s->u = workspace_doubles(w, TERMS * contacts);
+  s->v = workspace_doubles(w, TERMS * contacts);
+  s->q = workspace_doubles(w, 2 * contacts);
+  s->pull = workspace_doubles(w, 2 * contacts);
+  s->load = workspace_doubles(w, 2 * loads);
+  s->law = workspace_array(w, contacts, sizeof *s->law);
+  s->turning = workspace_array(w, (size_t)base->n_planar, sizeof *s->turning);
+  return w->failed ? HC_NO_MEMORY : contact_rows_make(&s->rows, base, w);
 }
 
 static double largest(int n, const double *a)

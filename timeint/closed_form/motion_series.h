@@ -11,10 +11,11 @@
  * Nothing is allocated after motion_series_make. */
 #pragma once
 
+#include "base/workspace.h"
 #include "timeint/closed_form/planar_series.h"
 #include "timeint/law/contact_rows.h"
 
-typedef struct motion_series { /* from motion_series_make, to motion_series_free */
+typedef struct motion_series {
   int n, n_contacts;
   double *x;     /* [TRACK_ORDER + 1][n] */
   double *u, *v; /* [n_contacts][TRACK_ORDER + 1] */
@@ -27,8 +28,8 @@ typedef struct motion_series { /* from motion_series_make, to motion_series_free
   planar_series *turning;     /* [n_planar] */
 } motion_series;
 
-hc_status motion_series_make(motion_series *s, const modal_base *base); /* HC_NO_MEMORY; free in any case */
-void motion_series_free(motion_series *s);
+/* Arrays are memory's. HC_NO_MEMORY. */
+hc_status motion_series_make(motion_series *s, const modal_base *base, workspace *memory);
 
 /* The series from X = y[0..n-1], X' = y[n..2n-1] at theta, and how far it is exact to rounding (INFINITY: for ever). */
 double motion_series_begin(motion_series *s, const scaled_model *m, const contact_track *track, double theta,

@@ -2,7 +2,6 @@
 #include "timeint/closed_form/motion_single.h"
 
 #include <float.h>
-#include <stdlib.h>
 
 bool motion_single_fits(const modal_base *base)
 {
@@ -11,20 +10,13 @@ bool motion_single_fits(const modal_base *base)
   return fits;
 }
 
-hc_status motion_single_make(motion_single *s, const modal_base *base)
+hc_status motion_single_make(motion_single *s, const modal_base *base, workspace *w)
 {
   const size_t guards = TRACK_GUARDS * (size_t)base->n_contacts + 1;
-  *s = (motion_single){.guard = calloc(guards, sizeof *s->guard),
-                       .of = calloc(guards, sizeof *s->of),
-                       .event = calloc(guards, sizeof *s->event)};
-  return s->guard && s->of && s->event ? HC_OK : HC_NO_MEMORY;
-}
-
-void motion_single_free(motion_single *s)
-{
-  free(s->guard);
-  free(s->of);
-  free(s->event);
+  s->guard = workspace_array(w, guards, sizeof *s->guard);
+  s->of = workspace_array(w, guards, sizeof *s->of);
+  s->event = workspace_array(w, guards, sizeof *s->event);
+  return w->failed ? HC_NO_MEMORY : HC_OK;
 }
 
 static int sign_of(double a) { return (a > 0) - (a < 0); }

@@ -2,10 +2,11 @@
  * exact to rounding however long the interval is, where a power series takes steps. */
 #pragma once
 
+#include "base/workspace.h"
 #include "timeint/closed_form/modal_motion.h"
 #include "timeint/law/contact_track.h"
 
-typedef struct motion_single { /* from motion_single_make, to motion_single_free */
+typedef struct motion_single {
   modal_motion motion;
   modal_point end;    /* of the interval */
   int way;            /* sign of P in the interval */
@@ -17,8 +18,8 @@ typedef struct motion_single { /* from motion_single_make, to motion_single_free
 /* Is there such a motion: one degree of freedom, its loads constant or once a period? */
 bool motion_single_fits(const modal_base *base);
 
-hc_status motion_single_make(motion_single *s, const modal_base *base); /* HC_NO_MEMORY; free in any case */
-void motion_single_free(motion_single *s);
+/* Arrays are memory's. HC_NO_MEMORY. */
+hc_status motion_single_make(motion_single *s, const modal_base *base, workspace *memory);
 
 /* From X = y[0], X' = y[1] at theta on, to the first event or, where `to_turn`, the first turn of X, at most *span,
  * which becomes the time to it. *whose: the contact, -1: none. At a turn X' is then exactly 0. HC_NOT_FINITE. */

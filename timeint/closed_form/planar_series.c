@@ -2,7 +2,6 @@
 #include "timeint/closed_form/planar_series.h"
 
 #include <float.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* sum of a_i b_{k-i}, i = from .. to. */
@@ -98,21 +97,14 @@ void planar_series_guard(const planar_series *s, const scaled_contact *c, double
 
 /* ---- variations ---------------------------------------------------------------------------------------- */
 
-hc_status planar_columns_make(planar_columns *c, int columns)
+void planar_columns_make(planar_columns *c, int columns, workspace *memory)
 {
-  const size_t width = (size_t)columns, series = TRACK_TERMS * width;
-  double **const arrays[] = {&c->u[0], &c->u[1], &c->v, &c->angle};
-  const size_t n_arrays = sizeof arrays / sizeof *arrays;
+  double **const series[] = {&c->u[0], &c->u[1], &c->v, &c->angle},
+                 **const rows[] = {&c->pull[0], &c->pull[1], &c->sum};
   *c = (planar_columns){.columns = columns};
-  if (!(c->numbers = calloc(n_arrays * series + 3 * width, sizeof *c->numbers))) return HC_NO_MEMORY;
-  for (size_t i = 0; i < n_arrays; ++i) *arrays[i] = c->numbers + i * series;
-  c->pull[0] = c->numbers + n_arrays * series;
-  c->pull[1] = c->pull[0] + width;
-  c->sum = c->pull[1] + width;
-  return HC_OK;
+  for (size_t i = 0; i < 4; ++i) *series[i] = workspace_doubles(memory, TRACK_TERMS * (size_t)columns);
+  for (size_t i = 0; i < 3; ++i) *rows[i] = workspace_doubles(memory, (size_t)columns);
 }
-
-void planar_columns_free(planar_columns *c) { free(c->numbers); }
 
 void planar_columns_begin(planar_columns *c, const planar_series *s, const scaled_contact *law, double h)
 {

@@ -10,6 +10,7 @@
  * The slider slips as long as s = U'.e - (mu N)'/kt >= 0. */
 #pragma once
 
+#include "base/workspace.h"
 #include "timeint/law/contact_track.h"
 
 typedef struct planar_series {
@@ -43,7 +44,7 @@ void planar_series_guard(const planar_series *s, const scaled_contact *c, double
  * N, e, q and U' are those of the motion, so the equation is linear, with coefficients that are series. From touch-down
  * on, N_0 = 0, it is singular as that of e is, and dphi_0 follows from dU' and dN. A term is a coefficient times h^k.
  * Nothing is allocated after planar_columns_make. */
-typedef struct planar_columns { /* from planar_columns_make, to planar_columns_free; of one contact */
+typedef struct planar_columns { /* of one contact */
   int columns;                  /* the most side by side */
   bool fresh;
   double h, kt, friction; /* friction: mu kn */
@@ -54,11 +55,10 @@ typedef struct planar_columns { /* from planar_columns_make, to planar_columns_f
   double *angle;                 /* [TRACK_TERMS][columns] of dphi */
   double *pull[2];               /* [columns] of dT */
   double *sum;                   /* [columns] */
-  double *numbers;               /* of all arrays */
 } planar_columns;
 
-hc_status planar_columns_make(planar_columns *c, int columns); /* HC_NO_MEMORY; free it in any case */
-void planar_columns_free(planar_columns *c);
+/* Arrays are memory's. */
+void planar_columns_make(planar_columns *c, int columns, workspace *memory);
 
 /* Along that motion, steps of h. */
 void planar_columns_begin(planar_columns *c, const planar_series *s, const scaled_contact *law, double h);

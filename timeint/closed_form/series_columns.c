@@ -3,7 +3,6 @@
 #include "timeint/closed_form/series_columns.h"
 
 #include <float.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/dense.h"
@@ -18,62 +17,35 @@ static const double of_slowed =
 static const double died_away =
     1e-200; /* [square] of a column that began as 1: below, the squares of terms underflow */
 
-hc_status series_columns_make(series_columns *s, const modal_base *base)
+hc_status series_columns_make(series_columns *s, const modal_base *base, workspace *w)
 {
-  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, rows = 2 * contacts;
-  const size_t planar = (size_t)base->n_planar;
-  *s = (series_columns){.n = base->n, .n_contacts = base->n_contacts};
-  const struct {
-    double **array;
-    size_t count;
-  } parts[] = {{&s->turned_K, base->diagonal_K ? 0 : n * n},
-               {&s->turned_C, base->diagonal_C ? 0 : n * n},
-               {&s->rows, n * rows},
-               {&s->turned, n * rows},
-               {&s->x, BLOCK * n},
-               {&s->p, BLOCK * n},
-               {&s->x_end, BLOCK * n},
-               {&s->p_end, BLOCK * n},
-               {&s->term, BLOCK * n},
-               {&s->next, BLOCK * n},
-               {&s->second, BLOCK * n},
-               {&s->share, BLOCK * n},
-               {&s->motion, BLOCK * rows},
-               {&s->slider, BLOCK * contacts},
-               {&s->slip_tangents, 2 * n * planar},
-               {&s->slip_normals, n * planar},
-               {&s->slip_turned, 2 * n * planar},
-               {&s->slipping, 2 * BLOCK * planar},
-               {&s->resistance, n * n},
-               {&s->size, BLOCK},
-               {&s->left, BLOCK}};
-  size_t count = 0, used = 0;
-  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
-  s->numbers = calloc(count, sizeof *s->numbers);
-  s->law = calloc(contacts + 1, sizeof *s->law);
-  s->turning = calloc((size_t)base->n_planar + 1, sizeof *s->turning);
-  if (!s->numbers || !s->law || !s->turning) return HC_NO_MEMORY;
-  s->n_planar = base->n_planar;
-  for (int i = 0; i < s->n_planar; ++i)
-    if (planar_columns_make(&s->turning[i], BLOCK) != HC_OK) return HC_NO_MEMORY;
-  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
-    *parts[k].array = s->numbers + used;
-    used += parts[k].count;
-  }
+  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, planar = (size_t)base->n_planar;
+  *s = (series_columns){.n = base->n, .n_contacts = base->n_contacts, .n_planar = base->n_planar};
+  double **const blocks[] = {&s->x, &s->p, &s->x_end, &s->p_end, &s->term, &s->next, &s->second, &s->share};
+  for (size_t i = 0; i < sizeof blocks / sizeof *blocks; ++i) *blocks[i] = workspace_doubles(w, BLOCK * n);
+  s->turned_K = workspace_doubles(w, base->diagonal_K ? 0 : n * n);
+  s->turned_C = workspace_doubles(w, base->diagonal_C ? 0 : n * n);
+  s->rows = workspace_doubles(w, 2 * n * contacts);
+  s->turned = workspace_doubles(w, 2 * n * contacts);
+  s->motion = workspace_doubles(w, 2 * BLOCK * contacts);
+  s->slider = workspace_doubles(w, BLOCK * contacts);
+  s->slip_tangents = workspace_doubles(w, 2 * n * planar);
+  s->slip_normals = workspace_doubles(w, n * planar);
+  s->slip_turned = workspace_doubles(w, 2 * n * planar);
+  s->slipping = workspace_doubles(w, 2 * BLOCK * planar);
+  s->resistance = workspace_doubles(w, n * n);
+  s->size = workspace_doubles(w, BLOCK);
+  s->left = workspace_doubles(w, BLOCK);
+  s->law = workspace_array(w, contacts, sizeof *s->law);
+  s->turning = workspace_array(w, planar, sizeof *s->turning);
+  for (int i = 0; i < s->n_planar && !w->failed; ++i) planar_columns_make(&s->turning[i], BLOCK, w);
+  if (w->failed) return HC_NO_MEMORY;
   s->rounding = 0.25 * DBL_EPSILON;
   for (size_t i = 0; i < n; ++i)
     if (base->slowed[i] != 1) s->rounding = of_slowed;
   if (!base->diagonal_K) dense_transpose(base->n, base->n, base->K, s->turned_K);
   if (!base->diagonal_C) dense_transpose(base->n, base->n, base->C, s->turned_C);
   return HC_OK;
-}
-
-void series_columns_free(series_columns *s)
-{
-  for (int i = 0; i < s->n_planar; ++i) planar_columns_free(&s->turning[i]);
-  free(s->turning);
-  free(s->numbers);
-  free(s->law);
 }
 
 /* Does T, does N of a contact with that law follow its motion? */

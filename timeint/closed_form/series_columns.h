@@ -12,7 +12,7 @@
 
 #include "timeint/closed_form/motion_series.h"
 
-typedef struct series_columns { /* from series_columns_make, to series_columns_free */
+typedef struct series_columns {
   int n, n_contacts, n_planar;
   double *turned_K, *turned_C;  /* [n][n] by rows, where they are not diagonal; else NULL */
   int n_rows;                   /* of contacts that resist in this interval */
@@ -36,11 +36,10 @@ typedef struct series_columns { /* from series_columns_make, to series_columns_f
   const motion_series *along;   /* where slips turn: the motion; else NULL */
   double rounding;              /* [column] what may be left out: DBL_EPSILON/4, or of slowed modes more */
   double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
-  double *numbers;              /* of all arrays of doubles */
 } series_columns;
 
-hc_status series_columns_make(series_columns *s, const modal_base *base); /* HC_NO_MEMORY; free it in any case */
-void series_columns_free(series_columns *s);
+/* Arrays are memory's. HC_NO_MEMORY. */
+hc_status series_columns_make(series_columns *s, const modal_base *base, workspace *memory);
 
 /* From here on contacts are in the states of track[]. */
 void series_columns_begin(series_columns *s, const scaled_model *m, const contact_track *track);

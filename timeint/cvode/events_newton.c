@@ -1,26 +1,17 @@
 /* events_newton.c - see events_newton.h. Proof: tests/timeint/test_circle.c. */
 #include "timeint/cvode/events_newton.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 hc_status events_newton_make(events_newton *s, const modal_base *base, const contact_track *track,
-                             const contact_forces_linear *law, const int *own_of)
+                             const contact_forces_linear *law, const int *own_of, workspace *w)
 {
   s->track = track;
   s->law = law;
   s->own_of = own_of;
-  s->slopes = calloc((size_t)base->n_contacts + 1, sizeof *s->slopes);
-  s->curved = calloc((size_t)base->n_contacts + 1, sizeof *s->curved);
-  const hc_status st = step_equations_make(&s->step, base);
-  return s->slopes && s->curved ? st : HC_NO_MEMORY;
-}
-
-void events_newton_free(events_newton *s)
-{
-  step_equations_free(&s->step);
-  free(s->slopes);
-  free(s->curved);
+  s->slopes = workspace_array(w, (size_t)base->n_contacts, sizeof *s->slopes);
+  s->curved = workspace_array(w, (size_t)base->n_contacts, sizeof *s->curved);
+  return step_equations_make(&s->step, base, w);
 }
 
 void events_newton_linearise(events_newton *s, const scaled_model *m, const double *y)

@@ -12,7 +12,7 @@
 #include "timeint/cvode/step_equations.h"
 #include "timeint/law/contact_track.h"
 
-typedef struct events_newton { /* from events_newton_make, to events_newton_free */
+typedef struct events_newton {
   step_equations step;
   const contact_track *track;       /* [n_contacts] the owner's, as of all that follows: */
   const contact_forces_linear *law; /* [n_contacts] */
@@ -21,10 +21,9 @@ typedef struct events_newton { /* from events_newton_make, to events_newton_free
   bool *curved;                     /* [n_contacts] which these are */
 } events_newton;
 
-/* HC_NO_MEMORY; free it in any case. */
+/* Arrays are memory's. HC_NO_MEMORY. */
 hc_status events_newton_make(events_newton *s, const modal_base *base, const contact_track *track,
-                             const contact_forces_linear *law, const int *own_of);
-void events_newton_free(events_newton *s);
+                             const contact_forces_linear *law, const int *own_of, workspace *memory);
 
 /* The law's derivatives at y. */
 void events_newton_linearise(events_newton *s, const scaled_model *m, const double *y);

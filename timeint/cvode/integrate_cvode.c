@@ -170,6 +170,7 @@ void integrate_free_parts(cvode_integrator *in)
   if (in->dky) N_VDestroy(in->dky);
   if (in->y) N_VDestroy(in->y);
   if (in->ctx) SUNContext_Free(&in->ctx);
+  workspace_free(&in->memory);
 }
 
 bool integrate_cvode_goes_on(cvode_integrator *in)

@@ -8,6 +8,7 @@
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 
+#include "base/workspace.h"
 #include "timeint/period/integrate_private.h"
 
 typedef struct cvode_integrator { /* the first member of each kind */
@@ -23,6 +24,7 @@ typedef struct cvode_integrator { /* the first member of each kind */
   void *equations;                           /* the linear ones of a step, the owner's, */
   void (*solve)(void *equations, double *r); /* and how they are solved, from the right-hand side r[n] */
   void *cv;
+  workspace memory; /* of the owner's arrays */
 } cvode_integrator;
 
 enum { INTEGRATE_SINGULAR = 1 }; /* what a CVLsLinSysFn answers to have CVODE try a shorter step */

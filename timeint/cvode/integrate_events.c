@@ -451,15 +451,8 @@ static bool fourier(const integrator *base, int i, double out[3])
 static void release(integrator *base)
 {
   events *in = (events *)base;
-  fundamental_matrix_free(&in->variations);
   interval_modes_free(in->modes);
   integrate_free_parts(&in->base);
-  events_newton_free(&in->newton);
-  free(in->track);
-  free(in->law);
-  free(in->info);
-  free(in->rate);
-  free(in->own_of);
   free(base);
 }
 
@@ -510,18 +503,17 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   in->tolerance = tolerance;
   in->held_pull = fmax(1e-17, 1e-3 * tolerance);
   in->is_single = motion_single_fits(base) && base->n_planar == 0;
-  in->base.base.track = in->track = calloc(contacts + 1, sizeof *in->track);
-  in->law = calloc(contacts + 1, sizeof *in->law);
-  in->info = calloc(ROOTS * contacts + 1, sizeof *in->info);
   in->n_equations = 2 * base->n + base->n_planar;
-  in->rate = calloc((size_t)in->n_equations + (size_t)base->n_planar, sizeof *in->rate);
-  in->own_of = calloc(contacts + 1, sizeof *in->own_of);
-  const bool enough = in->track && in->law && in->info && in->rate && in->own_of;
-  hc_status st = enough ? HC_OK : HC_NO_MEMORY;
-  if (st == HC_OK) in->own = in->rate + in->n_equations;
-  if (st == HC_OK) st = interval_modes_new(base, INTERVAL_MODES_STIFF, &in->modes);
-  if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes);
-  if (st == HC_OK) st = events_newton_make(&in->newton, base, in->track, in->law, in->own_of);
+  workspace *w = &in->base.memory;
+  in->base.base.track = in->track = workspace_array(w, contacts, sizeof *in->track);
+  in->law = workspace_array(w, contacts, sizeof *in->law);
+  in->info = workspace_array(w, ROOTS * contacts, sizeof *in->info);
+  in->rate = workspace_doubles(w, (size_t)in->n_equations);
+  in->own = workspace_doubles(w, (size_t)base->n_planar);
+  in->own_of = workspace_array(w, contacts, sizeof *in->own_of);
+  hc_status st = interval_modes_new(base, INTERVAL_MODES_STIFF, &in->modes);
+  if (st == HC_OK) st = fundamental_matrix_make(&in->variations, base, in->modes, w);
+  if (st == HC_OK) st = events_newton_make(&in->newton, base, in->track, in->law, in->own_of, w);
   if (st == HC_OK) st = integrate_make_parts(&in->base, in->n_equations, bdf ? CV_BDF : CV_ADAMS, &in->newton, solve);
   if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) {

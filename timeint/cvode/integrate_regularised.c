@@ -110,12 +110,12 @@ static hc_status make_variations(regularised *in)
 
 static hc_status make_parts(regularised *in, const modal_base *base)
 {
-  hc_status st = structure_newton_make(&in->newton, base);
-  if (st == HC_OK) st = structure_newton_make(&in->variation, base);
+  hc_status st = structure_newton_make(&in->newton, base, &in->base.memory);
+  if (st == HC_OK) st = structure_newton_make(&in->variation, base, &in->base.memory);
   if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, &in->newton, solve);
   if (st != HC_OK) return st;
   in->s = N_VCloneVectorArray(in->n, in->base.y); /* room: asked for above */
-  in->s_tolerance = calloc((size_t)in->n, sizeof *in->s_tolerance);
+  in->s_tolerance = workspace_doubles(&in->base.memory, (size_t)in->n);
   return in->s && in->s_tolerance ? HC_OK : HC_NO_MEMORY;
 }
 
@@ -123,10 +123,7 @@ static void release(integrator *base)
 {
   regularised *in = (regularised *)base;
   if (in->s) N_VDestroyVectorArray(in->s, in->n);
-  free(in->s_tolerance);
   integrate_free_parts(&in->base);
-  structure_newton_free(&in->newton);
-  structure_newton_free(&in->variation);
   free(base);
 }
 

@@ -1,49 +1,28 @@
 /* step_equations.c - see step_equations.h. Proof: tests/timeint/test_large.c. */
 #include "timeint/cvode/step_equations.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/dense.h"
 
-hc_status step_equations_make(step_equations *s, const modal_base *base)
+hc_status step_equations_make(step_equations *s, const modal_base *base, workspace *w)
 {
-  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts;
-  const bool diagonal = base->diagonal_K && base->diagonal_C;
+  const size_t n = (size_t)base->n;
   *s = (step_equations){.base = base, .n = base->n, .n_contacts = base->n_contacts};
-  if (contact_rows_make(&s->rows, base) != HC_OK) return HC_NO_MEMORY;
+  if (contact_rows_make(&s->rows, base, w) != HC_OK) return HC_NO_MEMORY;
   s->n_rows = s->rows.count;
   const size_t rows = (size_t)s->n_rows;
-  const struct {
-    double **array;
-    size_t count;
-  } parts[] = {{&s->D, diagonal ? n : n * n},
-               {&s->pulled, n * rows},
-               {&s->compliant, rows * rows},
-               {&s->small, rows * rows},
-               {&s->force, rows},
-               {&s->q, rows},
-               {&s->p, n}};
-  size_t count = 0, used = 0;
-  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) count += parts[k].count;
-  s->numbers = calloc(count, sizeof *s->numbers);
-  s->contact = calloc(contacts + 1, sizeof *s->contact);
-  s->pivot = calloc(rows + n, sizeof *s->pivot);
-  if (!s->numbers || !s->contact || !s->pivot) return HC_NO_MEMORY;
-  s->small_pivot = s->pivot + n;
-  for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
-    *parts[k].array = s->numbers + used;
-    used += parts[k].count;
-  }
-  return HC_OK;
-}
-
-void step_equations_free(step_equations *s)
-{
-  free(s->numbers);
-  free(s->contact);
-  free(s->pivot);
-  contact_rows_free(&s->rows);
+  s->contact = workspace_array(w, (size_t)base->n_contacts, sizeof *s->contact);
+  s->D = workspace_doubles(w, base->diagonal_K && base->diagonal_C ? n : n * n);
+  s->pulled = workspace_doubles(w, n * rows);
+  s->compliant = workspace_doubles(w, rows * rows);
+  s->small = workspace_doubles(w, rows * rows);
+  s->force = workspace_doubles(w, rows);
+  s->q = workspace_doubles(w, rows);
+  s->p = workspace_doubles(w, n);
+  s->pivot = workspace_array(w, n, sizeof *s->pivot);
+  s->small_pivot = workspace_array(w, rows, sizeof *s->small_pivot);
+  return w->failed ? HC_NO_MEMORY : HC_OK;
 }
 
 double step_equations_motion(const step_equations *s, int j, int directions, double u[2])

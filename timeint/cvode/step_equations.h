@@ -20,9 +20,9 @@ typedef struct step_contact {
   double by_u[2][2], by_v[2], n_v;
 } step_contact;
 
-typedef struct step_equations { /* from step_equations_make, to step_equations_free */
-  const modal_base *base;       /* the owner's */
-  int n, n_contacts, n_rows;    /* n_rows = rows.count */
+typedef struct step_equations {
+  const modal_base *base;    /* the owner's */
+  int n, n_contacts, n_rows; /* n_rows = rows.count */
   contact_rows rows;
   double gamma, by_K, by_C;
   step_contact *contact; /* [n_contacts] for the owner to set before step_equations_factor */
@@ -33,11 +33,10 @@ typedef struct step_equations { /* from step_equations_make, to step_equations_f
   double *force, *q;     /* [n_rows] c, then the forces; B x */
   double *p;             /* [n] */
   int *pivot, *small_pivot;
-  double *numbers; /* of all arrays of doubles */
 } step_equations;
 
-hc_status step_equations_make(step_equations *s, const modal_base *base); /* HC_NO_MEMORY; free it in any case */
-void step_equations_free(step_equations *s);
+/* Arrays are memory's. HC_NO_MEMORY. */
+hc_status step_equations_make(step_equations *s, const modal_base *base, workspace *memory);
 
 /* Factors of s->contact with s->gamma and *m's coefficients; false: singular. */
 bool step_equations_factor(step_equations *s, const scaled_model *m);

@@ -1,7 +1,6 @@
 /* structure_newton.c - see structure_newton.h. Proof: tests/timeint/test_large.c. */
 #include "timeint/cvode/structure_newton.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Contact j's motion, and rates, of the rows' motion in the step's q and the newton's dq. */
@@ -19,22 +18,14 @@ static void find_motion(const structure_newton *s, const scaled_model *m, const 
   if (m->by_rates) contact_rows_motion(&s->step.rows, y + s->step.n, s->dq);
 }
 
-hc_status structure_newton_make(structure_newton *s, const modal_base *base)
+hc_status structure_newton_make(structure_newton *s, const modal_base *base, workspace *w)
 {
   const size_t contacts = (size_t)base->n_contacts;
-  s->law = calloc(contacts + 1, sizeof *s->law);
-  s->share = calloc(contacts + 1, sizeof *s->share);
-  const hc_status st = step_equations_make(&s->step, base);
-  s->dq = calloc((size_t)s->step.n_rows + 1, sizeof *s->dq);
-  return s->law && s->share && s->dq ? st : HC_NO_MEMORY;
-}
-
-void structure_newton_free(structure_newton *s)
-{
-  step_equations_free(&s->step);
-  free(s->law);
-  free(s->share);
-  free(s->dq);
+  s->law = workspace_array(w, contacts, sizeof *s->law);
+  s->share = workspace_array(w, contacts, sizeof *s->share);
+  if (step_equations_make(&s->step, base, w) != HC_OK) return HC_NO_MEMORY;
+  s->dq = workspace_doubles(w, (size_t)s->step.n_rows);
+  return s->dq ? HC_OK : HC_NO_MEMORY;
 }
 
 bool structure_newton_rate(const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy)

@@ -9,15 +9,15 @@
 
 #include "timeint/cvode/step_equations.h"
 
-typedef struct structure_newton { /* from structure_newton_make, to structure_newton_free */
+typedef struct structure_newton {
   step_equations step;
   planar_derivatives *law; /* [n_contacts] where the equations were linearised */
   double (*share)[2][2];   /* [n_contacts] (1 + gamma r_u)^-1 */
   double *dq;              /* [n_rows] rates of the contacts' motion, where a law depends on them */
 } structure_newton;
 
-hc_status structure_newton_make(structure_newton *s, const modal_base *base); /* HC_NO_MEMORY; free it in any case */
-void structure_newton_free(structure_newton *s);
+/* Arrays are memory's. HC_NO_MEMORY. */
+hc_status structure_newton_make(structure_newton *s, const modal_base *base, workspace *memory);
 
 /* dy[n_states] at theta and y[n_states], the same as scaled_rhs. Answers whether all of it is finite. */
 bool structure_newton_rate(const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy);

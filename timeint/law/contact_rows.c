@@ -1,7 +1,6 @@
 /* contact_rows.c - see contact_rows.h. */
 #include "timeint/law/contact_rows.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/dense.h"
@@ -17,27 +16,21 @@ static int keep_row(contact_rows *c, const double *row)
   return c->count++;
 }
 
-hc_status contact_rows_make(contact_rows *c, const modal_base *base)
+hc_status contact_rows_make(contact_rows *c, const modal_base *base, workspace *w)
 {
   const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts;
   *c = (contact_rows){.n = base->n};
-  c->row = calloc(4 * n * contacts + 1, sizeof *c->row);
-  c->along = calloc(2 * contacts + 1, sizeof *c->along);
-  if (!c->row || !c->along) return HC_NO_MEMORY;
-  c->turned = c->row + 2 * n * contacts;
-  c->across = c->along + contacts;
+  c->row = workspace_doubles(w, 2 * n * contacts);
+  c->turned = workspace_doubles(w, 2 * n * contacts);
+  c->along = workspace_array(w, contacts, sizeof *c->along);
+  c->across = workspace_array(w, contacts, sizeof *c->across);
+  if (w->failed) return HC_NO_MEMORY;
   for (size_t j = 0; j < contacts; ++j) {
     c->along[j] = keep_row(c, base->tangent + j * n);
     c->across[j] = keep_row(c, base->normal + j * n);
   }
   dense_transpose(c->n, c->count, c->row, c->turned);
   return HC_OK;
-}
-
-void contact_rows_free(contact_rows *c)
-{
-  free(c->row);
-  free(c->along);
 }
 
 void contact_rows_motion(const contact_rows *c, const double *x, double *q)

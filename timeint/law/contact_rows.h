@@ -2,17 +2,18 @@
  * share its normal. libm and BLAS. */
 #pragma once
 
+#include "base/workspace.h"
 #include "timeint/law/modal_base.h"
 
-typedef struct contact_rows { /* from contact_rows_make, to contact_rows_free; only read in between */
+typedef struct contact_rows { /* made once, then only read */
   int n, count;
   int *along, *across; /* [n_contacts] which row is t_j, n_j; -1: none */
   double *row;         /* [n][count] by columns: row r at row + r n */
   double *turned;      /* [count][n] by columns */
 } contact_rows;
 
-hc_status contact_rows_make(contact_rows *c, const modal_base *base); /* HC_NO_MEMORY; free it in any case */
-void contact_rows_free(contact_rows *c);
+/* Arrays are memory's. HC_NO_MEMORY. */
+hc_status contact_rows_make(contact_rows *c, const modal_base *base, workspace *memory);
 
 /* q[count] := the rows times x[n]. */
 void contact_rows_motion(const contact_rows *c, const double *x, double *q);

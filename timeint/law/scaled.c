@@ -116,8 +116,6 @@ double scaled_pull(const scaled_model *m, int j)
   return sqrt(dot_product(m->n, t, t));
 }
 
-/* ---- the right-hand side and its Jacobian ------------------------------------------------------------ */
-
 void scaled_linear_force(const scaled_model *m, double theta, const double *y, double *out)
 {
   const modal_base *b = m->base;
@@ -155,56 +153,4 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
     sum += y[n + i] + force[i];
   }
   return isfinite(sum);
-}
-
-/* What motion along direction b of a contact, tangents t[][n], does to direction a of it. */
-static void add_direction(double *jac, size_t n, size_t ld, size_t w, const double *t, int a, int b,
-                          const planar_derivatives *s)
-{
-  const double *pulls = t + (size_t)a * n, *moves = t + (size_t)b * n;
-  double *slider = jac + (w + (size_t)b) * ld;
-  for (size_t col = 0; col < n; ++col) {
-    const double force = s->t_u[a][b] * moves[col];
-    for (size_t row = 0; row < n; ++row) jac[col * ld + n + row] -= pulls[row] * force;
-    jac[col * ld + w + (size_t)a] += s->rate_u[a][b] * moves[col];
-  }
-  for (size_t row = 0; row < n; ++row) slider[n + row] += s->t_u[a][b] * pulls[row];
-  slider[w + (size_t)a] = -s->rate_u[a][b];
-}
-
-void scaled_jacobian(const scaled_model *m, const double *y, double *jac)
-{
-  const size_t n = (size_t)m->n, ld = (size_t)m->n_states;
-  /* Without contacts: jac[ld * ld], ld >= 2 n, of which the rest is 0. */
-  const modal_base *base = m->base;
-  const size_t count = (size_t)m->n;
-  memset(jac, 0, ld * ld * sizeof *jac);
-  for (size_t col = 0; col < count; ++col) {
-    double *by_x = jac + col * ld, *by_p = jac + (count + col) * ld;
-    by_p[col] = 1;
-    if (base->diagonal_K) by_x[count + col] = -m->by_K * base->K[col];
-    if (base->diagonal_C) by_p[count + col] = -m->by_C * base->C[col];
-    for (size_t row = 0; row < count && !base->diagonal_K; ++row)
-      by_x[count + row] = -m->by_K * base->K[col * count + row];
-    for (size_t row = 0; row < count && !base->diagonal_C; ++row)
-      by_p[count + row] = -m->by_C * base->C[col * count + row];
-  }
-  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
-    const size_t w = 2 * n + (size_t)j;
-    const int directions = scaled_directions(m, j);
-    const double *t = m->base->tangent + (size_t)j * n, *normal = m->base->normal + (size_t)j * n;
-    const contact_motion moves = scaled_law_motion(m, j, y);
-    const planar_derivatives s = m->contact[j].kind->derivatives(&m->contact[j].law, &moves, y + w);
-    for (size_t col = 0; col < n && s.t_du != 0; ++col)
-      for (size_t row = 0; row < n; ++row) jac[(n + col) * ld + n + row] -= s.t_du * t[row] * t[col];
-    for (int a = 0; a < directions; ++a)
-      for (int b = 0; b < directions; ++b) add_direction(jac, n, ld, w, t, a, b, &s);
-    for (int a = 0; a < directions; ++a) {
-      for (size_t col = 0; col < n; ++col) {
-        const double force_t = s.t_v[a] * normal[col], force_n = s.n_v * normal[col], *along = t + (size_t)a * n;
-        for (size_t row = 0; row < n; ++row) jac[col * ld + n + row] -= along[row] * force_t + normal[row] * force_n;
-        jac[col * ld + w + (size_t)a] += s.rate_v[a] * normal[col];
-      }
-    }
-  }
 }

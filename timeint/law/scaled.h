@@ -40,9 +40,6 @@ double scaled_force_unit(const scaled_model *m, double omega, double length);
 /* dy[n_states] at phase theta and state y[n_states]. Answers whether all of it is finite. */
 bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy);
 
-/* jac[n_states * n_states], column by column: d dy[i] / d y[j] at jac[i + j n_states]. */
-void scaled_jacobian(const scaled_model *m, const double *y, double *jac);
-
 /* out[n] := by_load p(theta) - by_C C P - by_K K X: all but the contacts. */
 void scaled_linear_force(const scaled_model *m, double theta, const double *y, double *out);
 

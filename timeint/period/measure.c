@@ -8,39 +8,23 @@
 #include "base/constants.h"
 #include "numerics/roots.h"
 
-hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts)
+hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts, workspace *w)
 {
-  const size_t n = (size_t)n_states;
-  *me = (measure){.n_responses = n_responses,
-                  .n_contacts = n_contacts,
-                  .response = calloc((size_t)n_responses, sizeof *me->response),
-                  .state = calloc((size_t)n_contacts + 1, sizeof *me->state),
-                  .seen = calloc((size_t)n_contacts + 1, 1),
-                  .slider = calloc(2 * (size_t)n_contacts + 1, sizeof(double)),
-                  .end = calloc(n, sizeof(double)),
-                  .end_rate = calloc(n, sizeof(double)),
-                  .inside = calloc(n, sizeof(double)),
-                  .circle = calloc((size_t)TIMEINT_WAVE * 2, sizeof(double))};
-  if (!me->response || !me->state || !me->seen || !me->slider || !me->end || !me->end_rate || !me->inside ||
-      !me->circle)
-    return HC_NO_MEMORY;
+  const size_t n = (size_t)n_states, contacts = (size_t)n_contacts;
+  *me = (measure){.n_responses = n_responses, .n_contacts = n_contacts};
+  me->response = workspace_array(w, (size_t)n_responses, sizeof *me->response);
+  me->state = workspace_array(w, contacts, sizeof *me->state);
+  me->seen = workspace_array(w, contacts, 1);
+  me->slider = workspace_doubles(w, 2 * contacts);
+  double **const states[] = {&me->end, &me->end_rate, &me->inside};
+  for (size_t i = 0; i < 3; ++i) *states[i] = workspace_doubles(w, n);
+  me->circle = workspace_doubles(w, 2 * (size_t)TIMEINT_WAVE);
+  if (w->failed) return HC_NO_MEMORY;
   for (int i = 0; i < TIMEINT_WAVE; ++i) {
     me->circle[2 * i] = cos(TWO_PI * i / TIMEINT_WAVE);
     me->circle[2 * i + 1] = sin(TWO_PI * i / TIMEINT_WAVE);
   }
   return HC_OK;
-}
-
-void measure_free(measure *me)
-{
-  free(me->response);
-  free(me->state);
-  free(me->seen);
-  free(me->slider);
-  free(me->circle);
-  free(me->end);
-  free(me->end_rate);
-  free(me->inside);
 }
 
 void measure_begin(measure *me, const scaled_model *m)

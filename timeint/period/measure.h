@@ -8,6 +8,7 @@
  * factor that a stiff contact makes large (1e-9 of x on case 2 with kn = 1e4, 1e-6 with kn = 4e6 times the spring). */
 #pragma once
 
+#include "base/workspace.h"
 #include "timeint/period/integrate.h"
 #include "timeint/timeint_result.h"
 
@@ -40,10 +41,8 @@ typedef struct measure { /* lengths in units of the model's L, until measure_rep
   double *end, *end_rate, *inside; /* [n_states] a state at a step's end, its derivative, a state inside a step */
 } measure;
 
-/* Memory for models of n_states equations with so many responses and contacts. HC_NO_MEMORY; measure_free in any
- * case. */
-hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts);
-void measure_free(measure *me);
+/* For models of n_states equations with so many responses and contacts; arrays are memory's. HC_NO_MEMORY. */
+hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts, workspace *memory);
 
 /* *m stays the caller's, unchanged until the last period. */
 void measure_begin(measure *me, const scaled_model *m);

@@ -2,7 +2,6 @@
 #include "timeint/steady/closed_form_start.h"
 
 #include <complex.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "timeint/steady/linear_regime.h"
@@ -27,24 +26,20 @@ struct memory {
     timeint_result result;
     motion_error *predicted; /* [responses] */
   } orbit[REMEMBERED];
-  double *states;           /* of the orbits */
-  motion_error *predicted;  /* of the orbits */
   timeint_result untouched; /* a result before the closed form's orbit was tried */
 };
 
 static hc_status make_memory(timeint *ti)
 {
   const size_t n = (size_t)ti->n;
-  struct memory *m = ti->confirmed = calloc(1, sizeof *m);
-  const size_t responses = (size_t)ti->measure.n_responses;
-  if (!m || !(m->states = calloc(2 * REMEMBERED * n, sizeof *m->states))) return HC_NO_MEMORY;
-  if (!(m->predicted = calloc(REMEMBERED * responses, sizeof *m->predicted))) return HC_NO_MEMORY;
-  for (size_t i = 0; i < REMEMBERED; ++i) {
-    m->orbit[i].start = m->states + 2 * i * n;
-    m->orbit[i].state = m->states + (2 * i + 1) * n;
-    m->orbit[i].predicted = m->predicted + i * responses;
+  struct memory *m = ti->confirmed = workspace_array(&ti->memory, 1, sizeof *m);
+  for (size_t i = 0; i < REMEMBERED && m; ++i) {
+    m->orbit[i].start = workspace_doubles(&ti->memory, n);
+    m->orbit[i].state = workspace_doubles(&ti->memory, n);
+    m->orbit[i].predicted =
+        workspace_array(&ti->memory, (size_t)ti->measure.n_responses, sizeof *m->orbit[i].predicted);
   }
-  return HC_OK;
+  return ti->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
 hc_status closed_start_new(timeint *ti)
@@ -65,16 +60,6 @@ hc_status closed_start_share(timeint *ti, timeint *closed_form)
   ti->shares_closed_form = true;
   ++closed_form->owners;
   return make_memory(ti);
-}
-
-void closed_start_free(timeint *ti)
-{
-  if (ti->confirmed) {
-    free(ti->confirmed->predicted);
-    free(ti->confirmed->states);
-  }
-  free(ti->confirmed);
-  timeint_free(ti->closed_form);
 }
 
 static bool same_state(int n, const double *a, const double *b, double within)

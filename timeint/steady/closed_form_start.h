@@ -6,12 +6,11 @@
 
 #include "timeint/steady/steady.h"
 
-/* ti->closed_form, and what else is needed with it. HC_NO_MEMORY; closed_start_free in any case. */
+/* ti->closed_form, and what else is needed with it. HC_NO_MEMORY. */
 hc_status closed_start_new(timeint *ti);
 
 /* The same with another handle's. */
 hc_status closed_start_share(timeint *ti, timeint *closed_form);
-void closed_start_free(timeint *ti);
 
 /* From state[n] to the steady state (orbit_of 0) or to the orbit of orbit_of periods next to it, as timeint_steady and
  * timeint_orbit do by CVODE alone, from a timeint_begin on. !*done: the closed form found nothing that CVODE's periods

@@ -3,7 +3,6 @@
 #include "timeint/steady/contact_watch.h"
 
 #include <float.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/gauss.h"
@@ -181,10 +180,12 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
   double *y = ti->point[2];
   contact_watch w = {
       .ti = ti, .n_contacts = n_contacts, .stiffest = stiffest_frequency(ti), .y = ti->point[0], .dy = ti->point[1]};
-  w.of = calloc((size_t)w.n_contacts + 1, sizeof *w.of);
-  hc_status st = w.of ? contact_rows_make(&w.rows, w.ti->base) : HC_NO_MEMORY;
-  if (st == HC_OK && !(w.q = calloc(2 * (size_t)w.rows.count + 1, sizeof *w.q))) st = HC_NO_MEMORY;
-  if (st == HC_OK) w.dq = w.q + w.rows.count;
+  workspace memory = {0};
+  hc_status st = contact_rows_make(&w.rows, ti->base, &memory);
+  w.of = workspace_array(&memory, (size_t)n_contacts, sizeof *w.of);
+  w.q = workspace_doubles(&memory, (size_t)w.rows.count);
+  w.dq = workspace_doubles(&memory, (size_t)w.rows.count);
+  if (memory.failed) st = HC_NO_MEMORY;
   for (int j = 0; j < n_contacts && st == HC_OK; ++j) w.of[j].normal_min = INFINITY;
   memcpy(y, ti->y, (size_t)ti->n * sizeof *y);
   if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
@@ -205,8 +206,6 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
                                 .work = slipped ? s->work * force * length / k : 0};
     }
   }
-  contact_rows_free(&w.rows);
-  free(w.of);
-  free(w.q);
+  workspace_free(&memory);
   return st;
 }

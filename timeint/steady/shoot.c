@@ -84,7 +84,7 @@ struct shoot { /* from shoot_new, to shoot_free */
   int *pivot;                    /* [n] theirs */
   double complex *multipliers;   /* [n] */
   int *active;                   /* [n] the states that are not free sliders */
-  double *memory;                /* of all the doubles above */
+  workspace memory;              /* of all the arrays above */
   newton *newton;
   floquet *floquet;
   SUNContext ctx; /* of what follows */
@@ -343,17 +343,15 @@ static hc_status make_memory(shoot *s)
   double **const vectors[] = {&s->z,    &s->f,    &s->start,  &s->first, &s->before, &s->iterate, &s->step,
                               &s->best, &s->ones, &s->vector, &s->other, &s->travel, &s->phi_at,  &s->found_from};
   double **const matrices[] = {&s->phi, &s->one_period, &s->product, &s->matrix};
-  const size_t n = (size_t)s->n, n_vectors = sizeof vectors / sizeof *vectors,
-               n_matrices = sizeof matrices / sizeof *matrices;
-  s->memory = calloc(n_vectors * n + n_matrices * n * n, sizeof *s->memory);
-  s->multipliers = calloc(n, sizeof *s->multipliers);
-  s->active = calloc(n, sizeof *s->active);
-  s->pivot = calloc(n, sizeof *s->pivot);
-  if (!s->memory || !s->multipliers || !s->active || !s->pivot) return HC_NO_MEMORY;
-  for (size_t i = 0; i < n_vectors; ++i) *vectors[i] = s->memory + i * n;
-  for (size_t i = 0; i < n_matrices; ++i) *matrices[i] = s->memory + n_vectors * n + i * n * n;
-  for (int i = 0; i < s->n; ++i) s->ones[i] = 1;
-  return HC_OK;
+  const size_t n = (size_t)s->n;
+  workspace *w = &s->memory;
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i) *vectors[i] = workspace_doubles(w, n);
+  for (size_t i = 0; i < sizeof matrices / sizeof *matrices; ++i) *matrices[i] = workspace_doubles(w, n * n);
+  s->multipliers = workspace_array(w, n, sizeof *s->multipliers);
+  s->active = workspace_array(w, n, sizeof *s->active);
+  s->pivot = workspace_array(w, n, sizeof *s->pivot);
+  for (int i = 0; i < s->n && !w->failed; ++i) s->ones[i] = 1;
+  return w->failed ? HC_NO_MEMORY : HC_OK;
 }
 
 hc_status shoot_new(timeint *ti, shoot **out)
@@ -385,10 +383,7 @@ void shoot_free(shoot *s)
   if (s->u) N_VDestroy(s->u);
   if (s->weights) N_VDestroy(s->weights);
   if (s->ctx) SUNContext_Free(&s->ctx);
-  free(s->pivot);
-  free(s->active);
-  free(s->multipliers);
-  free(s->memory);
+  workspace_free(&s->memory);
   free(s);
 }
 

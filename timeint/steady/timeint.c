@@ -30,13 +30,13 @@ static hc_status make_memory(timeint *ti)
 {
   double **const vectors[] = {
       &ti->y,        &ti->saved,    &ti->direction, &ti->neighbour, &ti->separation, &ti->closed_form_state,
-      &ti->point[0], &ti->point[1], &ti->point[2],  &ti->began,     &ti->last.end,   &ti->past};
-  const size_t n = (size_t)ti->n, n_vectors = sizeof vectors / sizeof *vectors;
-  ti->memory = calloc((n_vectors - 1 + SETTLE_MAX_MULTIPLE) * n, sizeof *ti->memory);
-  ti->scaled.contact = calloc(n, sizeof *ti->scaled.contact); /* two more than needed, so never nothing */
-  if (!ti->memory || !ti->scaled.contact) return HC_NO_MEMORY;
-  for (size_t i = 0; i < n_vectors; ++i) *vectors[i] = ti->memory + i * n; /* the ring is the last */
-  return measure_make(&ti->measure, ti->n, ti->base->n_responses, ti->model->n_contacts);
+      &ti->point[0], &ti->point[1], &ti->point[2],  &ti->began,     &ti->last.end};
+  const size_t n = (size_t)ti->n;
+  workspace *w = &ti->memory;
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i) *vectors[i] = workspace_doubles(w, n);
+  ti->past = workspace_doubles(w, SETTLE_MAX_MULTIPLE * n);
+  ti->scaled.contact = workspace_array(w, (size_t)ti->model->n_contacts, sizeof *ti->scaled.contact);
+  return measure_make(&ti->measure, ti->n, ti->base->n_responses, ti->model->n_contacts, w);
 }
 
 static hc_status make_parts(timeint *ti)
@@ -64,8 +64,6 @@ static hc_status make(const model *m, const transient_settings *how, bool may_sl
   if (how->method == TRANSIENT_METHOD_CLOSED_FORM && (how->law != TRANSIENT_LAW_EXACT || model_is_smooth(m)))
     return HC_BAD_INPUT;
   if (!positive(how->regularisation) || !positive(how->tolerance) || how->max_periods < 1) return HC_BAD_INPUT;
-  hc_status st = HC_OK;
-  if (st != HC_OK) return st;
   if (m->n_contacts > MOST_STATES - 2 * m->n) return HC_NO_MEMORY;
   timeint *ti = calloc(1, sizeof *ti); /* zeroed, so free works half-built */
   if (!ti) return HC_NO_MEMORY;
@@ -77,7 +75,7 @@ static hc_status make(const model *m, const transient_settings *how, bool may_sl
   ti->n_dof = m->n;
   ti->n = 2 * m->n + m->n_contacts;
   ti->tolerance = timeint_final_tolerance(ti);
-  st = model_copy(m, &ti->model);
+  hc_status st = model_copy(m, &ti->model);
   if (st == HC_OK) st = modal_base_new(m, &ti->whole);
   ti->base = ti->whole;
   if (st == HC_OK && (st = make_parts(ti)) == HC_OK) {
@@ -141,14 +139,12 @@ void timeint_free(timeint *ti)
 {
   if (!ti || --ti->owners > 0) return;
   timeint_free(ti->slowed);
-  closed_start_free(ti);
+  timeint_free(ti->closed_form);
   shoot_free(ti->shoot);
   settle_free(ti->settle);
   integrate_free(ti->exact);
   integrate_free(ti->in);
-  measure_free(&ti->measure);
-  free(ti->scaled.contact);
-  free(ti->memory);
+  workspace_free(&ti->memory);
   if (ti->base != ti->whole) modal_base_free(ti->base);
   modal_base_free(ti->whole);
   model_free(ti->model);

@@ -55,7 +55,7 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double *point[3];          /* [n] states as timeint_point has them                                          */
   double *began;             /* [n] where a measurement of periods began                                      */
   double *past;              /* [SETTLE_MAX_MULTIPLE][n] a ring of the latest of these                        */
-  double *memory;            /* of all the arrays above                                                       */
+  workspace memory;          /* of all the arrays above                                                       */
 };
 
 /* ti->in and ti->exact, of ti->base, whatever they were of before. HC_NO_MEMORY. */
