@@ -1,7 +1,10 @@
 /* planar_scenes.h - contacts with two tangents, and motions in their plane, for tests. */
 #pragma once
 
+#include "hbm/contact/aft.h"
+#include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_aft.h"
+#include "hbm/planar/planar_force.h"
 #include "tests/hbm/scenes.h"
 
 enum { CIRCLE_MAX_H = 25, CIRCLE_MAX_LENGTH = 2 * CIRCLE_MAX_H + 1, CIRCLE_MAX_X = 3 * CIRCLE_MAX_LENGTH };
@@ -81,4 +84,204 @@ static inline void circle_product(int rows, const double *jac, const double *d, 
     product[p] = 0;
     for (int q = 0; q < rows; ++q) product[p] += jac[p + rows * q] * d[q];
   }
+}
+
+/* Largest force that a motion of that size can cause, for tolerances in roundings of it. */
+static inline double circle_force_size(const contact *law, double size)
+{
+  return law->kt * size + law->kn * (size + fabs(law->gap)) + law->load;
+}
+
+/* ---- what located and sampled forces have in common ------------------------------------------------------ */
+
+/* The evaluators of two tangents and of one; of sampled ones the restart and the samples vary. */
+typedef struct planar_way {
+  const contact_evaluator *by, *line;
+  bool sampled;
+  double rounding; /* [1] of a line's forces */
+} planar_way;
+
+static const hbm_restart planar_restarts[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE,
+                                              HBM_RESTART_ZEROED,       HBM_RESTART_KEPT,
+                                              HBM_RESTART_ONE_PASS,     HBM_RESTART_ONE_PASS_SAMPLE};
+enum { PLANAR_RESTARTS = sizeof planar_restarts / sizeof *planar_restarts };
+
+static inline void *planar_way_make(const contact_evaluator *by, int H, int N, hbm_restart restart, int n_dof,
+                                    const moving_contact *moved)
+{
+  const contact_coordinates c = {.n_dof = n_dof, .moved = *moved};
+  const evaluator_settings how = {.n_harm = H, .n_time = N, .restart = restart};
+  void *self;
+  assert_int_equal(by->make(&c, &how, &self), HC_OK);
+  return self;
+}
+
+static inline void planar_way_derive(const contact_evaluator *by, void *self, const double *X, double *F, double *jac,
+                                     contact_report *report)
+{
+  assert_int_equal(by->evaluate(self, X, F, by->jacobian ? NULL : jac, report), HC_OK);
+  if (by->jacobian) by->jacobian(self, jac);
+}
+
+/* J d of the circle along the line, against the other's: T along the direction, nothing across. */
+static inline void compare_on_line(int H, int n_dof, const double dir[2], const double *d, const double *jac,
+                                   const double *line_jac, double tolerance, int trial)
+{
+  const int n = series_length(H), rows = n_dof * n, line_rows = (n_dof - 1) * n;
+  for (int p = 0; p < n; ++p) {
+    double along = 0, across = 0, wanted = 0;
+    for (int q = 0; q < n; ++q) {
+      for (int e = 0; e < 2; ++e) {
+        const double *column = jac + (size_t)(e * n + q) * (size_t)rows;
+        along += (dir[0] * column[p] + dir[1] * column[n + p]) * dir[e] * d[q];
+        across += (dir[0] * column[n + p] - dir[1] * column[p]) * dir[e] * d[q];
+      }
+      wanted += line_jac[p + line_rows * q] * d[q];
+      if (n_dof < 3) continue;
+      const double *column = jac + (size_t)(2 * n + q) * (size_t)rows;
+      along += (dir[0] * column[p] + dir[1] * column[n + p]) * d[n + q];
+      wanted += line_jac[p + line_rows * (n + q)] * d[n + q];
+    }
+    CHECK_NEAR(along, wanted, tolerance, "trial %d row %d", trial, p);
+    CHECK_NEAR(across, 0, tolerance, "trial %d row %d, across", trial, p);
+  }
+}
+
+/* u = dir U: T = dir T of the law of one tangent; where samples are followed so is the Jacobian, in the directions that
+ * stay on the line. */
+static inline void check_on_line(const planar_way *way)
+{
+  static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X], line_jac[4 * CIRCLE_MAX_LENGTH * CIRCLE_MAX_LENGTH];
+  uint64_t seed = 21;
+  int regimes[4] = {0}, told_apart = 0;
+  double U[2 * CIRCLE_MAX_LENGTH], d[2 * CIRCLE_MAX_LENGTH], X[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[2 * CIRCLE_MAX_LENGTH];
+  for (int trial = 0; trial < 600; ++trial) {
+    const int H = 1 + trial % 9, N = 2 * H + 20 + 7 * (trial % 40), n = series_length(H);
+    const hbm_restart restart = planar_restarts[trial % PLANAR_RESTARTS];
+    const double angle = PI * random_signed(&seed), dir[2] = {cos(angle), sin(angle)};
+    const contact law = random_circle(&seed);
+    const int n_dof = law.kn > 0 ? 3 : 2;
+    const moving_contact half = {.law = circle_half(law)}, on_line = {.law = law, .cu = {1, 0}, .cv = {0, n_dof - 2}};
+    void *a = planar_way_make(way->by, H, N, restart, n_dof, &half),
+         *b = planar_way_make(way->line, H, N, restart, n_dof - 1, &on_line);
+    contact_report in_plane, in_line;
+    random_motion(&seed, H, 1, 1, U);
+    random_motion(&seed, H, 1, 1, U + n);
+    for (int i = 0; i < n; ++i) X[i] = dir[0] * U[i], X[n + i] = dir[1] * U[i], X[2 * n + i] = U[n + i];
+    planar_way_derive(way->by, a, X, F, jac, &in_plane);
+    planar_way_derive(way->line, b, U, G, line_jac, &in_line);
+    const double motion = sum_abs(2 * n, U), tolerance = way->rounding * circle_force_size(&law, motion);
+    for (int i = 0; i < n; ++i) {
+      CHECK_NEAR(dir[0] * F[i] + dir[1] * F[n + i], G[i], tolerance, "trial %d coefficient %d", trial, i);
+      CHECK_NEAR(dir[0] * F[n + i] - dir[1] * F[i], 0, tolerance, "trial %d coefficient %d, across", trial, i);
+      if (n_dof == 3) CHECK_NEAR(F[2 * n + i], G[n + i], tolerance, "trial %d coefficient %d, normal", trial, i);
+    }
+    double w[2], w_line;
+    way->by->sliders(a, w);
+    way->line->sliders(b, &w_line);
+    if (!way->sampled || in_plane.regime != CONTACT_LINEAR)
+      CHECK_NEAR(dir[0] * w[0] + dir[1] * w[1], w_line, way->rounding * motion, "trial %d", trial);
+    if (in_plane.regime != in_line.regime) { /* pushed until friction just holds it: a slip by rounding or none */
+      ++told_apart;
+      assert_true(fmin(in_plane.regime, in_line.regime) == CONTACT_STUCK);
+      assert_true(fmax(in_plane.regime, in_line.regime) == CONTACT_SLIPS);
+    } else {
+      assert_int_equal(in_plane.free_sliders, in_line.free_sliders);
+      if (!way->sampled) assert_int_equal(in_plane.transitions, in_line.transitions);
+    }
+    ++regimes[in_line.regime];
+    random_motion(&seed, H, 1, 0, d);
+    random_motion(&seed, H, 1, 0, d + n);
+    const double change = circle_force_size(&law, 1) * sum_abs(2 * n, d);
+    if (way->sampled) compare_on_line(H, n_dof, dir, d, jac, line_jac, 1e-12 * change, trial);
+    way->by->free(a);
+    way->line->free(b);
+  }
+  assert_true(told_apart < 60);
+  for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 20);
+}
+
+/* The plane turned, forces turn with it; the motion begun later (of sampled forces by whole samples), forces begin
+ * later too, unless where the slider rests depends on where it began: to 1e-12, as each period of dragging adds its
+ * roundings, and few are needed. */
+static inline void check_turns_and_shifts(const planar_way *way)
+{
+  uint64_t seed = 22;
+  double X[CIRCLE_MAX_X], Y[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], wanted[CIRCLE_MAX_X];
+  int shifted = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int H = 1 + trial % 6, N = 2 * H + 12 + 11 * (trial % 20), n = series_length(H), step = 1 + trial % (N - 1);
+    const contact law = random_circle(&seed);
+    const moving_contact half = {.law = circle_half(law)};
+    const int n_dof = law.kn > 0 ? 3 : 2;
+    const double angle = PI * random_signed(&seed),
+                 shift = way->sampled ? 2 * PI * step / N : PI * random_signed(&seed);
+    void *a = planar_way_make(way->by, H, N, planar_restarts[trial % 2], n_dof, &half);
+    contact_report report;
+    random_plane_motion(&seed, H, 1, X);
+    const double tolerance = 1e-12 * circle_force_size(&law, sum_abs(3 * n, X));
+    assert_int_equal(way->by->evaluate(a, X, F, NULL, &report), HC_OK);
+    turn_plane(H, angle, X, Y);
+    turn_plane(H, angle, F, wanted);
+    assert_int_equal(way->by->evaluate(a, Y, G, NULL, NULL), HC_OK);
+    for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "turned, trial %d row %d", trial, i);
+    if (!report.free_sliders && ++shifted) {
+      for (int d = 0; d < n_dof; ++d) {
+        shift_motion(H, X + d * n, shift, Y + d * n);
+        shift_motion(H, F + d * n, shift, wanted + d * n);
+      }
+      assert_int_equal(way->by->evaluate(a, Y, G, NULL, NULL), HC_OK);
+      for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "shifted, trial %d row %d", trial, i);
+    }
+    way->by->free(a);
+  }
+  assert_true(shifted > 150);
+}
+
+typedef struct planar_evaluation {
+  const contact_evaluator *by;
+  void *self;
+} planar_evaluation;
+
+static inline hc_status planar_forces(void *of, const double *X, double *F)
+{
+  const planar_evaluation *e = of;
+  return e->by->evaluate(e->self, X, F, NULL, NULL);
+}
+
+/* The Jacobian against differences, to 1e-8. A sample that changes its state, or an interval that appears, moves the
+ * difference by its kink: those are the trials counted as skipped. */
+static inline void check_planar_jacobian(const planar_way *way)
+{
+  static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X];
+  uint64_t seed = 23;
+  double X[CIRCLE_MAX_X], d[CIRCLE_MAX_X], F[CIRCLE_MAX_X], slope[CIRCLE_MAX_X], product[CIRCLE_MAX_X];
+  int skipped = 0, checked = 0, regimes[4] = {0};
+  for (int trial = 0; trial < 480; ++trial) {
+    const int H = 1 + trial % 7, N = 2 * H + 10 + 9 * (trial % 25), n = series_length(H);
+    const contact law = random_circle(&seed);
+    const moving_contact half = {.law = circle_half(law)};
+    const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
+    planar_evaluation a = {way->by,
+                           planar_way_make(way->by, H, N, planar_restarts[trial % PLANAR_RESTARTS], n_dof, &half)};
+    contact_report report;
+    random_plane_motion(&seed, H, 1, X);
+    random_plane_motion(&seed, H, 1, d);
+    const double size = circle_force_size(&law, 1) * sum_abs(rows, d);
+    const double disagreement = circle_slope_along(rows, planar_forces, &a, X, d, slope);
+    if (disagreement > 1e-6 * size) ++skipped;
+    else {
+      ++checked;
+      planar_way_derive(way->by, a.self, X, F, jac, &report);
+      circle_product(rows, jac, d, product);
+      for (int p = 0; p < rows; ++p)
+        CHECK_NEAR(product[p], slope[p], 1e-8 * size + disagreement, "trial %d restart %d regime %d row %d", trial,
+                   trial % PLANAR_RESTARTS, report.regime, p);
+      ++regimes[report.regime];
+    }
+    way->by->free(a.self);
+  }
+  print_message("%d directions checked, %d skipped for a changed state\n", checked, skipped);
+  assert_true(skipped < checked / 4);
+  for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 10);
 }

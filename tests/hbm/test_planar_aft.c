@@ -1,14 +1,6 @@
 /* test_planar_aft.c - sampled forces of contacts with two tangents under the law of the circle: on one line the law of
  * one tangent, closed forms on a circle, orders of the error, invariances, and the Jacobian against differences. */
-#include "hbm/contact/aft.h"
-#include "hbm/planar/planar_force.h"
 #include "tests/hbm/planar_scenes.h"
-
-static const hbm_restart restarts[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE,   HBM_RESTART_ZEROED,
-                                       HBM_RESTART_KEPT,         HBM_RESTART_ONE_PASS, HBM_RESTART_ONE_PASS_SAMPLE};
-enum { RESTARTS = sizeof restarts / sizeof *restarts };
-
-static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X], line_jac[4 * CIRCLE_MAX_LENGTH * CIRCLE_MAX_LENGTH];
 
 static void *make(const contact *whole, hbm_restart restart, int H, int N)
 {
@@ -18,88 +10,13 @@ static void *make(const contact *whole, hbm_restart restart, int H, int N)
   return a;
 }
 
-/* Largest force that a motion of that size can cause, for tolerances in roundings of it. */
-static double force_size(const contact *law, double size)
-{
-  return law->kt * size + law->kn * (size + fabs(law->gap)) + law->load;
-}
+/* On one line both march by the same sums but for dir's: 1e-13 of the forces; a slider keeps the roundings of a period's
+ * steps, and 30 of them at w are 30 kt. */
+static const planar_way way = {&planar_aft_evaluator, &aft_evaluator, true, 1e-13};
 
-/* ---- on one line ---------------------------------------------------------------------------------- */
-
-/* J d of the circle along the line, against the other's: T along the direction, nothing across. */
-static void compare_jacobians(int H, int n_dof, const double dir[2], const double *d, double tolerance, int trial)
-{
-  const int n = series_length(H), rows = n_dof * n, line_rows = (n_dof - 1) * n;
-  for (int p = 0; p < n; ++p) {
-    double along = 0, across = 0, wanted = 0;
-    for (int q = 0; q < n; ++q) {
-      for (int e = 0; e < 2; ++e) {
-        const double *column = jac + (size_t)(e * n + q) * (size_t)rows;
-        along += (dir[0] * column[p] + dir[1] * column[n + p]) * dir[e] * d[q];
-        across += (dir[0] * column[n + p] - dir[1] * column[p]) * dir[e] * d[q];
-      }
-      wanted += line_jac[p + line_rows * q] * d[q];
-      if (n_dof < 3) continue;
-      const double *column = jac + (size_t)(2 * n + q) * (size_t)rows;
-      along += (dir[0] * column[p] + dir[1] * column[n + p]) * d[n + q];
-      wanted += line_jac[p + line_rows * (n + q)] * d[n + q];
-    }
-    CHECK_NEAR(along, wanted, tolerance, "trial %d row %d", trial, p);
-    CHECK_NEAR(across, 0, tolerance, "trial %d row %d, across", trial, p);
-  }
-}
-
-/* u = dir U: whatever the restart, T = dir T of the law of one tangent, and so is the Jacobian in the directions that
- * stay on the line. Both march by the same sums but for dir's: 1e-13 of the forces; a slider keeps the roundings of a
- * period's steps, and 30 of them at w are 30 kt. */
-static void a_line_is_one_tangent(CHECK_STATE)
-{
-  uint64_t seed = 21;
-  int regimes[4] = {0}, told_apart = 0;
-  double U[2 * CIRCLE_MAX_LENGTH], d[2 * CIRCLE_MAX_LENGTH], X[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[2 * CIRCLE_MAX_LENGTH];
-  for (int trial = 0; trial < 600; ++trial) {
-    const int H = 1 + trial % 9, N = 2 * H + 20 + 7 * (trial % 40), n = series_length(H);
-    const hbm_restart restart = restarts[trial % RESTARTS];
-    const double angle = PI * random_signed(&seed), dir[2] = {cos(angle), sin(angle)};
-    const contact law = random_circle(&seed);
-    const int n_dof = law.kn > 0 ? 3 : 2;
-    const moving_contact on_line = {.law = law, .cu = {1, 0}, .cv = {0, n_dof - 2}};
-    void *a = make(&law, restart, H, N);
-    aft *b;
-    contact_report in_plane, in_line;
-    assert_int_equal(aft_new(H, N, restart, n_dof - 1, 1, &on_line, &b), HC_OK);
-    random_motion(&seed, H, 1, 1, U);
-    random_motion(&seed, H, 1, 1, U + n);
-    for (int i = 0; i < n; ++i) X[i] = dir[0] * U[i], X[n + i] = dir[1] * U[i], X[2 * n + i] = U[n + i];
-    assert_int_equal(planar_aft_evaluator.evaluate(a, X, F, NULL, &in_plane), HC_OK);
-    assert_int_equal(aft_eval(b, U, G, line_jac, &in_line), HC_OK);
-    const double size = force_size(&law, sum_abs(2 * n, U)), tolerance = 1e-13 * size;
-    for (int i = 0; i < n; ++i) {
-      CHECK_NEAR(dir[0] * F[i] + dir[1] * F[n + i], G[i], tolerance, "trial %d coefficient %d", trial, i);
-      CHECK_NEAR(dir[0] * F[n + i] - dir[1] * F[i], 0, tolerance, "trial %d coefficient %d, across", trial, i);
-      if (n_dof == 3) CHECK_NEAR(F[2 * n + i], G[n + i], tolerance, "trial %d coefficient %d, normal", trial, i);
-    }
-    double w[2], w_line;
-    planar_aft_evaluator.sliders(a, w);
-    aft_sliders(b, &w_line);
-    if (in_plane.regime != CONTACT_LINEAR)
-      CHECK_NEAR(dir[0] * w[0] + dir[1] * w[1], w_line, 1e-13 * sum_abs(2 * n, U), "trial %d", trial);
-    if (in_plane.regime != in_line.regime) { /* pushed until friction just holds it: a slip by rounding or none */
-      ++told_apart;
-      assert_true(fmin(in_plane.regime, in_line.regime) == CONTACT_STUCK);
-      assert_true(fmax(in_plane.regime, in_line.regime) == CONTACT_SLIPS);
-    } else assert_int_equal(in_plane.free_sliders, in_line.free_sliders);
-    ++regimes[in_line.regime];
-    random_motion(&seed, H, 1, 0, d);
-    random_motion(&seed, H, 1, 0, d + n);
-    planar_aft_evaluator.jacobian(a, jac);
-    compare_jacobians(H, n_dof, dir, d, 1e-12 * force_size(&law, 1) * sum_abs(2 * n, d), trial);
-    planar_aft_evaluator.free(a);
-    aft_free(b);
-  }
-  assert_true(told_apart < 60);
-  for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 20);
-}
+static void a_line_is_one_tangent(CHECK_STATE) { check_on_line(&way); }
+static void turns_and_shifts(CHECK_STATE) { check_turns_and_shifts(&way); }
+static void jacobian_equals_differences(CHECK_STATE) { check_planar_jacobian(&way); }
 
 /* ---- on a circle ----------------------------------------------------------------------------------- */
 
@@ -183,42 +100,6 @@ static void located_forces_are_the_limit(CHECK_STATE)
   }
 }
 
-/* ---- what must not matter ---------------------------------------------------------------------------- */
-
-/* The plane turned, forces turn with it; the motion begun k samples later, forces begin later too, unless where the
- * slider rests depends on where it began. 1e-12: each period of dragging adds its roundings, and few are needed. */
-static void turns_and_shifts(CHECK_STATE)
-{
-  uint64_t seed = 22;
-  double X[CIRCLE_MAX_X], Y[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], wanted[CIRCLE_MAX_X];
-  int shifted = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const int H = 1 + trial % 6, N = 2 * H + 12 + 11 * (trial % 20), n = series_length(H);
-    const contact law = random_circle(&seed);
-    const int n_dof = law.kn > 0 ? 3 : 2, step = 1 + trial % (N - 1);
-    const double angle = PI * random_signed(&seed), shift = 2 * PI * step / N;
-    void *a = make(&law, restarts[trial % 2], H, N);
-    contact_report report;
-    random_plane_motion(&seed, H, 1, X);
-    const double tolerance = 1e-12 * force_size(&law, sum_abs(3 * n, X));
-    assert_int_equal(planar_aft_evaluator.evaluate(a, X, F, NULL, &report), HC_OK);
-    turn_plane(H, angle, X, Y);
-    turn_plane(H, angle, F, wanted);
-    assert_int_equal(planar_aft_evaluator.evaluate(a, Y, G, NULL, NULL), HC_OK);
-    for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "turned, trial %d row %d", trial, i);
-    if (!report.free_sliders && ++shifted) {
-      for (int d = 0; d < n_dof; ++d) {
-        shift_motion(H, X + d * n, shift, Y + d * n);
-        shift_motion(H, F + d * n, shift, wanted + d * n);
-      }
-      assert_int_equal(planar_aft_evaluator.evaluate(a, Y, G, NULL, NULL), HC_OK);
-      for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "shifted, trial %d row %d", trial, i);
-    }
-    planar_aft_evaluator.free(a);
-  }
-  assert_true(shifted > 150);
-}
-
 /* A motion that only just slips contracts little from period to period; the orbit is found all the same, to rounding: a
  * period more, marched from the slider found, gives the same forces. Here by an ellipse whose ends reach past the
  * circle by `past` of its radius. */
@@ -236,49 +117,6 @@ static void little_slip_closes(CHECK_STATE)
     for (int i = 0; i < 6; ++i) assert_true(isfinite(F[i]));
     planar_aft_evaluator.free(of);
   }
-}
-
-/* ---- Jacobian --------------------------------------------------------------------------------------- */
-
-static hc_status forces(void *a, const double *X, double *F)
-{
-  return planar_aft_evaluator.evaluate(a, X, F, NULL, NULL);
-}
-
-/* Against differences, to 1e-9. A sample that changes its state, in a motion out of some dozens, moves the difference
- * by its kink: those are the trials counted as skipped. */
-static void jacobian_equals_differences(CHECK_STATE)
-{
-  uint64_t seed = 23;
-  double X[CIRCLE_MAX_X], d[CIRCLE_MAX_X], F[CIRCLE_MAX_X], slope[CIRCLE_MAX_X], product[CIRCLE_MAX_X];
-  int skipped = 0, checked = 0, regimes[4] = {0};
-  for (int trial = 0; trial < 480; ++trial) {
-    const int H = 1 + trial % 7, N = 2 * H + 10 + 9 * (trial % 25), n = series_length(H);
-    const contact law = random_circle(&seed);
-    const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
-    void *a = make(&law, restarts[trial % RESTARTS], H, N);
-    contact_report report;
-    random_plane_motion(&seed, H, 1, X);
-    random_plane_motion(&seed, H, 1, d);
-    const double size = force_size(&law, 1) * sum_abs(rows, d);
-    const double disagreement = circle_slope_along(rows, forces, a, X, d, slope);
-    if (disagreement > 1e-6 * size && ++skipped) {
-      planar_aft_evaluator.free(a);
-      continue;
-    }
-    ++checked;
-    assert_int_equal(planar_aft_evaluator.evaluate(a, X, F, NULL, &report), HC_OK);
-    planar_aft_evaluator.jacobian(a, jac);
-    circle_product(rows, jac, d, product);
-    for (int p = 0; p < rows; ++p)
-      CHECK_NEAR(product[p], slope[p], 1e-8 * size + disagreement, "trial %d restart %d regime %d row %d", trial,
-                 trial % RESTARTS, report.regime, p);
-    ++regimes[report.regime];
-    planar_aft_evaluator.free(a);
-  }
-  print_message("%d directions checked, %d skipped for a changed state\n", checked, skipped);
-  assert_true(skipped < checked / 4);
-  for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 10);
 }
 
 /* ---- refused ---------------------------------------------------------------------------------------- */

@@ -2,11 +2,9 @@
  * of one tangent, closed forms on a circle, the sampled forces' limit, invariances, and the Jacobian against
  * differences. */
 
-#include "hbm/contact/exact_force.h"
-#include "hbm/planar/planar_force.h"
 #include "tests/hbm/planar_scenes.h"
 
-static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X], line_jac[4 * CIRCLE_MAX_LENGTH * CIRCLE_MAX_LENGTH];
+static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X];
 
 static planar_force *make(const contact *whole, int H)
 {
@@ -16,62 +14,13 @@ static planar_force *make(const contact *whole, int H)
   return f;
 }
 
-/* Largest force that a motion of that size can cause, for tolerances in roundings of it. */
-static double force_size(const contact *law, double size)
-{
-  return law->kt * size + law->kn * (size + fabs(law->gap)) + law->load;
-}
+/* On one line both locate the same transitions to rounding; 1e-12 of the forces is what a few dozen roundings of the
+ * largest terms come to where N is small beside what it is the difference of. */
+static const planar_way way = {&planar_force_evaluator, &exact_force_evaluator, false, 1e-12};
 
-/* ---- on one line ---------------------------------------------------------------------------------- */
-
-/* u = dir U: T = dir T of the law of one tangent. Both locate the same transitions to rounding; 1e-12 of the forces is
- * what a few dozen roundings of the largest terms come to where N is small beside what it is the difference of. */
-static void a_line_is_one_tangent(CHECK_STATE)
-{
-  uint64_t seed = 31;
-  int regimes[4] = {0}, told_apart = 0;
-  double U[2 * CIRCLE_MAX_LENGTH], X[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[2 * CIRCLE_MAX_LENGTH], worst = 0;
-  for (int trial = 0; trial < 600; ++trial) {
-    const int H = 1 + trial % 9, n = series_length(H);
-    const double angle = PI * random_signed(&seed), dir[2] = {cos(angle), sin(angle)};
-    const contact law = random_circle(&seed);
-    const int n_dof = law.kn > 0 ? 3 : 2;
-    const moving_contact on_line = {.law = law, .cu = {1, 0}, .cv = {0, n_dof - 2}};
-    planar_force *a = make(&law, H);
-    exact_force *b;
-    contact_report in_plane, in_line;
-    assert_int_equal(exact_force_new(H, n_dof - 1, 1, &on_line, &b), HC_OK);
-    random_motion(&seed, H, 1, 1, U);
-    random_motion(&seed, H, 1, 1, U + n);
-    for (int i = 0; i < n; ++i) X[i] = dir[0] * U[i], X[n + i] = dir[1] * U[i], X[2 * n + i] = U[n + i];
-    assert_int_equal(planar_force_eval(a, X, F, jac, &in_plane), HC_OK);
-    assert_int_equal(exact_force_eval(b, U, G, line_jac, &in_line), HC_OK);
-    const double size = force_size(&law, sum_abs(2 * n, U)), tolerance = 1e-12 * size;
-    for (int i = 0; i < n; ++i) {
-      worst = fmax(worst, fabs(dir[0] * F[i] + dir[1] * F[n + i] - G[i]) / size);
-      CHECK_NEAR(dir[0] * F[i] + dir[1] * F[n + i], G[i], tolerance, "trial %d coefficient %d", trial, i);
-      CHECK_NEAR(dir[0] * F[n + i] - dir[1] * F[i], 0, tolerance, "trial %d coefficient %d, across", trial, i);
-      if (n_dof == 3) CHECK_NEAR(F[2 * n + i], G[n + i], tolerance, "trial %d coefficient %d, normal", trial, i);
-    }
-    double w[2], w_line;
-    planar_force_slider(a, w);
-    exact_force_sliders(b, &w_line);
-    CHECK_NEAR(dir[0] * w[0] + dir[1] * w[1], w_line, 1e-12 * sum_abs(2 * n, U), "trial %d", trial);
-    if (in_plane.regime != in_line.regime) { /* pushed until friction just holds it: a slip by rounding or none */
-      ++told_apart;
-      assert_true(fmin(in_plane.regime, in_line.regime) == CONTACT_STUCK);
-    } else {
-      assert_int_equal(in_plane.free_sliders, in_line.free_sliders);
-      assert_int_equal(in_plane.transitions, in_line.transitions);
-    }
-    ++regimes[in_line.regime];
-    planar_force_free(a);
-    exact_force_free(b);
-  }
-  print_message("on a line: worst difference %.1e of the force, %d of 600 told apart\n", worst, told_apart);
-  assert_true(told_apart < 60);
-  for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 20);
-}
+static void a_line_is_one_tangent(CHECK_STATE) { check_on_line(&way); }
+static void turns_and_shifts(CHECK_STATE) { check_turns_and_shifts(&way); }
+static void jacobian_equals_differences(CHECK_STATE) { check_planar_jacobian(&way); }
 
 /* ---- on a circle ----------------------------------------------------------------------------------- */
 
@@ -121,29 +70,6 @@ static double distance_to_sampled(const contact *law, int H, const double *X, in
   return sqrt(sum);
 }
 
-/* Three motions: always in contact, coming and going, and one whose normal motion grazes separation. Order 2 of
- * samples holds on average over where they lie, so that four times as many are looked at: 16 times less, within a
- * factor of 3. */
-static void sampled_forces_tend_to_it(CHECK_STATE)
-{
-  enum { H = 2 };
-  const double gaps[] = {1.5, 0.2, 0.5};
-  for (int k = 0; k < 3; ++k) {
-    const contact law = {.kt = 2, .kn = 1.5, .mu = 0.4, .gap = gaps[k]};
-    const double X[] = {0.2, 1, 0.3, -0.1, 0.2, 0.1, 0.4, 1.1, -0.2, 0.1, 0, 0.5, 0, 0};
-    double X3[15] = {0};
-    memcpy(X3, X, sizeof X);
-    double before = distance_to_sampled(&law, H, X3, 1024);
-    for (int N = 4096; N <= 65536; N *= 4) {
-      const double now = distance_to_sampled(&law, H, X3, N);
-      CHECK_LE(now, before / 16 * 3 + 1e-12, "gap %g, N = %d", gaps[k], N);
-      before = now;
-    }
-    CHECK_LE(before, 1e-8, "gap %g", gaps[k]);
-    print_message("gap %g: sampled, N = 65536, is %.1e away\n", gaps[k], before);
-  }
-}
-
 /* Scenes of all kinds, to the error of sampling: order 2 of 2^14 samples is 1e-7 of what the largest harmonic makes,
  * and corners within a sample a few times that. */
 static void random_scenes_meet_the_sampled_ones(CHECK_STATE)
@@ -154,57 +80,13 @@ static void random_scenes_meet_the_sampled_ones(CHECK_STATE)
     const int H = 1 + trial % 5;
     const contact law = random_circle(&seed);
     random_plane_motion(&seed, H, 1, X);
-    const double size = force_size(&law, sum_abs(3 * series_length(H), X));
+    const double size = circle_force_size(&law, sum_abs(3 * series_length(H), X));
     const double away = distance_to_sampled(&law, H, X, 16384) / size;
     CHECK_LE(away, 3e-6, "trial %d", trial);
     worst = fmax(worst, away);
   }
   print_message("120 scenes: at most %.1e of the force from 16384 samples\n", worst);
 }
-
-/* ---- what must not matter ---------------------------------------------------------------------------- */
-
-/* The plane turned, forces turn with it; the motion begun later, forces begin later too, unless where the slider rests
- * depends on where it began. */
-static void turns_and_shifts(CHECK_STATE)
-{
-  uint64_t seed = 32;
-  double X[CIRCLE_MAX_X], Y[CIRCLE_MAX_X], F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], wanted[CIRCLE_MAX_X], worst = 0;
-  int shifted = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const int H = 1 + trial % 6, n = series_length(H);
-    const contact law = random_circle(&seed);
-    const int n_dof = law.kn > 0 ? 3 : 2;
-    const double angle = PI * random_signed(&seed), shift = PI * random_signed(&seed);
-    planar_force *a = make(&law, H);
-    contact_report report;
-    random_plane_motion(&seed, H, 1, X);
-    const double size = force_size(&law, sum_abs(3 * n, X)), tolerance = 1e-12 * size;
-    assert_int_equal(planar_force_eval(a, X, F, NULL, &report), HC_OK);
-    turn_plane(H, angle, X, Y);
-    turn_plane(H, angle, F, wanted);
-    assert_int_equal(planar_force_eval(a, Y, G, NULL, NULL), HC_OK);
-    for (int i = 0; i < n_dof * n; ++i) CHECK_NEAR(G[i], wanted[i], tolerance, "turned, trial %d row %d", trial, i);
-    if (!report.free_sliders && ++shifted) {
-      for (int d = 0; d < n_dof; ++d) {
-        shift_motion(H, X + d * n, shift, Y + d * n);
-        shift_motion(H, F + d * n, shift, wanted + d * n);
-      }
-      assert_int_equal(planar_force_eval(a, Y, G, NULL, NULL), HC_OK);
-      for (int i = 0; i < n_dof * n; ++i) {
-        worst = fmax(worst, fabs(G[i] - wanted[i]) / size);
-        CHECK_NEAR(G[i], wanted[i], tolerance, "shifted, trial %d row %d", trial, i);
-      }
-    }
-    planar_force_free(a);
-  }
-  print_message("shifted: worst difference %.1e of the force\n", worst);
-  assert_true(shifted > 150);
-}
-
-/* ---- Jacobian --------------------------------------------------------------------------------------- */
-
-static hc_status forces(void *f, const double *X, double *F) { return planar_force_eval(f, X, F, NULL, NULL); }
 
 /* With a Jacobian the orbit is closed by a last step to first order, without one by passes alone: the same forces, to
  * 1e-12 of them; and the same slider, to 1e-7: what phi is good to between a panel's points. */
@@ -219,7 +101,7 @@ static void with_jacobian_the_force_is_the_same(CHECK_STATE)
     planar_force *a = make(&law, H);
     double w[2], v[2];
     random_plane_motion(&seed, H, 1, X);
-    const double motion = sum_abs(3 * n, X), size = force_size(&law, motion);
+    const double motion = sum_abs(3 * n, X), size = circle_force_size(&law, motion);
     assert_int_equal(planar_force_eval(a, X, F, NULL, NULL), HC_OK);
     planar_force_slider(a, w);
     assert_int_equal(planar_force_eval(a, X, G, jac, NULL), HC_OK);
@@ -232,43 +114,6 @@ static void with_jacobian_the_force_is_the_same(CHECK_STATE)
     planar_force_free(a);
   }
   print_message("with a Jacobian: worst difference %.1e of the force\n", worst);
-}
-
-/* Against differences; where an interval appears or vanishes the trial is counted as skipped. */
-static void jacobian_equals_differences(CHECK_STATE)
-{
-  uint64_t seed = 33;
-  double X[CIRCLE_MAX_X], d[CIRCLE_MAX_X], F[CIRCLE_MAX_X], slope[CIRCLE_MAX_X], product[CIRCLE_MAX_X], worst = 0;
-  int skipped = 0, checked = 0, regimes[4] = {0};
-  for (int trial = 0; trial < 480; ++trial) {
-    const int H = 1 + trial % 7, n = series_length(H);
-    const contact law = random_circle(&seed);
-    const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
-    planar_force *a = make(&law, H);
-    contact_report report;
-    random_plane_motion(&seed, H, 1, X);
-    random_plane_motion(&seed, H, 1, d);
-    const double size = force_size(&law, 1) * sum_abs(rows, d);
-    const double disagreement = circle_slope_along(rows, forces, a, X, d, slope);
-    if (disagreement > 1e-6 * size && ++skipped) {
-      planar_force_free(a);
-      continue;
-    }
-    ++checked;
-    assert_int_equal(planar_force_eval(a, X, F, jac, &report), HC_OK);
-    circle_product(rows, jac, d, product);
-    for (int p = 0; p < rows; ++p) {
-      worst = fmax(worst, (fabs(product[p] - slope[p]) - disagreement) / size);
-      CHECK_NEAR(product[p], slope[p], 1e-8 * size + disagreement, "trial %d regime %d row %d", trial, report.regime,
-                 p);
-    }
-    ++regimes[report.regime];
-    planar_force_free(a);
-  }
-  print_message("%d directions checked, worst %.1e, %d skipped for an interval that appears\n", checked, worst,
-                skipped);
-  assert_true(skipped < checked / 4);
-  for (int r = CONTACT_STUCK; r <= CONTACT_SEPARATES; ++r) assert_true(regimes[r] > 10);
 }
 
 /* ---- a lens ------------------------------------------------------------------------------------------ */
@@ -344,6 +189,6 @@ static void refuses(CHECK_STATE)
   planar_force_free(f);
 }
 
-CHECK_TESTS("hbm.planar_force", 300, a_line_is_one_tangent, a_circle_by_its_closed_form, sampled_forces_tend_to_it,
+CHECK_TESTS("hbm.planar_force", 300, a_line_is_one_tangent, a_circle_by_its_closed_form,
             random_scenes_meet_the_sampled_ones, turns_and_shifts, with_jacobian_the_force_is_the_same,
             jacobian_equals_differences, stuck_and_open_are_linear, a_slider_creeps_to_the_corner_of_a_lens, refuses)
