@@ -2,7 +2,10 @@
  * as on a line. */
 #pragma once
 
+#include "tests/closed_form.h"
 #include "tests/hbm/random_structures.h"
+#include "timeint/closed_form/integrate_closed_form.h"
+#include "timeint/cvode/integrate_events.h"
 #include "timeint/cvode/structure_newton.h"
 
 enum { MOST = 100 /* states */, MOST_CONTACTS = 12 };
@@ -102,4 +105,58 @@ static inline void check_newton(void (*draw)(uint64_t *seed, transient_law law, 
     workspace_free(&memory);
     undraw(&d);
   }
+}
+
+/* The same period by series and by CVODE, which carries the angle of a planar T as a state, at 1e-13 a step; and its
+ * matrix, that starts at each transition from CVODE's motion. The first opening of a touch-down is off by 1e-12 of T,
+ * and a period magnifies what steps leave by up to 1e3: `off`. Transitions by series, and trials with some. */
+static inline int check_series_and_events(void (*draw)(uint64_t *seed, transient_law law, drawn *d), int trials,
+                                          double off, int *changing)
+{
+  uint64_t seed = 16;
+  int transitions = 0;
+  *changing = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    drawn d;
+    integrator *series, *events;
+    double y[MOST] = {0}, z[MOST];
+    static double phi[2][MOST * MOST];
+    draw(&seed, TRANSIENT_LAW_EXACT, &d);
+    const int n = d.scaled.n_states;
+    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &series), HC_OK);
+    assert_int_equal(integrate_new_events(d.base, 1e-13, &events), HC_OK);
+    for (int period = 0; period < 4; ++period) {
+      const bool varies = period == 3;
+      memcpy(z, y, sizeof y);
+      assert_int_equal(varies ? integrate_monodromy(series, &d.scaled, y, phi[0])
+                              : integrate_period(series, &d.scaled, y, NULL, NULL),
+                       HC_OK);
+      assert_int_equal(varies ? integrate_monodromy(events, &d.scaled, z, phi[1])
+                              : integrate_period(events, &d.scaled, z, NULL, NULL),
+                       HC_OK);
+      for (int i = 0; i < n; ++i) CHECK_NEAR(z[i], y[i], off, "trial %d, period %d, state %d", trial, period, i);
+      for (int i = 0; i < n * n && varies; ++i) CHECK_NEAR(phi[1][i], phi[0][i], 1e-6, "trial %d, %d", trial, i);
+    }
+    transitions += (int)integrate_transitions(series);
+    *changing += integrate_transitions(series) > 0;
+    integrate_free(series);
+    integrate_free(events);
+    undraw(&d);
+  }
+  return transitions;
+}
+
+/* All three ways against a table of an independent program, good to 1e-11: an orbit is closed to 1e-10 of its size at
+ * most; CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter by some hundred times that; the
+ * regularised law's error is of the first order in 1e-4, in units of the motion. */
+static inline void meet_the_reference(void (*check)(transient_settings how, double tolerance))
+{
+  transient_settings how = CLOSED_FORM(1e-10, 20000);
+  check(how, 1e-10);
+  how.method = TRANSIENT_METHOD_CVODE;
+  check(how, 1e-8);
+  how.law = TRANSIENT_LAW_REGULARISED;
+  how.scout = true;
+  how.tolerance = 1e-8;
+  check(how, 1e-4);
 }

@@ -2,11 +2,8 @@
  * program, against the law of one tangent where the motion is on one line, and against differences. */
 
 #include "numerics/norm.h"
-#include "tests/closed_form.h"
 #include "tests/timeint/drawn.h"
-#include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/events_newton.h"
-#include "timeint/cvode/integrate_events.h"
 #include "timeint/steady/contact_watch.h"
 
 /* ---- scenes ---------------------------------------------------------------------------------------------- */
@@ -160,27 +157,7 @@ static void check_reference(transient_settings how, double tolerance)
   }
 }
 
-/* The reference's own error; orbits are closed to 1e-10 at least. */
-static void series_meet_the_reference(CHECK_STATE) { check_reference(closed_form, 1e-10); }
-
-/* CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter by some hundred times that. */
-static void events_meet_the_reference(CHECK_STATE)
-{
-  transient_settings how = closed_form;
-  how.method = TRANSIENT_METHOD_CVODE;
-  check_reference(how, 1e-8);
-}
-
-/* The regularised law's error is of the first order in 1e-4, in units of the motion. */
-static void regularised_meets_the_reference(CHECK_STATE)
-{
-  transient_settings how = closed_form;
-  how.method = TRANSIENT_METHOD_CVODE;
-  how.law = TRANSIENT_LAW_REGULARISED;
-  how.scout = true;
-  how.tolerance = 1e-8;
-  check_reference(how, 1e-4);
-}
+static void periods_meet_the_reference(CHECK_STATE) { meet_the_reference(check_reference); }
 
 /* A contact that sticks all the time is one slider that rests anywhere, not two: by shooting, and marched. */
 static void a_circle_that_sticks_is_free_once(CHECK_STATE)
@@ -436,40 +413,10 @@ static void monodromy_is_the_derivative(CHECK_STATE)
   CHECK_LE(off, 0.002 * compared, "of %d derivatives", compared);
 }
 
-/* The same period by series and by CVODE, which carries the angle of T as a state, at 1e-13 a step; and its matrix,
- * that starts at each transition from CVODE's motion. The first opening of a touch-down is off by 1e-12 of T, and a
- * period magnifies what steps leave by up to 1e3. */
 static void series_and_events_agree(CHECK_STATE)
 {
-  uint64_t seed = 16;
-  int transitions = 0;
-  for (int trial = 0; trial < 40; ++trial) {
-    drawn d;
-    integrator *series, *events;
-    double y[MOST] = {0}, z[MOST];
-    static double phi[2][MOST * MOST];
-    draw(&seed, TRANSIENT_LAW_EXACT, &d);
-    const int n = d.scaled.n_states;
-    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &series), HC_OK);
-    assert_int_equal(integrate_new_events(d.base, 1e-13, &events), HC_OK);
-    for (int period = 0; period < 4; ++period) {
-      const bool varies = period == 3;
-      memcpy(z, y, sizeof y);
-      assert_int_equal(varies ? integrate_monodromy(series, &d.scaled, y, phi[0])
-                              : integrate_period(series, &d.scaled, y, NULL, NULL),
-                       HC_OK);
-      assert_int_equal(varies ? integrate_monodromy(events, &d.scaled, z, phi[1])
-                              : integrate_period(events, &d.scaled, z, NULL, NULL),
-                       HC_OK);
-      for (int i = 0; i < n; ++i) CHECK_NEAR(z[i], y[i], 1e-9, "trial %d, period %d, state %d", trial, period, i);
-      for (int i = 0; i < n * n && varies; ++i) CHECK_NEAR(phi[1][i], phi[0][i], 1e-6, "trial %d, %d", trial, i);
-    }
-    transitions += (int)integrate_transitions(series);
-    integrate_free(series);
-    integrate_free(events);
-    undraw(&d);
-  }
-  CHECK_LE(40 * 4 * 4, transitions, "they change their states");
+  int changing;
+  CHECK_LE(40 * 4 * 4, check_series_and_events(draw, 40, 1e-9, &changing), "they change their states");
 }
 
 /* A slider that goes round a closed curve in each period has left its place, though it comes back to it and the circle
@@ -571,8 +518,8 @@ static void a_long_period_hears_the_monitor(CHECK_STATE)
   }
 }
 
-CHECK_TESTS("timeint.circle", 600, series_meet_the_reference, events_meet_the_reference,
-            regularised_meets_the_reference, a_circle_that_sticks_is_free_once, newton_solves_the_equations,
-            newton_of_the_exact_law_solves_its_equations, a_motion_on_a_line_is_that_of_one_tangent,
-            turned_tangents_change_nothing, monodromy_is_the_derivative, series_and_events_agree,
-            a_slider_that_comes_back_has_travelled, friction_takes_what_the_loads_give, a_long_period_hears_the_monitor)
+CHECK_TESTS("timeint.circle", 600, periods_meet_the_reference, a_circle_that_sticks_is_free_once,
+            newton_solves_the_equations, newton_of_the_exact_law_solves_its_equations,
+            a_motion_on_a_line_is_that_of_one_tangent, turned_tangents_change_nothing, monodromy_is_the_derivative,
+            series_and_events_agree, a_slider_that_comes_back_has_travelled, friction_takes_what_the_loads_give,
+            a_long_period_hears_the_monitor)

@@ -1,7 +1,6 @@
 /* test_structure.c - time integration of structures: against an independent program, against the closed form of one
  * degree of freedom, and its two integrators of the exact law against each other. */
 
-#include "tests/closed_form.h"
 #include "tests/hbm/structure_cases.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/drawn.h"
@@ -94,30 +93,12 @@ static const char *const named[] = {"jenkins2", "chain3",    "tangent_normal_F50
                                     "wedge_F2", "wedge_F10", "wedge_F20"};
 static const transient_settings from_rest = CLOSED_FORM(1e-10, 20000);
 
-/* The reference's own 1e-11; an orbit is closed to 1e-10 of its size at most. */
-static void series_meet_the_reference(CHECK_STATE)
+static void check_cases(transient_settings how, double tolerance)
 {
-  for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], from_rest, 1e-10);
+  for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], how, tolerance);
 }
 
-/* CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter by some hundred times that. */
-static void events_meet_the_reference(CHECK_STATE)
-{
-  transient_settings how = from_rest;
-  how.method = TRANSIENT_METHOD_CVODE;
-  for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], how, 1e-8);
-}
-
-/* The regularised law's error is of the first order in 1e-4: of that size at most in units of the motion. */
-static void regularised_meets_the_reference(CHECK_STATE)
-{
-  transient_settings how = from_rest;
-  how.method = TRANSIENT_METHOD_CVODE;
-  how.law = TRANSIENT_LAW_REGULARISED;
-  how.scout = true;
-  how.tolerance = 1e-8;
-  for (size_t k = 0; k < sizeof named / sizeof *named; ++k) check_reference(named[k], how, 1e-4);
-}
+static void periods_meet_the_reference(CHECK_STATE) { meet_the_reference(check_cases); }
 
 /* ---- one degree of freedom ----------------------------------------------------------------------------- */
 
@@ -191,30 +172,10 @@ static void draw(uint64_t *seed, transient_law law, drawn *d)
   draw_of_size(seed, law, n, random_int(seed, 1, 5), d);
 }
 
-/* The same period by series and by CVODE, at 1e-13 a step: some hundred steps, and the 1e3 by which a period may
- * magnify what they leave. */
 static void series_and_events_agree(CHECK_STATE)
 {
-  uint64_t seed = 16;
-  int changing = 0; /* trials whose contacts change their state */
-  for (int trial = 0; trial < 60; ++trial) {
-    drawn d;
-    integrator *series, *events;
-    double y[MOST] = {0}, z[MOST];
-    draw(&seed, TRANSIENT_LAW_EXACT, &d);
-    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &series), HC_OK);
-    assert_int_equal(integrate_new_events(d.base, 1e-13, &events), HC_OK);
-    for (int period = 0; period < 4; ++period) {
-      memcpy(z, y, sizeof y);
-      assert_int_equal(integrate_period(series, &d.scaled, y, NULL, NULL), HC_OK);
-      assert_int_equal(integrate_period(events, &d.scaled, z, NULL, NULL), HC_OK);
-      for (int i = 0; i < d.scaled.n_states; ++i) CHECK_NEAR(z[i], y[i], 1e-8, "trial %d, state %d", trial, i);
-    }
-    changing += integrate_transitions(series) > 0;
-    integrate_free(series);
-    integrate_free(events);
-    undraw(&d);
-  }
+  int changing;
+  check_series_and_events(draw, 60, 1e-8, &changing);
   assert_true(changing > 45);
 }
 
@@ -382,7 +343,6 @@ static void a_massless_freedom_is_refused(CHECK_STATE)
   model_free(m);
 }
 
-CHECK_TESTS("timeint.structure", 120, series_meet_the_reference, events_meet_the_reference,
-            regularised_meets_the_reference, series_and_closed_form_agree, series_and_events_agree,
+CHECK_TESTS("timeint.structure", 120, periods_meet_the_reference, series_and_closed_form_agree, series_and_events_agree,
             monodromy_is_the_derivative, monodromy_of_many_columns, newton_solves_the_equations,
             regularised_monodromy_is_the_derivative, other_coordinates_change_nothing, a_massless_freedom_is_refused)
