@@ -94,7 +94,7 @@ hc_status contact_measures_of(const contact *law, int n_harm, const double *u, c
   if (!is_finite(series_length(n_harm), u) || !is_finite(series_length(n_harm), v)) return HC_NOT_FINITE;
   hc_status st = open_motion(law, n_harm, u, v, &m);
   if (st == HC_OK) {
-    out->regime = transitions_regime(m.n, m.interval);
+    out->regime = transitions_report(m.n, m.interval).regime;
     series_extrema(n_harm, v, &most, &least);
     out->normal_min = contact_normal(law, least);
     out->normal_max = contact_normal(law, most);

@@ -212,19 +212,10 @@ hc_status exact_force_eval(exact_force *e, const double *X, double *F, double *j
   if (report) {
     *report = (contact_report){.regime = CONTACT_LINEAR};
     for (int j = 0; j < e->n_contacts; ++j) {
-      contact_regime regime = transitions_regime(e->n_intervals[j], e->intervals + (size_t)j * e->cap);
-      if (regime > report->regime) report->regime = regime;
-      report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(&e->contacts[j], e->n_dof);
-      /* Changes of state over the period. An interval is followed by another one (one change, or none if both are
-       * parts of the same state), or by a separation and then an interval (two). */
-      const contact_interval *p = e->intervals + (size_t)j * e->cap;
-      int changes = 0;
-      for (int i = 0; i < e->n_intervals[j]; ++i) {
-        const contact_interval *next = &p[(i + 1) % e->n_intervals[j]];
-        bool meets = next->from == p[i].to || next->from == p[i].to - TWO_PI;
-        changes += meets ? next->state != p[i].state : 2;
-      }
-      report->transitions += changes;
+      const contact_report own = transitions_report(e->n_intervals[j], e->intervals + (size_t)j * e->cap);
+      report->regime = contact_regime_larger(report->regime, own.regime);
+      report->transitions += own.transitions;
+      report->free_sliders += own.free_sliders && moving_contact_has_slider(&e->contacts[j], e->n_dof);
     }
   }
   return HC_OK;

@@ -268,17 +268,24 @@ hc_status transitions_find(const series_grid *grid, const moving_contact *c, int
   return st;
 }
 
-contact_regime transitions_regime(int n, const contact_interval *interval)
+contact_report transitions_report(int n, const contact_interval *interval)
 {
+  contact_report r = {.regime = CONTACT_LINEAR};
   double touching = 0;
   bool slips = false;
   for (int i = 0; i < n; ++i) {
-    touching += interval[i].to - interval[i].from;
-    slips |= contact_slip_sign(interval[i].state) != 0;
+    /* An interval is followed by another one (one change, or none if both are parts of the same state), or by a
+     * separation and then an interval (two). */
+    const contact_interval *p = &interval[i], *next = &interval[(i + 1) % n];
+    const bool meets = next->from == p->to || next->from == p->to - TWO_PI;
+    touching += p->to - p->from;
+    slips |= contact_slip_sign(p->state) != 0;
+    r.transitions += meets ? next->state != p->state : 2;
   }
-  if (n == 0) return CONTACT_LINEAR;
-  if (touching < TWO_PI * (1 - 1e-15)) return CONTACT_SEPARATES;
-  return slips ? CONTACT_SLIPS : CONTACT_STUCK;
+  if (n == 0) return r;
+  r.regime = touching < TWO_PI * (1 - 1e-15) ? CONTACT_SEPARATES : slips ? CONTACT_SLIPS : CONTACT_STUCK;
+  r.free_sliders = r.regime == CONTACT_STUCK;
+  return r;
 }
 
 const contact_interval *contact_interval_at(int n, const contact_interval *interval, double th)

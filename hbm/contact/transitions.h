@@ -13,6 +13,7 @@
 #pragma once
 
 #include "base/status.h"
+#include "hbm/contact/contact_report.h"
 #include "model/moving_contact.h"
 #include "numerics/series.h"
 
@@ -37,8 +38,8 @@ typedef struct contact_interval {
 hc_status transitions_find(const series_grid *grid, const moving_contact *c, int cap, contact_interval *interval,
                            int *n);
 
-/* What happens to a contact with these intervals of one period. */
-contact_regime transitions_regime(int n, const contact_interval *interval);
+/* What happens to a contact with a slider and these intervals of one period. */
+contact_report transitions_report(int n, const contact_interval *interval);
 
 /* The interval at th [rad], between -2 pi and 4 pi; NULL: the contact is separated then. */
 const contact_interval *contact_interval_at(int n, const contact_interval *interval, double th);

@@ -562,13 +562,6 @@ hc_status planar_cycle_find(planar_cycle *c)
 
 /* ---- what was found ------------------------------------------------------------------------------------ */
 
-contact_regime planar_cycle_regime(const planar_cycle *c)
-{
-  if (c->n_contacts == 0) return CONTACT_LINEAR;
-  if (!c->always) return CONTACT_SEPARATES;
-  return slips(c) ? CONTACT_SLIPS : CONTACT_STUCK;
-}
-
 void planar_cycle_slider(const planar_cycle *c, double w[2])
 {
   const planar_point *zero = &c->grid[0];

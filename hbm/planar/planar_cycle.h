@@ -58,7 +58,5 @@ hc_status planar_cycle_find(planar_cycle *c);
 /* One pass from w0, which becomes the slider at its end; A[row][col] = d(that)/d w0 unless NULL. Errors as above. */
 hc_status planar_cycle_pass(planar_cycle *c, double w[2], double A[2][2]);
 
-contact_regime planar_cycle_regime(const planar_cycle *c);
-
 /* w [length] at th = 0. */
 void planar_cycle_slider(const planar_cycle *c, double w[2]);

@@ -505,16 +505,12 @@ hc_status planar_force_eval(planar_force *f, const double *X, double *F, double 
       for (size_t i = 0; i < L; ++i) jac[d * L + i + n * (d * L + q)] += kt * f->matrix[i + L * q];
   }
   put_normal(f, F, jac);
-  if (report) {
-    const planar_cycle *c = &f->cycle;
-    *report = (contact_report){.regime = planar_cycle_regime(c)};
-    report->free_sliders = report->regime == CONTACT_STUCK;
-    for (int i = 0; i < c->n; ++i) {
-      const planar_interval *p = &c->interval[i], *next = &c->interval[(i + 1) % c->n];
-      const bool meets = next->from == p->to || next->from == p->to - TWO_PI;
-      report->transitions += meets ? next->state != p->state : 2;
-    }
+  const planar_cycle *c = &f->cycle;
+  for (int i = 0; i < c->n; ++i) { /* sliders come to rest at no angle: monodromy.c moves them */
+    const planar_interval *p = &c->interval[i];
+    f->intervals[i] = (contact_interval){.from = p->from, .to = p->to, .state = p->state, .origin = -1};
   }
+  if (report) *report = transitions_report(c->n, f->intervals);
   return HC_OK;
 }
 
@@ -534,13 +530,7 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
 
 static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
-  planar_force *f = self;
-  const hc_status st = planar_force_eval(f, X, F, jac, report);
-  for (int i = 0; i < f->cycle.n && st == HC_OK; ++i) { /* sliders come to rest at no angle: monodromy.c moves them */
-    const planar_interval *p = &f->cycle.interval[i];
-    f->intervals[i] = (contact_interval){.from = p->from, .to = p->to, .state = p->state, .origin = -1};
-  }
-  return st;
+  return planar_force_eval(self, X, F, jac, report);
 }
 
 static const contact_interval *intervals(const void *self, int *n)

@@ -76,11 +76,12 @@ static hc_status measure(const contact *half, int n_harm, int n_dof, const doubl
   double most, least;
   hc_status st = planar_force_new(n_harm, n_dof, half, &f);
   if (st != HC_OK) return st;
-  st = planar_force_eval(f, X, F, NULL, NULL);
+  contact_report report;
+  st = planar_force_eval(f, X, F, NULL, &report);
   if (st == HC_OK) {
     const planar_cycle *c = planar_force_cycle(f);
     series_extrema(n_harm, X + 2 * n, &most, &least);
-    out[0].regime = planar_cycle_regime(c);
+    out[0].regime = report.regime;
     out[0].normal_min = contact_normal(half, least);
     out[0].normal_max = contact_normal(half, most);
     out[1] = out[0];
