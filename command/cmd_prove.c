@@ -86,7 +86,7 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
     cli_put_row(common, t, ROWS_PROVE, r);
     proven += r->proven;
     moved += r->moved;
-    led += r->proven && r->harmonics > 0;
+    led += r->proven && (r->harmonics > 0 || r->by_events);
     if (r->proven) continue;
     ++for_reason[r->reason];
     if (*r->detail && !common->quiet)
@@ -102,7 +102,7 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
     table_note(
         t,
         "in %d row%s no orbit is next to the solution: it is the one that harmonic balance from there on leads to, "
-        "from more harmonics and with the mean",
+        "from more harmonics and with the mean, or Newton from the contacts' changes along its motion",
         led, led == 1 ? "" : "s");
   if (moved)
     table_note(

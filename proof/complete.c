@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum { NEWTON_STEPS = 60, WIDE_DIGITS = 40 };
-static const double ROOM = 0.001, NEAR = 1e-8;
+static const double ROOM = 0.001, NEAR = 1e-8, FAR = 1e-3;
 
 /* Decimal digits of an event's numbers, of the scales: what the precision leaves for the growth over a period. */
 static slong digits_of(slong precision)
@@ -86,20 +86,36 @@ static void set_defaults(json_t *draft, const certificate *c, int precision)
 
 /* ---- the parts of a certificate ---- */
 
+/* The share of Newton's step by which no segment becomes shorter or longer by more than half. step: [unknowns] */
+static double damping(const orbit *o, arb_srcptr step)
+{
+  const int stride = 2 * o->n + 1;
+  double share = 1;
+  LOCAL(arb) tau = ZERO, change = ZERO;
+  for (int i = 0; i < o->m && !o->c->section; i++) {
+    flow_duration(o, i, tau);
+    arb_sub(change, step + i * stride + 2 * o->n, step + (i + 1) % o->m * stride + 2 * o->n, o->precision);
+    share =
+        fmin(share, 0.5 * arf_get_d(arb_midref(tau), ARF_RND_NEAR) / fabs(arf_get_d(arb_midref(change), ARF_RND_NEAR)));
+  }
+  return share;
+}
+
 /* y -= B F(y) until it moves no more; the largest step that remains, relative to the scales. */
 static bool refine(krawczyk *k, orbit *o, failure *f)
 {
   const int n = o->unknowns, stride = 2 * o->n + 1;
   const double enough = pow(10, -(double)digits_of(o->precision) - 4);
   LOCAL(pool) own = ZERO;
-  arb_ptr row = pool_balls(own, n);
-  LOCAL(arb) step = ZERO;
+  arb_ptr row = pool_balls(own, 2L * n), step = row + n;
+  LOCAL(arb) share = ZERO;
   double last = INFINITY, largest = INFINITY;
   bool fine = existence_prepare(k, o, false, f);
   for (int i = 0; i < NEWTON_STEPS && fine; i++) {
     if (i > 0) {
       box_set(o, NULL);
       const bool near = i == 1 ? largest < NEAR : largest <= 1e-3 * last; /* so that one B does for all steps */
+      if (largest > FAR && !flow_prepare(o, f)) return false;
       fine = near ? shooting_equations(o, k->value, NULL) : existence_prepare(k, o, false, f);
       if (!fine) break;
     }
@@ -107,13 +123,16 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
     largest = 0;
     for (int r = 0; r < n; r++) {
       for (int c = 0; c < n; c++) arb_set_d(row + c, k->inverse[(size_t)r * n + c]);
-      arb_dot(step, NULL, 0, row, 1, k->value, 1, n, o->precision);
-      arb_sub(o->centre + r, o->centre + r, step, o->precision);
-      arb_get_mid_arb(o->centre + r, o->centre + r);
-      arb_div(step, step, o->scale + r % stride, o->precision);
-      largest = fmax(largest, fabs(arf_get_d(arb_midref(step), ARF_RND_NEAR)));
+      arb_dot(step + r, NULL, 0, row, 1, k->value, 1, n, o->precision);
     }
-    if (!(largest < 10)) fine = false;
+    arb_set_d(share, damping(o, step));
+    for (int r = 0; r < n; r++) {
+      arb_mul(step + r, step + r, share, o->precision);
+      arb_sub(o->centre + r, o->centre + r, step + r, o->precision);
+      arb_get_mid_arb(o->centre + r, o->centre + r);
+      arb_div(step + r, step + r, o->scale + r % stride, o->precision);
+      largest = fmax(largest, fabs(arf_get_d(arb_midref(step + r), ARF_RND_NEAR)));
+    }
     if (largest <= enough || (largest < 100 * enough && largest > 0.5 * last)) break;
   }
   if (!fine || !(largest < 1e4 * enough))

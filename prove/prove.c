@@ -19,6 +19,7 @@ enum {
   MOST_PERIODS = 2000, /* from an unstable orbit to where the motion goes */
   MOST_MOVES = 8,      /* of sliders that never slip: the motion follows them, some of the way */
   MOST_UNKNOWNS = 800, /* of HBM with more harmonics: some tenths of a second a solution */
+  MOST_CUTS = 12,      /* periods of the motion from a solution whose events are tried */
   MOST_FAILURES = 8    /* of HBM in a row, each with a quarter more harmonics: with six times as many */
 };
 static const double enough = 0.01,
@@ -133,7 +134,7 @@ static bool move_sliders(const prover *p, const orbit_events *e, double share, b
 static hc_status find_events(prover *p, timeint_result *r, proof_row *row, orbit_events *e)
 {
   const double amplitude = r->amplitude;
-  hc_status st = timeint_events(p->ti, r, e);
+  hc_status st = timeint_events(p->ti, r->period_multiple, e);
   double share = room;
   for (int moves = 0; st == HC_OK; ++moves, share *= 2) { /* a motion that follows wants more */
     bool moved;
@@ -146,7 +147,7 @@ static hc_status find_events(prover *p, timeint_result *r, proof_row *row, orbit
     st = timeint_orbit(p->ti, r->omega, r->period_multiple, p->state, p->monitor, r);
     if (st == HC_OK && !(fabs(r->amplitude - amplitude) <= same_branch * amplitude)) st = HC_NOT_CONVERGED;
     row->other_member = st == HC_OK && !(fabs(r->amplitude - amplitude) <= same_motion * amplitude);
-    if (st == HC_OK) st = timeint_events(p->ti, r, e);
+    if (st == HC_OK) st = timeint_events(p->ti, r->period_multiple, e);
   }
   return st;
 }
@@ -184,14 +185,13 @@ static hc_status add_row(prover *p, proof_row *row, json_t *certificate)
 
 static bool fatal(hc_status st) { return st == HC_NO_MEMORY || st == HC_INTERRUPTED || st == HC_IO; }
 
-/* The row of the orbit *r, p->state on it; without one where found is not HC_OK. */
-static hc_status prove_orbit(prover *p, hc_status found, timeint_result *r, proof_row *row)
+/* The row of the orbit *r, p->state on it. */
+static hc_status prove_orbit(prover *p, timeint_result *r, proof_row *row)
 {
   orbit_events e = {0};
   json_t *certificate = NULL;
-  if (fatal(found)) return found;
-  row->reason = row->too_few ? PROOF_TOO_FEW : PROOF_NO_ORBIT;
-  if (found == HC_OK) found = find_events(p, r, row, &e);
+  row->reason = PROOF_NO_ORBIT;
+  hc_status found = find_events(p, r, row, &e);
   if (found == HC_OK) {
     row->multiple = r->period_multiple;
     row->transitions = e.n > 1 ? e.n : 0;
@@ -257,6 +257,34 @@ static hc_status orbit_by_harmonics(prover *p, double omega, const double *X, ti
   return st;
 }
 
+/* Newton on the period map does not find an orbit where a stiff contact is closed for an instant only: the checker's
+ * does, on the events of a period of the motion from X, or of one of the next where t = 0 cuts through a contact. */
+static hc_status prove_events(prover *p, const double *X, proof_row *row)
+{
+  json_t *certificate = NULL;
+  hc_status st = HC_OK;
+  row->reason = row->too_few ? PROOF_TOO_FEW : PROOF_NO_ORBIT;
+  for (int after = 0; after < MOST_CUTS && !row->proven && !fatal(st); ++after) {
+    timeint_result r = {.amplitude = row->hbm_amplitude, .rms = NAN, .multiplier_re = NAN};
+    orbit_events e = {0};
+    proof_row led = *row;
+    led.multiple = 1, led.harmonics = 0, led.by_events = true;
+    st = comparison_orbit_start(p->response.hbm, X, row->omega, p->state);
+    if (st == HC_OK) st = timeint_motion_events(p->ti, row->omega, p->state, after, &e);
+    led.transitions = e.n > 1 ? e.n : 0;
+    if (st == HC_OK && e.n > 0) st = ask(p, &r, &e, &led, &certificate);
+    orbit_events_free(&e);
+    if (st != HC_OK || !led.proven) continue;
+    *row = led;
+    r.max = certificate_bound(json_object_get(certificate, "claims"), "max", 0, 0);
+    r.min = certificate_bound(json_object_get(certificate, "claims"), "min", 0, 0);
+    st = remember(p, &r);
+  }
+  if (!fatal(st)) return add_row(p, row, certificate);
+  json_decref(certificate);
+  return st;
+}
+
 /* Does a law have no straight pieces? */
 static bool is_curved(const model *m) { return model_has_circle(m) || model_is_smooth(m); }
 
@@ -287,7 +315,8 @@ static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *lea
   if (st != HC_OK && !fatal(st)) st = orbit_by_harmonics(p, omega, X, &r, &row);
   *leads_on = st != HC_OK || timeint_stability(&r) < 0;
   if (st == HC_OK && remember(p, &r) != HC_OK) st = HC_NO_MEMORY;
-  return prove_orbit(p, st, &r, &row);
+  if (fatal(st)) return st;
+  return st == HC_OK ? prove_orbit(p, &r, &row) : prove_events(p, X, &row);
 }
 
 /* Where time integration goes from p->state, if that is not known yet. */
@@ -300,7 +329,7 @@ static hc_status prove_steady(prover *p, double omega)
   if (fatal(st)) return st;
   if (st != HC_OK || known(p, &r)) return HC_OK;
   const hc_status kept = remember(p, &r);
-  return kept == HC_OK ? prove_orbit(p, st, &r, &row) : kept;
+  return kept == HC_OK ? prove_orbit(p, &r, &row) : kept;
 }
 
 /* Every solution first, so that what motions go to from unstable ones is told once. */

@@ -50,6 +50,7 @@ typedef struct proof_row {
   double radius;             /* [1] of the certificate's scales: the orbit is no farther from its numbers */
   int harmonics;             /* of the HBM solution that led to the orbit, where the case's own did not; else 0, */
   bool too_few;              /* or with the most that were tried there is no solution */
+  bool by_events;            /* the orbit was found from the events of the motion from the solution */
   bool moved;                /* sliders that never slip had to be moved for it, */
   bool other_member;         /* which changed its amplitude: the error of HBM's is not known */
   int stability;             /* +1 proven stable, -1 proven unstable, 0 unproven */

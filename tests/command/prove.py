@@ -120,12 +120,22 @@ class Prove(unittest.TestCase):
         self.assertTrue(led and all(int(r["harmonics"]) > 5 and r["branch"] for r in led), rows)  # the case has 5
         self.assertIn("from more harmonics", run("prove", f"{CASES}/paper/fig09_gap_0.yaml", "--at", "3.2673654961781202")[1])
 
-    def test_too_few_harmonics(self):
-        case = f"{self.folder}/one_harmonic.yaml"
+    def scene(self, number):
+        """The rows of a random scene."""
+        case = f"{self.folder}/scene.yaml"
         with open(case, "w") as file:
-            file.write(run("stress", "--first", "48", "--scenes", "1", "--case")[1])  # one harmonic, without the mean
+            file.write(run("stress", "--first", number, "--case")[1])
         _, rows, err = prove(case)
-        self.assertEqual([(r["verdict"], r["reason"]) for r in rows], [("unproven", "too few harmonics")], err)
+        return [(r["verdict"], r["reason"]) for r in rows], err
+
+    def test_too_few_harmonics(self):  # one harmonic, without the mean
+        rows, err = self.scene("48")
+        self.assertEqual(rows, [("unproven", "too few harmonics")], err)
+
+    def test_contacts_that_close_for_an_instant(self):  # kn/k = 1e4: damped steps; t = 0 cuts through a contact
+        for number in "534", "1907":
+            rows, err = self.scene(number)
+            self.assertEqual(rows, [("proven", "")], err)
 
     def test_every_reason_of_the_checker(self):
         for words, contact, reason in (("segment 0, t = 0 to 1, contact 0: gap: sign not decided", 0, "graze"),

@@ -25,7 +25,7 @@ static void settle(const model *m, double omega, orbit_events *e)
   assert_int_equal(timeint_new(m, &closed, &ti), HC_OK);
   timeint_rest(ti, state);
   assert_int_equal(timeint_steady(ti, omega, state, NULL, &r), HC_OK);
-  assert_int_equal(timeint_events(ti, &r, e), HC_OK);
+  assert_int_equal(timeint_events(ti, r.period_multiple, e), HC_OK);
   timeint_free(ti);
 }
 

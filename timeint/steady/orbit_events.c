@@ -134,9 +134,9 @@ static hc_status make(const timeint *ti, orbit_events *out)
   return HC_OK;
 }
 
-hc_status timeint_events(timeint *ti, const timeint_result *r, orbit_events *out)
+/* Of k periods from ti->y, after others. */
+static hc_status watch(timeint *ti, int after, int k, orbit_events *out)
 {
-  const int k = r->period_multiple > 0 ? r->period_multiple : 1;
   const double period = TWO_PI / ti->omega;
   double *y = ti->point[2];
   events_watch w = {.ti = ti, .out = out, .y = ti->point[0]};
@@ -144,12 +144,21 @@ hc_status timeint_events(timeint *ti, const timeint_result *r, orbit_events *out
   if (ti->how.law != TRANSIENT_LAW_EXACT || model_has_circle(ti->model)) return HC_UNSUPPORTED;
   memcpy(y, ti->y, (size_t)ti->n * sizeof *y);
   if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
-  for (int i = 0; i < k && st == HC_OK; ++i) {
-    w.turned = TWO_PI * i;
+  for (int i = -after; i < k && st == HC_OK; ++i) {
+    w.turned = TWO_PI * fmax(i, 0);
+    if (i <= 0) out->n = 0;
     st = integrate_period(ti->in, &ti->scaled, y, watch_step, &w);
   }
   if (st == HC_OK) keep_changes(out, period, k * period);
   return st;
+}
+
+hc_status timeint_events(timeint *ti, int k, orbit_events *out) { return watch(ti, 0, k > 0 ? k : 1, out); }
+
+hc_status timeint_motion_events(timeint *ti, double omega, const double *state, int after, orbit_events *out)
+{
+  const hc_status st = timeint_begin(ti, omega, state);
+  return st == HC_OK ? watch(ti, after, 1, out) : st;
 }
 
 void orbit_events_free(orbit_events *e)
