@@ -17,18 +17,9 @@
 #endif
 #include <stddef.h>
 
-/* A number that is cleared where its block ends: LOCAL(arb) x = ZERO, y = ZERO; all bits 0 are an initialised 0. */
+/* A number that is cleared where its block ends: LOCAL(arb) x = {0}, y = {0}; all bits 0 are an initialised 0, but of
+ * an fmpq, which is set before it is read. */
 #define LOCAL(type) __attribute__((cleanup(clear_##type))) type##_t
-#define ZERO                                                                                                           \
-  {                                                                                                                    \
-    0                                                                                                                  \
-  }
-#define ZERO_FMPQ                                                                                                      \
-  {                                                                                                                    \
-    {                                                                                                                  \
-      0, 1                                                                                                             \
-    }                                                                                                                  \
-  }
 static inline void clear_arb(arb_t *x) { arb_clear(*x); }
 static inline void clear_acb(acb_t *x) { acb_clear(*x); }
 static inline void clear_arf(arf_t *x) { arf_clear(*x); }

@@ -20,14 +20,16 @@ enum {
   LIMIT_EXPONENT = 400
 };
 
+enum { CONTACT_NUMBERS = 6 };
+
 /* M x'' + C x' + K x + sum [ t T + n (N - N0) ] = sum [ p_k cos(k omega t) + q_k sin(k omega t) ], u = t.x, v = n.x:
  *     N = max(kn (v + gap), 0), N0 = max(kn gap, 0), or N = N0 = preload;  T = kt (u - w), |T| <= mu N */
 typedef struct contact_given {
   bool tangential;                         /* it has friction: letters O S + -, else O N                       */
   bool normal;                             /* it has a normal direction; else `load` is constant               */
   bool angled;                             /* t = cos(angle) d, n = sin(angle) d: `t` and `n` are d, rational   */
-  fmpq *t, *n;                             /* [coordinates]                                                    */
-  fmpq *angle, *kt, *mu, *kn, *gap, *load; /* [1]; angle in degrees                     */
+  fmpq *t, *n;                             /* [coordinates] one array, and CONTACT_NUMBERS behind them         */
+  fmpq *angle, *kt, *mu, *kn, *gap, *load; /* [1]; angle in degrees; 0 where there is none                     */
 } contact_given;
 
 typedef enum claim {
@@ -54,12 +56,12 @@ typedef struct certificate {
   int harmonic[LIMIT_HARMONICS];    /* >= 0                                      */
   fmpq *cosine, *sine;              /* [n_harmonics][n]                          */
   contact_given contacts[LIMIT_CONTACTS];
-  fmpq *omega, *response, *rest; /* [1], [n], [n_contacts]                    */
-  fmpq *scales;                  /* [3] of x, v, t                            */
-  fmpq *time;                    /* [n_events]                                */
-  fmpq *state;                   /* [n_events][2 n] x, v                      */
-  char *letters;                 /* [n_events][n_contacts] after each event   */
-  fmpq *radii;                   /* [2] radius, uniqueness radius             */
+  fmpq *omega, *response, *rest;    /* [1], [n], [n_contacts]                    */
+  fmpq *scales[3];                  /* [1] of x, v, t                            */
+  fmpq *time;                       /* [n_events]                                */
+  fmpq *state;                      /* [n_events][2 n] x, v                      */
+  char *letters;                    /* [n_events][n_contacts] after each event   */
+  fmpq *radius, *uniqueness_radius; /* [1]                                    */
   bool claimed[CLAIMS];
   fmpq *claims; /* [CLAIMS][2]                               */
   stability stability;
@@ -68,8 +70,7 @@ typedef struct certificate {
   pool pool;     /* of all arrays                             */
 } certificate;
 
-/* Reads a certificate; with `candidate` one that lacks claims, vectors and what has a default. NULL: why[size] has the
- * reason. */
+/* Reads a certificate; a candidate has no claims and vectors. NULL: why[size] has the reason. */
 certificate *certificate_read(const json_t *json, bool candidate, char *why, size_t size);
 void certificate_free(certificate *c);
 

@@ -45,58 +45,65 @@ static json_t *as_strings(json_t *json)
   return object;
 }
 
-static double largest_of(const fmpq *values, slong n)
+/* The largest number of a list of decimal strings. */
+static double largest_of(const json_t *list)
 {
-  LOCAL(arb) x = ZERO;
   double largest = 0;
-  for (slong i = 0; i < n; i++) {
-    arb_set_fmpq(x, values + i, 53);
-    largest = fmax(largest, fabs(arf_get_d(arb_midref(x), ARF_RND_NEAR)));
+  for (size_t i = 0; i < json_array_size(list); i++) {
+    const char *text = json_string_value(json_array_get(list, i));
+    largest = fmax(largest, text ? fabs(strtod(text, NULL)) : 0);
   }
   return largest;
 }
 
-static void set_defaults(json_t *draft, const certificate *c, int precision)
+static void set_default(json_t *draft, const char *key, json_t *value)
 {
-  if (!json_object_get(draft, "multiple")) json_object_set_new(draft, "multiple", json_integer(1));
-  if (!json_object_get(draft, "precision_bits"))
-    json_object_set_new(draft, "precision_bits", json_integer(precision ? precision : 128));
-  if (!json_object_get(draft, "rest")) json_object_set_new(draft, "rest", json_object());
-  if (!json_object_get(draft, "response")) {
-    json_t *response = json_array();
-    for (int i = 0; i < c->n; i++) json_array_append_new(response, json_string(i ? "0" : "1"));
-    json_object_set_new(draft, "response", response);
+  if (!json_object_get(draft, key)) json_object_set(draft, key, value);
+  json_decref(value);
+}
+
+static void set_defaults(json_t *draft, int precision)
+{
+  const char *omega = json_string_value(json_object_get(draft, "omega"));
+  json_t *response = json_array(), *scales = json_object(), *event;
+  double size[] = {0, 0, 1 / strtod(omega ? omega : "1", NULL)};
+  size_t i;
+  char text[40];
+  for (i = 0; i < json_array_size(json_object_get(json_object_get(draft, "model"), "mass")); i++)
+    json_array_append_new(response, json_string(i ? "0" : "1"));
+  json_array_foreach(json_object_get(draft, "events"), i, event)
+  {
+    size[0] = fmax(size[0], largest_of(json_object_get(event, "x")));
+    size[1] = fmax(size[1], largest_of(json_object_get(event, "v")));
   }
-  if (json_object_get(draft, "scales")) return;
-  double scales[] = {0, 0, 1 / largest_of(c->omega, 1)};
-  for (int i = 0; i < 2 * c->n_events; i++)
-    scales[i % 2] = fmax(scales[i % 2], largest_of(c->state + (slong)i * c->n, c->n));
-  if (!(scales[0] > 0) && !(scales[1] > 0)) scales[0] = 1;
-  scales[0] =
-      fmax(scales[0], 1e-3 * scales[1] * scales[2]); /* an orbit may cross its section at rest, or in the middle */
-  scales[1] = fmax(scales[1], 1e-3 * scales[0] / scales[2]);
-  json_t *object = json_object();
-  for (int i = 0; i < 3; i++) {
-    char text[40];
-    snprintf(text, sizeof text, "%.2e", scales[i]);
-    json_object_set_new(object, (const char *[]){"x", "v", "t"}[i], json_string(text));
+  if (!(size[0] > 0) && !(size[1] > 0)) size[0] = 1;
+  size[0] = fmax(size[0], 1e-3 * size[1] * size[2]); /* an orbit may cross its section at rest, or in the middle */
+  size[1] = fmax(size[1], 1e-3 * size[0] / size[2]);
+  for (i = 0; i < 3; i++) {
+    snprintf(text, sizeof text, "%.2e", size[i]);
+    json_object_set_new(scales, (const char *[]){"x", "v", "t"}[i], json_string(text));
   }
-  json_object_set_new(draft, "scales", object);
+  set_default(draft, "multiple", json_integer(1));
+  set_default(draft, "precision_bits", json_integer(precision ? precision : 128));
+  set_default(draft, "rest", json_object());
+  set_default(draft, "response", response);
+  set_default(draft, "scales", scales);
 }
 
 /* ---- the parts of a certificate ---- */
 
+static double near_double(const arb_t x) { return arf_get_d(arb_midref(x), ARF_RND_NEAR); }
+
 /* The share of Newton's step by which no segment becomes shorter or longer by more than half. step: [unknowns] */
-static double damping(const orbit *o, arb_srcptr step)
+static double damping(const orbit *o, const double *step)
 {
   const int stride = 2 * o->n + 1;
   double share = 1;
-  LOCAL(arb) tau = ZERO, change = ZERO;
+  LOCAL(arb) tau = {0};
   for (int i = 0; i < o->m && !o->c->section; i++) {
     flow_duration(o, i, tau);
-    arb_sub(change, step + i * stride + 2 * o->n, step + (i + 1) % o->m * stride + 2 * o->n, o->precision);
-    share =
-        fmin(share, 0.5 * arf_get_d(arb_midref(tau), ARF_RND_NEAR) / fabs(arf_get_d(arb_midref(change), ARF_RND_NEAR)));
+    const double change = step[i * stride + 2 * o->n] - step[(i + 1) % o->m * stride + 2 * o->n];
+    share = fmin(share, 0.5 * near_double(tau) / fabs(change));
   }
   return share;
 }
@@ -106,9 +113,9 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
 {
   const int n = o->unknowns, stride = 2 * o->n + 1;
   const double enough = pow(10, -(double)digits_of(o->precision) - 4);
-  LOCAL(pool) own = ZERO;
-  arb_ptr row = pool_balls(own, 2L * n), step = row + n;
-  LOCAL(arb) share = ZERO;
+  LOCAL(pool) own = {0};
+  double *value = pool_take(own, POOL_BYTES, 2 * (size_t)n * sizeof *value), *step = value + n;
+  LOCAL(arb) y = {0};
   double last = INFINITY, largest = INFINITY;
   bool fine = existence_prepare(k, o, false, f);
   for (int i = 0; i < NEWTON_STEPS && fine; i++) {
@@ -119,19 +126,19 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
       fine = near ? shooting_equations(o, k->value, NULL) : existence_prepare(k, o, false, f);
       if (!fine) break;
     }
+    for (int c = 0; c < n; c++) value[c] = near_double(k->value + c);
+    for (int r = 0; r < n; r++) {
+      step[r] = 0;
+      for (int c = 0; c < n; c++) step[r] += k->inverse[(size_t)r * n + c] * value[c];
+    }
+    const double share = damping(o, step);
     last = largest;
     largest = 0;
     for (int r = 0; r < n; r++) {
-      for (int c = 0; c < n; c++) arb_set_d(row + c, k->inverse[(size_t)r * n + c]);
-      arb_dot(step + r, NULL, 0, row, 1, k->value, 1, n, o->precision);
-    }
-    arb_set_d(share, damping(o, step));
-    for (int r = 0; r < n; r++) {
-      arb_mul(step + r, step + r, share, o->precision);
-      arb_sub(o->centre + r, o->centre + r, step + r, o->precision);
+      arb_set_d(y, share * step[r]);
+      arb_sub(o->centre + r, o->centre + r, y, o->precision);
       arb_get_mid_arb(o->centre + r, o->centre + r);
-      arb_div(step + r, step + r, o->scale + r % stride, o->precision);
-      largest = fmax(largest, fabs(arf_get_d(arb_midref(step + r), ARF_RND_NEAR)));
+      largest = fmax(largest, fabs(share * step[r]) / near_double(o->scale + r % stride));
     }
     if (largest <= enough || (largest < 100 * enough && largest > 0.5 * last)) break;
   }
@@ -145,7 +152,7 @@ static void write_events(json_t *draft, orbit *o)
 {
   const slong digits = digits_of(o->precision);
   const int n = o->n;
-  LOCAL(fmpq) exact = ZERO_FMPQ;
+  LOCAL(fmpq) exact = {0};
   for (int i = 0; i < o->m; i++) {
     json_t *event = json_array_get(json_object_get(draft, "events"), (size_t)i),
            *lists[] = {json_array(), json_array()};
@@ -164,49 +171,48 @@ static void write_events(json_t *draft, orbit *o)
   }
 }
 
+static bool holds_at(krawczyk *k, slong power, double *ratio)
+{
+  LOCAL(arb) radius = {0};
+  arb_set_ui(radius, 10);
+  arb_pow_fmpz(radius, radius, (fmpz[]){power}, k->o->precision);
+  return existence_holds(k, radius, ratio);
+}
+
 /* Powers of ten: the smallest radius, about 8 |B F|, and the largest that passes with room for another checker's balls.
  * Leaves the box at the smallest. */
 static bool find_radii(krawczyk *k, json_t *claims, failure *f)
 {
   const orbit *o = k->o;
   double largest = 0, ratio = INFINITY;
-  LOCAL(arb) radius = ZERO, ten = ZERO;
   char text[40];
-  arb_set_ui(ten, 10);
   for (int r = 0; r < o->unknowns; r++)
-    largest =
-        fmax(largest, mag_get_d(k->shift + r) / arf_get_d(arb_midref(o->scale + r % (2 * o->n + 1)), ARF_RND_NEAR));
-  slong smallest = largest > 0 ? (slong)ceil(log10(8 * largest)) : -digits_of(o->precision), best;
-  bool holds = false;
-  for (const slong last = smallest + 8; smallest < last && smallest < 1; smallest++) {
-    arb_pow_fmpz(radius, ten, (fmpz[]){smallest}, o->precision);
-    if ((holds = existence_holds(k, radius, &ratio))) break;
+    largest = fmax(largest, mag_get_d(k->shift + r) / near_double(o->scale + r % (2 * o->n + 1)));
+  slong smallest = largest > 0 ? (slong)ceil(log10(8 * largest)) : -digits_of(o->precision), fails = 1;
+  for (const slong last = smallest + 8; !holds_at(k, smallest, &ratio);)
+    if (++smallest >= last || smallest >= 1)
+      return refute(f, -1, -1, "existence: Krawczyk gives %.2g of the radius", ratio);
+  slong best = smallest;
+  while (best < 0 && fails - best > 1) { /* 1 passes where F is linear */
+    const slong middle = fails == 1 ? 0 : (best + fails) / 2 - ((best + fails) % 2 < 0);
+    if (holds_at(k, middle, &ratio) && ratio < ROOM) best = middle;
+    else fails = middle;
   }
-  if (holds) {
-    slong fails = 1;
-    best = smallest;
-    while (best < 0 && fails - best > 1) { /* 1 passes where F is linear */
-      const slong middle = fails == 1 ? 0 : (best + fails) / 2 - ((best + fails) % 2 < 0);
-      arb_pow_fmpz(radius, ten, (fmpz[]){middle}, o->precision);
-      if (existence_holds(k, radius, &ratio) && ratio < ROOM) best = middle;
-      else fails = middle;
-    }
-    arb_pow_fmpz(radius, ten, (fmpz[]){smallest}, o->precision);
-    existence_holds(k, radius, &ratio);
-    snprintf(text, sizeof text, "1e%ld", (long)smallest);
-    json_object_set_new(claims, "radius", json_string(text));
-    snprintf(text, sizeof text, "1e%ld", (long)best);
-    json_object_set_new(claims, "uniqueness_radius", json_string(text));
-  } else refute(f, -1, -1, "existence: Krawczyk gives %.2g of the radius", ratio);
-  return holds;
+  holds_at(k, smallest, &ratio);
+  snprintf(text, sizeof text, "1e%ld", (long)smallest);
+  json_object_set_new(claims, "radius", json_string(text));
+  snprintf(text, sizeof text, "1e%ld", (long)best);
+  json_object_set_new(claims, "uniqueness_radius", json_string(text));
+  return true;
 }
 
 /* Approximate eigenvectors of the monodromy matrix, to so many digits. */
-static void write_vectors(json_t *draft, const orbit *o, slong digits, failure *f)
+static void write_vectors(json_t *draft, const orbit *o, slong digits)
 {
-  LOCAL(arb_mat) m = ZERO;
-  LOCAL(acb_mat) a = ZERO, v = ZERO;
-  const int n = monodromy(o, m, f);
+  failure unused = {0};
+  LOCAL(arb_mat) m = {0};
+  LOCAL(acb_mat) a = {0}, v = {0};
+  const int n = monodromy(o, m, &unused);
   acb_ptr values = _acb_vec_init(n);
   json_t *rows = json_array();
   acb_mat_init(a, n, n);
@@ -217,12 +223,11 @@ static void write_vectors(json_t *draft, const orbit *o, slong digits, failure *
   for (int i = 0; i < n; i++) {
     json_t *row = json_array();
     for (int j = 0; j < n; j++) {
-      arb_srcptr parts[] = {acb_realref(acb_mat_entry(v, i, j)), acb_imagref(acb_mat_entry(v, i, j))};
-      char *text[2];
-      for (int part = 0; part < 2; part++) text[part] = decimal_write(arb_midref(parts[part]), -digits, 0);
-      json_array_append_new(row, json_pack("[s, s]", text[0], text[1]));
-      free(text[0]);
-      free(text[1]);
+      char *re = decimal_write(arb_midref(acb_realref(acb_mat_entry(v, i, j))), -digits, 0);
+      char *im = decimal_write(arb_midref(acb_imagref(acb_mat_entry(v, i, j))), -digits, 0);
+      json_array_append_new(row, json_pack("[s, s]", re, im));
+      free(re);
+      free(im);
     }
     json_array_append_new(rows, row);
   }
@@ -231,90 +236,68 @@ static void write_vectors(json_t *draft, const orbit *o, slong digits, failure *
 }
 
 /* The enclosures, three times as wide, and a radius more. */
-static void write_claims(json_t *claims, const orbit *o, const quantities *q, const arb_t radius)
+static void write_claims(json_t *claims, const certificate *c, const quantities *q)
 {
+  LOCAL(arb) radius = {0}, scale = {0};
+  arb_set_fmpq(radius, c->radius, c->precision);
+  arb_set_fmpq(scale, c->scales[0], c->precision);
   for (int i = 0; i < CLAIMS; i++) {
-    LOCAL(mag) pad = ZERO, wide = ZERO;
+    LOCAL(mag) pad = {0}, wide = {0};
     if (!(i == CLAIM_MULTIPLIER ? q->multiplier_known : q->known)) continue;
     arb_get_mag(pad, radius);
-    arb_get_mag(wide, o->scale);
+    arb_get_mag(wide, scale);
     if (i != CLAIM_MULTIPLIER) mag_mul(pad, pad, wide);
     mag_addmul(pad, arb_radref(q->value[i]), arb_radref(q->value[i]));
     mag_mul_2exp_si(wide, arb_radref(q->value[i]), 1);
     mag_add(pad, pad, wide);
-    json_object_set_new(claims, claim_names[i], decimal_interval(q->value[i], pad, o->precision));
+    json_object_set_new(claims, claim_names[i], decimal_interval(q->value[i], pad, c->precision));
   }
-  json_object_set_new(claims, "stability",
-                      json_string(stability_names[q->stability ? q->stability : STABILITY_UNPROVEN]));
+  json_object_set_new(claims, "stability", json_string(stability_names[q->stability]));
 }
 
 /* ---- all of it ---- */
 
-/* Fills in the certificate; false: v says why there is none, or none that would be accepted. */
-static bool make(json_t *draft, const certificate *c, krawczyk *k, decision *v)
+/* Fills in the certificate *made, with claims of radii alone at first, and decides it; false: v says why there is none. */
+static bool make(json_t *draft, const certificate *c, certificate **made, decision *v, char *why, size_t size)
 {
-  failure *f = &v->failure;
-  json_t *claims = json_object();
-  json_object_set_new(draft, "claims", claims);
-  orbit *o = orbit_new(c, f);
-  bool fine = o && flow_prepare(o, f) && refine(k, o, f);
-  if (!fine) json_object_del(draft, "events"); /* no certificate */
-  if (fine) {
-    write_events(draft, o);
-    fine = existence_prepare(k, o, true, f);
-  }
-  if (fine) {
-    existence_measure(k);
-    fine = find_radii(k, claims, f);
-  }
   static const slong digits[] = {17, WIDE_DIGITS};
-  certificate *read = NULL;
+  krawczyk k = {0};
+  json_t *claims = json_object();
+  orbit *o = orbit_new(c, &v->failure);
+  bool fine = o && flow_prepare(o, &v->failure) && refine(&k, o, &v->failure);
+  if (fine) write_events(draft, o);
+  else json_object_del(draft, "events"); /* no certificate */
+  fine = fine && existence_prepare(&k, o, true, &v->failure);
+  if (fine) existence_measure(&k);
+  fine = fine && find_radii(&k, claims, &v->failure);
+  json_object_set_new(draft, "claims", claims);
   for (int attempt = 0; attempt < 2 && fine; attempt++) {
-    char why[256];
-    write_vectors(draft, o, digits[attempt], f);
-    certificate_free(read);
-    read = certificate_read(draft, false, why, sizeof why);
-    if (!read) fine = refute(f, -1, -1, "%s", why);
-    if (!fine) break;
-    o->c = read; /* with its vectors */
-    multipliers(o, &v->quantities, f);
-    if (v->quantities.stability != STABILITY_UNPROVEN) break;
+    write_vectors(draft, o, digits[attempt]);
+    certificate_free(*made);
+    if (!(*made = certificate_read(draft, false, why, size))) break;
+    decision_clear(v);
+    decision_init(v);
+    if (!prove(*made, k.inverse, v) || v->quantities.stability != STABILITY_UNPROVEN) break;
   }
-  if (fine && read && (fine = prove_orbit(o, v))) {
-    LOCAL(arb) radius = ZERO;
-    arb_set_fmpq(radius, read->radii, o->precision);
-    write_claims(claims, o, &v->quantities, radius);
-  }
-  existence_free(k);
+  if (*made && !v->failure.reason[0]) write_claims(claims, *made, &v->quantities);
+  existence_free(&k);
   orbit_free(o);
-  certificate_free(read);
   return fine;
 }
 
 json_t *complete(json_t *candidate, int precision)
 {
   char why[256] = "";
-  krawczyk k = {0};
   decision v;
   decision_init(&v);
   json_t *draft = as_strings(candidate), *answer = NULL;
   json_object_del(draft, "claims");
   json_object_del(draft, "vectors");
   json_object_del(draft, "id");
+  if (json_is_object(draft)) set_defaults(draft, precision);
   certificate *c = certificate_read(draft, true, why, sizeof why), *made = NULL;
-  if (c) {
-    set_defaults(draft, c, precision);
-    certificate_free(c);
-    c = certificate_read(draft, true, why, sizeof why);
-  }
-  if (!c) answer = answer_json(NULL, NULL, why);
-  else if (make(draft, c, &k, &v)) {
-    decision_clear(&v);
-    decision_init(&v);
-    made = certificate_read(draft, false, why, sizeof why);
-    if (made) prove(made, &v);
-    answer = made ? answer_json(made, &v, NULL) : answer_json(NULL, NULL, why);
-  } else answer = answer_json(c, &v, NULL);
+  if (c && make(draft, c, &made, &v, why, sizeof why)) answer = answer_json(made, &v, made ? NULL : why);
+  else answer = answer_json(c, &v, c ? NULL : why);
   const bool whole = c && json_object_get(draft, "events");
   json_object_set(answer, "certificate", whole ? draft : json_null());
   json_t *id = json_object_get(candidate, "id");

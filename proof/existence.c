@@ -57,10 +57,10 @@ bool shooting_equations(orbit *o, arb_ptr f, jacobian *d)
 {
   const int n = o->n, stride = 2 * n + 1;
   const slong p = o->precision;
-  LOCAL(pool) own = ZERO;
+  LOCAL(pool) own = {0};
   arb_ptr end = pool_balls(own, (slong)o->largest * (2 * n + o->contacts + 3)), rate = end + o->largest,
           columns = rate + 2 * o->largest;
-  LOCAL(arb) entry = ZERO;
+  LOCAL(arb) entry = {0};
   int at = 0;
   bool fine = true;
   for (int i = 0; i < o->m && fine; i++) {
@@ -146,15 +146,15 @@ static bool approximate_inverse(krawczyk *k)
 {
   const orbit *o = k->o;
   const jacobian *d = &k->derivative;
-  const int n = o->unknowns;
-  LOCAL(pool) own = ZERO;
+  const int n = o->unknowns, stride = 2 * o->n + 1;
+  LOCAL(pool) own = {0};
   double *rows = pool_take(own, POOL_BYTES, (size_t)n * sizeof *rows);
   int *swap = pool_take(own, POOL_BYTES, (size_t)n * sizeof *swap);
   for (int r = 0; r < n; r++) {
     double *row = k->inverse + (size_t)r * n;
     for (int c = 0; c < n; c++) row[c] = 0;
     for (int e = d->row[r]; e < d->row[r + 1]; e++)
-      row[d->column[e]] += k->middle[e] * number_near(o->scale + d->column[e] % (2 * o->n + 1));
+      row[d->column[e]] += k->middle[e] * number_near(o->scale + d->column[e] % stride);
     for (int c = 0; c < n; c++) rows[r] = fmax(rows[r], fabs(row[c]));
     for (int c = 0; c < n; c++) row[c] /= rows[r];
   }
@@ -162,7 +162,7 @@ static bool approximate_inverse(krawczyk *k)
   for (int r = 0; r < n && fine; r++)
     for (int c = 0; c < n; c++) {
       double *entry = k->inverse + (size_t)r * n + c;
-      *entry *= number_near(o->scale + r % (2 * o->n + 1)) / rows[c];
+      *entry *= number_near(o->scale + r % stride) / rows[c];
       fine = fine && isfinite(*entry);
     }
   return fine;
@@ -170,35 +170,39 @@ static bool approximate_inverse(krawczyk *k)
 
 /* ---- Krawczyk ---- */
 
-/* sum over c of |I - B middle|_rc scale_c, and |B F|_r. The first in long double, since it is most of the work: a sum
- * of k products, each of them and each partial sum rounded once, is off by no more than (k + 2) epsilon times the sum
- * of their absolute values. */
+/* Of the unknowns at an event the first n are x, then v, then t: 0, 1, 2. */
+static int kind_of(const orbit *o, int unknown) { return unknown % (2 * o->n + 1) / o->n; }
+
+/* defect: sum over c of |I - B middle|_rc scale_c; shift: |B F|_r. The first in long double, since it is most of the
+ * work: a sum of k products, each of them and each partial sum rounded once, is off by no more than (k + 2) epsilon
+ * times the sum of their absolute values. */
 void existence_measure(krawczyk *k)
 {
   const orbit *o = k->o;
   const jacobian *d = &k->derivative;
   const int n = o->unknowns;
-  LOCAL(pool) own = ZERO;
-  long double *row = pool_take(own, POOL_BYTES, 2 * (size_t)n * sizeof *row), *size = row + n;
+  LOCAL(pool) own = {0};
+  long double *row = pool_take(own, POOL_BYTES, (size_t)n * sizeof *row);
+  double *size = pool_take(own, POOL_BYTES, (size_t)n * sizeof *size); /* to a part in 1e9 */
   arb_ptr inverse = pool_balls(own, n);
-  LOCAL(arb) sum = ZERO;
-  LOCAL(mag) entry = ZERO, scale = ZERO;
+  LOCAL(arb) sum = {0};
+  LOCAL(mag) entry = {0}, scale = {0};
   for (int r = 0; r < n; r++) {
     const double *b = k->inverse + (size_t)r * n;
+    long double total[3] = {DBL_MIN, DBL_MIN, DBL_MIN}; /* above all that is lost below LDBL_MIN */
     for (int c = 0; c < n; c++) row[c] = size[c] = c == r;
     for (int c = 0; c < n; c++) {
       arb_set_d(inverse + c, b[c]);
       for (int e = d->row[c]; e < d->row[c + 1] && b[c] != 0; e++) {
-        const long double product = (long double)b[c] * k->middle[e];
-        row[d->column[e]] -= product;
-        size[d->column[e]] += fabsl(product);
+        row[d->column[e]] -= (long double)b[c] * k->middle[e];
+        size[d->column[e]] += fabs(b[c] * k->middle[e]);
       }
     }
+    for (int c = 0; c < n; c++) total[kind_of(o, c)] += fabsl(row[c]) + (n + 5) * LDBL_EPSILON * size[c];
     mag_zero(k->defect + r);
-    for (int c = 0; c < n; c++) {
-      const long double bound = fabsl(row[c]) + (n + 4) * LDBL_EPSILON * size[c] + n * LDBL_MIN;
-      mag_set_d(entry, nextafter((double)bound, INFINITY));
-      arb_get_mag(scale, o->scale + c % (2 * o->n + 1));
+    for (int kind = 0; kind < 3; kind++) { /* 1e-15: these sums, and the rounding to double */
+      mag_set_d(entry, (double)(total[kind] * (1 + 1e-15L)));
+      arb_get_mag(scale, o->scale + kind * o->n);
       mag_addmul(k->defect + r, entry, scale);
     }
     arb_dot(sum, NULL, 0, inverse, 1, k->value, 1, n, o->precision);
@@ -208,15 +212,15 @@ void existence_measure(krawczyk *k)
 
 bool existence_prepare(krawczyk *k, orbit *o, bool keep, failure *f)
 {
-  const int n = o->unknowns;
+  const size_t n = (size_t)o->unknowns;
   jacobian *d = &k->derivative;
   if (!k->o) {
-    d->row = pool_take(&k->pool, POOL_BYTES, ((size_t)n + 1) * sizeof *d->row);
-    k->inverse = pool_take(&k->pool, POOL_BYTES, (size_t)n * (size_t)n * sizeof *k->inverse);
-    k->value = pool_balls(&k->pool, n);
-    k->defect = pool_mags(&k->pool, n);
-    k->shift = pool_mags(&k->pool, n);
-    k->image = pool_mags(&k->pool, n);
+    d->row = pool_take(&k->pool, POOL_BYTES, (n + 1) * sizeof *d->row);
+    if (!keep) k->inverse = pool_take(&k->pool, POOL_BYTES, n * n * sizeof *k->inverse);
+    k->value = pool_balls(&k->pool, o->unknowns);
+    k->defect = pool_mags(&k->pool, o->unknowns);
+    k->shift = pool_mags(&k->pool, o->unknowns);
+    k->image = pool_mags(&k->pool, o->unknowns);
   }
   k->o = o;
   box_set(o, NULL);
@@ -232,47 +236,41 @@ bool existence_holds(krawczyk *k, const arb_t radius, double *ratio)
   orbit *o = k->o;
   const jacobian *d = &k->derivative;
   const int n = o->unknowns;
-  LOCAL(pool) own = ZERO;
+  LOCAL(pool) own = {0};
   mag_ptr half = pool_mags(own, 2L * n), spread = half + n;
-  LOCAL(mag) entry = ZERO;
-  LOCAL(arb) bound = ZERO;
-  bool holds = true;
-  *ratio = 0;
+  LOCAL(mag) entry = {0};
+  LOCAL(arb) bound = {0};
   for (int c = 0; c < n; c++) {
-    arb_mul(bound, radius, o->scale + c % (2 * o->n + 1), o->precision);
+    arb_mul(bound, radius, o->scale + kind_of(o, c) * o->n, o->precision);
     arb_get_mag(half + c, bound); /* not below radius scale */
   }
   box_set(o, half);
-  if (shooting_equations(o, NULL, &k->derivative)) {
-    /* spread_k = sum over c of |dF/dy(Y) - middle|_kc scale_c */
-    for (int r = 0; r < n; r++)
-      for (int e = d->row[r]; e < d->row[r + 1]; e++) {
-        arb_t *value = (arb_t *)(d->value + e);
-        arf_set_d(arb_midref(bound), k->middle[e]);
-        mag_zero(arb_radref(bound));
-        arb_sub(bound, *value, bound, o->precision);
-        arb_get_mag(entry, bound);
-        mag_mul(entry, entry, half + d->column[e]);
-        mag_add(spread + r, spread + r, entry);
-      }
-    for (int r = 0; r < n; r++) {
-      /* |B F(y0)| + |I - B dF/dy(Y)| radius scale < radius scale: exactly one zero is in Y, and it is in the image. */
-      mag_set(k->image + r, k->shift + r);
-      arb_get_mag(entry, radius);
-      mag_addmul(k->image + r, k->defect + r, entry);
-      for (int c = 0; c < n; c++) {
-        mag_set_d(entry, fabs(k->inverse[(size_t)r * n + c]));
-        mag_addmul(k->image + r, entry, spread + c);
-      }
-      arb_mul(bound, radius, o->scale + r % (2 * o->n + 1), o->precision);
-      arb_get_mag_lower(entry, bound);
-      holds = holds && mag_cmp(k->image + r, entry) < 0;
-      const double share = mag_get_d(k->image + r) / mag_get_d(entry);
-      *ratio = share > *ratio || isnan(share) ? share : *ratio;
+  *ratio = INFINITY;
+  if (!shooting_equations(o, NULL, &k->derivative)) return false;
+  /* spread_r = sum over c of |dF/dy(Y) - middle|_rc radius scale_c */
+  for (int r = 0; r < n; r++)
+    for (int e = d->row[r]; e < d->row[r + 1]; e++) {
+      arb_set_d(bound, k->middle[e]);
+      arb_sub(bound, d->value + e, bound, o->precision);
+      arb_get_mag(entry, bound);
+      mag_addmul(spread + r, entry, half + d->column[e]);
     }
-  } else {
-    holds = false;
-    *ratio = INFINITY;
+  bool holds = true;
+  *ratio = 0;
+  for (int r = 0; r < n; r++) {
+    /* |B F(y0)| + |I - B dF/dy(Y)| radius scale < radius scale: exactly one zero is in Y, and it is in the image. */
+    mag_set(k->image + r, k->shift + r);
+    arb_get_mag(entry, radius);
+    mag_addmul(k->image + r, k->defect + r, entry);
+    for (int c = 0; c < n; c++) {
+      mag_set_d(entry, fabs(k->inverse[(size_t)r * n + c]));
+      mag_addmul(k->image + r, entry, spread + c);
+    }
+    arb_mul(bound, radius, o->scale + kind_of(o, r) * o->n, o->precision);
+    arb_get_mag_lower(entry, bound);
+    holds = holds && mag_cmp(k->image + r, entry) < 0;
+    const double share = mag_get_d(k->image + r) / mag_get_d(entry);
+    *ratio = share > *ratio || isnan(share) ? share : *ratio;
   }
   return holds;
 }

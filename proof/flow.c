@@ -19,7 +19,7 @@ enum {
  *     |A h|^(degree + 1) / (degree + 1)! exp |A h| */
 static void remainder_bound(mag_t rest, const mag_t norm, int degree)
 {
-  LOCAL(mag) growth = ZERO;
+  LOCAL(mag) growth = {0};
   mag_exp(growth, norm);
   mag_pow_ui(rest, norm, (ulong)degree + 1);
   mag_mul(rest, rest, growth);
@@ -31,7 +31,7 @@ static void remainder_bound(mag_t rest, const mag_t norm, int degree)
 static int degree_for(const mag_t norm, slong bits)
 {
   int degree = 1;
-  LOCAL(mag) rest = ZERO;
+  LOCAL(mag) rest = {0};
   do remainder_bound(rest, norm, ++degree);
   while (mag_cmp_2exp_si(rest, -bits) > 0 && degree < LIMIT_TERMS);
   return degree;
@@ -39,7 +39,7 @@ static int degree_for(const mag_t norm, slong bits)
 
 static void norm_of(mag_t norm, const orbit_segment *s, arb_srcptr z)
 {
-  LOCAL(mag) entry = ZERO;
+  LOCAL(mag) entry = {0};
   mag_zero(norm);
   for (int i = 0; i < s->size; i++) {
     arb_get_mag(entry, z + i);
@@ -52,7 +52,7 @@ static void norm_of(mag_t norm, const orbit_segment *s, arb_srcptr z)
  * rest. */
 static void add_rest(const orbit_segment *s, arb_ptr z, const mag_t norm)
 {
-  LOCAL(mag) entry = ZERO;
+  LOCAL(mag) entry = {0};
   for (int i = 0; i < s->size; i++) {
     mag_mul_2exp_si(entry, norm, s->weight[i]);
     if (s->length[i]) arb_add_error_mag(z + i, entry);
@@ -71,10 +71,10 @@ void flow_apply(const orbit *o, const orbit_segment *s, arb_srcptr z, arb_ptr de
 static void exponential(const orbit *o, const orbit_segment *s, const arb_t h, const mag_t norm, arb_ptr z, int columns)
 {
   const int size = s->size, degree = degree_for(norm, o->precision + 8);
-  LOCAL(pool) own = ZERO;
+  LOCAL(pool) own = {0};
   arb_ptr term = pool_balls(own, 2L * size), next = term + size;
-  LOCAL(arb) factor = ZERO;
-  LOCAL(mag) rest = ZERO, whole = ZERO;
+  LOCAL(arb) factor = {0};
+  LOCAL(mag) rest = {0}, whole = {0};
   for (int c = 0; c < columns; c++, z += size) {
     norm_of(whole, s, z);
     _arb_vec_set(term, z, size);
@@ -94,7 +94,7 @@ static void exponential(const orbit *o, const orbit_segment *s, const arb_t h, c
 
 void flow_duration(const orbit *o, int i, arb_t tau)
 {
-  LOCAL(arb) from = ZERO;
+  LOCAL(arb) from = {0};
   orbit_time(o, i, from);
   orbit_time(o, i + 1, tau);
   if (o->c->section) arb_set(tau, o->duration); /* its time is fixed */
@@ -105,7 +105,7 @@ void flow_duration(const orbit *o, int i, arb_t tau)
 static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *work, double *entries)
 {
   orbit_segment *s = &o->segments[i];
-  LOCAL(mag) norm = ZERO;
+  LOCAL(mag) norm = {0};
   flow_duration(o, i, s->span);
   bool fine = arb_is_finite(s->span) && arb_is_positive(s->span);
   if (!fine) refute(f, i, -1, "times not in order: segment %d", i);
@@ -130,12 +130,12 @@ bool flow_prepare(orbit *o, failure *f)
 {
   long steps = 0;
   double work = 0, entries = 0;
-  LOCAL(mag) norm = ZERO;
+  LOCAL(mag) norm = {0};
   for (int i = 0; i < o->m; i++)
     if (!choose_steps(o, i, f, &steps, &work, &entries)) return false;
   mag_set_ui(norm, 1ul << o->reach);
   o->degree = degree_for(norm, o->precision - 20);
-  LOCAL(pool) own = ZERO;
+  LOCAL(pool) own = {0};
   arb_ptr columns = pool_balls(own, (slong)o->largest * o->largest);
   for (int i = 0; i < o->m; i++) {
     orbit_segment *s = &o->segments[i];
@@ -156,8 +156,8 @@ bool flow_prepare(orbit *o, failure *f)
 
 bool flow_correct(const orbit *o, const orbit_segment *s, const arb_t tau, arb_ptr z, int columns)
 {
-  LOCAL(arb) h = ZERO;
-  LOCAL(mag) norm = ZERO;
+  LOCAL(arb) h = {0};
+  LOCAL(mag) norm = {0};
   arb_sub(h, tau, s->span, o->precision);
   arb_get_mag(norm, h);
   mag_mul(norm, norm, s->norm);
@@ -176,7 +176,7 @@ bool flow_end(const orbit *o, int i, arb_ptr end, arb_ptr columns)
 {
   const orbit_segment *s = &o->segments[i];
   const int sliders = 2 * o->n + 1 + 2 * o->harmonics;
-  LOCAL(arb) tau = ZERO;
+  LOCAL(arb) tau = {0};
   flow_duration(o, i, tau);
   times_vector(end, s->power + s->levels, s->start, o->precision);
   bool fine = flow_correct(o, s, tau, end, 1);
@@ -197,7 +197,7 @@ bool flow_end(const orbit *o, int i, arb_ptr end, arb_ptr columns)
 
 static void walk_width(walk *w, const arb_t width)
 {
-  LOCAL(mag) norm = ZERO;
+  LOCAL(mag) norm = {0};
   arb_set(w->width, width);
   arb_get_mag(norm, width);
   mag_mul(norm, norm, w->s->norm);
@@ -238,7 +238,7 @@ bool walk_next(walk *w)
   if (w->k == 0) _arb_vec_set(z, s->start, size);
   else times_vector(z, s->power + slot, w->at + (slong)trailing(w, w->k & (w->k - 1)) * size, o->precision);
   if (w->k == w->steps - 1) { /* as long as the segment may last */
-    LOCAL(arb) left = ZERO, length = ZERO;
+    LOCAL(arb) left = {0}, length = {0};
     flow_duration(o, (int)(s - o->segments), left);
     arb_mul_si(length, s->step, w->k, o->precision);
     arb_sub(left, left, length, o->precision);
@@ -267,7 +267,7 @@ void walk_end(walk *w)
 void walk_polynomial(const walk *w, arb_srcptr row, arb_ptr polynomial, mag_t rest)
 {
   const int size = w->s->size;
-  LOCAL(mag) entry = ZERO;
+  LOCAL(mag) entry = {0};
   int first = 0, last = size;
   while (first < size && arb_is_zero(row + first)) first++;
   while (last > first && arb_is_zero(row + last - 1)) last--;
@@ -290,14 +290,14 @@ void walk_polynomial(const walk *w, arb_srcptr row, arb_ptr polynomial, mag_t re
 
 void bernstein(arb_ptr b, arb_srcptr polynomial, int full, int degree, const mag_t rest, slong precision)
 {
-  LOCAL(mag) error = ZERO, term = ZERO;
+  LOCAL(mag) error = {0}, term = {0};
   mag_set(error, rest);
   for (int k = degree + 1; k <= full; k++) {
     arb_get_mag(term, polynomial + k);
     mag_add(error, error, term);
   }
   /* b_i = sum over k <= i of binomial(i, k) / binomial(degree, k) c_k, by repeated sums */
-  LOCAL(fmpz) binomial = ZERO;
+  LOCAL(fmpz) binomial = {0};
   fmpz_one(binomial);
   for (int k = 0; k <= degree; k++) {
     arb_div_fmpz(b + k, polynomial + k, binomial, precision);

@@ -78,7 +78,7 @@ static json_t *answer_text(const options *o, const char *text, size_t length)
     decision v;
     decision_init(&v);
     certificate *c = certificate_read(json, false, why, sizeof why);
-    if (c) prove(c, &v);
+    if (c) prove(c, NULL, &v);
     answer = answer_json(c, &v, c ? NULL : why);
     certificate_free(c);
     decision_clear(&v);

@@ -33,7 +33,7 @@ static bool proportional(const fmpq *a, const fmpq *b, int n, fmpq_t ratio)
   if (pivot == n) return false;
   fmpq_div(ratio, a + pivot, b + pivot);
   bool all = true;
-  LOCAL(fmpq) product = ZERO_FMPQ;
+  LOCAL(fmpq) product = {0};
   for (int i = 0; i < n; i++) {
     fmpq_mul(product, ratio, b + i);
     all = all && fmpq_equal(product, a + i);
@@ -45,24 +45,21 @@ static void contact_set(orbit *o, contact_balls *f, const contact_given *k, cons
 {
   const int n = o->n;
   const slong precision = o->precision;
-  arb_ptr constants = pool_balls(&o->pool, 7 + 2L * n);
-  f->kt = constants, f->mu = constants + 1, f->kn = constants + 2, f->gap = constants + 3, f->load = constants + 4;
-  f->rest = constants + 5, f->ratio = constants + 6, f->t = constants + 7, f->n = f->t + n;
-  const fmpq *given[] = {k->kt, k->mu, k->kn, k->gap, k->load, rest};
-  for (int i = 0; i < 6; i++)
-    if (given[i]) arb_set_fmpq(constants + i, given[i], precision);
-  balls(f->t, k->t, n, precision);
-  balls(f->n, k->n, n, precision);
-  LOCAL(fmpq) ratio = ZERO_FMPQ;
-  if (k->angled) { /* u and v are proportional by construction, whatever the cosine is */
-    LOCAL(arb) sine = ZERO, cosine = ZERO;
+  LOCAL(fmpq) ratio = {0};
+  f->t = pool_balls(&o->pool, 2L * n + CONTACT_NUMBERS + 2);
+  f->n = f->t + n, f->kt = f->n + n + 1, f->mu = f->kt + 1, f->kn = f->mu + 1, f->gap = f->kn + 1, f->load = f->gap + 1;
+  f->rest = f->load + 1, f->ratio = f->rest + 1;
+  balls(f->t, k->t, 2L * n + CONTACT_NUMBERS, precision); /* in the order in which they were read */
+  arb_set_fmpq(f->rest, rest, precision);
+  f->parallel = k->angled; /* u and v are proportional by construction, whatever the cosine is */
+  if (k->angled) {
+    LOCAL(arb) sine = {0}, cosine = {0};
     fmpq_set_ui(ratio, 180, 1);
     fmpq_div(ratio, k->angle, ratio);
     arb_sin_cos_pi_fmpq(sine, cosine, ratio, precision);
     _arb_vec_scalar_mul(f->t, f->t, n, cosine, precision);
     _arb_vec_scalar_mul(f->n, f->n, n, sine, precision);
     arb_div(f->ratio, cosine, sine, precision);
-    f->parallel = true;
   } else if (k->tangential && k->normal && proportional(k->t, k->n, n, ratio)) {
     arb_set_fmpq(f->ratio, ratio, precision);
     f->parallel = true;
@@ -93,8 +90,7 @@ static void row_load(const orbit *o, const orbit_segment *s, int contact, arb_pt
 static void row_traction(const orbit *o, const orbit_segment *s, int contact, arb_ptr row)
 {
   const contact_balls *f = &o->friction[contact];
-  const int column = s->slider[contact];
-  if (column < 0) {
+  if (s->slider[contact] < 0) {
     row_load(o, s, contact, row);
     _arb_vec_scalar_mul(row, row, s->size, f->mu, o->precision);
     if (sign_of(s->letters[contact]) < 0) _arb_vec_neg(row, row, s->size);
@@ -102,7 +98,7 @@ static void row_traction(const orbit *o, const orbit_segment *s, int contact, ar
   }
   _arb_vec_zero(row, s->size);
   _arb_vec_scalar_mul(row, f->t, o->n, f->kt, o->precision);
-  arb_neg(row + column, f->kt);
+  arb_neg(row + s->slider[contact], f->kt);
 }
 
 void row_limit(const orbit *o, const orbit_segment *s, int contact, int sign, arb_ptr row)
@@ -111,17 +107,16 @@ void row_limit(const orbit *o, const orbit_segment *s, int contact, int sign, ar
   row_load(o, s, contact, row);
   _arb_vec_scalar_mul(row, row, s->size, o->friction[contact].mu, o->precision);
   row_traction(o, s, contact, traction);
-  if (sign > 0) _arb_vec_sub(row, row, traction, s->size, o->precision);
-  else _arb_vec_add(row, row, traction, s->size, o->precision);
+  if (sign > 0) _arb_vec_neg(traction, traction, s->size);
+  _arb_vec_add(row, row, traction, s->size, o->precision);
 }
 
 void row_slip(const orbit *o, const orbit_segment *s, int contact, int sign, arb_ptr row)
 {
-  const contact_balls *f = &o->friction[contact];
   _arb_vec_zero(row, s->size);
   slider_line(o, contact, sign > 0 ? '+' : '-', row + o->n); /* sign kt (t.v - sign mu kn n.v/kt) */
   arb_zero(row + 2 * o->n);
-  _arb_vec_scalar_mul(row + o->n, row + o->n, o->n, f->kt, o->precision);
+  _arb_vec_scalar_mul(row + o->n, row + o->n, o->n, o->friction[contact].kt, o->precision);
   if (sign < 0) _arb_vec_neg(row, row, s->size);
 }
 
@@ -129,7 +124,7 @@ void slider_line(const orbit *o, int contact, char before, arb_ptr line)
 {
   const contact_balls *f = &o->friction[contact];
   const bool normal = o->c->contacts[contact].normal;
-  LOCAL(arb) factor = ZERO;
+  LOCAL(arb) factor = {0};
   _arb_vec_set(line, f->t, o->n);
   arb_zero(line + o->n);
   if (before == 'O') return;
@@ -149,10 +144,10 @@ static void forces(const orbit *o, const orbit_segment *s, arb_mat_t r, arb_ptr 
   const certificate *c = o->c;
   const int n = o->n;
   const slong p = o->precision;
-  LOCAL(arb) load = ZERO;
+  LOCAL(arb) load = {0};
   for (int i = 0; i < n; i++) {
-    balls(arb_mat_entry(r, i, 0), c->stiffness + (size_t)i * (size_t)n, n, p);
-    balls(arb_mat_entry(r, i, n), c->damping + (size_t)i * (size_t)n, n, p);
+    balls(arb_mat_entry(r, i, 0), c->stiffness + (slong)i * n, n, p);
+    balls(arb_mat_entry(r, i, n), c->damping + (slong)i * n, n, p);
   }
   for (int j = 0; j < o->contacts; j++) {
     const contact_balls *f = &o->friction[j];
@@ -168,21 +163,18 @@ static void forces(const orbit *o, const orbit_segment *s, arb_mat_t r, arb_ptr 
     for (int i = 0; i < n; i++) _arb_vec_scalar_addmul(arb_mat_entry(r, i, 0), row, s->size, f->t + i, p);
   }
   arb_mat_neg(r, r);
-  for (int h = 0; h < c->n_harmonics; h++) {
-    int column = 2 * n;
-    for (int k = 0; k < o->harmonics; k++)
-      if (o->forcing[k] == h) column = 2 * n + 1 + 2 * k;
+  for (int h = 0; h < c->n_harmonics; h++)
     for (int i = 0; i < n; i++) {
-      arb_set_fmpq(load, c->cosine + (size_t)h * (size_t)n + i, p);
-      arb_add(arb_mat_entry(r, i, column), arb_mat_entry(r, i, column), load, p);
-      if (c->harmonic[h] > 0) arb_set_fmpq(arb_mat_entry(r, i, column + 1), c->sine + (size_t)h * (size_t)n + i, p);
+      arb_ptr place = arb_mat_entry(r, i, o->load_column[h]);
+      arb_set_fmpq(load, c->cosine + (slong)h * n + i, p);
+      arb_add(place, place, load, p);
+      if (c->harmonic[h] > 0) arb_set_fmpq(place + 1, c->sine + (slong)h * n + i, p);
     }
-  }
 }
 
 static double upper(const arb_t x)
 {
-  LOCAL(mag) m = ZERO;
+  LOCAL(mag) m = {0};
   arb_get_mag(m, x);
   return mag_get_d(m);
 }
@@ -217,16 +209,35 @@ static void choose_weights(const orbit *o, orbit_segment *s)
     stiffness = fmax(stiffness, sum);
   }
   if (!(stiffness > 0)) stiffness = pow(upper(o->omega), 2);
-  const double frequency = log2(stiffness) / 2;
+  const double frequency = log2(stiffness) / 2, most = ROOM - log2(upper(o->scale));
   for (int j = n; j < s->size; j++) {
     s->weight[j] = j < 2 * n ? s->weight[j - n] + weight_of(frequency) : weight_of(frequency);
     if (j < 2 * n) continue;
-    const int pair =
-        j > 2 * n && j <= 2 * n + 2 * o->harmonics ? (j - 2 * n) % 2 ? j + 1 : j - 1 : j; /* cosine and sine alike */
+    int pair = j; /* cosine and sine alike */
+    if (j > 2 * n && j <= 2 * n + 2 * o->harmonics) pair = (j - 2 * n) % 2 ? j + 1 : j - 1;
     double load = 0;
     for (int i = 0; i < n; i++) load = fmax(load, fmax(weighed(o, s, i, j), weighed(o, s, i, pair)));
-    const double most = ROOM - log2(upper(o->scale));
     s->weight[j] = weight_of(load > 0 ? fmin(2 * frequency - log2(load), most) : most);
+  }
+}
+
+/* The part of each row that is not 0, and the norm. */
+static void measure_rows(orbit_segment *s)
+{
+  LOCAL(mag) sum = {0}, entry = {0};
+  for (int r = 0; r < s->size; r++) {
+    int first = 0, last = s->size;
+    while (last > 0 && arb_is_zero(arb_mat_entry(s->a, r, last - 1))) last--;
+    while (first < last && arb_is_zero(arb_mat_entry(s->a, r, first))) first++;
+    s->first[r] = first;
+    s->length[r] = last - first;
+    mag_zero(sum);
+    for (int j = first; j < last; j++) {
+      arb_get_mag(entry, arb_mat_entry(s->a, r, j));
+      mag_mul_2exp_si(entry, entry, s->weight[j] - s->weight[r]);
+      mag_add(sum, sum, entry);
+    }
+    mag_max(s->norm, s->norm, sum);
   }
 }
 
@@ -234,7 +245,6 @@ static void segment_set(orbit *o, int i)
 {
   orbit_segment *s = &o->segments[i];
   const int n = o->n;
-  const slong p = o->precision;
   s->letters = o->c->letters + (size_t)i * (size_t)o->contacts;
   s->size = 2 * n + 1 + 2 * o->harmonics;
   for (int j = 0; j < o->contacts; j++) {
@@ -252,36 +262,22 @@ static void segment_set(orbit *o, int i)
   s->first = pool_take(&o->pool, POOL_BYTES, 2 * (size_t)s->size * sizeof *s->first);
   s->length = s->first + s->size;
   s->weight = pool_take(&o->pool, POOL_BYTES, (size_t)s->size * sizeof *s->weight);
-  LOCAL(arb_mat) force = ZERO, acceleration = ZERO;
+  LOCAL(arb_mat) force = {0}, acceleration = {0};
   arb_mat_init(force, n, s->size);
   arb_mat_init(acceleration, n, s->size);
   forces(o, s, force, s->start);
-  arb_mat_mul(acceleration, o->inverse_mass, force, p);
+  arb_mat_mul(acceleration, o->inverse_mass, force, o->precision);
   for (int r = 0; r < n; r++) {
     arb_one(arb_mat_entry(s->a, r, n + r));
     _arb_vec_set(arb_mat_entry(s->a, n + r, 0), arb_mat_entry(acceleration, r, 0), s->size);
   }
   for (int h = 0; h < o->harmonics; h++) {
     const int cosine = 2 * n + 1 + 2 * h, sine = cosine + 1;
-    arb_mul_si(arb_mat_entry(s->a, sine, cosine), o->omega, o->harmonic[h], p);
+    arb_mul_si(arb_mat_entry(s->a, sine, cosine), o->omega, o->harmonic[h], o->precision);
     arb_neg(arb_mat_entry(s->a, cosine, sine), arb_mat_entry(s->a, sine, cosine));
   }
   choose_weights(o, s);
-  LOCAL(mag) sum = ZERO, entry = ZERO;
-  for (int r = 0; r < s->size; r++) {
-    int last = -1;
-    mag_zero(sum);
-    for (int j = 0; j < s->size; j++) {
-      if (arb_is_zero(arb_mat_entry(s->a, r, j))) continue;
-      if (last < 0) s->first[r] = j;
-      last = j;
-      arb_get_mag(entry, arb_mat_entry(s->a, r, j));
-      mag_mul_2exp_si(entry, entry, s->weight[j] - s->weight[r]);
-      mag_add(sum, sum, entry);
-    }
-    s->length[r] = last < 0 ? 0 : last - s->first[r] + 1;
-    if (mag_cmp(sum, s->norm) > 0) mag_set(s->norm, sum);
-  }
+  measure_rows(s);
 }
 
 /* ---- sequences that the theorem covers ---- */
@@ -298,54 +294,41 @@ int orbit_guarded(const orbit *o, int i)
   return -1;
 }
 
-static bool same(const fmpq *a, const fmpq *b, int n)
-{
-  for (int i = 0; i < n; i++)
-    if (a && b && !fmpq_equal(a + i, b + i)) return false;
-  return (a == NULL) == (b == NULL);
-}
-
 /* Are two contacts equal, with equal histories? */
 static bool twins(const orbit *o, int a, int b)
 {
   const contact_given *k = &o->c->contacts[a], *l = &o->c->contacts[b];
-  for (int i = 0; i < o->m; i++)
-    if (orbit_letter(o, i, a) != orbit_letter(o, i, b)) return false;
-  return k->tangential == l->tangential && k->angled == l->angled && same(k->t, l->t, o->n) && same(k->n, l->n, o->n) &&
-         same(k->angle, l->angle, 1) && same(k->kt, l->kt, 1) && same(k->mu, l->mu, 1) && same(k->kn, l->kn, 1) &&
-         same(k->gap, l->gap, 1) && same(k->load, l->load, 1) && same(o->c->rest + a, o->c->rest + b, 1);
+  bool equal = k->angled == l->angled && k->normal == l->normal && fmpq_equal(o->c->rest + a, o->c->rest + b);
+  for (int i = 0; i < 2 * o->n + CONTACT_NUMBERS; i++) equal = equal && fmpq_equal(k->t + i, l->t + i);
+  for (int i = 0; i < o->m; i++) equal = equal && orbit_letter(o, i, a) == orbit_letter(o, i, b);
+  return equal;
 }
 
-/* The guard's row of a contact, exactly, but for a factor that is not 0: [coordinates + 1], the last for its constant.
- * false: it is none. */
+/* The row [coordinates + 1] of a guard that is no limit, exactly but for a factor: n.x + gap, or s kt t.v - mu kn n.v.
+ * false: that factor may be 0. */
 static bool guard_shape(const orbit *o, int contact, guard kind, int sign, fmpq *shape)
 {
   const contact_given *k = &o->c->contacts[contact];
-  bool some = kind == GUARD_TOUCH;
-  LOCAL(fmpq) friction = ZERO_FMPQ;
-  for (int i = 0; i < o->n; i++) {
-    fmpq *row = shape + i;
-    if (kind == GUARD_TOUCH || k->angled) fmpq_set(row, k->n + i);
-    else {
-      fmpq_mul(row, k->kt, k->t + i);
-      if (sign < 0) fmpq_neg(row, row);
-      if (k->normal) fmpq_mul(friction, k->mu, k->kn);
-      if (k->normal) fmpq_submul(row, friction, k->n + i);
-    }
-    some = some || !fmpq_is_zero(row);
-  }
-  fmpq_zero(shape + o->n);
+  const contact_balls *f = &o->friction[contact];
+  LOCAL(fmpq) along = {0}, across = {0};
+  LOCAL(arb) factor = {0};
+  fmpq_set_si(along, 0, 1);
+  fmpq_set_si(across, 1, 1);
+  arb_one(factor);
   if (kind == GUARD_TOUCH) fmpq_set(shape + o->n, k->gap);
-  else if (k->angled) { /* (sign kt cos - mu kn sin) d: is the factor a number other than 0? */
-    const contact_balls *f = &o->friction[contact];
-    LOCAL(arb) factor = ZERO, load = ZERO;
-    arb_mul(factor, f->kt, f->ratio, o->precision);
-    arb_mul_si(factor, factor, sign, o->precision);
-    arb_mul(load, f->mu, f->kn, o->precision);
-    arb_sub(factor, factor, load, o->precision);
-    some = some && !arb_contains_zero(factor);
+  else if (k->angled) { /* (sign kt cos - mu kn sin) d */ arb_mul(factor, f->kt, f->ratio, o->precision);
+    if (sign < 0) arb_neg(factor, factor);
+    arb_submul(factor, f->mu, f->kn, o->precision);
+  } else {
+    fmpq_mul_si(along, k->kt, sign);
+    fmpq_mul(across, k->mu, k->kn);
+    fmpq_neg(across, across);
   }
-  return some;
+  for (int i = 0; i < o->n; i++) {
+    fmpq_mul(shape + i, along, k->t + i);
+    fmpq_addmul(shape + i, across, k->n + i);
+  }
+  return !arb_contains_zero(factor);
 }
 
 /* Several contacts may change at one event if their guards are exactly proportional: F has one of them. */
@@ -354,37 +337,32 @@ static bool changes_together(const orbit *o, int event, int a, int b)
   const contact_given *k = &o->c->contacts[a], *l = &o->c->contacts[b];
   const char before_a = orbit_letter(o, event - 1, a), before_b = orbit_letter(o, event - 1, b);
   const guard kind = guard_of(before_a, orbit_letter(o, event, a));
+  const bool gapless = fmpq_is_zero(k->gap) && fmpq_is_zero(l->gap), one_angle = fmpq_equal(k->angle, l->angle);
   if (kind != guard_of(before_b, orbit_letter(o, event, b))) return false;
   if (twins(o, a, b)) return true;
-  if (kind == GUARD_SLIP) return false;
-  if (kind == GUARD_TOUCH && !(fmpq_is_zero(k->gap) && fmpq_is_zero(l->gap)) &&
-      (k->angled != l->angled || (k->angled && !fmpq_equal(k->angle, l->angle))))
-    return false;
-  LOCAL(pool) own = ZERO;
+  if (kind == GUARD_SLIP || (kind == GUARD_TOUCH && !gapless && !one_angle)) return false;
+  LOCAL(pool) own = {0};
+  LOCAL(fmpq) ratio = {0};
   fmpq *shapes = pool_rationals(own, 2L * (o->n + 1));
-  LOCAL(fmpq) ratio = ZERO_FMPQ;
   return guard_shape(o, a, kind, sign_of(before_a), shapes) &&
          guard_shape(o, b, kind, sign_of(before_b), shapes + o->n + 1) &&
-         proportional(shapes, shapes + o->n + 1, o->n + 1, ratio);
+         proportional(shapes, shapes + o->n + 1, o->n + 1, ratio) && !fmpq_is_zero(ratio);
 }
 
 static bool sequence_possible(const orbit *o, failure *f)
 {
   for (int i = 0; i < o->m && !o->c->section; i++) {
     const int guarded = orbit_guarded(o, i);
+    const orbit_segment *s = &o->segments[(i + o->m - 1) % o->m];
     for (int j = 0; j < o->contacts; j++) {
       const char before = orbit_letter(o, i - 1, j), after = orbit_letter(o, i, j);
       if (before == after) continue;
       if (sign_of(before) * sign_of(after) < 0)
         return refute(f, i, j, "segment %d, contact %d: slip does not turn without stick", i, j);
       /* Stick -> O: |T| <= mu N, so T and N would vanish at once, which is generic only where they are proportional. */
-      if (before == 'S' && after == 'O') {
-        const orbit_segment *s = &o->segments[(i + o->m - 1) % o->m];
-        if (!o->friction[j].parallel || s->from[j] != 'O')
-          return refute(f, i, j,
-                        "segment %d, contact %d: stick ends by separation, but not where motions are proportional", i,
-                        j);
-      }
+      if (before == 'S' && after == 'O' && (!o->friction[j].parallel || s->from[j] != 'O'))
+        return refute(f, i, j, "segment %d, contact %d: stick ends by separation where motions are not proportional", i,
+                      j);
       if (j != guarded && !changes_together(o, i, guarded, j))
         return refute(f, i, j, "two independent transitions at once: event %d, contacts %d and %d", i, guarded, j);
     }
@@ -404,7 +382,7 @@ void orbit_starts(orbit *o)
 {
   const int n = o->n;
   const slong p = o->precision;
-  LOCAL(arb) angle = ZERO;
+  LOCAL(arb) angle = {0};
   for (int i = 0; i < o->m; i++) {
     orbit_segment *s = &o->segments[i];
     arb_srcptr event = orbit_event(o, i);
@@ -418,64 +396,63 @@ void orbit_starts(orbit *o)
     for (int j = 0; j < o->contacts; j++) {
       if (s->slider[j] < 0) continue;
       arb_ptr w = s->start + s->slider[j];
-      if (s->began[j] < 0) {
-        arb_set(w, o->friction[j].rest);
-        continue;
-      }
+      arb_set(w, o->friction[j].rest);
+      if (s->began[j] < 0) continue;
       slider_line(o, j, s->from[j], o->scratch);
       arb_dot(w, o->scratch + n, 0, o->scratch, 1, orbit_event(o, s->began[j]), 1, n, p);
     }
   }
 }
 
+/* The loads' harmonics in Z, and the first, with which a1 and b1 are made. */
+static void choose_harmonics(orbit *o)
+{
+  const certificate *c = o->c;
+  const int constant = 2 * o->n;
+  for (int h = 0; h < c->n_harmonics; h++) {
+    o->load_column[h] = c->harmonic[h] > 0 ? constant + 1 + 2 * o->harmonics : constant;
+    if (c->harmonic[h] == 1) o->first_harmonic = o->load_column[h];
+    if (c->harmonic[h] > 0) o->harmonic[o->harmonics++] = c->harmonic[h];
+  }
+  if (o->first_harmonic) return;
+  o->first_harmonic = constant + 1 + 2 * o->harmonics;
+  o->harmonic[o->harmonics++] = 1;
+}
+
 orbit *orbit_new(const certificate *c, failure *f)
 {
   orbit *o = flint_calloc(1, sizeof *o);
-  const int n = c->n;
+  const int n = c->n, stride = 2 * n + 1;
   const slong p = c->precision;
   o->c = c;
   o->precision = p;
   o->n = n;
   o->m = c->n_events;
   o->contacts = c->n_contacts;
-  o->unknowns = c->section ? 2 * n : o->m * (2 * n + 1);
-  const slong all = (slong)o->m * (2 * n + 1);
-  arb_mat_init(o->inverse_mass, n, n);
-  o->centre = pool_balls(&o->pool, all);
-  o->box = pool_balls(&o->pool, all);
-  o->scale = pool_balls(&o->pool, 2 * n + 1);
+  o->unknowns = c->section ? 2 * n : o->m * stride;
+  o->centre = pool_balls(&o->pool, (slong)o->m * stride);
+  o->box = pool_balls(&o->pool, (slong)o->m * stride);
+  o->scale = pool_balls(&o->pool, stride);
   arb_set_fmpq(o->omega, c->omega, p);
   arb_const_pi(o->duration, p);
   arb_mul_si(o->duration, o->duration, 2L * c->multiple, p);
   arb_div(o->duration, o->duration, o->omega, p);
   for (int i = 0; i < o->m; i++) {
-    balls(o->centre + (size_t)i * (2 * (size_t)n + 1), c->state + 2L * i * n, 2L * n, p);
-    balls(o->centre + (size_t)i * (2 * (size_t)n + 1) + 2 * n, c->time + i, 1, p);
+    balls(o->centre + (slong)i * stride, c->state + 2L * i * n, 2L * n, p);
+    balls(o->centre + (slong)i * stride + 2 * n, c->time + i, 1, p);
   }
-  _arb_vec_set(o->box, o->centre, all);
-  for (int i = 0; i <= 2 * n; i++) arb_set_fmpq(o->scale + i, c->scales + (i < n ? 0 : i < 2 * n ? 1 : 2), p);
-  /* the loads' harmonics, and the first, with which a1 and b1 are made */
-  int first = -1;
-  for (int h = 0; h < c->n_harmonics; h++) {
-    if (c->harmonic[h] == 0) continue;
-    if (c->harmonic[h] == 1) first = o->harmonics;
-    o->harmonic[o->harmonics] = c->harmonic[h];
-    o->forcing[o->harmonics++] = h;
-  }
-  if (first < 0) {
-    first = o->harmonics;
-    o->harmonic[o->harmonics] = 1;
-    o->forcing[o->harmonics++] = -1;
-  }
-  o->first_harmonic = 2 * n + 1 + 2 * first;
+  _arb_vec_set(o->box, o->centre, (slong)o->m * stride);
+  for (int i = 0; i < stride; i++) arb_set_fmpq(o->scale + i, c->scales[i / n], p);
+  choose_harmonics(o);
+  o->scratch = pool_balls(&o->pool, 4L * (stride + 2 * o->harmonics + o->contacts));
   o->friction = pool_take(&o->pool, POOL_BYTES, (size_t)o->contacts * sizeof *o->friction);
   for (int j = 0; j < o->contacts; j++) contact_set(o, &o->friction[j], &c->contacts[j], c->rest + j);
-  o->segments = pool_take(&o->pool, POOL_BYTES, (size_t)o->m * sizeof *o->segments);
-  LOCAL(arb_mat) mass = ZERO;
+  LOCAL(arb_mat) mass = {0};
   arb_mat_init(mass, n, n);
-  for (int i = 0; i < n; i++) balls(arb_mat_entry(mass, i, 0), c->mass + (size_t)i * (size_t)n, n, p);
+  arb_mat_init(o->inverse_mass, n, n);
+  for (int i = 0; i < n; i++) balls(arb_mat_entry(mass, i, 0), c->mass + (slong)i * n, n, p);
   const bool regular = arb_mat_inv(o->inverse_mass, mass, p);
-  o->scratch = pool_balls(&o->pool, 4L * (2 * n + 1 + 2 * o->harmonics + o->contacts));
+  o->segments = pool_take(&o->pool, POOL_BYTES, (size_t)o->m * sizeof *o->segments);
   for (int i = 0; i < o->m; i++) segment_set(o, i);
   if (!regular) refute(f, -1, -1, "the mass matrix is singular");
   if (regular && sequence_possible(o, f)) return o;

@@ -23,7 +23,7 @@ static void new_slider(const orbit *o, int contact, char before, arb_srcptr v, a
   if (before != 'O')
     return; /* s -> S: the gradient of t.x - s mu N/kt; no part of the time, whose derivative vanishes there */
   /* O -> S: dw = (t - (u'/v') n).dx, since the instant of touching moves */
-  LOCAL(arb) u = ZERO, w = ZERO;
+  LOCAL(arb) u = {0}, w = {0};
   arb_dot(u, NULL, 0, f->t, 1, v, 1, o->n, o->precision);
   arb_dot(w, NULL, 0, f->n, 1, v, 1, o->n, o->precision);
   arb_div(u, u, w, o->precision);
@@ -75,11 +75,11 @@ int monodromy(const orbit *o, arb_mat_t product, failure *f)
   }
   arb_mat_init(product, fewest, fewest);
   arb_mat_one(product);
-  LOCAL(pool) own = ZERO;
+  LOCAL(pool) own = {0};
   arb_ptr end = pool_balls(own, (slong)o->largest * (2 * o->n + o->contacts + 1)), columns = end + o->largest;
   bool fine = true;
   for (int k = 0; k < o->m && fine; k++) {
-    LOCAL(arb_mat) one = ZERO, both = ZERO;
+    LOCAL(arb_mat) one = {0}, both = {0};
     fine = flow_end(o, (first + k) % o->m, end, columns);
     transfer(o, (first + k) % o->m, columns, one);
     arb_mat_init(both, arb_mat_nrows(one), fewest);
@@ -94,14 +94,14 @@ int monodromy(const orbit *o, arb_mat_t product, failure *f)
  * not above all discs, and not below the nearest point of any group. */
 static void largest_modulus(const acb_mat_t e, int n, arb_t modulus, slong precision)
 {
-  LOCAL(pool) own = ZERO;
+  LOCAL(pool) own = {0};
   int *group = pool_take(own, POOL_BYTES, (size_t)n * sizeof *group);
   arb_ptr radius = pool_balls(own, 2L * n + 1), disc = radius + n, gap = disc + n;
-  LOCAL(acb) between = ZERO;
-  LOCAL(mag) entry = ZERO;
-  LOCAL(arf) least = ZERO, most = ZERO, nearest = ZERO, bound = ZERO;
+  LOCAL(acb) between = {0};
+  LOCAL(mag) entry = {0};
+  LOCAL(arf) least = {0}, most = {0}, nearest = {0}, bound = {0};
   for (int i = 0; i < n; i++) {
-    LOCAL(mag) sum = ZERO;
+    LOCAL(mag) sum = {0};
     for (int j = 0; j < n; j++) {
       acb_get_mag(entry, acb_mat_entry(e, i, j));
       if (j != i) mag_add(sum, sum, entry);
@@ -138,11 +138,11 @@ void multipliers(const orbit *o, quantities *q, failure *f)
 {
   const certificate *c = o->c;
   const slong p = o->precision;
-  LOCAL(arb_mat) m = ZERO;
+  LOCAL(arb_mat) m = {0};
   const int n = monodromy(o, m, f);
   q->stability = STABILITY_UNPROVEN;
   if (c->n_vectors == n && !f->reason[0]) {
-    LOCAL(acb_mat) v = ZERO, product = ZERO, e = ZERO;
+    LOCAL(acb_mat) v = {0}, product = {0}, e = {0};
     acb_mat_init(v, n, n);
     acb_mat_init(product, n, n);
     acb_mat_init(e, n, n);
@@ -156,7 +156,7 @@ void multipliers(const orbit *o, quantities *q, failure *f)
     acb_mat_mul(product, e, v, p);
     /* V^-1 M V: the same eigenvalues; with an approximate inverse first, since V may be almost singular */
     if (acb_mat_solve_precond(e, v, product, p)) {
-      LOCAL(arb) one = ZERO;
+      LOCAL(arb) one = {0};
       arb_one(one);
       largest_modulus(e, n, q->value[CLAIM_MULTIPLIER], p);
       q->multiplier_known = arb_is_finite(q->value[CLAIM_MULTIPLIER]);

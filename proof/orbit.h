@@ -52,9 +52,9 @@ typedef struct orbit {
   const certificate *c;
   slong precision;
   int n, m, contacts, unknowns;
-  int harmonics, harmonic[LIMIT_HARMONICS + 1],
-      forcing[LIMIT_HARMONICS + 1]; /* in Z: number; where in the certificate, -1: nowhere */
-  int first_harmonic;               /* the column of cos omega t in Z    */
+  int harmonics, harmonic[LIMIT_HARMONICS + 1]; /* in Z: number of each                                  */
+  int load_column[LIMIT_HARMONICS];             /* in Z: of the certificate's loads, the cosine's; 1's of harmonic 0 */
+  int first_harmonic;                           /* the column of cos omega t in Z                        */
   arb_mat_t inverse_mass;
   arb_t omega, duration;   /* of all segments together          */
   contact_balls *friction; /* [contacts]                        */

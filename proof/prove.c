@@ -17,20 +17,13 @@ void decision_clear(decision *v)
 
 /* ---- the decision ---- */
 
-bool prove_orbit(orbit *o, decision *v)
-{
-  if (!sequence_check(o, &v->failure)) return false;
-  multipliers(o, &v->quantities, &v->failure);
-  return response_quantities(o, &v->quantities, &v->failure);
-}
-
 /* A claimed interval must contain what was found. */
 static bool claims_hold(const certificate *c, decision *v)
 {
   static const char *const words[] = {"", "stable", "unstable", "unproven"};
   const quantities *q = &v->quantities;
   const slong precision = 2L * c->precision + 64;
-  LOCAL(arb) low = ZERO, high = ZERO;
+  LOCAL(arb) low = {0}, high = {0};
   bool hold = true;
   if ((c->stability == STABILITY_STABLE || c->stability == STABILITY_UNSTABLE) && q->stability != c->stability)
     hold = q->stability == STABILITY_UNPROVEN
@@ -49,19 +42,19 @@ static bool claims_hold(const certificate *c, decision *v)
   return hold;
 }
 
-bool prove(const certificate *c, decision *v)
+bool prove(const certificate *c, double *inverse, decision *v)
 {
-  krawczyk k = {0};
+  krawczyk k = {.inverse = inverse};
   failure *f = &v->failure;
   orbit *o = orbit_new(c, f);
-  bool holds = o && flow_prepare(o, f) && existence_prepare(&k, o, false, f);
+  bool holds = o && flow_prepare(o, f) && existence_prepare(&k, o, inverse != NULL, f);
   if (holds) {
     /* the larger radius first: the image that is left is that of the smaller one */
-    LOCAL(arb) radius = ZERO;
+    LOCAL(arb) radius = {0};
     double ratio;
     existence_measure(&k);
     for (int i = 1; i >= 0 && holds; i--) {
-      arb_set_fmpq(radius, c->radii + i, o->precision);
+      arb_set_fmpq(radius, i ? c->uniqueness_radius : c->radius, o->precision);
       holds = existence_holds(&k, radius, &ratio);
       if (!holds)
         refute(f, -1, -1, "existence: Krawczyk gives %.2g of the %s", ratio, i ? "uniqueness radius" : "radius");
@@ -69,7 +62,9 @@ bool prove(const certificate *c, decision *v)
     v->exists = holds;
   }
   if (holds) box_set(o, k.image);
-  holds = holds && prove_orbit(o, v) && claims_hold(c, v);
+  holds = holds && sequence_check(o, f);
+  if (holds) multipliers(o, &v->quantities, f);
+  holds = holds && response_quantities(o, &v->quantities, f) && claims_hold(c, v);
   existence_free(&k);
   orbit_free(o);
   return holds;
@@ -79,7 +74,7 @@ bool prove(const certificate *c, decision *v)
 
 slong decimal_place(const arf_t x, slong otherwise)
 {
-  LOCAL(mag) m = ZERO;
+  LOCAL(mag) m = {0};
   arf_get_mag(m, x);
   const double log2 = mag_is_special(m) ? NAN : mag_get_d_log2_approx(m);
   return isfinite(log2) && fabs(log2) < 20000 ? (slong)floor(log2 * 0.30102999566398120) : otherwise;
@@ -105,8 +100,8 @@ static char *place_point(const char *digits, slong place)
 
 char *decimal_write(const arf_t x, slong place, int round)
 {
-  LOCAL(fmpz) power = ZERO, integer = ZERO;
-  LOCAL(arf) scaled = ZERO;
+  LOCAL(fmpz) power = {0}, integer = {0};
+  LOCAL(arf) scaled = {0};
   fmpz_ui_pow_ui(power, 10, (ulong)labs(place));
   if (place <= 0) {
     arf_mul_fmpz(scaled, x, power, ARF_PREC_EXACT, ARF_RND_DOWN);
@@ -124,7 +119,7 @@ char *decimal_write(const arf_t x, slong place, int round)
 json_t *decimal_interval(const arb_t x, const mag_t pad, slong precision)
 {
   enum { WIDTH_DIGITS = 3, MOST_DIGITS = 60 };
-  LOCAL(arf) low = ZERO, high = ZERO, width = ZERO;
+  LOCAL(arf) low = {0}, high = {0}, width = {0};
   arf_set_mag(width, pad);
   arb_get_lbound_arf(low, x, precision);
   arb_get_ubound_arf(high, x, precision);
@@ -145,7 +140,7 @@ json_t *decimal_interval(const arb_t x, const mag_t pad, slong precision)
 
 static json_t *radius_json(const fmpq *radius)
 {
-  LOCAL(arf) r = ZERO;
+  LOCAL(arf) r = {0};
   arf_set_fmpq(r, radius, 64, ARF_RND_UP);
   char *text = decimal_write(r, decimal_place(r, 0) - 2, 0);
   json_t *json = json_string(text);
@@ -159,7 +154,7 @@ json_t *answer_json(const certificate *c, const decision *v, const char *why)
   const failure *f = decided ? &v->failure : NULL;
   const quantities *q = decided ? &v->quantities : NULL;
   json_t *answer = json_object();
-  LOCAL(mag) none = ZERO;
+  LOCAL(mag) none = {0};
   json_object_set_new(answer, "verdict", json_string(!decided ? "wrong" : f->reason[0] ? "rejected" : "accepted"));
   json_object_set_new(answer, "reason",
                       !decided       ? json_string(why)
@@ -171,8 +166,8 @@ json_t *answer_json(const certificate *c, const decision *v, const char *why)
                                                                       : json_null());
   json_object_set_new(answer, "contact", decided && f->contact >= 0 ? json_integer(f->contact) : json_null());
   const bool exists = decided && v->exists;
-  json_object_set_new(answer, "radius", exists ? radius_json(c->radii) : json_null());
-  json_object_set_new(answer, "uniqueness_radius", exists ? radius_json(c->radii + 1) : json_null());
+  json_object_set_new(answer, "radius", exists ? radius_json(c->radius) : json_null());
+  json_object_set_new(answer, "uniqueness_radius", exists ? radius_json(c->uniqueness_radius) : json_null());
   json_object_set_new(answer, "stability",
                       decided && q->stability ? json_string(stability_names[q->stability]) : json_null());
   for (int i = CLAIMS - 1; i >= 0; i--) {

@@ -11,10 +11,9 @@ typedef struct decision {
 void decision_init(decision *v);
 void decision_clear(decision *v);
 
-/* Does the theorem hold as claimed? In this order: existence, sequence, stability, quantities, claims. */
-bool prove(const certificate *c, decision *v);
-/* The part after existence, for all y in the box: sequence, stability, quantities. */
-bool prove_orbit(orbit *o, decision *v);
+/* Does the theorem hold as claimed? In this order: existence, sequence, stability, quantities, claims. inverse: of dF/dy,
+ * of any quality, [unknowns][unknowns]; NULL: made here. */
+bool prove(const certificate *c, double *inverse, decision *v);
 
 /* Decimals, to be freed with free(): x to an absolute 10^place, rounded down (-1), up (1) or to the nearest (0). */
 char *decimal_write(const arf_t x, slong place, int round);

@@ -54,7 +54,7 @@ static bool inside_cone(const sequence *q, int contact)
 {
   const orbit *o = q->o;
   const contact_balls *f = &o->friction[contact];
-  LOCAL(arb) normal = ZERO, tangential = ZERO;
+  LOCAL(arb) normal = {0}, tangential = {0};
   arb_mul(normal, f->mu, f->kn, o->precision);
   arb_mul(tangential, f->kt, f->ratio, o->precision);
   arb_abs(tangential, tangential);
@@ -154,7 +154,7 @@ static bool positive_on(sequence *q, const condition *c, int degree, int depth, 
 
 static void expand(sequence *q, const walk *w, arb_srcptr row, int degree, arb_ptr b)
 {
-  LOCAL(mag) rest = ZERO;
+  LOCAL(mag) rest = {0};
   walk_polynomial(w, row, q->polynomial, rest);
   bernstein(b, q->polynomial, w->degree, degree < w->degree ? degree : w->degree, rest, q->o->precision);
 }
@@ -208,7 +208,7 @@ bool sequence_check(const orbit *o, failure *f)
   q->polynomial = pool_balls(&q->pool, o->degree + 1);
   q->coefficients = pool_balls(&q->pool, coefficients);
   bool holds = true;
-  LOCAL(arb) left = ZERO, span = ZERO;
+  LOCAL(arb) left = {0}, span = {0};
   for (int i = 0; i < o->m && holds; i++) {
     const orbit_segment *s = &o->segments[i];
     flow_duration(o, i, left);

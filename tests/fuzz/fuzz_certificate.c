@@ -23,7 +23,7 @@ static void decide(certificate *c)
   decision v;
   decision_init(&v);
   if (c->precision > 64) c->precision = 64;
-  const bool accepted = prove(c, &v);
+  const bool accepted = prove(c, NULL, &v);
   must(accepted == !v.failure.reason[0], "accepted %d, but: %s", accepted, v.failure.reason);
   json_t *answer = answer_json(c, &v, NULL);
   char *text = json_dumps(answer, JSON_COMPACT);

@@ -31,7 +31,7 @@ static void decimals_are_exact(CHECK_STATE)
                                     "1e-401", "0x10", "1 ",    "nan", "1.2.3",
                                     "1,5",    "--1",  "1e5.5", "inf", "1e99999999999999999999",
                                     "1\t"};
-  LOCAL(fmpq) value = ZERO_FMPQ, exact = ZERO_FMPQ;
+  LOCAL(fmpq) value = {0}, exact = {0};
   for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
     fmpq_set_si(exact, good[i].numerator, (ulong)good[i].denominator);
     assert_true(decimal_read(good[i].text, strlen(good[i].text), value));
@@ -50,8 +50,8 @@ static void decimals_are_rounded_outward(CHECK_STATE)
 {
   flint_rand_t random;
   flint_randinit(random);
-  LOCAL(arf) x = ZERO;
-  LOCAL(fmpq) exact = ZERO_FMPQ, low = ZERO_FMPQ, high = ZERO_FMPQ, unit = ZERO_FMPQ, ten = ZERO_FMPQ;
+  LOCAL(arf) x = {0};
+  LOCAL(fmpq) exact = {0}, low = {0}, high = {0}, unit = {0}, ten = {0};
   fmpq_set_si(ten, 10, 1);
   for (int i = 0; i < 20 * ROUNDS; i++) {
     arf_randtest(x, random, 100, 6);
@@ -78,12 +78,12 @@ static void bernstein_encloses_the_polynomial(CHECK_STATE)
   enum { DEGREE = 9 };
   flint_rand_t random;
   flint_randinit(random);
-  LOCAL(pool) own = ZERO;
+  LOCAL(pool) own = {0};
   arb_ptr c = pool_balls(own, DEGREE + 1), b = pool_balls(own, DEGREE + 1), left = pool_balls(own, DEGREE + 1);
   fmpq *exact = pool_rationals(own, DEGREE + 1);
-  LOCAL(mag) none = ZERO;
-  LOCAL(arb) hull = ZERO;
-  LOCAL(fmpq) s = ZERO_FMPQ, value = ZERO_FMPQ;
+  LOCAL(mag) none = {0};
+  LOCAL(arb) hull = {0};
+  LOCAL(fmpq) s = {0}, value = {0};
   for (int round = 0; round < ROUNDS; round++) {
     for (int k = 0; k <= DEGREE; k++) {
       small_fraction(exact + k, random);
@@ -118,9 +118,11 @@ static void bernstein_encloses_the_polynomial(CHECK_STATE)
 static certificate *one_mass(const char *mass, const char *stiffness, const char *load, const char *x, const char *v)
 {
   char why[256];
-  json_t *json = json_pack("{s{s[[s]]s[[s]]s[[s]]s[{sis[s]s[s]}]s[]}sss[{sisss[s]s[s]ss}]}", "model", "mass", mass,
-                           "damping", "0", "stiffness", stiffness, "forcing", "harmonic", 0, "cos", load, "sin", "0",
-                           "contacts", "omega", "1", "events", "section", 1, "t", "0", "x", x, "v", v, "state", "");
+  json_t *json =
+      json_pack("{s{s[[s]]s[[s]]s[[s]]s[{sis[s]s[s]}]s[]}sssisis[s]s{}s{ssssss}s[{sisss[s]s[s]ss}]}", "model", "mass",
+                mass, "damping", "0", "stiffness", stiffness, "forcing", "harmonic", 0, "cos", load, "sin", "0",
+                "contacts", "omega", "1", "multiple", 1, "precision_bits", BITS, "response", "1", "rest", "scales", "x",
+                "1", "v", "1", "t", "1", "events", "section", 1, "t", "0", "x", x, "v", v, "state", "");
   assert_non_null(json);
   certificate *c = certificate_read(json, true, why, sizeof why);
   if (!c) fail_msg("%s", why);
@@ -132,8 +134,8 @@ static certificate *one_mass(const char *mass, const char *stiffness, const char
 static void flow(const certificate *c, const fmpq_t time, arb_t end, arb_t along)
 {
   failure f = {.segment = -1};
-  LOCAL(pool) own = ZERO;
-  LOCAL(mag) rest = ZERO;
+  LOCAL(pool) own = {0};
+  LOCAL(mag) rest = {0};
   orbit *o = orbit_new(c, &f);
   assert_non_null(o);
   arb_set_fmpq(o->duration, time, BITS);
@@ -158,8 +160,8 @@ static void flow(const certificate *c, const fmpq_t time, arb_t end, arb_t along
 /* Without a spring x = x0 + v0 t + f t^2/(2 m), a fraction. */
 static void a_free_mass_moves_as_fractions_say(CHECK_STATE)
 {
-  LOCAL(fmpq) time = ZERO_FMPQ, exact = ZERO_FMPQ, term = ZERO_FMPQ;
-  LOCAL(arb) end = ZERO, along = ZERO;
+  LOCAL(fmpq) time = {0}, exact = {0}, term = {0};
+  LOCAL(arb) end = {0}, along = {0};
   certificate *c = one_mass("3", "0", "7.5", "0.7", "-1.3");
   for (int i = 1; i < 40; i++) {
     fmpq_set_si(time, i, 7);
@@ -181,8 +183,8 @@ static void a_free_mass_moves_as_fractions_say(CHECK_STATE)
 /* With k = m = 1, x0 = 1, v0 = 0: x = cos t, between two neighbouring partial sums of its alternating series. */
 static void a_spring_swings_as_the_cosine(CHECK_STATE)
 {
-  LOCAL(fmpq) time = ZERO_FMPQ, sum = ZERO_FMPQ, term = ZERO_FMPQ, before = ZERO_FMPQ;
-  LOCAL(arb) end = ZERO, along = ZERO;
+  LOCAL(fmpq) time = {0}, sum = {0}, term = {0}, before = {0};
+  LOCAL(arb) end = {0}, along = {0};
   certificate *c = one_mass("1", "1", "0", "1", "0");
   for (int i = 1; i < 30; i++) {
     fmpq_set_si(time, i, 3);
@@ -223,7 +225,7 @@ static void the_defect_of_an_inverse_is_bounded(CHECK_STATE)
   assert_true(flow_prepare(o, &f) && existence_prepare(&k, o, false, &f));
   const int n = o->unknowns;
   flint_randinit(random);
-  LOCAL(arb) sum = ZERO, size = ZERO, entry = ZERO, b = ZERO, m = ZERO, all = ZERO, most = ZERO, defect = ZERO;
+  LOCAL(arb) sum = {0}, size = {0}, entry = {0}, b = {0}, m = {0}, all = {0}, most = {0}, defect = {0};
   for (int round = 0; round <= 18; round++) {
     for (int i = 0; i < n * n; i++) k.inverse[i] *= 1 + pow(10, -round) * ((double)n_randint(random, 2001) / 1000 - 1);
     existence_measure(&k);
