@@ -257,7 +257,8 @@ static void write_claims(json_t *claims, const certificate *c, const quantities 
 
 /* ---- all of it ---- */
 
-/* Fills in the certificate *made, with claims of radii alone at first, and decides it; false: v says why there is none. */
+/* Fills in the certificate *made, with claims of radii alone at first, and decides it; false: v says why there is
+ * none. */
 static bool make(json_t *draft, const certificate *c, certificate **made, decision *v, char *why, size_t size)
 {
   static const slong digits[] = {17, WIDE_DIGITS};

@@ -2,6 +2,7 @@
 #include "base/number.h"
 #include "proof/complete.h"
 #include <errno.h>
+#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,8 +13,6 @@ typedef struct options {
   bool complete, json;
   int precision;      /* 0: 128 */
   const char *output; /* of complete */
-  int n;
-  char **files;
 } options;
 
 static const char usage[] =
@@ -64,13 +63,23 @@ static bool print_line(const json_t *answer, FILE *to)
 
 /* ---- one text ---- */
 
-static json_t *answer_text(const options *o, const char *text, size_t length)
+static char text[LIMIT_BYTES + 2]; /* a 0 at the end */
+
+/* Its next line, or all of it; the length, above LIMIT_BYTES where it is longer. */
+static size_t next_text(FILE *from, bool line)
+{
+  size_t n = 0;
+  for (int c; n <= LIMIT_BYTES && (c = getc(from)) != EOF && !(line && c == '\n');) text[n++] = (char)c;
+  return n;
+}
+
+static json_t *answer_text(const options *o, size_t length)
 {
   json_error_t error;
-  char why[512];
-  json_t *json = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error), *answer;
+  char why[512] = "too long";
+  json_t *json = length <= LIMIT_BYTES ? json_loadb(text, length, JSON_REJECT_DUPLICATES, &error) : NULL, *answer;
   if (!json) {
-    snprintf(why, sizeof why, "%d:%d: %s", error.line, error.column, error.text);
+    if (length <= LIMIT_BYTES) snprintf(why, sizeof why, "%d:%d: %s", error.line, error.column, error.text);
     return answer_json(NULL, NULL, why);
   }
   if (o->complete) answer = complete(json, o->precision);
@@ -87,56 +96,19 @@ static json_t *answer_text(const options *o, const char *text, size_t length)
   return answer;
 }
 
-/* The next text of a stream: a line, or all of it. NULL: none, or too long: *length is then past the limit. To free. */
-static char *next_text(FILE *from, bool line, size_t *length)
-{
-  size_t room = 1 << 16;
-  char *text = malloc(room);
-  int c = EOF;
-  *length = 0;
-  if (!text) return NULL;
-  while (*length <= LIMIT_BYTES && (c = getc(from)) != EOF && !(line && c == '\n')) {
-    if (*length == room) {
-      char *more = realloc(text, room *= 2);
-      if (!more) {
-        free(text);
-        return NULL;
-      }
-      text = more;
-    }
-    text[(*length)++] = (char)c;
-  }
-  if (*length <= LIMIT_BYTES && (*length > 0 || c != EOF)) return text;
-  free(text);
-  return NULL;
-}
-
-static int write_certificate(const char *path, const json_t *paper)
-{
-  if (json_dump_file(paper, path, JSON_INDENT(1)) == 0) return 0;
-  fprintf(stderr, "hbmcheck-proof: %s: %s\n", path, errno ? strerror(errno) : "could not be written");
-  return EXIT_WRONG;
-}
-
 /* All lines of standard input. */
 static int stream(const options *o)
 {
-  int status = 0, worst;
-  size_t length;
-  char *text;
-  while ((text = next_text(stdin, true, &length))) {
-    if (strspn(text, " \t\r") < length) {
-      json_t *answer = answer_text(o, text, length);
-      worst = status_of(answer);
-      if (worst > status) status = worst;
-      if (!print_line(answer, stdout)) status = EXIT_WRONG;
+  int status = 0;
+  size_t length = 0;
+  while (length <= LIMIT_BYTES && !feof(stdin) && !ferror(stdin)) {
+    length = next_text(stdin, true);
+    if (length > LIMIT_BYTES || strspn(text, " \t\r") < length) {
+      json_t *answer = answer_text(o, length);
+      const int one = print_line(answer, stdout) ? status_of(answer) : EXIT_WRONG;
+      if (one > status) status = one;
       json_decref(answer);
     }
-    free(text);
-  }
-  if (length > LIMIT_BYTES) {
-    fprintf(stderr, "hbmcheck-proof: a line of more than %d bytes\n", LIMIT_BYTES);
-    status = EXIT_WRONG;
   }
   return status;
 }
@@ -144,70 +116,51 @@ static int stream(const options *o)
 static int one_file(const options *o, const char *path)
 {
   FILE *file = fopen(path, "r");
-  size_t length = 0;
-  char *text = file ? next_text(file, false, &length) : NULL;
-  const char *why = !file ? strerror(errno) : length ? "too long" : "empty";
-  json_t *answer = text ? answer_text(o, text, length) : answer_json(NULL, NULL, why);
-  json_t *made = json_object_get(answer, "certificate");
+  json_t *answer = file ? answer_text(o, next_text(file, false)) : answer_json(NULL, NULL, strerror(errno));
+  const json_t *made = json_object_get(answer, "certificate");
+  const bool whole = o->output && json_is_object(made), printed = whole && strcmp(o->output, "-") == 0;
   int status = status_of(answer);
   if (file) fclose(file);
-  free(text);
   json_object_set_new(answer, "file", json_string(path));
-  const bool whole = o->output && json_is_object(made);
-  if (whole && strcmp(o->output, "-") == 0) print_line(answer, stdout);
-  else {
-    if (whole && write_certificate(o->output, made) != 0) status = EXIT_WRONG;
-    if (o->json) print_line(answer, stdout);
-    else print_text(path, answer);
+  if (whole && !printed && json_dump_file(made, o->output, JSON_INDENT(1)) != 0) {
+    fprintf(stderr, "hbmcheck-proof: %s: %s\n", o->output, errno ? strerror(errno) : "could not be written");
+    status = EXIT_WRONG;
   }
+  if (printed || o->json) print_line(answer, stdout);
+  else print_text(path, answer);
   json_decref(answer);
   return status;
 }
 
 /* ---- the command line ---- */
 
-static int refuse(const char *what)
-{
-  fprintf(stderr, "hbmcheck-proof: %s\n%s", what, usage);
-  return EXIT_USAGE;
-}
-
 int main(int argc, char **argv)
 {
+  static const struct option known[] = {{"format", required_argument, NULL, 'f'},
+                                        {"precision-bits", required_argument, NULL, 'p'},
+                                        {"help", no_argument, NULL, 'h'},
+                                        {"version", no_argument, NULL, 'V'},
+                                        {NULL, 0, NULL, 0}};
   options o = {0};
-  if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0))
-    return fputs(usage, stdout) < 0 ? EXIT_WRONG : 0;
-  if (argc == 2 && strcmp(argv[1], "--version") == 0)
-    return printf("hbmcheck-proof %s\nFLINT %s\n", HBMCHECK_VERSION, flint_version) < 0 ? EXIT_WRONG : 0;
-  if (argc < 3) return refuse("a command and a file were expected");
-  o.complete = strcmp(argv[1], "complete") == 0;
-  if (!o.complete && strcmp(argv[1], "check") != 0) return refuse("the commands are check and complete");
-  o.files = argv + 2;
-  for (int i = 2; i < argc; i++) {
-    const char *option = argv[i], *value = argv[i + 1];
-    if (option[0] != '-' || !option[1]) {
-      o.files[o.n++] = argv[i];
-      continue;
-    }
-    if (!value) return refuse("an option without its value");
-    i++;
-    if (strcmp(option, "--format") == 0 && (strcmp(value, "json") == 0 || strcmp(value, "text") == 0))
-      o.json = strcmp(value, "json") == 0;
-    else if (o.complete && strcmp(option, "-o") == 0) o.output = value;
-    else if (o.complete && strcmp(option, "--precision-bits") == 0 &&
-             number_read_integer(value, strlen(value), &o.precision) == NUMBER_FINE && o.precision >= 32 &&
-             o.precision <= LIMIT_PRECISION)
-      continue;
-    else return refuse("an option that is not known, or its value");
-  }
-  if (o.n < 1 || (o.complete && (o.n > 1 || !o.output)))
-    return refuse(o.complete ? "one candidate and -o were expected" : "a certificate was expected");
+  bool fine = true;
   int status = 0;
-  for (int i = 0; i < o.n; i++) {
-    const bool standard = strcmp(o.files[i], "-") == 0;
-    if (standard && o.complete && strcmp(o.output, "-") != 0)
-      return refuse("candidates from standard input go with -o -");
-    const int one = standard ? stream(&o) : one_file(&o, o.files[i]);
+  for (int c; (c = getopt_long(argc, argv, "o:h", known, NULL)) != -1;) {
+    if (c == 'h') return fputs(usage, stdout) < 0 ? EXIT_WRONG : 0;
+    if (c == 'V') return printf("hbmcheck-proof %s\nFLINT %s\n", HBMCHECK_VERSION, flint_version) < 0 ? EXIT_WRONG : 0;
+    if (c == 'f') o.json = strcmp(optarg, "json") == 0;
+    if (c == 'o') o.output = optarg;
+    fine = fine && c != '?' && (c != 'f' || o.json || strcmp(optarg, "text") == 0) &&
+           (c != 'p' || (number_read_integer(optarg, strlen(optarg), &o.precision) == NUMBER_FINE &&
+                         o.precision >= 32 && o.precision <= LIMIT_PRECISION));
+  }
+  const char *command = optind < argc ? argv[optind++] : "", *first = optind < argc ? argv[optind] : "";
+  o.complete = strcmp(command, "complete") == 0;
+  if (o.complete) /* candidates from standard input go with -o - */
+    fine = fine && argc - optind == 1 && o.output && (strcmp(first, "-") != 0 || strcmp(o.output, "-") == 0);
+  else fine = fine && strcmp(command, "check") == 0 && optind < argc && !o.output && !o.precision;
+  if (!fine) return fputs(usage, stderr), EXIT_USAGE;
+  for (; optind < argc; optind++) {
+    const int one = strcmp(argv[optind], "-") == 0 ? stream(&o) : one_file(&o, argv[optind]);
     if (one > status) status = one;
   }
   if (fflush(stdout) != 0) status = EXIT_WRONG;

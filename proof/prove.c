@@ -20,7 +20,6 @@ void decision_clear(decision *v)
 /* A claimed interval must contain what was found. */
 static bool claims_hold(const certificate *c, decision *v)
 {
-  static const char *const words[] = {"", "stable", "unstable", "unproven"};
   const quantities *q = &v->quantities;
   const slong precision = 2L * c->precision + 64;
   LOCAL(arb) low = {0}, high = {0};
@@ -28,7 +27,7 @@ static bool claims_hold(const certificate *c, decision *v)
   if ((c->stability == STABILITY_STABLE || c->stability == STABILITY_UNSTABLE) && q->stability != c->stability)
     hold = q->stability == STABILITY_UNPROVEN
                ? refute(&v->failure, -1, -1, "stability unproven")
-               : refute(&v->failure, -1, -1, "claim is false: it is %s", words[q->stability]);
+               : refute(&v->failure, -1, -1, "claim is false: it is %s", stability_names[q->stability]);
   for (int i = 0; i < CLAIMS && hold; i++) {
     if (!c->claimed[i]) continue;
     arb_set_fmpq(low, c->claims + 2L * i, precision);
@@ -148,37 +147,34 @@ static json_t *radius_json(const fmpq *radius)
   return json;
 }
 
+static void put(json_t *answer, const char *key, json_t *value)
+{
+  json_object_set_new(answer, key, value ? value : json_null());
+}
+
 json_t *answer_json(const certificate *c, const decision *v, const char *why)
 {
-  const bool decided = !why;
-  const failure *f = decided ? &v->failure : NULL;
-  const quantities *q = decided ? &v->quantities : NULL;
-  json_t *answer = json_object();
-  LOCAL(mag) none = {0};
-  json_object_set_new(answer, "verdict", json_string(!decided ? "wrong" : f->reason[0] ? "rejected" : "accepted"));
-  json_object_set_new(answer, "reason",
-                      !decided       ? json_string(why)
-                      : f->reason[0] ? json_string(f->reason)
-                                     : json_null());
-  json_object_set_new(answer, "segment", decided && f->segment >= 0 ? json_integer(f->segment) : json_null());
-  json_object_set_new(answer, "time",
-                      decided && isfinite(f->from) && isfinite(f->to) ? json_pack("[f, f]", f->from, f->to)
-                                                                      : json_null());
-  json_object_set_new(answer, "contact", decided && f->contact >= 0 ? json_integer(f->contact) : json_null());
-  const bool exists = decided && v->exists;
-  json_object_set_new(answer, "radius", exists ? radius_json(c->radius) : json_null());
-  json_object_set_new(answer, "uniqueness_radius", exists ? radius_json(c->uniqueness_radius) : json_null());
-  json_object_set_new(answer, "stability",
-                      decided && q->stability ? json_string(stability_names[q->stability]) : json_null());
+  static const decision none = {.failure = {.segment = -1, .contact = -1, .from = NAN, .to = NAN}};
+  if (why) v = &none;
+  const failure *f = &v->failure;
+  const quantities *q = &v->quantities;
+  json_t *answer = json_object(), *states = c ? json_array() : NULL;
+  LOCAL(mag) pad = {0};
+  put(answer, "verdict", json_string(why ? "wrong" : f->reason[0] ? "rejected" : "accepted"));
+  put(answer, "reason", why || f->reason[0] ? json_string(why ? why : f->reason) : NULL);
+  put(answer, "segment", f->segment >= 0 ? json_integer(f->segment) : NULL);
+  put(answer, "time", isfinite(f->from) && isfinite(f->to) ? json_pack("[f, f]", f->from, f->to) : NULL);
+  put(answer, "contact", f->contact >= 0 ? json_integer(f->contact) : NULL);
+  put(answer, "radius", v->exists ? radius_json(c->radius) : NULL);
+  put(answer, "uniqueness_radius", v->exists ? radius_json(c->uniqueness_radius) : NULL);
+  put(answer, "stability", q->stability ? json_string(stability_names[q->stability]) : NULL);
   for (int i = CLAIMS - 1; i >= 0; i--) {
-    const bool known = decided && (i == CLAIM_MULTIPLIER ? q->multiplier_known : q->known);
-    json_object_set_new(answer, claim_names[i],
-                        known ? decimal_interval(q->value[i], none, c->precision + 30L) : json_null());
+    const bool known = i == CLAIM_MULTIPLIER ? q->multiplier_known : q->known;
+    put(answer, claim_names[i], known ? decimal_interval(q->value[i], pad, c->precision + 30L) : NULL);
   }
-  json_t *states = c ? json_array() : json_null();
   for (int i = 0; c && i < c->n_events; i++)
     json_array_append_new(states, json_stringn(c->letters + (size_t)i * (size_t)c->n_contacts, (size_t)c->n_contacts));
-  json_object_set_new(answer, "states", states);
-  json_object_set_new(answer, "transitions", c ? json_integer(c->section ? 0 : c->n_events) : json_null());
+  put(answer, "states", states);
+  put(answer, "transitions", c ? json_integer(c->section ? 0 : c->n_events) : NULL);
   return answer;
 }

@@ -11,8 +11,8 @@ typedef struct decision {
 void decision_init(decision *v);
 void decision_clear(decision *v);
 
-/* Does the theorem hold as claimed? In this order: existence, sequence, stability, quantities, claims. inverse: of dF/dy,
- * of any quality, [unknowns][unknowns]; NULL: made here. */
+/* Does the theorem hold as claimed? In this order: existence, sequence, stability, quantities, claims. inverse: of
+ * dF/dy, of any quality, [unknowns][unknowns]; NULL: made here. */
 bool prove(const certificate *c, double *inverse, decision *v);
 
 /* Decimals, to be freed with free(): x to an absolute 10^place, rounded down (-1), up (1) or to the nearest (0). */

@@ -52,20 +52,18 @@ static void derive(const orbit *o, const orbit_segment *s, arb_srcptr row, arb_p
  * the signs of two constants and the gap's condition decide. Balls would see 0/0 at both ends. */
 static bool inside_cone(const sequence *q, int contact)
 {
-  const orbit *o = q->o;
-  const contact_balls *f = &o->friction[contact];
+  const slong precision = q->o->precision;
+  const contact_balls *f = &q->o->friction[contact];
   LOCAL(arb) normal = {0}, tangential = {0};
-  arb_mul(normal, f->mu, f->kn, o->precision);
-  arb_mul(tangential, f->kt, f->ratio, o->precision);
+  arb_mul(normal, f->mu, f->kn, precision);
+  arb_mul(tangential, f->kt, f->ratio, precision);
   arb_abs(tangential, tangential);
-  arb_sub(normal, normal, tangential, o->precision);
+  arb_sub(normal, normal, tangential, precision);
   const bool inside = arb_is_positive(normal), outside = arb_is_negative(normal);
   if (!inside && !outside)
     return refute(q->f, q->segment, contact, "edge of the cone: segment %d, contact %d", q->segment, contact);
-  if (outside)
-    return refute(q->f, q->segment, contact, "segment %d, contact %d, stick |T| < mu N: it is negative", q->segment,
-                  contact);
-  return true;
+  return inside || refute(q->f, q->segment, contact, "segment %d, contact %d, stick |T| < mu N: it is negative",
+                          q->segment, contact);
 }
 
 static bool list_conditions(sequence *q)
@@ -75,7 +73,6 @@ static bool list_conditions(sequence *q)
   const orbit_segment *s = &o->segments[i];
   q->n = 0;
   for (int j = 0; j < o->contacts; j++) {
-    const contact_given *k = &o->c->contacts[j];
     const char letter = s->letters[j], before = orbit_letter(o, i - 1, j), after = orbit_letter(o, i + 1, j);
     const int sign = sign_of(letter), opened = before == 'O', opens = after == 'O';
     /* O: -(n.x + gap) > 0; simple zeros where it opened and where it closes. */
@@ -84,14 +81,12 @@ static bool list_conditions(sequence *q)
       continue;
     }
     /* Closed, with a normal direction: n.x + gap > 0; simple zeros after O and before O. */
-    if (k->normal) row_gap(o, s, j, 1, new_row(q, j, "closed n.x + gap > 0", opened, opens));
+    if (o->c->contacts[j].normal) row_gap(o, s, j, 1, new_row(q, j, "closed n.x + gap > 0", opened, opens));
     /* Stick: mu N -+ kt (t.x - w) > 0, both. At the start from O: simple zeros, both. From slip s: double for s (value
      * by the definition of w, derivative by the guard), none for -s. At the end to slip s: simple for s. */
-    if (letter == 'S') {
-      if (o->friction[j].parallel && s->began[j] >= 0 && s->from[j] == 'O') {
-        if (!inside_cone(q, j)) return false;
-        continue;
-      }
+    if (letter == 'S' && s->began[j] >= 0 && s->from[j] == 'O' && o->friction[j].parallel) {
+      if (!inside_cone(q, j)) return false;
+    } else if (letter == 'S') {
       for (int side = 1; side >= -1; side -= 2) {
         const int start = opened ? 1 : before != 'S' && sign_of(before) == side ? 2 : 0;
         const int end = after != 'S' && sign_of(after) == side;
@@ -101,10 +96,9 @@ static bool list_conditions(sequence *q)
     /* Slip s: s kt t.v - mu kn n.v > 0; no zero at the start, not even from S or O; a simple one before stick. */
     if (sign) row_slip(o, s, j, sign, new_row(q, j, sign > 0 ? "slip +" : "slip -", 0, after == 'S'));
   }
-  for (int c = 0; c < q->n; c++) {
-    arb_ptr row = q->conditions[c].row;
+  for (int c = 0; c < 2 * q->n; c++) {
+    arb_ptr row = q->conditions[c / 2].row + c % 2 * o->largest;
     derive(o, s, row, row + o->largest);
-    derive(o, s, row + o->largest, row + 2 * o->largest);
   }
   return true;
 }
@@ -128,13 +122,13 @@ static bool positive_on(sequence *q, const condition *c, int degree, int depth, 
                         bool starts, bool ends, bool *decided)
 {
   const slong n = q->o->degree + 1;
-  arb_ptr g = q->coefficients + 3 * n * level, start = g + n, end = start + n;
-  const known_sign value = bernstein_side(g, degree), rises = starts ? bernstein_side(start, degree) : SIDE_BOTH,
-                   falls = ends ? bernstein_side(end, degree) : SIDE_BOTH;
-  if (value == SIDE_POSITIVE) return true;           /* everywhere else: G > 0                                 */
-  if (starts && rises == SIDE_POSITIVE) return true; /* start, order p: G^(p) > 0 on [0, b]                    */
-  if (ends && falls == SIDE_NEGATIVE) return true;   /* end, order 1: G' < 0 on [a, end], the longest possible */
-  if (value == SIDE_NEGATIVE || (starts && rises == SIDE_NEGATIVE) || (ends && falls == SIDE_POSITIVE))
+  arb_ptr g = q->coefficients + 3 * n * level, left = g + 3 * n;
+  const known_sign value = bernstein_side(g, degree), rises = starts ? bernstein_side(g + n, degree) : SIDE_BOTH,
+                   falls = ends ? bernstein_side(g + 2 * n, degree) : SIDE_BOTH;
+  if (value == SIDE_POSITIVE) return true; /* everywhere else: G > 0                                 */
+  if (rises == SIDE_POSITIVE) return true; /* start, order p: G^(p) > 0 on [0, b]                    */
+  if (falls == SIDE_NEGATIVE) return true; /* end, order 1: G' < 0 on [a, end], the longest possible */
+  if (value == SIDE_NEGATIVE || rises == SIDE_NEGATIVE || falls == SIDE_POSITIVE)
     return ended(q, c, a, b, "it is negative");
   if (level == depth || ++q->parts > PARTS) {
     if (*decided) ended(q, c, a, b, "sign not decided");
@@ -142,21 +136,12 @@ static bool positive_on(sequence *q, const condition *c, int degree, int depth, 
     return true;
   }
   const double middle = 0.5 * (a + b);
-  arb_ptr left = g + 3 * n;
-  bernstein_halve(g, left, g, degree, q->o->precision);
-  if (starts) bernstein_halve(start, left + n, start, degree, q->o->precision);
-  if (ends) bernstein_halve(end, left + 2 * n, end, degree, q->o->precision);
+  for (int k = 0; k < 3; k++)
+    if (k == 0 || (k == 1 ? starts : ends))
+      bernstein_halve(g + k * n, left + k * n, g + k * n, degree, q->o->precision);
   if (!positive_on(q, c, degree, depth, level + 1, a, middle, starts, false, decided)) return false;
-  _arb_vec_swap(left, g, n); /* the right half: its coefficients move one level down */
-  if (ends) _arb_vec_swap(left + 2 * n, end, n);
+  _arb_vec_swap(left, g, 3 * n); /* the right half: its coefficients move one level down */
   return positive_on(q, c, degree, depth, level + 1, middle, b, false, ends, decided);
-}
-
-static void expand(sequence *q, const walk *w, arb_srcptr row, int degree, arb_ptr b)
-{
-  LOCAL(mag) rest = {0};
-  walk_polynomial(w, row, q->polynomial, rest);
-  bernstein(b, q->polynomial, w->degree, degree < w->degree ? degree : w->degree, rest, q->o->precision);
 }
 
 static bool holds_on_substep(sequence *q, const walk *w, const condition *c)
@@ -166,12 +151,16 @@ static bool holds_on_substep(sequence *q, const walk *w, const condition *c)
   const orbit *o = q->o;
   const slong n = o->degree + 1;
   const bool starts = c->start && w->k == 0, ends = c->end && w->k == w->steps - 1;
+  LOCAL(mag) rest = {0};
   for (int attempt = 0; attempt < 3; attempt++) {
     const int degree = degrees[attempt] < w->degree ? degrees[attempt] : w->degree;
     bool decided = true;
-    expand(q, w, c->row, degree, q->coefficients);
-    if (starts) expand(q, w, c->row + c->start * o->largest, degree, q->coefficients + n);
-    if (ends) expand(q, w, c->row + o->largest, degree, q->coefficients + 2 * n);
+    for (int k = 0; k < 3; k++) {
+      const int order = k == 0 ? 0 : k == 1 ? c->start : 1;
+      if (k > 0 && !(k == 1 ? starts : ends)) continue;
+      walk_polynomial(w, c->row + order * o->largest, q->polynomial, rest);
+      bernstein(q->coefficients + k * n, q->polynomial, w->degree, degree, rest, o->precision);
+    }
     if (!positive_on(q, c, degree, depths[attempt], 0, 0, 1, starts, ends, &decided)) return false;
     if (decided) return true;
     if (attempt < 2) *q->f = (failure){.segment = -1, .contact = -1, .from = NAN, .to = NAN};
@@ -184,7 +173,6 @@ static bool segment_holds(sequence *q)
   const orbit *o = q->o;
   walk w;
   if (!list_conditions(q)) return false;
-  q->f->from = q->f->to = NAN;
   q->parts = 0;
   q->from = arf_get_d(arb_midref(orbit_event(o, q->segment) + 2 * o->n), ARF_RND_NEAR);
   bool holds = true;
@@ -200,13 +188,12 @@ static bool segment_holds(sequence *q)
 
 bool sequence_check(const orbit *o, failure *f)
 {
-  const slong coefficients = 3L * (DEPTH + 2) * (o->degree + 1), rows = 9L * (o->contacts + 1) * o->largest;
   sequence *q = flint_calloc(1, sizeof *q);
   q->o = o;
   q->f = f;
-  q->rows = pool_balls(&q->pool, rows);
+  q->rows = pool_balls(&q->pool, 9L * (o->contacts + 1) * o->largest);
   q->polynomial = pool_balls(&q->pool, o->degree + 1);
-  q->coefficients = pool_balls(&q->pool, coefficients);
+  q->coefficients = pool_balls(&q->pool, 3L * (DEPTH + 2) * (o->degree + 1));
   bool holds = true;
   LOCAL(arb) left = {0}, span = {0};
   for (int i = 0; i < o->m && holds; i++) {
