@@ -181,6 +181,10 @@ static void add_change(message *m, const verify_equations *e)
   if (e->which > 0) switch (verify_changes[e->change].part) {
     case PART_CONTACT:
     case PART_ONE_CONTACT: message_add(m, " of contact %d", e->which - 1); break;
+    case PART_POWER:
+      message_add(m, " of contact %d's power %d", (e->which - 1) / CONTACT_POWERS,
+                  (e->which - 1) % CONTACT_POWERS + CONTACT_LEAST_POWER);
+      break;
     case PART_DOF: message_add(m, " DOF %d", e->which); break;
     case PART_PAIR: message_add(m, " DOFs %d and %d", (e->which - 1) / e->n + 1, (e->which - 1) % e->n + 1); break;
     case PART_ALL: break;

@@ -153,6 +153,44 @@ def what_is_wrong_is_refused():
     assert "smooth law, which has no closed form" in said, said
 
 
+def verify_names_what_is_wrong_with_them():
+    """Curves of ours with one number wrong are held against the case: the cause is named, with the number."""
+    tanh = """structure: {mass: [1], damping: [0.1], stiffness: [1]}
+forcing: [{dof: 1, amplitude: 1}]
+contacts:
+  - {law: tanh, preload: 1, friction: 0.6, epsilon: 0.5, tangent: {1: 1}}
+sweep: {omega: [0.5, 2.0]}
+hbm: {harmonics: 15}
+"""
+    gentle = DUFFING.replace("amplitude: 0.05", "amplitude: 0.02").replace("3: 3", "3: 1")
+    two = """structure: {mass: [1, 0.5], damping: {rayleigh: [0.05, 0.05]}, stiffness: [[2, -1], [-1, 1.5]]}
+forcing: [{dof: 1, amplitude: 0.3}]
+contacts:
+  - {law: polynomial, direction: {1: 1, 2: -1}, coefficients: {2: 0.4, 3: 2}}
+  - {law: table, direction: {2: 1}, points: [[-0.4, -0.2], [-0.2, 0], [0.2, 0], [0.4, 0.3]]}
+sweep: {omega: [0.6, 2.0]}
+hbm: {harmonics: 10}
+"""
+    wrong = (
+        (DUFFING, "coefficients={3: 4}", "wrong_coefficient", "coefficients times 1.333"),
+        (gentle, "coefficients={3: -1}", "wrong_coefficient", "coefficients times -1"),
+        (gentle, "coefficients={4: 1}", "wrong_power", "powers one higher"),
+        (gentle, "coefficients={2: 1}", "wrong_power", "powers one lower"),
+        (tanh, "epsilon=0.3", "wrong_epsilon", "epsilon times 0.6"),
+        (two, "coefficients={3: 1, 2: 0.4}", "wrong_coefficient", "power 3 times 0.5"),
+        (two, "coefficients={3: 2, 2: -0.4}", "wrong_coefficient", "times -1 of contact 0's power 2"),
+    )
+    for text, change, cause, words in wrong:
+        case, curve = write(text), os.path.join(FOLDER, "theirs.csv")
+        theirs = rows("frf", case, "--at", "0.6,0.7,0.8,0.9,1,1.1,1.2,1.3,1.4,1.5,1.6,1.7,1.8", "--set",
+                      f"contacts[0].{change}")
+        with open(curve, "w", encoding="ascii") as f:
+            f.write("omega,amplitude\n" + "".join(f"{r['omega']},{r['amplitude']}\n" for r in theirs
+                                                  if r["stable"] == "yes" and r.get("response", "1") == "1"))
+        said = run("verify", case, "--against", curve, "--quiet", code=1).stdout
+        assert cause in said and words in said, f"{change}: {said}"
+
+
 def assignments_reach_them():
     case = write(DUFFING)
     plain = rows("frf", case, "--at", "1")[0]["amplitude"]
@@ -166,4 +204,5 @@ duffing_meets_time_integration()
 mixed_laws_meet()
 a_table_is_what_it_stands_for()
 what_is_wrong_is_refused()
+verify_names_what_is_wrong_with_them()
 assignments_reach_them()

@@ -47,6 +47,12 @@
   X(CAUSE_KN, "wrong_normal_stiffness", "the normal stiffness is another", "compare it with the case's") \
   X(CAUSE_FRICTION, "wrong_friction", "the friction coefficient is another", "compare it with the case's") \
   X(CAUSE_GAP, "wrong_gap", "the gap is another", "compare the gap with the case's") \
+  X(CAUSE_COEFFICIENT, "wrong_coefficient", "a coefficient of a polynomial is another", \
+    "compare its coefficients with the case's, and their signs") \
+  X(CAUSE_POWER, "wrong_power", "a polynomial has other powers", \
+    "the force of {p: k} is k d^p: powers of the force, not of its potential") \
+  X(CAUSE_EPSILON, "wrong_epsilon", "epsilon of tanh friction is another", \
+    "it is the velocity that smooths: mu N tanh(u'/epsilon)") \
   X(CAUSE_GAP_SIGN, "gap_sign", "the gap has the other sign", "here gap > 0 is a preload, gap < 0 a clearance") \
   X(CAUSE_ANGLE, "wrong_angle", "the angle of the contact is another", "compare it with the case's") \
   X(CAUSE_ANGLE_COMPLEMENT, "angle_complement", "the angle is counted from the other axis", \
@@ -111,17 +117,15 @@
 enum { VERIFY_CAUSE_LIST(VERIFY_CAUSE_NUMBER) VERIFY_CAUSES };
 #undef VERIFY_CAUSE_NUMBER
 
-/* Bits; those of the points are one of several, with the highest bit. */
+/* Bits; one of the points stands alone, as the complement of its number: no equations have nearly all causes. */
 typedef uint64_t verify_causes;
-enum { VERIFY_POINTS_BIT = 63 };
+enum { VERIFY_MOST_BITS = 64 };
 #define VERIFY_BIT(cause)                                                                                              \
-  ((cause) < CAUSE_OUTLIER ? (verify_causes)1 << ((cause) % VERIFY_POINTS_BIT)                                         \
-                           : (verify_causes)1 << VERIFY_POINTS_BIT | (verify_causes)((cause)-CAUSE_OUTLIER))
+  ((cause) < CAUSE_OUTLIER ? (verify_causes)1 << ((cause) % VERIFY_MOST_BITS) : ~(verify_causes)((cause)-CAUSE_OUTLIER))
 static inline bool verify_has(verify_causes causes, int cause)
 {
-  const bool of_points = cause >= CAUSE_OUTLIER;
-  if (of_points || causes >> VERIFY_POINTS_BIT) return causes == VERIFY_BIT(cause);
-  return (causes & VERIFY_BIT(cause)) != 0;
+  const bool of_points = cause >= CAUSE_OUTLIER || causes > VERIFY_BIT(VERIFY_CAUSES);
+  return of_points ? causes == VERIFY_BIT(cause) : (causes & VERIFY_BIT(cause)) != 0;
 }
 
 const char *verify_cause_meaning(int cause);

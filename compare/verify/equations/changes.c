@@ -27,6 +27,7 @@ int verify_change_variants(const model *m, verify_change c)
   switch (verify_changes[c].part) {
   case PART_CONTACT: return 1 + (m->n > 1 && contacts > 1 && contacts <= MOST_SINGLE_CONTACTS) * contacts;
   case PART_ONE_CONTACT: return contacts <= MOST_SINGLE_CONTACTS ? 1 + contacts : 1;
+  case PART_POWER: return contacts <= MOST_SINGLE_CONTACTS ? 1 + contacts * CONTACT_POWERS : 1;
   case PART_DOF: return m->n > 1 && m->n <= VERIFY_MOST_DOFS ? 1 + m->n : 1;
   case PART_PAIR: return m->n > 1 && m->n <= MOST_PAIRED_DOFS ? 1 + m->n * m->n : 1;
   default: return 1;
@@ -64,7 +65,7 @@ static void exchange(int n, int i, int k, double *A)
 
 static void turn(int n, model_contact *c, double angle_deg)
 {
-  if (n == 1) model_direction(angle_deg, c->tangent, c->normal);
+  if (n == 1 && c->law.smooth != CONTACT_POLYNOMIAL) model_direction(angle_deg, c->tangent, c->normal);
 }
 
 /* One side of the contact moves the other way: the last entry of a direction that has several. */
@@ -97,6 +98,16 @@ static void change_pair(model_contact *c, verify_change change)
   if ((change == CHANGE_NO_TANGENT_1 || change == CHANGE_NO_TANGENT_2) && c->pair == without) c->law.mu = 0;
 }
 
+/* A polynomial with powers one higher or lower; of lowered ones the linear spring goes into K. */
+static void change_powers(model *m, model_contact *c, bool up)
+{
+  double *const k = c->law.power;
+  if (up && k[CONTACT_POWERS - 1] != 0) return;
+  if (!up) add_outer(m->n, k[0], c->normal, c->normal, m->stiffness);
+  memmove(k + up, k + !up, (CONTACT_POWERS - 1) * sizeof *k);
+  k[up ? 0 : CONTACT_POWERS - 1] = 0;
+}
+
 static void change_contact(int n, model_contact *c, verify_change change, double factor)
 {
   /* Of the normal stiffness (model.h). */
@@ -110,10 +121,14 @@ static void change_contact(int n, model_contact *c, verify_change change, double
   case CHANGE_TURNED:
     if (c->pair == CONTACT_ALONE && !is_zero(n, c->tangent) && !is_zero(n, c->normal)) turn_both(n, c, factor);
     break;
-  case CHANGE_CONTACT_FORCE: c->law.kt *= factor, c->law.kn *= factor, c->law.load *= factor; break;
+  case CHANGE_CONTACT_FORCE:
+    c->law.kt *= factor, c->law.kn *= factor, c->law.load *= factor;
+    scale(CONTACT_POWERS, factor, c->law.power);
+    break;
+  case CHANGE_EPSILON: c->law.epsilon *= factor; break;
   case CHANGE_GAP_SIGN: c->law.gap = -c->law.gap; break;
   case CHANGE_ANGLE_COMPLEMENT:
-    if (n == 1) swap(c->tangent, c->normal);
+    if (n == 1 && c->law.smooth != CONTACT_POLYNOMIAL) swap(c->tangent, c->normal);
     break;
   case CHANGE_ANGLE_IN_RADIANS: turn(n, c, angle / (degree * degree)); break;
   case CHANGE_ANGLE_IN_DEGREES: turn(n, c, angle); break;
@@ -247,6 +262,7 @@ static hc_status displace(model *m, double *force, double mean_factor, bool all_
     model_contact *c = &m->contacts[j];
     const double before = c->law.gap;
     if (is_zero(m->n, c->normal)) continue;
+    if (c->law.smooth == CONTACT_POLYNOMIAL && dot_product(n, c->normal, force) != 0) return HC_BAD_INPUT;
     c->law.gap += dot_product(m->n, c->normal, force);
     if (!all_linear && (c->law.gap > 0) != (before > 0)) return HC_BAD_INPUT;
   }
@@ -281,7 +297,8 @@ static hc_status double_contacts(const model *m, verify_change change, bool keep
   if (linear && keep_mean) st = displace(*out, p, 1, true, offset);
   for (int j = 0; j < n; ++j) {
     model_contact *c = &contacts[j], *added = &contacts[n + j];
-    if (c->law.load > 0) continue; /* its force is constant as it is: the other is none */
+    /* Its normal force is constant as it is, or there is none: the other is nothing. */
+    if (c->law.load > 0 || c->law.smooth == CONTACT_POLYNOMIAL) continue;
     added->law = c->law;
     added->pair = c->pair, added->circle = c->circle;
     for (int i = 0; i < m->n; ++i) added->tangent[i] = c->tangent[i], added->normal[i] = linear ? -c->normal[i] : 0;
@@ -325,7 +342,8 @@ static bool same_model(const model *a, const model *b)
   for (int j = 0; j < a->n_contacts; ++j) {
     const model_contact *p = &a->contacts[j], *q = &b->contacts[j];
     same &= p->law.kt == q->law.kt && p->law.kn == q->law.kn && p->law.mu == q->law.mu && p->law.gap == q->law.gap &&
-            p->law.load == q->law.load && p->circle == q->circle;
+            p->law.load == q->law.load && p->circle == q->circle && p->law.epsilon == q->law.epsilon &&
+            same_numbers(CONTACT_POWERS, p->law.power, q->law.power);
     same &= same_direction(a->n, p->tangent, q->tangent) && same_direction(a->n, p->normal, q->normal);
   }
   return same;
@@ -359,15 +377,27 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
       move_load(own->n, which, load->cosine), move_load(own->n, which, load->sine);
   }
   if (verify_changes[c].part == PART_PAIR && which >= 0) change_numbering(own, c, which / m->n, which % m->n);
+  const bool of_power = verify_changes[c].part == PART_POWER;
+  bool there = false; /* of a law's own number: even where its factor is 1 */
   for (int j = 0, whole = -1; j < own->n_contacts; ++j) {
-    whole += !contact_goes_on(own->contacts[j].pair);
-    if (which < 0 || which == whole) change_contact(m->n, &own->contacts[j], c, how->factor);
-    const bool rubs = j < 32 && contact_has_friction(&own->contacts[j].law);
-    if (c == CHANGE_FRICTION_SIGN && rubs && (which < 0 || which == whole)) mistakes->turned |= 1U << j;
+    model_contact *one = &own->contacts[j];
+    whole += !contact_goes_on(one->pair);
+    const bool meant = which < 0 || which == whole;
+    if (meant) change_contact(m->n, one, c, how->factor);
+    if (meant && (c == CHANGE_POWER_UP || c == CHANGE_POWER_DOWN)) change_powers(own, one, c == CHANGE_POWER_UP);
+    for (int i = 0; i < CONTACT_POWERS && of_power; ++i)
+      if (one->law.power[i] != 0 && (which < 0 || which == whole * CONTACT_POWERS + i))
+        one->law.power[i] *= c == CHANGE_COEFFICIENT ? how->factor : -1, there = true;
+    there |= meant && one->law.epsilon > 0;
+    const bool rubs = j < 32 && contact_has_friction(&one->law);
+    if (c == CHANGE_FRICTION_SIGN && rubs && meant) mistakes->turned |= 1U << j;
+    if (c == CHANGE_FRICTION_SIGN && one->law.smooth == CONTACT_TANH && meant) one->law.mu = -one->law.mu;
     if (c == CHANGE_SLIDER_MEAN && rubs) mistakes->mean = HBM_FRICTION_MEAN_OF_U;
     if (c == CHANGE_FRICTION_MEAN && rubs) mistakes->mean = HBM_FRICTION_NO_MEAN;
   }
-  if (c >= CHANGE_FRICTION_SIGN && c <= CHANGE_FRICTION_MEAN)
+  if (c == CHANGE_STUCK && same_numbers(n * n, m->stiffness, own->stiffness)) return HC_BAD_INPUT; /* no contact */
+  if ((of_power || c == CHANGE_EPSILON) && !there) return HC_BAD_INPUT;
+  if (c >= CHANGE_FRICTION_SIGN && c <= CHANGE_FRICTION_MEAN && same_model(m, own))
     return m->n > 1 && (mistakes->turned || (mistakes->mean && keep_mean)) ? HC_OK : HC_BAD_INPUT;
   static_force(m, true, 1, p);
   const bool preload = !is_zero(m->n, p);
@@ -407,7 +437,7 @@ hc_status verify_changed_model(const model *m, const verify_changed *how, bool k
 
 /* ---- the causes ---- */
 
-_Static_assert((int)CAUSE_OUTLIER <= (int)VERIFY_POINTS_BIT, "one bit each");
+_Static_assert((int)CAUSE_OUTLIER <= (int)VERIFY_MOST_BITS, "one bit each");
 
 static const struct {
   const char *word, *meaning, *remedy;

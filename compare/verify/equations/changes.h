@@ -8,8 +8,8 @@
 #include "model/model.h"
 
 /* What of a model a change is of: all of it, every contact or a single one of several, a single contact at a time (or
- * all), a degree of freedom, or two of them. */
-typedef enum verify_part { PART_ALL, PART_CONTACT, PART_ONE_CONTACT, PART_DOF, PART_PAIR } verify_part;
+ * all), a power of a single one's polynomial, a degree of freedom, or two of them. */
+typedef enum verify_part { PART_ALL, PART_CONTACT, PART_ONE_CONTACT, PART_POWER, PART_DOF, PART_PAIR } verify_part;
 
 /* Has it a number, and which: a factor, or an angle [degree]? */
 typedef enum verify_scan { SCAN_NONE, SCAN_FACTOR, SCAN_TURN } verify_scan;
@@ -27,6 +27,8 @@ typedef enum verify_scan { SCAN_NONE, SCAN_FACTOR, SCAN_TURN } verify_scan;
   X(CHANGE_KN, CAUSE_KN, "kn", SCAN_FACTOR, PART_CONTACT)                                                              \
   X(CHANGE_FRICTION, CAUSE_FRICTION, "mu", SCAN_FACTOR, PART_CONTACT)                                                  \
   X(CHANGE_GAP, CAUSE_GAP, "gap", SCAN_FACTOR, PART_CONTACT)                                                           \
+  X(CHANGE_COEFFICIENT, CAUSE_COEFFICIENT, "coefficients", SCAN_FACTOR, PART_POWER)                                    \
+  X(CHANGE_EPSILON, CAUSE_EPSILON, "epsilon", SCAN_FACTOR, PART_CONTACT)                                               \
   X(CHANGE_TURNED, CAUSE_ANGLE, "tangent and normal turned", SCAN_TURN, PART_CONTACT)                                  \
   X(CHANGE_DAMPING_MODAL, CAUSE_DAMPING_KIND, "modal damping, mean of C's", SCAN_FACTOR, PART_ALL)                     \
   X(CHANGE_DAMPING_OF_M, CAUSE_DAMPING_KIND, "C proportional to M, of C's trace", SCAN_FACTOR, PART_ALL)               \
@@ -42,6 +44,9 @@ typedef enum verify_scan { SCAN_NONE, SCAN_FACTOR, SCAN_TURN } verify_scan;
   X(CHANGE_EXCHANGED, CAUSE_EXCHANGED, "kt = kn of the case, kn = kt", SCAN_NONE, PART_CONTACT)                        \
   X(CHANGE_NO_FRICTION, CAUSE_NO_FRICTION, "mu = 0", SCAN_NONE, PART_CONTACT)                                          \
   X(CHANGE_NO_KT, CAUSE_NO_KT, "kt = 0", SCAN_NONE, PART_CONTACT)                                                      \
+  X(CHANGE_COEFFICIENT_SIGN, CAUSE_COEFFICIENT, "coefficients times -1", SCAN_NONE, PART_POWER)                        \
+  X(CHANGE_POWER_UP, CAUSE_POWER, "powers one higher", SCAN_NONE, PART_CONTACT)                                        \
+  X(CHANGE_POWER_DOWN, CAUSE_POWER, "powers one lower", SCAN_NONE, PART_CONTACT)                                       \
   X(CHANGE_FRICTION_SIGN, CAUSE_FRICTION_SIGN, "-T", SCAN_NONE, PART_ONE_CONTACT)                                      \
   X(CHANGE_SLIDER_MEAN, CAUSE_SLIDER_MEAN, "harmonic 0 of T is kt times that of u", SCAN_NONE, PART_ALL)               \
   X(CHANGE_FRICTION_MEAN, CAUSE_SLIDER_MEAN, "T without harmonic 0", SCAN_NONE, PART_ALL)                              \
@@ -91,8 +96,8 @@ int verify_change_variants(const model *m, verify_change c);
 typedef struct verify_changed {
   verify_change change;
   double factor; /* the number of a change that has one */
-  int which;     /* 0: all; else one more than the contact, a pair being one, the degree of freedom i, or i n + k of
-                    the two, i < k */
+  int which;     /* 0: all; else one more than the contact, a pair being one, CONTACT_POWERS times that and the
+                    power's index, the degree of freedom i, or i n + k of the two, i < k */
 } verify_changed;
 
 /* The other program's model: *out, the caller's, whose response r plus offset[r] [length] is theirs, and mistakes in

@@ -104,7 +104,7 @@ static hc_status try_other_orders(search *s)
   bool own_too = s->own < s->out->harmonics;
   for (int i = HARMONICS_TRIED - 1; i >= 0 && st == HC_OK; --i) {
     int harmonics = harmonics_tried[i];
-    if (harmonics >= s->out->harmonics) continue;
+    if (harmonics >= s->out->harmonics || harmonics < model_highest_load(s->setup->model)) continue;
     own_too &= harmonics != s->own;
     for (int mean = 1; mean >= 0 && st == HC_OK; --mean) st = try_order(s, harmonics, mean);
   }
@@ -154,7 +154,7 @@ static hc_status try_changes(search *s, const verify_equations *like, verify_cha
       e.n = m->n;
       if (verify_changes[c].scan == SCAN_TURN || verify_change_of_kind(c)) break; /* no number is usual */
       e.factor = factor ? search_factors[i / variants] : 1;
-      if (verify_equations_linear(&e)) e.harmonics = 1;
+      if (verify_equations_linear(&e)) e.harmonics = model_highest_load(m) > 1 ? model_highest_load(m) : 1;
       st = try_equations(s, &e);
       if (st == HC_OK && !s->oscillator && !verify_equations_linear(&e)) st = try_orders_of(s, &e);
     }
