@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "hbm/contact/exact_force.h"
+#include "hbm/forces/contact_kind.h"
 #include "hbm/planar/planar_force.h"
 #include "hbm/planar/planar_slider.h"
 #include "numerics/dense.h"
@@ -24,7 +25,8 @@ enum { ONE_CONTACT_MOST = 3 };
 typedef struct one_contact {
   const contact *law; /* of a circle: of either half */
   bool circle;
-  int n_dof; /* u, v; of a circle u_1, u_2, and v where N varies; 0: it belongs to the contact before it */
+  double omega; /* of laws that depend on rates */
+  int n_dof;    /* u, v; of a circle u_1, u_2, and v where N varies; 0: it belongs to the contact before it */
   const double *direction[ONE_CONTACT_MOST]; /* [n] */
   double stiffness[ONE_CONTACT_MOST];        /* [force/length] of the whole contact along each */
   double *motion, *force;                    /* [n_dof][2H+1] coordinates, and T and N - N0 along them */
@@ -60,9 +62,58 @@ static one_contact contact_of(const model *m, int j)
                        .stiffness = {law->kt, law->kt, 2 * law->kn}};
 }
 
+/* Sum of h^p times the sizes of harmonic h >= 1 of coordinate d: a bound of the p-th derivative by th. */
+static double motion_size(const solved_scene *s, const one_contact *c, int d, int p)
+{
+  double sum = 0;
+  for (int h = 1; h <= s->how.harmonics; ++h) {
+    const double *a = c->motion + d * s->n_coef + 2 * h - 1;
+    sum += pow(h, p) * hypot(a[0], a[1]);
+  }
+  return sum;
+}
+
+/* Bounds of coordinate d, and of a law's friction limit. */
+static double reach_of(const solved_scene *s, const one_contact *c, int d)
+{
+  return fabs(c->motion[d * s->n_coef]) + motion_size(s, c, d, 0);
+}
+static double limit_of(const solved_scene *s, const one_contact *c)
+{
+  return c->law->mu * (c->law->kn * (reach_of(s, c, 1) + fabs(c->law->gap)) + c->law->load);
+}
+
+/* A smooth law has stiffnesses only as its motion is: the most that its force may be, over that. */
+static void set_stiffness(const solved_scene *s, one_contact *c)
+{
+  const double u = reach_of(s, c, 0), v = reach_of(s, c, 1);
+  if (c->law->smooth == CONTACT_TANH) c->stiffness[0] = u > 0 ? limit_of(s, c) / u : 0;
+  for (int i = 0; i < CONTACT_POWERS && c->law->smooth == CONTACT_POLYNOMIAL; ++i)
+    c->stiffness[1] += fabs(c->law->power[i]) * pow(v, i + CONTACT_LEAST_POWER - 1);
+}
+
+/* A polynomial knows v alone. */
+static hc_status locate_smooth(int n_harm, one_contact *c)
+{
+  const bool rubs = c->law->smooth == CONTACT_TANH;
+  const placed_contact placed = {.law = *c->law};
+  const contact_coordinates alone = {
+      .n_dof = 1 + rubs, .divisor = {1, 1}, .moved = {.law = *c->law, .cu = {rubs, 0}, .cv = {!rubs, 1}}};
+  const evaluator_settings how = {.n_harm = n_harm};
+  const int first = rubs ? 0 : series_length(n_harm);
+  const contact_evaluator *law = contact_kind_of(&placed)->exact;
+  void *self = NULL;
+  hc_status st = law->make(&alone, &how, &self);
+  if (st == HC_OK && law->at_omega) law->at_omega(self, c->omega);
+  if (st == HC_OK) st = law->evaluate(self, c->motion + first, c->force + first, NULL, &c->report);
+  law->free(self);
+  return st;
+}
+
 /* c->force of c->motion. */
 static hc_status locate(int n_harm, one_contact *c)
 {
+  if (c->law->smooth != CONTACT_KINKED) return locate_smooth(n_harm, c);
   const moving_contact alone = {.law = *c->law, .cu = {1, 0}, .cv = {0, 1}};
   exact_force *line = NULL;
   planar_force *plane = NULL;
@@ -81,6 +132,7 @@ static hc_status locate(int n_harm, one_contact *c)
 static hc_status one_contact_locate(const solved_scene *s, int j, const double *x, one_contact *c)
 {
   *c = contact_of(s->model, j);
+  c->omega = s->omega;
   if (c->n_dof == 0) return HC_OK;
   c->motion = calloc(one_contact_length(s, c), sizeof(double));
   c->force = calloc(one_contact_length(s, c), sizeof(double));
@@ -88,6 +140,7 @@ static hc_status one_contact_locate(const solved_scene *s, int j, const double *
   for (int d = 0; d < c->n_dof; ++d)
     for (int k = 0; k < s->n_coef; ++k)
       for (int i = 0; i < s->n; ++i) c->motion[d * s->n_coef + k] += c->direction[d][i] * x[k * s->n + i];
+  if (c->law->smooth != CONTACT_KINKED) set_stiffness(s, c);
   return locate(s->how.harmonics, c);
 }
 
@@ -111,7 +164,8 @@ typedef struct stepper {
   bool begun;
 } stepper;
 
-/* f[n_dof], T and N - N0, at motion[n_dof]. A line is a plane whose second tangent does not move. */
+/* f[n_dof], T and N - N0 at the instant that is reached by motion[n_dof], and the first one's rate behind it. A contact
+ * on a line is one in the plane whose second tangent does not move. */
 static void step(const one_contact *c, const double *motion, stepper *s, double *f)
 {
   const contact *law = c->law;
@@ -124,17 +178,19 @@ static void step(const one_contact *c, const double *motion, stepper *s, double 
                     : planar_slider_enter(&to, s->w, NULL);
   for (int d = 0; d < tangents; ++d) f[d] = move == PLANAR_APART ? 0 : law->kt * (to.u[d] - s->w[d]);
   if (last == tangents) f[last] = tangents * contact_normal_change(law, v);
+  if (law->smooth == CONTACT_TANH) f[0] = fmax(limit, 0) * tanh(motion[c->n_dof] / law->epsilon);
+  if (law->smooth == CONTACT_POLYNOMIAL) f[1] = contact_polynomial(law, v, &(double){0});
   s->before = to;
   s->begun = true;
 }
 
-/* One period of motion[N][n_dof]; its harmonics are added to force[n_dof][2H+1] unless that is NULL. */
+/* One period of motion[N][n_dof + 1]; its harmonics are added to force[n_dof][2H+1] unless that is NULL. */
 static void step_period(const one_contact *c, int n_harm, int N, const double *motion, stepper *s, double *force)
 {
   const int n_coef = series_length(n_harm);
   double f[ONE_CONTACT_MOST] = {0}, basis[2 * HBM_MAX_HARMONICS + 1] = {0};
   for (int i = 0; i < N; ++i) {
-    step(c, motion + (size_t)i * (size_t)c->n_dof, s, f);
+    step(c, motion + (size_t)i * (size_t)(c->n_dof + 1), s, f);
     if (force) basis_at(n_harm, i, N, basis);
     for (int d = 0; d < c->n_dof && force; ++d)
       for (int k = 0; k < n_coef; ++k) force[d * n_coef + k] += (k == 0 ? 1 : 2) * f[d] / N * basis[k];
@@ -150,13 +206,17 @@ static hc_status step_contact(const one_contact *c, int n_harm, int N, double *f
   const int most = c->circle ? 1 << 23 : N; /* instants in all */
   const int n_coef = series_length(n_harm);
   const double settled = 1e-9;
-  double basis[2 * HBM_MAX_HARMONICS + 1] = {0}, *motion = malloc((size_t)N * (size_t)c->n_dof * sizeof *motion);
+  double basis[2 * HBM_MAX_HARMONICS + 1] = {0}, *motion = malloc((size_t)N * (size_t)(c->n_dof + 1) * sizeof *motion);
   stepper s = {0};
   bool rests = !c->circle;
   if (!motion) return HC_NO_MEMORY;
   for (int i = 0; i < N; ++i) {
     basis_at(n_harm, i, N, basis);
-    for (int d = 0; d < c->n_dof; ++d) motion[i * c->n_dof + d] = dot_product(n_coef, c->motion + d * n_coef, basis);
+    double *at = motion + i * (c->n_dof + 1), *rate = at + c->n_dof;
+    for (int d = 0; d < c->n_dof; ++d) at[d] = dot_product(n_coef, c->motion + d * n_coef, basis);
+    *rate = 0;
+    for (int h = 1; h <= n_harm; ++h)
+      *rate += h * c->omega * (c->motion[2 * h] * basis[2 * h - 1] - c->motion[2 * h - 1] * basis[2 * h]);
   }
   for (int done = 0; done < most && (done == 0 || !rests); done += N) {
     const double before[2] = {s.w[0], s.w[1]};
@@ -169,17 +229,6 @@ static hc_status step_contact(const one_contact *c, int n_harm, int N, double *f
   return rests ? HC_OK : HC_INTERRUPTED;
 }
 
-/* Sum of h^p times the sizes of harmonic h >= 1 of coordinate d: a bound of the p-th derivative by th. */
-static double motion_size(const solved_scene *s, const one_contact *c, int d, int p)
-{
-  double sum = 0;
-  for (int h = 1; h <= s->how.harmonics; ++h) {
-    const double *a = c->motion + d * s->n_coef + 2 * h - 1;
-    sum += pow(h, p) * hypot(a[0], a[1]);
-  }
-  return sum;
-}
-
 /* What stepping through N instants, e = 2 pi/N apart, may do to a coefficient, over the largest force of the springs.
  * Up, Vp bound the p-th derivatives of u and v; r = mu N/kt.
  *     sums     a trapezoidal sum errs by e^2/12 times the mean of |(f cos h th)''|, twice that for h >= 1: with f of
@@ -189,18 +238,26 @@ static double motion_size(const solved_scene *s, const one_contact *c, int d, in
  *     circle   of two circles that are nowhere more than d apart the sliders differ by no more than the root of
  *              2 d (length of both paths) (Moreau's sweeping process), each path 2 pi (U1 + R1) at most
  * The second of the two is the larger one by far, and no better is known without the order of the motion's contact with
- * the circle; it is of first order in e. */
+ * the circle; it is of first order in e. Of tanh Sp follows from limit and rate by the product's rule, with |tanh'| <= 1,
+ * |tanh''| <= 0.77; sums of a polynomial are exact. */
 static double stepping_bound(const solved_scene *s, const one_contact *c, int N)
 {
   const contact *law = c->law;
   const int last = c->n_dof - 1, H = s->how.harmonics;
   const bool moves = c->circle ? c->n_dof == 3 : law->kn > 0;
+  if (law->smooth == CONTACT_POLYNOMIAL && N > (contact_degree(law) + 1) * H) return 0;
   const double e = TWO_PI / N, r = law->kt > 0 ? law->mu * law->kn / law->kt : 0;
   double U[3] = {0}, V[3] = {0}, S[3], largest = 0;
   for (int p = 0; p < 3; ++p) {
     for (int d = 0; d < (c->circle ? 2 : 1); ++d) U[p] += motion_size(s, c, d, p);
     if (moves) V[p] = motion_size(s, c, last, p);
     S[p] = law->kt * U[p] + (c->circle ? 2 : 1) * (1 + law->mu) * law->kn * V[p];
+  }
+  if (law->smooth == CONTACT_TANH) {
+    const double part = s->omega / law->epsilon, rate[] = {part * U[2], part * motion_size(s, c, 0, 3)},
+                 limit[] = {limit_of(s, c), law->mu * law->kn * V[1], law->mu * law->kn * V[2]};
+    S[0] += limit[0], S[1] += limit[1] + limit[0] * rate[0];
+    S[2] += limit[2] + 2 * limit[1] * rate[0] + limit[0] * (rate[1] + 0.77 * rate[0] * rate[0]);
   }
   for (int k = 0; k < c->n_dof * s->n_coef; ++k)
     largest = fmax(largest, c->stiffness[k / s->n_coef] * fabs(c->motion[k]));
@@ -332,12 +389,14 @@ static void draw_motion(solved_scene *s, one_contact *c)
 {
   const contact *law = c->law;
   double reach = law->kn > 0 ? fabs(law->gap) : law->kt > 0 ? law->mu * law->load / law->kt : 0;
+  if (law->smooth != CONTACT_KINKED) reach = fmax(reach_of(s, c, 0), reach_of(s, c, 1));
   if (reach == 0) reach = 1;
   for (int d = 0; d < c->n_dof; ++d)
     for (int k = 0; k < s->n_coef; ++k) {
       const int h = (k + 1) / 2;
       c->motion[d * s->n_coef + k] = reach * random_signed(&s->random) * (h == 0 ? 0.1 : 1.5 / (h * h));
     }
+  if (law->smooth != CONTACT_KINKED) c->stiffness[1] = law->kn, set_stiffness(s, c);
 }
 
 /* Each contact in the solution's motion, and in one that is drawn. */
@@ -373,7 +432,7 @@ stress_check stress_check_work(solved_scene *s)
         work += h * (c.motion[b] * c.force[a] - c.motion[a] * c.force[b]);
         size += h * x * (hypot(c.force[a], c.force[b]) + c.stiffness[d] * x);
       }
-    const bool takes = contact_has_friction(law) && c.report.regime >= CONTACT_SLIPS;
+    const bool takes = law->smooth == CONTACT_TANH || (contact_has_friction(law) && c.report.regime >= CONTACT_SLIPS);
     const double wrong = takes ? fmax(-work, 0) : fabs(work);
     one_contact_clear(&c);
     if (st != HC_OK) return stress_refuse(s, st);
@@ -416,7 +475,8 @@ stress_check stress_check_determinant(solved_scene *s)
     hc_status st = one_contact_locate(s, j, s->base.x, &c);
     one_contact_clear(&c);
     if (st != HC_OK) return stress_refuse(s, st);
-    if (contact_has_friction(&s->model->contacts[j].law) && c.report.regime >= CONTACT_SLIPS)
+    const contact *law = &s->model->contacts[j].law;
+    if (law->smooth == CONTACT_TANH || (contact_has_friction(law) && c.report.regime >= CONTACT_SLIPS))
       return stress_skip(STRESS_NOT_APPLICABLE);
   }
   const double expected = exp(-TWO_PI / s->omega * damping_trace(s->model));

@@ -30,11 +30,11 @@ static const double same_law = 1e-6, beside = 1e-5, nearby = 1e-4, tolerance = 1
 enum { MOST_PERIODS = 400, MOST_HARMONICS = 160, MOST_UNKNOWNS = 1500 };
 enum { ALONE_EVERY = 8 }; /* scenes for which CVODE finds the orbit by itself */
 
-/* The exact law in closed form, from where the start says. */
-static transient_settings path_settings(void)
+/* The exact law from where the start says: in closed form, but for smooth laws, which have none. */
+static transient_settings path_settings(const model *m)
 {
   return (transient_settings){.law = TRANSIENT_LAW_EXACT,
-                              .method = TRANSIENT_METHOD_CLOSED_FORM,
+                              .method = model_is_smooth(m) ? TRANSIENT_METHOD_CVODE : TRANSIENT_METHOD_CLOSED_FORM,
                               .regularisation = 1e-4,
                               .steady = TRANSIENT_STEADY_AUTO,
                               .start = TRANSIENT_START_REST,
@@ -53,7 +53,16 @@ typedef struct search {
 } search;
 
 /* The orbit of the base model next to a start, by the exact law in closed form. */
-static search next_to(const solved_scene *s) { return (search){s->model, path_settings(), PATH_ORBIT, s->omega, 1}; }
+static search next_to(const solved_scene *s)
+{
+  return (search){s->model, path_settings(s->model), PATH_ORBIT, s->omega, 1};
+}
+
+/* To which an orbit that is found again is the same. */
+static double same_again(const solved_scene *s)
+{
+  return model_is_smooth(s->model) ? same_by_cvode : same_in_closed_form;
+}
 
 static hc_status read_waves(const solved_scene *s, timeint *ti, double length, stress_path *p)
 {
@@ -372,14 +381,14 @@ static stress_check hold_rewritten(solved_scene *s, hc_status made, rewritten *w
 {
   const int n = s->n;
   stress_check c = stress_skip(STRESS_NO_REASON);
-  search at = {w->model, path_settings(), PATH_ORBIT, s->omega / w->time, w->length};
+  search at = {w->model, path_settings(w->model), PATH_ORBIT, s->omega / w->time, w->length};
   double *from = made == HC_OK ? malloc(state_length(w->model) * sizeof *from) : NULL;
   if (from) {
     rewritten_motion(w, n, s->path.state, from);
     rewritten_motion(w, n, s->path.state + n, from + n);
     for (int j = 0; j < w->model->n_contacts; ++j) from[2 * n + j] = s->path.state[2 * n + j];
     for (size_t i = 0; i < state_length(w->model); ++i) from[i] *= (int)i / n == 1 ? w->length / w->time : w->length;
-    c = hold_found(s, &at, from, 0, same_in_closed_form);
+    c = hold_found(s, &at, from, 0, same_again(s));
   } else s->fatal = HC_NO_MEMORY;
   rewritten_clear(w);
   free(from);
@@ -399,7 +408,7 @@ static stress_check delayed(solved_scene *s)
   if (h.status == HC_OK) {
     search at = next_to(s);
     at.m = w.model;
-    c = hold_found(s, &at, h.start, TIMEINT_WAVE - shift, same_in_closed_form);
+    c = hold_found(s, &at, h.start, TIMEINT_WAVE - shift, same_again(s));
   }
   if (c.outcome == STRESS_REFUSED || !(motion_off(s, &s->fine, &s->path) <= nearby)) c = stress_skip(STRESS_NO_ORBIT);
   stress_motion_free(&h);
@@ -433,7 +442,7 @@ stress_check stress_check_returns(solved_scene *s)
   for (int i = 0; i < 2 * s->n; ++i)
     from[i] += beside * s->path.amplitude * (i < s->n ? 1 : s->omega) * random_signed(&s->random);
   stress_path other = find_path(s, &at, from);
-  stress_check c = hold(s, &other, 0, same_in_closed_form);
+  stress_check c = hold(s, &other, 0, same_again(s));
   if (c.outcome == STRESS_FINDING && is_orbit(s, &other, TRANSIENT_METHOD_CVODE))
     c = stress_explain(STRESS_OTHER_ORBIT, c.error, c.bound);
   stress_path_free(&other);
@@ -451,7 +460,7 @@ stress_check stress_check_from_rest(solved_scene *s)
 {
   search at = next_to(s);
   at.way = PATH_STEADY;
-  if (!is_alone(s)) return stress_skip(STRESS_NOT_APPLICABLE);
+  if (!is_alone(s) || model_is_smooth(s->model)) return stress_skip(STRESS_NOT_APPLICABLE);
   stress_path closed = find_path(s, &at, NULL), cvode = {.status = HC_NOT_CONVERGED};
   stress_check c = stress_skip(STRESS_NO_ORBIT);
   at.how.method = TRANSIENT_METHOD_CVODE;
@@ -475,6 +484,7 @@ stress_check stress_check_cvode(solved_scene *s)
 {
   search at = next_to(s);
   if (!known(s)) return stress_skip(STRESS_NO_ORBIT);
+  if (model_is_smooth(s->model)) return stress_skip(STRESS_NOT_APPLICABLE);
   at.how.method = TRANSIENT_METHOD_CVODE;
   at.how.tolerance = 1e-9;
   at.how.scout = !is_alone(s);

@@ -173,7 +173,8 @@ hc_status rewritten_in_units(const model *m, double length, double force, double
   for (int j = 0; j < m->n_contacts; ++j) {
     contact *law = &u->contacts[j].law;
     law->kt *= force / length, law->kn *= force / length;
-    law->gap *= length, law->load *= force;
+    law->gap *= length, law->load *= force, law->epsilon *= length / time;
+    for (int i = 0; i < CONTACT_POWERS; ++i) law->power[i] *= force / pow(length, i + CONTACT_LEAST_POWER);
   }
   return HC_OK;
 }
@@ -198,6 +199,7 @@ hc_status rewritten_split(const model *m, double part, rewritten *out)
     contact *law = &out->model->contacts[j].law;
     const double its = j < m->n_contacts ? part : 1 - part;
     law->kt *= its, law->kn *= its, law->load *= its;
+    scale(law->power, CONTACT_POWERS, its);
   }
   return st;
 }
@@ -314,6 +316,9 @@ hc_status rewritten_nudged(const model *m, double part, uint64_t *random, rewrit
     if (c->pair == CONTACT_SECOND) c->law = t->contacts[j - 1].law; /* one law for both */
     else
       for (int i = 0; i < 5; ++i) nudge_vector(random, part, 1, numbers[i]);
+    for (int i = 0; i < CONTACT_POWERS && c->law.smooth != CONTACT_KINKED; ++i)
+      nudge_vector(random, part, 1, &c->law.power[i]);
+    if (c->law.smooth == CONTACT_TANH) nudge_vector(random, part, 1, &c->law.epsilon);
     uint64_t again = seed;
     nudge_direction(&again, part, n, c->tangent, m->contacts[j].tangent);
     again = seed;

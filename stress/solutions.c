@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "numerics/dense.h"
 #include "numerics/norm.h"
@@ -88,7 +89,8 @@ static double reach(const solved_scene *s, const double *d, const double *x)
 }
 
 /* HBM by Newton from 1.4 times the solution, and the orbit next to it, against the closed form. The mean of a stuck
- * contact's motion depends on where its slider rests: HBM's is left out. */
+ * contact's motion depends on where its slider rests: HBM's is left out. Of smooth laws, which have no closed form, HBM
+ * alone. */
 static stress_check hold_linear(solved_scene *s, const model *m, const linear_motion *exact, bool means_out)
 {
   /* a Newton step of a linear equation, its LU, and the force as a sum of 2H+1 terms: some units of rounding each */
@@ -109,7 +111,7 @@ static stress_check hold_linear(solved_scene *s, const model *m, const linear_mo
                             : stress_agree(stress_motion_distance(s, hbm.x, exact->x, means_out), bound);
     stress_motion_free(&hbm);
   }
-  if (s->fatal == HC_OK && c.outcome == STRESS_AGREED) {
+  if (s->fatal == HC_OK && c.outcome == STRESS_AGREED && !model_is_smooth(m)) {
     /* Where the motion starts, its sliders at 0. */
     for (int i = 0; i < s->n; ++i) {
       start[i] = exact->x[i];
@@ -149,9 +151,13 @@ static stress_check check_contacts(solved_scene *s, bool stuck)
   double moves = 0;
   for (int i = 0; i < s->n * s->n_coef && st == HC_OK; ++i) moves = fmax(moves, fabs(exact.x[i]));
   /* Contact j of m so that the motion x, whose largest entry is `moves`, never closes it, or never slips nor opens. */
+  bool sticks = true; /* could */
   for (int j = 0; exact.x && moves > 0 && j < m->n_contacts; ++j) {
     model_contact *of = &m->contacts[j];
     contact *law = &of->law;
+    memset(law->power, 0, sizeof law->power);
+    sticks = sticks && law->smooth != CONTACT_TANH;
+    if (law->smooth == CONTACT_POLYNOMIAL) continue;
     const double v = reach(s, of->normal, exact.x);
     const double u =
         reach(s, of->tangent, exact.x) + (of->pair == CONTACT_FIRST ? reach(s, of[1].tangent, exact.x) : 0);
@@ -160,7 +166,8 @@ static stress_check check_contacts(solved_scene *s, bool stuck)
     else if (law->kn > 0) law->gap = 10 * (v + moves + law->kt * u / (law->mu * law->kn));
     else law->load = 10 * law->kt * (u + moves) / law->mu;
   }
-  if (exact.x && moves > 0 && exact.bound < solvable && moves < 1e150) c = hold_linear(s, m, &exact, stuck);
+  if (exact.x && moves > 0 && (sticks || !stuck) && exact.bound < solvable && moves < 1e150)
+    c = hold_linear(s, m, &exact, stuck);
   free(exact.x);
   model_free(m);
   model_free(linear);

@@ -6,7 +6,8 @@
  * Rayleigh, modal, mode by mode or a full matrix, with a gyroscopic part in some and a circulatory in few; up to three
  * loads of harmonics up to 5 with phases, and a static one; H 1..20. Friction limits and gaps are of the order of
  * what the structure without contacts does at that frequency: far from it nothing happens. What the numbers are many
- * of (matrices, directions) comes from a generator of its own for each scene, all else from the Sobol point. */
+ * of (matrices, directions) comes from a generator of its own for each scene, all else from the Sobol point. In two
+ * scenes of five contacts become polynomials, tables or tanh friction, by a generator of their own. */
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
@@ -183,6 +184,40 @@ static void draw_limits(uint64_t *r, int n, const double complex *x, structure_c
   if (kind > 0.8) g->preload = g->law.kn * g->law.gap, g->law.gap = 0;
 }
 
+/* In the place of friction and gap: a polynomial whose odd powers hold it together, up to a few times as stiff as the
+ * contact was; a table of as many kinks as it has points between its ends, hardening or not; or tanh friction. */
+static void draw_law(uint64_t *r, int n, double omega, const double complex *x, structure_contact *c)
+{
+  scene_contact *g = &c->given;
+  const double kind = random_unit(r), k = fmax(g->law.kt, g->law.kn) * geometric(r, 0.01, 1);
+  const bool rubs = !is_zero(n, c->tangent);
+  if (kind < 0.3 && rubs) {
+    g->kind = SCENE_LAW_TANH;
+    g->law.kt = 0;
+    g->law.epsilon = omega * along(n, c->tangent, x) * geometric(r, 0.05, 2);
+    return;
+  }
+  g->law = (contact){0};
+  g->preload = 0;
+  if (is_zero(n, c->normal)) memcpy(c->normal, c->tangent, (size_t)n * sizeof *c->normal);
+  memset(c->tangent, 0, (size_t)n * sizeof *c->tangent);
+  const double v = along(n, c->normal, x);
+  if (kind < 0.65) {
+    const int odd = random_unit(r) < 0.7 ? 3 : 5;
+    g->kind = SCENE_LAW_POLYNOMIAL;
+    g->law.power[odd - CONTACT_LEAST_POWER] = k / pow(v, odd - 1);
+    if (random_unit(r) < 0.3) g->law.power[0] = 0.5 * k / v * random_signed(r);
+    return;
+  }
+  g->kind = SCENE_LAW_TABLE;
+  g->n_points = random_int(r, 2, 6);
+  g->points[0][0] = -v * geometric(r, 0.2, 2);
+  for (int i = 1; i < g->n_points; ++i) {
+    g->points[i][0] = g->points[i - 1][0] + v * geometric(r, 0.1, 1);
+    g->points[i][1] = g->points[i - 1][1] + (g->points[i][0] - g->points[i - 1][0]) * k * 3 * random_unit(r);
+  }
+}
+
 /* Between a mode with the contacts apart and with all of them stuck, or beside. */
 static hc_status draw_frequency(uint64_t *r, const double *p, const model *m, double *omega)
 {
@@ -273,6 +308,14 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
     if (st == HC_OK) st = draw_frequency(&r, p, m, &sc.compare.omega.v[0]);
     if (st == HC_OK) st = free_response(m, sc.compare.omega.v[0], x);
     for (int j = 0; j < s->n_contacts && st == HC_OK; ++j) draw_limits(&r, s->n, x, &s->contacts[j]);
+    uint64_t of_laws = key ^ 0x1a35ULL << 48, own = random_bits(&of_laws);
+    const bool other_laws = random_unit(&own) < 0.4;
+    for (int j = 0; j < s->n_contacts && st == HC_OK && other_laws; ++j)
+      if (random_unit(&own) < 0.6) draw_law(&own, s->n, sc.compare.omega.v[0], x, &s->contacts[j]);
+    double moves[MOST_DOFS];
+    bool adrift = false;
+    if (st == HC_OK && other_laws) st = structure_free_motion(s, false, moves, &adrift);
+    if (adrift) add_between(s->n, s->stiffness.v, 1, 0, -1);
     model_free(m);
   }
   if (st == HC_OK) {
@@ -289,6 +332,9 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
     for (int j = 0; j < s->n_contacts; ++j) {
       scene_contact *g = &s->contacts[j].given;
       g->law.kt *= stiffness, g->law.kn *= stiffness, g->law.gap *= length, g->preload *= stiffness * length;
+      g->law.epsilon *= length * rate;
+      for (int i = 0; i < CONTACT_POWERS; ++i) g->law.power[i] *= stiffness / pow(length, i + CONTACT_LEAST_POWER - 1);
+      for (int i = 0; i < g->n_points; ++i) g->points[i][0] *= length, g->points[i][1] *= stiffness * length;
     }
     scale(sc.compare.omega.v, 1, rate);
     st = structure_resolve_damping(s);
@@ -338,7 +384,7 @@ hc_status stress_scene_of(stress_scenes *scenes, stress_family family, long inde
     int directions = 2 * s->n_contacts;
     for (int j = 0; j < s->n_contacts && s->n > 1; ++j) {
       structure_contact *c = &s->contacts[j];
-      if (is_zero(s->n, c->tangent) || random_unit(&r) > 0.7) continue;
+      if (c->given.kind != SCENE_LAW_CONTACT || is_zero(s->n, c->tangent) || random_unit(&r) > 0.7) continue;
       draw_second_tangent(&r, s->n, c);
       c->given.limit = random_unit(&r) < 0.8 ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
       ++directions;
