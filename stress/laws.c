@@ -238,8 +238,8 @@ static hc_status step_contact(const one_contact *c, int n_harm, int N, double *f
  *     circle   of two circles that are nowhere more than d apart the sliders differ by no more than the root of
  *              2 d (length of both paths) (Moreau's sweeping process), each path 2 pi (U1 + R1) at most
  * The second of the two is the larger one by far, and no better is known without the order of the motion's contact with
- * the circle; it is of first order in e. Of tanh Sp follows from limit and rate by the product's rule, with |tanh'| <= 1,
- * |tanh''| <= 0.77; sums of a polynomial are exact. */
+ * the circle; it is of first order in e. Of tanh Sp follows from limit and rate by the product's rule, with
+ * |tanh'| <= 1, |tanh''| <= 0.77; sums of a polynomial are exact. */
 static double stepping_bound(const solved_scene *s, const one_contact *c, int N)
 {
   const contact *law = c->law;

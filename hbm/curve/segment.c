@@ -210,6 +210,18 @@ static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segme
   return st == HC_OK ? hbm_curve_append(halves, c->n_coef, seg->X1, seg->dX1, &c->points[k + 1]) : st;
 }
 
+/* Does the interpolant turn back so near omega that the curve may be on its other side? Where it turns it errs by less
+ * than a tenth of its range. */
+static bool may_turn_at(const hbm_segment *s, double omega)
+{
+  double extrema[2], low = fmin(s->omega0, s->omega1), high = fmax(s->omega0, s->omega1);
+  const int n = omega_extrema(s, extrema);
+  bool near = false;
+  for (int i = 0; i < n; ++i) low = fmin(low, omega_at(s, extrema[i])), high = fmax(high, omega_at(s, extrema[i]));
+  for (int i = 0; i < n; ++i) near |= fabs(omega_at(s, extrema[i]) - omega) <= NEAR * (high - low);
+  return near;
+}
+
 /* Is X one of the points first.. of c, to `within` [length]? */
 static bool has_point(const hbm_curve *c, int first, const double *X, double within)
 {
@@ -225,7 +237,7 @@ static hc_status search_solutions(hbm_solver *s, const hbm_curve *c, int k, doub
   hbm_segment seg = hbm_segment_between(c, k);
   double sigma[3];
   int crossings = find_omega(&seg, omega, include_end, sigma), before = out->n;
-  bool all_found = true;
+  bool all_found = crossings > 0 || halvings_left == 0 || !may_turn_at(&seg, omega);
   for (int i = 0; i < crossings && all_found; ++i) {
     all_found = solve_at(s, c, k, &seg, sigma[i], omega, x) && !has_point(out, before, x->X, SAME * seg.x_scale);
     if (all_found && hbm_curve_append(out, c->n_coef, x->X, x->dX, &x->point) != HC_OK) return HC_NO_MEMORY;

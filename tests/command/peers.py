@@ -7,6 +7,7 @@ Two programs that solve the same sampled equations differ by their residuals alo
 import csv
 import glob
 import os
+import re
 import subprocess
 import sys
 
@@ -35,5 +36,20 @@ def is_on_our_curve(case, theirs):
     return len(points)
 
 
+def two_solutions_meet_at_a_turning_point(case):
+    """On its one side the curve has two more than on the other, however near: to 1e-9 of omega, where rounding moves it."""
+    p = subprocess.run([HBMCHECK, "frf", case, "--format", "json"], capture_output=True, text=True, check=True)
+    turns = [float(w) for w in re.findall(r"turning point at omega = ([0-9.]+)", p.stdout)]
+    assert turns, case
+    for turn in turns:
+        at = [turn * (1 + side * 10.0 ** -k) for k in range(5, 10) for side in (-1, 1)]
+        found = [(float(r["omega"]), r["branch"]) for r in rows("frf", case, "--at", ",".join(map(repr, at)))]
+        counts = [len({b for w, b in found if abs(w - omega) < 1e-13 * omega}) for omega in at]
+        below, above = counts[::2], counts[1::2]
+        assert len(set(below)) == len(set(above)) == 1 and abs(below[0] - above[0]) == 2, f"{case} at {turn}: {counts}"
+
+
+for name in ("peers/nlvib_01", "peers/nlvib_02", "peers/ansys_1", "paper/case2", "structures/wedge_F10"):
+    two_solutions_meet_at_a_turning_point(os.path.join(ROOT, f"cases/{name}.yaml"))
 checked = [is_on_our_curve(path[:-4] + ".yaml", path) for path in glob.glob(os.path.join(ROOT, "cases/peers/*.csv"))]
 assert len(checked) >= 7 and min(checked) >= 6, checked
