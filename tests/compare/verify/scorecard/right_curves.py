@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """right_curves.py HBMCHECK [--only SCENE] - right curves of every quantity on the eight reference scenes, of several
 makes: `hbmcheck verify` must blame none of them. right_curves.py --make [SCENE...] computes right/SCENE.csv again.
+right_curves.py HBMCHECK --random N [FIRST] - right curves of random scenes, oscillators and structures in turn, of
+one quantity of one make each: every solution, the stable ones alone, or one branch of 100 harmonics (where 60 give
+the same), or the motions from rest under the exact law, one of a family where sliders may rest anywhere.
 
     reference  tests/reference/transient_exact.csv: swept up from rest, and down; the mean is the history's
     rest       `hbmcheck transient` from rest
@@ -10,10 +13,12 @@ makes: `hbmcheck verify` must blame none of them. right_curves.py --make [SCENE.
 Where a slider never slips the mean and all that contains it is open, so such points may be skipped; no other may.
 exit: 0 none is blamed  1 some are  64 usage"""
 import csv
+import datetime
 import io
 import json
 import math
 import pathlib
+import random
 import re
 import subprocess
 import sys
@@ -24,7 +29,7 @@ import make_curves
 
 HERE = pathlib.Path(__file__).resolve().parent
 TESTS = HERE.parents[2]
-PATIENCE = 60  # seconds for one command
+PATIENCE = 60  # seconds of processor time for one command
 OPEN = {"peak", "max", "min", "mean", "rms", "norm"}  # where a slider never slips
 
 SCENE = re.compile(r'\{"(\w+)",' + r" ([-\d.e]+)," * 8 + r" ([-\d.e]+)\}")
@@ -121,7 +126,11 @@ def make(scene, numbers):
 # ---- the curves, and what verify says ----
 
 def command(*arguments):
-    return subprocess.run(list(map(str, arguments)), capture_output=True, text=True, timeout=PATIENCE, check=False)
+    limited = ["prlimit", f"--cpu={PATIENCE}", *map(str, arguments)]
+    run = subprocess.run(limited, capture_output=True, text=True, check=False)
+    if run.returncode < 0:
+        raise subprocess.TimeoutExpired(limited, PATIENCE)
+    return run
 
 
 def computed(binary, case, what, at, *settings):
@@ -177,7 +186,76 @@ def judge(binary, scene, case, curve):
     return curves, failed
 
 
+# ---- random scenes ----
+
+KINDS = ([], ["--structures"], [], ["--space"])
+RANDOM_QUANTITIES = ("amplitude", "max", "min", "rms", "mean", "harmonic_1")
+BRANCHES = ("every solution", "stable ones", "one branch", "from rest")
+
+
+def same_curves(rows, others, key):
+    """Those of the rows whose quantity one of the others' at the same omega has to a tenth of the gate."""
+    near = {}
+    for row in others:
+        near.setdefault(row["omega"], []).append(row)
+    return [r for r in rows if any(abs(float(o[key]) - float(r[key])) <= 1e-4 * float(r["amplitude"])
+                                   for o in near.get(r["omega"], []))]
+
+
+def random_curve(binary, case, rng, quantity, which):
+    """(response, rows) of the case's first response."""
+    low, high = map(float, re.search(r"omega: \[(.*), (.*)\]\n", case.read_text()).groups())
+    at = sorted(low + (high - low) * (k + rng.random()) / 24 for k in range(24))
+    exact = ("transient.law=exact", "transient.method=closed_form", "hbm.static=true", "hbm.force=exact")
+    if which == "from rest":
+        rows = computed(binary, case, "transient", at, "transient.start=rest", *exact)
+    else:
+        rows, fewer = (computed(binary, case, "frf", at, f"hbm.harmonics={h}", *exact) for h in (100, 60))
+        rows = same_curves(rows, [r for r in fewer if r["amplitude"]], quantity)
+    response = next((r.get("response") for r in rows), None)
+    rows = [r for r in rows if r.get("response") == response]
+    if which == "stable ones":
+        rows = [r for r in rows if r["stable"] == "yes"]
+    if which == "one branch":
+        branch = rng.choice([r["branch"] for r in rows] or [""])
+        rows = [r for r in rows if r["branch"] == branch]
+    return rows
+
+
+def judge_random(binary, wanted, first, folder):
+    """How many right curves there were of scenes from number `first` on, how many blamed, could not be judged."""
+    rng, curves, failed, unjudged, i = random.Random(first), 0, 0, 0, first
+    case, curve = folder / "scene.yaml", folder / "curve.csv"
+    while curves < int(wanted):
+        command(binary, "stress", "--case", "--first", i, "-o", case, *KINDS[i % len(KINDS)])
+        which, name = BRANCHES[i // len(KINDS) % len(BRANCHES)], rng.choice(RANDOM_QUANTITIES)
+        try:
+            rows = random_curve(binary, case, rng, name, which)
+        except subprocess.TimeoutExpired:
+            rows = []
+        i += 1
+        if len(rows) < 4 or (which == "one branch" and any(r["stable"] != "yes" for r in rows)):
+            continue  # an unstable branch alone is a mistake
+        curve.write_text("\n".join([f"omega,{name}"] + [f"{r['omega']},{r[name]}" for r in rows]) + "\n")
+        wrong = blamed(binary, case, curve, name)
+        if wrong.split("; skipped")[0] in ("cause unknown", "solver_failed"):  # no verdict, which is said
+            unjudged += 1
+            continue
+        curves, failed = curves + 1, failed + bool(wrong)
+        if wrong:
+            print(f"{i - 1} {KINDS[(i - 1) % len(KINDS)]}, {which}, {name}, {len(rows)} points: {wrong}", file=sys.stderr)
+    return curves, failed, unjudged, i - first
+
+
 def main(arguments):
+    if arguments[1:2] == ["--random"] and len(arguments) in (3, 4):
+        first = int(arguments[3]) if len(arguments) == 4 else 0
+        with tempfile.TemporaryDirectory() as folder:
+            curves, failed, unjudged, scenes = judge_random(*arguments[:3:2], first, pathlib.Path(folder))
+        print(f"## Right curves of random scenes, {datetime.date.today():%-d %B %Y}\n\n| what | number |\n|---|---|\n"
+              f"| random scenes, from {first} on | {scenes} |\n| right curves | {curves} |\n| blamed | {failed} |\n"
+              f"| others, of which it is said that they cannot be judged | {unjudged} |")
+        return 1 if failed or not curves else 0
     if arguments[:1] == ["--make"]:
         for scene, numbers in scenes().items():
             if not arguments[1:] or scene in arguments[1:]:
