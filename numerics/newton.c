@@ -14,6 +14,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "numerics/dense.h"
+#include "numerics/grouped.h"
 #include "numerics/norm.h"
 #include "numerics/sundials_compat.h"
 
@@ -22,10 +23,12 @@ struct newton { /* from newton_new, to newton_free; not shared between threads *
   SUNContext ctx;               /* made first, freed last, this handle's alone */
   N_Vector z, z_scale, r_scale; /* [n] */
   N_Vector r, step;             /* [n] for our own check and polishing */
-  SUNMatrix jac;                /* [n][n] overwritten by its factors */
+  SUNMatrix jac;                /* [n][n] overwritten by its factors, unless by_groups */
   SUNLinearSolver ls;
   void *kin;
   int *pivot;        /* [n] of the factors in jac */
+  grouped *groups;   /* NULL where the problem has none, or is small */
+  bool by_groups;    /* the last factors are those of `groups`, jac is the matrix */
   long factorings;   /* so far */
   double *start;     /* [n] where the solve began */
   bool factored;     /* jac holds factors made at the end of the last solve */
@@ -79,7 +82,7 @@ static int keep_entries(SUNMatrix jac)
   return 0;
 }
 
-/* ---- linear equations: dense LU in jac itself (dense.h), to KINSOL a direct solver ------------------------ */
+/* ---- linear equations: LU in jac itself (dense.h), or beside it (grouped.h), to KINSOL a direct solver ---- */
 
 static SUNLinearSolver_Type ls_type(SUNLinearSolver ls)
 {
@@ -91,8 +94,12 @@ static int ls_setup(SUNLinearSolver ls, SUNMatrix jac)
 {
   newton *nw = ls->content;
   const int recoverable = 1; /* KINSOL then returns KIN_LSETUP_FAIL */
+  double *A = SUNDenseMatrix_Data(jac);
+  hc_status st;
   ++nw->factorings;
-  return dense_factor(nw->problem.n, SUNDenseMatrix_Data(jac), nw->pivot) == HC_OK ? 0 : recoverable;
+  nw->by_groups = nw->groups && grouped_factor(nw->groups, A, &st);
+  if (!nw->by_groups) st = dense_factor(nw->problem.n, A, nw->pivot);
+  return st == HC_OK ? 0 : recoverable;
 }
 
 static int ls_solve(SUNLinearSolver ls, SUNMatrix jac, N_Vector x, N_Vector b, sunrealtype tolerance)
@@ -101,7 +108,8 @@ static int ls_solve(SUNLinearSolver ls, SUNMatrix jac, N_Vector x, N_Vector b, s
   double *to = N_VGetArrayPointer(x);
   (void)tolerance;
   if (x != b) memcpy(to, N_VGetArrayPointer(b), (size_t)nw->problem.n * sizeof *to);
-  dense_solve(nw->problem.n, SUNDenseMatrix_Data(jac), nw->pivot, 1, to);
+  if (nw->by_groups) grouped_solve(nw->groups, SUNDenseMatrix_Data(jac), to);
+  else dense_solve(nw->problem.n, SUNDenseMatrix_Data(jac), nw->pivot, 1, to);
   return 0;
 }
 
@@ -156,6 +164,8 @@ hc_status newton_new(const newton_problem *problem, newton **out)
   nw->start = calloc((size_t)problem->n, sizeof(double));
   nw->pivot = calloc((size_t)problem->n, sizeof *nw->pivot);
   hc_status st = nw->start && nw->pivot ? make_kinsol(nw) : HC_NO_MEMORY;
+  if (st == HC_OK && problem->n > DENSE_SMALL && problem->group)
+    st = grouped_new(problem->n, problem->first_group, problem->group, &nw->groups);
   if (st == HC_OK) {
     *out = nw;
     return HC_OK;
@@ -174,6 +184,7 @@ void newton_free(newton *nw)
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i)
     if (vectors[i]) N_VDestroy(vectors[i]);
   if (nw->ctx) SUNContext_Free(&nw->ctx);
+  grouped_free(nw->groups);
   free(nw->pivot);
   free(nw->start);
   free(nw);
@@ -199,7 +210,9 @@ const double *newton_residual(const newton *nw) { return N_VGetArrayPointer(nw->
 
 int newton_sign(const newton *nw)
 {
-  return nw->factored ? dense_sign(nw->problem.n, SUNDenseMatrix_Data(nw->jac), nw->pivot) : 0;
+  if (!nw->factored) return 0;
+  return nw->by_groups ? grouped_sign(nw->groups)
+                       : dense_sign(nw->problem.n, SUNDenseMatrix_Data(nw->jac), nw->pivot);
 }
 
 long newton_factorings(const newton *nw) { return nw->factorings; }

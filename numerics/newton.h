@@ -15,6 +15,8 @@ typedef struct newton_problem {
   hc_status (*residual)(void *self, const double *z, double *r); /* r(z); anything but HC_OK refuses z */
   hc_status (*jacobian)(void *self, const double *z,
                         double *jac); /* dr/dz, jac[row + n col], all of it, at the last residual's z */
+  int first_group, group; /* unknowns of the first group, then of each, where most rows stay within theirs (grouped.h);
+                             group is 0 where there are none */
 } newton_problem;
 
 typedef struct newton_options {

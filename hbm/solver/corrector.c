@@ -92,8 +92,9 @@ static hc_status plane_jacobian(void *self, const double *z, double *jac)
 
 hc_status hbm_corrector_new(hbm_solver *s)
 {
-  newton_problem fixed = {s->sys.n, s, fixed_residual, fixed_jacobian};
-  newton_problem plane = {s->sys.n + 1, s, plane_residual, plane_jacobian};
+  const int mean = s->sys.first ? 0 : s->sys.dim, harmonic = 2 * s->sys.dim;
+  newton_problem fixed = {s->sys.n, s, fixed_residual, fixed_jacobian, mean, harmonic};
+  newton_problem plane = {s->sys.n + 1, s, plane_residual, plane_jacobian, mean, harmonic};
   hc_status st = newton_new(&fixed, &s->fixed);
   return st == HC_OK ? newton_new(&plane, &s->plane) : st;
 }
