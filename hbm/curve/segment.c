@@ -264,6 +264,46 @@ hc_status hbm_segment_solutions(hbm_solver *s, const hbm_curve *c, int k, double
   return st;
 }
 
+/* ---- a part of a segment that shrinks ---------------------------------------------------------------- */
+
+static const double SHORTEST_PART = 1e-7; /* ends that are right to 1e-13 of the segment: 1e-6 of the part */
+
+hc_status hbm_narrowing_start(hbm_narrowing *p, const hbm_curve *c, int k)
+{
+  hc_status st = HC_OK;
+  p->ends.n = 0;
+  p->ends.omega_scale = c->omega_scale;
+  p->from = 0;
+  p->to = 1;
+  for (int end = k; end <= k + 1 && st == HC_OK; ++end)
+    st = hbm_curve_append(&p->ends, c->n_coef, hbm_curve_X(c, end), hbm_curve_dX(c, end), &c->points[end]);
+  return st;
+}
+
+static double part_of(const hbm_narrowing *p, double sigma) { return (sigma - p->from) / (p->to - p->from); }
+
+void hbm_narrowing_guess(const hbm_narrowing *p, double sigma, double *X, double *omega)
+{
+  const hbm_segment between = hbm_segment_between(&p->ends, 0);
+  hbm_segment_at(&between, part_of(p, sigma), X, omega, NULL, NULL);
+}
+
+hc_status hbm_narrowing_point(hbm_solver *s, const hbm_narrowing *p, double sigma, hbm_candidate *x)
+{
+  return hbm_segment_point(s, &p->ends, 0, part_of(p, sigma), x);
+}
+
+void hbm_narrowing_move(hbm_narrowing *p, bool first, double sigma, const hbm_candidate *x)
+{
+  const int end = first ? 0 : 1;
+  const size_t bytes = (size_t)p->ends.n_coef * sizeof(double);
+  if (!((first ? p->to - sigma : sigma - p->from) >= SHORTEST_PART)) return;
+  *(first ? &p->from : &p->to) = sigma;
+  p->ends.points[end] = x->point;
+  memcpy(hbm_curve_X(&p->ends, end), x->X, bytes);
+  memcpy(hbm_curve_dX(&p->ends, end), x->dX, bytes);
+}
+
 /* ---- of the whole curve: at an omega, and the peak ----------------------------------------------------- */
 
 /* A solution at omega, found from guess or, if that is NULL, from nothing, appended unless it is there already: one of
@@ -332,6 +372,7 @@ typedef struct peak_search {
   const hbm_curve *c;
   int top;          /* index of the highest point */
   hbm_candidate *x; /* the solution at the last position */
+  hbm_narrowing near;
 } peak_search;
 
 /* d amplitude/d arc length [length] of the solution X along the curve's tangent. At an extremum of the response over
@@ -357,14 +398,6 @@ static hc_status solve_at_position(const peak_search *p, double position)
   return hbm_segment_point(p->s, p->c, k, position - (k - p->top), p->x);
 }
 
-static hc_status slope_at(void *self, double position, double *slope)
-{
-  const peak_search *p = self;
-  const hc_status st = solve_at_position(p, position);
-  *slope = st == HC_OK ? amplitude_slope(p->s, p->c, &p->x->point, p->x->X, p->x->dX, p->x->guess) : NAN;
-  return st;
-}
-
 static hc_status minus_amplitude_at(void *self, double position, double *minus_amplitude)
 {
   const peak_search *p = self;
@@ -372,6 +405,15 @@ static hc_status minus_amplitude_at(void *self, double position, double *minus_a
   hc_status st = solve_at_position(p, position);
   if (st == HC_OK) st = hbm_measure(p->s, p->x->X, &m);
   *minus_amplitude = st == HC_OK ? -m.amplitude : NAN;
+  return st;
+}
+
+static hc_status slope_at(void *self, double sigma, double *slope)
+{
+  peak_search *p = self;
+  const hc_status st = hbm_narrowing_point(p->s, &p->near, sigma, p->x);
+  *slope = st == HC_OK ? amplitude_slope(p->s, p->c, &p->x->point, p->x->X, p->x->dX, p->x->guess) : NAN;
+  if (st == HC_OK) hbm_narrowing_move(&p->near, *slope > 0, sigma, p->x);
   return st;
 }
 
@@ -383,7 +425,7 @@ static bool peak_by_slope(peak_search *p, double highest)
   enum { COSTLY = 200 }; /* unknowns: a millisecond or more */
   const double tolerance = 1e-8;
   if (p->s->sys.n < COSTLY) return false;
-  double slope[3], minus_amplitude;
+  double slope[3], left;
   for (int i = 0; i < 3; ++i) {
     const int k = p->top - 1 + i;
     slope[i] = amplitude_slope(p->s, p->c, &p->c->points[k], hbm_curve_X(p->c, k), hbm_curve_dX(p->c, k), p->x->guess);
@@ -391,8 +433,10 @@ static bool peak_by_slope(peak_search *p, double highest)
   const int from = slope[1] > 0 ? 1 : 0;
   if (!(slope[from] > 0 && slope[from + 1] <= 0)) return false;
   root_point found;
-  return root_between(slope_at, p, from - 1, slope[from], from, slope[from + 1], tolerance, &found) == HC_OK &&
-         minus_amplitude_at(p, found.x, &minus_amplitude) == HC_OK && -minus_amplitude >= highest;
+  hbm_measures m;
+  return hbm_narrowing_start(&p->near, p->c, p->top - 1 + from) == HC_OK &&
+         root_between(slope_at, p, 0, slope[from], 1, slope[from + 1], tolerance, &found) == HC_OK &&
+         slope_at(p, found.x, &left) == HC_OK && hbm_measure(p->s, p->x->X, &m) == HC_OK && m.amplitude >= highest;
 }
 
 /* amplitude[3]: of the highest point and its neighbours. */
@@ -401,10 +445,12 @@ static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, const d
 {
   const double tolerance =
       1e-7; /* at a maximum the amplitude changes with the square: 1e-7 in position is 1e-14 in it */
-  peak_search p = {s, c, top, x};
+  peak_search p = {.s = s, .c = c, .top = top, .x = x};
   root_point found;
   double value;
-  if (!peak_by_slope(&p, amplitude[1])) {
+  const bool by_slope = peak_by_slope(&p, amplitude[1]);
+  hbm_curve_free(&p.near.ends);
+  if (!by_slope) {
     hc_status st =
         root_minimum(minus_amplitude_at, &p, -1, -amplitude[0], 0, -amplitude[1], 1, -amplitude[2], tolerance, &found);
     if (st == HC_BAD_INPUT) return st;
@@ -440,44 +486,4 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
   st = refine_peak(s, c, top, beside, &x, peak);
   free(x.X);
   return st;
-}
-
-/* ---- a part of a segment that shrinks ---------------------------------------------------------------- */
-
-static const double SHORTEST_PART = 1e-7; /* ends that are right to 1e-13 of the segment: 1e-6 of the part */
-
-hc_status hbm_narrowing_start(hbm_narrowing *p, const hbm_curve *c, int k)
-{
-  hc_status st = HC_OK;
-  p->ends.n = 0;
-  p->ends.omega_scale = c->omega_scale;
-  p->from = 0;
-  p->to = 1;
-  for (int end = k; end <= k + 1 && st == HC_OK; ++end)
-    st = hbm_curve_append(&p->ends, c->n_coef, hbm_curve_X(c, end), hbm_curve_dX(c, end), &c->points[end]);
-  return st;
-}
-
-static double part_of(const hbm_narrowing *p, double sigma) { return (sigma - p->from) / (p->to - p->from); }
-
-void hbm_narrowing_guess(const hbm_narrowing *p, double sigma, double *X, double *omega)
-{
-  const hbm_segment between = hbm_segment_between(&p->ends, 0);
-  hbm_segment_at(&between, part_of(p, sigma), X, omega, NULL, NULL);
-}
-
-hc_status hbm_narrowing_point(hbm_solver *s, const hbm_narrowing *p, double sigma, hbm_candidate *x)
-{
-  return hbm_segment_point(s, &p->ends, 0, part_of(p, sigma), x);
-}
-
-void hbm_narrowing_move(hbm_narrowing *p, bool first, double sigma, const hbm_candidate *x)
-{
-  const int end = first ? 0 : 1;
-  const size_t bytes = (size_t)p->ends.n_coef * sizeof(double);
-  if (!((first ? p->to - sigma : sigma - p->from) >= SHORTEST_PART)) return;
-  *(first ? &p->from : &p->to) = sigma;
-  p->ends.points[end] = x->point;
-  memcpy(hbm_curve_X(&p->ends, end), x->X, bytes);
-  memcpy(hbm_curve_dX(&p->ends, end), x->dX, bytes);
 }
