@@ -254,8 +254,7 @@ static void write_entry(const char *section, const scene_structure *s, const str
 
 static void begin_list(const char *name, int n, FILE *to) { fprintf(to, n > 0 ? "%s:\n" : "%s: []\n", name); }
 
-/* Write what the section of that name says of a structure; false where it says nothing that an oscillator's does not.
- * The list of responses goes with the section `structure`. */
+/* Write what the section says of a structure, responses with `structure`; false: no more than of an oscillator. */
 static bool write_of_structure(const scene_structure *s, const char *section, FILE *to)
 {
   if (!strcmp(section, "structure")) {

@@ -35,9 +35,8 @@ typedef struct case_source {
   case_mention *mentions;
 } case_source;
 
-/* Read a case with matrices of any size: a structure of more than `most_dense` rows is_sparse, which is for reduce/
- * alone, not for solvers, and what depends on all entries of its matrices is not checked. *source, if not NULL, is to
- * be freed in any case. */
+/* With matrices of any size: a structure of more than `most_dense` rows is_sparse, for reduce/ alone, not for solvers,
+ * and what depends on all entries of its matrices is not checked. *source, or NULL, is to be freed in any case. */
 hc_status case_read_sparse(const char *path, int n_set, const char *const *set, int most_dense, scene *out,
                            case_source *source, case_error *err);
 void case_source_free(case_source *source);

@@ -220,14 +220,12 @@ hc_status yaml_dof(case_reader *r, const yaml_node_t *node, int *dof);
 /* A degree of freedom, or factors {tip: 1, root: -0.5}, not all 0, into direction[n]. `what` is its path. */
 hc_status yaml_direction(case_reader *r, const char *what, const yaml_node_t *node, double *direction);
 
-/* f, one of the fields of damping, has been stored: which kind of damping that is. Of Rayleigh damping one number given
- * alone leaves the other where there was such damping, and else 0. */
+/* The kind of damping after f, one of its fields, is stored. Of Rayleigh's, one given alone keeps the other, else 0. */
 void structure_damping_given(scene_structure *s, const field *f);
 
 /* ---- paths and assignments ---- */
 
-/* What a path names: a field "hbm.samples", "contacts[0].gap", "contacts[joint].gap", "forcing[0].amplitude"; or with
- * f = NULL a list, "contacts", "forcing", or with an index an entry of it. */
+/* A field ("hbm.samples", "contacts[0].gap", "contacts[joint].gap"); or, f = NULL, a list or by an index its entry. */
 typedef enum case_list { CASE_NO_LIST, CASE_CONTACTS, CASE_LOADS } case_list;
 typedef struct case_target {
   const field *f;

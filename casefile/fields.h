@@ -1,6 +1,5 @@
-/* fields.h - every field of a case file, in one table: name, kind, unit, default, range, meaning, and where it lives
- * in a scene. The reader, --set, the echo and describe all work from it; a new field is a new row in fields.c and
- * nothing else. */
+/* fields.h - every field of a case file, in one table: name, kind, unit, default, range, meaning, and its place in a
+ * scene. Reader, --set, echo and describe work from it; a new field is a new row in fields.c and nothing else. */
 #pragma once
 
 #include <stdbool.h>

@@ -136,8 +136,7 @@ static hc_status read_labels(matrix_text *t, scene_structure *s)
   return st;
 }
 
-/* ---- any of them: csv; a .dof file, a line NODE.DIRECTION, direction 1..3, for each degree of freedom of s; a matrix,
- * its DOFs 1..3: rotations and all others are no node's direction ---- */
+/* ---- any of them: csv; .dof: a line NODE.DIRECTION, 1..3, a DOF; a matrix, its DOFs 1..3 (none else has one) ---- */
 
 hc_status nodes_file_parse(const char *name, const char *text, size_t length, scene_structure *s, message *m)
 {

@@ -1,6 +1,5 @@
-/* structure.h - what a case file says with `structure`, its list of loads, its contacts and its responses: plain data,
- * as it was written, the damping matrix that follows from it, and its model. Degrees of freedom are counted from 0
- * here, from 1 in a file. Vectors are dense: [n], one entry a degree of freedom. */
+/* structure.h - what a case says with `structure`, its loads, contacts and responses, as written; the damping matrix
+ * that follows, and its model. Degrees of freedom count from 0 here, from 1 in a file. Vectors are dense, [n]. */
 #pragma once
 
 #include "casefile/matrices/matrix_file.h"
@@ -145,8 +144,7 @@ const char *structure_direction_name(const scene_structure *s, const double *dir
 /* One more node of s, in order of node and direction; it must not be there yet. HC_NO_MEMORY. */
 hc_status nodes_add(scene_structure *s, int dof, int node, char direction);
 
-/* The file at `path` into s->nodes. HC_BAD_INPUT with "PATH:LINE:COLUMN: ..." in m, HC_IO with words that are to follow
- * the file's name ("cannot be opened: ..."), HC_NO_MEMORY. */
+/* The file into s->nodes. HC_BAD_INPUT: "PATH:LINE:COLUMN: ..." in m; HC_IO: words to follow its name; HC_NO_MEMORY. */
 hc_status nodes_file_read(const char *path, scene_structure *s, message *m);
 
 /* The same from text[length], which `name` stands for. */
@@ -193,8 +191,7 @@ hc_status structure_free_motion(const scene_structure *s, bool at_rest, double *
 /* The same of a motion that M[n][n], symmetric, gives no kinetic energy to. HC_NO_MEMORY. */
 hc_status structure_massless_motion(int n, const double *M, double *x, bool *massless);
 
-/* *omega [rad/time] of the first mode of M and K that C takes no energy from, beyond rounding; -1: there is none.
- * s->damping.v is resolved. HC_NO_MEMORY, HC_NOT_CONVERGED. */
+/* *omega of the first mode that C (resolved) does not damp beyond rounding, or -1. HC_NO_MEMORY, HC_NOT_CONVERGED. */
 hc_status structure_undamped_mode(const scene_structure *s, double *omega);
 
 /* The degrees of freedom that move most, at most four, in words; x is used up. */

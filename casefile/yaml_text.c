@@ -1,6 +1,5 @@
-/* yaml_text.c - from bytes to a YAML document that is safe to walk. Three passes: the characters; the events, which
- * stop deep nesting, aliases and second documents before libyaml builds anything (its time is quadratic in the
- * depth); then the document. */
+/* yaml_text.c - from bytes to a YAML document safe to walk, in three passes: the characters; the events, which stop
+ * deep nesting, aliases and second documents before libyaml builds anything (in quadratic time); then the document. */
 #include <string.h>
 
 #include "base/utf8.h"
@@ -8,8 +7,7 @@
 
 enum { DEEPEST = 16 }; /* a case file needs 4 */
 
-/* YAML 1.1 ends lines at U+0085, U+2028 and U+2029 too; no editor does, and the lines in messages would not be those
- * on the screen. */
+/* YAML 1.1 ends lines at U+0085, U+2028 and U+2029, too; editors do not, and messages count lines as they do. */
 static bool is_yaml_character(unsigned long c)
 {
   if (c == '\t' || c == '\n' || c == '\r') return true;

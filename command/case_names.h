@@ -3,9 +3,8 @@
 
 #include "command/cli.h"
 
-/* The response called `name`, counted from 0: as the column `response` calls it, or with the DOFs of its
- * direction in another order; x of an oscillator. -1 after a message
- * that lists those there are. */
+/* The response called `name`, from 0: as the column `response` calls it, or with the DOFs of its direction in another
+ * order; x of an oscillator. -1 after a message that lists them. */
 int cli_response_named(const cli_common *common, const char *name);
 
 /* A structure's response names into *out, to free; NULL of an oscillator. HC_NO_MEMORY. */

@@ -1,6 +1,5 @@
-/* cli.h - what the commands share: the options every command has, readers for the values of their own options, exit
- * codes, and the one place where a failure is put into words. Results go to stdout or --output, everything else to
- * stderr. The commands are listed in commands.h; command/README.md says how to add one, and where an option goes. */
+/* cli.h - what commands share: the options all have, readers for values of their own, exit codes, and the one place
+ * that puts failures into words. Results go to stdout or --output, all else to stderr. See commands.h and README.md. */
 #pragma once
 
 #include <argp.h>

@@ -187,8 +187,7 @@ static void note_more(table *t, const char *name, int n)
   if (n > SHOWN) table_note(t, "contact %s: and %d pieces more", name, n - SHOWN);
 }
 
-/* The pieces of the period in which each contact of the motion sticks or slips; in the rest it is separated. They are
- * called by the names of the case's contacts from `first` on, and `part`. */
+/* Where each contact sticks or slips (else it is separated); names of the case from `first` on, and `part`. */
 static hc_status note_pieces(table *t, const cli_common *common, const given_motion *of, int first, const char *part)
 {
   static const char *const words[] = {"separated", "sticks", "slips forward", "slips backward"};

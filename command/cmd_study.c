@@ -315,8 +315,7 @@ static int write_results(study_call *call, int n_run)
   return code ? code : call->claims.unexpected ? EXIT_DISAGREED : any_failed ? EXIT_NO_SOLUTION : drawn;
 }
 
-/* Rank 0 computes the studies and writes the results. A study that was stopped is not exported: half of it would look
- * like all of it. */
+/* Rank 0 computes the studies and writes results, but not of one that was stopped: half of it would look like all. */
 static int run_rank_0(study_call *call)
 {
   int stopped = 0, n = 0;

@@ -1,6 +1,5 @@
-/* commands.h - every command, in the order in which hbmcheck --help lists them. This list declares them and fills
- * main's table: a new command is a new name here and its definition, const cli_command cmd_NAME, in cmd_NAME.c
- * (command/README.md goes through it step by step). */
+/* commands.h - every command, in the order of hbmcheck --help; declares them and fills main's table. A new command is a
+ * new name here and const cli_command cmd_NAME in cmd_NAME.c (command/README.md goes through it step by step). */
 #pragma once
 
 #include "command/cli.h"

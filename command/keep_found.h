@@ -27,9 +27,8 @@ void keep_found_begin(keep_found *k, int (*write)(void *self), void *self);
 /* Does not return while the thread is writing: the program ends there. */
 void keep_found_end(keep_found *k);
 
-/* Rows that are shown when they are found, where cli_shows_rows. The thread that finds them puts them into `rows`, a
- * table of its own, and writes. The one above writes what is left while it holds `writing`; it lasts as long as the
- * program then, so that no row is written twice. */
+/* Rows shown when found, where cli_shows_rows: the thread that finds them puts them into its own table `rows` and
+ * writes. The other writes the rest, holding `writing`, which lasts as long as the program then: no row twice. */
 typedef struct shown_rows {
   table *rows; /* NULL before the first one */
   table_begun begun;

@@ -1,6 +1,5 @@
-/* compare_settings.h - the frequencies, harmonics and samples of a comparison; with the model, the settings of both
- * sides and the limits, all that a comparison works from. Names, defaults, ranges and meanings of the fields are those
- * of `compare` in a case file (casefile/fields.c). */
+/* compare_settings.h - the frequencies, harmonics and samples of a comparison; with the model, both sides' settings and
+ * the limits, all that it works from. Names, defaults, ranges, meanings: `compare` in casefile/fields.c. */
 #pragma once
 
 #include "base/number.h"

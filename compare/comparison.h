@@ -46,9 +46,8 @@ void contact_comparison_judge(int n, const model_contact *contacts, double allow
 /* Are the two sides held together: does `differs` say something? */
 bool contact_comparison_made(const contact_comparison *c);
 
-/* "contact slider: stick by HBM, slip by the transient; work 0 and 0.3", "contact slider: work 1.2 by HBM, 1.4 by the
- * transient, 14 % of the largest apart: so is the damping". One line in text[CONTACT_COMPARISON_TEXT], which is
- * returned; of one that differs. */
+/* One line of a contact that differs into text, returned: "contact slider: stick by HBM, slip by the transient; work 0
+ * and 0.3", "contact slider: work 1.2 by HBM, 1.4 by the transient, 14 % of the largest apart: so is the damping". */
 enum { CONTACT_COMPARISON_TEXT = 192 };
 const char *contact_comparison_text(const contact_comparison *c, char text[CONTACT_COMPARISON_TEXT]);
 
@@ -120,9 +119,8 @@ typedef struct comparison {
   char advice[COMPARISON_ADVICE_TEXT]; /* with setup.advise: what brings comparison_worst within the gate, as tried */
 } comparison;
 
-/* Compare at the frequencies of *setup (compare.omega, or compare.points chosen along the response curve). Rows found
- * before an interrupt or a failure are kept. HC_OK even when single rows failed: their verdicts say so. Free with
- * comparison_clear in any case. */
+/* Compare at the frequencies of *setup (compare.omega, or compare.points chosen along the curve). Rows found before an
+ * interrupt or failure stay. HC_OK though rows failed: verdicts say so. comparison_clear in any case. */
 hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, comparison *out);
 void comparison_clear(comparison *c);
 
@@ -153,9 +151,8 @@ bool comparison_nonlinear(const comparison *c);
   "nothing nonlinear was compared: no contact changes its state in any of the %d rows; are the gap's sign, the angle " \
   "in degrees and the force right?"
 
-/* Both sides ran on one orbit (match or differs, period 1) and differ in amplitude or waveform by more than
- * COMPARISON_SLACK times what both predicted together: something is wrong that neither expected. False where a
- * prediction is not known, and of a family. */
+/* Both ran on one orbit (match or differs, period 1) and differ in amplitude or waveform by more than COMPARISON_SLACK
+ * times what both predicted: neither expected that. False without a prediction, and of a family. */
 enum { COMPARISON_SLACK = 3 };
 bool comparison_unexpected(const comparison_row *row);
 

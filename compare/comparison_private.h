@@ -1,6 +1,5 @@
-/* comparison_private.h - the settings and solvers of one comparison, and what is found of the HBM solution under way;
- * for comparison.c, which goes through frequencies and branches, and solution.c, which knows what one row's numbers
- * mean. */
+/* comparison_private.h - settings and solvers of one comparison, and what is found of the HBM solution under way; for
+ * comparison.c, which goes through frequencies and branches, and solution.c, which knows a row's numbers. */
 #pragma once
 
 #include "base/workspace.h"

@@ -48,9 +48,8 @@ static hc_status time_newton(hbm_solver *hbm, double omega, double *X, double *s
   return st;
 }
 
-/* X and state: memory for a solution, and a state on it. Along a curve contacts are at rest for the most part, as at
- * the sweep's start, and change their states elsewhere, as in its middle, where a step takes up to six times as long:
- * the mean of both, geometric. */
+/* X and state: memory for a solution and a state on it. Along a curve contacts are mostly at rest, as at the sweep's
+ * start, else change states as in its middle, where a step takes up to six times as long: the geometric mean. */
 static hc_status measure_at(const compare_setup *setup, hbm_solver *hbm, timeint *ti, double *X, double *state,
                             duration_units *out)
 {

@@ -21,9 +21,8 @@ typedef struct duration_units {
   period_times period;
 } duration_units;
 
-/* Measures, at the middle of the frequencies. All zero, in no time, of a structure of fewer than DURATION_FEWEST
- * degrees of freedom, and where nothing can be said. Takes less than a tenth of what one frequency does, and stops
- * periods after some seconds. */
+/* Measures in the middle of the frequencies, in less than a tenth of what one takes, periods for some seconds at most.
+ * All zero, at once, below DURATION_FEWEST degrees of freedom, and where nothing can be said. */
 void duration_measure(const compare_setup *setup, duration_units *out);
 
 /* How many frequencies the setup has. */

@@ -1,6 +1,5 @@
-/* gate_limits.h - the largest discrepancies that still count as agreement, and the most that a response curve may
- * cost. Only the gate and the rule that calls a row a match look inside. Names, defaults, ranges and meanings of the
- * fields are those of `gate` in a case file (casefile/fields.c). */
+/* gate_limits.h - the largest discrepancies that count as agreement, and the most a response curve may cost; only the
+ * gate and the rule of a match look inside. Names, defaults, ranges, meanings: `gate` in casefile/fields.c. */
 #pragma once
 
 #include <stdbool.h>
@@ -29,6 +28,5 @@ typedef struct gate_limits {
 /* The limits that hold at omega [rad/time]: `most`, or those of the last range that omega lies in. */
 discrepancy gate_limits_at(const gate_limits *l, double omega);
 
-/* Is every discrepancy within the limits that hold at omega? The mean does not count where it is free (a slider that
- * never slips leaves it to history). NaN is not within any limit. */
+/* Within all limits that hold at omega? The mean does not count where history leaves it free; NaN is never within. */
 bool gate_limits_hold(const gate_limits *l, double omega, const discrepancy *d, bool mean_free);

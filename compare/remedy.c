@@ -135,8 +135,7 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 
-/* *yes: the curve of these settings has such a solution. Newton found it next to the orbit; the curve may be another,
- * which begins where the sweep does, or longer than there is time for. */
+/* *yes: the curve of these settings has the solution that Newton found, and not too far along for the time there is. */
 static hc_status confirm(remedy_search *s, const trial *t, bool *yes)
 {
   const double began = thread_seconds();

@@ -66,8 +66,7 @@ static hc_status add_failure(steady_work *w, steady_stage stage, hc_status st, d
   return st == HC_INTERRUPTED ? st : added;
 }
 
-/* The error of a regularised steady state, w->state on it: by the exact law's orbit next to it. *st becomes
- * HC_NO_MEMORY or HC_INTERRUPTED if that is why there is none. */
+/* The error of a regularised steady state, w->state, by the exact orbit next to it. *st: no memory, or interrupted. */
 static double regularisation_error(steady_work *w, const timeint_result *r, hc_status *st)
 {
   timeint_result orbit;

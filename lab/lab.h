@@ -19,9 +19,8 @@ void lab_free(lab *l);
  * the old one: lab_message says "case:LINE:COLUMN: what is wrong, what was expected". HC_NO_MEMORY. */
 int lab_read(lab *l, const char *text);
 
-/* Its numbers. The first row: mass, damping, stiffness, force, omega from and to, H, N (0: `auto`), and 1 or 0 each for
- * hbm.static, hbm.force: sampled, hbm.slider_restart: sample. Then a row a contact: kt, kn, mu, angle [deg], gap.
- * HC_BAD_INPUT: no case. */
+/* Its numbers. First row: mass, damping, stiffness, force, omega from, to, H, N (0: `auto`), and 1 or 0 for hbm.static,
+ * hbm.force: sampled, hbm.slider_restart: sample; then a contact's kt, kn, mu, angle [deg], gap. HC_BAD_INPUT: none. */
 int lab_case(lab *l);
 
 /* Its title, "" without one. */
@@ -80,9 +79,8 @@ int lab_specials(lab *l, int force);
 /* Memory for the X of the following questions, n_harm <= HBM_MAX_HARMONICS; the lab's. */
 double *lab_motion(lab *l, int n_harm);
 
-/* n instants th = 2 pi i/n of a period; n may be the number of samples. Columns: th, x, and for each contact u, v,
- * N and T: the exact law's where force is LAB_EXACT; else T as the n samples give it. HC_BAD_INPUT: n < 1, or no
- * motion. Errors of exact_force_eval. */
+/* n instants th = 2 pi i/n; n may be the number of samples. Columns: th, x, and each contact's u, v, N and T: the exact
+ * law's with LAB_EXACT, else as the n samples give it. HC_BAD_INPUT: n < 1, no motion. Errors of exact_force_eval. */
 int lab_signal(lab *l, int force, int n);
 
 /* The contact force's harmonics h = 0..n_shown: h, cosine and sine of the true one, and of that sampled n times a

@@ -1,6 +1,5 @@
-/* lab_answers.c - lab_answers X OMEGAS: puts the questions of lab.h to the case on standard input and prints the
- * answers, a line for each row, numbers with 17 digits: so that the module's can be held against them. X: the 2H+1
- * coefficients of a motion, a solution at the first of OMEGAS, both lists with commas. */
+/* lab_answers.c - lab_answers X OMEGAS: puts lab.h's questions to the case on standard input; prints a line a row, 17
+ * digits, to hold the module's against. X: 2H+1 coefficients of a solution at the first of OMEGAS, both with commas. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

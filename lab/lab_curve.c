@@ -86,8 +86,7 @@ static bool is_near(int n, const double *X, const double *exact)
   return norm_2(n, off) <= 0.5 * norm_2(n, exact);
 }
 
-/* Newton from the exact solution at point->omega. Where the Jacobian's jumps lead it round in circles, sampled
- * solutions at omegas next to it are other places to come from. */
+/* Newton from the exact solution at point->omega; where jumps lead it in circles, from sampled solutions next to it. */
 static hc_status solve_next_to(hbm_solver *s, int n, const double *exact, double *X, hbm_point *point)
 {
   static const double detours[] = {0, 5e-3, -5e-3, 2e-2, -2e-2, 4e-2, -4e-2}; /* [1] of omega */

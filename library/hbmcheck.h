@@ -92,8 +92,7 @@ typedef struct hbmcheck_case hbmcheck_case;
 hbmcheck_status hbmcheck_case_read(const char *path, int n_set, const char *const *set, char *message, size_t size,
                                    hbmcheck_case **out);
 
-/* The same from text[length]; name stands for the file in messages. HBMCHECK_OK; HBMCHECK_BAD_INPUT,
- * HBMCHECK_NO_MEMORY: *out is NULL. */
+/* From text[length], called name in messages. HBMCHECK_OK; HBMCHECK_BAD_INPUT, HBMCHECK_NO_MEMORY: *out is NULL. */
 hbmcheck_status hbmcheck_case_parse(const char *name, const char *text, size_t length, int n_set,
                                     const char *const *set, char *message, size_t size, hbmcheck_case **out);
 
@@ -103,19 +102,16 @@ void hbmcheck_case_free(hbmcheck_case *c);
  * an oscillator has one, x itself. How many; 0 for NULL. */
 int hbmcheck_case_responses(const hbmcheck_case *c);
 
-/* Response r in words, "x" of an oscillator, into text[size], cut to size (32 holds any). HBMCHECK_OK,
- * HBMCHECK_BAD_INPUT. */
+/* Response r in words, "x" of an oscillator, into text[size], cut to size (32 holds any). HBMCHECK_OK or _BAD_INPUT. */
 hbmcheck_status hbmcheck_case_response_name(const hbmcheck_case *c, int r, char *text, size_t size);
 
 /* The contacts, numbered from 0 in the case's order. How many; 0 for NULL. */
 int hbmcheck_case_contacts(const hbmcheck_case *c);
 
-/* The name of contact j, its number where it has none, into text[size], cut to size (32 holds any). HBMCHECK_OK,
- * HBMCHECK_BAD_INPUT. */
+/* The name of contact j, or its number, into text[size], cut to size (32 holds any). HBMCHECK_OK or _BAD_INPUT. */
 hbmcheck_status hbmcheck_case_contact_name(const hbmcheck_case *c, int j, char *text, size_t size);
 
-/* In how many tangential directions contact j may slip: 1, or 2 in space; 0 for NULL, where there is no such
- * contact, and without memory. */
+/* In how many tangential directions contact j may slip: 1, or 2 in space; 0: no such contact, NULL, no memory. */
 int hbmcheck_case_contact_tangents(const hbmcheck_case *c, int j);
 
 /* Shall hbmcheck_transient_run and hbmcheck_comparison_run of c measure what each contact does, too? on = 0: no, as at
@@ -295,14 +291,12 @@ int hbmcheck_transient_count(const hbmcheck_transient *t);
 /* Steady state k, 0 <= k < count. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
 hbmcheck_status hbmcheck_transient_get(const hbmcheck_transient *t, int k, hbmcheck_steady *out);
 
-/* Its last period: *n values of x [length] at i/n of the period, i = 0..n-1, from the forcing's maximum on, of which
- * the first cap are written; cap = 0 asks for *n alone: x may be NULL then. *n = 0: it has no measures. HBMCHECK_OK,
- * HBMCHECK_BAD_INPUT. */
+/* Its last period: *n values of x [length] at i/n of it from the forcing's maximum on, the first cap written; cap = 0
+ * (x may be NULL) asks for *n alone. *n = 0: it has no measures. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
 hbmcheck_status hbmcheck_transient_wave(const hbmcheck_transient *t, int k, int cap, double *x, int *n);
 
-/* What each contact does in steady state k, by the law it was integrated with: *n = hbmcheck_case_contacts of the case,
- * of which the first cap are written to out; cap = 0 asks for *n alone: out may be NULL then. *n = 0: the case was not
- * told to watch them, the state has no measures, or they could not be told. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
+/* What contacts do in steady state k, by its law: *n = hbmcheck_case_contacts, the first cap to out; cap = 0 (out may
+ * be NULL) asks for *n alone. *n = 0: not told to watch, no measures, or not to be told. HBMCHECK_OK or _BAD_INPUT. */
 hbmcheck_status hbmcheck_transient_contacts(const hbmcheck_transient *t, int k, int cap, hbmcheck_contact_period *out,
                                             int *n);
 
@@ -321,8 +315,7 @@ typedef enum hbmcheck_verdict {
   HBMCHECK_VERDICT_SOLVER_FAILED /* one side gave up: hbm_status, transient_status */
 } hbmcheck_verdict;
 
-/* "match", "differs", "other_branch", "unstable", "period_k", "aperiodic", "not_settled", "solver_failed"; a constant
- * string, never NULL. */
+/* "match", "differs", "other_branch", "unstable", "period_k", "aperiodic", "not_settled", "solver_failed"; not NULL. */
 const char *hbmcheck_verdict_name(hbmcheck_verdict verdict);
 
 /* One HBM solution and the transient. Errors are relative to the transient's amplitude, those named orbit_ to the
@@ -394,9 +387,8 @@ int hbmcheck_comparison_count(const hbmcheck_comparison *c);
 /* Row k, 0 <= k < count. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
 hbmcheck_status hbmcheck_comparison_get(const hbmcheck_comparison *c, int k, hbmcheck_row *out);
 
-/* Each contact in row k: *n = hbmcheck_case_contacts of the case, of which the first cap are written to out; cap = 0
- * asks for *n alone: out may be NULL then. *n = 0: the case was not told to watch them, or the row has no HBM solution.
- * HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
+/* Each contact in row k: *n = hbmcheck_case_contacts, the first cap to out; cap = 0 (out may be NULL) asks for *n
+ * alone. *n = 0: not told to watch them, or no HBM solution. HBMCHECK_OK, HBMCHECK_BAD_INPUT. */
 hbmcheck_status hbmcheck_comparison_contacts(const hbmcheck_comparison *c, int k, int cap, hbmcheck_contact_row *out,
                                              int *n);
 

@@ -1,6 +1,5 @@
-/* output.c - see output.h. The file beside is opened with O_EXCL under a name of our own, not with mkstemp: then the
- * kernel applies the umask and default ACLs, where reading the umask would disturb other threads. Not here: signals;
- * the main program abandons, or ends after output_abandon_all. Proof: tests/output/test_output.c. */
+/* output.c - see output.h. The file beside is opened with O_EXCL under our own name, not by mkstemp: the kernel then
+ * applies umask and ACLs (reading the umask disturbs threads). Signals are the main program's. Proof: test_output.c. */
 #include "output/output.h"
 
 #include <errno.h>
@@ -16,8 +15,7 @@
 
 enum { MAX_TRIES = 10000, MOST_BESIDE = 8 };
 
-/* The files beside that exist now, for output_abandon_all: a signal handler gets no argument, so they are in a fixed
- * place. More than these many at a time are not removed by it. */
+/* The files beside that exist now, for output_abandon_all in a signal handler, which gets no argument: so many. */
 static _Atomic(char *) all_beside[MOST_BESIDE];
 
 /* Put a new one in the place of NULL, or NULL in that of one whose name is about to be freed. */

@@ -35,9 +35,8 @@ void progress_child(pid_t pid);
 /* The signal that asked to stop, 0 for none. Any thread may ask. */
 int progress_interrupted(void);
 
-/* Draws "label" and then, at most 10 times a second, "label  37 %  12 s left" on stderr, if that is a terminal, TERM is
- * neither unset nor dumb, and not quiet. No colour. Never fails: NULL (out of memory) is a progress that draws nothing,
- * whose ticks still answer false after a signal. */
+/* Draws "label", then at most 10 times a second "label  37 %  12 s left" on stderr, if a terminal, TERM set and not
+ * dumb, not quiet. Never fails: NULL (no memory) draws nothing, and its ticks still answer false after a signal. */
 progress *progress_start(const char *label, bool quiet);
 
 /* For long work; one thread at a time may tick. done is 0..1, or negative: unknown, the time is shown. */

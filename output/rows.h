@@ -1,6 +1,5 @@
-/* rows.h - the columns of results, one table a kind, for everything that shows or keeps them: the commands, the
- * study. Names: docs/interface.md, 3. A new column is a new line in rows.c and nothing else. Not here: how they are
- * written (output/table.h). */
+/* rows.h - the columns of results, a table a kind, for all that shows or keeps them. Names: docs/interface.md, 3. A new
+ * column is a new line in rows.c and nothing else. How they are written: output/table.h. */
 #pragma once
 
 #include "compare/accuracy/accuracy.h"

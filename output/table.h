@@ -36,16 +36,14 @@ typedef struct table table;
 table *table_new(const char *title, int n_columns, const table_column *columns);
 void table_free(table *t);
 
-/* A row is its values in column order. Each put fills the next cell, a new row starts by itself; the kind must be
- * the column's and the last row be full when written, else table_write answers HC_BUG. Text is copied; csv and json
- * keep its line breaks, the table shows spaces. */
+/* A row is its values in column order. A put fills the next cell, rows start by themselves; kinds must be the columns'
+ * and the last row full, else table_write answers HC_BUG. Text is copied; only the table has spaces for line breaks. */
 void table_put_text(table *t, const char *value);
 void table_put_integer(table *t, long value);
 void table_put_real(table *t, double value);
 void table_put_missing(table *t);
 
-/* The values of a row, or some of them: CELL(x) of a text, an integer or a real; CELL_IF(there, x), else missing;
- * CELL_OF(has, x), of a column that only some tables have. */
+/* A row's values: CELL(x) of text, integer or real; CELL_IF(there, x), else missing; CELL_OF(has, x): if it has it. */
 typedef struct table_value {
   table_kind kind;
   bool has, there;
@@ -84,8 +82,7 @@ void table_note(table *t, const char *format, ...) __attribute__((format(printf,
 /* For table_write_begun: remarks from here on are about the rows, and stand behind them in csv, too. */
 void table_notes_of_rows(table *t);
 
-/* In the format table, carry words over to further lines instead of cutting texts, so that no line is longer than
- * `width`; longer only where the columns cannot be narrowed to it. */
+/* Format table: texts go on in further lines and are not cut; a line is longer than `width` only where it must be. */
 void table_wrap(table *t, int width);
 
 /* In the format table, leave that column out. csv and json have it. */

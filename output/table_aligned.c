@@ -241,9 +241,8 @@ hc_status table_write_aligned(const table *t, FILE *to)
   return good ? HC_OK : HC_NO_MEMORY;
 }
 
-/* ---- wrapped: a table of texts that are too long for one line each: columns of a width that fits the terminal, words
- * carried over to the next line, an empty line after a row that takes more than one; a number is a text like any
- * other ---- */
+/* ---- wrapped: a table of texts too long for one line each: columns that fit the terminal, words carried over, an
+ * empty line after a row of more than one line; a number is a text like any other ---- */
 
 typedef struct wrapped {
   char **texts;        /* [rows + 1][columns], the header first */

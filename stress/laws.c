@@ -464,9 +464,8 @@ static double damping_trace(const model *m)
   return solved ? trace : NAN;
 }
 
-/* Liouville: without slip the flow contracts by the trace of M^-1 C alone, whatever opens and closes. Multipliers are
- * good to rounding of the largest: 1e-6 of their product is let pass where it is above 1e-8 and the largest below 10,
- * beyond that it says nothing. */
+/* Liouville: without slip the flow contracts by the trace of M^-1 C, whatever opens and closes. 1e-6 of the
+ * multipliers' product is let pass where it is above 1e-8 and the largest below 10; else it says nothing. */
 stress_check stress_check_determinant(solved_scene *s)
 {
   if (s->base.stability_status != HC_OK) return stress_refuse(s, s->base.stability_status);

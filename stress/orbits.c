@@ -453,9 +453,8 @@ stress_check stress_check_returns(solved_scene *s)
 /* CVODE without the closed form's matrix, for some scenes. */
 static bool is_alone(solved_scene *s) { return random_int(&s->random, 1, ALONE_EVERY) == 1; }
 
-/* Where the motion goes from rest. What has not settled by one of them says nothing: the longer it takes, the more
- * chance decides when. Nor does a slider that comes to rest for good: where it does is decided by all periods
- * before. */
+/* Where the motion goes from rest. What does not settle soon says nothing (chance decides when), nor does a slider that
+ * comes to rest for good: all periods before decide where. */
 stress_check stress_check_from_rest(solved_scene *s)
 {
   search at = next_to(s);

@@ -1,6 +1,5 @@
-/* rewritten.h - a structure written in another way: the same motions, other numbers. Each has the responses of the
- * model it was made of, first the case's, then that model's degrees of freedom: what they say of a solution is what
- * they must say of the other. */
+/* rewritten.h - a structure written in another way: the same motions, other numbers. Its responses are those of the one
+ * it was made of, first the case's, then the degrees of freedom: they must say the same of either solution. */
 #pragma once
 
 #include <stdint.h>

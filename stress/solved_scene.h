@@ -1,6 +1,5 @@
-/* solved_scene.h - a scene under stress: its harmonic-balance solution as the checks need it, in all degrees of
- * freedom, and the checks. Nothing here knows the condensed coordinates: motions are x[2H+1][n], every coefficient's n
- * together. */
+/* solved_scene.h - a scene under stress: its HBM solution as the checks need it, in all degrees of freedom, and the
+ * checks. No condensed coordinates here: motions are x[2H+1][n], every coefficient's n together. */
 #pragma once
 
 #include <stdint.h>

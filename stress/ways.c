@@ -130,9 +130,8 @@ static stress_check same_multiplier(solved_scene *s, const stress_motion *other,
                                      : stress_find(STRESS_DISAGREES, apart, fmax(same_multipliers, s->multiplier_errs));
 }
 
-/* Does nothing hold a motion at rest: no contact ever closed, and K singular to rounding? Wherever it rests is a
- * solution, and whether Newton's matrix is singular is left to rounding. Eigenvalues of M^-1 K are good to n units of
- * the largest. */
+/* Does nothing hold a motion at rest: no contact ever closed, K singular to rounding (eigenvalues of M^-1 K are good to
+ * n units of the largest)? Wherever it rests is a solution, and rounding decides if Newton's matrix is singular. */
 static bool floats(solved_scene *s)
 {
   const size_t n = (size_t)s->n;
@@ -145,9 +144,8 @@ static bool floats(solved_scene *s)
   return is_free && s->base.m.contact.regime == CONTACT_LINEAR;
 }
 
-/* Beyond the bound, and after the last guess: the reason, if there is one. A motion that is another altogether, and in
- * balance by the equations as they were, is a solution, too; where the scene makes more than 1e-3 of rounding, or loses
- * the solution, nothing is said. */
+/* Beyond the bound after the last guess: why, if there is a reason. Another motion in balance by the original equations
+ * is a solution, too; where the scene makes more than 1e-3 of rounding, or loses the solution, nothing is said. */
 static stress_check explain(solved_scene *s, hc_status refused, double error, bool balanced)
 {
   stress_condition(s);

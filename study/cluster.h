@@ -1,12 +1,10 @@
-/* cluster.h - a study shared between processes started together by mpirun (CMake option HBMCHECK_MPI; cluster_none.c
- * without it). Rank 0 has the store and hands out scenes, the others compute them, each one at a time. Call from the
- * main thread. */
+/* cluster.h - a study shared between processes of one mpirun (CMake option HBMCHECK_MPI; else cluster_none.c). Rank 0
+ * has the store and hands out scenes, which the others compute one by one. Call from the main thread. */
 #pragma once
 
 #include "study/study.h"
 
-/* Once, first: how many processes there are, and which this one is. false: several copies were started by mpirun, but
- * this build has no MPI, and each would compute the whole study. */
+/* Once, first: how many processes, and which one this is. false: mpirun started several, but this build has no MPI. */
 bool cluster_start(int *rank, int *size);
 void cluster_end(void);
 

@@ -1,6 +1,5 @@
-/* run.c - see store.h. Threads take the next scene's number under one lock and hand the result to the store under
- * another; the calling thread watches, and answers other processes (cluster.h). Scenes are stored in another order in
- * each run, with the same results. */
+/* run.c - see store.h. Threads take a scene's number under one lock and store its result under another; the calling
+ * thread watches and answers other processes (cluster.h). Scenes are stored in any order, with the same results. */
 #include "study/store.h"
 
 #include <stdlib.h>

@@ -44,9 +44,8 @@ typedef struct study_watch {
   void *self;
 } study_watch;
 
-/* Compute and keep. HC_OK: every scene is there; HC_INTERRUPTED: stopped by the watch, scenes in flight were given
- * up; HC_NO_MEMORY; HC_IO: a scene could not be kept. What was kept stays in any case; *now is how many scenes that
- * is, *there how many in all. */
+/* Compute and keep. HC_OK: every scene is there; HC_INTERRUPTED: the watch stopped it, scenes in flight were given up;
+ * HC_NO_MEMORY; HC_IO: one could not be kept. *now: scenes that it kept, in any case; *there: in all. */
 hc_status study_run(const study *s, study_store *store, int jobs, const study_watch *watch, long *now, long *there);
 
 /* ---- told (report.c) ---- */

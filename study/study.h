@@ -105,8 +105,7 @@ typedef struct study_result {
 rows_kind study_rows(const study *s);
 unsigned study_extra_columns(const study *s);
 
-/* Compute scene id. HC_OK (single failures are in the result), HC_INTERRUPTED or HC_NO_MEMORY: no result then. Free
- * with study_result_clear in any case. Safe from several threads. */
+/* By any thread. HC_OK (failures are in the result); HC_INTERRUPTED, HC_NO_MEMORY: none. study_result_clear always. */
 hc_status study_solve(const study *s, long id, const hc_monitor *monitor, study_result *out);
 void study_result_clear(study_result *r);
 

@@ -1,6 +1,5 @@
-/* study_file.c - reading a study file: title, base case, what is set for all scenes, what is claimed. What varies:
- * study_axes.c. In this order whatever the file's: base or case, set, --set, vary, views, claims. The first mistake
- * ends it. Holding claims against results: claims.c. */
+/* study_file.c - a study file's title, base case, what is set and claimed; in this order whatever the file's: base or
+ * case, set, --set, vary (study_axes.c), views, claims. The first mistake ends it. Claims are held in claims.c. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

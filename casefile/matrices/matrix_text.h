@@ -106,9 +106,8 @@ hc_status matrix_market_parse(matrix_text *r);
  * triangle of a symmetric matrix; or both, each entry with its mirror image, of any. triplets.c */
 hc_status triplets_parse(matrix_text *r);
 
-/* Abaqus' default of *MATRIX OUTPUT, FORMAT=MATRIX INPUT, lines of node, DOF, node, DOF and value, and of CalculiX'
- * OUTPUT FILE=MATRIX. The rows are the DOFs that have an entry on the diagonal, by node, then by DOF: r->labels.
- * Triangles as of triplets. triplets.c */
+/* Abaqus' default, *MATRIX OUTPUT, FORMAT=MATRIX INPUT: lines of node, DOF, node, DOF, value; CalculiX' OUTPUT
+ * FILE=MATRIX. Rows: DOFs with a diagonal entry, by node, then DOF: r->labels. Triangles as of triplets. triplets.c */
 hc_status labelled_triplets_parse(matrix_text *r);
 
 /* Abaqus' *SUBSTRUCTURE MATRIX OUTPUT and *ELEMENT MATRIX OUTPUT, OUTPUT FILE=USER DEFINED, and CalculiX': the header

@@ -32,9 +32,8 @@ typedef struct patch {
   bool sheet; /* of shells, whose outward side is that of their positive normal */
 } patch;
 
-/* HC_BAD_INPUT with "PATH:LINE:COLUMN: what is wrong, what was expected" in m; HC_IO with words that are to follow the
- * file's name ("cannot be opened: ..."); HC_NO_MEMORY. *out is NULL then. mesh_parse: from text[length], which `name`
- * stands for. */
+/* HC_BAD_INPUT: "PATH:LINE:COLUMN: what is wrong, what was expected" in m; HC_IO: words to follow the file's name
+ * ("cannot be opened: ..."); HC_NO_MEMORY. *out is NULL then. mesh_parse: from text[length], called `name`. */
 hc_status mesh_read(const char *path, mesh **out, message *m);
 hc_status mesh_parse(const char *name, const char *text, size_t length, mesh **out, message *m);
 void mesh_free(mesh *s);
@@ -46,7 +45,6 @@ hc_status mesh_copy(const char *path, FILE *to, message *m);
 int mesh_find(const mesh *s, const char *name, size_t length);
 const char *mesh_nearest(const mesh *s, const char *name, size_t length);
 
-/* What mesh_find has found. Faces are those of the surface; of a set of nodes, those on the outside of the elements
- * whose corners are all in the set: of solids, or else of shells. Statuses as of mesh_parse; out->v is to be freed in
- * any case. */
+/* What mesh_find has found. Faces are the surface's; of a set of nodes, those on the outside of the elements (solids,
+ * or else shells) with all corners in it. Statuses as of mesh_parse; out->v is to be freed in any case. */
 hc_status mesh_patch(const mesh *s, int set, patch *out, message *m);

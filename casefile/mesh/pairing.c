@@ -28,8 +28,7 @@ static int nearest(const patch *p, const double *x, double *distance)
   return best;
 }
 
-/* Another node of p that x is not clearly farther from than from `best`: seen along the line from best to it, x lies
- * beyond a third of the way, whatever gap there is across the line. -1: none. */
+/* Another node of p about as near: seen along the line from best to it, x lies beyond a third of the way. -1: none. */
 static int rival(const patch *p, int best, const double *x)
 {
   for (int k = 0; k < p->n; ++k) {

@@ -38,9 +38,8 @@ void curve_shape_clear(curve_shape *c);
 /* figure_open for a drawing over frequency: in cycles per time where the scene's sweep is. */
 hc_status curve_figure_open(figure *g, plot_order *p, const scene *sc, int width, int height);
 
-/* First its data blocks, then in the plot command its items; among several each has a colour, and its name in the key.
- * quiet: thin and grey and without special points, as the
- * background of something else. */
+/* First its data blocks, then its items in the plot command; among several each has a colour, and its name in the key.
+ * quiet: thin, grey, without special points: the background of something else. */
 void curve_shape_data(figure *g, const curve_shape *c);
 void curve_shape_items(figure *g, const curve_shape *c, bool quiet);
 /* After the last items of several curves c[n]: what the dashes mean, in the key, and all special points. */

@@ -162,8 +162,7 @@ static hc_status run_script(figure *g)
     snprintf(g->order->why, PLOT_WHY, "no temporary file: %s", strerror(errno));
     return HC_IO;
   }
-  /* What the script writes to its standard output goes into `drawing`. HC_IO with why[size] saying what went wrong:
-   * gnuplot is not installed, or its own words; HC_NO_MEMORY. */
+  /* The script's output goes into `drawing`. HC_IO: why[size] says that gnuplot is missing, or has its words. */
   FILE *in = tmpfile(), *words = tmpfile();
   hc_status st = HC_IO;
   if (in && words && fwrite(g->script, 1, g->length, in) == g->length && fflush(in) == 0 &&

@@ -1,6 +1,5 @@
-/* figure_contact.c - what contacts do under a given motion: loops T over u, and the forces over the period; of one
- * contact with two tangents its traction in the plane, within the limit of friction, and the ways of the motion and of
- * the slider. */
+/* figure_contact.c - what contacts do under a given motion: loops T over u, forces over the period; of one contact with
+ * two tangents its traction within the limit of friction, and the ways of motion and slider. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,5 @@
-/* aliasing.c - see parts.h. First every response curve is followed, then each of its solutions is compared with one
- * of the sampled equations, which may have to start from the curve of another H. Harmonics and forces go out as
- * integers, in steps of the largest force: that keeps the page small. */
+/* aliasing.c - see parts.h. Every response curve first, then each solution beside one of the sampled equations, which
+ * may have to start from another H's curve. Harmonics and forces are integers, in steps of the largest force: small. */
 #include "command/report/parts.h"
 
 #include <math.h>

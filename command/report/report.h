@@ -42,9 +42,8 @@ typedef struct report_origin {
 /* Was Chart.js installed when this was built? Without it no report can be written. */
 bool report_has_charts(void);
 
-/* Everything the page shows, by so many threads; the same whatever their number. The stages are labels of the progress,
- * which may be NULL. HC_INTERRUPTED, HC_NO_MEMORY, or what kept the comparison or the curve from being made at all.
- * Free with report_clear in any case. */
+/* Everything the page shows, the same by however many threads. The stages are labels of the progress, which may be
+ * NULL. HC_INTERRUPTED, HC_NO_MEMORY, or why comparison or curve could not be made. report_clear in any case. */
 hc_status report_gather(const scene *sc, int jobs, progress *bar, report_data *out);
 void report_clear(report_data *d);
 

@@ -1,6 +1,5 @@
-/* accuracy.h - error and cost of harmonic balance over truncation orders H and sampling rates N (accuracy_run), and the
- * orders at which its errors fall with N, H and the regularisation (order_fit). The header of this folder. Nothing is
- * printed. Not here: what the discrepancy of one solution is made of (compare/budget.h), verdicts. */
+/* accuracy.h - error and cost of HBM over truncation orders H and samples N (accuracy_run), and the orders at which
+ * errors fall with N, H and the regularisation (order_fit). Not here: one solution's discrepancy (compare/budget.h). */
 #pragma once
 
 #include "base/status.h"

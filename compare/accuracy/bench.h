@@ -81,8 +81,7 @@ typedef struct bench_options {
   bool alone;     /* no other programs */
 } bench_options;
 
-/* HC_INTERRUPTED: what was measured until then is kept. HC_NOT_CONVERGED where a frequency has no stable orbit to
- * compare with; omega of it in *failed_at. bench_clear in any case. */
+/* HC_INTERRUPTED keeps what was measured; HC_NOT_CONVERGED: no stable orbit at *failed_at. bench_clear in any case. */
 hc_status bench_run(const compare_setup *setup, const bench_options *options, const hc_monitor *monitor, bench *out,
                     double *failed_at);
 void bench_clear(bench *b);

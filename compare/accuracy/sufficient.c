@@ -241,8 +241,7 @@ static hc_status try_setting(search *s, const hbm_settings *how, double enough, 
   return st;
 }
 
-/* Where an error is within `allowed`, does the curve that such settings follow go there? Few harmonics may have another
- * one, which begins where the sweep does. Asked of PROBES targets. */
+/* Does the curve of such settings go where an error is within `allowed`? Few harmonics may have another. */
 static hc_status follows(search *s, const hbm_settings *how, bool *yes)
 {
   enum { PROBES = 6 };

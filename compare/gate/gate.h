@@ -60,18 +60,16 @@ typedef struct gate_case {
   bool in_cycles;    /* of the limits: frequencies are named in cycles per time */
 } gate_case;
 
-/* Compare, then judge. HC_OK whatever the checks say, and where a solver could not even begin: then a check
- * "comparison" is the error. HC_INTERRUPTED or HC_NO_MEMORY else, with what was found kept. Free with gate_clear in any
- * case. */
+/* Compare, then judge. HC_OK whatever the checks say, also where no solver could begin: then "comparison" is an error.
+ * HC_INTERRUPTED, HC_NO_MEMORY keep what was found. gate_clear in any case. */
 hc_status gate_run(const char *name, const compare_setup *setup, const hc_monitor *monitor, gate_case *out);
 
 /* The second half: the checks of a comparison of setup. HC_NO_MEMORY. */
 hc_status gate_judge(const char *name, const compare_setup *setup, const comparison *c, gate_case *out);
 void gate_clear(gate_case *g);
 
-/* One check more, for gate.proven: of a solution (branch -1: a steady state beside them) at omega whose orbit is
- * proven, with an error of its amplitude of at most `error`, relative (NaN: it is another orbit of a family); or is
- * unproven, why in words. */
+/* A check more, for gate.proven: of a solution at omega (branch -1: a steady state beside them) whose orbit is proven,
+ * to a relative `error` of its amplitude (NaN: another orbit of a family); or is not, why in words. */
 hc_status gate_add_proof(gate_case *g, const compare_setup *setup, double omega, int branch, const char *unproven,
                          double error);
 

@@ -13,9 +13,8 @@ typedef struct accuracy_of {
   double settled; /* [1] largest |amplitude - the reference's|/amplitude of the transients: the ruler's own error */
 } accuracy_of;
 
-/* How far the orbit is from touching, or parting, without velocity: |extreme of v + gap|/|gap|. Closer than GRAZING,
- * an HBM error e of the motion moves that extreme by e, and the response by the square root of it: there no number
- * of harmonics has its usual worth. */
+/* How far the orbit is from touching, or parting, without velocity: |extreme of v + gap|/|gap|. Below GRAZING an HBM
+ * error e moves that extreme by e and the response by its root: no number of harmonics has its usual worth. */
 static const double GRAZING = 1e-2;
 
 static double clearance(const scene *sc, const steady_reference *r)

@@ -1,11 +1,9 @@
-/* test_contacts.c - the scenes of cases/adversarial about single contacts, by harmonic balance: what must come out,
- * from closed forms or from a scene that is the same in another guise. What both solvers say together:
- * test_verdicts.c. */
+/* test_contacts.c - single contacts of cases/adversarial by harmonic balance: what must come out by closed forms or by
+ * the same scene in another guise. Both solvers: test_verdicts.c. */
 #include "tests/adversarial/scenes.h"
 
-/* Newton is quadratic: once hbm.tolerance, 1e-10 of the forces, is met the error is its square, and what is left is
- * rounding: some 100 operations a coefficient, enlarged by the steepness of the response, 100 at most where these
- * scenes are compared. */
+/* Newton is quadratic: with hbm.tolerance, 1e-10 of the forces, met the error is its square; what is left is rounding,
+ * some 100 operations a coefficient, times the steepness, at most 100 where scenes are compared. */
 static const double SOLVED = 1e-11;
 
 /* Case 2 grazes where |F0/(K - M w^2 + i C w)| sin(alpha) = |gap|, a quadratic equation for w^2. */
@@ -16,9 +14,8 @@ static double grazing_omega(const scene *sc, int sign)
   return sqrt((b + sign * root) / (2 * M * M));
 }
 
-/* On it and an ulp either side: as many solutions as on either side of a fold, one of them with the amplitude
- * |gap|/sin(alpha). Off by an ulp, the linear amplitude is off by dA/dw ulp(w) = 1e-15 A; if it touches, the
- * response differs by less. */
+/* On it and an ulp either side: as many solutions as beside a fold, one of amplitude |gap|/sin(alpha). An ulp moves the
+ * linear amplitude by dA/dw ulp(w) = 1e-15 A; where it touches, the response by less. */
 static void grazing_to_an_ulp(CHECK_STATE)
 {
   scene sc = load("grazing", NULL);
@@ -145,8 +142,7 @@ static void gap_0_scales_with_the_force(CHECK_STATE)
   same_answers(&sc, &thrice, 3, SOLVED);
 }
 
-/* Free and undamped from x = 0: back after pi/8 + pi/24, a period of omega = 2 w1 w2/(w1 + w2) = 12, to CVODE's
- * 1e-12 a step, some 100 of them. */
+/* Free and undamped from x = 0: back after pi/8 + pi/24, omega = 2 w1 w2/(w1 + w2) = 12, to 100 steps' 1e-12. */
 static void gap_0_vibrates_at_its_bilinear_frequency(CHECK_STATE)
 {
   scene sc = LOAD("gap_0", "forcing.amplitude=0", "oscillator.damping=0", "transient.law=exact",

@@ -1,6 +1,5 @@
-/* test_curves.c - the scenes of cases/adversarial about response curves and motions as a whole: resonance with next
- * to no damping, sweeps that end on a fold or run downwards, branches that only one direction reaches, the most
- * harmonics, nothing at all. */
+/* test_curves.c - cases/adversarial on curves and motions as a whole: resonance almost undamped, sweeps that end on a
+ * fold or run down, branches that one direction reaches, the most harmonics, nothing at all. */
 #include "tests/adversarial/scenes.h"
 
 #include <complex.h>
@@ -31,9 +30,8 @@ static void resonance_has_its_closed_form(CHECK_STATE)
   timeint_free(ti);
 }
 
-/* With the contact in reach, one harmonic: the same curve from either end, and energy: what the force puts in, pi F0
- * |X1 sin(phase)|, is what the damper takes, pi C w |X1|^2, since this contact, bilinear, takes none: F0 X[2] = C w
- * |X1|^2. */
+/* With the contact in reach, one harmonic: the same curve from either end; what the force puts in, pi F0 |X1
+ * sin(phase)|, the damper takes, pi C w |X1|^2, this contact, bilinear, nothing: F0 X[2] = C w |X1|^2. */
 static void resonance_with_a_contact_balances_its_energy(CHECK_STATE)
 {
   scene sc = LOAD("zeta_1e-6_contact", "hbm.harmonics=1"),

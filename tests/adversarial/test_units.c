@@ -1,5 +1,4 @@
-/* test_units.c - a change of units changes no answer: lengths, forces and times of a scene multiplied, its answers
- * multiplied alike. Any absolute constant left in a solver shows here. */
+/* test_units.c - lengths, forces, times multiplied: answers, too. An absolute constant in a solver shows here. */
 #include "tests/adversarial/scenes.h"
 #include "tests/adversarial/steady_references.h"
 
@@ -101,9 +100,8 @@ static scene_state in_units_state(scene_state y, int n, const units *u)
   return y;
 }
 
-/* What CVODE's tolerance, 1e-14 of its unit of length a step at its finest, comes to if all steps of a period err
- * the same way, through 1/|1 - multiplier|; twice, for two orbits; and its unit follows the motion's size to a
- * factor of 4 only. */
+/* CVODE's tolerance at its finest, 1e-14 of its unit of length a step, all steps of a period erring alike, through 1/|1
+ * - multiplier|; twice, for two orbits; its unit follows the motion's size to a factor of 4. */
 static double integrated(const timeint_result *r)
 {
   return 4 * 2 * 1e-14 * (double)r->steps / r->periods / hypot(1 - r->multiplier_re, r->multiplier_im);

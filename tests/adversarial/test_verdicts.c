@@ -1,6 +1,5 @@
-/* test_verdicts.c - every scene of cases/adversarial through the command, as people run it: the verdict of each row
- * and the exit code. Why each must be what it is stands in the case file. Motions are tested in test_contacts.c and
- * test_curves.c. */
+/* test_verdicts.c - every scene of cases/adversarial through the command: verdicts and exit codes; why each must be so
+ * stands in the case file. Motions: test_contacts.c, test_curves.c. */
 #include "tests/program.h"
 
 /* The third column, `verdict`, of the rows of a csv, one letter each: m match, u unstable, o other_branch, ... */
@@ -79,9 +78,8 @@ static void curves(CHECK_STATE)
   CHECK_VERDICTS(list);
 }
 
-/* The orbit of 7.37 is on the curve from 3 to 30; a transient swept down says so. A curve that cannot turn round
- * says where it stopped, and agrees to nothing. A sweep too narrow for the fold sees one branch, as README says of
- * it; a fact about the sweep, not a disagreement. */
+/* The orbit of 7.37 is on the curve from 3 to 30, as a transient swept down says. A curve that cannot turn round says
+ * where it stopped and agrees to nothing. A sweep too narrow for the fold sees one branch, and does not disagree. */
 static void a_branch_is_not_hidden(CHECK_STATE)
 {
   static const verdicts list[] = {

@@ -1,5 +1,4 @@
-/* bench.h - what the benchmarks share: the clock, medians, the case file, an end with words where something fails (a
- * benchmark that goes on without a figure misleads). */
+/* bench.h - the benchmarks' clock, medians and case file, and their end, with words, where something fails. */
 #pragma once
 
 #include <string.h>

@@ -22,8 +22,7 @@ typedef struct mistake {
   const char *text, *at, *words;
 } mistake;
 
-/* text, or one assignment on top of it, must be refused with a message of exactly this start that holds this fragment;
- * and the scene must be left alone. set may be NULL. */
+/* text, or one assignment on it (or NULL), is refused by a message that starts so and has this; the scene stays. */
 static inline void refused(const char *text, const char *set, const char *start, const char *fragment)
 {
   scene sc, before;

@@ -27,8 +27,7 @@ static void refuse_repeated(const char *head, const char *piece, const char *wor
   for (; n + step <= MEGABYTE; n += step) memcpy(text + n, piece, step);
   double start = processor_seconds();
   assert_int_equal(case_parse("f", text, n, 0, NULL, &sc, &err), HC_BAD_INPUT);
-  /* processor time, which other programs do not add to. Linear: under 1 s with sanitizers on a slow machine; quadratic:
-   * 1e12 steps, minutes on any. */
+  /* processor time. Linear: under 1 s with sanitizers on a slow machine; quadratic: 1e12 steps, minutes on any. */
   CHECK_LE(processor_seconds() - start, 20, "%s %s", head, piece);
   check_message(&err);
   if (!strstr(err.message, words)) fail_msg("%s: %s", piece, err.message);

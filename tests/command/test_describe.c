@@ -60,8 +60,7 @@ static double derived(const char *quantity)
   return strtod(at + strlen(row), NULL);
 }
 
-/* M = 1, C = 0.4, K = 40, F0 = 100; kt = 100, kn = 1000 at 45 degrees: 550 in parallel to K while it sticks. The
- * tolerances are the rounding of a few operations. */
+/* M = 1, C = 0.4, K = 40, F0 = 100; kt = 100, kn = 1000 at 45 degrees: 550 beside K while it sticks. To rounding. */
 static void what_follows_is_what_the_formulas_say(CHECK_STATE)
 {
   static const double rounding = 1e-14;

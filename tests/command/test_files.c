@@ -1,6 +1,5 @@
-/* test_files.c - no output replaces an input or another output: each pair by its name, by links, by other spellings;
- * exit 64 before anything is computed, a message with both names, and every file in the folder as it was, to the
- * byte. */
+/* test_files.c - no output replaces an input or another output, by name, links or other spellings: exit 64 before
+ * anything is computed, a message with both names, and every file in the folder as it was, to the byte. */
 #include "tests/folder.h"
 #include "tests/shell.h"
 

@@ -43,9 +43,8 @@ static double cell(const char *table, const char *start, int column)
   return strtod(line, NULL);
 }
 
-/* A contact with two tangents is two in the model and one in every table: its normal forces are added up, its limit is
- * that of either. Under the square law, y being still but for rounding of what x does, its work is that of the one
- * tangent: the case without tangent_2. */
+/* A contact with two tangents is two in the model, one in every table: normal forces add up, the limit is either's.
+ * Under the square law, y still but for x's rounding, its work is the one tangent's: the case without tangent_2. */
 static void pairs_are_one_row(CHECK_STATE)
 {
   char line[1024];
@@ -86,8 +85,7 @@ static void comparisons_say_what_they_leave_out(CHECK_STATE)
   assert_int_equal(count("not compared"), 0);
 }
 
-/* --response keeps one, and the verdict is of that: with 7 harmonics the third is within the gate, the first is not.
- * The tables are of it, too. Every response has its prediction. */
+/* --response keeps one; verdict and tables are of it (7 harmonics do for the third, not the first). All predicted. */
 static void one_response_is_compared(CHECK_STATE)
 {
   const char *const at = "compare " CHAIN "--at 1.4 --set hbm.harmonics=7 --set gate.amplitude=2e-3 --format csv -q ";
@@ -140,8 +138,7 @@ static void what_has_no_mass_is_named(CHECK_STATE)
          "; {tip: 1, root: -1} has none");
 }
 
-/* Two equal masses between which and behind one of which is a spring of 1: omega^2 = (3 -+ sqrt 5)/2. From rest the
- * transient in both modes stays, and no contact takes it out. */
+/* Two masses, a spring of 1 between and one behind: omega^2 = (3 -+ sqrt 5)/2. No contact takes the transient out. */
 static void what_has_no_damping_is_named(CHECK_STATE)
 {
   const char *const words = "no damping acts on the mode at omega = 0.6180339887";

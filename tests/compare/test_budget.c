@@ -1,6 +1,5 @@
-/* test_budget.c - the error budget over the eight reference scenes: what it accounts for is the row's own error, one
- * cause alone is accounted for in full, and the largest part is the cause where that is known. Parts are sizes, so that
- * two of opposite sign make the sum larger than what is observed; how often is printed. */
+/* test_budget.c - the error budget over eight reference scenes: it accounts for the row's own error, one cause alone in
+ * full; the largest part is the cause where that is known. Opposite signs make the sum larger: how often is printed. */
 
 #if defined __SANITIZE_ADDRESS__
 #define SANITIZED 1
@@ -97,9 +96,8 @@ static void one_cause_is_accounted_for_in_full(CHECK_STATE)
   CHECK_LE(t.worst, 1.1, "%s", t.where); /* 1e-9 and the like beside 1e-7 */
 }
 
-/* The fraction within a factor 3 is what it is: a cancellation is a matter of chance. More than a factor 3 takes two
- * parts that agree to half their size with opposite signs, (a + b)/|a - b| > 3: one in three of random sign and size
- * at most. */
+/* A cancellation is a matter of chance: more than a factor 3 takes two parts that agree to half their size with
+ * opposite signs, (a + b)/|a - b| > 3: one in three of random sign and size at most. */
 static void two_causes_may_cancel_but_seldom(CHECK_STATE)
 {
   const variant all[] = {{"N = 64, exact law", HBM_FORCE_SAMPLED, 64, TRANSIENT_LAW_EXACT, 8},

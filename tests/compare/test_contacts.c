@@ -105,9 +105,8 @@ static void errors_of(const char *name, const char *at, const char *harmonics, d
   case_clear(&sc);
 }
 
-/* Two programs with nothing in common but the law: forces with a kink give motions off by H^-3, and work, an integral
- * over the motion, with it: by (31/7)^3 = 87 from H = 7 to 31. N is linear
- * in the motion where it is least. A thousandth of transient.tolerance is what CVODE leaves. */
+/* Two programs with only the law in common: motions err by H^-3, and work, an integral, with them: (31/7)^3 = 87 from H
+ * = 7 to 31. N is linear in the motion where it is least. CVODE leaves a thousandth of transient.tolerance. */
 static void both_sides_meet_with_the_harmonics(CHECK_STATE)
 {
   static const struct {

@@ -1,5 +1,4 @@
-/* test_duration.c - what a run takes is told beforehand: the arithmetic with given times; that times are those of the
- * model; that nothing is measured of a small one. */
+/* test_duration.c - a run's time foretold: the arithmetic; times of the very model; nothing measured of a small one. */
 #include "casefile/case_file.h"
 #include "compare/duration.h"
 #include "tests/check.h"

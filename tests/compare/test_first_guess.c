@@ -1,5 +1,4 @@
-/* test_first_guess.c - a first solution from a steady state in closed form: asked for where the linear response is no
- * guess, and only there; what becomes of answers and refusals. */
+/* test_first_guess.c - a first solution from closed form: asked for only where linear is no guess; its answers. */
 #include "compare/first_guess.h"
 
 #include "study/scene_solvers.h"

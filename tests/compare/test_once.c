@@ -1,5 +1,4 @@
-/* test_once.c - nothing is solved twice: what the comparison of case 2 takes, counted. The counts are exact; a change
- * that raises one solves something again, or takes longer steps to fail. */
+/* test_once.c - nothing is solved twice: case 2's comparison, counted. More: something is, or a step was too long. */
 #include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "tests/check.h"

@@ -1,6 +1,5 @@
-/* test_predicted.c - what both sides expect of themselves, and that a discrepancy beyond it is said to be unexpected.
- * The linker gives this program hbm_predict and timeint_predict by other names, so that each side says what it is told
- * to. */
+/* test_predicted.c - what both sides expect of themselves; a discrepancy beyond it is called unexpected. The linker
+ * gives this program hbm_predict and timeint_predict by other names: each side says what it is told to. */
 #include "tests/faults/child.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_runs.h"
@@ -213,9 +212,8 @@ static void the_command_says_so(CHECK_STATE)
   expect(o->out, "\"transient_predicted\": null", true);
 }
 
-/* Nothing is stubbed: HBM's damping is off by 1e-4, the time integration's is not. Both are sure of themselves, with 60
- * harmonics to 1e-6 and better, and each is right about its own equations. At resonance the amplitude changes like the
- * damping. */
+/* Nothing is stubbed: HBM's damping alone is off by 1e-4. Both are sure of themselves, with 60 harmonics to 1e-6 and
+ * better, and right about their own equations. At resonance the amplitude changes like the damping. */
 static void a_damping_off_on_one_side_is_unexpected(CHECK_STATE)
 {
   scene sc = exact_scene("c2", 60, true);

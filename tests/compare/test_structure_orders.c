@@ -36,8 +36,7 @@ static double largest_amplitude(const model *m, const timeint_result *r)
   return most;
 }
 
-/* Largest |x_H(t) - x(t)| of all responses, relative to the largest amplitude, of the nearest of HBM's solutions that
- * its first search comes to. */
+/* Largest |x_H(t) - x(t)| of all responses, over the largest amplitude, of the nearest that HBM first finds. */
 static double waveform_error(const structure_case *c, int H, double omega, const timeint_result *r)
 {
   structure_case with = *c;
@@ -110,9 +109,8 @@ static double apart(const model *m, const timeint_result *a, const timeint_resul
   return most / largest_amplitude(m, b);
 }
 
-/* None of these returns to contact in stick, so that the law is of the second order in its parameter
- * (timeint.regularisation): e(h) = c h^2 (1 + O(h)), O(h) some percent at 1e-2, and CVODE's scatter at tolerance 1e-10
- * stays below 1e-9. At 1e-5 nothing but that scatter is left. */
+/* None returns to contact in stick, so the law is of second order in its parameter (timeint.regularisation): e(h) = c
+ * h^2 (1 + O(h)), O(h) some percent at 1e-2; CVODE's scatter at 1e-10 is below 1e-9, all that is left at 1e-5. */
 static void the_three_meet(CHECK_STATE)
 {
   static const struct {

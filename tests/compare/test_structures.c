@@ -1,6 +1,5 @@
-/* test_structures.c - the comparison of structures: every response predicts its error, and a mistake in the model of
- * one side alone is seen. The linker gives this program hbm_solver_new by another name, so that harmonic balance can be
- * given another structure than time integration. */
+/* test_structures.c - the comparison of structures: every response predicts its error, and a mistake in one side's
+ * model is seen: the linker renames hbm_solver_new, so that harmonic balance can be given another structure. */
 #include "casefile/case_file.h"
 #include "tests/check.h"
 #include "tests/scene_runs.h"
@@ -36,9 +35,8 @@ static bool on_one_orbit(const comparison_row *r)
 
 /* ---- predictions ----------------------------------------------------------------------------------- */
 
-/* In every response what is observed is within three times what both sides expected, and what they expected within
- * thirty times of what is observed (of the waveform, which cannot agree by chance), for all but a row in ten of those
- * that a contact makes err at all. */
+/* In all but a row in ten of those that a contact makes err: each response's error is within three times what both
+ * sides expected, and that within thirty times the error (of the waveform, which cannot agree by chance). */
 static void every_response_predicts_its_error(CHECK_STATE)
 {
   static const char *const names[] = {"jenkins2", "chain3", "wedge_F2", "wedge_F20", "tangent_normal_F100"};

@@ -1,6 +1,5 @@
-/* fuzz.h - what the fuzz targets share: the properties that hold for any input, beyond not crashing. A property
- * that does not hold ends the process with its words on stderr: a finding for libFuzzer, a failure for ctest.
- * Targets: README.md. */
+/* fuzz.h - what the fuzz targets share: properties that hold for any input, beyond not crashing. One that does not ends
+ * the process with its words on stderr: libFuzzer's finding, ctest's failure. Targets: README.md. */
 #pragma once
 
 #include <stdint.h>
@@ -25,8 +24,7 @@ char *fuzz_string(const uint8_t *data, size_t size);
 /* words[size]: terminated, not empty, one line, UTF-8, no control characters. */
 void message_is_clean(const char *words, size_t size);
 
-/* The words start with "NAME:LINE:COLUMN: ", and that place is in text[length] or just behind a line of it. In YAML
- * a CR alone ends a line. */
+/* The words start with "NAME:LINE:COLUMN: ", a place in text[length] or just behind a line. In YAML a CR ends one. */
 void place_is_inside(const char *words, const char *name, const char *text, size_t length, bool yaml);
 
 /* A reader of "f" ended with st: counted, and read without a message (true), or refused with a clean one. */

@@ -1,6 +1,5 @@
-/* fuzz_mesh.c - bytes as an input file of CalculiX: finite coordinates; each set or surface a patch whose nodes ascend
- * and whose shares of area are not negative, or refused with a place; and the first two
- * of them paired: each node in at most one pair. */
+/* fuzz_mesh.c - an input file of CalculiX: finite coordinates; each set or surface a patch of ascending nodes and
+ * shares of area >= 0, or refused with a place; of the first two, paired, each node is in one pair at most. */
 
 #include "casefile/mesh/pairing.h"
 #include "tests/fuzz/fuzz.h"

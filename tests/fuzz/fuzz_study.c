@@ -1,5 +1,4 @@
-/* fuzz_study.c - bytes as a study file beside a base.yaml: refused with a place in one of the two, or a grid whose
- * scenes are the ones that --set makes of the echoed base. */
+/* fuzz_study.c - a study beside base.yaml: refused with a place in either, or the scenes that --set makes of it. */
 
 #include "study/study.h"
 #include "tests/fuzz/fuzz.h"

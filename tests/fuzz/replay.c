@@ -1,6 +1,5 @@
-/* replay.c - a fuzz target without libFuzzer: every file of the folders given, and every beginning of the small ones
- * (a file cut short is the commonest broken file). Ends in an error if all were read, or all refused: then it is not
- * the corpus it should be. */
+/* replay.c - a fuzz target without libFuzzer: every file of the folders, and every beginning of the small ones. An
+ * error if all were read or all refused: then it is not the corpus it should be. */
 #include <dirent.h>
 #include <string.h>
 #include <unistd.h>

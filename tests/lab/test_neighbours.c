@@ -1,5 +1,4 @@
-/* test_neighbours.c - sampled solutions next to the exact curve's: they are the sampled equations', at the exact ones'
- * omegas, and where there is none next to a point that is said. */
+/* test_neighbours.c - sampled solutions next to the exact curve's, at its omegas; where there is none that is said. */
 #include "base/status.h"
 #include "lab/lab.h"
 #include "tests/check.h"
@@ -93,8 +92,7 @@ static void every_point_has_its_row(CHECK_STATE)
   lab_free(l);
 }
 
-/* There Newton goes round in circles from the exact solution: samples come into contact and leave it by turns. The
- * sampled solution is on the sampled curve all the same. */
+/* Newton circles from the exact solution (samples touch and leave by turns); the answer is on the sampled curve. */
 static void jumping_jacobians_are_got_round(CHECK_STATE)
 {
   static double sampled[MOST_ROWS][LAB_SOLUTION + COEF];

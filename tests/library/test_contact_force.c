@@ -18,8 +18,7 @@ static void stuck_it_is_linear(CHECK_STATE)
   hbmcheck_case_free(c);
 }
 
-/* Constant N0 = kn gap and u = A cos th: a Jenkins element, whose loss per cycle 4 mu N0 (A - x_c), x_c = mu N0/kt, is
- * pi A times the drop of b1. */
+/* N0 = kn gap, u = A cos th: a Jenkins element, loss 4 mu N0 (A - x_c), x_c = mu N0/kt, pi A times the drop of b1. */
 static void a_slider_loses_the_closed_form(CHECK_STATE)
 {
   hbmcheck_case *c = CASE2("contacts[0].gap=0.01", "contacts[0].friction=0.5");

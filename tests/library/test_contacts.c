@@ -1,5 +1,4 @@
-/* test_contacts.c - what each contact does (--contacts) through the C API: the numbers of those it calls, of every
- * solution, steady state and row; where they were not asked for, none. */
+/* test_contacts.c - --contacts by the C API: the numbers of those it calls, of each solution, steady state and row. */
 #include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"

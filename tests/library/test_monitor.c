@@ -64,8 +64,7 @@ static hbmcheck_status run(work what, const hbmcheck_case *c, listener *l, int *
   return st;
 }
 
-/* At the first tick, at some on the way, and at the last one. After an answer of 0 those that call each other may each
- * ask once more before they give up: no more than a handful of ticks. */
+/* At the first tick, at some, at the last. After 0 those that call each other may each ask once more: a handful. */
 static void stopped(work what, const char *name)
 {
   hbmcheck_case *c = CASE2("hbm.harmonics=5");

@@ -135,8 +135,7 @@ static void curve(CHECK_STATE)
   check_curve((const char *[]){"hbm.harmonics=5", "hbm.force=sampled", "hbm.samples=2048", NULL});
 }
 
-/* Nearly rigid and without harmonic 0 the fold is beyond 4 times the start: the curve is cut where it left the sweep
- * (hbm.trace.a_branch_that_leaves). */
+/* Nearly rigid, no harmonic 0: the fold is beyond the cut at 4 times the start (hbm.trace.a_branch_that_leaves). */
 static void curve_that_leaves(CHECK_STATE)
 {
   hbmcheck_case *c =
@@ -219,9 +218,8 @@ static void check_transient(const char *const *set, int n, const double *omega)
   scene_setup_clear(&setup);
 }
 
-/* Case 2: period 4 at 5.11, aperiodic at 5.3 (docs/transient.md), where shooting finds the unstable orbit; from rest
- * nothing settles in two periods; where the HBM curve stops before omega (natural continuation, at the fold), the start
- * is at rest. */
+/* Case 2: period 4 at 5.11; aperiodic at 5.3 (docs/transient.md), where shooting finds the unstable orbit; from rest
+ * nothing settles in two periods; natural continuation stops at the fold, before omega: the start is at rest. */
 static void transient(CHECK_STATE)
 {
   check_transient((const char *[]){"hbm.harmonics=10", NULL}, 3, (double[]){5.11, 5.3, 8});

@@ -1,6 +1,5 @@
-/* test_statuses.c - every status of those the C API calls comes out as its public counterpart; what was found is kept,
- * but for HBMCHECK_BAD_INPUT and HBMCHECK_NO_MEMORY, after which there is nothing. The inner functions do their work
- * first, then answer what the test tells them to (the linker's --wrap). */
+/* test_statuses.c - every status comes out as its public counterpart; what was found is kept, but not after
+ * HBMCHECK_BAD_INPUT and HBMCHECK_NO_MEMORY. Inner functions do their work, then answer what the test says (--wrap). */
 #include "tests/library/case2.h"
 
 #include "casefile/case_file.h"

@@ -1,5 +1,4 @@
-/* test_verification.c - another program's curve through the C API: the verdicts, numbers and words of those it calls,
- * arrays that are none refused in words, a monitor that stops it. */
+/* test_verification.c - another program's curve by the C API: verdicts, words; bad arrays; a monitor that stops. */
 #include "casefile/case_file.h"
 #include "compare/verify/verify.h"
 #include "tests/library/case2.h"
@@ -137,8 +136,7 @@ static void the_cause_is_named(CHECK_STATE)
   hbmcheck_case_free(public_case);
 }
 
-/* Three points from a solution, and one at omega = 0: in dB what is handed in comes back; the one left out is counted,
- * and the others keep their places. */
+/* Three points of a solution, one at omega = 0: dB comes back; that one is counted, the others keep their places. */
 static void decibels_and_points_left_out(CHECK_STATE)
 {
   hbmcheck_case *c = CASE2("sweep.omega=3,6", "hbm.harmonics=10");

@@ -237,8 +237,7 @@ static void a_failed_rename_leaves_nothing_behind(CHECK_STATE)
 
 enum { NOT_POSSIBLE = 77 };
 
-/* The exit code of `work` in a child, which is nobody when we are root: then a bug cannot rename a file over a
- * device of this machine, and permissions count. */
+/* Exit code of `work` in a child, as nobody if we are root: no bug renames over a device, and permissions count. */
 static int as_nobody(int (*work)(void))
 {
   fflush(NULL);

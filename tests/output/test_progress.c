@@ -1,6 +1,5 @@
-/* test_progress.c - the progress line is drawn on a terminal and nowhere else, and signals stop the work. The clock
- * is the test's own (the linker wraps clock_gettime). Where no pseudo-terminal can be opened, what needs one is left
- * out, and the exit code is 77. */
+/* test_progress.c - the progress line is drawn on a terminal only, and signals stop the work. The clock is the test's
+ * (the linker wraps clock_gettime). Without pseudo-terminals what needs one is left out: exit code 77. */
 #define _XOPEN_SOURCE 700 /* posix_openpt */
 #include <fcntl.h>
 #include <signal.h>

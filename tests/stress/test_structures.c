@@ -1,6 +1,5 @@
-/* test_structures.c - random structures: what is drawn, and that the checks can fail. Each is given an answer that is
- * wrong by a little, where it arrives (the linker puts the functions below in front of the library's own, --wrap), and
- * must call it a finding; unspoiled, the same scene ends without one. Oscillators go the same ways. */
+/* test_structures.c - random structures: what is drawn, and that checks can fail: an answer wrong by a little where it
+ * arrives (--wrap) must be a finding; unspoiled, the scene ends without one. Oscillators go the same ways. */
 #include "casefile/case_file.h"
 #include "casefile/fields.h"
 #include "compare/comparison.h"

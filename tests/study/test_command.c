@@ -1,6 +1,5 @@
-/* test_command.c - hbmcheck study as people use it: killed and resumed, in one thread and in several, refused,
- * claimed. Runs the built hbmcheck (HBMCHECK_COMMAND) in a folder of its own; what is stopped or held up at a certain
- * place is the command in a child of the test (tests/faults/moments.h). */
+/* test_command.c - hbmcheck study as people use it: killed and resumed, in one thread or several, refused, claimed.
+ * Runs the built command in its own folder; what is stopped at a certain place: a child (tests/faults/moments.h). */
 #include <signal.h>
 
 #include "tests/faults/child.h"

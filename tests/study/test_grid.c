@@ -45,8 +45,7 @@ static void ranges_hit_what_one_expects(CHECK_STATE)
                : i == 4 ? 1e4
                         : 1e5,
                0, "value %d", i);
-  /* between decades pow(10, x) has an argument rounded to half an ulp of 5: relative error ln(10) 4.5e-16, and half
-   * an ulp of its own */
+  /* between decades pow(10, x)'s argument errs by half an ulp of 5: ln(10) 4.5e-16, and half an ulp of its own */
   for (int i = 1; i < 7; i += 2)
     CHECK_NEAR(scene_of(s, i * 3L).contacts[0].law.kn / (sqrt(10) * pow(10, 2 + i / 2)), 1, 2e-15, "value %d", i);
   CHECK_NEAR(scene_of(s, 0).damping, 0.1, 0, "first");

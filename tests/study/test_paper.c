@@ -1,6 +1,5 @@
-/* test_paper.c - the shipped studies: every file reads, every query can be run, and every verdict on the paper is one
- * that the file expects; the quick ones give it, which are those that tests/hbm/test_paper.c settles from below. Runs
- * the built hbmcheck (HBMCHECK_COMMAND) on cases/. All of them: study.paper_verdicts (CMakeLists.txt), slow. */
+/* test_paper.c - the shipped studies: every file reads, every query runs, every verdict on the paper is the expected
+ * one; the quick ones give it here (those that tests/hbm/test_paper.c settles), all in study.paper_verdicts, slow. */
 #include <dirent.h>
 #include <sys/wait.h>
 

@@ -123,8 +123,7 @@ static void forget(bodies *b, patch side[2], pairing *p)
   free(side[0].v), free(side[1].v), free(p->pairs);
 }
 
-/* Areas: sums of products of coordinates of some 3, each rounded, over fewer than 1000 triangles: 1000 eps 3^2. A node
- * of the plane has a quarter of each brick's face around it. */
+/* Areas of < 1000 triangles, each of rounded products of 3: 1000 eps 3^2. A node has a quarter of each face. */
 static void flat_faces_pair(CHECK_STATE)
 {
   for (unsigned seed = 0; seed < 20; ++seed) {
@@ -158,8 +157,7 @@ static void faces_are_outside(CHECK_STATE)
   mesh_free(s);
 }
 
-/* Facets of the same size around a node have the radius as their mean; at the edge there is one, half a facet's angle
- * off. The area is that of the facets. */
+/* Equal facets around a node have the radius as mean; at the edge one is half its angle off. */
 static void normals_of_a_cylinder(CHECK_STATE)
 {
   const double R = 4, half = LX / NX / R / 2;
@@ -416,8 +414,7 @@ static void what_does_not_match(CHECK_STATE)
   }
 }
 
-/* A grid without elements, turned in space: cells of Voronoi are the quarters, halves and wholes of its meshes, the
- * normal is that of the plane, from a to b. */
+/* A turned grid without elements: Voronoi's cells are its quarters, halves, wholes; the normal is from a to b. */
 static void a_plane_through_nodes_alone(CHECK_STATE)
 {
   static const double e[3][3] = {{2 / 3., 1 / 3., -2 / 3.}, {-2 / 3., 2 / 3., -1 / 3.}, {1 / 3., 2 / 3., 2 / 3.}};

@@ -37,8 +37,7 @@ static void expect_words(const char *name, const char *const *words)
     if (!strstr(text, *words)) fail_msg("%s does not say '%s'", name, *words);
 }
 
-/* Draw with these arguments into NAME.svg: XML, with these words (NULL ends them), and as many things drawn: gnuplot
- * makes a group with a <title> for each plotted item. */
+/* Draw into NAME.svg: XML with these words (to NULL), and so many items, for each of which gnuplot writes a <title>. */
 static void check_svg_of(const char *name, const char *args, int code, int plots, const char *const *words)
 {
   char line[2048], file[64];
@@ -104,8 +103,7 @@ static void curves_of_others(CHECK_STATE)
   check_svg_of("verify_cycles", WANDERED "--set sweep.frequency=0.5,3", 1, 4, WORDS("frequency [cycles/s]"));
 }
 
-/* Four panels: 8 items, 2 truncation orders and 2 guides, exact forces, 2 sample counts and 2 guides, cells and 2
- * sets of labels. */
+/* Four panels: 8 items; 2 orders, 2 guides; exact forces, 2 sample counts, 2 guides; cells, 2 sets of labels. */
 static void accuracy(CHECK_STATE)
 {
   check_svg("tables", "compare " CASE2 "--at 6,8 --harmonics 1,3 --samples 32,64", 8 + 4 + 5 + 3,

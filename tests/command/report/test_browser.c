@@ -1,6 +1,5 @@
-/* test_browser.c - the page in headless Chromium: opened from disk with #selftest it draws, reads its pixels back,
- * works every control and says what came of it (start.js). Nothing may appear on the console. Skipped, and says so,
- * where Chromium is not installed. */
+/* test_browser.c - the page in headless Chromium: from disk with #selftest it draws, reads its pixels back, works every
+ * control and says what came of it (start.js); the console stays empty. Skipped without Chromium. */
 #include "tests/command/report/run.h"
 
 /* Debian's chromium runs as any user in a container only without its sandbox; the page is our own. */

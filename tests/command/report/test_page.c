@@ -1,5 +1,4 @@
-/* test_page.c - the page that hbmcheck report writes: whole or not there, small, self-contained, the same twice,
- * safe with any title. What a browser makes of it: test_browser.c. */
+/* test_page.c - the page of report: whole or not there, small, self-contained, the same twice, safe with any title. */
 #include <jansson.h>
 
 #include "tests/command/report/run.h"

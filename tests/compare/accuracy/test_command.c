@@ -24,9 +24,8 @@ static void check_falls(const char *csv, const char *family, int n, const char *
   }
 }
 
-/* Case 2 at 6.5: stable, alone, far from folds. Harmonic balance in H: exact forces order 3 to 4 in the amplitude,
- * so a factor 4 in H is 16 and more, 4 asked. Sampled: down to the same H's truncation. The regularised law on case
- * 2 is of first order: a tenth, 1/5 asked. */
+/* Case 2 at 6.5: stable, alone, far from folds. Exact forces are of order 3 to 4 in H: a factor 4 is 16 and more, 4
+ * asked. Sampled: down to the same H's truncation. The regularised law is of first order: a tenth, 1/5 asked. */
 static void errors_fall_along_each_family(CHECK_STATE)
 {
   assert_int_equal(run("bench " CASE2 "--at 6.5 --repeats 1 --alone --format csv -q --set transient.max_periods=2000"),

@@ -21,9 +21,8 @@ static void powers_have_their_exponent(CHECK_STATE)
   }
 }
 
-/* c x^-2, two of the eight by luck 50 times smaller: the envelope puts each at its finer neighbour's, 2^2 too low.
- * That pulls a slope over all eight by sum (i - 3.5) (-2)/42 over these two, at most 2 (3.5 + 2.5)/42 = 0.29.
- * Without an envelope it would be log2(50) instead of 2. */
+/* c x^-2, two of the eight by luck 50 times smaller: the envelope puts each at its finer neighbour's, 2^2 too low,
+ * which pulls a slope over all eight by sum (i - 3.5) (-2)/42, at most 2 (3.5 + 2.5)/42 = 0.29; else log2(50). */
 static void luck_is_no_order(CHECK_STATE)
 {
   double x[N], e[N];

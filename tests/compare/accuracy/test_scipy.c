@@ -1,6 +1,5 @@
-/* test_scipy.c - the process of python3 that bench starts, with a shell script in its place ($PYTHON): what it prints
- * is read, and the call ends also where exit codes cannot be had because SIGCHLD is ignored, as some parents leave
- * it. */
+/* test_scipy.c - the python3 that bench starts, with a shell script in its place ($PYTHON): what it prints is read, and
+ * the call ends also where SIGCHLD is ignored, as some parents leave it, and exit codes cannot be had. */
 #include <signal.h>
 #include <sys/stat.h>
 
@@ -18,8 +17,7 @@ static void be_python(const char *script)
   setenv("PYTHON", program, 1);
 }
 
-/* Asked with a multiplier of 1/2: 30 periods. The script has the seconds that python3 has; a machine that does not
- * start it in that time gives no runs: skipped, where some are asked for. */
+/* Multiplier 1/2: 30 periods. python3 has some seconds; a slow machine makes no run in them, and is skipped. */
 static int asked(scipy_run *runs, char text[96])
 {
   double rest[2] = {0, 0};

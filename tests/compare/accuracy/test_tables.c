@@ -135,8 +135,7 @@ static void check_same_row(const accuracy_row *a, const accuracy_row *b)
   assert_true(a->aliasing == b->aliasing || (isnan(a->aliasing) && isnan(b->aliasing)));
 }
 
-/* Interrupted anywhere: HC_INTERRUPTED, and the rows that are there are those of a run to the end, bit for bit. Some
- * interrupt comes between the two rows. */
+/* Interrupted anywhere: HC_INTERRUPTED, its rows those of a whole run, bit for bit; once between the two rows. */
 static void an_interrupt_keeps_whole_rows(CHECK_STATE)
 {
   scene sc = case2();

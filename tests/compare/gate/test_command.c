@@ -1,6 +1,5 @@
-/* test_command.c - hbmcheck gate as a CI job uses it: the exit code, the table, and a JUnit file that xmllint reads,
- * not us. Runs the built hbmcheck (HBMCHECK_COMMAND) in a shell, in a folder of its own; what passes and what fails
- * is tested in test_judge.c. */
+/* test_command.c - hbmcheck gate as a CI job uses it: the exit code, the table, a JUnit file that xmllint reads, not
+ * us. Runs the built command in a shell, in its own folder; what passes and what fails: test_judge.c. */
 #include <stdbool.h>
 
 #include "tests/folder.h"
@@ -73,9 +72,8 @@ static void passes_then_fails_when_the_result_gets_worse(CHECK_STATE)
   if (!*XMLLINT) skip(); /* the verdicts are checked, the file is not: install libxml2-utils */
 }
 
-/* Case 2 has an unstable solution between two stable ones: right at 9, and 1.6 % off with H = 2 at 8. At 5.56 the
- * period doubles. With H = 1 the curve turns back before 9 and all that is left there is right; that something is
- * missing shows to a transient that comes from elsewhere. */
+/* Case 2 has an unstable solution between two stable ones: right at 9, 1.6 % off with H = 2 at 8. At 5.56 the period
+ * doubles. With H = 1 the curve turns back before 9: a transient that comes from elsewhere shows what is missing. */
 static void unstable_solutions_are_held_against_their_orbits(CHECK_STATE)
 {
   expect(CASE2 "--at 9 --format csv", 0, ",1,unstable,amplitude,orbit,");
