@@ -4,20 +4,32 @@
  * The parts take turns, ROUNDS times, in one run: case file to scene, scene to solver, the curve, stability and
  * responses at its points, special points. Columns: degrees of freedom, contacts, points; processor milliseconds of
  * all but the case file (median), for versus_peer.py, and of the curve; the other parts in terms of the curve. */
+#include <time.h>
+
+#include "base/path.h"
+#include "casefile/case_file.h"
 #include "compare/response.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "study/scene_solvers.h"
-#include "tests/bench/bench.h"
 
-enum { SPECIALS = 256 };
+enum { SPECIALS = 256, MOST_ROUNDS = 1001 };
 enum { READ, SET_UP, CURVE, STABILITY, SPECIAL, WHOLE, PARTS };
 
 /* Milliseconds since *last, which becomes now. */
 static double lap(double *last)
 {
   const double before = *last;
-  *last = cpu_ms();
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  *last = 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
   return *last - before;
+}
+
+static void must(hc_status st, const char *what)
+{
+  if (st == HC_OK) return;
+  fprintf(stderr, "%s: %s\n", what, hc_status_text(st));
+  exit(3);
 }
 
 typedef struct sizes {
@@ -26,7 +38,7 @@ typedef struct sizes {
 
 static void run_case(const char *path, int n_set, char **set, int rounds)
 {
-  static double ms[PARTS][BENCH_MOST_ROUNDS];
+  static double ms[PARTS][MOST_ROUNDS];
   double once[PARTS], median[PARTS];
   sizes z = {0};
   for (int i = 0; i < rounds; ++i) {
@@ -34,8 +46,11 @@ static void run_case(const char *path, int n_set, char **set, int rounds)
     hbm_curve c = {0};
     hbm_special found[SPECIALS];
     int n;
-    double t = cpu_ms();
-    scene sc = read_case(path, n_set, (const char *const *)set);
+    double t = 0;
+    scene sc;
+    case_error err;
+    lap(&t);
+    must(case_read(path, n_set, (const char *const *)set, &sc, &err), path);
     once[READ] = lap(&t);
     must(scene_hbm_solver(&sc, &s), path);
     once[SET_UP] = lap(&t);
@@ -56,15 +71,19 @@ static void run_case(const char *path, int n_set, char **set, int rounds)
     case_clear(&sc);
     for (int p = 0; p < PARTS; ++p) ms[p][i] = once[p];
   }
-  for (int p = 0; p < PARTS; ++p) median[p] = quantile(rounds, ms[p], 0.5);
-  printf("%-26s %4d %4d %5d %12.6f %8.3f %8.2f %8.2f %9.2f %8.2f\n", file_name(path), z.n, z.contacts, z.points,
+  for (int p = 0; p < PARTS; ++p) {
+    qsort(ms[p], (size_t)rounds, sizeof *ms[p], ascending);
+    median[p] = ms[p][rounds / 2];
+  }
+  printf("%-26s %4d %4d %5d %12.6f %8.3f %8.2f %8.2f %9.2f %8.2f\n", path_name(path, NULL), z.n, z.contacts, z.points,
          median[WHOLE], median[CURVE], median[READ] / median[CURVE], median[SET_UP] / median[CURVE],
          median[STABILITY] / median[CURVE], median[SPECIAL] / median[CURVE]);
 }
 
 int main(int argc, char **argv)
 {
-  const int rounds = count_argument(argc, argv, 1, 0, BENCH_MOST_ROUNDS, "ROUNDS CASE.yaml... | CASE.yaml --set ...");
+  const int rounds = argc > 1 ? atoi(argv[1]) : 0;
+  if (rounds < 1 || rounds > MOST_ROUNDS) return 64;
   printf("%-26s %4s %4s %5s %12s %8s %8s %8s %9s %8s\n", "case", "n", "con.", "pts", "ms", "curve ms", "read", "set up",
          "stability", "special");
   if (argc > 4 && !strcmp(argv[3], "--set")) run_case(argv[2], argc - 4, argv + 4, rounds);

@@ -108,19 +108,17 @@ static void describe_mentions_every_field(CHECK_STATE)
 
 static void describe_finds_by_section_name_and_symbol(CHECK_STATE)
 {
+  static const char *const all[][3] = {{"gate", "waveform", "waveform"},
+                                       {"samples", "hbm.samples", "compare.samples"}, /* there are two */
+                                       {"kt", "contacts[].tangential_stiffness", ""},
+                                       {"contacts[3].gap", "contacts[].gap", ""}};
   case_error err;
-  char *text = described("gate", HC_OK, &err);
-  assert_true(strstr(text, "waveform") && !strstr(text, "mass"));
-  free(text);
-  text = described("samples", HC_OK, &err); /* there are two */
-  assert_true(strstr(text, "hbm.samples") && strstr(text, "compare.samples"));
-  free(text);
-  text = described("kt", HC_OK, &err);
-  assert_non_null(strstr(text, "contacts[].tangential_stiffness"));
-  free(text);
-  text = described("contacts[3].gap", HC_OK, &err);
-  assert_non_null(strstr(text, "contacts[].gap"));
-  free(text);
+  char *text;
+  for (int i = 0; i < 4; ++i) {
+    text = described(all[i][0], HC_OK, &err);
+    assert_true(strstr(text, all[i][1]) && strstr(text, all[i][2]) && (i > 0 || !strstr(text, "mass")));
+    free(text);
+  }
   text = described("hbm.sampels", HC_BAD_INPUT, &err);
   assert_string_equal(text, "");
   assert_non_null(strstr(err.message, "did you mean `hbm.samples`?"));

@@ -43,18 +43,25 @@ static hbm_solver *plain(const scene *sc)
   return s;
 }
 
+/* The first solution at omega, asking o. */
+static hc_status first_with(const scene *sc, double omega, oracle *o)
+{
+  double X[64];
+  hbm_point point;
+  hbm_solver *s = plain(sc);
+  hbm_solver_take_guess(s, &(hbm_guess){ask, release, o});
+  const hc_status st = hbm_solve_first(s, omega, X, &point);
+  hbm_solver_free(s);
+  assert_int_equal(o->freed, 1);
+  return st;
+}
+
 static void not_asked_where_the_linear_response_will_do(CHECK_STATE)
 {
   oracle o = {.answer = HC_BUG};
-  double X[64];
-  hbm_point point;
   const scene sc = scene_named("c2", 7, true, 64);
-  hbm_solver *s = plain(&sc);
-  hbm_solver_take_guess(s, &(hbm_guess){ask, release, &o});
-  assert_int_equal(hbm_solve_first(s, 12, X, &point), HC_OK);
+  assert_int_equal(first_with(&sc, 12, &o), HC_OK);
   assert_int_equal(o.asked, 0);
-  hbm_solver_free(s);
-  assert_int_equal(o.freed, 1);
 }
 
 /* A frequency at which Newton fails from the linear response. */
@@ -63,12 +70,7 @@ static double hard_omega(void)
   const scene sc = impacts();
   for (double omega = 3; omega < 30; omega += 0.25) {
     oracle o = {.answer = HC_INTERRUPTED};
-    double X[64];
-    hbm_point point;
-    hbm_solver *s = plain(&sc);
-    hbm_solver_take_guess(s, &(hbm_guess){ask, release, &o});
-    const hc_status st = hbm_solve_first(s, omega, X, &point);
-    hbm_solver_free(s);
+    const hc_status st = first_with(&sc, omega, &o);
     if (o.asked == 1) {
       assert_int_equal(st, HC_INTERRUPTED); /* passed on, and no ramp */
       return omega;
@@ -85,15 +87,8 @@ static void refusals_lead_to_ramps_or_out(CHECK_STATE)
   static const hc_status answers[] = {HC_NOT_SETTLED, HC_NOT_CONVERGED, HC_CHATTER, HC_NO_MEMORY};
   for (int i = 0; i < 4; ++i) {
     oracle o = {.answer = answers[i]};
-    double X[64];
-    hbm_point point;
-    hbm_solver *s = plain(&sc);
-    hbm_solver_take_guess(s, &(hbm_guess){ask, release, &o});
-    const hc_status st = hbm_solve_first(s, omega, X, &point);
+    assert_int_equal(first_with(&sc, omega, &o), answers[i] == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK);
     assert_int_equal(o.asked, 1);
-    assert_int_equal(st, answers[i] == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK);
-    hbm_solver_free(s);
-    assert_int_equal(o.freed, 1);
   }
 }
 

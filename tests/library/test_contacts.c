@@ -1,39 +1,7 @@
 /* test_contacts.c - --contacts by the C API: the numbers of those it calls, of each solution, steady state and row. */
-#include "casefile/case_file.h"
-#include "compare/comparison.h"
-#include "compare/first_guess.h"
-#include "compare/steady_states.h"
-#include "library/hbmcheck.h"
-#include "tests/check.h"
+#include "tests/library/both.h"
 
-#define FOLDER SOURCE_DIR "/cases/structures/"
 enum { MOST = 4 };
-
-/* A case as the public reads it and as the library has it inside, at one frequency of its own. */
-typedef struct both {
-  hbmcheck_case *c;
-  scene sc;
-  compare_setup setup;
-} both;
-
-/* In place: the settings point to the scene's limits. */
-static void read_both(const char *path, double omega, both *b)
-{
-  char message[512];
-  case_error err;
-  if (hbmcheck_case_read(path, 0, NULL, message, sizeof message, &b->c) != HBMCHECK_OK) fail_msg("%s", message);
-  assert_int_equal(case_read(path, 0, NULL, &b->sc, &err), HC_OK);
-  b->sc.compare.omega = (number_list){1, {omega}};
-  assert_int_equal(scene_setup(&b->sc, &b->setup), HC_OK);
-  b->setup.contacts = true;
-}
-
-static void free_both(both *b)
-{
-  hbmcheck_case_free(b->c);
-  scene_setup_clear(&b->setup);
-  case_clear(&b->sc);
-}
 
 static bool same(const hbmcheck_contact_period *p, const contact_period *q)
 {
@@ -95,6 +63,7 @@ static void every_steady_state_has_its_contacts(CHECK_STATE)
   int n = -1, seen = 0;
   hbmcheck_case_watch_contacts(b.c, 1);
   assert_int_equal(hbmcheck_transient_run(b.c, 3, omega, NULL, &t), HBMCHECK_OK);
+  b.setup.contacts = true;
   assert_int_equal(steady_states_run(&b.setup, NULL, &expected), HC_OK);
   assert_int_equal(expected.n, hbmcheck_transient_count(t));
   assert_true(expected.n > 12 && expected.rows[6].result.omega == expected.rows[9].result.omega);
@@ -125,6 +94,7 @@ static void every_row_has_its_contacts(CHECK_STATE)
   int n = -1, made = 0;
   hbmcheck_case_watch_contacts(b.c, 1);
   assert_int_equal(hbmcheck_comparison_run(b.c, 1, (double[]){1.485}, NULL, &found), HBMCHECK_OK);
+  b.setup.contacts = true;
   assert_int_equal(comparison_run(&b.setup, NULL, &expected), HC_OK);
   assert_true(expected.n_contacts == 9 && hbmcheck_comparison_count(found) == 9);
   for (int k = 0; k < 9; ++k) {

@@ -1,63 +1,28 @@
 /* test_structures.c - structures through the C API: a result for each response, the numbers of those it calls. */
-#include "casefile/case_file.h"
-#include "compare/comparison.h"
-#include "compare/first_guess.h"
-#include "compare/steady_states.h"
-#include "library/hbmcheck.h"
-#include "tests/check.h"
+#include "tests/library/both.h"
 
-#define CHAIN SOURCE_DIR "/cases/structures/chain3.yaml"
+#define CHAIN FOLDER "chain3.yaml"
 enum { RESPONSES = 3, MOST = 2 * HBM_MAX_HARMONICS + 1 };
 static const double at[] = {1.9};
 
-static hbmcheck_case *chain(void)
-{
-  hbmcheck_case *c;
-  char message[512];
-  if (hbmcheck_case_read(CHAIN, 0, NULL, message, sizeof message, &c) != HBMCHECK_OK) fail_msg("%s", message);
-  return c;
-}
-
-/* The case as callers have it, and its inner form at the one frequency. */
-typedef struct both_forms {
-  hbmcheck_case *c;
-  scene sc;
-  compare_setup setup;
-} both_forms;
-
-static void both_make(both_forms *b)
-{
-  case_error err;
-  b->c = chain();
-  assert_int_equal(case_read(CHAIN, 0, NULL, &b->sc, &err), HC_OK);
-  b->sc.compare.omega = (number_list){1, {at[0]}};
-  assert_int_equal(scene_setup(&b->sc, &b->setup), HC_OK);
-}
-
-static void both_clear(both_forms *b)
-{
-  hbmcheck_case_free(b->c);
-  scene_setup_clear(&b->setup);
-  case_clear(&b->sc);
-}
-
 static void responses_have_names(CHECK_STATE)
 {
-  hbmcheck_case *c = chain();
+  both b;
   char name[32];
-  assert_int_equal(hbmcheck_case_responses(c), RESPONSES);
-  assert_int_equal(hbmcheck_case_response_name(c, 2, name, sizeof name), HBMCHECK_OK);
+  read_both(CHAIN, at[0], &b);
+  assert_int_equal(hbmcheck_case_responses(b.c), RESPONSES);
+  assert_int_equal(hbmcheck_case_response_name(b.c, 2, name, sizeof name), HBMCHECK_OK);
   assert_string_equal(name, "3");
-  assert_int_equal(hbmcheck_case_response_name(c, 3, name, sizeof name), HBMCHECK_BAD_INPUT);
-  assert_int_equal(hbmcheck_case_response_name(c, -1, name, sizeof name), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_case_response_name(b.c, 3, name, sizeof name), HBMCHECK_BAD_INPUT);
+  assert_int_equal(hbmcheck_case_response_name(b.c, -1, name, sizeof name), HBMCHECK_BAD_INPUT);
   assert_int_equal(hbmcheck_case_response_name(NULL, 0, name, sizeof name), HBMCHECK_BAD_INPUT);
   assert_int_equal(hbmcheck_case_responses(NULL), 0);
-  hbmcheck_case_free(c);
+  free_both(&b);
 }
 
 static void solutions_are_of_every_response(CHECK_STATE)
 {
-  both_forms b;
+  both b;
   hbmcheck_curve *curve;
   hbmcheck_solutions *found;
   hbmcheck_solution one;
@@ -65,7 +30,7 @@ static void solutions_are_of_every_response(CHECK_STATE)
   hbm_curve traced = {0}, there = {0};
   double X[MOST], expected[MOST];
   int n = 0;
-  both_make(&b);
+  read_both(CHAIN, at[0], &b);
   assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &curve), HBMCHECK_OK);
   assert_int_equal(hbmcheck_curve_at(curve, at[0], &found), HBMCHECK_OK);
   assert_int_equal(guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s), HC_OK);
@@ -93,15 +58,15 @@ static void solutions_are_of_every_response(CHECK_STATE)
   hbm_solver_free(s);
   hbmcheck_solutions_free(found);
   hbmcheck_curve_free(curve);
-  both_clear(&b);
+  free_both(&b);
 }
 
 static void steady_states_are_of_every_response(CHECK_STATE)
 {
-  both_forms b;
+  both b;
   hbmcheck_transient *t;
   steady_states expected;
-  both_make(&b);
+  read_both(CHAIN, at[0], &b);
   assert_int_equal(hbmcheck_transient_run(b.c, 1, at, NULL, &t), HBMCHECK_OK);
   assert_int_equal(steady_states_run(&b.setup, NULL, &expected), HC_OK);
   assert_true(expected.n == RESPONSES && hbmcheck_transient_count(t) == RESPONSES);
@@ -116,15 +81,15 @@ static void steady_states_are_of_every_response(CHECK_STATE)
   }
   steady_states_clear(&expected);
   hbmcheck_transient_free(t);
-  both_clear(&b);
+  free_both(&b);
 }
 
 static void comparisons_are_of_every_response(CHECK_STATE)
 {
-  both_forms b;
+  both b;
   hbmcheck_comparison *found;
   comparison expected;
-  both_make(&b);
+  read_both(CHAIN, at[0], &b);
   assert_int_equal(hbmcheck_comparison_run(b.c, 1, at, NULL, &found), HBMCHECK_OK);
   assert_int_equal(comparison_run(&b.setup, NULL, &expected), HC_OK);
   assert_true(expected.n_rows == RESPONSES && hbmcheck_comparison_count(found) == RESPONSES);
@@ -139,7 +104,7 @@ static void comparisons_are_of_every_response(CHECK_STATE)
   assert_int_equal(hbmcheck_comparison_exit_code(found), comparison_exit_code(&expected));
   comparison_clear(&expected);
   hbmcheck_comparison_free(found);
-  both_clear(&b);
+  free_both(&b);
 }
 
 CHECK_TESTS("library.structures", 60, responses_have_names, solutions_are_of_every_response,

@@ -186,32 +186,24 @@ static void wrong_curves_are_refused_in_words(CHECK_STATE)
   const double omega[] = {3.5, 4, 4.5}, value[] = {1, 2, 3}, negative[] = {1, -2, 3}, nan[] = {1, 2, NAN},
                loud[] = {1, 2, 1e6};
   const hbmcheck_foreign good = {.quantity = "amplitude", .n = 3, .omega = omega, .value = value};
-  hbmcheck_foreign bad = good;
-  refuse(c, (bad.quantity = "amplitud", bad), "quantity 'amplitud' is unknown, expected one of amplitude");
-  bad = good;
-  refuse(c, (bad.quantity = NULL, bad), "");
-  bad = good;
-  refuse(c, (bad.n = 2, bad), "2 points, expected at least 3");
-  bad = good;
-  refuse(c, (bad.n = -1, bad), "");
-  bad = good;
-  refuse(c, (bad.n = 100001, bad), "100001 points, expected at most 100000");
-  bad = good;
-  refuse(c, (bad.value = negative, bad), "value[1] = -2 is too small, expected a number >= 0; is it in dB?");
-  bad = good;
-  refuse(c, (bad.value = nan, bad), "value[2] = nan is not finite");
-  bad = good;
-  refuse(c, (bad.omega = nan, bad), "omega[2] = nan is not finite");
-  bad = good;
-  refuse(c, (bad.value = loud, bad.quantity = "dB", bad), "value[2] = 1e+06 is too large");
-  bad = good;
-  refuse(c, (bad.omega = NULL, bad), "");
-  bad = good;
-  refuse(c, (bad.noise = NAN, bad), "noise = nan");
-  bad = good;
-  refuse(c, (bad.noise = 1.5, bad), "noise = 1.5 is no scatter");
-  bad = good;
-  refuse(c, (bad.response = 1, bad), "response 1: there is none, expected 0 to 0");
+#define BUT(member, wrong, words)                                                                                      \
+  bad = good, bad.member = (wrong);                                                                                    \
+  refuse(c, bad, words)
+  hbmcheck_foreign bad;
+  BUT(quantity, "amplitud", "quantity 'amplitud' is unknown, expected one of amplitude");
+  BUT(quantity, NULL, "");
+  BUT(n, 2, "2 points, expected at least 3");
+  BUT(n, -1, "");
+  BUT(n, 100001, "100001 points, expected at most 100000");
+  BUT(value, negative, "value[1] = -2 is too small, expected a number >= 0; is it in dB?");
+  BUT(value, nan, "value[2] = nan is not finite");
+  BUT(omega, nan, "omega[2] = nan is not finite");
+  BUT(omega, NULL, "");
+  BUT(noise, NAN, "noise = nan");
+  BUT(noise, 1.5, "noise = 1.5 is no scatter");
+  BUT(response, 1, "response 1: there is none, expected 0 to 0");
+  bad = good, bad.value = loud;
+  refuse(c, (bad.quantity = "dB", bad), "value[2] = 1e+06 is too large");
   hbmcheck_verification *v = (void *)&v;
   assert_int_equal(hbmcheck_verification_run(NULL, &good, NULL, NULL, 0, &v), HBMCHECK_BAD_INPUT);
   assert_null(v);

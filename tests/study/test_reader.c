@@ -18,10 +18,14 @@ static void refuse(const mistake *m, int n_set, const char *const *set)
 
 #define STUDY "study: t\n"
 #define VARY  "vary: [{hbm.samples: [32, 64]}]\n"
+#define V     STUDY CASE "vary:\n  - "
+#define C     STUDY CONTACT_CASE "vary:\n  - "
+#define K     STUDY CASE VARY "claims:\n  - "
 
-static void the_frame(CHECK_STATE)
+static void in_the_file(CHECK_STATE)
 {
   static const mistake all[] = {
+      /* the frame */
       {"", ":1:1: ", "nothing here, expected a study with `study`, `base` or `case`, and `vary`"},
       {"[1]\n", ":1:1: ", "the study is a list, expected a mapping with"},
       {CASE VARY, ":1:1: ", "missing key `study`, expected the study's title"},
@@ -43,13 +47,7 @@ static void the_frame(CHECK_STATE)
       {STUDY "case: {oscillator: {mass: -1}}\n" VARY, ":2:27: ", "oscillator.mass is `-1`, expected a number > 0"},
       {STUDY "case: 5\n" VARY, ":2:7: ", "the case is a single value"},
       {STUDY CONTACT_CASE "vary:\n  - {contacts[0].gap: [1, 2]}\n", ":4:", "in braces quote an indexed name"},
-  };
-  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refuse(&all[i], 0, NULL);
-}
-
-static void set(CHECK_STATE)
-{
-  static const mistake all[] = {
+      /* `set` */
       {STUDY CASE "set: 5\n" VARY, ":3:6: ", "set is a single value, expected a mapping such as"},
       {STUDY CASE "set: {hbm.harmonic: 3}\n" VARY,
        ":3:7: ", "unknown field `hbm.harmonic`, did you mean `hbm.harmonics`?"},
@@ -61,25 +59,7 @@ static void set(CHECK_STATE)
       {STUDY CASE "set: {hbm.harmonics: 3, hbm.harmonics: 4}\n" VARY, ":3:25: ", "`hbm.harmonics` is given twice"},
       {STUDY CASE "set: {compare.points: 3}\nvary: [{compare.omega: [[5], [6]]}]\n",
        ":4:9: ", "(also `compare.points` on line 3)"},
-  };
-  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refuse(&all[i], 0, NULL);
-}
-
-static void options(CHECK_STATE)
-{
-  static const char *const twice[] = {"hbm.samples=3"}, *const unknown[] = {"hbm.sample=3"},
-                           *const wrong[] = {"hbm.harmonics=x"};
-  refuse(&(mistake){STUDY CASE VARY, ":3:9: ", "(also `hbm.samples` by --set)"}, 1, twice);
-  refuse(&(mistake){STUDY CASE VARY, "--set hbm.sample=3: ", "did you mean `hbm.samples`?"}, 1, unknown);
-  refuse(&(mistake){STUDY CASE VARY, "--set hbm.harmonics=x: ", "hbm.harmonics is `x`"}, 1, wrong);
-}
-
-#define V STUDY CASE "vary:\n  - "
-#define C STUDY CONTACT_CASE "vary:\n  - "
-
-static void axes(CHECK_STATE)
-{
-  static const mistake all[] = {
+      /* the axes of `vary` */
       {STUDY CASE "vary: []\n", ":3:7: ", "vary is an empty list, expected a list of axes"},
       {STUDY CASE "vary: {hbm.samples: [3]}\n", ":3:7: ", "vary is a mapping, expected a list of axes"},
       {V "{}\n", ":4:5: ", "an axis is empty"},
@@ -112,13 +92,7 @@ static void axes(CHECK_STATE)
       {V
        "{oscillator.mass: {from: 1, to: 100, count: 1001}}\n  - {oscillator.damping: {from: 1, to: 2, count: 1000}}\n",
        ":5:5: ", "the grid has 1001000 scenes up to here, expected at most 1000000"},
-  };
-  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refuse(&all[i], 0, NULL);
-}
-
-static void ranges(CHECK_STATE)
-{
-  static const mistake all[] = {
+      /* their ranges */
       {V "{oscillator.mass: {from: 1, to: 2}}\n",
        ":4:23: ", "has an incomplete range, expected {from: A, to: B, count: N}"},
       {V "{oscillator.mass: {}}\n", ":4:23: ", "has an incomplete range"},
@@ -145,15 +119,7 @@ static void ranges(CHECK_STATE)
       {V "{hbm.harmonics: {from: 1, to: 10, count: 3}}\n",
        ":4:21: ", "hbm.harmonics is `5.5`, expected an integer 1..200 or auto"},
       {V "{hbm.static: {from: 0, to: 1, count: 2}}\n", ":4:18: ", "`hbm.static` is no number, expected a list"},
-  };
-  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refuse(&all[i], 0, NULL);
-}
-
-#define K STUDY CASE VARY "claims:\n  - "
-
-static void claims(CHECK_STATE)
-{
-  static const mistake all[] = {
+      /* `claims`, `views` */
       {STUDY CASE VARY "claims: 3\n", ":4:9: ", "claims is a single value, expected a list of"},
       {K "a\n", ":5:5: ", "a claim is a single value"},
       {K "{say: a}\n", ":5:6: ", "unknown key `say` in a claim, did you mean `says`?"},
@@ -179,6 +145,15 @@ static void claims(CHECK_STATE)
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) refuse(&all[i], 0, NULL);
 }
 
+static void options(CHECK_STATE)
+{
+  static const char *const twice[] = {"hbm.samples=3"}, *const unknown[] = {"hbm.sample=3"},
+                           *const wrong[] = {"hbm.harmonics=x"};
+  refuse(&(mistake){STUDY CASE VARY, ":3:9: ", "(also `hbm.samples` by --set)"}, 1, twice);
+  refuse(&(mistake){STUDY CASE VARY, "--set hbm.sample=3: ", "did you mean `hbm.samples`?"}, 1, unknown);
+  refuse(&(mistake){STUDY CASE VARY, "--set hbm.harmonics=x: ", "hbm.harmonics is `x`"}, 1, wrong);
+}
+
 /* A base file's own mistakes are told with its own name; its name is seen from the study's folder. */
 static void a_base_beside_the_study(CHECK_STATE)
 {
@@ -197,5 +172,4 @@ static void a_base_beside_the_study(CHECK_STATE)
   study_free(s);
 }
 
-CHECK_TESTS_WITH("study.reader", 60, folder_make, folder_remove, the_frame, set, options, axes, ranges, claims,
-                 a_base_beside_the_study)
+CHECK_TESTS_WITH("study.reader", 60, folder_make, folder_remove, in_the_file, options, a_base_beside_the_study)
