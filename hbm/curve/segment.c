@@ -375,6 +375,15 @@ typedef struct peak_search {
   hbm_narrowing near;
 } peak_search;
 
+/* (max - min)/2 of the first response. */
+static double amplitude_of(hbm_solver *s, const double *X)
+{
+  double max, min;
+  hbm_system_response(&s->sys, s->sys.n_harm, X, s->x);
+  series_extrema(s->sys.n_harm, s->x, &max, &min);
+  return motion_amplitude(max, min);
+}
+
 /* d amplitude/d arc length [length] of the solution X along the curve's tangent. At an extremum of the response over
  * time its place does not count, so that the amplitude is as smooth as the curve; the difference leaves 1e-10 of it. */
 static double amplitude_slope(hbm_solver *s, const hbm_curve *c, const hbm_point *point, const double *X,
@@ -382,12 +391,10 @@ static double amplitude_slope(hbm_solver *s, const hbm_curve *c, const hbm_point
 {
   const double size = norm_2(c->n_coef, X), way = norm_2(c->n_coef, dX);
   const double step = way > 0 ? 1e-5 * size / way : 0;
-  double amplitude[2], max, min;
+  double amplitude[2];
   for (int k = 0; k < 2; ++k) {
     for (int i = 0; i < c->n_coef; ++i) moved[i] = X[i] + (k ? step : -step) * dX[i];
-    hbm_system_response(&s->sys, s->sys.n_harm, moved, s->x);
-    series_extrema(s->sys.n_harm, s->x, &max, &min);
-    amplitude[k] = motion_amplitude(max, min);
+    amplitude[k] = amplitude_of(s, moved);
   }
   return (amplitude[1] - amplitude[0]) / (2 * step * hypot(way / size, point->d_omega / c->omega_scale));
 }
@@ -401,10 +408,8 @@ static hc_status solve_at_position(const peak_search *p, double position)
 static hc_status minus_amplitude_at(void *self, double position, double *minus_amplitude)
 {
   const peak_search *p = self;
-  hbm_measures m;
-  hc_status st = solve_at_position(p, position);
-  if (st == HC_OK) st = hbm_measure(p->s, p->x->X, &m);
-  *minus_amplitude = st == HC_OK ? -m.amplitude : NAN;
+  const hc_status st = solve_at_position(p, position);
+  *minus_amplitude = st == HC_OK ? -amplitude_of(p->s, p->x->X) : NAN;
   return st;
 }
 
@@ -463,23 +468,16 @@ static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, const d
 hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
 {
   int top = -1;
-  double before = NAN, beside[3] = {NAN, -1, NAN}; /* amplitudes: of the point before; around the highest one */
+  double beside[3] = {NAN, -1, NAN}; /* amplitudes around the highest point */
   for (int k = 0; k < c->n; ++k) {
-    hbm_measures m;
-    hc_status st = hbm_measure(s, hbm_curve_X(c, k), &m);
-    if (st != HC_OK) return st;
-    if (m.amplitude > beside[1]) {
-      beside[0] = before;
-      beside[1] = m.amplitude;
-      top = k;
-    }
-    if (k == top + 1) beside[2] = m.amplitude;
-    before = m.amplitude;
+    const double amplitude = amplitude_of(s, hbm_curve_X(c, k));
+    if (amplitude > beside[1]) beside[1] = amplitude, top = k;
   }
   if (top < 0) return HC_BAD_INPUT;
   peak->omega_scale = c->omega_scale;
   if (top == 0 || top == c->n - 1) /* an end of the sweep: the peak may lie outside */
     return hbm_curve_append(peak, c->n_coef, hbm_curve_X(c, top), hbm_curve_dX(c, top), &c->points[top]);
+  for (int side = -1; side <= 1; side += 2) beside[1 + side] = amplitude_of(s, hbm_curve_X(c, top + side));
   hbm_candidate x;
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
