@@ -104,7 +104,7 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
   seen *s = self;
   CHECK_NEAR(theta0, s->last, 0, "steps follow each other");
   s->last = theta1;
-  double way[SCENE_MAX_CONTACTS] = {0};
+  double path[SCENE_MAX_CONTACTS] = {0};
   for (int i = 0; i <= 4; ++i) {
     double theta = theta0 + (theta1 - theta0) * i / 4, y[SCENE_MAX_STATES], dy[SCENE_MAX_STATES], law[SCENE_MAX_STATES];
     assert_int_equal(integrate_dense(in, theta, 0, y), HC_OK);
@@ -112,12 +112,12 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
     scaled_rhs(s->m, theta, y, law);
     s->worst = fmax(s->worst, fmax(fabs(dy[0] - law[0]), fabs(dy[1] - law[1])));
     for (int j = 0; i % 2 == 0 && j < s->m->n_contacts; ++j) {
-      if (i == 0) way[j] = -y[SCALED_W + j];
-      if (i == 4) way[j] += y[SCALED_W + j];
-      way[j] -= (i == 2 ? 4 : 1) * dy[SCALED_W + j] * (theta1 - theta0) / 6;
+      if (i == 0) path[j] = -y[SCALED_W + j];
+      if (i == 4) path[j] += y[SCALED_W + j];
+      path[j] -= (i == 2 ? 4 : 1) * dy[SCALED_W + j] * (theta1 - theta0) / 6;
     }
   }
-  for (int j = 0; j < s->m->n_contacts; ++j) CHECK_NEAR(way[j], 0, 1e-6, "slider %d from %g to %g", j, theta0, theta1);
+  for (int j = 0; j < s->m->n_contacts; ++j) CHECK_NEAR(path[j], 0, 1e-6, "slider %d from %g to %g", j, theta0, theta1);
   return HC_OK;
 }
 

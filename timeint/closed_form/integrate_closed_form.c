@@ -206,26 +206,16 @@ static hc_status run(by_series *in, bool varies, integrate_watch *watch, void *s
   return HC_OK;
 }
 
-/* Sliders of the motion y (order 0), or their rates where y is its derivative, at tau of the step; NAN: where it has
- * ended. */
-static void put_sliders(const by_series *in, double tau, int order, double *y)
+/* The direction of a slip that turns, at tau of the step. */
+typedef struct turned_at {
+  const motion_series *series;
+  double tau;
+} turned_at;
+
+static void turn(const void *self, int j, contact_track *t)
 {
-  const bool inside = !(isnan(tau) || in->by_modes || in->by_single);
-  double *w = y + 2 * in->n;
-  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
-    const scaled_contact *c = &in->m->contact[j];
-    const contact_track *t = &in->track[j];
-    contact_track turned[2];
-    contact_motion at;
-    scaled_contact_motion(in->m, j, y, at.u, &at.v);
-    if (inside && t->turns) {
-      memcpy(turned, t, (size_t)c->kind->directions * sizeof *t);
-      motion_series_direction(&in->series, j, tau, turned);
-      t = turned;
-    }
-    if (order == 0) contact_track_slider(t, c, &at, w + j);
-    else contact_track_slider_rate(t, c, &at, w + j);
-  }
+  const turned_at *at = self;
+  motion_series_direction(at->series, j, at->tau, t);
 }
 
 static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
@@ -242,7 +232,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   base->transitions += count;
   if (st != HC_OK) return st;
   memcpy(y, in->y, 2 * (size_t)in->n * sizeof *y);
-  put_sliders(in, NAN, 0, y);
+  contact_track_sliders(in->track, m, 0, NULL, NULL, y);
   contact_track_end(in->track, in->n_contacts, y + 2 * in->n);
   if (monodromy) fundamental_matrix_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
@@ -254,7 +244,8 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   if (in->by_single) motion_single_at(&in->single, theta - in->theta, order, y);
   else if (in->by_modes) motion_modes_at(&in->stiff, theta - in->stiff.theta, order, y);
   else motion_series_at(&in->series, theta - in->theta, order, y);
-  put_sliders(in, theta - in->theta, order, y);
+  const turned_at at = {&in->series, theta - in->theta};
+  contact_track_sliders(in->track, in->m, order, in->by_modes || in->by_single ? NULL : turn, &at, y);
   return HC_OK;
 }
 

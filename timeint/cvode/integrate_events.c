@@ -335,25 +335,11 @@ static hc_status begin(events *in, const double *y, int *count)
   return st == HC_OK ? pass_fallen(in, 0, count) : st;
 }
 
-/* Sliders of the motion y (order 0), or their rates where y is its derivative; slips that turn in the directions of
- * their own states own[n_own]. */
-static void set_sliders(const events *in, int order, const double *own, double *y)
+/* A slip that turns, where sliders are wanted. */
+static void turn(const void *self, int j, contact_track *t)
 {
-  double *w = y + 2 * in->n;
-  for (int j = 0; j < in->n_contacts; j += scaled_directions(in->base.m, j)) {
-    const scaled_contact *c = &in->base.m->contact[j];
-    const contact_track *t = &in->track[j];
-    contact_track turned[2];
-    contact_motion at;
-    scaled_contact_motion(in->base.m, j, y, at.u, &at.v);
-    if (t->turns) {
-      memcpy(turned, t, (size_t)c->kind->directions * sizeof *t);
-      follow_own(in, j, own, turned);
-      t = turned;
-    }
-    if (order == 0) contact_track_slider(t, c, &at, w + j);
-    else contact_track_slider_rate(t, c, &at, w + j);
-  }
+  const events *in = self;
+  follow_own(in, j, in->own, t);
 }
 
 static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
@@ -416,7 +402,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
     follow_own(in, j, own_states(in), &in->track[j]);
     note_turn(in, j);
   }
-  set_sliders(in, 0, own_states(in), y);
+  contact_track_sliders(in->track, m, 0, NULL, NULL, y); /* slips that turn are where their own states are */
   contact_track_end(in->track, in->n_contacts, y + 2 * in->n);
   if (monodromy) fundamental_matrix_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
@@ -432,7 +418,7 @@ static hc_status dense(const integrator *base, double theta, int order, double *
     if (CVodeGetDky(in->base.cv, theta, 0, in->base.dky) != CV_SUCCESS) return HC_BUG;
     memcpy(in->own, NV_DATA_S(in->base.dky) + 2 * in->n, (size_t)in->n_own * sizeof *in->own);
   }
-  if (order <= 1) set_sliders(in, order, in->own, y);
+  if (order <= 1) contact_track_sliders(in->track, in->base.m, order, turn, in, y);
   return HC_OK;
 }
 
