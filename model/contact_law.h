@@ -123,16 +123,3 @@ contact_state contact_step_planar(const contact *c, const double u[2], double v,
 /* State just after v + gap rises through 0, from the velocities du and dv > 0 there: it slips with sign s if
  * s kt du > mu kn dv, else it sticks. */
 contact_state contact_on_touch(const contact *c, double du, double dv);
-
-/* Guards of the exact law: each is positive inside the state and reaches 0 where it ends.
- *   contact   v + gap
- *   stick     mu N - s kt (u - w)     for s = +1 and -1
- *   slip(s)   s kt du - mu kn dv */
-static inline double contact_guard_stick(const contact *c, int s, double u, double v, double w)
-{
-  return c->mu * contact_normal(c, v) - s * c->kt * (u - w);
-}
-static inline double contact_guard_slip(const contact *c, int s, double du, double dv)
-{
-  return s * c->kt * du - c->mu * c->kn * dv;
-}

@@ -1,16 +1,5 @@
-/* test_curve.c - response curves: closed forms along linear sweeps, the reference rows and peaks, from either end. */
-#include "tests/hbm/traced.h"
-
-static reference_row rows[MAX_REFERENCE];
-static reference_peak peaks[MAX_REFERENCE];
-static int n_rows, n_peaks;
-
-static int read_references(CHECK_STATE)
-{
-  n_rows = read_reference_rows(rows);
-  n_peaks = read_reference_peaks(peaks);
-  return 0;
-}
+/* test_curve.c - response curves: closed forms along linear sweeps, the reference rows and peaks with sampled forces. */
+#include "tests/hbm/curve_reference.h"
 
 /* A whole sweep, up or down, its points and between them, and its peak: F0/(C sqrt(k/M - C^2/4M^2)) at w^2 = k/M -
  * C^2/2M^2. */
@@ -121,32 +110,13 @@ static void reference_rows_and_peaks(CHECK_STATE)
         bool hard = !strcmp(r->name, "c2kn1e4");
         if (hard && keep_mean && o > 0) continue;
         scene sc = scene_named(r->name, orders[o], keep_mean, 4096);
-        traced t = trace(&sc, r->omega_from, r->omega_to, r->name);
-        if (t.status != HC_OK || t.curve.left_at_start)
-          fail_msg("%s H=%d static=%d: %s", r->name, orders[o], keep_mean, hc_status_text(t.status));
+        traced t = whole(&sc, r->omega_from, r->omega_to, r->name);
         n_checked += check_rows(n_rows, rows, &t, r->name, orders[o], keep_mean, false, SAMPLED, true);
         if (!(hard && !keep_mean)) n_tops += check_peak(&t, r->name, orders[o], keep_mean);
         free_traced(&t);
       }
   print_message("%d rows, %d peaks\n", n_checked, n_tops);
   assert_true(n_checked == 516 && n_tops == 43);
-}
-
-/* These curves hang together: from the other end the same points come in the opposite order. */
-static void from_the_other_end(CHECK_STATE)
-{
-  static const char *const names[] = {"a10", "b10", "c2", "c2kt1e4", "gap1", "r1", "r2"};
-  for (int i = 0; i < 7; ++i)
-    for (int n_harm = 1; n_harm <= 5; n_harm += 4)
-      for (int keep_mean = 0; keep_mean <= 1; ++keep_mean) {
-        scene sc = scene_named(names[i], n_harm, keep_mean, 4096);
-        traced t = trace(&sc, sc.omega_to, sc.omega_from, names[i]);
-        if (t.status != HC_OK || t.curve.left_at_start)
-          fail_msg("%s H=%d static=%d, downwards: %s%s", names[i], n_harm, keep_mean, hc_status_text(t.status),
-                   t.curve.left_at_start ? ", turned back" : "");
-        assert_true(check_rows(n_rows, rows, &t, names[i], n_harm, keep_mean, true, SAMPLED, true) > 8);
-        free_traced(&t);
-      }
 }
 
 /* Arc-length only takes the same curve: every row of these scenes at H = 5 with harmonic 0. */
@@ -167,5 +137,4 @@ static void arclength_only(CHECK_STATE)
   }
 }
 
-CHECK_TESTS_WITH("hbm.curve", 300, read_references, NULL, linear_sweeps, reference_rows_and_peaks, from_the_other_end,
-                 arclength_only)
+CHECK_TESTS_WITH("hbm.curve", 300, read_references, NULL, linear_sweeps, reference_rows_and_peaks, arclength_only)

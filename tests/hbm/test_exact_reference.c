@@ -1,18 +1,7 @@
 /* test_exact_reference.c - response curves with event-located forces: every reference row and peak, and the paper's
  * stiffest contacts. The reference numbers are of the same equations by another program (tests/reference/README.md):
  * nothing but rounding may differ. */
-#include "tests/hbm/traced.h"
-
-static reference_row rows[MAX_REFERENCE];
-static reference_peak peaks[MAX_REFERENCE];
-static int n_rows, n_peaks;
-
-static int read_references(CHECK_STATE)
-{
-  n_rows = read_reference_rows(rows);
-  n_peaks = read_reference_peaks(peaks);
-  return 0;
-}
+#include "tests/hbm/curve_reference.h"
 
 /* A table without one of the scenes would pass the comparisons below. */
 static void the_tables_are_whole(CHECK_STATE)
@@ -92,16 +81,6 @@ static int check_peak(const traced *t, const char *name, int n_harm, int keep_me
     ++tops;
   }
   return tops;
-}
-
-static traced whole(const scene *sc, double from, double to, const char *what)
-{
-  traced t = trace(sc, from, to, what);
-  if (t.status != HC_OK || t.curve.left_at_start)
-    fail_msg("%s H=%d static=%d from %g: %s at %.9g%s", what, sc->hbm.harmonics, sc->hbm.keep_mean, from,
-             hc_status_text(t.status), t.curve.points[t.curve.n - 1].omega,
-             t.curve.left_at_start ? ", turned back" : "");
-  return t;
 }
 
 static void reference_rows_and_peaks(CHECK_STATE)
