@@ -1,4 +1,4 @@
-/* test_linear_regime.c - the closed form against the table and against integration. Where linear_regime_is_final says
+/* test_linear_regime.c - the closed form against integration (against the table: test_closed.c). Where linear_regime_is_final says
  * yes no contact changes its state; and it says yes up to where one does. */
 
 #include <float.h>
@@ -6,7 +6,6 @@
 #include "model/linear.h"
 #include "tests/random.h"
 #include "tests/scene_parts.h"
-#include "tests/timeint/reference_rows.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/steady/linear_regime.h"
 #include "timeint/steady/timeint_private.h"
@@ -70,42 +69,6 @@ static bool is_final(const scene *sc, double omega, const scene_state *st)
   bool yes = is_final_from(ti, omega, st);
   timeint_free(ti);
   return yes;
-}
-
-/* In the middle of where a stuck slider may rest, were x centred: -T <= mu N at the lowest x, T <= mu N at the
- * highest. */
-static double middle(const scene *sc, double omega)
-{
-  const double none[SCENE_MAX_CONTACTS] = {0};
-  const contact *law = &sc->contacts[0].law;
-  const double a = cabs(orbit_of(sc, omega, none).z) * sqrt(0.5), n = law->mu * law->kn / law->kt;
-  double high = n * (law->gap - a) - a, low = a - n * (law->gap + a); /* of w */
-  return 0.5 * (fmin(high, fabs(low)) + low);
-}
-
-/* The table has 12 digits: 5e-12 at worst, of a number that begins with 1. */
-static void rows_of_the_table(CHECK_STATE)
-{
-  int n = 0;
-  for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
-    const steady_reference *row = &steady_references[i];
-    if (row->events > 0) continue;
-    scene sc = scene_reference(row->name);
-    const double w[SCENE_MAX_CONTACTS] = {sc.contacts[0].law.gap > 0 ? middle(&sc, row->omega) : 0};
-    for (int law = 0; law < 2; ++law) {
-      sc.transient.law = law;
-      timeint *ti = make(&sc);
-      scene_state st = state_of(&sc, row->omega, w, 0, 0);
-      timeint_result r;
-      CHECK_LE(1, is_final_from(ti, row->omega, &st), "case %s at %g", row->name, row->omega);
-      linear_regime_steady(ti, &r);
-      CHECK_NEAR(r.amplitude, row->amplitude, 1e-11 * row->amplitude, "case %s at %g", row->name, row->omega);
-      CHECK_NEAR(r.harmonic_1, row->harmonic_1, 1e-11 * row->amplitude, "case %s at %g", row->name, row->omega);
-      timeint_free(ti);
-      ++n;
-    }
-  }
-  CHECK_LE(80, n, "rows");
 }
 
 /* From a state off the orbit the closed form is where marching settles, which is within transient.tolerance, 1e-9 of
@@ -465,6 +428,5 @@ static void multipliers(CHECK_STATE)
   }
 }
 
-CHECK_TESTS_WITH("timeint.linear_regime", 300, read_steady_references, NULL, rows_of_the_table, measures,
-                 a_slider_keeps_another_contact_open_or_closed, a_yes_is_right, edges, from_rest, undamped,
-                 no_stiffness_and_no_number, multipliers)
+CHECK_TESTS("timeint.linear_regime", 300, measures, a_slider_keeps_another_contact_open_or_closed, a_yes_is_right,
+            edges, from_rest, undamped, no_stiffness_and_no_number, multipliers)
