@@ -1,8 +1,6 @@
 /* test_integrate.c - one period by CVODE: against a closed form, bit for bit again, and what its flags become. */
 
-#include <cvodes/cvodes.h>
-
-#include "tests/scene_parts.h"
+#include "tests/timeint/integrator_failures.h"
 #include "tests/timeint/scenes.h"
 
 /* x'' + c x' + k x = f cos(theta) from x = x' = 0: the forced motion plus the free one that cancels it at 0. */
@@ -95,21 +93,7 @@ static void failures_are_reported(CHECK_STATE)
   scene sc = scene_c2();
   scaled_model m;
   scene_scaled(&m, &sc, 7, 10);
-  integrator *in;
-  double y[SCENE_MAX_STATES] = {0.5, 0, 0};
-  assert_int_equal(integrate_new_regularised(m.base, 1e-30, &in), HC_OK); /* no double is that good */
-  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
-  assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);
-  CHECK_LE(fabs(y[0] - 0.5) + fabs(y[1]) + fabs(y[2]), 0, "the state stays");
-  assert_int_equal(integrate_tolerance(in, 1e-8), HC_OK);
-  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK); /* and works again */
-  m.by_load = NAN;
-  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_NOT_FINITE);
-  m.by_load = INFINITY;
-  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_NOT_FINITE);
-  integrate_free(in);
-  assert_int_not_equal(integrate_new_regularised(m.base, -1, &in), HC_OK);
-  assert_null(in);
+  check_integrator_failures(integrate_new_regularised, m);
 }
 
 CHECK_TESTS("timeint.integrate", 120, linear_period_is_the_closed_form, watched_period_is_the_same,

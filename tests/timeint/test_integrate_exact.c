@@ -1,9 +1,8 @@
 /* test_integrate_exact.c - periods of the exact law by CVODE: against closed forms, its monodromy matrix against
  * differences, and transitions that coincide, graze or end the period. */
 
-#include <cvodes/cvodes.h>
-
 #include "tests/timeint/exact_periods.h"
+#include "tests/timeint/integrator_failures.h"
 
 #define tol 1e-12 /* CVODE's. A period is some 200 steps, each of which may err by it */
 
@@ -166,26 +165,7 @@ static void any_start_follows_the_closed_form(CHECK_STATE)
 
 static void failures_are_reported(CHECK_STATE)
 {
-  scaled_model m = exact_model(scene_c2(), 7, 10);
-  integrator *in;
-  double y[SCENE_MAX_STATES] = {0.5, 0, 0};
-  assert_int_equal(integrate_new_events(m.base, 1e-30, &in), HC_OK); /* no double is that good */
-  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_INTEGRATOR);
-  assert_int_equal(integrate_flag(in), CV_TOO_MUCH_ACC);
-  CHECK_NEAR(y[0], 0.5, 0, "the state stays");
-  assert_int_equal(integrate_tolerance(in, 1e-8), HC_OK);
-  assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK); /* and works again */
-  const double bad[] = {NAN, INFINITY};
-  for (int i = 0; i < 2; ++i) {
-    scaled_model broken = m;
-    broken.by_load = bad[i];
-    assert_int_equal(integrate_period(in, &broken, y, NULL, NULL), HC_NOT_FINITE);
-    double z[SCENE_MAX_STATES] = {0, bad[i], 0};
-    assert_int_equal(integrate_period(in, &m, z, NULL, NULL), HC_NOT_FINITE);
-  }
-  integrate_free(in);
-  assert_int_not_equal(integrate_new_events(m.base, -1, &in), HC_OK);
-  assert_null(in);
+  check_integrator_failures(integrate_new_events, exact_model(scene_c2(), 7, 10));
 }
 
 CHECK_TESTS("timeint.integrate_exact", 120, they_follow_the_oracle, bilinear_contacts_need_no_friction,

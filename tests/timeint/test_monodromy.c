@@ -1,5 +1,4 @@
-/* test_monodromy.c - the monodromy matrix of a period (regularised law): against differences of periods and against
- * closed forms. */
+/* test_monodromy.c - the monodromy matrix of a period (regularised law): against differences of periods. */
 
 #include "model/linear.h"
 #include "tests/scene_parts.h"
@@ -65,29 +64,6 @@ static void monodromy_is_the_difference_of_periods(CHECK_STATE)
   }
 }
 
-static double det(const double *a)
-{
-  return a[0] * (a[4] * a[8] - a[7] * a[5]) - a[3] * (a[1] * a[8] - a[7] * a[2]) + a[6] * (a[1] * a[5] - a[4] * a[2]);
-}
-
-/* a10 at 10 sticks all the time: stiffness 40 + 150, the slider stays, and x moves with it like with a constant
- * force: det = exp(-C T/M). Nothing has corners: each of some 500 steps at 1e-6. */
-static void stuck_period_is_the_closed_form(CHECK_STATE)
-{
-  scene sc = scene_a10();
-  scaled_model m;
-  scene_scaled(&m, &sc, 10, 0.1);
-  integrator *in = make(&m, 1e-12);
-  double y[N] = {1, 0, 0.1}, monodromy[N * N], e[2][2], k = 190. / 100, by_w = 100 * sqrt(0.5) / 190;
-  assert_int_equal(integrate_monodromy(in, &m, y, monodromy), HC_OK);
-  linear_free_motion(1, 0.04, k, 2 * PI, e);
-  const double want[N * N] = {e[0][0], e[1][0], 0, e[0][1], e[1][1], 0, by_w * (1 - e[0][0]), -by_w * e[1][0], 1};
-  const double bound = 1e-6 * (double)integrate_steps(in);
-  for (int i = 0; i < N * N; ++i) CHECK_NEAR(monodromy[i], want[i], bound, "monodromy[%d]", i);
-  CHECK_NEAR(det(monodromy), exp(-2 * PI * 0.04), 6 * bound, "no slip: Liouville");
-  integrate_free(in);
-}
-
 static void a_period_with_monodromy_does_not_affect_the_next(CHECK_STATE)
 {
   scene sc = scene_c2();
@@ -113,5 +89,5 @@ static void a_period_with_monodromy_does_not_affect_the_next(CHECK_STATE)
   integrate_free(in);
 }
 
-CHECK_TESTS("timeint.monodromy", 120, monodromy_is_the_difference_of_periods, stuck_period_is_the_closed_form,
+CHECK_TESTS("timeint.monodromy", 120, monodromy_is_the_difference_of_periods,
             a_period_with_monodromy_does_not_affect_the_next)

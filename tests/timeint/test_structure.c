@@ -270,35 +270,6 @@ static void monodromy_of_many_columns(CHECK_STATE)
 
 static void newton_solves_the_equations(CHECK_STATE) { check_newton(draw); }
 
-/* The monodromy matrix of the regularised law against differences of its period map: of what CVODE's tolerance leaves
- * of them, 1e-12/1e-5 times some hundred, and of the variations' own 1e-6 a step. */
-static void regularised_monodromy_is_the_derivative(CHECK_STATE)
-{
-  uint64_t seed = 21;
-  for (int trial = 0; trial < 4; ++trial) {
-    drawn d;
-    integrator *in;
-    double y[MOST] = {0}, phi[MOST * MOST], end[2][MOST], z[MOST];
-    draw_of_size(&seed, TRANSIENT_LAW_REGULARISED, 3, 2, &d);
-    const int n = d.scaled.n_states;
-    assert_int_equal(integrate_new_regularised(d.base, 1e-12, &in), HC_OK);
-    for (int period = 0; period < 3; ++period) assert_int_equal(integrate_period(in, &d.scaled, y, NULL, NULL), HC_OK);
-    memcpy(z, y, sizeof y);
-    assert_int_equal(integrate_monodromy(in, &d.scaled, z, phi), HC_OK);
-    for (int q = 0; q < n; ++q) {
-      for (int side = 0; side < 2; ++side) {
-        memcpy(end[side], y, sizeof y);
-        end[side][q] += side ? 1e-5 : -1e-5;
-        assert_int_equal(integrate_period(in, &d.scaled, end[side], NULL, NULL), HC_OK);
-      }
-      for (int i = 0; i < n; ++i)
-        CHECK_NEAR((end[1][i] - end[0][i]) / 2e-5, phi[i + q * n], 1e-3, "trial %d [%d, %d]", trial, i, q);
-    }
-    integrate_free(in);
-    undraw(&d);
-  }
-}
-
 /* x = Q y changes no response: rounding, and what the settling leaves of 1e-12. */
 static void other_coordinates_change_nothing(CHECK_STATE)
 {
@@ -345,4 +316,4 @@ static void a_massless_freedom_is_refused(CHECK_STATE)
 
 CHECK_TESTS("timeint.structure", 120, periods_meet_the_reference, series_and_closed_form_agree, series_and_events_agree,
             monodromy_is_the_derivative, monodromy_of_many_columns, newton_solves_the_equations,
-            regularised_monodromy_is_the_derivative, other_coordinates_change_nothing, a_massless_freedom_is_refused)
+            other_coordinates_change_nothing, a_massless_freedom_is_refused)
