@@ -246,16 +246,6 @@ static void the_line_search_helps_out(CHECK_STATE)
 /* |x| + 1: ends in the kink, where no step lowers it. A stall, and said to be one. */
 EQUATION(kink, fabs(z) + 1, z < 0 ? -1 : 1)
 
-static void a_stall_is_said(CHECK_STATE)
-{
-  probe p;
-  newton *nw = make_scalar(&p, kink);
-  newton_report report;
-  assert_int_equal(fails_untouched(nw, 1, (double[]){3}, &plain, &report), HC_STALLED);
-  CHECK_NEAR(report.residual, 1, 1e-6, "the residual of the kink");
-  newton_free(nw);
-}
-
 /* r = (x + y - 1, x + y - 2): every Jacobian is singular, exactly in floating point too. */
 static hc_status parallel_residual(void *self, const double *z, double *r)
 {
@@ -322,15 +312,6 @@ static hc_status start_only(const probe *p, double z, double *r, double *slope)
   return HC_OK;
 }
 
-static void the_reason_of_a_refusal_survives(CHECK_STATE)
-{
-  probe p;
-  newton *nw = make_scalar(&p, start_only);
-  newton_report report;
-  assert_int_equal(fails_untouched(nw, 1, (double[]){1}, &plain, &report), HC_NOT_CLOSED);
-  newton_free(nw);
-}
-
 /* A NaN that the problem did not refuse must not count as convergence, nor keep the line search in a loop. */
 static void nan_is_refused(CHECK_STATE)
 {
@@ -353,13 +334,21 @@ static hc_status nan_slope(const probe *p, double z, double *r, double *slope)
   return st;
 }
 
-static void a_nan_jacobian_is_not_an_answer(CHECK_STATE)
+static void failures_are_told(CHECK_STATE)
 {
-  probe p;
-  newton *nw = make_scalar(&p, nan_slope);
-  newton_report report;
-  fails_untouched(nw, 1, (double[]){0.5}, &plain, &report);
-  newton_free(nw);
+  const struct {
+    equation *f;
+    double start;
+    hc_status st;
+  } all[] = {{kink, 3, HC_STALLED}, {start_only, 1, HC_NOT_CLOSED}, {nan_slope, 0.5, HC_SINGULAR}};
+  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+    probe p;
+    newton_report report;
+    newton *nw = make_scalar(&p, all[i].f);
+    assert_int_equal(fails_untouched(nw, 1, &all[i].start, &plain, &report), all[i].st);
+    if (i == 0) CHECK_NEAR(report.residual, 1, 1e-6, "the residual of the kink");
+    newton_free(nw);
+  }
 }
 
 /* A handle that failed is as good as new. */
@@ -434,6 +423,5 @@ static void out_of_memory_ends_it(CHECK_STATE)
 }
 
 CHECK_TESTS("numerics.newton", 60, quadratic_like_heron, weights_are_units, backsolve_is_the_inverse_at_the_end,
-            starts_from_zero, starts_at_the_root, no_root_is_never_ok, the_line_search_helps_out, a_stall_is_said,
-            singular_is_said, refusals_are_passed_on, the_reason_of_a_refusal_survives, nan_is_refused,
-            a_nan_jacobian_is_not_an_answer, works_on_after_failures, out_of_memory_ends_it)
+            starts_from_zero, starts_at_the_root, no_root_is_never_ok, the_line_search_helps_out, singular_is_said,
+            refusals_are_passed_on, nan_is_refused, failures_are_told, works_on_after_failures, out_of_memory_ends_it)
