@@ -1,4 +1,4 @@
-/* test_curve.c - response curves: closed forms along linear sweeps, the reference rows and peaks with sampled forces. */
+/* test_curve.c - response curves: closed forms of linear sweeps, the reference rows and peaks with sampled forces. */
 #include "tests/hbm/curve_reference.h"
 
 /* A whole sweep, up or down, its points and between them, and its peak: F0/(C sqrt(k/M - C^2/4M^2)) at w^2 = k/M -

@@ -10,8 +10,8 @@ static void *make(const contact *whole, hbm_restart restart, int H, int N)
   return a;
 }
 
-/* On one line both march by the same sums but for dir's: 1e-13 of the forces; a slider keeps the roundings of a period's
- * steps, and 30 of them at w are 30 kt. */
+/* On one line both march by the same sums but for dir's: 1e-13 of the forces; a slider keeps the roundings of a
+ * period's steps, and 30 of them at w are 30 kt. */
 static const planar_way way = {&planar_aft_evaluator, &aft_evaluator, true, 1e-13};
 
 static void a_line_is_one_tangent(CHECK_STATE) { check_on_line(&way); }

@@ -1,5 +1,5 @@
-/* test_exact_reference.c - the exact law by CVODE, swept up and down, against tests/reference/transient_exact.csv: every
- * row of all eight cases. */
+/* test_exact_reference.c - the exact law by CVODE, swept up and down, against every row of
+ * tests/reference/transient_exact.csv. */
 
 #include "tests/timeint/reference_rows.h"
 

@@ -1,5 +1,5 @@
-/* test_linear_regime.c - the closed form against integration (against the table: test_closed.c). Where linear_regime_is_final says
- * yes no contact changes its state; and it says yes up to where one does. */
+/* test_linear_regime.c - the closed form against integration (against the table: test_closed.c). Where
+ * linear_regime_is_final says yes no contact changes its state; and it says yes up to where one does. */
 
 #include <float.h>
 

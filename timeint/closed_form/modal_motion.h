@@ -1,4 +1,4 @@
-/* modal_motion.h - the motion of one mode in closed form, and where it leaves a region. libm only, nothing is allocated.
+/* modal_motion.h - one mode's motion in closed form, and where it leaves a region. libm only, nothing is allocated.
  *
  *     q'' + c q' + k q = d + Re(f e^{i theta})          c >= 0; k of either sign, or 0
  * with constant c, k, d, f. From (q, p) at `theta`, tau later:
