@@ -232,7 +232,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   base->transitions += count;
   if (st != HC_OK) return st;
   memcpy(y, in->y, 2 * (size_t)in->n * sizeof *y);
-  contact_track_sliders(in->track, m, 0, NULL, NULL, y);
+  integrate_sliders(in->track, m, 0, NULL, NULL, y);
   contact_track_end(in->track, in->n_contacts, y + 2 * in->n);
   if (monodromy) fundamental_matrix_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
@@ -245,7 +245,7 @@ static hc_status dense(const integrator *base, double theta, int order, double *
   else if (in->by_modes) motion_modes_at(&in->stiff, theta - in->stiff.theta, order, y);
   else motion_series_at(&in->series, theta - in->theta, order, y);
   const turned_at at = {&in->series, theta - in->theta};
-  contact_track_sliders(in->track, in->m, order, in->by_modes || in->by_single ? NULL : turn, &at, y);
+  integrate_sliders(in->track, in->m, order, in->by_modes || in->by_single ? NULL : turn, &at, y);
   return HC_OK;
 }
 

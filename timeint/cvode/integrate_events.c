@@ -402,7 +402,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
     follow_own(in, j, own_states(in), &in->track[j]);
     note_turn(in, j);
   }
-  contact_track_sliders(in->track, m, 0, NULL, NULL, y); /* slips that turn are where their own states are */
+  integrate_sliders(in->track, m, 0, NULL, NULL, y); /* slips that turn are where their own states are */
   contact_track_end(in->track, in->n_contacts, y + 2 * in->n);
   if (monodromy) fundamental_matrix_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
@@ -418,7 +418,7 @@ static hc_status dense(const integrator *base, double theta, int order, double *
     if (CVodeGetDky(in->base.cv, theta, 0, in->base.dky) != CV_SUCCESS) return HC_BUG;
     memcpy(in->own, NV_DATA_S(in->base.dky) + 2 * in->n, (size_t)in->n_own * sizeof *in->own);
   }
-  if (order <= 1) contact_track_sliders(in->track, in->base.m, order, turn, in, y);
+  if (order <= 1) integrate_sliders(in->track, in->base.m, order, turn, in, y);
   return HC_OK;
 }
 

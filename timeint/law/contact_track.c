@@ -196,20 +196,6 @@ void contact_track_slider_rate(const contact_track *t, const scaled_contact *c, 
   for (int a = 0; a < c->kind->directions; ++a) dw[a] = free ? rates->u[a] : s * t[a].along;
 }
 
-void contact_track_sliders(const contact_track *track, const scaled_model *m, int order, contact_track_turn *turn,
-                           const void *self, double *y)
-{
-  double *w = y + 2 * m->n;
-  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
-    const scaled_contact *c = &m->contact[j];
-    contact_track t[2] = {track[j], track[j + c->kind->directions - 1]};
-    contact_motion at;
-    scaled_contact_motion(m, j, y, at.u, &at.v);
-    if (turn && t->turns) turn(self, j, t);
-    (order == 0 ? contact_track_slider : contact_track_slider_rate)(t, c, &at, w + j);
-  }
-}
-
 void contact_track_end(contact_track *t, int n_contacts, const double *w)
 {
   for (int j = 0; j < n_contacts; ++j) {

@@ -54,12 +54,6 @@ void contact_track_slider(const contact_track *t, const scaled_contact *c, const
 void contact_track_slider_rate(const contact_track *t, const scaled_contact *c, const contact_motion *rates,
                                double *dw);
 
-/* Of all contacts: sliders of the motion y (order 0), or their rates where y is its derivative. `turn`, unless NULL,
- * sets the direction of contact j, whose slip turns, in its tracks t. */
-typedef void contact_track_turn(const void *self, int j, contact_track *t);
-void contact_track_sliders(const contact_track *track, const scaled_model *m, int order, contact_track_turn *turn,
-                           const void *self, double *y);
-
 /* `most` with the sliders where they are at that motion; at w, in all contacts, when the period is over. */
 void contact_track_note(contact_track *t, const scaled_contact *c, const contact_motion *at);
 void contact_track_end(contact_track *t, int n_contacts, const double *w);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "timeint/law/contact_track.h"
 #include "timeint/period/integrate_private.h"
 
 void integrate_free(integrator *in)
@@ -76,3 +77,17 @@ long integrate_steps(const integrator *in) { return in->steps; }
 long integrate_rhs(const integrator *in) { return in->rhs; }
 long integrate_transitions(const integrator *in) { return in->transitions; }
 int integrate_flag(const integrator *in) { return in->flag; }
+
+void integrate_sliders(const contact_track *track, const scaled_model *m, int order, integrate_turn *turn,
+                       const void *self, double *y)
+{
+  double *w = y + 2 * m->n;
+  for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
+    const scaled_contact *c = &m->contact[j];
+    contact_track t[2] = {track[j], track[j + c->kind->directions - 1]};
+    contact_motion at;
+    scaled_contact_motion(m, j, y, at.u, &at.v);
+    if (turn && t->turns) turn(self, j, t);
+    (order == 0 ? contact_track_slider : contact_track_slider_rate)(t, c, &at, w + j);
+  }
+}

@@ -17,6 +17,12 @@ typedef struct integrator_class {
   void (*free)(integrator *);
 } integrator_class;
 
+/* Of all contacts: sliders of the motion y (order 0), or their rates where y is its derivative. `turn`, unless NULL,
+ * sets the direction of contact j, whose slip turns, in its tracks t. */
+typedef void integrate_turn(const void *self, int j, contact_track *t);
+void integrate_sliders(const contact_track *track, const scaled_model *m, int order, integrate_turn *turn,
+                       const void *self, double *y);
+
 /* Transitions of a period beyond which it is chatter: 1000, or 60 a contact if that is more. One that closes, slips,
  * sticks, slips, sticks and opens makes 6 an oscillation. */
 static inline int integrate_most_transitions(int n_contacts) { return n_contacts > 16 ? 60 * n_contacts : 1000; }
