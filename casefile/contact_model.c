@@ -35,6 +35,13 @@ static double slope(const scene_contact *c, int i)
   return (c->points[i + 1][1] - c->points[i][1]) / (c->points[i + 1][0] - c->points[i][0]);
 }
 
+double scene_contact_table(const scene_contact *c, double d)
+{
+  int i = 0;
+  while (i + 2 < c->n_points && d > c->points[i + 1][0]) ++i;
+  return c->points[i][1] + slope(c, i) * (d - c->points[i][0]);
+}
+
 double scene_contact_slope(const scene_contact *c)
 {
   double k = c->kind == SCENE_LAW_TABLE ? slope(c, 0) : 0;

@@ -70,6 +70,7 @@ int scene_contact_parts(const scene_contact *c);
 double scene_contact_slope(const scene_contact *c);
 double scene_contact_stiffness(const scene_contact *c, bool at_rest); /* with all of them; at_rest: closed at d = 0 */
 void scene_contact_put(const scene_contact *c, int n, const double *direction, model_contact *to);
+double scene_contact_table(const scene_contact *c, double d); /* f(d) [force] */
 
 /* The contact with its direction to x; not of a table. */
 moving_contact scene_moving_contact(const scene_contact *c);

@@ -33,8 +33,10 @@ typedef struct contact_options {
 } contact_options;
 
 typedef struct contact_motion {
-  int one;         /* which contact of the case, -1: all */
-  int in_model;    /* the same of its model */
+  int one;      /* which contact of the case, -1: all */
+  int in_model; /* the same of its model, -1: all of a model's */
+  const scene_contact
+      *table;      /* NULL: that contact is none; its springs, a model by themselves, are moved by d, its v */
   given_motion of; /* with these: */
   moving_contact *contacts;
   double slider[2];                               /* [length] where it starts: taken off u, or u_1 and u_2 */
@@ -93,7 +95,7 @@ static int check_directions(const cli_common *common, const contact_options *own
                             const contact_motion *m)
 {
   static const char *const words[] = {"tangent", "second tangent", "normal"};
-  const model_contact *c = &of->contacts[m->in_model];
+  const model_contact *c = &of->contacts[m->table ? 0 : m->in_model];
   const double *const directions[] = {c->tangent, m->of.pair ? c[1].tangent : NULL, c->normal};
   char name[CLI_NAME];
   cli_contact_name(common, m->one, name);
@@ -128,7 +130,8 @@ static int read_motions(const cli_common *common, const contact_options *own, co
                                  : "--slider: '%s' is not a finite number",
                       own->slider);
   if (m->one < 0) return 0;
-  if (own->motion[CONTACT_X])
+  if (m->table && own->motion[CONTACT_X]) memcpy(m->given[CONTACT_V], m->given[CONTACT_X], sizeof *m->given);
+  else if (own->motion[CONTACT_X])
     for (int i = 0; i < GIVEN_MOST_COEF; ++i) {
       m->given[CONTACT_U][i] = *of->contacts[m->in_model].tangent * m->given[CONTACT_X][i];
       m->given[CONTACT_V][i] = *of->contacts[m->in_model].normal * m->given[CONTACT_X][i];
@@ -140,7 +143,7 @@ static int read_motions(const cli_common *common, const contact_options *own, co
 
 static hc_status take_contacts(const model *of, contact_motion *m)
 {
-  if (m->one < 0) {
+  if (m->in_model < 0) {
     const hc_status st = moving_contacts_of_model(of, &m->contacts);
     m->of = (given_motion){.n_dof = 1, .n_contacts = of->n_contacts, .contacts = m->contacts, .X = m->X};
     return st;
@@ -158,10 +161,12 @@ static int contact_motion_find(const cli_common *common, const contact_options *
   model *of = NULL;
   int code = choose_contact(common, own, m);
   if (code) return code;
-  if (m->one >= 0 && scene_contact_at(sc, m->one)->kind == SCENE_LAW_TABLE)
-    return cli_failed(common, EXIT_USAGE, "--contact: a table is several springs, of which --motion moves all");
-  hc_status st = scene_model(sc, &of);
-  m->in_model = m->one < 0 ? -1 : scene_model_contact(sc, m->one);
+  const scene_contact *one = m->one < 0 ? NULL : scene_contact_at(sc, m->one);
+  if (one && one->kind == SCENE_LAW_TABLE) m->table = one;
+  scene alone = {.mass = 1, .n_contacts = 1};
+  if (m->table) alone.contacts[0] = *m->table;
+  hc_status st = scene_model(m->table ? &alone : sc, &of);
+  m->in_model = m->one < 0 || m->table ? -1 : scene_model_contact(sc, m->one);
   if (st == HC_OK) st = take_contacts(of, m);
   if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "the contact force", st, 0);
   else if (m->one >= 0) code = check_directions(common, own, of, m);
@@ -170,7 +175,11 @@ static int contact_motion_find(const cli_common *common, const contact_options *
   if (m->of.n_harm < 1) m->of.n_harm = 1;
   const size_t n = (size_t)series_length(m->of.n_harm);
   for (int d = 0; d < m->of.n_dof; ++d) {
-    const int motion = m->one < 0 ? CONTACT_X : d == 0 ? CONTACT_U : m->of.pair && d == 1 ? CONTACT_U2 : CONTACT_V;
+    const int motion = m->one < 0             ? CONTACT_X
+                       : m->table             ? CONTACT_V
+                       : d == 0               ? CONTACT_U
+                       : m->of.pair && d == 1 ? CONTACT_U2
+                                              : CONTACT_V;
     memcpy(m->X + (size_t)d * n, m->given[motion], n * sizeof *m->X);
   }
   model_free(of);
@@ -250,6 +259,7 @@ static hc_status contact_force_note(table *t, const cli_common *common, const co
   char name[CLI_NAME];
   contact_period p[2];
   if (m->one < 0) return note_pieces(t, common, &m->of, 0, "");
+  if (m->table) return HC_OK; /* nothing sticks or slips */
   cli_contact_name(common, m->one, name);
   hc_status st = given_motion_is_planar(&m->of) ? note_circle(t, m, name, p)
                  : m->of.pair                   ? note_halves(t, common, m, p)
@@ -307,7 +317,9 @@ static int evaluate(const cli_common *common, const contact_motion *m, const int
       return cli_failed(common, EXIT_USAGE, "%d samples are too few for %d harmonics; expected at least %d", n_time[i],
                         m->of.n_harm, 2 * m->of.n_harm + 1);
     if (st != HC_OK) return cli_solver_failed(common, CLI_HBM, "the contact force", st, 0);
-    if (m->one >= 0) F[i][(m->of.n_dof - 1) * series_length(m->of.n_harm)] += given_motion_preload(&m->of);
+    for (int k = 0; m->table && k < series_length(m->of.n_harm); ++k)
+      F[i][k] += scene_contact_slope(m->table) * m->X[k] + (k == 0 ? scene_contact_table(m->table, 0) : 0);
+    if (m->in_model >= 0) F[i][(m->of.n_dof - 1) * series_length(m->of.n_harm)] += given_motion_preload(&m->of);
   }
   return 0;
 }

@@ -12,11 +12,13 @@
 #include "compare/response.h"
 #include "hbm/hbm.h"
 #include "model/contact_law.h"
+#include "numerics/norm.h"
 #include "numerics/series.h"
 
 enum { MOST_OMEGAS = 12, MOST_SOLUTIONS = 24, MOST_CONTACTS = 24, SAMPLES = 240, STEPS = 20, DIGITS = 6, NAME = 64 };
 
 typedef struct shown {
+  const scene *sc;
   const model *m;          /* the case's */
   hbm_solver *s;           /* of the model with those responses */
   double *series[3];       /* [2H+1] each: u, v and of two tangents the second u of a contact, or one of x */
@@ -68,28 +70,38 @@ static hc_status shown_open(const scene *sc, shown *d)
 
 /* T over u of a contact with friction, of two tangents T_2 over T_1, else N over v: a period that follows one in which
  * the slider settles. Two tangents go by short steps, which are of first order where the direction of slip turns
- * (contact_law.h). `first` is the model's contact, j the case's. */
-static json_t *loop_of(const shown *d, int j, int first)
+ * (contact_law.h). `first` is the model's contact, j the case's. A table is drawn as it was given, with f(0); tanh by
+ * the rate of u. */
+static json_t *loop_of(const shown *d, int j, int first, double omega)
 {
+  const structure_contact *given = &d->sc->structure->contacts[j];
   const model_contact *of = &d->m->contacts[first];
-  const bool pair = of->pair == CONTACT_FIRST, rubs = contact_has_friction(&of->law);
+  const bool pair = of->pair == CONTACT_FIRST, tanh_law = of->law.smooth == CONTACT_TANH;
+  const bool rubs = contact_has_friction(&of->law) || tanh_law, table = given->given.kind == SCENE_LAW_TABLE;
+  const double side = table && dot_product(d->m->n, of->normal, given->normal) < 0 ? -1 : 1;
   const int H = hbm_n_harmonics(d->s), steps = SAMPLES * (pair ? STEPS : 1);
   double w[2] = {d->w[first], pair ? d->w[first + 1] : 0}, T[2] = {0};
   json_t *x = json_array(), *y = json_array();
   for (int i = -steps; i <= steps; ++i) {
     const double th = TWO_PI * i / steps, c = cos(th), s = sin(th), v = series_at(H, d->series[1], c, s).x;
     const double u[2] = {series_at(H, d->series[0], c, s).x, pair ? series_at(H, d->series[2], c, s).x : 0};
-    if (pair && of->circle) contact_step_planar(&of->law, u, v, w, T);
+    const double normal = contact_normal(&of->law, v);
+    if (tanh_law) T[0] = of->law.mu * normal * tanh(omega * series_at(H, d->series[0], c, s).d1 / of->law.epsilon);
+    else if (pair && of->circle) contact_step_planar(&of->law, u, v, w, T);
     else
       for (int k = 0; k < 1 + pair && (pair || rubs); ++k) contact_step(&of->law, u[k], v, &w[k], &T[k]);
     if (i < 0 || i % (steps / SAMPLES)) continue;
-    json_array_append_new(x, number(pair ? T[0] : rubs ? u[0] : v));
-    json_array_append_new(y, number(pair ? T[1] : rubs ? T[0] : contact_normal(&of->law, v)));
+    const double f = table                                  ? scene_contact_table(&given->given, side * v)
+                     : of->law.smooth == CONTACT_POLYNOMIAL ? contact_polynomial(&of->law, v, &(double){0})
+                                                            : normal;
+    json_array_append_new(x, number(pair ? T[0] : rubs ? u[0] : side * v));
+    json_array_append_new(y, number(pair ? T[1] : rubs ? T[0] : f));
   }
   return json_pack("{s:s, s:o, s:o, s:o}", "of",
-                   pair   ? "T_2 over T_1"
-                   : rubs ? "T over u"
-                          : "N over v",
+                   pair                                     ? "T_2 over T_1"
+                   : rubs                                   ? "T over u"
+                   : given->given.kind != SCENE_LAW_CONTACT ? "f over d"
+                                                            : "N over v",
                    "x", x, "y", y, "work", number(d->periods[j].work));
 }
 
@@ -122,7 +134,7 @@ static hc_status append_solution(shown *d, const hbm_point *p, const double *X, 
       const bool pair = d->m->contacts[first].pair == CONTACT_FIRST;
       for (int i = 0; i < 2 + pair && st == HC_OK; ++i)
         st = hbm_response(d->s, p->omega, X, d->m->n + 2 * first + i, d->series[i]);
-      if (st == HC_OK) json_array_append_new(loops, loop_of(d, j, first));
+      if (st == HC_OK) json_array_append_new(loops, loop_of(d, j, first, p->omega));
       first += pair;
       while (d->m->contacts[first + 1].pair == CONTACT_MORE) ++first; /* the list ends with an empty one */
     }
@@ -155,7 +167,7 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
   if (!sc->structure) return *out = json_null(), HC_OK;
   hc_status st = scene_model(sc, &m);
   if (st != HC_OK) return st;
-  shown d = {.m = m, .monitor = monitor};
+  shown d = {.sc = sc, .m = m, .monitor = monitor};
   json_t *list = json_array();
   st = shown_open(sc, &d);
   if (st == HC_OK) {

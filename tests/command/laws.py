@@ -5,6 +5,7 @@
 
 Both sides meet; what is a table is what it stands for; what is wrong is refused with its place."""
 import csv
+import math
 import os
 import subprocess
 import sys
@@ -119,6 +120,26 @@ def a_table_is_what_it_stands_for():
         assert rows("prove", one, "--at", "1.5")[0]["verdict"] == "proven"
 
 
+def a_table_under_a_given_motion():
+    """Its harmonics are those of the table itself: sums over 2^16 instants err by (2 pi/N)^2 of the slopes' jumps, 1e-8."""
+    case, n = write(MIXED), 1 << 16
+    points = [(-2, -1), (0, 0), (0.3, 0.1), (1, 3)]
+    sums = [0.0] * 3
+    for i in range(n):
+        c, s = math.cos(2 * math.pi * i / n), math.sin(2 * math.pi * i / n)
+        d, k = 0.1 + 1.2 * c + 0.3 * s, 0
+        while k < 2 and d > points[k + 1][0]:
+            k += 1
+        (x, y), (x_2, y_2) = points[k:k + 2]
+        f = y + (y_2 - y) / (x_2 - x) * (d - x)
+        sums = [sums[0] + f / n, sums[1] + 2 * f * c / n, sums[2] + 2 * f * s / n]
+    found = rows("contact", case, "--contact", "stop", "--motion-v", "0.1,1.2,0.3")
+    for want, row, part in zip(sums, (0, 1, 1), ("cos", "cos", "sin")):
+        near(found[row][part], want, 1e-7, f"harmonic {row}, {part}")
+    said = run("contact", case, "--contact", "stop", "--motion-u", "0,1,0", code=64).stderr
+    assert "contact stop has no tangent" in said, said
+
+
 def what_is_wrong_is_refused():
     wrong = (
         ("{law: polynomial}", "4:5: missing key `coefficients`"),
@@ -203,6 +224,7 @@ def assignments_reach_them():
 duffing_meets_time_integration()
 mixed_laws_meet()
 a_table_is_what_it_stands_for()
+a_table_under_a_given_motion()
 what_is_wrong_is_refused()
 verify_names_what_is_wrong_with_them()
 assignments_reach_them()
