@@ -211,7 +211,8 @@ typedef enum hbmcheck_special_kind {
   HBMCHECK_SPECIAL_TURNING_POINT,
   HBMCHECK_SPECIAL_PERIOD_DOUBLING,
   HBMCHECK_SPECIAL_CONTACT_CHANGE,
-  HBMCHECK_SPECIAL_NEIMARK_SACKER /* a complex pair of multipliers passes the unit circle */
+  HBMCHECK_SPECIAL_NEIMARK_SACKER,   /* a complex pair of multipliers passes the unit circle */
+  HBMCHECK_SPECIAL_SYMMETRY_BREAKING /* of smooth laws: two motions begin that are each other's mirror image */
 } hbmcheck_special_kind;
 
 /* A point where the curve changes its nature, located to 1e-9 of omega or better. */

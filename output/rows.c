@@ -369,6 +369,7 @@ const char *rows_special_text(const hbm_special *p, char text[ROWS_SPECIAL])
   if (p->kind == HBM_TURNING_POINT) snprintf(text, ROWS_SPECIAL, "turning point");
   else if (p->kind == HBM_PERIOD_DOUBLING) snprintf(text, ROWS_SPECIAL, "period doubling");
   else if (p->kind == HBM_NEIMARK_SACKER) snprintf(text, ROWS_SPECIAL, "Neimark-Sacker point");
+  else if (p->kind == HBM_SYMMETRY_BREAKING) snprintf(text, ROWS_SPECIAL, "symmetry breaking");
   else if (p->before != p->after) snprintf(text, ROWS_SPECIAL, "contact goes from %s to %s", from, to);
   else snprintf(text, ROWS_SPECIAL, "contact pattern changes (%s)", to);
   return text;

@@ -205,6 +205,7 @@ static const struct special_look {
     {"doubling", "period doubling", "pt 13 ps 0.9 lc rgb '#000000'", HBM_PERIOD_DOUBLING},
     {"change", "contact changes", "pt 4 ps 0.7 lw 1 lc rgb '#000000'", HBM_CONTACT_CHANGE},
     {"torus", "Neimark-Sacker point", "pt 15 ps 0.8 lc rgb '#000000'", HBM_NEIMARK_SACKER},
+    {"breaking", "symmetry breaking", "pt 9 ps 0.9 lc rgb '#000000'", HBM_SYMMETRY_BREAKING},
 };
 enum { N_SPECIAL_LOOKS = sizeof special_looks / sizeof *special_looks };
 

@@ -510,6 +510,10 @@ hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc
   w.n_samples = whole_numbers(&setup->compare.samples, samples);
   if (w.n_harm == 0) return HC_OK;
   if (harmonics[0] < 1 || harmonics[w.n_harm - 1] > HBM_MAX_HARMONICS) return HC_BAD_INPUT;
+  int few = 0; /* harmonics than a load has */
+  while (few < w.n_harm && harmonics[few] < model_highest_load(setup->model)) ++few;
+  w.harmonics += few, w.n_harm -= few;
+  if (w.n_harm == 0) return HC_OK;
   const size_t most_rows = (size_t)w.n_harm * (size_t)(w.n_samples + 1);
   out->rows = w.rows = calloc(most_rows, sizeof *out->rows);
   out->orders = calloc((size_t)w.n_harm + 2, sizeof *out->orders);

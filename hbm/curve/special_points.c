@@ -4,7 +4,8 @@
  * interpolation. The contact pattern is not: its change is bisected, with the pattern of the interpolant as a guess of
  * where (segment.h), and the rest of the segment searched for the next. Bisected, too, is the number of complex pairs
  * of multipliers outside the unit circle (Neimark-Sacker): where it changes without a pair on the circle, two real ones
- * have met, or multipliers jump with the pattern. What is too near to be told apart is one change: slip and separation
+ * have met, or multipliers jump with the pattern. The product of 1 - multiplier changes its sign where the curve turns,
+ * and else where the symmetry of a symmetric solution (model_is_symmetric) breaks. What is too near to be told apart is one change: slip and separation
  * that begin at once, two contacts that are alike. */
 #include "hbm/curve/special_points.h"
 
@@ -29,7 +30,7 @@ static const double SAME_OMEGA = 1e-9, SAME_AMPLITUDE = 1e-8;
 
 /* The test functions at a point. */
 typedef struct test_values {
-  double d_omega, flip;
+  double d_omega, flip, fold; /* fold: of a symmetric solution, else NaN */
   int pairs_outside;
   double pair;           /* as in hbm_stability */
   contact_regime regime; /* regime and number of transitions: the contact pattern */
@@ -54,6 +55,14 @@ typedef struct detector {
 
 bool hbm_specials_follow_each(const hbm_solver *s) { return s->model->n_contacts <= MOST_CONTACTS_FOLLOWED; }
 
+static bool is_symmetric(const detector *d, const double *X)
+{
+  const hbm_system *sys = &d->s->sys;
+  for (int i = 0; i < sys->n_coef && d->s->symmetric; ++i)
+    if ((i / sys->dim + 1) / 2 % 2 == 0 && X[i] != 0) return false; /* cleared where it is (corrector.c) */
+  return d->s->symmetric;
+}
+
 /* with_multipliers: they cost more than all the rest, and only the searches for a period doubling or a Neimark-Sacker
  * point ask. */
 static hc_status evaluate_tests(detector *d, double omega, double d_omega, const double *X, bool with_multipliers,
@@ -61,12 +70,18 @@ static hc_status evaluate_tests(detector *d, double omega, double d_omega, const
 {
   const contact_forces *orbit;
   contact_report report;
-  hbm_stability stability = {.flip = NAN, .pair = NAN};
+  hbm_stability stability = {.flip = NAN, .fold = NAN, .pair = NAN};
   hc_status st = hbm_located_orbit(d->s, X, &orbit, &report);
   if (st == HC_OK && with_multipliers) st = hbm_multipliers(d->s, orbit, omega, X, &stability);
   const int transitions = hbm_specials_follow_each(d->s) ? report.transitions : 0;
   if (st == HC_OK)
-    *v = (test_values){d_omega, stability.flip, stability.pairs_outside, stability.pair, report.regime, transitions};
+    *v = (test_values){d_omega,
+                       stability.flip,
+                       is_symmetric(d, X) ? stability.fold : NAN,
+                       stability.pairs_outside,
+                       stability.pair,
+                       report.regime,
+                       transitions};
   return st;
 }
 
@@ -138,7 +153,7 @@ static hc_status evaluate_at(segment_search *s, double sigma)
   if (s->sigma == sigma) return HC_OK;
   hc_status st = s->kind == HBM_CONTACT_CHANGE ? hbm_narrowing_point(d->s, &d->near, sigma, &d->x)
                                                : hbm_segment_point(d->s, d->c, s->k, sigma, &d->x);
-  const bool asked = s->kind == HBM_PERIOD_DOUBLING || s->kind == HBM_NEIMARK_SACKER;
+  const bool asked = s->kind != HBM_TURNING_POINT && s->kind != HBM_CONTACT_CHANGE;
   if (st == HC_OK) st = evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, asked, &s->here);
   s->sigma = st == HC_OK ? sigma : NAN;
   return st;
@@ -148,7 +163,9 @@ static hc_status smooth_test_at(void *self, double sigma, double *value)
 {
   segment_search *s = self;
   hc_status st = evaluate_at(s, sigma);
-  *value = s->kind == HBM_TURNING_POINT ? s->here.d_omega : s->here.flip;
+  *value = s->kind == HBM_TURNING_POINT     ? s->here.d_omega
+           : s->kind == HBM_PERIOD_DOUBLING ? s->here.flip
+                                            : s->here.fold;
   return st;
 }
 
@@ -194,6 +211,18 @@ static hc_status locate_root(detector *d, int k, hbm_special_kind kind, double f
   /* a turning point belongs to the branch that it ends */
   if (kind == HBM_TURNING_POINT) d->x.point.branch = d->c->points[k].branch;
   return insert_special(d, root.x, kind, &s.here, &s.here);
+}
+
+/* The equations are singular where the curve turns, the located orbit's multiplier is 1 a little beside it: does their
+ * determinant change its sign on segment k with the multipliers' product? */
+static hc_status locate_breaking(detector *d, int k, const test_values *a, const test_values *b)
+{
+  hbm_stability end[2];
+  for (int i = 0; i < 2; ++i) {
+    const hc_status st = hbm_stability_at(d->s, d->c->points[k + i].omega, hbm_curve_X(d->c, k + i), &end[i]);
+    if (st != HC_OK) return st;
+  }
+  return end[0].agrees == end[1].agrees ? locate_root(d, k, HBM_SYMMETRY_BREAKING, a->fold, b->fold) : HC_OK;
 }
 
 /* A point at omega, from one of the guesses, into d->x. */
@@ -284,12 +313,14 @@ static hc_status take_end(detector *d, int k, hbm_special_kind kind, const test_
 
 static hc_status search_segment(detector *d, int k, const test_values *a, const test_values *b)
 {
-  hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK;
+  hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK, breaking = HC_OK;
   d->first = d->n;
   if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
   if (changes != HC_OK && d->n == d->first && d->s->edges) changes = locate_edge(d, k, a, b);
-  if ((a->d_omega > 0) != (b->d_omega > 0)) turning = locate_root(d, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
+  const bool turns = (a->d_omega > 0) != (b->d_omega > 0), breaks = !turns && a->fold * b->fold < 0;
+  if (turns) turning = locate_root(d, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
   if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, a->flip, b->flip);
+  if (breaks) breaking = locate_breaking(d, k, a, b);
   if (a->pairs_outside != b->pairs_outside) torus = locate_neimark_sacker(d, k, a);
   if (is_one_place(d, k)) {
     if (changes != HC_OK) changes = take_end(d, k, HBM_CONTACT_CHANGE, a, b);
@@ -297,7 +328,10 @@ static hc_status search_segment(detector *d, int k, const test_values *a, const 
     if (doubling != HC_OK) doubling = take_end(d, k, HBM_PERIOD_DOUBLING, b, b);
     torus = HC_OK; /* a pair that jumps across the circle is not on it */
   }
-  return changes != HC_OK ? changes : turning != HC_OK ? turning : doubling != HC_OK ? doubling : torus;
+  const hc_status each[] = {changes, turning, doubling, breaking};
+  for (int i = 0; i < 4; ++i)
+    if (each[i] != HC_OK) return each[i];
+  return torus;
 }
 
 hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *out, int *n)

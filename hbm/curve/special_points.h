@@ -7,7 +7,9 @@ typedef enum hbm_special_kind {
   HBM_TURNING_POINT,
   HBM_PERIOD_DOUBLING,
   HBM_CONTACT_CHANGE,
-  HBM_NEIMARK_SACKER /* a complex pair of multipliers passes the unit circle: a motion of two frequencies begins */
+  HBM_NEIMARK_SACKER,   /* a complex pair of multipliers passes the unit circle: a motion of two frequencies begins */
+  HBM_SYMMETRY_BREAKING /* a multiplier passes +1 without a turn, of smooth laws: two motions begin, each the other's
+                           mirror image half a period later */
 } hbm_special_kind;
 typedef struct hbm_special {
   hbm_special_kind kind;

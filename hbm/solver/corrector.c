@@ -51,12 +51,45 @@ static bool goes_on(hbm_solver *s)
   return !s->stopped;
 }
 
+/* ---- symmetry ----
+ *
+ * A symmetric solution of a symmetric model stays one: where its symmetry breaks the equations are singular, and the
+ * rounding of even harmonics would grow into a step to the other branch, or many that are too short. */
+
+static bool is_even(const hbm_solver *s, int coefficient) { return (coefficient / s->sys.dim + 1) / 2 % 2 == 0; }
+
+static bool nearly_symmetric(const hbm_solver *s, const double *X)
+{
+  const double rounding = 1e-6;
+  double even = 0, all = 0;
+  for (int i = 0; i < s->sys.n_coef && s->symmetric; ++i) {
+    all = fmax(all, fabs(X[i]));
+    if (is_even(s, i)) even = fmax(even, fabs(X[i]));
+  }
+  return s->symmetric && even <= rounding * all;
+}
+
+/* v[n] := 0 where it is of an even harmonic; v is of the coefficients from `first` on. */
+static void clear_even(const hbm_solver *s, int first, int n, double *v)
+{
+  for (int i = 0; i < n; ++i)
+    if (is_even(s, i + first)) v[i] = 0;
+}
+
+/* R at s->X. */
+static hc_status residual_at(hbm_solver *s, double omega, double *r)
+{
+  const hc_status st = hbm_system_residual(&s->sys, omega_at(s, omega), s->X, r);
+  if (nearly_symmetric(s, s->X)) clear_even(s, s->sys.first, s->sys.n, r);
+  return st;
+}
+
 static hc_status fixed_residual(void *self, const double *z, double *r)
 {
   hbm_solver *s = self;
   if (!goes_on(s)) return HC_INTERRUPTED;
   unpack_harmonics(s, z, s->X);
-  return hbm_system_residual(&s->sys, omega_at(s, s->omega), s->X, r);
+  return residual_at(s, s->omega, r);
 }
 
 static hc_status fixed_jacobian(void *self, const double *z, double *jac)
@@ -76,7 +109,7 @@ static hc_status plane_residual(void *self, const double *z, double *r)
   unpack_harmonics(s, z, s->X);
   r[n] = 0;
   for (int i = 0; i <= n; ++i) r[n] += s->normal[i] * (z[i] - s->anchor[i]);
-  return hbm_system_residual(&s->sys, omega_at(s, z[n]), s->X, r);
+  return residual_at(s, z[n], r);
 }
 
 static hc_status plane_jacobian(void *self, const double *z, double *jac)
@@ -119,27 +152,6 @@ static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const d
   return HC_OK;
 }
 
-static void clear_even(const hbm_solver *s, double *X)
-{
-  for (int h = 0; h <= s->sys.n_harm; h += 2)
-    for (int i = s->sys.dim * (h ? 2 * h - 1 : 0); i < s->sys.dim * (2 * h + 1); ++i) X[i] = 0;
-}
-
-/* A symmetric solution of a symmetric model stays one: where its symmetry breaks the equations are singular, and the
- * rounding of even harmonics would grow into a step to the other branch, or many that are too short. */
-static void keep_symmetry(hbm_solver *s, double *X)
-{
-  const double rounding = 1e-6;
-  double even = 0, all = 0;
-  for (int i = 0; i < s->sys.n_coef && s->symmetric; ++i) {
-    const int h = (i / s->sys.dim + 1) / 2;
-    all = fmax(all, fabs(X[i]));
-    if (h % 2 == 0) even = fmax(even, fabs(X[i]));
-  }
-  s->on_symmetric = s->symmetric && even <= rounding * all;
-  if (s->on_symmetric) clear_even(s, X);
-}
-
 /* Newton from s->z, whose last entry is omega, by either form. KINSOL weighted the residual by the forces at the guess;
  * here it is weighed against those at the answer, which then becomes X and *omega. */
 static hc_status solve(hbm_solver *s, newton *form, const newton_options *opt, double *X, double *omega,
@@ -156,7 +168,8 @@ static hc_status solve(hbm_solver *s, newton *form, const newton_options *opt, d
   point->residual = norm_weighted_max(s->sys.n, s->r_scale, newton_residual(form));
   if (!(point->residual <= 10 * s->how.tolerance)) return HC_NOT_CONVERGED;
   unpack(s, s->z, X, omega);
-  keep_symmetry(s, X);
+  s->on_symmetric = nearly_symmetric(s, X);
+  if (s->on_symmetric) clear_even(s, 0, s->sys.n_coef, X);
   return HC_OK;
 }
 
@@ -205,7 +218,7 @@ hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX)
   hc_status st = newton_backsolve(s->fixed, s->z);
   for (int i = 0; i < s->sys.first; ++i) dX[i] = 0;
   for (int i = 0; i < s->sys.n; ++i) dX[i + s->sys.first] = -s->z[i];
-  if (s->on_symmetric) clear_even(s, dX);
+  if (s->on_symmetric) clear_even(s, 0, s->sys.n_coef, dX);
   return st;
 }
 
@@ -215,7 +228,7 @@ hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega)
   s->z[s->sys.n] = 1;
   hc_status st = newton_backsolve(s->plane, s->z);
   unpack(s, s->z, dX, d_omega);
-  if (s->on_symmetric) clear_even(s, dX);
+  if (s->on_symmetric) clear_even(s, 0, s->sys.n_coef, dX);
   return st;
 }
 

@@ -3,7 +3,7 @@
 'use strict';
 
 const shownInTable = 32; /* instants of a period */
-const specialNames = ['fold', 'period doubling', 'contact changes', 'Neimark-Sacker'];
+const specialNames = ['fold', 'period doubling', 'contact changes', 'Neimark-Sacker', 'symmetry breaking'];
 const stableName = v => (v > 0 ? 'yes' : v < 0 ? 'no' : 'unknown');
 const cellsOf = list => '<tr>' + list.map(cell => `<td>${cell}</td>`).join('') + '</tr>';
 

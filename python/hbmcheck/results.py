@@ -237,7 +237,7 @@ class Curve(Solutions):
     @property
     def special_points(self) -> Table:
         """Where the curve changes its nature: omega [rad/time], amplitude [length], branch, kind ("turning point",
-        "period doubling", "contact change", "Neimark-Sacker"), before and after (as contact)."""
+        "period doubling", "contact change", "Neimark-Sacker", "symmetry breaking"), before and after (as contact)."""
         n = ctypes.c_int()
         with self._owner as curve:
             check(lib.curve_specials(curve, 0, None, ctypes.byref(n)))
@@ -245,7 +245,7 @@ class Curve(Solutions):
             check(lib.curve_specials(curve, n.value, ctypes.addressof(table), ctypes.byref(n)))
         size = ctypes.sizeof(structs.Special)
         found = rows(structs.Special, n.value, lambda k, at: ctypes.memmove(at, ctypes.addressof(table) + k * size, size) * 0)
-        kinds = np.array(["turning point", "period doubling", "contact change", "Neimark-Sacker"])
+        kinds = np.array(["turning point", "period doubling", "contact change", "Neimark-Sacker", "symmetry breaking"])
         return Table({**found, "kind": kinds[found["kind"]], "before": contact_words(found["before"]),
                       "after": contact_words(found["after"])}, self.responses)
 

@@ -7,6 +7,7 @@ Both sides meet; what is a table is what it stands for; what is wrong is refused
 import csv
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -120,6 +121,24 @@ def a_table_is_what_it_stands_for():
         assert rows("prove", one, "--at", "1.5")[0]["verdict"] == "proven"
 
 
+def symmetry_breaks():
+    """A hard-driven Duffing: between two points the symmetric motion is unstable, though the curve does not turn, and time
+    integration has a mean. Where they are hangs on the orbit's multiplier: to 1e-9 the same with 12 and with 25 harmonics,
+    and the point beside a turning point, where only too few harmonics tell the two apart, is none."""
+    case = os.path.join(ROOT, "cases/peers/tmdsimpy_sdof_duffing.yaml")
+    said = [re.findall(r"symmetry breaking at omega = ([0-9.]+)", run("frf", case, "--set", f"hbm.harmonics={harmonics}").stdout)
+            for harmonics in (12, 25)]
+    low, high = (float(w) for w in said[0][-2:])
+    for w, other in zip(said[0][-2:], said[1][-2:]):
+        near(w, other, 2e-9, "with more harmonics")
+    assert not any(0.4 < float(w) < 0.6 for w in said[0]), said
+    for omega, stable in ((low * (1 - 1e-6), "yes"), (low * (1 + 1e-6), "no"), (high * (1 - 1e-6), "no"), (high * (1 + 1e-6), "yes")):
+        found = [r for r in rows("frf", case, "--at", repr(omega)) if float(r["amplitude"]) < 2]
+        assert [r["stable"] for r in found] == [stable] and float(found[0]["mean"]) == 0, found
+    settled = rows("transient", case, "--at", repr((low + high) / 2), "--set", "sweep.omega=[0.6, 0.9]")
+    assert abs(float(settled[0]["mean"])) > 0.01, settled
+
+
 def a_table_under_a_given_motion():
     """Its harmonics are those of the table itself: sums over 2^16 instants err by (2 pi/N)^2 of the slopes' jumps, 1e-8."""
     case, n = write(MIXED), 1 << 16
@@ -138,6 +157,23 @@ def a_table_under_a_given_motion():
         near(found[row][part], want, 1e-7, f"harmonic {row}, {part}")
     said = run("contact", case, "--contact", "stop", "--motion-u", "0,1,0", code=64).stderr
     assert "contact stop has no tangent" in said, said
+
+
+def the_report_draws_their_forces():
+    """Of each law its own loop; and one harmonic for a load of harmonic 2 has no row in its tables."""
+    case, page = write("""structure: {mass: [1, 0.5], damping: {rayleigh: [0.05, 0.05]}, stiffness: [[2, -1], [-1, 1.5]]}
+forcing: [{dof: 1, amplitude: 0.3}, {dof: 2, harmonic: 2, amplitude: 0.1}]
+contacts:
+  - {law: polynomial, direction: {1: 1, 2: -1}, coefficients: {2: 0.4, 3: 2}}
+  - {law: table, direction: {2: 1}, points: [[-0.4, -0.2], [-0.2, 0], [0.2, 0], [0.4, 0.3]]}
+  - {law: tanh, friction: 0.2, preload: 0.5, epsilon: 0.2, tangent: {1: 1}}
+sweep: {omega: [1, 1.4]}
+hbm: {harmonics: 3}
+compare: {omega: [1.2], harmonics: [1, 3], samples: [16]}
+"""), os.path.join(FOLDER, "page.html")
+    run("report", case, "--quiet", "--output", page, code=1)
+    with open(page, encoding="utf-8") as f:
+        assert re.findall(r'"of": ?"([^"]+)"', f.read())[:3] == ["f over d", "f over d", "T over u"]
 
 
 def what_is_wrong_is_refused():
@@ -225,6 +261,8 @@ duffing_meets_time_integration()
 mixed_laws_meet()
 a_table_is_what_it_stands_for()
 a_table_under_a_given_motion()
+symmetry_breaks()
+the_report_draws_their_forces()
 what_is_wrong_is_refused()
 verify_names_what_is_wrong_with_them()
 assignments_reach_them()
