@@ -5,8 +5,8 @@
  * where (segment.h), and the rest of the segment searched for the next. Bisected, too, is the number of complex pairs
  * of multipliers outside the unit circle (Neimark-Sacker): where it changes without a pair on the circle, two real ones
  * have met, or multipliers jump with the pattern. The product of 1 - multiplier changes its sign where the curve turns,
- * and else where the symmetry of a symmetric solution (model_is_symmetric) breaks. What is too near to be told apart is one change: slip and separation
- * that begin at once, two contacts that are alike. */
+ * and else where the symmetry of a symmetric solution (model_is_symmetric) breaks. What is too near to be told apart is
+ * one change: slip and separation that begin at once, two contacts that are alike. */
 #include "hbm/curve/special_points.h"
 
 #include <stdlib.h>
