@@ -119,6 +119,12 @@ def a_table_is_what_it_stands_for():
         found = rows("compare", one, "--at", "1.5", "--set", "transient.law=exact", "--set", "transient.method=closed_form")
         assert found[0]["verdict"] == "match", found
         assert rows("prove", one, "--at", "1.5")[0]["verdict"] == "proven"
+    steps = write(GAP.replace("CONTACT", "{law: table, points: [[-3, -2], [-1, 0], [1, 0], [3, 2], [5, 2], [7, 4]]}")
+                  .replace("stiffness: 1}", "stiffness: 0.1}"))  # softer by 1 twice: with all its springs open K is -0.9
+    for method in ("closed_form", "cvode"):
+        found = rows("compare", steps, "--at", "0.9", "--set", "transient.law=exact", "--set", f"transient.method={method}", "--set",
+                     "hbm.harmonics=40")
+        assert [r["verdict"] for r in found] == ["match"] and float(found[0]["hbm_amplitude"]) > 10, found
 
 
 def symmetry_breaks():

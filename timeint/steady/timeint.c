@@ -52,8 +52,7 @@ static hc_status make(const model *m, const transient_settings *how, bool may_sl
 {
   *out = NULL;
   const size_t n = (size_t)m->n;
-  if (m->n == 1 && !(positive(*m->mass) && not_negative(*m->damping) && not_negative(*m->stiffness)))
-    return HC_BAD_INPUT;
+  if (m->n == 1 && !(positive(*m->mass) && not_negative(*m->damping))) return HC_BAD_INPUT;
   bool ok = all_finite(n * n, m->mass) && all_finite(n * n, m->damping) && all_finite(n * n, m->stiffness);
   for (int l = 0; l < m->n_loads; ++l) ok = ok && all_finite(n, m->loads[l].cosine) && all_finite(n, m->loads[l].sine);
   for (int j = 0; j < m->n_contacts; ++j)
