@@ -38,7 +38,7 @@ static const double same_frequency = 2e-4; /* [omega] where no multiplier is ask
 static const double same_matrix = 1e-4;    /* [size] a state as near has the same monodromy matrix, but for some 1e-4 */
 static const double scatter_seen = 1e-6; /* [size] a chord step of CVODE's that short, and no shorter than the last, is
                                             the scatter of periods: of fast modes it is not known beforehand */
-static const double chord_contracts_to = 0.1; /* [last step] the next, as a rule */
+static const double chord_contracts_to = 0.1; /* [last factor] that by which the next step is shorter, as a rule */
 static const double slowed_near = 1e-7;       /* [size] the slowed orbit is where the whole model's begins, 1e-6 off */
 static const double chord_contracts = 0.5;    /* [least residual] a chord step that leaves more is idle */
 static const double chord_leads_away = 10;    /* [least residual] the matrix is renewed at once where one leaves that */
@@ -572,7 +572,7 @@ static hc_status factor_slowed_matrix(shoot *s, bool renewed)
  * with one matrix as long as some of them contract: one that does not may have let sliders slip to where they rest. */
 static hc_status by_chords(shoot *s, double reach, double enough, double near)
 {
-  double *z = s->iterate, least = INFINITY;
+  double *z = s->iterate, least = INFINITY, last = 0;
   for (int steps = 0, renewals = 0, idle = 0; steps < CHORD_STEPS; ++steps) {
     hc_status st = evaluate(s, z);
     if (st != HC_OK) return st;
@@ -590,7 +590,9 @@ static hc_status by_chords(shoot *s, double reach, double enough, double near)
     const double length = norm_2(s->n, s->step), share = length > reach ? reach / length : 1;
     if (!isfinite(length)) return HC_NOT_FINITE;
     if (length <= near) return HC_OK;
-    s->measures = s->ti->slowed && chord_contracts_to * length <= near;
+    const double shorter = steps > 0 ? chord_contracts_to * fmin(length / last, 1) : chord_contracts_to;
+    s->measures = s->ti->slowed && shorter * length <= near;
+    last = length;
     for (int i = 0; i < s->n; ++i) z[i] -= share * s->step[i];
   }
   return HC_NOT_CONVERGED;
