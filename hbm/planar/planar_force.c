@@ -469,42 +469,42 @@ static hc_status integrate(planar_force *f, bool derive)
 
 /* ---- put together --------------------------------------------------------------------------------------- */
 
-static void put_normal(const planar_force *f, double *F, double *jac)
+/* Of what integrate() has derived: F_d = kt (K u_d + rest), K being Toeplitz + Hankel of stick. */
+static void put_jacobian(const planar_force *f, double *jac)
 {
   const size_t L = (size_t)f->n_coef, n = (size_t)f->n_size;
-  if (f->n_dof < 3) return;
-  for (size_t i = 0; i < L; ++i) F[2 * L + i] = f->F_normal[i];
-  for (size_t q = 0; jac && q < n; ++q)
+  for (size_t d = 0; d < 2; ++d) {
+    for (size_t i = 0; i < L; ++i) {
+      const double *by = f->by + (d * L + i) * (size_t)f->n_col;
+      for (size_t q = 0; q < n; ++q) jac[d * L + i + n * q] = f->law.kt * by[q];
+    }
+    for (size_t q = 0; q < L; ++q)
+      for (size_t i = 0; i < L; ++i) jac[d * L + i + n * (d * L + q)] += f->law.kt * f->matrix[i + L * q];
+  }
+  for (size_t q = 0; f->n_dof == 3 && q < n; ++q)
     for (size_t i = 0; i < L; ++i) jac[2 * L + i + n * q] = q < 2 * L ? 0 : f->jac_normal[i + L * (q - 2 * L)];
 }
 
-hc_status planar_force_eval(planar_force *f, const double *X, double *F, double *jac, contact_report *report)
+static hc_status find_force(planar_force *f, const double *X, bool may_shift, bool derive, double *F,
+                            contact_report *report)
 {
   double size = 0;
   for (int i = 0; i < f->n_size; ++i) size += fabs(X[i]);
   if (!(size <= TRANSITIONS_LARGEST)) return HC_NOT_FINITE;
   memcpy(f->X, X, (size_t)f->n_size * sizeof *X);
-  f->cycle.may_shift = jac != NULL;
+  f->cycle.may_shift = may_shift;
   hc_status st = find_orbit(f, f->X);
-  if (st == HC_OK) st = integrate(f, jac != NULL);
+  if (st == HC_OK) st = integrate(f, derive);
   if (st != HC_OK) return st;
-  /* F_d = kt (K u_d + rest), K being Toeplitz + Hankel of stick; and its derivatives. */
-  const size_t L = (size_t)f->n_coef, n = (size_t)f->n_size;
-  const double kt = f->law.kt;
+  const size_t L = (size_t)f->n_coef;
   memset(f->matrix, 0, L * L * sizeof *f->matrix);
   force_jacobian_add(f->n_harm, f->symbol, f->n_coef, f->matrix);
   for (size_t d = 0; d < 2; ++d) {
     for (size_t q = 0; q < L; ++q)
       for (size_t i = 0; i < L; ++i) f->F[d * L + i] += f->matrix[i + L * q] * X[d * L + q];
-    for (size_t i = 0; i < L; ++i) F[d * L + i] = kt * f->F[d * L + i];
-    for (size_t i = 0; jac && i < L; ++i) {
-      const double *by = f->by + (d * L + i) * (size_t)f->n_col;
-      for (size_t q = 0; q < n; ++q) jac[d * L + i + n * q] = kt * by[q];
-    }
-    for (size_t q = 0; jac && q < L; ++q)
-      for (size_t i = 0; i < L; ++i) jac[d * L + i + n * (d * L + q)] += kt * f->matrix[i + L * q];
+    for (size_t i = 0; i < L; ++i) F[d * L + i] = f->law.kt * f->F[d * L + i];
   }
-  put_normal(f, F, jac);
+  for (size_t i = 0; f->n_dof == 3 && i < L; ++i) F[2 * L + i] = f->F_normal[i];
   const planar_cycle *c = &f->cycle;
   for (int i = 0; i < c->n; ++i) { /* sliders come to rest at no angle: monodromy.c moves them */
     const planar_interval *p = &c->interval[i];
@@ -512,6 +512,13 @@ hc_status planar_force_eval(planar_force *f, const double *X, double *F, double 
   }
   if (report) *report = transitions_report(c->n, f->intervals);
   return HC_OK;
+}
+
+hc_status planar_force_eval(planar_force *f, const double *X, double *F, double *jac, contact_report *report)
+{
+  const hc_status st = find_force(f, X, jac != NULL, jac != NULL, F, report);
+  if (st == HC_OK && jac) put_jacobian(f, jac);
+  return st;
 }
 
 void planar_force_slider(const planar_force *f, double w[2]) { planar_cycle_slider(&f->cycle, w); }
@@ -530,7 +537,14 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
 
 static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
-  return planar_force_eval(self, X, F, jac, report);
+  return find_force(self, X, jac != NULL, false, F, report); /* `jacobian` derives */
+}
+
+/* Of the last evaluation, whose passes, which had no trouble, are gone through once more. */
+static void jacobian(void *self, double *jac)
+{
+  planar_force *f = self;
+  if (integrate(f, true) == HC_OK) put_jacobian(f, jac);
 }
 
 static const contact_interval *intervals(const void *self, int *n)
@@ -547,6 +561,7 @@ static const planar_cycle *in_plane(const void *self) { return planar_force_cycl
 const contact_evaluator planar_force_evaluator = {.make = make,
                                                   .free = let_go,
                                                   .evaluate = evaluate,
+                                                  .jacobian = jacobian,
                                                   .sliders = sliders,
                                                   .intervals = intervals,
                                                   .in_plane = in_plane};
