@@ -211,8 +211,7 @@ const double *newton_residual(const newton *nw) { return N_VGetArrayPointer(nw->
 int newton_sign(const newton *nw)
 {
   if (!nw->factored) return 0;
-  return nw->by_groups ? grouped_sign(nw->groups)
-                       : dense_sign(nw->problem.n, SUNDenseMatrix_Data(nw->jac), nw->pivot);
+  return nw->by_groups ? grouped_sign(nw->groups) : dense_sign(nw->problem.n, SUNDenseMatrix_Data(nw->jac), nw->pivot);
 }
 
 long newton_factorings(const newton *nw) { return nw->factorings; }
