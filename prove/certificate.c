@@ -79,7 +79,7 @@ hc_status certificate_model_make(const scene *sc, const model *m, int r, certifi
 {
   const size_t most = (size_t)m->n_contacts + 1;
   json_t *contacts = json_array();
-  *out = (certificate_model){.of = m, .contact = calloc(most, sizeof(int)), .friction = calloc(most, sizeof(bool))};
+  *out = (certificate_model){.contact = calloc(most, sizeof(int)), .friction = calloc(most, sizeof(bool))};
   for (int j = 0, of_case = 0; j < m->n_contacts && out->contact && out->friction; ++j) {
     json_t *one = contact_of(m, &m->contacts[j], inclined(sc, of_case), &out->friction[out->n_contacts]);
     if (one && !json_array_append_new(contacts, one)) out->contact[out->n_contacts++] = j;

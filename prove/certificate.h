@@ -10,7 +10,6 @@
 
 /* The scene's model, as certificates have it, and which of their contacts are the model's. */
 typedef struct certificate_model {
-  const model *of;
   json_t *model, *response;
   int n_contacts; /* of the certificate: a contact that can exert no force that changes is left out */
   int *contact;   /* [n_contacts] of the model */

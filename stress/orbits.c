@@ -14,6 +14,8 @@
 #include "model/modes.h"
 #include "numerics/random.h"
 #include "numerics/series.h"
+#include "prove/certificate.h"
+#include "prove/checker.h"
 #include "stress/solved_scene.h"
 
 /* ---- one orbit ---------------------------------------------------------------------------------------------- */
@@ -522,4 +524,47 @@ stress_check stress_check_regularised(solved_scene *s)
     before = c.error;
   }
   return unless_family(s, c);
+}
+
+/* Is it proven, and does what is proven hold what was measured? Both bounds by how far it is outside, over the largest
+ * amplitude; a multiplier on the wrong side of the circle is far outside. */
+static stress_check hold_proven(const solved_scene *s, const timeint_result *r, const json_t *answer)
+{
+  const char *verdict = json_string_value(json_object_get(answer, "verdict"));
+  const double low = certificate_bound(answer, "amplitude", 0, -1), high = certificate_bound(answer, "amplitude", 1, 1),
+               least = certificate_bound(answer, "multiplier", 0, -1),
+               most = certificate_bound(answer, "multiplier", 1, 1);
+  if (!verdict || strcmp(verdict, "accepted") != 0) return stress_skip(STRESS_NOT_APPLICABLE);
+  const int side = timeint_stability(r);
+  if ((most < 1 && side < 0) || (least > 1 && side > 0)) return stress_find(STRESS_DISAGREES, INFINITY, 0);
+  const double off = r->amplitude < low ? low - r->amplitude : r->amplitude > high ? r->amplitude - high : 0;
+  return stress_agree_within(off / s->path.amplitude, same_in_closed_form, sensitive(&s->path, NULL));
+}
+
+stress_check stress_check_proof(solved_scene *s)
+{
+  const transient_settings how = path_settings();
+  proof_checker *checker = NULL;
+  certificate_model m = {0};
+  orbit_events e = {0};
+  timeint *ti = NULL;
+  timeint_result r;
+  json_t *candidate = NULL, *answer = NULL;
+  if (!known(s) || model_has_circle(s->model)) return stress_skip(STRESS_NOT_APPLICABLE);
+  hc_status st = proof_checker_new(&checker);
+  if (st == HC_OK) st = certificate_model_make(s->asked, s->model, 0, &m);
+  if (st == HC_OK) st = timeint_new(s->model, &how, &ti);
+  if (st == HC_OK) st = timeint_again(ti, s->omega, 1, s->path.state, &s->monitor, &r);
+  if (st == HC_OK) st = timeint_events(ti, 1, &e);
+  if (st == HC_OK) candidate = certificate_of(&m, s->omega, 1, s->path.amplitude, &e);
+  if (candidate) st = proof_checker_ask(checker, candidate, &answer);
+  if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) s->fatal = st;
+  const stress_check c = answer ? hold_proven(s, &r, answer) : stress_skip(STRESS_NO_ORBIT);
+  json_decref(candidate);
+  json_decref(answer);
+  orbit_events_free(&e);
+  timeint_free(ti);
+  certificate_model_free(&m);
+  proof_checker_free(checker);
+  return c;
 }

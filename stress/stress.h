@@ -59,6 +59,7 @@
     "the exact law in closed form and by CVODE: the same orbit")                                                       \
   X(STRESS_ORBIT_LAWS, "orbit_regularised", stress_check_regularised,                                                  \
     "the regularised law's orbit tends to the exact law's")                                                            \
+  X(STRESS_PROOF, "proof", stress_check_proof, "what is proven of that orbit holds what time integration measured")    \
   X(STRESS_FROM_REST, "from_rest", stress_check_from_rest,                                                             \
     "where the motion goes from rest, in closed form and by CVODE")                                                    \
   X(STRESS_VERDICT, "verdict", stress_check_verdict, "what compare says, held against what it says it from")           \

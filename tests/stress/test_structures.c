@@ -4,6 +4,7 @@
 #include "casefile/fields.h"
 #include "compare/comparison.h"
 #include "hbm/contact/exact_force.h"
+#include "prove/certificate.h"
 #include "stress/scenes.h"
 #include "stress/solved_scene.h"
 #include "tests/check.h"
@@ -26,6 +27,8 @@ typedef enum spoil {
   ORBITS_SCALED,    /* by time integration, as they are read */
   LATER_ORBITS,     /* each more than the one before */
   ORBIT_MULTIPLIER, /* of all */
+  PROOF_OF_ANOTHER, /* model, by a little */
+  PROOF_MEASURED,   /* another amplitude, by a little */
   VERDICT_TURNED,   /* into a match */
   NUMBER_LOST
 } spoil;
@@ -112,7 +115,19 @@ WRAP(hc_status, timeint_again,
      (timeint * ti, double omega, int k, double *state, const hc_monitor *monitor, timeint_result *r))
 {
   ++orbits;
-  return __real_timeint_again(ti, omega, k, state, monitor, r);
+  hc_status st = __real_timeint_again(ti, omega, k, state, monitor, r);
+  if (spoiled == PROOF_MEASURED) r->amplitude *= 1 + 1e-7;
+  return st;
+}
+
+WRAP(hc_status, certificate_model_make, (const scene *sc, const model *m, int r, certificate_model *out))
+{
+  model *other;
+  assert_int_equal(model_copy(m, &other), HC_OK);
+  if (spoiled == PROOF_OF_ANOTHER) other->stiffness[0] *= 1 + 1e-7;
+  hc_status st = __real_certificate_model_make(sc, other, r, out);
+  model_free(other);
+  return st;
 }
 
 WRAP(hc_status, timeint_response, (timeint * ti, int i, timeint_result *r))
@@ -325,6 +340,8 @@ static void a_wrong_orbit_is_found(CHECK_STATE)
 {
   expect_finding(true, ORBITS_SCALED, STRESS_ORBIT);
   expect_finding(true, ORBIT_MULTIPLIER, STRESS_MULTIPLIER);
+  expect_finding(true, PROOF_OF_ANOTHER, STRESS_PROOF);
+  expect_finding(true, PROOF_MEASURED, STRESS_PROOF);
   for (stress_kind kind = STRESS_ORBIT_REWRITTEN; kind <= STRESS_ORBIT_LAWS; ++kind)
     expect_finding(true, LATER_ORBITS, kind);
   expect_finding(true, VERDICT_TURNED, STRESS_VERDICT);
