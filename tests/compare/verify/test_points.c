@@ -111,6 +111,45 @@ static void outliers_are_named(CHECK_STATE)
   verify_data_clear(&d);
 }
 
+/* Newton ended early at seven of 61 points, some beside each other: too many for outliers, and the others are right. At
+ * all points, by 10 to 90 % and by chance, nothing is right, and no measured curve scatters so. */
+static void points_without_convergence_are_named(CHECK_STATE)
+{
+  static const int early[] = {10, 11, 20, 30, 31, 40, 50};
+  const scene sc = curve_scene(case2);
+  char text[VERIFY_TEXT];
+  uint64_t seed = 3;
+  verify_data d = right_curve(&sc);
+  for (size_t i = 0; i < sizeof early / sizeof *early; ++i) d.points[early[i]].value *= i % 2 ? 0.6 : 1.5;
+  verify_report r = judged(&sc, &d, "not_converged", 1);
+  assert_int_equal(r.count[VERDICT_DIFFERS], 7);
+  assert_non_null(strstr(verify_sentence(&r, text), "check the residuals"));
+  verify_clear(&r);
+  for (int i = 0; i < d.n; ++i)
+    d.points[i].value *= 1 + (random_unit(&seed) < 0.5 ? -1 : 1) * (0.1 + 0.8 * random_unit(&seed));
+  r = judged(&sc, &d, "not_converged", 1);
+  verify_clear(&r);
+  verify_data_clear(&d);
+}
+
+/* Between every two points that were computed one on their chord, a third of the way. */
+static void points_on_chords_are_named(CHECK_STATE)
+{
+  const scene sc = curve_scene(case2);
+  verify_data d = right_curve(&sc);
+  int n = 0;
+  for (int i = 0; i + 3 < d.n; i += 3) {
+    const verify_point a = d.points[i], b = d.points[i + 1], c = d.points[i + 3];
+    const double part = (b.omega - a.omega) / (c.omega - a.omega);
+    d.points[n++] = a;
+    d.points[n++] = (verify_point){b.omega, a.value + part * (c.value - a.value), b.line};
+  }
+  d.n = n;
+  verify_report r = judged(&sc, &d, "interpolated", 1);
+  verify_clear(&r);
+  verify_data_clear(&d);
+}
+
 /* A little off is no outlier, and few points tell nothing. */
 static void a_little_off_is_no_outlier(CHECK_STATE)
 {
@@ -193,4 +232,5 @@ static void every_exact_solution_leads_to_a_sampled_one(CHECK_STATE)
 
 CHECK_TESTS("verify.points", 300, every_exact_solution_leads_to_a_sampled_one, noise_is_remarked_and_estimated,
             noise_that_is_said_is_allowed, noise_does_not_hide_an_offset, outliers_are_named,
-            a_little_off_is_no_outlier, nothing_but_unstable_points_fail, the_order_of_the_points_does_not_matter)
+            points_without_convergence_are_named, points_on_chords_are_named, a_little_off_is_no_outlier,
+            nothing_but_unstable_points_fail, the_order_of_the_points_does_not_matter)
