@@ -1,0 +1,115 @@
+/* test_changes.c - the models with one mistake in them, by what the mistake makes of chain3: M = 1, C = 0.02 K, K =
+ * [2 -1 0; -1 2 -1; 0 -1 2] with the eigenvalues 2 - sqrt(2), 2, 2 + sqrt(2); two sliders and a stop. */
+#include <math.h>
+
+#include "compare/verify/equations/changes.h"
+#include "tests/check.h"
+#include "tests/compare/verify/curves.h"
+
+enum { DOFS = 3, ENTRIES = DOFS * DOFS };
+static const double rounding = 1e-13; /* some tens of operations on numbers of order 1 */
+
+static model *of_case(const char *path)
+{
+  const scene sc = curve_scene(path);
+  model *m;
+  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  return m;
+}
+
+static model *changed(const model *m, verify_change change, double factor, int which, hbm_mistakes *mistakes)
+{
+  const verify_changed how = {change, factor, which};
+  double offset[8];
+  model *out;
+  *mistakes = (hbm_mistakes){0};
+  assert_true(m->n_responses <= 8);
+  assert_int_equal(verify_changed_model(m, &how, true, &out, offset, mistakes), HC_OK);
+  return out;
+}
+
+/* With M = 1 modal damping of one ratio z has C C = 4 z^2 K. The ratio of mode k is 0.01 omega_k, and z their mean times
+ * the factor. */
+static void damping_of_one_ratio(CHECK_STATE)
+{
+  model *m = of_case("cases/structures/chain3.yaml");
+  hbm_mistakes none;
+  model *theirs = changed(m, CHANGE_DAMPING_MODAL, 1.5, 0, &none);
+  const double root = sqrt(2), mean = (sqrt(2 - root) + root + sqrt(2 + root)) / 3, z = 1.5 * 0.01 * mean;
+  for (int i = 0; i < DOFS; ++i)
+    for (int k = 0; k < DOFS; ++k) {
+      double square = 0;
+      for (int j = 0; j < DOFS; ++j) square += theirs->damping[i + DOFS * j] * theirs->damping[j + DOFS * k];
+      CHECK_NEAR(square, 4 * z * z * m->stiffness[i + DOFS * k], rounding, "%d, %d", i, k);
+    }
+  assert_false(none.hysteretic);
+  model_free(theirs);
+  model_free(m);
+}
+
+/* trace C = 0.12 is that of 0.04 M and of 0.02 K; hysteretic damping is i C whose C is 0.02 K times the root of
+ * trace K/trace M = 2, which is where the two dissipate the same. */
+static void damping_of_a_matrix(CHECK_STATE)
+{
+  static const struct kind {
+    verify_change change;
+    bool of_mass, hysteretic;
+    double share;
+  } all[] = {{CHANGE_DAMPING_OF_M, true, false, 0.04},
+             {CHANGE_DAMPING_OF_K, false, false, 0.02},
+             {CHANGE_HYSTERETIC, false, true, 0.02 * 1.41421356237309505}};
+  model *m = of_case("cases/structures/chain3.yaml");
+  for (size_t a = 0; a < sizeof all / sizeof *all; ++a) {
+    hbm_mistakes mistakes;
+    model *theirs = changed(m, all[a].change, 3, 0, &mistakes);
+    const double *like = all[a].of_mass ? m->mass : m->stiffness;
+    for (int i = 0; i < ENTRIES; ++i) CHECK_NEAR(theirs->damping[i], 3 * all[a].share * like[i], rounding, "%d", i);
+    assert_int_equal(mistakes.hysteretic, all[a].hysteretic);
+    model_free(theirs);
+  }
+  model_free(m);
+}
+
+/* Contacts are numbered from 1, 0 is all that rub: the stop does not. */
+static void friction_of_the_other_sign(CHECK_STATE)
+{
+  static const unsigned turned[] = {3, 1, 2};
+  model *m = of_case("cases/structures/chain3.yaml");
+  hbm_mistakes mistakes;
+  double offset[8];
+  for (int which = 0; which < 3; ++which) {
+    model_free(changed(m, CHANGE_FRICTION_SIGN, 1, which, &mistakes));
+    assert_int_equal(mistakes.turned, turned[which]);
+    assert_int_equal(mistakes.mean, HBM_FRICTION_MEAN);
+  }
+  const verify_changed stop = {CHANGE_FRICTION_SIGN, 1, 3};
+  model *theirs;
+  mistakes = (hbm_mistakes){0};
+  assert_int_equal(verify_changed_model(m, &stop, true, &theirs, offset, &mistakes), HC_BAD_INPUT);
+  model_free(changed(m, CHANGE_SLIDER_MEAN, 1, 0, &mistakes));
+  assert_int_equal(mistakes.mean, HBM_FRICTION_MEAN_OF_U);
+  model_free(changed(m, CHANGE_FRICTION_MEAN, 1, 0, &mistakes));
+  assert_int_equal(mistakes.mean, HBM_FRICTION_NO_MEAN);
+  assert_int_equal(mistakes.turned, 0);
+  model_free(m);
+}
+
+/* t' = c t - s n, n' = s t + c n of the one contact, 20 degrees; the other's directions stay. */
+static void a_contact_is_turned(CHECK_STATE)
+{
+  model *m = of_case("cases/structures/wedge_F10.yaml");
+  hbm_mistakes none;
+  const double angle = 20 * 3.14159265358979324 / 180, c = cos(angle), s = sin(angle);
+  model *theirs = changed(m, CHANGE_TURNED, 20, 2, &none);
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < DOFS; ++i) {
+      const double t = m->contacts[j].tangent[i], n = m->contacts[j].normal[i];
+      CHECK_NEAR(theirs->contacts[j].tangent[i], j ? c * t - s * n : t, rounding, "%d, %d", j, i);
+      CHECK_NEAR(theirs->contacts[j].normal[i], j ? s * t + c * n : n, rounding, "%d, %d", j, i);
+    }
+  model_free(theirs);
+  model_free(m);
+}
+
+CHECK_TESTS("verify.changes", 60, damping_of_one_ratio, damping_of_a_matrix, friction_of_the_other_sign,
+            a_contact_is_turned)
