@@ -182,39 +182,10 @@ def damped(kind, part):
     return change
 
 
-def exchanged(i, k):
-    def change(s, c):
-        s = s.copy()
-        order = list(range(len(s.mass)))
-        order[i], order[k] = k, i
-        for field in ("mass", "damping", "stiffness"):
-            setattr(s, field, getattr(s, field)[np.ix_(order, order)])
-        return s, c
-    return change
-
-
 def loads(function):
     def change(s, c):
         s = s.copy()
         s.loads = function(s.loads)
-        return s, c
-    return change
-
-
-def both(*changes):
-    def change(s, c):
-        for one in changes:
-            s, c = one(s, c)
-        return s, c
-    return change
-
-
-def one_side(which):
-    def change(s, c):
-        s = s.copy()
-        for d in s.contacts[which].tangents + [s.contacts[which].normal]:
-            if d is not None and np.count_nonzero(d) > 1:
-                d[np.flatnonzero(d)[-1]] *= -1
         return s, c
     return change
 
@@ -257,10 +228,6 @@ def half_range(x, order=0, omega=1.0):
 
 def random(seed):
     return np.random.default_rng(seed)
-
-
-def noisy(size, seed=1):
-    return lambda omega, values, X, scene: (omega, values * (1 + size * random(seed).standard_normal(values.shape)))
 
 
 def spoiled_points(how_many, seed=2):
@@ -349,7 +316,6 @@ add("chain3", "gap 0.6", ["wrong_gap"], contact(2, gap=times(0.6)))
 add("chain3", "kn 3", ["wrong_normal_stiffness"], contact(2, kn=times(3)))
 add("chain3", "modal damping", ["damping_kind"], damped("modal", 0.02))
 add("chain3", "hysteretic", ["damping_kind"], damped("hysteretic", 0.03))
-add("chain3", "one side", ["one_side_turned"], one_side(1))
 add("chain3", "load at 1", ["load_dof"], loads(lambda l: [(0, 1.0, 1, 0.0)]))
 add("chain3", "chords", ["interpolated"], None, chords(2))
 add("wedge", "slider mean", ["slider_mean"], code(slider="no mean"))
