@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""make.py - makes the files of the suite from table.py.
+
+    python3 suite/make.py HBMCHECK [NAME...]      all cases, or these; HBMCHECK is the built program, hbmcheck-proof beside it
+
+For each case cases/NAME.yaml, cases/NAME.json, and a certificate a reference; then suite.json and the table of README.md.
+Cases whose laws have straight pieces: `hbmcheck prove` at the case's frequencies, everything must be proven. Others:
+hbmcheck's own solutions, with the larger of two errors: half of the harmonics, and time integration.
+"""
+import csv
+import glob
+import io
+import json
+import os
+import subprocess
+import sys
+from fractions import Fraction
+
+import table
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+VERSION = "1.0"
+QUANTITIES = ("amplitude", "mean", "a1", "b1")
+CERTIFIED_DIGITS = 16  # of the decimals of an enclosure that a case states; rounded outward
+
+
+def flow(x):
+    """YAML and JSON at once, but for keys that are numbers."""
+    if isinstance(x, dict):
+        return "{" + ", ".join(f"{k}: {flow(v)}" for k, v in x.items()) + "}"
+    if isinstance(x, list):
+        return "[" + ", ".join(flow(v) for v in x) + "]"
+    return f"{x:.15g}" if isinstance(x, float) else str(x)
+
+
+def yaml_of(c):
+    lines = [f"# {c['tests']}", f"# Goes wrong most often: {c['wrong']}", f"title: {c['title']}", "structure:"]
+    lines += [f"  {key}: {flow(c[key])}" for key in ("mass", "damping", "stiffness")]
+    for key in ("loads", "contacts"):
+        lines.append({"loads": "forcing", "contacts": "contacts"}[key] + ":")
+        lines += [f"  - {flow(entry)}" for entry in c[key]]
+    lines += [f"response: [{c['response']}]", f"sweep: {{omega: {flow(c['sweep'])}}}", f"compare: {{omega: {flow(c['at'])}}}",
+              f"hbm: {{harmonics: {min(c['harmonics'], 20)}}}"]
+    return "\n".join(lines) + "\n"
+
+
+def row(c, direction):
+    return [direction.get(i + 1, 0) for i in range(len(c["mass"]))]
+
+
+def model_of(c):
+    """The model as plain numbers."""
+    loads = {}
+    for load in c["loads"]:
+        entry = loads.setdefault(load["harmonic"], [0] * len(c["mass"]))
+        entry[load["dof"] - 1] += load["amplitude"]
+    contacts = [{k: row(c, v) if k in ("tangent", "normal", "direction") else v for k, v in k_.items()} for k_ in c["contacts"]]
+    return {"mass": c["mass"], "damping": c["damping"], "stiffness": c["stiffness"],
+            "loads": [{"harmonic": h, "cos": v, "sin": [0] * len(v)} for h, v in sorted(loads.items())], "contacts": contacts}
+
+
+def run(arguments, okay=(0,)):
+    done = subprocess.run(arguments, capture_output=True, text=True)
+    if done.returncode not in okay:
+        sys.exit(f"{' '.join(arguments)}: exit {done.returncode}\n{done.stderr}")
+    return done.stdout
+
+
+def rows_of(text):
+    return list(csv.DictReader(io.StringIO("\n".join(line for line in text.splitlines() if line and not line.startswith("#")))))
+
+
+def decimal(text, up):
+    """A decimal string rounded outward to CERTIFIED_DIGITS significant digits, as a JSON number."""
+    value = Fraction(text)
+    if value == 0:
+        return "0"
+    power = 0
+    while abs(value) * Fraction(10) ** power < 10 ** (CERTIFIED_DIGITS - 1):
+        power += 1
+    while abs(value) * Fraction(10) ** power >= 10 ** CERTIFIED_DIGITS:
+        power -= 1
+    scaled = value * Fraction(10) ** power
+    digits = str(-(-scaled.numerator // scaled.denominator) if up else scaled.numerator // scaled.denominator)
+    sign, digits = ("-", digits[1:]) if digits[0] == "-" else ("", digits)
+    return f"{sign}{digits[0]}.{digits[1:]}e{len(digits) - 1 - power}"
+
+
+def interval(bounds):
+    return f"[{decimal(bounds[0], False)}, {decimal(bounds[1], True)}]"
+
+
+def proven(hbmcheck, c, path):
+    """References as JSON text: a row an orbit that is proven. The certificates are kept, without blanks."""
+    folder = os.path.join(HERE, "certificates")
+    for old in glob.glob(os.path.join(folder, c["name"] + "_[0-9]*.json")):
+        os.remove(old)
+    found = rows_of(run([hbmcheck, "prove", path, "-o", folder, "--format", "csv", "-q"]))
+    if any(r["verdict"] != "proven" for r in found):
+        sys.exit(f"{c['name']}: " + "; ".join(f"{r['omega']} {r['branch']} {r['reason']}" for r in found if r["verdict"] != "proven"))
+    out = []
+    for r in found:
+        file = os.path.join(folder, r["certificate"])
+        with open(file, encoding="utf-8") as f:
+            certificate = json.load(f)
+        with open(file, "w", encoding="utf-8") as f:
+            f.write("{" + ",\n".join(f"{json.dumps(k)}:{json.dumps(v, separators=(',', ':'))}" for k, v in certificate.items()) + "}\n")
+        free = bool(certificate["rest"])
+        if free and any("normal" in k and "tangent" in k for k in c["contacts"]):
+            sys.exit(f"{c['name']}: at {r['omega']} a slider never slips and the normal load varies: history decides")
+        quantities = [f'"{q}": ' + ("null" if free and q == "mean" else interval(certificate["claims"][q])) for q in QUANTITIES]
+        out.append(f'{{"omega": {certificate["omega"]}, "stability": "{r["stability"]}", "kind": "proven", "certificate": "{r["certificate"]}",\n     '
+                   + ", ".join(quantities) + "}")
+    return out
+
+
+def make(hbmcheck, c):
+    path = os.path.join(HERE, "cases", c["name"] + ".yaml")
+    with open(path, "w", encoding="utf-8") as f:
+        f.write(yaml_of(c))
+    references = proven(hbmcheck, c, path)
+    head = {"name": c["name"], "group": c["group"], "title": c["title"], "tests": c["tests"], "goes_wrong": c["wrong"]}
+    lines = [f" {json.dumps(k)}: {json.dumps(v)}" for k, v in head.items()]
+    model = ",\n".join(f"  {json.dumps(k)}: {json.dumps(v)}" for k, v in model_of(c).items())
+    lines += [f' "model": {{\n{model}}}', f' "response": {json.dumps(row(c, {c["response"]: 1}))}', f' "omega": {json.dumps(c["at"])}',
+              f' "harmonics": {c["harmonics"]}', ' "references": [\n    ' + ",\n    ".join(references) + "]"]
+    with open(path[:-5] + ".json", "w", encoding="utf-8") as f:
+        f.write("{\n" + ",\n".join(lines) + "\n}\n")
+    return len(references)
+
+
+def main():
+    hbmcheck, names = os.path.abspath(sys.argv[1]), sys.argv[2:]
+    for folder in ("cases", "certificates"):
+        os.makedirs(os.path.join(HERE, folder), exist_ok=True)
+    for c in table.CASES:
+        if not names or c["name"] in names:
+            print(c["name"], make(hbmcheck, c), flush=True)
+    with open(os.path.join(HERE, "suite.json"), "w", encoding="utf-8") as f:
+        f.write(json.dumps({"suite": VERSION, "cases": [c["name"] for c in table.CASES]}, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()
