@@ -1,0 +1,471 @@
+/* cmd_suite.c - hbmcheck suite: how many digits of the published cases a program has, and why not more. */
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/number.h"
+#include "base/thread_clock.h"
+#include "command/commands.h"
+#include "command/scores.h"
+#include "compare/gate/gate.h"
+#include "compare/verify/verify.h"
+#include "output/output.h"
+#include "output/progress.h"
+
+static const char help[] =
+    "Score a program's results on the published cases of SUITE, whose references are proven: digits of amplitude, mean "
+    "and harmonic 1, and what is wrong where they are missing. Without --results hbmcheck's own, exact and sampled."
+    "\vResults: a folder with NAME.csv for each case, or one json; SUITE/README.md has the format. "
+    "With -o FILE.html a page is written, and the table goes to standard output.\n"
+    "exit: 0 every case passes  1 one does not  2 a file is wrong (the others are scored)  3 could not  64 usage\n"
+    "example: hbmcheck suite --results mine -o score.html";
+
+enum { PATH_ROOM = 4096, PROGRAMS = 2, CASE_PATIENCE = 8 /* [s] */, MOST_CAUSES = 64 };
+
+typedef struct suite_options {
+  const char *results, *program, *badge, *junit, *write; /* NULL: not given */
+  double digits, patience;
+  cli_texts only;
+  bool all;
+} suite_options;
+static const suite_options defaults = {.digits = 3, .patience = 60};
+
+static const cli_option options[] = {
+    {CLI_TEXT, "results", "PATH", "A program's results: a folder of csv files, or a json file",
+     offsetof(suite_options, results)},
+    {CLI_TEXT, "program", "TEXT", "What the program is called, with version and settings [its results' path]",
+     offsetof(suite_options, program)},
+    {CLI_TEXTS, "case", "NAME", "This case alone; may be given several times [all]", offsetof(suite_options, only)},
+    {CLI_POSITIVE, "digits", "D", "A case passes with so many digits in every quantity of every solution [3]",
+     offsetof(suite_options, digits)},
+    {CLI_POSITIVE, "patience", "SECONDS", "Processor time of the search for what is wrong, all cases together [60]",
+     offsetof(suite_options, patience)},
+    {CLI_FLAG, "all", NULL, "A second table: every quantity of every solution", offsetof(suite_options, all)},
+    {CLI_TEXT, "badge", "FILE", "Also write the score as a picture (SVG)", offsetof(suite_options, badge),
+     .file = "--badge", .use = CLI_OUTPUT},
+    {CLI_TEXT, "junit", "FILE", "Also write each case as JUnit XML", offsetof(suite_options, junit), .file = "--junit",
+     .use = CLI_OUTPUT},
+    {CLI_TEXT, "write-results", "FILE", "Without --results: our own, exact, as results are to be written (json)",
+     offsetof(suite_options, write), .file = "--write-results", .use = CLI_OUTPUT},
+    {0},
+};
+
+static const table_column columns[] = {TEXT("case"),        TEXT("program"), INTEGER("solutions"), INTEGER("missing"),
+                                       INTEGER("extra"),    REAL("digits"),  TEXT("quantity"),     REAL("omega"),
+                                       REAL("mean_digits"), REAL("score"),   TEXT("result"),       TEXT("cause")};
+static const table_column quantity_columns[] = {
+    TEXT("case"),     TEXT("program"), REAL("omega"), INTEGER("solution"), TEXT("stability"), TEXT("kind"),
+    TEXT("quantity"), REAL("value"),   REAL("low"),   REAL("high"),        REAL("digits")};
+static const char *const spare_columns[] = {"extra", "mean_digits", "solutions", "omega", "quantity", NULL};
+
+typedef struct suite_call {
+  cli_common *common;
+  const suite_options *own;
+  char folder[PATH_ROOM];
+  suite suite;
+  int n_programs;
+  scores programs[PROGRAMS];
+  int refused;          /* files */
+  char why[SUITE_TEXT]; /* the likeliest cause of all cases */
+  char words[SUITE_TEXT];
+} suite_call;
+
+/* The folder that was named; or beside the program as installed, or where it was to be; or ./suite. */
+static void find_folder(suite_call *call)
+{
+  char *const to = call->folder, path[PATH_ROOM + 16];
+  if (call->common->n_arguments) {
+    snprintf(to, PATH_ROOM, "%s", call->common->arguments[0]);
+    return;
+  }
+  const ssize_t length = readlink("/proc/self/exe", to, PATH_ROOM - 64);
+  to[length > 0 ? length : 0] = '\0';
+  char *slash = strrchr(to, '/');
+  snprintf(slash ? slash : to, 64, "/../share/hbmcheck/suite");
+  const char *const places[] = {to, HBMCHECK_SUITE, "suite"};
+  for (int i = 0; i < 3; ++i) {
+    snprintf(path, sizeof path, "%s/suite.json", places[i]);
+    if (access(path, R_OK) != 0 && i < 2) continue;
+    if (i) snprintf(to, PATH_ROOM, "%s", places[i]);
+    return;
+  }
+}
+
+static bool is_asked(const suite_call *call, int i)
+{
+  const cli_texts *only = &call->own->only;
+  bool found = only->n == 0;
+  for (int k = 0; k < only->n; ++k) found |= !strcmp(only->text[k], call->suite.cases[i].name);
+  return found;
+}
+
+/* Only the cases of --case stay. 0 or the exit code. */
+static int keep_asked(suite_call *call)
+{
+  suite *s = &call->suite;
+  int kept = 0;
+  for (int i = 0; i < s->n; ++i) {
+    if (!is_asked(call, i)) continue;
+    const suite_case swapped = s->cases[kept];
+    s->cases[kept++] = s->cases[i], s->cases[i] = swapped;
+  }
+  if (kept == 0 || kept < call->own->only.n)
+    return cli_failed(call->common, EXIT_USAGE, "--case: the suite has no case of that name");
+  for (int i = kept; i < s->n; ++i) suite_case_clear(&s->cases[i]);
+  s->n = kept;
+  return 0;
+}
+
+/* What a solver makes of case i, as a scene. */
+static int load_case(suite_call *call, int i, scene *sc, compare_setup *setup)
+{
+  char path[PATH_ROOM + 128];
+  snprintf(path, sizeof path, "%s/cases/%s.yaml", call->folder, call->suite.cases[i].name);
+  int code = cli_load_case(call->common, path, sc, &(case_error){{0}});
+  if (!code && scene_setup(sc, setup) != HC_OK) code = EXIT_NO_SOLUTION;
+  return code;
+}
+
+/* Our own solutions, exact and sampled. A solution that fails is missing. 0 or the exit code. */
+static int solve_all(suite_call *call)
+{
+  static const hbm_force forces[PROGRAMS] = {HBM_FORCE_EXACT, HBM_FORCE_SAMPLED};
+  progress *bar = progress_start("suite", call->common->quiet);
+  hc_monitor monitor = progress_monitor(bar);
+  int code = 0;
+  for (int i = 0; i < call->suite.n && !code; ++i) {
+    scene sc = {.structure = NULL};
+    compare_setup setup = {0};
+    code = load_case(call, i, &sc, &setup);
+    for (int p = 0; p < call->n_programs && !code; ++p) {
+      const hc_status st = suite_solve(&setup, &call->suite.cases[i], forces[p], 0,
+                                       &(hc_monitor){hc_monitor_tick_aside, &monitor}, &call->programs[p].answers[i]);
+      if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) code = cli_solver_failed(call->common, CLI_HBM, "suite", st, 0);
+    }
+    hc_monitor_tick(&monitor, (i + 1.0) / call->suite.n);
+    scene_setup_clear(&setup);
+    case_clear(&sc);
+    call->common->scene = NULL;
+  }
+  progress_end(bar);
+  return code;
+}
+
+/* ---- what is wrong ---- */
+
+/* A cause that the digits tell: which quantities are off, or that harmonic 1 is conjugate. */
+static void tell_quantities(const suite_case *c, const scores *p, int i, char *cause)
+{
+  const suite_match *matches = p->scores[i].matches;
+  bool off[SUITE_N] = {false}, conjugate = true;
+  int n = 0;
+  for (int k = 0; k < c->n; ++k) {
+    const suite_reference *r = &c->references[k];
+    if (!matches[k].row) continue;
+    for (int q = 0; q < SUITE_N; ++q)
+      if (matches[k].digits[q] < p->digits) n += !off[q], off[q] = true;
+    const double apart = fabs(matches[k].row->value[SUITE_B1] + 0.5 * (r->low[SUITE_B1] + r->high[SUITE_B1]));
+    conjugate &= apart <= pow(10, -p->digits) * r->low[SUITE_AMPLITUDE];
+  }
+  if (n == 1 && off[SUITE_B1] && conjugate) suite_say(cause, "sign_of_b1");
+  else if (n == 1 && off[SUITE_MEAN]) suite_say(cause, "mean_alone");
+  else if (n > 0 && !off[SUITE_AMPLITUDE])
+    suite_say(cause, "%s", off[SUITE_MEAN] ? "harmonic_1_and_mean" : "harmonic_1_alone");
+}
+
+/* The rows that stand at the case's frequencies, as a curve. */
+static hc_status curve_of(const suite_case *c, const suite_answer *a, verify_data *data)
+{
+  static const char *const names[] = {"amplitude", "harmonic_1"};
+  const bool by_amplitude = !isnan(a->rows[0].value[SUITE_AMPLITUDE]);
+  *data = (verify_data){.points = calloc((size_t)a->n + 1, sizeof *data->points)};
+  if (!data->points) return HC_NO_MEMORY;
+  verify_quantity_read(names[!by_amplitude], strlen(names[!by_amplitude]), &data->quantity);
+  for (int k = 0; k < a->n; ++k) {
+    const suite_row *r = &a->rows[k];
+    const double value = by_amplitude ? r->value[SUITE_AMPLITUDE] : hypot(r->value[SUITE_A1], r->value[SUITE_B1]);
+    if (r->omega >= 0.9 * c->references[0].omega && r->omega <= 1.1 * c->references[c->n - 1].omega && value >= 0)
+      data->points[data->n++] = (verify_point){r->omega, value, r->line};
+  }
+  return HC_OK;
+}
+
+/* Whatever verify says of them. */
+static int ask_verify(suite_call *call, scores *p, int i, double patience)
+{
+  scene sc = {.structure = NULL};
+  compare_setup setup = {0};
+  verify_data data = {0};
+  verify_report report = {0};
+  char text[VERIFY_TEXT];
+  int code = load_case(call, i, &sc, &setup);
+  hc_status st = code ? HC_BAD_INPUT : curve_of(&call->suite.cases[i], &p->answers[i], &data);
+  if (st == HC_OK && data.n > 0)
+    st = verify_run(&setup, 1, &data, &(verify_effort){.patience = patience}, NULL, &report);
+  if (st == HC_OK && data.n > 0) {
+    if (report.causes) suite_say(p->causes[i], "%s", verify_word(&report, text));
+    else if (report.nearest_guess) suite_say(p->causes[i], "%s?", verify_cause_words(report.nearest_guess, text));
+  }
+  if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) code = cli_solver_failed(call->common, CLI_BOTH, "suite", st, 0);
+  verify_clear(&report);
+  verify_data_clear(&data);
+  scene_setup_clear(&setup);
+  case_clear(&sc);
+  call->common->scene = NULL;
+  return code;
+}
+
+/* The cause that most cases have. */
+static void count_causes(suite_call *call, const scores *p)
+{
+  int most = 0, told = 0;
+  for (int i = 0; i < call->suite.n; ++i) {
+    int n = 0;
+    told += *p->causes[i] != '\0';
+    for (int k = 0; k < call->suite.n && *p->causes[i]; ++k) n += !strcmp(p->causes[k], p->causes[i]);
+    if (n <= most) continue;
+    most = n;
+    suite_say(call->why, "what is wrong: %s (%d", p->causes[i], n);
+  }
+  const size_t used = strlen(call->why);
+  if (most) snprintf(call->why + used, sizeof call->why - used, " of the %d cases with a cause)", told);
+}
+
+/* Cases that do not pass, until the patience ends. */
+static int diagnose(suite_call *call, scores *p)
+{
+  double left = call->own->patience;
+  int code = 0;
+  progress *bar = progress_start("what is wrong", call->common->quiet);
+  for (int i = 0; i < call->suite.n && !code; ++i) {
+    const suite_score *s = &p->scores[i];
+    const suite_answer *a = &p->answers[i];
+    if (s->digits >= p->digits || !a->n || *a->wrong) continue;
+    tell_quantities(&call->suite.cases[i], p, i, p->causes[i]);
+    if (*p->causes[i] || left <= 0) continue;
+    const double began = thread_seconds();
+    code = ask_verify(call, p, i, fmin(left, CASE_PATIENCE));
+    left -= thread_seconds() - began;
+  }
+  progress_end(bar);
+  count_causes(call, p);
+  return code;
+}
+
+/* ---- results ---- */
+
+static double shown(const suite_call *call, double x)
+{
+  return call->common->format == FORMAT_TABLE ? round(10 * x) / 10 : x;
+}
+
+static void put_case(suite_call *call, const scores *p, int i, table *t, table *details)
+{
+  static const char *const stabilities[] = {"unstable", "unproven", "stable"};
+  const suite_case *c = &call->suite.cases[i];
+  const suite_score *s = &p->scores[i];
+  const suite_answer *a = &p->answers[i];
+  const char *result = *a->wrong ? "refused" : !a->there ? "no results" : s->digits >= p->digits ? "pass" : "fail";
+  TABLE_ROW(t, CELL(c->name), CELL(p->program), CELL(c->n), CELL(s->missing), CELL(s->extra),
+            CELL(shown(call, s->digits)), CELL(suite_quantity[s->quantity]), CELL(c->references[s->worst].omega),
+            CELL(shown(call, s->mean)), CELL(shown(call, 100 * s->points)), CELL(result),
+            CELL_IF(*p->causes[i], (const char *)p->causes[i]));
+  for (int k = 0; k < c->n; ++k)
+    for (int q = 0; q < SUITE_N; ++q) {
+      const suite_reference *r = &c->references[k];
+      const suite_match *m = &s->matches[k];
+      if (isnan(m->digits[q])) continue;
+      TABLE_ROW(details, CELL(c->name), CELL(p->program), CELL(r->omega), CELL(k), CELL(stabilities[r->stability + 1]),
+                CELL(r->proven ? "proven" : "stated"), CELL(suite_quantity[q]), CELL(m->row ? m->row->value[q] : NAN),
+                CELL(r->low[q]), CELL(r->high[q]), CELL(shown(call, m->digits[q])));
+    }
+  if (*a->note) table_note(t, "%s", a->note);
+  if (*a->wrong) table_note(t, "refused: %s", a->wrong);
+}
+
+static int write_tables(suite_call *call)
+{
+  table *t = cli_own_table("Suite", 0, CLI_COLUMNS(columns));
+  table *details = cli_own_table("Quantities", 0, CLI_COLUMNS(quantity_columns));
+  for (int i = 0; i < call->suite.n; ++i)
+    for (int p = 0; p < call->n_programs; ++p) put_case(call, &call->programs[p], i, t, details);
+  for (int k = 0; k < call->n_programs; ++k) {
+    const scores *p = &call->programs[k];
+    int missing = 0;
+    for (int i = 0; i < call->suite.n; ++i) missing += !p->answers[i].there;
+    if (missing) table_note(t, "%d cases without results count as 0", missing);
+    table_note(t, "%s: score %.1f of 100, %d of %d cases with %g digits everywhere; suite %s", p->program, p->total,
+               p->passed, call->suite.n, p->digits, call->suite.version);
+  }
+  if (*call->why) table_note(t, "%s", call->why);
+  if (*call->words) table_note(t, "%s", call->words);
+  table_spare(t, spare_columns);
+  const int code = cli_write(call->common, call->own->all ? 2 : 1, (table *[]){t, details});
+  table_free(t);
+  table_free(details);
+  return code;
+}
+
+/* Each case of each program as a check of its fewest digits, in the words of the gate. */
+static hc_status write_junit(const suite_call *call, FILE *to)
+{
+  hc_status st = HC_OK;
+  gate_case *cases = calloc(PROGRAMS, sizeof *cases);
+  for (int p = 0; p < call->n_programs && cases; ++p) {
+    const scores *of = &call->programs[p];
+    gate_case *g = &cases[p];
+    g->name = of->program;
+    g->checks = calloc((size_t)call->suite.n, sizeof *g->checks);
+    if (!g->checks) st = HC_NO_MEMORY;
+    for (int i = 0; i < call->suite.n && st == HC_OK; ++i) {
+      const suite_score *s = &of->scores[i];
+      gate_check *c = &g->checks[g->n++];
+      *c = (gate_check){.omega = NAN,
+                        .branch = -1,
+                        .response = -1,
+                        .quantity = call->suite.cases[i].name,
+                        .against = "limit",
+                        .allowed = of->digits,
+                        .found = s->digits,
+                        .result = GATE_PASS};
+      if (s->digits >= of->digits) continue;
+      c->result = GATE_FAIL;
+      ++g->failures;
+      snprintf(c->reason, sizeof c->reason, "%.1f digits of %s at omega %.6g, %g expected; %.80s", s->digits,
+               suite_quantity[s->quantity], call->suite.cases[i].references[s->worst].omega, of->digits,
+               *of->answers[i].wrong ? of->answers[i].wrong : of->causes[i]);
+    }
+  }
+  if (!cases) st = HC_NO_MEMORY;
+  if (st == HC_OK) st = gate_write_junit(call->n_programs, cases, to);
+  for (int p = 0; p < call->n_programs && cases; ++p) gate_clear(&cases[p]);
+  free(cases);
+  return st;
+}
+
+/* Our own rows in the format of results. */
+static hc_status write_results(const suite_call *call, FILE *to)
+{
+  const scores *p = call->programs;
+  char number[NUMBER_TEXT];
+  fprintf(to, "{\"program\": \"hbmcheck %s, exact forces\", \"suite\": \"%s\",\n \"cases\": {", HBMCHECK_VERSION,
+          call->suite.version);
+  for (int i = 0; i < call->suite.n; ++i) {
+    fprintf(to, "%s\n  \"%s\": [", i ? "," : "", call->suite.cases[i].name);
+    for (int k = 0; k < p->answers[i].n; ++k) {
+      const suite_row *r = &p->answers[i].rows[k];
+      fprintf(to, "%s\n    {\"omega\": %s", k ? "," : "", number_write(r->omega, number));
+      for (int q = 0; q < SUITE_N; ++q)
+        fprintf(to, ", \"%s\": %s", suite_quantity[q], number_write(r->value[q], number));
+      putc('}', to);
+    }
+    putc(']', to);
+  }
+  fputs("}}\n", to);
+  return ferror(to) ? HC_IO : HC_OK;
+}
+
+static hc_status write_page(const suite_call *call, FILE *to)
+{
+  return scores_page(&call->suite, call->n_programs, call->programs, call->why, to);
+}
+
+static hc_status write_badge(const suite_call *call, FILE *to)
+{
+  return scores_badge(&call->suite, call->programs, to);
+}
+
+/* 0 or the exit code after the message. */
+static int write_file(const suite_call *call, const char *path, hc_status (*write)(const suite_call *, FILE *))
+{
+  output *out = NULL;
+  if (!path) return 0;
+  hc_status st = output_open(path, &out);
+  if (st == HC_OK) st = output_finish(out, write(call, output_stream(out)));
+  return st == HC_OK ? 0 : cli_file_failed(call->common, path, st);
+}
+
+static int judge(suite_call *call, scores *p)
+{
+  for (int i = 0; i < call->suite.n; ++i) {
+    suite_score *s = &p->scores[i];
+    if (suite_judge(&call->suite.cases[i], &p->answers[i], s) != HC_OK)
+      return cli_solver_failed(call->common, CLI_BOTH, "suite", HC_NO_MEMORY, 0);
+    p->total += 100 * s->points / call->suite.n;
+    p->passed += s->digits >= p->digits;
+    call->refused += *p->answers[i].wrong != '\0';
+    if (*p->answers[i].wrong) cli_message(call->common, "refused: %s", p->answers[i].wrong);
+  }
+  return 0;
+}
+
+static int read_and_score(suite_call *call)
+{
+  const suite_options *own = call->own;
+  char why[SUITE_TEXT];
+  int strange = 0, code;
+  hc_status st = suite_read(call->folder, &call->suite, why);
+  if (st != HC_OK) return cli_failed(call->common, st == HC_BAD_INPUT ? EXIT_BAD_CASE : EXIT_NO_SOLUTION, "%s", why);
+  if ((code = keep_asked(call)) != 0) return code;
+  const size_t n = (size_t)call->suite.n;
+  static const char *const ours[PROGRAMS] = {"exact", "sampled"};
+  call->n_programs = own->results ? 1 : PROGRAMS;
+  for (int p = 0; p < call->n_programs; ++p) {
+    scores *s = &call->programs[p];
+    *s = (scores){own->program   ? own->program
+                  : own->results ? own->results
+                                 : ours[p],
+                  calloc(n, sizeof *s->answers),
+                  calloc(n, sizeof *s->scores),
+                  calloc(n, sizeof *s->causes),
+                  own->digits,
+                  0,
+                  0};
+    if (!s->answers || !s->scores || !s->causes)
+      return cli_solver_failed(call->common, CLI_BOTH, "suite", HC_NO_MEMORY, 0);
+  }
+  if (own->results) {
+    st = suite_results_read(own->results, &call->suite, call->programs->answers, &strange, why);
+    if (st != HC_OK) return cli_failed(call->common, st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE, "%s", why);
+    if (strange && !own->only.n) suite_say(call->words, "%s; %d such", why, strange);
+  } else if ((code = solve_all(call)) != 0) return code;
+  for (int p = 0; p < call->n_programs && !code; ++p) code = judge(call, &call->programs[p]);
+  if (!code && own->results) code = diagnose(call, call->programs);
+  return code;
+}
+
+static int run_suite(cli_common *common, void *given, scene *sc)
+{
+  (void)sc;
+  suite_call *call = calloc(1, sizeof *call);
+  if (!call) return cli_solver_failed(common, CLI_BOTH, "suite", HC_NO_MEMORY, 0);
+  call->common = common, call->own = given;
+  const char *page = common->output, *dot = page ? strrchr(page, '.') : NULL;
+  if (dot && !strcmp(dot, ".html")) common->output = NULL;
+  else page = NULL;
+  find_folder(call);
+  int code = call->own->write && call->own->results
+                 ? cli_failed(common, EXIT_USAGE, "--write-results writes our own results: not with --results")
+                 : read_and_score(call);
+  int written = code ? 0 : write_tables(call);
+  if (!code && !written) written = write_file(call, page, write_page);
+  if (!code && !written) written = write_file(call, call->own->badge, write_badge);
+  if (!code && !written) written = write_file(call, call->own->junit, write_junit);
+  if (!code && !written) written = write_file(call, call->own->write, write_results);
+  if (!code) code = written ? written : call->refused ? EXIT_BAD_CASE : 0;
+  for (int p = 0; p < call->n_programs; ++p) {
+    scores *s = &call->programs[p];
+    if (!code && s->passed < call->suite.n) code = EXIT_DISAGREED;
+    for (int i = 0; i < call->suite.n && s->answers && s->scores; ++i)
+      free(s->answers[i].rows), free(s->scores[i].matches);
+    free(s->answers), free(s->scores), free(s->causes);
+  }
+  suite_clear(&call->suite);
+  free(call);
+  return code;
+}
+
+CLI_COMMAND(suite, suite_options, "[SUITE]", "score a program, or ourselves, on published cases with proven references",
+            .defaults = &defaults);
