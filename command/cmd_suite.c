@@ -155,79 +155,92 @@ static int solve_all(suite_call *call)
 
 /* ---- what is wrong ---- */
 
-/* A cause that the digits tell: which quantities are off, or that harmonic 1 is conjugate. */
+/* A cause that the digits tell: some quantities alone are off, by far, or harmonic 1 is conjugate. */
 static void tell_quantities(const suite_case *c, const scores *p, int i, char *cause)
 {
+  enum { FAR = 2 };
   const suite_match *matches = p->scores[i].matches;
-  bool off[SUITE_N] = {false}, conjugate = true;
-  int n = 0;
+  double least[SUITE_N] = {INFINITY, INFINITY, INFINITY, INFINITY}, conjugate = 0;
   for (int k = 0; k < c->n; ++k) {
-    const suite_reference *r = &c->references[k];
+    const double *low = c->references[k].low, *high = c->references[k].high;
     if (!matches[k].row) continue;
-    for (int q = 0; q < SUITE_N; ++q)
-      if (matches[k].digits[q] < p->digits) n += !off[q], off[q] = true;
-    const double apart = fabs(matches[k].row->value[SUITE_B1] + 0.5 * (r->low[SUITE_B1] + r->high[SUITE_B1]));
-    conjugate &= apart <= pow(10, -p->digits) * r->low[SUITE_AMPLITUDE];
+    for (int q = 0; q < SUITE_N; ++q) least[q] = fmin(least[q], matches[k].digits[q]); /* fmin leaves NaN out */
+    conjugate = fmax(conjugate, fabs(matches[k].row->value[SUITE_B1] + 0.5 * (low[SUITE_B1] + high[SUITE_B1])) /
+                                    low[SUITE_AMPLITUDE]);
   }
-  if (n == 1 && off[SUITE_B1] && conjugate) suite_say(cause, "sign_of_b1");
-  else if (n == 1 && off[SUITE_MEAN]) suite_say(cause, "mean_alone");
-  else if (n > 0 && !off[SUITE_AMPLITUDE])
-    suite_say(cause, "%s", off[SUITE_MEAN] ? "harmonic_1_and_mean" : "harmonic_1_alone");
+  const double harmonic = fmin(least[SUITE_A1], least[SUITE_B1]), others = fmin(harmonic, least[SUITE_AMPLITUDE]);
+  if (conjugate <= pow(10, -p->digits) && least[SUITE_B1] + FAR < least[SUITE_A1]) suite_say(cause, "sign_of_b1");
+  else if (least[SUITE_MEAN] + FAR < others) suite_say(cause, "mean_alone");
+  else if (harmonic + FAR < least[SUITE_AMPLITUDE]) suite_say(cause, "harmonic_1_alone");
 }
 
-/* The rows that stand at the case's frequencies, as a curve. */
-static hc_status curve_of(const suite_case *c, const suite_answer *a, verify_data *data)
+/* The rows near the case's frequencies as a curve of amplitude, or of harmonic 1. */
+static hc_status curve_of(const suite_case *c, const suite_answer *a, const char *quantity, verify_data *data)
 {
-  static const char *const names[] = {"amplitude", "harmonic_1"};
-  const bool by_amplitude = !isnan(a->rows[0].value[SUITE_AMPLITUDE]);
   *data = (verify_data){.points = calloc((size_t)a->n + 1, sizeof *data->points)};
   if (!data->points) return HC_NO_MEMORY;
-  verify_quantity_read(names[!by_amplitude], strlen(names[!by_amplitude]), &data->quantity);
+  verify_quantity_read(quantity, strlen(quantity), &data->quantity);
   for (int k = 0; k < a->n; ++k) {
     const suite_row *r = &a->rows[k];
-    const double value = by_amplitude ? r->value[SUITE_AMPLITUDE] : hypot(r->value[SUITE_A1], r->value[SUITE_B1]);
+    const double harmonic = hypot(r->value[SUITE_A1], r->value[SUITE_B1]);
+    const double value = data->quantity.kind == KIND_AMPLITUDE ? r->value[SUITE_AMPLITUDE] : harmonic;
     if (r->omega >= 0.9 * c->references[0].omega && r->omega <= 1.1 * c->references[c->n - 1].omega && value >= 0)
       data->points[data->n++] = (verify_point){r->omega, value, r->line};
   }
   return HC_OK;
 }
 
-/* Whatever verify says of them. */
+/* What verify says of them, its gate being the digits asked for; a guess where neither curve tells the cause. */
 static int ask_verify(suite_call *call, scores *p, int i, double patience)
 {
+  static const char *const quantities[] = {"amplitude", "harmonic_1"};
   scene sc = {.structure = NULL};
   compare_setup setup = {0};
-  verify_data data = {0};
-  verify_report report = {0};
   char text[VERIFY_TEXT];
   int code = load_case(call, i, &sc, &setup);
-  hc_status st = code ? HC_BAD_INPUT : curve_of(&call->suite.cases[i], &p->answers[i], &data);
-  if (st == HC_OK && data.n > 0)
-    st = verify_run(&setup, 1, &data, &(verify_effort){.patience = patience}, NULL, &report);
-  if (st == HC_OK && data.n > 0) {
-    if (report.causes) suite_say(p->causes[i], "%s", verify_word(&report, text));
-    else if (report.nearest_guess) suite_say(p->causes[i], "%s?", verify_cause_words(report.nearest_guess, text));
+  hc_status st = code ? HC_BAD_INPUT : HC_OK;
+  bool sure = false;
+  sc.gate.most.amplitude = sc.gate.most.harmonic_1 = pow(10, -p->digits); /* setup.limits is sc.gate */
+  for (int k = 0; k < 2 && st == HC_OK && !sure; ++k) {
+    verify_data data = {0};
+    verify_report report = {0};
+    st = curve_of(&call->suite.cases[i], &p->answers[i], quantities[k], &data);
+    if (st == HC_OK && data.n)
+      st = verify_run(&setup, 1, &data, &(verify_effort){.patience = patience}, NULL, &report);
+    sure = st == HC_OK && report.causes;
+    if (sure) suite_say(p->causes[i], "%s", verify_word(&report, text));
+    else if (st == HC_OK && report.nearest_guess && !*p->causes[i])
+      suite_say(p->causes[i], "%s?", verify_cause_words(report.nearest_guess, text));
+    verify_clear(&report);
+    verify_data_clear(&data);
   }
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) code = cli_solver_failed(call->common, CLI_BOTH, "suite", st, 0);
-  verify_clear(&report);
-  verify_data_clear(&data);
   scene_setup_clear(&setup);
   case_clear(&sc);
   call->common->scene = NULL;
   return code;
 }
 
-/* The cause that most cases have. */
+/* Is the word among those of the cause, "a+b?"? */
+static bool names(const char *cause, const char *word, size_t length)
+{
+  for (const char *at = cause; *at; at += strcspn(at, "+"), at += *at == '+')
+    if (strcspn(at, "+?") == length && !memcmp(at, word, length)) return true;
+  return false;
+}
+
+/* The word that most cases have, single ones where as many have several. */
 static void count_causes(suite_call *call, const scores *p)
 {
   int most = 0, told = 0;
   for (int i = 0; i < call->suite.n; ++i) {
-    int n = 0;
     told += *p->causes[i] != '\0';
-    for (int k = 0; k < call->suite.n && *p->causes[i]; ++k) n += !strcmp(p->causes[k], p->causes[i]);
-    if (n <= most) continue;
-    most = n;
-    suite_say(call->why, "what is wrong: %s (%d", p->causes[i], n);
+    for (const char *at = p->causes[i]; *at; at += strcspn(at, "+"), at += *at == '+') {
+      const size_t length = strcspn(at, "+?");
+      int n = 0;
+      for (int k = 0; k < call->suite.n; ++k) n += names(p->causes[k], at, length);
+      if (n > most) most = n, suite_say(call->why, "what is wrong: %.*s (%d", (int)length, at, n);
+    }
   }
   const size_t used = strlen(call->why);
   if (most) snprintf(call->why + used, sizeof call->why - used, " of the %d cases with a cause)", told);
