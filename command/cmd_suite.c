@@ -190,7 +190,7 @@ static hc_status curve_of(const suite_case *c, const suite_answer *a, const char
   return HC_OK;
 }
 
-/* What verify says of them, its gate being the digits asked for; a guess where neither curve tells the cause. */
+/* What verify says of them, its gate a digit more than asked for; a guess where neither curve tells the cause. */
 static int ask_verify(suite_call *call, scores *p, int i, double patience)
 {
   static const char *const quantities[] = {"amplitude", "harmonic_1"};
@@ -200,7 +200,7 @@ static int ask_verify(suite_call *call, scores *p, int i, double patience)
   int code = load_case(call, i, &sc, &setup);
   hc_status st = code ? HC_BAD_INPUT : HC_OK;
   bool sure = false;
-  sc.gate.most.amplitude = sc.gate.most.harmonic_1 = pow(10, -p->digits); /* setup.limits is sc.gate */
+  sc.gate.most.amplitude = sc.gate.most.harmonic_1 = pow(10, -p->digits - 1); /* setup.limits is sc.gate */
   for (int k = 0; k < 2 && st == HC_OK && !sure; ++k) {
     verify_data data = {0};
     verify_report report = {0};
