@@ -27,7 +27,6 @@ enum { PATH_ROOM = 4096, PROGRAMS = 2, CASE_PATIENCE = 8 /* [s] */, MOST_CAUSES 
 typedef struct suite_options {
   const char *results, *program, *badge, *junit, *write; /* NULL: not given */
   double digits, patience;
-  cli_texts only;
   bool all;
 } suite_options;
 static const suite_options defaults = {.digits = 3, .patience = 60};
@@ -37,7 +36,6 @@ static const cli_option options[] = {
      offsetof(suite_options, results)},
     {CLI_TEXT, "program", "TEXT", "What the program is called, with version and settings [its results' path]",
      offsetof(suite_options, program)},
-    {CLI_TEXTS, "case", "NAME", "This case alone; may be given several times [all]", offsetof(suite_options, only)},
     {CLI_POSITIVE, "digits", "D", "A case passes with so many digits in every quantity of every solution [3]",
      offsetof(suite_options, digits)},
     {CLI_POSITIVE, "patience", "SECONDS", "Processor time of the search for what is wrong, all cases together [60]",
@@ -63,7 +61,7 @@ static const char *const spare_columns[] = {"extra", "mean_digits", "solutions",
 typedef struct suite_call {
   cli_common *common;
   const suite_options *own;
-  char folder[PATH_ROOM];
+  const char *folder;
   suite suite;
   int n_programs;
   scores programs[PROGRAMS];
@@ -72,50 +70,11 @@ typedef struct suite_call {
   char words[SUITE_TEXT];
 } suite_call;
 
-/* The folder that was named; or beside the program as installed, or where it was to be; or ./suite. */
-static void find_folder(suite_call *call)
+/* The suite's folder: the one named, ./suite, or as installed. */
+static const char *folder_of(const cli_common *common)
 {
-  char *const to = call->folder, path[PATH_ROOM + 16];
-  if (call->common->n_arguments) {
-    snprintf(to, PATH_ROOM, "%s", call->common->arguments[0]);
-    return;
-  }
-  const ssize_t length = readlink("/proc/self/exe", to, PATH_ROOM - 64);
-  to[length > 0 ? length : 0] = '\0';
-  char *slash = strrchr(to, '/');
-  snprintf(slash ? slash : to, 64, "/../share/hbmcheck/suite");
-  const char *const places[] = {to, HBMCHECK_SUITE, "suite"};
-  for (int i = 0; i < 3; ++i) {
-    snprintf(path, sizeof path, "%s/suite.json", places[i]);
-    if (access(path, R_OK) != 0 && i < 2) continue;
-    if (i) snprintf(to, PATH_ROOM, "%s", places[i]);
-    return;
-  }
-}
-
-static bool is_asked(const suite_call *call, int i)
-{
-  const cli_texts *only = &call->own->only;
-  bool found = only->n == 0;
-  for (int k = 0; k < only->n; ++k) found |= !strcmp(only->text[k], call->suite.cases[i].name);
-  return found;
-}
-
-/* Only the cases of --case stay. 0 or the exit code. */
-static int keep_asked(suite_call *call)
-{
-  suite *s = &call->suite;
-  int kept = 0;
-  for (int i = 0; i < s->n; ++i) {
-    if (!is_asked(call, i)) continue;
-    const suite_case swapped = s->cases[kept];
-    s->cases[kept++] = s->cases[i], s->cases[i] = swapped;
-  }
-  if (kept == 0 || kept < call->own->only.n)
-    return cli_failed(call->common, EXIT_USAGE, "--case: the suite has no case of that name");
-  for (int i = kept; i < s->n; ++i) suite_case_clear(&s->cases[i]);
-  s->n = kept;
-  return 0;
+  if (common->n_arguments) return common->arguments[0];
+  return access("suite/suite.json", R_OK) == 0 ? "suite" : HBMCHECK_SUITE;
 }
 
 /* What a solver makes of case i, as a scene. */
@@ -172,6 +131,7 @@ static void tell_quantities(const suite_case *c, const scores *p, int i, char *c
   if (conjugate <= pow(10, -p->digits) && least[SUITE_B1] + FAR < least[SUITE_A1]) suite_say(cause, "sign_of_b1");
   else if (least[SUITE_MEAN] + FAR < others) suite_say(cause, "mean_alone");
   else if (harmonic + FAR < least[SUITE_AMPLITUDE]) suite_say(cause, "harmonic_1_alone");
+  else if (p->scores[i].missing && fmin(others, least[SUITE_MEAN]) >= p->digits) suite_say(cause, "missing_solutions");
 }
 
 /* The rows near the case's frequencies as a curve of amplitude, or of harmonic 1. */
@@ -205,8 +165,7 @@ static int ask_verify(suite_call *call, scores *p, int i, double patience)
     verify_data data = {0};
     verify_report report = {0};
     st = curve_of(&call->suite.cases[i], &p->answers[i], quantities[k], &data);
-    if (st == HC_OK && data.n)
-      st = verify_run(&setup, 1, &data, &(verify_effort){.patience = patience}, NULL, &report);
+    if (st == HC_OK && data.n) st = verify_run(&setup, 1, &data, &(verify_effort){.patience = patience}, NULL, &report);
     sure = st == HC_OK && report.causes;
     if (sure) suite_say(p->causes[i], "%s", verify_word(&report, text));
     else if (st == HC_OK && report.nearest_guess && !*p->causes[i])
@@ -221,15 +180,15 @@ static int ask_verify(suite_call *call, scores *p, int i, double patience)
   return code;
 }
 
-/* Is the word among those of the cause, "a+b?"? */
-static bool names(const char *cause, const char *word, size_t length)
+/* How much the cause, "a+b?", speaks for the word: a guess less than what is sure. */
+static int votes(const char *cause, const char *word, size_t length)
 {
   for (const char *at = cause; *at; at += strcspn(at, "+"), at += *at == '+')
-    if (strcspn(at, "+?") == length && !memcmp(at, word, length)) return true;
-  return false;
+    if (strcspn(at, "+?") == length && !memcmp(at, word, length)) return strchr(cause, '?') ? 1 : 4;
+  return 0;
 }
 
-/* The word that most cases have, single ones where as many have several. */
+/* The word that most cases speak for. */
 static void count_causes(suite_call *call, const scores *p)
 {
   int most = 0, told = 0;
@@ -237,9 +196,12 @@ static void count_causes(suite_call *call, const scores *p)
     told += *p->causes[i] != '\0';
     for (const char *at = p->causes[i]; *at; at += strcspn(at, "+"), at += *at == '+') {
       const size_t length = strcspn(at, "+?");
-      int n = 0;
-      for (int k = 0; k < call->suite.n; ++k) n += names(p->causes[k], at, length);
-      if (n > most) most = n, suite_say(call->why, "what is wrong: %.*s (%d", (int)length, at, n);
+      int n = 0, sum = 0;
+      for (int k = 0; k < call->suite.n; ++k) {
+        const int of_case = votes(p->causes[k], at, length);
+        n += of_case > 0, sum += of_case;
+      }
+      if (sum > most) most = sum, suite_say(call->why, "what is wrong: %.*s (%d", (int)length, at, n);
     }
   }
   const size_t used = strlen(call->why);
@@ -421,7 +383,6 @@ static int read_and_score(suite_call *call)
   int strange = 0, code;
   hc_status st = suite_read(call->folder, &call->suite, why);
   if (st != HC_OK) return cli_failed(call->common, st == HC_BAD_INPUT ? EXIT_BAD_CASE : EXIT_NO_SOLUTION, "%s", why);
-  if ((code = keep_asked(call)) != 0) return code;
   const size_t n = (size_t)call->suite.n;
   static const char *const ours[PROGRAMS] = {"exact", "sampled"};
   call->n_programs = own->results ? 1 : PROGRAMS;
@@ -442,7 +403,7 @@ static int read_and_score(suite_call *call)
   if (own->results) {
     st = suite_results_read(own->results, &call->suite, call->programs->answers, &strange, why);
     if (st != HC_OK) return cli_failed(call->common, st == HC_NO_MEMORY ? EXIT_NO_SOLUTION : EXIT_BAD_CASE, "%s", why);
-    if (strange && !own->only.n) suite_say(call->words, "%s; %d such", why, strange);
+    if (strange) suite_say(call->words, "%s; %d such", why, strange);
   } else if ((code = solve_all(call)) != 0) return code;
   for (int p = 0; p < call->n_programs && !code; ++p) code = judge(call, &call->programs[p]);
   if (!code && own->results) code = diagnose(call, call->programs);
@@ -458,7 +419,7 @@ static int run_suite(cli_common *common, void *given, scene *sc)
   const char *page = common->output, *dot = page ? strrchr(page, '.') : NULL;
   if (dot && !strcmp(dot, ".html")) common->output = NULL;
   else page = NULL;
-  find_folder(call);
+  call->folder = folder_of(common);
   int code = call->own->write && call->own->results
                  ? cli_failed(common, EXIT_USAGE, "--write-results writes our own results: not with --results")
                  : read_and_score(call);

@@ -108,15 +108,12 @@ hc_status suite_read(const char *folder, suite *out, char *why)
   return st;
 }
 
-void suite_case_clear(suite_case *c)
-{
-  free(c->name), free(c->group), free(c->title), free(c->tests), free(c->goes_wrong);
-  free(c->references);
-}
-
 void suite_clear(suite *s)
 {
-  for (int i = 0; i < s->n; ++i) suite_case_clear(&s->cases[i]);
+  for (int i = 0; i < s->n; ++i) {
+    const suite_case *c = &s->cases[i];
+    free(c->name), free(c->group), free(c->title), free(c->tests), free(c->goes_wrong), free(c->references);
+  }
   free(s->cases);
   free(s->version);
   *s = (suite){0};

@@ -78,7 +78,6 @@ typedef struct suite {
 /* The suite in `folder`. HC_BAD_INPUT, HC_IO, HC_NO_MEMORY with why[SUITE_TEXT]; suite_clear in any case. */
 hc_status suite_read(const char *folder, suite *out, char *why);
 void suite_clear(suite *s);
-void suite_case_clear(suite_case *c);
 
 /* A program's results of all cases into answers[s->n]: `path` is a folder with NAME.csv, or a json file. A case's file
  * that is refused says so in its answer. *strange: files or cases that the suite does not have, the first one's name in

@@ -17,7 +17,7 @@ sys.path.insert(0, sys.argv[1])
 sys.path[:] = [p for p in sys.path if pathlib.Path(p or ".").resolve() != pathlib.Path(__file__).resolve().parent]  # this file has its name
 from tmdsimpy.continuation import Continuation  # noqa: E402
 from tmdsimpy.nlforces.general_poly_stiffness import GenPolyForce  # noqa: E402
-from tmdsimpy.nlforces.jenkins_element import JenkinsForce  # noqa: E402
+from tmdsimpy.nlforces.vector_jenkins import VectorJenkins  # noqa: E402
 from tmdsimpy.nlforces.unilateral_spring import UnilateralSpring  # noqa: E402
 from tmdsimpy.solvers import NonlinearSolver  # noqa: E402
 from tmdsimpy.utils import harmonic as hutils  # noqa: E402
@@ -38,7 +38,7 @@ def force_of(c):
     if "law" in c:
         return None
     if "normal" not in c:
-        return JenkinsForce(row["tangent"], row["tangent"].T, c["tangential_stiffness"], c["friction"] * c["preload"]), 0
+        return VectorJenkins(row["tangent"], row["tangent"].T, c["tangential_stiffness"], c["friction"] * c["preload"]), 0
     preload = max(c["normal_stiffness"] * c["gap"], 0)
     if "tangent" not in c:
         return UnilateralSpring(row["normal"], row["normal"].T, c["normal_stiffness"], Npreload=preload, delta=-c["gap"]), 0
@@ -72,8 +72,8 @@ def solve_case(case, H, Nt):
     U = solver.nsolve(lambda U: residual(np.r_[U, start])[:2], linear, verbose=False)[0]
     scale = hutils.harmonic_wise_conditioning(np.r_[U, start], n, h, delta=1e-3 * np.abs(U).max())
     scale[-1] = end
-    config = {"DynamicCtoP": True, "MaxSteps": 4000, "dsmin": 1e-4, "dsmax": 0.03, "verbose": -1, "xtol": 1e-9 * Fl.size, "corrector": "Ortho"}
-    curve = Continuation(solver, ds0=0.02, CtoP=scale, RPtoC=1 / np.abs(np.diag(residual(np.r_[U, start])[1])).max(), config=config)
+    config = {"DynamicCtoP": True, "MaxSteps": 4000, "dsmin": 1e-3, "dsmax": 0.1, "verbose": -1, "xtol": 1e-9 * Fl.size, "corrector": "Ortho"}
+    curve = Continuation(solver, ds0=0.05, CtoP=scale, RPtoC=1 / np.abs(np.diag(residual(np.r_[U, start])[1])).max(), config=config)
     points = curve.continuation(residual, np.r_[U, start], start, end)
     th = np.outer(2 * np.pi * np.arange(65536) / 65536, h[1:])
     for w in case["omega"]:

@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+"""The suite: what its files say against its certificates, results of all kinds, wrong programs.
+
+    test_suite.py HBMCHECK HBMCHECK_PROOF WHAT      WHAT: files, check (slow: all by check.py), own, results, wrong
+"""
+import csv
+import glob
+import io
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+from fractions import Fraction
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SUITE = ROOT / "suite"
+HBMCHECK, PROOF = sys.argv[1], sys.argv[2]
+NAMES = json.loads((SUITE / "suite.json").read_text())["cases"]
+# Numbers as they stand in the files, exactly.
+CASES = {n: json.loads((SUITE / "cases" / f"{n}.json").read_text(), parse_float=Fraction, parse_int=Fraction) for n in NAMES}
+FULL = {n: json.loads((SUITE / "cases" / f"{n}.json").read_text()) for n in NAMES}
+QUANTITIES = ("amplitude", "mean", "a1", "b1")
+failures = 0
+
+
+def check(true, words):
+    global failures
+    if not true:
+        failures += 1
+        print("FAILED:", words)
+
+
+def suite(*arguments, expect):
+    done = subprocess.run([HBMCHECK, "suite", str(SUITE), *arguments, "--format", "csv"], capture_output=True, text=True)
+    check(done.returncode == expect, f"suite {' '.join(arguments)}: exit {done.returncode}, expected {expect}: {done.stderr}")
+    rows = list(csv.DictReader(io.StringIO("\n".join(x for x in done.stdout.splitlines() if not x.startswith("#")))))
+    return {(r["case"], r["program"]): r for r in rows}, done.stdout + done.stderr
+
+
+# ---- files ---------------------------------------------------------------------------------------------------------------------
+def rows_of(matrix):
+    return [[Fraction(x) for x in row] for row in matrix]
+
+
+def contact_of(c):
+    return {k: [Fraction(x) for x in v] if isinstance(v, list) else Fraction(v) for k, v in c.items()}
+
+
+def files():
+    """Each reference contains its certificate's claims and is hardly wider; the certificate's model, omega and response are the case's."""
+    used = set()
+    for name, case in CASES.items():
+        smooth = any("law" in c for c in case["model"]["contacts"])
+        for r in case["references"]:
+            check((r["kind"] == "stated") == smooth, f"{name}: kind")
+            if smooth:
+                continue
+            file = SUITE / "certificates" / r["certificate"]
+            used.add(file.name)
+            certificate = json.loads(file.read_text())
+            model, where = certificate["model"], f"{name} at {float(r['omega'])}"
+            for key in ("mass", "damping", "stiffness"):
+                check(rows_of(model[key]) == rows_of(case["model"][key]), f"{where}: {key}")
+            loads = [(x["harmonic"], [Fraction(v) for v in x["cos"]], [Fraction(v) for v in x["sin"]]) for x in model["forcing"]]
+            check(sorted(loads) == [(x["harmonic"], x["cos"], x["sin"]) for x in case["model"]["loads"]], f"{where}: loads")
+            check([contact_of(c) for c in model["contacts"]] == case["model"]["contacts"], f"{where}: contacts")
+            check(Fraction(certificate["omega"]) == r["omega"] and certificate["multiple"] == 1, f"{where}: omega")
+            check([Fraction(v) for v in certificate["response"]] == case["response"], f"{where}: response")
+            check(certificate["claims"]["stability"] == r["stability"], f"{where}: stability")
+            for q in QUANTITIES:
+                if r[q] is None:
+                    check(q == "mean" and certificate["rest"] != {}, f"{where}: {q} is not asked")
+                    continue
+                low, high = (Fraction(x) for x in certificate["claims"][q])
+                check(r[q][0] <= low and high <= r[q][1] and r[q][1] - r[q][0] <= high - low + abs(high) * Fraction(2, 10**15), f"{where}: {q}")
+    check(used == {p.name for p in (SUITE / "certificates").iterdir()}, "certificates that no case has, or the other way")
+    done = subprocess.run([PROOF, "check", *sorted(glob.glob(str(SUITE / "certificates" / "*.json")))], capture_output=True, text=True)
+    check(done.returncode == 0 and done.stdout.count(": accepted") == len(used), "hbmcheck-proof does not accept all: " + done.stdout[-300:])
+    sample = ["jenkins_7_0.json", "foot_6_0.json", "fold_7.6_1.json"]
+    check_py(sample)
+
+
+def check_py(names):
+    paths = [str(SUITE / "certificates" / n) for n in names]
+    done = subprocess.run([sys.executable, "-I", "-S", str(ROOT / "proof" / "check.py"), *paths], capture_output=True, text=True)
+    check(done.returncode == 0 and done.stdout.count(": accepted") == len(names), "check.py does not accept all: " + done.stdout[-300:])
+
+
+def check_all():
+    check_py(sorted(os.listdir(SUITE / "certificates")))
+
+
+# ---- our own --------------------------------------------------------------------------------------------------------------------
+def own():
+    """Exact: 9 digits everywhere, or the reference's. Sampled: 3. And our own results, written and read again, score the same."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = f"{folder}/own.json"
+        rows, _ = suite("--write-results", file, expect=0)
+        again, _ = suite("--results", file, "--program", "exact", "--digits", "8.9", expect=0)
+        for name in NAMES:
+            exact, sampled = rows[name, "exact"], rows[name, "sampled"]
+            known = 9 if CASES[name]["references"][0]["kind"] == "proven" else 8
+            check(float(exact["digits"]) >= known and exact["missing"] == "0", f"{name}: exact has {exact['digits']} digits")
+            check(3 <= float(sampled["digits"]) <= float(exact["digits"]) + 0.5, f"{name}: sampled has {sampled['digits']}")
+            check(again[name, "exact"]["digits"] == exact["digits"], f"{name}: written and read again")
+
+
+# ---- results of all kinds ---------------------------------------------------------------------------------------------------------
+def middle(r, q):
+    return None if r[q] is None else 0.5 * (r[q][0] + r[q][1])
+
+
+def true_rows(name):
+    return [{"omega": r["omega"], **{q: middle(r, q) for q in QUANTITIES}} for r in FULL[name]["references"]]
+
+
+def write_csv(folder, name, rows, columns=("omega", *QUANTITIES), head=None):
+    text = ",".join(head or columns) + "\n" + "".join(",".join("" if r.get(c) is None else repr(r[c]) for c in columns) + "\n" for r in rows)
+    pathlib.Path(folder, f"{name}.csv").write_text(text)
+
+
+def results():
+    truth = {n: true_rows(n) for n in NAMES}
+    with tempfile.TemporaryDirectory() as folder:
+        def score(name, text=None, rows=None, expect=1, **how):
+            for old in glob.glob(folder + "/*"):
+                os.remove(old)
+            if text is not None:
+                pathlib.Path(folder, f"{name}.csv").write_text(text)
+            else:
+                write_csv(folder, name, rows, **how)
+            found, said = suite("--results", folder, "--program", "p", expect=expect)
+            return found[name, "p"], said
+
+        for name in NAMES:
+            write_csv(folder, name, list(reversed(truth[name])), columns=("b1", "extra", "amplitude", "omega", "mean", "a1"))
+        rows, said = suite("--results", folder, "--program", "p", expect=0)
+        check(all(float(r["score"]) > 99.999 for r in rows.values()), "the truth in another order, with a column more: all points")
+        check("fold.csv:1:4: column `extra` is left out" in said, "the column that is left out is told by name")
+
+        fold = truth["fold"]
+        row, _ = score("fold", rows=[r for i, r in enumerate(fold) if i % 3 != 1])
+        check(row["missing"] == "3" and abs(float(row["score"]) - 200 / 3) < 1e-6, "two of three branches: a third of the points is missing")
+        check(row["cause"] == "missing_solutions", "missing solutions are told")
+        row, _ = score("fold", rows=fold + fold + [{**fold[0], "omega": 123.0}])
+        check(row["missing"] == "0" and row["extra"] == "9" and row["result"] == "pass", "every solution twice, and another frequency: nothing lost")
+        foot = truth["foot"]
+        row, _ = score("foot", rows=[{**r, "mean": None} for r in foot], columns=("omega", "amplitude", "a1", "b1"))
+        check(row["quantity"] == "mean" and abs(float(row["score"]) - 75) < 1e-6, "a column that is missing: its points")
+        row, said = score("foot", rows=[{**r, "amplitude": float("nan")} if i == 1 else r for i, r in enumerate(foot)])
+        check("foot.csv:3:5: `nan` counts as missing" in said and 95 < float(row["score"]) < 96, "nan counts as missing and is named")
+        row, said = score("foot", rows=[{**r, "omega": r["omega"] / (2 * 3.141592653589793)} for r in foot], expect=2)
+        check(row["result"] == "refused" and "foot.csv:2:1: omega" in said and "is in cycles" in said, "cycles are refused by name")
+        row, said = score("foot", rows=[{q: r[q] * (1 if q == "omega" else 1000) for q in r} for r in foot])
+        check(row["cause"] and row["score"] == "0", f"millimetres for metres: no points and a cause, {row['cause']}")
+        row, said = score("foot", rows=[{**r, "b1": -r["b1"]} for r in foot])
+        check(row["cause"] == "sign_of_b1", f"the sign of b1: {row['cause']}")
+        for text, where in (("omega,amplitude\n5;1\n", ":2:1: `5;1` is not a number"), ("omega,amplitude\n5\n", ":2:1: 1 fields, expected 2"), ("omega,amplitude\n5,1,2\n", ":2:5: more than 2 fields"),
+                            ("omega,amplitude\n5,x\n", ":2:3: `x` is not a number"), ("w,amplitude\n5,1\n", ":1:1: no column omega"),
+                            ("omega,omega,mean\n", ":1:7: a second column `omega`"), ("", ":1:1: empty")):
+            row, said = score("foot", text=text, expect=2)
+            check(row["result"] == "refused" and "foot.csv" + where in said and row["score"] == "0", f"{text!r}: {where}")
+        row, said = score("foot", text="\ufeff# remark\r\nomega , amplitude\r\n 5 , 1e-1\r\n")
+        check(row["result"] == "fail" and row["missing"] == "5", "a byte order mark, remarks and CRLF are read")
+        pathlib.Path(folder, "feet.csv").write_text("omega,mean\n5,1\n")
+        check("feet.csv: the suite has no such case" in suite("--results", folder, expect=1)[1], "a case that there is not")
+
+        file = pathlib.Path(folder, "all.json")
+        file.write_text(json.dumps({"cases": truth}))
+        check(all(float(r["score"]) > 99.999 for r in suite("--results", str(file), expect=0)[0].values()), "the truth as json: all points")
+        for text, where in (('{"cases": {"foot": [\n {"omega": NaN}]}}', ":2:14"), ('{"rows": 1}', "no object `cases`"), ("{", ":1:1")):
+            file.write_text(text)
+            said = subprocess.run([HBMCHECK, "suite", str(SUITE), "--results", str(file)], capture_output=True, text=True)
+            check(said.returncode == 2 and where in said.stderr, f"{text!r}: {said.stderr}")
+        file.write_text('{"cases": {"foot": [{"omega": "5"}], "fold": {}, "tip": [{"mean": 1}], "none": []}}')
+        found, said = suite("--results", str(file), "--program", "p", expect=2)
+        for words in ("cases.foot[0].omega: a number or null was expected", "cases.fold: a list was expected", "cases.tip[0]: no omega", "no case `none`"):
+            check(words in said, words)
+
+        file.write_text(json.dumps({"cases": truth}))
+        page, badge, junit = (f"{folder}/out.{x}" for x in ("html", "svg", "xml"))
+        done = subprocess.run([HBMCHECK, "suite", str(SUITE), "--results", str(file), "--program", "<p>", "-o", page, "--badge", badge, "--junit", junit],
+                              capture_output=True, text=True)
+        check(done.returncode == 0 and f"{len(NAMES)} of {len(NAMES)} cases" in done.stdout, "page, badge and JUnit")
+        html = pathlib.Path(page).read_text()
+        check("&lt;p&gt;" in html and "<p>:" not in html and html.count("<rect") == 2 * len(NAMES), "the page: its program escaped, two bars a case")
+        check(f"{len(NAMES)} of {len(NAMES)}, score 100.0" in pathlib.Path(badge).read_text(), "the badge")
+        check(f'tests="{len(NAMES)}" failures="0"' in pathlib.Path(junit).read_text(), "JUnit")
+
+
+# ---- wrong programs -----------------------------------------------------------------------------------------------------------------
+def wrong():
+    """The program of sixty lines, and three mistakes in it, each on some cases."""
+    try:
+        import sixty_lines as program
+    except ImportError as missing:
+        print("SKIPPED:", missing)
+        return
+    mistakes = {"SAMPLES": (64, "too_few_samples", ["jenkins", "clearance", "foot_pressed", "tangent_normal"]),
+                "SIGN": (-1.0, "friction_sign", ["foot", "jenkins_mean", "tangent_normal", "weight"]),
+                "STATIC": (False, "no_static_harmonic", ["clearance", "lifting", "foot", "foot_pull"])}
+
+    def score(names, digits, expect):
+        with tempfile.TemporaryDirectory() as folder:
+            program.main(SUITE, pathlib.Path(folder), names)
+            rows, said = suite("--results", folder, "--program", "p", "--digits", digits, expect=expect)
+        return {n: rows[n, "p"] for n in names}, [x for x in said.splitlines() if "what is wrong" in x]
+
+    program.SAMPLES = 128
+    right, _ = score(sorted({n for _, _, names in mistakes.values() for n in names}), "3", 1)
+    check(all(r["result"] == "pass" for r in right.values()), f"the right program passes: {[(n, r['digits']) for n, r in right.items()]}")
+    for mistake, (value, cause, names) in mistakes.items():
+        was = getattr(program, mistake)
+        setattr(program, mistake, value)
+        rows, why = score(names, "4", 1)
+        setattr(program, mistake, was)
+        mean, before = (sum(float(x[n]["score"]) for n in names) / len(names) for x in (rows, right))
+        print(f"{mistake}: score {before:.1f} -> {mean:.1f}", *why)
+        check(any(f"what is wrong: {cause} " in x for x in why), f"{mistake}: {cause} expected, told {why}")
+        check(mean < before - 5, f"{mistake}: {mean:.1f} is not visibly below {before:.1f}")
+
+
+{"files": files, "check": check_all, "own": own, "results": results, "wrong": wrong}[sys.argv[3]]()
+sys.exit(failures > 0)
