@@ -158,6 +158,25 @@ def write_suite(names):
         f.write(json.dumps({"suite": VERSION, "cases": names}, indent=1) + "\n")
 
 
+def write_readme():
+    """The table of cases, behind the mark in README.md."""
+    path, mark, group = os.path.join(HERE, "README.md"), "<!-- made by make.py -->\n", None
+    with open(path, encoding="utf-8") as f:
+        lines = [f.read().split(mark)[0] + mark]
+    for c in table.CASES:
+        with open(os.path.join(HERE, "cases", c["name"] + ".json"), encoding="utf-8") as f:
+            references = json.load(f)["references"]
+        if c["group"] != group:
+            group = c["group"]
+            lines.append(f"\n### {group[0].upper()}{group[1:]}\n| case | tests | goes wrong most often | n | solutions |\n|---|---|---|---|---|\n")
+        unstable = sum(r["stability"] == "unstable" for r in references)
+        counted = f"{len(references)}, {unstable} unstable" if unstable else str(len(references))
+        wrong = c["wrong"].replace("|", "\\|")
+        lines.append(f"| [{c['name']}](cases/{c['name']}.yaml) | {c['title']}. {c['tests']} | {wrong} | {len(c['mass'])} | {counted} |\n")
+    with open(path, "w", encoding="utf-8") as f:
+        f.write("".join(lines))
+
+
 def make(hbmcheck, c):
     path = os.path.join(HERE, "cases", c["name"] + ".yaml")
     with open(path, "w", encoding="utf-8") as f:
@@ -177,6 +196,7 @@ def main():
         if not names or c["name"] in names:
             print(c["name"], make(hbmcheck, c), flush=True)
     write_suite([c["name"] for c in table.CASES])
+    write_readme()
 
 
 if __name__ == "__main__":

@@ -161,7 +161,7 @@ one(B, "fold_edge", "Just inside the fold", "Two of three solutions are near eac
 one(B, "fold_two_sided", "Stops on both sides, light damping", "A wide fold.", "A jump at the wrong frequency.", [9.5, 11, 12], [stop(120, -1), stop(120, -1, {1: -1})], c=0.3)
 one(B, "softening", "A preloaded stop that opens and bends the curve to the left", "A softening resonance.", "The upper branch lost.", [8.5, 8.8, 9.05], [stop(80, 1.2)], c=0.4)
 one(B, "foot_fold", "Friction and separation with a fold", "Unstable solutions with slip.", "Stability by the sign of the step.", [7.2, 7.4, 7.6], [foot(20, 120, 0.1, -1.2)], c=0.15, F=15)
-one(B, "foot_jump", "The same at its upper end", "The jump down.", "The same.", [7.7, 7.8], [foot(20, 120, 0.1, -1.2)], c=0.15, F=15)
+one(B, "foot_jump", "Friction and separation at the upper end of the fold", "Where the curve jumps down.", "A branch lost.", [7.7, 7.8], [foot(20, 120, 0.1, -1.2)], c=0.15, F=15)
 one(B, "unstable", "Unstable solutions of a bilinear spring", "Near twice the resonance the period doubles.", "Time integration, which cannot stay there.", [14.6, 15, 15.5], [stop(150, 0)], c=0.2)
 case(B, "fold_two", "Two masses and a stop with a fold", "Three solutions of a structure.", "One of them missing.",
      [9.4, 9.45, 9.5], M2, [[0.3, 0], [0, 0.3]], K2, [cos(1, 20)], [stop(80, -1, {2: 1})], response=2)
