@@ -8,7 +8,7 @@
 #include "base/number.h"
 #include "base/thread_clock.h"
 #include "command/commands.h"
-#include "command/scores.h"
+#include "command/report/scores.h"
 #include "compare/gate/gate.h"
 #include "compare/verify/verify.h"
 #include "output/output.h"

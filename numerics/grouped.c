@@ -7,9 +7,9 @@
 #include "base/workspace.h"
 #include "numerics/dense.h"
 
-/* What a row has outside its group is 0 within so much of what it has inside [1]: a contact that sticks has the rounding
- * of a Fourier transform there. Newton's steps are off by that, its answers are not. A_LL is nearly singular where the
- * response of the unknowns of L to those of R is beyond `most_response` [1]. */
+/* What a row has outside its group is 0 within so much of what it has inside [1]: a contact that sticks has the
+ * rounding of a Fourier transform there. Newton's steps are off by that, its answers are not. A_LL is nearly singular
+ * where the response of the unknowns of L to those of R is beyond `most_response` [1]. */
 static const double rounding = 1e-13, most_response = 1e5;
 
 typedef struct part { /* a group; its unknowns of L are list[begin .. begin + L), those of R are rest[at .. at + R) */

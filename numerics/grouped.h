@@ -1,8 +1,8 @@
-/* grouped.h - LU of a matrix most of whose rows tie unknowns of one group alone. Harmonic balance has such matrices: its
- * groups are harmonics, and only the force of a contact that slips or opens couples them. With L the unknowns whose rows
- * stay within their group (and what belongs to no group), R the others,
- *     A_LL x_L + A_LR x_R = b_L,   A_LL, A_LR group by group       so x_L = y - W x_R,  y = A_LL^-1 b_L, W = A_LL^-1 A_LR
- *     A_RL x_L + A_RR x_R = b_R                                    (A_RR - A_RL W) x_R = b_R - A_RL y
+/* grouped.h - LU of a matrix most of whose rows tie unknowns of one group alone, as in harmonic balance: groups are
+ * harmonics, which only the force of a contact that slips or opens couples. With L the unknowns whose rows stay within
+ * their group (and what belongs to no group), R the others,
+ *     A_LL x_L + A_LR x_R = b_L,  group by group:   x_L = y - W x_R,  y = A_LL^-1 b_L, W = A_LL^-1 A_LR
+ *     A_RL x_L + A_RR x_R = b_R                     (A_RR - A_RL W) x_R = b_R - A_RL y
  * and LU costs what the unknowns of R cost. Which rows are L is read from the matrix itself, each time. */
 #pragma once
 

@@ -543,7 +543,7 @@ static stress_check hold_proven(const solved_scene *s, const timeint_result *r, 
 
 stress_check stress_check_proof(solved_scene *s)
 {
-  const transient_settings how = path_settings();
+  const transient_settings how = path_settings(s->model);
   proof_checker *checker = NULL;
   certificate_model m = {0};
   orbit_events e = {0};

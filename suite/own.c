@@ -1,4 +1,4 @@
-/* own.c - hbmcheck's own results: the response curve with few harmonics finds all solutions, Newton makes them finer. */
+/* own.c - hbmcheck's own results: a response curve with few harmonics finds the solutions, Newton makes them finer. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

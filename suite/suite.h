@@ -23,7 +23,7 @@ extern const char *const suite_quantity[SUITE_N];
 
 enum { SUITE_TEXT = 256, SUITE_FULL = 9 /* digits for all points */, SUITE_MOST_ROWS = 10000 };
 
-/* A solution at omega, as a reference knows it; low is NaN where the quantity is not asked: a slider's history decides. */
+/* A solution at omega, as a reference knows it; low is NaN where the quantity is not asked (a slider's history). */
 typedef struct suite_reference {
   double omega;
   bool proven;   /* inside a certificate; else of stated error */

@@ -4,7 +4,7 @@
 
 #include "command/report/html.h"
 #include "command/report/parts.h"
-#include "command/scores.h"
+#include "command/report/scores.h"
 
 enum { LEFT = 190, WIDTH = 620, BAR = 9, ROW_GAP = 4, MOST_DIGITS = 15 };
 

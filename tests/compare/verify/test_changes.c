@@ -28,8 +28,8 @@ static model *changed(const model *m, verify_change change, double factor, int w
   return out;
 }
 
-/* With M = 1 modal damping of one ratio z has C C = 4 z^2 K. The ratio of mode k is 0.01 omega_k, and z their mean times
- * the factor. */
+/* With M = 1 modal damping of one ratio z has C C = 4 z^2 K. Mode k has the ratio 0.01 omega_k, and z is their mean
+ * times the factor. */
 static void damping_of_one_ratio(CHECK_STATE)
 {
   model *m = of_case("cases/structures/chain3.yaml");

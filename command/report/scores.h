@@ -1,4 +1,4 @@
-/* scores.h - results of the suite, between cmd_suite.c and the page it draws (report/score_page.c). */
+/* scores.h - results of the suite, between cmd_suite.c and the page it draws (score_page.c). */
 #pragma once
 
 #include <stdio.h>
