@@ -26,7 +26,7 @@ typedef enum path_way {
   PATH_STEADY /* timeint_steady: where the motion goes from the start */
 } path_way;
 
-/* Relative to the largest response; rounding through (I - Phi)^-1 comes besides. CVODE's: docs/transient.md. */
+/* Relative to the largest response; rounding through (I - Phi)^-1 comes besides. CVODE's: docs/measurements. */
 static const double close_enough = 1e-6, same_orbit = 1e-3, same_in_closed_form = 1e-9, same_by_cvode = 1e-8;
 static const double same_law = 1e-6, beside = 1e-5, nearby = 1e-4, tolerance = 1e-10;
 enum { MOST_PERIODS = 400, MOST_HARMONICS = 160, MOST_UNKNOWNS = 1500 };

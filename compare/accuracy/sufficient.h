@@ -2,7 +2,7 @@
  * where a slider leaves it open) and waveform of every response, relative to its amplitude, along the whole curve.
  *
  * The reference is harmonic balance itself, with exact forces, harmonic 0 and so many harmonics that its own prediction
- * (hbm_predict), which docs/prediction.md compares with time integration and theorems, is a twentieth of the error or
+ * (hbm_predict; docs/time-integration.md says how often it holds) is a twentieth of the error or
  * less: the same solutions, without a second's integration, and neither mean nor family open between the two.
  *
  * "Least" is from here on: all greater settings that were tried keep the error, too. A smaller one may keep it by

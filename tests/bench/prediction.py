@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What both sides said beforehand against what compare found (docs/prediction.md).
+"""What both sides said beforehand against what compare found (docs/measurements/predictions.md).
 
 usage: prediction.py HBMCHECK [STRESS.csv]
 The rows: the reference scenes at the frequencies of tests/reference/transient_exact.csv, and every case of cases/paper, with

@@ -218,8 +218,9 @@ static void check_transient(const char *const *set, int n, const double *omega)
   scene_setup_clear(&setup);
 }
 
-/* Case 2: period 4 at 5.11; aperiodic at 5.3 (docs/transient.md), where shooting finds the unstable orbit; from rest
- * nothing settles in two periods; natural continuation stops at the fold, before omega: the start is at rest. */
+/* Case 2: period 4 at 5.11, aperiodic at 5.3 (docs/measurements), where shooting finds the unstable orbit; from rest
+ * nothing settles in two periods; where the HBM curve stops before omega (natural continuation, at the fold), the start
+ * is at rest. */
 static void transient(CHECK_STATE)
 {
   check_transient((const char *[]){"hbm.harmonics=10", NULL}, 3, (double[]){5.11, 5.3, 8});

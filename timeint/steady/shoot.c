@@ -17,7 +17,7 @@
 #include "timeint/steady/timeint_private.h"
 
 enum {
-  NEWTON_ITERATIONS = 12,    /* twice the 3 to 7 periods that it takes from the HBM orbit (docs/transient.md) */
+  NEWTON_ITERATIONS = 12,    /* twice the 3 to 7 periods that it takes from the HBM orbit (docs/measurements) */
   ANDERSON_ITERATIONS = 100, /* what a contraction of 0.8 a period needs to 1e-9 without acceleration: 0.8^93 = 1e-9 */
   ANDERSON_DEPTH = 4,        /* about the states of an oscillator: with as many as states it is the secant method */
   LAST_STEPS = 4,            /* digits double: from 1e-2 to rounding in three, and one that shows it */
