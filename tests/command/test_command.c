@@ -95,8 +95,9 @@ static double first_row(const char *csv, const char *name)
   return strtod(row, NULL);
 }
 
-/* What dropping harmonic 0 costs on case 2 (docs/theory.md, 3): 18 %, 42 %, 63 % of the fundamental at 6.5, 8, 9 with
- * many harmonics and samples; figures of a whole percent, hence half a percent, and 1e-3 for H = 10. */
+/* What dropping harmonic 0 costs on case 2, docs/measurements/case2.md: 18 %, 42 %, 63 % of the fundamental at
+ * 6.5, 8, 9 in the limit of many harmonics and samples. Figures given to a whole percent, hence half a percent, and
+ * 1e-3 for H = 10. */
 static void dropping_the_mean_costs_what_it_costs(CHECK_STATE)
 {
   static const double expected[][2] = {{6.5, 0.18}, {8, 0.42}, {9, 0.63}};

@@ -1,5 +1,5 @@
 /* test_special.c - grazing onsets, folds and period doublings of the paper's case 2: against a closed form, against
- * what a fold is, and against the values of the true orbit (docs/theory.md, 9: time integration and AUTO-07p), to which
+ * what a fold is, and against the values of the true orbit (docs/measurements/case2.md, by AUTO-07p, too), to which
  * truncation must tend. */
 #include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"

@@ -140,7 +140,7 @@ static void without_force(CHECK_STATE)
   CHECK_LE(fmax(r.amplitude, hypot(z.x, z.v / 7)), 1e-12, "dies away");
 }
 
-/* docs/theory.md, 9: case 2 has period 2 at 5.55 and 5.56 (the 1e-4 law shifts frequencies by about 1e-3), period 1
+/* docs/measurements: case 2 has period 2 at 5.55 and 5.56 (the 1e-4 law shifts frequencies by about 1e-3), period 1
  * at 5.08. */
 static void sub_harmonics(CHECK_STATE)
 {

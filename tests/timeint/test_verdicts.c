@@ -1,5 +1,5 @@
 /* test_verdicts.c - motions that are not of the forcing's period, on case 2 with the exact law: where the period-1
- * orbit loses its stability, and what the motion becomes. Figures: docs/theory.md section 9 (and docs/paper.md), from
+ * orbit loses its stability, and what the motion becomes. Figures: docs/measurements, from
  * another program and from AUTO. */
 #include "tests/check.h"
 

@@ -75,8 +75,8 @@ static scene case2(void)
 }
 
 /* Where contact restarts in stick, a slider restarted on a sample is off by up to a sample: order 1; at the
- * interpolated instant: order 2 (docs/theory.md, 4: 2e-3, 2e-4, 3e-5 against 2e-5, 4e-7, 5e-9 of the force, from 512 to
- * 32768). The sum's own error is of order 2. Erratic, so the order of the envelope is asserted to half. */
+ * interpolated instant: order 2 (docs/measurements/case2.md: 2e-3, 2e-4, 3e-5 against 2e-5, 4e-7, 5e-9 of the force,
+ * from 512 to 32768). The sum's own error is of order 2. Erratic, so the order of the envelope is asserted to half. */
 static void aliasing_of_case_2_is_of_first_or_second_order(CHECK_STATE)
 {
   for (int restart = HBM_RESTART_INTERPOLATED; restart <= HBM_RESTART_SAMPLE; ++restart) {
