@@ -103,11 +103,6 @@ class Package(Test):
 
 @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "no matplotlib here")
 class Figures(Test):
-    def test_the_example_stands_in_two_pages(self):
-        def example(page):
-            return re.search(r"<!-- file: own_aft.py -->\n```python\n(.*?)```", (SOURCE / page).read_text(), re.S).group(1)
-        self.assertEqual(example("python/README.md"), example("docs/own-code.md"))
-
     def test_each_result_draws_itself(self):
         import matplotlib
 
