@@ -1,5 +1,5 @@
 /* presets.js LAB_JS - the page's presets, put to the module as the page does: each has its case and solves it, and shows what the paper's figure shows, by the
- * numbers of docs/paper.md. Exit 1: one does not. */
+ * numbers of docs/measurements/paper.txt. Exit 1: one does not. */
 'use strict';
 const fs = require('fs'), path = require('path'), vm = require('vm');
 
