@@ -7,9 +7,8 @@ What `hbmcheck verify` says of every curve in the folder CURVES (make.py) of the
     nothing   neither
     wrong     it names something else
 
---hidden: those written last alone. --results: kept there as they come, and not judged again. --markdown: a dated table, as
-docs/measurements has it. exit: 0 none wrong, and at least PERCENT [85] of the mistakes that change their curve by more
-than 2 % are right  1 not  64 usage"""
+--hidden: those written last alone. --markdown: the table as docs/measurements/verify.md has it. exit: 0 none wrong, and at
+least PERCENT [85] of the mistakes that change their curve by more than 2 % are right  1 not  64 usage"""
 import argparse
 import datetime
 import json
