@@ -9,9 +9,9 @@
 #include "output/progress.h"
 
 static const char help[] =
-    "The least harmonics with exact forces, and the cheapest harmonics and samples, that keep amplitude, harmonic 1, "
-    "mean and waveform of CASE within E of the amplitude along the whole curve or at the frequencies of --at; the "
-    "error there and at the next smaller setting; and the same in other programs' words."
+    "You set up another program: the fewest harmonics with exact forces, and the cheapest harmonics and samples, that "
+    "keep amplitude, harmonic 1, mean and waveform of CASE within E of the amplitude along the whole curve or at the "
+    "frequencies of --at; and the same in words of other programs."
     "\vHeld against harmonic balance with exact forces and so many harmonics that its own predicted error is E/20 or "
     "less. Least means from here on: all greater settings tried keep E, too; a smaller one that does so by chance is "
     "in a remark. Samples are powers of two. Within E (at least 0.1 %, and of 50 half widths where those are "

@@ -12,9 +12,9 @@
 #include "output/progress.h"
 
 static const char help[] =
-    "Run time against error for every method on CASE, at the largest stable response at each omega: harmonic balance "
-    "with exact and sampled forces, time integration with the exact and the regularised law, by shooting and by "
-    "marching; scipy's LSODA beside them where python3 has it."
+    "You choose a method: time against error of harmonic balance with exact and sampled forces, and of time "
+    "integration with both laws, by shooting and by marching, at the largest stable response of CASE at each omega; "
+    "scipy's LSODA beside them where python3 has it."
     "\vThe error is of the amplitude, relative to the exact law's orbit; of a structure the largest of all "
     "responses, relative to the largest amplitude. Seconds are processor time of one solution at that omega from its "
     "neighbour's in a sweep: median, lower and upper quartile. Methods take turns. error_finer is the largest error "

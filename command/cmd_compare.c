@@ -16,8 +16,8 @@
 #include "output/progress.h"
 
 static const char help[] =
-    "Solve CASE by harmonic balance and by time integration at the same frequencies; report how far apart they are, "
-    "and a verdict for every frequency and branch."
+    "You want to know whether an HBM result of your case is right: solves CASE by harmonic balance and by time "
+    "integration at the same frequencies; how far apart they are, and a verdict, for every frequency and branch."
     "\vAn error is |hbm - transient| / the transient's amplitude; the limits are the case's gate. from_aliasing, ... "
     "say what it is made of: one part a cause, all of them sizes. hbm_predicted and transient_predicted are the "
     "errors in amplitude that each side expects of itself before it sees the other; more than three times both is "

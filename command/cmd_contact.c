@@ -276,10 +276,10 @@ static hc_status contact_force_note(table *t, const cli_common *common, const co
 }
 
 static const char help[] =
-    "Fourier coefficients of CASE's contact force sum_j T_j cos(alpha_j) + (N_j - N0_j) sin(alpha_j) under the motion "
-    "x = a0 + a1 cos + b1 sin + a2 cos 2 + ... of --motion; or of one contact's tangential force T and normal force N "
-    "under its own u and v, of --motion-u and --motion-v: exact (or sampled at hbm.samples if hbm.force says so), and "
-    "sampled at each N of --samples. Of two tangents --motion-u2 moves the second."
+    "You test a contact element of your own: Fourier coefficients of CASE's contact force sum_j T_j cos(alpha_j) + "
+    "(N_j - N0_j) sin(alpha_j) under the motion x = a0 + a1 cos + b1 sin + a2 cos 2 + ... of --motion; or of one "
+    "contact's T and N under its own u and v, of --motion-u and --motion-v (--motion-u2: the second tangent): exact, "
+    "or as hbm.force says, and sampled at each N of --samples."
     "\vRow 0 is the mean. As many harmonics as the motion or hbm.harmonics has, whichever is more. With --contact a "
     "column `force`: first the rows of `tangential`, of two tangents of `tangential_2`, then those of `normal`, N0 "
     "included.\n"

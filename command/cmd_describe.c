@@ -127,8 +127,8 @@ static hc_status describe_structure_derive(const scene *sc, case_derived *out, i
 }
 
 static const char help[] =
-    "What a case file may say: every field, or one FIELD or section, with unit, default, range and meaning. With "
-    "--case what that file says: every value, where it is from, and natural frequencies and preloads that follow."
+    "You write a case file: every field, or one FIELD or section, with unit, default, range and meaning. With --case "
+    "what that file says: every value, where it is from, and natural frequencies and preloads that follow."
     "\vColumns: default is empty where the field is required, low and high where there is no such end; from = default, "
     "file or --set, and where a field of several is in force, the others have no value.\n"
     "exit: 0 done  2 case file wrong  64 usage, or no such field\n"

@@ -13,9 +13,9 @@
 #include "study/scene_solvers.h"
 
 static const char help[] =
-    "The harmonic-balance response curve of CASE, turning points included, or every solution of that curve at the "
-    "omegas of --at. The curve is the branch that begins at the sweep's first omega; what is not connected to it "
-    "(try the sweep the other way) is not seen."
+    "You want the response curve: harmonic balance along the sweep of CASE, turning points included, or every "
+    "solution of that curve at the omegas of --at. What is not connected to the sweep's first omega is not seen: try "
+    "the sweep the other way."
     "\vColumns: amplitude = (max - min)/2 of x over a period, branch = turning points passed, contact = the "
     "strongest thing that happens in a period.\n"
     "exit: 0 the whole sweep  2 case file wrong  3 stopped before the end (where and why on stderr)  64 usage\n"

@@ -18,8 +18,8 @@
 #include "output/progress.h"
 
 static const char help[] =
-    "Compare harmonic balance with time integration on every CASE, and hold what is found against the limits under "
-    "its gate: a table of what was allowed and what was found, and an exit code."
+    "You want CI to fail where a result becomes wrong: compares harmonic balance with time integration on every CASE, "
+    "and with the limits under its gate: a table of what was allowed and what was found, and an exit code."
     "\vA stable HBM solution is held against the transient, an unstable one against the exact orbit next to it; and "
     "every transient must match some HBM solution. Each response of a structure is held to the limits by itself. "
     "Limits: gate.amplitude, harmonic_1, mean, waveform; the same with range_ in front, in gate.ranges; "

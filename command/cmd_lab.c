@@ -12,9 +12,9 @@
 #include "output/output.h"
 
 static const char help[] =
-    "Write the lab: one HTML page that solves cases of one degree of freedom itself, as fast as you move its sliders. "
-    "Response curve with exact and with sampled contact forces, time signal, spectrum with what folds where, traction "
-    "loop, error over samples and harmonics, and a lesson in seven steps. It opens from disk and needs no network."
+    "You teach or learn: writes the lab, one HTML page that solves cases of one degree of freedom itself, as fast as "
+    "you move its sliders: response curve with exact and with sampled contact forces, time signal, spectrum, traction "
+    "loop, errors, and a lesson in seven steps. It opens from disk and needs no network."
     "\vWithout --output the page is lab.html in the current folder. With --case it opens on that case; of it the page "
     "keeps what it has fields for: oscillator, forcing, contacts, sweep, and H, N, harmonic 0 and slider restart of "
     "hbm.\n"

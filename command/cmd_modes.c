@@ -11,8 +11,8 @@
 #include "study/scene_solvers.h"
 
 static const char help[] =
-    "Natural frequencies and damping ratios of CASE with all contacts apart and with all of them stuck, side by side, "
-    "and each contact at rest under the static loads."
+    "You have a new model and want to see whether it is the right one: natural frequencies and damping ratios of CASE "
+    "with all contacts apart and all stuck, side by side, and each contact at rest under the static loads."
     "\vContact stiffnesses are chosen so that the stuck frequencies are those of the bonded structure, as measured or "
     "from a finite-element model. A damping ratio is that of the mode's own shape, phi' C phi/(2 omega) with "
     "phi' M phi = 1; where the damping couples modes this is an estimate. The symmetric part of the stiffness "

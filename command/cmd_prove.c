@@ -14,11 +14,11 @@
 #include "output/progress.h"
 
 static const char help[] =
-    "Prove, next to each harmonic-balance solution of CASE and where time integration goes from unstable ones, that "
-    "there is a periodic orbit of the exact contact law: its sequence of contact states, its stability, and bounds of "
-    "its amplitude, mean and first harmonic, and with them of the solution's error. What decides is hbmcheck-proof, in "
-    "ball arithmetic. With -o FOLDER the certificates are written there, a file each; the table goes to standard "
-    "output.\vColumns: error = hbm's amplitude minus the orbit's; radius = how near the orbit is to the certificate's "
+    "You need certainty, not agreement: proves, next to each HBM solution of CASE, that the exact contact law has a "
+    "periodic orbit, its contact states, its stability, and bounds of its amplitude, mean and first harmonic, and so "
+    "of the error of HBM. hbmcheck-proof decides, in ball arithmetic. With -o FOLDER the certificates are written "
+    "there, a file each; the table goes to standard output."
+    "\vColumns: error = hbm's amplitude minus the orbit's; radius = how near the orbit is to the certificate's "
     "numbers, of its scales. A row that is unproven has a reason; it does not say that there is no orbit.\n"
     "exit: 0 done (with --strict: all proven)  2 case file wrong  3 could not, or unproven with --strict  64 usage\n"
     "example: hbmcheck prove cases/paper/case2.yaml --at 8,9";

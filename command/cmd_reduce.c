@@ -11,10 +11,9 @@
 #include "reduce/reduced_case.h"
 
 static const char help[] =
-    "Reduce the structure of CASE to the nodes that its contacts, loads and responses name and to its lowest "
-    "fixed-interface modes (Craig-Bampton), and write the case on that model to FOLDER: mass.mtx, stiffness.mtx, the "
-    "damping, nodes.csv, copies of the files that CASE names, and CASE itself with its `structure` replaced. Matrices "
-    "are kept sparse: memory grows with the factor of the stiffness."
+    "You have large sparse matrices of a finite-element model: reduces them to the nodes that contacts, loads and "
+    "responses of CASE name and to the lowest fixed-interface modes (Craig-Bampton), and writes the case on that "
+    "model to FOLDER, with its matrices and the files that it names."
     "\vThe error is that of the receptance between contacts, loads and responses, of all modes left out, over the "
     "sweep and its harmonics 2 and 3 (these divided by 4 and 9), contacts apart and stuck. It goes into the case as "
     "structure.reduction, and compare counts it. Modes are added until it is E, unless N or a frequency is given.\n"

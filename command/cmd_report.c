@@ -14,9 +14,9 @@
 #include "output/output.h"
 
 static const char help[] =
-    "Write one self-contained HTML page about CASE: verdict and error budget in words, interactive plots, the tables, "
-    "what aliasing does to this "
-    "case, and the resolved case and versions to make it again. It opens from disk and needs no network."
+    "You want to show a result: writes one HTML page about CASE: verdict and error budget in words, interactive "
+    "plots, tables, what aliasing does to this case, and the resolved case and versions to make it again. It opens "
+    "from disk and needs no network."
     "\vWithout --output the page is named after the case: case2.yaml gives case2.html in the current folder. The same "
     "input gives the same bytes.\n"
     "exit: as hbmcheck compare, 0 agree  1 a transient differs from every HBM solution  2 case file wrong  3 "

@@ -57,8 +57,8 @@ static bool may_be_replaced(unsigned long seed, const char *folder, const char *
 }
 
 static const char help[] =
-    "Draw scenes from a Sobol sequence over the whole range of every quantity, solve each by every method, and "
-    "compare each with every other. Every check ends as agreed, explained (by a reason that was computed, too), "
+    "You changed the program, or want to know how far to trust it: draws random scenes, solves each by every method, "
+    "and compares each with every other. Every check ends as agreed, explained (by a reason that was computed, too), "
     "too_dear (see --seconds), refused (a solver said why) or a finding: two methods differ and nothing explains it."
     "\vSeed and index make a scene again: --first INDEX --scenes 1 --all runs it alone, --case prints its case file. "
     "With --results the same command goes on where it was stopped.\n"

@@ -19,9 +19,9 @@
 #include "study/store.h"
 
 static const char help[] =
-    "Compute every scene of each STUDY (a YAML file: a base case, and what varies) in parallel, keep the results in "
-    "an SQLite file, and hold what the "
-    "study claims against them. Killed or stopped at any moment, the same command goes on where it was."
+    "You vary numbers of a case, or test what a paper claims: computes every scene of each STUDY (a YAML file: a base "
+    "case, and what varies) in parallel, keeps the results in an SQLite file, and tests the study's claims. Killed or "
+    "stopped at any moment, the same command goes on where it was."
     "\vThe file's format, the tables of the results and what is guaranteed: study/README.md.\n"
     "exit: 0 done  1 a claim is not as it expects  2 study or results file wrong  3 a scene could not be solved, or "
     "stopped before the end  64 usage\n"

@@ -13,8 +13,9 @@
 #include "output/progress.h"
 
 static const char help[] =
-    "The steady state of CASE by time integration (CVODE) at the omegas of --at. It starts where transient.start "
-    "says: on each HBM solution's orbit (hbm), at rest, or swept from an end of the sweep, as on a shaker (up, down)."
+    "You want to know which motion happens: the steady state of CASE by time integration at the omegas of --at. It "
+    "starts where transient.start says: on each HBM solution's orbit (hbm), at rest, or swept from an end of the "
+    "sweep, as on a shaker (up, down)."
     "\vColumns: closure = estimated distance to the periodic orbit relative to the amplitude, steps = CVODE's.\n"
     "exit: 0 all settled  2 case file wrong  3 one did not (which and why on stderr)  64 usage\n"
     "example: hbmcheck transient cases/paper/case2.yaml --at 8,9 --set transient.start=up";

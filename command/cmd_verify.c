@@ -120,9 +120,9 @@ static int verify_curves_of(const cli_common *common, const verify_asked *asked,
 }
 
 static const char help[] =
-    "Hold another code's response curve of CASE, a file of columns, against harmonic balance with exact forces and "
-    "many harmonics, itself held against time integration; a verdict for every point, and the suspected cause where "
-    "they differ, found by making the mistake ourselves."
+    "You have a curve of another program or a measurement, a file of columns: compares it with harmonic balance with "
+    "exact forces and many harmonics, itself compared with time integration; a verdict for every point, and where "
+    "they differ the suspected cause."
     "\vFILE: fields separated by comma, semicolon, tab or blanks; # starts a remark; any order, several branches. "
     "Without --columns the header says what is what: omega or frequency, and a quantity. COLUMN is a number from 1 "
     "or a name in the header. omega is in rad per unit time, frequency in cycles per unit time.\n"
