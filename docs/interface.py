@@ -53,6 +53,7 @@ def of_list(path, name):
 
 def main(check):
     columns = {name: headers(arguments) for name, arguments in COMMANDS.items()}
+    columns["compare --tables"] = columns["compare --tables"][1:]  # its first table is that of compare
     tables = {name: of_list(*where) for name, where in LISTS.items()}
     tables["columns"] = "\n".join(fill("; then ".join(" ".join(table) for table in found), f"- `{name}`: ", "  ")
                                   for name, found in columns.items())
