@@ -156,4 +156,4 @@ static int run_prove(cli_common *common, void *given, scene *sc)
 }
 
 CLI_COMMAND(prove, prove_options, "CASE",
-            "prove periodic orbits of the exact law next to HBM solutions, and enclose HBM's error");
+            "periodic orbits of the exact law, proven, and certain bounds of the error of HBM");

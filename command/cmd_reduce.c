@@ -186,7 +186,7 @@ static int run_reduce(cli_common *common, void *own, scene *sc)
 }
 
 const cli_command cmd_reduce = {.name = "reduce",
-                                .summary = "a case with large sparse matrices to one with a small model of them",
+                                .summary = "a small model of large sparse matrices, and its error",
                                 .arguments = "CASE",
                                 .help = help,
                                 .options = options,

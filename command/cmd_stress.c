@@ -366,5 +366,5 @@ static int run_stress(cli_common *common, void *given, scene *sc)
   return stopped ? stopped : code;
 }
 
-CLI_COMMAND(stress, stress_options, "", "random scenes, every method held against every other",
+CLI_COMMAND(stress, stress_options, "", "random scenes, every method compared with every other",
             .defaults = &(const stress_options){.plan = {.seed = 1, .scenes = DEFAULT_SCENES, .seconds = 1}});

@@ -391,5 +391,5 @@ static int run_study(cli_common *common, void *own, scene *sc)
   return code;
 }
 
-CLI_COMMAND(study, study_options, "STUDY...",
-            "many scenes in parallel, kept as they come, and claims held against them", .starts_itself = true);
+CLI_COMMAND(study, study_options, "STUDY...", "many scenes in parallel, kept as they come, and claims tested on them",
+            .starts_itself = true);

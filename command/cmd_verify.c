@@ -418,4 +418,4 @@ static int run_verify(cli_common *common, void *own, scene *sc)
 }
 
 CLI_COMMAND(verify, verify_options, "CASE",
-            "another code's response curve held against both, and the suspected cause where it is off");
+            "the curve of another program or a measurement, and the suspected cause where it is wrong");
