@@ -48,7 +48,7 @@ def of_list(path, name):
     """The words and meanings of an X-list, as a Markdown list."""
     text = re.search(rf"#define {name}\(X\)((?:.*\\\n)*.*\n)", (ROOT / path).read_text())[1]
     rows = [re.findall(r'"((?:[^"\\]|\\.)*)"', entry) for entry in re.split(r"\bX\(", text)[1:]]
-    return "\n".join(fill("; ".join(row[1:]), f"- `{row[0]}`: ", "  ") for row in rows if row[0])
+    return "\n".join(fill(row[1], f"- `{row[0]}`: ", "  ") for row in rows if row[0])
 
 
 def main(check):
