@@ -159,19 +159,6 @@ static int truth_stable(truth *t, double omega, const double *X, hc_status *st)
   return known == HC_OK ? hbm_stability_verdict(&s) : 0;
 }
 
-/* A slider that never slips rests where the history left it. Of an oscillator's several contacts, which move as one,
- * the strongest state is asked: where that is stick, none slips. */
-static bool mean_is_free(const model *m, const contact_report *r)
-{
-  bool held = false;
-  if (!model_is_oscillator(m)) return r->free_sliders > 0;
-  for (int j = 0; j < m->n_contacts; ++j) {
-    const contact *c = &m->contacts[j].law;
-    held |= c->kt > 0 && c->mu > 0 && *m->contacts[j].tangent != 0;
-  }
-  return held && r->regime == CONTACT_STUCK;
-}
-
 /* HC_OK, or why it cannot be measured. */
 static hc_status truth_measure(truth *t, double omega, const double *X, measured *out)
 {
@@ -180,7 +167,7 @@ static hc_status truth_measure(truth *t, double omega, const double *X, measured
   hc_status st = verify_motion_of_solution(t->response.hbm, omega, X, 0, t->series, &m, &motion);
   if (st != HC_OK) return st;
   const verify_quantity *q = &t->data->quantity;
-  const bool mean_free = mean_is_free(t->setup->model, &m.contact);
+  const bool mean_free = m.contact.free_sliders > 0;
   if (q->kind == KIND_ACCELERATION) {
     st = hbm_sliders(t->response.hbm, X, t->room);
     const double amplitude = st == HC_OK ? acceleration_amplitude(t->setup->model, &motion, t->room) : NAN;
