@@ -470,6 +470,10 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
   int top = -1;
   double beside[3] = {NAN, -1, NAN}; /* amplitudes around the highest point */
   for (int k = 0; k < c->n; ++k) {
+    double reach = 0; /* no less than the amplitude */
+    hbm_system_response(&s->sys, s->sys.n_harm, hbm_curve_X(c, k), s->x);
+    for (int h = 1; h <= s->sys.n_harm; ++h) reach += hypot(s->x[2 * h - 1], s->x[2 * h]);
+    if (reach < beside[1]) continue;
     const double amplitude = amplitude_of(s, hbm_curve_X(c, k));
     if (amplitude > beside[1]) beside[1] = amplitude, top = k;
   }

@@ -82,10 +82,9 @@ hc_status hbm_system_any_response(hbm_system *sys, double omega, const double *X
 static size_t cosines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(h ? 2 * h - 1 : 0); }
 static size_t sines(const hbm_system *sys, int h) { return (size_t)sys->dim * (size_t)(2 * h); }
 
-/* rows += S X. */
-static void add_linear_forces(const hbm_system *sys, const double *restrict X, double *restrict rows)
+/* rows += S X; apart for dim = 1, whose loops fall away. */
+static inline void add_forces(const hbm_system *sys, int dim, const double *restrict X, double *restrict rows)
 {
-  const int dim = sys->dim;
   const double complex *S = condensation_stiffness(sys->linear, 0);
   for (int e = 0; e < dim; ++e)
     for (int d = 0; d < dim; ++d) rows[d] += creal(*S++) * X[e];
@@ -98,6 +97,12 @@ static void add_linear_forces(const hbm_system *sys, const double *restrict X, d
         of_a[d] += re * a[e] + im * b[e];
         of_b[d] += re * b[e] - im * a[e];
       }
+}
+
+static void add_linear_forces(const hbm_system *sys, const double *X, double *rows)
+{
+  if (sys->dim == 1) add_forces(sys, 1, X, rows);
+  else add_forces(sys, sys->dim, X, rows);
 }
 
 /* rows of harmonic h -= factor p, a complex amplitude a - i b. */
@@ -188,7 +193,8 @@ void hbm_system_jacobian(hbm_system *sys, double omega, int ld, double *jac)
   const double *dF = contact_forces_jacobian(sys->contacts);
   for (int col = 0; col < sys->n; ++col) {
     const double *from = dF + (size_t)sys->n_coef * (size_t)(col + sys->first) + sys->first;
-    memcpy(jac + (size_t)ld * (size_t)col, from, (size_t)sys->n * sizeof *jac);
+    double *to = jac + (size_t)ld * (size_t)col;
+    for (int row = 0; row < sys->n; ++row) to[row] = from[row]; /* few: a call would take longer */
   }
   if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return; /* it was, in the residual */
   add_linear_stiffness(sys, ld, jac);
