@@ -438,10 +438,9 @@ static bool peak_by_slope(peak_search *p, double highest)
   const int from = slope[1] > 0 ? 1 : 0;
   if (!(slope[from] > 0 && slope[from + 1] <= 0)) return false;
   root_point found;
-  hbm_measures m;
   return hbm_narrowing_start(&p->near, p->c, p->top - 1 + from) == HC_OK &&
          root_between(slope_at, p, 0, slope[from], 1, slope[from + 1], tolerance, &found) == HC_OK &&
-         slope_at(p, found.x, &left) == HC_OK && hbm_measure(p->s, p->x->X, &m) == HC_OK && m.amplitude >= highest;
+         slope_at(p, found.x, &left) == HC_OK && amplitude_of(p->s, p->x->X) >= highest;
 }
 
 /* amplitude[3]: of the highest point and its neighbours. */
