@@ -145,28 +145,16 @@ static scene known_scene(int n_harm)
   return sc;
 }
 
-static void fewer_samples_are_aliasing(CHECK_STATE)
+static void each_setting_made_worse_is_the_cause(CHECK_STATE)
 {
   scene sc = known_scene(20);
-  sc.hbm.force = HBM_FORCE_SAMPLED;
-  sc.hbm.samples = 48;
+  sc.hbm.force = HBM_FORCE_SAMPLED, sc.hbm.samples = 48;
   expect_cause("aliasing", &sc, 1e-4);
-}
-
-static void fewer_harmonics_are_truncation(CHECK_STATE)
-{
-  scene sc = known_scene(3);
-  sc.hbm.force = HBM_FORCE_SAMPLED;
-  sc.hbm.samples = 8192;
+  sc.hbm.harmonics = 3, sc.hbm.samples = 8192;
   expect_cause("truncation", &sc, 1e-5);
-}
-
-static void more_regularisation_is_regularisation(CHECK_STATE)
-{
-  scene sc = known_scene(20);
+  sc = known_scene(20);
   sc.transient.law = TRANSIENT_LAW_REGULARISED;
-  sc.transient.regularisation = 1e-2;
-  sc.transient.tolerance = 1e-8;
+  sc.transient.regularisation = 1e-2, sc.transient.tolerance = 1e-8;
   sc.transient.steady = TRANSIENT_STEADY_SHOOTING;
   expect_cause("regularisation", &sc, 1e-4);
 }
@@ -252,8 +240,7 @@ int main(void)
 {
   check_watchdog(600);
   n_reference = read_reference_rows(reference_rows);
-  return CHECK_RUN("compare.budget_parts", NULL, NULL, words_are_of_what_failed, fewer_samples_are_aliasing,
-                   fewer_harmonics_are_truncation, more_regularisation_is_regularisation,
+  return CHECK_RUN("compare.budget_parts", NULL, NULL, words_are_of_what_failed, each_setting_made_worse_is_the_cause,
                    integration_is_the_distance_to_fine_steps, a_loose_tolerance_is_integration_or_settling,
                    one_cause_is_accounted_for_in_full, two_causes_may_cancel_but_seldom);
 }
