@@ -280,16 +280,13 @@ void structure_cosine_sine(double angle_deg, double *cosine, double *sine)
   *sine = sin(angle * (PI / 180));
 }
 
-bool structure_contact_is_pair(const scene_structure *s, const structure_contact *c)
-{
-  return !is_zero(s->n, c->tangent_2);
-}
+/* Has the contact two tangents? In the model it is two contacts then (contact_pair, model.h). */
+static bool is_pair(const scene_structure *s, const structure_contact *c) { return !is_zero(s->n, c->tangent_2); }
 
 int structure_model_contact(const scene_structure *s, int j)
 {
   int first = j;
-  for (int k = 0; k < j; ++k)
-    first += structure_contact_is_pair(s, &s->contacts[k]) + scene_contact_parts(&s->contacts[k].given) - 1;
+  for (int k = 0; k < j; ++k) first += is_pair(s, &s->contacts[k]) + scene_contact_parts(&s->contacts[k].given) - 1;
   return first;
 }
 
@@ -416,7 +413,7 @@ hc_status structure_model(const scene_structure *s, model **out)
     add_outer(s->n, scene_contact_slope(&c->given), c->normal, c->normal, m->stiffness);
     if (c->given.kind == SCENE_LAW_TABLE)
       scene_contact_put(&c->given, s->n, c->normal, to), to += scene_contact_parts(&c->given);
-    else if (structure_contact_is_pair(s, c)) set_pair(s, c, to), to += 2;
+    else if (is_pair(s, c)) set_pair(s, c, to), to += 2;
     else set_contact(s, c, c->tangent, to++);
   }
   for (int i = 0; i < s->n_responses; ++i) memcpy(m->responses + n * (size_t)i, s->responses[i].direction, vector);

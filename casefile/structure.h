@@ -157,9 +157,6 @@ hc_status nodes_file_parse(const char *name, const char *text, size_t length, sc
  * the first load with a harmonic >= 1 acts on most, or else the first one. HC_NO_MEMORY: *out is NULL. */
 hc_status structure_model(const scene_structure *s, model **out);
 
-/* Has the contact two tangents? In the model it is two contacts then (contact_pair, model.h). */
-bool structure_contact_is_pair(const scene_structure *s, const structure_contact *c);
-
 /* The first of the model's contacts that contact j is, for 0 <= j <= n_contacts: n_contacts gives their number. */
 int structure_model_contact(const scene_structure *s, int j);
 

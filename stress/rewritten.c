@@ -234,8 +234,7 @@ hc_status rewritten_bystander(const model *m, uint64_t *random, rewritten *out)
   return st;
 }
 
-/* (a, b) of a cos + b sin, seen from `angle` later; of two tangents those turned by it. */
-static void turn_pair(int n, double angle, double *a, double *b)
+void rewritten_turn(int n, double angle, double *a, double *b)
 {
   const double c = cos(angle), s = sin(angle);
   for (int i = 0; i < n; ++i) {
@@ -252,7 +251,7 @@ hc_status rewritten_delayed(const model *m, double delay, rewritten *out)
   hc_status st = model_copy(m, &out->model);
   for (int l = 0; l < m->n_loads && st == HC_OK; ++l) {
     model_load *load = &out->model->loads[l];
-    if (load->harmonic > 0) turn_pair(m->n, load->harmonic * delay, load->cosine, load->sine);
+    if (load->harmonic > 0) rewritten_turn(m->n, load->harmonic * delay, load->cosine, load->sine);
   }
   return st;
 }
@@ -263,7 +262,8 @@ hc_status rewritten_other_tangents(const model *m, uint64_t *random, rewritten *
   hc_status st = model_copy(m, &out->model);
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
     model_contact *c = &out->model->contacts[j];
-    if (c->circle && c->pair == CONTACT_FIRST) turn_pair(m->n, TWO_PI * random_unit(random), c->tangent, c[1].tangent);
+    if (c->circle && c->pair == CONTACT_FIRST)
+      rewritten_turn(m->n, TWO_PI * random_unit(random), c->tangent, c[1].tangent);
   }
   return st;
 }

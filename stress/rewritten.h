@@ -40,6 +40,9 @@ hc_status rewritten_copies(const model *m, rewritten *out);
 /* With one degree of freedom more that nothing couples to m's, and of m's largest stiffness and mass; then rotated. */
 hc_status rewritten_bystander(const model *m, uint64_t *random, rewritten *out);
 
+/* (a, b) of a cos + b sin, n of each, seen from `angle` later; of two tangents those turned by it. */
+void rewritten_turn(int n, double angle, double *a, double *b);
+
 /* Whose motion is x(t + delay/omega), delay [rad]. */
 hc_status rewritten_delayed(const model *m, double delay, rewritten *out);
 

@@ -80,13 +80,8 @@ void stress_condition(solved_scene *s)
 static void shift(const solved_scene *s, double delay, double *x)
 {
   for (int h = 1; 2 * h < s->n_coef && delay != 0; ++h) {
-    const double c = cos(h * delay), sine = sin(h * delay);
-    double *a = x + (2 * h - 1) * s->n, *b = a + s->n;
-    for (int i = 0; i < s->n; ++i) {
-      const double kept = a[i];
-      a[i] = c * kept + sine * b[i];
-      b[i] = c * b[i] - sine * kept;
-    }
+    double *a = x + (2 * h - 1) * s->n;
+    rewritten_turn(s->n, h * delay, a, a + s->n);
   }
 }
 
