@@ -535,6 +535,7 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
   return st;
 }
 
+/* NOLINTNEXTLINE(readability-non-const-parameter): the signature is contact_evaluator.h's */
 static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
   return find_force(self, X, jac != NULL, false, F, report); /* `jacobian` derives */
