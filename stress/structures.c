@@ -282,7 +282,7 @@ static hc_status draw_structure(uint64_t *r, const double *p, int n_contacts, in
   return st == HC_OK ? structure_resolve_damping(s) : st;
 }
 
-hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
+static hc_status structure_at(stress_scenes *scenes, long index, bool may_have_laws, scene *out)
 {
   double p[STRESS_DIMENSIONS];
   if (index < 0) return HC_BAD_INPUT;
@@ -309,7 +309,7 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
     if (st == HC_OK) st = free_response(m, sc.compare.omega.v[0], x);
     for (int j = 0; j < s->n_contacts && st == HC_OK; ++j) draw_limits(&r, s->n, x, &s->contacts[j]);
     uint64_t of_laws = key ^ 0x1a35ULL << 48, own = random_bits(&of_laws);
-    const bool other_laws = random_unit(&own) < 0.4;
+    const bool other_laws = may_have_laws && random_unit(&own) < 0.4;
     for (int j = 0; j < s->n_contacts && st == HC_OK && other_laws; ++j)
       if (random_unit(&own) < 0.6) draw_law(&own, s->n, sc.compare.omega.v[0], x, &s->contacts[j]);
     double moves[MOST_DOFS];
@@ -346,9 +346,14 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
   return st;
 }
 
+hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
+{
+  return structure_at(scenes, index, true, out);
+}
+
 /* ---- in space ----
  *
- * Most contacts with friction get a second tangent. One in seven has nearly the line of the first, by 1e-1 .. 1e-4: the
+ * Friction and gaps alone. Most contacts with friction get a second tangent. One in seven has nearly the line of the first, by 1e-1 .. 1e-4: the
  * motion then is nearly straight, and slip turns about at once. The limit is the circle's in four of five. Numbers come
  * from a generator of its own for each scene: what is drawn above is what it is without. */
 
@@ -375,7 +380,7 @@ hc_status stress_scene_of(stress_scenes *scenes, stress_family family, long inde
   switch (family) {
   case STRESS_SPACE: {
     const uint64_t other = 0x5eedULL << 48; /* than that of structures.c */
-    hc_status st = stress_structures_at(scenes, index, out);
+    hc_status st = structure_at(scenes, index, false, out);
     if (st != HC_OK) return st;
     scene_structure *s = out->structure;
     uint64_t key = (((uint64_t)stress_scenes_seed(scenes) << 32) + (uint64_t)index) ^ other, r = random_bits(&key);
@@ -384,7 +389,7 @@ hc_status stress_scene_of(stress_scenes *scenes, stress_family family, long inde
     int directions = 2 * s->n_contacts;
     for (int j = 0; j < s->n_contacts && s->n > 1; ++j) {
       structure_contact *c = &s->contacts[j];
-      if (c->given.kind != SCENE_LAW_CONTACT || is_zero(s->n, c->tangent) || random_unit(&r) > 0.7) continue;
+      if (is_zero(s->n, c->tangent) || random_unit(&r) > 0.7) continue;
       draw_second_tangent(&r, s->n, c);
       c->given.limit = random_unit(&r) < 0.8 ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
       ++directions;

@@ -4,6 +4,9 @@
 #include "casefile/fields.h"
 #include "compare/comparison.h"
 #include "hbm/contact/exact_force.h"
+#include "hbm/solver/hbm_solver_impl.h"
+#include "numerics/norm.h"
+#include "numerics/random.h"
 #include "prove/certificate.h"
 #include "stress/scenes.h"
 #include "stress/solved_scene.h"
@@ -500,7 +503,8 @@ static void check_echo(int i, const scene *sc)
 static void every_scene_is_a_case_file(CHECK_STATE)
 {
   stress_scenes *scenes;
-  int damping[4] = {0}, sizes[13] = {0}, contacts[7] = {0}, jenkins = 0, springs = 0, loads = 0, at_rest = 0;
+  int damping[4] = {0}, sizes[13] = {0}, contacts[7] = {0}, jenkins = 0, springs = 0, loads = 0, at_rest = 0,
+      laws[4] = {0};
   assert_int_equal(stress_scenes_new(1, &scenes), HC_OK);
   for (int i = 0; i < 300; ++i) {
     scene sc;
@@ -512,12 +516,14 @@ static void every_scene_is_a_case_file(CHECK_STATE)
     for (int j = 0; j < s->n_contacts; ++j) {
       jenkins += s->contacts[j].given.law.kn == 0;
       springs += s->contacts[j].given.law.kt == 0;
+      ++laws[s->contacts[j].given.kind];
     }
     loads += s->n_loads > 2;
     at_rest += s->loads[s->n_loads - 1].harmonic == 0;
     case_clear(&sc);
   }
   for (int i = 0; i < 4; ++i) assert_true(damping[i] > 30);
+  for (int i = 0; i < 4; ++i) assert_true(laws[i] > 40);
   for (int i = 1; i <= 12; ++i) assert_true(sizes[i] > 5);
   for (int i = 1; i <= 6; ++i) assert_true(contacts[i] > 20);
   assert_true(jenkins > 100 && springs > 100 && loads > 50 && at_rest > 50);
@@ -550,7 +556,8 @@ static void scenes_in_space_are_case_files(CHECK_STATE)
     for (int j = 0; j < s->n_contacts; ++j) {
       bool pair = false;
       for (int k = 0; k < s->n; ++k) pair |= s->contacts[j].tangent_2[k] != 0;
-      assert_memory_equal(s->contacts[j].tangent, flat.structure->contacts[j].tangent, bytes);
+      if (flat.structure->contacts[j].given.kind == SCENE_LAW_CONTACT) /* in space all are */
+        assert_memory_equal(s->contacts[j].tangent, flat.structure->contacts[j].tangent, bytes);
       pairs += pair;
       circles += pair && s->contacts[j].given.limit == CONTACT_LIMIT_CIRCLE;
     }
@@ -561,8 +568,84 @@ static void scenes_in_space_are_case_files(CHECK_STATE)
   stress_scenes_free(scenes);
 }
 
-CHECK_TESTS("stress.structures", 600, good_answers_agree, a_wrong_solution_is_found, a_wrong_force_is_found,
-            another_solution_is_found, a_wrong_orbit_is_found, a_finding_is_made_small,
+static bool has_other_law(const scene_structure *s)
+{
+  for (int j = 0; j < s->n_contacts; ++j)
+    if (s->contacts[j].given.kind != SCENE_LAW_CONTACT) return true;
+  return false;
+}
+
+/* D = (8 [R(X + h V) - R(X - h V)] - [R(X + 2 h V) - R(X - 2 h V)]) / (12 h) in place of dR/dX V. */
+static void differences(hbm_system *sys, double omega, const double *X, const double *V, double h, double *D)
+{
+  static const double steps[] = {1, -1, 2, -2}, weights[] = {8, -8, -1, 1};
+  double *at = malloc(2 * (size_t)sys->n_coef * sizeof *at), *R = at + sys->n_coef;
+  assert_non_null(at);
+  memset(D, 0, (size_t)sys->n * sizeof *D);
+  for (int k = 0; k < 4; ++k) {
+    for (int i = 0; i < sys->n_coef; ++i) at[i] = X[i] + steps[k] * h * V[i];
+    assert_int_equal(hbm_system_residual(sys, omega, at, R), HC_OK);
+    for (int i = 0; i < sys->n; ++i) D[i] += weights[k] * R[i] / (12 * h);
+  }
+  free(at);
+}
+
+/* Structures with polynomials, tables and tanh friction among their contacts, beside a solution: the Jacobian along a
+ * random direction against differences, to 1e-8 of its largest entry. What is left of them is h^4 and rounding/h; where
+ * h and h/2 differ by more, a transition appears or disappears between. */
+static void jacobians_of_mixed_laws(CHECK_STATE)
+{
+  stress_scenes *scenes;
+  const hc_monitor none = {0};
+  int held = 0;
+  assert_int_equal(stress_scenes_new(2026, &scenes), HC_OK);
+  for (int i = 0; i < 60; ++i) {
+    scene sc;
+    solved_scene s;
+    hbm_solver *h = NULL;
+    assert_int_equal(stress_structures_at(scenes, i, &sc), HC_OK);
+    if (sc.hbm.harmonics > 6 || !has_other_law(sc.structure)) {
+      case_clear(&sc);
+      continue;
+    }
+    assert_int_equal(solved_scene_start(&s, &sc, 10, &none), HC_OK);
+    assert_int_equal(hbm_solver_new(s.model, &s.how, &h), HC_OK);
+    hbm_system *sys = &h->sys;
+    const size_t n = (size_t)sys->n;
+    double *X = calloc(2 * (size_t)sys->n_coef + n * n + 4 * n, sizeof *X), *V = X + sys->n_coef;
+    double *J = V + sys->n_coef, *D = J + n * n, *half = D + n, *R = half + n, size = 0, largest = 0, apart = 0;
+    assert_non_null(X);
+    hbm_guess_of(h, s.base.x, X);
+    for (int k = sys->first; k < sys->n_coef; ++k) size = fmax(size, fabs(X[k]));
+    for (int k = sys->first; k < sys->n_coef; ++k) {
+      X[k] += 0.05 * size * random_signed(&s.random);
+      V[k] = size * random_signed(&s.random);
+    }
+    hbm_system_at(sys, s.omega);
+    differences(sys, s.omega, X, V, 2e-4, D);
+    differences(sys, s.omega, X, V, 1e-4, half);
+    assert_int_equal(hbm_system_contact(sys, X, true), HC_OK);
+    assert_int_equal(hbm_system_residual(sys, s.omega, X, R), HC_OK);
+    hbm_system_jacobian(sys, s.omega, sys->n, J);
+    for (size_t k = 0; k < n * n; ++k) largest = fmax(largest, fabs(J[k]) * size);
+    for (size_t k = 0; k < n; ++k) apart = fmax(apart, fabs(D[k] - half[k]));
+    for (size_t k = 0; k < n && apart <= 1e-8 * largest; ++k) {
+      double sum = 0;
+      for (size_t l = 0; l < n; ++l) sum += J[k + n * l] * V[(size_t)sys->first + l];
+      CHECK_LE(fabs(sum - half[k]), 1e-8 * largest, "scene %d, row %zu", i, k);
+    }
+    held += apart <= 1e-8 * largest;
+    free(X);
+    hbm_solver_free(h);
+    solved_scene_clear(&s);
+    case_clear(&sc);
+  }
+  assert_true(held >= 8);
+  stress_scenes_free(scenes);
+}
+
+CHECK_TESTS("stress.structures", 600, jacobians_of_mixed_laws, good_answers_agree, a_wrong_solution_is_found,
+            a_wrong_force_is_found, another_solution_is_found, a_wrong_orbit_is_found, a_finding_is_made_small,
             good_oscillators_are_no_findings, a_wrong_oscillator_is_found, an_oscillator_is_made_small,
             findings_of_other_seeds_are_none, what_only_sensitivity_allows_is_ill_conditioned,
             every_scene_is_a_case_file, circles_are_held_against_their_law, scenes_in_space_are_case_files,
