@@ -550,7 +550,7 @@ stress_check stress_check_proof(solved_scene *s)
   timeint *ti = NULL;
   timeint_result r;
   json_t *candidate = NULL, *answer = NULL;
-  if (!known(s) || model_has_circle(s->model)) return stress_skip(STRESS_NOT_APPLICABLE);
+  if (!known(s) || model_has_circle(s->model) || model_is_smooth(s->model)) return stress_skip(STRESS_NOT_APPLICABLE);
   hc_status st = proof_checker_new(&checker);
   if (st == HC_OK) st = certificate_model_make(s->asked, s->model, 0, &m);
   if (st == HC_OK) st = timeint_new(s->model, &how, &ti);
