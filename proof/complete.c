@@ -117,13 +117,13 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
   double *value = pool_take(own, POOL_BYTES, 2 * (size_t)n * sizeof *value), *step = value + n;
   LOCAL(arb) y = {0};
   double last = INFINITY, largest = INFINITY;
-  bool fine = existence_prepare(k, o, false, f);
+  bool fine = existence_prepare(k, o, NULL, f);
   for (int i = 0; i < NEWTON_STEPS && fine; i++) {
     if (i > 0) {
       box_set(o, NULL);
       const bool near = i == 1 ? largest < NEAR : largest <= 1e-3 * last; /* so that one B does for all steps */
       if (largest > FAR && !flow_prepare(o, f)) return false;
-      fine = near ? shooting_equations(o, k->value, NULL) : existence_prepare(k, o, false, f);
+      fine = near ? shooting_equations(o, k->value, NULL) : existence_prepare(k, o, NULL, f);
       if (!fine) break;
     }
     for (int c = 0; c < n; c++) value[c] = near_double(k->value + c);
@@ -269,7 +269,7 @@ static bool make(json_t *draft, const certificate *c, certificate **made, decisi
   bool fine = o && flow_prepare(o, &v->failure) && refine(&k, o, &v->failure);
   if (fine) write_events(draft, o);
   else json_object_del(draft, "events"); /* no certificate */
-  fine = fine && existence_prepare(&k, o, true, &v->failure);
+  fine = fine && existence_prepare(&k, o, k.inverse, &v->failure);
   if (fine) existence_measure(&k);
   fine = fine && find_radii(&k, claims, &v->failure);
   json_object_set_new(draft, "claims", claims);

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- F and dF/dy ---- */
 
@@ -210,13 +211,13 @@ void existence_measure(krawczyk *k)
   }
 }
 
-bool existence_prepare(krawczyk *k, orbit *o, bool keep, failure *f)
+bool existence_prepare(krawczyk *k, orbit *o, const double *inverse, failure *f)
 {
   const size_t n = (size_t)o->unknowns;
   jacobian *d = &k->derivative;
   if (!k->o) {
     d->row = pool_take(&k->pool, POOL_BYTES, (n + 1) * sizeof *d->row);
-    if (!keep) k->inverse = pool_take(&k->pool, POOL_BYTES, n * n * sizeof *k->inverse);
+    k->inverse = pool_take(&k->pool, POOL_BYTES, n * n * sizeof *k->inverse);
     k->value = pool_balls(&k->pool, o->unknowns);
     k->defect = pool_mags(&k->pool, o->unknowns);
     k->shift = pool_mags(&k->pool, o->unknowns);
@@ -227,7 +228,8 @@ bool existence_prepare(krawczyk *k, orbit *o, bool keep, failure *f)
   bool fine = shooting_equations(o, k->value, d);
   k->middle = flint_realloc(k->middle, ((size_t)d->n + 1) * sizeof *k->middle);
   for (int e = 0; e < d->n; e++) k->middle[e] = number_near(d->value + e);
-  fine = fine && (keep || approximate_inverse(k));
+  if (inverse && inverse != k->inverse) memcpy(k->inverse, inverse, n * n * sizeof *inverse);
+  fine = fine && (inverse || approximate_inverse(k));
   return fine || refute(f, -1, -1, "the shooting equations are singular");
 }
 

@@ -96,12 +96,13 @@ static void largest_modulus(const acb_mat_t e, int n, arb_t modulus, slong preci
 {
   LOCAL(pool) own = {0};
   int *group = pool_take(own, POOL_BYTES, (size_t)n * sizeof *group);
-  arb_ptr radius = pool_balls(own, 2L * n + 1), disc = radius + n, gap = disc + n;
+  arb_ptr radius = pool_balls(own, 2L * n), disc = radius + n;
   LOCAL(acb) between = {0};
-  LOCAL(mag) entry = {0};
+  LOCAL(arb) gap = {0};
+  LOCAL(mag) entry = {0}, sum = {0};
   LOCAL(arf) least = {0}, most = {0}, nearest = {0}, bound = {0};
   for (int i = 0; i < n; i++) {
-    LOCAL(mag) sum = {0};
+    mag_zero(sum);
     for (int j = 0; j < n; j++) {
       acb_get_mag(entry, acb_mat_entry(e, i, j));
       if (j != i) mag_add(sum, sum, entry);
@@ -110,7 +111,7 @@ static void largest_modulus(const acb_mat_t e, int n, arb_t modulus, slong preci
     acb_abs(disc + i, acb_mat_entry(e, i, i), precision);
     arb_add_error_mag(disc + i, sum);
     arb_get_ubound_arf(bound, disc + i, precision);
-    if (arf_cmp(bound, most) > 0) arf_set(most, bound);
+    arf_max(most, most, bound);
     group[i] = i;
     for (int j = 0; j < i; j++) {
       acb_sub(between, acb_mat_entry(e, i, i), acb_mat_entry(e, j, j), precision);
@@ -125,9 +126,8 @@ static void largest_modulus(const acb_mat_t e, int n, arb_t modulus, slong preci
   for (int g = 0; g < n; g++) {
     arf_pos_inf(nearest);
     for (int i = 0; i < n; i++) {
-      if (group[i] != g) continue;
       arb_get_lbound_arf(bound, disc + i, precision);
-      arf_min(nearest, nearest, bound);
+      if (group[i] == g) arf_min(nearest, nearest, bound);
     }
     if (arf_is_finite(nearest)) arf_max(least, least, nearest);
   }
@@ -139,29 +139,26 @@ void multipliers(const orbit *o, quantities *q, failure *f)
   const certificate *c = o->c;
   const slong p = o->precision;
   LOCAL(arb_mat) m = {0};
+  LOCAL(acb_mat) v = {0}, product = {0}, e = {0};
+  LOCAL(arb) one = {0};
   const int n = monodromy(o, m, f);
   q->stability = STABILITY_UNPROVEN;
-  if (c->n_vectors == n && !f->reason[0]) {
-    LOCAL(acb_mat) v = {0}, product = {0}, e = {0};
-    acb_mat_init(v, n, n);
-    acb_mat_init(product, n, n);
-    acb_mat_init(e, n, n);
-    for (int i = 0; i < n; i++)
-      for (int j = 0; j < n; j++) {
-        const fmpq *entry = c->vectors + 2 * ((size_t)i * (size_t)n + (size_t)j);
-        arb_set_fmpq(acb_realref(acb_mat_entry(v, i, j)), entry, p);
-        arb_set_fmpq(acb_imagref(acb_mat_entry(v, i, j)), entry + 1, p);
-      }
-    acb_mat_set_arb_mat(e, m);
-    acb_mat_mul(product, e, v, p);
-    /* V^-1 M V: the same eigenvalues; with an approximate inverse first, since V may be almost singular */
-    if (acb_mat_solve_precond(e, v, product, p)) {
-      LOCAL(arb) one = {0};
-      arb_one(one);
-      largest_modulus(e, n, q->value[CLAIM_MULTIPLIER], p);
-      q->multiplier_known = arb_is_finite(q->value[CLAIM_MULTIPLIER]);
-      if (q->multiplier_known && arb_lt(q->value[CLAIM_MULTIPLIER], one)) q->stability = STABILITY_STABLE;
-      if (q->multiplier_known && arb_gt(q->value[CLAIM_MULTIPLIER], one)) q->stability = STABILITY_UNSTABLE;
-    }
+  if (c->n_vectors != n || f->reason[0]) return;
+  acb_mat_init(v, n, n);
+  acb_mat_init(product, n, n);
+  acb_mat_init(e, n, n);
+  for (int i = 0; i < n * n; i++) {
+    acb_ptr entry = acb_mat_entry(v, i / n, i % n);
+    arb_set_fmpq(acb_realref(entry), c->vectors + 2L * i, p);
+    arb_set_fmpq(acb_imagref(entry), c->vectors + 2L * i + 1, p);
   }
+  acb_mat_set_arb_mat(e, m);
+  acb_mat_mul(product, e, v, p);
+  /* V^-1 M V: the same eigenvalues; with an approximate inverse first, since V may be almost singular */
+  if (!acb_mat_solve_precond(e, v, product, p)) return;
+  arb_one(one);
+  largest_modulus(e, n, q->value[CLAIM_MULTIPLIER], p);
+  q->multiplier_known = arb_is_finite(q->value[CLAIM_MULTIPLIER]);
+  if (q->multiplier_known && arb_lt(q->value[CLAIM_MULTIPLIER], one)) q->stability = STABILITY_STABLE;
+  if (q->multiplier_known && arb_gt(q->value[CLAIM_MULTIPLIER], one)) q->stability = STABILITY_UNSTABLE;
 }

@@ -151,8 +151,9 @@ typedef struct krawczyk {
   mag_ptr shift;   /* [unknowns] |B F(y0)|                         */
   mag_ptr image;   /* [unknowns] |y - y0| <= image after existence_holds() */
 } krawczyk;
-/* F, dF/dy and, unless it is to keep the one it has, B at the centre; *k is {0} at first. */
-bool existence_prepare(krawczyk *k, orbit *o, bool keep, failure *f);
+/* F, dF/dy and B at the centre: `inverse`, which may be the one it has, or where that is NULL a new one; *k is {0} at
+ * first. */
+bool existence_prepare(krawczyk *k, orbit *o, const double *inverse, failure *f);
 void existence_measure(krawczyk *k); /* what existence_holds() needs of them */
 /* Has F exactly one zero in the box y0 +- radius scale? *ratio: what must be below 1. It stays the box. */
 bool existence_holds(krawczyk *k, const arb_t radius, double *ratio);

@@ -41,12 +41,12 @@ static bool claims_hold(const certificate *c, decision *v)
   return hold;
 }
 
-bool prove(const certificate *c, double *inverse, decision *v)
+bool prove(const certificate *c, const double *inverse, decision *v)
 {
-  krawczyk k = {.inverse = inverse};
+  krawczyk k = {0};
   failure *f = &v->failure;
   orbit *o = orbit_new(c, f);
-  bool holds = o && flow_prepare(o, f) && existence_prepare(&k, o, inverse != NULL, f);
+  bool holds = o && flow_prepare(o, f) && existence_prepare(&k, o, inverse, f);
   if (holds) {
     /* the larger radius first: the image that is left is that of the smaller one */
     LOCAL(arb) radius = {0};
@@ -165,12 +165,12 @@ json_t *answer_json(const certificate *c, const decision *v, const char *why)
   put(answer, "segment", f->segment >= 0 ? json_integer(f->segment) : NULL);
   put(answer, "time", isfinite(f->from) && isfinite(f->to) ? json_pack("[f, f]", f->from, f->to) : NULL);
   put(answer, "contact", f->contact >= 0 ? json_integer(f->contact) : NULL);
-  put(answer, "radius", v->exists ? radius_json(c->radius) : NULL);
-  put(answer, "uniqueness_radius", v->exists ? radius_json(c->uniqueness_radius) : NULL);
+  put(answer, "radius", c && v->exists ? radius_json(c->radius) : NULL);
+  put(answer, "uniqueness_radius", c && v->exists ? radius_json(c->uniqueness_radius) : NULL);
   put(answer, "stability", q->stability ? json_string(stability_names[q->stability]) : NULL);
   for (int i = CLAIMS - 1; i >= 0; i--) {
     const bool known = i == CLAIM_MULTIPLIER ? q->multiplier_known : q->known;
-    put(answer, claim_names[i], known ? decimal_interval(q->value[i], pad, c->precision + 30L) : NULL);
+    put(answer, claim_names[i], c && known ? decimal_interval(q->value[i], pad, c->precision + 30L) : NULL);
   }
   for (int i = 0; c && i < c->n_events; i++)
     json_array_append_new(states, json_stringn(c->letters + (size_t)i * (size_t)c->n_contacts, (size_t)c->n_contacts));

@@ -13,7 +13,7 @@ void decision_clear(decision *v);
 
 /* Does the theorem hold as claimed? In this order: existence, sequence, stability, quantities, claims. inverse: of
  * dF/dy, of any quality, [unknowns][unknowns]; NULL: made here. */
-bool prove(const certificate *c, double *inverse, decision *v);
+bool prove(const certificate *c, const double *inverse, decision *v);
 
 /* Decimals, to be freed with free(): x to an absolute 10^place, rounded down (-1), up (1) or to the nearest (0). */
 char *decimal_write(const arf_t x, slong place, int round);

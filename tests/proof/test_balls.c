@@ -222,7 +222,7 @@ static void the_defect_of_an_inverse_is_bounded(CHECK_STATE)
   orbit *o = c ? orbit_new(c, &f) : NULL;
   assert_non_null(o);
   if (!o) return;
-  assert_true(flow_prepare(o, &f) && existence_prepare(&k, o, false, &f));
+  assert_true(flow_prepare(o, &f) && existence_prepare(&k, o, NULL, &f));
   const int n = o->unknowns;
   flint_randinit(random);
   LOCAL(arb) sum = {0}, size = {0}, entry = {0}, b = {0}, m = {0}, all = {0}, most = {0}, defect = {0};
@@ -257,7 +257,7 @@ static void the_defect_of_an_inverse_is_bounded(CHECK_STATE)
       if (!arb_ge(defect, all)) fail_msg("row %d, spoilt by 1e-%d: the bound is below the sum", r, round);
       if (!arb_le(defect, most)) fail_msg("row %d, spoilt by 1e-%d: the bound is far above the sum", r, round);
     }
-    assert_true(existence_prepare(&k, o, false, &f));
+    assert_true(existence_prepare(&k, o, NULL, &f));
   }
   flint_randclear(random);
   existence_free(&k);
