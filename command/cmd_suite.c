@@ -99,7 +99,7 @@ static int solve_all(suite_call *call)
     compare_setup setup = {0};
     code = load_case(call, i, &sc, &setup);
     for (int p = 0; p < call->n_programs && !code; ++p) {
-      const hc_status st = suite_solve(&setup, &call->suite.cases[i], forces[p], 0,
+      const hc_status st = suite_solve(&setup, &call->suite.cases[i], forces[p],
                                        &(hc_monitor){hc_monitor_tick_aside, &monitor}, &call->programs[p].answers[i]);
       if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) code = cli_solver_failed(call->common, CLI_HBM, "suite", st, 0);
     }
@@ -113,26 +113,6 @@ static int solve_all(suite_call *call)
 }
 
 /* ---- what is wrong ---- */
-
-/* A cause that the digits tell: some quantities alone are off, by far, or harmonic 1 is conjugate. */
-static void tell_quantities(const suite_case *c, const scores *p, int i, char *cause)
-{
-  enum { FAR = 2 };
-  const suite_match *matches = p->scores[i].matches;
-  double least[SUITE_N] = {INFINITY, INFINITY, INFINITY, INFINITY}, conjugate = 0;
-  for (int k = 0; k < c->n; ++k) {
-    const double *low = c->references[k].low, *high = c->references[k].high;
-    if (!matches[k].row) continue;
-    for (int q = 0; q < SUITE_N; ++q) least[q] = fmin(least[q], matches[k].digits[q]); /* fmin leaves NaN out */
-    conjugate = fmax(conjugate, fabs(matches[k].row->value[SUITE_B1] + 0.5 * (low[SUITE_B1] + high[SUITE_B1])) /
-                                    low[SUITE_AMPLITUDE]);
-  }
-  const double harmonic = fmin(least[SUITE_A1], least[SUITE_B1]), others = fmin(harmonic, least[SUITE_AMPLITUDE]);
-  if (conjugate <= pow(10, -p->digits) && least[SUITE_B1] + FAR < least[SUITE_A1]) suite_say(cause, "sign_of_b1");
-  else if (least[SUITE_MEAN] + FAR < others) suite_say(cause, "mean_alone");
-  else if (harmonic + FAR < least[SUITE_AMPLITUDE]) suite_say(cause, "harmonic_1_alone");
-  else if (p->scores[i].missing && fmin(others, least[SUITE_MEAN]) >= p->digits) suite_say(cause, "missing_solutions");
-}
 
 /* The rows near the case's frequencies as a curve of amplitude, or of harmonic 1. */
 static hc_status curve_of(const suite_case *c, const suite_answer *a, const char *quantity, verify_data *data)
@@ -151,7 +131,7 @@ static hc_status curve_of(const suite_case *c, const suite_answer *a, const char
 }
 
 /* What verify says of them, its gate a digit more than asked for; a guess where neither curve tells the cause. */
-static int ask_verify(suite_call *call, scores *p, int i, double patience)
+static int ask_verify(suite_call *call, scores *p, int i, double patience, const hc_monitor *monitor)
 {
   static const char *const quantities[] = {"amplitude", "harmonic_1"};
   scene sc = {.structure = NULL};
@@ -165,7 +145,8 @@ static int ask_verify(suite_call *call, scores *p, int i, double patience)
     verify_data data = {0};
     verify_report report = {0};
     st = curve_of(&call->suite.cases[i], &p->answers[i], quantities[k], &data);
-    if (st == HC_OK && data.n) st = verify_run(&setup, 1, &data, &(verify_effort){.patience = patience}, NULL, &report);
+    if (st == HC_OK && data.n)
+      st = verify_run(&setup, 1, &data, &(verify_effort){.patience = patience}, monitor, &report);
     sure = st == HC_OK && report.causes;
     if (sure) suite_say(p->causes[i], "%s", verify_word(&report, text));
     else if (st == HC_OK && report.nearest_guess && !*p->causes[i])
@@ -214,14 +195,15 @@ static int diagnose(suite_call *call, scores *p)
   double left = call->own->patience;
   int code = 0;
   progress *bar = progress_start("what is wrong", call->common->quiet);
+  hc_monitor monitor = progress_monitor(bar);
   for (int i = 0; i < call->suite.n && !code; ++i) {
     const suite_score *s = &p->scores[i];
     const suite_answer *a = &p->answers[i];
     if (s->digits >= p->digits || !a->n || *a->wrong) continue;
-    tell_quantities(&call->suite.cases[i], p, i, p->causes[i]);
+    suite_tell(&call->suite.cases[i], s, p->digits, p->causes[i]);
     if (*p->causes[i] || left <= 0) continue;
     const double began = thread_seconds();
-    code = ask_verify(call, p, i, fmin(left, CASE_PATIENCE));
+    code = ask_verify(call, p, i, fmin(left, CASE_PATIENCE), &(hc_monitor){hc_monitor_tick_aside, &monitor});
     left -= thread_seconds() - began;
   }
   progress_end(bar);
@@ -270,7 +252,9 @@ static int write_tables(suite_call *call)
     const scores *p = &call->programs[k];
     int missing = 0;
     for (int i = 0; i < call->suite.n; ++i) missing += !p->answers[i].there;
-    if (missing) table_note(t, "%d cases without results count as 0", missing);
+    if (missing && missing < call->suite.n)
+      table_note(t, "%d cases without results count as 0; the score of the others is %.1f", missing,
+                 p->total * call->suite.n / (call->suite.n - missing));
     table_note(t, "%s: score %.1f of 100, %d of %d cases with %g digits everywhere; suite %s", p->program, p->total,
                p->passed, call->suite.n, p->digits, call->suite.version);
   }
@@ -379,7 +363,7 @@ static int judge(suite_call *call, scores *p)
 static int read_and_score(suite_call *call)
 {
   const suite_options *own = call->own;
-  char why[SUITE_TEXT];
+  char why[SUITE_TEXT] = "out of memory";
   int strange = 0, code;
   hc_status st = suite_read(call->folder, &call->suite, why);
   if (st != HC_OK) return cli_failed(call->common, st == HC_BAD_INPUT ? EXIT_BAD_CASE : EXIT_NO_SOLUTION, "%s", why);

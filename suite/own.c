@@ -10,7 +10,7 @@
 enum { CURVE_HARMONICS = 20 };
 static const double same_solution = 1e-7; /* [1] of the amplitude: two guesses led to one */
 
-/* The solution X of *fine, as a row: HC_NOT_CONVERGED: it is in *out already. */
+/* The solution X of *fine as a row of *out, if it is not there already. */
 static hc_status keep_solution(hbm_solver *fine, double omega, const double *X, double *x, suite_answer *out)
 {
   hbm_measures m = {0};
@@ -29,8 +29,8 @@ static hc_status keep_solution(hbm_solver *fine, double omega, const double *X, 
 
 static bool fatal(hc_status st) { return st == HC_NO_MEMORY || st == HC_INTERRUPTED; }
 
-hc_status suite_solve(const compare_setup *setup, const suite_case *c, hbm_force force, int harmonics,
-                      const hc_monitor *monitor, suite_answer *out)
+hc_status suite_solve(const compare_setup *setup, const suite_case *c, hbm_force force, const hc_monitor *monitor,
+                      suite_answer *out)
 {
   compare_setup coarse = *setup;
   hbm_settings how = setup->hbm;
@@ -38,7 +38,7 @@ hc_status suite_solve(const compare_setup *setup, const suite_case *c, hbm_force
   hbm_solver *fine = NULL;
   hbm_point point;
   number_list asked = {0};
-  how.harmonics = harmonics ? harmonics : c->harmonics, how.force = force;
+  how.harmonics = c->harmonics, how.force = force;
   coarse.hbm.harmonics = how.harmonics < CURVE_HARMONICS ? how.harmonics : CURVE_HARMONICS;
   coarse.hbm.force = HBM_FORCE_EXACT;
   for (int i = 0; i < c->n && asked.n < NUMBER_LIST_MAX; ++i)

@@ -53,16 +53,17 @@ static bool asked(const suite_case *c, double omega, double within)
 }
 
 /* Rows that belong to no frequency of the case, and what may be meant by them. */
-static void look_elsewhere(const suite_case *c, suite_answer *a, suite_score *s)
+static void look_elsewhere(const suite_case *c, suite_answer *a)
 {
   const suite_row *cycles = NULL, *near = NULL;
+  int elsewhere = 0;
   for (int k = 0; k < a->n; ++k) {
     if (asked(c, a->rows[k].omega, same_omega)) continue;
-    ++s->elsewhere;
+    ++elsewhere;
     if (!near && asked(c, a->rows[k].omega, near_omega)) near = &a->rows[k];
     if (!cycles && asked(c, TWO_PI * a->rows[k].omega, near_omega)) cycles = &a->rows[k];
   }
-  if (s->elsewhere == a->n && cycles)
+  if (elsewhere == a->n && cycles)
     suite_say(a->wrong, "%s:%ld:1: omega %.10g is in cycles, expected %.10g rad per time", a->path, cycles->line,
               cycles->omega, TWO_PI * cycles->omega);
   else if (near && !*a->note)
@@ -93,7 +94,7 @@ hc_status suite_judge(const suite_case *c, suite_answer *a, suite_score *s)
   int n = 0;
   *s = (suite_score){.digits = INFINITY, .matches = calloc((size_t)c->n + 1, sizeof *s->matches)};
   if (!taken || !s->matches) return free(taken), HC_NO_MEMORY;
-  look_elsewhere(c, a, s);
+  look_elsewhere(c, a);
   if (!*a->wrong) match_rows(c, a, taken, s);
   for (int i = 0; i < c->n; ++i) {
     const suite_reference *r = &c->references[i];
@@ -113,4 +114,22 @@ hc_status suite_judge(const suite_case *c, suite_answer *a, suite_score *s)
   for (int k = 0; k < a->n; ++k) s->extra += !taken[k] && asked(c, a->rows[k].omega, same_omega);
   free(taken);
   return HC_OK;
+}
+
+void suite_tell(const suite_case *c, const suite_score *s, double digits, char *cause)
+{
+  enum { FAR = 2 };
+  double least[SUITE_N] = {INFINITY, INFINITY, INFINITY, INFINITY}, conjugate = 0;
+  for (int k = 0; k < c->n; ++k) {
+    const suite_reference *r = &c->references[k];
+    const suite_match *m = &s->matches[k];
+    if (!m->row) continue;
+    for (int q = 0; q < SUITE_N; ++q) least[q] = fmin(least[q], m->digits[q]); /* fmin leaves NaN out */
+    conjugate = fmax(conjugate, fabs(m->row->value[SUITE_B1] + r->low[SUITE_B1]) / scale_of(r));
+  }
+  const double harmonic = fmin(least[SUITE_A1], least[SUITE_B1]), others = fmin(harmonic, least[SUITE_AMPLITUDE]);
+  if (conjugate <= pow(10, -digits) && least[SUITE_B1] + FAR < least[SUITE_A1]) suite_say(cause, "sign_of_b1");
+  else if (least[SUITE_MEAN] + FAR < others) suite_say(cause, "mean_alone");
+  else if (harmonic + FAR < least[SUITE_AMPLITUDE]) suite_say(cause, "harmonic_1_alone");
+  else if (s->missing && fmin(others, least[SUITE_MEAN]) >= digits) suite_say(cause, "missing_solutions");
 }

@@ -59,7 +59,7 @@ typedef struct suite_score {
   double digits, mean;  /* the fewest of all solutions and quantities, and on average */
   int worst, quantity;  /* whose they are */
   int missing;          /* solutions without a row */
-  int extra, elsewhere; /* rows that are next to no solution; at frequencies that are not asked */
+  int extra;            /* rows at its frequencies that are next to no solution */
 } suite_score;
 
 typedef struct suite_case {
@@ -85,13 +85,17 @@ void suite_clear(suite *s);
 hc_status suite_results_read(const char *path, const suite *s, suite_answer *answers, int *strange, char *why);
 
 /* Our own solutions of the case of *setup, appended to *out: the response curve with few harmonics, then Newton with
- * the case's, or with `harmonics` > 0. HC_NO_MEMORY, HC_INTERRUPTED, or what failed first; what was found is kept. */
-hc_status suite_solve(const compare_setup *setup, const suite_case *c, hbm_force force, int harmonics,
-                      const hc_monitor *monitor, suite_answer *out);
+ * the case's. HC_NO_MEMORY, HC_INTERRUPTED, or what failed first; what was found is kept. */
+hc_status suite_solve(const compare_setup *setup, const suite_case *c, hbm_force force, const hc_monitor *monitor,
+                      suite_answer *out);
 
 /* Each solution with the nearest row at its omega, a row with one solution. HC_NO_MEMORY; free(out->matches). An answer
  * whose omegas are those asked for in cycles is refused: a->wrong. */
 hc_status suite_judge(const suite_case *c, suite_answer *a, suite_score *out);
+
+/* What the digits themselves tell, into cause[SUITE_TEXT], which stays empty else: the sign of b1, some quantities alone
+ * are off by far, or solutions are missing and the others have so many digits. */
+void suite_tell(const suite_case *c, const suite_score *s, double digits, char *cause);
 
 /* A message into why[SUITE_TEXT]. HC_BAD_INPUT. */
 hc_status suite_say(char *why, const char *format, ...) __attribute__((format(printf, 2, 3)));
