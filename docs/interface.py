@@ -22,6 +22,7 @@ COMMANDS = {  # what is run for the columns of each command: one degree of freed
     "verify": ["verify", "cases/verify/case2.yaml", "--against", "cases/verify/no_static.csv",
                "--columns", "omega=1,harmonic_1=2"],
     "bench": ["bench", CASE2, "--at", "9", "--alone", "--repeats", "1"],
+    "suite": ["suite", str(ROOT / "suite"), "--results", str(ROOT / "suite"), "--all"],
     "stress": ["stress", "--scenes", "1"],
     "describe": ["describe"],
     "describe --case": ["describe", "--case", CASE2],
