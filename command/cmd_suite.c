@@ -229,7 +229,7 @@ static void put_case(suite_call *call, const scores *p, int i, table *t, table *
             CELL(shown(call, s->digits)), CELL(suite_quantity[s->quantity]), CELL(c->references[s->worst].omega),
             CELL(shown(call, s->mean)), CELL(shown(call, 100 * s->points)), CELL(result),
             CELL_IF(*p->causes[i], (const char *)p->causes[i]));
-  for (int k = 0; k < c->n; ++k)
+  for (int k = 0; k < c->n && s->matches; ++k)
     for (int q = 0; q < SUITE_N; ++q) {
       const suite_reference *r = &c->references[k];
       const suite_match *m = &s->matches[k];
@@ -364,7 +364,7 @@ static int read_and_score(suite_call *call)
 {
   const suite_options *own = call->own;
   char why[SUITE_TEXT] = "out of memory";
-  int strange = 0, code;
+  int strange = 0, code = 0;
   hc_status st = suite_read(call->folder, &call->suite, why);
   if (st != HC_OK) return cli_failed(call->common, st == HC_BAD_INPUT ? EXIT_BAD_CASE : EXIT_NO_SOLUTION, "%s", why);
   const size_t n = (size_t)call->suite.n;

@@ -93,7 +93,7 @@ hc_status suite_solve(const compare_setup *setup, const suite_case *c, hbm_force
  * whose omegas are those asked for in cycles is refused: a->wrong. */
 hc_status suite_judge(const suite_case *c, suite_answer *a, suite_score *out);
 
-/* What the digits themselves tell, into cause[SUITE_TEXT], which stays empty else: the sign of b1, some quantities alone
+/* What the digits tell, into cause[SUITE_TEXT], which stays empty else: the sign of b1, some quantities alone
  * are off by far, or solutions are missing and the others have so many digits. */
 void suite_tell(const suite_case *c, const suite_score *s, double digits, char *cause);
 
