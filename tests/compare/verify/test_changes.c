@@ -2,6 +2,7 @@
  * [2 -1 0; -1 2 -1; 0 -1 2] with the eigenvalues 2 - sqrt(2), 2, 2 + sqrt(2); two sliders and a stop. */
 #include <math.h>
 
+#include "casefile/structure.h"
 #include "compare/verify/equations/changes.h"
 #include "tests/check.h"
 #include "tests/compare/verify/curves.h"
@@ -14,6 +15,7 @@ static model *of_case(const char *path)
   const scene sc = curve_scene(path);
   model *m;
   assert_int_equal(scene_model(&sc, &m), HC_OK);
+  structure_free(sc.structure);
   return m;
 }
 
