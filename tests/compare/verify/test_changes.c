@@ -2,7 +2,6 @@
  * [2 -1 0; -1 2 -1; 0 -1 2] with the eigenvalues 2 - sqrt(2), 2, 2 + sqrt(2); two sliders and a stop. */
 #include <math.h>
 
-#include "casefile/structure.h"
 #include "compare/verify/equations/changes.h"
 #include "tests/check.h"
 #include "tests/compare/verify/curves.h"
@@ -12,10 +11,10 @@ static const double rounding = 1e-13; /* some tens of operations on numbers of o
 
 static model *of_case(const char *path)
 {
-  const scene sc = curve_scene(path);
+  scene sc = curve_scene(path);
   model *m;
   assert_int_equal(scene_model(&sc, &m), HC_OK);
-  structure_free(sc.structure);
+  case_clear(&sc);
   return m;
 }
 
