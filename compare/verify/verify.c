@@ -206,18 +206,17 @@ static void add_equations(message *m, const verify_equations *e)
 
 static void add_causes(message *m, verify_causes bits)
 {
-  const verify_causes no_traction = VERIFY_BIT(CAUSE_NO_FRICTION) | VERIFY_BIT(CAUSE_NO_KT);
+  const bool no_traction = verify_has(bits, CAUSE_NO_FRICTION) && verify_has(bits, CAUSE_NO_KT);
   const char *before = "";
-  if ((bits & no_traction) == no_traction) {
+  if (no_traction) {
     message_add(m, "there is no tangential force: no friction, or no tangential stiffness");
-    bits &= ~no_traction;
     before = ", and ";
   }
-  for (int i = 0; i < VERIFY_CAUSES; ++i)
-    if (verify_has(bits, i)) {
-      message_add(m, "%s%s", before, verify_cause_meaning(i));
-      before = ", and ";
-    }
+  for (int i = 0; i < VERIFY_CAUSES; ++i) {
+    if (!verify_has(bits, i) || (no_traction && (i == CAUSE_NO_FRICTION || i == CAUSE_NO_KT))) continue;
+    message_add(m, "%s%s", before, verify_cause_meaning(i));
+    before = ", and ";
+  }
 }
 
 static void add_fit(message *m, const verify_hypothesis *h)
