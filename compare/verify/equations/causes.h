@@ -68,7 +68,8 @@
   X(CAUSE_TANGENT_MISSING, "tangent_missing", "friction acts in one of two directions only", \
     "give both tangential directions") \
   X(CAUSE_LOAD_DOF, "load_dof", "the force acts on another degree of freedom", "compare the forcing's direction") \
-  X(CAUSE_NO_STATIC_LOAD, "no_static_load", "the static loads are missing", "give the loads of harmonic 0") \
+  X(CAUSE_NO_STATIC_LOAD, "no_static_load", "the static loads are missing or of another size", \
+    "give the loads of harmonic 0") \
   X(CAUSE_PHASE_SIGN, "phase_sign", "the phases of the loads have the other sign", \
     "here a load is amplitude cos(k omega t + phase)") \
   X(CAUSE_TRANSPOSED, "transposed", "a matrix is transposed", "is it written by rows or by columns?") \

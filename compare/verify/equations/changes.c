@@ -371,7 +371,7 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
     model_load *load = &own->loads[l];
     const bool fixed = load->harmonic == 0;
     if (c == CHANGE_FORCE && !fixed) scale(n, how->factor, load->cosine), scale(n, how->factor, load->sine);
-    if (c == CHANGE_NO_STATIC_LOAD && fixed) scale(n, 0, load->cosine);
+    if (c == CHANGE_STATIC_LOAD && fixed) scale(n, how->factor, load->cosine);
     if (c == CHANGE_PHASE_SIGN) scale(n, -1, load->sine);
     if (c == CHANGE_LOAD_DOF && which >= 0 && !fixed)
       move_load(own->n, which, load->cosine), move_load(own->n, which, load->sine);

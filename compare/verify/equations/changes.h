@@ -62,7 +62,7 @@ typedef enum verify_scan { SCAN_NONE, SCAN_FACTOR, SCAN_TURN } verify_scan;
   X(CHANGE_PRELOAD_ADDED, CAUSE_PRELOAD_ADDED, "N in the place of N - N0", SCAN_NONE, PART_ALL)                        \
   X(CHANGE_RESPONSE, CAUSE_RESPONSE, "the motion of", SCAN_NONE, PART_DOF)                                             \
   X(CHANGE_LOAD_DOF, CAUSE_LOAD_DOF, "the force at", SCAN_NONE, PART_DOF)                                              \
-  X(CHANGE_NO_STATIC_LOAD, CAUSE_NO_STATIC_LOAD, "no static load", SCAN_NONE, PART_ALL)                                \
+  X(CHANGE_STATIC_LOAD, CAUSE_NO_STATIC_LOAD, "static loads", SCAN_FACTOR, PART_ALL)                                   \
   X(CHANGE_PHASE_SIGN, CAUSE_PHASE_SIGN, "phases of the loads times -1", SCAN_NONE, PART_ALL)                          \
   X(CHANGE_DAMPING_TRANSPOSED, CAUSE_TRANSPOSED, "C transposed", SCAN_NONE, PART_ALL)                                  \
   X(CHANGE_STIFFNESS_TRANSPOSED, CAUSE_TRANSPOSED, "K transposed", SCAN_NONE, PART_ALL)                                \

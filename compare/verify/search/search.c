@@ -144,7 +144,8 @@ static hc_status try_changes(search *s, const verify_equations *like, verify_cha
   for (int c = first; c <= (int)last && st == HC_OK; ++c) {
     const int variants = verify_change_variants(m, c);
     const bool factor = verify_changes[c].scan == SCAN_FACTOR;
-    const int numbers = factor ? SEARCH_USUAL_FACTORS - (verify_changes[c].cause != CAUSE_GAP) : 1;
+    const bool may_be_zero = verify_changes[c].cause == CAUSE_GAP || c == CHANGE_STATIC_LOAD;
+    const int numbers = factor ? SEARCH_USUAL_FACTORS - !may_be_zero : 1;
     for (int i = 0; i < numbers * variants && c != CHANGE_RESPONSE && st == HC_OK; ++i) {
       /* Of a single contact search_fits knows all but the factor 0. */
       if (factor && !s->oscillator && i % variants > 0 && search_factors[i / variants] != 0) continue;
@@ -435,13 +436,17 @@ static hc_status try_curves(search *s)
 static hc_status try_sliders(search *s)
 {
   static const int rates[] = {256, 1024, 512, 128, 64};
-  const verify_equations own = search_own(s);
-  base b;
-  if (s->setup->model->n_contacts == 0) return HC_OK;
-  hc_status st = base_solve(s, &own, 0, &b);
-  for (int restart = HBM_RESTART_ZEROED; restart <= HBM_RESTART_ONE_PASS_SAMPLE && st == HC_OK; ++restart)
-    for (size_t i = 0; i < sizeof rates / sizeof *rates && st == HC_OK; ++i) st = try_rate(s, &b, rates[i], restart);
-  verify_solutions_clear(&b.exact);
+  const int orders[] = {s->own, USUAL_HARMONICS};
+  const bool another = !s->oscillator && s->own < USUAL_HARMONICS; /* their number may not be the case's */
+  hc_status st = HC_OK;
+  for (int k = 0; k <= another && s->setup->model->n_contacts > 0 && st == HC_OK && !search_explained(s); ++k) {
+    const verify_equations e = search_equations(orders[k], true);
+    base b;
+    st = base_solve(s, &e, 0, &b);
+    for (int restart = HBM_RESTART_ZEROED; restart <= HBM_RESTART_ONE_PASS_SAMPLE && st == HC_OK; ++restart)
+      for (size_t i = 0; i < sizeof rates / sizeof *rates && st == HC_OK; ++i) st = try_rate(s, &b, rates[i], restart);
+    verify_solutions_clear(&b.exact);
+  }
   return st;
 }
 

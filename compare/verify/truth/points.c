@@ -242,7 +242,7 @@ verify_causes points_interpolated(const verify_report *r)
       const double part = (b->omega - a->omega) / (c->omega - a->omega);
       const double of_chord = a->value + part * (c->value - a->value),
                    of_truth = a->nearest + part * (c->nearest - a->nearest);
-      chord = fabs(b->value - of_chord) <= on_chord * fabs(b->value) &&
+      chord = a->value != c->value && fabs(b->value - of_chord) <= on_chord * fabs(b->value) &&
               fabs(b->nearest - of_truth) > least_bend * r->gate * b->scale;
     }
     chords += chord;

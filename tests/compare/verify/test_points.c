@@ -1,6 +1,7 @@
 /* test_points.c - what points tell by themselves: noise, outliers, and branches; on curves of our own harmonic balance,
  * spoiled here. And the solutions that they are held against. */
 #include "compare/verify/truth/solutions.h"
+#include "compare/verify/truth/truth.h"
 #include "tests/compare/verify/curves.h"
 #include "tests/random.h"
 #include "tests/scene_runs.h"
@@ -150,6 +151,24 @@ static void points_on_chords_are_named(CHECK_STATE)
   verify_data_clear(&d);
 }
 
+/* What does not move lies on every chord, and was not interpolated; a straight line beside a bent truth was. */
+static void no_motion_is_no_chord(CHECK_STATE)
+{
+  enum { ROWS = 9 };
+  verify_row rows[ROWS];
+  const verify_report r = {.rows = rows, .n_rows = ROWS, .gate = 1e-3};
+  for (int moving = 0; moving < 2; ++moving) {
+    for (int i = 0; i < ROWS; ++i)
+      rows[i] = (verify_row){.omega = 1 + i,
+                             .value = moving * (2.0 + i),
+                             .nearest = 1 + 0.1 * i * i,
+                             .scale = 1,
+                             .error = 1,
+                             .verdict = VERDICT_DIFFERS};
+    assert_int_equal(points_interpolated(&r), moving ? VERIFY_BIT(CAUSE_INTERPOLATED) : 0);
+  }
+}
+
 /* A little off is no outlier, and few points tell nothing. */
 static void a_little_off_is_no_outlier(CHECK_STATE)
 {
@@ -232,5 +251,5 @@ static void every_exact_solution_leads_to_a_sampled_one(CHECK_STATE)
 
 CHECK_TESTS("verify.points", 300, every_exact_solution_leads_to_a_sampled_one, noise_is_remarked_and_estimated,
             noise_that_is_said_is_allowed, noise_does_not_hide_an_offset, outliers_are_named,
-            points_without_convergence_are_named, points_on_chords_are_named, a_little_off_is_no_outlier,
-            nothing_but_unstable_points_fail, the_order_of_the_points_does_not_matter)
+            points_without_convergence_are_named, points_on_chords_are_named, no_motion_is_no_chord,
+            a_little_off_is_no_outlier, nothing_but_unstable_points_fail, the_order_of_the_points_does_not_matter)

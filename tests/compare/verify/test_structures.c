@@ -98,7 +98,7 @@ static void mistakes_of_structures_are_named(CHECK_STATE)
   } all[] = {
       {matrix_C, "[[0.3, -0.25, 0], [0.25, 0.2, -0.1], [0, 0.1, 0.2]]", "C transposed", "transposed"},
       {phase, "phase_deg: -60", "phases of the loads times -1", "phase_sign"},
-      {fixed, "amplitude: 1e-9, harmonic: 0", "no static load", "no_static_load"},
+      {fixed, "amplitude: 1e-9, harmonic: 0", "static loads times 0", "no_static_load"},
       {tangent, "tangent: {a: 1, b: 1}", "one side turned", "one_side_turned"},
       {"tangent: {a: 1, b: -1}}\n  - {normal_stiffness: 50, gap: -0.4, normal: {c: 1}}",
        "tangent: {a: 1, c: -1}}\n  - {normal_stiffness: 50, gap: -0.4, normal: {b: 1}}",

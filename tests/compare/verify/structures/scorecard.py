@@ -99,7 +99,7 @@ def main():
             print(f"{m.name}: off by {off:.2g} %: {outcome} ({seconds:.1f} s)" + ("" if outcome == "right" else f": {said}"), flush=True)
     much = [r for r in results if r[1] > MUCH]
     right = [r for r in much if r[2] == "right"]
-    wrong = [r for r in results if "wrong" in r[2]]
+    wrong = [r for r in results if r[2].startswith("**wrong**")]
     seconds = sorted(r[3] for r in results) or [0]
     share = 100 * len(right) / max(1, len(much))
     print(f"\n{len(results)} curves; of {len(much)} more than 2 % off {len(right)} right: {share:.0f} %; {len(wrong)} wrong; "
