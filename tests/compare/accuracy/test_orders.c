@@ -116,7 +116,7 @@ static void truncation_of_case_2_is_of_third_order_or_more(CHECK_STATE)
   comparison_clear(&c);
 }
 
-/* timeint/README.md: order 1 where contact returns in stick (case 2). */
+/* docs/theory.md, section 8: order 1 where contact returns in stick (case 2). */
 static void regularisation_of_case_2_is_of_first_order(CHECK_STATE)
 {
   scene sc = case2();
