@@ -13,6 +13,10 @@
 
 enum { PATH_ROOM = 4096, MOST_COLUMNS = 64, IGNORED = -1, OMEGA = SUITE_N };
 
+#define SUITE_NAME(code, name) name,
+const char *const suite_quantity[SUITE_N] = {SUITE_QUANTITIES(SUITE_NAME)};
+#undef SUITE_NAME
+
 hc_status suite_say(char *why, const char *format, ...)
 {
   message m;

@@ -8,10 +8,6 @@
 static const double same_omega = 1e-9, near_omega = 1e-3; /* [1] */
 enum { MOST_DIGITS = 15 };
 
-#define SUITE_NAME(code, name) name,
-const char *const suite_quantity[SUITE_N] = {SUITE_QUANTITIES(SUITE_NAME)};
-#undef SUITE_NAME
-
 /* What differences are measured by: the solution's amplitude [length]. */
 static double scale_of(const suite_reference *r) { return 0.5 * (r->low[SUITE_AMPLITUDE] + r->high[SUITE_AMPLITUDE]); }
 
