@@ -218,6 +218,8 @@ def resolved(data, rng):
     T, events = 2 * math.pi / law.omega * data["multiple"], out["events"]
     section = "section" in events[0]
     allowed = [check.Contact(c, "", law.n).letters for c in out["model"]["contacts"]]
+    if not allowed:
+        return None
     i, how = rng.randrange(len(events)), rng.choice(("insert", "insert", "drop", "letter", "letter", "pair", "swap"))
     c = rng.randrange(len(allowed))
     others = [v for v in allowed[c] if v != events[i]["state"][c]]
