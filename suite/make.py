@@ -3,7 +3,7 @@
 
     python3 suite/make.py HBMCHECK [NAME...]      all cases, or these; HBMCHECK is the built program, hbmcheck-proof beside it
 
-For each case cases/NAME.yaml, cases/NAME.json, and a certificate a reference; then suite.json and the table of README.md.
+For each case cases/NAME.yaml, cases/NAME.json, and a certificate a reference; then suite.json and the list in README.md.
 Cases whose laws have straight pieces: `hbmcheck prove` at the case's frequencies, everything must be proven. Others:
 hbmcheck's own solutions, with the larger of two errors: half of the harmonics, and time integration.
 """
@@ -14,6 +14,7 @@ import json
 import os
 import subprocess
 import sys
+import textwrap
 from fractions import Fraction
 
 import table
@@ -160,7 +161,7 @@ def write_suite(names):
 
 
 def write_readme():
-    """The table of cases, behind the mark in README.md."""
+    """The list of cases, behind the mark in README.md."""
     path, mark, group = os.path.join(HERE, "README.md"), "<!-- made by make.py -->\n", None
     with open(path, encoding="utf-8") as f:
         lines = [f.read().split(mark)[0] + mark]
@@ -169,11 +170,11 @@ def write_readme():
             references = json.load(f)["references"]
         if c["group"] != group:
             group = c["group"]
-            lines.append(f"\n### {group[0].upper()}{group[1:]}\n| case | tests | goes wrong most often | n | solutions |\n|---|---|---|---|---|\n")
+            lines.append(f"\n### {group[0].upper()}{group[1:]}\n")
         unstable = sum(r["stability"] == "unstable" for r in references)
-        counted = f"{len(references)}, {unstable} unstable" if unstable else str(len(references))
-        wrong = c["wrong"].replace("|", "\\|")
-        lines.append(f"| [{c['name']}](cases/{c['name']}.yaml) | {c['title']}. {c['tests']} | {wrong} | {len(c['mass'])} | {counted} |\n")
+        counted = f"n = {len(c['mass'])}, {len(references)} solutions" + (f", {unstable} unstable" if unstable else "")
+        item = f"- [{c['name']}](cases/{c['name']}.yaml): {c['title']}. {c['tests']} Often wrong: {c['wrong']} ({counted})"
+        lines.append(textwrap.fill(item, 120, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False) + "\n")
     with open(path, "w", encoding="utf-8") as f:
         f.write("".join(lines))
 
