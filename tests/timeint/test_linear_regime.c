@@ -163,7 +163,7 @@ static void a_slider_keeps_another_contact_open_or_closed(CHECK_STATE)
       linear_regime_steady(ti, &r);
       CHECK_NEAR(r.mean, center, 1e-14 * fabs(center), "leaning %d", side);
       double y[SCENE_MAX_STATES];
-      memcpy(y, ti->y, sizeof y);
+      memcpy(y, ti->y, (size_t)ti->n * sizeof *ti->y);
       assert_int_equal(timeint_set_tolerance(ti, 1e-12), HC_OK);
       assert_int_equal(integrate_period(ti->in, &ti->scaled, y, NULL, NULL), HC_OK);
       for (int i = 0; i < 3; ++i) CHECK_NEAR(y[i], ti->y[i], 2e-9, "leaning %d: y[%d]", side, i);
@@ -247,10 +247,10 @@ static bool check_farthest(uint64_t *seed, const scene *sc, double omega, double
     timeint_result r;
     double end[SCENE_MAX_STATES], began[SCENE_MAX_STATES];
     assert_true(is_final_from(ti, omega, &st));
-    memcpy(began, ti->y, sizeof began);
+    memcpy(began, ti->y, (size_t)ti->n * sizeof *ti->y);
     linear_regime_steady(ti, &r);
-    memcpy(end, ti->y, sizeof end);
-    memcpy(ti->y, began, sizeof began);
+    memcpy(end, ti->y, (size_t)ti->n * sizeof *ti->y);
+    memcpy(ti->y, began, (size_t)ti->n * sizeof *ti->y);
     assert_false(state_changes(ti));
     double k = scene_k(&ti->scaled);
     for (int j = 0; j < sc->n_contacts; ++j)
@@ -304,7 +304,7 @@ static void check_up_to_the_edge(const scene *from, const char *name, double ome
     CHECK_LE(is_final_from(ti, omega, &st), !above, "%s at %g: the edge is at %g", name, omega, low);
     assert_int_equal(timeint_set_tolerance(ti, 1e-12), HC_OK);
     double began[SCENE_MAX_STATES];
-    memcpy(began, ti->y, sizeof began);
+    memcpy(began, ti->y, (size_t)ti->n * sizeof *ti->y);
     const bool changes = state_changes(ti);
     if (changes != above) print_error("%s at %g, law %d, %s %g\n", name, omega, law, above ? "above" : "below", low);
     assert_true(changes == above);
