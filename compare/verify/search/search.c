@@ -437,9 +437,9 @@ static hc_status try_sliders(search *s)
 {
   static const int rates[] = {256, 1024, 512, 128, 64};
   const int orders[] = {s->own, USUAL_HARMONICS};
-  const bool another = !s->oscillator && s->own < USUAL_HARMONICS; /* their number may not be the case's */
+  const int n = !s->oscillator && s->own < USUAL_HARMONICS ? 2 : 1; /* their number may not be the case's */
   hc_status st = HC_OK;
-  for (int k = 0; k <= another && s->setup->model->n_contacts > 0 && st == HC_OK && !search_explained(s); ++k) {
+  for (int k = 0; k < n && s->setup->model->n_contacts > 0 && st == HC_OK && !search_explained(s); ++k) {
     const verify_equations e = search_equations(orders[k], true);
     base b;
     st = base_solve(s, &e, 0, &b);
