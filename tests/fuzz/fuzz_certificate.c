@@ -14,7 +14,7 @@ static void is_within_limits(const certificate *c)
        "%d events", c->n_events);
   for (int i = 0; i < c->n_events * c->n_contacts; i++)
     must(strchr("ONS+-", c->letters[i]) && c->letters[i], "letter %d", c->letters[i]);
-  must(fmpq_sgn(c->omega) > 0 && fmpq_sgn(c->scales) > 0, "omega or a scale is not positive");
+  must(fmpq_sgn(c->omega) > 0 && fmpq_sgn(c->scales[0]) > 0, "omega or a scale is not positive");
 }
 
 /* Decides it at low precision, and answers. */
