@@ -251,9 +251,9 @@ def main(arguments):
     if arguments[1:2] == ["--random"] and len(arguments) in (3, 4):
         first = int(arguments[3]) if len(arguments) == 4 else 0
         with tempfile.TemporaryDirectory() as folder:
-            curves, failed, unjudged, scenes = judge_random(*arguments[:3:2], first, pathlib.Path(folder))
+            curves, failed, unjudged, drawn = judge_random(*arguments[:3:2], first, pathlib.Path(folder))
         print(f"## Right curves of random scenes, {datetime.date.today():%-d %B %Y}\n\n| what | number |\n|---|---|\n"
-              f"| random scenes, from {first} on | {scenes} |\n| right curves | {curves} |\n| blamed | {failed} |\n"
+              f"| random scenes, from {first} on | {drawn} |\n| right curves | {curves} |\n| blamed | {failed} |\n"
               f"| others, of which it is said that they cannot be judged | {unjudged} |")
         return 1 if failed or not curves else 0
     if arguments[:1] == ["--make"]:
