@@ -40,6 +40,6 @@ expect 3 "" "$hbmcheck" lab -o nowhere/lab.html
 code=0
 "$folder/alone/bin/hbmcheck" lab -q -o none.html >said 2>&1 || code=$?
 if [ $code -ne 0 ]; then
-  [ $code = 3 ] && grep -q 'the page is not installed' said && grep -q 'cmake --preset lab' said || fail "without a page: exit $code: $(cat said)"
+  [ $code = 3 ] && grep -q 'the page is not installed' said && grep -q 'HBMCHECK_LAB_MODULE' said || fail "without a page: exit $code: $(cat said)"
   [ ! -e none.html ] || fail "none.html was written"
 fi
