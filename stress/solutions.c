@@ -51,14 +51,15 @@ static hc_status respond(const model *m, double w, double complex *z, double *er
   return st;
 }
 
-/* The steady state of m without its contacts. x is to be freed. */
+/* The steady state of m without its contacts. x is to be freed. Rounding moves the mean, too, as far as K lets it: a
+ * structure that nothing holds has no one orbit. */
 static hc_status linear_steady(const solved_scene *s, const model *m, linear_motion *out)
 {
   const int n = s->n;
   double error = 0, size = 0;
-  double complex *z = malloc((size_t)n * sizeof *z);
+  double complex *z = malloc((size_t)n * sizeof *z), *held = calloc((size_t)n, sizeof *held);
   *out = (linear_motion){.x = calloc((size_t)n * (size_t)s->n_coef, sizeof(double))};
-  hc_status st = z && out->x ? HC_OK : HC_NO_MEMORY;
+  hc_status st = z && held && out->x ? HC_OK : HC_NO_MEMORY;
   for (int l = 0; l < m->n_loads && st == HC_OK; ++l) {
     const int h = m->loads[l].harmonic;
     if (h == 0 && !s->how.keep_mean) continue;
@@ -68,9 +69,11 @@ static hc_status linear_steady(const solved_scene *s, const model *m, linear_mot
       out->x[(h ? 2 * h - 1 : 0) * n + i] = creal(z[i]);
       if (h) out->x[2 * h * n + i] = -cimag(z[i]);
       size = fmax(size, cabs(z[i]));
+      for (int j = 0; j < n; ++j) held[j] += m->stiffness[i * n + j] * z[i]; /* K times the sum of all motions */
     }
   }
-  free(z);
+  if (st == HC_OK) st = respond(m, 0, held, &error);
+  free(z), free(held);
   if (st == HC_SINGULAR) out->bound = INFINITY, st = HC_OK;
   else if (size > 0) out->bound = DBL_EPSILON * error / size;
   return st;
