@@ -89,10 +89,11 @@ static int run_lab(cli_common *common, void *given, scene *sc)
   hc_status st = read_page(&page);
   if (st == HC_NO_MEMORY) code = cli_failed(common, EXIT_NO_SOLUTION, "%s", hc_status_text(st));
   else if (st != HC_OK)
-    code = cli_failed(common, EXIT_NO_SOLUTION,
-                      "the page is not installed: it is not at %s. A build makes it as lab/lab.html, of the module that "
-                      "HBMCHECK_LAB_MODULE names (lab/README.md)",
-                      HBMCHECK_LAB_PAGE);
+    code =
+        cli_failed(common, EXIT_NO_SOLUTION,
+                   "the page is not installed: it is not at %s. A build makes it as lab/lab.html, of the module that "
+                   "HBMCHECK_LAB_MODULE names (lab/README.md)",
+                   HBMCHECK_LAB_PAGE);
   else {
     st = output_open(path, &out);
     if (st == HC_OK) st = output_finish(out, write_page(page, own->case_file ? sc : NULL, output_stream(out)));
