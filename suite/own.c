@@ -47,7 +47,7 @@ hc_status suite_solve(const compare_setup *setup, const suite_case *c, hbm_force
   if (st == HC_OK) st = response_trace(&coarse, &asked, monitor, &found);
   if (st == HC_OK && !found.hbm) st = found.status;
   const int length = fine ? hbm_n_coefficients(fine) : 0;
-  double *X = calloc((size_t)length + 1, sizeof *X), *x = calloc((size_t)(2 * how.harmonics + 2), sizeof *x);
+  double *X = calloc((size_t)length + 1, sizeof *X), *x = calloc(2 * (size_t)how.harmonics + 2, sizeof *x);
   if (!X || !x) st = HC_NO_MEMORY;
   for (int i = 0; i < asked.n && st == HC_OK; ++i) {
     hbm_curve at = {0};
