@@ -286,7 +286,8 @@ static bool choices_are_known(const scene *sc)
   return sc->n_contacts >= 0 && sc->n_contacts <= SCENE_MAX_CONTACTS;
 }
 
-/* Of rivals: of the sweep's the one that gave it; else the list if it is not empty, else the other. */
+/* Whether the field is written. Where one of two fields replaces the other, it is the one that was given: the sweep's,
+ * a list that is not empty, else the other. */
 bool case_field_counts(const field *f, const scene *sc)
 {
   if (f->flags & (FIELD_NO_ECHO | FIELD_STRUCTURE | FIELD_IN_CONTACT)) return false; /* those have ways of their own */

@@ -110,7 +110,7 @@ static void change_powers(model *m, model_contact *c, bool up)
 
 static void change_contact(int n, model_contact *c, verify_change change, double factor)
 {
-  /* Of the normal stiffness (model.h). */
+  /* two contacts of a pair have half of the normal stiffness each (model.h) */
   const double halves = c->pair == CONTACT_ALONE || c->pair == CONTACT_MORE ? 1 : 2;
   const double kt = c->law.kt, angle = n == 1 ? atan2(*c->normal, *c->tangent) : 0, degree = TWO_PI / 360;
   switch (change) {

@@ -66,7 +66,7 @@ static void put_place(const place *from, int n, const verify_judged *responses, 
   }
 }
 
-/* Of the points that differ and of those that do not as many as there is room for, evenly spread; few of these. */
+/* Chooses points for the search, evenly spread: as many that differ as there is room for, and a few that match. */
 hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample *out)
 {
   size_t rows = 1;
@@ -156,7 +156,7 @@ static bool looked_at(const verify_sample *p, int r, int i)
   return (p->few[i] || !p->only_few) && !isnan(p->value[r][i]);
 }
 
-/* Of one response, in number r of the solutions. */
+/* The distance between the sample's response r and quantity q of the solutions. */
 static double distance_of(const verify_sample *p, int r, bool decibel, const verify_solutions *s, int q, double factor)
 {
   int off = 0, on = 0;
@@ -216,7 +216,7 @@ double verify_closeness(const verify_sample *p, const verify_solutions *s)
   return sum / n;
 }
 
-/* Of one response. */
+/* How far apart two sets of solutions are in response r. */
 static double apart_of(const verify_sample *p, int r, const verify_solutions *a, const verify_solutions *b)
 {
   int n = 0;
