@@ -103,6 +103,11 @@ class Advise(unittest.TestCase):
         self.assertEqual([r["static"] for r in rows], ["yes", "yes", "no", "no"])
         self.assertTrue(all(r["harmonics"] is None for r in rows[2:]), rows)
 
+    def test_a_contact_that_never_slips_is_linear(self):
+        _, out, _ = run("advise", CASE2, "--at", "8", "--set", "contacts[0].friction=100", "--set", "contacts[0].gap=1000")
+        self.assertIn("1 of them linear", out)
+        self.assertIn("one harmonic is as good as many", out)
+
     def test_other_programs_and_wrong_usage(self):
         _, out, _ = run("advise", f"{CASES}/paper/case_a.yaml")
         self.assertRegex(out, r"NLvib +H = 6; N = \d+")
