@@ -172,8 +172,8 @@ def write_readme():
             group = c["group"]
             lines.append(f"\n### {group[0].upper()}{group[1:]}\n")
         unstable = sum(r["stability"] == "unstable" for r in references)
-        counted = f"n = {len(c['mass'])}, {len(references)} solutions" + (f", {unstable} unstable" if unstable else "")
-        item = f"- [{c['name']}](cases/{c['name']}.yaml): {c['title']}. {c['tests']} Often wrong: {c['wrong']} ({counted})"
+        counted = f"{len(c['mass'])}/{len(references)}" + (f"/{unstable}" if unstable else "")
+        item = f"- [{c['name']}](cases/{c['name']}.json) {counted}: {c['title']}. {c['tests']}"
         lines.append(textwrap.fill(item, 120, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False) + "\n")
     with open(path, "w", encoding="utf-8") as f:
         f.write("".join(lines))
