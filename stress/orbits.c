@@ -60,21 +60,27 @@ static search next_to(const solved_scene *s)
   return (search){s->model, path_settings(s->model), PATH_ORBIT, s->omega, 1};
 }
 
+/* To which CVODE's orbit is p, whose mean it integrates, too: its tolerance is relative to both. */
+static double by_cvode(const stress_path *p) { return same_by_cvode * fmax(1, p->size / p->amplitude); }
+
 /* To which an orbit that is found again is the same. */
 static double same_again(const solved_scene *s)
 {
-  return model_is_smooth(s->model) ? same_by_cvode : same_in_closed_form;
+  return model_is_smooth(s->model) ? by_cvode(&s->path) : same_in_closed_form;
 }
 
 static hc_status read_waves(const solved_scene *s, timeint *ti, double length, stress_path *p)
 {
   timeint_result one = p->r;
-  p->amplitude = 0;
+  p->amplitude = p->size = 0;
   for (int i = 0; i < s->n; ++i) {
     hc_status st = timeint_response(ti, 1 + i, &one);
     if (st != HC_OK) return st;
     p->amplitude = fmax(p->amplitude, one.amplitude / length);
-    for (int k = 0; k < TIMEINT_WAVE; ++k) p->wave[i * TIMEINT_WAVE + k] = one.wave[k] / length;
+    for (int k = 0; k < TIMEINT_WAVE; ++k) {
+      p->wave[i * TIMEINT_WAVE + k] = one.wave[k] / length;
+      p->size = fmax(p->size, fabs(one.wave[k]) / length);
+    }
   }
   p->errors = (p->r.closure + p->r.attainable) * (p->r.amplitude / length) / p->amplitude;
   return HC_OK;
@@ -357,7 +363,7 @@ static bool is_orbit(solved_scene *s, const stress_path *p, transient_method met
   at.how.method = method;
   at.how.tolerance = 1e-9;
   stress_path again = find_path(s, &at, p->state);
-  const double bound = fmax(same_by_cvode, sensitive(p, &again));
+  const double bound = fmax(by_cvode(p), sensitive(p, &again));
   const bool same = again.status == HC_OK && paths_apart(s, p, &again, 0) <= bound;
   stress_path_free(&again);
   return same;
@@ -470,7 +476,7 @@ stress_check stress_check_from_rest(solved_scene *s)
   else if (closed.status == HC_OK) cvode = find_path(s, &at, NULL);
   if (closed.status == HC_INTERRUPTED || cvode.status == HC_INTERRUPTED) c = stress_refuse(s, HC_INTERRUPTED);
   if (cvode.status == HC_OK) {
-    c = stress_agree_within(paths_apart(s, &closed, &cvode, 0), same_by_cvode, sensitive(&closed, &cvode));
+    c = stress_agree_within(paths_apart(s, &closed, &cvode, 0), by_cvode(&closed), sensitive(&closed, &cvode));
     if (c.outcome == STRESS_FINDING && is_orbit(s, &closed, TRANSIENT_METHOD_CVODE) &&
         is_orbit(s, &cvode, TRANSIENT_METHOD_CLOSED_FORM))
       c = stress_explain(STRESS_OTHER_ORBIT, c.error, c.bound);
@@ -490,7 +496,7 @@ stress_check stress_check_cvode(solved_scene *s)
   at.how.tolerance = 1e-9;
   at.how.scout = !is_alone(s);
   at.way = at.how.scout ? PATH_AGAIN : PATH_ORBIT;
-  return hold_found(s, &at, s->path.state, 0, same_by_cvode);
+  return hold_found(s, &at, s->path.state, 0, by_cvode(&s->path));
 }
 
 /* A slider that never slips may rest elsewhere by another law: another member of the family. */

@@ -28,6 +28,7 @@ typedef struct stress_path {
   double *state;    /* [2 n + contacts] the start, then a point of it; in the units of the model it is of */
   double *wave;     /* [n][TIMEINT_WAVE] of the base model's degrees of freedom, in its units */
   double amplitude; /* [length] the largest of these */
+  double size;      /* [length] how far they go, their mean included */
   double errors;    /* [1] of that: distance from the orbit, and the scatter of periods through (I - Phi)^-1 */
   timeint_result r; /* of the first response */
 } stress_path;
