@@ -332,6 +332,24 @@ static double better_multiplier(solved_scene *s, double error, double bound, boo
   return error;
 }
 
+/* A slider that never slips may rest at its limit, |T| = mu N at one instant: multipliers are one-sided there. Does an
+ * orbit next to that one, with a slider off its limit, have HBM's? */
+static bool beside_its_limit(solved_scene *s, double bound)
+{
+  const search at = next_to(s);
+  bool found = false;
+  for (int i = 0; i < 2 * s->model->n_contacts && s->path.r.free_sliders > 0 && !found; ++i) {
+    double *slider = &s->path.state[2 * s->n + i / 2], rests = *slider;
+    *slider += (i % 2 ? -beside : beside) * s->path.amplitude;
+    stress_path other = find_path(s, &at, s->path.state);
+    *slider = rests;
+    found = other.status == HC_OK && paths_apart(s, &s->path, &other, 0) <= nearby &&
+            multipliers_apart(&s->fine, &other) <= bound;
+    stress_path_free(&other);
+  }
+  return found;
+}
+
 /* A multiplier jumps where a transition appears or disappears. */
 stress_check stress_check_multiplier(solved_scene *s)
 {
@@ -347,6 +365,7 @@ stress_check stress_check_multiplier(solved_scene *s)
   if (truncated) return stress_explain(STRESS_TRUNCATED, error, better);
   if (s->fine.m.contact.transitions != s->path.r.switches) return stress_explain(STRESS_OTHER_EVENTS, error, better);
   if (far > close_enough && beyond_harmonics(s)) return stress_explain(STRESS_UNRESOLVED, error, better);
+  if (beside_its_limit(s, bound)) return stress_explain(STRESS_FAMILY, error, better);
   stress_condition(s);
   if (error <= s->multiplier_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->multiplier_errs);
   return stress_find(STRESS_DISAGREES, error, bound);
