@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""interface.py HBMCHECK [--check] - the tables of docs/interface.md, and docs/fields.txt, from the program.
+"""interface.py HBMCHECK [--check] - the tables of docs/interface.md, docs/fields.txt and docs/columns.txt.
 
-Between `<!-- table: NAME -->` and `<!-- end -->`: columns as the commands print them, verdicts, reasons and causes from
-the lists that name them in the sources. The list of section 3 must say what each column means, and nothing of others.
+Fields and columns as the commands print them. Between `<!-- table: NAME -->` and `<!-- end -->`: verdicts and reasons
+from the lists that name them in the sources. Section 3 must say what each column means, docs/verify.md what each cause
+of verify is, and neither of others.
 --check: nothing is written; exit 1 if a table is not what it should be, or a column has no meaning."""
 import pathlib, re, subprocess, sys, tempfile, textwrap
 
@@ -27,8 +28,8 @@ COMMANDS = {  # what is run for the columns of each command: one degree of freed
     "describe": ["describe"],
     "describe --case": ["describe", "--case", CASE2],
 }
-LISTS = {"verdicts": ("compare/comparison.h", "VERDICT_LIST"), "reasons": ("prove/prove.h", "PROOF_REASONS"),
-         "causes": ("compare/verify/equations/causes.h", "VERIFY_CAUSE_LIST")}
+LISTS = {"verdicts": ("compare/comparison.h", "VERDICT_LIST"), "reasons": ("prove/prove.h", "PROOF_REASONS")}
+CAUSES = ("compare/verify/equations/causes.h", "VERIFY_CAUSE_LIST")
 
 
 def run(*arguments):
@@ -46,18 +47,19 @@ def fill(text, first, rest): return "\n".join(textwrap.wrap(text, 116, initial_i
 
 
 def of_list(path, name):
-    """The words and meanings of an X-list, as a Markdown list."""
+    """The strings of each row of an X-list: word, meaning, ..."""
     text = re.search(rf"#define {name}\(X\)((?:.*\\\n)*.*\n)", (ROOT / path).read_text())[1]
     rows = [re.findall(r'"((?:[^"\\]|\\.)*)"', entry) for entry in re.split(r"\bX\(", text)[1:]]
-    return "\n".join(fill(row[1], f"- `{row[0]}`: ", "  ") for row in rows if row[0])
+    return [row for row in rows if row[0]]
 
 
 def main(check):
     columns = {name: headers(arguments) for name, arguments in COMMANDS.items()}
     columns["compare --tables"] = columns["compare --tables"][1:]  # its first table is that of compare
-    tables = {name: of_list(*where) for name, where in LISTS.items()}
-    tables["columns"] = "\n".join(fill("; then ".join(" ".join(table) for table in found), f"- `{name}`: ", "  ")
-                                  for name, found in columns.items())
+    tables = {name: "\n".join(fill(row[1], f"- `{row[0]}`: ", "  ") for row in of_list(*where))
+              for name, where in LISTS.items()}
+    printed = "\n".join(fill("; then ".join(" ".join(table) for table in found), f"{name}: ", "  ")
+                        for name, found in columns.items()) + "\n"
     page = old = (ROOT / "docs/interface.md").read_text()
     for name, table in tables.items():
         place = f"(<!-- table: {name} -->\n).*?(<!-- end -->)"
@@ -68,9 +70,12 @@ def main(check):
     all_columns = {column for found in columns.values() for table in found for column in table}
     wrong = [f"column {name} has no meaning" for name in sorted(all_columns - meant)]
     wrong += [f"{name} is no column" for name in sorted(meant - all_columns)]
-    fields = run("describe")
-    known = (ROOT / "docs/fields.txt").read_text()
-    for path, text, was in (("docs/interface.md", page, old), ("docs/fields.txt", fields, known)):
+    tried = re.search(r"<!-- causes -->(.*?)<!-- end -->", (ROOT / "docs/verify.md").read_text(), re.S)[1]
+    tried = set(re.findall(r"`(\w+)`", " ".join(re.findall(r"^\|(.*?)\|", tried, re.M))))
+    wrong += [f"docs/verify.md: cause {name}" for name in sorted(tried ^ {row[0] for row in of_list(*CAUSES)})]
+    txt = {"docs/fields.txt": run("describe"), "docs/columns.txt": printed}
+    known = [(path, text, (ROOT / path).read_text() if (ROOT / path).exists() else "") for path, text in txt.items()]
+    for path, text, was in [("docs/interface.md", page, old), *known]:
         if text != was and check: wrong.append(f"{path} is not what the program says: run docs/interface.py HBMCHECK")
         if text != was and not check: (ROOT / path).write_text(text)
     print("\n".join(wrong))
