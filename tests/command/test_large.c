@@ -1,4 +1,4 @@
-/* test_large.c - a structure of 96 degrees of freedom and 24 contacts (cases/structures/README.md), through all of it:
+/* test_large.c - a structure of 96 degrees of freedom and 24 contacts (bladed_disk.yaml), through all of it:
  * monodromy matrices of 192 columns, BDF steps of 216 states; a reduced mesh of 84 coordinates and 12 node pairs. */
 #include "tests/shell.h"
 
@@ -80,7 +80,7 @@ static int pairs_that(const char *regime, int k)
   return n;
 }
 
-/* What cases/structures/plates/README.md says of the frequencies at which the case compares. */
+/* At the frequencies at which the case compares. */
 static void plates_stick_slip_and_lift_off(CHECK_STATE)
 {
   static const int sticking[] = {6, 0, 0}, slipping[] = {6, 9, 11}, lifting[] = {0, 3, 1};

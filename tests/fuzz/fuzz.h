@@ -1,5 +1,6 @@
 /* fuzz.h - what the fuzz targets share: properties that hold for any input, beyond not crashing. One that does not ends
- * the process with its words on stderr: libFuzzer's finding, ctest's failure. Targets: README.md. */
+ * the process with its words on stderr: libFuzzer's finding, ctest's failure. Refused means: one line of clean UTF-8
+ * with a place inside the input, and nothing changed. A finding goes into corpus/ under a name that says what. */
 #pragma once
 
 #include <stdint.h>

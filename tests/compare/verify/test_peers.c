@@ -1,4 +1,4 @@
-/* test_peers.c - curves that NLvib and tmdsimpy computed (cases/verify/README.md), in their own quantities: right ones
+/* test_peers.c - curves that NLvib and tmdsimpy computed (cases/README.md), in their own quantities: right ones
  * match at every point, folds included, and what is wrong with the others is named. */
 #include "tests/shell.h"
 

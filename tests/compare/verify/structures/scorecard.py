@@ -7,7 +7,7 @@ What `hbmcheck verify` says of every curve in the folder CURVES (make.py) of the
     nothing   neither
     wrong     it names something else
 
---hidden: those written last alone. --markdown: the table as docs/measurements/verify.md has it. exit: 0 none wrong, and at
+--hidden: those written last alone. --markdown: the tables of docs/measurements/verify_structures.md, by cause. exit: 0 none wrong, and at
 least PERCENT [85] of the mistakes that change their curve by more than 2 % are right  1 not  64 usage"""
 import argparse
 import datetime
@@ -16,6 +16,7 @@ import pathlib
 import resource
 import subprocess
 import sys
+import textwrap
 
 import curves
 
@@ -64,6 +65,26 @@ def judge(binary, folder, m):
     return m, off, outcome, seconds, said
 
 
+def tables(results):
+    print(f"{datetime.date.today():%-d %B %Y}\n\n| | curves | more than 2 % off | right of these | wrong | median | most |\n|---|---|---|---|---|---|---|")
+    for text, part in (("all", results), ("seen while `verify` was made", [r for r in results if not r[0].hidden]),
+                       ("hidden", [r for r in results if r[0].hidden])):
+        much, seconds = [r for r in part if r[1] > MUCH], sorted(r[3] for r in part) or [0]
+        right, wrong = sum(r[2] == "right" for r in much), sum(r[2].startswith("**wrong**") for r in part)
+        print(f"| {text} | {len(part)} | {len(much)} | {right} ({100 * right / max(1, len(much)):.0f} %) | {wrong} | "
+              f"{seconds[len(seconds) // 2]:.1f} s | {seconds[-1]:.1f} s |")
+    causes = {}
+    for m, _, outcome, _, _ in results:
+        causes.setdefault("".join(m.words[:1]) or "nothing", []).append(outcome == "right")
+    print("\n" + textwrap.fill("Right, of so many curves: " + ", ".join(f"{c} {sum(r)} of {len(r)}" for c, r in sorted(causes.items())) + ".",
+                               118, break_on_hyphens=False))
+    print("\n| not right | off by | hbmcheck verify | processor time [s] |\n|---|---|---|---|")
+    for m, off, outcome, seconds, _ in results:
+        if outcome != "right":
+            print(f"| {m.name}{' (hidden)' * m.hidden} | {off:.2g} % | {outcome.replace('_', ' ').replace('+', ' + ')} | {seconds:.1f} |")
+    print()
+
+
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("hbmcheck")
@@ -79,9 +100,6 @@ def main():
     results, done = [], {}
     if o.results and o.results.exists():
         done = {r[0]: r for r in map(json.loads, o.results.read_text().splitlines())}
-    if o.markdown:
-        print(f"# Spoiled curves of structures, {datetime.date.today():%-d %B %Y}\n\n"
-              "| mistake | off by | hbmcheck verify | processor time [s] |\n|---|---|---|---|")
     for m in chosen:  # one after the other: processor time is counted of all children
         if m.name in done:
             _, *found = done[m.name]
@@ -92,11 +110,10 @@ def main():
                     to.write(json.dumps([m.name, *found]) + "\n")
         off, outcome, seconds, said = found
         results.append((m, *found))
-        if o.markdown:
-            name = m.name + (" (hidden)" if m.hidden else "")
-            print(f"| {name} | {off:.2g} % | {outcome.replace('_', ' ').replace('+', ' + ')} | {seconds:.1f} |")
-        else:
+        if not o.markdown:
             print(f"{m.name}: off by {off:.2g} %: {outcome} ({seconds:.1f} s)" + ("" if outcome == "right" else f": {said}"), flush=True)
+    if o.markdown:
+        tables(results)
     much = [r for r in results if r[1] > MUCH]
     right = [r for r in much if r[2] == "right"]
     wrong = [r for r in results if r[2].startswith("**wrong**")]
