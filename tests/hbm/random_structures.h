@@ -67,6 +67,19 @@ static inline model *random_structure(uint64_t *seed, int n, int n_contacts)
   return m;
 }
 
+/* Contacts j and j + 1 become the two directions of one of that law under the law of the circle, along the normal of
+ * contact j. */
+static inline void make_circle(model *m, int j, contact whole)
+{
+  for (int d = 0; d < 2; ++d) {
+    model_contact *c = &m->contacts[j + d];
+    c->law = model_half_law(&whole);
+    c->pair = d ? CONTACT_SECOND : CONTACT_FIRST;
+    c->circle = true;
+  }
+  memcpy(m->contacts[j + 1].normal, m->contacts[j].normal, (size_t)m->n * sizeof *m->contacts->normal);
+}
+
 /* to = Q^T from, of a vector. */
 static inline void turn_vector(int n, const double *Q, const double *from, double *to)
 {

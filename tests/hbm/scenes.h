@@ -5,9 +5,9 @@
 #include <float.h>
 
 #include "casefile/scene.h"
-#include "tests/check.h"
 #include "tests/random.h"
 #include "tests/reference_scenes.h"
+#include "tests/reference_table.h"
 
 /* A scene by its name, sampled with n_time samples, slider restart interpolated, continuation auto, tolerance 1e-10. */
 static inline scene scene_named(const char *name, int n_harm, bool keep_mean, int n_time)
@@ -54,51 +54,33 @@ typedef struct reference_peak {
   double omega, amplitude, harmonic_1;
 } reference_peak;
 
-static inline FILE *open_reference(const char *path, const char *header)
-{
-  char line[256];
-  FILE *f = fopen(path, "r");
-  if (!f || !fgets(line, sizeof line, f)) fail_msg("cannot read %s", path);
-  line[strcspn(line, "\r\n")] = 0;
-  assert_string_equal(line, header);
-  return f;
-}
-
 enum { MAX_REFERENCE = 1000 };
 
-/* All rows of hbm_exact.csv into row[MAX_REFERENCE]; how many. A line that does not read whole is a failure. */
+static inline bool parse_reference_row(const char *line, void *row)
+{
+  reference_row *r = row;
+  return sscanf(line, "%15[^,],%d,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf", r->name, &r->n_harm, &r->keep_mean, &r->branch,
+                &r->omega, &r->amplitude, &r->max, &r->min, &r->harmonic_1, &r->mean) == 10;
+}
+
+/* All rows of hbm_exact.csv into row[MAX_REFERENCE]; how many. */
 static inline int read_reference_rows(reference_row *row)
 {
-  char line[256];
-  FILE *f = open_reference(SOURCE_DIR "/tests/reference/hbm_exact.csv",
-                           "case,harmonics,static,branch,omega,amplitude,max,min,harmonic_1,mean");
-  int n = 0;
-  while (fgets(line, sizeof line, f)) {
-    assert_true(n < MAX_REFERENCE);
-    reference_row *r = &row[n++];
-    int got = sscanf(line, "%15[^,],%d,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf", r->name, &r->n_harm, &r->keep_mean, &r->branch,
-                     &r->omega, &r->amplitude, &r->max, &r->min, &r->harmonic_1, &r->mean);
-    if (got != 10) fail_msg("hbm_exact.csv, row %d: %s", n, line);
-  }
-  fclose(f);
-  return n;
+  return read_reference("hbm_exact.csv", "case,harmonics,static,branch,omega,amplitude,max,min,harmonic_1,mean",
+                        parse_reference_row, MAX_REFERENCE, sizeof *row, row);
+}
+
+static inline bool parse_reference_peak(const char *line, void *row)
+{
+  reference_peak *r = row;
+  return sscanf(line, "%15[^,],%d,%d,%lf,%lf,%lf", r->name, &r->n_harm, &r->keep_mean, &r->omega, &r->amplitude,
+                &r->harmonic_1) == 6;
 }
 
 static inline int read_reference_peaks(reference_peak *row)
 {
-  char line[256];
-  FILE *f = open_reference(SOURCE_DIR "/tests/reference/hbm_peak.csv",
-                           "case,harmonics,static,omega_at_peak,peak_amplitude,harmonic_1_at_peak");
-  int n = 0;
-  while (fgets(line, sizeof line, f)) {
-    assert_true(n < MAX_REFERENCE);
-    reference_peak *r = &row[n++];
-    int got = sscanf(line, "%15[^,],%d,%d,%lf,%lf,%lf", r->name, &r->n_harm, &r->keep_mean, &r->omega, &r->amplitude,
-                     &r->harmonic_1);
-    if (got != 6) fail_msg("hbm_peak.csv, row %d: %s", n, line);
-  }
-  fclose(f);
-  return n;
+  return read_reference("hbm_peak.csv", "case,harmonics,static,omega_at_peak,peak_amplitude,harmonic_1_at_peak",
+                        parse_reference_peak, MAX_REFERENCE, sizeof *row, row);
 }
 
 /* A random motion X[2H+1] of size about `size`, harmonics decaying like 1/h^decay. */

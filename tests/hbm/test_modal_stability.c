@@ -18,18 +18,6 @@ static void damp(model *m, double a, double b)
   for (int i = 0; i < m->n * m->n; ++i) m->damping[i] = a * m->mass[i] + b * m->stiffness[i];
 }
 
-/* Contacts j and j + 1 become the halves of a circle. */
-static void pair_up(model *m, int j, contact whole)
-{
-  for (int d = 0; d < 2; ++d) {
-    model_contact *c = &m->contacts[j + d];
-    c->law = model_half_law(&whole);
-    c->pair = d ? CONTACT_SECOND : CONTACT_FIRST;
-    c->circle = true;
-    memcpy(c->normal, m->contacts[j].normal, (size_t)m->n * sizeof *c->normal);
-  }
-}
-
 static int multipliers_by(monodromy_method method, const model *m, const contact_forces *orbit, double omega,
                           double complex *lambda, hbm_stability *st)
 {
@@ -82,7 +70,7 @@ static void multipliers_are_those_by_intervals(CHECK_STATE)
       whole.gap = random_unit(&seed) < 0.5 ? 0.3 : -0.05;
       for (int d = 0; d < 2; ++d) random_direction(&seed, n, m->contacts[j + d].tangent);
       random_direction(&seed, n, m->contacts[j].normal);
-      pair_up(m, j, whole);
+      make_circle(m, j, whole);
     }
     hbm_solver *s;
     const contact_forces *orbit;
@@ -141,7 +129,7 @@ static model *padded(const model *m, int more, double omega_low, double omega_hi
            (size_t)m->n * sizeof(double));
   for (int d = 0; d < 2; ++d) p->contacts[m->n_contacts + d].tangent[m->n + 10 + d] = 1;
   p->contacts[m->n_contacts].normal[m->n + 12] = 1;
-  pair_up(p, m->n_contacts, (contact){.kt = 1, .kn = 1, .mu = 0.3, .gap = -100});
+  make_circle(p, m->n_contacts, (contact){.kt = 1, .kn = 1, .mu = 0.3, .gap = -100});
   return p;
 }
 
@@ -260,7 +248,7 @@ static model *fluttering(double zeta, bool circle)
     if (j == 0) t[0] = t[2] = 1, normal[2] = 0.5, normal[3] = sqrt(0.75);
     else t[10] = normal[12] = 1;
     m->contacts[j + 1].tangent[j == 0 ? 1 : 11] = 1;
-    if (circle || j > 0) pair_up(m, j, j > 0 ? (contact){.kt = 1, .kn = 1, .mu = 0.3, .gap = -100} : whole);
+    if (circle || j > 0) make_circle(m, j, j > 0 ? (contact){.kt = 1, .kn = 1, .mu = 0.3, .gap = -100} : whole);
     else m->contacts[j].law = whole, m->contacts[j + 1].law = (contact){.kn = 0};
   }
   return m;

@@ -1,32 +1,6 @@
 /* test_planar_edge.c - a structure whose contact with two tangents sticks, slips all round and sticks again over the
  * sweep: its curve goes on through both edges of slip, from either end. */
-#include "hbm/hbm.h"
-#include "tests/hbm/planar_scenes.h"
-
-/* Case space_F0.1 of the reference: three degrees of freedom, force F (1, 0, 0.8) cos + F (0, 0.6, 0) sin. */
-static model *space(double F)
-{
-  static const double K[9] = {100, 0, 15, 0, 130, 0, 15, 0, 180},
-                      C[9] = {0.29938196180258764,  0, 0.019246842526345592, 0, 0.34205262752974136, 0,
-                              0.019246842526345592, 0, 0.4020317886097642};
-  const contact half = circle_half((contact){.kt = 60, .kn = 80, .mu = 0.5, .gap = 0.02});
-  model *m;
-  assert_int_equal(model_new(3, 1, 2, 1, &m), HC_OK);
-  for (int i = 0; i < 3; ++i) m->mass[4 * i] = 1;
-  memcpy(m->damping, C, sizeof C);
-  memcpy(m->stiffness, K, sizeof K);
-  m->loads[0].harmonic = 1;
-  m->loads[0].cosine[0] = F, m->loads[0].cosine[2] = 0.8 * F, m->loads[0].sine[1] = 0.6 * F;
-  for (int j = 0; j < 2; ++j) {
-    m->contacts[j].law = half;
-    m->contacts[j].pair = j ? CONTACT_SECOND : CONTACT_FIRST;
-    m->contacts[j].circle = true;
-    m->contacts[j].tangent[j] = 1;
-    m->contacts[j].normal[2] = 1;
-  }
-  m->responses[0] = 1;
-  return m;
-}
+#include "tests/hbm/structure_cases.h"
 
 typedef struct space_curve {
   model *m;
@@ -38,7 +12,8 @@ static space_curve trace_space(double F, int harmonics, double from, double to, 
 {
   const hbm_settings how = {
       .harmonics = harmonics, .keep_mean = true, .force = HBM_FORCE_EXACT, .tolerance = 1e-10, .accuracy = 1e-4};
-  space_curve k = {.m = space(F)};
+  space_curve k = {.m = structure_case_named("space", harmonics).model};
+  scale_dynamic_loads(k.m, F / 3);
   assert_int_equal(hbm_solver_new(k.m, &how, &k.s), HC_OK);
   hbm_scale_steps(k.s, scale);
   assert_int_equal(hbm_trace(k.s, from, to, NULL, &k.c), HC_OK);

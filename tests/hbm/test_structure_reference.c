@@ -2,6 +2,7 @@
  * numbers of harmonics, against the solutions of the traced curve (tests/reference/structures_hbm.csv, and its README:
  * transitions located by bisection, forces integrated by Gauss and Legendre's rule, no samples). */
 #include "tests/hbm/structure_cases.h"
+#include "tests/reference_table.h"
 
 enum { MOST_ROWS = 400, MOST_RESPONSES = 3, N_MEASURES = 7 };
 static const char *const MEASURES[] = {"amplitude", "max", "min", "rms", "mean", "a1", "b1"};
@@ -91,24 +92,20 @@ static void check_frequency(hbm_solver *s, const model *m, const hbm_curve *curv
   hbm_curve_free(&at);
 }
 
+static bool parse(const char *line, void *row)
+{
+  reference *r = row;
+  double *v = r->is;
+  return sscanf(line, "%23[^,],%d,%lf,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf", r->name, &r->n_harm, &r->omega, &r->solution,
+                &r->dof, v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6) == 12;
+}
+
 static void every_solution_is_found(CHECK_STATE)
 {
   static reference row[MOST_ROWS];
-  char line[512];
-  int n = 0;
-  FILE *f = fopen(SOURCE_DIR "/tests/reference/structures_hbm.csv", "r");
-  assert_non_null(f);
-  assert_non_null(fgets(line, sizeof line, f));
-  assert_string_equal(line, "case,harmonics,omega,solution,response,amplitude,max,min,rms,mean,a1,b1\n");
-  while (fgets(line, sizeof line, f)) {
-    assert_true(n < MOST_ROWS);
-    reference *r = &row[n++];
-    double *v = r->is;
-    const int got = sscanf(line, "%23[^,],%d,%lf,%d,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf", r->name, &r->n_harm, &r->omega,
-                           &r->solution, &r->dof, v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6);
-    if (got != 12) fail_msg("structures_hbm.csv, row %d: %s", n, line);
-  }
-  fclose(f);
+  const int n =
+      read_reference("structures_hbm.csv", "case,harmonics,omega,solution,response,amplitude,max,min,rms,mean,a1,b1",
+                     parse, MOST_ROWS, sizeof *row, row);
   assert_int_equal(n, 353);
   for (int i = 0, rows; i < n; i += rows) {
     rows = count_alike(row + i, n - i, false, false);

@@ -145,18 +145,3 @@ static inline int check_series_and_events(void (*draw)(uint64_t *seed, transient
   }
   return transitions;
 }
-
-/* All three ways against a table of an independent program, good to 1e-11: an orbit is closed to 1e-10 of its size at
- * most; CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter by some hundred times that; the
- * regularised law's error is of the first order in 1e-4, in units of the motion. */
-static inline void meet_the_reference(void (*check)(transient_settings how, double tolerance))
-{
-  transient_settings how = CLOSED_FORM(1e-10, 20000);
-  check(how, 1e-10);
-  how.method = TRANSIENT_METHOD_CVODE;
-  check(how, 1e-8);
-  how.law = TRANSIENT_LAW_REGULARISED;
-  how.scout = true;
-  how.tolerance = 1e-8;
-  check(how, 1e-4);
-}

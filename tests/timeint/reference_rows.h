@@ -4,7 +4,7 @@
  * each other in the order of the sweep. */
 #pragma once
 
-#include "tests/check.h"
+#include "tests/reference_table.h"
 #include "tests/timeint/scenes.h"
 
 typedef struct steady_reference {
@@ -16,22 +16,20 @@ typedef struct steady_reference {
 enum { N_STEADY_REFERENCES = 134 };
 static steady_reference steady_references[N_STEADY_REFERENCES];
 
+static inline bool parse_steady_reference(const char *line, void *row)
+{
+  steady_reference *r = row;
+  return sscanf(line, "%15[^,],%7[^,],%lf,%lf,%lf,%lf,%lf,%lf,%d", r->name, r->sweep, &r->omega, &r->amplitude, &r->max,
+                &r->min, &r->harmonic_1, &r->mean, &r->events) == 9;
+}
+
 /* For a program's setup. */
 static int read_steady_references(CHECK_STATE)
 {
-  char line[512];
-  int n = 0;
-  FILE *f = fopen(SOURCE_DIR "/tests/reference/transient_exact.csv", "r");
-  if (!f || !fgets(line, sizeof line, f)) return -1;
-  for (; n < N_STEADY_REFERENCES && fgets(line, sizeof line, f); ++n) {
-    steady_reference *r = &steady_references[n];
-    if (sscanf(line, "%15[^,],%7[^,],%lf,%lf,%lf,%lf,%lf,%lf,%d", r->name, r->sweep, &r->omega, &r->amplitude, &r->max,
-               &r->min, &r->harmonic_1, &r->mean, &r->events) != 9)
-      return -1;
-  }
-  const int whole = n == N_STEADY_REFERENCES && !fgets(line, sizeof line, f);
-  fclose(f);
-  return whole ? 0 : -1;
+  const int n = read_reference(
+      "transient_exact.csv", "case,sweep,omega,amplitude,max,min,harmonic_1,mean,events_per_period,period_closure",
+      parse_steady_reference, N_STEADY_REFERENCES, sizeof *steady_references, steady_references);
+  return n == N_STEADY_REFERENCES ? 0 : -1;
 }
 
 /* Half a unit of the last digit printed: the table has 12 significant ones, or fewer where the rest are 0. */

@@ -3,55 +3,19 @@
 
 #include "numerics/norm.h"
 #include "tests/timeint/drawn.h"
+#include "tests/timeint/structure_rows.h"
 #include "timeint/cvode/events_newton.h"
 #include "timeint/steady/contact_watch.h"
 
 /* ---- scenes ---------------------------------------------------------------------------------------------- */
 
-/* Contacts j and j + 1 become the two directions of one of that law, under the law of the circle. */
-static void make_planar(model *m, int j, contact whole)
+/* The case of that name, driven by that force. */
+static model *driven(const char *name, double force)
 {
-  for (int a = 0; a < 2; ++a) {
-    m->contacts[j + a].law = model_half_law(&whole);
-    m->contacts[j + a].pair = a ? CONTACT_SECOND : CONTACT_FIRST;
-    m->contacts[j + a].circle = true;
-  }
-  memcpy(m->contacts[j + 1].normal, m->contacts[j].normal, (size_t)m->n * sizeof(double));
+  const structure_case c = structure_case_named(name, 7);
+  scale_dynamic_loads(c.model, force / 3);
+  return c.model;
 }
-
-/* Two or three masses, tied to the ground and to each other, on one contact of that law; of three the last moves in its
- * normal. */
-static model *on_a_plane(int n, double force, contact law)
-{
-  const double forces[] = {1, 0.6, 0.8}, stiffness[] = {100, 130, 180};
-  const double damping[] = {0.29938196180258764, 0.34205262752974136, 0.4020317886097642};
-  model *m;
-  assert_int_equal(model_new(n, 1, 2, n, &m), HC_OK);
-  for (int i = 0; i < n; ++i) {
-    m->mass[i * (n + 1)] = 1;
-    m->damping[i * (n + 1)] = i == 0 && n == 2 ? 0.3 : damping[i];
-    m->stiffness[i * (n + 1)] = stiffness[i];
-    m->responses[i * (n + 1)] = 1;
-  }
-  if (n == 3) {
-    m->stiffness[2] = m->stiffness[6] = 15;
-    m->damping[2] = m->damping[6] = 0.019246842526345592;
-    m->contacts[0].normal[2] = 1;
-    m->loads[0].cosine[2] = force * forces[2];
-  }
-  m->loads[0].harmonic = 1;
-  m->loads[0].cosine[0] = force * forces[0];
-  m->loads[0].sine[1] = force * forces[1];
-  for (int a = 0; a < 2; ++a) m->contacts[a].tangent[a] = 1;
-  make_planar(m, 0, law);
-  return m;
-}
-
-static model *space(double force)
-{
-  return on_a_plane(3, force, (contact){.kt = 60, .kn = 80, .mu = 0.5, .gap = 0.02});
-}
-static model *plane(double force) { return on_a_plane(2, force, (contact){.kt = 60, .mu = 0.5, .load = 4}); }
 
 /* Of some masses, with circles, and contacts of other kinds beside them. */
 static void draw(uint64_t *seed, transient_law law, drawn *d)
@@ -70,101 +34,40 @@ static void draw(uint64_t *seed, transient_law law, drawn *d)
       whole.kn = whole.gap = 0;
       memset(d->m->contacts[j].normal, 0, (size_t)n * sizeof(double));
     }
-    make_planar(d->m, j, whole);
+    make_circle(d->m, j, whole);
   }
   scale_drawn(d, law, 3 + 10 * random_unit(seed));
 }
 
-/* ---- an independent program ------------------------------------------------------------------------------ */
-
-/* Steady states from rest of a program of its own: Taylor series of order 22 while a circle slips, events bisected to
- * rounding, in NumPy; good to 1e-11. Rows whose sliders all move. */
-static const struct {
-  int n; /* 3: in space, 2: in a plane */
-  double force, omega;
-  int response;
-  double amplitude, mean, harmonic_1;
-} reference[] = {
-    /* clang-format off */
-    {3, 0.1, 12.5, 0, 0.0136790116172011, 0.000724043236133596, 0.0136879561564891},
-    {3, 0.1, 12.5, 1, 0.00181410775039846, 7.75146925697662e-05, 0.00181517217488898},
-    {3, 0.1, 12.5, 2, 0.00200383162676268, -4.17717251615528e-05, 0.0020037274850991},
-    {3, 1, 10.5, 0, 0.0535439953208126, 0.000145594800588821, 0.0533298217454501},
-    {3, 1, 10.5, 1, 0.0142084038514593, 0.000321527414303714, 0.01413415983186},
-    {3, 1, 10.5, 2, 0.00772563094196045, -8.39970003396914e-06, 0.00772308405897151},
-    {3, 1, 11.5, 0, 0.0336001099927331, 0.000910392315115997, 0.033515396914202},
-    {3, 1, 11.5, 1, 0.0243468479307321, 0.000747495495965546, 0.0242847157299061},
-    {3, 1, 11.5, 2, 0.00931823551732377, -5.2522633564384e-05, 0.00931982965755108},
-    {3, 1, 12.5, 0, 0.0155771399234322, 5.21682620434959e-05, 0.0156110335537817},
-    {3, 1, 12.5, 1, 0.0292448762189366, 0.00234310097454345, 0.0292123763805374},
-    {3, 1, 12.5, 2, 0.00943989886224831, -3.00970742558284e-06, 0.00944092697802763},
-    {3, 1, 14, 0, 0.0130328884860964, 0.00269917358694105, 0.0130646333873732},
-    {3, 1, 14, 1, 0.0167518177043513, 0.00334188074140485, 0.0167477532490597},
-    {3, 1, 14, 2, 0.0151625755929662, -0.00015572155309276, 0.0151623809825134},
-    {3, 3, 10.5, 0, 0.24502872830832, 0.00271219999637419, 0.244410231283926},
-    {3, 3, 10.5, 1, 0.0879392421510023, -0.00217472694412633, 0.0875445456504917},
-    {3, 3, 10.5, 2, 0.0439042389487563, -0.00197870379437056, 0.0441126218976901},
-    {3, 3, 11.5, 0, 0.0771211403901835, -0.000381938526067969, 0.0769757619545665},
-    {3, 3, 11.5, 1, 0.246947262936675, 0.00242985461468712, 0.246575540244544},
-    {3, 3, 11.5, 2, 0.0294288389280236, -0.000491645663215775, 0.0295657332379243},
-    {3, 3, 12.5, 0, 0.0459114420615086, 0.000108326318462462, 0.0458538754961522},
-    {3, 3, 12.5, 1, 0.07220413117475, 0.00510990949954017, 0.0721048434682624},
-    {3, 3, 12.5, 2, 0.0331145882132852, -0.000834916707251189, 0.033249678606355},
-    {3, 3, 14, 0, 0.0238563460854008, 0.00336775298420364, 0.0238066439540115},
-    {3, 3, 14, 1, 0.0430508056011771, 0.00915287015266689, 0.0429695415862398},
-    {3, 3, 14, 2, 0.0818341387100293, -0.00617139100039291, 0.0819208131155335},
-    {2, 1, 11.5, 0, 0.0380418392726096, 1.00553043422988e-17, 0.0381540149981},
-    {2, 1, 11.5, 1, 0.0102528108751847, -7.92906520264253e-17, 0.0102541279064},
-    {2, 1, 12.5, 0, 0.0415014453572093, 1.0783073322871e-17, 0.0416335040933467},
-    {2, 1, 12.5, 1, 0.0240692972021216, 8.54355082777873e-19, 0.0240957510723961},
-    {2, 1, 14, 0, 0.0277081528255064, 4.73192061373878e-17, 0.0276659503379081},
-    {2, 1, 14, 1, 0.0375136373049666, 6.49242458170925e-19, 0.0375345383913082},
-    {2, 3, 10.5, 0, 0.218832507165932, -2.06238283769267e-18, 0.218011223873292},
-    {2, 3, 10.5, 1, 0.060821092713822, -1.56508245989419e-17, 0.0605791488136965},
-    {2, 3, 11.5, 0, 0.103362798422168, 1.7952578520478e-17, 0.102970337121194},
-    {2, 3, 11.5, 1, 0.0889500456318896, 2.21942240154718e-17, 0.0886364596156571},
-    {2, 3, 12.5, 0, 0.0530549322024647, -1.91092438633157e-18, 0.0530395450969353},
-    {2, 3, 12.5, 1, 0.076360591654478, 4.42849143499063e-18, 0.0761526222487616},
-    {2, 3, 14, 0, 0.0413984783777806, 1.23525926997927e-17, 0.0414481594080007},
-    {2, 3, 14, 1, 0.0448735396280941, -4.02549197393246e-17, 0.0448263029769474},
-    /* clang-format on */
-};
-enum { N_REFERENCE = sizeof reference / sizeof *reference };
-
 static const transient_settings closed_form = CLOSED_FORM(1e-10, 20000);
 
-/* Tolerance relative to the largest response of the row's frequency. */
-static void check_reference(transient_settings how, double tolerance)
+/* ---- an independent program ------------------------------------------------------------------------------ */
+
+/* Of a program of its own: Taylor series of order 22 while a circle slips, events bisected to rounding, in NumPy. */
+static void periods_meet_the_reference(CHECK_STATE)
 {
-  static timeint_result r;
-  for (int i = 0; i < N_REFERENCE; i += reference[i].n) {
-    model *m = reference[i].n == 3 ? space(reference[i].force) : plane(reference[i].force);
-    double state[8] = {0}, largest = 0;
-    timeint *ti;
-    assert_int_equal(timeint_new(m, &how, &ti), HC_OK);
-    assert_int_equal(timeint_steady(ti, reference[i].omega, state, NULL, &r), HC_OK);
-    assert_int_equal(r.period_multiple, 1);
-    assert_int_equal(r.free_sliders, 0);
-    for (int k = i; k < i + reference[i].n; ++k) largest = fmax(largest, reference[k].amplitude);
-    for (int k = i; k < i + reference[i].n; ++k) {
-      assert_int_equal(timeint_response(ti, reference[k].response, &r), HC_OK);
-      CHECK_NEAR(r.amplitude, reference[k].amplitude, tolerance * largest, "row %d", k);
-      CHECK_NEAR(r.mean, reference[k].mean, tolerance * largest, "row %d: mean", k);
-      CHECK_NEAR(r.harmonic_1, reference[k].harmonic_1, tolerance * largest, "row %d: harmonic 1", k);
-    }
-    timeint_free(ti);
+  static const struct {
+    const char *of, *name;
+    double force;
+    int rows;
+  } cases[] = {{"space", "space_F0.1", 0.1, 3},
+               {"space", "space_F1", 1, 12},
+               {"space", "space_F3", 3, 12},
+               {"plane", "plane_F1", 1, 6},
+               {"plane", "plane_F3", 3, 8}};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+    model *m = driven(cases[k].of, cases[k].force);
+    check_structure_rows_all_ways(m, cases[k].name, cases[k].rows);
     model_free(m);
   }
 }
-
-static void periods_meet_the_reference(CHECK_STATE) { meet_the_reference(check_reference); }
 
 /* A contact that sticks all the time is one slider that rests anywhere, not two: by shooting, and marched. */
 static void a_circle_that_sticks_is_free_once(CHECK_STATE)
 {
   static timeint_result r;
   for (int march = 0; march < 2; ++march) {
-    model *m = plane(0.08);
+    model *m = driven("plane", 0.08);
     transient_settings how = closed_form;
     double y[6] = {0};
     timeint *ti;
@@ -271,7 +174,7 @@ static void a_motion_on_a_line_is_that_of_one_tangent(CHECK_STATE)
 {
   const double e[2] = {0.6, 0.8};
   const contact law = {.kt = 60, .kn = 80, .mu = 0.5, .gap = 0.02};
-  drawn two = {.m = space(3)}, one = {.m = space(3)};
+  drawn two = {.m = driven("space", 3)}, one = {.m = driven("space", 3)};
   integrator *of_two, *of_one;
   double y[2][MOST] = {{0}};
   for (int k = 0; k < 2; ++k) {
@@ -424,7 +327,7 @@ static void series_and_events_agree(CHECK_STATE)
 static void a_slider_that_comes_back_has_travelled(CHECK_STATE)
 {
   for (int slips = 0; slips < 2; ++slips) {
-    drawn d = {.m = plane(slips ? 40 : 0.1)};
+    drawn d = {.m = driven("plane", slips ? 40 : 0.1)};
     integrator *by[2];
     double y[2][MOST] = {{0}};
     scale_drawn(&d, TRANSIENT_LAW_EXACT, 10.5);
@@ -457,7 +360,7 @@ static void friction_takes_what_the_loads_give(CHECK_STATE)
   const double omegas[] = {10.5, 11.5, 12.5};
   for (int law = 0; law < 2; ++law)
     for (size_t k = 0; k < sizeof omegas / sizeof *omegas; ++k) {
-      model *m = space(3);
+      model *m = driven("space", 3);
       transient_settings how = closed_form;
       contact_period p[2];
       timeint *ti;
@@ -502,12 +405,13 @@ static void a_long_period_hears_the_monitor(CHECK_STATE)
 {
   static timeint_result r;
   for (int cvode = 0; cvode < 2; ++cvode) {
-    model *m = on_a_plane(2, 3, (contact){.kt = 60, .mu = 0.5, .load = 1e-4});
+    model *m = driven("plane", 3);
     transient_settings how = closed_form;
     int ticks = 0;
     const hc_monitor stop = {.tick = stop_at_three, .self = &ticks};
     double y[6] = {0.1, 0.1};
     timeint *ti;
+    for (int a = 0; a < 2; ++a) m->contacts[a].law.load = 0.5e-4;
     if (cvode) how.method = TRANSIENT_METHOD_CVODE;
     assert_int_equal(timeint_new(m, &how, &ti), HC_OK);
     assert_int_equal(timeint_orbit(ti, 12.5, 1, y, &stop, &r), HC_INTERRUPTED);
@@ -518,8 +422,9 @@ static void a_long_period_hears_the_monitor(CHECK_STATE)
   }
 }
 
-CHECK_TESTS("timeint.circle", 600, periods_meet_the_reference, a_circle_that_sticks_is_free_once,
-            newton_solves_the_equations, newton_of_the_exact_law_solves_its_equations,
-            a_motion_on_a_line_is_that_of_one_tangent, turned_tangents_change_nothing, monodromy_is_the_derivative,
-            series_and_events_agree, a_slider_that_comes_back_has_travelled, friction_takes_what_the_loads_give,
-            a_long_period_hears_the_monitor)
+CHECK_TESTS_WITH("timeint.circle", 600, read_structure_rows, NULL, periods_meet_the_reference,
+                 a_circle_that_sticks_is_free_once, newton_solves_the_equations,
+                 newton_of_the_exact_law_solves_its_equations, a_motion_on_a_line_is_that_of_one_tangent,
+                 turned_tangents_change_nothing, monodromy_is_the_derivative, series_and_events_agree,
+                 a_slider_that_comes_back_has_travelled, friction_takes_what_the_loads_give,
+                 a_long_period_hears_the_monitor)

@@ -266,14 +266,10 @@ static void rates_by_rows_are_the_equations(CHECK_STATE)
     drawn d = {.m = random_structure(&seed, n, contacts)};
     /* The first `circles` pairs of contacts become circles of friction. */
     const int circles = random_int(&seed, 0, contacts / 2);
-    for (int j = 0; j < 2 * circles; ++j) {
-      model_contact *c = &d.m->contacts[j], *first = &d.m->contacts[j - j % 2];
-      c->pair = j % 2 ? CONTACT_SECOND : CONTACT_FIRST;
-      c->circle = true;
-      c->law = (contact){.kt = 40, .kn = 30, .mu = 0.4, .gap = 0.1};
-      random_direction(&seed, d.m->n, c->tangent);
-      random_direction(&seed, d.m->n, first->normal);
-      memcpy(c->normal, first->normal, (size_t)d.m->n * sizeof *c->normal);
+    for (int j = 0; j < 2 * circles; j += 2) {
+      for (int a = 0; a < 2; ++a) random_direction(&seed, n, d.m->contacts[j + a].tangent);
+      random_direction(&seed, n, d.m->contacts[j].normal);
+      make_circle(d.m, j, (contact){.kt = 40, .kn = 60, .mu = 0.2, .gap = 0.1});
     }
     scale_drawn(&d, TRANSIENT_LAW_REGULARISED, 3 + 10 * random_unit(&seed));
     const int entries = check_rate(&seed, &d, trial);
