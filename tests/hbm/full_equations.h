@@ -43,7 +43,7 @@ static inline void along_direction(int n, const double *direction, double (*x)[T
 }
 
 /* u and v of contact j next to t. */
-static inline void contact_motion(const full_motion *f, int j, double t, double *u, double *v)
+static inline void full_contact_motion(const full_motion *f, int j, double t, double *u, double *v)
 {
   double x[FULL_MAX_DOFS][TAYLOR + 1];
   for (int i = 0; i < f->m->n; ++i) taylor_of_series(f->n_harm, f->x[i], f->omega, t, x[i]);
@@ -80,7 +80,7 @@ static inline void march_contact(const full_motion *f, int j, marched *c, double
   memset(T, 0, FULL_MAX_LENGTH * sizeof *T);
   memset(N, 0, FULL_MAX_LENGTH * sizeof *N);
   *c = (marched){.law = f->m->contacts[j].law};
-  contact_motion(f, j, 0, u, v);
+  full_contact_motion(f, j, 0, u, v);
   marched_begin(c, u, v, 0);
   for (int k = 0; k < 3 * steps; ++k) {
     if (k % steps == 0) c->changes = 0, c->loose = 0;
@@ -88,7 +88,7 @@ static inline void march_contact(const full_motion *f, int j, marched *c, double
     const double end = period * (k % steps + 1) / steps;
     while (t < end) {
       int which;
-      contact_motion(f, j, t, u, v);
+      full_contact_motion(f, j, t, u, v);
       const double s = marched_first_change(c, u, v, end - t, &which);
       if (k >= 2 * steps) add_integrals(f, c, u, v, t, s, T, N);
       c->changed = false;

@@ -218,3 +218,28 @@ static inline void map_multipliers(const period_map *p, const double *start, dou
   }
   eigenvalues_of(n, A, lambda);
 }
+
+/* lambda[] of the map along the solution X, which it has to bring back; how many. Differences by 1e-5 of the state's size
+ * are good to rounding over 1e-5, 1e-10 or so, and multipliers to what the monodromy's condition makes of that: 3e-9 is
+ * seen. */
+static inline int multipliers_of_map(const char *name, hbm_solver *s, const model *m, double omega, const double *X,
+                                     double complex *lambda)
+{
+  static period_map p;
+  double start[MAP_MAX_STATES] = {0}, end[MAP_MAX_STATES];
+  p.f = (full_motion){.m = m, .n_harm = hbm_n_harmonics(s), .omega = omega};
+  for (int i = 0; i < m->n; ++i) assert_int_equal(hbm_response(s, omega, X, i, p.f.x[i]), HC_OK);
+  map_settle(&p, start);
+  map_period(&p, start, end);
+  for (int q = 0; q < p.n_states; ++q)
+    CHECK_NEAR(end[q], start[q], 1e-12 * p.size[q], "%s at %g: state %d comes back", name, omega, q);
+  map_multipliers(&p, start, 1e-5, lambda);
+  return p.n_states;
+}
+
+static inline void check_against_map(const char *name, hbm_solver *s, const model *m, double omega, const double *X)
+{
+  double complex lambda[MAP_MAX_STATES];
+  const int n = multipliers_of_map(name, s, m, omega, X, lambda);
+  check_multipliers(name, s, omega, X, n, lambda);
+}

@@ -1,36 +1,10 @@
 /* test_stability.c - Floquet multipliers: where the oscillator is linear against its eigenvalues, where nothing
- * slips by their product, where it slips against finite differences of a period map integrated here, by another way:
- * RK4 in time with events, no harmonics, no intervals. */
+ * slips by their product, where it slips against the derivative of a period map that the test marches itself. */
 
-#include "hbm/solver/hbm_solver_impl.h"
+#include "study/scene_solvers.h"
+#include "tests/hbm/period_map.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"
-
-/* The stability of the first solution at omega, and the solution itself into X[2H+1]. */
-static hbm_stability first_stability(const scene *sc, double omega, double *X, contact_regime *regime, int *intervals)
-{
-  hbm_solver *s = NULL;
-  hbm_point point;
-  hbm_stability st;
-  hbm_measures m;
-  assert_int_equal(scene_hbm_solver(sc, &s), HC_OK);
-  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
-  assert_int_equal(hbm_measure(s, X, &m), HC_OK);
-  assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
-  *regime = m.contact.regime;
-  /* Number of intervals of contact that the solution X consists of. */
-  const contact_forces *e;
-  contact_report report;
-  int sum = 0;
-  assert_int_equal(hbm_located_orbit(s, X, &e, &report), HC_OK);
-  for (int j = 0, n; j < s->model->n_contacts; ++j) {
-    contact_forces_intervals(e, j, &n);
-    sum += n;
-  }
-  *intervals = sum;
-  hbm_solver_free(s);
-  return st;
-}
 
 /* lambda = exp(r T), r the roots of M r^2 + C r + k = 0; trace and determinant follow. What rounds: T = 2 pi/omega
  * and sqrt(d) by 2 eps each, so the angle by 4 eps |sqrt(d)| T; then ten operations on numbers of order n = |phi| <=
@@ -40,10 +14,16 @@ static hbm_stability first_stability(const scene *sc, double omega, double *X, c
 static void check_linear(const scene *sc, double k, double omega, contact_regime regime, const char *what)
 {
   double X[64];
-  contact_regime found;
-  int intervals;
-  hbm_stability st = first_stability(sc, omega, X, &found, &intervals);
-  assert_int_equal(found, regime);
+  hbm_solver *s;
+  hbm_point point;
+  hbm_stability st;
+  hbm_measures measures;
+  assert_int_equal(scene_hbm_solver(sc, &s), HC_OK);
+  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
+  assert_int_equal(hbm_measure(s, X, &measures), HC_OK);
+  assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
+  hbm_solver_free(s);
+  assert_int_equal(measures.contact.regime, regime);
   double a = 0.5 * sc->damping / sc->mass, T = 2 * PI / omega;
   double complex d = csqrt(a * a - k / sc->mass), l1 = cexp((-a + d) * T), l2 = cexp((-a - d) * T);
   double tol = DBL_EPSILON * (16 + 4 * (a + cabs(d)) * T) * (1 + 1 / cabs(l1 - l2));
@@ -122,209 +102,27 @@ static void without_slip_the_determinant_is_that_of_the_damping(CHECK_STATE)
   }
 }
 
-/* ---- the period map by time integration ---- */
-
-enum { APART, STUCK, SLIP_UP, SLIP_DOWN };
-
-typedef struct flow {
-  const scene *sc;
-  double omega, t, x, v, w[4];
-  int phase[4];
-  int events, contacts; /* changes of phase so far, and those of them that did not end in APART */
-} flow;
-
-/* M x'' + C x' + k x + constant = F0 cos(omega t) in the phases as they are. */
-static void acceleration_parts(const flow *f, double *k, double *constant)
-{
-  *k = f->sc->stiffness;
-  *constant = 0;
-  for (int j = 0; j < f->sc->n_contacts; ++j) {
-    const contact *l = &f->sc->contacts[j].law;
-    double a = f->sc->contacts[j].angle_deg * PI / 180, c = cos(a), s = sin(a), N0 = l->gap > 0 ? l->kn * l->gap : 0;
-    *constant -= N0 * s;
-    if (f->phase[j] == APART) continue;
-    *k += l->kn * s * s;
-    *constant += l->kn * l->gap * s;
-    if (f->phase[j] == STUCK) {
-      *k += l->kt * c * c;
-      *constant -= l->kt * f->w[j] * c;
-    } else {
-      double sign = f->phase[j] == SLIP_UP ? 1 : -1;
-      *k += sign * l->mu * l->kn * s * c;
-      *constant += sign * l->mu * l->kn * l->gap * c;
-    }
-  }
-}
-
-/* One RK4 step of length h. */
-static flow step(flow f, double h)
-{
-  double k, g, M = f.sc->mass, C = f.sc->damping;
-  acceleration_parts(&f, &k, &g);
-  double kx[4], kv[4], x = f.x, v = f.v, t = f.t;
-  static const double at[] = {0, 0.5, 0.5, 1};
-  for (int i = 0; i < 4; ++i) {
-    double xi = x + (i ? at[i] * h * kx[i - 1] : 0), vi = v + (i ? at[i] * h * kv[i - 1] : 0);
-    kx[i] = vi;
-    kv[i] = (f.sc->force * cos(f.omega * (t + at[i] * h)) - C * vi - k * xi - g) / M;
-  }
-  f.x += h * (kx[0] + 2 * kx[1] + 2 * kx[2] + kx[3]) / 6;
-  f.v += h * (kv[0] + 2 * kv[1] + 2 * kv[2] + kv[3]) / 6;
-  f.t += h;
-  return f;
-}
-
-/* What contact j turns into at this state; its own phase while nothing has happened. A traction is over its limit by
- * more than rounding. */
-static int next_phase(const flow *f, int j, double *w)
-{
-  const contact *l = &f->sc->contacts[j].law;
-  double a = f->sc->contacts[j].angle_deg * PI / 180, c = cos(a), s = sin(a), open = f->x * s + l->gap, u = f->x * c,
-         du = f->v * c, dv = f->v * s;
-  double N = l->kn * open, limit = l->mu * N;
-  *w = f->w[j];
-  if (f->phase[j] == APART) {
-    if (!(open > 0)) return APART;
-    *w = u;
-    return fabs(l->kt * du) > l->mu * l->kn * dv ? (du > 0 ? SLIP_UP : SLIP_DOWN) : STUCK;
-  }
-  if (open < 0) return APART;
-  if (f->phase[j] == STUCK) {
-    double T = l->kt * (u - f->w[j]), slack = 1e-11 * l->kn * fabs(l->gap);
-    return T > limit + slack ? SLIP_UP : T < -limit - slack ? SLIP_DOWN : STUCK;
-  }
-  double sign = f->phase[j] == SLIP_UP ? 1 : -1;
-  if (sign * l->kt * du - l->mu * l->kn * dv >= 0) return f->phase[j];
-  *w = u - sign * limit / l->kt;
-  return STUCK;
-}
-
-static bool something_happened(const flow *f)
-{
-  double w;
-  for (int j = 0; j < f->sc->n_contacts; ++j)
-    if (next_phase(f, j, &w) != f->phase[j]) return true;
-  return false;
-}
-
-/* To the time `until`: whole steps where nothing happens, else bisected to the first instant where something has. */
-static void flow_to(flow *f, double until, double h)
-{
-  while (f->t < until) {
-    double length = fmin(h, until - f->t);
-    flow next = step(*f, length);
-    if (something_happened(&next)) {
-      double a = 0, b = length;
-      while (b - a > 1e-15 * (1 + f->t)) {
-        double m = 0.5 * (a + b);
-        next = step(*f, m);
-        if (something_happened(&next)) b = m;
-        else a = m;
-      }
-      next = step(*f, b);
-      for (int j = 0; j < next.sc->n_contacts; ++j) {
-        double w;
-        int phase = next_phase(&next, j, &w);
-        next.events += phase != next.phase[j];
-        next.contacts += phase != next.phase[j] && phase != APART;
-        next.phase[j] = phase;
-        next.w[j] = w;
-      }
-    }
-    *f = next;
-    if (until - f->t < 1e-14 * until) break;
-  }
-}
-
-enum { STEPS = 400, SETTLE = 300 };
-
-/* The settled orbit, from the state (x, v) at th = 0; sections are tried in turn until none of the contacts is
- * stuck, so that (x, v) is the whole state. */
-static flow settled(const scene *sc, double omega, double x, double v)
-{
-  double T = 2 * PI / omega;
-  flow f = {.sc = sc, .omega = omega, .x = x, .v = v};
-  for (int j = 0; j < sc->n_contacts; ++j)
-    f.phase[j] = x * sin(sc->contacts[j].angle_deg * PI / 180) + sc->contacts[j].law.gap > 0 ? STUCK : APART;
-  for (int k = 1; k <= SETTLE; ++k) {
-    f.events = f.contacts = 0;
-    flow_to(&f, T, T / STEPS); /* the forcing has period T: start each again at 0 */
-    f.t = 0;
-  }
-  int events = f.events, contacts = f.contacts;
-  bool slipped = false, before = true;
-  for (int i = 1; i < STEPS; ++i) {
-    flow_to(&f, T * i / STEPS, T / STEPS);
-    bool free_now = true;
-    for (int j = 0; j < sc->n_contacts; ++j) {
-      free_now &= f.phase[j] != STUCK;
-      slipped |= f.phase[j] >= SLIP_UP;
-    }
-    if (free_now && before && i > 4) { /* two in a row: well inside */
-      f.events = events;
-      f.contacts = contacts;
-      return f;
-    }
-    before = free_now;
-  }
-  fail_msg("no section without a stuck contact%s", slipped ? "" : ", nothing slips");
-  return f;
-}
-
+/* The solution at omega, which slips, against the derivative of the test's own period map (period_map.h). Slip takes area
+ * out of the flow: the determinant is below that of the damping alone, visibly here. */
 static void check_slipping(const scene *sc, double omega, const char *what)
 {
-  double X[2 * 80 + 1], dk = 0, x = 0, v = 0;
-  int intervals, n_harm = sc->hbm.harmonics;
-  contact_regime regime;
-  hbm_stability st = first_stability(sc, omega, X, &regime, &intervals);
-  for (int h = 0; h <= n_harm; ++h) {
-    x += h ? X[2 * h - 1] : X[0];
-    v += h ? h * omega * X[2 * h] : 0;
-  }
-  flow f = settled(sc, omega, x, v);
-  double T = 2 * PI / f.omega, phi[2][2];
-  for (int q = 0; q < 2; ++q) {
-    flow end[2];
-    for (int i = 0; i < 2; ++i) {
-      end[i] = f;
-      *(q ? &end[i].v : &end[i].x) += (i ? 1 : -1) * 1e-6;
-      flow_to(&end[i], f.t + T, T / STEPS);
-    }
-    phi[0][q] = (end[1].x - end[0].x) / (2 * 1e-6);
-    phi[1][q] = (end[1].v - end[0].v) / (2 * 1e-6);
-  }
-  double trace = phi[0][0] + phi[1][1], det = phi[0][0] * phi[1][1] - phi[0][1] * phi[1][0];
-  double complex root = csqrt(0.25 * trace * trace - det), l = 0.5 * trace + (trace < 0 ? -root : root);
-  hbm_stability fd = (hbm_stability){cabs(l), creal(l), cimag(l), 1 + trace + det, 1 - trace + det, det, false};
-  /* E dk = sum of E_j dk_j, as many events each */
-  for (int j = 0; j < sc->n_contacts; ++j) dk += scene_stuck_stiffness(&sc->contacts[j]) / sc->n_contacts;
-  /* How far the trace and determinant of an H-harmonic orbit may be from the true orbit's. At an event x''' jumps by
-   * kappa x' (in th), kappa = dk/(M omega^2) with dk the stiffness that comes or goes. Each leaves coefficients kappa
-   * x'/(pi n^4) or less, so the E events of a period move x by at most E kappa x'/(3 pi H^3) and an event's angle by E
-   * kappa/(3 pi H^3). An angle's error d enters phi as a stiffness dk for a time d: kappa d, E times: (E kappa)^2/(3
-   * pi H^3), times |phi|, here at most 1 + kappa. Differences: 1e-5 of x' steps through x'' of order 1 + kappa, below
-   * 1e-4; RK4 1e-7. */
-  double kappa = dk / (sc->mass * omega * omega);
-  double tol = f.events * f.events * kappa * kappa * (1 + kappa) / (3 * PI * pow(n_harm, 3)) + 1e-4;
-  if (getenv("HC_TEST_PRINT"))
-    print_message(
-        "%s omega=%g H=%d intervals=%d/%d: multiplier %.8f (%.8f %+.8fi) differences %.8f (%.8f %+.8fi) det %.2e %.2e "
-        "bound %.1e\n",
-        what, omega, n_harm, intervals, f.contacts, st.multiplier, st.re, st.im, fd.multiplier, fd.re, fd.im,
-        st.determinant, fd.determinant, tol);
-  /* the same orbit; an interval may be cut at th = 0 */
-  assert_true(f.contacts > 0 && intervals >= f.contacts && intervals <= f.contacts + sc->n_contacts);
-  CHECK_NEAR(st.fold, fd.fold, tol, "%s omega=%g", what, omega);
-  CHECK_NEAR(st.flip, fd.flip, tol, "%s omega=%g", what, omega);
-  CHECK_NEAR(st.multiplier, fd.multiplier, tol / fmax(0.1, fabs(fd.im)), "%s omega=%g", what, omega);
-  CHECK_NEAR(st.re, fd.re, tol / fmax(0.1, fabs(fd.im)), "%s omega=%g", what, omega);
-  /* slip takes area out of the flow: the determinant is below that of the damping alone, visibly here */
-  CHECK_NEAR(moving_determinant(&st), fd.determinant, tol, "%s omega=%g", what, omega);
-  CHECK_LE(moving_determinant(&st), (1 - 1e-3) * exp(-sc->damping * 2 * PI / omega / sc->mass), "%s omega=%g", what,
+  double X[2 * 30 + 1];
+  hbm_solver *s;
+  hbm_point point;
+  hbm_stability st;
+  model *m;
+  assert_int_equal(scene_model(sc, &m), HC_OK);
+  assert_int_equal(scene_hbm_solver(sc, &s), HC_OK);
+  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
+  check_against_map(what, s, m, omega, X);
+  assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
+  CHECK_LE(moving_determinant(&st), (1 - 1e-3) * exp(-sc->damping * TWO_PI / omega / sc->mass), "%s at %g", what,
            omega);
+  hbm_solver_free(s);
+  model_free(m);
 }
 
-static void slipping_orbits_against_differences_of_the_period_map(CHECK_STATE)
+static void slipping_orbits_against_the_period_map(CHECK_STATE)
 {
   static const struct {
     const char *name;
@@ -336,7 +134,7 @@ static void slipping_orbits_against_differences_of_the_period_map(CHECK_STATE)
   }
 }
 
-static void two_contacts_against_differences_of_the_period_map(CHECK_STATE)
+static void two_contacts_against_the_period_map(CHECK_STATE)
 {
   static const double omegas[] = {5.5, 7, 8};
   for (int i = 0; i < 3; ++i) {
@@ -412,6 +210,5 @@ static void the_determinant_has_its_say(CHECK_STATE)
 }
 
 CHECK_TESTS("hbm.stability", 200, a_linear_oscillator_has_the_exponentials_of_its_eigenvalues,
-            without_slip_the_determinant_is_that_of_the_damping, slipping_orbits_against_differences_of_the_period_map,
-            two_contacts_against_differences_of_the_period_map, a_slider_shaken_down_is_held,
-            the_determinant_has_its_say)
+            without_slip_the_determinant_is_that_of_the_damping, slipping_orbits_against_the_period_map,
+            two_contacts_against_the_period_map, a_slider_shaken_down_is_held, the_determinant_has_its_say)

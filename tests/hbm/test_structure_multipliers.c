@@ -5,23 +5,6 @@
 
 enum { H = 7 };
 
-/* Differences by 1e-5 of the state's size are good to rounding over 1e-5, 1e-10 or so, and multipliers to what the
- * monodromy's condition makes of that: 3e-9 is seen. */
-static void check_solution(const char *name, hbm_solver *s, const model *m, double omega, const double *X)
-{
-  static period_map p;
-  double start[MAP_MAX_STATES] = {0}, end[MAP_MAX_STATES];
-  double complex lambda[MAP_MAX_STATES];
-  p.f = (full_motion){.m = m, .n_harm = H, .omega = omega};
-  for (int i = 0; i < m->n; ++i) assert_int_equal(hbm_response(s, omega, X, i, p.f.x[i]), HC_OK);
-  map_settle(&p, start);
-  map_period(&p, start, end);
-  for (int q = 0; q < p.n_states; ++q)
-    CHECK_NEAR(end[q], start[q], 1e-12 * p.size[q], "%s at %g: state %d comes back", name, omega, q);
-  map_multipliers(&p, start, 1e-5, lambda);
-  check_multipliers(name, s, omega, X, p.n_states, lambda);
-}
-
 /* Slipping, separating, with sliders that never slip, and unstable ones. */
 static void multipliers_are_those_of_the_period_map(CHECK_STATE)
 {
@@ -48,7 +31,7 @@ static void multipliers_are_those_of_the_period_map(CHECK_STATE)
       hbm_curve here = {0};
       assert_int_equal(hbm_curve_at(s, &curve, at[q].omega[k], &here), HC_OK);
       for (int i = 0; i < here.n; ++i, ++compared)
-        check_solution(at[q].name, s, c.model, at[q].omega[k], hbm_curve_X(&here, i));
+        check_against_map(at[q].name, s, c.model, at[q].omega[k], hbm_curve_X(&here, i));
       hbm_curve_free(&here);
     }
     hbm_curve_free(&curve);
@@ -65,18 +48,13 @@ static void multipliers_are_those_of_the_period_map(CHECK_STATE)
  * at omega: that of all of them which is nearest. */
 static double pair_at(hbm_solver *s, const model *m, const hbm_curve *curve, double omega)
 {
-  static period_map p;
   double pair = NAN;
   hbm_curve here = {0};
   assert_int_equal(hbm_curve_at(s, curve, omega, &here), HC_OK);
-  p.f = (full_motion){.m = m, .n_harm = H, .omega = omega};
   for (int k = 0; k < here.n; ++k) {
-    double start[MAP_MAX_STATES] = {0};
     double complex lambda[MAP_MAX_STATES];
-    for (int i = 0; i < m->n; ++i) assert_int_equal(hbm_response(s, omega, hbm_curve_X(&here, k), i, p.f.x[i]), HC_OK);
-    map_settle(&p, start);
-    map_multipliers(&p, start, 1e-5, lambda);
-    for (int i = 0; i < p.n_states; ++i)
+    const int n = multipliers_of_map("", s, m, omega, hbm_curve_X(&here, k), lambda);
+    for (int i = 0; i < n; ++i)
       if (cimag(lambda[i]) > 0 && !(fabs(cabs(lambda[i]) - 1) >= fabs(pair - 1))) pair = cabs(lambda[i]);
   }
   hbm_curve_free(&here);
