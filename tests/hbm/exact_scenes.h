@@ -1,8 +1,8 @@
 /* exact_scenes.h - for the tests of exact_force.c: one evaluation, random contacts and motions of one or two
- * coordinates, those that graze, and the contact force sampled the slow way for independent u and v, with how far
- * from the exact one it may be. */
+ * coordinates, those that graze, and how far the sampled contact force may be from the exact one. */
 #pragma once
 
+#include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "tests/hbm/scenes.h"
 
@@ -70,23 +70,10 @@ static inline double force_size(const moving_contact *c, const contact_motion *m
   return 2 * law->kt * m->U[k] + (1 + law->mu) * law->kn * (m->V[k] + gap);
 }
 
-/* Random laws like slow_aft.h's: stiffnesses over three decades, preloads and clearances, now and then no friction
- * or no tangential spring. */
-static inline contact random_law(uint64_t *seed)
-{
-  double pick = random_signed(seed);
-  contact law = {pow(10, 1.5 * random_signed(seed)), pow(10, 1.5 * random_signed(seed)),
-                 0.5 + 0.5 * random_signed(seed), random_signed(seed)};
-  if (pick < -0.9) law.mu = 0;
-  if (pick > 0.9) law.kt = 0;
-  return law;
-}
-
 static inline moving_contact random_contact(uint64_t *seed, int n_dof)
 {
-  static const double angles[] = {0, 30, 45, 90, 80, 5};
   if (n_dof == 1) {
-    double angle = angles[(int)(2.999999 * (1 + random_signed(seed)))];
+    const double angle = random_angle(seed);
     return contact_at(random_law(seed), angle);
   }
   return (moving_contact){random_law(seed), {1, 0}, {0, 1}};
@@ -106,54 +93,18 @@ static inline void make_graze(moving_contact *c, const contact_motion *m, int n_
   c->law.mu = c->law.kt * (high - low) / 2 / c->law.kn * (1 - depth);
 }
 
-/* The sampled force for n_dof coordinates: direct sums, contact_step, three periods, w = u where the straight line
- * between samples touches. */
-static inline void slow_sampled(int n_harm, int n_dof, const moving_contact *c, const double *X, int n_time, double *F,
-                                double *w_at_zero)
+/* The sampled force, w = u where the straight line between samples touches. */
+static inline void sampled(int n_harm, int n_dof, const moving_contact *c, const double *X, int n_time, double *F,
+                           double *w_at_zero)
 {
-  int n = series_length(n_harm);
-  static contact_motion m;
-  contact_motion_of(n_harm, n_dof, c, X, &m);
-  static long double sum[2][2 * EXACT_MAX_HARM + 1];
-  memset(sum, 0, sizeof sum);
-  double *u = malloc(2 * (size_t)n_time * sizeof *u), *v = u + n_time, w = 0;
-  assert_non_null(u);
-  for (int i = 0; i < n_time; ++i) {
-    double th = 2 * PI * i / n_time, co = cos(th), si = sin(th), ch = 1, sh = 0;
-    u[i] = m.u[0];
-    v[i] = m.v[0];
-    for (int h = 1; h <= n_harm; ++h) {
-      double next = ch * co - sh * si;
-      sh = ch * si + sh * co;
-      ch = next;
-      u[i] += m.u[2 * h - 1] * ch + m.u[2 * h] * sh;
-      v[i] += m.v[2 * h - 1] * ch + m.v[2 * h] * sh;
-    }
-  }
-  for (int k = 0; k < 3 * n_time; ++k) {
-    int i = k % n_time, j = i ? i - 1 : n_time - 1;
-    double g = v[i] + c->law.gap, before = v[j] + c->law.gap, traction;
-    if (g > 0 && before <= 0) w = u[j] + (u[i] - u[j]) * before / (before - g);
-    contact_step(&c->law, u[i], v[i], &w, &traction);
-    if (k < 2 * n_time) continue;
-    if (i == 0) *w_at_zero = w;
-    double normal = contact_normal(&c->law, v[i]) - contact_preload(&c->law);
-    double th = 2 * PI * i / n_time, co = cos(th), si = sin(th), ch = 1, sh = 0;
-    for (int h = 0; h <= n_harm; ++h) {
-      sum[0][2 * h] += traction * sh;
-      sum[1][2 * h] += normal * sh;
-      if (h) sum[0][2 * h - 1] += traction * ch;
-      if (h) sum[1][2 * h - 1] += normal * ch;
-      if (!h) sum[0][0] += traction, sum[1][0] += normal;
-      double next = ch * co - sh * si;
-      sh = ch * si + sh * co;
-      ch = next;
-    }
-  }
-  for (int d = 0; d < n_dof; ++d)
-    for (int i = 0; i < n; ++i)
-      F[d * n + i] = (double)((i ? 2 : 1) * (c->cu[d] * sum[0][i] + c->cv[d] * sum[1][i]) / n_time);
-  free(u);
+  const contact_coordinates at = {.n_dof = n_dof, .moved = *c};
+  const evaluator_settings how = {.n_harm = n_harm, .n_time = n_time, .restart = HBM_RESTART_INTERPOLATED};
+  contact_report report;
+  void *self;
+  assert_int_equal(aft_evaluator.make(&at, &how, &self), HC_OK);
+  assert_int_equal(aft_evaluator.evaluate(self, X, F, NULL, &report), HC_OK);
+  aft_evaluator.sliders(self, w_at_zero);
+  aft_evaluator.free(self);
 }
 
 /* How far the sampled coefficients may be from the exact ones, s = 2 pi/N:

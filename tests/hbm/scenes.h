@@ -83,6 +83,25 @@ static inline int read_reference_peaks(reference_peak *row)
                         parse_reference_peak, MAX_REFERENCE, sizeof *row, row);
 }
 
+/* Stiffnesses over three decades, preloads and clearances, now and then no friction or no tangential spring. */
+static inline contact random_law(uint64_t *seed)
+{
+  const double pick = random_signed(seed);
+  contact law = {.kt = pow(10, 1.5 * random_signed(seed))};
+  law.kn = pow(10, 1.5 * random_signed(seed));
+  law.mu = 0.5 + 0.5 * random_signed(seed);
+  law.gap = random_signed(seed);
+  if (pick < -0.9) law.mu = 0;
+  if (pick > 0.9) law.kt = 0;
+  return law;
+}
+
+static inline double random_angle(uint64_t *seed)
+{
+  static const double angles[] = {0, 30, 45, 90, 80, 5};
+  return angles[(int)(2.999999 * (1 + random_signed(seed)))];
+}
+
 /* A random motion X[2H+1] of size about `size`, harmonics decaying like 1/h^decay. */
 static inline void random_motion(uint64_t *seed, int n_harm, double size, double decay, double *X)
 {

@@ -114,21 +114,13 @@ static inline double slow_tolerance(const scene *sc, int n_harm, int n_time, con
   return 2 * DBL_EPSILON * tolerance;
 }
 
-/* n_contacts random contacts for motions of size about 1: preloads and clearances, every angle, now and then no
- * friction or no kt. */
+/* n_contacts random contacts for motions of size about 1, at every angle. */
 static inline scene random_contacts(uint64_t *seed, int n_contacts)
 {
-  static const double angles[] = {0, 30, 45, 90, 80, 5};
   scene sc = {.mass = 1, .stiffness = 1, .n_contacts = n_contacts};
   for (int j = 0; j < n_contacts; ++j) {
-    double pick = random_signed(seed);
-    contact law = {.kt = pow(10, 1.5 * random_signed(seed))};
-    law.kn = pow(10, 1.5 * random_signed(seed));
-    law.mu = 0.5 + 0.5 * random_signed(seed);
-    law.gap = random_signed(seed);
-    if (pick < -0.9) law.mu = 0;
-    if (pick > 0.9) law.kt = 0;
-    sc.contacts[j] = (scene_contact){law, angles[(int)(2.999999 * (1 + random_signed(seed)))]};
+    sc.contacts[j].law = random_law(seed);
+    sc.contacts[j].angle_deg = random_angle(seed);
   }
   return sc;
 }

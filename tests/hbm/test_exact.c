@@ -1,5 +1,4 @@
 /* test_exact.c - event-located contact force harmonics: closed forms, symmetries, and the limit of sampling. */
-#include "study/scene_solvers.h"
 #include "tests/hbm/exact_scenes.h"
 
 /* Series of k max(g + A cos th, 0), A > 0; docs/theory.md section 11. */
@@ -312,20 +311,15 @@ static void sampling_tends_to_it(CHECK_STATE)
   int n_orders = 0;
   for (int trial = 0; trial < 120; ++trial) {
     int H = 1 + (trial * 7) % 50, n = series_length(H);
-    scene sc = {.mass = 1, .stiffness = 1, .n_contacts = 1};
     static const double angles[] = {0, 30, 45, 90, 80, 5};
-    sc.contacts[0] = (scene_contact){random_law(&seed), angles[trial % 6]};
-    sc.hbm.restart = HBM_RESTART_INTERPOLATED;
-    moving_contact c = contact_at(sc.contacts[0].law, sc.contacts[0].angle_deg);
+    const moving_contact c = contact_at(random_law(&seed), angles[trial % 6]);
     random_motion(&seed, H, 1, 1 + trial % 3, X);
     evaluate(H, 1, 1, &c, X, &e, NULL);
     double error[17] = {0};
     for (int p = 10; p <= 16; p += 3) {
-      aft *a;
-      assert_int_equal(scene_aft(&sc, H, 1 << p, &a), HC_OK);
-      assert_int_equal(aft_eval(a, X, F, NULL, NULL), HC_OK);
+      double w;
+      sampled(H, 1, &c, X, 1 << p, F, &w);
       for (int i = 0; i < n; ++i) error[p] = fmax(error[p], fabs(F[i] - e.F[i]));
-      aft_free(a);
       CHECK_LE(error[p], sampled_error(H, 1, &c, X, 1 << p, &e), "trial %d H=%d N=2^%d kt=%g kn=%g mu=%g gap=%g", trial,
                H, p, c.law.kt, c.law.kn, c.law.mu, c.law.gap);
     }
@@ -339,7 +333,7 @@ static void sampling_tends_to_it(CHECK_STATE)
   CHECK_NEAR(orders / n_orders, 2, 0.15, "mean order of %d", n_orders);
 }
 
-/* The same for independent u and v, with the slow evaluator, and for motions that graze: touching by so little,
+/* The same for independent u and v, and for motions that graze: touching by so little,
  * leaving by so little, slipping by so little. The slider at th = 0 is compared where it is stuck, and known: a
  * sample's distance of its rate, as the touch may be missed. */
 static void independent_u_and_v(CHECK_STATE)
@@ -363,7 +357,7 @@ static void independent_u_and_v(CHECK_STATE)
     int n_time = trial % 22 ? 1 << 13 : 1 << 18;
     double w = NAN, bound;
     evaluate(H, D, 1, &c, X, &e, NULL);
-    slow_sampled(H, D, &c, X, n_time, F, &w);
+    sampled(H, D, &c, X, n_time, F, &w);
     if (kind == 2 && depth <= 0) continue; /* stuck for good or at its very limit: w from the history */
     bound = sampled_error(H, D, &c, X, n_time, &e);
     for (int i = 0; i < D * n; ++i) {

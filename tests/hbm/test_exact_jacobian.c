@@ -85,6 +85,15 @@ static void check_jacobian(uint64_t *seed, int H, int n_dof, const moving_contac
   }
 }
 
+static void check_tally(const tally *t)
+{
+  const int all = t->compared + t->changed + t->disagree;
+  print_message("%d directions, %d with changing states, %d too curved; worst %.2g of the tolerance\n", all, t->changed,
+                t->disagree, t->worst);
+  CHECK_LE(t->changed, 0.02 * all, "directions left out");
+  CHECK_LE(t->disagree, 0.03 * all, "directions left out");
+}
+
 static void random_motions(CHECK_STATE)
 {
   static const int orders[] = {1, 2, 3, 5, 10, 20, 50};
@@ -101,11 +110,7 @@ static void random_motions(CHECK_STATE)
       snprintf(what, sizeof what, "trial %d", trial);
       check_jacobian(&seed, H, D, &c, X, what, &count);
     }
-  int all = count.compared + count.changed + count.disagree;
-  print_message("%d directions, %d with changing states, %d too curved; worst %.2g of the tolerance\n", all,
-                count.changed, count.disagree, count.worst);
-  CHECK_LE(count.changed, 0.02 * all, "directions left out");
-  CHECK_LE(count.disagree, 0.03 * all, "directions left out");
+  check_tally(&count);
 }
 
 /* Touching, leaving or slipping by so little that the step must be small against it: 50 steps deep and more. */
@@ -129,11 +134,7 @@ static void grazing_motions(CHECK_STATE)
     snprintf(what, sizeof what, "trial %d kind %d depth %g", trial, kind, depths[trial % 6]);
     check_jacobian(&seed, H, D, &c, X, what, &count);
   }
-  int all = count.compared + count.changed + count.disagree;
-  print_message("%d directions, %d with changing states, %d too curved; worst %.2g of the tolerance\n", all,
-                count.changed, count.disagree, count.worst);
-  CHECK_LE(count.changed, 0.02 * all, "directions left out");
-  CHECK_LE(count.disagree, 0.03 * all, "directions left out");
+  check_tally(&count);
 }
 
 /* Passing the onset of contact (kind 0, from apart) or of separation (kind 1, kt = 0, from always touching) F is
