@@ -1,21 +1,11 @@
 /* test_orbit_events.c - events of orbits that are known: between two of them the motion is linear. */
 #include "model/linear.h"
+#include "tests/closed_form.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/steady/orbit_events.h"
 
-static const transient_settings closed = {.law = TRANSIENT_LAW_EXACT,
-                                          .method = TRANSIENT_METHOD_CLOSED_FORM,
-                                          .regularisation = 1e-4,
-                                          .tolerance = 1e-10,
-                                          .max_periods = 2000};
-
-/* Case 2 of the paper, its contact as `n` equal ones. */
-static model *case_2(int n)
-{
-  const scene sc = scene_c2();
-  return scene_split_model(&sc, n);
-}
+static const transient_settings closed = CLOSED_FORM(1e-10, 2000);
 
 static void settle(const model *m, double omega, orbit_events *e)
 {
@@ -41,12 +31,13 @@ static void linear_motion(const orbit_events *e, int i, double omega, double k, 
   out[1] = creal(I * omega * there) + free[1][0] * x + free[1][1] * v;
 }
 
-/* At omega = 6 it touches once and sticks (PHYSICS, 1: kt < mu kn tan 45): at x = gap/sin 45. Open the stiffness is K;
+/* Case 2 of the paper, its contact as `n` equal ones. At omega = 6 it touches once and sticks (PHYSICS, 1: kt < mu kn tan 45): at x = gap/sin 45. Open the stiffness is K;
  * closed it is K + (kt + kn)/2, both springs unstrained at that x. All exact: rounding of motions of 10 over a period,
  * some 1e-14 of v = 50, through events and Newton to 1e-12. */
 static void check_case_2(int n)
 {
-  model *m = case_2(n);
+  const scene sc = scene_c2();
+  model *m = scene_split_model(&sc, n);
   orbit_events e;
   const double omega = 6, at = 5 * sqrt(2), period = TWO_PI / omega, stuck = (100 + 1000) / 2.0;
   settle(m, omega, &e);
@@ -95,6 +86,4 @@ static void a_slider_that_never_slips_has_room(CHECK_STATE)
   model_free(m);
 }
 
-static const struct CMUnitTest tests[] = {cmocka_unit_test(one_contact_and_two_equal_ones),
-                                          cmocka_unit_test(a_slider_that_never_slips_has_room)};
-CHECK_MAIN("timeint.orbit_events", tests, 60)
+CHECK_TESTS("timeint.orbit_events", 60, one_contact_and_two_equal_ones, a_slider_that_never_slips_has_room)

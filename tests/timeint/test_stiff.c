@@ -1,18 +1,9 @@
 /* test_stiff.c - motions of structures by complex modes: against power series, which decompose nothing. */
 
-#include "tests/hbm/random_structures.h"
-#include "timeint/closed_form/integrate_closed_form.h"
+#include "tests/timeint/drawn.h"
 #include "timeint/closed_form/motion_modes.h"
-#include "timeint/cvode/integrate_events.h"
 
-enum { MOST = 64, PERIODS = 3 };
-
-typedef struct drawn {
-  model *m;
-  modal_base *base;
-  scaled_contact contacts[8];
-  scaled_model scaled;
-} drawn;
+enum { PERIODS = 3 };
 
 enum kind { PLAIN, STIFF, DAMPED_STIFF, FREE, CRITICAL, UNDAMPED, RESONANT, N_KINDS };
 
@@ -44,19 +35,13 @@ static void harden(enum kind kind, model *m)
 static void draw(uint64_t *seed, enum kind kind, drawn *d)
 {
   const int n = random_int(seed, 1, 6), contacts = random_int(seed, 1, 5);
-  const transient_settings how = {.law = TRANSIENT_LAW_EXACT};
   d->m = random_structure(seed, n, contacts);
   harden(kind, d->m);
-  assert_int_equal(modal_base_new(d->m, &d->base), HC_OK);
-  d->scaled = (scaled_model){.contact = d->contacts, .base = d->base};
-  const double omega = 3 + 10 * random_unit(seed); /* or where the load and a mode, contacts open, cancel each other */
-  scaled_make(&d->scaled, d->m, &how, kind == RESONANT ? sqrt(d->base->K[0]) : omega, 1);
-}
-
-static void undraw(drawn *d)
-{
+  scale_drawn(d, TRANSIENT_LAW_EXACT, 3 + 10 * random_unit(seed));
+  if (kind != RESONANT) return;
+  const double omega = sqrt(d->base->K[0]); /* the load and a mode, contacts open, cancel each other */
   modal_base_free(d->base);
-  model_free(d->m);
+  scale_drawn(d, TRANSIENT_LAW_EXACT, omega);
 }
 
 static double largest_of(int n, const double *a)
@@ -109,16 +94,13 @@ static void sets_give_way(CHECK_STATE)
   uint64_t seed = 8;
   model *m = random_structure(&seed, 2, 6);
   drawn d = {.m = m};
-  const transient_settings how = {.law = TRANSIENT_LAW_EXACT};
   interval_modes *kept;
   for (int j = 0; j < 6; ++j) { /* each state another matrix */
     m->contacts[j].law = (contact){.kt = 10 + j, .kn = 20 + j, .mu = 0.3, .gap = 0.1};
     random_direction(&seed, 2, m->contacts[j].tangent);
     random_direction(&seed, 2, m->contacts[j].normal);
   }
-  assert_int_equal(modal_base_new(m, &d.base), HC_OK);
-  d.scaled = (scaled_model){.contact = d.contacts, .base = d.base};
-  scaled_make(&d.scaled, m, &how, 5, 1);
+  scale_drawn(&d, TRANSIENT_LAW_EXACT, 5);
   assert_int_equal(interval_modes_new(d.base, 0, &kept), HC_OK);
   for (int trial = 0; trial < 3000; ++trial) {
     contact_track track[6] = {{0}};
@@ -199,7 +181,6 @@ static void a_watch_is_told_the_same(CHECK_STATE)
  * the place of balance nothing cancels. */
 static void a_constant_force_that_cancels_is_told(CHECK_STATE)
 {
-  const transient_settings how = {.law = TRANSIENT_LAW_EXACT};
   const contact_track slips = {.state = CONTACT_SLIP_PLUS, .along = 1};
   drawn d;
   interval_modes *kept;
@@ -208,13 +189,10 @@ static void a_constant_force_that_cancels_is_told(CHECK_STATE)
   workspace memory = {0};
   assert_int_equal(model_new(1, 1, 1, 1, &d.m), HC_OK);
   d.m->mass[0] = d.m->responses[0] = d.m->contacts[0].tangent[0] = 1;
-  d.m->stiffness[0] = 1e-3;
-  d.m->damping[0] = 1e-3;
+  d.m->stiffness[0] = d.m->damping[0] = 1e-3;
   d.m->loads[0].harmonic = 1;
   d.m->contacts[0].law = (contact){.kt = 1, .mu = 0.5, .load = 1};
-  assert_int_equal(modal_base_new(d.m, &d.base), HC_OK);
-  d.scaled = (scaled_model){.contact = d.contacts, .base = d.base};
-  scaled_make(&d.scaled, d.m, &how, 1, 1);
+  scale_drawn(&d, TRANSIENT_LAW_EXACT, 1);
   assert_int_equal(interval_modes_new(d.base, 0, &kept), HC_OK);
   assert_int_equal(interval_modes_of(kept, &d.scaled, &slips, &modes), HC_OK);
   assert_int_equal(motion_modes_make(&motion, d.base, &memory), HC_OK);
@@ -269,14 +247,10 @@ static void proportional_damping_is_told(CHECK_STATE)
  * BLAS. Its steps are not as short as the fastest mode is fast: 2e4 a radian. */
 static void events_of_stiff_structures(CHECK_STATE)
 {
-  model *m = graded_chain(6);
-  drawn d = {.m = m};
-  const transient_settings how = {.law = TRANSIENT_LAW_EXACT};
+  drawn d = {.m = graded_chain(6)};
   integrator *modes, *events;
   double y[MOST] = {0}, z[MOST];
-  assert_int_equal(modal_base_new(m, &d.base), HC_OK);
-  d.scaled = (scaled_model){.contact = d.contacts, .base = d.base};
-  scaled_make(&d.scaled, m, &how, 0.7, 1);
+  scale_drawn(&d, TRANSIENT_LAW_EXACT, 0.7);
   assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &modes), HC_OK);
   assert_int_equal(integrate_new_events(d.base, 1e-12, &events), HC_OK);
   for (int period = 0; period < PERIODS; ++period) {
