@@ -383,7 +383,7 @@ int cli_load_case(cli_common *common, const char *path, scene *sc, case_error *e
   return 0;
 }
 
-/* ---- frequencies, and the sweep. Proof: tests/command/test_frequency.c ---- */
+/* ---- frequencies, and the sweep. Proof: tests/command/frequency.transcript ---- */
 
 /* A frequency beyond FAR times the sweep's ends is not reached along the response curve; one that comes within DECADE
  * of them when it is taken for the other unit was probably typed in that. */
