@@ -1,5 +1,4 @@
-/* small.h - the scene of these tests: two contacts that open and close, three harmonics, one frequency to compare
- * at; milliseconds. */
+/* small.h - the scene of these tests, small/small.yaml, and a folder with what is in small/. */
 #pragma once
 
 #include <signal.h>
@@ -7,18 +6,7 @@
 #include "casefile/case_file.h"
 #include "tests/check.h"
 
-#define SMALL_BODY                                                                                                     \
-  "{oscillator: {mass: 1, damping: 2, stiffness: 40}, forcing: {amplitude: 20}, sweep: {omega: [6, 7]}, "              \
-  "hbm: {harmonics: 3},\n"                                                                                             \
-  " contacts: [{tangential_stiffness: 20, normal_stiffness: 20, friction: 0.3, angle_deg: 45, gap: 0.1},\n"            \
-  "            {tangential_stiffness: 20, normal_stiffness: 20, friction: 0.2, angle_deg: 30, gap: 0.5}],\n"           \
-  " transient: {tolerance: 1.0e-6}, compare: {omega: [6.5], harmonics: [1, 2], samples: [16, 32]},\n"                  \
-  " gate: {amplitude: 0.5, harmonic_1: 0.5, mean: 0.5, waveform: 0.5}}\n"
-
-#define SMALL_STUDY                                                                                                    \
-  "study: small\nbase: small.yaml\nrun: frf\nvary: [{hbm.harmonics: [2, 3]}]\n"                                        \
-  "views: {peaks: SELECT peak_amplitude AS p FROM scene}\n"                                                            \
-  "claims: [{source: text, says: it moves, found: SELECT max(p) FROM peaks, holds: SELECT count(*) = 2 FROM scene}]\n"
+#define SMALL SOURCE_DIR "/tests/faults/small"
 
 /* The scene, with --set assignments applied; the list ends with NULL. */
 static inline scene small_scene(const char *const *set)
@@ -27,7 +15,7 @@ static inline scene small_scene(const char *const *set)
   case_error err;
   int n = 0;
   while (set && set[n]) ++n;
-  if (case_parse("small.yaml", SMALL_BODY, strlen(SMALL_BODY), n, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  if (case_read(SMALL "/small.yaml", n, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
   return sc;
 }
 
@@ -65,14 +53,12 @@ static inline char *small_without_times(char *text)
   return text;
 }
 
-/* small.yaml, study.yaml and a curve to verify, in a new folder, which becomes the current one. */
+/* The files of small/ in a new folder, which becomes the current one. */
 static inline void small_folder(char *name)
 {
   assert_non_null(mkdtemp(name));
   assert_int_equal(chdir(name), 0);
-  small_file("small.yaml", SMALL_BODY);
-  small_file("study.yaml", SMALL_STUDY);
-  small_file("curve.csv", "omega,amplitude\n6.2,0.969\n6.4,1.0525\n6.6,1.1341\n"); /* of this scene, rounded */
+  assert_int_equal(system("cp " SMALL "/* ."), 0);
 }
 
 static inline void small_clean(const char *name)

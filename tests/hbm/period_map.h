@@ -219,9 +219,9 @@ static inline void map_multipliers(const period_map *p, const double *start, dou
   eigenvalues_of(n, A, lambda);
 }
 
-/* lambda[] of the map along the solution X, which it has to bring back; how many. Differences by 1e-5 of the state's size
- * are good to rounding over 1e-5, 1e-10 or so, and multipliers to what the monodromy's condition makes of that: 3e-9 is
- * seen. */
+/* lambda[] of the map along the solution X, which it has to bring back; how many. Differences by 1e-5 of the state's
+ * size are good to rounding over 1e-5, 1e-10 or so, and multipliers to what the monodromy's condition makes of that:
+ * 3e-9 is seen. */
 static inline int multipliers_of_map(const char *name, hbm_solver *s, const model *m, double omega, const double *X,
                                      double complex *lambda)
 {

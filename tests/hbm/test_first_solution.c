@@ -25,8 +25,8 @@ static const scene_contact contacts[] =
      {{5640.3, 797.307, 0.0610838, -6.38971}, 7.08275},  {{2.5396e6, 1.47714e6, 2.47364, -5.05752}, 13.2475},
      {{26.0257, 30.6151, 2.87443, 9.92598}, 32.769}};
 
-/* Four contacts of very different stiffness; no damping, and no gap, so that no force is so small that nothing happens at
- * the contacts; one contact; without harmonic 0; a force far above all preloads. */
+/* Four contacts of very different stiffness; no damping, and no gap, so that no force is so small that nothing happens
+ * at the contacts; one contact; without harmonic 0; a force far above all preloads. */
 static const refused_scene refused[] = {{715, 32.5011, 4.08431, 36.2477, 42951.3, 3.36358, 2, true, 0, 4},
                                         {1015, 1.8113, 0, 178.109, 2.48831e-5, 18.9741, 2, true, 4, 2},
                                         {4191, 0.547904, 0.00251013, 126.902, 0.115976, 25.9515, 10, true, 6, 1},

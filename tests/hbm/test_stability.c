@@ -102,8 +102,8 @@ static void without_slip_the_determinant_is_that_of_the_damping(CHECK_STATE)
   }
 }
 
-/* The solution at omega, which slips, against the derivative of the test's own period map (period_map.h). Slip takes area
- * out of the flow: the determinant is below that of the damping alone, visibly here. */
+/* The solution at omega, which slips, against the derivative of the test's own period map (period_map.h). Slip takes
+ * area out of the flow: the determinant is below that of the damping alone, visibly here. */
 static void check_slipping(const scene *sc, double omega, const char *what)
 {
   double X[2 * 30 + 1];

@@ -76,9 +76,9 @@ static inline int check_structure_rows(const model *m, const char *name, transie
   return checked;
 }
 
-/* All three ways against the rows without free sliders of a case from rest, so many. They are good to 1e-11: an orbit is
- * closed to 1e-10 of its size at most; CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter by
- * some hundred times that; the regularised law's error is of the first order in 1e-4, in units of the motion. */
+/* All three ways against the rows without free sliders of a case from rest, so many. They are good to 1e-11: an orbit
+ * is closed to 1e-10 of its size at most; CVODE's tolerance is a thousandth of transient.tolerance, and periods scatter
+ * by some hundred times that; the regularised law's error is of the first order in 1e-4, in units of the motion. */
 static inline void check_structure_rows_all_ways(const model *m, const char *name, int rows)
 {
   static const double tolerance[] = {1e-10, 1e-8, 1e-4};
