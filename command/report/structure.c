@@ -1,4 +1,5 @@
-/* structure.c - see parts.h. Responses of the model solved here: its DOFs, then the contacts' u and v. */
+/* structure.c - see parts.h. Responses of the model solved here: the case's first, in whose coordinates the comparison's
+ * curve is, its DOFs, then the contacts' u and v. */
 #include "command/report/parts.h"
 
 #include <math.h>
@@ -19,6 +20,7 @@ enum { MOST_OMEGAS = 12, MOST_SOLUTIONS = 24, MOST_CONTACTS = 24, SAMPLES = 240,
 
 typedef struct shown {
   const scene *sc;
+  const comparison *c;     /* its curve is what solutions are of */
   const model *m;          /* the case's */
   hbm_solver *s;           /* of the model with those responses */
   double *series[3];       /* [2H+1] each: u, v and of two tangents the second u of a contact, or one of x */
@@ -40,9 +42,9 @@ static json_t *number(double value)
 static hc_status model_to_look_at(const model *m, model **out)
 {
   const size_t n = (size_t)m->n, bytes = n * sizeof(double);
-  hc_status st = model_copy_sized(m, m->n_contacts, m->n + 2 * m->n_contacts, out);
+  hc_status st = model_copy_sized(m, m->n_contacts, 1 + m->n + 2 * m->n_contacts, out);
   if (st != HC_OK) return st;
-  double *row = (*out)->responses;
+  double *row = (*out)->responses + n; /* behind the first, which is copied */
   for (size_t i = 0; i < n; ++i, row += n)
     for (size_t k = 0; k < n; ++k) row[k] = i == k;
   for (int j = 0; j < m->n_contacts; ++j, row += 2 * n) {
@@ -110,8 +112,8 @@ static hc_status shape_of(shown *d, double omega, const double *X, json_t *ampli
   hc_status st = HC_OK;
   for (int i = 0; i < d->m->n && st == HC_OK; ++i) {
     hbm_measures m;
-    st = hbm_measure_response(d->s, omega, X, i, &m);
-    if (st == HC_OK) st = hbm_response(d->s, omega, X, i, d->series[0]);
+    st = hbm_measure_response(d->s, omega, X, 1 + i, &m);
+    if (st == HC_OK) st = hbm_response(d->s, omega, X, 1 + i, d->series[0]);
     if (st != HC_OK) return st;
     json_array_append_new(amplitude, number(m.amplitude));
     json_array_append_new(cosine, number(d->series[0][1]));
@@ -120,11 +122,20 @@ static hc_status shape_of(shown *d, double omega, const double *X, json_t *ampli
   return st;
 }
 
-/* Appended to the list; one that cannot be measured is left out. */
-static hc_status append_solution(shown *d, const hbm_point *p, const double *X, json_t *list)
+/* The verdict about solution k at omega: of the comparison's k-th row there. */
+static int stability_of(const comparison *c, double omega, int k)
 {
-  hbm_stability stability;
-  const hc_status known = hbm_stability_at(d->s, p->omega, X, &stability);
+  for (int i = 0; i < c->n_rows; ++i)
+    if (c->rows[i].omega == omega && c->rows[i].response == 0 && k-- == 0)
+      return hbm_stability_verdict(&c->rows[i].stability);
+  return 0;
+}
+
+/* Solution k of *at, appended to the list; one that cannot be measured is left out. */
+static hc_status append_solution(shown *d, const hbm_curve *at, int k, json_t *list)
+{
+  const hbm_point *p = &at->points[k];
+  const double *X = hbm_curve_X(at, k);
   json_t *amplitude = json_array(), *cosine = json_array(), *sine = json_array(), *loops = json_array();
   hc_status st = shape_of(d, p->omega, X, amplitude, cosine, sine);
   if (st == HC_OK) {
@@ -133,15 +144,15 @@ static hc_status append_solution(shown *d, const hbm_point *p, const double *X, 
     for (int j = 0, first = 0; first < d->m->n_contacts && j < MOST_CONTACTS && st == HC_OK; ++j, ++first) {
       const bool pair = d->m->contacts[first].pair == CONTACT_FIRST;
       for (int i = 0; i < 2 + pair && st == HC_OK; ++i)
-        st = hbm_response(d->s, p->omega, X, d->m->n + 2 * first + i, d->series[i]);
+        st = hbm_response(d->s, p->omega, X, 1 + d->m->n + 2 * first + i, d->series[i]);
       if (st == HC_OK) json_array_append_new(loops, loop_of(d, j, first, p->omega));
       first += pair;
       while (d->m->contacts[first + 1].pair == CONTACT_MORE) ++first; /* the list ends with an empty one */
     }
   }
   json_t *solution = json_pack("{s:f, s:i, s:i, s:o, s:o, s:o, s:o}", "omega", p->omega, "branch", p->branch, "stable",
-                               known == HC_OK ? hbm_stability_verdict(&stability) : 0, "amplitude", amplitude, "cosine",
-                               cosine, "sine", sine, "loops", loops);
+                               stability_of(d->c, p->omega, k), "amplitude", amplitude, "cosine", cosine, "sine", sine,
+                               "loops", loops);
   if (st == HC_OK) json_array_append_new(list, solution);
   else json_decref(solution);
   return st == HC_NO_MEMORY ? st : HC_OK;
@@ -167,7 +178,7 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
   if (!sc->structure) return *out = json_null(), HC_OK;
   hc_status st = scene_model(sc, &m);
   if (st != HC_OK) return st;
-  shown d = {.sc = sc, .m = m, .monitor = monitor};
+  shown d = {.sc = sc, .c = c, .m = m, .monitor = monitor};
   json_t *list = json_array();
   st = shown_open(sc, &d);
   if (st == HC_OK) {
@@ -177,7 +188,7 @@ hc_status structure_json(const scene *sc, const comparison *c, json_t *others, c
       hbm_curve at = {0};
       if (hbm_curve_at(d.s, &c->curve, omega[i], &at) == HC_NO_MEMORY) st = HC_NO_MEMORY;
       for (int k = 0; k < at.n && json_array_size(list) < MOST_SOLUTIONS && st == HC_OK; ++k)
-        st = append_solution(&d, &at.points[k], at.X + (size_t)k * at.n_coef, list);
+        st = append_solution(&d, &at, k, list);
       hbm_curve_free(&at);
       if (!hc_monitor_tick(d.monitor, -1)) st = HC_INTERRUPTED;
     }
