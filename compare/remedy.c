@@ -16,7 +16,7 @@
 /* What may be changed, in the order in which it is tried. */
 typedef enum move { STATIC, EXACT_FORCES, HARMONICS, START, LAW, TOLERANCE, N_MOVES } move;
 
-enum { AFTERWARDS = 2, MOST_SAMPLES = 65536 }; /* greater H that have to pass, too */
+enum { AFTERWARDS = 2, MOST_FAILURES = 8, MOST_SAMPLES = 65536 }; /* greater H that have to pass, too; transients */
 static const double most_work = 3e9;           /* [unknowns^3] of all solutions tried: about 2 s */
 static const double patience = 5;              /* [s] of all transients and curves tried */
 static const double fine = 1e-10;              /* transient.tolerance below which shooting seldom converges */
@@ -35,9 +35,10 @@ typedef struct remedy_search {
   bool by_transient;    /* else the orbit is what the row is held against */
   double work, seconds; /* spent */
   int most_tried;       /* harmonics */
+  int failures;         /* transients since the last that was periodic */
   /* What the solution is held against: the row's own transient or orbit, or that of the settings under way. */
   timeint_result *target; /* [responses] */
-  bool has_target, failed;
+  bool has_target;
   bool cut; /* work or time did not suffice for something that was to be tried */
 } remedy_search;
 
@@ -69,7 +70,7 @@ static hc_status integrate(remedy_search *s, const trial *t, hbm_solver *hbm, co
   const double began = thread_seconds();
   timeint *ti = NULL;
   work_limit limit = {.outer = s->w->monitor, .until = began + patience - s->seconds};
-  s->has_target = s->failed = false;
+  s->has_target = false;
   hc_status st = start == TRANSIENT_START_HBM || start == TRANSIENT_START_REST ? HC_OK : HC_UNSUPPORTED;
   if (st == HC_OK) st = timeint_new(s->w->setup->model, &t->transient, &ti);
   if (st == HC_OK && start == TRANSIENT_START_REST) timeint_rest(ti, s->w->scratch);
@@ -84,7 +85,7 @@ static hc_status integrate(remedy_search *s, const trial *t, hbm_solver *hbm, co
   s->seconds += thread_seconds() - began;
   s->cut |= s->seconds >= patience;
   s->has_target = st == HC_OK && s->target[0].period_multiple == 1;
-  s->failed = !s->has_target;
+  s->failures = s->has_target ? 0 : s->failures + 1;
   return limit.stopped ? HC_INTERRUPTED : st == HC_NO_MEMORY ? st : HC_OK;
 }
 
@@ -135,14 +136,15 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 
-/* *yes: the curve of these settings has the solution that Newton found, and not too far along for the time there is. */
+/* *yes: the curve of these settings has the solution that Newton found, and not too far along for half of the time that
+ * is left. */
 static hc_status confirm(remedy_search *s, const trial *t, bool *yes)
 {
   const double began = thread_seconds();
   compare_setup setup = *s->w->setup;
   response_curve c;
   hbm_curve at = {0};
-  work_limit limit = {.outer = s->w->monitor, .until = began + patience - s->seconds};
+  work_limit limit = {.outer = s->w->monitor, .until = began + 0.5 * (patience - s->seconds)};
   setup.hbm = t->hbm;
   *yes = false;
   hc_status st = response_trace(&setup, &setup.compare.omega, &(hc_monitor){work_limit_tick, &limit}, &c);
@@ -152,16 +154,17 @@ static hc_status confirm(remedy_search *s, const trial *t, bool *yes)
   hbm_curve_free(&at);
   response_curve_free(&c);
   s->seconds += thread_seconds() - began;
-  s->cut |= s->seconds >= patience;
+  s->cut |= thread_seconds() >= limit.until;
   return limit.stopped ? HC_INTERRUPTED : st == HC_NO_MEMORY ? st : HC_OK;
 }
 
 /* More harmonics than t has: the first that pass, and after which AFTERWARDS more do. */
 static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
 {
+  const int most_failures = target_moves(s, t) ? MOST_FAILURES : 1; /* another H starts another transient */
   hc_status st = HC_OK;
   *yes = false;
-  for (int n = from; n < HBM_MAX_HARMONICS && !*yes && !s->failed && st == HC_OK;) {
+  for (int n = from; n < HBM_MAX_HARMONICS && !*yes && s->failures < most_failures && st == HC_OK;) {
     n = n + 1 + n / 16 < HBM_MAX_HARMONICS ? n + 1 + n / 16 : HBM_MAX_HARMONICS;
     bool still = true;
     for (int k = 0; k <= AFTERWARDS && n + k <= HBM_MAX_HARMONICS && still && st == HC_OK; ++k) {
@@ -170,6 +173,7 @@ static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
     }
     t->hbm.harmonics = n;
     if (still && st == HC_OK) st = confirm(s, t, yes);
+    if (s->seconds > 0.9 * patience) break;
   }
   return st;
 }
@@ -224,7 +228,7 @@ static hc_status try_with(remedy_search *s, bool more_harmonics, bool transient_
   for (int r = 0; r < s->w->setup->model->n_responses; ++r)
     s->target[r] = s->by_transient ? s->first[r].transient : s->first[r].orbit;
   s->has_target = !transient_too;
-  s->failed = false;
+  s->failures = 0;
   if (more_harmonics) return try_harmonics(s, t, n_harm, yes);
   const hc_status st = try_it(s, t, yes);
   return *yes && st == HC_OK ? confirm(s, t, yes) : st;

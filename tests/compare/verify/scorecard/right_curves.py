@@ -29,7 +29,7 @@ import make_curves
 
 HERE = pathlib.Path(__file__).resolve().parent
 TESTS = HERE.parents[2]
-PATIENCE = 60  # seconds of processor time for one command
+PATIENCE, MAKING = 60, 10  # seconds of processor time for one command; for one that makes a random curve
 OPEN = {"peak", "max", "min", "mean", "rms", "norm"}  # where a slider never slips
 
 SCENE = re.compile(r'\{"(\w+)",' + r" ([-\d.e]+)," * 8 + r" ([-\d.e]+)\}")
@@ -125,17 +125,18 @@ def make(scene, numbers):
 
 # ---- the curves, and what verify says ----
 
-def command(*arguments):
-    limited = ["prlimit", f"--cpu={PATIENCE}", *map(str, arguments)]
+def command(*arguments, seconds=PATIENCE):
+    limited = ["prlimit", f"--cpu={seconds}", *map(str, arguments)]
     run = subprocess.run(limited, capture_output=True, text=True, check=False)
     if run.returncode < 0:
-        raise subprocess.TimeoutExpired(limited, PATIENCE)
+        raise subprocess.TimeoutExpired(limited, seconds)
     return run
 
 
-def computed(binary, case, what, at, *settings):
+def computed(binary, case, what, at, *settings, seconds=PATIENCE):
     sets = [a for s in settings for a in ("--set", s)]
-    run = command(binary, what, case, "--at", ",".join(f"{w:.12g}" for w in at), "--format", "csv", "-q", *sets)
+    run = command(binary, what, case, "--at", ",".join(f"{w:.12g}" for w in at), "--format", "csv", "-q", *sets,
+                  seconds=seconds)
     lines = [line for line in run.stdout.split("\n") if line and not line.startswith("#")]
     rows = csv.DictReader(io.StringIO("\n".join(lines)))
     return [row for row in rows
@@ -208,9 +209,10 @@ def random_curve(binary, case, rng, quantity, which):
     at = sorted(low + (high - low) * (k + rng.random()) / 24 for k in range(24))
     exact = ("transient.law=exact", "transient.method=closed_form", "hbm.static=true", "hbm.force=exact")
     if which == "from rest":
-        rows = computed(binary, case, "transient", at, "transient.start=rest", *exact)
+        rows = computed(binary, case, "transient", at, "transient.start=rest", *exact, seconds=MAKING)
     else:
-        rows, fewer = (computed(binary, case, "frf", at, f"hbm.harmonics={h}", *exact) for h in (100, 60))
+        rows, fewer = (computed(binary, case, "frf", at, f"hbm.harmonics={h}", *exact, seconds=MAKING)
+                       for h in (100, 60))
         rows = same_curves(rows, [r for r in fewer if r["amplitude"]], quantity)
     response = next((r.get("response") for r in rows), None)
     rows = [r for r in rows if r.get("response") == response]
