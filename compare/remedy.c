@@ -17,9 +17,9 @@
 typedef enum move { STATIC, EXACT_FORCES, HARMONICS, START, LAW, TOLERANCE, N_MOVES } move;
 
 enum { AFTERWARDS = 2, MOST_FAILURES = 8, MOST_SAMPLES = 65536 }; /* greater H that have to pass, too; transients */
-static const double most_work = 3e9;           /* [unknowns^3] of all solutions tried: about 2 s */
-static const double patience = 5;              /* [s] of all transients and curves tried */
-static const double fine = 1e-10;              /* transient.tolerance below which shooting seldom converges */
+static const double most_work = 3e9;                              /* [unknowns^3] of all solutions tried: about 2 s */
+static const double patience = 5;                                 /* [s] of all transients and curves tried */
+static const double fine = 1e-10; /* transient.tolerance below which shooting seldom converges */
 
 typedef struct trial {
   hbm_settings hbm;

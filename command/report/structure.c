@@ -1,5 +1,5 @@
-/* structure.c - see parts.h. Responses of the model solved here: the case's first, in whose coordinates the comparison's
- * curve is, its DOFs, then the contacts' u and v. */
+/* structure.c - see parts.h. Responses of the model solved here: the case's first, in whose coordinates the
+ * comparison's curve is, its DOFs, then the contacts' u and v. */
 #include "command/report/parts.h"
 
 #include <math.h>

@@ -32,8 +32,9 @@ static void linear_motion(const orbit_events *e, int i, double omega, double k, 
 }
 
 /* Case 2 of the paper, its contact as `n` equal ones. At omega = 6 it touches once and sticks (PHYSICS, 1: kt <
- * mu kn tan 45): at x = gap/sin 45. Open the stiffness is K; closed it is K + (kt + kn)/2, both springs unstrained at that x. All exact: rounding of motions of 10 over a period,
- * some 1e-14 of v = 50, through events and Newton to 1e-12. */
+ * mu kn tan 45): at x = gap/sin 45. Open the stiffness is K; closed it is K + (kt + kn)/2, both springs unstrained at
+ * that x. All exact: rounding of motions of 10 over a period, some 1e-14 of v = 50, through events and Newton to
+ * 1e-12. */
 static void check_case_2(int n)
 {
   const scene sc = scene_c2();
