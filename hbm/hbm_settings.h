@@ -30,8 +30,7 @@ typedef enum hbm_continuation {
 /* Harmonic 0 of a friction force T = kt (u - w): as it is, of kt u alone, or dropped. */
 typedef enum hbm_friction_mean { HBM_FRICTION_MEAN, HBM_FRICTION_MEAN_OF_U, HBM_FRICTION_NO_MEAN } hbm_friction_mean;
 
-/* Other mistakes in the equations, for compare/verify/ alone; all zero otherwise. The last three are none of an
- * oscillator. */
+/* Other mistakes in the equations, for compare/verify/ alone; all zero otherwise. `mean` is none of an oscillator. */
 typedef struct hbm_mistakes {
   bool odd_only;          /* even harmonics are dropped, 0 included */
   double mean_error;      /* [1] harmonic 0 of the contact force is multiplied by 1 + mean_error */

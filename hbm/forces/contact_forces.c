@@ -62,12 +62,17 @@ static hc_status make_member(const placed_contact *c, int dim, hbm_force force, 
   const contact_kind *kind = contact_kind_of(c);
   contact_coordinates x;
   kind->coordinates(c, dim, &x);
+  m->sign = how->mistakes.turned >> (m->first < 31 ? m->first : 31) & 1 ? -1 : 1;
+  if (m->sign < 0 && x.n_dof == 1 && x.moved.cu[0] != 0 && x.moved.cv[0] != 0) /* T and N are told apart by u and v */
+    x = (contact_coordinates){.n_dof = 2,
+                              .direction = {c->tangent, c->normal},
+                              .divisor = {1, 1},
+                              .moved = {.law = c->law, .cu = {1}, .cv = {0, 1}}};
   m->contacts = kind->contacts;
   m->n_dof = x.n_dof;
   if (m->n_dof > 1) m->n_tangents = c->planar ? 2 : 1;
   else m->n_tangents = x.moved.cv[0] == 0 && contact_has_friction(&c->law);
   m->kt = c->law.kt * (m->n_dof == 1 ? x.moved.cu[0] * x.moved.cu[0] : 1);
-  m->sign = how->mistakes.turned >> (m->first < 31 ? m->first : 31) & 1 ? -1 : 1;
   m->mean = how->mistakes.mean;
   m->by = force == HBM_FORCE_SAMPLED ? kind->sampled : kind->exact;
   memcpy(m->cu, x.moved.cu, sizeof m->cu);
@@ -134,7 +139,8 @@ hc_status contact_forces_new_of(int dim, int n, const placed_contact *contacts, 
     for (int k = 0; k < m->contacts; ++k) f->member_of[j++] = f->n_members;
   }
   if (st == HC_OK) st = make_product(f);
-  f->itself = st == HC_OK && dim == 1 && n == 1 && f->members->of[0].n == 1; /* its weight is then 1 */
+  f->itself = st == HC_OK && dim == 1 && n == 1 && f->members->n_dof == 1 &&
+              f->members->of[0].n == 1; /* its weight is then 1 */
   if (st == HC_OK) *out = f;
   else contact_forces_free(f);
   return st;

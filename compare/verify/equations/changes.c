@@ -398,7 +398,7 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
   if (c == CHANGE_STUCK && same_numbers(n * n, m->stiffness, own->stiffness)) return HC_BAD_INPUT; /* no contact */
   if ((of_power || c == CHANGE_EPSILON) && !there) return HC_BAD_INPUT;
   if (c >= CHANGE_FRICTION_SIGN && c <= CHANGE_FRICTION_MEAN && same_model(m, own))
-    return m->n > 1 && (mistakes->turned || (mistakes->mean && keep_mean)) ? HC_OK : HC_BAD_INPUT;
+    return mistakes->turned || (m->n > 1 && mistakes->mean && keep_mean) ? HC_OK : HC_BAD_INPUT;
   static_force(m, true, 1, p);
   const bool preload = !is_zero(m->n, p);
   if (c == CHANGE_MEAN || c == CHANGE_MEAN_OF_N) {

@@ -21,7 +21,7 @@ typedef struct spoiling {
   double noise;            /* [1] relative, alternating in sign */
   double warp;             /* [1] relative, 0 at the first omega and this much at the last: nobody's mistake */
   void (*change)(scene *); /* of the model's numbers */
-  bool odd_only;
+  bool odd_only, turned;
   int slider; /* hbm_restart of a sampled force, if not slider_on_sample */
 } spoiling;
 
@@ -42,6 +42,7 @@ static inline scene curve_spoil(const scene *sc, const spoiling *how)
   if (how->samples) own.hbm.samples = how->samples;
   own.hbm.restart = how->slider_on_sample ? HBM_RESTART_SAMPLE : (hbm_restart)how->slider;
   own.hbm.mistakes.odd_only = how->odd_only;
+  own.hbm.mistakes.turned = how->turned;
   if (how->change) how->change(&own);
   if (how->no_contact) own.n_contacts = 0;
   return own;

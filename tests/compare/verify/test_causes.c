@@ -148,6 +148,8 @@ static void numbers_of_another_model(CHECK_STATE)
       {"mu = 0", ON_CASE2, .cause = "no_friction+no_tangential_stiffness", .how = {.change = without_friction}},
       {"2 contact force", ON_CASE2, .cause = "contact_force_factor", .how = {.change = twice_the_contact}},
       {"odd harmonics", ON_CASE2, .cause = "odd_harmonics_only", .how = {.odd_only = true}},
+      {"-T", ON_CASE2, .cause = "friction_sign", .how = {.turned = true}},
+      {"-T", ON_PRELOADED, .cause = "friction_sign", .how = {.turned = true}},
       {"one pass", ON_CASE2, .cause = "single_pass", .how = {.samples = 512, .slider = HBM_RESTART_ONE_PASS}},
   };
   NAME_ALL(list);
