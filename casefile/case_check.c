@@ -89,6 +89,17 @@ static hc_status check_gate_ranges(case_reader *r)
   return case_refuse(r, at, "gate.ranges without limits, expected gate.range_amplitude or another gate.range_... too");
 }
 
+/* By --set a contact may have got another law. */
+static hc_status check_laws(case_reader *r)
+{
+  for (int j = 0; j < scene_contact_count(&r->sc); ++j) {
+    const case_place at = r->sc.structure ? r->sc.structure->contacts[j].place : r->contact_at[j];
+    const hc_status st = case_check_law_given(r, j, scene_contact_at(&r->sc, j), at);
+    if (st != HC_OK) return st;
+  }
+  return HC_OK;
+}
+
 /* A contact appended by --set must have got every required field; contacts of the file were checked when read. */
 static hc_status check_contacts(case_reader *r)
 {
@@ -243,7 +254,8 @@ static hc_status check_structure(case_reader *r)
 hc_status case_check(case_reader *r)
 {
   r->sc.gate.ranges.in_cycles = r->sc.in_cycles;
-  hc_status st = r->sc.structure ? check_structure(r) : check_contacts(r);
+  hc_status st = check_laws(r);
+  if (st == HC_OK) st = r->sc.structure ? check_structure(r) : check_contacts(r);
   if (st == HC_OK) st = check_sweep(r);
   if (st == HC_OK) st = check_samples(r);
   if (st == HC_OK) st = check_fixed_step(r);

@@ -194,6 +194,7 @@ bool yaml_is_law_part(const field *f);
 
 /* Contact j, whose fields r->at tells the places of, has none of another law, and what its own needs. */
 hc_status case_check_law(case_reader *r, int j, const scene_contact *c, case_place place);
+hc_status case_check_law_given(case_reader *r, int j, const scene_contact *c, case_place place); /* the latter alone */
 
 /* One part of load or contact j: a degree of freedom or direction. */
 hc_status yaml_entry_part(case_reader *r, const field *f, int j, const yaml_node_t *node);

@@ -1,19 +1,13 @@
-/* contact_kinds.c - contacts whose law the case names: coefficients and points as they are read, and which field is
- * whose. What they are in the model: contact_model.c. */
+/* contact_kinds.c - contacts whose law the case names: coefficients and points as they are read, and what
+ * they need. What they are in the model: contact_model.c. */
 #include <math.h>
 #include <string.h>
 
 #include "casefile/case_reader.h"
 
-bool field_is_of_law(const field *f, const scene_contact *c)
-{
-  const unsigned laws = f->laws ? f->laws : SCENE_LAWS(SCENE_LAW_CONTACT);
-  return f->laws == SCENE_ANY_LAW || laws & SCENE_LAWS(c->kind);
-}
-
 bool field_is_echoed(const field *f, const scene_contact *c)
 {
-  if (!strcmp(f->name, "law")) return c->kind != SCENE_LAW_CONTACT;
+  if (!strcmp(f->name, "law")) return c->kind != CONTACT_KINKED;
   if (!strncmp(f->name, "coefficients.", 13)) return *(const double *)field_look(f, c) != 0;
   return field_is_of_law(f, c);
 }
@@ -85,6 +79,27 @@ hc_status yaml_law_part(case_reader *r, const field *f, int j, const yaml_node_t
   return (*f->name == 'c' ? read_coefficients : read_points)(r, f, j, c, node);
 }
 
+/* Of a law that needs the field it is not there: a number that must be > 0, or points. */
+static bool is_missing(const field *f, const scene_contact *c)
+{
+  if (!(f->flags & FIELD_IN_CONTACT) || !field_is_of_law(f, c)) return false;
+  if (f->kind == FIELD_REAL && f->flags & FIELD_OPEN) return !(*(const double *)field_look(f, c) > f->low);
+  return !strcmp(f->name, "points") && c->n_points < 2;
+}
+
+hc_status case_check_law_given(case_reader *r, int j, const scene_contact *c, case_place place)
+{
+  for (int i = 0; i < field_count(); ++i) {
+    if (!is_missing(field_at(i), c)) continue;
+    message *m = case_blame(r, place);
+    message_add(m, "contacts[%d] is a %s without `%s`, expected ", j, field_named("contacts", "law")->choices[c->kind],
+                field_at(i)->name);
+    field_expected(field_at(i), m);
+    return HC_BAD_INPUT;
+  }
+  return HC_OK;
+}
+
 hc_status case_check_law(case_reader *r, int j, const scene_contact *c, case_place place)
 {
   for (int i = 0; i < field_count(); ++i) {
@@ -98,9 +113,5 @@ hc_status case_check_law(case_reader *r, int j, const scene_contact *c, case_pla
         message_add(m, "%s %s", n++ ? "," : "", field_at(k)->name);
     return HC_BAD_INPUT;
   }
-  if (c->kind == SCENE_LAW_TABLE && c->n_points < 2)
-    return case_refuse(r, place, "contacts[%d] is a table without `points`, expected [[DISTANCE, FORCE], ...]", j);
-  if (c->kind == SCENE_LAW_TANH && !(c->law.epsilon > 0))
-    return case_refuse(r, place, "contacts[%d] is a tanh without `epsilon`, expected a number > 0", j);
-  return HC_OK;
+  return case_check_law_given(r, j, c, place);
 }

@@ -2,27 +2,18 @@
 #include <math.h>
 #include <string.h>
 
-#include "casefile/scene.h"
+#include "casefile/fields.h"
 
 contact scene_contact_law(const scene_contact *c)
 {
-  contact law = {0};
-  switch (c->kind) {
-  case SCENE_LAW_POLYNOMIAL:
-    law.smooth = CONTACT_POLYNOMIAL;
-    memcpy(law.power, c->law.power, sizeof law.power);
-    return law;
-  case SCENE_LAW_TABLE: return law;
-  case SCENE_LAW_TANH:
-    law = (contact){.kn = c->law.kn, .mu = c->law.mu, .gap = c->law.gap, .smooth = CONTACT_TANH};
-    law.epsilon = c->law.epsilon;
-    return law;
-  default:
-    law = c->law;
-    law.epsilon = 0;
-    memset(law.power, 0, sizeof law.power);
-    return law;
+  scene_contact own = *c; /* without what its law has not */
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i);
+    if (f->flags & FIELD_IN_CONTACT && f->kind == FIELD_REAL && !field_is_of_law(f, c))
+      *(double *)field_place(f, &own) = 0;
   }
+  own.law.smooth = scene_contact_is_composed(c) ? CONTACT_KINKED : (contact_smooth)c->kind;
+  return own.law;
 }
 
 int scene_contact_parts(const scene_contact *c)

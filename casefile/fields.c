@@ -26,11 +26,8 @@ static const char *const start_names[] = {[TRANSIENT_START_HBM] = "hbm",
                                           [TRANSIENT_START_DOWN] = "down",
                                           NULL};
 
-static const char *const contact_law_names[] = {[SCENE_LAW_CONTACT] = "contact",
-                                                [SCENE_LAW_POLYNOMIAL] = "polynomial",
-                                                [SCENE_LAW_TABLE] = "table",
-                                                [SCENE_LAW_TANH] = "tanh",
-                                                NULL};
+#define LAW_NAME(code, name) #name,
+static const char *const contact_law_names[] = {"contact", CONTACT_SMOOTH_LIST(LAW_NAME) "table", NULL};
 static const char *const limit_names[] = {[CONTACT_LIMIT_CIRCLE] = "circle", [CONTACT_LIMIT_SQUARE] = "square", NULL};
 static const char *const nonlinear_names[] = {
     [GATE_NONLINEAR_ANY] = "any", [GATE_NONLINEAR_REQUIRED] = "required", NULL};
@@ -66,9 +63,9 @@ static const field_section sections[] = {
     "contacts", "coefficients." #p, "", FIELD_REAL,                                                                    \
         .unit = "force/length^" #p, .flags = FIELD_IN_CONTACT | FIELD_NO_ECHO,                                         \
         .offset = offsetof(scene_contact, law.power[(p)-CONTACT_LEAST_POWER]), .fallback = "0", UNBOUNDED,             \
-        .laws = SCENE_LAWS(SCENE_LAW_POLYNOMIAL), .meaning = "one of them, for --set and studies"                      \
+        .laws = SCENE_LAWS(CONTACT_POLYNOMIAL), .meaning = "one of them, for --set and studies"                        \
   }
-#define RUBS (SCENE_LAWS(SCENE_LAW_CONTACT) | SCENE_LAWS(SCENE_LAW_TANH))
+#define RUBS (SCENE_LAWS(CONTACT_KINKED) | SCENE_LAWS(CONTACT_TANH))
 #define TEXT(member)                                                                                                   \
   .kind = FIELD_TEXT, .unit = "", .offset = offsetof(scene, member), .size = sizeof((scene *)0)->member
 #define CHOICE(names, member)                                                                                          \
@@ -172,9 +169,9 @@ static const field table[] = {
   {"contacts", "law", "", FIELD_CHOICE, .unit = "", .laws = SCENE_ANY_LAW, .choices = contact_law_names,
    .flags = FIELD_IN_CONTACT, .offset = offsetof(scene_contact, kind), .fallback = "contact",
    .meaning = "contact: friction and gap, as above; the others have the fields below"},
-  {"contacts", "direction", "", ACROSS(normal), .laws = SCENE_LAWS(SCENE_LAW_POLYNOMIAL) | SCENE_LAWS(SCENE_LAW_TABLE),
+  {"contacts", "direction", "", ACROSS(normal), .laws = SCENE_LAWS(CONTACT_POLYNOMIAL) | SCENE_LAWS(SCENE_LAW_TABLE),
    .unit = "1", .fallback = "", .meaning = "of a polynomial or a table: d = direction . x; of one DOF d = x"},
-  {"contacts", "coefficients", "", FIELD_PART, .flags = FIELD_IN_CONTACT, .laws = SCENE_LAWS(SCENE_LAW_POLYNOMIAL),
+  {"contacts", "coefficients", "", FIELD_PART, .flags = FIELD_IN_CONTACT, .laws = SCENE_LAWS(CONTACT_POLYNOMIAL),
    .expects = "{POWER: COEFFICIENT, ...}, powers 2..9", .unit = "force/length^POWER",
    .meaning = "of a polynomial: the force is the sum of coefficient d^power"},
   POWER(2), POWER(3), POWER(4), POWER(5), POWER(6), POWER(7), POWER(8), POWER(9),
@@ -183,7 +180,7 @@ static const field table[] = {
    .meaning = "of a table: the force is linear between them, and goes on with the slopes at its ends"},
   {"contacts", "epsilon", "", FIELD_REAL, .unit = "length/time", .flags = FIELD_IN_CONTACT | FIELD_OPEN,
    .offset = offsetof(scene_contact, law.epsilon), .fallback = "", WITHIN(0, INFINITY),
-   .laws = SCENE_LAWS(SCENE_LAW_TANH), .meaning = "of tanh: the traction is mu N tanh(u'/epsilon)"},
+   .laws = SCENE_LAWS(CONTACT_TANH), .meaning = "of tanh: the traction is mu N tanh(u'/epsilon)"},
 
   {"", "response", "", PART(0, "a list of DOFs or directions such as [tip, {tip: 1, root: -1}]"), .unit = "",
    .fallback = "", .meaning = "what is reported of a structure, first one first; none: the forced DOF"},
@@ -288,6 +285,12 @@ enum { COUNT = sizeof table / sizeof *table, SECTIONS = sizeof sections / sizeof
 _Static_assert((int)COUNT <= (int)FIELD_MAX, "case_reader keeps one place a field");
 _Static_assert(offsetof(scene, omega_to) == offsetof(scene, omega_from) + sizeof(double),
                "FIELD_PAIR stores both at once");
+
+bool field_is_of_law(const field *f, const scene_contact *c)
+{
+  const unsigned laws = f->laws ? f->laws : SCENE_LAWS(CONTACT_KINKED);
+  return f->laws == SCENE_ANY_LAW || laws & SCENE_LAWS(c->kind);
+}
 
 int field_count(void) { return COUNT; }
 

@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "base/constants.h"
+#include "casefile/fields.h"
 #include "casefile/structure.h"
 
 double scene_omega(const scene *sc, double given) { return sc->in_cycles ? TWO_PI * given : given; }
@@ -20,7 +21,7 @@ const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE])
 moving_contact scene_moving_contact(const scene_contact *c)
 {
   moving_contact out = {.law = scene_contact_law(c), .cv = {1}};
-  if (c->kind == SCENE_LAW_CONTACT || c->kind == SCENE_LAW_TANH) model_direction(c->angle_deg, &out.cu[0], &out.cv[0]);
+  if (field_is_of_law(field_named("contacts", "angle_deg"), c)) model_direction(c->angle_deg, &out.cu[0], &out.cv[0]);
   return out;
 }
 
@@ -72,7 +73,7 @@ hc_status scene_model(const scene *sc, model **out)
     const moving_contact one = scene_moving_contact(c);
     *(*out)->stiffness += scene_contact_slope(c);
     to->law = one.law, *to->tangent = one.cu[0], *to->normal = one.cv[0];
-    if (c->kind == SCENE_LAW_TABLE) scene_contact_put(c, 1, (double[]){1}, to);
+    if (scene_contact_is_composed(c)) scene_contact_put(c, 1, (double[]){1}, to);
   }
   return HC_OK;
 }

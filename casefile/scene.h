@@ -23,8 +23,9 @@ typedef struct scene_structure scene_structure; /* structure.h */
 /* How a contact with two tangents limits its traction (T_1, T_2): as a vector, or each direction alone. */
 typedef enum contact_limit { CONTACT_LIMIT_CIRCLE, CONTACT_LIMIT_SQUARE } contact_limit;
 
-/* A contact's law in the case: `contact` is friction and gap; a table is as many unilateral springs as it has kinks. */
-typedef enum scene_law { SCENE_LAW_CONTACT, SCENE_LAW_POLYNOMIAL, SCENE_LAW_TABLE, SCENE_LAW_TANH } scene_law;
+/* A contact's law in the case: one of contact_smooth, or of these, which are several contacts in the model. A table is
+ * as many unilateral springs as it has kinks. */
+enum { SCENE_LAW_TABLE = CONTACT_LAWS };
 enum { SCENE_MOST_POINTS = 32 };
 
 typedef struct scene_contact {
@@ -33,7 +34,7 @@ typedef struct scene_contact {
   double preload;   /* [force] >= 0, of a structure's contact: kn gap, or its constant normal force without normal */
   char name[SCENE_NAME]; /* of a structure's contact, or "" */
   contact_limit limit;   /* of a structure's contact with two tangents */
-  scene_law kind;
+  int kind;
   int n_points;
   double points[SCENE_MOST_POINTS][2]; /* [length] ascending, [force] of a table */
 } scene_contact;
@@ -61,8 +62,9 @@ double scene_frequency(const scene *sc, double omega);
 enum { SCENE_WHERE = 64 };
 const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE]);
 
-/* The law in the model, but for the load; of a table nothing. */
+/* The law in the model, but for the load; of a composed one nothing. */
 contact scene_contact_law(const scene_contact *c);
+static inline bool scene_contact_is_composed(const scene_contact *c) { return c->kind >= CONTACT_LAWS; }
 
 /* A table's contacts in the model: how many, 1 of any other law; the stiffness of the spring that is left beside them;
  * and these, along direction[n]. f(0) is taken as held by the rest position, as N0 is. */

@@ -261,8 +261,7 @@ contact structure_contact_law(const structure_contact *c)
 {
   contact law = scene_contact_law(&c->given);
   if (c->given.preload > 0 && law.kn > 0) law.gap = c->given.preload / law.kn;
-  if (!(law.kn > 0) && (c->given.kind == SCENE_LAW_CONTACT || c->given.kind == SCENE_LAW_TANH))
-    law.load = c->given.preload;
+  if (!(law.kn > 0)) law.load = c->given.preload; /* a field of laws that rub */
   return law;
 }
 
@@ -411,7 +410,7 @@ hc_status structure_model(const scene_structure *s, model **out)
   for (int j = 0; j < s->n_contacts; ++j) {
     const structure_contact *c = &s->contacts[j];
     add_outer(s->n, scene_contact_slope(&c->given), c->normal, c->normal, m->stiffness);
-    if (c->given.kind == SCENE_LAW_TABLE)
+    if (scene_contact_is_composed(&c->given))
       scene_contact_put(&c->given, s->n, c->normal, to), to += scene_contact_parts(&c->given);
     else if (is_pair(s, c)) set_pair(s, c, to), to += 2;
     else set_contact(s, c, c->tangent, to++);

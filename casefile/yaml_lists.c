@@ -126,19 +126,19 @@ hc_status yaml_loads_read(case_reader *r, const yaml_node_t *node)
 static hc_status missing(case_reader *r, int j, const field *f, const char *has)
 {
   message *m = case_blame(r, r->sc.structure->contacts[j].place);
-  message_add(m, "missing key `%s` in `contacts[%d]`, which has a %s, expected ", f->name, j, has);
+  message_add(m, "missing key `%s` in `contacts[%d]`, which has a %s, expected ", f->name, j, has ? has : "law");
   field_expected(f, m);
   return HC_BAD_INPUT;
 }
 
-/* What a contact with such a direction must have; what it has without one: case_check. */
+/* What a contact with such a direction must have, of NULL every one of its law; what it has without: case_check. */
 static hc_status check_needed(case_reader *r, int j, const char *direction)
 {
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
     if (!field_is_of_law(f, &r->sc.structure->contacts[j].given)) continue;
-    if (f->along && !strcmp(f->along, direction) && !f->fallback && !case_given(r, f))
-      return missing(r, j, f, direction);
+    if (!(f->flags & FIELD_IN_CONTACT) || f->fallback || case_given(r, f)) continue;
+    if (f->along ? direction && !strcmp(f->along, direction) : !direction) return missing(r, j, f, direction);
   }
   return HC_OK;
 }
@@ -150,15 +150,14 @@ static hc_status check_contact(case_reader *r, int j)
   const bool tangent = place(r, "contacts", "tangent").line > 0, normal = place(r, "contacts", "normal").line > 0;
   const case_place angle = place(r, "contacts", "angle_deg"), tangent_2 = place(r, "contacts", "tangent_2"),
                    limit = place(r, "contacts", "limit");
-  const scene_law law = c->given.kind;
   c->by_angle = angle.line > 0;
   hc_status st = case_check_law(r, j, &c->given, c->place);
   if (st != HC_OK) return st;
-  if (law == SCENE_LAW_POLYNOMIAL || law == SCENE_LAW_TABLE) {
-    const char *const part = law == SCENE_LAW_TABLE ? "points" : "coefficients";
-    if (one_dof && place(r, "contacts", "direction").line == 0) *c->normal = 1;
-    if (is_zero(r->sc.structure->n, c->normal)) return missing(r, j, field_named("contacts", "direction"), "law");
-    return place(r, "contacts", part).line > 0 ? HC_OK : missing(r, j, field_named("contacts", part), "law");
+  const field *across = field_named("contacts", "direction");
+  if (field_is_of_law(across, &c->given)) {
+    if (one_dof && !case_given(r, across)) *c->normal = 1;
+    if (is_zero(r->sc.structure->n, c->normal)) st = missing(r, j, across, "law");
+    return st == HC_OK ? check_needed(r, j, NULL) : st;
   }
   if (c->by_angle && (tangent || normal || !one_dof))
     return case_refuse(r, angle, "angle_deg in `contacts[%d]`, expected `tangent` and `normal`%s", j,

@@ -543,7 +543,7 @@ hc_status yaml_pairs_read(case_reader *r, const yaml_node_t *node)
   yaml_forget_fields(r, FIELD_IN_CONTACT);
   field_contact_defaults(&e.given);
   hc_status st = read_keys(r, node, &e, &given[0], &given[1]);
-  if (st == HC_OK && e.given.kind != SCENE_LAW_CONTACT)
+  if (st == HC_OK && e.given.kind != CONTACT_KINKED)
     return case_refuse(r, r->at[field_index(field_named("contacts", "law"))],
                        "pairs of nodes have friction and gap, expected `law: contact`, or none");
   const bool between = given[0] && given[0]->type == YAML_MAPPING_NODE;

@@ -162,7 +162,7 @@ static int contact_motion_find(const cli_common *common, const contact_options *
   int code = choose_contact(common, own, m);
   if (code) return code;
   const scene_contact *one = m->one < 0 ? NULL : scene_contact_at(sc, m->one);
-  if (one && one->kind == SCENE_LAW_TABLE) m->table = one;
+  if (one && scene_contact_is_composed(one)) m->table = one;
   scene alone = {.mass = 1, .n_contacts = 1};
   if (m->table) alone.contacts[0] = *m->table;
   hc_status st = scene_model(m->table ? &alone : sc, &of);
@@ -207,7 +207,7 @@ static hc_status note_pieces(table *t, const cli_common *common, const given_mot
   if (st == HC_OK) st = exact_force_eval(e, of->X, F, NULL, NULL);
   for (int j = 0, n; j < of->n_contacts && st == HC_OK; ++j) {
     const contact_interval *p = exact_force_intervals(e, j, &n);
-    if (of->contacts[j].law.smooth == CONTACT_POLYNOMIAL) continue;
+    if (contact_never_opens(&of->contacts[j].law)) continue;
     snprintf(name, sizeof name, "%s%s", cli_contact_name(common, first + j, (char[CLI_NAME]){0}), part);
     for (int i = 0; i < n && i < SHOWN; ++i)
       table_note(t, "contact %s: %s from %.12g to %.12g rad", name, words[p[i].state], p[i].from, p[i].to);

@@ -48,7 +48,7 @@ hbmcheck_status hbmcheck_contact_force(const hbmcheck_case *c, int j, int harmon
   model *of;
   moving_contact place;
   double X[GIVEN_MOST_DOF * GIVEN_MOST_COEF], F[GIVEN_MOST_DOF * GIVEN_MOST_COEF];
-  if (!has_contact(c, j) || scene_contact_at(&c->sc, j)->kind == SCENE_LAW_TABLE || harmonics < 1 ||
+  if (!has_contact(c, j) || scene_contact_is_composed(scene_contact_at(&c->sc, j)) || harmonics < 1 ||
       harmonics > HBM_MAX_HARMONICS || samples < 0 || !T || !N)
     return HBMCHECK_BAD_INPUT;
   if (scene_model(&c->sc, &of) != HC_OK) return HBMCHECK_NO_MEMORY;

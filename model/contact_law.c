@@ -1,6 +1,18 @@
 /* contact_law.c - see contact_law.h; the law itself stands there. */
 #include "model/contact_law.h"
 
+contact contact_in_units(const contact *c, double stiffness, double length, double rate)
+{
+  contact in = *c;
+  in.kt /= stiffness, in.kn /= stiffness, in.gap /= length, in.load /= stiffness * length, in.epsilon /= rate;
+  double unit = stiffness; /* [force/length^p] */
+  for (int i = 0; i < CONTACT_POWERS; ++i) {
+    unit /= length;
+    if (in.power[i] != 0) in.power[i] /= unit;
+  }
+  return in;
+}
+
 contact_state contact_step(const contact *c, double u, double v, double *w, double *t)
 {
   double n = contact_normal(c, v);

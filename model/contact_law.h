@@ -25,8 +25,12 @@
 
 /* Laws that are smooth, and need no slider:
  *     polynomial   across the contact f(v) = sum over p of power_p v^p, and nothing else (kt = kn = mu = load = 0)
- *     tanh         T = mu N tanh(u'/epsilon) instead of the slider (kt = 0), N as above */
-typedef enum contact_smooth { CONTACT_KINKED, CONTACT_POLYNOMIAL, CONTACT_TANH } contact_smooth;
+ *     tanh         T = mu N tanh(u'/epsilon) instead of the slider (kt = 0), N as above
+ * Who has one row for each makes it of this list. What only some of them have, functions below answer. */
+#define CONTACT_SMOOTH_LIST(X)          X(CONTACT_POLYNOMIAL, polynomial) X(CONTACT_TANH, tanh)
+#define CONTACT_SMOOTH_CODE(code, name) code,
+typedef enum contact_smooth { CONTACT_KINKED, CONTACT_SMOOTH_LIST(CONTACT_SMOOTH_CODE) CONTACT_LAWS } contact_smooth;
+#undef CONTACT_SMOOTH_CODE
 enum { CONTACT_LEAST_POWER = 2, CONTACT_MOST_POWER = 9, CONTACT_POWERS = CONTACT_MOST_POWER - CONTACT_LEAST_POWER + 1 };
 
 typedef struct contact {
@@ -66,6 +70,12 @@ static inline bool contact_has_friction(const contact *c)
   return c->kt > 0 && (c->kn > 0 || c->load > 0) && c->mu > 0;
 }
 
+/* With a smooth law in the slider's place, too. */
+static inline bool contact_rubs(const contact *c) { return contact_has_friction(c) || c->smooth == CONTACT_TANH; }
+
+/* Does it act whether or not v + gap > 0? */
+static inline bool contact_never_opens(const contact *c) { return c->smooth == CONTACT_POLYNOMIAL; }
+
 /* Static force [force] of the normal spring: N0 without `load`, which does not change and moves nothing. */
 static inline double contact_preload(const contact *c) { return c->gap > 0 ? c->kn * c->gap : 0.0; }
 
@@ -87,6 +97,20 @@ static inline double contact_polynomial(const contact *c, double v, double *slop
   *slope = v * (2 * f + v * by_v); /* of v^2 f */
   return v * v * f;
 }
+
+/* The force across [force] at v, and along under N at the rate u' of a law without a slider: of one with friction what
+ * its slider says. */
+static inline double contact_across(const contact *c, double v)
+{
+  return contact_never_opens(c) ? contact_polynomial(c, v, &(double){0}) : contact_normal(c, v);
+}
+static inline double contact_along(const contact *c, double N, double du)
+{
+  return c->smooth == CONTACT_TANH ? c->mu * N * tanh(du / c->epsilon) : 0;
+}
+
+/* The law in units of stiffness [force/length], length and rate [length/time]. */
+contact contact_in_units(const contact *c, double stiffness, double length, double rate);
 
 /* The highest power of a polynomial that is there; 0 of any other law. */
 static inline int contact_degree(const contact *c)

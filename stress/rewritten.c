@@ -172,9 +172,7 @@ hc_status rewritten_in_units(const model *m, double length, double force, double
   for (int l = 0; l < m->n_loads; ++l) scale(u->loads[l].cosine, n, force), scale(u->loads[l].sine, n, force);
   for (int j = 0; j < m->n_contacts; ++j) {
     contact *law = &u->contacts[j].law;
-    law->kt *= force / length, law->kn *= force / length;
-    law->gap *= length, law->load *= force, law->epsilon *= length / time;
-    for (int i = 0; i < CONTACT_POWERS; ++i) law->power[i] *= force / pow(length, i + CONTACT_LEAST_POWER);
+    *law = contact_in_units(law, length / force, 1 / length, time / length);
   }
   return HC_OK;
 }

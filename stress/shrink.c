@@ -160,8 +160,8 @@ static bool hold_dof(scene *sc, int k)
   /* Could a case file say it? No contact may have lost what it acts along. */
   for (int j = 0; j < t->n_contacts; ++j) {
     const structure_contact *c = &t->contacts[j];
-    const bool across = c->given.kind == SCENE_LAW_POLYNOMIAL || c->given.kind == SCENE_LAW_TABLE;
-    if (is_zero(t->n, across ? c->normal : c->tangent) && c->given.kind != SCENE_LAW_CONTACT) return false;
+    const bool across = c->given.kind == CONTACT_POLYNOMIAL || c->given.kind == SCENE_LAW_TABLE;
+    if (is_zero(t->n, across ? c->normal : c->tangent) && c->given.kind != CONTACT_KINKED) return false;
     if ((c->given.law.kt != 0 && is_zero(t->n, c->tangent)) || (c->given.law.kn != 0 && is_zero(t->n, c->normal)))
       return false;
     if (!is_zero(t->n, c->tangent_2) && is_line(t->n, c->tangent, c->tangent_2)) return false;

@@ -192,7 +192,7 @@ static void draw_law(uint64_t *r, int n, double omega, const double complex *x, 
   const double kind = random_unit(r), k = fmax(g->law.kt, g->law.kn) * geometric(r, 0.01, 1);
   const bool rubs = !is_zero(n, c->tangent);
   if (kind < 0.3 && rubs) {
-    g->kind = SCENE_LAW_TANH;
+    g->kind = CONTACT_TANH;
     g->law.kt = 0;
     g->law.epsilon = omega * along(n, c->tangent, x) * geometric(r, 0.05, 2);
     return;
@@ -204,7 +204,7 @@ static void draw_law(uint64_t *r, int n, double omega, const double complex *x, 
   const double v = along(n, c->normal, x);
   if (kind < 0.65) {
     const int odd = random_unit(r) < 0.7 ? 3 : 5;
-    g->kind = SCENE_LAW_POLYNOMIAL;
+    g->kind = CONTACT_POLYNOMIAL;
     g->law.power[odd - CONTACT_LEAST_POWER] = k / pow(v, odd - 1);
     if (random_unit(r) < 0.3) g->law.power[0] = 0.5 * k / v * random_signed(r);
     return;
@@ -331,9 +331,8 @@ static hc_status structure_at(stress_scenes *scenes, long index, bool may_have_l
     for (int i = 0; i < s->n_loads; ++i) s->loads[i].amplitude *= stiffness * length;
     for (int j = 0; j < s->n_contacts; ++j) {
       scene_contact *g = &s->contacts[j].given;
-      g->law.kt *= stiffness, g->law.kn *= stiffness, g->law.gap *= length, g->preload *= stiffness * length;
-      g->law.epsilon *= length * rate;
-      for (int i = 0; i < CONTACT_POWERS; ++i) g->law.power[i] *= stiffness / pow(length, i + CONTACT_LEAST_POWER - 1);
+      g->law = contact_in_units(&g->law, 1 / stiffness, 1 / length, 1 / (length * rate));
+      g->preload *= stiffness * length;
       for (int i = 0; i < g->n_points; ++i) g->points[i][0] *= length, g->points[i][1] *= stiffness * length;
     }
     scale(sc.compare.omega.v, 1, rate);

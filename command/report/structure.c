@@ -72,14 +72,13 @@ static hc_status shown_open(const scene *sc, shown *d)
 
 /* T over u of a contact with friction, of two tangents T_2 over T_1, else N over v: a period that follows one in which
  * the slider settles. Two tangents go by short steps, which are of first order where the direction of slip turns
- * (contact_law.h). `first` is the model's contact, j the case's. A table is drawn as it was given, with f(0); tanh by
- * the rate of u. */
+ * (contact_law.h). `first` is the model's contact, j the case's. A table is drawn as it was given, with f(0). */
 static json_t *loop_of(const shown *d, int j, int first, double omega)
 {
   const structure_contact *given = &d->sc->structure->contacts[j];
   const model_contact *of = &d->m->contacts[first];
-  const bool pair = of->pair == CONTACT_FIRST, tanh_law = of->law.smooth == CONTACT_TANH;
-  const bool rubs = contact_has_friction(&of->law) || tanh_law, table = given->given.kind == SCENE_LAW_TABLE;
+  const bool pair = of->pair == CONTACT_FIRST, smooth = of->law.smooth != CONTACT_KINKED;
+  const bool rubs = contact_rubs(&of->law), table = scene_contact_is_composed(&given->given);
   const double side = table && dot_product(d->m->n, of->normal, given->normal) < 0 ? -1 : 1;
   const int H = hbm_n_harmonics(d->s), steps = SAMPLES * (pair ? STEPS : 1);
   double w[2] = {d->w[first], pair ? d->w[first + 1] : 0}, T[2] = {0};
@@ -88,22 +87,20 @@ static json_t *loop_of(const shown *d, int j, int first, double omega)
     const double th = TWO_PI * i / steps, c = cos(th), s = sin(th), v = series_at(H, d->series[1], c, s).x;
     const double u[2] = {series_at(H, d->series[0], c, s).x, pair ? series_at(H, d->series[2], c, s).x : 0};
     const double normal = contact_normal(&of->law, v);
-    if (tanh_law) T[0] = of->law.mu * normal * tanh(omega * series_at(H, d->series[0], c, s).d1 / of->law.epsilon);
+    if (smooth) T[0] = contact_along(&of->law, normal, omega * series_at(H, d->series[0], c, s).d1);
     else if (pair && of->circle) contact_step_planar(&of->law, u, v, w, T);
     else
       for (int k = 0; k < 1 + pair && (pair || rubs); ++k) contact_step(&of->law, u[k], v, &w[k], &T[k]);
     if (i < 0 || i % (steps / SAMPLES)) continue;
-    const double f = table                                  ? scene_contact_table(&given->given, side * v)
-                     : of->law.smooth == CONTACT_POLYNOMIAL ? contact_polynomial(&of->law, v, &(double){0})
-                                                            : normal;
+    const double f = table ? scene_contact_table(&given->given, side * v) : contact_across(&of->law, v);
     json_array_append_new(x, number(pair ? T[0] : rubs ? u[0] : side * v));
     json_array_append_new(y, number(pair ? T[1] : rubs ? T[0] : f));
   }
   return json_pack("{s:s, s:o, s:o, s:o}", "of",
-                   pair                                     ? "T_2 over T_1"
-                   : rubs                                   ? "T over u"
-                   : given->given.kind != SCENE_LAW_CONTACT ? "f over d"
-                                                            : "N over v",
+                   pair                                  ? "T_2 over T_1"
+                   : rubs                                ? "T over u"
+                   : given->given.kind != CONTACT_KINKED ? "f over d"
+                                                         : "N over v",
                    "x", x, "y", y, "work", number(d->periods[j].work));
 }
 

@@ -8,6 +8,7 @@
 #include "hbm/contact/contact_report.h"
 #include "hbm/contact/transitions.h"
 #include "hbm/hbm_settings.h"
+#include "model/contact_period.h"
 
 struct planar_cycle;
 
@@ -64,6 +65,15 @@ typedef struct contact_evaluator {
   void (*at_omega)(void *self, double omega);
   const double *(*by_omega)(const void *self);
 } contact_evaluator;
+
+/* A smooth law's two, without aliasing and sampled; and what it does along u, v [2 n_harm + 1], as contact_measures_of
+ * (u_2 is not looked at), epsilon being of rates by angle. Each law has a file. */
+#define SMOOTH_EVALUATORS(code, name)                                                                                  \
+  extern const contact_evaluator name##_evaluator, name##_sampled_evaluator;                                           \
+  hc_status name##_measures_of(const contact *law, int n_harm, const double *u, const double *u_2, const double *v,    \
+                               contact_period *out);
+CONTACT_SMOOTH_LIST(SMOOTH_EVALUATORS)
+#undef SMOOTH_EVALUATORS
 
 /* Edges of slip in a law's response curves (README.md): X goes like a root of the distance from them on either side,
  * so that its rate is infinite, and the curve may turn back. Planes across a tangent miss such a place; solutions at

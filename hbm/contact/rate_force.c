@@ -1,12 +1,18 @@
-/* rate_force.c - see rate_force.h. Proof: tests/hbm/test_smooth_force.c. */
-#include "hbm/contact/rate_force.h"
-
+/* rate_force.c - contact force harmonics (contact_evaluator.h) of friction as a smooth function of the velocity,
+ *
+ *     T = mu N tanh(omega u'/epsilon),      N - N0 by located transitions (exact_force.h)
+ *
+ * Without aliasing: T's integrals by Gauss's rule on panels of each time in contact, no longer than 0.65 of the
+ * distance to the nearest pole of tanh, i pi epsilon/2 beside where u' = 0: to rounding, however small epsilon is. The
+ * other evaluator samples T and N - N0 at n_time instants. The Jacobian is that of u and v, and of u' by harmonics.
+ * The path of slip is that of u in contact, the work is T's. Proof: tests/hbm/test_smooth_force.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
 #include "base/workspace.h"
+#include "hbm/contact/contact_evaluator.h"
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/contact/force_jacobian.h"

@@ -1,12 +1,14 @@
-/* smooth_force.c - see smooth_force.h. Proof: tests/hbm/test_smooth_force.c.
- *   X -> v(th_i) -> f_i -> F      f'(v_i) -> its 2H harmonics -> Jacobian (force_jacobian.h) */
-#include "hbm/contact/smooth_force.h"
-
+/* smooth_force.c - contact force harmonics of polynomials (contact_evaluator.h), by samples of a period.
+ *   X -> v(th_i) -> f_i -> F      f'(v_i) -> its 2H harmonics -> Jacobian (force_jacobian.h)
+ * One of degree p of a motion with H harmonics has p H of them, and its products with one of the first H have
+ * (p + 1) H: N >= (p + 1) H + 1 samples give the first H, and the Jacobian, without aliasing, to rounding. That many
+ * are `exact`. Proof: tests/hbm/test_smooth_force.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/workspace.h"
+#include "hbm/contact/contact_evaluator.h"
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
 

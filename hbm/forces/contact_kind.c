@@ -6,8 +6,6 @@
 #include "hbm/contact/aft.h"
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"
-#include "hbm/contact/rate_force.h"
-#include "hbm/contact/smooth_force.h"
 #include "hbm/planar/planar_aft.h"
 #include "hbm/planar/planar_corner.h"
 #include "hbm/planar/planar_force.h"
@@ -35,8 +33,7 @@ static bool are_parallel(int n, const double *tangent, const double *normal)
  * that nothing moves does nothing. */
 static void line_coordinates(const placed_contact *c, int dim, contact_coordinates *out)
 {
-  const bool rubs = contact_has_friction(&c->law) || c->law.smooth == CONTACT_TANH,
-             along = rubs && !is_zero(dim, c->tangent);
+  const bool along = contact_rubs(&c->law) && !is_zero(dim, c->tangent);
   *out = (contact_coordinates){.n_dof = 1, .divisor = {1, 1}, .moved = {.law = c->law}};
   if (along && !are_parallel(dim, c->tangent, c->normal)) {
     out->n_dof = 2;
@@ -69,20 +66,18 @@ static hc_status line_measures(const contact *law, int n_harm, const double *u, 
   return contact_measures_of(law, n_harm, u, v, out);
 }
 
-enum { LINE, PLANE, POLYNOMIAL, RATE };
-
+#define SMOOTH(code, name)                                                                                             \
+  [code] = {1, line_coordinates, &name##_evaluator, &name##_sampled_evaluator, name##_measures_of, NULL},
 static const contact_kind kinds[] = {
-    [LINE] = {1, line_coordinates, &exact_force_evaluator, &aft_evaluator, line_measures, NULL},
-    [POLYNOMIAL] = {1, line_coordinates, &polynomial_evaluator, &polynomial_sampled_evaluator, polynomial_measures_of,
-                    NULL},
-    [RATE] = {1, line_coordinates, &tanh_evaluator, &tanh_sampled_evaluator, tanh_measures_of, NULL},
-    [PLANE] = {2, plane_coordinates, &planar_force_evaluator, &planar_aft_evaluator, planar_measures_of, &planar_edges},
+    CONTACT_SMOOTH_LIST(SMOOTH)[CONTACT_KINKED] = {1, line_coordinates, &exact_force_evaluator, &aft_evaluator,
+                                                   line_measures, NULL},
+    [CONTACT_LAWS] = {2, plane_coordinates, &planar_force_evaluator, &planar_aft_evaluator, planar_measures_of,
+                      &planar_edges},
 };
 
 const contact_kind *contact_kind_of(const placed_contact *c)
 {
-  if (c->law.smooth != CONTACT_KINKED) return &kinds[c->law.smooth == CONTACT_TANH ? RATE : POLYNOMIAL];
-  return &kinds[c->planar ? PLANE : LINE];
+  return &kinds[c->planar ? CONTACT_LAWS : c->law.smooth];
 }
 
 placed_contact placed_contact_of(const model *m, int j)

@@ -125,7 +125,7 @@ static void add_product(int n, double k, const double *a, const double *b, doubl
 static bool bends(const planar_flow *f, const contact_interval *const *interval, int j, double th, double omega,
                   contact_slopes *out)
 {
-  const bool touches = interval[j] || f->m->contacts[j].law.smooth == CONTACT_POLYNOMIAL;
+  const bool touches = interval[j] || contact_never_opens(&f->m->contacts[j].law);
   return touches && f->bends(f->orbit, j, th, omega, out);
 }
 

@@ -175,7 +175,7 @@ hc_status hbm_measure_contacts(hbm_solver *s, double omega, const double *X, con
     const contact_kind *kind = contact_kind_of(&c);
     for (int k = 0; k < kind->contacts; ++k) along(sys, X, condensation_tangent(sys->linear, j + k), u[k]);
     along(sys, X, condensation_normal(sys->linear, j), v);
-    c.law.epsilon /= omega;
+    c.law = contact_in_units(&c.law, 1, 1, omega);
     st = kind->measures(&c.law, sys->n_harm, u[0], u[1], v, &out[j]);
     j += kind->contacts;
   }

@@ -116,7 +116,7 @@ static void random_scene(scene *sc, uint64_t *s)
   bool smooth = false;
   for (int j = 0; j < sc->n_contacts; ++j) {
     random_contact(&sc->contacts[j], s);
-    smooth |= sc->contacts[j].kind == SCENE_LAW_POLYNOMIAL || sc->contacts[j].kind == SCENE_LAW_TANH;
+    smooth |= sc->contacts[j].kind == CONTACT_POLYNOMIAL || sc->contacts[j].kind == CONTACT_TANH;
   }
   mend_gate_ranges(&sc->gate.ranges);
   if (random_bits(s) % 2) sc->compare.points = 20;

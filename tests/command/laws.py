@@ -204,12 +204,16 @@ def what_is_wrong_is_refused():
         ("{law: tanh, normal_stiffness: 1, friction: 0.3, angle_deg: 0, epsilon: 0}", "4:76: contacts[0].epsilon is `0`"),
         ("{law: tanh, normal_stiffness: 1, friction: 0.3, angle_deg: 0, epsilon: -1}", "4:76: contacts[0].epsilon is `-1`"),
         ("{law: tanh, normal_stiffness: 1, friction: 0.3, angle_deg: 0}", "4:5: contacts[0] is a tanh without `epsilon`"),
-        ("{law: cubic, coefficients: {3: 1}}", "4:11: contacts[0].law is `cubic`, expected contact, polynomial, table or tanh"),
+        ("{law: cubic, coefficients: {3: 1}}", "4:11: contacts[0].law is `cubic`, expected contact, polynomial, tanh or table"),
     )
     for contact, words in wrong:
         path = write(GAP.replace("CONTACT", contact))
         said = run("frf", path, code=2).stderr
         assert f"{path}:{words}" in said, f"{contact}: {said} is not {words}"
+    path = write(GAP.replace("CONTACT", "{tangential_stiffness: 1, normal_stiffness: 1, friction: 0.3, angle_deg: 10}"))
+    for law, needs in ("table", "points"), ("tanh", "epsilon"):
+        said = run("frf", path, "--set", f"contacts[0].law={law}", code=2).stderr
+        assert f"{path}:4:5: contacts[0] is a {law} without `{needs}`" in said, said
     path = write(DUFFING)
     said = run("transient", path, "--at", "1", "--set", "transient.law=exact", "--set", "transient.method=closed_form",
                code=2).stderr

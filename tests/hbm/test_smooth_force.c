@@ -1,7 +1,6 @@
 /* test_smooth_force.c - the harmonics of polynomial springs and of tanh friction, and their Jacobians. */
 #include <float.h>
 
-#include "hbm/contact/rate_force.h"
 #include "hbm/forces/contact_forces.h"
 #include "hbm/hbm.h"
 #include "tests/hbm/random_structures.h"

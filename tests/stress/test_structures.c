@@ -556,7 +556,7 @@ static void scenes_in_space_are_case_files(CHECK_STATE)
     for (int j = 0; j < s->n_contacts; ++j) {
       bool pair = false;
       for (int k = 0; k < s->n; ++k) pair |= s->contacts[j].tangent_2[k] != 0;
-      if (flat.structure->contacts[j].given.kind == SCENE_LAW_CONTACT) /* in space all are */
+      if (flat.structure->contacts[j].given.kind == CONTACT_KINKED) /* in space all are */
         assert_memory_equal(s->contacts[j].tangent, flat.structure->contacts[j].tangent, bytes);
       pairs += pair;
       circles += pair && s->contacts[j].given.limit == CONTACT_LIMIT_CIRCLE;
@@ -571,7 +571,7 @@ static void scenes_in_space_are_case_files(CHECK_STATE)
 static bool has_other_law(const scene_structure *s)
 {
   for (int j = 0; j < s->n_contacts; ++j)
-    if (s->contacts[j].given.kind != SCENE_LAW_CONTACT) return true;
+    if (s->contacts[j].given.kind != CONTACT_KINKED) return true;
   return false;
 }
 

@@ -353,8 +353,7 @@ static hc_status differ(events *in, const double *y, double *monodromy)
   const size_t n = (size_t)m->n_states;
   double h = 1e-4;
   for (int j = 0; j < m->n_contacts; ++j)
-    if (m->contact[j].law.smooth.smooth == CONTACT_TANH)
-      h = fmin(h, fmax(1e-2 * m->contact[j].law.smooth.epsilon, 1e-6));
+    if (m->contact[j].kind->bend) h = fmin(h, fmax(1e-2 * m->contact[j].kind->bend(&m->contact[j].law), 1e-6));
   const long transitions = in->base.base.transitions;
   double *ends = calloc(2 * n, sizeof *ends);
   hc_status st = ends ? HC_OK : HC_NO_MEMORY;

@@ -8,7 +8,7 @@ static contact_motion moves_of(const structure_newton *s, const scaled_model *m,
 {
   contact_motion at = {0};
   at.v = step_equations_motion(&s->step, j, directions, at.u);
-  if (m->by_rates) at.du[0] = contact_rows_at(s->dq, s->step.rows.along[j]); /* of one tangent: tanh's */
+  if (m->by_rates) at.du[0] = contact_rows_at(s->dq, s->step.rows.along[j]); /* of one tangent */
   return at;
 }
 

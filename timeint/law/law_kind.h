@@ -1,5 +1,5 @@
 /* law_kind.h - a contact law as time integration sees it: a row of functions, chosen once, when the contact is made
- * (scaled.c). A new law is its file, which defines its row, and that row's name in the table in scaled.c.
+ * (scaled.c). A new smooth law is its file, which defines its row.
  *
  * A contact has one direction in the tangent plane, or two under the law of the circle, which are neighbours (model.h):
  * U, W, S and T are vectors of so many entries, and so are the arrays w[], t[] of what a direction has. N is half of
@@ -14,7 +14,7 @@ typedef struct planar_value {
   double n, change, t[2], rate[2];
 } planar_value; /* N and N - N0 of either direction; T [force], w' [length/time] */
 
-/* dN/dv of either direction, dT_a/du_b in t_u[a][b], dT_a/dv ...; w enters as u - w; of tanh dT/du'. */
+/* dN/dv of either direction, dT_a/du_b in t_u[a][b], dT_a/dv ...; w enters as u - w; dT/du'. */
 typedef struct planar_derivatives {
   double n_v, t_u[2][2], t_v[2], rate_u[2][2], rate_v[2], t_du;
 } planar_derivatives;
@@ -91,12 +91,12 @@ typedef struct law_slopes {
 typedef struct scaled_contact scaled_contact;
 typedef struct law_kind {
   int directions;
-  bool smooth; /* beside forces linear in the motion there are those of pull, in all states, without a state z */
-
-  /* U', V' are not looked at but by tanh. */
+  bool smooth;   /* beside forces linear in the motion there are those of pull, in all states, without a state z */
+  bool by_rates; /* U', V' are looked at by the next two */
   planar_value (*evaluate)(const law_regularised *c, const contact_motion *at, const double *w);
   /* Where the law has them; on the limit |S| = mu N those of stick. */
   planar_derivatives (*derivatives)(const law_regularised *c, const contact_motion *at, const double *w);
+  double (*bend)(const law_regularised *c); /* the change of a rate over which T bends; NULL: that of the motion */
 
   /* Guards of a contact with friction that touches, but the end of contact. Those that are linear in the motion (NULL:
    * none); those that are not (NULL: none), as series, from those of U and V: u[directions][TRACK_TERMS],
@@ -125,7 +125,9 @@ typedef struct law_kind {
 } law_kind;
 
 extern const law_kind law_line, law_planar; /* one tangent; two under the law of the circle */
-extern const law_kind law_polynomial, law_tanh;
+#define LAW_KIND(code, name) extern const law_kind law_##name;
+CONTACT_SMOOTH_LIST(LAW_KIND)
+#undef LAW_KIND
 
 struct scaled_contact {
   law_regularised law; /* without dimensions */

@@ -86,6 +86,8 @@ static law_slopes tanh_slopes(const contact_track *t, const scaled_contact *c, c
   return s;
 }
 
+static double tanh_bend(const law_regularised *c) { return c->smooth.epsilon; }
+
 static int counts(contact_track *t, track_event event, double theta)
 {
   (void)t, (void)event, (void)theta;
@@ -94,6 +96,8 @@ static int counts(contact_track *t, track_event event, double theta)
 
 const law_kind law_tanh = {.directions = 1,
                            .smooth = true,
+                           .by_rates = true,
+                           .bend = tanh_bend,
                            .evaluate = tanh_value,
                            .derivatives = tanh_derivatives,
                            .counts = counts,

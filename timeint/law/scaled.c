@@ -7,7 +7,9 @@
 
 /* Of kinked laws by whether two directions share a limit; of smooth ones. */
 static const law_kind *const kinds[] = {&law_line, &law_planar};
-static const law_kind *const smooth_kinds[] = {[CONTACT_POLYNOMIAL] = &law_polynomial, [CONTACT_TANH] = &law_tanh};
+#define ROW(code, name) [code] = &law_##name,
+static const law_kind *const smooth_kinds[] = {CONTACT_SMOOTH_LIST(ROW)};
+#undef ROW
 
 /* Width of the corner in N for one contact: a fraction of the larger of its gap and the motion under a static force.
  * Where a contact opens or closes the motion is at least as large as the gap; a gap of 0 leaves the static motion. */
@@ -21,18 +23,7 @@ static double corner_width(const scaled_model *to, const transient_settings *how
 static void make_contact(scaled_contact *sc, const model_contact *from, double unit, double omega, double length,
                          double width, const transient_settings *how, bool moves_along)
 {
-  contact law = {.kt = from->law.kt / unit,
-                 .kn = from->law.kn / unit,
-                 .mu = from->law.mu,
-                 .gap = from->law.gap / length,
-                 .load = from->law.load / (unit * length),
-                 .smooth = from->law.smooth,
-                 .epsilon = from->law.epsilon / (omega * length)};
-  double power_unit = unit; /* [force/length^p] */
-  for (int i = 0; i < CONTACT_POWERS && law.smooth != CONTACT_KINKED; ++i) {
-    power_unit /= length;
-    law.power[i] = from->law.power[i] / power_unit;
-  }
+  contact law = contact_in_units(&from->law, unit, length, omega * length);
   if (!moves_along) law.kt = 0; /* u = 0 always: the tangential spring does no work */
   sc->law = law_regularised_make(&law, width / length, how->regularisation);
   sc->preload = contact_preload(&law);
@@ -58,8 +49,8 @@ void scaled_make(scaled_model *m, const model *from, const transient_settings *h
   m->by_load = 1 / (omega * omega * length);
   for (int j = 0; j < from->n_contacts; ++j) {
     const model_contact *c = &from->contacts[j];
-    m->by_rates |= c->law.smooth == CONTACT_TANH;
     make_contact(&m->contact[j], c, unit, omega, length, corner_width(m, how, &c->law), how, scaled_pull(m, j) > 0);
+    m->by_rates |= m->contact[j].kind->by_rates;
   }
 }
 

@@ -229,7 +229,7 @@ int measure_resting_sliders(const measure *me)
 
 contact_regime measure_seen_regime(unsigned char seen, const contact *law)
 {
-  if (law->smooth == CONTACT_POLYNOMIAL || (law->smooth == CONTACT_TANH && seen == SEEN_STUCK)) return CONTACT_BENDS;
+  if (contact_never_opens(law) || (law->smooth != CONTACT_KINKED && seen == SEEN_STUCK)) return CONTACT_BENDS;
   if (!(seen & (SEEN_STUCK | SEEN_SLIPPING))) return CONTACT_LINEAR;
   if (seen & SEEN_SEPARATED) return CONTACT_SEPARATES;
   return seen & SEEN_SLIPPING ? CONTACT_SLIPS : CONTACT_STUCK;

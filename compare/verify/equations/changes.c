@@ -65,7 +65,7 @@ static void exchange(int n, int i, int k, double *A)
 
 static void turn(int n, model_contact *c, double angle_deg)
 {
-  if (n == 1 && c->law.smooth != CONTACT_POLYNOMIAL) model_direction(angle_deg, c->tangent, c->normal);
+  if (n == 1 && !contact_never_opens(&c->law)) model_direction(angle_deg, c->tangent, c->normal);
 }
 
 /* One side of the contact moves the other way: the last entry of a direction that has several. */
@@ -128,7 +128,7 @@ static void change_contact(int n, model_contact *c, verify_change change, double
   case CHANGE_EPSILON: c->law.epsilon *= factor; break;
   case CHANGE_GAP_SIGN: c->law.gap = -c->law.gap; break;
   case CHANGE_ANGLE_COMPLEMENT:
-    if (n == 1 && c->law.smooth != CONTACT_POLYNOMIAL) swap(c->tangent, c->normal);
+    if (n == 1 && !contact_never_opens(&c->law)) swap(c->tangent, c->normal);
     break;
   case CHANGE_ANGLE_IN_RADIANS: turn(n, c, angle / (degree * degree)); break;
   case CHANGE_ANGLE_IN_DEGREES: turn(n, c, angle); break;
@@ -262,7 +262,7 @@ static hc_status displace(model *m, double *force, double mean_factor, bool all_
     model_contact *c = &m->contacts[j];
     const double before = c->law.gap;
     if (is_zero(m->n, c->normal)) continue;
-    if (c->law.smooth == CONTACT_POLYNOMIAL && dot_product(n, c->normal, force) != 0) return HC_BAD_INPUT;
+    if (contact_never_opens(&c->law) && dot_product(n, c->normal, force) != 0) return HC_BAD_INPUT;
     c->law.gap += dot_product(m->n, c->normal, force);
     if (!all_linear && (c->law.gap > 0) != (before > 0)) return HC_BAD_INPUT;
   }
@@ -298,7 +298,7 @@ static hc_status double_contacts(const model *m, verify_change change, bool keep
   for (int j = 0; j < n; ++j) {
     model_contact *c = &contacts[j], *added = &contacts[n + j];
     /* Its normal force is constant as it is, or there is none: the other is nothing. */
-    if (c->law.load > 0 || c->law.smooth == CONTACT_POLYNOMIAL) continue;
+    if (c->law.load > 0 || contact_never_opens(&c->law)) continue;
     added->law = c->law;
     added->pair = c->pair, added->circle = c->circle;
     for (int i = 0; i < m->n; ++i) added->tangent[i] = c->tangent[i], added->normal[i] = linear ? -c->normal[i] : 0;
@@ -391,7 +391,7 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
     there |= meant && one->law.epsilon > 0;
     const bool rubs = j < 32 && contact_has_friction(&one->law);
     if (c == CHANGE_FRICTION_SIGN && rubs && meant) mistakes->turned |= 1U << j;
-    if (c == CHANGE_FRICTION_SIGN && one->law.smooth == CONTACT_TANH && meant) one->law.mu = -one->law.mu;
+    if (c == CHANGE_FRICTION_SIGN && one->law.smooth != CONTACT_KINKED && meant) one->law.mu = -one->law.mu;
     if (c == CHANGE_SLIDER_MEAN && rubs) mistakes->mean = HBM_FRICTION_MEAN_OF_U;
     if (c == CHANGE_FRICTION_MEAN && rubs) mistakes->mean = HBM_FRICTION_NO_MEAN;
   }
