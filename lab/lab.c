@@ -34,10 +34,15 @@ void lab_free(lab *l)
 static hc_status read_oscillator(const char *text, scene *sc, case_error *err)
 {
   hc_status st = case_parse("case", text, strlen(text), 0, NULL, sc, err);
-  if (st != HC_OK || !sc->structure) return st;
+  if (st != HC_OK) return st;
+  bool other_law = false;
+  for (int j = 0; j < sc->n_contacts; ++j)
+    other_law |= sc->contacts[j].kind > LAB_POLYNOMIAL && sc->contacts[j].kind != LAB_TABLE;
+  if (!sc->structure && !other_law) return HC_OK;
+  snprintf(err->message, sizeof err->message, "case: %s",
+           sc->structure ? "structure: the lab has one degree of freedom, an `oscillator` was expected"
+                         : "the lab has no fields for a contact's law, contact, polynomial or table were expected");
   case_clear(sc);
-  snprintf(err->message, sizeof err->message,
-           "case: structure: the lab has one degree of freedom, an `oscillator` was expected");
   return HC_BAD_INPUT;
 }
 
@@ -60,8 +65,8 @@ int lab_read(lab *l, const char *text)
 
 int lab_case(lab *l)
 {
-  enum { COLUMNS = 11 };
-  lab_begin(l, COLUMNS);
+  _Static_assert((int)LAB_POLYNOMIAL == CONTACT_POLYNOMIAL && (int)LAB_TABLE == SCENE_LAW_TABLE, "lab.h says so");
+  lab_begin(l, LAB_POINTS + 2 * SCENE_MOST_POINTS);
   if (!l->has_case) return lab_answer(l, HC_BAD_INPUT);
   const scene *sc = &l->sc;
   const hbm_settings *h = &sc->hbm;
@@ -69,7 +74,13 @@ int lab_case(lab *l)
                          h->samples, h->keep_mean, h->force == HBM_FORCE_SAMPLED, h->restart == HBM_RESTART_SAMPLE);
   for (int j = 0; j < sc->n_contacts && st == HC_OK; ++j) {
     const scene_contact *c = &sc->contacts[j];
-    st = LAB_ADD(l, c->law.kt, c->law.kn, c->law.mu, c->angle_deg, c->law.gap);
+    double *row = lab_row(l);
+    if (!row) return lab_answer(l, HC_NO_MEMORY);
+    const double touching[] = {c->law.kt, c->law.kn, c->law.mu, c->angle_deg, c->law.gap};
+    if (c->kind == CONTACT_KINKED) memcpy(row, touching, sizeof touching);
+    if (c->kind == CONTACT_POLYNOMIAL) memcpy(row, c->law.power, sizeof c->law.power);
+    memcpy(row + LAB_POINTS, c->points, (size_t)c->n_points * sizeof *c->points);
+    row[LAB_LAW] = c->kind;
   }
   return lab_answer(l, st);
 }
@@ -82,6 +93,14 @@ hc_status lab_scene(const lab *l, int force, scene *out)
   *out = l->sc;
   out->hbm.force = force == LAB_EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
   return HC_OK;
+}
+
+void lab_exact_law(scene *sc)
+{
+  sc->transient.law = TRANSIENT_LAW_EXACT;
+  sc->transient.method = TRANSIENT_METHOD_CLOSED_FORM;
+  for (int j = 0; j < sc->n_contacts; ++j)
+    if (scene_contact_law(&sc->contacts[j]).smooth != CONTACT_KINKED) sc->transient.method = TRANSIENT_METHOD_CVODE;
 }
 
 hc_status lab_solver(const scene *sc, hbm_solver **out)

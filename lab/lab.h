@@ -20,7 +20,10 @@ void lab_free(lab *l);
 int lab_read(lab *l, const char *text);
 
 /* Its numbers. First row: mass, damping, stiffness, force, omega from, to, H, N (0: `auto`), and 1 or 0 for hbm.static,
- * hbm.force: sampled, hbm.slider_restart: sample; then a contact's kt, kn, mu, angle [deg], gap. HC_BAD_INPUT: none. */
+ * hbm.force: sampled, hbm.slider_restart: sample. Then a contact's kt, kn, mu, angle [deg], gap, or of a polynomial the
+ * coefficients of d^2..d^9; in column LAB_LAW its law: 0, or one of these; from LAB_POINTS on a table's points d, f.
+ * HC_BAD_INPUT: none. */
+enum { LAB_LAW = 10, LAB_POLYNOMIAL = 1, LAB_TABLE = 3, LAB_POINTS = 11 };
 int lab_case(lab *l);
 
 /* Its title, "" without one. */
@@ -80,7 +83,7 @@ int lab_specials(lab *l, int force);
 double *lab_motion(lab *l, int n_harm);
 
 /* n instants th = 2 pi i/n; n may be the number of samples. Columns: th, x, and each contact's u, v, N and T: the exact
- * law's with LAB_EXACT, else as the n samples give it. HC_BAD_INPUT: n < 1, no motion. Errors of exact_force_eval. */
+ * law's with LAB_EXACT, else as the n samples give it; of a polynomial or a table N is its force. HC_BAD_INPUT: n < 1, no motion. Errors of exact_force_eval. */
 int lab_signal(lab *l, int force, int n);
 
 /* The contact force's harmonics h = 0..n_shown: h, cosine and sine of the true one, and of that sampled n times a
@@ -90,7 +93,7 @@ int lab_spectrum(lab *l, int n, int n_shown);
 /* A row a contact, by the exact law: contact_regime, least and largest N, largest |T|, slip path, work. */
 int lab_work(lab *l);
 
-/* ---- time integration in closed form, exact law ---- */
+/* ---- time integration by the exact law, in closed form, or by CVODE where a law has none ---- */
 
 /* Steady states at omega[n], n <= NUMBER_LIST_MAX, from where transient.start says. Columns: omega, status,
  * amplitude, max, min, rms, mean, harmonic_1, stable, multiplier, period_multiple, periods, free sliders; then one

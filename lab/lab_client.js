@@ -6,6 +6,7 @@
 const labForce = {exact: 0, sampled: 1};
 const labColumn = {omega: 0, branch: 1, amplitude: 2, max: 3, min: 4, rms: 5, mean: 6, harmonic1: 7, stable: 8,
   multiplier: 9, contact: 10, iterations: 11, residual: 12, harmonics: 13, solution: 14};
+const labLaw = {law: 10, polynomial: 1, table: 3, points: 11};
 
 function labClient(module) {
   const lab = module._lab_new();
@@ -62,4 +63,4 @@ function labClient(module) {
   };
 }
 
-if (typeof exports !== 'undefined') Object.assign(exports, {labClient, labForce, labColumn});
+if (typeof exports !== 'undefined') Object.assign(exports, {labClient, labForce, labColumn, labLaw});

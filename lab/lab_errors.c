@@ -44,14 +44,13 @@ int lab_errors(lab *l, double omega)
   double orbit = NAN;
   lab_begin(l, COLUMNS);
   if (!l->has_case || l->n_harm < 1 || !(isfinite(omega) && omega > 0)) return lab_answer(l, HC_BAD_INPUT);
-  /* Amplitude of the exact law's orbit next to the lab's motion, in closed form. */
-  double state[TIMEINT_W + SCENE_MAX_CONTACTS];
+  /* Amplitude of the exact law's orbit next to the lab's motion. */
+  double state[TIMEINT_W + SCENE_MAX_CONTACTS * SCENE_MOST_POINTS]; /* tables are several contacts each */
   scene sc = l->sc;
   compare_setup setup;
   timeint *ti = NULL;
   timeint_result found;
-  sc.transient.method = TRANSIENT_METHOD_CLOSED_FORM;
-  sc.transient.law = TRANSIENT_LAW_EXACT;
+  lab_exact_law(&sc);
   hc_status st = scene_setup(&sc, &setup);
   if (st == HC_OK) st = comparison_referee(&setup, NULL, &ti);
   /* Where the time integration starts: on the lab's motion, its sliders by exact forces. */

@@ -39,6 +39,9 @@ int lab_answer(lab *l, hc_status st);
 /* The case with its contact forces as asked. HC_BAD_INPUT: there is no case, or no such force. */
 hc_status lab_scene(const lab *l, int force, scene *out);
 
+/* The exact law for its transients: in closed form where it has one, else by CVODE. */
+void lab_exact_law(scene *sc);
+
 /* A solver of it. Errors of hbm_solver_new. */
 hc_status lab_solver(const scene *sc, hbm_solver **out);
 

@@ -4,9 +4,10 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/contact/slider.h"
+#include "hbm/forces/contact_kind.h"
+#include "hbm/forces/given_motion.h"
 #include "lab/lab_inside.h"
 #include "numerics/series.h"
 
@@ -23,9 +24,16 @@ static bool has_motion(const lab *l) { return l->has_case && l->n_harm > 0; }
 
 /* ---- instants ---- */
 
-/* n rows: th, x, and each contact's u, v, N. */
-static hc_status add_instants(lab *l, int n, int n_contacts, const moving_contact *contacts)
+/* f of a polynomial or a table, N of any other law. */
+static double force_across(const scene_contact *c, const contact *law, double v)
 {
+  return scene_contact_is_composed(c) ? scene_contact_table(c, v) : contact_across(law, v);
+}
+
+/* n rows: th, x, and each contact's u, v, N. */
+static hc_status add_instants(lab *l, int n, const moving_contact *contacts)
+{
+  const int n_contacts = l->sc.n_contacts;
   lab_begin(l, BEFORE + OF_CONTACT * n_contacts);
   for (int i = 0; i < n; ++i) {
     double *row = lab_row(l);
@@ -37,7 +45,7 @@ static hc_status add_instants(lab *l, int n, int n_contacts, const moving_contac
       double *to = row + BEFORE + OF_CONTACT * j;
       to[0] = contacts[j].cu[0] * row[1];
       to[1] = contacts[j].cv[0] * row[1];
-      to[2] = contact_normal(&contacts[j].law, to[1]);
+      to[2] = force_across(&l->sc.contacts[j], &contacts[j].law, to[1]);
     }
   }
   return HC_OK;
@@ -48,13 +56,13 @@ static double *instant(lab *l, int i, int j)
   return l->values + (size_t)i * (size_t)l->columns + BEFORE + OF_CONTACT * j;
 }
 
-static hc_status exact_tractions(lab *l, int n, const model *m, const moving_contact *contacts)
+static hc_status exact_tractions(lab *l, int n, const moving_contact *contacts)
 {
   double F[LAB_MOST_COEF];
   exact_force *e;
-  hc_status st = exact_force_new_of_model(l->n_harm, m, &e);
+  hc_status st = exact_force_new(l->n_harm, 1, l->sc.n_contacts, contacts, &e);
   if (st == HC_OK) st = exact_force_eval(e, l->X, F, NULL, NULL);
-  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
+  for (int j = 0; j < l->sc.n_contacts && st == HC_OK; ++j) {
     int n_intervals;
     const contact_interval *intervals = exact_force_intervals(e, j, &n_intervals);
     for (int i = 0; i < n; ++i) {
@@ -68,13 +76,13 @@ static hc_status exact_tractions(lab *l, int n, const model *m, const moving_con
 }
 
 /* The tractions by the n instants as samples. */
-static hc_status sampled_tractions(lab *l, int n, const model *m, const moving_contact *contacts)
+static hc_status sampled_tractions(lab *l, int n, const moving_contact *contacts)
 {
   double *x = calloc(3 * (size_t)n, sizeof *x), *T = x ? x + n : NULL, *again = x ? T + n : NULL;
   sampled_interval *states = calloc(2 * (size_t)n, sizeof *states);
   hc_status st = x && states ? HC_OK : HC_NO_MEMORY;
   for (int i = 0; i < n && st == HC_OK; ++i) x[i] = l->values[(size_t)i * (size_t)l->columns + 1];
-  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
+  for (int j = 0; j < l->sc.n_contacts && st == HC_OK; ++j) {
     const slider_motion motion = {x, x, contacts[j].cu[0], contacts[j].cv[0], 1, 0};
     slider_follow(&contacts[j].law, l->sc.hbm.restart, n, &motion, T, again, states, states + n);
     for (int i = 0; i < n; ++i) instant(l, i, j)[3] = T[i];
@@ -86,28 +94,29 @@ static hc_status sampled_tractions(lab *l, int n, const model *m, const moving_c
 
 int lab_signal(lab *l, int force, int n)
 {
-  model *m = NULL;
-  moving_contact *contacts = NULL;
+  moving_contact contacts[SCENE_MAX_CONTACTS];
   lab_begin(l, 0);
   if (!has_motion(l) || n < 1 || force < 0 || force >= LAB_FORCES) return lab_answer(l, HC_BAD_INPUT);
-  hc_status st = scene_model(&l->sc, &m);
-  if (st == HC_OK) st = moving_contacts_of_model(m, &contacts);
-  if (st == HC_OK) st = add_instants(l, n, m->n_contacts, contacts);
-  if (st == HC_OK) st = force == LAB_EXACT ? exact_tractions(l, n, m, contacts) : sampled_tractions(l, n, m, contacts);
-  free(contacts);
-  model_free(m);
+  for (int j = 0; j < l->sc.n_contacts; ++j) contacts[j] = scene_moving_contact(&l->sc.contacts[j]);
+  hc_status st = add_instants(l, n, contacts);
+  if (st == HC_OK) st = force == LAB_EXACT ? exact_tractions(l, n, contacts) : sampled_tractions(l, n, contacts);
   return lab_answer(l, st);
 }
 
 /* ---- harmonics ---- */
 
-static hc_status sampled_harmonics(const lab *l, const model *m, int n, double *F)
+/* F[2 n_harm + 1] of the contacts along X, by n_time samples or exactly, with what of a table is linear. */
+static hc_status force_harmonics(const lab *l, const model *m, int n_harm, int n_time, double *F)
 {
-  aft *a;
-  if (n < 2 * l->n_harm + 1) return HC_OK;
-  hc_status st = aft_new_of_model(m, l->sc.hbm.restart, l->n_harm, n, &a);
-  if (st == HC_OK) st = aft_eval(a, l->X, F, NULL, NULL);
-  aft_free(a);
+  double X[LAB_MOST_COEF] = {0};
+  moving_contact *contacts;
+  memcpy(X, l->X, (size_t)(2 * l->n_harm + 1) * sizeof *X); /* above n_harm there is none */
+  hc_status st = moving_contacts_of_model(m, &contacts);
+  const given_motion of = {.n_harm = n_harm, .n_dof = 1, .n_contacts = m->n_contacts, .contacts = contacts, .X = X};
+  if (st == HC_OK) st = given_motion_force(&of, l->sc.hbm.restart, n_time, F);
+  free(contacts);
+  for (int j = 0; j < l->sc.n_contacts && st == HC_OK; ++j)
+    for (int i = 0; i < 2 * n_harm + 1; ++i) F[i] += scene_contact_slope(&l->sc.contacts[j]) * X[i];
   return st;
 }
 
@@ -119,16 +128,8 @@ int lab_spectrum(lab *l, int n, int n_shown)
   lab_begin(l, COLUMNS);
   if (!has_motion(l) || n < 1 || n_shown < l->n_harm || n_shown > HBM_MAX_HARMONICS) return lab_answer(l, HC_BAD_INPUT);
   hc_status st = scene_model(&l->sc, &m);
-  /* F[2 n_shown + 1] of the motion, whose harmonics above n_harm are 0. */
-  if (st == HC_OK) {
-    double X[LAB_MOST_COEF] = {0};
-    exact_force *e;
-    memcpy(X, l->X, (size_t)(2 * l->n_harm + 1) * sizeof *X);
-    st = exact_force_new_of_model(n_shown, m, &e);
-    if (st == HC_OK) st = exact_force_eval(e, X, F, NULL, NULL);
-    exact_force_free(e);
-  }
-  if (st == HC_OK) st = sampled_harmonics(l, m, n, sampled);
+  if (st == HC_OK) st = force_harmonics(l, m, n_shown, GIVEN_EXACT, F);
+  if (st == HC_OK && n >= 2 * l->n_harm + 1) st = force_harmonics(l, m, l->n_harm, n, sampled);
   /* h, cosine and sine of both. */
   if (st == HC_OK) {
     st = LAB_ADD(l, 0, F[0], 0, sampled[0], 0);
@@ -141,15 +142,30 @@ int lab_spectrum(lab *l, int n, int n_shown)
 
 /* ---- work ---- */
 
-static hc_status add_work(lab *l, const moving_contact *c)
+/* Of contact j: what its contacts m in the model do; N of a table, which is piecewise linear, at its points and the
+ * motion's extrema. */
+static hc_status add_work(lab *l, int j, const model_contact *m)
 {
-  double u[LAB_MOST_COEF], v[LAB_MOST_COEF];
-  contact_period p;
-  for (int i = 0; i < 2 * l->n_harm + 1; ++i) {
-    u[i] = c->cu[0] * l->X[i];
-    v[i] = c->cv[0] * l->X[i];
+  const scene_contact *c = &l->sc.contacts[j];
+  double u[LAB_MOST_COEF], v[LAB_MOST_COEF], most, least;
+  contact_period p = {0};
+  hc_status st = HC_OK;
+  for (int k = 0; k < scene_contact_parts(c) && st == HC_OK; ++k) {
+    const placed_contact one = {.law = m[k].law};
+    const contact_regime before = p.regime;
+    for (int i = 0; i < 2 * l->n_harm + 1; ++i) u[i] = *m[k].tangent * l->X[i], v[i] = *m[k].normal * l->X[i];
+    st = contact_kind_of(&one)->measures(&m[k].law, l->n_harm, u, NULL, v, &p);
+    p.regime = contact_regime_larger(p.regime, before);
   }
-  hc_status st = contact_measures_of(&c->law, l->n_harm, u, v, &p);
+  if (st == HC_OK && scene_contact_is_composed(c)) {
+    series_extrema(l->n_harm, l->X, &most, &least);
+    const double first = scene_contact_table(c, most), last = scene_contact_table(c, least);
+    p.normal_min = fmin(first, last), p.normal_max = fmax(first, last);
+    for (int i = 0; i < c->n_points; ++i) {
+      if (!(c->points[i][0] > least && c->points[i][0] < most)) continue;
+      p.normal_min = fmin(p.normal_min, c->points[i][1]), p.normal_max = fmax(p.normal_max, c->points[i][1]);
+    }
+  }
   if (st != HC_OK) return st;
   return LAB_ADD(l, p.regime, p.normal_min, p.normal_max, p.traction_max, p.slip_distance, p.work);
 }
@@ -158,13 +174,11 @@ int lab_work(lab *l)
 {
   enum { COLUMNS = 6 };
   model *m = NULL;
-  moving_contact *contacts = NULL;
   lab_begin(l, COLUMNS);
   if (!has_motion(l)) return lab_answer(l, HC_BAD_INPUT);
   hc_status st = scene_model(&l->sc, &m);
-  if (st == HC_OK) st = moving_contacts_of_model(m, &contacts);
-  for (int j = 0; st == HC_OK && j < m->n_contacts; ++j) st = add_work(l, &contacts[j]);
-  free(contacts);
+  for (int j = 0; st == HC_OK && j < l->sc.n_contacts; ++j)
+    st = add_work(l, j, &m->contacts[scene_model_contact(&l->sc, j)]);
   model_free(m);
   return lab_answer(l, st);
 }

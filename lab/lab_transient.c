@@ -1,4 +1,4 @@
-/* lab_transient.c - see lab.h: steady states of the exact law, in closed form. */
+/* lab_transient.c - see lab.h: steady states of the exact law. */
 #include <math.h>
 #include <string.h>
 
@@ -29,14 +29,13 @@ static hc_status add_state(lab *l, const steady_row *s)
   return HC_OK;
 }
 
-/* The case with its transients by the exact law, in closed form, at omega[n]. */
+/* The case with its transients by the exact law at omega[n]. */
 static hc_status asked_scene(const lab *l, int n, const double *omega, scene *sc)
 {
   hc_status st = lab_scene(l, LAB_EXACT, sc);
   if (st != HC_OK) return st;
   if (n < 1 || n > NUMBER_LIST_MAX) return HC_BAD_INPUT;
-  sc->transient.law = TRANSIENT_LAW_EXACT;
-  sc->transient.method = TRANSIENT_METHOD_CLOSED_FORM;
+  lab_exact_law(sc);
   sc->compare.omega.n = n;
   for (int i = 0; i < n; ++i) {
     if (!(isfinite(omega[i]) && omega[i] > 0)) return HC_BAD_INPUT;

@@ -6,7 +6,9 @@ const errorSamples = [16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
 
 const inOrder = list => Array.from(new Set(list)).sort((a, b) => a - b);
 
-const contactText = c => `  - {tangential_stiffness: ${c.kt}, normal_stiffness: ${c.kn}, friction: ${c.mu}, ` +
+const contactText = c => c.law === 'table' ? `  - {law: table, points: ${c.points}}` :
+  c.law === 'polynomial' ? `  - {law: polynomial, coefficients: {${powers.filter(p => c['k' + p] !== 0 || p === 3).map(p => p + ': ' + c['k' + p]).join(', ')}}}` :
+  `  - {tangential_stiffness: ${c.kt}, normal_stiffness: ${c.kn}, friction: ${c.mu}, ` +
   `angle_deg: ${c.angle}, gap: ${c.gap}}`;
 
 /* What a person keeps. */
@@ -34,8 +36,11 @@ function stateOfCase(table, title) {
   const [mass, damping, stiffness, force, from, to, H, N, mean, sampled, sample] = table.values;
   const contacts = [];
   for (let row = 1; row < table.rows; ++row) {
-    const [kt, kn, mu, angle, gap] = table.values.subarray(row * table.columns);
-    contacts.push({kt, kn, mu, angle, gap});
+    const one = table.values.subarray(row * table.columns, (row + 1) * table.columns), [kt, kn, mu, angle, gap] = one;
+    const given = Array.from(one.subarray(labLaw.points)).filter(v => !isNaN(v));
+    contacts.push({[labLaw.polynomial]: Object.assign({law: 'polynomial'}, ...powers.map(p => ({['k' + p]: one[p - 2]}))),
+      [labLaw.table]: {law: 'table', points: JSON.stringify(given.flatMap((d, i) => (i % 2 ? [] : [[d, given[i + 1]]])))}
+    }[one[labLaw.law]] || {kt, kn, mu, angle, gap});
   }
   return Object.assign({}, firstState, {title, mass, damping, stiffness, force, from, to, H: H || 10, N: N || 1024,
     mean: mean !== 0, sampled: sampled !== 0, restart: sample ? 'sample' : 'interpolated', contacts,

@@ -1,7 +1,7 @@
 /* draw_curve.js - section 2: response curves, special points, transients, and omega to be dragged along. */
 'use strict';
 
-const regimes = ['linear', 'stick', 'slip', 'separation'];
+const regimes = ['linear', 'stick', 'slip', 'separation', 'smooth'];
 
 /* Rows of a curve as runs of one stability: [{stable, points}], neighbours share a point. */
 function runsOf(curve) {

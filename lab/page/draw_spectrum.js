@@ -57,11 +57,14 @@ function spectrumWords(state, motion) {
   const list = motion && motion.spectrum ? harmonicsOf(motion.spectrum) : [];
   const f = list[state.harmonic];
   if (!list.length) return whyNothing(motion);
+  const degree = state.contacts.length && state.contacts.every(degreeOf) ? Math.max(...state.contacts.map(degreeOf)) : 0;
+  const need = (degree + 1) * state.H + 1, rule = degree ? `A polynomial of degree p = ${degree} makes no harmonic above p H = ${degree * state.H}: N = (p + 1) H + 1 = ${need} samples ` +
+    `are exact for the force and its Jacobian, and N = ${state.N} ${state.N >= need ? 'is enough' : 'is too few'}. ` : '';
   if (!f || state.harmonic > state.H) return `Harmonics 0 to ${state.H} are kept: look at one of them.`;
   const first = foldingOnto(f.h, state.N, state.H, 4).join(', ');
   const beyond = state.N - f.h > list.length - 1 ? ` All of them are beyond harmonic ${list.length - 1}, where the drawing ends.` : '';
   const size = f.size > 0 ? `, ${percent(f.off / f.size)} of it` : '';
-  return `Harmonic ${f.h}: true ${show(f.size)}, from ${state.N} samples ${show(f.sampled)}; the difference is ${show(f.off, 3)}${size}. ` +
+  return `${rule}Harmonic ${f.h}: true ${show(f.size)}, from ${state.N} samples ${show(f.sampled)}; the difference is ${show(f.off, 3)}${size}. ` +
     `Harmonics ${first}, ... look the same as it at the samples.${beyond}`;
 }
 

@@ -20,6 +20,8 @@ const contactList = [
   {key: 'angle', name: 'Angle [deg]', from: 0, to: 90, min: 0, max: 90},
   {key: 'gap', name: 'Gap (> 0: preload)', around: s => s.force / (s.stiffness || 1)}
 ];
+const polynomialList = powers.map(p => ({key: 'k' + p, name: `Coefficient of d^${p}`, around: s => (s.stiffness || 1) / Math.pow(s.force / (s.stiffness || 1) || 1, p - 1)}));
+const lawChoice = {name: 'Law', options: [['', 'friction and gap'], ['polynomial', 'polynomial spring'], ['table', 'table of forces']]};
 const sliderSteps = 400;
 
 const fieldFits = (field, v) => isFinite(v) && !(v < field.min) && !(v > field.max) && !(v <= field.above) && (!field.whole || Number.isInteger(v));
@@ -95,11 +97,30 @@ function fieldElement(field, id, home, homeState, onChange) {
   return {all, set};
 }
 
+/* A table's points, as a case file has them. */
+function pointsElement(id, onChange) {
+  const all = document.createElement('div'), label = document.createElement('label'), text = document.createElement('input'), mistake = document.createElement('span');
+  all.className = 'field';
+  Object.assign(text, {type: 'text', id, size: 28});
+  Object.assign(mistake, {className: 'mistake', id: id + '-mistake'});
+  mistake.setAttribute('role', 'alert');
+  text.setAttribute('aria-describedby', mistake.id);
+  label.append('Points [[d, f], ...]', text);
+  all.append(label, mistake);
+  text.addEventListener('input', () => {
+    const points = pointsOf(text.value);
+    text.setAttribute('aria-invalid', !points);
+    mistake.textContent = points ? '' : 'Wanted are 2 to 32 points, d ascending.';
+    if (points) onChange(JSON.stringify(points), false);
+  });
+  return {all, set: v => document.activeElement !== text && (text.value = v)};
+}
+
 /* A choice {key, name, options [[value, words]]}. */
 function choiceElement(choice, onChange) {
   const all = document.createElement('div'), label = document.createElement('label'), select = document.createElement('select');
   all.className = 'field';
-  select.id = 'field-' + choice.key;
+  select.id = choice.id || 'field-' + choice.key;
   for (const [value, words] of choice.options) select.add(new Option(words, String(value)));
   label.append(choice.name, select);
   all.append(label);
@@ -139,7 +160,17 @@ function contactFields(home, i, onChange) {
   const grid = document.createElement('div'), remove = document.createElement('button');
   legend.textContent = 'Contact ' + (i + 1);
   grid.className = 'sliders';
-  for (const field of contactList) {
+  const law = home.contacts[i].law || '';
+  const chosen = choiceElement(Object.assign({id: `contact-${i}-law`}, lawChoice), v => onChange(s => (s.contacts[i] = Object.assign({}, contactOfLaw(v, s))), false, true));
+  chosen.set(law);
+  grid.append(chosen.all);
+  if (law === 'table') {
+    const points = pointsElement(`contact-${i}-points`, v => onChange(s => (s.contacts[i].points = v), false));
+    points.set(home.contacts[i].points);
+    grid.append(points.all);
+    fieldSetters.push(s => s.contacts[i] && points.set(s.contacts[i].points));
+  }
+  for (const field of {polynomial: polynomialList, table: []}[law] || contactList) {
     const id = `contact-${i}-${field.key}`;
     const made = fieldElement(field, id, home.contacts[i][field.key], home, (v, moving) => onChange(s => (s.contacts[i][field.key] = v), moving));
     grid.append(made.all);

@@ -62,6 +62,29 @@ async function everyFieldMovesTheDrawings(p) {
   await still(p);
 }
 
+/* A polynomial's enough samples are said; a table is typed; the address keeps both. */
+async function otherLawsHaveFields(p) {
+  const choose = i => p.evaluate(`(() => { const s = $('contact-0-law'); s.selectedIndex = ${i}; s.dispatchEvent(new Event('change')); })()`);
+  const kept = 'JSON.stringify(stateOfAddress(addressOf(state), firstState).contacts) === JSON.stringify(state.contacts)';
+  const type = text => p.evaluate(`(() => { const s = $('contact-0-points'); s.value = '${text}'; s.dispatchEvent(new Event('input')); })()`);
+  for (const [N, words] of [[41, '41 is enough'], [40, '40 is too few']]) {
+    if (N === 41) await choose(1);
+    await p.evaluate(`alter(s => (s.N = ${N}), false)`);
+    await still(p);
+    await until(p, `$('spectrum-words').textContent.includes('= 41 samples are exact for the force and its Jacobian, and N = ${words}')`, words);
+  }
+  check(await p.evaluate(kept), 'the address keeps a polynomial');
+  await choose(2);
+  await type('[[0, 0], [0, 1]]');
+  check((await p.evaluate('$("contact-0-points-mistake").textContent')).includes('d ascending'), 'points that are none');
+  await type('[[-3, -50], [-2, 0], [2, 0], [3, 80]]');
+  await still(p);
+  check(await p.evaluate('state.contacts[0].points === "[[-3,-50],[-2,0],[2,0],[3,80]]" && seen.motion.work.rows === 1'), 'points are typed');
+  check(await p.evaluate(kept), 'the address keeps a table');
+  await p.evaluate('take(copyOf(firstState))');
+  await still(p);
+}
+
 async function draggingIsQuick(p) {
   const curve = await middleOf(p, 'draw-curve'), before = await p.evaluate('state.omega');
   const alongCurve = await drag(p, {x: curve.x - 0.3 * curve.width, y: curve.y}, {x: curve.x, y: curve.y}, 25);
@@ -153,6 +176,7 @@ async function main() {
   await until(p, 'typeof seen !== "undefined"');
   await still(p);
   await everyFieldMovesTheDrawings(p);
+  await otherLawsHaveFields(p);
   await draggingIsQuick(p);
   await theKeyboardDoesTheLesson(p);
   await nothingOldIsTold(p);

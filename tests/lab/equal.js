@@ -30,6 +30,7 @@ function randomCase(random) {
   const contacts = Array.from({length: pick([1, 1, 1, 2, 3])}, () =>
     `  - {tangential_stiffness: ${log(0.1, 10) * stiffness}, normal_stiffness: ${log(0.3, 20) * stiffness}, ` +
     `friction: ${between(0.05, 1)}, angle_deg: ${pick([0, 30, 45, between(5, 85), 90])}, gap: ${between(-3, 3) * length}}`);
+  if (random() < 0.2) contacts.push(`  - {law: table, points: [[${-length}, ${-stiffness * length}], [0, 0], [${length}, ${2 * stiffness * length}]]}`);
   const n = pick([1, 2, 3, 5, 7, 10]);
   return [`oscillator: {mass: ${mass}, damping: ${between(0.02, 0.2) * mass * omega}, stiffness: ${stiffness}}`,
     `forcing: {amplitude: ${force}}`, 'contacts:', ...contacts, `sweep: {omega: [${0.4 * omega}, ${2.5 * omega}]}`,

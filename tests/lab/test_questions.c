@@ -1,4 +1,6 @@
 /* test_questions.c - the lab's questions against those they come from, and against what the numbers must be. */
+#include <float.h>
+
 #include "casefile/case_file.h"
 #include "compare/first_guess.h"
 #include "compare/response.h"
@@ -90,11 +92,10 @@ static void a_case_is_had_back_in_numbers(CHECK_STATE)
   assert_string_equal(lab_title(l), "a: b");
   assert_int_equal(lab_case(l), HC_OK);
   assert_int_equal(lab_rows(l), 3);
-  assert_int_equal(lab_columns(l), 11);
   for (int i = 0; i < 11; ++i) assert_true(row(l, 0)[i] == numbers[i]);
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 5; ++i) assert_true(row(l, j + 1)[i] == contacts[j][i]);
-  assert_true(isnan(row(l, 1)[5]));
+  assert_true(isnan(row(l, 1)[5]) && row(l, 1)[LAB_LAW] == 0);
   lab_free(l);
 }
 
@@ -232,6 +233,110 @@ static void motion_is_the_curves(CHECK_STATE)
   lab_free(l);
 }
 
+/* ---- other laws ---- */
+
+static const char of_laws[] = "oscillator: {mass: 1, damping: 0.1, stiffness: 1}\n"
+                              "forcing: {amplitude: 0.5}\n"
+                              "contacts:\n"
+                              "  - {law: polynomial, coefficients: {3: 0.5, 2: 0.1}}\n"
+                              "%s"
+                              "sweep: {omega: [0.5, 2]}\n"
+                              "hbm: {harmonics: 5, samples: 21}\n"
+                              "compare: {harmonics: [3, 9], samples: [37]}\n";
+static const char stops[] = "  - {law: table, points: [[-1, -2.5], [-0.5, 0], [0.25, 0], [1, 3]]}\n";
+
+/* With a table or not; its largest motion is the lab's. */
+static lab *lab_with_laws(bool table)
+{
+  char of[1024];
+  lab *l = lab_new();
+  assert_non_null(l);
+  snprintf(of, sizeof of, of_laws, table ? stops : "");
+  if (lab_read(l, of) != HC_OK) fail_msg("%s", lab_message(l));
+  take_largest(l);
+  return l;
+}
+
+static double table_at(double d) { return d < -0.5 ? 5 * (d + 0.5) : d > 0.25 ? 4 * (d - 0.25) : 0; }
+
+static void laws_are_had_back_with_their_forces(CHECK_STATE)
+{
+  lab *l = lab_with_laws(true);
+  double most[2] = {-INFINITY, -INFINITY}, least[2] = {INFINITY, INFINITY};
+  assert_int_equal(lab_signal(l, LAB_EXACT, 4096), HC_OK);
+  for (int i = 0; i < lab_rows(l); ++i) {
+    const double x = row(l, i)[1], f[] = {(0.5 * x + 0.1) * x * x, table_at(x)};
+    for (int j = 0; j < 2; ++j) {
+      const double *at = row(l, i) + CONTACT + 4 * j;
+      CHECK_LE(fabs(at[2] - f[j]), 16 * DBL_EPSILON * (1 + fabs(f[j])), "contact %d at x = %g", j, x);
+      assert_true(at[3] == 0);
+      most[j] = fmax(most[j], f[j]), least[j] = fmin(least[j], f[j]);
+    }
+  }
+  assert_int_equal(lab_work(l), HC_OK);
+  assert_int_equal(lab_rows(l), 2);
+  for (int j = 0; j < 2; ++j) { /* between 4096 instants an extremum is off by f'' h^2/8 */
+    CHECK_LE(fabs(row(l, j)[2] - most[j]), 1e-4 * most[j], "largest of contact %d", j);
+    CHECK_LE(fabs(row(l, j)[1] - least[j]), 1e-4 * fabs(least[j]), "least of contact %d", j);
+    CHECK_LE(fabs(row(l, j)[5]), 0, "an elastic law does no work");
+  }
+  assert_int_equal(lab_case(l), HC_OK);
+  assert_true(row(l, 1)[LAB_LAW] == LAB_POLYNOMIAL && row(l, 1)[0] == 0.1 && row(l, 1)[1] == 0.5 && row(l, 1)[2] == 0);
+  static const double points[] = {-1, -2.5, -0.5, 0, 0.25, 0, 1, 3};
+  assert_memory_equal(row(l, 2) + LAB_POINTS, points, sizeof points);
+  assert_true(row(l, 2)[LAB_LAW] == LAB_TABLE && isnan(row(l, 2)[LAB_POINTS + 8]));
+  lab_free(l);
+}
+
+/* Of degree 3, of H = 5: 21 samples are exact, 20 are not. Harmonics beyond 3 H are 0. */
+static void enough_samples_are_exact_for_a_polynomial(CHECK_STATE)
+{
+  lab *l = lab_with_laws(false);
+  for (int n = 20; n <= 21; ++n) {
+    double off = 0, size = 0, beyond = 0;
+    assert_int_equal(lab_spectrum(l, n, 40), HC_OK);
+    for (int h = 0; h <= 40; ++h) {
+      const double *at = row(l, h);
+      if (h > 5) beyond = h > 15 ? fmax(beyond, hypot(at[1], at[2])) : beyond;
+      else off = fmax(off, hypot(at[1] - at[3], at[2] - at[4])), size = fmax(size, hypot(at[1], at[2]));
+    }
+    CHECK_LE(beyond, 1e-14 * size, "N = %d", n);
+    if (n == 21) CHECK_LE(off, 1e-14 * size, "N = %d", n);
+    else CHECK_LE(1e-11 * size, off, "N = %d: 3 H folds onto H", n);
+  }
+  lab_free(l);
+}
+
+/* The table's slope beside its stops is 0: f is that of its kinks. */
+static void laws_have_transients_and_errors(CHECK_STATE)
+{
+  const double omega[] = {1.6};
+  for (int table = 0; table < 2; ++table) {
+    lab *l = lab_with_laws(table);
+    assert_int_equal(lab_curve_at(l, LAB_EXACT, *omega), HC_OK);
+    const double hbm = row(l, 0)[LAB_AMPLITUDE];
+    take(l, 0);
+    assert_int_equal(lab_errors(l, *omega), HC_OK);
+    assert_int_equal(lab_rows(l), 4);
+    CHECK_LE(row(l, 2)[4], 0.1 * row(l, 0)[4], "H = 9 and 3, table %d", table);
+    if (!table) CHECK_LE(fabs(row(l, 3)[3] - row(l, 2)[3]), 1e-10 * hbm, "37 samples are exact");
+    assert_int_equal(lab_transients(l, 1, omega), HC_OK);
+    assert_int_equal((int)row(l, 0)[1], HC_OK);
+    lab_free(l);
+  }
+}
+
+static void a_law_without_fields_is_refused(CHECK_STATE)
+{
+  char of[1024];
+  lab *l = lab_new();
+  snprintf(of, sizeof of, of_laws,
+           "  - {law: tanh, normal_stiffness: 1, friction: 0.3, angle_deg: 45, epsilon: 0.1}\n");
+  assert_int_equal(lab_read(l, of), HC_BAD_INPUT);
+  assert_non_null(strstr(lab_message(l), "polynomial or table"));
+  lab_free(l);
+}
+
 /* ---- the truth ---- */
 
 static void more_harmonics_and_samples_come_closer(CHECK_STATE)
@@ -273,4 +378,6 @@ static void transients_are_steady(CHECK_STATE)
 CHECK_TESTS("lab.questions", 120, a_case_is_had_back_in_numbers, mistakes_are_named,
             a_new_case_forgets_the_old_ones_answers, structures_are_refused, questions_without_an_answer_are_refused,
             curve_is_the_librarys, solutions_at_an_omega_lie_there, loop_encloses_the_work, sampled_harmonics_fold,
-            motion_is_the_curves, more_harmonics_and_samples_come_closer, transients_are_steady)
+            motion_is_the_curves, more_harmonics_and_samples_come_closer, transients_are_steady,
+            laws_are_had_back_with_their_forces, enough_samples_are_exact_for_a_polynomial,
+            laws_have_transients_and_errors, a_law_without_fields_is_refused)
