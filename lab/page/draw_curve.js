@@ -69,6 +69,7 @@ function drawCurve(svg, state, seen, text) {
     if (seen.exact.specials) inside += specialMarks(p, seen.exact.specials);
     if (seen.exact.transients) inside += transientMarks(p, seen.exact.transients);
   }
+  inside += marksOf(p, provenOrbits(state).map(orbit => [orbit.omega, orbit.amplitude]), 'dot', 7, 'proven');
   inside += solutionMarks(p, seen.motion);
   put(svg, box, p.svg + clipped(p, inside));
   return p;

@@ -64,7 +64,7 @@ function spectrumWords(state, motion) {
   const first = foldingOnto(f.h, state.N, state.H, 4).join(', ');
   const beyond = state.N - f.h > list.length - 1 ? ` All of them are beyond harmonic ${list.length - 1}, where the drawing ends.` : '';
   const size = f.size > 0 ? `, ${percent(f.off / f.size)} of it` : '';
-  return `${rule}Harmonic ${f.h}: true ${show(f.size)}, from ${state.N} samples ${show(f.sampled)}; the difference is ${show(f.off, 3)}${size}. ` +
+  return `${rule}Harmonic ${f.h}: true ${show(f.size)}, from ${state.N} samples ${show(f.sampled)}. The difference, of complex numbers (cosine and sine parts), is ${show(f.off, 3)}${size}. ` +
     `Harmonics ${first}, ... look the same as it at the samples.${beyond}`;
 }
 

@@ -72,6 +72,7 @@ const lessonSteps = [
   }
 ];
 
+const titleOfStep = i => `Step ${i + 1} of the lesson`;
 let lessonAt = 0;
 const lessonSaid = new Map(); /* of a step: what was predicted */
 
@@ -93,6 +94,7 @@ function startLesson(ask, take) {
     $('step-answer').hidden = false;
     $('step-answer').className = 'verdict';
     $('step-answer').textContent = 'Computing.';
+    if (!state.title.startsWith(titleOfStep(lessonAt))) take(copyOf(lessonStates[lessonAt]), titleOfStep(lessonAt)); /* the page opens on another case */
     ask(lessonAt);
   });
   showStep();
@@ -101,7 +103,7 @@ function startLesson(ask, take) {
 function goToStep(i, take) {
   if (i < 0 || i >= lessonSteps.length) return;
   lessonAt = i;
-  take(copyOf(lessonStates[i]), `Step ${i + 1} of the lesson`);
+  take(copyOf(lessonStates[i]), titleOfStep(i));
   showStep();
   $('prediction').focus();
 }

@@ -157,6 +157,9 @@ function drawResponse() {
   slider.setAttribute('aria-valuetext', `omega ${show(state.omega)}${amplitude}`);
   if (document.activeElement !== $('omega')) $('omega').value = +state.omega.toPrecision(6);
   $('curve-words').textContent = curveWords();
+  $('proven-words').textContent = provenWords(state, motion);
+  $('proven-badge').hidden = !$('proven-words').textContent;
+  $('go-proven').hidden = provenOmega(state) === state.omega;
   const row = (name, of, table, ms) => `<tr><td>${name}</td><td>${of && table ? table.rows : '-'}</td>` +
     `<td>${show(countKind(of && of.specials, 0))}</td><td>${show(ms, 3)}</td></tr>`;
   const {exact, errors} = seen, sampled = current(seen.sampled), neighbours = current(seen.neighbours);
@@ -348,6 +351,7 @@ function startControls() {
   dragCurve($('draw-curve'), (to, isMoving) => alter(s => Object.assign(s, to), isMoving));
   $('draw-curve').addEventListener('keydown', onCurveKey);
   $('omega').addEventListener('input', () => Number($('omega').value) > 0 && alter(s => (s.omega = Number($('omega').value)), false));
+  $('go-proven').addEventListener('click', () => alter(s => (s.omega = provenOmega(s)), false));
   $('omega').addEventListener('blur', () => mark('curve')); /* it may lie outside the sweep */
   $('solution').addEventListener('change', () => alter(s => (s.near = seen.motion.solutions[$('solution').selectedIndex][labColumn.amplitude]), false));
   $('look').addEventListener('change', () => alter(s => (s.look = Number($('look').value)), false));
@@ -390,7 +394,9 @@ function start() {
     else if (file) readCaseText(file.text, file.own);
   });
   const addressed = stateOfAddress(location.hash, firstState), file = caseOfAddress(location.hash) || {text: $('case-given').textContent};
-  take(addressed || copyOf(firstState));
+  if (matchMedia('(max-width: 63.99rem)').matches) document.querySelector('main').prepend($('lesson')); /* on a phone the lesson comes first */
+  if (addressed) take(addressed);
+  else take(copyOf(openingState), presets.findIndex(p => p.name === openingState.title));
   drawEverything();
   if (!addressed && file.text.trim()) readCaseText(file.text, file.own);
 }

@@ -5,6 +5,7 @@
 const presets = [
   {name: 'Case 2, as it should be solved', file: 'case2', own: {H: 10, N: 64, mean: true}},
   {name: 'Case 1, preload, as it should be solved', file: 'case1', own: {H: 10, N: 64, mean: true}},
+  {name: 'A contact that slips and lifts off, as it should be solved', file: 'fig08_f0_10', own: {H: 10, N: 64, mean: true}},
   {name: 'Figure 7: preload, 1 N', file: 'fig07_f0_1', own: {H: 1, N: 128, mean: false, restart: 'sample'}},
   {name: 'Figure 7: preload, 10 N', file: 'fig07_f0_10', own: {H: 1, N: 128, mean: false, restart: 'sample'}},
   {name: 'Figure 8: clearance, 1 N', file: 'fig08_f0_1', own: {H: 1, N: 128, mean: false, restart: 'sample'}},

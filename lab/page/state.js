@@ -42,6 +42,10 @@ const firstState = {title: 'Case 2, intermittent contact', mass: 1, damping: 0.4
   to: 20, H: 10, N: 64, mean: true, sampled: false, restart: 'interpolated', contacts: [someContact], omega: 7,
   near: Infinity, look: 0, harmonic: 1};
 
+/* What the page opens with: a contact that slips and lifts off, cases/paper/fig08_f0_10.yaml. */
+const openingState = Object.assign({}, firstState, {title: 'A contact that slips and lifts off, as it should be solved', force: 10,
+  contacts: [{kt: 100, kn: 200, mu: 0.3, angle: 45, gap: -0.5}]});
+
 const copyOf = state => Object.assign({}, state, {contacts: state.contacts.map(c => Object.assign({}, c))});
 
 function addressOf(state) {

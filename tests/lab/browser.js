@@ -154,7 +154,7 @@ async function addressesAndCasesKeepTheState(p) {
   await until(p, 'state.mass === 1.25 && state.H === 7 && state.N === 77 && !state.mean && state.restart === "sample"', 'the case is read');
   check(await p.evaluate('caseText(state)') === text, 'a case read is written the same: ' + await p.evaluate('caseText(state)'));
   check(await p.evaluate('presets.every(one => presetText(one.file).includes("oscillator:"))'), 'every preset has its case');
-  await p.evaluate('$("preset").selectedIndex = 3; $("preset").dispatchEvent(new Event("change"))');
+  await p.evaluate('$("preset").selectedIndex = 4; $("preset").dispatchEvent(new Event("change"))');
   await until(p, 'state.force === 1 && state.H === 1 && !state.mean', 'a preset is read');
 }
 

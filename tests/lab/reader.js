@@ -99,7 +99,7 @@ async function everythingHasAName(p) {
   check(nodes.some(node => role(node) === 'status'), 'a live region');
   const slider = nodes.find(node => valueOf(node.name) === 'omega on the response curve');
   const words = await p.evaluate('$("draw-curve").getAttribute("aria-valuetext")'); /* the tree has it empty, of every slider */
-  check(role(slider) === 'slider' && valueOf(slider.value) === '7' && /^omega 7, amplitude 9\.99/.test(words), 'omega as a slider has a value in words: ' + words);
+  check(role(slider) === 'slider' && valueOf(slider.value) === '7' && /^omega 7, amplitude 1\.44/.test(words), 'omega as a slider has a value in words: ' + words);
 }
 
 /* What is spoken is the state when it stands still, not each step. */
@@ -111,6 +111,23 @@ async function stepsAreNotSpoken(p) {
   }
   await until(p, 'spoken.length && spoken[spoken.length - 1] === $("status").textContent && /omega = 6.5/.test($("status").textContent)', 'the last step is spoken');
   check(await p.evaluate('spoken.length < 4'), 'not every step: ' + await p.evaluate('spoken.join("; ")'));
+}
+
+/* The page as it opens: friction works, an orbit is proven, and the lesson's first step shows its own case. */
+async function itOpensOnAContactThatSlips(p) {
+  check(await p.evaluate('seen.motion.work.values[5] > 2 && presets[$("preset").value].name === state.title'), 'the traction loop has an area');
+  check(/^Proven at omega = 6.719: .* 1.2502111 \(stable\)\.$/.test(await p.evaluate('$("proven-words").textContent')), 'an orbit is proven nearby');
+  check(/The difference, of complex numbers .* is 0\.0285, 0\.13 % of it/.test(await p.evaluate('$("spectrum-words").textContent')), 'a difference of complex numbers');
+  await p.evaluate('$("go-proven").click()');
+  await still(p);
+  check(/ The solution shown is [0-9.e-]+ % off\.$/.test(await p.evaluate('$("proven-words").textContent')) && await p.evaluate('$("go-proven").hidden'), 'and how far HBM is off');
+  await p.evaluate('alter(s => (s.mass *= 1.1), false)');
+  await still(p);
+  check(await p.evaluate('$("proven-badge").hidden'), 'of another case nothing is proven');
+  await p.evaluate('$("prediction").value = 2; $("step-show").click()');
+  await until(p, '/^You said 2, and so it is/.test($("step-answer").textContent) && state.N === 16 && state.omega === 6', 'the first step shows its case');
+  await p.evaluate('take(copyOf(openingState))');
+  await still(p);
 }
 
 const numbersOf = (p, id) => p.evaluate(`Array.from($('${id}').tBodies[0].rows, row => Array.from(row.cells, cell => cell.textContent))`);
@@ -183,6 +200,7 @@ async function presetsAreNamedAsLongAsTheyStand(p) {
 async function fieldsAndCurveAreTogether(width, height) {
   const p = await open(chromium, address, {width, height});
   await until(p, 'typeof seen !== "undefined" && seen.motion && !dirty.size');
+  check(await p.evaluate('document.querySelector("main").firstElementChild.id') === (width < 1024 ? 'lesson' : 'fields'), `${width} px: on a phone the lesson comes first`);
   for (const id of ['field-mass', 'field-N', 'contact-0-mu-slider', 'contact-0-gap']) {
     await p.evaluate(`$('${id}').focus(); $('${id}').scrollIntoView({block: 'nearest'})`);
     const [field, curve] = await p.evaluate(`['${id}', 'draw-curve'].map(one => { const b = $(one).getBoundingClientRect(); return {top: b.top, bottom: b.bottom, left: b.left, right: b.right}; })`);
@@ -198,6 +216,7 @@ async function main() {
   await until(p, 'typeof seen !== "undefined"');
   await still(p);
   await everythingHasAName(p);
+  await itOpensOnAContactThatSlips(p);
   await stepsAreNotSpoken(p);
   await p.evaluate('take(copyOf(firstState))');
   await still(p);
