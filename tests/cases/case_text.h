@@ -17,10 +17,52 @@ static inline hc_status parse(const char *text, scene *sc, case_error *err)
   return case_parse("f", text, strlen(text), 0, NULL, sc, err);
 }
 
-/* A text that is refused, the place the message names, and words of the message. */
+/* A text that is refused by this message: the place it names, with the blank after it, and words that it has. */
 typedef struct mistake {
-  const char *text, *at, *words;
+  char text[2048], message[512], at[64];
+  const char *words; /* in message */
 } mistake;
+
+/* to[] of a line of mistakes.txt. */
+static inline void unescape(const char *line, char *to)
+{
+  if (!strcmp(line, "\"\"\n")) line += 2;
+  for (; *line != '\n'; ++line) {
+    unsigned code;
+    if (*line != '\\') *to++ = *line;
+    else if (*++line != 'x') *to++ = *line == 'n' ? '\n' : *line == 't' ? '\t' : *line == 'r' ? '\r' : *line;
+    else {
+      assert_int_equal(sscanf(line + 1, "%2x", &code), 1);
+      *to++ = (char)code, line += 2;
+    }
+  }
+  *to = 0;
+}
+
+/* check() is given those of a section of mistakes.txt, so many. */
+static inline void each_mistake(const char *section, int expected, void (*check)(const mistake *m))
+{
+  FILE *f = fopen(SOURCE_DIR "/tests/cases/mistakes.txt", "r");
+  const size_t length = strlen(section);
+  char line[2048];
+  mistake m;
+  bool here = false;
+  int n = 0;
+  assert_non_null(f);
+  while (fgets(line, sizeof line, f)) {
+    if (*line == '#' || *line == '\n') continue;
+    if (!strncmp(line, "== ", 3)) here = !strncmp(line + 3, section, length) && line[3 + length] == '\n';
+    else if (here && strncmp(line, "    ", 4) != 0) unescape(line, m.text);
+    else if (here) {
+      unescape(line + 4, m.message);
+      snprintf(m.at, sizeof m.at, "%.*s", (int)strcspn(m.message, " ") + 1, m.message);
+      m.words = m.message + strlen(m.at);
+      check(&m), ++n;
+    }
+  }
+  fclose(f);
+  assert_int_equal(n, expected);
+}
 
 /* text, or one assignment on it (or NULL), is refused by a message that starts so and has this; the scene stays. */
 static inline void refused(const char *text, const char *set, const char *start, const char *fragment)

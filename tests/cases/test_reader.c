@@ -77,167 +77,19 @@ static void frequency_becomes_omega(CHECK_STATE)
   CHECK_NEAR(sc.omega_to, 6.5 * PI, 6.5 * PI * 2 * 0x1p-52, "3.25");
 }
 
-/* In lines after SMALLEST, from line 4 on. */
-static const mistake extra[] = {
-    /* unknown keys */
-    {"hbm: {sample: 3}", "f:4:7: ", "unknown key `sample` in `hbm`, did you mean `samples`?"},
-    {"hbm:\n  samples: 64\n  harmonic: 3", "f:6:3: ", "did you mean `harmonics`?"},
-    {"transient: {law: exact, richardson: false}",
-     "f:4:25: ", "transient.richardson was removed: law: exact is nearer to the limit at less cost"},
-    {"samples: 3", "f:4:1: ", "unknown key `samples`, did you mean `hbm.samples`?"},
-    {"hbms: {}", "f:4:1: ", "did you mean `hbm`?"},
-    {"contact: []", "f:4:1: ", "did you mean `contacts`?"},
-    {"contacts: [{kt: 1}]", "f:4:13: ", "did you mean `tangential_stiffness`?"},
-    {"hbm: {max_periods: 3}", "f:4:7: ", "did you mean `transient.max_periods`?"},
-    {"hbm: {gate: 3}", "f:4:7: ", "did you mean `gate` at the top level?"},
-    {"transient: {regularization: 1e-4}", "f:4:13: ", "did you mean `regularisation`?"},
-    {"zzz: 1", "f:4:1: ",
-     "expected one of title, response, units, oscillator, structure, forcing, contacts, sweep, hbm, transient, "
-     "compare, gate"},
-    {"hbm: {zzz: 1}", "f:4:7: ", "expected one of harmonics, static, force"},
-    /* two letters start too many names */
-    {"hbm: {st: 1}", "f:4:7: ", "unknown key `st` in `hbm`, expected one of harmonics"},
-    {"hbm: {stat: 1}", "f:4:7: ", "did you mean `static`?"},
-    {"[1]: 2", "f:4:1: ", "a list stands where a key should"},
-    /* duplicates and rivals */
-    {"forcing: {amplitude: 1}", "f:4:1: ", "duplicate key `forcing`, expected it once (first on line 2)"},
-    {"title: a\ntitle: b", "f:5:1: ", "duplicate key `title`"},
-    {"hbm: {samples: 64, samples: 64}", "f:4:20: ", "duplicate key `samples`"},
-    {"contacts: [" CONTACT_1 ", {gap: 1, gap: 2}]", "f:4:113: ", "duplicate key `gap`"},
-    {"compare: {omega: [5], points: 3}", "f:4:23: ", "both `omega` (line 4) and `points` in `compare`"},
-    /* wrong types */
-    {"hbm: 5", "f:4:6: ", "hbm is a single value, expected a mapping such as {harmonics: ..., static: ..., ...}"},
-    {"hbm:", "f:4:5: ", "hbm is empty"},
-    {"hbm: [1]", "f:4:6: ", "hbm is a list, expected a mapping"},
-    {"contacts: {gap: 1}", "f:4:11: ", "contacts is a mapping, expected a list of contacts"},
-    {"contacts: [1]", "f:4:12: ", "contacts[0] is a single value, expected a mapping"},
-    {"hbm: {samples: [64]}", "f:4:16: ", "hbm.samples is a list, expected an integer 3..16777216 or auto"},
-    {"hbm: {samples: {n: 64}}", "f:4:16: ", "hbm.samples is a mapping, expected an integer"},
-    {"hbm: {samples: }", "f:4:16: ", "hbm.samples is empty"},
-    {"compare: {omega: 5}", "f:4:18: ", "compare.omega is `5`, expected a list of numbers > 0"},
-    {"compare: {omega: [1, [2]]}", "f:4:22: ", "compare.omega has a list inside"},
-    {"compare: {omega: []}",
-     "f:4:18: ", "compare.omega is a list of 0, expected a list of numbers > 0 (1 to 1024 of them)"},
-    {"title: [a]", "f:4:8: ", "title is a list, expected text"},
-    {"title:", "f:4:7: ", "title is empty"},
-    {"title: \"a\\nb\"", "f:4:8: ", "title is `a\\x0Ab`, expected text of at most 127 bytes (on one line"},
-    {"units: {length: sixteen_letters_}", "f:4:17: ", "expected text of at most 15 bytes (too long)"},
-    /* numbers, integers, flags, choices */
-    {"hbm:\n  tolerance: 12,5",
-     "f:5:14: ", "hbm.tolerance is `12,5`, expected a number 1e-14..0.01 (the decimal sign is a point)"},
-    {"hbm:\n  tolerance: 1e5, 3", "f:5:14: ", "hbm.tolerance is `1e5, 3`"},
-    {"hbm: {tolerance: nan}", "f:4:18: ", "(it must be finite)"},
-    {"hbm: {tolerance: -.inf}", "f:4:18: ", "(it must be finite)"},
-    {"gate: {mean: 1e999}", "f:4:14: ", "expected a number > 0 (too large"},
-    {"gate: {mean: 1e-999}", "f:4:14: ", "expected a number > 0 (too small"},
-    {"hbm: {tolerance: 0x10}", "f:4:18: ", "`0x10`"},
-    {"hbm: {samples: 1_000}", "f:4:16: ", "`1_000`"},
-    {"hbm: {samples: \"1024\"}", "f:4:16: ", "(in quotes it is text)"},
-    {"hbm: {samples: 1e3}", "f:4:16: ", "(write it in digits only)"},
-    {"hbm: {samples: 99999999999}", "f:4:16: ", "(too large to be held)"},
-    {"hbm: {static: yes}", "f:4:15: ", "hbm.static is `yes`, expected true or false"},
-    {"hbm: {static: off}", "f:4:15: ", "expected true or false"},
-    {"hbm: {static: 1}", "f:4:15: ", "expected true or false"},
-    {"hbm: {static: 'true'}", "f:4:15: ", "(in quotes it is text)"},
-    {"hbm: {force: Exact}", "f:4:14: ", "hbm.force is `Exact`, expected exact or sampled"},
-    {"hbm: {continuation: newton}", "f:4:21: ", "expected auto, natural, arclength or fixed_step"},
-    {"hbm: {continuation: fixed_step, harmonics: auto}", "f:4:21: ",
-     "hbm.harmonics: auto adapts the step, too, expected a number of harmonics with hbm.continuation: fixed_step"},
-    {"hbm: {samples: auto, force: sampled, continuation: fixed_step}", "f:4:52: ", "expected a number of samples"},
-    {"hbm: {step: 0}", "f:4:13: ", "hbm.step is `0`"},
-    {"hbm: {iterations: 0}", "f:4:19: ", "1..1000"},
-    /* ranges */
-    {"hbm: {harmonics: 0}", "f:4:18: ", "hbm.harmonics is `0`, expected an integer 1..200 or auto"},
-    {"hbm: {harmonics: 201}", "f:4:18: ", "1..200"},
-    {"hbm: {samples: 2}", "f:4:16: ", "3..16777216"},
-    {"hbm: {tolerance: 9e-15}", "f:4:18: ", "1e-14..0.01"},
-    {"transient: {regularisation: 0.2}", "f:4:29: ", "1e-8..0.1"},
-    {"transient: {tolerance: 0.02}", "f:4:24: ", "1e-13..0.01"},
-    {"transient: {max_periods: 10000001}", "f:4:26: ", "1..10000000"},
-    {"compare: {omega: [1, 0, 2]}", "f:4:22: ", "compare.omega has the entry `0`, expected a list of numbers > 0"},
-    {"compare: {harmonics: [1, 201]}", "f:4:26: ", "integers 1..200"},
-    {"compare: {samples: [2]}", "f:4:21: ", "integers 3.."},
-    {"compare: {points: 0}", "f:4:19: ", "1..1024"},
-    {"compare: {points: 1025}", "f:4:19: ", "1..1024"}, /* as many as a number_list holds */
-    {"gate: {waveform: 0}", "f:4:18: ", "expected a number > 0"},
-    {"gate: {iterations: -1}", "f:4:20: ", "gate.iterations is `-1`, expected an integer 0.."},
-    {"gate: {amplitud: 1e-3}", "f:4:8: ", "did you mean `amplitude`?"},
-    {"gate: {range_mean: 1e-3}", "f:4:20: ", "expected a list of numbers > 0"},
-    {"gate:\n  ranges: [7, 9, 12]\n  range_mean: [1]",
-     "f:5:11: ", "ends in a single 12, expected FROM, TO, FROM, TO, ..."},
-    {"gate: {ranges: [9, 7], range_mean: [1]}", "f:4:16: ", "a range from 9 to 7, expected FROM <= TO"},
-    {"gate: {ranges: [7, 9], range_mean: [1, 2]}",
-     "f:4:36: ", "gate.range_mean has 2 limits for 1 range in gate.ranges, expected one for each"},
-    {"gate: {range_waveform: [1]}", "f:4:24: ", "gate.range_waveform has 1 limit for 0 ranges"},
-    {"gate: {ranges: [7, 9]}", "f:4:16: ", "gate.ranges without limits"},
-    {"contacts: [{tangential_stiffness: -1}]",
-     "f:4:35: ", "contacts[0].tangential_stiffness is `-1`, expected a number >= 0"},
-    {"contacts:\n  - " CONTACT_1 "\n  - {angle_deg: 90.5}",
-     "f:6:17: ", "contacts[1].angle_deg is `90.5`, expected a number 0..90"},
-    /* missing */
-    {"contacts: [{gap: 1}]", "f:4:12: ", "missing key `tangential_stiffness` in `contacts[0]`, expected a number >= 0"},
-    /* across fields */
-    {"hbm: {samples: 10, force: sampled}",
-     "f:4:16: ", "10 samples cannot tell 5 harmonics apart, expected hbm.samples >= 11"},
-    {"transient: {method: closed_form}",
-     "f:4:21: ", "only the exact law has a closed form, expected transient.law: exact"},
-    {"transient: {law: regularised, method: closed_form}", "f:4:39: ", "only the exact law has a closed form"},
-    {"transient: {method: closed_form, law: regularised}", "f:4:21: ", "only the exact law has a closed form"},
-    {"transient: {method: closed}", "f:4:21: ", "closed_form"},
-    {"transient: {scout: maybe}", "f:4:20: ", "true"},
-    {"hbm:\n  harmonics: 8\n  samples: 16\n  force: sampled", "f:6:12: ", "expected hbm.samples >= 17"},
-    /* not YAML, or more of it than a case needs */
-    {"title: a: b", "f:4:9: ", "not YAML: mapping values are not allowed"},
-    {"\ttitle: a", "f:4:1: ", "not YAML"},
-    {"hbm: {samples: 64", "f:5:1: ", "not YAML"},
-    {"---\ntitle: a", "f:4:1: ", "a second YAML document, expected one scene a file"},
-    {"title: &a b", "f:4:8: ", "a YAML anchor"},
-    {"title: *a", "f:4:8: ", "a YAML alias"},
-    {"title: !!str b", "f:4:8: ", "a YAML tag"},
-    {"%TAG ! x", "f:4:1: ", "a %TAG line"},
-    {"title: a\x01", "f:4:9: ", "control character 0x01"},
-    {"title: \xC3\xA9\xFF", "f:4:9: ", "byte 0xFF is not UTF-8"},
-    {"title: \xC0\x80", "f:4:8: ", "byte 0xC0 is not UTF-8"},
-    {"title: \xED\xA0\x80", "f:4:8: ", "byte 0xED is not UTF-8"},
-};
+static void refused_after_the_smallest(const mistake *m)
+{
+  char text[4096];
+  snprintf(text, sizeof text, SMALLEST "%s\n", m->text);
+  refused(text, NULL, m->at, m->words);
+}
 
-/* Whole files. */
-static const mistake whole[] = {
-    {"", "f:1:1: ", "nothing here, expected a case with `oscillator`, `forcing` and `sweep`"},
-    {"# only a comment\n", "f:1:1: ", "nothing here"},
-    {"---\n", "f:2:1: ", "the case is empty, expected a mapping"},
-    {"hello", "f:1:1: ", "the case is a single value, expected a mapping"},
-    {"- 1\n", "f:1:1: ", "the case is a list"},
-    {"{}", "f:1:1: ", "missing section `oscillator`, expected `oscillator: {mass: ..., damping: ..., stiffness: ...}`"},
-    {"# c\noscillator: {mass: 1, damping: 0, stiffness: 1}\nsweep: {omega: [1, 2]}\n",
-     "f:2:1: ", "missing section `forcing`, expected `forcing: {amplitude: ...}`"},
-    {"oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\n",
-     "f:1:1: ", "missing section `sweep`, expected `sweep: {omega: ...}`"},
-    {"oscillator: {mass: 1, stiffness: 1}\n",
-     "f:1:13: ", "missing key `damping` in `oscillator`, expected a number >= 0"},
-    {"sweep: {}\n", "f:1:8: ", "missing key `omega` in `sweep`, expected two numbers > 0, [FROM, TO], or `frequency`"},
-    {"sweep: {omega: [1, 2], frequency: [1, 2]}\n", "f:1:24: ", "both `omega` (line 1) and `frequency`"},
-    {"sweep: {omega: [1]}\n", "f:1:16: ", "sweep.omega is a list of 1, expected two numbers > 0, [FROM, TO]"},
-    {"sweep: {omega: [1, 2, 3]}\n", "f:1:16: ", "sweep.omega is a list of 3"},
-    {"sweep: {omega: [0, 2]}\n", "f:1:17: ", "sweep.omega has the entry `0`"},
-    {"sweep: {frequency: [1, 1e308]}\n", "f:1:24: ", "too large"},
-    {"oscillator: {mass: 0}\n", "f:1:20: ", "oscillator.mass is `0`, expected a number > 0"},
-    {"oscillator: {mass: 12,5, damping: 1, stiffness: 1}\n", "f:1:23: ",
-     "unknown key `5` in `oscillator`, expected one of mass, damping, stiffness (a comma ends a value: the decimal "
-     "sign is a point)"},
-    {"oscillator: {mass: 1, damping: -1}\n", "f:1:32: ", "oscillator.damping is `-1`, expected a number >= 0"},
-    {"oscillator: {mass: 1, damping: 0, stiffness: 1}\nforcing: {amplitude: 1}\nsweep:\n  omega: [7, 7]\n",
-     "f:4:10: ", "the sweep ends where it starts"},
-};
+static void refused_as_it_stands(const mistake *m) { refused(m->text, NULL, m->at, m->words); }
 
 static void mistakes_are_named_where_they_stand(CHECK_STATE)
 {
-  char text[1024];
-  for (size_t i = 0; i < sizeof extra / sizeof *extra; ++i) {
-    snprintf(text, sizeof text, SMALLEST "%s\n", extra[i].text);
-    refused(text, NULL, extra[i].at, extra[i].words);
-  }
-  for (size_t i = 0; i < sizeof whole / sizeof *whole; ++i) refused(whole[i].text, NULL, whole[i].at, whole[i].words);
+  each_mistake("lines", 99, refused_after_the_smallest);
+  each_mistake("files", 19, refused_as_it_stands);
 }
 
 static void too_many_are_refused(CHECK_STATE)

@@ -69,46 +69,16 @@ static void one_number_of_rayleigh_damping_leaves_the_other(CHECK_STATE)
   }
 }
 
+static void named_by_the_assignment(const mistake *m)
+{
+  char start[4096];
+  snprintf(start, sizeof start, "--set %s: ", m->text);
+  refused(TWO_NAMED LISTS, m->text, start, m->message);
+}
+
 static void mistakes_name_the_assignment(CHECK_STATE)
 {
-  static const struct {
-    const char *set, *words;
-  } all[] = {
-      {"structure.damping.modal=-1", "structure.damping.modal is `-1`, expected a number >= 0"},
-      {"structure.damping.modal=[1]", "structure.damping.modal has 1 entries, expected one number, or 2"},
-      {"structure.damping.modl=1", "did you mean `structure.damping.modal`?"},
-      {"structure.mass=[1]", "structure.mass has 1 entries, expected 2"},
-      {"structure.mass=[1, -1]", "structure.mass is not positive definite"},
-      {"structure=[1]", "`structure` is a section, expected one of its fields"},
-      {"oscillator.mass=1",
-       "`oscillator.mass` is an oscillator's, and the case has a structure, expected structure.mass"},
-      {"forcing.amplitude=1",
-       "`forcing.amplitude` is an oscillator's, and the case has a structure, expected forcing[0]"},
-      {"forcing[1].amplitude=1", "the case has 1 loads, expected an index 0..0"},
-      {"forcing[2]={dof: 1, amplitude: 1}", "the case has 1 loads, expected an index 0..1 (the last one appends)"},
-      {"forcing[0].amplitud=1", "did you mean `forcing[0].amplitude`?"},
-      {"forcing[0].amplitude=x", "forcing[0].amplitude is `x`, expected a number"},
-      {"forcing[0].dof=tp", "no DOF `tp`, did you mean `tip`?"},
-      {"contacts[1].frictin=1", "did you mean `contacts[1].friction`?"},
-      {"contacts[joint].frictin=1", "did you mean `contacts[0].friction`?"},
-      {"structure.damping.rayleigh[2]=1", "unknown field `structure.damping.rayleigh[2]`"},
-      {"contacts[2].friction=1", "the case has 2 contacts, expected an index 0..1"},
-      {"contacts[jont].friction=1", "no contact is named `jont`, did you mean `joint`?"},
-      {"contacts[weld].friction=1", "no contact is named `weld`, expected an index or a name that the case gives"},
-      {"contacts[].friction=1", "unknown field `contacts[].friction`"},
-      {"contacts[-1].friction=1", "unknown field `contacts[-1].friction`"},
-      {"contacts[0].normal_stiffness=1", "contacts[0] has a normal_stiffness, but no normal to act along"},
-      {"contacts[1].friction=1", "contacts[1] has friction, but no tangent to act along"},
-      {"contacts[1].name=joint", "contacts[1] is named `joint` like contacts[0], expected different names"},
-      {"contacts[1].name=a b", "contacts[1] is named `a b`, expected a name"},
-      {"response=[]", "response is an empty list"},
-      {"response=[tip, {tip: 1}]", "response 2 is response 1 again"},
-  };
-  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-    char start[256];
-    snprintf(start, sizeof start, "--set %s: ", all[i].set);
-    refused(TWO_NAMED LISTS, all[i].set, start, all[i].words);
-  }
+  each_mistake("structure assignments", 27, named_by_the_assignment);
   refused(SMALLEST, "structure.damping.modal=1", "--set structure.damping.modal=1: ",
           "`structure.damping.modal` is a structure's, and the case has an oscillator");
   refused(SMALLEST, "response=[1]", "--set response=[1]: ", "`response` is a structure's");

@@ -38,64 +38,27 @@ static void every_format_is_read(CHECK_STATE)
         1, one);
 }
 
-static void is_refused(const char *text, int expected, const char *words)
+static void refused_if_expected(const mistake *wrong, int expected)
 {
   sparse A = {.n = 7};
   char said[256];
   message m;
   message_start(&m, said, sizeof said);
-  const hc_status st = matrix_file_parse("m", text, strlen(text), NULL, expected, &A, NULL, &m);
-  if (st != HC_BAD_INPUT || strncmp(said, words, strlen(words)))
-    fail_msg("%s\ngave `%s`\nnot  `%s...`", text, said, words);
+  const hc_status st = matrix_file_parse("m", wrong->text, strlen(wrong->text), NULL, expected, &A, NULL, &m);
+  if (st != HC_BAD_INPUT || strncmp(said, wrong->message, strlen(wrong->message)))
+    fail_msg("%s\ngave `%s`\nnot  `%s...`", wrong->text, said, wrong->message);
   assert_null(A.value);
   assert_int_equal(A.n, 0);
 }
 
+static void is_refused(const mistake *wrong) { refused_if_expected(wrong, 0); }
+
 static void mistakes_are_named_where_they_stand(CHECK_STATE)
 {
-  is_refused("% a comment\n", 0, "m:1:1: no Matrix Market banner, expected `%%MatrixMarket matrix coordinate real");
-  is_refused("%%MatrixMarket matrix coordinate real\n", 0, "m:1:1: a banner of less than five words");
-  is_refused("%%MatrixMarket vector coordinate real general\n", 0, "m:1:16: `vector` in the banner, expected matrix");
-  is_refused(HEAD("sparse", "real", "general"), 0, "m:1:23: `sparse` in the banner, expected coordinate or array");
-  is_refused(HEAD("coordinate", "pattern", "general"), 0, "m:1:34: `pattern` in the banner, expected real or integer");
-  is_refused(HEAD("array", "complex", "general"), 0, "m:1:29: `complex` in the banner, expected real or integer");
-  is_refused(HEAD("array", "real", "hermitian"), 0,
-             "m:1:34: `hermitian` in the banner, expected general, symmetric or");
-  is_refused(HEAD("array", "real", "general"), 0, "m:2:1: the file ends before the line of sizes");
-  is_refused(HEAD("array", "real", "general") "% 2 2", 0, "m:2:6: the file ends before the line of sizes");
-  is_refused(HEAD("array", "real", "general") "2 2 4\n", 0,
-             "m:2:1: 3 words where the sizes should stand, expected rows and");
-  is_refused(HEAD("coordinate", "real", "general") "2 2\n", 0, "m:2:1: 2 words where the sizes should stand");
-  is_refused(HEAD("array", "real", "general") "2 3\n", 0, "m:2:1: a matrix of 2 x 3, expected as many columns as rows");
-  is_refused(HEAD("array", "real", "general") "2 2\n", 3, "m:2:1: a matrix of 2 x 2, expected 3 x 3");
-  is_refused(HEAD("array", "real", "general") "0 0\n", 0,
-             "m:2:1: `0`, expected the number of rows, an integer 1..10000000");
-  is_refused(HEAD("array", "real", "general") "2 10000001\n", 0, "m:2:3: `10000001`, expected the number of columns");
-  is_refused(HEAD("array", "real", "general") "2.0 2\n", 0, "m:2:1: `2.0`, expected the number of rows");
-  is_refused(HEAD("coordinate", "real", "general") "2 2 5\n", 0,
-             "m:2:5: `5`, expected the number of entries, an integer 0..4");
-  is_refused(HEAD("coordinate", "real", "symmetric") "2 2 4\n", 0,
-             "m:2:5: `4`, expected the number of entries, an integer 0..3");
-#define LIST(entries) HEAD("coordinate", "real", "general") "2 2 2\n" entries
-  is_refused(LIST("1 1 1\n0 1 1\n"), 0, "m:4:1: `0`, expected a row, an integer 1..2");
-  is_refused(LIST("1 1 1\n1 3 1\n"), 0, "m:4:3: `3`, expected a column, an integer 1..2");
-  is_refused(LIST("1 1 1\n1 1 1\n"), 0, "m:4:1: a second entry (1, 1), expected each once");
-  is_refused(LIST("1 1 1\n"), 0, "m:4:1: the file ends after 1 entries, expected 2");
-  is_refused(LIST("1 1 1\n% end"), 0, "m:4:6: the file ends after 1 entries, expected 2");
-  is_refused(LIST("1 1 1\n2 2 1\n\n1 2 1\n"), 0, "m:6:1: something after the last of 2 entries");
-  is_refused(LIST("1 1\n"), 0, "m:3:1: less than three words");
-  is_refused(LIST("1 1 1 0\n"), 0, "m:3:1: more than three words");
-  is_refused(LIST("1 1 x\n"), 0, "m:3:5: `x`, expected a finite number");
-  is_refused(LIST("1 1 nan\n"), 0, "m:3:5: `nan`, expected a finite number");
-  is_refused(LIST("1 1 -inf\n"), 0, "m:3:5: `-inf`, expected a finite number");
-  is_refused(LIST("1 1 1e999\n"), 0, "m:3:5: `1e999`, expected a finite number");
-  is_refused(LIST("1 1 1,5\n"), 0, "m:3:5: `1,5`, expected a finite number (the decimal sign is a point)");
-  is_refused(LIST("1 1 1D+3\n"), 0, "m:3:5: `1D+3`, expected a finite number (an exponent is written with E)");
-  is_refused(HEAD("array", "integer", "general") "1 1\n1.5\n", 0, "m:3:1: `1.5`, expected a finite integer");
-  is_refused(HEAD("array", "real", "general") "1 1\n1 2\n", 0, "m:3:3: a second word, expected one value a line");
-  is_refused(HEAD("coordinate", "real", "symmetric") "2 2 1\n1 2 1\n", 0, "m:3:1: entry (1, 2) of a symmetric matrix");
-  is_refused(HEAD("coordinate", "real", "skew-symmetric") "2 2 1\n1 1 1\n", 0,
-             "m:3:1: entry (1, 1) of a skew-symmetric");
+  static const mistake two_by_two = {.text = HEAD("array", "real", "general") "2 2\n",
+                                     .message = "m:2:1: a matrix of 2 x 2, expected 3 x 3"};
+  each_mistake("Matrix Market", 35, is_refused);
+  refused_if_expected(&two_by_two, 3);
 }
 
 static void files_are_found_and_searched(CHECK_STATE)

@@ -83,56 +83,22 @@ static void is_refused(const char *text, const char *part, int expected, const c
   assert_int_equal(n, 0);
 }
 
-static void another_file_is_named(CHECK_STATE)
-{
-  is_refused("", NULL, 0,
-             "m:1:1: ", "no matrix's first line, expected `%%MatrixMarket matrix coordinate real general`");
-  is_refused("3 3\n", NULL, 0, "m:1:1: ", "a CalculiX file of DOFs");
-  is_refused("\n*HEADING\n", NULL, 0, "m:2:1: ", "this looks like an Abaqus input file");
-  is_refused("MATLAB 5.0 MAT-file, ", NULL, 0, "m:1:1: ", "this is a MATLAB file");
-  is_refused("$ Nastran\nDMIG    KAAX", NULL, 0, "m:1:1: ", "this looks like Nastran's DMIG");
-  is_refused("DMIG    KAAX           0       6       1       0\n", NULL, 0,
-             "m:1:1: ", "this looks like Nastran's DMIG");
-  is_refused("one two three\n", NULL, 0, "m:1:1: ", "no matrix's first line");
-}
+static void is_no_matrix(const mistake *m) { is_refused(m->text, NULL, 0, m->at, m->words); }
+
+static void another_file_is_named(CHECK_STATE) { each_mistake("other files", 7, is_no_matrix); }
 
 static void mistakes_in_triplets(CHECK_STATE)
 {
-  is_refused("1 1 1\n2 2\n", NULL, 0, "m:2:1: ", "2 words, expected row, column and value");
-  is_refused("1 1 1\n2 2 1 5\n", NULL, 0, "m:2:1: ", "4 words, expected row, column and value");
-  is_refused("1 1 1\n2 0 1\n", NULL, 0, "m:2:3: ", "`0`, expected a column, an integer 1..10000000");
-  is_refused("1 1 1\n10000001 1 1\n", NULL, 0, "m:2:1: ", "`10000001`, expected a row, an integer 1..10000000");
-  is_refused("1 1 1\n1.0 1 1\n", NULL, 0, "m:2:1: ", "`1.0`, expected a row");
-  is_refused("1 1 1\n1 2 2\n1 1 3\n", NULL, 0, "m:3:1: ", "a second entry (1, 1), expected each once");
-  is_refused("1 1 1\n1 2 nan\n", NULL, 0, "m:2:5: ", "`nan`, expected a finite number");
-  is_refused("1 1 1\n1 2 2.5D+3\n", NULL, 0, "m:2:5: ", "an exponent is written with E");
-  is_refused("1 1 1\n1,2,,\n", NULL, 0, "m:2:5: ", "``, expected a finite number");
-  is_refused("1 1 1\n2 2 1\n3 3 1\n1 2 5\n3 1 5\n", NULL, 0,
-             "m:4:1: ", "entry (1, 2) without (2, 1), where both sides of the diagonal have entries");
+  each_mistake("triplets", 15, is_no_matrix);
   is_refused("1 1 1\n2 2 1\n", NULL, 3, "m:2:1: ", "a matrix of 2 x 2 ends here, expected 3 x 3");
-  is_refused("7,1,7,1,1\n7,2,7,1\n", NULL, 0, "m:2:1: ", "4 words, expected node, DOF, node, DOF and value");
-  is_refused("7,1,7,1,1\n7,1,7,2,5\n", NULL, 0, "m:2:5: ", "DOF 2 of node 7 has no entry on the diagonal");
-  is_refused("7,1,7,1,1\n7,1,7,1,5\n", NULL, 0, "m:2:1: ", "a second entry (1, 1)");
-  is_refused("7,1,7,1,1\n-7,1,7,1,5\n", NULL, 0, "m:2:1: ", "`-7`, expected a node");
-  is_refused("7,1,8,1,1\n", NULL, 0, "m:2:1: ", "no entries on the diagonal");
 }
 
 static void mistakes_in_elements(CHECK_STATE)
 {
+  each_mistake("elements", 9, is_no_matrix);
   is_refused(HEADER "*MATRIX,TYPE=STIFFNESS\n" ROWS, "MASS", 0, "m:12:1: ", "no *MATRIX,TYPE=MASS in this file");
   is_refused(HEADER "*MATRIX,TYPE=STIFFNESS\n" ROWS, NULL, 4,
              "m:11:1: ", "a matrix of 3 x 3 ends here, expected 4 x 4");
-  is_refused(HEADER "*MATRIX,TYPE=STIFFNESS\n1,\n2,3,4\n", NULL, 0,
-             "m:10:5: ", "another number, expected row 2 of the lower triangle to have 2");
-  is_refused(HEADER "*MATRIX,TYPE=STIFFNESS\n1,\n2\n*MATRIX,TYPE=MASS\n1\n", NULL, 0,
-             "m:11:1: ", "row 2 of the lower triangle ends after 1 numbers, expected 2");
-  is_refused(HEADER "*MATRIX,TYPE=STIFFNESS\n1,\n2", NULL, 0, "m:10:2: ", "row 2 of the lower triangle ends after 1");
-  is_refused(HEADER "*MATRIX,TYPE=STIFFNESS\n1,\n2,x\n", NULL, 0, "m:10:3: ", "`x`, expected a finite number");
-  is_refused(HEADER "*DAMPING\n", NULL, 0, "m:8:1: ", "`*DAMPING`, expected *MATRIX,TYPE=STIFFNESS or the like");
-  is_refused(HEADER, NULL, 0, "m:8:1: ", "the file ends in a header, expected *MATRIX,TYPE=STIFFNESS");
-  is_refused("*USER ELEMENT, NODES=1, UNSYMM\n1\n*MATRIX,TYPE=MASS\n1\n", NULL, 0, "m:1:1: ", "an unsymmetric element");
-  is_refused("*USER ELEMENT\n1\n0, 2\n*MATRIX,TYPE=MASS\n1\n", NULL, 0, "m:3:1: ", "`0`, expected the place of a node");
-  is_refused("*USER ELEMENT\n1, 2.5\n*MATRIX,TYPE=MASS\n1\n", NULL, 0, "m:2:4: ", "`2.5`, expected a DOF");
 }
 
 /* The line of an entry, which messages about the matrix name. */

@@ -284,60 +284,40 @@ static void sets_and_includes(CHECK_STATE)
   remove_file(&part);
 }
 
+static void check_words(const mistake *m, const char *words)
+{
+  if (strncmp(words, m->at, strlen(m->at)) || !strstr(words, m->words))
+    fail_msg("%s\n  gave `%s`\n  not `%s...%s...`", m->text, words, m->at, m->words);
+}
+
+static void no_mesh(const mistake *wrong)
+{
+  char words[512];
+  message m;
+  mesh *s;
+  message_start(&m, words, sizeof words);
+  assert_int_equal(mesh_parse("m", wrong->text, strlen(wrong->text), &s, &m), HC_BAD_INPUT);
+  assert_null(s);
+  check_words(wrong, words);
+}
+
+static void no_patch(const mistake *wrong)
+{
+  char words[512];
+  message m;
+  patch p;
+  mesh *s = mesh_of(wrong->text);
+  message_start(&m, words, sizeof words);
+  assert_int_equal(mesh_patch(s, mesh_find(s, "A", 1), &p, &m), HC_BAD_INPUT);
+  check_words(wrong, words);
+  free(p.v);
+  mesh_free(s);
+}
+
 static void mistakes_in_a_mesh(CHECK_STATE)
 {
-#define NODES4 "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,0,1\n"
-  static const mistake all[] = {
-      {"", "m:1:1: ", "without *NODE"},
-      {"*NSET, NSET=A\n1\n", "m:1:1: ", "without *NODE"},
-      {"*NODE\n1, 0, 0\n", "m:2:1: ", "3 values, expected a node's number and x, y, z"},
-      {"*NODE\n1, 0, 0, 0x\n", "m:2:10: ", "`0x`, expected a finite number"},
-      {"*NODE\n0, 0, 0, 0\n", "m:2:1: ", "`0`, expected a node, an integer 1.."},
-      {"*NODE\n1, 0, 0, 0.12", "m:2:14: ", "the file ends within a line of numbers"},
-      {NODES4 "4, 1, 1, 1\n", "m:6:1: ", "node 4 again"},
-      {NODES4 "*ELEMENT, TYPE=C3D4\n7, 1,2,3\n", "m:8:1: ", "in the midst of element 7, expected its other 1 nodes"},
-      {NODES4 "*ELEMENT, TYPE=C3D4\n7, 1,2,3\n*STEP\n", "m:8:1: ", "element 7 has 3 nodes so far, expected 4"},
-      {NODES4 "*ELEMENT, TYPE=C3D4\n7, 1,2,3,4,5\n", "m:7:12: ", "another node, expected 4"},
-      {NODES4 "*ELEMENT, TYPE=C3D4\n7, 1,2,3,5\n", "m:7:1: ", "element 7 has the node 5, which is not there"},
-      {NODES4 "*ELEMENT, TYPE=C3D4\n7, 1,2,3,4\n7, 1,2,3,4\n", "m:8:1: ", "element 7 again"},
-      {NODES4 "*NSET\n1\n", "m:6:1: ", "a set without a name, expected nset=NAME"},
-      {NODES4 "*NSET, NSET=A, GENERATE\n3, 1\n", "m:7:4: ", "`1`, expected the last, an integer 3.."},
-      {NODES4 "*NSET, NSET=A, ELSET=E\n", "m:6:22: ", "ELSET in *NSET"},
-      {NODES4 "*SURFACE, NAME=A\n1\n", "m:7:1: ", "no face of elements"},
-      {NODES4 "*PART, NAME=P\n", "m:6:1: ", "*part, expected a flat file"},
-      {NODES4 "*NGEN\n", "m:6:1: ", "*ngen, expected a flat file"},
-      {"*NODE, INPUT=a.txt\n", "m:1:14: ", "lines in another file or system"},
-      {"*INCLUDE, INPUT=none.inp\n", "m:1:17: ", "`none.inp` cannot be opened: "},
-      {"*INCLUDE\n", "m:1:1: ", "an *INCLUDE of no file"},
-  };
-  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-    char words[512];
-    message m;
-    mesh *s;
-    message_start(&m, words, sizeof words);
-    assert_int_equal(mesh_parse("m", all[i].text, strlen(all[i].text), &s, &m), HC_BAD_INPUT);
-    assert_null(s);
-    if (strncmp(words, all[i].at, strlen(all[i].at)) || !strstr(words, all[i].words))
-      fail_msg("%s\n  gave `%s`\n  not `%s...%s...`", all[i].text, words, all[i].at, all[i].words);
-  }
-  static const mistake sets[] = {
-      /* found when the set A is asked for */
-      {NODES4 "*NSET, NSET=A\n5\n", "m:7:1: ", "no node 5, expected one of the file"},
-      {NODES4 "*NSET, NSET=A\nB\n", "m:7:1: ", "no set `B`, expected one that is defined"},
-      {NODES4 "*SURFACE, NAME=A\n5, S1\n*ELEMENT, TYPE=C3D4\n7, 1,2,3,4\n", "m:7:1: ", "no element 5"},
-      {NODES4 "*SURFACE, NAME=A\n7, S5\n*ELEMENT, TYPE=C3D4\n7, 1,2,3,4\n", "m:7:1: ", "element 7 has no face S5"}};
-  for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i) {
-    char words[512];
-    message m;
-    patch p;
-    mesh *s = mesh_of(sets[i].text);
-    message_start(&m, words, sizeof words);
-    assert_int_equal(mesh_patch(s, mesh_find(s, "A", 1), &p, &m), HC_BAD_INPUT);
-    if (strncmp(words, sets[i].at, strlen(sets[i].at)) || !strstr(words, sets[i].words))
-      fail_msg("%s\n  gave `%s`\n  not `%s...%s...`", sets[i].text, words, sets[i].at, sets[i].words);
-    free(p.v);
-    mesh_free(s);
-  }
+  each_mistake("meshes", 21, no_mesh);
+  each_mistake("sets of a mesh", 4, no_patch);
 }
 
 /* ---- which nodes pair ---- */
@@ -452,41 +432,26 @@ static void a_plane_through_nodes_alone(CHECK_STATE)
   "2, 5,6,7,8,15,16,17,18\n*NSET, NSET=LOW\n1, 2, 3, 4\n*NSET, NSET=UP\n5, 6, 7, 8\n*NSET, NSET=ONE\n3\n"              \
   "*NSET, NSET=NONE\n*SURFACE, NAME=L\n1, S2\n*SURFACE, NAME=ONCE, TYPE=NODE\n7\n"
 
+static own_file cubes;
+
+static void no_pairs(const mistake *m)
+{
+  char text[8192], more[4096], start[128];
+  snprintf(more, sizeof more,
+           "contacts:\n  - {pairs: %s, tangential_stiffness: 20, normal_stiffness: 30, friction: 0.3}\n", m->text);
+  snprintf(text, sizeof text, CASE, cubes.path, more);
+  snprintf(start, sizeof start, "f:%s", m->at);
+  refused(text, NULL, start, m->words);
+}
+
 static void in_a_case(CHECK_STATE)
 {
-  static const mistake all[] = {
-      /* at NULL: read */
-      {"{between: [LOW, UP], within: 0.1}",
-       "9:13: ", "no DOF of node 1 in direction z, expected one of structure.nodes"},
-      {"{between: [LOW, UP], within: 0}", "9:42: ", "pairs.within is not positive"},
-      {"{between: [LOW, UP]}", "9:13: ", "pairs is a mapping of something else, expected {between: [SET, SET]"},
-      {"{between: [LOW], within: 1}", "9:13: ", "pairs is a mapping of something else"},
-      {"{between: [LOWER, UP], within: 1}", "9:24: ", "no set of nodes `LOWER` in structure.mesh, expected one"},
-      {"{between: [LOW, UPP], within: 1}", "9:29: ", "did you mean `UP`?"},
-      {"{between: [LOW, NONE], within: 1}", "9:29: ", "no node in `NONE`"},
-      {"{between: [LOW, none.csv], within: 1}", "9:29: ", "pairs.between: none.csv cannot be opened: "},
-      {"{between: [ONE, NOWHERE], within: 1}", "9:29: ", "no set of nodes `NOWHERE` in structure.mesh"},
-      {"{between: [LOW, UP], within: 1}, axes: {tangent: [0, 0, 1]}",
-       "9:13: ", "axes.tangent is the normal of the pair 1, 5"},
-      {"{between: [LOW, UP], within: 1}, axes: {tangent_2: [0, 0, 1]}",
-       "9:64: ", "axes.tangent_2 beside `between`, expected none"},
-      {"{between: [UP, LOW], within: 1}, axes: {normal: [0, 0, 1]}",
-       "9:23: ", "axes.normal does not point out of the first body at its face of node 5"},
-      {"{between: [LOW, LOW], within: 1}", "9:23: ", "node 1 is in both"},
-  };
-  const own_file f = write_file("m.inp", CUBES, strlen(CUBES));
-  char text[4096], more[512], start[64];
-  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-    snprintf(more, sizeof more,
-             "contacts:\n  - {pairs: %s, tangential_stiffness: 20, normal_stiffness: 30, friction: 0.3}\n",
-             all[i].text);
-    snprintf(text, sizeof text, CASE, f.path, more);
-    snprintf(start, sizeof start, "f:%s", all[i].at);
-    refused(text, NULL, start, all[i].words);
-  }
+  char text[1024];
+  cubes = write_file("m.inp", CUBES, strlen(CUBES));
+  each_mistake("pairs by position", 13, no_pairs);
   snprintf(text, sizeof text, CASE, "none.inp", "");
   refused(text, NULL, "f:6:9: ", "structure.mesh: none.inp cannot be opened: ");
-  remove_file(&f);
+  remove_file(&cubes);
 }
 
 /* All nodes of the face have DOFs: by position and by rows of pairs the same contacts come out, of area 4/4 each. */
