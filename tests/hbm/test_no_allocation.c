@@ -1,71 +1,18 @@
 /* test_no_allocation.c - after the first call, evaluating the contact force and solving at a frequency allocate
- * nothing. The executable's own malloc and friends come before the C library's for every shared library too (FFTW,
- * SUNDIALS): they count, and pass on to glibc's __libc_ entries. Under the sanitizers, which bring their own, and
- * without glibc the test is skipped. */
-#include "tests/hbm/scenes.h"
-
-#if defined __SANITIZE_ADDRESS__ || !defined __GLIBC__
-#define CAN_COUNT 0
-#elif defined __has_feature
-#if __has_feature(address_sanitizer)
-#define CAN_COUNT 0
-#endif
-#endif
-#ifndef CAN_COUNT
-#define CAN_COUNT 1
-#endif
-
-#if CAN_COUNT
-#include <errno.h>
+ * nothing. */
 #include <fftw3.h>
 #include <nvector/nvector_serial.h>
 
 #include "hbm/planar/planar_force.h"
 #include "numerics/sundials_compat.h"
 #include "study/scene_solvers.h"
-
-static long allocations;
-
-void *__libc_malloc(size_t);
-void *__libc_calloc(size_t, size_t);
-void *__libc_realloc(void *, size_t);
-void *__libc_memalign(size_t, size_t);
-
-void *malloc(size_t n)
-{
-  ++allocations;
-  return __libc_malloc(n);
-}
-void *calloc(size_t n, size_t size)
-{
-  ++allocations;
-  return __libc_calloc(n, size);
-}
-void *realloc(void *p, size_t n)
-{
-  ++allocations;
-  return __libc_realloc(p, n);
-}
-void *memalign(size_t align, size_t n);
-void *memalign(size_t align, size_t n)
-{
-  ++allocations;
-  return __libc_memalign(align, n);
-}
-void *aligned_alloc(size_t align, size_t n)
-{
-  ++allocations;
-  return __libc_memalign(align, n);
-}
-int posix_memalign(void **p, size_t align, size_t n)
-{
-  ++allocations;
-  return (*p = __libc_memalign(align, n)) ? 0 : ENOMEM;
-}
+#include "tests/counted.h"
+#include "tests/hbm/scenes.h"
 
 /* The counter must see what libraries do, or the tests below would pass for nothing. */
 static void the_counter_sees_libraries(CHECK_STATE)
 {
+  if (!COUNTED) skip();
   long before = allocations;
   double *a = fftw_alloc_real(100);
   assert_true(allocations > before);
@@ -201,21 +148,5 @@ static void solve_allocates_nothing(CHECK_STATE)
   solving_with(HBM_FORCE_EXACT);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_counter_sees_libraries),    cmocka_unit_test(force_allocates_nothing),
-    cmocka_unit_test(exact_force_allocates_nothing), cmocka_unit_test(circle_force_allocates_nothing),
-    cmocka_unit_test(solve_allocates_nothing),
-};
-
-#else
-
-static void cannot_count_here(CHECK_STATE)
-{
-  print_message("skipped: malloc belongs to the sanitizer here, or the C library is not glibc\n");
-  skip();
-}
-
-static const struct CMUnitTest tests[] = {cmocka_unit_test(cannot_count_here)};
-
-#endif
-CHECK_MAIN("hbm.no_allocation", tests, 60)
+CHECK_TESTS("hbm.no_allocation", 60, the_counter_sees_libraries, force_allocates_nothing, exact_force_allocates_nothing,
+            circle_force_allocates_nothing, solve_allocates_nothing)

@@ -1,40 +1,9 @@
-/* test_allocation.c - neither marching nor shooting allocates: every malloc, calloc and realloc of the process,
- * SUNDIALS' included, passes through here and is counted. */
+/* test_allocation.c - neither marching nor shooting allocates. */
 
 #include "numerics/sundials_compat.h"
+#include "tests/counted.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
-
-#if defined __has_feature
-#if __has_feature(address_sanitizer)
-#define SANITIZED 1
-#endif
-#endif
-#if defined __GLIBC__ && !defined __SANITIZE_ADDRESS__ && !defined SANITIZED
-#define COUNTED 1
-
-static long allocations;
-
-extern void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t), *__libc_realloc(void *, size_t);
-void *malloc(size_t n)
-{
-  ++allocations;
-  return __libc_malloc(n);
-}
-void *calloc(size_t n, size_t m)
-{
-  ++allocations;
-  return __libc_calloc(n, m);
-}
-void *realloc(void *p, size_t n)
-{
-  ++allocations;
-  return __libc_realloc(p, n);
-}
-#else
-#define COUNTED 0 /* the sanitizer's own malloc, or another C library's: nothing to count with */
-static long allocations;
-#endif
 
 typedef struct count {
   int ticks;
