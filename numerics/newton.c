@@ -84,12 +84,6 @@ static int keep_entries(SUNMatrix jac)
 
 /* ---- linear equations: LU in jac itself (dense.h), or beside it (grouped.h), to KINSOL a direct solver ---- */
 
-static SUNLinearSolver_Type ls_type(SUNLinearSolver ls)
-{
-  (void)ls;
-  return SUNLINEARSOLVER_DIRECT;
-}
-
 static int ls_setup(SUNLinearSolver ls, SUNMatrix jac)
 {
   newton *nw = ls->content;
@@ -113,25 +107,6 @@ static int ls_solve(SUNLinearSolver ls, SUNMatrix jac, N_Vector x, N_Vector b, s
   return 0;
 }
 
-static int ls_free(SUNLinearSolver ls)
-{
-  ls->content = NULL; /* the handle, which frees itself */
-  SUNLinSolFreeEmpty(ls);
-  return 0;
-}
-
-static SUNLinearSolver make_linear_solver(newton *nw)
-{
-  SUNLinearSolver ls = SUNLinSolNewEmpty(nw->ctx);
-  if (!ls) return NULL;
-  ls->content = nw;
-  ls->ops->gettype = ls_type;
-  ls->ops->setup = ls_setup;
-  ls->ops->solve = ls_solve;
-  ls->ops->free = ls_free;
-  return ls;
-}
-
 /* ---- made and freed --------------------------------------------------------------------------------------- */
 
 static hc_status make_kinsol(newton *nw)
@@ -143,7 +118,7 @@ static hc_status make_kinsol(newton *nw)
     if (!(*vectors[i] = N_VNew_Serial(n, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->jac = SUNDenseMatrix(n, n, nw->ctx))) return HC_NO_MEMORY;
   nw->jac->ops->zero = keep_entries;
-  if (!(nw->ls = make_linear_solver(nw))) return HC_NO_MEMORY;
+  if (!(nw->ls = hc_own_solver(nw->ctx, nw, ls_setup, ls_solve))) return HC_NO_MEMORY;
   if (!(nw->kin = KINCreate(nw->ctx)) || !hc_room_for(0)) return HC_NO_MEMORY;
   int bad = HC_KINSOL_QUIET(nw->kin);
   bad |= KINSetUserData(nw->kin, nw);

@@ -6,6 +6,7 @@
 
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_types.h>
 
 _Static_assert(sizeof(sunrealtype) == sizeof(double), "everything outside SUNDIALS is double");
@@ -49,3 +50,30 @@ static inline int hc_sundials_context(SUNContext *ctx) { return hc_room_for(0) ?
 #define HC_CVODE_QUIET(mem)  CVodeSetErrHandlerFn(mem, hc_sundials_quiet_handler, NULL)
 
 #endif
+
+static inline SUNLinearSolver_Type hc_is_direct(SUNLinearSolver ls)
+{
+  (void)ls;
+  return SUNLINEARSOLVER_DIRECT;
+}
+
+static inline int hc_release_solver(SUNLinearSolver ls)
+{
+  ls->content = NULL; /* the owner, who frees himself */
+  SUNLinSolFreeEmpty(ls);
+  return 0;
+}
+
+/* A direct linear solver by these two functions, with its owner as content; NULL: no memory. */
+static inline SUNLinearSolver hc_own_solver(SUNContext ctx, void *owner, int (*setup)(SUNLinearSolver, SUNMatrix),
+                                            int (*solve)(SUNLinearSolver, SUNMatrix, N_Vector, N_Vector, sunrealtype))
+{
+  SUNLinearSolver ls = SUNLinSolNewEmpty(ctx);
+  if (!ls) return NULL;
+  ls->content = owner;
+  ls->ops->gettype = hc_is_direct;
+  ls->ops->setup = setup;
+  ls->ops->solve = solve;
+  ls->ops->free = hc_release_solver;
+  return ls;
+}

@@ -25,12 +25,6 @@ static SUNMatrix empty_matrix(SUNContext ctx)
   return a;
 }
 
-static SUNLinearSolver_Type kind_of_solver(SUNLinearSolver ls)
-{
-  (void)ls;
-  return SUNLINEARSOLVER_DIRECT;
-}
-
 static int setup(SUNLinearSolver ls, SUNMatrix a)
 {
   (void)ls, (void)a;
@@ -44,25 +38,6 @@ static int solve(SUNLinearSolver ls, SUNMatrix a, N_Vector x, N_Vector b, sunrea
   if (x != b) memcpy(NV_DATA_S(x), NV_DATA_S(b), (size_t)NV_LENGTH_S(b) * sizeof(double));
   in->solve(in->equations, NV_DATA_S(x));
   return 0;
-}
-
-static int release_solver(SUNLinearSolver ls)
-{
-  ls->content = NULL; /* the integrator */
-  SUNLinSolFreeEmpty(ls);
-  return 0;
-}
-
-static SUNLinearSolver own_solver(cvode_integrator *in)
-{
-  SUNLinearSolver ls = SUNLinSolNewEmpty(in->ctx);
-  if (!ls) return NULL;
-  ls->content = in;
-  ls->ops->gettype = kind_of_solver;
-  ls->ops->setup = setup;
-  ls->ops->solve = solve;
-  ls->ops->free = release_solver;
-  return ls;
 }
 
 hc_status integrate_begin_period(cvode_integrator *in)
@@ -157,7 +132,7 @@ hc_status integrate_make_parts(cvode_integrator *in, int n, int method, void *eq
   in->dky = new_vector(n, in->ctx);
   in->jac = empty_matrix(in->ctx);
   if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
-  in->ls = own_solver(in);
+  in->ls = hc_own_solver(in->ctx, in, setup, solve);
   in->cv = CVodeCreate(method, in->ctx);
   return in->ls && in->cv && hc_room_for(0) ? HC_OK : HC_NO_MEMORY; /* room: CVodeInit comes next */
 }
