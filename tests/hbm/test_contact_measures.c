@@ -2,6 +2,7 @@
 #include <float.h>
 
 #include "hbm/hbm.h"
+#include "numerics/norm.h"
 #include "tests/hbm/random_structures.h"
 
 enum { H = 9, LENGTH = 2 * H + 1 };
@@ -104,40 +105,14 @@ static void what_is_no_motion_is_refused(CHECK_STATE)
 
 /* ---- the balance of work --------------------------------------------------------------------------- */
 
-/* One DOF, or one minus another; nothing where `drawn` is 0. Of such directions the Gram determinant is an integer:
- * they are dependent or far from it. */
-static void plain_direction(uint64_t *seed, int n, const double *drawn, double *d)
+/* d, where it is not 0: one DOF, or one minus another. Of such directions the Gram determinant is an integer: they are
+ * dependent or far from it. */
+static void make_plain(uint64_t *seed, int n, double *d)
 {
-  for (int i = 0; i < n; ++i)
-    if (drawn[i] != 0) {
-      d[random_int(seed, 0, n - 1)] = -1;
-      d[random_int(seed, 0, n - 1)] = 1;
-      return;
-    }
-}
-
-/* The model of random_structure with every DOF as a response, and plain directions of contacts. */
-static model *all_seen(uint64_t *seed, int n, int n_contacts)
-{
-  model *drawn = random_structure(seed, n, n_contacts), *m;
-  const size_t bytes = (size_t)n * sizeof(double);
-  assert_int_equal(model_new(n, drawn->n_loads, n_contacts, n, &m), HC_OK);
-  memcpy(m->mass, drawn->mass, (size_t)n * bytes);
-  memcpy(m->damping, drawn->damping, (size_t)n * bytes);
-  memcpy(m->stiffness, drawn->stiffness, (size_t)n * bytes);
-  for (int l = 0; l < m->n_loads; ++l) {
-    m->loads[l].harmonic = drawn->loads[l].harmonic;
-    memcpy(m->loads[l].cosine, drawn->loads[l].cosine, bytes);
-    memcpy(m->loads[l].sine, drawn->loads[l].sine, bytes);
-  }
-  for (int j = 0; j < n_contacts; ++j) {
-    m->contacts[j].law = drawn->contacts[j].law;
-    plain_direction(seed, n, drawn->contacts[j].tangent, m->contacts[j].tangent);
-    plain_direction(seed, n, drawn->contacts[j].normal, m->contacts[j].normal);
-  }
-  for (int i = 0; i < n; ++i) m->responses[i * n + i] = 1;
-  model_free(drawn);
-  return m;
+  if (norm_2(n, d) == 0) return;
+  memset(d, 0, (size_t)n * sizeof *d);
+  d[random_int(seed, 0, n - 1)] = -1;
+  d[random_int(seed, 0, n - 1)] = 1;
 }
 
 enum { MOST_N = 8, MOST_CONTACTS = 5, MOST_X = LENGTH * (2 * MOST_CONTACTS + 1) };
@@ -164,7 +139,13 @@ static void what_goes_in_is_dissipated(CHECK_STATE)
   int solved = 0, slipped = 0, opened = 0;
   for (int trial = 0; trial < 100; ++trial) {
     const int n = random_int(&seed, 1, MOST_N), n_contacts = random_int(&seed, 1, MOST_CONTACTS);
-    model *m = all_seen(&seed, n, n_contacts);
+    model *drawn = random_structure(&seed, n, n_contacts), *m;
+    assert_int_equal(model_copy_all_seen(drawn, &m), HC_OK);
+    model_free(drawn);
+    for (int j = 0; j < n_contacts; ++j) {
+      make_plain(&seed, n, m->contacts[j].tangent);
+      make_plain(&seed, n, m->contacts[j].normal);
+    }
     const hbm_settings how = {.harmonics = H,
                               .keep_mean = true,
                               .force = HBM_FORCE_EXACT,

@@ -188,18 +188,9 @@ static model *in_other_units(const model *m)
 /* Every contact twice, of half the stiffness and load. */
 static model *with_contacts_split(const model *m)
 {
+  const size_t vector = (size_t)m->n * sizeof(double);
   model *s;
-  const size_t vector = (size_t)m->n * sizeof(double), matrix = (size_t)m->n * vector;
-  assert_int_equal(model_new(m->n, m->n_loads, 2 * m->n_contacts, m->n_responses, &s), HC_OK);
-  memcpy(s->mass, m->mass, matrix);
-  memcpy(s->damping, m->damping, matrix);
-  memcpy(s->stiffness, m->stiffness, matrix);
-  memcpy(s->responses, m->responses, (size_t)m->n_responses * vector);
-  for (int l = 0; l < m->n_loads; ++l) {
-    s->loads[l].harmonic = m->loads[l].harmonic;
-    memcpy(s->loads[l].cosine, m->loads[l].cosine, vector);
-    memcpy(s->loads[l].sine, m->loads[l].sine, vector);
-  }
+  assert_int_equal(model_copy_sized(m, 2 * m->n_contacts, m->n_responses, &s), HC_OK);
   for (int j = 0; j < 2 * m->n_contacts; ++j) {
     const model_contact *of = &m->contacts[j / 2];
     s->contacts[j].law = of->law;
