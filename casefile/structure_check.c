@@ -60,13 +60,6 @@ static void stuck_stiffness(const scene_structure *s, bool at_rest, double *A)
   }
 }
 
-static double largest(int n, const double *x)
-{
-  double most = 0;
-  for (int i = 0; i < n; ++i) most = fmax(most, fabs(x[i]));
-  return most;
-}
-
 /* Where x is largest; of those alike the first. */
 static int moves_most(int n, const double *x)
 {
@@ -104,10 +97,10 @@ static double least_held(int n, const double *lu, const int *pivot, double *x)
   double growth = 0;
   for (int i = 0; i < n; ++i) x[i] = 1 + 0.37 * sin(7.0 * i + 1); /* of no symmetry */
   for (int step = 0; step < 4; ++step) {
-    const double before = largest(n, x);
+    const double before = norm_max(n, x);
     for (int i = 0; i < n; ++i) x[i] /= before;
     dense_solve(n, lu, pivot, 1, x);
-    growth = largest(n, x);
+    growth = norm_max(n, x);
   }
   return growth;
 }
@@ -174,9 +167,8 @@ hc_status structure_undamped_mode(const scene_structure *s, double *omega)
   hc_status st = dense_modes(n, s->stiffness.v, s->mass.v, lambda, phi);
   for (int k = 0; k < n && st == HC_OK && *omega < 0; ++k) {
     const double *x = phi + (size_t)k * rows, own = sqrt(fmax(lambda[k], 0));
-    double rate = 0; /* 2 z omega */
     dense_multiply(n, 1, n, s->damping.v, x, Cx);
-    for (int i = 0; i < n; ++i) rate += x[i] * Cx[i];
+    const double rate = dot_product(n, x, Cx); /* 2 z omega */
     if (rate <= n * DBL_EPSILON * sqrt(fmax(lambda[n - 1], 0))) *omega = own;
   }
   free(phi);

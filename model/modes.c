@@ -43,11 +43,8 @@ hc_status model_find_scales(const model *m, model_scales *out)
   if (st == HC_OK) {
     *out = (model_scales){sqrt(fmax(omega2[n - 1], 0)), INFINITY};
     dense_multiply(m->n, m->n, m->n, m->damping, phi, C_phi);
-    for (size_t i = 0; i < n; ++i) {
-      double c = 0;
-      for (size_t k = 0; k < n; ++k) c += phi[i * n + k] * C_phi[i * n + k];
-      out->half_width = fmin(out->half_width, 0.5 * c);
-    }
+    for (size_t i = 0; i < n; ++i)
+      out->half_width = fmin(out->half_width, 0.5 * dot_product(m->n, phi + i * n, C_phi + i * n));
     out->half_width = fmax(out->half_width, 0);
   }
   free(omega2);

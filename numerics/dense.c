@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/norm.h"
+
 void dsygvd_(const int *type, const char *job, const char *half, const int *n, double *a, const int *lda, double *b,
              const int *ldb, double *w, double *work, const int *lwork, int *iwork, const int *liwork, int *info,
              size_t job_length, size_t half_length);
@@ -160,9 +162,8 @@ hc_status dense_modes(int n, const double *K, const double *M, double *lambda, d
 /* a/|a|, or 0. */
 static void copy_unit(int n, const double *a, double *unit)
 {
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * a[i];
-  for (int i = 0; i < n; ++i) unit[i] = sum > 0 ? a[i] / sqrt(sum) : 0;
+  const double length = norm_2(n, a);
+  for (int i = 0; i < n; ++i) unit[i] = length > 0 ? a[i] / length : 0;
 }
 
 /* QR with column pivoting of A[rows][n] in place; then tau[], the pivots from 0, and how many diagonal entries of R

@@ -43,13 +43,20 @@ static inline double distance_2(int n, const double *a, const double *b)
   return sqrt(sum);
 }
 
+/* Largest |v[i]|; NaN if any is. */
+static inline double norm_max(int n, const double *v)
+{
+  double max = 0;
+  for (int i = 0; i < n; ++i)
+    if (!isnan(max) && !(fabs(v[i]) <= max)) max = fabs(v[i]);
+  return max;
+}
+
 /* Largest |weight[i] v[i]|; NaN if any is. */
 static inline double norm_weighted_max(int n, const double *weight, const double *v)
 {
   double max = 0;
-  for (int i = 0; i < n; ++i) {
-    const double a = fabs(weight[i] * v[i]);
-    max = isnan(max) || a <= max ? max : a;
-  }
+  for (int i = 0; i < n; ++i)
+    if (!isnan(max) && !(fabs(weight[i] * v[i]) <= max)) max = fabs(weight[i] * v[i]);
   return max;
 }

@@ -107,13 +107,6 @@ static char letter(bool friction, contact_state state)
   return state != CONTACT_SEPARATED && !friction ? 'N' : letters[state];
 }
 
-static double largest(const double *a, size_t n)
-{
-  double most = 0;
-  for (size_t i = 0; i < n; ++i) most = fmax(most, fabs(a[i]));
-  return most;
-}
-
 static json_t *event(const certificate_model *c, const orbit_events *e, int i)
 {
   char *letters = calloc((size_t)c->n_contacts + 1, 1);
@@ -129,7 +122,7 @@ static json_t *event(const certificate_model *c, const orbit_events *e, int i)
 
 json_t *certificate_of(const certificate_model *c, double omega, int k, double amplitude, const orbit_events *e)
 {
-  const size_t n = (size_t)e->n * (size_t)e->n_dof;
+  const int n = e->n * e->n_dof;
   json_t *events = json_array(), *rest = json_object();
   for (int j = 0; j < c->n_contacts; ++j) {
     char number[NUMBER_TEXT];
@@ -138,7 +131,7 @@ json_t *certificate_of(const certificate_model *c, double omega, int k, double a
   }
   for (int i = 0; i < e->n; ++i) json_array_append_new(events, event(c, e, i));
   if (e->n == 1) json_object_set_new(json_array_get(events, 0), "section", json_integer(1));
-  double x = fmax(largest(e->x, n), amplitude), v = fmax(largest(e->v, n), omega * amplitude);
+  double x = fmax(norm_max(n, e->x), amplitude), v = fmax(norm_max(n, e->v), omega * amplitude);
   if (!(x > 0)) x = v = 1; /* nothing moves */
   json_t *scales = json_pack("{s:o,s:o,s:o}", "x", decimal(x), "v", decimal(v), "t", decimal(1 / omega));
   return json_pack("{s:O,s:o,s:i,s:i,s:O,s:o,s:o,s:o}", "model", c->model, "omega", decimal(omega), "multiple", k,

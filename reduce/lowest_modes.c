@@ -52,14 +52,13 @@ hc_status lowest_modes(factor *f, const sparse *M, const bool *held, int known, 
     for (int twice = 0; twice < 2; ++twice) remove_known(n, known, phi, M_phi, residual, share);
   }
   if (st == HC_OK && last) { /* it is what is left, and lambda = phi^T A phi = 1/(M phi)^T A^-1 (M phi) */
-    double mass = 0, flexibility = 0, *x = phi + rows * (size_t)known;
+    double *x = phi + rows * (size_t)known;
     times_mass(M, held, residual, basis);
-    for (int i = 0; i < n; ++i) mass += residual[i] * basis[i];
+    const double mass = dot_product(n, residual, basis);
     for (int i = 0; i < n; ++i) x[i] = residual[i] / sqrt(mass), basis[i] /= sqrt(mass);
     memcpy(basis + rows, basis, rows * sizeof *basis);
     st = factor_solve(f, 1, basis);
-    for (int i = 0; i < n; ++i) flexibility += basis[i] * basis[i + n];
-    lambda[known] = 1 / flexibility;
+    lambda[known] = 1 / dot_product(n, basis, basis + n);
     *found = 1;
   }
   while (st == HC_OK && !last && ido != 99) {
@@ -127,18 +126,15 @@ static hc_status contact_stiffness(const scene_structure *s, sparse *out)
 /* phi^T C phi/(2 omega) of mode k; room[n]. */
 static double damping_ratio(const scene_structure *s, bool stuck, int k, double omega, const double *phi, double *room)
 {
-  double sum = 0;
   switch (s->how) {
   case STRUCTURE_DAMPING_MODAL: return stuck ? NAN : s->modal;
   case STRUCTURE_DAMPING_MODES: return stuck ? NAN : s->ratios[k];
   case STRUCTURE_DAMPING_RAYLEIGH:
     sparse_multiply(&s->stiffness.kept, 1, phi, room);
-    for (int i = 0; i < s->n; ++i) sum += phi[i] * room[i];
-    return (s->rayleigh[0] + s->rayleigh[1] * sum) / (2 * omega);
+    return (s->rayleigh[0] + s->rayleigh[1] * dot_product(s->n, phi, room)) / (2 * omega);
   case STRUCTURE_DAMPING_MATRIX:
     sparse_multiply(&s->damping.kept, 1, phi, room);
-    for (int i = 0; i < s->n; ++i) sum += phi[i] * room[i];
-    return sum / (2 * omega);
+    return dot_product(s->n, phi, room) / (2 * omega);
   }
   return NAN;
 }

@@ -9,9 +9,8 @@
 
 double path_metric(const path *p, double x_scale, const double *aX, double a_omega, const double *bX, double b_omega)
 {
-  double sum = 0;
-  for (int i = 0; i < p->curve->n_coef; ++i) sum += aX[i] * bX[i];
-  return sum / (x_scale * x_scale) + a_omega * b_omega / (p->curve->omega_scale * p->curve->omega_scale);
+  return dot_product(p->curve->n_coef, aX, bX) / (x_scale * x_scale) +
+         a_omega * b_omega / (p->curve->omega_scale * p->curve->omega_scale);
 }
 
 double path_size(const path *p)

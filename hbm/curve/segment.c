@@ -18,9 +18,8 @@
 /* Inner product in the segment's metric. */
 static double inner(const hbm_segment *s, const double *aX, double a_omega, const double *bX, double b_omega)
 {
-  double sum = 0;
-  for (int i = 0; i < s->n_coef; ++i) sum += aX[i] * bX[i];
-  return sum / (s->x_scale * s->x_scale) + a_omega * b_omega / (s->omega_scale * s->omega_scale);
+  return dot_product(s->n_coef, aX, bX) / (s->x_scale * s->x_scale) +
+         a_omega * b_omega / (s->omega_scale * s->omega_scale);
 }
 
 hbm_segment hbm_segment_between(const hbm_curve *c, int k)

@@ -136,14 +136,12 @@ double hbm_linear_response(hbm_system *sys, double omega, double *X)
 bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, double *dX, hbm_point *point)
 {
   hbm_system *sys = &s->sys;
-  double *linear = s->anchor, *R = s->z, distance = 0, residual = 0;
+  double *linear = s->anchor, *R = s->z;
   double size = hbm_linear_response(sys, omega, linear);
-  for (int i = 0; i < sys->n_coef; ++i) distance += (X[i] - linear[i]) * (X[i] - linear[i]);
-  if (!(size > 0 && sqrt(distance) <= near * size)) return false;
+  if (!(size > 0 && distance_2(sys->n_coef, X, linear) <= near * size)) return false;
   if (hbm_system_residual(sys, omega, linear, R) != HC_OK) return false;
   if (sys->report.regime > CONTACT_STUCK) return false;
-  for (int i = 0; i < sys->n; ++i) residual = fmax(residual, fabs(R[i]));
-  residual /= hbm_system_scale(sys, omega);
+  const double residual = norm_max(sys->n, R) / hbm_system_scale(sys, omega);
   if (!(residual <= sys->how.tolerance)) return false;
   memcpy(X, linear, (size_t)sys->n_coef * sizeof(double));
   /* dq_h = -(S + K')^-1 (dS q_h - dp), harmonic by harmonic: the rows of the equations' derivative. */

@@ -140,8 +140,8 @@ static void transform_vectors(const model *m, condensation_basis *b)
   for (int r = 0; r < m->n_responses; ++r)
     transform(b, m->n, m->responses + (size_t)r * n, b->responses + (size_t)r * n);
   for (int j = 0; j < 2 * m->n_contacts; ++j) { /* rounding would couple what has nothing to do with each other */
-    double *d = b->directions + (size_t)j * dim, largest = 0;
-    for (int i = 0; i < b->dim; ++i) largest = fmax(largest, fabs(d[i]));
+    double *d = b->directions + (size_t)j * dim;
+    const double largest = norm_max(b->dim, d);
     for (int i = 0; i < b->dim; ++i)
       if (fabs(d[i]) <= negligible * largest) d[i] = 0;
   }

@@ -5,6 +5,7 @@
  *     M x'' + C x' + K x + sum over circles t_1 T_1 + t_2 T_2 + n (N - N0) = f(t)
  *
  * f makes the given motion, which harmonic balance has truncated, an exact solution, as in period_map.h. M = 1. */
+#include "numerics/norm.h"
 #include "tests/hbm/multipliers.h"
 #include "tests/hbm/structure_cases.h"
 
@@ -28,13 +29,6 @@ typedef struct map {
   int n_states;                     /* x, x', then w of those */
 } map;
 
-static double dot(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 /* u, u', N, N' of a motion. */
 typedef struct contact_motion {
   double u[2], du[2], R, dR, v;
@@ -44,9 +38,9 @@ static contact_motion motion_of(const model *m, int j, const double *y)
 {
   const model_contact *c = m->contacts + 2 * (size_t)j;
   const int n = m->n;
-  contact_motion o = {.v = dot(n, c->normal, y)};
-  const double dv = dot(n, c->normal, y + n);
-  for (int d = 0; d < 2; ++d) o.u[d] = dot(n, c[d].tangent, y), o.du[d] = dot(n, c[d].tangent, y + n);
+  contact_motion o = {.v = dot_product(n, c->normal, y)};
+  const double dv = dot_product(n, c->normal, y + n);
+  for (int d = 0; d < 2; ++d) o.u[d] = dot_product(n, c[d].tangent, y), o.du[d] = dot_product(n, c[d].tangent, y + n);
   o.R = c->law.mu * (c->law.kn * (o.v + c->law.gap) + c->law.load) / c->law.kt;
   o.dR = c->law.mu * c->law.kn * dv / c->law.kt;
   return o;
@@ -91,7 +85,7 @@ static double turning(const model *m, const side *s, int j, const double *y, dou
   if (s->mode[j] != SLIPS) return 0;
   if (o.R > 1e-12) return (o.du[1] * c - o.du[0] * sn) / o.R;
   double ddu[2];
-  for (int d = 0; d < 2; ++d) ddu[d] = dot(m->n, m->contacts[2 * j + d].tangent, acceleration);
+  for (int d = 0; d < 2; ++d) ddu[d] = dot_product(m->n, m->contacts[2 * j + d].tangent, acceleration);
   return (ddu[1] * c - ddu[0] * sn) / (hypot(o.du[0], o.du[1]) + o.dR);
 }
 

@@ -15,6 +15,7 @@
 
 #include "model/model.h"
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 #include "tests/check.h"
 
 enum { STEPS_MODES = 84, STEPS_PAIRS = 12, STEPS_ROWS = 3 * STEPS_PAIRS, STEPS_LOADS = 4 };
@@ -38,13 +39,6 @@ typedef struct steps_state {
   double q[STEPS_MODES], dq[STEPS_MODES], w[2 * STEPS_PAIRS];
 } steps_state;
 
-static inline double steps_dot(int n, const double *a, const double *b)
-{
-  double sum = 0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 static inline void force_steps_make(force_steps *s, const model *m)
 {
   static double C[STEPS_MODES * STEPS_MODES], work[2 * STEPS_MODES * STEPS_MODES];
@@ -59,18 +53,18 @@ static inline void force_steps_make(force_steps *s, const model *m)
   for (int k = 0; k < n; ++k) {
     const double *phi = s->shape + (size_t)k * (size_t)n;
     s->damping[k] = C[k * (n + 1)];
-    s->response[k] = steps_dot(n, m->responses, phi);
+    s->response[k] = dot_product(n, m->responses, phi);
     for (int l = 0; l < m->n_loads; ++l) {
       s->harmonic[l] = m->loads[l].harmonic;
-      s->cosine[l][k] = steps_dot(n, m->loads[l].cosine, phi);
-      s->sine[l][k] = steps_dot(n, m->loads[l].sine, phi);
+      s->cosine[l][k] = dot_product(n, m->loads[l].cosine, phi);
+      s->sine[l][k] = dot_product(n, m->loads[l].sine, phi);
     }
     for (int p = 0; p < s->pairs; ++p) {
       const model_contact *c = &m->contacts[2 * p];
       assert_true(c[0].circle && c[0].pair == CONTACT_FIRST && c[0].law.load == 0);
-      s->row[3 * p][k] = steps_dot(n, c[0].tangent, phi);
-      s->row[3 * p + 1][k] = steps_dot(n, c[1].tangent, phi);
-      s->row[3 * p + 2][k] = steps_dot(n, c[0].normal, phi);
+      s->row[3 * p][k] = dot_product(n, c[0].tangent, phi);
+      s->row[3 * p + 1][k] = dot_product(n, c[1].tangent, phi);
+      s->row[3 * p + 2][k] = dot_product(n, c[0].normal, phi);
     }
   }
   for (int p = 0; p < s->pairs; ++p) { /* model_half_law */
@@ -210,7 +204,7 @@ static inline void steps_load(const force_steps *s, double theta, double *p)
 
 static inline void steps_motion(const force_steps *s, const double *q, double *r)
 {
-  for (int a = 0; a < s->rows; ++a) r[a] = steps_dot(s->n, s->row[a], q);
+  for (int a = 0; a < s->rows; ++a) r[a] = dot_product(s->n, s->row[a], q);
 }
 
 /* p -= B^T f */
@@ -233,7 +227,7 @@ static inline void force_steps_period(force_steps *s, double omega, int steps, s
   memcpy(r1, r0, sizeof r1);
   steps_load(s, 0, p0);
   for (int step = 0; step < steps; ++step) {
-    wave[step] = steps_dot(s->n, s->response, at->q);
+    wave[step] = dot_product(s->n, s->response, at->q);
     steps_pull(s, f, p0);
     steps_load(s, TWO_PI * (step + 1) / steps, p1);
     for (int i = 0; i < s->n; ++i) {

@@ -1,5 +1,6 @@
 /* test_stiff.c - motions of structures by complex modes: against power series, which decompose nothing. */
 
+#include "numerics/norm.h"
 #include "tests/timeint/drawn.h"
 #include "timeint/closed_form/motion_modes.h"
 
@@ -44,13 +45,6 @@ static void draw(uint64_t *seed, enum kind kind, drawn *d)
   scale_drawn(d, TRANSIENT_LAW_EXACT, omega);
 }
 
-static double largest_of(int n, const double *a)
-{
-  double most = 1;
-  for (int i = 0; i < n; ++i) most = fmax(most, fabs(a[i]));
-  return most;
-}
-
 /* Periods by modes, wherever there are any, and by series: states, transitions, monodromy matrices. A period magnifies
  * what it is given by no more than the monodromy matrix, and cancellation takes up to four digits of rounding. */
 static void modes_and_series_agree(CHECK_STATE)
@@ -70,7 +64,7 @@ static void modes_and_series_agree(CHECK_STATE)
       memcpy(z, y, sizeof y);
       assert_int_equal(integrate_monodromy(modes, &d.scaled, y, phi[0]), HC_OK);
       assert_int_equal(integrate_monodromy(series, &d.scaled, z, phi[1]), HC_OK);
-      const double grown = largest_of(n * n, phi[1]), size = largest_of(n, z);
+      const double grown = fmax(1, norm_max(n * n, phi[1])), size = fmax(1, norm_max(n, z));
       for (int i = 0; i < n; ++i) CHECK_NEAR(y[i], z[i], 1e-11 * grown * size, "trial %d, state %d", trial, i);
       for (int i = 0; i < n * n; ++i)
         CHECK_NEAR(phi[0][i], phi[1][i], 1e-9 * grown * grown * size, "trial %d, monodromy %d", trial, i);

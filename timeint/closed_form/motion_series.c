@@ -25,14 +25,6 @@ hc_status motion_series_make(motion_series *s, const modal_base *base, workspace
   return w->failed ? HC_NO_MEMORY : contact_rows_make(&s->rows, base, w);
 }
 
-static double largest(int n, const double *a)
-{
-  double most = 0;
-  for (int i = 0; i < n; ++i)
-    if (!(fabs(a[i]) <= most)) most = fabs(a[i]); /* NaN stays */
-  return most;
-}
-
 /* Coefficient k of every contact's motion. */
 static void project(motion_series *s, int k)
 {
@@ -63,10 +55,10 @@ static void add_turning(motion_series *s, const scaled_model *m, int k)
 static double reach(const motion_series *s, double size)
 {
   const size_t n = (size_t)s->n;
-  for (size_t k = 0; k < 3; ++k) size = fmax(size, largest(s->n, s->x + k * n));
+  for (size_t k = 0; k < 3; ++k) size = fmax(size, norm_max(s->n, s->x + k * n));
   double tau = INFINITY;
   for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) {
-    const double term = largest(s->n, s->x + (size_t)k * n);
+    const double term = norm_max(s->n, s->x + (size_t)k * n);
     if (!(term > 0) && !isnan(term)) continue;
     tau = fmin(tau, pow(0.25 * DBL_EPSILON * size / term, 1.0 / k)); /* the rate's term is k/tau times as large */
     if (isnan(term) || isnan(tau)) return 0;
