@@ -251,7 +251,7 @@ int cli_processors(void)
   return online < 1 ? 1 : online > CLI_MAX_JOBS ? CLI_MAX_JOBS : (int)online;
 }
 
-/* ---- no output over an input. Proof: tests/command/test_files.c ---- */
+/* ---- no output over an input. Proof: tests/command/files.transcript ---- */
 
 /* One name and the file it means. */
 typedef struct named_file {

@@ -20,7 +20,7 @@
 #include "stress/scenes.h"
 #include "stress/stress.h"
 
-/* ---- files: none in two roles, and a folder for the findings (tests/command/test_files.c) ---- */
+/* ---- files: none in two roles, and a folder for the findings (tests/command/files.transcript) ---- */
 
 enum { PATH_ROOM = 4096 };
 

@@ -1,5 +1,5 @@
 /* test_contacts.c - single contacts of cases/adversarial by harmonic balance: what must come out by closed forms or by
- * the same scene in another guise. Both solvers: test_verdicts.c. */
+ * the same scene in another guise. Both solvers: verdicts.transcript. */
 #include "tests/adversarial/scenes.h"
 
 /* Newton is quadratic: with hbm.tolerance, 1e-10 of the forces, met the error is its square; what is left is rounding,
