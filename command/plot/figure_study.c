@@ -1,5 +1,5 @@
 /* figure_study.c - a study's results: a measure over the axis that is a scale, a line for each value of the other
- * axes, or a heat map. Proof: tests/command/plot/test_plots.c. */
+ * axes, or a heat map. Proof: tests/command/plot/plots.transcript. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
