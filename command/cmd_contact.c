@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "casefile/structure.h"
 #include "command/case_names.h"
 #include "command/cli.h"
 #include "command/commands.h"
@@ -19,7 +18,6 @@
 #include "numerics/norm.h"
 #include "numerics/series.h"
 #include "output/table.h"
-#include "study/scene_solvers.h"
 
 /* ---- the motion that is asked about ------------------------------------------------------------ */
 

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "base/constants.h"
-#include "casefile/structure.h"
 #include "command/commands.h"
 #include "model/modes.h"
 #include "reduce/lowest_modes.h"

@@ -1,5 +1,4 @@
 /* cmd_reduce.c - hbmcheck reduce: a case with large sparse matrices to one with a Craig-Bampton model of them. */
-#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>

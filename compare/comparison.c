@@ -7,11 +7,8 @@
 #include "base/growing.h"
 #include "compare/comparison_private.h"
 #include "compare/first_guess.h"
-#include "compare/motion.h"
 #include "compare/remedy.h"
 #include "compare/response.h"
-#include "numerics/series.h"
-#include "timeint/steady/sweep.h"
 
 const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }
 

@@ -4,7 +4,6 @@
 
 #include "compare/first_guess.h"
 #include "compare/response.h"
-#include "hbm/hbm.h"
 #include "library/inside.h"
 
 struct hbmcheck_solutions {

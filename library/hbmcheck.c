@@ -11,7 +11,6 @@
 #include "casefile/case_file.h"
 #include "casefile/structure.h"
 #include "compare/comparison.h"
-#include "hbm/hbm.h"
 #include "library/inside.h"
 
 /* ---- enumerations: the public ones have the values of the inner ones, all of them ---- */

@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "base/constants.h"
-#include "compare/motion.h"
 #include "model/modes.h"
 #include "numerics/random.h"
 #include "numerics/series.h"

@@ -1,7 +1,6 @@
 /* claims.c - see store.h. */
 #include "study/store.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -9,9 +9,6 @@
 
 #include "base/constants.h"
 #include "casefile/structure.h"
-#include "compare/first_guess.h"
-#include "compare/response.h"
-#include "hbm/hbm.h"
 #include "model/contact_law.h"
 #include "numerics/norm.h"
 #include "numerics/series.h"

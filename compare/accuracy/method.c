@@ -3,8 +3,6 @@
 
 #include <stdlib.h>
 
-#include "compare/response.h"
-
 bool method_is_hbm(bench_method m) { return m == BENCH_HBM_EXACT || m == BENCH_HBM_SAMPLED; }
 
 compare_setup method_setup(const compare_setup *setup, bench_method method, int harmonics, int samples,

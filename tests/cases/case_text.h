@@ -4,8 +4,8 @@
 #include <dirent.h>
 
 #include "casefile/case_file.h"
+#include "numerics/random.h"
 #include "tests/check.h"
-#include "tests/random.h"
 
 /* Three lines: what is appended starts on line 4. */
 #define SMALLEST                                                                                                       \

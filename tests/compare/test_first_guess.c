@@ -1,7 +1,6 @@
 /* test_first_guess.c - a first solution from closed form: asked for only where linear is no guess; its answers. */
 #include "compare/first_guess.h"
 
-#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 
 /* Somebody to ask: counts, and answers as told. */

@@ -5,10 +5,10 @@
 #include <dirent.h>
 #include <sys/wait.h>
 
+#include "numerics/random.h"
 #include "tests/faults/child.h"
 #include "tests/faults/moments.h"
 #include "tests/faults/small.h"
-#include "tests/random.h"
 
 enum { TEXT = 1 << 16, HANGS = 600 /* [s] of a child, to end hangs */ };
 

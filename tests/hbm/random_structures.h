@@ -2,8 +2,8 @@
 #pragma once
 
 #include "model/model.h"
+#include "numerics/random.h"
 #include "tests/check.h"
-#include "tests/random.h"
 
 /* A += scale v v^T for `terms` random v: symmetric, definite if there are n of them. */
 static inline void add_random_outer(uint64_t *seed, int n, int terms, double scale, double *A)

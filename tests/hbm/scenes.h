@@ -5,7 +5,7 @@
 #include <float.h>
 
 #include "casefile/scene.h"
-#include "tests/random.h"
+#include "numerics/random.h"
 #include "tests/reference_scenes.h"
 #include "tests/reference_table.h"
 

@@ -5,8 +5,8 @@
 #include <complex.h>
 
 #include "model/model.h"
+#include "numerics/random.h"
 #include "tests/check.h"
-#include "tests/random.h"
 
 enum { STUCK_MAX_DOFS = 16 };
 

@@ -3,8 +3,8 @@
 #include <float.h>
 
 #include "model/contact_law.h"
+#include "numerics/random.h"
 #include "tests/check.h"
-#include "tests/random.h"
 
 /* Dyadic numbers and a 3-4-5 triangle: N = 8, mu N = 2.5 at v = 0.5. */
 static const contact law = {.kt = 4, .kn = 8, .mu = 0.3125, .gap = 0.5};

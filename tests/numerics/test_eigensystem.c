@@ -3,8 +3,8 @@
 
 #include <float.h>
 
+#include "numerics/random.h"
 #include "tests/check.h"
-#include "tests/random.h"
 
 enum { N = 12 };
 

@@ -1,8 +1,8 @@
 /* test_exponentials.c - where sums of exponentials fall through 0: against dense sampling, and grazes made by hand. */
 #include "numerics/exponentials.h"
 
+#include "numerics/random.h"
 #include "tests/check.h"
-#include "tests/random.h"
 
 enum { MOST = 12, SAMPLES = 40000 };
 

@@ -3,9 +3,9 @@
 #include <locale.h>
 
 #include "base/utf8.h"
+#include "numerics/random.h"
 #include "output/table_private.h"
 #include "tests/check.h"
-#include "tests/random.h"
 
 static const table_column columns[] = {
     {"omega", TABLE_REAL}, {"verdict", TABLE_TEXT}, {"steps", TABLE_INTEGER}, {"error", TABLE_REAL}};

@@ -1,7 +1,7 @@
 /* test_closed.c - the exact law in closed form (integrate_closed_form.h): against the oracle, against CVODE's
  * event-driven periods, its monodromy matrix against differences, the table of reference, what must not break it. */
 
-#include "tests/random.h"
+#include "numerics/random.h"
 #include "tests/timeint/exact_periods.h"
 #include "tests/timeint/reference_rows.h"
 

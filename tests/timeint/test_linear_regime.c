@@ -4,7 +4,7 @@
 #include <float.h>
 
 #include "model/linear.h"
-#include "tests/random.h"
+#include "numerics/random.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 #include "timeint/steady/linear_regime.h"

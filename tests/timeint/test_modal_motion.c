@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-#include "tests/random.h"
+#include "numerics/random.h"
 #include "timeint/closed_form/modal_motion.h"
 
 enum { SCAN = 4000 };

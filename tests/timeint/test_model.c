@@ -2,7 +2,7 @@
 
 #include <float.h>
 
-#include "tests/random.h"
+#include "numerics/random.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/drawn.h"
 #include "tests/timeint/scenes.h"

@@ -1,6 +1,6 @@
 /* test_settle.c - the estimate against sequences whose limit is known: settled neither too early nor never. */
+#include "numerics/random.h"
 #include "tests/check.h"
-#include "tests/random.h"
 
 #include "timeint/steady/settle.h"
 

@@ -17,7 +17,6 @@
 #include <string.h>
 
 #include "base/thread_clock.h"
-#include "compare/response.h"
 #include "compare/verify/truth/truth.h"
 
 static const int harmonics_tried[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20};

@@ -2,8 +2,8 @@
  * spoiled here. And the solutions that they are held against. */
 #include "compare/verify/truth/solutions.h"
 #include "compare/verify/truth/truth.h"
+#include "numerics/random.h"
 #include "tests/compare/verify/curves.h"
-#include "tests/random.h"
 #include "tests/scene_runs.h"
 
 static const char case2[] = "cases/paper/case2.yaml";
