@@ -2,6 +2,9 @@
  * of one tangent, closed forms on a circle, the sampled forces' limit, invariances, and the Jacobian against
  * differences. */
 
+#include <float.h>
+
+#include "hbm/planar/planar_corner.h"
 #include "tests/hbm/planar_scenes.h"
 
 static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X];
@@ -179,6 +182,21 @@ static void stuck_and_open_are_linear(CHECK_STATE)
   planar_force_free(f);
 }
 
+/* u = (a sin th, 0) and R = 1 + b cos 2 th, least where u is (a, 0) and (-a, 0): the corner is as far as that R from
+ * both. h'' = -a^2/R - R'' there, in which R'' = 4 b is much the larger part. */
+static void a_corner_between_two_dips_of_the_limit(CHECK_STATE)
+{
+  const double a = 0.1, b = 0.2, R = 1 - b, from[] = {0.02, 0.9}, th[] = {PI / 2 + 0.1, 3 * PI / 2 - 0.2};
+  const contact law = {.kt = 1, .kn = 1, .mu = 1, .gap = 1};
+  const double u1[] = {0, 0, a, 0, 0}, u2[5] = {0}, v[] = {0, 0, 0, b, 0};
+  const planar_motion m = planar_motion_make(&law, 2, u1, u2, v);
+  planar_corner c;
+  assert_true(planar_corner_find(&m, from, th, &c));
+  CHECK_NEAR(c.w[0], 0, 4 * DBL_EPSILON / a, "rounding over the angle between the circles, 2 a/R");
+  CHECK_NEAR(c.w[1], sqrt(R * R - a * a), 4 * DBL_EPSILON, "w_2");
+  CHECK_NEAR(c.at[0].th, PI / 2, 1e-9, "where it touches");
+}
+
 static void refuses(CHECK_STATE)
 {
   const contact law = {.kt = 1, .mu = 1, .load = 1}, smooth = {.kt = 1, .load = 1};
@@ -199,4 +217,5 @@ static void refuses(CHECK_STATE)
 
 CHECK_TESTS("hbm.planar_force", 300, a_line_is_one_tangent, a_circle_by_its_closed_form,
             random_scenes_meet_the_sampled_ones, turns_and_shifts, with_jacobian_the_force_is_the_same,
-            jacobian_equals_differences, stuck_and_open_are_linear, a_slider_creeps_to_the_corner_of_a_lens, refuses)
+            jacobian_equals_differences, stuck_and_open_are_linear, a_slider_creeps_to_the_corner_of_a_lens,
+            a_corner_between_two_dips_of_the_limit, refuses)
