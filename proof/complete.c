@@ -8,6 +8,7 @@
 
 enum { NEWTON_STEPS = 60, WIDE_DIGITS = 40 };
 static const double ROOM = 0.001, NEAR = 1e-8, FAR = 1e-3;
+static const double MOST_WORK = 3e10; /* unknowns^3 of all inverses that Newton makes: some tens of seconds */
 
 /* Decimal digits of an event's numbers, of the scales: what the precision leaves for the growth over a period. */
 static slong digits_of(slong precision)
@@ -116,13 +117,14 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
   LOCAL(pool) own = {0};
   double *value = pool_take(own, POOL_BYTES, 2 * (size_t)n * sizeof *value), *step = value + n;
   LOCAL(arb) y = {0};
-  double last = INFINITY, largest = INFINITY;
+  double last = INFINITY, largest = INFINITY, work = 0;
   bool fine = existence_prepare(k, o, NULL, f);
   for (int i = 0; i < NEWTON_STEPS && fine; i++) {
     if (i > 0) {
       box_set(o, NULL);
       const bool near = i == 1 ? largest < NEAR : largest <= 1e-3 * last; /* so that one B does for all steps */
       if (largest > FAR && !flow_prepare(o, f)) return false;
+      if (!near && (work += pow(n, 3)) > MOST_WORK) return refute(f, -1, -1, "Newton does not converge: too dear");
       fine = near ? shooting_equations(o, k->value, NULL) : existence_prepare(k, o, NULL, f);
       if (!fine) break;
     }

@@ -22,6 +22,7 @@ enum {
   MOST_CUTS = 12,      /* periods of the motion from a solution whose events are tried */
   MOST_FAILURES = 8    /* of HBM in a row, each with a quarter more harmonics: with six times as many */
 };
+static const double most_work = 5e8; /* unknowns^3 of the checker, over all periods whose events are tried */
 static const double enough = 0.01,
                     room = 0.02;        /* [1] of a slider's interval: nearer to an end, it is moved so far in */
 static const double same_orbit = 1e-6;  /* [1] of the amplitude: measures that differ by less are of one orbit */
@@ -263,8 +264,11 @@ static hc_status prove_events(prover *p, const double *X, proof_row *row)
 {
   json_t *certificate = NULL;
   hc_status st = HC_OK;
+  double work = 0;
   row->reason = row->too_few ? PROOF_TOO_FEW : PROOF_NO_ORBIT;
   for (int after = 0; after < MOST_CUTS && !row->proven && !fatal(st); ++after) {
+    if (work > most_work) row->reason = row->too_few ? PROOF_TOO_FEW : PROOF_TOO_LARGE;
+    if (work > most_work) break;
     timeint_result r = {.amplitude = row->hbm_amplitude, .rms = NAN, .multiplier_re = NAN};
     orbit_events e = {0};
     proof_row led = *row;
@@ -272,6 +276,7 @@ static hc_status prove_events(prover *p, const double *X, proof_row *row)
     st = comparison_orbit_start(p->response.hbm, X, row->omega, p->state);
     if (st == HC_OK) st = timeint_motion_events(p->ti, row->omega, p->state, after, &e);
     led.transitions = e.n > 1 ? e.n : 0;
+    work += pow(e.n * (2.0 * e.n_dof + 1), 3);
     if (st == HC_OK && e.n > 0) st = ask(p, &r, &e, &led, &certificate);
     orbit_events_free(&e);
     if (st != HC_OK || !led.proven) continue;

@@ -1,18 +1,19 @@
 #!/usr/bin/env python3
 """How much does `prove` prove, do both checkers agree, and is HBM's predicted error right? The tables of docs/proof.md and docs/prediction.md.
 
-usage: proofs.py sets HBMCHECK FOLDER     runs `prove` on the sets below; certificates and rows.csv into FOLDER, going on from what is there
+usage: proofs.py sets HBMCHECK FOLDER [WORDS]   runs `prove` on the sets below (whose names have these words); certificates and rows.csv into
+                                          FOLDER, going on from what is there
        proofs.py both HBMCHECK FOLDER SECONDS    both checkers on the certificates there (C beside HBMCHECK, Python in proof/), into both.csv,
                                           a set no longer than that, in random order
        proofs.py tables FOLDER            the tables, from these
        proofs.py trouble HBMCHECK         towards a fold, a graze, a cone's edge, and stiff contacts: where rows turn unproven
 Random scenes are those of `hbmcheck stress --case --first 0, 1, ...`. Standard library only."""
-import collections, csv, glob, json, math, os, random, statistics, subprocess, sys, tempfile, time
+import collections, csv, glob, json, math, os, random, resource, statistics, subprocess, sys, tempfile, time
 from decimal import Decimal, getcontext
 from fractions import Fraction
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SECONDS = 300  # [s] a case may take
+SECONDS = 100  # [s] of processor time that a case may take, either program
 STRUCTURES = "brake chain3 jenkins2 stop2 tangent_normal_F100 tangent_normal_F50 wedge_F0.5 wedge_F10 wedge_F2 wedge_F20".split()
 
 
@@ -28,8 +29,8 @@ def chain(path):
     with open(path, "w") as f: f.write("\n".join(lines) + "\n")
 
 
-def cases(exe, folder):
-    """(set, name, case file, further arguments)"""
+def cases(exe, folder, only):
+    """(set, name, case file, further arguments) of the sets whose names contain `only`"""
     case2 = os.path.join(ROOT, "cases/paper/case2.yaml")
     yield "case 2, 200 frequencies", "case2", case2, ["--at", ",".join(f"{3 + 17 * i / 199:.6g}" for i in range(200))]
     paper = os.path.join(ROOT, "cases/paper")
@@ -40,7 +41,7 @@ def cases(exe, folder):
     chain(path)
     yield "chain of 12", "chain12", path, ["--at", ",".join(f"{0.25 + 0.07 * i:.4g}" for i in range(24))]
     for words, n, option in (("random oscillators", 2000, []), ("random structures", 500, ["--structures"])):
-        for i in range(n):
+        for i in range(n if only in words else 0):
             path = os.path.join(folder, "scene.yaml")
             subprocess.run([exe, "stress", "--case", "--first", str(i), "-o", path, *option], check=True)
             yield words, f"scene{i}", path, []
@@ -51,25 +52,26 @@ def made(path): return list(csv.DictReader(open(path))) if os.path.exists(path) 
 
 def keep(path, rows):
     new = not os.path.exists(path)
+    known = rows[0] if new else next(csv.reader(open(path)))
     with open(path, "a", newline="") as f:
-        out = csv.DictWriter(f, rows[0])
+        out = csv.DictWriter(f, known, restval="")
         if new: out.writeheader()
         out.writerows(rows)
 
 
-def sets(exe, folder):
+def sets(exe, folder, only=""):
     os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, "rows.csv")
     known = {(r["set"], r["case"]) for r in made(path)}
-    for words, name, case, more in cases(exe, folder):
-        if (words, name) in known: continue
+    for words, name, case, more in cases(exe, folder, only):
+        if only not in words or (words, name) in known: continue
         to = os.path.join(place(folder, words), name)
         os.makedirs(to, exist_ok=True)
         args = [exe, "prove", case, "--quiet", "--format", "csv", "-o", to, *more]
-        try: out = subprocess.run(args, capture_output=True, text=True, timeout=SECONDS)
-        except subprocess.TimeoutExpired: print(f"{words} {name}: more than {SECONDS} s", flush=True); continue
+        out = subprocess.run(args, capture_output=True, text=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS)))
         if out.returncode: print(f"{words} {name}: exit {out.returncode} {out.stderr.strip()[:200]}", flush=True)
         rows = list(csv.DictReader(l for l in out.stdout.splitlines() if l and not l.startswith("#")))
+        if not rows and (out.returncode < 0 or "hbmcheck-proof" in out.stderr): rows = [{"verdict": "unproven", "reason": f"more than {SECONDS} s"}]
         if rows: keep(path, [{"set": words, "case": name, **r} for r in rows])
 
 
@@ -214,7 +216,7 @@ def trouble(exe):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["sets"]: sets(*sys.argv[2:4])
+    if sys.argv[1:2] == ["sets"]: sets(*sys.argv[2:5])
     elif sys.argv[1:2] == ["both"]: both(*sys.argv[2:4], float(sys.argv[4]))
     elif sys.argv[1:2] == ["tables"]: tables(sys.argv[2])
     elif sys.argv[1:2] == ["trouble"]: trouble(sys.argv[2])
