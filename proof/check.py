@@ -811,20 +811,25 @@ class Polynomial:
 
 
 class Motion:
-    """The motion on one segment over the whole box, in 2^p substeps."""
+    """The motion on one segment over the whole box, in 2^p substeps of the duration's middle; the last ends where the segment does, for every tau of the box."""
 
     def __init__(self, orbit, i, y, tau):
         self.segment = s = orbit.segments[i]
-        powers = s.powers(tau)
+        middle, spread = Ball(tau.m), Ball(0, tau.r)
+        powers = s.powers(middle)
         p = len(powers) - 1
-        self.flow, self.steps = powers[-1], 1 << p
-        self.h = Ball(tau.m >> p, (tau.r >> p) + 2)  # a ball: for every tau of the box the last substep ends where the segment does
+        self.flow, self.steps = matmul(powers[-1], s.exponential(spread)), 1 << p
+        self.h = Ball(tau.m >> p, 2)
+        self.last = self.h + spread
         self.states = [orbit.state(i, y)]
         for k in range(1, self.steps):
             b = (k & -k).bit_length() - 1  # Z at k from Z at k less its lowest bit: few products in a row
             self.states.append([dot(row, self.states[k - (1 << b)]) for row in powers[b]])
-        self.terms, self.left_out = s.terms(self.h)
-        self.Ah = [{c: v * self.h for c, v in row.items()} for row in s.A]
+        self.terms, self.left_out = s.terms(self.last)
+        self.Ah = [[{c: v * h for c, v in row.items()} for row in s.A] for h in (self.h, self.last)]
+
+    def length(self, k):
+        return self.last if k == self.steps - 1 else self.h
 
     def series(self, k):
         """Taylor's series of Z on substep k, s = 0..1; what it leaves out is in the radius of the first coefficients."""
@@ -832,7 +837,7 @@ class Motion:
         left_out = (max(shift(v.size, -w) for v, w in zip(z, e)) * self.left_out >> Ball.bits) + 1
         out = [[Ball(v.m, v.r + shift(left_out, w)) for v, w in zip(z, e)]]
         for j in range(1, self.terms + 1):
-            z = [apply_row(row, z).over(j) if row else Ball(0) for row in self.Ah]
+            z = [apply_row(row, z).over(j) if row else Ball(0) for row in self.Ah[k == self.steps - 1]]
             out.append(z)
         return out
 
@@ -1037,7 +1042,7 @@ def decide(cert, answer):
             series = motion.series(k)
             for condition in asked:
                 check_condition(motion, series, k, float(cert.events[i][0]), *condition)
-            measures.add(motion.h, series)
+            measures.add(motion.length(k), series)
         flows.append(motion.flow)
     found = measures.found()
     answer.update({name: outward(value) for name, value in found.items()})
@@ -1062,8 +1067,9 @@ def decimal_text(value):
     return f"{float(value):.17g}"
 
 
-def outward(ball, digits=30):
-    """[low, high] with so many digits behind the point, rounded outward."""
+def outward(ball):
+    """[low, high] with 30 digits, and 30 behind the point at least, rounded outward."""
+    digits = 30 + max(0, (Ball.bits - ball.size.bit_length()) * 3 // 10)
     ten = 10 ** digits
     lo, hi = ball.lo * ten >> Ball.bits, -(-ball.hi * ten >> Ball.bits)
     return [f"{'-' if v < 0 else ''}{abs(v) // ten}.{abs(v) % ten:0{digits}d}" for v in (lo, hi)]

@@ -237,22 +237,44 @@ static void write_vectors(json_t *draft, const orbit *o, slong digits)
   _acb_vec_clear(values, n);
 }
 
-/* The enclosures, three times as wide, and 16 radii more: check.py's extrema are wider where the motion is stiff. */
-static void write_claims(json_t *claims, const certificate *c, const quantities *q)
+/* The largest sum of the radii of the response's Taylor coefficients on a substep, by its place, in the box. */
+static void response_spread(const orbit *o, mag_t spread)
 {
-  LOCAL(arb) radius = {0}, scale = {0};
+  LOCAL(pool) own = {0};
+  arb_ptr row = pool_balls(own, o->largest), polynomial = pool_balls(own, o->degree + 1);
+  LOCAL(mag) sum = {0}, term = {0};
+  for (int i = 0; i < o->n; i++) arb_set_fmpq(row + i, o->c->response + i, o->precision);
+  for (int i = 0; i < o->m; i++) {
+    walk w;
+    walk_start(&w, o, i);
+    while (walk_next(&w)) {
+      walk_polynomial(&w, row, polynomial, sum);
+      for (int j = 0; j <= w.degree; j++) {
+        arb_get_mag(term, polynomial + j);
+        mag_mul_ui(term, term, (ulong)j);
+        mag_addmul(sum, term, arb_radref(w.end)); /* of the last, whose length is a ball */
+        mag_add(sum, sum, arb_radref(polynomial + j));
+      }
+      mag_max(spread, spread, sum);
+    }
+    walk_end(&w);
+  }
+}
+
+/* Claims that hold what check.py encloses, too. Its interval and this program's share the true value, so this one,
+ * widened by the width of the other, holds both. check.py takes ranges by the first order: of an extremum at most 4
+ * times the sum of the radii on a substep, of mean and harmonic 1 less; and it starts from a box within `radius`, the one
+ * that gave `spread`. Of the multiplier both take discs of the same matrix: three times as wide, and 16 radii. */
+static void write_claims(json_t *claims, const certificate *c, const quantities *q, const mag_t spread)
+{
+  LOCAL(arb) radius = {0};
   arb_set_fmpq(radius, c->radius, c->precision);
-  arb_set_fmpq(scale, c->scales[0], c->precision);
   for (int i = 0; i < CLAIMS; i++) {
-    LOCAL(mag) pad = {0}, wide = {0};
+    LOCAL(mag) pad = {0};
     if (!(i == CLAIM_MULTIPLIER ? q->multiplier_known : q->known)) continue;
-    arb_get_mag(pad, radius);
-    arb_get_mag(wide, scale);
-    if (i != CLAIM_MULTIPLIER) mag_mul(pad, pad, wide);
-    mag_mul_2exp_si(pad, pad, 4);
-    mag_addmul(pad, arb_radref(q->value[i]), arb_radref(q->value[i]));
-    mag_mul_2exp_si(wide, arb_radref(q->value[i]), 1);
-    mag_add(pad, pad, wide);
+    if (i == CLAIM_MULTIPLIER) arb_get_mag(pad, radius);
+    mag_mul_2exp_si(pad, i == CLAIM_MULTIPLIER ? pad : spread, i == CLAIM_MULTIPLIER ? 4 : 2);
+    for (int twice = 0; twice < 2; twice++) mag_add(pad, pad, arb_radref(q->value[i]));
     json_object_set_new(claims, claim_names[i], decimal_interval(q->value[i], pad, c->precision));
   }
   json_object_set_new(claims, "stability", json_string(stability_names[q->stability]));
@@ -266,6 +288,7 @@ static bool make(json_t *draft, const certificate *c, certificate **made, decisi
 {
   static const slong digits[] = {17, WIDE_DIGITS};
   krawczyk k = {0};
+  LOCAL(mag) spread = {0};
   json_t *claims = json_object();
   orbit *o = orbit_new(c, &v->failure);
   bool fine = o && flow_prepare(o, &v->failure) && refine(&k, o, &v->failure);
@@ -274,6 +297,7 @@ static bool make(json_t *draft, const certificate *c, certificate **made, decisi
   fine = fine && existence_prepare(&k, o, k.inverse, &v->failure);
   if (fine) existence_measure(&k);
   fine = fine && find_radii(&k, claims, &v->failure);
+  if (fine) response_spread(o, spread);
   json_object_set_new(draft, "claims", claims);
   for (int attempt = 0; attempt < 2 && fine; attempt++) {
     write_vectors(draft, o, digits[attempt]);
@@ -283,7 +307,7 @@ static bool make(json_t *draft, const certificate *c, certificate **made, decisi
     decision_init(v);
     if (!prove(*made, k.inverse, v) || v->quantities.stability != STABILITY_UNPROVEN) break;
   }
-  if (*made && !v->failure.reason[0]) write_claims(claims, *made, &v->quantities);
+  if (*made && !v->failure.reason[0]) write_claims(claims, *made, &v->quantities, spread);
   existence_free(&k);
   orbit_free(o);
   return fine;

@@ -224,7 +224,7 @@ def complete(data, signs=True):
     for i, tau in enumerate(orbit.times(box)):
         motion = check.Motion(orbit, i, box, tau)
         for k in range(motion.steps):
-            measures.add(motion.h, motion.series(k))
+            measures.add(motion.length(k), motion.series(k))
         flows.append(motion.flow)
     slack = int(float(cert.scales[0]) * 10 ** exponent * unit)
     for name, ball in measures.found().items():

@@ -206,6 +206,39 @@ static void a_spring_swings_as_the_cosine(CHECK_STATE)
   certificate_free(c);
 }
 
+/* The last substep lasts as long as the segment may, over all times of its events in a wide box. */
+static void the_last_substep_reaches_the_latest_end(CHECK_STATE)
+{
+  char why[256];
+  failure f = {.segment = -1};
+  json_t *json = json_load_file("tests/proof/certificates/case2_9_stable.json", 0, NULL);
+  certificate *c = certificate_read(json, false, why, sizeof why);
+  orbit *o = c ? orbit_new(c, &f) : NULL;
+  assert_non_null(o);
+  if (!o) return;
+  LOCAL(pool) own = {0};
+  mag_ptr wide = pool_mags(own, o->unknowns);
+  for (int i = 0; i < o->unknowns; i++) mag_set_ui_2exp_si(wide + i, 1, -20);
+  LOCAL(arb) latest = {0}, reached = {0};
+  assert_true(flow_prepare(o, &f));
+  box_set(o, wide);
+  for (int i = 0; i < o->m; i++) {
+    walk w;
+    walk_start(&w, o, i);
+    arb_zero(reached);
+    while (walk_next(&w)) arb_add(reached, reached, w.width, BITS);
+    flow_duration(o, i, latest);
+    arb_get_ubound_arf(arb_midref(latest), latest, BITS);
+    mag_zero(arb_radref(latest));
+    assert_true(arb_ge(reached, latest));
+    assert_true(arb_is_exact(w.width) && !arb_is_exact(w.end));
+    walk_end(&w);
+  }
+  orbit_free(o);
+  certificate_free(c);
+  json_decref(json);
+}
+
 /* ---- the float inverse ---- */
 
 /* |I - B M| scale, row by row, is above the exact sum, and above it by no more than the roundings of long double allow:
@@ -275,6 +308,7 @@ int main(void)
       cmocka_unit_test(bernstein_encloses_the_polynomial),
       cmocka_unit_test(a_free_mass_moves_as_fractions_say),
       cmocka_unit_test(a_spring_swings_as_the_cosine),
+      cmocka_unit_test(the_last_substep_reaches_the_latest_end),
       cmocka_unit_test(the_defect_of_an_inverse_is_bounded),
   };
   return check_ended(cmocka_run_group_tests(proof_balls, NULL, NULL));

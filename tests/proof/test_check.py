@@ -230,6 +230,28 @@ class Certificates(unittest.TestCase):
         data["events"].reverse()
         self.assertTrue(changed().startswith("times not in order"))
 
+    def test_claims_leave_room_for_both_checkers(self):
+        """A light mass on contacts 1e5 times as stiff as its spring: what check.py encloses takes no more than half of the room of what `complete` claims."""
+        if not PROGRAM:
+            self.skipTest("without the checker in C")
+        stiffness = (("83.94", "2.909", "0.6696", "7.461e7", "5.919"), ("44.54", "1.571e7", "0.4335", "15470", "1.903"), ("30.81", "29.35", "0.1307", "33.76", "6.558"))
+        keys = ("angle_deg", "tangential_stiffness", "friction", "normal_stiffness", "gap")
+        model = {"mass": [["8.264"]], "damping": [["10.53"]], "stiffness": [["513.6"]], "forcing": [{"harmonic": 1, "cos": ["1e6"], "sin": ["0"]}],
+                 "contacts": [{"direction": ["1"], **dict(zip(keys, numbers))} for numbers in stiffness]}
+        events = [{"t": t, "x": [x], "v": [v], "state": state} for t, x, v, state in (
+            (0.01284, 0.01116, -0.3526, "S-S"), (0.06362, -0.01339, 0, "SSS"), (0.06397, -0.01339, -0.008841, "S-S"), (0.06526, -0.01345, 0, "SSS"),
+            (0.07809, -0.01118, 0.3619, "S+S"), (0.1306, 0.01345, 0, "SSS"))]
+        candidate = {"model": model, "omega": "48.1", "rest": {"0": "0", "2": "0"}, "events": events}
+        run = subprocess.run([PROGRAM, "complete", "-", "-o", "-"], input=json.dumps(candidate), capture_output=True, text=True)
+        made = json.loads(run.stdout)
+        self.assertEqual(made["verdict"], "accepted", made["reason"])
+        answer = judged(made["certificate"])
+        self.assertEqual(answer["verdict"], "accepted", answer["reason"])
+        for name in check.BOUNDS + ("multiplier",):
+            (low, high), found = map(Fraction, made["certificate"]["claims"][name]), list(map(Fraction, answer[name]))
+            room = (high - low) / 4
+            self.assertTrue(low + room <= found[0] <= found[1] <= high - room, (name, float((found[1] - found[0]) / (high - low))))
+
     def test_null_is_no_claim(self):
         data = json.loads(CERTIFICATES[0].read_text())
         for name in data["claims"]:

@@ -292,6 +292,20 @@ class Rejected(unittest.TestCase):
         self.assertRegex(answer["reason"], "closed.*it is negative")
 
 
+    def test_stick_that_goes_on_over_a_higher_turn(self):
+        """x is near cos t + 0.02 sin t - 0.35 cos 2t, whose second maximum is above the first, where slip ended: at the second the slider is dragged again.
+        Stick with a double zero at its start, whose limit is passed for an instant long after it, with an upward curvature."""
+        for side, (back, forth) in ((1, "-+"), (-1, "+-")):
+            text = lambda value: repr(side * value)
+            model = {"mass": [["1"]], "damping": [["0.5"]], "stiffness": [["6"]],
+                     "forcing": [{"harmonic": h, "cos": [text(a)], "sin": [text(b)]} for h, a, b in ((1, 5.01, -0.4), (2, -0.7, 0.35))],
+                     "contacts": [{"tangent": ["1"], "tangential_stiffness": "0.5", "friction": "1", "preload": "0.1"}]}
+            events = [{"t": t, "x": [text(x)], "v": [text(v)], "state": letter} for t, x, v, letter in (
+                (-0.753, 0.693, 0, "S"), (1.644, 0.293, -1.101, back), (3.150, -1.350, 0, "S"), (3.753, -0.950, 1.215, forth))]
+            answer, = complete([{"model": model, "omega": "1", "events": events}])
+            self.assertIsNotNone(answer["uniqueness_radius"], answer["reason"])
+            self.assertRegex(answer["reason"], "^segment 0, .*stick T %smu N: it is negative$" % ("< " if side > 0 else "> -"))
+
     def test_slip_that_goes_on_while_the_motion_turns(self):
         z = 3 / complex(10 - 4, 0.2)
         model = {"mass": [["1"]], "damping": [["0.1"]], "stiffness": [["10"]], "forcing": [{"harmonic": 1, "cos": ["3"], "sin": ["0"]}],
