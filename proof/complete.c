@@ -263,8 +263,8 @@ static void response_spread(const orbit *o, mag_t spread)
 
 /* Claims that hold what check.py encloses, too. Its interval and this program's share the true value, so this one,
  * widened by the width of the other, holds both. check.py takes ranges by the first order: of an extremum at most 4
- * times the sum of the radii on a substep, of mean and harmonic 1 less; and it starts from a box within `radius`, the one
- * that gave `spread`. Of the multiplier both take discs of the same matrix: three times as wide, and 16 radii. */
+ * times the sum of the radii on a substep, of mean and harmonic 1 less; and it starts from a box within `radius`, which
+ * gave `spread`. Of the multiplier both take discs of the same matrix: three times as wide, and 16 radii. */
 static void write_claims(json_t *claims, const certificate *c, const quantities *q, const mag_t spread)
 {
   LOCAL(arb) radius = {0};
