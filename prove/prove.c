@@ -235,25 +235,45 @@ static hc_status solve_finer(prover *p, int h, double omega, double *X)
   return st;
 }
 
-/* No orbit is next to X: HBM goes on from there with ever more harmonics, and the mean, until one is. What has no
- * solution then is of too few harmonics; where one fails the next may not. */
-static hc_status orbit_by_harmonics(prover *p, double omega, const double *X, timeint_result *r, proof_row *row)
+/* Is the orbit not much farther from the row's solution than that was expected to be? Else it is another solution's. */
+static bool is_near(const timeint_result *r, const proof_row *row)
+{
+  return !(fabs(r->amplitude - row->hbm_amplitude) > 3 * row->predicted + same_orbit * r->amplitude);
+}
+
+/* The orbit next to X. If there is none, or Newton has gone to one that is farther than X was expected to be off, HBM
+ * goes on from X with ever more harmonics, and the mean, until one is; if none ever is, the first that was found counts.
+ * What has no solution then is of too few harmonics; where one fails the next may not. */
+static hc_status find_orbit(prover *p, double omega, const double *X, timeint_result *r, proof_row *row)
 {
   const int length = hbm_n_coefficients(p->response.hbm), own = hbm_n_harmonics(p->response.hbm);
   const int dim = length / (2 * own + 1);
-  hc_status st = HC_NOT_CONVERGED, solved = HC_NOT_CONVERGED;
-  double *finer = calloc((size_t)dim * (2 * HBM_MAX_HARMONICS + 1), sizeof *finer);
+  const size_t most = (size_t)dim * (2 * HBM_MAX_HARMONICS + 1), n_states = (size_t)timeint_n_states(p->ti);
+  hc_status solved = HC_OK, st = comparison_orbit_start(p->response.hbm, X, omega, p->state);
+  double *finer = calloc(most + n_states, sizeof *finer), *first_state = finer + most;
+  timeint_result first;
+  int first_harmonics = -1;
   if (!finer) return HC_NO_MEMORY;
   memcpy(finer, X, (size_t)length * sizeof *finer);
+  if (st == HC_OK) st = timeint_orbit(p->ti, omega, 1, p->state, p->monitor, r);
   int h = p->setup->hbm.keep_mean ? own + own / 4 + (own < 4) : own;
-  for (int failures = 0; st != HC_OK && !fatal(st) && failures < MOST_FAILURES; h += h / 4 + (h < 4)) {
+  for (int failures = 0; !fatal(st) && !(st == HC_OK && is_near(r, row)) && failures < MOST_FAILURES;
+       h += h / 4 + (h < 4)) {
     if (h > HBM_MAX_HARMONICS || dim * (2 * h + 1) > MOST_UNKNOWNS) break;
+    if (st == HC_OK && first_harmonics < 0) {
+      first = *r, first_harmonics = row->harmonics;
+      memcpy(first_state, p->state, n_states * sizeof *first_state);
+    }
     st = solved = solve_finer(p, h, omega, finer);
     failures = solved == HC_OK ? 0 : failures + 1;
     if (st == HC_OK) st = timeint_orbit(p->ti, omega, 1, p->state, p->monitor, r);
     row->harmonics = h;
   }
-  row->too_few = solved != HC_OK;
+  if (first_harmonics >= 0 && !fatal(st) && !(st == HC_OK && is_near(r, row))) {
+    *r = first, row->harmonics = first_harmonics, st = HC_OK;
+    memcpy(p->state, first_state, n_states * sizeof *first_state);
+  }
+  row->too_few = st != HC_OK && solved != HC_OK;
   free(finer);
   return st;
 }
@@ -315,9 +335,7 @@ static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *lea
     row.reason = model_is_smooth(p->setup->model) ? PROOF_SMOOTH : PROOF_CIRCLE;
     return add_row(p, &row, NULL);
   }
-  if (st == HC_OK) st = comparison_orbit_start(p->response.hbm, X, omega, p->state);
-  if (st == HC_OK) st = timeint_orbit(p->ti, omega, 1, p->state, p->monitor, &r);
-  if (st != HC_OK && !fatal(st)) st = orbit_by_harmonics(p, omega, X, &r, &row);
+  if (st == HC_OK) st = find_orbit(p, omega, X, &r, &row);
   *leads_on = st != HC_OK || timeint_stability(&r) < 0;
   if (st == HC_OK && remember(p, &r) != HC_OK) st = HC_NO_MEMORY;
   if (fatal(st)) return st;
