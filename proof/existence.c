@@ -2,7 +2,6 @@
 #include "proof/orbit.h"
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- F and dF/dy ---- */
@@ -103,72 +102,6 @@ void box_set(orbit *o, mag_srcptr radius)
   orbit_starts(o);
 }
 
-/* ---- the approximate inverse ---- */
-
-static double number_near(const arb_t x) { return arf_get_d(arb_midref(x), ARF_RND_NEAR); }
-
-/* a[n][n] becomes its inverse, by Gauss-Jordan with row pivots; nothing is assumed of how good it is. swap: [n] */
-static bool invert(double *a, int n, int *swap)
-{
-  for (int k = 0; k < n; k++) {
-    int best = k;
-    for (int i = k + 1; i < n; i++)
-      if (fabs(a[(size_t)i * n + k]) > fabs(a[(size_t)best * n + k])) best = i;
-    swap[k] = best;
-    double *pivot = a + (size_t)k * n, *other = a + (size_t)best * n;
-    const double scale = 1 / other[k];
-    if (!isfinite(scale)) return false;
-    for (int c = 0; c < n && best != k; c++) {
-      const double x = pivot[c];
-      pivot[c] = other[c];
-      other[c] = x;
-    }
-    pivot[k] = 1;
-    for (int c = 0; c < n; c++) pivot[c] *= scale;
-    for (int i = 0; i < n; i++) {
-      double *row = a + (size_t)i * n;
-      const double factor = row[k];
-      if (i == k || factor == 0) continue;
-      row[k] = 0;
-      for (int c = 0; c < n; c++) row[c] -= factor * pivot[c];
-    }
-  }
-  for (int k = n - 1; k >= 0; k--)
-    for (int i = 0; i < n && swap[k] != k; i++) {
-      double *row = a + (size_t)i * n, x = row[k];
-      row[k] = row[swap[k]];
-      row[swap[k]] = x;
-    }
-  return true;
-}
-
-/* B: the inverse of `middle` with scaled columns and equilibrated rows, without which stiff cases look singular. */
-static bool approximate_inverse(krawczyk *k)
-{
-  const orbit *o = k->o;
-  const jacobian *d = &k->derivative;
-  const int n = o->unknowns, stride = 2 * o->n + 1;
-  LOCAL(pool) own = {0};
-  double *rows = pool_take(own, POOL_BYTES, (size_t)n * sizeof *rows);
-  int *swap = pool_take(own, POOL_BYTES, (size_t)n * sizeof *swap);
-  for (int r = 0; r < n; r++) {
-    double *row = k->inverse + (size_t)r * n;
-    for (int c = 0; c < n; c++) row[c] = 0;
-    for (int e = d->row[r]; e < d->row[r + 1]; e++)
-      row[d->column[e]] += k->middle[e] * number_near(o->scale + d->column[e] % stride);
-    for (int c = 0; c < n; c++) rows[r] = fmax(rows[r], fabs(row[c]));
-    for (int c = 0; c < n; c++) row[c] /= rows[r];
-  }
-  bool fine = invert(k->inverse, n, swap);
-  for (int r = 0; r < n && fine; r++)
-    for (int c = 0; c < n; c++) {
-      double *entry = k->inverse + (size_t)r * n + c;
-      *entry *= number_near(o->scale + r % stride) / rows[c];
-      fine = fine && isfinite(*entry);
-    }
-  return fine;
-}
-
 /* ---- Krawczyk ---- */
 
 /* Of the unknowns at an event the first n are x, then v, then t: 0, 1, 2. */
@@ -227,9 +160,9 @@ bool existence_prepare(krawczyk *k, orbit *o, const double *inverse, failure *f)
   box_set(o, NULL);
   bool fine = shooting_equations(o, k->value, d);
   k->middle = flint_realloc(k->middle, ((size_t)d->n + 1) * sizeof *k->middle);
-  for (int e = 0; e < d->n; e++) k->middle[e] = number_near(d->value + e);
+  for (int e = 0; e < d->n; e++) k->middle[e] = arf_get_d(arb_midref(d->value + e), ARF_RND_NEAR);
   if (inverse && inverse != k->inverse) memcpy(k->inverse, inverse, n * n * sizeof *inverse);
-  fine = fine && (inverse || approximate_inverse(k));
+  fine = fine && (inverse || guess_inverse(k));
   return fine || refute(f, -1, -1, "the shooting equations are singular");
 }
 

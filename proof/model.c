@@ -1,10 +1,7 @@
 /* model.c - what follows from the model and the letters alone: the matrix A of every segment, the functions that guards
  * and conditions are made of, and the refusal of sequences that the theorem does not cover. */
 #include "proof/orbit.h"
-#include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 
 bool refute(failure *f, int segment, int contact, const char *format, ...)
 {
@@ -172,55 +169,6 @@ static void forces(const orbit *o, const orbit_segment *s, arb_mat_t r, arb_ptr 
     }
 }
 
-static double upper(const arb_t x)
-{
-  LOCAL(mag) m = {0};
-  arb_get_mag(m, x);
-  return mag_get_d(m);
-}
-
-static slong weight_of(double log2) { return lround(fmax(-4000, fmin(4000, log2))); }
-
-/* |A_ij| of the accelerations by Z, in the weights of x: those of v are by a frequency more. */
-static double weighed(const orbit *o, const orbit_segment *s, int i, int j)
-{
-  return ldexp(upper(arb_mat_entry(s->a, o->n + i, j)), (int)((j < o->n ? s->weight[j] : 0) - s->weight[i]));
-}
-
-/* Powers of two that balance A: of x so that rows and columns of the stiffness are alike (Osborne), by Omega more of v,
- * Omega^2/|f| of what loads the masses, but not far above what x is. Any choice is right, a good one makes few
- * substeps. */
-static void choose_weights(const orbit *o, orbit_segment *s)
-{
-  enum { ROOM = 20, SWEEPS = 8 };
-  const int n = o->n;
-  double stiffness = 0;
-  for (int i = 0; i < SWEEPS * n; i++) {
-    double row = 0, column = 0;
-    for (int j = 0; j < n; j++) {
-      row += j == i % n ? 0 : weighed(o, s, i % n, j);
-      column += j == i % n ? 0 : weighed(o, s, j, i % n);
-    }
-    if (row > 0 && column > 0) s->weight[i % n] += lround(log2(row / column) / 2);
-  }
-  for (int i = 0; i < n; i++) {
-    double sum = 0;
-    for (int j = 0; j < n; j++) sum += weighed(o, s, i, j);
-    stiffness = fmax(stiffness, sum);
-  }
-  if (!(stiffness > 0)) stiffness = pow(upper(o->omega), 2);
-  const double frequency = log2(stiffness) / 2, most = ROOM - log2(upper(o->scale));
-  for (int j = n; j < s->size; j++) {
-    s->weight[j] = j < 2 * n ? s->weight[j - n] + weight_of(frequency) : weight_of(frequency);
-    if (j < 2 * n) continue;
-    int pair = j; /* cosine and sine alike */
-    if (j > 2 * n && j <= 2 * n + 2 * o->harmonics) pair = (j - 2 * n) % 2 ? j + 1 : j - 1;
-    double load = 0;
-    for (int i = 0; i < n; i++) load = fmax(load, fmax(weighed(o, s, i, j), weighed(o, s, i, pair)));
-    s->weight[j] = weight_of(load > 0 ? fmin(2 * frequency - log2(load), most) : most);
-  }
-}
-
 /* The part of each row that is not 0, and the norm. */
 static void measure_rows(orbit_segment *s)
 {
@@ -247,14 +195,17 @@ static void segment_set(orbit *o, int i)
   const int n = o->n;
   s->letters = o->c->letters + (size_t)i * (size_t)o->contacts;
   s->size = 2 * n + 1 + 2 * o->harmonics;
+  s->state = 2 * n;
   for (int j = 0; j < o->contacts; j++) {
-    s->slider[j] = s->began[j] = -1;
+    s->slider[j] = s->began[j] = s->place[j] = -1;
     if (s->letters[j] != 'S') continue;
     s->slider[j] = s->size++;
     for (int e = i; e > i - o->m && s->began[j] < 0; e--) {
       s->from[j] = orbit_letter(o, e - 1, j);
       if (s->from[j] != 'S') s->began[j] = (e + o->m) % o->m;
     }
+    const bool fixed = s->began[j] < 0 || (o->friction[j].parallel && s->from[j] == 'O'); /* there touching fixes u */
+    if (!fixed) s->place[j] = s->state++;
   }
   if (s->size > o->largest) o->largest = s->size;
   arb_mat_init(s->a, s->size, s->size);
@@ -276,7 +227,7 @@ static void segment_set(orbit *o, int i)
     arb_mul_si(arb_mat_entry(s->a, sine, cosine), o->omega, o->harmonic[h], o->precision);
     arb_neg(arb_mat_entry(s->a, cosine, sine), arb_mat_entry(s->a, sine, cosine));
   }
-  choose_weights(o, s);
+  guess_weights(o, s);
   measure_rows(s);
 }
 

@@ -1,20 +1,6 @@
 /* multipliers.c - the monodromy matrix of the orbit, and where its eigenvalues are. */
 #include "proof/orbit.h"
 
-/* Where w of a contact stands in the state after the event that starts the segment: x, v, then w of the sliders that
- * stick there and that geometry does not fix. -1: nowhere. *size: of that state. */
-static int place_of(const orbit *o, const orbit_segment *s, int contact, int *size)
-{
-  int place = -1;
-  *size = 2 * o->n;
-  for (int j = 0; j < o->contacts; j++) {
-    if (s->slider[j] < 0 || slider_fixed(o, s, j)) continue;
-    if (j == contact) place = *size;
-    ++*size;
-  }
-  return place;
-}
-
 /* d w of a contact that begins to stick at event i, over dx there: [n]. v: velocities at the event. */
 static void new_slider(const orbit *o, int contact, char before, arb_srcptr v, arb_ptr gradient)
 {
@@ -36,30 +22,23 @@ static void transfer(const orbit *o, int i, arb_srcptr columns, arb_mat_t m)
 {
   const orbit_segment *s = &o->segments[i], *t = &o->segments[(i + 1) % o->m];
   const int n = o->n, next = (i + 1) % o->m;
-  int old_size, new_size;
-  place_of(o, s, -1, &old_size);
-  place_of(o, t, -1, &new_size);
-  arb_mat_init(m, new_size, old_size);
+  arb_mat_init(m, t->state, s->state);
   /* x, v: the flow, and the identity at the event, since forces are continuous */
   for (int c = 0; c < 2 * n; c++)
     for (int r = 0; r < 2 * n; r++) arb_set(arb_mat_entry(m, r, c), columns + c * s->size + r);
   for (int j = 0; j < o->contacts; j++) {
-    const int column = place_of(o, s, j, &old_size);
-    if (column < 0) continue;
     const int number = s->slider[j] - 1 - 2 * o->harmonics;
-    for (int r = 0; r < 2 * n; r++) arb_set(arb_mat_entry(m, r, column), columns + number * s->size + r);
+    for (int r = 0; r < 2 * n && s->place[j] >= 0; r++)
+      arb_set(arb_mat_entry(m, r, s->place[j]), columns + number * s->size + r);
   }
   /* w: kept while the stick goes on, dropped when it ends, new where one begins */
   arb_ptr gradient = o->scratch;
   for (int j = 0; j < o->contacts; j++) {
-    const int row = place_of(o, t, j, &new_size), column = place_of(o, s, j, &old_size);
-    if (row < 0) continue;
-    if (s->slider[j] >= 0) {
-      arb_one(arb_mat_entry(m, row, column));
-      continue;
-    }
+    const int row = t->place[j];
+    if (row >= 0 && s->place[j] >= 0) arb_one(arb_mat_entry(m, row, s->place[j]));
+    if (row < 0 || s->place[j] >= 0) continue;
     new_slider(o, j, t->from[j], orbit_event(o, next) + n, gradient);
-    for (int c = 0; c < old_size; c++)
+    for (int c = 0; c < s->state; c++)
       arb_dot(arb_mat_entry(m, row, c), NULL, 0, gradient, 1, arb_mat_entry(m, 0, c),
               arb_mat_entry(m, 1, 0) - arb_mat_entry(m, 0, 0), n, o->precision);
   }
@@ -68,11 +47,10 @@ static void transfer(const orbit *o, int i, arb_srcptr columns, arb_mat_t m)
 int monodromy(const orbit *o, arb_mat_t product, failure *f)
 {
   /* Start at the event with the fewest sliders in the state, so that no multiplier is a 0 that means nothing. */
-  int first = 0, fewest = 0, size;
-  for (int i = 0; i < o->m; i++) {
-    place_of(o, &o->segments[i], -1, &size);
-    if (i == 0 || size < fewest) fewest = size, first = i;
-  }
+  int first = 0;
+  for (int i = 1; i < o->m; i++)
+    if (o->segments[i].state < o->segments[first].state) first = i;
+  const int fewest = o->segments[first].state;
   arb_mat_init(product, fewest, fewest);
   arb_mat_one(product);
   LOCAL(pool) own = {0};

@@ -29,6 +29,8 @@ typedef struct orbit_segment {
   int slider[LIMIT_CONTACTS]; /* column of w, -1: it does not stick                */
   int began[LIMIT_CONTACTS];  /* event at which its stick began, -1: it always did */
   char from[LIMIT_CONTACTS];  /* the letter before that                            */
+  int place[LIMIT_CONTACTS];  /* of w in the monodromy's state x, v, w; -1: it is not there, or does not depend on x */
+  int state;                  /* size of that                                      */
   arb_mat_t a;                /* [size][size]                                             */
   int *first, *length;        /* [size] the part of each row that is not 0                */
   slong *weight;              /* [size] norm of Z: max |Z_i| / 2^weight_i                 */
@@ -96,12 +98,6 @@ void row_limit(const orbit *o, const orbit_segment *s, int contact, int sign,
                arb_ptr row); /* mu N - sign kt (t.x - w)    */
 void row_slip(const orbit *o, const orbit_segment *s, int contact, int sign,
               arb_ptr row); /* sign kt t.v - mu kn n.v     */
-/* Is w the same whatever x is? So it is where touching fixes u. */
-static inline bool slider_fixed(const orbit *o, const orbit_segment *s, int contact)
-{
-  return s->began[contact] < 0 || (o->friction[contact].parallel && s->from[contact] == 'O');
-}
-
 /* ---- flow.c ---- */
 /* The exponentials of all segments; false: too many substeps. */
 bool flow_prepare(orbit *o, failure *f);
@@ -160,6 +156,10 @@ bool existence_holds(krawczyk *k, const arb_t radius, double *ratio);
 void existence_free(krawczyk *k);
 bool shooting_equations(orbit *o, arb_ptr f, jacobian *derivative); /* in the box; either may be NULL */
 void box_set(orbit *o, mag_srcptr radius);                          /* centre +- radius [unknowns]; NULL: 0 */
+
+/* ---- around/guesses.c: nothing is assumed of what these choose ---- */
+void guess_weights(const orbit *o, orbit_segment *s); /* s->weight: x as the stiffness balances, v, loads */
+bool guess_inverse(krawczyk *k);                      /* k->inverse, of k->middle; false: it is singular    */
 
 /* ---- signs.c, multipliers.c, quantities.c ---- */
 typedef struct quantities {

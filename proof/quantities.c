@@ -126,15 +126,16 @@ static void find_largest(extremum *e, arb_t value)
 }
 
 /* Keeps the substep unless the function stays below what is attained elsewhere. rows: the response and its two
- * derivatives; work: [2][degree + 1] */
-static void consider(extremum *e, const walk *w, arb_srcptr rows, arb_ptr work)
+ * derivatives; x, rest: its polynomial; work: [2][degree + 1] */
+static void consider(extremum *e, const walk *w, arb_srcptr rows, arb_srcptr x, const mag_t rest, arb_ptr work)
 {
   const orbit *o = e->o;
   const int n = o->degree + 1, rough = ROUGH < w->degree ? ROUGH : w->degree;
-  LOCAL(mag) rest = {0};
+  LOCAL(mag) slack = {0};
+  LOCAL(arb) unit = {0};
   LOCAL(arf) bound = {0};
-  walk_polynomial(w, rows, work, rest);
-  if (e->sign < 0) _arb_vec_neg(work, work, w->degree + 1);
+  arb_set_si(unit, e->sign);
+  _arb_vec_scalar_mul(work, x, w->degree + 1, unit, o->precision);
   raise_to(e, e->low, work, -1); /* a substep starts inside the segment */
   bernstein(work + n, work, w->degree, rough, rest, o->precision);
   arf_neg_inf(bound);
@@ -144,11 +145,11 @@ static void consider(extremum *e, const walk *w, arb_srcptr rows, arb_ptr work)
   arb_set(p + 3L * n, w->end);
   for (int d = 0; d < 3; d++) { /* derivatives by the place on the substep */
     arb_ptr derivative = p + d * n;
-    walk_polynomial(w, rows + d * o->largest, derivative, rest);
-    arb_add_error_mag(derivative, rest);
-    for (int power = 0; power < d; power++)
-      _arb_vec_scalar_mul(derivative, derivative, w->degree + 1, w->width, o->precision);
-    if (e->sign < 0) _arb_vec_neg(derivative, derivative, w->degree + 1);
+    walk_polynomial(w, rows + d * o->largest, derivative, slack);
+    arb_add_error_mag(derivative, slack);
+    arb_pow_ui(unit, w->width, (ulong)d, o->precision);
+    arb_mul_si(unit, unit, e->sign, o->precision);
+    _arb_vec_scalar_mul(derivative, derivative, w->degree + 1, unit, o->precision);
   }
 }
 
@@ -200,8 +201,8 @@ bool response_quantities(const orbit *o, quantities *q, failure *f)
   const slong p = o->precision, n = o->degree + 1, coefficients = 3 * n * (DEPTH + 2);
   extremum extrema[2] = {{.o = o, .sign = 1}, {.o = o, .sign = -1}};
   LOCAL(pool) own = {0};
-  arb_ptr rows = pool_balls(own, 3L * o->largest), work = pool_balls(own, 2 * n), power = pool_balls(own, 2 * n),
-          integral = pool_balls(own, 3);
+  arb_ptr rows = pool_balls(own, 3L * o->largest), x = pool_balls(own, n), work = pool_balls(own, 2 * n),
+          power = pool_balls(own, 2 * n), integral = pool_balls(own, 3);
   LOCAL(arb) value = {0};
   LOCAL(mag) rest = {0};
   size_t steps = 0;
@@ -228,10 +229,9 @@ bool response_quantities(const orbit *o, quantities *q, failure *f)
       _arb_vec_scalar_addmul(rows + 2L * o->largest, arb_mat_entry(s->a, o->n + r, 0), s->size, rows + r, p);
     walk_start(&w, o, i);
     while (walk_next(&w)) {
-      consider(&extrema[0], &w, rows, work);
-      consider(&extrema[1], &w, rows, work);
-      walk_polynomial(&w, rows, work, rest);
-      integrate(integral, &w, work, rest, power);
+      walk_polynomial(&w, rows, x, rest);
+      for (int side = 0; side < 2; side++) consider(&extrema[side], &w, rows, x, rest, work);
+      integrate(integral, &w, x, rest, power);
     }
     walk_end(&w);
   }

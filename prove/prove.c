@@ -97,14 +97,15 @@ static double rounded(double difference, double towards)
   return difference == 0 ? 0 : nextafter(difference, towards);
 }
 
-static void read_answer(const json_t *answer, proof_row *row)
+/* The claims of an accepted certificate. */
+static void read_claims(const json_t *claims, proof_row *row)
 {
-  const char *stability = json_string_value(json_object_get(answer, "stability"));
-  row->radius = certificate_bound(answer, "radius", -1, 0);
-  row->amplitude = bounds_of(answer, "amplitude");
-  row->mean = bounds_of(answer, "mean");
-  row->harmonic_1 = bounds_of(answer, "harmonic_1");
-  row->multiplier = bounds_of(answer, "multiplier");
+  const char *stability = json_string_value(json_object_get(claims, "stability"));
+  row->radius = certificate_bound(claims, "radius", -1, 0);
+  row->amplitude = bounds_of(claims, "amplitude");
+  row->mean = bounds_of(claims, "mean");
+  row->harmonic_1 = bounds_of(claims, "harmonic_1");
+  row->multiplier = bounds_of(claims, "multiplier");
   row->error.low = rounded(row->hbm_amplitude - row->amplitude.high, -INFINITY);
   row->error.high = rounded(row->hbm_amplitude - row->amplitude.low, INFINITY);
   row->stability = stability ? !strcmp(stability, "stable") - !strcmp(stability, "unstable") : 0;
@@ -168,7 +169,7 @@ static hc_status ask(prover *p, const timeint_result *r, const orbit_events *e, 
   row->reason = row->proven ? PROOF_NO_REASON : reason_of(answer, json_object_get(candidate, "rest"), r);
   certificate_letters(candidate, row->states, sizeof row->states);
   snprintf(row->detail, sizeof row->detail, "%s", words ? words : "");
-  if (row->proven) read_answer(answer, row);
+  if (row->proven) read_claims(json_object_get(refined, "claims"), row);
   if (row->proven) *certificate = json_incref((json_t *)refined);
   json_decref(candidate);
   json_decref(answer);
@@ -242,8 +243,8 @@ static bool is_near(const timeint_result *r, const proof_row *row)
 }
 
 /* The orbit next to X. If there is none, or Newton has gone to one that is farther than X was expected to be off, HBM
- * goes on from X with ever more harmonics, and the mean, until one is; if none ever is, the first that was found counts.
- * What has no solution then is of too few harmonics; where one fails the next may not. */
+ * goes on from X with ever more harmonics, and the mean, until one is; if none ever is, the first that was found is
+ * taken. What has no solution then is of too few harmonics; where one fails the next may not. */
 static hc_status find_orbit(prover *p, double omega, const double *X, timeint_result *r, proof_row *row)
 {
   const int length = hbm_n_coefficients(p->response.hbm), own = hbm_n_harmonics(p->response.hbm);

@@ -1,5 +1,5 @@
 /* fuzz_certificate.c - bytes as a certificate and as a candidate: decided, or refused in words. */
-#include "proof/prove.h"
+#include "proof/around/answer.h"
 #include "tests/fuzz/fuzz.h"
 #include <string.h>
 

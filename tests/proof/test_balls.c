@@ -1,6 +1,6 @@
 /* test_balls.c - the checker's balls against exact fractions: what it computes from rational numbers contains what
  * fractions give, and is not much wider. */
-#include "proof/prove.h"
+#include "proof/around/answer.h"
 #include "tests/check.h"
 #include <float.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* main.c - hbmcheck-proof: checks certificates, completes candidates. */
 #include "base/number.h"
-#include "proof/complete.h"
+#include "proof/around/complete.h"
 #include <errno.h>
 #include <getopt.h>
 #include <stdio.h>

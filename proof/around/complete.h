@@ -1,7 +1,7 @@
 /* complete.h - from a candidate in double precision to a certificate. Not trusted: what it writes is checked. */
 #pragma once
 
-#include "proof/prove.h"
+#include "proof/around/answer.h"
 
 /* The answer to a candidate, as README.md has it; precision: of the balls if it says nothing, 0: 128 bits. */
 json_t *complete(json_t *candidate, int precision);
