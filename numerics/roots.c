@@ -208,7 +208,7 @@ static hc_status ask_around(change_search *k, double margin, bool *held)
 hc_status root_change_guided(root_predicate *beyond, root_predicate *likely, void *self, double a, double b,
                              double tolerance, root_point *out)
 {
-  const double first = 1.0 / 32, worst = 0.25, better = 8; /* margins, in parts of the width */
+  const double first = 1.0 / 32, worst = 0.25; /* margins, in parts of the width */
   *out = (root_point){b, 1, 0, a};
   change_search k = {beyond, likely, self, out};
   double part = first;
@@ -218,7 +218,7 @@ hc_status root_change_guided(root_predicate *beyond, root_predicate *likely, voi
     bool held;
     if (width <= wanted) return HC_OK;
     hc_status st = ask_around(&k, fmax(part * width, 0.25 * wanted), &held);
-    part = held ? part / better : fmin(part * better, worst);
+    part = held ? 2 * part * part : fmin(8 * part, worst); /* as the width shrank: to two margins */
     if (st == HC_OK && !held && fabs(width_of(&k)) > 0.5 * width) st = ask_middle(&k);
     if (st != HC_OK) return st;
   }

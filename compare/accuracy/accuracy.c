@@ -33,7 +33,7 @@ typedef struct reference {
   double peak_amplitude, peak_omega;
 } reference;
 
-enum { PEAK_LEVELS = 6 };
+enum { PEAK_LEVELS = 6, LARGE = 64 /* degrees of freedom */ };
 
 static const double reusable = 0.01; /* [amplitude] an orbit within this of a solution of the fine curve is taken as
                                         the one next to it */
@@ -80,21 +80,48 @@ static hc_status targets_at(const comparison *c, timeint *ti, double *state, hbm
   return st;
 }
 
+enum { CLIMB_ORBITS = 4 };
+static const double same_omega = 1e-9; /* [omega] of an orbit that was found */
+
 typedef struct climber {
   timeint *ti;
-  double *state; /* [n_states] next to an orbit, on the last one found */
-  double *here;  /* [n_states] memory */
+  bool extrapolates;
+  int n_found;                /* orbits; the last of them are kept: */
+  double omega[CLIMB_ORBITS]; /* at which frequencies, */
+  double *state;              /* [CLIMB_ORBITS][n_states] on them; until the first is found, next to it */
+  double *here;               /* [n_states] memory */
 } climber;
 
-/* *value = -amplitude of the orbit at omega next to the climber's state; NaN where there is none. */
+/* c->here = the state of the last orbit, or on the polynomial in omega through those that are kept. */
+static void start_at(const climber *c, double omega)
+{
+  const int kept = c->n_found < CLIMB_ORBITS ? c->n_found : CLIMB_ORBITS;
+  const size_t n = (size_t)timeint_n_states(c->ti), last = kept ? (size_t)(c->n_found - 1) % CLIMB_ORBITS : 0;
+  memcpy(c->here, c->state + last * n, n * sizeof *c->here);
+  if (!c->extrapolates || kept < 2) return;
+  memset(c->here, 0, n * sizeof *c->here);
+  for (int k = 0; k < kept; ++k) {
+    double weight = 1;
+    for (int i = 0; i < kept; ++i)
+      if (i != k) weight *= (omega - c->omega[i]) / (c->omega[k] - c->omega[i]);
+    for (size_t i = 0; i < n; ++i) c->here[i] += weight * c->state[(size_t)k * n + i];
+  }
+}
+
+/* *value = -amplitude of the orbit at omega next to the climber's start; NaN where there is none. */
 static hc_status minus_amplitude(void *self, double omega, double *value)
 {
-  const climber *c = self;
+  climber *c = self;
   timeint_result r;
-  const size_t bytes = (size_t)timeint_n_states(c->ti) * sizeof *c->here;
-  memcpy(c->here, c->state, bytes);
-  hc_status st = timeint_orbit(c->ti, omega, 1, c->here, NULL, &r);
-  if (st == HC_OK) memcpy(c->state, c->here, bytes);
+  const size_t n = (size_t)timeint_n_states(c->ti);
+  bool known = false;
+  start_at(c, omega);
+  const hc_status st = timeint_orbit(c->ti, omega, 1, c->here, NULL, &r);
+  for (int k = 0; k < c->n_found && k < CLIMB_ORBITS; ++k) known |= fabs(c->omega[k] / omega - 1) <= same_omega;
+  if (st == HC_OK && !(known && c->extrapolates)) {
+    c->omega[c->n_found % CLIMB_ORBITS] = omega;
+    memcpy(c->state + (size_t)(c->n_found++ % CLIMB_ORBITS) * n, c->here, n * sizeof *c->here);
+  }
   *value = st == HC_OK ? -r.amplitude : NAN;
   return st;
 }
@@ -148,7 +175,10 @@ static void find_peak(const compare_setup *setup, timeint *ti, double *states, h
   if (curve->n > 0 && hbm_curve_peak(hbm, curve, &peak) == HC_OK && peak.n > 0 &&
       hbm_measure(hbm, peak.X, &m) == HC_OK) {
     double omega = peak.points[0].omega;
-    climber c = {ti, states, states + timeint_n_states(ti)};
+    climber c = {.ti = ti,
+                 .extrapolates = setup->model->n > LARGE,
+                 .state = states,
+                 .here = states + (size_t)CLIMB_ORBITS * (size_t)timeint_n_states(ti)};
     if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK || !climb(setup, &c, omega, out))
       out->peak_amplitude = m.amplitude, out->peak_omega = omega;
   }
@@ -160,11 +190,12 @@ static hc_status reference_make(const compare_setup *setup, const comparison *c,
                                 const hbm_curve *curve, const hc_monitor *monitor, reference *out)
 {
   timeint *ti = NULL;
-  double *states = NULL; /* [2][n_states] */
+  double *states = NULL; /* [CLIMB_ORBITS + 1][n_states] */
   *out = (reference){.harmonics = hbm_n_harmonics(hbm)};
   hc_status st = comparison_referee(setup, NULL, &ti);
   if (st == HC_OK) timeint_leave_multipliers(ti);
-  if (st == HC_OK && !(states = calloc(2 * (size_t)timeint_n_states(ti), sizeof *states))) st = HC_NO_MEMORY;
+  if (st == HC_OK && !(states = calloc((CLIMB_ORBITS + 1) * (size_t)timeint_n_states(ti), sizeof *states)))
+    st = HC_NO_MEMORY;
   for (int i = 0; i < c->n_rows && st == HC_OK; ++i) {
     if (i > 0 && c->rows[i].omega == c->rows[i - 1].omega) continue;
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
@@ -180,7 +211,7 @@ static hc_status reference_make(const compare_setup *setup, const comparison *c,
 
 /* A structure of more than LARGE degrees of freedom begins its reference at fewer harmonics: there a curve costs
  * minutes, and orbits are known from the comparison's rows or next to coarser solutions. */
-enum { LEAST_REFERENCE = 20, LARGE = 64, LEAST_OF_LARGE = 10, EXACT = 0 };
+enum { LEAST_REFERENCE = 20, LEAST_OF_LARGE = 10, EXACT = 0 };
 
 static const double floor_of_orbits = 1e-8; /* [1] ten times the error of the referee's orbits */
 

@@ -428,9 +428,8 @@ static hc_status slope_at(void *self, double sigma, double *slope)
  * nothing. False: not asked, nowhere, or at a lower amplitude than the highest point. */
 static bool peak_by_slope(peak_search *p, double highest)
 {
-  enum { COSTLY = 200 }; /* unknowns: a millisecond or more */
   const double tolerance = 1e-8;
-  if (p->s->sys.n < COSTLY) return false;
+  if (!hbm_has_many_unknowns(p->s)) return false;
   double slope[3], left;
   for (int i = 0; i < 3; ++i) {
     const int k = p->top - 1 + i;

@@ -21,8 +21,8 @@
 #include "numerics/roots.h"
 
 /* A segment spans a fraction of the sweep, so this part of it is far less than the 1e-9 of omega that
- * special_points.h promises. */
-static const double SIGMA_TOLERANCE = 1e-11;
+ * special_points.h promises; of contact changes of many unknowns, a tenth of that. */
+static const double SIGMA_TOLERANCE = 1e-11, SIGMA_OF_MANY = 1e-8, OMEGA_OF_MANY = 1e-10;
 enum { MAX_CONTACT_CHANGES = 64 /* on one segment */, MOST_CONTACTS_FOLLOWED = 24 };
 /* What is nearer than this, relative to omega and to the amplitude (near a turning point omega alone says little), is
  * at one place: special_points.h promises no more. */
@@ -260,6 +260,9 @@ static hc_status locate_edge(detector *d, int k, const test_values *before, cons
 /* Every change of the contact pattern on segment k, from `before` at its start to `end` at its end. */
 static hc_status locate_contact_changes(detector *d, int k, test_values before, const test_values *end)
 {
+  const hbm_point *p = &d->c->points[k];
+  const double of_many = fmin(SIGMA_OF_MANY, OMEGA_OF_MANY * p->omega / fabs(p[1].omega - p->omega)),
+               tolerance = hbm_has_many_unknowns(d->s) ? fmax(of_many, SIGMA_TOLERANCE) : SIGMA_TOLERANCE;
   double from = 0;
   for (int i = 0; i < MAX_CONTACT_CHANGES && from < 1 && !same_pattern(&before, end); ++i) {
     segment_search s = {.d = d, .k = k, .kind = HBM_CONTACT_CHANGE, .before = &before, .sigma = NAN};
@@ -267,7 +270,7 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
     hc_status st = hbm_narrowing_start(&d->near, d->c, k);
     if (st != HC_OK) return st;
     if (i > 0) hbm_narrowing_move(&d->near, true, from, &d->x);
-    st = root_change_guided(pattern_differs_at, pattern_may_differ_at, &s, from, 1, SIGMA_TOLERANCE, &change);
+    st = root_change_guided(pattern_differs_at, pattern_may_differ_at, &s, from, 1, tolerance, &change);
     if (st == HC_OK) st = evaluate_at(&s, change.x);
     if (st != HC_OK) return st;
     test_values after = change.x < 1 ? s.here : *end;

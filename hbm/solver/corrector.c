@@ -46,8 +46,7 @@ static void by_place(hbm_solver *s, double place, const double *X, double *dR)
 /* Is the solve to go on? Asked where evaluations take so long that nobody would wait for the end of a step. */
 static bool goes_on(hbm_solver *s)
 {
-  enum { MANY = 200 }; /* unknowns: a millisecond or more */
-  if (s->sys.n >= MANY && !hc_monitor_tick(s->monitor, s->done)) s->stopped = true;
+  if (hbm_has_many_unknowns(s) && !hc_monitor_tick(s->monitor, s->done)) s->stopped = true;
   return !s->stopped;
 }
 

@@ -48,6 +48,9 @@ struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; 
   workspace memory;            /* of these arrays */
 };
 
+/* An evaluation takes a millisecond or more. */
+static inline bool hbm_has_many_unknowns(const hbm_solver *s) { return s->sys.n >= 200; }
+
 /* Other numbers of harmonics and samples from here on. The solver is unusable, but may be freed, unless HC_OK. */
 hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time);
 

@@ -40,6 +40,7 @@ static const double scatter_seen = 1e-6; /* [size] a chord step of CVODE's that 
                                             the scatter of periods: of fast modes it is not known beforehand */
 static const double chord_contracts_to = 0.1; /* [last factor] that by which the next step is shorter, as a rule */
 static const double slowed_near = 1e-7;       /* [size] the slowed orbit is where the whole model's begins, 1e-6 off */
+static const double next_to_orbit = 1e-8;     /* [size] |F^k(z) - z|: the orbit is some 1e-7 off */
 static const double chord_contracts = 0.5;    /* [least residual] a chord step that leaves more is idle */
 static const double chord_leads_away = 10;    /* [least residual] the matrix is renewed at once where one leaves that */
 
@@ -623,11 +624,18 @@ static hc_status begin_with_slowed(shoot *s, double reach, double enough)
   return HC_OK;
 }
 
+/* Is the start nearer to the orbit than the giver's orbit is? Asked where a matrix is there, and none is asked for. */
+static bool starts_next_to(shoot *s)
+{
+  return s->ti->no_multipliers && has_slowed_matrix(s) && evaluate(s, s->iterate) == HC_OK &&
+         distance_2(s->n, s->z, s->f) <= next_to_orbit * timeint_scaled_size(s->ti);
+}
+
 /* s->iterate next to the orbit of a large structure. */
 static hc_status by_chords_from_start(shoot *s, double reach, double enough, double goal)
 {
   s->found_k = 0;
-  hc_status st = s->ti->slowed ? begin_with_slowed(s, reach, enough) : HC_OK;
+  hc_status st = s->ti->slowed && !starts_next_to(s) ? begin_with_slowed(s, reach, enough) : HC_OK;
   return st == HC_OK ? by_chords(s, reach, enough, share_of_goal * goal) : st;
 }
 
