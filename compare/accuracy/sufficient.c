@@ -11,12 +11,13 @@
 #include "model/modes.h"
 
 enum { TRACED = 20, POINTS = 32, OF_CURVE = 48, FIRST_TRUTH = 40, MOST_SAMPLES = 65536, ROUNDS = 3, REFINED = 3 };
-static const double least_strip = 1e-3, widths = 50; /* of omega; half widths of the resonances instead, if less */
-static const double proven = 0.05;                   /* of the error: the truth's own */
-static const double most_work = 5e10;                /* [unknowns^3] of a search */
-static const double chance_to_miss = 0.9; /* aliasing errors jump from frequency to frequency: the largest of those
-                                              looked at is so much of the largest there is */
-static const double still = 1e-9;         /* of the largest amplitude: a response that is not looked at */
+static const double least_strip = 1e-3, widths = 50;     /* of omega; half widths of the resonances instead, if less */
+static const double proven = 0.05;                       /* of the error: the truth's own */
+static const double most_work = 5e10, little_work = 5e8; /* [unknowns^3] of a search; of more frequencies */
+/* The largest error of the frequencies looked at is so much of the largest there is; of sampled forces less, since
+ * aliasing errors jump from frequency to frequency. */
+static const double seen = 0.95, seen_sampled = 0.9;
+static const double still = 1e-9; /* of the largest amplitude: a response that is not looked at */
 
 /* One solution that settings are compared with. */
 typedef struct target {
@@ -279,13 +280,19 @@ static int ascending_targets(const void *a, const void *b)
   return (d > 0) - (d < 0);
 }
 
-/* New targets halfway between the worst ones and their neighbours. */
-static hc_status refine(search *s)
+/* New targets halfway between all that there are, if that is not too much work; else between the worst ones and their
+ * neighbours. */
+static hc_status refine(search *s, bool everywhere)
 {
-  double at[2 * REFINED];
+  double at[NUMBER_LIST_MAX];
   int n = 0;
   qsort(s->targets, (size_t)s->n, sizeof *s->targets, ascending_targets);
-  for (int k = 0; k < REFINED; ++k) {
+  const double work = s->n * pow(hbm_newton_work(s->truth).unknowns, 3);
+  for (int i = 1; i < s->n && n + 2 * REFINED < NUMBER_LIST_MAX && everywhere && work <= little_work; ++i) {
+    const double omega = s->targets[i - 1].omega, middle = 0.5 * (omega + s->targets[i].omega);
+    if (middle - omega > 1e-6 * omega && !near_fold(s->out, middle)) at[n++] = middle;
+  }
+  for (int k = 0, all = n; k < REFINED && all == 0; ++k) {
     int top = -1;
     for (int i = 0; i < s->n; ++i)
       if (s->targets[i].error > 0.3 * s->allowed && (top < 0 || s->targets[i].error > s->targets[top].error)) top = i;
@@ -308,6 +315,7 @@ static hc_status refine(search *s)
 static hc_status least_harmonics(search *s, hbm_settings how, int most, sufficient_row *row)
 {
   const int from = row->harmonics > 0 ? row->harmonics : 1;
+  const double allowed = seen * s->allowed;
   int first = 0;
   hc_status st = HC_OK;
   row->harmonics = 0;
@@ -315,9 +323,9 @@ static hc_status least_harmonics(search *s, hbm_settings how, int most, sufficie
     const target *where;
     double error;
     how.harmonics = row->most_harmonics = h;
-    st = try_setting(s, &how, s->allowed, &error, &where);
+    st = try_setting(s, &how, allowed, &error, &where);
     if (st != HC_OK) break;
-    if (error <= s->allowed) {
+    if (error <= allowed) {
       if (!first) first = h;
       if (h >= first + 2 + first / 4 || h == most) return row->harmonics = first, HC_OK;
     } else {
@@ -345,7 +353,7 @@ static hc_status exact_row(search *s, bool keep_mean, int most, sufficient_row *
     ++round; /* what is between the frequencies may be worse */
     st = error_of(s, &how, row);
     const int before = s->n;
-    if (st == HC_OK && round <= ROUNDS && s->setup->compare.omega.n == 0) st = refine(s);
+    if (st == HC_OK && round <= ROUNDS && s->setup->compare.omega.n == 0) st = refine(s, round == 1);
     if (s->n == before) break;
   }
   sufficient_row next;
@@ -366,7 +374,7 @@ static double cost(const search *s, int harmonics, int samples)
 /* The cheapest pair that keeps `allowed` from here on, into row; how: the rest. */
 static hc_status cheapest_pair(search *s, int least, hbm_settings how, sufficient_row *row)
 {
-  const double allowed = chance_to_miss * s->allowed;
+  const double allowed = seen_sampled * s->allowed;
   const int most = least + 4 + least / 4;
   double cheapest = INFINITY;
   hc_status st = HC_OK;
@@ -411,7 +419,7 @@ static hc_status sampled_row(search *s, const sufficient_row *exact, sufficient_
     how.harmonics = row->harmonics, how.samples = row->samples;
     st = error_of(s, &how, row);
     const int before = s->n;
-    if (st == HC_OK && round < ROUNDS && s->setup->compare.omega.n == 0) st = refine(s);
+    if (st == HC_OK && round < ROUNDS && s->setup->compare.omega.n == 0) st = refine(s, false);
     if (s->n == before) break;
     if (st == HC_OK) st = error_of(s, &how, row);
   }

@@ -118,8 +118,8 @@ def followed(exe, wanted, start):
 
 
 def verdicts(rows, row):
-    """Of the same response, where the transient is nearest to the row's."""
-    same = [r for r in rows if r.get("response", "") == row.get("response", "") and r["transient_amplitude"]]
+    """Of the same response, where the transient is nearest to the row's; half as large again is another orbit."""
+    same = [r for r in rows if r.get("response", "") == row.get("response", "") and r["transient_amplitude"] and abs(key(r) - key(row)) <= 0.5 * key(row)]
     nearest = min((abs(key(r) - key(row)) for r in same), default=0)
     return [r["verdict"] for r in same if abs(key(r) - key(row)) <= nearest + 1e-3 * key(row)]
 

@@ -203,8 +203,13 @@ static hc_status change_damping(model *m, verify_change change, double factor)
   if (m->n == 1 && change != CHANGE_HYSTERETIC) return HC_BAD_INPUT;
   if (change == CHANGE_DAMPING_MODAL) return damp_modes(m, factor);
   if (!(share > 0) || !isfinite(share * omega)) return HC_BAD_INPUT;
-  memcpy(m->damping, like, (size_t)m->n * (size_t)m->n * sizeof *like);
-  scale((size_t)m->n * (size_t)m->n, factor * share * omega, m->damping);
+  const size_t square = (size_t)m->n * (size_t)m->n;
+  double apart = 0, most = 0;
+  for (size_t i = 0; i < square; ++i)
+    apart = fmax(apart, fabs(m->damping[i] - share * like[i])), most = fmax(most, fabs(m->damping[i]));
+  if (change != CHANGE_HYSTERETIC && apart <= 1e-9 * most) return HC_BAD_INPUT; /* it is of this kind */
+  memcpy(m->damping, like, square * sizeof *like);
+  scale(square, factor * share * omega, m->damping);
   return HC_OK;
 }
 

@@ -513,7 +513,9 @@ static verify_places places_of(const search *s, double omega_factor, double *ome
                       .omega = omega,
                       .only = p->only_few ? p->few : NULL,
                       .n_responses = p->n_responses,
-                      .asked = p->quantity};
+                      .asked = p->quantity,
+                      .value = s->oscillator ? NULL : p->value[0],
+                      .stride = SEARCH_MOST_POINTS};
   for (int i = 0; i < p->n; ++i) omega[i] = omega_factor * p->omega[i];
   if (omega_factor != 1) {
     number_list ends = {.n = 2, .v = {omega[0], omega[p->n - 1]}};

@@ -212,19 +212,54 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
   return st;
 }
 
-/* From guess number k of *from; guess[length] is room. */
+/* From guess number k of *from, each degree of freedom times its factor; guess[length] is room. */
 static hc_status solve_from(verify_solutions *s, problem *p, const verify_places *at, int i,
-                            const verify_solutions *from, int k, double *guess)
+                            const verify_solutions *from, int k, const double *factor, double *guess)
 {
   hbm_point point;
   if (s->count - s->first[i] >= VERIFY_MOST_SOLUTIONS) return HC_OK;
   const int both = from->length < s->length ? from->length : s->length;
   memset(guess, 0, (size_t)s->length * sizeof *guess);
   memcpy(guess, from->x + (size_t)k * (size_t)from->length, (size_t)both * sizeof *guess);
+  for (int c = 0; c < both && factor; ++c) guess[c] *= factor[c % p->dofs];
   hbm_guess_of(p->hbm, guess, p->X);
   hc_status st = hbm_solve(p->hbm, at->omega[i], p->X, &point);
   if (st == HC_OK) return add(s, p, at, at->omega[i], s->first[i]);
   return st == HC_NO_MEMORY ? st : HC_OK;
+}
+
+/* Is a solution at omega number i, of those from number `from` on, near the file's values in all responses? */
+static bool near_file(const verify_solutions *s, const verify_places *at, int i, int from, int to)
+{
+  const double near = 0.05;
+  bool any = false;
+  for (int k = from; k < to && !any; ++k) {
+    any = true;
+    for (int r = 0; r < s->n_responses; ++r) {
+      const double q = s->of[k * s->n_responses + r].q[0], value = at->value[r * at->stride + i];
+      any &= isnan(value) || fabs(value - q) <= near * fmax(fabs(value), fabs(q));
+    }
+  }
+  return any;
+}
+
+/* [dofs] The file's values over those of solution k: of a degree of freedom that a response contains that one's, of
+ * others their geometric mean. False: there are none. */
+static bool factors_of(const model *m, const verify_solutions *s, const verify_places *at, int i, int k, double *factor)
+{
+  double sum = 0;
+  int n = 0;
+  for (int d = 0; d < m->n; ++d) factor[d] = NAN;
+  for (int r = 0; r < s->n_responses; ++r) {
+    const double one = at->value[r * at->stride + i] / s->of[k * s->n_responses + r].q[0];
+    if (!(one > 0) || !isfinite(one)) continue;
+    sum += log(one), ++n;
+    for (int d = 0; d < m->n; ++d)
+      if (m->responses[r * m->n + d] != 0) factor[d] = one;
+  }
+  for (int d = 0; d < m->n; ++d)
+    if (isnan(factor[d])) factor[d] = exp(sum / n);
+  return n > 0;
 }
 
 hc_status verify_solutions_near(const compare_setup *setup, const verify_equations *e, const verify_solutions *near,
@@ -232,17 +267,23 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
 {
   problem p;
   hc_status st = start(setup, e, at, &p, out);
-  double *guess = malloc(((size_t)out->length + 1) * sizeof *guess);
+  const size_t dofs = (size_t)setup->model->n;
+  double *guess = malloc(((size_t)out->length + dofs) * sizeof *guess), *factor = guess + out->length;
   if (!guess) st = HC_NO_MEMORY;
   for (int i = 0, last = -1; i < near->n && st == HC_OK; ++i) {
     /* Few samples have many solutions: from the neighbours' guesses, too. */
     const int more = e->samples > 0 && e->samples <= FEW_SAMPLES * e->harmonics;
     const int from = near->first[i > more ? i - more : 0],
               to = near->first[i + more < near->n ? i + more + 1 : near->n];
-    for (int k = from; k < to && asked_at(at, i) && st == HC_OK; ++k) st = solve_from(out, &p, at, i, near, k, guess);
+    for (int k = from; k < to && asked_at(at, i) && st == HC_OK; ++k)
+      st = solve_from(out, &p, at, i, near, k, NULL, guess);
+    for (int k = near->first[i]; k < near->first[i + 1] && at->value && asked_at(at, i) && st == HC_OK; ++k)
+      if (!near_file(near, at, i, k, k + 1) && !near_file(out, at, i, out->first[i], out->count) &&
+          factors_of(setup->model, near, at, i, k, factor))
+        st = solve_from(out, &p, at, i, near, k, factor, guess);
     const bool close = asked_at(at, i) && last >= 0 && at->omega[i] - at->omega[last] <= close_omegas * at->omega[i];
     for (int k = close ? out->first[last] : 0; close && k < out->first[last + 1] && st == HC_OK; ++k)
-      st = solve_from(out, &p, at, i, out, k, guess);
+      st = solve_from(out, &p, at, i, out, k, NULL, guess);
     out->first[i + 1] = out->count;
     if (asked_at(at, i)) last = i;
   }

@@ -46,6 +46,8 @@ typedef struct verify_places {
   const bool *only;    /* [n] at these alone; NULL: at all */
   int n_responses;
   const verify_quantity *asked; /* [n_responses] */
+  const double *value;          /* [n_responses][stride] what the file has there, or NaN; NULL: not known */
+  int stride;
 } verify_places;
 
 /* Along their response curve, as far as it comes. A solution that is not found is none.
@@ -56,8 +58,9 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
 /* Of a degree of freedom in the place of every response: of[k][r] of the motions that are there. */
 void verify_solutions_move(verify_solutions *s, const verify_places *at, int dofs, int dof);
 
-/* By Newton from the solutions `near` of other equations at the same omegas, and from those at the omega before if that
- * is close: at a small part of what their curve would cost. */
+/* By Newton from the solutions `near` of other equations at the same omegas; from those scaled to the file's values,
+ * where none is near these; and from those at the omega before if that is close: at a small part of what their curve
+ * would cost. */
 hc_status verify_solutions_near(const compare_setup *setup, const verify_equations *e, const verify_solutions *near,
                                 const verify_places *at, verify_solutions *out);
 

@@ -236,8 +236,9 @@ def judge_random(binary, wanted, first, folder):
         except subprocess.TimeoutExpired:
             rows = []
         i += 1
-        if len(rows) < 4 or (which == "one branch" and any(r["stable"] != "yes" for r in rows)):
-            continue  # an unstable branch alone is a mistake
+        unstable = [r["stable"] != "yes" for r in rows if "stable" in r]
+        if len(rows) < 4 or (unstable and all(unstable)) or (which == "one branch" and any(unstable)):
+            continue  # unstable solutions alone are a mistake
         curve.write_text("\n".join([f"omega,{name}"] + [f"{r['omega']},{r[name]}" for r in rows]) + "\n")
         wrong = blamed(binary, case, curve, name)
         if wrong.split("; skipped")[0] in ("cause unknown", "solver_failed"):  # no verdict, which is said
