@@ -9,11 +9,12 @@ enum { HBM_MAX_HARMONICS = 200, HBM_AUTO = 0 /* in the place of a number of harm
 
 typedef enum hbm_force { HBM_FORCE_EXACT, HBM_FORCE_SAMPLED } hbm_force;
 
-/* The slider of a sampled force. From HBM_RESTART_ZEROED on they are mistakes of other programs, which
+/* The slider of a sampled force. From HBM_RESTART_RADIAL on they are habits and mistakes of other programs, which
  * compare/verify/ makes to know them; no case file has them. */
 typedef enum hbm_restart {
   HBM_RESTART_INTERPOLATED,
   HBM_RESTART_SAMPLE,
+  HBM_RESTART_RADIAL,         /* as interpolated, but of two tangents by radial return, as in other programs */
   HBM_RESTART_ZEROED,         /* after a separation it starts from w = 0 */
   HBM_RESTART_KEPT,           /* and from where it was before */
   HBM_RESTART_ONE_PASS,       /* as interpolated, but one period from w = 0, which does not settle */

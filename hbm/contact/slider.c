@@ -112,7 +112,8 @@ static void restart_slider(const followed *k, int n, int i, slider *t)
 {
   const slider_motion *m = &k->m;
   const int before = i ? i - 1 : n - 1;
-  const bool interpolated = k->restart == HBM_RESTART_INTERPOLATED || k->restart == HBM_RESTART_ONE_PASS;
+  const bool interpolated =
+      k->restart == HBM_RESTART_INTERPOLATED || k->restart == HBM_RESTART_RADIAL || k->restart == HBM_RESTART_ONE_PASS;
   if (k->restart == HBM_RESTART_KEPT) return;
   t->origin = (slider_origin){.i = before};
   if (k->restart == HBM_RESTART_ZEROED) {

@@ -68,22 +68,28 @@ planar_move planar_slider_enter(const planar_sample *to, double w[2], planar_slo
   return PLANAR_SLIPPED;
 }
 
-/* Contact was made since `from`: w is u there; by mistake it is 0, or where it was before the separation. */
+/* Contact was made since `from`: w is u there, or where the line meets r = 0; by mistake 0, or as before it was lost. */
 static planar_move return_after_separation(hbm_restart restart, const planar_sample *from, const planar_sample *to,
                                            double w[2], planar_slope *slope)
 {
   if (restart == HBM_RESTART_KEPT) return planar_slider_enter(to, w, slope);
   const bool on_motion = restart != HBM_RESTART_ZEROED;
-  for (int d = 0; d < 2; ++d) w[d] = on_motion ? from->u[d] : 0;
+  const double rise = to->r - from->r, t = restart == HBM_RESTART_RADIAL ? -from->r / rise : 0;
+  const double way[2] = {to->u[0] - from->u[0], to->u[1] - from->u[1]};
+  for (int d = 0; d < 2; ++d) w[d] = on_motion ? from->u[d] + t * way[d] : 0;
   if (slope) *slope = (planar_slope){.w = {{1, 0}, {0, 1}}};
   const planar_move move = planar_slider_enter(to, w, slope);
-  /* slope = that of `later`, whose start is a fixed place of the motion at `from`, or nowhere. */
-  if (slope) {
-    for (int d = 0; d < 2; ++d)
-      for (int c = 0; c < 2; ++c) {
-        slope->from[d][c] = on_motion ? slope->w[d][c] : 0;
-        slope->w[d][c] = 0;
-      }
+  /* slope = that of `later`, whose start moves with the motion, or nowhere. */
+  for (int d = 0; d < 2 && slope; ++d) {
+    const double by_t = (slope->w[d][0] * way[0] + slope->w[d][1] * way[1]) / (rise * rise);
+    for (int c = 0; c < 2; ++c) {
+      slope->from[d][c] = on_motion ? (1 - t) * slope->w[d][c] : 0;
+      slope->to[d][c] += t * slope->w[d][c];
+      slope->w[d][c] = 0;
+    }
+    if (restart != HBM_RESTART_RADIAL) continue;
+    slope->from[d][2] = -by_t * to->r;
+    slope->to[d][2] += by_t * from->r;
   }
   return move == PLANAR_HELD ? PLANAR_PLACED : move;
 }

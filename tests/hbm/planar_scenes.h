@@ -101,9 +101,9 @@ typedef struct planar_way {
   double rounding; /* [1] of a line's forces */
 } planar_way;
 
-static const hbm_restart planar_restarts[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE,
-                                              HBM_RESTART_ZEROED,       HBM_RESTART_KEPT,
-                                              HBM_RESTART_ONE_PASS,     HBM_RESTART_ONE_PASS_SAMPLE};
+static const hbm_restart planar_restarts[] = {HBM_RESTART_INTERPOLATED,   HBM_RESTART_SAMPLE, HBM_RESTART_RADIAL,
+                                              HBM_RESTART_ZEROED,         HBM_RESTART_KEPT,   HBM_RESTART_ONE_PASS,
+                                              HBM_RESTART_ONE_PASS_SAMPLE};
 enum { PLANAR_RESTARTS = sizeof planar_restarts / sizeof *planar_restarts };
 
 static inline void *planar_way_make(const contact_evaluator *by, int H, int N, hbm_restart restart, int n_dof,

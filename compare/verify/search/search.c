@@ -300,10 +300,12 @@ static hc_status try_rate(search *s, const base *b, int samples, int restart)
 
 static hc_status try_rates(search *s, const base *b, int n, const int *samples, int last_restart)
 {
+  static const hbm_restart rules[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE, HBM_RESTART_RADIAL};
+  const bool planar = model_whole_contacts(s->setup->model) < s->setup->model->n_contacts;
+  const int n_rules = planar ? 3 : last_restart == HBM_RESTART_SAMPLE ? 2 : 1;
   hc_status st = HC_OK;
   for (int i = 0; i < n && st == HC_OK; ++i)
-    for (int restart = HBM_RESTART_INTERPOLATED; restart <= last_restart && st == HC_OK; ++restart)
-      st = try_rate(s, b, samples[i], restart);
+    for (int k = n_rules - 1; k >= 0 && st == HC_OK; --k) st = try_rate(s, b, samples[i], rules[k]);
   return st;
 }
 
