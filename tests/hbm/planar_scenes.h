@@ -101,9 +101,9 @@ typedef struct planar_way {
   double rounding; /* [1] of a line's forces */
 } planar_way;
 
-static const hbm_restart planar_restarts[] = {HBM_RESTART_INTERPOLATED,   HBM_RESTART_SAMPLE, HBM_RESTART_RADIAL,
-                                              HBM_RESTART_ZEROED,         HBM_RESTART_KEPT,   HBM_RESTART_ONE_PASS,
-                                              HBM_RESTART_ONE_PASS_SAMPLE};
+static const hbm_restart planar_restarts[] = {HBM_RESTART_INTERPOLATED, HBM_RESTART_SAMPLE,
+                                              HBM_RESTART_ZEROED,       HBM_RESTART_KEPT,
+                                              HBM_RESTART_ONE_PASS,     HBM_RESTART_ONE_PASS_SAMPLE};
 enum { PLANAR_RESTARTS = sizeof planar_restarts / sizeof *planar_restarts };
 
 static inline void *planar_way_make(const contact_evaluator *by, int H, int N, hbm_restart restart, int n_dof,
@@ -262,8 +262,8 @@ static inline void check_planar_jacobian(const planar_way *way)
     const contact law = random_circle(&seed);
     const moving_contact half = {.law = circle_half(law)};
     const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
-    planar_evaluation a = {way->by,
-                           planar_way_make(way->by, H, N, planar_restarts[trial % PLANAR_RESTARTS], n_dof, &half)};
+    const hbm_restart restart = trial % 12 == 7 ? HBM_RESTART_RADIAL : planar_restarts[trial % PLANAR_RESTARTS];
+    planar_evaluation a = {way->by, planar_way_make(way->by, H, N, restart, n_dof, &half)};
     contact_report report;
     random_plane_motion(&seed, H, 1, X);
     random_plane_motion(&seed, H, 1, d);
@@ -276,7 +276,7 @@ static inline void check_planar_jacobian(const planar_way *way)
       circle_product(rows, jac, d, product);
       for (int p = 0; p < rows; ++p)
         CHECK_NEAR(product[p], slope[p], 1e-8 * size + disagreement, "trial %d restart %d regime %d row %d", trial,
-                   trial % PLANAR_RESTARTS, report.regime, p);
+                   (int)restart, report.regime, p);
       ++regimes[report.regime];
     }
     way->by->free(a.self);

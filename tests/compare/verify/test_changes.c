@@ -59,7 +59,12 @@ static void damping_of_a_matrix(CHECK_STATE)
   } all[] = {{CHANGE_DAMPING_OF_M, true, false, 0.04},
              {CHANGE_DAMPING_OF_K, false, false, 0.02},
              {CHANGE_HYSTERETIC, false, true, 0.02 * 1.41421356237309505}};
-  model *m = of_case("cases/structures/chain3.yaml");
+  model *m = of_case("cases/structures/chain3.yaml"), *none;
+  const verify_changed of_its_kind = {CHANGE_DAMPING_OF_K, 3, 0};
+  double offset[8];
+  hbm_mistakes nothing = {0};
+  assert_int_equal(verify_changed_model(m, &of_its_kind, true, &none, offset, &nothing), HC_BAD_INPUT);
+  m->damping[0] += 0.02, m->damping[4] -= 0.02; /* no longer proportional to K, of the same trace */
   for (size_t a = 0; a < sizeof all / sizeof *all; ++a) {
     hbm_mistakes mistakes;
     model *theirs = changed(m, all[a].change, 3, 0, &mistakes);
