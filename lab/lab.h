@@ -83,7 +83,8 @@ int lab_specials(lab *l, int force);
 double *lab_motion(lab *l, int n_harm);
 
 /* n instants th = 2 pi i/n; n may be the number of samples. Columns: th, x, and each contact's u, v, N and T: the exact
- * law's with LAB_EXACT, else as the n samples give it; of a polynomial or a table N is its force. HC_BAD_INPUT: n < 1, no motion. Errors of exact_force_eval. */
+ * law's with LAB_EXACT, else as the n samples give it; of a polynomial or a table N is
+ * its force. HC_BAD_INPUT: n < 1, no motion. Errors of exact_force_eval. */
 int lab_signal(lab *l, int force, int n);
 
 /* The contact force's harmonics h = 0..n_shown: h, cosine and sine of the true one, and of that sampled n times a

@@ -68,7 +68,8 @@ planar_move planar_slider_enter(const planar_sample *to, double w[2], planar_slo
   return PLANAR_SLIPPED;
 }
 
-/* Contact was made since `from`: w is u there, or where the line meets r = 0; by mistake 0, or as before it was lost. */
+/* Contact was made since `from`: w is u there, or where the line meets r = 0; by mistake 0, or as before it was
+ * lost. */
 static planar_move return_after_separation(hbm_restart restart, const planar_sample *from, const planar_sample *to,
                                            double w[2], planar_slope *slope)
 {
