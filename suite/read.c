@@ -129,7 +129,7 @@ static const suite_row no_row = {.omega = NAN, .value = {NAN, NAN, NAN, NAN}};
 
 static hc_status add_row(suite_answer *a, const suite_row *row)
 {
-  if (a->n == SUITE_MOST_ROWS) return suite_say(a->wrong, "more than %d rows", SUITE_MOST_ROWS);
+  if (a->n == SUITE_MOST_ROWS) return suite_say(a->wrong, "%s: more than %d rows", a->path, SUITE_MOST_ROWS);
   if (!GROW(a->rows, a->n)) return HC_NO_MEMORY;
   a->rows[a->n++] = *row;
   return HC_OK;
@@ -236,27 +236,27 @@ static hc_status read_csv(const char *path, suite_answer *a)
 /* Rows of a case in the json file. */
 static hc_status read_rows(const char *path, const char *name, const json_t *rows, suite_answer *a)
 {
-  hc_status st = json_is_array(rows) ? HC_OK : suite_say(a->wrong, "%s: cases.%s: a list was expected", path, name);
+  suite_say(a->path, "%s: cases.%s", path, name);
+  hc_status st = json_is_array(rows) ? HC_OK : suite_say(a->wrong, "%s: a list was expected", a->path);
   const json_t *value;
   const char *key;
   a->there = true;
-  suite_say(a->path, "%s", path);
   for (size_t i = 0; i < json_array_size(rows) && st == HC_OK; ++i) {
     suite_row row = no_row;
     json_t *from = json_array_get(rows, i);
-    if (!json_is_object(from)) st = suite_say(a->wrong, "%s: cases.%s[%zu]: an object was expected", path, name, i);
+    if (!json_is_object(from)) st = suite_say(a->wrong, "%s[%zu]: an object was expected", a->path, i);
     json_object_foreach(from, key, value)
     {
       const int meaning = column_named(key, strlen(key));
       const bool number = json_is_number(value);
       if (meaning == IGNORED && !*a->note)
-        suite_say(a->note, "%s: cases.%s[%zu].%s is left out", path, name, i, QUOTED(key, strlen(key)));
+        suite_say(a->note, "%s[%zu].%s is left out", a->path, i, QUOTED(key, strlen(key)));
       if (meaning != IGNORED && !number && !json_is_null(value))
-        st = suite_say(a->wrong, "%s: cases.%s[%zu].%s: a number or null was expected", path, name, i, key);
+        st = suite_say(a->wrong, "%s[%zu].%s: a number or null was expected", a->path, i, key);
       if (meaning != IGNORED && number)
         *(meaning == OMEGA ? &row.omega : &row.value[meaning]) = json_number_value(value);
     }
-    if (st == HC_OK && isnan(row.omega)) st = suite_say(a->wrong, "%s: cases.%s[%zu]: no omega", path, name, i);
+    if (st == HC_OK && isnan(row.omega)) st = suite_say(a->wrong, "%s[%zu]: no omega", a->path, i);
     if (st == HC_OK) st = add_row(a, &row);
   }
   return st;
@@ -290,13 +290,16 @@ hc_status suite_results_read(const char *path, const suite *s, suite_answer *ans
 {
   char file[PATH_ROOM];
   struct stat about;
+  int there = 0;
   *strange = 0;
   if (stat(path, &about) != 0) return suite_say(why, "%s: %s", path, strerror(errno)), HC_IO;
   if (!S_ISDIR(about.st_mode)) return read_results_json(path, s, answers, strange, why);
   for (int i = 0; i < s->n; ++i) {
     snprintf(file, sizeof file, "%s/%s.csv", path, s->cases[i].name);
     if (read_csv(file, &answers[i]) == HC_NO_MEMORY) return HC_NO_MEMORY;
+    there += answers[i].there;
   }
+  if (!there) return suite_say(why, "%s: no results, expected files such as %s.csv", path, s->cases[0].name);
   DIR *folder = opendir(path);
   const struct dirent *entry;
   while (folder && (entry = readdir(folder))) {

@@ -32,13 +32,17 @@ static double digits_of(const suite_reference *r, const suite_row *row, int q)
   return off > 0 ? fmin(fmax(-log10(off), 0), known) : known;
 }
 
-/* The largest distance of all quantities that both have; infinite if there are none, or another omega. */
+/* The sum of the logarithms of all quantities' distances, so that one wrong column does not decide; infinite if row and
+ * reference share none, or not omega. */
 static double apart(const suite_reference *r, const suite_row *row)
 {
-  double most = -1;
-  if (!(fabs(row->omega - r->omega) <= same_omega * r->omega)) return INFINITY;
-  for (int q = 0; q < SUITE_N; ++q) most = fmax(most, distance(r, row, q)); /* fmax leaves NaN out */
-  return most < 0 ? INFINITY : most;
+  double sum = 0;
+  int n = 0;
+  for (int q = 0; q < SUITE_N; ++q) {
+    const double off = distance(r, row, q);
+    if (!isnan(off)) ++n, sum += fmax(log10(off), -MOST_DIGITS);
+  }
+  return n && fabs(row->omega - r->omega) <= same_omega * r->omega ? sum : INFINITY;
 }
 
 static bool asked(const suite_case *c, double omega, double within)
@@ -48,23 +52,38 @@ static bool asked(const suite_case *c, double omega, double within)
   return false;
 }
 
+/* Is each frequency of the case one of the rows', in another unit? */
+static bool in_unit(const suite_case *c, const suite_answer *a, double rad)
+{
+  for (int i = 0, k = 0; i < c->n; ++i) {
+    for (k = 0; k < a->n && !(fabs(rad * a->rows[k].omega / c->references[i].omega - 1) <= near_omega); ++k) continue;
+    if (k == a->n) return false;
+  }
+  return true;
+}
+
 /* Rows that belong to no frequency of the case, and what may be meant by them. */
 static void look_elsewhere(const suite_case *c, suite_answer *a)
 {
-  const suite_row *cycles = NULL, *near = NULL;
-  int elsewhere = 0;
+  static const struct {
+    double rad;
+    const char *words;
+  } units[] = {{TWO_PI, "cycles"}, {TWO_PI / 60, "revolutions per minute"}};
+  const suite_row *near = NULL;
+  bool none = a->n > 0;
   for (int k = 0; k < a->n; ++k) {
-    if (asked(c, a->rows[k].omega, same_omega)) continue;
-    ++elsewhere;
-    if (!near && asked(c, a->rows[k].omega, near_omega)) near = &a->rows[k];
-    if (!cycles && asked(c, TWO_PI * a->rows[k].omega, near_omega)) cycles = &a->rows[k];
+    if (!near && asked(c, a->rows[k].omega, near_omega) && !asked(c, a->rows[k].omega, same_omega)) near = &a->rows[k];
+    none &= !asked(c, a->rows[k].omega, near_omega);
   }
-  if (elsewhere == a->n && cycles)
-    suite_say(a->wrong, "%s:%ld:1: omega %.10g is in cycles, expected %.10g rad per time", a->path, cycles->line,
-              cycles->omega, TWO_PI * cycles->omega);
-  else if (near && !*a->note)
-    suite_say(a->note, "%s:%ld:1: omega %.10g is next to one that is asked, expected it to 10 digits", a->path,
-              near->line, near->omega);
+  for (int u = 0; u < 2 && none; ++u)
+    if (in_unit(c, a, units[u].rad))
+      suite_say(a->wrong, "%s: omega %.10g is in %s, expected %.10g rad per time", a->path, a->rows->omega,
+                units[u].words, units[u].rad * a->rows->omega);
+  if (*a->note || *a->wrong) return;
+  if (near)
+    suite_say(a->note, "%s: omega %.10g is next to one that is asked, expected it to 10 digits", a->path, near->omega);
+  else if (none)
+    suite_say(a->note, "%s: no row is at an omega of the case, such as %.10g", a->path, c->references->omega);
 }
 
 /* The nearest pair of what is left, until none is. */
@@ -115,17 +134,22 @@ hc_status suite_judge(const suite_case *c, suite_answer *a, suite_score *s)
 void suite_tell(const suite_case *c, const suite_score *s, double digits, char *cause)
 {
   enum { FAR = 2 };
-  double least[SUITE_N] = {INFINITY, INFINITY, INFINITY, INFINITY}, conjugate = 0;
+  double least[SUITE_N] = {INFINITY, INFINITY, INFINITY, INFINITY};
+  const double allowed = pow(10, -digits);
+  bool conjugate = true, twice = true;
   for (int k = 0; k < c->n; ++k) {
     const suite_reference *r = &c->references[k];
     const suite_match *m = &s->matches[k];
     if (!m->row) continue;
     for (int q = 0; q < SUITE_N; ++q) least[q] = fmin(least[q], m->digits[q]); /* fmin leaves NaN out */
-    conjugate = fmax(conjugate, fabs(m->row->value[SUITE_B1] + r->low[SUITE_B1]) / scale_of(r));
+    conjugate &= fabs(m->row->value[SUITE_B1] + r->low[SUITE_B1]) / scale_of(r) <= allowed;
+    twice &= fabs(m->row->value[SUITE_AMPLITUDE] / scale_of(r) - 2) <= allowed;
   }
   const double harmonic = fmin(least[SUITE_A1], least[SUITE_B1]), others = fmin(harmonic, least[SUITE_AMPLITUDE]);
-  if (conjugate <= pow(10, -digits) && least[SUITE_B1] + FAR < least[SUITE_A1]) suite_say(cause, "sign_of_b1");
+  if (s->missing == c->n) return;
+  if (conjugate && least[SUITE_B1] + FAR < least[SUITE_A1]) suite_say(cause, "sign_of_b1");
   else if (least[SUITE_MEAN] + FAR < others) suite_say(cause, "mean_alone");
   else if (harmonic + FAR < least[SUITE_AMPLITUDE]) suite_say(cause, "harmonic_1_alone");
+  else if (least[SUITE_AMPLITUDE] + FAR < harmonic) suite_say(cause, twice ? "peak_to_peak" : "amplitude_alone");
   else if (s->missing && fmin(others, least[SUITE_MEAN]) >= digits) suite_say(cause, "missing_solutions");
 }

@@ -42,7 +42,7 @@ typedef struct suite_answer {
   bool there;
   int n;
   suite_row *rows;        /* [n] */
-  char path[SUITE_TEXT];  /* of the file they are from */
+  char path[SUITE_TEXT];  /* of the file they are from, of json with the case in it */
   char wrong[SUITE_TEXT]; /* why it is refused, "FILE:LINE:COLUMN: ..."; empty: it is not */
   char note[SUITE_TEXT];  /* what was overlooked in it */
 } suite_answer;
@@ -90,7 +90,7 @@ hc_status suite_solve(const compare_setup *setup, const suite_case *c, hbm_force
                       suite_answer *out);
 
 /* Each solution with the nearest row at its omega, a row with one solution. HC_NO_MEMORY; free(out->matches). An answer
- * whose omegas are those asked for in cycles is refused: a->wrong. */
+ * whose omegas are those asked for in cycles or revolutions per minute is refused: a->wrong. */
 hc_status suite_judge(const suite_case *c, suite_answer *a, suite_score *out);
 
 /* What the digits tell, into cause[SUITE_TEXT], which stays empty else: the sign of b1, some quantities alone

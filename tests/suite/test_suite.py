@@ -165,11 +165,26 @@ def results():
         row, said = score("foot", rows=[{**r, "amplitude": float("nan")} if i == 1 else r for i, r in enumerate(foot)])
         check("foot.csv:3:5: `nan` counts as missing" in said and 95 < float(row["score"]) < 96, "nan counts as missing and is named")
         row, said = score("foot", rows=[{**r, "omega": r["omega"] / (2 * 3.141592653589793)} for r in foot], expect=2)
-        check(row["result"] == "refused" and "foot.csv:2:1: omega" in said and "is in cycles" in said, "cycles are refused by name")
+        check(row["result"] == "refused" and "foot.csv: omega 0.7957747155 is in cycles" in said, "cycles are refused by name")
+        row, said = score("foot", rows=[{**r, "omega": r["omega"] * 60 / (2 * 3.141592653589793)} for r in foot], expect=2)
+        check(row["result"] == "refused" and "is in revolutions per minute, expected 5 rad per time" in said, "revolutions per minute, too")
+        row, said = score("foot", rows=[{**r, "omega": r["omega"] * 7} for r in foot])
+        check("foot.csv: no row is at an omega of the case, such as 5" in said and row["missing"] == "6" and not row["cause"], "omegas of nothing")
+        row, said = score("foot", rows=[{**r, "omega": r["omega"] * (1 + 1e-6)} for r in foot])
+        check("foot.csv: omega 5.000005 is next to one" in said and row["missing"] == "6", "omegas with 6 digits")
         row, said = score("foot", rows=[{q: r[q] * (1 if q == "omega" else 1000) for q in r} for r in foot])
         check(row["cause"] and row["score"] == "0", f"millimetres for metres: no points and a cause, {row['cause']}")
         row, said = score("foot", rows=[{**r, "b1": -r["b1"]} for r in foot])
         check(row["cause"] == "sign_of_b1", f"the sign of b1: {row['cause']}")
+        row, said = score("foot", rows=foot, columns=("omega", "amplitude", "mean", "a1"))
+        check(row["cause"] == "harmonic_1_alone" and abs(float(row["score"]) - 75) < 1e-6, f"b1 is missing, not its sign: {row['cause']}")
+        for factor, cause in ((2, "peak_to_peak"), (-1, "amplitude_alone"), (0.7, "amplitude_alone")):
+            row, said = score("fold", rows=[{**r, "amplitude": factor * r["amplitude"]} for r in reversed(fold)])
+            check(row["cause"] == cause and abs(float(row["score"]) - 75) < 4, f"amplitude times {factor}: {row['cause']}, {row['score']}")
+        row, said = score("fold", rows=fold, columns=("omega", "mean", "a1", "b1"))
+        check(row["cause"] == "amplitude_alone" and row["missing"] == "0" and abs(float(row["score"]) - 75) < 1e-6, "no amplitudes")
+        row, said = score("foot", rows=[{**r, "mean": 0.0} for r in foot])
+        check(row["cause"] == "mean_alone" and 75 <= float(row["score"]) < 85, f"means of 0: {row['cause']}, {row['score']}")
         for text, where in (("omega,amplitude\n5;1\n", ":2:1: `5;1` is not a number"), ("omega,amplitude\n5\n", ":2:1: 1 fields, expected 2"), ("omega,amplitude\n5,1,2\n", ":2:5: more than 2 fields"),
                             ("omega,amplitude\n5,x\n", ":2:3: `x` is not a number"), ("w,amplitude\n5,1\n", ":1:1: no column omega"),
                             ("omega,omega,mean\n", ":1:7: a second column `omega`"), ("", ":1:1: empty")):
@@ -179,6 +194,8 @@ def results():
         check(row["result"] == "fail" and row["missing"] == "5", "a byte order mark, remarks and CRLF are read")
         pathlib.Path(folder, "feet.csv").write_text("omega,mean\n5,1\n")
         check("feet.csv: the suite has no such case" in suite("--results", folder, expect=1)[1], "a case that there is not")
+        os.remove(folder + "/foot.csv")
+        check(": no results, expected files such as open.csv" in suite("--results", folder, expect=2)[1], "no file that a case has")
 
         file = pathlib.Path(folder, "all.json")
         file.write_text(json.dumps({"cases": truth}))
@@ -191,6 +208,11 @@ def results():
         found, said = suite("--results", str(file), "--program", "p", expect=2)
         for words in ("cases.foot[0].omega: a number or null was expected", "cases.fold: a list was expected", "cases.tip[0]: no omega", "no case `none`"):
             check(words in said, words)
+        file.write_text(json.dumps({"cases": {"foot": [{"omega": r["omega"] / 6.283185307179586, "mean": 1, "phase": 0} for r in foot],
+                                              "fold": [{"omega": 7.3, "mean": 0}] * 10001}}))
+        found, said = suite("--results", str(file), "--program", "p", expect=2)
+        for words in ("all.json: cases.foot: omega 0.7957747155 is in cycles", "cases.foot[0].`phase` is left out", "all.json: cases.fold: more than 10000 rows"):
+            check(words in said, words)
 
         file.write_text(json.dumps({"cases": truth}))
         page, badge, junit = (f"{folder}/out.{x}" for x in ("html", "svg", "xml"))
@@ -201,6 +223,9 @@ def results():
         check("&lt;p&gt;" in html and "<p>:" not in html and html.count("<rect") == 2 * len(NAMES), "the page: its program escaped, two bars a case")
         check(f"{len(NAMES)} of {len(NAMES)}, score 100.0" in pathlib.Path(badge).read_text(), "the badge")
         check(f'tests="{len(NAMES)}" failures="0"' in pathlib.Path(junit).read_text(), "JUnit")
+        asked = [r[q] for n in NAMES for r in FULL[n]["references"] for q in QUANTITIES if r[q]]
+        check(suite("--results", str(file), "--all", expect=0)[1].count(",proven,") + suite("--results", str(file), "--all", expect=0)[1].count(",stated,")
+              == len(asked), "--all: every quantity that is asked")
 
 
 # ---- wrong programs -----------------------------------------------------------------------------------------------------------------
