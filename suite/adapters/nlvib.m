@@ -1,8 +1,9 @@
 % nlvib.m - runs NLvib (M. Krack and J. Gross, GPL) on the suite, by its public functions; nothing of it is stored here.
-%     octave-cli nlvib.m NLVIB_FOLDER SUITE_FOLDER OUT.json [H N [NAME...]]      7 and 1024, as in its example 07
+%     octave-cli nlvib.m NLVIB_FOLDER SUITE_FOLDER OUT.json [--refined H N] [H N [NAME...]]      7 and 1024, as in its example 07
 % A case that its functions cannot say has no results: a static load or one of a higher harmonic (HB_residual has Fex1
 % alone), a preloaded stop, friction under a normal load that varies.
-% Solutions: solve_and_continue over the case's frequencies, then fsolve on HB_residual at each that the curve passes.
+% Solutions: solve_and_continue over the case's frequencies, then fsolve on HB_residual at each that the curve passes;
+% --refined H N: from there fsolve with the harmonics that the case asks, at most H, and N samples.
 
 function element = element_of(c, n)
   has = @(key) isfield(c, key);
@@ -29,7 +30,7 @@ function element = element_of(c, n)
   end
 end
 
-function rows = solve_case(k, H, N)
+function rows = solve_case(k, H, N, fine)
   rows = {};
   M = k.model.mass; D = k.model.damping; K = k.model.stiffness; n = size(M, 1); elements = {}; Fex1 = zeros(n, 1); stuck = zeros(n);
   for j = 1:numel(k.model.loads)
@@ -53,19 +54,31 @@ function rows = solve_case(k, H, N)
   X = solve_and_continue(x0, @(Y) HB_residual(Y, system, H, N, 'FRF'), from, to, 0.02 * from, struct('stepmax', 2000), ...
                          {}, optimset('Display', 'off', 'Jacobian', 'on', 'MaxIter', 50)); % its own, in Octave's words
   options = optimset('Jacobian', 'on', 'TolFun', 1e-12, 'TolX', 1e-12, 'Display', 'off');
-  th = (0:65535)' * 2 * pi / 65536;
-  E = ones(65536, 1);
-  for h = 1:H, E = [E, cos(h * th), sin(h * th)]; end %#ok<AGROW>
+  Hs = H; Ns = N;
+  if numel(fine), Hs(2) = max(H, min(fine(1), k.harmonics)); Ns(2) = fine(2); end
   for w = omega
     for j = find((X(end, 1:end-1) - w) .* (X(end, 2:end) - w) <= 0)
       s = (w - X(end, j)) / (X(end, j + 1) - X(end, j));
-      [x, ~, flag] = fsolve(@(x) at(x, w, system, H, N), X(1:end-1, j) + s * (X(1:end-1, j + 1) - X(1:end-1, j)), options);
+      x = X(1:end-1, j) + s * (X(1:end-1, j + 1) - X(1:end-1, j));
+      for i = 1:numel(Hs)
+        x(end+1:(2 * Hs(i) + 1) * n, 1) = 0;
+        [x, ~, flag] = fsolve(@(x) at(x, w, system, Hs(i), Ns(i)), x, options);
+        if flag <= 0, break; end
+      end
       if flag <= 0, continue; end
       y = k.response(:)' * reshape(x, n, []); % mean, cosine and sine of each harmonic
-      motion = E * y';
-      rows{end + 1} = struct('omega', w, 'amplitude', (max(motion) - min(motion)) / 2, 'mean', y(1), 'a1', y(2), 'b1', y(3)); %#ok<AGROW>
+      spectrum = zeros(65536, 1);
+      spectrum(2:Hs(end) + 1) = y(2:2:end) - 1i * y(3:2:end);
+      motion = 65536 * real(ifft(spectrum));
+      rows{end + 1} = struct('omega', w, 'amplitude', (top(motion) + top(-motion)) / 2, 'mean', y(1), 'a1', y(2), 'b1', y(3)); %#ok<AGROW>
     end
   end
+end
+
+function m = top(y) % of the parabola through the largest sample and its neighbours
+  [m, i] = max(y);
+  a = y(mod(i - 2, numel(y)) + 1); c = y(mod(i, numel(y)) + 1);
+  m = m + (c - a)^2 / (8 * (2 * m - a - c));
 end
 
 function [R, J] = at(x, w, system, H, N)
@@ -73,7 +86,9 @@ function [R, J] = at(x, w, system, H, N)
   J = J(:, 1:end-1);
 end
 
-arguments = argv();
+arguments = argv(); fine = [];
+at_refined = find(strcmp(arguments, '--refined'));
+if at_refined, fine = str2double(arguments(at_refined + (1:2))); arguments(at_refined + (0:2)) = []; end
 addpath(fullfile(arguments{1}, 'SRC'), fullfile(arguments{1}, 'SRC', 'MechanicalSystems'));
 suite = arguments{2}; H = 7; N = 1024;
 if numel(arguments) > 4, H = str2double(arguments{4}); N = str2double(arguments{5}); end
@@ -84,7 +99,7 @@ for j = 1:numel(names)
   name = names{j};
   try
     k = jsondecode(fileread(fullfile(suite, 'cases', [name, '.json'])));
-    evalc('rows = solve_case(k, H, N);'); % it prints every step
+    evalc('rows = solve_case(k, H, N, fine);'); % it prints every step
     if ~isempty(rows), results.(name) = rows; end
     printf('%s %d\n', name, numel(rows));
   catch problem
@@ -92,5 +107,5 @@ for j = 1:numel(names)
   end
 end
 to = fopen(arguments{3}, 'w');
-fputs(to, jsonencode(struct('program', sprintf('NLvib, H = %d, N = %d', H, N), 'cases', results)));
+fputs(to, jsonencode(struct('program', [sprintf('NLvib, H = %d, N = %d', H, N), sprintf(', refined %d %d', fine)], 'cases', results)));
 fclose(to);

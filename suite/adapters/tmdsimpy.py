@@ -1,9 +1,10 @@
 """tmdsimpy.py - runs tmdsimpy (J. H. Porter, MIT) on the suite, by its public functions; nothing of it is stored here.
 
-    python3 tmdsimpy.py TMDSIMPY_FOLDER SUITE_FOLDER OUT.json [H Nt [NAME...]]      8 and 128, as in its examples
+    python3 tmdsimpy.py TMDSIMPY_FOLDER SUITE_FOLDER OUT.json [--refined H Nt] [H Nt [NAME...]]      8 and 128, as in its examples
 
 A case that its forces cannot say has no results; friction under a normal load that varies wants its ElasticDryFriction2D, and with it JAX.
-Solutions: Continuation over the case's frequencies, then NonlinearSolver on hbm_res at each that the curve passes.
+Solutions: Continuation over the case's frequencies, then NonlinearSolver on hbm_res at each that the curve passes;
+--refined H Nt: from there NonlinearSolver with the harmonics that the case asks, at most H, and Nt samples.
 """
 import contextlib
 import io
@@ -48,7 +49,14 @@ def force_of(c):
     return ElasticDryFriction2D(Q, Q.T, c["tangential_stiffness"], c["normal_stiffness"], c["friction"], u0=0.0, meso_gap=-c["gap"]), preload * row["normal"][0]
 
 
-def solve_case(case, H, Nt):
+def top(y):
+    """Of the parabola through the largest sample and its neighbours."""
+    i = y.argmax()
+    a, m, c = y[i - 1], y[i], y[(i + 1) % y.size]
+    return m + (c - a) ** 2 / (8 * (2 * m - a - c))
+
+
+def solve_case(case, H, Nt, fine):
     model, h, rows = case["model"], np.arange(H + 1), []
     system = VibrationSystem(np.array(model["mass"], float), np.array(model["stiffness"], float), C=np.array(model["damping"], float))
     n = system.M.shape[0]
@@ -75,36 +83,47 @@ def solve_case(case, H, Nt):
     config = {"DynamicCtoP": True, "MaxSteps": 4000, "dsmin": 1e-3, "dsmax": 0.1, "verbose": -1, "xtol": 1e-9 * Fl.size, "corrector": "Ortho"}
     curve = Continuation(solver, ds0=0.05, CtoP=scale, RPtoC=1 / np.abs(np.diag(residual(np.r_[U, start])[1])).max(), config=config)
     points = curve.continuation(residual, np.r_[U, start], start, end)
-    th = np.outer(2 * np.pi * np.arange(65536) / 65536, h[1:])
+    stages = [(h, Nt)] + ([(np.arange(max(H, min(fine[0], case["harmonics"])) + 1), fine[1])] if fine else [])
     for w in case["omega"]:
         for j in np.nonzero((points[:-1, -1] - w) * (points[1:, -1] - w) <= 0)[0]:
             a, b = points[j], points[j + 1]
-            guess = a + (w - a[-1]) / (b[-1] - a[-1]) * (b - a)
-            U, R, _, sol = solver.nsolve(lambda U: residual(np.r_[U, w])[:2], guess[:-1], verbose=False, xtol=1e-12)
-            if not np.abs(R).max() < 1e-7 * np.abs(Fl).max():
+            U = (a + (w - a[-1]) / (b[-1] - a[-1]) * (b - a))[:-1]
+            for hs, Ns in stages:
+                load = np.r_[Fl, np.zeros(hutils.Nhc(hs) * n - Fl.size)]
+                U = np.r_[U, np.zeros(load.size - U.size)]
+                residual_at = lambda U: system.hbm_res(np.r_[U, w], load, hs, Nt=Ns, aft_tol=1e-12 if fine else 1e-7)[:2]  # noqa: B023, E731
+                U, R, _, _ = solver.nsolve(residual_at, U, verbose=False, xtol=1e-12)
+            if not np.abs(R).max() < (1e-9 if fine else 1e-7) * np.abs(Fl).max():
                 continue
             y = U.reshape(-1, n) @ case["response"]
-            motion = np.cos(th) @ y[1::2] + np.sin(th) @ y[2::2]
-            rows.append({"omega": w, "amplitude": np.ptp(motion) / 2, "mean": y[0], "a1": y[1], "b1": y[2]})
+            spectrum = np.zeros(65536, complex)
+            spectrum[hs[1:]] = y[1::2] - 1j * y[2::2]
+            motion = 65536 * np.fft.ifft(spectrum).real
+            rows.append({"omega": w, "amplitude": (top(motion) + top(-motion)) / 2, "mean": y[0], "a1": y[1], "b1": y[2]})
     return rows
 
 
 def main():
-    suite, out, rest = pathlib.Path(sys.argv[2]), sys.argv[3], sys.argv[4:]
+    arguments, fine = sys.argv[2:], None
+    if "--refined" in arguments:
+        at = arguments.index("--refined")
+        fine = [int(x) for x in arguments[at + 1:at + 3]]
+        del arguments[at:at + 3]
+    suite, out, rest = pathlib.Path(arguments[0]), arguments[1], arguments[2:]
     H, Nt = (int(rest[0]), int(rest[1])) if len(rest) > 1 else (8, 128)
     results = {}
     for name in rest[2:] or json.loads((suite / "suite.json").read_text())["cases"]:
         case = json.loads((suite / "cases" / f"{name}.json").read_text())
         try:
             with contextlib.redirect_stdout(io.StringIO()):  # it reports every step
-                rows = solve_case(case, H, Nt)
+                rows = solve_case(case, H, Nt, fine)
         except (AssertionError, ValueError, np.linalg.LinAlgError) as problem:
             print(f"{name}: {problem}", flush=True)
             continue
         print(name, len(rows), flush=True)
         if rows:
             results[name] = rows
-    pathlib.Path(out).write_text(json.dumps({"program": f"tmdsimpy, H = {H}, Nt = {Nt}", "cases": results}, indent=1))
+    pathlib.Path(out).write_text(json.dumps({"program": f"tmdsimpy, H = {H}, Nt = {Nt}" + (f", refined {fine}" if fine else ""), "cases": results}, indent=1))
 
 
 if __name__ == "__main__":
