@@ -205,7 +205,7 @@ static hc_status read_line(csv_file *f, const char *text)
     *(meaning == OMEGA ? &row.omega : &row.value[meaning]) = fault == NUMBER_FINE ? number : NAN;
   }
   if (i < f->n) return suite_say(f->answer->wrong, "%s:%ld:1: %d fields, expected %d", f->path, f->line, i, f->n);
-  return isnan(row.omega) ? HC_OK : add_row(f->answer, &row);
+  return add_row(f->answer, &row);
 }
 
 /* A case's csv file; HC_BAD_INPUT: it is refused. */

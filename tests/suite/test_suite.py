@@ -151,7 +151,7 @@ def results():
             return found[name, "p"], said
 
         for name in NAMES:
-            write_csv(folder, name, list(reversed(truth[name])), columns=("b1", "extra", "amplitude", "omega", "mean", "a1"))
+            write_csv(folder, name, [{**r, "extra": "converged"} for r in reversed(truth[name])], columns=("b1", "extra", "amplitude", "omega", "mean", "a1"))
         rows, said = suite("--results", folder, "--program", "p", expect=0)
         check(all(float(r["score"]) > 99.999 for r in rows.values()), "the truth in another order, with a column more: all points")
         check("fold.csv:1:4: column `extra` is left out" in said, "the column that is left out is told by name")
@@ -166,6 +166,8 @@ def results():
         row, _ = score("foot", rows=[{**r, "mean": None} for r in foot], columns=("omega", "amplitude", "a1", "b1"))
         check(row["quantity"] == "mean" and abs(float(row["score"]) - 75) < 1e-6, "a column that is missing: its points")
         row, said = score("foot", rows=[{**r, "amplitude": float("nan")} if i == 1 else r for i, r in enumerate(foot)])
+        still, _ = score("two_sided", rows=[{**r, "mean": float("nan")} for r in truth["two_sided"]])
+        check(abs(float(still["score"]) - 75) < 1e-6, f"nan is no mean of 0: {still['score']}")
         check("foot.csv:3:5: `nan` counts as missing" in said and 95 < float(row["score"]) < 96, "nan counts as missing and is named")
         row, said = score("foot", rows=[{**r, "omega": r["omega"] / (2 * 3.141592653589793)} for r in foot], expect=2)
         check(row["result"] == "refused" and "foot.csv: omega 0.7957747155 is in cycles" in said, "cycles are refused by name")
@@ -193,6 +195,8 @@ def results():
                             ("omega,omega,mean\n", ":1:7: a second column `omega`"), ("", ":1:1: empty")):
             row, said = score("foot", text=text, expect=2)
             check(row["result"] == "refused" and "foot.csv" + where in said and row["score"] == "0", f"{text!r}: {where}")
+        row, said = score("foot", rows=[{**r, "omega": float("nan")} if i == 1 else r for i, r in enumerate(foot)])
+        check(row["missing"] == "1" and row["cause"] == "missing_solutions", "an omega that is none is a row of no solution")
         row, said = score("foot", text="\ufeff# remark\r\nomega , amplitude\r\n 5 , 1e-1\r\n")
         check(row["result"] == "fail" and row["missing"] == "5", "a byte order mark, remarks and CRLF are read")
         pathlib.Path(folder, "feet.csv").write_text("omega,mean\n5,1\n")
@@ -285,6 +289,8 @@ def wrong():
         mean, before = (sum(float(x[n]["score"]) for n in names) / len(names) for x in (rows, right))
         print(f"{mistake}: score {before:.1f} -> {mean:.1f}", *why)
         check(any(f"what is wrong: {cause} " in x for x in why), f"{mistake}: {cause} expected, told {why}")
+        if cause == "friction_sign":
+            check(all(r["cause"] == cause for r in rows.values()), f"it is told of each case, {[(n, r['cause']) for n, r in rows.items()]}")
         check(mean < before - 5, f"{mistake}: {mean:.1f} is not visibly below {before:.1f}")
 
 
