@@ -223,7 +223,7 @@ def results():
 
         file.write_text(json.dumps({"cases": truth}))
         page, badge, junit = (f"{folder}/out.{x}" for x in ("html", "svg", "xml"))
-        done = subprocess.run([HBMCHECK, "suite", str(SUITE), "--results", str(file), "--program", "<p>", "-o", page, "--badge", badge, "--junit", junit],
+        done = subprocess.run([HBMCHECK, "suite", str(SUITE), "--results", str(file), "--program", "<p>", "-o", page, "--badge", badge, "--junit", junit, "--digits", "8"],
                               capture_output=True, text=True)
         check(done.returncode == 0 and f"{len(NAMES)} of {len(NAMES)} cases" in done.stdout, "page, badge and JUnit")
         html = pathlib.Path(page).read_text()
