@@ -326,14 +326,19 @@ hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *int
   }
   hc_status st = HC_OK;
   for (double at = from; at < to && st == HC_OK;) {
-    double width = turns_a_step * omega / sqrt(most), stiffest = most;
-    for (int j = 0; j < m->n_contacts && f->bends; ++j) { /* as they are at the step's beginning */
-      contact_slopes slopes;
-      if (!bends(f, interval, j, at, omega, &slopes)) continue;
-      for (int i = 0; i < f->n; ++i)
-        stiffest += fabs(slopes.n_v) * m->contacts[j].normal[i] * m->contacts[j].normal[i] /
-                    m->mass[(size_t)i * (size_t)(f->n + 1)];
-      width = fmin(fmin(width, slopes.step), turns_a_step * omega / sqrt(stiffest));
+    double width = turns_a_step * omega / sqrt(most);
+    for (int look = 0; look < 5 && f->bends;
+         ++look) { /* as they are from the step's beginning to its end, as it is then */
+      const double there = at + 0.25 * look * width;
+      double stiffest = most;
+      for (int j = 0; j < m->n_contacts; ++j) {
+        contact_slopes slopes;
+        if (!bends(f, interval, j, there, omega, &slopes)) continue;
+        for (int i = 0; i < f->n; ++i)
+          stiffest += fabs(slopes.n_v) * m->contacts[j].normal[i] * m->contacts[j].normal[i] /
+                      m->mass[(size_t)i * (size_t)(f->n + 1)];
+        width = fmin(fmin(width, slopes.step), turns_a_step * omega / sqrt(stiffest));
+      }
     }
     const double end = planar_slipping_step(n_slipping, slipping, at, to, width);
     st = advance_step(f, interval, n_slipping, slipping, at, end, omega, columns, phi);
