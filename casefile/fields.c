@@ -354,12 +354,6 @@ bool field_was_removed(message *m, const char *path, size_t length)
 
 enum { FAR = NEAREST_FAR };
 
-static int field_nearness(const char *key, size_t length, const field *f)
-{
-  if (*f->symbol && strlen(f->symbol) == length && !memcmp(key, f->symbol, length)) return 0;
-  return nearest_distance(key, length, f->name);
-}
-
 suggestion suggest_key(const char *section, const char *key, size_t length)
 {
   suggestion best = {0};
@@ -373,7 +367,8 @@ suggestion suggest_key(const char *section, const char *key, size_t length)
     const field *f = field_at(i);
     bool here = !strcmp(f->section, section);
     if (!here && f->flags & FIELD_STRUCTURE) continue; /* few cases have one */
-    int d = field_nearness(key, length, f), cost = 2 * d + !here;
+    bool symbol = *f->symbol && strlen(f->symbol) == length && !memcmp(key, f->symbol, length);
+    int d = symbol ? 0 : nearest_distance(key, length, f->name), cost = 2 * d + !here;
     if (cost < best_cost && (here ? d : 2 * d) <= 2) best = (suggestion){.f = f}, best_cost = cost;
   }
   return best;

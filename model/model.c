@@ -4,13 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Numbers in the block: three matrices, two vectors a load and a contact, one a response. */
-static size_t block_length(const model *m)
-{
-  const size_t n = (size_t)m->n;
-  return n * (3 * n + 2 * (size_t)m->n_loads + 2 * (size_t)m->n_contacts + (size_t)m->n_responses);
-}
-
 static double *take(double **next, size_t length)
 {
   double *taken = *next;
@@ -28,7 +21,10 @@ hc_status model_new(int n, int n_loads, int n_contacts, int n_responses, model *
   m->n_loads = n_loads;
   m->n_contacts = n_contacts;
   m->n_responses = n_responses;
-  m->numbers = calloc(block_length(m), sizeof *m->numbers);
+  /* Three matrices, two vectors a load and a contact, one a response. */
+  const size_t length = (size_t)n,
+               vectors = 3 * length + 2 * (size_t)n_loads + 2 * (size_t)n_contacts + (size_t)n_responses;
+  m->numbers = calloc(vectors * length, sizeof *m->numbers);
   m->loads = calloc((size_t)n_loads + 1, sizeof *m->loads);
   m->contacts = calloc((size_t)n_contacts + 1, sizeof *m->contacts);
   if (!m->numbers || !m->loads || !m->contacts) {
@@ -37,7 +33,6 @@ hc_status model_new(int n, int n_loads, int n_contacts, int n_responses, model *
   }
   /* Every pointer into the block, in one order. */
   double *next = m->numbers;
-  const size_t length = (size_t)m->n;
   m->mass = take(&next, length * length);
   m->damping = take(&next, length * length);
   m->stiffness = take(&next, length * length);

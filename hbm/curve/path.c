@@ -80,19 +80,16 @@ double path_predict(path *p, double h)
   return ratio;
 }
 
-/* Where a symmetric solution's symmetry breaks the determinant changes its sign, and the curve does not turn: it goes
- * on along the last tangent. */
-static void orient_by_last_tangent(path *p)
-{
-  const hbm_curve *c = p->curve;
-  const double *dX = hbm_curve_dX(c, c->n - 1);
-  const bool onward = path_metric(p, path_size(p), p->dX, p->d_omega, dX, c->points[c->n - 1].d_omega) > 0;
-  p->orientation = onward ? p->det_sign : -p->det_sign;
-}
-
 void path_orient_tangent(path *p)
 {
-  if (p->s->on_symmetric) orient_by_last_tangent(p);
+  if (p->s->on_symmetric) {
+    /* Where its symmetry breaks the determinant changes its sign, and the curve does not turn: on along the last
+     * tangent. */
+    const hbm_curve *c = p->curve;
+    const double *dX = hbm_curve_dX(c, c->n - 1);
+    const bool onward = path_metric(p, path_size(p), p->dX, p->d_omega, dX, c->points[c->n - 1].d_omega) > 0;
+    p->orientation = onward ? p->det_sign : -p->det_sign;
+  }
   if (p->det_sign == p->orientation) return;
   for (int i = 0; i < p->curve->n_coef; ++i) p->dX[i] = -p->dX[i];
   p->d_omega = -p->d_omega;

@@ -35,11 +35,9 @@ struct planar_flow {
   workspace memory;     /* of all of these */
 };
 
-static int most_unknowns(const model *m) { return N * (m->n + m->n_contacts / 2 + 1); }
-
 hc_status planar_flow_new(const model *m, planar_flow **out)
 {
-  const size_t n = (size_t)m->n, unknowns = (size_t)most_unknowns(m), planar = (size_t)m->n_contacts / 2 + 1;
+  const size_t n = (size_t)m->n, planar = (size_t)m->n_contacts / 2 + 1, unknowns = N * (n + planar);
   planar_flow *f = calloc(1, sizeof *f);
   *out = NULL;
   if (!f) return HC_NO_MEMORY;
