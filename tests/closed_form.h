@@ -2,7 +2,8 @@
  * rest. */
 #pragma once
 
-#include "timeint/transient_settings.h"
+#include "tests/check.h"
+#include "timeint/timeint.h"
 
 /* The initializer of transient_settings. */
 #define CLOSED_FORM(closure, most_periods)                                                                             \
@@ -11,3 +12,12 @@
     .steady = TRANSIENT_STEADY_AUTO, .start = TRANSIENT_START_REST, .tolerance = (closure),                            \
     .max_periods = (most_periods)                                                                                      \
   }
+
+/* y[states]: at rest. */
+static inline timeint *at_rest(const model *m, const transient_settings *how, double *y)
+{
+  timeint *ti;
+  assert_int_equal(timeint_new(m, how, &ti), HC_OK);
+  timeint_rest(ti, y);
+  return ti;
+}

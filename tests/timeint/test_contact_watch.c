@@ -25,11 +25,9 @@ typedef struct steady_contacts {
 /* The steady state from rest. */
 static void settle(const model *m, const transient_settings *how, double omega, steady_contacts *out)
 {
-  timeint *ti;
   double state[2 * MOST_N + MOST_CONTACTS];
   assert_true(m->n <= MOST_N && m->n_contacts <= MOST_CONTACTS);
-  assert_int_equal(timeint_new(m, how, &ti), HC_OK);
-  timeint_rest(ti, state);
+  timeint *ti = at_rest(m, how, state);
   assert_int_equal(timeint_steady(ti, omega, state, NULL, &out->of[0]), HC_OK);
   for (int i = 1; i < m->n_responses; ++i) {
     out->of[i] = out->of[0];

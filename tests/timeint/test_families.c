@@ -56,11 +56,9 @@ static void marching_counts_them_too(CHECK_STATE)
     const structure_case c = structure_case_named(marched[i].name, 3);
     transient_settings how = closed_form;
     how.steady = TRANSIENT_STEADY_MARCH;
-    timeint *ti;
     timeint_result r;
-    double y[STATES] = {0};
-    assert_int_equal(timeint_new(c.model, &how, &ti), HC_OK);
-    timeint_rest(ti, y);
+    double y[STATES];
+    timeint *ti = at_rest(c.model, &how, y);
     assert_int_equal(timeint_steady(ti, marched[i].omega, y, NULL, &r), HC_OK);
     assert_int_equal(r.method, TIMEINT_BY_MARCHING);
     assert_int_equal(r.free_sliders, marched[i].free_sliders);

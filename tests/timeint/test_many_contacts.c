@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_errno.h>
 
+#include "tests/closed_form.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/scenes.h"
 
@@ -91,12 +92,10 @@ static void sweep(CHECK_STATE)
 {
   const int n = 17;
   scene sc = scene_b10();
-  timeint *ti;
   timeint_result swept, solved;
   double y[TIMEINT_W + MOST];
   model *m = scene_split_model(&sc, n);
-  assert_int_equal(timeint_new(m, &sc.transient, &ti), HC_OK);
-  timeint_rest(ti, y);
+  timeint *ti = at_rest(m, &sc.transient, y);
   assert_int_equal(timeint_sweep(ti, 6.9, 7, y, NULL), HC_OK);
   assert_int_equal(timeint_steady(ti, 7, y, NULL, &swept), HC_OK);
   solved = steady_state(&sc, n, 7, (const double[]){1.04, 7, 0.6}, y);

@@ -9,11 +9,9 @@ static const transient_settings closed = CLOSED_FORM(1e-10, 2000);
 
 static void settle(const model *m, double omega, orbit_events *e)
 {
-  timeint *ti;
   timeint_result r;
   double state[8];
-  assert_int_equal(timeint_new(m, &closed, &ti), HC_OK);
-  timeint_rest(ti, state);
+  timeint *ti = at_rest(m, &closed, state);
   assert_int_equal(timeint_steady(ti, omega, state, NULL, &r), HC_OK);
   assert_int_equal(timeint_events(ti, r.period_multiple, e), HC_OK);
   timeint_free(ti);

@@ -1,8 +1,7 @@
 /* test_shoot.c - orbits as fixed points of the period map, with both laws: in few periods, the same orbit as marching
  * finds, unstable ones too; refused where there is none next to the start. */
 
-#include <gsl/gsl_eigen.h>
-
+#include "tests/hbm/multipliers.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/scenes.h"
@@ -84,23 +83,18 @@ static void differentiate(const period_map *map, const double *z, double h, doub
     }
 }
 
-/* Of its eigenvalues (by GSL) the one nearest to lambda or its conjugate, and the largest modulus. */
+/* Of its eigenvalues the one nearest to lambda or its conjugate, and the largest modulus. */
 static double nearest_eigenvalue(double phi[3][3], double complex lambda, double *largest)
 {
   double off = INFINITY, work[9];
+  double complex eigen[3];
   memcpy(work, phi, sizeof work);
-  gsl_matrix_view matrix = gsl_matrix_view_array(work, 3, 3);
-  gsl_vector_complex *eigen = gsl_vector_complex_alloc(3);
-  gsl_eigen_nonsymm_workspace *space = gsl_eigen_nonsymm_alloc(3);
-  assert_int_equal(gsl_eigen_nonsymm(&matrix.matrix, eigen, space), 0);
+  eigenvalues_of(3, work, eigen);
   *largest = 0;
-  for (size_t i = 0; i < 3; ++i) {
-    const gsl_complex e = gsl_vector_complex_get(eigen, i);
-    off = fmin(off, hypot(GSL_REAL(e) - creal(lambda), fabs(GSL_IMAG(e)) - fabs(cimag(lambda))));
-    *largest = fmax(*largest, hypot(GSL_REAL(e), GSL_IMAG(e)));
+  for (int i = 0; i < 3; ++i) {
+    off = fmin(off, hypot(creal(eigen[i]) - creal(lambda), fabs(cimag(eigen[i])) - fabs(cimag(lambda))));
+    *largest = fmax(*largest, cabs(eigen[i]));
   }
-  gsl_eigen_nonsymm_free(space);
-  gsl_vector_complex_free(eigen);
   return off;
 }
 

@@ -58,10 +58,8 @@ static void a_curve_has_one_rotation(CHECK_STATE)
 
 static hc_status steady_from_rest(const model *m, const transient_settings *how, double omega, timeint_result *r)
 {
-  timeint *ti;
   double y[STATES];
-  assert_int_equal(timeint_new(m, how, &ti), HC_OK);
-  timeint_rest(ti, y);
+  timeint *ti = at_rest(m, how, y);
   hc_status st = timeint_steady(ti, omega, y, NULL, r);
   timeint_free(ti);
   return st;
@@ -71,11 +69,9 @@ static hc_status steady_from_rest(const model *m, const transient_settings *how,
 static double angle_of_multiplier(const model *m, double omega, double *modulus)
 {
   const double from = 8.8;
-  timeint *ti;
   double y[STATES];
   timeint_result r;
-  assert_int_equal(timeint_new(m, &closed_form, &ti), HC_OK);
-  timeint_rest(ti, y);
+  timeint *ti = at_rest(m, &closed_form, y);
   assert_int_equal(timeint_steady(ti, from, y, NULL, &r), HC_OK);
   for (int i = 1; i <= 10; ++i)
     assert_int_equal(timeint_orbit(ti, from + (omega - from) * i / 10, 1, y, NULL, &r), HC_OK);
@@ -159,11 +155,9 @@ hc_status __wrap_chaos_test(timeint *ti, const hc_monitor *monitor, bool *chaos,
 static void what_has_come_to_an_orbit_is_not_chaos(CHECK_STATE)
 {
   const structure_case c = structure_case_named("wedge_F10", 3);
-  timeint *ti;
   double swept[STATES], y[STATES], orbit[STATES];
   timeint_result r, of_orbit;
-  assert_int_equal(timeint_new(c.model, &closed_form, &ti), HC_OK);
-  timeint_rest(ti, swept);
+  timeint *ti = at_rest(c.model, &closed_form, swept);
   assert_int_equal(timeint_sweep(ti, 34, 31.95, swept, NULL), HC_OK);
   bool stable = false;
   for (int i = 0; i < 400 && !stable; ++i) { /* the motion passes by the stable orbit sooner or later */
