@@ -85,7 +85,7 @@ static void run_lines(void **state)
     else if (digits > 0) {
       judged = true;
       code = tell_sh(command);
-      shell_check(command, code, out, atoi(line), text_behind(line, digits));
+      shell_check(command, code, out, (int)strtol(line, NULL, 10), text_behind(line, digits));
     } else if (*line == '+') shell_check(command, code, out, code, text_behind(line, 1));
     else if (*line == '-') {
       const char *unwanted = text_behind(line, 1);
@@ -93,8 +93,9 @@ static void run_lines(void **state)
     } else if (*line == '~') {
       const double within = strtod(line + 1, &line), value = strtod(line, &line);
       const char *text = text_behind(line, 0), *at = find_behind(out, text);
-      double found = NAN;
-      if (at) sscanf(at, "%lf", &found);
+      char *end = NULL;
+      const double found = at ? strtod(at, &end) : NAN;
+      if (end == at) fail_msg("no number behind '%s' in:\n%s", text, out);
       CHECK_NEAR(found, value, within, "behind '%s' in:\n%s", text, out);
     } else if (*line && !strchr("#?$", *line)) fail_msg("not a line of a transcript: %s", line);
   }
