@@ -89,6 +89,26 @@ static void equal_ones(CHECK_STATE)
   workspace_free(&memory);
 }
 
+/* 1 and 1 + 3 d beside 1e8, d = 2^-34 + 2^-54: the first step does not turn vectors of values that are nearer to each
+ * other than LAPACK's error of the largest, and its vectors of the two are off by some 2^-20, of the bits of d that A
+ * has not in double. They are (1, -2) and (1, 1), but for some roundings of A V in long double, over d. */
+static void near_ones_beside_a_large_one(CHECK_STATE)
+{
+  const long double d = 0x1p-34L + 0x1p-54L;
+  const long double A[9] = {1 + 2 * d, 2 * d, 0, d, 1 + d, 0, 0, 0, -1e8};
+  eigensystem e;
+  workspace memory = {0};
+  assert_int_equal(eigensystem_make(&e, 3, &memory), HC_OK);
+  assert_int_equal(eigensystem_find(&e, A), HC_OK);
+  for (int k = 0; k < 3; ++k) {
+    const double complex *v = e.V + 3 * k, ratio = v[1] / v[0];
+    if (creal(e.lambda[k]) < 0) continue;
+    const double expected = creal(e.lambda[k]) > 1 + (double)d ? 1 : -2;
+    CHECK_NEAR(creal(ratio), expected, (double)(4 * LDBL_EPSILON / d), "vector of 1 + %g", creal(e.lambda[k]) - 1);
+  }
+  workspace_free(&memory);
+}
+
 /* A double eigenvalue with one eigenvector, exactly and nearly. */
 static void defective_ones_are_refused(CHECK_STATE)
 {
@@ -107,4 +127,5 @@ static void defective_ones_are_refused(CHECK_STATE)
   workspace_free(&memory);
 }
 
-CHECK_TESTS("numerics.eigensystem", 600, small_ones_are_as_good_as_large, equal_ones, defective_ones_are_refused)
+CHECK_TESTS("numerics.eigensystem", 600, small_ones_are_as_good_as_large, equal_ones, near_ones_beside_a_large_one,
+            defective_ones_are_refused)
