@@ -251,10 +251,11 @@ static hc_status find_orbit(prover *p, double omega, const double *X, timeint_re
   const int dim = length / (2 * own + 1);
   const size_t most = (size_t)dim * (2 * HBM_MAX_HARMONICS + 1), n_states = (size_t)timeint_n_states(p->ti);
   hc_status solved = HC_OK, st = comparison_orbit_start(p->response.hbm, X, omega, p->state);
-  double *finer = calloc(most + n_states, sizeof *finer), *first_state = finer + most;
+  double *finer = calloc(most + n_states, sizeof *finer);
   timeint_result first;
   int first_harmonics = -1;
   if (!finer) return HC_NO_MEMORY;
+  double *first_state = finer + most;
   memcpy(finer, X, (size_t)length * sizeof *finer);
   if (st == HC_OK) st = timeint_orbit(p->ti, omega, 1, p->state, p->monitor, r);
   int h = p->setup->hbm.keep_mean ? own + own / 4 + (own < 4) : own;

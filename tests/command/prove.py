@@ -69,6 +69,14 @@ class Prove(unittest.TestCase):
             self.assertLess(float(r["multiplier_low"]), float(r["multiplier_high"]))
             self.assertLess(float(r["amplitude_high"]) - float(r["amplitude_low"]), 1e-14 * float(amplitude))
 
+    def test_each_solution_has_its_own_orbit(self):
+        """With 5 harmonics Newton goes from the solution of branch 1 to its neighbour's orbit, four times as far as it was expected to be off."""
+        _, rows, _ = prove(f"{CASES}/paper/fig09_gap_m1.yaml", "--at", "4.3308887958766968")
+        self.assertEqual([r["stability"] for r in rows], ["stable", "unstable", "stable"])
+        self.assertEqual(len({r["amplitude_low"] for r in rows}), 3)
+        for r in rows:
+            self.assertLess(abs(float(r["error_low"])), 3 * float(r["error_predicted"]))
+
     def test_the_error_is_enclosed(self):
         _, rows, _ = prove(CASE2, "--at", "9", "--set", "hbm.harmonics=10")
         r = max(rows, key=lambda r: float(r["amplitude_low"]))
