@@ -1,5 +1,5 @@
-/* guesses.c - numbers that are good or bad, never right or wrong: any weights are a norm, and of any matrix B
- * Krawczyk's test is a proof. Good ones make few substeps, and the test succeed. */
+/* guesses.c - weights of the norm, and the approximate inverse B of dF/dy. A proof holds whatever they are; with good
+ * ones there are few substeps, and Krawczyk's test passes. */
 #include "proof/orbit.h"
 #include <math.h>
 
