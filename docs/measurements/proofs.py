@@ -8,7 +8,7 @@ usage: proofs.py sets HBMCHECK FOLDER [WORDS]   runs `prove` on the sets below (
        proofs.py tables FOLDER            the tables, from these
        proofs.py trouble HBMCHECK         towards a fold, a graze, a cone's edge, and stiff contacts: where rows turn unproven
 Random scenes are those of `hbmcheck stress --case --first 0, 1, ...`. Standard library only."""
-import collections, csv, glob, json, math, os, random, resource, statistics, subprocess, sys, tempfile, time
+import collections, csv, glob, json, math, os, random, re, resource, statistics, subprocess, sys, tempfile, time
 from decimal import Decimal, getcontext
 from fractions import Fraction
 
@@ -41,10 +41,14 @@ def cases(exe, folder, only):
     chain(path)
     yield "chain of 12", "chain12", path, ["--at", ",".join(f"{0.25 + 0.07 * i:.4g}" for i in range(24))]
     for words, n, option in (("random oscillators", 2000, []), ("random structures", 500, ["--structures"])):
-        for i in range(n if only in words else 0):
+        i = 0
+        while n > 0 and only in words:
             path = os.path.join(folder, "scene.yaml")
             subprocess.run([exe, "stress", "--case", "--first", str(i), "-o", path, *option], check=True)
-            yield words, f"scene{i}", path, []
+            if not re.search("law: (polynomial|tanh)", open(path).read()):  # smooth laws are not provable
+                n -= 1
+                yield words, f"scene{i}", path, []
+            i += 1
 
 
 def made(path): return list(csv.DictReader(open(path))) if os.path.exists(path) else []
