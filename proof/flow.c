@@ -213,7 +213,10 @@ void walk_start(walk *w, const orbit *o, int i)
   *w = (walk){.o = o, .s = s, .steps = 1L << s->levels, .k = -1};
   w->at = pool_balls(&w->pool, (s->levels + 1L) * s->size);
   w->series = pool_balls(&w->pool, (o->degree + 1L) * s->size);
-  w->factor = pool_balls(&w->pool, o->degree);
+  w->factor = pool_balls(&w->pool, o->degree + 2L);
+  w->width = w->factor + o->degree;
+  w->end = w->width + 1;
+  w->rest = pool_mags(&w->pool, 1);
   walk_width(w, s->step);
   arb_one(w->end);
 }
@@ -256,13 +259,7 @@ bool walk_next(walk *w)
   return true;
 }
 
-void walk_end(walk *w)
-{
-  pool_clear(&w->pool);
-  arb_clear(w->width);
-  arb_clear(w->end);
-  mag_clear(w->rest);
-}
+void walk_end(walk *w) { pool_clear(&w->pool); }
 
 void walk_polynomial(const walk *w, arb_srcptr row, arb_ptr polynomial, mag_t rest)
 {

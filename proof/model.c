@@ -208,8 +208,12 @@ static void segment_set(orbit *o, int i)
     if (!fixed) s->place[j] = s->state++;
   }
   if (s->size > o->largest) o->largest = s->size;
+  s->a = pool_take(&o->pool, POOL_MATRICES, 1);
   arb_mat_init(s->a, s->size, s->size);
-  s->start = pool_balls(&o->pool, s->size);
+  s->norm = pool_mags(&o->pool, 1);
+  s->start = pool_balls(&o->pool, s->size + 2L);
+  s->span = s->start + s->size;
+  s->step = s->span + 1;
   s->first = pool_take(&o->pool, POOL_BYTES, 2 * (size_t)s->size * sizeof *s->first);
   s->length = s->first + s->size;
   s->weight = pool_take(&o->pool, POOL_BYTES, (size_t)s->size * sizeof *s->weight);
@@ -384,6 +388,8 @@ orbit *orbit_new(const certificate *c, failure *f)
   o->centre = pool_balls(&o->pool, (slong)o->m * stride);
   o->box = pool_balls(&o->pool, (slong)o->m * stride);
   o->scale = pool_balls(&o->pool, stride);
+  o->omega = pool_balls(&o->pool, 2);
+  o->duration = o->omega + 1;
   arb_set_fmpq(o->omega, c->omega, p);
   arb_const_pi(o->duration, p);
   arb_mul_si(o->duration, o->duration, 2L * c->multiple, p);
@@ -399,6 +405,7 @@ orbit *orbit_new(const certificate *c, failure *f)
   o->friction = pool_take(&o->pool, POOL_BYTES, (size_t)o->contacts * sizeof *o->friction);
   for (int j = 0; j < o->contacts; j++) contact_set(o, &o->friction[j], &c->contacts[j], c->rest + j);
   LOCAL(arb_mat) mass = {0};
+  o->inverse_mass = pool_take(&o->pool, POOL_MATRICES, 1);
   arb_mat_init(mass, n, n);
   arb_mat_init(o->inverse_mass, n, n);
   for (int i = 0; i < n; i++) balls(arb_mat_entry(mass, i, 0), c->mass + (slong)i * n, n, p);
@@ -413,17 +420,6 @@ orbit *orbit_new(const certificate *c, failure *f)
 
 void orbit_free(orbit *o)
 {
-  if (!o) return;
-  for (int i = 0; i < o->m; i++) {
-    orbit_segment *s = &o->segments[i];
-    mag_clear(s->norm);
-    arb_clear(s->span);
-    arb_clear(s->step);
-    arb_mat_clear(s->a);
-  }
-  arb_clear(o->omega);
-  arb_clear(o->duration);
-  arb_mat_clear(o->inverse_mass);
-  pool_clear(&o->pool);
+  if (o) pool_clear(&o->pool);
   flint_free(o);
 }

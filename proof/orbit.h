@@ -31,11 +31,11 @@ typedef struct orbit_segment {
   char from[LIMIT_CONTACTS];  /* the letter before that                            */
   int place[LIMIT_CONTACTS];  /* of w in the monodromy's state x, v, w; -1: it is not there, or does not depend on x */
   int state;                  /* size of that                                      */
-  arb_mat_t a;                /* [size][size]                                             */
+  arb_mat_struct *a;          /* [size][size]                                             */
   int *first, *length;        /* [size] the part of each row that is not 0                */
   slong *weight;              /* [size] norm of Z: max |Z_i| / 2^weight_i                 */
-  mag_t norm;                 /* of A in it                                               */
-  arb_t span, step;           /* exact: about the segment's duration; span / 2^levels     */
+  mag_ptr norm;               /* of A in it                                               */
+  arb_ptr span, step;         /* exact: about the segment's duration; span / 2^levels     */
   int levels;
   arb_mat_struct *power; /* [levels + 1] exp(A step 2^b)                             */
   arb_ptr start;         /* [size] Z at its start, for all y in the box              */
@@ -57,8 +57,8 @@ typedef struct orbit {
   int harmonics, harmonic[LIMIT_HARMONICS + 1]; /* in Z: number of each                                  */
   int load_column[LIMIT_HARMONICS];             /* in Z: of the certificate's loads, the cosine's; 1's of harmonic 0 */
   int first_harmonic;                           /* the column of cos omega t in Z                        */
-  arb_mat_t inverse_mass;
-  arb_t omega, duration;   /* of all segments together          */
+  arb_mat_struct *inverse_mass;
+  arb_ptr omega, duration; /* of all segments together          */
   contact_balls *friction; /* [contacts]                        */
   orbit_segment *segments; /* [m]                               */
   arb_ptr centre, box;     /* [m][2 n + 1] y0; y                */
@@ -115,11 +115,11 @@ typedef struct walk {
   const orbit_segment *s;
   long steps, k; /* of steps; the one that was walked last                                          */
   arb_ptr at;    /* [levels + 1][size] Z at the last substep whose number ends in so many bits of 0 */
-  arb_t width;   /* exact                                                                           */
-  arb_t end;     /* where the segment ends, in widths: 1, or a ball below 1 on the last             */
+  arb_ptr width; /* exact                                                                           */
+  arb_ptr end;   /* where the segment ends, in widths: 1, or a ball below 1 on the last             */
   int degree;
   arb_ptr series; /* [degree + 1][size] Z(t_k + s width) = sum of series_j s^j + rest, 0 <= s <= 1    */
-  mag_t rest;     /* in the norm                                                                     */
+  mag_ptr rest;   /* in the norm                                                                     */
   arb_ptr factor; /* [degree] width / (j + 1)                                                        */
 } walk;
 void walk_start(walk *w, const orbit *o, int i);
