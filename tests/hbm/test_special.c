@@ -67,8 +67,8 @@ static void contact_sets_in_where_the_linear_response_grazes(CHECK_STATE)
 }
 
 /* Bisection to 1e-11 of a segment takes 37 solutions a change. The interpolant between the last two is off by a part of
- * the fourth power of their distance, less than any margin of root_change_guided, whose first five leave nothing: 10
- * solutions, and two rounds of 3 more where the pattern begins with a kink. Nothing else is searched for below 5.105,
+ * the fourth power of their distance, less than any margin of root_change_guided, whose first four leave nothing: 8
+ * solutions, and two rounds of 4 more where the pattern begins with a kink. Nothing else is searched for below 5.105,
  * where contact sets in and nothing turns back or doubles. */
 static void a_contact_change_takes_few_solutions(CHECK_STATE)
 {
