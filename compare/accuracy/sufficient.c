@@ -10,7 +10,16 @@
 #include "compare/motion.h"
 #include "model/modes.h"
 
-enum { TRACED = 20, POINTS = 32, OF_CURVE = 48, FIRST_TRUTH = 40, MOST_SAMPLES = 65536, ROUNDS = 3, REFINED = 3 };
+enum {
+  TRACED = 20,
+  POINTS = 32,
+  OF_CURVE = 48,
+  FIRST_TRUTH = 40,
+  MOST_SAMPLES = 65536,
+  MANY_SAMPLES = 1024,
+  ROUNDS = 3,
+  REFINED = 3
+};
 static const double least_strip = 1e-3, widths = 50;     /* of omega; half widths of the resonances instead, if less */
 static const double proven = 0.05;                       /* of the error: the truth's own */
 static const double most_work = 5e10, little_work = 5e8; /* [unknowns^3] of a search; of more frequencies */
@@ -391,7 +400,8 @@ static hc_status cheapest_pair(search *s, int least, hbm_settings how, sufficien
       if ((st = try_setting(s, &how, allowed, &error, &where)) != HC_OK) break;
       if (!(error <= allowed) && first) by_chance = first;
       first = !(error <= allowed) ? 0 : first ? first : n;
-      if (first == 0 || (n < 4 * first && n < MOST_SAMPLES)) continue;
+      const int beyond = first < MANY_SAMPLES ? 4 : 2; /* of many, errors fall evenly */
+      if (first == 0 || (n < beyond * first && n < MOST_SAMPLES)) continue;
       how.samples = first;
       if ((st = follows(s, &how, &yes)) != HC_OK || !yes) break;
       cheapest = cost(s, h, first);

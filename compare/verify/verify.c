@@ -11,6 +11,7 @@
 #include "base/message.h"
 #include "compare/verify/search/search.h"
 #include "compare/verify/truth/truth.h"
+#include "compare/work_limit.h"
 
 static int differing(const verify_report *r)
 {
@@ -34,14 +35,18 @@ static hc_status setup_of_response(const compare_setup *setup, int response, com
   return HC_OK;
 }
 
-/* The truth of one response, and what its points tell by themselves. */
-static hc_status judge_response(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
-                                verify_report *out)
+/* The truth of one response, as far as it is found before `until` [s], and what its points tell by themselves. */
+static hc_status judge_response(const compare_setup *setup, const verify_data *data, double until,
+                                const hc_monitor *monitor, verify_report *out)
 {
   model *one;
   compare_setup own;
+  work_limit limit = {.outer = monitor, .until = until};
   hc_status st = setup_of_response(setup, data->response, &own, &one);
-  if (st == HC_OK) st = verify_truth(&own, data, monitor, out);
+  if (st == HC_OK) st = verify_truth(&own, data, &(hc_monitor){work_limit_tick, &limit}, out);
+  for (int i = out->n_rows; i < data->n && st == HC_INTERRUPTED && !limit.stopped; out->n_rows = ++i)
+    out->rows[i] = verify_row_unjudged(&data->points[i]);
+  if (st == HC_INTERRUPTED && !limit.stopped) st = HC_OK;
   if (st == HC_OK) st = points_noise(out);
   model_free(one);
   if (st != HC_OK) return st;
@@ -114,6 +119,8 @@ static hc_status find_causes(const compare_setup *setup, int n, const verify_dat
 hc_status verify_run(const compare_setup *setup, int n, const verify_data *data, const verify_effort *effort,
                      const hc_monitor *monitor, verify_report *out)
 {
+  const double patience = effort && effort->patience > 0 ? effort->patience : VERIFY_PATIENCE, began = thread_seconds();
+  verify_effort left = effort ? *effort : (verify_effort){0};
   hc_status st = HC_OK;
   for (int k = 0; k < n; ++k) {
     out[k] = (verify_report){.truth_distance = NAN,
@@ -121,9 +128,10 @@ hc_status verify_run(const compare_setup *setup, int n, const verify_data *data,
                              .noise_said = data[k].noise,
                              .left_out = data[k].left_out,
                              .reversals = points_reversals(&data[k])};
-    if (st == HC_OK) st = judge_response(setup, &data[k], monitor, &out[k]);
+    if (st == HC_OK) st = judge_response(setup, &data[k], began + patience, monitor, &out[k]);
   }
-  if (st == HC_OK) st = find_causes(setup, n, data, effort, monitor, out);
+  left.patience = fmax(patience - (thread_seconds() - began), patience / 4); /* [s] for the search */
+  if (st == HC_OK) st = find_causes(setup, n, data, &left, monitor, out);
   for (int k = 0; k < n; ++k) {
     verify_report *r = &out[k];
     for (int i = 0; i < r->n_rows; ++i) ++*(r->rows[i].skipped ? &r->skipped : &r->count[r->rows[i].verdict]);

@@ -96,7 +96,8 @@ typedef struct verify_report {
 
 /* How long may be searched, and who hears of what is found until then. */
 typedef struct verify_effort {
-  double patience; /* [s] of processor time; 0: VERIFY_PATIENCE */
+  double patience; /* [s] of processor time for the truth and the search, which has a quarter at least; 0:
+                      VERIFY_PATIENCE */
   /* of the best so far, after VERIFY_FIRST_ANSWER and then after every stage that changes it; NULL */
   void (*say)(void *self, const verify_report *r);
   void *self;

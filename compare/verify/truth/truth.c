@@ -362,17 +362,22 @@ static hc_status truth_check(truth *t)
 
 /* ---- each point, and the number of harmonics ---- */
 
-static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
+verify_row verify_row_unjudged(const verify_point *p)
 {
-  hbm_curve at = {0};
-  measured m = {0};
-  *row = (verify_row){.omega = p->omega,
+  return (verify_row){.omega = p->omega,
                       .value = p->value,
                       .line = p->line,
                       .branch = -1,
                       .nearest = NAN,
                       .error = NAN,
                       .verdict = VERDICT_SOLVER_FAILED};
+}
+
+static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
+{
+  hbm_curve at = {0};
+  measured m = {0};
+  *row = verify_row_unjudged(p);
   hc_status st = truth_at(t, p->omega, &at);
   int k = st == HC_OK ? truth_nearest(t, &at, row, &m) : -1;
   if (k >= 0 && at.points) {

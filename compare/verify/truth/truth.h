@@ -13,6 +13,9 @@ void verify_window(const compare_setup *setup, const verify_data *data, double *
 hc_status verify_truth(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
                        verify_report *out);
 
+/* The row of a point of which nothing is known. */
+verify_row verify_row_unjudged(const verify_point *p);
+
 /* Sliders that acceleration_amplitude works with: doubles, of a model. */
 size_t acceleration_room(const model *m);
 
