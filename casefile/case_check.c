@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
 #include "casefile/case_reader.h"
+#include "numerics/base/number.h"
 #include "numerics/norm.h"
 
 /* Assignments come after the file, later ones after earlier ones; within the file, and for defaults, a goes first. */

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/constants.h"
 #include "casefile/case_reader.h"
 #include "casefile/case_values.h"
+#include "numerics/base/constants.h"
 
 static const char *expected(const field *f, char text[128])
 {

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
 #include "casefile/case_values.h"
+#include "numerics/base/number.h"
 #include "numerics/norm.h"
 
 /* ---- values ---- */

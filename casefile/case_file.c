@@ -5,8 +5,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/path.h"
 #include "casefile/case_reader.h"
+#include "numerics/base/path.h"
 
 static hc_status file_failed(case_reader *r, const char *words)
 {

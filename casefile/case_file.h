@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "base/status.h"
 #include "casefile/scene.h"
+#include "numerics/base/status.h"
 
 enum { CASE_MESSAGE = 512 };
 typedef struct case_error {

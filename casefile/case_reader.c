@@ -1,8 +1,8 @@
 /* case_reader.c - what every part of the case reader uses: messages with their place, nodes of the document. */
 #include "casefile/case_reader.h"
 
-#include "base/growing.h"
-#include "base/path.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/path.h"
 
 message *case_blame(case_reader *r, case_place place)
 {

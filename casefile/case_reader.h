@@ -6,12 +6,12 @@
 
 #include <yaml.h>
 
-#include "base/status.h"
 #include "casefile/case_file.h"
 #include "casefile/case_values.h"
 #include "casefile/fields.h"
 #include "casefile/mesh/mesh_file.h"
 #include "casefile/structure.h"
+#include "numerics/base/status.h"
 
 enum { CASE_LARGEST = 16 << 20 }; /* bytes of a case file; an echoed one holds matrices of some 500 rows */
 

@@ -7,8 +7,8 @@
  * counts. */
 #include <string.h>
 
-#include "base/nearest.h"
 #include "casefile/case_reader.h"
+#include "numerics/base/nearest.h"
 
 /* j: the entry of a list that the path begins with, for what is suggested. */
 static hc_status unknown_path(case_reader *r, const char *path, size_t length, int j)

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest.h"
-#include "base/number.h"
-#include "base/utf8.h"
+#include "numerics/base/nearest.h"
+#include "numerics/base/number.h"
+#include "numerics/base/utf8.h"
 
 static bool is_integer(const field *f) { return f->kind == FIELD_INTEGER || f->kind == FIELD_INTEGERS; }
 

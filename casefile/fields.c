@@ -1,8 +1,8 @@
 /* fields.c - the table of fields; see fields.h. Defaults and ranges stand here and nowhere else. */
 #include "casefile/fields.h"
 
-#include "base/constants.h"
-#include "base/nearest.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/nearest.h"
 
 static const char *const force_names[] = {[HBM_FORCE_EXACT] = "exact", [HBM_FORCE_SAMPLED] = "sampled", NULL};
 static const char *const restart_names[] = {

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/message.h"
 #include "casefile/structure.h"
+#include "numerics/base/message.h"
 
 typedef enum field_kind {
   FIELD_REAL,     /* double                                             */

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
+#include "numerics/base/number.h"
 
 enum { COLUMNS = 3 };
 static const size_t most_bytes = (size_t)1 << 31; /* it may be a matrix */

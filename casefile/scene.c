@@ -3,9 +3,9 @@
 
 #include <stdio.h>
 
-#include "base/constants.h"
 #include "casefile/fields.h"
 #include "casefile/structure.h"
+#include "numerics/base/constants.h"
 
 double scene_omega(const scene *sc, double given) { return sc->in_cycles ? TWO_PI * given : given; }
 

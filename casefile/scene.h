@@ -4,12 +4,12 @@
  * Names, units, defaults, ranges and meanings of the fields are in fields.c and nowhere else. */
 #pragma once
 
-#include "base/status.h"
 #include "compare/compare_settings.h"
 #include "compare/gate_limits.h"
 #include "hbm/hbm_settings.h"
 #include "model/model.h"
 #include "model/moving_contact.h"
+#include "numerics/base/status.h"
 #include "timeint/transient_settings.h"
 
 enum {

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/growing.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/growing.h"
 #include "numerics/norm.h"
 
 scene_structure *structure_new(void) { return calloc(1, sizeof(scene_structure)); }

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/nearest.h"
-#include "base/number.h"
 #include "casefile/case_reader.h"
+#include "numerics/base/nearest.h"
+#include "numerics/base/number.h"
 #include "numerics/norm.h"
 
 /* Where a field of the entry being read was given, line = 0: not at all. */

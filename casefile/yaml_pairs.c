@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
 #include "casefile/case_reader.h"
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
 #include "casefile/mesh/pairing.h"
+#include "numerics/base/number.h"
 #include "numerics/norm.h"
 
 typedef enum axis { NORMAL, TANGENT, TANGENT_2, AXES } axis;

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "base/path.h"
-#include "base/utf8.h"
 #include "casefile/matrices/text_file.h"
+#include "numerics/base/number.h"
+#include "numerics/base/path.h"
+#include "numerics/base/utf8.h"
 
 /* ---- matrices ---- */
 

@@ -2,8 +2,8 @@
  * deep nesting, aliases and second documents before libyaml builds anything (in quadratic time); then the document. */
 #include <string.h>
 
-#include "base/utf8.h"
 #include "casefile/case_reader.h"
+#include "numerics/base/utf8.h"
 
 enum { DEEPEST = 16 }; /* a case file needs 4 */
 

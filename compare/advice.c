@@ -1,7 +1,7 @@
 /* advice.c - see advice.h. */
 #include "compare/advice.h"
 
-#include "base/message.h"
+#include "numerics/base/message.h"
 
 enum { MOST_REMEDIES = 4 };
 

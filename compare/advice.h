@@ -1,8 +1,8 @@
 /* advice.h - what to change in a case after a solver failed. About a discrepancy: remedy.h. */
 #pragma once
 
-#include "base/status.h"
 #include "hbm/hbm_settings.h"
+#include "numerics/base/status.h"
 #include "timeint/transient_settings.h"
 
 enum { ADVICE_TEXT = 320 };

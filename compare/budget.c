@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/workspace.h"
 #include "compare/first_guess.h"
 #include "compare/motion.h"
 #include "compare/work_limit.h"
+#include "numerics/base/workspace.h"
 
 static const double same_orbit = 0.05; /* [amplitude] */
 static const double negligible = 1e-2; /* of the discrepancy: a part that no remark would name */

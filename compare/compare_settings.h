@@ -2,9 +2,9 @@
  * the limits, all that it works from. Names, defaults, ranges, meanings: `compare` in casefile/fields.c. */
 #pragma once
 
-#include "base/number.h"
 #include "hbm/hbm_settings.h"
 #include "model/model.h"
+#include "numerics/base/number.h"
 #include "timeint/transient_settings.h"
 #include <pthread.h>
 

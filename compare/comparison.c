@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
 #include "compare/comparison_private.h"
 #include "compare/first_guess.h"
 #include "compare/remedy.h"
 #include "compare/response.h"
+#include "numerics/base/growing.h"
 
 const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }
 

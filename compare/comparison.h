@@ -9,7 +9,6 @@
  * discrepancy beyond both is a mistake of one of them. */
 #pragma once
 
-#include "base/status.h"
 #include "compare/budget.h"
 #include "compare/compare_settings.h"
 #include "compare/discrepancy.h"
@@ -17,6 +16,7 @@
 #include "hbm/hbm.h"
 #include "model/contact_period.h"
 #include "model/model.h"
+#include "numerics/base/status.h"
 #include "timeint/steady/steady.h"
 
 /* ---- one contact in one HBM solution, and in the transient that the solution is held against: a friction damper is

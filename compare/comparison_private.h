@@ -2,8 +2,8 @@
  * comparison.c, which goes through frequencies and branches, and solution.c, which knows a row's numbers. */
 #pragma once
 
-#include "base/workspace.h"
 #include "compare/comparison.h"
+#include "numerics/base/workspace.h"
 
 typedef struct comparison_work comparison_work;
 struct comparison_work {

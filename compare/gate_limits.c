@@ -1,7 +1,7 @@
 /* gate_limits.c - see gate_limits.h. */
 #include "compare/gate_limits.h"
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 
 discrepancy gate_limits_at(const gate_limits *l, double omega)
 {

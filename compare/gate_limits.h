@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-#include "base/number.h"
 #include "compare/discrepancy.h"
+#include "numerics/base/number.h"
 
 /* Other limits in parts of the sweep. Where ranges overlap the last one holds. */
 typedef struct gate_ranges {

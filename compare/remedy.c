@@ -5,13 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/message.h"
-#include "base/thread_clock.h"
 #include "compare/first_guess.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
 #include "compare/response.h"
 #include "compare/work_limit.h"
+#include "numerics/base/message.h"
+#include "numerics/base/thread_clock.h"
 
 /* What may be changed, in the order in which it is tried. */
 typedef enum move { STATIC, EXACT_FORCES, HARMONICS, START, LAW, TOLERANCE, N_MOVES } move;

@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-#include "base/thread_clock.h"
 #include "compare/first_guess.h"
+#include "numerics/base/thread_clock.h"
 
 hc_status response_trace(const compare_setup *setup, const number_list *asked, const hc_monitor *monitor,
                          response_curve *out)

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
-#include "base/workspace.h"
 #include "compare/comparison.h"
 #include "compare/motion.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/workspace.h"
 #include "timeint/steady/contact_watch.h"
 #include "timeint/steady/sweep.h"
 

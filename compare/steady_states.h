@@ -2,10 +2,10 @@
  * transient.start says: on each HBM solution's orbit, at rest, or swept from an end of the sweep, as on a shaker. */
 #pragma once
 
-#include "base/status.h"
 #include "compare/compare_settings.h"
 #include "compare/response.h"
 #include "model/contact_period.h"
+#include "numerics/base/status.h"
 #include "timeint/steady/steady.h"
 
 /* A row can fail in one of three ways, so that a message can say which side it was. */

@@ -1,8 +1,8 @@
 /* work_limit.h - a monitor that stops after some ticks, or at a processor time; `stopped`: it was told to. */
 #pragma once
 
-#include "base/status.h"
-#include "base/thread_clock.h"
+#include "numerics/base/status.h"
+#include "numerics/base/thread_clock.h"
 
 typedef struct work_limit {
   const hc_monitor *outer;

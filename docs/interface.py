@@ -28,7 +28,7 @@ COMMANDS = {  # what is run for the columns of each command: one degree of freed
     "describe": ["describe"],
     "describe --case": ["describe", "--case", CASE2],
 }
-LISTS = {"verdicts": ("compare/comparison.h", "VERDICT_LIST"), "reasons": ("prove/prove.h", "PROOF_REASONS")}
+LISTS = {"verdicts": ("compare/comparison.h", "VERDICT_LIST"), "reasons": ("proof/prove/prove.h", "PROOF_REASONS")}
 CAUSES = ("compare/verify/equations/causes.h", "VERIFY_CAUSE_LIST")
 
 

@@ -13,8 +13,8 @@
 
 #include <stdbool.h>
 
-#include "base/status.h"
 #include "model/contact_law.h"
+#include "numerics/base/status.h"
 
 /* A contact with two tangents is two neighbours in the list, one for each tangent: of the same law and normal, each
  * with half of kn and load and twice mu. So mu N of either is the contact's, their normal forces add up to the

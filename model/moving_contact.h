@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-#include "base/status.h"
 #include "model/model.h"
+#include "numerics/base/status.h"
 #include "numerics/series.h"
 
 /* u = sum cu[d] x_d, v = sum cv[d] x_d. */

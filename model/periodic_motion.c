@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/series.h"
 
 periodic_motion motion_of_series(int n_harm, const double *X, double max, double min)

@@ -6,7 +6,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 
 enum { MAX_DEPTH = 48, MAX_NEWTON = 60 };
 

@@ -5,7 +5,7 @@
 
 #include <complex.h>
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 
 /* C = A B; A[m][k], B[k][n], C[m][n] by columns, apart from each other. */
 void dense_multiply(int m, int n, int k, const double *A, const double *B, double *C);

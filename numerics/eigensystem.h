@@ -8,8 +8,8 @@
 
 #include <complex.h>
 
-#include "base/status.h"
-#include "base/workspace.h"
+#include "numerics/base/status.h"
+#include "numerics/base/workspace.h"
 
 typedef struct wide_complex {
   long double re, im;

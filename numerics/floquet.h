@@ -3,7 +3,7 @@
 
 #include <complex.h>
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 
 typedef struct floquet floquet;
 

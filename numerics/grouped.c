@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 
 /* What a row has outside its group is 0 within so much of what it has inside [1]: a contact that sticks has the

@@ -6,7 +6,7 @@
  * and LU costs what the unknowns of R cost. Which rows are L is read from the matrix itself, each time. */
 #pragma once
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 
 typedef struct grouped grouped;
 

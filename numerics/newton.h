@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 
 typedef struct newton newton;
 

@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 
 enum { ROOTS_MAX_EVALUATIONS = 200 };
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 
 series_jet series_at(int n_harm, const double *X, double c, double s)
 {

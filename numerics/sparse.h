@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 
 typedef struct sparse {
   int n;         /* rows and columns                                                           */

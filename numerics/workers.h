@@ -6,7 +6,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 
 typedef struct workers {
   pthread_mutex_t lock;

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/path.h"
+#include "numerics/base/path.h"
 #include "output/same_file.h"
 
 enum { MAX_TRIES = 10000, MOST_BESIDE = 8 };

@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 
 typedef struct output output;
 

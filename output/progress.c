@@ -10,8 +10,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/thread_clock.h"
-#include "base/utf8.h"
+#include "numerics/base/thread_clock.h"
+#include "numerics/base/utf8.h"
 #include "output/output.h"
 
 enum { LINE_ROOM = 512, MIN_ELAPSED = 1 /* [s] below that an estimate is noise */ };

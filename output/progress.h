@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <sys/types.h>
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 
 typedef struct progress progress;
 
@@ -19,7 +19,7 @@ typedef struct progress progress;
  * are results to keep (progress_hold). A signal that was ignored (nohup) stays ignored. Call once, early. */
 void progress_install_signals(int exit_code);
 
-/* While held, the program does not end 0.7 s after a signal: the caller ends it (command/keep_found.h).
+/* While held, the program does not end 0.7 s after a signal: the caller ends it (interfaces/command/keep_found.h).
  * Let go after a signal, 0.7 s begin. From the first time on a second signal no longer kills. */
 void progress_hold(bool held);
 

@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-#include "base/constants.h"
 #include "compare/motion.h"
+#include "numerics/base/constants.h"
 
 /* Questions about a row, for the lists below. */
 static bool settled(const steady_row *r) { return r->status == HC_OK; }

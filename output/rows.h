@@ -7,7 +7,7 @@
 #include "compare/response.h"
 #include "compare/steady_states.h"
 #include "output/table.h"
-#include "prove/prove.h"
+#include "proof/prove/prove.h"
 
 typedef enum {
   ROWS_FRF,             /* of response_row      */

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/path.h"
+#include "numerics/base/path.h"
 
 enum { MAX_LINKS = 40, MAX_LINK_TEXT = 4096 };
 

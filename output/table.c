@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
-#include "base/utf8.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/utf8.h"
 #include "output/table_private.h"
 
 /* The C locale for this thread alone; printf and jansson then write '.'. */

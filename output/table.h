@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 
 typedef enum { TABLE_TEXT, TABLE_INTEGER, TABLE_REAL } table_kind;
 typedef struct {

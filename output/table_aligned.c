@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/utf8.h"
+#include "numerics/base/utf8.h"
 #include "output/table_private.h"
 
 enum {

@@ -1,7 +1,7 @@
 /* certificate.c - reading: every number is exact, every list has its length, everything is bounded. An object of the
  * model has the keys that are known, no others: a theorem about another model would be worse than none. */
 #include "proof/certificate.h"
-#include "base/message.h"
+#include "numerics/base/message.h"
 #include <ctype.h>
 #include <stdarg.h>
 #include <stdlib.h>

@@ -8,8 +8,8 @@
  * contacts, at rest: nothing holds it, and such structures are refused. */
 #pragma once
 
-#include "base/workspace.h"
 #include "casefile/structure.h"
+#include "numerics/base/workspace.h"
 #include "reduce/factor.h"
 
 typedef struct craig_bampton {

@@ -4,7 +4,7 @@
 #include <arpack/arpack.h>
 #include <string.h>
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 

@@ -6,8 +6,8 @@
 #include <complex.h>
 #include <string.h>
 
-#include "base/workspace.h"
 #include "model/modes.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 

@@ -7,9 +7,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/path.h"
 #include "casefile/matrices/text_file.h"
 #include "casefile/mesh/mesh_file.h"
+#include "numerics/base/path.h"
 
 /* ---- which rows ---- */
 

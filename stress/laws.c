@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/forces/contact_kind.h"
 #include "hbm/planar/planar_force.h"
 #include "hbm/planar/planar_slider.h"
+#include "numerics/base/constants.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 #include "numerics/random.h"

@@ -9,12 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
 #include "model/modes.h"
+#include "numerics/base/constants.h"
 #include "numerics/random.h"
 #include "numerics/series.h"
-#include "prove/certificate.h"
-#include "prove/checker.h"
+#include "proof/prove/certificate.h"
+#include "proof/prove/checker.h"
 #include "stress/solved_scene.h"
 
 /* ---- one orbit ---------------------------------------------------------------------------------------------- */

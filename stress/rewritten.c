@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/dense.h"
 #include "numerics/random.h"
 

@@ -17,9 +17,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/number.h"
-#include "base/thread_clock.h"
 #include "casefile/case_file.h"
+#include "numerics/base/number.h"
+#include "numerics/base/thread_clock.h"
 #include "numerics/workers.h"
 #include "stress/scenes.h"
 #include "stress/solved_scene.h"

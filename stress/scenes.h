@@ -1,8 +1,8 @@
 /* scenes.h - the scenes of a stress run, points of a shifted Sobol sequence over every range. */
 #pragma once
 
-#include "base/status.h"
 #include "casefile/scene.h"
+#include "numerics/base/status.h"
 #include "stress/stress.h"
 
 typedef struct stress_scenes stress_scenes; /* one a thread */

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
 #include "casefile/case_file.h"
 #include "casefile/structure.h"
+#include "numerics/base/number.h"
 #include "numerics/norm.h"
 #include "stress/stress.h"
 

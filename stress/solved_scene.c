@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#include "base/thread_clock.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
+#include "numerics/base/thread_clock.h"
 
 /* Rounding is seen only if Newton does not stop before. */
 static const double tight = 1e-12;

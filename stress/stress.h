@@ -9,13 +9,13 @@
  *     refused     a solver failed, with its status
  *     finding     two methods differ and no reason was found: an error of this program
  *     skipped     there was nothing to compare
- * Not here: how it is shown (command/cmd_stress.c). */
+ * Not here: how it is shown (interfaces/command/cmd_stress.c). */
 #pragma once
 
 #include <stdio.h>
 
-#include "base/status.h"
 #include "casefile/scene.h"
+#include "numerics/base/status.h"
 
 /* X(code, name, function, meaning) in the order of their run: later ones use what earlier ones found. */
 #define STRESS_CHECKS(X)                                                                                               \

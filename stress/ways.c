@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
 #include "model/modes.h"
+#include "numerics/base/constants.h"
 #include "numerics/random.h"
 #include "stress/solved_scene.h"
 

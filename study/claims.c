@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "numerics/base/number.h"
 
 enum { TICK_EVERY = 10000 /* of SQLite's instructions */, VALUE_TEXT = 512, ANY_COLUMNS = 0 };
 

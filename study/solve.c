@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/thread_clock.h"
 #include "casefile/structure.h"
 #include "compare/response.h"
+#include "numerics/base/thread_clock.h"
 #include "study/scene_solvers.h"
 
 rows_kind study_rows(const study *s)

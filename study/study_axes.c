@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "numerics/base/number.h"
 #include "study/study_reader.h"
 
 enum { RANGE_FROM, RANGE_TO, RANGE_COUNT, RANGE_SCALE, N_RANGE_KEYS };

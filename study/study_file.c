@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/number.h"
-#include "base/path.h"
+#include "numerics/base/number.h"
+#include "numerics/base/path.h"
 #include "study/study_reader.h"
 
 enum { KEY_STUDY, KEY_BASE, KEY_CASE, KEY_RUN, KEY_SET, KEY_VARY, KEY_VIEWS, KEY_CLAIMS, KEY_MAY_FAIL, N_KEYS };

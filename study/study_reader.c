@@ -1,7 +1,7 @@
 /* study_reader.c - see study_reader.h. */
 #include "study/study_reader.h"
 
-#include "base/nearest.h"
+#include "numerics/base/nearest.h"
 
 int study_key(study_reader *q, const yaml_node_t *key, const char *where, const char *const *words, case_place *seen)
 {

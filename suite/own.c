@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
 #include "compare/response.h"
+#include "numerics/base/growing.h"
 #include "suite/suite.h"
 
 enum { CURVE_HARMONICS = 20 };

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/growing.h"
-#include "base/number.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/number.h"
 #include "suite/suite.h"
 
 enum { PATH_ROOM = 4096, MOST_COLUMNS = 64, IGNORED = -1, OMEGA = SUITE_N };

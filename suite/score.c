@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "suite/suite.h"
 
 static const double same_omega = 1e-9, near_omega = 1e-3; /* [1] */

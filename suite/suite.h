@@ -10,8 +10,8 @@
 
 #include <stdio.h>
 
-#include "base/message.h"
 #include "compare/compare_settings.h"
+#include "numerics/base/message.h"
 
 /* Of the response x(t) = mean + a1 cos(omega t) + b1 sin(omega t) + ..., loads being cos(omega t); amplitude = (max -
  * min)/2. X(code, name) */

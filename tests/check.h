@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 
 /* The parameter of a test that does not use it: static void what_it_holds(CHECK_STATE). */
 #define CHECK_STATE void **state __attribute__((unused))

@@ -9,8 +9,8 @@
  * number of forcing periods. Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
 #pragma once
 
-#include "base/status.h"
 #include "model/model.h"
+#include "numerics/base/status.h"
 #include "timeint/transient_settings.h"
 
 /* Where in an oscillator's state x and v are, and the slider of contact 0; a structure's has n of x, n of v, then w. */

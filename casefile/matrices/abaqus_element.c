@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
-#include "base/number.h"
 #include "casefile/matrices/matrix_text.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/number.h"
 
 enum { KEYWORD = 64 };
 

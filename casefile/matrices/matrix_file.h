@@ -7,8 +7,8 @@
 
 #include <stddef.h>
 
-#include "base/message.h"
-#include "base/status.h"
+#include "numerics/base/message.h"
+#include "numerics/base/status.h"
 #include "numerics/sparse.h"
 
 /* What a row of a matrix stands for, where its file says it. */

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
-#include "base/number.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/number.h"
 
 matrix_text matrix_text_start(const char *name, const char *text, size_t length, int expected, message *m)
 {

@@ -5,9 +5,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/message.h"
-#include "base/status.h"
 #include "casefile/matrices/matrix_file.h"
+#include "numerics/base/message.h"
+#include "numerics/base/status.h"
 
 enum { MATRIX_WORDS = 20 }; /* kept of a line; a line of Abaqus has at most 16 */
 

@@ -4,8 +4,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "base/message.h"
-#include "base/status.h"
+#include "numerics/base/message.h"
+#include "numerics/base/status.h"
 
 /* The bytes of the file at `path`, at most `most` of them, with a NUL behind them, to free in any case. HC_IO
  * with the words for it in m, which are to follow the file's name ("cannot be opened: ..."); HC_NO_MEMORY. */

@@ -2,9 +2,9 @@
  * over the text finds out which rows there are, a second one reads the entries. */
 #include <stdlib.h>
 
-#include "base/growing.h"
-#include "base/number.h"
 #include "casefile/matrices/matrix_text.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/number.h"
 
 static const int most_node = 2147483647;
 

@@ -8,12 +8,12 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/growing.h"
-#include "base/nearest.h"
-#include "base/number.h"
-#include "base/path.h"
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/nearest.h"
+#include "numerics/base/number.h"
+#include "numerics/base/path.h"
 
 enum { SET_NAME = 81, MOST_DEEP = 16, MOST_FACES = 6, MEMBER = 1 << MOST_FACES };
 static const size_t most_bytes = (size_t)1 << 30;

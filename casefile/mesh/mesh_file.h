@@ -11,8 +11,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "base/message.h"
-#include "base/status.h"
+#include "numerics/base/message.h"
+#include "numerics/base/status.h"
 
 typedef struct mesh mesh; /* of a file; from mesh_read, to mesh_free, which takes NULL */
 

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
-#include "base/number.h"
 #include "casefile/matrices/matrix_text.h"
 #include "casefile/matrices/text_file.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/number.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 

@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
-#include "base/thread_clock.h"
-#include "base/workspace.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/accuracy/method.h"
 #include "model/modes.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/thread_clock.h"
+#include "numerics/base/workspace.h"
 #include "numerics/roots.h"
 #include "numerics/workers.h"
 

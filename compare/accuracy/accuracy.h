@@ -2,10 +2,10 @@
  * errors fall with N, H and the regularisation (order_fit). Not here: one solution's discrepancy (compare/budget.h). */
 #pragma once
 
-#include "base/status.h"
 #include "compare/budget.h"
 #include "compare/compare_settings.h"
 #include "compare/comparison.h"
+#include "numerics/base/status.h"
 
 /* e ~ c x^-order over the points `from` <= x <= `to`, by least squares on logarithms. */
 typedef struct order_fit {

@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
-#include "base/thread_clock.h"
 #include "compare/accuracy/bench_start.h"
 #include "compare/accuracy/scipy.h"
 #include "compare/first_guess.h"
 #include "compare/work_limit.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/thread_clock.h"
 
 enum { MOST_SETTINGS = 8, FEWEST = 3 };
 static const double enough = 0.25; /* [s] a row measured FEWEST times and for as long is repeated no more */

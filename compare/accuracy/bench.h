@@ -11,8 +11,8 @@
  * whole curves over H and N (accuracy.h; tests/bench). */
 #pragma once
 
-#include "base/status.h"
 #include "compare/compare_settings.h"
+#include "numerics/base/status.h"
 
 #define BENCH_METHOD_LIST(X)                                                                                           \
   X(BENCH_HBM_EXACT, "hbm_exact", "harmonic balance, exact forces")                                                    \

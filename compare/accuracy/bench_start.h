@@ -2,10 +2,10 @@
  * as tight as rounding allows, and the solutions at a neighbouring one. Private to compare/accuracy/. */
 #pragma once
 
-#include "base/workspace.h"
 #include "compare/accuracy/bench.h"
 #include "compare/accuracy/method.h"
 #include "compare/response.h"
+#include "numerics/base/workspace.h"
 
 /* What all methods start from there. */
 typedef struct bench_start { /* from bench_start_new, to bench_start_free */

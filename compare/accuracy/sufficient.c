@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
-#include "base/workspace.h"
 #include "compare/motion.h"
 #include "model/modes.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/workspace.h"
 
 enum {
   TRACED = 20,

@@ -9,9 +9,9 @@
  * chance, as errors pass through 0: `by_chance`. Proof: tests/command/advice.py. */
 #pragma once
 
-#include "base/status.h"
 #include "compare/compare_settings.h"
 #include "compare/response.h"
+#include "numerics/base/status.h"
 
 typedef struct sufficient_row {
   bool sampled, keep_mean;

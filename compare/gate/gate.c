@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/growing.h"
-#include "base/thread_clock.h"
-#include "base/utf8.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/thread_clock.h"
+#include "numerics/base/utf8.h"
 
 /* clang-format off */
 static const struct quantity { const char *name; size_t offset; } quantities[] = {

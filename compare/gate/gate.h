@@ -21,9 +21,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "base/status.h"
 #include "compare/compare_settings.h"
 #include "compare/comparison.h"
+#include "numerics/base/status.h"
 
 #define GATE_SLACK 1e-6 /* [1] of the limit */
 

@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/message.h"
 #include "compare/verify/search/search.h"
 #include "compare/verify/truth/truth.h"
 #include "compare/work_limit.h"
+#include "numerics/base/message.h"
 
 static int differing(const verify_report *r)
 {

@@ -9,10 +9,10 @@
 
 #include <string.h>
 
-#include "base/workspace.h"
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/slider.h"
+#include "numerics/base/workspace.h"
 
 struct aft {
   int n_dof, n_contacts;

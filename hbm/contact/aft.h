@@ -1,8 +1,8 @@
 /* aft.h - contact force harmonics from displacement harmonics by sampling (alternating frequency/time). */
 #pragma once
 
-#include "base/status.h"
 #include "hbm/contact/contact_evaluator.h"
+#include "numerics/base/status.h"
 
 typedef struct aft aft;
 

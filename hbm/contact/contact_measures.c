@@ -1,8 +1,8 @@
 /* contact_measures.c - see contact_measures.h. */
 #include "hbm/contact/contact_measures.h"
 
-#include "base/workspace.h"
 #include "hbm/contact/transitions.h"
+#include "numerics/base/workspace.h"
 #include "numerics/crossing.h"
 #include "numerics/gauss.h"
 #include "numerics/series.h"

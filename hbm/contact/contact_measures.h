@@ -9,9 +9,9 @@
  * integrated, a trigonometric polynomial of degree 2H, is exact to rounding. */
 #pragma once
 
-#include "base/status.h"
 #include "hbm/hbm_settings.h"
 #include "model/contact_period.h"
+#include "numerics/base/status.h"
 
 /* For the motion u[2 n_harm + 1], v[2 n_harm + 1] [length] (numerics/series.h), n_harm >= 1; where the history decides,
  * the slider starts from w = 0. HC_BAD_INPUT, HC_NO_MEMORY, HC_NOT_FINITE, and the errors of transitions_find. */

@@ -8,10 +8,10 @@
 
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/workspace.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/interval_series.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/workspace.h"
 
 struct exact_force {
   int n_harm, n_dof, n_coef, n_contacts, cap;

@@ -6,7 +6,7 @@
 #include <pthread.h>
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/room.h"
 
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;

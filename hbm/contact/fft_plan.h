@@ -8,8 +8,8 @@
 
 #include <fftw3.h>
 
-#include "base/status.h"
-#include "base/workspace.h"
+#include "numerics/base/status.h"
+#include "numerics/base/workspace.h"
 
 /* spectrum[n/2+1] -> samples[n], executing it overwrites the spectrum. HC_NO_MEMORY with *plan = NULL. */
 hc_status fft_plan_to_samples(int n, fftw_complex *spectrum, double *samples, fftw_plan *plan);

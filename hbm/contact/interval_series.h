@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/series.h"
 
 /* weight[h] = 2/(pi h), h = 1..n: what interval_series_fill multiplies with. */

@@ -10,12 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/workspace.h"
 #include "hbm/contact/contact_evaluator.h"
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/contact/force_jacobian.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/workspace.h"
 #include "numerics/gauss.h"
 
 typedef struct rubbing {

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/workspace.h"
 #include "hbm/contact/contact_evaluator.h"
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
+#include "numerics/base/workspace.h"
 
 typedef struct spring {
   contact law;

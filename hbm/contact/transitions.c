@@ -5,7 +5,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/crossing.h"
 
 /* One contact while its period is scanned. */

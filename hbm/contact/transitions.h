@@ -12,9 +12,9 @@
  * middle (numerics/crossing.h). */
 #pragma once
 
-#include "base/status.h"
 #include "hbm/contact/contact_report.h"
 #include "model/moving_contact.h"
+#include "numerics/base/status.h"
 #include "numerics/series.h"
 
 /* An interval of the period in one state. */

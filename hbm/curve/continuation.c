@@ -16,11 +16,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/workspace.h"
 #include "hbm/curve/path.h"
 #include "hbm/curve/segment.h"
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/linear_solution.h"
+#include "numerics/base/workspace.h"
 #include "numerics/norm.h"
 
 static const double TOLERANCE = 1e-4; /* [1] of interpolation, relative to |X| */

@@ -12,11 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
 #include "hbm/curve/segment.h"
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
 #include "hbm/solver/stability.h"
+#include "numerics/base/growing.h"
 #include "numerics/norm.h"
 #include "numerics/roots.h"
 

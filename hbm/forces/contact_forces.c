@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 
 /* One of a contact's coordinates as a combination of few of q. */

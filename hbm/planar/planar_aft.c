@@ -9,10 +9,10 @@
 
 #include <string.h>
 
-#include "base/workspace.h"
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/planar/planar_slider.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 
 enum {

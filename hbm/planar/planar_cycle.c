@@ -4,7 +4,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 
 enum { N = COLLOCATION_POINTS };
 

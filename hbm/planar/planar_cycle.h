@@ -11,10 +11,10 @@
  * is allocated. */
 #pragma once
 
-#include "base/status.h"
 #include "hbm/planar/planar_corner.h"
 #include "hbm/planar/planar_motion.h"
 #include "hbm/planar/planar_slip.h"
+#include "numerics/base/status.h"
 
 /* What an interval begins with: the period (w = w0, put into the circle), touch-down (w = u), or the end of the
  * interval before it. */

@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/workspace.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 

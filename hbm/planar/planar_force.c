@@ -7,11 +7,11 @@
 
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/workspace.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/contact/force_jacobian.h"
 #include "hbm/contact/interval_series.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/rotate.h"
 #include "numerics/wide_vectors.h"

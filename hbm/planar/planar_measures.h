@@ -6,8 +6,8 @@
  * on the panels of planar_slip.h, by their own sums. */
 #pragma once
 
-#include "base/status.h"
 #include "model/contact_period.h"
+#include "numerics/base/status.h"
 
 /* out[2]: of the two halves, as contact_period.h has them; `half` is their law, with friction. The motion is
  * u1[2 n_harm + 1], u2, v [length] (numerics/series.h), n_harm >= 1; where the history decides, the slider starts from

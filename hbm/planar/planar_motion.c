@@ -3,7 +3,7 @@
 
 #include <float.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/rotate.h"
 #include "numerics/wide_vectors.h"
 

@@ -10,8 +10,8 @@
 
 #include <stdbool.h>
 
-#include "base/status.h"
 #include "hbm/planar/planar_motion.h"
+#include "numerics/base/status.h"
 #include "numerics/collocation.h"
 
 #define PLANAR_RESOLVED 3e-8

@@ -11,11 +11,11 @@
 
 #include <stdbool.h>
 
-#include "base/status.h"
 #include "hbm/contact/contact_report.h"
 #include "hbm/hbm_settings.h"
 #include "model/contact_period.h"
 #include "model/model.h"
+#include "numerics/base/status.h"
 
 typedef struct hbm_solver hbm_solver;
 

@@ -11,9 +11,9 @@
  * have dim (2H+1) entries, the means included; the unknowns are the n entries from X[first] on. */
 #pragma once
 
-#include "base/workspace.h"
 #include "hbm/forces/contact_forces.h"
 #include "model/modes.h"
+#include "numerics/base/workspace.h"
 #include "numerics/series.h"
 
 typedef struct hbm_system {

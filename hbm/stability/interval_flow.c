@@ -9,7 +9,7 @@
 #include <gsl/gsl_matrix.h>
 #include <string.h>
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 
 enum { MOST_STATES = 32 }; /* combinations of contact states that are kept; more replace the oldest */

@@ -13,10 +13,10 @@
 #include <complex.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/workspace.h"
 #include "hbm/forces/contact_kind.h"
 #include "model/modes.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 

@@ -12,12 +12,12 @@
 
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/number.h"
-#include "base/workspace.h"
 #include "hbm/planar/planar_flow.h"
 #include "hbm/stability/interval_flow.h"
 #include "hbm/stability/modal_flow.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/number.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/floquet.h"
 

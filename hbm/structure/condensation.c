@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/workspace.h"
 #include "hbm/structure/compliance.h"
 #include "hbm/structure/condensation_basis.h"
+#include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 
 struct condensation {

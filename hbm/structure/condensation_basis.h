@@ -3,8 +3,8 @@
 
 #include <stdbool.h>
 
-#include "base/workspace.h"
 #include "model/model.h"
+#include "numerics/base/workspace.h"
 
 typedef struct condensation_basis {
   int n, dim, rest;   /* dim + rest = n */

@@ -1,7 +1,7 @@
 /* complete.c - Newton in extended precision, the radii that pass, approximate eigenvectors, and claims that leave room
  * for a checker whose enclosures are wider. The certificate is then read and decided like any other. */
 #include "proof/around/complete.h"
-#include "base/number.h"
+#include "numerics/base/number.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* main.c - hbmcheck-proof: checks certificates, completes candidates. */
-#include "base/number.h"
+#include "numerics/base/number.h"
 #include "proof/around/complete.h"
 #include <errno.h>
 #include <getopt.h>

@@ -6,10 +6,10 @@
  * all but the case file (median), for versus_peer.py, and of the curve; the other parts in terms of the curve. */
 #include <time.h>
 
-#include "base/path.h"
 #include "casefile/case_file.h"
 #include "compare/response.h"
 #include "hbm/solver/hbm_solver_impl.h"
+#include "numerics/base/path.h"
 #include "study/scene_solvers.h"
 
 enum { SPECIALS = 256, MOST_ROUNDS = 1001 };

@@ -1,8 +1,8 @@
 /* properties.c - see fuzz.h. */
 #include <unistd.h>
 
-#include "base/utf8.h"
 #include "casefile/fields.h"
+#include "numerics/base/utf8.h"
 #include "tests/fuzz/fuzz.h"
 
 long fuzz_accepted, fuzz_refused;

@@ -3,7 +3,7 @@
  * lab_answers prints every question's table, and the same questions go to the module by lab_client.js. Exit 1: an answer differs, or the page said or asked for something. */
 'use strict';
 const fs = require('fs'), path = require('path');
-const {labClient, labForce, labColumn} = require(path.join(__dirname, '../../lab/lab_client.js'));
+const {labClient, labForce, labColumn} = require(path.join(__dirname, '../../interfaces/lab/lab_client.js'));
 const {answersOf} = require('./native.js'), {open} = require('./chromium.js'), {libraryOf} = require('./page_library.js');
 
 const [native, labPath, scenes = '50', seed = '1', chromium] = process.argv.slice(2);

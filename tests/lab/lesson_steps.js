@@ -1,4 +1,4 @@
-/* lesson_steps.js - the lesson's numbers outside the page: lessonOf(lab) answers every step's {number, facts} as lab/page/lesson_numbers.js has them, asking `lab`. */
+/* lesson_steps.js - the lesson's numbers outside the page: lessonOf(lab) answers every step's {number, facts} as interfaces/lab/page/lesson_numbers.js has them, asking `lab`. */
 'use strict';
 const fs = require('fs'), path = require('path'), vm = require('vm');
 

@@ -1,6 +1,6 @@
 /* test_neighbours.c - sampled solutions next to the exact curve's, at its omegas; where there is none that is said. */
-#include "base/status.h"
-#include "lab/lab.h"
+#include "interfaces/lab/lab.h"
+#include "numerics/base/status.h"
 #include "tests/check.h"
 
 enum { MOST_ROWS = 400, HARMONICS = 5, COEF = 2 * HARMONICS + 1 };

@@ -4,7 +4,7 @@
 #include "casefile/case_file.h"
 #include "compare/first_guess.h"
 #include "compare/response.h"
-#include "lab/lab.h"
+#include "interfaces/lab/lab.h"
 #include "tests/check.h"
 
 enum { MOST = 2 * HBM_MAX_HARMONICS + 1, CONTACT = 2 /* of a signal: th, x, then u, v, N, T */ };

@@ -2,7 +2,7 @@
  * of 21. Prints; fails where an answer does. */
 'use strict';
 const fs = require('fs'), path = require('path');
-const {labClient, labForce, labColumn} = require(path.join(__dirname, '../../lab/lab_client.js'));
+const {labClient, labForce, labColumn} = require(path.join(__dirname, '../../interfaces/lab/lab_client.js'));
 
 const clock = () => {
   const {user, system} = process.cpuUsage();

@@ -5,7 +5,7 @@
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
 #include "compare/steady_states.h"
-#include "library/hbmcheck.h"
+#include "interfaces/library/hbmcheck.h"
 #include "tests/check.h"
 
 #define FOLDER SOURCE_DIR "/cases/structures/"

@@ -1,7 +1,7 @@
 /* case2.h - case 2 of the paper as a public case, with assignments. */
 #pragma once
 
-#include "library/hbmcheck.h"
+#include "interfaces/library/hbmcheck.h"
 #include "tests/check.h"
 
 static const char case2_text[] =

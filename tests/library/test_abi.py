@@ -1,4 +1,4 @@
-"""test_abi.py - library/abi.py sees what breaks programs built against the library, and what does not: the header changed in a
+"""test_abi.py - interfaces/library/abi.py sees what breaks programs built against the library, and what does not: the header changed in a
 copy, libraries of nothing but names."""
 import os
 import pathlib

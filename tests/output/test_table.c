@@ -2,7 +2,7 @@
 #include <jansson.h>
 #include <locale.h>
 
-#include "base/utf8.h"
+#include "numerics/base/utf8.h"
 #include "numerics/random.h"
 #include "output/table_private.h"
 #include "tests/check.h"

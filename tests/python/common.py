@@ -1,4 +1,4 @@
-"""What the tests of python/ share: the command's csv, and a scene or two. Exit 77 where NumPy is missing: a skip."""
+"""What the tests of interfaces/python/ share: the command's csv, and a scene or two. Exit 77 where NumPy is missing: a skip."""
 import csv
 import os
 import pathlib

@@ -14,7 +14,7 @@ from common import SOURCE, Test, main
 import hbmcheck
 from hbmcheck import _library, _structs, library_version
 
-HEADER = (SOURCE / "library/hbmcheck.h").read_text()
+HEADER = (SOURCE / "interfaces/library/hbmcheck.h").read_text()
 CC = os.environ.get("CC") or shutil.which("cc")
 STRUCTS = {name: kind for name, kind in vars(_structs).items()
            if isinstance(kind, type) and issubclass(kind, ctypes.Structure) and kind is not ctypes.Structure}
@@ -58,11 +58,11 @@ class Structs(Test):
 
     def test_versions(self):
         said = re.search(r'HBMCHECK_VERSION +"(.*)"', HEADER)[1]
-        project = (SOURCE / "python/pyproject.toml").read_text()
+        project = (SOURCE / "interfaces/python/pyproject.toml").read_text()
         self.assertEqual(hbmcheck.__version__, said)
         self.assertEqual(library_version(), said)
         self.assertIn(f'version = "{said}"', project)
-        self.assertIn(f"soname = {_library.SONAME}\n", (SOURCE / "library/abi.txt").read_text())
+        self.assertIn(f"soname = {_library.SONAME}\n", (SOURCE / "interfaces/library/abi.txt").read_text())
 
 
 if __name__ == "__main__":

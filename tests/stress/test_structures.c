@@ -7,7 +7,7 @@
 #include "hbm/solver/hbm_solver_impl.h"
 #include "numerics/norm.h"
 #include "numerics/random.h"
-#include "prove/certificate.h"
+#include "proof/prove/certificate.h"
 #include "stress/scenes.h"
 #include "stress/solved_scene.h"
 #include "tests/check.h"

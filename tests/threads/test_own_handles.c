@@ -5,7 +5,7 @@
 
 #include <pthread.h>
 
-#include "library/hbmcheck.h"
+#include "interfaces/library/hbmcheck.h"
 
 enum { THREADS = 4, ROUNDS = 2, MOST_NUMBERS = 1 << 16 };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "timeint/closed_form/fundamental_matrix.h"
 #include "timeint/closed_form/motion_modes.h"
 #include "timeint/closed_form/motion_series.h"

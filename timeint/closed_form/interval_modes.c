@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "numerics/norm.h"
 
 static const double short_span = 20;        /* [rad of the fastest mode] some ten steps of a series */

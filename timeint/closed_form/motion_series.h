@@ -11,7 +11,7 @@
  * Nothing is allocated after motion_series_make. */
 #pragma once
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "timeint/closed_form/planar_series.h"
 #include "timeint/law/contact_rows.h"
 

@@ -2,7 +2,7 @@
  * exact to rounding however long the interval is, where a power series takes steps. */
 #pragma once
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "timeint/closed_form/modal_motion.h"
 #include "timeint/law/contact_track.h"
 

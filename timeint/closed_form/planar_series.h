@@ -10,7 +10,7 @@
  * The slider slips as long as s = U'.e - (mu N)'/kt >= 0. */
 #pragma once
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "timeint/law/contact_track.h"
 
 typedef struct planar_series {

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/sundials_compat.h"
 #include "numerics/wide_vectors.h"
 

@@ -8,7 +8,7 @@
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "timeint/period/integrate_private.h"
 
 typedef struct cvode_integrator { /* the first member of each kind */

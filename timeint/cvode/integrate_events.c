@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/norm.h"
 #include "numerics/sundials_compat.h"
 #include "timeint/closed_form/fundamental_matrix.h"

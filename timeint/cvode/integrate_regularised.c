@@ -10,7 +10,7 @@
 #include <cvodes/cvodes_ls.h>
 #include <nvector/nvector_serial.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/sundials_compat.h"
 #include "timeint/cvode/integrate_cvode.h"
 #include "timeint/cvode/structure_newton.h"

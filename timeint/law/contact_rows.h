@@ -2,7 +2,7 @@
  * share its normal. libm and BLAS. */
 #pragma once
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "timeint/law/modal_base.h"
 
 typedef struct contact_rows { /* made once, then only read */

@@ -3,7 +3,7 @@
 
 #include <float.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 
 static const double rounding = 16 * DBL_EPSILON; /* of sums of a few terms, relative to their sizes */
 

@@ -12,7 +12,7 @@
  * integrate_closed_form.h: the same law without CVODE, to rounding. */
 #pragma once
 
-#include "base/status.h"
+#include "numerics/base/status.h"
 #include "timeint/law/scaled.h"
 
 typedef struct integrator integrator;

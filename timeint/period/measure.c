@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/roots.h"
 
 hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts, workspace *w)

@@ -8,7 +8,7 @@
  * factor that a stiff contact makes large (1e-9 of x on case 2 with kn = 1e4, 1e-6 with kn = 4e6 times the spring). */
 #pragma once
 
-#include "base/workspace.h"
+#include "numerics/base/workspace.h"
 #include "timeint/period/integrate.h"
 #include "timeint/timeint_result.h"
 

@@ -5,7 +5,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "timeint/steady/timeint_private.h"
 
 /* ---- chaos ----

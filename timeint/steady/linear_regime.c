@@ -3,8 +3,8 @@
 
 #include <complex.h>
 
-#include "base/constants.h"
 #include "model/linear.h"
+#include "numerics/base/constants.h"
 #include "timeint/steady/timeint_private.h"
 
 static const double margin = 1e-9; /* of the sum of a guard's terms: far above the errors of an integration started

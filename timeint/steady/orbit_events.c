@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/growing.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/growing.h"
 #include "timeint/law/contact_track.h"
 #include "timeint/steady/timeint_private.h"
 

@@ -1,5 +1,5 @@
 /* orbit_events.h - the changes of contact state along the periods that a steady state of the exact law repeats, and
- * where the sliders that never slip may rest. What a certificate is made of (prove/): found to rounding, not proven. */
+ * where the sliders that never slip may rest. What a certificate is made of: found to rounding, not proven. */
 #pragma once
 
 #include "timeint/steady/steady.h"

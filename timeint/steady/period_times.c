@@ -1,7 +1,7 @@
 /* period_times.c - see period_times.h. Proof: tests/compare/test_duration.c. */
 #include "timeint/steady/period_times.h"
 
-#include "base/thread_clock.h"
+#include "numerics/base/thread_clock.h"
 #include "timeint/steady/timeint_private.h"
 
 /* [1] What a monodromy matrix takes of a plain period, for each state. In closed form, of structures in

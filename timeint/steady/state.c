@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/constants.h"
+#include "numerics/base/constants.h"
 #include "numerics/norm.h"
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/integrate_events.h"

@@ -2,10 +2,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/message.h"
-#include "base/nearest.h"
-#include "base/number.h"
 #include "compare/verify/curve_file/csv.h"
+#include "numerics/base/message.h"
+#include "numerics/base/nearest.h"
+#include "numerics/base/number.h"
 
 static const char *const names[] = {
     "omega", "frequency", "amplitude", "double_amplitude", "harmonic_1",   "peak", "max",   "min",

@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/growing.h"
-#include "base/message.h"
-#include "base/number.h"
-#include "base/utf8.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/message.h"
+#include "numerics/base/number.h"
+#include "numerics/base/utf8.h"
 
 /* ---- a line into fields ---- */
 

@@ -6,9 +6,9 @@
 
 #include <stdbool.h>
 
-#include "base/status.h"
 #include "compare/verify/curve_file/quantity.h"
 #include "compare/verify/equations/causes.h"
+#include "numerics/base/status.h"
 
 enum { VERIFY_MOST_POINTS = 100000, VERIFY_LEAST_POINTS = 3, VERIFY_MOST_FIELDS = 256, VERIFY_NAME = 64 };
 

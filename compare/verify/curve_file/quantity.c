@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/number.h"
+#include "numerics/base/number.h"
 #include "numerics/series.h"
 
 static const struct {

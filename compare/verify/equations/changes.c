@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/message.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/message.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 

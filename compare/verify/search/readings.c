@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/number.h"
-#include "base/thread_clock.h"
 #include "compare/response.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/number.h"
+#include "numerics/base/thread_clock.h"
 
 static const struct {
   double factor;

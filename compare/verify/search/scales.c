@@ -6,10 +6,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/number.h"
 #include "compare/response.h"
 #include "compare/verify/search/search.h"
 #include "hbm/curve/segment.h"
+#include "numerics/base/number.h"
 #include "numerics/roots.h"
 
 /* The median of value/truth, of the points with one solution, or of all if they are few; NaN: no point has one. */

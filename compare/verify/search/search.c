@@ -16,8 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/thread_clock.h"
 #include "compare/verify/truth/truth.h"
+#include "numerics/base/thread_clock.h"
 
 static const int harmonics_tried[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20};
 /* The powers of two first: they are tried with every likely number of harmonics. Around the best, every number is. */

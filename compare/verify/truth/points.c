@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/workspace.h"
 #include "compare/verify/truth/truth.h"
+#include "numerics/base/workspace.h"
 
 int points_reversals(const verify_data *d)
 {

@@ -1,12 +1,12 @@
 /* report.h - what verify finds: each point's verdict, the hypotheses, the causes. */
 #pragma once
 
-#include "base/status.h"
 #include "compare/compare_settings.h"
 #include "compare/comparison.h"
 #include "compare/verify/curve_file/csv.h"
 #include "compare/verify/equations/causes.h"
 #include "compare/verify/equations/changes.h"
+#include "numerics/base/status.h"
 
 /* Equations that the other program may have solved. */
 typedef struct verify_equations {

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/growing.h"
 #include "compare/first_guess.h"
+#include "numerics/base/growing.h"
 
 enum { FEW_SAMPLES = 4 };               /* a harmonic */
 static const double close_omegas = 0.1; /* [1] a step that Newton may take in one go */

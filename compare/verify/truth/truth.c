@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/workspace.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
 #include "compare/response.h"
 #include "compare/verify/truth/solutions.h"
 #include "hbm/curve/segment.h"
+#include "numerics/base/constants.h"
+#include "numerics/base/workspace.h"
 #include "numerics/series.h"
 
 /* ---- the acceleration of a motion that is a solution, from the equation of motion. The series of x'' would need some

@@ -1,8 +1,8 @@
 /* truth.h - what the points should be, and what they tell by themselves; private to compare/verify/. */
 #pragma once
 
-#include "base/message.h"
 #include "compare/verify/truth/report.h"
+#include "numerics/base/message.h"
 
 /* ---- truth.c: the solutions of harmonic balance with exact forces and many harmonics ---- */
 

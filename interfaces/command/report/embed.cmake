@@ -1,0 +1,20 @@
+# embed.cmake - files as bytes in a C source: cmake -DOUTPUT=assets.c "-DNAMES=a;b;b" "-DFILES=x;y;z" -P embed.cmake
+# A name that is given several times gets all its files, one after another; an empty file name gives an empty asset. Each is
+# `const unsigned char NAME[]` with its length, as parts.h declares them.
+set(text "/* Made by embed.cmake. */\n#include \"interfaces/command/report/parts.h\"\n")
+set(all ${NAMES})
+list(REMOVE_DUPLICATES all)
+foreach(name IN LISTS all)
+  set(hex "")
+  foreach(of file IN ZIP_LISTS NAMES FILES)
+    if(of STREQUAL name AND EXISTS "${file}")
+      file(READ "${file}" more HEX)
+      string(APPEND hex "${more}")
+    endif()
+  endforeach()
+  string(LENGTH "${hex}" length)
+  math(EXPR length "${length} / 2")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
+  string(APPEND text "const unsigned char asset_${name}_bytes[] = {${bytes}0};\nconst asset asset_${name} = {asset_${name}_bytes, ${length}};\n")
+endforeach()
+file(WRITE "${OUTPUT}" "${text}")

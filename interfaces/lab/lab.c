@@ -1,0 +1,152 @@
+/* lab.c - see lab.h: the case, the table, the words. Questions: the other files. */
+#include "interfaces/lab/lab.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare/first_guess.h"
+#include "interfaces/lab/lab_inside.h"
+#include "numerics/base/growing.h"
+
+lab *lab_new(void) { return calloc(1, sizeof(lab)); }
+
+void lab_drop_curves(lab *l)
+{
+  for (int f = 0; f < LAB_FORCES; ++f) {
+    hbm_solver_free(l->kept[f].solver);
+    hbm_curve_free(&l->kept[f].curve);
+    l->kept[f] = (lab_kept){0};
+  }
+}
+
+void lab_free(lab *l)
+{
+  if (!l) return;
+  lab_drop_curves(l);
+  free(l->values);
+  free(l);
+}
+
+/* ---- the case ---- */
+
+static hc_status read_oscillator(const char *text, scene *sc, case_error *err)
+{
+  hc_status st = case_parse("case", text, strlen(text), 0, NULL, sc, err);
+  if (st != HC_OK) return st;
+  bool other_law = false;
+  for (int j = 0; j < sc->n_contacts; ++j)
+    other_law |= sc->contacts[j].kind > LAB_POLYNOMIAL && sc->contacts[j].kind != LAB_TABLE;
+  if (!sc->structure && !other_law) return HC_OK;
+  snprintf(err->message, sizeof err->message, "case: %s",
+           sc->structure ? "structure: the lab has one degree of freedom, an `oscillator` was expected"
+                         : "the lab has no fields for a contact's law, contact, polynomial or table were expected");
+  case_clear(sc);
+  return HC_BAD_INPUT;
+}
+
+int lab_read(lab *l, const char *text)
+{
+  scene sc;
+  case_error err = {""};
+  const hc_status st = read_oscillator(text, &sc, &err);
+  lab_begin(l, 0);
+  if (st == HC_OK) {
+    lab_drop_curves(l);
+    l->sc = sc;
+    l->has_case = true;
+    l->n_harm = 0;
+  }
+  lab_answer(l, st);
+  if (err.message[0]) memcpy(l->message, err.message, sizeof l->message);
+  return st;
+}
+
+int lab_case(lab *l)
+{
+  _Static_assert((int)LAB_POLYNOMIAL == CONTACT_POLYNOMIAL && (int)LAB_TABLE == SCENE_LAW_TABLE, "lab.h says so");
+  lab_begin(l, LAB_POINTS + 2 * SCENE_MOST_POINTS);
+  if (!l->has_case) return lab_answer(l, HC_BAD_INPUT);
+  const scene *sc = &l->sc;
+  const hbm_settings *h = &sc->hbm;
+  hc_status st = LAB_ADD(l, sc->mass, sc->damping, sc->stiffness, sc->force, sc->omega_from, sc->omega_to, h->harmonics,
+                         h->samples, h->keep_mean, h->force == HBM_FORCE_SAMPLED, h->restart == HBM_RESTART_SAMPLE);
+  for (int j = 0; j < sc->n_contacts && st == HC_OK; ++j) {
+    const scene_contact *c = &sc->contacts[j];
+    double *row = lab_row(l);
+    if (!row) return lab_answer(l, HC_NO_MEMORY);
+    const double touching[] = {c->law.kt, c->law.kn, c->law.mu, c->angle_deg, c->law.gap};
+    if (c->kind == CONTACT_KINKED) memcpy(row, touching, sizeof touching);
+    if (c->kind == CONTACT_POLYNOMIAL) memcpy(row, c->law.power, sizeof c->law.power);
+    memcpy(row + LAB_POINTS, c->points, (size_t)c->n_points * sizeof *c->points);
+    row[LAB_LAW] = c->kind;
+  }
+  return lab_answer(l, st);
+}
+
+const char *lab_title(const lab *l) { return l->sc.title; }
+
+hc_status lab_scene(const lab *l, int force, scene *out)
+{
+  if (!l->has_case || force < 0 || force >= LAB_FORCES) return HC_BAD_INPUT;
+  *out = l->sc;
+  out->hbm.force = force == LAB_EXACT ? HBM_FORCE_EXACT : HBM_FORCE_SAMPLED;
+  return HC_OK;
+}
+
+void lab_exact_law(scene *sc)
+{
+  sc->transient.law = TRANSIENT_LAW_EXACT;
+  sc->transient.method = TRANSIENT_METHOD_CLOSED_FORM;
+  for (int j = 0; j < sc->n_contacts; ++j)
+    if (scene_contact_law(&sc->contacts[j]).smooth != CONTACT_KINKED) sc->transient.method = TRANSIENT_METHOD_CVODE;
+}
+
+hc_status lab_solver(const scene *sc, hbm_solver **out)
+{
+  model *m;
+  *out = NULL;
+  hc_status st = scene_model(sc, &m);
+  if (st == HC_OK) st = guided_hbm_solver_new(m, &sc->hbm, out);
+  model_free(m);
+  return st;
+}
+
+/* ---- the answer ---- */
+
+void lab_begin(lab *l, int columns)
+{
+  free(l->values);
+  l->values = NULL;
+  l->rows = 0;
+  l->columns = columns;
+}
+
+double *lab_row(lab *l)
+{
+  double *grown = growing(l->values, l->rows, (size_t)l->columns * sizeof *grown);
+  if (!grown) return NULL;
+  l->values = grown;
+  double *row = l->values + (size_t)l->rows++ * (size_t)l->columns;
+  for (int i = 0; i < l->columns; ++i) row[i] = NAN;
+  return row;
+}
+
+hc_status lab_add(lab *l, size_t n, const double *numbers)
+{
+  double *row = lab_row(l);
+  if (row) memcpy(row, numbers, n * sizeof *row);
+  return row ? HC_OK : HC_NO_MEMORY;
+}
+
+int lab_answer(lab *l, hc_status st)
+{
+  snprintf(l->message, sizeof l->message, "%s", st == HC_OK ? "" : hc_status_text(st));
+  return (int)st;
+}
+
+const char *lab_message(const lab *l) { return l->message; }
+int lab_rows(const lab *l) { return l->rows; }
+int lab_columns(const lab *l) { return l->columns; }
+const double *lab_values(const lab *l) { return l->values; }

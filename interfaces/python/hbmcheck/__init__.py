@@ -1,0 +1,22 @@
+"""hbmcheck - is a harmonic-balance result right? Harmonic balance and time integration of an oscillator, or a structure, on
+friction and gap contacts, and another program's curve held against both.
+
+    model = hbmcheck.Model.from_yaml("cases/paper/case2.yaml", set={"hbm.harmonics": 20})
+    model = hbmcheck.Model(M, C, K, contacts=[...], forcing=[...], sweep=(3, 20))
+
+    model.frf()                        response curve of harmonic balance, or its solutions at given omegas
+    model.transient([6, 8])            steady states by time integration
+    model.compare([6, 8])              both, with verdicts
+    model.verify(omega, amplitude)     a curve of your own, point by point, and the likely cause where it is off
+    model.contact_force(u, v)          Fourier coefficients of one contact's forces
+
+The equations are those of interfaces/library/hbmcheck.h. Units: any consistent set; omega is in rad per unit time.
+"""
+from ._errors import BadInput, Error, Interrupted, MissingFile, Stopped
+from ._library import library_version
+from .model import Model
+from .results import Comparison, ContactForce, Curve, Solutions, Transient, Verification
+
+__version__ = "0.1.0"
+__all__ = ["BadInput", "Comparison", "ContactForce", "Curve", "Error", "Interrupted", "MissingFile", "Model", "Solutions",
+           "Stopped", "Transient", "Verification", "library_version"]
