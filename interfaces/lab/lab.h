@@ -4,8 +4,8 @@
  * One degree of freedom: a structure is refused by lab_read. Tables are by rows, lab_rows by lab_columns values of type
  * double at lab_values; integers and enumerations stand in them as numbers, what is not known as NaN. A table is the
  * lab's and lasts until the next question. Units are the case's; omega in rad per unit time, th = omega t [rad].
- * Every question answers with a status of numerics/base/status.h as an int, 0 = HC_OK; what was found before it failed is
- * in the table all the same. The library's words for it are in lab_message. Nothing is printed. One lab, one thread.
+ * Every question answers with a status of numerics/base/status.h as an int, 0 = HC_OK; what was found before it failed
+ * is in the table all the same. The library's words for it are in lab_message. Nothing is printed. One lab, one thread.
  *
  *     X[2H+1]    x(th) = X[0] + sum_{h=1..H} X[2h-1] cos(h th) + X[2h] sin(h th) */
 #pragma once
