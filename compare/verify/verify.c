@@ -44,9 +44,10 @@ static hc_status judge_response(const compare_setup *setup, const verify_data *d
   work_limit limit = {.outer = monitor, .until = until};
   hc_status st = setup_of_response(setup, data->response, &own, &one);
   if (st == HC_OK) st = verify_truth(&own, data, &(hc_monitor){work_limit_tick, &limit}, out);
-  for (int i = out->n_rows; i < data->n && st == HC_INTERRUPTED && !limit.stopped; out->n_rows = ++i)
-    out->rows[i] = verify_row_unjudged(&data->points[i]);
-  if (st == HC_INTERRUPTED && !limit.stopped) st = HC_OK;
+  if (st == HC_INTERRUPTED && !limit.stopped && out->rows) {
+    for (int i = out->n_rows; i < data->n; out->n_rows = ++i) out->rows[i] = verify_row_unjudged(&data->points[i]);
+    st = HC_OK;
+  }
   if (st == HC_OK) st = points_noise(out);
   model_free(one);
   if (st != HC_OK) return st;
