@@ -268,7 +268,7 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
   problem p;
   hc_status st = start(setup, e, at, &p, out);
   const size_t dofs = (size_t)setup->model->n;
-  double *guess = malloc(((size_t)out->length + dofs) * sizeof *guess), *factor = guess + out->length;
+  double *guess = malloc(((size_t)out->length + dofs) * sizeof *guess), *factor = guess ? guess + out->length : NULL;
   if (!guess) st = HC_NO_MEMORY;
   for (int i = 0, last = -1; i < near->n && st == HC_OK; ++i) {
     /* Few samples have many solutions: from the neighbours' guesses, too. */
