@@ -40,7 +40,8 @@ static const cli_option options[] = {
      offsetof(suite_options, digits)},
     {CLI_POSITIVE, "patience", "SECONDS", "Processor time of the search for what is wrong, all cases together [60]",
      offsetof(suite_options, patience)},
-    {CLI_FLAG, "all", NULL, "A second table: every quantity of every solution", offsetof(suite_options, all)},
+    {CLI_FLAG, "all", NULL, "Cases without results, too; a second table: every quantity of every solution",
+     offsetof(suite_options, all)},
     {CLI_TEXT, "badge", "FILE", "Also write the score as a picture (SVG)", offsetof(suite_options, badge),
      .file = "--badge", .use = CLI_OUTPUT},
     {CLI_TEXT, "junit", "FILE", "Also write each case as JUnit XML", offsetof(suite_options, junit), .file = "--junit",
@@ -224,6 +225,7 @@ static void put_case(suite_call *call, const scores *p, int i, table *t, table *
   const suite_case *c = &call->suite.cases[i];
   const suite_score *s = &p->scores[i];
   const suite_answer *a = &p->answers[i];
+  if (!a->there && !call->own->all && call->common->format == FORMAT_TABLE) return;
   const char *result = *a->wrong ? "refused" : !a->there ? "no results" : s->digits >= p->digits ? "pass" : "fail";
   TABLE_ROW(t, CELL(c->name), CELL(p->program), CELL(c->n), CELL(s->missing), CELL(s->extra),
             CELL(shown(call, s->digits)), CELL(suite_quantity[s->quantity]), CELL(c->references[s->worst].omega),
