@@ -176,11 +176,11 @@ case(N, "chain6", "Six masses, three sliders between them", "Several relative mo
      [jenkins(0.5, 0.25, {i: 1, i + 1: -1}) for i in (1, 3, 5)], response=3)
 case(N, "chain8", "Eight masses, two stops", "Stops far from the load.", "Modes left out.", [0.6, 1.1], *chain(8), [cos(4, 1)],
      [stop(1, -0.3, {1: 1}), stop(1, -0.3, {8: 1})], response=8)
-case(N, "chain10", "Ten masses under a static load", "A mean that all coordinates have.", "Harmonic 0 dropped.", [0.6, 1.1], *chain(10), [cos(5, 1), cos(5, 0.4, 0)],
+case(N, "chain10", "Ten masses under a static load", "A mean that all coordinates have.", "Harmonic 0 dropped.", [0.7, 1.3], *chain(10), [cos(5, 1), cos(5, 0.4, 0)],
      [jenkins(0.5, 0.3, {5: 1}), stop(0.8, 0, {10: 1})], response=5)
-case(N, "chain12", "Twelve masses, four contacts", "Many transitions.", "Events of one contact looked for alone.", [0.7, 1.2], *chain(12), [cos(6, 1)],
+case(N, "chain12", "Twelve masses, four contacts", "Many transitions.", "Events of one contact looked for alone.", [0.7, 1.1], *chain(12), [cos(6, 1)],
      [jenkins(0.4, 0.2, {3: 1}), jenkins(0.4, 0.3, {6: 1}), stop(0.6, -0.2, {9: 1}), stop(0.6, -0.2, {12: 1})], response=6)
-case(N, "chain16", "Sixteen masses, slider and stop", "n = 16.", "Reduction that leaves contact modes out.", [0.6, 1.1], *chain(16), [cos(8, 1)],
+case(N, "chain16", "Sixteen masses, slider and stop", "n = 16.", "Reduction that leaves contact modes out.", [0.6, 1.18], *chain(16), [cos(8, 1)],
      [jenkins(0.5, 0.3, {8: 1}), stop(0.8, -0.3, {12: 1})], response=8)
 case(N, "chain16_feet", "Sixteen masses, a slanted contact", "Varying normal load, n = 16.", "N constant.", [0.9], *chain(16), [cos(8, 1)],
      [foot(0.5, 0.8, 0.3, 0.1, {10: 0.6}, {10: 0.8})], response=10)

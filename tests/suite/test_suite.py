@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The suite: what its files say against its certificates, results of all kinds, wrong programs.
 
-    test_suite.py HBMCHECK HBMCHECK_PROOF WHAT      WHAT: files, check (slow: all by check.py), archive, own, results, references, wrong
+    test_suite.py HBMCHECK HBMCHECK_PROOF WHAT      WHAT: files, family, check (slow: all by check.py), archive, own, results, references, wrong
 """
 import csv
 import glob
@@ -18,7 +18,7 @@ from fractions import Fraction
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SUITE = ROOT / "suite"
 HBMCHECK, PROOF = sys.argv[1], sys.argv[2]
-NAMES = json.loads((SUITE / "suite.json").read_text())["cases"]
+VERSION, NAMES = (json.loads((SUITE / "suite.json").read_text())[key] for key in ("suite", "cases"))
 # Numbers as they stand in the files, exactly.
 CASES = {n: json.loads((SUITE / "cases" / f"{n}.json").read_text(), parse_float=Fraction, parse_int=Fraction) for n in NAMES}
 FULL = {n: json.loads((SUITE / "cases" / f"{n}.json").read_text()) for n in NAMES}
@@ -70,9 +70,11 @@ def files():
             check(Fraction(certificate["omega"]) == r["omega"] and certificate["multiple"] == 1, f"{where}: omega")
             check([Fraction(v) for v in certificate["response"]] == case["response"], f"{where}: response")
             check(certificate["claims"]["stability"] == r["stability"], f"{where}: stability")
+            check(not certificate["rest"] or not any("normal" in c or "law" in c for c in model["contacts"]),
+                  f"{where}: a slider that never slips beside a contact that opens: one solution of a family, its amplitude is open")
             for q in QUANTITIES:
+                check((r[q] is None) == (q == "mean" and certificate["rest"] != {}), f"{where}: {q} is asked, but history decides it, or the reverse")
                 if r[q] is None:
-                    check(q == "mean" and certificate["rest"] != {}, f"{where}: {q} is not asked")
                     continue
                 low, high = (Fraction(x) for x in certificate["claims"][q])
                 check(r[q][0] <= low and high <= r[q][1] and r[q][1] - r[q][0] <= high - low + abs(high) * Fraction(2, 10**15), f"{where}: {q}")
@@ -89,6 +91,28 @@ def check_py(names):
     check(done.returncode == 0 and done.stdout.count(": accepted") == len(names), "check.py does not accept all: " + done.stdout[-300:])
 
 
+def family():
+    """make.py refuses a reference of a family: a slider that never slips beside a stop or a slanted contact that opens.
+    Beside a slider that slips it makes one, whose mean is not asked."""
+    sys.path.insert(0, str(SUITE))
+    import make, table
+    stuck, slips = table.jenkins(60, 1000), table.jenkins(50, 5)
+    with tempfile.TemporaryDirectory() as folder:
+        make.HERE = f"{folder}/suite"
+        for name in ("cases", "certificates"):
+            os.makedirs(f"{folder}/suite/{name}")
+        os.symlink(ROOT / "proof", f"{folder}/proof")
+        for name, contacts, refused in (("stop", [stuck, table.stop(50, 0)], True), ("foot", [stuck, table.foot(40, 60, 0.3, 0.3)], True), ("slider", [stuck, slips], False)):
+            table.one("test", name, "title", "tests", "wrong", [9], contacts, harmonics=20)
+            try:
+                made, said = make.make(HBMCHECK, table.CASES[-1]), ""
+            except SystemExit as stopped:
+                made, said = 0, str(stopped)
+            check(made == (not refused) and ("history decides the amplitude" in said) == refused, f"{name}: {made} references; {said}")
+        case = json.loads(pathlib.Path(folder, "suite", "cases", "slider.json").read_text())
+        check(case["references"][0]["mean"] is None and case["references"][0]["amplitude"], "slider beside slider: the mean alone is not asked")
+
+
 def check_all():
     check_py(sorted(os.listdir(SUITE / "certificates")))
 
@@ -100,10 +124,10 @@ def archive():
             subprocess.run([sys.executable, SUITE / "archive.py", f"{folder}/{name}"], check=True, umask=umask)
         check(pathlib.Path(folder, "a").read_bytes() == pathlib.Path(folder, "b").read_bytes(), "the archive differs from itself")
         subprocess.run(["tar", "xzf", "a"], cwd=folder, check=True)
-        inside = pathlib.Path(folder, "hbmcheck-suite-1.0")
+        inside = pathlib.Path(folder, f"hbmcheck-suite-{VERSION}")
         done = subprocess.run([sys.executable, "-I", "-S", "check.py", "certificates/jenkins_7_0.json"], cwd=inside, capture_output=True, text=True)
         check(": accepted" in done.stdout and len(list((inside / "cases").iterdir())) == 2 * len(NAMES), "what is in the archive: " + done.stderr)
-        check('version: "1.0"' in (inside / "CITATION.cff").read_text(), "CITATION.cff has the suite's version")
+        check(f'version: "{VERSION}"' in (inside / "CITATION.cff").read_text(), "CITATION.cff has the suite's version")
 
 
 # ---- our own --------------------------------------------------------------------------------------------------------------------
@@ -199,6 +223,9 @@ def results():
         check(row["missing"] == "1" and row["cause"] == "missing_solutions", "an omega that is none is a row of no solution")
         row, said = score("foot", text="\ufeff# remark\r\nomega , amplitude\r\n 5 , 1e-1\r\n")
         check(row["result"] == "fail" and row["missing"] == "5", "a byte order mark, remarks and CRLF are read")
+        shown = [subprocess.run([HBMCHECK, "suite", str(SUITE), "--results", folder, *more], capture_output=True, text=True).stdout for more in ([], ["--all"])]
+        check([text.count("no results") for text in shown] == [0, len(NAMES) - 1] and "foot " in shown[0], "the table leaves out cases without results, but for --all")
+        check(f"{len(NAMES) - 1} cases without results count as 0" in shown[0], "it says how many")
         pathlib.Path(folder, "feet.csv").write_text("omega,mean\n5,1\n")
         check("feet.csv: the suite has no such case" in suite("--results", folder, expect=1)[1], "a case that there is not")
         os.remove(folder + "/foot.csv")
@@ -294,5 +321,5 @@ def wrong():
         check(mean < before - 5, f"{mistake}: {mean:.1f} is not visibly below {before:.1f}")
 
 
-{"files": files, "check": check_all, "archive": archive, "own": own, "results": results, "references": references, "wrong": wrong}[sys.argv[3]]()
+{"files": files, "family": family, "check": check_all, "archive": archive, "own": own, "results": results, "references": references, "wrong": wrong}[sys.argv[3]]()
 sys.exit(failures > 0)
