@@ -167,10 +167,11 @@ def write_suite(names):
 
 
 def write_readme():
-    """The list of cases, behind the mark in README.md."""
-    path, mark, group = os.path.join(HERE, "README.md"), "<!-- made by make.py -->\n", None
+    """The list of cases, between the marks in README.md."""
+    path, mark, end, group = os.path.join(HERE, "README.md"), "<!-- made by make.py -->\n", "<!-- end -->\n", None
     with open(path, encoding="utf-8") as f:
-        lines = [f.read().split(mark)[0] + mark]
+        before, after = f.read().split(mark)
+    lines = [before + mark]
     for c in table.CASES:
         with open(os.path.join(HERE, "cases", c["name"] + ".json"), encoding="utf-8") as f:
             references = json.load(f)["references"]
@@ -179,10 +180,10 @@ def write_readme():
             lines.append(f"\n### {group[0].upper()}{group[1:]}\n")
         unstable = sum(r["stability"] == "unstable" for r in references)
         counted = f"{len(c['mass'])}/{len(references)}" + (f"/{unstable}" if unstable else "")
-        item = f"- [{c['name']}](cases/{c['name']}.json) {counted}: {c['title']}. {c['tests']}"
+        item = f"- [{c['name']}](cases/{c['name']}.json) {counted}: {c['title']}"
         lines.append(textwrap.fill(item, 120, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False) + "\n")
     with open(path, "w", encoding="utf-8") as f:
-        f.write("".join(lines))
+        f.write("".join(lines) + end + after.split(end)[1])
 
 
 def make(hbmcheck, c):

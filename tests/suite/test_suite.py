@@ -10,6 +10,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -81,6 +82,10 @@ def files():
     check(used == {p.name for p in (SUITE / "certificates").iterdir()}, "certificates that no case has, or the other way")
     done = subprocess.run([PROOF, "check", *sorted(glob.glob(str(SUITE / "certificates" / "*.json")))], capture_output=True, text=True)
     check(done.returncode == 0 and done.stdout.count(": accepted") == len(used), "hbmcheck-proof does not accept all: " + done.stdout[-300:])
+    told = (SUITE / "README.md").read_text().split("## Why digits are missing")[1].split("## Cases")[0].split("Version of")[0]
+    words = set(re.findall(r"`(\w+)`", told)) - {"cause"}
+    known = (ROOT / "docs" / "verify.md").read_text() + (SUITE / "score.c").read_text()
+    check(len(words) > 20 and all(re.search(rf"[`\"]{w}[`\"]", known) for w in words), f"causes that nobody tells: {[w for w in words if w not in known]}")
     sample = ["jenkins_7_0.json", "foot_6_0.json", "fold_7.6_1.json"]
     check_py(sample)
 
