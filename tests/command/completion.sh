@@ -3,7 +3,7 @@
 set -eu
 PATH="$(dirname "$1"):$PATH"
 compopt() { :; } # readline is not there to be told
-source "$2/command/completion.bash"
+source "$2/interfaces/command/completion.bash"
 
 # offers WORD... -- EXPECTED...: complete the last word, and see each expected answer among the replies
 offers() {
