@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-LIBRARY = pathlib.Path(__file__).resolve().parents[2] / "library"
+LIBRARY = pathlib.Path(__file__).resolve().parents[2] / "interfaces/library"
 CC = os.environ.get("CC", "cc").split()
 
 
