@@ -15,7 +15,7 @@ function check(good, words) {
 /* What the page carries, as join.cmake puts it there. */
 const carried = fs.readdirSync(cases).filter(name => name.endsWith('.yaml')).map(name => `== ${path.basename(name, '.yaml')}\n${fs.readFileSync(path.join(cases, name), 'utf8')}`);
 const context = vm.createContext({document: {getElementById: () => ({textContent: '\n' + carried.join('')})}});
-const parts = ['lab_client.js', 'page/state.js', 'page/case_text.js', 'page/presets.js'].map(name => fs.readFileSync(path.join(root, 'lab', name), 'utf8'));
+const parts = ['lab_client.js', 'page/state.js', 'page/case_text.js', 'page/presets.js'].map(name => fs.readFileSync(path.join(root, 'interfaces/lab', name), 'utf8'));
 vm.runInContext(parts.join('\n') + '\nvar all = {labClient, labForce, labColumn, presets, presetText, questionText, stateOfCase};', context);
 const {labClient, labForce, labColumn, presets, presetText, questionText, stateOfCase} = context.all;
 

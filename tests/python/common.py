@@ -17,7 +17,7 @@ COMMAND = os.environ["HBMCHECK_COMMAND"]
 CASE2 = str(SOURCE / "cases/paper/case2.yaml")
 CHAIN = str(SOURCE / "cases/structures/chain3.yaml")
 SPACE = str(SOURCE / "cases/structures/space.yaml")
-sys.path.insert(0, os.environ.get("HBMCHECK_PACKAGE", str(SOURCE / "python")))
+sys.path.insert(0, os.environ.get("HBMCHECK_PACKAGE", str(SOURCE / "interfaces/python")))
 
 
 def main():

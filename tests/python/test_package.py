@@ -19,7 +19,7 @@ from hbmcheck import _library
 
 LIBRARY = os.environ["HBMCHECK_LIBRARY"]
 CC = os.environ.get("CC", "cc")
-PYTHON = SOURCE / "python"
+PYTHON = SOURCE / "interfaces/python"
 USE = f"import hbmcheck; print(hbmcheck.Model.from_yaml({CASE2!r}).frf(at=8).branch.tolist())"
 
 

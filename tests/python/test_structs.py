@@ -26,7 +26,7 @@ def by_the_compiler(expressions):
     with tempfile.TemporaryDirectory() as folder:
         source, probe = pathlib.Path(folder, "probe.c"), pathlib.Path(folder, "probe")
         source.write_text(program)
-        subprocess.run([CC, "-I", str(SOURCE / "library"), str(source), "-o", str(probe)], check=True)
+        subprocess.run([CC, "-I", str(SOURCE / "interfaces/library"), str(source), "-o", str(probe)], check=True)
         return list(map(int, subprocess.run([probe], capture_output=True, text=True, check=True).stdout.split()))
 
 

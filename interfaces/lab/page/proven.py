@@ -7,7 +7,7 @@ is not there any more or its amplitude is another."""
 import csv, io, math, pathlib, subprocess, sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-CASES = HERE.parent.parent / "cases/paper"
+CASES = HERE.parents[2] / "cases/paper"
 FIELDS = ["oscillator.mass", "oscillator.damping", "oscillator.stiffness", "forcing.amplitude"]
 CONTACT = ["tangential_stiffness", "normal_stiffness", "friction", "angle_deg", "gap"]
 PER_CASE = 16  # frequencies
