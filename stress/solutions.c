@@ -102,6 +102,7 @@ static stress_check hold_linear(solved_scene *s, const model *m, const linear_mo
   hbm_settings how = s->how;
   stress_motion hbm;
   stress_path path;
+  double multiplier = 0; /* of the linear motion */
   double *guess = malloc((size_t)length * sizeof *guess);
   double *start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof *start);
   stress_check c = stress_skip(STRESS_NO_REASON);
@@ -112,9 +113,12 @@ static stress_check hold_linear(solved_scene *s, const model *m, const linear_mo
     stress_motion_solve(s, m, &how, s->omega, guess, 1, &hbm);
     c = hbm.status != HC_OK ? stress_refuse(s, hbm.status)
                             : stress_agree(stress_motion_distance(s, hbm.x, exact->x, means_out), bound);
+    if (hbm.stability_status == HC_OK) multiplier = hbm.stability.multiplier;
     stress_motion_free(&hbm);
   }
-  if (s->fatal == HC_OK && c.outcome == STRESS_AGREED && !model_is_smooth(m)) {
+  /* An unstable one's rounding grows over the period, and may leave it for another orbit. */
+  const double lost = bound * fmax(1, multiplier);
+  if (s->fatal == HC_OK && c.outcome == STRESS_AGREED && !model_is_smooth(m) && lost < STRESS_SAYS_SOMETHING) {
     /* Where the motion starts, its sliders at 0. */
     for (int i = 0; i < s->n; ++i) {
       start[i] = exact->x[i];
@@ -124,8 +128,7 @@ static stress_check hold_linear(solved_scene *s, const model *m, const linear_mo
       }
     }
     stress_path_of(s, m, start, &path);
-    /* undamped, no period map has one orbit; an unstable one's rounding grows over the period */
-    const double grown = fmax(3 * path.errors, bound * path.r.multiplier);
+    const double grown = fmax(3 * path.errors, lost); /* undamped, no period map has one orbit */
     if (path.status == HC_OK)
       c = stress_worse(c, stress_agree_within(stress_path_off(s, s->n_coef, exact->x, &path), bound, grown));
     stress_path_free(&path);
