@@ -324,7 +324,8 @@ static double better_multiplier(solved_scene *s, double error, double bound, boo
     stress_motion_free(&h);
     h = finer, from = &h;
     if (isnan(now)) break;
-    if (now <= bound || more == 2 * n) *truncated = now <= fmax(bound, error / 2);
+    const bool halved = now <= fmax(bound, error / 2); /* by less than twice the harmonics, too */
+    if (halved || more == 2 * n) *truncated = halved;
     error = now;
   }
   stress_motion_free(&h);
