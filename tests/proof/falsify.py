@@ -137,6 +137,8 @@ def changed(data, rng):
         j = rng.randrange(len(e[key]))
         e[key][j] = find.digits(Fraction(e[key][j]) + relative * scale[key], 40)
     elif kind == "letter":
+        if not e["state"]:
+            return None
         i = rng.randrange(len(e["state"]))
         letter = rng.choice([v for v in check.Contact(out["model"]["contacts"][i], "", len(e["x"])).letters if v != e["state"][i]] or " ")
         if letter == " ":
