@@ -297,8 +297,23 @@ static void a_comparison_that_cannot_begin_is_an_error(CHECK_STATE)
   scene_setup_clear(&setup);
 }
 
-CHECK_TESTS("gate.judge", 60, every_quantity_has_its_limit, rounding_at_the_limit_decides_nothing,
-            limits_may_differ_in_ranges, an_unstable_solution_is_held_against_its_orbit,
-            a_transient_of_its_own_fails_in_words, what_could_not_be_compared_is_an_error,
-            each_response_is_held_by_itself, costs_are_whole_numbers_with_limits, one_check_of_a_quantity_is_the_worst,
-            junit_escapes_what_it_is_given, a_comparison_that_cannot_begin_is_an_error)
+/* What a verdict asks: all four within their limits, where they are equal, too; the mean has none where it is free. */
+static void limits_hold_for_every_quantity(CHECK_STATE)
+{
+  const gate_limits l = {.most = {1, 2, 3, 4}};
+  for (int i = -1; i < 4; ++i)
+    for (int free = 0; free < 2; ++free)
+      for (int nan = 0; nan < 2; ++nan) {
+        discrepancy d = l.most;
+        double *of[] = {&d.amplitude, &d.harmonic_1, &d.mean, &d.waveform};
+        if (i >= 0) *of[i] = nan ? NAN : 1.001 * *of[i];
+        assert_int_equal(gate_limits_hold(&l, 7, &d, free), i < 0 || (i == 2 && free));
+      }
+}
+
+CHECK_TESTS("gate.judge", 60, every_quantity_has_its_limit, limits_hold_for_every_quantity,
+            rounding_at_the_limit_decides_nothing, limits_may_differ_in_ranges,
+            an_unstable_solution_is_held_against_its_orbit, a_transient_of_its_own_fails_in_words,
+            what_could_not_be_compared_is_an_error, each_response_is_held_by_itself,
+            costs_are_whole_numbers_with_limits, one_check_of_a_quantity_is_the_worst, junit_escapes_what_it_is_given,
+            a_comparison_that_cannot_begin_is_an_error)
