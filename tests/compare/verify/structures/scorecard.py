@@ -61,7 +61,7 @@ def judge(binary, folder, m):
         noise = frozenset({"noise"})
         outcome = "right" if noise in accepted and guessed == {noise} else f"{'good guess' if good else 'guess'}: {text}"
     else:
-        outcome = "nothing" if any(r["differs"] for r in rows) else "match"
+        outcome = "nothing" if code == 3 or any(r["differs"] for r in rows) else "match"  # 3: points not judged
     return m, off, outcome, seconds, said
 
 
