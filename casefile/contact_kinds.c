@@ -79,7 +79,7 @@ hc_status yaml_law_part(case_reader *r, const field *f, int j, const yaml_node_t
   return (*f->name == 'c' ? read_coefficients : read_points)(r, f, j, c, node);
 }
 
-/* Of a law that needs the field it is not there: a number that must be > 0, or points. */
+/* Whether contact c lacks a field that its law needs: a number that must be > 0, or points. */
 static bool is_missing(const field *f, const scene_contact *c)
 {
   if (!(f->flags & FIELD_IN_CONTACT) || !field_is_of_law(f, c)) return false;

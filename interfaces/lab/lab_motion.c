@@ -142,7 +142,7 @@ int lab_spectrum(lab *l, int n, int n_shown)
 
 /* ---- work ---- */
 
-/* Of contact j: what its contacts m in the model do; N of a table, which is piecewise linear, at its points and the
+/* What the model's contacts m of the lab's contact j do; N of a table, which is piecewise linear, at its points and the
  * motion's extrema. */
 static hc_status add_work(lab *l, int j, const model_contact *m)
 {

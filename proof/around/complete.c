@@ -124,7 +124,7 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
       box_set(o, NULL);
       const bool near = i == 1 ? largest < NEAR : largest <= 1e-3 * last; /* so that one B does for all steps */
       if (largest > FAR && !flow_prepare(o, f)) return false;
-      if (!near && (work += pow(n, 3)) > MOST_WORK) return refute(f, -1, -1, "Newton does not converge: too dear");
+      if (!near && (work += pow(n, 3)) > MOST_WORK) return refute(f, -1, -1, "Newton takes too much work");
       fine = near ? shooting_equations(o, k->value, NULL) : existence_prepare(k, o, NULL, f);
       if (!fine) break;
     }

@@ -69,6 +69,7 @@ static proof_reason reason_of(const json_t *answer, const json_t *rest, const ti
               {"edge of the cone", PROOF_CONE_EDGE},
               {"singular", PROOF_FOLD},
               {"too stiff", PROOF_TOO_LARGE},
+              {"too much work", PROOF_TOO_LARGE},
               {"a list of", PROOF_TOO_LARGE}, /* longer than it reads */
               {"not decided", PROOF_GRAZE},
               {"is negative", PROOF_GRAZE},

@@ -1,4 +1,4 @@
-/* test_contacts.c - tables of contacts, and forces of single ones, held against other answers of the command. */
+/* test_contacts.c - the tables of contacts and the forces of one contact agree with what other commands print. */
 #include "tests/program.h"
 
 #define CHAIN "cases/structures/chain3.yaml "
