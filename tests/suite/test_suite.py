@@ -262,6 +262,9 @@ def results():
         check("&lt;p&gt;" in html and "<p>:" not in html and html.count("<rect") == 2 * len(NAMES), "the page: its program escaped, two bars a case")
         check(f"{len(NAMES)} of {len(NAMES)}, score 100.0" in pathlib.Path(badge).read_text(), "the badge")
         check(f'tests="{len(NAMES)}" failures="0"' in pathlib.Path(junit).read_text(), "JUnit")
+        strict, _ = suite("--results", str(file), "--junit", junit, "--digits", "12", expect=1)
+        few = sum(r["result"] != "pass" for r in strict.values())
+        check(0 < few < len(NAMES) and f'failures="{few}"' in pathlib.Path(junit).read_text(), "JUnit: the digits asked")
         asked = [r[q] for n in NAMES for r in FULL[n]["references"] for q in QUANTITIES if r[q]]
         check(suite("--results", str(file), "--all", expect=0)[1].count(",proven,") + suite("--results", str(file), "--all", expect=0)[1].count(",stated,")
               == len(asked), "--all: every quantity that is asked")
