@@ -138,7 +138,7 @@ static hc_status check_needed(case_reader *r, int j, const char *direction)
     const field *f = field_at(i);
     if (!field_is_of_law(f, &r->sc.structure->contacts[j].given)) continue;
     if (!(f->flags & FIELD_IN_CONTACT) || f->fallback || case_given(r, f)) continue;
-    if (f->along ? direction && !strcmp(f->along, direction) : !direction) return missing(r, j, f, direction);
+    if (direction ? f->along && !strcmp(f->along, direction) : !f->along) return missing(r, j, f, direction);
   }
   return HC_OK;
 }
