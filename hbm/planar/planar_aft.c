@@ -174,27 +174,35 @@ static bool planar_aft_fixed_point(double A[2][2], const double b[2], double x[2
   return true;
 }
 
-/* Periods until one ends where it began, to `enough` [length]; at the end of the last one, to `most`. */
-static hc_status close_orbit(planar_aft *a, bool apart, double w[2], double enough, double most)
+/* Periods until one ends where it began, to `enough` [length]; at the end of the last one, to `most`. Where slip dies
+ * out, a full step of Newton may end beyond, where it sticks: then back to where that began, and 9/10 of each step. */
+static hc_status close_orbit(planar_aft *a, bool apart, double w[2], double size)
 {
-  double before = INFINITY, missed = INFINITY;
+  const double enough = 1e-15 * size, most = 1e-12 * (hypot(w[0], w[1]) + size), near = 1e-9 * size;
+  double before = INFINITY, missed = INFINITY, share = 1, back[2] = {0};
   bool guessed = false, stepped = false;
   for (a->passes = 1; a->passes < PLANAR_AFT_PASSES; ++a->passes) {
     memcpy(a->start, w, sizeof a->start);
     const bool guesses = a->passes >= PLANAR_PLAIN_PASSES;
     const period p = drag(a, false, !stepped, guesses && !(apart && planar_slider_forgets(a->restart)), w);
+    if (stepped && !p.slips && share == 1) {
+      share = 0.9, stepped = false, before = missed = INFINITY;
+      memcpy(w, back, sizeof back);
+      continue;
+    }
     const double step[2] = {w[0] - a->start[0], w[1] - a->start[1]};
     missed = hypot(step[0], step[1]);
     a->orbit = p.slips || p.separates ? PLANAR_CLOSED : guessed ? PLANAR_GUESSED : PLANAR_DRAGGED;
     if (missed <= enough || (missed <= most && !(missed < 0.5 * before) && stepped)) return HC_OK;
-    if (p.slips) memcpy(a->last, a->start, sizeof a->last);
     const bool guess = guesses && (!stepped || missed < 0.5 * before);
     before = missed;
     double change[2];
     stepped = guess && planar_aft_fixed_point((double(*)[2])p.A, step, change);
-    if (stepped)
-      for (int d = 0; d < 2; ++d) w[d] = a->start[d] + change[d];
-    guessed |= stepped;
+    if (!stepped) continue;
+    if (!guessed || hypot(change[0], change[1]) > near) memcpy(a->last, a->start, sizeof a->last);
+    if (!guessed) memcpy(back, w, sizeof back);
+    guessed = true;
+    for (int d = 0; d < 2; ++d) w[d] = a->start[d] + share * change[d];
   }
   return missed <= most ? HC_OK : HC_NOT_CLOSED;
 }
@@ -244,7 +252,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   a->orbit = PLANAR_ONE_PASS;
   memset(a->start, 0, sizeof a->start);
   drag(a, true, false, false, w);
-  const hc_status st = once ? HC_OK : close_orbit(a, apart, w, 1e-15 * size, 1e-12 * (hypot(w[0], w[1]) + size));
+  const hc_status st = once ? HC_OK : close_orbit(a, apart, w, size);
   if (st != HC_OK) return st;
   for (int d = 0; d < 2; ++d) period_samples_series(&a->of, a->traction[d], a->n_harm, F + d * length);
   if (report) fill_report(a, report);

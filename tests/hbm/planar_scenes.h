@@ -262,7 +262,10 @@ static inline void check_planar_jacobian(const planar_way *way)
     const contact law = random_circle(&seed);
     const moving_contact half = {.law = circle_half(law)};
     const int n_dof = law.kn > 0 ? 3 : 2, rows = n_dof * n;
-    const hbm_restart restart = trial % 12 == 7 ? HBM_RESTART_RADIAL : planar_restarts[trial % PLANAR_RESTARTS];
+    const bool corner = trial == 330; /* by radial return it comes to stick where two samples' circles meet */
+    const hbm_restart restart = corner            ? HBM_RESTART_SAMPLE
+                                : trial % 12 == 7 ? HBM_RESTART_RADIAL
+                                                  : planar_restarts[trial % PLANAR_RESTARTS];
     planar_evaluation a = {way->by, planar_way_make(way->by, H, N, restart, n_dof, &half)};
     contact_report report;
     random_plane_motion(&seed, H, 1, X);
