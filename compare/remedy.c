@@ -136,8 +136,8 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 
-/* *yes: the curve of these settings has the solution that Newton found, and not too far along for half of the time that
- * is left. */
+/* *yes: the curve of these settings has the solution that Newton found, or takes more than half of the time that is
+ * left. */
 static hc_status confirm(remedy_search *s, const trial *t, bool *yes)
 {
   const double began = thread_seconds();
@@ -154,14 +154,15 @@ static hc_status confirm(remedy_search *s, const trial *t, bool *yes)
   hbm_curve_free(&at);
   response_curve_free(&c);
   s->seconds += thread_seconds() - began;
-  s->cut |= thread_seconds() >= limit.until;
+  *yes |= thread_seconds() >= limit.until;
   return limit.stopped ? HC_INTERRUPTED : st == HC_NO_MEMORY ? st : HC_OK;
 }
 
-/* More harmonics than t has: the first that pass, and after which AFTERWARDS more do. */
+/* More harmonics than t has: the first that pass, and after which AFTERWARDS more do; by half of what is left. */
 static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
 {
   const int most_failures = target_moves(s, t) ? MOST_FAILURES : 1; /* another H starts another transient */
+  const double work = 0.5 * (s->work + most_work), seconds = 0.5 * (s->seconds + patience);
   hc_status st = HC_OK;
   *yes = false;
   for (int n = from; n < HBM_MAX_HARMONICS && !*yes && s->failures < most_failures && st == HC_OK;) {
@@ -173,7 +174,10 @@ static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
     }
     t->hbm.harmonics = n;
     if (still && st == HC_OK) st = confirm(s, t, yes);
-    if (s->seconds > 0.9 * patience) break;
+    if (!*yes && (s->seconds > seconds || s->work > work)) {
+      s->cut = true;
+      break;
+    }
   }
   return st;
 }

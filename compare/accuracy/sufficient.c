@@ -12,20 +12,18 @@
 
 enum {
   TRACED = 20,
-  POINTS = 32,
+  POINTS = 64,
   OF_CURVE = 48,
   FIRST_TRUTH = 40,
   MOST_SAMPLES = 65536,
   MANY_SAMPLES = 1024,
-  ROUNDS = 3,
-  REFINED = 3
+  ROUNDS = 5,
+  REFINED = 4
 };
 static const double least_strip = 1e-3, widths = 50;     /* of omega; half widths of the resonances instead, if less */
 static const double proven = 0.05;                       /* of the error: the truth's own */
-static const double most_work = 5e10, little_work = 5e8; /* [unknowns^3] of a search; of more frequencies */
-/* The largest error of the frequencies looked at is so much of the largest there is; of sampled forces less, since
- * aliasing errors jump from frequency to frequency. */
-static const double seen = 0.95, seen_sampled = 0.9;
+static const double most_work = 5e10, little_work = 2e9; /* [unknowns^3] of a search; of more frequencies */
+static const double seen = 0.9;   /* the largest error of the frequencies looked at, of the largest there is */
 static const double still = 1e-9; /* of the largest amplitude: a response that is not looked at */
 
 /* One solution that settings are compared with. */
@@ -383,7 +381,7 @@ static double cost(const search *s, int harmonics, int samples)
 /* The cheapest pair that keeps `allowed` from here on, into row; how: the rest. */
 static hc_status cheapest_pair(search *s, int least, hbm_settings how, sufficient_row *row)
 {
-  const double allowed = seen_sampled * s->allowed;
+  const double allowed = seen * s->allowed;
   const int most = least + 4 + least / 4;
   double cheapest = INFINITY;
   hc_status st = HC_OK;
