@@ -4,7 +4,7 @@
  * A period maps w to w no farther apart. Once out of contact all is forgotten, and the second period is the orbit.
  * Where contact is kept the periods contract as far as it slips, perhaps little: after a few of them Newton's step goes
  * to where the period would close, w + (I - A)^-1 (w' - w), A = dw'/dw the product of the steps'. Where that does not
- * bring it nearer, it is dragged on. */
+ * bring it nearer, it is dragged on. An orbit that slips is the only one: Newton begins on that of the motion before. */
 #include "hbm/planar/planar_aft.h"
 
 #include <string.h>
@@ -176,15 +176,15 @@ static bool planar_aft_fixed_point(double A[2][2], const double b[2], double x[2
 
 /* Periods until one ends where it began, to `enough` [length]; at the end of the last one, to `most`. Where slip dies
  * out, a full step of Newton may end beyond, where it sticks: then back to where that began, and 9/10 of each step. */
-static hc_status close_orbit(planar_aft *a, bool apart, double w[2], double size)
+static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double w[2], double size)
 {
   const double enough = 1e-15 * size, most = 1e-12 * (hypot(w[0], w[1]) + size), near = 1e-9 * size;
   double before = INFINITY, missed = INFINITY, share = 1, back[2] = {0};
   bool guessed = false, stepped = false;
   for (a->passes = 1; a->passes < PLANAR_AFT_PASSES; ++a->passes) {
     memcpy(a->start, w, sizeof a->start);
-    const bool guesses = a->passes >= PLANAR_PLAIN_PASSES;
-    const period p = drag(a, false, !stepped, guesses && !(apart && planar_slider_forgets(a->restart)), w);
+    const bool guesses = near_orbit || a->passes >= PLANAR_PLAIN_PASSES, again = a->passes > 1 || !near_orbit;
+    const period p = drag(a, false, again && !stepped, guesses && !(apart && planar_slider_forgets(a->restart)), w);
     if (stepped && !p.slips && share == 1) {
       share = 0.9, stepped = false, before = missed = INFINITY;
       memcpy(w, back, sizeof back);
@@ -247,12 +247,17 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]);
   const bool apart = !(least > 0);
   const bool once = a->restart == HBM_RESTART_ONE_PASS || a->restart == HBM_RESTART_ONE_PASS_SAMPLE;
-  double w[2] = {0};
-  a->passes = 0;
-  a->orbit = PLANAR_ONE_PASS;
-  memset(a->start, 0, sizeof a->start);
-  drag(a, true, false, false, w);
-  const hc_status st = once ? HC_OK : close_orbit(a, apart, w, size);
+  double w[2] = {a->start[0], a->start[1]};
+  const bool near_orbit = a->orbit == PLANAR_CLOSED && !once && !apart;
+  hc_status st = near_orbit ? close_orbit(a, apart, true, w, size) : HC_NOT_CLOSED;
+  if (st != HC_OK || a->orbit != PLANAR_CLOSED) { /* not known from the last motion */
+    memset(w, 0, sizeof w);
+    memset(a->start, 0, sizeof a->start);
+    a->passes = 0;
+    a->orbit = PLANAR_ONE_PASS;
+    drag(a, true, false, false, w);
+    st = once ? HC_OK : close_orbit(a, apart, false, w, size);
+  }
   if (st != HC_OK) return st;
   for (int d = 0; d < 2; ++d) period_samples_series(&a->of, a->traction[d], a->n_harm, F + d * length);
   if (report) fill_report(a, report);
