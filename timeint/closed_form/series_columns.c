@@ -21,7 +21,7 @@ hc_status series_columns_make(series_columns *s, const modal_base *base, workspa
 {
   const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, planar = (size_t)base->n_planar;
   *s = (series_columns){.n = base->n, .n_contacts = base->n_contacts, .n_planar = base->n_planar};
-  double **const blocks[] = {&s->x, &s->p, &s->x_end, &s->p_end, &s->term, &s->next, &s->second, &s->share};
+  double **const blocks[] = {&s->x, &s->p, &s->x_end, &s->p_end, &s->term, &s->next, &s->second};
   for (size_t i = 0; i < sizeof blocks / sizeof *blocks; ++i) *blocks[i] = workspace_doubles(w, BLOCK * n);
   s->turned_K = workspace_doubles(w, base->diagonal_K ? 0 : n * n);
   s->turned_C = workspace_doubles(w, base->diagonal_C ? 0 : n * n);
@@ -60,12 +60,14 @@ static void add_resistance(series_columns *s, double by, const double *a, const 
     for (size_t l = 0; l < n && a[i] != 0; ++l) s->resistance[i * n + l] += by * a[i] * b[l];
 }
 
-static void find_resistance(series_columns *s, const modal_base *b)
+static void find_resistance(series_columns *s, const scaled_model *m)
 {
   const size_t n = (size_t)s->n;
+  const modal_base *b = m->base;
   s->whole = 2 * s->n_rows > s->n;
   if (!s->whole) return;
-  memset(s->resistance, 0, n * n * sizeof *s->resistance);
+  for (size_t i = 0; i < n * n; ++i)
+    s->resistance[i] = m->by_K * (!b->diagonal_K ? s->turned_K[i] : i % (n + 1) == 0 ? b->K[i / (n + 1)] : 0);
   for (int j = 0; j < s->n_contacts; ++j) {
     const contact_forces_linear *f = &s->law[j];
     const double *t = b->tangent + (size_t)j * n, *normal = b->normal + (size_t)j * n;
@@ -106,7 +108,7 @@ void series_columns_begin(series_columns *s, const scaled_model *m, const contac
     if (has_tangent(&s->law[j])) add_row(s, b->tangent + (size_t)j * (size_t)s->n);
     if (has_normal(&s->law[j])) add_row(s, b->normal + (size_t)j * (size_t)s->n);
   }
-  find_resistance(s, b);
+  find_resistance(s, m);
   dense_transpose(s->n, s->n_rows, s->rows, s->turned);
   dense_transpose(s->n, 2 * s->n_slipping, s->slip_tangents, s->slip_turned);
   s->reach = 2 / sqrt(m->by_K * b->highest * b->highest);
@@ -114,27 +116,29 @@ void series_columns_begin(series_columns *s, const scaled_model *m, const contac
 
 /* ---- one block of `width` columns ---------------------------------------------------------------------- */
 
-/* out -= by A z; A diagonal[n], or turned[n][n]. */
-static void subtract(series_columns *s, int width, bool diagonal, const double *A, const double *turned, double by,
-                     const double *z, double *out)
+/* out -= by A z, or out = -by A z; A diagonal[n], or turned[n][n]. */
+static void subtract(const series_columns *s, int width, bool diagonal, const double *A, const double *turned,
+                     double by, const double *z, bool add, double *out)
 {
   const size_t w = (size_t)width;
   if (!diagonal) {
-    for (size_t i = 0; i < (size_t)s->n * w; ++i) s->share[i] = by * z[i];
-    dense_add_product(width, s->n, s->n, -1, s->share, width, turned, s->n, 1, out, width);
+    dense_add_product(width, s->n, s->n, -by, z, width, turned, s->n, add, out, width);
     return;
   }
   for (size_t i = 0; i < (size_t)s->n; ++i) {
     const double a = by * A[i], *restrict from = z + i * w;
     double *restrict to = out + i * w;
-    for (size_t q = 0; q < w; ++q) to[q] -= a * from[q];
+    if (add)
+      for (size_t q = 0; q < w; ++q) to[q] -= a * from[q];
+    else
+      for (size_t q = 0; q < w; ++q) to[q] = -a * from[q];
   }
 }
 
-/* out -= by (contacts of z), by the matrix of all of them. */
+/* out = -by (K and contacts of z), by the matrix of all of them. */
 static void subtract_whole(series_columns *s, int width, bool first, double by, const double *z, double *out)
 {
-  subtract(s, width, false, NULL, s->resistance, by, z, out);
+  subtract(s, width, false, NULL, s->resistance, by, z, false, out);
   if (!first) return;
   /* s->motion := the forces that by dW_j of the contacts that stick are, row by row. */
   const size_t w = (size_t)width;
@@ -148,16 +152,17 @@ static void subtract_whole(series_columns *s, int width, bool first, double by, 
   dense_add_product(width, s->n, s->n_rows, -1, s->motion, width, s->turned, s->n_rows, 1, out, width);
 }
 
-/* out -= by (contacts of z); their sliders move in the first term alone. */
-static void subtract_contacts(series_columns *s, int width, bool first, double by, const double *z, double *out)
+/* out = -by (K and contacts of z); the sliders of these move in the first term alone. */
+static void subtract_stiffness(series_columns *s, const scaled_model *m, int width, bool first, double by,
+                               const double *z, double *out)
 {
   const size_t w = (size_t)width;
   if (s->whole) {
     subtract_whole(s, width, first, by, z, out);
     return;
   }
-  memset(s->motion, 0, (size_t)s->n_rows * w * sizeof *s->motion);
-  dense_add_product(width, s->n_rows, s->n, -1, z, width, s->rows, s->n, 1, s->motion, width); /* minus dU and dV */
+  subtract(s, width, m->base->diagonal_K, m->base->K, s->turned_K, by * m->by_K, z, false, out);
+  dense_add_product(width, s->n_rows, s->n, -1, z, width, s->rows, s->n, 0, s->motion, width); /* minus dU and dV */
   double *row = s->motion;
   for (int j = 0; j < s->n_contacts; ++j) {
     const contact_forces_linear *f = &s->law[j];
@@ -175,8 +180,7 @@ static void subtract_contacts(series_columns *s, int width, bool first, double b
 /* s->slipping[block][n_rows] := rows . z, with its sign turned. */
 static void project_slips(series_columns *s, int width, int n_rows, const double *rows, const double *z)
 {
-  memset(s->slipping, 0, (size_t)n_rows * (size_t)width * sizeof *s->slipping);
-  dense_add_product(width, n_rows, s->n, -1, z, width, rows, s->n, 1, s->slipping, width);
+  dense_add_product(width, n_rows, s->n, -1, z, width, rows, s->n, 0, s->slipping, width);
 }
 
 /* Term k of a motion that is -s->slipping's row. */
@@ -250,10 +254,8 @@ static int expand(series_columns *s, const scaled_model *m, int width, double h)
   for (size_t i = 0; i < count; ++i) s->x_end[i] = z[i] + next[i];
   for (int k = 2, small = 0; k <= LAST; ++k) {
     const double by = h / (k * (k - 1));
-    memset(second, 0, count * sizeof *second);
-    subtract(s, width, b->diagonal_K, b->K, s->turned_K, by * h * m->by_K, z, second);
-    subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, second);
-    subtract_contacts(s, width, k == 2, by * h, z, second);
+    subtract_stiffness(s, m, width, k == 2, by * h, z, second);
+    subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, true, second);
     subtract_turning(s, width, k - 2, by * h, z, next, second);
     /* What power k adds to the motion at h and to its rate. */
     for (size_t i = 0; i < count; ++i) {

@@ -28,7 +28,6 @@ typedef struct series_columns {
   double *x, *p;                /* [block][n] motion and its rate, of a block of columns */
   double *x_end, *p_end;        /* [block][n] the same after a step */
   double *term, *next, *second; /* [block][n] z_k, z_{k+1}, z_{k+2} */
-  double *share;                /* [block][n] what K or C multiplies, scaled */
   double *motion;               /* [block][n_rows] of the contacts; their forces */
   double *slider;               /* [block][n_contacts] dW_j */
   double *size, *left;          /* [block] of columns, squared */
