@@ -157,8 +157,8 @@ static bool climb(const compare_setup *setup, climber *c, double omega, referenc
   double d = 0.02 * width, f[3] = {NAN, NAN, NAN};
   if (minus_amplitude(c, omega, &f[1]) != HC_OK) return false;
   root_point peak;
-  if (enclose_peak(c, low, high, &omega, &d, f)) /* flat: 2e-5 of the width are 2e-10 of the amplitude */
-    root_minimum(minus_amplitude, c, omega - d, f[0], omega, f[1], omega + d, f[2], 2e-5 * width, &peak);
+  if (enclose_peak(c, low, high, &omega, &d, f)) /* flat: 1e-4 of the width are 5e-9 of the amplitude */
+    root_minimum(minus_amplitude, c, omega - d, f[0], omega, f[1], omega + d, f[2], 1e-4 * width, &peak);
   else peak = (root_point){.x = omega, .f = f[1]};
   if (isnan(peak.f)) return false;
   out->peak_amplitude = -peak.f; /* the highest found, also where an orbit in between is missing */

@@ -12,8 +12,10 @@
 /* As JSON, with what stands on it: points in the curve's order, for a folded curve is not a function of omega. */
 enum { CURVE_MOST_RESPONSES = 12 };
 
-/* [1] of the step that continuation needs: drawn with straight lines, the curve needs more points. */
+/* [1] of the step that continuation needs: drawn with straight lines, the curve needs more points; of a structure of
+ * many coordinates each costs more than it shows. */
 static const double shorter_steps = 0.35;
+enum { MANY_COORDINATES = 50 };
 
 static void append(json_t *columns, const char *name, json_t *value)
 {
@@ -47,7 +49,8 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   comparison_sweep(sc->omega_from, sc->omega_to, &asked, &from, &to);
   hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK) hbm_leave_stability(s);
-  if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT) hbm_scale_steps(s, shorter_steps);
+  const bool large = s && hbm_n_dof(s) > MANY_COORDINATES;
+  if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT && !large) hbm_scale_steps(s, shorter_steps);
   if (st == HC_OK) st = hbm_trace(s, from, to, monitor, &curve);
   for (int k = 0; k < curve.n; ++k) {
     response_row row;
