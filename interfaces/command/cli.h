@@ -206,5 +206,5 @@ int cli_plotted(const cli_common *common, hc_status st);
 /* "H = 10, exact forces" or "H = 10 WITHOUT harmonic 0, 1024 samples"; for auto the numbers in use. Returns text. */
 const char *cli_hbm_settings(const scene *sc, int n_harm, int n_time, char *text, size_t size);
 
-/* "hbmcheck 0.1.0" and the versions of the libraries it runs with. The signature argp wants for its --version. */
+/* "hbmcheck 1.0.0" and the versions of the libraries it runs with. The signature argp wants for its --version. */
 void cli_print_version(FILE *to, struct argp_state *state);

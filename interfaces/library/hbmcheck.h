@@ -34,10 +34,10 @@
 
 #include <stddef.h>
 
-#define HBMCHECK_VERSION_MAJOR 0
-#define HBMCHECK_VERSION_MINOR 1
+#define HBMCHECK_VERSION_MAJOR 1
+#define HBMCHECK_VERSION_MINOR 0
 #define HBMCHECK_VERSION_PATCH 0
-#define HBMCHECK_VERSION       "0.1.0"
+#define HBMCHECK_VERSION       "1.0.0"
 
 #ifdef __cplusplus
 extern "C" {

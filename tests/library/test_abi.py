@@ -90,7 +90,7 @@ class Changes(unittest.TestCase):
 
     def test_a_new_function_is_no_break(self):
         """It is to be put down, with the version it came with; the others keep theirs."""
-        self.change('#define HBMCHECK_VERSION       "0.1.0"', '#define HBMCHECK_VERSION       "0.3.0"')
+        self.change('#define HBMCHECK_VERSION       "1.0.0"', '#define HBMCHECK_VERSION       "1.1.0"')
         self.change("void hbmcheck_case_free(hbmcheck_case *c);", "void hbmcheck_case_free(hbmcheck_case *c);\nint hbmcheck_new(int a);")
         functions = [*self.functions, "hbmcheck_new"]
         found = self.abi(functions=functions)
@@ -99,8 +99,8 @@ class Changes(unittest.TestCase):
         self.assertIn("Programs built before keep working", found.stdout)
         self.assertEqual(self.abi("--write", functions=functions).returncode, 0)
         record = (self.folder / "abi.txt").read_text()
-        self.assertIn("function hbmcheck_new: int (int) = 0.3.0\n", record)
-        self.assertEqual(sorted(set(record.splitlines()) - set(self.record.splitlines())), ["function hbmcheck_new: int (int) = 0.3.0"])
+        self.assertIn("function hbmcheck_new: int (int) = 1.1.0\n", record)
+        self.assertEqual(sorted(set(record.splitlines()) - set(self.record.splitlines())), ["function hbmcheck_new: int (int) = 1.1.0"])
 
     def test_names_of_arguments_are_no_part(self):
         self.change("int hbmcheck_case_contact_tangents(const hbmcheck_case *c, int j);",

@@ -17,6 +17,6 @@ from ._library import library_version
 from .model import Model
 from .results import Comparison, ContactForce, Curve, Solutions, Transient, Verification
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 __all__ = ["BadInput", "Comparison", "ContactForce", "Curve", "Error", "Interrupted", "MissingFile", "Model", "Solutions",
            "Stopped", "Transient", "Verification", "library_version"]

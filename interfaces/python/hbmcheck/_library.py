@@ -9,7 +9,7 @@ from . import _structs as structs
 from ._errors import BadInput, Error, Interrupted, Stopped
 
 SONAME = "libhbmcheck.so.0"
-INTERFACE = "0.1."  # versions whose structs are those of _structs
+INTERFACE = "1.0."  # versions whose structs are those of _structs
 OK, BAD_INPUT, NO_MEMORY, INTERRUPTED = 0, 1, 2, 15
 
 _handle, _int, _text = c_void_p, c_int, c_char_p
@@ -114,7 +114,7 @@ lib = _Namespace(_bind())
 
 
 def library_version() -> str:
-    """The version of the library in use, "0.1.0"."""
+    """The version of the library in use, "1.0.0"."""
     return lib.version().decode()
 
 
