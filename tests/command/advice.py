@@ -6,6 +6,7 @@ import json
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 HBMCHECK, CASES = sys.argv[1:3]
@@ -107,6 +108,16 @@ class Advise(unittest.TestCase):
         _, out, _ = run("advise", CASE2, "--at", "8", "--set", "contacts[0].friction=100", "--set", "contacts[0].gap=1000")
         self.assertIn("1 of them linear", out)
         self.assertIn("one harmonic is as good as many", out)
+
+    def test_of_solutions_that_are_not_known_nothing_is_said(self):
+        """Harmonic balance of 200 harmonics has an error above 1e-4 itself; one harmonic was said to have none."""
+        code, scene, err = run("stress", "--case", "--first", "800156")
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as case:
+            case.write(scene)
+            case.flush()
+            code, out, err = run("advise", case.name, "--error", "1e-4", "--at", "400,500", "--format", "csv")
+        self.assertEqual((code, [r["harmonics"] for r in table(out.split("\n\n")[0])]), (3, ["", ""]), out + err)
+        self.assertIn("2 solutions left out", out)
 
     def test_other_programs_and_wrong_usage(self):
         _, out, _ = run("advise", f"{CASES}/paper/case_a.yaml")
