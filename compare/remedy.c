@@ -16,10 +16,11 @@
 /* What may be changed, in the order in which it is tried. */
 typedef enum move { STATIC, EXACT_FORCES, HARMONICS, START, LAW, TOLERANCE, N_MOVES } move;
 
-enum { AFTERWARDS = 2, MOST_FAILURES = 8, MOST_SAMPLES = 65536 }; /* greater H that have to pass, too; transients */
-static const double most_work = 3e9;                              /* [unknowns^3] of all solutions tried: about 2 s */
-static const double patience = 5;                                 /* [s] of all transients and curves tried */
-static const double fine = 1e-10; /* transient.tolerance below which shooting seldom converges */
+/* Greater H that have to pass, too; transients; harmonics. */
+enum { AFTERWARDS = 2, MOST_FAILURES = 8, MOST_SAMPLES = 65536, ENOUGH_MOSTLY = 30 };
+static const double most_work = 3e9; /* [unknowns^3] of all solutions tried: about 2 s */
+static const double patience = 5;    /* [s] of all transients and curves tried */
+static const double fine = 1e-10;    /* transient.tolerance below which shooting seldom converges */
 
 typedef struct trial {
   hbm_settings hbm;
@@ -136,9 +137,9 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 
-/* *yes: the curve of these settings has the solution that Newton found, or takes more than half of the time that is
- * left. */
-static hc_status confirm(remedy_search *s, const trial *t, bool *yes)
+/* *yes: the curve of these settings has a solution within the limits; `or_slow`: or takes more than half of the time
+ * that is left. */
+static hc_status confirm(remedy_search *s, const trial *t, bool or_slow, bool *yes)
 {
   const double began = thread_seconds();
   compare_setup setup = *s->w->setup;
@@ -154,7 +155,7 @@ static hc_status confirm(remedy_search *s, const trial *t, bool *yes)
   hbm_curve_free(&at);
   response_curve_free(&c);
   s->seconds += thread_seconds() - began;
-  *yes |= thread_seconds() >= limit.until;
+  *yes |= or_slow && thread_seconds() >= limit.until;
   return limit.stopped ? HC_INTERRUPTED : st == HC_NO_MEMORY ? st : HC_OK;
 }
 
@@ -173,11 +174,15 @@ static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
       st = try_it(s, t, &still);
     }
     t->hbm.harmonics = n;
-    if (still && st == HC_OK) st = confirm(s, t, yes);
+    if (still && st == HC_OK) st = confirm(s, t, true, yes);
     if (!*yes && (s->seconds > seconds || s->work > work)) {
       s->cut = true;
       break;
     }
+  }
+  if (!*yes && st == HC_OK && s->has_target && from < ENOUGH_MOSTLY) { /* Newton may have come to an unstable one */
+    t->hbm.harmonics = ENOUGH_MOSTLY;
+    st = confirm(s, t, false, yes);
   }
   return st;
 }
@@ -192,7 +197,7 @@ static hc_status try_samples(remedy_search *s, trial *t, bool *yes)
   for (; n <= MOST_SAMPLES && !*yes && st == HC_OK; n *= 2) {
     t->hbm.samples = n;
     st = try_it(s, t, yes);
-    if (*yes && st == HC_OK) st = confirm(s, t, yes);
+    if (*yes && st == HC_OK) st = confirm(s, t, true, yes);
   }
   return st;
 }
@@ -235,7 +240,7 @@ static hc_status try_with(remedy_search *s, bool more_harmonics, bool transient_
   s->failures = 0;
   if (more_harmonics) return try_harmonics(s, t, n_harm, yes);
   const hc_status st = try_it(s, t, yes);
-  return *yes && st == HC_OK ? confirm(s, t, yes) : st;
+  return *yes && st == HC_OK ? confirm(s, t, true, yes) : st;
 }
 
 /* What acts on the largest part of what failed. */
