@@ -337,13 +337,14 @@ static double better_multiplier(solved_scene *s, double error, double bound, boo
 static bool beside_its_limit(solved_scene *s, double bound)
 {
   const search at = next_to(s);
+  const double off = model_is_smooth(s->model) ? 1e-3 : beside; /* where multipliers are differences over 1e-4 */
   bool found = false;
   for (int i = 0; i < 2 * s->model->n_contacts && s->path.r.free_sliders > 0 && !found; ++i) {
     double *slider = &s->path.state[2 * s->n + i / 2], rests = *slider;
-    *slider += (i % 2 ? -beside : beside) * s->path.amplitude;
+    *slider += (i % 2 ? -off : off) * s->path.amplitude;
     stress_path other = find_path(s, &at, s->path.state);
     *slider = rests;
-    found = other.status == HC_OK && paths_apart(s, &s->path, &other, 0) <= nearby &&
+    found = other.status == HC_OK && paths_apart(s, &s->path, &other, 0) <= 10 * off &&
             multipliers_apart(&s->fine, &other) <= bound;
     stress_path_free(&other);
   }
@@ -368,6 +369,9 @@ stress_check stress_check_multiplier(solved_scene *s)
   if (beside_its_limit(s, bound)) return stress_explain(STRESS_FAMILY, error, better);
   stress_condition(s);
   if (error <= s->multiplier_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->multiplier_errs);
+  const double by_motion = s->multiplier_rate * far; /* of what fewer harmonics than there are leave of the motion */
+  if (error <= by_motion) return stress_explain(STRESS_TRUNCATED, error, by_motion);
+  if (!hc_monitor_tick(&s->monitor, -1)) return stress_refuse(s, HC_INTERRUPTED); /* some of these had no time */
   return stress_find(STRESS_DISAGREES, error, bound);
 }
 

@@ -43,10 +43,11 @@ struct solved_scene {
   hc_monitor monitor;
   hc_status fatal; /* HC_OK; HC_INTERRUPTED by outer, HC_NO_MEMORY */
   stress_motion base;
-  bool conditioned;       /* the next two are known */
+  bool conditioned;       /* the next three are known */
   double solution_errs;   /* [1] as much as errors of rounding in the data and Newton's tolerance make of it, relative;
                              INFINITY where the solution gets lost */
-  double multiplier_errs; /* [1] what that makes of the largest multiplier */
+  double multiplier_rate; /* [1] how much the largest multiplier changes for each unit that a solution does */
+  double multiplier_errs; /* [1] what solution_errs makes of it */
   const scene *asked;
   stress_motion fine;     /* with the most harmonics that were needed, from STRESS_ORBIT on */
   stress_path path;       /* the exact law's orbit next to it */
@@ -73,8 +74,8 @@ hc_status stress_motion_read(const solved_scene *s, hbm_solver *h, double omega,
 /* Largest |x - y| over the largest |y|, without the means where they are left `out`; NaN if one is. */
 double stress_motion_distance(const solved_scene *s, const double *x, const double *y, bool means_out);
 
-/* s->solution_errs and multiplier_errs: by data changed at random, and by the same data from other guesses. Noise in
- * the multiplier of one and the same motion is no excuse, it must follow from the motion's. */
+/* s->solution_errs, multiplier_rate and multiplier_errs: by data changed at random, and by the same data from other
+ * guesses. Noise in the multiplier of one and the same motion is no excuse, it must follow from the motion's. */
 void stress_condition(solved_scene *s);
 
 /* |difference| of the largest multipliers, relative where they are above 1; INFINITY: one is not known. */

@@ -64,13 +64,12 @@ static double found_elsewhere(solved_scene *s, double beside)
 void stress_condition(solved_scene *s)
 {
   const double nudge = 1e-9, rounding = 4e-13, scatter = 100;
-  double rate = 0;
   if (s->conditioned) return;
   for (int i = 0; i < 2 && s->fatal == HC_OK; ++i)
-    s->solution_errs = fmax(s->solution_errs, rounding / nudge * nudged(s, nudge, &rate));
+    s->solution_errs = fmax(s->solution_errs, rounding / nudge * nudged(s, nudge, &s->multiplier_rate));
   for (int i = 0; i < 3 && s->fatal == HC_OK; ++i)
     s->solution_errs = fmax(s->solution_errs, scatter * found_elsewhere(s, pow(10, -3 - 2 * i)));
-  s->multiplier_errs = rate * s->solution_errs;
+  s->multiplier_errs = s->multiplier_rate * s->solution_errs;
   s->conditioned = true;
 }
 

@@ -291,7 +291,7 @@ hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *int
                               const planar_slipping *slipping, double from, double to, double omega, int columns,
                               double *phi)
 {
-  const double turns_a_step = 3;
+  const double turns_a_step = f->bends ? 2 : 3; /* slopes that vary have their own harmonics */
   const model *m = f->m;
   memcpy(f->K, m->stiffness, (size_t)f->n * (size_t)f->n * sizeof *f->K);
   for (int j = 0; j < m->n_contacts; ++j) {

@@ -6,8 +6,8 @@
  *     R y' = R (du'.e_perp - phi' dR) - s y,      s = u'.e - R' >= 0,      dR = (mu kn/kt) dv
  *
  * whose coefficients vary with phi: no exponentials. By collocation (numerics/collocation.h) on steps no longer than
- * the panels of phi, and than 3 over the structure's highest frequency: of order 19, the error of a step is 1e-14 of
- * what moves fastest. y, unlike d phi, stays small where contact is made or lost (R = 0). */
+ * the panels of phi, and than 3 over the structure's highest frequency (2 where slopes vary): of order 19, the error of
+ * a step is 1e-14 of what moves fastest. y, unlike d phi, stays small where contact is made or lost (R = 0). */
 #pragma once
 
 #include "hbm/contact/contact_evaluator.h"
