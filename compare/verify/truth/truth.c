@@ -343,6 +343,20 @@ static hc_status check_row(truth *t, const verify_row *row)
   return st;
 }
 
+/* Where the truth's curve stopped early, what is nearest may be anything: without an orbit there nothing is held
+ * against the point. */
+static hc_status leave_unconfirmed(truth *t, verify_row *row)
+{
+  const int before = t->out->checked;
+  if (row->verdict != VERDICT_DIFFERS) return HC_OK;
+  const hc_status st = check_row(t, row);
+  if (st != HC_OK || t->out->checked > before) return st;
+  row->verdict = VERDICT_SOLVER_FAILED;
+  row->branch = -1;
+  row->nearest = row->error = NAN;
+  return HC_OK;
+}
+
 /* At most MOST_CHECKS points, spread over the file: out->checked, unchecked, checked_error. HC_INTERRUPTED,
  * HC_NO_MEMORY. */
 static hc_status truth_check(truth *t)
@@ -357,6 +371,8 @@ static hc_status truth_check(truth *t)
     if (row->branch >= 0 && !row->skipped) st = check_row(t, row);
     if (st == HC_OK && !hc_monitor_tick(t->monitor, -1)) st = HC_INTERRUPTED;
   }
+  for (int i = 0; i < out->n_rows && st == HC_OK && t->response.curve.end != HC_OK; ++i)
+    st = leave_unconfirmed(t, &out->rows[i]);
   return st;
 }
 
