@@ -4,7 +4,7 @@
  * A period maps w to w no farther apart. Once out of contact all is forgotten, and the second period is the orbit.
  * Where contact is kept the periods contract as far as it slips, perhaps little: after a few of them Newton's step goes
  * to where the period would close, w + (I - A)^-1 (w' - w), A = dw'/dw the product of the steps'. Where that does not
- * bring it nearer, it is dragged on. An orbit that slips is the only one: Newton begins on that of the motion before. */
+ * bring it nearer, it is dragged on. An orbit that slips is the only one: Newton begins on the last motion's. */
 #include "hbm/planar/planar_aft.h"
 
 #include <string.h>

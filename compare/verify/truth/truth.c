@@ -297,7 +297,7 @@ static hc_status truth_look_around(truth *t, verify_row *row)
 
 /* ---- the truth at some of the points against the exact law's periodic orbits next to it. */
 
-enum { MOST_CHECKS = 20 };
+enum { MOST_CHECKS = 20, MOST_GATES = 10 }; /* beyond MOST_GATES that other orbit is another motion */
 
 /* The file's quantity, of the orbit next to the row's solution, by as many harmonics as its samples tell apart. */
 static double orbit_quantity(const truth *t, const timeint_result *orbit)
@@ -373,6 +373,12 @@ static hc_status truth_check(truth *t)
   }
   for (int i = 0; i < out->n_rows && st == HC_OK && t->response.curve.end != HC_OK; ++i)
     st = leave_unconfirmed(t, &out->rows[i]);
+  const bool inexact = out->checked_error > 0.1 * out->gate && out->checked_error <= MOST_GATES * out->gate;
+  for (int i = 0; i < out->n_rows && inexact; ++i) { /* by no more than the truth itself is off: not known */
+    verify_row *row = &out->rows[i];
+    if (row->verdict == VERDICT_DIFFERS && row->error <= out->gate + out->checked_error)
+      row->verdict = VERDICT_SOLVER_FAILED;
+  }
   return st;
 }
 

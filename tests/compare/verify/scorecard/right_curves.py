@@ -241,8 +241,8 @@ def judge_random(binary, wanted, first, folder):
             continue  # unstable solutions alone are a mistake
         curve.write_text("\n".join([f"omega,{name}"] + [f"{r['omega']},{r[name]}" for r in rows]) + "\n")
         wrong = blamed(binary, case, curve, name)
-        if wrong.split("; skipped")[0] in ("cause unknown", "solver_failed"):  # no verdict, which is said
-            unjudged += 1
+        if re.fullmatch(r"cause unknown(; solver_failed \d+)?(; skipped \d+)?|solver_failed \d+(; skipped \d+)?", wrong):
+            unjudged += 1  # no point is said to differ
             continue
         curves, failed = curves + 1, failed + bool(wrong)
         if wrong:
