@@ -13,7 +13,7 @@ enum {
   CVODE_PERIODS = 5,      /* of a solution: 1 to 3 for the steady state, as many for half the regularisation */
   CHORD_PERIODS = 10,     /* of the whole model; with slowed modes 10 more, of which each takes a fifth */
   CHORD_MATRICES = 2,     /* of the orbit, and of the exact law's */
-  MATRICES = 15,          /* Newton: 2 to 9 for the steady state, as many for each of the other orbits */
+  MATRICES = 20,          /* Newton: 2 to 9 for the steady state, as many for each of the other orbits */
   REPORT_CURVES = 7,      /* two by steps of 0.35, one to look at */
   TABLE_ORBITS = 30,      /* by the exact law: at the frequencies, and up the peak */
   TABLE_MATRICES = 30,    /* by CVODES: orbits of ever smaller regularisations, beam16; without chord steps */

@@ -9,7 +9,7 @@ static const double rounding = 1e-14;
 #define CHECK_SECONDS(value, expected) CHECK_NEAR((value) / (expected), 1, rounding, #value)
 
 /* A Newton step of 10 ms with 7 harmonics: 250 of them a curve, 2.5 s; with 22, three times the unknowns, 27 times
- * that. Orbits by chord steps: 5 x 0.5 + 10 x 0.2 + 2 x 1.5 = 7.5 s a solution; by Newton 5 x 0.5 + 15 x 1.5 = 25 s. */
+ * that. Orbits by chord steps: 5 x 0.5 + 10 x 0.2 + 2 x 1.5 = 7.5 s a solution; by Newton 2.5 + 20 x 1.5 = 32.5 s. */
 static const duration_units chords = {
     .newton = 0.01,
     .harmonics = 7,
@@ -22,14 +22,14 @@ static void times_are_multiplied_by_how_many(CHECK_STATE)
   CHECK_SECONDS(duration_of_curve(&chords, 7), 2.5);
   CHECK_SECONDS(duration_of_curve(&chords, 22), 67.5);
   CHECK_SECONDS(duration_of_comparison(&chords, 3), 2.5 + 3 * 7.5);
-  CHECK_SECONDS(duration_of_comparison(&newton, 3), 2.5 + 3 * 25);
+  CHECK_SECONDS(duration_of_comparison(&newton, 3), 2.5 + 3 * 32.5);
   CHECK_SECONDS(duration_of_steady_states(&chords, 3), 2.5 + 0.7 * 3 * 7.5);
   /* With 7 and 22 harmonics, exact and by two rates; compared with the curve of 22; 30 orbits, 0.3 of a solution. */
   const compare_settings lists = {.harmonics = {.n = 2, .v = {7, 22}}, .samples = {.n = 2, .v = {64, 128}}};
   const double tables = 67.5 + 3 * (2.5 + 67.5) + 30 * 0.3 * 7.5;
   CHECK_SECONDS(duration_of_tables(&chords, &lists), tables);
   CHECK_SECONDS(duration_of_report(&chords, 3, &lists), 2.5 + 3 * 7.5 + 7 * 2.5 + tables);
-  CHECK_SECONDS(duration_of_tables(&newton, &lists), 67.5 + 3 * (2.5 + 67.5) + 30 * 0.3 * 25 + 30 * 4);
+  CHECK_SECONDS(duration_of_tables(&newton, &lists), 67.5 + 3 * (2.5 + 67.5) + 30 * 0.3 * 32.5 + 30 * 4);
   /* 20 harmonics; 5 steps a point; at most 20 points are held against time integration. */
   const double more = pow(41.0 / 15, 3);
   CHECK_SECONDS(duration_of_verification(&chords, 8), more * (2.5 + 8 * 0.05) + 8 * 0.3 * 7.5);
