@@ -349,6 +349,7 @@ static hc_status exact_row(search *s, bool keep_mean, int most, sufficient_row *
   hc_status st = HC_OK;
   how.keep_mean = keep_mean;
   *row = (sufficient_row){.keep_mean = keep_mean, .error = NAN, .next_error = NAN, .omega = NAN};
+  /* Most solutions are not known to `allowed`: nothing can be said. */
   if (s->out->lost > s->n) return row->most_harmonics = s->out->harmonics, HC_OK;
   for (int round = 0; round <= ROUNDS && st == HC_OK;) {
     st = least_harmonics(s, how, most, row);

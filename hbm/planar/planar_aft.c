@@ -25,7 +25,7 @@ enum {
 typedef enum planar_orbit {
   PLANAR_CLOSED,  /* it slips or separates: the one closed orbit there is */
   PLANAR_DRAGGED, /* stuck, where `passes` periods from w = 0 have left it */
-  PLANAR_GUESSED, /* stuck, where `passes` or more have, some of them guessed; `last` is where one began that slipped */
+  PLANAR_GUESSED, /* stuck, where `passes` or more have, some of them guessed; `last` is where one of these began */
   PLANAR_ONE_PASS /* one period from w = 0, whether it closes or not */
 } planar_orbit;
 
