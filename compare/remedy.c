@@ -17,9 +17,10 @@
 typedef enum move { STATIC, EXACT_FORCES, HARMONICS, START, LAW, TOLERANCE, N_MOVES } move;
 
 /* Greater H that have to pass, too; transients; harmonics. */
-enum { AFTERWARDS = 2, MOST_FAILURES = 8, MOST_SAMPLES = 65536, ENOUGH_MOSTLY = 30 };
+enum { AFTERWARDS = 2, MOST_FAILURES = 8, MOST_SAMPLES = 65536, ENOUGH_MOSTLY = 30, LAST_RESORT = 50 };
 static const double most_work = 3e9; /* [unknowns^3] of all solutions tried: about 2 s */
-static const double patience = 5;    /* [s] of all transients and curves tried */
+static const double patience = 3;    /* [s] of all transients and curves tried */
+static const double at_last = 2;     /* [s] and of the last resort */
 static const double fine = 1e-10;    /* transient.tolerance below which shooting seldom converges */
 
 typedef struct trial {
@@ -35,6 +36,7 @@ typedef struct remedy_search {
   double *X, *guess;    /* [n_coef of most harmonics] that solution, and where Newton starts */
   bool by_transient;    /* else the orbit is what the row is held against */
   double work, seconds; /* spent */
+  double patience;      /* [s] that may be spent until now */
   int most_tried;       /* harmonics */
   int failures;         /* transients since the last that was periodic */
   /* What the solution is held against: the row's own transient or orbit, or that of the settings under way. */
@@ -70,7 +72,7 @@ static hc_status integrate(remedy_search *s, const trial *t, hbm_solver *hbm, co
   const transient_start start = t->transient.start;
   const double began = thread_seconds();
   timeint *ti = NULL;
-  work_limit limit = {.outer = s->w->monitor, .until = began + patience - s->seconds};
+  work_limit limit = {.outer = s->w->monitor, .until = began + s->patience - s->seconds};
   s->has_target = false;
   hc_status st = start == TRANSIENT_START_HBM || start == TRANSIENT_START_REST ? HC_OK : HC_UNSUPPORTED;
   if (st == HC_OK) st = timeint_new(s->w->setup->model, &t->transient, &ti);
@@ -84,7 +86,7 @@ static hc_status integrate(remedy_search *s, const trial *t, hbm_solver *hbm, co
   }
   timeint_free(ti);
   s->seconds += thread_seconds() - began;
-  s->cut |= s->seconds >= patience;
+  s->cut |= s->seconds >= s->patience;
   s->has_target = st == HC_OK && s->target[0].period_multiple == 1;
   s->failures = s->has_target ? 0 : s->failures + 1;
   return limit.stopped ? HC_INTERRUPTED : st == HC_NO_MEMORY ? st : HC_OK;
@@ -137,6 +139,35 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 
+/* Of the solutions at the row's frequency the one whose amplitude is nearest; -1: none. */
+static int nearest_solution(hbm_solver *hbm, const hbm_curve *at, const comparison_row *row, double amplitude)
+{
+  int nearest = -1;
+  double least = INFINITY;
+  for (int k = 0; k < at->n; ++k) {
+    hbm_measures m;
+    if (hbm_measure_response(hbm, row->omega, hbm_curve_X(at, k), row->response, &m) != HC_OK) continue;
+    const double d = fabs(m.amplitude - amplitude);
+    if (d < least) least = d, nearest = k;
+  }
+  return nearest;
+}
+
+/* *yes: one of the solutions is within the limits of the target; where a transient is still to be started on it, the
+ * one nearest to the row's. */
+static hc_status one_passes(remedy_search *s, const trial *t, hbm_solver *hbm, const hbm_curve *at, bool *yes)
+{
+  const bool to_start = !s->has_target || target_moves(s, t);
+  const int only = to_start ? nearest_solution(hbm, at, s->row, s->row->transient.amplitude) : -1;
+  hc_status st = HC_OK;
+  for (int k = 0; k < at->n && !*yes && st != HC_NO_MEMORY; ++k) {
+    if (to_start && k != only) continue;
+    st = to_start ? integrate(s, t, hbm, hbm_curve_X(at, k)) : HC_OK;
+    if (st == HC_OK && s->has_target) st = hold_against_target(s, hbm, hbm_curve_X(at, k), yes);
+  }
+  return st;
+}
+
 /* *yes: the curve of these settings has a solution within the limits; `or_slow`: or takes more than half of the time
  * that is left. */
 static hc_status confirm(remedy_search *s, const trial *t, bool or_slow, bool *yes)
@@ -145,13 +176,12 @@ static hc_status confirm(remedy_search *s, const trial *t, bool or_slow, bool *y
   compare_setup setup = *s->w->setup;
   response_curve c;
   hbm_curve at = {0};
-  work_limit limit = {.outer = s->w->monitor, .until = began + 0.5 * (patience - s->seconds)};
+  work_limit limit = {.outer = s->w->monitor, .until = began + 0.5 * (s->patience - s->seconds)};
   setup.hbm = t->hbm;
   *yes = false;
   hc_status st = response_trace(&setup, &setup.compare.omega, &(hc_monitor){work_limit_tick, &limit}, &c);
   if (st == HC_OK && c.hbm && c.curve.n) st = hbm_curve_at(c.hbm, &c.curve, s->row->omega, &at);
-  for (int k = 0; k < at.n && !*yes && st != HC_NO_MEMORY; ++k)
-    st = hold_against_target(s, c.hbm, hbm_curve_X(&at, k), yes);
+  if (st == HC_OK) st = one_passes(s, t, c.hbm, &at, yes);
   hbm_curve_free(&at);
   response_curve_free(&c);
   s->seconds += thread_seconds() - began;
@@ -163,7 +193,7 @@ static hc_status confirm(remedy_search *s, const trial *t, bool or_slow, bool *y
 static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
 {
   const int most_failures = target_moves(s, t) ? MOST_FAILURES : 1; /* another H starts another transient */
-  const double work = 0.5 * (s->work + most_work), seconds = 0.5 * (s->seconds + patience);
+  const double work = 0.5 * (s->work + most_work), seconds = 0.5 * (s->seconds + s->patience);
   hc_status st = HC_OK;
   *yes = false;
   for (int n = from; n < HBM_MAX_HARMONICS && !*yes && s->failures < most_failures && st == HC_OK;) {
@@ -180,7 +210,7 @@ static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
       break;
     }
   }
-  if (!*yes && st == HC_OK && s->has_target && from < ENOUGH_MOSTLY) { /* Newton may have come to an unstable one */
+  if (!*yes && st == HC_OK && (s->has_target || target_moves(s, t)) && from < ENOUGH_MOSTLY) { /* Newton may have come to an unstable one */
     t->hbm.harmonics = ENOUGH_MOSTLY;
     st = confirm(s, t, false, yes);
   }
@@ -284,42 +314,49 @@ static void say(const remedy_search *s, const trial *t, char text[COMPARISON_ADV
   }
 }
 
-/* All that is tried, in order; *yes, and t has what passes. */
-static hc_status find(remedy_search *s, move first, const double *X, int n_harm, trial *t, bool *yes)
+/* One change alone, and more harmonics alone. */
+static hc_status try_alone(remedy_search *s, move m, const double *X, int n_harm, trial *t, bool *yes)
 {
-  hc_status st = HC_OK;
-  for (int k = -1; k < N_MOVES && !*yes && st == HC_OK; ++k) { /* alone */
-    const move m = k < 0 ? first : (move)k;
-    *t = s->given;
-    if ((k >= 0 && m == first) || !change(s, m, t)) continue;
-    st = try_with(s, m == HARMONICS, m > HARMONICS, X, n_harm, t, yes);
-  }
-  for (int more = 0; more < 3 && !*yes && st == HC_OK; ++more) { /* together: harmonic balance's; and `first`; all */
-    bool transient_too = false;
-    *t = s->given;
-    if (change(s, STATIC, t) + change(s, EXACT_FORCES, t) == 0 && !more) continue;
-    for (move m = START; m < N_MOVES && more; ++m)
-      if (m == first || more > 1) transient_too |= change(s, m, t);
-    if (more && !transient_too) continue;
-    st = try_with(s, false, transient_too, X, n_harm, t, yes);
-    if (st == HC_OK && !*yes) st = try_with(s, true, transient_too, X, n_harm, t, yes);
-  }
+  *t = s->given;
+  return change(s, m, t) ? try_with(s, m == HARMONICS, m > HARMONICS, X, n_harm, t, yes) : HC_OK;
+}
+
+/* Harmonic 0 and exact forces, and the transient's changes from..to, then more harmonics with them. */
+static hc_status try_together(remedy_search *s, move from, move to, const double *X, int n_harm, trial *t, bool *yes)
+{
+  bool transient_too = false;
+  *t = s->given;
+  const int changed = change(s, STATIC, t) + change(s, EXACT_FORCES, t);
+  for (move m = from; m <= to; ++m) transient_too |= change(s, m, t);
+  if (from <= to ? !transient_too : changed == 0) return HC_OK;
+  hc_status st = try_with(s, false, transient_too, X, n_harm, t, yes);
+  if (st == HC_OK && !*yes) st = try_with(s, true, transient_too, X, n_harm, t, yes);
   return st;
 }
 
-/* The row's solution: the one of the curve at its frequency that has its amplitude. */
-static int solution_of(comparison_work *w, const hbm_curve *at, const comparison_row *row)
+/* Everything at once, by the curve. */
+static hc_status try_last(remedy_search *s, trial *t, bool *yes)
 {
-  int nearest = -1;
-  double least = INFINITY;
-  for (int k = 0; k < at->n; ++k) {
-    hbm_measures m;
-    const double *X = at->X + (size_t)k * at->n_coef;
-    if (hbm_measure_response(w->hbm, row->omega, X, row->response, &m) != HC_OK) continue;
-    const double d = fabs(m.amplitude - row->hbm.amplitude);
-    if (d < least) least = d, nearest = k;
-  }
-  return nearest;
+  s->patience = s->seconds + at_last;
+  s->has_target = false;
+  *t = s->given;
+  for (move m = 0; m < N_MOVES; ++m) change(s, m, t);
+  if (t->hbm.harmonics < LAST_RESORT) t->hbm.harmonics = LAST_RESORT;
+  return confirm(s, t, false, yes);
+}
+
+/* All that is tried, in order, what needs a new transient late; *yes, and t has what passes. */
+static hc_status find(remedy_search *s, move first, const double *X, int n_harm, trial *t, bool *yes)
+{
+  hc_status st = try_alone(s, first, X, n_harm, t, yes);
+  for (move m = 0; m <= HARMONICS && !*yes && st == HC_OK; ++m)
+    if (m != first) st = try_alone(s, m, X, n_harm, t, yes);
+  if (!*yes && st == HC_OK) st = try_together(s, START, HARMONICS, X, n_harm, t, yes);
+  for (move m = START; m < N_MOVES && !*yes && st == HC_OK; ++m)
+    if (m != first) st = try_alone(s, m, X, n_harm, t, yes);
+  if (!*yes && st == HC_OK && first >= START) st = try_together(s, first, first, X, n_harm, t, yes);
+  if (!*yes && st == HC_OK) st = try_together(s, START, N_MOVES - 1, X, n_harm, t, yes);
+  return *yes || st != HC_OK ? st : try_last(s, t, yes);
 }
 
 hc_status remedy_find(comparison_work *w, const comparison_row *row, char text[COMPARISON_ADVICE_TEXT])
@@ -328,18 +365,19 @@ hc_status remedy_find(comparison_work *w, const comparison_row *row, char text[C
   if (!comparison_row_is_beyond(row, w->setup->limits)) return HC_OK;
   const size_t longest = (size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)w->setup->model->n;
   workspace memory = {0};
-  remedy_search s = {.w = w, .row = row, .first = row - row->response, .given = {w->setup->hbm, w->setup->transient}};
+  remedy_search s = {.w = w, .row = row, .first = row - row->response, .given = {w->setup->hbm, w->setup->transient},
+                     .patience = patience};
   s.by_transient = row->budget.against_transient || row->verdict == VERDICT_DIFFERS;
   s.X = workspace_doubles(&memory, longest);
   s.guess = workspace_doubles(&memory, longest);
   s.target = workspace_array(&memory, (size_t)w->setup->model->n_responses, sizeof *s.target);
   hbm_curve at = {0};
   hc_status st = memory.failed ? HC_NO_MEMORY : hbm_curve_at(w->hbm, &w->out->curve, row->omega, &at);
-  const int k = memory.failed ? -1 : solution_of(w, &at, row);
+  const int k = memory.failed ? -1 : nearest_solution(w->hbm, &at, row, row->hbm.amplitude);
   if (k >= 0) {
     trial t;
     bool yes = false;
-    const double *X = at.X + (size_t)k * at.n_coef;
+    const double *X = hbm_curve_X(&at, k);
     st = find(&s, first_move(row, w->setup->limits), X, at.points[k].harmonics, &t, &yes);
     message m;
     if (st == HC_OK && yes) {

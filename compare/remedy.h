@@ -3,8 +3,9 @@
  * change it, every quantity of every response is held to its limit, and the curve of the new settings goes there.
  *
  * Tried one by one, what acts on the largest part of the row's budget first: harmonic 0, exact forces, more harmonics
- * (of H those after which H + 1 and H + 2 pass, too), the start on the HBM orbit, the exact law, a finer tolerance;
- * then those of harmonic balance together, then all. Proof: tests/command/advice.py. */
+ * (of H those after which H + 1 and H + 2 pass, too), those of harmonic balance together; then what needs another
+ * transient: the start on the HBM orbit, the exact law, a finer tolerance; all; at last all with fifty harmonics.
+ * Proof: tests/command/advice.py. */
 #pragma once
 
 #include "compare/comparison_private.h"

@@ -80,6 +80,23 @@ class Compare(unittest.TestCase):
         self.assertIn("; nothing within 200 harmonics, exact forces, the exact law and transient.tolerance >= 1e-10 passes", said)
 
 
+    def test_what_helps_is_found_where_newton_from_the_solution_does_not_lead(self):
+        """A curve of 30 harmonics, of 50 with all the rest, and forces before transients that take all of the time."""
+        for scene, words, *sets in (
+                (900785, "use hbm.force: exact and hbm.harmonics >= 30", "hbm.harmonics=1", "hbm.force=sampled", "hbm.samples=64"),
+                (903323, "harmonics >= 50 and transient.tolerance <= 1e-10", "hbm.harmonics=5", "hbm.force=sampled", "hbm.samples=128")):
+            _, text, _ = run("stress", "--case", "--first", str(scene), "--structures")
+            with tempfile.NamedTemporaryFile("w", suffix=".yaml") as case:
+                case.write(text)
+                case.flush()
+                start = [case.name, "--set", "transient.law=exact", *(x for s in sets for x in ("--set", s))]
+                rows, said = compare(*start)
+                self.assertIn("differs", {r["verdict"] for r in rows})
+                self.assertIn(words, said)
+                rows, said = compare(*start, *followed(said))
+                self.assertIn("within the gate", said)
+
+
 class Advise(unittest.TestCase):
     def test_the_error_is_kept_and_the_next_smaller_breaks_it(self):
         code, out, err = run("advise", CASE2, "--error", "1e-3", "--format", "csv")
