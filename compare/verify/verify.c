@@ -43,7 +43,7 @@ static hc_status judge_response(const compare_setup *setup, const verify_data *d
   compare_setup own;
   work_limit limit = {.outer = monitor, .until = until};
   hc_status st = setup_of_response(setup, data->response, &own, &one);
-  if (st == HC_OK) st = verify_truth(&own, data, &(hc_monitor){work_limit_tick, &limit}, out);
+  if (st == HC_OK) st = verify_truth(&own, data, until, &(hc_monitor){work_limit_tick, &limit}, out);
   if (st == HC_INTERRUPTED && !limit.stopped && out->rows) {
     for (int i = out->n_rows; i < data->n; out->n_rows = ++i) out->rows[i] = verify_row_unjudged(&data->points[i]);
     st = HC_OK;
@@ -152,7 +152,8 @@ int verify_exit_code(const verify_report *r)
 {
   if (r->causes || r->count[VERDICT_DIFFERS] > 0 || r->count[VERDICT_OTHER_BRANCH] > 0) return 1;
   if (r->count[VERDICT_SOLVER_FAILED] > 0 || r->n_rows == 0) return 3;
-  return r->checked > 0 && r->checked_error <= r->gate ? 0 : 3;
+  const bool all_on_orbits = r->on_orbits == r->n_rows - r->skipped;
+  return r->checked > 0 && (r->checked_error <= r->gate || all_on_orbits) ? 0 : 3;
 }
 
 const char *verify_word(const verify_report *r, char text[VERIFY_TEXT])
@@ -252,6 +253,8 @@ static void say_unexplained(message *m, const verify_report *r)
     message_add(m, "no cause was found before the end: %s", hc_status_text(r->status));
   } else if (r->n_rows > 0 && r->skipped == r->n_rows) {
     message_add(m, "no point could be compared: the mean is free at all of them, and the quantity contains it");
+  } else if (off == 0 && r->count[VERDICT_SOLVER_FAILED] == 0) {
+    message_add(m, "every point lies on a solution, but how exact that is, is not known to the gate of %g", r->gate);
   } else if (off == 0) {
     message_add(m, "%d points could not be judged", r->count[VERDICT_SOLVER_FAILED]);
   } else if (r->n_hypotheses == 0) {

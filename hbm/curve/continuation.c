@@ -469,7 +469,7 @@ void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 &&
  * points and round corners. The end of a ramp is solved once more with the equations as they are. Sampled equations are
  * first asked for the solution next to that with exact forces, found in the same way. */
 
-/* The monitor of a ramp: one tick a step. */
+/* The monitor of a ramp: counts steps, which know what part is done; iterations of large systems do not. */
 typedef struct ramp_watch {
   const hc_monitor *outer;
   int left;     /* steps */
@@ -479,9 +479,8 @@ typedef struct ramp_watch {
 static bool watch_step(void *self, double done)
 {
   ramp_watch *w = self;
-  (void)done; /* of the ramp, not of the work */
-  w->stopped = !hc_monitor_tick(w->outer, -1);
-  return !w->stopped && w->left-- > 0;
+  w->stopped = !hc_monitor_tick(w->outer, -1); /* `done` is of the ramp, not of the work */
+  return !w->stopped && (done < 0 || w->left-- > 0);
 }
 
 /* The curve along the ramp. Equations stay as fine as they are, and nothing that is true of omega alone is used. */

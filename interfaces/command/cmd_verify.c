@@ -212,6 +212,7 @@ static void note_verification(table *t, const scene *sc, const verify_data *data
     table_note(t, "truth held against time integration at %d points: %.1e off at most", r->checked, r->checked_error);
   if (r->unchecked) table_note(t, "at %d points time integration found no orbit next to the truth", r->unchecked);
   if (r->checked && r->checked_error > 0.1 * r->gate) table_note(t, "the truth is NOT known to a tenth of the gate");
+  if (r->on_orbits) table_note(t, "%d points are on the orbits of time integration themselves", r->on_orbits);
   if (r->curve_end != HC_OK)
     table_note(t, "the truth's curve STOPPED at omega = %.10g: %s", r->curve_omega, hc_status_text(r->curve_end));
   for (int v = 0; v < VERDICT_COUNT; ++v)

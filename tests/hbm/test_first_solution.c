@@ -33,7 +33,7 @@ static const refused_scene refused[] = {{715, 32.5011, 4.08431, 36.2477, 42951.3
                                         {4235, 28.1606, 10.9018, 4.71827, 14265.5, 2.99595, 10, false, 7, 1},
                                         {7487, 0.483621, 0.0649952, 79.4067, 952810, 238.314, 12, true, 8, 4}};
 
-enum { SCENES = sizeof refused / sizeof *refused, MOST_COEF = 49 };
+enum { SCENES = sizeof refused / sizeof *refused, MOST_COEF = 201 };
 
 /* The ramp of the damping turns more than 140 times and does not arrive within 4000 steps. */
 static const refused_scene winding = {8473, 0.0945991, 1.00573, 88.3824, 67480.8, 67.4119, 24, false, 12, 3};
@@ -113,6 +113,20 @@ static void scenes_once_refused_are_solved(CHECK_STATE)
     CHECK_NEAR(point.omega, refused[i].omega, 0, "scene %d", refused[i].number);
     hbm_solver_free(s);
   }
+}
+
+/* From 200 unknowns on Newton's iterations ask the monitor, too; they are no steps of a ramp. */
+static void a_ramp_of_many_unknowns_has_as_many_steps(CHECK_STATE)
+{
+  refused_scene many = refused[0];
+  double X[MOST_COEF];
+  hbm_point point;
+  many.harmonics = (MOST_COEF - 1) / 2;
+  hbm_solver *s = solver_of(&many);
+  assert_true(hbm_has_many_unknowns(s));
+  assert_int_equal(hbm_solve_first(s, many.omega, X, &point), HC_OK);
+  check_solution(&many, X, "many unknowns");
+  hbm_solver_free(s);
 }
 
 static bool has_no_gap(const refused_scene *r)
@@ -286,7 +300,7 @@ static void adapting_solvers_follow_ramps_too(CHECK_STATE)
   }
 }
 
-CHECK_TESTS("hbm.first_solution", 300, scenes_once_refused_are_solved, either_ramp_ends_on_a_solution,
-            derivative_along_a_ramp, force_where_the_damping_takes_too_long, settings_for_curves_do_not_reach_ramps,
-            a_ramp_ends_at_the_model, no_ramp_where_the_linear_response_is_a_guess, a_ramp_can_be_stopped,
-            adapting_solvers_follow_ramps_too)
+CHECK_TESTS("hbm.first_solution", 300, scenes_once_refused_are_solved, a_ramp_of_many_unknowns_has_as_many_steps,
+            either_ramp_ends_on_a_solution, derivative_along_a_ramp, force_where_the_damping_takes_too_long,
+            settings_for_curves_do_not_reach_ramps, a_ramp_ends_at_the_model,
+            no_ramp_where_the_linear_response_is_a_guess, a_ramp_can_be_stopped, adapting_solvers_follow_ramps_too)

@@ -83,6 +83,7 @@ typedef struct verify_report {
   double curve_omega;     /* and where */
   int checked, unchecked; /* points whose truth was held against the referee; where that has no orbit */
   double checked_error;   /* [1] the largest difference, relative to the amplitude */
+  int on_orbits;          /* points that are within the gate of the referee's orbit itself */
   int n_hypotheses;
   verify_hypothesis hypotheses[VERIFY_HYPOTHESES]; /* the best of every set of causes, best first */
   double truth_distance;                           /* [1] likewise, of the points as they stand from the truth */

@@ -13,6 +13,7 @@
 #include "compare/verify/truth/solutions.h"
 #include "hbm/curve/segment.h"
 #include "numerics/base/constants.h"
+#include "numerics/base/thread_clock.h"
 #include "numerics/base/workspace.h"
 #include "numerics/series.h"
 
@@ -113,6 +114,7 @@ typedef struct truth {
   workspace memory;
   double *state; /* [n_states] of the referee's */
   double from, to;
+  double near_error;                        /* [1] the largest error of the truth that is not another motion's */
   double *room;                             /* acceleration_room */
   double series[2 * HBM_MAX_HARMONICS + 1]; /* of a response */
 } truth;
@@ -123,7 +125,7 @@ typedef struct measured {
   bool mean_free;
 } measured;
 
-enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80 };
+enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80, DEARER = 4 };
 static const double window_factor = 7; /* a little over 2 pi: mixed units are seen from there */
 
 void verify_window(const compare_setup *setup, const verify_data *data, double *from, double *to)
@@ -297,7 +299,7 @@ static hc_status truth_look_around(truth *t, verify_row *row)
 
 /* ---- the truth at some of the points against the exact law's periodic orbits next to it. */
 
-enum { MOST_CHECKS = 20, MOST_GATES = 10 }; /* beyond MOST_GATES that other orbit is another motion */
+enum { MOST_CHECKS = 20, MOST_HELD = 200, MOST_GATES = 10 }; /* beyond MOST_GATES that orbit is another motion */
 
 /* The file's quantity, of the orbit next to the row's solution, by as many harmonics as its samples tell apart. */
 static double orbit_quantity(const truth *t, const timeint_result *orbit)
@@ -319,11 +321,13 @@ static double orbit_quantity(const truth *t, const timeint_result *orbit)
   return q->kind == KIND_RMS ? orbit->rms : verify_quantity_of(q, &motion);
 }
 
-static hc_status check_row(truth *t, const verify_row *row)
+/* *of_orbit: the quantity of the orbit next to the row's nearest solution, NaN where there is none; its multiplier. */
+static hc_status check_row(truth *t, const verify_row *row, double *of_orbit, double *multiplier)
 {
   hbm_curve at = {0};
   measured m = {0};
   timeint_result orbit;
+  *of_orbit = NAN;
   hc_status st = truth_at(t, row->omega, &at), found = HC_NOT_CONVERGED;
   int k = st == HC_OK ? truth_nearest(t, &at, row, &m) : -1;
   if (k >= 0) {
@@ -332,29 +336,15 @@ static hc_status check_row(truth *t, const verify_row *row)
     if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
   }
   hbm_curve_free(&at);
-  if (found != HC_OK || (verify_quantity_of_mean(&t->data->quantity) && motion_mean_is_free(&orbit))) {
-    ++t->out->unchecked;
-    return st;
-  }
-  double error = fabs(orbit_quantity(t, &orbit) - m.value);
-  if (isnan(error)) return ++t->out->unchecked, st;
+  const bool known = found == HC_OK && !(verify_quantity_of_mean(&t->data->quantity) && motion_mean_is_free(&orbit));
+  if (known) *of_orbit = orbit_quantity(t, &orbit);
+  if (known) *multiplier = orbit.multiplier;
+  if (isnan(*of_orbit)) return ++t->out->unchecked, st;
+  const double error = discrepancy_relative(*of_orbit - m.value, m.scale);
   ++t->out->checked;
-  if (error > 0) t->out->checked_error = fmax(t->out->checked_error, error / m.scale);
+  t->out->checked_error = fmax(t->out->checked_error, error);
+  if (error <= MOST_GATES * t->out->gate) t->near_error = fmax(t->near_error, error);
   return st;
-}
-
-/* Where the truth's curve stopped early, what is nearest may be anything: without an orbit there nothing is held
- * against the point. */
-static hc_status leave_unconfirmed(truth *t, verify_row *row)
-{
-  const int before = t->out->checked;
-  if (row->verdict != VERDICT_DIFFERS) return HC_OK;
-  const hc_status st = check_row(t, row);
-  if (st != HC_OK || t->out->checked > before) return st;
-  row->verdict = VERDICT_SOLVER_FAILED;
-  row->branch = -1;
-  row->nearest = row->error = NAN;
-  return HC_OK;
 }
 
 /* At most MOST_CHECKS points, spread over the file: out->checked, unchecked, checked_error. HC_INTERRUPTED,
@@ -363,22 +353,66 @@ static hc_status truth_check(truth *t)
 {
   verify_report *out = t->out;
   hc_status st = HC_OK;
+  double of_orbit, multiplier;
   int n = out->n_rows < MOST_CHECKS ? out->n_rows : MOST_CHECKS;
   out->checked = out->unchecked = 0;
-  out->checked_error = 0;
+  out->checked_error = t->near_error = 0;
   for (int i = 0; i < n && st == HC_OK; ++i) {
     const verify_row *row = &out->rows[n > 1 ? (int)((long)i * (out->n_rows - 1) / (n - 1)) : 0];
-    if (row->branch >= 0 && !row->skipped) st = check_row(t, row);
+    if (row->branch >= 0 && !row->skipped) st = check_row(t, row, &of_orbit, &multiplier);
     if (st == HC_OK && !hc_monitor_tick(t->monitor, -1)) st = HC_INTERRUPTED;
   }
-  for (int i = 0; i < out->n_rows && st == HC_OK && t->response.curve.end != HC_OK; ++i)
-    st = leave_unconfirmed(t, &out->rows[i]);
-  const bool inexact = out->checked_error > 0.1 * out->gate && out->checked_error <= MOST_GATES * out->gate;
-  for (int i = 0; i < out->n_rows && inexact; ++i) { /* by no more than the truth itself is off: not known */
-    verify_row *row = &out->rows[i];
-    if (row->verdict == VERDICT_DIFFERS && row->error <= out->gate + out->checked_error)
-      row->verdict = VERDICT_SOLVER_FAILED;
+  return st;
+}
+
+static bool truth_is_exact(const truth *t) { return t->out->checked_error <= 0.1 * t->out->gate; }
+
+/* Nothing is held against a row that differs by no more than the truth itself is off. */
+static void leave_open(const truth *t, verify_row *row)
+{
+  if (row->verdict == VERDICT_DIFFERS && row->error <= t->out->gate + t->near_error)
+    row->verdict = VERDICT_SOLVER_FAILED;
+}
+
+/* A row is held against the orbit of the exact law next to the truth: on that it is right. Where there is none, or one
+ * of another motion, a difference from the truth is not held against the row. */
+static hc_status hold_against_orbit(truth *t, verify_row *row)
+{
+  double of_orbit, multiplier = NAN;
+  const hc_status st = check_row(t, row, &of_orbit, &multiplier);
+  if (st != HC_OK) return st;
+  const bool differs = row->verdict == VERDICT_DIFFERS;
+  const double error = discrepancy_relative(row->value - of_orbit, row->scale);
+  if (isnan(of_orbit)) {
+    if (differs) *row = verify_row_unjudged(&(verify_point){row->omega, row->value, row->line});
+    return HC_OK;
   }
+  const bool near = discrepancy_relative(of_orbit - row->nearest, row->scale) <= MOST_GATES * t->out->gate;
+  if (error <= row->error) row->nearest = of_orbit, row->error = error;
+  if (!(error <= t->out->gate)) {
+    if (!near) leave_open(t, row);
+    return HC_OK;
+  }
+  row->stable = multiplier < 1 ? 1 : multiplier > 1 ? -1 : 0;
+  row->verdict = row->stable < 0 ? VERDICT_UNSTABLE : VERDICT_MATCH;
+  ++t->out->on_orbits;
+  return HC_OK;
+}
+
+/* Where the truth is not exact, or its curve ended early. */
+static hc_status hold_against_orbits(truth *t)
+{
+  verify_report *out = t->out;
+  hc_status st = HC_OK;
+  const bool exact = truth_is_exact(t);
+  if (exact && t->response.curve.end == HC_OK) return st;
+  int held = 0;
+  for (; held < out->n_rows && held < MOST_HELD && st == HC_OK; ++held) {
+    verify_row *row = &out->rows[held];
+    if (row->branch >= 0 && !row->skipped && (!exact || verify_row_differs(row))) st = hold_against_orbit(t, row);
+    if (st == HC_OK && !hc_monitor_tick(t->monitor, -1)) st = HC_INTERRUPTED;
+  }
+  for (int i = held; i < out->n_rows; ++i) leave_open(t, &out->rows[i]);
   return st;
 }
 
@@ -461,7 +495,7 @@ static hc_status put_line_point(truth *t, double omega, const double *X, int sta
   return st;
 }
 
-hc_status verify_truth(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
+hc_status verify_truth(const compare_setup *setup, const verify_data *data, double until, const hc_monitor *monitor,
                        verify_report *out)
 {
   truth t = {.setup = setup, .data = data, .monitor = monitor, .out = out};
@@ -477,9 +511,12 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, cons
               : harmonics > HBM_MAX_HARMONICS ? HBM_MAX_HARMONICS
                                               : harmonics;
   for (bool again = true; again && st == HC_OK; harmonics *= 2) {
+    const double began = thread_seconds();
     st = with_harmonics(&t, harmonics);
-    again = out->checked_error > 0.1 * out->gate && 2 * harmonics <= ENOUGH_HARMONICS;
+    const double now = thread_seconds(), next = DEARER * (now - began); /* [s] of twice as many harmonics */
+    again = !truth_is_exact(&t) && 2 * harmonics <= ENOUGH_HARMONICS && now + next < until;
   }
+  if (st == HC_OK) st = hold_against_orbits(&t);
   /* The curve as it is drawn into out->line: its points, and some between them, since a drawing joins them by straight
    * lines. HC_NO_MEMORY, or why it cannot be measured. */
   if (st == HC_OK && data->with_line) {

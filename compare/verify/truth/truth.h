@@ -9,8 +9,10 @@
 /* The case's sweep, widened to the points, but not to more than `far` times beyond either end. */
 void verify_window(const compare_setup *setup, const verify_data *data, double *from, double *to);
 
-/* out->rows, count, harmonics, checked, ...: the truth at each point, of as many harmonics as the referee asks for. */
-hc_status verify_truth(const compare_setup *setup, const verify_data *data, const hc_monitor *monitor,
+/* out->rows, count, harmonics, checked, ...: the truth at each point, of as many harmonics as the referee asks for, as
+ * far as they can be expected to be solved `until` then [s] of the thread's clock; where that is not exact, points
+ * that differ are held against the referee's orbits themselves. */
+hc_status verify_truth(const compare_setup *setup, const verify_data *data, double until, const hc_monitor *monitor,
                        verify_report *out);
 
 /* The row of a point of which nothing is known. */
