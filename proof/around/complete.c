@@ -8,7 +8,6 @@
 
 enum { NEWTON_STEPS = 60, WIDE_DIGITS = 40 };
 static const double ROOM = 0.001, NEAR = 1e-8, FAR = 1e-3;
-static const double MOST_WORK = 3e10; /* unknowns^3 of all inverses that Newton makes: some tens of seconds */
 
 /* Decimal digits of an event's numbers, of the scales: what the precision leaves for the growth over a period. */
 static slong digits_of(slong precision)
@@ -110,7 +109,7 @@ static double damping(const orbit *o, const double *step)
 }
 
 /* y -= B F(y) until it moves no more; the largest step that remains, relative to the scales. */
-static bool refine(krawczyk *k, orbit *o, failure *f)
+static bool refine(krawczyk *k, orbit *o, double most_work, failure *f)
 {
   const int n = o->unknowns, stride = 2 * o->n + 1;
   const double enough = pow(10, -(double)digits_of(o->precision) - 4);
@@ -124,7 +123,7 @@ static bool refine(krawczyk *k, orbit *o, failure *f)
       box_set(o, NULL);
       const bool near = i == 1 ? largest < NEAR : largest <= 1e-3 * last; /* so that one B does for all steps */
       if (largest > FAR && !flow_prepare(o, f)) return false;
-      if (!near && (work += pow(n, 3)) > MOST_WORK) return refute(f, -1, -1, "Newton takes too much work");
+      if (!near && (work += pow(n, 3)) > most_work) return refute(f, -1, -1, "Newton takes too much work");
       fine = near ? shooting_equations(o, k->value, NULL) : existence_prepare(k, o, NULL, f);
       if (!fine) break;
     }
@@ -284,14 +283,15 @@ static void write_claims(json_t *claims, const certificate *c, const quantities 
 
 /* Fills in the certificate *made, with claims of radii alone at first, and decides it; false: v says why there is
  * none. */
-static bool make(json_t *draft, const certificate *c, certificate **made, decision *v, char *why, size_t size)
+static bool make(json_t *draft, const certificate *c, double most_work, certificate **made, decision *v, char *why,
+                 size_t size)
 {
   static const slong digits[] = {17, WIDE_DIGITS};
   krawczyk k = {0};
   LOCAL(mag) spread = {0};
   json_t *claims = json_object();
   orbit *o = orbit_new(c, &v->failure);
-  bool fine = o && flow_prepare(o, &v->failure) && refine(&k, o, &v->failure);
+  bool fine = o && flow_prepare(o, &v->failure) && refine(&k, o, most_work, &v->failure);
   if (fine) write_events(draft, o);
   else json_object_del(draft, "events"); /* no certificate */
   fine = fine && existence_prepare(&k, o, k.inverse, &v->failure);
@@ -313,7 +313,7 @@ static bool make(json_t *draft, const certificate *c, certificate **made, decisi
   return fine;
 }
 
-json_t *complete(json_t *candidate, int precision)
+json_t *complete(json_t *candidate, int precision, double most_work)
 {
   char why[256] = "";
   decision v;
@@ -324,7 +324,7 @@ json_t *complete(json_t *candidate, int precision)
   json_object_del(draft, "id");
   if (json_is_object(draft)) set_defaults(draft, precision);
   certificate *c = certificate_read(draft, true, why, sizeof why), *made = NULL;
-  if (c && make(draft, c, &made, &v, why, sizeof why)) answer = answer_json(made, &v, made ? NULL : why);
+  if (c && make(draft, c, most_work, &made, &v, why, sizeof why)) answer = answer_json(made, &v, made ? NULL : why);
   else answer = answer_json(c, &v, c ? NULL : why);
   const bool whole = c && json_object_get(draft, "events");
   json_object_set(answer, "certificate", whole ? draft : json_null());

@@ -82,7 +82,7 @@ static json_t *answer_text(const options *o, size_t length)
     if (length <= LIMIT_BYTES) snprintf(why, sizeof why, "%d:%d: %s", error.line, error.column, error.text);
     return answer_json(NULL, NULL, why);
   }
-  if (o->complete) answer = complete(json, o->precision);
+  if (o->complete) answer = complete(json, o->precision, COMPLETE_MOST_WORK);
   else {
     decision v;
     decision_init(&v);

@@ -1,6 +1,6 @@
 /* test_balls.c - the checker's balls against exact fractions: what it computes from rational numbers contains what
  * fractions give, and is not much wider. */
-#include "proof/around/answer.h"
+#include "proof/around/complete.h"
 #include "tests/check.h"
 #include <float.h>
 #include <math.h>
@@ -299,6 +299,33 @@ static void the_defect_of_an_inverse_is_bounded(CHECK_STATE)
   json_decref(json);
 }
 
+/* ---- what may be spent on a candidate ---- */
+
+static const char *reason_within(double most_work, json_t **answer)
+{
+  json_t *candidate = json_load_file(SOURCE_DIR "/tests/proof/certificates/case2_9_stable.json", 0, NULL);
+  assert_non_null(candidate);
+  json_t *event = json_array_get(json_object_get(candidate, "events"), 1);
+  json_object_set_new(event, "x", json_pack("[s]", "7.1")); /* 0.03 off: more than one inverse */
+  *answer = complete(candidate, 0, most_work);
+  json_decref(candidate);
+  return json_string_value(json_object_get(*answer, "reason"));
+}
+
+/* Two changes with three unknowns each: 216 an inverse beyond the first. */
+static void work_on_a_candidate_is_bounded(CHECK_STATE)
+{
+  json_t *answer;
+  assert_null(reason_within(COMPLETE_MOST_WORK, &answer));
+  assert_true(json_is_object(json_object_get(answer, "certificate")));
+  json_decref(answer);
+  const char *reason = reason_within(215, &answer);
+  assert_non_null(reason);
+  assert_non_null(strstr(reason, "too much work"));
+  assert_true(json_is_null(json_object_get(answer, "certificate")));
+  json_decref(answer);
+}
+
 int main(void)
 {
   check_watchdog(60);
@@ -310,6 +337,7 @@ int main(void)
       cmocka_unit_test(a_spring_swings_as_the_cosine),
       cmocka_unit_test(the_last_substep_reaches_the_latest_end),
       cmocka_unit_test(the_defect_of_an_inverse_is_bounded),
+      cmocka_unit_test(work_on_a_candidate_is_bounded),
   };
   return check_ended(cmocka_run_group_tests(proof_balls, NULL, NULL));
 }
