@@ -249,6 +249,13 @@ static void matrices_times_vectors(CHECK_STATE)
     }
 }
 
+static void modes_without_mass_are_refused(CHECK_STATE)
+{
+  static const double K[4] = {2, -1, -1, 2}, M[4] = {1, 0, 0, 0};
+  double lambda[2], phi[4];
+  for (int n = 1; n <= 2; ++n) assert_int_not_equal(dense_modes(n, K, n == 1 ? &M[1] : M, lambda, phi), HC_OK);
+}
+
 CHECK_TESTS("numerics.dense", 60, solves_within_the_bound_of_rounding_theory, the_sign_of_signed_permutations,
             singular_and_not_finite_are_refused, inverts_random_matrices, singular_matrices_are_refused,
-            matrices_times_vectors, threads_may_ask_at_once)
+            matrices_times_vectors, modes_without_mass_are_refused, threads_may_ask_at_once)

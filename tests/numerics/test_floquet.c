@@ -3,6 +3,7 @@
 
 #include <float.h>
 
+#include "numerics/base/constants.h"
 #include "tests/check.h"
 
 /* phi = D P diag(lambda) P^-1 D^-1, P and its inverse of small integers, D of powers of two as lengths, velocities and
@@ -34,4 +35,28 @@ static void units_of_states_make_no_difference(CHECK_STATE)
   floquet_free(f);
 }
 
-CHECK_TESTS("numerics.floquet", 60, units_of_states_make_no_difference)
+/* Rotations by k degrees that grow or decay, k = 1, 2, ..., in pairs of rows; GSL up to 64 rows, LAPACK beyond. */
+static void every_size_has_its_method(CHECK_STATE)
+{
+  enum { MOST = 66 };
+  static double phi[MOST * MOST];
+  double complex found[MOST];
+  int active[MOST];
+  floquet *f;
+  assert_int_equal(floquet_new(MOST, &f), HC_OK);
+  for (int m = 62; m <= MOST; m += 2) {
+    memset(phi, 0, sizeof phi);
+    for (int i = 0; i < m; ++i) active[i] = i;
+    for (int i = 0; i < m; i += 2) {
+      const double complex z = (0.2 + 0.01 * i) * cexp(I * (i + 2) * TWO_PI / 720);
+      phi[i * MOST + i] = phi[(i + 1) * MOST + i + 1] = creal(z);
+      phi[i * MOST + i + 1] = cimag(z);
+      phi[(i + 1) * MOST + i] = -cimag(z);
+    }
+    assert_int_equal(floquet_multipliers(f, phi, MOST, 1, m, active, found), HC_OK);
+    CHECK_NEAR(cabs(floquet_largest(m, found)), 0.2 + 0.01 * (m - 2), 1e-14, "%d rows", m);
+  }
+  floquet_free(f);
+}
+
+CHECK_TESTS("numerics.floquet", 60, units_of_states_make_no_difference, every_size_has_its_method)
