@@ -210,7 +210,8 @@ static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
       break;
     }
   }
-  if (!*yes && st == HC_OK && (s->has_target || target_moves(s, t)) && from < ENOUGH_MOSTLY) { /* Newton may have come to an unstable one */
+  if (!*yes && st == HC_OK && (s->has_target || target_moves(s, t)) &&
+      from < ENOUGH_MOSTLY) { /* Newton may have come to an unstable one */
     t->hbm.harmonics = ENOUGH_MOSTLY;
     st = confirm(s, t, false, yes);
   }
@@ -258,15 +259,21 @@ static bool change(const remedy_search *s, move m, trial *t)
   return true;
 }
 
+/* The target: the row's, or that of the settings, which is yet to be integrated. */
+static void aim(remedy_search *s, bool transient_too)
+{
+  for (int r = 0; r < s->w->setup->model->n_responses; ++r)
+    s->target[r] = s->by_transient ? s->first[r].transient : s->first[r].orbit;
+  s->has_target = !transient_too;
+}
+
 /* Tries t, which may be changed to have more harmonics; from the row's solution. */
 static hc_status try_with(remedy_search *s, bool more_harmonics, bool transient_too, const double *X, int n_harm,
                           trial *t, bool *yes)
 {
   s->n_harm = n_harm;
   memcpy(s->X, X, (size_t)hbm_n_coefficients(s->w->hbm) * sizeof *X);
-  for (int r = 0; r < s->w->setup->model->n_responses; ++r)
-    s->target[r] = s->by_transient ? s->first[r].transient : s->first[r].orbit;
-  s->has_target = !transient_too;
+  aim(s, transient_too);
   s->failures = 0;
   if (more_harmonics) return try_harmonics(s, t, n_harm, yes);
   const hc_status st = try_it(s, t, yes);
@@ -337,10 +344,11 @@ static hc_status try_together(remedy_search *s, move from, move to, const double
 /* Everything at once, by the curve. */
 static hc_status try_last(remedy_search *s, trial *t, bool *yes)
 {
+  bool transient_too = false;
   s->patience = s->seconds + at_last;
-  s->has_target = false;
   *t = s->given;
-  for (move m = 0; m < N_MOVES; ++m) change(s, m, t);
+  for (move m = 0; m < N_MOVES; ++m) transient_too |= change(s, m, t) && m > HARMONICS;
+  aim(s, transient_too);
   if (t->hbm.harmonics < LAST_RESORT) t->hbm.harmonics = LAST_RESORT;
   return confirm(s, t, false, yes);
 }
@@ -365,7 +373,10 @@ hc_status remedy_find(comparison_work *w, const comparison_row *row, char text[C
   if (!comparison_row_is_beyond(row, w->setup->limits)) return HC_OK;
   const size_t longest = (size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)w->setup->model->n;
   workspace memory = {0};
-  remedy_search s = {.w = w, .row = row, .first = row - row->response, .given = {w->setup->hbm, w->setup->transient},
+  remedy_search s = {.w = w,
+                     .row = row,
+                     .first = row - row->response,
+                     .given = {w->setup->hbm, w->setup->transient},
                      .patience = patience};
   s.by_transient = row->budget.against_transient || row->verdict == VERDICT_DIFFERS;
   s.X = workspace_doubles(&memory, longest);

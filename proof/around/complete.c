@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NEWTON_STEPS = 60, WIDE_DIGITS = 40 };
+enum { NEWTON_STEPS = 60, WIDE_DIGITS = 40, MULTIPLIER_WIDTHS = 8 };
 static const double ROOM = 0.001, NEAR = 1e-8, FAR = 1e-3;
 
 /* Decimal digits of an event's numbers, of the scales: what the precision leaves for the growth over a period. */
@@ -263,7 +263,8 @@ static void response_spread(const orbit *o, mag_t spread)
 /* Claims that hold what check.py encloses, too. Its interval and this program's share the true value, so this one,
  * widened by the width of the other, holds both. check.py takes ranges by the first order: of an extremum at most 4
  * times the sum of the radii on a substep, of mean and harmonic 1 less; and it starts from a box within `radius`, which
- * gave `spread`. Of the multiplier both take discs of the same matrix: three times as wide, and 16 radii. */
+ * gave `spread`. Of the multiplier both take discs of the same matrix, check.py with every entry's rounding as large as
+ * the largest's: up to 4 times as wide among 500 structures; MULTIPLIER_WIDTHS are allowed, and 16 radii. */
 static void write_claims(json_t *claims, const certificate *c, const quantities *q, const mag_t spread)
 {
   LOCAL(arb) radius = {0};
@@ -273,7 +274,8 @@ static void write_claims(json_t *claims, const certificate *c, const quantities 
     if (!(i == CLAIM_MULTIPLIER ? q->multiplier_known : q->known)) continue;
     if (i == CLAIM_MULTIPLIER) arb_get_mag(pad, radius);
     mag_mul_2exp_si(pad, i == CLAIM_MULTIPLIER ? pad : spread, i == CLAIM_MULTIPLIER ? 4 : 2);
-    for (int twice = 0; twice < 2; twice++) mag_add(pad, pad, arb_radref(q->value[i]));
+    for (int k = 0; k < 2 * (i == CLAIM_MULTIPLIER ? MULTIPLIER_WIDTHS : 1); k++)
+      mag_add(pad, pad, arb_radref(q->value[i]));
     json_object_set_new(claims, claim_names[i], decimal_interval(q->value[i], pad, c->precision));
   }
   json_object_set_new(claims, "stability", json_string(stability_names[q->stability]));
