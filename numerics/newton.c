@@ -33,7 +33,12 @@ struct newton { /* from newton_new, to newton_free; not shared between threads *
   double *start;     /* [n] where the solve began */
   bool factored;     /* jac holds factors made at the end of the last solve */
   hc_status refusal; /* why the problem last refused a z */
+  int trials;        /* residuals that KINSOL asked for since it last asked for a Jacobian */
 };
+
+/* KINSOL's line search halves its steps until they are 2^-36 of z, in either of two loops. The second has no end where
+ * the same z does not give the same residual. */
+enum { MOST_TRIALS = 200 };
 
 static int on_residual(N_Vector z, N_Vector r, void *self)
 {
@@ -59,6 +64,10 @@ static int on_jacobian(N_Vector z, N_Vector r, SUNMatrix jac, void *self, N_Vect
 static int kinsol_residual(N_Vector z, N_Vector r, void *self)
 {
   newton *nw = self;
+  if (++nw->trials > MOST_TRIALS && nw->refusal != HC_NO_MEMORY) {
+    nw->refusal = HC_STALLED;
+    return -1;
+  }
   if (nw->refusal != HC_NO_MEMORY && on_residual(z, r, nw) == 0) return 0;
   if (nw->refusal != HC_NO_MEMORY) return 1;
   N_VConst(0.0, r);
@@ -68,6 +77,7 @@ static int kinsol_residual(N_Vector z, N_Vector r, void *self)
 static int kinsol_jacobian(N_Vector z, N_Vector r, SUNMatrix jac, void *self, N_Vector t1, N_Vector t2)
 {
   newton *nw = self;
+  nw->trials = 0;
   if (nw->refusal != HC_NO_MEMORY && on_jacobian(z, r, jac, nw, t1, t2) == 0) return 0;
   if (nw->refusal != HC_NO_MEMORY) return 1;
   for (int i = 0; i < nw->problem.n; ++i)
@@ -234,6 +244,7 @@ static hc_status solve_from_start(newton *nw, int strategy, const newton_options
   bad |= KINSetNumMaxIters(nw->kin, opt->max_iterations);
   if (bad) return HC_BAD_INPUT;
   nw->refusal = HC_OK;
+  nw->trials = 0;
   int flag = KINSol(nw->kin, nw->z, strategy, nw->z_scale, nw->r_scale);
   long iterations = 0;
   KINGetNumNonlinSolvIters(nw->kin, &iterations);

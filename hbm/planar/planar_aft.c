@@ -4,7 +4,9 @@
  * A period maps w to w no farther apart. Once out of contact all is forgotten, and the second period is the orbit.
  * Where contact is kept the periods contract as far as it slips, perhaps little: after a few of them Newton's step goes
  * to where the period would close, w + (I - A)^-1 (w' - w), A = dw'/dw the product of the steps'. Where that does not
- * bring it nearer, it is dragged on. An orbit that slips is the only one: Newton begins on the last motion's. */
+ * bring it nearer, it is dragged on. An orbit that slips is the only one: Newton begins on the last motion's. One that
+ * slips by rounding alone is one of many that stick, and which depends on where it began: from w = 0, since the same X
+ * must have the same forces. */
 #include "hbm/planar/planar_aft.h"
 
 #include <string.h>
@@ -174,11 +176,34 @@ static bool planar_aft_fixed_point(double A[2][2], const double b[2], double x[2
   return true;
 }
 
+/* The rest `missed` of a period of derivative A may be that much of the slider's error [length]. */
+static double error_of(const period *p, double missed)
+{
+  const double det = (1 - p->A[0][0]) * (1 - p->A[1][1]) - p->A[0][1] * p->A[1][0];
+  return missed * (2 + fabs(p->A[0][0]) + fabs(p->A[0][1]) + fabs(p->A[1][0]) + fabs(p->A[1][1])) / fabs(det);
+}
+
+/* The way that the slider went along the orbit [length], in touch all the time. */
+static double way_slipped(const planar_aft *a)
+{
+  double sum = 0, before[2] = {0};
+  for (int i = -1; i < a->n_time; ++i) {
+    const int k = i < 0 ? a->n_time - 1 : i;
+    const double w[2] = {a->motion[0][k] - a->traction[0][k] / a->law.kt,
+                         a->motion[1][k] - a->traction[1][k] / a->law.kt};
+    if (i >= 0) sum += hypot(w[0] - before[0], w[1] - before[1]);
+    memcpy(before, w, sizeof w);
+  }
+  return sum;
+}
+
 /* Periods until one ends where it began, to `enough` [length]; at the end of the last one, to `most`. Where slip dies
- * out, a full step of Newton may end beyond, where it sticks: then back to where that began, and 9/10 of each step. */
+ * out, a full step of Newton may end beyond, where it sticks: then back to where that began, and 9/10 of each step.
+ * near_orbit: HC_NOT_CLOSED unless another start would have led there, too. */
 static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double w[2], double size)
 {
-  const double enough = 1e-15 * size, most = 1e-12 * (hypot(w[0], w[1]) + size), near = 1e-9 * size;
+  const double enough = 1e-15 * size, most = 1e-12 * (hypot(w[0], w[1]) + size), near = 1e-9 * size,
+               alike = 1e-12 * size, far = 1e-6 * size;
   double before = INFINITY, missed = INFINITY, share = 1, back[2] = {0};
   bool guessed = false, stepped = false;
   for (a->passes = 1; a->passes < PLANAR_AFT_PASSES; ++a->passes) {
@@ -193,7 +218,8 @@ static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double 
     const double step[2] = {w[0] - a->start[0], w[1] - a->start[1]};
     missed = hypot(step[0], step[1]);
     a->orbit = p.slips || p.separates ? PLANAR_CLOSED : guessed ? PLANAR_GUESSED : PLANAR_DRAGGED;
-    if (missed <= enough || (missed <= most && !(missed < 0.5 * before) && stepped)) return HC_OK;
+    if (missed <= enough || (missed <= most && !(missed < 0.5 * before) && stepped))
+      return !near_orbit || (error_of(&p, missed) <= alike && way_slipped(a) > far) ? HC_OK : HC_NOT_CLOSED;
     const bool guess = guesses && (!stepped || missed < 0.5 * before);
     before = missed;
     double change[2];

@@ -243,6 +243,40 @@ static void the_line_search_helps_out(CHECK_STATE)
   newton_free(nw);
 }
 
+/* atan, until a line search has come near its root: from there on only the start is as good as it was. KINSOL then goes
+ * back from a step that was too good to be true, and halves its way to it for ever. */
+static hc_status forgetful_residual(void *self, const double *z, double *r)
+{
+  probe *p = self;
+  count(p);
+  *r = atan(*z);
+  if (p->limit < INFINITY && fabs(*r) < 1) *r = 2;
+  if (p->jacobians > 0 && fabs(*r) < 0.1) p->limit = 0;
+  return HC_OK;
+}
+
+static hc_status forgetful_jacobian(void *self, const double *z, double *jac)
+{
+  remember(self, (double[2]){*z, 0});
+  *jac = 1 / (1 + *z * *z);
+  return HC_OK;
+}
+
+static void a_residual_that_is_another_the_second_time_ends_it(CHECK_STATE)
+{
+  int ended = 0;
+  for (double z0 = 1.5; z0 < 30; z0 *= 1.1) {
+    probe p;
+    newton *nw = make(&p, 1, forgetful_residual, forgetful_jacobian);
+    newton_report report;
+    double z = z0;
+    assert_int_not_equal(newton_solve(nw, &z, &plain, &report), HC_OK);
+    ended += p.residuals > 200;
+    newton_free(nw);
+  }
+  assert_true(ended > 0); /* else none came to that loop */
+}
+
 /* |x| + 1: ends in the kink, where no step lowers it. A stall, and said to be one. */
 EQUATION(kink, fabs(z) + 1, z < 0 ? -1 : 1)
 
@@ -423,5 +457,6 @@ static void out_of_memory_ends_it(CHECK_STATE)
 }
 
 CHECK_TESTS("numerics.newton", 60, quadratic_like_heron, weights_are_units, backsolve_is_the_inverse_at_the_end,
-            starts_from_zero, starts_at_the_root, no_root_is_never_ok, the_line_search_helps_out, singular_is_said,
-            refusals_are_passed_on, nan_is_refused, failures_are_told, works_on_after_failures, out_of_memory_ends_it)
+            starts_from_zero, starts_at_the_root, no_root_is_never_ok, the_line_search_helps_out,
+            a_residual_that_is_another_the_second_time_ends_it, singular_is_said, refusals_are_passed_on,
+            nan_is_refused, failures_are_told, works_on_after_failures, out_of_memory_ends_it)
