@@ -183,18 +183,18 @@ static double error_of(const period *p, double missed)
   return missed * (2 + fabs(p->A[0][0]) + fabs(p->A[0][1]) + fabs(p->A[1][0]) + fabs(p->A[1][1])) / fabs(det);
 }
 
-/* The way that the slider went along the orbit [length], in touch all the time. */
-static double way_slipped(const planar_aft *a)
+/* Does the slider go farther than that along the orbit? In touch all the time. */
+static bool slips_far(const planar_aft *a, double far)
 {
-  double sum = 0, before[2] = {0};
-  for (int i = -1; i < a->n_time; ++i) {
+  double way = 0, before[2] = {0};
+  for (int i = -1; i < a->n_time && !(way > far); ++i) {
     const int k = i < 0 ? a->n_time - 1 : i;
-    const double w[2] = {a->motion[0][k] - a->traction[0][k] / a->law.kt,
-                         a->motion[1][k] - a->traction[1][k] / a->law.kt};
-    if (i >= 0) sum += hypot(w[0] - before[0], w[1] - before[1]);
+    double w[2];
+    for (int d = 0; d < 2; ++d) w[d] = a->motion[d][k] - a->traction[d][k] / a->law.kt;
+    if (i >= 0) way += hypot(w[0] - before[0], w[1] - before[1]);
     memcpy(before, w, sizeof w);
   }
-  return sum;
+  return way > far;
 }
 
 /* Periods until one ends where it began, to `enough` [length]; at the end of the last one, to `most`. Where slip dies
@@ -219,7 +219,7 @@ static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double 
     missed = hypot(step[0], step[1]);
     a->orbit = p.slips || p.separates ? PLANAR_CLOSED : guessed ? PLANAR_GUESSED : PLANAR_DRAGGED;
     if (missed <= enough || (missed <= most && !(missed < 0.5 * before) && stepped))
-      return !near_orbit || (error_of(&p, missed) <= alike && way_slipped(a) > far) ? HC_OK : HC_NOT_CLOSED;
+      return !near_orbit || (error_of(&p, missed) <= alike && slips_far(a, far)) ? HC_OK : HC_NOT_CLOSED;
     const bool guess = guesses && (!stepped || missed < 0.5 * before);
     before = missed;
     double change[2];
