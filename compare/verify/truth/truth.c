@@ -11,9 +11,9 @@
 #include "compare/motion.h"
 #include "compare/response.h"
 #include "compare/verify/truth/solutions.h"
+#include "compare/work_limit.h"
 #include "hbm/curve/segment.h"
 #include "numerics/base/constants.h"
-#include "numerics/base/thread_clock.h"
 #include "numerics/base/workspace.h"
 #include "numerics/series.h"
 
@@ -299,7 +299,8 @@ static hc_status truth_look_around(truth *t, verify_row *row)
 
 /* ---- the truth at some of the points against the exact law's periodic orbits next to it. */
 
-enum { MOST_CHECKS = 20, MOST_HELD = 200, MOST_GATES = 10 }; /* beyond MOST_GATES that orbit is another motion */
+enum { MOST_CHECKS = 20, MOST_HELD = 200, MOST_GATES = 10, MOST_MISSES = 3 }; /* beyond MOST_GATES: another motion */
+static const double from_rest = 1;                                            /* [s] that a motion from rest may take */
 
 /* The file's quantity, of the orbit next to the row's solution, by as many harmonics as its samples tell apart. */
 static double orbit_quantity(const truth *t, const timeint_result *orbit)
@@ -416,6 +417,39 @@ static hc_status hold_against_orbits(truth *t)
   return st;
 }
 
+/* Motions from rest may be on a branch apart from the curve, where no solution leads: rows that differ are held against
+ * them, until as many as MOST_MISSES in turn are on none. */
+static hc_status hold_against_rest(truth *t)
+{
+  verify_report *out = t->out;
+  hc_status st = HC_OK;
+  for (int i = 0, misses = 0; i < out->n_rows && misses < MOST_MISSES && st == HC_OK; ++i) {
+    verify_row *row = &out->rows[i];
+    work_limit limit = {.outer = t->monitor, .until = thread_seconds() + from_rest};
+    timeint_result orbit;
+    if (row->verdict != VERDICT_DIFFERS) continue;
+    timeint_rest(t->referee, t->state);
+    const hc_monitor monitor = {work_limit_tick, &limit};
+    const hc_status found = timeint_steady(t->referee, row->omega, t->state, &monitor, &orbit);
+    if (found == HC_NO_MEMORY || limit.stopped) st = found;
+    if (found != HC_OK || orbit.period_multiple != 1) {
+      ++misses;
+      continue;
+    }
+    const double value = orbit_quantity(t, &orbit), error = discrepancy_relative(row->value - value, row->scale);
+    const bool on_it = error <= out->gate;
+    misses = on_it ? 0 : misses + 1;
+    if (!on_it) continue;
+    row->nearest = value;
+    row->error = error;
+    row->branch = -1;
+    row->stable = 1;
+    row->verdict = VERDICT_MATCH;
+    ++out->on_orbits;
+  }
+  return st;
+}
+
 /* ---- each point, and the number of harmonics ---- */
 
 verify_row verify_row_unjudged(const verify_point *p)
@@ -517,6 +551,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, doub
     again = !truth_is_exact(&t) && 2 * harmonics <= ENOUGH_HARMONICS && now + next < until;
   }
   if (st == HC_OK) st = hold_against_orbits(&t);
+  if (st == HC_OK) st = hold_against_rest(&t);
   /* The curve as it is drawn into out->line: its points, and some between them, since a drawing joins them by straight
    * lines. HC_NO_MEMORY, or why it cannot be measured. */
   if (st == HC_OK && data->with_line) {
