@@ -25,7 +25,7 @@ from fractions import Fraction
 
 MOST_BYTES, MOST_CHARACTERS, MOST_EXPONENT = 1 << 23, 120, 400
 MOST_DOFS, MOST_CONTACTS, MOST_HARMONICS, MOST_UNKNOWNS, MOST_BITS, MOST_SPREAD = 64, 64, 16, 2048, 1024, 1500
-MOST_WORK, MOST_DEPTH, MOST_PARTS = 1 << 21, 120, 20000  # work: substeps times the square of Z's size
+MOST_WORK, MOST_DEPTH, MOST_PARTS = 1 << 22, 120, 20000  # work: substeps times the square of Z's size
 
 
 class Wrong(Exception):
