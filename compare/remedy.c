@@ -36,7 +36,7 @@ typedef struct remedy_search {
   double *X, *guess;    /* [n_coef of most harmonics] that solution, and where Newton starts */
   bool by_transient;    /* else the orbit is what the row is held against */
   double work, seconds; /* spent */
-  double patience;      /* [s] that may be spent until now */
+  double patience;      /* [s] `seconds` may become this much */
   int most_tried;       /* harmonics */
   int failures;         /* transients since the last that was periodic */
   /* What the solution is held against: the row's own transient or orbit, or that of the settings under way. */
@@ -139,7 +139,7 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 
-/* Of the solutions at the row's frequency the one whose amplitude is nearest; -1: none. */
+/* The number of the solution in *at whose amplitude is nearest to this one; -1: there is none. */
 static int nearest_solution(hbm_solver *hbm, const hbm_curve *at, const comparison_row *row, double amplitude)
 {
   int nearest = -1;
@@ -153,8 +153,8 @@ static int nearest_solution(hbm_solver *hbm, const hbm_curve *at, const comparis
   return nearest;
 }
 
-/* *yes: one of the solutions is within the limits of the target; where a transient is still to be started on it, the
- * one nearest to the row's. */
+/* *yes: a solution in *at is within the limits of the target. If the target depends on the solution, only the solution
+ * nearest to the row's transient is tried. */
 static hc_status one_passes(remedy_search *s, const trial *t, hbm_solver *hbm, const hbm_curve *at, bool *yes)
 {
   const bool to_start = !s->has_target || target_moves(s, t);
@@ -210,8 +210,8 @@ static hc_status try_harmonics(remedy_search *s, trial *t, int from, bool *yes)
       break;
     }
   }
-  if (!*yes && st == HC_OK && (s->has_target || target_moves(s, t)) &&
-      from < ENOUGH_MOSTLY) { /* Newton may have come to an unstable one */
+  const bool has_aim = s->has_target || target_moves(s, t);
+  if (!*yes && st == HC_OK && has_aim && from < ENOUGH_MOSTLY) { /* Newton may have come to an unstable one */
     t->hbm.harmonics = ENOUGH_MOSTLY;
     st = confirm(s, t, false, yes);
   }

@@ -368,15 +368,15 @@ static hc_status truth_check(truth *t)
 
 static bool truth_is_exact(const truth *t) { return t->out->checked_error <= 0.1 * t->out->gate; }
 
-/* Nothing is held against a row that differs by no more than the truth itself is off. */
+/* A row that differs by less than the error of the truth itself is not judged. */
 static void leave_open(const truth *t, verify_row *row)
 {
   if (row->verdict == VERDICT_DIFFERS && row->error <= t->out->gate + t->near_error)
     row->verdict = VERDICT_SOLVER_FAILED;
 }
 
-/* A row is held against the orbit of the exact law next to the truth: on that it is right. Where there is none, or one
- * of another motion, a difference from the truth is not held against the row. */
+/* Compares the row with the exact law's orbit next to the truth. A row on that orbit matches. Without an orbit, a row
+ * that differs is not judged; with an orbit far from the truth, only if it differs by more than the truth's error. */
 static hc_status hold_against_orbit(truth *t, verify_row *row)
 {
   double of_orbit, multiplier = NAN;
@@ -417,8 +417,8 @@ static hc_status hold_against_orbits(truth *t)
   return st;
 }
 
-/* Motions from rest may be on a branch apart from the curve, where no solution leads: rows that differ are held against
- * them, until as many as MOST_MISSES in turn are on none. */
+/* Compares rows that differ with the motion from rest, which may be on a branch that the curve does not reach. Ends
+ * after MOST_MISSES rows in turn that do not match it. */
 static hc_status hold_against_rest(truth *t)
 {
   verify_report *out = t->out;
