@@ -338,8 +338,7 @@ static hc_status check_row(truth *t, const verify_row *row, double *of_orbit, do
   }
   hbm_curve_free(&at);
   const bool known = found == HC_OK && !(verify_quantity_of_mean(&t->data->quantity) && motion_mean_is_free(&orbit));
-  if (known) *of_orbit = orbit_quantity(t, &orbit);
-  if (known) *multiplier = orbit.multiplier;
+  if (known) *of_orbit = orbit_quantity(t, &orbit), *multiplier = orbit.multiplier;
   if (isnan(*of_orbit)) return ++t->out->unchecked, st;
   const double error = discrepancy_relative(*of_orbit - m.value, m.scale);
   ++t->out->checked;
