@@ -59,14 +59,16 @@ static bool one_value_each(const verify_report *r)
 }
 
 /* Stretches of points on one stable branch, between points on another that exists along all of the stretch, get the
- * verdict other_branch. True if there are any. */
+ * verdict other_branch. True if there are any. Points without a branch are where the motion from rest goes, which may
+ * be now here, now there. */
 static bool mark_hops(verify_report *r)
 {
   bool any = false;
   if (!one_value_each(r)) return false;
   for (int from = 1, to; from < r->n_rows; from = to) {
     const verify_row *before = &r->rows[from - 1];
-    bool odd = before->verdict == VERDICT_MATCH && r->rows[from].branch != before->branch;
+    bool odd = before->verdict == VERDICT_MATCH && r->rows[from].branch != before->branch && before->branch >= 0 &&
+               r->rows[from].branch >= 0;
     for (to = from; to < r->n_rows && r->rows[to].branch == r->rows[from].branch; ++to)
       odd &= r->rows[to].verdict == VERDICT_MATCH && r->rows[to].solutions > 1;
     if (!odd || to == r->n_rows || r->rows[to].verdict != VERDICT_MATCH || r->rows[to].branch != before->branch)

@@ -535,7 +535,9 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, doub
   out->gate = verify_gate(setup, &data->quantity);
   out->rows = calloc((size_t)data->n, sizeof *out->rows);
   verify_window(setup, data, &t.from, &t.to);
-  hc_status st = out->rows ? comparison_referee(setup, NULL, &t.referee) : HC_NO_MEMORY;
+  compare_setup from_rest_on = *setup; /* a start on HBM's orbits would look for one next to rest */
+  from_rest_on.transient.start = TRANSIENT_START_REST;
+  hc_status st = out->rows ? comparison_referee(&from_rest_on, NULL, &t.referee) : HC_NO_MEMORY;
   if (st == HC_OK) t.state = workspace_doubles(&t.memory, (size_t)timeint_n_states(t.referee));
   t.room = workspace_doubles(&t.memory, acceleration_room(setup->model));
   if (t.memory.failed) st = HC_NO_MEMORY;
