@@ -588,7 +588,8 @@ stress_check stress_check_proof(solved_scene *s)
   if (st == HC_OK) candidate = certificate_of(&m, s->omega, 1, s->path.amplitude, &e);
   if (candidate) st = proof_checker_ask(checker, candidate, &answer);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) s->fatal = st;
-  const stress_check c = answer ? hold_proven(s, &r, answer) : stress_skip(STRESS_NO_ORBIT);
+  const stress_check c =
+      answer ? hold_proven(s, &r, answer) : stress_skip(checker ? STRESS_NO_ORBIT : STRESS_NO_CHECKER);
   json_decref(candidate);
   json_decref(answer);
   orbit_events_free(&e);

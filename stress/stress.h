@@ -78,6 +78,7 @@
     "next to a grazing: the two orbits, as near as they are, differ by a transition")                                  \
   X(STRESS_NO_ORBIT, "no_orbit", "nothing to hold against: the other method found no solution")                        \
   X(STRESS_NOT_APPLICABLE, "not_applicable", "the law that is checked does not hold here")                             \
+  X(STRESS_NO_CHECKER, "no_checker", "hbmcheck-proof, which decides about proofs, cannot be started")                  \
   X(STRESS_REFUSED_BY, "refused", "a solver gave up and said why")                                                     \
   X(STRESS_TOO_DEAR, "too_dear", "given up after the time allowed for one check")                                      \
   X(STRESS_SAID_SO, "said_so", "compare says that the two differ, or why they cannot be compared")                     \

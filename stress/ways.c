@@ -13,6 +13,7 @@
 
 #include "model/modes.h"
 #include "numerics/base/constants.h"
+#include "numerics/norm.h"
 #include "numerics/random.h"
 #include "stress/solved_scene.h"
 
@@ -124,18 +125,35 @@ static stress_check same_multiplier(solved_scene *s, const stress_motion *other,
                                      : stress_find(STRESS_DISAGREES, apart, fmax(same_multipliers, s->multiplier_errs));
 }
 
-/* Does nothing hold a motion at rest: no contact ever closed, K singular to rounding (eigenvalues of M^-1 K are good to
- * n units of the largest)? Wherever it rests is a solution, and rounding decides if Newton's matrix is singular. */
+/* Is the base solution, moved a little to either side along a motion that K does not hold, in balance, too? */
+static bool balanced_beside(solved_scene *s, const double *free_motion)
+{
+  const int n = s->n, length = n * s->n_coef;
+  const double size = norm_max(length, s->base.x) / norm_max(n, free_motion);
+  double *x = malloc((size_t)length * sizeof *x);
+  bool balanced = false;
+  for (int side = -1; x && side <= 1 && !balanced; side += 2) {
+    memcpy(x, s->base.x, (size_t)length * sizeof *x);
+    for (int i = 0; i < n; ++i) x[i] += side * elsewhere * size * free_motion[i];
+    balanced = stress_imbalance(s, x) <= stress_balanced(s);
+  }
+  if (!x) s->fatal = HC_NO_MEMORY;
+  free(x);
+  return balanced;
+}
+
+/* Does nothing hold a motion at rest: no contact presses, K singular to rounding (eigenvalues of M^-1 K are good to n
+ * units of the largest)? Wherever it rests is a solution, and rounding decides if Newton's matrix is singular. */
 static bool floats(solved_scene *s)
 {
   const size_t n = (size_t)s->n;
   double *omega2 = malloc(n * sizeof *omega2), *phi = malloc(n * n * sizeof *phi);
   const hc_status st = omega2 && phi ? model_modes(s->model, false, omega2, phi) : HC_NO_MEMORY;
-  const bool is_free = st == HC_OK && fabs(omega2[0]) <= s->n * DBL_EPSILON * omega2[n - 1];
+  const bool is_free = st == HC_OK && fabs(omega2[0]) <= s->n * DBL_EPSILON * omega2[n - 1] && balanced_beside(s, phi);
   if (st == HC_NO_MEMORY) s->fatal = st;
   free(omega2);
   free(phi);
-  return is_free && s->base.m.contact.regime == CONTACT_LINEAR;
+  return is_free;
 }
 
 /* Beyond the bound after the last guess: why, if there is a reason. Another motion in balance by the original equations
