@@ -72,10 +72,29 @@ void dense_multiply(int m, int n, int k, const double *A, const double *B, doubl
   dense_add_product(m, n, k, 1, A, m, B, k, 0, C, m);
 }
 
+static void add_small_product(int m, int n, int k, double alpha, const double *A, int lda, const double *B, int ldb,
+                              double beta, double *C, int ldc)
+{
+  for (int j = 0; j < n; ++j) {
+    double *restrict c = C + (size_t)j * (size_t)ldc;
+    for (int i = 0; i < m; ++i) c[i] = beta == 0 ? 0 : beta * c[i];
+    for (int l = 0; l < k; ++l) {
+      const double by = alpha * B[(size_t)j * (size_t)ldb + (size_t)l];
+      const double *restrict a = A + (size_t)l * (size_t)lda;
+      for (int i = 0; i < m; ++i) c[i] += by * a[i];
+    }
+  }
+}
+
 void dense_add_product(int m, int n, int k, double alpha, const double *A, int lda, const double *B, int ldb,
                        double beta, double *C, int ldc)
 {
+  enum { MOST_OF_B = 16, MOST_ROWS = 64 }; /* up to which loops are less than a call */
   const int rows_of_B = ldb > 0 ? ldb : 1; /* of an empty sum, too */
+  if ((long)n * k <= MOST_OF_B && m <= MOST_ROWS) {
+    add_small_product(m, n, k, alpha, A, lda, B, ldb, beta, C, ldc);
+    return;
+  }
   if (m > 0 && n > 0) IN_TURN(dgemm_("N", "N", &m, &n, &k, &alpha, A, &lda, B, &rows_of_B, &beta, C, &ldc, 1, 1));
 }
 

@@ -9,6 +9,7 @@
 
 /* Rounding is seen only if Newton does not stop before. */
 static const double tight = 1e-12;
+static const double unguided = 0.5; /* [1] of a check's time, for a first solution without time integration's help */
 
 static bool go_on(void *self, double done)
 {
@@ -107,8 +108,11 @@ void stress_motion_solve(solved_scene *s, const model *m, const hbm_settings *ho
   *out = (stress_motion){.harmonics = how->harmonics,
                          .x = calloc(length_x, sizeof(double)),
                          .start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof(double))};
+  const double whole = s->deadline;
+  if (!guess) s->deadline -= (1 - unguided) * s->seconds;
   out->status = out->x && out->start ? solve_with(s, m, how, false, omega, guess, out) : HC_NO_MEMORY;
-  if (!guess && out->status != HC_OK && out->status != HC_INTERRUPTED && out->status != HC_NO_MEMORY)
+  s->deadline = whole;
+  if (!guess && out->status != HC_OK && s->fatal == HC_OK && out->status != HC_NO_MEMORY)
     out->status = solve_with(s, m, how, true, omega, NULL, out);
   for (size_t i = 0; out->x && i < length_x; ++i) out->x[i] /= length;
   if (out->status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;

@@ -467,7 +467,8 @@ void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 &&
  * ask; where that is none, the solution is followed along a ramp (ramp.h) to the model's equations, first of the
  * damping, then of the force, as a response curve is followed along omega: by steps of arc length, through turning
  * points and round corners. The end of a ramp is solved once more with the equations as they are. Sampled equations are
- * first asked for the solution next to that with exact forces, found in the same way. */
+ * first asked for the solution next to that with exact forces, found in the same way. Where curves have edges of slip
+ * both ramps are quick ones first: there most iterations are those of steps that fail in the end. */
 
 /* The monitor of a ramp: counts steps, which know what part is done; iterations of large systems do not. */
 typedef struct ramp_watch {
@@ -505,10 +506,11 @@ static hc_status trace_ramp(hbm_solver *s, const hbm_ramp *ramp, const hc_monito
   return st == HC_OK && curve->left_at_start ? HC_NOT_CONVERGED : st;
 }
 
-static hc_status follow_ramp(hbm_solver *s, hbm_ramp_kind kind, double omega, const hc_monitor *monitor, double *X,
-                             hbm_point *point)
+static hc_status follow_ramp(hbm_solver *s, hbm_ramp_kind kind, bool quick, double omega, const hc_monitor *monitor,
+                             double *X, hbm_point *point)
 {
-  const hbm_ramp ramp = hbm_ramp_of(kind, &s->sys, omega);
+  hbm_ramp ramp = hbm_ramp_of(kind, &s->sys, omega);
+  ramp.quick = quick;
   ramp_watch watch = {.outer = monitor, .left = ramp.most_steps};
   const hc_monitor step = {watch_step, &watch};
   hbm_curve curve = {0};
@@ -561,8 +563,10 @@ hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *moni
   hc_status st = hbm_solve_fixed(s, omega, size, X, point);
   if (may_go_on(st) && s->guess.ask) st = from_guess(s, omega, monitor, X, point);
   if (may_go_on(st) && s->how.force == HBM_FORCE_SAMPLED) st = from_exact_forces(s, omega, monitor, X, point);
-  if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_DAMPING, omega, monitor, X, point);
-  if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_FORCE, omega, monitor, X, point);
+  for (int quick = s->edges != NULL; quick >= 0; --quick) {
+    if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_DAMPING, quick, omega, monitor, X, point);
+    if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_FORCE, quick, omega, monitor, X, point);
+  }
   return st;
 }
 

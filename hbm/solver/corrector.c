@@ -7,7 +7,8 @@
 #include "hbm/solver/hbm_solver_impl.h"
 #include "numerics/norm.h"
 
-enum { MAX_NEWTON_ITERATIONS = 25 };
+/* On a quick ramp a step that does not arrive in so few is as well halved. */
+enum { MAX_NEWTON_ITERATIONS = 25, QUICK_ITERATIONS = 8 };
 
 /* z[n+1] <-> X[n_coef] and omega. */
 static void pack(const hbm_solver *s, const double *X, double omega, double *z)
@@ -172,9 +173,20 @@ static hc_status solve(hbm_solver *s, newton *form, const newton_options *opt, d
   return HC_OK;
 }
 
+static newton_options options(const hbm_solver *s, double max_step, int max_iterations, bool plain)
+{
+  const bool quick = s->ramp && s->ramp->quick;
+  return (newton_options){.z_scale = s->z_scale,
+                          .r_scale = s->r_scale,
+                          .tolerance = s->how.tolerance,
+                          .max_step = max_step,
+                          .max_iterations = quick ? QUICK_ITERATIONS : max_iterations,
+                          .plain = plain || quick};
+}
+
 hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point)
 {
-  const newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 3.0, MAX_NEWTON_ITERATIONS, false};
+  const newton_options opt = options(s, 3.0, MAX_NEWTON_ITERATIONS, false);
   ++s->solves;
   hc_status st = set_scales(s, omega, x_scale, X);
   if (st != HC_OK) return st;
@@ -186,7 +198,7 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X
 static hc_status solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale,
                              int max_iterations, bool plain, double *X, double *omega, hbm_point *point)
 {
-  const newton_options opt = {s->z_scale, s->r_scale, s->how.tolerance, 1.0, max_iterations, plain};
+  const newton_options opt = options(s, 1.0, max_iterations, plain);
   const int n = s->sys.n;
   ++s->solves;
   hc_status st = set_scales(s, *omega, x_scale, X);

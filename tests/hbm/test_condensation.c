@@ -213,4 +213,27 @@ static void changes_are_derivatives(CHECK_STATE)
     }
 }
 
-CHECK_TESTS("hbm.condensation", 120, condensed_is_the_whole, nearly_dependent_directions, changes_are_derivatives)
+/* A mass beside the structure, without damping, at its resonance: nothing is known of it then, asked twice, or after
+ * that of another frequency. */
+static void a_resonance_of_the_rest_is_refused(CHECK_STATE)
+{
+  model *m;
+  condensation *c;
+  assert_int_equal(model_new(3, 1, 1, 1, &m), HC_OK);
+  for (int i = 0; i < 3; ++i) m->mass[4 * i] = 1, m->stiffness[4 * i] = 4 + 3 * i;
+  m->stiffness[5] = m->stiffness[7] = -2;
+  m->loads[0] = (model_load){.harmonic = 1, .cosine = m->loads[0].cosine, .sine = m->loads[0].sine};
+  m->loads[0].cosine[2] = m->responses[2] = m->contacts[0].tangent[2] = 1;
+  m->contacts[0].law = (contact){.kt = 10, .mu = 0.5, .load = 1};
+  assert_int_equal(condensation_new(m, 1, &c), HC_OK);
+  for (int again = 0; again < 2; ++again) {
+    assert_int_equal(condensation_at(c, 2.5, 0), HC_OK);
+    assert_int_equal(condensation_at(c, 2, 0), HC_NOT_FINITE);
+    assert_int_equal(condensation_at(c, 2, 0), HC_NOT_FINITE);
+  }
+  condensation_free(c);
+  model_free(m);
+}
+
+CHECK_TESTS("hbm.condensation", 120, condensed_is_the_whole, nearly_dependent_directions, changes_are_derivatives,
+            a_resonance_of_the_rest_is_refused)

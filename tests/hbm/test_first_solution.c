@@ -260,27 +260,33 @@ static void no_ramp_where_the_linear_response_is_a_guess(CHECK_STATE)
   hbm_solver_free(s);
 }
 
-/* Stopped at any step, the solver is whole: it then finds what a fresh one finds, to the bit. */
+/* Stopped at any step, the solver is whole: it then finds what a fresh one finds, to the bit. Sampled equations are
+ * stopped in the ramp of exact ones. */
 static void a_ramp_can_be_stopped(CHECK_STATE)
 {
   const refused_scene *r = &refused[0];
-  const scene sc = scene_of(r);
-  double X[MOST_COEF], Y[MOST_COEF];
-  hbm_point point;
-  hbm_solver *fresh = solver_of(r), *s = solver_of(r);
-  assert_int_equal(hbm_solve_first(fresh, r->omega, Y, &point), HC_OK);
-  for (int stop = 1; stop <= 32; stop *= 2) {
-    tick_counter watch = {.stop = stop};
-    const hc_monitor monitor = {tick_any, &watch};
-    assert_int_equal(hbm_first_solution(s, r->omega, &monitor, X, &point), HC_INTERRUPTED);
-    assert_int_equal(watch.ticks, stop);
-    assert_false(watch.outside);
-    check_left(s, &sc);
-    assert_int_equal(hbm_solve_first(s, r->omega, X, &point), HC_OK);
-    assert_memory_equal(X, Y, (size_t)(2 * r->harmonics + 1) * sizeof *X);
+  for (int sampled = 0; sampled < 2; ++sampled) {
+    scene sc = scene_of(r);
+    double X[MOST_COEF], Y[MOST_COEF];
+    hbm_point point;
+    hbm_solver *fresh, *s;
+    if (sampled) sc.hbm.force = HBM_FORCE_SAMPLED, sc.hbm.samples = 256;
+    assert_int_equal(unguided_solver(&sc, &fresh), HC_OK);
+    assert_int_equal(unguided_solver(&sc, &s), HC_OK);
+    assert_int_equal(hbm_solve_first(fresh, r->omega, Y, &point), HC_OK);
+    for (int stop = 1; stop <= 32; stop *= 2) {
+      tick_counter watch = {.stop = stop};
+      const hc_monitor monitor = {tick_any, &watch};
+      assert_int_equal(hbm_first_solution(s, r->omega, &monitor, X, &point), HC_INTERRUPTED);
+      assert_int_equal(watch.ticks, stop);
+      assert_false(watch.outside);
+      check_left(s, &sc);
+      assert_int_equal(hbm_solve_first(s, r->omega, X, &point), HC_OK);
+      assert_memory_equal(X, Y, (size_t)(2 * r->harmonics + 1) * sizeof *X);
+    }
+    hbm_solver_free(s);
+    hbm_solver_free(fresh);
   }
-  hbm_solver_free(s);
-  hbm_solver_free(fresh);
 }
 
 /* The solver adapts while a curve is traced; its first point may come from a ramp, which does not. */
