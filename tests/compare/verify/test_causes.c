@@ -273,6 +273,23 @@ static void stopping_keeps_rows(CHECK_STATE)
   verify_data_clear(&d);
 }
 
+/* Three points that differ are the fewest that a cause is looked for. */
+static void three_points_are_enough(CHECK_STATE)
+{
+  const scene sc = curve_scene(case2);
+  const spoiling how = {.harmonics = 20, .value_factor = 2};
+  verify_data d = curve_make(&sc, &how, 6.5, 8.5, 3);
+  for (int n = 3; n >= 2; --n) {
+    verify_report r;
+    d.n = n;
+    assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
+    assert_int_equal(r.count[VERDICT_DIFFERS], n);
+    assert_int_equal(r.n_hypotheses > 0, n == 3);
+    verify_clear(&r);
+  }
+  verify_data_clear(&d);
+}
+
 CHECK_TESTS("verify.causes", 600, nothing_wrong, equations_solved_wrongly, forces_sampled_too_coarsely,
             numbers_of_another_model, columns_misread, branches_mistaken, equals_are_a_guess, no_cause_is_made_up,
-            errors_are_what_was_put_in, stopping_keeps_rows)
+            errors_are_what_was_put_in, stopping_keeps_rows, three_points_are_enough)
