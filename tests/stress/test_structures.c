@@ -646,8 +646,8 @@ static void jacobians_of_mixed_laws(CHECK_STATE)
   stress_scenes_free(scenes);
 }
 
-/* In space most of Newton's iterations on a ramp were those of steps that failed in the end: scene 169 took 4300 of them
- * and 19 000 residuals, the others had no solution after ten seconds. */
+/* In space most of Newton's iterations on a ramp were those of steps that failed in the end: scene 169 took 4300 of
+ * them and 19 000 residuals, the others had no solution after ten seconds. */
 static void first_solutions_in_space_take_few_iterations(CHECK_STATE)
 {
   static const long drawn[] = {36, 102, 169};
