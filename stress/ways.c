@@ -129,7 +129,7 @@ static stress_check same_multiplier(solved_scene *s, const stress_motion *other,
 static bool balanced_beside(solved_scene *s, const double *free_motion)
 {
   const int n = s->n, length = n * s->n_coef;
-  const double size = norm_max(length, s->base.x) / norm_max(n, free_motion);
+  const double moves = norm_max(length, s->base.x), size = (moves > 0 ? moves : 1) / norm_max(n, free_motion);
   double *x = malloc((size_t)length * sizeof *x);
   bool balanced = false;
   for (int side = -1; x && side <= 1 && !balanced; side += 2) {

@@ -173,7 +173,7 @@ static hc_status solve(hbm_solver *s, newton *form, const newton_options *opt, d
   return HC_OK;
 }
 
-static newton_options options(const hbm_solver *s, double max_step, int max_iterations, bool plain)
+static newton_options corrector_options(const hbm_solver *s, double max_step, int max_iterations, bool plain)
 {
   const bool quick = s->ramp && s->ramp->quick;
   return (newton_options){.z_scale = s->z_scale,
@@ -186,7 +186,7 @@ static newton_options options(const hbm_solver *s, double max_step, int max_iter
 
 hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point)
 {
-  const newton_options opt = options(s, 3.0, MAX_NEWTON_ITERATIONS, false);
+  const newton_options opt = corrector_options(s, 3.0, MAX_NEWTON_ITERATIONS, false);
   ++s->solves;
   hc_status st = set_scales(s, omega, x_scale, X);
   if (st != HC_OK) return st;
@@ -198,7 +198,7 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X
 static hc_status solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale,
                              int max_iterations, bool plain, double *X, double *omega, hbm_point *point)
 {
-  const newton_options opt = options(s, 1.0, max_iterations, plain);
+  const newton_options opt = corrector_options(s, 1.0, max_iterations, plain);
   const int n = s->sys.n;
   ++s->solves;
   hc_status st = set_scales(s, *omega, x_scale, X);
