@@ -365,7 +365,11 @@ static hc_status truth_check(truth *t)
   return st;
 }
 
-static bool truth_is_exact(const truth *t) { return t->out->checked_error <= 0.1 * t->out->gate; }
+/* Of a truth of which no point could be checked nothing is known. */
+static bool truth_is_exact(const truth *t)
+{
+  return t->out->checked_error <= 0.1 * t->out->gate && (t->out->checked > 0 || t->out->unchecked == 0);
+}
 
 /* A row that differs by less than the error of the truth itself is not judged. */
 static void leave_open(const truth *t, verify_row *row)
