@@ -7,7 +7,7 @@
 #include "hbm/solver/hbm_solver_impl.h"
 #include "numerics/norm.h"
 
-/* On a quick ramp a step that does not arrive in so few is as well halved. */
+/* On a quick ramp a step that needs more iterations than QUICK_ITERATIONS is halved instead. */
 enum { MAX_NEWTON_ITERATIONS = 25, QUICK_ITERATIONS = 8 };
 
 /* z[n+1] <-> X[n_coef] and omega. */

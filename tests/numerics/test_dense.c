@@ -1,7 +1,10 @@
 /* test_dense.c - LU factors: residuals against the bound of rounding theory, signs of determinants, and what must be
  * refused. */
 
+#include <float.h>
+
 #include "numerics/dense.h"
+#include "numerics/random.h"
 #include "tests/hbm/scenes.h"
 
 enum { MAX_N = 140, SMALL = 60 };
@@ -256,6 +259,32 @@ static void modes_without_mass_are_refused(CHECK_STATE)
   for (int n = 1; n <= 2; ++n) assert_int_not_equal(dense_modes(n, K, n == 1 ? &M[1] : M, lambda, phi), HC_OK);
 }
 
+/* Products within larger matrices, by loops and by BLAS; with beta = 0 what C was does not matter. Entries are at most
+ * 1: rounding of k terms. */
+static void products_are_sums(CHECK_STATE)
+{
+  enum { LD = 70, MOST = 24 };
+  static const int shape[][3] = {{5, 2, 2}, {64, 4, 4}, {65, 4, 4}, {3, 17, 1}, {7, 1, 16}, {20, 8, 9}, {4, 2, 0}};
+  static const double betas[] = {0, 1, -0.5};
+  static double A[LD * MOST], B[LD * MOST], C[LD * MOST], before[LD * MOST];
+  uint64_t seed = 5;
+  for (size_t c = 0; c < sizeof shape / sizeof *shape; ++c)
+    for (int b = 0; b < 3; ++b) {
+      const int m = shape[c][0], n = shape[c][1], k = shape[c][2];
+      for (int i = 0; i < LD * MOST; ++i) {
+        A[i] = random_signed(&seed), B[i] = random_signed(&seed);
+        before[i] = C[i] = betas[b] == 0 ? NAN : random_signed(&seed);
+      }
+      dense_add_product(m, n, k, -2, A, LD, B, LD, betas[b], C, LD);
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < m; ++i) {
+          double sum = betas[b] == 0 ? 0 : betas[b] * before[i + LD * j];
+          for (int l = 0; l < k; ++l) sum -= 2 * A[i + LD * l] * B[l + LD * j];
+          CHECK_NEAR(C[i + LD * j], sum, 2 * (k + 2) * (2 * k + 1) * DBL_EPSILON, "%d %d %d: %d, %d", m, n, k, i, j);
+        }
+    }
+}
+
 CHECK_TESTS("numerics.dense", 60, solves_within_the_bound_of_rounding_theory, the_sign_of_signed_permutations,
             singular_and_not_finite_are_refused, inverts_random_matrices, singular_matrices_are_refused,
-            matrices_times_vectors, modes_without_mass_are_refused, threads_may_ask_at_once)
+            matrices_times_vectors, modes_without_mass_are_refused, threads_may_ask_at_once, products_are_sums)

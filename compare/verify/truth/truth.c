@@ -365,7 +365,7 @@ static hc_status truth_check(truth *t)
   return st;
 }
 
-/* Of a truth of which no point could be checked nothing is known. */
+/* A truth is not known to be exact if no point of it could be checked. */
 static bool truth_is_exact(const truth *t)
 {
   return t->out->checked_error <= 0.1 * t->out->gate && (t->out->checked > 0 || t->out->unchecked == 0);
@@ -539,9 +539,9 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, doub
   out->gate = verify_gate(setup, &data->quantity);
   out->rows = calloc((size_t)data->n, sizeof *out->rows);
   verify_window(setup, data, &t.from, &t.to);
-  compare_setup from_rest_on = *setup; /* a start on HBM's orbits would look for one next to rest */
-  from_rest_on.transient.start = TRANSIENT_START_REST;
-  hc_status st = out->rows ? comparison_referee(&from_rest_on, NULL, &t.referee) : HC_NO_MEMORY;
+  compare_setup starts_at_rest = *setup; /* a start on HBM's orbits would look for one next to rest */
+  starts_at_rest.transient.start = TRANSIENT_START_REST;
+  hc_status st = out->rows ? comparison_referee(&starts_at_rest, NULL, &t.referee) : HC_NO_MEMORY;
   if (st == HC_OK) t.state = workspace_doubles(&t.memory, (size_t)timeint_n_states(t.referee));
   t.room = workspace_doubles(&t.memory, acceleration_room(setup->model));
   if (t.memory.failed) st = HC_NO_MEMORY;
