@@ -41,6 +41,7 @@ void zgetrs_(const char *transposed, const int *n, const int *columns, const dou
  * The symbols are missing elsewhere. */
 void openblas_set_num_threads(int threads) __attribute__((weak));
 int openblas_get_parallel(void) __attribute__((weak)); /* 0: built without threads */
+void blas_thread_shutdown_(void) __attribute__((weak));
 
 static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
 static bool takes_turns;
@@ -49,6 +50,11 @@ __attribute__((constructor)) static void keep_to_one_thread(void)
 {
   if (openblas_set_num_threads) openblas_set_num_threads(1);
   takes_turns = openblas_get_parallel && openblas_get_parallel() == 0;
+}
+
+void dense_end_idle_threads(void)
+{
+  if (blas_thread_shutdown_) blas_thread_shutdown_();
 }
 
 static void begin_turn(void)

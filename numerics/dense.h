@@ -7,6 +7,11 @@
 
 #include "numerics/base/status.h"
 
+/* Ends the threads that OpenBLAS starts when it is loaded: idle, each spins for some 30 ms before it sleeps, as long as
+ * `compare` takes for a case of the paper. For a program whose own BLAS it is, before its first call; OpenBLAS starts
+ * them again where it is told to use several. */
+void dense_end_idle_threads(void);
+
 /* C = A B; A[m][k], B[k][n], C[m][n] by columns, apart from each other. */
 void dense_multiply(int m, int n, int k, const double *A, const double *B, double *C);
 

@@ -8,6 +8,7 @@
 
 #include "interfaces/command/commands.h"
 #include "numerics/base/nearest.h"
+#include "numerics/dense.h"
 #include "output/progress.h"
 
 #define ADDRESS_OF(name) &cmd_##name,
@@ -41,6 +42,7 @@ int main(int argc, char **argv)
   signal(SIGPIPE, SIG_IGN);    /* a closed pipe then is a write error, with exit code 3 */
   signal(SIGCHLD, SIG_DFL);    /* if our parent ignored it, waitpid could not tell how gnuplot and python3 ended */
   gsl_set_error_handler_off(); /* GSL's default handler aborts; we check its statuses */
+  dense_end_idle_threads();
   progress_install_signals(EXIT_NO_SOLUTION);
   if (argc < 2) {
     usage(stderr);
