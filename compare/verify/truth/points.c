@@ -19,12 +19,12 @@ int points_reversals(const verify_data *d)
   return n;
 }
 
-/* Is every judged point on an unstable branch? */
+/* Is every judged point on an unstable branch, and none of the others next to a stable one? */
 static bool all_unstable(const verify_report *r)
 {
   int unstable = 0;
   for (int i = 0; i < r->n_rows; ++i) {
-    if (r->rows[i].skipped) continue;
+    if (r->rows[i].skipped && r->rows[i].stable <= 0) continue;
     if (r->rows[i].verdict != VERDICT_UNSTABLE) return false;
     ++unstable;
   }

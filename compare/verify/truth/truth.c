@@ -104,12 +104,15 @@ double acceleration_amplitude(const model *m, const verify_motion *motion, doubl
 
 /* ---- what is at hand ---- */
 
+enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80, DEARER = 4, MOST_COARSER = 2 }; /* 20 and 40 */
+
 typedef struct truth {
   const compare_setup *setup;
   const verify_data *data;
   const hc_monitor *monitor;
   verify_report *out;
-  response_curve response;
+  response_curve response, coarser[MOST_COARSER]; /* of fewer harmonics each, from the first on */
+  int n_coarser;
   timeint *referee;
   workspace memory;
   double *state; /* [n_states] of the referee's */
@@ -125,7 +128,6 @@ typedef struct measured {
   bool mean_free;
 } measured;
 
-enum { LEAST_HARMONICS = 20, ENOUGH_HARMONICS = 80, DEARER = 4 };
 static const double window_factor = 7; /* a little over 2 pi: mixed units are seen from there */
 
 void verify_window(const compare_setup *setup, const verify_data *data, double *from, double *to)
@@ -322,15 +324,19 @@ static double orbit_quantity(const truth *t, const timeint_result *orbit)
   return q->kind == KIND_RMS ? orbit->rms : verify_quantity_of(q, &motion);
 }
 
-/* *of_orbit: the quantity of the orbit next to the row's nearest solution, NaN where there is none; its multiplier. */
-static hc_status check_row(truth *t, const verify_row *row, double *of_orbit, double *multiplier)
+/* *of_orbit: the quantity of the orbit next to the solution on that branch, or, where the branch is not there, next to
+ * the one nearest to the row; NaN where there is none. Its multiplier; *m: of the solution. HC_INTERRUPTED,
+ * HC_NO_MEMORY. */
+static hc_status orbit_beside(truth *t, const verify_row *row, int branch, measured *m, double *of_orbit,
+                              double *multiplier)
 {
   hbm_curve at = {0};
-  measured m = {0};
   timeint_result orbit;
   *of_orbit = NAN;
   hc_status st = truth_at(t, row->omega, &at), found = HC_NOT_CONVERGED;
-  int k = st == HC_OK ? truth_nearest(t, &at, row, &m) : -1;
+  int k = st == HC_OK ? number_of_branch(&at, branch) : -1;
+  if (k < 0 || truth_measure(t, row->omega, at.X + (size_t)k * at.n_coef, m) != HC_OK)
+    k = st == HC_OK ? truth_nearest(t, &at, row, m) : -1;
   if (k >= 0) {
     found = comparison_orbit_start(t->response.hbm, at.X + (size_t)k * at.n_coef, row->omega, t->state);
     if (found == HC_OK) found = timeint_orbit(t->referee, row->omega, 1, t->state, t->monitor, &orbit);
@@ -339,6 +345,14 @@ static hc_status check_row(truth *t, const verify_row *row, double *of_orbit, do
   hbm_curve_free(&at);
   const bool known = found == HC_OK && !(verify_quantity_of_mean(&t->data->quantity) && motion_mean_is_free(&orbit));
   if (known) *of_orbit = orbit_quantity(t, &orbit), *multiplier = orbit.multiplier;
+  return st;
+}
+
+/* The same, counted, and the error of the solution. */
+static hc_status check_row(truth *t, const verify_row *row, double *of_orbit, double *multiplier)
+{
+  measured m = {0};
+  const hc_status st = orbit_beside(t, row, row->branch, &m, of_orbit, multiplier);
   if (isnan(*of_orbit)) return ++t->out->unchecked, st;
   const double error = discrepancy_relative(*of_orbit - m.value, m.scale);
   ++t->out->checked;
@@ -378,6 +392,13 @@ static void leave_open(const truth *t, verify_row *row)
     row->verdict = VERDICT_SOLVER_FAILED;
 }
 
+static void lies_on_orbit(truth *t, verify_row *row, double multiplier)
+{
+  row->stable = multiplier < 1 ? 1 : multiplier > 1 ? -1 : 0;
+  row->verdict = row->stable < 0 ? VERDICT_UNSTABLE : VERDICT_MATCH;
+  ++t->out->on_orbits;
+}
+
 /* Compares the row with the exact law's orbit next to the truth. A row on that orbit matches. Without an orbit, a row
  * that differs is not judged; with an orbit far from the truth, only if it differs by more than the truth's error. */
 static hc_status hold_against_orbit(truth *t, verify_row *row)
@@ -397,9 +418,7 @@ static hc_status hold_against_orbit(truth *t, verify_row *row)
     if (!near) leave_open(t, row);
     return HC_OK;
   }
-  row->stable = multiplier < 1 ? 1 : multiplier > 1 ? -1 : 0;
-  row->verdict = row->stable < 0 ? VERDICT_UNSTABLE : VERDICT_MATCH;
-  ++t->out->on_orbits;
+  lies_on_orbit(t, row, multiplier);
   return HC_OK;
 }
 
@@ -420,35 +439,57 @@ static hc_status hold_against_orbits(truth *t)
   return st;
 }
 
-/* Compares rows that differ with the motion from rest, which may be on a branch that the curve does not reach. Ends
- * after MOST_MISSES rows in turn that do not match it. */
-static hc_status hold_against_rest(truth *t)
+/* The motion from rest, which may be on a branch that the curve does not reach; NaN where it has not period 1. */
+static hc_status orbit_from_rest(truth *t, const verify_row *row, double *of_orbit, double *multiplier)
+{
+  work_limit limit = {.outer = t->monitor, .until = thread_seconds() + from_rest};
+  const hc_monitor monitor = {work_limit_tick, &limit};
+  timeint_result orbit;
+  timeint_rest(t->referee, t->state);
+  const hc_status found = timeint_steady(t->referee, row->omega, t->state, &monitor, &orbit);
+  const bool known = found == HC_OK && orbit.period_multiple == 1;
+  *of_orbit = known ? orbit_quantity(t, &orbit) : NAN;
+  *multiplier = 0; /* it has settled */
+  return found == HC_NO_MEMORY || limit.stopped ? found : HC_OK;
+}
+
+static hc_status orbit_beside_curve(truth *t, const verify_row *row, double *of_orbit, double *multiplier)
+{
+  measured m;
+  return orbit_beside(t, row, -1, &m, of_orbit, multiplier);
+}
+
+/* Compares rows that differ with other orbits. Ends after MOST_MISSES rows in turn that do not match. */
+static hc_status hold_against_others(truth *t, hc_status (*other)(truth *, const verify_row *, double *, double *))
 {
   verify_report *out = t->out;
   hc_status st = HC_OK;
   for (int i = 0, misses = 0; i < out->n_rows && misses < MOST_MISSES && st == HC_OK; ++i) {
     verify_row *row = &out->rows[i];
-    work_limit limit = {.outer = t->monitor, .until = thread_seconds() + from_rest};
-    timeint_result orbit;
+    double of_orbit, multiplier = NAN;
     if (row->verdict != VERDICT_DIFFERS) continue;
-    timeint_rest(t->referee, t->state);
-    const hc_monitor monitor = {work_limit_tick, &limit};
-    const hc_status found = timeint_steady(t->referee, row->omega, t->state, &monitor, &orbit);
-    if (found == HC_NO_MEMORY || limit.stopped) st = found;
-    if (found != HC_OK || orbit.period_multiple != 1) {
-      ++misses;
-      continue;
-    }
-    const double value = orbit_quantity(t, &orbit), error = discrepancy_relative(row->value - value, row->scale);
+    st = other(t, row, &of_orbit, &multiplier);
+    const double error = discrepancy_relative(row->value - of_orbit, row->scale);
     const bool on_it = error <= out->gate;
     misses = on_it ? 0 : misses + 1;
     if (!on_it) continue;
-    row->nearest = value;
+    row->nearest = of_orbit;
     row->error = error;
     row->branch = -1;
-    row->stable = 1;
-    row->verdict = VERDICT_MATCH;
-    ++out->on_orbits;
+    lies_on_orbit(t, row, multiplier);
+  }
+  return st;
+}
+
+/* Curves of fewer harmonics may be of another branch, where the first solution was another. */
+static hc_status hold_against_coarser(truth *t)
+{
+  hc_status st = HC_OK;
+  for (int i = 0; i < t->n_coarser && st == HC_OK; ++i) {
+    const response_curve finest = t->response;
+    t->response = t->coarser[i];
+    st = hold_against_others(t, orbit_beside_curve);
+    t->response = finest;
   }
   return st;
 }
@@ -466,6 +507,36 @@ verify_row verify_row_unjudged(const verify_point *p)
                       .verdict = VERDICT_SOLVER_FAILED};
 }
 
+/* The row's solution becomes number k of *at, measured as m. */
+static void row_takes(const truth *t, const hbm_curve *at, int k, const measured *m, verify_row *row)
+{
+  row->branch = at->points[k].branch;
+  row->nearest = m->value;
+  row->scale = m->scale;
+  row->free_sliders = m->mean_free;
+  row->skipped = m->mean_free && verify_quantity_of_mean(&t->data->quantity);
+  row->error = row->skipped ? NAN : discrepancy_relative(row->value - row->nearest, m->scale);
+}
+
+/* The solution nearest to the row, number k, is unstable. Another may be stable, and is taken if it is within the gate,
+ * too: next to each other, the value does not tell them apart. */
+static void look_for_stable(truth *t, const hbm_curve *at, int k, verify_row *row, hc_status *st)
+{
+  for (int j = 0; j < at->n; ++j) {
+    const double *X = at->X + (size_t)j * (size_t)at->n_coef;
+    measured m;
+    if (j == k || truth_stable(t, row->omega, X, st) <= 0) continue;
+    row->stable_too = true;
+    verify_row other = *row;
+    if (truth_measure(t, row->omega, X, &m) != HC_OK) continue;
+    row_takes(t, at, j, &m, &other);
+    other.stable = 1;
+    if (!(other.error <= t->out->gate)) continue;
+    *row = other;
+    return;
+  }
+}
+
 static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
 {
   hbm_curve at = {0};
@@ -475,17 +546,11 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
   int k = st == HC_OK ? truth_nearest(t, &at, row, &m) : -1;
   if (k >= 0 && at.points) {
     row->solutions = at.n;
-    row->branch = at.points[k].branch;
-    row->nearest = m.value;
-    row->scale = m.scale;
-    row->free_sliders = m.mean_free;
-    row->skipped = m.mean_free && verify_quantity_of_mean(&t->data->quantity);
-    row->error = row->skipped ? NAN : discrepancy_relative(p->value - row->nearest, m.scale);
+    row_takes(t, &at, k, &m, row);
     row->stable = truth_stable(t, p->omega, at.X + (size_t)k * at.n_coef, &st);
     if (!row->skipped && !(row->error <= t->out->gate) && st == HC_OK) st = truth_look_around(t, row);
     row->stable_too = row->stable > 0;
-    for (int j = 0; j < at.n && row->stable < 0 && !row->stable_too; ++j)
-      row->stable_too = j != k && truth_stable(t, p->omega, at.X + (size_t)j * at.n_coef, &st) > 0;
+    if (row->stable < 0) look_for_stable(t, &at, k, row, &st);
     row->verdict = row->skipped                    ? VERDICT_MATCH
                    : !(row->error <= t->out->gate) ? VERDICT_DIFFERS
                    : row->stable < 0               ? VERDICT_UNSTABLE
@@ -504,7 +569,7 @@ static hc_status with_harmonics(truth *t, int harmonics)
   compare_setup own = verify_settings(t->setup, &e);
   own.omega_from = t->from;
   own.omega_to = t->to;
-  response_curve_free(&t->response);
+  if (t->response.hbm) t->coarser[t->n_coarser++] = t->response;
   const hc_status st = response_trace(&own, NULL, t->monitor, &t->response);
   if (!t->response.hbm) return t->response.status;
   t->response.curve.n_coef = hbm_n_coefficients(t->response.hbm);
@@ -556,7 +621,8 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, doub
     again = !truth_is_exact(&t) && 2 * harmonics <= ENOUGH_HARMONICS && now + next < until;
   }
   if (st == HC_OK) st = hold_against_orbits(&t);
-  if (st == HC_OK) st = hold_against_rest(&t);
+  if (st == HC_OK) st = hold_against_coarser(&t);
+  if (st == HC_OK) st = hold_against_others(&t, orbit_from_rest);
   /* The curve as it is drawn into out->line: its points, and some between them, since a drawing joins them by straight
    * lines. HC_NO_MEMORY, or why it cannot be measured. */
   if (st == HC_OK && data->with_line) {
@@ -580,6 +646,7 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, doub
     free(X);
   }
   response_curve_free(&t.response);
+  for (int i = 0; i < t.n_coarser; ++i) response_curve_free(&t.coarser[i]);
   workspace_free(&t.memory);
   timeint_free(t.referee);
   return st;
