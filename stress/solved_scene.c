@@ -5,11 +5,14 @@
 
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
+#include "hbm/forces/contact_kind.h"
 #include "numerics/base/thread_clock.h"
 
 /* Rounding is seen only if Newton does not stop before. */
 static const double tight = 1e-12;
-static const double unguided = 0.5; /* [1] of a check's time, for a first solution without time integration's help */
+/* [1] of a check's time, for a first solution without time integration's help; where slip turns in a plane, ramps come
+ * first in any case. */
+static const double unguided = 0.5;
 
 static bool go_on(void *self, double done)
 {
@@ -109,10 +112,11 @@ void stress_motion_solve(solved_scene *s, const model *m, const hbm_settings *ho
                          .x = calloc(length_x, sizeof(double)),
                          .start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof(double))};
   const double whole = s->deadline;
-  if (!guess) s->deadline -= (1 - unguided) * s->seconds;
-  out->status = out->x && out->start ? solve_with(s, m, how, false, omega, guess, out) : HC_NO_MEMORY;
+  const bool guided = !guess && contact_edges_of(m);
+  if (!guess && !guided) s->deadline -= (1 - unguided) * s->seconds;
+  out->status = out->x && out->start ? solve_with(s, m, how, guided, omega, guess, out) : HC_NO_MEMORY;
   s->deadline = whole;
-  if (!guess && out->status != HC_OK && s->fatal == HC_OK && out->status != HC_NO_MEMORY)
+  if (!guess && !guided && out->status != HC_OK && s->fatal == HC_OK && out->status != HC_NO_MEMORY)
     out->status = solve_with(s, m, how, true, omega, NULL, out);
   for (size_t i = 0; out->x && i < length_x; ++i) out->x[i] /= length;
   if (out->status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;

@@ -467,8 +467,9 @@ void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 &&
  * ask; where that is none, the solution is followed along a ramp (ramp.h) to the model's equations, first of the
  * damping, then of the force, as a response curve is followed along omega: by steps of arc length, through turning
  * points and round corners. The end of a ramp is solved once more with the equations as they are. Sampled equations are
- * first asked for the solution next to that with exact forces, found in the same way. Where curves have edges of slip
- * both ramps are quick ones first: there most iterations are those of steps that fail in the end. */
+ * first asked for the solution next to that with exact forces, found in the same way. Where curves of exact forces have
+ * edges of slip most iterations on a ramp are those of steps that fail in the end: quick ramps come first, that of the
+ * damping before the guess, which may be asked of a motion that does not settle. */
 
 /* The monitor of a ramp: counts steps, which know what part is done; iterations of large systems do not. */
 typedef struct ramp_watch {
@@ -559,14 +560,15 @@ static bool may_go_on(hc_status st) { return st != HC_OK && st != HC_INTERRUPTED
 
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
+  const bool exact = s->how.force == HBM_FORCE_EXACT, quick = exact && s->edges;
   double size = hbm_linear_response(&s->sys, omega, X);
   hc_status st = hbm_solve_fixed(s, omega, size, X, point);
+  if (may_go_on(st) && quick) st = follow_ramp(s, HBM_RAMP_DAMPING, true, omega, monitor, X, point);
   if (may_go_on(st) && s->guess.ask) st = from_guess(s, omega, monitor, X, point);
-  if (may_go_on(st) && s->how.force == HBM_FORCE_SAMPLED) st = from_exact_forces(s, omega, monitor, X, point);
-  for (int quick = s->edges != NULL; quick >= 0; --quick) {
-    if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_DAMPING, quick, omega, monitor, X, point);
-    if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_FORCE, quick, omega, monitor, X, point);
-  }
+  if (may_go_on(st) && !exact) st = from_exact_forces(s, omega, monitor, X, point);
+  if (may_go_on(st) && quick) st = follow_ramp(s, HBM_RAMP_FORCE, true, omega, monitor, X, point);
+  if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_DAMPING, false, omega, monitor, X, point);
+  if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_FORCE, false, omega, monitor, X, point);
   return st;
 }
 

@@ -69,8 +69,9 @@ typedef struct hbm_point {
  * is none: solved as by hbm_solve_first. Errors of newton_solve and of the contact force. */
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
 
-/* Solve at a fixed omega without a guess: from the linear response, else along a ramp of the damping, else
- * of the force (ramp.h). X[2H+1] is overwritten, and no solution unless HC_OK. */
+/* Solve at a fixed omega without a guess: from the linear response, else along ramps of the damping and of the force
+ * (ramp.h), else from whoever was given to be asked; in which order: continuation.c. X[2H+1] is overwritten, and no
+ * solution unless HC_OK. */
 hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point);
 
 /* Measures of one solution x over its period. */

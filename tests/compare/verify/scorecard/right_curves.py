@@ -2,7 +2,7 @@
 """right_curves.py HBMCHECK [--only SCENE] - right curves of every quantity on the eight reference scenes, of several
 makes: `hbmcheck verify` must blame none of them. right_curves.py --make [SCENE...] computes right/SCENE.csv again.
 right_curves.py HBMCHECK --random N [FIRST] - right curves of random scenes, oscillators and structures in turn, of
-one quantity of one make each: every solution, the stable ones alone, or one branch of 100 harmonics (where 60 give
+one quantity of one make each: every solution, the stable ones alone, or one branch of 100 harmonics (at omegas where 60 give
 the same), or the motions from rest under the exact law, one of a family where sliders may rest anywhere.
 
     reference  tests/reference/transient_exact.csv: swept up from rest, and down; the mean is the history's
@@ -203,6 +203,10 @@ def same_curves(rows, others, key):
                                    for o in near.get(r["omega"], []))]
 
 
+def count_at(rows, omega):
+    return sum(r["omega"] == omega for r in rows)
+
+
 def random_curve(binary, case, rng, quantity, which):
     """(response, rows) of the case's first response."""
     low, high = map(float, re.search(r"omega: \[(.*), (.*)\]\n", case.read_text()).groups())
@@ -213,7 +217,9 @@ def random_curve(binary, case, rng, quantity, which):
     else:
         rows, fewer = (computed(binary, case, "frf", at, f"hbm.harmonics={h}", *exact, seconds=MAKING)
                        for h in (100, 60))
-        rows = same_curves(rows, [r for r in fewer if r["amplitude"]], quantity)
+        every, rows = rows, same_curves(rows, [r for r in fewer if r["amplitude"]], quantity)
+        if which == "every solution":  # an unstable one without the stable one beside it is a mistake
+            rows = [r for r in rows if count_at(rows, r["omega"]) == count_at(every, r["omega"])]
     response = next((r.get("response") for r in rows), None)
     rows = [r for r in rows if r.get("response") == response]
     if which == "stable ones":
