@@ -654,9 +654,9 @@ static hc_status count_questions(void *asked, const model *m, double omega, int 
   return HC_NOT_CONVERGED;
 }
 
-/* In space most of Newton's iterations on a ramp were those of steps that failed in the end: scene 169 took 4300 of them
- * and 19 000 residuals, the others had no solution after ten seconds. A quick ramp arrives before time integration is
- * asked, which may take seconds where a motion does not settle. */
+/* In space most of Newton's iterations on a ramp were those of steps that failed in the end: scene 169 took 4300 of
+ * them and 19 000 residuals, the others had no solution after ten seconds. A quick ramp arrives before time integration
+ * is asked, which may take seconds where a motion does not settle. */
 static void first_solutions_in_space_take_few_iterations(CHECK_STATE)
 {
   static const long drawn[] = {36, 102, 169};
