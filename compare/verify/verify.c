@@ -13,11 +13,17 @@
 #include "compare/work_limit.h"
 #include "numerics/base/message.h"
 
+/* How many points differ. Such as could not be judged count as if they did, but not where no other is known to: there is
+ * nothing that a mistake must explain. */
 static int differing(const verify_report *r)
 {
-  int n = 0;
-  for (int i = 0; i < r->n_rows; ++i) n += verify_row_differs(&r->rows[i]);
-  return n;
+  int differ = 0, open = 0;
+  for (int i = 0; i < r->n_rows; ++i) {
+    if (!verify_row_differs(&r->rows[i])) continue;
+    if (r->rows[i].verdict == VERDICT_DIFFERS) ++differ;
+    else ++open;
+  }
+  return differ > 0 ? differ + open : 0;
 }
 
 /* *setup with a model, the caller's, of which the response asked for is the only one. */
@@ -153,7 +159,7 @@ int verify_exit_code(const verify_report *r)
   if (r->causes || r->count[VERDICT_DIFFERS] > 0 || r->count[VERDICT_OTHER_BRANCH] > 0) return 1;
   if (r->count[VERDICT_SOLVER_FAILED] > 0 || r->n_rows == 0) return 3;
   const bool all_on_orbits = r->on_orbits == r->n_rows - r->skipped;
-  return r->checked > 0 && (r->checked_error <= r->gate || all_on_orbits) ? 0 : 3;
+  return (r->on_orbits > 0 && all_on_orbits) || (r->checked > 0 && r->checked_error <= r->gate) ? 0 : 3;
 }
 
 const char *verify_word(const verify_report *r, char text[VERIFY_TEXT])

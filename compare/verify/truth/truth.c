@@ -305,7 +305,7 @@ enum { MOST_CHECKS = 20, MOST_HELD = 200, MOST_GATES = 10, MOST_MISSES = 3 }; /*
 static const double from_rest = 1;                                            /* [s] that a motion from rest may take */
 
 /* The file's quantity, of the orbit next to the row's solution, by as many harmonics as its samples tell apart. */
-static double orbit_quantity(const truth *t, const timeint_result *orbit)
+static measured orbit_measured(const truth *t, const timeint_result *orbit)
 {
   enum { HARMONICS = 200 };
   double X[2 * HARMONICS + 1];
@@ -319,20 +319,23 @@ static double orbit_quantity(const truth *t, const timeint_result *orbit)
       .omega = orbit->omega, .max = orbit->max, .min = orbit->min, .n_harm = HARMONICS, .X = X};
   if (q->kind == KIND_ACCELERATION) {
     memset(t->room, 0, (size_t)t->setup->model->n_contacts * sizeof *t->room);
-    return acceleration_amplitude(t->setup->model, &motion, t->room);
+    const double amplitude = acceleration_amplitude(t->setup->model, &motion, t->room);
+    return (measured){amplitude, amplitude, false};
   }
-  return q->kind == KIND_RMS ? orbit->rms : verify_quantity_of(q, &motion);
+  const double value = q->kind == KIND_RMS ? orbit->rms : verify_quantity_of(q, &motion);
+  return (measured){value, verify_quantity_scale(q, &motion), motion_mean_is_free(orbit)};
 }
 
-/* *of_orbit: the quantity of the orbit next to the solution on that branch, or, where the branch is not there, next to
- * the one nearest to the row; NaN where there is none. Its multiplier; *m: of the solution. HC_INTERRUPTED,
- * HC_NO_MEMORY. */
-static hc_status orbit_beside(truth *t, const verify_row *row, int branch, measured *m, double *of_orbit,
+static const measured nothing = {NAN, NAN, false};
+
+/* *of_orbit: the orbit next to the solution on that branch, or, where the branch is not there, next to the one nearest
+ * to the row; a value of NaN where there is none. Its multiplier; *m: of the solution. HC_INTERRUPTED, HC_NO_MEMORY. */
+static hc_status orbit_beside(truth *t, const verify_row *row, int branch, measured *m, measured *of_orbit,
                               double *multiplier)
 {
   hbm_curve at = {0};
   timeint_result orbit;
-  *of_orbit = NAN;
+  *of_orbit = nothing;
   hc_status st = truth_at(t, row->omega, &at), found = HC_NOT_CONVERGED;
   int k = st == HC_OK ? number_of_branch(&at, branch) : -1;
   if (k < 0 || truth_measure(t, row->omega, at.X + (size_t)k * at.n_coef, m) != HC_OK)
@@ -344,15 +347,16 @@ static hc_status orbit_beside(truth *t, const verify_row *row, int branch, measu
   }
   hbm_curve_free(&at);
   const bool known = found == HC_OK && !(verify_quantity_of_mean(&t->data->quantity) && motion_mean_is_free(&orbit));
-  if (known) *of_orbit = orbit_quantity(t, &orbit), *multiplier = orbit.multiplier;
+  if (known) *of_orbit = orbit_measured(t, &orbit), *multiplier = orbit.multiplier;
   return st;
 }
 
 /* The same, counted, and the error of the solution. */
 static hc_status check_row(truth *t, const verify_row *row, double *of_orbit, double *multiplier)
 {
-  measured m = {0};
-  const hc_status st = orbit_beside(t, row, row->branch, &m, of_orbit, multiplier);
+  measured m = {0}, orbit;
+  const hc_status st = orbit_beside(t, row, row->branch, &m, &orbit, multiplier);
+  *of_orbit = orbit.value;
   if (isnan(*of_orbit)) return ++t->out->unchecked, st;
   const double error = discrepancy_relative(*of_orbit - m.value, m.scale);
   ++t->out->checked;
@@ -440,7 +444,7 @@ static hc_status hold_against_orbits(truth *t)
 }
 
 /* The motion from rest, which may be on a branch that the curve does not reach; NaN where it has not period 1. */
-static hc_status orbit_from_rest(truth *t, const verify_row *row, double *of_orbit, double *multiplier)
+static hc_status orbit_from_rest(truth *t, const verify_row *row, measured *of_orbit, double *multiplier)
 {
   work_limit limit = {.outer = t->monitor, .until = thread_seconds() + from_rest};
   const hc_monitor monitor = {work_limit_tick, &limit};
@@ -448,32 +452,36 @@ static hc_status orbit_from_rest(truth *t, const verify_row *row, double *of_orb
   timeint_rest(t->referee, t->state);
   const hc_status found = timeint_steady(t->referee, row->omega, t->state, &monitor, &orbit);
   const bool known = found == HC_OK && orbit.period_multiple == 1;
-  *of_orbit = known ? orbit_quantity(t, &orbit) : NAN;
+  *of_orbit = known ? orbit_measured(t, &orbit) : nothing;
   *multiplier = 0; /* it has settled */
   return found == HC_NO_MEMORY || limit.stopped ? found : HC_OK;
 }
 
-static hc_status orbit_beside_curve(truth *t, const verify_row *row, double *of_orbit, double *multiplier)
+static hc_status orbit_beside_curve(truth *t, const verify_row *row, measured *of_orbit, double *multiplier)
 {
   measured m;
   return orbit_beside(t, row, -1, &m, of_orbit, multiplier);
 }
 
-/* Compares rows that differ with other orbits. Ends after MOST_MISSES rows in turn that do not match. */
-static hc_status hold_against_others(truth *t, hc_status (*other)(truth *, const verify_row *, double *, double *))
+/* Compares rows that differ or could not be judged with other orbits. Ends after MOST_MISSES rows in turn that do not
+ * match. */
+static hc_status hold_against_others(truth *t, hc_status (*other)(truth *, const verify_row *, measured *, double *))
 {
   verify_report *out = t->out;
   hc_status st = HC_OK;
   for (int i = 0, misses = 0; i < out->n_rows && misses < MOST_MISSES && st == HC_OK; ++i) {
     verify_row *row = &out->rows[i];
-    double of_orbit, multiplier = NAN;
-    if (row->verdict != VERDICT_DIFFERS) continue;
+    double multiplier = NAN;
+    measured of_orbit;
+    if (!verify_row_differs(row)) continue;
     st = other(t, row, &of_orbit, &multiplier);
-    const double error = discrepancy_relative(row->value - of_orbit, row->scale);
+    const double scale = isnan(row->scale) ? of_orbit.scale : row->scale,
+                 error = discrepancy_relative(row->value - of_orbit.value, scale);
     const bool on_it = error <= out->gate;
     misses = on_it ? 0 : misses + 1;
     if (!on_it) continue;
-    row->nearest = of_orbit;
+    row->nearest = of_orbit.value;
+    row->scale = scale;
     row->error = error;
     row->branch = -1;
     lies_on_orbit(t, row, multiplier);
@@ -503,6 +511,7 @@ verify_row verify_row_unjudged(const verify_point *p)
                       .line = p->line,
                       .branch = -1,
                       .nearest = NAN,
+                      .scale = NAN,
                       .error = NAN,
                       .verdict = VERDICT_SOLVER_FAILED};
 }
