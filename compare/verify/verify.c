@@ -13,8 +13,8 @@
 #include "compare/work_limit.h"
 #include "numerics/base/message.h"
 
-/* How many points differ. Such as could not be judged count as if they did, but not where no other is known to: there is
- * nothing that a mistake must explain. */
+/* How many points differ. Such as could not be judged count as if they did, but not where no other is known to: then
+ * there is nothing that a mistake must explain. */
 static int differing(const verify_report *r)
 {
   int differ = 0, open = 0;
