@@ -4,9 +4,14 @@
 #include <stdlib.h>
 
 #include "compare/motion.h"
+#include "compare/work_limit.h"
 #include "timeint/steady/steady.h"
 
 enum { MOST_PERIODS = 200, MOST_DOF = 100 }; /* some milliseconds in closed form, some seconds */
+
+/* Ticks of the monitor: one a period, and one in 4096 steps inside of it, which are many where slip turns at once. The
+ * ramps are sooner at the end then. */
+enum { MOST_TICKS = MOST_PERIODS + 100 };
 
 typedef struct guide { /* made with the first question, freed with the solver */
   timeint *ti;
@@ -40,10 +45,13 @@ static hc_status ask(void *self, const model *m, double omega, int n_harm, const
   if (m->n > MOST_DOF) return HC_UNSUPPORTED;
   hc_status st = g->state ? HC_OK : make(g, m);
   if (st != HC_OK) return st;
+  work_limit limit = {.outer = monitor, .most = MOST_TICKS};
+  const hc_monitor bounded = {work_limit_tick, &limit};
   timeint_rest(g->ti, g->state);
-  st = timeint_steady(g->ti, omega, g->state, monitor, &r);
-  if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
-  if (st != HC_OK || r.period_multiple != 1) st = timeint_orbit(g->ti, omega, 1, g->state, monitor, &r);
+  st = timeint_steady(g->ti, omega, g->state, &bounded, &r);
+  if (st == HC_NO_MEMORY || limit.stopped) return st;
+  if (st != HC_OK || r.period_multiple != 1) st = timeint_orbit(g->ti, omega, 1, g->state, &bounded, &r);
+  if (st == HC_INTERRUPTED && !limit.stopped) st = HC_NOT_SETTLED;
   for (int i = 0; i < m->n && st == HC_OK; ++i) {
     if (i > 0) st = timeint_response(g->ti, i, &r);
     const periodic_motion motion = motion_of_transient(&r);

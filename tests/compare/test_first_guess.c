@@ -1,7 +1,21 @@
 /* test_first_guess.c - a first solution from closed form: asked for only where linear is no guess; its answers. */
 #include "compare/first_guess.h"
 
+#include "hbm/curve/continuation.h"
 #include "tests/hbm/scenes.h"
+#include "tests/wrap.h"
+#include "timeint/steady/steady.h"
+
+static bool endless; /* is a motion never to settle? */
+static int ticks;    /* of its monitor */
+
+WRAP(hc_status, timeint_steady,
+     (timeint * ti, double omega, double *state, const hc_monitor *monitor, timeint_result *out))
+{
+  if (!endless) return __real_timeint_steady(ti, omega, state, monitor, out);
+  while (hc_monitor_tick(monitor, -1)) assert_in_range(++ticks, 1, 1000);
+  return HC_INTERRUPTED;
+}
 
 /* Somebody to ask: counts, and answers as told. */
 typedef struct oracle {
@@ -142,6 +156,33 @@ static void the_motion_from_rest_is_a_guess(CHECK_STATE)
   model_free(m);
 }
 
+static bool never(void *self, double done)
+{
+  (void)self, (void)done;
+  return false;
+}
+
+/* A motion that does not settle in the time of some hundred periods is no guess; a stop that was asked for is one. */
+static void an_endless_motion_is_no_guess(CHECK_STATE)
+{
+  const scene sc = impacts();
+  double X[64];
+  hbm_point point;
+  model *m;
+  hbm_solver *s;
+  const double omega = hard_omega();
+  const hc_monitor stop = {never, NULL};
+  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  assert_int_equal(guided_hbm_solver_new(m, &sc.hbm, &s), HC_OK);
+  endless = true;
+  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK); /* by a ramp */
+  CHECK_LE(100, ticks, "ticks");
+  assert_int_equal(hbm_first_solution(s, omega, &stop, X, &point), HC_INTERRUPTED);
+  endless = false;
+  hbm_solver_free(s);
+  model_free(m);
+}
+
 static void a_structure_is_guessed_whole(CHECK_STATE)
 {
   const scene sc = impacts();
@@ -171,4 +212,5 @@ static void a_structure_is_guessed_whole(CHECK_STATE)
 }
 
 CHECK_TESTS("compare.first_guess", 120, not_asked_where_the_linear_response_will_do, refusals_lead_to_ramps_or_out,
-            a_guess_is_where_newton_begins, the_motion_from_rest_is_a_guess, a_structure_is_guessed_whole)
+            a_guess_is_where_newton_begins, an_endless_motion_is_no_guess, the_motion_from_rest_is_a_guess,
+            a_structure_is_guessed_whole)
