@@ -613,9 +613,10 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, doub
   out->gate = verify_gate(setup, &data->quantity);
   out->rows = calloc((size_t)data->n, sizeof *out->rows);
   verify_window(setup, data, &t.from, &t.to);
-  compare_setup starts_at_rest = *setup; /* a start on HBM's orbits would look for one next to rest */
-  starts_at_rest.transient.start = TRANSIENT_START_REST;
-  hc_status st = out->rows ? comparison_referee(&starts_at_rest, NULL, &t.referee) : HC_NO_MEMORY;
+  compare_setup referee = *setup;
+  referee.transient.start = TRANSIENT_START_REST; /* one on HBM's orbits would look for one next to rest */
+  if (!model_is_smooth(setup->model)) referee.transient.method = TRANSIENT_METHOD_CLOSED_FORM;
+  hc_status st = out->rows ? comparison_referee(&referee, NULL, &t.referee) : HC_NO_MEMORY;
   if (st == HC_OK) t.state = workspace_doubles(&t.memory, (size_t)timeint_n_states(t.referee));
   t.room = workspace_doubles(&t.memory, acceleration_room(setup->model));
   if (t.memory.failed) st = HC_NO_MEMORY;
