@@ -34,7 +34,7 @@ void guess_weights(const orbit *o, orbit_segment *s)
       row += j == i % n ? 0 : weighed(o, s, i % n, j);
       column += j == i % n ? 0 : weighed(o, s, j, i % n);
     }
-    if (row > 0 && column > 0) s->weight[i % n] += lround(log2(row / column) / 2);
+    if (row > 0 && column > 0) s->weight[i % n] = weight_of((double)s->weight[i % n] + log2(row / column) / 2);
   }
   for (int i = 0; i < n; i++) {
     double sum = 0;
