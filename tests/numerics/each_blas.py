@@ -46,8 +46,9 @@ def rows(folders):
 AT = "0.6,0.9,1.2,1.6"
 results = {name: rows(folders) for name, folders in variants.items()}
 first, *others = results
-counts = {name: threads(folders) for name, folders in variants.items()}
-assert len(set(counts.values())) == 1, f"threads: {counts}"
+if os.path.isdir("/proc/self/task"):  # a chroot may be without
+    counts = {name: threads(folders) for name, folders in variants.items()}
+    assert len(set(counts.values())) == 1, f"threads: {counts}"
 assert results[first]
 for name in others:
     assert len(results[name]) == len(results[first]), name
