@@ -11,8 +11,8 @@ void verify_window(const compare_setup *setup, const verify_data *data, double *
 
 /* out->rows, count, harmonics, checked, ...: the truth at each point, of as many harmonics as the referee asks for, as
  * far as they can be expected to be solved `until` then [s] of the thread's clock; where that is not exact, points
- * that differ are held against the referee's orbits themselves. What then differs, or could not be judged, is held
- * against orbits next to the curves of fewer harmonics, and against the motion from rest. */
+ * that differ are compared with the referee's orbits themselves; what then differs, or could not be judged, with orbits
+ * next to the curves of fewer harmonics, and with the motion from rest. */
 hc_status verify_truth(const compare_setup *setup, const verify_data *data, double until, const hc_monitor *monitor,
                        verify_report *out);
 

@@ -2,8 +2,8 @@
 """right_curves.py HBMCHECK [--only SCENE] - right curves of every quantity on the eight reference scenes, of several
 makes: `hbmcheck verify` must blame none of them. right_curves.py --make [SCENE...] computes right/SCENE.csv again.
 right_curves.py HBMCHECK --random N [FIRST] - right curves of random scenes, oscillators and structures in turn, of
-one quantity of one make each: every solution, the stable ones alone, or one branch of 100 harmonics (at omegas where 60 give
-the same), or the motions from rest under the exact law, one of a family where sliders may rest anywhere.
+one quantity of one make each: every solution, the stable ones alone, or one branch of 100 harmonics (at omegas where
+60 give the same), or the motions from rest under the exact law, one of a family where sliders may rest anywhere.
 
     reference  tests/reference/transient_exact.csv: swept up from rest, and down; the mean is the history's
     rest       `hbmcheck transient` from rest
