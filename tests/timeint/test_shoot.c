@@ -5,6 +5,7 @@
 #include "tests/scene_parts.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/scenes.h"
+#include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
 static timeint *made(scene sc, int law, int steady, int start)
@@ -251,5 +252,31 @@ static void unstable_orbits_are_found_and_named(CHECK_STATE)
   timeint_free(ti);
 }
 
+/* Anderson's acceleration integrates without the variational equations; what it ends on has their matrix all the same.
+ * From beside case 2's inner orbit at 9, and from rest without a load, where F(z) = z exactly and nothing is integrated
+ * a second time for the matrix' sake: there the multiplier is that of the free mass, exp(-pi c/(m omega)). */
+static void anderson_ends_with_the_matrix(CHECK_STATE)
+{
+  scene rows[] = {scene_c2(), scene_c2()};
+  rows[1].force = 0;
+  rows[1].contacts[0].law.gap = -1;
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+    timeint *ti = made(rows[i], TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_SHOOTING, TRANSIENT_START_HBM);
+    scene_state y = {.all = {0}};
+    shoot_report newton, anderson;
+    if (i == 0) y = (scene_state){.x = -2.4, .v = 1.9, .w = {-1.7}};
+    assert_int_equal(timeint_begin(ti, 9, y.all), HC_OK);
+    assert_int_equal(shoot_anderson(ti->shoot, 1, orbit_goal(ti), NULL, &anderson), HC_OK);
+    assert_int_equal(timeint_begin(ti, 9, y.all), HC_OK);
+    assert_int_equal(shoot_newton(ti->shoot, 1, 10, orbit_goal(ti), NULL, &newton), HC_OK);
+    CHECK_NEAR(cabs(anderson.multiplier), cabs(newton.multiplier), 1e-7, "case %zu", i);
+    if (i == 1) {
+      const double free_mass = exp(-0.5 * TWO_PI * rows[i].damping / (rows[i].mass * 9));
+      CHECK_NEAR(cabs(anderson.multiplier), free_mass, 1e-12, "at rest");
+    }
+    timeint_free(ti);
+  }
+}
+
 CHECK_TESTS("timeint.shoot", 120, finds_what_marching_finds, few_periods_whatever_the_damping, k_periods_multiply,
-            a_free_slider_is_left_alone, unstable_orbits_are_found_and_named)
+            a_free_slider_is_left_alone, unstable_orbits_are_found_and_named, anderson_ends_with_the_matrix)

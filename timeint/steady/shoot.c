@@ -70,7 +70,8 @@ struct shoot { /* from shoot_new, to shoot_free */
   int phi_k;                    /* and of how many periods; 0: none */
   double *travel;               /* [n] of each slider, the farthest it was in a period from where that began */
   double *start, *first;        /* [n] where the solve began, and F^k of that */
-  bool known, begun;            /* z, f, phi are valid; start, first are valid */
+  bool known, begun;            /* z, f are valid; start, first are valid */
+  bool has_matrix;              /* phi is, too, where periods come with theirs */
   bool measures;                /* the next point is expected on the orbit of a large structure: measured, too */
   double *before;               /* [n] ti->y when the solve began */
   double *found_from;           /* [n] the same of the last orbit of a large structure, in closed form: s->best; */
@@ -133,8 +134,8 @@ static void note_measured(timeint *ti, int k, const double *end, int switches, i
   memcpy(ti->last.end, end, sizeof *end * (size_t)ti->n);
 }
 
-/* s->f becomes F^k(s->f), s->phi the monodromy matrix of these k periods, unless another is to give it. */
-static hc_status integrate_k_periods(shoot *s)
+/* s->f becomes F^k(s->f), with the matrix s->phi that of these k periods. */
+static hc_status integrate_k_periods(shoot *s, bool matrix)
 {
   timeint *ti = s->ti;
   const bool measured = s->measures && s->k == 1;
@@ -150,8 +151,8 @@ static hc_status integrate_k_periods(shoot *s)
     if (ti->periods >= ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
     integrate_watch *watch = measured ? measure_step : NULL;
-    hc_status st = matrix_giver(ti) ? integrate_period(ti->in, &ti->scaled, s->f, watch, &ti->measure)
-                                    : add_period(s, ti->in, &ti->scaled, i, s->f);
+    hc_status st = matrix ? add_period(s, ti->in, &ti->scaled, i, s->f)
+                          : integrate_period(ti->in, &ti->scaled, s->f, watch, &ti->measure);
     if (st != HC_OK) return st;
     ++ti->periods;
     note_travel(s);
@@ -160,15 +161,16 @@ static hc_status integrate_k_periods(shoot *s)
   return HC_OK;
 }
 
-/* F^k and its Jacobian at z: integrated only if z is not the last point asked. */
-static hc_status evaluate(shoot *s, const double *z)
+/* F^k at z, with its matrix if that is asked for: integrated only if z is not the last point asked. */
+static hc_status integrate_from(shoot *s, const double *z, bool matrix)
 {
   const size_t bytes = sizeof *z * (size_t)s->n;
-  if (s->known && memcmp(s->z, z, bytes) == 0) return HC_OK;
+  if (s->known && s->has_matrix >= matrix && memcmp(s->z, z, bytes) == 0) return HC_OK;
   memcpy(s->z, z, bytes);
   memcpy(s->f, z, bytes);
-  hc_status st = integrate_k_periods(s);
+  hc_status st = integrate_k_periods(s, matrix);
   s->known = st == HC_OK;
+  s->has_matrix = matrix;
   if (s->known && !s->begun) {
     memcpy(s->start, z, bytes);
     memcpy(s->first, s->f, bytes);
@@ -176,6 +178,9 @@ static hc_status evaluate(shoot *s, const double *z)
   }
   return st;
 }
+
+/* F^k and its Jacobian at z, unless another is to give that. */
+static hc_status evaluate(shoot *s, const double *z) { return integrate_from(s, z, !matrix_giver(s->ti)); }
 
 /* State i of one handle in units of another, whose modes are not as slow (modal_base.h). */
 static double unit_ratio(const timeint *of, const timeint *in, int i)
@@ -314,7 +319,7 @@ static hc_status jacobian(void *self, const double *z, double *jac)
 static int period_map(N_Vector u, N_Vector f, void *self)
 {
   shoot *s = self;
-  if (s->refusal != HC_NO_MEMORY) s->refusal = evaluate(s, NV_DATA_S(u));
+  if (s->refusal != HC_NO_MEMORY) s->refusal = integrate_from(s, NV_DATA_S(u), false);
   if (s->refusal == HC_NO_MEMORY) {
     memcpy(NV_DATA_S(f), NV_DATA_S(u), sizeof(double) * (size_t)s->n);
     return 0;
