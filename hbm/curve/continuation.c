@@ -42,6 +42,8 @@ static const double SHRINK_ACCEPTED = 0.4, GROW_ACCEPTED = 2, SHRINK_REFUSED = 0
 static const double SHRINK_FAILED = 0.4, SHRINK_SLOW = 0.7;
 enum { MANY_ITERATIONS = 8 };
 
+enum { FEW_HARMONICS = 6 }; /* from whose solution that of twice as many and more is looked for */
+
 /* A sweep is four units of omega long in the curve's metric, so that STEP_MAX makes eight steps at least; one of a
  * single omega has a unit all the same. Errors beside a resonance narrower than a millionth of omega are measured as if
  * it had that width. */
@@ -526,23 +528,55 @@ static hc_status follow_ramp(hbm_solver *s, hbm_ramp_kind kind, bool quick, doub
   return st;
 }
 
-/* Sampled equations from the solution with exact forces: a path along those has no false turning points, and costs as
- * little as the samples are many. */
+typedef hc_status first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point);
+
+/* From the solution by other settings, with as many harmonics or fewer, that `find` finds. */
+static hc_status from_other(hbm_solver *s, const hbm_settings *how, first_solution *find, double omega,
+                            const hc_monitor *monitor, double *X, hbm_point *point)
+{
+  hbm_solver *other;
+  hc_status st = hbm_solver_new(s->model, how, &other);
+  if (st != HC_OK) return st;
+  st = find(other, omega, monitor, X, point);
+  const int iterations = point->iterations;
+  for (int i = other->sys.n_coef; i < s->sys.n_coef; ++i) X[i] = 0;
+  if (st == HC_OK) st = hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
+  point->iterations += iterations;
+  s->solves += other->solves;
+  hbm_solver_free(other);
+  return st;
+}
+
+/* Sampled equations: a path along those with exact forces has no false turning points, and costs as little as the
+ * samples are many. */
 static hc_status from_exact_forces(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   hbm_settings how = s->how;
-  hbm_solver *exact;
   how.force = HBM_FORCE_EXACT;
   how.harmonics = s->sys.n_harm;
-  hc_status st = hbm_solver_new(s->model, &how, &exact);
-  if (st != HC_OK) return st;
-  st = hbm_first_solution(exact, omega, monitor, X, point);
-  const int iterations = point->iterations;
-  if (st == HC_OK) st = hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
-  point->iterations += iterations;
-  s->solves += exact->solves;
-  hbm_solver_free(exact);
-  return st;
+  return from_other(s, &how, hbm_first_solution, omega, monitor, X, point);
+}
+
+static bool may_go_on(hc_status st) { return st != HC_OK && st != HC_INTERRUPTED && st != HC_NO_MEMORY; }
+
+static hc_status from_linear_response(hbm_solver *s, double omega, double *X, hbm_point *point)
+{
+  double size = hbm_linear_response(&s->sys, omega, X);
+  return hbm_solve_fixed(s, omega, size, X, point);
+}
+
+static hc_status by_quick_ramp(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
+{
+  hc_status st = from_linear_response(s, omega, X, point);
+  return may_go_on(st) ? follow_ramp(s, HBM_RAMP_DAMPING, true, omega, monitor, X, point) : st;
+}
+
+/* A ramp of many harmonics takes ten times as long and more. */
+static hc_status from_few_harmonics(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
+{
+  hbm_settings how = s->how;
+  how.harmonics = FEW_HARMONICS;
+  return from_other(s, &how, by_quick_ramp, omega, monitor, X, point);
 }
 
 static hc_status from_guess(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
@@ -556,13 +590,12 @@ static hc_status from_guess(hbm_solver *s, double omega, const hc_monitor *monit
   return hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
 }
 
-static bool may_go_on(hc_status st) { return st != HC_OK && st != HC_INTERRUPTED && st != HC_NO_MEMORY; }
-
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   const bool exact = s->how.force == HBM_FORCE_EXACT, quick = exact && s->edges;
-  double size = hbm_linear_response(&s->sys, omega, X);
-  hc_status st = hbm_solve_fixed(s, omega, size, X, point);
+  hc_status st = from_linear_response(s, omega, X, point);
+  if (may_go_on(st) && quick && s->sys.n_harm >= 2 * FEW_HARMONICS)
+    st = from_few_harmonics(s, omega, monitor, X, point);
   if (may_go_on(st) && quick) st = follow_ramp(s, HBM_RAMP_DAMPING, true, omega, monitor, X, point);
   if (may_go_on(st) && s->guess.ask) st = from_guess(s, omega, monitor, X, point);
   if (may_go_on(st) && !exact) st = from_exact_forces(s, omega, monitor, X, point);
