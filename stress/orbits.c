@@ -81,7 +81,9 @@ static hc_status read_waves(const solved_scene *s, timeint *ti, double length, s
       p->size = fmax(p->size, fabs(one.wave[k]) / length);
     }
   }
-  p->errors = (p->r.closure + p->r.attainable) * (p->r.amplitude / length) / p->amplitude;
+  /* Next to an unstable orbit what the start is off grows along the period. */
+  const double grows = fmax(1, p->r.multiplier);
+  p->errors = grows * (p->r.closure + p->r.attainable) * (p->r.amplitude / length) / p->amplitude;
   return HC_OK;
 }
 
