@@ -68,9 +68,12 @@ static double same_again(const solved_scene *s)
   return model_is_smooth(s->model) ? by_cvode(&s->path) : same_in_closed_form;
 }
 
-static hc_status read_waves(const solved_scene *s, timeint *ti, double length, stress_path *p)
+/* Next to an unstable orbit errors grow up to its end, where p->state is: of the base model seen in its waves, too. */
+static hc_status read_waves(const solved_scene *s, timeint *ti, const search *at, stress_path *p)
 {
   timeint_result one = p->r;
+  const double length = at->length;
+  double returns_off = 0;
   p->amplitude = p->size = 0;
   for (int i = 0; i < s->n; ++i) {
     hc_status st = timeint_response(ti, 1 + i, &one);
@@ -80,10 +83,9 @@ static hc_status read_waves(const solved_scene *s, timeint *ti, double length, s
       p->wave[i * TIMEINT_WAVE + k] = one.wave[k] / length;
       p->size = fmax(p->size, fabs(one.wave[k]) / length);
     }
+    if (at->m == s->model) returns_off = fmax(returns_off, fabs(p->state[i] - one.wave[0]));
   }
-  /* Next to an unstable orbit what the start is off grows along the period. */
-  const double grows = fmax(1, p->r.multiplier);
-  p->errors = grows * (p->r.closure + p->r.attainable) * (p->r.amplitude / length) / p->amplitude;
+  p->errors = ((p->r.closure + p->r.attainable) * (p->r.amplitude / length) + returns_off) / p->amplitude;
   return HC_OK;
 }
 
@@ -103,7 +105,7 @@ static stress_path find_path(solved_scene *s, const search *at, const double *fr
     case PATH_STEADY: p.status = timeint_steady(ti, at->omega, p.state, &s->monitor, &p.r); break;
     }
   if (p.status == HC_OK && p.r.period_multiple != 1) p.status = HC_NOT_SETTLED;
-  if (p.status == HC_OK) p.status = read_waves(s, ti, at->length, &p);
+  if (p.status == HC_OK) p.status = read_waves(s, ti, at, &p);
   timeint_free(ti);
   if (p.status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;
   return p;

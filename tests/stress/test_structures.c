@@ -435,7 +435,7 @@ static void an_oscillator_is_made_small(CHECK_STATE)
  * orbit of scene 9 counted as far from its start where that had the slider of a contact without friction elsewhere. The
  * multiplier by HBM of structure 85 was 1.1e-2 off with one harmonic, hardly less with two, and 1e-4 with 64. Scene 258
  * floats at the edge of its contact, where rounding decides if two copies of it have a solution. The orbit of scene 242
- * has a multiplier of 2300, by which what its start is off, 1e-11, grows within the period. */
+ * has a multiplier of 2300, by which what its start is off, 1e-11, grows up to its end. */
 static void findings_of_other_seeds_are_none(CHECK_STATE)
 {
   static const struct {

@@ -1,11 +1,14 @@
 /* test_circle.c - time integration of contacts with two tangents under the law of the circle: against an independent
  * program, against the law of one tangent where the motion is on one line, and against differences. */
 
+#include "numerics/floquet.h"
 #include "numerics/norm.h"
+#include "tests/hbm/multipliers.h"
 #include "tests/timeint/drawn.h"
 #include "tests/timeint/structure_rows.h"
 #include "timeint/cvode/events_newton.h"
 #include "timeint/steady/contact_watch.h"
+#include "timeint/steady/timeint_private.h"
 
 /* ---- scenes ---------------------------------------------------------------------------------------------- */
 
@@ -316,6 +319,54 @@ static void monodromy_is_the_derivative(CHECK_STATE)
   CHECK_LE(off, 0.002 * compared, "of %d derivatives", compared);
 }
 
+/* Newton's matrices: 1e-6 of a column is left out in each step, and grows as neighbours part in the period, by less
+ * than 100 here. Where slip turns in a period the two are not the same. */
+static void coarse_matrices_are_good_to_their_digits(CHECK_STATE)
+{
+  uint64_t seed = 11;
+  int coarser = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    drawn d;
+    integrator *in;
+    double y[2][MOST] = {{0}}, largest = 0, apart = 0;
+    static double phi[2][MOST * MOST];
+    draw(&seed, TRANSIENT_LAW_EXACT, &d);
+    const int n = d.scaled.n_states;
+    for (int i = 0; i < n; ++i) y[0][i] = y[1][i] = 0.3 * random_signed(&seed);
+    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &in), HC_OK);
+    assert_int_equal(integrate_has_coarse(in), d.base->n_planar > 0);
+    assert_int_equal(integrate_monodromy(in, &d.scaled, y[0], phi[0]), HC_OK);
+    assert_int_equal(integrate_coarse_monodromy(in, &d.scaled, y[1], phi[1]), HC_OK);
+    assert_memory_equal(y[0], y[1], sizeof y[0]);
+    for (int i = 0; i < n * n; ++i) largest = fmax(largest, fabs(phi[0][i]));
+    for (int i = 0; i < n * n; ++i) apart = fmax(apart, fabs(phi[0][i] - phi[1][i]));
+    CHECK_LE(apart, 1e-4 * largest, "trial %d", trial);
+    coarser += apart > 1e-12 * largest;
+    integrate_free(in);
+    undraw(&d);
+  }
+  CHECK_LE(20, coarser, "so many are coarser");
+}
+
+/* Newton ends with a coarse matrix, and the multiplier reported is that of a fine one: of (10.5, slip all round) a coarse
+ * one's is 6e-9 off. */
+static void multipliers_are_of_fine_matrices(CHECK_STATE)
+{
+  static timeint_result r;
+  static double phi[MOST * MOST];
+  double complex multipliers[MOST];
+  double y[6] = {0};
+  model *m = driven("plane", 40);
+  timeint *ti;
+  assert_int_equal(timeint_new(m, &closed_form, &ti), HC_OK);
+  assert_int_equal(timeint_steady(ti, 10.5, y, NULL, &r), HC_OK);
+  assert_int_equal(integrate_monodromy(ti->in, &ti->scaled, ti->y, phi), HC_OK);
+  eigenvalues_of(ti->n, phi, multipliers);
+  CHECK_NEAR(r.multiplier, cabs(floquet_largest(ti->n, multipliers)), 1e-10, "a period later");
+  timeint_free(ti);
+  model_free(m);
+}
+
 static void series_and_events_agree(CHECK_STATE)
 {
   int changing;
@@ -425,6 +476,6 @@ static void a_long_period_hears_the_monitor(CHECK_STATE)
 CHECK_TESTS_WITH("timeint.circle", 600, read_structure_rows, NULL, periods_meet_the_reference,
                  a_circle_that_sticks_is_free_once, newton_solves_the_equations,
                  newton_of_the_exact_law_solves_its_equations, a_motion_on_a_line_is_that_of_one_tangent,
-                 turned_tangents_change_nothing, monodromy_is_the_derivative, series_and_events_agree,
-                 a_slider_that_comes_back_has_travelled, friction_takes_what_the_loads_give,
-                 a_long_period_hears_the_monitor)
+                 turned_tangents_change_nothing, monodromy_is_the_derivative, coarse_matrices_are_good_to_their_digits,
+                 multipliers_are_of_fine_matrices, series_and_events_agree, a_slider_that_comes_back_has_travelled,
+                 friction_takes_what_the_loads_give, a_long_period_hears_the_monitor)

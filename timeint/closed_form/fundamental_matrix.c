@@ -7,6 +7,10 @@
 #include "numerics/dense.h"
 #include "timeint/closed_form/modal_motion.h"
 
+/* [reach of the motion] Terms of columns grow with their number faster by a factor of 0.7. Where 1e-6 is enough, powers
+ * up to 24 of twice a step that is good to rounding leave 2^24 of that, 1e-9; where even that fails, half as long. */
+static const double fine_step = 0.7, coarse_step = 2;
+
 /* to[count] += by from[count] */
 static void add_real(int count, double by, const double *restrict from, double *restrict to)
 {
@@ -162,15 +166,14 @@ static bool has_slip_that_turns(const scaled_model *m, const contact_track *trac
 /* A step from v->theta of the motion and its columns together, up to `most`. Its length; 0: not finite. */
 static double step_along(fundamental_matrix *v, const scaled_model *m, double most)
 {
-  /* Terms of columns grow with their number faster by a factor of 0.7. With slowed modes, good to 1e-6, powers up to 24
-   * of twice a step that is good to rounding leave 2^24 of that, 1e-9. */
-  const double safe = v->n_slowed > 0 ? 2 : 0.7;
+  const double shortest = 1e-12; /* [reach] */
   const double held = motion_series_hold(m, v->track, v->y);
   const double reach = motion_series_begin(&v->motion, m, v->track, v->theta, v->y);
-  const double h = fmin(most, fmin(held, safe * reach));
+  double h = fmin(most, fmin(held, v->safe * reach));
   if (!(h > 0)) return 0;
   series_columns_begin(&v->series, m, v->track);
-  series_columns_turn(&v->series, m, &v->motion, h, v->n_columns, v->n_states, v->rows);
+  while (!series_columns_turn(&v->series, m, &v->motion, h, v->n_columns, v->n_states, v->rows))
+    if (!((v->safe = (h *= 0.5) / reach) > shortest)) return 0;
   motion_series_at(&v->motion, h, 0, v->y);
   motion_series_turn(&v->motion, h, v->track);
   v->theta += h;
@@ -244,9 +247,12 @@ static hc_status find_following(fundamental_matrix *v, const scaled_model *m, co
 }
 
 hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
-                                   const double *y)
+                                   const double *y, bool coarse)
 {
   const size_t n = (size_t)v->n_states;
+  coarse = coarse || v->n_slowed > 0;
+  series_columns_coarse(&v->series, coarse);
+  v->safe = coarse ? coarse_step : fine_step;
   hc_status st = v->n_slowed > 0 ? find_following(v, m, track) : HC_OK;
   if (st != HC_OK) return st;
   memset(v->rows, 0, n * n * sizeof *v->rows);

@@ -25,6 +25,7 @@ typedef struct modes_columns {
 
 typedef struct fundamental_matrix {
   int n, n_states;       /* modes; 2 n + contacts */
+  double safe;           /* [reach of the motion] the length of a step in which slip turns */
   double theta;          /* up to which `rows` has come */
   int n_columns, *state; /* [n_states] the first of them: states that the motion depends on, ascending */
   double *rows;          /* [n_states][n_states] row i is that of state i, column q that of state[q]; a slider's row is
@@ -47,9 +48,10 @@ typedef struct fundamental_matrix {
 hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base, interval_modes *modes,
                                   workspace *memory);
 
-/* The identity at theta = 0, contacts as they begin there at y[n_states]. HC_SINGULAR: slowed modes are no springs. */
+/* The identity at theta = 0, contacts as they begin there at y[n_states]; coarse: to be good to some 1e-6 alone.
+ * HC_SINGULAR: slowed modes are no springs. */
 hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
-                                   const double *y);
+                                   const double *y, bool coarse);
 
 /* From v->theta on the motion is that of y[2 n], its contacts those of track[]: whenever one has changed its state. */
 void fundamental_matrix_follow(fundamental_matrix *v, const scaled_model *m, const contact_track *track,

@@ -226,7 +226,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   in->m = m;
   if (m->n != in->n || m->n_contacts != in->n_contacts) return HC_BUG;
   hc_status st = begin(in, y);
-  if (st == HC_OK && monodromy) st = fundamental_matrix_begin(&in->variations, m, in->track, y);
+  if (st == HC_OK && monodromy) st = fundamental_matrix_begin(&in->variations, m, in->track, y, base->coarse);
   if (st == HC_OK) st = run(in, monodromy != NULL, watch, self, &count);
   if (st == HC_OK && monodromy) st = fundamental_matrix_advance(&in->variations, m, in->track, TWO_PI);
   base->transitions += count;
@@ -341,6 +341,7 @@ hc_status integrate_new_closed_form(const modal_base *base, double stiff, integr
   by_series *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
   if (!in) return HC_NO_MEMORY;
   in->base.does = &class;
+  in->base.has_coarse = base->n_planar > 0; /* where slip turns, a matrix takes up to fifty times its period */
   in->n = base->n;
   in->n_contacts = base->n_contacts;
   workspace *w = &in->memory;

@@ -12,7 +12,7 @@ enum {
   LAST = 24   /* the highest power of h; the 24 of motion_series.h */
 };
 
-static const double of_slowed =
+static const double of_coarse =
     1e-6; /* [column] left out of columns whose matrix is good to 1e-6 at best; 4e-11 of a multiplier seen */
 static const double died_away =
     1e-200; /* [square] of a column that began as 1: below, the squares of terms underflow */
@@ -40,13 +40,13 @@ hc_status series_columns_make(series_columns *s, const modal_base *base, workspa
   s->turning = workspace_array(w, planar, sizeof *s->turning);
   for (int i = 0; i < s->n_planar && !w->failed; ++i) planar_columns_make(&s->turning[i], BLOCK, w);
   if (w->failed) return HC_NO_MEMORY;
-  s->rounding = 0.25 * DBL_EPSILON;
-  for (size_t i = 0; i < n; ++i)
-    if (base->slowed[i] != 1) s->rounding = of_slowed;
+  series_columns_coarse(s, false);
   if (!base->diagonal_K) dense_transpose(base->n, base->n, base->K, s->turned_K);
   if (!base->diagonal_C) dense_transpose(base->n, base->n, base->C, s->turned_C);
   return HC_OK;
 }
+
+void series_columns_coarse(series_columns *s, bool coarse) { s->rounding = coarse ? of_coarse : 0.25 * DBL_EPSILON; }
 
 /* Does T, does N of a contact with that law follow its motion? */
 static bool has_tangent(const contact_forces_linear *f) { return f->t_u != 0 || f->t_v != 0 || f->t_w != 0; }
@@ -333,7 +333,7 @@ static void exchange_angles(series_columns *s, int width, int last)
   }
 }
 
-void series_columns_turn(series_columns *s, const scaled_model *m, const motion_series *along, double h, int count,
+bool series_columns_turn(series_columns *s, const scaled_model *m, const motion_series *along, double h, int count,
                          int ld, double *matrix)
 {
   const size_t rows = (size_t)s->n * (size_t)ld;
@@ -348,10 +348,12 @@ void series_columns_turn(series_columns *s, const scaled_model *m, const motion_
     take_rows(s->n_contacts, width, from + 2 * rows, ld, s->slider);
     exchange_angles(s, width, 0);
     const int last = expand(s, m, width, h);
+    if (last > LAST && q == 0 && s->rounding > DBL_EPSILON) return false; /* other blocks have the same radius */
     exchange_angles(s, width, last < LAST ? last : LAST);
     put_rows(s->n, width, s->x_end, from, ld);
     put_rows(s->n, width, s->p_end, from + rows, ld);
     put_rows(s->n_contacts, width, s->slider, from + 2 * rows, ld);
   }
   s->along = NULL;
+  return true;
 }

@@ -5,8 +5,8 @@
  * A column is a variation; the terms z_k = d_k h^k of its power series over a step h come from
  *     (k + 1)(k + 2) z_{k+2} = -h^2 (by_K K z_k + contacts of z_k) - h (k + 1) by_C C z_{k+1}
  * for a block of columns together: products of matrices, not of a matrix and a vector, and contacts that resist no
- * motion are left out. So many terms are taken that what is left out of any column is below its rounding (of a base
- * with slowed modes, below 1e-11 of it: its matrix is an approximation); a step is as long as LAST terms allow, about 2
+ * motion are left out. So many terms are taken that what is left out of any column is below its rounding (of a coarse
+ * matrix, below 1e-6 of it); a step is as long as LAST terms allow, about 2
  * over the highest frequency. Nothing is allocated after series_columns_make. */
 #pragma once
 
@@ -33,12 +33,15 @@ typedef struct series_columns {
   double *size, *left;          /* [block] of columns, squared */
   planar_columns *turning;      /* [n_planar] */
   const motion_series *along;   /* where slips turn: the motion; else NULL */
-  double rounding;              /* [column] what may be left out: DBL_EPSILON/4, or of slowed modes more */
+  double rounding;              /* [column] what may be left out: DBL_EPSILON/4, or of a coarse matrix more */
   double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
 } series_columns;
 
 /* Arrays are memory's. HC_NO_MEMORY. */
 hc_status series_columns_make(series_columns *s, const modal_base *base, workspace *memory);
+
+/* Whether columns are for a matrix that is good to 1e-6 alone; at first not. */
+void series_columns_coarse(series_columns *s, bool coarse);
 
 /* From here on contacts are in the states of track[]. */
 void series_columns_begin(series_columns *s, const scaled_model *m, const contact_track *track);
@@ -49,6 +52,6 @@ hc_status series_columns_advance(series_columns *s, const scaled_model *m, doubl
                                  double *matrix);
 
 /* The same over one step h of a motion on which slips turn, h within its reach; the row of the first slider of each
- * is dphi. */
-void series_columns_turn(series_columns *s, const scaled_model *m, const motion_series *along, double h, int count,
+ * is dphi. false: of a coarse matrix the step is too long for it, and nothing was done. */
+bool series_columns_turn(series_columns *s, const scaled_model *m, const motion_series *along, double h, int count,
                          int ld, double *matrix);

@@ -331,7 +331,8 @@ static hc_status begin(events *in, const double *y, int *count)
     begin_own(in, j, 0);
   }
   use_states(in);
-  hc_status st = in->varies ? fundamental_matrix_begin(&in->variations, in->base.m, in->track, y) : HC_OK;
+  hc_status st =
+      in->varies ? fundamental_matrix_begin(&in->variations, in->base.m, in->track, y, in->base.base.coarse) : HC_OK;
   return st == HC_OK ? pass_fallen(in, 0, count) : st;
 }
 
@@ -482,6 +483,7 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   if (!in) return HC_NO_MEMORY;
   const bool bdf = base->decay > stiff * base->lowest;
   in->base.base.does = &class;
+  in->base.base.has_coarse = base->n_planar > 0;
   in->base.base.scatter = bdf ? INTEGRATE_BDF_SCATTER : INTEGRATE_ADAMS_SCATTER;
   in->n = base->n;
   in->n_contacts = base->n_contacts;

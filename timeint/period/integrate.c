@@ -33,8 +33,19 @@ hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, 
 {
   ++in->periods;
   in->unheard = 0;
+  in->coarse = false;
   return in->does->period(in, m, y, monodromy, NULL, NULL);
 }
+
+hc_status integrate_coarse_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy)
+{
+  ++in->periods;
+  in->unheard = 0;
+  in->coarse = in->has_coarse;
+  return in->does->period(in, m, y, monodromy, NULL, NULL);
+}
+
+bool integrate_has_coarse(const integrator *in) { return in->has_coarse; }
 
 hc_status integrate_dense(const integrator *in, double theta, int order, double *y)
 {

@@ -46,6 +46,10 @@ hc_status integrate_period(integrator *in, const scaled_model *m, double *y, int
  * x at theta = 0 (slipping, separated) has a column of zeros. */
 hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy);
 
+/* The same with a matrix that is good to some 1e-6: for Newton, where it takes less (integrate_has_coarse). */
+hc_status integrate_coarse_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy);
+bool integrate_has_coarse(const integrator *in);
+
 /* Inside a watch: the state (order 0) or its derivative (order 1) at theta0 <= theta <= theta1, from the step's own
  * polynomial, as good as the step itself. y[n_states]. */
 hc_status integrate_dense(const integrator *in, double theta, int order, double *y);

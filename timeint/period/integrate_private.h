@@ -38,6 +38,7 @@ struct integrator { /* the first member of each kind */
   long steps, rhs, transitions; /* of all finished periods */
   long periods;                 /* begun */
   double scatter;               /* [tolerance] by how much a period may be off, cut into other steps; by CVODE */
+  bool has_coarse, coarse;      /* a coarse matrix takes less; the one under way is coarse */
   int flag;                     /* CVODE's last flag other than success */
   const hc_monitor *monitor;    /* the caller's, or NULL */
   int unheard;                  /* steps, or right-hand sides by CVODE, since it was asked in this period */

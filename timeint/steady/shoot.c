@@ -57,7 +57,10 @@ enum {
 }; /* of the 1000 to 4000 of a large structure, whose errors die away: 1.3e-13 seen */
 static const double both_scatter = 1e3; /* [tolerance] of F(z0) and F(z*) together: twice 250, and twice that */
 static const double contracts =
-    0.3;       /* [last step] a Newton step no shorter than that part of the last one leads nowhere */
+    0.3; /* [last step] a Newton step no shorter than that part of the last one leads nowhere */
+/* What periods come with: nothing where another gives the matrix or none is needed; for Newton's steps; to be reported. */
+typedef enum matrix_kind { NO_MATRIX, COARSE_MATRIX, MATRIX } matrix_kind;
+
 struct shoot { /* from shoot_new, to shoot_free */
   timeint *ti;
   int n, k;
@@ -71,7 +74,7 @@ struct shoot { /* from shoot_new, to shoot_free */
   double *travel;               /* [n] of each slider, the farthest it was in a period from where that began */
   double *start, *first;        /* [n] where the solve began, and F^k of that */
   bool known, begun;            /* z, f are valid; start, first are valid */
-  bool has_matrix;              /* phi is, too, where periods come with theirs */
+  matrix_kind has;              /* of these periods, in phi */
   bool measures;                /* the next point is expected on the orbit of a large structure: measured, too */
   double *before;               /* [n] ti->y when the solve began */
   double *found_from;           /* [n] the same of the last orbit of a large structure, in closed form: s->best; */
@@ -114,9 +117,10 @@ static timeint *matrix_giver(timeint *ti)
 }
 
 /* y goes on by a period, by `in`; s->phi becomes the monodromy matrix of this and the i periods before it. */
-static hc_status add_period(shoot *s, integrator *in, const scaled_model *m, int i, double *y)
+static hc_status add_period(shoot *s, integrator *in, const scaled_model *m, bool coarse, int i, double *y)
 {
-  hc_status st = integrate_monodromy(in, m, y, i == 0 ? s->phi : s->one_period);
+  double *phi = i == 0 ? s->phi : s->one_period;
+  hc_status st = coarse ? integrate_coarse_monodromy(in, m, y, phi) : integrate_monodromy(in, m, y, phi);
   if (st != HC_OK || i == 0) return st;
   memcpy(s->product, s->phi, sizeof *s->phi * (size_t)(s->n * s->n));
   dense_multiply(s->n, s->n, s->n, s->one_period, s->product, s->phi);
@@ -134,8 +138,8 @@ static void note_measured(timeint *ti, int k, const double *end, int switches, i
   memcpy(ti->last.end, end, sizeof *end * (size_t)ti->n);
 }
 
-/* s->f becomes F^k(s->f), with the matrix s->phi that of these k periods. */
-static hc_status integrate_k_periods(shoot *s, bool matrix)
+/* s->f becomes F^k(s->f), s->phi the matrix of these k periods. */
+static hc_status integrate_k_periods(shoot *s, matrix_kind matrix)
 {
   timeint *ti = s->ti;
   const bool measured = s->measures && s->k == 1;
@@ -151,7 +155,7 @@ static hc_status integrate_k_periods(shoot *s, bool matrix)
     if (ti->periods >= ti->how.max_periods - s->k) return HC_NOT_SETTLED; /* k are kept for the report */
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
     integrate_watch *watch = measured ? measure_step : NULL;
-    hc_status st = matrix ? add_period(s, ti->in, &ti->scaled, i, s->f)
+    hc_status st = matrix ? add_period(s, ti->in, &ti->scaled, matrix == COARSE_MATRIX, i, s->f)
                           : integrate_period(ti->in, &ti->scaled, s->f, watch, &ti->measure);
     if (st != HC_OK) return st;
     ++ti->periods;
@@ -161,16 +165,16 @@ static hc_status integrate_k_periods(shoot *s, bool matrix)
   return HC_OK;
 }
 
-/* F^k at z, with its matrix if that is asked for: integrated only if z is not the last point asked. */
-static hc_status integrate_from(shoot *s, const double *z, bool matrix)
+/* F^k at z, with that matrix or a better one: integrated only if z is not the last point asked. */
+static hc_status integrate_from(shoot *s, const double *z, matrix_kind matrix)
 {
   const size_t bytes = sizeof *z * (size_t)s->n;
-  if (s->known && s->has_matrix >= matrix && memcmp(s->z, z, bytes) == 0) return HC_OK;
+  if (s->known && s->has >= matrix && memcmp(s->z, z, bytes) == 0) return HC_OK;
   memcpy(s->z, z, bytes);
   memcpy(s->f, z, bytes);
   hc_status st = integrate_k_periods(s, matrix);
   s->known = st == HC_OK;
-  s->has_matrix = matrix;
+  s->has = matrix;
   if (s->known && !s->begun) {
     memcpy(s->start, z, bytes);
     memcpy(s->first, s->f, bytes);
@@ -180,7 +184,17 @@ static hc_status integrate_from(shoot *s, const double *z, bool matrix)
 }
 
 /* F^k and its Jacobian at z, unless another is to give that. */
-static hc_status evaluate(shoot *s, const double *z) { return integrate_from(s, z, !matrix_giver(s->ti)); }
+static hc_status evaluate(shoot *s, const double *z)
+{
+  return integrate_from(s, z, matrix_giver(s->ti) ? NO_MATRIX : MATRIX);
+}
+
+/* The same for Newton, whose steps contract by the error of the Jacobian, too. */
+static hc_status evaluate_coarsely(shoot *s, const double *z)
+{
+  const bool coarse = !matrix_giver(s->ti) && integrate_has_coarse(s->ti->in);
+  return coarse ? integrate_from(s, z, COARSE_MATRIX) : evaluate(s, z);
+}
 
 /* State i of one handle in units of another, whose modes are not as slow (modal_base.h). */
 static double unit_ratio(const timeint *of, const timeint *in, int i)
@@ -228,7 +242,7 @@ static hc_status find_slowed_matrix(const shoot *s, const double *z)
   if (s->known && z == s->z && of != s) st = keep_at_rest(s, giver, y);
   for (int i = 0; i < s->k && st == HC_OK; ++i) {
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
-    st = add_period(of, giver->in, &giver->scaled, i, y);
+    st = add_period(of, giver->in, &giver->scaled, false, i, y);
   }
   if (st != HC_OK) return st;
   of->phi_k = s->k;
@@ -290,7 +304,7 @@ static bool is_free(const shoot *s, int i)
 static hc_status residual(void *self, const double *z, double *r)
 {
   shoot *s = self;
-  hc_status st = evaluate(s, z);
+  hc_status st = evaluate_coarsely(s, z);
   for (int i = 0; i < s->n && st == HC_OK; ++i) r[i] = z[i] - s->f[i];
   return st;
 }
@@ -307,7 +321,7 @@ static void fill_jacobian(const shoot *s, double *jac)
 static hc_status jacobian(void *self, const double *z, double *jac)
 {
   shoot *s = self;
-  hc_status st = evaluate(s, z);
+  hc_status st = evaluate_coarsely(s, z);
   if (st == HC_OK) st = find_matrix(s);
   if (st != HC_OK) return st;
   fill_jacobian(s, jac);
@@ -319,7 +333,7 @@ static hc_status jacobian(void *self, const double *z, double *jac)
 static int period_map(N_Vector u, N_Vector f, void *self)
 {
   shoot *s = self;
-  if (s->refusal != HC_NO_MEMORY) s->refusal = integrate_from(s, NV_DATA_S(u), false);
+  if (s->refusal != HC_NO_MEMORY) s->refusal = integrate_from(s, NV_DATA_S(u), NO_MATRIX);
   if (s->refusal == HC_NO_MEMORY) {
     memcpy(NV_DATA_S(f), NV_DATA_S(u), sizeof(double) * (size_t)s->n);
     return 0;
@@ -816,7 +830,7 @@ static hc_status closed_form_matrix(shoot *s)
   scaled_make(&closed->scaled, ti->model, &closed->how, ti->omega, ti->length);
   memcpy(s->f, ti->y, sizeof *s->f * (size_t)s->n);
   hc_status st = HC_OK;
-  for (int i = 0; i < s->k && st == HC_OK; ++i) st = add_period(s, closed->in, &closed->scaled, i, s->f);
+  for (int i = 0; i < s->k && st == HC_OK; ++i) st = add_period(s, closed->in, &closed->scaled, true, i, s->f);
   return st;
 }
 
