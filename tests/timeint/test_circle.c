@@ -348,8 +348,8 @@ static void coarse_matrices_are_good_to_their_digits(CHECK_STATE)
   CHECK_LE(20, coarser, "so many are coarser");
 }
 
-/* Newton ends with a coarse matrix, and the multiplier reported is that of a fine one: of (10.5, slip all round) a coarse
- * one's is 6e-9 off. */
+/* Newton ends with a coarse matrix, and the multiplier reported is that of a fine one: where slip goes all round, a
+ * coarse one's is 6e-9 off. */
 static void multipliers_are_of_fine_matrices(CHECK_STATE)
 {
   static timeint_result r;

@@ -58,7 +58,7 @@ enum {
 static const double both_scatter = 1e3; /* [tolerance] of F(z0) and F(z*) together: twice 250, and twice that */
 static const double contracts =
     0.3; /* [last step] a Newton step no shorter than that part of the last one leads nowhere */
-/* What periods come with: nothing where another gives the matrix or none is needed; for Newton's steps; to be reported. */
+/* What periods come with: nothing where another gives the matrix or none is needed; for Newton; to be reported. */
 typedef enum matrix_kind { NO_MATRIX, COARSE_MATRIX, MATRIX } matrix_kind;
 
 struct shoot { /* from shoot_new, to shoot_free */
