@@ -375,7 +375,7 @@ double search_omega_factor(int frequency)
 bool search_tick(search *s)
 {
   double part = (double)++s->done / s->expected;
-  if (!s->said && clock_seconds(CLOCK_THREAD_CPUTIME_ID) - s->begun > VERIFY_FIRST_ANSWER) search_say(s);
+  if (!s->said && thread_seconds() - s->begun > VERIFY_FIRST_ANSWER) search_say(s);
   return hc_monitor_tick(s->monitor, 0.5 + 0.5 * (part < 1 ? part : 1));
 }
 

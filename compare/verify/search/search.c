@@ -543,7 +543,7 @@ typedef struct patience {
 static bool patient(void *self, double done)
 {
   patience *p = self;
-  p->over = clock_seconds(CLOCK_THREAD_CPUTIME_ID) > p->end;
+  p->over = thread_seconds() > p->end;
   return !p->over && hc_monitor_tick(p->whole, done);
 }
 
@@ -567,8 +567,7 @@ hc_status verify_search(const compare_setup *setup, int n, const verify_judged *
 {
   search *s = calloc(1, sizeof *s);
   if (!s) return HC_NO_MEMORY;
-  const double now = clock_seconds(CLOCK_THREAD_CPUTIME_ID),
-               asked = effort && effort->patience > 0 ? effort->patience : VERIFY_PATIENCE;
+  const double now = thread_seconds(), asked = effort && effort->patience > 0 ? effort->patience : VERIFY_PATIENCE;
   patience left = {monitor, now + asked, false};
   const hc_monitor impatient = {patient, &left};
   *s = (search){.setup = setup,
