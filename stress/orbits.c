@@ -68,12 +68,9 @@ static double same_again(const solved_scene *s)
   return model_is_smooth(s->model) ? by_cvode(&s->path) : same_in_closed_form;
 }
 
-/* Next to an unstable orbit errors grow up to its end, where p->state is: of the base model seen in its waves, too. */
-static hc_status read_waves(const solved_scene *s, timeint *ti, const search *at, stress_path *p)
+static hc_status read_waves(const solved_scene *s, timeint *ti, double length, stress_path *p)
 {
   timeint_result one = p->r;
-  const double length = at->length;
-  double returns_off = 0;
   p->amplitude = p->size = 0;
   for (int i = 0; i < s->n; ++i) {
     hc_status st = timeint_response(ti, 1 + i, &one);
@@ -83,9 +80,8 @@ static hc_status read_waves(const solved_scene *s, timeint *ti, const search *at
       p->wave[i * TIMEINT_WAVE + k] = one.wave[k] / length;
       p->size = fmax(p->size, fabs(one.wave[k]) / length);
     }
-    if (at->m == s->model) returns_off = fmax(returns_off, fabs(p->state[i] - one.wave[0]));
   }
-  p->errors = ((p->r.closure + p->r.attainable) * (p->r.amplitude / length) + returns_off) / p->amplitude;
+  p->errors = (p->r.closure + p->r.attainable) * (p->r.amplitude / length) / p->amplitude;
   return HC_OK;
 }
 
@@ -105,7 +101,7 @@ static stress_path find_path(solved_scene *s, const search *at, const double *fr
     case PATH_STEADY: p.status = timeint_steady(ti, at->omega, p.state, &s->monitor, &p.r); break;
     }
   if (p.status == HC_OK && p.r.period_multiple != 1) p.status = HC_NOT_SETTLED;
-  if (p.status == HC_OK) p.status = read_waves(s, ti, at, &p);
+  if (p.status == HC_OK) p.status = read_waves(s, ti, at->length, &p);
   timeint_free(ti);
   if (p.status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;
   return p;
