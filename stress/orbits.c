@@ -59,13 +59,14 @@ static search next_to(const solved_scene *s)
   return (search){s->model, path_settings(s->model), PATH_ORBIT, s->omega, 1};
 }
 
-/* To which CVODE's orbit is p, whose mean it integrates, too: its tolerance is relative to both. */
-static double by_cvode(const stress_path *p) { return same_by_cvode * fmax(1, p->size / p->amplitude); }
+/* To which another orbit is p, whose mean is integrated, too: tolerances, and rounding, are relative to both. */
+static double within(const stress_path *p, double same) { return same * fmax(1, p->size / p->amplitude); }
+static double by_cvode(const stress_path *p) { return within(p, same_by_cvode); }
 
 /* To which an orbit that is found again is the same. */
 static double same_again(const solved_scene *s)
 {
-  return model_is_smooth(s->model) ? by_cvode(&s->path) : same_in_closed_form;
+  return model_is_smooth(s->model) ? by_cvode(&s->path) : within(&s->path, same_in_closed_form);
 }
 
 static hc_status read_waves(const solved_scene *s, timeint *ti, double length, stress_path *p)
