@@ -29,20 +29,22 @@ hc_status integrate_period(integrator *in, const scaled_model *m, double *y, int
   return in->does->period(in, m, y, NULL, watch, self);
 }
 
-hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy)
+static hc_status with_matrix(integrator *in, const scaled_model *m, bool coarse, double *y, double *monodromy)
 {
   ++in->periods;
   in->unheard = 0;
-  in->coarse = false;
+  in->coarse = coarse;
   return in->does->period(in, m, y, monodromy, NULL, NULL);
+}
+
+hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy)
+{
+  return with_matrix(in, m, false, y, monodromy);
 }
 
 hc_status integrate_coarse_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy)
 {
-  ++in->periods;
-  in->unheard = 0;
-  in->coarse = in->has_coarse;
-  return in->does->period(in, m, y, monodromy, NULL, NULL);
+  return with_matrix(in, m, in->has_coarse, y, monodromy);
 }
 
 bool integrate_has_coarse(const integrator *in) { return in->has_coarse; }
