@@ -229,4 +229,4 @@ static void together_as_alone(CHECK_STATE)
 }
 
 /* the thread sanitizer takes ten times as long */
-CHECK_TESTS_WITH("threads.own_handles", 300, run_alone, NULL, together_as_alone)
+CHECK_TESTS_WITH("threads.own_handles", 600, run_alone, NULL, together_as_alone)
