@@ -112,10 +112,19 @@ void dense_times_vector(int m, int n, double alpha, const double *A, const doubl
     IN_TURN(dgemv_("N", &m, &n, &alpha, A, &m, x, &one, &beta, y, &one, 1));
     return;
   }
-  for (int i = 0; i < m; ++i) y[i] = beta == 0 ? 0 : beta * y[i];
-  for (int j = 0; j < n; ++j) {
-    const double by = alpha * x[j], *column = A + (size_t)j * (size_t)m;
-    for (int i = 0; i < m; ++i) y[i] += column[i] * by;
+  const size_t rows = (size_t)m;
+  const double *restrict column = A;
+  double *restrict sum = y;
+  int j = 0;
+  for (size_t i = 0; i < rows && beta != 1; ++i) sum[i] = beta == 0 ? 0 : beta * sum[i];
+  for (; j + 4 <= n; j += 4, column += 4 * rows) { /* what sum[i] costs, once for four columns */
+    const double a = alpha * x[j], b = alpha * x[j + 1], c = alpha * x[j + 2], d = alpha * x[j + 3];
+    for (size_t i = 0; i < rows; ++i)
+      sum[i] += (a * column[i] + b * column[i + rows]) + (c * column[i + 2 * rows] + d * column[i + 3 * rows]);
+  }
+  for (; j < n; ++j, column += rows) {
+    const double a = alpha * x[j];
+    for (size_t i = 0; i < rows; ++i) sum[i] += a * column[i];
   }
 }
 

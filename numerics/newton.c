@@ -1,7 +1,7 @@
 /* newton.c - see newton.h. What KINSOL does, and what is done about it:
  *   a NaN residual is "success" for KIN_NONE and an endless loop for KIN_LINESEARCH   a positive return refuses z
  *   the default longest step is 1000 |z0|, which is 0 from z = 0                      max_step is always set
- *   the Jacobian is kept for 10 iterations                                            one setup an iteration
+ *   the Jacobian is kept for 10 iterations                              one setup an iteration, unless it is to be kept
  *   KIN_STEP_LT_STPTOL is positive, and may be a stall                                the residual decides */
 #include "numerics/newton.h"
 
@@ -31,7 +31,7 @@ struct newton { /* from newton_new, to newton_free; not shared between threads *
   bool by_groups;    /* the last factors are those of `groups`, jac is the matrix */
   long factorings;   /* so far */
   double *start;     /* [n] where the solve began */
-  bool factored;     /* jac holds factors made at the end of the last solve */
+  bool factored;     /* there are factors, of the last solve */
   hc_status refusal; /* why the problem last refused a z */
   int trials;        /* residuals that KINSOL asked for since it last asked for a Jacobian */
 };
@@ -103,7 +103,8 @@ static int ls_setup(SUNLinearSolver ls, SUNMatrix jac)
   ++nw->factorings;
   nw->by_groups = nw->groups && grouped_factor(nw->groups, A, &st);
   if (!nw->by_groups) st = dense_factor(nw->problem.n, A, nw->pivot);
-  return st == HC_OK ? 0 : recoverable;
+  nw->factored = st == HC_OK;
+  return nw->factored ? 0 : recoverable;
 }
 
 static int ls_solve(SUNLinearSolver ls, SUNMatrix jac, N_Vector x, N_Vector b, sunrealtype tolerance)
@@ -135,7 +136,7 @@ static hc_status make_kinsol(newton *nw)
   bad |= KINInit(nw->kin, kinsol_residual, nw->z);
   bad |= KINSetLinearSolver(nw->kin, nw->ls, nw->jac);
   bad |= KINSetJacFn(nw->kin, kinsol_jacobian);
-  bad |= KINSetMaxSetupCalls(nw->kin, 1);     /* full Newton */
+  bad |= KINSetMaxSubSetupCalls(nw->kin, 1);  /* where a Jacobian is kept, after each step it is asked for how long */
   bad |= KINSetScaledStepTol(nw->kin, 1e-15); /* small steps are no convergence: the residual decides */
   return bad ? HC_NO_MEMORY : HC_OK;
 }
@@ -179,7 +180,7 @@ void newton_free(newton *nw)
 static hc_status factor_here(newton *nw)
 {
   if (on_residual(nw->z, nw->r, nw) || on_jacobian(nw->z, nw->r, nw->jac, nw, NULL, NULL)) return nw->refusal;
-  nw->factored = ls_setup(nw->ls, nw->jac) == 0;
+  ls_setup(nw->ls, nw->jac);
   return HC_OK;
 }
 
@@ -210,15 +211,14 @@ hc_status newton_backsolve(newton *nw, double *x)
   return HC_OK;
 }
 
-/* One Newton step from a converged z, taken back if the residual grows and is not far below the tolerance. Leaves the
- * factors at the z before the step. */
-static hc_status polish(newton *nw, const newton_options *opt, newton_report *report)
+/* One Newton step from z, whose residual is nw->r, taken back if that grows and is not far below the tolerance.
+ * *better: it was taken. */
+static hc_status polish_once(newton *nw, const newton_options *opt, newton_report *report, bool *better)
 {
   int n = nw->problem.n;
   double *z = N_VGetArrayPointer(nw->z), *r = N_VGetArrayPointer(nw->r), *step = N_VGetArrayPointer(nw->step);
-  hc_status st = factor_here(nw);
-  if (st != HC_OK) return st;
-  double before = norm_weighted_max(n, opt->r_scale, r);
+  const double before = norm_weighted_max(n, opt->r_scale, r);
+  *better = false;
   report->residual = before;
   bool solved = nw->factored && SUNLinSolSolve(nw->ls, nw->jac, nw->step, nw->r, 0) == 0;
   if (!solved) return HC_OK; /* a singular Jacobian: z is a solution all the same */
@@ -227,12 +227,28 @@ static hc_status polish(newton *nw, const newton_options *opt, newton_report *re
   for (int i = 0; i < n; ++i) z[i] -= step[i];
   ++report->iterations;
   double after = on_residual(nw->z, nw->r, nw) ? NAN : norm_weighted_max(n, opt->r_scale, r);
-  if (after <= before || after <= 0.1 * opt->tolerance) {
+  *better = after <= before || after <= 0.1 * opt->tolerance;
+  if (*better) {
     report->residual = after;
     return HC_OK;
   }
   for (int i = 0; i < n; ++i) z[i] += step[i];
   return on_residual(nw->z, nw->r, nw) ? nw->refusal : HC_OK;
+}
+
+/* Newton steps from a converged z: one, with the Jacobian there; with one that was kept as long as they pay. Leaves the
+ * factors at the z before the step, or those that were kept. */
+static hc_status polish(newton *nw, const newton_options *opt, newton_report *report)
+{
+  const bool kept = opt->keeps > 0 && nw->factored;
+  bool better = true;
+  double before;
+  hc_status st = kept ? HC_OK : factor_here(nw);
+  do {
+    before = norm_weighted_max(nw->problem.n, opt->r_scale, N_VGetArrayPointer(nw->r));
+    if (st == HC_OK) st = polish_once(nw, opt, report, &better);
+  } while (st == HC_OK && kept && better && report->residual > 0 && report->residual <= 0.5 * before);
+  return st;
 }
 
 /* A solve from nw->start by KINSOL's strategy. */
@@ -242,6 +258,9 @@ static hc_status solve_from_start(newton *nw, int strategy, const newton_options
   memcpy(N_VGetArrayPointer(nw->z), nw->start, bytes);
   int bad = KINSetFuncNormTol(nw->kin, opt->tolerance) | KINSetMaxNewtonStep(nw->kin, opt->max_step);
   bad |= KINSetNumMaxIters(nw->kin, opt->max_iterations);
+  const bool keeps = opt->keeps > 0 && strategy == KIN_NONE;
+  bad |= KINSetMaxSetupCalls(nw->kin, keeps ? opt->max_iterations : 1);
+  if (keeps) bad |= KINSetResMonConstValue(nw->kin, opt->keeps);
   if (bad) return HC_BAD_INPUT;
   nw->refusal = HC_OK;
   nw->trials = 0;
@@ -282,5 +301,6 @@ hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_
   if (st != HC_OK && st != HC_NO_MEMORY && !opt->plain) st = solve_from_start(nw, KIN_LINESEARCH, opt, report);
   if (st == HC_OK) st = polish(nw, opt, report);
   if (st == HC_OK) memcpy(z, N_VGetArrayPointer(nw->z), bytes);
+  else nw->factored = false;
   return st;
 }

@@ -1,4 +1,4 @@
-/* newton.h - full Newton by KINSOL for a square system r(z) = 0, with the answer checked by us. Memory is allocated
+/* newton.h - Newton by KINSOL for a square system r(z) = 0, with the answer checked by us. Memory is allocated
  * once and reused: a solve allocates nothing, except that SUNDIALS 7 composes and frees a message when KINSol fails.
  * A handle serves one thread. */
 #pragma once
@@ -24,7 +24,9 @@ typedef struct newton_options {
   double tolerance;                /* largest |r_scale r| accepted */
   double max_step;                 /* longest Newton step, 2-norm of z_scale dz; KINSOL treats less than 1 as 1 */
   int max_iterations;
-  bool plain; /* no line search where plain Newton fails */
+  bool plain;   /* no line search where plain Newton fails */
+  double keeps; /* a Jacobian serves on after a step that leaves at most this part of the residual, where a residual
+                   takes much less than a Jacobian; 0: each step has its own. Not in the line search. */
 } newton_options;
 
 typedef struct newton_report {
@@ -44,7 +46,8 @@ hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_
 /* [n] r at the z that the last newton_solve returned, where it was HC_OK. */
 const double *newton_residual(const newton *nw);
 
-/* x := J(z)^-1 x with the Jacobian of the last solve's end. HC_SINGULAR, also after a solve that failed. */
+/* x := J(z)^-1 x with the Jacobian of the last solve's end, or the last one kept. HC_SINGULAR, also after a solve that
+ * failed. */
 hc_status newton_backsolve(newton *nw, double *x);
 
 /* Evaluate and factor the Jacobian at z, for newton_backsolve and newton_sign, without solving. */

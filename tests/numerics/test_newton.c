@@ -141,6 +141,36 @@ static void weights_are_units(CHECK_STATE)
   newton_free(nw);
 }
 
+/* A Jacobian that is kept: from next to the root, e' = e (x0 - x)/x0 = 0.01 e, one is enough, and steps end at rounding;
+ * from (1, 1), where the first step leaves 0.25 of f and 0.5 of g, it is renewed. */
+static void a_jacobian_is_kept_while_it_serves(CHECK_STATE)
+{
+  probe p;
+  newton *nw = make(&p, 2, heron_residual, heron_jacobian);
+  newton_options kept = plain;
+  newton_report report;
+  double z[2] = {1.4, 1.72};
+  kept.keeps = 0.1;
+  assert_int_equal(newton_solve(nw, z, &kept, &report), HC_OK);
+  assert_int_equal(p.jacobians, 1);
+  assert_in_range(report.iterations, 5, 10);
+  for (int from_far = 0; from_far < 2; ++from_far) {
+    CHECK_NEAR(z[0], sqrt(2), 80 * DBL_EPSILON, "root");
+    CHECK_NEAR(z[1], sqrt(3), 80 * DBL_EPSILON, "root");
+    CHECK_LE(report.residual, 80 * DBL_EPSILON, "residual");
+    if (from_far) break;
+    p.jacobians = 0;
+    z[0] = z[1] = 1;
+    assert_int_equal(newton_solve(nw, z, &kept, &report), HC_OK);
+    assert_in_range(p.jacobians, 2, 4);
+  }
+  p.jacobians = 0;
+  z[0] = z[1] = 1;
+  assert_int_equal(newton_solve(nw, z, &plain, &report), HC_OK); /* and no other solve keeps one */
+  assert_in_range(p.jacobians, report.iterations, report.iterations + 1);
+  newton_free(nw);
+}
+
 /* dx/db of A (x^2 - 2, y^2 - 3) = b at the root is J^-1; 2 x 2 inverse by hand, condition below 20. */
 static void backsolve_is_the_inverse_at_the_end(CHECK_STATE)
 {
@@ -456,7 +486,7 @@ static void out_of_memory_ends_it(CHECK_STATE)
     }
 }
 
-CHECK_TESTS("numerics.newton", 60, quadratic_like_heron, weights_are_units, backsolve_is_the_inverse_at_the_end,
-            starts_from_zero, starts_at_the_root, no_root_is_never_ok, the_line_search_helps_out,
-            a_residual_that_is_another_the_second_time_ends_it, singular_is_said, refusals_are_passed_on,
-            nan_is_refused, failures_are_told, works_on_after_failures, out_of_memory_ends_it)
+CHECK_TESTS("numerics.newton", 60, quadratic_like_heron, weights_are_units, a_jacobian_is_kept_while_it_serves,
+            backsolve_is_the_inverse_at_the_end, starts_from_zero, starts_at_the_root, no_root_is_never_ok,
+            the_line_search_helps_out, a_residual_that_is_another_the_second_time_ends_it, singular_is_said,
+            refusals_are_passed_on, nan_is_refused, failures_are_told, works_on_after_failures, out_of_memory_ends_it)

@@ -4,14 +4,6 @@
 #include <float.h>
 #include <string.h>
 
-/* sum of a_i b_{k-i}, i = from .. to. */
-static double product(const double *a, const double *b, int k, int from, int to)
-{
-  double sum = 0;
-  for (int i = from; i <= to; ++i) sum += a[i] * b[k - i];
-  return sum;
-}
-
 void planar_series_begin(planar_series *s, int j, const contact_track t[2], const double *u, const double *v)
 {
   s->contact = j;
@@ -23,34 +15,42 @@ void planar_series_begin(planar_series *s, int j, const contact_track t[2], cons
   s->e[1][0] = t[1].along;
 }
 
-/* (U'.e_perp)_k, with e up to `known`. */
-static double across(const planar_series *s, int k, int known)
-{
-  return product(s->e[0], s->rate[1], k, 0, known) - product(s->e[1], s->rate[0], k, 0, known);
-}
+/* What coefficients before e_k and q_{k-1} contribute: all in one pass over them. */
+typedef struct sums {
+  double across, held; /* to (U'.e_perp)_m and (mu N q)_m, m = k if fresh, else k - 1 */
+  double turned[2];    /* to (q e)_{k-1} */
+  double pull[2];      /* to (mu N e)_k */
+} sums;
 
-/* Coefficient k of e from q up to k - 1, which is q_{k-1} = turn where that is not known yet. */
-static void expand_direction(planar_series *s, int k)
+static sums sums_before(const planar_series *s, int k)
 {
-  s->e[0][k] = -product(s->turn, s->e[1], k - 1, 0, k - 1) / k;
-  s->e[1][k] = product(s->turn, s->e[0], k - 1, 0, k - 1) / k;
+  const int later = s->fresh;
+  const double *e0 = s->e[0], *e1 = s->e[1], *r0 = s->rate[0] + later, *r1 = s->rate[1] + later;
+  sums sum = {0};
+  for (int i = 0, j = k - 1; i < k; ++i, --j) {
+    const double q = s->turn[i], limit = s->limit[i + 1]; /* q_{k-1}: 0 as yet */
+    sum.across += e0[i] * r1[j] - e1[i] * r0[j];
+    sum.held += q * s->limit[j + later];
+    sum.turned[0] += q * e0[j];
+    sum.turned[1] += q * e1[j];
+    sum.pull[0] += limit * e0[j];
+    sum.pull[1] += limit * e1[j];
+  }
+  return sum;
 }
 
 /* q_{k-1} and e_k. */
-static void turn(planar_series *s, double kt, int k)
+static void turn(planar_series *s, double kt, int k, const sums *before)
 {
-  const double *limit = s->limit;
-  if (!s->fresh) {
-    s->turn[k - 1] = (kt * across(s, k - 1, k - 1) - product(limit, s->turn, k - 1, 1, k - 1)) / limit[0];
-    expand_direction(s, k);
-    return;
-  }
-  const double size = s->rate[0][0] * s->e[0][0] + s->rate[1][0] * s->e[1][0];
-  s->turn[k - 1] = 0;
-  expand_direction(s, k);
-  const double rest = kt * across(s, k, k) - product(limit, s->turn, k, 2, k);
-  s->turn[k - 1] = rest / (limit[1] + kt * size / k);
-  expand_direction(s, k);
+  double q;
+  if (s->fresh) { /* U'.e_perp has e_k in it, and so q_{k-1} */
+    const double size = s->rate[0][0] * s->e[0][0] + s->rate[1][0] * s->e[1][0];
+    const double slide = s->rate[0][0] * before->turned[0] + s->rate[1][0] * before->turned[1];
+    q = (kt * (before->across - slide / k) - before->held) / (s->limit[1] + kt * size / k);
+  } else q = (kt * before->across - before->held) / s->limit[0];
+  s->turn[k - 1] = q;
+  s->e[0][k] = -(before->turned[1] + q * s->e[1][0]) / k;
+  s->e[1][k] = (before->turned[0] + q * s->e[0][0]) / k;
 }
 
 void planar_series_next(planar_series *s, const scaled_contact *c, int k, double pull[2])
@@ -60,9 +60,11 @@ void planar_series_next(planar_series *s, const scaled_contact *c, int k, double
   s->limit[k] = friction * s->v[k];
   if (k == 0) s->limit[0] = s->fresh ? 0 : contact_track_limit(c, s->v[0]);
   for (int a = 0; a < 2; ++a) s->rate[a][k] = k + 1 < TRACK_TERMS ? (k + 1) * s->u[a][k + 1] : 0;
-  if (k > 0 && s->fresh && k + 1 == TRACK_TERMS) s->e[0][k] = s->e[1][k] = s->turn[k - 1] = 0;
-  else if (k > 0) turn(s, law->kt, k);
-  for (int a = 0; a < 2; ++a) pull[a] = product(s->limit, s->e[a], k, 0, k);
+  if (k > 0) s->turn[k - 1] = 0;
+  const sums before = sums_before(s, k);
+  if (k > 0 && s->fresh && k + 1 == TRACK_TERMS) s->e[0][k] = s->e[1][k] = 0;
+  else if (k > 0) turn(s, law->kt, k, &before);
+  for (int a = 0; a < 2; ++a) pull[a] = before.pull[a] + s->limit[0] * s->e[a][k];
 }
 
 double planar_series_reach(const planar_series *s)
@@ -89,7 +91,8 @@ void planar_series_direction(const planar_series *s, double tau, double e[2])
 void planar_series_guard(const planar_series *s, const scaled_contact *c, double *g)
 {
   for (int k = 0; k < TRACK_ORDER; ++k) {
-    const double slide = product(s->e[0], s->rate[0], k, 0, k) + product(s->e[1], s->rate[1], k, 0, k);
+    double slide = 0;
+    for (int i = 0; i <= k; ++i) slide += s->e[0][i] * s->rate[0][k - i] + s->e[1][i] * s->rate[1][k - i];
     g[k] = c->law.kt * slide - (k + 1) * s->limit[k + 1];
   }
   g[TRACK_ORDER] = 0;

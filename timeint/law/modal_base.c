@@ -288,14 +288,8 @@ void modal_base_to_model(const modal_base *b, const double *q, double *x) { time
 /* out -= by A x; A diagonal [n] or [n][n] by columns. */
 static void subtract(int n, bool diagonal, const double *A, double by, const double *x, double *out)
 {
-  if (diagonal) {
-    for (int i = 0; i < n; ++i) out[i] -= by * A[i] * x[i];
-    return;
-  }
-  for (int col = 0; col < n; ++col) {
-    const double *column = A + (size_t)col * (size_t)n, share = by * x[col];
-    for (int row = 0; row < n; ++row) out[row] -= column[row] * share;
-  }
+  for (int i = 0; i < n && diagonal; ++i) out[i] -= by * A[i] * x[i];
+  if (!diagonal) dense_times_vector(n, n, -by, A, x, 1, out);
 }
 
 void modal_base_subtract_K(const modal_base *b, double by, const double *x, double *out)

@@ -18,6 +18,7 @@
 
 enum {
   NEWTON_ITERATIONS = 12,    /* twice the 3 to 7 periods that it takes from the HBM orbit (docs/measurements) */
+  KEPT_ITERATIONS = 24,      /* with matrices that are kept: twice as many */
   ANDERSON_ITERATIONS = 100, /* what a contraction of 0.8 a period needs to 1e-9 without acceleration: 0.8^93 = 1e-9 */
   ANDERSON_DEPTH = 4,        /* about the states of an oscillator: with as many as states it is the secant method */
   LAST_STEPS = 4,            /* digits double: from 1e-2 to rounding in three, and one that shows it */
@@ -189,12 +190,9 @@ static hc_status evaluate(shoot *s, const double *z)
   return integrate_from(s, z, matrix_giver(s->ti) ? NO_MATRIX : MATRIX);
 }
 
-/* The same for Newton, whose steps contract by the error of the Jacobian, too. */
-static hc_status evaluate_coarsely(shoot *s, const double *z)
-{
-  const bool coarse = !matrix_giver(s->ti) && integrate_has_coarse(s->ti->in);
-  return coarse ? integrate_from(s, z, COARSE_MATRIX) : evaluate(s, z);
-}
+/* Has Newton a coarse matrix of its own? Its steps contract by the error of that, too. Such a matrix takes ten times as
+ * long as the periods: these come without, and it serves on as long as it does. */
+static bool takes_coarse(const shoot *s) { return !matrix_giver(s->ti) && integrate_has_coarse(s->ti->in); }
 
 /* State i of one handle in units of another, whose modes are not as slow (modal_base.h). */
 static double unit_ratio(const timeint *of, const timeint *in, int i)
@@ -304,7 +302,7 @@ static bool is_free(const shoot *s, int i)
 static hc_status residual(void *self, const double *z, double *r)
 {
   shoot *s = self;
-  hc_status st = evaluate_coarsely(s, z);
+  hc_status st = takes_coarse(s) ? integrate_from(s, z, NO_MATRIX) : evaluate(s, z);
   for (int i = 0; i < s->n && st == HC_OK; ++i) r[i] = z[i] - s->f[i];
   return st;
 }
@@ -321,7 +319,7 @@ static void fill_jacobian(const shoot *s, double *jac)
 static hc_status jacobian(void *self, const double *z, double *jac)
 {
   shoot *s = self;
-  hc_status st = evaluate_coarsely(s, z);
+  hc_status st = takes_coarse(s) ? integrate_from(s, z, COARSE_MATRIX) : evaluate(s, z);
   if (st == HC_OK) st = find_matrix(s);
   if (st != HC_OK) return st;
   fill_jacobian(s, jac);
@@ -443,6 +441,7 @@ double orbit_scatter(const timeint *ti, int k)
   return k * fmax(integrate_scatter(ti->in) * ti->tolerance, CVODE_STEPS * rounding_of_step);
 }
 
+static const double matrix_keeps = 0.1;  /* [residual] where it takes less to leave than to renew: 10^-10 in ten */
 static const double share_of_goal = 0.1; /* the matrix' inverse is known to its order of magnitude only */
 
 /* The residual at which Newton stops. A residual r is a distance of about r/(1 - rho) from the orbit: hence
@@ -561,6 +560,7 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   hc_status st = HC_OK;
   for (int tries = 0; tries < LAST_STEPS && st == HC_OK; ++tries) {
     double length;
+    if (tries == 0 && (st = evaluate(s, z)) != HC_OK) break; /* as a rule the orbit, and its matrix the last */
     if ((st = newton_step(s, z, s->step, &length)) != HC_OK) break;
     if (length < r->distance) memcpy(s->best, z, bytes), r->distance = length;
     if (r->distance <= goal) break;
@@ -671,7 +671,8 @@ hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_moni
                                   .r_scale = s->ones,
                                   .tolerance = small_residual(s, goal),
                                   .max_step = reach,
-                                  .max_iterations = NEWTON_ITERATIONS};
+                                  .max_iterations = takes_coarse(s) ? KEPT_ITERATIONS : NEWTON_ITERATIONS,
+                                  .keeps = takes_coarse(s) ? matrix_keeps : 0};
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
   hc_status st = matrix_giver(s->ti) ? by_chords_from_start(s, reach, options.tolerance, goal)
                                      : newton_solve(s->newton, s->iterate, &options, &iterations);
