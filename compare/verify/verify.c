@@ -26,36 +26,18 @@ static int differing(const verify_report *r)
   return differ > 0 ? differ + open : 0;
 }
 
-/* *setup with a model, the caller's, of which the response asked for is the only one. */
-static hc_status setup_of_response(const compare_setup *setup, int response, compare_setup *own, model **one)
-{
-  const model *m = setup->model;
-  *one = NULL;
-  if (response < 0 || response >= m->n_responses) return HC_BAD_INPUT;
-  hc_status st = model_copy_sized(m, m->n_contacts, 1, one);
-  if (st != HC_OK) return st;
-  const size_t n = (size_t)m->n;
-  memcpy((*one)->responses, m->responses + (size_t)response * n, n * sizeof *m->responses);
-  *own = *setup;
-  own->model = *one;
-  return HC_OK;
-}
-
 /* The truth of one response, as far as it is found before `until` [s], and what its points tell by themselves. */
 static hc_status judge_response(const compare_setup *setup, const verify_data *data, double until,
-                                const hc_monitor *monitor, verify_report *out)
+                                const hc_monitor *monitor, verify_curves *curves, verify_report *out)
 {
-  model *one;
-  compare_setup own;
   work_limit limit = {.outer = monitor, .until = until};
-  hc_status st = setup_of_response(setup, data->response, &own, &one);
-  if (st == HC_OK) st = verify_truth(&own, data, until, &(hc_monitor){work_limit_tick, &limit}, out);
+  if (data->response < 0 || data->response >= setup->model->n_responses) return HC_BAD_INPUT;
+  hc_status st = verify_truth(setup, data, until, &(hc_monitor){work_limit_tick, &limit}, curves, out);
   if (st == HC_INTERRUPTED && !limit.stopped && out->rows) {
     for (int i = out->n_rows; i < data->n; out->n_rows = ++i) out->rows[i] = verify_row_unjudged(&data->points[i]);
     st = HC_OK;
   }
   if (st == HC_OK) st = points_noise(out);
-  model_free(one);
   if (st != HC_OK) return st;
   out->causes = points_branches(out) | points_outliers(out);
   if (!out->causes && differing(out) >= VERIFY_LEAST_DIFFERING) {
@@ -69,7 +51,8 @@ static hc_status judge_response(const compare_setup *setup, const verify_data *d
 /* One cause of all responses that are wrong without one of their own: the search's, and if that has none, what the
  * points of all of them look like. */
 static hc_status find_cause(const compare_setup *setup, int n, const verify_judged *judged, const int *number,
-                            const verify_effort *effort, const hc_monitor *monitor, verify_report *out)
+                            const verify_effort *effort, const hc_monitor *monitor, const verify_curves *curves,
+                            verify_report *out)
 {
   int response[SEARCH_MOST_RESPONSES], first = -1;
   compare_setup own = *setup;
@@ -81,7 +64,7 @@ static hc_status find_cause(const compare_setup *setup, int n, const verify_judg
   hc_status st = verify_model_seen(setup->model, n, response, &seen);
   own.model = seen;
   verify_report *found = &out[number[first]];
-  if (st == HC_OK) st = verify_search(&own, n, judged, effort, monitor, found);
+  if (st == HC_OK) st = verify_search(&own, n, judged, effort, monitor, setup->model, curves, found);
   model_free(seen);
   verify_causes scatter = 0;
   for (int k = 0; k < n && st == HC_OK && !found->causes; ++k) {
@@ -107,7 +90,7 @@ static hc_status find_cause(const compare_setup *setup, int n, const verify_judg
 
 /* Those that are searched together: the wrong ones first, then as many right ones as there is room for. */
 static hc_status find_causes(const compare_setup *setup, int n, const verify_data *data, const verify_effort *effort,
-                             const hc_monitor *monitor, verify_report *out)
+                             const hc_monitor *monitor, const verify_curves *curves, verify_report *out)
 {
   verify_judged judged[SEARCH_MOST_RESPONSES];
   int number[SEARCH_MOST_RESPONSES], together = 0, wrong = 0;
@@ -120,7 +103,7 @@ static hc_status find_causes(const compare_setup *setup, int n, const verify_dat
       wrong += off;
     }
   }
-  return wrong ? find_cause(setup, together, judged, number, effort, monitor, out) : HC_OK;
+  return wrong ? find_cause(setup, together, judged, number, effort, monitor, curves, out) : HC_OK;
 }
 
 hc_status verify_run(const compare_setup *setup, int n, const verify_data *data, const verify_effort *effort,
@@ -128,6 +111,7 @@ hc_status verify_run(const compare_setup *setup, int n, const verify_data *data,
 {
   const double patience = effort && effort->patience > 0 ? effort->patience : VERIFY_PATIENCE, began = thread_seconds();
   verify_effort left = effort ? *effort : (verify_effort){0};
+  verify_curves curves = {0};
   hc_status st = HC_OK;
   for (int k = 0; k < n; ++k) {
     out[k] = (verify_report){.truth_distance = NAN,
@@ -135,10 +119,11 @@ hc_status verify_run(const compare_setup *setup, int n, const verify_data *data,
                              .noise_said = data[k].noise,
                              .left_out = data[k].left_out,
                              .reversals = points_reversals(&data[k])};
-    if (st == HC_OK) st = judge_response(setup, &data[k], began + patience, monitor, &out[k]);
+    if (st == HC_OK) st = judge_response(setup, &data[k], began + patience, monitor, &curves, &out[k]);
   }
   left.patience = fmax(patience - (thread_seconds() - began), patience / 4); /* [s] for the search */
-  if (st == HC_OK) st = find_causes(setup, n, data, &left, monitor, out);
+  if (st == HC_OK) st = find_causes(setup, n, data, &left, monitor, &curves, out);
+  verify_curves_clear(&curves);
   for (int k = 0; k < n; ++k) {
     verify_report *r = &out[k];
     for (int i = 0; i < r->n_rows; ++i) ++*(r->rows[i].skipped ? &r->skipped : &r->count[r->rows[i].verdict]);

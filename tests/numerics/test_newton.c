@@ -141,8 +141,8 @@ static void weights_are_units(CHECK_STATE)
   newton_free(nw);
 }
 
-/* A Jacobian that is kept: from next to the root, e' = e (x0 - x)/x0 = 0.01 e, one is enough, and steps end at rounding;
- * from (1, 1), where the first step leaves 0.25 of f and 0.5 of g, it is renewed. */
+/* A Jacobian that is kept: from next to the root, e' = e (x0 - x)/x0 = 0.01 e, one is enough, and steps end at
+ * rounding; from (1, 1), where the first step leaves 0.25 of f and 0.5 of g, it is renewed. */
 static void a_jacobian_is_kept_while_it_serves(CHECK_STATE)
 {
   probe p;

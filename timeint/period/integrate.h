@@ -46,8 +46,8 @@ hc_status integrate_period(integrator *in, const scaled_model *m, double *y, int
  * x at theta = 0 (slipping, separated) has a column of zeros. */
 hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy);
 
-/* The same with a matrix of which each step leaves out 1e-6, up to 4e-4 in a period as was seen: for Newton, where it takes
- * less (integrate_has_coarse). */
+/* The same with a matrix of which each step leaves out 1e-6, up to 4e-4 in a period as was seen: for Newton, where it
+ * takes less (integrate_has_coarse). */
 hc_status integrate_coarse_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy);
 bool integrate_has_coarse(const integrator *in);
 

@@ -453,7 +453,12 @@ static verify_causes causes_of(const search *s, const verify_equations *e, int f
   return causes | (too_few_harmonics(s, e, frequency) ? VERIFY_BIT(CAUSE_HARMONICS) : 0);
 }
 
-const int search_orders[SEARCH_ORDERS] = {0, 10, 7, 5, 3, 15};
+int search_order(const search *s, int i)
+{
+  const int orders[SEARCH_ORDERS] = {7, 10, 15, s->out->harmonics, 5, 3};
+  return orders[i];
+}
+
 const double search_factors[SEARCH_USUAL_FACTORS] = {2, 0.5, 10, 0.1, 0};
 
 /* Is the number of the change, if it has one, none that was fitted? */
@@ -515,7 +520,10 @@ static verify_places places_of(const search *s, double omega_factor, double *ome
                       .n_responses = p->n_responses,
                       .asked = p->quantity,
                       .value = s->oscillator ? NULL : p->value[0],
-                      .stride = SEARCH_MOST_POINTS};
+                      .stride = SEARCH_MOST_POINTS,
+                      .curves = s->curves,
+                      .seen = s->whole,
+                      .plainly = s->plainly};
   for (int i = 0; i < p->n; ++i) omega[i] = omega_factor * p->omega[i];
   if (omega_factor != 1) {
     number_list ends = {.n = 2, .v = {omega[0], omega[p->n - 1]}};
@@ -558,6 +566,16 @@ static bool promising(const search *s, double nine_of_ten, const verify_solution
   return nine_of_ten <= nearly || least_distance(s, of, 0) <= 3 * s->out->gate;
 }
 
+/* Is no reading near as few points as a right one must fit, be the others on branches that were not found? Few samples
+ * have many solutions, of which one guess leads to any. Equations with exact forces may be right but for their number of
+ * harmonics. */
+static bool hopeless(const search *s, const verify_equations *e, const verify_solutions *of)
+{
+  const double near = e->samples > 0 ? 0.03 : 0.1; /* [1] */
+  const bool many = e->samples > 0 && e->samples <= VERIFY_FEW_SAMPLES * e->harmonics;
+  return least_distance(s, of, many ? 0.2 : 0.3) > near;
+}
+
 /* Every reading of these equations' solutions; of a number of harmonics also, whether it matters. */
 static void read_tried(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
 {
@@ -573,14 +591,20 @@ hc_status search_try(search *s, const verify_equations *e, int frequency, const 
 {
   const double omega_factor = search_omega_factor(frequency);
   *out = (verify_solutions){0};
-  s->points.only_few = near;
+  s->points.only_few = s->plainly = near;
   hc_status st = near ? search_near(s, e, omega_factor, near, out) : search_follow(s, e, omega_factor, out);
+  s->plainly = false;
+  if (near && st == HC_OK && !hopeless(s, e, out)) {
+    verify_solutions_clear(out);
+    st = search_near(s, e, omega_factor, near, out);
+  }
   s->last = st == HC_OK ? least_distance(s, out, s->points.part) : 1;
   const bool more = near && st == HC_OK && promising(s, s->last, out);
   if (more) {
     s->points.only_few = false;
     verify_solutions_clear(out);
     st = search_near(s, e, omega_factor, near, out);
+    if (st == HC_OK) s->last = least_distance(s, out, s->points.part);
   }
   if (st == HC_OK) read_tried(s, e, frequency, out);
   if (more && st == HC_OK && e->samples == 0 && least_distance(s, out, s->points.part) > s->out->gate &&

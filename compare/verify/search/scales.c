@@ -275,6 +275,7 @@ static const double small_factor = 0.02, small_angle = 0.5,
 
 typedef struct fit {
   search *s;
+  double *unchanged; /* [1] closeness of the model as it is; NaN: not known yet */
   verify_equations equations;
   bool turn;
   verify_solutions last; /* where Newton starts: of a structure, the nearest factor's that was tried */
@@ -288,7 +289,7 @@ static hc_status closeness_at(void *self, double at, double *out)
   search *s = f->s;
   verify_solutions of = {0};
   f->equations.factor = f->turn ? at : exp(at);
-  s->points.only_few = !s->oscillator;
+  s->points.only_few = s->plainly = !s->oscillator;
   hc_status st = s->oscillator ? search_follow(s, &f->equations, 1, &of)
                                : search_near(s, &f->equations, 1, f->last.n ? &f->last : &s->many[true][0], &of);
   if (st == HC_OK) *out = verify_closeness(&s->points, &of);
@@ -298,7 +299,7 @@ static hc_status closeness_at(void *self, double at, double *out)
     of = (verify_solutions){0};
   }
   verify_solutions_clear(&of);
-  s->points.only_few = false;
+  s->points.only_few = s->plainly = false;
   if (st == HC_OK && !search_tick(s)) st = HC_INTERRUPTED;
   return st;
 }
@@ -326,7 +327,7 @@ static hc_status fit_harmonics(fit *f, root_point *least)
   double value, closest = least->f, ends[2];
   hc_status st = HC_OK;
   for (int i = 0; i < SEARCH_ORDERS && st == HC_OK; ++i) {
-    f->equations.harmonics = i > 0 ? search_orders[i] : f->s->out->harmonics;
+    f->equations.harmonics = search_order(f->s, i);
     if (f->equations.harmonics == before) continue;
     st = closeness_at(f, least->x, &value);
     if (st == HC_OK && value < closest) closest = value, best = f->equations.harmonics;
@@ -352,7 +353,10 @@ static hc_status fit_number(search *s, fit *f)
   int best = UNCHANGED;
   root_point least;
   for (int i = 0; i < SCANNED; ++i) values[i] = INFINITY;
-  hc_status st = closeness_at(f, parameter(f, UNCHANGED), &values[UNCHANGED]);
+  hc_status st = HC_OK;
+  if (!kind) values[UNCHANGED] = *f->unchanged;
+  if (kind || isnan(*f->unchanged)) st = closeness_at(f, parameter(f, UNCHANGED), &values[UNCHANGED]);
+  if (!kind && st == HC_OK) *f->unchanged = values[UNCHANGED];
   for (int by = -1; by <= 1 && st == HC_OK; by += 2) st = walk(f, UNCHANGED, by, kind, values, &best);
   if (st != HC_OK) return st;
   if (best == 0 || best == SCANNED - 1 || (best == UNCHANGED && !kind)) return HC_OK;
@@ -379,10 +383,12 @@ static hc_status fit_number(search *s, fit *f)
 hc_status search_fits(search *s)
 {
   const model *m = s->setup->model;
+  double unchanged = NAN;
   hc_status st = HC_OK;
   for (int c = CHANGE_FORCE; c < VERIFY_CHANGES && st == HC_OK; ++c)
     for (int which = 0; which < verify_change_variants(m, c) && verify_changes[c].scan && st == HC_OK; ++which) {
-      fit f = {.s = s, .equations = search_own(s), .turn = verify_changes[c].scan == SCAN_TURN};
+      fit f = {
+          .s = s, .unchanged = &unchanged, .equations = search_own(s), .turn = verify_changes[c].scan == SCAN_TURN};
       f.equations.change = c;
       f.equations.which = which;
       f.equations.n = m->n;

@@ -121,15 +121,19 @@ static hc_status try_odd_only(search *s)
 
 /* ---- changes of the model ---- */
 
-/* With other usual numbers of harmonics, where that may be what is left. */
+/* With other usual numbers of harmonics, where that may be what is left. Large ones take long: not where those before
+ * change nothing. */
 static hc_status try_orders_of(search *s, const verify_equations *e)
 {
-  const double nearly = 0.08;
+  const double nearly = 0.08, as_good = 0.1, before = s->last;
   verify_equations other = *e;
+  bool matter = false;
   hc_status st = HC_OK;
-  for (int i = 0; i < SEARCH_ORDERS && s->last <= nearly && s->last > s->out->gate / 2 && st == HC_OK; ++i) {
-    other.harmonics = i > 0 ? search_orders[i] : s->out->harmonics;
-    if (other.harmonics != e->harmonics) st = try_equations(s, &other);
+  for (int i = 0; i < SEARCH_ORDERS && before <= nearly && s->last > s->out->gate / 2 && st == HC_OK; ++i) {
+    other.harmonics = search_order(s, i);
+    if (other.harmonics == e->harmonics || (other.harmonics > USUAL_HARMONICS && !matter)) continue;
+    st = try_equations(s, &other);
+    matter |= fabs(s->last - before) > as_good * before;
   }
   return st;
 }
@@ -215,7 +219,9 @@ static hc_status try_responses(search *s)
     int dof[SEARCH_DISTANCES] = {0}, least = 0;
     for (int r = 0; r < p->n_responses; ++r)
       for (int k = 0; k < SEARCH_DISTANCES; ++k) best[r][k] = 1;
+    s->plainly = true;
     st = search_near(s, &e, 1, &s->many[true][0], &of);
+    s->plainly = false;
     for (int d = 0; d < n && st == HC_OK; ++d) {
       verify_solutions_move(&of, &at, n, d);
       for (int r = 0; r < p->n_responses; ++r) {
@@ -272,7 +278,10 @@ static hc_status base_solve(search *s, const verify_equations *e, int frequency,
   *out = (base){.equations = *e, .frequency = frequency};
   const double factor = search_omega_factor(frequency);
   const verify_solutions *near = start_of(s, frequency);
-  return near ? search_near(s, e, factor, near, &out->exact) : search_follow(s, e, factor, &out->exact);
+  s->plainly = near;
+  const hc_status st = near ? search_near(s, e, factor, near, &out->exact) : search_follow(s, e, factor, &out->exact);
+  s->plainly = false;
+  return st;
 }
 
 static hc_status try_rate(search *s, const base *b, int samples, int restart)
@@ -563,7 +572,7 @@ static void find_frequencies(search *s)
 }
 
 hc_status verify_search(const compare_setup *setup, int n, const verify_judged *responses, const verify_effort *effort,
-                        const hc_monitor *monitor, verify_report *out)
+                        const hc_monitor *monitor, const model *whole, const verify_curves *curves, verify_report *out)
 {
   search *s = calloc(1, sizeof *s);
   if (!s) return HC_NO_MEMORY;
@@ -573,6 +582,8 @@ hc_status verify_search(const compare_setup *setup, int n, const verify_judged *
   *s = (search){.setup = setup,
                 .monitor = &impatient,
                 .effort = effort,
+                .whole = whole,
+                .curves = curves,
                 .out = out,
                 .oscillator = model_is_oscillator(setup->model),
                 .begun = now,

@@ -17,9 +17,10 @@ typedef struct verify_judged {
 } verify_judged;
 
 /* All n responses together, in setup->model as verify_model_seen has them; those that are right must stay it. Fills
- * out->hypotheses, best first, truth_distance, causes or nearest_guess, tried, not_tried. */
+ * out->hypotheses, best first, truth_distance, causes or nearest_guess, tried, not_tried. The curves are the truth's, of
+ * the whole model. */
 hc_status verify_search(const compare_setup *setup, int n, const verify_judged *responses, const verify_effort *effort,
-                        const hc_monitor *monitor, verify_report *out);
+                        const hc_monitor *monitor, const model *whole, const verify_curves *curves, verify_report *out);
 
 /* Does the best hypothesis explain the points? */
 bool verify_fits(const verify_report *r);
@@ -110,6 +111,8 @@ typedef struct search {
   const compare_setup *setup;
   const hc_monitor *monitor; /* which the patience is in */
   const verify_effort *effort;
+  const model *whole; /* the case's, and */
+  const verify_curves *curves;
   verify_report *out;
   verify_sample points;
   bool oscillator; /* its curves are followed; of a structure solutions come by Newton from the truth's */
@@ -130,13 +133,14 @@ typedef struct search {
   int frequency;  /* the reading of it that these have */
   verify_equations likely[SEARCH_MOST_LIKELY];
   double likely_score[SEARCH_MOST_LIKELY];
-  double last;        /* [1] distance of the best reading of what was tried last, at few points */
+  double last;        /* [1] distance of the best reading of what was tried last */
+  bool plainly;       /* search_near: of a structure, from one guess where that leads to a solution */
   int done, expected; /* equations, for the monitor */
 } search;
 
-/* Numbers of harmonics that programs usually keep; the first stands for the truth's. */
+/* Number i of the numbers of harmonics that programs usually keep, and the truth's: two that take little come first. */
 enum { SEARCH_ORDERS = 6 };
-extern const int search_orders[SEARCH_ORDERS];
+int search_order(const search *s, int i);
 
 /* Factors of the model's numbers that are no fits; the last of a gap alone. */
 enum { SEARCH_USUAL_FACTORS = 5 };

@@ -8,7 +8,6 @@
 #include "compare/first_guess.h"
 #include "numerics/base/growing.h"
 
-enum { FEW_SAMPLES = 4 };               /* a harmonic */
 static const double close_omegas = 0.1; /* [1] a step that Newton may take in one go */
 
 compare_setup verify_settings(const compare_setup *setup, const verify_equations *e)
@@ -22,6 +21,52 @@ compare_setup verify_settings(const compare_setup *setup, const verify_equations
   own.hbm.continuation = HBM_CONTINUATION_AUTO;
   own.hbm.mistakes = (hbm_mistakes){.odd_only = e->odd_only};
   return own;
+}
+
+hc_status verify_curve_of(verify_curves *curves, const compare_setup *setup, int harmonics, double from, double to,
+                          const hc_monitor *monitor, const response_curve **out)
+{
+  const verify_equations e = {.keep_mean = true, .harmonics = harmonics};
+  compare_setup own = verify_settings(setup, &e);
+  *out = NULL;
+  for (int i = 0; i < curves->n && !*out; ++i) {
+    const verify_curve *c = &curves->of[i];
+    const bool whole = c->response.status != HC_INTERRUPTED;
+    if (whole && c->harmonics == harmonics && c->from == from && c->to == to) *out = &c->response;
+  }
+  if (*out) return HC_OK;
+  if (!GROW(curves->of, curves->n)) return HC_NO_MEMORY;
+  verify_curve *c = &curves->of[curves->n++];
+  *c = (verify_curve){harmonics, from, to, {.hbm = NULL}};
+  own.omega_from = from;
+  own.omega_to = to;
+  const hc_status st = response_trace(&own, NULL, monitor, &c->response);
+  if (!c->response.hbm) return c->response.status;
+  c->response.curve.n_coef = hbm_n_coefficients(c->response.hbm);
+  *out = &c->response;
+  return st;
+}
+
+void verify_curves_clear(verify_curves *curves)
+{
+  for (int i = 0; i < curves->n; ++i) response_curve_free(&curves->of[i].response);
+  free(curves->of);
+  *curves = (verify_curves){0};
+}
+
+/* The truth's curve, if that is what *e are the equations of, and its unknowns, of which the first response is one, are
+ * those of *m. */
+static const hbm_curve *known_curve(const verify_places *at, const model *m, const verify_equations *e)
+{
+  const bool plain = e->change == CHANGE_NONE && e->keep_mean && !e->odd_only && e->samples == 0;
+  if (!at->curves || !plain || memcmp(at->seen->responses, m->responses, (size_t)m->n * sizeof *m->responses))
+    return NULL;
+  for (int i = 0; i < at->curves->n; ++i) {
+    const verify_curve *c = &at->curves->of[i];
+    const bool whole = c->response.hbm && c->response.status == HC_OK;
+    if (whole && c->harmonics == e->harmonics && c->from == at->from && c->to == at->to) return &c->response.curve;
+  }
+  return NULL;
 }
 
 hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double *X, int response, double *series,
@@ -192,13 +237,14 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
                               const hc_monitor *monitor, verify_solutions *out)
 {
   problem p;
-  hbm_curve curve = {0};
+  hbm_curve own = {0};
+  const hbm_curve *known = known_curve(at, setup->model, e), *curve = known ? known : &own;
   hc_status st = start(setup, e, at, &p, out);
-  if (st == HC_OK) st = hbm_trace(p.hbm, at->from, at->to, monitor, &curve);
+  if (st == HC_OK && !known) st = hbm_trace(p.hbm, at->from, at->to, monitor, &own);
   if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && p.hbm) st = HC_OK; /* as far as it came */
   for (int i = 0; i < at->n && st == HC_OK; ++i) {
     hbm_curve there = {0};
-    if (asked_at(at, i) && hbm_curve_at(p.hbm, &curve, at->omega[i], &there) == HC_NO_MEMORY) st = HC_NO_MEMORY;
+    if (asked_at(at, i) && hbm_curve_at(p.hbm, curve, at->omega[i], &there) == HC_NO_MEMORY) st = HC_NO_MEMORY;
     for (int k = 0; k < there.n && st == HC_OK; ++k) {
       memcpy(p.X, there.X + (size_t)k * there.n_coef, (size_t)there.n_coef * sizeof *p.X);
       st = add(out, &p, at, at->omega[i], out->first[i]);
@@ -207,7 +253,7 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
     hbm_curve_free(&there);
     if (!hc_monitor_tick(monitor, -1)) st = HC_INTERRUPTED;
   }
-  hbm_curve_free(&curve);
+  hbm_curve_free(&own);
   problem_clear(&p);
   return st;
 }
@@ -272,16 +318,18 @@ hc_status verify_solutions_near(const compare_setup *setup, const verify_equatio
   if (!guess) st = HC_NO_MEMORY;
   for (int i = 0, last = -1; i < near->n && st == HC_OK; ++i) {
     /* Few samples have many solutions: from the neighbours' guesses, too. */
-    const int more = e->samples > 0 && e->samples <= FEW_SAMPLES * e->harmonics;
+    const int more = e->samples > 0 && e->samples <= VERIFY_FEW_SAMPLES * e->harmonics;
     const int from = near->first[i > more ? i - more : 0],
               to = near->first[i + more < near->n ? i + more + 1 : near->n];
     for (int k = from; k < to && asked_at(at, i) && st == HC_OK; ++k)
       st = solve_from(out, &p, at, i, near, k, NULL, guess);
-    for (int k = near->first[i]; k < near->first[i + 1] && at->value && asked_at(at, i) && st == HC_OK; ++k)
+    const bool ends = at->plainly && out->count > out->first[i];
+    for (int k = near->first[i]; k < near->first[i + 1] && !ends && at->value && asked_at(at, i) && st == HC_OK; ++k)
       if (!near_file(near, at, i, k, k + 1) && !near_file(out, at, i, out->first[i], out->count) &&
           factors_of(setup->model, near, at, i, k, factor))
         st = solve_from(out, &p, at, i, near, k, factor, guess);
-    const bool close = asked_at(at, i) && last >= 0 && at->omega[i] - at->omega[last] <= close_omegas * at->omega[i];
+    const bool close =
+        !ends && asked_at(at, i) && last >= 0 && at->omega[i] - at->omega[last] <= close_omegas * at->omega[i];
     for (int k = close ? out->first[last] : 0; close && k < out->first[last + 1] && st == HC_OK; ++k)
       st = solve_from(out, &p, at, i, out, k, NULL, guess);
     out->first[i + 1] = out->count;

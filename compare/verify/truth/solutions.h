@@ -2,8 +2,8 @@
  * compare/verify/. */
 #pragma once
 
+#include "compare/response.h"
 #include "compare/verify/truth/report.h"
-#include "hbm/hbm.h"
 
 enum { VERIFY_READINGS = 19 }; /* quantities that a column may hold instead of what the file says, that one first */
 
@@ -38,6 +38,26 @@ hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double 
 /* *setup with these equations for its own, but for the change of its model. */
 compare_setup verify_settings(const compare_setup *setup, const verify_equations *e);
 
+enum { VERIFY_FEW_SAMPLES = 4 }; /* a harmonic: such equations have many solutions */
+
+/* The truth's curves, each traced once for all that ask for it. Zeroed: none yet. */
+typedef struct verify_curve {
+  int harmonics;
+  double from, to;
+  response_curve response;
+} verify_curve;
+
+typedef struct verify_curves {
+  int n;
+  verify_curve *of;
+} verify_curves;
+
+/* *out: the one with exact forces and so many harmonics; NULL where there is none. Errors of response_trace: *out may be
+ * there all the same, as far as it came. */
+hc_status verify_curve_of(verify_curves *curves, const compare_setup *setup, int harmonics, double from, double to,
+                          const hc_monitor *monitor, const response_curve **out);
+void verify_curves_clear(verify_curves *curves);
+
 /* Where solutions are asked for, and the sweep of the curve that passes there; what of the first responses is read. */
 typedef struct verify_places {
   double from, to;
@@ -48,6 +68,9 @@ typedef struct verify_places {
   const verify_quantity *asked; /* [n_responses] */
   const double *value;          /* [n_responses][stride] what the file has there, or NaN; NULL: not known */
   int stride;
+  const verify_curves *curves; /* verify_solutions_of: the truth's, of `seen`; or NULL */
+  const model *seen;
+  bool plainly; /* verify_solutions_near: from `near` alone where that leads to a solution */
 } verify_places;
 
 /* Along their response curve, as far as it comes. A solution that is not found is none.

@@ -111,7 +111,8 @@ typedef struct truth {
   const verify_data *data;
   const hc_monitor *monitor;
   verify_report *out;
-  response_curve response, coarser[MOST_COARSER]; /* of fewer harmonics each, from the first on */
+  verify_curves *curves;
+  response_curve response, coarser[MOST_COARSER]; /* among these; of fewer harmonics each, from the first on */
   int n_coarser;
   timeint *referee;
   workspace memory;
@@ -168,7 +169,7 @@ static hc_status truth_measure(truth *t, double omega, const double *X, measured
 {
   hbm_measures m;
   verify_motion motion;
-  hc_status st = verify_motion_of_solution(t->response.hbm, omega, X, 0, t->series, &m, &motion);
+  hc_status st = verify_motion_of_solution(t->response.hbm, omega, X, t->data->response, t->series, &m, &motion);
   if (st != HC_OK) return st;
   const verify_quantity *q = &t->data->quantity;
   const bool mean_free = m.contact.free_sliders > 0;
@@ -328,6 +329,12 @@ static measured orbit_measured(const truth *t, const timeint_result *orbit)
 
 static const measured nothing = {NAN, NAN, false};
 
+/* *orbit, the referee's last, becomes that of the file's response. */
+static hc_status of_response(const truth *t, timeint_result *orbit)
+{
+  return t->data->response > 0 ? timeint_response(t->referee, t->data->response, orbit) : HC_OK;
+}
+
 /* *of_orbit: the orbit next to the solution on that branch, or, where the branch is not there, next to the one nearest
  * to the row; a value of NaN where there is none. Its multiplier; *m: of the solution. HC_INTERRUPTED, HC_NO_MEMORY. */
 static hc_status orbit_beside(truth *t, const verify_row *row, int branch, measured *m, measured *of_orbit,
@@ -343,6 +350,7 @@ static hc_status orbit_beside(truth *t, const verify_row *row, int branch, measu
   if (k >= 0) {
     found = comparison_orbit_start(t->response.hbm, at.X + (size_t)k * at.n_coef, row->omega, t->state);
     if (found == HC_OK) found = timeint_orbit(t->referee, row->omega, 1, t->state, t->monitor, &orbit);
+    if (found == HC_OK) found = of_response(t, &orbit);
     if (found == HC_INTERRUPTED || found == HC_NO_MEMORY) st = found;
   }
   hbm_curve_free(&at);
@@ -451,7 +459,7 @@ static hc_status orbit_from_rest(truth *t, const verify_row *row, measured *of_o
   timeint_result orbit;
   timeint_rest(t->referee, t->state);
   const hc_status found = timeint_steady(t->referee, row->omega, t->state, &monitor, &orbit);
-  const bool known = found == HC_OK && orbit.period_multiple == 1;
+  const bool known = found == HC_OK && orbit.period_multiple == 1 && of_response(t, &orbit) == HC_OK;
   *of_orbit = known ? orbit_measured(t, &orbit) : nothing;
   *multiplier = 0; /* it has settled */
   return found == HC_NO_MEMORY || limit.stopped ? found : HC_OK;
@@ -574,14 +582,11 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
 /* The curve with H harmonics, and everything on it. */
 static hc_status with_harmonics(truth *t, int harmonics)
 {
-  const verify_equations e = {.keep_mean = true, .harmonics = harmonics};
-  compare_setup own = verify_settings(t->setup, &e);
-  own.omega_from = t->from;
-  own.omega_to = t->to;
+  const response_curve *curve;
   if (t->response.hbm) t->coarser[t->n_coarser++] = t->response;
-  const hc_status st = response_trace(&own, NULL, t->monitor, &t->response);
-  if (!t->response.hbm) return t->response.status;
-  t->response.curve.n_coef = hbm_n_coefficients(t->response.hbm);
+  const hc_status st = verify_curve_of(t->curves, t->setup, harmonics, t->from, t->to, t->monitor, &curve);
+  t->response = curve ? *curve : (response_curve){.hbm = NULL};
+  if (!curve) return st;
   t->out->harmonics = harmonics;
   t->out->curve_end = t->response.curve.end;
   t->out->curve_omega = t->response.curve.n ? t->response.curve.points[t->response.curve.n - 1].omega : t->from;
@@ -607,9 +612,9 @@ static hc_status put_line_point(truth *t, double omega, const double *X, int sta
 }
 
 hc_status verify_truth(const compare_setup *setup, const verify_data *data, double until, const hc_monitor *monitor,
-                       verify_report *out)
+                       verify_curves *curves, verify_report *out)
 {
-  truth t = {.setup = setup, .data = data, .monitor = monitor, .out = out};
+  truth t = {.setup = setup, .data = data, .monitor = monitor, .curves = curves, .out = out};
   out->gate = verify_gate(setup, &data->quantity);
   out->rows = calloc((size_t)data->n, sizeof *out->rows);
   verify_window(setup, data, &t.from, &t.to);
@@ -655,8 +660,6 @@ hc_status verify_truth(const compare_setup *setup, const verify_data *data, doub
     }
     free(X);
   }
-  response_curve_free(&t.response);
-  for (int i = 0; i < t.n_coarser; ++i) response_curve_free(&t.coarser[i]);
   workspace_free(&t.memory);
   timeint_free(t.referee);
   return st;

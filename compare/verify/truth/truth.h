@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/verify/truth/report.h"
+#include "compare/verify/truth/solutions.h"
 #include "numerics/base/message.h"
 
 /* ---- truth.c: the solutions of harmonic balance with exact forces and many harmonics ---- */
@@ -12,9 +13,9 @@ void verify_window(const compare_setup *setup, const verify_data *data, double *
 /* out->rows, count, harmonics, checked, ...: the truth at each point, of as many harmonics as the referee asks for, as
  * far as they can be expected to be solved `until` then [s] of the thread's clock; where that is not exact, points
  * that differ are compared with the referee's orbits themselves; what then differs, or could not be judged, with orbits
- * next to the curves of fewer harmonics, and with the motion from rest. */
+ * next to the curves of fewer harmonics, and with the motion from rest. Curves come from, or go to, *curves. */
 hc_status verify_truth(const compare_setup *setup, const verify_data *data, double until, const hc_monitor *monitor,
-                       verify_report *out);
+                       verify_curves *curves, verify_report *out);
 
 /* The row of a point of which nothing is known. */
 verify_row verify_row_unjudged(const verify_point *p);
