@@ -567,8 +567,8 @@ static bool promising(const search *s, double nine_of_ten, const verify_solution
 }
 
 /* Is no reading near as few points as a right one must fit, be the others on branches that were not found? Few samples
- * have many solutions, of which one guess leads to any. Equations with exact forces may be right but for their number of
- * harmonics. */
+ * have many solutions, of which one guess leads to any. Equations with exact forces may be right but for their number
+ * of harmonics. */
 static bool hopeless(const search *s, const verify_equations *e, const verify_solutions *of)
 {
   const double near = e->samples > 0 ? 0.03 : 0.1; /* [1] */

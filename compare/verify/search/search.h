@@ -17,8 +17,8 @@ typedef struct verify_judged {
 } verify_judged;
 
 /* All n responses together, in setup->model as verify_model_seen has them; those that are right must stay it. Fills
- * out->hypotheses, best first, truth_distance, causes or nearest_guess, tried, not_tried. The curves are the truth's, of
- * the whole model. */
+ * out->hypotheses, best first, truth_distance, causes or nearest_guess, tried, not_tried. The curves are the truth's,
+ * of the whole model. */
 hc_status verify_search(const compare_setup *setup, int n, const verify_judged *responses, const verify_effort *effort,
                         const hc_monitor *monitor, const model *whole, const verify_curves *curves, verify_report *out);
 

@@ -52,8 +52,8 @@ typedef struct verify_curves {
   verify_curve *of;
 } verify_curves;
 
-/* *out: the one with exact forces and so many harmonics; NULL where there is none. Errors of response_trace: *out may be
- * there all the same, as far as it came. */
+/* *out: the one with exact forces and so many harmonics; NULL where there is none. Errors of response_trace: *out may
+ * be there all the same, as far as it came. */
 hc_status verify_curve_of(verify_curves *curves, const compare_setup *setup, int harmonics, double from, double to,
                           const hc_monitor *monitor, const response_curve **out);
 void verify_curves_clear(verify_curves *curves);
