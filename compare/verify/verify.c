@@ -64,7 +64,7 @@ static hc_status find_cause(const compare_setup *setup, int n, const verify_judg
   hc_status st = verify_model_seen(setup->model, n, response, &seen);
   own.model = seen;
   verify_report *found = &out[number[first]];
-  if (st == HC_OK) st = verify_search(&own, n, judged, effort, monitor, setup->model, curves, found);
+  if (st == HC_OK) st = verify_search(&own, n, judged, effort, monitor, curves, found);
   model_free(seen);
   verify_causes scatter = 0;
   for (int k = 0; k < n && st == HC_OK && !found->causes; ++k) {
@@ -111,7 +111,7 @@ hc_status verify_run(const compare_setup *setup, int n, const verify_data *data,
 {
   const double patience = effort && effort->patience > 0 ? effort->patience : VERIFY_PATIENCE, began = thread_seconds();
   verify_effort left = effort ? *effort : (verify_effort){0};
-  verify_curves curves = {0};
+  verify_curves curves = {.model = setup->model};
   hc_status st = HC_OK;
   for (int k = 0; k < n; ++k) {
     out[k] = (verify_report){.truth_distance = NAN,

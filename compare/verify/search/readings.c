@@ -522,7 +522,6 @@ static verify_places places_of(const search *s, double omega_factor, double *ome
                       .value = s->oscillator ? NULL : p->value[0],
                       .stride = SEARCH_MOST_POINTS,
                       .curves = s->curves,
-                      .seen = s->whole,
                       .plainly = s->plainly};
   for (int i = 0; i < p->n; ++i) omega[i] = omega_factor * p->omega[i];
   if (omega_factor != 1) {

@@ -572,7 +572,7 @@ static void find_frequencies(search *s)
 }
 
 hc_status verify_search(const compare_setup *setup, int n, const verify_judged *responses, const verify_effort *effort,
-                        const hc_monitor *monitor, const model *whole, const verify_curves *curves, verify_report *out)
+                        const hc_monitor *monitor, const verify_curves *curves, verify_report *out)
 {
   search *s = calloc(1, sizeof *s);
   if (!s) return HC_NO_MEMORY;
@@ -582,7 +582,6 @@ hc_status verify_search(const compare_setup *setup, int n, const verify_judged *
   *s = (search){.setup = setup,
                 .monitor = &impatient,
                 .effort = effort,
-                .whole = whole,
                 .curves = curves,
                 .out = out,
                 .oscillator = model_is_oscillator(setup->model),

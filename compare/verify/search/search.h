@@ -17,10 +17,10 @@ typedef struct verify_judged {
 } verify_judged;
 
 /* All n responses together, in setup->model as verify_model_seen has them; those that are right must stay it. Fills
- * out->hypotheses, best first, truth_distance, causes or nearest_guess, tried, not_tried. The curves are the truth's,
- * of the whole model. */
+ * out->hypotheses, best first, truth_distance, causes or nearest_guess, tried, not_tried. The curves are the
+ * truth's. */
 hc_status verify_search(const compare_setup *setup, int n, const verify_judged *responses, const verify_effort *effort,
-                        const hc_monitor *monitor, const model *whole, const verify_curves *curves, verify_report *out);
+                        const hc_monitor *monitor, const verify_curves *curves, verify_report *out);
 
 /* Does the best hypothesis explain the points? */
 bool verify_fits(const verify_report *r);
@@ -111,8 +111,7 @@ typedef struct search {
   const compare_setup *setup;
   const hc_monitor *monitor; /* which the patience is in */
   const verify_effort *effort;
-  const model *whole; /* the case's, and */
-  const verify_curves *curves;
+  const verify_curves *curves; /* the truth's */
   verify_report *out;
   verify_sample points;
   bool oscillator; /* its curves are followed; of a structure solutions come by Newton from the truth's */

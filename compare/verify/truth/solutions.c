@@ -23,18 +23,23 @@ compare_setup verify_settings(const compare_setup *setup, const verify_equations
   return own;
 }
 
+/* The one that was traced, as far as it goes; NULL: none, or a stop cut it short. */
+static const response_curve *traced(const verify_curves *curves, int harmonics, double from, double to)
+{
+  for (int i = 0; i < curves->n; ++i) {
+    const verify_curve *c = &curves->of[i];
+    const bool usable = c->response.hbm && c->response.status != HC_INTERRUPTED;
+    if (usable && c->harmonics == harmonics && c->from == from && c->to == to) return &c->response;
+  }
+  return NULL;
+}
+
 hc_status verify_curve_of(verify_curves *curves, const compare_setup *setup, int harmonics, double from, double to,
                           const hc_monitor *monitor, const response_curve **out)
 {
   const verify_equations e = {.keep_mean = true, .harmonics = harmonics};
   compare_setup own = verify_settings(setup, &e);
-  *out = NULL;
-  for (int i = 0; i < curves->n && !*out; ++i) {
-    const verify_curve *c = &curves->of[i];
-    const bool whole = c->response.status != HC_INTERRUPTED;
-    if (whole && c->harmonics == harmonics && c->from == from && c->to == to) *out = &c->response;
-  }
-  if (*out) return HC_OK;
+  if ((*out = traced(curves, harmonics, from, to))) return HC_OK;
   if (!GROW(curves->of, curves->n)) return HC_NO_MEMORY;
   verify_curve *c = &curves->of[curves->n++];
   *c = (verify_curve){harmonics, from, to, {.hbm = NULL}};
@@ -58,15 +63,11 @@ void verify_curves_clear(verify_curves *curves)
  * those of *m. */
 static const hbm_curve *known_curve(const verify_places *at, const model *m, const verify_equations *e)
 {
+  const verify_curves *c = at->curves;
   const bool plain = e->change == CHANGE_NONE && e->keep_mean && !e->odd_only && e->samples == 0;
-  if (!at->curves || !plain || memcmp(at->seen->responses, m->responses, (size_t)m->n * sizeof *m->responses))
-    return NULL;
-  for (int i = 0; i < at->curves->n; ++i) {
-    const verify_curve *c = &at->curves->of[i];
-    const bool whole = c->response.hbm && c->response.status == HC_OK;
-    if (whole && c->harmonics == e->harmonics && c->from == at->from && c->to == at->to) return &c->response.curve;
-  }
-  return NULL;
+  if (!c || !plain || memcmp(c->model->responses, m->responses, (size_t)m->n * sizeof *m->responses) != 0) return NULL;
+  const response_curve *known = traced(c, e->harmonics, at->from, at->to);
+  return known ? &known->curve : NULL;
 }
 
 hc_status verify_motion_of_solution(hbm_solver *hbm, double omega, const double *X, int response, double *series,

@@ -40,7 +40,7 @@ compare_setup verify_settings(const compare_setup *setup, const verify_equations
 
 enum { VERIFY_FEW_SAMPLES = 4 }; /* a harmonic: such equations have many solutions */
 
-/* The truth's curves, each traced once for all that ask for it. Zeroed: none yet. */
+/* The truth's curves, each traced once for all that ask for it; of the case's own model. n = 0: none yet. */
 typedef struct verify_curve {
   int harmonics;
   double from, to;
@@ -48,6 +48,7 @@ typedef struct verify_curve {
 } verify_curve;
 
 typedef struct verify_curves {
+  const model *model;
   int n;
   verify_curve *of;
 } verify_curves;
@@ -68,9 +69,8 @@ typedef struct verify_places {
   const verify_quantity *asked; /* [n_responses] */
   const double *value;          /* [n_responses][stride] what the file has there, or NaN; NULL: not known */
   int stride;
-  const verify_curves *curves; /* verify_solutions_of: the truth's, of `seen`; or NULL */
-  const model *seen;
-  bool plainly; /* verify_solutions_near: from `near` alone where that leads to a solution */
+  const verify_curves *curves; /* verify_solutions_of: the truth's; or NULL */
+  bool plainly;                /* verify_solutions_near: from `near` alone where that leads to a solution */
 } verify_places;
 
 /* Along their response curve, as far as it comes. A solution that is not found is none.
