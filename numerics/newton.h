@@ -24,8 +24,9 @@ typedef struct newton_options {
   double tolerance;                /* largest |r_scale r| accepted */
   double max_step;                 /* longest Newton step, 2-norm of z_scale dz; KINSOL treats less than 1 as 1 */
   int max_iterations;
-  bool plain;   /* no line search where plain Newton fails */
-  double keeps; /* a Jacobian serves on after a step that leaves at most this part of the residual, where a residual
+  bool plain;      /* no line search where plain Newton fails */
+  bool unpolished; /* z as it converged: the last step is not taken */
+  double keeps;    /* a Jacobian serves on after a step that leaves at most this part of the residual, where a residual
                    takes much less than a Jacobian; 0: each step has its own. Not in the line search. */
 } newton_options;
 
@@ -39,15 +40,15 @@ void newton_free(newton *nw);
 
 /* Solve from *z. First plain Newton, then, if that fails, with KINSOL's line search from the same start. A converged
  * z gets one more Newton step, since its error may be much larger than the tolerance: that is relative to forces that
- * may nearly cancel. With `plain` there is no line search. HC_OK; HC_STALLED, HC_NOT_CONVERGED,
- * HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY: *z is then as it was given. */
+ * may nearly cancel. With `plain` there is no line search, with `unpolished` no last step. HC_OK; HC_STALLED,
+ * HC_NOT_CONVERGED, HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY: *z is then as it was given. */
 hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_report *report);
 
 /* [n] r at the z that the last newton_solve returned, where it was HC_OK. */
 const double *newton_residual(const newton *nw);
 
-/* x := J(z)^-1 x with the Jacobian of the last solve's end, or the last one kept. HC_SINGULAR, also after a solve that
- * failed. */
+/* x := J(z)^-1 x with the Jacobian of the last solve's end, or the last one kept; of an unpolished solve with that of
+ * its last step. HC_SINGULAR, also after a solve that failed. */
 hc_status newton_backsolve(newton *nw, double *x);
 
 /* Evaluate and factor the Jacobian at z, for newton_backsolve and newton_sign, without solving. */

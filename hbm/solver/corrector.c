@@ -184,15 +184,26 @@ static newton_options corrector_options(const hbm_solver *s, double max_step, in
                           .plain = plain || quick};
 }
 
-hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point)
+static hc_status solve_fixed(hbm_solver *s, double omega, double x_scale, bool polish, double *X, hbm_point *point)
 {
-  const newton_options opt = corrector_options(s, 3.0, MAX_NEWTON_ITERATIONS, false);
+  newton_options opt = corrector_options(s, 3.0, MAX_NEWTON_ITERATIONS, false);
+  opt.unpolished = !polish;
   ++s->solves;
   hc_status st = set_scales(s, omega, x_scale, X);
   if (st != HC_OK) return st;
   s->omega = omega;
   pack(s, X, omega, s->z);
   return solve(s, s->fixed, &opt, X, &omega, point);
+}
+
+hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point)
+{
+  return solve_fixed(s, omega, x_scale, true, X, point);
+}
+
+hc_status hbm_solve_roughly(hbm_solver *s, double omega, double *X, hbm_point *point)
+{
+  return solve_fixed(s, omega, norm_2(s->sys.n_coef, X), false, X, point);
 }
 
 static hc_status solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale,

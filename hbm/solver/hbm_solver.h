@@ -69,6 +69,10 @@ typedef struct hbm_point {
  * is none: solved as by hbm_solve_first. Errors of newton_solve and of the contact force. */
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
 
+/* The same, as exact as the tolerance asks and no more: without Newton's last step, which is a fifth of the work where
+ * many guesses are tried. A guess of zeros is one. */
+hc_status hbm_solve_roughly(hbm_solver *s, double omega, double *X, hbm_point *point);
+
 /* Solve at a fixed omega without a guess: from the linear response, else along ramps of the damping and of the force
  * (ramp.h), else from whoever was given to be asked; in which order: continuation.c. X[2H+1] is overwritten, and no
  * solution unless HC_OK. */

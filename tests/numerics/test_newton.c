@@ -171,6 +171,27 @@ static void a_jacobian_is_kept_while_it_serves(CHECK_STATE)
   newton_free(nw);
 }
 
+/* Without its last step a solve takes one Jacobian less, and leaves what the tolerance allows. */
+static void unpolished_is_as_it_converged(CHECK_STATE)
+{
+  probe p;
+  newton *nw = make(&p, 2, heron_residual, heron_jacobian);
+  newton_options as_it_is = plain;
+  newton_report polished, report;
+  double z[2] = {1, 1};
+  assert_int_equal(newton_solve(nw, z, &plain, &polished), HC_OK);
+  const int jacobians = p.jacobians;
+  as_it_is.unpolished = true;
+  as_it_is.tolerance = 1e-4;
+  p.jacobians = 0;
+  z[0] = z[1] = 1;
+  assert_int_equal(newton_solve(nw, z, &as_it_is, &report), HC_OK);
+  assert_int_equal(p.jacobians, report.iterations);
+  assert_true(p.jacobians < jacobians - 1);
+  assert_true(report.residual <= as_it_is.tolerance && report.residual > 100 * polished.residual);
+  newton_free(nw);
+}
+
 /* dx/db of A (x^2 - 2, y^2 - 3) = b at the root is J^-1; 2 x 2 inverse by hand, condition below 20. */
 static void backsolve_is_the_inverse_at_the_end(CHECK_STATE)
 {
@@ -487,6 +508,7 @@ static void out_of_memory_ends_it(CHECK_STATE)
 }
 
 CHECK_TESTS("numerics.newton", 60, quadratic_like_heron, weights_are_units, a_jacobian_is_kept_while_it_serves,
-            backsolve_is_the_inverse_at_the_end, starts_from_zero, starts_at_the_root, no_root_is_never_ok,
-            the_line_search_helps_out, a_residual_that_is_another_the_second_time_ends_it, singular_is_said,
-            refusals_are_passed_on, nan_is_refused, failures_are_told, works_on_after_failures, out_of_memory_ends_it)
+            unpolished_is_as_it_converged, backsolve_is_the_inverse_at_the_end, starts_from_zero, starts_at_the_root,
+            no_root_is_never_ok, the_line_search_helps_out, a_residual_that_is_another_the_second_time_ends_it,
+            singular_is_said, refusals_are_passed_on, nan_is_refused, failures_are_told, works_on_after_failures,
+            out_of_memory_ends_it)

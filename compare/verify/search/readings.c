@@ -24,7 +24,9 @@ static const struct {
     {1e2, VERIFY_BIT(CAUSE_LENGTH)},
     {1e-2, VERIFY_BIT(CAUSE_LENGTH)},
 };
-enum { FACTORS = sizeof factors / sizeof *factors, MOST_DIFFERING = 48, FEW_DIFFERING = 10, FEW_MATCHING = 3 };
+enum { FACTORS = sizeof factors / sizeof *factors };
+/* At most so many points that match and that differ, for each look. */
+static const int most_looked_at[SEARCH_LOOKS][2] = {{16, SEARCH_MOST_POINTS - 16}, {3, 10}, {2, 5}};
 _Static_assert(FACTORS + 1 == SEARCH_FACTORS, "and dB");
 
 /* ---- the sample ---- */
@@ -98,17 +100,21 @@ hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample 
       places[at].differs |= verify_row_differs(sorted[i]);
     }
   }
-  int there[2] = {0}, seen[2] = {0}, chosen[2] = {0}, looked[2] = {0};
-  for (int i = 0; i < count; ++i) ++there[places[i].differs];
-  const int most[] = {SEARCH_MOST_POINTS - MOST_DIFFERING, MOST_DIFFERING}, few[] = {FEW_MATCHING, FEW_DIFFERING};
+  /* Each look is at some of what the one before is at: so many there are, so many were seen so far. */
+  int there[SEARCH_LOOKS + 1][2] = {{0}}, seen[SEARCH_LOOKS + 1][2] = {{0}};
+  for (int i = 0; i < count; ++i) ++there[0][places[i].differs];
+  for (int l = 0; l < SEARCH_LOOKS; ++l)
+    for (int off = 0; off < 2; ++off)
+      there[l + 1][off] = there[l][off] < most_looked_at[l][off] ? there[l][off] : most_looked_at[l][off];
   for (int i = 0; i < count; ++i) {
     const bool off = places[i].differs;
-    const int wanted = there[off] < most[off] ? there[off] : most[off];
-    if (!is_taken(seen[off]++, there[off], wanted, chosen[off])) continue;
-    const int of_few = wanted < few[off] ? wanted : few[off];
-    out->few[out->n] = is_taken(chosen[off]++, wanted, of_few, looked[off]);
-    looked[off] += out->few[out->n];
-    put_place(&places[i], n, responses, out);
+    int l = 0;
+    for (; l < SEARCH_LOOKS; ++l) {
+      if (!is_taken(seen[l][off]++, there[l][off], there[l + 1][off], seen[l + 1][off])) break;
+      out->looked_at[l][out->n] = true;
+    }
+    if (l == SEARCH_LOOKS) ++seen[l][off];
+    if (l > 0) put_place(&places[i], n, responses, out);
   }
   const hc_status st = places && sorted ? HC_OK : HC_NO_MEMORY;
   free(places);
@@ -153,7 +159,7 @@ static double nearest(double value, const verify_solutions *s, int i, int r, int
 
 static bool looked_at(const verify_sample *p, int r, int i)
 {
-  return (p->few[i] || !p->only_few) && !isnan(p->value[r][i]);
+  return p->looked_at[p->look][i] && !isnan(p->value[r][i]);
 }
 
 /* The distance between the sample's response r and quantity q of the solutions. */
@@ -516,7 +522,7 @@ static verify_places places_of(const search *s, double omega_factor, double *ome
                       .to = s->to,
                       .n = p->n,
                       .omega = omega,
-                      .only = p->only_few ? p->few : NULL,
+                      .only = p->looked_at[p->look],
                       .n_responses = p->n_responses,
                       .asked = p->quantity,
                       .value = s->oscillator ? NULL : p->value[0],
@@ -589,18 +595,21 @@ hc_status search_try(search *s, const verify_equations *e, int frequency, const 
                      verify_solutions *out)
 {
   const double omega_factor = search_omega_factor(frequency);
+  const bool far = e->change == CHANGE_FRICTION_SIGN; /* the truth's solutions lead to few of theirs */
   *out = (verify_solutions){0};
-  s->points.only_few = s->plainly = near;
+  s->points.look = !near ? SEARCH_ALL : far ? SEARCH_FEW : SEARCH_GLANCE;
+  s->plainly = near;
   hc_status st = near ? search_near(s, e, omega_factor, near, out) : search_follow(s, e, omega_factor, out);
   s->plainly = false;
   if (near && st == HC_OK && !hopeless(s, e, out)) {
+    s->points.look = SEARCH_FEW;
     verify_solutions_clear(out);
     st = search_near(s, e, omega_factor, near, out);
   }
   s->last = st == HC_OK ? least_distance(s, out, s->points.part) : 1;
   const bool more = near && st == HC_OK && promising(s, s->last, out);
   if (more) {
-    s->points.only_few = false;
+    s->points.look = SEARCH_ALL;
     verify_solutions_clear(out);
     st = search_near(s, e, omega_factor, near, out);
     if (st == HC_OK) s->last = least_distance(s, out, s->points.part);
@@ -618,7 +627,7 @@ hc_status search_try(search *s, const verify_equations *e, int frequency, const 
 hc_status search_fit(search *s, verify_hypothesis h, const verify_solutions *near)
 {
   verify_solutions of = {0};
-  s->points.only_few = false;
+  s->points.look = SEARCH_ALL;
   hc_status st = HC_OK;
   for (int followed = !near; followed < 2 && st == HC_OK; ++followed) {
     st = followed ? search_follow(s, &h.equations, h.omega_factor, &of)

@@ -270,6 +270,10 @@ static const double fit_factors[] = {0.05, 0.1,  0.2,  0.35, 0.5, 0.63, 0.75, 0.
                                      1.08, 1.18, 1.33, 1.6,  2,   3,    5,    10,   20},
                     fit_angles[] = {-80, -65, -50, -40, -30, -20, -12, -6, -2, 0, 2, 6, 12, 20, 30, 40, 50, 65, 80};
 enum { SCANNED = sizeof fit_factors / sizeof *fit_factors, UNCHANGED = 9, USUAL_HARMONICS = 10 };
+/* Of a structure a fit must bring the points to half their distance. Where it has not come near that after a few steps,
+ * it will not: each narrows the bracket to less than two thirds. */
+enum { FIRST_STEPS = 4 };
+static const double much_closer = 0.5, closer = 0.75;
 static const double small_factor = 0.02, small_angle = 0.5,
                     precise_factor = 3e-5; /* [1], [degree], of log and degree */
 
@@ -278,6 +282,8 @@ typedef struct fit {
   double *unchanged; /* [1] closeness of the model as it is; NaN: not known yet */
   verify_equations equations;
   bool turn;
+  int steps;             /* towards the minimum so far */
+  double before, least;  /* closeness with the factor 1, and the least on the way */
   verify_solutions last; /* where Newton starts: of a structure, the nearest factor's that was tried */
 } fit;
 
@@ -289,7 +295,8 @@ static hc_status closeness_at(void *self, double at, double *out)
   search *s = f->s;
   verify_solutions of = {0};
   f->equations.factor = f->turn ? at : exp(at);
-  s->points.only_few = s->plainly = !s->oscillator;
+  s->points.look = s->oscillator ? SEARCH_ALL : SEARCH_FEW;
+  s->plainly = !s->oscillator;
   hc_status st = s->oscillator ? search_follow(s, &f->equations, 1, &of)
                                : search_near(s, &f->equations, 1, f->last.n ? &f->last : &s->many[true][0], &of);
   if (st == HC_OK) *out = verify_closeness(&s->points, &of);
@@ -299,9 +306,20 @@ static hc_status closeness_at(void *self, double at, double *out)
     of = (verify_solutions){0};
   }
   verify_solutions_clear(&of);
-  s->points.only_few = s->plainly = false;
+  s->points.look = SEARCH_ALL;
+  s->plainly = false;
   if (st == HC_OK && !search_tick(s)) st = HC_INTERRUPTED;
   return st;
+}
+
+/* The same while a minimum is sought. HC_NOT_CONVERGED: there is none that matters. */
+static hc_status closeness_on_the_way(void *self, double at, double *out)
+{
+  fit *f = self;
+  const hc_status st = closeness_at(f, at, out);
+  f->least = fmin(f->least, *out);
+  if (st != HC_OK || f->s->oscillator || ++f->steps < FIRST_STEPS) return st;
+  return f->least <= closer * f->before ? HC_OK : HC_NOT_CONVERGED;
 }
 
 /* From number i on in steps of `by` as long as it comes closer, or to the end. */
@@ -346,7 +364,6 @@ static hc_status fit_harmonics(fit *f, root_point *least)
 /* HC_BAD_INPUT: there are no such equations. */
 static hc_status fit_number(search *s, fit *f)
 {
-  const double much_closer = 0.5;
   const verify_change change = f->equations.change;
   const bool kind = verify_change_of_kind(change); /* the factor 1 is not the truth */
   double values[SCANNED];
@@ -361,11 +378,14 @@ static hc_status fit_number(search *s, fit *f)
   if (st != HC_OK) return st;
   if (best == 0 || best == SCANNED - 1 || (best == UNCHANGED && !kind)) return HC_OK;
   verify_solutions_clear(&f->last);
-  st = root_minimum(closeness_at, f, parameter(f, best - 1), values[best - 1], parameter(f, best), values[best],
+  f->steps = 0;
+  f->before = values[UNCHANGED];
+  f->least = values[best];
+  st = root_minimum(closeness_on_the_way, f, parameter(f, best - 1), values[best - 1], parameter(f, best), values[best],
                     parameter(f, best + 1), values[best + 1], precise_factor, &least);
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
+  if (!s->oscillator && f->least > much_closer * f->before) return HC_OK;
   if (!kind && fabs(least.x) <= (f->turn ? small_angle : small_factor)) return HC_OK;
-  if (!s->oscillator && least.f > much_closer * values[UNCHANGED]) return HC_OK;
   st = s->oscillator ? HC_OK : fit_harmonics(f, &least);
   if (st != HC_OK) return st;
   verify_hypothesis h = {.equations = f->equations,

@@ -43,7 +43,7 @@ static hc_status try_at(search *s, const verify_equations *e, int frequency)
 {
   verify_solutions of = {0};
   hc_status st = search_try(s, e, frequency, start_of(s, frequency), &of);
-  s->points.only_few = false;
+  s->points.look = SEARCH_ALL;
   verify_solutions_clear(&of);
   return st;
 }
@@ -88,7 +88,7 @@ static hc_status try_order(search *s, int harmonics, bool keep_mean)
     if (st == HC_OK && many && keep_mean && f == 0) s->out->truth_distance = verify_read_plain(&s->points, &of);
     if (many) s->many[keep_mean][f] = of;
     else verify_solutions_clear(&of);
-    s->points.only_few = false;
+    s->points.look = SEARCH_ALL;
   }
   s->current = NULL;
   return st == HC_OK && !search_tick(s) ? HC_INTERRUPTED : st;
@@ -301,7 +301,7 @@ static hc_status try_rate(search *s, const base *b, int samples, int restart)
     note_likely(s, &e, verify_read_plain(&s->points, &of));
     s->points.part = 0.9;
   }
-  s->points.only_few = false;
+  s->points.look = SEARCH_ALL;
   verify_solutions_clear(&of);
   if (st == HC_OK && !search_tick(s)) st = HC_INTERRUPTED;
   return st;

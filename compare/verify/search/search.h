@@ -51,6 +51,9 @@ const verify_scale *verify_scale_near(const verify_scale *s, int n, double facto
 
 enum { SEARCH_MOST_POINTS = 64, SEARCH_MOST_RESPONSES = 8 };
 
+/* All points are looked at, or a few of them, or a few of those. */
+typedef enum search_look { SEARCH_ALL, SEARCH_FEW, SEARCH_GLANCE, SEARCH_LOOKS } search_look;
+
 /* The points that hypotheses are held against: some that differ from the truth and some that do not, omega
  * ascending. A reading of the columns is of the responses that are wrong: the others' columns are right. */
 typedef struct verify_sample {
@@ -61,8 +64,9 @@ typedef struct verify_sample {
   bool differs[SEARCH_MOST_RESPONSES][SEARCH_MOST_POINTS];
   verify_quantity quantity[SEARCH_MOST_RESPONSES]; /* what the file says they are */
   bool wrong[SEARCH_MOST_RESPONSES];
-  int first;                              /* of these */
-  bool few[SEARCH_MOST_POINTS], only_few; /* some of the points, for a first look; are only these looked at? */
+  int first;        /* of these */
+  search_look look; /* now */
+  bool looked_at[SEARCH_LOOKS][SEARCH_MOST_POINTS];
   double part; /* [1] a distance is what this part of the points is within, 0.9; 0: their geometric mean */
 } verify_sample;
 
@@ -163,9 +167,9 @@ hc_status search_follow(search *s, const verify_equations *e, double omega_facto
 hc_status search_near(search *s, const verify_equations *e, double omega_factor, const verify_solutions *near,
                       verify_solutions *out);
 
-/* By the one that pays, and every reading of them among the hypotheses. Of a structure first at few of the points, then
- * at all if these are promising, and along the curve if most of those fit. *out is the caller's to clear; only_few
- * says which points it is of. */
+/* By the one that pays, and every reading of them among the hypotheses. Of a structure at a glance, with one guess
+ * a point, then at few of the points, at all if these are promising, and along the curve if most of those fit. *out is
+ * the caller's to clear; `look` says which points it is of. */
 hc_status search_try(search *s, const verify_equations *e, int frequency, const verify_solutions *near,
                      verify_solutions *out);
 
