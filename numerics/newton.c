@@ -299,7 +299,7 @@ hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_
   memcpy(N_VGetArrayPointer(nw->r_scale), opt->r_scale, bytes);
   hc_status st = solve_from_start(nw, KIN_NONE, opt, report);
   if (st != HC_OK && st != HC_NO_MEMORY && !opt->plain) st = solve_from_start(nw, KIN_LINESEARCH, opt, report);
-  if (st == HC_OK && !opt->unpolished) st = polish(nw, opt, report);
+  if (st == HC_OK && !(opt->unpolished && nw->factored)) st = polish(nw, opt, report);
   if (st == HC_OK) memcpy(z, N_VGetArrayPointer(nw->z), bytes);
   else nw->factored = false;
   return st;

@@ -25,7 +25,7 @@ typedef struct newton_options {
   double max_step;                 /* longest Newton step, 2-norm of z_scale dz; KINSOL treats less than 1 as 1 */
   int max_iterations;
   bool plain;      /* no line search where plain Newton fails */
-  bool unpolished; /* z as it converged: the last step is not taken */
+  bool unpolished; /* z as it converged: the last step is not taken, but for factors where there are none */
   double keeps;    /* a Jacobian serves on after a step that leaves at most this part of the residual, where a residual
                    takes much less than a Jacobian; 0: each step has its own. Not in the line search. */
 } newton_options;

@@ -470,10 +470,10 @@ void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 &&
  * damping, then of the force, as a response curve is followed along omega: by steps of arc length, through turning
  * points and round corners. The end of a ramp is solved once more with the equations as they are. Sampled equations are
  * first asked for the solution next to that with exact forces, found in the same way. On a ramp of exact forces most
- * iterations are those of steps that fail in the end: quick ramps come first; where curves have edges of slip that of
- * the damping before the guess, which may be asked of a motion that does not settle. Quick ramps are not solved to
- * rounding, and their steps are QUICK_STEPS times as long: of seven slow first solutions that makes six as quick or
- * quicker, by 1.2 to 10 times. A tolerance of 1e-5 loses every other ramp. */
+ * iterations are those of steps that fail in the end: quick ramps come first; where curves have edges of slip before
+ * the guess, which may be asked of a motion that does not settle. Quick ramps are not solved to rounding, and their
+ * steps are QUICK_STEPS times as long: of seven slow first solutions that makes six quicker, by 1.3 to 10 times. A
+ * tolerance of 1e-5 loses every other ramp. */
 static const double QUICK_STEPS = 2, QUICK_TOLERANCE = 1e-7;
 enum { MOST_QUICK_STEPS = 1000 };
 
@@ -576,14 +576,15 @@ static hc_status by_quick_ramp(hbm_solver *s, double omega, const hc_monitor *mo
   return may_go_on(st) ? follow_ramp(s, HBM_RAMP_DAMPING, true, omega, monitor, X, point) : st;
 }
 
-/* Along the damping; a ramp of many harmonics takes ten times as long and more. */
+/* Along the damping, then the force; a ramp of many harmonics takes ten times as long and more. */
 static hc_status by_quick_ramps(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   hbm_settings how = s->how;
   hc_status st = HC_NOT_CONVERGED;
   how.harmonics = FEW_HARMONICS;
   if (s->sys.n_harm >= 2 * FEW_HARMONICS) st = from_other(s, &how, by_quick_ramp, omega, monitor, X, point);
-  return may_go_on(st) ? follow_ramp(s, HBM_RAMP_DAMPING, true, omega, monitor, X, point) : st;
+  if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_DAMPING, true, omega, monitor, X, point);
+  return may_go_on(st) ? follow_ramp(s, HBM_RAMP_FORCE, true, omega, monitor, X, point) : st;
 }
 
 static hc_status from_guess(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
@@ -605,7 +606,6 @@ hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *moni
   if (may_go_on(st) && s->guess.ask) st = from_guess(s, omega, monitor, X, point);
   if (may_go_on(st) && !exact) st = from_exact_forces(s, omega, monitor, X, point);
   if (may_go_on(st) && exact && !edges) st = by_quick_ramps(s, omega, monitor, X, point);
-  if (may_go_on(st) && exact) st = follow_ramp(s, HBM_RAMP_FORCE, true, omega, monitor, X, point);
   if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_DAMPING, false, omega, monitor, X, point);
   if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_FORCE, false, omega, monitor, X, point);
   return st;

@@ -181,13 +181,14 @@ static newton_options corrector_options(const hbm_solver *s, double max_step, in
                           .tolerance = s->how.tolerance,
                           .max_step = max_step,
                           .max_iterations = quick ? QUICK_ITERATIONS : max_iterations,
-                          .plain = plain || quick};
+                          .plain = plain || quick,
+                          .unpolished = quick};
 }
 
 static hc_status solve_fixed(hbm_solver *s, double omega, double x_scale, bool polish, double *X, hbm_point *point)
 {
   newton_options opt = corrector_options(s, 3.0, MAX_NEWTON_ITERATIONS, false);
-  opt.unpolished = !polish;
+  if (!polish) opt.unpolished = true;
   ++s->solves;
   hc_status st = set_scales(s, omega, x_scale, X);
   if (st != HC_OK) return st;
