@@ -475,7 +475,7 @@ void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 &&
  * steps are QUICK_STEPS times as long: of seven slow first solutions that makes six quicker, by 1.3 to 10 times. A
  * tolerance of 1e-5 loses every other ramp. */
 static const double QUICK_STEPS = 2, QUICK_TOLERANCE = 1e-7;
-enum { MOST_QUICK_STEPS = 1000 };
+enum { MOST_QUICK_STEPS = 1000, HALVINGS = 2 };
 
 /* The monitor of a ramp: counts steps, which know what part is done; iterations of large systems do not. */
 typedef struct ramp_watch {
@@ -535,6 +535,26 @@ static hc_status follow_ramp(hbm_solver *s, hbm_ramp_kind kind, bool quick, doub
 
 typedef hc_status first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point);
 
+static bool may_go_on(hc_status st) { return st != HC_OK && st != HC_INTERRUPTED && st != HC_NO_MEMORY; }
+
+/* From a solution X with `fewer` harmonics, or as many. Where Newton does not get there, by way of the number in the
+ * middle, which is halved `halvings` times at most. */
+static hc_status with_more_harmonics(hbm_solver *s, int fewer, int halvings, double omega, double *X, hbm_point *point)
+{
+  const int middle = (fewer + s->sys.n_harm) / 2;
+  for (int i = hbm_system_length(&s->sys, fewer); i < s->sys.n_coef; ++i) X[i] = 0;
+  hc_status st = hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
+  if (!may_go_on(st) || halvings == 0 || middle == fewer) return st;
+  hbm_settings how = s->how;
+  hbm_solver *other;
+  how.harmonics = middle;
+  if ((st = hbm_solver_new(s->model, &how, &other)) != HC_OK) return st;
+  st = with_more_harmonics(other, fewer, halvings - 1, omega, X, point);
+  s->solves += other->solves;
+  hbm_solver_free(other);
+  return st == HC_OK ? with_more_harmonics(s, middle, halvings - 1, omega, X, point) : st;
+}
+
 /* From the solution by other settings, with as many harmonics or fewer, that `find` finds. */
 static hc_status from_other(hbm_solver *s, const hbm_settings *how, first_solution *find, double omega,
                             const hc_monitor *monitor, double *X, hbm_point *point)
@@ -544,8 +564,7 @@ static hc_status from_other(hbm_solver *s, const hbm_settings *how, first_soluti
   if (st != HC_OK) return st;
   st = find(other, omega, monitor, X, point);
   const int iterations = point->iterations;
-  for (int i = other->sys.n_coef; i < s->sys.n_coef; ++i) X[i] = 0;
-  if (st == HC_OK) st = hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
+  if (st == HC_OK) st = with_more_harmonics(s, other->sys.n_harm, HALVINGS, omega, X, point);
   point->iterations += iterations;
   s->solves += other->solves;
   hbm_solver_free(other);
@@ -561,8 +580,6 @@ static hc_status from_exact_forces(hbm_solver *s, double omega, const hc_monitor
   how.harmonics = s->sys.n_harm;
   return from_other(s, &how, hbm_first_solution, omega, monitor, X, point);
 }
-
-static bool may_go_on(hc_status st) { return st != HC_OK && st != HC_INTERRUPTED && st != HC_NO_MEMORY; }
 
 static hc_status from_linear_response(hbm_solver *s, double omega, double *X, hbm_point *point)
 {

@@ -23,7 +23,8 @@ static const scene_contact contacts[] =
      {{375.021, 3419.4, 2.71303, 9.4987}, 29.0737},      {{203.504, 1249.3, 2.28725, 9.29152}, 71.3591},
      {{4.42956e6, 71065.5, 1.9591, 9.69597}, 58.6052},   {{278136, 79.3898, 0.176502, 0.968238}, 48.0783},
      {{5640.3, 797.307, 0.0610838, -6.38971}, 7.08275},  {{2.5396e6, 1.47714e6, 2.47364, -5.05752}, 13.2475},
-     {{26.0257, 30.6151, 2.87443, 9.92598}, 32.769}};
+     {{26.0257, 30.6151, 2.87443, 9.92598}, 32.769},     {{5.32598, 3.91331e6, 1.28057, 0}, 65.4507},
+     {{15398.5, 1053.05, 0.759191, -1.26563}, 7.83370},  {{2.13774e6, 203.559, 2.6761, 4.44309}, 81.3103}};
 
 /* Four contacts of very different stiffness; no damping, and no gap, so that no force is so small that nothing happens
  * at the contacts; one contact; without harmonic 0; a force far above all preloads. */
@@ -37,6 +38,9 @@ enum { SCENES = sizeof refused / sizeof *refused, MOST_COEF = 201 };
 
 /* The ramp of the damping turns more than 140 times and does not arrive within 4000 steps. */
 static const refused_scene winding = {8473, 0.0945991, 1.00573, 88.3824, 67480.8, 67.4119, 24, false, 12, 3};
+
+/* Newton finds a solution with 6 harmonics from the linear response, and from that one with 27, but not with 48. */
+static const refused_scene by_halves = {7019, 44.1028, 0.365633, 1.32293, 0.000594733, 2.27873, 48, true, 15, 3};
 
 static scene scene_of(const refused_scene *r)
 {
@@ -220,6 +224,19 @@ static void another_ramp_where_one_takes_too_long(CHECK_STATE)
   hbm_solver_free(s);
 }
 
+static void more_harmonics_by_halves(CHECK_STATE)
+{
+  double X[MOST_COEF];
+  hbm_point point;
+  tick_counter watch = {.stop = 1}; /* each step of a ramp ticks */
+  const hc_monitor monitor = {tick_any, &watch};
+  hbm_solver *s = solver_of(&by_halves);
+  assert_int_equal(hbm_first_solution(s, by_halves.omega, &monitor, X, &point), HC_OK);
+  assert_int_equal(watch.ticks, 0);
+  check_solution(&by_halves, X, "by halves");
+  hbm_solver_free(s);
+}
+
 /* How a response curve is to be followed is not how a ramp is. */
 static void settings_for_curves_do_not_reach_ramps(CHECK_STATE)
 {
@@ -309,5 +326,5 @@ static void adapting_solvers_follow_ramps_too(CHECK_STATE)
 
 CHECK_TESTS("hbm.first_solution", 300, scenes_once_refused_are_solved, a_ramp_of_many_unknowns_has_as_many_steps,
             either_ramp_ends_on_a_solution, derivative_along_a_ramp, another_ramp_where_one_takes_too_long,
-            settings_for_curves_do_not_reach_ramps, a_ramp_ends_at_the_model,
+            more_harmonics_by_halves, settings_for_curves_do_not_reach_ramps, a_ramp_ends_at_the_model,
             no_ramp_where_the_linear_response_is_a_guess, a_ramp_can_be_stopped, adapting_solvers_follow_ramps_too)
