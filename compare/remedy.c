@@ -20,7 +20,7 @@ typedef enum move { STATIC, EXACT_FORCES, HARMONICS, START, LAW, TOLERANCE, N_MO
 enum { AFTERWARDS = 2, MOST_FAILURES = 8, MOST_SAMPLES = 65536, ENOUGH_MOSTLY = 30, LAST_RESORT = 50 };
 static const double most_work = 3e9; /* [unknowns^3] of all solutions tried: about 2 s */
 static const double patience = 3;    /* [s] of all transients and curves tried */
-static const double at_last = 4;     /* [s] and of the last resort */
+static const double at_last = 6;     /* [s] and of the last resort */
 static const double fine = 1e-10;    /* transient.tolerance below which shooting seldom converges */
 
 typedef struct trial {
