@@ -471,12 +471,12 @@ void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 &&
  * points and round corners. The end of a ramp is solved once more with the equations as they are. Sampled equations are
  * first asked for the solution next to that with exact forces, found in the same way. On a ramp of exact forces most
  * iterations are those of steps that fail in the end: quick ramps come first; where curves have edges of slip before
- * the guess, which may be asked of a motion that does not settle, but for that of the force where with MANY_UNKNOWNS it
- * takes as long. Quick ramps are not solved to rounding, and their
+ * the guess, which may be asked of a motion that does not settle, but for that of the force with
+ * more than RAMP_UNKNOWNS, where it takes as long. Quick ramps are not solved to rounding, and their
  * steps are QUICK_STEPS times as long: of seven slow first solutions that makes six quicker, by 1.3 to 10 times. A
  * tolerance of 1e-5 loses every other ramp. */
 static const double QUICK_STEPS = 2, QUICK_TOLERANCE = 1e-7;
-enum { MOST_QUICK_STEPS = 1000, HALVINGS = 2, MANY_UNKNOWNS = 100 };
+enum { MOST_QUICK_STEPS = 1000, HALVINGS = 2, RAMP_UNKNOWNS = 100 };
 
 /* The monitor of a ramp: counts steps, which know what part is done; iterations of large systems do not. */
 typedef struct ramp_watch {
@@ -617,7 +617,7 @@ static hc_status from_guess(hbm_solver *s, double omega, const hc_monitor *monit
 
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
-  const bool exact = s->how.force == HBM_FORCE_EXACT, edges = s->edges, both = edges && s->sys.n <= MANY_UNKNOWNS;
+  const bool exact = s->how.force == HBM_FORCE_EXACT, edges = s->edges, both = edges && s->sys.n <= RAMP_UNKNOWNS;
   hc_status st = from_linear_response(s, omega, X, point);
   if (may_go_on(st) && exact && edges) st = by_quick_ramps(s, omega, monitor, X, point);
   if (may_go_on(st) && exact && both) st = follow_ramp(s, HBM_RAMP_FORCE, true, omega, monitor, X, point);

@@ -270,8 +270,8 @@ static const double fit_factors[] = {0.05, 0.1,  0.2,  0.35, 0.5, 0.63, 0.75, 0.
                                      1.08, 1.18, 1.33, 1.6,  2,   3,    5,    10,   20},
                     fit_angles[] = {-80, -65, -50, -40, -30, -20, -12, -6, -2, 0, 2, 6, 12, 20, 30, 40, 50, 65, 80};
 enum { SCANNED = sizeof fit_factors / sizeof *fit_factors, UNCHANGED = 9, USUAL_HARMONICS = 10 };
-/* Of a structure a fit must bring the points to half their distance. Where it has not come near that after a few steps,
- * it will not: each narrows the bracket to less than two thirds. */
+/* A fit to a structure's points counts if it halves their distance (much_closer). The search for its minimum ends after
+ * FIRST_STEPS if the distance is then above 0.75 (closer): each step narrows the bracket to less than two thirds. */
 enum { FIRST_STEPS = 4 };
 static const double much_closer = 0.5, closer = 0.75;
 static const double small_factor = 0.02, small_angle = 0.5,
@@ -312,13 +312,14 @@ static hc_status closeness_at(void *self, double at, double *out)
   return st;
 }
 
-/* The same while a minimum is sought. HC_NOT_CONVERGED: there is none that matters. */
+/* closeness_at for root_minimum. HC_NOT_CONVERGED: after FIRST_STEPS the points are hardly closer. */
 static hc_status closeness_on_the_way(void *self, double at, double *out)
 {
   fit *f = self;
   const hc_status st = closeness_at(f, at, out);
+  if (st != HC_OK) return st;
   f->least = fmin(f->least, *out);
-  if (st != HC_OK || f->s->oscillator || ++f->steps < FIRST_STEPS) return st;
+  if (f->s->oscillator || ++f->steps < FIRST_STEPS) return HC_OK;
   return f->least <= closer * f->before ? HC_OK : HC_NOT_CONVERGED;
 }
 
