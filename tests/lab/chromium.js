@@ -23,8 +23,11 @@ async function open(program, address, {width = 1400, height = 900, dark = false,
   const browser = spawn(program, ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--no-first-run',
     '--remote-debugging-pipe', `--user-data-dir=${profile}`, 'about:blank'], {detached: true, stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
   const [to, from] = [browser.stdio[3], browser.stdio[4]], waiting = new Map(), lines = [], requests = [];
-  let number = 0, rest = '', session;
+  let number = 0, rest = '', session, closing = false;
   browser.on('error', error => { throw error; });
+  /* Its pipes are reset where it is killed while it writes; where it ends by itself, what waits for it fails. */
+  [to, from].forEach(pipe => pipe.on('error', () => {}));
+  browser.on('exit', () => closing || waiting.forEach(asked => asked.failed(new Error('the browser has ended'))));
 
   function hear(message) {
     const asked = waiting.get(message.id);
@@ -101,6 +104,7 @@ async function open(program, address, {width = 1400, height = 900, dark = false,
     },
     tree: async () => (await send('Accessibility.getFullAXTree')).nodes,
     async close() {
+      closing = true;
       process.kill(-browser.pid, 'SIGKILL'); // its processes, too, which write to the profile
       await new Promise(done => browser.exitCode === null && browser.signalCode === null ? browser.on('exit', done) : done());
       await removeFolder(profile);
