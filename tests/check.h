@@ -34,6 +34,11 @@
 /* |a - b| <= tol, NaN fails. */
 #define CHECK_NEAR(a, b, tol, ...) CHECK_LE(fabs((a) - (b)), (tol), __VA_ARGS__)
 
+/* TYPE *NAME; made by the call, which is given &NAME, or the test fails. */
+#define CHECK_MADE(type, name, call)                                                                                   \
+  type *name;                                                                                                          \
+  assert_int_equal(call, HC_OK)
+
 /* A hang is a failure: every test main calls this first, with the seconds after which nobody would wait any longer on a
  * slow machine with nothing else to do. A busy one may take ten times as long: the watchdog ends hangs, it measures
  * nothing. It comes before ctest's own limit of 1500 s, unless more than that is asked for. */

@@ -16,8 +16,7 @@
 /* y[states]: at rest. */
 static inline timeint *at_rest(const model *m, const transient_settings *how, double *y)
 {
-  timeint *ti;
-  assert_int_equal(timeint_new(m, how, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(m, how, &ti));
   timeint_rest(ti, y);
   return ti;
 }

@@ -24,9 +24,8 @@ static inline double scene_stuck_stiffness(const scene_contact *c)
  * model_free. */
 static inline model *scene_split_model(const scene *sc, int n)
 {
-  model *m;
   assert_int_equal(sc->n_contacts, 1);
-  assert_int_equal(model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, n, &m), HC_OK);
+  CHECK_MADE(model, m, model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, n, &m));
   for (int j = 0; j < n; ++j) {
     m->contacts[j].law = sc->contacts[0].law;
     scene_direction(&sc->contacts[0], m->contacts[j].tangent, m->contacts[j].normal);
@@ -47,8 +46,7 @@ static inline void scene_scaled(scaled_model *m, const scene *sc, double omega, 
   static modal_base *bases[16];
   static int made;
   const int i = made++ % 16;
-  model *from;
-  assert_int_equal(scene_model(sc, &from), HC_OK);
+  CHECK_MADE(model, from, scene_model(sc, &from));
   modal_base_free(bases[i]);
   assert_int_equal(modal_base_new(from, &bases[i]), HC_OK);
   *m = (scaled_model){.base = bases[i], .contact = contacts[i]};
@@ -75,8 +73,7 @@ static inline void scene_measured_period(const scene *sc, const scaled_model *m,
 {
   measure me;
   workspace memory = {0};
-  model *from;
-  assert_int_equal(scene_model(sc, &from), HC_OK);
+  CHECK_MADE(model, from, scene_model(sc, &from));
   assert_int_equal(measure_make(&me, m->n_states, 1, m->n_contacts, &memory), HC_OK);
   measure_begin(&me, m);
   measure_period(&me, y);

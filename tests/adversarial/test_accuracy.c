@@ -63,11 +63,9 @@ static accuracy_of accuracy_at(const char *name, double from, double to, int n_h
 {
   accuracy_of a = {.name = name, .clearance = INFINITY};
   scene sc = exact_reference_scene(name, n_harm);
-  hbm_solver *s;
-  timeint *ti;
   hbm_curve curve = {0};
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   assert_int_equal(hbm_trace(s, from, to, NULL, &curve), HC_OK);
   for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
     if (strcmp(steady_references[i].name, name)) continue;

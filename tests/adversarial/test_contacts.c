@@ -125,9 +125,8 @@ static void friction_from_none_to_too_much(CHECK_STATE)
   scene beyond = LOAD("huge_friction", "contacts[0].friction=1e308");
   same_answers(&none, &no_spring, 1, SOLVED);
   same_answers(&large, &huge, 1, SOLVED);
-  hbm_solver *s;
   hbm_curve curve = {0};
-  assert_int_equal(scene_hbm_solver(&beyond, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&beyond, &s));
   assert_int_equal(hbm_trace(s, beyond.omega_from, beyond.omega_to, NULL, &curve), HC_NOT_FINITE);
   hbm_curve_free(&curve);
   hbm_solver_free(s);
@@ -147,11 +146,10 @@ static void gap_0_vibrates_at_its_bilinear_frequency(CHECK_STATE)
 {
   scene sc = LOAD("gap_0", "forcing.amplitude=0", "oscillator.damping=0", "transient.law=exact",
                   "transient.steady_state=march", "transient.max_periods=1", "transient.start=rest");
-  timeint *ti;
   timeint_result r;
   const double omega = 2 * 8 * 24 / (8.0 + 24);
   scene_state y = {.x = 0, .v = 1};
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   assert_int_equal(timeint_steady(ti, omega, y.all, NULL, &r), HC_NOT_SETTLED);
   CHECK_NEAR(y.x * omega, 0, 1e-9, "x after a period");
   CHECK_NEAR(y.v, 1, 1e-9, "velocity after a period");

@@ -11,8 +11,7 @@ static const double SOLVED = 1e-11; /* as in test_contacts.c */
 static void resonance_has_its_closed_form(CHECK_STATE)
 {
   scene sc = load("zeta_1e-6", NULL);
-  timeint *ti;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   for (int i = 0; i < sc.compare.omega.n; ++i) {
     double w = sc.compare.omega.v[i];
     double complex x = sc.force / (sc.stiffness - sc.mass * w * w + I * sc.damping * w);
@@ -56,11 +55,10 @@ static void resonance_with_a_contact_balances_its_energy(CHECK_STATE)
 /* Where the curve of case 2 turns, in the order it meets them. */
 static int folds(const scene *sc, hbm_special *out, int cap)
 {
-  hbm_solver *s;
   hbm_curve curve = {0};
   hbm_special all[32];
   int n, found = 0;
-  assert_int_equal(scene_hbm_solver(sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(sc, &s));
   assert_int_equal(hbm_trace(s, sc->omega_from, sc->omega_to, NULL, &curve), HC_OK);
   assert_int_equal(hbm_specials(s, &curve, 32, all, &n), HC_OK);
   assert_true(n <= 32);
@@ -82,10 +80,9 @@ static void a_sweep_that_ends_on_a_fold(CHECK_STATE)
   assert_int_equal(folds(&sc, fold, 2), 2);
   static const double beside[] = {-1e-6, -1e-9, -1e-12, 0, 1e-12, 1e-9, 1e-6};
   for (int i = 0; i < 7; ++i) {
-    hbm_solver *s;
     hbm_curve curve = {0};
     sc.omega_to = fold[0].omega * (1 + beside[i]);
-    assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
     assert_int_equal(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &curve), HC_OK);
     const hbm_point *last = &curve.points[curve.n - 1];
     assert_true(last->omega == sc.omega_to);
@@ -121,9 +118,8 @@ static void both_directions_reach_their_branch(CHECK_STATE)
   assert_int_equal(at.n, 3);
   static const double expected[] = {0.29934624719, 7.36591479229}; /* transient_exact.csv */
   for (int down = 0; down < 2; ++down) {
-    timeint *ti;
     timeint_result r;
-    assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+    CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
     scene_state y = {.x = 0};
     assert_int_equal(timeint_sweep(ti, down ? sc.omega_to : sc.omega_from, 16, y.all, NULL), HC_OK);
     assert_int_equal(timeint_steady(ti, 16, y.all, NULL, &r), HC_OK);

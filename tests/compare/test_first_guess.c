@@ -48,10 +48,8 @@ static scene impacts(void)
 
 static hbm_solver *plain(const scene *sc)
 {
-  model *m;
-  hbm_solver *s;
-  assert_int_equal(scene_model(sc, &m), HC_OK);
-  assert_int_equal(hbm_solver_new(m, &sc->hbm, &s), HC_OK);
+  CHECK_MADE(model, m, scene_model(sc, &m));
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &sc->hbm, &s));
   model_free(m);
   return s;
 }
@@ -150,8 +148,7 @@ static void check_guesses(const model *m, const hbm_settings *how)
 static void the_motion_from_rest_is_a_guess(CHECK_STATE)
 {
   const scene sc = impacts();
-  model *m;
-  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  CHECK_MADE(model, m, scene_model(&sc, &m));
   check_guesses(m, &sc.hbm);
   model_free(m);
 }
@@ -168,12 +165,10 @@ static void an_endless_motion_is_no_guess(CHECK_STATE)
   const scene sc = impacts();
   double X[64];
   hbm_point point;
-  model *m;
-  hbm_solver *s;
   const double omega = hard_omega();
   const hc_monitor stop = {never, NULL};
-  assert_int_equal(scene_model(&sc, &m), HC_OK);
-  assert_int_equal(guided_hbm_solver_new(m, &sc.hbm, &s), HC_OK);
+  CHECK_MADE(model, m, scene_model(&sc, &m));
+  CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(m, &sc.hbm, &s));
   endless = true;
   assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK); /* by a ramp */
   CHECK_LE(100, ticks, "ticks");
@@ -188,10 +183,9 @@ static void a_structure_is_guessed_whole(CHECK_STATE)
   const scene sc = impacts();
   /* The same oscillator as two halves that a stiff spring holds together, each with half of everything: their motion is
    * x = y. The guess is of all degrees of freedom, and leads to the oscillator's solution. */
-  model *m;
   const double K = 1e3 * sc.stiffness;
   double tangent, normal;
-  assert_int_equal(model_new(2, 1, 1, 2, &m), HC_OK);
+  CHECK_MADE(model, m, model_new(2, 1, 1, 2, &m));
   for (int i = 0; i < 2; ++i) {
     m->mass[3 * i] = 0.5 * sc.mass;
     m->damping[3 * i] = 0.5 * sc.damping;

@@ -14,9 +14,8 @@ static const transient_settings in_closed_form = CLOSED_FORM(1e-12, 20000);
 /* The steady state from rest, all its responses. */
 static void steady_from_rest(const model *m, transient_settings how, double omega, timeint_result *r)
 {
-  timeint *ti;
   double *state = calloc((size_t)(2 * m->n + m->n_contacts), sizeof *state);
-  assert_int_equal(timeint_new(m, &how, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(m, &how, &ti));
   timeint_rest(ti, state);
   assert_int_equal(timeint_steady(ti, omega, state, NULL, &r[0]), HC_OK);
   assert_int_equal(r[0].period_multiple, 1);

@@ -30,13 +30,12 @@ static hc_status march_from(const compare_setup *setup, double omega, const doub
   transient_settings how = setup->transient;
   const int n = setup->model->n;
   double z[STATES], size = 0;
-  timeint *ti;
   how.law = TRANSIENT_LAW_EXACT;
   how.method = TRANSIENT_METHOD_CLOSED_FORM;
   how.steady = TRANSIENT_STEADY_MARCH;
   how.scout = false;
   how.max_periods = 5000;
-  assert_int_equal(timeint_new(setup->model, &how, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(setup->model, &how, &ti));
   memcpy(z, y, (size_t)timeint_n_states(ti) * sizeof *z);
   for (int i = 0; i < n; ++i) size = fmax(size, hypot(y[i], y[n + i] / omega));
   for (int i = 0; i < n; ++i) z[i] += (i % 2 ? -1e-5 : 1e-5) * size;
@@ -58,10 +57,9 @@ static void check_row(const compare_setup *setup, const comparison *c, int i)
   }
   double y[STATES];
   /* y: where the transient of the row's HBM solution starts. */
-  hbm_solver *h;
   hbm_curve at = {0};
   bool found = false;
-  assert_int_equal(hbm_solver_new(setup->model, &setup->hbm, &h), HC_OK);
+  CHECK_MADE(hbm_solver, h, hbm_solver_new(setup->model, &setup->hbm, &h));
   assert_int_equal(hbm_curve_at(h, &c->curve, row->omega, &at), HC_OK);
   for (int k = 0; k < at.n && !found; ++k) {
     if (at.points[k].branch != row->branch) continue;

@@ -9,8 +9,7 @@ static void (*mistake)(model *m); /* made in the model that harmonic balance get
 
 WRAP(hc_status, hbm_solver_new, (const model *m, const hbm_settings *how, hbm_solver **out))
 {
-  model *wrong;
-  assert_int_equal(model_copy(m, &wrong), HC_OK);
+  CHECK_MADE(model, wrong, model_copy(m, &wrong));
   if (mistake) mistake(wrong);
   const hc_status st = __real_hbm_solver_new(wrong, how, out);
   model_free(wrong);

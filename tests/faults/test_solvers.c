@@ -75,8 +75,7 @@ static void check_curve(const hbm_curve *c)
 {
   enum { MOST = 7 };
   scene sc = small_scene(NULL);
-  hbm_solver *fresh;
-  assert_int_equal(scene_hbm_solver(&sc, &fresh), HC_OK);
+  CHECK_MADE(hbm_solver, fresh, scene_hbm_solver(&sc, &fresh));
   for (int k = 0; k < c->n; ++k) {
     double X[MOST], size = 0, moved = 0;
     hbm_point point;
@@ -167,9 +166,8 @@ static scene_state near_orbit[2];
 static hc_status steady_with(int law, fault f, fault *which, timeint_result *r)
 {
   scene sc = small_scene(law ? exactly : smoothly);
-  timeint *ti;
   timeint_result again;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state y = near_orbit[law], start = y;
   *which = f;
   hc_status st = timeint_steady(ti, 6.5, y.all, NULL, r);
@@ -295,9 +293,8 @@ int main(void)
 {
   for (int law = 0; law < 2; ++law) {
     scene sc = small_scene(law ? exactly : smoothly);
-    timeint *ti;
     timeint_result r;
-    assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+    CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
     near_orbit[law] = (scene_state){.x = 0};
     assert_int_equal(timeint_steady(ti, 6.5, near_orbit[law].all, NULL, &r), HC_OK);
     near_orbit[law].x *= 1.001;

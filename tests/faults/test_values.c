@@ -76,9 +76,8 @@ static hc_status traced(hbm_solver *s, hbm_curve *c)
 static hc_status trace_with(const char *const *set, poison p, const hbm_curve *right)
 {
   scene sc = small_scene(set);
-  hbm_solver *s;
   hbm_curve c;
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   now = p;
   doing(set == located ? "exact forces" : "sampled forces");
   hc_status st = traced(s, &c);
@@ -106,10 +105,9 @@ static hc_status trace_with(const char *const *set, poison p, const hbm_curve *r
 static void poisoned_force(const char *const *set)
 {
   scene sc = small_scene(set);
-  hbm_solver *s;
   hbm_curve right;
   now = (poison){0};
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   assert_int_equal(traced(s, &right), HC_OK);
   const long most = now.calls, at[] = {1, 2, 3, 4, 5, most / 2, most / 2 + 1, most - 1, most};
   static const double values[] = {NAN, INFINITY, -INFINITY, 1e308};
@@ -137,8 +135,7 @@ static const char *const smoothly[] = {"transient.regularisation=0.01", "transie
 /* By a handle of its own: one that has found an orbit remembers it. */
 static hc_status settled(const scene *sc, scene_state from, timeint_result *r)
 {
-  timeint *ti;
-  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(sc, &ti));
   hc_status st = timeint_steady(ti, 6.5, from.all, NULL, r);
   timeint_free(ti);
   return st;
@@ -146,9 +143,8 @@ static hc_status settled(const scene *sc, scene_state from, timeint_result *r)
 
 static void right_hand_side_of(scene sc)
 {
-  timeint *ti;
   timeint_result right, r;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state orbit = {.x = 0};
   now = (poison){0};
   assert_int_equal(timeint_steady(ti, 6.5, orbit.all, NULL, &r), HC_OK);

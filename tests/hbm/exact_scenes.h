@@ -20,8 +20,7 @@ typedef struct evaluation {
 static inline void evaluate(int n_harm, int n_dof, int n_contacts, const moving_contact *c, const double *X,
                             evaluation *out, double *jac)
 {
-  exact_force *e;
-  assert_int_equal(exact_force_new(n_harm, n_dof, n_contacts, c, &e), HC_OK);
+  CHECK_MADE(exact_force, e, exact_force_new(n_harm, n_dof, n_contacts, c, &e));
   hc_status st = exact_force_eval(e, X, out->F, jac, &out->report);
   if (st != HC_OK) fail_msg("exact_force_eval, H=%d: %s", n_harm, hc_status_text(st));
   for (int j = n_contacts - 1; j >= 0; --j) {

@@ -27,8 +27,7 @@ static inline void random_direction(uint64_t *seed, int n, double *d)
  * one of harmonic 1; damping that no modes diagonalise. kt and kn are of the order of K. To free with model_free. */
 static inline model *random_structure(uint64_t *seed, int n, int n_contacts)
 {
-  model *m;
-  assert_int_equal(model_new(n, 2, n_contacts, 2, &m), HC_OK);
+  CHECK_MADE(model, m, model_new(n, 2, n_contacts, 2, &m));
   for (int i = 0; i < n; ++i) m->mass[i * (n + 1)] = 1 + random_unit(seed);
   add_random_outer(seed, n, n, 0.2 / n, m->mass);
   for (int i = 0; i < n; ++i) m->stiffness[i * (n + 1)] = 20 + 100 * random_unit(seed);
@@ -104,9 +103,8 @@ static inline void turn_matrix(int n, const double *Q, const double *from, doubl
 /* The same structure in y, x = Q y, Q[n][n] by columns and not singular. */
 static inline model *turned_structure(const model *m, const double *Q)
 {
-  model *t;
   const int n = m->n;
-  assert_int_equal(model_copy(m, &t), HC_OK);
+  CHECK_MADE(model, t, model_copy(m, &t));
   turn_matrix(n, Q, m->mass, t->mass);
   turn_matrix(n, Q, m->damping, t->damping);
   turn_matrix(n, Q, m->stiffness, t->stiffness);

@@ -43,8 +43,7 @@ static inline structure_case structure_case_named(const char *name, int harmonic
 
 static inline hbm_solver *structure_solver(const structure_case *c)
 {
-  hbm_solver *s;
-  assert_int_equal(hbm_solver_new(c->model, &c->how, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(c->model, &c->how, &s));
   assert_true(hbm_n_coefficients(s) <= CASE_MAX_COEF);
   return s;
 }
@@ -60,7 +59,6 @@ static inline void scale_dynamic_loads(model *m, double factor)
 /* The responses become the degrees of freedom: hbm_response then gives all of x. To free with model_free. */
 static inline model *with_all_responses(const model *m)
 {
-  model *all;
-  assert_int_equal(model_copy_all_seen(m, &all), HC_OK);
+  CHECK_MADE(model, all, model_copy_all_seen(m, &all));
   return all;
 }

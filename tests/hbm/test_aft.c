@@ -62,8 +62,7 @@ static double case_2_error(int restart, int n_time)
   scene sc = scene_named("c2", 1, true, n_time);
   sc.hbm.restart = restart;
   double worst = 0;
-  aft *a;
-  assert_int_equal(scene_aft(&sc, 1, n_time, &a), HC_OK);
+  CHECK_MADE(aft, a, scene_aft(&sc, 1, n_time, &a));
   for (int k = 0; k < 64 * 32; ++k) {
     double X[3] = {-1, 10 + k % 32 / 320.0, 0}, Y[3], F[3], G[3], shift = k / 32 * 2 * PI / n_time / 64;
     double exact = unilateral(550, X[0] + sc.contacts[0].law.gap / sqrt(0.5), X[1]);

@@ -33,9 +33,8 @@ static void jacobian_equals_central_differences(CHECK_STATE)
       int H = sizes[i].H, N = sizes[i].N, n = 2 * H + 1;
       scene sc = random_contacts(&seed, 1 + trial % 3);
       sc.hbm.restart = trial / 2 % 2 ? HBM_RESTART_SAMPLE : HBM_RESTART_INTERPOLATED;
-      aft *a;
       contact_report report;
-      assert_int_equal(scene_aft(&sc, H, N, &a), HC_OK);
+      CHECK_MADE(aft, a, scene_aft(&sc, H, N, &a));
       random_motion(&seed, H, 1, 1 + trial % 3, X);
       assert_int_equal(aft_eval(a, X, F, jac, &report), HC_OK);
       uint64_t pattern = pattern_at(&sc, H, N, X, unused);
@@ -96,9 +95,8 @@ static void whole_steps_only_rotate(CHECK_STATE)
       for (int j = 0; j < sc.n_contacts; ++j) stiffness += slow_stiffness(&sc.contacts[j]);
       random_motion(&seed, H, 1, 1, X);
       shift_motion(H, X, shift, Y);
-      aft *a;
       contact_report here, there;
-      assert_int_equal(scene_aft(&sc, H, N, &a), HC_OK);
+      CHECK_MADE(aft, a, scene_aft(&sc, H, N, &a));
       assert_int_equal(aft_eval(a, X, F, jac, &here), HC_OK);
       assert_int_equal(aft_eval(a, Y, G, shifted_jac, &there), HC_OK);
       aft_free(a);

@@ -121,8 +121,7 @@ static void condensed_is_the_whole(CHECK_STATE)
   const double omegas[] = {0.3, 0.35, 1, 4.4, 7, 30, 0.1, 70};
   for (int how = 0; how < DAMPINGS; ++how) {
     model *m = large_structure(&seed, how);
-    condensation *c;
-    assert_int_equal(condensation_new(m, H, &c), HC_OK);
+    CHECK_MADE(condensation, c, condensation_new(m, H, &c));
     assert_in_range(condensation_dim(c), 2, DIM);
     for (size_t k = 0; k < sizeof omegas / sizeof *omegas; ++k)
       for (int ramp = 0; ramp < 2; ++ramp) {
@@ -193,10 +192,9 @@ static void changes_are_derivatives(CHECK_STATE)
   for (int how = 0; how < DAMPINGS; ++how)
     for (by what = BY_OMEGA; what <= BY_DAMPING; ++what) {
       model *m = large_structure(&seed, how);
-      condensation *c;
       double complex S[4][DIM * DIM], p[4][DIM * DIM], dS[DIM * DIM], dp[DIM];
       const double start = what == BY_OMEGA ? 6 : 1;
-      assert_int_equal(condensation_new(m, H, &c), HC_OK);
+      CHECK_MADE(condensation, c, condensation_new(m, H, &c));
       const int dim = condensation_dim(c);
       for (int k = 0; k < 4; ++k) values_at(c, what, start + (k % 2 ? h : -h) * (k / 2 + 1), 2, S[k], p[k]);
       values_at(c, what, start, 2, dS, dp);
@@ -217,15 +215,13 @@ static void changes_are_derivatives(CHECK_STATE)
  * that of another frequency. */
 static void a_resonance_of_the_rest_is_refused(CHECK_STATE)
 {
-  model *m;
-  condensation *c;
-  assert_int_equal(model_new(3, 1, 1, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_new(3, 1, 1, 1, &m));
   for (int i = 0; i < 3; ++i) m->mass[4 * i] = 1, m->stiffness[4 * i] = 4 + 3 * i;
   m->stiffness[5] = m->stiffness[7] = -2;
   m->loads[0] = (model_load){.harmonic = 1, .cosine = m->loads[0].cosine, .sine = m->loads[0].sine};
   m->loads[0].cosine[2] = m->responses[2] = m->contacts[0].tangent[2] = 1;
   m->contacts[0].law = (contact){.kt = 10, .mu = 0.5, .load = 1};
-  assert_int_equal(condensation_new(m, 1, &c), HC_OK);
+  CHECK_MADE(condensation, c, condensation_new(m, 1, &c));
   for (int again = 0; again < 2; ++again) {
     assert_int_equal(condensation_at(c, 2.5, 0), HC_OK);
     assert_int_equal(condensation_at(c, 2, 0), HC_NOT_FINITE);

@@ -154,10 +154,9 @@ static void what_goes_in_is_dissipated(CHECK_STATE)
                               .skip_linear = trial % 2};
     const double omega = 3 + 9 * random_unit(&seed);
     double X[MOST_X] = {0}, x[MOST_N][LENGTH], work = 0;
-    hbm_solver *s;
     hbm_point point;
     contact_period period[MOST_CONTACTS];
-    assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
     if (hbm_solve_first(s, omega, X, &point) == HC_OK && point.residual <= 1e-13) {
       for (int i = 0; i < n; ++i) assert_int_equal(hbm_response(s, omega, X, i, x[i]), HC_OK);
       assert_int_equal(hbm_measure_contacts(s, omega, X, period), HC_OK);

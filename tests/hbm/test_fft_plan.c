@@ -53,9 +53,8 @@ static void one_lock_guards_the_planner(CHECK_STATE)
   fftw_complex spectrum[3];
   double samples[4];
   fftw_plan there, back;
-  aft *a;
   calls = unguarded = 0;
-  assert_int_equal(scene_aft(&no_contact, 1, 4, &a), HC_OK);
+  CHECK_MADE(aft, a, scene_aft(&no_contact, 1, 4, &a));
   assert_int_equal(fft_plan_to_samples(4, spectrum, samples, &there), HC_OK);
   assert_int_equal(fft_plan_to_spectrum(4, samples, spectrum, &back), HC_OK);
   aft_free(a);

@@ -55,8 +55,7 @@ static scene scene_of(const refused_scene *r)
 /* Without a guess: what is tested are the ramps (tests/compare/test_first_guess.c has the guess). */
 static hc_status unguided_solver(const scene *sc, hbm_solver **out)
 {
-  model *m;
-  assert_int_equal(scene_model(sc, &m), HC_OK);
+  CHECK_MADE(model, m, scene_model(sc, &m));
   const hc_status st = hbm_solver_new(m, &sc->hbm, out);
   model_free(m);
   return st;
@@ -65,8 +64,7 @@ static hc_status unguided_solver(const scene *sc, hbm_solver **out)
 static hbm_solver *solver_of(const refused_scene *r)
 {
   const scene sc = scene_of(r);
-  hbm_solver *s;
-  assert_int_equal(unguided_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, unguided_solver(&sc, &s));
   return s;
 }
 
@@ -76,8 +74,7 @@ static void check_solution(const refused_scene *r, const double *X, const char *
 {
   const scene sc = scene_of(r);
   double F[MOST_COEF], size = r->force, worst = 0;
-  exact_force *e;
-  assert_int_equal(scene_exact(&sc, r->harmonics, &e), HC_OK);
+  CHECK_MADE(exact_force, e, scene_exact(&sc, r->harmonics, &e));
   assert_int_equal(exact_force_eval(e, X, F, NULL, NULL), HC_OK);
   exact_force_free(e);
   if (r->keep_mean) worst = fabs(r->stiffness * X[0] + F[0]);
@@ -246,12 +243,11 @@ static void settings_for_curves_do_not_reach_ramps(CHECK_STATE)
   for (int other = 0; other < 2; ++other) {
     scene sc = scene_of(r);
     hbm_point point;
-    hbm_solver *s;
     if (other) {
       sc.hbm.skip_linear = true;
       sc.hbm.continuation = HBM_CONTINUATION_NATURAL;
     }
-    assert_int_equal(unguided_solver(&sc, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, unguided_solver(&sc, &s));
     if (other) hbm_scale_steps(s, 0.1);
     assert_int_equal(hbm_solve_first(s, r->omega, X[other], &point), HC_OK);
     iterations[other] = point.iterations;
@@ -269,10 +265,9 @@ static void no_ramp_where_the_linear_response_is_a_guess(CHECK_STATE)
   sc.hbm.force = HBM_FORCE_EXACT;
   double X[MOST_COEF];
   hbm_point point;
-  hbm_solver *s;
   tick_counter watch = {.stop = 1};
   const hc_monitor monitor = {tick_any, &watch};
-  assert_int_equal(unguided_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, unguided_solver(&sc, &s));
   assert_int_equal(hbm_first_solution(s, 6, &monitor, X, &point), HC_OK);
   assert_int_equal(watch.ticks, 0); /* a ramp ticks at each step */
   hbm_solver_free(s);

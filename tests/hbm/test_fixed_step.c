@@ -98,9 +98,8 @@ static void sampled_corners_stop_it(CHECK_STATE)
   sc.contacts[0].law.kn = 3e3;
   sc.hbm.restart = HBM_RESTART_SAMPLE;
   sc.hbm.continuation = HBM_CONTINUATION_AUTO;
-  hbm_solver *s;
   hbm_curve whole = {0};
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   assert_int_equal(hbm_trace(s, 3, 40, NULL, &whole), HC_OK); /* some 5000 steps: more than trace() lets pass */
   hbm_curve_free(&whole);
   hbm_solver_free(s);
@@ -123,9 +122,8 @@ static void what_adapts_is_refused(CHECK_STATE)
   for (int samples = 0; samples <= 1; ++samples) {
     scene sc = fixed("c2", samples ? 3 : HBM_AUTO, true, samples ? HBM_AUTO : 1024, 0.02, 20);
     sc.hbm.accuracy = 1e-4;
-    hbm_solver *s;
     hbm_curve curve = {0};
-    assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
     assert_int_equal(hbm_trace(s, 3, 20, NULL, &curve), HC_BAD_INPUT);
     assert_int_equal(curve.n, 0);
     hbm_curve_free(&curve);

@@ -21,9 +21,8 @@ static void damp(model *m, double a, double b)
 static int multipliers_by(monodromy_method method, const model *m, const contact_forces *orbit, double omega,
                           double complex *lambda, hbm_stability *st)
 {
-  monodromy *w;
   const double complex *found;
-  assert_int_equal(monodromy_new(m, method, &w), HC_OK);
+  CHECK_MADE(monodromy, w, monodromy_new(m, method, &w));
   assert_int_equal(monodromy_stability(w, m, orbit, omega, st), HC_OK);
   const int n = monodromy_multipliers(w, &found);
   assert_true(n <= MOST);
@@ -72,11 +71,10 @@ static void multipliers_are_those_by_intervals(CHECK_STATE)
       random_direction(&seed, n, m->contacts[j].normal);
       make_circle(m, j, whole);
     }
-    hbm_solver *s;
     const contact_forces *orbit;
     contact_report report;
     hbm_stability a, b;
-    assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
     for (int c = 0; c < LENGTH; ++c)
       for (int i = 0; i < n; ++i) x[c * n + i] = 0.5 * random_signed(&seed) / (1 + c * c);
     hbm_guess_of(s, x, X);
@@ -100,8 +98,7 @@ static void multipliers_are_those_by_intervals(CHECK_STATE)
 static model *padded(const model *m, int more, double omega_low, double omega_high, double b)
 {
   const int n = m->n + more;
-  model *p;
-  assert_int_equal(model_new(n, m->n_loads, m->n_contacts + 2, m->n_responses, &p), HC_OK);
+  CHECK_MADE(model, p, model_new(n, m->n_loads, m->n_contacts + 2, m->n_responses, &p));
   for (int j = 0; j < m->n; ++j)
     for (int i = 0; i < m->n; ++i) {
       p->mass[j * n + i] = m->mass[j * m->n + i];
@@ -141,13 +138,12 @@ static void survivors_have_the_multipliers_of_all(CHECK_STATE)
   static double complex few[MOST], all[MOST];
   structure_case small = structure_case_named("stop2", 21);
   model *m = padded(small.model, 440, 20, 4000, 0.003);
-  hbm_solver *s;
   hbm_point point;
   hbm_stability a, b;
   const contact_forces *orbit;
   contact_report report;
   const double omega = 0.5 * (small.from + small.to);
-  assert_int_equal(hbm_solver_new(m, &small.how, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &small.how, &s));
   assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
   assert_int_equal(hbm_located_orbit(s, X, &orbit, &report), HC_OK);
   assert_true(report.regime == CONTACT_SEPARATES);
@@ -164,10 +160,9 @@ enum { ROOM = 32 };
 
 static int specials_of(const structure_case *c, hbm_special *special)
 {
-  hbm_solver *s;
   hbm_curve curve = {0};
   int n = 0, kept = 0;
-  assert_int_equal(hbm_solver_new(c->model, &c->how, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(c->model, &c->how, &s));
   assert_int_equal(hbm_trace(s, c->from, c->to, NULL, &curve), HC_OK);
   assert_int_equal(hbm_specials(s, &curve, ROOM, special, &n), HC_OK);
   assert_true(n <= ROOM);
@@ -230,8 +225,7 @@ static model *fluttering(double zeta, bool circle)
 {
   const int n = 54, contacts = circle ? 2 : 4;
   const double fast = 300, k = fast * fast, kn = 0.02 * k;
-  model *m;
-  assert_int_equal(model_new(n, 1, contacts, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_new(n, 1, contacts, 1, &m));
   for (int i = 0; i < n; ++i) {
     const double omega = i < 2 ? 2 : i < 4 ? fast : 400 + 20 * i;
     m->mass[i * (n + 1)] = 1;
@@ -263,12 +257,11 @@ static void flutter_of_fast_modes_is_seen(CHECK_STATE)
   for (int circle = 0; circle < 2; ++circle)
     for (int heavy = 0; heavy < 2; ++heavy) {
       model *m = fluttering(heavy ? 0.01 : 0.001, circle);
-      hbm_solver *s;
       hbm_point point;
       hbm_stability a, b;
       const contact_forces *orbit;
       contact_report report;
-      assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+      CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
       assert_int_equal(hbm_solve_first(s, 1, X, &point), HC_OK);
       assert_int_equal(hbm_stability_at(s, 1, X, &b), HC_OK);
       assert_int_equal(hbm_stability_verdict(&b), heavy ? 1 : -1);
@@ -290,11 +283,10 @@ static void damping_that_modes_do_not_share_is_unknown(CHECK_STATE)
 {
   static double X[CASE_MAX_COEF];
   model *m = fluttering(0.01, true);
-  hbm_solver *s;
   hbm_point point;
   hbm_stability st;
   m->damping[1] += 0.01, m->damping[m->n] += 0.01;
-  assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
   assert_int_equal(hbm_solve_first(s, 1, X, &point), HC_OK);
   assert_false(hbm_stability_is_unknown(s));
   assert_int_equal(hbm_stability_at(s, 1, X, &st), HC_OK);

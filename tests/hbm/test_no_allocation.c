@@ -39,8 +39,7 @@ static void force_allocates_nothing(CHECK_STATE)
   uint64_t seed = 11;
   for (int i = 0; i < 4; ++i) {
     scene sc = scene_named("c2", H, true, sizes[i]);
-    aft *a;
-    assert_int_equal(scene_aft(&sc, H, sizes[i], &a), HC_OK);
+    CHECK_MADE(aft, a, scene_aft(&sc, H, sizes[i], &a));
     random_motion(&seed, H, 10, 2, X);
     assert_int_equal(aft_eval(a, X, F, jac, &report), HC_OK);
     long before = allocations;
@@ -67,9 +66,8 @@ static void exact_force_allocates_nothing(CHECK_STATE)
   uint64_t seed = 12;
   for (int n_dof = 1; n_dof <= 2; ++n_dof) {
     moving_contact c[2] = {{{100, 1000, 0.3, -5}, {0.7, 0.1}, {0.7, 0.2}}, {{100, 1000, 0.3, 1}, {0.7, 0}, {0, 0.7}}};
-    exact_force *e;
     int bad = 0;
-    assert_int_equal(exact_force_new(H, n_dof, 2, c, &e), HC_OK);
+    CHECK_MADE(exact_force, e, exact_force_new(H, n_dof, 2, c, &e));
     long before = allocations;
     for (int k = 0; k < 40; ++k) {
       random_motion(&seed, H, k % 3 ? 10 : 0.1, 2, X);
@@ -92,9 +90,8 @@ static void circle_force_allocates_nothing(CHECK_STATE)
   contact_report report;
   uint64_t seed = 13;
   for (int i = 0; i < 3; ++i) {
-    planar_force *f;
     int bad = 0;
-    assert_int_equal(planar_force_new(H, i < 2 ? 3 : 2, &halves[i], &f), HC_OK);
+    CHECK_MADE(planar_force, f, planar_force_new(H, i < 2 ? 3 : 2, &halves[i], &f));
     long before = allocations;
     for (int k = 0; k < 40; ++k) {
       for (int d = 0; d < 3; ++d) random_motion(&seed, H, 1, 1, X + d * N_COEF);
@@ -113,12 +110,11 @@ static void solving_with(int force)
   enum { H = 10, N_COEF = 2 * H + 1 };
   scene sc = scene_named("c2", H, true, 1024);
   sc.hbm.force = force;
-  hbm_solver *s;
   hbm_point point;
   hbm_measures m;
   motion_error e;
   double X[N_COEF], Y[N_COEF] = {0};
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   assert_int_equal(hbm_solve_first(s, 6, X, &point), HC_OK);
   assert_int_equal(hbm_solve(s, 6.01, X, &point), HC_OK);
   assert_int_equal(hbm_predict(s, 6.01, X, &e), HC_OK);

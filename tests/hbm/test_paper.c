@@ -19,11 +19,10 @@ static bool tick(void *self, double done)
 
 static outcome trace(const scene *sc, double from, double to)
 {
-  hbm_solver *s;
   hbm_curve c = {0};
   int ticks = 0;
   hc_monitor monitor = {tick, &ticks};
-  assert_int_equal(scene_hbm_solver(sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(sc, &s));
   outcome o = {.status = hbm_trace(s, from, to, &monitor, &c)};
   assert_int_not_equal(o.status, HC_INTERRUPTED);
   assert_true(c.n > 0);

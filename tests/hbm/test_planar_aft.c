@@ -6,8 +6,7 @@
 static void *make(const contact *whole, hbm_restart restart, int H, int N)
 {
   const contact half = circle_half(*whole);
-  void *a;
-  assert_int_equal(make_sampled(H, N, restart, whole->kn > 0 ? 3 : 2, &half, &a), HC_OK);
+  CHECK_MADE(void, a, make_sampled(H, N, restart, whole->kn > 0 ? 3 : 2, &half, &a));
   return a;
 }
 
@@ -83,8 +82,7 @@ static void located_forces_are_the_limit(CHECK_STATE)
     if (k == 2) series_extrema(H, X + 2 * L, &most, &least), law.gap = -least;
     const contact half = circle_half(law);
     contact_report report;
-    planar_force *of;
-    assert_int_equal(planar_force_new(H, 3, &half, &of), HC_OK);
+    CHECK_MADE(planar_force, of, planar_force_new(H, 3, &half, &of));
     assert_int_equal(planar_force_eval(of, X, exact, NULL, &report), HC_OK);
     assert_int_equal(report.regime, k == 1 ? CONTACT_SEPARATES : CONTACT_SLIPS);
     planar_force_free(of);

@@ -12,8 +12,7 @@ static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X];
 static planar_force *make(const contact *whole, int H)
 {
   const contact half = circle_half(*whole);
-  planar_force *f;
-  assert_int_equal(planar_force_new(H, whole->kn > 0 ? 3 : 2, &half, &f), HC_OK);
+  CHECK_MADE(planar_force, f, planar_force_new(H, whole->kn > 0 ? 3 : 2, &half, &f));
   return f;
 }
 
@@ -62,9 +61,8 @@ static double distance_to_sampled(const contact *law, int H, const double *X, in
   const contact half = circle_half(*law);
   const int rows = (law->kn > 0 ? 3 : 2) * series_length(H);
   double F[CIRCLE_MAX_X], G[CIRCLE_MAX_X], sum = 0;
-  void *a;
   planar_force *f = make(law, H);
-  assert_int_equal(make_sampled(H, N, HBM_RESTART_INTERPOLATED, rows / series_length(H), &half, &a), HC_OK);
+  CHECK_MADE(void, a, make_sampled(H, N, HBM_RESTART_INTERPOLATED, rows / series_length(H), &half, &a));
   assert_int_equal(planar_aft_evaluator.evaluate(a, X, G, NULL, NULL), HC_OK);
   assert_int_equal(planar_force_eval(f, X, F, NULL, NULL), HC_OK);
   for (int i = 0; i < rows; ++i) sum += (F[i] - G[i]) * (F[i] - G[i]);

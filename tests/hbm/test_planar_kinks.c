@@ -69,8 +69,7 @@ static double distance(const double *a, const double *b)
 static planar_force *make(const contact *whole)
 {
   const contact half = circle_half(*whole);
-  planar_force *f;
-  assert_int_equal(planar_force_new(H, 3, &half, &f), HC_OK);
+  CHECK_MADE(planar_force, f, planar_force_new(H, 3, &half, &f));
   return f;
 }
 

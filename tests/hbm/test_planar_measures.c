@@ -70,11 +70,10 @@ static void work_is_that_of_the_traction(CHECK_STATE)
   for (int trial = 0; trial < 300; ++trial) {
     const int H = 1 + trial % 7, n = series_length(H);
     const contact law = random_circle(&seed), half = circle_half(law);
-    planar_force *f;
     contact_period out[2];
     double work = 0;
     random_plane_motion(&seed, H, 1, X);
-    assert_int_equal(planar_force_new(H, law.kn > 0 ? 3 : 2, &half, &f), HC_OK);
+    CHECK_MADE(planar_force, f, planar_force_new(H, law.kn > 0 ? 3 : 2, &half, &f));
     assert_int_equal(planar_force_eval(f, X, F, NULL, NULL), HC_OK);
     assert_int_equal(planar_measures_of(&half, H, X, X + n, X + 2 * n, out), HC_OK);
     for (int d = 0; d < 2; ++d)

@@ -339,9 +339,8 @@ static void multipliers_are_those_of_the_period_map(CHECK_STATE)
 /* One more circle on a structure, its tangents along two coordinates, pressed on by a load that does not vary. */
 static void add_circle(structure_case *c, int along_1, int along_2, double kt, double limit)
 {
-  model *bigger;
   const int first = c->model->n_contacts;
-  assert_int_equal(model_copy_sized(c->model, first + 2, c->model->n_responses, &bigger), HC_OK);
+  CHECK_MADE(model, bigger, model_copy_sized(c->model, first + 2, c->model->n_responses, &bigger));
   model_free(c->model);
   c->model = bigger;
   for (int d = 0; d < 2; ++d) {

@@ -276,12 +276,11 @@ static void prediction_follows_the_number_of_harmonics(CHECK_STATE)
 {
   scene sc = exact_scene("c2", HBM_AUTO, true);
   sc.hbm.accuracy = 1e-4;
-  hbm_solver *s;
   hbm_curve c = {0}, at = {0};
   double X[MOST];
   hbm_point point;
   motion_error few, many;
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   assert_int_equal(hbm_solve_first(s, 6, X, &point), HC_OK);
   assert_int_equal(hbm_predict(s, 6, X, &few), HC_OK);
   assert_int_equal(hbm_trace(s, 5.5, 6.5, NULL, &c), HC_OK);

@@ -28,9 +28,8 @@ static void check(const double *F, double terms, const char *which)
 static void exact_force_of_a_small_motion(CHECK_STATE)
 {
   scene sc = preloaded();
-  exact_force *e;
   double F[N_COEF];
-  assert_int_equal(scene_exact(&sc, H, &e), HC_OK);
+  CHECK_MADE(exact_force, e, scene_exact(&sc, H, &e));
   assert_int_equal(exact_force_eval(e, X, F, NULL, NULL), HC_OK);
   exact_force_free(e);
   check(F, 4 * N_COEF, "exact");
@@ -39,9 +38,8 @@ static void exact_force_of_a_small_motion(CHECK_STATE)
 static void sampled_force_of_a_small_motion(CHECK_STATE)
 {
   scene sc = preloaded();
-  aft *a;
   double F[N_COEF];
-  assert_int_equal(scene_aft(&sc, H, 64, &a), HC_OK);
+  CHECK_MADE(aft, a, scene_aft(&sc, H, 64, &a));
   assert_int_equal(aft_eval(a, X, F, NULL, NULL), HC_OK);
   aft_free(a);
   check(F, 64, "sampled");
@@ -55,13 +53,11 @@ static void an_opening_takes_the_preload_away(CHECK_STATE)
   scene sc = preloaded();
   const double large[N_COEF] = {0, 20, 0, 1, 0, 0, 0};
   contact_report report;
-  exact_force *e;
-  aft *a;
   double F[N_COEF], G[N_COEF];
-  assert_int_equal(scene_exact(&sc, H, &e), HC_OK);
+  CHECK_MADE(exact_force, e, scene_exact(&sc, H, &e));
   assert_int_equal(exact_force_eval(e, large, F, NULL, &report), HC_OK);
   assert_int_equal(report.regime, CONTACT_SEPARATES);
-  assert_int_equal(scene_aft(&sc, H, N, &a), HC_OK);
+  CHECK_MADE(aft, a, scene_aft(&sc, H, N, &a));
   assert_int_equal(aft_eval(a, large, G, NULL, NULL), HC_OK);
   const double d = 2 * PI / N, rate = 1e8 * 22; /* at most kn |x'|; some ten transitions and intervals, each counted
                                                     once */

@@ -12,8 +12,7 @@ static contact_forces *forces_of(const contact *law, int dim, const double *tang
 {
   const placed_contact c = {.law = *law, .tangent = tangent, .normal = normal};
   const evaluator_settings how = {.n_harm = H, .n_time = n_time};
-  contact_forces *f;
-  assert_int_equal(contact_forces_new_of(dim, 1, &c, force, &how, &f), HC_OK);
+  CHECK_MADE(contact_forces, f, contact_forces_new_of(dim, 1, &c, force, &how, &f));
   return f;
 }
 
@@ -192,18 +191,16 @@ static double fold_from(double w, double a)
 
 static void duffings_first_approximation_is_one_harmonic(CHECK_STATE)
 {
-  model *m;
-  assert_int_equal(model_oscillator(1, C, 1, F0, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_oscillator(1, C, 1, F0, 1, &m));
   *m->contacts->normal = 1;
   m->contacts->law.smooth = CONTACT_POLYNOMIAL;
   m->contacts->law.power[1] = 3;
   const hbm_settings how = {
       .harmonics = 1, .keep_mean = true, .force = HBM_FORCE_EXACT, .tolerance = 1e-13, .accuracy = 1e-4};
-  hbm_solver *s;
   hbm_curve curve = {0};
   hbm_special fold[8];
   int n, turns = 0;
-  assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
   assert_int_equal(hbm_trace(s, 0.5, 2, NULL, &curve), HC_OK);
   assert_true(curve.n > 20);
   for (int k = 0; k < curve.n; ++k) {

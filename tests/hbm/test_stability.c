@@ -14,11 +14,10 @@
 static void check_linear(const scene *sc, double k, double omega, contact_regime regime, const char *what)
 {
   double X[64];
-  hbm_solver *s;
   hbm_point point;
   hbm_stability st;
   hbm_measures measures;
-  assert_int_equal(scene_hbm_solver(sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(sc, &s));
   assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
   assert_int_equal(hbm_measure(s, X, &measures), HC_OK);
   assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
@@ -107,12 +106,10 @@ static void without_slip_the_determinant_is_that_of_the_damping(CHECK_STATE)
 static void check_slipping(const scene *sc, double omega, const char *what)
 {
   double X[2 * 30 + 1];
-  hbm_solver *s;
   hbm_point point;
   hbm_stability st;
-  model *m;
-  assert_int_equal(scene_model(sc, &m), HC_OK);
-  assert_int_equal(scene_hbm_solver(sc, &s), HC_OK);
+  CHECK_MADE(model, m, scene_model(sc, &m));
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(sc, &s));
   assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
   check_against_map(what, s, m, omega, X);
   assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
@@ -158,11 +155,10 @@ static void a_slider_shaken_down_is_held(CHECK_STATE)
       55.94139530323445};
   const double omega = 881.68431426493737, rate = 0.5 * sc.damping / sc.mass,
                k = sc.stiffness + scene_stuck_stiffness(&sc.contacts[0]);
-  hbm_solver *s;
   hbm_point point;
   hbm_stability st;
   double X[9];
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
   CHECK_LE(1e-6, fabs(X[0]), "the slider has slipped: it rests where the mean is not 0");
   assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
@@ -177,11 +173,10 @@ static void a_slider_shaken_down_is_held(CHECK_STATE)
 static void the_determinant_has_its_say(CHECK_STATE)
 {
   scene sc = exact_scene("c2", 3, true);
-  hbm_solver *s;
   hbm_curve curve = {0};
   hbm_special at[32];
   int n, contradictions = 0, checked = 0;
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   assert_int_equal(hbm_trace(s, 3, 20, NULL, &curve), HC_OK);
   assert_int_equal(hbm_specials(s, &curve, 32, at, &n), HC_OK);
   assert_true(n <= 32);

@@ -133,11 +133,10 @@ static void jacobian_is_the_derivative(CHECK_STATE)
 static bool solve(const model *m, int H, double omega, double (*x)[2 * 20 + 1], contact_regime *regime)
 {
   const hbm_settings how = settings(H);
-  hbm_solver *s;
   hbm_point point;
   hbm_measures measures;
   static double X[MOST];
-  assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
   const bool found = hbm_solve_first(s, omega, X, &point) == HC_OK;
   for (int r = 0; r < 2 && found; ++r) assert_int_equal(hbm_response(s, omega, X, r, x[r]), HC_OK);
   if (found) assert_int_equal(hbm_measure(s, X, &measures), HC_OK);
@@ -174,8 +173,7 @@ static void random_permutation(uint64_t *seed, int n, double *Q)
 static model *in_other_units(const model *m)
 {
   const double length = 1000;
-  model *u;
-  assert_int_equal(model_copy(m, &u), HC_OK);
+  CHECK_MADE(model, u, model_copy(m, &u));
   for (int i = 0; i < m->n * m->n; ++i) u->mass[i] /= length, u->damping[i] /= length, u->stiffness[i] /= length;
   for (int j = 0; j < m->n_contacts; ++j) {
     u->contacts[j].law.kt /= length;
@@ -189,8 +187,7 @@ static model *in_other_units(const model *m)
 static model *with_contacts_split(const model *m)
 {
   const size_t vector = (size_t)m->n * sizeof(double);
-  model *s;
-  assert_int_equal(model_copy_sized(m, 2 * m->n_contacts, m->n_responses, &s), HC_OK);
+  CHECK_MADE(model, s, model_copy_sized(m, 2 * m->n_contacts, m->n_responses, &s));
   for (int j = 0; j < 2 * m->n_contacts; ++j) {
     const model_contact *of = &m->contacts[j / 2];
     s->contacts[j].law = of->law;
@@ -276,10 +273,9 @@ static void copies_are_each_the_one(CHECK_STATE)
   many->responses[0] = many->responses[COPIES + 2] = 1;
   const hbm_settings how = settings(10);
   for (double omega = 5.5; omega < 9; omega += 0.5) {
-    hbm_solver *s;
     hbm_point point;
     double X[21], all[COPIES * 21];
-    assert_int_equal(hbm_solver_new(one, &how, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, hbm_solver_new(one, &how, &s));
     assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
     hbm_solver_free(s);
     for (int c = 0; c < 21; ++c) {
@@ -301,8 +297,7 @@ static void copies_are_each_the_one(CHECK_STATE)
 static model *two_bodies(double size)
 {
   const contact law = {.kt = 30, .mu = 0.5, .load = 1.2};
-  model *m;
-  assert_int_equal(model_new(2, 1, 2, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_new(2, 1, 2, 1, &m));
   m->loads[0].harmonic = 1;
   m->responses[0] = 1;
   for (int i = 0; i < 2; ++i) {
@@ -331,9 +326,8 @@ static void a_small_body_beside_a_large_one(CHECK_STATE)
   for (double omega = 9.3; omega < 12; omega += 0.4) {
     double x[2][2 * (2 * HARMONICS + 1)];
     for (int k = 0; k < 2; ++k) {
-      hbm_solver *s;
       hbm_point point;
-      assert_int_equal(hbm_solver_new(k ? unlike : alike, &how, &s), HC_OK);
+      CHECK_MADE(hbm_solver, s, hbm_solver_new(k ? unlike : alike, &how, &s));
       assert_int_equal(hbm_solve_first(s, omega, x[k], &point), HC_OK);
       hbm_solver_free(s);
     }
@@ -347,11 +341,9 @@ static void a_small_body_beside_a_large_one(CHECK_STATE)
 /* 50 x + 100 (x - 0.1) = 20: x = 0.2, N = 10; a stop at 1 is out of reach. */
 static void contacts_at_rest(CHECK_STATE)
 {
-  model *m;
-  hbm_solver *s;
   double N[2];
   const hbm_settings how = settings(1);
-  assert_int_equal(model_new(2, 1, 2, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_new(2, 1, 2, 1, &m));
   m->mass[0] = m->mass[3] = 1;
   m->stiffness[0] = m->stiffness[3] = 50;
   m->loads[0].cosine[0] = 20;
@@ -360,7 +352,7 @@ static void contacts_at_rest(CHECK_STATE)
     m->contacts[j].normal[0] = 1;
   }
   m->responses[0] = 1;
-  assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
   assert_int_equal(hbm_preloads(s, N), HC_OK);
   CHECK_NEAR(N[0], 10, 1e-13, "pressed on");
   CHECK_NEAR(N[1], 0, 0, "out of reach");

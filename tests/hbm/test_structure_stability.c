@@ -13,10 +13,9 @@ static const hbm_settings how = {.harmonics = H, .keep_mean = true, .tolerance =
 
 static hbm_stability stability_of(const model *m, double omega, double *X)
 {
-  hbm_solver *s;
   hbm_point point;
   hbm_stability st;
-  assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
   assert_int_equal(hbm_solve(s, omega, X, &point), HC_OK);
   assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
   hbm_solver_free(s);
@@ -48,8 +47,7 @@ static void oscillators_side_by_side(CHECK_STATE)
     model *turned = turned_structure(two, Q);
     const double at = k ? 13 : omega, period = TWO_PI / at;
     const hbm_stability alone = stability_of(one, at, X);
-    hbm_solver *s;
-    assert_int_equal(hbm_solver_new(turned, &how, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, hbm_solver_new(turned, &how, &s));
     const int dim = s->sys.dim; /* q is one motion of x_0, or both */
     memset(both, 0, sizeof both);
     const double *row = condensation_first_response(s->sys.linear);
@@ -74,13 +72,11 @@ static void oscillators_side_by_side(CHECK_STATE)
  * pull by t^2/2 more. */
 static void a_free_body_has_no_eigenvectors(CHECK_STATE)
 {
-  model *m;
-  interval_flow *f;
-  assert_int_equal(model_new(2, 0, 1, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_new(2, 0, 1, 1, &m));
   m->mass[0] = m->mass[3] = 2;
   m->contacts[0].law = (contact){.kt = 1e-300, .mu = 1, .load = 1};
   m->contacts[0].tangent[0] = 1;
-  assert_int_equal(interval_flow_new(m, &f), HC_OK);
+  CHECK_MADE(interval_flow, f, interval_flow_new(m, &f));
   const contact_interval stuck = {.state = CONTACT_STICK};
   const contact_interval *interval[] = {&stuck};
   double phi[25] = {0};
@@ -105,10 +101,8 @@ static void products_of(const model *m, int last, bool all, double *fold, double
   double complex lambda[STATES];
   int slider[] = {0}, active[] = {0, 1, 2, 3, 4};
   const bool goes_on[] = {false};
-  interval_flow *f;
-  floquet *eigen;
-  assert_int_equal(interval_flow_new(m, &f), HC_OK);
-  assert_int_equal(floquet_new(STATES, &eigen), HC_OK);
+  CHECK_MADE(interval_flow, f, interval_flow_new(m, &f));
+  CHECK_MADE(floquet, eigen, floquet_new(STATES, &eigen));
   *columns = 4;
   for (int i = 0; i < 4; ++i) phi[i * (STATES + 1)] = 1;
   if (!all)
@@ -144,8 +138,7 @@ static void what_a_interval_leaves_has_all_the_multipliers(CHECK_STATE)
     const int last = i % 2 ? STUCK : SLIP;
     /* Two masses, a Jenkins element on both, and a damper on the second one, whose motions die out in an interval. A
      * period slips and then sticks, from where the mass was then: dheld = kt t . dx. */
-    model *m;
-    assert_int_equal(model_new(2, 0, 1, 1, &m), HC_OK);
+    CHECK_MADE(model, m, model_new(2, 0, 1, 1, &m));
     m->mass[0] = m->mass[3] = 1;
     m->stiffness[0] = 40, m->stiffness[1] = m->stiffness[2] = -15, m->stiffness[3] = 1e5;
     m->damping[0] = 0.5, m->damping[3] = 600;
@@ -169,11 +162,10 @@ static void a_free_chain_keeps_its_momentum(CHECK_STATE)
 {
   enum { N = 10, ALL = 2 * N };
   uint64_t seed = 3;
-  model *m;
   interval_flow *f;
   static double phi[ALL * ALL];
   const double t = 20;
-  assert_int_equal(model_new(N, 0, 0, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_new(N, 0, 0, 1, &m));
   for (int i = 0; i < N; ++i) m->mass[i * (N + 1)] = 1 + 2 * random_unit(&seed);
   for (int i = 1; i < N; ++i) {
     const double k = 5 + 10 * random_unit(&seed);

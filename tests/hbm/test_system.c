@@ -14,9 +14,8 @@ static void forces_add_up_and_never_cancel(CHECK_STATE)
   const double inertia = 2 * 9 * 0.5 + 2 * 36 * 0.1, damper = 0.5 * 3 * 0.5 + 0.5 * 6 * 0.1,
                spring = 18 * (0.1 + 0.5 + 0.1);
   double R[5];
-  hbm_solver *s;
   sc.contacts[0].law.gap = 9; /* closed all the time, and stuck: F = (kt cos^2 + kn sin^2) x */
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   const double held = scene_stuck_stiffness(&sc.contacts[0]) * (0.1 + 0.5 + 0.1);
   assert_int_equal(hbm_system_residual(&s->sys, omega, X, R), HC_OK);
   const double scale = inertia + damper + spring + held + 7;

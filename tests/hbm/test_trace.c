@@ -54,8 +54,7 @@ static void turning_points_are_real(CHECK_STATE)
       scene sc = scene_named(runs[i].name, runs[i].H, runs[i].keep_mean, runs[i].N);
       traced t = trace(&sc, down ? sc.omega_to : sc.omega_from, down ? sc.omega_from : sc.omega_to, runs[i].name);
       const hbm_curve *c = &t.curve;
-      aft *a;
-      assert_int_equal(scene_aft(&sc, runs[i].H, runs[i].N, &a), HC_OK);
+      CHECK_MADE(aft, a, scene_aft(&sc, runs[i].H, runs[i].N, &a));
       int first = 0, bad = 0;
       for (int k = 0; k < c->n; ++k) {
         int sign = sign_of_determinant(&sc, a, c->X + (size_t)k * c->n_coef, c->points[k].omega) *
@@ -188,9 +187,8 @@ static void always_an_end_with_a_reason(CHECK_STATE)
     double low = 0.05 + 2 * fabs(random_signed(&seed)), high = low + 25 * fabs(random_signed(&seed));
     tick_counter watch = {.stop = 4000}; /* a curve with a false turn at every sample may be longer: stopped here */
     hc_monitor monitor = {tick, &watch};
-    hbm_solver *s;
     hbm_curve c = {0};
-    assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
     double from = trial % 2 ? high : low, to = trial % 2 ? low : high;
     hc_status st = hbm_trace(s, from, to, &monitor, &c);
     assert_int_equal(st, c.end);
@@ -238,9 +236,8 @@ static void solving_from_nonsense(CHECK_STATE)
 {
   enum { H = 3, N_COEF = 2 * H + 1 };
   scene sc = scene_named("c2", H, true, 64);
-  hbm_solver *s;
   hbm_point point;
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   static const double bad[] = {NAN, INFINITY, -INFINITY};
   for (int i = 0; i < 3; ++i) {
     double X[N_COEF] = {0.1, 0.2}, before[N_COEF];

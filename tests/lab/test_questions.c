@@ -137,14 +137,12 @@ static void curve_is_the_librarys(CHECK_STATE)
   lab *l = lab_with_case();
   scene sc;
   case_error err;
-  model *m;
-  hbm_solver *s;
   hbm_curve curve = {0};
   response_row r;
   assert_int_equal(case_parse("case", text, strlen(text), 0, NULL, &sc, &err), HC_OK);
   sc.hbm.force = HBM_FORCE_SAMPLED;
-  assert_int_equal(scene_model(&sc, &m), HC_OK);
-  assert_int_equal(guided_hbm_solver_new(m, &sc.hbm, &s), HC_OK);
+  CHECK_MADE(model, m, scene_model(&sc, &m));
+  CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(m, &sc.hbm, &s));
   assert_int_equal(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &curve), HC_OK);
   assert_int_equal(lab_curve(l, LAB_SAMPLED), HC_OK);
   assert_int_equal(lab_rows(l), curve.n);

@@ -20,14 +20,13 @@ static void every_solution_has_its_contacts(CHECK_STATE)
     read_both(path[i], omega[i], &b);
     hbmcheck_curve *curve;
     hbmcheck_solutions *at;
-    hbm_solver *s;
     hbm_curve traced = {0}, there = {0};
     contact_period expected[2 * MOST];
     hbmcheck_contact_period found[MOST];
     int n = -1;
     assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &curve), HBMCHECK_OK);
     assert_int_equal(hbmcheck_curve_at(curve, omega[i], &at), HBMCHECK_OK);
-    assert_int_equal(guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s));
     assert_int_equal(hbm_trace(s, b.setup.omega_from, b.setup.omega_to, NULL, &traced), HC_OK);
     assert_int_equal(hbm_curve_at(s, &traced, omega[i], &there), HC_OK);
     assert_in_range(there.n, 1, 8);

@@ -82,12 +82,11 @@ static void check_curve(const char *const *set)
 {
   scene sc;
   compare_setup setup = setup_of(&sc, set);
-  hbm_solver *s;
   hbm_curve expected = {0}, at = {0};
   hbmcheck_case *c = case2_with(set);
   hbmcheck_curve *curve;
   hbmcheck_solutions *three;
-  assert_int_equal(hbm_solver_new(setup.model, &setup.hbm, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(setup.model, &setup.hbm, &s));
   assert_int_equal(hbm_trace(s, setup.omega_from, setup.omega_to, NULL, &expected), HC_OK);
   assert_int_equal(hbmcheck_curve_trace(c, NULL, &curve), HBMCHECK_OK);
   hbmcheck_case_free(c); /* results do not need it any more */

@@ -26,14 +26,13 @@ static void solutions_are_of_every_response(CHECK_STATE)
   hbmcheck_curve *curve;
   hbmcheck_solutions *found;
   hbmcheck_solution one;
-  hbm_solver *s;
   hbm_curve traced = {0}, there = {0};
   double X[MOST], expected[MOST];
   int n = 0;
   read_both(CHAIN, at[0], &b);
   assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &curve), HBMCHECK_OK);
   assert_int_equal(hbmcheck_curve_at(curve, at[0], &found), HBMCHECK_OK);
-  assert_int_equal(guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s));
   assert_int_equal(hbm_trace(s, b.setup.omega_from, b.setup.omega_to, NULL, &traced), HC_OK);
   assert_int_equal(hbm_curve_at(s, &traced, at[0], &there), HC_OK);
   assert_int_equal(hbmcheck_solutions_count(found), 1);

@@ -12,13 +12,12 @@ static void check_period(const contact_period *p, contact_regime regime, const d
 /* A contact with one tangent, a pair, another one, a pair. */
 static void pairs_become_one(CHECK_STATE)
 {
-  model *m;
   static const contact_pair pair[6] = {CONTACT_ALONE, CONTACT_FIRST, CONTACT_SECOND,
                                        CONTACT_ALONE, CONTACT_FIRST, CONTACT_SECOND};
   contact_period p[6] = {{CONTACT_STUCK, 1, 2, 3, 4, 5},      {CONTACT_SLIPS, 1, 2, 7, 4, 5},
                          {CONTACT_STUCK, 1, 2, 9, 0.5, 0.25}, {CONTACT_LINEAR, 0, 0, 0, 0, 0},
                          {CONTACT_SLIPS, 0.5, 8, 3, 2, 1},    {CONTACT_SEPARATES, 0.5, 8, 1, 0, 0}};
-  assert_int_equal(model_new(2, 0, 6, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_new(2, 0, 6, 1, &m));
   for (int j = 0; j < 6; ++j) m->contacts[j].pair = pair[j];
   assert_int_equal(model_whole_contacts(m), 4);
   contact_periods_merge(m, p);

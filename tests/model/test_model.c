@@ -12,8 +12,7 @@ enum { H = 5, N_COEF = 2 * H + 1, MANY = 40 };
 /* Case 2 of the paper, its contact cut into n of stiffness k/n: the same force at every motion. */
 static model *case_2_in_parts(int n)
 {
-  model *m;
-  assert_int_equal(model_oscillator(1, 0.4, 40, 100, n, &m), HC_OK);
+  CHECK_MADE(model, m, model_oscillator(1, 0.4, 40, 100, n, &m));
   for (int j = 0; j < n; ++j) {
     m->contacts[j].law = (contact){.kt = 100.0 / n, .kn = 1000.0 / n, .mu = 0.3, .gap = -5};
     model_direction(45, m->contacts[j].tangent, m->contacts[j].normal);
@@ -63,15 +62,13 @@ static void forces_of_many_are_those_of_one(CHECK_STATE)
   double F[2][N_COEF], G[2][N_COEF], w[MANY], largest = 0;
   for (int i = 0; i < 2; ++i) {
     model *m = case_2_in_parts(i == 0 ? 1 : MANY);
-    exact_force *e;
-    aft *a;
     contact_report report;
-    assert_int_equal(exact_force_new_of_model(H, m, &e), HC_OK);
+    CHECK_MADE(exact_force, e, exact_force_new_of_model(H, m, &e));
     assert_int_equal(exact_force_eval(e, X, F[i], NULL, &report), HC_OK);
     exact_force_sliders(e, w);
     for (int j = 1; j < m->n_contacts; ++j) assert_true(w[j] == w[0]);
     assert_int_equal(report.transitions, 2 * m->n_contacts);
-    assert_int_equal(aft_new_of_model(m, HBM_RESTART_INTERPOLATED, H, 256, &a), HC_OK);
+    CHECK_MADE(aft, a, aft_new_of_model(m, HBM_RESTART_INTERPOLATED, H, 256, &a));
     assert_int_equal(aft_eval(a, X, G[i], NULL, NULL), HC_OK);
     exact_force_free(e);
     aft_free(a);
@@ -93,11 +90,10 @@ static void solutions_with_many_are_those_with_one(CHECK_STATE)
   double X[2][N_COEF], multiplier[2];
   for (int i = 0; i < 2; ++i) {
     model *m = case_2_in_parts(i == 0 ? 1 : MANY);
-    hbm_solver *s;
     hbm_point point;
     hbm_stability st;
     memset(X[i], 0, sizeof X[i]);
-    assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
     model_free(m); /* the solver has its own */
     assert_int_equal(hbm_solve_first(s, 6.0, X[i], &point), HC_OK);
     assert_int_equal(hbm_stability_at(s, 6.0, X[i], &st), HC_OK);

@@ -18,14 +18,13 @@ static void units_of_states_make_no_difference(CHECK_STATE)
   static const int unit[N] = {0, 17, 27, -10}, active[N] = {0, 1, 2, 3};
   double phi[N * N];
   double complex found[N];
-  floquet *f;
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) {
       double sum = 0;
       for (int k = 0; k < N; ++k) sum += P[i][k] * lambda[k] * inverse[k][j];
       phi[i * N + j] = ldexp(sum, unit[i] - unit[j]);
     }
-  assert_int_equal(floquet_new(N, &f), HC_OK);
+  CHECK_MADE(floquet, f, floquet_new(N, &f));
   assert_int_equal(floquet_multipliers(f, phi, N, 1, N, active, found), HC_OK);
   for (int k = 0; k < N; ++k) {
     double nearest = INFINITY;
@@ -42,8 +41,7 @@ static void every_size_has_its_method(CHECK_STATE)
   static double phi[MOST * MOST];
   double complex found[MOST];
   int active[MOST];
-  floquet *f;
-  assert_int_equal(floquet_new(MOST, &f), HC_OK);
+  CHECK_MADE(floquet, f, floquet_new(MOST, &f));
   for (int m = 62; m <= MOST; m += 2) {
     memset(phi, 0, sizeof phi);
     for (int i = 0; i < m; ++i) active[i] = i;

@@ -53,9 +53,8 @@ static void solves_as_dense_does(CHECK_STATE)
     make(&seed, n, local, A);
     memcpy(F, A, sizeof F);
     for (int i = 0; i < n; ++i) x[i] = b[i] = random_signed(&seed);
-    grouped *g;
     hc_status st = HC_SINGULAR;
-    assert_int_equal(grouped_new(n, FIRST, SIZE, &g), HC_OK);
+    CHECK_MADE(grouped, g, grouped_new(n, FIRST, SIZE, &g));
     assert_true(grouped_factor(g, A, &st));
     assert_int_equal(st, HC_OK);
     grouped_solve(g, A, x);
@@ -78,9 +77,8 @@ static void leaves_to_dense_what_gains_nothing(CHECK_STATE)
   static double A[MOST * MOST];
   uint64_t seed = 8;
   hc_status st;
-  grouped *g;
   bool local[MOST] = {0};
-  assert_int_equal(grouped_new(MOST, FIRST, SIZE, &g), HC_OK);
+  CHECK_MADE(grouped, g, grouped_new(MOST, FIRST, SIZE, &g));
   make(&seed, MOST, local, A);
   assert_false(grouped_factor(g, A, &st)); /* every row couples the groups */
   for (int i = 0; i < MOST / 2; ++i) local[i] = true;

@@ -64,10 +64,9 @@ static hc_status heron_jacobian(void *self, const double *z, double *jac)
 static newton *make(probe *p, int n, hc_status (*residual)(void *, const double *, double *),
                     hc_status (*jacobian)(void *, const double *, double *))
 {
-  newton *nw;
   *p = (probe){.limit = INFINITY};
   newton_problem problem = {n, p, residual, jacobian};
-  assert_int_equal(newton_new(&problem, &nw), HC_OK);
+  CHECK_MADE(newton, nw, newton_new(&problem, &nw));
   return nw;
 }
 
@@ -493,12 +492,11 @@ static void out_of_memory_ends_it(CHECK_STATE)
 {
   for (int in_jacobian = 0; in_jacobian < 2; ++in_jacobian)
     for (long last = 1; last <= 6; ++last) {
-      newton *nw;
       newton_report report;
       shortage s = {.last = last, .in_jacobian = in_jacobian};
       const newton_problem problem = {1, &s, short_residual, short_jacobian};
       double z = 5;
-      assert_int_equal(newton_new(&problem, &nw), HC_OK);
+      CHECK_MADE(newton, nw, newton_new(&problem, &nw));
       assert_int_equal(newton_solve(nw, &z, &plain, &report), HC_NO_MEMORY);
       assert_true(z == 5);
       assert_int_equal(s.calls, s.failed);

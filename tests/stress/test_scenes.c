@@ -9,8 +9,7 @@ enum { MANY = 4000 };
 
 static stress_scenes *sequence(unsigned long seed)
 {
-  stress_scenes *s;
-  assert_int_equal(stress_scenes_new(seed, &s), HC_OK);
+  CHECK_MADE(stress_scenes, s, stress_scenes_new(seed, &s));
   return s;
 }
 

@@ -48,8 +48,7 @@ WRAP(hc_status, hbm_response, (hbm_solver * s, double omega, const double *X, in
 
 WRAP(hc_status, hbm_solver_new, (const model *m, const hbm_settings *how, hbm_solver **out))
 {
-  model *other;
-  assert_int_equal(model_copy(m, &other), HC_OK);
+  CHECK_MADE(model, other, model_copy(m, &other));
   if (spoiled == DAMPING_TRANSPOSED) {
     for (int j = 0; j < m->n; ++j)
       for (int i = 0; i < j; ++i) {
@@ -125,8 +124,7 @@ WRAP(hc_status, timeint_again,
 
 WRAP(hc_status, certificate_model_make, (const scene *sc, const model *m, int r, certificate_model *out))
 {
-  model *other;
-  assert_int_equal(model_copy(m, &other), HC_OK);
+  CHECK_MADE(model, other, model_copy(m, &other));
   if (spoiled == PROOF_OF_ANOTHER) other->stiffness[0] *= 1 + 1e-7;
   hc_status st = __real_certificate_model_make(sc, other, r, out);
   model_free(other);
@@ -262,10 +260,9 @@ static void circles_are_held_against_their_law(CHECK_STATE)
 /* The checks of a scene that is drawn, in so many seconds. */
 static stress_result drawn_stressed(stress_family family, unsigned long seed, long index, double seconds)
 {
-  stress_scenes *scenes;
   scene sc;
   stress_result r;
-  assert_int_equal(stress_scenes_new(seed, &scenes), HC_OK);
+  CHECK_MADE(stress_scenes, scenes, stress_scenes_new(seed, &scenes));
   assert_int_equal(stress_scene_of(scenes, family, index, &sc), HC_OK);
   assert_int_equal(stress_scene(&sc, seconds, NULL, &r), HC_OK);
   case_clear(&sc);
@@ -504,10 +501,9 @@ static void check_echo(int i, const scene *sc)
 /* Every scene is a case file that reads back to the same; all kinds of everything come up; the index alone decides. */
 static void every_scene_is_a_case_file(CHECK_STATE)
 {
-  stress_scenes *scenes;
   int damping[4] = {0}, sizes[13] = {0}, contacts[7] = {0}, jenkins = 0, springs = 0, loads = 0, at_rest = 0,
       laws[4] = {0};
-  assert_int_equal(stress_scenes_new(1, &scenes), HC_OK);
+  CHECK_MADE(stress_scenes, scenes, stress_scenes_new(1, &scenes));
   for (int i = 0; i < 300; ++i) {
     scene sc;
     assert_int_equal(stress_structures_at(scenes, i, &sc), HC_OK);
@@ -543,9 +539,8 @@ static void every_scene_is_a_case_file(CHECK_STATE)
 /* Second tangents of both limits, and some nearly along the first; all else is what it is without. */
 static void scenes_in_space_are_case_files(CHECK_STATE)
 {
-  stress_scenes *scenes;
   int pairs = 0, circles = 0;
-  assert_int_equal(stress_scenes_new(1, &scenes), HC_OK);
+  CHECK_MADE(stress_scenes, scenes, stress_scenes_new(1, &scenes));
   for (int i = 0; i < 200; ++i) {
     scene flat, sc;
     assert_int_equal(stress_scene_of(scenes, STRESS_STRUCTURES, i, &flat), HC_OK);
@@ -597,10 +592,9 @@ static void differences(hbm_system *sys, double omega, const double *X, const do
  * h and h/2 differ by more, a transition appears or disappears between. */
 static void jacobians_of_mixed_laws(CHECK_STATE)
 {
-  stress_scenes *scenes;
   const hc_monitor none = {0};
   int held = 0;
-  assert_int_equal(stress_scenes_new(2026, &scenes), HC_OK);
+  CHECK_MADE(stress_scenes, scenes, stress_scenes_new(2026, &scenes));
   for (int i = 0; i < 60; ++i) {
     scene sc;
     solved_scene s;
@@ -660,17 +654,14 @@ static hc_status count_questions(void *asked, const model *m, double omega, int 
 static void first_solutions_in_space_take_few_iterations(CHECK_STATE)
 {
   static const long drawn[] = {36, 102, 169};
-  stress_scenes *scenes;
   int asked = 0;
-  assert_int_equal(stress_scenes_new(950061, &scenes), HC_OK);
+  CHECK_MADE(stress_scenes, scenes, stress_scenes_new(950061, &scenes));
   for (size_t i = 0; i < sizeof drawn / sizeof *drawn; ++i) {
     scene sc;
-    model *m;
-    hbm_solver *h;
     hbm_point point;
     assert_int_equal(stress_scene_of(scenes, STRESS_SPACE, drawn[i], &sc), HC_OK);
-    assert_int_equal(scene_model(&sc, &m), HC_OK);
-    assert_int_equal(hbm_solver_new(m, &sc.hbm, &h), HC_OK);
+    CHECK_MADE(model, m, scene_model(&sc, &m));
+    CHECK_MADE(hbm_solver, h, hbm_solver_new(m, &sc.hbm, &h));
     double *X = calloc((size_t)hbm_n_coefficients(h), sizeof *X);
     assert_non_null(X);
     hbm_solver_take_guess(h, &(hbm_guess){.ask = count_questions, .self = &asked});

@@ -187,11 +187,10 @@ static void results_travel(CHECK_STATE)
   study *s =
       good_study("study: t\n" CASE "run: frf\nset: {compare.omega: [4, 5]}\nvary: [{oscillator.mass: [1, 2, 3]}]\n");
   study_result r, back;
-  char *packed;
   size_t size;
   assert_int_equal(study_solve(s, 1, NULL, &r), HC_OK);
   assert_int_equal(r.n_rows, 2);
-  assert_int_equal(study_result_pack(&r, &packed, &size), HC_OK);
+  CHECK_MADE(char, packed, study_result_pack(&r, &packed, &size));
   assert_int_equal(study_result_unpack(packed, size, &back), HC_OK);
   assert_int_equal(back.id, 1);
   assert_memory_equal(back.rows, r.rows, 2 * (size_t)r.n_columns * sizeof *r.rows);

@@ -41,13 +41,12 @@ static inline double half_a_digit(double x) { return x != 0 ? 0.5 * pow(10, floo
 static inline double follow_rows(const scene *sc, const char *name, const char *sweep, double from, double off,
                                  double linear_off)
 {
-  timeint *ti;
   timeint_result r;
   int rows = 0;
   double worst = 0;
   const bool exact = sc->transient.law == TRANSIENT_LAW_EXACT,
              closed = sc->transient.method == TRANSIENT_METHOD_CLOSED_FORM;
-  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(sc, &ti));
   scene_state y = {.x = 0};
   for (int i = 0; i < N_STEADY_REFERENCES; ++i) {
     const steady_reference *want = &steady_references[i];

@@ -45,11 +45,10 @@ static inline int check_structure_rows(const model *m, const char *name, transie
   static const char *const starts[] = {
       [TRANSIENT_START_REST] = "rest", [TRANSIENT_START_UP] = "up", [TRANSIENT_START_DOWN] = "down"};
   double omega = NAN, largest = 0, state[STATES], swept[STATES] = {0};
-  timeint *ti;
   timeint_result r;
   int checked = 0;
   how.start = start;
-  assert_int_equal(timeint_new(m, &how, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(m, &how, &ti));
   for (int i = 0; i < N_STRUCTURE_ROWS; ++i) {
     const structure_row *row = &structure_rows[i];
     if (strcmp(row->name, name) || strcmp(row->start, starts[start]) || (row->free_sliders && !all)) continue;

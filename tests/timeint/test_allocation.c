@@ -27,12 +27,11 @@ static timeint *made(transient_steady steady, bool scout, transient_law law)
 {
   scene sc = scene_b10();
   model *m = scene_split_model(&sc, CONTACTS);
-  timeint *ti;
   long before = allocations;
   sc.transient.steady = steady;
   sc.transient.scout = scout;
   sc.transient.law = law;
-  assert_int_equal(timeint_new(m, &sc.transient, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(m, &sc.transient, &ti));
   CHECK_LE(10, allocations - before, "the counter counts SUNDIALS, too");
   model_free(m);
   return ti;

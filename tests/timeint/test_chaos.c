@@ -18,8 +18,7 @@ static scene case2(void)
 
 static hc_status swept_up(const scene *sc, double omega, timeint_result *r)
 {
-  timeint *ti;
-  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(sc, &ti));
   scene_state y = {.x = 0};
   assert_int_equal(timeint_sweep(ti, 4, omega, y.all, NULL), HC_OK);
   hc_status st = timeint_steady(ti, omega, y.all, NULL, r);
@@ -83,10 +82,9 @@ static void leaving_an_orbit_is_not_chaos(CHECK_STATE)
 {
   static const double off[] = {1e-6, 3e-4, 1e-3, 2e-3, 3e-3, 5e-3};
   scene sc = case2();
-  timeint *ti;
   timeint_result r;
   sc.transient.start = TRANSIENT_START_UP;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   /* Next to the fold at 9.21 a stable orbit and an unstable one meet, multipliers 1 - s and 1 + s: what is left of the
    * unstable one's distance to it is linear in s, so two stable orbits tell where it is. */
   scene_state y = {.x = 0}, before;
@@ -127,8 +125,7 @@ static void an_interruption_is_no_chaos(CHECK_STATE)
 {
   static const int at[] = {1, 40, 41, 60, 81, 679};
   const scene sc = case2();
-  timeint *ti;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state y = {.x = 0};
   assert_int_equal(timeint_sweep(ti, 4, 5.13, y.all, NULL), HC_OK);
   for (size_t i = 0; i < sizeof at / sizeof *at; ++i) {

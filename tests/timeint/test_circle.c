@@ -357,8 +357,7 @@ static void multipliers_are_of_fine_matrices(CHECK_STATE)
   double complex multipliers[MOST];
   double y[6] = {0};
   model *m = driven("plane", 40);
-  timeint *ti;
-  assert_int_equal(timeint_new(m, &closed_form, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(m, &closed_form, &ti));
   assert_int_equal(timeint_steady(ti, 10.5, y, NULL, &r), HC_OK);
   assert_int_equal(integrate_monodromy(ti->in, &ti->scaled, ti->y, phi), HC_OK);
   eigenvalues_of(ti->n, phi, multipliers);
@@ -414,13 +413,12 @@ static void friction_takes_what_the_loads_give(CHECK_STATE)
       model *m = driven("space", 3);
       transient_settings how = closed_form;
       contact_period p[2];
-      timeint *ti;
       double y[8] = {0}, given = 0, damped = 0, largest = 0;
       if (law == 1) {
         how.law = TRANSIENT_LAW_REGULARISED, how.method = TRANSIENT_METHOD_CVODE;
         how.scout = true, how.regularisation = 1e-5, how.tolerance = 1e-8;
       }
-      assert_int_equal(timeint_new(m, &how, &ti), HC_OK);
+      CHECK_MADE(timeint, ti, timeint_new(m, &how, &ti));
       assert_int_equal(timeint_steady(ti, omegas[k], y, NULL, &r[0]), HC_OK);
       r[1] = r[2] = r[0];
       for (int i = 0; i < 3; ++i) assert_int_equal(timeint_response(ti, i, &r[i]), HC_OK);

@@ -7,15 +7,13 @@
 
 static integrator *closed_of(const scaled_model *m)
 {
-  integrator *in;
-  assert_int_equal(integrate_new_closed_form(m->base, INTERVAL_MODES_STIFF, &in), HC_OK);
+  CHECK_MADE(integrator, in, integrate_new_closed_form(m->base, INTERVAL_MODES_STIFF, &in));
   return in;
 }
 
 static integrator *cvode_of(const scaled_model *m)
 {
-  integrator *in;
-  assert_int_equal(integrate_new_events(m->base, 1e-13, &in), HC_OK);
+  CHECK_MADE(integrator, in, integrate_new_events(m->base, 1e-13, &in));
   return in;
 }
 

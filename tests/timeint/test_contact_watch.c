@@ -119,8 +119,7 @@ static void one_degree_of_freedom_balances(CHECK_STATE)
   for (int i = 0; i < 2; ++i)
     for (int k = 0; k < 3; ++k) {
       const scene sc = scene_b10();
-      model *m;
-      assert_int_equal(scene_model(&sc, &m), HC_OK);
+      CHECK_MADE(model, m, scene_model(&sc, &m));
       check_balance("b10", m, &hows[k], omegas[i], k < 2 ? 1e-8 : 1e-7);
       model_free(m);
     }
@@ -183,9 +182,8 @@ static void a_separated_contact_has_no_path(CHECK_STATE)
   const transient_settings hows[] = {closed, by_cvode(TRANSIENT_LAW_EXACT), by_cvode(TRANSIENT_LAW_REGULARISED)};
   scene sc = scene_linear(1, 0.4, 40, 100);
   static steady_contacts s;
-  model *m;
   scene_add(&sc, 100, 1000, 0.3, -50, 45); /* |x| is about 11 */
-  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  CHECK_MADE(model, m, scene_model(&sc, &m));
   for (int k = 0; k < 3; ++k) {
     settle(m, &hows[k], 7, &s);
     assert_int_equal(s.contact[0].regime, CONTACT_LINEAR);

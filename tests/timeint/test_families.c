@@ -30,10 +30,9 @@ static void two_stable_motions(CHECK_STATE)
   const structure_case c = structure_case_named("chain3", 3);
   transient_settings how = closed_form;
   how.start = TRANSIENT_START_DOWN;
-  timeint *ti;
   timeint_result r;
   double y[STATES] = {0};
-  assert_int_equal(timeint_new(c.model, &how, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(c.model, &how, &ti));
   assert_int_equal(timeint_sweep(ti, 1.9, 1.485, y, NULL), HC_OK);
   assert_int_equal(timeint_steady(ti, 1.485, y, NULL, &r), HC_OK);
   CHECK_LE(r.multiplier, 1 - 1e-3, "down at 1.485");

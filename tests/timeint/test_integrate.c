@@ -23,8 +23,7 @@ static void linear_period_is_the_closed_form(CHECK_STATE)
   scaled_model m;
   scene_scaled(&m, &sc, 5, 1);
   for (double tol = 1e-6; tol > 1e-14; tol *= 1e-2) {
-    integrator *in;
-    assert_int_equal(integrate_new_regularised(m.base, tol, &in), HC_OK);
+    CHECK_MADE(integrator, in, integrate_new_regularised(m.base, tol, &in));
     double y[SCENE_MAX_STATES] = {0};
     assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
     double bound = (double)integrate_steps(in) * tol * 2.5; /* |states| <= 2.5: the tolerance is relative, too */
@@ -57,8 +56,7 @@ static void watched_period_is_the_same(CHECK_STATE)
   scene sc = scene_linear(1, 0.4, 40, 40);
   scaled_model m;
   scene_scaled(&m, &sc, 5, 1);
-  integrator *in;
-  assert_int_equal(integrate_new_regularised(m.base, 1e-10, &in), HC_OK);
+  CHECK_MADE(integrator, in, integrate_new_regularised(m.base, 1e-10, &in));
   double y[SCENE_MAX_STATES] = {0}, z[SCENE_MAX_STATES] = {0};
   seen s = {.m = &m};
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
@@ -78,8 +76,7 @@ static void a_period_has_no_memory(CHECK_STATE)
   scaled_model m, other;
   scene_scaled(&m, &sc, 7, 10);
   scene_scaled(&other, &sc, 8, 3);
-  integrator *in;
-  assert_int_equal(integrate_new_regularised(m.base, 1e-10, &in), HC_OK);
+  CHECK_MADE(integrator, in, integrate_new_regularised(m.base, 1e-10, &in));
   double y[SCENE_MAX_STATES] = {0.8, 0.6, 0.5}, z[SCENE_MAX_STATES] = {0.8, 0.6, 0.5}, w[SCENE_MAX_STATES] = {0};
   assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
   assert_int_equal(integrate_period(in, &other, w, NULL, NULL), HC_OK);

@@ -8,8 +8,7 @@
 
 static integrator *integrator_of(const scaled_model *m)
 {
-  integrator *in;
-  assert_int_equal(integrate_new_events(m->base, tol, &in), HC_OK);
+  CHECK_MADE(integrator, in, integrate_new_events(m->base, tol, &in));
   return in;
 }
 

@@ -158,10 +158,9 @@ static void slowed_modes_stay_springs(CHECK_STATE)
   for (int k = 0; k < 4; ++k) check_slowed(&seed, m, ldexp(20, 2 * k) * plates_omega);
   model_free(m);
   for (int trial = 0; trial < 40; ++trial) {
-    modal_base *whole;
     const int n = random_int(&seed, 2, 20);
     m = symmetric_structure(&seed, n, random_int(&seed, 1, 6));
-    assert_int_equal(modal_base_new(m, &whole), HC_OK);
+    CHECK_MADE(modal_base, whole, modal_base_new(m, &whole));
     const double lowest = sqrt(whole->K[0]), highest = sqrt(whole->K[n - 1]);
     modal_base_free(whole);
     check_slowed(&seed, m, lowest + (0.05 + 0.9 * random_unit(&seed)) * (highest - lowest));
@@ -175,8 +174,7 @@ static void slowed_modes_stay_springs(CHECK_STATE)
 static void neighbours_share_the_fastest_mode(CHECK_STATE)
 {
   model *m = plates_model();
-  modal_base *whole;
-  assert_int_equal(modal_base_new(m, &whole), HC_OK);
+  CHECK_MADE(modal_base, whole, modal_base_new(m, &whole));
   const double highest = sqrt(whole->K[whole->n - 1]), per_octave = 1000;
   double last = NAN;
   int slowed = 0, values = 0;
@@ -208,9 +206,8 @@ static void small_or_unsymmetric_structures_are_not_slowed(CHECK_STATE)
 {
   for (int n = MASS_SCALING_MODES; n <= MASS_SCALING_MODES + 1; ++n)
     for (int turned = 0; turned < 2; ++turned) {
-      model *m;
       modal_base *whole;
-      assert_int_equal(model_new(n, 1, 0, 1, &m), HC_OK);
+      CHECK_MADE(model, m, model_new(n, 1, 0, 1, &m));
       m->responses[0] = 1;
       for (int i = 0; i < n; ++i) m->mass[i * (n + 1)] = 1, m->stiffness[i * (n + 1)] = exp2(i);
       if (turned) m->stiffness[1] = 0.1;
@@ -303,10 +300,9 @@ static struct orbit {
 /* orbit[n] next to solutions of HBM; their states are the caller's. */
 static void find_at(structure_case *c, int n, const double *hertz, struct orbit *orbit)
 {
-  timeint *ti;
   hbm_solver *s = structure_solver(c);
   double *X = calloc((size_t)hbm_n_coefficients(s), sizeof *X);
-  assert_int_equal(timeint_new(c->model, &closed_form, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(c->model, &closed_form, &ti));
   for (int k = 0; k < n; ++k) {
     hbm_point point;
     struct orbit *o = &orbit[k];
@@ -369,8 +365,7 @@ static void map_free(plates_map *p)
 
 static void map_whole(plates_map *p, const struct orbit *o)
 {
-  modal_base *base;
-  assert_int_equal(modal_base_new(plates, &base), HC_OK);
+  CHECK_MADE(modal_base, base, modal_base_new(plates, &base));
   map_make(p, o, base);
 }
 
@@ -413,9 +408,8 @@ static void orbits_are_found_where_nothing_is_slowed(CHECK_STATE)
 {
   static const double hertz[] = {135, 1100, 135};
   structure_case c = structure_case_named("plates", 7);
-  modal_base *base;
   struct orbit found[3];
-  assert_int_equal(modal_base_new(c.model, &base), HC_OK);
+  CHECK_MADE(modal_base, base, modal_base_new(c.model, &base));
   assert_true(isinf(mass_scaling_fastest(base, TWO_PI * hertz[1])));
   find_at(&c, 3, hertz, found);
   for (int k = 0; k < 3; ++k) CHECK_LE(found[k].r.closure, 1e-10, "orbit %d", k);
@@ -708,12 +702,11 @@ static void orbits_need_no_matrix_of_their_own(CHECK_STATE)
 /* The motion from rest goes where the copy with slowed modes has gone before: to the only orbit there is at 138 Hz. */
 static void rest_leads_to_the_orbit(CHECK_STATE)
 {
-  timeint *ti;
   timeint_result r;
   transient_settings how = closed_form;
   how.start = TRANSIENT_START_REST;
   how.steady = TRANSIENT_STEADY_AUTO;
-  assert_int_equal(timeint_new(plates, &how, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(plates, &how, &ti));
   double *y = calloc((size_t)timeint_n_states(ti), sizeof *y);
   timeint_rest(ti, y);
   assert_int_equal(timeint_steady(ti, orbits[1].omega, y, NULL, &r), HC_OK);
@@ -729,7 +722,6 @@ static void rest_leads_to_the_orbit(CHECK_STATE)
  * more than it predicts, which is little. */
 static void check_cvode(const struct orbit *o, transient_law law, double tolerance)
 {
-  timeint *ti;
   timeint_result r;
   const size_t n_states = 2 * (size_t)plates->n + (size_t)plates->n_contacts;
   double *state = calloc(n_states, sizeof *state);
@@ -739,7 +731,7 @@ static void check_cvode(const struct orbit *o, transient_law law, double toleran
   how.scout = true;
   how.tolerance = tolerance;
   memcpy(state, o->state, n_states * sizeof *state);
-  assert_int_equal(timeint_new(plates, &how, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(plates, &how, &ti));
   assert_int_equal(timeint_orbit(ti, o->omega, 1, state, NULL, &r), HC_OK);
   assert_int_equal(timeint_predict(ti, state, NULL, 1, &r), HC_OK);
   const double off = fabs(r.amplitude - o->r.amplitude);

@@ -52,8 +52,7 @@ static scene_state state_of(const scene *sc, double omega, const double *w, doub
 
 static timeint *make(const scene *sc)
 {
-  timeint *ti;
-  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(sc, &ti));
   return ti;
 }
 

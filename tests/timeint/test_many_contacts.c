@@ -14,10 +14,9 @@ static const int numbers[] = {17, 40};
 /* The steady state at omega from the start (x, v, w), of the scene's contact split into n. */
 static timeint_result steady_state(const scene *sc, int n, double omega, const double start[3], double *y)
 {
-  timeint *ti;
   timeint_result r;
   model *m = scene_split_model(sc, n);
-  assert_int_equal(timeint_new(m, &sc->transient, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, timeint_new(m, &sc->transient, &ti));
   assert_int_equal(timeint_n_states(ti), TIMEINT_W + n);
   y[TIMEINT_X] = start[0], y[TIMEINT_V] = start[1];
   for (int j = 0; j < n; ++j) y[TIMEINT_W + j] = start[2];

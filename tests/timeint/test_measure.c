@@ -26,9 +26,8 @@ static void free_vibration(CHECK_STATE)
   const double s = 2.5, p = 0.6, q = -0.8, tol = 4e-10;
   scene sc = scene_linear(1, 0, s * s, 0);
   scaled_model m;
-  integrator *in;
   scene_scaled(&m, &sc, 1, 1);
-  assert_int_equal(integrate_new_regularised(m.base, 1e-13, &in), HC_OK);
+  CHECK_MADE(integrator, in, integrate_new_regularised(m.base, 1e-13, &in));
   double y[SCENE_MAX_STATES] = {p, s * q};
   timeint_result r;
   scene_measured_period(&sc, &m, 10, in, y, &r); /* L = 10: lengths come out ten times as large */

@@ -36,15 +36,13 @@ static void jacobian_of_smooth_laws_is_the_derivative(CHECK_STATE)
                           {.smooth = CONTACT_TANH, .mu = 0.3, .load = 2, .epsilon = 3},
                           {.smooth = CONTACT_TANH, .mu = 0.3, .kn = 2, .gap = -0.2, .epsilon = 3}};
   const transient_settings how = {.law = TRANSIENT_LAW_REGULARISED, .regularisation = 0.3};
-  model *m;
-  modal_base *base;
   scaled_contact scaled_contacts[3];
-  assert_int_equal(model_oscillator(1, 0.4, 2, 1, 3, &m), HC_OK);
+  CHECK_MADE(model, m, model_oscillator(1, 0.4, 2, 1, 3, &m));
   for (int j = 0; j < 3; ++j) {
     m->contacts[j].law = laws[j];
     *m->contacts[j].tangent = 0.8, *m->contacts[j].normal = j == 1 ? 0 : 0.6;
   }
-  assert_int_equal(modal_base_new(m, &base), HC_OK);
+  CHECK_MADE(modal_base, base, modal_base_new(m, &base));
   scaled_model scaled = {.base = base, .contact = scaled_contacts};
   scaled_make(&scaled, m, &how, 1.3, 0.9);
   uint64_t seed = 5;

@@ -8,8 +8,7 @@ enum { N = 3 }; /* X, P and one slider */
 
 static integrator *make(const scaled_model *m, double tolerance)
 {
-  integrator *in;
-  assert_int_equal(integrate_new_regularised(m->base, tolerance, &in), HC_OK);
+  CHECK_MADE(integrator, in, integrate_new_regularised(m->base, tolerance, &in));
   return in;
 }
 

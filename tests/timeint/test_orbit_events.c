@@ -68,10 +68,9 @@ static void one_contact_and_two_equal_ones(CHECK_STATE)
  * at 0, R = mu N/kt. Seen at 256 instants a period the extrema of x are off by (pi/256)^2/2 of X at most. */
 static void a_slider_that_never_slips_has_room(CHECK_STATE)
 {
-  model *m;
   orbit_events e;
   const double omega = 3, X = cabs(linear_response(1, 0.4, 40 + 100, 10, omega)), R = 0.5 * 40 / 100;
-  assert_int_equal(model_oscillator(1, 0.4, 40, 10, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_oscillator(1, 0.4, 40, 10, 1, &m));
   m->contacts[0].law = (contact){.kt = 100, .mu = 0.5, .load = 40};
   m->contacts[0].tangent[0] = 1;
   settle(m, omega, &e);

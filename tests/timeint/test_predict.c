@@ -6,12 +6,11 @@
 
 static timeint *made(scene sc, transient_law law, transient_method method, bool scout, double regularisation)
 {
-  timeint *ti;
   sc.transient.law = law;
   sc.transient.method = method;
   sc.transient.scout = scout;
   sc.transient.regularisation = regularisation;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   return ti;
 }
 

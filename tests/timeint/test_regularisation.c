@@ -7,10 +7,9 @@ static const double b10_exact = 1.40757735095, c2_exact = 9.45555672271; /* |X1|
 
 static double harmonic_1(scene sc, double regularisation, scene_state y)
 {
-  timeint *ti;
   timeint_result r;
   sc.transient.regularisation = regularisation;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   assert_int_equal(timeint_steady(ti, 7, y.all, NULL, &r), HC_OK);
   timeint_free(ti);
   return r.harmonic_1;
@@ -49,9 +48,8 @@ static double with_overstress(double eta)
   scaled_model m;
   scene_scaled(&m, &sc, 7, 1.4);
   m.contact[0].law.overstress = true;
-  integrator *in;
   double y[SCENE_MAX_STATES] = {1.04 / 1.4, 1 / 1.4, 0.6 / 1.4};
-  assert_int_equal(integrate_new_regularised(m.base, 1e-11, &in), HC_OK);
+  CHECK_MADE(integrator, in, integrate_new_regularised(m.base, 1e-11, &in));
   for (int i = 0; i < 200; ++i) assert_int_equal(integrate_period(in, &m, y, NULL, NULL), HC_OK);
   timeint_result r;
   scene_measured_period(&sc, &m, 1.4, in, y, &r);

@@ -14,9 +14,8 @@ typedef struct found {
 
 static timeint *make(scene sc, bool scout)
 {
-  timeint *ti;
   sc.transient.scout = scout;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   assert_true((ti->closed_form != NULL) == scout);
   return ti;
 }

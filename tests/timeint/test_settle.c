@@ -26,10 +26,9 @@ static double size(const double *z) { return fmax(fabs(z[0]), fabs(z[1])); }
 static int settle_after(const map *m, double prior, double goal, double scatter, int most, double *distance,
                         settle_estimate *e)
 {
-  settle *s;
   double z[2] = {1, 1};
   uint64_t seed = 1;
-  assert_int_equal(settle_new(2, &s), HC_OK);
+  CHECK_MADE(settle, s, settle_new(2, &s));
   settle_start(s, prior);
   int n = 0, done = 0;
   e->multiple = 0;
@@ -127,8 +126,7 @@ static void no_limit_is_never_settled(CHECK_STATE)
 static void cycles_are_counted(CHECK_STATE)
 {
   for (int k = 2; k <= SETTLE_MAX_MULTIPLE; ++k) {
-    settle *s;
-    assert_int_equal(settle_new(1, &s), HC_OK);
+    CHECK_MADE(settle, s, settle_new(1, &s));
     settle_start(s, 0.84);
     settle_estimate e = {0};
     double off = 1;
@@ -147,8 +145,7 @@ static void cycles_are_counted(CHECK_STATE)
 /* After settle_restart nothing older counts. */
 static void restart_forgets(CHECK_STATE)
 {
-  settle *s;
-  assert_int_equal(settle_new(1, &s), HC_OK);
+  CHECK_MADE(settle, s, settle_new(1, &s));
   settle_start(s, 0.5);
   double z = 1;
   for (int n = 0; n < 100; ++n) settle_push(s, &z);

@@ -10,11 +10,10 @@
 
 static timeint *made(scene sc, int law, int steady, int start)
 {
-  timeint *ti;
   sc.transient.law = law;
   sc.transient.steady = steady;
   sc.transient.start = start;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   return ti;
 }
 

@@ -12,8 +12,7 @@
 static void bent_peak_is_climbed(CHECK_STATE)
 {
   scene sc = scene_r2();
-  timeint *ti;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state y = {.x = 0};
   timeint_result r;
   assert_int_equal(timeint_sweep(ti, 704, 708.5, y.all, NULL), HC_OK);
@@ -39,12 +38,11 @@ static void distance_is_no_larger_than_closure(CHECK_STATE)
   const int allowed[] = {1200, 4000, 9000, 20000};
   int known = 0;
   for (int i = 0; i < 4; ++i) {
-    timeint *ti;
     scene_state y = {.x = 1.01 * creal(X), .v = -omega * cimag(X)};
     timeint_result r;
     sc.transient.max_periods = allowed[i];
     sc.transient.steady = TRANSIENT_STEADY_MARCH;
-    assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+    CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
     assert_int_equal(timeint_steady(ti, omega, y.all, NULL, &r), i < 3 ? HC_NOT_SETTLED : HC_OK);
     timeint_free(ti);
     double off = hypot(y.x - creal(X), y.v / omega + cimag(X)) / cabs(X);

@@ -145,8 +145,7 @@ static void without_force(CHECK_STATE)
 static void sub_harmonics(CHECK_STATE)
 {
   scene sc = scene_c2();
-  timeint *ti;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state y = {.x = 0};
   timeint_result r;
   const double omegas[] = {5.08, 5.555};
@@ -171,11 +170,10 @@ static bool stop_at_ten(void *self, double done) { return (void)done, ++*(int *)
 static void stopped_and_refused(CHECK_STATE)
 {
   scene sc = scene_c2();
-  timeint *ti;
   int ticks = 0;
   sc.transient.steady = TRANSIENT_STEADY_MARCH;
   hc_monitor stop = {.tick = stop_at_ten, .self = &ticks};
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state y = {.x = 0}, bad = {.x = NAN};
   timeint_result r;
   assert_int_equal(timeint_steady(ti, 7, y.all, &stop, &r), HC_INTERRUPTED);

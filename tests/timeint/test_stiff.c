@@ -88,14 +88,13 @@ static void sets_give_way(CHECK_STATE)
   uint64_t seed = 8;
   model *m = random_structure(&seed, 2, 6);
   drawn d = {.m = m};
-  interval_modes *kept;
   for (int j = 0; j < 6; ++j) { /* each state another matrix */
     m->contacts[j].law = (contact){.kt = 10 + j, .kn = 20 + j, .mu = 0.3, .gap = 0.1};
     random_direction(&seed, 2, m->contacts[j].tangent);
     random_direction(&seed, 2, m->contacts[j].normal);
   }
   scale_drawn(&d, TRANSIENT_LAW_EXACT, 5);
-  assert_int_equal(interval_modes_new(d.base, 0, &kept), HC_OK);
+  CHECK_MADE(interval_modes, kept, interval_modes_new(d.base, 0, &kept));
   for (int trial = 0; trial < 3000; ++trial) {
     contact_track track[6] = {{0}};
     const complex_modes *modes, *made;
@@ -177,7 +176,6 @@ static void a_constant_force_that_cancels_is_told(CHECK_STATE)
 {
   const contact_track slips = {.state = CONTACT_SLIP_PLUS, .along = 1};
   drawn d;
-  interval_modes *kept;
   const complex_modes *modes;
   motion_modes motion;
   workspace memory = {0};
@@ -187,7 +185,7 @@ static void a_constant_force_that_cancels_is_told(CHECK_STATE)
   d.m->loads[0].harmonic = 1;
   d.m->contacts[0].law = (contact){.kt = 1, .mu = 0.5, .load = 1};
   scale_drawn(&d, TRANSIENT_LAW_EXACT, 1);
-  assert_int_equal(interval_modes_new(d.base, 0, &kept), HC_OK);
+  CHECK_MADE(interval_modes, kept, interval_modes_new(d.base, 0, &kept));
   assert_int_equal(interval_modes_of(kept, &d.scaled, &slips, &modes), HC_OK);
   assert_int_equal(motion_modes_make(&motion, d.base, &memory), HC_OK);
   assert_false(motion_modes_begin(&motion, modes, &d.scaled, &slips, 0, (double[]){0, 1, 0}));
@@ -201,8 +199,7 @@ static void a_constant_force_that_cancels_is_told(CHECK_STATE)
  * damped in proportion to its stiffness, so that fast modes die away in no time. */
 static model *graded_chain(int n)
 {
-  model *m;
-  assert_int_equal(model_new(n, 1, 1, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_new(n, 1, 1, 1, &m));
   for (int i = 0; i < n; ++i) {
     const double k = pow(10, 6.0 * i / (n - 1)); /* between mass i - 1 and i */
     m->mass[i * (n + 1)] = 1 + 0.1 * i;
@@ -225,10 +222,9 @@ static void proportional_damping_is_told(CHECK_STATE)
 {
   const double dashpots[] = {0, 1e-6, 0.1};
   for (size_t i = 0; i < 3; ++i) {
-    modal_base *base;
     model *m = graded_chain(10);
     m->damping[0] += dashpots[i] * m->damping[0];
-    assert_int_equal(modal_base_new(m, &base), HC_OK);
+    CHECK_MADE(modal_base, base, modal_base_new(m, &base));
     assert_int_equal(base->diagonal_C, i == 0);
     modal_base_free(base);
     model_free(m);

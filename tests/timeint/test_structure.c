@@ -46,8 +46,7 @@ static void series_and_closed_form_agree(CHECK_STATE)
       how.law = TRANSIENT_LAW_EXACT;
       assert_int_equal(scene_model(&scenes[k], &m[0]), HC_OK);
       /* The same model with a second load, of no force: then its motion goes by series. */
-      model *two;
-      assert_int_equal(model_new(1, 2, m[0]->n_contacts, 1, &two), HC_OK);
+      CHECK_MADE(model, two, model_new(1, 2, m[0]->n_contacts, 1, &two));
       *two->mass = *m[0]->mass, *two->damping = *m[0]->damping, *two->stiffness = *m[0]->stiffness, *two->responses = 1;
       two->loads[0].harmonic = 1, *two->loads[0].cosine = model_force(m[0]);
       two->loads[1].harmonic = 2;
@@ -144,12 +143,11 @@ static int differences_off(const drawn *d, integrator *in, const double *y, cons
  * those of sliders that stick. */
 static void check_monodromy(const drawn *d, int step, int *compared, int *off)
 {
-  integrator *in;
   static double y[MOST], z[MOST], phi[MOST * MOST];
   const int n = d->scaled.n_states, moving = 2 * d->scaled.n;
   memset(y, 0, sizeof y);
   assert_true(n <= MOST);
-  assert_int_equal(integrate_new_closed_form(d->base, INTERVAL_MODES_STIFF, &in), HC_OK);
+  CHECK_MADE(integrator, in, integrate_new_closed_form(d->base, INTERVAL_MODES_STIFF, &in));
   for (int period = 0; period < 3; ++period) assert_int_equal(integrate_period(in, &d->scaled, y, NULL, NULL), HC_OK);
   memcpy(z, y, sizeof y);
   assert_int_equal(integrate_monodromy(in, &d->scaled, z, phi), HC_OK);
@@ -210,8 +208,7 @@ static void other_coordinates_change_nothing(CHECK_STATE)
     for (int i = 0; i < n * n; ++i) Q[i] = random_signed(&seed) + (i % (n + 1) == 0 ? 2 : 0);
     m[1] = turned_structure(m[0], Q);
     for (int k = 0; k < 2; ++k) {
-      timeint *ti;
-      assert_int_equal(timeint_new(m[k], &how, &ti), HC_OK);
+      CHECK_MADE(timeint, ti, timeint_new(m[k], &how, &ti));
       st[k] = timeint_steady(ti, 7, y[k], NULL, &r[k]);
       if (st[k] == HC_OK) assert_int_equal(timeint_response(ti, 1, &r[k]), HC_OK);
       timeint_free(ti);

@@ -30,11 +30,10 @@ static scene_state followed_to(timeint *ti, double from, double omega, timeint_r
 /* omega between low and high where the multiplier is -1, by the secant rule. */
 static double doubling(const scene *sc, double from, double low, double high)
 {
-  timeint *ti;
   timeint_result r;
   double at[2] = {low, high}, f[2];
   scene_state y;
-  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(sc, &ti));
   for (int i = 0; i < 2; ++i) {
     y = followed_to(ti, from, at[i], &r);
     f[i] = r.multiplier_re + 1;
@@ -63,10 +62,9 @@ static void multiplier_passes_minus_one(CHECK_STATE)
 static void period_1_above(CHECK_STATE)
 {
   scene sc = stiff();
-  timeint *ti;
   timeint_result r;
   sc.transient.start = TRANSIENT_START_HBM;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state y = followed_to(ti, 6.5, 6.05, &r);
   assert_int_equal(timeint_steady(ti, 6.05, y.all, NULL, &r), HC_OK);
   assert_int_equal(r.period_multiple, 1);
@@ -78,9 +76,8 @@ static void period_1_above(CHECK_STATE)
 /* Left to itself next to the unstable period-1 orbit. */
 static void becomes(const scene *sc, double omega, int multiple, bool aperiodic)
 {
-  timeint *ti;
   timeint_result r;
-  assert_int_equal(scene_timeint(sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(sc, &ti));
   scene_state y = followed_to(ti, 6.5, omega, &r);
   assert_int_equal(timeint_stability(&r), -1);
   y.x *= 1.001;
@@ -114,10 +111,9 @@ static void sub_harmonics_with_a_stiff_contact(CHECK_STATE)
 static void swept_up_to_period_4(CHECK_STATE)
 {
   scene sc = case2();
-  timeint *ti;
   timeint_result r;
   sc.transient.start = TRANSIENT_START_UP;
-  assert_int_equal(scene_timeint(&sc, &ti), HC_OK);
+  CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state y = {.x = 0};
   assert_int_equal(timeint_sweep(ti, 4, 5.11, y.all, NULL), HC_OK);
   assert_int_equal(timeint_steady(ti, 5.11, y.all, NULL, &r), HC_OK);

@@ -19,9 +19,8 @@
 static inline model *model_of(const char *text, const char *set)
 {
   scene sc;
-  model *m;
   accepted(text, set, &sc);
-  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  CHECK_MADE(model, m, scene_model(&sc, &m));
   case_clear(&sc);
   return m;
 }

@@ -227,14 +227,13 @@ static void what_contacts_hold_is_held(CHECK_STATE)
 static void two_tangents_are_two_contacts_of_the_model(CHECK_STATE)
 {
   scene sc;
-  model *m;
   accepted(TWO "contacts:\n"
                "  - {normal_stiffness: 3, normal: 2}\n"
                "  - {tangential_stiffness: 200, normal_stiffness: 300, friction: 0.3, gap: 0.1,\n"
                "     tangent: 1, tangent_2: {1: 1, 2: -1}, normal: {2: 1}}\n"
                "  - {tangential_stiffness: 20, friction: 1, preload: 5, tangent: 1, tangent_2: 2, limit: square}\n",
            NULL, &sc);
-  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  CHECK_MADE(model, m, scene_model(&sc, &m));
   assert_int_equal(m->n_contacts, 5);
   assert_int_equal(scene_model_contact(&sc, 1), 1);
   assert_int_equal(scene_model_contact(&sc, 2), 3);

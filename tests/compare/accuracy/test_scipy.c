@@ -22,9 +22,8 @@ static int asked(scipy_run *runs, char text[96])
 {
   double rest[2] = {0, 0};
   const bench_start at = {.omega = 6, .state = rest};
-  model *m;
   int n = -1;
-  assert_int_equal(model_oscillator(1, 0.4, 40, 1, 0, &m), HC_OK);
+  CHECK_MADE(model, m, model_oscillator(1, 0.4, 40, 1, 0, &m));
   assert_int_equal(scipy_lsoda(m, &at, 0.5, 1, NULL, runs, &n, text), HC_OK);
   model_free(m);
   return n;

@@ -69,11 +69,10 @@ static inline unsigned curve_wanted(int branch, int n, int i)
 static inline verify_data curve_make(const scene *sc, const spoiling *how, double low, double high, int n)
 {
   const scene own = curve_spoil(sc, how);
-  hbm_solver *hbm;
   hbm_curve curve = {0};
   verify_data d = {.quantity = {.kind = how->said, .harmonic = how->said == KIND_HARMONIC},
                    .points = calloc(CURVE_ROOM, sizeof *d.points)};
-  assert_int_equal(scene_hbm_solver(&own, &hbm), HC_OK);
+  CHECK_MADE(hbm_solver, hbm, scene_hbm_solver(&own, &hbm));
   assert_int_equal(hbm_trace(hbm, own.omega_from, own.omega_to, NULL, &curve), HC_OK);
   for (int i = 0; i < n; ++i) {
     double omega = low + (high - low) * i / (n - 1);

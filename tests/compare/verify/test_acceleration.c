@@ -16,8 +16,7 @@ static double acceleration(const model *m, double amplitude)
 
 static model *in_contact(double M, double K, double F, const contact *law, double tangent, double normal)
 {
-  model *m;
-  assert_int_equal(model_oscillator(M, 0, K, F, 1, &m), HC_OK);
+  CHECK_MADE(model, m, model_oscillator(M, 0, K, F, 1, &m));
   m->contacts[0].law = *law;
   *m->contacts[0].tangent = tangent;
   *m->contacts[0].normal = normal;
@@ -33,8 +32,7 @@ static void without_contact(CHECK_STATE)
 {
   const double M = 3, C = 0.5, K = 7, omega = 2, F = 10, real = K - M * omega * omega, imaginary = C * omega,
                size = real * real + imaginary * imaginary;
-  model *m;
-  assert_int_equal(model_oscillator(M, C, K, F, 0, &m), HC_OK);
+  CHECK_MADE(model, m, model_oscillator(M, C, K, F, 0, &m));
   const double X[3] = {0, F * real / size, F * imaginary / size};
   const verify_motion motion = verify_motion_of(omega, 1, X);
   double room[1];

@@ -12,8 +12,7 @@ static const double rounding = 1e-13; /* some tens of operations on numbers of o
 static model *of_case(const char *path)
 {
   scene sc = curve_scene(path);
-  model *m;
-  assert_int_equal(scene_model(&sc, &m), HC_OK);
+  CHECK_MADE(model, m, scene_model(&sc, &m));
   case_clear(&sc);
   return m;
 }
@@ -22,10 +21,9 @@ static model *changed(const model *m, verify_change change, double factor, int w
 {
   const verify_changed how = {change, factor, which};
   double offset[8];
-  model *out;
   *mistakes = (hbm_mistakes){0};
   assert_true(m->n_responses <= 8);
-  assert_int_equal(verify_changed_model(m, &how, true, &out, offset, mistakes), HC_OK);
+  CHECK_MADE(model, out, verify_changed_model(m, &how, true, &out, offset, mistakes));
   return out;
 }
 

@@ -218,7 +218,6 @@ static void every_exact_solution_leads_to_a_sampled_one(CHECK_STATE)
   const verify_quantity amplitude = {.kind = KIND_AMPLITUDE};
   verify_equations e = {.keep_mean = true, .harmonics = 5, .factor = 1};
   compare_setup setup;
-  model *seen;
   const int first = 0;
   verify_solutions exact, sampled;
   double omega[OMEGAS];
@@ -226,7 +225,7 @@ static void every_exact_solution_leads_to_a_sampled_one(CHECK_STATE)
   int several = 0;
   for (int i = 0; i < OMEGAS; ++i) omega[i] = 6.2 + 0.5 * i;
   assert_int_equal(scene_setup(&sc, &setup), HC_OK);
-  assert_int_equal(verify_model_seen(setup.model, 1, &first, &seen), HC_OK);
+  CHECK_MADE(model, seen, verify_model_seen(setup.model, 1, &first, &seen));
   compare_setup own = setup;
   own.model = seen;
   assert_int_equal(verify_solutions_of(&own, &e, &at, NULL, &exact), HC_OK);
