@@ -471,10 +471,10 @@ void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 &&
  * points and round corners. The end of a ramp is solved once more with the equations as they are. Sampled equations are
  * first asked for the solution next to that with exact forces, found in the same way. On a ramp of exact forces most
  * iterations are those of steps that fail in the end: quick ramps come first; where curves have edges of slip before
- * the guess, which may be asked of a motion that does not settle, but for that of the force with
- * more than RAMP_UNKNOWNS, where it takes as long. Quick ramps are not solved to rounding, and their
- * steps are QUICK_STEPS times as long: of seven slow first solutions that makes six quicker, by 1.3 to 10 times. A
- * tolerance of 1e-5 loses every other ramp. */
+ * the guess, which may be asked of a motion that does not settle, but for that of the force with more than
+ * RAMP_UNKNOWNS, where it takes as long. Quick ramps are not solved to rounding, and their steps are QUICK_STEPS times
+ * as long: of seven slow first solutions that makes six quicker, by 1.3 to 10 times. A tolerance of
+ * 1e-5 loses every other ramp. */
 static const double QUICK_STEPS = 2, QUICK_TOLERANCE = 1e-7;
 enum { MOST_QUICK_STEPS = 1000, HALVINGS = 2, RAMP_UNKNOWNS = 100 };
 
