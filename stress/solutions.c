@@ -102,7 +102,8 @@ static stress_check hold_linear(solved_scene *s, const model *m, const linear_mo
   hbm_settings how = s->how;
   stress_motion hbm;
   stress_path path;
-  double multiplier = 0; /* of the linear motion */
+  double multiplier = INFINITY; /* of the linear motion; a table's springs that never close may leave it a negative
+                                   stiffness, and none that is finite */
   double *guess = malloc((size_t)length * sizeof *guess);
   double *start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof *start);
   stress_check c = stress_skip(STRESS_NO_REASON);
