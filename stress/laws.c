@@ -205,10 +205,11 @@ static hc_status step_contact(const one_contact *c, int n_harm, int N, double *f
 {
   const int most = c->circle ? 1 << 23 : N; /* instants in all */
   const int n_coef = series_length(n_harm);
-  const double settled = 1e-9;
+  const double settled = 1e-9, near = 5e-8; /* [w] moved by a period, and still to go */
   double basis[2 * HBM_MAX_HARMONICS + 1] = {0}, *motion = malloc((size_t)N * (size_t)(c->n_dof + 1) * sizeof *motion);
   stepper s = {0};
   bool rests = !c->circle;
+  double last = INFINITY; /* moved by the period before */
   if (!motion) return HC_NO_MEMORY;
   for (int i = 0; i < N; ++i) {
     basis_at(n_harm, i, N, basis);
@@ -221,7 +222,10 @@ static hc_status step_contact(const one_contact *c, int n_harm, int N, double *f
   for (int done = 0; done < most && (done == 0 || !rests); done += N) {
     const double before[2] = {s.w[0], s.w[1]};
     step_period(c, n_harm, N, motion, &s, NULL);
-    rests = rests || hypot(s.w[0] - before[0], s.w[1] - before[1]) <= settled * hypot(s.w[0], s.w[1]);
+    const double moved = hypot(s.w[0] - before[0], s.w[1] - before[1]), size = hypot(s.w[0], s.w[1]);
+    const double to_go = moved < last ? moved / (1 - moved / last) : moved > 0 ? INFINITY : 0; /* by that factor each */
+    rests = rests || (moved <= settled * size && to_go <= near * size);
+    last = moved;
   }
   memset(force, 0, (size_t)c->n_dof * (size_t)n_coef * sizeof *force);
   step_period(c, n_harm, N, motion, &s, force);

@@ -190,8 +190,8 @@ stress_check stress_check_stuck(solved_scene *s) { return check_contacts(s, true
 static const double near = 1e-6;
 
 /* The solution with N samples is in balance with each contact's law stepped through the same instants, and with the
- * exact forces but for what such steps may do. *why: which of the two it is not. Sliders in the plane are stepped until
- * a period moves them by 1e-9 of where they are: of those that settle by 0.99 or less a period 1e-7 is left. */
+ * exact forces but for what such steps may do. Sliders in the plane are stepped until 5e-8 of where they are is left to
+ * go, if each period moves them by a constant factor less; by one that grows they have up to twice that to go. */
 static stress_check hold_samples(solved_scene *s, const double *x, int N)
 {
   bool circle = false;
