@@ -1,5 +1,6 @@
 /* eigensystem.c - see eigensystem.h. Proof: tests/numerics/test_eigensystem.c. */
 #include "numerics/eigensystem.h"
+#include "numerics/norm.h"
 
 #include <float.h>
 #include <math.h>
@@ -84,7 +85,7 @@ static hc_status improve(eigensystem *e, const long double *A, double least, dou
       const double size = cabs(at) + cabs(other);
       const bool one = !(cabs(apart) > fmax(least, same * size));
       const double entry = i == j || cabs(F[i]) == 0 ? 0 : cabs(F[i]) / (one ? size : cabs(apart));
-      if (!(entry <= largest[one])) largest[one] = entry; /* NaN stays */
+      largest[one] = larger(largest[one], entry);
       F[i] = i == j || one ? 0 : F[i] / apart;
     }
   }

@@ -43,12 +43,14 @@ static inline double distance_2(int n, const double *a, const double *b)
   return sqrt(sum);
 }
 
+/* The larger one; NaN if either is, unlike fmax. */
+static inline double larger(double a, double b) { return isnan(a) || a >= b ? a : b; }
+
 /* Largest |v[i]|; NaN if any is. */
 static inline double norm_max(int n, const double *v)
 {
   double max = 0;
-  for (int i = 0; i < n; ++i)
-    if (!isnan(max) && !(fabs(v[i]) <= max)) max = fabs(v[i]);
+  for (int i = 0; i < n; ++i) max = larger(max, fabs(v[i]));
   return max;
 }
 
@@ -56,7 +58,6 @@ static inline double norm_max(int n, const double *v)
 static inline double norm_weighted_max(int n, const double *weight, const double *v)
 {
   double max = 0;
-  for (int i = 0; i < n; ++i)
-    if (!isnan(max) && !(fabs(weight[i] * v[i]) <= max)) max = fabs(weight[i] * v[i]);
+  for (int i = 0; i < n; ++i) max = larger(max, fabs(weight[i] * v[i]));
   return max;
 }

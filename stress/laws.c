@@ -375,7 +375,7 @@ static stress_check hold_force(solved_scene *s, const one_contact *c)
     if (st == HC_NO_MEMORY) break;
     double apart = 0, size = DBL_MIN;
     for (int k = 0; k < c->n_dof * s->n_coef; ++k) {
-      if (!(fabs(c->force[k] - stepped[k]) <= apart)) apart = fabs(c->force[k] - stepped[k]);
+      apart = larger(apart, fabs(c->force[k] - stepped[k]));
       size = fmax(size, c->stiffness[k / s->n_coef] * fabs(c->motion[k]));
     }
     error = apart / size;

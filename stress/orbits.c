@@ -11,6 +11,7 @@
 
 #include "model/modes.h"
 #include "numerics/base/constants.h"
+#include "numerics/norm.h"
 #include "numerics/random.h"
 #include "numerics/series.h"
 #include "proof/prove/certificate.h"
@@ -116,7 +117,7 @@ static double paths_apart(const solved_scene *s, const stress_path *a, const str
     for (int k = 0; k < TIMEINT_WAVE; ++k) {
       const double *of = b->wave + i * TIMEINT_WAVE,
                    d = fabs(a->wave[i * TIMEINT_WAVE + k] - of[(k + shift) % TIMEINT_WAVE]);
-      if (!(d <= apart)) apart = d;
+      apart = larger(apart, d);
     }
   return apart / a->amplitude;
 }
@@ -138,7 +139,7 @@ double stress_path_off(const solved_scene *s, int n_coef, const double *x, const
         const double turn = TWO_PI * ((long)h * k % TIMEINT_WAVE) / TIMEINT_WAVE;
         sum += x[(2 * h - 1) * s->n + i] * cos(turn) + x[2 * h * s->n + i] * sin(turn);
       }
-      if (!(fabs(sum) <= off)) off = fabs(sum);
+      off = larger(off, fabs(sum));
     }
   return off / p->amplitude;
 }

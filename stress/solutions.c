@@ -266,7 +266,7 @@ static stress_check hold_found(solved_scene *s, hbm_solver *h, const hbm_curve *
     st = stress_motion_read(s, h, s->omega, hbm_curve_X(found, k), s->n_coef, x);
     if (st != HC_OK) break;
     const double off = stress_imbalance(s, x);
-    if (!(off <= worst)) worst = off;
+    worst = larger(worst, off);
     *nearest = fmin(*nearest, off_base(s, x));
     st = hbm_stability_at(h, s->omega, hbm_curve_X(found, k), &stability);
     if (st == HC_OK && !(stability.multiplier >= 0)) worst = NAN;

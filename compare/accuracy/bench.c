@@ -11,6 +11,7 @@
 #include "compare/work_limit.h"
 #include "numerics/base/growing.h"
 #include "numerics/base/thread_clock.h"
+#include "numerics/norm.h"
 
 enum { MOST_SETTINGS = 8, FEWEST = 3 };
 static const double enough = 0.25; /* [s] a row measured FEWEST times and for as long is repeated no more */
@@ -170,9 +171,9 @@ static void record_answer(const timed_method *t, const answer *a, const bench_st
   motion_distance worst = {0};
   for (int i = 0; i < at->n_responses; ++i) {
     const motion_distance gap = motion_between(&t->motion[i], &at->reference[i]);
-    if (!(gap.waveform <= worst.waveform)) worst.waveform = gap.waveform;
-    if (!(gap.amplitude <= worst.amplitude)) worst.amplitude = gap.amplitude;
-    if (!(gap.harmonic_1 <= worst.harmonic_1)) worst.harmonic_1 = gap.harmonic_1;
+    worst.waveform = larger(worst.waveform, gap.waveform);
+    worst.amplitude = larger(worst.amplitude, gap.amplitude);
+    worst.harmonic_1 = larger(worst.harmonic_1, gap.harmonic_1);
   }
   const motion_distance error = {.amplitude = discrepancy_relative(worst.amplitude, at->size),
                                  .harmonic_1 = discrepancy_relative(worst.harmonic_1, at->size),

@@ -359,7 +359,7 @@ static void add_own(dominance *of, double entry, double one, double other)
 {
   const double own = fabs(entry) / sqrt(one * other);
   of->positive = of->positive && one > 0 && other > 0;
-  if (!(own <= of->own)) of->own = own; /* NaN, too */
+  of->own = larger(of->own, own);
 }
 
 static bool is_positive(const dominance *of) { return of->positive && of->own < 1 && sqrt(of->sum) < 1 - of->own; }

@@ -8,6 +8,7 @@
  * in powers of h^(1/2): what a parabola cuts off is as long as the root of how far it is beyond. D is found three
  * times: from the forces, from the Jacobian as h falls to 0, and from the Jacobian at X0. */
 #include "hbm/planar/planar_force.h"
+#include "numerics/norm.h"
 #include "tests/hbm/planar_scenes.h"
 
 enum { H = 2, LENGTH = 2 * H + 1, ROWS = 3 * LENGTH, LEVELS = 5, MAX_LETTERS = 256 };
@@ -62,7 +63,7 @@ static one_sided from_one_side(planar_force *f, const double *X, const double *F
 static double distance(const double *a, const double *b)
 {
   double most = 0;
-  for (int i = 0; i < ROWS; ++i) most = fmax(most, fabs(a[i] - b[i]));
+  for (int i = 0; i < ROWS; ++i) most = larger(most, fabs(a[i] - b[i]));
   return most;
 }
 
@@ -93,7 +94,7 @@ static void check_edge(planar_force *f, const contact *law, const double *X, con
   ++t->checked;
   t->kinks += distance(after.of_forces, before.of_forces) > 1e-3 * size;
   const double of_sides =
-      fmax(distance(after.of_forces, after.of_jacobians), distance(before.of_forces, before.of_jacobians)) / size;
+      larger(distance(after.of_forces, after.of_jacobians), distance(before.of_forces, before.of_jacobians)) / size;
   const double at_edge = fmin(distance(at, after.of_forces), distance(at, before.of_forces)) / size;
   CHECK_LE(of_sides, 1e-8 + 10 * unsure, "edge %d, beside it", t->checked);
   CHECK_LE(at_edge, 1e-6, "edge %d, on it", t->checked);

@@ -43,7 +43,7 @@ static double distance(hbm_solver *s, const model *m, const hbm_curve *at, int k
     for (int q = 0; q < N_MEASURES; ++q) size = fmax(size, fabs(row[i].is[q]));
     for (int q = 0; q < N_MEASURES; ++q) {
       const double off = fabs(is[q] - row[i].is[q]) / size;
-      if (off <= worst) continue;
+      if (isnan(worst) || off <= worst) continue;
       worst = off;
       sprintf(what, "DOF %d, %s", row[i].dof, MEASURES[q]);
     }

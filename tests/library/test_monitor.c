@@ -80,6 +80,7 @@ static void stopped(work what, const char *name)
     assert_in_range(found, before, whole);
     before = found; /* the later, the more */
   }
+  assert_true(before > 0);
   hbmcheck_case_free(c);
 }
 

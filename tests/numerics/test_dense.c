@@ -4,6 +4,7 @@
 #include <float.h>
 
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 #include "numerics/random.h"
 #include "tests/hbm/scenes.h"
 
@@ -203,7 +204,7 @@ static void *factor_many(void *seed)
     dense_solve(ROWS, f, pivot, 1, x);
     for (int i = 0; i < ROWS; ++i) {
       for (int j = 0; j < ROWS; ++j) b[i] -= a[i + ROWS * j] * x[j];
-      if (!(fabs(b[i]) <= worst)) worst = fabs(b[i]);
+      worst = larger(worst, fabs(b[i]));
     }
     wrong += !(factored && worst <= 10 * ROWS * DBL_EPSILON);
   }
@@ -285,6 +286,15 @@ static void products_are_sums(CHECK_STATE)
     }
 }
 
+/* Also where finite numbers follow. */
+static void a_nan_is_the_largest(CHECK_STATE)
+{
+  const double v[] = {1, NAN, 2}, ones[] = {1, 1, 1};
+  assert_true(isnan(larger(NAN, 1)) && isnan(larger(1, NAN)) && larger(1, 2) == 2 && larger(2, 1) == 2);
+  assert_true(isnan(norm_max(3, v)) && isnan(norm_weighted_max(3, ones, v)));
+}
+
 CHECK_TESTS("numerics.dense", 60, solves_within_the_bound_of_rounding_theory, the_sign_of_signed_permutations,
             singular_and_not_finite_are_refused, inverts_random_matrices, singular_matrices_are_refused,
-            matrices_times_vectors, modes_without_mass_are_refused, threads_may_ask_at_once, products_are_sums)
+            matrices_times_vectors, modes_without_mass_are_refused, threads_may_ask_at_once, products_are_sums,
+            a_nan_is_the_largest)

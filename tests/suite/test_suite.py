@@ -302,7 +302,7 @@ def wrong():
         import sixty_lines as program
     except ImportError as missing:
         print("SKIPPED:", missing)
-        return
+        sys.exit(77)
     mistakes = {"SAMPLES": (64, "too_few_samples", ["jenkins", "clearance", "foot_pressed", "tangent_normal"]),
                 "SIGN": (-1.0, "friction_sign", ["foot", "jenkins_mean", "tangent_normal", "normal_side"]),
                 "STATIC": (False, "no_static_harmonic", ["clearance", "lifting", "foot", "foot_pull"])}

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "numerics/base/constants.h"
+#include "numerics/norm.h"
 #include "timeint/steady/timeint_private.h"
 
 /* ---- chaos ----
@@ -42,8 +43,7 @@ typedef struct measurement {
 static double distance(int n, const double *a, const double *b)
 {
   double most = 0;
-  for (int i = 0; i < n; ++i)
-    if (!(fabs(a[i] - b[i]) <= most)) most = fabs(a[i] - b[i]);
+  for (int i = 0; i < n; ++i) most = larger(most, fabs(a[i] - b[i]));
   return most;
 }
 

@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "numerics/norm.h"
 #include "timeint/steady/aperiodic.h"
 #include "timeint/steady/closed_form_start.h"
 #include "timeint/steady/linear_regime.h"
@@ -58,10 +59,7 @@ static double distance_to_past(const approach *a, int k)
   double *z = a->ti->point[0], most = 0;
   const double *before = past_state(a, a->n_past - k);
   timeint_point(a->ti, z);
-  for (int i = 0; i < a->ti->n; ++i) {
-    double d = fabs(z[i] - before[i]);
-    if (!(d <= most)) most = d;
-  }
+  for (int i = 0; i < a->ti->n; ++i) most = larger(most, fabs(z[i] - before[i]));
   return most;
 }
 
