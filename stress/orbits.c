@@ -226,8 +226,9 @@ static bool may_double(const solved_scene *s, int n_harm)
   return 2 * n_harm <= MOST_HARMONICS && coordinates * series_length(2 * n_harm) <= MOST_UNKNOWNS;
 }
 
-/* s->fine and s->path become those of twice the harmonics, if there are. *step: the change. */
-static bool refine(solved_scene *s, double *error, double *step)
+/* s->fine and s->path become those of twice the harmonics, if there are. *step: the change; *member: how far the finer
+ * solution is from the orbit there was. */
+static bool refine(solved_scene *s, double *error, double *step, double *member)
 {
   stress_motion finer;
   stress_path path;
@@ -237,6 +238,7 @@ static bool refine(solved_scene *s, double *error, double *step)
     return false;
   }
   *error = shoot_from(s, &finer, &path);
+  *member = s->path.status == HC_OK ? motion_off(s, &finer, &s->path) : NAN;
   /* A bound of the change by more harmonics, of any degree of freedom, over that amplitude. */
   const int n_coef = series_length(s->fine.harmonics), n_fine = series_length(finer.harmonics);
   double most = 0;
@@ -267,7 +269,7 @@ stress_check stress_check_orbit(solved_scene *s)
   bool loaded = false; /* statically */
   solve_again(s, &s->base, s->base.harmonics, &s->fine);
   if (s->fine.status != HC_OK) return stress_refuse(s, s->fine.status);
-  double error = shoot_from(s, &s->fine, &s->path), before = NAN, step = NAN;
+  double error = shoot_from(s, &s->fine, &s->path), before = NAN, step = NAN, member = NAN;
   for (int l = 0; l < s->model->n_loads; ++l) loaded = loaded || s->model->loads[l].harmonic == 0;
   if (!s->how.keep_mean && (loaded || s->base.m.contact.regime != CONTACT_LINEAR))
     return stress_skip(STRESS_NOT_APPLICABLE); /* without harmonic 0, means and static loads are left out */
@@ -277,7 +279,7 @@ stress_check stress_check_orbit(solved_scene *s)
     return stress_agree_within(error, close_enough, sensitive(&s->path, NULL));
   while (s->fatal == HC_OK && may_double(s, s->fine.harmonics)) {
     before = error;
-    if (!refine(s, &error, &step)) break;
+    if (!refine(s, &error, &step, &member)) break;
     note_enough(s, error);
     if (s->path.status == HC_INTERRUPTED) return stress_refuse(s, s->path.status);
     if (s->path.status == HC_OK && error <= tolerance_of(&s->path))
@@ -288,6 +290,7 @@ stress_check stress_check_orbit(solved_scene *s)
   if (s->path.status != HC_OK) return stress_refuse(s, s->path.status);
   if (error <= before / 2 || error <= 3 * step) return stress_explain(STRESS_TRUNCATED, error, 3 * step);
   if (beyond_harmonics(s)) return stress_explain(STRESS_UNRESOLVED, error, NAN);
+  if (s->path.r.free_sliders > 0 && member <= error / 10) return stress_explain(STRESS_FAMILY, error, member);
   stress_motion from_orbit; /* does HBM, from the orbit's own harmonics, end on it? */
   motion_beside(s, s->model, &s->path, 0, &from_orbit);
   const double other = from_orbit.status == HC_OK ? motion_off(s, &from_orbit, &s->path) : NAN;
