@@ -220,10 +220,10 @@ static double sensitive(const stress_path *a, const stress_path *b)
 
 static double tolerance_of(const stress_path *p) { return fmax(close_enough, sensitive(p, NULL)); }
 
-static bool may_double(const solved_scene *s, int n_harm)
+static bool affordable(const solved_scene *s, int n_harm)
 {
   const int coordinates = 2 * s->model->n_contacts < s->n ? 2 * s->model->n_contacts : s->n;
-  return 2 * n_harm <= MOST_HARMONICS && coordinates * series_length(2 * n_harm) <= MOST_UNKNOWNS;
+  return coordinates * series_length(n_harm) <= MOST_UNKNOWNS;
 }
 
 /* s->fine and s->path become those of twice the harmonics, if there are. *step: the change; *member: how far the finer
@@ -277,7 +277,7 @@ stress_check stress_check_orbit(solved_scene *s)
   note_enough(s, error);
   if (s->path.status == HC_OK && error <= tolerance_of(&s->path))
     return stress_agree_within(error, close_enough, sensitive(&s->path, NULL));
-  while (s->fatal == HC_OK && may_double(s, s->fine.harmonics)) {
+  for (int n; s->fatal == HC_OK && (n = 2 * s->fine.harmonics) <= MOST_HARMONICS && affordable(s, n);) {
     before = error;
     if (!refine(s, &error, &step, &member)) break;
     note_enough(s, error);
@@ -322,8 +322,8 @@ static double better_multiplier(solved_scene *s, double error, double bound, boo
   *truncated = false;
   for (int n = from->harmonics, more; error > bound && n < HBM_MAX_HARMONICS; n = more) {
     stress_motion finer;
-    if (n > s->fine.harmonics && !may_double(s, n)) break; /* beyond what `orbit` may take once, as it costs */
     more = 2 * n < HBM_MAX_HARMONICS ? 2 * n : HBM_MAX_HARMONICS;
+    if (n > s->fine.harmonics && !affordable(s, more)) break; /* beyond what `orbit` may take once */
     solve_again(s, from, more, &finer);
     const double now = finer.status == HC_OK ? multipliers_apart(&finer, &s->path) : NAN;
     stress_motion_free(&h);
@@ -550,8 +550,10 @@ stress_check stress_check_regularised(solved_scene *s)
   int solved = 0;
   for (how->regularisation = 1e-4; how->regularisation >= 0.9e-7; how->regularisation /= 10) {
     c = hold_found(s, &at, s->path.state, 0, same_law);
-    if (isnan(c.error) && solved >= 2) /* it did not shrink */
-      return unless_family(s, stress_find(STRESS_DISAGREES, before, same_law));
+    if (c.outcome == STRESS_REFUSED && solved >= 2) { /* it did not shrink, so far */
+      c = stress_find(STRESS_DISAGREES, before, same_law);
+      continue;
+    }
     if (c.outcome != STRESS_FINDING || isnan(c.error)) return c;
     ++solved;
     if (c.error <= before / 4) return stress_explain(STRESS_SMOOTHED, c.error, before / 4);

@@ -300,7 +300,8 @@ static void orbits_on_an_edge_of_slip_are_kept(CHECK_STATE)
 /* Two methods differed in these by what the check did. Tables that are steepest in the middle, never touched: what is
  * left of their springs is negative and grows rounding 1e300-fold in a period, and time integration ended on another
  * orbit. A slider in the plane that settles by less than a hundredth a period, and was taken for one at rest. A family
- * of orbits, of which the one found from more harmonics is less near. */
+ * of orbits, of which the one found from more harmonics is less near. A regularisation beside which no orbit was found,
+ * between two that do. A multiplier that needs 224 harmonics. */
 static void checks_that_erred_explain(CHECK_STATE)
 {
   static const struct {
@@ -312,7 +313,9 @@ static void checks_that_erred_explain(CHECK_STATE)
   } erred[] = {{STRESS_STRUCTURES, 7271321, 282, STRESS_FREE, STRESS_NO_REASON},
                {STRESS_STRUCTURES, 7271322, 99, STRESS_FREE, STRESS_NO_REASON},
                {STRESS_SPACE, 7271331, 113, STRESS_SAMPLED, STRESS_NO_REASON},
-               {STRESS_SPACE, 7271332, 166, STRESS_ORBIT, STRESS_FAMILY}};
+               {STRESS_SPACE, 7271332, 166, STRESS_ORBIT, STRESS_FAMILY},
+               {STRESS_OSCILLATORS, 7271313, 908, STRESS_ORBIT_LAWS, STRESS_SMOOTHED},
+               {STRESS_OSCILLATORS, 7271313, 1438, STRESS_MULTIPLIER, STRESS_TRUNCATED}};
   gsl_set_error_handler_off(); /* as the command does: eigenvalues that do not converge are a status */
   for (size_t i = 0; i < sizeof erred / sizeof *erred; ++i) {
     const stress_result r = drawn_stressed(erred[i].family, erred[i].seed, erred[i].index, 5);
