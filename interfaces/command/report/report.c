@@ -13,7 +13,7 @@
 enum { CURVE_MOST_RESPONSES = 12 };
 
 /* [1] of the step that continuation needs: drawn with straight lines, the curve needs more points; of a structure of
- * many coordinates each costs more than it shows. */
+ * many coordinates each costs more than it shows: its curve is the comparison's. */
 static const double shorter_steps = 0.35;
 enum { MANY_COORDINATES = 50 };
 
@@ -37,12 +37,13 @@ static void append_point(json_t *columns, const response_row *r)
   append(columns, "contact", json_string(contact_regime_name(r->measures.contact.regime)));
 }
 
-/* The curve of sc over the comparison's frequencies, columns[n] of n responses; specials may be NULL. */
+/* The curve of sc over the comparison's frequencies, columns[n] of n responses. Without specials it is of another scene
+ * than the comparison. */
 static hc_status append_curve(const scene *sc, const comparison *c, const hc_monitor *monitor, int n,
                               json_t *const *columns, json_t *specials)
 {
   hbm_solver *s = NULL;
-  hbm_curve curve = {0};
+  hbm_curve traced = {0};
   number_list asked = {0};
   double from, to;
   for (int i = 0; i < c->n_rows && asked.n < NUMBER_LIST_MAX; ++i) asked.v[asked.n++] = c->rows[i].omega;
@@ -50,20 +51,21 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK) hbm_leave_stability(s);
   const bool large = s && hbm_n_dof(s) > MANY_COORDINATES;
+  const hbm_curve *curve = large && specials ? &c->curve : &traced;
   if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT && !large) hbm_scale_steps(s, shorter_steps);
-  if (st == HC_OK) st = hbm_trace(s, from, to, monitor, &curve);
-  for (int k = 0; k < curve.n; ++k) {
+  if (st == HC_OK && curve == &traced) st = hbm_trace(s, from, to, monitor, &traced);
+  for (int k = 0; s && k < curve->n; ++k) {
     response_row row;
-    if (response_row_of(s, &curve, k, &row) != HC_OK) continue;
+    if (response_row_of(s, curve, k, &row) != HC_OK) continue;
     append_point(columns[0], &row);
     for (int r = 1; r < n; ++r)
-      if (response_row_turn(s, &curve, k, r, &row) == HC_OK) append_point(columns[r], &row);
+      if (response_row_turn(s, curve, k, r, &row) == HC_OK) append_point(columns[r], &row);
   }
   if (s && specials) {
     enum { MOST = 64 };
     hbm_special special[MOST];
     int n_special = 0;
-    hbm_specials(s, &curve, MOST, special, &n_special); /* if one cannot be located, those before it are shown */
+    hbm_specials(s, curve, MOST, special, &n_special); /* if one cannot be located, those before it are shown */
     for (int i = 0; i < n_special && i < MOST; ++i) {
       const hbm_special *p = &special[i];
       char text[ROWS_SPECIAL];
@@ -71,7 +73,7 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
                                                 "branch", p->branch, "what", rows_special_text(p, text)));
     }
   }
-  hbm_curve_free(&curve);
+  hbm_curve_free(&traced);
   hbm_solver_free(s);
   return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK;
 }
@@ -96,10 +98,18 @@ static json_t *response_object(const scene *sc, const comparison *c, int respons
                    "specials", specials, "transient", list);
 }
 
+/* Without harmonic 0 a scene with one is another. */
+static bool has_static_load(const scene *sc)
+{
+  bool has = false;
+  for (int l = 0; sc->structure && l < sc->structure->n_loads; ++l) has = has || sc->structure->loads[l].harmonic == 0;
+  return has;
+}
+
 /* The first response's curve, and into *others a list of the same for the others of a structure, up to
- * CURVE_MOST_RESPONSES in all (special points are the first one's): {curve: columns of points; turned: the same, with
- * harmonic 0 dropped if the scene keeps it, else kept; specials; transient: the rows' results}, read by response.js. A
- * curve that stops early is shown as far as it goes. HC_INTERRUPTED, HC_NO_MEMORY. */
+ * CURVE_MOST_RESPONSES in all (special points are the first one's), for response.js: {curve: columns of points; turned:
+ * the same, with harmonic 0 dropped if the scene keeps it, else kept, or nothing; specials; transient: the rows'
+ * results}. A curve that stops early is shown as far as it goes. HC_INTERRUPTED, HC_NO_MEMORY. */
 static hc_status curve_json(const scene *sc, const comparison *c, const hc_monitor *monitor, json_t **out,
                             json_t **others)
 {
@@ -110,7 +120,8 @@ static hc_status curve_json(const scene *sc, const comparison *c, const hc_monit
   other_mean.hbm.keep_mean = !sc->hbm.keep_mean;
   for (int r = 0; r < n; ++r) curve[r] = json_object(), turned[r] = json_object();
   hc_status st = append_curve(sc, c, monitor, n, curve, specials);
-  if (st == HC_OK) st = append_curve(&other_mean, c, monitor, n, turned, NULL);
+  const bool comparable = !sc->hbm.keep_mean || !has_static_load(sc);
+  if (st == HC_OK && comparable) st = append_curve(&other_mean, c, monitor, n, turned, NULL);
   *out = response_object(sc, c, 0, curve[0], turned[0], specials);
   *others = json_array();
   for (int r = 1; r < n; ++r)

@@ -118,6 +118,7 @@ function startResponse() {
   const scales = {x: axis(alongTitle, 'linear', {min: from, max: to}), y: axis('amplitude')};
   plot('response', 'scatter', responseSets, scales, responseWords);
   $('turned-name').textContent = data.response.mean_kept ? "without harmonic 0 (the paper's mode)" : 'with harmonic 0';
+  $('show-turned').parentNode.hidden = !data.response.turned.omega;
   for (const id of ['quantity', 'log-amplitude', 'range']) $(id).addEventListener('change', drawResponse);
   for (const tag of responseToggles) $('show-' + tag).addEventListener('change', toggleResponse);
   drawResponse();
