@@ -15,6 +15,7 @@
 #include <cmocka.h>
 
 #include "numerics/base/constants.h"
+#include "numerics/norm.h"
 
 /* The parameter of a test that does not use it: static void what_it_holds(CHECK_STATE). */
 #define CHECK_STATE void **state __attribute__((unused))

@@ -32,7 +32,7 @@ static int nearest(hbm_solver *s, const hbm_curve *at, const steady_reference *r
   for (int k = 0; k < at->n; ++k) {
     hbm_measures m;
     assert_int_equal(hbm_measure(s, at->X + (size_t)k * at->n_coef, &m), HC_OK);
-    double d = fmax(fabs(m.amplitude - r->amplitude), fabs(m.harmonic_1 - r->harmonic_1)) / r->amplitude;
+    double d = larger(fabs(m.amplitude - r->amplitude), fabs(m.harmonic_1 - r->harmonic_1)) / r->amplitude;
     if (d < *distance) *distance = d, found = k;
   }
   return found;

@@ -82,7 +82,7 @@ static void angle_0_is_a_jenkins_element(CHECK_STATE)
     hbm_curve at = solutions(&sc, w), first = solutions(&one, w);
     double size = norm_of(at.n_coef, at.X), A = hypot(first.X[1], first.X[2]);
     for (int h = 2; h <= 30; h += 2)
-      CHECK_LE(fmax(fabs(at.X[0]), hypot(at.X[2 * h - 1], at.X[2 * h])), SOLVED * size, "harmonic %d at %g", h, w);
+      CHECK_LE(larger(fabs(at.X[0]), hypot(at.X[2 * h - 1], at.X[2 * h])), SOLVED * size, "harmonic %d at %g", h, w);
     assert_true(A > fc / kt);
     double phi = acos(1 - 2 * fc / (kt * A));
     double a1 = kt * A / PI * (phi - sin(2 * phi) / 2), b1 = -kt * A / PI * sin(phi) * sin(phi);

@@ -122,7 +122,7 @@ static double orbits_apart(timeint *a, timeint *b, const response *from, const r
     assert_int_equal(timeint_orbit(b, omega / u->time, 1, z.all, NULL, &q), st);
     if (st != HC_OK) continue;
     double d = fabs(q.amplitude / u->length - p.amplitude);
-    for (int i = 0; i < TIMEINT_WAVE; ++i) d = fmax(d, fabs(q.wave[i] / u->length - p.wave[i]));
+    for (int i = 0; i < TIMEINT_WAVE; ++i) d = larger(d, fabs(q.wave[i] / u->length - p.wave[i]));
     d /= p.amplitude;
     CHECK_LE(d, fmax(INVARIANT, integrated(&p)), "%s at %g, solution %d, %s", r->name, omega, k, u->what);
     loose += d > INVARIANT;

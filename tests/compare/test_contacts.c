@@ -96,8 +96,8 @@ static void errors_of(const char *name, const char *at, const char *harmonics, d
   *work = *normal = 0;
   for (int i = 0; i < c.n_contacts; ++i)
     if (c.contacts[i].one_orbit) {
-      *work = fmax(*work, c.contacts[i].work_error);
-      *normal = fmax(*normal, c.contacts[i].normal_error);
+      *work = larger(*work, c.contacts[i].work_error);
+      *normal = larger(*normal, c.contacts[i].normal_error);
     }
   assert_true(*work > 0);
   comparison_clear(&c);

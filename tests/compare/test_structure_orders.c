@@ -31,7 +31,7 @@ static void steady_from_rest(const model *m, transient_settings how, double omeg
 static double largest_amplitude(const model *m, const timeint_result *r)
 {
   double most = 0;
-  for (int i = 0; i < m->n_responses; ++i) most = fmax(most, r[i].amplitude);
+  for (int i = 0; i < m->n_responses; ++i) most = larger(most, r[i].amplitude);
   return most;
 }
 
@@ -50,7 +50,7 @@ static double waveform_error(const structure_case *c, int H, double omega, const
     assert_int_equal(motion_of_response(s, omega, X, i, &m, &motion), HC_OK);
     const periodic_motion exact = motion_of_transient(&r[i]);
     const double off = motion_discrepancy(&motion, &exact).waveform * r[i].amplitude / largest_amplitude(c->model, r);
-    if (!(off <= worst)) worst = off; /* NaN stays */
+    worst = larger(worst, off);
   }
   hbm_solver_free(s);
   return worst;
@@ -102,8 +102,7 @@ static double apart(const model *m, const timeint_result *a, const timeint_resul
   double most = 0;
   for (int i = 0; i < m->n_responses; ++i) {
     const double d[] = {a[i].amplitude - b[i].amplitude, a[i].mean - b[i].mean, a[i].harmonic_1 - b[i].harmonic_1};
-    for (int k = 0; k < 3; ++k)
-      if (!(fabs(d[k]) <= most)) most = fabs(d[k]);
+    most = larger(most, norm_max(3, d));
   }
   return most / largest_amplitude(m, b);
 }

@@ -121,8 +121,7 @@ static void gate(CHECK_STATE)
 
 static void report(CHECK_STATE)
 {
-  const int answer = system("$H report small.yaml -q -o result --harmonics 1 --samples 16");
-  if (WEXITSTATUS(answer) == 64) skip(); /* built without Chart.js */
+  if (!system("$H report small.yaml -q -o result --samples 16 2>&1 | grep -q 'built without Chart.js'")) skip();
   try_with("report small.yaml -o result --harmonics 1 --samples 16", times > 2 ? times : 1);
 }
 

@@ -117,6 +117,7 @@ static hc_status trace_with(fault f, int *n)
   hbm_curve_free(&curve);
   hbm_solver_free(fresh);
   hbm_solver_free(s);
+  assert_true(calls >= f.at); /* it struck */
   kin.calls = calls;
   return st;
 }
@@ -184,6 +185,7 @@ static hc_status steady_with(int law, fault f, fault *which, timeint_result *r)
   for (int i = 0; i < TIMEINT_WAVE && st == HC_OK; ++i)
     CHECK_LE(fabs(r->wave[i]), 1.2 * right_amplitude[law], "%s wave", small_doing);
   timeint_free(ti);
+  assert_true(calls >= f.at);
   which->calls = calls;
   return st;
 }

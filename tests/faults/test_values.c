@@ -82,6 +82,7 @@ static hc_status trace_with(const char *const *set, poison p, const hbm_curve *r
   doing(set == located ? "exact forces" : "sampled forces");
   hc_status st = traced(s, &c);
   const long calls = now.calls;
+  assert_true(calls >= p.at); /* it struck */
   now = (poison){0};
   for (int i = 0; i < c.n * c.n_coef; ++i) CHECK_LE(fabs(c.X[i]), 10, "%s", small_doing);
   if (st == HC_OK && right) { /* at the end of the sweep, where both have a point, residuals of 1e-9 apart (see
@@ -138,6 +139,7 @@ static hc_status settled(const scene *sc, scene_state from, timeint_result *r)
   CHECK_MADE(timeint, ti, scene_timeint(sc, &ti));
   hc_status st = timeint_steady(ti, 6.5, from.all, NULL, r);
   timeint_free(ti);
+  assert_true(now.calls >= now.at);
   return st;
 }
 

@@ -138,8 +138,6 @@ static inline double full_residual(const full_motion *f)
       if (h) left[i][2 * h] -= m->loads[l].sine[i];
       scale = fmax(scale, fabs(m->loads[l].cosine[i]));
     }
-  for (int i = 0; i < m->n; ++i)
-    for (int k = 0; k <= 2 * f->n_harm; ++k)
-      if (!(fabs(left[i][k]) <= worst)) worst = fabs(left[i][k]);
+  for (int i = 0; i < m->n; ++i) worst = larger(worst, norm_max(2 * f->n_harm + 1, left[i]));
   return worst / scale;
 }

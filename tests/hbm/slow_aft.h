@@ -56,7 +56,7 @@ static inline void slow_contact(slow_aft *a, const scene *sc, int j, int n_time)
       low = fmin(low, w), high = fmax(high, w), size = fmax(size, fabs(x));
       if (i == 0) {
         a->w[j] = w;
-        a->moved = fmax(a->moved, fabs(w - second));
+        a->moved = larger(a->moved, fabs(w - second));
       }
       a->f[i] += co * traction + si * (normal - fmax(c->kn * c->gap, 0));
     }

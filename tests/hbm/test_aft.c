@@ -69,7 +69,7 @@ static double case_2_error(int restart, int n_time)
     shift_motion(1, X, shift, Y);
     assert_int_equal(aft_eval(a, Y, F, NULL, NULL), HC_OK);
     shift_motion(1, F, -shift, G);
-    worst = fmax(worst, hypot(G[1] - exact, G[2]) / X[1]);
+    worst = larger(worst, hypot(G[1] - exact, G[2]) / X[1]);
   }
   aft_free(a);
   return worst;

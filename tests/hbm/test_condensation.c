@@ -100,15 +100,15 @@ static void check_harmonic(uint64_t *seed, const model *m, condensation *c, doub
   dense_solve_complex(dim, S, pivot, false, 1, q);
   for (int j = 0; j < CONTACTS; ++j) {
     const double complex u = dot_complex(m->contacts[j].tangent, x, N), v = dot_complex(m->contacts[j].normal, x, N);
-    off = fmax(off, cabs(dot_complex(condensation_tangent(c, j), q, dim) - u));
-    off = fmax(off, cabs(dot_complex(condensation_normal(c, j), q, dim) - v));
+    off = larger(off, cabs(dot_complex(condensation_tangent(c, j), q, dim) - u));
+    off = larger(off, cabs(dot_complex(condensation_normal(c, j), q, dim) - v));
     size = fmax(size, fmax(cabs(u), cabs(v)));
   }
   for (int r = 0; r < m->n_responses; ++r) {
     const double complex whole = dot_complex(m->responses + r * N, x, N);
     condensation_response(c, h, r, 1, row, &rest);
     for (int d = 0; d < dim; ++d) rest += row[d] * q[d];
-    off = fmax(off, cabs(rest - whole));
+    off = larger(off, cabs(rest - whole));
     size = fmax(size, cabs(whole));
   }
   CHECK_LE(off, 1.7e-11 * size, "%s, omega %g, D %g, harmonic %d", what, omega, more, h);
@@ -149,7 +149,7 @@ static void nearly_dependent_directions(CHECK_STATE)
   const int dim = condensation_dim(c);
   assert_int_equal(condensation_at(c, 4.4, 0), HC_OK);
   for (int i = 0; i < N * N; ++i) largest = fmax(largest, fabs(m->stiffness[i]));
-  for (int i = 0; i < dim * dim; ++i) size = fmax(size, condensation_sizes(c, 0)[i]);
+  for (int i = 0; i < dim * dim; ++i) size = larger(size, condensation_sizes(c, 0)[i]);
   CHECK_LE(size, 1e4 * largest, "static stiffness of q");
   for (int h = 0; h <= H; ++h) check_harmonic(&seed, m, c, 4.4, 0, h, "nearly dependent");
   condensation_free(c);
@@ -177,7 +177,7 @@ static double worst_difference(int n, const double complex *d, double h, double 
   double off = 0, size = 0;
   for (int i = 0; i < n; ++i) {
     const double complex fine = (f[1][i] - f[0][i]) / (2 * h), coarse = (f[3][i] - f[2][i]) / (4 * h);
-    off = fmax(off, cabs((4 * fine - coarse) / 3 - d[i]));
+    off = larger(off, cabs((4 * fine - coarse) / 3 - d[i]));
     size = fmax(size, cabs(d[i]));
   }
   return off / size;

@@ -319,7 +319,7 @@ static void sampling_tends_to_it(CHECK_STATE)
     for (int p = 10; p <= 16; p += 3) {
       double w;
       sampled(H, 1, &c, X, 1 << p, F, &w);
-      for (int i = 0; i < n; ++i) error[p] = fmax(error[p], fabs(F[i] - e.F[i]));
+      for (int i = 0; i < n; ++i) error[p] = larger(error[p], fabs(F[i] - e.F[i]));
       CHECK_LE(error[p], sampled_error(H, 1, &c, X, 1 << p, &e), "trial %d H=%d N=2^%d kt=%g kn=%g mu=%g gap=%g", trial,
                H, p, c.law.kt, c.law.kn, c.law.mu, c.law.gap);
     }

@@ -71,7 +71,7 @@ static int check_peak(const traced *t, const char *name, int n_harm, int keep_me
     for (int k = 0; k < at.n; ++k) {
       hbm_measures m;
       assert_int_equal(hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &m), HC_OK);
-      nearest = fmin(nearest, fmax(fabs(m.amplitude - r->amplitude), fabs(m.harmonic_1 - r->harmonic_1)));
+      nearest = fmin(nearest, larger(fabs(m.amplitude - r->amplitude), fabs(m.harmonic_1 - r->harmonic_1)));
     }
     CHECK_LE(nearest, SOLVED * r->amplitude, "%s H=%d static=%d: no solution at %.10g is the reference's", r->name,
              r->n_harm, r->keep_mean, r->omega);

@@ -83,7 +83,7 @@ static void check_solution(const refused_scene *r, const double *X, const char *
   for (int h = 1; h <= r->harmonics; ++h) {
     const double w = h * r->omega, k = r->stiffness - r->mass * w * w, c = r->damping * w;
     const double a = X[2 * h - 1], b = X[2 * h], f = h == 1 ? r->force : 0;
-    worst = fmax(worst, fmax(fabs(k * a + c * b + F[2 * h - 1] - f), fabs(k * b - c * a + F[2 * h])));
+    worst = larger(worst, larger(fabs(k * a + c * b + F[2 * h - 1] - f), fabs(k * b - c * a + F[2 * h])));
     size += (r->stiffness + r->mass * w * w + c) * hypot(a, b) + hypot(F[2 * h - 1], F[2 * h]);
   }
   CHECK_LE(worst, 1e-9 * size, "%s, scene %d", what, r->number);

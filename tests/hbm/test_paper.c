@@ -30,7 +30,7 @@ static outcome trace(const scene *sc, double from, double to)
   o.turning_points = c.turning_points;
   o.arclength = c.arclength;
   o.last = c.points[c.n - 1].omega;
-  for (int k = 0; k < c.n; ++k) o.peak = fmax(o.peak, hypot(c.X[3 * k + 1], c.X[3 * k + 2]));
+  for (int k = 0; k < c.n; ++k) o.peak = larger(o.peak, hypot(c.X[3 * k + 1], c.X[3 * k + 2]));
   hbm_curve_free(&c);
   hbm_solver_free(s);
   return o;

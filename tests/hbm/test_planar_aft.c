@@ -61,7 +61,7 @@ static double error_of(const contact *law, hbm_restart restart, int H, int N, co
   double F[CIRCLE_MAX_X], worst = 0;
   void *a = make(law, restart, H, N);
   assert_int_equal(planar_aft_evaluator.evaluate(a, X, F, NULL, NULL), HC_OK);
-  for (int i = 0; i < 2 * series_length(H); ++i) worst = fmax(worst, fabs(F[i] - exact[i]));
+  for (int i = 0; i < 2 * series_length(H); ++i) worst = larger(worst, fabs(F[i] - exact[i]));
   planar_aft_evaluator.free(a);
   return worst;
 }

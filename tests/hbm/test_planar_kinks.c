@@ -8,7 +8,6 @@
  * in powers of h^(1/2): what a parabola cuts off is as long as the root of how far it is beyond. D is found three
  * times: from the forces, from the Jacobian as h falls to 0, and from the Jacobian at X0. */
 #include "hbm/planar/planar_force.h"
-#include "numerics/norm.h"
 #include "tests/hbm/planar_scenes.h"
 
 enum { H = 2, LENGTH = 2 * H + 1, ROWS = 3 * LENGTH, LEVELS = 5, MAX_LETTERS = 256 };

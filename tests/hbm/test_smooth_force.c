@@ -24,7 +24,7 @@ static void draw_motion(uint64_t *seed, int n, double *X)
 static double largest(int n, const double *a, const double *b)
 {
   double most = 0;
-  for (int i = 0; i < n; ++i) most = fmax(most, fabs(a[i] - (b ? b[i] : 0)));
+  for (int i = 0; i < n; ++i) most = larger(most, fabs(a[i] - (b ? b[i] : 0)));
   return most;
 }
 

@@ -64,12 +64,12 @@ static bool jacobian_matches(hbm_system *sys, uint64_t *seed, double omega, cons
     double J = by_omega[i] * w;
     for (int q = 0; q < sys->n; ++q) J += jac[q * sys->n + i] * V[q];
     const double fine = (4 * D[0][i] - D[1][i]) / 3, coarse = (4 * D[1][i] - D[2][i]) / 3;
-    scale = fmax(scale, fabs(J));
+    scale = larger(scale, fabs(J));
     apart = fmax(apart, fabs(fine - coarse));
-    off = fmax(off, fabs(fine - J));
+    off = larger(off, fabs(fine - J));
   }
   if (!same || apart > 1e-7 * scale) return false;
-  *worst = fmax(*worst, off / scale);
+  *worst = larger(*worst, off / scale);
   return true;
 }
 
@@ -150,8 +150,8 @@ static void check_the_same(int H, double (*x)[41], double (*y)[41], double toler
   double size = 0, off = 0;
   for (int r = 0; r < 2; ++r)
     for (int c = 0; c < 2 * H + 1; ++c) {
-      size = fmax(size, fabs(x[r][c]));
-      off = fmax(off, fabs(x[r][c] - y[r][c]));
+      size = larger(size, fabs(x[r][c]));
+      off = larger(off, fabs(x[r][c] - y[r][c]));
     }
   CHECK_LE(off, tolerance * size, "%s", what);
 }

@@ -19,7 +19,7 @@ static void errors(const structure_case *c, double omega, const double *X, doubl
     memcpy(Y, X, (size_t)n * sizeof *Y);
     assert_int_equal(hbm_solve(s, omega, Y, &point), HC_OK);
     hbm_solver_free(s);
-    for (int i = 0; i < n; ++i) off = fmax(off, fabs(Y[i] - X[i])), size = fmax(size, fabs(X[i]));
+    for (int i = 0; i < n; ++i) off = larger(off, fabs(Y[i] - X[i])), size = larger(size, fabs(X[i]));
     error[k] = log2(off / size);
   }
 }

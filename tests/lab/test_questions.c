@@ -226,7 +226,7 @@ static void motion_is_the_curves(CHECK_STATE)
   double max = -INFINITY;
   const double expected = row(l, k)[LAB_MAX];
   assert_int_equal(lab_signal(l, LAB_EXACT, 4096), HC_OK);
-  for (int i = 0; i < lab_rows(l); ++i) max = fmax(max, row(l, i)[1]);
+  for (int i = 0; i < lab_rows(l); ++i) max = larger(max, row(l, i)[1]);
   CHECK_LE(fabs(max - expected), 1e-5 * expected, "the largest x");
   lab_free(l);
 }
@@ -295,8 +295,8 @@ static void enough_samples_are_exact_for_a_polynomial(CHECK_STATE)
     assert_int_equal(lab_spectrum(l, n, 40), HC_OK);
     for (int h = 0; h <= 40; ++h) {
       const double *at = row(l, h);
-      if (h > 5) beyond = h > 15 ? fmax(beyond, hypot(at[1], at[2])) : beyond;
-      else off = fmax(off, hypot(at[1] - at[3], at[2] - at[4])), size = fmax(size, hypot(at[1], at[2]));
+      if (h > 5) beyond = h > 15 ? larger(beyond, hypot(at[1], at[2])) : beyond;
+      else off = larger(off, hypot(at[1] - at[3], at[2] - at[4])), size = larger(size, hypot(at[1], at[2]));
     }
     CHECK_LE(beyond, 1e-14 * size, "N = %d", n);
     if (n == 21) CHECK_LE(off, 1e-14 * size, "N = %d", n);
@@ -368,7 +368,7 @@ static void transients_are_steady(CHECK_STATE)
   assert_int_equal((int)row(l, 0)[1], HC_OK);
   CHECK_LE(fabs(row(l, 0)[2] - hbm), 1e-2 * hbm, "H = 5 against the closed form");
   double max = -INFINITY;
-  for (int i = 13; i < lab_columns(l); ++i) max = fmax(max, row(l, 0)[i]);
+  for (int i = 13; i < lab_columns(l); ++i) max = larger(max, row(l, 0)[i]);
   CHECK_LE(fabs(max - row(l, 0)[3]), 1e-3 * max, "the largest of the wave");
   lab_free(l);
 }

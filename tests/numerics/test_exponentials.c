@@ -45,6 +45,7 @@ static void nothing_falls_before(CHECK_STATE)
     for (int k = 0; k < n; ++k) slopes += cabs(m.rate[k] * m.by[k]);
     for (int i = 0; 2 * PI * i / SAMPLES < end; ++i)
       CHECK_LE(-m.s.noise, exponential_sum_at(&m.e, &m.s, 2 * PI * i / SAMPLES, NULL), "trial %d: %d", trial, i);
+    if (end == 0) CHECK_LE(exponential_sum_at(&m.e, &m.s, 0, NULL), -m.s.noise, "trial %d: the start", trial);
     if (first < 0 || at == 0) continue;
     ++found;
     CHECK_LE(fabs(exponential_sum_at(&m.e, &m.s, at, &slope)), 2 * m.s.noise + 1e-14 * slopes, "trial %d", trial);

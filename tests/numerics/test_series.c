@@ -131,7 +131,7 @@ static void check_against_samples(const char *what, int H, const double *X)
   for (int h = 1; h <= H; ++h) curvature += (double)h * h * hypot(X[2 * h - 1], X[2 * h]);
   for (int i = 0; i < N; ++i) {
     double x = series_at(H, X, cos(2 * PI * i / N), sin(2 * PI * i / N)).x;
-    best = fmax(best, x);
+    best = larger(best, x);
     least = fmin(least, x);
   }
   series_extrema(H, X, &max, &min);

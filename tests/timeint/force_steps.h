@@ -15,7 +15,6 @@
 
 #include "model/model.h"
 #include "numerics/dense.h"
-#include "numerics/norm.h"
 #include "tests/check.h"
 
 enum { STEPS_MODES = 84, STEPS_PAIRS = 12, STEPS_ROWS = 3 * STEPS_PAIRS, STEPS_LOADS = 4 };
@@ -181,8 +180,8 @@ static inline void steps_solve(const force_steps *s, const double *r0, const dou
     dense_times_vector(s->rows, s->rows, -1, s->compliance, f1, 0, left);
     for (int r = 0; r < s->rows; ++r) {
       left[r] += unforced[r] - r1[r];
-      size = fmax(size, fabs(left[r]));
-      largest = fmax(largest, fabs(r1[r]));
+      size = larger(size, fabs(left[r]));
+      largest = larger(largest, fabs(r1[r]));
     }
     if (size <= small * largest || (size <= rounding * largest && !(size < 0.5 * last))) return;
     assert_true(iteration < MOST_ITERATIONS && isfinite(size));

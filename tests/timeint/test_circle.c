@@ -2,7 +2,6 @@
  * program, against the law of one tangent where the motion is on one line, and against differences. */
 
 #include "numerics/floquet.h"
-#include "numerics/norm.h"
 #include "tests/hbm/multipliers.h"
 #include "tests/timeint/drawn.h"
 #include "tests/timeint/structure_rows.h"
@@ -338,8 +337,8 @@ static void coarse_matrices_are_good_to_their_digits(CHECK_STATE)
     assert_int_equal(integrate_monodromy(in, &d.scaled, y[0], phi[0]), HC_OK);
     assert_int_equal(integrate_coarse_monodromy(in, &d.scaled, y[1], phi[1]), HC_OK);
     assert_memory_equal(y[0], y[1], sizeof y[0]);
-    for (int i = 0; i < n * n; ++i) largest = fmax(largest, fabs(phi[0][i]));
-    for (int i = 0; i < n * n; ++i) apart = fmax(apart, fabs(phi[0][i] - phi[1][i]));
+    for (int i = 0; i < n * n; ++i) largest = larger(largest, fabs(phi[0][i]));
+    for (int i = 0; i < n * n; ++i) apart = larger(apart, fabs(phi[0][i] - phi[1][i]));
     CHECK_LE(apart, 1e-3 * largest, "trial %d", trial);
     coarser += apart > 1e-12 * largest;
     integrate_free(in);

@@ -125,12 +125,12 @@ static void random_scenes_follow_cvode(CHECK_STATE)
     assert_int_equal(integrate_monodromy(in, &m, y, fx[0]), HC_OK);
     assert_int_equal(integrate_monodromy(ref, &m, z, fx[1]), HC_OK);
     transitions += (int)(integrate_transitions(in) - was);
-    for (int i = 0; i < n; ++i) apart = fmax(apart, fabs(y[i] - z[i]) / size);
-    worst = fmax(worst, apart);
+    for (int i = 0; i < n; ++i) apart = larger(apart, fabs(y[i] - z[i]) / size);
+    worst = larger(worst, apart);
     CHECK_LE(apart, 200 * 1e-13 * 30, "trial %d", trial);
     double most = 1, off = 0;
-    for (int i = 0; i < n * n; ++i) most = fmax(most, fabs(fx[1][i])), off = fmax(off, fabs(fx[0][i] - fx[1][i]));
-    worst_matrix = fmax(worst_matrix, off / most);
+    for (int i = 0; i < n * n; ++i) most = larger(most, fabs(fx[1][i])), off = larger(off, fabs(fx[0][i] - fx[1][i]));
+    worst_matrix = larger(worst_matrix, off / most);
     CHECK_LE(off, 1e-7 * most, "matrix, trial %d", trial);
     int lasting[2][SCENE_MAX_STATES];
     lasting_intervals(in, &m, from, lasting[0]);

@@ -45,7 +45,7 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
   CHECK_LE(fabs(theta0 - s->last), 0, "steps follow each other");
   s->last = theta1;
   hc_status st = integrate_dense(in, mid, 0, y);
-  s->worst = fmax(s->worst, fabs(y[0] - creal(linear_state(s->m, mid))));
+  s->worst = larger(s->worst, fabs(y[0] - creal(linear_state(s->m, mid))));
   return st;
 }
 

@@ -108,7 +108,7 @@ static hc_status look(void *self, const integrator *in, double theta0, double th
     assert_int_equal(integrate_dense(in, theta, 0, y), HC_OK);
     assert_int_equal(integrate_dense(in, theta, 1, dy), HC_OK);
     scaled_rhs(s->m, theta, y, law);
-    s->worst = fmax(s->worst, fmax(fabs(dy[0] - law[0]), fabs(dy[1] - law[1])));
+    s->worst = larger(s->worst, larger(fabs(dy[0] - law[0]), fabs(dy[1] - law[1])));
     for (int j = 0; i % 2 == 0 && j < s->m->n_contacts; ++j) {
       if (i == 0) path[j] = -y[SCALED_W + j];
       if (i == 4) path[j] += y[SCALED_W + j];

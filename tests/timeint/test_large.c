@@ -139,7 +139,7 @@ static void check_slowed(uint64_t *seed, const model *m, double fastest)
     }
     const double C = slow->C[whole->diagonal_C ? i : i * (n + 1)];
     slowest = fmin(slowest, C / 2);
-    decay = fmax(decay, C);
+    decay = larger(decay, C);
   }
   CHECK_NEAR(slow->slowest, slowest, 0, "slowest decay");
   CHECK_NEAR(slow->decay, decay, 0, "fastest decay");
@@ -454,11 +454,11 @@ static void orbits_are_those_of_another_integrator(CHECK_STATE)
       back[l] = apart / size;
       for (int i = 0; i < TIMEINT_WAVE; ++i) {
         const double here = wave[l][i * each], coarser = l > 0 ? wave[l - 1][i * each / 2] : NAN;
-        error[l] = fmax(error[l], fabs(here - o->r.wave[i]) / o->r.amplitude);
+        error[l] = larger(error[l], fabs(here - o->r.wave[i]) / o->r.amplitude);
         if (l == 0) continue;
-        change[l] = fmax(change[l], fabs(here - coarser) / o->r.amplitude);
+        change[l] = larger(change[l], fabs(here - coarser) / o->r.amplitude);
         if (l == N_STEPS - 1)
-          extrapolated = fmax(extrapolated, fabs((4 * here - coarser) / 3 - o->r.wave[i]) / o->r.amplitude);
+          extrapolated = larger(extrapolated, fabs((4 * here - coarser) / 3 - o->r.wave[i]) / o->r.amplitude);
       }
       if (l > 0) CHECK_LE(2 * error[l], error[l - 1], "%g Hz, %d steps: error of the wave", frequency[k], steps);
       if (l > 0) CHECK_LE(2 * back[l], back[l - 1], "%g Hz, %d steps: return", frequency[k], steps);

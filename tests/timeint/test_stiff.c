@@ -1,6 +1,5 @@
 /* test_stiff.c - motions of structures by complex modes: against power series, which decompose nothing. */
 
-#include "numerics/norm.h"
 #include "tests/timeint/drawn.h"
 #include "timeint/closed_form/motion_modes.h"
 
@@ -133,8 +132,8 @@ static hc_status listen(void *self, const integrator *in, double theta0, double 
   for (; t->next < 64 && 2 * PI * t->next / 64 <= theta1; ++t->next)
     integrate_samples(in, 0, 2 * PI * t->next / 64, 0, 1, &t->wave[t->next]);
   if (!integrate_extremes(in, 0, &max, &min)) return HC_OK;
-  t->max = fmax(t->max, max);
-  t->min = fmin(t->min, min);
+  t->max = larger(t->max, max);
+  t->min = -larger(-t->min, -min);
   return HC_OK;
 }
 

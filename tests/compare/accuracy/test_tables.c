@@ -37,7 +37,7 @@ static double largest_aliasing(const scene *exact, const comparison *c, int samp
   assert_int_equal(scene_comparison_run(&sc, NULL, &sampled), HC_OK);
   assert_int_equal(sampled.n_rows, c->n_rows);
   for (int i = 0; i < c->n_rows; ++i)
-    worst = fmax(worst, fabs(sampled.rows[i].hbm.amplitude - c->rows[i].hbm.amplitude) / c->rows[i].orbit.amplitude);
+    worst = larger(worst, fabs(sampled.rows[i].hbm.amplitude - c->rows[i].hbm.amplitude) / c->rows[i].orbit.amplitude);
   comparison_clear(&sampled);
   assert_true(worst > 0);
   return worst;
@@ -82,7 +82,7 @@ static void the_table_agrees_with_the_rows(CHECK_STATE)
   assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
   assert_int_equal(c.n_rows, 4); /* one solution at 6, three at 8 */
   for (int i = 0; i < c.n_rows; ++i)
-    worst = fmax(worst, fabs(c.rows[i].hbm.amplitude - c.rows[i].orbit.amplitude) / c.rows[i].orbit.amplitude);
+    worst = larger(worst, fabs(c.rows[i].hbm.amplitude - c.rows[i].orbit.amplitude) / c.rows[i].orbit.amplitude);
   CHECK_NEAR(a.rows[0].worst, worst, 1e-8, "twice the residual tolerance, over 1 - multiplier");
   accuracy_clear(&a);
   comparison_clear(&c);
