@@ -5,8 +5,8 @@
  * solution's own orbit. Beside it stands the referee: the periodic orbit of the exact contact law next to the HBM
  * solution, stable or not, found by shooting. What the HBM solution should be is that orbit; what a machine does is
  * the transient. An error is |hbm - transient| / the transient's amplitude. Phases are never aligned: the forcing
- * fixes them. How far off each side is by its own reckoning is asked before the two meet (as in ASME V&V 20): a
- * discrepancy beyond both is a mistake of one of them. */
+ * fixes them. Each side estimates its own error before the comparison (as in ASME V&V 20): a discrepancy above three
+ * times the sum of both estimates is flagged `unexpected`. */
 #pragma once
 
 #include "compare/budget.h"

@@ -1,5 +1,5 @@
 /* comparison_private.h - settings and solvers of one comparison, and what is found of the HBM solution under way; for
- * comparison.c, which goes through frequencies and branches, and solution.c, which knows a row's numbers. */
+ * comparison.c (frequencies and branches), solution.c (the numbers of a row) and remedy.c. */
 #pragma once
 
 #include "compare/comparison.h"

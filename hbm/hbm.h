@@ -9,7 +9,7 @@
  * contact_measures.h what each contact does: forces, slip path, dissipated work
  * predict.h          how far off a solution expects to be
  * stability.h        Floquet multipliers of a solution
- * special_points.h   turning points, period doublings, Neimark-Sacker points and contact changes of a curve
+ * special_points.h   turning points, period doublings, Neimark-Sacker points, broken symmetries, contact changes
  *
  * Not here: time integration (timeint/), verdicts (compare/). */
 #pragma once

@@ -26,7 +26,7 @@
 /* Laws that are smooth, and need no slider:
  *     polynomial   across the contact f(v) = sum over p of power_p v^p, and nothing else (kt = kn = mu = load = 0)
  *     tanh         T = mu N tanh(u'/epsilon) instead of the slider (kt = 0), N as above
- * Who has one row for each makes it of this list. What only some of them have, functions below answer. */
+ * Tables with one row a law are made from this list; functions below tell what only some of the laws have. */
 #define CONTACT_SMOOTH_LIST(X)          X(CONTACT_POLYNOMIAL, polynomial) X(CONTACT_TANH, tanh)
 #define CONTACT_SMOOTH_CODE(code, name) code,
 typedef enum contact_smooth { CONTACT_KINKED, CONTACT_SMOOTH_LIST(CONTACT_SMOOTH_CODE) CONTACT_LAWS } contact_smooth;
@@ -98,8 +98,7 @@ static inline double contact_polynomial(const contact *c, double v, double *slop
   return v * v * f;
 }
 
-/* The force across [force] at v, and along under N at the rate u' of a law without a slider: of one with friction what
- * its slider says. */
+/* The force across [force] at v; the force along under N at the rate u', 0 for a law that has a slider. */
 static inline double contact_across(const contact *c, double v)
 {
   return contact_never_opens(c) ? contact_polynomial(c, v, &(double){0}) : contact_normal(c, v);

@@ -1,7 +1,7 @@
-/* collocation.h - collocation at the Radau points of one panel [0, 1], the right end being the last of them. A
- * polynomial of degree COLLOCATION_POINTS whose slope is k_j at the points x_j, from y(0):
+/* collocation.h - collocation at n Radau points of one panel [0, 1], the right end being the last of them. A polynomial
+ * of degree n = COLLOCATION_POINTS whose slope is k_j at the points x_j, from y(0):
  *
- *     y(x_i) = y(0) + h sum_j a[i][j] k_j        integral of f over [0, 1] = sum_j a[last][j] f(x_j), degree <= 2 n - 2
+ *     y(x_i) = y(0) + sum_j a[i][j] k_j          integral of f over [0, 1] = sum_j a[last][j] f(x_j), degree <= 2 n - 2
  *
  * As an implicit Runge-Kutta method (Radau IIA: Hairer and Wanner, Solving Ordinary Differential Equations II, section
  * IV.5) it has order 2 n - 1 at the panels' ends, and what is stiff decays. libm only, nothing is allocated. */

@@ -7,12 +7,12 @@
 
 typedef struct floquet floquet;
 
-/* Room for matrices up to n x n; everything is allocated here. */
+/* For matrices up to n x n; up to 64 x 64 everything is allocated here. HC_NO_MEMORY. */
 hc_status floquet_new(int n, floquet **out);
 void floquet_free(floquet *f);
 
 /* lambda[m]: eigenvalues of the rows and columns active[m] of phi, whose element (i, j) is phi[i * row + j * column].
- * HC_NOT_FINITE, HC_NOT_CONVERGED. */
+ * HC_BAD_INPUT: m > n; HC_NOT_FINITE, HC_NOT_CONVERGED; HC_NO_MEMORY where m > 64. */
 hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column, int m, const int *active,
                               double complex *lambda);
 

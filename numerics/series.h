@@ -38,7 +38,7 @@ double series_harmonic_1(int n_harm, const double *X);
 
 enum { SERIES_MAX_DIM = 2, SERIES_GRID = 32 };
 
-/* x_1(th) .. x_dim(th), each a series (series.h). */
+/* x_1(th) .. x_dim(th), each a series as above. */
 typedef struct series_vector {
   int n_harm, dim;
   const double *X[SERIES_MAX_DIM]; /* [2 n_harm + 1] */

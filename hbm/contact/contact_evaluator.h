@@ -32,7 +32,7 @@ typedef struct placed_contact {
 typedef struct evaluator_settings {
   int n_harm, n_time; /* n_time: of sampled forces */
   hbm_restart restart;
-  hbm_mistakes mistakes; /* contact_forces.h makes those of friction */
+  hbm_mistakes mistakes; /* those about friction are made by contact_forces.c */
 } evaluator_settings;
 
 /* A smooth law's derivatives at an instant of the last evaluation's motion, by u', v [force time/length, force/length];

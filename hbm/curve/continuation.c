@@ -465,16 +465,16 @@ void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 &&
 
 /* ---- a first solution ----------------------------------------------------------------------------------- */
 
-/* The linear response is the first guess; where Newton fails from there, the guess of whoever the solver was given to
- * ask; where that is none, the solution is followed along a ramp (ramp.h) to the model's equations, first of the
- * damping, then of the force, as a response curve is followed along omega: by steps of arc length, through turning
- * points and round corners. The end of a ramp is solved once more with the equations as they are. Sampled equations are
- * first asked for the solution next to that with exact forces, found in the same way. On a ramp of exact forces most
- * iterations are those of steps that fail in the end: quick ramps come first; where curves have edges of slip before
- * the guess, which may be asked of a motion that does not settle, but for that of the force with more than
- * RAMP_UNKNOWNS, where it takes as long. Quick ramps are not solved to rounding, and their steps are QUICK_STEPS times
- * as long: of seven slow first solutions that makes six quicker, by 1.3 to 10 times. A tolerance of
- * 1e-5 loses every other ramp. */
+/* Each is tried where all before it failed:
+ *     Newton from the linear response
+ *     the guess of hbm_solver_take_guess
+ *     sampled forces: the solution with exact forces, found in the same way
+ *     exact forces: quick ramps (ramp.h) of the damping, then of the force
+ *     ramps of the damping, then of the force, followed like a response curve, round folds and corners
+ * The end of a ramp is solved again with the model's own equations. With edges of slip quick ramps come before the
+ * guess, which may be slow, except that of the force with more than RAMP_UNKNOWNS. Quick ramps are not solved to
+ * rounding, in steps QUICK_STEPS times as long: of seven slow first solutions six are 1.3 to 10 times quicker. With a
+ * tolerance of 1e-5 every other ramp is lost. */
 static const double QUICK_STEPS = 2, QUICK_TOLERANCE = 1e-7;
 enum { MOST_QUICK_STEPS = 1000, HALVINGS = 2, RAMP_UNKNOWNS = 100 };
 

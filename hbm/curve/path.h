@@ -17,13 +17,13 @@ typedef struct path {
   bool natural;               /* correct at the predicted omega; else in the plane across the predicted tangent */
   bool tangent_only;          /* predict by the last tangent alone: the point before is on the far side of a corner, or
                                  solves other equations */
-  int orientation;            /* sign of det [dR/dX dR/domega; tangent]: the same all along the curve */
+  int orientation;            /* sign of det [dR/dX dR/domega; tangent]: changes only where a symmetry breaks */
   int first_outside;          /* index of the first point outside the sweep behind its start; 0 while inside */
   int droppable_points;       /* points in a row whose highest harmonics could be dropped; negative after dropping them
                                  failed, so that more points are waited for */
   bool more_samples;          /* start again with twice as many: these do not meet hbm.accuracy */
   bool may_come_from_above;   /* a first solution may be looked for by following the curve down from high omega */
-  int edges;                  /* of slip, passed or tried to */
+  int edges;                  /* edges of slip that were passed, or where that was tried */
   int points_at_last_edge;    /* number of points when a step past an edge of slip last failed */
   int points_at_last_corner;  /* number of points when a step round a corner last failed */
   int flat_steps;             /* accepted in a row on flat curve while correcting in planes */

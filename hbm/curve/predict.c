@@ -61,9 +61,8 @@ static double distance(const hbm_solver *s, const double *X, int n, const double
   return sqrt(sum);
 }
 
-/* Newton on the finer equations from s->improved. *least [length]: what the error is whatever the distance of where
- * Newton came to: rounding; where it did not come to anything, the longest step, or without bound if that was long:
- * there is no such solution. */
+/* Newton on the finer equations from s->improved. *least [length] is added to the error: some roundings; where Newton
+ * does not converge, also its longest step; INFINITY where it steps or ends too far from X to be next to it. */
 static hc_status improve(hbm_solver *s, double omega, const double *X, double *least)
 {
   const int n = refinement_harmonics(s->exact_finer);

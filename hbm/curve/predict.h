@@ -12,13 +12,14 @@
  * The mean stays in the waveform also where a slider never slips, so that the mean depends on the history: whether it
  * is open shows in the transient only, and leaving it in errs on the large side.
  *
- * Nothing finer is affordable above HBM_MAX_HARMONICS/2 harmonics: there n = H/2, and the error is d/7. */
+ * Nothing finer is affordable above HBM_MAX_HARMONICS/2 harmonics: there n = H/2, and the error is d/7, or d with
+ * sampled forces, since all of d may be aliasing. */
 #pragma once
 
 #include "hbm/solver/hbm_solver.h"
 #include "model/periodic_motion.h"
 
-/* The error of the solution X[2H+1] at omega, H = hbm_n_harmonics. Never less than rounding leaves; where Newton
+/* The error of the solution X[n_coef] at omega, H = hbm_n_harmonics. Never less than rounding leaves; where Newton
  * does not converge, never less than its longest step; INFINITY where the finer equations have no solution next to
  * X, as beyond a fold of theirs: the solution is one of few harmonics, not of the oscillator. What was computed
  * wrong shows as well: X need not solve the equations. The first call for a number of harmonics allocates, later

@@ -25,7 +25,7 @@ hc_status contact_forces_new(const model *m, const condensation *c, hbm_force fo
 void contact_forces_free(contact_forces *f); /* NULL is allowed */
 
 /* F[dim (2H+1)] [force] at X [length], and what the Jacobian needs where `derive`. Errors of the evaluators:
- * exact_force_eval, planar_force_eval, aft_eval, planar_aft_eval. */
+ * exact_force_eval, planar_force_eval, aft_eval, planar_aft_evaluator. */
 hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, bool derive, contact_report *report);
 
 /* dF/dX, [dim (2H+1)]^2 by columns, at the last evaluation, which derived and ended with HC_OK; valid until the next

@@ -1,11 +1,11 @@
-/* planar_corner.h - where a slider that marching drags for ever, less and less, comes to rest. The circles of all
- * instants hold it, one of them at th_1 and one at th_2 by little: their region is a thin lens, and going to and fro
- * between the two it creeps to the lens's corner,
+/* planar_corner.h - the place of rest that a slider tends to but never reaches: it lies in the friction circles of all
+ * instants, and two of them, at th_1 and th_2, have but a thin lens in common, so that the slider, dragged by the two
+ * in turn, tends to the lens's corner,
  *
  *     h_i = |u(th_i) - w| - R(th_i) = 0,      dh_i/dth = u'.e_i - R' = 0,      e_i = (u - w)/|u - w|,      i = 1, 2
  *
- * a period's slip shrinking by the square of the lens's half angle: passes, and Newton on them, would be as inexact as
- * rounding over that square. By these equations it is rounding over the angle. libm only, nothing is allocated. */
+ * A period shrinks the slip by the square of the lens's half angle only, so that marching, and Newton on periods, are
+ * off by rounding over that square; these equations by rounding over the angle. libm only, nothing is allocated. */
 #pragma once
 
 #include <stdbool.h>

@@ -4,7 +4,7 @@
  *     plane   R(X, omega) = 0 and normal . (z - anchor) = 0,  z = (X, omega)    (paper eq. 15-16) n + 1 unknowns
  *
  * The paper is [1] in README.md. normal = D t for a tangent t, where D is the metric of the curve: 1/x_scale^2 on the
- * harmonics, 1/omega_scale^2 on omega. X has 2H+1 entries; the unknowns are its n last ones (system.h). While a ramp is
+ * harmonics, 1/omega_scale^2 on omega. X has n_coef entries; the unknowns are its last n (system.h). While a ramp is
  * followed the place on it stands for omega in all of these. */
 #pragma once
 
@@ -24,8 +24,8 @@ hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, d
 hc_status hbm_solve_plane_plainly(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
                                   double *omega, hbm_point *point);
 
-/* dX/domega [2H+1] at X, the end of the last fixed solve; (dX, d_omega) along the curve, with normal . (dX, d_omega) =
- * 1, at the end of the last plane solve. HC_SINGULAR. */
+/* dX/domega [n_coef] at X, the end of the last fixed solve; (dX, d_omega) along the curve, normal . (dX, d_omega) = 1,
+ * at the end of the last plane solve. HC_SINGULAR. */
 hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX);
 hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega);
 

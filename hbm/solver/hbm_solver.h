@@ -19,7 +19,7 @@
 
 typedef struct hbm_solver hbm_solver;
 
-/* A workspace for m and how it is to be solved (both copied). HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
+/* A workspace for m and how it is to be solved (both copied). Errors of hbm_system_init: *out is NULL. */
 hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **out);
 void hbm_solver_free(hbm_solver *s); /* NULL is allowed */
 
@@ -32,8 +32,8 @@ int hbm_n_coefficients(const hbm_solver *s); /* entries of X, with the harmonics
 /* X[hbm_n_coefficients], as a guess, of a motion x[2H+1][n] of all degrees of freedom, coefficient by coefficient. */
 void hbm_guess_of(const hbm_solver *s, const double *x, double *X);
 
-/* Somebody who knows where a solution may be: ask() fills x[2 n_harm + 1][n] [length], as for hbm_guess_of, with a
- * guess for omega; HC_NO_MEMORY and HC_INTERRUPTED are passed on, any other failure means there is none. */
+/* A source of initial guesses: ask() fills x[2 n_harm + 1][n] [length], as for hbm_guess_of, for omega; HC_NO_MEMORY
+ * and HC_INTERRUPTED are passed on, any other failure means there is none. */
 typedef struct hbm_guess {
   hc_status (*ask)(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *x);
   void (*free)(void *self);
@@ -65,26 +65,26 @@ typedef struct hbm_point {
   double error;    /* [1] estimated relative error for auto harmonics or samples, NaN when a number was given */
 } hbm_point;
 
-/* Solve at a fixed omega from the guess X[2H+1]; X is the solution on HC_OK and untouched otherwise. A guess of zeros
- * is none: solved as by hbm_solve_first. Errors of newton_solve and of the contact force. */
+/* Solve at a fixed omega from the guess X[hbm_n_coefficients]; X is the solution on HC_OK and untouched otherwise. A
+ * guess of zeros is none: solved as by hbm_solve_first. Errors of newton_solve and of the contact force. */
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
 
 /* The same, as exact as the tolerance asks and no more: without Newton's last step, which is a fifth of the work where
  * many guesses are tried. A guess of zeros is one. */
 hc_status hbm_solve_roughly(hbm_solver *s, double omega, double *X, hbm_point *point);
 
-/* Solve at a fixed omega without a guess: from the linear response, else along ramps of the damping and of the force
- * (ramp.h), else from whoever was given to be asked; in which order: continuation.c. X[2H+1] is overwritten, and no
- * solution unless HC_OK. */
+/* Solve at a fixed omega without a guess: from the linear response, else from the guess of hbm_solver_take_guess, else
+ * along ramps of the damping and of the force (ramp.h); the exact order: continuation.c. X[hbm_n_coefficients] is
+ * overwritten; it is a solution on HC_OK only. */
 hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point);
 
-/* Measures of one solution x over its period. */
+/* Measures of one response over its period, from its series x[2H+1]. */
 typedef struct hbm_measures {
   double amplitude;  /* [length] (max - min)/2 */
   double max, min;   /* [length] */
   double rms;        /* [length] mean included */
-  double mean;       /* [length] X[0] */
-  double harmonic_1; /* [length] |X[1] + i X[2]| */
+  double mean;       /* [length] x[0] */
+  double harmonic_1; /* [length] |x[1] + i x[2]| */
   contact_report contact;
 } hbm_measures;
 

@@ -1,4 +1,4 @@
-/* hbm_solver_impl.h - what a solver consists of; for the files of this folder only. */
+/* hbm_solver_impl.h - what a solver consists of; private to hbm/. */
 #pragma once
 
 #include "hbm/solver/hbm_solver.h"

@@ -23,14 +23,13 @@ void interval_flow_free(interval_flow *f); /* NULL is allowed */
 hc_status interval_flow_advance(interval_flow *f, const contact_interval *const *interval, double duration, int columns,
                                 double *phi);
 
-/* Fewer motions than states outlast an interval: one that e^(lambda t) leaves less than 1e-24 of is lost in
- * rounding, but for the share at which a slider that is stuck over all of the interval holds it. The map of a period
- * that ends with that interval has no multipliers but 0 and those of what lasts:
- *   leave   into the columns of phi: the states of which all that there can be at the interval's end is made. slider
- *           [n_sliders] are those whose dheld counts over the interval, goes_on[]: and behind it. Each that has a
- *           column stays in slider[]; theirs are the last columns, for a motion of the slider of 1, since a force of 1
- *           would make entries of very different size
- *   left    left[columns][n_states] by rows, in terms of these states: what phi has become at the end of the interval
+/* Basis of the perturbations that survive an interval. One that decays to less than 1e-24 is lost in rounding, but for
+ * the offset at which a slider that is stuck all the interval holds it. The map of a period that ends with the interval
+ * has the multipliers of the survivors, and else 0.
+ *   leave   this basis, into the columns of phi: the modes that survive, then one column a slider, moved by 1 (dheld =
+ *           kt, of a size with the others). slider[n_sliders]: those whose dheld counts over the interval; goes_on[]:
+ *           does it count behind it, too? At return slider[] has those with a column, in order
+ *   left    left[columns][n_states] by rows: what phi has become at the interval's end, in coordinates of this basis
  * HC_NO_MEMORY. */
 hc_status interval_flow_leave(interval_flow *f, const contact_interval *const *interval, double duration, int n_sliders,
                               int *slider, const bool *goes_on, double *phi, int *columns);

@@ -17,7 +17,7 @@
  *   - in the states of all contacts at sixteen instants of the period the roots of s^2 + c s + Omega^2 + K_j in F, for
  *     a circle that slips with its stiffness across slip, are to the left of -c/4, c the least damping in F. K_j is
  *     not symmetric where a contact slips: mu kn t n^T can make two modes of neighbouring frequencies flutter.
- * The last is so where an energy x* L11 x + 2 x* L12 v + v* L22 v falls that fast: with K_j = S + N, N skew, r = c/4,
+ * The third holds if an energy x* L11 x + 2 x* L12 v + v* L22 v falls that fast: with K_j = S + N, N skew, r = c/4,
  *     L11 = Omega^2 + S + C^2/2 + a,    L12 = C/2,    L22 = 1 + b,
  *     b_kl = 2 N_kl/(omega_k^2 - omega_l^2),    a = N + b Omega^2
  *     Q = -dL/dt - 2 r L:    Q11 = sym(C (Omega^2 + K_j)) - 2 r L11,    Q12 = (b K_j)^T - r C,
@@ -25,8 +25,8 @@
  * where L and Q are positive definite: beside a diagonal of ones, the entries' Frobenius norm is below 1, less the
  * largest entry between a mode's displacement and its own velocity, which is left out of the norm. b takes out of Q12
  * what N couples at frequencies apart, b < 0.02; elsewhere it is 0 and -N stays.
- * Where that fails, the roots themselves are found, in n^3 operations.
- * Where the last fails, F is only what must be stable in all states: with z the shape of a motion in F, m = z* z,
+ * Where there is no such energy, the roots themselves are computed, in n^3 operations.
+ * Where the third fails, F is only what must be stable in all states: with z the shape of a motion in F, m = z* z,
  * c = z* C z, k = z* K z and i nu = z* N z of the skew part N of K_j, m s^2 + c s + k + i nu has its roots on the left
  * if and only if m nu^2 < c^2 k (Metelitsyn 1952, Dokl. Akad. Nauk SSSR 86, 31-34). With c_k >= 2 zeta omega_k,
  *     |Omega^-1/2 N Omega^-1/2| < 2 zeta omega_F,      omega_F the lowest frequency in F,

@@ -2,10 +2,10 @@
  *
  *     M dx'' + C dx' + k(t) dx - sum over stuck contacts t_j dheld_j = 0
  *
- * with k piecewise constant and dheld_j = kt dw_j set by dx at the instant the slider comes to rest (transitions.h).
- * The vector field is continuous, so transitions add no jumps (saltation is the identity); each interval between them
- * is a matrix exponential (interval_flow.h), but where contacts of two tangents with one
- * limit slip: there it is integrated (planar_flow.h). Nothing is truncated: unlike Hill's method it
+ * with dheld_j = kt dw_j set by dx at the instant the slider comes to rest (transitions.h). k is piecewise constant
+ * unless a law is smooth. The vector field is continuous, so transitions add no jumps (saltation is the identity).
+ * Intervals are matrix exponentials (interval_flow.h), but integrated where planar contacts slip or a law is smooth
+ * (planar_flow.h), and in the modes of large structures (modal_flow.h). Nothing is truncated: unlike Hill's method it
  * needs no decay of the Jacobian's harmonics. Check: without slip the determinant is exp(-trace(M^-1 C) T). */
 #pragma once
 

@@ -15,7 +15,7 @@
 #include <complex.h>
 #include <stdbool.h>
 
-/* Of k: below, the response to a constant force is not computed as a difference divided by k. */
+/* Where |k| is less, the response to a constant force is not computed as a difference divided by k. */
 #define MODE_SOFT 1e-2
 
 typedef struct mode {

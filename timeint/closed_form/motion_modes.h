@@ -36,7 +36,7 @@ bool motion_modes_begin(motion_modes *mm, const complex_modes *modes, const scal
 /* X and X' (order 0), or X' and X'' (order 1), at tau: out[2n]. */
 void motion_modes_at(motion_modes *mm, double tau, int order, double *out);
 
-/* Of contact j, in its `directions`, at tau. */
+/* The motion of contact j, in its `directions`, at tau. */
 contact_motion motion_modes_contact(const motion_modes *mm, int j, int directions, double tau);
 
 /* The first event up to *tau, which becomes its time: the contact; -1: none. */

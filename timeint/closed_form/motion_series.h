@@ -41,7 +41,7 @@ double motion_series_hold(const scaled_model *m, contact_track *track, const dou
 /* X and X' (order 0), or X' and X'' (order 1), at tau: out[2n]. */
 void motion_series_at(const motion_series *s, double tau, int order, double *out);
 
-/* Of contact j, in its `directions`, at tau. */
+/* The motion of contact j, in its `directions`, at tau. */
 contact_motion motion_series_contact(const motion_series *s, int j, int directions, double tau);
 
 /* All guards of contact j. How many there are. */

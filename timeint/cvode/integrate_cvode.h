@@ -16,7 +16,7 @@ typedef struct cvode_integrator { /* the first member of each kind */
   const scaled_model *m; /* of the period under way; the caller's */
   bool not_finite;       /* a right-hand side was not finite in the period under way */
   bool interrupted;      /* the monitor stopped it */
-  bool called;     /* CVODE has been called: its first call allocates, and crashes if it cannot (sundials_compat.h) */
+  bool called;     /* CVODE has been called: its first call allocates, and crashes if it cannot (numerics/room.h) */
   SUNContext ctx;  /* made first, freed last, this integrator's alone */
   N_Vector y, dky; /* [n] what CVODE integrates; dense output */
   SUNMatrix jac;   /* without entries */

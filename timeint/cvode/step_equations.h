@@ -14,7 +14,7 @@
 #include "timeint/law/contact_rows.h"
 #include "timeint/law/scaled.h"
 
-/* Of two directions by_u is a matrix of two rows, and n_v is half the contact's. */
+/* With two directions by_u has two rows, and n_v is half the contact's. */
 typedef struct step_contact {
   int directions; /* that share this: 1, 2; 0: the second, whose forces are the first's */
   double by_u[2][2], by_v[2], n_v;
@@ -44,7 +44,7 @@ bool step_equations_factor(step_equations *s, const scaled_model *m);
 /* a[n], b[n] become x, p; s->force[n_rows] is c at first, s->q is B x at last. */
 void step_equations_solve(step_equations *s, double *a, double *b);
 
-/* Of contact j in the motion s->q, in its directions: u, and v, which is returned. */
+/* The motion of contact j in s->q, in its directions: u, and v, which is returned. */
 double step_equations_motion(const step_equations *s, int j, int directions, double u[2]);
 
 /* force[row] += f, where that row is there. */

@@ -12,9 +12,9 @@
  *   tangential, overstress   first order in eta wherever w moves; a separated contact acts like a dashpot eta
  *   tangential, limited      T is exact in slip and separation; w lags by eta w'/kt, which is 0 where a slip ends
  *                            (second order), but not where a contact closes and sticks (first order: eta u'/kt then)
- * Measured figures: README.md. Written in the tangential motion u and the normal motion v [length]; the caller derives
- * them from the degrees of freedom. Any consistent units. Needs libm only, allocates nothing, keeps no state, cannot
- * fail. */
+ * Measured: docs/measurements/time-integration.md. Written in the tangential motion u and the normal motion v [length];
+ * the caller derives them from the degrees of freedom. Any consistent units. Needs libm only, allocates nothing, keeps
+ * no state, cannot fail. */
 #pragma once
 
 #include <stdbool.h>
@@ -30,7 +30,7 @@ typedef struct law_regularised {
   double width;                 /* [length] >= 0 of the corner in N; 0 is the exact corner */
   double eta;                   /* [force time/length] > 0 where has_friction */
   bool overstress;              /* the dashpot's force reaches the mass; law_regularised_make says no */
-  bool has_friction;            /* kt, kn and mu all > 0; otherwise T = 0, as in the exact law, and w' = 0 */
+  bool has_friction;            /* contact_has_friction; otherwise T = 0, as in the exact law, and w' = 0 */
   contact smooth;               /* of a smooth law, all of it; else nothing */
 } law_regularised;
 

@@ -5,7 +5,7 @@
 
 #include "numerics/norm.h"
 
-/* Of kinked laws by whether two directions share a limit; of smooth ones. */
+/* Kinked laws with one tangent, with two that share a limit; smooth laws. */
 static const law_kind *const kinds[] = {&law_line, &law_planar};
 #define ROW(code, name) [code] = &law_##name,
 static const law_kind *const smooth_kinds[] = {CONTACT_SMOOTH_LIST(ROW)};

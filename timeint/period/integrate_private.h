@@ -27,8 +27,8 @@ void integrate_sliders(const contact_track *track, const scaled_model *m, int or
  * sticks, slips, sticks and opens makes 6 an oscillation. */
 static inline int integrate_most_transitions(int n_contacts) { return n_contacts > 16 ? 60 * n_contacts : 1000; }
 
-/* Of Adams' method; and of BDF, where up to 250 times the tolerance was seen (timeint.c), 400 next to a fold (r2 at
- * 708.5). */
+/* integrate_scatter by Adams' method; and by BDF, where up to 250 times the tolerance was seen (steady/state.c), 400
+ * next to a fold (r2 at 708.5). */
 #define INTEGRATE_ADAMS_SCATTER 50.0
 #define INTEGRATE_BDF_SCATTER   1000.0
 

@@ -1,4 +1,4 @@
-/* timeint_private.h - what is behind the handle of timeint.h, for the files of this folder alone. Functions: timeint.c.
+/* timeint_private.h - what is behind the handle of timeint.h, for the files of this folder alone. Functions: state.c.
  *
  * The motion is at a whole number of periods, at the state y in the scaled model's units; whoever moves it keeps
  * `scaled` in step with omega and length. */
@@ -32,8 +32,8 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   struct memory *confirmed; /* with it: orbits found lately (closed_form_start.c)                       */
   measure measure;
   bool measured;           /* it is of the periods that led to y                                        */
-  struct {                 /* of a large structure in closed form: the orbit that it is of, */
-    int k;                 /* of so many periods; 0: none                                               */
+  struct {                 /* the orbit last measured, of a large structure in closed form */
+    int k;                 /* its periods; 0: none                                                      */
     int switches, returns; /* what a result says of it: switches, period_multiple                       */
     double omega, length;  /* and where these periods ended, in that unit                               */
     double *end;           /* [n]                                                                       */
@@ -100,8 +100,8 @@ double timeint_motion_size(const timeint *ti);
 /* [L] The same in units of ti->length, as ti->y is. */
 double timeint_scaled_size(const timeint *ti);
 
-/* z[n] [length]: what settling is judged by: x, v/omega, and by how much x would follow each slider,
- * kt cos(alpha) w/(largest stiffness). */
+/* z[n] [length]: what settling is judged by: modal q, q'/omega, and for each slider kt |t_j| w_j over the stiffness of
+ * the fastest mode, contacts stuck; 0 without friction. */
 void timeint_point(const timeint *ti, double *z);
 
 /* The distance between the measures of two results, as an error of one of them [length]. Function: predict.c. */
