@@ -5,8 +5,8 @@
  * solution's own orbit. Beside it stands the referee: the periodic orbit of the exact contact law next to the HBM
  * solution, stable or not, found by shooting. What the HBM solution should be is that orbit; what a machine does is
  * the transient. An error is |hbm - transient| / the transient's amplitude. Phases are never aligned: the forcing
- * fixes them. Each side estimates its own error before the comparison (as in ASME V&V 20): a discrepancy above three
- * times the sum of both estimates is flagged `unexpected`. */
+ * fixes them. Each side estimates its own error before the two are compared (as in ASME V&V 20); a difference of
+ * amplitude or waveform above three times the sum of both estimates is `unexpected`: one of them is mistaken. */
 #pragma once
 
 #include "compare/budget.h"

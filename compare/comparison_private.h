@@ -1,5 +1,5 @@
 /* comparison_private.h - settings and solvers of one comparison, and what is found of the HBM solution under way; for
- * comparison.c (frequencies and branches), solution.c (the numbers of a row) and remedy.c. */
+ * comparison.c (frequencies and branches), solution.c (the numbers of a row) and remedy.c (what would mend it). */
 #pragma once
 
 #include "compare/comparison.h"

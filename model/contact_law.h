@@ -98,7 +98,7 @@ static inline double contact_polynomial(const contact *c, double v, double *slop
   return v * v * f;
 }
 
-/* The force across [force] at v; the force along under N at the rate u', 0 for a law that has a slider. */
+/* The force across [force] at v; the force along [force] under N at the rate u', 0 of every law but tanh. */
 static inline double contact_across(const contact *c, double v)
 {
   return contact_never_opens(c) ? contact_polynomial(c, v, &(double){0}) : contact_normal(c, v);

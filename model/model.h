@@ -87,7 +87,7 @@ contact model_half_law(const contact *whole);
 /* (tangent, normal) = (cos, sin) of the angle [deg] between x and the contact's tangent, exact at 0 and 90 degrees. */
 void model_direction(double angle_deg, double *tangent, double *normal);
 
-/* Is it one mass under F0 cos(omega t), with x as response? model_force: that F0. Only then model_max_stiffness. */
+/* Is it one mass under F0 cos(omega t), with x as its only response? And F0 [force], of such a model alone. */
 bool model_is_oscillator(const model *m);
 double model_force(const model *m);
 

@@ -30,6 +30,6 @@ typedef struct eigensystem {
 hc_status eigensystem_make(eigensystem *e, int n, workspace *memory); /* arrays are memory's; HC_NO_MEMORY */
 
 /* The eigensystem of A[n][n], by columns. HC_SINGULAR: eigenvectors so nearly dependent (a double eigenvalue with one
- * eigenvector, a free body) that more than four digits would be lost, or Newton does not converge; HC_NOT_FINITE,
- * HC_NO_MEMORY, HC_NOT_CONVERGED (LAPACK). */
+ * eigenvector, a free body) that more than four digits would be lost, or Newton does not converge; HC_NOT_FINITE: A is
+ * not; HC_NOT_CONVERGED by LAPACK; HC_NO_MEMORY. */
 hc_status eigensystem_find(eigensystem *e, const long double *A);

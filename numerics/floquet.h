@@ -7,7 +7,7 @@
 
 typedef struct floquet floquet;
 
-/* For matrices up to n x n; up to 64 x 64 everything is allocated here. HC_NO_MEMORY. */
+/* For matrices up to n x n; what those up to 64 x 64 take is allocated here. HC_NO_MEMORY. */
 hc_status floquet_new(int n, floquet **out);
 void floquet_free(floquet *f);
 

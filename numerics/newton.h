@@ -41,7 +41,7 @@ void newton_free(newton *nw);
 /* Solve from *z. First plain Newton, then, if that fails, with KINSOL's line search from the same start. A converged
  * z gets one more Newton step, since its error may be much larger than the tolerance: that is relative to forces that
  * may nearly cancel. With `plain` there is no line search, with `unpolished` no last step. HC_STALLED, HC_SINGULAR,
- * HC_NOT_CONVERGED, HC_NOT_FINITE, HC_NO_MEMORY, or why the problem refused z: *z is then as it was given. */
+ * HC_NOT_CONVERGED, HC_NOT_FINITE, HC_NO_MEMORY, HC_BAD_INPUT, or why z was refused: *z is then as it was given. */
 hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_report *report);
 
 /* [n] r at the z that the last newton_solve returned, where it was HC_OK. */

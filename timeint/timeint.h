@@ -1,12 +1,12 @@
 /* timeint.h - time integration of a model with CVODE: the handle and its states. The way into this folder: steady.h has
  * steady states and orbits, sweep.h carries a state to another frequency.
  *
- *     x' = v,   M v' = p(omega t) - C v - K x - sum_j [ t_j T_j + n_j (N_j - N0_j) ]                   (model/model.h)
+ *     x' = v,   M v' = p(omega t) - C v - K x - sum_j [ t_j T_j + n_j (N_j - N0_j) ]          p: the loads of model.h
  *
  * with the contact law of model/contact_law.h, exact or regularised (law_regularised.h) as transient.law says.
  * A state is an array of timeint_n_states doubles, memory of the caller: x [length], v [length/time], and the slider
  * w_j [length] of contact j. Phase: t = 0 is that of the loads in model.h; every state passed in or out is at a whole
- * number of forcing periods. Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
+ * number of periods 2 pi/omega. Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
 #pragma once
 
 #include "model/model.h"
@@ -18,8 +18,8 @@ enum { TIMEINT_X, TIMEINT_V, TIMEINT_W };
 
 typedef struct timeint timeint;
 
-/* A workspace for m and how its steady states are found (both copied). HC_BAD_INPUT, errors of modal_base_new: *out is
- * NULL. */
+/* A workspace for m and how its steady states are found (both copied). HC_BAD_INPUT, HC_NO_MEMORY; HC_SINGULAR,
+ * HC_NOT_CONVERGED of modal_base_new: *out is NULL. */
 hc_status timeint_new(const model *m, const transient_settings *how, timeint **out);
 void timeint_free(timeint *ti);
 

@@ -467,14 +467,14 @@ void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 &&
 
 /* Each is tried where all before it failed:
  *     Newton from the linear response
- *     the guess of hbm_solver_take_guess
- *     sampled forces: the solution with exact forces, found in the same way
- *     exact forces: quick ramps (ramp.h) of the damping, then of the force
- *     ramps of the damping, then of the force, followed like a response curve, round folds and corners
- * The end of a ramp is solved again with the model's own equations. With edges of slip quick ramps come before the
- * guess, which may be slow, except that of the force with more than RAMP_UNKNOWNS. Quick ramps are not solved to
- * rounding, in steps QUICK_STEPS times as long: of seven slow first solutions six are 1.3 to 10 times quicker. With a
- * tolerance of 1e-5 every other ramp is lost. */
+ *     Newton from the guess of hbm_solver_take_guess
+ *     sampled forces: Newton from the solution with exact forces, found in the same way
+ *     exact forces: quick ramps (ramp.h), of the damping, then of the force
+ *     slow ramps, of the damping, then of the force: followed like a response curve, round folds and corners
+ * The end of a ramp is solved again with the model's own equations. Where curves have edges of slip, quick ramps come
+ * before the guess, which may take long; that of the force with more than RAMP_UNKNOWNS, which takes as long, after it.
+ * Steps of quick ramps are QUICK_STEPS times as long and not solved to rounding: six of seven slow first solutions are
+ * found 1.3 to 10 times as fast. At a tolerance of 1e-5 half of the ramps fail. */
 static const double QUICK_STEPS = 2, QUICK_TOLERANCE = 1e-7;
 enum { MOST_QUICK_STEPS = 1000, HALVINGS = 2, RAMP_UNKNOWNS = 100 };
 

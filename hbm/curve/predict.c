@@ -62,7 +62,8 @@ static double distance(const hbm_solver *s, const double *X, int n, const double
 }
 
 /* Newton on the finer equations from s->improved. *least [length] is added to the error: some roundings; where Newton
- * does not converge, also its longest step; INFINITY where it steps or ends too far from X to be next to it. */
+ * does not converge, also its longest step; INFINITY where it ends too far from X, or takes steps as long without
+ * converging: no solution is next to X. */
 static hc_status improve(hbm_solver *s, double omega, const double *X, double *least)
 {
   const int n = refinement_harmonics(s->exact_finer);

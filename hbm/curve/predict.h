@@ -1,10 +1,10 @@
 /* predict.h - how far off an HBM solution is, by its own reckoning: from the equations of harmonic balance alone,
  * before anything else is known. What time integration finds may then be held against it.
  *
- * The solution X of H harmonics is padded with zeros and improved by Newton on finer equations: n = 2H harmonics, or as
- * many as reach the stuck mass's natural frequency (100 at most; of many coordinates as many as make 1500 unknowns),
- * exact forces (which take away aliasing with the truncation), harmonic 0 kept (leaving it out is an error of the model
- * of the motion, too). The distance d of the two motions misses what n harmonics leave out. Errors fall like H^-3
+ * The solution X of H harmonics is padded with zeros and improved by Newton on finer equations: n = 2H harmonics, 14 at
+ * least, or as many more as reach the highest natural frequency, contacts stuck (to 100, or to 1500 unknowns), exact
+ * forces (which take away aliasing with the truncation), harmonic 0 kept (leaving it out is an error of the model of
+ * the motion, too). The distance d of the two motions misses what n harmonics leave out. Errors fall like H^-3
  * (docs/theory.md, 3), so
  *
  *     error(H) = d / |1 - (H/n)^3|          8/7 d, also where n > 2H
@@ -12,8 +12,7 @@
  * The mean stays in the waveform also where a slider never slips, so that the mean depends on the history: whether it
  * is open shows in the transient only, and leaving it in errs on the large side.
  *
- * Nothing finer is affordable above HBM_MAX_HARMONICS/2 harmonics: there n = H/2, and the error is d/7, or d with
- * sampled forces, since all of d may be aliasing. */
+ * Nothing finer is affordable above HBM_MAX_HARMONICS/2 harmonics: there n = H/2; error d/7, with sampled forces d. */
 #pragma once
 
 #include "hbm/solver/hbm_solver.h"

@@ -11,7 +11,7 @@ typedef struct hbm_curve { /* made empty with {0}, freed by hbm_curve_free */
   hbm_point *points;       /* [n] */
   double *X, *dX;          /* [n][n_coef] [length]; dX: tangent, same parameter as d_omega */
   double omega_scale; /* [rad/time] what omega is measured by along the curve; harmonics are measured by their norm */
-  hc_status end;      /* HC_OK: the sweep was covered, or left_at_start; else why the curve stops at the last point */
+  hc_status end;      /* HC_OK: the sweep was covered, or left_at_start; else why the curve stops at its last point */
   bool left_at_start; /* ended because the branch turned back past the start of the sweep */
   bool arclength;     /* arc-length continuation was needed */
   bool asked;         /* solutions at given omegas (hbm_curve_at), not the points that a curve happens to have */

@@ -1,11 +1,11 @@
-/* planar_corner.h - the place of rest that a slider tends to but never reaches: it lies in the friction circles of all
- * instants, and two of them, at th_1 and th_2, have but a thin lens in common, so that the slider, dragged by the two
- * in turn, tends to the lens's corner,
+/* planar_corner.h - where a slider comes to rest that marching drags for ever, less and less. The friction circles of
+ * all instants, |u(th) - w| <= R(th), contain that place; two of them, at th_1 and th_2, have only a thin lens in
+ * common. They drag the slider in turn towards a corner of the lens,
  *
  *     h_i = |u(th_i) - w| - R(th_i) = 0,      dh_i/dth = u'.e_i - R' = 0,      e_i = (u - w)/|u - w|,      i = 1, 2
  *
- * A period shrinks the slip by the square of the lens's half angle only, so that marching, and Newton on periods, are
- * off by rounding over that square; these equations by rounding over the angle. libm only, nothing is allocated. */
+ * A period shrinks the slip only by a part of about (the lens's half angle)^2: passes, and Newton on passes, are off by
+ * rounding over that square, these equations by rounding over the angle. libm only, nothing is allocated. */
 #pragma once
 
 #include <stdbool.h>

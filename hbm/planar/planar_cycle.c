@@ -414,16 +414,16 @@ static hc_status try_from(planar_cycle *c, const double w[2], closing *out)
   *out = (closing){.w = {w[0], w[1]}, .end = {end[0], end[1]}, .step = {end[0] - w[0], end[1] - w[1]}};
   out->distance = hypot(out->step[0], out->step[1]);
   out->left = hypot(hypot(A[0][0], A[0][1]), hypot(A[1][0], A[1][1]));
-  /* Newton's step (1 - A)^-1 step; the plain step where that does not exist, or is longer than size_of(c). */
+  /* Newton's step (1 - A)^-1 step; the step as it is where that does not exist, or is longer than size_of(c). */
   const double a = 1 - A[0][0], b = -A[0][1], d = -A[1][0], e = 1 - A[1][1], det = a * e - b * d;
   const double x = (e * out->step[0] - b * out->step[1]) / det, y = (a * out->step[1] - d * out->step[0]) / det;
   if (fabs(det) > DBL_EPSILON && hypot(x, y) <= size_of(c)) out->step[0] = x, out->step[1] = y;
   return st;
 }
 
-/* Newton's next iterate; if damped, its step is halved until the slider slips from there. Where it does not slip, every
- * slider near by is free, and the orbit looked for is the last one that slips, the limit of marching. *out is unchanged
- * if no part of the step will do. */
+/* Newton's next iterate; if damped, its step is halved until the slider slips from there. Where it does not slip, it
+ * rests at any place near by, and the orbit looked for is the last one that slips, which marching approaches. If
+ * no part of the step will do, *out is *now. */
 static hc_status take_step(planar_cycle *c, const closing *now, bool damped, closing *out)
 {
   const double rounding = 8 * DBL_EPSILON * size_of(c);

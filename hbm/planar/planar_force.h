@@ -24,8 +24,8 @@ hc_status planar_force_new(int n_harm, int n_dof, const contact *law, planar_for
 void planar_force_free(planar_force *f); /* NULL is allowed */
 
 /* F[n_dof (2H+1)] [force], N - N0 of both halves, at X (same layout) [length]. jac[row + ld col], ld = n_dof (2H+1):
- * dF/dX, unless NULL. report may be NULL. HC_NOT_FINITE, and the errors of planar_cycle_find. Where the slider slips
- * no more, it rests where the passes from w = 0 left it, and dF/dX has the derivative of that place. */
+ * dF/dX, unless NULL. report may be NULL. HC_NOT_FINITE, and the errors of planar_cycle_find. A slider that slips no
+ * more rests where the passes from w = 0 left it, or in a corner (planar_corner.h); dF/dX follows that place. */
 hc_status planar_force_eval(planar_force *f, const double *X, double *F, double *jac, contact_report *report);
 
 /* w [length] at th = 0 on the closed orbit of the last evaluation. */
@@ -33,9 +33,9 @@ void planar_force_slider(const planar_force *f, double w[2]);
 
 /* What the last evaluation found, for whoever follows a perturbation along the orbit: intervals, each with the
  * panels of its slip (planar_panel_angle gives phi anywhere on one, planar_slip_slope phi'), and the motion. Valid
- * until the next one. With a Jacobian the ends of intervals are good to some 3e-9 rad (planar_cycle.c), without
- * one to rounding. At what intervals begin with: touch-down d w = d u - (dR/R') u' where it sticks, d phi = (du'.e_perp
- * - phi' dR)/|u'| where it slips; stick to slip d phi = (du - dw).e_perp/R; slip to stick d w = du - dR e - R e_perp d
+ * until the next one. With a Jacobian the ends of intervals are good to some 3e-9 rad (planar_cycle.c), without one to
+ * rounding. At what intervals begin with: touch-down d w = d u - (dR/R') u' where it sticks, d phi = (du'.e_perp -
+ * phi' dR)/|u'| where it slips; stick to slip d phi = (du - dw).e_perp/R; slip to stick d w = du - dR e - R e_perp d
  * phi; d at fixed th. */
 const planar_cycle *planar_force_cycle(const planar_force *f);
 

@@ -4,7 +4,7 @@
  *     plane   R(X, omega) = 0 and normal . (z - anchor) = 0,  z = (X, omega)    (paper eq. 15-16) n + 1 unknowns
  *
  * The paper is [1] in README.md. normal = D t for a tangent t, where D is the metric of the curve: 1/x_scale^2 on the
- * harmonics, 1/omega_scale^2 on omega. X has n_coef entries; the unknowns are its last n (system.h). While a ramp is
+ * harmonics, 1/omega_scale^2 on omega. X has n_coef entries, the unknowns are its last n (system.h). While a ramp is
  * followed the place on it stands for omega in all of these. */
 #pragma once
 

@@ -32,8 +32,8 @@ int hbm_n_coefficients(const hbm_solver *s); /* entries of X, with the harmonics
 /* X[hbm_n_coefficients], as a guess, of a motion x[2H+1][n] of all degrees of freedom, coefficient by coefficient. */
 void hbm_guess_of(const hbm_solver *s, const double *x, double *X);
 
-/* A source of initial guesses: ask() fills x[2 n_harm + 1][n] [length], as for hbm_guess_of, for omega; HC_NO_MEMORY
- * and HC_INTERRUPTED are passed on, any other failure means there is none. */
+/* A source of guesses: ask() fills x[2 n_harm + 1][n] [length], as for hbm_guess_of, with a guess of the solution at
+ * omega; HC_NO_MEMORY and HC_INTERRUPTED are passed on, any other failure means there is none. */
 typedef struct hbm_guess {
   hc_status (*ask)(void *self, const model *m, double omega, int n_harm, const hc_monitor *monitor, double *x);
   void (*free)(void *self);
@@ -73,9 +73,9 @@ hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
  * many guesses are tried. A guess of zeros is one. */
 hc_status hbm_solve_roughly(hbm_solver *s, double omega, double *X, hbm_point *point);
 
-/* Solve at a fixed omega without a guess: from the linear response, else from the guess of hbm_solver_take_guess, else
- * along ramps of the damping and of the force (ramp.h); the exact order: continuation.c. X[hbm_n_coefficients] is
- * overwritten; it is a solution on HC_OK only. */
+/* Solve at a fixed omega without a guess: from the linear response, else from the guess of hbm_solver_take_guess or
+ * along ramps of the damping and of the force (ramp.h), in the order of continuation.c. X[hbm_n_coefficients] is
+ * overwritten, and is a solution on HC_OK alone. Errors of hbm_first_solution. */
 hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point);
 
 /* Measures of one response over its period, from its series x[2H+1]. */

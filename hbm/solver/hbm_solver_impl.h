@@ -1,4 +1,4 @@
-/* hbm_solver_impl.h - what a solver consists of; private to hbm/. */
+/* hbm_solver_impl.h - what a solver consists of; private to hbm/ and to tests. */
 #pragma once
 
 #include "hbm/solver/hbm_solver.h"

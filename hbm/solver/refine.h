@@ -15,7 +15,7 @@ void refinement_free(refinement *r);
 int refinement_harmonics(const refinement *r);
 
 /* Y[dim (2 n' + 1)] := Y - J'^-1 R'(Y), n' = refinement_harmonics; *step [length] = |J'^-1 R'|. Errors of the contact
- * force, HC_SINGULAR, HC_NOT_FINITE: Y is as it was. */
+ * force, HC_SINGULAR, HC_NOT_FINITE: Y is as it was, *step INFINITY. */
 hc_status refinement_step(refinement *r, double omega, double *Y, double *step);
 
 /* x[2 n' + 1]: response r of the model, of Y at omega. Errors of hbm_response. */
@@ -25,7 +25,7 @@ hc_status refinement_response(refinement *r, double omega, const double *Y, int 
  * of all forces. INFINITY rather than a NaN. */
 double refinement_rounding(refinement *r, double omega);
 
-/* Relative error of the solution X[dim (2 n_harm + 1)], n_harm <= its own harmonics; INFINITY where it is not known. */
+/* Relative error of the solution X[dim (2 n_harm + 1)], n_harm <= refinement_harmonics; INFINITY if the step fails. */
 double refinement_error(refinement *r, double omega, int n_harm, const double *X);
 
 /* Finer equations have as many harmonics at least: with fewer a short contact does not show in the error of H = 1. */

@@ -10,9 +10,9 @@
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
 
 /* Multipliers of a structure of more than 50 degrees of freedom cost as much as a good part of its curve, unless it has
- * planar friction, no smooth law, and at most 48 directions of contacts; so do those of a smaller one with planar
- * friction or a smooth law, with more than 12 degrees of freedom and directions together. They are found where a
- * solution is asked for, and unknown at the points of a curve. */
+ * planar friction, no smooth law and at most 48 contacts (hbm_n_contacts); so do those of a smaller one with planar
+ * friction or a smooth law that has more than 12 degrees of freedom and contacts together. They are computed for a
+ * solution that is asked for, and left unknown at the points of a curve. */
 bool hbm_stability_is_costly(const hbm_solver *s);
 
 /* With planar friction and more than 50 degrees of freedom hbm_stability_at finds NaN, which is unknown, where modes do

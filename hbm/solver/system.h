@@ -43,8 +43,8 @@ typedef struct hbm_system {
 /* Entries of X with n_harm harmonics. */
 static inline int hbm_system_length(const hbm_system *sys, int n_harm) { return sys->dim * series_length(n_harm); }
 
-/* n_time: samples per period, for sampled forces only. HC_BAD_INPUT (a load of more than n_harm harmonics too),
- * HC_NO_MEMORY, errors of model_find_scales and condensation_new: *sys still has to be cleared. */
+/* n_time: samples per period, for sampled forces only. HC_BAD_INPUT (a load above harmonic n_harm, too); HC_NO_MEMORY;
+ * HC_SINGULAR, HC_NOT_CONVERGED of model_find_scales and condensation_new: *sys still has to be cleared. */
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time);
 void hbm_system_clear(hbm_system *sys);
 

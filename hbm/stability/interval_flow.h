@@ -23,13 +23,13 @@ void interval_flow_free(interval_flow *f); /* NULL is allowed */
 hc_status interval_flow_advance(interval_flow *f, const contact_interval *const *interval, double duration, int columns,
                                 double *phi);
 
-/* Basis of the perturbations that survive an interval. One that decays to less than 1e-24 is lost in rounding, but for
- * the offset at which a slider that is stuck all the interval holds it. The map of a period that ends with the interval
- * has the multipliers of the survivors, and else 0.
- *   leave   this basis, into the columns of phi: the modes that survive, then one column a slider, moved by 1 (dheld =
- *           kt, of a size with the others). slider[n_sliders]: those whose dheld counts over the interval; goes_on[]:
- *           does it count behind it, too? At return slider[] has those with a column, in order
- *   left    left[columns][n_states] by rows: what phi has become at the interval's end, in coordinates of this basis
+/* A basis of the perturbations that outlast an interval. A motion of which e^(lambda t) leaves less than 1e-24 is lost
+ * in rounding, but for the offset at which a slider that sticks all the interval holds it. The map of a period that
+ * ends with the interval has the multipliers of this basis, and else only 0.
+ *   leave   the basis, into the first *columns columns of phi: the motions that last, then one column a slider, moved
+ *           by 1 (dheld = kt, which keeps entries of one size). slider[n_sliders]: contacts whose dheld counts over
+ *           the interval; goes_on[]: does it count behind it, too? On return slider[] has those with a column, in order
+ *   left    left[columns][n_states] by rows: phi at the interval's end, in coordinates of this basis
  * HC_NO_MEMORY. */
 hc_status interval_flow_leave(interval_flow *f, const contact_interval *const *interval, double duration, int n_sliders,
                               int *slider, const bool *goes_on, double *phi, int *columns);

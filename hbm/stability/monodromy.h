@@ -2,11 +2,11 @@
  *
  *     M dx'' + C dx' + k(t) dx - sum over stuck contacts t_j dheld_j = 0
  *
- * with dheld_j = kt dw_j set by dx at the instant the slider comes to rest (transitions.h). k is piecewise constant
- * unless a law is smooth. The vector field is continuous, so transitions add no jumps (saltation is the identity).
- * Intervals are matrix exponentials (interval_flow.h), but integrated where planar contacts slip or a law is smooth
- * (planar_flow.h), and in the modes of large structures (modal_flow.h). Nothing is truncated: unlike Hill's method it
- * needs no decay of the Jacobian's harmonics. Check: without slip the determinant is exp(-trace(M^-1 C) T). */
+ * with dheld_j = kt dw_j set by dx at the instant the slider comes to rest (transitions.h). k is piecewise constant but
+ * where a planar contact slips or a law is smooth. The vector field is continuous, so transitions add no jumps
+ * (saltation is the identity). Intervals of constant k are matrix exponentials (interval_flow.h), others are integrated
+ * (planar_flow.h), or all in the modes of a large structure (modal_flow.h). Nothing is truncated: unlike Hill's method
+ * it needs no decay of the Jacobian's harmonics. Check: without slip the determinant is exp(-trace(M^-1 C) T). */
 #pragma once
 
 #include <complex.h>

@@ -12,9 +12,9 @@
  *   tangential, overstress   first order in eta wherever w moves; a separated contact acts like a dashpot eta
  *   tangential, limited      T is exact in slip and separation; w lags by eta w'/kt, which is 0 where a slip ends
  *                            (second order), but not where a contact closes and sticks (first order: eta u'/kt then)
- * Measured: docs/measurements/time-integration.md. Written in the tangential motion u and the normal motion v [length];
- * the caller derives them from the degrees of freedom. Any consistent units. Needs libm only, allocates nothing, keeps
- * no state, cannot fail. */
+ * Measured figures: docs/measurements/time-integration.md. Written in the tangential motion u and the normal motion v
+ * [length]; the caller derives them from the degrees of freedom. Any consistent units. Needs libm only, allocates
+ * nothing, keeps no state, cannot fail. */
 #pragma once
 
 #include <stdbool.h>

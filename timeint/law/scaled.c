@@ -5,7 +5,7 @@
 
 #include "numerics/norm.h"
 
-/* Kinked laws with one tangent, with two that share a limit; smooth laws. */
+/* Kinked laws: without and with two directions that share a limit; smooth laws. */
 static const law_kind *const kinds[] = {&law_line, &law_planar};
 #define ROW(code, name) [code] = &law_##name,
 static const law_kind *const smooth_kinds[] = {CONTACT_SMOOTH_LIST(ROW)};

@@ -1,10 +1,9 @@
 /* integrate.h - one period of the forcing at a time, by CVODE or in closed form.
  *
  * A period is the phase theta = 0 .. 2 pi, and CVODE starts afresh in each. The cost is a start at order 1. The gain:
- * theta never exceeds 2 pi, so 20 000 periods lose no accuracy; and one period is a function
- * of the state alone, the same bits in giving the same bits out, so that successive states converge to a fixed point
- * of it. With the step history kept, each period would be cut into other steps, and the drift would level off at their
- * error.
+ * theta never exceeds 2 pi, so 20 000 periods lose no accuracy; and one period is a function of the state alone, the
+ * same bits in giving the same bits out, so that successive states converge to a fixed point of it. With the step
+ * history kept, each period would be cut into other steps, and the drift would level off at their error.
  *
  * One interface, three ways. integrate_regularised.h: the equations of scaled.h as they stand, by CVODE.
  * integrate_events.h: the exact law by CVODE, event-driven: one smooth right-hand side for each set of contact states,
@@ -41,10 +40,10 @@ hc_status integrate_tolerance(integrator *in, double tolerance);
 hc_status integrate_period(integrator *in, const scaled_model *m, double *y, integrate_watch *watch, void *self);
 
 /* As integrate_period, with monodromy[n_states * n_states], by columns: d y[i](2 pi) / d y[j](0) at [i + j n_states];
- * on a periodic orbit it is the monodromy matrix. It comes from the variational equations, integrated along with y; of
- * smooth laws under the exact law by CVODE from central differences, off by some 1e-8 (integrate_events.c). Contact
- * forces are continuous, so the saltation matrix of a transition is the identity. A slider that the law ties to x at
- * theta = 0 (slipping, separated) has a column of zeros. */
+ * on a periodic orbit it is the monodromy matrix. It comes from the variational equations; with smooth contacts in
+ * integrate_events.h from central differences, off by some 1e-8. Contact forces are continuous, so the saltation matrix
+ * of a transition is the identity. A slider that the law ties to x at theta = 0 (slipping, separated) has a column of
+ * zeros. */
 hc_status integrate_monodromy(integrator *in, const scaled_model *m, double *y, double *monodromy);
 
 /* The same with a matrix of which each step leaves out 1e-6, up to 4e-4 in a period as was seen: for Newton, where it
@@ -79,7 +78,7 @@ void integrate_at_end(const integrator *in, const scaled_model *m, double theta,
  * of state; INFINITY where it separated, or this integrator cannot tell. */
 double integrate_travel(const integrator *in, int j);
 
-/* [tolerance] By how much a period changes when it is cut into other steps; 0 in closed form. */
+/* [tolerance] By how much a period may change when it is cut into other steps; 0 in closed form. */
 double integrate_scatter(const integrator *in);
 
 /* Periods begun since the integrator was made. */

@@ -27,8 +27,8 @@ void integrate_sliders(const contact_track *track, const scaled_model *m, int or
  * sticks, slips, sticks and opens makes 6 an oscillation. */
 static inline int integrate_most_transitions(int n_contacts) { return n_contacts > 16 ? 60 * n_contacts : 1000; }
 
-/* integrate_scatter by Adams' method; and by BDF, where up to 250 times the tolerance was seen (steady/state.c), 400
- * next to a fold (r2 at 708.5). */
+/* [tolerance] integrator.scatter by Adams' method; and by BDF, where up to 250 was seen (steady/state.c), 400 next to a
+ * fold (r2 at 708.5). */
 #define INTEGRATE_ADAMS_SCATTER 50.0
 #define INTEGRATE_BDF_SCATTER   1000.0
 

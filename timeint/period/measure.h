@@ -55,6 +55,6 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
  * start. A place is one to MEASURE_RESTS of the largest response's range, ten times what CVODE's steps scatter. */
 int measure_resting_sliders(const measure *me);
 
-/* Response i's max, min, amplitude, rms, mean, a1, b1, harmonic_1, wave (of the last period), and the regime of all
+/* max, min, amplitude, rms, mean, a1, b1, harmonic_1 and wave (of the last period) of response i, and the regime of all
  * contacts, into *r; L = length. */
 void measure_report(const measure *me, const model *from, int i, double length, timeint_result *r);

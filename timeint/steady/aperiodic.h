@@ -1,13 +1,14 @@
 /* aperiodic.h - a motion that repeats itself after no number of periods: is it chaotic, or does it run on a torus?
  *
- * Chaos: neighbours drift apart, the largest Lyapunov exponent [1/period] is positive: the mean of
- * log |d_(n+1)|/|d_n|, d the distance of a neighbour that is brought back to a small distance after each period. So it
- * is while a motion leaves an unstable orbit, which takes thousands of periods where damping is low. What tells the two
- * apart is how often the distance could have grown by e. Next to an orbit of k periods the motion's distance from it,
- * D, is itself that of a neighbour: it is at least half the return |z_n - z_(n-k)| (multipliers beyond -1 make it 2 D)
- * and at most the size of the motion, so in the time that a motion needs to leave neighbours grow by no more than
+ * Chaos: the motion is bounded, and neighbouring motions drift apart exponentially for ever. The largest Lyapunov
+ * exponent [1/period] is the mean of log(|d_(n+1)|/|d_n|), d the distance of a neighbour that is brought back to a
+ * small distance after each period. It is positive in chaos, but also while a motion leaves an unstable orbit,
+ * which takes thousands of periods where damping is low. What tells the two apart is how often the distance could have
+ * grown by the factor e. Next to an orbit of k periods the motion's distance from it, D, is itself that of a
+ * neighbour: it is at least half the return |z_n - z_(n-k)| (multipliers beyond -1 make it 2 D) and at most the size of
+ * the motion, so in the time that a motion needs to leave neighbours grow by no more than
  *     log(2 size/return)
- * folds. In chaos there is no such limit, even where the motion stays in narrow bands.
+ * such factors. In chaos there is no such limit, even where the motion stays in narrow bands.
  *
  * Beyond a Neimark-Sacker bifurcation a complex pair of Floquet multipliers is outside the unit circle, and the motion
  * goes to a torus: its states after each period lie on a closed curve and go round it by nu turns a period,

@@ -17,10 +17,10 @@ typedef struct orbit_events {
   double *rest, *lowest, *highest;
 } orbit_events;
 
-/* The events of the k periods of the last result of this handle. Free with orbit_events_free in any case. HC_NO_MEMORY,
+/* The events of the k periods of this handle's last result. Free with orbit_events_free in any case. HC_NO_MEMORY,
  * errors of integration; HC_UNSUPPORTED: the law is not the exact one of lines. */
 hc_status timeint_events(timeint *ti, int k, orbit_events *out);
-/* The events of one period of the motion from `state`, which need be no orbit, after that many others; at t = 0 there
- * is an event wherever the period ends in other states than it began. */
+/* The events of one period of the motion from `state`, which need be no orbit, after that many others; one at t = 0
+ * wherever the period ends in other states than it began. */
 hc_status timeint_motion_events(timeint *ti, double omega, const double *state, int after, orbit_events *out);
 void orbit_events_free(orbit_events *e);

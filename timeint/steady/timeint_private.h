@@ -32,7 +32,7 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   struct memory *confirmed; /* with it: orbits found lately (closed_form_start.c)                       */
   measure measure;
   bool measured;           /* it is of the periods that led to y                                        */
-  struct {                 /* the orbit last measured, of a large structure in closed form */
+  struct {                 /* the orbit measured last, of a large structure in closed form              */
     int k;                 /* its periods; 0: none                                                      */
     int switches, returns; /* what a result says of it: switches, period_multiple                       */
     double omega, length;  /* and where these periods ended, in that unit                               */
@@ -100,8 +100,8 @@ double timeint_motion_size(const timeint *ti);
 /* [L] The same in units of ti->length, as ti->y is. */
 double timeint_scaled_size(const timeint *ti);
 
-/* z[n] [length]: what settling is judged by: modal q, q'/omega, and for each slider kt |t_j| w_j over the stiffness of
- * the fastest mode, contacts stuck; 0 without friction. */
+/* z[n] [length]: what settling is judged by: modal q and q'/omega (modal_base.h), and of each slider about how far q
+ * would follow it, s^2 kt |t_j| w_j/highest^2; 0 without friction. */
 void timeint_point(const timeint *ti, double *z);
 
 /* The distance between the measures of two results, as an error of one of them [length]. Function: predict.c. */

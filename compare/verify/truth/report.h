@@ -35,7 +35,7 @@ typedef struct verify_hypothesis {
   bool decibel; /* values are in dB and the file says not, or the other way */
   bool fitted;  /* a factor of the equations was fitted */
   verify_causes causes;
-  double distance; /* [1] nine of ten points that differ are nearer than this, and nine of ten that match */
+  double distance; /* [1] nine of ten points that differ are no farther, and nine of ten that match */
   double score;    /* what they are ranked by: distance, times 3 for every cause */
 } verify_hypothesis;
 
