@@ -14,7 +14,7 @@ typedef struct file_identity {
   char *name; /* FILE_TO_COME: its name there; else NULL */
 } file_identity;
 
-/* Of `path`, or with NULL of the open descriptor fd. False: out of memory. file_forget in any case. */
+/* What identifies `path`, or with NULL the open descriptor fd. False: out of memory. file_forget in any case. */
 bool file_identify(const char *path, int fd, file_identity *out);
 void file_forget(file_identity *f);
 

@@ -117,7 +117,7 @@ static int count_shown(const table *t, const column_style *style)
   return n;
 }
 
-/* Of a line in which each column has its width, or that of its longest word. */
+/* The width of a line in which each column has its own, or that of its longest word. */
 static int line_width(const table *t, const column_style *style, bool words)
 {
   int width = -BETWEEN;

@@ -79,7 +79,7 @@ static fmpq *positive(reading *r, const json_t *object, const char *key)
   return value;
 }
 
-/* Of a list of so many; `least` where it is none. */
+/* The length of a list, least .. most; `least` where it is none. */
 static int length(reading *r, const json_t *json, const char *where, int least, int most)
 {
   const size_t n = json_array_size(json);

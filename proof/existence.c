@@ -104,7 +104,7 @@ void box_set(orbit *o, mag_srcptr radius)
 
 /* ---- Krawczyk ---- */
 
-/* Of the unknowns at an event the first n are x, then v, then t: 0, 1, 2. */
+/* The unknowns at an event are n of x, then n of v, then t: 0, 1, 2. */
 static int kind_of(const orbit *o, int unknown) { return unknown % (2 * o->n + 1) / o->n; }
 
 /* defect: sum over c of |I - B middle|_rc scale_c; shift: |B F|_r. The first in long double, since it is most of the

@@ -194,7 +194,7 @@ static void put_matrices(const craig_bampton *cb, int modes, double *K, double *
   }
 }
 
-/* Of the large structure's directions the kept rows. */
+/* The kept rows of the large structure's directions. */
 static void pick(const craig_bampton *cb, const double *from, double *to)
 {
   for (int k = 0; k < cb->n_kept; ++k) to[k] = from[cb->kept[k]];

@@ -26,8 +26,8 @@ typedef struct craig_bampton {
   workspace memory;       /* of all that are as long from the start */
 } craig_bampton;
 
-/* Of s, which is_sparse, with the rows kept[n_kept], ascending, without modes as yet. HC_SINGULAR where nothing holds
- * the others; HC_NO_MEMORY. */
+/* The reduction of s, which is_sparse, with the rows kept[n_kept], ascending, without modes as yet. HC_SINGULAR where
+ * nothing holds the others; HC_NO_MEMORY. */
 hc_status craig_bampton_new(const scene_structure *s, int n_kept, const int *kept, craig_bampton **out);
 void craig_bampton_free(craig_bampton *cb);
 

@@ -16,7 +16,7 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out);
 /* The structure of that number, likewise: structures.c. To be cleared with case_clear. */
 hc_status stress_structures_at(stress_scenes *s, long index, scene *out);
 
-/* Of any family; one in space has the structure of that number with more tangents. */
+/* A scene of any family; one in space has the structure of that number with more tangents. */
 hc_status stress_scene_of(stress_scenes *s, stress_family family, long index, scene *out);
 
 /* ---- what both files draw from ---- */

@@ -13,8 +13,8 @@
 #include "compare/compare_settings.h"
 #include "numerics/base/message.h"
 
-/* Of the response x(t) = mean + a1 cos(omega t) + b1 sin(omega t) + ..., loads being cos(omega t); amplitude = (max -
- * min)/2. X(code, name) */
+/* What is held of the response x(t) = mean + a1 cos(omega t) + b1 sin(omega t) + ..., loads being cos(omega t);
+ * amplitude = (max - min)/2. X(code, name) */
 #define SUITE_QUANTITIES(X)    X(SUITE_AMPLITUDE, "amplitude") X(SUITE_MEAN, "mean") X(SUITE_A1, "a1") X(SUITE_B1, "b1")
 #define SUITE_CODE(code, name) code,
 enum { SUITE_QUANTITIES(SUITE_CODE) SUITE_N };

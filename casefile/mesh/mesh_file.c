@@ -45,7 +45,7 @@ static bool is_sheet(const shape *h) { return *h->family == 'S'; }
 
 static int corners_of(const char *face) { return strlen(face) % 3 == 0 ? 3 : 4; }
 
-/* Of "C3D8R": family, number of nodes, anything but a digit. */
+/* Such as "C3D8R": family, number of nodes, anything but a digit. */
 static const shape *find_shape(matrix_word type)
 {
   for (int i = 0; i < SHAPES; ++i) {

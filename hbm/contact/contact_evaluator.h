@@ -60,7 +60,7 @@ typedef struct contact_evaluator {
   const struct planar_cycle *(*in_plane)(const void *self);
   contact_slopes (*slopes)(const void *self, double th, double omega); /* of a smooth law, as it is in contact */
 
-  /* Of a law that depends on rates, else NULL: the frequency [rad/time] of evaluations to come; and F's derivative by
+  /* For a law that depends on rates, else NULL: the frequency [rad/time] of evaluations to come; and F's derivative by
    * it at the last one, which derived. */
   void (*at_omega)(void *self, double omega);
   const double *(*by_omega)(const void *self);

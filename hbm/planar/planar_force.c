@@ -469,7 +469,7 @@ static hc_status integrate(planar_force *f, bool derive)
 
 /* ---- put together --------------------------------------------------------------------------------------- */
 
-/* Of what integrate() has derived: F_d = kt (K u_d + rest), K being Toeplitz + Hankel of stick. */
+/* From what integrate() has derived: F_d = kt (K u_d + rest), K being Toeplitz + Hankel of stick. */
 static void put_jacobian(const planar_force *f, double *jac)
 {
   const size_t L = (size_t)f->n_coef, n = (size_t)f->n_size;
@@ -541,7 +541,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   return find_force(self, X, jac != NULL, false, F, report); /* `jacobian` derives */
 }
 
-/* Of the last evaluation, whose passes, which had no trouble, are gone through once more. */
+/* At the last evaluation, whose passes, which had no trouble, are gone through once more. */
 static void jacobian(void *self, double *jac)
 {
   planar_force *f = self;

@@ -29,7 +29,7 @@ void hbm_leave_stability(hbm_solver *s)
 
 bool hbm_stability_is_unknown(const hbm_solver *s) { return s->multipliers_unknown; }
 
-/* Of omega and X, so that what is asked for twice, by a curve's rows and for its special points, is found once:
+/* A hash of omega and X, so that what is asked for twice, by a curve's rows and for its special points, is found once:
  * Fowler, Noll and Vo's hash of 64 bits. */
 static uint64_t fingerprint(const hbm_solver *s, double omega, const double *X)
 {

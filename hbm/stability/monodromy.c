@@ -480,7 +480,7 @@ static double weight_of_state(const monodromy *w, const model *m, double omega, 
   return w->track[j].law && slips(w->track[j].interval) ? root : 0;
 }
 
-/* Of long vectors: four sums, which do not wait for each other. */
+/* For long vectors: four sums, which do not wait for each other. */
 static double long_product(size_t n, const double *a, const double *b)
 {
   double sum[4] = {0};

@@ -94,7 +94,7 @@ static int read_cases(gate_call *call, int *wrong)
   return 0;
 }
 
-/* Of all cases together. */
+/* For all cases together. */
 static void foretell_time(const gate_call *call)
 {
   double seconds = 0;

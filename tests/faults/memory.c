@@ -45,7 +45,7 @@ long memory_asked(void) { return atomic_load(&asked); }
 long memory_refused(void) { return atomic_load(&refused); }
 long memory_peak(void) { return atomic_load(&peak); }
 
-/* Of an allocation of so many bytes more. */
+/* At an allocation of so many bytes more. */
 static bool refuse(size_t bytes)
 {
   if (sheltered) return false;

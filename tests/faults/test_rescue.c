@@ -50,7 +50,7 @@ static const char *rows_of(const char *text)
   return header ? header : "";
 }
 
-/* Of the header and rows, without the notes behind them. */
+/* The length of the header and rows, without the notes behind them. */
 static size_t length_of(const char *rows)
 {
   const char *note = strstr(rows, "\n#");

@@ -158,7 +158,7 @@ static void kinsol_lies(CHECK_STATE)
 
 /* ---- time integration ---- */
 
-/* Of the two laws, 0 regularised, 1 exact: what is right, and a start next to the orbit: from rest it would take a
+/* For the two laws, 0 regularised, 1 exact: what is right, and a start next to the orbit: from rest it would take a
  * hundred periods. */
 static double right_amplitude[2];
 static scene_state near_orbit[2];

@@ -24,7 +24,7 @@ static int split(char *text, const char *set[MOST])
   return n;
 }
 
-/* Of a structure a matrix may be to blame, which is in a file of its own. */
+/* For a structure a matrix may be to blame, which is in a file of its own. */
 static const char structure[] =
     "structure:\n  mass: [[1, 0.1], [0.1, 2]]\n  stiffness: [[680, -40], [-40, 40]]\n  damping: {modal: 0.01}\n"
     "  names: [tip, root]\n  nodes: [[tip, 17, y]]\nforcing: [{dof: tip, amplitude: 1}]\nsweep: {omega: [3, 20]}\n"

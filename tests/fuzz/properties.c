@@ -212,7 +212,7 @@ static char *echo(const scene *sc, size_t *length)
   return text;
 }
 
-/* Of structures the echoes are compared: they hold all bits, and the scenes only where they are. */
+/* For structures the echoes are compared: they hold all bits, and the scenes only where they are. */
 bool scenes_are_same(const scene *a, const scene *b)
 {
   size_t of_a = 0, of_b = 0;

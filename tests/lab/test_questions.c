@@ -286,7 +286,7 @@ static void laws_are_had_back_with_their_forces(CHECK_STATE)
   lab_free(l);
 }
 
-/* Of degree 3, of H = 5: 21 samples are exact, 20 are not. Harmonics beyond 3 H are 0. */
+/* A law of degree 3, H = 5: 21 samples are exact, 20 are not. Harmonics beyond 3 H are 0. */
 static void enough_samples_are_exact_for_a_polynomial(CHECK_STATE)
 {
   lab *l = lab_with_laws(false);

@@ -9,7 +9,7 @@ static bool same(const hbmcheck_contact_period *p, const contact_period *q)
          p->traction_max == q->traction_max && p->slip_distance == q->slip_distance && p->work == q->work;
 }
 
-/* Of one contact with two tangents, whose halves the model counts apart, and of three with one. */
+/* One contact with two tangents, whose halves the model counts apart, and three with one. */
 static void every_solution_has_its_contacts(CHECK_STATE)
 {
   const char *const path[] = {FOLDER "space.yaml", FOLDER "chain3.yaml"};
@@ -116,8 +116,8 @@ static void every_row_has_its_contacts(CHECK_STATE)
   free_both(&b);
 }
 
-/* Of the pair that stands for two tangents, harmonic balance and time integration each put the halves together: half of
- * the contact on one side would be off by a half. The two are 8e-5 apart by truncation and a regularised law. */
+/* For the pair that stands for two tangents, harmonic balance and time integration each put the halves together: half
+ * of the contact on one side would be off by a half. The two are 8e-5 apart by truncation and a regularised law. */
 static void two_tangents_are_one_contact(CHECK_STATE)
 {
   both b;

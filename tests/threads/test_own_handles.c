@@ -154,7 +154,7 @@ static void verify(record *r)
   hbmcheck_case_free(c);
 }
 
-/* Of one contact, exact and by samples: the latter make and free plans of FFTW. */
+/* One contact, exact and by samples: the latter make and free plans of FFTW. */
 static void force(record *r)
 {
   enum { H = 9, LENGTH = 2 * H + 1 };

@@ -19,7 +19,7 @@ static model *driven(const char *name, double force)
   return c.model;
 }
 
-/* Of some masses, with circles, and contacts of other kinds beside them. */
+/* Some masses, with circles, and contacts of other kinds beside them. */
 static void draw(uint64_t *seed, transient_law law, drawn *d)
 {
   const int n = random_int(seed, 3, 6), circles = random_int(seed, 1, 3);
@@ -45,7 +45,7 @@ static const transient_settings closed_form = CLOSED_FORM(1e-10, 20000);
 
 /* ---- an independent program ------------------------------------------------------------------------------ */
 
-/* Of a program of its own: Taylor series of order 22 while a circle slips, events bisected to rounding, in NumPy. */
+/* By a program of its own: Taylor series of order 22 while a circle slips, events bisected to rounding, in NumPy. */
 static void periods_meet_the_reference(CHECK_STATE)
 {
   static const struct {

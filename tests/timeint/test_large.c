@@ -150,7 +150,7 @@ static void check_slowed(uint64_t *seed, const model *m, double fastest)
   modal_base_free(whole);
 }
 
-/* Of the plates, whose damping is diagonal, and of drawn structures, whose is not. */
+/* The plates, whose damping is diagonal, and drawn structures, whose is not. */
 static void slowed_modes_stay_springs(CHECK_STATE)
 {
   uint64_t seed = 4;
@@ -251,7 +251,8 @@ static int check_rate(uint64_t *seed, const drawn *d, int trial)
   return entries;
 }
 
-/* Of one tangent and of two, and with fewer and more entries in the rows than BLAS is called for (dense.c: 1024). */
+/* With one tangent and with two, and with fewer and more entries in the rows than BLAS is called for (dense.c: 1024).
+ * */
 static void rates_by_rows_are_the_equations(CHECK_STATE)
 {
   uint64_t seed = 21;

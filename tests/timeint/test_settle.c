@@ -49,7 +49,7 @@ static int settle_after(const map *m, double prior, double goal, double scatter,
   return done ? n : 0;
 }
 
-/* Of |z_n - z*| <= D/(1 - rho^m): never below the truth where rho is; above it by no more than 3 (the ellipse) *
+/* The bound |z_n - z*| <= D/(1 - rho^m): never below the truth where rho is; above it by no more than 3 (the ellipse) *
  * 2/(1 - e^-2) at the longest stride. So it settles, and at the latest when the truth is goal/21: log(1/goal *
  * 21)/log(1/rho) steps and 2 baselines (512 at most, and 17). */
 static void never_early_never_late(CHECK_STATE)

@@ -83,7 +83,7 @@ static void differentiate(const period_map *map, const double *z, double h, doub
     }
 }
 
-/* Of its eigenvalues the one nearest to lambda or its conjugate, and the largest modulus. */
+/* The eigenvalue nearest to lambda or its conjugate, and the largest modulus. */
 static double nearest_eigenvalue(double phi[3][3], double complex lambda, double *largest)
 {
   double off = INFINITY, work[9];

@@ -81,7 +81,7 @@ static void modes_and_series_agree(CHECK_STATE)
   CHECK_LE(10.0 * (double)by_modes, (double)by_series, "%s", "steps of stiff structures");
 }
 
-/* Of more sets of contact states than are kept, asked for in any order: each as one that was just made has it. */
+/* More sets of contact states than are kept, asked for in any order: each as one that was just made has it. */
 static void sets_give_way(CHECK_STATE)
 {
   uint64_t seed = 8;

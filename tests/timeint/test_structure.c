@@ -10,7 +10,7 @@
 
 static const transient_settings from_rest = CLOSED_FORM(1e-10, 20000);
 
-/* Of a program of its own: matrix exponentials between events that are bisected to rounding, in NumPy. */
+/* By a program of its own: matrix exponentials between events that are bisected to rounding, in NumPy. */
 static void periods_meet_the_reference(CHECK_STATE)
 {
   static const struct {

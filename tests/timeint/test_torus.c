@@ -65,7 +65,7 @@ static hc_status steady_from_rest(const model *m, const transient_settings *how,
   return st;
 }
 
-/* Of the orbit of one period, followed from where it is stable: the angle of its multipliers, in turns. */
+/* The angle of the multipliers, in turns, of the orbit of one period, followed from where it is stable. */
 static double angle_of_multiplier(const model *m, double omega, double *modulus)
 {
   const double from = 8.8;

@@ -17,7 +17,7 @@ typedef struct integrator_class {
   void (*free)(integrator *);
 } integrator_class;
 
-/* Of all contacts: sliders of the motion y (order 0), or their rates where y is its derivative. `turn`, unless NULL,
+/* The sliders of all contacts of the motion y (order 0), or their rates where y is its derivative. `turn`, unless NULL,
  * sets the direction of contact j, whose slip turns, in its tracks t. */
 typedef void integrate_turn(const void *self, int j, contact_track *t);
 void integrate_sliders(const contact_track *track, const scaled_model *m, int order, integrate_turn *turn,

@@ -22,6 +22,6 @@ hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, co
  * one; the motion is where it was. */
 hc_status closed_start_confirm(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r, bool *done);
 
-/* Of the remembered orbit through `state`: where the closed form's was, start[n], and the predictions [responses], to
- * be read or filled, NaN so far; NULL: it is not remembered. */
+/* What is known of the remembered orbit through `state`: where the closed form's was, start[n], and the predictions
+ * [responses], to be read or filled, NaN so far; NULL: it is not remembered. */
 motion_error *closed_start_predictions(timeint *ti, const double *state, const double **start);

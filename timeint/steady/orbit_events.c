@@ -134,7 +134,7 @@ static hc_status make(const timeint *ti, orbit_events *out)
   return HC_OK;
 }
 
-/* Of k periods from ti->y, after others. */
+/* The events of k periods from ti->y, after others. */
 static hc_status watch(timeint *ti, int after, int k, orbit_events *out)
 {
   const double period = TWO_PI / ti->omega;

@@ -108,7 +108,7 @@ static hc_status regularised_part(timeint *ti, const double *state, const hc_mon
   return st;
 }
 
-/* Of slowed modes and the regularisation, out[n]: by the closed form's orbits without and with slowed modes. */
+/* Errors of slowed modes and the regularisation, out[n]: by the closed form's orbits without and with slowed modes. */
 static hc_status slowed_part(timeint *ti, const double *state, const hc_monitor *monitor, int n,
                              const timeint_result *r, motion_error *out)
 {

@@ -284,8 +284,8 @@ static hc_status from_orbit(timeint *ti, const hc_monitor *monitor, timeint_resu
   return approach_attractor(ti, STRETCH_FROM_UNSTABLE, monitor, r);
 }
 
-/* Of a large structure in closed form the copy with slowed modes, whose periods take a fifth, goes ahead: is the motion
- * next to where that has come to now, an orbit of one period? */
+/* For a large structure in closed form the copy with slowed modes, whose periods take a fifth, goes ahead: is the
+ * motion next to where that has come to now, an orbit of one period? */
 static bool follows_slowed(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
   double *state = ti->past;

@@ -150,7 +150,7 @@ static hc_status try_changes(search *s, const verify_equations *like, verify_cha
     const bool may_be_zero = verify_changes[c].cause == CAUSE_GAP || c == CHANGE_STATIC_LOAD;
     const int numbers = factor ? SEARCH_USUAL_FACTORS - !may_be_zero : 1;
     for (int i = 0; i < numbers * variants && c != CHANGE_RESPONSE && st == HC_OK; ++i) {
-      /* Of a single contact search_fits knows all but the factor 0. */
+      /* For a single contact search_fits knows all but the factor 0. */
       if (factor && !s->oscillator && i % variants > 0 && search_factors[i / variants] != 0) continue;
       verify_equations e = *like;
       e.change = c;

@@ -78,7 +78,7 @@ typedef struct verify_places {
 hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_places *at,
                               const hc_monitor *monitor, verify_solutions *out);
 
-/* Of a degree of freedom in the place of every response: of[k][r] of the motions that are there. */
+/* A degree of freedom in the place of every response: of[k][r] of the motions that are there. */
 void verify_solutions_move(verify_solutions *s, const verify_places *at, int dofs, int dof);
 
 /* By Newton from the solutions `near` of other equations at the same omegas; from those scaled to the file's values,

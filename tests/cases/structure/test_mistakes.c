@@ -16,7 +16,7 @@ static void after_two_named(const mistake *m)
 static void in_the_section(CHECK_STATE) { each_mistake("structures", 52, as_it_stands); }
 static void in_loads_contacts_and_responses(CHECK_STATE) { each_mistake("parts of a structure", 45, after_two_named); }
 
-/* Of a matrix that came from a file: the line there. */
+/* For a matrix that came from a file the line there. */
 static void of_a_matrix(const mistake *m)
 {
   char mtx[4096], text[256], start[256];

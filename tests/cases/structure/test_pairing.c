@@ -143,7 +143,7 @@ static void flat_faces_pair(CHECK_STATE)
   }
 }
 
-/* Of a set of all nodes the faces between two elements are none: each body has the surface of a box. */
+/* In a set of all nodes faces between two elements are none: each body has the surface of a box. */
 static void faces_are_outside(CHECK_STATE)
 {
   bodies b;
