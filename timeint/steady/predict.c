@@ -11,6 +11,7 @@
 static const double rounding = 16 * DBL_EPSILON; /* [amplitude] of a closed form */
 static const double enough = 1e-3;   /* [change] to which half the regularisation's orbit need be known: a second-order
                                        error of the amplitude is far smaller than the sliders' first-order change */
+static const double rough = 0.25;    /* [change] to which it may be known where steps contract no more */
 static const double coarsest = 1e-8; /* CVODE's tolerance for it */
 static const double per_change = 1e-6; /* that tolerance, relative to the change: it scatters by 250 times itself */
 
@@ -71,6 +72,8 @@ static hc_status halve(timeint *ti, const double *state, int k, const hc_monitor
     goal = fmax(goal, enough * change);
     st = timeint_set_tolerance(ti, fmin(fmax(per_change * change, timeint_final_tolerance(ti)), coarsest));
     if (st == HC_OK) st = shoot_confirm(ti->shoot, k, goal, 0, monitor, &found, r);
+    if (st == HC_NOT_CONVERGED && found.distance <= rough * change) /* the matrix by CVODES costs 100 periods */
+      st = shoot_confirm(ti->shoot, k, rough * change, 0, monitor, &found, r);
     if (!shoot_found_no_orbit(st)) return st;
   }
   hc_status st = shoot_newton(ti->shoot, k, timeint_size(ti) / ti->length, goal, monitor, &found);
