@@ -8,12 +8,9 @@ enum { SETTINGS = 4 };
 
 static void compare(const char *name, const char *const set[SETTINGS], scene *sc, comparison *c)
 {
-  char path[256];
-  case_error err;
   int n = 0;
   while (n < SETTINGS && set[n]) ++n;
-  snprintf(path, sizeof path, SOURCE_DIR "/cases/structures/%s.yaml", name);
-  if (case_read(path, n, set, sc, &err) != HC_OK) fail_msg("%s", err.message);
+  *sc = case_scene(name, n, set);
   assert_int_equal(scene_comparison_run(sc, NULL, c), HC_OK);
 }
 
@@ -23,7 +20,7 @@ static void all_rows_match(CHECK_STATE)
   static const struct {
     const char *name;
     int responses;
-  } scenes[] = {{"plane", 2}, {"space", 3}};
+  } scenes[] = {{"structures/plane", 2}, {"structures/space", 3}};
   static const char *const laws[][SETTINGS] = {
       {"hbm.harmonics=15", "transient.law=exact", "transient.method=closed_form"},
       {"hbm.harmonics=15", "transient.law=exact"},
@@ -53,7 +50,7 @@ static void too_few_samples_are_named(CHECK_STATE)
   scene sc;
   comparison c;
   int differ = 0;
-  compare("plane", set, &sc, &c);
+  compare("structures/plane", set, &sc, &c);
   for (int j = 0; j < c.n_rows; ++j) {
     double share = 0;
     const comparison_row *r = &c.rows[j];
@@ -79,7 +76,7 @@ static void the_regularisation_is_of_first_order(CHECK_STATE)
     const char *const set[SETTINGS] = {"hbm.harmonics=5", "transient.law=regularised", steps[i]};
     scene sc;
     comparison c;
-    compare("plane", set, &sc, &c);
+    compare("structures/plane", set, &sc, &c);
     rows = c.n_rows;
     assert_true(rows <= MOST_ROWS);
     for (int j = 0; j < rows; ++j) e[i][j] = c.rows[j].budget.waveform.regularisation;
@@ -107,12 +104,9 @@ static bool never_falls_back(void *self, double done)
 static void progress_goes_on_from_the_curve(CHECK_STATE)
 {
   static const char *const set[] = {"compare.omega=[10.5]", "transient.law=exact", "transient.method=closed_form"};
-  char path[] = SOURCE_DIR "/cases/structures/plane.yaml";
-  scene sc;
+  scene sc = case_scene("structures/plane", 3, set);
   comparison c;
-  case_error err;
   double last = 0;
-  if (case_read(path, 3, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
   assert_int_equal(scene_comparison_run(&sc, &(hc_monitor){never_falls_back, &last}, &c), HC_OK);
   CHECK_NEAR(last, 1, 1e-12, "at the end");
   comparison_clear(&c);

@@ -1,6 +1,4 @@
 /* test_contacts.c - contacts compared: made up so that the answer is plain, and of structures. */
-#include "casefile/case_file.h"
-#include "tests/check.h"
 #include "tests/scene_runs.h"
 
 /* ---- made up --------------------------------------------------------------------------------------- */
@@ -81,14 +79,10 @@ static void to_touch_or_not_is_a_difference(CHECK_STATE)
 /* The largest error of work and of normal forces at one frequency, of solutions on whose orbit the transient is. */
 static void errors_of(const char *name, const char *at, const char *harmonics, double *work, double *normal)
 {
-  char path[256];
-  scene sc;
-  case_error err;
   comparison c;
   compare_setup setup;
   const char *const set[] = {harmonics, at, "transient.law=exact", "response=[1]"};
-  snprintf(path, sizeof path, SOURCE_DIR "/cases/%s.yaml", name);
-  if (case_read(path, strstr(name, "structures") ? 4 : 3, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  scene sc = case_scene(name, strstr(name, "structures") ? 4 : 3, set);
   assert_int_equal(scene_setup(&sc, &setup), HC_OK);
   setup.contacts = true;
   assert_int_equal(comparison_run(&setup, NULL, &c), HC_OK);

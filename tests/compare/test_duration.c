@@ -1,7 +1,5 @@
 /* test_duration.c - a run's time foretold: the arithmetic; times of the very model; nothing measured of a small one. */
-#include "casefile/case_file.h"
 #include "compare/duration.h"
-#include "tests/check.h"
 #include "tests/scene_runs.h"
 
 /* Rounding of some ten operations. */
@@ -39,13 +37,9 @@ static void times_are_multiplied_by_how_many(CHECK_STATE)
 
 static duration_units units_of(const char *name)
 {
-  char path[256];
-  scene sc;
+  scene sc = case_scene(name, 0, NULL);
   compare_setup setup;
-  case_error err;
   duration_units u;
-  snprintf(path, sizeof path, SOURCE_DIR "/cases/%s.yaml", name);
-  if (case_read(path, 0, NULL, &sc, &err) != HC_OK) fail_msg("%s", err.message);
   assert_int_equal(scene_setup(&sc, &setup), HC_OK);
   duration_measure(&setup, &u);
   scene_setup_clear(&setup);
@@ -72,11 +66,8 @@ static void only_what_can_last_is_measured(CHECK_STATE)
  * Half of the regularisation is half of the change: known to a quarter, to a half of itself. */
 static void predictions_take_no_matrix_by_cvode(CHECK_STATE)
 {
-  scene sc;
+  scene sc = case_scene("structures/beam_pairs", 0, NULL);
   comparison c;
-  case_error err;
-  if (case_read(SOURCE_DIR "/cases/structures/beam_pairs.yaml", 0, NULL, &sc, &err) != HC_OK)
-    fail_msg("%s", err.message);
   sc.compare.omega = (number_list){1, {112.38146907313845}};
   assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
   assert_int_equal(c.n_rows, 2);

@@ -1,8 +1,7 @@
 /* test_structure_verdicts.c - what compare says of the cases in cases/structures, with harmonics enough, and that it is
  * so: every verdict is tried by marching, period after period in plain closed form, from beside the motion it is of. */
-#include "casefile/case_file.h"
 #include "compare/comparison.h"
-#include "tests/check.h"
+#include "tests/scene_runs.h"
 
 enum { STATES = 64, HARMONICS = 31 };
 
@@ -11,17 +10,17 @@ static const struct expected {
   const char *name;
   int match, unstable, period_2, aperiodic, failed;
 } expected[] = {
-    {"jenkins2", 7, 0, 0, 0, 0},
-    {"chain3", 9, 2, 0, 0, 0},
-    {"tangent_normal_F50", 2, 0, 0, 0, 0},
-    {"tangent_normal_F100", 2, 0, 0, 0, 0},
-    {"beam16", 7, 0, 0, 0, 0},
-    {"wedge_F0.5", 3, 0, 0, 0, 0},
-    {"wedge_F2", 3, 0, 0, 0, 0},
-    {"wedge_F10", 3, 0, 4, 0, 0},
-    {"wedge_F20", 2, 0, 0, 0, 0},
-    {"stop2", 4, 1, 0, 1, 0},
-    {"brake", 2, 0, 0, 0, 1},
+    {"structures/jenkins2", 7, 0, 0, 0, 0},
+    {"structures/chain3", 9, 2, 0, 0, 0},
+    {"structures/tangent_normal_F50", 2, 0, 0, 0, 0},
+    {"structures/tangent_normal_F100", 2, 0, 0, 0, 0},
+    {"structures/beam16", 7, 0, 0, 0, 0},
+    {"structures/wedge_F0.5", 3, 0, 0, 0, 0},
+    {"structures/wedge_F2", 3, 0, 0, 0, 0},
+    {"structures/wedge_F10", 3, 0, 4, 0, 0},
+    {"structures/wedge_F20", 2, 0, 0, 0, 0},
+    {"structures/stop2", 4, 1, 0, 1, 0},
+    {"structures/brake", 2, 0, 0, 0, 1},
 };
 
 /* Where the motion goes from y, a little beside which it begins; x and v move, sliders stay. */
@@ -93,13 +92,10 @@ static void check_row(const compare_setup *setup, const comparison *c, int i)
 
 static void check_case(const struct expected *e)
 {
-  char path[256], set[32];
+  char set[32];
   const char *const sets[] = {set};
-  scene sc;
-  case_error err;
-  snprintf(path, sizeof path, SOURCE_DIR "/cases/structures/%s.yaml", e->name);
   snprintf(set, sizeof set, "hbm.harmonics=%d", HARMONICS);
-  if (case_read(path, 1, sets, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  scene sc = case_scene(e->name, 1, sets);
   compare_setup setup;
   comparison c;
   int seen[VERDICT_COUNT] = {0};

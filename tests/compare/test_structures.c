@@ -18,11 +18,7 @@ WRAP(hc_status, hbm_solver_new, (const model *m, const hbm_settings *how, hbm_so
 
 static void compare(const char *name, int n_set, const char *const *set, comparison *c)
 {
-  char path[256];
-  scene sc;
-  case_error err;
-  snprintf(path, sizeof path, SOURCE_DIR "/cases/structures/%s.yaml", name);
-  if (case_read(path, n_set, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  scene sc = case_scene(name, n_set, set);
   assert_int_equal(scene_comparison_run(&sc, NULL, c), HC_OK);
   case_clear(&sc);
 }
@@ -38,7 +34,8 @@ static bool on_one_orbit(const comparison_row *r)
  * sides expected, and that within thirty times the error (of the waveform, which cannot agree by chance). */
 static void every_response_predicts_its_error(CHECK_STATE)
 {
-  static const char *const names[] = {"jenkins2", "chain3", "wedge_F2", "wedge_F20", "tangent_normal_F100"};
+  static const char *const names[] = {"structures/jenkins2", "structures/chain3", "structures/wedge_F2",
+                                      "structures/wedge_F20", "structures/tangent_normal_F100"};
   static const char *const orders[] = {"hbm.harmonics=3", "hbm.harmonics=9"};
   int rows = 0, others = 0, pessimistic = 0, nonlinear = 0;
   for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
@@ -130,10 +127,10 @@ static void a_mistake_on_one_side_is_seen(CHECK_STATE)
                   {"swapped in the loads", swapped_in_the_loads, 3},
                   {"swapped in the responses", swapped_in_the_responses, 2}};
   int differ, unexpected, rows;
-  see("chain3", "compare.omega=[1.9]", no_mistake, &differ, &unexpected, &rows);
+  see("structures/chain3", "compare.omega=[1.9]", no_mistake, &differ, &unexpected, &rows);
   if (differ || unexpected || rows != 3) fail_msg("%d differ, %d unexpected of %d", differ, unexpected, rows);
   for (size_t i = 0; i < sizeof mistakes / sizeof *mistakes; ++i) {
-    see("chain3", "compare.omega=[1.9]", mistakes[i].made, &differ, &unexpected, &rows);
+    see("structures/chain3", "compare.omega=[1.9]", mistakes[i].made, &differ, &unexpected, &rows);
     if (differ != mistakes[i].seen || unexpected != mistakes[i].seen)
       fail_msg("%s: %d differ, %d unexpected of %d", mistakes[i].what, differ, unexpected, rows);
   }
