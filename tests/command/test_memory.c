@@ -1,8 +1,8 @@
 /* test_memory.c - what a run takes is told beforehand within a factor of two, and said where it is much. */
 #include <sys/resource.h>
 
-#include "casefile/case_file.h"
 #include "compare/memory.h"
+#include "tests/scene_runs.h"
 #include "tests/shell.h"
 
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
@@ -23,12 +23,10 @@ static const struct run {
 
 static double told(const struct run *r)
 {
-  char path[256];
-  scene sc;
+  char name[64];
+  snprintf(name, sizeof name, "structures/%s", r->name);
+  scene sc = case_scene(name, r->set[1] ? 2 : 1, r->set);
   compare_setup setup;
-  case_error err;
-  snprintf(path, sizeof path, SOURCE_DIR "/cases/structures/%s.yaml", r->name);
-  if (case_read(path, r->set[1] ? 2 : 1, r->set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
   assert_int_equal(scene_setup(&sc, &setup), HC_OK);
   const double bytes =
       strcmp(r->command, "frf") ? memory_of_comparison(&setup) : memory_of_curve(setup.model, &setup.hbm);

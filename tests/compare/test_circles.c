@@ -1,7 +1,5 @@
 /* test_circles.c - the comparison of contacts with two tangents under the law of the circle: both sides agree, and
  * where they are made to differ the cause is named and as large as it must be. */
-#include "casefile/case_file.h"
-#include "tests/check.h"
 #include "tests/scene_runs.h"
 
 enum { SETTINGS = 4 };

@@ -1,7 +1,5 @@
 /* test_structures.c - the comparison of structures: every response predicts its error, and a mistake in one side's
  * model is seen: the linker renames hbm_solver_new, so that harmonic balance can be given another structure. */
-#include "casefile/case_file.h"
-#include "tests/check.h"
 #include "tests/scene_runs.h"
 #include "tests/wrap.h"
 

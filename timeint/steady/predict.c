@@ -72,7 +72,7 @@ static hc_status halve(timeint *ti, const double *state, int k, const hc_monitor
     goal = fmax(goal, enough * change);
     st = timeint_set_tolerance(ti, fmin(fmax(per_change * change, timeint_final_tolerance(ti)), coarsest));
     if (st == HC_OK) st = shoot_confirm(ti->shoot, k, goal, 0, monitor, &found, r);
-    if (st == HC_NOT_CONVERGED && found.distance <= rough * change) /* the matrix by CVODES costs 100 periods */
+    if (st == HC_NOT_CONVERGED && found.distance <= rough * change) /* a matrix by CVODES costs some 50 periods */
       st = shoot_confirm(ti->shoot, k, rough * change, 0, monitor, &found, r);
     if (!shoot_found_no_orbit(st)) return st;
   }

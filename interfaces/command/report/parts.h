@@ -34,6 +34,15 @@ void words_gate(const report_data *d, FILE *to);       /* table: allowed, worst 
 /* Where the amplitudes of one motion differ most [rad/time]; NaN: nothing was compared. */
 double words_worst_omega(const report_data *d);
 
+/* As the comparison's curve was solved: with numbers where the scene says auto. */
+static inline hbm_settings report_settings(const scene *sc, const comparison *c)
+{
+  hbm_settings how = sc->hbm;
+  if (how.harmonics == HBM_AUTO) how.harmonics = c->harmonics;
+  if (how.samples == HBM_AUTO && c->samples > 0) how.samples = c->samples;
+  return how;
+}
+
 /* ---- structure.c: what the page shows of a structure alone: how all of it moves, and what each contact does ---- */
 
 /* JSON null for one degree of freedom, else, read by structure.js,

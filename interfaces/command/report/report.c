@@ -48,10 +48,12 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   double from, to;
   for (int i = 0; i < c->n_rows && asked.n < NUMBER_LIST_MAX; ++i) asked.v[asked.n++] = c->rows[i].omega;
   comparison_sweep(sc->omega_from, sc->omega_to, &asked, &from, &to);
-  hc_status st = scene_hbm_solver(sc, &s);
-  if (st == HC_OK) hbm_leave_stability(s);
-  const bool large = s && hbm_n_dof(s) > MANY_COORDINATES;
+  const bool large = sc->structure && sc->structure->n > MANY_COORDINATES;
   const hbm_curve *curve = large && specials ? &c->curve : &traced;
+  scene solved = *sc;
+  if (curve == &c->curve) solved.hbm = report_settings(sc, c);
+  hc_status st = scene_hbm_solver(&solved, &s);
+  if (st == HC_OK) hbm_leave_stability(s);
   if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT && !large) hbm_scale_steps(s, shorter_steps);
   if (st == HC_OK && curve == &traced) st = hbm_trace(s, from, to, monitor, &traced);
   for (int k = 0; s && k < curve->n; ++k) {
@@ -101,9 +103,9 @@ static json_t *response_object(const scene *sc, const comparison *c, int respons
 /* Without harmonic 0 a scene with one is another. */
 static bool has_static_load(const scene *sc)
 {
-  bool has = false;
-  for (int l = 0; sc->structure && l < sc->structure->n_loads; ++l) has = has || sc->structure->loads[l].harmonic == 0;
-  return has;
+  for (int l = 0; sc->structure && l < sc->structure->n_loads; ++l)
+    if (sc->structure->loads[l].harmonic == 0) return true;
+  return false;
 }
 
 /* The first response's curve, and into *others a list of the same for the others of a structure, up to

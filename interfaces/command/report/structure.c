@@ -55,7 +55,8 @@ static hc_status shown_open(const scene *sc, shown *d)
 {
   model *looked_at;
   hc_status st = model_to_look_at(d->m, &looked_at);
-  if (st == HC_OK) st = hbm_solver_new(looked_at, &sc->hbm, &d->s);
+  const hbm_settings how = report_settings(sc, d->c);
+  if (st == HC_OK) st = hbm_solver_new(looked_at, &how, &d->s);
   model_free(looked_at);
   if (st != HC_OK) return st;
   const size_t length = 2 * (size_t)hbm_n_harmonics(d->s) + 1, n = (size_t)d->m->n_contacts + 1;

@@ -228,7 +228,7 @@ static double area(const json_t *loop)
  * responses. */
 static void a_structure_shows_its_shape_and_its_loops(CHECK_STATE)
 {
-  char *page = page_of("cases/structures/jenkins2.yaml -q --set contacts[0].friction=0.3 --set hbm.harmonics=15 "
+  char *page = page_of("cases/structures/jenkins2.yaml -q --set contacts[0].friction=0.3 --set hbm.harmonics=auto "
                        "--at 25.9 --harmonics 5 --samples 64",
                        0, NULL);
   json_t *data = data_of(page), *structure = json_object_get(data, "structure"),
@@ -254,7 +254,6 @@ static void a_structure_shows_its_shape_and_its_loops(CHECK_STATE)
   free(page);
 }
 
-/* A page of these settings holds these words. */
 /* The curve with harmonic 0 dropped, which would drop a static load too, and with it what presses the contact. */
 static void without_harmonic_0_only_what_is_comparable(CHECK_STATE)
 {
@@ -269,6 +268,7 @@ static void without_harmonic_0_only_what_is_comparable(CHECK_STATE)
   }
 }
 
+/* A page of these settings holds these words. */
 static void expect_words(const char *args, int code, const char *const *words)
 {
   char *page = page_of(args, code, NULL);

@@ -1,5 +1,4 @@
 /* test_judge.c - what passes the gate, on comparisons whose answer is plain; and their JUnit. */
-#include "tests/check.h"
 #include "tests/scene_runs.h"
 
 enum { MOST = 4 };
