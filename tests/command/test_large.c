@@ -23,8 +23,8 @@ static void run(const char *args, int code, const char *fragment)
 }
 
 /* With 5 harmonics the disk's resonance misses the gate, and by what harmonic balance predicts of them: its prediction,
- * by Newton on more harmonics, has an error of the next order, a tenth. Two sides that know nothing of
- * each other. The regularised law errs by the second order of 1e-4 where contacts slip and never open. */
+ * by Newton on more harmonics, has an error of the next order, a tenth. Two sides that know nothing of each other. The
+ * regularised law errs by the second order of 1e-4 where contacts slip and never open. */
 static void a_bladed_disk_is_compared(CHECK_STATE)
 {
   run("compare", 1, "\n985,0,3,differs,");

@@ -297,35 +297,6 @@ static void orbits_on_an_edge_of_slip_are_kept(CHECK_STATE)
   }
 }
 
-/* Two methods differed in these by what the check did. Tables that are steepest in the middle, never touched: what is
- * left of their springs is negative and grows rounding 1e300-fold in a period, and time integration ended on another
- * orbit. A slider in the plane that settles by less than a hundredth a period, and was taken for one at rest. A family
- * of orbits, of which the one found from more harmonics is less near. A regularisation beside which no orbit was found,
- * between two that do. A multiplier that needs 224 harmonics. */
-static void checks_that_erred_explain(CHECK_STATE)
-{
-  static const struct {
-    stress_family family;
-    unsigned long seed;
-    long index;
-    stress_kind kind;
-    stress_reason reason;
-  } erred[] = {{STRESS_STRUCTURES, 7271321, 282, STRESS_FREE, STRESS_NO_REASON},
-               {STRESS_STRUCTURES, 7271322, 99, STRESS_FREE, STRESS_NO_REASON},
-               {STRESS_SPACE, 7271331, 113, STRESS_SAMPLED, STRESS_NO_REASON},
-               {STRESS_SPACE, 7271332, 166, STRESS_ORBIT, STRESS_FAMILY},
-               {STRESS_OSCILLATORS, 7271313, 908, STRESS_ORBIT_LAWS, STRESS_SMOOTHED},
-               {STRESS_OSCILLATORS, 7271313, 1438, STRESS_MULTIPLIER, STRESS_TRUNCATED}};
-  gsl_set_error_handler_off(); /* as the command does: eigenvalues that do not converge are a status */
-  for (size_t i = 0; i < sizeof erred / sizeof *erred; ++i) {
-    const stress_result r = drawn_stressed(erred[i].family, erred[i].seed, erred[i].index, 5);
-    const stress_check *c = &r.check[erred[i].kind];
-    if (c->outcome == STRESS_FINDING || c->reason != erred[i].reason)
-      fail_msg("%lu, %ld: %s, %g of %g", erred[i].seed, erred[i].index, stress_outcome_name(c->outcome), c->error,
-               c->bound);
-  }
-}
-
 static void expect_finding(bool friction, spoil with, stress_kind kind)
 {
   const stress_result r = stressed(friction, with);
@@ -458,11 +429,15 @@ static void an_oscillator_is_made_small(CHECK_STATE)
 
 /* ---- findings of seeds that nobody had used ------------------------------------------------------------------ */
 
-/* The force of contact 38 of seed 31337 differed from its stepped one by 5.2e-6, as a slider was put where the first
- * instant of contact found it; units of the two oscillators by 5.0e-10 and 1.7e-10, as Newton's tolerance allows. The
- * orbit of scene 9 counted as far from its start where that had the slider of a contact without friction elsewhere. The
- * multiplier by HBM of structure 85 was 1.1e-2 off with one harmonic, hardly less with two, and 1e-4 with 64. Scene 258
- * floats at the edge of its contact, where rounding decides if two copies of it have a solution. */
+/* Agreed now, or explained by that reason. What was wrong, in order: the force of contact 38 differed from its stepped
+ * one by 5.2e-6, as a slider was put where the first instant of contact found it; units of two oscillators by 5.0e-10
+ * and 1.7e-10, as Newton's tolerance allows; an orbit counted as far from its start, where that had the slider of a
+ * contact without friction elsewhere; multipliers by HBM were off until 64 and 224 harmonics; rounding decides whether
+ * two copies of a scene that floats at the edge of its contact have a solution. By what the check did: tables that are
+ * steepest in the middle, never touched, leave springs that are negative and grow rounding 1e300-fold in a period; a
+ * slider in the plane that settles by less than a hundredth a period was taken for one at rest; of a family the orbit
+ * found from more harmonics is less near; there is an orbit on both sides of a regularisation beside which none was
+ * found. */
 static void findings_of_other_seeds_are_none(CHECK_STATE)
 {
   static const struct {
@@ -470,16 +445,26 @@ static void findings_of_other_seeds_are_none(CHECK_STATE)
     unsigned long seed;
     long index;
     stress_kind kind;
-    stress_outcome at_worst;
-  } rows[] = {{STRESS_OSCILLATORS, 101, 889, STRESS_UNITS, STRESS_AGREED},
-              {STRESS_OSCILLATORS, 404, 1192, STRESS_UNITS, STRESS_AGREED},
-              {STRESS_OSCILLATORS, 90001, 9, STRESS_ORBIT, STRESS_AGREED},
-              {STRESS_SPACE, 31337, 38, STRESS_FORCE, STRESS_AGREED},
-              {STRESS_STRUCTURES, 90003, 85, STRESS_MULTIPLIER, STRESS_EXPLAINED},
-              {STRESS_SPACE, 7261131, 258, STRESS_COPIES, STRESS_EXPLAINED}};
+    stress_reason reason;
+  } rows[] = {{STRESS_SPACE, 31337, 38, STRESS_FORCE, STRESS_NO_REASON},
+              {STRESS_OSCILLATORS, 101, 889, STRESS_UNITS, STRESS_NO_REASON},
+              {STRESS_OSCILLATORS, 404, 1192, STRESS_UNITS, STRESS_NO_REASON},
+              {STRESS_OSCILLATORS, 90001, 9, STRESS_ORBIT, STRESS_NO_REASON},
+              {STRESS_STRUCTURES, 90003, 85, STRESS_MULTIPLIER, STRESS_TRUNCATED},
+              {STRESS_OSCILLATORS, 7271313, 1438, STRESS_MULTIPLIER, STRESS_TRUNCATED},
+              {STRESS_SPACE, 7261131, 258, STRESS_COPIES, STRESS_FAMILY},
+              {STRESS_STRUCTURES, 7271321, 282, STRESS_FREE, STRESS_NO_REASON},
+              {STRESS_STRUCTURES, 7271322, 99, STRESS_FREE, STRESS_NO_REASON},
+              {STRESS_SPACE, 7271331, 113, STRESS_SAMPLED, STRESS_NO_REASON},
+              {STRESS_SPACE, 7271332, 166, STRESS_ORBIT, STRESS_FAMILY},
+              {STRESS_OSCILLATORS, 7271313, 908, STRESS_ORBIT_LAWS, STRESS_SMOOTHED}};
+  gsl_set_error_handler_off(); /* as the command does: eigenvalues that do not converge are a status */
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
-    const stress_result r = drawn_stressed(rows[i].family, rows[i].seed, rows[i].index, 1);
-    assert_in_range(r.check[rows[i].kind].outcome, STRESS_AGREED, rows[i].at_worst);
+    const stress_result r = drawn_stressed(rows[i].family, rows[i].seed, rows[i].index, 5);
+    const stress_check *c = &r.check[rows[i].kind];
+    if (c->outcome != STRESS_AGREED && (c->outcome != STRESS_EXPLAINED || c->reason != rows[i].reason))
+      fail_msg("%lu, %ld: %s %s, %g of %g", rows[i].seed, rows[i].index, stress_outcome_name(c->outcome),
+               stress_reason_name(c->reason), c->error, c->bound);
   }
 }
 
@@ -712,4 +697,4 @@ CHECK_TESTS("stress.structures", 600, jacobians_of_mixed_laws, good_answers_agre
             good_oscillators_are_no_findings, a_wrong_oscillator_is_found, an_oscillator_is_made_small,
             findings_of_other_seeds_are_none, what_only_sensitivity_allows_is_ill_conditioned,
             every_scene_is_a_case_file, circles_are_held_against_their_law, scenes_in_space_are_case_files,
-            orbits_on_an_edge_of_slip_are_kept, checks_that_erred_explain, first_solutions_in_space_take_few_iterations)
+            orbits_on_an_edge_of_slip_are_kept, first_solutions_in_space_take_few_iterations)

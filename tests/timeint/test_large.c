@@ -251,8 +251,7 @@ static int check_rate(uint64_t *seed, const drawn *d, int trial)
   return entries;
 }
 
-/* With one tangent and with two, and with fewer and more entries in the rows than BLAS is called for (dense.c: 1024).
- * */
+/* With one tangent and two, and with fewer and more entries in the rows than BLAS is called for (dense.c: 1024). */
 static void rates_by_rows_are_the_equations(CHECK_STATE)
 {
   uint64_t seed = 21;
