@@ -147,6 +147,22 @@ static bool enclose_peak(climber *c, double low, double high, double *omega, dou
   return false;
 }
 
+static const double top_fall = 1e-9; /* [amplitude] */
+
+/* *top = the minimum of the cubic through f, at three frequencies d apart, and the orbit at the lowest point of their
+ * parabola. False: it is lower than that orbit by more than top_fall. */
+static bool top_of_cubic(climber *c, double omega, double d, const double f[3], root_point *top)
+{
+  const double bend = f[0] - 2 * f[1] + f[2], t = 0.5 * (f[0] - f[2]) / bend;
+  double low;
+  if (!(bend > 0) || minus_amplitude(c, omega + t * d, &low) != HC_OK) return false;
+  const double cubic = (low - (f[1] - 0.5 * bend * t * t)) / (t * (t * t - 1));
+  const double slope = cubic * (3 * t * t - 1), cubic_bend = bend + 6 * cubic * t;
+  const double fall = 0.5 * slope * slope / cubic_bend;
+  *top = (root_point){.x = omega + (t - slope / cubic_bend) * d, .f = low - fall};
+  return cubic_bend > 0 && fall <= top_fall * fabs(low);
+}
+
 /* From omega on, where c->state is next to an orbit. False: *out is untouched. */
 static bool climb(const compare_setup *setup, climber *c, double omega, reference *out)
 {
@@ -157,9 +173,9 @@ static bool climb(const compare_setup *setup, climber *c, double omega, referenc
   double d = 0.02 * width, f[3] = {NAN, NAN, NAN};
   if (minus_amplitude(c, omega, &f[1]) != HC_OK) return false;
   root_point peak;
-  if (enclose_peak(c, low, high, &omega, &d, f)) /* flat: 1e-4 of the width are 5e-9 of the amplitude */
+  if (!enclose_peak(c, low, high, &omega, &d, f)) peak = (root_point){.x = omega, .f = f[1]};
+  else if (!top_of_cubic(c, omega, d, f, &peak)) /* flat: 1e-4 of the width are 5e-9 of the amplitude */
     root_minimum(minus_amplitude, c, omega - d, f[0], omega, f[1], omega + d, f[2], 1e-4 * width, &peak);
-  else peak = (root_point){.x = omega, .f = f[1]};
   if (isnan(peak.f)) return false;
   out->peak_amplitude = -peak.f; /* the highest found, also where an orbit in between is missing */
   out->peak_omega = peak.x;

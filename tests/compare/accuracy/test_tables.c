@@ -107,6 +107,32 @@ static void the_peak_is_the_limit_of_many_harmonics(CHECK_STATE)
   comparison_clear(&c);
 }
 
+/* Where a peak is smooth, orbits to either side of it are as high as each other. It is that of a cubic through points
+ * 1/50 of the half-width apart, so within (1/50)^3 of that; the amplitude to the square of it. */
+static void a_smooth_peak_lies_between_orbits_of_one_height(CHECK_STATE)
+{
+  const double half_width = 0.34641016151377546 / 2, d = half_width / 1000;
+  const char *set[] = {"compare.omega=[3.6]", "compare.harmonics=[10]"};
+  scene sc = case_scene("structures/tangent_normal_F50", 2, set);
+  comparison c;
+  accuracy a;
+  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  comparison_clear(&c);
+  assert_true(a.peak_by_orbit);
+  sc.compare.omega = (number_list){3, {a.peak_omega - d, a.peak_omega, a.peak_omega + d}};
+  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  double height[3] = {NAN, NAN, NAN};
+  for (int i = 0, n = 0; i < c.n_rows && n < 3; ++i)
+    if (c.rows[i].response == 0) height[n++] = c.rows[i].orbit.amplitude;
+  const double middle = 0.5 * d * (height[0] - height[2]) / (height[0] - 2 * height[1] + height[2]);
+  CHECK_NEAR(middle, 0, half_width / 125000, "distance of the peak");
+  CHECK_NEAR(a.peak_amplitude, height[1], 1e-9 * height[1], "its amplitude");
+  accuracy_clear(&a);
+  comparison_clear(&c);
+  case_clear(&sc);
+}
+
 static hc_status run_with_jobs(const scene *sc, const comparison *c, int jobs, const hc_monitor *monitor, accuracy *a)
 {
   compare_setup setup;
@@ -250,5 +276,5 @@ static void an_interrupt_stops_all_threads(CHECK_STATE)
 }
 
 CHECK_TESTS("compare.budget_tables", 240, rows_are_the_grid, the_table_agrees_with_the_rows,
-            the_peak_is_the_limit_of_many_harmonics, an_interrupt_keeps_whole_rows, threads_change_nothing,
-            an_interrupt_stops_all_threads)
+            the_peak_is_the_limit_of_many_harmonics, a_smooth_peak_lies_between_orbits_of_one_height,
+            an_interrupt_keeps_whole_rows, threads_change_nothing, an_interrupt_stops_all_threads)
