@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hbm/hbm.h"
+#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 #include "timeint/timeint.h"
 

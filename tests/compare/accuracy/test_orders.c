@@ -1,5 +1,5 @@
 /* test_orders.c - observed orders: of made-up errors whose order is known, and of case 2. */
-#include "tests/hbm/scenes.h"
+#include "tests/adversarial/steady_references.h"
 #include "tests/scene_runs.h"
 
 enum { N = 8 };
@@ -62,12 +62,8 @@ static const order_row *find(const accuracy *a, const char *quantity)
 
 static scene case2(void)
 {
-  scene sc = exact_scene("c2", 5, true);
-  sc.transient = (transient_settings){.law = TRANSIENT_LAW_EXACT,
-                                      .regularisation = 1e-4,
-                                      .tolerance = 1e-9,
-                                      .max_periods = 20000,
-                                      .steady = TRANSIENT_STEADY_SHOOTING};
+  scene sc = exact_reference_scene("c2", 5);
+  sc.transient.steady = TRANSIENT_STEADY_SHOOTING;
   sc.gate.most = (discrepancy){1e-3, 1e-3, 1e-3, 5e-3};
   sc.omega_from = 5.5, sc.omega_to = 8;
   sc.compare.omega = (number_list){7, {5.8, 6, 6.2, 6.5, 6.8, 7, 7.2}};

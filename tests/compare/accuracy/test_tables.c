@@ -2,17 +2,13 @@
 
 #include <limits.h>
 
-#include "tests/hbm/scenes.h"
+#include "tests/adversarial/steady_references.h"
 #include "tests/scene_runs.h"
 
 static scene case2(void)
 {
-  scene sc = exact_scene("c2", 10, true);
-  sc.transient = (transient_settings){.law = TRANSIENT_LAW_EXACT,
-                                      .regularisation = 1e-4,
-                                      .tolerance = 1e-9,
-                                      .max_periods = 20000,
-                                      .steady = TRANSIENT_STEADY_SHOOTING};
+  scene sc = exact_reference_scene("c2", 10);
+  sc.transient.steady = TRANSIENT_STEADY_SHOOTING;
   sc.gate.most = (discrepancy){1e-3, 1e-3, 1e-3, 5e-3};
   sc.compare.omega = (number_list){2, {6, 8}};
   return sc;
