@@ -174,15 +174,10 @@ int model_highest_load(const model *m)
   return most;
 }
 
-double model_stuck_stiffness(const model_contact *c)
-{
-  const double t = *c->tangent, n = *c->normal;
-  return c->law.kt * t * t + c->law.kn * n * n;
-}
-
 double model_max_stiffness(const model *m)
 {
   double k = *m->stiffness;
-  for (int j = 0; j < m->n_contacts; ++j) k += model_stuck_stiffness(&m->contacts[j]);
+  for (const model_contact *c = m->contacts; c < m->contacts + m->n_contacts; ++c)
+    k += c->law.kt * *c->tangent * *c->tangent + c->law.kn * *c->normal * *c->normal;
   return k;
 }

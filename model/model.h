@@ -94,8 +94,5 @@ double model_force(const model *m);
 /* The highest harmonic of the loads; 0 without any. */
 int model_highest_load(const model *m);
 
-/* Stiffness [force/length] that x sees of an oscillator's contact while it sticks: kt t^2 + kn n^2. */
-double model_stuck_stiffness(const model_contact *c);
-
 /* Largest stiffness [force/length] that an oscillator's x can see: K and every contact stuck. */
 double model_max_stiffness(const model *m);

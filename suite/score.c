@@ -11,7 +11,8 @@ enum { MOST_DIGITS = 15 };
 /* What differences are measured by: the solution's amplitude [length]. */
 static double scale_of(const suite_reference *r) { return 0.5 * (r->low[SUITE_AMPLITUDE] + r->high[SUITE_AMPLITUDE]); }
 
-double suite_digits_known(const suite_reference *r, int q)
+/* That a reference has of the quantity, at most 15; NaN: it is not asked. */
+static double digits_known(const suite_reference *r, int q)
 {
   const double half = 0.5 * (r->high[q] - r->low[q]) / scale_of(r);
   return isnan(half) ? NAN : half > 0 ? fmin(MOST_DIGITS, -log10(half)) : MOST_DIGITS;
@@ -27,7 +28,7 @@ static double distance(const suite_reference *r, const suite_row *row, int q)
 
 static double digits_of(const suite_reference *r, const suite_row *row, int q)
 {
-  const double off = distance(r, row, q), known = suite_digits_known(r, q);
+  const double off = distance(r, row, q), known = digits_known(r, q);
   if (isnan(off)) return isnan(known) ? NAN : 0;
   return off > 0 ? fmin(fmax(-log10(off), 0), known) : known;
 }
@@ -116,7 +117,7 @@ hc_status suite_judge(const suite_case *c, suite_answer *a, suite_score *s)
     suite_match *m = &s->matches[i];
     s->missing += !m->row;
     for (int q = 0; q < SUITE_N; ++q) {
-      const double known = suite_digits_known(r, q);
+      const double known = digits_known(r, q);
       m->digits[q] = m->row ? digits_of(r, m->row, q) : isnan(known) ? NAN : 0;
       if (isnan(m->digits[q])) continue;
       ++n;

@@ -99,6 +99,3 @@ void suite_tell(const suite_case *c, const suite_score *s, double digits, char *
 
 /* A message into why[SUITE_TEXT]. HC_BAD_INPUT. */
 hc_status suite_say(char *why, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-/* Digits that a reference has of that quantity, at most 15; NaN: it is not asked. */
-double suite_digits_known(const suite_reference *r, int quantity);

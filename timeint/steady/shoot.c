@@ -434,7 +434,8 @@ static void note_found(shoot *s, const shoot_report *report)
 
 double orbit_goal(const timeint *ti) { return fmax(ti->how.tolerance * timeint_scaled_size(ti), 100 * ti->tolerance); }
 
-double orbit_scatter(const timeint *ti, int k)
+/* [L] The scatter of k integrated periods: how far F^k(z) may be off. */
+static double orbit_scatter(const timeint *ti, int k)
 {
   if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM)
     return k * (ti->slowed ? LARGE_CLOSED_FORM_STEPS : CLOSED_FORM_STEPS) * rounding_of_step;
@@ -795,7 +796,8 @@ hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
   return HC_OK;
 }
 
-void orbit_fill(const timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r)
+/* Into *r, measured before: what is known of the orbit found by `method`. */
+static void orbit_fill(const timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r)
 {
   r->method = method;
   r->closure = relative_closure(ti, found->distance, r->amplitude);

@@ -63,9 +63,6 @@ double orbit_goal(const timeint *ti);
 /* [size] An orbit no farther from a state is next to it. */
 #define ORBIT_NEXT_TO 0.02
 
-/* [L] The scatter of k integrated periods: how far F^k(z) may be off. */
-double orbit_scatter(const timeint *ti, int k);
-
 /* ti->y onto the orbit of k periods next to it, no farther away than `reach` [L] a Newton step: by Newton, else by
  * Anderson. Errors of Newton; ti->y is then unchanged. */
 hc_status orbit_find(timeint *ti, int k, double reach, const hc_monitor *monitor, timeint_method *method,
@@ -75,10 +72,7 @@ hc_status orbit_find(timeint *ti, int k, double reach, const hc_monitor *monitor
  * integration answers. */
 hc_status orbit_measure(timeint *ti, int k, timeint_result *r);
 
-/* Into *r, measured before: what is known of the orbit found by `method`. */
-void orbit_fill(const timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r);
-
-/* Both, for the orbit through ti->y. */
+/* Measured, and with what is known of its finding, for the orbit through ti->y. */
 hc_status orbit_report(timeint *ti, int k, timeint_method method, const shoot_report *found, timeint_result *r);
 
 /* The next period, where the motion repeats itself after none: measured into *r, period_multiple 0. `why`, or what

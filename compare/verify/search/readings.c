@@ -237,7 +237,9 @@ static double apart_of(const verify_sample *p, int r, const verify_solutions *a,
   return within(n, far, p->part);
 }
 
-double verify_apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b)
+/* [1] How far solutions a are from the nearest of b: the largest at an omega, nine of ten points that differ are
+ * within. */
+static double apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b)
 {
   double most = 0;
   for (int r = 0; r < p->n_responses; ++r) most = fmax(most, apart_of(p, r, a, b));
@@ -586,7 +588,7 @@ static void read_tried(search *s, const verify_equations *e, int frequency, cons
 {
   order *o = s->current;
   const verify_solutions *many = &s->many[e->keep_mean][frequency];
-  if (o && e->harmonics < s->out->harmonics) o->matters[frequency] = verify_apart(&s->points, of, many) > s->out->gate;
+  if (o && e->harmonics < s->out->harmonics) o->matters[frequency] = apart(&s->points, of, many) > s->out->gate;
   if (o) o->score = fmin(o->score, verify_closeness(&s->points, of));
   search_read(s, e, frequency, of);
 }

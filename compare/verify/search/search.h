@@ -91,10 +91,6 @@ double verify_closeness(const verify_sample *p, const verify_solutions *s);
 /* How far the points are as they stand. */
 double verify_read_plain(const verify_sample *p, const verify_solutions *s);
 
-/* [1] How far solutions a are from the nearest of b: the largest at an omega, nine of ten points that differ are
- * within. */
-double verify_apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b);
-
 /* ---- a search ---- */
 
 enum {
