@@ -35,7 +35,7 @@ typedef struct newton_report {
   double residual; /* largest |r_scale r| at the z returned */
 } newton_report;
 
-hc_status newton_new(const newton_problem *problem, newton **out);
+hc_status newton_new(const newton_problem *problem, newton **out); /* HC_NO_MEMORY */
 void newton_free(newton *nw);
 
 /* Solve from *z. First plain Newton, then, if that fails, with KINSOL's line search from the same start. A converged
@@ -51,7 +51,7 @@ const double *newton_residual(const newton *nw);
  * its last step. HC_SINGULAR, also after a solve that failed. */
 hc_status newton_backsolve(newton *nw, double *x);
 
-/* Evaluate and factor the Jacobian at z, for newton_backsolve and newton_sign, without solving. */
+/* Evaluate and factor the Jacobian at z, for newton_backsolve and newton_sign. HC_SINGULAR, or why z was refused. */
 hc_status newton_factor_at(newton *nw, const double *z);
 
 /* Sign of the determinant of the Jacobian of the last solve's end or newton_factor_at; 0 if it is singular. */

@@ -8,7 +8,7 @@
 
 typedef struct refinement refinement;
 
-/* The equations with n_harm harmonics and n_time samples (for sampled forces). */
+/* The equations with n_harm harmonics and n_time samples (for sampled forces). Errors of hbm_system_init. */
 hc_status refinement_new(const model *m, const hbm_settings *how, int n_harm, int n_time, refinement **out);
 void refinement_free(refinement *r);
 

@@ -6,7 +6,7 @@
 
 /* Floquet multipliers of the solution X at omega. The orbit's transitions are located exactly also where forces are
  * sampled. Errors of the contact force; HC_NOT_CONVERGED if the eigenvalues could not be computed (with GSL's error
- * handler switched off by the caller: left on, it ends the program), HC_NOT_FINITE if they are too large. */
+ * handler switched off by the caller: left on, it ends the program), HC_NO_MEMORY, HC_NOT_FINITE (too large). */
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out);
 
 /* Multipliers of a structure of more than 50 degrees of freedom cost as much as a good part of its curve, unless it has
@@ -15,8 +15,8 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
  * solution that is asked for, and left unknown at the points of a curve. */
 bool hbm_stability_is_costly(const hbm_solver *s);
 
-/* With planar friction and more than 50 degrees of freedom hbm_stability_at finds NaN, which is unknown, where modes do
- * not diagonalise the damping, or where it is so light that steps would take minutes. True once that was so. */
+/* With planar friction, no smooth law and more than 50 degrees of freedom hbm_stability_at finds NaN, which is unknown,
+ * where modes do not diagonalise the damping or it is so light that steps would take minutes: true once that was so. */
 bool hbm_stability_is_unknown(const hbm_solver *s);
 
 /* From now on it is unknown of all solutions of such a structure, each of which costs ten points of a curve and more:

@@ -43,7 +43,7 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double length;             /* [length] about the size of the motion; y is in units of it                    */
   double least_length;       /* [length] the unit is never smaller                                            */
   double tolerance;          /* [1] CVODE's at present                                                        */
-  double contraction;        /* [1] a priori, per period: exp(-C T/2M)                                        */
+  double contraction;        /* [1] a priori, per period: exp(-T least C_ii/2), of modes                       */
   int periods;               /* since timeint_begin                                                           */
   long steps0, rhs0;         /* counts at timeint_begin                                                       */
   double *y;                 /* [n] the state                                                                 */
@@ -91,7 +91,7 @@ void timeint_take_state(const timeint *ti, const double *state, double *y);
 void timeint_save(timeint *ti);
 void timeint_restore(timeint *ti);
 
-/* [length] hypot(x, v/omega) now: the amplitude, if the motion were harmonic and centred. */
+/* [length] |(x, v/omega)| now: of one mass the amplitude, if the motion were harmonic and centred. */
 double timeint_size(const timeint *ti);
 
 /* [length] the same, but no less than least_length: what distances between states are compared with. */

@@ -23,7 +23,7 @@ verify_row verify_row_unjudged(const verify_point *p);
 /* Sliders that acceleration_amplitude works with: doubles, of a model. */
 size_t acceleration_room(const model *m);
 
-/* (max x'' - min x'')/2 [length/time^2] of the motion's series X, with
+/* (max x'' - min x'')/2 [length/time^2] of the motion's series X of one mass, with
  *     M x'' = F0 cos(th) - C x' - K x - sum_j [ t_j T_j + n_j (N_j - N0_j) ],      th = omega t
  * on 4096 samples of the third period from the sliders room[n_contacts] at th = 0, and around the largest and the
  * smallest of them to 1e-8 of a sample. A slider restarts at the interpolated instant of touch. room[] is
