@@ -17,8 +17,8 @@
 
 /* ---- what is compared with: the exact law's orbits next to the solutions at the compared frequencies, and the peak of
  * the response. The peak is that of the orbits, by shooting: three frequencies that enclose it, from the peak of the
- * curve by harmonic balance, then a minimum search between them. By harmonic balance alone it would take 160 harmonics
- * to know it to 1e-8. ---- */
+ * curve by harmonic balance, then a cubic's or, where that is not enough, a minimum search between them. By harmonic
+ * balance alone it would take 160 harmonics to know it to 1e-8. ---- */
 
 typedef struct target {
   double omega;
