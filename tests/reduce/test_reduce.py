@@ -89,6 +89,16 @@ def test_all_modes_are_exact(folder):
     assert stated(small) == 0
 
 
+def test_written_matrices(folder):
+    """Matrices written in the case serve like those of files: kept whole, three masses have the modes they had."""
+    folder.mkdir(exist_ok=True)
+    case = pathlib.Path(shutil.copy(pathlib.Path(__file__).parents[2] / "cases/structures/chain3.yaml", folder))
+    small = reduce(case)
+    for column in ("omega_open", "omega_stuck"):
+        whole, ours = modes(case, column), modes(small, column)
+        near(ours**2, whole**2, 300 * 2.2e-16 * whole[-1] ** 2, column)
+
+
 def test_frequencies(folder):
     """A relative error e of the receptance at a resonance is a shift of 2 d_omega/omega over twice the damping ratio; 3: several modes answer there."""
     case = write(folder, Box(12, 4, 2))
