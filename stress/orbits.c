@@ -384,10 +384,11 @@ stress_check stress_check_multiplier(solved_scene *s)
 
 static bool known(const solved_scene *s) { return s->path.status == HC_OK; }
 
-/* Does that method stay on that orbit, too? Then it is one. */
-static bool is_orbit(solved_scene *s, const stress_path *p, transient_method method)
+/* Does that method stay on that orbit of m, too? Then it is one. */
+static bool is_orbit(solved_scene *s, const model *m, const stress_path *p, transient_method method)
 {
   search at = next_to(s);
+  at.m = m;
   at.how.method = method;
   at.how.tolerance = 1e-9;
   stress_path again = find_path(s, &at, p->state);
@@ -408,6 +409,17 @@ static stress_check hold_found(solved_scene *s, const search *at, const double *
 {
   stress_path other = find_path(s, at, from);
   const stress_check c = hold(s, &other, shift, least);
+  stress_path_free(&other);
+  return c;
+}
+
+/* From beside the known orbit; another orbit may be as near. */
+static stress_check hold_beside(solved_scene *s, const search *at, const double *from, int shift)
+{
+  stress_path other = find_path(s, at, from);
+  stress_check c = hold(s, &other, shift, same_again(s));
+  if (c.outcome == STRESS_FINDING && is_orbit(s, at->m, &other, TRANSIENT_METHOD_CVODE))
+    c = stress_explain(STRESS_OTHER_ORBIT, c.error, c.bound);
   stress_path_free(&other);
   return c;
 }
@@ -444,7 +456,7 @@ static stress_check delayed(solved_scene *s)
   if (h.status == HC_OK) {
     search at = next_to(s);
     at.m = w.model;
-    c = hold_found(s, &at, h.start, TIMEINT_WAVE - shift, same_again(s));
+    c = hold_beside(s, &at, h.start, TIMEINT_WAVE - shift);
   }
   if (c.outcome == STRESS_REFUSED || !(motion_off(s, &s->fine, &s->path) <= nearby)) c = stress_skip(STRESS_NO_ORBIT);
   stress_motion_free(&h);
@@ -477,11 +489,7 @@ stress_check stress_check_returns(solved_scene *s)
   memcpy(from, s->path.state, state_length(s->model) * sizeof *from);
   for (int i = 0; i < 2 * s->n; ++i)
     from[i] += beside * s->path.amplitude * (i < s->n ? 1 : s->omega) * random_signed(&s->random);
-  stress_path other = find_path(s, &at, from);
-  stress_check c = hold(s, &other, 0, same_again(s));
-  if (c.outcome == STRESS_FINDING && is_orbit(s, &other, TRANSIENT_METHOD_CVODE))
-    c = stress_explain(STRESS_OTHER_ORBIT, c.error, c.bound);
-  stress_path_free(&other);
+  const stress_check c = hold_beside(s, &at, from, 0);
   free(from);
   return c;
 }
@@ -505,8 +513,8 @@ stress_check stress_check_from_rest(solved_scene *s)
   if (closed.status == HC_INTERRUPTED || cvode.status == HC_INTERRUPTED) c = stress_refuse(s, HC_INTERRUPTED);
   if (cvode.status == HC_OK) {
     c = stress_agree_within(paths_apart(s, &closed, &cvode, 0), by_cvode(&closed), sensitive(&closed, &cvode));
-    if (c.outcome == STRESS_FINDING && is_orbit(s, &closed, TRANSIENT_METHOD_CVODE) &&
-        is_orbit(s, &cvode, TRANSIENT_METHOD_CLOSED_FORM))
+    if (c.outcome == STRESS_FINDING && is_orbit(s, s->model, &closed, TRANSIENT_METHOD_CVODE) &&
+        is_orbit(s, s->model, &cvode, TRANSIENT_METHOD_CLOSED_FORM))
       c = stress_explain(STRESS_OTHER_ORBIT, c.error, c.bound);
   }
   stress_path_free(&closed);

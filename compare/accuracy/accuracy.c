@@ -422,17 +422,10 @@ static hc_status make_row(const table_work *w, response_curve *t, int samples, c
 
 static accuracy_row impossible_row(int n_harm, int samples)
 {
-  return (accuracy_row){.harmonics = n_harm,
-                        .samples = samples,
-                        .status = HC_BAD_INPUT,
-                        .worst = NAN,
-                        .median = NAN,
-                        .aliasing = NAN,
-                        .peak_amplitude = NAN,
-                        .peak_omega = NAN,
-                        .peak_error = NAN,
-                        .peak_omega_error = NAN,
-                        .seconds = NAN};
+  accuracy_row row = {.harmonics = n_harm, .samples = samples, .status = HC_BAD_INPUT};
+  row.worst = row.median = row.aliasing = row.seconds = NAN;
+  row.peak_amplitude = row.peak_omega = row.peak_error = row.peak_omega_error = NAN;
+  return row;
 }
 
 /* The row of the i-th H with exact forces, and the solutions that the sampled ones start from. */
@@ -454,10 +447,7 @@ static hc_status sampled_row(const table_work *w, int samples, const plain_solut
 {
   response_curve t;
   solutions s = {0};
-  if (samples < 2 * plain->n_harm + 2) {
-    *row = impossible_row(plain->n_harm, samples);
-    return HC_OK;
-  }
+  if (samples < 2 * plain->n_harm + 2) return *row = impossible_row(plain->n_harm, samples), HC_OK;
   hc_status st = trace(w, plain->n_harm, samples, monitor, &t);
   double began = thread_seconds();
   if (st == HC_OK) st = solve_sampled(w, &t, &plain->s, &s);
