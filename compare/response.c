@@ -69,12 +69,10 @@ hc_status response_summarise(hbm_solver *s, const hbm_curve *c, response_summary
                             .turning_points = c->turning_points,
                             .iterations = c->iterations,
                             .evaluations = c->evaluations,
-                            .peak_amplitude = NAN,
-                            .peak_omega = NAN,
-                            .peak_harmonic_1 = NAN,
                             .reached_end = c->n > 0 && c->end == HC_OK && !c->left_at_start,
                             .arclength = c->arclength,
                             .left_at_start = c->left_at_start};
+  out->peak_amplitude = out->peak_omega = out->peak_harmonic_1 = NAN;
   const hc_status st = c->n > 0 ? hbm_curve_peak(s, c, &peak) : HC_OK;
   if (st == HC_OK && peak.n > 0 && hbm_measure(s, peak.X, &m) == HC_OK) {
     out->peak_amplitude = m.amplitude;

@@ -240,7 +240,7 @@ static hc_status polish_once(newton *nw, const newton_options *opt, newton_repor
  * factors at the z before the step, or those that were kept. */
 static hc_status polish(newton *nw, const newton_options *opt, newton_report *report)
 {
-  const bool kept = opt->keeps > 0 && nw->factored;
+  const bool kept = opt->keeps > 0 && nw->factored && !opt->ends_fresh;
   bool better = true;
   double before;
   hc_status st = kept ? HC_OK : factor_here(nw);

@@ -28,6 +28,7 @@ typedef struct newton_options {
   bool unpolished; /* z as it converged: the last step is not taken, but for factors where there are none */
   double keeps;    /* a Jacobian serves on after a step that leaves at most this part of the residual, where a residual
                    takes much less than a Jacobian; 0: each step has its own. Not in the line search. */
+  bool ends_fresh; /* with `keeps`, too, the last step has its own, whose factors are left */
 } newton_options;
 
 typedef struct newton_report {

@@ -289,17 +289,10 @@ static hc_status add_row(bench *b, const bench_row *row)
 
 static bench_row empty_row(bench_method method, double omega)
 {
-  return (bench_row){.method = method,
-                     .omega = omega,
-                     .regularisation = NAN,
-                     .tolerance = NAN,
-                     .error = NAN,
-                     .error_harmonic_1 = NAN,
-                     .error_finer = NAN,
-                     .seconds = NAN,
-                     .low = NAN,
-                     .high = NAN,
-                     .curve_seconds = NAN};
+  bench_row row = {.method = method, .omega = omega};
+  row.regularisation = row.tolerance = row.error = row.error_harmonic_1 = row.error_finer = NAN;
+  row.seconds = row.low = row.high = row.curve_seconds = NAN;
+  return row;
 }
 
 static hc_status add_family(bench *b, const family *f, double omega)

@@ -60,14 +60,9 @@ static void add(judge *j, const gate_check *check)
 /* A check of row, or of the curve for NULL, that has passed so far. */
 static gate_check check_of(const comparison_row *row, const char *quantity, const char *against)
 {
-  gate_check c = {.omega = row ? row->omega : NAN,
-                  .branch = row ? row->branch : -1,
-                  .response = row ? row->response : -1,
-                  .quantity = quantity,
-                  .against = against,
-                  .allowed = NAN,
-                  .found = NAN,
-                  .result = GATE_PASS};
+  gate_check c = {.branch = -1, .response = -1, .quantity = quantity, .against = against, .result = GATE_PASS};
+  c.omega = c.allowed = c.found = NAN;
+  if (row) c.omega = row->omega, c.branch = row->branch, c.response = row->response;
   if (row) comparison_verdict_text(row, c.verdict);
   return c;
 }

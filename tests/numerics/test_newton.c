@@ -164,6 +164,14 @@ static void a_jacobian_is_kept_while_it_serves(CHECK_STATE)
     assert_in_range(p.jacobians, 2, 4);
   }
   p.jacobians = 0;
+  z[0] = 1.4, z[1] = 1.72;
+  kept.ends_fresh = true;
+  assert_int_equal(newton_solve(nw, z, &kept, &report), HC_OK);
+  assert_int_equal(p.jacobians, 2);
+  double image[2] = {6 * sqrt(2) + 2 * sqrt(3), 2 * sqrt(2) + 4 * sqrt(3)}; /* J (1, 1) at the root */
+  assert_int_equal(newton_backsolve(nw, image), HC_OK);
+  CHECK_NEAR(hypot(image[0] - 1, image[1] - 1), 0, 1e-9, "factors");
+  p.jacobians = 0;
   z[0] = z[1] = 1;
   assert_int_equal(newton_solve(nw, z, &plain, &report), HC_OK); /* and no other solve keeps one */
   assert_in_range(p.jacobians, report.iterations, report.iterations + 1);

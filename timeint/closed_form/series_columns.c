@@ -12,10 +12,8 @@ enum {
   LAST = 24   /* the highest power of h; the 24 of motion_series.h */
 };
 
-static const double of_coarse =
-    1e-6; /* [column] left out of columns whose matrix is good to 1e-6 at best; 4e-11 of a multiplier seen */
-static const double died_away =
-    1e-200; /* [square] of a column that began as 1: below, the squares of terms underflow */
+static const double of_coarse = 1e-6;   /* [column] where the matrix is good to 1e-6: 4e-11 of a multiplier seen */
+static const double died_away = 1e-200; /* [square] of a column from 1 on: below, squares of terms underflow */
 
 hc_status series_columns_make(series_columns *s, const modal_base *base, workspace *w)
 {

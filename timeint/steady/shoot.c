@@ -52,13 +52,10 @@ static const double chord_leaves = 0.05;   /* [last step] twice what was seen */
 static const double as_expected = 10;      /* [expected step] a longer one is not taken */
 
 static const double rounding_of_step = 20 * DBL_EPSILON; /* [L] of the sums that make a step */
-enum { CLOSED_FORM_STEPS = 10, CVODE_STEPS = 1000 };     /* in a period, about; */
-enum {
-  LARGE_CLOSED_FORM_STEPS = 100
-}; /* of the 1000 to 4000 of a large structure, whose errors die away: 1.3e-13 seen */
+/* In a period, about; of the 1000 to 4000 of a large structure, whose errors die away: 1.3e-13 was seen. */
+enum { CLOSED_FORM_STEPS = 10, CVODE_STEPS = 1000, LARGE_CLOSED_FORM_STEPS = 100 };
 static const double both_scatter = 1e3; /* [tolerance] of F(z0) and F(z*) together: twice 250, and twice that */
-static const double contracts =
-    0.3; /* [last step] a Newton step no shorter than that part of the last one leads nowhere */
+static const double contracts = 0.3;    /* [last step] a Newton step no shorter than that leads nowhere */
 /* What periods come with: nothing where another gives the matrix or none is needed; for Newton; to be reported. */
 typedef enum matrix_kind { NO_MATRIX, COARSE_MATRIX, MATRIX } matrix_kind;
 

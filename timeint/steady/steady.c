@@ -33,8 +33,7 @@
  * orbit after either of them or at the end. */
 static const double coarse = 1e-9;     /* CVODE's tolerance in a stretch, if the final one is not coarser */
 static const double along_the_way = 5; /* [ORBIT_NEXT_TO] a return is (1 - rho) of the distance: rho up to 0.8 */
-static const double unbounded =
-    1e9; /* [least_length] no resonance with damping is as high: the motion grows for ever */
+static const double unbounded = 1e9;   /* [least_length] no damped resonance is as high: the motion grows for ever */
 static const double on_a_torus = 0.05; /* [1/period] neighbours there part in proportion to time: log(680)/640 = 0.01 */
 enum {
   MOST_FAILURES = 6,                  /* of Newton; then period after period decides */

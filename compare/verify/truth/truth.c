@@ -514,14 +514,10 @@ static hc_status hold_against_coarser(truth *t)
 
 verify_row verify_row_unjudged(const verify_point *p)
 {
-  return (verify_row){.omega = p->omega,
-                      .value = p->value,
-                      .line = p->line,
-                      .branch = -1,
-                      .nearest = NAN,
-                      .scale = NAN,
-                      .error = NAN,
-                      .verdict = VERDICT_SOLVER_FAILED};
+  verify_row row = {.omega = p->omega, .value = p->value, .line = p->line, .branch = -1};
+  row.nearest = row.scale = row.error = NAN;
+  row.verdict = VERDICT_SOLVER_FAILED;
+  return row;
 }
 
 /* The row's solution becomes number k of *at, measured as m. */
