@@ -36,8 +36,7 @@ static void put_slider(const orbit *o, const orbit_segment *s, int contact, cons
 /* The guard of event i: what vanishes when the letter of its contact changes. */
 static void guard_equation(const orbit *o, int i, arb_t f, jacobian *d, int *at)
 {
-  const orbit_segment *s =
-      &o->segments[(i + o->m - 1) % o->m]; /* the one that ends here: its sliders are still there */
+  const orbit_segment *s = &o->segments[(i + o->m - 1) % o->m]; /* that ends here: its sliders are still there */
   const int j = orbit_guarded(o, i), n = o->n;
   const char before = orbit_letter(o, i - 1, j), after = orbit_letter(o, i, j);
   const guard kind = guard_of(before, after);

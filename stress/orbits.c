@@ -572,7 +572,7 @@ stress_check stress_check_regularised(solved_scene *s)
 
 /* Is it proven, and does what is proven hold what was measured? Both bounds by how far it is outside, over the largest
  * amplitude; a multiplier on the wrong side of the circle is far outside. */
-static stress_check hold_proven(const solved_scene *s, const timeint_result *r, const json_t *answer)
+static stress_check hold_proven(solved_scene *s, const timeint_result *r, const json_t *answer)
 {
   const char *verdict = json_string_value(json_object_get(answer, "verdict"));
   const double low = certificate_bound(answer, "amplitude", 0, -1), high = certificate_bound(answer, "amplitude", 1, 1),
@@ -580,7 +580,12 @@ static stress_check hold_proven(const solved_scene *s, const timeint_result *r, 
                most = certificate_bound(answer, "multiplier", 1, 1);
   if (!verdict || strcmp(verdict, "accepted") != 0) return stress_skip(STRESS_NOT_APPLICABLE);
   const int side = timeint_stability(r);
-  if ((most < 1 && side < 0) || (least > 1 && side > 0)) return stress_find(STRESS_DISAGREES, INFINITY, 0);
+  if ((most < 1 && side < 0) || (least > 1 && side > 0)) {
+    const double error = fabs(r->multiplier - (side < 0 ? most : least));
+    stress_condition(s);
+    if (error <= s->multiplier_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->multiplier_errs);
+    return stress_find(STRESS_DISAGREES, INFINITY, 0);
+  }
   const double off = r->amplitude < low ? low - r->amplitude : r->amplitude > high ? r->amplitude - high : 0;
   return stress_agree_within(off / s->path.amplitude, same_in_closed_form, sensitive(&s->path, NULL));
 }

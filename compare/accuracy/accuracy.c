@@ -395,14 +395,11 @@ static hc_status put_curve(const table_work *w, response_curve *t, accuracy_row 
   response_summary curve = {.peak_amplitude = NAN, .peak_omega = NAN};
   hc_status st = t->hbm ? response_summarise(t->hbm, &t->curve, &curve) : HC_OK;
   row->status = t->status;
-  row->peak_amplitude = curve.peak_amplitude;
-  row->peak_omega = curve.peak_omega;
+  row->peak_amplitude = curve.peak_amplitude, row->peak_omega = curve.peak_omega;
   row->peak_error = discrepancy_relative(curve.peak_amplitude - w->ref.peak_amplitude, w->ref.peak_amplitude);
   row->peak_omega_error = fabs(curve.peak_omega - w->ref.peak_omega) / w->ref.peak_omega;
-  row->turning_points = t->curve.turning_points;
-  row->rejected = t->curve.rejected;
-  row->iterations = t->curve.iterations;
-  row->evaluations = t->curve.evaluations;
+  row->turning_points = t->curve.turning_points, row->rejected = t->curve.rejected;
+  row->iterations = t->curve.iterations, row->evaluations = t->curve.evaluations;
   return st;
 }
 
@@ -434,8 +431,7 @@ static hc_status exact_row(table_work *w, int i, response_curve *t)
   const int at = i * (w->n_samples + 1);
   plain_solutions *plain = &w->plain[i];
   double began = thread_seconds();
-  plain->n_harm = w->harmonics[i];
-  plain->turning_points = t->curve.turning_points;
+  plain->n_harm = w->harmonics[i], plain->turning_points = t->curve.turning_points;
   hc_status st = solve_exact(w, t, &plain->s);
   if (st == HC_OK) st = make_row(w, t, EXACT, &plain->s, plain, began, &w->rows[at]);
   w->there[at] = st == HC_OK;
@@ -531,10 +527,8 @@ static void put_reference(const table_work *w, accuracy *out)
   out->orbits = w->ref.n;
   for (int i = 0; i < w->ref.n; ++i)
     out->frequencies += i == 0 || w->ref.targets[i].omega != w->ref.targets[i - 1].omega;
-  out->peak_harmonics = w->ref.harmonics;
-  out->peak_by_orbit = w->ref.peak_by_orbit;
-  out->peak_amplitude = w->ref.peak_amplitude;
-  out->peak_omega = w->ref.peak_omega;
+  out->peak_harmonics = w->ref.harmonics, out->peak_by_orbit = w->ref.peak_by_orbit;
+  out->peak_amplitude = w->ref.peak_amplitude, out->peak_omega = w->ref.peak_omega;
 }
 
 hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc_monitor *monitor, accuracy *out)

@@ -132,7 +132,9 @@ static hc_status trial_step(path *p, bool *accepted)
     p->step *= SHRINK_FAILED;
     return HC_NOT_CONVERGED;
   }
+  p->s->predicted = true;
   hc_status st = p->natural ? correct_natural(p) : path_correct_in_plane(p);
+  p->s->predicted = false;
   p->curve->iterations += p->point.iterations;
   if (st == HC_OK) *accepted = check_trial(p, ratio);
   else p->step *= SHRINK_FAILED;

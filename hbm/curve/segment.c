@@ -447,8 +447,7 @@ static bool peak_by_slope(peak_search *p, double highest)
 static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, const double *amplitude, hbm_candidate *x,
                              hbm_curve *peak)
 {
-  const double tolerance =
-      1e-7; /* at a maximum the amplitude changes with the square: 1e-7 in position is 1e-14 in it */
+  const double tolerance = 1e-7; /* at a maximum an amplitude changes with the square: by 1e-14 */
   peak_search p = {.s = s, .c = c, .top = top, .x = x};
   root_point found;
   double value;

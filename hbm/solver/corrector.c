@@ -10,9 +10,8 @@
 /* On a quick ramp a step that needs more iterations than QUICK_ITERATIONS is halved instead. */
 enum { MAX_NEWTON_ITERATIONS = 25, QUICK_ITERATIONS = 8 };
 
-/* From so many unknowns on a Jacobian and its factors take three residuals and more. One serves while steps with it
- * leave no more than a tenth: frf of 360 unknowns then takes 0.95, of 1100 0.66. */
-enum { KEPT_UNKNOWNS = 200 };
+/* Of many unknowns a Jacobian and its factors take three residuals and more. On a curve, where Newton starts next to
+ * the solution, one serves while steps with it leave no more than a tenth: frf of 1100 unknowns then takes 0.66. */
 static const double jacobian_keeps = 0.1;
 
 /* z[n+1] <-> X[n_coef] and omega. */
@@ -188,7 +187,7 @@ static newton_options corrector_options(const hbm_solver *s, double max_step, in
                           .max_iterations = quick ? QUICK_ITERATIONS : max_iterations,
                           .plain = plain || quick,
                           .unpolished = quick,
-                          .keeps = s->sys.n >= KEPT_UNKNOWNS ? jacobian_keeps : 0,
+                          .keeps = s->predicted && !s->ramp && hbm_has_many_unknowns(s) ? jacobian_keeps : 0,
                           .ends_fresh = true};
 }
 

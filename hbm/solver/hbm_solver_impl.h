@@ -35,6 +35,7 @@ struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; 
   hbm_guess guess;             /* .ask NULL: none */
   long solves;                 /* of either form, since it was made */
   const hbm_ramp *ramp;        /* the one that is followed; NULL: none is */
+  bool predicted;              /* a step of a curve is under way */
   double step_scale;           /* of hbm_scale_steps */
   const hc_monitor *monitor;   /* of the curve under way, asked at each evaluation of many unknowns; else NULL */
   double done;                 /* of that curve, 0..1; negative: unknown */

@@ -163,8 +163,7 @@ static void a_jacobian_is_kept_while_it_serves(CHECK_STATE)
     assert_int_equal(newton_solve(nw, z, &kept, &report), HC_OK);
     assert_in_range(p.jacobians, 2, 4);
   }
-  p.jacobians = 0;
-  z[0] = 1.4, z[1] = 1.72;
+  p.jacobians = 0, z[0] = 1.4, z[1] = 1.72;
   kept.ends_fresh = true;
   assert_int_equal(newton_solve(nw, z, &kept, &report), HC_OK);
   assert_int_equal(p.jacobians, 2);

@@ -195,9 +195,7 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
     const double length = of->length, force = scaled_force_unit(&of->scaled, of->omega, length);
     for (int j = 0; j < w.n_contacts; ++j) {
       const contact_sums *s = &w.of[j];
-      const bool slipped =
-          s->seen & SEEN_SLIPPING ||
-          of->scaled.contact[j].kind->smooth; /* else the closed integral of T u' is 0 but for rounding */
+      const bool slipped = s->seen & SEEN_SLIPPING || of->scaled.contact[j].kind->smooth; /* else it is rounding */
       out[j] = (contact_period){.regime = measure_seen_regime(s->seen, &of->model->contacts[j].law),
                                 .normal_min = s->normal_min * force,
                                 .normal_max = s->normal_max * force,
