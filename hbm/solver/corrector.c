@@ -11,7 +11,7 @@
 enum { MAX_NEWTON_ITERATIONS = 25, QUICK_ITERATIONS = 8 };
 
 /* Of many unknowns a Jacobian and its factors take three residuals and more. On a curve, where Newton starts next to
- * the solution, one serves while steps with it leave no more than a tenth: frf of 1100 unknowns then takes 0.66. */
+ * the solution, one serves while steps with it leave no more than a tenth: frf of 1100 unknowns then takes 0.85. */
 static const double jacobian_keeps = 0.1;
 
 /* z[n+1] <-> X[n_coef] and omega. */
