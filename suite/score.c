@@ -11,7 +11,7 @@ enum { MOST_DIGITS = 15 };
 /* What differences are measured by: the solution's amplitude [length]. */
 static double scale_of(const suite_reference *r) { return 0.5 * (r->low[SUITE_AMPLITUDE] + r->high[SUITE_AMPLITUDE]); }
 
-/* That a reference has of the quantity, at most 15; NaN: it is not asked. */
+/* How many digits a reference has of the quantity, at most 15; NaN: it is not asked. */
 static double digits_known(const suite_reference *r, int q)
 {
   const double half = 0.5 * (r->high[q] - r->low[q]) / scale_of(r);

@@ -150,7 +150,7 @@ static bool enclose_peak(climber *c, double low, double high, double *omega, dou
 static const double top_fall = 1e-9; /* [amplitude] */
 
 /* *top = the minimum of the cubic through f, at three frequencies d apart, and the orbit at the lowest point of their
- * parabola. False: it is lower than that orbit by more than top_fall. */
+ * parabola. False: it is lower than that orbit by more than top_fall, or there is none. */
 static bool top_of_cubic(climber *c, double omega, double d, const double f[3], root_point *top)
 {
   const double bend = f[0] - 2 * f[1] + f[2], t = 0.5 * (f[0] - f[2]) / bend;
@@ -443,7 +443,10 @@ static hc_status sampled_row(const table_work *w, int samples, const plain_solut
 {
   response_curve t;
   solutions s = {0};
-  if (samples < 2 * plain->n_harm + 2) return *row = impossible_row(plain->n_harm, samples), HC_OK;
+  if (samples < 2 * plain->n_harm + 2) {
+    *row = impossible_row(plain->n_harm, samples);
+    return HC_OK;
+  }
   hc_status st = trace(w, plain->n_harm, samples, monitor, &t);
   double began = thread_seconds();
   if (st == HC_OK) st = solve_sampled(w, &t, &plain->s, &s);

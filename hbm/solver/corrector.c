@@ -10,8 +10,7 @@
 /* On a quick ramp a step that needs more iterations than QUICK_ITERATIONS is halved instead. */
 enum { MAX_NEWTON_ITERATIONS = 25, QUICK_ITERATIONS = 8 };
 
-/* Of many unknowns a Jacobian and its factors take three residuals and more. On a curve, where Newton starts next to
- * the solution, one serves while steps with it leave no more than a tenth: frf of 1100 unknowns then takes 0.85. */
+/* Of many unknowns a Jacobian takes three residuals: on a curve one serves while steps leave less than that part. */
 static const double jacobian_keeps = 0.1;
 
 /* z[n+1] <-> X[n_coef] and omega. */

@@ -434,10 +434,9 @@ static void an_oscillator_is_made_small(CHECK_STATE)
  * and 1.7e-10, as Newton's tolerance allows; an orbit counted as far from its start, where that had the slider of a
  * contact without friction elsewhere; multipliers by HBM were off until 64 and 224 harmonics; rounding decides whether
  * two copies of a scene that floats at the edge of its contact have a solution. By what the check did: tables that are
- * steepest in the middle, never touched, leave springs that are negative and grow rounding 1e300-fold in a period; a
- * slider in the plane settles by less than a hundredth a period; in a family the orbit from more harmonics is farther;
- * of two orbits 3 % apart a later start leads to the other; two scenes float, with a double multiplier of 1 and with a
- * mean of 1e13; an orbit stands on both sides of a regularisation beside which none was found. */
+ * steepest in the middle, never touched, are negative springs and grow rounding 1e300-fold; a slider settles by
+ * less than a hundredth a period; in a family the orbit from more harmonics is farther; of two orbits 3 % apart a later
+ * start leads to the other; two float, with a double multiplier of 1, a mean of 1e13; one beside a regularisation. */
 static void findings_of_other_seeds_are_none(CHECK_STATE)
 {
   static const struct {

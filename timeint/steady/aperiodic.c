@@ -147,7 +147,7 @@ hc_status chaos_test(timeint *ti, const hc_monitor *monitor, bool *chaos, double
 /* In chaos an average over 1024 periods scatters by some 5 % of the deviation; on a torus it is off by what lines that
  * alias to less than a few bins leave, at most 1e-4 of it on curves with corners. */
 static const double same_average = 1e-3;
-static const double same_line = 1e-5;    /* [turns a period] between the two windows; a tenth of a bin is 1e-4 */
+static const double same_line = 1e-5;    /* [turns a period] of a line in the two windows; a tenth of a bin is 1e-4 */
 static const double same_height = 1e-2;  /* ten times same_average: a height is found with its frequency */
 static const double stands_still = 1e-6; /* [1] a deviation that small, of the size, is no motion */
 enum {

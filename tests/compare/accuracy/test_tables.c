@@ -102,8 +102,7 @@ static void the_peak_is_the_limit_of_many_harmonics(CHECK_STATE)
   comparison_clear(&c);
 }
 
-/* Where a peak is smooth, orbits to either side of it are as high as each other. It is that of a cubic through points
- * 1/50 of the half-width apart, so within (1/50)^3 of that; the amplitude to the square of it. */
+/* Orbits beside a smooth peak are of one height; a cubic of points 1/50 half-width apart is within (1/50)^3 of it. */
 static void a_smooth_peak_lies_between_orbits_of_one_height(CHECK_STATE)
 {
   const double half_width = 0.34641016151377546 / 2, d = half_width / 1000;
