@@ -10,7 +10,7 @@
 /* On a quick ramp a step that needs more iterations than QUICK_ITERATIONS is halved instead. */
 enum { MAX_NEWTON_ITERATIONS = 25, QUICK_ITERATIONS = 8 };
 
-/* Of many unknowns a Jacobian takes three residuals: on a curve one serves while steps leave less than that part. */
+/* What a step on a curve may leave of the residual for its Jacobian of many unknowns to serve on (newton.h: keeps). */
 static const double jacobian_keeps = 0.1;
 
 /* z[n+1] <-> X[n_coef] and omega. */

@@ -2,20 +2,8 @@
 #pragma once
 
 #include "hbm/hbm.h"
-#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 #include "timeint/timeint.h"
-
-/* As exact_scene, the exact law, too, solved as far as rounding lets: what is left is what a test is about. */
-static inline scene exact_reference_scene(const char *name, int n_harm)
-{
-  scene sc = exact_scene(name, n_harm, true);
-  sc.hbm.tolerance = 1e-12;
-  sc.hbm.skip_linear = true;
-  sc.transient = (transient_settings){
-      .law = TRANSIENT_LAW_EXACT, .regularisation = 1e-4, .tolerance = 1e-10, .max_periods = 20000};
-  return sc;
-}
 
 /* The motion the solution X has at t = 0. */
 static inline scene_state orbit_start(hbm_solver *s, int n_harm, const double *X, double omega)

@@ -429,14 +429,15 @@ static void an_oscillator_is_made_small(CHECK_STATE)
 
 /* ---- findings of seeds that nobody had used ------------------------------------------------------------------ */
 
-/* Agreed now, or explained by that reason. What was wrong, in order: the force of contact 38 differed from its stepped
- * one by 5.2e-6, as a slider was put where the first instant of contact found it; units of two oscillators by 5.0e-10
- * and 1.7e-10, as Newton's tolerance allows; an orbit counted as far from its start, where that had the slider of a
- * contact without friction elsewhere; multipliers by HBM were off until 64 and 224 harmonics; rounding decides whether
- * two copies of a scene that floats at the edge of its contact have a solution. By what the check did: tables that are
- * steepest in the middle, never touched, are negative springs and grow rounding 1e300-fold; a slider settles by
- * less than a hundredth a period; in a family the orbit from more harmonics is farther; of two orbits 3 % apart a later
- * start leads to the other; two float, with a double multiplier of 1, a mean of 1e13; one beside a regularisation. */
+/* Agreed now, or explained by that reason. What was wrong, in order: the force of contact 38 by 5.2e-6, as a slider
+ * was put where the first instant of contact found it; units of two oscillators, as Newton's tolerance allows; an
+ * orbit counted as far from its start, where that had the slider of a contact without friction elsewhere; multipliers
+ * by HBM until 64 and 224 harmonics; whether two copies of a scene that floats at the edge of its contact have a
+ * solution, by rounding. In the checks: tables that are steepest in the middle leave negative springs where nothing
+ * touches, which grow rounding 1e300-fold; a slider that settles by less than a hundredth a period was taken for one
+ * at rest; of a family the orbit from more harmonics is farther; a later start leads to another orbit, 3 % away;
+ * structures that float have a double multiplier of 1, or a mean of 1e13 under a static load; orbits were found on
+ * both sides of a regularisation, none beside it. */
 static void findings_of_other_seeds_are_none(CHECK_STATE)
 {
   static const struct {

@@ -1,5 +1,5 @@
 /* test_orders.c - observed orders: of made-up errors whose order is known, and of case 2. */
-#include "tests/adversarial/steady_references.h"
+#include "tests/hbm/scenes.h"
 #include "tests/scene_runs.h"
 
 enum { N = 8 };

@@ -1,7 +1,7 @@
 /* test_tables.c - the table over samples and truncation order: its reference, counts, and case 2. */
 #include <limits.h>
 
-#include "tests/adversarial/steady_references.h"
+#include "tests/hbm/scenes.h"
 #include "tests/scene_runs.h"
 
 static scene case2(void)
@@ -102,7 +102,7 @@ static void the_peak_is_the_limit_of_many_harmonics(CHECK_STATE)
   comparison_clear(&c);
 }
 
-/* Orbits beside a smooth peak are of one height; a cubic of points 1/50 half-width apart is within (1/50)^3 of it. */
+/* Beside a smooth peak orbits have one height; a cubic through points half-width/50 apart is within (1/50)^3 of it. */
 static void a_smooth_peak_lies_between_orbits_of_one_height(CHECK_STATE)
 {
   const double half_width = 0.34641016151377546 / 2, d = half_width / 1000;
