@@ -34,3 +34,8 @@ typedef struct compare_setup {
   void *added_to;
   int jobs; /* threads for the tables of accuracy.h; 0 and 1: the calling one alone */
 } compare_setup;
+
+/* Harmonics of the curve that rows of the tables are compared with, at least. Of more than COMPARE_LARGE degrees of
+ * freedom such a curve costs minutes, and orbits are known from the comparison's rows or next to coarser solutions. */
+enum { COMPARE_LARGE = 64 };
+static inline int compare_reference_harmonics(const model *m) { return m->n > COMPARE_LARGE ? 10 : 20; }

@@ -19,7 +19,7 @@ enum {
   TABLE_MATRICES = 30,    /* by CVODES: orbits of ever smaller regularisations, beam16; without chord steps */
   VERIFY_ITERATIONS = 5,  /* at a point of the file */
   VERIFY_CHECKS = 20,     /* points held against time integration */
-  TRUTH_HARMONICS = 20,   /* of what is compared with in tables and in verify */
+  TRUTH_HARMONICS = 20,   /* of what is compared with in verify */
   AUTO_HARMONICS = 14
 };
 static const double alone = 0.7;  /* a steady state, of a solution: without the budget of its error */
@@ -58,6 +58,7 @@ static hc_status measure_at(const compare_setup *setup, hbm_solver *hbm, timeint
   const bool known = time_newton(hbm, setup->omega_from, X, &first) == HC_OK;
   hc_status st = time_newton(hbm, omega, X, &out->newton);
   if (known) out->newton = sqrt(first * out->newton);
+  out->reference = compare_reference_harmonics(setup->model);
   out->harmonics = setup->hbm.harmonics == HBM_AUTO ? AUTO_HARMONICS : setup->hbm.harmonics;
   if (st == HC_OK) st = comparison_orbit_start(hbm, X, omega, state);
   if (st != HC_OK) return st;
@@ -117,7 +118,7 @@ double duration_of_steady_states(const duration_units *u, int n)
 
 double duration_of_tables(const duration_units *u, const compare_settings *how)
 {
-  double most = TRUTH_HARMONICS, sum = 0;
+  double most = u->reference, sum = 0;
   for (int i = 0; i < how->harmonics.n; ++i) {
     most = fmax(most, how->harmonics.v[i]);
     sum += (how->samples.n + 1) * duration_of_curve(u, (int)how->harmonics.v[i]);

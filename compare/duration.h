@@ -18,6 +18,7 @@ enum { DURATION_FEWEST = 8 };
 typedef struct duration_units {
   double newton; /* [s] of a Newton step of harmonic balance */
   int harmonics; /* in it */
+  int reference; /* harmonics of the tables' reference, at least */
   period_times period;
 } duration_units;
 

@@ -434,9 +434,7 @@ stress_check stress_check_work(solved_scene *s)
         const int a = d * s->n_coef + 2 * h - 1, b = a + 1;
         const double x = hypot(c.motion[a], c.motion[b]);
         work += h * (c.motion[b] * c.force[a] - c.motion[a] * c.force[b]);
-        size += h * x *
-                (fabs(c.force[d * s->n_coef]) + hypot(c.force[a], c.force[b]) +
-                 c.stiffness[d] * (x + fabs(c.motion[d * s->n_coef])));
+        size += h * x * (fabs(c.force[d * s->n_coef]) + hypot(c.force[a], c.force[b]) + c.stiffness[d] * x);
       }
     const bool takes = law->smooth == CONTACT_TANH || (contact_has_friction(law) && c.report.regime >= CONTACT_SLIPS);
     const double wrong = takes ? fmax(-work, 0) : fabs(work);

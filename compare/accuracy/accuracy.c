@@ -33,7 +33,7 @@ typedef struct reference {
   double peak_amplitude, peak_omega;
 } reference;
 
-enum { PEAK_LEVELS = 6, LARGE = 64 /* degrees of freedom */ };
+enum { PEAK_LEVELS = 6 };
 
 static const double reusable = 0.01; /* [amplitude] an orbit within this of a solution of the fine curve is taken as
                                         the one next to it */
@@ -192,7 +192,7 @@ static void find_peak(const compare_setup *setup, timeint *ti, double *states, h
       hbm_measure(hbm, peak.X, &m) == HC_OK) {
     double omega = peak.points[0].omega;
     climber c = {.ti = ti,
-                 .extrapolates = setup->model->n > LARGE,
+                 .extrapolates = setup->model->n > COMPARE_LARGE,
                  .state = states,
                  .here = states + (size_t)CLIMB_ORBITS * (size_t)timeint_n_states(ti)};
     if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK || !climb(setup, &c, omega, out))
@@ -225,9 +225,7 @@ static hc_status reference_make(const compare_setup *setup, const comparison *c,
 
 /* ---- the table ---- */
 
-/* A structure of more than LARGE degrees of freedom begins its reference at fewer harmonics: there a curve costs
- * minutes, and orbits are known from the comparison's rows or next to coarser solutions. */
-enum { LEAST_REFERENCE = 20, LEAST_OF_LARGE = 10, EXACT = 0 };
+enum { EXACT = 0 };
 
 static const double floor_of_orbits = 1e-8; /* [1] ten times the error of the referee's orbits */
 
@@ -496,7 +494,7 @@ static void put_orders(const table_work *w, accuracy *out)
 /* The orbits to compare with, and the rows with exact forces. */
 static hc_status exact_rows(table_work *w)
 {
-  const int least = w->setup->model->n > LARGE ? LEAST_OF_LARGE : LEAST_REFERENCE;
+  const int least = compare_reference_harmonics(w->setup->model);
   const int most = w->harmonics[w->n_harm - 1] > least ? w->harmonics[w->n_harm - 1] : least;
   response_curve finest, t = {.hbm = NULL};
   hc_status st = trace(w, most, EXACT, w->monitor, &finest);

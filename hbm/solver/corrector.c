@@ -170,6 +170,7 @@ static hc_status solve(hbm_solver *s, newton *form, const newton_options *opt, d
   point->error = NAN;
   point->residual = norm_weighted_max(s->sys.n, s->r_scale, newton_residual(form));
   if (!(point->residual <= 10 * s->how.tolerance)) return HC_NOT_CONVERGED;
+  if (!hbm_system_knows_means(&s->sys)) return HC_SINGULAR;
   unpack(s, s->z, X, omega);
   s->on_symmetric = nearly_symmetric(s, X);
   if (s->on_symmetric) clear_even(s, 0, s->sys.n_coef, X);

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "numerics/norm.h"
+
 hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
 {
   *sys = (hbm_system){.model = m, .how = *how, .n_harm = n_harm, .force_factor = 1};
@@ -10,6 +12,7 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   hc_status st = model_find_scales(m, &sys->scales);
   if (st == HC_OK) st = condensation_new(m, n_harm, &sys->linear);
   if (st != HC_OK) return st;
+  for (int l = 0; l < m->n_loads; ++l) sys->load += norm_2(m->n, m->loads[l].cosine) + norm_2(m->n, m->loads[l].sine);
   if (how->mistakes.hysteretic) condensation_make_hysteretic(sys->linear);
   sys->dim = condensation_dim(sys->linear);
   sys->n_coef = hbm_system_length(sys, n_harm);
@@ -287,6 +290,14 @@ static double sum_sizes(const hbm_system *sys, double omega, double *force)
 }
 
 double hbm_system_scale(const hbm_system *sys, double omega) { return sum_sizes(sys, omega, sys->rows); }
+
+bool hbm_system_knows_means(const hbm_system *sys)
+{
+  const double two_digits = 1e-2, *unknown = condensation_rounding(sys->linear);
+  double sum = 0;
+  for (int d = 0; d < sys->dim; ++d) sum += unknown[d] * fabs(sys->X[d]);
+  return sys->load == 0 || sum <= two_digits * sys->load;
+}
 
 void hbm_system_weights(const hbm_system *sys, double omega, double least, double *weight)
 {

@@ -23,6 +23,7 @@ typedef struct hbm_system {
   int n_coef;         /* dim (2 n_harm + 1) */
   int first, n;       /* first unknown in X (0, or dim without harmonic 0); number of unknowns */
   double force_factor /* phi */, more_damping /* D [force time/length] */;
+  double load; /* [force] all loads by size, phi = 1 */
   condensation *linear;
   contact_forces *contacts;
   model_scales scales;
@@ -79,6 +80,10 @@ void hbm_system_dforce(hbm_system *sys, double omega, double *dR); /* by phi */
 /* What a residual is compared with [force]: the sum of the sizes of the forces it is made of, at the X of the last
  * residual. The size of their sum would be too small: near resonance K X and M omega^2 X cancel. */
 double hbm_system_scale(const hbm_system *sys, double omega);
+
+/* Are the means of the last evaluation known to two digits, as far as rounding goes? Not where a load pushes along a
+ * motion that K holds by its own rounding alone: the residual is small beside K X, and the mean is anything. */
+bool hbm_system_knows_means(const hbm_system *sys);
 
 /* weight[n]: 1 over what each row of a residual is compared with [1/force]: the same sum over the forces on its own
  * coordinate, so that one part of a structure is not solved less well for another part's larger forces, but no less

@@ -139,6 +139,8 @@ void condensation_coordinates(const condensation *c, const double *x, double *q)
   }
 }
 
+const double *condensation_rounding(const condensation *c) { return c->basis.rounding; }
+
 const double *condensation_first_response(const condensation *c) { return c->basis.responses; }
 
 /* ---- at one omega ----------------------------------------------------------------------------- */

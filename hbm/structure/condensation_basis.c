@@ -6,6 +6,7 @@
  * Where the rows span everything, q = x. */
 #include "hbm/structure/condensation_basis.h"
 
+#include <float.h>
 #include <string.h>
 
 #include "numerics/dense.h"
@@ -32,6 +33,7 @@ static hc_status allocate(const model *m, condensation_basis *b)
   b->directions = workspace_doubles(&b->memory, 2 * n * (size_t)m->n_contacts + 1);
   b->loads = workspace_doubles(&b->memory, 2 * n * (size_t)m->n_loads + 1);
   b->responses = workspace_doubles(&b->memory, n * (size_t)m->n_responses + 1);
+  b->rounding = workspace_doubles(&b->memory, n);
   return b->memory.failed ? HC_NO_MEMORY : HC_OK;
 }
 
@@ -147,6 +149,18 @@ static void transform_vectors(const model *m, condensation_basis *b)
   }
 }
 
+/* eps sum_e |P_e|^T |K| |P_d|: what K leaves of a motion that it does not resist. work[2 n] of zeros. */
+static void find_rounding(const model *m, condensation_basis *b, double *work)
+{
+  const size_t n = (size_t)m->n, dim = (size_t)b->dim;
+  double *sum = work, *force = work + n;
+  for (size_t e = 0; e < dim * n; ++e) sum[e % n] += fabs(b->T[e]);
+  for (size_t j = 0; j < n; ++j)
+    for (size_t i = 0; i < n; ++i) force[j] += sum[i] * fabs(m->stiffness[j * n + i]);
+  for (size_t d = 0; d < dim; ++d)
+    for (size_t i = 0; i < n; ++i) b->rounding[d] += DBL_EPSILON * force[i] * fabs(b->T[d * n + i]);
+}
+
 hc_status condensation_basis_make(const model *m, condensation_basis *b)
 {
   *b = (condensation_basis){.n = m->n};
@@ -175,6 +189,7 @@ hc_status condensation_basis_make(const model *m, condensation_basis *b)
   double *work = calloc(2 * square(m->n), sizeof *work);
   if (st == HC_OK && !work) st = HC_NO_MEMORY;
   if (st == HC_OK) {
+    find_rounding(m, b, work);
     dense_congruence(m->n, m->n, b->T, m->mass, work, b->M);
     dense_congruence(m->n, m->n, b->T, m->damping, work, b->C);
     dense_congruence(m->n, m->n, b->T, m->stiffness, work, b->K);

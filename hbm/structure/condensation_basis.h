@@ -16,6 +16,7 @@ typedef struct condensation_basis {
   double *directions; /* [n_contacts][2][dim]: tangent and normal in q */
   double *loads;      /* [n_loads][2][n]: T^T of cosine and sine */
   double *responses;  /* [n_responses][n]: T^T of each */
+  double *rounding;   /* [dim] [force/length] of the mean forces on all q together, for q_d = 1 */
   workspace memory;
 } condensation_basis;
 

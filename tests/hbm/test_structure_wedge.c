@@ -170,5 +170,27 @@ static void out_of_reach_it_is_refused(CHECK_STATE)
   model_free(c.model);
 }
 
+/* A static load along a motion that K holds by rounding alone: R is small beside K X with a mean of 1e13 and more. */
+static void held_by_rounding_alone_it_is_refused(CHECK_STATE)
+{
+  static const char *const springs[] = {"structure.stiffness=[[0.7,-0.7,0],[-0.7,0.8,-0.1],[0,-0.1,0.1]]",
+                                        "structure.stiffness=[[0.3,-0.3,0],[-0.3,0.37,-0.07],[0,-0.07,0.07]]",
+                                        "structure.stiffness=[[12.3,-12.3,0],[-12.3,29.6,-17.3],[0,-17.3,17.3]]"};
+  for (int k = 0; k < 6; ++k) {
+    const char *const set[] = {springs[k / 2], "contacts=[{normal_stiffness: 1, gap: -0.25, normal: {3: -1}}]",
+                               "forcing=[{dof: 1, amplitude: 1, harmonic: 0}, {dof: 2, amplitude: 1}]"};
+    structure_case c = structure_case_with("chain3", 3, 3, set);
+    hbm_point point;
+    double X[CASE_MAX_COEF] = {0};
+    c.how.skip_linear = k % 2 == 0;
+    c.how.tolerance = 1e-10;
+    hbm_solver *s = structure_solver(&c);
+    assert_int_not_equal(hbm_solve_first(s, 1.9, X, &point), HC_OK);
+    assert_int_equal(hbm_solve(s, 1.9, X, &point), HC_SINGULAR);
+    hbm_solver_free(s);
+    model_free(c.model);
+  }
+}
+
 CHECK_TESTS("hbm.structure_wedge", 120, whole_curves, only_ratios_of_loads_matter, without_contacts_it_is_refused,
-            out_of_reach_it_is_refused)
+            out_of_reach_it_is_refused, held_by_rounding_alone_it_is_refused)

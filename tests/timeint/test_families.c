@@ -66,5 +66,36 @@ static void marching_counts_them_too(CHECK_STATE)
   }
 }
 
+/* A motion that nothing holds or damps: wherever the structure stands is an orbit, but for the rounding of K. An orbit
+ * that is known to no digit of its own size is not told. */
+static void what_floats_does_not_settle(CHECK_STATE)
+{
+  static const char *const rows[][2] = {
+      {"structure.mass=[1.61, 1.84, 1]", "structure.stiffness=[[12.5,-12.5,0],[-12.5,31.76,-19.26],[0,-19.26,19.26]]"},
+      {"structure.mass=[0.33, 1.35, 0.87]",
+       "structure.stiffness=[[28.05,-28.05,0],[-28.05,40.17,-12.12],[0,-12.12,12.12]]"},
+      {"structure.mass=[1.74, 1.1, 1.5]", "structure.stiffness=[[14.5,-14.5,0],[-14.5,17.55,-3.05],[0,-3.05,3.05]]"}};
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+    const char *const set[] = {rows[i][0], rows[i][1], "structure.damping={modal: 0.007}",
+                               "contacts=[{normal_stiffness: 1, gap: -10, normal: {3: 1}, tangent: {1: 1}, "
+                               "tangential_stiffness: 9, friction: 0.5}]",
+                               "forcing=[{dof: 1, amplitude: 0.3}, {dof: 2, amplitude: 1, phase_deg: 30}]"};
+    const structure_case c = structure_case_with("chain3", 1, 5, set);
+    transient_settings how = CLOSED_FORM(1e-9, 300);
+    how.start = TRANSIENT_START_HBM;
+    timeint_result r;
+    hbm_point point;
+    double y[STATES] = {0}, X[CASE_MAX_COEF] = {0};
+    hbm_solver *s = structure_solver(&c);
+    CHECK_MADE(timeint, ti, timeint_new(c.model, &how, &ti));
+    assert_int_equal(hbm_solve_first(s, 0.95, X, &point), HC_OK);
+    assert_int_equal(hbm_state(s, 0.95, X, y, y + 3), HC_OK);
+    assert_int_not_equal(timeint_steady(ti, 0.95, y, NULL, &r), HC_OK);
+    hbm_solver_free(s);
+    timeint_free(ti);
+    model_free(c.model);
+  }
+}
+
 CHECK_TESTS_WITH("timeint.families", 100, read_structure_rows, NULL, every_row, two_stable_motions,
-                 marching_counts_them_too)
+                 marching_counts_them_too, what_floats_does_not_settle)

@@ -524,6 +524,12 @@ static double attainable(shoot *s)
   return sqrt(sum) * orbit_scatter(s->ti, s->k);
 }
 
+/* HC_SINGULAR where no digit of the orbit is attainable: it is as any other along a motion that nothing holds. */
+static hc_status is_known(const shoot *s, const shoot_report *r)
+{
+  return r->attainable < timeint_scaled_size(s->ti) ? HC_OK : HC_SINGULAR;
+}
+
 /* An orbit on the edge of slip, where F has one derivative on either side: s->phi becomes that of the side that sticks,
  * whichever rounding chose. Sliders that slip by rounding are moved on by that and EDGE_SCATTERS times what periods
  * scatter, as are those that slip then; where one that was moved slips again, no side is known, and s->phi stays. A
@@ -573,7 +579,7 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   if ((st = take_side_that_sticks(s)) != HC_OK || (st = asked ? find_multiplier(s, r) : HC_OK) != HC_OK) return st;
   memcpy(s->ti->y, s->best, bytes);
   r->attainable = attainable(s);
-  return r->distance <= fmax(goal, r->attainable) ? HC_OK : HC_NOT_CONVERGED;
+  return r->distance <= fmax(goal, r->attainable) ? is_known(s, r) : HC_NOT_CONVERGED;
 }
 
 /* The giver's matrix at s->z, renewed or not, factored. */
@@ -926,7 +932,7 @@ hc_status shoot_confirm(shoot *s, int k, double goal, double off, const hc_monit
   const bool large = matrix_giver(ti) != NULL;
   begin(s, k, monitor);
   hc_status st = factor_closed_form(s);
-  if (st == HC_OK) found->attainable = attainable(s);
+  if (st == HC_OK) found->attainable = attainable(s), st = is_known(s, found);
   if (st == HC_OK && large) st = confirm_coarsely(s, off, found->attainable);
   for (int tries = 0; st == HC_OK; ++tries) {
     st = integrate_and_step(s, &length, r);
