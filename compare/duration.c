@@ -15,7 +15,7 @@ enum {
   CHORD_MATRICES = 2,     /* of the orbit, and of the exact law's */
   MATRICES = 20,          /* Newton: 2 to 9 for the steady state, as many for each of the other orbits */
   REPORT_CURVES = 7,      /* two by steps of 0.35, one to look at */
-  TABLE_ORBITS = 30,      /* by the exact law: at the frequencies, and up the peak */
+  TABLE_ORBITS = 24,      /* by the exact law: at the frequencies, and up the peak */
   TABLE_MATRICES = 30,    /* by CVODES: orbits of ever smaller regularisations, beam16; without chord steps */
   VERIFY_ITERATIONS = 5,  /* at a point of the file */
   VERIFY_CHECKS = 20,     /* points held against time integration */

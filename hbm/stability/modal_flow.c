@@ -294,6 +294,9 @@ double modal_flow_operations(const modal_flow *f)
   return steps * (unknowns * unknowns * unknowns * 2 / 3 + 2 * columns * unknowns * (unknowns + 4.0 * f->n));
 }
 
+/* Of LAPACK: 10 (2 n)^3 for eigenvalues, at a third of the speed of products. */
+double modal_flow_operations_of_roots(const modal_flow *f) { return 240.0 * f->n * f->n * f->n; }
+
 /* Modes fast.. are left to decay. [rad] of modes and of th that a step takes at most; half of it where that costs a
  * tenth of a second. */
 static void set_width(modal_flow *f, int fast)
@@ -405,49 +408,85 @@ static bool has_energy(const modal_flow *f, int n, const double *K, const double
   return energy_decays(f, n, K, b, bK);
 }
 
-/* Are the roots of s^2 + c s + omega^2 + K to the left of -c/4, by the eigenvalues of a matrix in A[4 n n + 4 n]? */
-static hc_status roots_decay(const modal_flow *f, size_t n, const double *K, double *A, bool *decays)
+/* Modes first.. with the contacts' stiffness K = left direction. */
+typedef struct held_modes {
+  int first, n;
+  double *left, *K, *work; /* [rows][n], [n][n] by columns, [4 n n + n (rows + 4)] */
+  workspace memory;
+} held_modes;
+
+/* At th; memory is freed in any case by the caller. */
+static hc_status hold_modes(const modal_flow *f, int first, const contact_interval *const *interval, int n_slipping,
+                            const planar_slipping *slipping, double th, held_modes *held)
 {
-  double complex *root = (double complex *)(A + 4 * n * n);
+  const size_t n = (size_t)(f->n - first), rows = (size_t)f->rows;
+  *held = (held_modes){.first = first, .n = (int)n};
+  double *Z = workspace_doubles(&held->memory, rows * rows);
+  held->left = workspace_doubles(&held->memory, n * rows);
+  held->K = workspace_doubles(&held->memory, n * n);
+  held->work = workspace_doubles(&held->memory, 4 * n * n + n * (rows + 4));
+  if (held->memory.failed) return HC_NO_MEMORY;
+  for (int s = 0; s < f->n_sites; ++s) {
+    const planar_slipping *slips = NULL;
+    for (int k = 0; k < n_slipping && !slips; ++k)
+      if (slipping[k].contact == f->site[s].contact) slips = &slipping[k];
+    add_contact(f, &f->site[s], interval[f->site[s].contact], slips, th, Z);
+  }
+  dense_add_product(held->n, f->rows, f->rows, 1, f->direction + first, f->n, Z, f->rows, 0, held->left, held->n);
+  dense_multiply(held->n, held->n, f->rows, held->left, f->turned + (size_t)first * rows, held->K);
+  return HC_OK;
+}
+
+/* The roots of s^2 + c s + omega^2 + K, as eigenvalues in (w x, x'), w = omega but where a motion is free; *root[2 n] in
+ * held->work. */
+static hc_status find_roots(const modal_flow *f, const held_modes *held, double complex **root)
+{
+  const size_t n = (size_t)held->n;
+  double *A = held->work;
+  *root = (double complex *)(A + 4 * n * n);
   memset(A, 0, 4 * n * n * sizeof *A);
   for (size_t k = 0; k < n; ++k) {
-    const double omega = sqrt(f->lambda[(size_t)f->fast + k]);
-    A[(n + k) * 2 * n + k] = omega;
-    for (size_t row = 0; row < n; ++row) A[k * 2 * n + n + row] = -K[k * n + row] / omega;
-    A[k * 2 * n + n + k] -= omega;
-    A[(n + k) * 2 * n + n + k] = -f->damping[(size_t)f->fast + k];
+    const double lambda = f->lambda[(size_t)held->first + k], w = sqrt(fmax(lambda, f->omega * f->omega));
+    A[(n + k) * 2 * n + k] = w;
+    for (size_t row = 0; row < n; ++row) A[k * 2 * n + n + row] = -held->K[k * n + row] / w;
+    A[k * 2 * n + n + k] -= lambda / w;
+    A[(n + k) * 2 * n + n + k] = -f->damping[(size_t)held->first + k];
   }
-  const hc_status st = dense_eigen(2 * (int)n, A, root, NULL, NULL);
+  return dense_eigen(2 * held->n, A, *root, NULL, NULL);
+}
+
+/* Are they to the left of -c/4? */
+static hc_status roots_decay(const modal_flow *f, const held_modes *held, bool *decays)
+{
+  double complex *root;
+  const hc_status st = find_roots(f, held, &root);
   *decays = st == HC_OK;
-  for (size_t k = 0; k < 2 * n && *decays; ++k) *decays = creal(root[k]) <= -0.25 * f->least_damping[f->fast];
+  for (int k = 0; k < 2 * held->n && *decays; ++k) *decays = creal(root[k]) <= -0.25 * f->least_damping[held->first];
   return st == HC_NOT_CONVERGED ? HC_OK : st;
 }
 
 hc_status modal_flow_check(modal_flow *f, const contact_interval *const *interval, int n_slipping,
                            const planar_slipping *slipping, double th)
 {
-  const size_t n = (size_t)(f->n - f->fast), rows = (size_t)f->rows;
-  const double *turned = f->turned + (size_t)f->fast * rows;
-  workspace own = {0};
+  held_modes held;
+  bool decays = true;
   if (f->fast >= f->first_fast) return HC_OK;
-  double *Z = workspace_doubles(&own, rows * rows), *left = workspace_doubles(&own, n * rows),
-         *K = workspace_doubles(&own, n * n), *work = workspace_doubles(&own, 4 * n * n + n * (rows + 4));
-  hc_status st = own.failed ? HC_NO_MEMORY : HC_OK;
-  for (int s = 0; s < f->n_sites && st == HC_OK; ++s) {
-    const planar_slipping *slips = NULL;
-    for (int k = 0; k < n_slipping && !slips; ++k)
-      if (slipping[k].contact == f->site[s].contact) slips = &slipping[k];
-    add_contact(f, &f->site[s], interval[f->site[s].contact], slips, th, Z);
-  }
-  if (st == HC_OK) {
-    bool decays;
-    dense_add_product((int)n, f->rows, f->rows, 1, f->direction + f->fast, f->n, Z, f->rows, 0, left, (int)n);
-    dense_multiply((int)n, (int)n, f->rows, left, turned, K);
-    decays = has_energy(f, (int)n, K, left, work);
-    if (!decays) st = roots_decay(f, n, K, work, &decays);
-    if (!decays) set_width(f, f->first_fast);
-  }
-  workspace_free(&own);
+  hc_status st = hold_modes(f, f->fast, interval, n_slipping, slipping, th, &held);
+  if (st == HC_OK) decays = has_energy(f, held.n, held.K, held.left, held.work);
+  if (st == HC_OK && !decays) st = roots_decay(f, &held, &decays);
+  if (st == HC_OK && !decays) set_width(f, f->first_fast);
+  workspace_free(&held.memory);
+  return st;
+}
+
+hc_status modal_flow_roots(const modal_flow *f, const contact_interval *const *interval, double complex *root)
+{
+  held_modes held;
+  double complex *found;
+  hc_status st = hold_modes(f, 0, interval, 0, NULL, 0, &held);
+  if (st == HC_OK) st = find_roots(f, &held, &found);
+  if (st == HC_OK) memcpy(root, found, 2 * (size_t)held.n * sizeof *root);
+  workspace_free(&held.memory);
   return st;
 }
 

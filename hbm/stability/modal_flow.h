@@ -36,6 +36,8 @@
  * its frequency. */
 #pragma once
 
+#include <complex.h>
+
 #include "hbm/contact/transitions.h"
 #include "hbm/planar/planar_flow.h"
 #include "model/model.h"
@@ -58,7 +60,10 @@ void modal_flow_begin(modal_flow *f, double omega, int changes);
 hc_status modal_flow_check(modal_flow *f, const contact_interval *const *interval, int n_slipping,
                            const planar_slipping *slipping, double th);
 
-/* What steps of that width take for a period, in operations. */
+/* root[2 n] of perturbations, exp(s t), where all contacts stay in one state, none slipping with two tangents; what that
+ * takes, and steps of modal_flow_begin's width for a period, in operations. HC_NO_MEMORY, HC_NOT_CONVERGED. */
+hc_status modal_flow_roots(const modal_flow *f, const contact_interval *const *interval, double complex *root);
+double modal_flow_operations_of_roots(const modal_flow *f);
 double modal_flow_operations(const modal_flow *f);
 
 /* As planar_flow_advance, in modal coordinates. */

@@ -695,12 +695,35 @@ static hc_status close_period(monodromy *w, const contact_forces *orbit, double 
   return st;
 }
 
+/* Do all contacts stay stuck or apart all period? */
+static bool nothing_changes(const contact_forces *orbit, int n_contacts)
+{
+  for (int j = 0, intervals; j < n_contacts; ++j) {
+    const contact_interval *p = contact_forces_intervals(orbit, j, &intervals);
+    const bool stays = intervals == 1 && p->state == CONTACT_STICK && p->to - p->from >= TWO_PI * (1 - 1e-15);
+    if (intervals > 0 && !stays) return false;
+  }
+  return true;
+}
+
+/* exp(s T) of the roots s of the structure as its contacts hold it. */
+static hc_status multipliers_of_roots(monodromy *w, double period)
+{
+  const hc_status st = modal_flow_roots(w->modal, w->interval, w->lambda);
+  w->n_active = 2 * w->n;
+  for (int i = 0; i < w->n_active && st == HC_OK; ++i) w->lambda[i] = cexp(w->lambda[i] * period);
+  return st;
+}
+
 /* w->lambda[n_active]. */
 static hc_status follow_in_modes(monodromy *w, const contact_forces *orbit, double omega, int n)
 {
   const model *m = modal_flow_model(w->modal);
   hc_status st = choose_steps(w, orbit, omega, n);
   if (st != HC_OK) return st;
+  const bool by_roots = modal_flow_operations_of_roots(w->modal) < modal_flow_operations(w->modal);
+  if (by_roots && !w->from_all && nothing_changes(orbit, m->n_contacts))
+    return multipliers_of_roots(w, TWO_PI / omega); /* choose_steps entered an interval */
   const size_t states = (size_t)w->n_states;
   const int end = first_part(w, n);
   bool few = false;
