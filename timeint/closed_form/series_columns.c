@@ -8,8 +8,9 @@
 #include "numerics/dense.h"
 
 enum {
-  BLOCK = 64, /* columns: six arrays of them and of 100 modes stay in the second cache */
-  LAST = 24   /* the highest power of h; the 24 of motion_series.h */
+  BLOCK = 64,         /* columns: six arrays of them and of 100 modes stay in the second cache */
+  LAST = 24,          /* the highest power of h; the 24 of motion_series.h */
+  MOST_SQUARED = 1500 /* states: two matrices of 18 MB */
 };
 
 static const double of_coarse = 1e-6;   /* [column] where the matrix is good to 1e-6: 4e-11 of a multiplier seen */
@@ -36,6 +37,11 @@ hc_status series_columns_make(series_columns *s, const modal_base *base, workspa
   s->left = workspace_doubles(w, BLOCK);
   s->law = workspace_array(w, contacts, sizeof *s->law);
   s->turning = workspace_array(w, planar, sizeof *s->turning);
+  s->n_states = 2 * s->n + s->n_contacts;
+  if (s->n_states <= MOST_SQUARED) {
+    s->map = workspace_doubles(w, (size_t)s->n_states * (size_t)s->n_states);
+    s->squared = workspace_doubles(w, (size_t)s->n_states * (size_t)s->n_states);
+  }
   for (int i = 0; i < s->n_planar && !w->failed; ++i) planar_columns_make(&s->turning[i], BLOCK, w);
   if (w->failed) return HC_NO_MEMORY;
   series_columns_coarse(s, false);
@@ -302,8 +308,7 @@ static void put_rows(int rows, int width, const double *block, double *matrix, i
     memcpy(matrix + i * (size_t)ld, block + i * (size_t)width, (size_t)width * sizeof *block);
 }
 
-hc_status series_columns_advance(series_columns *s, const scaled_model *m, double span, int count, int ld,
-                                 double *matrix)
+static hc_status by_steps(series_columns *s, const scaled_model *m, double span, int count, int ld, double *matrix)
 {
   const size_t rows = (size_t)s->n * (size_t)ld;
   for (int q = 0; q < count; q += BLOCK) {
@@ -318,6 +323,47 @@ hc_status series_columns_advance(series_columns *s, const scaled_model *m, doubl
     put_rows(s->n, width, s->p, from + rows, ld);
   }
   return HC_OK;
+}
+
+/* How often a step that is short enough has to be doubled for a span. */
+static int doublings_of(const series_columns *s, double span)
+{
+  return span > s->reach ? (int)ceil(log2(span / s->reach)) : 0;
+}
+
+/* Is it less work to square the map of one step? In products by n^2 of a column: a step has LAST terms, each by n n or
+ * twice by n n_rows. */
+static bool squares_pay(const series_columns *s, double span, int count)
+{
+  const double n = s->n, states = s->n_states, step = LAST * (s->whole ? 1 : 2 * s->n_rows / n),
+               product = 2 * states / n;
+  return s->map &&
+         (states * step + (doublings_of(s, span) * states + count) * product) < span / s->reach * count * step;
+}
+
+/* The map of that span by the map of a step, squared again and again; of all states, sliders stay. */
+static hc_status by_squares(series_columns *s, const scaled_model *m, double span, int count, int ld, double *matrix)
+{
+  const size_t states = (size_t)s->n_states, moving = 2 * (size_t)s->n;
+  const int doublings = doublings_of(s, span);
+  memset(s->map, 0, states * states * sizeof *s->map);
+  for (size_t i = 0; i < states; ++i) s->map[i * (states + 1)] = 1;
+  const hc_status st = by_steps(s, m, ldexp(span, -doublings), s->n_states, s->n_states, s->map);
+  if (st != HC_OK) return st;
+  for (int i = 0; i < doublings; ++i) {
+    double *squared = s->squared;
+    dense_multiply(s->n_states, s->n_states, s->n_states, s->map, s->map, squared); /* by rows as by columns */
+    s->squared = s->map, s->map = squared;
+  }
+  dense_add_product(count, (int)moving, s->n_states, 1, matrix, ld, s->map, s->n_states, 0, s->squared, count);
+  put_rows((int)moving, count, s->squared, matrix, ld);
+  return isfinite(matrix[0]) ? HC_OK : HC_NOT_FINITE;
+}
+
+hc_status series_columns_advance(series_columns *s, const scaled_model *m, double span, int count, int ld,
+                                 double *matrix)
+{
+  return (squares_pay(s, span, count) ? by_squares : by_steps)(s, m, span, count, ld, matrix);
 }
 
 /* dphi of the slips that turn: from the sliders' rows into the first terms; when the step is over, with terms up to

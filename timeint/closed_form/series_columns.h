@@ -6,8 +6,9 @@
  *     (k + 1)(k + 2) z_{k+2} = -h^2 (by_K K z_k + contacts of z_k) - h (k + 1) by_C C z_{k+1}
  * for a block of columns together: products of matrices, not of a matrix and a vector, and contacts that resist no
  * motion are left out. So many terms are taken that what is left out of any column is below its rounding (of a coarse
- * matrix, below 1e-6 of it); a step is as long as LAST terms allow, about 2
- * over the highest frequency. Nothing is allocated after series_columns_make. */
+ * matrix, below 1e-6 of it); a step is as long as LAST terms allow, about 2 over the highest frequency. Where contacts
+ * stay as they are for many steps, the map of one is squared until it is that of all. Nothing is allocated after
+ * series_columns_make. */
 #pragma once
 
 #include "timeint/closed_form/motion_series.h"
@@ -33,6 +34,8 @@ typedef struct series_columns {
   double *size, *left;          /* [block] of columns, squared */
   planar_columns *turning;      /* [n_planar] */
   const motion_series *along;   /* where slips turn: the motion; else NULL */
+  int n_states;                 /* 2 n + contacts */
+  double *map, *squared;        /* [n_states][n_states] by rows, of a step or of many; NULL: too large */
   double rounding;              /* [column] what may be left out: DBL_EPSILON/4, or of a coarse matrix more */
   double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
 } series_columns;
