@@ -8,9 +8,8 @@
 #include "numerics/dense.h"
 
 enum {
-  BLOCK = 64,         /* columns: six arrays of them and of 100 modes stay in the second cache */
-  LAST = 24,          /* the highest power of h; the 24 of motion_series.h */
-  MOST_SQUARED = 1500 /* states: two matrices of 18 MB */
+  BLOCK = 64, /* columns: six arrays of them and of 100 modes stay in the second cache */
+  LAST = 24   /* the highest power of h; the 24 of motion_series.h */
 };
 
 static const double of_coarse = 1e-6;   /* [column] where the matrix is good to 1e-6: 4e-11 of a multiplier seen */
@@ -38,7 +37,7 @@ hc_status series_columns_make(series_columns *s, const modal_base *base, workspa
   s->law = workspace_array(w, contacts, sizeof *s->law);
   s->turning = workspace_array(w, planar, sizeof *s->turning);
   s->n_states = 2 * s->n + s->n_contacts;
-  if (s->n_states <= MOST_SQUARED) {
+  if (s->n_states <= SERIES_COLUMNS_SQUARED) {
     s->map = workspace_doubles(w, (size_t)s->n_states * (size_t)s->n_states);
     s->squared = workspace_doubles(w, (size_t)s->n_states * (size_t)s->n_states);
   }

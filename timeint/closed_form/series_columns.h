@@ -13,6 +13,8 @@
 
 #include "timeint/closed_form/motion_series.h"
 
+enum { SERIES_COLUMNS_SQUARED = 1500 }; /* states at most: two matrices of 18 MB */
+
 typedef struct series_columns {
   int n, n_contacts, n_planar;
   double *turned_K, *turned_C;  /* [n][n] by rows, where they are not diagonal; else NULL */

@@ -14,6 +14,7 @@
 #include "numerics/newton.h"
 #include "numerics/norm.h"
 #include "numerics/sundials_compat.h"
+#include "timeint/closed_form/series_columns.h"
 #include "timeint/steady/timeint_private.h"
 
 enum {
@@ -69,10 +70,12 @@ struct shoot { /* from shoot_new, to shoot_free */
   double phi_omega, phi_length; /* at which frequency, in which unit, */
   double phi_fastest;           /* with modes slowed to this, */
   int phi_k;                    /* and of how many periods; 0: none */
+  long phi_events;              /* contacts' changes of state in these */
   double *travel;               /* [n] of each slider, the farthest it was in a period from where that began */
   double *start, *first;        /* [n] where the solve began, and F^k of that */
   bool known, begun;            /* z, f are valid; start, first are valid */
   matrix_kind has;              /* of these periods, in phi */
+  long events;                  /* in these periods, where the law is exact */
   bool measures;                /* the next point is expected on the orbit of a large structure: measured, too */
   double *before;               /* [n] ti->y when the solve began */
   double *found_from;           /* [n] the same of the last orbit of a large structure, in closed form: s->best; */
@@ -159,7 +162,8 @@ static hc_status integrate_k_periods(shoot *s, matrix_kind matrix)
     ++ti->periods;
     note_travel(s);
   }
-  if (measured) note_measured(ti, 1, s->f, (int)(integrate_transitions(ti->in) - transitions), 1);
+  s->events = integrate_transitions(ti->in) - transitions;
+  if (measured) note_measured(ti, 1, s->f, (int)s->events, 1);
   return HC_OK;
 }
 
@@ -235,12 +239,14 @@ static hc_status find_slowed_matrix(const shoot *s, const double *z)
   scaled_make(&giver->scaled, ti->model, &giver->how, ti->omega, ti->length);
   for (int i = 0; i < s->n; ++i) of->phi_at[i] = y[i] = z[i] * unit_ratio(giver, ti, i);
   if (s->known && z == s->z && of != s) st = keep_at_rest(s, giver, y);
+  const long events = integrate_transitions(giver->in);
   for (int i = 0; i < s->k && st == HC_OK; ++i) {
     if (!hc_monitor_tick(s->monitor, -1)) return HC_INTERRUPTED;
     st = add_period(of, giver->in, &giver->scaled, false, i, y);
   }
   if (st != HC_OK) return st;
   of->phi_k = s->k;
+  of->phi_events = integrate_transitions(giver->in) - events;
   of->phi_omega = ti->omega;
   of->phi_length = ti->length;
   of->phi_fastest = giver->fastest;
@@ -266,7 +272,29 @@ static void take_slowed_matrix(shoot *s)
           giver->shoot->phi[i + j * s->n] * unit_ratio(giver, s->ti, j) / unit_ratio(giver, s->ti, i);
 }
 
-/* s->phi at the last point asked, to within same_matrix, if it is for a giver to find. */
+/* The giver's matrix is that of the periods from s->z on, whose contacts do not change, by s->ti itself: as little work
+ * then. */
+static hc_status give_own_matrix(shoot *s)
+{
+  const timeint *giver = matrix_giver(s->ti);
+  shoot *of = giver->shoot;
+  hc_status st = HC_OK;
+  memcpy(s->vector, s->z, (size_t)s->n * sizeof *s->z);
+  for (int i = 0; i < s->k && st == HC_OK; ++i) st = add_period(s, s->ti->in, &s->ti->scaled, false, i, s->vector);
+  for (int j = 0; j < s->n && st == HC_OK; ++j) {
+    of->phi_at[j] = s->z[j] * unit_ratio(giver, s->ti, j);
+    for (int i = 0; i < s->n; ++i)
+      of->phi[i + j * s->n] = s->phi[i + j * s->n] * unit_ratio(giver, s->ti, i) / unit_ratio(giver, s->ti, j);
+  }
+  of->phi_events = 0;
+  of->phi_omega = s->ti->omega;
+  of->phi_length = s->ti->length;
+  return st;
+}
+
+/* s->phi at the last point asked, to within same_matrix, if it is for a giver to find. Where nothing changes at the
+ * contacts, but did on the giver's periods, as slowed modes shake them or from a point where they still slip, its matrix
+ * is of another motion, however near. */
 static hc_status find_matrix(shoot *s)
 {
   const timeint *giver = matrix_giver(s->ti);
@@ -274,9 +302,12 @@ static hc_status find_matrix(shoot *s)
   hc_status st = HC_OK;
   if (!giver) return HC_OK;
   const shoot *of = giver->shoot;
+  const bool exact = s->ti->how.method == TRANSIENT_METHOD_CLOSED_FORM && s->n <= SERIES_COLUMNS_SQUARED;
   for (int i = 0; i < s->n && has_slowed_matrix(s) && !s->ti->no_multipliers; ++i)
     apart = fmax(apart, fabs(s->z[i] - of->phi_at[i] / unit_ratio(giver, s->ti, i) * of->phi_length / s->ti->length));
-  if (!has_slowed_matrix(s) || !(apart <= same_matrix * timeint_scaled_size(s->ti))) st = find_slowed_matrix(s, s->z);
+  if (exact && giver != s->ti && s->events == 0 && has_slowed_matrix(s) && of->phi_events > 0) st = give_own_matrix(s);
+  else if (!has_slowed_matrix(s) || !(apart <= same_matrix * timeint_scaled_size(s->ti)))
+    st = find_slowed_matrix(s, s->z);
   if (st == HC_OK) take_slowed_matrix(s);
   return st;
 }
