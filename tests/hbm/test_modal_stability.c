@@ -56,7 +56,7 @@ static void multipliers_are_those_by_intervals(CHECK_STATE)
   int large = 0;
   for (int k = 0; k < 20; ++k) {
     const int n = 10 + k * 50 / 19;
-    /* Of four, one whose contacts never change, and one whose circles all slip all the way round. */
+    /* In every fourth structure no contact changes its state; in another fourth planar contacts slip all period. */
     const bool slips = k % 4 == 2;
     const double omega = 3 + 2 * random_unit(&seed), size = k % 4 == 3 ? 1e-6 : 0.5;
     /* With modes up to a hundred times the lowest one, half of its contacts circles. */

@@ -2,6 +2,7 @@
 #include "timeint/steady/period_times.h"
 
 #include "numerics/base/thread_clock.h"
+#include "timeint/closed_form/series_columns.h"
 #include "timeint/steady/timeint_private.h"
 
 /* [1] What a monodromy matrix takes of a plain period, for each state. In closed form, of structures in
@@ -37,7 +38,7 @@ hc_status timeint_time_periods(timeint *ti, double omega, const double *state, c
   if (!whole || st != HC_OK) return st;
   const long changes = integrate_transitions(whole->in);
   st = time_period(whole, omega, state, out->chords ? 1 : 2, monitor, &out->closed_form);
-  const bool rests = integrate_transitions(whole->in) == changes && out->chords;
+  const bool rests = integrate_transitions(whole->in) == changes && out->chords && ti->n <= SERIES_COLUMNS_SQUARED;
   double plain = out->closed_form;
   if (out->chords && st == HC_OK) st = time_period(whole->slowed, omega, state, 1, monitor, &plain);
   out->matrix = (rests ? matrix_at_rest : matrix_by_closed_form) * ti->n * plain;
