@@ -437,8 +437,8 @@ static hc_status hold_modes(const modal_flow *f, int first, const contact_interv
   return HC_OK;
 }
 
-/* The roots of s^2 + c s + omega^2 + K, as eigenvalues in (w x, x'), w = omega but where a motion is free; *root[2 n] in
- * held->work. */
+/* The roots of s^2 + c s + omega^2 + K, as eigenvalues in (w x, x'), w = omega but where a motion is free; *root[2 n]
+ * in held->work. */
 static hc_status find_roots(const modal_flow *f, const held_modes *held, double complex **root)
 {
   const size_t n = (size_t)held->n;

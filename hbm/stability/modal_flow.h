@@ -60,8 +60,8 @@ void modal_flow_begin(modal_flow *f, double omega, int changes);
 hc_status modal_flow_check(modal_flow *f, const contact_interval *const *interval, int n_slipping,
                            const planar_slipping *slipping, double th);
 
-/* root[2 n] of perturbations, exp(s t), where all contacts stay in one state, none slipping with two tangents; what that
- * takes, and steps of modal_flow_begin's width for a period, in operations. HC_NO_MEMORY, HC_NOT_CONVERGED. */
+/* root[2 n] of perturbations, exp(s t), where all contacts stay in one state, none slipping with two tangents; what
+ * that takes, and steps of modal_flow_begin's width for a period, in operations. HC_NO_MEMORY, HC_NOT_CONVERGED. */
 hc_status modal_flow_roots(const modal_flow *f, const contact_interval *const *interval, double complex *root);
 double modal_flow_operations_of_roots(const modal_flow *f);
 double modal_flow_operations(const modal_flow *f);

@@ -36,8 +36,8 @@ int condensation_dim(const condensation *c);
 const double *condensation_tangent(const condensation *c, int j);
 const double *condensation_normal(const condensation *c, int j);
 
-/* [dim] eps |P|^T |K| |P|, columns added up [force/length]: by how much rounding leaves the mean forces on q unknown for
- * means of 1. */
+/* [dim] eps |P|^T |K| |P|, columns added up [force/length]: by how much rounding leaves the mean forces on q unknown
+ * for means of 1. */
 const double *condensation_rounding(const condensation *c);
 
 /* q[dim] of a motion x[n]. */

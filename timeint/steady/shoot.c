@@ -293,8 +293,8 @@ static hc_status give_own_matrix(shoot *s)
 }
 
 /* s->phi at the last point asked, to within same_matrix, if it is for a giver to find. Where nothing changes at the
- * contacts, but did on the giver's periods, as slowed modes shake them or from a point where they still slip, its matrix
- * is of another motion, however near. */
+ * contacts, but did on the giver's periods, as slowed modes shake them or from a point where they still slip, its
+ * matrix is of another motion, however near. */
 static hc_status find_matrix(shoot *s)
 {
   const timeint *giver = matrix_giver(s->ti);
