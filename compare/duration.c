@@ -15,7 +15,8 @@ enum {
   CHORD_MATRICES = 2,     /* of the orbit, and of the exact law's */
   MATRICES = 20,          /* Newton: 2 to 9 for the steady state, as many for each of the other orbits */
   REPORT_CURVES = 7,      /* two by steps of 0.35, one to look at */
-  TABLE_ORBITS = 24,      /* by the exact law: at the frequencies, and up the peak */
+  TABLE_ORBITS = 24,      /* by the exact law: at the frequencies, and up the peak; */
+  CHORD_ORBITS = 8,       /* of large structures the curve shows where it is (accuracy.c) */
   TABLE_MATRICES = 30,    /* by CVODES: orbits of ever smaller regularisations, beam16; without chord steps */
   VERIFY_ITERATIONS = 5,  /* at a point of the file */
   VERIFY_CHECKS = 20,     /* points held against time integration */
@@ -123,7 +124,8 @@ double duration_of_tables(const duration_units *u, const compare_settings *how)
     most = fmax(most, how->harmonics.v[i]);
     sum += (how->samples.n + 1) * duration_of_curve(u, (int)how->harmonics.v[i]);
   }
-  return duration_of_curve(u, (int)most) + sum + TABLE_ORBITS * check * solution(u) +
+  const int orbits = u->period.chords ? CHORD_ORBITS : TABLE_ORBITS;
+  return duration_of_curve(u, (int)most) + sum + orbits * check * solution(u) +
          (u->period.chords ? 0 : TABLE_MATRICES * u->period.cvodes_matrix);
 }
 

@@ -85,7 +85,8 @@ static const double same_omega = 1e-9; /* [omega] of an orbit that was found */
 
 typedef struct climber {
   timeint *ti;
-  bool extrapolates;
+  hbm_solver *hbm;            /* a large structure's, whose curve */
+  const hbm_curve *curve;     /* shows how the amplitude changes, and whose states are extrapolated; else NULL */
   int n_found;                /* orbits; the last of them are kept: */
   double omega[CLIMB_ORBITS]; /* at which frequencies, */
   double *state;              /* [CLIMB_ORBITS][n_states] on them; until the first is found, next to it */
@@ -98,7 +99,7 @@ static void start_at(const climber *c, double omega)
   const int kept = c->n_found < CLIMB_ORBITS ? c->n_found : CLIMB_ORBITS;
   const size_t n = (size_t)timeint_n_states(c->ti), last = kept ? (size_t)(c->n_found - 1) % CLIMB_ORBITS : 0;
   memcpy(c->here, c->state + last * n, n * sizeof *c->here);
-  if (!c->extrapolates || kept < 2) return;
+  if (!c->hbm || kept < 2) return;
   memset(c->here, 0, n * sizeof *c->here);
   for (int k = 0; k < kept; ++k) {
     double weight = 1;
@@ -118,7 +119,7 @@ static hc_status minus_amplitude(void *self, double omega, double *value)
   start_at(c, omega);
   const hc_status st = timeint_orbit(c->ti, omega, 1, c->here, NULL, &r);
   for (int k = 0; k < c->n_found && k < CLIMB_ORBITS; ++k) known |= fabs(c->omega[k] / omega - 1) <= same_omega;
-  if (st == HC_OK && !(known && c->extrapolates)) {
+  if (st == HC_OK && !(known && c->hbm)) {
     c->omega[c->n_found % CLIMB_ORBITS] = omega;
     memcpy(c->state + (size_t)(c->n_found++ % CLIMB_ORBITS) * n, c->here, n * sizeof *c->here);
   }
@@ -163,8 +164,32 @@ static bool top_of_cubic(climber *c, double omega, double d, const double f[3], 
   return cubic_bend > 0 && fall <= top_fall * fabs(low);
 }
 
-/* From omega on, where c->state is next to an orbit. False: *out is untouched. */
-static bool climb(const compare_setup *setup, climber *c, double omega, reference *out)
+/* Amplitude of the curve at omega, of several that is nearest to `near`; NaN where there is none. */
+static double amplitude_of_curve(const climber *c, double omega, double near)
+{
+  hbm_curve at = {0};
+  hbm_measures m;
+  double nearest = NAN;
+  hbm_curve_at(c->hbm, c->curve, omega, &at); /* what was found is there, whatever else was not */
+  for (int k = 0; k < at.n; ++k)
+    if (hbm_measure(c->hbm, at.X + (size_t)k * (size_t)at.n_coef, &m) == HC_OK &&
+        !(fabs(m.amplitude - near) >= fabs(nearest - near)))
+      nearest = m.amplitude;
+  hbm_curve_free(&at);
+  return nearest;
+}
+
+/* The same with two orbits more, f[1] being that at the curve's own peak of amplitude `high`: what the curve's
+ * amplitude is off changes evenly. */
+static bool top_by_curve(climber *c, double omega, double d, double high, double f[3], root_point *top)
+{
+  if (!c->hbm || minus_amplitude(c, omega + d, &f[2]) != HC_OK) return false;
+  f[0] = 2 * f[1] - f[2] + 2 * high - amplitude_of_curve(c, omega - d, high) - amplitude_of_curve(c, omega + d, high);
+  return f[1] <= f[0] && f[1] <= f[2] && top_of_cubic(c, omega, d, f, top);
+}
+
+/* From omega on, where c->state is next to an orbit, and where the curve has its peak. False: *out is untouched. */
+static bool climb(const compare_setup *setup, climber *c, double omega, double of_curve, reference *out)
 {
   const double low = fmin(setup->omega_from, setup->omega_to), high = fmax(setup->omega_from, setup->omega_to);
   model_scales scales;
@@ -173,8 +198,9 @@ static bool climb(const compare_setup *setup, climber *c, double omega, referenc
   double d = 0.02 * width, f[3] = {NAN, NAN, NAN};
   if (minus_amplitude(c, omega, &f[1]) != HC_OK) return false;
   root_point peak;
-  if (!enclose_peak(c, low, high, &omega, &d, f)) peak = (root_point){.x = omega, .f = f[1]};
-  else if (!top_of_cubic(c, omega, d, f, &peak)) /* flat: 1e-4 of the width are 5e-9 of the amplitude */
+  const bool known = top_by_curve(c, omega, d, of_curve, f, &peak);
+  if (!known && !enclose_peak(c, low, high, &omega, &d, f)) peak = (root_point){.x = omega, .f = f[1]};
+  else if (!known && !top_of_cubic(c, omega, d, f, &peak)) /* flat: 1e-4 of the width are 5e-9 of the amplitude */
     root_minimum(minus_amplitude, c, omega - d, f[0], omega, f[1], omega + d, f[2], 1e-4 * width, &peak);
   if (isnan(peak.f)) return false;
   out->peak_amplitude = -peak.f; /* the highest found, also where an orbit in between is missing */
@@ -191,11 +217,13 @@ static void find_peak(const compare_setup *setup, timeint *ti, double *states, h
   if (curve->n > 0 && hbm_curve_peak(hbm, curve, &peak) == HC_OK && peak.n > 0 &&
       hbm_measure(hbm, peak.X, &m) == HC_OK) {
     double omega = peak.points[0].omega;
+    const bool large = setup->model->n > COMPARE_LARGE;
     climber c = {.ti = ti,
-                 .extrapolates = setup->model->n > COMPARE_LARGE,
+                 .hbm = large ? hbm : NULL,
+                 .curve = curve,
                  .state = states,
                  .here = states + (size_t)CLIMB_ORBITS * (size_t)timeint_n_states(ti)};
-    if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK || !climb(setup, &c, omega, out))
+    if (comparison_orbit_start(hbm, peak.X, omega, states) != HC_OK || !climb(setup, &c, omega, m.amplitude, out))
       out->peak_amplitude = m.amplitude, out->peak_omega = omega;
   }
   hbm_curve_free(&peak);

@@ -342,10 +342,10 @@ hc_status hbm_narrowing_start(hbm_narrowing *p, const hbm_curve *c, int k)
 
 static double part_of(const hbm_narrowing *p, double sigma) { return (sigma - p->from) / (p->to - p->from); }
 
-void hbm_narrowing_guess(const hbm_narrowing *p, double sigma, double *X, double *omega)
+void hbm_narrowing_guess(const hbm_narrowing *p, double sigma, double *X, double *omega, double *dX)
 {
   const hbm_segment between = hbm_segment_between(&p->ends, 0);
-  hbm_segment_at(&between, part_of(p, sigma), X, omega, NULL, NULL);
+  hbm_segment_at(&between, part_of(p, sigma), X, omega, dX, NULL);
 }
 
 hc_status hbm_narrowing_point(hbm_solver *s, const hbm_narrowing *p, double sigma, hbm_candidate *x)
@@ -368,12 +368,15 @@ void hbm_narrowing_move(hbm_narrowing *p, bool first, double sigma, const hbm_ca
 
 /* The two segments that meet at the highest point, by a position: -1 is the point before, 0 the highest, 1 the point
  * after. */
+enum { SUMMIT_TRIES = 20 };
+
 typedef struct peak_search {
   hbm_solver *s;
   const hbm_curve *c;
   int top;          /* index of the highest point */
   hbm_candidate *x; /* the solution at the last position */
   hbm_narrowing near;
+  hbm_candidate between; /* a point of the interpolant */
 } peak_search;
 
 /* (max - min)/2 of the first response. */
@@ -383,21 +386,6 @@ static double amplitude_of(hbm_solver *s, const double *X)
   hbm_system_response(&s->sys, s->sys.n_harm, X, s->x);
   series_extrema(s->sys.n_harm, s->x, &max, &min);
   return motion_amplitude(max, min);
-}
-
-/* d amplitude/d arc length [length] of the solution X along the curve's tangent. At an extremum of the response over
- * time its place does not count, so that the amplitude is as smooth as the curve; the difference leaves 1e-10 of it. */
-static double amplitude_slope(hbm_solver *s, const hbm_curve *c, const hbm_point *point, const double *X,
-                              const double *dX, double *moved)
-{
-  const double size = norm_2(c->n_coef, X), way = norm_2(c->n_coef, dX);
-  const double step = way > 0 ? 1e-5 * size / way : 0;
-  double amplitude[2];
-  for (int k = 0; k < 2; ++k) {
-    for (int i = 0; i < c->n_coef; ++i) moved[i] = X[i] + (k ? step : -step) * dX[i];
-    amplitude[k] = amplitude_of(s, moved);
-  }
-  return (amplitude[1] - amplitude[0]) / (2 * step * hypot(way / size, point->d_omega / c->omega_scale));
 }
 
 static hc_status solve_at_position(const peak_search *p, double position)
@@ -414,33 +402,69 @@ static hc_status minus_amplitude_at(void *self, double position, double *minus_a
   return st;
 }
 
-static hc_status slope_at(void *self, double sigma, double *slope)
+/* d amplitude [length] by a step dX from X. At an extremum of the response over time its place does not count, so that
+ * the amplitude is as smooth as the curve; the difference leaves 1e-10 of it. */
+static double amplitude_slope(hbm_solver *s, int n, const double *X, const double *dX, double *moved)
 {
-  peak_search *p = self;
-  const hc_status st = hbm_narrowing_point(p->s, &p->near, sigma, p->x);
-  *slope = st == HC_OK ? amplitude_slope(p->s, p->c, &p->x->point, p->x->X, p->x->dX, p->x->guess) : NAN;
-  if (st == HC_OK) hbm_narrowing_move(&p->near, *slope > 0, sigma, p->x);
-  return st;
+  const double way = norm_2(n, dX), step = way > 0 ? 1e-5 * norm_2(n, X) / way : 0;
+  double amplitude[2];
+  for (int k = 0; k < 2; ++k) {
+    for (int i = 0; i < n; ++i) moved[i] = X[i] + (k ? step : -step) * dX[i];
+    amplitude[k] = amplitude_of(s, moved);
+  }
+  return step > 0 ? (amplitude[1] - amplitude[0]) / (2 * step) : 0;
 }
 
-/* Where the slope falls through 0, beside the highest point: a third of the solutions that the search for the highest
- * amplitude takes, which sees more of a curve of sampled forces, with its summits beside each other, where it costs
- * nothing. False: not asked, nowhere, or at a lower amplitude than the highest point. */
-static bool peak_by_slope(peak_search *p, double highest)
+/* Of the interpolant between the ends of what is left, by sigma. */
+static hc_status guessed_slope(void *self, double sigma, double *slope)
 {
-  const double tolerance = 1e-8;
-  if (!hbm_has_many_unknowns(p->s)) return false;
-  double slope[3], left;
-  for (int i = 0; i < 3; ++i) {
-    const int k = p->top - 1 + i;
-    slope[i] = amplitude_slope(p->s, p->c, &p->c->points[k], hbm_curve_X(p->c, k), hbm_curve_dX(p->c, k), p->x->guess);
+  peak_search *p = self;
+  hbm_candidate *x = &p->between;
+  hbm_narrowing_guess(&p->near, sigma, x->X, &x->point.omega, x->dX);
+  *slope = amplitude_slope(p->s, p->c->n_coef, x->X, x->dX, x->guess) / (p->near.to - p->near.from);
+  return HC_OK;
+}
+
+static double guessed_amplitude(peak_search *p, double sigma)
+{
+  hbm_narrowing_guess(&p->near, sigma, p->between.X, &p->between.point.omega, NULL);
+  return amplitude_of(p->s, p->between.X);
+}
+
+/* Where the amplitude no longer rises, beside the highest point: an end of what is left between solutions where the
+ * interpolant has its summit or, where these do not lead on, where the tangents at its ends meet: at a corner, as
+ * sampled forces have. The search for the highest amplitude takes several times as many; it sees more of a curve of
+ * sampled forces, with its summits beside each other, where it costs nothing. NULL: not asked, or not found. */
+static const hbm_point *peak_by_slope(peak_search *p, double highest, double **X, double **dX)
+{
+  const double least_gain = 1e-11; /* [amplitude] a part as short as it may get has a tenth of that */
+  double end[2], slope[2], before = INFINITY;
+  bool encloses = false;
+  for (int k = p->top - 1; k <= p->top && hbm_has_many_unknowns(p->s) && !encloses; ++k) {
+    if (hbm_narrowing_start(&p->near, p->c, k) != HC_OK) return NULL;
+    guessed_slope(p, 0, &slope[0]), guessed_slope(p, 1, &slope[1]);
+    encloses = slope[0] > 0 && slope[1] <= 0;
   }
-  const int from = slope[1] > 0 ? 1 : 0;
-  if (!(slope[from] > 0 && slope[from + 1] <= 0)) return false;
-  root_point found;
-  return hbm_narrowing_start(&p->near, p->c, p->top - 1 + from) == HC_OK &&
-         root_between(slope_at, p, 0, slope[from], 1, slope[from + 1], tolerance, &found) == HC_OK &&
-         slope_at(p, found.x, &left) == HC_OK && amplitude_of(p->s, p->x->X) >= highest;
+  for (int tries = 0; encloses && tries < SUMMIT_TRIES; ++tries) {
+    const double from = p->near.from, to = p->near.to;
+    root_point summit;
+    guessed_slope(p, from, &slope[0]), guessed_slope(p, to, &slope[1]);
+    if (root_between(guessed_slope, p, from, slope[0], to, slope[1], 1e-7 * (to - from), &summit) != HC_OK) return NULL;
+    end[0] = guessed_amplitude(p, from), end[1] = guessed_amplitude(p, to);
+    const int higher = end[1] > end[0];
+    const double gain = guessed_amplitude(p, summit.x) - end[higher];
+    if (gain <= least_gain * end[higher]) {
+      *X = hbm_curve_X(&p->near.ends, higher), *dX = hbm_curve_dX(&p->near.ends, higher);
+      return end[higher] >= highest ? &p->near.ends.points[higher] : NULL;
+    }
+    const double corner = from + (end[1] - end[0] - slope[1] * (to - from)) / (slope[0] - slope[1]);
+    const double sigma = gain > 0.1 * before && corner > from && corner < to ? corner : summit.x;
+    before = gain;
+    if (hbm_narrowing_point(p->s, &p->near, sigma, p->x) != HC_OK) return NULL;
+    const double rise = amplitude_slope(p->s, p->c->n_coef, p->x->X, p->x->dX, p->between.guess);
+    hbm_narrowing_move(&p->near, rise > 0, sigma, p->x);
+  }
+  return NULL;
 }
 
 /* amplitude[3]: of the highest point and its neighbours. */
@@ -451,16 +475,19 @@ static hc_status refine_peak(hbm_solver *s, const hbm_curve *c, int top, const d
   peak_search p = {.s = s, .c = c, .top = top, .x = x};
   root_point found;
   double value;
-  const bool by_slope = peak_by_slope(&p, amplitude[1]);
-  hbm_curve_free(&p.near.ends);
-  if (!by_slope) {
-    hc_status st =
-        root_minimum(minus_amplitude_at, &p, -1, -amplitude[0], 0, -amplitude[1], 1, -amplitude[2], tolerance, &found);
-    if (st == HC_BAD_INPUT) return st;
+  hc_status st = hbm_candidate_new(c->n_coef, &p.between);
+  if (st != HC_OK) return st;
+  double *X = x->X, *dX = x->dX;
+  const hbm_point *point = peak_by_slope(&p, amplitude[1], &X, &dX);
+  if (!point) {
+    st = root_minimum(minus_amplitude_at, &p, -1, -amplitude[0], 0, -amplitude[1], 1, -amplitude[2], tolerance, &found);
     /* any other failure is that of a solve between the points: found.x is then the highest one solved for before */
-    if (minus_amplitude_at(&p, found.x, &value) != HC_OK) return HC_NOT_CONVERGED;
+    if (st != HC_BAD_INPUT) st = minus_amplitude_at(&p, found.x, &value) == HC_OK ? HC_OK : HC_NOT_CONVERGED;
   }
-  return hbm_curve_append(peak, c->n_coef, x->X, x->dX, &x->point);
+  if (st == HC_OK) st = hbm_curve_append(peak, c->n_coef, X, dX, point ? point : &x->point);
+  hbm_curve_free(&p.near.ends);
+  free(p.between.X);
+  return st;
 }
 
 hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)

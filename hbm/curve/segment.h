@@ -67,8 +67,8 @@ typedef struct hbm_narrowing {
 /* All of segment k of c. HC_NO_MEMORY. */
 hc_status hbm_narrowing_start(hbm_narrowing *p, const hbm_curve *c, int k);
 
-/* The interpolant at sigma, which is the segment's. */
-void hbm_narrowing_guess(const hbm_narrowing *p, double sigma, double *X, double *omega);
+/* The interpolant at sigma, which is the segment's; dX, by the part of what is left, unless it is NULL. */
+void hbm_narrowing_guess(const hbm_narrowing *p, double sigma, double *X, double *omega, double *dX);
 
 /* The point of the curve there, as of hbm_segment_point, whose errors it has. */
 hc_status hbm_narrowing_point(hbm_solver *s, const hbm_narrowing *p, double sigma, hbm_candidate *x);

@@ -185,7 +185,7 @@ static hc_status pattern_may_differ_at(void *self, double sigma, bool *differs)
   detector *d = s->d;
   double omega;
   test_values there;
-  hbm_narrowing_guess(&d->near, sigma, d->x.guess, &omega);
+  hbm_narrowing_guess(&d->near, sigma, d->x.guess, &omega, NULL);
   hbm_truncate(d->s, d->c->n_coef, d->x.guess);
   hc_status st = evaluate_tests(d, omega, 0, d->x.guess, false, &there);
   *differs = st == HC_OK && !same_pattern(&there, s->before);
@@ -226,7 +226,7 @@ static hc_status locate_breaking(detector *d, int k, const test_values *a, const
 }
 
 /* A point at omega, from one of the guesses, into d->x. */
-static hc_status solve_at_omega(detector *d, const double *const guess[2], double omega)
+static hc_status solve_at_omega(detector *d, double *const guess[2], double omega)
 {
   hc_status st = HC_NOT_CONVERGED;
   for (int i = 0; i < 2 && st != HC_OK; ++i) {
@@ -241,15 +241,19 @@ static hc_status solve_at_omega(detector *d, const double *const guess[2], doubl
 static hc_status locate_edge(detector *d, int k, const test_values *before, const test_values *end)
 {
   const hbm_point *p = &d->c->points[k];
-  const double *const guess[2] = {hbm_curve_X(d->c, k), hbm_curve_X(d->c, k + 1)};
   double from = p[0].omega, to = p[1].omega;
-  hc_status st = HC_OK;
+  hc_status st = hbm_narrowing_start(&d->near, d->c, k);
+  if (st != HC_OK) return st;
+  double *const guess[2] = {hbm_curve_X(&d->near.ends, 0), hbm_curve_X(&d->near.ends, 1)};
   for (int i = 0; i < d->s->edges->bisections && st == HC_OK && fabs(to - from) > 0.5 * SAME_OMEGA * to; ++i) {
     const double middle = from + 0.5 * (to - from);
     test_values here = {0};
     st = solve_at_omega(d, guess, middle);
     if (st == HC_OK) st = evaluate_tests(d, middle, 0, d->x.X, false, &here);
-    if (st == HC_OK) *(same_pattern(&here, before) ? &from : &to) = middle;
+    if (st != HC_OK) break;
+    const bool is_beyond = !same_pattern(&here, before);
+    *(is_beyond ? &to : &from) = middle;
+    memcpy(guess[is_beyond], d->x.X, (size_t)d->c->n_coef * sizeof(double));
   }
   if (!(fabs(to - from) <= d->s->edges->located * to)) return st == HC_OK ? HC_NOT_CONVERGED : st;
   st = solve_at_omega(d, guess, from);

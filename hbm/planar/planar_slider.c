@@ -108,24 +108,19 @@ typedef struct slip_line {
   double sin_1;         /* sin(delta_1) */
 } slip_line;
 
-/* log(1 + x)/x, and the integrals over 0..1 of (1 - s)/(1 + s x)^2 and of s/(1 + s x)^2, for x > -1. Near 0 by their
- * series, whose tenth term is below 1e-16 there. */
-static void shares_of_radius(double x, double *mean, double *first, double *last)
+/* log(1 + x)/x, and the integral over 0..1 of (1 - s)/(1 + s x)^2, for x > -1; of 1/(1 + s x)^2 it is 1/(1 + x). Near 0
+ * by the series of the integral, of (-x)^k/(k + 2), whose tenth term is below 1e-18 there. */
+static void shares_of_radius(double x, double *mean, double *first)
 {
-  *mean = 1, *first = 0.5, *last = 0.5;
+  static const double term[] = {1. / 2, 1. / 3, 1. / 4, 1. / 5, 1. / 6, 1. / 7, 1. / 8, 1. / 9, 1. / 10, 1. / 11};
   if (fabs(x) > 0.02) {
     *mean = log1p(x) / x;
     *first = (1 - *mean) / x;
-    *last = (*mean - 1 / (1 + x)) / x;
     return;
   }
-  double power = 1;
-  for (int k = 1; k < 10 && fabs(power) > 1e-18; ++k) { /* less than rounding of each sum */
-    power *= -x;
-    *mean += power / (k + 1);
-    *first += power / (k + 2);
-    *last += power * (k + 1) / (k + 2);
-  }
+  *first = 0;
+  for (int k = sizeof term / sizeof *term - 1; k >= 0; --k) *first = term[k] - x * *first;
+  *mean = 1 - x * *first;
 }
 
 /* The first t >= 0 where |p + t d| = r + t dr, which is passed before t = 1; |p| <= r but for rounding. */
@@ -162,26 +157,28 @@ static planar_move go_along_line(const planar_sample *from, const planar_sample 
   slip_line l = {.t = slip_begins(p, d, from->r, to->r - from->r), .length = norm(d)};
   l.r_t = from->r + l.t * (to->r - from->r);
   for (int k = 0; k < 2; ++k) l.e0[k] = p[k] + l.t * d[k];
-  const double size = norm(l.e0);
-  for (int k = 0; k < 2; ++k) l.e0[k] /= size;
-  for (int k = 0; k < 2; ++k) l.n[k] = l.length > 0 ? d[k] / l.length : l.e0[k];
+  const double by_size = 1 / norm(l.e0), by_length = 1 / l.length, by_r = 1 / l.r_t;
+  for (int k = 0; k < 2; ++k) l.e0[k] *= by_size;
+  for (int k = 0; k < 2; ++k) l.n[k] = l.length > 0 ? d[k] * by_length : l.e0[k];
   const double *n = l.n, *e = l.e0, c = dot(n, e), s = n[0] * e[1] - n[1] * e[0];
   const double A = c < 0 ? s * s / (1 - c) : 1 + c, B = c > 0 ? s * s / (1 + c) : 1 - c;
-  double mean, first, last;
-  shares_of_radius((to->r - l.r_t) / l.r_t, &mean, &first, &last);
-  const double part = (1 - l.t) / l.r_t;
+  double mean, first;
+  const double change = (to->r - l.r_t) * by_r, part = (1 - l.t) * by_r;
+  shares_of_radius(change, &mean, &first);
   l.M = part * mean;
-  l.by_r0 = part * part * first;
-  l.by_r1 = part / l.r_t * (l.t * (first + last) + (1 - l.t) * last);
-  const double E = exp(-l.length * l.M), whole = A + B * E * E;
-  l.G = 2 * E / whole;
-  l.one_less_G = slope ? -expm1(-l.length * l.M) * (A - B * E) / whole : 0;
+  const double E = exp(-l.length * l.M), by_whole = 1 / (A + B * E * E);
+  l.G = 2 * E * by_whole;
   l.sin_1 = l.G * s;
-  const double cos_1 = (A - B * E * E) / whole;
+  const double cos_1 = (A - B * E * E) * by_whole;
   l.e1[0] = cos_1 * n[0] - l.sin_1 * n[1];
   l.e1[1] = cos_1 * n[1] + l.sin_1 * n[0];
   for (int k = 0; k < 2; ++k) w[k] = to->u[k] - to->r * l.e1[k];
-  if (slope) slope_of_line(to, &l, slope);
+  if (!slope) return PLANAR_SLIPPED;
+  const double last = 1 / (1 + change) - first;
+  l.by_r0 = part * part * first;
+  l.by_r1 = part * by_r * (l.t * (first + last) + (1 - l.t) * last);
+  l.one_less_G = -expm1(-l.length * l.M) * (A - B * E) * by_whole;
+  slope_of_line(to, &l, slope);
   return PLANAR_SLIPPED;
 }
 

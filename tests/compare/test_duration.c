@@ -25,7 +25,7 @@ static void times_are_multiplied_by_how_many(CHECK_STATE)
   CHECK_SECONDS(duration_of_steady_states(&chords, 3), 2.5 + 0.7 * 3 * 7.5);
   /* With 7 and 22 harmonics, exact and by two rates; compared with the curve of 22; 24 orbits, 0.3 of a solution. */
   const compare_settings lists = {.harmonics = {.n = 2, .v = {7, 22}}, .samples = {.n = 2, .v = {64, 128}}};
-  const double tables = 67.5 + 3 * (2.5 + 67.5) + 24 * 0.3 * 7.5;
+  const double tables = 67.5 + 3 * (2.5 + 67.5) + 8 * 0.3 * 7.5;
   CHECK_SECONDS(duration_of_tables(&chords, &lists), tables);
   CHECK_SECONDS(duration_of_report(&chords, 3, &lists), 2.5 + 3 * 7.5 + 7 * 2.5 + tables);
   CHECK_SECONDS(duration_of_tables(&newton, &lists), 67.5 + 3 * (2.5 + 67.5) + 24 * 0.3 * 32.5 + 30 * 4);

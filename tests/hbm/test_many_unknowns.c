@@ -1,5 +1,6 @@
 /* test_many_unknowns.c - harmonic balance of many contacts: a request to stop is heard at every evaluation, what is
- * foretold of it is foretold at a price that can be paid, and few Jacobians are factored. */
+ * foretold of it is foretold at a price that can be paid, few Jacobians are factored, and few solutions lead to a
+ * peak. */
 #include "tests/scene_runs.h"
 
 typedef struct visitor {
@@ -58,4 +59,45 @@ static void a_jacobian_serves_more_than_a_step(CHECK_STATE)
   case_clear(&sc);
 }
 
-CHECK_TESTS("hbm.many_unknowns", 120, a_request_to_stop_is_heard_in_a_step, a_jacobian_serves_more_than_a_step)
+/* No solution beside the peak is higher by more than it is looked for to, and `most` led there; of sampled forces, that
+ * is at a corner. */
+static void check_peak(const char *force, const char *samples, long most)
+{
+  const char *set[] = {"hbm.harmonics=3", force, samples};
+  scene sc = case_scene("structures/plates", 3, set);
+  hbm_solver *s;
+  hbm_curve c = {0}, peak = {0}, beside = {0};
+  hbm_measures top, m;
+  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  assert_int_equal(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &c), HC_OK);
+  const long before = hbm_solves(s);
+  assert_int_equal(hbm_curve_peak(s, &c, &peak), HC_OK);
+  print_message("%s, %s: %ld solutions\n", force, samples, hbm_solves(s) - before);
+  assert_true(hbm_solves(s) - before <= most);
+  assert_int_equal(hbm_measure(s, peak.X, &top), HC_OK);
+  const double omega = peak.points[0].omega;
+  for (double off = 1e-3; off > 1e-8; off *= 0.3)
+    for (int side = -1; side <= 1; side += 2)
+      assert_int_equal(hbm_curve_at(s, &c, omega * (1 + side * off), &beside), HC_OK);
+  assert_true(beside.n >= 20);
+  for (int k = 0; k < beside.n; ++k) {
+    assert_int_equal(hbm_measure(s, beside.X + (size_t)k * (size_t)beside.n_coef, &m), HC_OK);
+    CHECK_LE(m.amplitude / top.amplitude - 1, 1e-11, "%s, %s, omega off by %g", force, samples,
+             beside.points[k].omega / omega - 1);
+  }
+  hbm_curve_free(&beside);
+  hbm_curve_free(&peak);
+  hbm_curve_free(&c);
+  hbm_solver_free(s);
+  case_clear(&sc);
+}
+
+static void few_solutions_lead_to_a_peak(CHECK_STATE)
+{
+  check_peak("hbm.force=exact", "hbm.samples=128", 4);
+  check_peak("hbm.force=sampled", "hbm.samples=128", 16);
+  check_peak("hbm.force=sampled", "hbm.samples=32", 8);
+}
+
+CHECK_TESTS("hbm.many_unknowns", 120, a_request_to_stop_is_heard_in_a_step, a_jacobian_serves_more_than_a_step,
+            few_solutions_lead_to_a_peak)

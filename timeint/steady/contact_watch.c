@@ -157,7 +157,10 @@ static hc_status watch_step(void *self, const integrator *in, double theta0, dou
 {
   contact_watch *w = self;
   const double oscillates = (theta1 - theta0) * w->stiffest;
-  const int panels = 1 + (int)fmin(oscillates, 1000), points = oscillates <= short_step ? GAUSS_FEW : GAUSS_POINTS;
+  double integrals[3];
+  const bool any_length = integrate_fourier(in, 0, integrals); /* else a step is a polynomial */
+  const int panels = 1 + (any_length ? (int)fmin(oscillates, 1000) : 0),
+            points = oscillates <= short_step ? GAUSS_FEW : GAUSS_POINTS;
   const double half = 0.5 * (theta1 - theta0) / panels;
   w->in = in;
   hc_status st = go_to(w, theta0, theta0, 0);

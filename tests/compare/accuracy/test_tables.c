@@ -126,6 +126,46 @@ static void a_smooth_peak_lies_between_orbits_of_one_height(CHECK_STATE)
   case_clear(&sc);
 }
 
+/* Of a large structure three orbits show the peak, and the curve with ten harmonics. An orbit there has the amplitude
+ * that was found, and those beside it are of one height. */
+static void the_peak_of_a_large_structure_is_that_of_its_orbits(CHECK_STATE)
+{
+  const char *set[] = {"compare.harmonics=[1]", "compare.samples=[32]"};
+  scene sc = case_scene("structures/plates", 2, set);
+  const comparison none = {0};
+  const double d = 0.05;
+  accuracy a;
+  compare_setup setup;
+  hbm_solver *s;
+  hbm_point point = {0};
+  timeint *ti;
+  assert_int_equal(scene_accuracy_run(&sc, &none, NULL, &a), HC_OK);
+  assert_true(a.peak_by_orbit);
+  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  assert_int_equal(comparison_referee(&setup, NULL, &ti), HC_OK);
+  assert_int_equal(hbm_solver_new(setup.model, &setup.hbm, &s), HC_OK);
+  double *X = calloc((size_t)hbm_n_coefficients(s), sizeof *X), amplitude[3];
+  double *start = calloc((size_t)timeint_n_states(ti), sizeof *start);
+  assert_true(X && start);
+  assert_int_equal(hbm_solve(s, a.peak_omega, X, &point), HC_OK);
+  assert_int_equal(comparison_orbit_start(s, X, a.peak_omega, start), HC_OK);
+  for (int i = 0; i < 3; ++i) {
+    timeint_result r;
+    assert_int_equal(timeint_orbit(ti, a.peak_omega + (i - 1) * d, 1, start, NULL, &r), HC_OK);
+    amplitude[i] = r.amplitude;
+  }
+  const double off = 0.5 * (amplitude[2] - amplitude[0]) / (amplitude[2] - 2 * amplitude[1] + amplitude[0]);
+  CHECK_NEAR(a.peak_amplitude, amplitude[1], 1e-9 * amplitude[1], "amplitude");
+  CHECK_NEAR(off, 0, 0.01, "distance of the peak, of 0.02 half-widths");
+  free(start);
+  free(X);
+  hbm_solver_free(s);
+  timeint_free(ti);
+  scene_setup_clear(&setup);
+  accuracy_clear(&a);
+  case_clear(&sc);
+}
+
 static hc_status run_with_jobs(const scene *sc, const comparison *c, int jobs, const hc_monitor *monitor, accuracy *a)
 {
   compare_setup setup;
@@ -270,4 +310,5 @@ static void an_interrupt_stops_all_threads(CHECK_STATE)
 
 CHECK_TESTS("compare.budget_tables", 240, rows_are_the_grid, the_table_agrees_with_the_rows,
             the_peak_is_the_limit_of_many_harmonics, a_smooth_peak_lies_between_orbits_of_one_height,
-            an_interrupt_keeps_whole_rows, threads_change_nothing, an_interrupt_stops_all_threads)
+            the_peak_of_a_large_structure_is_that_of_its_orbits, an_interrupt_keeps_whole_rows, threads_change_nothing,
+            an_interrupt_stops_all_threads)
