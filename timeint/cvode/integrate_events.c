@@ -346,25 +346,41 @@ static void turn(const void *self, int j, contact_track *t)
 static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
                         void *self);
 
-/* Central differences of the period map, of a step of 1e-4 of a motion of the order of 1: of the order of 1e-8 off, as
- * the step's square and a period's rounding over it both are. */
+/* The step of differences where laws bend over the motion `a` of their contacts: (h/a)^2 is what it leaves out, 1e-12/h
+ * the rounding of a period over it. */
+static double difference_step(const scaled_model *m, const double *y)
+{
+  double a = 1;
+  for (int j = 0; j < m->n_contacts; ++j) {
+    const scaled_contact *c = &m->contact[j];
+    const contact_motion at = scaled_motion_at(m, j, y);
+    const double moves = hypot(at.v, at.dv) / norm_max(m->n, m->base->normal + (size_t)j * (size_t)m->n);
+    if (c->kind->smooth) a = fmin(a, c->kind->bend ? c->kind->bend(&c->law) : moves);
+  }
+  return fmax(1e-4 * pow(a, 2. / 3), 1e-8);
+}
+
+/* Central differences of the period map: of the order of 1e-8 off where laws bend over a motion of the order of 1. A
+ * coarse matrix is of the differences from y itself. */
 static hc_status differ(events *in, const double *y, double *monodromy)
 {
   const scaled_model *m = in->base.m;
   const size_t n = (size_t)m->n_states;
-  double h = 1e-4;
-  for (int j = 0; j < m->n_contacts; ++j)
-    if (m->contact[j].kind->bend) h = fmin(h, fmax(1e-2 * m->contact[j].kind->bend(&m->contact[j].law), 1e-6));
+  const double h = difference_step(m, y);
   const long transitions = in->base.base.transitions;
+  const bool coarse = in->base.base.coarse;
   double *ends = calloc(2 * n, sizeof *ends);
   hc_status st = ends ? HC_OK : HC_NO_MEMORY;
+  memset(monodromy, 0, n * n * sizeof *monodromy);
   for (size_t j = 0; j < n; ++j) {
-    for (size_t s = 0; s < 2 && st == HC_OK; ++s) {
+    if (j >= 2 * (size_t)m->n && !m->contact[j - 2 * (size_t)m->n].law.has_friction) continue; /* no slider */
+    for (size_t s = 0; s < (coarse && j > 0 ? 1 : 2) && st == HC_OK; ++s) {
       memcpy(ends + s * n, y, n * sizeof *y);
-      ends[s * n + j] += s ? -h : h;
+      if (s == 0 || !coarse) ends[s * n + j] += s ? -h : h;
       st = period(&in->base.base, m, ends + s * n, NULL, NULL, NULL);
     }
-    for (size_t i = 0; i < n && st == HC_OK; ++i) monodromy[j * n + i] = (ends[i] - ends[n + i]) / (2 * h);
+    const double apart = coarse ? h : 2 * h;
+    for (size_t i = 0; i < n && st == HC_OK; ++i) monodromy[j * n + i] = (ends[i] - ends[n + i]) / apart;
   }
   in->base.base.transitions = transitions;
   free(ends);
@@ -378,8 +394,6 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   int count = 0;
   if (m->n != in->n || m->n_contacts != in->n_contacts) return HC_BUG;
   in->base.m = m;
-  in->is_smooth = false;
-  for (int j = 0; j < m->n_contacts; ++j) in->is_smooth |= m->contact[j].kind->smooth;
   if (in->is_smooth && monodromy) {
     hc_status st = differ(in, y, monodromy);
     if (st != HC_OK) return st;
@@ -483,7 +497,8 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   if (!in) return HC_NO_MEMORY;
   const bool bdf = base->decay > stiff * base->lowest;
   in->base.base.does = &class;
-  in->base.base.has_coarse = base->n_planar > 0;
+  in->is_smooth = base->is_smooth;
+  in->base.base.has_coarse = base->n_planar > 0 || base->is_smooth;
   in->base.base.scatter = bdf ? INTEGRATE_BDF_SCATTER : INTEGRATE_ADAMS_SCATTER;
   in->n = base->n;
   in->n_contacts = base->n_contacts;

@@ -188,6 +188,7 @@ hc_status modal_base_new(const model *m, modal_base **out)
   hc_status st = b && room ? HC_OK : HC_NO_MEMORY;
   if (st == HC_OK) {
     b->n = m->n, b->n_contacts = m->n_contacts, b->n_loads = m->n_loads, b->n_responses = m->n_responses;
+    b->is_smooth = model_is_smooth(m);
     for (int j = 0; j < m->n_contacts; ++j)
       b->n_planar += m->contacts[j].circle && m->contacts[j].pair == CONTACT_FIRST;
     st = make_memory(b);

@@ -15,6 +15,7 @@
 typedef struct modal_base { /* from modal_base_new, to modal_base_free; only read in between */
   int n, n_contacts, n_loads, n_responses;
   int n_planar;                /* contacts with two tangents under the law of the circle */
+  bool is_smooth;              /* a contact's law is */
   double s;                    /* [mass^-1/2] */
   double *shape, *inverse;     /* [n][n] by columns: x = shape q, q = inverse x */
   bool diagonal_K, diagonal_C; /* then only K[i], C[i] are there */
