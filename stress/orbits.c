@@ -373,6 +373,7 @@ stress_check stress_check_multiplier(solved_scene *s)
   if (far > close_enough && beyond_harmonics(s)) return stress_explain(STRESS_UNRESOLVED, error, better);
   if (beside_its_limit(s, bound)) return stress_explain(STRESS_FAMILY, error, better);
   stress_condition(s);
+  if (s->solution_errs > STRESS_SAYS_SOMETHING) return stress_skip(STRESS_ILL_CONDITIONED);
   if (error <= s->multiplier_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->multiplier_errs);
   const double by_motion = s->multiplier_rate * far; /* of what fewer harmonics than there are leave of the motion */
   if (error <= by_motion) return stress_explain(STRESS_TRUNCATED, error, by_motion);

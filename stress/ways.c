@@ -121,6 +121,7 @@ static stress_check same_multiplier(solved_scene *s, const stress_motion *other,
   const double apart = stress_multipliers_apart(other, &s->base);
   if (apart <= same_multipliers) return stress_agree(error, close_enough);
   stress_condition(s);
+  if (s->solution_errs > STRESS_SAYS_SOMETHING) return stress_skip(STRESS_ILL_CONDITIONED);
   return apart <= s->multiplier_errs ? stress_explain(STRESS_ILL_CONDITIONED, apart, s->multiplier_errs)
                                      : stress_find(STRESS_DISAGREES, apart, fmax(same_multipliers, s->multiplier_errs));
 }

@@ -429,16 +429,17 @@ static void an_oscillator_is_made_small(CHECK_STATE)
 
 /* ---- findings of seeds that nobody had used ------------------------------------------------------------------ */
 
-/* Agreed now, or explained by that reason. What was wrong, in order: the force of contact 38 by 5.2e-6, as a slider
- * was put where the first instant of contact found it; units of two oscillators, as Newton's tolerance allows; an
- * orbit counted as far from its start, where that had the slider of a contact without friction elsewhere; multipliers
- * by HBM until 64 and 224 harmonics; whether two copies of a scene that floats at the edge of its contact have a
- * solution, by rounding; a multiplier by 0.27, of differences over a step longer than the motion of a contact that
- * stiffens by the fifth power. In the checks: tables that are steepest in the middle leave negative springs where
- * nothing touches, which grow rounding 1e300-fold; a slider that settles by less than a hundredth a period was taken
- * for one at rest; of a family the orbit from more harmonics is farther; a later start leads to another orbit, 3 %
- * away; a structure that floats has a double multiplier of 1; orbits were found on both sides of a regularisation,
- * none beside it. */
+/* Agreed now, or explained or skipped by that reason. What was wrong, in order: the force of contact 38 by 5.2e-6,
+ * as a slider was put where the first instant of contact found it; units of two oscillators, as Newton's tolerance
+ * allows; an orbit counted as far from its start, where that had the slider of a contact without friction elsewhere;
+ * multipliers by HBM until 64 and 224 harmonics; whether two copies of a scene that floats at the edge of its
+ * contact have a solution, by rounding; a multiplier by 0.27, of differences over a step longer than the motion of a
+ * contact that stiffens by the fifth power. In the checks: tables that are steepest in the middle leave negative
+ * springs where nothing touches, which grow rounding 1e300-fold; a slider that settles by less than a hundredth a
+ * period was taken for one at rest; of a family the orbit from more harmonics is farther; a later start leads to
+ * another orbit, 3 % away; a structure that floats has a double multiplier of 1; orbits were found on both sides of
+ * a regularisation, none beside it; a multiplier of a structure that floats at the edge of its contact was held to
+ * 2e-6 where rounding moves the solution by more than 1e-3. */
 static void findings_of_other_seeds_are_none(CHECK_STATE)
 {
   static const struct {
@@ -461,12 +462,14 @@ static void findings_of_other_seeds_are_none(CHECK_STATE)
               {STRESS_SPACE, 7271353, 179, STRESS_ORBIT_REWRITTEN, STRESS_OTHER_ORBIT},
               {STRESS_STRUCTURES, 7271361, 176, STRESS_PROOF, STRESS_ILL_CONDITIONED},
               {STRESS_STRUCTURES, 7281401, 107, STRESS_MULTIPLIER, STRESS_NO_REASON},
+              {STRESS_STRUCTURES, 7281502, 49, STRESS_MULTIPLIER, STRESS_ILL_CONDITIONED},
+              {STRESS_STRUCTURES, 7281502, 49, STRESS_PERMUTED, STRESS_ILL_CONDITIONED},
               {STRESS_OSCILLATORS, 7271313, 908, STRESS_ORBIT_LAWS, STRESS_SMOOTHED}};
   gsl_set_error_handler_off(); /* as the command does: eigenvalues that do not converge are a status */
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
     const stress_result r = drawn_stressed(rows[i].family, rows[i].seed, rows[i].index, 5);
     const stress_check *c = &r.check[rows[i].kind];
-    if (c->outcome != STRESS_AGREED && (c->outcome != STRESS_EXPLAINED || c->reason != rows[i].reason))
+    if (c->outcome != STRESS_AGREED && (c->outcome == STRESS_FINDING || c->reason != rows[i].reason))
       fail_msg("%lu, %ld: %s %s, %g of %g", rows[i].seed, rows[i].index, stress_outcome_name(c->outcome),
                stress_reason_name(c->reason), c->error, c->bound);
   }
