@@ -179,8 +179,8 @@ static double amplitude_of_curve(const climber *c, double omega, double near)
   return nearest;
 }
 
-/* The same with two orbits more, f[1] being that at the curve's own peak of amplitude `high`: what the curve's
- * amplitude is off changes evenly. */
+/* top_of_cubic with f[0] foretold in place of an orbit, f[1] being the orbit at the curve's own peak, of amplitude
+ * `high`: what the curve's amplitude is off changes evenly with omega. */
 static bool top_by_curve(climber *c, double omega, double d, double high, double f[3], root_point *top)
 {
   if (!c->hbm || minus_amplitude(c, omega + d, &f[2]) != HC_OK) return false;
@@ -188,7 +188,8 @@ static bool top_by_curve(climber *c, double omega, double d, double high, double
   return f[1] <= f[0] && f[1] <= f[2] && top_of_cubic(c, omega, d, f, top);
 }
 
-/* From omega on, where c->state is next to an orbit, and where the curve has its peak. False: *out is untouched. */
+/* From omega on, where c->state is next to an orbit and the curve has its peak, of amplitude of_curve. False: *out is
+ * untouched. */
 static bool climb(const compare_setup *setup, climber *c, double omega, double of_curve, reference *out)
 {
   const double low = fmin(setup->omega_from, setup->omega_to), high = fmax(setup->omega_from, setup->omega_to);

@@ -368,8 +368,6 @@ void hbm_narrowing_move(hbm_narrowing *p, bool first, double sigma, const hbm_ca
 
 /* The two segments that meet at the highest point, by a position: -1 is the point before, 0 the highest, 1 the point
  * after. */
-enum { SUMMIT_TRIES = 20 };
-
 typedef struct peak_search {
   hbm_solver *s;
   const hbm_curve *c;
@@ -415,7 +413,7 @@ static double amplitude_slope(hbm_solver *s, int n, const double *X, const doubl
   return step > 0 ? (amplitude[1] - amplitude[0]) / (2 * step) : 0;
 }
 
-/* Of the interpolant between the ends of what is left, by sigma. */
+/* The interpolant's slope between the ends of what is left, by sigma. */
 static hc_status guessed_slope(void *self, double sigma, double *slope)
 {
   peak_search *p = self;
@@ -430,6 +428,8 @@ static double guessed_amplitude(peak_search *p, double sigma)
   hbm_narrowing_guess(&p->near, sigma, p->between.X, &p->between.point.omega, NULL);
   return amplitude_of(p->s, p->between.X);
 }
+
+enum { SUMMIT_TRIES = 20 }; /* twice what a corner took, of the plates with 128 samples */
 
 /* Where the amplitude no longer rises, beside the highest point: an end of what is left between solutions where the
  * interpolant has its summit or, where these do not lead on, where the tangents at its ends meet: at a corner, as

@@ -126,7 +126,7 @@ static void a_smooth_peak_lies_between_orbits_of_one_height(CHECK_STATE)
   case_clear(&sc);
 }
 
-/* Of a large structure three orbits show the peak, and the curve with ten harmonics. An orbit there has the amplitude
+/* Three orbits and the curve with ten harmonics show the peak of a large structure. An orbit there has the amplitude
  * that was found, and those beside it are of one height. */
 static void the_peak_of_a_large_structure_is_that_of_its_orbits(CHECK_STATE)
 {
