@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "numerics/base/workspace.h"
+#include "numerics/eigensystem.h"
 #include "numerics/norm.h"
 
 static const double short_span = 20;        /* [rad of the fastest mode] some ten steps of a series */
@@ -38,22 +38,17 @@ static void make_set(workspace *w, const modal_base *b, complex_modes *s)
   s->states = workspace_array(w, contacts, 1);
   s->weight = workspace_doubles(w, most);
   s->largest = workspace_doubles(w, most);
-  const struct {
-    double complex **array;
-    size_t count;
-  } parts[] = {{&s->lambda, 1},
-               {&s->V, n},
-               {&s->by_x, n},
-               {&s->by_v, n},
-               {&s->u, contacts},
-               {&s->v, contacts},
-               {&s->along, contacts},
-               {&s->across, contacts},
-               {&s->response, (size_t)b->n_responses},
-               {&s->load, (size_t)b->n_loads},
-               {&s->load_back, (size_t)b->n_loads}};
-  for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
-    *parts[i].array = workspace_array(w, most * parts[i].count, sizeof(double complex));
+  s->lambda = complex_array(w, most);
+  s->V = complex_array(w, most * n);
+  s->by_x = complex_array(w, most * n);
+  s->by_v = complex_array(w, most * n);
+  s->u = complex_array(w, most * contacts);
+  s->v = complex_array(w, most * contacts);
+  s->along = complex_array(w, most * contacts);
+  s->across = complex_array(w, most * contacts);
+  s->response = complex_array(w, most * (size_t)b->n_responses);
+  s->load = complex_array(w, most * (size_t)b->n_loads);
+  s->load_back = complex_array(w, most * (size_t)b->n_loads);
 }
 
 static hc_status make(interval_modes *p)

@@ -8,8 +8,15 @@
  * is then motion_series.h's. */
 #pragma once
 
-#include "numerics/eigensystem.h"
+#include <complex.h>
+
+#include "numerics/base/workspace.h"
 #include "timeint/law/contact_track.h"
+
+static inline double complex *complex_array(workspace *w, size_t n)
+{
+  return workspace_array(w, n, sizeof(double complex));
+}
 
 typedef struct complex_modes {
   int count;                      /* <= 2 n; 0: these contacts' states have no modes */

@@ -13,8 +13,7 @@ static exponential_sum *make_sums(workspace *w, size_t count, size_t terms)
 {
   exponential_sum *sums = workspace_array(w, count, sizeof *sums);
   for (size_t i = 0; i < count && !w->failed; ++i)
-    sums[i] =
-        (exponential_sum){.by = workspace_array(w, terms, sizeof(double complex)), .size = workspace_doubles(w, terms)};
+    sums[i] = (exponential_sum){.by = complex_array(w, terms), .size = workspace_doubles(w, terms)};
   return sums;
 }
 
@@ -23,19 +22,14 @@ hc_status motion_modes_make(motion_modes *mm, const modal_base *base, workspace 
   const size_t n = (size_t)base->n, loads = (size_t)base->n_loads, contacts = (size_t)base->n_contacts,
                terms = loads + 2 * n, guards = TRACK_GUARDS * contacts + 1;
   *mm = (motion_modes){.base = base};
-  const struct {
-    double complex **array;
-    size_t count;
-  } parts[] = {{&mm->rate, terms},
-               {&mm->e.now, terms},
-               {&mm->c, 2 * n},
-               {&mm->fixed, 2 * n},
-               {&mm->eta, 2 * n},
-               {&mm->deta, 2 * n},
-               {&mm->forward, 2 * n * loads},
-               {&mm->back, 2 * n * loads}};
-  for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
-    *parts[i].array = workspace_array(w, parts[i].count, sizeof(double complex));
+  mm->rate = complex_array(w, terms);
+  mm->e.now = complex_array(w, terms);
+  mm->c = complex_array(w, 2 * n);
+  mm->fixed = complex_array(w, 2 * n);
+  mm->eta = complex_array(w, 2 * n);
+  mm->deta = complex_array(w, 2 * n);
+  mm->forward = complex_array(w, 2 * n * loads);
+  mm->back = complex_array(w, 2 * n * loads);
   mm->e.rate = mm->rate;
   mm->e.size = workspace_doubles(w, terms);
   mm->u = make_sums(w, contacts, terms);

@@ -7,7 +7,6 @@
  * mode's frequency, nearly dependent eigenvectors) is measured: where that is much, there is no motion here. */
 #pragma once
 
-#include "numerics/base/workspace.h"
 #include "numerics/exponentials.h"
 #include "timeint/closed_form/interval_modes.h"
 
