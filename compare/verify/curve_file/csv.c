@@ -129,29 +129,18 @@ static const char *const cycle_names[] = {"frequency",        "freq", "f", "hz",
                                           "forcingfrequency", NULL};
 static const char *const value_names[] = {"value", "y", "response", NULL};
 static const struct {
-  const char *name, *quantity;
+  const char *quantity, *names[7];
 } quantity_names[] = {
-    {"amplitude", "amplitude"},
-    {"amp", "amplitude"},
-    {"a", "amplitude"},
-    {"x", "amplitude"},
-    {"xamplitude", "amplitude"},
-    {"xamp", "amplitude"},
-    {"db", "dB"},
-    {"x1", "harmonic_1"},
-    {"firstharmonic", "harmonic_1"},
-    {"fundamental", "harmonic_1"},
-    {"xmax", "max"},
-    {"xmin", "min"},
-    {"xrms", "rms"},
-    {"2norm", "norm"},
-    {"l2norm", "norm"},
-    {"vel", "velocity"},
-    {"v", "velocity"},
-    {"acc", "acceleration"},
-    {"peaktopeak", "double_amplitude"},
-    {"p2p", "double_amplitude"},
-    {"pp", "double_amplitude"},
+    {"amplitude", {"amplitude", "amp", "a", "x", "xamplitude", "xamp"}},
+    {"double_amplitude", {"peaktopeak", "p2p", "pp"}},
+    {"harmonic_1", {"x1", "firstharmonic", "fundamental"}},
+    {"dB", {"db"}},
+    {"max", {"xmax"}},
+    {"min", {"xmin"}},
+    {"rms", {"xrms"}},
+    {"norm", {"2norm", "l2norm"}},
+    {"velocity", {"vel", "v"}},
+    {"acceleration", {"acc"}},
 };
 
 static bool among(const char *const *words, const char *name)
@@ -168,7 +157,7 @@ static bool quantity_of(const char *name, verify_quantity *out)
   const size_t digits = strspn(name, "harmonic"), length = strlen(name);
   int k;
   for (size_t i = 0; i < sizeof quantity_names / sizeof *quantity_names; ++i)
-    if (!strcmp(quantity_names[i].name, name))
+    if (among(quantity_names[i].names, name))
       return verify_quantity_read(quantity_names[i].quantity, strlen(quantity_names[i].quantity), out);
   if ((digits == 1 || !strncmp(name, "harmonic", 8)) && name[0] == 'h' && digits < length &&
       number_read_integer(name + digits, length - digits, &k) == NUMBER_FINE) {
