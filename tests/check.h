@@ -5,6 +5,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -39,6 +40,13 @@
 #define CHECK_MADE(type, name, call)                                                                                   \
   type *name;                                                                                                          \
   assert_int_equal(call, HC_OK)
+
+/* The tick of a monitor whose self is an int: asks for a stop when it has counted that down to 0. */
+static inline bool check_stop(void *left, double done)
+{
+  (void)done;
+  return --*(int *)left > 0;
+}
 
 /* A hang is a failure: every test main calls this first, with the seconds after which nobody would wait any longer on a
  * slow machine with nothing else to do. A busy one may take ten times as long: the watchdog ends hangs, it measures

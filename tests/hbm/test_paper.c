@@ -11,17 +11,11 @@ typedef struct outcome {
   double last, peak; /* omega of the last point; largest harmonic_1 of the points: H = 1 without mean, the amplitude */
 } outcome;
 
-static bool tick(void *self, double done)
-{
-  (void)done;
-  return ++*(int *)self < 20000;
-}
-
 static outcome trace(const scene *sc, double from, double to)
 {
   hbm_curve c = {0};
-  int ticks = 0;
-  hc_monitor monitor = {tick, &ticks};
+  int left = 20000;
+  hc_monitor monitor = {check_stop, &left};
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(sc, &s));
   outcome o = {.status = hbm_trace(s, from, to, &monitor, &c)};
   assert_int_not_equal(o.status, HC_INTERRUPTED);

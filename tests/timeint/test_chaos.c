@@ -113,12 +113,6 @@ static void leaving_an_orbit_is_not_chaos(CHECK_STATE)
   timeint_free(ti);
 }
 
-static bool stop_at(void *left, double done)
-{
-  (void)done;
-  return --*(int *)left > 0;
-}
-
 /* In the chaos at 5.13, stopped at any period of the first batch (40) or of the round after it (640): that is said, and
  * not chaos. */
 static void an_interruption_is_no_chaos(CHECK_STATE)
@@ -130,7 +124,7 @@ static void an_interruption_is_no_chaos(CHECK_STATE)
   assert_int_equal(timeint_sweep(ti, 4, 5.13, y.all, NULL), HC_OK);
   for (size_t i = 0; i < sizeof at / sizeof *at; ++i) {
     int left = at[i];
-    const hc_monitor stop = {.tick = stop_at, .self = &left};
+    const hc_monitor stop = {.tick = check_stop, .self = &left};
     bool chaos;
     double rate;
     assert_int_equal(timeint_begin(ti, 5.13, y.all), HC_OK);

@@ -445,8 +445,6 @@ static void friction_takes_what_the_loads_give(CHECK_STATE)
     }
 }
 
-static bool stop_at_three(void *self, double done) { return (void)done, ++*(int *)self < 3; }
-
 /* With mu N/kt = 8e-7 against a motion of some 0.05 the direction of slip follows in steps of some 1e-5 of the period.
  * The monitor is asked at the start of a period, then once in 4096 steps, and no longer period comes to its end. */
 static void a_long_period_hears_the_monitor(CHECK_STATE)
@@ -455,8 +453,8 @@ static void a_long_period_hears_the_monitor(CHECK_STATE)
   for (int cvode = 0; cvode < 2; ++cvode) {
     model *m = driven("plane", 3);
     transient_settings how = closed_form;
-    int ticks = 0;
-    const hc_monitor stop = {.tick = stop_at_three, .self = &ticks};
+    int left = 3;
+    const hc_monitor stop = {.tick = check_stop, .self = &left};
     double y[6] = {0.1, 0.1};
     timeint *ti;
     for (int a = 0; a < 2; ++a) m->contacts[a].law.load = 0.5e-4;

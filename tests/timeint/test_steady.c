@@ -165,21 +165,19 @@ static void sub_harmonics(CHECK_STATE)
   CHECK_LE(5, r.amplitude, "the last period is measured");
 }
 
-static bool stop_at_ten(void *self, double done) { return (void)done, ++*(int *)self <= 10; }
-
 static void stopped_and_refused(CHECK_STATE)
 {
   scene sc = scene_c2();
-  int ticks = 0;
+  int left = 11;
   sc.transient.steady = TRANSIENT_STEADY_MARCH;
-  hc_monitor stop = {.tick = stop_at_ten, .self = &ticks};
+  hc_monitor stop = {.tick = check_stop, .self = &left};
   CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state y = {.x = 0}, bad = {.x = NAN};
   timeint_result r;
   assert_int_equal(timeint_steady(ti, 7, y.all, &stop, &r), HC_INTERRUPTED);
   assert_int_equal(r.periods, 10);
   CHECK_LE(1, y.x != 0, "the state is kept");
-  ticks = 0;
+  left = 11;
   assert_int_equal(timeint_sweep(ti, 7, 8, y.all, &stop), HC_INTERRUPTED);
   assert_int_equal(timeint_steady(ti, 7, bad.all, NULL, &r), HC_BAD_INPUT);
   assert_int_equal(timeint_steady(ti, 0, y.all, NULL, &r), HC_BAD_INPUT);

@@ -234,12 +234,6 @@ static void errors_are_what_was_put_in(CHECK_STATE)
   verify_data_clear(&d);
 }
 
-static bool stop(void *self, double done)
-{
-  (void)done;
-  return --*(int *)self > 0;
-}
-
 /* Stopped at any moment: the rows that are there are the first of a run to the end, as that judges them before its
  * search for causes, and some stop comes among them. */
 static void stopping_keeps_rows(CHECK_STATE)
@@ -253,7 +247,7 @@ static void stopping_keeps_rows(CHECK_STATE)
   assert_int_equal(whole.n_rows, d.n);
   for (int ticks = 1, end = 0; !end && ticks < 400; ticks += 1 + ticks / 8) {
     int left = ticks;
-    const hc_monitor monitor = {stop, &left};
+    const hc_monitor monitor = {check_stop, &left};
     verify_report r;
     end = scene_verify_run(&sc, &d, &monitor, &r) == HC_OK;
     assert_true(end || r.status == HC_INTERRUPTED);
