@@ -1,23 +1,11 @@
 /* scene_runs.h - the runs of compare/ on a scene, for tests that have one in hand: set up, run, cleared. */
 #pragma once
 
-#include "casefile/case_file.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/gate/gate.h"
 #include "compare/verify/verify.h"
 #include "study/scene_solvers.h"
-#include "tests/check.h"
-
-/* The case of that name below cases/, with assignments; case_clear in the end. */
-static inline scene case_scene(const char *name, int n_set, const char *const *set)
-{
-  char path[256];
-  scene sc;
-  case_error err;
-  snprintf(path, sizeof path, SOURCE_DIR "/cases/%s.yaml", name);
-  if (case_read(path, n_set, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
-  return sc;
-}
+#include "tests/case_scene.h"
 
 #define SCENE_RUN(call)                                                                                                \
   compare_setup setup;                                                                                                 \

@@ -1,22 +1,17 @@
 /* scenes.h - a scene of cases/adversarial with fields changed, and all its HBM solutions at a frequency. */
 #pragma once
 
-#include "tests/check.h"
-
-#include "casefile/case_file.h"
 #include "study/scene_solvers.h"
+#include "tests/case_scene.h"
 
 /* set: "PATH=VALUE", ended by NULL. */
 static inline scene load(const char *name, const char *const *set)
 {
-  char path[256];
-  scene sc;
-  case_error err;
+  char below[128];
   int n = 0;
   while (set && set[n]) ++n;
-  snprintf(path, sizeof path, SOURCE_DIR "/cases/adversarial/%s.yaml", name);
-  if (case_read(path, n, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
-  return sc;
+  snprintf(below, sizeof below, "adversarial/%s", name);
+  return case_scene(below, n, set);
 }
 
 #define LOAD(name, ...) load(name, (const char *const[]){__VA_ARGS__, NULL})

@@ -1,6 +1,7 @@
 /* test_echo.c - what is echoed reads back to the same bytes; the paper's scenes are what they say. */
 
 #include "casefile/fields.h"
+#include "tests/case_scene.h"
 #include "tests/cases/case_text.h"
 
 static void check_round_trip(const scene *sc)
@@ -183,26 +184,22 @@ static void reference_scenes_are_what_they_say(CHECK_STATE)
     const char *name;
     double mass, stiffness, force, kt, kn, gap;
   } all[] = {
-      {"case_a", 1, 40, 10, 100, 200, 0.5},
-      {"case1", 1, 40, 10, 100, 200, 0.5},
-      {"case_b", 1, 40, 10, 100, 200, -0.5},
-      {"case2", 1, 40, 100, 100, 1000, -5},
-      {"fig17_kn_1e4", 1, 40, 100, 100, 1e4, -5},
-      {"fig17_kn_200", 1, 40, 100, 100, 200, -5},
-      {"fig18_kt_1e4", 1, 40, 100, 1e4, 1000, -5},
-      {"fig09_gap_p1", 1, 40, 100, 100, 1000, 1},
-      {"fig09_gap_m5", 1, 40, 100, 100, 1000, -5},
-      {"fig07_f0_1", 1, 40, 1, 100, 200, 0.5},
-      {"fig08_f0_1", 1, 40, 1, 100, 200, -0.5},
-      {"table10_case1", 1.6, 8e5, 100, 5e5, 7e5, 0.3},
-      {"table10_case2", 1.6, 8e5, 100, 5e5, 7e5, -0.2},
+      {"paper/case_a", 1, 40, 10, 100, 200, 0.5},
+      {"paper/case1", 1, 40, 10, 100, 200, 0.5},
+      {"paper/case_b", 1, 40, 10, 100, 200, -0.5},
+      {"paper/case2", 1, 40, 100, 100, 1000, -5},
+      {"paper/fig17_kn_1e4", 1, 40, 100, 100, 1e4, -5},
+      {"paper/fig17_kn_200", 1, 40, 100, 100, 200, -5},
+      {"paper/fig18_kt_1e4", 1, 40, 100, 1e4, 1000, -5},
+      {"paper/fig09_gap_p1", 1, 40, 100, 100, 1000, 1},
+      {"paper/fig09_gap_m5", 1, 40, 100, 100, 1000, -5},
+      {"paper/fig07_f0_1", 1, 40, 1, 100, 200, 0.5},
+      {"paper/fig08_f0_1", 1, 40, 1, 100, 200, -0.5},
+      {"paper/table10_case1", 1.6, 8e5, 100, 5e5, 7e5, 0.3},
+      {"paper/table10_case2", 1.6, 8e5, 100, 5e5, 7e5, -0.2},
   };
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-    char path[1024];
-    scene sc;
-    case_error err;
-    snprintf(path, sizeof path, "%s/cases/paper/%s.yaml", SOURCE_DIR, all[i].name);
-    assert_int_equal(case_read(path, 0, NULL, &sc, &err), HC_OK);
+    const scene sc = case_scene(all[i].name, 0, NULL);
     const contact *c = &sc.contacts[0].law;
     bool same = sc.mass == all[i].mass && sc.stiffness == all[i].stiffness && sc.force == all[i].force &&
                 c->kt == all[i].kt && c->kn == all[i].kn && c->gap == all[i].gap;

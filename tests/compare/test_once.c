@@ -1,17 +1,14 @@
 /* test_once.c - nothing is solved twice: case 2's comparison, counted. More: something is, or a step was too long. */
-#include "casefile/case_file.h"
 #include "compare/comparison.h"
-#include "tests/check.h"
+#include "tests/case_scene.h"
 
 enum { ROWS = 10, AT_ANOTHER = 2, LINEAR = 3 }; /* of the rows: from unstable solutions; where nothing touches */
 
 static comparison compared(int n_set, const char *const *set, bool spare)
 {
-  scene sc;
-  case_error err;
+  const scene sc = case_scene("paper/case2", n_set, set);
   compare_setup setup;
   comparison c;
-  assert_int_equal(case_read(SOURCE_DIR "/cases/paper/case2.yaml", n_set, set, &sc, &err), HC_OK);
   assert_int_equal(scene_setup(&sc, &setup), HC_OK);
   setup.spare = spare;
   assert_int_equal(comparison_run(&setup, NULL, &c), HC_OK);

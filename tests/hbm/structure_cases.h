@@ -1,9 +1,8 @@
 /* structure_cases.h - the models of cases/structures, their settings, and solutions of them at one frequency. */
 #pragma once
 
-#include "casefile/case_file.h"
 #include "hbm/hbm.h"
-#include "tests/check.h"
+#include "tests/case_scene.h"
 
 static const char *const STRUCTURE_CASES[] = {"jenkins2", "chain3",     "tangent_normal_F50", "tangent_normal_F100",
                                               "beam16",   "wedge_F0.5", "wedge_F2",           "wedge_F10",
@@ -20,12 +19,10 @@ typedef struct structure_case {
  * 1e-13 unless they say otherwise. */
 static inline structure_case structure_case_with(const char *name, int harmonics, int n_set, const char *const *set)
 {
-  char path[256];
-  scene sc;
-  case_error err;
+  char below[128];
   structure_case c;
-  snprintf(path, sizeof path, SOURCE_DIR "/cases/structures/%s.yaml", name);
-  if (case_read(path, n_set, set, &sc, &err) != HC_OK) fail_msg("%s", err.message);
+  snprintf(below, sizeof below, "structures/%s", name);
+  scene sc = case_scene(below, n_set, set);
   assert_int_equal(scene_model(&sc, &c.model), HC_OK);
   c.how = sc.hbm;
   c.how.harmonics = harmonics;
