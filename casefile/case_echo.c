@@ -1,5 +1,4 @@
 /* case_echo.c - the resolved scene as a case file, one field a line, through the table of fields. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,5 @@
 /* contact_model.c - the contacts of the model that a contact of the case is; see scene.h. */
 #include <math.h>
-#include <string.h>
 
 #include "casefile/fields.h"
 

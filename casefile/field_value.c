@@ -1,7 +1,6 @@
 /* field_value.c - a field's value: from what was written to what is stored; back: case_echo.c. The table: fields.c. */
 #include "casefile/fields.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,4 @@
 /* yaml_lists.c - the loads, contacts and responses of a structure, see case_reader.h. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,5 @@
 /* comparison.c - see comparison.h. Here: frequencies, branches and rows; what the numbers of a row mean: solution.c. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,8 +2,6 @@
  * sample, and the intervals of samples in which nothing but the motion changes. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "hbm/hbm_settings.h"
 #include "model/contact_law.h"
 

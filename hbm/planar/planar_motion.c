@@ -3,7 +3,6 @@
 
 #include <float.h>
 
-#include "numerics/base/constants.h"
 #include "numerics/rotate.h"
 #include "numerics/wide_vectors.h"
 

@@ -9,8 +9,6 @@
  * printed. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "hbm/contact/contact_report.h"
 #include "hbm/hbm_settings.h"
 #include "model/contact_period.h"

@@ -1,6 +1,5 @@
 /* cmd_modes.c - hbmcheck modes: natural frequencies and damping, contacts apart and stuck, and the preloads. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "interfaces/command/commands.h"

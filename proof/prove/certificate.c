@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "casefile/structure.h"
-#include "numerics/base/constants.h"
 #include "numerics/base/message.h"
 #include "numerics/base/number.h"
 #include "numerics/norm.h"

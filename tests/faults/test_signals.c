@@ -3,7 +3,6 @@
  * that of a run that was over before; the catchable ones leave no other file behind; a study that was killed again
  * and again goes on to the same export. */
 #include <dirent.h>
-#include <sys/wait.h>
 
 #include "numerics/random.h"
 #include "tests/faults/child.h"

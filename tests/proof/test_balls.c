@@ -3,7 +3,6 @@
 #include "proof/around/complete.h"
 #include "tests/check.h"
 #include <float.h>
-#include <math.h>
 
 enum { BITS = 128, ROUNDS = 200 };
 

@@ -6,7 +6,6 @@
  *     4. period after period to the end (settle.h), which is also what transient.steady_state: march asks for */
 #include "timeint/steady/steady.h"
 
-#include <stddef.h>
 #include <string.h>
 
 #include "numerics/norm.h"

@@ -1,7 +1,6 @@
 /* report.h - what verify finds: each point's verdict, the hypotheses, the causes. */
 #pragma once
 
-#include "compare/compare_settings.h"
 #include "compare/comparison.h"
 #include "compare/verify/curve_file/csv.h"
 #include "compare/verify/equations/causes.h"

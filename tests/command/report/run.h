@@ -1,8 +1,6 @@
 /* run.h - a page written by the built command. */
 #pragma once
 
-#include <stdbool.h>
-
 #include "tests/folder.h"
 #include "tests/program.h"
 

@@ -1,6 +1,5 @@
 /* test_changes.c - the models with one mistake in them, by what the mistake makes of chain3: M = 1, C = 0.02 K, K =
  * [2 -1 0; -1 2 -1; 0 -1 2] with the eigenvalues 2 - sqrt(2), 2, 2 + sqrt(2); two sliders and a stop. */
-#include <math.h>
 
 #include "compare/verify/equations/changes.h"
 #include "tests/check.h"
