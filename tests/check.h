@@ -36,10 +36,13 @@
 /* |a - b| <= tol, NaN fails. */
 #define CHECK_NEAR(a, b, tol, ...) CHECK_LE(fabs((a) - (b)), (tol), __VA_ARGS__)
 
-/* TYPE *NAME; made by the call, which is given &NAME, or the test fails. */
-#define CHECK_MADE(type, name, call)                                                                                   \
-  type *name;                                                                                                          \
-  assert_int_equal(call, HC_OK)
+/* TYPE NAME; filled in by the call, which is given &NAME and answers 0 (HC_OK, HBMCHECK_OK), or the test fails. */
+#define CHECK_FILLED(type, name, call)                                                                                 \
+  type name;                                                                                                           \
+  assert_int_equal(call, 0)
+
+/* Likewise TYPE *NAME; which the call makes. */
+#define CHECK_MADE(type, name, call) CHECK_FILLED(type *, name, call)
 
 /* The tick of a monitor whose self is an int: asks for a stop when it has counted that down to 0. */
 static inline bool check_stop(void *left, double done)

@@ -71,10 +71,9 @@ static inline double scene_sine(const scaled_model *m, const scaled_contact *c)
 static inline void scene_measured_period(const scene *sc, const scaled_model *m, double length, integrator *in,
                                          double *y, timeint_result *r)
 {
-  measure me;
   workspace memory = {0};
   CHECK_MADE(model, from, scene_model(sc, &from));
-  assert_int_equal(measure_make(&me, m->n_states, 1, m->n_contacts, &memory), HC_OK);
+  CHECK_FILLED(measure, me, measure_make(&me, m->n_states, 1, m->n_contacts, &memory));
   measure_begin(&me, m);
   measure_period(&me, y);
   assert_int_equal(integrate_period(in, m, y, measure_step, &me), HC_OK);

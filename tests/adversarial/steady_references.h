@@ -8,9 +8,8 @@
 /* The motion the solution X has at t = 0. */
 static inline scene_state orbit_start(hbm_solver *s, int n_harm, const double *X, double omega)
 {
-  hbm_measures m;
   scene_state state = {.x = X[0]};
-  assert_int_equal(hbm_measure(s, X, &m), HC_OK);
+  CHECK_FILLED(hbm_measures, m, hbm_measure(s, X, &m));
   for (int h = 1; h <= n_harm; ++h) {
     state.x += X[2 * h - 1];
     state.v += h * omega * X[2 * h];

@@ -30,8 +30,7 @@ static int nearest(hbm_solver *s, const hbm_curve *at, const steady_reference *r
   int found = -1;
   *distance = INFINITY;
   for (int k = 0; k < at->n; ++k) {
-    hbm_measures m;
-    assert_int_equal(hbm_measure(s, at->X + (size_t)k * at->n_coef, &m), HC_OK);
+    CHECK_FILLED(hbm_measures, m, hbm_measure(s, at->X + (size_t)k * at->n_coef, &m));
     double d = larger(fabs(m.amplitude - r->amplitude), fabs(m.harmonic_1 - r->harmonic_1)) / r->amplitude;
     if (d < *distance) *distance = d, found = k;
   }
@@ -43,13 +42,12 @@ static void judge_row(hbm_solver *s, timeint *ti, const hbm_curve *curve, const 
 {
   hbm_curve at = {0};
   double distance;
-  timeint_result tr;
   assert_int_equal(hbm_curve_at(s, curve, r->omega, &at), HC_OK);
   int k = nearest(s, &at, r, &distance);
   CHECK_LE(distance, 1e-2, "%s %s at %g: no solution is the row's", r->name, r->sweep, r->omega);
   const double *X = at.X + (size_t)k * at.n_coef;
   scene_state start = orbit_start(s, n_harm, X, r->omega);
-  assert_int_equal(timeint_orbit(ti, r->omega, 1, start.all, NULL, &tr), HC_OK);
+  CHECK_FILLED(timeint_result, tr, timeint_orbit(ti, r->omega, 1, start.all, NULL, &tr));
   double off = hypot(X[1] - tr.a1, X[2] - tr.b1) / tr.amplitude,
          ruler = fabs(tr.amplitude - r->amplitude) / r->amplitude;
   assert_true(isfinite(off) && isfinite(ruler));

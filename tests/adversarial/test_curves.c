@@ -17,11 +17,10 @@ static void resonance_has_its_closed_form(CHECK_STATE)
     double complex x = sc.force / (sc.stiffness - sc.mass * w * w + I * sc.damping * w);
     hbm_curve at = solutions(&sc, w);
     scene_state y = {.x = 0};
-    timeint_result r;
     assert_int_equal(at.n, 1);
     CHECK_NEAR(at.X[1], creal(x), 1e-10 * cabs(x), "cos at %g", w);
     CHECK_NEAR(at.X[2], -cimag(x), 1e-10 * cabs(x), "sin at %g", w);
-    assert_int_equal(timeint_steady(ti, w, y.all, NULL, &r), HC_OK);
+    CHECK_FILLED(timeint_result, r, timeint_steady(ti, w, y.all, NULL, &r));
     CHECK_NEAR(r.a1, creal(x), 1e-10 * cabs(x), "transient's cos at %g", w);
     CHECK_NEAR(r.b1, -cimag(x), 1e-10 * cabs(x), "transient's sin at %g", w);
     hbm_curve_free(&at);
@@ -118,11 +117,10 @@ static void both_directions_reach_their_branch(CHECK_STATE)
   assert_int_equal(at.n, 3);
   static const double expected[] = {0.29934624719, 7.36591479229}; /* transient_exact.csv */
   for (int down = 0; down < 2; ++down) {
-    timeint_result r;
     CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
     scene_state y = {.x = 0};
     assert_int_equal(timeint_sweep(ti, down ? sc.omega_to : sc.omega_from, 16, y.all, NULL), HC_OK);
-    assert_int_equal(timeint_steady(ti, 16, y.all, NULL, &r), HC_OK);
+    CHECK_FILLED(timeint_result, r, timeint_steady(ti, 16, y.all, NULL, &r));
     CHECK_NEAR(r.amplitude, expected[down], 1e-8 * expected[down], "down %d", down);
     timeint_free(ti);
   }

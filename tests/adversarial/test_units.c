@@ -140,10 +140,9 @@ static double transients_apart(const reference_scene *r, int law, const units *u
   sc.transient.tolerance = 1e-12;
   scene other = in_units(sc, u);
   response from = response_of(&sc);
-  timeint *a, *b;
   double worst = 0, last = 0;
-  assert_int_equal(scene_timeint(&sc, &a), HC_OK);
-  assert_int_equal(scene_timeint(&other, &b), HC_OK);
+  CHECK_MADE(timeint, a, scene_timeint(&sc, &a));
+  CHECK_MADE(timeint, b, scene_timeint(&other, &b));
   for (int i = 0; i < n_rows; ++i) {
     if (strcmp(rows[i].name, r->name) || rows[i].n_harm != 10 || !rows[i].keep_mean || rows[i].omega == last) continue;
     last = rows[i].omega;

@@ -59,9 +59,8 @@ static void a_contact_may_be_appended_field_by_field(CHECK_STATE)
 {
   const char *set[] = {"contacts[0].tangential_stiffness=1", "contacts[0].normal_stiffness=2", "contacts[0].friction=0",
                        "contacts[0].angle_deg=0"};
-  scene sc;
   case_error err;
-  assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 4, set, &sc, &err), HC_OK);
+  CHECK_FILLED(scene, sc, case_parse("f", SMALLEST, strlen(SMALLEST), 4, set, &sc, &err));
   assert_true(sc.n_contacts == 1 && sc.contacts[0].law.kt == 1 && sc.contacts[0].law.kn == 2 &&
               sc.contacts[0].law.gap == 0);
   assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 3, set, &sc, &err), HC_BAD_INPUT);
@@ -74,10 +73,9 @@ static void later_ones_win_and_rivals_give_way(CHECK_STATE)
 {
   const char *set[] = {"sweep.frequency=1,2", "sweep.omega=4,5", "compare.points=9", "compare.omega=7",
                        "compare.points=11",   "hbm.samples=8",   "hbm.samples=64"};
-  scene sc;
   case_error err;
   const char *text = SMALLEST "compare: {omega: [1, 2]}\n";
-  assert_int_equal(case_parse("f", text, strlen(text), 1, set, &sc, &err), HC_OK);
+  CHECK_FILLED(scene, sc, case_parse("f", text, strlen(text), 1, set, &sc, &err));
   assert_true(sc.omega_from > 6.28 && sc.omega_from < 6.29 && sc.compare.omega.n == 2);
   assert_int_equal(case_parse("f", text, strlen(text), 3, set, &sc, &err), HC_OK);
   assert_true(sc.omega_from == 4 && sc.omega_to == 5 && sc.compare.omega.n == 0 && sc.compare.points == 9);
@@ -116,9 +114,8 @@ static void the_one_given_last_is_blamed(CHECK_STATE)
           "--set hbm.samples=10: 10 samples cannot tell 5 harmonics apart, expected hbm.samples >= 11", "");
   const char *set[] = {"hbm.samples=9", "hbm.harmonics=4", "hbm.harmonics=5"},
              *sampled = SMALLEST "hbm: {force: sampled}\n";
-  scene sc;
   case_error err;
-  assert_int_equal(case_parse("f", sampled, strlen(sampled), 2, set, &sc, &err), HC_OK);
+  CHECK_FILLED(scene, sc, case_parse("f", sampled, strlen(sampled), 2, set, &sc, &err));
   assert_int_equal(case_parse("f", sampled, strlen(sampled), 3, set, &sc, &err), HC_BAD_INPUT);
   assert_int_equal(strncmp(err.message, "--set hbm.harmonics=5: 9 samples", 32), 0);
 }
@@ -133,13 +130,12 @@ static void sixteen_contacts_and_no_more(CHECK_STATE)
 {
   char set[17][128];
   const char *list[17];
-  scene sc;
   case_error err;
   for (int i = 0; i < 17; ++i) {
     snprintf(set[i], sizeof set[i], "contacts[%d]=%s", i, CONTACT_1);
     list[i] = set[i];
   }
-  assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 16, list, &sc, &err), HC_OK);
+  CHECK_FILLED(scene, sc, case_parse("f", SMALLEST, strlen(SMALLEST), 16, list, &sc, &err));
   assert_int_equal(sc.n_contacts, 16);
   assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 17, list, &sc, &err), HC_BAD_INPUT);
   assert_non_null(strstr(err.message, "the case has 16 contacts, expected an index 0..15"));

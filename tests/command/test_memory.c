@@ -26,8 +26,7 @@ static double told(const struct run *r)
   char name[64];
   snprintf(name, sizeof name, "structures/%s", r->name);
   scene sc = case_scene(name, r->set[1] ? 2 : 1, r->set);
-  compare_setup setup;
-  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
   const double bytes =
       strcmp(r->command, "frf") ? memory_of_comparison(&setup) : memory_of_curve(setup.model, &setup.hbm);
   scene_setup_clear(&setup);

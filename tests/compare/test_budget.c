@@ -71,11 +71,10 @@ static tally run_all(const variant *v)
   for (int i = 0; i < v->scenes; ++i)
     for (int n_harm = 5; n_harm <= 10; n_harm += 5) {
       scene sc = scene_of(reference_scenes[i].name, n_harm);
-      comparison c;
       sc.hbm.force = v->force, sc.hbm.samples = v->samples, sc.transient.law = v->law;
       if (v->law == TRANSIENT_LAW_REGULARISED)
         sc.transient.steady = TRANSIENT_STEADY_SHOOTING, sc.transient.tolerance = 1e-8;
-      assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+      CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
       for (int k = 0; k < c.n_rows; ++k) count_row(reference_scenes[i].name, n_harm, &c.rows[k], &t);
       comparison_clear(&c);
     }
@@ -116,9 +115,8 @@ static void two_causes_may_cancel_but_seldom(CHECK_STATE)
 /* One cause made worse, the others far below it: wherever the contact does something it is the largest part. */
 static void expect_cause(const char *cause, const scene *sc, double visible_from)
 {
-  comparison c;
   int seen = 0;
-  assert_int_equal(scene_comparison_run(sc, NULL, &c), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(sc, NULL, &c));
   for (int k = 0; k < c.n_rows; ++k) {
     const error_budget *b = &c.rows[k].budget;
     double share;
@@ -165,14 +163,13 @@ static void each_setting_made_worse_is_the_cause(CHECK_STATE)
 static void integration_is_the_distance_to_fine_steps(CHECK_STATE)
 {
   scene sc = known_scene(20);
-  comparison loose, fine;
   int seen = 0, settled = 0;
   const double loosely = 1e-3;
   sc.transient.steady = TRANSIENT_STEADY_SHOOTING;
   sc.transient.tolerance = loosely;
-  assert_int_equal(scene_comparison_run(&sc, NULL, &loose), HC_OK);
+  CHECK_FILLED(comparison, loose, scene_comparison_run(&sc, NULL, &loose));
   sc.transient.tolerance = 1e-9;
-  assert_int_equal(scene_comparison_run(&sc, NULL, &fine), HC_OK);
+  CHECK_FILLED(comparison, fine, scene_comparison_run(&sc, NULL, &fine));
   assert_int_equal(loose.n_rows, fine.n_rows);
   for (int k = 0; k < loose.n_rows; ++k) {
     const comparison_row *row = &loose.rows[k];
@@ -195,12 +192,11 @@ static void integration_is_the_distance_to_fine_steps(CHECK_STATE)
 static void a_loose_tolerance_is_integration_or_settling(CHECK_STATE)
 {
   scene sc = known_scene(40);
-  comparison c;
   int seen = 0;
   sc.transient.tolerance = 1e-3;
   sc.transient.start = TRANSIENT_START_REST;
   sc.transient.steady = TRANSIENT_STEADY_MARCH;
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
   for (int k = 0; k < c.n_rows; ++k) {
     const error_budget *b = &c.rows[k].budget;
     double share;

@@ -103,9 +103,8 @@ static void progress_goes_on_from_the_curve(CHECK_STATE)
 {
   static const char *const set[] = {"compare.omega=[10.5]", "transient.law=exact", "transient.method=closed_form"};
   scene sc = case_scene("structures/plane", 3, set);
-  comparison c;
   double last = 0;
-  assert_int_equal(scene_comparison_run(&sc, &(hc_monitor){never_falls_back, &last}, &c), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, &(hc_monitor){never_falls_back, &last}, &c));
   CHECK_NEAR(last, 1, 1e-12, "at the end");
   comparison_clear(&c);
   case_clear(&sc);

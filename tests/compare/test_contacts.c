@@ -79,13 +79,11 @@ static void to_touch_or_not_is_a_difference(CHECK_STATE)
 /* The largest error of work and of normal forces at one frequency, of solutions on whose orbit the transient is. */
 static void errors_of(const char *name, const char *at, const char *harmonics, double *work, double *normal)
 {
-  comparison c;
-  compare_setup setup;
   const char *const set[] = {harmonics, at, "transient.law=exact", "response=[1]"};
   scene sc = case_scene(name, strstr(name, "structures") ? 4 : 3, set);
-  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
   setup.contacts = true;
-  assert_int_equal(comparison_run(&setup, NULL, &c), HC_OK);
+  CHECK_FILLED(comparison, c, comparison_run(&setup, NULL, &c));
   assert_true(c.n_rows >= 1 && c.n_contacts == c.n_rows * setup.model->n_contacts);
   *work = *normal = 0;
   for (int i = 0; i < c.n_contacts; ++i)

@@ -41,9 +41,8 @@ static void times_are_multiplied_by_how_many(CHECK_STATE)
 static duration_units units_of(const char *name)
 {
   scene sc = case_scene(name, 0, NULL);
-  compare_setup setup;
   duration_units u;
-  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
   duration_measure(&setup, &u);
   scene_setup_clear(&setup);
   case_clear(&sc);
@@ -72,9 +71,8 @@ static void only_what_can_last_is_measured(CHECK_STATE)
 static void predictions_take_no_matrix_by_cvode(CHECK_STATE)
 {
   scene sc = case_scene("structures/beam_pairs", 0, NULL);
-  comparison c;
   sc.compare.omega = (number_list){1, {112.38146907313845}};
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
   assert_int_equal(c.n_rows, 2);
   CHECK_LE((double)c.cost.periods, 12, "periods by CVODE");
   CHECK_NEAR(c.rows[1].transient_predicted.amplitude / 1.43795e-4, 1, 0.5, "what was predicted by Newton");
@@ -88,9 +86,8 @@ static void predictions_take_no_matrix_by_cvode(CHECK_STATE)
 static void what_rests_has_the_multipliers_of_hbm(CHECK_STATE)
 {
   scene sc = case_scene("structures/blade_damper", 0, NULL);
-  comparison c;
   sc.compare.omega = (number_list){1, {300 * TWO_PI}};
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
   assert_int_equal(c.n_rows, 1);
   CHECK_NEAR(c.rows[0].orbit.multiplier, c.rows[0].stability.multiplier, 1e-8, "of the orbit");
   CHECK_LE(c.rows[0].transient_predicted.amplitude, 1e-4, "what the regularisation is expected to do");

@@ -110,9 +110,8 @@ static void a_guess_is_where_newton_begins(CHECK_STATE)
   const double omega = hard_omega();
   oracle o = {.answer = HC_NOT_SETTLED};
   double X[64];
-  hbm_point point;
   hbm_solver *s = plain(&sc);
-  assert_int_equal(hbm_solve_first(s, omega, o.X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, o.X, &point));
   o.answer = HC_OK;
   hbm_solver_take_guess(s, &(hbm_guess){ask, release, &o});
   const long before = hbm_solves(s);
@@ -130,9 +129,8 @@ static void check_guesses(const model *m, const hbm_settings *how)
   for (double omega = 3; omega < 30; omega += 0.25) {
     double X[64] = {0}, Y[64];
     hbm_point point;
-    hbm_solver *guided, *alone;
-    assert_int_equal(guided_hbm_solver_new(m, how, &guided), HC_OK);
-    assert_int_equal(hbm_solver_new(m, how, &alone), HC_OK);
+    CHECK_MADE(hbm_solver, guided, guided_hbm_solver_new(m, how, &guided));
+    CHECK_MADE(hbm_solver, alone, hbm_solver_new(m, how, &alone));
     if (hbm_solve_first(guided, omega, X, &point) == HC_OK) {
       ++solved;
       CHECK_LE(point.residual, 1e-9, "residual at %g", omega);
@@ -158,13 +156,12 @@ static void an_endless_motion_is_no_guess(CHECK_STATE)
 {
   const scene sc = impacts();
   double X[64];
-  hbm_point point;
   const double omega = hard_omega();
   const hc_monitor stop = {check_stop, &(int){1}};
   CHECK_MADE(model, m, scene_model(&sc, &m));
   CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(m, &sc.hbm, &s));
   endless = true;
-  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK); /* by a ramp */
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point)); /* by a ramp */
   CHECK_LE(100, ticks, "ticks");
   assert_int_equal(hbm_first_solution(s, omega, &stop, X, &point), HC_INTERRUPTED);
   endless = false;

@@ -7,11 +7,9 @@ enum { ROWS = 10, AT_ANOTHER = 2, LINEAR = 3 }; /* of the rows: from unstable so
 static comparison compared(int n_set, const char *const *set, bool spare)
 {
   const scene sc = case_scene("paper/case2", n_set, set);
-  compare_setup setup;
-  comparison c;
-  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
   setup.spare = spare;
-  assert_int_equal(comparison_run(&setup, NULL, &c), HC_OK);
+  CHECK_FILLED(comparison, c, comparison_run(&setup, NULL, &c));
   scene_setup_clear(&setup);
   assert_int_equal(c.n_rows, ROWS);
   return c;

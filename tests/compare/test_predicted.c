@@ -223,10 +223,9 @@ static void a_damping_off_on_one_side_is_unexpected(CHECK_STATE)
   sc.compare.omega = (number_list){3, {7, 8, 9}};
   stub.told = false;
   for (int wrong = 0; wrong < 2; ++wrong) {
-    comparison c;
     int touching = 0;
     damping_error = wrong ? 1e-4 : 0;
-    assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+    CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
     for (int i = 0; i < c.n_rows; ++i) {
       if (!on_one_orbit(&c.rows[i]) || c.rows[i].hbm.contact.regime == CONTACT_LINEAR) continue;
       assert_int_equal(c.rows[i].unexpected, wrong);

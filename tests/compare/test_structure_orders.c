@@ -40,12 +40,11 @@ static double waveform_error(const structure_case *c, int H, double omega, const
 {
   structure_case with = *c;
   double X[CASE_MAX_COEF], worst = 0;
-  hbm_point point;
   hbm_measures m;
   periodic_motion motion;
   with.how.harmonics = H;
   hbm_solver *s = structure_solver(&with);
-  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
   for (int i = 0; i < c->model->n_responses; ++i) {
     assert_int_equal(motion_of_response(s, omega, X, i, &m, &motion), HC_OK);
     const periodic_motion exact = motion_of_transient(&r[i]);

@@ -96,12 +96,10 @@ static void check_case(const struct expected *e)
   const char *const sets[] = {set};
   snprintf(set, sizeof set, "hbm.harmonics=%d", HARMONICS);
   scene sc = case_scene(e->name, 1, sets);
-  compare_setup setup;
-  comparison c;
   int seen[VERDICT_COUNT] = {0};
-  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
   setup.spare = true;
-  assert_int_equal(comparison_run(&setup, NULL, &c), HC_OK);
+  CHECK_FILLED(comparison, c, comparison_run(&setup, NULL, &c));
   for (int i = 0; i < c.n_rows; ++i) {
     if (c.rows[i].response > 0) continue;
     ++seen[c.rows[i].verdict];

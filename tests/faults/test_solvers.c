@@ -78,10 +78,9 @@ static void check_curve(const hbm_curve *c)
   CHECK_MADE(hbm_solver, fresh, scene_hbm_solver(&sc, &fresh));
   for (int k = 0; k < c->n; ++k) {
     double X[MOST], size = 0, moved = 0;
-    hbm_point point;
     assert_true(c->n_coef == MOST);
     memcpy(X, c->X + (size_t)k * MOST, sizeof X);
-    assert_int_equal(hbm_solve(fresh, c->points[k].omega, X, &point), HC_OK);
+    CHECK_FILLED(hbm_point, point, hbm_solve(fresh, c->points[k].omega, X, &point));
     for (int i = 0; i < MOST; ++i) size += fabs(X[i]), moved += fabs(X[i] - c->X[(size_t)k * MOST + (size_t)i]);
     CHECK_LE(moved, 1e-7 * size, "%s point %d", small_doing, k);
   }
@@ -90,26 +89,24 @@ static void check_curve(const hbm_curve *c)
 
 static void solved_at_6_5(hbm_solver *s, double X[7])
 {
-  hbm_point point;
-  assert_int_equal(hbm_solve_first(s, 6.5, X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 6.5, X, &point));
 }
 
 /* A trace with that fault; then the same solver without it. Answers the status, and what it found into *n. */
 static hc_status trace_with(fault f, int *n)
 {
   scene sc = small_scene(NULL);
-  hbm_solver *s, *fresh;
   hbm_curve curve = {0};
   double X[7], Y[7];
   doing("hbm_trace", &f);
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   kin = f;
   hc_status st = hbm_trace(s, 6, 7, NULL, &curve);
   long calls = kin.calls;
   kin = (fault){0};
   check_curve(&curve);
   if (st == HC_OK) CHECK_NEAR(curve.points[curve.n - 1].omega, 7, 1e-12, "%s", small_doing);
-  assert_int_equal(scene_hbm_solver(&sc, &fresh), HC_OK);
+  CHECK_MADE(hbm_solver, fresh, scene_hbm_solver(&sc, &fresh));
   solved_at_6_5(s, X);
   solved_at_6_5(fresh, Y);
   assert_memory_equal(X, Y, sizeof X);
@@ -167,14 +164,13 @@ static scene_state near_orbit[2];
 static hc_status steady_with(int law, fault f, fault *which, timeint_result *r)
 {
   scene sc = small_scene(law ? exactly : smoothly);
-  timeint_result again;
   CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state y = near_orbit[law], start = y;
   *which = f;
   hc_status st = timeint_steady(ti, 6.5, y.all, NULL, r);
   const long calls = which->calls;
   *which = (fault){0};
-  assert_int_equal(timeint_steady(ti, 6.5, start.all, NULL, &again), HC_OK);
+  CHECK_FILLED(timeint_result, again, timeint_steady(ti, 6.5, start.all, NULL, &again));
   /* transient.tolerance, of the amplitude, is the distance to the orbit that a settled motion may have, on either
    * side */
   CHECK_NEAR(again.amplitude, right_amplitude[law], st == HC_OK ? 2 * sc.transient.tolerance * right_amplitude[law] : 0,
@@ -295,10 +291,9 @@ int main(void)
 {
   for (int law = 0; law < 2; ++law) {
     scene sc = small_scene(law ? exactly : smoothly);
-    timeint_result r;
     CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
     near_orbit[law] = (scene_state){.x = 0};
-    assert_int_equal(timeint_steady(ti, 6.5, near_orbit[law].all, NULL, &r), HC_OK);
+    CHECK_FILLED(timeint_result, r, timeint_steady(ti, 6.5, near_orbit[law].all, NULL, &r));
     near_orbit[law].x *= 1.001;
     timeint_free(ti); /* one that has found an orbit remembers it */
     assert_int_equal(scene_timeint(&sc, &ti), HC_OK);

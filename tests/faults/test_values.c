@@ -106,10 +106,9 @@ static hc_status trace_with(const char *const *set, poison p, const hbm_curve *r
 static void poisoned_force(const char *const *set)
 {
   scene sc = small_scene(set);
-  hbm_curve right;
   now = (poison){0};
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
-  assert_int_equal(traced(s, &right), HC_OK);
+  CHECK_FILLED(hbm_curve, right, traced(s, &right));
   const long most = now.calls, at[] = {1, 2, 3, 4, 5, most / 2, most / 2 + 1, most - 1, most};
   static const double values[] = {NAN, INFINITY, -INFINITY, 1e308};
   for (int i = 0; i < 9; ++i)
@@ -145,15 +144,14 @@ static hc_status settled(const scene *sc, scene_state from, timeint_result *r)
 
 static void right_hand_side_of(scene sc)
 {
-  timeint_result right, r;
   CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
   scene_state orbit = {.x = 0};
   now = (poison){0};
-  assert_int_equal(timeint_steady(ti, 6.5, orbit.all, NULL, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, timeint_steady(ti, 6.5, orbit.all, NULL, &r));
   timeint_free(ti);
   orbit.x *= 1.001; /* next to it: from rest it would take a hundred periods */
   now = (poison){0};
-  assert_int_equal(settled(&sc, orbit, &right), HC_OK);
+  CHECK_FILLED(timeint_result, right, settled(&sc, orbit, &right));
   const long most = now.calls, at[] = {1, 2, 3, 10, 100, most / 2, most - 1, most};
   static const double values[] = {NAN, INFINITY, -INFINITY};
   for (int i = 0; i < 8; ++i)

@@ -31,14 +31,13 @@ static inline void check_multipliers(const char *name, hbm_solver *s, double ome
   const double tolerance = 1e-7;
   double complex flip = 1, fold = 1;
   double most = 0, factors = 1;
-  hbm_stability st;
   for (int i = 0; i < n; ++i) {
     most = fmax(most, cabs(lambda[i]));
     factors *= 1 + cabs(lambda[i]);
     flip *= 1 + lambda[i];
     fold *= 1 - lambda[i];
   }
-  assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
+  CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
   CHECK_NEAR(st.multiplier, most, tolerance * fmax(1, most), "%s at %g, largest", name, omega);
   CHECK_NEAR(st.flip, creal(flip), n * tolerance * factors, "%s at %g, flip", name, omega);
   CHECK_NEAR(st.fold, creal(fold), n * tolerance * factors, "%s at %g, fold", name, omega);

@@ -121,8 +121,7 @@ static void agrees_with_the_slow_way(CHECK_STATE)
       scene sc = random_contacts(&seed, 1 + trial % 4);
       sc.hbm.restart = trial % 2 ? HBM_RESTART_SAMPLE : HBM_RESTART_INTERPOLATED;
       random_motion(&seed, H, 1, trial % 3, X);
-      aft_result got;
-      assert_int_equal(eval_once(&sc, H, N, X, F, NULL, &got), HC_OK);
+      CHECK_FILLED(aft_result, got, eval_once(&sc, H, N, X, F, NULL, &got));
       slow_force(&slow, &sc, H, N, X, slowF);
       double tolerance = slow_tolerance(&sc, H, N, X);
       for (int p = 0; p < 2 * H + 1; ++p)

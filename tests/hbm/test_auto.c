@@ -139,8 +139,7 @@ static void harmonics_follow_the_curve(CHECK_STATE)
     sc.hbm.accuracy = 1e-3;
     solved_curve r = traced(&sc);
     sc.hbm.harmonics = 60;
-    hbm_solver *fine = NULL;
-    assert_int_equal(scene_hbm_solver(&sc, &fine), HC_OK);
+    CHECK_MADE(hbm_solver, fine, scene_hbm_solver(&sc, &fine));
     int fewest = 1000, most = 0, checked = 0;
     for (int k = 0; k < r.c.n; ++k) {
       const double *row = hbm_curve_X(&r.c, k);

@@ -142,10 +142,9 @@ static void nearly_dependent_directions(CHECK_STATE)
 {
   uint64_t seed = 11;
   model *m = large_structure(&seed, RAYLEIGH);
-  condensation *c;
   double largest = 0, size = 0;
   for (int i = 0; i < N; ++i) m->contacts[1].tangent[i] = m->contacts[0].tangent[i] + 1e-6 * m->contacts[1].tangent[i];
-  assert_int_equal(condensation_new(m, H, &c), HC_OK);
+  CHECK_MADE(condensation, c, condensation_new(m, H, &c));
   const int dim = condensation_dim(c);
   assert_int_equal(condensation_at(c, 4.4, 0), HC_OK);
   for (int i = 0; i < N * N; ++i) largest = fmax(largest, fabs(m->stiffness[i]));

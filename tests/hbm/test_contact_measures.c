@@ -9,8 +9,7 @@ enum { H = 9, LENGTH = 2 * H + 1 };
 
 static contact_period measure(const contact *law, const double *u, const double *v)
 {
-  contact_period out;
-  assert_int_equal(contact_measures_of(law, H, u, v, &out), HC_OK);
+  CHECK_FILLED(contact_period, out, contact_measures_of(law, H, u, v, &out));
   return out;
 }
 

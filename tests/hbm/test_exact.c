@@ -427,8 +427,7 @@ static void refusals(CHECK_STATE)
   for (int i = 0; i < 7; ++i) assert_true(F[i] == 0);
   exact_force_free(e);
   assert_int_equal(exact_force_new(3, 1, 0, NULL, &e), HC_OK);
-  contact_report report;
-  assert_int_equal(exact_force_eval(e, zero, F, J, &report), HC_OK);
+  CHECK_FILLED(contact_report, report, exact_force_eval(e, zero, F, J, &report));
   assert_int_equal(report.regime, CONTACT_LINEAR);
   exact_force_free(e);
 }

@@ -69,8 +69,7 @@ static int check_peak(const traced *t, const char *name, int n_harm, int keep_me
     double nearest = INFINITY;
     assert_int_equal(hbm_curve_at(t->s, &t->curve, r->omega, &at), HC_OK);
     for (int k = 0; k < at.n; ++k) {
-      hbm_measures m;
-      assert_int_equal(hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &m), HC_OK);
+      CHECK_FILLED(hbm_measures, m, hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &m));
       nearest = fmin(nearest, larger(fabs(m.amplitude - r->amplitude), fabs(m.harmonic_1 - r->harmonic_1)));
     }
     CHECK_LE(nearest, SOLVED * r->amplitude, "%s H=%d static=%d: no solution at %.10g is the reference's", r->name,

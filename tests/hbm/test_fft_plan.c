@@ -52,11 +52,10 @@ static void one_lock_guards_the_planner(CHECK_STATE)
   static const scene no_contact = {.n_contacts = 0};
   fftw_complex spectrum[3];
   double samples[4];
-  fftw_plan there, back;
   calls = unguarded = 0;
   CHECK_MADE(aft, a, scene_aft(&no_contact, 1, 4, &a));
-  assert_int_equal(fft_plan_to_samples(4, spectrum, samples, &there), HC_OK);
-  assert_int_equal(fft_plan_to_spectrum(4, samples, spectrum, &back), HC_OK);
+  CHECK_FILLED(fftw_plan, there, fft_plan_to_samples(4, spectrum, samples, &there));
+  CHECK_FILLED(fftw_plan, back, fft_plan_to_spectrum(4, samples, spectrum, &back));
   aft_free(a);
   fft_plan_free(there);
   fft_plan_free(back);
@@ -71,9 +70,8 @@ static void plans_transform_both_ways(CHECK_STATE)
   static const double expected[4] = {3, -5, -1, 7};
   fftw_complex spectrum[3] = {1, 1 + 3 * I, 0};
   double samples[4];
-  fftw_plan there, back;
-  assert_int_equal(fft_plan_to_samples(4, spectrum, samples, &there), HC_OK);
-  assert_int_equal(fft_plan_to_spectrum(4, samples, spectrum, &back), HC_OK);
+  CHECK_FILLED(fftw_plan, there, fft_plan_to_samples(4, spectrum, samples, &there));
+  CHECK_FILLED(fftw_plan, back, fft_plan_to_spectrum(4, samples, spectrum, &back));
   fftw_execute(there);
   for (int i = 0; i < 4; ++i) assert_true(samples[i] == expected[i]);
   fftw_execute(back);

@@ -121,11 +121,10 @@ static void a_ramp_of_many_unknowns_has_as_many_steps(CHECK_STATE)
 {
   refused_scene many = refused[0];
   double X[MOST_COEF];
-  hbm_point point;
   many.harmonics = (MOST_COEF - 1) / 2;
   hbm_solver *s = solver_of(&many);
   assert_true(hbm_has_many_unknowns(s));
-  assert_int_equal(hbm_solve_first(s, many.omega, X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, many.omega, X, &point));
   check_solution(&many, X, "many unknowns");
   hbm_solver_free(s);
 }
@@ -209,11 +208,10 @@ static bool tick_any(void *self, double done)
 static void another_ramp_where_one_takes_too_long(CHECK_STATE)
 {
   double X[MOST_COEF];
-  hbm_point point;
   tick_counter watch = {.stop = 5000};
   const hc_monitor monitor = {tick_any, &watch};
   hbm_solver *s = solver_of(&winding);
-  assert_int_equal(hbm_first_solution(s, winding.omega, &monitor, X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, winding.omega, &monitor, X, &point));
   const int given_up = 1000;
   if (watch.ticks <= given_up || watch.ticks > given_up + 1000) fail_msg("%d steps", watch.ticks);
   assert_true(point.iterations > watch.ticks - given_up); /* one a step at least of the ramp that arrived */
@@ -224,11 +222,10 @@ static void another_ramp_where_one_takes_too_long(CHECK_STATE)
 static void more_harmonics_by_halves(CHECK_STATE)
 {
   double X[MOST_COEF];
-  hbm_point point;
   tick_counter watch = {.stop = 1}; /* each step of a ramp ticks */
   const hc_monitor monitor = {tick_any, &watch};
   hbm_solver *s = solver_of(&by_halves);
-  assert_int_equal(hbm_first_solution(s, by_halves.omega, &monitor, X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, by_halves.omega, &monitor, X, &point));
   assert_int_equal(watch.ticks, 0);
   check_solution(&by_halves, X, "by halves");
   hbm_solver_free(s);
@@ -242,14 +239,13 @@ static void settings_for_curves_do_not_reach_ramps(CHECK_STATE)
   int iterations[2];
   for (int other = 0; other < 2; ++other) {
     scene sc = scene_of(r);
-    hbm_point point;
     if (other) {
       sc.hbm.skip_linear = true;
       sc.hbm.continuation = HBM_CONTINUATION_NATURAL;
     }
     CHECK_MADE(hbm_solver, s, unguided_solver(&sc, &s));
     if (other) hbm_scale_steps(s, 0.1);
-    assert_int_equal(hbm_solve_first(s, r->omega, X[other], &point), HC_OK);
+    CHECK_FILLED(hbm_point, point, hbm_solve_first(s, r->omega, X[other], &point));
     iterations[other] = point.iterations;
     assert_true(s->step_scale == (other ? 0.1 : 1) && s->how.skip_linear == (other == 1));
     assert_int_equal(s->how.continuation, sc.hbm.continuation);
@@ -264,11 +260,10 @@ static void no_ramp_where_the_linear_response_is_a_guess(CHECK_STATE)
   scene sc = scene_named("b10", 5, true, 64);
   sc.hbm.force = HBM_FORCE_EXACT;
   double X[MOST_COEF];
-  hbm_point point;
   tick_counter watch = {.stop = 1};
   const hc_monitor monitor = {tick_any, &watch};
   CHECK_MADE(hbm_solver, s, unguided_solver(&sc, &s));
-  assert_int_equal(hbm_first_solution(s, 6, &monitor, X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, 6, &monitor, X, &point));
   assert_int_equal(watch.ticks, 0); /* a ramp ticks at each step */
   hbm_solver_free(s);
 }
@@ -281,12 +276,10 @@ static void a_ramp_can_be_stopped(CHECK_STATE)
   for (int sampled = 0; sampled < 2; ++sampled) {
     scene sc = scene_of(r);
     double X[MOST_COEF], Y[MOST_COEF];
-    hbm_point point;
-    hbm_solver *fresh, *s;
     if (sampled) sc.hbm.force = HBM_FORCE_SAMPLED, sc.hbm.samples = 256;
-    assert_int_equal(unguided_solver(&sc, &fresh), HC_OK);
-    assert_int_equal(unguided_solver(&sc, &s), HC_OK);
-    assert_int_equal(hbm_solve_first(fresh, r->omega, Y, &point), HC_OK);
+    CHECK_MADE(hbm_solver, fresh, unguided_solver(&sc, &fresh));
+    CHECK_MADE(hbm_solver, s, unguided_solver(&sc, &s));
+    CHECK_FILLED(hbm_point, point, hbm_solve_first(fresh, r->omega, Y, &point));
     for (int stop = 1; stop <= 32; stop *= 2) {
       tick_counter watch = {.stop = stop};
       const hc_monitor monitor = {tick_any, &watch};

@@ -76,13 +76,12 @@ static void multipliers_are_those_by_intervals(CHECK_STATE)
       make_circle(m, j, whole);
     }
     const contact_forces *orbit;
-    contact_report report;
     hbm_stability a, b;
     CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
     for (int c = 0; c < LENGTH; ++c)
       for (int i = 0; i < n; ++i) x[c * n + i] = size * random_signed(&seed) / (1 + c * c);
     hbm_guess_of(s, x, X);
-    assert_int_equal(hbm_located_orbit(s, X, &orbit, &report), HC_OK);
+    CHECK_FILLED(contact_report, report, hbm_located_orbit(s, X, &orbit, &report));
     const int n_a = multipliers_by(MONODROMY_BY_INTERVALS, m, orbit, omega, by_intervals, &a),
               n_b = multipliers_by(MONODROMY_IN_MODES, m, orbit, omega, in_modes, &b);
     large += check_found("by intervals", k, n_a, by_intervals, n_b, in_modes);
@@ -142,14 +141,12 @@ static void survivors_have_the_multipliers_of_all(CHECK_STATE)
   static double complex few[MOST], all[MOST];
   structure_case small = structure_case_named("stop2", 21);
   model *m = padded(small.model, 440, 20, 4000, 0.003);
-  hbm_point point;
   hbm_stability a, b;
   const contact_forces *orbit;
-  contact_report report;
   const double omega = 0.5 * (small.from + small.to);
   CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &small.how, &s));
-  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
-  assert_int_equal(hbm_located_orbit(s, X, &orbit, &report), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+  CHECK_FILLED(contact_report, report, hbm_located_orbit(s, X, &orbit, &report));
   assert_true(report.regime == CONTACT_SEPARATES);
   const int n_few = multipliers_by(MONODROMY_IN_MODES, m, orbit, omega, few, &a),
             n_all = multipliers_by(MONODROMY_FROM_ALL_STATES, m, orbit, omega, all, &b);
@@ -205,10 +202,8 @@ static void plates_multiplier_is_that_of_time_integration(CHECK_STATE)
   static double X[CASE_MAX_COEF];
   structure_case c = structure_case_named("plates", 7);
   hbm_solver *s = structure_solver(&c);
-  hbm_point point;
-  hbm_stability st;
-  assert_int_equal(hbm_solve_first(s, TWO_PI * 138, X, &point), HC_OK);
-  assert_int_equal(hbm_stability_at(s, TWO_PI * 138, X, &st), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, TWO_PI * 138, X, &point));
+  CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, TWO_PI * 138, X, &st));
   CHECK_NEAR(st.multiplier, 0.9638, 3e-3, "of 7 harmonics");
   CHECK_NEAR(st.im, 0, 1e-12, "a real one");
   assert_int_equal(hbm_stability_verdict(&st), 1);
@@ -261,15 +256,13 @@ static void flutter_of_fast_modes_is_seen(CHECK_STATE)
   for (int circle = 0; circle < 2; ++circle)
     for (int heavy = 0; heavy < 2; ++heavy) {
       model *m = fluttering(heavy ? 0.01 : 0.001, circle);
-      hbm_point point;
       hbm_stability a, b;
       const contact_forces *orbit;
-      contact_report report;
       CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
-      assert_int_equal(hbm_solve_first(s, 1, X, &point), HC_OK);
+      CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 1, X, &point));
       assert_int_equal(hbm_stability_at(s, 1, X, &b), HC_OK);
       assert_int_equal(hbm_stability_verdict(&b), heavy ? 1 : -1);
-      assert_int_equal(hbm_located_orbit(s, X, &orbit, &report), HC_OK);
+      CHECK_FILLED(contact_report, report, hbm_located_orbit(s, X, &orbit, &report));
       if (!circle) { /* by intervals a circle's slip would take minutes */
         multipliers_by(MONODROMY_BY_INTERVALS, m, orbit, 1, by_intervals, &a);
         multipliers_by(MONODROMY_IN_MODES, m, orbit, 1, in_modes, &b);
@@ -287,13 +280,11 @@ static void damping_that_modes_do_not_share_is_unknown(CHECK_STATE)
 {
   static double X[CASE_MAX_COEF];
   model *m = fluttering(0.01, true);
-  hbm_point point;
-  hbm_stability st;
   m->damping[1] += 0.01, m->damping[m->n] += 0.01;
   CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
-  assert_int_equal(hbm_solve_first(s, 1, X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 1, X, &point));
   assert_false(hbm_stability_is_unknown(s));
-  assert_int_equal(hbm_stability_at(s, 1, X, &st), HC_OK);
+  CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, 1, X, &st));
   assert_true(hbm_stability_is_unknown(s));
   assert_true(isnan(st.multiplier));
   assert_int_equal(hbm_stability_verdict(&st), 0);

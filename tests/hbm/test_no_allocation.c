@@ -110,14 +110,12 @@ static void solving_with(int force)
   enum { H = 10, N_COEF = 2 * H + 1 };
   scene sc = scene_named("c2", H, true, 1024);
   sc.hbm.force = force;
-  hbm_point point;
   hbm_measures m;
-  motion_error e;
   double X[N_COEF], Y[N_COEF] = {0};
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
-  assert_int_equal(hbm_solve_first(s, 6, X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 6, X, &point));
   assert_int_equal(hbm_solve(s, 6.01, X, &point), HC_OK);
-  assert_int_equal(hbm_predict(s, 6.01, X, &e), HC_OK);
+  CHECK_FILLED(motion_error, e, hbm_predict(s, 6.01, X, &e));
   long good = 0, wild = 0; /* allocations: in all good solves, most in one wild */
   int bad = 0, failed = 0;
   for (int k = 0; k < 50; ++k) {

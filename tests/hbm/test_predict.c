@@ -16,8 +16,7 @@ typedef struct solved {
 
 static periodic_motion motion_of(hbm_solver *s, const double *X)
 {
-  hbm_measures m;
-  assert_int_equal(hbm_measure(s, X, &m), HC_OK);
+  CHECK_FILLED(hbm_measures, m, hbm_measure(s, X, &m));
   return motion_of_series(hbm_n_harmonics(s), X, m.max, m.min);
 }
 
@@ -25,10 +24,9 @@ static periodic_motion motion_of(hbm_solver *s, const double *X)
 static solved solve(scene sc, double omega, int fine)
 {
   solved r = {.omega = omega};
-  hbm_point point;
   double Y[MOST] = {0};
   assert_int_equal(scene_hbm_solver(&sc, &r.s), HC_OK);
-  assert_int_equal(hbm_solve_first(r.s, omega, r.X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(r.s, omega, r.X, &point));
   r.motion = motion_of(r.s, r.X);
   memcpy(Y, r.X, (size_t)series_length(sc.hbm.harmonics) * sizeof *Y);
   sc.hbm.harmonics = fine;
@@ -48,8 +46,7 @@ static void clear(solved *r)
 
 static motion_error predicted(const solved *r, const double *X)
 {
-  motion_error e;
-  assert_int_equal(hbm_predict(r->s, r->omega, X, &e), HC_OK);
+  CHECK_FILLED(motion_error, e, hbm_predict(r->s, r->omega, X, &e));
   return e;
 }
 
@@ -278,16 +275,14 @@ static void prediction_follows_the_number_of_harmonics(CHECK_STATE)
   sc.hbm.accuracy = 1e-4;
   hbm_curve c = {0}, at = {0};
   double X[MOST];
-  hbm_point point;
-  motion_error few, many;
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
-  assert_int_equal(hbm_solve_first(s, 6, X, &point), HC_OK);
-  assert_int_equal(hbm_predict(s, 6, X, &few), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 6, X, &point));
+  CHECK_FILLED(motion_error, few, hbm_predict(s, 6, X, &few));
   assert_int_equal(hbm_trace(s, 5.5, 6.5, NULL, &c), HC_OK);
   assert_true(hbm_n_harmonics(s) > point.harmonics);
   assert_int_equal(hbm_curve_at(s, &c, 6, &at), HC_OK);
   assert_int_equal(at.n, 1);
-  assert_int_equal(hbm_predict(s, 6, at.X, &many), HC_OK);
+  CHECK_FILLED(motion_error, many, hbm_predict(s, 6, at.X, &many));
   CHECK_LE(many.waveform, 0.1 * few.waveform, "H = %d, then %d", point.harmonics, hbm_n_harmonics(s));
   hbm_curve_free(&at);
   hbm_curve_free(&c);

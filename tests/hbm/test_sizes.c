@@ -8,11 +8,9 @@ enum { H = 5, LENGTH = 2 * H + 1, SECTORS = 24, ORDER = 3 };
 
 static void check_found(const structure_case *c, double omega, double *X, hbm_solver **s)
 {
-  hbm_point point;
-  hbm_measures measures;
   *s = structure_solver(c);
-  assert_int_equal(hbm_solve_first(*s, omega, X, &point), HC_OK);
-  assert_int_equal(hbm_measure(*s, X, &measures), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(*s, omega, X, &point));
+  CHECK_FILLED(hbm_measures, measures, hbm_measure(*s, X, &measures));
   assert_int_equal(measures.contact.regime, CONTACT_SLIPS);
   assert_int_equal(measures.contact.free_sliders, 0);
 }

@@ -63,10 +63,9 @@ static void a_cosine_has_the_closed_form_harmonics(CHECK_STATE)
   contact law = {.smooth = CONTACT_POLYNOMIAL};
   const double zero = 0, one = 1, A = 1.3;
   double X[LENGTH] = {0, A}, F[LENGTH], expected[LENGTH] = {0};
-  contact_report report;
   law.power[0] = 2, law.power[1] = 5;
   contact_forces *f = forces_of(&law, 1, &zero, &one, HBM_FORCE_EXACT, 0);
-  assert_int_equal(contact_forces_eval(f, X, F, false, &report), HC_OK);
+  CHECK_FILLED(contact_report, report, contact_forces_eval(f, X, F, false, &report));
   expected[0] = expected[3] = 2 * A * A / 2;
   expected[1] = 5 * 3 * A * A * A / 4, expected[5] = 5 * A * A * A / 4;
   CHECK_LE(largest(LENGTH, F, expected), 32 * DBL_EPSILON * 10, "harmonics");
@@ -79,8 +78,7 @@ static void check_jacobian(contact_forces *f, int n, double *X, double tolerance
 {
   const double h = 1e-5;
   double F[2][MOST], jac[MOST * MOST];
-  contact_report report;
-  assert_int_equal(contact_forces_eval(f, X, F[0], true, &report), HC_OK);
+  CHECK_FILLED(contact_report, report, contact_forces_eval(f, X, F[0], true, &report));
   memcpy(jac, contact_forces_jacobian(f), (size_t)n * (size_t)n * sizeof *jac);
   const double size = fmax(1, largest(n * n, jac, NULL));
   for (int j = 0; j < n; ++j) {
@@ -133,10 +131,9 @@ static void tanh_without_aliasing_is_what_many_samples_give(CHECK_STATE)
   contact_forces *f = forces_of(&law, 1, &tangent, &zero, HBM_FORCE_EXACT, 0),
                  *sampled = forces_of(&law, 1, &tangent, &zero, HBM_FORCE_SAMPLED, 1 << 14);
   double X[LENGTH], F[LENGTH], G[LENGTH], by_omega[LENGTH] = {0}, ends[2][LENGTH];
-  contact_report report;
   draw_motion(&seed, LENGTH, X);
   assert_true(contact_forces_at(f, 1.3) && contact_forces_at(sampled, 1.3));
-  assert_int_equal(contact_forces_eval(f, X, F, true, &report), HC_OK);
+  CHECK_FILLED(contact_report, report, contact_forces_eval(f, X, F, true, &report));
   assert_int_equal(contact_forces_eval(sampled, X, G, false, &report), HC_OK);
   CHECK_LE(largest(LENGTH, F, G), 1e-13, "harmonics");
   contact_forces_add_by_omega(f, by_omega);
@@ -156,8 +153,7 @@ static void tanh_tends_to_coulombs_law(CHECK_STATE)
   double u[LENGTH] = {0, 2}, v[LENGTH] = {0}, off[3];
   for (int i = 0; i < 3; ++i) {
     const contact law = {.smooth = CONTACT_TANH, .mu = 0.3, .load = 2, .epsilon = 0.1 / (1 << (2 * i))};
-    contact_period p;
-    assert_int_equal(tanh_measures_of(&law, H, u, NULL, v, &p), HC_OK);
+    CHECK_FILLED(contact_period, p, tanh_measures_of(&law, H, u, NULL, v, &p));
     off[i] = 4 * 0.6 * 2 - p.work;
     CHECK_NEAR(p.slip_distance, 8, 1e-5, "path"); /* |u'| has its kinks within panels that short */
   }

@@ -138,8 +138,7 @@ static int solutions_at(found *f, double omega, hbm_curve *at)
 
 static hbm_stability stability_of_solution(found *f, const hbm_curve *at, int i)
 {
-  hbm_stability st;
-  assert_int_equal(hbm_stability_at(f->s, at->points[i].omega, at->X + (size_t)i * at->n_coef, &st), HC_OK);
+  CHECK_FILLED(hbm_stability, st, hbm_stability_at(f->s, at->points[i].omega, at->X + (size_t)i * at->n_coef, &st));
   return st;
 }
 

@@ -14,13 +14,10 @@
 static void check_linear(const scene *sc, double k, double omega, contact_regime regime, const char *what)
 {
   double X[64];
-  hbm_point point;
-  hbm_stability st;
-  hbm_measures measures;
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(sc, &s));
-  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
-  assert_int_equal(hbm_measure(s, X, &measures), HC_OK);
-  assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+  CHECK_FILLED(hbm_measures, measures, hbm_measure(s, X, &measures));
+  CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
   hbm_solver_free(s);
   assert_int_equal(measures.contact.regime, regime);
   double a = 0.5 * sc->damping / sc->mass, T = 2 * PI / omega;
@@ -70,15 +67,13 @@ static void without_slip_the_determinant_is_that_of_the_damping(CHECK_STATE)
   static const int harmonics[] = {5, 20};
   for (int q = 0; q < 2; ++q) {
     scene sc = exact_scene("c2", harmonics[q], true);
-    hbm_solver *s = NULL;
     hbm_curve c = {0};
-    assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+    CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
     assert_int_equal(hbm_trace(s, 3, 20, NULL, &c), HC_OK);
     int unstable = 0, stable = 0, slider_across_0 = 0;
     for (int k = 0; k < c.n; ++k) {
-      hbm_stability st;
       double omega = c.points[k].omega, det = exp(-sc.damping * 2 * PI / omega / sc.mass);
-      assert_int_equal(hbm_stability_at(s, omega, c.X + (size_t)k * c.n_coef, &st), HC_OK);
+      CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, c.X + (size_t)k * c.n_coef, &st));
       CHECK_NEAR(moving_determinant(&st), det, 1e-12 * (1 + st.multiplier * st.multiplier), "H=%d omega=%.17g",
                  harmonics[q], omega);
       if (fabs(st.determinant) > 1e-9)
@@ -106,13 +101,11 @@ static void without_slip_the_determinant_is_that_of_the_damping(CHECK_STATE)
 static void check_slipping(const scene *sc, double omega, const char *what)
 {
   double X[2 * 30 + 1];
-  hbm_point point;
-  hbm_stability st;
   CHECK_MADE(model, m, scene_model(sc, &m));
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(sc, &s));
-  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
   check_against_map(what, s, m, omega, X);
-  assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
+  CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
   CHECK_LE(moving_determinant(&st), (1 - 1e-3) * exp(-sc->damping * TWO_PI / omega / sc->mass), "%s at %g", what,
            omega);
   hbm_solver_free(s);
@@ -155,13 +148,11 @@ static void a_slider_shaken_down_is_held(CHECK_STATE)
       55.94139530323445};
   const double omega = 881.68431426493737, rate = 0.5 * sc.damping / sc.mass,
                k = sc.stiffness + scene_stuck_stiffness(&sc.contacts[0]);
-  hbm_point point;
-  hbm_stability st;
   double X[9];
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
-  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
   CHECK_LE(1e-6, fabs(X[0]), "the slider has slipped: it rests where the mean is not 0");
-  assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
+  CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
   CHECK_LE(rate * rate, k / sc.mass, "under-damped, so that both multipliers have the modulus");
   CHECK_NEAR(st.multiplier, exp(-rate * 2 * PI / omega), 1e-12, "stuck oscillator");
   assert_int_equal(hbm_stability_verdict(&st), 1);
@@ -187,8 +178,7 @@ static void the_determinant_has_its_say(CHECK_STATE)
         hbm_curve found = {0};
         assert_int_equal(hbm_curve_at(s, &curve, at[i].omega + side * d, &found), HC_OK);
         for (int k = 0; k < found.n; ++k) {
-          hbm_stability st;
-          assert_int_equal(hbm_stability_at(s, found.points[k].omega, hbm_curve_X(&found, k), &st), HC_OK);
+          CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, found.points[k].omega, hbm_curve_X(&found, k), &st));
           bool agrees = (found.points[k].branch % 2 == 0) == (st.fold > 0);
           assert_int_equal(st.agrees, agrees);
           if (!agrees) assert_int_equal(hbm_stability_verdict(&st), 0);

@@ -104,11 +104,10 @@ static void jacobian_is_the_derivative(CHECK_STATE)
     const int H = trial % 40 == 1 ? 20 : random_int(&seed, 1, trial % 8 == 1 ? 20 : 4), sampled = trial % 3 == 2;
     model *m = random_structure(&seed, n, contacts);
     hbm_settings how = settings(H);
-    hbm_system sys;
     double X[MOST];
     how.keep_mean = trial % 10 != 0;
     how.force = sampled ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
-    assert_int_equal(hbm_system_init(&sys, m, &how, H, 256), HC_OK);
+    CHECK_FILLED(hbm_system, sys, hbm_system_init(&sys, m, &how, H, 256));
     assert_true(sys.dim <= n && sys.dim <= 2 * contacts + 1);
     for (int k = 0; k < 3 && sys.n <= 400; ++k) {
       random_state(&seed, &sys, X);
@@ -254,11 +253,10 @@ static void another_way_to_write_it_changes_nothing(CHECK_STATE)
 static void copies_are_each_the_one(CHECK_STATE)
 {
   enum { COPIES = 4 };
-  model *one, *many;
   double x[2][41], y[2][41];
   const contact law = {.kt = 100, .kn = 1000, .mu = 0.3, .gap = -5};
-  assert_int_equal(model_oscillator(1, 0.4, 40, 100, 1, &one), HC_OK);
-  assert_int_equal(model_new(COPIES, 1, COPIES, 2, &many), HC_OK);
+  CHECK_MADE(model, one, model_oscillator(1, 0.4, 40, 100, 1, &one));
+  CHECK_MADE(model, many, model_new(COPIES, 1, COPIES, 2, &many));
   one->contacts[0].law = law;
   model_direction(45, one->contacts[0].tangent, one->contacts[0].normal);
   many->loads[0].harmonic = 1;
@@ -273,10 +271,9 @@ static void copies_are_each_the_one(CHECK_STATE)
   many->responses[0] = many->responses[COPIES + 2] = 1;
   const hbm_settings how = settings(10);
   for (double omega = 5.5; omega < 9; omega += 0.5) {
-    hbm_point point;
     double X[21], all[COPIES * 21];
     CHECK_MADE(hbm_solver, s, hbm_solver_new(one, &how, &s));
-    assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
+    CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
     hbm_solver_free(s);
     for (int c = 0; c < 21; ++c) {
       x[0][c] = x[1][c] = X[c];
@@ -326,9 +323,8 @@ static void a_small_body_beside_a_large_one(CHECK_STATE)
   for (double omega = 9.3; omega < 12; omega += 0.4) {
     double x[2][2 * (2 * HARMONICS + 1)];
     for (int k = 0; k < 2; ++k) {
-      hbm_point point;
       CHECK_MADE(hbm_solver, s, hbm_solver_new(k ? unlike : alike, &how, &s));
-      assert_int_equal(hbm_solve_first(s, omega, x[k], &point), HC_OK);
+      CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, x[k], &point));
       hbm_solver_free(s);
     }
     for (int c = 0; c <= 2 * HARMONICS; ++c)
@@ -366,12 +362,11 @@ static void auto_keeps_the_loads(CHECK_STATE)
   uint64_t seed = 3;
   model *m = random_structure(&seed, 3, 1);
   hbm_settings how = settings(HBM_AUTO);
-  hbm_solver *s;
   hbm_curve curve = {0};
   how.accuracy = 1e-2; /* met by fewer */
   m->loads[0].harmonic = 5;
   for (int i = 0; i < m->n; ++i) m->loads[0].cosine[i] *= 1e-3; /* too little to keep them for */
-  assert_int_equal(hbm_solver_new(m, &how, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
   assert_int_equal(hbm_trace(s, 20, 40, NULL, &curve), HC_OK);
   for (int k = 0; k < curve.n; ++k) assert_true(curve.points[k].harmonics >= 5);
   hbm_curve_free(&curve);

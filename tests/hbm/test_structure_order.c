@@ -10,14 +10,13 @@ static void errors(const structure_case *c, double omega, const double *X, doubl
 {
   for (int k = 0; k < SIZES; ++k) {
     structure_case sampled = *c;
-    hbm_point point;
     double Y[CASE_MAX_COEF], off = 0, size = 0;
     sampled.how.force = HBM_FORCE_SAMPLED;
     sampled.how.samples = 1 << (FEWEST + k);
     hbm_solver *s = structure_solver(&sampled);
     const int n = hbm_n_coefficients(s);
     memcpy(Y, X, (size_t)n * sizeof *Y);
-    assert_int_equal(hbm_solve(s, omega, Y, &point), HC_OK);
+    CHECK_FILLED(hbm_point, point, hbm_solve(s, omega, Y, &point));
     hbm_solver_free(s);
     for (int i = 0; i < n; ++i) off = larger(off, fabs(Y[i] - X[i])), size = larger(size, fabs(X[i]));
     error[k] = log2(off / size);
@@ -56,10 +55,8 @@ static void sampled_tends_to_exact(CHECK_STATE)
     for (int f = 0; f < FREQUENCIES; ++f) {
       const double omega = at[q].from + (at[q].to - at[q].from) * (f + 0.37) / FREQUENCIES;
       double X[CASE_MAX_COEF];
-      hbm_point point;
-      hbm_measures m;
-      assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
-      assert_int_equal(hbm_measure(s, X, &m), HC_OK);
+      CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+      CHECK_FILLED(hbm_measures, m, hbm_measure(s, X, &m));
       as_expected += m.contact.regime == at[q].regime;
       errors(&c, omega, X, error[f]);
     }

@@ -13,11 +13,9 @@ static const hbm_settings how = {.harmonics = H, .keep_mean = true, .tolerance =
 
 static hbm_stability stability_of(const model *m, double omega, double *X)
 {
-  hbm_point point;
-  hbm_stability st;
   CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
-  assert_int_equal(hbm_solve(s, omega, X, &point), HC_OK);
-  assert_int_equal(hbm_stability_at(s, omega, X, &st), HC_OK);
+  CHECK_FILLED(hbm_point, point, hbm_solve(s, omega, X, &point));
+  CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
   hbm_solver_free(s);
   return st;
 }
@@ -30,12 +28,11 @@ static void oscillators_side_by_side(CHECK_STATE)
   const double Q[4] = {cos(turn), sin(turn), -sin(turn), cos(turn)};
   const contact laws[] = {{.kt = 100, .kn = 1000, .mu = 0.3, .gap = -5}, {.kt = 100, .kn = 200, .mu = 0.3, .gap = 0.5}};
   for (int k = 0; k < 2; ++k) {
-    model *one, *two;
     double X[LENGTH] = {0}, both[2 * LENGTH];
-    assert_int_equal(model_oscillator(1, 0.4, 40, k ? 10 : 100, 1, &one), HC_OK);
+    CHECK_MADE(model, one, model_oscillator(1, 0.4, 40, k ? 10 : 100, 1, &one));
     one->contacts[0].law = laws[k];
     model_direction(45, one->contacts[0].tangent, one->contacts[0].normal);
-    assert_int_equal(model_new(2, 1, 1, 1, &two), HC_OK);
+    CHECK_MADE(model, two, model_new(2, 1, 1, 1, &two));
     two->mass[0] = 1, two->mass[3] = mass;
     two->damping[0] = 0.4, two->damping[3] = damping;
     two->stiffness[0] = 40, two->stiffness[3] = stiffness;
@@ -162,7 +159,6 @@ static void a_free_chain_keeps_its_momentum(CHECK_STATE)
 {
   enum { N = 10, ALL = 2 * N };
   uint64_t seed = 3;
-  interval_flow *f;
   static double phi[ALL * ALL];
   const double t = 20;
   CHECK_MADE(model, m, model_new(N, 0, 0, 1, &m));
@@ -173,7 +169,7 @@ static void a_free_chain_keeps_its_momentum(CHECK_STATE)
     m->stiffness[i * N + i - 1] -= k, m->stiffness[(i - 1) * N + i] -= k;
   }
   for (int i = 0; i < ALL; ++i) phi[i * (ALL + 1)] = 1;
-  assert_int_equal(interval_flow_new(m, &f), HC_OK);
+  CHECK_MADE(interval_flow, f, interval_flow_new(m, &f));
   assert_int_equal(interval_flow_advance(f, NULL, t, ALL, phi), HC_OK);
   for (int q = 0; q < ALL; ++q) {
     double momentum = 0;

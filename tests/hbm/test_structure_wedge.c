@@ -39,8 +39,7 @@ static void free_wedge(wedge *w)
 
 static contact_regime regime_at(const wedge *w, int k)
 {
-  hbm_measures m;
-  assert_int_equal(hbm_measure(w->s, hbm_curve_X(&w->curve, k), &m), HC_OK);
+  CHECK_FILLED(hbm_measures, m, hbm_measure(w->s, hbm_curve_X(&w->curve, k), &m));
   return m.contact.regime;
 }
 

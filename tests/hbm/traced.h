@@ -86,13 +86,12 @@ static inline int check_rows(int n, const reference_row *rows, const traced *t, 
       before += same && j < i;
     }
     hbm_curve at = {0};
-    hbm_measures m;
     hc_status st = hbm_curve_at(t->s, &t->curve, r->omega, &at);
     if (st != HC_OK || at.n != all)
       fail_msg("%s H=%d static=%d: %d solutions at %g, not %d; %s", name, n_harm, keep_mean, at.n, r->omega, all,
                hc_status_text(st));
     int k = reversed ? all - 1 - before : before;
-    assert_int_equal(hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &m), HC_OK);
+    CHECK_FILLED(hbm_measures, m, hbm_measure(t->s, at.X + (size_t)k * at.n_coef, &m));
     const double got[] = {m.amplitude, m.max, m.min, m.harmonic_1, m.mean},
                  expected[] = {r->amplitude, r->max, r->min, r->harmonic_1, r->mean};
     static const char *const what[] = {"amplitude", "max", "min", "harmonic_1", "mean"};

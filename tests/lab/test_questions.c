@@ -135,11 +135,10 @@ static void questions_without_an_answer_are_refused(CHECK_STATE)
 static void curve_is_the_librarys(CHECK_STATE)
 {
   lab *l = lab_with_case();
-  scene sc;
   case_error err;
   hbm_curve curve = {0};
   response_row r;
-  assert_int_equal(case_parse("case", text, strlen(text), 0, NULL, &sc, &err), HC_OK);
+  CHECK_FILLED(scene, sc, case_parse("case", text, strlen(text), 0, NULL, &sc, &err));
   sc.hbm.force = HBM_FORCE_SAMPLED;
   CHECK_MADE(model, m, scene_model(&sc, &m));
   CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(m, &sc.hbm, &s));

@@ -34,12 +34,11 @@ static void a_slider_loses_the_closed_form(CHECK_STATE)
 /* In space, moved along a line: T and T2 share its forces as u and u2 do under the law of the circle. */
 static void two_tangents_share_a_line(CHECK_STATE)
 {
-  hbmcheck_case *c;
   char name[32];
   const double a = 0.6, b = 0.8, A = 0.2;
   const double along[LENGTH] = {0, A}, u[LENGTH] = {0, a * A}, u2[LENGTH] = {0, b * A};
   double T[LENGTH], T2[LENGTH], N[LENGTH], line[LENGTH], none[LENGTH];
-  assert_int_equal(hbmcheck_case_read(SOURCE_DIR "/cases/structures/space.yaml", 0, NULL, NULL, 0, &c), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_case, c, hbmcheck_case_read(SOURCE_DIR "/cases/structures/space.yaml", 0, NULL, NULL, 0, &c));
   assert_int_equal(hbmcheck_case_contacts(c), 1);
   assert_int_equal(hbmcheck_case_contact_tangents(c, 0), 2);
   assert_int_equal(hbmcheck_case_contact_name(c, 0, name, sizeof name), HBMCHECK_OK);

@@ -18,14 +18,12 @@ static void every_solution_has_its_contacts(CHECK_STATE)
   for (int i = 0; i < 2; ++i) {
     both b;
     read_both(path[i], omega[i], &b);
-    hbmcheck_curve *curve;
-    hbmcheck_solutions *at;
     hbm_curve traced = {0}, there = {0};
     contact_period expected[2 * MOST];
     hbmcheck_contact_period found[MOST];
     int n = -1;
-    assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &curve), HBMCHECK_OK);
-    assert_int_equal(hbmcheck_curve_at(curve, omega[i], &at), HBMCHECK_OK);
+    CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(b.c, NULL, &curve));
+    CHECK_MADE(hbmcheck_solutions, at, hbmcheck_curve_at(curve, omega[i], &at));
     CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s));
     assert_int_equal(hbm_trace(s, b.setup.omega_from, b.setup.omega_to, NULL, &traced), HC_OK);
     assert_int_equal(hbm_curve_at(s, &traced, omega[i], &there), HC_OK);
@@ -56,14 +54,12 @@ static void every_steady_state_has_its_contacts(CHECK_STATE)
   both b;
   read_both(FOLDER "chain3.yaml", omega[0], &b);
   b.setup.compare.omega = (number_list){3, {omega[0], omega[1], omega[2]}};
-  steady_states expected;
-  hbmcheck_transient *t;
   hbmcheck_contact_period found[MOST];
   int n = -1, seen = 0;
   hbmcheck_case_watch_contacts(b.c, 1);
-  assert_int_equal(hbmcheck_transient_run(b.c, 3, omega, NULL, &t), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_transient, t, hbmcheck_transient_run(b.c, 3, omega, NULL, &t));
   b.setup.contacts = true;
-  assert_int_equal(steady_states_run(&b.setup, NULL, &expected), HC_OK);
+  CHECK_FILLED(steady_states, expected, steady_states_run(&b.setup, NULL, &expected));
   assert_int_equal(expected.n, hbmcheck_transient_count(t));
   assert_true(expected.n > 12 && expected.rows[6].result.omega == expected.rows[9].result.omega);
   assert_string_equal(expected.rows[0].start, expected.rows[3].start);
@@ -87,14 +83,12 @@ static void every_row_has_its_contacts(CHECK_STATE)
 {
   both b;
   read_both(FOLDER "chain3.yaml", 1.485, &b);
-  comparison expected;
-  hbmcheck_comparison *found;
   hbmcheck_contact_row row[MOST];
   int n = -1, made = 0;
   hbmcheck_case_watch_contacts(b.c, 1);
-  assert_int_equal(hbmcheck_comparison_run(b.c, 1, (double[]){1.485}, NULL, &found), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_comparison, found, hbmcheck_comparison_run(b.c, 1, (double[]){1.485}, NULL, &found));
   b.setup.contacts = true;
-  assert_int_equal(comparison_run(&b.setup, NULL, &expected), HC_OK);
+  CHECK_FILLED(comparison, expected, comparison_run(&b.setup, NULL, &expected));
   assert_true(expected.n_contacts == 9 && hbmcheck_comparison_count(found) == 9);
   for (int k = 0; k < 9; ++k) {
     assert_int_equal(hbmcheck_comparison_contacts(found, k, MOST, row, &n), HBMCHECK_OK);
@@ -122,11 +116,10 @@ static void two_tangents_are_one_contact(CHECK_STATE)
 {
   both b;
   read_both(FOLDER "space.yaml", 12.5, &b);
-  hbmcheck_comparison *found;
   hbmcheck_contact_row row[MOST];
   int n = -1;
   hbmcheck_case_watch_contacts(b.c, 1);
-  assert_int_equal(hbmcheck_comparison_run(b.c, 1, (double[]){12.5}, NULL, &found), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_comparison, found, hbmcheck_comparison_run(b.c, 1, (double[]){12.5}, NULL, &found));
   assert_int_equal(hbmcheck_comparison_contacts(found, 0, MOST, row, &n), HBMCHECK_OK);
   assert_int_equal(n, 1);
   CHECK_LE(fabs(row[0].hbm.normal_max / row[0].transient.normal_max - 1), 1e-3, "%g", row[0].hbm.normal_max);
@@ -141,13 +134,12 @@ static void none_unless_asked_for(CHECK_STATE)
 {
   both b;
   read_both(FOLDER "chain3.yaml", 1.9, &b);
-  hbmcheck_transient *t;
   hbmcheck_comparison *c;
   int n = -1;
   hbmcheck_case_watch_contacts(b.c, 1);
   hbmcheck_case_watch_contacts(b.c, 0);
   hbmcheck_case_watch_contacts(NULL, 1);
-  assert_int_equal(hbmcheck_transient_run(b.c, 1, (double[]){1.9}, NULL, &t), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_transient, t, hbmcheck_transient_run(b.c, 1, (double[]){1.9}, NULL, &t));
   assert_int_equal(hbmcheck_comparison_run(b.c, 1, (double[]){1.9}, NULL, &c), HBMCHECK_OK);
   assert_int_equal(hbmcheck_transient_contacts(t, 0, 0, NULL, &n), HBMCHECK_OK);
   assert_int_equal(n, 0);
@@ -163,12 +155,11 @@ static void what_is_no_place_is_refused(CHECK_STATE)
 {
   both b;
   read_both(FOLDER "stop2.yaml", 1, &b);
-  hbmcheck_curve *curve, *other;
   hbmcheck_contact_period one = {.work = -1};
   hbmcheck_contact_row row = {.work_error = -1};
   int n = -1;
-  assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &curve), HBMCHECK_OK);
-  assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &other), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(b.c, NULL, &curve));
+  CHECK_MADE(hbmcheck_curve, other, hbmcheck_curve_trace(b.c, NULL, &other));
   const hbmcheck_solutions *s = hbmcheck_curve_points(curve);
   assert_int_equal(hbmcheck_curve_contacts(NULL, s, 0, 1, &one, &n), HBMCHECK_BAD_INPUT);
   assert_int_equal(hbmcheck_curve_contacts(curve, NULL, 0, 1, &one, &n), HBMCHECK_BAD_INPUT);

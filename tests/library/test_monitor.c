@@ -95,8 +95,7 @@ static void silent(CHECK_STATE)
 {
   const hbmcheck_monitor nobody = {NULL, NULL};
   hbmcheck_case *c = CASE2("hbm.harmonics=3", "sweep.omega=3,6");
-  hbmcheck_curve *curve;
-  assert_int_equal(hbmcheck_curve_trace(c, &nobody, &curve), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(c, &nobody, &curve));
   hbmcheck_curve_free(curve);
   hbmcheck_case_free(c);
 }

@@ -16,23 +16,20 @@ static void same(double a, double b, int line)
 /* The inner form of CASE2(set...). */
 static compare_setup setup_of(scene *sc, const char *const *set)
 {
-  compare_setup setup;
   case_error err;
   int n = 0;
   while (set[n]) ++n;
   assert_int_equal(case_parse("case 2", case2_text, strlen(case2_text), n, set, sc, &err), HC_OK);
-  assert_int_equal(scene_setup(sc, &setup), HC_OK);
+  CHECK_FILLED(compare_setup, setup, scene_setup(sc, &setup));
   return setup;
 }
 
 static void check_solution(const hbmcheck_solutions *list, hbm_solver *s, const hbm_curve *curve, int k)
 {
-  hbmcheck_solution found;
-  response_row r;
   double X[2 * HBM_MAX_HARMONICS + 1];
   int n = 0;
-  assert_int_equal(response_row_of(s, curve, k, &r), HC_OK);
-  assert_int_equal(hbmcheck_solutions_get(list, k, &found), HBMCHECK_OK);
+  CHECK_FILLED(response_row, r, response_row_of(s, curve, k, &r));
+  CHECK_FILLED(hbmcheck_solution, found, hbmcheck_solutions_get(list, k, &found));
   SAME(found.omega, r.point.omega);
   SAME(found.amplitude, r.measures.amplitude);
   SAME(found.max, r.measures.max);
@@ -84,17 +81,15 @@ static void check_curve(const char *const *set)
   compare_setup setup = setup_of(&sc, set);
   hbm_curve expected = {0}, at = {0};
   hbmcheck_case *c = case2_with(set);
-  hbmcheck_curve *curve;
-  hbmcheck_solutions *three;
   CHECK_MADE(hbm_solver, s, hbm_solver_new(setup.model, &setup.hbm, &s));
   assert_int_equal(hbm_trace(s, setup.omega_from, setup.omega_to, NULL, &expected), HC_OK);
-  assert_int_equal(hbmcheck_curve_trace(c, NULL, &curve), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(c, NULL, &curve));
   hbmcheck_case_free(c); /* results do not need it any more */
   const hbmcheck_solutions *points = hbmcheck_curve_points(curve);
   assert_int_equal(hbmcheck_solutions_count(points), expected.n);
   for (int k = 0; k < expected.n; ++k) check_solution(points, s, &expected, k);
   assert_int_equal(hbm_curve_at(s, &expected, 8, &at), HC_OK);
-  assert_int_equal(hbmcheck_curve_at(curve, 8, &three), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_solutions, three, hbmcheck_curve_at(curve, 8, &three));
   assert_int_equal(at.n, 3); /* two stable solutions and an unstable one between them */
   assert_int_equal(hbmcheck_solutions_count(three), 3);
   for (int k = 0; k < 3; ++k) check_solution(three, s, &at, k);
@@ -103,10 +98,8 @@ static void check_curve(const char *const *set)
   assert_int_equal(hbmcheck_solutions_count(three), 0);
   hbmcheck_solutions_free(three);
   check_specials(curve, s, &expected);
-  hbmcheck_summary found;
-  response_summary r;
-  assert_int_equal(response_summarise(s, &expected, &r), HC_OK);
-  assert_int_equal(hbmcheck_curve_summary(curve, &found), HBMCHECK_OK);
+  CHECK_FILLED(response_summary, r, response_summarise(s, &expected, &r));
+  CHECK_FILLED(hbmcheck_summary, found, hbmcheck_curve_summary(curve, &found));
   SAME(found.peak_omega, r.peak_omega);
   SAME(found.peak_amplitude, r.peak_amplitude);
   SAME(found.peak_harmonic_1, r.peak_harmonic_1);
@@ -139,10 +132,8 @@ static void curve_that_leaves(CHECK_STATE)
 {
   hbmcheck_case *c =
       CASE2("sweep.omega=8.5,3", "hbm.harmonics=1", "hbm.static=false", "contacts[0].normal_stiffness=1e7");
-  hbmcheck_curve *curve;
-  hbmcheck_summary whole;
-  assert_int_equal(hbmcheck_curve_trace(c, NULL, &curve), HBMCHECK_OK);
-  assert_int_equal(hbmcheck_curve_summary(curve, &whole), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(c, NULL, &curve));
+  CHECK_FILLED(hbmcheck_summary, whole, hbmcheck_curve_summary(curve, &whole));
   assert_int_equal(whole.reached_end, 0);
   assert_int_equal(whole.left_at_start, 1);
   assert_int_equal(whole.turning_points, 1);
@@ -152,14 +143,13 @@ static void curve_that_leaves(CHECK_STATE)
 
 static void check_steady(const hbmcheck_transient *t, const steady_states *all, int k)
 {
-  hbmcheck_steady found;
   double wave[TIMEINT_WAVE];
   const steady_row *row = &all->rows[k];
   const timeint_result *r = &row->result;
   const bool settled = row->status == HC_OK,
              moves = settled || row->status == HC_NOT_SETTLED || row->status == HC_APERIODIC;
   int n = -1;
-  assert_int_equal(hbmcheck_transient_get(t, k, &found), HBMCHECK_OK);
+  CHECK_FILLED(hbmcheck_steady, found, hbmcheck_transient_get(t, k, &found));
   assert_int_equal(found.status, row->status);
   assert_int_equal(found.without_hbm, row->without_hbm);
   SAME(found.omega, r->omega);
@@ -203,12 +193,10 @@ static void check_transient(const char *const *set, int n, const double *omega)
   scene sc;
   compare_setup setup = setup_of(&sc, set);
   hbmcheck_case *c = case2_with(set);
-  hbmcheck_transient *t;
-  steady_states expected;
   setup.compare.omega.n = n;
   memcpy(setup.compare.omega.v, omega, (size_t)n * sizeof *omega);
-  assert_int_equal(steady_states_run(&setup, NULL, &expected), HC_OK);
-  assert_int_equal(hbmcheck_transient_run(c, n, omega, NULL, &t), HBMCHECK_OK);
+  CHECK_FILLED(steady_states, expected, steady_states_run(&setup, NULL, &expected));
+  CHECK_MADE(hbmcheck_transient, t, hbmcheck_transient_run(c, n, omega, NULL, &t));
   hbmcheck_case_free(c);
   assert_int_equal(hbmcheck_transient_count(t), expected.n);
   for (int k = 0; k < expected.n; ++k) check_steady(t, &expected, k), look(&expected.rows[k]);
@@ -237,13 +225,9 @@ static void check_comparison(const char *const *set, int exit_code, int gate_cod
   scene sc;
   compare_setup setup = setup_of(&sc, set);
   hbmcheck_case *c = case2_with(set);
-  hbmcheck_comparison *both;
-  hbmcheck_gate gate;
-  comparison expected;
-  gate_case judged;
-  assert_int_equal(comparison_run(&setup, NULL, &expected), HC_OK);
-  assert_int_equal(gate_judge("case 2", &setup, &expected, &judged), HC_OK);
-  assert_int_equal(hbmcheck_comparison_run(c, 0, NULL, NULL, &both), HBMCHECK_OK);
+  CHECK_FILLED(comparison, expected, comparison_run(&setup, NULL, &expected));
+  CHECK_FILLED(gate_case, judged, gate_judge("case 2", &setup, &expected, &judged));
+  CHECK_MADE(hbmcheck_comparison, both, hbmcheck_comparison_run(c, 0, NULL, NULL, &both));
   hbmcheck_case_free(c);
   assert_int_equal(hbmcheck_comparison_count(both), expected.n_rows);
   for (int k = 0; k < expected.n_rows; ++k) {
@@ -251,8 +235,7 @@ static void check_comparison(const char *const *set, int exit_code, int gate_cod
     const bool hbm = r->branch >= 0 && r->hbm_status == HC_OK, orbit = r->orbit_status == HC_OK;
     const bool moves =
         r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
-    hbmcheck_row found;
-    assert_int_equal(hbmcheck_comparison_get(both, k, &found), HBMCHECK_OK);
+    CHECK_FILLED(hbmcheck_row, found, hbmcheck_comparison_get(both, k, &found));
     SAME(found.omega, r->omega);
     assert_string_equal(hbmcheck_verdict_name(found.verdict), verdict_name(r->verdict));
     assert_int_equal(found.hbm_status, r->hbm_status);
@@ -282,7 +265,7 @@ static void check_comparison(const char *const *set, int exit_code, int gate_cod
   }
   assert_int_equal(hbmcheck_comparison_exit_code(both), exit_code);
   assert_int_equal(comparison_exit_code(&expected), exit_code);
-  assert_int_equal(hbmcheck_comparison_gate(both, &gate), HBMCHECK_OK);
+  CHECK_FILLED(hbmcheck_gate, gate, hbmcheck_comparison_gate(both, &gate));
   assert_int_equal(gate.checks, judged.n);
   assert_int_equal(gate.failed, judged.failures);
   assert_int_equal(gate.errors, judged.errors);
@@ -311,11 +294,9 @@ static void comparison_and_gate(CHECK_STATE)
 static void omegas_of_the_call(CHECK_STATE)
 {
   hbmcheck_case *c = CASE2("compare.omega=5,6");
-  hbmcheck_comparison *both;
-  hbmcheck_row row;
-  assert_int_equal(hbmcheck_comparison_run(c, 3, (double[]){4, 3.5, 4}, NULL, &both), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_comparison, both, hbmcheck_comparison_run(c, 3, (double[]){4, 3.5, 4}, NULL, &both));
   assert_int_equal(hbmcheck_comparison_count(both), 2);
-  assert_int_equal(hbmcheck_comparison_get(both, 0, &row), HBMCHECK_OK);
+  CHECK_FILLED(hbmcheck_row, row, hbmcheck_comparison_get(both, 0, &row));
   SAME(row.omega, 3.5);
   assert_int_equal(hbmcheck_comparison_get(both, 1, &row), HBMCHECK_OK);
   SAME(row.omega, 4);
@@ -328,9 +309,8 @@ static void cases_and_messages(CHECK_STATE)
 {
   const char *const set[] = {"hbm.harmonic=3"};
   char message[512], cut[9];
-  hbmcheck_case *c;
-  assert_int_equal(hbmcheck_case_read(SOURCE_DIR "/cases/paper/case2.yaml", 0, NULL, message, sizeof message, &c),
-                   HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_case, c,
+             hbmcheck_case_read(SOURCE_DIR "/cases/paper/case2.yaml", 0, NULL, message, sizeof message, &c));
   assert_string_equal(message, "");
   hbmcheck_case_free(c);
   assert_int_equal(hbmcheck_case_parse("two", case2_text, strlen(case2_text), 1, set, message, sizeof message, &c),

@@ -160,10 +160,9 @@ static void measures(CHECK_STATE)
 static void searches(CHECK_STATE)
 {
   hbmcheck_case *c = small();
-  hbmcheck_curve *curve;
   hbmcheck_solutions *at;
   hbmcheck_special special;
-  assert_int_equal(hbmcheck_curve_trace(c, NULL, &curve), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(c, NULL, &curve));
   EACH(st)
   {
     hbmcheck_summary whole = {.points = -1};
@@ -222,14 +221,12 @@ static void rows(CHECK_STATE)
   hbmcheck_comparison *both;
   for (int st = HC_OK; st <= HC_BUG; ++st) {
     const bool ok = st == HC_OK, moves = ok || st == HC_NOT_SETTLED || st == HC_APERIODIC;
-    hbmcheck_steady s;
-    hbmcheck_row row;
     int n = -1;
     row_status = (hc_status)st;
     assert_int_equal(hbmcheck_transient_run(c, 0, NULL, NULL, &t), HBMCHECK_OK);
     assert_int_equal(hbmcheck_comparison_run(c, 0, NULL, NULL, &both), HBMCHECK_OK);
     row_status = HC_OK;
-    assert_int_equal(hbmcheck_transient_get(t, 0, &s), HBMCHECK_OK);
+    CHECK_FILLED(hbmcheck_steady, s, hbmcheck_transient_get(t, 0, &s));
     assert_int_equal(s.status, st);
     assert_int_equal(s.without_hbm, st);
     const double measured[] = {s.amplitude, s.max, s.min, s.rms, s.mean, s.harmonic_1, s.closure};
@@ -240,7 +237,7 @@ static void rows(CHECK_STATE)
     assert_int_equal(s.stable, ok);
     assert_int_equal(hbmcheck_transient_wave(t, 0, 0, NULL, &n), HBMCHECK_OK);
     assert_int_equal(n > 0, moves);
-    assert_int_equal(hbmcheck_comparison_get(both, 0, &row), HBMCHECK_OK);
+    CHECK_FILLED(hbmcheck_row, row, hbmcheck_comparison_get(both, 0, &row));
     assert_int_equal(row.hbm_status, st);
     assert_int_equal(row.transient_status, st);
     assert_int_equal(row.orbit_status, st);

@@ -23,22 +23,19 @@ static void responses_have_names(CHECK_STATE)
 static void solutions_are_of_every_response(CHECK_STATE)
 {
   both b;
-  hbmcheck_curve *curve;
-  hbmcheck_solutions *found;
   hbmcheck_solution one;
   hbm_curve traced = {0}, there = {0};
   double X[MOST], expected[MOST];
   int n = 0;
   read_both(CHAIN, at[0], &b);
-  assert_int_equal(hbmcheck_curve_trace(b.c, NULL, &curve), HBMCHECK_OK);
-  assert_int_equal(hbmcheck_curve_at(curve, at[0], &found), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(b.c, NULL, &curve));
+  CHECK_MADE(hbmcheck_solutions, found, hbmcheck_curve_at(curve, at[0], &found));
   CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s));
   assert_int_equal(hbm_trace(s, b.setup.omega_from, b.setup.omega_to, NULL, &traced), HC_OK);
   assert_int_equal(hbm_curve_at(s, &traced, at[0], &there), HC_OK);
   assert_int_equal(hbmcheck_solutions_count(found), 1);
   for (int r = 0; r < RESPONSES; ++r) {
-    response_row row;
-    assert_int_equal(response_row_of(s, &there, 0, &row), HC_OK);
+    CHECK_FILLED(response_row, row, response_row_of(s, &there, 0, &row));
     assert_int_equal(response_row_turn(s, &there, 0, r, &row), HC_OK);
     assert_int_equal(hbm_response(s, at[0], hbm_curve_X(&there, 0), r, expected), HC_OK);
     assert_int_equal(hbmcheck_solutions_get_response(found, 0, r, &one), HBMCHECK_OK);
@@ -63,17 +60,14 @@ static void solutions_are_of_every_response(CHECK_STATE)
 static void steady_states_are_of_every_response(CHECK_STATE)
 {
   both b;
-  hbmcheck_transient *t;
-  steady_states expected;
   read_both(CHAIN, at[0], &b);
-  assert_int_equal(hbmcheck_transient_run(b.c, 1, at, NULL, &t), HBMCHECK_OK);
-  assert_int_equal(steady_states_run(&b.setup, NULL, &expected), HC_OK);
+  CHECK_MADE(hbmcheck_transient, t, hbmcheck_transient_run(b.c, 1, at, NULL, &t));
+  CHECK_FILLED(steady_states, expected, steady_states_run(&b.setup, NULL, &expected));
   assert_true(expected.n == RESPONSES && hbmcheck_transient_count(t) == RESPONSES);
   for (int r = 0; r < RESPONSES; ++r) {
-    hbmcheck_steady one;
     double x[TIMEINT_WAVE];
     int n;
-    assert_int_equal(hbmcheck_transient_get(t, r, &one), HBMCHECK_OK);
+    CHECK_FILLED(hbmcheck_steady, one, hbmcheck_transient_get(t, r, &one));
     assert_true(one.response == r && one.amplitude == expected.rows[r].result.amplitude);
     assert_int_equal(hbmcheck_transient_wave(t, r, TIMEINT_WAVE, x, &n), HBMCHECK_OK);
     assert_memory_equal(x, expected.rows[r].result.wave, sizeof x);
@@ -86,16 +80,13 @@ static void steady_states_are_of_every_response(CHECK_STATE)
 static void comparisons_are_of_every_response(CHECK_STATE)
 {
   both b;
-  hbmcheck_comparison *found;
-  comparison expected;
   read_both(CHAIN, at[0], &b);
-  assert_int_equal(hbmcheck_comparison_run(b.c, 1, at, NULL, &found), HBMCHECK_OK);
-  assert_int_equal(comparison_run(&b.setup, NULL, &expected), HC_OK);
+  CHECK_MADE(hbmcheck_comparison, found, hbmcheck_comparison_run(b.c, 1, at, NULL, &found));
+  CHECK_FILLED(comparison, expected, comparison_run(&b.setup, NULL, &expected));
   assert_true(expected.n_rows == RESPONSES && hbmcheck_comparison_count(found) == RESPONSES);
   for (int r = 0; r < RESPONSES; ++r) {
     const comparison_row *row = &expected.rows[r];
-    hbmcheck_row one;
-    assert_int_equal(hbmcheck_comparison_get(found, r, &one), HBMCHECK_OK);
+    CHECK_FILLED(hbmcheck_row, one, hbmcheck_comparison_get(found, r, &one));
     assert_true(one.response == r && (int)one.verdict == (int)row->verdict && !one.still && !one.family);
     assert_true(one.amplitude_error == row->errors.amplitude && one.hbm_predicted == row->hbm_predicted.amplitude);
     assert_true(one.from_truncation == row->budget.amplitude.truncation && one.from_truncation > 0);

@@ -21,11 +21,9 @@ typedef struct curve {
 /* The curve of a program that drops harmonic 0, as the file has it. */
 static verify_data read_no_static(curve *c)
 {
-  verify_columns columns;
-  verify_data data;
   char words[VERIFY_TEXT];
-  assert_int_equal(verify_columns_read("omega=1,harmonic_1=2", NULL, &columns, words), HC_OK);
-  assert_int_equal(verify_data_read(FOLDER "no_static.csv", &columns, &data, words), HC_OK);
+  CHECK_FILLED(verify_columns, columns, verify_columns_read("omega=1,harmonic_1=2", NULL, &columns, words));
+  CHECK_FILLED(verify_data, data, verify_data_read(FOLDER "no_static.csv", &columns, &data, words));
   assert_in_range(data.n, 3, MOST);
   c->n = data.n;
   for (int i = 0; i < data.n; ++i) c->omega[i] = data.points[i].omega, c->value[i] = data.points[i].value;
@@ -72,22 +70,18 @@ static void the_cause_is_named(CHECK_STATE)
 {
   curve c;
   verify_data data = read_no_static(&c);
-  verify_report expected;
-  hbmcheck_case *public_case;
-  hbmcheck_verification *v;
   char why[512];
-  assert_int_equal(hbmcheck_case_read(FOLDER "case2.yaml", 0, NULL, why, sizeof why, &public_case), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_case, public_case,
+             hbmcheck_case_read(FOLDER "case2.yaml", 0, NULL, why, sizeof why, &public_case));
   const hbmcheck_foreign theirs = {.quantity = "harmonic_1", .n = c.n, .omega = c.omega, .value = c.value};
-  assert_int_equal(hbmcheck_verification_run(public_case, &theirs, NULL, why, sizeof why, &v), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_verification, v, hbmcheck_verification_run(public_case, &theirs, NULL, why, sizeof why, &v));
   assert_string_equal(why, "");
   assert_string_equal(hbmcheck_verification_cause(v), "no_static_harmonic");
   assert_string_equal(hbmcheck_verification_guess(v), "none");
   case_error err;
-  scene sc;
-  compare_setup setup;
-  assert_int_equal(case_read(FOLDER "case2.yaml", 0, NULL, &sc, &err), HC_OK);
-  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
-  assert_int_equal(verify_run(&setup, 1, &data, NULL, NULL, &expected), HC_OK);
+  CHECK_FILLED(scene, sc, case_read(FOLDER "case2.yaml", 0, NULL, &sc, &err));
+  CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
+  CHECK_FILLED(verify_report, expected, verify_run(&setup, 1, &data, NULL, NULL, &expected));
   hbmcheck_point p;
   assert_int_equal(hbmcheck_verification_count(v), expected.n_rows);
   for (int i = 0; i < expected.n_rows; ++i) {
@@ -106,9 +100,8 @@ static void the_cause_is_named(CHECK_STATE)
   assert_int_equal(hbmcheck_verification_get(v, expected.n_rows, &p), HBMCHECK_BAD_INPUT);
   assert_int_equal(hbmcheck_verification_get(v, -1, &p), HBMCHECK_BAD_INPUT);
   SAME(p.omega, -1);
-  hbmcheck_findings f;
   char words[VERIFY_TEXT];
-  assert_int_equal(hbmcheck_verification_findings(v, &f), HBMCHECK_OK);
+  CHECK_FILLED(hbmcheck_findings, f, hbmcheck_verification_findings(v, &f));
   assert_int_equal(f.points, expected.n_rows);
   assert_int_equal(f.match, expected.count[VERDICT_MATCH]);
   assert_int_equal(f.differs, expected.count[VERDICT_DIFFERS]);
@@ -140,29 +133,23 @@ static void the_cause_is_named(CHECK_STATE)
 static void decibels_and_points_left_out(CHECK_STATE)
 {
   hbmcheck_case *c = CASE2("sweep.omega=3,6", "hbm.harmonics=10");
-  hbmcheck_curve *ours;
-  hbmcheck_verification *v;
-  hbmcheck_findings f;
-  hbmcheck_point p;
   double omega[4] = {3.5, 0, 4, 4.5}, value[4] = {0};
-  assert_int_equal(hbmcheck_curve_trace(c, NULL, &ours), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_curve, ours, hbmcheck_curve_trace(c, NULL, &ours));
   for (int i = 0; i < 4; ++i) {
-    hbmcheck_solutions *at;
-    hbmcheck_solution s;
     if (omega[i] <= 0) continue;
-    assert_int_equal(hbmcheck_curve_at(ours, omega[i], &at), HBMCHECK_OK);
-    assert_int_equal(hbmcheck_solutions_get(at, 0, &s), HBMCHECK_OK);
+    CHECK_MADE(hbmcheck_solutions, at, hbmcheck_curve_at(ours, omega[i], &at));
+    CHECK_FILLED(hbmcheck_solution, s, hbmcheck_solutions_get(at, 0, &s));
     value[i] = 20 * log10(s.amplitude);
     hbmcheck_solutions_free(at);
   }
   const hbmcheck_foreign theirs = {.quantity = "dB", .n = 4, .omega = omega, .value = value};
-  assert_int_equal(hbmcheck_verification_run(c, &theirs, NULL, NULL, 0, &v), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_verification, v, hbmcheck_verification_run(c, &theirs, NULL, NULL, 0, &v));
   assert_string_equal(hbmcheck_verification_cause(v), "none");
-  assert_int_equal(hbmcheck_verification_findings(v, &f), HBMCHECK_OK);
+  CHECK_FILLED(hbmcheck_findings, f, hbmcheck_verification_findings(v, &f));
   assert_int_equal(f.left_out, 1);
   assert_int_equal(f.exit_code, 0);
   assert_int_equal(hbmcheck_verification_count(v), 3);
-  assert_int_equal(hbmcheck_verification_get(v, 1, &p), HBMCHECK_OK);
+  CHECK_FILLED(hbmcheck_point, p, hbmcheck_verification_get(v, 1, &p));
   assert_int_equal(p.index, 2);
   CHECK_LE(fabs(p.value - value[2]), 1e-12, "%.17g", p.value); /* 20 log10 of 10^(dB/20): some roundings of 20 dB */
   CHECK_LE(fabs(p.nearest - value[2]), 8.7 * f.gate, "%.17g", p.nearest); /* d dB = 20/ln 10 of the relative error */
@@ -214,9 +201,8 @@ static void wrong_curves_are_refused_in_words(CHECK_STATE)
 
 static void accelerations_of_structures_are_refused(CHECK_STATE)
 {
-  hbmcheck_case *c;
   const double omega[] = {1, 1.1, 1.2}, value[] = {1, 2, 3};
-  assert_int_equal(hbmcheck_case_read(SOURCE_DIR "/cases/structures/chain3.yaml", 0, NULL, NULL, 0, &c), HBMCHECK_OK);
+  CHECK_MADE(hbmcheck_case, c, hbmcheck_case_read(SOURCE_DIR "/cases/structures/chain3.yaml", 0, NULL, NULL, 0, &c));
   refuse(c, (hbmcheck_foreign){.quantity = "acceleration", .n = 3, .omega = omega, .value = value},
          "acceleration is known of one degree of freedom alone");
   hbmcheck_case_free(c);
@@ -234,13 +220,12 @@ static void a_monitor_stops_it(CHECK_STATE)
   verify_data data = read_no_static(&c);
   hbmcheck_case *public_case = CASE2("hbm.harmonics=10");
   hbmcheck_verification *v;
-  hbmcheck_findings f;
   int ticks = 0;
   const hbmcheck_monitor monitor = {stop_at_third, &ticks};
   const hbmcheck_foreign theirs = {.quantity = "harmonic_1", .n = c.n, .omega = c.omega, .value = c.value};
   assert_int_equal(hbmcheck_verification_run(public_case, &theirs, &monitor, NULL, 0, &v), HBMCHECK_INTERRUPTED);
   assert_non_null(v);
-  assert_int_equal(hbmcheck_verification_findings(v, &f), HBMCHECK_OK);
+  CHECK_FILLED(hbmcheck_findings, f, hbmcheck_verification_findings(v, &f));
   assert_int_equal(f.exit_code, 3);
   assert_int_equal(f.points, hbmcheck_verification_count(v));
   hbmcheck_verification_free(v);

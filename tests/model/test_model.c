@@ -62,9 +62,8 @@ static void forces_of_many_are_those_of_one(CHECK_STATE)
   double F[2][N_COEF], G[2][N_COEF], w[MANY], largest = 0;
   for (int i = 0; i < 2; ++i) {
     model *m = case_2_in_parts(i == 0 ? 1 : MANY);
-    contact_report report;
     CHECK_MADE(exact_force, e, exact_force_new_of_model(H, m, &e));
-    assert_int_equal(exact_force_eval(e, X, F[i], NULL, &report), HC_OK);
+    CHECK_FILLED(contact_report, report, exact_force_eval(e, X, F[i], NULL, &report));
     exact_force_sliders(e, w);
     for (int j = 1; j < m->n_contacts; ++j) assert_true(w[j] == w[0]);
     assert_int_equal(report.transitions, 2 * m->n_contacts);
@@ -90,13 +89,11 @@ static void solutions_with_many_are_those_with_one(CHECK_STATE)
   double X[2][N_COEF], multiplier[2];
   for (int i = 0; i < 2; ++i) {
     model *m = case_2_in_parts(i == 0 ? 1 : MANY);
-    hbm_point point;
-    hbm_stability st;
     memset(X[i], 0, sizeof X[i]);
     CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
     model_free(m); /* the solver has its own */
-    assert_int_equal(hbm_solve_first(s, 6.0, X[i], &point), HC_OK);
-    assert_int_equal(hbm_stability_at(s, 6.0, X[i], &st), HC_OK);
+    CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 6.0, X[i], &point));
+    CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, 6.0, X[i], &st));
     multiplier[i] = st.multiplier;
     hbm_solver_free(s);
   }

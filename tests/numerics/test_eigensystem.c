@@ -49,9 +49,8 @@ static double nearest(const eigensystem *e, double complex z)
 static void small_ones_are_as_good_as_large(CHECK_STATE)
 {
   uint64_t seed = 2;
-  eigensystem e;
   workspace memory = {0};
-  assert_int_equal(eigensystem_make(&e, N, &memory), HC_OK);
+  CHECK_FILLED(eigensystem, e, eigensystem_make(&e, N, &memory));
   for (int trial = 0; trial < 50; ++trial) {
     double complex lambda[N];
     long double A[N * N];
@@ -77,13 +76,12 @@ static void small_ones_are_as_good_as_large(CHECK_STATE)
 static void equal_ones(CHECK_STATE)
 {
   uint64_t seed = 3;
-  eigensystem e;
   workspace memory = {0};
   double complex lambda[N];
   long double A[N * N];
   for (int k = 0; k < N; k += 2) lambda[k] = k < 6 ? -1 + 3 * I : -1e5 - k;
   draw(&seed, lambda, A);
-  assert_int_equal(eigensystem_make(&e, N, &memory), HC_OK);
+  CHECK_FILLED(eigensystem, e, eigensystem_make(&e, N, &memory));
   assert_int_equal(eigensystem_find(&e, A), HC_OK);
   for (int k = 0; k < N; k += 2) CHECK_LE(nearest(&e, lambda[k]), 1e-10 * cabs(lambda[k]), "%d", k);
   workspace_free(&memory);
@@ -96,9 +94,8 @@ static void near_ones_beside_a_large_one(CHECK_STATE)
 {
   const long double d = 0x1p-34L + 0x1p-54L;
   const long double A[9] = {1 + 2 * d, 2 * d, 0, d, 1 + d, 0, 0, 0, -1e8};
-  eigensystem e;
   workspace memory = {0};
-  assert_int_equal(eigensystem_make(&e, 3, &memory), HC_OK);
+  CHECK_FILLED(eigensystem, e, eigensystem_make(&e, 3, &memory));
   assert_int_equal(eigensystem_find(&e, A), HC_OK);
   for (int k = 0; k < 3; ++k) {
     const double complex *v = e.V + 3 * k, ratio = v[1] / v[0];
@@ -113,9 +110,8 @@ static void near_ones_beside_a_large_one(CHECK_STATE)
 static void defective_ones_are_refused(CHECK_STATE)
 {
   const double nearly[] = {0, 1e-14, 1e-10};
-  eigensystem e;
   workspace memory = {0};
-  assert_int_equal(eigensystem_make(&e, 3, &memory), HC_OK);
+  CHECK_FILLED(eigensystem, e, eigensystem_make(&e, 3, &memory));
   for (size_t i = 0; i < sizeof nearly / sizeof *nearly; ++i) {
     const long double A[9] = {0, nearly[i], 0, 1, 0, 0, 0, 0, -1e6};
     assert_int_equal(eigensystem_find(&e, A), HC_SINGULAR);

@@ -55,8 +55,7 @@ static void roots_are_found_from_either_side(CHECK_STATE)
       for (double tolerance = 1e-2; tolerance > 1e-17; tolerance /= 10) {
         double a = swapped ? cases[i].b : cases[i].a, b = swapped ? cases[i].a : cases[i].b;
         watched w = {.f = cases[i].f, .a = a, .b = b};
-        root_point root;
-        assert_int_equal(root_between(value_of, &w, a, w.f(a), b, w.f(b), tolerance, &root), HC_OK);
+        CHECK_FILLED(root_point, root, root_between(value_of, &w, a, w.f(a), b, w.f(b), tolerance, &root));
         CHECK_NEAR(root.x, cases[i].root, reach(tolerance, cases[i].root), "%s to %g", cases[i].name, tolerance);
         assert_true(root.f == w.f(root.x));
         assert_int_equal(root.evaluations, w.calls);
@@ -74,9 +73,8 @@ static void jumps_and_poles_cost_a_bisection(CHECK_STATE)
   for (int i = 0; i < 2; ++i) {
     for (int infinite = 0; infinite < 2; ++infinite) {
       watched w = {.f = f[i], .a = -3, .b = 4};
-      root_point root;
       double fb = infinite ? INFINITY : w.f(4);
-      assert_int_equal(root_between(value_of, &w, -3, w.f(-3), 4, fb, 1e-12, &root), HC_OK);
+      CHECK_FILLED(root_point, root, root_between(value_of, &w, -3, w.f(-3), 4, fb, 1e-12, &root));
       CHECK_NEAR(root.x, 0.7, 1e-12, "%d", i);
       CHECK_LE(w.calls, log2(7 / 1e-12) + 3, "%d", i);
     }
@@ -88,8 +86,7 @@ static double line(double x) { return x - 0.25; }
 static void a_straight_line_takes_one_evaluation(CHECK_STATE)
 {
   watched w = {.f = line, .a = -0.75, .b = 2.25};
-  root_point root;
-  assert_int_equal(root_between(value_of, &w, -0.75, -1, 2.25, 2, 1e-9, &root), HC_OK);
+  CHECK_FILLED(root_point, root, root_between(value_of, &w, -0.75, -1, 2.25, 2, 1e-9, &root));
   assert_true(root.x == 0.25 && root.f == 0 && root.evaluations == 1);
 }
 
@@ -97,8 +94,7 @@ static void a_straight_line_takes_one_evaluation(CHECK_STATE)
 static void an_end_may_be_the_root(CHECK_STATE)
 {
   watched w = {.f = sin, .a = 0, .b = 1};
-  root_point root;
-  assert_int_equal(root_between(value_of, &w, 0, 0, 1, sin(1), 1e-9, &root), HC_OK);
+  CHECK_FILLED(root_point, root, root_between(value_of, &w, 0, 0, 1, sin(1), 1e-9, &root));
   CHECK_NEAR(root.x, 0, 1e-9, "at a");
   w.a = 1, w.b = 0;
   assert_int_equal(root_between(value_of, &w, 1, sin(1), 0, 0, 1e-9, &root), HC_OK);
@@ -198,8 +194,7 @@ static void minima_are_found(CHECK_STATE)
       CHECK_LE(w.calls, at[i].at_most, "%zu to %g", i, tolerance);
     }
   watched w = {.f = terrace, .a = 0, .b = 1}; /* any place on the terrace is a minimum */
-  root_point low;
-  assert_int_equal(root_minimum(value_of, &w, 0, 1, 0.75, 0.5, 1, 0.5, 1e-6, &low), HC_OK);
+  CHECK_FILLED(root_point, low, root_minimum(value_of, &w, 0, 1, 0.75, 0.5, 1, 0.5, 1e-6, &low));
   assert_true(low.f == 0.5 && low.x >= 0.5);
 }
 
@@ -236,9 +231,8 @@ static void a_change_is_bisected(CHECK_STATE)
 {
   for (int swapped = 0; swapped < 2; ++swapped) {
     watched w = {.f = swapped ? cos : jump}; /* cos x > 0 below pi/2 */
-    root_point change;
     double a = swapped ? 3 : 0, b = swapped ? -1 : 1, at = swapped ? PI / 2 : 0.7;
-    assert_int_equal(root_change(beyond, &w, a, b, 1e-9, &change), HC_OK);
+    CHECK_FILLED(root_point, change, root_change(beyond, &w, a, b, 1e-9, &change));
     assert_true(w.f(change.x) > 0 && w.f(change.before) <= 0);
     CHECK_LE(fabs(change.x - change.before), 1e-9, "%d", swapped);
     CHECK_NEAR(change.x, at, 1e-9, "%d", swapped);
@@ -283,9 +277,8 @@ static hc_status likely_past(void *self, double x, bool *is)
 static void a_good_guess_saves_questions(CHECK_STATE)
 {
   for (int i = 0; i < 50; ++i) {
-    root_point change;
     guessed g = {.at = 0.05 + 0.0179 * i, .before = 0, .beyond = 1, .curvature = 0.015};
-    assert_int_equal(root_change_guided(past, likely_past, &g, 0, 1, 1e-11, &change), HC_OK);
+    CHECK_FILLED(root_point, change, root_change_guided(past, likely_past, &g, 0, 1, 1e-11, &change));
     CHECK_LE(fabs(change.x - change.before), 1e-11, "%d", i);
     assert_true(change.before <= g.at && g.at < change.x);
     CHECK_LE(g.calls, 8, "%d", i);
@@ -298,9 +291,8 @@ static void a_bad_guess_is_survived(CHECK_STATE)
 {
   static const double off[] = {1e9, -1e9, 7, -0.5}; /* always before, always beyond, and in between */
   for (int i = 0; i < 8; ++i) {
-    root_point change;
     guessed g = {.at = 0.3 + 0.1 * i / 8, .before = 0, .beyond = 1, .curvature = off[i % 4], .guess_fails = i > 3};
-    assert_int_equal(root_change_guided(past, likely_past, &g, 0, 1, 1e-11, &change), HC_OK);
+    CHECK_FILLED(root_point, change, root_change_guided(past, likely_past, &g, 0, 1, 1e-11, &change));
     CHECK_LE(fabs(change.x - change.before), 1e-11, "%d", i);
     assert_true(change.before <= g.at && g.at < change.x);
     CHECK_LE(g.calls, 111, "%d", i);
@@ -313,9 +305,8 @@ static void a_bad_guess_is_survived(CHECK_STATE)
 /* Downwards, too; a tolerance below rounding ends at 4 roundings. */
 static void the_first_change_that_is_guessed_is_found(CHECK_STATE)
 {
-  root_point change;
   guessed g = {.at = 0.9, .second_from = 0.3, .second_to = 0.5, .before = 0, .beyond = 1};
-  assert_int_equal(root_change_guided(past, likely_past, &g, 0, 1, 0, &change), HC_OK);
+  CHECK_FILLED(root_point, change, root_change_guided(past, likely_past, &g, 0, 1, 0, &change));
   CHECK_NEAR(change.x, 0.3, 4 * DBL_EPSILON * 0.3, "%d", 0);
   watched w = {.f = cos};
   assert_int_equal(root_change_guided(beyond, beyond, &w, 3, -1, 1e-9, &change), HC_OK);

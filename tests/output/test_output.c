@@ -73,8 +73,7 @@ static unsigned mode_of(const char *name)
 
 static output *opened(const char *name)
 {
-  output *o = NULL;
-  assert_int_equal(output_open(name, &o), HC_OK);
+  CHECK_MADE(output, o, output_open(name, &o));
   assert_non_null(o);
   return o;
 }

@@ -3,9 +3,8 @@
 
 static scene scene_of(const study *s, long id)
 {
-  scene sc;
   case_error err = {{0}};
-  assert_int_equal(study_scene(s, id, &sc, &err), HC_OK);
+  CHECK_FILLED(scene, sc, study_scene(s, id, &sc, &err));
   return sc;
 }
 

@@ -33,8 +33,7 @@ static study_store *open_good(const study *s, const char *version, bool fresh)
 
 static void keep_scene(const study *s, study_store *st, long id)
 {
-  study_result r;
-  assert_int_equal(study_solve(s, id, NULL, &r), HC_OK);
+  CHECK_FILLED(study_result, r, study_solve(s, id, NULL, &r));
   assert_false(r.failed);
   assert_int_equal(study_store_put(st, &r), HC_OK);
   study_result_clear(&r);
@@ -58,8 +57,7 @@ static void scenes_are_kept_once(CHECK_STATE)
   study_store_close(st);
   st = open_good(s, "1", false);
   assert_int_equal(count_done(s, st), 2);
-  study_result r;
-  assert_int_equal(study_solve(s, 0, NULL, &r), HC_OK);
+  CHECK_FILLED(study_result, r, study_solve(s, 0, NULL, &r));
   assert_int_equal(study_store_put(st, &r), HC_IO); /* twice */
   study_result_clear(&r);
   study_store_close(st);
@@ -186,12 +184,11 @@ static void results_travel(CHECK_STATE)
 {
   study *s =
       good_study("study: t\n" CASE "run: frf\nset: {compare.omega: [4, 5]}\nvary: [{oscillator.mass: [1, 2, 3]}]\n");
-  study_result r, back;
   size_t size;
-  assert_int_equal(study_solve(s, 1, NULL, &r), HC_OK);
+  CHECK_FILLED(study_result, r, study_solve(s, 1, NULL, &r));
   assert_int_equal(r.n_rows, 2);
   CHECK_MADE(char, packed, study_result_pack(&r, &packed, &size));
-  assert_int_equal(study_result_unpack(packed, size, &back), HC_OK);
+  CHECK_FILLED(study_result, back, study_result_unpack(packed, size, &back));
   assert_int_equal(back.id, 1);
   assert_memory_equal(back.rows, r.rows, 2 * (size_t)r.n_columns * sizeof *r.rows);
   assert_memory_equal(back.curve, r.curve, sizeof r.curve);

@@ -35,11 +35,10 @@ static inline void undraw(drawn *d)
 /* The Jacobian of the regularised law at y, column by column. */
 static inline void jacobian_of(const scaled_model *m, const double *y, double *jac)
 {
-  structure_newton s;
   workspace memory = {0};
   const size_t n = (size_t)m->n_states;
   double *unit = workspace_doubles(&memory, n);
-  assert_int_equal(structure_newton_make(&s, m->base, &memory), HC_OK);
+  CHECK_FILLED(structure_newton, s, structure_newton_make(&s, m->base, &memory));
   structure_newton_linearise(&s, m, y);
   for (size_t q = 0; q < n; ++q) {
     unit[q] = 1;
@@ -76,7 +75,6 @@ static inline void check_newton(void (*draw)(uint64_t *seed, transient_law law, 
   uint64_t seed = 9;
   for (int trial = 0; trial < 100; ++trial) {
     drawn d;
-    structure_newton s;
     workspace memory = {0};
     double y[MOST], r[MOST], z[MOST], jac[MOST * MOST];
     draw(&seed, TRANSIENT_LAW_REGULARISED, &d);
@@ -93,7 +91,7 @@ static inline void check_newton(void (*draw)(uint64_t *seed, transient_law law, 
     for (int i = 0; i < n; ++i) y[i] = random_signed(&seed), r[i] = z[i] = random_signed(&seed);
     jacobian_of(&d.scaled, y, jac);
     check_jacobian(&d, y, jac, trial);
-    assert_int_equal(structure_newton_make(&s, d.base, &memory), HC_OK);
+    CHECK_FILLED(structure_newton, s, structure_newton_make(&s, d.base, &memory));
     structure_newton_linearise(&s, &d.scaled, y);
     assert_true(structure_newton_factor(&s, &d.scaled, gamma));
     structure_newton_solve(&s, z);
@@ -118,13 +116,12 @@ static inline int check_series_and_events(void (*draw)(uint64_t *seed, transient
   *changing = 0;
   for (int trial = 0; trial < trials; ++trial) {
     drawn d;
-    integrator *series, *events;
     double y[MOST] = {0}, z[MOST];
     static double phi[2][MOST * MOST];
     draw(&seed, TRANSIENT_LAW_EXACT, &d);
     const int n = d.scaled.n_states;
-    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &series), HC_OK);
-    assert_int_equal(integrate_new_events(d.base, 1e-13, &events), HC_OK);
+    CHECK_MADE(integrator, series, integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &series));
+    CHECK_MADE(integrator, events, integrate_new_events(d.base, 1e-13, &events));
     for (int period = 0; period < 4; ++period) {
       const bool varies = period == 3;
       memcpy(z, y, sizeof y);

@@ -67,8 +67,7 @@ static void cascade_and_windows(CHECK_STATE)
   } at[] = {{5.107, 2}, {5.11, 4}, {5.115, 8}, {5.51, 16}, {5.52, 8}, {5.53, 4}, {5.55, 2}};
   scene sc = case2();
   for (size_t i = 0; i < sizeof at / sizeof *at; ++i) {
-    timeint_result r;
-    assert_int_equal(swept_up(&sc, at[i].omega, &r), HC_OK);
+    CHECK_FILLED(timeint_result, r, swept_up(&sc, at[i].omega, &r));
     if (r.period_multiple != at[i].multiple) print_error("at %g: %d periods\n", at[i].omega, r.period_multiple);
     assert_int_equal(r.period_multiple, at[i].multiple);
     CHECK_LE(r.multiplier, 1 - 1e-3, "at %g", at[i].omega);

@@ -72,9 +72,8 @@ static void a_circle_that_sticks_is_free_once(CHECK_STATE)
     model *m = driven("plane", 0.08);
     transient_settings how = closed_form;
     double y[6] = {0};
-    timeint *ti;
     if (march) how.steady = TRANSIENT_STEADY_MARCH;
-    assert_int_equal(timeint_new(m, &how, &ti), HC_OK);
+    CHECK_MADE(timeint, ti, timeint_new(m, &how, &ti));
     assert_int_equal(timeint_steady(ti, 12.5, y, NULL, &r), HC_OK);
     assert_int_equal(r.free_sliders, 1);
     timeint_free(ti);
@@ -127,7 +126,6 @@ static void newton_of_the_exact_law_solves_its_equations(CHECK_STATE)
   int turning = 0;
   for (int trial = 0; trial < 200; ++trial) {
     between_events b;
-    events_newton s;
     workspace memory = {0};
     double z[MOST], r[MOST], f[2][MOST], size = 1;
     draw(&seed, TRANSIENT_LAW_EXACT, &b.d);
@@ -149,7 +147,7 @@ static void newton_of_the_exact_law_solves_its_equations(CHECK_STATE)
     const double gamma = pow(10, -4 + 4 * random_unit(&seed)), h = 1e-5;
     turning += b.turning;
     for (int i = 0; i < b.n; ++i) z[i] = r[i] = random_signed(&seed);
-    assert_int_equal(events_newton_make(&s, b.d.base, b.track, b.law, b.own_of, &memory), HC_OK);
+    CHECK_FILLED(events_newton, s, events_newton_make(&s, b.d.base, b.track, b.law, b.own_of, &memory));
     events_newton_linearise(&s, &b.d.scaled, b.y);
     assert_true(events_newton_factor(&s, &b.d.scaled, gamma));
     events_newton_solve(&s, z);
@@ -177,7 +175,6 @@ static void a_motion_on_a_line_is_that_of_one_tangent(CHECK_STATE)
   const double e[2] = {0.6, 0.8};
   const contact law = {.kt = 60, .kn = 80, .mu = 0.5, .gap = 0.02};
   drawn two = {.m = driven("space", 3)}, one = {.m = driven("space", 3)};
-  integrator *of_two, *of_one;
   double y[2][MOST] = {{0}};
   for (int k = 0; k < 2; ++k) {
     model *m = k ? one.m : two.m;
@@ -196,8 +193,8 @@ static void a_motion_on_a_line_is_that_of_one_tangent(CHECK_STATE)
   one.m->contacts[1].law = (contact){0};
   scale_drawn(&one, TRANSIENT_LAW_EXACT, 10.5);
   scale_drawn(&two, TRANSIENT_LAW_EXACT, 10.5);
-  assert_int_equal(integrate_new_closed_form(one.base, INTERVAL_MODES_STIFF, &of_one), HC_OK);
-  assert_int_equal(integrate_new_closed_form(two.base, INTERVAL_MODES_STIFF, &of_two), HC_OK);
+  CHECK_MADE(integrator, of_one, integrate_new_closed_form(one.base, INTERVAL_MODES_STIFF, &of_one));
+  CHECK_MADE(integrator, of_two, integrate_new_closed_form(two.base, INTERVAL_MODES_STIFF, &of_two));
   for (int period = 0; period < 5; ++period) {
     double x[2][6];
     assert_int_equal(integrate_period(of_one, &one.scaled, y[0], NULL, NULL), HC_OK);
@@ -223,7 +220,6 @@ static void turned_tangents_change_nothing(CHECK_STATE)
   uint64_t seed = 5;
   for (int trial = 0; trial < 20; ++trial) {
     drawn d, turned;
-    integrator *in, *other;
     double y[MOST] = {0}, z[MOST] = {0};
     const double angle = 6 * random_unit(&seed), c = cos(angle), s = sin(angle), mirror = trial % 2 ? -1 : 1;
     draw(&seed, TRANSIENT_LAW_EXACT, &d);
@@ -235,8 +231,8 @@ static void turned_tangents_change_nothing(CHECK_STATE)
         turned.m->contacts[j + 1].tangent[i] = mirror * (c * two - s * one);
       }
     scale_drawn(&turned, TRANSIENT_LAW_EXACT, 1 / d.scaled.by_C);
-    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &in), HC_OK);
-    assert_int_equal(integrate_new_closed_form(turned.base, INTERVAL_MODES_STIFF, &other), HC_OK);
+    CHECK_MADE(integrator, in, integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &in));
+    CHECK_MADE(integrator, other, integrate_new_closed_form(turned.base, INTERVAL_MODES_STIFF, &other));
     for (int period = 0; period < 3; ++period) {
       double x[MOST], x2[MOST];
       assert_int_equal(integrate_period(in, &d.scaled, y, NULL, NULL), HC_OK);
@@ -298,13 +294,12 @@ static void monodromy_is_the_derivative(CHECK_STATE)
   int compared = 0, off = 0;
   for (int trial = 0; trial < 60; ++trial) {
     drawn d;
-    integrator *in;
     double y[MOST] = {0}, z[MOST];
     static double phi[MOST * MOST];
     draw(&seed, TRANSIENT_LAW_EXACT, &d);
     const int n = d.scaled.n_states;
     for (int i = 0; i < n; ++i) y[i] = 0.3 * random_signed(&seed);
-    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &in), HC_OK);
+    CHECK_MADE(integrator, in, integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &in));
     memcpy(z, y, sizeof y);
     assert_int_equal(integrate_monodromy(in, &d.scaled, z, phi), HC_OK);
     for (int q = 0; q < n && is_smooth(&d, y); ++q) {
@@ -326,13 +321,12 @@ static void coarse_matrices_are_good_to_their_digits(CHECK_STATE)
   int coarser = 0;
   for (int trial = 0; trial < 60; ++trial) {
     drawn d;
-    integrator *in;
     double y[2][MOST] = {{0}}, largest = 0, apart = 0;
     static double phi[2][MOST * MOST];
     draw(&seed, TRANSIENT_LAW_EXACT, &d);
     const int n = d.scaled.n_states;
     for (int i = 0; i < n; ++i) y[0][i] = y[1][i] = 0.3 * random_signed(&seed);
-    assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &in), HC_OK);
+    CHECK_MADE(integrator, in, integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &in));
     assert_int_equal(integrate_has_coarse(in), d.base->n_planar > 0);
     assert_int_equal(integrate_monodromy(in, &d.scaled, y[0], phi[0]), HC_OK);
     assert_int_equal(integrate_coarse_monodromy(in, &d.scaled, y[1], phi[1]), HC_OK);
@@ -456,10 +450,9 @@ static void a_long_period_hears_the_monitor(CHECK_STATE)
     int left = 3;
     const hc_monitor stop = {.tick = check_stop, .self = &left};
     double y[6] = {0.1, 0.1};
-    timeint *ti;
     for (int a = 0; a < 2; ++a) m->contacts[a].law.load = 0.5e-4;
     if (cvode) how.method = TRANSIENT_METHOD_CVODE;
-    assert_int_equal(timeint_new(m, &how, &ti), HC_OK);
+    CHECK_MADE(timeint, ti, timeint_new(m, &how, &ti));
     assert_int_equal(timeint_orbit(ti, 12.5, 1, y, &stop, &r), HC_INTERRUPTED);
     CHECK_LE(cvode ? r.rhs : r.steps, 2 * 4096 + 1, "by CVODE: %d", cvode);
     CHECK_LE(r.periods, 0, "none has ended, by CVODE: %d", cvode);

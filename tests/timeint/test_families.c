@@ -30,11 +30,10 @@ static void two_stable_motions(CHECK_STATE)
   const structure_case c = structure_case_named("chain3", 3);
   transient_settings how = closed_form;
   how.start = TRANSIENT_START_DOWN;
-  timeint_result r;
   double y[STATES] = {0};
   CHECK_MADE(timeint, ti, timeint_new(c.model, &how, &ti));
   assert_int_equal(timeint_sweep(ti, 1.9, 1.485, y, NULL), HC_OK);
-  assert_int_equal(timeint_steady(ti, 1.485, y, NULL, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, timeint_steady(ti, 1.485, y, NULL, &r));
   CHECK_LE(r.multiplier, 1 - 1e-3, "down at 1.485");
   CHECK_NEAR(r.amplitude, 0.0530509414153658, 2e-9, "down at 1.485, x1");
   assert_int_equal(timeint_response(ti, 2, &r), HC_OK);
@@ -55,10 +54,9 @@ static void marching_counts_them_too(CHECK_STATE)
     const structure_case c = structure_case_named(marched[i].name, 3);
     transient_settings how = closed_form;
     how.steady = TRANSIENT_STEADY_MARCH;
-    timeint_result r;
     double y[STATES];
     timeint *ti = at_rest(c.model, &how, y);
-    assert_int_equal(timeint_steady(ti, marched[i].omega, y, NULL, &r), HC_OK);
+    CHECK_FILLED(timeint_result, r, timeint_steady(ti, marched[i].omega, y, NULL, &r));
     assert_int_equal(r.method, TIMEINT_BY_MARCHING);
     assert_int_equal(r.free_sliders, marched[i].free_sliders);
     timeint_free(ti);
@@ -84,11 +82,10 @@ static void what_floats_does_not_settle(CHECK_STATE)
     transient_settings how = CLOSED_FORM(1e-9, 300);
     how.start = TRANSIENT_START_HBM;
     timeint_result r;
-    hbm_point point;
     double y[STATES] = {0}, X[CASE_MAX_COEF] = {0};
     hbm_solver *s = structure_solver(&c);
     CHECK_MADE(timeint, ti, timeint_new(c.model, &how, &ti));
-    assert_int_equal(hbm_solve_first(s, 0.95, X, &point), HC_OK);
+    CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 0.95, X, &point));
     assert_int_equal(hbm_state(s, 0.95, X, y, y + 3), HC_OK);
     assert_int_not_equal(timeint_steady(ti, 0.95, y, NULL, &r), HC_OK);
     hbm_solver_free(s);

@@ -109,9 +109,8 @@ static model *symmetric_structure(uint64_t *seed, int n, int n_contacts)
 
 static void check_slowed(uint64_t *seed, const model *m, double fastest)
 {
-  modal_base *whole, *slow;
-  assert_int_equal(modal_base_new(m, &whole), HC_OK);
-  assert_int_equal(modal_base_slowed(whole, m, fastest, &slow), HC_OK);
+  CHECK_MADE(modal_base, whole, modal_base_new(m, &whole));
+  CHECK_MADE(modal_base, slow, modal_base_slowed(whole, m, fastest, &slow));
   assert_true(slow->slowed[0] == 1 && slow->slowed[m->n - 1] > 1);
   /* As springs all modes stay what they are: rounding of n terms, each of a handful of operations. */
   const double *of[2][MOST_VECTORS];
@@ -206,12 +205,11 @@ static void small_or_unsymmetric_structures_are_not_slowed(CHECK_STATE)
 {
   for (int n = MASS_SCALING_MODES; n <= MASS_SCALING_MODES + 1; ++n)
     for (int turned = 0; turned < 2; ++turned) {
-      modal_base *whole;
       CHECK_MADE(model, m, model_new(n, 1, 0, 1, &m));
       m->responses[0] = 1;
       for (int i = 0; i < n; ++i) m->mass[i * (n + 1)] = 1, m->stiffness[i * (n + 1)] = exp2(i);
       if (turned) m->stiffness[1] = 0.1;
-      assert_int_equal(modal_base_new(m, &whole), HC_OK);
+      CHECK_MADE(modal_base, whole, modal_base_new(m, &whole));
       const bool may = n > MASS_SCALING_MODES && !turned;
       assert_int_equal(mass_scaling_may_pay(whole), may);
       assert_int_equal(isfinite(mass_scaling_fastest(whole, 1)), may);
@@ -226,11 +224,10 @@ static void small_or_unsymmetric_structures_are_not_slowed(CHECK_STATE)
  * 36 of them, each some ten times what is left of their sum, n eps 10, times 10 for the law's own. */
 static int check_rate(uint64_t *seed, const drawn *d, int trial)
 {
-  structure_newton s;
   workspace memory = {0};
   const int n = d->scaled.n_states;
   double *y = calloc(3 * (size_t)n, sizeof *y), *dy[2] = {y + n, y + 2 * n};
-  assert_int_equal(structure_newton_make(&s, d->base, &memory), HC_OK);
+  CHECK_FILLED(structure_newton, s, structure_newton_make(&s, d->base, &memory));
   for (int at = 0; at < 3; ++at) {
     double size = 1;
     for (int i = 0; i < n; ++i) y[i] = random_signed(seed), dy[0][i] = dy[1][i] = NAN;
@@ -304,11 +301,10 @@ static void find_at(structure_case *c, int n, const double *hertz, struct orbit 
   double *X = calloc((size_t)hbm_n_coefficients(s), sizeof *X);
   CHECK_MADE(timeint, ti, timeint_new(c->model, &closed_form, &ti));
   for (int k = 0; k < n; ++k) {
-    hbm_point point;
     struct orbit *o = &orbit[k];
     o->omega = TWO_PI * hertz[k];
     o->state = calloc((size_t)timeint_n_states(ti), sizeof *o->state);
-    assert_int_equal(hbm_first_solution(s, o->omega, NULL, X, &point), HC_OK);
+    CHECK_FILLED(hbm_point, point, hbm_first_solution(s, o->omega, NULL, X, &point));
     assert_int_equal(comparison_orbit_start(s, X, o->omega, o->state), HC_OK);
     assert_int_equal(timeint_orbit(ti, o->omega, 1, o->state, NULL, &o->r), HC_OK);
   }
@@ -372,10 +368,9 @@ static void map_whole(plates_map *p, const struct orbit *o)
 /* The same of the structure with fast modes slowed as orbits' matrices have them. */
 static void map_slowed(plates_map *p, const struct orbit *o)
 {
-  modal_base *base, *slowed;
-  assert_int_equal(modal_base_new(plates, &base), HC_OK);
+  CHECK_MADE(modal_base, base, modal_base_new(plates, &base));
   const double fastest = mass_scaling_fastest(base, o->omega);
-  assert_int_equal(modal_base_slowed(base, plates, fastest, &slowed), HC_OK);
+  CHECK_MADE(modal_base, slowed, modal_base_slowed(base, plates, fastest, &slowed));
   map_make(p, o, slowed);
   modal_base_free(base);
 }
@@ -675,11 +670,10 @@ static void ask_next(timeint *ti, double omega, timeint_result *r, long *periods
  * to see that, and those after one step or two. */
 static void orbits_need_no_matrix_of_their_own(CHECK_STATE)
 {
-  timeint *plain, *bare;
   timeint_result at[2], again, one;
   long periods[2], bare_periods[2], none;
-  assert_int_equal(timeint_new(plates, &closed_form, &plain), HC_OK);
-  assert_int_equal(timeint_new(plates, &closed_form, &bare), HC_OK);
+  CHECK_MADE(timeint, plain, timeint_new(plates, &closed_form, &plain));
+  CHECK_MADE(timeint, bare, timeint_new(plates, &closed_form, &bare));
   timeint_leave_multipliers(bare);
   for (int k = 0; k < 2; ++k) {
     const double omega = orbits[1].omega * (1 + 1e-4 * k);
@@ -702,14 +696,13 @@ static void orbits_need_no_matrix_of_their_own(CHECK_STATE)
 /* The motion from rest goes where the copy with slowed modes has gone before: to the only orbit there is at 138 Hz. */
 static void rest_leads_to_the_orbit(CHECK_STATE)
 {
-  timeint_result r;
   transient_settings how = closed_form;
   how.start = TRANSIENT_START_REST;
   how.steady = TRANSIENT_STEADY_AUTO;
   CHECK_MADE(timeint, ti, timeint_new(plates, &how, &ti));
   double *y = calloc((size_t)timeint_n_states(ti), sizeof *y);
   timeint_rest(ti, y);
-  assert_int_equal(timeint_steady(ti, orbits[1].omega, y, NULL, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, timeint_steady(ti, orbits[1].omega, y, NULL, &r));
   CHECK_LE(fabs(r.amplitude - orbits[1].r.amplitude), 4 * how.tolerance * r.amplitude, "from rest");
   assert_true(r.periods < 20); /* of the whole model: those of the orbit, none of the way there */
   timeint_free(ti);
@@ -722,7 +715,6 @@ static void rest_leads_to_the_orbit(CHECK_STATE)
  * more than it predicts, which is little. */
 static void check_cvode(const struct orbit *o, transient_law law, double tolerance)
 {
-  timeint_result r;
   const size_t n_states = 2 * (size_t)plates->n + (size_t)plates->n_contacts;
   double *state = calloc(n_states, sizeof *state);
   transient_settings how = closed_form;
@@ -732,7 +724,7 @@ static void check_cvode(const struct orbit *o, transient_law law, double toleran
   how.tolerance = tolerance;
   memcpy(state, o->state, n_states * sizeof *state);
   CHECK_MADE(timeint, ti, timeint_new(plates, &how, &ti));
-  assert_int_equal(timeint_orbit(ti, o->omega, 1, state, NULL, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, timeint_orbit(ti, o->omega, 1, state, NULL, &r));
   assert_int_equal(timeint_predict(ti, state, NULL, 1, &r), HC_OK);
   const double off = fabs(r.amplitude - o->r.amplitude);
   CHECK_LE(off, r.predicted.amplitude, "law %d", law);

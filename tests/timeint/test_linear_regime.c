@@ -348,8 +348,7 @@ static void from_rest(CHECK_STATE)
   assert_false(is_final(&c2, 7, &rest));
   timeint *ti = make(&r2);
   scene_state st = rest;
-  timeint_result r;
-  assert_int_equal(timeint_steady(ti, 700, st.all, NULL, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, timeint_steady(ti, 700, st.all, NULL, &r));
   CHECK_NEAR(r.amplitude, cabs(linear_response(1.6, 0.4, 8e5, 100, 700)), 1e-14 * r.amplitude, "r2 from rest");
   assert_int_equal(r.periods, 0);
   assert_int_equal(r.steps, 0);

@@ -94,10 +94,9 @@ static void a_failure_of_dense_output_is_told(CHECK_STATE)
   static const double ends[] = {1.2, 3.0};
   scene sc = scene_linear(1, 0, 4, 0);
   scaled_model m;
-  measure me;
   workspace memory = {0};
   scene_scaled(&m, &sc, 1, 1);
-  assert_int_equal(measure_make(&me, m.n_states, 1, m.n_contacts, &memory), HC_OK);
+  CHECK_FILLED(measure, me, measure_make(&me, m.n_states, 1, m.n_contacts, &memory));
   for (int i = 0; i < 2; ++i) {
     failing f = {.base = {.does = &class}};
     int calls = 1;

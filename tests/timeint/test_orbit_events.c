@@ -9,10 +9,9 @@ static const transient_settings closed = CLOSED_FORM(1e-10, 2000);
 
 static void settle(const model *m, double omega, orbit_events *e)
 {
-  timeint_result r;
   double state[8];
   timeint *ti = at_rest(m, &closed, state);
-  assert_int_equal(timeint_steady(ti, omega, state, NULL, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, timeint_steady(ti, omega, state, NULL, &r));
   assert_int_equal(timeint_events(ti, r.period_multiple, e), HC_OK);
   timeint_free(ti);
 }

@@ -20,11 +20,10 @@ static void predicted(scene sc, double omega, double regularisation, bool scout,
 {
   timeint *ti = made(sc, TRANSIENT_LAW_REGULARISED, TRANSIENT_METHOD_CVODE, scout, regularisation);
   timeint *exact = made(sc, TRANSIENT_LAW_EXACT, TRANSIENT_METHOD_CLOSED_FORM, false, regularisation);
-  timeint_result r, truth;
-  assert_int_equal(timeint_steady(ti, omega, y.all, NULL, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, timeint_steady(ti, omega, y.all, NULL, &r));
   assert_true(isnan(r.predicted.amplitude)); /* not before it is asked */
   assert_int_equal(timeint_predict(ti, y.all, NULL, 1, &r), HC_OK);
-  assert_int_equal(timeint_steady(exact, omega, y.all, NULL, &truth), HC_OK);
+  CHECK_FILLED(timeint_result, truth, timeint_steady(exact, omega, y.all, NULL, &truth));
   *said = r.predicted;
   *off = fabs(r.amplitude - truth.amplitude);
   timeint_free(exact);
@@ -46,10 +45,9 @@ static void regularisation_is_predicted(CHECK_STATE)
       for (int scout = 0; scout < 2; ++scout) {
         scene_state y = {.x = 0};
         timeint *ti = made(at[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_METHOD_CLOSED_FORM, false, rho);
-        timeint_result r;
         motion_error said;
         double off;
-        assert_int_equal(timeint_steady(ti, at[i].omega, y.all, NULL, &r), HC_OK);
+        CHECK_FILLED(timeint_result, r, timeint_steady(ti, at[i].omega, y.all, NULL, &r));
         timeint_free(ti);
         predicted(at[i].sc, at[i].omega, rho, scout, y, &said, &off);
         CHECK_LE(off, 1.1 * said.amplitude + 1e-9 * r.amplitude, "scene %d at %g, %g, scout %d", (int)i, at[i].omega,
@@ -67,10 +65,9 @@ static void integration_is_predicted(CHECK_STATE)
     timeint *ti = made(scene_c2(), TRANSIENT_LAW_EXACT, TRANSIENT_METHOD_CVODE, scout, 1e-4);
     timeint *closed = made(scene_c2(), TRANSIENT_LAW_EXACT, TRANSIENT_METHOD_CLOSED_FORM, false, 1e-4);
     scene_state y = {.x = 0}, z = {.x = 0};
-    timeint_result r, truth;
-    assert_int_equal(timeint_steady(ti, 7, y.all, NULL, &r), HC_OK);
+    CHECK_FILLED(timeint_result, r, timeint_steady(ti, 7, y.all, NULL, &r));
     assert_int_equal(timeint_predict(ti, y.all, NULL, 1, &r), HC_OK);
-    assert_int_equal(timeint_steady(closed, 7, z.all, NULL, &truth), HC_OK);
+    CHECK_FILLED(timeint_result, truth, timeint_steady(closed, 7, z.all, NULL, &truth));
     CHECK_LE(fabs(r.amplitude - truth.amplitude), r.predicted.amplitude, "scout %d", scout);
     CHECK_LE(r.predicted.amplitude, 1e-8 * r.amplitude, "scout %d", scout);
     timeint_free(ti);

@@ -7,10 +7,9 @@ static const double b10_exact = 1.40757735095, c2_exact = 9.45555672271; /* |X1|
 
 static double harmonic_1(scene sc, double regularisation, scene_state y)
 {
-  timeint_result r;
   sc.transient.regularisation = regularisation;
   CHECK_MADE(timeint, ti, scene_timeint(&sc, &ti));
-  assert_int_equal(timeint_steady(ti, 7, y.all, NULL, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, timeint_steady(ti, 7, y.all, NULL, &r));
   timeint_free(ti);
   return r.harmonic_1;
 }

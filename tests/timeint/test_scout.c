@@ -204,10 +204,9 @@ static void an_orbit_run_through_several_times(CHECK_STATE)
   for (int k = 1; k <= 4; ++k)
     for (int scout = 0; scout < 2; ++scout) {
       timeint *ti = make(sc, scout);
-      timeint_result r;
       scene_state y = at.y;
       y.x *= 1.001;
-      assert_int_equal(timeint_orbit(ti, 7, k, y.all, NULL, &r), HC_OK);
+      CHECK_FILLED(timeint_result, r, timeint_orbit(ti, 7, k, y.all, NULL, &r));
       assert_int_equal(r.period_multiple, 1);
       CHECK_NEAR(r.amplitude, at.r.amplitude, 1e-9 * at.r.amplitude, "k %d", k);
       CHECK_NEAR(r.contraction, at.r.contraction, 1e-6, "k %d", k); /* both to the tolerance of the matrix */
@@ -285,9 +284,8 @@ static void an_orbit_far_away_is_not_confirmed(CHECK_STATE)
   scene sc = scene_c2();
   sc.transient.law = TRANSIENT_LAW_EXACT;
   timeint *ti = make(sc, true);
-  timeint_result r;
   scene_state y = {.x = 0};
-  assert_int_equal(timeint_steady(ti, 12, y.all, NULL, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, timeint_steady(ti, 12, y.all, NULL, &r));
   for (int far = 0; far < 2; ++far) {
     scene_state z = y;
     z.x *= far ? 0.5 : 0.99, z.v *= far ? 0.5 : 0.99;

@@ -134,12 +134,11 @@ static void finds_what_marching_finds(CHECK_STATE)
   } cases[] = {{scene_b10(), 7}, {scene_c2(), 6}, {scene_a10(), 13}, {scene_gap1(), 25}};
   for (int law = TRANSIENT_LAW_REGULARISED; law <= TRANSIENT_LAW_EXACT; ++law)
     for (int i = 0; i < 4; ++i) {
-      timeint_result marched, shot;
       timeint *march = made(cases[i].sc, law, TRANSIENT_STEADY_MARCH, TRANSIENT_START_REST);
       timeint *automatic = made(cases[i].sc, law, TRANSIENT_STEADY_AUTO, TRANSIENT_START_REST);
       scene_state y = {.x = 0}, z = y;
-      assert_int_equal(timeint_steady(march, cases[i].omega, y.all, NULL, &marched), HC_OK);
-      assert_int_equal(timeint_steady(automatic, cases[i].omega, z.all, NULL, &shot), HC_OK);
+      CHECK_FILLED(timeint_result, marched, timeint_steady(march, cases[i].omega, y.all, NULL, &marched));
+      CHECK_FILLED(timeint_result, shot, timeint_steady(automatic, cases[i].omega, z.all, NULL, &shot));
       const double tolerance = 2 * cases[i].sc.transient.tolerance;
       CHECK_NEAR(shot.amplitude, marched.amplitude, tolerance * marched.amplitude, "law %d case %d", law, i);
       CHECK_NEAR(shot.a1, marched.a1, tolerance * marched.amplitude, "law %d case %d a1", law, i);
@@ -164,10 +163,9 @@ static void few_periods_whatever_the_damping(CHECK_STATE)
   } cases[] = {{scene_c2(), 9, 7, 20}, {scene_r2(), 708.5, 700, 60}};
   for (int i = 0; i < 2; ++i) {
     timeint *ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_UP);
-    timeint_result r;
     scene_state y = {.x = 0};
     assert_int_equal(timeint_sweep(ti, cases[i].from, cases[i].omega, y.all, NULL), HC_OK);
-    assert_int_equal(timeint_steady(ti, cases[i].omega, y.all, NULL, &r), HC_OK);
+    CHECK_FILLED(timeint_result, r, timeint_steady(ti, cases[i].omega, y.all, NULL, &r));
     timeint_free(ti);
     ti = made(cases[i].sc, TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_AUTO, TRANSIENT_START_HBM);
     y.x *= 1.01;
@@ -214,9 +212,8 @@ static void a_free_slider_is_left_alone(CHECK_STATE)
   for (int law = TRANSIENT_LAW_REGULARISED; law <= TRANSIENT_LAW_EXACT; ++law)
     for (int i = 0; i < 3; ++i) {
       timeint *ti = made(sc, law, TRANSIENT_STEADY_SHOOTING, TRANSIENT_START_REST);
-      timeint_result r;
       scene_state y = {.x = 0.15 + share * offset[i], .w = {offset[i]}};
-      assert_int_equal(timeint_orbit(ti, 12, 1, y.all, NULL, &r), HC_OK);
+      CHECK_FILLED(timeint_result, r, timeint_orbit(ti, 12, 1, y.all, NULL, &r));
       assert_int_equal(r.free_sliders, 1);
       CHECK_NEAR(r.amplitude, 10 / hypot(190 - 12 * 12, 0.4 * 12), 1e-9, "law %d", law); /* F0/|k - w^2 + i C w| */
       CHECK_NEAR(r.mean, share * offset[i], 1e-9, "law %d offset %g", law, offset[i]);
@@ -262,12 +259,11 @@ static void anderson_ends_with_the_matrix(CHECK_STATE)
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
     timeint *ti = made(rows[i], TRANSIENT_LAW_EXACT, TRANSIENT_STEADY_SHOOTING, TRANSIENT_START_HBM);
     scene_state y = {.all = {0}};
-    shoot_report newton, anderson;
     if (i == 0) y = (scene_state){.x = -2.4, .v = 1.9, .w = {-1.7}};
     assert_int_equal(timeint_begin(ti, 9, y.all), HC_OK);
-    assert_int_equal(shoot_anderson(ti->shoot, 1, orbit_goal(ti), NULL, &anderson), HC_OK);
+    CHECK_FILLED(shoot_report, anderson, shoot_anderson(ti->shoot, 1, orbit_goal(ti), NULL, &anderson));
     assert_int_equal(timeint_begin(ti, 9, y.all), HC_OK);
-    assert_int_equal(shoot_newton(ti->shoot, 1, 10, orbit_goal(ti), NULL, &newton), HC_OK);
+    CHECK_FILLED(shoot_report, newton, shoot_newton(ti->shoot, 1, 10, orbit_goal(ti), NULL, &newton));
     CHECK_NEAR(cabs(anderson.multiplier), cabs(newton.multiplier), 1e-7, "case %zu", i);
     if (i == 1) {
       const double free_mass = exp(-0.5 * TWO_PI * rows[i].damping / (rows[i].mass * 9));

@@ -47,8 +47,7 @@ static void without_contacts(CHECK_STATE)
   const double omegas[] = {1, 3, 6.3, 7, 16};
   for (int i = 0; i < 5; ++i) {
     scene_state y = {0};
-    timeint_result r;
-    assert_int_equal(steady(&sc, omegas[i], &y, &r), HC_OK);
+    CHECK_FILLED(timeint_result, r, steady(&sc, omegas[i], &y, &r));
     check_harmonic(&sc, &r, response(&sc, 40, omegas[i]));
     CHECK_NEAR(y.x, r.a1, 10 * sc.transient.tolerance * r.amplitude, "the state is on the orbit");
     assert_int_equal(r.regime, CONTACT_LINEAR);
@@ -62,8 +61,7 @@ static void stuck_all_period(CHECK_STATE)
 {
   scene sc = scene_a10();
   scene_state y = {0};
-  timeint_result r;
-  assert_int_equal(steady(&sc, 10, &y, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, steady(&sc, 10, &y, &r));
   check_harmonic(&sc, &r, response(&sc, scene_max_stiffness(&sc), 10));
   assert_int_equal(r.regime, CONTACT_STUCK);
 }
@@ -80,8 +78,7 @@ static void linear_contacts(CHECK_STATE)
   scene_add(&sc, 30, 50, 0.9, 5, 0);     /* alpha = 0: kt */
   double k = 40 + 60 + 50 * 0.25 + 30;
   scene_state y = {0};
-  timeint_result r;
-  assert_int_equal(steady(&sc, 9, &y, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, steady(&sc, 9, &y, &r));
   check_harmonic(&sc, &r, response(&sc, k, 9));
   assert_int_equal(r.regime, CONTACT_STUCK);
   CHECK_NEAR(y.w[2], y.x * cos(PI / 6), 4 * DBL_EPSILON * fabs(y.x), "a slider without friction is at u");
@@ -116,8 +113,7 @@ static void start_of_any_size(CHECK_STATE)
   const double starts[] = {1e-8, 1e8};
   for (int i = 0; i < 2; ++i) {
     scene_state y = {.x = starts[i]};
-    timeint_result r;
-    assert_int_equal(steady(&sc, 12, &y, &r), HC_OK);
+    CHECK_FILLED(timeint_result, r, steady(&sc, 12, &y, &r));
     check_harmonic(&sc, &r, response(&sc, 40, 12));
   }
 }
@@ -129,9 +125,8 @@ static void without_force(CHECK_STATE)
 {
   scene sc = scene_linear(1, 0.4, 40, 0);
   scene_state y = {.x = 1}, z = y;
-  timeint_result r;
   sc.transient.max_periods = 500;
-  assert_int_equal(steady(&sc, 7, &y, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, steady(&sc, 7, &y, &r));
   assert_int_equal(r.method, TIMEINT_BY_CLOSED_FORM);
   assert_true(r.amplitude == 0 && r.mean == 0 && y.x == 0 && y.v == 0);
   sc.transient.steady = TRANSIENT_STEADY_MARCH;

@@ -53,12 +53,11 @@ static void modes_and_series_agree(CHECK_STATE)
   long by_modes = 0, by_series = 0;
   for (int trial = 0; trial < 40 * N_KINDS; ++trial) {
     drawn d;
-    integrator *modes, *series;
     double y[MOST] = {0}, z[MOST];
     draw(&seed, (enum kind)(trial % N_KINDS), &d);
     const int n = d.scaled.n_states;
-    assert_int_equal(integrate_new_closed_form(d.base, 0, &modes), HC_OK);
-    assert_int_equal(integrate_new_closed_form(d.base, INFINITY, &series), HC_OK);
+    CHECK_MADE(integrator, modes, integrate_new_closed_form(d.base, 0, &modes));
+    CHECK_MADE(integrator, series, integrate_new_closed_form(d.base, INFINITY, &series));
     for (int period = 0; period < PERIODS; ++period) {
       memcpy(z, y, sizeof y);
       assert_int_equal(integrate_monodromy(modes, &d.scaled, y, phi[0]), HC_OK);
@@ -97,7 +96,6 @@ static void sets_give_way(CHECK_STATE)
   for (int trial = 0; trial < 3000; ++trial) {
     contact_track track[6] = {{0}};
     const complex_modes *modes, *made;
-    interval_modes *fresh;
     const contact_state states[] = {CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS, CONTACT_SLIP_MINUS};
     for (int j = 0; j < 6; ++j) {
       track[j].state = states[random_int(&seed, 0, 3)];
@@ -105,7 +103,7 @@ static void sets_give_way(CHECK_STATE)
     }
     assert_int_equal(interval_modes_of(kept, &d.scaled, track, &modes), HC_OK);
     if (trial % 50) continue;
-    assert_int_equal(interval_modes_new(d.base, 0, &fresh), HC_OK);
+    CHECK_MADE(interval_modes, fresh, interval_modes_new(d.base, 0, &fresh));
     assert_int_equal(interval_modes_of(fresh, &d.scaled, track, &made), HC_OK);
     assert_int_equal(modes != NULL, made != NULL);
     for (int k = 0; made && k < made->count; ++k)
@@ -144,12 +142,11 @@ static void a_watch_is_told_the_same(CHECK_STATE)
   uint64_t seed = 5;
   for (int trial = 0; trial < 40; ++trial) {
     drawn d;
-    integrator *modes, *series;
     double y[MOST] = {0}, z[MOST];
     told by_modes = {.max = -INFINITY, .min = INFINITY}, by_series = by_modes;
     draw(&seed, trial % 2 ? STIFF : PLAIN, &d);
-    assert_int_equal(integrate_new_closed_form(d.base, 0, &modes), HC_OK);
-    assert_int_equal(integrate_new_closed_form(d.base, INFINITY, &series), HC_OK);
+    CHECK_MADE(integrator, modes, integrate_new_closed_form(d.base, 0, &modes));
+    CHECK_MADE(integrator, series, integrate_new_closed_form(d.base, INFINITY, &series));
     for (int k = 0; k < PERIODS; ++k) assert_int_equal(integrate_period(series, &d.scaled, y, NULL, NULL), HC_OK);
     memcpy(z, y, sizeof y);
     assert_int_equal(integrate_period(modes, &d.scaled, y, listen, &by_modes), HC_OK);
@@ -176,7 +173,6 @@ static void a_constant_force_that_cancels_is_told(CHECK_STATE)
   const contact_track slips = {.state = CONTACT_SLIP_PLUS, .along = 1};
   drawn d;
   const complex_modes *modes;
-  motion_modes motion;
   workspace memory = {0};
   assert_int_equal(model_new(1, 1, 1, 1, &d.m), HC_OK);
   d.m->mass[0] = d.m->responses[0] = d.m->contacts[0].tangent[0] = 1;
@@ -186,7 +182,7 @@ static void a_constant_force_that_cancels_is_told(CHECK_STATE)
   scale_drawn(&d, TRANSIENT_LAW_EXACT, 1);
   CHECK_MADE(interval_modes, kept, interval_modes_new(d.base, 0, &kept));
   assert_int_equal(interval_modes_of(kept, &d.scaled, &slips, &modes), HC_OK);
-  assert_int_equal(motion_modes_make(&motion, d.base, &memory), HC_OK);
+  CHECK_FILLED(motion_modes, motion, motion_modes_make(&motion, d.base, &memory));
   assert_false(motion_modes_begin(&motion, modes, &d.scaled, &slips, 0, (double[]){0, 1, 0}));
   assert_true(motion_modes_begin(&motion, modes, &d.scaled, &slips, 0, (double[]){-500, 1, 0}));
   workspace_free(&memory);
@@ -237,11 +233,10 @@ static void proportional_damping_is_told(CHECK_STATE)
 static void events_of_stiff_structures(CHECK_STATE)
 {
   drawn d = {.m = graded_chain(6)};
-  integrator *modes, *events;
   double y[MOST] = {0}, z[MOST];
   scale_drawn(&d, TRANSIENT_LAW_EXACT, 0.7);
-  assert_int_equal(integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &modes), HC_OK);
-  assert_int_equal(integrate_new_events(d.base, 1e-12, &events), HC_OK);
+  CHECK_MADE(integrator, modes, integrate_new_closed_form(d.base, INTERVAL_MODES_STIFF, &modes));
+  CHECK_MADE(integrator, events, integrate_new_events(d.base, 1e-12, &events));
   for (int period = 0; period < PERIODS; ++period) {
     memcpy(z, y, sizeof y);
     assert_int_equal(integrate_period(modes, &d.scaled, y, NULL, NULL), HC_OK);

@@ -70,9 +70,8 @@ static double angle_of_multiplier(const model *m, double omega, double *modulus)
 {
   const double from = 8.8;
   double y[STATES];
-  timeint_result r;
   timeint *ti = at_rest(m, &closed_form, y);
-  assert_int_equal(timeint_steady(ti, from, y, NULL, &r), HC_OK);
+  CHECK_FILLED(timeint_result, r, timeint_steady(ti, from, y, NULL, &r));
   for (int i = 1; i <= 10; ++i)
     assert_int_equal(timeint_orbit(ti, from + (omega - from) * i / 10, 1, y, NULL, &r), HC_OK);
   timeint_free(ti);

@@ -59,9 +59,8 @@ static void one_number_of_rayleigh_damping_leaves_the_other(CHECK_STATE)
                                     "structure.damping.modal=0.1", "structure.damping.rayleigh[1]=1e-2"};
   static const double expected[][2] = {{0.5, 1e-3}, {0.25, 1e-3}, {0, 0}, {0, 1e-2}};
   for (int n = 1; n <= 4; ++n) {
-    scene sc;
     case_error err;
-    assert_int_equal(case_parse("f", TWO_NAMED, strlen(TWO_NAMED), n, set, &sc, &err), HC_OK);
+    CHECK_FILLED(scene, sc, case_parse("f", TWO_NAMED, strlen(TWO_NAMED), n, set, &sc, &err));
     const scene_structure *s = sc.structure;
     assert_int_equal(s->how, n == 3 ? STRUCTURE_DAMPING_MODAL : STRUCTURE_DAMPING_RAYLEIGH);
     if (n != 3) assert_true(s->rayleigh[0] == expected[n - 1][0] && s->rayleigh[1] == expected[n - 1][1]);

@@ -7,14 +7,13 @@ static void check_round_trip(const scene *sc)
 {
   scene back;
   case_error err;
-  model *a, *b;
   char *text = echoed(sc, HC_OK), *again;
   if (case_parse("other", text, strlen(text), 0, NULL, &back, &err) != HC_OK)
     fail_msg("%s\n%.2000s", err.message, text);
   again = echoed(&back, HC_OK);
   assert_string_equal(text, again);
-  assert_int_equal(scene_model(sc, &a), HC_OK);
-  assert_int_equal(scene_model(&back, &b), HC_OK);
+  CHECK_MADE(model, a, scene_model(sc, &a));
+  CHECK_MADE(model, b, scene_model(&back, &b));
   same_models(a, b);
   assert_int_equal(sc->structure->n_nodes, back.structure->n_nodes);
   for (int i = 0; sc->structure->names && i < sc->structure->n; ++i)

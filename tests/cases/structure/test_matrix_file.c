@@ -65,12 +65,11 @@ static void files_are_found_and_searched(CHECK_STATE)
 {
   static const char text[] = HEAD("coordinate", "real", "symmetric") "3 3 3\n1 1 1\n3 1 5\n2 2 1\n";
   const own_file f = write_file("m.mtx", text, sizeof text - 1);
-  sparse A;
   size_t line, column;
   char words[256];
   message m;
   message_start(&m, words, sizeof words);
-  assert_int_equal(matrix_file_read(f.path, NULL, 3, &A, NULL, &m), HC_OK);
+  CHECK_FILLED(sparse, A, matrix_file_read(f.path, NULL, 3, &A, NULL, &m));
   assert_true(A.n == 3 && sparse_at(&A, 2, 0) == 5 && sparse_at(&A, 0, 2) == 5 && sparse_at(&A, 1, 0) == 0);
   sparse_free(&A);
   matrix_file_place(f.path, NULL, 2, 0, &line, &column);

@@ -77,13 +77,11 @@ static void aliasing_of_case_2_is_of_first_or_second_order(CHECK_STATE)
 {
   for (int restart = HBM_RESTART_INTERPOLATED; restart <= HBM_RESTART_SAMPLE; ++restart) {
     scene sc = case2();
-    comparison c;
-    accuracy a;
     sc.hbm.restart = restart;
     sc.compare.harmonics = (number_list){1, {5}};
     sc.compare.samples = (number_list){8, {64, 128, 256, 512, 1024, 2048, 4096, 8192}};
-    assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
-    assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
+    CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
+    CHECK_FILLED(accuracy, a, scene_accuracy_run(&sc, &c, NULL, &a));
     const order_row *r = find(&a, "samples");
     print_message("[   INFO   ] aliasing, %s: order %.2f +- %.2f over %d points\n",
                   restart == HBM_RESTART_SAMPLE ? "sample" : "interpolated", r->fit.order, r->fit.spread,
@@ -98,11 +96,9 @@ static void aliasing_of_case_2_is_of_first_or_second_order(CHECK_STATE)
 static void truncation_of_case_2_is_of_third_order_or_more(CHECK_STATE)
 {
   scene sc = case2();
-  comparison c;
-  accuracy a;
   sc.compare.harmonics = (number_list){6, {5, 8, 12, 18, 27, 40}};
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
+  CHECK_FILLED(accuracy, a, scene_accuracy_run(&sc, &c, NULL, &a));
   const order_row *r = find(&a, "harmonics");
   print_message("[   INFO   ] truncation: order %.2f +- %.2f over %d points\n", r->fit.order, r->fit.spread,
                 r->fit.points);
@@ -116,14 +112,12 @@ static void truncation_of_case_2_is_of_third_order_or_more(CHECK_STATE)
 static void regularisation_of_case_2_is_of_first_order(CHECK_STATE)
 {
   scene sc = case2();
-  comparison c;
-  order_row r;
   sc.transient.law = TRANSIENT_LAW_REGULARISED;
   sc.transient.regularisation = 1e-3;
   sc.transient.tolerance = 1e-8;
   sc.compare.omega = (number_list){2, {6, 7}};
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(scene_order_of_regularisation(&sc, &c, NULL, &r), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
+  CHECK_FILLED(order_row, r, scene_order_of_regularisation(&sc, &c, NULL, &r));
   print_message("[   INFO   ] regularisation at omega %g: order %.3f +- %.3f over %d points\n", r.omega, r.fit.order,
                 r.fit.spread, r.fit.points);
   CHECK_NEAR(r.fit.order, 1, 0.1, "over %d points", r.fit.points);

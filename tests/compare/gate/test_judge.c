@@ -279,14 +279,12 @@ static void junit_escapes_what_it_is_given(CHECK_STATE)
 static void a_comparison_that_cannot_begin_is_an_error(CHECK_STATE)
 {
   scene sc;
-  compare_setup setup;
-  gate_case g;
   memset(&sc, 0, sizeof sc);
   sc.mass = sc.damping = sc.stiffness = sc.force = sc.omega_from = 1;
   sc.omega_to = 2;
   sc.hbm.harmonics = HBM_MAX_HARMONICS + 1;
-  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
-  assert_int_equal(gate_run("no.yaml", &setup, NULL, &g), HC_OK);
+  CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
+  CHECK_FILLED(gate_case, g, gate_run("no.yaml", &setup, NULL, &g));
   char *text = junit(&g);
   assert_int_equal(gate_exit_code(1, &g), 3);
   assert_non_null(strstr(text, "<error message=\"it could not be made: an argument is outside its documented range\" "

@@ -21,9 +21,8 @@ static verify_report named(const prepared *p)
 {
   const scene sc = curve_scene(p->scene);
   verify_data d = curve_make(&sc, &p->how, p->low, p->high, p->n);
-  verify_report r;
   char words[VERIFY_TEXT];
-  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
+  CHECK_FILLED(verify_report, r, scene_verify_run(&sc, &d, NULL, &r));
   if (strcmp(verify_cause_words(r.causes, words), p->cause)) {
     char text[VERIFY_TEXT];
     print_error("%s (%s), expected %s: %s\n", p->name, p->scene, p->cause, verify_sentence(&r, text));
@@ -176,9 +175,8 @@ static void equals_are_a_guess(CHECK_STATE)
   const scene sc = curve_scene(preloaded);
   const spoiling how = {.harmonics = 20, .change = seven_percent_more_mass};
   verify_data d = curve_make(&sc, &how, 15, 29, 41);
-  verify_report r;
   char text[VERIFY_TEXT];
-  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
+  CHECK_FILLED(verify_report, r, scene_verify_run(&sc, &d, NULL, &r));
   assert_int_equal(r.causes, 0);
   assert_int_equal(r.nearest_guess, VERIFY_BIT(CAUSE_MASS) | VERIFY_BIT(CAUSE_OMEGA_SCALE));
   assert_non_null(strstr(verify_sentence(&r, text), "more than one cause fits: "));
@@ -204,9 +202,8 @@ static void no_cause_is_made_up(CHECK_STATE)
   const scene sc = curve_scene(case2);
   const spoiling how = {.harmonics = 20, .warp = 0.4};
   verify_data d = curve_make(&sc, &how, 4, 14, 41);
-  verify_report r;
   char text[VERIFY_TEXT];
-  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
+  CHECK_FILLED(verify_report, r, scene_verify_run(&sc, &d, NULL, &r));
   assert_int_equal(r.causes, 0);
   assert_int_equal(verify_exit_code(&r), 1);
   assert_non_null(strstr(verify_sentence(&r, text), "no hypothesis fits better than"));
@@ -222,8 +219,7 @@ static void errors_are_what_was_put_in(CHECK_STATE)
   const scene sc = curve_scene(case2);
   const spoiling how = {.harmonics = 40, .noise = 1e-3};
   verify_data d = curve_make(&sc, &how, 10, 14, 9);
-  verify_report r;
-  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
+  CHECK_FILLED(verify_report, r, scene_verify_run(&sc, &d, NULL, &r));
   assert_int_equal(r.n_rows, 9);
   CHECK_LE(r.checked_error, 1e-4, "a tenth of the gate");
   for (int i = 0; i < r.n_rows; ++i) {
@@ -241,9 +237,8 @@ static void stopping_keeps_rows(CHECK_STATE)
   const scene sc = curve_scene(case2);
   const spoiling how = {.samples = 32};
   verify_data d = curve_make(&sc, &how, 4, 14, 11);
-  verify_report whole;
   int among = 0, before = 0;
-  assert_int_equal(scene_verify_run(&sc, &d, NULL, &whole), HC_OK);
+  CHECK_FILLED(verify_report, whole, scene_verify_run(&sc, &d, NULL, &whole));
   assert_int_equal(whole.n_rows, d.n);
   for (int ticks = 1, end = 0; !end && ticks < 400; ticks += 1 + ticks / 8) {
     int left = ticks;
@@ -274,9 +269,8 @@ static void three_points_are_enough(CHECK_STATE)
   const spoiling how = {.harmonics = 20, .value_factor = 2};
   verify_data d = curve_make(&sc, &how, 6.5, 8.5, 3);
   for (int n = 3; n >= 2; --n) {
-    verify_report r;
     d.n = n;
-    assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
+    CHECK_FILLED(verify_report, r, scene_verify_run(&sc, &d, NULL, &r));
     assert_int_equal(r.count[VERDICT_DIFFERS], n);
     assert_int_equal(r.n_hypotheses > 0, n == 3);
     verify_clear(&r);

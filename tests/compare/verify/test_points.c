@@ -29,9 +29,8 @@ static void add_noise(verify_data *d, double sigma)
 
 static verify_report judged(const scene *sc, const verify_data *d, const char *cause, int code)
 {
-  verify_report r;
   char words[VERIFY_TEXT];
-  assert_int_equal(scene_verify_run(sc, d, NULL, &r), HC_OK);
+  CHECK_FILLED(verify_report, r, scene_verify_run(sc, d, NULL, &r));
   if (strcmp(verify_cause_words(r.causes, words), cause))
     fail_msg("%s, expected %s", verify_sentence(&r, words), cause);
   assert_int_equal(verify_exit_code(&r), code);
@@ -80,8 +79,7 @@ static void noise_does_not_hide_an_offset(CHECK_STATE)
   add_noise(&d, 1e-2);
   for (int i = 0; i < d.n; ++i) d.points[i].value *= 1.03;
   d.noise = 1e-2;
-  verify_report r;
-  assert_int_equal(scene_verify_run(&sc, &d, NULL, &r), HC_OK);
+  CHECK_FILLED(verify_report, r, scene_verify_run(&sc, &d, NULL, &r));
   assert_false(verify_has(r.causes, CAUSE_NOISE));
   assert_true(r.count[VERDICT_DIFFERS] > POINTS / 2);
   assert_int_equal(verify_exit_code(&r), 1);
@@ -217,20 +215,18 @@ static void every_exact_solution_leads_to_a_sampled_one(CHECK_STATE)
   const scene sc = curve_scene(case2);
   const verify_quantity amplitude = {.kind = KIND_AMPLITUDE};
   verify_equations e = {.keep_mean = true, .harmonics = 5, .factor = 1};
-  compare_setup setup;
   const int first = 0;
-  verify_solutions exact, sampled;
   double omega[OMEGAS];
   const verify_places at = {.from = 4, .to = 14, .n = OMEGAS, .omega = omega, .n_responses = 1, .asked = &amplitude};
   int several = 0;
   for (int i = 0; i < OMEGAS; ++i) omega[i] = 6.2 + 0.5 * i;
-  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
+  CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
   CHECK_MADE(model, seen, verify_model_seen(setup.model, 1, &first, &seen));
   compare_setup own = setup;
   own.model = seen;
-  assert_int_equal(verify_solutions_of(&own, &e, &at, NULL, &exact), HC_OK);
+  CHECK_FILLED(verify_solutions, exact, verify_solutions_of(&own, &e, &at, NULL, &exact));
   e.samples = 4096;
-  assert_int_equal(verify_solutions_near(&own, &e, &exact, &at, &sampled), HC_OK);
+  CHECK_FILLED(verify_solutions, sampled, verify_solutions_near(&own, &e, &exact, &at, &sampled));
   for (int i = 0; i < OMEGAS; ++i) {
     assert_int_equal(sampled.first[i + 1] - sampled.first[i], exact.first[i + 1] - exact.first[i]);
     several += exact.first[i + 1] - exact.first[i] > 1;

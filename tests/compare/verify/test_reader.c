@@ -10,11 +10,10 @@ static hc_status read_text_as(const char *text, size_t length, const char *colum
                               verify_data *d, char words[VERIFY_TEXT])
 {
   char path[] = "/tmp/hbmcheck-verify-XXXXXX";
-  verify_columns where;
   int fd = mkstemp(path);
   assert_true(fd >= 0 && write(fd, text, length) == (ssize_t)length);
   close(fd);
-  assert_int_equal(verify_columns_read(columns, quantity, &where, words), HC_OK);
+  CHECK_FILLED(verify_columns, where, verify_columns_read(columns, quantity, &where, words));
   hc_status st = verify_data_read(path, &where, d, words);
   unlink(path);
   return st;
@@ -122,10 +121,9 @@ static void ambiguous_names_need_columns(CHECK_STATE)
 /* 20 log10 of 10 is 20 dB; and 0 and below are numbers in dB. */
 static void decibels_become_numbers(CHECK_STATE)
 {
-  verify_data d;
   char words[VERIFY_TEXT];
   const char text[] = "1 20\n2 0\n3 -40\n0 7\n-1 7\n";
-  assert_int_equal(read_text_as(text, strlen(text), "omega=1,dB=2", NULL, &d, words), HC_OK);
+  CHECK_FILLED(verify_data, d, read_text_as(text, strlen(text), "omega=1,dB=2", NULL, &d, words));
   assert_int_equal(d.n, 3);
   assert_int_equal(d.left_out, 2); /* omega <= 0 */
   CHECK_NEAR(d.points[0].value, 10, 1e-14, "20 dB");
@@ -170,10 +168,9 @@ static void quantities_by_hand(CHECK_STATE)
 
 static void cycles_become_radians(CHECK_STATE)
 {
-  verify_data d;
   char words[VERIFY_TEXT];
   const char text[] = "1 1\n0.5 0\n3 3\n";
-  assert_int_equal(read_text(text, strlen(text), "frequency=1,value=2", &d, words), HC_OK);
+  CHECK_FILLED(verify_data, d, read_text(text, strlen(text), "frequency=1,value=2", &d, words));
   CHECK_NEAR(d.points[0].omega, two_pi, 4e-16 * two_pi, "1 a unit of time");
   CHECK_NEAR(d.points[1].omega, PI, 4e-16 * PI, "half");
   assert_int_equal(d.points[2].line, 3);
@@ -229,8 +226,7 @@ static void limits_hold(CHECK_STATE)
   assert_non_null(text);
   for (size_t i = 0; i < size; i += 4) memcpy(text + i, "5 1\n", 4);
   refused(text, size, "omega=1,value=2", ":100001:1: ", "too many");
-  verify_data d;
-  assert_int_equal(read_text(text, size - 4, "omega=1,value=2", &d, words), HC_OK);
+  CHECK_FILLED(verify_data, d, read_text(text, size - 4, "omega=1,value=2", &d, words));
   assert_int_equal(d.n, VERIFY_MOST_POINTS);
   verify_data_clear(&d);
   memset(text, ',', 1000);
@@ -240,10 +236,9 @@ static void limits_hold(CHECK_STATE)
 
 static void no_such_file(CHECK_STATE)
 {
-  verify_columns where;
   verify_data d;
   char words[VERIFY_TEXT];
-  assert_int_equal(verify_columns_read("omega=1,peak=2", NULL, &where, words), HC_OK);
+  CHECK_FILLED(verify_columns, where, verify_columns_read("omega=1,peak=2", NULL, &where, words));
   assert_int_equal(verify_data_read("/nonexistent.csv", &where, &d, words), HC_IO);
   assert_non_null(strstr(words, "/nonexistent.csv: "));
   assert_int_equal(verify_data_read("/tmp", &where, &d, words), HC_IO);
