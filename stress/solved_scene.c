@@ -5,14 +5,10 @@
 
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
-#include "hbm/forces/contact_kind.h"
 #include "numerics/base/thread_clock.h"
 
 /* Rounding is seen only if Newton does not stop before. */
 static const double tight = 1e-12;
-/* [1] of a check's time, for a first solution without time integration's help; where slip turns in a plane, ramps come
- * first in any case. */
-static const double unguided = 0.5;
 
 static bool go_on(void *self, double done)
 {
@@ -84,13 +80,12 @@ hc_status stress_motion_read(const solved_scene *s, hbm_solver *h, double omega,
   return st;
 }
 
-/* A solver that asks time integration for a first guess takes long where that does not settle. */
-static hc_status solve_with(solved_scene *s, const model *m, const hbm_settings *how, bool guided, double omega,
-                            const double *guess, stress_motion *out)
+static hc_status solve_with(solved_scene *s, const model *m, const hbm_settings *how, double omega, const double *guess,
+                            stress_motion *out)
 {
   hbm_solver *h = NULL;
   hbm_point point;
-  hc_status st = guided ? guided_hbm_solver_new(m, how, &h) : hbm_solver_new(m, how, &h);
+  hc_status st = guided_hbm_solver_new(m, how, &h);
   double *X = st == HC_OK ? calloc((size_t)hbm_n_coefficients(h), sizeof *X) : NULL;
   if (st == HC_OK && !X) st = HC_NO_MEMORY;
   if (st == HC_OK && guess) hbm_guess_of(h, guess, X);
@@ -111,13 +106,7 @@ void stress_motion_solve(solved_scene *s, const model *m, const hbm_settings *ho
   *out = (stress_motion){.harmonics = how->harmonics,
                          .x = calloc(length_x, sizeof(double)),
                          .start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof(double))};
-  const double whole = s->deadline;
-  const bool guided = !guess && contact_edges_of(m);
-  if (!guess && !guided) s->deadline -= (1 - unguided) * s->seconds;
-  out->status = out->x && out->start ? solve_with(s, m, how, guided, omega, guess, out) : HC_NO_MEMORY;
-  s->deadline = whole;
-  if (!guess && !guided && out->status != HC_OK && s->fatal == HC_OK && out->status != HC_NO_MEMORY)
-    out->status = solve_with(s, m, how, true, omega, NULL, out);
+  out->status = out->x && out->start ? solve_with(s, m, how, omega, guess, out) : HC_NO_MEMORY;
   for (size_t i = 0; out->x && i < length_x; ++i) out->x[i] /= length;
   if (out->status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;
 }

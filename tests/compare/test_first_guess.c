@@ -1,7 +1,8 @@
-/* test_first_guess.c - a first solution from closed form: asked for only where linear is no guess; its answers. */
+/* test_first_guess.c - a first solution from closed form: asked for only where quick ramps fail; its answers. */
 #include "compare/first_guess.h"
 
 #include "hbm/curve/continuation.h"
+#include "hbm/solver/ramp.h"
 #include "tests/hbm/scenes.h"
 #include "tests/wrap.h"
 #include "timeint/steady/steady.h"
@@ -15,6 +16,25 @@ WRAP(hc_status, timeint_steady,
   if (!endless) return __real_timeint_steady(ti, omega, state, monitor, out);
   while (hc_monitor_tick(monitor, -1)) assert_in_range(++ticks, 1, 1000);
   return HC_INTERRUPTED;
+}
+
+static int failing; /* how many ramps to come begin nowhere */
+
+WRAP(hbm_ramp, hbm_ramp_of, (hbm_ramp_kind kind, const hbm_system *sys, double omega))
+{
+  hbm_ramp r = __real_hbm_ramp_of(kind, sys, omega);
+  if (failing > 0) --failing, r.from = NAN;
+  return r;
+}
+
+enum { QUICK_RAMPS = 2 };
+
+/* Both quick ramps fail. */
+static hc_status solve_first(hbm_solver *s, double omega, double *X)
+{
+  hbm_point point;
+  failing = QUICK_RAMPS;
+  return hbm_solve_first(s, omega, X, &point);
 }
 
 /* Somebody to ask: counts, and answers as told. */
@@ -55,12 +75,13 @@ static hbm_solver *plain(const scene *sc)
 }
 
 /* The first solution at omega, asking o. */
-static hc_status first_with(const scene *sc, double omega, oracle *o)
+static hc_status first_with(const scene *sc, int failing_ramps, double omega, oracle *o)
 {
   double X[64];
   hbm_point point;
   hbm_solver *s = plain(sc);
   hbm_solver_take_guess(s, &(hbm_guess){ask, release, o});
+  failing = failing_ramps;
   const hc_status st = hbm_solve_first(s, omega, X, &point);
   hbm_solver_free(s);
   assert_int_equal(o->freed, 1);
@@ -71,7 +92,7 @@ static void not_asked_where_the_linear_response_will_do(CHECK_STATE)
 {
   oracle o = {.answer = HC_BUG};
   const scene sc = scene_named("c2", 7, true, 64);
-  assert_int_equal(first_with(&sc, 12, &o), HC_OK);
+  assert_int_equal(first_with(&sc, QUICK_RAMPS, 12, &o), HC_OK);
   assert_int_equal(o.asked, 0);
 }
 
@@ -81,7 +102,7 @@ static double hard_omega(void)
   const scene sc = impacts();
   for (double omega = 3; omega < 30; omega += 0.25) {
     oracle o = {.answer = HC_INTERRUPTED};
-    const hc_status st = first_with(&sc, omega, &o);
+    const hc_status st = first_with(&sc, QUICK_RAMPS, omega, &o);
     if (o.asked == 1) {
       assert_int_equal(st, HC_INTERRUPTED); /* passed on, and no ramp */
       return omega;
@@ -91,6 +112,27 @@ static double hard_omega(void)
   return 0;
 }
 
+static void not_asked_where_a_quick_ramp_will_do(CHECK_STATE)
+{
+  const scene sc = impacts();
+  const double omega = hard_omega();
+  for (int ramps = 0; ramps < QUICK_RAMPS; ++ramps) {
+    oracle o = {.answer = HC_BUG};
+    assert_int_equal(first_with(&sc, ramps, omega, &o), HC_OK);
+    assert_int_equal(o.asked, 0);
+  }
+}
+
+/* For its solution with exact forces. */
+static void sampled_forces_ask_too(CHECK_STATE)
+{
+  scene sc = impacts();
+  sc.hbm.force = HBM_FORCE_SAMPLED;
+  oracle o = {.answer = HC_NOT_SETTLED};
+  assert_int_equal(first_with(&sc, QUICK_RAMPS, hard_omega(), &o), HC_OK);
+  assert_int_equal(o.asked, 1);
+}
+
 static void refusals_lead_to_ramps_or_out(CHECK_STATE)
 {
   const scene sc = impacts();
@@ -98,7 +140,7 @@ static void refusals_lead_to_ramps_or_out(CHECK_STATE)
   static const hc_status answers[] = {HC_NOT_SETTLED, HC_NOT_CONVERGED, HC_CHATTER, HC_NO_MEMORY};
   for (int i = 0; i < 4; ++i) {
     oracle o = {.answer = answers[i]};
-    assert_int_equal(first_with(&sc, omega, &o), answers[i] == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK);
+    assert_int_equal(first_with(&sc, QUICK_RAMPS, omega, &o), answers[i] == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK);
     assert_int_equal(o.asked, 1);
   }
 }
@@ -111,11 +153,11 @@ static void a_guess_is_where_newton_begins(CHECK_STATE)
   oracle o = {.answer = HC_NOT_SETTLED};
   double X[64];
   hbm_solver *s = plain(&sc);
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, o.X, &point));
+  assert_int_equal(solve_first(s, omega, o.X), HC_OK);
   o.answer = HC_OK;
   hbm_solver_take_guess(s, &(hbm_guess){ask, release, &o});
   const long before = hbm_solves(s);
-  assert_int_equal(hbm_solve_first(s, omega, X, &point), HC_OK);
+  assert_int_equal(solve_first(s, omega, X), HC_OK);
   assert_int_equal(o.asked, 1);
   assert_true(hbm_solves(s) == before + 2); /* from the linear response, from the guess */
   for (int i = 0; i < 15; ++i) CHECK_NEAR(X[i], o.X[i], 1e-8, "X[%d]", i);
@@ -127,14 +169,14 @@ static void check_guesses(const model *m, const hbm_settings *how)
 {
   int solved = 0, cheaper = 0;
   for (double omega = 3; omega < 30; omega += 0.25) {
-    double X[64] = {0}, Y[64];
-    hbm_point point;
+    double X[64], Y[64];
     CHECK_MADE(hbm_solver, guided, guided_hbm_solver_new(m, how, &guided));
     CHECK_MADE(hbm_solver, alone, hbm_solver_new(m, how, &alone));
-    if (hbm_solve_first(guided, omega, X, &point) == HC_OK) {
+    if (solve_first(guided, omega, X) == HC_OK) {
       ++solved;
+      CHECK_FILLED(hbm_point, point, hbm_solve(guided, omega, X, &point));
       CHECK_LE(point.residual, 1e-9, "residual at %g", omega);
-      if (hbm_solve_first(alone, omega, Y, &point) == HC_OK && hbm_solves(guided) < hbm_solves(alone)) ++cheaper;
+      if (solve_first(alone, omega, Y) == HC_OK && hbm_solves(guided) < hbm_solves(alone)) ++cheaper;
     }
     hbm_solver_free(guided);
     hbm_solver_free(alone);
@@ -161,8 +203,10 @@ static void an_endless_motion_is_no_guess(CHECK_STATE)
   CHECK_MADE(model, m, scene_model(&sc, &m));
   CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(m, &sc.hbm, &s));
   endless = true;
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point)); /* by a ramp */
+  assert_int_equal(solve_first(s, omega, X), HC_OK); /* by a slow ramp */
   CHECK_LE(100, ticks, "ticks");
+  hbm_point point;
+  failing = QUICK_RAMPS;
   assert_int_equal(hbm_first_solution(s, omega, &stop, X, &point), HC_INTERRUPTED);
   endless = false;
   hbm_solver_free(s);
@@ -196,6 +240,7 @@ static void a_structure_is_guessed_whole(CHECK_STATE)
   model_free(m);
 }
 
-CHECK_TESTS("compare.first_guess", 120, not_asked_where_the_linear_response_will_do, refusals_lead_to_ramps_or_out,
+CHECK_TESTS("compare.first_guess", 120, not_asked_where_the_linear_response_will_do,
+            not_asked_where_a_quick_ramp_will_do, sampled_forces_ask_too, refusals_lead_to_ramps_or_out,
             a_guess_is_where_newton_begins, an_endless_motion_is_no_guess, the_motion_from_rest_is_a_guess,
             a_structure_is_guessed_whole)
