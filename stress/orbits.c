@@ -226,13 +226,13 @@ static bool affordable(const solved_scene *s, int n_harm)
   return coordinates * series_length(n_harm) <= MOST_UNKNOWNS;
 }
 
-/* s->fine and s->path become those of twice the harmonics, if there are. *step: the change; *member: how far the finer
+/* s->fine and s->path become those of n_harm harmonics, if there are. *step: the change; *member: how far the finer
  * solution is from the orbit there was. */
-static bool refine(solved_scene *s, double *error, double *step, double *member)
+static bool refine(solved_scene *s, int n_harm, double *error, double *step, double *member)
 {
   stress_motion finer;
   stress_path path;
-  solve_again(s, &s->fine, 2 * s->fine.harmonics, &finer);
+  solve_again(s, &s->fine, n_harm, &finer);
   if (finer.status != HC_OK) {
     stress_motion_free(&finer);
     return false;
@@ -279,7 +279,7 @@ stress_check stress_check_orbit(solved_scene *s)
     return stress_agree_within(error, close_enough, sensitive(&s->path, NULL));
   for (int n; s->fatal == HC_OK && (n = 2 * s->fine.harmonics) <= MOST_HARMONICS && affordable(s, n);) {
     before = error;
-    if (!refine(s, &error, &step, &member)) break;
+    if (!refine(s, n, &error, &step, &member)) break;
     note_enough(s, error);
     if (s->path.status == HC_INTERRUPTED) return stress_refuse(s, s->path.status);
     if (s->path.status == HC_OK && error <= tolerance_of(&s->path))
@@ -298,6 +298,10 @@ stress_check stress_check_orbit(solved_scene *s)
   if (other <= fmin(error / 10, same_orbit)) return stress_explain(STRESS_OTHER_ORBIT, error, other);
   stress_condition(s);
   if (error <= s->solution_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->solution_errs);
+  /* The last doubling may have been nearer by chance, as where the error changes its sign. */
+  if (affordable(s, HBM_MAX_HARMONICS) && refine(s, HBM_MAX_HARMONICS, &error, &step, &member) &&
+      error <= tolerance_of(&s->path))
+    return stress_explain(STRESS_TRUNCATED, coarse, NAN);
   return stress_find(STRESS_DISAGREES, error, tolerance_of(&s->path));
 }
 
@@ -314,12 +318,15 @@ static double multipliers_apart(const stress_motion *h, const stress_path *p)
  *
  * As x'' is bounded, harmonics fall as 1/h^2 or faster, and truncation moves x, and with it the instants at which
  * contacts change, by 1/H or less. So *truncated where the last doubling halved the difference or brought it within the
- * bound. That is evidence, not a bound: what is left may hide an error as large as itself. */
-static double better_multiplier(solved_scene *s, double error, double bound, bool *truncated)
+ * bound. A contact that is shorter than the last harmonic's period has as much of all harmonics: the difference falls
+ * in proportion to those that there are, as one says that is *unresolved. That is evidence, not a bound: what is left
+ * may hide an error as large as itself. */
+static double better_multiplier(solved_scene *s, double error, double bound, bool *truncated, bool *unresolved)
 {
   stress_motion h = {.status = HC_OK};
   const stress_motion *from = &s->fine;
-  *truncated = false;
+  double fell = NAN; /* by a harmonic more */
+  *truncated = *unresolved = false;
   for (int n = from->harmonics, more; error > bound && n < HBM_MAX_HARMONICS; n = more) {
     stress_motion finer;
     more = 2 * n < HBM_MAX_HARMONICS ? 2 * n : HBM_MAX_HARMONICS;
@@ -331,6 +338,8 @@ static double better_multiplier(solved_scene *s, double error, double bound, boo
     if (isnan(now)) break;
     const bool halved = now <= fmax(bound, error / 2); /* by less than twice the harmonics, too */
     if (halved || more == 2 * n) *truncated = halved;
+    *unresolved = error - now >= 0.9 * (more - n) * fell && fell > 0;
+    fell = (error - now) / (more - n);
     error = now;
   }
   stress_motion_free(&h);
@@ -360,17 +369,18 @@ static bool beside_its_limit(solved_scene *s, double bound)
 stress_check stress_check_multiplier(solved_scene *s)
 {
   const double bound = 1e-3;
-  bool truncated;
+  bool truncated, unresolved;
   if (s->path.status != HC_OK || isnan(s->path.r.multiplier) || s->fine.stability_status != HC_OK)
     return stress_skip(STRESS_NO_ORBIT);
   const double far = motion_off(s, &s->fine, &s->path);
   if (!(far <= same_orbit)) return stress_skip(STRESS_NO_ORBIT);
   const double error = multipliers_apart(&s->fine, &s->path);
   if (error <= bound) return stress_agree(error, bound);
-  const double better = better_multiplier(s, error, bound, &truncated);
+  const double better = better_multiplier(s, error, bound, &truncated, &unresolved);
   if (truncated) return stress_explain(STRESS_TRUNCATED, error, better);
   if (s->fine.m.contact.transitions != s->path.r.switches) return stress_explain(STRESS_OTHER_EVENTS, error, better);
-  if (far > close_enough && beyond_harmonics(s)) return stress_explain(STRESS_UNRESOLVED, error, better);
+  if ((far > close_enough || unresolved) && beyond_harmonics(s))
+    return stress_explain(STRESS_UNRESOLVED, error, better);
   if (beside_its_limit(s, bound)) return stress_explain(STRESS_FAMILY, error, better);
   stress_condition(s);
   if (s->solution_errs > STRESS_SAYS_SOMETHING) return stress_skip(STRESS_ILL_CONDITIONED);
