@@ -98,10 +98,8 @@ static inline void sampled(int n_harm, int n_dof, const moving_contact *c, const
 {
   const contact_coordinates at = {.n_dof = n_dof, .moved = *c};
   const evaluator_settings how = {.n_harm = n_harm, .n_time = n_time, .restart = HBM_RESTART_INTERPOLATED};
-  contact_report report;
-  void *self;
-  assert_int_equal(aft_evaluator.make(&at, &how, &self), HC_OK);
-  assert_int_equal(aft_evaluator.evaluate(self, X, F, NULL, &report), HC_OK);
+  CHECK_MADE(void, self, aft_evaluator.make(&at, &how, &self));
+  CHECK_FILLED(contact_report, report, aft_evaluator.evaluate(self, X, F, NULL, &report));
   aft_evaluator.sliders(self, w_at_zero);
   aft_evaluator.free(self);
 }

@@ -111,8 +111,7 @@ static inline void *planar_way_make(const contact_evaluator *by, int H, int N, h
 {
   const contact_coordinates c = {.n_dof = n_dof, .moved = *moved};
   const evaluator_settings how = {.n_harm = H, .n_time = N, .restart = restart};
-  void *self;
-  assert_int_equal(by->make(&c, &how, &self), HC_OK);
+  CHECK_MADE(void, self, by->make(&c, &how, &self));
   return self;
 }
 
@@ -217,10 +216,9 @@ static inline void check_turns_and_shifts(const planar_way *way)
     const double angle = PI * random_signed(&seed),
                  shift = way->sampled ? 2 * PI * step / N : PI * random_signed(&seed);
     void *a = planar_way_make(way->by, H, N, planar_restarts[trial % 2], n_dof, &half);
-    contact_report report;
     random_plane_motion(&seed, H, 1, X);
     const double tolerance = 1e-12 * circle_force_size(&law, sum_abs(3 * n, X));
-    assert_int_equal(way->by->evaluate(a, X, F, NULL, &report), HC_OK);
+    CHECK_FILLED(contact_report, report, way->by->evaluate(a, X, F, NULL, &report));
     turn_plane(H, angle, X, Y);
     turn_plane(H, angle, F, wanted);
     assert_int_equal(way->by->evaluate(a, Y, G, NULL, NULL), HC_OK);

@@ -26,8 +26,7 @@ static void a_request_to_stop_is_heard_in_a_step(CHECK_STATE)
   visitor through = {.stop_at = 1 << 30}, stops = {.stop_at = AT};
   const char *set = "hbm.harmonics=1";
   scene sc = case_scene("structures/blade_damper", 1, &set);
-  hbm_solver *s;
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   const double to = sc.omega_from + 0.3 * (sc.omega_to - sc.omega_from);
   hbm_curve whole = {0}, part = {0};
   assert_int_equal(hbm_trace(s, sc.omega_from, to, &(hc_monitor){tick, &through}, &whole), HC_OK);
@@ -49,9 +48,8 @@ static void a_jacobian_serves_more_than_a_step(CHECK_STATE)
 {
   const char *set = "hbm.harmonics=5";
   scene sc = case_scene("structures/plates", 1, &set);
-  hbm_solver *s;
   hbm_curve c = {0};
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   assert_int_equal(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &c), HC_OK);
   assert_true(4 * hbm_newton_work(s).factorisations <= 3 * c.iterations);
   hbm_curve_free(&c);
@@ -65,10 +63,9 @@ static void check_peak(const char *force, const char *samples, long most)
 {
   const char *set[] = {"hbm.harmonics=3", force, samples};
   scene sc = case_scene("structures/plates", 3, set);
-  hbm_solver *s;
   hbm_curve c = {0}, peak = {0}, beside = {0};
   hbm_measures top, m;
-  assert_int_equal(scene_hbm_solver(&sc, &s), HC_OK);
+  CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
   assert_int_equal(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &c), HC_OK);
   const long before = hbm_solves(s);
   assert_int_equal(hbm_curve_peak(s, &c, &peak), HC_OK);

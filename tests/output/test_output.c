@@ -66,8 +66,7 @@ static void put_content(const char *name, const char *text)
 
 static unsigned mode_of(const char *name)
 {
-  struct stat st;
-  assert_int_equal(stat(name, &st), 0);
+  CHECK_FILLED(struct stat, st, stat(name, &st));
   return st.st_mode & 0777;
 }
 
@@ -100,8 +99,7 @@ static void nothing_appears_until_commit(CHECK_STATE)
   assert_int_equal(fflush(output_stream(o)), 0);
   assert_int_equal(access(path, F_OK), -1);
   assert_int_equal(output_commit(o), HC_OK);
-  struct stat st;
-  assert_int_equal(stat(path, &st), 0);
+  CHECK_FILLED(struct stat, st, stat(path, &st));
   assert_int_equal(st.st_size, BIG);
   assert_int_equal(files(false), 1);
 }

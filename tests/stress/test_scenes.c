@@ -48,8 +48,7 @@ static void the_whole_of_every_range_is_drawn(CHECK_STATE)
   stress_scenes *s = sequence(1);
   int contacts[5] = {0}, mean[2] = {0}, zero_mu = 0, angle_0 = 0, angle_90 = 0, zero_gap = 0, undamped = 0;
   for (long i = 0; i < MANY; ++i) {
-    scene sc;
-    assert_int_equal(stress_scenes_at(s, i, &sc), HC_OK);
+    CHECK_FILLED(scene, sc, stress_scenes_at(s, i, &sc));
     ++contacts[sc.n_contacts];
     ++mean[sc.hbm.keep_mean];
     double ratio = sc.damping / (2 * sqrt(sc.mass * sc.stiffness));

@@ -179,10 +179,9 @@ static scene parsed(const char *of)
 /* The checks of a scene, with that wrong answer. */
 static stress_result spoiled_stress(const scene *sc, spoil with)
 {
-  stress_result r;
   spoiled = with;
   multipliers = orbits = 0;
-  assert_int_equal(stress_scene(sc, 20, NULL, &r), HC_OK);
+  CHECK_FILLED(stress_result, r, stress_scene(sc, 20, NULL, &r));
   spoiled = NOTHING;
   return r;
 }
@@ -262,11 +261,9 @@ static void circles_are_held_against_their_law(CHECK_STATE)
 /* The checks of a scene that is drawn, in so many seconds. */
 static stress_result drawn_stressed(stress_family family, unsigned long seed, long index, double seconds)
 {
-  scene sc;
-  stress_result r;
   CHECK_MADE(stress_scenes, scenes, stress_scenes_new(seed, &scenes));
-  assert_int_equal(stress_scene_of(scenes, family, index, &sc), HC_OK);
-  assert_int_equal(stress_scene(&sc, seconds, NULL, &r), HC_OK);
+  CHECK_FILLED(scene, sc, stress_scene_of(scenes, family, index, &sc));
+  CHECK_FILLED(stress_result, r, stress_scene(&sc, seconds, NULL, &r));
   case_clear(&sc);
   stress_scenes_free(scenes);
   return r;
@@ -531,8 +528,7 @@ static void every_scene_is_a_case_file(CHECK_STATE)
       laws[4] = {0};
   CHECK_MADE(stress_scenes, scenes, stress_scenes_new(1, &scenes));
   for (int i = 0; i < 300; ++i) {
-    scene sc;
-    assert_int_equal(stress_structures_at(scenes, i, &sc), HC_OK);
+    CHECK_FILLED(scene, sc, stress_structures_at(scenes, i, &sc));
     check_echo(i, &sc);
     const scene_structure *s = sc.structure;
     assert_true(s->n >= 1 && s->n <= 12 && s->n_contacts >= 1 && s->n_contacts <= 6);
@@ -622,15 +618,13 @@ static void jacobians_of_mixed_laws(CHECK_STATE)
   int held = 0;
   CHECK_MADE(stress_scenes, scenes, stress_scenes_new(2026, &scenes));
   for (int i = 0; i < 60; ++i) {
-    scene sc;
-    solved_scene s;
     hbm_solver *h = NULL;
-    assert_int_equal(stress_structures_at(scenes, i, &sc), HC_OK);
+    CHECK_FILLED(scene, sc, stress_structures_at(scenes, i, &sc));
     if (sc.hbm.harmonics > 6 || !has_other_law(sc.structure)) {
       case_clear(&sc);
       continue;
     }
-    assert_int_equal(solved_scene_start(&s, &sc, 10, &none), HC_OK);
+    CHECK_FILLED(solved_scene, s, solved_scene_start(&s, &sc, 10, &none));
     assert_int_equal(hbm_solver_new(s.model, &s.how, &h), HC_OK);
     hbm_system *sys = &h->sys;
     const size_t n = (size_t)sys->n;
@@ -683,15 +677,13 @@ static void first_solutions_in_space_take_few_iterations(CHECK_STATE)
   int asked = 0;
   CHECK_MADE(stress_scenes, scenes, stress_scenes_new(950061, &scenes));
   for (size_t i = 0; i < sizeof drawn / sizeof *drawn; ++i) {
-    scene sc;
-    hbm_point point;
-    assert_int_equal(stress_scene_of(scenes, STRESS_SPACE, drawn[i], &sc), HC_OK);
+    CHECK_FILLED(scene, sc, stress_scene_of(scenes, STRESS_SPACE, drawn[i], &sc));
     CHECK_MADE(model, m, scene_model(&sc, &m));
     CHECK_MADE(hbm_solver, h, hbm_solver_new(m, &sc.hbm, &h));
     double *X = calloc((size_t)hbm_n_coefficients(h), sizeof *X);
     assert_non_null(X);
     hbm_solver_take_guess(h, &(hbm_guess){.ask = count_questions, .self = &asked});
-    assert_int_equal(hbm_solve_first(h, sc.compare.omega.v[0], X, &point), HC_OK);
+    CHECK_FILLED(hbm_point, point, hbm_solve_first(h, sc.compare.omega.v[0], X, &point));
     assert_int_equal(asked, 0);
     CHECK_LE(point.iterations, 3000, "scene %ld", drawn[i]);
     free(X);

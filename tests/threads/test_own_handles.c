@@ -213,9 +213,8 @@ static int run_alone(CHECK_STATE)
 static void together_as_alone(CHECK_STATE)
 {
   worker *w = calloc(THREADS, sizeof *w);
-  pthread_barrier_t start;
   assert_non_null(w);
-  assert_int_equal(pthread_barrier_init(&start, NULL, THREADS), 0);
+  CHECK_FILLED(pthread_barrier_t, start, pthread_barrier_init(&start, NULL, THREADS));
   for (int i = 0; i < THREADS; ++i) {
     w[i].start = &start, w[i].first = i;
     assert_int_equal(pthread_create(&w[i].thread, NULL, work, &w[i]), 0);

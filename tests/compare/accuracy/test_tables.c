@@ -26,10 +26,9 @@ static const accuracy_row *find(const accuracy *a, int harmonics, int samples)
 static double largest_aliasing(const scene *exact, const comparison *c, int samples)
 {
   scene sc = *exact;
-  comparison sampled;
   double worst = 0;
   sc.hbm.force = HBM_FORCE_SAMPLED, sc.hbm.samples = samples;
-  assert_int_equal(scene_comparison_run(&sc, NULL, &sampled), HC_OK);
+  CHECK_FILLED(comparison, sampled, scene_comparison_run(&sc, NULL, &sampled));
   assert_int_equal(sampled.n_rows, c->n_rows);
   for (int i = 0; i < c->n_rows; ++i)
     worst = larger(worst, fabs(sampled.rows[i].hbm.amplitude - c->rows[i].hbm.amplitude) / c->rows[i].orbit.amplitude);
@@ -42,12 +41,10 @@ static double largest_aliasing(const scene *exact, const comparison *c, int samp
 static void rows_are_the_grid(CHECK_STATE)
 {
   scene sc = case2();
-  comparison c;
-  accuracy a;
   sc.compare.harmonics = (number_list){3, {10, 3, 10}};
   sc.compare.samples = (number_list){2, {2048, 8}};
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
+  CHECK_FILLED(accuracy, a, scene_accuracy_run(&sc, &c, NULL, &a));
   assert_int_equal(a.n_rows, 6);
   assert_int_equal(a.orbits, 4);
   assert_int_equal(a.frequencies, 2);
@@ -69,12 +66,10 @@ static void rows_are_the_grid(CHECK_STATE)
 static void the_table_agrees_with_the_rows(CHECK_STATE)
 {
   scene sc = case2();
-  comparison c;
-  accuracy a;
   double worst = 0;
   sc.compare.harmonics = (number_list){1, {10}};
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
+  CHECK_FILLED(accuracy, a, scene_accuracy_run(&sc, &c, NULL, &a));
   assert_int_equal(c.n_rows, 4); /* one solution at 6, three at 8 */
   for (int i = 0; i < c.n_rows; ++i)
     worst = larger(worst, fabs(c.rows[i].hbm.amplitude - c.rows[i].orbit.amplitude) / c.rows[i].orbit.amplitude);
@@ -88,11 +83,9 @@ static void the_table_agrees_with_the_rows(CHECK_STATE)
 static void the_peak_is_the_limit_of_many_harmonics(CHECK_STATE)
 {
   scene sc = case2();
-  comparison c;
-  accuracy a;
   sc.compare.harmonics = (number_list){2, {40, 80}};
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
+  CHECK_FILLED(accuracy, a, scene_accuracy_run(&sc, &c, NULL, &a));
   const accuracy_row *h40 = find(&a, 40, 0), *h80 = find(&a, 80, 0);
   assert_true(a.peak_by_orbit);
   CHECK_NEAR(a.peak_amplitude, h80->peak_amplitude, fabs(h80->peak_amplitude - h40->peak_amplitude) / 7 + 1e-8,
@@ -108,10 +101,8 @@ static void a_smooth_peak_lies_between_orbits_of_one_height(CHECK_STATE)
   const double half_width = 0.34641016151377546 / 2, d = half_width / 1000;
   const char *set[] = {"response=[along]", "compare.omega=[3.6]", "compare.harmonics=[10]"};
   scene sc = case_scene("structures/tangent_normal_F50", 3, set);
-  comparison c;
-  accuracy a;
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &a), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
+  CHECK_FILLED(accuracy, a, scene_accuracy_run(&sc, &c, NULL, &a));
   comparison_clear(&c);
   assert_true(a.peak_by_orbit);
   sc.compare.omega = (number_list){3, {a.peak_omega - d, a.peak_omega, a.peak_omega + d}};
@@ -134,24 +125,19 @@ static void the_peak_of_a_large_structure_is_that_of_its_orbits(CHECK_STATE)
   scene sc = case_scene("structures/plates", 2, set);
   const comparison none = {0};
   const double d = 0.05;
-  accuracy a;
-  compare_setup setup;
-  hbm_solver *s;
   hbm_point point = {0};
-  timeint *ti;
-  assert_int_equal(scene_accuracy_run(&sc, &none, NULL, &a), HC_OK);
+  CHECK_FILLED(accuracy, a, scene_accuracy_run(&sc, &none, NULL, &a));
   assert_true(a.peak_by_orbit);
-  assert_int_equal(scene_setup(&sc, &setup), HC_OK);
-  assert_int_equal(comparison_referee(&setup, NULL, &ti), HC_OK);
-  assert_int_equal(hbm_solver_new(setup.model, &setup.hbm, &s), HC_OK);
+  CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
+  CHECK_MADE(timeint, ti, comparison_referee(&setup, NULL, &ti));
+  CHECK_MADE(hbm_solver, s, hbm_solver_new(setup.model, &setup.hbm, &s));
   double *X = calloc((size_t)hbm_n_coefficients(s), sizeof *X), amplitude[3];
   double *start = calloc((size_t)timeint_n_states(ti), sizeof *start);
   assert_true(X && start);
   assert_int_equal(hbm_solve(s, a.peak_omega, X, &point), HC_OK);
   assert_int_equal(comparison_orbit_start(s, X, a.peak_omega, start), HC_OK);
   for (int i = 0; i < 3; ++i) {
-    timeint_result r;
-    assert_int_equal(timeint_orbit(ti, a.peak_omega + (i - 1) * d, 1, start, NULL, &r), HC_OK);
+    CHECK_FILLED(timeint_result, r, timeint_orbit(ti, a.peak_omega + (i - 1) * d, 1, start, NULL, &r));
     amplitude[i] = r.amplitude;
   }
   const double off = 0.5 * (amplitude[2] - amplitude[0]) / (amplitude[2] - 2 * amplitude[1] + amplitude[0]);
@@ -168,8 +154,7 @@ static void the_peak_of_a_large_structure_is_that_of_its_orbits(CHECK_STATE)
 
 static hc_status run_with_jobs(const scene *sc, const comparison *c, int jobs, const hc_monitor *monitor, accuracy *a)
 {
-  compare_setup setup;
-  assert_int_equal(scene_setup(sc, &setup), HC_OK);
+  CHECK_FILLED(compare_setup, setup, scene_setup(sc, &setup));
   setup.jobs = jobs;
   hc_status st = accuracy_run(&setup, c, monitor, a);
   scene_setup_clear(&setup);
@@ -198,12 +183,10 @@ static void check_same_row(const accuracy_row *a, const accuracy_row *b)
 static void an_interrupt_keeps_whole_rows(CHECK_STATE)
 {
   scene sc = case2();
-  comparison c;
   sc.compare.harmonics = (number_list){2, {1, 3}};
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
-  accuracy whole;
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
   int between = 0;
-  assert_int_equal(scene_accuracy_run(&sc, &c, NULL, &whole), HC_OK);
+  CHECK_FILLED(accuracy, whole, scene_accuracy_run(&sc, &c, NULL, &whole));
   assert_int_equal(whole.n_rows, 2);
   for (int ticks = 1; ticks < 400; ticks += 1 + ticks / 8) {
     accuracy a;
@@ -226,17 +209,14 @@ static void threads_change_nothing(CHECK_STATE)
 {
   static const int jobs[] = {2, 16};
   scene sc = case2();
-  comparison c;
-  accuracy one;
   sc.transient.law = TRANSIENT_LAW_REGULARISED; /* so that there is an order of the regularisation, too */
   sc.compare.harmonics = (number_list){3, {3, 1, 5}};
   sc.compare.samples = (number_list){4, {256, 64, 8, 1024}};
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
-  assert_int_equal(run_with_jobs(&sc, &c, 1, NULL, &one), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
+  CHECK_FILLED(accuracy, one, run_with_jobs(&sc, &c, 1, NULL, &one));
   assert_int_equal(one.n_rows, 15);
   for (int k = 0; k < 2; ++k) {
-    accuracy some;
-    assert_int_equal(run_with_jobs(&sc, &c, jobs[k], NULL, &some), HC_OK);
+    CHECK_FILLED(accuracy, some, run_with_jobs(&sc, &c, jobs[k], NULL, &some));
     assert_int_equal(some.n_rows, one.n_rows);
     assert_int_equal(some.n_orders, one.n_orders);
     for (int i = 0; i < one.n_rows; ++i) check_same_row(&some.rows[i], &one.rows[i]);
@@ -285,11 +265,10 @@ static int check_part(const accuracy *part, const accuracy *whole)
 static void an_interrupt_stops_all_threads(CHECK_STATE)
 {
   scene sc = case2();
-  comparison c;
   accuracy whole, a;
   sc.compare.harmonics = (number_list){2, {1, 3}};
   sc.compare.samples = (number_list){3, {64, 128, 1 << 17}}; /* the last takes longer than the calling thread waits */
-  assert_int_equal(scene_comparison_run(&sc, NULL, &c), HC_OK);
+  CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
   assert_int_equal(run_with_jobs(&sc, &c, 1, NULL, &whole), HC_OK);
   assert_int_equal(whole.n_rows, 8);
   interrupter stop = {pthread_self(), INT_MAX, true};
