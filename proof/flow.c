@@ -154,7 +154,8 @@ bool flow_prepare(orbit *o, failure *f)
   return true;
 }
 
-bool flow_correct(const orbit *o, const orbit_segment *s, const arb_t tau, arb_ptr z, int columns)
+/* z = exp(A (tau - span)) z, columns of z: [columns][size]. */
+static bool correct(const orbit *o, const orbit_segment *s, const arb_t tau, arb_ptr z, int columns)
 {
   LOCAL(arb) h = {0};
   LOCAL(mag) norm = {0};
@@ -179,7 +180,7 @@ bool flow_end(const orbit *o, int i, arb_ptr end, arb_ptr columns)
   LOCAL(arb) tau = {0};
   flow_duration(o, i, tau);
   times_vector(end, s->power + s->levels, s->start, o->precision);
-  bool fine = flow_correct(o, s, tau, end, 1);
+  bool fine = correct(o, s, tau, end, 1);
   if (columns && fine) {
     int count = 0;
     for (int c = 0; c < s->size; c++) {
@@ -188,7 +189,7 @@ bool flow_end(const orbit *o, int i, arb_ptr end, arb_ptr columns)
         arb_set(columns + count * s->size + r, arb_mat_entry(s->power + s->levels, r, c));
       count++;
     }
-    fine = flow_correct(o, s, tau, columns, count);
+    fine = correct(o, s, tau, columns, count);
   }
   return fine;
 }

@@ -102,8 +102,6 @@ void row_slip(const orbit *o, const orbit_segment *s, int contact, int sign,
 /* The exponentials of all segments; false: too many substeps. */
 bool flow_prepare(orbit *o, failure *f);
 void flow_duration(const orbit *o, int i, arb_t tau); /* of segment i, in the box */
-/* z = exp(A (tau - span)) z, columns of z: [columns][size]. */
-bool flow_correct(const orbit *o, const orbit_segment *s, const arb_t tau, arb_ptr z, int columns);
 void flow_apply(const orbit *o, const orbit_segment *s, arb_srcptr z, arb_ptr derivative); /* A z */
 /* Z at the end of segment i, and, if not NULL, the columns [size] of exp(A tau) that belong to x, v and w. */
 bool flow_end(const orbit *o, int i, arb_ptr end, arb_ptr columns);

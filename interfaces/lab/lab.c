@@ -12,7 +12,7 @@
 
 lab *lab_new(void) { return calloc(1, sizeof(lab)); }
 
-void lab_drop_curves(lab *l)
+static void drop_curves(lab *l)
 {
   for (int f = 0; f < LAB_FORCES; ++f) {
     hbm_solver_free(l->kept[f].solver);
@@ -24,7 +24,7 @@ void lab_drop_curves(lab *l)
 void lab_free(lab *l)
 {
   if (!l) return;
-  lab_drop_curves(l);
+  drop_curves(l);
   free(l->values);
   free(l);
 }
@@ -53,7 +53,7 @@ int lab_read(lab *l, const char *text)
   const hc_status st = read_oscillator(text, &sc, &err);
   lab_begin(l, 0);
   if (st == HC_OK) {
-    lab_drop_curves(l);
+    drop_curves(l);
     l->sc = sc;
     l->has_case = true;
     l->n_harm = 0;

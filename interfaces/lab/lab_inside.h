@@ -44,5 +44,3 @@ void lab_exact_law(scene *sc);
 
 /* A solver of it. Errors of hbm_solver_new. */
 hc_status lab_solver(const scene *sc, hbm_solver **out);
-
-void lab_drop_curves(lab *l);

@@ -38,7 +38,7 @@ static double complex divided_difference(double complex root, double tau)
   return cexp(root * tau) * (cabs(apart) > 0 ? expm1_complex(apart * tau) / apart : tau);
 }
 
-void mode_advance(const mode *m, double tau, mode_flow *out)
+static void advance(const mode *m, double tau, mode_flow *out)
 {
   linear_free_motion(1, m->c, m->k, tau, out->e);
   out->s = m->soft ? linear_step_response(m->c, m->k, tau) : (1 - out->e[0][0]) / m->k;
@@ -71,7 +71,7 @@ modal_point modal_at(const modal_motion *m, double tau)
   const double complex turn = on_circle(m->theta), force = m->f * on_circle(m->theta + tau);
   modal_point at = {.tau = tau, .q = m->q, .p = m->p};
   mode_flow flow;
-  mode_advance(&m->mode, tau, &flow);
+  advance(&m->mode, tau, &flow);
   move(&flow, m->d, m->f * turn, &at.q, &at.p);
   at.a = m->d + creal(force) - m->mode.c * at.p - m->mode.k * at.q;
   at.j = -cimag(force) - m->mode.c * at.a - m->mode.k * at.p;
@@ -165,11 +165,11 @@ void modal_samples(const modal_motion *m, double from, double step, int count, d
 {
   mode_flow one, start;
   const double complex turn = on_circle(step);
-  mode_advance(&m->mode, step, &one);
+  advance(&m->mode, step, &one);
   for (int k = 0; k < count; k += RESTART) { /* rounding adds up over 32 samples only */
     const double theta = from + k * step;
     double q = m->q, p = m->p;
-    mode_advance(&m->mode, theta - m->theta, &start);
+    advance(&m->mode, theta - m->theta, &start);
     move(&start, m->d, m->f * on_circle(m->theta), &q, &p);
     double complex f = m->f * on_circle(theta);
     for (int j = k; j < count && j < k + RESTART; ++j) {

@@ -34,8 +34,6 @@ typedef struct mode_flow {
   double complex r, dr; /* to e^{i tau} */
 } mode_flow;
 
-void mode_advance(const mode *m, double tau, mode_flow *out);
-
 typedef struct modal_motion {
   mode mode;
   double theta;   /* [rad] where it begins */

@@ -150,6 +150,14 @@ void motion_series_at(const motion_series *s, double tau, int order, double *out
   }
 }
 
+/* Of what series_value is the value. */
+static double series_slope(const double *c, double tau)
+{
+  double f = 0;
+  for (int k = TERMS; k-- > 1;) f = f * tau + k * c[k];
+  return f;
+}
+
 contact_motion motion_series_contact(const motion_series *s, int j, int directions, double tau)
 {
   const double *u = s->u + (size_t)j * TERMS, *v = s->v + (size_t)j * TERMS;
@@ -205,13 +213,6 @@ double series_value(const double *c, double tau)
 {
   double f = 0;
   for (int k = TERMS; k-- > 0;) f = f * tau + c[k];
-  return f;
-}
-
-double series_slope(const double *c, double tau)
-{
-  double f = 0;
-  for (int k = TERMS; k-- > 1;) f = f * tau + k * c[k];
   return f;
 }
 

@@ -55,9 +55,8 @@ void motion_series_turn(const motion_series *s, double tau, contact_track *track
 /* Coefficients of row . X: r[TRACK_ORDER + 1]. */
 void motion_series_of(const motion_series *s, const double *row, double *r);
 
-/* sum c_k tau^k, and its first derivative. */
+/* sum c_k tau^k. */
 double series_value(const double *c, double tau);
-double series_slope(const double *c, double tau);
 
 /* The first tau of [0, h] at which the guard falls through 0; one that is below its noise at 0 has fallen there.
  * INFINITY: it does not, but for an excursion below its noise. */

@@ -70,7 +70,8 @@ contact_motion scaled_motion_at(const scaled_model *m, int j, const double *y)
   return at;
 }
 
-contact_motion scaled_law_motion(const scaled_model *m, int j, const double *y)
+/* U and V of contact j, and their rates where a law depends on them, at y. */
+static contact_motion law_motion(const scaled_model *m, int j, const double *y)
 {
   contact_motion at = {0};
   if (m->by_rates) return scaled_motion_at(m, j, y);
@@ -96,7 +97,7 @@ contact_state scaled_state_of(const scaled_model *m, int j, double v, const plan
 contact_state scaled_contact_state(const scaled_model *m, int j, const double *y)
 {
   const int first = scaled_first(m, j);
-  const contact_motion moves = scaled_law_motion(m, first, y);
+  const contact_motion moves = law_motion(m, first, y);
   const planar_value at = m->contact[first].kind->evaluate(&m->contact[first].law, &moves, y + 2 * m->n + first);
   return scaled_state_of(m, first, moves.v, &at);
 }
@@ -129,7 +130,7 @@ bool scaled_rhs(const scaled_model *m, double theta, const double *y, double *dy
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     /* The regularised law of the contact whose first direction is j, at y. */
     const scaled_contact *c = &m->contact[j];
-    const contact_motion moves = scaled_law_motion(m, j, y);
+    const contact_motion moves = law_motion(m, j, y);
     const planar_value l = c->kind->evaluate(&c->law, &moves, y + 2 * m->n + j);
     for (int a = 0; a < scaled_directions(m, j); ++a) {
       const size_t at = (size_t)(j + a) * (size_t)n;

@@ -50,9 +50,6 @@ contact_state scaled_contact_state(const scaled_model *m, int j, const double *y
 /* The same of the contact whose first direction is j, where its law says *at and its normal motion is v. */
 contact_state scaled_state_of(const scaled_model *m, int j, double v, const planar_value *at);
 
-/* U and V of contact j, and their rates where a law depends on them, at y. */
-contact_motion scaled_law_motion(const scaled_model *m, int j, const double *y);
-
 /* U and V of contact j at X = y[0..n-1]: u of the directions from j on to the last that shares its law. */
 void scaled_contact_motion(const scaled_model *m, int j, const double *x, double u[2], double *v);
 

@@ -27,8 +27,8 @@ static periodic_motion motion_of(const timeint_result *r)
   return m;
 }
 
-/* The distance between two motions, as an error of one of them. */
-motion_error timeint_change(const timeint_result *one, const timeint_result *other)
+/* The distance between the measures of two results, as an error of one of them [length]. */
+static motion_error change(const timeint_result *one, const timeint_result *other)
 {
   const periodic_motion a = motion_of(one), b = motion_of(other);
   const motion_distance d = motion_between(&a, &b);
@@ -92,7 +92,7 @@ static hc_status regularisation(timeint *ti, const double *state, const hc_monit
   st = halve(ti, state, r->period_multiple, monitor, &half);
   for (int i = 0; i < n && st == HC_OK; ++i) {
     if (i > 0) st = timeint_response(ti, i, &half);
-    if (st == HC_OK) out[i] = scaled_error(timeint_change(&r[i], &half), 2);
+    if (st == HC_OK) out[i] = scaled_error(change(&r[i], &half), 2);
   }
   timeint_regularise(ti, rho);
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
@@ -136,7 +136,7 @@ static hc_status slowed_part(timeint *ti, const double *state, const hc_monitor 
       st = timeint_response(closed, i, &here);
       if (st == HC_OK) st = timeint_response(slowed, i, &there);
       if (st != HC_OK) break;
-      const motion_error slowed_by = timeint_change(&here, &there), rest = timeint_change(&there, &r[i]);
+      const motion_error slowed_by = change(&here, &there), rest = change(&there, &r[i]);
       out[i] = (motion_error){slowed_by.amplitude + rest.amplitude, slowed_by.harmonic_1 + rest.harmonic_1,
                               slowed_by.waveform + rest.waveform};
     }

@@ -66,8 +66,6 @@ void settle_push(settle *s, const double *z)
   memcpy(s->ring + (s->n++ % CAPACITY) * s->d, z, sizeof *z * (size_t)s->d);
 }
 
-int settle_baseline(const settle *s) { return s->baseline; }
-
 static double larger(double a, double b) { return b > a || isnan(b) ? b : a; } /* NaN if either is */
 
 /* The point `ago` steps before the last. */
@@ -103,7 +101,9 @@ static double rate(const settle *s, int b, int k)
   return pow(moved_most(s, 0, b, k) / moved_most(s, b, b, k), 1.0 / b);
 }
 
-double settle_rate(const settle *s) { return s->n > 2 * s->baseline ? rate(s, s->baseline, 1) : NAN; }
+/* Contraction per step over the last 2 B: (largest drift of the last B)/(of the B before), to the power 1/B; 1 or more
+ * where the drift does not fall, NaN before 2 B + 1 points. Meaningful while the drift is far above the noise. */
+static double recent_contraction(const settle *s) { return s->n > 2 * s->baseline ? rate(s, s->baseline, 1) : NAN; }
 
 /* Is the drift over b steps nearly the sum of those over k steps, as it is along one direction? */
 static bool directed(const settle *s, int b, int k)
@@ -221,8 +221,8 @@ static hc_status adapt_tolerance(timeint *ti, progress *p)
   const double allowed = coarsest_allowed(ti), finest = timeint_final_tolerance(ti);
   if (ti->periods == 1) return allowed > finest ? use_tolerance(ti, p, allowed) : HC_OK;
   bool far = allowed >= ti->tolerance && allowed > finest;
-  if (far) p->contraction = settle_rate(ti->settle);
-  if (ti->tolerance <= finest || (far && ++p->periods < MOST_BASELINES * settle_baseline(ti->settle))) return HC_OK;
+  if (far) p->contraction = recent_contraction(ti->settle);
+  if (ti->tolerance <= finest || (far && ++p->periods < MOST_BASELINES * ti->settle->baseline)) return HC_OK;
   return use_tolerance(ti, p, fmax(finest, refine_by * ti->tolerance));
 }
 

@@ -48,14 +48,6 @@ void settle_push(settle *s, const double *z);
  * with one point. */
 double settle_drift(const settle *s);
 
-/* Contraction per step over the last 2 B: (largest drift of the last B)/(of the B before), to the power 1/B; 1 or more
- * where the drift does not fall, NaN before 2 B + 1 points. Meaningful while the drift is far above the noise;
- * settle_judge does not use it. */
-double settle_rate(const settle *s);
-
-/* B, in steps. */
-int settle_baseline(const settle *s);
-
 /* The distance to the fixed point, or, if that is not within goal while some k-cycle is, to the shortest of these.
  * goal > 0. */
 settle_estimate settle_judge(const settle *s, double goal);

@@ -104,8 +104,5 @@ double timeint_scaled_size(const timeint *ti);
  * would follow it, s^2 kt |t_j| w_j/highest^2; 0 without friction. */
 void timeint_point(const timeint *ti, double *z);
 
-/* The distance between the measures of two results, as an error of one of them [length]. Function: predict.c. */
-motion_error timeint_change(const timeint_result *one, const timeint_result *other);
-
 /* CVODE's tolerance for a steady state within transient.tolerance. */
 double timeint_final_tolerance(const timeint *ti);
