@@ -127,7 +127,7 @@ static hc_status try_it(remedy_search *s, const trial *t, bool *yes)
     start_from(s, hbm, n_harm, s->guess);
     st = hbm_solve(hbm, s->row->omega, s->guess, &point);
   }
-  if (st != HC_OK && !s->given.hbm.keep_mean) st = hbm_solve_first(hbm, s->row->omega, s->guess, &point);
+  if (st != HC_OK && !s->given.hbm.keep_mean) st = hbm_first_solution(hbm, s->row->omega, NULL, s->guess, &point);
   const bool solved = st == HC_OK;
   if (solved && (!s->has_target || target_moves(s, t))) st = integrate(s, t, hbm, s->guess);
   if (solved && st == HC_OK && s->has_target) st = hold_against_target(s, hbm, s->guess, yes);

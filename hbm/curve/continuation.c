@@ -631,16 +631,12 @@ hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *moni
   return st;
 }
 
-hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point)
-{
-  return hbm_first_solution(s, omega, NULL, X, point);
-}
-
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
   double size = norm_2(s->sys.n_coef, X);
   if (size != 0) return hbm_solve_fixed(s, omega, size, X, point);
-  hc_status st = hbm_solve_first(s, omega, X, point); /* a zero guess gives no size to scale the unknowns with */
+  hc_status st =
+      hbm_first_solution(s, omega, NULL, X, point); /* a zero guess gives no size to scale the unknowns with */
   if (st != HC_OK) memset(X, 0, (size_t)s->sys.n_coef * sizeof(double));
   return st;
 }

@@ -1,4 +1,4 @@
-/* continuation.h - the response curve over a range of omega, and a solution without a guess. Method: continuation.c. */
+/* continuation.h - the response curve over a range of omega. Method: continuation.c. */
 #pragma once
 
 #include "hbm/curve/response_curve.h"
@@ -12,7 +12,3 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
 /* Continuation steps `scale` times as long as they would be, 0 < scale <= 1 (else 1): solutions must not depend on
  * the step length, and two traces of different scales show whether they do. */
 void hbm_scale_steps(hbm_solver *s, double scale);
-
-/* hbm_solve_first that a monitor may stop: a solution X[n_coef] at omega, whatever X is at first. HC_OK,
- * HC_INTERRUPTED, HC_NO_MEMORY, or why the last ramp ended. */
-hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point);

@@ -276,7 +276,7 @@ static hc_status append_solution(hbm_solver *s, const hbm_curve *c, const double
   const double size = guess ? norm_2(c->n_coef, guess) : 0;
   if (guess) memcpy(x.X, guess, (size_t)c->n_coef * sizeof *guess);
   memset(x.dX, 0, (size_t)c->n_coef * sizeof *x.dX);
-  st = guess ? hbm_solve_fixed(s, omega, size, x.X, &x.point) : hbm_solve_first(s, omega, x.X, &x.point);
+  st = guess ? hbm_solve_fixed(s, omega, size, x.X, &x.point) : hbm_first_solution(s, omega, NULL, x.X, &x.point);
   if (st == HC_OK && !has_point(at, before, x.X, SAME * norm_2(c->n_coef, x.X)))
     st = hbm_curve_append(at, c->n_coef, x.X, x.dX, &x.point);
   free(x.X);

@@ -64,17 +64,17 @@ typedef struct hbm_point {
 } hbm_point;
 
 /* Solve at a fixed omega from the guess X[hbm_n_coefficients]; X is the solution on HC_OK and untouched otherwise. A
- * guess of zeros is none: solved as by hbm_solve_first. Errors of newton_solve and of the contact force. */
+ * guess of zeros is none: solved as by hbm_first_solution. Errors of newton_solve and of the contact force. */
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point);
 
 /* The same, as exact as the tolerance asks and no more: without Newton's last step, which is a fifth of the work where
  * many guesses are tried. A guess of zeros is one. */
 hc_status hbm_solve_roughly(hbm_solver *s, double omega, double *X, hbm_point *point);
 
-/* Solve at a fixed omega without a guess: from the linear response, else from the guess of hbm_solver_take_guess or
- * along ramps of the damping and of the force (ramp.h), in the order of continuation.c. X[hbm_n_coefficients] is
- * overwritten, and is a solution on HC_OK alone. Errors of hbm_first_solution. */
-hc_status hbm_solve_first(hbm_solver *s, double omega, double *X, hbm_point *point);
+/* Solve at a fixed omega without a guess: from the linear response, else along ramps of the damping and of the force
+ * (ramp.h) or from the guess of hbm_solver_take_guess, in the order of continuation.c. X[hbm_n_coefficients] is
+ * overwritten, and is a solution on HC_OK alone. HC_INTERRUPTED, HC_NO_MEMORY, or why the last ramp ended. */
+hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point);
 
 /* Measures of one response over its period, from its series x[2H+1]. */
 typedef struct hbm_measures {

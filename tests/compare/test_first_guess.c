@@ -34,7 +34,7 @@ static hc_status solve_first(hbm_solver *s, double omega, double *X)
 {
   hbm_point point;
   failing = QUICK_RAMPS;
-  return hbm_solve_first(s, omega, X, &point);
+  return hbm_first_solution(s, omega, NULL, X, &point);
 }
 
 /* Somebody to ask: counts, and answers as told. */
@@ -82,7 +82,7 @@ static hc_status first_with(const scene *sc, int failing_ramps, double omega, or
   hbm_solver *s = plain(sc);
   hbm_solver_take_guess(s, &(hbm_guess){ask, release, o});
   failing = failing_ramps;
-  const hc_status st = hbm_solve_first(s, omega, X, &point);
+  const hc_status st = hbm_first_solution(s, omega, NULL, X, &point);
   hbm_solver_free(s);
   assert_int_equal(o->freed, 1);
   return st;

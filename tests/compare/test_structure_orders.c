@@ -44,7 +44,7 @@ static double waveform_error(const structure_case *c, int H, double omega, const
   periodic_motion motion;
   with.how.harmonics = H;
   hbm_solver *s = structure_solver(&with);
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
   for (int i = 0; i < c->model->n_responses; ++i) {
     assert_int_equal(motion_of_response(s, omega, X, i, &m, &motion), HC_OK);
     const periodic_motion exact = motion_of_transient(&r[i]);

@@ -89,7 +89,7 @@ static void check_curve(const hbm_curve *c)
 
 static void solved_at_6_5(hbm_solver *s, double X[7])
 {
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 6.5, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, 6.5, NULL, X, &point));
 }
 
 /* A trace with that fault; then the same solver without it. Answers the status, and what it found into *n. */

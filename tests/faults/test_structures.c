@@ -50,7 +50,7 @@ static hc_status solve(const scene *sc, hbm_stability *out)
   if (st != HC_OK) return st;
   double X[5 * DOF] = {0};
   assert_true(hbm_n_coefficients(s) <= 5 * DOF);
-  st = hbm_solve_first(s, 0.7, X, &point);
+  st = hbm_first_solution(s, 0.7, NULL, X, &point);
   if (st == HC_OK) st = hbm_stability_at(s, 0.7, X, out);
   hbm_solver_free(s);
   return st;

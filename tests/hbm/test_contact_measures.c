@@ -156,7 +156,7 @@ static void what_goes_in_is_dissipated(CHECK_STATE)
     hbm_point point;
     contact_period period[MOST_CONTACTS];
     CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
-    if (hbm_solve_first(s, omega, X, &point) == HC_OK && point.residual <= 1e-13) {
+    if (hbm_first_solution(s, omega, NULL, X, &point) == HC_OK && point.residual <= 1e-13) {
       for (int i = 0; i < n; ++i) assert_int_equal(hbm_response(s, omega, X, i, x[i]), HC_OK);
       assert_int_equal(hbm_measure_contacts(s, omega, X, period), HC_OK);
       for (int j = 0; j < n_contacts; ++j) {

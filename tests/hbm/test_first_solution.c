@@ -107,10 +107,10 @@ static void scenes_once_refused_are_solved(CHECK_STATE)
     double X[MOST_COEF];
     hbm_point point;
     hbm_solver *s = solver_of(&refused[i]);
-    hc_status st = hbm_solve_first(s, refused[i].omega, X, &point);
+    hc_status st = hbm_first_solution(s, refused[i].omega, NULL, X, &point);
     if (st != HC_OK) fail_msg("scene %d: %s", refused[i].number, hc_status_text(st));
     check_left(s, &sc);
-    check_solution(&refused[i], X, "hbm_solve_first");
+    check_solution(&refused[i], X, "hbm_first_solution");
     CHECK_NEAR(point.omega, refused[i].omega, 0, "scene %d", refused[i].number);
     hbm_solver_free(s);
   }
@@ -124,7 +124,7 @@ static void a_ramp_of_many_unknowns_has_as_many_steps(CHECK_STATE)
   many.harmonics = (MOST_COEF - 1) / 2;
   hbm_solver *s = solver_of(&many);
   assert_true(hbm_has_many_unknowns(s));
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, many.omega, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, many.omega, NULL, X, &point));
   check_solution(&many, X, "many unknowns");
   hbm_solver_free(s);
 }
@@ -245,7 +245,7 @@ static void settings_for_curves_do_not_reach_ramps(CHECK_STATE)
     }
     CHECK_MADE(hbm_solver, s, unguided_solver(&sc, &s));
     if (other) hbm_scale_steps(s, 0.1);
-    CHECK_FILLED(hbm_point, point, hbm_solve_first(s, r->omega, X[other], &point));
+    CHECK_FILLED(hbm_point, point, hbm_first_solution(s, r->omega, NULL, X[other], &point));
     iterations[other] = point.iterations;
     assert_true(s->step_scale == (other ? 0.1 : 1) && s->how.skip_linear == (other == 1));
     assert_int_equal(s->how.continuation, sc.hbm.continuation);
@@ -279,7 +279,7 @@ static void a_ramp_can_be_stopped(CHECK_STATE)
     if (sampled) sc.hbm.force = HBM_FORCE_SAMPLED, sc.hbm.samples = 256;
     CHECK_MADE(hbm_solver, fresh, unguided_solver(&sc, &fresh));
     CHECK_MADE(hbm_solver, s, unguided_solver(&sc, &s));
-    CHECK_FILLED(hbm_point, point, hbm_solve_first(fresh, r->omega, Y, &point));
+    CHECK_FILLED(hbm_point, point, hbm_first_solution(fresh, r->omega, NULL, Y, &point));
     for (int stop = 1; stop <= 32; stop *= 2) {
       tick_counter watch = {.stop = stop};
       const hc_monitor monitor = {tick_any, &watch};
@@ -287,7 +287,7 @@ static void a_ramp_can_be_stopped(CHECK_STATE)
       assert_int_equal(watch.ticks, stop);
       assert_false(watch.outside);
       check_left(s, &sc);
-      assert_int_equal(hbm_solve_first(s, r->omega, X, &point), HC_OK);
+      assert_int_equal(hbm_first_solution(s, r->omega, NULL, X, &point), HC_OK);
       assert_memory_equal(X, Y, (size_t)(2 * r->harmonics + 1) * sizeof *X);
     }
     hbm_solver_free(s);

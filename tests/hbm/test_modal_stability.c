@@ -145,7 +145,7 @@ static void survivors_have_the_multipliers_of_all(CHECK_STATE)
   const contact_forces *orbit;
   const double omega = 0.5 * (small.from + small.to);
   CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &small.how, &s));
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
   CHECK_FILLED(contact_report, report, hbm_located_orbit(s, X, &orbit, &report));
   assert_true(report.regime == CONTACT_SEPARATES);
   const int n_few = multipliers_by(MONODROMY_IN_MODES, m, orbit, omega, few, &a),
@@ -202,7 +202,7 @@ static void plates_multiplier_is_that_of_time_integration(CHECK_STATE)
   static double X[CASE_MAX_COEF];
   structure_case c = structure_case_named("plates", 7);
   hbm_solver *s = structure_solver(&c);
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, TWO_PI * 138, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, TWO_PI * 138, NULL, X, &point));
   CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, TWO_PI * 138, X, &st));
   CHECK_NEAR(st.multiplier, 0.9638, 3e-3, "of 7 harmonics");
   CHECK_NEAR(st.im, 0, 1e-12, "a real one");
@@ -259,7 +259,7 @@ static void flutter_of_fast_modes_is_seen(CHECK_STATE)
       hbm_stability a, b;
       const contact_forces *orbit;
       CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
-      CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 1, X, &point));
+      CHECK_FILLED(hbm_point, point, hbm_first_solution(s, 1, NULL, X, &point));
       assert_int_equal(hbm_stability_at(s, 1, X, &b), HC_OK);
       assert_int_equal(hbm_stability_verdict(&b), heavy ? 1 : -1);
       CHECK_FILLED(contact_report, report, hbm_located_orbit(s, X, &orbit, &report));
@@ -282,7 +282,7 @@ static void damping_that_modes_do_not_share_is_unknown(CHECK_STATE)
   model *m = fluttering(0.01, true);
   m->damping[1] += 0.01, m->damping[m->n] += 0.01;
   CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 1, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, 1, NULL, X, &point));
   assert_false(hbm_stability_is_unknown(s));
   CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, 1, X, &st));
   assert_true(hbm_stability_is_unknown(s));

@@ -113,7 +113,7 @@ static void solving_with(int force)
   hbm_measures m;
   double X[N_COEF], Y[N_COEF] = {0};
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 6, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, 6, NULL, X, &point));
   assert_int_equal(hbm_solve(s, 6.01, X, &point), HC_OK);
   CHECK_FILLED(motion_error, e, hbm_predict(s, 6.01, X, &e));
   long good = 0, wild = 0; /* allocations: in all good solves, most in one wild */

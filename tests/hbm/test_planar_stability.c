@@ -283,7 +283,7 @@ static double check(const char *what, const structure_case *c, double omega)
   double factors = 1;
   static double X[CASE_MAX_COEF];
   hbm_solver *s = structure_solver(c);
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
   for (int i = 0; i < c->model->n; ++i) assert_int_equal(hbm_response(s, omega, X, i, p.x[i]), HC_OK);
   settle(&p);
   /* lambda[n_states] by central differences of e and 2 e of the states' size, extrapolated. */
@@ -371,7 +371,7 @@ static double multiplier_of(const structure_case *c, double omega)
 {
   static double X[CASE_MAX_COEF];
   hbm_solver *s = structure_solver(c);
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
   CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
   hbm_solver_free(s);
   return st.multiplier;

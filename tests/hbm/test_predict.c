@@ -26,7 +26,7 @@ static solved solve(scene sc, double omega, int fine)
   solved r = {.omega = omega};
   double Y[MOST] = {0};
   assert_int_equal(scene_hbm_solver(&sc, &r.s), HC_OK);
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(r.s, omega, r.X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(r.s, omega, NULL, r.X, &point));
   r.motion = motion_of(r.s, r.X);
   memcpy(Y, r.X, (size_t)series_length(sc.hbm.harmonics) * sizeof *Y);
   sc.hbm.harmonics = fine;
@@ -276,7 +276,7 @@ static void prediction_follows_the_number_of_harmonics(CHECK_STATE)
   hbm_curve c = {0}, at = {0};
   double X[MOST];
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 6, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, 6, NULL, X, &point));
   CHECK_FILLED(motion_error, few, hbm_predict(s, 6, X, &few));
   assert_int_equal(hbm_trace(s, 5.5, 6.5, NULL, &c), HC_OK);
   assert_true(hbm_n_harmonics(s) > point.harmonics);

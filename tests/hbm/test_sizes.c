@@ -9,7 +9,7 @@ enum { H = 5, LENGTH = 2 * H + 1, SECTORS = 24, ORDER = 3 };
 static void check_found(const structure_case *c, double omega, double *X, hbm_solver **s)
 {
   *s = structure_solver(c);
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(*s, omega, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(*s, omega, NULL, X, &point));
   CHECK_FILLED(hbm_measures, measures, hbm_measure(*s, X, &measures));
   assert_int_equal(measures.contact.regime, CONTACT_SLIPS);
   assert_int_equal(measures.contact.free_sliders, 0);

@@ -15,7 +15,7 @@ static void check_linear(const scene *sc, double k, double omega, contact_regime
 {
   double X[64];
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(sc, &s));
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
   CHECK_FILLED(hbm_measures, measures, hbm_measure(s, X, &measures));
   CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
   hbm_solver_free(s);
@@ -103,7 +103,7 @@ static void check_slipping(const scene *sc, double omega, const char *what)
   double X[2 * 30 + 1];
   CHECK_MADE(model, m, scene_model(sc, &m));
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(sc, &s));
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
   check_against_map(what, s, m, omega, X);
   CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
   CHECK_LE(moving_determinant(&st), (1 - 1e-3) * exp(-sc->damping * TWO_PI / omega / sc->mass), "%s at %g", what,
@@ -150,7 +150,7 @@ static void a_slider_shaken_down_is_held(CHECK_STATE)
                k = sc.stiffness + scene_stuck_stiffness(&sc.contacts[0]);
   double X[9];
   CHECK_MADE(hbm_solver, s, scene_hbm_solver(&sc, &s));
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
   CHECK_LE(1e-6, fabs(X[0]), "the slider has slipped: it rests where the mean is not 0");
   CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, omega, X, &st));
   CHECK_LE(rate * rate, k / sc.mass, "under-damped, so that both multipliers have the modulus");

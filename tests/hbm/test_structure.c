@@ -136,7 +136,7 @@ static bool solve(const model *m, int H, double omega, double (*x)[2 * 20 + 1], 
   hbm_measures measures;
   static double X[MOST];
   CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
-  const bool found = hbm_solve_first(s, omega, X, &point) == HC_OK;
+  const bool found = hbm_first_solution(s, omega, NULL, X, &point) == HC_OK;
   for (int r = 0; r < 2 && found; ++r) assert_int_equal(hbm_response(s, omega, X, r, x[r]), HC_OK);
   if (found) assert_int_equal(hbm_measure(s, X, &measures), HC_OK);
   if (found) *regime = measures.contact.regime;
@@ -273,7 +273,7 @@ static void copies_are_each_the_one(CHECK_STATE)
   for (double omega = 5.5; omega < 9; omega += 0.5) {
     double X[21], all[COPIES * 21];
     CHECK_MADE(hbm_solver, s, hbm_solver_new(one, &how, &s));
-    CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+    CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
     hbm_solver_free(s);
     for (int c = 0; c < 21; ++c) {
       x[0][c] = x[1][c] = X[c];
@@ -324,7 +324,7 @@ static void a_small_body_beside_a_large_one(CHECK_STATE)
     double x[2][2 * (2 * HARMONICS + 1)];
     for (int k = 0; k < 2; ++k) {
       CHECK_MADE(hbm_solver, s, hbm_solver_new(k ? unlike : alike, &how, &s));
-      CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, x[k], &point));
+      CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, x[k], &point));
       hbm_solver_free(s);
     }
     for (int c = 0; c <= 2 * HARMONICS; ++c)

@@ -40,7 +40,7 @@ static void check_closed_form(const char *name, const structure_case *c, const b
   hbm_point point;
   double X[CASE_MAX_COEF], got[LENGTH];
   const expectation e = expect(c->model, stuck, omega, 0), near = expect(c->model, stuck, omega, 0x1p-52);
-  if (hbm_solve_first(s, omega, X, &point) != HC_OK) fail_msg("%s: no solution at %g", name, omega);
+  if (hbm_first_solution(s, omega, NULL, X, &point) != HC_OK) fail_msg("%s: no solution at %g", name, omega);
   for (int k = 0; k < hbm_n_coefficients(s) && !c->how.skip_linear; ++k) X[k] *= 0.9; /* so that Newton has to solve */
   if (!c->how.skip_linear) assert_int_equal(hbm_solve(s, omega, X, &point), HC_OK);
   CHECK_FILLED(hbm_measures, measures, hbm_measure(s, X, &measures));
@@ -106,7 +106,7 @@ static void pyharm_prints_the_same(CHECK_STATE)
   structure_case c = structure_case_named("jenkins2", 7);
   hbm_solver *s = structure_solver(&c);
   double X[CASE_MAX_COEF], x[15], squares = 0;
-  CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 24, X, &point));
+  CHECK_FILLED(hbm_point, point, hbm_first_solution(s, 24, NULL, X, &point));
   assert_int_equal(hbm_response(s, 24, X, 0, x), HC_OK);
   for (int k = 0; k < 15; ++k) squares += x[k] * x[k];
   CHECK_NEAR(sqrt(squares), 0.010306893196, 0.5e-12, "its last digit");

@@ -55,7 +55,7 @@ static void sampled_tends_to_exact(CHECK_STATE)
     for (int f = 0; f < FREQUENCIES; ++f) {
       const double omega = at[q].from + (at[q].to - at[q].from) * (f + 0.37) / FREQUENCIES;
       double X[CASE_MAX_COEF];
-      CHECK_FILLED(hbm_point, point, hbm_solve_first(s, omega, X, &point));
+      CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
       CHECK_FILLED(hbm_measures, m, hbm_measure(s, X, &m));
       as_expected += m.contact.regime == at[q].regime;
       errors(&c, omega, X, error[f]);

@@ -164,7 +164,7 @@ static void out_of_reach_it_is_refused(CHECK_STATE)
   for (int i = 0; i < 3; ++i) c.model->loads[0].cosine[i] = 0;
   for (int j = 0; j < 2; ++j) c.model->contacts[j].law.gap = -1;
   hbm_solver *s = structure_solver(&c);
-  assert_int_equal(hbm_solve_first(s, 35, X, &point), HC_SINGULAR);
+  assert_int_equal(hbm_first_solution(s, 35, NULL, X, &point), HC_SINGULAR);
   hbm_solver_free(s);
   model_free(c.model);
 }
@@ -184,7 +184,7 @@ static void held_by_rounding_alone_it_is_refused(CHECK_STATE)
     c.how.skip_linear = k % 2 == 0;
     c.how.tolerance = 1e-10;
     hbm_solver *s = structure_solver(&c);
-    assert_int_not_equal(hbm_solve_first(s, 1.9, X, &point), HC_OK);
+    assert_int_not_equal(hbm_first_solution(s, 1.9, NULL, X, &point), HC_OK);
     assert_int_equal(hbm_solve(s, 1.9, X, &point), HC_SINGULAR);
     hbm_solver_free(s);
     model_free(c.model);

@@ -92,7 +92,7 @@ static void solutions_with_many_are_those_with_one(CHECK_STATE)
     memset(X[i], 0, sizeof X[i]);
     CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
     model_free(m); /* the solver has its own */
-    CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 6.0, X[i], &point));
+    CHECK_FILLED(hbm_point, point, hbm_first_solution(s, 6.0, NULL, X[i], &point));
     CHECK_FILLED(hbm_stability, st, hbm_stability_at(s, 6.0, X[i], &st));
     multiplier[i] = st.multiplier;
     hbm_solver_free(s);

@@ -683,7 +683,7 @@ static void first_solutions_in_space_take_few_iterations(CHECK_STATE)
     double *X = calloc((size_t)hbm_n_coefficients(h), sizeof *X);
     assert_non_null(X);
     hbm_solver_take_guess(h, &(hbm_guess){.ask = count_questions, .self = &asked});
-    CHECK_FILLED(hbm_point, point, hbm_solve_first(h, sc.compare.omega.v[0], X, &point));
+    CHECK_FILLED(hbm_point, point, hbm_first_solution(h, sc.compare.omega.v[0], NULL, X, &point));
     assert_int_equal(asked, 0);
     CHECK_LE(point.iterations, 3000, "scene %ld", drawn[i]);
     free(X);

@@ -85,7 +85,7 @@ static void what_floats_does_not_settle(CHECK_STATE)
     double y[STATES] = {0}, X[CASE_MAX_COEF] = {0};
     hbm_solver *s = structure_solver(&c);
     CHECK_MADE(timeint, ti, timeint_new(c.model, &how, &ti));
-    CHECK_FILLED(hbm_point, point, hbm_solve_first(s, 0.95, X, &point));
+    CHECK_FILLED(hbm_point, point, hbm_first_solution(s, 0.95, NULL, X, &point));
     assert_int_equal(hbm_state(s, 0.95, X, y, y + 3), HC_OK);
     assert_int_not_equal(timeint_steady(ti, 0.95, y, NULL, &r), HC_OK);
     hbm_solver_free(s);

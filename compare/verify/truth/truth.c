@@ -205,7 +205,7 @@ static hc_status truth_at(truth *t, double omega, hbm_curve *at)
   if (at->n > 0) return HC_OK;
   double *X = calloc((size_t)t->response.curve.n_coef, sizeof *X);
   hbm_point point;
-  hc_status st = X ? hbm_solve_first(t->response.hbm, omega, X, &point) : HC_NO_MEMORY;
+  hc_status st = X ? hbm_first_solution(t->response.hbm, omega, NULL, X, &point) : HC_NO_MEMORY;
   at->n_coef = t->response.curve.n_coef;
   if (st == HC_OK && (at->X = X) && (at->points = calloc(1, sizeof point))) {
     at->points[0] = point;
