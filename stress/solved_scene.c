@@ -80,12 +80,16 @@ hc_status stress_motion_read(const solved_scene *s, hbm_solver *h, double omega,
   return st;
 }
 
-static hc_status solve_with(solved_scene *s, const model *m, const hbm_settings *how, double omega, const double *guess,
-                            stress_motion *out)
+void stress_motion_solve(solved_scene *s, const model *m, const hbm_settings *how, double omega, const double *guess,
+                         double length, stress_motion *out)
 {
+  const size_t length_x = (size_t)s->n * (size_t)series_length(how->harmonics);
+  *out = (stress_motion){.harmonics = how->harmonics,
+                         .x = calloc(length_x, sizeof(double)),
+                         .start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof(double))};
   hbm_solver *h = NULL;
   hbm_point point;
-  hc_status st = guided_hbm_solver_new(m, how, &h);
+  hc_status st = out->x && out->start ? guided_hbm_solver_new(m, how, &h) : HC_NO_MEMORY;
   double *X = st == HC_OK ? calloc((size_t)hbm_n_coefficients(h), sizeof *X) : NULL;
   if (st == HC_OK && !X) st = HC_NO_MEMORY;
   if (st == HC_OK && guess) hbm_guess_of(h, guess, X);
@@ -96,19 +100,9 @@ static hc_status solve_with(solved_scene *s, const model *m, const hbm_settings 
   if (st == HC_OK) out->start_status = comparison_orbit_start(h, X, omega, out->start);
   free(X);
   hbm_solver_free(h);
-  return st;
-}
-
-void stress_motion_solve(solved_scene *s, const model *m, const hbm_settings *how, double omega, const double *guess,
-                         double length, stress_motion *out)
-{
-  const size_t length_x = (size_t)s->n * (size_t)series_length(how->harmonics);
-  *out = (stress_motion){.harmonics = how->harmonics,
-                         .x = calloc(length_x, sizeof(double)),
-                         .start = calloc(2 * (size_t)m->n + (size_t)m->n_contacts, sizeof(double))};
-  out->status = out->x && out->start ? solve_with(s, m, how, omega, guess, out) : HC_NO_MEMORY;
+  out->status = st;
   for (size_t i = 0; out->x && i < length_x; ++i) out->x[i] /= length;
-  if (out->status == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;
+  if (st == HC_NO_MEMORY) s->fatal = HC_NO_MEMORY;
 }
 
 double stress_motion_distance(const solved_scene *s, const double *x, const double *y, bool means_out)
