@@ -318,9 +318,9 @@ static double multipliers_apart(const stress_motion *h, const stress_path *p)
  *
  * As x'' is bounded, harmonics fall as 1/h^2 or faster, and truncation moves x, and with it the instants at which
  * contacts change, by 1/H or less. So *truncated where the last doubling halved the difference or brought it within the
- * bound. A contact that is shorter than the last harmonic's period has as much of all harmonics: the difference falls
- * in proportion to those that there are, as one says that is *unresolved. That is evidence, not a bound: what is left
- * may hide an error as large as itself. */
+ * bound. A contact that is shorter than the last harmonic's period has as large a share in all harmonics: the
+ * difference falls in proportion to their number, and the multiplier is *unresolved. That is evidence, not a bound: what
+ * is left may hide an error as large as itself. */
 static double better_multiplier(solved_scene *s, double error, double bound, bool *truncated, bool *unresolved)
 {
   stress_motion h = {.status = HC_OK};

@@ -634,9 +634,8 @@ hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *moni
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
   double size = norm_2(s->sys.n_coef, X);
-  if (size != 0) return hbm_solve_fixed(s, omega, size, X, point);
-  hc_status st =
-      hbm_first_solution(s, omega, NULL, X, point); /* a zero guess gives no size to scale the unknowns with */
+  if (size != 0) return hbm_solve_fixed(s, omega, size, X, point); /* zeros give no size to scale the unknowns with */
+  hc_status st = hbm_first_solution(s, omega, NULL, X, point);
   if (st != HC_OK) memset(X, 0, (size_t)s->sys.n_coef * sizeof(double));
   return st;
 }
