@@ -319,8 +319,8 @@ static double multipliers_apart(const stress_motion *h, const stress_path *p)
  * As x'' is bounded, harmonics fall as 1/h^2 or faster, and truncation moves x, and with it the instants at which
  * contacts change, by 1/H or less. So *truncated where the last doubling halved the difference or brought it within the
  * bound. A contact that is shorter than the last harmonic's period has as large a share in all harmonics: the
- * difference falls in proportion to their number, and the multiplier is *unresolved. That is evidence, not a bound: what
- * is left may hide an error as large as itself. */
+ * difference falls in proportion to their number, and the multiplier is *unresolved. That is evidence, not a bound:
+ * what is left may hide an error as large as itself. */
 static double better_multiplier(solved_scene *s, double error, double bound, bool *truncated, bool *unresolved)
 {
   stress_motion h = {.status = HC_OK};
@@ -416,10 +416,16 @@ static stress_check hold(solved_scene *s, const stress_path *other, int shift, d
   return stress_agree_within(paths_apart(s, &s->path, other, shift), least, sensitive(&s->path, other));
 }
 
+/* A slider that never slips, but comes to its limit, may rest elsewhere; what sticks follows it by no more. */
 static stress_check hold_found(solved_scene *s, const search *at, const double *from, int shift, double least)
 {
   stress_path other = find_path(s, at, from);
-  const stress_check c = hold(s, &other, shift, least);
+  stress_check c = hold(s, &other, shift, least);
+  double moved = 0;
+  for (int j = 0; j < s->model->n_contacts && s->path.r.free_sliders > 0 && c.outcome == STRESS_FINDING; ++j)
+    moved = fmax(moved, fabs(other.state[2 * at->m->n + j] / at->length - s->path.state[2 * s->n + j]));
+  if (at->how.law == TRANSIENT_LAW_EXACT && moved > 0 && c.error <= moved / s->path.amplitude)
+    c = stress_explain(STRESS_FAMILY, c.error, moved / s->path.amplitude);
   stress_path_free(&other);
   return c;
 }

@@ -32,8 +32,9 @@ struct aft {
   workspace memory;           /* of all of these */
 };
 
-hc_status aft_new(int n_harm, int n_time, hbm_restart restart, int n_dof, int n_contacts,
-                  const moving_contact *contacts, aft **out)
+/* n_dof = 1: all contacts are moved by one coordinate; 2: there is one, and the coordinates are its u and v. */
+static hc_status make_aft(int n_harm, int n_time, hbm_restart restart, int n_dof, int n_contacts,
+                          const moving_contact *contacts, aft **out)
 {
   *out = NULL;
   if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || n_time < 2 * n_harm + 1) return HC_BAD_INPUT;
@@ -77,7 +78,7 @@ hc_status aft_new_of_model(const model *m, hbm_restart restart, int n_harm, int 
   moving_contact *contacts;
   *out = NULL;
   hc_status st = moving_contacts_of_model(m, &contacts);
-  if (st == HC_OK) st = aft_new(n_harm, n_time, restart, 1, m->n_contacts, contacts, out);
+  if (st == HC_OK) st = make_aft(n_harm, n_time, restart, 1, m->n_contacts, contacts, out);
   free(contacts);
   return st;
 }
@@ -90,67 +91,7 @@ void aft_free(aft *a)
   free(a);
 }
 
-/* ---- the force ------------------------------------------------------------------------------- */
-
-static contact_regime regime_of(int n, const sampled_interval *s)
-{
-  bool separates = false, slips = false, touches = false;
-  for (int k = 0; k < n; ++k) {
-    separates |= s[k].state == CONTACT_SEPARATED;
-    slips |= contact_slip_sign(s[k].state) != 0;
-    touches |= s[k].state != CONTACT_SEPARATED;
-  }
-  if (separates) return touches ? CONTACT_SEPARATES : CONTACT_LINEAR;
-  return slips ? CONTACT_SLIPS : CONTACT_STUCK;
-}
-
-hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
-{
-  contact_report local;
-  const int n_coef = series_length(a->n_harm);
-  if (!report) report = &local;
-  *report = (contact_report){.regime = CONTACT_LINEAR};
-  double size = 0; /* bounds |x| */
-  for (int i = 0; i < a->n_dof * n_coef; ++i) size += fabs(X[i]);
-  if (!isfinite(size)) return HC_NOT_FINITE;
-  period_samples_of(&a->of, X, a->x);
-  if (a->n_dof > 1) period_samples_of(&a->of, X + n_coef, a->y);
-  if (a->n_contacts == 0) memset(a->f, 0, (size_t)a->n_time * sizeof(double));
-  hc_status st = HC_OK;
-  /* One step of the law maps w to the nearest point of an interval, and so does a whole period: applied once more it
-   * changes nothing, so the slider is periodic in the second. That it is not can only be rounding or a defect. */
-  for (int j = 0; j < a->n_contacts && st == HC_OK; ++j) {
-    const moving_contact *c = &a->contacts[j];
-    sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
-    double *f = j == 0 ? a->f : a->of.sample, *again = a->k; /* k is made afterwards, if at all */
-    slider_motion motion = {a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
-    if (a->n_dof > 1)
-      motion = (slider_motion){a->x, a->y, 1, 1, 1, 0}; /* the force on u, where v is another coordinate */
-    slider_report found = slider_follow(&c->law, a->restart, a->n_time, &motion, f, again, s, a->settling);
-    a->n_intervals[j] = found.n_intervals;
-    for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->of.sample[i];
-    contact_regime regime = regime_of(found.n_intervals, s);
-    if (regime > report->regime) report->regime = regime;
-    report->transitions += found.transitions;
-    report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(c, a->n_dof);
-    st = fabs(found.w - found.settled) <= 1e-12 * (fabs(found.settled) + size) ? HC_OK : HC_NOT_CLOSED;
-  }
-  if (st != HC_OK) return st;
-  period_samples_series(&a->of, a->f, a->n_harm, F);
-  if (a->n_dof > 1) { /* N - N0: its contact's T is in the first coordinate */
-    for (int i = 0; i < a->n_time; ++i) a->f[i] = contact_normal_change(&a->contacts->law, a->y[i]);
-    period_samples_series(&a->of, a->f, a->n_harm, F + n_coef);
-  }
-  if (jac) aft_jacobian(a, jac);
-  return HC_OK;
-}
-
-void aft_sliders(const aft *a, double *w)
-{
-  for (int j = 0; j < a->n_contacts; ++j) w[j] = a->intervals[(size_t)j * (size_t)a->n_time].w;
-}
-
-/* ---- its Jacobian ---------------------------------------------------------------------------- */
+/* ---- the force's Jacobian -------------------------------------------------------------------- */
 
 static int end_of_interval(const aft *a, int j, int m)
 {
@@ -217,8 +158,10 @@ static void add_block(aft *a, const double stiffness[4], double *block)
   force_jacobian_add(a->n_harm, a->symbol, 2 * series_length(a->n_harm), block);
 }
 
-void aft_jacobian(aft *a, double *jac)
+/* dF/dX, at the last evaluation, which ended with HC_OK. */
+static void jacobian(void *self, double *jac)
 {
+  aft *a = self;
   const size_t rows = (size_t)a->n_dof * (size_t)series_length(a->n_harm);
   memset(jac, 0, rows * rows * sizeof(double));
   if (a->n_dof > 1) {
@@ -248,12 +191,72 @@ void aft_jacobian(aft *a, double *jac)
   }
 }
 
+/* ---- the force ------------------------------------------------------------------------------- */
+
+static contact_regime regime_of(int n, const sampled_interval *s)
+{
+  bool separates = false, slips = false, touches = false;
+  for (int k = 0; k < n; ++k) {
+    separates |= s[k].state == CONTACT_SEPARATED;
+    slips |= contact_slip_sign(s[k].state) != 0;
+    touches |= s[k].state != CONTACT_SEPARATED;
+  }
+  if (separates) return touches ? CONTACT_SEPARATES : CONTACT_LINEAR;
+  return slips ? CONTACT_SLIPS : CONTACT_STUCK;
+}
+
+hc_status aft_eval(aft *a, const double *X, double *F, double *jac, contact_report *report)
+{
+  contact_report local;
+  const int n_coef = series_length(a->n_harm);
+  if (!report) report = &local;
+  *report = (contact_report){.regime = CONTACT_LINEAR};
+  double size = 0; /* bounds |x| */
+  for (int i = 0; i < a->n_dof * n_coef; ++i) size += fabs(X[i]);
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  period_samples_of(&a->of, X, a->x);
+  if (a->n_dof > 1) period_samples_of(&a->of, X + n_coef, a->y);
+  if (a->n_contacts == 0) memset(a->f, 0, (size_t)a->n_time * sizeof(double));
+  hc_status st = HC_OK;
+  /* One step of the law maps w to the nearest point of an interval, and so does a whole period: applied once more it
+   * changes nothing, so the slider is periodic in the second. That it is not can only be rounding or a defect. */
+  for (int j = 0; j < a->n_contacts && st == HC_OK; ++j) {
+    const moving_contact *c = &a->contacts[j];
+    sampled_interval *s = a->intervals + (size_t)j * (size_t)a->n_time;
+    double *f = j == 0 ? a->f : a->of.sample, *again = a->k; /* k is made afterwards, if at all */
+    slider_motion motion = {a->x, a->x, c->cu[0], c->cv[0], c->cu[0], c->cv[0]};
+    if (a->n_dof > 1)
+      motion = (slider_motion){a->x, a->y, 1, 1, 1, 0}; /* the force on u, where v is another coordinate */
+    slider_report found = slider_follow(&c->law, a->restart, a->n_time, &motion, f, again, s, a->settling);
+    a->n_intervals[j] = found.n_intervals;
+    for (int i = 0; i < a->n_time && j > 0; ++i) a->f[i] += a->of.sample[i];
+    contact_regime regime = regime_of(found.n_intervals, s);
+    if (regime > report->regime) report->regime = regime;
+    report->transitions += found.transitions;
+    report->free_sliders += regime == CONTACT_STUCK && moving_contact_has_slider(c, a->n_dof);
+    st = fabs(found.w - found.settled) <= 1e-12 * (fabs(found.settled) + size) ? HC_OK : HC_NOT_CLOSED;
+  }
+  if (st != HC_OK) return st;
+  period_samples_series(&a->of, a->f, a->n_harm, F);
+  if (a->n_dof > 1) { /* N - N0: its contact's T is in the first coordinate */
+    for (int i = 0; i < a->n_time; ++i) a->f[i] = contact_normal_change(&a->contacts->law, a->y[i]);
+    period_samples_series(&a->of, a->f, a->n_harm, F + n_coef);
+  }
+  if (jac) jacobian(a, jac);
+  return HC_OK;
+}
+
+void aft_sliders(const aft *a, double *w)
+{
+  for (int j = 0; j < a->n_contacts; ++j) w[j] = a->intervals[(size_t)j * (size_t)a->n_time].w;
+}
+
 /* ---- as one of contact_evaluator.h -------------------------------------------------------------------- */
 
 static hc_status make(const contact_coordinates *c, const evaluator_settings *how, void **self)
 {
   aft *a;
-  const hc_status st = aft_new(how->n_harm, how->n_time, how->restart, c->n_dof, 1, &c->moved, &a);
+  const hc_status st = make_aft(how->n_harm, how->n_time, how->restart, c->n_dof, 1, &c->moved, &a);
   *self = a;
   return st;
 }
@@ -266,7 +269,6 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
 }
 
 static void let_go(void *self) { aft_free(self); }
-static void jacobian(void *self, double *jac) { aft_jacobian(self, jac); }
 static void sliders(const void *self, double *w) { aft_sliders(self, w); }
 
 const contact_evaluator aft_evaluator = {
