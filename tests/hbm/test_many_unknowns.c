@@ -69,8 +69,7 @@ static void check_peak(const char *force, const char *samples, long most)
   assert_int_equal(hbm_trace(s, sc.omega_from, sc.omega_to, NULL, &c), HC_OK);
   const long before = hbm_solves(s);
   assert_int_equal(hbm_curve_peak(s, &c, &peak), HC_OK);
-  print_message("%s, %s: %ld solutions\n", force, samples, hbm_solves(s) - before);
-  assert_true(hbm_solves(s) - before <= most);
+  CHECK_LE((double)(hbm_solves(s) - before), (double)most, "%s, %s: solutions", force, samples);
   assert_int_equal(hbm_measure(s, peak.X, &top), HC_OK);
   const double omega = peak.points[0].omega;
   for (double off = 1e-3; off > 1e-8; off *= 0.3)
@@ -93,7 +92,8 @@ static void few_solutions_lead_to_a_peak(CHECK_STATE)
 {
   check_peak("hbm.force=exact", "hbm.samples=128", 4);
   check_peak("hbm.force=sampled", "hbm.samples=128", 16);
-  check_peak("hbm.force=sampled", "hbm.samples=32", 8);
+  check_peak("hbm.force=sampled", "hbm.samples=32", 16);
+  check_peak("hbm.force=sampled", "hbm.samples=100", 16); /* the corner lies within 1e-7 of a part's end */
 }
 
 CHECK_TESTS("hbm.many_unknowns", 120, a_request_to_stop_is_heard_in_a_step, a_jacobian_serves_more_than_a_step,
