@@ -452,7 +452,7 @@ static const hbm_point *peak_by_slope(peak_search *p, double highest, double **X
     end[0] = guessed_amplitude(p, from), end[1] = guessed_amplitude(p, to);
     const int higher = end[1] > end[0];
     const double gain = guessed_amplitude(p, summit.x) - end[higher];
-    if (shortest && amplitude_of(p->s, p->x->X) > end[higher]) return &p->x->point;
+    if (shortest && amplitude_of(p->s, p->x->X) > fmax(end[higher], highest)) return &p->x->point;
     if (shortest || gain <= least_gain * end[higher]) {
       *X = hbm_curve_X(&p->near.ends, higher), *dX = hbm_curve_dX(&p->near.ends, higher);
       return end[higher] >= highest ? &p->near.ends.points[higher] : NULL;

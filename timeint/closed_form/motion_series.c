@@ -150,7 +150,7 @@ void motion_series_at(const motion_series *s, double tau, int order, double *out
   }
 }
 
-/* Of what series_value is the value. */
+/* The first derivative of the sum with respect to tau. */
 static double series_slope(const double *c, double tau)
 {
   double f = 0;
