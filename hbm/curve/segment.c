@@ -454,8 +454,9 @@ static const hbm_point *peak_by_slope(peak_search *p, double highest, double **X
     const double gain = guessed_amplitude(p, summit.x) - end[higher];
     if (shortest && amplitude_of(p->s, p->x->X) > fmax(end[higher], highest)) return &p->x->point;
     if (shortest || gain <= least_gain * end[higher]) {
+      if (!(end[higher] >= highest)) return NULL;
       *X = hbm_curve_X(&p->near.ends, higher), *dX = hbm_curve_dX(&p->near.ends, higher);
-      return end[higher] >= highest ? &p->near.ends.points[higher] : NULL;
+      return &p->near.ends.points[higher];
     }
     const double corner = from + (end[1] - end[0] - slope[1] * (to - from)) / (slope[0] - slope[1]);
     const double sigma = gain > 0.1 * before && corner > from && corner < to ? corner : summit.x;
