@@ -18,6 +18,7 @@ WRAP(hc_status, timeint_steady,
   return HC_INTERRUPTED;
 }
 
+enum { QUICK_RAMPS = 2 };
 static int failing; /* how many ramps to come begin nowhere */
 
 WRAP(hbm_ramp, hbm_ramp_of, (hbm_ramp_kind kind, const hbm_system *sys, double omega))
@@ -26,8 +27,6 @@ WRAP(hbm_ramp, hbm_ramp_of, (hbm_ramp_kind kind, const hbm_system *sys, double o
   if (failing > 0) --failing, r.from = NAN;
   return r;
 }
-
-enum { QUICK_RAMPS = 2 };
 
 /* Both quick ramps fail. */
 static hc_status solve_first(hbm_solver *s, double omega, double *X)

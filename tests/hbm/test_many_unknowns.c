@@ -70,10 +70,9 @@ static void check_peak(const char *force, const char *samples, long most, double
   assert_int_equal(hbm_curve_peak(s, &c, &peak), HC_OK);
   CHECK_LE((double)(hbm_solves(s) - before), (double)most, "%s, %s: solutions", force, samples);
   CHECK_FILLED(hbm_measures, top, hbm_measure(s, peak.X, &top));
-  const double omega = peak.points[0].omega;
   for (double off = 1e-3; off > 1e-8; off *= 0.3)
     for (int side = -1; side <= 1; side += 2)
-      assert_int_equal(hbm_curve_at(s, &c, omega * (1 + side * off), &beside), HC_OK);
+      assert_int_equal(hbm_curve_at(s, &c, peak.points->omega * (1 + side * off), &beside), HC_OK);
   assert_true(beside.n >= 20);
   for (int k = 0; k < c.n; ++k)
     CHECK_LE(hbm_measure(s, hbm_curve_X(&c, k), &m) == HC_OK ? m.amplitude : NAN, top.amplitude, "%s: a point",
