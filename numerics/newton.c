@@ -7,7 +7,6 @@
 
 #include <kinsol/kinsol.h>
 #include <math.h>
-#include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sundials/sundials_linearsolver.h>
@@ -17,6 +16,7 @@
 #include "numerics/grouped.h"
 #include "numerics/norm.h"
 #include "numerics/sundials_compat.h"
+#include "numerics/vectors.h"
 
 struct newton { /* from newton_new, to newton_free; not shared between threads */
   newton_problem problem;
@@ -126,7 +126,7 @@ static hc_status make_kinsol(newton *nw)
   if (hc_sundials_context(&nw->ctx)) return HC_NO_MEMORY;
   N_Vector *const vectors[] = {&nw->z, &nw->z_scale, &nw->r_scale, &nw->r, &nw->step};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i)
-    if (!(*vectors[i] = N_VNew_Serial(n, nw->ctx))) return HC_NO_MEMORY;
+    if (!(*vectors[i] = vectors_new(nw->problem.n, nw->ctx))) return HC_NO_MEMORY;
   if (!(nw->jac = SUNDenseMatrix(n, n, nw->ctx))) return HC_NO_MEMORY;
   nw->jac->ops->zero = keep_entries;
   if (!(nw->ls = hc_own_solver(nw->ctx, nw, ls_setup, ls_solve))) return HC_NO_MEMORY;

@@ -5,7 +5,7 @@
 
 #include "numerics/base/constants.h"
 #include "numerics/sundials_compat.h"
-#include "numerics/wide_vectors.h"
+#include "numerics/vectors.h"
 
 /* CVODE's linear solver is its owner's: the matrix, which has no entries, is set by the owner's CVLsLinSysFn, which
  * makes the factors, too. */
@@ -79,57 +79,14 @@ int integrate_first_flag(const int *flags, size_t n)
   return CV_SUCCESS;
 }
 
-/* ---- long vectors: of a step of a large structure SUNDIALS' own loops, one number at a time, take half ---- */
-
-enum { LONG = 128, LANES = 8 /* partial sums, so that the sum is the same whatever the width */ };
-
-/* z = a x + b y; z may be x or y. To the last bit what N_VLinearSum_Serial makes of it. */
-WIDE_VECTORS static void add_multiples(long n, double a, const double *x, double b, const double *y, double *z)
-{
-  if (a == b)
-    for (long i = 0; i < n; ++i) z[i] = a * (x[i] + y[i]);
-  else if (a == -b)
-    for (long i = 0; i < n; ++i) z[i] = a * (x[i] - y[i]);
-  else
-    for (long i = 0; i < n; ++i) z[i] = a * x[i] + b * y[i];
-}
-
-static void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z)
-{
-  add_multiples(NV_LENGTH_S(z), a, NV_DATA_S(x), b, NV_DATA_S(y), NV_DATA_S(z));
-}
-
-WIDE_VECTORS static double sum_of_squares(long n, const double *restrict x, const double *restrict w)
-{
-  double part[LANES] = {0}, sum = 0;
-  long i = 0;
-  for (; i + LANES <= n; i += LANES)
-    for (int k = 0; k < LANES; ++k) part[k] += (x[i + k] * w[i + k]) * (x[i + k] * w[i + k]);
-  for (; i < n; ++i) sum += (x[i] * w[i]) * (x[i] * w[i]);
-  for (int k = 0; k < LANES; ++k) sum += part[k];
-  return sum;
-}
-
-static sunrealtype weighted_rms(N_Vector x, N_Vector w)
-{
-  return sqrt(sum_of_squares(NV_LENGTH_S(x), NV_DATA_S(x), NV_DATA_S(w)) / (double)NV_LENGTH_S(x));
-}
-
-static N_Vector new_vector(int n, SUNContext ctx)
-{
-  N_Vector v = N_VNew_Serial(n, ctx);
-  if (v && n >= LONG) v->ops->nvlinearsum = linear_sum, v->ops->nvwrmsnorm = weighted_rms;
-  return v;
-}
-
 hc_status integrate_make_parts(cvode_integrator *in, int n, int method, void *equations,
                                void (*solve_by)(void *equations, double *r))
 {
   in->equations = equations;
   in->solve = solve_by;
   if (hc_sundials_context(&in->ctx)) return HC_NO_MEMORY;
-  in->y = new_vector(n, in->ctx);
-  in->dky = new_vector(n, in->ctx);
+  in->y = vectors_new(n, in->ctx);
+  in->dky = vectors_new(n, in->ctx);
   in->jac = empty_matrix(in->ctx);
   if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
   in->ls = hc_own_solver(in->ctx, in, setup, solve);

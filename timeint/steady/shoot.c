@@ -7,13 +7,13 @@
 #include <string.h>
 
 #include <kinsol/kinsol.h>
-#include <nvector/nvector_serial.h>
 
 #include "numerics/dense.h"
 #include "numerics/floquet.h"
 #include "numerics/newton.h"
 #include "numerics/norm.h"
 #include "numerics/sundials_compat.h"
+#include "numerics/vectors.h"
 #include "timeint/closed_form/series_columns.h"
 #include "timeint/steady/timeint_private.h"
 
@@ -371,8 +371,8 @@ static int period_map(N_Vector u, N_Vector f, void *self)
 static hc_status make_anderson(shoot *s)
 {
   if (hc_sundials_context(&s->ctx)) return HC_NO_MEMORY;
-  s->u = N_VNew_Serial(s->n, s->ctx);
-  s->weights = N_VNew_Serial(s->n, s->ctx);
+  s->u = vectors_new(s->n, s->ctx);
+  s->weights = vectors_new(s->n, s->ctx);
   s->kin = s->u && s->weights ? KINCreate(s->ctx) : NULL;
   if (!s->kin || !hc_room_for(0)) return HC_NO_MEMORY;
   N_VConst(1, s->weights);
