@@ -1,5 +1,5 @@
-/* vectors.c - see vectors.h. Any result may be one of the operands. Operations on several vectors at once stay SUNDIALS',
- * which call these: CVODES allocates for its sensitivities where one of them is another's. */
+/* vectors.c - see vectors.h. Any result may be one of the operands. Operations on several vectors at once are left to
+ * SUNDIALS, which calls these: CVODES allocates for its sensitivities where one of them is another's. */
 #include "numerics/vectors.h"
 
 #include <math.h>
