@@ -28,7 +28,7 @@ typedef struct decomposition {
 struct interval_flow {
   const model *m;
   int n, moving /* 2n */, n_states;
-  double unit;            /* [1/time] of velocities */
+  double unit;            /* [1/time] of velocities in A */
   double *by_K, *by_C;    /* [n][n] by columns: M^-1 K, M^-1 C */
   double *along, *across; /* [n_contacts][n] M^-1 t_j, M^-1 n_j */
   char *key;              /* [n_contacts] of the interval */
@@ -45,12 +45,11 @@ struct interval_flow {
 
 /* ---- A ---------------------------------------------------------------------------------------------- */
 
-/* A -= k a b^T / unit in the rows of dx', the columns of dx. */
+/* A -= k a b^T in the rows of dx', the columns of dx. */
 static void subtract_outer(interval_flow *f, double k, const double *a, const double *b)
 {
   for (int e = 0; e < f->n && k != 0; ++e)
-    for (int i = 0; i < f->n; ++i)
-      f->A[(size_t)e * (size_t)f->moving + (size_t)(f->n + i)] -= k / f->unit * a[i] * b[e];
+    for (int i = 0; i < f->n; ++i) f->A[(size_t)e * (size_t)f->moving + (size_t)(f->n + i)] -= k * a[i] * b[e];
 }
 
 static void add_contact(interval_flow *f, int j, const contact_interval *p)
@@ -62,19 +61,26 @@ static void add_contact(interval_flow *f, int j, const contact_interval *p)
                  contact_slip_sign(p->state) ? c->normal : c->tangent);
 }
 
+/* Velocities are taken by a frequency amid those of the structure with its contacts as they are: contacts may be all
+ * that holds it. */
 static void interval_fill_A(interval_flow *f, const contact_interval *const *interval)
 {
   const size_t n = (size_t)f->n, ld = (size_t)f->moving;
+  double sum = 0;
   memset(f->A, 0, ld * ld * sizeof *f->A);
-  for (size_t e = 0; e < n; ++e) {
-    f->A[(n + e) * ld + e] = f->unit;
+  for (size_t e = 0; e < n; ++e)
     for (size_t i = 0; i < n; ++i) {
-      f->A[e * ld + n + i] = -f->by_K[e * n + i] / f->unit;
+      f->A[e * ld + n + i] = -f->by_K[e * n + i];
       f->A[(n + e) * ld + n + i] = -f->by_C[e * n + i];
     }
-  }
   for (int j = 0; j < f->m->n_contacts; ++j)
     if (interval[j]) add_contact(f, j, interval[j]);
+  for (size_t e = 0; e < n; ++e) sum += fabs(f->A[e * ld + n + e]);
+  f->unit = sum > 0 ? sqrt(sum / f->m->n) : 1;
+  for (size_t e = 0; e < n; ++e) {
+    f->A[(n + e) * ld + e] = f->unit;
+    for (size_t i = 0; i < n; ++i) f->A[e * ld + n + i] /= f->unit;
+  }
 }
 
 /* ---- its eigenvectors --------------------------------------------------------------------------------- */
@@ -212,9 +218,6 @@ hc_status interval_flow_new(const model *m, interval_flow **out)
   f->y = workspace_array(&f->memory, 4 * n * (2 * n + contacts), sizeof *f->y);
   f->lasting = workspace_array(&f->memory, 2 * n, sizeof *f->lasting);
   hc_status st = f->memory.failed ? HC_NO_MEMORY : divide_by_mass(m, f);
-  double sum = 0; /* for a frequency amid the structure's own */
-  for (size_t i = 0; i < n && st == HC_OK; ++i) sum += fabs(f->by_K[i * (n + 1)]);
-  f->unit = sum > 0 ? sqrt(sum / m->n) : 1;
   if (st == HC_OK) *out = f;
   else interval_flow_free(f);
   return st;
