@@ -158,14 +158,15 @@ static bool floats(solved_scene *s)
 }
 
 /* Beyond the bound after the last guess: why, if there is a reason. Another motion in balance by the original equations
- * is a solution, too; where the scene makes more than 1e-3 of rounding, or loses the solution, nothing is said. */
-static stress_check explain(solved_scene *s, hc_status refused, double error, bool balanced)
+ * is a solution, too, as is one, later, of which a slider never slips, and `rests` where that time has it; where the scene makes more than 1e-3 of rounding, or loses the solution, nothing is said. */
+static stress_check explain(solved_scene *s, hc_status refused, double error, bool balanced, bool rests)
 {
   stress_condition(s);
   if (refused == HC_SINGULAR && floats(s)) return stress_explain(STRESS_FAMILY, error, NAN);
   if (error <= s->solution_errs && s->solution_errs <= STRESS_SAYS_SOMETHING)
     return stress_explain(STRESS_ILL_CONDITIONED, error, s->solution_errs);
   if (error > elsewhere && balanced) return stress_explain(STRESS_OTHER_ORBIT, error, elsewhere);
+  if (error > elsewhere && rests) return stress_explain(STRESS_FAMILY, error, elsewhere);
   if (s->solution_errs > STRESS_SAYS_SOMETHING && (error <= s->solution_errs || refused != HC_OK))
     return stress_skip(STRESS_ILL_CONDITIONED);
   if (refused != HC_OK && s->solution_errs > elsewhere)
@@ -181,7 +182,7 @@ static stress_check check_way(solved_scene *s, hc_status made, rewritten *w, boo
   stress_check result = stress_skip(STRESS_NO_REASON);
   hc_status refused = HC_OK;
   double error = NAN, *known = made == HC_OK ? guess_of(s, w) : NULL;
-  bool same = false, agreed = false, balanced = false;
+  bool same = false, agreed = false, balanced = false, rests = false;
   if (!known) s->fatal = HC_NO_MEMORY;
   for (int i = 0; i < 3 && !agreed && s->fatal == HC_OK; ++i) {
     stress_motion other;
@@ -191,11 +192,12 @@ static stress_check check_way(solved_scene *s, hc_status made, rewritten *w, boo
     if (same) result = company ? stress_agree(error, close_enough) : same_multiplier(s, &other, error);
     agreed = same && result.outcome == STRESS_AGREED; /* else a copy that is not read may have gone elsewhere */
     if (!same) balanced = refused == HC_OK && stress_imbalance(s, other.x) <= stress_balanced(s);
+    if (!same) rests = refused == HC_OK && w->delay != 0 && other.m.contact.free_sliders > 0;
     stress_motion_free(&other);
   }
   rewritten_clear(w);
   free(known);
-  return same || s->fatal != HC_OK ? result : explain(s, refused, error, balanced);
+  return same || s->fatal != HC_OK ? result : explain(s, refused, error, balanced, rests);
 }
 
 /* ---- the ways ------------------------------------------------------------------------------------------ */
@@ -229,7 +231,7 @@ stress_check stress_check_units(solved_scene *s)
   const bool balanced = st == HC_OK && stress_imbalance(s, binary.x) <= stress_balanced(s);
   stress_motion_free(&binary);
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return stress_refuse(s, st);
-  if (!(error <= close_enough)) return explain(s, st, error, balanced);
+  if (!(error <= close_enough)) return explain(s, st, error, balanced, false);
   return check_way(s, rewritten_in_units(s->model, 39.3701, 0.224809, 1.0 / 60, &w), &w, false);
 }
 
