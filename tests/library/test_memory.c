@@ -32,23 +32,20 @@ static hbmcheck_status parse(material *m)
   return st;
 }
 
-static hbmcheck_status trace(material *m)
-{
-  hbmcheck_curve *curve;
-  hbmcheck_status st = hbmcheck_curve_trace(m->c, NULL, &curve);
-  if ((st == HBMCHECK_OK) != (curve != NULL)) return HBMCHECK_BUG;
-  hbmcheck_curve_free(curve);
-  return st;
-}
-
-static hbmcheck_status solve_at(material *m)
-{
-  hbmcheck_solutions *at;
-  hbmcheck_status st = hbmcheck_curve_at(m->curve, 4.5, &at);
-  if ((st == HBMCHECK_OK) != (at != NULL)) return HBMCHECK_BUG;
-  hbmcheck_solutions_free(at);
-  return st;
-}
+/* A call that makes an object of that type: handed over with HBMCHECK_OK, and with that alone. */
+#define MAKES(name, type, call)                                                                                        \
+  static hbmcheck_status name(material *m)                                                                             \
+  {                                                                                                                    \
+    type *made;                                                                                                        \
+    hbmcheck_status st = call;                                                                                         \
+    if ((st == HBMCHECK_OK) != (made != NULL)) return HBMCHECK_BUG;                                                    \
+    type##_free(made);                                                                                                 \
+    return st;                                                                                                         \
+  }
+MAKES(trace, hbmcheck_curve, hbmcheck_curve_trace(m->c, NULL, &made))
+MAKES(solve_at, hbmcheck_solutions, hbmcheck_curve_at(m->curve, 4.5, &made))
+MAKES(settle, hbmcheck_transient, hbmcheck_transient_run(m->c, 1, (double[]){5.2}, NULL, &made))
+MAKES(compare, hbmcheck_comparison, hbmcheck_comparison_run(m->c, 1, (double[]){5.6}, NULL, &made))
 
 static hbmcheck_status specials(material *m)
 {
@@ -63,24 +60,6 @@ static hbmcheck_status summary(material *m)
   hbmcheck_summary s = {.points = -1};
   hbmcheck_status st = hbmcheck_curve_summary(m->curve, &s);
   return (st == HBMCHECK_OK) == (s.points >= 0) ? st : HBMCHECK_BUG;
-}
-
-static hbmcheck_status settle(material *m)
-{
-  hbmcheck_transient *t;
-  hbmcheck_status st = hbmcheck_transient_run(m->c, 1, (double[]){5.2}, NULL, &t);
-  if ((st == HBMCHECK_OK) != (t != NULL)) return HBMCHECK_BUG;
-  hbmcheck_transient_free(t);
-  return st;
-}
-
-static hbmcheck_status compare(material *m)
-{
-  hbmcheck_comparison *both;
-  hbmcheck_status st = hbmcheck_comparison_run(m->c, 1, (double[]){5.6}, NULL, &both);
-  if ((st == HBMCHECK_OK) != (both != NULL)) return HBMCHECK_BUG;
-  hbmcheck_comparison_free(both);
-  return st;
 }
 
 static hbmcheck_status contacts(material *m)

@@ -5,13 +5,7 @@
 #include "casefile/case_file.h"
 #include "compare/gate/gate.h"
 #include "compare/steady_states.h"
-
-/* The same real number, or both NaN. */
-static void same(double a, double b, int line)
-{
-  if (!(a == b || (isnan(a) && isnan(b)))) fail_msg("line %d: %.17g, expected %.17g", line, a, b);
-}
-#define SAME(a, b) same(a, b, __LINE__)
+#include "tests/library/same.h"
 
 /* The inner form of CASE2(set...). */
 static compare_setup setup_of(scene *sc, const char *const *set)
@@ -30,23 +24,16 @@ static void check_solution(const hbmcheck_solutions *list, hbm_solver *s, const 
   int n = 0;
   CHECK_FILLED(response_row, r, response_row_of(s, curve, k, &r));
   CHECK_FILLED(hbmcheck_solution, found, hbmcheck_solutions_get(list, k, &found));
-  SAME(found.omega, r.point.omega);
-  SAME(found.amplitude, r.measures.amplitude);
-  SAME(found.max, r.measures.max);
-  SAME(found.min, r.measures.min);
-  SAME(found.rms, r.measures.rms);
-  SAME(found.mean, r.measures.mean);
-  SAME(found.harmonic_1, r.measures.harmonic_1);
-  SAME(found.multiplier, r.stability.multiplier);
-  SAME(found.residual, r.point.residual);
-  assert_int_equal(found.stable, hbm_stability_verdict(&r.stability));
-  assert_int_equal(found.branch, r.point.branch);
-  assert_int_equal(found.harmonics, r.point.harmonics);
-  assert_int_equal(found.iterations, r.point.iterations);
+  SAME(PAIR(found.omega, r.point.omega), PAIR(found.amplitude, r.measures.amplitude), PAIR(found.max, r.measures.max),
+       PAIR(found.min, r.measures.min), PAIR(found.rms, r.measures.rms), PAIR(found.mean, r.measures.mean),
+       PAIR(found.harmonic_1, r.measures.harmonic_1), PAIR(found.multiplier, r.stability.multiplier),
+       PAIR(found.residual, r.point.residual), PAIR(found.stable, hbm_stability_verdict(&r.stability)),
+       PAIR(found.branch, r.point.branch), PAIR(found.harmonics, r.point.harmonics),
+       PAIR(found.iterations, r.point.iterations));
   assert_string_equal(hbmcheck_contact_name(found.contact), contact_regime_name(r.measures.contact.regime));
   assert_int_equal(hbmcheck_solutions_coefficients(list, k, 2 * HBM_MAX_HARMONICS + 1, X, &n), HBMCHECK_OK);
   assert_int_equal(n, 2 * r.point.harmonics + 1);
-  for (int i = 0; i < n; ++i) SAME(X[i], curve->X[(size_t)k * (size_t)curve->n_coef + (size_t)i]);
+  for (int i = 0; i < n; ++i) SAME(PAIR(X[i], curve->X[(size_t)k * (size_t)curve->n_coef + (size_t)i]));
 }
 
 static void check_specials(hbmcheck_curve *curve, hbm_solver *s, const hbm_curve *c)
@@ -58,19 +45,14 @@ static void check_specials(hbmcheck_curve *curve, hbm_solver *s, const hbm_curve
   assert_int_equal(hbmcheck_curve_specials(curve, 32, found, &n), HBMCHECK_OK);
   assert_int_equal(n, n_expected);
   assert_in_range(n, 4, 32); /* two turns, two changes of the contact */
-  for (int i = 0; i < n; ++i) {
-    SAME(found[i].omega, expected[i].omega);
-    SAME(found[i].amplitude, expected[i].amplitude);
-    assert_int_equal(found[i].branch, expected[i].branch);
-    assert_int_equal(found[i].kind, expected[i].kind);
-    assert_int_equal(found[i].before, expected[i].before);
-    assert_int_equal(found[i].after, expected[i].after);
-  }
+  for (int i = 0; i < n; ++i)
+    SAME(PAIR(found[i].omega, expected[i].omega), PAIR(found[i].amplitude, expected[i].amplitude),
+         PAIR(found[i].branch, expected[i].branch), PAIR(found[i].kind, expected[i].kind),
+         PAIR(found[i].before, expected[i].before), PAIR(found[i].after, expected[i].after));
   found[1].omega = -1; /* room for one: the second is not written */
   assert_int_equal(hbmcheck_curve_specials(curve, 1, found, &again), HBMCHECK_OK);
   assert_int_equal(again, n);
-  SAME(found[0].omega, expected[0].omega);
-  SAME(found[1].omega, -1);
+  SAME(PAIR(found[0].omega, expected[0].omega), PAIR(found[1].omega, -1));
   assert_int_equal(hbmcheck_curve_specials(curve, 0, NULL, &again), HBMCHECK_OK);
   assert_int_equal(again, n);
 }
@@ -100,19 +82,12 @@ static void check_curve(const char *const *set)
   check_specials(curve, s, &expected);
   CHECK_FILLED(response_summary, r, response_summarise(s, &expected, &r));
   CHECK_FILLED(hbmcheck_summary, found, hbmcheck_curve_summary(curve, &found));
-  SAME(found.peak_omega, r.peak_omega);
-  SAME(found.peak_amplitude, r.peak_amplitude);
-  SAME(found.peak_harmonic_1, r.peak_harmonic_1);
-  assert_int_equal(found.points, r.points);
-  assert_int_equal(found.turning_points, r.turning_points);
-  assert_int_equal(found.harmonics, r.harmonics);
-  assert_int_equal(found.samples, r.samples);
-  assert_int_equal(found.rejected, r.rejected);
-  assert_int_equal(found.iterations, r.iterations);
-  assert_int_equal(found.evaluations, r.evaluations);
-  assert_int_equal(found.reached_end, r.reached_end);
-  assert_int_equal(found.left_at_start, r.left_at_start);
-  assert_int_equal(found.inaccurate, expected.inaccurate);
+  SAME(PAIR(found.peak_omega, r.peak_omega), PAIR(found.peak_amplitude, r.peak_amplitude),
+       PAIR(found.peak_harmonic_1, r.peak_harmonic_1), PAIR(found.points, r.points),
+       PAIR(found.turning_points, r.turning_points), PAIR(found.harmonics, r.harmonics), PAIR(found.samples, r.samples),
+       PAIR(found.rejected, r.rejected), PAIR(found.iterations, r.iterations), PAIR(found.evaluations, r.evaluations),
+       PAIR(found.reached_end, r.reached_end), PAIR(found.left_at_start, r.left_at_start),
+       PAIR(found.inaccurate, expected.inaccurate));
   hbmcheck_curve_free(curve);
   hbm_curve_free(&at);
   hbm_curve_free(&expected);
@@ -134,9 +109,7 @@ static void curve_that_leaves(CHECK_STATE)
       CASE2("sweep.omega=8.5,3", "hbm.harmonics=1", "hbm.static=false", "contacts[0].normal_stiffness=1e7");
   CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(c, NULL, &curve));
   CHECK_FILLED(hbmcheck_summary, whole, hbmcheck_curve_summary(curve, &whole));
-  assert_int_equal(whole.reached_end, 0);
-  assert_int_equal(whole.left_at_start, 1);
-  assert_int_equal(whole.turning_points, 1);
+  SAME(PAIR(whole.reached_end, 0), PAIR(whole.left_at_start, 1), PAIR(whole.turning_points, 1));
   hbmcheck_curve_free(curve);
   hbmcheck_case_free(c);
 }
@@ -150,25 +123,16 @@ static void check_steady(const hbmcheck_transient *t, const steady_states *all, 
              moves = settled || row->status == HC_NOT_SETTLED || row->status == HC_APERIODIC;
   int n = -1;
   CHECK_FILLED(hbmcheck_steady, found, hbmcheck_transient_get(t, k, &found));
-  assert_int_equal(found.status, row->status);
-  assert_int_equal(found.without_hbm, row->without_hbm);
-  SAME(found.omega, r->omega);
-  SAME(found.amplitude, moves ? r->amplitude : NAN);
-  SAME(found.max, moves ? r->max : NAN);
-  SAME(found.min, moves ? r->min : NAN);
-  SAME(found.rms, moves ? r->rms : NAN);
-  SAME(found.mean, moves ? r->mean : NAN);
-  SAME(found.harmonic_1, moves ? r->harmonic_1 : NAN);
-  SAME(found.closure, moves ? r->closure : NAN);
-  SAME(found.multiplier, settled ? r->multiplier : NAN);
-  SAME(found.from_regularisation, settled ? row->from_regularisation : NAN);
-  assert_int_equal(found.stable, settled ? timeint_stability(r) : 0);
-  assert_int_equal(found.period_multiple, settled ? r->period_multiple : 0);
-  assert_int_equal(found.periods, r->periods);
-  assert_int_equal(found.steps, r->steps);
-  assert_int_equal(found.free_sliders, r->free_sliders);
-  assert_int_equal(found.left_orbit, r->left_orbit);
-  assert_int_equal(found.contact, r->regime);
+  SAME(PAIR(found.status, row->status), PAIR(found.without_hbm, row->without_hbm), PAIR(found.omega, r->omega),
+       PAIR(found.amplitude, moves ? r->amplitude : NAN), PAIR(found.max, moves ? r->max : NAN),
+       PAIR(found.min, moves ? r->min : NAN), PAIR(found.rms, moves ? r->rms : NAN),
+       PAIR(found.mean, moves ? r->mean : NAN), PAIR(found.harmonic_1, moves ? r->harmonic_1 : NAN),
+       PAIR(found.closure, moves ? r->closure : NAN), PAIR(found.multiplier, settled ? r->multiplier : NAN),
+       PAIR(found.from_regularisation, settled ? row->from_regularisation : NAN),
+       PAIR(found.stable, settled ? timeint_stability(r) : 0),
+       PAIR(found.period_multiple, settled ? r->period_multiple : 0), PAIR(found.periods, r->periods),
+       PAIR(found.steps, r->steps), PAIR(found.free_sliders, r->free_sliders), PAIR(found.left_orbit, r->left_orbit),
+       PAIR(found.contact, r->regime));
   assert_int_equal(hbmcheck_transient_wave(t, k, TIMEINT_WAVE, wave, &n), HBMCHECK_OK);
   assert_int_equal(n, moves ? TIMEINT_WAVE : 0);
   assert_memory_equal(wave, r->wave, (size_t)n * sizeof *wave);
@@ -236,40 +200,29 @@ static void check_comparison(const char *const *set, int exit_code, int gate_cod
     const bool moves =
         r->transient_status == HC_OK || r->transient_status == HC_NOT_SETTLED || r->transient_status == HC_APERIODIC;
     CHECK_FILLED(hbmcheck_row, found, hbmcheck_comparison_get(both, k, &found));
-    SAME(found.omega, r->omega);
     assert_string_equal(hbmcheck_verdict_name(found.verdict), verdict_name(r->verdict));
-    assert_int_equal(found.hbm_status, r->hbm_status);
-    assert_int_equal(found.transient_status, r->transient_status);
-    assert_int_equal(found.orbit_status, r->orbit_status);
-    assert_int_equal(found.branch, r->branch);
-    assert_int_equal(found.stable, hbm ? hbm_stability_verdict(&r->stability) : 0);
-    assert_int_equal(found.period_multiple, r->transient_status == HC_OK ? r->transient.period_multiple : 0);
-    assert_int_equal(found.accounted, r->accounted);
-    SAME(found.multiplier, hbm ? r->stability.multiplier : NAN);
-    SAME(found.hbm_amplitude, hbm ? r->hbm.amplitude : NAN);
-    SAME(found.transient_amplitude, moves ? r->transient.amplitude : NAN);
-    SAME(found.orbit_amplitude, orbit ? r->orbit.amplitude : NAN);
-    SAME(found.amplitude_error, r->errors.amplitude);
-    SAME(found.harmonic_1_error, r->errors.harmonic_1);
-    SAME(found.mean_error, r->errors.mean);
-    SAME(found.waveform_error, r->errors.waveform);
-    SAME(found.orbit_error, r->orbit_errors.waveform);
-    SAME(found.from_aliasing, r->budget.amplitude.aliasing);
-    SAME(found.from_truncation, r->budget.amplitude.truncation);
-    SAME(found.from_regularisation, r->budget.amplitude.regularisation);
-    SAME(found.from_integration, r->budget.amplitude.integration);
-    SAME(found.from_settling, r->budget.amplitude.settling);
-    SAME(found.hbm_predicted, r->hbm_predicted.amplitude);
-    SAME(found.transient_predicted, r->transient_predicted.amplitude);
-    assert_int_equal(found.unexpected, r->unexpected);
+    SAME(PAIR(found.omega, r->omega), PAIR(found.hbm_status, r->hbm_status),
+         PAIR(found.transient_status, r->transient_status), PAIR(found.orbit_status, r->orbit_status),
+         PAIR(found.branch, r->branch), PAIR(found.stable, hbm ? hbm_stability_verdict(&r->stability) : 0),
+         PAIR(found.period_multiple, r->transient_status == HC_OK ? r->transient.period_multiple : 0),
+         PAIR(found.accounted, r->accounted), PAIR(found.multiplier, hbm ? r->stability.multiplier : NAN),
+         PAIR(found.hbm_amplitude, hbm ? r->hbm.amplitude : NAN),
+         PAIR(found.transient_amplitude, moves ? r->transient.amplitude : NAN),
+         PAIR(found.orbit_amplitude, orbit ? r->orbit.amplitude : NAN),
+         PAIR(found.amplitude_error, r->errors.amplitude), PAIR(found.harmonic_1_error, r->errors.harmonic_1),
+         PAIR(found.mean_error, r->errors.mean), PAIR(found.waveform_error, r->errors.waveform),
+         PAIR(found.orbit_error, r->orbit_errors.waveform), PAIR(found.from_aliasing, r->budget.amplitude.aliasing),
+         PAIR(found.from_truncation, r->budget.amplitude.truncation),
+         PAIR(found.from_regularisation, r->budget.amplitude.regularisation),
+         PAIR(found.from_integration, r->budget.amplitude.integration),
+         PAIR(found.from_settling, r->budget.amplitude.settling), PAIR(found.hbm_predicted, r->hbm_predicted.amplitude),
+         PAIR(found.transient_predicted, r->transient_predicted.amplitude), PAIR(found.unexpected, r->unexpected));
   }
   assert_int_equal(hbmcheck_comparison_exit_code(both), exit_code);
   assert_int_equal(comparison_exit_code(&expected), exit_code);
   CHECK_FILLED(hbmcheck_gate, gate, hbmcheck_comparison_gate(both, &gate));
-  assert_int_equal(gate.checks, judged.n);
-  assert_int_equal(gate.failed, judged.failures);
-  assert_int_equal(gate.errors, judged.errors);
-  assert_int_equal(gate.exit_code, gate_code);
+  SAME(PAIR(gate.checks, judged.n), PAIR(gate.failed, judged.failures), PAIR(gate.errors, judged.errors),
+       PAIR(gate.exit_code, gate_code));
   hbmcheck_comparison_free(both);
   gate_clear(&judged);
   comparison_clear(&expected);
@@ -297,9 +250,9 @@ static void omegas_of_the_call(CHECK_STATE)
   CHECK_MADE(hbmcheck_comparison, both, hbmcheck_comparison_run(c, 3, (double[]){4, 3.5, 4}, NULL, &both));
   assert_int_equal(hbmcheck_comparison_count(both), 2);
   CHECK_FILLED(hbmcheck_row, row, hbmcheck_comparison_get(both, 0, &row));
-  SAME(row.omega, 3.5);
+  SAME(PAIR(row.omega, 3.5));
   assert_int_equal(hbmcheck_comparison_get(both, 1, &row), HBMCHECK_OK);
-  SAME(row.omega, 4);
+  SAME(PAIR(row.omega, 4));
   hbmcheck_comparison_free(both);
   hbmcheck_case_free(c);
 }

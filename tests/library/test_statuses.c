@@ -5,6 +5,7 @@
 #include "casefile/case_file.h"
 #include "compare/gate/gate.h"
 #include "compare/steady_states.h"
+#include "tests/library/same.h"
 #include "tests/wrap.h"
 
 /* X(function, parameters, arguments) */
@@ -227,26 +228,17 @@ static void rows(CHECK_STATE)
     assert_int_equal(hbmcheck_comparison_run(c, 0, NULL, NULL, &both), HBMCHECK_OK);
     row_status = HC_OK;
     CHECK_FILLED(hbmcheck_steady, s, hbmcheck_transient_get(t, 0, &s));
-    assert_int_equal(s.status, st);
-    assert_int_equal(s.without_hbm, st);
     const double measured[] = {s.amplitude, s.max, s.min, s.rms, s.mean, s.harmonic_1, s.closure};
     for (int i = 0; i < 7; ++i) assert_int_equal(!isnan(measured[i]), moves);
-    assert_int_equal(!isnan(s.multiplier), ok);
-    assert_int_equal(!isnan(s.from_regularisation), ok);
-    assert_int_equal(s.period_multiple, ok);
-    assert_int_equal(s.stable, ok);
+    SAME(PAIR(s.status, st), PAIR(s.without_hbm, st), PAIR(!isnan(s.multiplier), ok),
+         PAIR(!isnan(s.from_regularisation), ok), PAIR(s.period_multiple, ok), PAIR(s.stable, ok));
     assert_int_equal(hbmcheck_transient_wave(t, 0, 0, NULL, &n), HBMCHECK_OK);
     assert_int_equal(n > 0, moves);
     CHECK_FILLED(hbmcheck_row, row, hbmcheck_comparison_get(both, 0, &row));
-    assert_int_equal(row.hbm_status, st);
-    assert_int_equal(row.transient_status, st);
-    assert_int_equal(row.orbit_status, st);
-    assert_int_equal(!isnan(row.hbm_amplitude), ok);
-    assert_int_equal(!isnan(row.multiplier), ok);
-    assert_int_equal(row.stable, ok);
-    assert_int_equal(!isnan(row.transient_amplitude), moves);
-    assert_int_equal(!isnan(row.orbit_amplitude), ok);
-    assert_int_equal(row.period_multiple, ok);
+    SAME(PAIR(row.hbm_status, st), PAIR(row.transient_status, st), PAIR(row.orbit_status, st),
+         PAIR(!isnan(row.hbm_amplitude), ok), PAIR(!isnan(row.multiplier), ok), PAIR(row.stable, ok),
+         PAIR(!isnan(row.transient_amplitude), moves), PAIR(!isnan(row.orbit_amplitude), ok),
+         PAIR(row.period_multiple, ok));
     hbmcheck_transient_free(t);
     hbmcheck_comparison_free(both);
   }

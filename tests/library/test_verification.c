@@ -2,15 +2,9 @@
 #include "casefile/case_file.h"
 #include "compare/verify/verify.h"
 #include "tests/library/case2.h"
+#include "tests/library/same.h"
 
 #define FOLDER SOURCE_DIR "/cases/verify/"
-
-/* The same real number, or both NaN. */
-static void same(double a, double b, int line)
-{
-  if (!(a == b || (isnan(a) && isnan(b)))) fail_msg("line %d: %.17g, expected %.17g", line, a, b);
-}
-#define SAME(a, b) same(a, b, __LINE__)
 
 enum { MOST = 512 };
 typedef struct curve {
@@ -41,13 +35,11 @@ static void check_hypotheses(const hbmcheck_verification *v, const verify_report
   for (int k = 0; k < r->n_hypotheses; ++k) {
     const verify_hypothesis *inner = &r->hypotheses[k];
     assert_int_equal(hbmcheck_verification_hypothesis(v, k, &h), HBMCHECK_OK);
-    SAME(h.distance, inner->distance);
-    SAME(h.omega_factor, inner->omega_factor);
-    SAME(h.value_factor, inner->value_factor);
+    SAME(PAIR(h.distance, inner->distance), PAIR(h.omega_factor, inner->omega_factor),
+         PAIR(h.value_factor, inner->value_factor), PAIR(h.samples, inner->equations.samples));
     linear += h.harmonics == 0;
     assert_true(h.harmonics == 0 ||
                 (h.harmonics == inner->equations.harmonics && h.keep_mean == inner->equations.keep_mean));
-    assert_int_equal(h.samples, inner->equations.samples);
     assert_int_equal(hbmcheck_verification_hypothesis_text(v, k, cause, sizeof cause, quantity, sizeof quantity),
                      HBMCHECK_OK);
     assert_string_equal(cause, verify_cause_words(inner->causes, words));
@@ -63,7 +55,7 @@ static void check_hypotheses(const hbmcheck_verification *v, const verify_report
   assert_int_equal(hbmcheck_verification_hypothesis(v, 0, NULL), HBMCHECK_BAD_INPUT);
   assert_int_equal(hbmcheck_verification_hypothesis_text(v, -1, cause, 5, NULL, 0), HBMCHECK_BAD_INPUT);
   assert_int_equal(hbmcheck_verification_hypotheses(NULL), 0);
-  SAME(h.distance, -1);
+  SAME(PAIR(h.distance, -1));
 }
 
 static void the_cause_is_named(CHECK_STATE)
@@ -86,38 +78,25 @@ static void the_cause_is_named(CHECK_STATE)
   assert_int_equal(hbmcheck_verification_count(v), expected.n_rows);
   for (int i = 0; i < expected.n_rows; ++i) {
     assert_int_equal(hbmcheck_verification_get(v, i, &p), HBMCHECK_OK);
-    SAME(p.omega, expected.rows[i].omega);
-    SAME(p.value, expected.rows[i].value);
-    SAME(p.nearest, expected.rows[i].nearest);
-    SAME(p.error, expected.rows[i].error);
-    assert_int_equal(p.verdict, expected.rows[i].verdict);
-    assert_int_equal(p.branch, expected.rows[i].branch);
-    assert_int_equal(p.stable, expected.rows[i].stable);
-    assert_int_equal(p.skipped, expected.rows[i].skipped);
-    assert_int_equal(p.index, i);
+    SAME(PAIR(p.omega, expected.rows[i].omega), PAIR(p.value, expected.rows[i].value),
+         PAIR(p.nearest, expected.rows[i].nearest), PAIR(p.error, expected.rows[i].error),
+         PAIR(p.verdict, expected.rows[i].verdict), PAIR(p.branch, expected.rows[i].branch),
+         PAIR(p.stable, expected.rows[i].stable), PAIR(p.skipped, expected.rows[i].skipped), PAIR(p.index, i));
   }
   p.omega = -1;
   assert_int_equal(hbmcheck_verification_get(v, expected.n_rows, &p), HBMCHECK_BAD_INPUT);
   assert_int_equal(hbmcheck_verification_get(v, -1, &p), HBMCHECK_BAD_INPUT);
-  SAME(p.omega, -1);
+  SAME(PAIR(p.omega, -1));
   char words[VERIFY_TEXT];
   CHECK_FILLED(hbmcheck_findings, f, hbmcheck_verification_findings(v, &f));
-  assert_int_equal(f.points, expected.n_rows);
-  assert_int_equal(f.match, expected.count[VERDICT_MATCH]);
-  assert_int_equal(f.differs, expected.count[VERDICT_DIFFERS]);
-  assert_int_equal(f.unstable, expected.count[VERDICT_UNSTABLE]);
-  assert_int_equal(f.other_branch, expected.count[VERDICT_OTHER_BRANCH]);
-  assert_int_equal(f.solver_failed, expected.count[VERDICT_SOLVER_FAILED]);
-  assert_int_equal(f.skipped, expected.skipped);
-  assert_int_equal(f.reversals, expected.reversals);
-  assert_int_equal(f.harmonics, expected.harmonics);
-  assert_int_equal(f.checked, expected.checked);
-  assert_int_equal(f.unchecked, expected.unchecked);
-  assert_int_equal(f.exit_code, verify_exit_code(&expected));
-  SAME(f.gate, expected.gate);
-  SAME(f.checked_error, expected.checked_error);
-  SAME(f.truth_distance, expected.truth_distance);
-  SAME(f.noise, expected.noise);
+  SAME(PAIR(f.points, expected.n_rows), PAIR(f.match, expected.count[VERDICT_MATCH]),
+       PAIR(f.differs, expected.count[VERDICT_DIFFERS]), PAIR(f.unstable, expected.count[VERDICT_UNSTABLE]),
+       PAIR(f.other_branch, expected.count[VERDICT_OTHER_BRANCH]),
+       PAIR(f.solver_failed, expected.count[VERDICT_SOLVER_FAILED]), PAIR(f.skipped, expected.skipped),
+       PAIR(f.reversals, expected.reversals), PAIR(f.harmonics, expected.harmonics), PAIR(f.checked, expected.checked),
+       PAIR(f.unchecked, expected.unchecked), PAIR(f.exit_code, verify_exit_code(&expected)),
+       PAIR(f.gate, expected.gate), PAIR(f.checked_error, expected.checked_error),
+       PAIR(f.truth_distance, expected.truth_distance), PAIR(f.noise, expected.noise));
   assert_string_equal(hbmcheck_verification_cause(v), verify_word(&expected, words));
   assert_string_equal(hbmcheck_verification_sentence(v), verify_sentence(&expected, words));
   check_hypotheses(v, &expected);
@@ -146,9 +125,7 @@ static void decibels_and_points_left_out(CHECK_STATE)
   CHECK_MADE(hbmcheck_verification, v, hbmcheck_verification_run(c, &theirs, NULL, NULL, 0, &v));
   assert_string_equal(hbmcheck_verification_cause(v), "none");
   CHECK_FILLED(hbmcheck_findings, f, hbmcheck_verification_findings(v, &f));
-  assert_int_equal(f.left_out, 1);
-  assert_int_equal(f.exit_code, 0);
-  assert_int_equal(hbmcheck_verification_count(v), 3);
+  SAME(PAIR(f.left_out, 1), PAIR(f.exit_code, 0), PAIR(hbmcheck_verification_count(v), 3));
   CHECK_FILLED(hbmcheck_point, p, hbmcheck_verification_get(v, 1, &p));
   assert_int_equal(p.index, 2);
   CHECK_LE(fabs(p.value - value[2]), 1e-12, "%.17g", p.value); /* 20 log10 of 10^(dB/20): some roundings of 20 dB */
@@ -226,8 +203,7 @@ static void a_monitor_stops_it(CHECK_STATE)
   assert_int_equal(hbmcheck_verification_run(public_case, &theirs, &monitor, NULL, 0, &v), HBMCHECK_INTERRUPTED);
   assert_non_null(v);
   CHECK_FILLED(hbmcheck_findings, f, hbmcheck_verification_findings(v, &f));
-  assert_int_equal(f.exit_code, 3);
-  assert_int_equal(f.points, hbmcheck_verification_count(v));
+  SAME(PAIR(f.exit_code, 3), PAIR(f.points, hbmcheck_verification_count(v)));
   hbmcheck_verification_free(v);
   hbmcheck_case_free(public_case);
   verify_data_clear(&data);
