@@ -5,7 +5,6 @@
 
 #include "casefile/case_reader.h"
 #include "casefile/matrices/matrix_file.h"
-#include "casefile/matrices/text_file.h"
 #include "numerics/base/number.h"
 
 #define ANY_MATRIX "rows, a diagonal, or a file of Matrix Market, CalculiX or Abaqus"

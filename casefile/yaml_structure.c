@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "casefile/matrices/text_file.h"
 #include "numerics/base/number.h"
 #include "numerics/base/path.h"
 #include "numerics/base/utf8.h"

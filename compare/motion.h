@@ -5,7 +5,6 @@
 #include "hbm/hbm.h"
 #include "model/periodic_motion.h"
 #include "timeint/steady/steady.h"
-#include "timeint/timeint.h"
 
 /* The motion of response r of the HBM solution X at omega; m may be NULL. Errors of hbm_measure_response. */
 hc_status motion_of_response(hbm_solver *s, double omega, const double *X, int r, hbm_measures *m,

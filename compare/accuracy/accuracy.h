@@ -2,7 +2,6 @@
  * errors fall with N, H and the regularisation (order_fit). Not here: one solution's discrepancy (compare/budget.h). */
 #pragma once
 
-#include "compare/budget.h"
 #include "compare/compare_settings.h"
 #include "compare/comparison.h"
 #include "numerics/base/status.h"

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "compare/comparison.h"
-#include "compare/first_guess.h"
 #include "hbm/hbm.h"
 #include "numerics/base/growing.h"
 #include "numerics/base/number.h"

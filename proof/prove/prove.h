@@ -7,7 +7,6 @@
 
 #include "casefile/scene.h"
 #include "compare/compare_settings.h"
-#include "compare/response.h"
 
 /* Why a row is unproven, X(code, words, meaning). */
 #define PROOF_REASONS(X)                                                                                               \

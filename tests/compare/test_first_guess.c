@@ -1,7 +1,6 @@
 /* test_first_guess.c - a first solution from closed form: asked for only where quick ramps fail; its answers. */
 #include "compare/first_guess.h"
 
-#include "hbm/curve/continuation.h"
 #include "hbm/solver/ramp.h"
 #include "tests/hbm/scenes.h"
 #include "tests/wrap.h"

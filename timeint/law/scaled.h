@@ -15,7 +15,6 @@
  * |T| <= mu N; the sliders' own motion is contact_track.h's. */
 #pragma once
 
-#include <stddef.h>
 
 #include "model/model.h"
 #include "timeint/law/law_kind.h"
