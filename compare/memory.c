@@ -1,6 +1,8 @@
 /* memory.c - see memory.h. Proof: tests/command/test_memory.c. */
 #include "compare/memory.h"
 
+#include "numerics/norm.h"
+
 static const double program = 6e6; /* [bytes] */
 
 /* Matrices of a kind at once. */
@@ -10,21 +12,14 @@ enum { AUTO = 14, FEWEST_PREDICTED = 14, MOST_PREDICTED = 100, PREDICTED_UNKNOWN
 
 static double matrices(int count, double rows) { return 8.0 * count * rows * rows; }
 
-static bool moves(int n, const double *row)
-{
-  for (int i = 0; i < n; ++i)
-    if (row[i] != 0) return true;
-  return false;
-}
-
 /* Directions of contacts, each pair's normal once, and of the response. */
 static double coordinates(const model *m)
 {
   int count = 1;
   for (int j = 0; j < m->n_contacts; ++j) {
     const model_contact *c = &m->contacts[j];
-    count += moves(m->n, c->tangent);
-    count += c->pair != CONTACT_SECOND && moves(m->n, c->normal);
+    count += !is_zero(m->n, c->tangent);
+    count += c->pair != CONTACT_SECOND && !is_zero(m->n, c->normal);
   }
   return fmin(count, m->n);
 }

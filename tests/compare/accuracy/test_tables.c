@@ -161,12 +161,6 @@ static hc_status run_with_jobs(const scene *sc, const comparison *c, int jobs, c
   return st;
 }
 
-static bool stop_at_once(void *self, double done)
-{
-  (void)done;
-  return --*(int *)self > 0;
-}
-
 static void check_same_row(const accuracy_row *a, const accuracy_row *b)
 {
   assert_true(a->harmonics == b->harmonics && a->samples == b->samples && a->status == b->status);
@@ -191,7 +185,7 @@ static void an_interrupt_keeps_whole_rows(CHECK_STATE)
   for (int ticks = 1; ticks < 400; ticks += 1 + ticks / 8) {
     accuracy a;
     int left = ticks;
-    hc_monitor monitor = {stop_at_once, &left};
+    hc_monitor monitor = {check_stop, &left};
     hc_status st = scene_accuracy_run(&sc, &c, &monitor, &a);
     assert_int_equal(st, left > 0 ? HC_OK : HC_INTERRUPTED);
     assert_true(a.n_rows <= 2 && (st == HC_INTERRUPTED || a.n_rows == 2));

@@ -52,9 +52,11 @@ static void make_curve(const char *options)
     fail_msg("frf: %s", out);
 }
 
-static int verify(const char *options)
+/* verify of that file ends with this code, and says that. */
+static void judged(const char *options, int code, const char *fragment)
 {
-  return shell("$H verify $D/ours.yaml -q --format csv --against $D/theirs.csv %s 2>&1", options);
+  const int found = shell("$H verify $D/ours.yaml -q --format csv --against $D/theirs.csv %s 2>&1", options);
+  shell_check(options, found, out, code, fragment);
 }
 
 /* Two responses in one file, by its column `response` and as columns of their own. */
@@ -63,31 +65,24 @@ static void every_response_is_judged(CHECK_STATE)
   put_case("ours.yaml", NULL, NULL);
   put_case("theirs.yaml", NULL, NULL);
   make_curve("");
-  assert_int_equal(verify("--columns omega=omega,rms=rms --response b --response a"), 0);
-  HAVE("omega,value,nearest,branch,response,stable,error,verdict,line\n");
+  judged("--columns omega=omega,rms=rms --response b --response a", 0,
+         "omega,value,nearest,branch,response,stable,error,verdict,line\n");
   HAVE("# response b\n# truth: H = 20");
   HAVE(",a,yes,");
   HAVE(",b,yes,");
   assert_null(strstr(out, "differs"));
-  assert_int_equal(verify("--columns omega=omega,harmonic_1@a=harmonic_1,amplitude@b=amplitude --format json"), 0);
-  HAVE("\"response\": \"b\", \"cause\": \"none\"");
-  assert_int_equal(verify("--columns omega=omega,amplitude@b=harmonic_1,harmonic_1@a=harmonic_1"), 1);
-  HAVE("+other_quantity");
+  judged("--columns omega=omega,harmonic_1@a=harmonic_1,amplitude@b=amplitude --format json", 0,
+         "\"response\": \"b\", \"cause\": \"none\"");
+  judged("--columns omega=omega,amplitude@b=harmonic_1,harmonic_1@a=harmonic_1", 1, "+other_quantity");
   HAVE("# cause: none");
-  assert_int_equal(verify("--columns omega=omega,rms@d=rms"), 64);
-  HAVE("has no `d`; expected one of a, b");
-  assert_int_equal(verify("--columns omega=omega,rms@a=rms --response b"), 64);
-  HAVE("give one of them");
-  assert_int_equal(verify("--columns omega=omega,rms@a=rms,rms@b=rms --plot x.svg"), 64);
-  HAVE("--plot draws one response");
-  assert_int_equal(verify("--columns omega=omega,acceleration@a=rms"), 2);
-  HAVE("acceleration_harmonic_1");
+  judged("--columns omega=omega,rms@d=rms", 64, "has no `d`; expected one of a, b");
+  judged("--columns omega=omega,rms@a=rms --response b", 64, "give one of them");
+  judged("--columns omega=omega,rms@a=rms,rms@b=rms --plot x.svg", 64, "--plot draws one response");
+  judged("--columns omega=omega,acceleration@a=rms", 2, "acceleration_harmonic_1");
   make_curve("--response a");
-  assert_int_equal(verify("--columns omega=omega,rms=rms --response b"), 2);
-  HAVE("0 points in the file of response b, expected at least 3");
+  judged("--columns omega=omega,rms=rms --response b", 2, "0 points in the file of response b, expected at least 3");
   shell("cut -d, -f1,4 $D/theirs.csv > $D/plain.csv && mv $D/plain.csv $D/theirs.csv");
-  assert_int_equal(verify("--response a --response b"), 64);
-  HAVE("no column `response`");
+  judged("--response a --response b", 64, "no column `response`");
 }
 
 /* A structure with one thing changed, and what that is called. */
@@ -119,8 +114,7 @@ static void mistakes_of_structures_are_named(CHECK_STATE)
   for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
     put_case("theirs.yaml", all[i].was, all[i].now);
     make_curve("");
-    assert_int_equal(verify("--columns omega=omega,harmonic_1@b=harmonic_1"), 1);
-    HAVE(all[i].cause);
+    judged("--columns omega=omega,harmonic_1@b=harmonic_1", 1, all[i].cause);
     HAVE(all[i].words);
   }
 }
@@ -132,8 +126,8 @@ static void another_degree_of_freedom_is_named(CHECK_STATE)
   put_case("theirs.yaml", "response: [a, b]", "response: [c]");
   make_curve("");
   shell("sed -i 's/,c,/,a,/' $D/theirs.csv");
-  assert_int_equal(verify("--columns omega=omega,amplitude@a=amplitude"), 1);
-  HAVE("# suspected cause: the values are those of another response (the motion of DOF 3, ");
+  judged("--columns omega=omega,amplitude@a=amplitude", 1,
+         "# suspected cause: the values are those of another response (the motion of DOF 3, ");
 }
 
 #define JENKINS "$H verify cases/structures/jenkins2.yaml -q --against "
