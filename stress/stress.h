@@ -12,7 +12,6 @@
  * Not here: how it is shown (interfaces/command/cmd_stress.c). */
 #pragma once
 
-
 #include "casefile/scene.h"
 #include "numerics/base/status.h"
 

@@ -8,7 +8,6 @@
  */
 #pragma once
 
-
 /* Coefficients of the symbol k(th): the series convention with 2 n_harm harmonics. */
 static inline int force_jacobian_symbol_length(int n_harm) { return 4 * n_harm + 1; }
 

@@ -2,7 +2,6 @@
  * goes on; and the command hbmcheck as such work, its main() linked in under the name hbmcheck_main. */
 #pragma once
 
-
 enum { CHILD_TEXT = 1 << 18 };
 
 typedef struct outcome {

@@ -15,7 +15,6 @@
  * |T| <= mu N; the sliders' own motion is contact_track.h's. */
 #pragma once
 
-
 #include "model/model.h"
 #include "timeint/law/law_kind.h"
 #include "timeint/law/modal_base.h"
