@@ -12,8 +12,9 @@
 #include "numerics/workers.h"
 #include "output/output.h"
 #include "study/store.h"
-#include "tests/faults/child.h"
 #include "tests/wrap.h"
+
+enum { HANGS = 600 /* [s] of a child, to end hangs */ };
 
 static atomic_long passed;
 static long expected; /* written while one thread runs, as are the next two */
@@ -43,11 +44,31 @@ static void set_gate(bool to)
   pthread_mutex_unlock(&gate);
 }
 
-void moments_raise(void *self)
+typedef struct order {
+  const char *line;
+  int number;
+  long n;
+} order;
+
+static void raise_ordered(void *self)
 {
-  const int number = *(const int *)self;
+  const order *what = self;
   set_gate(true);
-  raise(number);
+  raise(what->number);
+}
+
+static int obey(void *self)
+{
+  const order *what = self;
+  if (what->number) signal(what->number, SIG_DFL); /* who started the tests may ignore it */
+  moments_expect(what->n, raise_ordered, self);
+  return child_command(what->line);
+}
+
+void moments_run(const char *line, int number, long n, outcome *o)
+{
+  order what = {line, number, n};
+  child_run(obey, &what, HANGS, o);
 }
 
 static void moment(void)

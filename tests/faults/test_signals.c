@@ -5,11 +5,10 @@
 #include <dirent.h>
 
 #include "numerics/random.h"
-#include "tests/faults/child.h"
 #include "tests/faults/moments.h"
 #include "tests/faults/small.h"
 
-enum { TEXT = 1 << 16, HANGS = 600 /* [s] of a child, to end hangs */ };
+enum { TEXT = 1 << 16 };
 
 static const char before[] = "what stood there before\n";
 static int times = 2; /* moments a command and signal; 20 with the argument "every" */
@@ -36,27 +35,6 @@ static int sweep_up(void)
   return n;
 }
 
-typedef struct order {
-  const char *line;
-  int number;
-  long n;
-} order;
-
-static int obey(void *self)
-{
-  const order *what = self;
-  if (what->number) signal(what->number, SIG_DFL); /* who started the tests may ignore it */
-  moments_expect(what->n, moments_raise, (void *)(size_t)&what->number);
-  return child_command(what->line);
-}
-
-/* "hbmcheck LINE", signalled at its n-th moment (0: never) -> o. */
-static void run(const char *line, int number, long n)
-{
-  order what = {line, number, n};
-  child_run(obey, &what, HANGS, &o);
-}
-
 static bool was_stopped(void) { return o.signal || o.code == 3; }
 
 /* Is that an honest end? `good`: what an undisturbed run writes to "result". */
@@ -80,7 +58,7 @@ static void try_with(const char *line, int moments)
   int stopped = 0;
   uint64_t seed = 1;
   unlink("result");
-  run(line, 0, 0);
+  moments_run(line, 0, 0, &o);
   const long whole = o.count;
   const int code = o.code;
   assert_true(o.signal == 0 && code >= 0 && code <= 1 && whole >= 10 && contents("result", good));
@@ -88,7 +66,7 @@ static void try_with(const char *line, int moments)
     const int number = numbers[i % 4];
     const long n = 1 + (long)((double)whole * random_unit(&seed));
     small_file("result", before);
-    run(line, number, n);
+    moments_run(line, number, n, &o);
     stopped += was_stopped();
     assert_true(number != SIGKILL || was_stopped());
     if (honest(number, code, good)) continue;
@@ -131,13 +109,14 @@ static void study(CHECK_STATE)
   static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGKILL};
   small_file("many.yaml", "study: many\nbase: small.yaml\nrun: frf\nset: {compare.omega: [6.2, 6.8]}\n"
                           "vary: [{oscillator.damping: {from: 1, to: 3, count: 40}}, {hbm.harmonics: [2, 3, 4]}]\n");
-  run("study many.yaml -q --jobs 1 --results whole.sqlite --export csv -o whole.csv", 0, 0);
+  moments_run("study many.yaml -q --jobs 1 --results whole.sqlite --export csv -o whole.csv", 0, 0, &o);
   assert_int_equal(o.code, 0);
   uint64_t seed = 2;
   const double most = (double)o.count / (4 * times);
   assert_true(most > 10);
   for (int i = 0; i < 4 * times; ++i) {
-    run("study many.yaml --jobs 2 --results killed.sqlite", numbers[i % 4], 1 + (long)(most * random_unit(&seed)));
+    moments_run("study many.yaml --jobs 2 --results killed.sqlite", numbers[i % 4],
+                1 + (long)(most * random_unit(&seed)), &o);
     if (numbers[i % 4] == SIGKILL ? o.signal == SIGKILL : o.code == 3) continue;
     child_show(&o, "study many.yaml, to be stopped");
     fail();

@@ -2,12 +2,9 @@
  * (tests/faults/moments.h). All else: claims.transcript. */
 #include <signal.h>
 
-#include "tests/faults/child.h"
 #include "tests/faults/moments.h"
 #include "tests/folder.h"
 #include "tests/program.h"
-
-enum { HANGS = 600 /* [s] of a child, to end hangs */ };
 
 #define MANY(title, steps)                                                                                             \
   "study: " title "\nrun: frf\n"                                                                                       \
@@ -16,30 +13,7 @@ enum { HANGS = 600 /* [s] of a child, to end hangs */ };
   "  - {oscillator.mass: {from: 0.5, to: 2, count: " steps                                                             \
   "}}\n  - {oscillator.damping: {from: 0.1, to: 0.9, count: 20}}\n"
 
-/* "hbmcheck study ARGS" with `signal` at its n-th moment. */
-typedef struct order {
-  const char *args;
-  int signal;
-  long n;
-} order;
-
-static int obey(void *self)
-{
-  const order *o = self;
-  char line[256];
-  snprintf(line, sizeof line, "study %s", o->args);
-  if (o->signal) signal(o->signal, SIG_DFL); /* who started the tests may ignore it */
-  moments_expect(o->n, moments_raise, (void *)(size_t)&o->signal);
-  return child_command(line);
-}
-
 static outcome last;
-
-static void run_inside(const char *args, int signal, long n)
-{
-  order o = {args, signal, n};
-  child_run(obey, &o, HANGS, &last);
-}
 
 /* Ten kills at moments drawn from a fixed sequence, among SQLite's writes, too. An undisturbed run has 800 scenes and
  * two moments or more in each; a tenth of these moments a run, halved by the ten that are killed on the average, leave
@@ -48,13 +22,13 @@ static void killed_and_resumed(CHECK_STATE)
 {
   unsigned long long seed = 88172645463325252ull;
   folder_put("k.yaml", MANY("kills", "40"));
-  run_inside("k.yaml -q --results whole.sqlite --jobs 1", 0, 0);
+  moments_run("study k.yaml -q --results whole.sqlite --jobs 1", 0, 0, &last);
   assert_int_equal(last.code, 0);
   const long whole = last.count;
   assert_true(whole >= 2 * 800);
   for (int i = 0; i < 10; ++i) {
     seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-    run_inside("k.yaml -q --jobs 2", SIGKILL, 1 + (long)(seed % (unsigned long)(whole / 10)));
+    moments_run("study k.yaml -q --jobs 2", SIGKILL, 1 + (long)(seed % (unsigned long)(whole / 10)), &last);
     if (last.signal != SIGKILL) child_show(&last, "not killed");
     assert_int_equal(last.signal, SIGKILL);
   }
@@ -68,9 +42,9 @@ static void killed_and_resumed(CHECK_STATE)
 static void stopped_by_a_signal(CHECK_STATE)
 {
   folder_put("s.yaml", MANY("signals", "80"));
-  run_inside("s.yaml -q", SIGTERM, 200);
+  moments_run("study s.yaml -q", SIGTERM, 200, &last);
   shell_check("stopped", last.code, last.err, 3, "scenes are in s.sqlite; the same command goes on from there");
-  run_inside("s.yaml -q --export csv --fresh", SIGTERM, 200);
+  moments_run("study s.yaml -q --export csv --fresh", SIGTERM, 200, &last);
   assert_int_equal(last.code, 3);
   assert_string_equal(last.out, ""); /* half an export would look like a whole one */
   expect("study s.yaml -q", 0, "1600");
