@@ -1,6 +1,7 @@
 /* small.h - the scene of these tests, small/small.yaml, and a folder with what is in small/. */
 #pragma once
 
+#include <dirent.h>
 #include <signal.h>
 
 #include "casefile/case_file.h"
@@ -53,32 +54,42 @@ static inline char *small_without_times(char *text)
   return text;
 }
 
-/* The files of small/ in a new folder, which becomes the current one. */
-static inline void small_folder(char *name)
+/* The file into text[size], such times as 0; NULL: there is none. */
+static inline char *small_contents(const char *name, size_t size, char *text)
 {
-  assert_non_null(mkdtemp(name));
-  assert_int_equal(chdir(name), 0);
-  assert_int_equal(system("cp " SMALL "/* ."), 0);
+  FILE *from = fopen(name, "r");
+  if (!from) return NULL;
+  text[fread(text, 1, size - 1, from)] = 0;
+  fclose(from);
+  return small_without_times(text);
 }
 
-static inline void small_clean(const char *name)
+/* Removes files that were written beside others, and left; how many there were. */
+static inline int small_sweep_up(void)
 {
-  char line[300];
-  snprintf(line, sizeof line, "rm -r %s", name);
-  assert_int_equal(chdir("/"), 0);
-  assert_int_equal(system(line), 0);
+  DIR *here = opendir(".");
+  int n = 0;
+  assert_non_null(here);
+  for (struct dirent *e; (e = readdir(here));)
+    if (!strncmp(e->d_name, ".hbmcheck-", 10)) n += unlink(e->d_name) == 0;
+  closedir(here);
+  return n;
 }
 
-/* The main() of tests that work in that folder, as faults.NAME. */
+/* The main() of tests in a new folder with the files of small/, as faults.NAME. */
 static inline int small_main(const char *name, unsigned seconds, char *names, size_t n, const CMUnitTestFunction *tests)
 {
-  char folder[100], group[100];
+  char folder[100], group[100], remove_folder[120];
   snprintf(folder, sizeof folder, "/tmp/hbmcheck-%s-XXXXXX", name);
   snprintf(group, sizeof group, "faults.%s", name);
   small_watchdog(seconds);
-  small_folder(folder);
+  assert_non_null(mkdtemp(folder));
+  assert_int_equal(chdir(folder), 0);
+  assert_int_equal(system("cp " SMALL "/* ."), 0);
   const int failed = check_run(group, names, n, tests, NULL, NULL);
-  small_clean(folder);
+  snprintf(remove_folder, sizeof remove_folder, "rm -r %s", folder);
+  assert_int_equal(chdir("/"), 0);
+  assert_int_equal(system(remove_folder), 0);
   return failed;
 }
 #define SMALL_MAIN(name, seconds, ...)                                                                                 \

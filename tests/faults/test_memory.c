@@ -3,7 +3,6 @@
  * end by themselves, leak nothing, and either write what an undisturbed run writes or say that memory ran out and
  * exit with 3; a file is not there, whole, or says itself what it lacks. Run with the argument "every" for each n
  * (ctest -C Thorough), else for the first ones and then in growing strides. */
-#include <dirent.h>
 #include <limits.h>
 
 #include "tests/faults/child.h"
@@ -40,27 +39,13 @@ static int work(void *self)
   return code;
 }
 
-/* Nothing of ours lies about: no file written beside another. */
-static bool folder_is_clean(void)
-{
-  DIR *here = opendir(".");
-  bool clean = true;
-  assert_non_null(here);
-  for (struct dirent *e; (e = readdir(here));) clean = clean && strncmp(e->d_name, ".hbmcheck-", 10) != 0;
-  closedir(here);
-  return clean;
-}
-
 /* What the command wrote to "result", then removed. NULL: nothing there. */
 static char *take_result(void)
 {
   static char text[CHILD_TEXT];
-  FILE *from = fopen("result", "r");
-  if (!from) return NULL;
-  text[fread(text, 1, sizeof text - 1, from)] = 0;
-  fclose(from);
+  char *result = small_contents("result", sizeof text, text);
   unlink("result");
-  return small_without_times(text);
+  return result;
 }
 
 static bool is_whole(const trial *t, const char *result, const char *good)
@@ -83,7 +68,7 @@ static bool passes(const trial *t, const char *good)
   bool honest = !result || whole || strstr(result, "out of memory") || strstr(result, "solver_failed");
   bool fine = now.code == 0 ? whole : now.code == 3 && honest && !silent;
   gave_up += now.code == 3;
-  if (fine && folder_is_clean()) return true;
+  if (fine && small_sweep_up() == 0) return true;
   child_show(&now, what);
   print_error("result %s\n", !result ? "absent" : whole ? "whole" : "CHANGED");
   if (result && !whole) print_error("%.2000s\n", result);

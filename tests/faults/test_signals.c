@@ -2,8 +2,6 @@
  * sequence: an output file is as it was, whole, or says that it was stopped; the exit code is 3 with a remark, or
  * that of a run that was over before; the catchable ones leave no other file behind; a study that was killed again
  * and again goes on to the same export. */
-#include <dirent.h>
-
 #include "numerics/random.h"
 #include "tests/faults/moments.h"
 #include "tests/faults/small.h"
@@ -14,36 +12,15 @@ static const char before[] = "what stood there before\n";
 static int times = 2; /* moments a command and signal; 20 with the argument "every" */
 static outcome o;
 
-static char *contents(const char *name, char *text)
-{
-  FILE *from = fopen(name, "r");
-  if (!from) return NULL;
-  text[fread(text, 1, TEXT - 1, from)] = 0;
-  fclose(from);
-  return small_without_times(text);
-}
-
-/* Removes files written beside others; how many there were. */
-static int sweep_up(void)
-{
-  DIR *here = opendir(".");
-  int n = 0;
-  assert_non_null(here);
-  for (struct dirent *e; (e = readdir(here));)
-    if (!strncmp(e->d_name, ".hbmcheck-", 10)) n += unlink(e->d_name) == 0;
-  closedir(here);
-  return n;
-}
-
 static bool was_stopped(void) { return o.signal || o.code == 3; }
 
 /* Is that an honest end? `good`: what an undisturbed run writes to "result". */
 static bool honest(int number, int good_code, const char *good)
 {
   static char result[TEXT];
-  const char *there = contents("result", result);
+  const char *there = small_contents("result", TEXT, result);
   const bool whole = there && !strcmp(there, good), untouched = there && !strcmp(there, before),
-             nothing_beside = sweep_up() == 0;
+             nothing_beside = small_sweep_up() == 0;
   if (o.signal) return o.signal == number && number == SIGKILL && (whole || untouched);
   if (!nothing_beside) return false;
   if (o.code == good_code && whole) return true;
@@ -61,7 +38,7 @@ static void try_with(const char *line, int moments)
   moments_run(line, 0, 0, &o);
   const long whole = o.count;
   const int code = o.code;
-  assert_true(o.signal == 0 && code >= 0 && code <= 1 && whole >= 10 && contents("result", good));
+  assert_true(o.signal == 0 && code >= 0 && code <= 1 && whole >= 10 && small_contents("result", TEXT, good));
   for (int i = 0; i < 4 * moments; ++i) {
     const int number = numbers[i % 4];
     const long n = 1 + (long)((double)whole * random_unit(&seed));
@@ -70,7 +47,7 @@ static void try_with(const char *line, int moments)
     stopped += was_stopped();
     assert_true(number != SIGKILL || was_stopped());
     if (honest(number, code, good)) continue;
-    const char *there = contents("result", result);
+    const char *there = small_contents("result", TEXT, result);
     print_error("signal %d at moment %ld of %ld; result %.2000s\n", number, n, whole, there ? there : "absent");
     child_show(&o, line);
     fail();
