@@ -158,7 +158,8 @@ static bool floats(solved_scene *s)
 }
 
 /* Beyond the bound after the last guess: why, if there is a reason. Another motion in balance by the original equations
- * is a solution, too, as is one, later, of which a slider never slips, and `rests` where that time has it; where the scene makes more than 1e-3 of rounding, or loses the solution, nothing is said. */
+ * is a solution, too; so is one of which a slider never slips and `rests` where another time 0 has it. Where the scene
+ * makes more than 1e-3 of rounding, or loses the solution, nothing is said. */
 static stress_check explain(solved_scene *s, hc_status refused, double error, bool balanced, bool rests)
 {
   stress_condition(s);
