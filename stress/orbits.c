@@ -273,15 +273,13 @@ static double follows_sliders(solved_scene *s, const double *slider, double leng
   const double *rest = s->path.state + 2 * s->n;
   double *from = malloc(state_length(s->model) * sizeof *from), moved = 0, rate = 0;
   if (!from) s->fatal = HC_NO_MEMORY;
-  for (int j = 0; j < n_contacts; ++j) moved = fmax(moved, fabs(slider[j] / length - rest[j]));
+  for (int j = 0; j < n_contacts; ++j) moved = hypot(moved, slider[j] / length - rest[j]);
   for (int side = -1; side <= 1 && from && moved > 0 && s->path.r.free_sliders > 0; side += 2) {
     const double part = side * 1e-6 * s->path.amplitude / moved;
     memcpy(from, s->path.state, state_length(s->model) * sizeof *from);
     for (int j = 0; j < n_contacts; ++j) from[2 * s->n + j] += part * (slider[j] / length - rest[j]);
     stress_path member = find_path(s, &near, from);
-    double far = 0;
-    for (int j = 0; j < n_contacts && member.status == HC_OK; ++j)
-      far = fmax(far, fabs(member.state[2 * s->n + j] - rest[j]));
+    const double far = member.status == HC_OK ? distance_2(n_contacts, member.state + 2 * s->n, rest) : 0;
     if (far > 0) rate = fmax(rate, paths_apart(s, &s->path, &member, 0) / far);
     stress_path_free(&member);
   }

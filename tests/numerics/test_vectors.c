@@ -28,10 +28,8 @@ static both made(int n)
 
 static void same(const both *b)
 {
-  for (int k = 0; k < VECTORS; ++k) {
-    const size_t bytes = (size_t)NV_LENGTH_S(b->ours[k]) * sizeof(double);
-    assert_memory_equal(NV_DATA_S(b->ours[k]), NV_DATA_S(b->theirs[k]), bytes);
-  }
+  const size_t bytes = (size_t)NV_LENGTH_S(b->ours[0]) * sizeof(double);
+  for (int k = 0; k < VECTORS; ++k) assert_memory_equal(NV_DATA_S(b->ours[k]), NV_DATA_S(b->theirs[k]), bytes);
 }
 
 static void freed(both *b)

@@ -40,8 +40,7 @@ hc_status timeint_time_periods(timeint *ti, double omega, const double *state, c
   const long changes = integrate_transitions(whole->in);
   st = time_period(whole, omega, state, out->chords ? 1 : 2, monitor, &out->closed_form);
   const long changed = integrate_transitions(whole->in) - changes, all = 2 * ti->scaled.n_contacts; /* there and back */
-  const bool products = out->chords && ti->n <= SERIES_COLUMNS_SQUARED; /* of the matrix, where a contact changes */
-  const double moving = products ? fmin((double)changed / (double)all, 1) : 1;
+  const double moving = out->chords && ti->n <= SERIES_COLUMNS_SQUARED ? fmin((double)changed / (double)all, 1) : 1;
   double plain = out->closed_form;
   if (out->chords && st == HC_OK) st = time_period(whole->slowed, omega, state, 1, monitor, &plain);
   out->matrix = (matrix_at_rest + moving * (matrix_by_closed_form - matrix_at_rest)) * ti->n * plain;
