@@ -7,8 +7,8 @@
 
 /* [1] What a monodromy matrix takes of a plain period, for each state. In closed form, of structures in
  * cases/structures/: bladed_disk 0.11, plates 0.12, blade_damper 0.23, beam_pairs 0.43, blade_damper_reduced 0.55. By
- * CVODES: beam16. Where no contact changes its state: blade_damper at 280, from a state at which some still slip or do
- * not, as rounding has it. */
+ * CVODES: beam16. Where no contact changes its state: blade_damper at 280; by how many do, it is between the two, as
+ * rounding decides there whether some still slip in the first period. */
 static const double matrix_by_closed_form = 0.25, matrix_at_rest = 0.025, matrix_by_cvodes = 0.7;
 
 /* [s] of the last of `count` periods from `state`: the first may keep modes for the others (interval_modes.h). */
@@ -39,8 +39,8 @@ hc_status timeint_time_periods(timeint *ti, double omega, const double *state, c
   if (!whole || st != HC_OK) return st;
   const long changes = integrate_transitions(whole->in);
   st = time_period(whole, omega, state, out->chords ? 1 : 2, monitor, &out->closed_form);
-  const long changed = integrate_transitions(whole->in) - changes, all = 2 * ti->scaled.n_contacts; /* there and back */
-  const double moving = out->chords && ti->n <= SERIES_COLUMNS_SQUARED ? fmin((double)changed / (double)all, 1) : 1;
+  const double changed = (double)(integrate_transitions(whole->in) - changes), all = 2.0 * ti->scaled.n_contacts;
+  const double moving = out->chords && ti->n <= SERIES_COLUMNS_SQUARED ? fmin(changed / fmax(all, 1), 1) : 1;
   double plain = out->closed_form;
   if (out->chords && st == HC_OK) st = time_period(whole->slowed, omega, state, 1, monitor, &plain);
   out->matrix = (matrix_at_rest + moving * (matrix_by_closed_form - matrix_at_rest)) * ti->n * plain;

@@ -1,10 +1,10 @@
 /* fftw_config.h - FFTW's config.h for WebAssembly: double precision, no vector instructions, no threads, no cycle
  * counter (plans are FFTW_ESTIMATE: nothing is timed). What ./configure would find out takes it minutes there. */
-#define DISABLE_FORTRAN           1
 #define PACKAGE                   "fftw"
 #define VERSION                   "3.3"
 #define PACKAGE_VERSION           VERSION
 #define FFTW_CC                   "emcc"
+#define DISABLE_FORTRAN           1
 #define FFTW_ENABLE_ALLOCA        1
 #define HAVE_ALLOCA               1
 #define HAVE_ALLOCA_H             1
