@@ -153,37 +153,46 @@ static int nearest_solution(hbm_solver *hbm, const hbm_curve *at, const comparis
   return nearest;
 }
 
-/* *yes: a solution in *at is within the limits of the target. If the target depends on the solution, only the solution
- * nearest to the row's transient is tried. */
-static hc_status one_passes(remedy_search *s, const trial *t, hbm_solver *hbm, const hbm_curve *at, bool *yes)
+/* *yes: the curve over the setup's sweep has a solution within the limits of the target. If the target depends on the
+ * solution, only the one nearest to the row's transient is tried. */
+static hc_status curve_passes(remedy_search *s, const trial *t, const compare_setup *setup, const hc_monitor *monitor,
+                              bool *yes)
 {
   const bool to_start = !s->has_target || target_moves(s, t);
-  const int only = to_start ? nearest_solution(hbm, at, s->row, s->row->transient.amplitude) : -1;
-  hc_status st = HC_OK;
-  for (int k = 0; k < at->n && !*yes && st != HC_NO_MEMORY; ++k) {
+  response_curve c;
+  hbm_curve at = {0};
+  hc_status st = response_trace(setup, NULL, monitor, &c);
+  if (st == HC_OK && c.hbm && c.curve.n) st = hbm_curve_at(c.hbm, &c.curve, s->row->omega, &at);
+  const int n = st == HC_OK ? at.n : 0;
+  const int only = n && to_start ? nearest_solution(c.hbm, &at, s->row, s->row->transient.amplitude) : -1;
+  for (int k = 0; k < n && !*yes && st != HC_NO_MEMORY; ++k) {
     if (to_start && k != only) continue;
-    st = to_start ? integrate(s, t, hbm, hbm_curve_X(at, k)) : HC_OK;
-    if (st == HC_OK && s->has_target) st = hold_against_target(s, hbm, hbm_curve_X(at, k), yes);
+    st = to_start ? integrate(s, t, c.hbm, hbm_curve_X(&at, k)) : HC_OK;
+    if (st == HC_OK && s->has_target) st = hold_against_target(s, c.hbm, hbm_curve_X(&at, k), yes);
   }
+  hbm_curve_free(&at);
+  response_curve_free(&c);
   return st;
 }
 
 /* *yes: the curve of these settings has a solution within the limits; `or_slow`: or takes more than half of the time
- * that is left. */
+ * that is left. Where it first comes to the row's omega it mostly has one; which is the nearest to a transient that is
+ * yet to be integrated, all of it tells. */
 static hc_status confirm(remedy_search *s, const trial *t, bool or_slow, bool *yes)
 {
-  const double began = thread_seconds();
+  const double began = thread_seconds(), omega = s->row->omega;
   compare_setup setup = *s->w->setup;
-  response_curve c;
-  hbm_curve at = {0};
   work_limit limit = {.outer = s->w->monitor, .until = began + 0.5 * (s->patience - s->seconds)};
+  const hc_monitor monitor = {work_limit_tick, &limit};
+  double to;
+  hc_status st = HC_OK;
   setup.hbm = t->hbm;
+  comparison_sweep(setup.omega_from, setup.omega_to, &setup.compare.omega, &setup.omega_from, &to);
+  setup.omega_to = omega;
   *yes = false;
-  hc_status st = response_trace(&setup, &setup.compare.omega, &(hc_monitor){work_limit_tick, &limit}, &c);
-  if (st == HC_OK && c.hbm && c.curve.n) st = hbm_curve_at(c.hbm, &c.curve, s->row->omega, &at);
-  if (st == HC_OK) st = one_passes(s, t, c.hbm, &at, yes);
-  hbm_curve_free(&at);
-  response_curve_free(&c);
+  if (s->has_target && !target_moves(s, t) && omega != setup.omega_from) st = curve_passes(s, t, &setup, &monitor, yes);
+  setup.omega_to = to;
+  if (!*yes && st != HC_NO_MEMORY) st = curve_passes(s, t, &setup, &monitor, yes);
   s->seconds += thread_seconds() - began;
   const bool slow = thread_seconds() >= limit.until;
   *yes |= or_slow && slow;

@@ -8,7 +8,7 @@
 
 #include "numerics/base/constants.h"
 
-enum { MAX_DEPTH = 48, MAX_NEWTON = 60 };
+enum { MAX_NEWTON = 60 };
 
 guard guard_make(const series_vector *m, int order, const double *a, double constant)
 {
@@ -44,7 +44,7 @@ guard guard_negative(const guard *g)
 
 double guard_scale(const guard *g) { return g->size + fabs(g->mean) + fabs(g->constant); }
 
-static double guard_derivative(const guard *g, const series_node *at, int k)
+static inline double guard_derivative(const guard *g, const series_node *at, int k)
 {
   double f = 0;
   for (int d = 0; d < g->dim; ++d) f += g->a[d] * at->d[g->order + k][d];
@@ -53,50 +53,40 @@ static double guard_derivative(const guard *g, const series_node *at, int k)
 
 double guard_value(const guard *g, const series_node *at) { return guard_derivative(g, at, 0) + g->constant; }
 
-typedef struct guarded_motion {
-  const series_vector *m;
-  const guard *g;
-} guarded_motion;
-
-/* Root of f in [a, b], f falling through 0 once: Newton kept inside by bisection. */
-static series_node falling_root(const guarded_motion *s, series_node a, series_node b)
+/* Root of f in [a, b], f falling through 0 once, perhaps after it has risen: Newton kept inside by bisection. */
+static guarded_point falling_root(const guarded *s, guarded_point a, guarded_point b)
 {
-  double fa = guard_value(s->g, &a), fb = guard_value(s->g, &b);
-  if (!(fa > 0)) return a;
-  series_node x = series_vector_at(s->m, a.th + (b.th - a.th) * fa / (fa - fb));
+  if (!(a.f > 0) && !(a.d1 > 0)) return a;
+  const bool rises = a.d1 > 0;
+  guarded_point x = s->at(s->self, a.th + (b.th - a.th) * (rises ? 0.5 : a.f / (a.f - b.f)));
   for (int it = 0; it < MAX_NEWTON; ++it) {
-    double f = guard_value(s->g, &x), derivative = guard_derivative(s->g, &x, 1);
-    if (f > 0) a = x;
+    if (x.f > 0 || (rises && x.d1 > 0)) a = x;
     else b = x;
-    double next = x.th - f / derivative;
-    /* before the bracket is looked at: at the root, next may be an end of it */
-    if (fabs(next - x.th) <= 2 * DBL_EPSILON * (1 + fabs(x.th))) break;
-    bool inside = next > a.th && next < b.th;
-    if (!inside) next = 0.5 * (a.th + b.th);
-    double moved = next - x.th;
-    x = series_vector_at(s->m, next);
-    /* the error left is at most bound2 moved^2/(2 |derivative|) */
-    if (inside && s->g->bound2 * moved * moved <= 2 * DBL_EPSILON * fabs(derivative)) break;
+    const double newton = x.th - x.f / x.d1;
+    /* before the bracket is looked at: at the root, it may be an end of it */
+    if (x.d1 < 0 && fabs(newton - x.th) <= 2 * DBL_EPSILON * (1 + fabs(x.th))) break;
+    const bool inside = x.d1 < 0 && newton > a.th && newton < b.th;
+    const double next = inside ? newton : 0.5 * (a.th + b.th), moved = next - x.th;
+    if (fabs(moved) <= DBL_EPSILON * fabs(next)) break;
+    x = s->at(s->self, next);
+    /* the error left is at most bound2 moved^2/(2 |f'|) */
+    if (inside && s->bound2 * moved * moved <= 2 * DBL_EPSILON * fabs(x.d1)) break;
   }
   return x;
 }
 
 /* Minimum of f in [a, b], f convex there with f'(a) < 0 < f'(b). */
-static series_node minimum(const guarded_motion *s, series_node a, series_node b)
+static guarded_point minimum(const guarded *s, guarded_point a, guarded_point b)
 {
-  double da = guard_derivative(s->g, &a, 1), db = guard_derivative(s->g, &b, 1);
-  series_node x = series_vector_at(s->m, a.th + (b.th - a.th) * da / (da - db));
+  guarded_point x = s->at(s->self, a.th + (b.th - a.th) * a.d1 / (a.d1 - b.d1));
   for (int it = 0; it < MAX_NEWTON; ++it) {
-    double derivative = guard_derivative(s->g, &x, 1);
-    if (derivative < 0) a = x;
+    if (x.d1 < 0) a = x;
     else b = x;
-    double next = x.th;
-    bool newton = s->g->order == 0; /* order 1 would need a third derivative of the motion, which a node has not */
-    if (newton) next -= derivative / guard_derivative(s->g, &x, 2);
-    if (newton && fabs(next - x.th) <= 1e-9) break; /* f is stationary: an error e of the angle makes f'' e^2/2 in f */
-    if (!newton || !(next > a.th && next < b.th)) next = 0.5 * (a.th + b.th);
+    double next = x.th - x.d1 / x.d2;
+    if (fabs(next - x.th) <= 1e-9) break; /* f is stationary: an error e of the angle makes f'' e^2/2 in f */
+    if (!(next > a.th && next < b.th)) next = 0.5 * (a.th + b.th);
     if (fabs(next - x.th) <= 1e-9) break;
-    x = series_vector_at(s->m, next);
+    x = s->at(s->self, next);
   }
   return x;
 }
@@ -105,41 +95,51 @@ static series_node minimum(const guarded_motion *s, series_node a, series_node b
 static inline double lesser(double x, double y) { return x < y ? x : y; }
 static inline double greater(double x, double y) { return x > y ? x : y; }
 
-/* Is f'' > 0 between a and b by the bound of f'''? Order 0 only. */
-static bool is_convex(const guard *g, const series_node *a, const series_node *b)
+/* At the last halving that rounding allows, ends of different sign are taken for one crossing, and ends of the same
+ * sign for none. */
+bool guarded_first(const guarded *s, guarded_point a, guarded_point b, guarded_point *root)
 {
-  double least = lesser(guard_derivative(g, a, 2), guard_derivative(g, b, 2));
-  return least - 0.5 * g->bound3 * (b->th - a->th) > 0;
-}
-
-/* crossing_first by at most `depth` halvings; at the last, ends of different sign are taken for one crossing, and ends
- * of the same sign for none. */
-static bool find_first(const guarded_motion *s, series_node a, series_node b, int depth, series_node *root)
-{
-  const guard *g = s->g;
-  double fa = guard_value(g, &a), fb = guard_value(g, &b), width = b.th - a.th;
-  if (fa < -g->noise) {
+  const double width = b.th - a.th, sag = s->bound2 * width * width / 8; /* f is at most this far from its chord */
+  if (a.f < -s->noise) {
     *root = a;
     return true;
   }
-  double sag = g->bound2 * width * width / 8; /* f is at most this far from its chord */
-  if (lesser(fa, fb) > sag) return false;
-  double da = guard_derivative(g, &a, 1), db = guard_derivative(g, &b, 1), change = 0.5 * g->bound2 * width;
-  bool below = fb < -g->noise;
-  bool falls = greater(da, db)<-change, rises = lesser(da, db)> change;
-  if (falls || rises || sag <= g->noise || depth == 0) {
+  if (lesser(a.f, b.f) > sag) return false;
+  const double change = 0.5 * s->bound2 * width, bend = 0.5 * s->bound3 * width, middle = 0.5 * (a.th + b.th);
+  const bool below = b.f < -s->noise, monotone = greater(a.d1, b.d1) < -change || lesser(a.d1, b.d1) > change,
+             concave = greater(a.d2, b.d2)<-bend, convex = lesser(a.d2, b.d2)> bend;
+  if (monotone || concave || sag <= s->noise || !(middle > a.th && middle < b.th)) {
     if (below) *root = falling_root(s, a, b);
     return below;
   }
-  if (g->order == 0 && !below && is_convex(g, &a, &b)) {
-    if (da >= 0 || db <= 0) return false; /* convex and monotone, both ends above */
-    series_node low = minimum(s, a, b);
-    if (guard_value(g, &low) >= -g->noise) return false;
+  if (convex && !below) {
+    if (a.d1 >= 0 || b.d1 <= 0) return false; /* monotone, both ends above */
+    const guarded_point low = minimum(s, a, b);
+    if (low.f >= -s->noise) return false;
     *root = falling_root(s, a, low);
     return true;
   }
-  series_node middle = series_vector_at(s->m, 0.5 * (a.th + b.th));
-  return find_first(s, a, middle, depth - 1, root) || find_first(s, middle, b, depth - 1, root);
+  const guarded_point half = s->at(s->self, middle);
+  return guarded_first(s, a, half, root) || guarded_first(s, half, b, root);
+}
+
+typedef struct guarded_motion {
+  const series_vector *m;
+  const guard *g;
+  series_node last; /* that was asked for */
+} guarded_motion;
+
+static guarded_point guard_at(const guard *g, const series_node *at)
+{
+  const double d2 = g->order == 0 ? guard_derivative(g, at, 2) : 0; /* else of x''', which a node has not */
+  return (guarded_point){at->th, guard_value(g, at), guard_derivative(g, at, 1), d2};
+}
+
+static guarded_point motion_at(void *self, double th)
+{
+  guarded_motion *s = self;
+  s->last = series_vector_at(s->m, th);
+  return guard_at(s->g, &s->last);
 }
 
 bool crossing_first(const series_vector *m, const guard *g, const series_node *a, const series_node *b,
@@ -147,8 +147,12 @@ bool crossing_first(const series_vector *m, const guard *g, const series_node *a
 {
   double width = b->th - a->th, sag = g->bound2 * width * width / 8;
   if (guard_value(g, a) > sag && guard_value(g, b) > sag) return false; /* the usual case, before nodes are copied */
-  guarded_motion s = {m, g};
-  return find_first(&s, *a, *b, MAX_DEPTH, root);
+  guarded_motion motion = {m, g, *a};
+  const guarded s = {motion_at, &motion, g->noise, g->bound2, g->order ? INFINITY : g->bound3};
+  guarded_point found;
+  if (!guarded_first(&s, guard_at(g, a), guard_at(g, b), &found)) return false;
+  *root = found.th == motion.last.th ? motion.last : series_vector_at(m, found.th);
+  return true;
 }
 
 typedef struct range {

@@ -1,10 +1,24 @@
-/* crossing.h - the first angle where a guard, a trigonometric polynomial plus a constant, falls through 0 in an
- * interval. libm only. */
+/* crossing.h - the first angle where a guard falls through 0 in an interval: any function with bounds of its
+ * derivatives, or a trigonometric polynomial plus a constant. libm only. */
 #pragma once
 
 #include <stdbool.h>
 
 #include "numerics/series.h"
+
+typedef struct guarded_point {
+  double th, f, d1, d2; /* the angle, f, f', f'' */
+} guarded_point;
+
+typedef struct guarded {
+  guarded_point (*at)(void *self, double th);
+  void *self;
+  double noise, bound2, bound3; /* |f| below noise is not distinguished from 0; of |f''|; of |f'''|, or INFINITY */
+} guarded;
+
+/* The first angle in (a, b] where f, >= 0 at a (to rounding), becomes negative; false if there is none. None is missed,
+ * double roots (grazing) included, but excursions below 0 by less than `noise`. */
+bool guarded_first(const guarded *s, guarded_point a, guarded_point b, guarded_point *root);
 
 /* f(th) = sum a[d] x_d^(order)(th) + constant, order 0 or 1: of values or of first derivatives. */
 typedef struct guard {
@@ -28,8 +42,7 @@ static inline double guard_upper(const guard *g) { return g->mean + g->constant 
 /* Bound of the terms that f is the sum of: rounding errors of f are relative to it. */
 double guard_scale(const guard *g);
 
-/* The first angle in (a, b] where f, >= 0 at a (to rounding), becomes negative, with its node in *root; false if there
- * is none. Excursions below 0 by less than `noise` do not count. */
+/* guarded_first of a guard, with the node of the root. */
 bool crossing_first(const series_vector *m, const guard *g, const series_node *a, const series_node *b,
                     series_node *root);
 

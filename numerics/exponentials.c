@@ -44,24 +44,33 @@ void exponential_sum_measure(const exponentials *e, exponential_sum *s)
   s->noise = fmax(s->noise, rounding * sum);
 }
 
-/* Root in [a, b], where it falls from fa >= 0 to below 0 without turning: Newton, kept inside by bisection. */
-static double falling_root(const exponentials *e, const exponential_sum *s, double a, double fa, double b)
+double falling_root(sloped_function *f, const void *self, double a, double fa, double b, double x, double origin)
 {
   if (!(fa > 0)) return a;
-  double x = 0.5 * (a + b);
   for (int it = 0; it < MAX_NEWTON; ++it) {
     double slope;
-    const double f = exponential_sum_at(e, s, x, &slope);
-    if (f > 0) a = x;
+    const double value = f(self, x, &slope);
+    if (value > 0) a = x;
     else b = x;
-    double next = x - f / slope;
-    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x);
+    double next = x - value / slope;
+    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x + origin);
     if (close) break;
     if (!(next > a && next < b)) next = 0.5 * (a + b);
     if (next == x) break;
     x = next;
   }
   return x;
+}
+
+typedef struct searched_sum {
+  const exponentials *e;
+  const exponential_sum *s;
+} searched_sum;
+
+static double sum_at(const void *self, double tau, double *slope)
+{
+  const searched_sum *in = self;
+  return exponential_sum_at(in->e, in->s, tau, slope);
 }
 
 /* What is known of a sum at a point: its value, slope, a bound of its second derivative up to h, and how far it surely
@@ -96,7 +105,7 @@ static double clear_step(const exponentials *e, const exponential_sum *s, double
   const double one_way = o.slope < 0 ? fmin(h, -o.slope / o.bend) : 0; /* it falls at least that far */
   if (!(one_way > o.safe)) return o.safe;
   if (!(exponential_sum_at(e, s, tau + one_way, NULL) < 0)) return one_way;
-  *root = falling_root(e, s, tau, o.f, tau + one_way);
+  *root = falling_root(sum_at, &(searched_sum){e, s}, tau, o.f, tau + one_way, tau + 0.5 * one_way, 0);
   return one_way;
 }
 

@@ -15,7 +15,6 @@ typedef struct hbm_ramp {
   double omega;      /* [rad/time] */
   double from;       /* [1] p at the start; at the end it is 1 */
   double most, rate; /* of D: [force time/length], [1] */
-  int most_steps;    /* a ramp that takes more is given up */
   bool quick;        /* by plain Newton of few iterations (corrector.c) */
 } hbm_ramp;
 

@@ -280,6 +280,8 @@ static void intervals_and_report(CHECK_STATE)
       const contact_interval *p = &e.interval[i];
       assert_true(p->from < p->to && p->to <= e.interval[0].from + 2 * PI + 1e-12 && p->state != CONTACT_SEPARATED);
       if (i) assert_true(p->from >= p[-1].to);
+      for (int turn = -1; turn <= 1 && p->to - p->from > 1e-9; ++turn)
+        assert_ptr_equal(contact_interval_at(last + 1, e.interval, 0.5 * (p->from + p->to) + turn * 2 * PI), p);
       slips |= contact_slip_sign(p->state) != 0;
       gaps |= i && p->from > p[-1].to;
       if (i) changes += p->from > p[-1].to ? 2 : p->state != p[-1].state; /* separated in between: two */

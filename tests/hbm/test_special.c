@@ -1,6 +1,7 @@
 /* test_special.c - grazing onsets, folds and period doublings of the paper's case 2: against a closed form, against
  * what a fold is, and against the values of the true orbit (docs/measurements/case2.md, by AUTO-07p, too), to which
  * truncation must tend. */
+#include "hbm/solver/hbm_solver_impl.h"
 #include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 
@@ -269,7 +270,18 @@ static void too_little_room_keeps_the_first(CHECK_STATE)
   free_found(&f);
 }
 
+/* What Newton cannot come to, as no tolerance below rounding can be, is no special point, and is said. */
+static void nothing_is_located_without_a_solution(CHECK_STATE)
+{
+  found f = find("c2", 10);
+  f.s->how.tolerance = 1e-300;
+  assert_int_not_equal(hbm_specials(f.s, &f.c, ROOM, f.at, &f.n), HC_OK);
+  assert_int_equal(f.n, 0);
+  free_found(&f);
+}
+
 CHECK_TESTS("hbm.special", 300, contact_sets_in_where_the_linear_response_grazes, a_contact_change_takes_few_solutions,
             what_begins_at_once_is_one_change, a_fold_is_where_two_solutions_and_multiplier_one_meet,
             doublings_tend_to_those_of_the_true_orbit, the_doubling_of_a_stiff_contact,
-            every_interval_is_as_stable_as_it_should_be, too_little_room_keeps_the_first)
+            every_interval_is_as_stable_as_it_should_be, too_little_room_keeps_the_first,
+            nothing_is_located_without_a_solution)

@@ -1,7 +1,6 @@
 /* modal_motion.c - see modal_motion.h. Proof: tests/timeint/test_modal_motion.c. */
 #include "timeint/closed_form/modal_motion.h"
 
-#include <float.h>
 #include <math.h>
 
 #include "model/linear.h"
@@ -10,7 +9,7 @@
 static const double near_resonance = 0.25;  /* of k - 1 + i c: below, r is computed as a divided difference */
 static const double resonant_digits = 1e-3; /* of k - 1 + i c, as the divisor of an integral: loses three digits */
 static const double longest_step = 1.5;     /* [rad] for which one bound is taken */
-enum { MAX_NEWTON = 60, RESTART = 32 };
+enum { RESTART = 32 };
 
 mode mode_make(double c, double k)
 {
@@ -24,18 +23,10 @@ mode mode_make(double c, double k)
                 .grows = k < 0 ? sqrt(-k) : 0};
 }
 
-/* e^z - 1 without cancellation. */
-static double complex expm1_complex(double complex z)
-{
-  const double a = creal(z), b = cimag(z), half = sin(0.5 * b);
-  return expm1(a) * cos(b) - 2 * half * half + I * (exp(a) * sin(b));
-}
-
 /* (e^{i tau} - e^{root tau})/(i - root), whose limit where root = i is tau e^{i tau}. */
 static double complex divided_difference(double complex root, double tau)
 {
-  const double complex apart = I - root;
-  return cexp(root * tau) * (cabs(apart) > 0 ? expm1_complex(apart * tau) / apart : tau);
+  return cexp(root * tau) * tau * exponential_quotient((I - root) * tau);
 }
 
 static void advance(const mode *m, double tau, mode_flow *out)
@@ -93,26 +84,19 @@ static double guard_bound(const modal_motion *m, const modal_guard *g, const mod
          fabs(g->by_p) * (sqrt(at->j * at->j + k * at->a * at->a) + more) * grow;
 }
 
-/* Root of g in [a, b], where it falls from fa >= 0 to fb < 0 without turning: Newton kept inside by bisection. */
-static double falling_root(const modal_motion *m, const modal_guard *g, double a, double fa, double b, double fb,
-                           long *evaluations)
+typedef struct searched_guard {
+  const modal_motion *m;
+  const modal_guard *g;
+  long *evaluations;
+} searched_guard;
+
+static double guard_at(const void *self, double tau, double *slope)
 {
-  if (!(fa > 0)) return a;
-  double x = a + (b - a) * fa / (fa - fb);
-  for (int it = 0; it < MAX_NEWTON; ++it) {
-    const modal_point at = modal_at(m, x);
-    const double f = guard_value(g, &at), slope = guard_slope(g, &at);
-    ++*evaluations;
-    if (f > 0) a = x;
-    else b = x;
-    double next = x - f / slope;
-    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x + m->theta);
-    if (close) break;
-    if (!(next > a && next < b)) next = 0.5 * (a + b);
-    if (next == x) break;
-    x = next;
-  }
-  return x;
+  const searched_guard *in = self;
+  const modal_point at = modal_at(in->m, tau);
+  ++*in->evaluations;
+  *slope = guard_slope(in->g, &at);
+  return guard_value(in->g, &at);
 }
 
 /* How far the guard surely stays positive from *now on, at most h; if it falls to 0 within that, *root is where. */
@@ -130,7 +114,9 @@ static double clear_step(const modal_motion *m, const modal_guard *g, const moda
   const double end = guard_value(g, &at);
   ++*evaluations;
   if (end >= 0) return one_way;
-  *root = falling_root(m, g, now->tau, f, now->tau + one_way, end, evaluations);
+  const searched_guard self = {m, g, evaluations};
+  const double secant = now->tau + one_way * f / (f - end);
+  *root = falling_root(guard_at, &self, now->tau, f, now->tau + one_way, secant, m->theta);
   return one_way;
 }
 

@@ -7,7 +7,7 @@
 #include "numerics/exponentials.h"
 #include "numerics/norm.h"
 
-enum { TERMS = TRACK_TERMS, MAX_NEWTON = 60 };
+enum { TERMS = TRACK_TERMS };
 
 hc_status motion_series_make(motion_series *s, const modal_base *base, workspace *w)
 {
@@ -216,23 +216,10 @@ double series_value(const double *c, double tau)
   return f;
 }
 
-/* Root in [a, b], where it falls from fa >= 0 to below 0 without turning: Newton, kept inside by bisection. */
-static double falling_root(const double *c, double a, double fa, double b)
+static double value_and_slope(const void *c, double tau, double *slope)
 {
-  if (!(fa > 0)) return a;
-  double x = 0.5 * (a + b);
-  for (int it = 0; it < MAX_NEWTON; ++it) {
-    const double f = series_value(c, x);
-    if (f > 0) a = x;
-    else b = x;
-    double next = x - f / series_slope(c, x);
-    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x);
-    if (close) break;
-    if (!(next > a && next < b)) next = 0.5 * (a + b);
-    if (next == x) break;
-    x = next;
-  }
-  return x;
+  *slope = series_slope(c, tau);
+  return series_value(c, tau);
 }
 
 /* sum_{k>=1} |c_k| h^k, and a bound of the second derivative on [0, h]. */
@@ -261,7 +248,8 @@ double series_first_fall(const track_guard *guard, double h)
     double next = tau + safe;
     if (f < -guard->noise) return tau;
     if (one_way > safe) {
-      if (series_value(c, tau + one_way) < 0) return falling_root(c, tau, f, tau + one_way);
+      if (series_value(c, tau + one_way) < 0)
+        return falling_root(value_and_slope, c, tau, f, tau + one_way, tau + 0.5 * one_way, 0);
       next = tau + one_way;
     }
     if (!(next > tau)) return tau; /* NaN, or a root here */

@@ -67,8 +67,7 @@ static bool mark_hops(verify_report *r)
   if (!one_value_each(r)) return false;
   for (int from = 1, to; from < r->n_rows; from = to) {
     const verify_row *before = &r->rows[from - 1];
-    bool odd = before->verdict == VERDICT_MATCH && r->rows[from].branch != before->branch && before->branch >= 0 &&
-               r->rows[from].branch >= 0;
+    bool odd = before->verdict == VERDICT_MATCH && before->branch >= 0 && r->rows[from].branch >= 0;
     for (to = from; to < r->n_rows && r->rows[to].branch == r->rows[from].branch; ++to)
       odd &= r->rows[to].verdict == VERDICT_MATCH && r->rows[to].solutions > 1;
     if (!odd || to == r->n_rows || r->rows[to].verdict != VERDICT_MATCH || r->rows[to].branch != before->branch)

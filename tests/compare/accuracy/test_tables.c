@@ -209,6 +209,7 @@ static void threads_change_nothing(CHECK_STATE)
   CHECK_FILLED(comparison, c, scene_comparison_run(&sc, NULL, &c));
   CHECK_FILLED(accuracy, one, run_with_jobs(&sc, &c, 1, NULL, &one));
   assert_int_equal(one.n_rows, 15);
+  for (int i = 0; i < 3; ++i) assert_int_equal(one.orders[i].harmonics, 1 + 2 * i);
   for (int k = 0; k < 2; ++k) {
     CHECK_FILLED(accuracy, some, run_with_jobs(&sc, &c, jobs[k], NULL, &some));
     assert_int_equal(some.n_rows, one.n_rows);

@@ -114,5 +114,25 @@ static void a_contact_is_turned(CHECK_STATE)
   model_free(m);
 }
 
+/* P K P of the permutation P, and the contacts' directions as they were. */
+static void matrices_are_numbered_otherwise(CHECK_STATE)
+{
+  static const int place[DOFS] = {2, 1, 0}, first = 0, last = 2;
+  model *m = of_case("cases/structures/chain3.yaml");
+  hbm_mistakes none;
+  for (int i = 0; i < ENTRIES; ++i) m->mass[i] += 0.01 * i, m->damping[i] += 0.02 * i, m->stiffness[i] += 0.03 * i;
+  model *theirs = changed(m, CHANGE_MATRICES_EXCHANGED, 1, 1 + DOFS * first + last, &none);
+  for (int k = 0; k < DOFS; ++k)
+    for (int i = 0; i < DOFS; ++i) {
+      const int to = i + DOFS * k, from = place[i] + DOFS * place[k];
+      assert_true(theirs->mass[to] == m->mass[from] && theirs->damping[to] == m->damping[from]);
+      assert_true(theirs->stiffness[to] == m->stiffness[from]);
+    }
+  for (int j = 0; j < m->n_contacts; ++j)
+    for (int i = 0; i < DOFS; ++i) assert_true(theirs->contacts[j].tangent[i] == m->contacts[j].tangent[i]);
+  model_free(theirs);
+  model_free(m);
+}
+
 CHECK_TESTS("verify.changes", 60, damping_of_one_ratio, damping_of_a_matrix, friction_of_the_other_sign,
-            a_contact_is_turned)
+            a_contact_is_turned, matrices_are_numbered_otherwise)

@@ -207,6 +207,25 @@ static void the_order_of_the_points_does_not_matter(CHECK_STATE)
   verify_data_clear(&shuffled);
 }
 
+/* A, B, A: B hops if it is a branch, and its point has another solution. Between A and C, or at the end, none does. */
+static void between_points_of_one_branch(CHECK_STATE)
+{
+  static const struct way {
+    int branch[3], solutions;
+    bool hops;
+  } ways[] = {{{0, 1, 0}, 2, true},    {{0, 1, 0}, 1, false}, {{0, -1, 0}, 2, false},
+              {{-1, 1, -1}, 2, false}, {{0, 1, 2}, 2, false}, {{0, 1, 1}, 2, false}};
+  for (size_t k = 0; k < sizeof ways / sizeof *ways; ++k) {
+    verify_row rows[3];
+    for (int i = 0; i < 3; ++i)
+      rows[i] = (verify_row){.omega = i, .verdict = VERDICT_MATCH, .branch = ways[k].branch[i], .solutions = 2};
+    rows[1].solutions = ways[k].solutions;
+    verify_report r = {.rows = rows, .n_rows = 3};
+    assert_int_equal(points_branches(&r), ways[k].hops ? VERIFY_BIT(CAUSE_OTHER_BRANCH) : 0);
+    assert_int_equal(rows[1].verdict, ways[k].hops ? VERDICT_OTHER_BRANCH : VERDICT_MATCH);
+  }
+}
+
 /* Sampled forces with many samples have a solution next to each that exact ones have: their error falls like N^-2, and
  * at N = 4096 it is far below the gate. Every solution is the start of one, not the first alone. */
 static void every_exact_solution_leads_to_a_sampled_one(CHECK_STATE)
@@ -244,7 +263,7 @@ static void every_exact_solution_leads_to_a_sampled_one(CHECK_STATE)
   scene_setup_clear(&setup);
 }
 
-CHECK_TESTS("verify.points", 300, every_exact_solution_leads_to_a_sampled_one, noise_is_remarked_and_estimated,
-            noise_that_is_said_is_allowed, noise_does_not_hide_an_offset, outliers_are_named,
-            points_without_convergence_are_named, points_on_chords_are_named, no_motion_is_no_chord,
+CHECK_TESTS("verify.points", 300, between_points_of_one_branch, every_exact_solution_leads_to_a_sampled_one,
+            noise_is_remarked_and_estimated, noise_that_is_said_is_allowed, noise_does_not_hide_an_offset,
+            outliers_are_named, points_without_convergence_are_named, points_on_chords_are_named, no_motion_is_no_chord,
             a_little_off_is_no_outlier, nothing_but_unstable_points_fail, the_order_of_the_points_does_not_matter)

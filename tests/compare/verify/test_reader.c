@@ -44,9 +44,7 @@ static void files_as_people_have_them(CHECK_STATE)
   reads("5,1\n6,2\n7,3\n", "omega=1,amplitude=2");
   reads("5,1\n6,2\n7,3", "omega=1,amplitude=2");
   reads("5,1\r\n6,2\r\n7,3\r\n", "omega=1,amplitude=2");
-  reads("\xEF\xBB\xBF"
-        "w,A\n5,1\n6,2\n7,3\n",
-        "omega=w,amplitude=A");
+  reads("\xEF\xBB\xBFw,A\n5,1\n6,2\n7,3\n", "omega=w,amplitude=A");
   reads("# made by\n\n  # us\nA; remark; w\n1;a,b;5\n\n2;;6\n# end\n3; ;7.0e0\n", "omega=w,value=A");
   reads("  5   1\n 6\t2  \n+7 3\n", "omega=1,amplitude=2");
   reads("5\t\t1\n6\tx y\t2\n7\t\t3\n", "omega=1,amplitude=3");
