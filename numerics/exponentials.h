@@ -47,8 +47,7 @@ static inline double safe_step(double f, double slope, double bound)
   return bound > 0 ? (slope + root) / bound : INFINITY;
 }
 
-/* f(x) and its slope. */
-typedef double sloped_function(const void *self, double x, double *slope);
+typedef double sloped_function(const void *self, double x, double *slope); /* f(x) and its slope */
 
 /* Root of f in [a, b], where it falls from f(a) = fa >= 0 to below 0 without turning: Newton from x, kept inside by
  * bisection, to the rounding of origin + x. */

@@ -17,7 +17,7 @@ static bool go_on(void *self, double done)
   return s->fatal == HC_OK && thread_seconds() < s->deadline;
 }
 
-void solved_scene_clock(solved_scene *s) { s->deadline = thread_seconds() + s->seconds; }
+void solved_scene_clock(solved_scene *s, int checks) { s->deadline = thread_seconds() + checks * s->seconds; }
 
 hc_status solved_scene_start(solved_scene *s, const scene *sc, double seconds, const hc_monitor *outer)
 {
@@ -38,7 +38,7 @@ hc_status solved_scene_start(solved_scene *s, const scene *sc, double seconds, c
   s->fine.status = HC_NOT_CONVERGED; /* none yet */
   s->predicted = stress_skip(STRESS_NO_ORBIT);
   s->path.status = HC_NOT_CONVERGED;
-  solved_scene_clock(s);
+  solved_scene_clock(s, STRESS_N_CHECKS); /* they share it */
   stress_motion_solve(s, s->model, &s->how, s->omega, NULL, 1, &s->base);
   return s->fatal;
 }

@@ -115,8 +115,7 @@ static double clear_step(const modal_motion *m, const modal_guard *g, const moda
   ++*evaluations;
   if (end >= 0) return one_way;
   const searched_guard self = {m, g, evaluations};
-  const double secant = now->tau + one_way * f / (f - end);
-  *root = falling_root(guard_at, &self, now->tau, f, now->tau + one_way, secant, m->theta);
+  *root = falling_root(guard_at, &self, now->tau, f, now->tau + one_way, now->tau + one_way * f / (f - end), m->theta);
   return one_way;
 }
 
