@@ -37,7 +37,7 @@ static const refused_scene refused[] = {{715, 32.5011, 4.08431, 36.2477, 42951.3
 enum { SCENES = sizeof refused / sizeof *refused, MOST_COEF = 201 };
 
 /* The ramp of the damping turns more than 140 times and does not arrive within 4000 steps. */
-static const refused_scene winding = {8473, 0.0945991, 1.00573, 88.3824, 67480.8, 67.4119, 24, false, 12, 3};
+static const refused_scene winding = {8473, 0.0945991, 1.00573, 88.3824, 67480.8, 67.4139, 24, false, 12, 3};
 
 /* Newton finds a solution with 6 harmonics from the linear response, and from that one with 27, but not with 48. */
 static const refused_scene by_halves = {7019, 44.1028, 0.365633, 1.32293, 0.000594733, 2.27873, 48, true, 15, 3};
