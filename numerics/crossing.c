@@ -106,8 +106,8 @@ bool guarded_first(const guarded *s, guarded_point a, guarded_point b, guarded_p
   }
   if (lesser(a.f, b.f) > sag) return false;
   const double change = 0.5 * s->bound2 * width, bend = 0.5 * s->bound3 * width, middle = 0.5 * (a.th + b.th);
-  const bool below = b.f < -s->noise, monotone = greater(a.d1, b.d1) < -change || lesser(a.d1, b.d1) > change,
-             concave = greater(a.d2, b.d2)<-bend, convex = lesser(a.d2, b.d2)> bend;
+  const bool below = -b.f > s->noise, monotone = -greater(a.d1, b.d1) > change || lesser(a.d1, b.d1) > change,
+             concave = -greater(a.d2, b.d2) > bend, convex = lesser(a.d2, b.d2) > bend;
   if (monotone || concave || sag <= s->noise || !(middle > a.th && middle < b.th)) {
     if (below) *root = falling_root(s, a, b);
     return below;
