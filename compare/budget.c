@@ -290,7 +290,8 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
 
 /* ---- in words ---- */
 
-enum { REGULARISATION = 2 }; /* among the parts */
+enum { REGULARISATION = 2 };          /* among the parts */
+static const double rounding = 1e-14; /* [1] of rows without contact; a part that small is none */
 
 static const char *largest_of(const budget_parts *p, bool family, double *share)
 {
@@ -306,7 +307,7 @@ static const char *largest_of(const budget_parts *p, bool family, double *share)
   };
   int top = -1;
   for (int i = 0; i < BUDGET_N_PARTS; ++i)
-    if (parts[i] > (top < 0 ? 0 : parts[top])) top = i;
+    if (parts[i] > (top < 0 ? rounding : parts[top])) top = i;
   *share = top < 0 ? NAN : isinf(parts[top]) ? 1 : parts[top] / p->sum;
   return top < 0 ? NULL : top == REGULARISATION && family ? "family" : names[top];
 }

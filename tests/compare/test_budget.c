@@ -219,6 +219,8 @@ static void words_are_of_what_failed(CHECK_STATE)
   error_budget b = budget_nothing();
   assert_string_equal(budget_text(&b, &limits, text), "no orbit to account for");
   b.known = true;
+  b.amplitude = (budget_parts){.truncation = 4e-16, .sum = 4e-16, .observed = 4e-16};
+  assert_string_equal(budget_text(&b, &limits, text), "amplitude 0 %");
   b.amplitude = (budget_parts){.truncation = 5e-4, .sum = 5e-4, .observed = 5e-4};
   assert_string_equal(budget_text(&b, &limits, text), "amplitude 0.05 %: truncation (100 %); within the gate");
   b.waveform = (budget_parts){.aliasing = 9e-3, .truncation = 1e-3, .sum = 1e-2, .observed = 8e-3}; /* 1.6 limits */

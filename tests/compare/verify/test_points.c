@@ -211,18 +211,17 @@ static void the_order_of_the_points_does_not_matter(CHECK_STATE)
 static void between_points_of_one_branch(CHECK_STATE)
 {
   static const struct way {
-    int branch[3], solutions;
+    int branch[3], n; /* solutions */
     bool hops;
-  } ways[] = {{{0, 1, 0}, 2, true},    {{0, 1, 0}, 1, false}, {{0, -1, 0}, 2, false},
-              {{-1, 1, -1}, 2, false}, {{0, 1, 2}, 2, false}, {{0, 1, 1}, 2, false}};
-  for (size_t k = 0; k < sizeof ways / sizeof *ways; ++k) {
+  } w[] = {{{0, 1, 0}, 2, true},    {{0, 1, 0}, 1, false}, {{0, -1, 0}, 2, false},
+           {{-1, 1, -1}, 2, false}, {{0, 1, 2}, 2, false}, {{0, 1, 1}, 2, false}};
+  for (size_t k = 0; k < sizeof w / sizeof *w; ++k) {
     verify_row rows[3];
     for (int i = 0; i < 3; ++i)
-      rows[i] = (verify_row){.omega = i, .verdict = VERDICT_MATCH, .branch = ways[k].branch[i], .solutions = 2};
-    rows[1].solutions = ways[k].solutions;
+      rows[i] = (verify_row){.omega = i, .verdict = VERDICT_MATCH, .branch = w[k].branch[i], .solutions = w[k].n};
     verify_report r = {.rows = rows, .n_rows = 3};
-    assert_int_equal(points_branches(&r), ways[k].hops ? VERIFY_BIT(CAUSE_OTHER_BRANCH) : 0);
-    assert_int_equal(rows[1].verdict, ways[k].hops ? VERDICT_OTHER_BRANCH : VERDICT_MATCH);
+    assert_int_equal(points_branches(&r), w[k].hops ? VERIFY_BIT(CAUSE_OTHER_BRANCH) : 0);
+    assert_int_equal(rows[1].verdict, w[k].hops ? VERDICT_OTHER_BRANCH : VERDICT_MATCH);
   }
 }
 
