@@ -711,6 +711,8 @@ static void rest_leads_to_the_orbit(CHECK_STATE)
 
 /* ---- CVODE ---- */
 
+static bool stop_once(void *asked, double done) { return (void)done, ++*(int *)asked > 1; }
+
 /* The orbit by CVODE with that law, whose fast modes are slowed, is off from the whole model's in closed form by no
  * more than it predicts, which is little. */
 static void check_cvode(const struct orbit *o, transient_law law, double tolerance)
@@ -725,6 +727,10 @@ static void check_cvode(const struct orbit *o, transient_law law, double toleran
   memcpy(state, o->state, n_states * sizeof *state);
   CHECK_MADE(timeint, ti, timeint_new(plates, &how, &ti));
   CHECK_FILLED(timeint_result, r, timeint_orbit(ti, o->omega, 1, state, NULL, &r));
+  int asked = 0;
+  state[0] *= 1.01; /* a state that no orbit is remembered at */
+  assert_int_equal(timeint_predict(ti, state, &(hc_monitor){stop_once, &asked}, 1, &r), HC_INTERRUPTED);
+  state[0] /= 1.01;
   assert_int_equal(timeint_predict(ti, state, NULL, 1, &r), HC_OK);
   const double off = fabs(r.amplitude - o->r.amplitude);
   CHECK_LE(off, r.predicted.amplitude, "law %d", law);
