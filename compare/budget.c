@@ -291,7 +291,7 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
 /* ---- in words ---- */
 
 enum { REGULARISATION = 2 };          /* among the parts */
-static const double rounding = 1e-14; /* [1] of rows without contact; a part that small is none */
+static const double rounding = 1e-14; /* [1] no smaller part is named */
 
 static const char *largest_of(const budget_parts *p, bool family, double *share)
 {

@@ -69,8 +69,7 @@ static guarded_point falling_root(const guarded *s, guarded_point a, guarded_poi
     const double next = inside ? newton : 0.5 * (a.th + b.th), moved = next - x.th;
     if (fabs(moved) <= DBL_EPSILON * fabs(next)) break;
     x = s->at(s->self, next);
-    /* the error left is at most bound2 moved^2/(2 |f'|) */
-    if (inside && s->bound2 * moved * moved <= 2 * DBL_EPSILON * fabs(x.d1)) break;
+    if (inside && s->bound2 * moved * moved <= 2 * DBL_EPSILON * fabs(x.d1)) break; /* 2 |f'| times the error left */
   }
   return x;
 }
@@ -126,7 +125,7 @@ bool guarded_first(const guarded *s, guarded_point a, guarded_point b, guarded_p
 typedef struct guarded_motion {
   const series_vector *m;
   const guard *g;
-  series_node last; /* that was asked for */
+  series_node last; /* evaluated */
 } guarded_motion;
 
 static guarded_point guard_at(const guard *g, const series_node *at)

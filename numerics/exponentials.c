@@ -2,13 +2,12 @@
 #include "numerics/exponentials.h"
 
 #include <float.h>
-#include <stdbool.h>
 #include <stddef.h>
+
+#include "numerics/roots.h"
 
 static const double rounding = 64 * DBL_EPSILON; /* of a term, relative: what it was computed from, too */
 static const double nothing = 1e-3;              /* [noise] what terms left out may add up to */
-enum { MAX_NEWTON = 60 };
-
 /* e^{rate tau}, and its modulus. */
 static double complex exponential(double complex rate, double tau, double *size)
 {
@@ -42,24 +41,6 @@ void exponential_sum_measure(const exponentials *e, exponential_sum *s)
   double sum = fabs(s->constant);
   for (int k = 0; k < e->n; ++k) sum += s->size[k] = cabs(s->by[k]);
   s->noise = fmax(s->noise, rounding * sum);
-}
-
-double falling_root(sloped_function *f, const void *self, double a, double fa, double b, double x, double origin)
-{
-  if (!(fa > 0)) return a;
-  for (int it = 0; it < MAX_NEWTON; ++it) {
-    double slope;
-    const double value = f(self, x, &slope);
-    if (value > 0) a = x;
-    else b = x;
-    double next = x - value / slope;
-    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x + origin);
-    if (close) break;
-    if (!(next > a && next < b)) next = 0.5 * (a + b);
-    if (next == x) break;
-    x = next;
-  }
-  return x;
 }
 
 typedef struct searched_sum {
@@ -105,7 +86,7 @@ static double clear_step(const exponentials *e, const exponential_sum *s, double
   const double one_way = o.slope < 0 ? fmin(h, -o.slope / o.bend) : 0; /* it falls at least that far */
   if (!(one_way > o.safe)) return o.safe;
   if (!(exponential_sum_at(e, s, tau + one_way, NULL) < 0)) return one_way;
-  *root = falling_root(sum_at, &(searched_sum){e, s}, tau, o.f, tau + one_way, tau + 0.5 * one_way, 0);
+  *root = root_falling(sum_at, &(searched_sum){e, s}, tau, o.f, tau + one_way, tau + 0.5 * one_way, 0);
   return one_way;
 }
 

@@ -46,9 +46,3 @@ static inline double safe_step(double f, double slope, double bound)
   if (slope < 0) return 2 * f / (root - slope); /* without cancellation */
   return bound > 0 ? (slope + root) / bound : INFINITY;
 }
-
-typedef double sloped_function(const void *self, double x, double *slope); /* f(x) and its slope */
-
-/* Root of f in [a, b], where it falls from f(a) = fa >= 0 to below 0 without turning: Newton from x, kept inside by
- * bisection, to the rounding of origin + x. */
-double falling_root(sloped_function *f, const void *self, double a, double fa, double b, double x, double origin);

@@ -223,3 +223,21 @@ hc_status root_change_guided(root_predicate *beyond, root_predicate *likely, voi
     if (st != HC_OK) return st;
   }
 }
+
+double root_falling(sloped_function *f, const void *self, double a, double fa, double b, double x, double origin)
+{
+  if (!(fa > 0)) return a;
+  for (int it = 0; it < ROOTS_MAX_EVALUATIONS; ++it) {
+    double slope;
+    const double value = f(self, x, &slope);
+    if (value > 0) a = x;
+    else b = x;
+    double next = x - value / slope;
+    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x + origin);
+    if (close) break;
+    if (!(next > a && next < b)) next = 0.5 * (a + b);
+    if (next == x) break;
+    x = next;
+  }
+  return x;
+}

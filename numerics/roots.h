@@ -48,3 +48,8 @@ hc_status root_change(root_predicate *beyond, void *self, double a, double b, do
  * is not counted, and where it fails, it is as if it were wrong. */
 hc_status root_change_guided(root_predicate *beyond, root_predicate *likely, void *self, double a, double b,
                              double tolerance, root_point *out);
+
+typedef double sloped_function(const void *self, double x, double *slope); /* f(x) and its slope, without failure */
+/* The root in [a, b], where f falls from f(a) = fa >= 0 to below 0 without turning: Newton from x, kept inside by
+ * bisection, to the rounding of origin + x. */
+double root_falling(sloped_function *f, const void *self, double a, double fa, double b, double x, double origin);

@@ -38,7 +38,7 @@ hc_status solved_scene_start(solved_scene *s, const scene *sc, double seconds, c
   s->fine.status = HC_NOT_CONVERGED; /* none yet */
   s->predicted = stress_skip(STRESS_NO_ORBIT);
   s->path.status = HC_NOT_CONVERGED;
-  solved_scene_clock(s, STRESS_N_CHECKS); /* they share it */
+  solved_scene_clock(s, STRESS_N_CHECKS); /* all start from it */
   stress_motion_solve(s, s->model, &s->how, s->omega, NULL, 1, &s->base);
   return s->fatal;
 }

@@ -58,7 +58,7 @@ struct solved_scene {
 /* The base solution, from nothing. HC_NO_MEMORY; solved_scene_clear in any case. */
 hc_status solved_scene_start(solved_scene *s, const scene *sc, double seconds, const hc_monitor *outer);
 void solved_scene_clear(solved_scene *s);
-void solved_scene_clock(solved_scene *s, int checks); /* what may take the time of so many starts now */
+void solved_scene_clock(solved_scene *s, int checks); /* the deadline: now and the time of so many checks */
 
 /* HBM of m at omega with how->harmonics, from the guess x[2H+1][m->n], or from nothing where it is NULL. m's responses
  * 1 .. n are the base model's degrees of freedom, in a unit of length of which `length` are one of the base model's. To

@@ -21,7 +21,7 @@ enum { N = COLLOCATION_POINTS };
 typedef struct stick_guard {
   const planar_motion *m;
   double w[2];
-  planar_point last; /* that was asked for */
+  planar_point last; /* evaluated */
 } stick_guard;
 
 static guarded_point guard_at(const stick_guard *s, const planar_point *p)

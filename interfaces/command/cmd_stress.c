@@ -88,7 +88,7 @@ static const cli_option options[] = {
      offsetof(stress_options, findings)},
     {CLI_TEXT, "results", "FILE", "Keep results in FILE as they come, and go on from what is there",
      offsetof(stress_options, plan.journal), .file = "--results", .use = CLI_RESULTS},
-    {CLI_POSITIVE, "seconds", "S", "Processor time for a check, then too_dear [1]; all of it for the first solution",
+    {CLI_POSITIVE, "seconds", "S", "Processor time allowed for a check [1]; the first solution may take that of all",
      offsetof(stress_options, plan.seconds)},
     {CLI_INTEGER, "jobs", "N", "Scenes at once [one a processor]", offsetof(stress_options, plan.jobs), 1, CLI_MAX_JOBS,
      .letter = 'j'},

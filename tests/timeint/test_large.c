@@ -727,9 +727,8 @@ static void check_cvode(const struct orbit *o, transient_law law, double toleran
   memcpy(state, o->state, n_states * sizeof *state);
   CHECK_MADE(timeint, ti, timeint_new(plates, &how, &ti));
   CHECK_FILLED(timeint_result, r, timeint_orbit(ti, o->omega, 1, state, NULL, &r));
-  int asked = 0;
   state[0] *= 1.01; /* a state that no orbit is remembered at */
-  assert_int_equal(timeint_predict(ti, state, &(hc_monitor){stop_once, &asked}, 1, &r), HC_INTERRUPTED);
+  assert_int_equal(timeint_predict(ti, state, &(hc_monitor){stop_once, &(int){0}}, 1, &r), HC_INTERRUPTED);
   state[0] /= 1.01;
   assert_int_equal(timeint_predict(ti, state, NULL, 1, &r), HC_OK);
   const double off = fabs(r.amplitude - o->r.amplitude);

@@ -5,6 +5,7 @@
 
 #include "model/linear.h"
 #include "numerics/exponentials.h"
+#include "numerics/roots.h"
 
 static const double near_resonance = 0.25;  /* of k - 1 + i c: below, r is computed as a divided difference */
 static const double resonant_digits = 1e-3; /* of k - 1 + i c, as the divisor of an integral: loses three digits */
@@ -115,7 +116,7 @@ static double clear_step(const modal_motion *m, const modal_guard *g, const moda
   ++*evaluations;
   if (end >= 0) return one_way;
   const searched_guard self = {m, g, evaluations};
-  *root = falling_root(guard_at, &self, now->tau, f, now->tau + one_way, now->tau + one_way * f / (f - end), m->theta);
+  *root = root_falling(guard_at, &self, now->tau, f, now->tau + one_way, now->tau + one_way * f / (f - end), m->theta);
   return one_way;
 }
 

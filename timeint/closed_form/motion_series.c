@@ -6,6 +6,7 @@
 
 #include "numerics/exponentials.h"
 #include "numerics/norm.h"
+#include "numerics/roots.h"
 
 enum { TERMS = TRACK_TERMS };
 
@@ -249,7 +250,7 @@ double series_first_fall(const track_guard *guard, double h)
     if (f < -guard->noise) return tau;
     if (one_way > safe) {
       if (series_value(c, tau + one_way) < 0)
-        return falling_root(value_and_slope, c, tau, f, tau + one_way, tau + 0.5 * one_way, 0);
+        return root_falling(value_and_slope, c, tau, f, tau + one_way, tau + 0.5 * one_way, 0);
       next = tau + one_way;
     }
     if (!(next > tau)) return tau; /* NaN, or a root here */

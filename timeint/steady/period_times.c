@@ -7,8 +7,7 @@
 
 /* [1] What a monodromy matrix takes of a plain period, for each state. In closed form, of structures in
  * cases/structures/: bladed_disk 0.11, plates 0.12, blade_damper 0.23, beam_pairs 0.43, blade_damper_reduced 0.55. By
- * CVODES: beam16. Where no contact changes its state: blade_damper at 280; by how many do, it is between the two, as
- * rounding decides there whether some still slip in the first period. */
+ * CVODES: beam16. At rest no contact changes its state: blade_damper at 280. In between, by the share that changes. */
 static const double matrix_by_closed_form = 0.25, matrix_at_rest = 0.025, matrix_by_cvodes = 0.7;
 
 /* [s] of the last of `count` periods from `state`: the first may keep modes for the others (interval_modes.h). */
