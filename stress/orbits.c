@@ -343,7 +343,7 @@ static double multipliers_apart(const stress_motion *h, const stress_path *p)
  * then is. Contacts much stiffer than the structure close for so short a time that many harmonics move its ends.
  *
  * As x'' is bounded, harmonics fall as 1/h^2 or faster, and truncation moves x, and with it the instants at which
- * contacts change, by 1/H or less. So *truncated where the last doubling halved the difference or brought it within the
+ * contacts change, by 1/H or less. So *truncated where at last the difference fell as 1/H or faster, or within the
  * bound. A contact that is shorter than the last harmonic's period has as large a share in all harmonics: the
  * difference falls in proportion to their number, and the multiplier is *unresolved. That is evidence, not a bound:
  * what is left may hide an error as large as itself. */
@@ -362,8 +362,8 @@ static double better_multiplier(solved_scene *s, double error, double bound, boo
     stress_motion_free(&h);
     h = finer, from = &h;
     if (isnan(now)) break;
-    const bool halved = now <= fmax(bound, error / 2); /* by less than twice the harmonics, too */
-    if (halved || more == 2 * n) *truncated = halved;
+    const bool falls = now <= fmax(bound, error * n / more);
+    if (falls || more == 2 * n) *truncated = falls;
     *unresolved = error - now >= 0.9 * (more - n) * fell && fell > 0;
     fell = (error - now) / (more - n);
     error = now;
