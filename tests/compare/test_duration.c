@@ -61,7 +61,7 @@ static void only_what_can_last_is_measured(CHECK_STATE)
   assert_true(beam.period.matrix > 0 && beam.period.cvodes_matrix > 0);
   assert_true(!beam.period.chords && plates.period.chords);         /* 16 modes, 84 */
   const duration_units blade = units_of("structures/blade_damper"); /* 534 states, nothing changes */
-  CHECK_LE(blade.period.matrix, 8 * blade.period.closed_form, "as little as some periods; 22 where contacts change");
+  CHECK_LE(blade.period.matrix, 11 * blade.period.closed_form, "6 periods, 22 if all change; both times vary by half");
   CHECK_LE(10 * beam.period.closed_form, plates.period.closed_form, "a period of 84 modes and 24 contact rows");
 }
 
