@@ -8,6 +8,7 @@
 
 static const double rounding = 64 * DBL_EPSILON; /* of a term, relative: what it was computed from, too */
 static const double nothing = 1e-3;              /* [noise] what terms left out may add up to */
+
 /* e^{rate tau}, and its modulus. */
 static double complex exponential(double complex rate, double tau, double *size)
 {

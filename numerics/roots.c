@@ -233,8 +233,7 @@ double root_falling(sloped_function *f, const void *self, double a, double fa, d
     if (value > 0) a = x;
     else b = x;
     double next = x - value / slope;
-    const bool close = fabs(next - x) <= 2 * DBL_EPSILON * (1 + x + origin);
-    if (close) break;
+    if (fabs(next - x) <= 2 * DBL_EPSILON * (1 + x + origin)) break;
     if (!(next > a && next < b)) next = 0.5 * (a + b);
     if (next == x) break;
     x = next;

@@ -39,7 +39,7 @@ static found swept(const scene *sc, bool scout, double from, double omega)
   return f;
 }
 
-/* [1] How far from the orbit; a closure below what integration's errors allow is so by chance. */
+/* [1] The distance to the orbit that r states; a closure smaller than `attainable` is a coincidence. */
 static double said(const timeint_result *r) { return r->attainable > 2 * r->closure ? r->attainable : 2 * r->closure; }
 
 /* Two points of one orbit, within the scenes' tolerance whatever they say; x(t) at most twice as far off as the state
