@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "numerics/norm.h"
+#include "numerics/wide_vectors.h"
 
 void dsygvd_(const int *type, const char *job, const char *half, const int *n, double *a, const int *lda, double *b,
              const int *ldb, double *w, double *work, const int *lwork, int *iwork, const int *liwork, int *info,
@@ -16,9 +17,6 @@ void dsygvd_(const int *type, const char *job, const char *half, const int *n, d
 void dgemm_(const char *transpose_a, const char *transpose_b, const int *m, const int *n, const int *k,
             const double *alpha, const double *a, const int *lda, const double *b, const int *ldb, const double *beta,
             double *c, const int *ldc, size_t a_length, size_t b_length);
-void dgemv_(const char *transposed, const int *m, const int *n, const double *alpha, const double *a, const int *lda,
-            const double *x, const int *step_x, const double *beta, double *y, const int *step_y,
-            size_t transposed_length);
 void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivot, int *info);
 void dgetrs_(const char *transposed, const int *n, const int *columns, const double *a, const int *lda,
              const int *pivot, double *b, const int *ldb, int *info, size_t transposed_length);
@@ -57,17 +55,8 @@ void dense_end_idle_threads(void)
   if (blas_thread_shutdown_) blas_thread_shutdown_();
 }
 
-static void begin_turn(void)
-{
-  if (takes_turns) pthread_mutex_lock(&turn);
-}
-
-static void end_turn(void)
-{
-  if (takes_turns) pthread_mutex_unlock(&turn);
-}
-
-#define IN_TURN(call) (begin_turn(), (call), end_turn())
+#define IN_TURN(call)                                                                                                  \
+  ((void)(takes_turns && pthread_mutex_lock(&turn)), (call), (void)(takes_turns && pthread_mutex_unlock(&turn)))
 
 static size_t square(int n) { return (size_t)n * (size_t)n; }
 
@@ -104,19 +93,12 @@ void dense_add_product(int m, int n, int k, double alpha, const double *A, int l
   if (m > 0 && n > 0) IN_TURN(dgemm_("N", "N", &m, &n, &k, &alpha, A, &lda, B, &rows_of_B, &beta, C, &ldc, 1, 1));
 }
 
-void dense_times_vector(int m, int n, double alpha, const double *A, const double *x, double beta, double *y)
+/* sum += alpha A x */
+WIDE_VECTORS static void add_columns(size_t rows, int n, double alpha, const double *A, const double *x,
+                                     double *restrict sum)
 {
-  enum { BY_BLAS = 1024 }; /* entries from where on a call is less than loops */
-  const int one = 1;
-  if (m * n >= BY_BLAS) {
-    IN_TURN(dgemv_("N", &m, &n, &alpha, A, &m, x, &one, &beta, y, &one, 1));
-    return;
-  }
-  const size_t rows = (size_t)m;
   const double *restrict column = A;
-  double *restrict sum = y;
   int j = 0;
-  for (size_t i = 0; i < rows && beta != 1; ++i) sum[i] = beta == 0 ? 0 : beta * sum[i];
   for (; j + 4 <= n; j += 4, column += 4 * rows) { /* what sum[i] costs, once for four columns */
     const double a = alpha * x[j], b = alpha * x[j + 1], c = alpha * x[j + 2], d = alpha * x[j + 3];
     for (size_t i = 0; i < rows; ++i)
@@ -126,6 +108,37 @@ void dense_times_vector(int m, int n, double alpha, const double *A, const doubl
     const double a = alpha * x[j];
     for (size_t i = 0; i < rows; ++i) sum[i] += a * column[i];
   }
+}
+
+void dense_times_vector(int m, int n, double alpha, const double *A, const double *x, double beta, double *y)
+{
+  for (int i = 0; i < m && beta != 1; ++i) y[i] = beta == 0 ? 0 : beta * y[i];
+  add_columns((size_t)m, n, alpha, A, x, y);
+}
+
+/* Four partial sums side by side; from wherever a double may be. */
+typedef double four __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+#define FOUR_AT(a) (*(const four *)(a))
+#define SUM_OF(s)  ((s[0] + s[1]) + (s[2] + s[3]))
+
+WIDE_VECTORS void dense_rows_times_vector(int n, int rows, const double *A, const double *x, double *y)
+{
+  const size_t length = (size_t)n;
+  int r = 0;
+  for (const double *a = A; r + 4 <= rows; r += 4, a += 4 * length) { /* x is loaded once for four rows */
+    const double *b = a + length, *c = b + length, *d = c + length;
+    four p = {0}, q = {0}, s = {0}, t = {0};
+    size_t i = 0;
+    for (; i + 4 <= length; i += 4) {
+      const four z = FOUR_AT(x + i);
+      p += FOUR_AT(a + i) * z, q += FOUR_AT(b + i) * z, s += FOUR_AT(c + i) * z, t += FOUR_AT(d + i) * z;
+    }
+    y[r] = SUM_OF(p), y[r + 1] = SUM_OF(q), y[r + 2] = SUM_OF(s), y[r + 3] = SUM_OF(t);
+    for (; i < length; ++i)
+      y[r] += a[i] * x[i], y[r + 1] += b[i] * x[i], y[r + 2] += c[i] * x[i], y[r + 3] += d[i] * x[i];
+  }
+  for (; r < rows; ++r) y[r] = dot_product(n, A + (size_t)r * length, x);
 }
 
 void dense_transpose(int rows, int columns, const double *A, double *B)
@@ -193,13 +206,6 @@ hc_status dense_modes(int n, const double *K, const double *M, double *lambda, d
   return st;
 }
 
-/* a/|a|, or 0. */
-static void copy_unit(int n, const double *a, double *unit)
-{
-  const double length = norm_2(n, a);
-  for (int i = 0; i < n; ++i) unit[i] = length > 0 ? a[i] / length : 0;
-}
-
 /* QR with column pivoting of A[rows][n] in place; then tau[], the pivots from 0, and how many diagonal entries of R
  * count. */
 static hc_status pivoted_qr(int n, int rows, double *A, double tolerance, int *pivot, double *tau, double *work,
@@ -224,7 +230,10 @@ hc_status dense_span(int n, int rows, const double *const *row, double tolerance
          *work = calloc((size_t)work_length, sizeof *work);
   int info = 0;
   hc_status st = A && tau && work ? HC_OK : HC_NO_MEMORY;
-  for (int i = 0; i < rows && st == HC_OK; ++i) copy_unit(n, row[i], A + (size_t)i * (size_t)n);
+  for (int i = 0; i < rows && st == HC_OK; ++i) { /* a/|a|, or 0 */
+    const double length = norm_2(n, row[i]);
+    for (int k = 0; k < n; ++k) A[(size_t)i * (size_t)n + (size_t)k] = length > 0 ? row[i][k] / length : 0;
+  }
   if (st == HC_OK) st = pivoted_qr(n, rows, A, tolerance, pivot, tau, work, work_length, rank);
   if (st == HC_OK) {
     for (int c = 0; c < *rank; ++c)
@@ -305,7 +314,7 @@ static bool take_pivot(int n, double *A, int k, int *pivot)
 }
 
 /* dgetrf for matrices so small that its calls cost more than they gain (table in dense.h). */
-static bool factor_small(int n, double *A, int *pivot)
+WIDE_VECTORS static bool factor_small(int n, double *A, int *pivot)
 {
   for (int first = 0; first < n; first += PANEL) {
     const int end = first + PANEL < n ? first + PANEL : n;
@@ -329,7 +338,7 @@ hc_status dense_factor(int n, double *A, int *pivot)
   return HC_OK;
 }
 
-static void solve_small(int n, const double *restrict A, const int *pivot, double *restrict x)
+WIDE_VECTORS static void solve_small(int n, const double *restrict A, const int *pivot, double *restrict x)
 {
   for (int k = 0; k < n; ++k) {
     const double kept = x[k];

@@ -23,6 +23,9 @@ void dense_add_product(int m, int n, int k, double alpha, const double *A, int l
 /* y := alpha A x + beta y; A[m][n] by columns. y is not read where beta is 0. */
 void dense_times_vector(int m, int n, double alpha, const double *A, const double *x, double beta, double *y);
 
+/* y[rows] := A x; A[rows][n] by rows. */
+void dense_rows_times_vector(int n, int rows, const double *A, const double *x, double *y);
+
 /* C = A^T B A, C[m][m] of A[n][m] and B[n][n]; work[2 n m]. */
 void dense_congruence(int n, int m, const double *A, const double *B, double *work, double *C);
 

@@ -28,8 +28,8 @@ void timeint_free(timeint *ti);
 timeint *timeint_closed_form_of(timeint *ti);
 
 /* The same for the model and transient.scout of `of`, with which it shares what it finds in closed form; either may be
- * freed first. Of the exact law and a large structure it is that closed form itself. Not for another thread than that
- * of `of`; what is found in closed form counts as periods of `of`. */
+ * freed first. Of the exact law and a large structure it is that closed form itself, with the tolerance it has. Not for
+ * another thread than that of `of`; what is found in closed form counts as periods of `of`. */
 hc_status timeint_new_beside(timeint *of, const transient_settings *how, timeint **out);
 
 /* Does CVODE see modes slowed at omega (steady/mass_scaling.h)? */

@@ -386,16 +386,11 @@ static double amplitude_of(hbm_solver *s, const double *X)
   return motion_amplitude(max, min);
 }
 
-static hc_status solve_at_position(const peak_search *p, double position)
-{
-  const int k = position < 0 ? p->top - 1 : p->top;
-  return hbm_segment_point(p->s, p->c, k, position - (k - p->top), p->x);
-}
-
 static hc_status minus_amplitude_at(void *self, double position, double *minus_amplitude)
 {
   const peak_search *p = self;
-  const hc_status st = solve_at_position(p, position);
+  const int k = position < 0 ? p->top - 1 : p->top;
+  const hc_status st = hbm_segment_point(p->s, p->c, k, position - (k - p->top), p->x);
   *minus_amplitude = st == HC_OK ? -amplitude_of(p->s, p->x->X) : NAN;
   return st;
 }

@@ -19,6 +19,7 @@
 #include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 #include "numerics/norm.h"
+#include "numerics/wide_vectors.h"
 
 enum { S = 5 /* points of a step */, MOST_ROWS = 3 };
 
@@ -671,7 +672,7 @@ static inline void add_row(int columns, double by, const double *restrict from, 
 }
 
 /* f->q: motions without what contact forces change but for dheld; f->zeta at the start. */
-static void fill_free(modal_flow *f, int columns, const double *phi)
+WIDE_VECTORS static void fill_free(modal_flow *f, int columns, const double *phi)
 {
   const size_t n = (size_t)f->n, rows = (size_t)f->rows, states = (size_t)f->n_states, width = (size_t)columns;
   dense_add_product(columns, S * f->rows, 2 * f->n, 1, phi, f->n_states, f->Q, 2 * f->n, 0, f->q, columns);
@@ -692,7 +693,7 @@ static void fill_free(modal_flow *f, int columns, const double *phi)
 }
 
 /* f->u: right sides, by rows. */
-static void fill_right(modal_flow *f, int columns)
+WIDE_VECTORS static void fill_right(modal_flow *f, int columns)
 {
   const size_t width = (size_t)columns, rows = (size_t)f->rows;
   for (int s = 0; s < f->n_sites; ++s) {
@@ -715,7 +716,7 @@ static void fill_right(modal_flow *f, int columns)
 }
 
 /* Forces at the points, by rows. */
-static void fill_forces(modal_flow *f, int columns, const double *phi)
+WIDE_VECTORS static void fill_forces(modal_flow *f, int columns, const double *phi)
 {
   const size_t width = (size_t)columns, rows = (size_t)f->rows, states = (size_t)f->n_states;
   memset(f->f, 0, S * rows * width * sizeof *f->f);
@@ -734,7 +735,7 @@ static void fill_forces(modal_flow *f, int columns, const double *phi)
 }
 
 /* phi at the end of the step. */
-static void finish(modal_flow *f, int columns, double *phi)
+WIDE_VECTORS static void finish(modal_flow *f, int columns, double *phi)
 {
   const size_t n = (size_t)f->n, states = (size_t)f->n_states, width = (size_t)columns;
   for (size_t k = 0; k < n; ++k) {

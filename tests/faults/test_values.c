@@ -47,9 +47,10 @@ WRAP(const double *, contact_forces_jacobian, (contact_forces * f))
 }
 
 WRAP(bool, structure_newton_rate,
-     (const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy))
+     (const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy,
+      contact_state *state))
 {
-  bool finite = __real_structure_newton_rate(s, m, theta, y, dy);
+  bool finite = __real_structure_newton_rate(s, m, theta, y, dy, state);
   if (!strikes()) return finite;
   dy[m->n] = now.value;
   return !now.honest;

@@ -227,8 +227,8 @@ static void threads_may_ask_at_once(CHECK_STATE)
   }
 }
 
-/* alpha A x + beta y by loops and by BLAS, from 1024 entries on: n products and as many sums. With beta = 0 what y was
- * is not read. */
+/* alpha A x + beta y, and A x of the same numbers by rows: n products and as many sums. With beta = 0 what y was is not
+ * read. */
 static void matrices_times_vectors(CHECK_STATE)
 {
   enum { MOST = 96 };
@@ -249,6 +249,12 @@ static void matrices_times_vectors(CHECK_STATE)
         double sum = beta * begun[i], terms = fabs(sum);
         for (int j = 0; j < n; ++j) sum += alpha * A[i + m * j] * x[j], terms += fabs(alpha * A[i + m * j] * x[j]);
         CHECK_NEAR(y[i], sum, (n + 3) * DBL_EPSILON * terms, "%d x %d, alpha %g, beta %g: [%d]", m, n, alpha, beta, i);
+      }
+      dense_rows_times_vector(n, m, A, x, y);
+      for (int i = 0; i < m; ++i) {
+        double sum = 0, terms = 0;
+        for (int j = 0; j < n; ++j) sum += A[n * i + j] * x[j], terms += fabs(A[n * i + j] * x[j]);
+        CHECK_NEAR(y[i], sum, (n + 3) * DBL_EPSILON * terms, "%d x %d by rows: [%d]", m, n, i);
       }
     }
 }

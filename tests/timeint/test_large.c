@@ -227,23 +227,26 @@ static int check_rate(uint64_t *seed, const drawn *d, int trial)
   workspace memory = {0};
   const int n = d->scaled.n_states;
   double *y = calloc(3 * (size_t)n, sizeof *y), *dy[2] = {y + n, y + 2 * n};
+  contact_state *state = calloc((size_t)n, sizeof *state);
   CHECK_FILLED(structure_newton, s, structure_newton_make(&s, d->base, &memory));
   for (int at = 0; at < 3; ++at) {
     double size = 1;
     for (int i = 0; i < n; ++i) y[i] = random_signed(seed), dy[0][i] = dy[1][i] = NAN;
     assert_true(scaled_rhs(&d->scaled, 1 + at, y, dy[0]));
-    assert_true(structure_newton_rate(&s, &d->scaled, 1 + at, y, dy[1]));
+    assert_true(structure_newton_rate(&s, &d->scaled, 1 + at, y, dy[1], state));
+    for (int j = 0; j < d->scaled.n_contacts; ++j) assert_int_equal(state[j], scaled_contact_state(&d->scaled, j, y));
     for (int i = 0; i < n; ++i) size = fmax(size, fabs(dy[0][i]));
     for (int i = 0; i < n; ++i)
       CHECK_NEAR(dy[1][i], dy[0][i], 100 * (d->scaled.n + s.step.n_rows) * DBL_EPSILON * size, "trial %d, rate %d",
                  trial, i);
     y[random_int(seed, 0, n - 1)] = NAN;
-    assert_int_equal(structure_newton_rate(&s, &d->scaled, 1, y, dy[1]), scaled_rhs(&d->scaled, 1, y, dy[0]));
+    assert_int_equal(structure_newton_rate(&s, &d->scaled, 1, y, dy[1], NULL), scaled_rhs(&d->scaled, 1, y, dy[0]));
     y[random_int(seed, 0, 2 * d->scaled.n - 1)] = NAN; /* whatever a slider without friction is */
-    assert_false(structure_newton_rate(&s, &d->scaled, 1, y, dy[1]));
+    assert_false(structure_newton_rate(&s, &d->scaled, 1, y, dy[1], NULL));
   }
   const int entries = s.step.n_rows * d->scaled.n;
   workspace_free(&memory);
+  free(state);
   free(y);
   return entries;
 }
@@ -295,11 +298,11 @@ static struct orbit {
 } orbits[N_ORBITS];
 
 /* orbit[n] next to solutions of HBM; their states are the caller's. */
-static void find_at(structure_case *c, int n, const double *hertz, struct orbit *orbit)
+static void find_at(structure_case *c, const transient_settings *how, int n, const double *hertz, struct orbit *orbit)
 {
   hbm_solver *s = structure_solver(c);
   double *X = calloc((size_t)hbm_n_coefficients(s), sizeof *X);
-  CHECK_MADE(timeint, ti, timeint_new(c->model, &closed_form, &ti));
+  CHECK_MADE(timeint, ti, timeint_new(c->model, how, &ti));
   for (int k = 0; k < n; ++k) {
     struct orbit *o = &orbit[k];
     o->omega = TWO_PI * hertz[k];
@@ -317,7 +320,7 @@ static int find_orbits(CHECK_STATE)
 {
   structure_case c = structure_case_named("plates", 7);
   plates = c.model;
-  find_at(&c, N_ORBITS, frequency, orbits);
+  find_at(&c, &closed_form, N_ORBITS, frequency, orbits);
   return 0;
 }
 
@@ -406,7 +409,7 @@ static void orbits_are_found_where_nothing_is_slowed(CHECK_STATE)
   struct orbit found[3];
   CHECK_MADE(modal_base, base, modal_base_new(c.model, &base));
   assert_true(isinf(mass_scaling_fastest(base, TWO_PI * hertz[1])));
-  find_at(&c, 3, hertz, found);
+  find_at(&c, &closed_form, 3, hertz, found);
   for (int k = 0; k < 3; ++k) CHECK_LE(found[k].r.closure, 1e-10, "orbit %d", k);
   CHECK_NEAR(found[2].r.amplitude, found[0].r.amplitude, 1e-9 * found[0].r.amplitude, "there and back");
   for (int k = 0; k < 3; ++k) free(found[k].state);
@@ -560,7 +563,8 @@ static int follow_as_springs(const scaled_model *m, const double *y, int *fast, 
 
 /* Every third column of the matrix of a structure with slowed modes, at the plates' orbits: modes that are not slowed
  * move, those that are follow as springs; columns of the latter are 0. Against differences of its period map along that
- * motion: 1e-12 of rounding over 2 e, and e times the second derivative where transitions move. */
+ * motion: 1e-12 of rounding over 2 e, e times the second derivative where transitions move, and what steps leave out of
+ * a column, 1e-5 each: of ten of them, 2.3 are seen. */
 static void slowed_modes_follow_in_columns(CHECK_STATE)
 {
   const double e = 1e-7;
@@ -585,7 +589,7 @@ static void slowed_modes_follow_in_columns(CHECK_STATE)
         for (int f = 0; f < count; ++f) v[fast[f] + (q < n ? 0 : n)] = F[f + q % n * count];
         apply_differences(&p, 1, v, e, moved);
         for (int i = 0; i < 2 * n; ++i)
-          CHECK_NEAR(phi[i + q * states], creal(moved[i]), 1e-5 * fmax(1, largest), "%g Hz: [%d, %d]", frequency[k], i,
+          CHECK_NEAR(phi[i + q * states], creal(moved[i]), 1e-4 * fmax(1, largest), "%g Hz: [%d, %d]", frequency[k], i,
                      q);
         ++compared;
       } else {
@@ -735,7 +739,13 @@ static void check_cvode(const struct orbit *o, transient_law law, double toleran
   CHECK_LE(off, r.predicted.amplitude, "law %d", law);
   CHECK_LE(r.predicted.amplitude, 1e-4 * o->r.amplitude, "law %d: predicted", law);
   assert_true(r.rhs > 0); /* by CVODE */
-  timeint_free(ti);
+  how.tolerance /= 10;
+  CHECK_MADE(timeint, finer, timeint_new_beside(ti, &how, &finer));
+  timeint *closed = timeint_closed_form_of(ti),
+          *same = law == TRANSIENT_LAW_EXACT ? finer : timeint_closed_form_of(finer);
+  assert_ptr_equal(same, closed);
+  timeint_free(closed), timeint_free(ti), timeint_free(finer);
+  if (law != TRANSIENT_LAW_EXACT) timeint_free(same);
   free(state);
 }
 
@@ -747,9 +757,26 @@ static void cvode_is_off_by_what_it_predicts(CHECK_STATE)
   check_cvode(&orbits[1], TRANSIENT_LAW_EXACT, 1e-7);
 }
 
+/* Pairs that come to rest do so in closed form, however little they slip on their way there: else no matrix tells CVODE
+ * where its own orbit is, which takes some forty periods then. */
+static void pairs_come_to_rest_before_cvode(CHECK_STATE)
+{
+  structure_case c = structure_case_named("blade_damper", 3);
+  transient_settings how = closed_form;
+  struct orbit o;
+  how.method = TRANSIENT_METHOD_CVODE;
+  how.law = TRANSIENT_LAW_REGULARISED;
+  how.scout = true;
+  how.tolerance = 1e-9;
+  find_at(&c, &how, 1, &(double){300}, &o);
+  CHECK_LE(o.r.periods, 4, "periods by CVODE");
+  free(o.state);
+  model_free(c.model);
+}
+
 CHECK_TESTS_WITH("timeint.large", 120, find_orbits, free_orbits, slowed_modes_stay_springs,
                  neighbours_share_the_fastest_mode, small_or_unsymmetric_structures_are_not_slowed,
                  rates_by_rows_are_the_equations, orbits_close, orbits_are_found_where_nothing_is_slowed,
                  orbits_are_those_of_another_integrator, slowed_modes_follow_in_columns,
                  the_multiplier_is_that_of_the_whole_model, orbits_need_no_matrix_of_their_own, rest_leads_to_the_orbit,
-                 cvode_is_off_by_what_it_predicts)
+                 cvode_is_off_by_what_it_predicts, pairs_come_to_rest_before_cvode)

@@ -10,6 +10,9 @@
 /* [reach of the motion] Terms of columns grow with their number faster by a factor of 0.7. Where 1e-6 is enough, powers
  * up to 24 of twice a step that is good to rounding leave 2^24 of that, 1e-9; where even that fails, half as long. */
 static const double fine_step = 0.7, coarse_step = 2;
+/* [column] What a step leaves out of a coarse matrix: 4e-11 of a multiplier seen. Of one with slowed modes, which are
+ * 4e-6 of a multiplier themselves, 1e-7 of it was seen with a hundred times as much. */
+static const double of_coarse = 1e-6, of_slowed = 1e-5;
 
 /* to[count] += by from[count] */
 static void add_real(int count, double by, const double *restrict from, double *restrict to)
@@ -167,8 +170,8 @@ static bool has_slip_that_turns(const scaled_model *m, const contact_track *trac
 static double step_along(fundamental_matrix *v, const scaled_model *m, double most)
 {
   const double shortest = 1e-12; /* [reach] */
-  const double held = motion_series_hold(m, v->track, v->y);
-  const double reach = motion_series_begin(&v->motion, m, v->track, v->theta, v->y);
+  double held;
+  const double reach = motion_series_begin(&v->motion, m, v->track, v->theta, v->y, &held);
   double h = fmin(most, fmin(held, v->safe * reach));
   if (!(h > 0)) return 0;
   series_columns_begin(&v->series, m, v->track);
@@ -250,9 +253,9 @@ hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m,
                                    const double *y, bool coarse)
 {
   const size_t n = (size_t)v->n_states;
-  coarse = coarse || v->n_slowed > 0;
-  series_columns_coarse(&v->series, coarse);
-  v->safe = coarse ? coarse_step : fine_step;
+  const bool fine = !coarse && v->n_slowed == 0;
+  v->series.rounding = v->n_slowed > 0 ? of_slowed : coarse ? of_coarse : SERIES_COLUMNS_ROUNDING;
+  v->safe = fine ? fine_step : coarse_step;
   hc_status st = v->n_slowed > 0 ? find_following(v, m, track) : HC_OK;
   if (st != HC_OK) return st;
   memset(v->rows, 0, n * n * sizeof *v->rows);

@@ -48,7 +48,8 @@ typedef struct fundamental_matrix {
 hc_status fundamental_matrix_make(fundamental_matrix *v, const modal_base *base, interval_modes *modes,
                                   workspace *memory);
 
-/* The identity at theta = 0, contacts as they begin there at y[n_states]; coarse: good to 1e-6 a step alone.
+/* The identity at theta = 0, contacts as they begin there at y[n_states]; coarse: good to 1e-6 a step alone, as
+ * those with slowed modes are to 1e-5.
  * HC_SINGULAR: slowed modes are no springs. */
 hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m, const contact_track *track,
                                    const double *y, bool coarse);

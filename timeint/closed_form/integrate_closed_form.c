@@ -125,7 +125,7 @@ static hc_status end_step(by_series *in, int changing, track_event event, bool v
   /* At the end of the step. */
   for (int j = 0; j < in->n_contacts; j += scaled_directions(in->m, j)) {
     if (!in->track[j].turns) continue;
-    const contact_motion at = scaled_motion_at(in->m, j, in->end);
+    const contact_motion at = contact_at_end(in, j);
     contact_track_note(&in->track[j], &in->m->contact[j], &at);
   }
   in->theta = theta;
@@ -137,8 +137,9 @@ static hc_status step_by_series(by_series *in, bool varies, integrate_watch *wat
 {
   track_event event = TRACK_STICKS;
   const double left = TWO_PI - in->theta;
-  const double held = motion_series_hold(in->m, in->track, in->y);
-  const double reach = fmin(held, motion_series_begin(&in->series, in->m, in->track, in->theta, in->y));
+  double held;
+  const double exact = motion_series_begin(&in->series, in->m, in->track, in->theta, in->y, &held);
+  const double reach = fmin(held, exact);
   if (!(reach > 0)) return HC_NOT_FINITE;
   in->length = fmin(reach, left);
   const int changing = find_event(in, &event);

@@ -7,6 +7,7 @@
 #include "numerics/exponentials.h"
 #include "numerics/norm.h"
 #include "numerics/roots.h"
+#include "numerics/wide_vectors.h"
 
 enum { TERMS = TRACK_TERMS };
 
@@ -52,10 +53,11 @@ static void add_turning(motion_series *s, const scaled_model *m, int k)
   }
 }
 
-/* The tau up to which what is left out is rounding of what is kept, or of `size` if that is more. */
-static double reach(const motion_series *s, double size)
+/* The tau up to which what is left out is rounding of what is kept, or of 1, about what a motion is. */
+static double reach(const motion_series *s)
 {
   const size_t n = (size_t)s->n;
+  double size = 1;
   for (size_t k = 0; k < 3; ++k) size = fmax(size, norm_max(s->n, s->x + k * n));
   double tau = INFINITY;
   for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) {
@@ -67,28 +69,23 @@ static double reach(const motion_series *s, double size)
   return tau;
 }
 
-static double expand(motion_series *s, const scaled_model *m, bool loaded, double theta, const double *y)
+static double expand(motion_series *s, const scaled_model *m, double theta)
 {
   const modal_base *b = m->base;
   const size_t n = (size_t)s->n;
-  memcpy(s->x, y, 2 * n * sizeof *y);
-  project(s, 0);
-  project(s, 1);
   for (int k = 0; k + 2 <= TRACK_ORDER; ++k) {
     const double *x = s->x + (size_t)k * n;
     double *force = s->force, *next = s->x + (size_t)(k + 2) * n;
     memset(force, 0, n * sizeof *force);
     /* The loads' coefficient k, from that of their cosine and sine. */
-    if (loaded) {
-      for (int l = 0; l < b->n_loads; ++l) {
-        double *c = s->load + 2 * l;
-        const double h = b->harmonic[l], before = c[0];
-        if (k == 0) c[0] = cos(h * theta), c[1] = sin(h * theta);
-        else c[0] = -h * c[1] / k, c[1] = h * before / k;
-        const double by_cosine = m->by_load * c[0], by_sine = m->by_load * c[1];
-        const double *cosine = b->cosine + (size_t)l * (size_t)s->n, *sine = b->sine + (size_t)l * (size_t)s->n;
-        for (int i = 0; i < s->n; ++i) force[i] += by_cosine * cosine[i] + by_sine * sine[i];
-      }
+    for (int l = 0; l < b->n_loads; ++l) {
+      double *c = s->load + 2 * l;
+      const double h = b->harmonic[l], before = c[0];
+      if (k == 0) c[0] = cos(h * theta), c[1] = sin(h * theta);
+      else c[0] = -h * c[1] / k, c[1] = h * before / k;
+      const double by_cosine = m->by_load * c[0], by_sine = m->by_load * c[1];
+      const double *cosine = b->cosine + (size_t)l * (size_t)s->n, *sine = b->sine + (size_t)l * (size_t)s->n;
+      for (int i = 0; i < s->n; ++i) force[i] += by_cosine * cosine[i] + by_sine * sine[i];
     }
     modal_base_subtract_K(b, m->by_K, x, force);
     modal_base_subtract_C(b, m->by_C * (k + 1), x + n, force);
@@ -106,26 +103,32 @@ static double expand(motion_series *s, const scaled_model *m, bool loaded, doubl
     project(s, k + 2);
   }
   for (int k = TRACK_ORDER - 1; k <= TRACK_ORDER; ++k) add_turning(s, m, k); /* for their directions */
-  double tau = reach(s, loaded ? 1 : 0);                                     /* a motion is about 1 */
+  double tau = reach(s);
   for (int i = 0; i < s->n_turning; ++i) tau = fmin(tau, planar_series_reach(&s->turning[i]));
   return tau;
 }
 
-double motion_series_hold(const scaled_model *m, contact_track *track, const double *y)
+/* Which slips' directions are held from there on (law_kind.h); the longest step on which that holds. */
+static double hold(const motion_series *s, const scaled_model *m, contact_track *track)
 {
   double reach = INFINITY;
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     const scaled_contact *c = &m->contact[j];
     if (!c->kind->hold || contact_slip_sign(track[j].state) == 0) continue;
-    const contact_motion at = scaled_motion_at(m, j, y);
+    const double *u = s->u + (size_t)j * TERMS, *v = s->v + (size_t)j * TERMS; /* of two directions */
+    const contact_motion at = {.u = {u[0], u[TERMS]}, .v = v[0], .du = {u[1], u[TERMS + 1]}, .dv = v[1]};
     reach = fmin(reach, c->kind->hold(&track[j], c, &at));
   }
   return reach;
 }
 
-double motion_series_begin(motion_series *s, const scaled_model *m, const contact_track *track, double theta,
-                           const double *y)
+double motion_series_begin(motion_series *s, const scaled_model *m, contact_track *track, double theta, const double *y,
+                           double *held)
 {
+  memcpy(s->x, y, 2 * (size_t)s->n * sizeof *y);
+  project(s, 0);
+  project(s, 1);
+  *held = hold(s, m, track);
   s->n_turning = 0;
   for (int j = 0; j < s->n_contacts; ++j) {
     const size_t at = (size_t)j * TERMS;
@@ -133,21 +136,20 @@ double motion_series_begin(motion_series *s, const scaled_model *m, const contac
     if (track[j].turns && m->contact[j].direction == 0)
       planar_series_begin(&s->turning[s->n_turning++], j, &track[j], s->u + at, s->v + at);
   }
-  return expand(s, m, true, theta, y);
+  return expand(s, m, theta);
 }
 
-void motion_series_at(const motion_series *s, double tau, int order, double *out)
+WIDE_VECTORS void motion_series_at(const motion_series *s, double tau, int order, double *out)
 {
-  const size_t n = (size_t)s->n;
-  for (size_t i = 0; i < n; ++i) {
-    double x = 0, p = 0, a = 0; /* the value, its rate, half the rate of that */
-    for (size_t k = TERMS; k-- > 0;) {
-      a = a * tau + p;
-      p = p * tau + x;
-      x = x * tau + s->x[k * n + i];
+  const int n = s->n;
+  double *restrict sum = out, *restrict slope = out + n;
+  memset(out, 0, 2 * (size_t)n * sizeof *out);
+  for (int k = TERMS - 1; k >= order; --k) {
+    const double *restrict x = s->x + (size_t)k * (size_t)n, by = order == 0 ? 1 : k;
+    for (int i = 0; i < n; ++i) {
+      slope[i] = slope[i] * tau + sum[i];
+      sum[i] = sum[i] * tau + by * x[i];
     }
-    out[i] = order == 0 ? x : p;
-    out[n + i] = order == 0 ? p : 2 * a;
   }
 }
 

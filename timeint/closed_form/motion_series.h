@@ -31,12 +31,11 @@ typedef struct motion_series {
 /* Arrays are memory's. HC_NO_MEMORY. */
 hc_status motion_series_make(motion_series *s, const modal_base *base, workspace *memory);
 
-/* The series from X = y[0..n-1], X' = y[n..2n-1] at theta, and how far it is exact to rounding (INFINITY: for ever). */
-double motion_series_begin(motion_series *s, const scaled_model *m, const contact_track *track, double theta,
-                           const double *y);
-
-/* Before it: which slips' directions are held from y on (law_kind.h); the longest step on which that holds. */
-double motion_series_hold(const scaled_model *m, contact_track *track, const double *y);
+/* The series from X = y[0..n-1], X' = y[n..2n-1] at theta, and how far it is exact to rounding (INFINITY: for ever).
+ * Before, slips that have no time left to turn are held in their direction (law_kind.h): *held is the longest step on
+ * which that holds. */
+double motion_series_begin(motion_series *s, const scaled_model *m, contact_track *track, double theta, const double *y,
+                           double *held);
 
 /* X and X' (order 0), or X' and X'' (order 1), at tau: out[2n]. */
 void motion_series_at(const motion_series *s, double tau, int order, double *out);

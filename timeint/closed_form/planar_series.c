@@ -4,6 +4,8 @@
 #include <float.h>
 #include <string.h>
 
+#include "numerics/wide_vectors.h"
+
 void planar_series_begin(planar_series *s, int j, const contact_track t[2], const double *u, const double *v)
 {
   s->contact = j;
@@ -133,8 +135,8 @@ void planar_columns_begin(planar_columns *c, const planar_series *s, const scale
 static double *term(double *series, const planar_columns *c, int k) { return series + (size_t)k * (size_t)c->columns; }
 
 /* sum += by_x x + by_y y */
-static void add(int width, double by_x, const double *restrict x, double by_y, const double *restrict y,
-                double *restrict sum)
+WIDE_VECTORS static void add(int width, double by_x, const double *restrict x, double by_y, const double *restrict y,
+                             double *restrict sum)
 {
   for (int q = 0; q < width; ++q) sum[q] += by_x * x[q] + by_y * y[q];
 }

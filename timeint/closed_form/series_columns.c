@@ -6,36 +6,34 @@
 #include <string.h>
 
 #include "numerics/dense.h"
+#include "numerics/wide_vectors.h"
 
 enum {
   BLOCK = 64, /* columns: six arrays of them and of 100 modes stay in the second cache */
   LAST = 24   /* the highest power of h; the 24 of motion_series.h */
 };
 
-static const double of_coarse = 1e-6;   /* [column] where the matrix is good to 1e-6: 4e-11 of a multiplier seen */
 static const double died_away = 1e-200; /* [square] of a column from 1 on: below, squares of terms underflow */
 
 hc_status series_columns_make(series_columns *s, const modal_base *base, workspace *w)
 {
-  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, planar = (size_t)base->n_planar;
+  const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts, planar = (size_t)base->n_planar,
+               rows = 2 * contacts + 3 * planar;
   *s = (series_columns){.n = base->n, .n_contacts = base->n_contacts, .n_planar = base->n_planar};
   double **const blocks[] = {&s->x, &s->p, &s->x_end, &s->p_end, &s->term, &s->next, &s->second};
   for (size_t i = 0; i < sizeof blocks / sizeof *blocks; ++i) *blocks[i] = workspace_doubles(w, BLOCK * n);
   s->turned_K = workspace_doubles(w, base->diagonal_K ? 0 : n * n);
   s->turned_C = workspace_doubles(w, base->diagonal_C ? 0 : n * n);
-  s->rows = workspace_doubles(w, 2 * n * contacts);
-  s->turned = workspace_doubles(w, 2 * n * contacts);
-  s->motion = workspace_doubles(w, 2 * BLOCK * contacts);
+  s->rows = workspace_doubles(w, n * rows);
+  s->turned = workspace_doubles(w, n * rows);
+  s->motion = workspace_doubles(w, BLOCK * rows);
+  s->motion_next = workspace_doubles(w, BLOCK * rows);
   s->slider = workspace_doubles(w, BLOCK * contacts);
-  s->slip_tangents = workspace_doubles(w, 2 * n * planar);
-  s->slip_normals = workspace_doubles(w, n * planar);
-  s->slip_turned = workspace_doubles(w, 2 * n * planar);
-  s->slipping = workspace_doubles(w, 2 * BLOCK * planar);
-  s->resistance = workspace_doubles(w, n * n);
   s->size = workspace_doubles(w, BLOCK);
   s->left = workspace_doubles(w, BLOCK);
   s->law = workspace_array(w, contacts, sizeof *s->law);
   s->turning = workspace_array(w, planar, sizeof *s->turning);
+  s->normal = workspace_array(w, planar, sizeof *s->normal);
   s->n_states = 2 * s->n + s->n_contacts;
   if (s->n_states <= SERIES_COLUMNS_SQUARED) {
     s->map = workspace_doubles(w, (size_t)s->n_states * (size_t)s->n_states);
@@ -43,46 +41,25 @@ hc_status series_columns_make(series_columns *s, const modal_base *base, workspa
   }
   for (int i = 0; i < s->n_planar && !w->failed; ++i) planar_columns_make(&s->turning[i], BLOCK, w);
   if (w->failed) return HC_NO_MEMORY;
-  series_columns_coarse(s, false);
+  s->rounding = SERIES_COLUMNS_ROUNDING;
   if (!base->diagonal_K) dense_transpose(base->n, base->n, base->K, s->turned_K);
   if (!base->diagonal_C) dense_transpose(base->n, base->n, base->C, s->turned_C);
   return HC_OK;
 }
 
-void series_columns_coarse(series_columns *s, bool coarse) { s->rounding = coarse ? of_coarse : 0.25 * DBL_EPSILON; }
-
 /* Does T, does N of a contact with that law follow its motion? */
 static bool has_tangent(const contact_forces_linear *f) { return f->t_u != 0 || f->t_v != 0 || f->t_w != 0; }
 static bool has_normal(const contact_forces_linear *f) { return f->t_v != 0 || f->n_v != 0; }
 
-/* Where rows outnumber half of the modes, what contacts do to columns is cheaper as one matrix: sum of by a b^T. */
-static void add_resistance(series_columns *s, double by, const double *a, const double *b)
-{
-  const size_t n = (size_t)s->n;
-  for (size_t i = 0; i < n; ++i)
-    for (size_t l = 0; l < n && a[i] != 0; ++l) s->resistance[i * n + l] += by * a[i] * b[l];
-}
-
-static void find_resistance(series_columns *s, const scaled_model *m)
-{
-  const size_t n = (size_t)s->n;
-  const modal_base *b = m->base;
-  s->whole = 2 * s->n_rows > s->n;
-  if (!s->whole) return;
-  for (size_t i = 0; i < n * n; ++i)
-    s->resistance[i] = m->by_K * (!b->diagonal_K ? s->turned_K[i] : i % (n + 1) == 0 ? b->K[i / (n + 1)] : 0);
-  for (int j = 0; j < s->n_contacts; ++j) {
-    const contact_forces_linear *f = &s->law[j];
-    const double *t = b->tangent + (size_t)j * n, *normal = b->normal + (size_t)j * n;
-    if (f->t_u != 0) add_resistance(s, f->t_u, t, t);
-    if (f->t_v != 0) add_resistance(s, f->t_v, t, normal);
-    if (f->n_v != 0) add_resistance(s, f->n_v, normal, normal);
-  }
-}
-
 static void add_row(series_columns *s, const double *row)
 {
-  memcpy(s->rows + (size_t)s->n_rows++ * (size_t)s->n, row, (size_t)s->n * sizeof *row);
+  memcpy(s->rows + (size_t)s->n_moving++ * (size_t)s->n, row, (size_t)s->n * sizeof *row);
+}
+
+/* Is it the first direction of a slip that turns? */
+static bool turns(const scaled_model *m, const contact_track *track, int j)
+{
+  return track[j].turns && m->contact[j].direction == 0;
 }
 
 /* Two directions have half of N each: the first gets all of it. */
@@ -96,32 +73,36 @@ static void join_normals(series_columns *s, int j)
 void series_columns_begin(series_columns *s, const scaled_model *m, const contact_track *track)
 {
   const modal_base *b = m->base;
-  s->n_rows = s->n_slipping = 0;
+  const size_t n = (size_t)s->n;
+  s->n_moving = s->n_slipping = 0;
   for (int j = 0; j < s->n_contacts; ++j) {
     s->law[j] = contact_track_forces(&track[j], &m->contact[j]);
     if (m->contact[j].direction > 0) join_normals(s, j);
   }
   for (int j = 0; j < s->n_contacts; ++j) {
-    /* The contact whose first direction is j, and whose slip turns. */
-    if (track[j].turns && m->contact[j].direction == 0) {
-      const size_t n = (size_t)s->n, i = (size_t)s->n_slipping++;
-      memcpy(s->slip_tangents + 2 * n * i, b->tangent + (size_t)j * n, 2 * n * sizeof *s->slip_tangents);
-      memcpy(s->slip_normals + n * i, b->normal + (size_t)j * n, n * sizeof *s->slip_normals);
-    }
-    if (has_tangent(&s->law[j])) add_row(s, b->tangent + (size_t)j * (size_t)s->n);
-    if (has_normal(&s->law[j])) add_row(s, b->normal + (size_t)j * (size_t)s->n);
+    const bool normal = has_normal(&s->law[j]);
+    if (has_tangent(&s->law[j])) add_row(s, b->tangent + (size_t)j * n);
+    if (turns(m, track, j)) s->normal[s->n_slipping++] = normal ? s->n_moving : -1;
+    if (normal) add_row(s, b->normal + (size_t)j * n);
   }
-  find_resistance(s, m);
-  dense_transpose(s->n, s->n_rows, s->rows, s->turned);
-  dense_transpose(s->n, 2 * s->n_slipping, s->slip_tangents, s->slip_turned);
+  s->n_rows = s->n_moving;
+  for (int j = 0; j < s->n_contacts; ++j)
+    for (int a = 0; turns(m, track, j) && a < 2; ++a) add_row(s, b->tangent + (size_t)(j + a) * n);
+  s->n_pulled = s->n_moving;
+  for (int j = 0, i = 0; j < s->n_contacts; ++j) {
+    if (!turns(m, track, j)) continue;
+    if (s->normal[i] < 0) s->normal[i] = s->n_moving, add_row(s, b->normal + (size_t)j * n);
+    ++i;
+  }
+  dense_transpose(s->n, s->n_moving, s->rows, s->turned);
   s->reach = 2 / sqrt(m->by_K * b->highest * b->highest);
 }
 
 /* ---- one block of `width` columns ---------------------------------------------------------------------- */
 
 /* out -= by A z, or out = -by A z; A diagonal[n], or turned[n][n]. */
-static void subtract(const series_columns *s, int width, bool diagonal, const double *A, const double *turned,
-                     double by, const double *z, bool add, double *out)
+WIDE_VECTORS static void subtract(const series_columns *s, int width, bool diagonal, const double *A,
+                                  const double *turned, double by, const double *z, bool add, double *out)
 {
   const size_t w = (size_t)width;
   if (!diagonal) {
@@ -138,91 +119,56 @@ static void subtract(const series_columns *s, int width, bool diagonal, const do
   }
 }
 
-/* out = -by (K and contacts of z), by the matrix of all of them. */
-static void subtract_whole(series_columns *s, int width, bool first, double by, const double *z, double *out)
+static double *row_of(double *block, int row, int width) { return block + (size_t)row * (size_t)width; }
+/* Rows of z, term k, into `motion`; those of slips that turn into their series, too. */
+static void project(series_columns *s, int width, int k, const double *z, double *motion)
 {
-  subtract(s, width, false, NULL, s->resistance, by, z, false, out);
-  if (!first) return;
-  /* s->motion := the forces that by dW_j of the contacts that stick are, row by row. */
-  const size_t w = (size_t)width;
-  double *row = s->motion;
-  memset(s->motion, 0, (size_t)s->n_rows * w * sizeof *s->motion);
-  for (int j = 0; j < s->n_contacts; ++j) {
-    const contact_forces_linear *f = &s->law[j];
-    for (size_t q = 0; has_tangent(f) && q < w; ++q) row[q] = by * f->t_w * s->slider[(size_t)j * w + q];
-    row += (size_t)(has_tangent(f) + has_normal(f)) * w;
+  const size_t bytes = (size_t)width * sizeof *z;
+  dense_add_product(width, s->n_moving, s->n, 1, z, width, s->rows, s->n, 0, motion, width);
+  for (int i = 0; i < s->n_slipping; ++i) {
+    planar_columns *c = &s->turning[i];
+    const size_t at = (size_t)k * (size_t)c->columns;
+    for (int a = 0; a < 2; ++a) memcpy(c->u[a] + at, row_of(motion, s->n_rows + 2 * i + a, width), bytes);
+    memcpy(c->v + at, row_of(motion, s->normal[i], width), bytes);
   }
-  dense_add_product(width, s->n, s->n_rows, -1, s->motion, width, s->turned, s->n_rows, 1, out, width);
 }
 
-/* out = -by (K and contacts of z); the sliders of these move in the first term alone. */
-static void subtract_stiffness(series_columns *s, const scaled_model *m, int width, bool first, double by,
-                               const double *z, double *out)
+/* Forces of contacts that are linear, by theirs of the motion: in place. The sliders of those that stick move in the
+ * first term alone. */
+static void find_linear_forces(series_columns *s, int width, bool first, double by)
 {
   const size_t w = (size_t)width;
-  if (s->whole) {
-    subtract_whole(s, width, first, by, z, out);
-    return;
-  }
-  subtract(s, width, m->base->diagonal_K, m->base->K, s->turned_K, by * m->by_K, z, false, out);
-  dense_add_product(width, s->n_rows, s->n, -1, z, width, s->rows, s->n, 0, s->motion, width); /* minus dU and dV */
   double *row = s->motion;
   for (int j = 0; j < s->n_contacts; ++j) {
     const contact_forces_linear *f = &s->law[j];
     const bool tangent = has_tangent(f), normal = has_normal(f);
-    const double *dw = s->slider + (size_t)j * w, t_w = first ? by * f->t_w : 0;
+    const double *dw = s->slider + (size_t)j * w, t_w = first ? by * f->t_w : 0, t_u = by * f->t_u, t_v = by * f->t_v;
     double *along = row, *across = tangent ? row + w : row;
-    for (size_t q = 0; tangent && q < w; ++q)
-      along[q] = -by * (f->t_u * along[q] + (normal ? f->t_v * across[q] : 0)) + t_w * dw[q];
-    for (size_t q = 0; normal && q < w; ++q) across[q] *= -by * f->n_v;
+    for (size_t q = 0; tangent && q < w; ++q) along[q] = t_u * along[q] + (normal ? t_v * across[q] : 0) + t_w * dw[q];
+    for (size_t q = 0; normal && q < w; ++q) across[q] *= by * f->n_v;
     row += (size_t)(tangent + normal) * w;
   }
-  dense_add_product(width, s->n, s->n_rows, -1, s->motion, width, s->turned, s->n_rows, 1, out, width);
 }
 
-/* s->slipping[block][n_rows] := rows . z, with its sign turned. */
-static void project_slips(series_columns *s, int width, int n_rows, const double *rows, const double *z)
+/* out = -by (K and contacts of z), term k of the motion, whose rows are in s->motion. */
+static void subtract_stiffness(series_columns *s, const scaled_model *m, int width, int k, double by, const double *z,
+                               double *out)
 {
-  dense_add_product(width, n_rows, s->n, -1, z, width, rows, s->n, 0, s->slipping, width);
-}
-
-/* Term k of a motion that is -s->slipping's row. */
-static void keep_term(const series_columns *s, int width, int row, const planar_columns *c, int k, double *series)
-{
-  const double *from = s->slipping + (size_t)row * (size_t)width;
-  double *to = series + (size_t)k * (size_t)c->columns;
-  for (int q = 0; q < width; ++q) to[q] = -from[q];
-}
-
-/* Term k of the motion of the contacts whose slip turns. */
-static void project_turning(series_columns *s, int width, int k, const double *z)
-{
-  project_slips(s, width, 2 * s->n_slipping, s->slip_tangents, z);
-  for (int i = 0; i < s->n_slipping; ++i)
-    for (int a = 0; a < 2; ++a) keep_term(s, width, 2 * i + a, &s->turning[i], k, s->turning[i].u[a]);
-  project_slips(s, width, s->n_slipping, s->slip_normals, z);
-  for (int i = 0; i < s->n_slipping; ++i) keep_term(s, width, i, &s->turning[i], k, s->turning[i].v);
-}
-
-/* out -= by (T of the slips that turn) of terms z_k and `next`, z_{k+1}. */
-static void subtract_turning(series_columns *s, int width, int k, double by, const double *z, const double *next,
-                             double *out)
-{
-  double *row = s->slipping;
-  if (s->n_slipping == 0) return;
-  if (k == 0) project_turning(s, width, 0, z);
-  project_turning(s, width, k + 1, next);
+  const modal_base *b = m->base;
+  subtract(s, width, b->diagonal_K, b->K, s->turned_K, by * m->by_K, z, false, out);
+  find_linear_forces(s, width, k == 0, by);
+  double *row = row_of(s->motion, s->n_rows, width);
   for (int i = 0; i < s->n_slipping; ++i) {
     planar_columns_term(&s->turning[i], width, k);
     for (int a = 0; a < 2; ++a, row += width)
       for (int q = 0; q < width; ++q) row[q] = by * s->turning[i].pull[a][q];
   }
-  dense_add_product(width, s->n, 2 * s->n_slipping, -1, s->slipping, width, s->slip_turned, 2 * s->n_slipping, 1, out,
-                    width);
+  dense_add_product(width, s->n, s->n_pulled, -1, s->motion, width, s->turned, s->n_moving, 1, out, width);
 }
 
 /* sums[q] += |by z_q|^2 */
-static void add_squares(const series_columns *s, int width, double by, const double *z, double *restrict sums)
+WIDE_VECTORS static void add_squares(const series_columns *s, int width, double by, const double *z,
+                                     double *restrict sums)
 {
   for (int i = 0; i < s->n; ++i) {
     const double *from = z + (size_t)i * (size_t)width;
@@ -243,7 +189,7 @@ static bool is_rounding(series_columns *s, int width, int k, double h, const dou
 
 /* s->x and s->p to s->x_end and s->p_end over a step h; the last power of it that was taken, LAST + 1 if those up to
  * LAST do not suffice. */
-static int expand(series_columns *s, const scaled_model *m, int width, double h)
+WIDE_VECTORS static int expand(series_columns *s, const scaled_model *m, int width, double h)
 {
   const modal_base *b = m->base;
   const size_t count = (size_t)s->n * (size_t)width;
@@ -255,11 +201,12 @@ static int expand(series_columns *s, const scaled_model *m, int width, double h)
   for (size_t i = 0; i < count; ++i) next[i] = h * s->p[i];
   memcpy(s->p_end, s->p, count * sizeof *s->p);
   for (size_t i = 0; i < count; ++i) s->x_end[i] = z[i] + next[i];
+  project(s, width, 0, z, s->motion);
   for (int k = 2, small = 0; k <= LAST; ++k) {
     const double by = h / (k * (k - 1));
-    subtract_stiffness(s, m, width, k == 2, by * h, z, second);
+    project(s, width, k - 1, next, s->motion_next);
+    subtract_stiffness(s, m, width, k - 2, by * h, z, second);
     subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, true, second);
-    subtract_turning(s, width, k - 2, by * h, z, next, second);
     /* What power k adds to the motion at h and to its rate. */
     for (size_t i = 0; i < count; ++i) {
       s->x_end[i] += second[i];
@@ -268,8 +215,9 @@ static int expand(series_columns *s, const scaled_model *m, int width, double h)
     if (k == 2) add_squares(s, width, 2 / h, second, s->size); /* a column that begins with its slider alone */
     if (!s->along || s->rounding > DBL_EPSILON) small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
     if (small == 2) return k; /* two: without damping even powers know nothing of odd ones */
-    double *spent = z;
+    double *spent = z, *forces = s->motion;
     z = next, next = second, second = spent;
+    s->motion = s->motion_next, s->motion_next = forces;
   }
   return LAST + 1;
 }
@@ -330,12 +278,11 @@ static int doublings_of(const series_columns *s, double span)
   return span > s->reach ? (int)ceil(log2(span / s->reach)) : 0;
 }
 
-/* Is it less work to square the map of one step? In products by n^2 of a column: a step has LAST terms, each by n n or
- * twice by n n_rows. */
+/* Is it less work to square the map of one step? In products by n^2 of a column: a step has LAST terms, each twice by
+ * n n_rows. */
 static bool squares_pay(const series_columns *s, double span, int count)
 {
-  const double n = s->n, states = s->n_states, step = LAST * (s->whole ? 1 : 2 * s->n_rows / n),
-               product = 2 * states / n;
+  const double n = s->n, states = s->n_states, step = LAST * 2 * s->n_rows / n, product = 2 * states / n;
   return s->map &&
          (states * step + (doublings_of(s, span) * states + count) * product) < span / s->reach * count * step;
 }

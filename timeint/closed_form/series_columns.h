@@ -11,42 +11,39 @@
  * series_columns_make. */
 #pragma once
 
+#include <float.h>
+
 #include "timeint/closed_form/motion_series.h"
 
 enum { SERIES_COLUMNS_SQUARED = 1500 }; /* states at most: two matrices of 18 MB */
+#define SERIES_COLUMNS_ROUNDING (0.25 * DBL_EPSILON)
 
 typedef struct series_columns {
   int n, n_contacts, n_planar;
   double *turned_K, *turned_C;  /* [n][n] by rows, where they are not diagonal; else NULL */
-  int n_rows;                   /* of contacts that resist in this interval */
-  double *rows, *turned;        /* [n][n_rows] by columns; by rows */
-  bool whole;                   /* are what they do the matrix below, which is cheaper? */
-  double *resistance;           /* [n][n] by columns of B: out_i = sum_l z_l B_li */
+  int n_rows;                   /* of contacts that resist linearly in this interval, */
+  int n_pulled;                 /* with the two tangents of each slip that turns, */
+  int n_moving;                 /* and with the normals of those that are not among them yet */
+  double *rows, *turned;        /* [n][n_moving] by columns; by rows */
   contact_forces_linear *law;   /* [n_contacts] of this interval, but T of slips that turn */
   int n_slipping;               /* contacts whose slip turns in this interval */
-  double *slip_tangents;        /* [n][2 n_slipping] by columns: their t_1 and t_2 */
-  double *slip_normals;         /* [n][n_slipping] by columns */
-  double *slip_turned;          /* slip_tangents by rows */
-  double *slipping;             /* [block][2 n_slipping] their motion; their forces */
+  int *normal;                  /* [n_planar] the row of its normal */
   double *x, *p;                /* [block][n] motion and its rate, of a block of columns */
   double *x_end, *p_end;        /* [block][n] the same after a step */
   double *term, *next, *second; /* [block][n] z_k, z_{k+1}, z_{k+2} */
-  double *motion;               /* [block][n_rows] of the contacts; their forces */
+  double *motion, *motion_next; /* [block][n_moving] of the rows in z_k, then their forces; in z_{k+1} */
   double *slider;               /* [block][n_contacts] dW_j */
   double *size, *left;          /* [block] of columns, squared */
   planar_columns *turning;      /* [n_planar] */
   const motion_series *along;   /* where slips turn: the motion; else NULL */
   int n_states;                 /* 2 n + contacts */
   double *map, *squared;        /* [n_states][n_states] by rows, of a step or of many; NULL: too large */
-  double rounding;              /* [column] what may be left out: DBL_EPSILON/4, or of a coarse matrix more */
+  double rounding;              /* [column] what may be left out: the owner's to set, at first as below */
   double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
 } series_columns;
 
 /* Arrays are memory's. HC_NO_MEMORY. */
 hc_status series_columns_make(series_columns *s, const modal_base *base, workspace *memory);
-
-/* Whether columns are for a matrix that is good to 1e-6 alone; at first not. */
-void series_columns_coarse(series_columns *s, bool coarse);
 
 /* From here on contacts are in the states of track[]. */
 void series_columns_begin(series_columns *s, const scaled_model *m, const contact_track *track);

@@ -36,7 +36,7 @@ static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
 {
   regularised *in = self;
   if (!integrate_cvode_goes_on(&in->base)) return -1;
-  if (structure_newton_rate(&in->newton, in->base.m, theta, NV_DATA_S(y), NV_DATA_S(dy))) return 0;
+  if (structure_newton_rate(&in->newton, in->base.m, theta, NV_DATA_S(y), NV_DATA_S(dy), NULL)) return 0;
   in->base.not_finite = true;
   return -1;
 }
@@ -197,8 +197,7 @@ static contact_state state(const integrator *base, int j, const double *y)
 static void at_end(const integrator *base, double theta, const double *y, double *rate, contact_state *states)
 {
   const regularised *in = (const regularised *)base;
-  structure_newton_rate(&in->newton, in->base.m, theta, y, rate); /* finite: CVODE has just been here */
-  structure_newton_states(&in->newton, in->base.m, y, states);
+  structure_newton_rate(&in->newton, in->base.m, theta, y, rate, states); /* finite: CVODE has just been here */
 }
 
 static const integrator_class class = {.period = period,

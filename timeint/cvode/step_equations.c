@@ -90,8 +90,10 @@ bool step_equations_factor(step_equations *s, const scaled_model *m)
   /* G = B D^-1 B^T. */
   const size_t n = (size_t)s->n, count = (size_t)s->n_rows;
   memcpy(s->pulled, s->rows.row, n * count * sizeof *s->pulled);
-  for (size_t r = 0; r < count; ++r) solve_D(s, s->pulled + r * n);
-  dense_multiply(s->n_rows, s->n_rows, s->n, s->rows.turned, s->pulled, s->compliant);
+  for (size_t r = 0; r < count; ++r) {
+    solve_D(s, s->pulled + r * n);
+    contact_rows_motion(&s->rows, s->pulled + r * n, s->compliant + r * count);
+  }
   memset(s->small, 0, rows * rows * sizeof *s->small);
   for (size_t r = 0; r < rows; ++r) s->small[r * (rows + 1)] = 1;
   for (int j = 0; j < s->n_contacts; ++j) {

@@ -28,7 +28,8 @@ hc_status structure_newton_make(structure_newton *s, const modal_base *base, wor
   return s->dq ? HC_OK : HC_NO_MEMORY;
 }
 
-bool structure_newton_rate(const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy)
+bool structure_newton_rate(const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy,
+                           contact_state *state)
 {
   const step_equations *step = &s->step;
   const int n = step->n;
@@ -46,25 +47,13 @@ bool structure_newton_rate(const structure_newton *s, const scaled_model *m, dou
       step_equations_add(step->force, step->rows.across[j + a], l.change);
       dy[2 * n + j + a] = l.rate[a];
       sum += l.rate[a];
+      if (state) state[j + a] = scaled_state_of(m, j, moves.v, &l);
     }
   }
   contact_rows_pull(&step->rows, 1, step->force, dy + n);
   memcpy(dy, y + n, (size_t)n * sizeof *dy);
   for (int i = 0; i < 2 * n; ++i) sum += dy[i];
   return isfinite(sum);
-}
-
-void structure_newton_states(const structure_newton *s, const scaled_model *m, const double *y, contact_state *state)
-{
-  const step_equations *step = &s->step;
-  find_motion(s, m, y);
-  for (int j = 0, directions; j < step->n_contacts; j += directions) {
-    const scaled_contact *c = &m->contact[j];
-    directions = scaled_directions(m, j);
-    const contact_motion moves = moves_of(s, m, j, directions);
-    const planar_value at = c->kind->evaluate(&c->law, &moves, y + 2 * step->n + j);
-    for (int a = 0; a < directions; ++a) state[j + a] = scaled_state_of(m, j, moves.v, &at);
-  }
 }
 
 void structure_newton_linearise(structure_newton *s, const scaled_model *m, const double *y)

@@ -19,11 +19,10 @@ typedef struct structure_newton {
 /* Arrays are memory's. HC_NO_MEMORY. */
 hc_status structure_newton_make(structure_newton *s, const modal_base *base, workspace *memory);
 
-/* dy[n_states] at theta and y[n_states], the same as scaled_rhs. Answers whether all of it is finite. */
-bool structure_newton_rate(const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy);
-
-/* state[n_contacts] at y, as scaled_contact_state. */
-void structure_newton_states(const structure_newton *s, const scaled_model *m, const double *y, contact_state *state);
+/* dy[n_states] at theta and y[n_states], the same as scaled_rhs, and, unless that is NULL, state[n_contacts], as
+ * scaled_contact_state. Answers whether all of dy is finite. */
+bool structure_newton_rate(const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy,
+                           contact_state *state);
 
 /* The law's derivatives at y. */
 void structure_newton_linearise(structure_newton *s, const scaled_model *m, const double *y);

@@ -21,7 +21,6 @@ hc_status contact_rows_make(contact_rows *c, const modal_base *base, workspace *
   const size_t n = (size_t)base->n, contacts = (size_t)base->n_contacts;
   *c = (contact_rows){.n = base->n};
   c->row = workspace_doubles(w, 2 * n * contacts);
-  c->turned = workspace_doubles(w, 2 * n * contacts);
   c->along = workspace_array(w, contacts, sizeof *c->along);
   c->across = workspace_array(w, contacts, sizeof *c->across);
   if (w->failed) return HC_NO_MEMORY;
@@ -29,13 +28,12 @@ hc_status contact_rows_make(contact_rows *c, const modal_base *base, workspace *
     c->along[j] = keep_row(c, base->tangent + j * n);
     c->across[j] = keep_row(c, base->normal + j * n);
   }
-  dense_transpose(c->n, c->count, c->row, c->turned);
   return HC_OK;
 }
 
 void contact_rows_motion(const contact_rows *c, const double *x, double *q)
 {
-  dense_times_vector(c->count, c->n, 1, c->turned, x, 0, q);
+  dense_rows_times_vector(c->n, c->count, c->row, x, q);
 }
 
 void contact_rows_pull(const contact_rows *c, double by, const double *force, double *out)

@@ -8,8 +8,7 @@
 typedef struct contact_rows { /* made once, then only read */
   int n, count;
   int *along, *across; /* [n_contacts] which row is t_j, n_j; -1: none */
-  double *row;         /* [n][count] by columns: row r at row + r n */
-  double *turned;      /* [count][n] by columns */
+  double *row;         /* [count][n] by rows */
 } contact_rows;
 
 /* Arrays are memory's. HC_NO_MEMORY. */

@@ -9,7 +9,7 @@
 #include "timeint/steady/timeint_private.h"
 
 static const double closed_start_tolerance = 1e-12; /* rounding of a period is some 1e-14; CVODE confirms to 1e-9 */
-static const double large_tolerance = 1e-10;        /* of a large structure: a period takes as long as CVODE's */
+static const double large_tolerance = 1e-8;         /* of a large structure, whose periods CVODE attains no better */
 static const double same_point = 1e-14; /* [1] a state that went to the model's units and back differs by rounding */
 static const double same_orbit = 1e-9;  /* [length] of two such states, relative to their size: a hundred times what the
                                           orbits found are off */
@@ -50,7 +50,8 @@ hc_status closed_start_new(timeint *ti)
   how.scout = false; /* it has none of its own */
   how.tolerance = fmin(how.tolerance, closed_start_tolerance);
   hc_status st = timeint_new(ti->model, &how, &ti->closed_form);
-  if (st == HC_OK && ti->closed_form->slowed) ti->closed_form->how.tolerance = fmin(ti->how.tolerance, large_tolerance);
+  if (st == HC_OK && ti->closed_form->slowed)
+    ti->closed_form->how.tolerance = fmin(10 * ti->how.tolerance, large_tolerance); /* to a tenth of it */
   return st == HC_OK ? make_memory(ti) : st;
 }
 

@@ -162,8 +162,10 @@ static hc_status watch_step(void *self, const integrator *in, double theta0, dou
   const int panels = 1 + (any_length ? (int)fmin(oscillates, 1000) : 0),
             points = oscillates <= short_step ? GAUSS_FEW : GAUSS_POINTS;
   const double half = 0.5 * (theta1 - theta0) / panels;
+  /* Where the last step ended states may have changed, at an event of the exact law. */
+  const bool there = w->in && w->ti->how.law != TRANSIENT_LAW_EXACT;
   w->in = in;
-  hc_status st = go_to(w, theta0, theta0, 0);
+  hc_status st = there ? HC_OK : go_to(w, theta0, theta0, 0);
   double here = theta0;
   for (int p = 0; p < panels; ++p)
     for (int i = 0; i < points && st == HC_OK; ++i) {
@@ -174,15 +176,15 @@ static hc_status watch_step(void *self, const integrator *in, double theta0, dou
   return st == HC_OK ? go_to(w, here, theta1, 0) : st;
 }
 
-/* [rad/rad] */
-static double stiffest_frequency(const timeint *ti) { return ti->base->highest / ti->omega; }
-
 hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period *out)
 {
   const int k = r->period_multiple > 0 ? r->period_multiple : 1, n_contacts = ti->scaled.n_contacts;
   double *y = ti->point[2];
-  contact_watch w = {
-      .ti = ti, .n_contacts = n_contacts, .stiffest = stiffest_frequency(ti), .y = ti->point[0], .dy = ti->point[1]};
+  contact_watch w = {.ti = ti,
+                     .n_contacts = n_contacts,
+                     .stiffest = ti->base->highest / ti->omega,
+                     .y = ti->point[0],
+                     .dy = ti->point[1]};
   workspace memory = {0};
   hc_status st = contact_rows_make(&w.rows, ti->base, &memory);
   w.of = workspace_array(&memory, (size_t)n_contacts, sizeof *w.of);

@@ -36,11 +36,6 @@ static motion_error change(const timeint_result *one, const timeint_result *othe
   return (motion_error){fmax(d.amplitude, least), fmax(d.harmonic_1, least), d.waveform};
 }
 
-static motion_error scaled_error(motion_error e, double by)
-{
-  return (motion_error){by * e.amplitude, by * e.harmonic_1, by * e.waveform};
-}
-
 static motion_error all(double e) { return (motion_error){e, e, e}; }
 
 /* ti->closed_form_state becomes a point on the closed form's orbit next to `state` [model], if it is not remembered. */
@@ -92,7 +87,8 @@ static hc_status regularisation(timeint *ti, const double *state, const hc_monit
   st = halve(ti, state, r->period_multiple, monitor, &half);
   for (int i = 0; i < n && st == HC_OK; ++i) {
     if (i > 0) st = timeint_response(ti, i, &half);
-    if (st == HC_OK) out[i] = scaled_error(change(&r[i], &half), 2);
+    const motion_error e = change(&r[i], &half);
+    if (st == HC_OK) out[i] = (motion_error){2 * e.amplitude, 2 * e.harmonic_1, 2 * e.waveform};
   }
   timeint_regularise(ti, rho);
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
