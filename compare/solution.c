@@ -82,10 +82,10 @@ static hc_status runs_next_to(comparison_work *w, const comparison_row *row, con
   return HC_OK;
 }
 
-static bool unstable(const comparison_row *row)
+int comparison_stability(const comparison_row *row)
 {
-  if (row->orbit_status == HC_OK && timeint_stability(&row->orbit) != 0) return timeint_stability(&row->orbit) < 0;
-  return hbm_stability_verdict(&row->stability) < 0;
+  const int of_orbit = row->orbit_status == HC_OK ? timeint_stability(&row->orbit) : 0;
+  return of_orbit != 0 ? of_orbit : hbm_stability_verdict(&row->stability);
 }
 
 /* ---- is a motion stable where linear theory cannot tell? ----
@@ -152,7 +152,7 @@ static hc_status judge(comparison_work *w, const comparison_row *row, const doub
     *out = it_stays ? VERDICT_MATCH : VERDICT_UNSTABLE;
     return st;
   }
-  if (unstable(row)) return *out = VERDICT_UNSTABLE, HC_OK;
+  if (comparison_stability(row) < 0) return *out = VERDICT_UNSTABLE, HC_OK;
   bool next = true;
   hc_status st = runs_next_to(w, row, X, &next);
   *out = next ? VERDICT_DIFFERS : VERDICT_OTHER_BRANCH;
@@ -316,10 +316,8 @@ hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, compa
   const double *X = at->X + (size_t)k * at->n_coef;
   row->branch = at->points[k].branch;
   row->hbm_status = hbm_measure(w->hbm, X, &row->hbm);
-  hc_status known = hbm_stability_at(w->hbm, row->omega, X, &row->stability);
-  if (known == HC_NO_MEMORY) return known;
-  if (known != HC_OK) row->stability.multiplier = NAN;
-  if ((known = predict_solution(w, X, row)) != HC_OK) return known;
+  hc_status known = predict_solution(w, X, row);
+  if (known != HC_OK) return known;
   row->transient_status = start_state(w, row, X);
   if (row->transient_status == HC_OK)
     row->transient_status = timeint_steady(w->ti, row->omega, w->state, w->monitor, &row->transient);
@@ -329,6 +327,12 @@ hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, compa
   if ((known = predict_transient(w, row)) != HC_OK) return known;
   referee(w, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
+  row->stability.multiplier = NAN;
+  if (comparison_stability(row) == 0 || row->transient.free_sliders > 0) { /* else the orbit says enough */
+    known = hbm_stability_at(w->hbm, row->omega, X, &row->stability);
+    if (known == HC_NO_MEMORY) return known;
+    if (known != HC_OK) row->stability.multiplier = NAN;
+  }
   row->family = w->setup->model->n_contacts > 1 && comparison_mean_free(row) && row->transient.regime > CONTACT_STUCK;
   measure_response(w, at, k, 0, row);
   hc_status judged = judge(w, row, X, &row->verdict);
@@ -345,7 +349,7 @@ void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const 
   row->budget = row->still ? budget_nothing() : w->budgets[r];
   if (first->verdict == VERDICT_MATCH || first->verdict == VERDICT_DIFFERS) {
     const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
-    row->verdict = within ? VERDICT_MATCH : unstable(first) ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
+    row->verdict = within ? VERDICT_MATCH : comparison_stability(first) < 0 ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
   }
   row->unexpected = comparison_unexpected(row);
 }

@@ -77,7 +77,7 @@ static void check_row(const compare_setup *setup, const comparison *c, int i)
     CHECK_LE(moved, r.free_sliders > 0 ? 1e-2 : 2 * gate, "match at %g", row->omega);
     break;
   case VERDICT_UNSTABLE:
-    assert_true(hbm_stability_verdict(&row->stability) <= 0 && st == HC_OK);
+    assert_true(comparison_stability(row) <= 0 && st == HC_OK);
     CHECK_LE(10 * gate, moved, "unstable at %g", row->omega);
     break;
   case VERDICT_PERIOD_K:

@@ -298,11 +298,11 @@ static struct orbit {
 } orbits[N_ORBITS];
 
 /* orbit[n] next to solutions of HBM; their states are the caller's. */
-static void find_at(structure_case *c, const transient_settings *how, int n, const double *hertz, struct orbit *orbit)
+static void find_at(structure_case *c, int n, const double *hertz, struct orbit *orbit)
 {
   hbm_solver *s = structure_solver(c);
   double *X = calloc((size_t)hbm_n_coefficients(s), sizeof *X);
-  CHECK_MADE(timeint, ti, timeint_new(c->model, how, &ti));
+  CHECK_MADE(timeint, ti, timeint_new(c->model, &closed_form, &ti));
   for (int k = 0; k < n; ++k) {
     struct orbit *o = &orbit[k];
     o->omega = TWO_PI * hertz[k];
@@ -320,7 +320,7 @@ static int find_orbits(CHECK_STATE)
 {
   structure_case c = structure_case_named("plates", 7);
   plates = c.model;
-  find_at(&c, &closed_form, N_ORBITS, frequency, orbits);
+  find_at(&c, N_ORBITS, frequency, orbits);
   return 0;
 }
 
@@ -409,7 +409,7 @@ static void orbits_are_found_where_nothing_is_slowed(CHECK_STATE)
   struct orbit found[3];
   CHECK_MADE(modal_base, base, modal_base_new(c.model, &base));
   assert_true(isinf(mass_scaling_fastest(base, TWO_PI * hertz[1])));
-  find_at(&c, &closed_form, 3, hertz, found);
+  find_at(&c, 3, hertz, found);
   for (int k = 0; k < 3; ++k) CHECK_LE(found[k].r.closure, 1e-10, "orbit %d", k);
   CHECK_NEAR(found[2].r.amplitude, found[0].r.amplitude, 1e-9 * found[0].r.amplitude, "there and back");
   for (int k = 0; k < 3; ++k) free(found[k].state);
@@ -757,26 +757,9 @@ static void cvode_is_off_by_what_it_predicts(CHECK_STATE)
   check_cvode(&orbits[1], TRANSIENT_LAW_EXACT, 1e-7);
 }
 
-/* Pairs that come to rest do so in closed form, however little they slip on their way there: else no matrix tells CVODE
- * where its own orbit is, which takes some forty periods then. */
-static void pairs_come_to_rest_before_cvode(CHECK_STATE)
-{
-  structure_case c = structure_case_named("blade_damper", 3);
-  transient_settings how = closed_form;
-  struct orbit o;
-  how.method = TRANSIENT_METHOD_CVODE;
-  how.law = TRANSIENT_LAW_REGULARISED;
-  how.scout = true;
-  how.tolerance = 1e-9;
-  find_at(&c, &how, 1, &(double){300}, &o);
-  CHECK_LE(o.r.periods, 4, "periods by CVODE");
-  free(o.state);
-  model_free(c.model);
-}
-
 CHECK_TESTS_WITH("timeint.large", 120, find_orbits, free_orbits, slowed_modes_stay_springs,
                  neighbours_share_the_fastest_mode, small_or_unsymmetric_structures_are_not_slowed,
                  rates_by_rows_are_the_equations, orbits_close, orbits_are_found_where_nothing_is_slowed,
                  orbits_are_those_of_another_integrator, slowed_modes_follow_in_columns,
                  the_multiplier_is_that_of_the_whole_model, orbits_need_no_matrix_of_their_own, rest_leads_to_the_orbit,
-                 cvode_is_off_by_what_it_predicts, pairs_come_to_rest_before_cvode)
+                 cvode_is_off_by_what_it_predicts)
