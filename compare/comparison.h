@@ -82,7 +82,7 @@ typedef struct comparison_row {
   int branch;           /* of the HBM solution; -1: HBM has none here */
   enum verdict verdict; /* `enum`, because C++ wants to know */
   hc_status hbm_status, transient_status;
-  hbm_stability stability;  /* of the HBM solution; multiplier NaN when unknown, or where `orbit` says enough */
+  hbm_stability stability;  /* of the HBM solution; multiplier NaN when unknown, or not asked for (setup.multipliers) */
   bool accounted;           /* the transient is within the gate of this or another HBM solution */
   hbm_measures hbm;         /* valid when hbm_status is HC_OK */
   timeint_result transient; /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
@@ -144,9 +144,6 @@ bool comparison_unaccounted(const comparison_row *row);
 /* Is the mean of what the row's HBM solution was held against, or, where that is not known, of the solution itself,
  * open: a slider never slips, and where it rests is a matter of history? Such means are not compared. */
 bool comparison_mean_free(const comparison_row *row);
-
-/* Is the HBM solution stable (1), unstable (-1)? By the orbit next to it, if that says it; 0: not known. */
-int comparison_stability(const comparison_row *row);
 
 /* Does a contact change its state, in any row, on either side? If not, two linear responses were compared. */
 bool comparison_nonlinear(const comparison *c);

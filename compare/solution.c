@@ -82,7 +82,8 @@ static hc_status runs_next_to(comparison_work *w, const comparison_row *row, con
   return HC_OK;
 }
 
-int comparison_stability(const comparison_row *row)
+/* Is the HBM solution stable (1), unstable (-1)? By the orbit next to it, if that says it; 0: not known. */
+static int stability_of(const comparison_row *row)
 {
   const int of_orbit = row->orbit_status == HC_OK ? timeint_stability(&row->orbit) : 0;
   return of_orbit != 0 ? of_orbit : hbm_stability_verdict(&row->stability);
@@ -152,7 +153,7 @@ static hc_status judge(comparison_work *w, const comparison_row *row, const doub
     *out = it_stays ? VERDICT_MATCH : VERDICT_UNSTABLE;
     return st;
   }
-  if (comparison_stability(row) < 0) return *out = VERDICT_UNSTABLE, HC_OK;
+  if (stability_of(row) < 0) return *out = VERDICT_UNSTABLE, HC_OK;
   bool next = true;
   hc_status st = runs_next_to(w, row, X, &next);
   *out = next ? VERDICT_DIFFERS : VERDICT_OTHER_BRANCH;
@@ -328,7 +329,7 @@ hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, compa
   referee(w, row, X);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
   row->stability.multiplier = NAN;
-  if (comparison_stability(row) == 0 || row->transient.free_sliders > 0) { /* else the orbit says enough */
+  if (w->setup->multipliers || stability_of(row) == 0 || row->transient.free_sliders > 0) {
     known = hbm_stability_at(w->hbm, row->omega, X, &row->stability);
     if (known == HC_NO_MEMORY) return known;
     if (known != HC_OK) row->stability.multiplier = NAN;
@@ -349,7 +350,7 @@ void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const 
   row->budget = row->still ? budget_nothing() : w->budgets[r];
   if (first->verdict == VERDICT_MATCH || first->verdict == VERDICT_DIFFERS) {
     const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
-    row->verdict = within ? VERDICT_MATCH : comparison_stability(first) < 0 ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
+    row->verdict = within ? VERDICT_MATCH : stability_of(first) < 0 ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
   }
   row->unexpected = comparison_unexpected(row);
 }

@@ -82,6 +82,7 @@ hc_status library_setup(const hbmcheck_case *c, const scene *sc, compare_setup *
 {
   hc_status st = scene_setup(sc, out);
   out->contacts = c->watch_contacts;
+  out->multipliers = true;
   return st;
 }
 

@@ -77,7 +77,7 @@ static void check_row(const compare_setup *setup, const comparison *c, int i)
     CHECK_LE(moved, r.free_sliders > 0 ? 1e-2 : 2 * gate, "match at %g", row->omega);
     break;
   case VERDICT_UNSTABLE:
-    assert_true(comparison_stability(row) <= 0 && st == HC_OK);
+    assert_true(hbm_stability_verdict(&row->stability) <= 0 && st == HC_OK);
     CHECK_LE(10 * gate, moved, "unstable at %g", row->omega);
     break;
   case VERDICT_PERIOD_K:
@@ -98,7 +98,7 @@ static void check_case(const struct expected *e)
   scene sc = case_scene(e->name, 1, sets);
   int seen[VERDICT_COUNT] = {0};
   CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
-  setup.spare = true;
+  setup.spare = setup.multipliers = true;
   CHECK_FILLED(comparison, c, comparison_run(&setup, NULL, &c));
   for (int i = 0; i < c.n_rows; ++i) {
     if (c.rows[i].response > 0) continue;

@@ -157,6 +157,7 @@ static void check_transient(const char *const *set, int n, const double *omega)
   scene sc;
   compare_setup setup = setup_of(&sc, set);
   hbmcheck_case *c = case2_with(set);
+  setup.multipliers = true; /* as the library asks for them */
   setup.compare.omega.n = n;
   memcpy(setup.compare.omega.v, omega, (size_t)n * sizeof *omega);
   CHECK_FILLED(steady_states, expected, steady_states_run(&setup, NULL, &expected));
@@ -189,6 +190,7 @@ static void check_comparison(const char *const *set, int exit_code, int gate_cod
   scene sc;
   compare_setup setup = setup_of(&sc, set);
   hbmcheck_case *c = case2_with(set);
+  setup.multipliers = true; /* as the library asks for them */
   CHECK_FILLED(comparison, expected, comparison_run(&setup, NULL, &expected));
   CHECK_FILLED(gate_case, judged, gate_judge("case 2", &setup, &expected, &judged));
   CHECK_MADE(hbmcheck_comparison, both, hbmcheck_comparison_run(c, 0, NULL, NULL, &both));

@@ -121,7 +121,8 @@ static hc_status shape_of(shown *d, double omega, const double *X, json_t *ampli
 static int stability_of(const comparison *c, double omega, int k)
 {
   for (int i = 0; i < c->n_rows; ++i)
-    if (c->rows[i].omega == omega && c->rows[i].response == 0 && k-- == 0) return comparison_stability(&c->rows[i]);
+    if (c->rows[i].omega == omega && c->rows[i].response == 0 && k-- == 0)
+      return hbm_stability_verdict(&c->rows[i].stability);
   return 0;
 }
 
