@@ -120,7 +120,7 @@ void dense_times_vector(int m, int n, double alpha, const double *A, const doubl
 typedef double four __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
 
 #define FOUR_AT(a) (*(const four *)(a))
-#define SUM_OF(s)  ((s[0] + s[1]) + (s[2] + s[3]))
+#define SUM_OF(s)  (((s)[0] + (s)[1]) + ((s)[2] + (s)[3]))
 
 WIDE_VECTORS void dense_rows_times_vector(int n, int rows, const double *A, const double *x, double *y)
 {
