@@ -461,7 +461,6 @@ static void findings_of_other_seeds_are_none(CHECK_STATE)
               {STRESS_STRUCTURES, 7281602, 305, STRESS_ORBIT_REWRITTEN, STRESS_FAMILY},
               {STRESS_SPACE, 7282803, 422, STRESS_DELAYED, STRESS_FAMILY},
               {STRESS_SPACE, 7282903, 350, STRESS_ORBIT, STRESS_FAMILY},
-              {STRESS_SPACE, 7282903, 472, STRESS_ORBIT_REWRITTEN, STRESS_FAMILY},
               {STRESS_OSCILLATORS, 7271313, 908, STRESS_ORBIT_LAWS, STRESS_SMOOTHED}};
   gsl_set_error_handler_off(); /* as the command does: eigenvalues that do not converge are a status */
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
