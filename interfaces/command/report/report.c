@@ -167,7 +167,6 @@ hc_status report_gather(const scene *sc, int jobs, progress *bar, report_data *o
   out->setup.contacts = sc->structure != NULL;
   out->setup.advise = true;
   out->setup.spare = out->setup.model->n > COMPARE_LARGE; /* page.html says so */
-  out->setup.multipliers = true;
   if (st == HC_OK) st = comparison_run(&out->setup, monitor, &out->comparison);
   if (st != HC_OK) return st;
   comparison *c = &out->comparison;

@@ -117,12 +117,16 @@ static hc_status shape_of(shown *d, double omega, const double *X, json_t *ampli
   return st;
 }
 
-/* The verdict about solution k at omega: of the comparison's k-th row there. */
+/* The verdict about solution k at omega: of the comparison's k-th row there; where no multipliers of HBM were needed, of
+ * the orbit next to it. */
 static int stability_of(const comparison *c, double omega, int k)
 {
-  for (int i = 0; i < c->n_rows; ++i)
-    if (c->rows[i].omega == omega && c->rows[i].response == 0 && k-- == 0)
-      return hbm_stability_verdict(&c->rows[i].stability);
+  for (int i = 0; i < c->n_rows; ++i) {
+    const comparison_row *row = &c->rows[i];
+    if (row->omega != omega || row->response != 0 || k-- != 0) continue;
+    const bool by_orbit = isnan(row->stability.multiplier) && row->orbit_status == HC_OK;
+    return by_orbit ? timeint_stability(&row->orbit) : hbm_stability_verdict(&row->stability);
+  }
   return 0;
 }
 
