@@ -117,7 +117,7 @@ static hc_status shape_of(shown *d, double omega, const double *X, json_t *ampli
   return st;
 }
 
-/* The verdict about solution k at omega: of the comparison's k-th row there; where no multipliers of HBM were needed, of
+/* The verdict about solution k at omega: of the comparison's k-th row there, where HBM's multipliers were not needed of
  * the orbit next to it. */
 static int stability_of(const comparison *c, double omega, int k)
 {
