@@ -314,7 +314,7 @@ static bool take_pivot(int n, double *A, int k, int *pivot)
 }
 
 /* dgetrf for matrices so small that its calls cost more than they gain (table in dense.h). */
-WIDE_VECTORS static bool factor_small(int n, double *A, int *pivot)
+static bool factor_small(int n, double *A, int *pivot)
 {
   for (int first = 0; first < n; first += PANEL) {
     const int end = first + PANEL < n ? first + PANEL : n;
@@ -338,7 +338,7 @@ hc_status dense_factor(int n, double *A, int *pivot)
   return HC_OK;
 }
 
-WIDE_VECTORS static void solve_small(int n, const double *restrict A, const int *pivot, double *restrict x)
+static void solve_small(int n, const double *restrict A, const int *pivot, double *restrict x)
 {
   for (int k = 0; k < n; ++k) {
     const double kept = x[k];
