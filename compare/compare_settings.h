@@ -28,7 +28,7 @@ typedef struct compare_setup {
   double reduction;          /* [1] stated error of the receptance of a model that was reduced; 0: none */
   bool spare;                /* leave out parts of the budget that nobody asks for and no verdict depends on */
   bool contacts;             /* what each contact does, too */
-  bool multipliers;          /* those of HBM solutions, too, where no verdict depends on them */
+  bool multipliers;          /* of every HBM solution; otherwise only where a verdict depends on them */
   bool advise;               /* try what brings the worst row within the limits */
   pthread_mutex_t *found;    /* held while rows are added to the results; NULL: nobody else looks */
   void (*added)(void *self); /* called when rows were added, without that lock, with added_to; NULL: nobody asks */

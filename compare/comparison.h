@@ -82,7 +82,7 @@ typedef struct comparison_row {
   int branch;           /* of the HBM solution; -1: HBM has none here */
   enum verdict verdict; /* `enum`, because C++ wants to know */
   hc_status hbm_status, transient_status;
-  hbm_stability stability;  /* of the HBM solution; multiplier NaN when unknown, or not asked for (setup.multipliers) */
+  hbm_stability stability;  /* of the HBM solution; multiplier NaN: unknown, not needed (setup.multipliers) */
   bool accounted;           /* the transient is within the gate of this or another HBM solution */
   hbm_measures hbm;         /* valid when hbm_status is HC_OK */
   timeint_result transient; /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */

@@ -82,7 +82,8 @@ static hc_status runs_next_to(comparison_work *w, const comparison_row *row, con
   return HC_OK;
 }
 
-/* Is the HBM solution stable (1), unstable (-1)? By the orbit next to it, if that says it; 0: not known. */
+/* 1: the HBM solution is stable, -1: unstable, 0: unknown. The multipliers of the exact orbit next to it decide; its
+ * own are used where there is no such orbit or it is marginal. */
 static int stability_of(const comparison_row *row)
 {
   const int of_orbit = row->orbit_status == HC_OK ? timeint_stability(&row->orbit) : 0;

@@ -2,8 +2,8 @@
  * those with AVX2, which take four numbers at a time instead of two. Products and sums stay two roundings in both, so
  * that results are the same to the last bit. Elsewhere, and under sanitizers (which start later than the choice), there
  * is one copy. For loops over a panel's ten points, which a call of BLAS would not pay for (without it the response
- * curve of structures/plane takes 8 % longer, the least of 15 runs), over samples (slider.c), and
- * over vectors of SUNDIALS (vectors.c). */
+ * curve of structures/plane takes 8 % longer, the least of 15 runs), over samples (slider.c),
+ * over vectors (vectors.c, dense.c) and over columns of variations (series_columns.c, modal_flow.c). */
 #pragma once
 
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && !defined(__AVX2__) && \

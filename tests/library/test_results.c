@@ -157,7 +157,6 @@ static void check_transient(const char *const *set, int n, const double *omega)
   scene sc;
   compare_setup setup = setup_of(&sc, set);
   hbmcheck_case *c = case2_with(set);
-  setup.multipliers = true; /* as the library asks for them */
   setup.compare.omega.n = n;
   memcpy(setup.compare.omega.v, omega, (size_t)n * sizeof *omega);
   CHECK_FILLED(steady_states, expected, steady_states_run(&setup, NULL, &expected));

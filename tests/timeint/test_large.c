@@ -563,8 +563,8 @@ static int follow_as_springs(const scaled_model *m, const double *y, int *fast, 
 
 /* Every third column of the matrix of a structure with slowed modes, at the plates' orbits: modes that are not slowed
  * move, those that are follow as springs; columns of the latter are 0. Against differences of its period map along that
- * motion: 1e-12 of rounding over 2 e, e times the second derivative where transitions move, and what steps leave out of
- * a column, 1e-5 each: of ten of them, 2.3 are seen. */
+ * motion: 1e-12 of rounding over 2 e, e times the second derivative where transitions move, and truncation, 1e-5 of a
+ * column per step: 2.3e-5 was measured. */
 static void slowed_modes_follow_in_columns(CHECK_STATE)
 {
   const double e = 1e-7;

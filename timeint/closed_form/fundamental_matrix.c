@@ -10,8 +10,8 @@
 /* [reach of the motion] Terms of columns grow with their number faster by a factor of 0.7. Where 1e-6 is enough, powers
  * up to 24 of twice a step that is good to rounding leave 2^24 of that, 1e-9; where even that fails, half as long. */
 static const double fine_step = 0.7, coarse_step = 2;
-/* [column] What a step leaves out of a coarse matrix: 4e-11 of a multiplier seen. Of one with slowed modes, which are
- * 4e-6 of a multiplier themselves, 1e-7 of it was seen with a hundred times as much. */
+/* [column] Truncation tolerance of a step. Multipliers of coarse matrices agree to 4e-11, those of matrices with slowed
+ * modes to 5e-10; the slowing itself changes them by 4e-6. */
 static const double of_coarse = 1e-6, of_slowed = 1e-5;
 
 /* to[count] += by from[count] */

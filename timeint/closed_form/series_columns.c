@@ -120,7 +120,8 @@ WIDE_VECTORS static void subtract(const series_columns *s, int width, bool diago
 }
 
 static double *row_of(double *block, int row, int width) { return block + (size_t)row * (size_t)width; }
-/* Rows of z, term k, into `motion`; those of slips that turn into their series, too. */
+
+/* motion := the rows times z, term k; those of turning slips are copied into their series. */
 static void project(series_columns *s, int width, int k, const double *z, double *motion)
 {
   const size_t bytes = (size_t)width * sizeof *z;
@@ -133,8 +134,8 @@ static void project(series_columns *s, int width, int k, const double *z, double
   }
 }
 
-/* Forces of contacts that are linear, by theirs of the motion: in place. The sliders of those that stick move in the
- * first term alone. */
+/* In s->motion, displacements of linear contacts become `by` times their forces. Slider displacements dW are constant
+ * in time: they enter the first term only. */
 static void find_linear_forces(series_columns *s, int width, bool first, double by)
 {
   const size_t w = (size_t)width;

@@ -9,10 +9,10 @@
 #include "timeint/steady/timeint_private.h"
 
 static const double closed_start_tolerance = 1e-12; /* rounding of a period is some 1e-14; CVODE confirms to 1e-9 */
-static const double large_tolerance = 1e-8;         /* of a large structure, whose periods CVODE attains no better */
+static const double large_tolerance = 1e-8; /* of a large structure: the distance that periods by CVODE resolve */
 static const double same_point = 1e-14; /* [1] a state that went to the model's units and back differs by rounding */
 static const double same_orbit = 1e-9;  /* [length] of two such states, relative to their size: a hundred times what the
-                                          orbits found are off */
+                                          orbits found are off; of large structures as much */
 
 /* Orbits confirmed lately: another start at the same frequency often leads to one of them, and nothing is integrated
  * twice. Those of a handle have the same settings. */
@@ -51,7 +51,7 @@ hc_status closed_start_new(timeint *ti)
   how.tolerance = fmin(how.tolerance, closed_start_tolerance);
   hc_status st = timeint_new(ti->model, &how, &ti->closed_form);
   if (st == HC_OK && ti->closed_form->slowed)
-    ti->closed_form->how.tolerance = fmin(10 * ti->how.tolerance, large_tolerance); /* to a tenth of it */
+    ti->closed_form->how.tolerance = fmin(10 * ti->how.tolerance, large_tolerance); /* share_of_goal of it is reached */
   return st == HC_OK ? make_memory(ti) : st;
 }
 

@@ -162,10 +162,10 @@ static hc_status watch_step(void *self, const integrator *in, double theta0, dou
   const int panels = 1 + (any_length ? (int)fmin(oscillates, 1000) : 0),
             points = oscillates <= short_step ? GAUSS_FEW : GAUSS_POINTS;
   const double half = 0.5 * (theta1 - theta0) / panels;
-  /* Where the last step ended states may have changed, at an event of the exact law. */
-  const bool there = w->in && w->ti->how.law != TRANSIENT_LAW_EXACT;
+  /* Only events of the exact law change contact states between the end of a step and the start of the next. */
+  const bool evaluated = w->in && w->ti->how.law != TRANSIENT_LAW_EXACT;
   w->in = in;
-  hc_status st = there ? HC_OK : go_to(w, theta0, theta0, 0);
+  hc_status st = evaluated ? HC_OK : go_to(w, theta0, theta0, 0);
   double here = theta0;
   for (int p = 0; p < panels; ++p)
     for (int i = 0; i < points && st == HC_OK; ++i) {

@@ -42,8 +42,8 @@ static const double scatter_seen = 1e-6; /* [size] a chord step of CVODE's that 
                                             the scatter of periods: of fast modes it is not known beforehand */
 static const double chord_contracts_to = 0.1; /* [last factor] that by which the next step is shorter, as a rule */
 static const double slowed_near = 1e-7;       /* [size] the slowed orbit is where the whole model's begins, 1e-6 off */
-static const double hardly = 1e-7;            /* [size] a slider that slips by no more may be on its way to rest, */
-static const double shows_rest = 1e-11;       /* [size] which shows this near to the orbit */
+static const double nearly_at_rest = 1e-7;    /* [size] a slider that travels less may rest on the orbit itself: */
+static const double resolves_rest = 1e-11;    /* [size] distance to the orbit at which it no longer moves */
 static const double next_to_orbit = 1e-8;     /* [size] |F^k(z) - z|: the orbit is some 1e-7 off */
 static const double chord_contracts = 0.5;    /* [least residual] a chord step that leaves more is idle */
 static const double chord_leads_away = 10;    /* [least residual] the matrix is renewed at once where one leaves that */
@@ -625,12 +625,12 @@ static hc_status factor_slowed_matrix(shoot *s, bool renewed)
   return dense_factor(s->n, s->matrix, s->pivot);
 }
 
-/* Does a slider of the whole model slip by so little that it may be on its way to where it rests? */
-static bool hardly_slips(const shoot *s)
+/* True if a slider of the whole model slips, but travels less than nearly_at_rest in a period. */
+static bool has_slider_nearly_at_rest(const shoot *s)
 {
   const double size = timeint_scaled_size(s->ti);
   for (int i = 2 * s->ti->n_dof; i < s->n && s->ti->slowed; ++i)
-    if (s->travel[i] > 0 && s->travel[i] <= hardly * size) return true;
+    if (s->travel[i] > 0 && s->travel[i] <= nearly_at_rest * size) return true;
   return false;
 }
 
@@ -644,7 +644,7 @@ static hc_status by_chords(shoot *s, double reach, double enough, double near)
     if (st != HC_OK) return st;
     for (int i = 0; i < s->n; ++i) s->step[i] = z[i] - s->f[i];
     const double size = norm_2(s->n, s->step);
-    const bool near_rest = hardly_slips(s);
+    const bool near_rest = has_slider_nearly_at_rest(s);
     if (size <= enough && !near_rest) return HC_OK;
     idle = size <= chord_contracts * least ? 0 : idle + 1;
     least = fmin(least, size);
@@ -656,7 +656,7 @@ static hc_status by_chords(shoot *s, double reach, double enough, double near)
     dense_solve(s->n, s->matrix, s->pivot, 1, s->step);
     const double length = norm_2(s->n, s->step), share = length > reach ? reach / length : 1;
     if (!isfinite(length)) return HC_NOT_FINITE;
-    if (length <= near && (length <= shows_rest * timeint_scaled_size(s->ti) || !near_rest)) return HC_OK;
+    if (length <= near && (length <= resolves_rest * timeint_scaled_size(s->ti) || !near_rest)) return HC_OK;
     const double shorter = steps > 0 ? chord_contracts_to * fmin(length / last, 1) : chord_contracts_to;
     s->measures = s->ti->slowed && shorter * length <= near;
     last = length;

@@ -117,9 +117,9 @@ static hc_status shape_of(shown *d, double omega, const double *X, json_t *ampli
   return st;
 }
 
-/* The verdict about solution k at omega: of the comparison's k-th row there, where HBM's multipliers were not needed of
- * the orbit next to it. */
-static int stability_of(const comparison *c, double omega, int k)
+/* Stability of solution k at omega, in the comparison's k-th row there: by HBM's multipliers if they were computed,
+ * else by those of the exact orbit next to it. */
+static int shown_stability(const comparison *c, double omega, int k)
 {
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *row = &c->rows[i];
@@ -150,8 +150,8 @@ static hc_status append_solution(shown *d, const hbm_curve *at, int k, json_t *l
     }
   }
   json_t *solution = json_pack("{s:f, s:i, s:i, s:o, s:o, s:o, s:o}", "omega", p->omega, "branch", p->branch, "stable",
-                               stability_of(d->c, p->omega, k), "amplitude", amplitude, "cosine", cosine, "sine", sine,
-                               "loops", loops);
+                               shown_stability(d->c, p->omega, k), "amplitude", amplitude, "cosine", cosine, "sine",
+                               sine, "loops", loops);
   if (st == HC_OK) json_array_append_new(list, solution);
   else json_decref(solution);
   return st == HC_NO_MEMORY ? st : HC_OK;
