@@ -5,10 +5,10 @@
  * A column is a variation; the terms z_k = d_k h^k of its power series over a step h come from
  *     (k + 1)(k + 2) z_{k+2} = -h^2 (by_K K z_k + contacts of z_k) - h (k + 1) by_C C z_{k+1}
  * for a block of columns together: products of matrices, not of a matrix and a vector, and contacts that resist no
- * motion are left out. So many terms are taken that what is left out of any column is below its rounding (of a coarse
- * matrix, a larger part of it); a step is as long as LAST terms allow, about 2 over the highest frequency. Where contacts
- * stay as they are for many steps, the map of one is squared until it is that of all. Nothing is allocated after
- * series_columns_make. */
+ * motion are left out. So many terms are taken that
+ * what is left out of any column is below its rounding (of a coarse matrix, a larger part of it); a step is as long as
+ * LAST terms allow, about 2 over the highest frequency. Where contacts stay as they are for many steps, the map of one
+ * is squared until it is that of all. Nothing is allocated after series_columns_make. */
 #pragma once
 
 #include <float.h>
