@@ -73,4 +73,22 @@ static void systems_solved(CHECK_STATE)
   comparison_clear(&c);
 }
 
-CHECK_TESTS("compare.once", 60, exact_law, regularised_law, finer_steps_only_where_shown, systems_solved)
+/* HBM's multipliers are computed only where the exact orbit does not decide; verdicts are the same with all of them. */
+static void multipliers_only_where_they_decide(CHECK_STATE)
+{
+  comparison c[2];
+  const scene sc = case_scene("paper/fig09_gap_0", 1, (const char *const[]){"compare.omega=4.969845253019276"});
+  CHECK_FILLED(compare_setup, setup, scene_setup(&sc, &setup));
+  for (int k = 0; k < 2; ++k) setup.multipliers = k, assert_int_equal(comparison_run(&setup, NULL, &c[k]), HC_OK);
+  assert_true(c[0].n_rows == 3 && c[1].n_rows == 3);
+  for (int i = 0; i < 3; ++i) {
+    assert_true((i == 0) == (c[0].rows[i].orbit_status == HC_OK) &&
+                (i > 0) == (isnan(c[0].rows[i].stability.multiplier) == 0));
+    assert_true(!isnan(c[1].rows[i].stability.multiplier) && c[0].rows[i].verdict == c[1].rows[i].verdict);
+  }
+  for (int k = 0; k < 2; ++k) comparison_clear(&c[k]);
+  scene_setup_clear(&setup);
+}
+
+CHECK_TESTS("compare.once", 60, exact_law, regularised_law, finer_steps_only_where_shown, systems_solved,
+            multipliers_only_where_they_decide)

@@ -253,9 +253,8 @@ hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m,
                                    const double *y, bool coarse)
 {
   const size_t n = (size_t)v->n_states;
-  const bool fine = !coarse && v->n_slowed == 0;
   v->series.rounding = v->n_slowed > 0 ? of_slowed : coarse ? of_coarse : SERIES_COLUMNS_ROUNDING;
-  v->safe = fine ? fine_step : coarse_step;
+  v->safe = coarse || v->n_slowed > 0 ? coarse_step : fine_step;
   hc_status st = v->n_slowed > 0 ? find_following(v, m, track) : HC_OK;
   if (st != HC_OK) return st;
   memset(v->rows, 0, n * n * sizeof *v->rows);

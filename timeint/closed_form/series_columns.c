@@ -41,7 +41,6 @@ hc_status series_columns_make(series_columns *s, const modal_base *base, workspa
   }
   for (int i = 0; i < s->n_planar && !w->failed; ++i) planar_columns_make(&s->turning[i], BLOCK, w);
   if (w->failed) return HC_NO_MEMORY;
-  s->rounding = SERIES_COLUMNS_ROUNDING;
   if (!base->diagonal_K) dense_transpose(base->n, base->n, base->K, s->turned_K);
   if (!base->diagonal_C) dense_transpose(base->n, base->n, base->C, s->turned_C);
   return HC_OK;

@@ -38,7 +38,7 @@ typedef struct series_columns {
   const motion_series *along;   /* where slips turn: the motion; else NULL */
   int n_states;                 /* 2 n + contacts */
   double *map, *squared;        /* [n_states][n_states] by rows, of a step or of many; NULL: too large */
-  double rounding;              /* [column] what may be left out: the owner's to set, at first as below */
+  double rounding;              /* [column] truncation tolerance, set by the owner */
   double reach;                 /* [rad] the longest step that has been seen to suffice, or is hoped to */
 } series_columns;
 

@@ -180,11 +180,8 @@ hc_status timeint_contacts(timeint *ti, const timeint_result *r, contact_period 
 {
   const int k = r->period_multiple > 0 ? r->period_multiple : 1, n_contacts = ti->scaled.n_contacts;
   double *y = ti->point[2];
-  contact_watch w = {.ti = ti,
-                     .n_contacts = n_contacts,
-                     .stiffest = ti->base->highest / ti->omega,
-                     .y = ti->point[0],
-                     .dy = ti->point[1]};
+  contact_watch w = {.ti = ti, .n_contacts = n_contacts, .y = ti->point[0], .dy = ti->point[1]};
+  w.stiffest = ti->base->highest / ti->omega;
   workspace memory = {0};
   hc_status st = contact_rows_make(&w.rows, ti->base, &memory);
   w.of = workspace_array(&memory, (size_t)n_contacts, sizeof *w.of);

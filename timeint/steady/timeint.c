@@ -126,8 +126,7 @@ hc_status timeint_new_beside(timeint *of, const transient_settings *how, timeint
 {
   timeint *ti;
   *out = NULL;
-  const timeint *closed = of->closed_form;
-  const bool same = closed && (closed->slowed || closed->how.tolerance <= how->tolerance);
+  const bool same = of->closed_form && (of->closed_form->slowed || of->closed_form->how.tolerance <= how->tolerance);
   if (!same || !how->scout || how->method == TRANSIENT_METHOD_CLOSED_FORM) return timeint_new(of->model, how, out);
   if (how->law == TRANSIENT_LAW_EXACT && (*out = timeint_closed_form_of(of))) return HC_OK;
   hc_status st = make(of->model, how, true, &ti);
