@@ -23,7 +23,9 @@
 #include "numerics/base/workspace.h"
 #include "numerics/norm.h"
 
-static const double TOLERANCE = 2e-4; /* [1] of interpolation, in the metric: of the contact that it is worst for */
+/* [1] of interpolation, in the metric: of the contact that it is worst for. Sampled forces have turning points of their
+ * own, between samples, which longer steps pass over. */
+static const double TOLERANCE = 2e-4, TOLERANCE_SAMPLED = 1e-4;
 static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
 static const double STEP_CORNER = 1e-4; /* where steps are this short the curve has a corner: a kink is accepted */
 static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
@@ -112,7 +114,8 @@ static bool check_trial(path *p, double ratio)
   bool forward;
   double turned = orient(p, &forward), moved = path_correction(p, p->curve->omega_scale),
          error = ratio * path_correction(p, p->resolution);
-  double scale = p->s->step_scale, tolerance = TOLERANCE * scale * scale * scale * scale;
+  double scale = p->s->step_scale, tolerance = p->s->how.force == HBM_FORCE_SAMPLED ? TOLERANCE_SAMPLED : TOLERANCE;
+  tolerance *= scale * scale * scale * scale;
   bool corner = p->step <= STEP_CORNER;
   bool smooth = moved <= MOST_MOVED * p->step && turned >= LEAST_COSINE && error <= MOST_ERROR * tolerance;
   bool kink = moved <= p->step || (p->natural && path_agrees_backwards(p, p->step));

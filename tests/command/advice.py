@@ -81,10 +81,10 @@ class Compare(unittest.TestCase):
 
 
     def test_what_helps_is_found_where_newton_from_the_solution_does_not_lead(self):
-        """A curve of 30 harmonics, of 50 with all the rest, and forces before transients that take all of the time."""
+        """A curve of 30 harmonics, of 71, and forces before transients that take all of the time."""
         for scene, words, *sets in (
                 (900785, "use hbm.force: exact and hbm.harmonics >= 30", "hbm.harmonics=1", "hbm.force=sampled", "hbm.samples=64"),
-                (903323, "harmonics >= 50 and transient.tolerance <= 1e-10", "hbm.harmonics=5", "hbm.force=sampled", "hbm.samples=128",
+                (903323, "use hbm.force: exact and hbm.harmonics >= 71", "hbm.harmonics=5", "hbm.force=sampled", "hbm.samples=128",
                  "sweep.omega=[4.7, 5.2]")):  # another solution than from 5 on
             _, text, _ = run("stress", "--case", "--first", str(scene), "--structures")
             with tempfile.NamedTemporaryFile("w", suffix=".yaml") as case:
@@ -92,7 +92,7 @@ class Compare(unittest.TestCase):
                 case.flush()
                 start = [case.name, "--set", "transient.law=exact", *(x for s in sets for x in ("--set", s))]
                 rows, said = compare(*start)
-                self.assertIn("differs", {r["verdict"] for r in rows})
+                self.assertIn(rows[0]["verdict"], ("differs", "period_2"))
                 self.assertIn(words, said)
                 rows, said = compare(*start, *followed(said))
                 self.assertIn("within the gate", said)

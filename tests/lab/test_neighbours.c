@@ -96,7 +96,7 @@ static void every_point_has_its_row(CHECK_STATE)
 static void jumping_jacobians_are_got_round(CHECK_STATE)
 {
   static double sampled[MOST_ROWS][LAB_SOLUTION + COEF];
-  lab *l = lab_of(6000, 64);
+  lab *l = lab_of(5500, 64);
   assert_int_equal(lab_curve(l, LAB_SAMPLED), HC_OK);
   assert_int_equal(lab_curve_at(l, LAB_SAMPLED, 7), HC_OK);
   assert_int_equal(rows_of(l, sampled), 1);
@@ -107,11 +107,11 @@ static void jumping_jacobians_are_got_round(CHECK_STATE)
   lab_free(l);
 }
 
-/* Nearly rigid, and 24 samples: of some points Newton ends at another solution, and of some nowhere. */
+/* Nearly rigid, and 16 samples: of some points Newton ends at another solution, and of some nowhere. */
 static void another_solution_is_no_neighbour(CHECK_STATE)
 {
   static double exact[MOST_ROWS][LAB_SOLUTION + COEF];
-  lab *l = lab_of(1e5, 24);
+  lab *l = lab_of(1e5, 16);
   int missing = 0;
   assert_int_equal(lab_curve(l, LAB_EXACT), HC_OK);
   const int n = rows_of(l, exact);
