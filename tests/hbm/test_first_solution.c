@@ -214,15 +214,22 @@ static void another_ramp_where_one_takes_too_long(CHECK_STATE)
   refused_scene r = winding;
   double X[MOST_COEF];
   tick_counter watch = {0};
-  for (int k = 0; k < 10 && (k == 0 || watch.ticks > 2000); ++k, r.omega *= 1 + 1e-5) {
+  bool arrived = false;
+  for (int k = 0; k < 10 && !arrived; ++k, r.omega *= 1 + 1e-5) {
+    hbm_point point;
     watch = (tick_counter){.stop = 5000};
     hbm_solver *s = solver_of(&r);
-    CHECK_FILLED(hbm_point, point, hbm_first_solution(s, r.omega, &(hc_monitor){tick_any, &watch}, X, &point));
-    assert_true(watch.ticks > 1000 && point.iterations > watch.ticks - 1000); /* one a step at least */
-    check_solution(&r, X, "winding");
+    const hc_status st = hbm_first_solution(s, r.omega, &(hc_monitor){tick_any, &watch}, X, &point);
+    assert_true(watch.ticks > 1000);
+    assert_true(st == HC_OK || st == HC_NOT_CONVERGED);
+    if (st == HC_OK) {
+      assert_true(point.iterations > watch.ticks - 1000); /* one a step at least */
+      check_solution(&r, X, "winding");
+      arrived = watch.ticks <= 2000;
+    }
     hbm_solver_free(s);
   }
-  assert_true(watch.ticks <= 2000);
+  assert_true(arrived);
 }
 
 /* At one of neighbouring frequencies at least, as rounding decides. */
