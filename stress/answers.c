@@ -1,0 +1,330 @@
+/* answers.c - what the program says of a scene, as lists of numbers: special points, peak, solutions, transients,
+ * verdicts, advice; and the same of the scene written another way (rewritten.h), which must be the same lists.
+ *
+ * Two lists are as far apart as the answer that is farthest from all of its kind in the other list. Two answers of a
+ * kind nearer to each other than twice the bound are twins: a contact that reaches its limit and leaves it at once
+ * changes twice or, by rounding, not at all, and what is found may be one of them.
+ *
+ * Bounds are those of what is asked: special points are located to 1e-9 of omega, in numbers that have `ratio` times
+ * the rounding; the peak is a row's amplitude; transients have errors of integration and of regularisation, the same
+ * in both but for steps. What differs by more is held against what rounding makes of the scene itself: its numbers
+ * changed at random by what the other way's rounding is, and asked again. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare/accuracy/sufficient.h"
+#include "compare/first_guess.h"
+#include "numerics/norm.h"
+#include "stress/solved_scene.h"
+
+/* What is found together, by one function of asking[]. */
+typedef enum answer_group { ABOUT_CURVE, ABOUT_EXACT, ABOUT_DEFAULT, ABOUT_VERDICTS, ABOUT_ADVICE, GROUPS } answer_group;
+typedef enum answer_question {
+  SPECIALS,
+  PEAK,
+  HIGHEST,
+  SOLUTIONS,
+  EXACT,
+  BY_DEFAULT,
+  VERDICTS,
+  ADVICE,
+  QUESTIONS
+} answer_question;
+
+static const struct {
+  stress_reason reason; /* of a finding */
+  answer_group group;
+  double bound;  /* [1] relative */
+  bool absolute; /* else: bound is of the number itself */
+} questions[QUESTIONS] = {
+    [SPECIALS] = {STRESS_SPECIALS, ABOUT_CURVE, 1e-6, false},
+    [PEAK] = {STRESS_PEAK, ABOUT_CURVE, 1e-6, false},
+    [HIGHEST] = {STRESS_HIGHEST, ABOUT_CURVE, 1e-3, false},
+    [SOLUTIONS] = {STRESS_SOLUTIONS, ABOUT_CURVE, 1e-7, false},
+    [EXACT] = {STRESS_TRANSIENT, ABOUT_EXACT, 2e-5, false},
+    [BY_DEFAULT] = {STRESS_REGULARISED, ABOUT_DEFAULT, 2e-5, false},
+    [VERDICTS] = {STRESS_VERDICTS, ABOUT_VERDICTS, 1e-6, false},
+    [ADVICE] = {STRESS_ADVICE, ABOUT_ADVICE, 1, true},
+};
+
+typedef struct answer {
+  int code;     /* kind of special point, verdict, ...: those of one code are held together */
+  double value; /* frequency, amplitude, ... */
+  bool border;  /* a verdict between two: another may be said */
+  contact_regime before, after; /* of a contact change, else the same */
+} answer;
+
+enum { MOST_ANSWERS = 64 };
+struct stress_answers {
+  bool asked[GROUPS];
+  hc_status status[GROUPS];
+  bool history[GROUPS]; /* a slider never slips in what was found */
+  int n[QUESTIONS];
+  answer of[QUESTIONS][MOST_ANSWERS];
+};
+
+static void put(stress_answers *a, answer_question q, answer what)
+{
+  if (a->n[q] < MOST_ANSWERS) a->of[q][a->n[q]++] = what;
+}
+
+/* ---- asking ---- */
+
+/* Amplitude of a solution; *history as in the answers. */
+static hc_status amplitude_of(hbm_solver *h, const double *X, double *amplitude, bool *history)
+{
+  hbm_measures m = {0};
+  hc_status st = hbm_measure(h, X, &m);
+  *amplitude = m.amplitude;
+  *history = *history || m.contact.free_sliders > 0;
+  return st;
+}
+
+/* A special point beside an end of the sweep may be beyond it. */
+static bool is_at_end(const solved_scene *s, double omega)
+{
+  return fmin(fabs(omega - s->from), fabs(omega - s->to)) <= 1e-5 * omega;
+}
+
+static hc_status ask_curve(solved_scene *s, const model *m, const double *start, stress_answers *a)
+{
+  hbm_solver *h = NULL;
+  hbm_curve curve = {0}, found = {0}, peak = {0};
+  hbm_special special[MOST_ANSWERS];
+  bool *history = &a->history[ABOUT_CURVE];
+  double highest = 0, x = 0;
+  int n = 0;
+  (void)start;
+  hc_status st = guided_hbm_solver_new(m, &s->how, &h);
+  if (st == HC_OK) st = hbm_trace(h, s->from, s->to, &s->monitor, &curve);
+  for (int k = 0; k < curve.n && st == HC_OK; ++k) {
+    st = amplitude_of(h, hbm_curve_X(&curve, k), &x, history);
+    highest = fmax(highest, x);
+  }
+  if (st == HC_OK) st = hbm_curve_peak(h, &curve, &peak);
+  if (st == HC_OK) st = amplitude_of(h, hbm_curve_X(&peak, 0), &x, history);
+  if (st == HC_OK) put(a, PEAK, (answer){.value = x}), put(a, HIGHEST, (answer){.value = highest});
+  if (st == HC_OK) st = hbm_curve_at(h, &curve, s->omega, &found);
+  for (int k = 0; k < found.n && st == HC_OK; ++k) {
+    st = amplitude_of(h, hbm_curve_X(&found, k), &x, history);
+    put(a, SOLUTIONS, (answer){.value = x});
+  }
+  if (st == HC_OK) st = hbm_specials(h, &curve, MOST_ANSWERS, special, &n);
+  for (int i = 0; i < n && i < MOST_ANSWERS && st == HC_OK; ++i) {
+    const hbm_special *p = &special[i];
+    if (is_at_end(s, p->omega)) continue;
+    put(a, SPECIALS, (answer){.code = (int)p->kind, .value = p->omega, .before = p->before, .after = p->after});
+  }
+  hbm_curve_free(&peak);
+  hbm_curve_free(&found);
+  hbm_curve_free(&curve);
+  hbm_solver_free(h);
+  return st;
+}
+
+/* Where the motion goes from the start. Where it leaves an unstable orbit, or never repeats, only that is said. */
+static hc_status ask_transient(solved_scene *s, const model *m, const double *start, transient_law law,
+                               answer_question q, stress_answers *a)
+{
+  transient_settings how = s->asked->transient;
+  timeint *ti = NULL;
+  timeint_result r = {0};
+  const bool closed = law == TRANSIENT_LAW_EXACT && !model_is_smooth(m);
+  how.law = law;
+  how.method = closed ? TRANSIENT_METHOD_CLOSED_FORM : TRANSIENT_METHOD_CVODE;
+  how.start = TRANSIENT_START_HBM;
+  hc_status st = timeint_new(m, &how, &ti);
+  double *state = st == HC_OK ? malloc((size_t)timeint_n_states(ti) * sizeof *state) : NULL;
+  if (st == HC_OK && !state) st = HC_NO_MEMORY;
+  if (st == HC_OK) {
+    memcpy(state, start, (size_t)timeint_n_states(ti) * sizeof *state);
+    st = timeint_steady(ti, s->omega, state, &s->monitor, &r);
+  }
+  const bool never = st == HC_NOT_SETTLED || st == HC_APERIODIC, stays = st == HC_OK && !r.left_orbit;
+  if (st == HC_OK || never)
+    put(a, q, (answer){.code = stays ? r.period_multiple : 0, .value = stays ? r.amplitude : 0, .border = never});
+  a->history[questions[q].group] = r.free_sliders > 0;
+  timeint_free(ti);
+  free(state);
+  return never ? HC_OK : st;
+}
+
+static hc_status ask_exact(solved_scene *s, const model *m, const double *start, stress_answers *a)
+{
+  return ask_transient(s, m, start, TRANSIENT_LAW_EXACT, EXACT, a);
+}
+
+static hc_status ask_default(solved_scene *s, const model *m, const double *start, stress_answers *a)
+{
+  return ask_transient(s, m, start, TRANSIENT_LAW_REGULARISED, BY_DEFAULT, a);
+}
+
+/* A verdict may be another where an error is a tenth or less beside the gate, a multiplier as near to 1 as HBM's and
+ * time integration's may differ, or where only chance says how long a motion that never repeats is followed. */
+static hc_status ask_verdicts(solved_scene *s, const model *m, const double *start, stress_answers *a)
+{
+  comparison c;
+  (void)start;
+  hc_status st = stress_compare(s, m, &c);
+  const discrepancy gate = gate_limits_at(&s->asked->gate, s->omega);
+  for (int i = 0; i < c.n_rows && st == HC_OK; ++i) {
+    const comparison_row *r = &c.rows[i];
+    const bool never = r->verdict == VERDICT_APERIODIC || r->verdict == VERDICT_NOT_SETTLED;
+    const bool by_gate = fabs(stress_gate_ratio(r, &gate) - 1) < 0.1;
+    const bool by_multiplier = r->orbit_status == HC_OK && fabs(r->orbit.multiplier - 1) < 1e-3;
+    put(a, VERDICTS,
+        (answer){.code = (int)r->verdict,
+                 .value = r->hbm_status == HC_OK ? r->hbm.amplitude : 0,
+                 .border = never || by_gate || by_multiplier});
+    a->history[ABOUT_VERDICTS] |= r->transient.free_sliders > 0 || r->hbm.contact.free_sliders > 0;
+  }
+  comparison_clear(&c);
+  return st;
+}
+
+/* At the scene's omega, of few unknowns: with exact forces the harmonics; with sampled ones the power of two of samples.
+ * One more or less may do where the error is at the limit. */
+static hc_status ask_advice(solved_scene *s, const model *m, const double *start, stress_answers *a)
+{
+  enum { MOST_COORDINATES = 2 };
+  const int coordinates = 2 * s->model->n_contacts < s->n ? 2 * s->model->n_contacts : s->n;
+  sufficient found = {0};
+  compare_setup setup;
+  (void)start;
+  if (coordinates > MOST_COORDINATES) return HC_OK;
+  hc_status st = scene_setup(s->asked, &setup);
+  compare_setup asked = setup;
+  asked.model = m;
+  if (st == HC_OK) st = sufficient_run(&asked, 1e-3, false, &s->monitor, &found);
+  for (int i = 0; i < found.n && st == HC_OK; ++i) {
+    const sufficient_row *r = &found.rows[i];
+    put(a, ADVICE, (answer){.code = r->sampled, .value = r->sampled ? log2(fmax(1, r->samples)) : r->harmonics});
+  }
+  scene_setup_clear(&setup);
+  return st;
+}
+
+static hc_status (*const asking[GROUPS])(solved_scene *, const model *, const double *, stress_answers *) = {
+    [ABOUT_CURVE] = ask_curve,       [ABOUT_EXACT] = ask_exact,   [ABOUT_DEFAULT] = ask_default,
+    [ABOUT_VERDICTS] = ask_verdicts, [ABOUT_ADVICE] = ask_advice,
+};
+
+/* As a user has it, with the first response alone. */
+static void ask(solved_scene *s, const model *m, const double *start, answer_group g, stress_answers *a)
+{
+  model *alone;
+  if (a->asked[g]) return;
+  hc_status st = model_copy_sized(m, m->n_contacts, 1, &alone);
+  if (st == HC_OK) st = asking[g](s, alone, start, a);
+  model_free(alone);
+  if (st == HC_NO_MEMORY) s->fatal = st;
+  a->status[g] = st;
+  a->asked[g] = true;
+}
+
+/* ---- held against each other ---- */
+
+typedef struct scale {
+  double bound;
+  bool absolute;
+  contact_regime hidden; /* contact changes up to this regime may be missing */
+} scale;
+
+static double apart(const answer *a, const answer *b, const scale *of)
+{
+  if (a->code != b->code && !(a->border && b->border)) return INFINITY;
+  const double d = fabs(a->value - b->value);
+  return d == 0 || of->absolute ? d : d / fmax(fabs(a->value), fabs(b->value));
+}
+
+/* May a[i] be missing in the other list? */
+static bool may_miss(int n, const answer *a, int i, const scale *of)
+{
+  for (int k = 0; k < n; ++k)
+    if (k != i && apart(&a[k], &a[i], of) <= 2 * of->bound) return true;
+  return a[i].before != a[i].after && contact_regime_larger(a[i].before, of->hidden) == of->hidden &&
+         contact_regime_larger(a[i].after, of->hidden) == of->hidden;
+}
+
+static double one_sided(int n_a, const answer *a, int n_b, const answer *b, const scale *of)
+{
+  double worst = 0;
+  for (int i = 0; i < n_a; ++i) {
+    double nearest = INFINITY;
+    for (int k = 0; k < n_b; ++k) nearest = fmin(nearest, apart(&a[i], &b[k], of));
+    if (nearest > of->bound && may_miss(n_a, a, i, of)) continue;
+    worst = fmax(worst, nearest);
+  }
+  return worst;
+}
+
+static double lists_apart(const stress_answers *a, const stress_answers *b, answer_question q, const scale *of)
+{
+  if (b->status[questions[q].group] != HC_OK) return INFINITY;
+  return fmax(one_sided(a->n[q], a->of[q], b->n[q], b->of[q], of),
+              one_sided(b->n[q], b->of[q], a->n[q], a->of[q], of));
+}
+
+/* What the scene says with its numbers changed by the rounding of one `ratio` times as large (ways.c), ten times over,
+ * as it is changed once only. */
+static double sensitive(solved_scene *s, double ratio, answer_question q, const scale *of, stress_answers *changed)
+{
+  const double rounding = 4e-13, draws = 10;
+  const answer_group g = questions[q].group;
+  rewritten other;
+  stress_motion moved = {0};
+  if (!changed->asked[g]) {
+    s->fatal = rewritten_nudged(s->model, rounding * ratio, &s->random, &other);
+    if (s->fatal == HC_OK) {
+      hbm_settings how = s->how;
+      how.harmonics = s->fine.harmonics;
+      stress_motion_solve(s, other.model, &how, s->omega, s->fine.x, 1, &moved);
+    }
+    changed->status[g] = moved.status;
+    if (s->fatal == HC_OK && moved.status == HC_OK) ask(s, other.model, moved.start, g, changed);
+    changed->asked[g] = true;
+    stress_motion_free(&moved);
+    rewritten_clear(&other);
+  }
+  return draws * lists_apart(s->plain, changed, q, of);
+}
+
+static stress_check hold_question(solved_scene *s, const rewritten *w, answer_question q, const stress_answers *other,
+                                  stress_answers *changed)
+{
+  const scale of = {questions[q].bound, questions[q].absolute, w->regime};
+  const double error = lists_apart(s->plain, other, q, &of);
+  if (s->plain->n[q] == 0 && other->n[q] == 0) return stress_skip(STRESS_NOT_APPLICABLE);
+  if (error <= of.bound) return stress_agree(error, of.bound);
+  stress_check c = stress_agree_within(error, of.bound, sensitive(s, w->ratio, q, &of, changed));
+  if (changed->status[questions[q].group] == HC_INTERRUPTED) return stress_refuse(s, HC_INTERRUPTED);
+  if (c.outcome == STRESS_FINDING) c.reason = questions[q].reason;
+  return c;
+}
+
+stress_check stress_hold_answers(solved_scene *s, const rewritten *w, const double *start)
+{
+  stress_check worst = stress_skip(STRESS_NOT_APPLICABLE);
+  stress_answers *other = calloc(2, sizeof *other), *changed = other + 1;
+  if (other && !s->plain && (s->plain = calloc(1, sizeof *s->plain))) {
+    solved_scene_clock(s, 1);
+    for (int g = 0; g < GROUPS && s->fatal == HC_OK; ++g) ask(s, s->model, s->fine.start, (answer_group)g, s->plain);
+    solved_scene_clock(s, 1);
+  }
+  if (!other || !s->plain) s->fatal = HC_NO_MEMORY;
+  for (int q = 0; q < QUESTIONS && s->fatal == HC_OK; ++q) {
+    const answer_group g = questions[q].group;
+    stress_check c = stress_skip(STRESS_NOT_APPLICABLE);
+    if (s->plain->status[g] != HC_OK) c = stress_refuse(s, s->plain->status[g]);
+    else {
+      ask(s, w->model, start, g, other);
+      if (other->status[g] == HC_INTERRUPTED) c = stress_refuse(s, HC_INTERRUPTED);
+      else if (!w->history || !(s->plain->history[g] || other->history[g]))
+        c = hold_question(s, w, (answer_question)q, other, changed);
+    }
+    worst = stress_worse(worst, c);
+  }
+  free(other);
+  return worst;
+}
