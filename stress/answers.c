@@ -22,8 +22,8 @@
 typedef enum answer_group { ABOUT_CURVE, ABOUT_EXACT, ABOUT_DEFAULT, ABOUT_VERDICTS, ABOUT_ADVICE, GROUPS } answer_group;
 typedef enum answer_question {
   SPECIALS,
-  PEAK,
   HIGHEST,
+  PEAK,
   SOLUTIONS,
   EXACT,
   BY_DEFAULT,
@@ -39,8 +39,8 @@ static const struct {
   bool absolute; /* else: bound is of the number itself */
 } questions[QUESTIONS] = {
     [SPECIALS] = {STRESS_SPECIALS, ABOUT_CURVE, 1e-6, false},
-    [PEAK] = {STRESS_PEAK, ABOUT_CURVE, 1e-6, false},
     [HIGHEST] = {STRESS_HIGHEST, ABOUT_CURVE, 1e-3, false},
+    [PEAK] = {STRESS_PEAK, ABOUT_CURVE, 1e-6, false},
     [SOLUTIONS] = {STRESS_SOLUTIONS, ABOUT_CURVE, 1e-7, false},
     [EXACT] = {STRESS_TRANSIENT, ABOUT_EXACT, 2e-5, false},
     [BY_DEFAULT] = {STRESS_REGULARISED, ABOUT_DEFAULT, 2e-5, false},
@@ -123,13 +123,18 @@ static hc_status ask_curve(solved_scene *s, const model *m, const double *start,
   return st;
 }
 
-/* Where the motion goes from the start. Where it leaves an unstable orbit, or never repeats, only that is said. */
+/* Is the orbit next to the solution one to which motions beside it go back? Where the motion goes from beside another,
+ * and when it gets there, hangs on rounding. */
+static bool attracts(const solved_scene *s) { return s->path.status == HC_OK && s->path.r.multiplier < 1 - 1e-3; }
+
+/* Where the motion goes from the start, if to that orbit. */
 static hc_status ask_transient(solved_scene *s, const model *m, const double *start, transient_law law,
                                answer_question q, stress_answers *a)
 {
   transient_settings how = s->asked->transient;
   timeint *ti = NULL;
   timeint_result r = {0};
+  if (!attracts(s)) return HC_OK;
   const bool closed = law == TRANSIENT_LAW_EXACT && !model_is_smooth(m);
   how.law = law;
   how.method = closed ? TRANSIENT_METHOD_CLOSED_FORM : TRANSIENT_METHOD_CVODE;
@@ -141,13 +146,11 @@ static hc_status ask_transient(solved_scene *s, const model *m, const double *st
     memcpy(state, start, (size_t)timeint_n_states(ti) * sizeof *state);
     st = timeint_steady(ti, s->omega, state, &s->monitor, &r);
   }
-  const bool never = st == HC_NOT_SETTLED || st == HC_APERIODIC, stays = st == HC_OK && !r.left_orbit;
-  if (st == HC_OK || never)
-    put(a, q, (answer){.code = stays ? r.period_multiple : 0, .value = stays ? r.amplitude : 0, .border = never});
+  if (st == HC_OK) put(a, q, (answer){.code = r.period_multiple, .value = r.amplitude});
   a->history[questions[q].group] = r.free_sliders > 0;
   timeint_free(ti);
   free(state);
-  return never ? HC_OK : st;
+  return st == HC_NOT_SETTLED || st == HC_APERIODIC ? HC_OK : st;
 }
 
 static hc_status ask_exact(solved_scene *s, const model *m, const double *start, stress_answers *a)
@@ -160,8 +163,8 @@ static hc_status ask_default(solved_scene *s, const model *m, const double *star
   return ask_transient(s, m, start, TRANSIENT_LAW_REGULARISED, BY_DEFAULT, a);
 }
 
-/* A verdict may be another where an error is a tenth or less beside the gate, a multiplier as near to 1 as HBM's and
- * time integration's may differ, or where only chance says how long a motion that never repeats is followed. */
+/* A verdict may be another where an error is within a tenth of the gate, a multiplier as near to 1 as HBM's and time
+ * integration's may differ, or where the motion leaves the solution, and rounding says where to. */
 static hc_status ask_verdicts(solved_scene *s, const model *m, const double *start, stress_answers *a)
 {
   comparison c;
@@ -170,21 +173,22 @@ static hc_status ask_verdicts(solved_scene *s, const model *m, const double *sta
   const discrepancy gate = gate_limits_at(&s->asked->gate, s->omega);
   for (int i = 0; i < c.n_rows && st == HC_OK; ++i) {
     const comparison_row *r = &c.rows[i];
-    const bool never = r->verdict == VERDICT_APERIODIC || r->verdict == VERDICT_NOT_SETTLED;
+    const bool leaves = r->verdict == VERDICT_APERIODIC || r->verdict == VERDICT_NOT_SETTLED ||
+                        r->verdict == VERDICT_PERIOD_K || r->transient.left_orbit;
     const bool by_gate = fabs(stress_gate_ratio(r, &gate) - 1) < 0.1;
     const bool by_multiplier = r->orbit_status == HC_OK && fabs(r->orbit.multiplier - 1) < 1e-3;
     put(a, VERDICTS,
         (answer){.code = (int)r->verdict,
                  .value = r->hbm_status == HC_OK ? r->hbm.amplitude : 0,
-                 .border = never || by_gate || by_multiplier});
+                 .border = leaves || by_gate || by_multiplier});
     a->history[ABOUT_VERDICTS] |= r->transient.free_sliders > 0 || r->hbm.contact.free_sliders > 0;
   }
   comparison_clear(&c);
   return st;
 }
 
-/* At the scene's omega, of few unknowns: with exact forces the harmonics; with sampled ones the power of two of samples.
- * One more or less may do where the error is at the limit. */
+/* At the scene's omega, of few unknowns: with exact forces the harmonics; with sampled ones, for such harmonics, the
+ * power of two of samples. One more or less may do where the error is at the limit. */
 static hc_status ask_advice(solved_scene *s, const model *m, const double *start, stress_answers *a)
 {
   enum { MOST_COORDINATES = 2 };
@@ -199,7 +203,8 @@ static hc_status ask_advice(solved_scene *s, const model *m, const double *start
   if (st == HC_OK) st = sufficient_run(&asked, 1e-3, false, &s->monitor, &found);
   for (int i = 0; i < found.n && st == HC_OK; ++i) {
     const sufficient_row *r = &found.rows[i];
-    put(a, ADVICE, (answer){.code = r->sampled, .value = r->sampled ? log2(fmax(1, r->samples)) : r->harmonics});
+    if (r->harmonics > 0)
+      put(a, ADVICE, (answer){.code = r->sampled ? r->harmonics : 0, .value = r->sampled ? log2(r->samples) : r->harmonics});
   }
   scene_setup_clear(&setup);
   return st;
@@ -243,6 +248,7 @@ static bool may_miss(int n, const answer *a, int i, const scale *of)
 {
   for (int k = 0; k < n; ++k)
     if (k != i && apart(&a[k], &a[i], of) <= 2 * of->bound) return true;
+  if (of->absolute && a[i].code > 0) return true; /* a pair of other harmonics and samples costs a little less */
   return a[i].before != a[i].after && contact_regime_larger(a[i].before, of->hidden) == of->hidden &&
          contact_regime_larger(a[i].after, of->hidden) == of->hidden;
 }
@@ -295,7 +301,8 @@ static stress_check hold_question(solved_scene *s, const rewritten *w, answer_qu
 {
   const scale of = {questions[q].bound, questions[q].absolute, w->regime};
   const double error = lists_apart(s->plain, other, q, &of);
-  if (s->plain->n[q] == 0 && other->n[q] == 0) return stress_skip(STRESS_NOT_APPLICABLE);
+  const bool transient = q == EXACT || q == BY_DEFAULT;
+  if (s->plain->n[q] == 0 && (transient || other->n[q] == 0)) return stress_skip(STRESS_NOT_APPLICABLE);
   if (error <= of.bound) return stress_agree(error, of.bound);
   stress_check c = stress_agree_within(error, of.bound, sensitive(s, w->ratio, q, &of, changed));
   if (changed->status[questions[q].group] == HC_INTERRUPTED) return stress_refuse(s, HC_INTERRUPTED);

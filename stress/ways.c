@@ -325,8 +325,8 @@ static double vibration(const solved_scene *s, const double *d)
 /* Transients begin at the other's own solution, of as many harmonics as `orbit` needed. */
 static stress_check hold_all(solved_scene *s, hc_status made, rewritten *w, bool company)
 {
-  stress_check c = stress_skip(made == HC_BAD_INPUT || s->fine.status != HC_OK ? STRESS_NOT_APPLICABLE : STRESS_NO_ORBIT);
   const bool applies = made != HC_BAD_INPUT && !(w->history && s->base.m.contact.free_sliders > 0);
+  stress_check c = stress_skip(applies ? STRESS_NO_ORBIT : STRESS_NOT_APPLICABLE);
   if (applies && s->fine.status == HC_OK) c = hold_way(s, made, w, company);
   if (applies && s->fine.status == HC_OK && s->fatal == HC_OK) {
     hbm_settings how = s->how;
@@ -365,7 +365,8 @@ stress_check stress_check_beside(solved_scene *s)
   return hold_all(s, rewritten_beside(s->model, s->omega, moves, kind, &w), &w, true);
 }
 
-/* Coordinates by[n] times as long. */
+/* One coordinate so many times as long, and the others. Where coordinates are combined, the longest one's rounding goes
+ * into all. */
 static stress_check stretched(solved_scene *s, double one, double others)
 {
   rewritten w;
@@ -374,6 +375,7 @@ static stress_check stretched(solved_scene *s, double one, double others)
   for (int i = 0; i < s->n; ++i) by[i] = others;
   by[random_int(&s->random, 0, s->n - 1)] = one;
   const hc_status made = rewritten_stretched(s->model, by, &w);
+  if (s->n > 1) w.ratio = fmax(one / others, others / one);
   free(by);
   return hold_all(s, made, &w, false);
 }
@@ -381,9 +383,11 @@ static stress_check stretched(solved_scene *s, double one, double others)
 stress_check stress_check_stretched(solved_scene *s) { return stretched(s, between(s, 1 / most_stretch, most_stretch), 1); }
 stress_check stress_check_mirrored(solved_scene *s) { return stretched(s, -1, -1); }
 
-/* What `delayed` does, and all answers. */
+/* By whole samples, where forces are sampled: between them they are others. */
 stress_check stress_check_turned(solved_scene *s)
 {
   rewritten w;
-  return hold_all(s, rewritten_delayed(s->model, TWO_PI * random_unit(&s->random), &w), &w, false);
+  const int samples = s->asked->hbm.samples, by = random_int(&s->random, 1, samples - 1);
+  const double delay = s->asked->hbm.force == HBM_FORCE_SAMPLED ? (double)by / samples : random_unit(&s->random);
+  return hold_all(s, rewritten_delayed(s->model, TWO_PI * delay, &w), &w, false);
 }
