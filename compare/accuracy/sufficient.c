@@ -442,9 +442,10 @@ static hc_status sampled_row(search *s, const sufficient_row *exact, sufficient_
   }
   const bool halved = row->samples / 2 >= 2 * row->harmonics + 2;
   sufficient_row next;
-  row->next_harmonics = how.harmonics = halved ? row->harmonics : row->harmonics - 1;
-  row->next_samples = how.samples = halved ? row->samples / 2 : row->samples;
-  if (st != HC_OK || how.harmonics == 0) return st;
+  how.harmonics = halved ? row->harmonics : row->harmonics - 1;
+  how.samples = halved ? row->samples / 2 : row->samples;
+  if (st != HC_OK || how.harmonics < fewest_harmonics(s)) return st;
+  row->next_harmonics = how.harmonics, row->next_samples = how.samples;
   st = error_of(s, &how, &next);
   row->next_error = next.error;
   return st;
