@@ -36,6 +36,7 @@ const char *advice_for_hbm(const hbm_settings *how, hc_status failure, char text
   case HC_NOT_CONVERGED:
   case HC_SINGULAR:
   case HC_STEP_TOO_SMALL:
+  case HC_JUMPED:
     add_unless(&r, how->continuation == HBM_CONTINUATION_AUTO, "--set hbm.continuation=auto");
     add_unless(&r, exact, "--set hbm.force=exact");
     add_unless(&r, how->tolerance >= usual_tolerance, "--set hbm.tolerance=1e-10");

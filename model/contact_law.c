@@ -5,6 +5,7 @@ contact contact_in_units(const contact *c, double stiffness, double length, doub
 {
   contact in = *c;
   in.kt /= stiffness, in.kn /= stiffness, in.gap /= length, in.load /= stiffness * length, in.epsilon /= rate;
+  in.across[0] /= stiffness * length, in.across[1] /= stiffness;
   double unit = stiffness; /* [force/length^p] */
   for (int i = 0; i < CONTACT_POWERS; ++i) {
     unit /= length;

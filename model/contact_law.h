@@ -42,6 +42,8 @@ typedef struct contact {
   contact_smooth smooth;
   double epsilon;               /* [length/time] > 0 of tanh */
   double power[CONTACT_POWERS]; /* [force/length^p] of a polynomial, p = 2..9 */
+  double across[2]; /* [force], [force/length] of a polynomial about rest (rest.h): what it carries there and
+                                   its slope, which loads and K of such a model hold */
 } contact;
 
 typedef enum contact_state { CONTACT_SEPARATED, CONTACT_STICK, CONTACT_SLIP_PLUS, CONTACT_SLIP_MINUS } contact_state;
@@ -79,6 +81,15 @@ static inline bool contact_never_opens(const contact *c) { return c->smooth == C
 /* Static force [force] of the normal spring: N0 without `load`, which does not change and moves nothing. */
 static inline double contact_preload(const contact *c) { return c->gap > 0 ? c->kn * c->gap : 0.0; }
 
+/* The contact's own length [length]: the least of those that its state hangs on, |gap| and the slip length mu N0/kt,
+ * which are not 0; 0: it has none. What else its state hangs on is its motion. */
+static inline double contact_length(const contact *c)
+{
+  const double gap = c->kn > 0 ? fabs(c->gap) : 0, N0 = contact_preload(c) + c->load;
+  const double slip = contact_has_friction(c) ? c->mu * N0 / c->kt : 0;
+  return gap > 0 && slip > 0 ? fmin(gap, slip) : fmax(gap, slip);
+}
+
 /* Normal force [force] at normal motion v. */
 static inline double contact_normal(const contact *c, double v)
 {
@@ -101,7 +112,8 @@ static inline double contact_polynomial(const contact *c, double v, double *slop
 /* The force across [force] at v; the force along [force] under N at the rate u', 0 of every law but tanh. */
 static inline double contact_across(const contact *c, double v)
 {
-  return contact_never_opens(c) ? contact_polynomial(c, v, &(double){0}) : contact_normal(c, v);
+  if (!contact_never_opens(c)) return contact_normal(c, v);
+  return contact_polynomial(c, v, &(double){0}) + c->across[0] + c->across[1] * v;
 }
 static inline double contact_along(const contact *c, double N, double du)
 {

@@ -23,7 +23,7 @@
 #include "numerics/base/workspace.h"
 #include "numerics/norm.h"
 
-static const double TOLERANCE = 1e-4; /* [1] of interpolation, relative to |X| */
+static const double TOLERANCE = 1e-4; /* [1] of interpolation, in the metric */
 static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
 static const double STEP_CORNER = 1e-4; /* where steps are this short the curve has a corner: a kink is accepted */
 static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
@@ -71,7 +71,7 @@ static hc_status correct_natural(path *p)
   p->d_omega = 1;
   p->det_sign = 1; /* of the linear equations: det Z_h = (K - M h^2 omega^2)^2 + (C h omega)^2 */
   if (p->s->how.skip_linear && hbm_linear_point(p->s, p->omega, LINEAR_NEAR, p->X, p->dX, &p->point)) return HC_OK;
-  hc_status st = hbm_solve_fixed(p->s, p->omega, path_size(p), p->X, &p->point);
+  hc_status st = hbm_solve_fixed(p->s, p->omega, p->X, &p->point);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
   p->det_sign = newton_sign(p->s->fixed);
   return st;
@@ -83,33 +83,38 @@ static void fill_chord(path *p)
   for (int i = 0; i < p->curve->n_coef; ++i) p->chord[i] = p->X[i] - X0[i];
 }
 
+/* Of the angle between two directions. */
+static double cosine(const path *p, const double *aX, double a_omega, const double *bX, double b_omega)
+{
+  return path_inner(p, aX, a_omega, bX, b_omega) /
+         sqrt(path_inner(p, aX, a_omega, aX, a_omega) * path_inner(p, bX, b_omega, bX, b_omega));
+}
+
 /* Turn the trial's tangent forward. Returns cos of the angle to the last one; *forward: the step goes along both. */
 static double orient(path *p, bool *forward)
 {
   const hbm_curve *c = p->curve;
   const hbm_point *last = &c->points[c->n - 1];
-  double x_scale = path_size(p), d_omega0 = last->d_omega, w = p->omega - last->omega;
+  const double d_omega0 = last->d_omega, w = p->omega - last->omega;
   const double *dX0 = hbm_curve_dX(c, c->n - 1), *chord = p->chord;
   fill_chord(p);
   path_orient_tangent(p);
-  bool along_trial = path_metric(p, x_scale, p->dX, p->d_omega, chord, w) > 0;
-  bool along_last = path_metric(p, x_scale, dX0, d_omega0, chord, w) > 0;
+  bool along_trial = path_inner(p, p->dX, p->d_omega, chord, w) > 0;
+  bool along_last = path_inner(p, dX0, d_omega0, chord, w) > 0;
   bool turned_back = p->natural && !(p->d_omega * p->direction > 0);
   *forward = along_trial && along_last && !turned_back;
-  double a = path_metric(p, x_scale, dX0, d_omega0, dX0, d_omega0),
-         b = path_metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega);
-  return path_metric(p, x_scale, dX0, d_omega0, p->dX, p->d_omega) / sqrt(a * b);
+  return cosine(p, dX0, d_omega0, p->dX, p->d_omega);
 }
 
 /* Accept the corrected trial? Sets the next step, or the shorter one to try again with. ratio: of path_predict. */
 static bool check_trial(path *p, double ratio)
 {
   bool forward;
-  double cosine = orient(p, &forward), moved = path_correction(p, p->curve->omega_scale),
+  double turned = orient(p, &forward), moved = path_correction(p, p->curve->omega_scale),
          error = ratio * path_correction(p, p->resolution);
   double scale = p->s->step_scale, tolerance = TOLERANCE * scale * scale * scale * scale;
   bool corner = p->step <= STEP_CORNER;
-  bool smooth = moved <= MOST_MOVED * p->step && cosine >= LEAST_COSINE && error <= MOST_ERROR * tolerance;
+  bool smooth = moved <= MOST_MOVED * p->step && turned >= LEAST_COSINE && error <= MOST_ERROR * tolerance;
   bool kink = moved <= p->step || (p->natural && path_agrees_backwards(p, p->step));
   bool accepted = forward && (corner ? kink : smooth);
   double growth = SAFETY * pow(tolerance / fmax(error, 1e-12 * tolerance), 0.25);
@@ -155,7 +160,7 @@ static hc_status step_round_corner(path *p, double h, bool *accepted)
   path_fill_normal(p);
   hc_status st = hbm_kernel_at(p->s, p->normal, p->X, p->omega, p->dX, &p->d_omega, &det_sign);
   if (st != HC_OK || det_sign == 0) return st != HC_OK ? st : HC_SINGULAR;
-  double x_scale = path_size(p), length = sqrt(path_metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega));
+  double length = path_length(p, p->dX, p->d_omega);
   length = det_sign == p->orientation ? length : -length;
   for (int i = 0; i < c->n_coef; ++i) {
     p->dX[i] /= length;
@@ -168,10 +173,9 @@ static hc_status step_round_corner(path *p, double h, bool *accepted)
   if (st != HC_OK) return st;
   path_orient_tangent(p);
   fill_chord(p);
-  double w = p->omega - last->omega, along_last = path_metric(p, x_scale, dX0, last->d_omega, p->chord, w);
-  bool onward = path_metric(p, x_scale, p->dX, p->d_omega, p->chord, w) > 0;
-  bool the_way_it_came =
-      along_last < WAY_BACK * h * sqrt(path_metric(p, x_scale, dX0, last->d_omega, dX0, last->d_omega));
+  const double w = p->omega - last->omega;
+  bool onward = path_inner(p, p->dX, p->d_omega, p->chord, w) > 0;
+  bool the_way_it_came = cosine(p, dX0, last->d_omega, p->chord, w) < WAY_BACK;
   *accepted = onward && !the_way_it_came && path_correction(p, c->omega_scale) <= h;
   return HC_OK;
 }
@@ -190,13 +194,14 @@ static bool round_corner(path *p)
 static bool traced_before(const path *p)
 {
   const hbm_curve *c = p->curve;
+  const metric_at at = path_metric(p);
+  const double chord = metric_length(&at, p->chord);
   for (int k = 0; k + 1 < c->n; ++k) {
     const double *X0 = hbm_curve_X(c, k), *X1 = hbm_curve_X(c, k + 1), from = c->points[k].omega,
                  part = (p->omega - from) / (c->points[k + 1].omega - from);
-    double off = 0;
     if (!(part >= 0 && part <= 1)) continue;
-    for (int i = 0; i < c->n_coef; ++i) off = hypot(off, p->X[i] - X0[i] - part * (X1[i] - X0[i]));
-    if (off <= p->s->edges->traced * norm_2(c->n_coef, p->chord)) return true;
+    for (int i = 0; i < c->n_coef; ++i) p->missed[i] = p->X[i] - X0[i] - part * (X1[i] - X0[i]);
+    if (metric_length(&at, p->missed) <= p->s->edges->traced * chord) return true;
   }
   return false;
 }
@@ -208,7 +213,7 @@ static bool solve_past_edge(path *p, double omega)
   const double *X0 = hbm_curve_X(c, c->n - 1), omega0 = c->points[c->n - 1].omega;
   memcpy(p->X, X0, (size_t)c->n_coef * sizeof *X0);
   p->omega = omega;
-  hc_status st = hbm_solve_fixed(p->s, omega, path_size(p), p->X, &p->point);
+  hc_status st = hbm_solve_fixed(p->s, omega, p->X, &p->point);
   p->curve->iterations += p->point.iterations;
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
   if (st != HC_OK) return false;
@@ -216,7 +221,8 @@ static bool solve_past_edge(path *p, double omega)
   p->det_sign = newton_sign(p->s->fixed);
   path_orient_tangent(p);
   fill_chord(p);
-  const bool near = norm_2(c->n_coef, p->chord) <= p->s->edges->widest * path_size(p);
+  const metric_at at = path_metric(p);
+  const bool near = metric_length(&at, p->chord) <= p->s->edges->widest;
   return p->d_omega * (omega - omega0) > 0 && near && !traced_before(p);
 }
 
@@ -234,7 +240,8 @@ static bool pass_edge(path *p)
   if (!accepted) return false;
   ++c->edges;
   c->edge_omega = fmax(c->edge_omega, fabs(p->omega / last->omega - 1));
-  c->edge_motion = fmax(c->edge_motion, norm_2(c->n_coef, p->chord) / path_size(p));
+  const metric_at at = path_metric(p);
+  c->edge_motion = fmax(c->edge_motion, metric_length(&at, p->chord));
   p->step = edges->too_short;
   return true;
 }
@@ -262,18 +269,29 @@ static hc_status append_trial(path *p)
   return HC_OK;
 }
 
-/* End the curve exactly on a limit of the sweep that its last step crossed. */
-static hc_status end_on(path *p, double limit)
+/* End the curve exactly on a limit of the sweep that its last step crossed; its last point is beyond, or the curve has
+ * turned back between the last two: then it stays as it is where there is no solution on the limit. */
+static hc_status end_on(path *p, double limit, bool beyond)
 {
   hbm_curve *c = p->curve;
-  hbm_curve on_limit = {.omega_scale = c->omega_scale};
+  hbm_curve on_limit = {0};
   if (c->points[c->n - 1].omega == limit) return HC_OK;
   hc_status st = hbm_segment_solutions(p->s, c, c->n - 2, limit, false, &on_limit);
   if (st == HC_OK && on_limit.n == 0) st = HC_NOT_CONVERGED;
-  --c->n; /* the point beyond the limit is replaced by the one on it */
+  if (st == HC_OK || beyond) --c->n; /* the point behind the limit is replaced by the one on it */
   if (st == HC_OK) st = hbm_curve_append(c, c->n_coef, on_limit.X, on_limit.dX, on_limit.points);
   hbm_curve_free(&on_limit);
   return st;
+}
+
+/* Does the branch turn back past the end of the sweep between its last two points, both of which are inside? */
+static bool turned_past_end(const path *p)
+{
+  const hbm_curve *c = p->curve;
+  const hbm_point *last = &c->points[c->n - 1];
+  if (c->n < 2 || (last[-1].d_omega > 0) == (last->d_omega > 0)) return false;
+  const hbm_segment seg = hbm_segment_between(c, c->n - 2);
+  return p->direction * (hbm_segment_farthest(&seg, p->direction) - p->to) >= 0;
 }
 
 /* Is the sweep over? Yes past its end; also where the branch turned back past its start and did not come back within
@@ -284,7 +302,11 @@ static hc_status end_at_limit(path *p, bool *done)
   hbm_curve *c = p->curve;
   double omega = c->points[c->n - 1].omega;
   *done = p->direction * (omega - p->to) >= 0;
-  if (*done) return end_on(p, p->to);
+  if (*done) return end_on(p, p->to, true);
+  if (turned_past_end(p)) { /* unless the interpolant alone does */
+    *done = end_on(p, p->to, false) == HC_OK;
+    if (*done) return HC_OK;
+  }
   if (p->direction * (omega - p->from) >= 0) {
     p->first_outside = 0;
     return HC_OK;
@@ -294,7 +316,7 @@ static hc_status end_at_limit(path *p, bool *done)
   if (!*done) return HC_OK;
   c->n = p->first_outside + 1;
   c->turning_points = c->points[p->first_outside].branch;
-  return end_on(p, p->from);
+  return end_on(p, p->from, true);
 }
 
 static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from_above, const hc_monitor *monitor,
@@ -304,8 +326,9 @@ static hc_status first_point(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
   hbm_solver *s = p->s;
-  hc_status st = s->ramp ? hbm_solve_fixed(s, p->from, hbm_ramp_start(s->ramp, &s->sys, p->X), p->X, &p->point)
-                         : hbm_first_solution(s, p->from, monitor, p->X, &p->point);
+  if (s->ramp) hbm_ramp_start(s->ramp, &s->sys, p->X);
+  hc_status st =
+      s->ramp ? hbm_solve_fixed(s, p->from, p->X, &p->point) : hbm_first_solution(s, p->from, monitor, p->X, &p->point);
   bool no_solution = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED;
   /* The solution at p->from as the end of a curve that comes down from well above every resonance: inertia dominates
    * there, and Newton converges from the linear response. */
@@ -317,7 +340,7 @@ static hc_status first_point(path *p, const hc_monitor *monitor)
     if (st == HC_OK && down.left_at_start) st = HC_NOT_CONVERGED;
     if (st == HC_OK) {
       memcpy(p->X, hbm_curve_X(&down, down.n - 1), (size_t)p->s->sys.n_coef * sizeof(double));
-      st = hbm_solve_fixed(p->s, p->from, norm_2(p->s->sys.n_coef, p->X), p->X, &p->point);
+      st = hbm_solve_fixed(p->s, p->from, p->X, &p->point);
     }
     hbm_curve_free(&down);
   }
@@ -412,6 +435,7 @@ static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_sampl
   workspace rows = {0};
   p->X = workspace_doubles(&rows, n), p->dX = workspace_doubles(&rows, n);
   p->X_predicted = workspace_doubles(&rows, n), p->chord = workspace_doubles(&rows, n);
+  p->missed = workspace_doubles(&rows, n);
   p->normal = workspace_doubles(&rows, n + 1);
   hc_status st = rows.failed ? HC_NO_MEMORY : follow(p, monitor);
   workspace_free(&rows);
@@ -431,7 +455,7 @@ static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from
                       .may_come_from_above = may_come_from_above};
   bool adapts = s->how.harmonics == HBM_AUTO, more_samples;
   curve->n_coef = adapts ? hbm_system_length(&s->sys, REFINE_MOST_HARMONICS) : s->sys.n_coef;
-  curve->omega_scale = fmax(fabs(to - from) / SWEEP_UNITS, LEAST_UNIT * from);
+  hbm_curve_measure_by(curve, s->sys.metric, fmax(fabs(to - from) / SWEEP_UNITS, LEAST_UNIT * from));
   long before = s->sys.evaluations;
   hc_status st;
   do {
@@ -457,7 +481,8 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
   s->monitor = monitor;
   s->done = -1;
   s->stopped = false;
-  const hc_status st = trace(s, from, to, !s->ramp, monitor, curve);
+  hc_status st = trace(s, from, to, !s->ramp, monitor, curve);
+  if (st == HC_OK && !s->ramp && !steps_are_fixed(s)) st = hbm_curve_add_summits(s, curve);
   s->monitor = NULL;
   s->stopped = false;
   return st;
@@ -530,7 +555,7 @@ static hc_status follow_ramp(hbm_solver *s, hbm_ramp_kind kind, bool quick, doub
   if (st == HC_INTERRUPTED && !watch.stopped) st = HC_NOT_CONVERGED;
   if (st == HC_OK) {
     memcpy(X, hbm_curve_X(&curve, curve.n - 1), (size_t)s->sys.n_coef * sizeof(double));
-    st = hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
+    st = hbm_solve_fixed(s, omega, X, point);
     point->iterations += curve.iterations;
   }
   hbm_curve_free(&curve);
@@ -547,7 +572,7 @@ static hc_status with_more_harmonics(hbm_solver *s, int fewer, int halvings, dou
 {
   const int middle = (fewer + s->sys.n_harm) / 2;
   for (int i = hbm_system_length(&s->sys, fewer); i < s->sys.n_coef; ++i) X[i] = 0;
-  hc_status st = hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
+  hc_status st = hbm_solve_fixed(s, omega, X, point);
   if (!may_go_on(st) || halvings == 0 || middle == fewer) return st;
   hbm_settings how = s->how;
   hbm_solver *other;
@@ -588,8 +613,8 @@ static hc_status from_exact_forces(hbm_solver *s, double omega, const hc_monitor
 
 static hc_status from_linear_response(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
-  double size = hbm_linear_response(&s->sys, omega, X);
-  return hbm_solve_fixed(s, omega, size, X, point);
+  hbm_linear_response(&s->sys, omega, X);
+  return hbm_solve_fixed(s, omega, X, point);
 }
 
 static hc_status by_quick_ramp(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
@@ -616,7 +641,7 @@ static hc_status from_guess(hbm_solver *s, double omega, const hc_monitor *monit
   free(x);
   if (st != HC_OK) return st;
   for (int i = 0; i < s->sys.first; ++i) X[i] = 0;
-  return hbm_solve_fixed(s, omega, norm_2(s->sys.n_coef, X), X, point);
+  return hbm_solve_fixed(s, omega, X, point);
 }
 
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
@@ -634,8 +659,7 @@ hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *moni
 
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
-  double size = norm_2(s->sys.n_coef, X);
-  if (size != 0) return hbm_solve_fixed(s, omega, size, X, point); /* zeros give no size to scale the unknowns with */
+  if (!is_zero(s->sys.n_coef, X)) return hbm_solve_fixed(s, omega, X, point); /* zeros are no guess */
   hc_status st = hbm_first_solution(s, omega, NULL, X, point);
   if (st != HC_OK) memset(X, 0, (size_t)s->sys.n_coef * sizeof(double));
   return st;

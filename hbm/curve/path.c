@@ -7,44 +7,38 @@
 #include "hbm/solver/corrector.h"
 #include "numerics/norm.h"
 
-double path_metric(const path *p, double x_scale, const double *aX, double a_omega, const double *bX, double b_omega)
+metric_at path_metric(const path *p) { return hbm_curve_metric(p->curve, p->curve->n - 1); }
+
+double path_inner(const path *p, const double *aX, double a_omega, const double *bX, double b_omega)
 {
-  return dot_product(p->curve->n_coef, aX, bX) / (x_scale * x_scale) +
-         a_omega * b_omega / (p->curve->omega_scale * p->curve->omega_scale);
+  const metric_at at = path_metric(p);
+  return metric_inner(&at, aX, bX) + a_omega * b_omega / (p->curve->omega_scale * p->curve->omega_scale);
 }
 
-double path_size(const path *p)
+double path_length(const path *p, const double *aX, double a_omega)
 {
-  double size = norm_2(p->curve->n_coef, hbm_curve_X(p->curve, p->curve->n - 1));
-  return size > 0 ? size : 1;
+  const metric_at at = path_metric(p);
+  return hypot(metric_length(&at, aX), a_omega / p->curve->omega_scale);
 }
 
 double path_correction(const path *p, double omega_unit)
 {
-  double sum = 0, x_scale = path_size(p), d = (p->omega - p->omega_predicted) / omega_unit;
-  for (int i = 0; i < p->curve->n_coef; ++i) {
-    double moved = p->X[i] - p->X_predicted[i];
-    sum += moved * moved;
-  }
-  return sqrt(sum / (x_scale * x_scale) + d * d);
+  const metric_at at = path_metric(p);
+  return hypot(metric_distance(&at, p->X, p->X_predicted), (p->omega - p->omega_predicted) / omega_unit);
 }
 
 bool path_agrees_backwards(const path *p, double h)
 {
   const hbm_curve *c = p->curve;
+  const metric_at at = path_metric(p);
   const double *X0 = hbm_curve_X(c, c->n - 1), step = (p->omega - c->points[c->n - 1].omega) / p->d_omega;
-  double sum = 0;
-  for (int i = 0; i < c->n_coef; ++i) {
-    double missed = p->X[i] - X0[i] - step * p->dX[i];
-    sum += missed * missed;
-  }
-  return sqrt(sum) <= h * path_size(p);
+  for (int i = 0; i < c->n_coef; ++i) p->missed[i] = p->X[i] - X0[i] - step * p->dX[i];
+  return metric_length(&at, p->missed) <= h;
 }
 
 double path_flatness(const path *p)
 {
-  double all = path_metric(p, path_size(p), p->dX, p->d_omega, p->dX, p->d_omega);
-  return fabs(p->d_omega) / p->curve->omega_scale / sqrt(all);
+  return fabs(p->d_omega) / p->curve->omega_scale / path_length(p, p->dX, p->d_omega);
 }
 
 /* The last segment's cubic is extrapolated by four of its lengths at most, then its tangent. The errors' ratio is that
@@ -55,7 +49,7 @@ double path_predict(path *p, double h)
 {
   const hbm_curve *c = p->curve;
   int last = c->n - 1;
-  double x_scale = path_size(p), ratio = RATIO;
+  double ratio = RATIO;
   hbm_segment seg = {.length = 0};
   if (c->n >= 2) seg = hbm_segment_between(c, last - 1);
   if (c->n >= 2 && h <= MOST_LENGTHS * seg.length && !p->tangent_only) {
@@ -64,7 +58,7 @@ double path_predict(path *p, double h)
   } else {
     const double *X = hbm_curve_X(c, last), *dX = hbm_curve_dX(c, last);
     const hbm_point *q = &c->points[last];
-    double scale = h / sqrt(path_metric(p, x_scale, dX, q->d_omega, dX, q->d_omega));
+    const double scale = h / path_length(p, dX, q->d_omega);
     for (int i = 0; i < c->n_coef; ++i) p->X[i] = X[i] + scale * dX[i];
     memcpy(p->dX, dX, (size_t)c->n_coef * sizeof(double));
     p->omega = q->omega + scale * q->d_omega;
@@ -72,7 +66,7 @@ double path_predict(path *p, double h)
   }
   hbm_truncate(p->s, c->n_coef, p->X);
   hbm_truncate(p->s, c->n_coef, p->dX);
-  double length = sqrt(path_metric(p, x_scale, p->dX, p->d_omega, p->dX, p->d_omega));
+  const double length = path_length(p, p->dX, p->d_omega);
   for (int i = 0; i < c->n_coef; ++i) p->dX[i] /= length;
   p->d_omega /= length;
   memcpy(p->X_predicted, p->X, (size_t)c->n_coef * sizeof(double));
@@ -87,7 +81,7 @@ void path_orient_tangent(path *p)
      * tangent. */
     const hbm_curve *c = p->curve;
     const double *dX = hbm_curve_dX(c, c->n - 1);
-    const bool onward = path_metric(p, path_size(p), p->dX, p->d_omega, dX, c->points[c->n - 1].d_omega) > 0;
+    const bool onward = path_inner(p, p->dX, p->d_omega, dX, c->points[c->n - 1].d_omega) > 0;
     p->orientation = onward ? p->det_sign : -p->det_sign;
   }
   if (p->det_sign == p->orientation) return;
@@ -97,17 +91,18 @@ void path_orient_tangent(path *p)
 
 void path_fill_normal(path *p)
 {
-  int n = p->s->sys.n, first = p->s->sys.first;
-  double x_scale = path_size(p), omega_scale = p->curve->omega_scale;
-  for (int i = 0; i < n; ++i) p->normal[i] = p->dX[i + first] / (x_scale * x_scale);
+  const int n = p->s->sys.n, first = p->s->sys.first;
+  const double omega_scale = p->curve->omega_scale;
+  const metric_at at = path_metric(p);
+  metric_apply(&at, p->dX, p->normal);
+  memmove(p->normal, p->normal + first, (size_t)n * sizeof *p->normal);
   p->normal[n] = p->d_omega / (omega_scale * omega_scale);
 }
 
 hc_status path_correct_in_plane(path *p)
 {
-  double x_scale = path_size(p), omega_scale = p->curve->omega_scale;
   path_fill_normal(p);
-  hc_status st = hbm_solve_plane(p->s, p->normal, x_scale, omega_scale, p->X, &p->omega, &p->point);
+  hc_status st = hbm_solve_plane(p->s, p->normal, p->curve->omega_scale, p->X, &p->omega, &p->point);
   p->det_sign = newton_sign(p->s->plane);
   return st == HC_OK ? hbm_tangent_plane(p->s, p->dX, &p->d_omega) : st;
 }
@@ -121,18 +116,23 @@ hc_status path_correct_in_plane(path *p)
  *   correct   plain Newton in the plane across that tangent, at most hbm.iterations of them
  *   tangent   the one that points along the last: normal . t = 1 (corrector.h) sees to it
  *
- * What converges is a point of the curve, wherever it is; what does not ends the curve. There is no shorter step to try
+ * What converges near the prediction is a point of the curve; what does not, or converges further from it than across a
+ * kink of 76 degrees, ends the curve: on the way it would be another branch. There is no shorter step to try
  * again with, no line search, no rule for corners, and no orientation by a determinant: the curve may turn round at a
  * kink and retrace its path. The first point, and the curve's end on the sweep's limit, are found as always. */
+static const double FIXED_MOVED = 4; /* [step] tan(76 degrees) */
+
 hc_status path_fixed_step(path *p, bool *accepted)
 {
   hbm_curve *c = p->curve;
   p->tangent_only = true;
-  path_predict(p, p->s->how.step * p->s->step_scale);
+  const double h = p->s->how.step * p->s->step_scale;
+  path_predict(p, h);
   path_fill_normal(p);
-  hc_status st = hbm_solve_plane_plainly(p->s, p->normal, path_size(p), c->omega_scale, p->X, &p->omega, &p->point);
+  hc_status st = hbm_solve_plane_plainly(p->s, p->normal, c->omega_scale, p->X, &p->omega, &p->point);
   c->iterations += p->point.iterations;
   if (st == HC_OK) st = hbm_tangent_plane(p->s, p->dX, &p->d_omega);
+  if (st == HC_OK && !(path_correction(p, c->omega_scale) <= FIXED_MOVED * h)) st = HC_JUMPED;
   *accepted = st == HC_OK;
   return st;
 }
@@ -156,7 +156,7 @@ static hc_status correct_last(path *p)
   const hbm_point *last = &c->points[c->n - 1];
   bool end_of_sweep = c->n == 1 || last->omega == p->to || last->omega == p->from;
   if (!end_of_sweep) return path_correct_in_plane(p);
-  hc_status st = hbm_solve_fixed(p->s, p->omega, path_size(p), p->X, &p->point);
+  hc_status st = hbm_solve_fixed(p->s, p->omega, p->X, &p->point);
   if (st != HC_OK) return st;
   p->d_omega = 1;
   st = hbm_tangent_fixed(p->s, p->X, p->dX);
@@ -243,15 +243,14 @@ static hc_status add_harmonics(path *p, bool *too_few)
 hc_status path_adapt(path *p)
 {
   hbm_solver *s = p->s;
-  hbm_curve *c = p->curve;
   bool too_few_samples;
   hc_status st = add_harmonics(p, &too_few_samples);
   p->more_samples |= too_few_samples;
   if (st != HC_OK || too_few_samples) return st;
   const int fewer = refine_next_harmonics(s->sys.n_harm, false), kept = hbm_system_length(&s->sys, fewer);
   bool has_spare = s->finer_harmonics && s->sys.n_harm > 1 && fewer >= model_highest_load(s->model);
-  const double *X = hbm_curve_X(c, c->n - 1);
-  bool droppable = has_spare && norm_2(s->sys.n_coef - kept, X + kept) / path_size(p) < DROPPABLE * s->how.accuracy;
+  const metric_at at = path_metric(p);
+  bool droppable = has_spare && metric_tail(&at, kept) < DROPPABLE * s->how.accuracy;
   p->droppable_points = droppable ? p->droppable_points + 1 : 0;
   if (p->droppable_points < POINTS_BEFORE_DROPPING) return HC_OK;
   int before = s->sys.n_harm;

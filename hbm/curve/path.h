@@ -1,6 +1,6 @@
 /* path.h - a response curve while it is followed: where the next point is predicted and corrected. continuation.c
  * decides which way and how far. Lengths are in the curve's metric
- * (response_curve.h), the harmonics measured by the norm of the last point's. */
+ * (response_curve.h) at the last point. */
 #pragma once
 
 #include "hbm/curve/response_curve.h"
@@ -30,16 +30,19 @@ typedef struct path {
   double *X, *dX, omega, d_omega;       /* prediction, then corrected point (the trial), and its tangent */
   double *X_predicted, omega_predicted; /* the prediction as it was */
   double *chord;                        /* [n_coef] from the last point to the trial */
+  double *missed;                       /* [n_coef] by which a motion expected somewhere is not that found */
   double *normal;                       /* [n+1] of the plane (corrector.h) */
   int det_sign;                         /* of the trial's Jacobian */
   hbm_point point;                      /* of the trial */
 } path;
 
-/* Inner product of two directions (aX, a_omega), (bX, b_omega); x_scale measures the harmonics. */
-double path_metric(const path *p, double x_scale, const double *aX, double a_omega, const double *bX, double b_omega);
+/* The metric of harmonics at the last point. */
+metric_at path_metric(const path *p);
 
-/* Norm of the last point's harmonics, 1 if it is 0. */
-double path_size(const path *p);
+/* Inner product of two directions (aX, a_omega), (bX, b_omega), for angles; and the length of one: of a step, an
+ * error. */
+double path_inner(const path *p, const double *aX, double a_omega, const double *bX, double b_omega);
+double path_length(const path *p, const double *aX, double a_omega);
 
 /* Distance the corrector moved the prediction, with omega measured by omega_unit. */
 double path_correction(const path *p, double omega_unit);
@@ -66,7 +69,7 @@ void path_fill_normal(path *p);
 hc_status path_correct_in_plane(path *p);
 
 /* One step of fixed length into the trial, predicted along the last tangent and corrected by plain Newton. HC_OK, and
- * accepted; HC_NOT_CONVERGED where hbm.iterations of Newton's were not enough, or another error of hbm_solve_plane and
+ * accepted; HC_NOT_CONVERGED where hbm.iterations of Newton's were not enough, HC_JUMPED, or another error of hbm_solve_plane and
  * hbm_tangent_plane. */
 hc_status path_fixed_step(path *p, bool *accepted);
 

@@ -16,7 +16,7 @@ enum {
 };
 
 static const double converged = 0.02; /* a step this small beside what all came to changes the error by as little */
-/* [size of X] Newton that has not converged after steps as long has no such solution to come to; one that far away is
+/* [1] in the metric at X. Newton that has not converged after steps as long has no such solution to come to; one that far away is
  * another: beyond a fold of theirs the finer equations have none next to X, and no number bounds what X is off. */
 static const double lost = 0.1, another = 0.3;
 static const double roundings = 4; /* a motion and its measures take a few */
@@ -45,28 +45,24 @@ static hc_status need_finer(hbm_solver *s, double omega)
   hbm_settings how = s->how;
   how.force = HBM_FORCE_EXACT;
   how.keep_mean = true;
-  s->improved = calloc((size_t)hbm_system_length(&s->sys, n_harm), sizeof *s->improved);
-  return s->improved ? refinement_new(s->model, &how, n_harm, 0, &s->exact_finer) : HC_NO_MEMORY;
+  s->n_improved = hbm_system_length(&s->sys, n_harm > s->sys.n_harm ? n_harm : s->sys.n_harm);
+  s->improved = calloc(2 * (size_t)s->n_improved, sizeof *s->improved);
+  s->asked = s->improved ? s->improved + s->n_improved : NULL;
+  return s->improved ? refinement_new(&s->sys, &how, n_harm, 0, &s->exact_finer) : HC_NO_MEMORY;
 }
 
-/* |Y - X| [length], Y of n harmonics and X of the solver's, both padded with zeros. */
-static double distance(const hbm_solver *s, const double *X, int n, const double *Y)
+/* [1] How far s->improved is from X. */
+static double improvement(const hbm_solver *s)
 {
-  const int length = hbm_system_length(&s->sys, n), most = length > s->sys.n_coef ? length : s->sys.n_coef;
-  double sum = 0;
-  for (int i = 0; i < most; ++i) {
-    const double d = (i < length ? Y[i] : 0) - (i < s->sys.n_coef ? X[i] : 0);
-    sum += d * d;
-  }
-  return sqrt(sum);
+  const metric_at at = {s->sys.metric, s->n_improved, s->asked, NULL};
+  return metric_distance(&at, s->improved, s->asked);
 }
 
-/* Newton on the finer equations from s->improved. *least [length] is added to the error: some roundings; where Newton
- * does not converge, also its longest step; INFINITY where it ends too far from X, or takes steps as long without
+/* Newton on the finer equations from s->improved. *least [1] is added to the error: some roundings; where Newton does
+ * not converge, also its longest step; INFINITY where it ends too far from X, or takes steps as long without
  * converging: no solution is next to X. */
-static hc_status improve(hbm_solver *s, double omega, const double *X, double *least)
+static hc_status improve(hbm_solver *s, double omega, double *least)
 {
-  const int n = refinement_harmonics(s->exact_finer);
   double last, longest = 0;
   *least = 0;
   bool found = false;
@@ -76,11 +72,11 @@ static hc_status improve(hbm_solver *s, double omega, const double *X, double *l
     if (st != HC_OK) break;
     if (k == 0) *least = roundings * refinement_rounding(s->exact_finer, omega);
     longest = fmax(longest, last);
-    found = last <= *least || (k > 0 && last <= converged * distance(s, X, n, s->improved));
+    found = last <= *least || (k > 0 && last <= converged * improvement(s));
   }
   if (!found) *least += longest;
-  const double far = fmax(found ? 0 : longest, distance(s, X, n, s->improved));
-  if (!(far <= (found ? another : lost) * norm_2(s->sys.n_coef, X))) *least = INFINITY;
+  const double far = fmax(found ? 0 : longest, improvement(s));
+  if (!(far <= (found ? another : lost))) *least = INFINITY;
   return HC_OK;
 }
 
@@ -112,7 +108,7 @@ static hc_status error_between(const hbm_solver *s, const periodic_motion *ours,
 {
   const motion_distance d = motion_between(ours, better);
   const double factor = extrapolation(s, refinement_harmonics(s->exact_finer)), waveform = factor * d.waveform;
-  const double least = s->improved_least;
+  const double least = s->improved_least * ours->amplitude;
   *out = (motion_error){.amplitude = fmax(factor * d.amplitude, MOTION_LEAST_SHARE * waveform) + least,
                         .harmonic_1 = fmax(factor * d.harmonic_1, MOTION_LEAST_SHARE * waveform) + least,
                         .waveform = waveform + least};
@@ -127,9 +123,10 @@ hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error
   hc_status st = need_finer(s, omega);
   if (st != HC_OK) return st;
   const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
-  memset(s->improved, 0, (size_t)hbm_system_length(&s->sys, n) * sizeof *s->improved);
+  memset(s->improved, 0, 2 * (size_t)s->n_improved * sizeof *s->improved);
+  memcpy(s->asked, X, (size_t)s->sys.n_coef * sizeof *s->asked);
   memcpy(s->improved, X, (size_t)hbm_system_length(&s->sys, n < n_harm ? n : n_harm) * sizeof *s->improved);
-  st = improve(s, omega, X, &s->improved_least);
+  st = improve(s, omega, &s->improved_least);
   if (st != HC_OK) return st;
   const periodic_motion ours = measured(s, n_harm, X, s->x), better = measured(s, n, s->improved, s->x);
   return error_between(s, &ours, &better, out);

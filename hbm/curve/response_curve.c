@@ -30,8 +30,17 @@ hc_status hbm_curve_append(hbm_curve *c, int n_coef, const double *X, const doub
   return HC_OK;
 }
 
+void hbm_curve_measure_by(hbm_curve *c, metric *m, double omega_scale)
+{
+  metric *const before = c->metric;
+  c->metric = metric_share(m);
+  c->omega_scale = omega_scale;
+  metric_free(before);
+}
+
 void hbm_curve_free(hbm_curve *c)
 {
+  metric_free(c->metric);
   free(c->points);
   free(c->X);
   free(c->dX);

@@ -15,11 +15,15 @@
 
 /* ---- the interpolant ------------------------------------------------------------------------------- */
 
-/* Inner product in the segment's metric. */
+/* Length and inner product in the segment's metric. */
+static double length_of(const hbm_segment *s, const double *aX, double a_omega)
+{
+  return hypot(metric_length(&s->at, aX), a_omega / s->omega_scale);
+}
+
 static double inner(const hbm_segment *s, const double *aX, double a_omega, const double *bX, double b_omega)
 {
-  return dot_product(s->n_coef, aX, bX) / (s->x_scale * s->x_scale) +
-         a_omega * b_omega / (s->omega_scale * s->omega_scale);
+  return metric_inner(&s->at, aX, bX) + a_omega * b_omega / (s->omega_scale * s->omega_scale);
 }
 
 hbm_segment hbm_segment_between(const hbm_curve *c, int k)
@@ -33,15 +37,13 @@ hbm_segment hbm_segment_between(const hbm_curve *c, int k)
                    .omega0 = p->omega,
                    .omega1 = q->omega,
                    .omega_scale = c->omega_scale};
-  s.x_scale = fmax(norm_2(c->n_coef, s.X0), norm_2(c->n_coef, s.X1));
-  if (!(s.x_scale > 0)) s.x_scale = 1;
-  double t0 = sqrt(inner(&s, s.dX0, p->d_omega, s.dX0, p->d_omega)),
-         t1 = sqrt(inner(&s, s.dX1, q->d_omega, s.dX1, q->d_omega));
-  double cosine = inner(&s, s.dX0, p->d_omega, s.dX1, q->d_omega) / (t0 * t1);
-  double angle = acos(fmin(1, fmax(-1, cosine)));
-  double chord = 0, d = (s.omega1 - s.omega0) / s.omega_scale;
-  for (int i = 0; i < s.n_coef; ++i) chord += (s.X1[i] - s.X0[i]) * (s.X1[i] - s.X0[i]);
-  chord = sqrt(chord / (s.x_scale * s.x_scale) + d * d);
+  s.at = (metric_at){c->metric, c->n_coef, s.X0, s.X1};
+  const double t0 = length_of(&s, s.dX0, p->d_omega), t1 = length_of(&s, s.dX1, q->d_omega),
+               across = inner(&s, s.dX0, p->d_omega, s.dX1, q->d_omega),
+               turned = across / sqrt(inner(&s, s.dX0, p->d_omega, s.dX0, p->d_omega) *
+                                      inner(&s, s.dX1, q->d_omega, s.dX1, q->d_omega)),
+               angle = acos(fmin(1, fmax(-1, turned))),
+               chord = hypot(metric_distance(&s.at, s.X1, s.X0), (s.omega1 - s.omega0) / s.omega_scale);
   s.length = chord * (1 + angle * angle / 24); /* arc of a circle, to fourth order */
   s.scale0 = s.length / t0;
   s.scale1 = s.length / t1;
@@ -105,6 +107,14 @@ static int omega_extrema(const hbm_segment *s, double t[2])
   return n;
 }
 
+double hbm_segment_farthest(const hbm_segment *s, double direction)
+{
+  double t[2], most = fmax(direction * s->omega0, direction * s->omega1);
+  const int n = omega_extrema(s, t);
+  for (int i = 0; i < n; ++i) most = fmax(most, direction * omega_at(s, t[i]));
+  return direction * most;
+}
+
 /* The sigma in [0, 1) where the interpolant passes omega, ascending; at most 3. include_end: sigma = 1 counts too.
  * Between neighbouring knots, which are the ends and the extrema, omega(sigma) is monotone. */
 static int find_omega(const hbm_segment *s, double omega, bool include_end, double sigma[3])
@@ -139,8 +149,8 @@ static int find_omega(const hbm_segment *s, double omega, bool include_end, doub
 
 enum { MAX_HALVINGS = 40 };
 
-/* Newton leaves 1e-10 of the forces, the usual tolerance: solutions nearer than 1e-9 of |X| are one. One belongs to the
- * interpolant that it is off by no more than a tenth of the segment: the step's controller leaves 1e-4 of |X|. */
+/* Newton leaves 1e-10 of the forces, the usual tolerance: solutions nearer than 1e-9 in the metric are one. One belongs
+ * to the interpolant that it is off by no more than a tenth of the segment: the step's controller leaves 1e-4. */
 static const double SAME = 1e-9, NEAR = 0.1, ROUNDING = 1e-8;
 
 hc_status hbm_candidate_new(int n_coef, hbm_candidate *out)
@@ -170,9 +180,8 @@ static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment
   hbm_truncate(s, c->n_coef, x->X);
   hbm_truncate(s, c->n_coef, x->dX);
   memcpy(x->guess, x->X, bytes);
-  if (hbm_solve_fixed(s, omega, seg->x_scale, x->X, &x->point) != HC_OK) return false;
-  const double near = (NEAR * seg->length + ROUNDING) * seg->x_scale;
-  if (!(distance_2(c->n_coef, x->X, x->guess) <= near)) return false;
+  if (hbm_solve_fixed(s, omega, x->X, &x->point) != HC_OK) return false;
+  if (!(metric_distance(&seg->at, x->X, x->guess) <= NEAR * seg->length + ROUNDING)) return false;
   if (hbm_tangent_fixed(s, x->X, x->dX) != HC_OK) return false;
   double sign = d_omega < 0 ? -1 : 1;
   for (int i = 0; i < c->n_coef; ++i) x->dX[i] *= sign;
@@ -189,10 +198,11 @@ hc_status hbm_segment_point(hbm_solver *s, const hbm_curve *c, int k, double sig
   hbm_segment_at(seg, sigma, x->X, &x->point.omega, x->dX, &d_omega);
   hbm_truncate(s, c->n_coef, x->X);
   hbm_truncate(s, c->n_coef, x->dX);
-  for (int i = 0; i < n; ++i) normal[i] = x->dX[i + first] / (seg->x_scale * seg->x_scale);
+  metric_apply(&seg->at, x->dX, normal);
+  memmove(normal, normal + first, (size_t)n * sizeof *normal);
   normal[n] = d_omega / (seg->omega_scale * seg->omega_scale);
   double omega = x->point.omega;
-  hc_status st = hbm_solve_plane(s, normal, seg->x_scale, seg->omega_scale, x->X, &omega, &x->point);
+  hc_status st = hbm_solve_plane(s, normal, seg->omega_scale, x->X, &omega, &x->point);
   if (st == HC_OK) st = hbm_tangent_plane(s, x->dX, &x->point.d_omega);
   x->point.branch = branch_on_segment(c, k, x->point.d_omega);
   return st;
@@ -203,7 +213,7 @@ static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segme
                        hbm_curve *halves)
 {
   hc_status st = hbm_segment_point(s, c, k, 0.5, x);
-  halves->omega_scale = c->omega_scale;
+  hbm_curve_measure_by(halves, c->metric, c->omega_scale);
   if (st == HC_OK) st = hbm_curve_append(halves, c->n_coef, seg->X0, seg->dX0, &c->points[k]);
   if (st == HC_OK) st = hbm_curve_append(halves, c->n_coef, x->X, x->dX, &x->point);
   return st == HC_OK ? hbm_curve_append(halves, c->n_coef, seg->X1, seg->dX1, &c->points[k + 1]) : st;
@@ -221,11 +231,12 @@ static bool may_turn_at(const hbm_segment *s, double omega)
   return near;
 }
 
-/* Is X one of the points first.. of c, to `within` [length]? */
-static bool has_point(const hbm_curve *c, int first, const double *X, double within)
+/* Is X one of the points first.. of c? */
+static bool has_point(const hbm_curve *c, int first, const double *X)
 {
+  const metric_at at = {c->metric, c->n_coef, X, NULL};
   for (int j = first; j < c->n; ++j)
-    if (!(distance_2(c->n_coef, X, hbm_curve_X(c, j)) > within)) return true;
+    if (!(metric_distance(&at, X, hbm_curve_X(c, j)) > SAME)) return true;
   return false;
 }
 
@@ -238,7 +249,7 @@ static hc_status search_solutions(hbm_solver *s, const hbm_curve *c, int k, doub
   int crossings = find_omega(&seg, omega, include_end, sigma), before = out->n;
   bool all_found = crossings > 0 || halvings_left == 0 || !may_turn_at(&seg, omega);
   for (int i = 0; i < crossings && all_found; ++i) {
-    all_found = solve_at(s, c, k, &seg, sigma[i], omega, x) && !has_point(out, before, x->X, SAME * seg.x_scale);
+    all_found = solve_at(s, c, k, &seg, sigma[i], omega, x) && !has_point(out, before, x->X);
     if (all_found && hbm_curve_append(out, c->n_coef, x->X, x->dX, &x->point) != HC_OK) return HC_NO_MEMORY;
   }
   if (all_found) return HC_OK;
@@ -258,6 +269,7 @@ hc_status hbm_segment_solutions(hbm_solver *s, const hbm_curve *c, int k, double
   hbm_candidate x;
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
+  hbm_curve_measure_by(out, c->metric, c->omega_scale);
   st = search_solutions(s, c, k, omega, include_end, MAX_HALVINGS, &x, out);
   free(x.X);
   return st;
@@ -273,12 +285,10 @@ static hc_status append_solution(hbm_solver *s, const hbm_curve *c, const double
   hbm_candidate x;
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
-  const double size = guess ? norm_2(c->n_coef, guess) : 0;
   if (guess) memcpy(x.X, guess, (size_t)c->n_coef * sizeof *guess);
   memset(x.dX, 0, (size_t)c->n_coef * sizeof *x.dX);
-  st = guess ? hbm_solve_fixed(s, omega, size, x.X, &x.point) : hbm_first_solution(s, omega, NULL, x.X, &x.point);
-  if (st == HC_OK && !has_point(at, before, x.X, SAME * norm_2(c->n_coef, x.X)))
-    st = hbm_curve_append(at, c->n_coef, x.X, x.dX, &x.point);
+  st = guess ? hbm_solve_fixed(s, omega, x.X, &x.point) : hbm_first_solution(s, omega, NULL, x.X, &x.point);
+  if (st == HC_OK && !has_point(at, before, x.X)) st = hbm_curve_append(at, c->n_coef, x.X, x.dX, &x.point);
   free(x.X);
   return st;
 }
@@ -295,7 +305,7 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curv
 {
   const int before = at->n;
   hc_status worst = HC_OK;
-  at->omega_scale = c->omega_scale;
+  hbm_curve_measure_by(at, c->metric, c->omega_scale);
   at->asked = true;
   for (int k = 0; k + 1 < c->n; ++k) {
     hc_status st = hbm_segment_solutions(s, c, k, omega, k + 2 == c->n, at);
@@ -310,7 +320,7 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curv
       const int all = at->n;
       at->n = n;
       const double *X = hbm_curve_X(at, i);
-      const bool twin = has_point(at, before, X, SAME * norm_2(at->n_coef, X));
+      const bool twin = has_point(at, before, X);
       at->n = all;
       if (twin) continue;
       at->points[n] = at->points[i];
@@ -332,7 +342,7 @@ hc_status hbm_narrowing_start(hbm_narrowing *p, const hbm_curve *c, int k)
 {
   hc_status st = HC_OK;
   p->ends.n = 0;
-  p->ends.omega_scale = c->omega_scale;
+  hbm_curve_measure_by(&p->ends, c->metric, c->omega_scale);
   p->from = 0;
   p->to = 1;
   for (int end = k; end <= k + 1 && st == HC_OK; ++end)
@@ -399,7 +409,8 @@ static hc_status minus_amplitude_at(void *self, double position, double *minus_a
  * the amplitude is as smooth as the curve; the difference leaves 1e-10 of it. */
 static double amplitude_slope(hbm_solver *s, int n, const double *X, const double *dX, double *moved)
 {
-  const double way = norm_2(n, dX), step = way > 0 ? 1e-5 * norm_2(n, X) / way : 0;
+  const metric_at at = {s->sys.metric, n, X, NULL};
+  const double way = metric_length(&at, dX), step = way > 0 ? 1e-5 / way : 0;
   double amplitude[2];
   for (int k = 0; k < 2; ++k) {
     for (int i = 0; i < n; ++i) moved[i] = X[i] + (k ? step : -step) * dX[i];
@@ -500,7 +511,7 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
     if (amplitude > beside[1]) beside[1] = amplitude, top = k;
   }
   if (top < 0) return HC_BAD_INPUT;
-  peak->omega_scale = c->omega_scale;
+  hbm_curve_measure_by(peak, c->metric, c->omega_scale);
   if (top == 0 || top == c->n - 1) /* an end of the sweep: the peak may lie outside */
     return hbm_curve_append(peak, c->n_coef, hbm_curve_X(c, top), hbm_curve_dX(c, top), &c->points[top]);
   for (int side = -1; side <= 1; side += 2) beside[1 + side] = amplitude_of(s, hbm_curve_X(c, top + side));
@@ -508,6 +519,66 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
   st = refine_peak(s, c, top, beside, &x, peak);
+  free(x.X);
+  return st;
+}
+
+/* ---- summits become points ------------------------------------------------------------------------------- */
+
+/* The summit of the curve on segment k into x: where the interpolant has one, and again between the solution there and
+ * the end on the other side. True if it is higher than `highest`. */
+static bool find_summit(peak_search *p, int k, double highest)
+{
+  double rise[2];
+  root_point summit;
+  if (hbm_narrowing_start(&p->near, p->c, k) != HC_OK) return false;
+  for (int times = 0; times < 2; ++times) {
+    const double from = p->near.from, to = p->near.to;
+    guessed_slope(p, from, &rise[0]), guessed_slope(p, to, &rise[1]);
+    if (!(rise[0] > 0 && rise[1] < 0)) return times > 0 && amplitude_of(p->s, p->x->X) > highest;
+    if (root_between(guessed_slope, p, from, rise[0], to, rise[1], 1e-7 * (to - from), &summit) != HC_OK) return false;
+    if (hbm_narrowing_point(p->s, &p->near, summit.x, p->x) != HC_OK) return false;
+    const double onward = amplitude_slope(p->s, p->c->n_coef, p->x->X, p->x->dX, p->between.guess);
+    hbm_narrowing_move(&p->near, onward > 0, summit.x, p->x);
+  }
+  return amplitude_of(p->s, p->x->X) > highest;
+}
+
+/* x between points k and k + 1. */
+static hc_status insert_point(hbm_curve *c, int k, const hbm_candidate *x)
+{
+  const size_t row = (size_t)c->n_coef * sizeof(double), behind = (size_t)(c->n - k - 1);
+  hc_status st = hbm_curve_append(c, c->n_coef, x->X, x->dX, &x->point);
+  if (st != HC_OK) return st;
+  memmove(&c->points[k + 2], &c->points[k + 1], behind * sizeof *c->points);
+  memmove(hbm_curve_X(c, k + 2), hbm_curve_X(c, k + 1), behind * row);
+  memmove(hbm_curve_dX(c, k + 2), hbm_curve_dX(c, k + 1), behind * row);
+  c->points[k + 1] = x->point;
+  c->points[k + 1].error = fmax(c->points[k].error, c->points[k + 2].error);
+  memcpy(hbm_curve_X(c, k + 1), x->X, row);
+  memcpy(hbm_curve_dX(c, k + 1), x->dX, row);
+  return HC_OK;
+}
+
+hc_status hbm_curve_add_summits(hbm_solver *s, hbm_curve *c)
+{
+  hbm_candidate x;
+  peak_search p = {.s = s, .c = c, .x = &x};
+  hc_status st = hbm_candidate_new(c->n_coef, &x);
+  if (st != HC_OK) return st;
+  st = hbm_candidate_new(c->n_coef, &p.between);
+  for (int top = 1; top + 1 < c->n && st == HC_OK; ++top) {
+    double high[3];
+    for (int i = 0; i < 3; ++i) high[i] = amplitude_of(s, hbm_curve_X(c, top - 1 + i));
+    if (!(high[1] >= high[0] && high[1] >= high[2])) continue;
+    const int k = find_summit(&p, top - 1, high[1]) ? top - 1 : find_summit(&p, top, high[1]) ? top : -1;
+    /* A pair of turning points that only the summit is between, as sampled forces have, is left out as before. */
+    const bool turns = k >= 0 && (x.point.d_omega > 0) != (c->points[k].d_omega > 0) &&
+                       (x.point.d_omega > 0) != (c->points[k + 1].d_omega > 0);
+    if (k >= 0 && !turns) st = insert_point(c, k, &x), ++top;
+  }
+  hbm_curve_free(&p.near.ends);
+  free(p.between.X);
   free(x.X);
   return st;
 }

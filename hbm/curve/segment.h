@@ -10,10 +10,11 @@ typedef struct hbm_segment {
   int n_coef;
   const double *X0, *X1, *dX0, *dX1; /* of the curve: rows of n_coef */
   double omega0, omega1;
-  double x_scale, omega_scale; /* of the metric; x_scale: |X| of the larger end, 1 if both are 0 */
-  double scale0, scale1;       /* dz/dsigma = scale * stored tangent */
-  double d_omega0, d_omega1;   /* domega/dsigma */
-  double length;               /* arc length in the metric, from chord and angle */
+  metric_at at;              /* the metric between the ends */
+  double omega_scale;        /* [rad/time] of the metric */
+  double scale0, scale1;     /* dz/dsigma = scale * stored tangent */
+  double d_omega0, d_omega1; /* domega/dsigma */
+  double length;             /* arc length in the metric, from chord and angle */
 } hbm_segment;
 
 /* From point k to k + 1. It refers to the curve's rows: not valid after a point is appended. */
@@ -21,6 +22,9 @@ hbm_segment hbm_segment_between(const hbm_curve *curve, int k);
 
 /* z and dz/dsigma at sigma, which may lie outside 0..1: extrapolation. dX and d_omega may be NULL. */
 void hbm_segment_at(const hbm_segment *seg, double sigma, double *X, double *omega, double *dX, double *d_omega);
+
+/* [rad/time] The largest (direction > 0) or least omega of the interpolant on sigma = 0..1. */
+double hbm_segment_farthest(const hbm_segment *seg, double direction);
 
 /* ---- solutions ---- */
 
@@ -54,6 +58,10 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_
 /* The point of largest amplitude of the curve, refined between its points, appended to *peak. HC_BAD_INPUT for an
  * empty curve. */
 hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *curve, hbm_curve *peak);
+
+/* One more point at each summit of the first response's amplitude that lies between points: so the highest point of the
+ * curve is its peak, to 1e-8 of the amplitude where it is smooth there. HC_NO_MEMORY. */
+hc_status hbm_curve_add_summits(hbm_solver *s, hbm_curve *curve);
 
 /* ---- a part of a segment that shrinks ---- */
 

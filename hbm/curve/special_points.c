@@ -47,10 +47,11 @@ typedef struct found_point {
 typedef struct detector {
   hbm_solver *s;
   const hbm_curve *c;
-  hbm_candidate x;    /* the solution on a segment that was evaluated last */
-  hbm_narrowing near; /* of a contact change */
-  int n, first;       /* of found; `first` is the first one of the current segment */
-  found_point *found; /* [n] */
+  hbm_candidate x;     /* the solution on a segment that was evaluated last */
+  hbm_narrowing near;  /* of a contact change */
+  contact_regime *was; /* [n_contacts] of each contact, on one side of it */
+  int n, first;        /* of found; `first` is the first one of the current segment */
+  found_point *found;  /* [n] */
 } detector;
 
 bool hbm_specials_follow_each(const hbm_solver *s) { return s->model->n_contacts <= MOST_CONTACTS_FOLLOWED; }
@@ -231,7 +232,7 @@ static hc_status solve_at_omega(detector *d, double *const guess[2], double omeg
   hc_status st = HC_NOT_CONVERGED;
   for (int i = 0; i < 2 && st != HC_OK; ++i) {
     memcpy(d->x.X, guess[i], (size_t)d->c->n_coef * sizeof(double));
-    st = hbm_solve_fixed(d->s, omega, norm_2(d->c->n_coef, guess[i]), d->x.X, &d->x.point);
+    st = hbm_solve_fixed(d->s, omega, d->x.X, &d->x.point);
   }
   return st;
 }
@@ -261,6 +262,29 @@ static hc_status locate_edge(detector *d, int k, const test_values *before, cons
   return st == HC_OK ? insert_special(d, 0.5, HBM_CONTACT_CHANGE, before, end) : st;
 }
 
+/* The regimes that a contact change is named by: of the contacts whose own one changes between its two sides, the
+ * strongest; where it is none's, of all contacts. */
+static hc_status name_change(segment_search *s, const root_point *change, test_values *before, test_values *after)
+{
+  detector *d = s->d;
+  const int n = hbm_specials_follow_each(d->s) ? d->s->model->n_contacts : 0;
+  const contact_forces *orbit = d->s->orbit ? d->s->orbit : d->s->sys.contacts;
+  contact_regime from = CONTACT_LINEAR, to = CONTACT_LINEAR;
+  bool any = false;
+  hc_status st = n > 0 ? evaluate_at(s, change->before) : HC_OK;
+  for (int j = 0; j < n && st == HC_OK; ++j) d->was[j] = contact_forces_regime(orbit, j);
+  if (st == HC_OK) st = evaluate_at(s, change->x);
+  for (int j = 0; j < n && st == HC_OK; ++j) {
+    const contact_regime now = contact_forces_regime(orbit, j);
+    if (now == d->was[j]) continue;
+    from = contact_regime_larger(from, d->was[j]);
+    to = contact_regime_larger(to, now);
+    any = true;
+  }
+  if (any) before->regime = from, after->regime = to;
+  return st;
+}
+
 /* Every change of the contact pattern on segment k, from `before` at its start to `end` at its end. */
 static hc_status locate_contact_changes(detector *d, int k, test_values before, const test_values *end)
 {
@@ -275,10 +299,11 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
     if (st != HC_OK) return st;
     if (i > 0) hbm_narrowing_move(&d->near, true, from, &d->x);
     st = root_change_guided(pattern_differs_at, pattern_may_differ_at, &s, from, 1, tolerance, &change);
+    test_values named = before, named_after = {0};
     if (st == HC_OK) st = evaluate_at(&s, change.x);
-    if (st != HC_OK) return st;
-    test_values after = change.x < 1 ? s.here : *end;
-    st = insert_special(d, change.x, HBM_CONTACT_CHANGE, &before, &after);
+    const test_values after = change.x < 1 ? s.here : *end;
+    if (st == HC_OK) named_after = after, st = name_change(&s, &change, &named, &named_after);
+    if (st == HC_OK) st = insert_special(d, change.x, HBM_CONTACT_CHANGE, &named, &named_after);
     if (st != HC_OK) return st;
     before = after;
     from = change.x;
@@ -303,9 +328,9 @@ static hc_status locate_neimark_sacker(detector *d, int k, const test_values *be
 static bool is_one_place(const detector *d, int k)
 {
   const hbm_point *p = &d->c->points[k];
-  const double *X = hbm_curve_X(d->c, k);
+  const metric_at at = hbm_curve_metric(d->c, k);
   return fabs(p[1].omega - p[0].omega) <= SAME_OMEGA * p[0].omega &&
-         distance_2(d->c->n_coef, X, hbm_curve_X(d->c, k + 1)) <= SAME_AMPLITUDE * norm_2(d->c->n_coef, X);
+         metric_distance(&at, at.X, hbm_curve_X(d->c, k + 1)) <= SAME_AMPLITUDE;
 }
 
 /* The end of segment k, where `kind` happens on the branch of its start. */
@@ -348,6 +373,8 @@ hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *
   *n = 0;
   if (c->n == 0) return HC_OK;
   hc_status st = hbm_candidate_new(c->n_coef, &d.x), not_located = HC_OK;
+  d.was = calloc((size_t)s->model->n_contacts + 1, sizeof *d.was);
+  if (st == HC_OK && !d.was) st = HC_NO_MEMORY;
   if (st == HC_OK) st = evaluate_at_point(&d, 0, &before);
   for (int k = 0; st == HC_OK && k + 1 < c->n; ++k) {
     st = evaluate_at_point(&d, k + 1, &here);
@@ -368,6 +395,7 @@ hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *
   *n = d.n;
   hbm_curve_free(&d.near.ends);
   free(d.x.X);
+  free(d.was);
   free(d.found);
   return st != HC_OK ? st : not_located;
 }

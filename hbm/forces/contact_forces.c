@@ -25,6 +25,7 @@ typedef struct member {
   hbm_friction_mean mean; /* a mistake, as the sign is */
   double *jac;            /* [n_dof (2H+1)]^2 */
   bool differentiated;
+  contact_regime regime; /* of the last evaluation */
 } member;
 
 struct contact_forces {
@@ -224,6 +225,7 @@ hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, boo
     if (st == HC_OK && m->differentiated) spoil_friction(m, f->length, NULL, NULL);
     for (int d = 0; d < m->n_dof && st == HC_OK && !f->itself; ++d) scatter(f, &m->of[d], f->f + d * f->length, F);
     if (st != HC_OK) continue;
+    m->regime = own.regime;
     report->regime = contact_regime_larger(report->regime, own.regime);
     report->transitions += own.transitions;
     report->free_sliders += own.free_sliders;
@@ -333,6 +335,8 @@ contact_slopes contact_forces_slopes(const contact_forces *f, int j, double th, 
   const member *m = member_of(f, j);
   return m->by->slopes(m->evaluator, th, omega);
 }
+
+contact_regime contact_forces_regime(const contact_forces *f, int j) { return member_of(f, j)->regime; }
 
 bool contact_forces_at(contact_forces *f, double omega)
 {

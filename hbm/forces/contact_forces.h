@@ -35,6 +35,9 @@ const double *contact_forces_jacobian(contact_forces *f);
 /* w[n_contacts] [length]: the sliders at th = 0 on the closed orbit of the last evaluation. */
 void contact_forces_sliders(const contact_forces *f, double *w);
 
+/* What happened to contact j in the last evaluation. */
+contact_regime contact_forces_regime(const contact_forces *f, int j);
+
 /* The intervals of contact j, of located forces only: of two tangents under one limit those of both at the first, none
  * at the second. What held of one of them depends on: d held = by[0] du + by[1] dv at its origin. */
 const contact_interval *contact_forces_intervals(const contact_forces *f, int j, int *n);

@@ -135,23 +135,22 @@ hc_status hbm_corrector_new(hbm_solver *s)
   return st == HC_OK ? newton_new(&plane, &s->plane) : st;
 }
 
-/* Weights of the residual's rows at the X of the last one, into s->r_scale. Rows of less than 2e-3 of all forces, at
- * the usual tolerance of 1e-10, are weighed as if they were of that: what is left of them is the rounding of others. */
+/* Weights of the residual's rows at the X of the last one, into s->r_scale. */
 static void weigh_rows(hbm_solver *s, double omega)
 {
-  const double rounding = 1000 * DBL_EPSILON;
-  hbm_system_weights(&s->sys, omega_at(s, omega), fmin(rounding / s->how.tolerance, 1), s->r_scale);
+  hbm_system_weights(&s->sys, omega_at(s, omega), hbm_least_share(s), s->r_scale);
 }
 
-/* Weights for KINSOL: X by its size, R by the forces it is made of at the guess. */
-static hc_status set_scales(hbm_solver *s, double omega, double x_scale, const double *X)
+/* Weights for KINSOL: X by metric_reach, R by the forces it is made of at the guess. */
+static hc_status set_scales(hbm_solver *s, double omega, const double *X)
 {
   hbm_system_at(&s->sys, omega_at(s, omega));
   hc_status st = hbm_system_contact(&s->sys, X, true);
   if (st != HC_OK) return st;
   weigh_rows(s, omega);
-  if (!(x_scale > 0)) x_scale = 1;
-  for (int i = 0; i < s->sys.n; ++i) s->z_scale[i] = 1 / x_scale;
+  const metric_at at = hbm_metric_at(s, X);
+  metric_reach(&at, s->sys.moved);
+  for (int i = 0; i < s->sys.n; ++i) s->z_scale[i] = s->sys.moved[i % s->sys.dim];
   return HC_OK;
 }
 
@@ -191,35 +190,35 @@ static newton_options corrector_options(const hbm_solver *s, double max_step, in
                           .ends_fresh = true};
 }
 
-static hc_status solve_fixed(hbm_solver *s, double omega, double x_scale, bool polish, double *X, hbm_point *point)
+static hc_status solve_fixed(hbm_solver *s, double omega, bool polish, double *X, hbm_point *point)
 {
   newton_options opt = corrector_options(s, 3.0, MAX_NEWTON_ITERATIONS, false);
   if (!polish) opt.unpolished = true;
   ++s->solves;
-  hc_status st = set_scales(s, omega, x_scale, X);
+  hc_status st = set_scales(s, omega, X);
   if (st != HC_OK) return st;
   s->omega = omega;
   pack(s, X, omega, s->z);
   return solve(s, s->fixed, &opt, X, &omega, point);
 }
 
-hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point)
+hc_status hbm_solve_fixed(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
-  return solve_fixed(s, omega, x_scale, true, X, point);
+  return solve_fixed(s, omega, true, X, point);
 }
 
 hc_status hbm_solve_roughly(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
-  return solve_fixed(s, omega, norm_2(s->sys.n_coef, X), false, X, point);
+  return solve_fixed(s, omega, false, X, point);
 }
 
-static hc_status solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale,
-                             int max_iterations, bool plain, double *X, double *omega, hbm_point *point)
+static hc_status solve_plane(hbm_solver *s, const double *normal, double omega_scale, int max_iterations, bool plain,
+                             double *X, double *omega, hbm_point *point)
 {
   const newton_options opt = corrector_options(s, 1.0, max_iterations, plain);
   const int n = s->sys.n;
   ++s->solves;
-  hc_status st = set_scales(s, *omega, x_scale, X);
+  hc_status st = set_scales(s, *omega, X);
   if (st != HC_OK) return st;
   s->z_scale[n] = 1 / omega_scale;
   s->r_scale[n] = 1; /* normal . (z - anchor) is a length in the metric */
@@ -229,16 +228,16 @@ static hc_status solve_plane(hbm_solver *s, const double *normal, double x_scale
   return solve(s, s->plane, &opt, X, omega, point);
 }
 
-hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
-                          double *omega, hbm_point *point)
+hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double omega_scale, double *X, double *omega,
+                          hbm_point *point)
 {
-  return solve_plane(s, normal, x_scale, omega_scale, MAX_NEWTON_ITERATIONS, false, X, omega, point);
+  return solve_plane(s, normal, omega_scale, MAX_NEWTON_ITERATIONS, false, X, omega, point);
 }
 
-hc_status hbm_solve_plane_plainly(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
-                                  double *omega, hbm_point *point)
+hc_status hbm_solve_plane_plainly(hbm_solver *s, const double *normal, double omega_scale, double *X, double *omega,
+                                  hbm_point *point)
 {
-  return solve_plane(s, normal, x_scale, omega_scale, s->how.iterations, true, X, omega, point);
+  return solve_plane(s, normal, omega_scale, s->how.iterations, true, X, omega, point);
 }
 
 hc_status hbm_tangent_fixed(hbm_solver *s, const double *X, double *dX)

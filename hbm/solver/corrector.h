@@ -3,7 +3,7 @@
  *     fixed   R(X, omega) = 0 at a given omega                                                    n unknowns
  *     plane   R(X, omega) = 0 and normal . (z - anchor) = 0,  z = (X, omega)    (paper eq. 15-16) n + 1 unknowns
  *
- * The paper is [1] in README.md. normal = D t for a tangent t, where D is the metric of the curve: 1/x_scale^2 on the
+ * The paper is [1] in README.md. normal = D t for a tangent t, where D is the metric of the curve: metric.h's on the
  * harmonics, 1/omega_scale^2 on omega. X has n_coef entries, the unknowns are its last n (system.h). While a ramp is
  * followed the place on it stands for omega in all of these. */
 #pragma once
@@ -14,15 +14,15 @@
 hc_status hbm_corrector_new(hbm_solver *s);
 
 /* Solve the fixed form at omega from X; or the plane form from (X, *omega), which is also the anchor, with
- * `normal`[n+1] given. x_scale [length] is the size of X. X and *omega are the solution on HC_OK, untouched
+ * `normal`[n+1] given. X and *omega are the solution on HC_OK, untouched
  * otherwise. Errors of newton_solve and of the contact force. */
-hc_status hbm_solve_fixed(hbm_solver *s, double omega, double x_scale, double *X, hbm_point *point);
-hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
-                          double *omega, hbm_point *point);
+hc_status hbm_solve_fixed(hbm_solver *s, double omega, double *X, hbm_point *point);
+hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double omega_scale, double *X, double *omega,
+                          hbm_point *point);
 
 /* The plane form by plain Newton: at most hbm.iterations of them, no line search. Errors of hbm_solve_plane. */
-hc_status hbm_solve_plane_plainly(hbm_solver *s, const double *normal, double x_scale, double omega_scale, double *X,
-                                  double *omega, hbm_point *point);
+hc_status hbm_solve_plane_plainly(hbm_solver *s, const double *normal, double omega_scale, double *X, double *omega,
+                                  hbm_point *point);
 
 /* dX/domega [n_coef] at X, the end of the last fixed solve; (dX, d_omega) along the curve, normal . (dX, d_omega) = 1,
  * at the end of the last plane solve. HC_SINGULAR. */

@@ -21,15 +21,16 @@ static hc_status make_refinements(hbm_solver *s, int n_time)
   if (twice < REFINE_FEWEST_HARMONICS) twice = REFINE_FEWEST_HARMONICS;
   hc_status st = HC_OK;
   if (how->harmonics == HBM_AUTO)
-    st = refinement_new(s->model, how, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
+    st = refinement_new(&s->sys, how, twice, n_time < 4 * twice ? 4 * twice : n_time, &s->finer_harmonics);
   if (st == HC_OK && how->samples == HBM_AUTO && how->force == HBM_FORCE_SAMPLED)
-    st = refinement_new(s->model, how, n_harm, 2 * n_time, &s->finer_samples);
+    st = refinement_new(&s->sys, how, n_harm, 2 * n_time, &s->finer_samples);
   return st;
 }
 
-static hc_status make_equations(hbm_solver *s, int n_harm, int n_time)
+/* shared: the metric of equations that these replace, or NULL. */
+static hc_status make_equations(hbm_solver *s, int n_harm, int n_time, metric *shared)
 {
-  hc_status st = hbm_system_init(&s->sys, s->model, &s->how, n_harm, n_time);
+  hc_status st = hbm_system_init(&s->sys, s->model, &s->how, n_harm, n_time, shared);
   double **const arrays[] = {&s->X, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
     *arrays[i] = workspace_doubles(&s->memory, (size_t)s->sys.n_coef + 1);
@@ -72,8 +73,10 @@ static void free_equations(hbm_solver *s)
 hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time)
 {
   long evaluations = s->sys.evaluations; /* counted over the solver's life */
+  metric *const kept = metric_share(s->sys.metric);
   free_equations(s);
-  hc_status st = make_equations(s, n_harm, n_time);
+  hc_status st = make_equations(s, n_harm, n_time, kept);
+  metric_free(kept);
   s->sys.evaluations = evaluations;
   return st;
 }
@@ -93,7 +96,7 @@ hc_status hbm_solver_new(const model *m, const hbm_settings *how, hbm_solver **o
   hc_status st = model_copy(m, &s->model);
   if (st == HC_OK) s->symmetric = model_is_symmetric(s->model);
   if (st == HC_OK) s->edges = contact_edges_of(s->model);
-  if (st == HC_OK) st = make_equations(s, n_harm, n_time);
+  if (st == HC_OK) st = make_equations(s, n_harm, n_time, NULL);
   if (st == HC_OK) {
     *out = s;
     return HC_OK;

@@ -1,6 +1,8 @@
 /* hbm_solver_impl.h - what a solver consists of; private to hbm/ and to tests. */
 #pragma once
 
+#include <float.h>
+
 #include "hbm/solver/hbm_solver.h"
 #include "hbm/solver/ramp.h"
 #include "hbm/solver/refine.h"
@@ -30,8 +32,9 @@ struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; 
   refinement *finer_harmonics; /* tells auto the error of this many harmonics; NULL where the settings give a number */
   refinement *finer_samples;   /* the same of samples */
   refinement *exact_finer;     /* hbm_predict's equations; NULL until it is asked */
-  double *improved;            /* their solution next to the one asked about */
-  double improved_least;       /* [length] the error is never less than this there */
+  double *improved, *asked;    /* [n_improved] their solution next to the one asked about, and that one */
+  int n_improved;              /* the larger one's coefficients */
+  double improved_least;       /* [1] the error is never less than this there */
   hbm_guess guess;             /* .ask NULL: none */
   long solves;                 /* of either form, since it was made */
   const hbm_ramp *ramp;        /* the one that is followed; NULL: none is */
@@ -51,6 +54,15 @@ struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; 
 
 /* An evaluation takes a millisecond or more. */
 static inline bool hbm_has_many_unknowns(const hbm_solver *s) { return s->sys.n >= 200; }
+
+/* [1] Where what moves is less than this part of the static forces, what is left of a residual is their rounding. */
+static inline double hbm_least_share(const hbm_solver *s) { return fmin(1000 * DBL_EPSILON / s->how.tolerance, 1); }
+
+/* The metric at X [n_coef of the present equations]. */
+static inline metric_at hbm_metric_at(const hbm_solver *s, const double *X)
+{
+  return (metric_at){s->sys.metric, s->sys.n_coef, X, NULL};
+}
 
 /* Other numbers of harmonics and samples from here on. The solver is unusable, but may be freed, unless HC_OK. */
 hc_status hbm_solver_resize(hbm_solver *s, int n_harm, int n_time);

@@ -126,22 +126,23 @@ static hc_status respond(const hbm_system *sys, double omega, double *X)
   return st;
 }
 
-double hbm_linear_response(hbm_system *sys, double omega, double *X)
+void hbm_linear_response(hbm_system *sys, double omega, double *X)
 {
   /* an undamped resonance: only the order of magnitude matters */
   if (respond(sys, omega, X) != HC_OK) respond(sys, omega * (1 + 1e-3), X);
-  return norm_2(sys->n_coef, X);
 }
 
 bool hbm_linear_point(hbm_solver *s, double omega, double near, double *X, double *dX, hbm_point *point)
 {
   hbm_system *sys = &s->sys;
   double *linear = s->anchor, *R = s->z;
-  double size = hbm_linear_response(sys, omega, linear);
-  if (!(size > 0 && distance_2(sys->n_coef, X, linear) <= near * size)) return false;
+  hbm_linear_response(sys, omega, linear);
+  const metric_at at = hbm_metric_at(s, linear);
+  if (is_zero(sys->n_coef, linear) || !(metric_distance(&at, X, linear) <= near)) return false;
   if (hbm_system_residual(sys, omega, linear, R) != HC_OK) return false;
   if (sys->report.regime > CONTACT_STUCK) return false;
-  const double residual = norm_max(sys->n, R) / hbm_system_scale(sys, omega);
+  hbm_system_weights(sys, omega, hbm_least_share(s), s->r_scale);
+  const double residual = norm_weighted_max(sys->n, s->r_scale, R);
   if (!(residual <= sys->how.tolerance)) return false;
   memcpy(X, linear, (size_t)sys->n_coef * sizeof(double));
   /* dq_h = -(S + K')^-1 (dS q_h - dp), harmonic by harmonic: the rows of the equations' derivative. */

@@ -33,10 +33,10 @@ hbm_ramp hbm_ramp_of(hbm_ramp_kind kind, const hbm_system *sys, double omega)
   return r;
 }
 
-double hbm_ramp_start(const hbm_ramp *r, hbm_system *sys, double *X)
+void hbm_ramp_start(const hbm_ramp *r, hbm_system *sys, double *X)
 {
   hbm_ramp_set(r, r->from, sys);
-  return hbm_linear_response(sys, r->omega, X);
+  hbm_linear_response(sys, r->omega, X);
 }
 
 void hbm_ramp_set(const hbm_ramp *r, double p, hbm_system *sys)

@@ -20,8 +20,8 @@ typedef struct hbm_ramp {
 
 hbm_ramp hbm_ramp_of(hbm_ramp_kind kind, const hbm_system *sys, double omega);
 
-/* A guess X[n_coef] for the start of the ramp, the linear response there; *sys is left there. Returns its norm. */
-double hbm_ramp_start(const hbm_ramp *r, hbm_system *sys, double *X);
+/* A guess X[n_coef] for the start of the ramp, the linear response there; *sys is left there. */
+void hbm_ramp_start(const hbm_ramp *r, hbm_system *sys, double *X);
 
 /* The equations become those at p; hbm_ramp_leave: the model's own. */
 void hbm_ramp_set(const hbm_ramp *r, double p, hbm_system *sys);

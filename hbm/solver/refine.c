@@ -9,22 +9,24 @@
 
 struct refinement {
   hbm_system sys;
-  double *X;   /* [n_coef] padded */
-  double *R;   /* [n] residual, then step */
-  double *jac; /* [n][n] */
-  int *pivot;  /* [n] */
+  double *X;      /* [n_coef] padded */
+  double *R;      /* [n] residual, then step */
+  double *change; /* [n_coef] that step, with the means */
+  double *jac;    /* [n][n] */
+  int *pivot;     /* [n] */
   workspace memory;
 };
 
-hc_status refinement_new(const model *m, const hbm_settings *how, int n_harm, int n_time, refinement **out)
+hc_status refinement_new(const hbm_system *of, const hbm_settings *how, int n_harm, int n_time, refinement **out)
 {
   *out = NULL;
   refinement *r = calloc(1, sizeof *r);
   if (!r) return HC_NO_MEMORY;
-  hc_status st = hbm_system_init(&r->sys, m, how, n_harm, n_time);
+  hc_status st = hbm_system_init(&r->sys, of->model, how, n_harm, n_time, of->metric);
   size_t n = (size_t)r->sys.n_coef;
   r->X = workspace_doubles(&r->memory, n);
   r->R = workspace_doubles(&r->memory, n);
+  r->change = workspace_doubles(&r->memory, n);
   r->jac = workspace_doubles(&r->memory, n * n);
   r->pivot = workspace_array(&r->memory, n, sizeof *r->pivot);
   if (st == HC_OK && r->memory.failed) st = HC_NO_MEMORY;
@@ -46,6 +48,15 @@ void refinement_free(refinement *r)
 
 int refinement_harmonics(const refinement *r) { return r->sys.n_harm; }
 
+/* Of r->R, a change of the unknowns, at Y. */
+static double length_at(refinement *r, const double *Y)
+{
+  const metric_at at = {r->sys.metric, r->sys.n_coef, Y, NULL};
+  memset(r->change, 0, (size_t)r->sys.first * sizeof *r->change);
+  memcpy(r->change + r->sys.first, r->R, (size_t)r->sys.n * sizeof *r->change);
+  return metric_length(&at, r->change);
+}
+
 hc_status refinement_step(refinement *r, double omega, double *Y, double *step)
 {
   const int n = r->sys.n;
@@ -55,10 +66,10 @@ hc_status refinement_step(refinement *r, double omega, double *Y, double *step)
   hbm_system_jacobian(&r->sys, omega, n, r->jac);
   if (dense_factor(n, r->jac, r->pivot) != HC_OK) return HC_SINGULAR;
   dense_solve(n, r->jac, r->pivot, 1, r->R);
-  const double size = norm_2(n, r->R);
-  if (!isfinite(size)) return HC_NOT_FINITE;
+  const double length = length_at(r, Y);
+  if (!isfinite(length)) return HC_NOT_FINITE;
   for (int i = 0; i < n; ++i) Y[i + r->sys.first] -= r->R[i];
-  *step = size;
+  *step = length;
   return HC_OK;
 }
 
@@ -70,11 +81,11 @@ hc_status refinement_response(refinement *r, double omega, const double *Y, int 
 double refinement_rounding(refinement *r, double omega)
 {
   const int n = r->sys.n;
-  const double force = DBL_EPSILON * hbm_system_scale(&r->sys, omega);
-  for (int i = 0; i < n; ++i) r->R[i] = force;
+  hbm_system_sizes(&r->sys, omega, r->sys.all, r->sys.moved);
+  for (int i = 0; i < n; ++i) r->R[i] = DBL_EPSILON * r->sys.all[i % r->sys.dim];
   dense_solve(n, r->jac, r->pivot, 1, r->R);
-  const double size = norm_2(n, r->R);
-  return isfinite(size) ? size : INFINITY;
+  const double length = length_at(r, r->sys.X);
+  return isfinite(length) ? length : INFINITY;
 }
 
 double refinement_error(refinement *r, double omega, int n_harm, const double *X)
@@ -82,9 +93,7 @@ double refinement_error(refinement *r, double omega, int n_harm, const double *X
   double step;
   memset(r->X, 0, (size_t)r->sys.n_coef * sizeof(double));
   memcpy(r->X, X, (size_t)hbm_system_length(&r->sys, n_harm) * sizeof(double));
-  const double size = norm_2(r->sys.n_coef, r->X);
-  if (refinement_step(r, omega, r->X, &step) != HC_OK) return INFINITY;
-  return size > 0 ? step / size : 0;
+  return refinement_step(r, omega, r->X, &step) == HC_OK ? step : INFINITY;
 }
 
 int refine_next_harmonics(int n_harm, bool up)

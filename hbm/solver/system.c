@@ -5,12 +5,15 @@
 
 #include "numerics/norm.h"
 
-hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time)
+hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time,
+                          metric *shared)
 {
   *sys = (hbm_system){.model = m, .how = *how, .n_harm = n_harm, .force_factor = 1};
   if (n_harm < 1 || n_harm > HBM_MAX_HARMONICS || model_highest_load(m) > n_harm) return HC_BAD_INPUT;
   hc_status st = model_find_scales(m, &sys->scales);
   if (st == HC_OK) st = condensation_new(m, n_harm, &sys->linear);
+  sys->metric = metric_share(shared);
+  if (st == HC_OK && !shared) st = metric_new(m, sys->linear, &sys->metric);
   if (st != HC_OK) return st;
   for (int l = 0; l < m->n_loads; ++l) sys->load += norm_2(m->n, m->loads[l].cosine) + norm_2(m->n, m->loads[l].sine);
   if (how->mistakes.hysteretic) condensation_make_hysteretic(sys->linear);
@@ -23,6 +26,8 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->X = workspace_doubles(w, n);
   sys->F = workspace_doubles(w, n);
   sys->rows = workspace_doubles(w, n);
+  sys->all = workspace_doubles(w, dim);
+  sys->moved = workspace_doubles(w, dim);
   sys->amplitudes = workspace_array(w, 2 * dim, sizeof *sys->amplitudes);
   sys->stuck = workspace_array(w, (size_t)sys->model->n_contacts, sizeof *sys->stuck);
   sys->stiffness = workspace_doubles(w, dim * dim);
@@ -37,6 +42,7 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
 void hbm_system_clear(hbm_system *sys)
 {
   condensation_free(sys->linear);
+  metric_free(sys->metric);
   contact_forces_free(sys->contacts);
   workspace_free(&sys->memory);
   *sys = (hbm_system){0};
@@ -266,30 +272,49 @@ void hbm_system_dforce(hbm_system *sys, double omega, double *dR)
   drop_means(sys, dR);
 }
 
-/* The sum of force[dim], which is filled; NaN where condensation_at fails. */
-static double sum_sizes(const hbm_system *sys, double omega, double *force)
+/* The static load condensed on coordinate d [force]. */
+static double static_load(const hbm_system *sys, int d)
 {
-  double sum = 0;
-  if (condensation_at(sys->linear, omega, sys->more_damping) != HC_OK) return NAN;
-  /* force[dim]: what each coordinate's rows of the residual are made of, by size, added up over all harmonics. */
+  for (int l = 0; l < sys->model->n_loads; ++l)
+    if (sys->model->loads[l].harmonic == 0) return sys->force_factor * creal(condensation_load(sys->linear, l)[d]);
+  return 0;
+}
+
+void hbm_system_sizes(const hbm_system *sys, double omega, double *all, double *moved)
+{
+  const bool known = condensation_at(sys->linear, omega, sys->more_damping) == HC_OK;
   const int dim = sys->dim;
-  for (int d = 0; d < dim; ++d) force[d] = 0;
-  for (int h = 0; h <= sys->n_harm; ++h) {
+  const double *rest = metric_rest(sys->metric);
+  for (int d = 0; d < dim; ++d) all[d] = moved[d] = known ? 0 : NAN;
+  for (int h = 1; h <= sys->n_harm && known; ++h) {
     const double *size = condensation_sizes(sys->linear, h), *a = sys->X + cosines(sys, h), *b = sys->X + sines(sys, h),
                  *fa = sys->F + cosines(sys, h), *fb = sys->F + sines(sys, h);
     for (int e = 0; e < dim; ++e) {
-      const double x = h ? hypot(a[e], b[e]) : fabs(a[e]);
-      for (int d = 0; d < dim; ++d) force[d] += size[(size_t)e * (size_t)dim + (size_t)d] * x;
-      force[e] += h ? hypot(fa[e], fb[e]) : fabs(fa[e]);
+      const double x = hypot(a[e], b[e]);
+      for (int d = 0; d < dim; ++d) moved[d] += size[(size_t)e * (size_t)dim + (size_t)d] * x;
+      moved[e] += hypot(fa[e], fb[e]);
     }
   }
-  for (int l = 0; l < sys->model->n_loads; ++l)
-    for (int d = 0; d < dim; ++d) force[d] += sys->force_factor * cabs(condensation_load(sys->linear, l)[d]);
-  for (int d = 0; d < sys->dim; ++d) sum += force[d];
-  return sum;
+  for (int l = 0; l < sys->model->n_loads && known; ++l)
+    for (int d = 0; d < dim && sys->model->loads[l].harmonic > 0; ++d)
+      moved[d] += sys->force_factor * cabs(condensation_load(sys->linear, l)[d]);
+  for (int d = 0; d < dim; ++d) all[d] = moved[d];
+  if (!known) return;
+  /* The contacts' force at rest is what the static load leaves beside K rest. */
+  const double *size = condensation_sizes(sys->linear, 0);
+  const double complex *S = condensation_stiffness(sys->linear, 0);
+  for (int d = 0; d < dim; ++d) {
+    double at_rest = static_load(sys, d);
+    all[d] += fabs(sys->F[d]) + fabs(at_rest);
+    for (int e = 0; e < dim; ++e) {
+      const size_t at = (size_t)e * (size_t)dim + (size_t)d;
+      at_rest -= creal(S[at]) * rest[e];
+      all[d] += size[at] * fabs(sys->X[e]);
+      moved[d] += size[at] * fabs(sys->X[e] - rest[e]);
+    }
+    moved[d] += fabs(sys->F[d] - at_rest);
+  }
 }
-
-double hbm_system_scale(const hbm_system *sys, double omega) { return sum_sizes(sys, omega, sys->rows); }
 
 bool hbm_system_knows_means(const hbm_system *sys)
 {
@@ -299,9 +324,17 @@ bool hbm_system_knows_means(const hbm_system *sys)
   return sys->load == 0 || sum <= two_digits * sys->load;
 }
 
-void hbm_system_weights(const hbm_system *sys, double omega, double least, double *weight)
+/* [least] The share of other coordinates' forces whose rounding may show in a row. */
+static const double of_others = 0.016;
+
+void hbm_system_weights(hbm_system *sys, double omega, double least, double *weight)
 {
-  const double sum = sum_sizes(sys, omega, sys->rows);
-  for (int i = 0; i < sys->n; ++i)
-    weight[i] = sum > 0 ? 1 / fmax(sys->rows[i % sys->dim], least * sum) : sum == 0 ? 1 : NAN;
+  double sum = 0;
+  hbm_system_sizes(sys, omega, sys->all, sys->moved);
+  for (int d = 0; d < sys->dim; ++d) sum += sys->all[d];
+  for (int d = 0; d < sys->dim; ++d) {
+    const double size = larger(sys->moved[d], larger(least * sys->all[d], of_others * least * sum));
+    sys->moved[d] = size == 0 ? 1 : 1 / size;
+  }
+  for (int i = 0; i < sys->n; ++i) weight[i] = sys->moved[i % sys->dim];
 }

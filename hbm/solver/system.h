@@ -12,6 +12,7 @@
 #pragma once
 
 #include "hbm/forces/contact_forces.h"
+#include "hbm/solver/metric.h"
 #include "model/modes.h"
 #include "numerics/base/workspace.h"
 #include "numerics/series.h"
@@ -25,6 +26,7 @@ typedef struct hbm_system {
   double force_factor /* phi */, more_damping /* D [force time/length] */;
   double load; /* [force] all loads by size, phi = 1 */
   condensation *linear;
+  metric *metric; /* shared with whoever else measures this model's solutions */
   contact_forces *contacts;
   model_scales scales;
   double *X, *F; /* [n_coef] the last evaluation: where, and the contact force */
@@ -33,6 +35,7 @@ typedef struct hbm_system {
   bool evaluated, derived; /* X, F and report belong together; and the contacts' Jacobian with them */
   double *rows;            /* [n_coef] residual or its derivative with the means' rows, which may have to be dropped */
   double complex *amplitudes; /* [2][dim] */
+  double *all, *moved;        /* [dim] of hbm_system_weights */
   long evaluations;           /* of the contact force */
   bool *stuck;                /* [n_contacts] of linear_solution.c, and all that follows: */
   double *stiffness;          /* [dim][dim] K' */
@@ -45,8 +48,10 @@ typedef struct hbm_system {
 static inline int hbm_system_length(const hbm_system *sys, int n_harm) { return sys->dim * series_length(n_harm); }
 
 /* n_time: samples per period, for sampled forces only. HC_BAD_INPUT (a load above harmonic n_harm, too); HC_NO_MEMORY;
- * HC_SINGULAR, HC_NOT_CONVERGED of model_find_scales and condensation_new: *sys still has to be cleared. */
-hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time);
+ * HC_SINGULAR, HC_NOT_CONVERGED of model_find_scales and condensation_new: *sys still has to be cleared. shared: the
+ * metric of m's solutions, if there is one; NULL: it is made. */
+hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *how, int n_harm, int n_time,
+                          metric *shared);
 void hbm_system_clear(hbm_system *sys);
 
 /* The frequency of evaluations to come. */
@@ -77,15 +82,18 @@ void hbm_system_domega(hbm_system *sys, double omega, const double *X, double *d
 void hbm_system_ddamping(hbm_system *sys, double omega, const double *X, double *dR);
 void hbm_system_dforce(hbm_system *sys, double omega, double *dR); /* by phi */
 
-/* What a residual is compared with [force]: the sum of the sizes of the forces it is made of, at the X of the last
- * residual. The size of their sum would be too small: near resonance K X and M omega^2 X cancel. */
-double hbm_system_scale(const hbm_system *sys, double omega);
+/* all[dim], moved[dim] [force], at the X of the last residual: the forces on each coordinate, added up by size over all
+ * harmonics; and of these what moves the structure from its rest under static loads (of the means only what is not the
+ * same at rest). The size of their sum would be too small: near resonance K X and M omega^2 X cancel. NaN where
+ * condensation_at fails. */
+void hbm_system_sizes(const hbm_system *sys, double omega, double *all, double *moved);
 
 /* Are the means of the last evaluation known to two digits, as far as rounding goes? Not where a load pushes along a
  * motion that K holds by its own rounding alone: the residual is small beside K X, and the mean is anything. */
 bool hbm_system_knows_means(const hbm_system *sys);
 
-/* weight[n]: 1 over what each row of a residual is compared with [1/force]: the same sum over the forces on its own
- * coordinate, so that one part of a structure is not solved less well for another part's larger forces, but no less
- * than `least` of the sum over all. 1 where there is no force at all; NaN where condensation_at fails. */
-void hbm_system_weights(const hbm_system *sys, double omega, double least, double *weight);
+/* weight[n]: 1 over what each row of a residual is compared with [1/force]: `moved` of its own coordinate, so that no
+ * part of a structure is solved less well for another part's larger forces, nor the vibration for its static load; but
+ * no less than `least` of `all`, nor than a sixtieth of that of all coordinates' forces: what is left beside is their
+ * rounding. 1 where there is no force at all; NaN where condensation_at fails. */
+void hbm_system_weights(hbm_system *sys, double omega, double least, double *weight);

@@ -520,7 +520,8 @@ static const char *advice_for(const scene *sc, cli_solver solver, hc_status st, 
   char other[ADVICE_TEXT];
   text[0] = 0;
   if (!sc) return text;
-  const bool no_solution = st == HC_SINGULAR || st == HC_STALLED || st == HC_NOT_CONVERGED || st == HC_STEP_TOO_SMALL;
+  const bool no_solution =
+      st == HC_SINGULAR || st == HC_STALLED || st == HC_NOT_CONVERGED || st == HC_STEP_TOO_SMALL || st == HC_JUMPED;
   const bool failed_at_mean = solver == CLI_TRANSIENT ? st == HC_NOT_SETTLED : no_solution && sc->hbm.keep_mean;
   if (failed_at_mean && sc->structure && advice_on_free_motion(sc->structure, text)) return text;
   if (failed_at_mean && scene_adrift(sc)) return snprintf(text, ADVICE_TEXT, "%s", SCENE_ADRIFT), text;

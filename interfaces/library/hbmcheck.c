@@ -19,7 +19,7 @@
 #define STATUSES(X)                                                                                              \
   X(OK) X(BAD_INPUT) X(NO_MEMORY) X(IO) X(STALLED) X(NOT_CONVERGED) X(SINGULAR) X(NOT_FINITE) X(STEP_TOO_SMALL)  \
   X(TOO_MANY_POINTS) X(NOT_CLOSED) X(INTEGRATOR) X(CHATTER) X(NOT_SETTLED) X(APERIODIC) X(INTERRUPTED)           \
-  X(UNSUPPORTED) X(BUG)
+  X(UNSUPPORTED) X(BUG) X(JUMPED)
 #define VERDICTS(X)                                                                                              \
   X(MATCH) X(DIFFERS) X(OTHER_BRANCH) X(UNSTABLE) X(PERIOD_K) X(APERIODIC) X(NOT_SETTLED) X(SOLVER_FAILED)
 /* clang-format on */

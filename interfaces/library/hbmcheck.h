@@ -66,7 +66,8 @@ typedef enum hbmcheck_status {
   HBMCHECK_APERIODIC,       /* the motion never repeats: it is chaotic, or runs on a torus */
   HBMCHECK_INTERRUPTED,     /* the monitor asked to stop */
   HBMCHECK_UNSUPPORTED,     /* not done: in a row, what was not computed because something before it failed */
-  HBMCHECK_BUG              /* an error of the library: please report it */
+  HBMCHECK_BUG,             /* an error of the library: please report it */
+  HBMCHECK_JUMPED           /* a fixed step of the curve leads to another branch */
 } hbmcheck_status;
 
 /* The words for a status; a constant string, never NULL. */

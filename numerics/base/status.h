@@ -22,7 +22,8 @@
   X(HC_APERIODIC, "the motion never repeats: neighbouring motions drift apart, or it runs on a torus")                 \
   X(HC_INTERRUPTED, "stopped on request")                                                                              \
   X(HC_UNSUPPORTED, "a file was written by another version of hbmcheck")                                               \
-  X(HC_BUG, "internal error: please report it")
+  X(HC_BUG, "internal error: please report it")                                                                        \
+  X(HC_JUMPED, "the next solution is further from where it was predicted than the step explains")
 
 #define HC_STATUS_ENUM(code, text) code,
 typedef enum hc_status { HC_STATUS_LIST(HC_STATUS_ENUM) } hc_status;

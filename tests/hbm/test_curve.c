@@ -110,7 +110,7 @@ static void reference_rows_and_peaks(CHECK_STATE)
         if (hard && keep_mean && o > 0) continue;
         scene sc = scene_named(r->name, orders[o], keep_mean, 4096);
         traced t = whole(&sc, r->omega_from, r->omega_to, r->name);
-        n_checked += check_rows(n_rows, rows, &t, r->name, orders[o], keep_mean, false, SAMPLED, true);
+        n_checked += check_rows(n_rows, rows, &t, r->name, orders[o], keep_mean, false, SAMPLED);
         if (!(hard && !keep_mean)) n_tops += check_peak(&t, r->name, orders[o], keep_mean);
         free_traced(&t);
       }
@@ -131,7 +131,7 @@ static void arclength_only(CHECK_STATE)
     for (int j = 0; j < n_rows; ++j)
       listed += !strcmp(rows[j].name, names[i]) && rows[j].n_harm == 5 && rows[j].keep_mean;
     assert_true(listed >= 7); /* reference frequencies of a scene, test_exact_reference.c */
-    assert_int_equal(check_rows(n_rows, rows, &t, names[i], 5, true, false, SAMPLED, true), listed);
+    assert_int_equal(check_rows(n_rows, rows, &t, names[i], 5, true, false, SAMPLED), listed);
     free_traced(&t);
   }
 }

@@ -96,7 +96,7 @@ static void reference_rows_and_peaks(CHECK_STATE)
           const scene sc = exact_scene(r->name, orders[o], keep_mean);
           if (down && !strcmp(r->name, "c2kn1e4") && !keep_mean) continue;
           traced t = whole(&sc, down ? r->omega_to : r->omega_from, down ? r->omega_from : r->omega_to, r->name);
-          n_checked[down] += check_rows(n_rows, rows, &t, r->name, orders[o], keep_mean, down, SOLVED, false);
+          n_checked[down] += check_rows(n_rows, rows, &t, r->name, orders[o], keep_mean, down, SOLVED);
           if (!down) n_tops += check_peak(&t, r->name, orders[o], keep_mean);
           free_traced(&t);
         }

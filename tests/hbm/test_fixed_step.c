@@ -19,7 +19,7 @@ static double advance(const hbm_curve *c, int k)
   const double *X = hbm_curve_X(c, k), *dX = hbm_curve_dX(c, k), *next = hbm_curve_X(c, k + 1);
   double size = 0, along = 0, length = 0, w2 = c->omega_scale * c->omega_scale, d_omega = c->points[k].d_omega;
   for (int i = 0; i < c->n_coef; ++i) {
-    size += X[i] * X[i];
+    if (i > 0) size += X[i] * X[i]; /* the vibration: not the mean */
     along += dX[i] * (next[i] - X[i]);
     length += dX[i] * dX[i];
   }

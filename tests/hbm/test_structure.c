@@ -107,7 +107,7 @@ static void jacobian_is_the_derivative(CHECK_STATE)
     double X[MOST];
     how.keep_mean = trial % 10 != 0;
     how.force = sampled ? HBM_FORCE_SAMPLED : HBM_FORCE_EXACT;
-    CHECK_FILLED(hbm_system, sys, hbm_system_init(&sys, m, &how, H, 256));
+    CHECK_FILLED(hbm_system, sys, hbm_system_init(&sys, m, &how, H, 256, NULL));
     assert_true(sys.dim <= n && sys.dim <= 2 * contacts + 1);
     for (int k = 0; k < 3 && sys.n <= 400; ++k) {
       random_state(&seed, &sys, X);

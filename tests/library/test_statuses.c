@@ -70,7 +70,7 @@ WRAP(hc_status, comparison_run, (const compare_setup *setup, const hc_monitor *m
 #define UNFORCED memset(&forced, 0, sizeof forced)
 
 /* Every status but HC_OK (0). */
-#define EACH(st) for (int st = HC_BAD_INPUT; st <= HC_BUG; ++st)
+#define EACH(st) for (int st = HC_BAD_INPUT; st <= HC_JUMPED; ++st)
 
 static bool keeps(int st) { return st != HC_BAD_INPUT && st != HC_NO_MEMORY; }
 

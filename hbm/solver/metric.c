@@ -1,0 +1,324 @@
+/* metric.c - see metric.h. Sizes are computed where they are asked for: a solution's take less than a thousandth of the
+ * factors that led to it. */
+#include "hbm/solver/metric.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/rest.h"
+#include "numerics/base/workspace.h"
+#include "numerics/norm.h"
+
+static const double least_size = 1e-6; /* [largest size] */
+static const double one_line = 1e-14;  /* [1] rounding of the square of what a row has beside a line */
+
+struct metric {
+  atomic_int owners; /* threads that work on one curve each have solutions of it */
+  int dim, n;        /* coordinates; contacts, the response one of them */
+  int *first;        /* [n + 1] contact j has the rows first[j] .. first[j+1] - 1 */
+  double *row;       /* [first[n]][dim] */
+  double *own;       /* [n] [length] */
+  double *rest;      /* [dim] */
+  int *part;         /* [dim] which uncoupled part of the structure coordinate d is of */
+  double *x;         /* [n_dof] of metric_new */
+  workspace memory;
+};
+
+static const double *row_of(const metric *m, int r) { return m->row + (size_t)r * (size_t)m->dim; }
+
+/* ---- made ------------------------------------------------------------------------------------------------- */
+
+static void add_row(metric *m, const double *row)
+{
+  if (is_zero(m->dim, row)) return;
+  memcpy(m->row + (size_t)m->first[m->n + 1]++ * (size_t)m->dim, row, (size_t)m->dim * sizeof *row);
+}
+
+/* The rows of the last contact as one, if they are parallel: as long as all of them together. */
+static void join_rows(metric *m)
+{
+  const int first = m->first[m->n], last = m->first[m->n + 1];
+  double *to = m->row + (size_t)first * (size_t)m->dim, sum = 0;
+  const double own = sqrt(dot_product(m->dim, to, to));
+  for (int r = first; r < last; ++r) {
+    const double along = dot_product(m->dim, to, row_of(m, r)) / own,
+                 all = dot_product(m->dim, row_of(m, r), row_of(m, r));
+    if (!(all - along * along <= one_line * all)) return;
+    sum += all;
+  }
+  for (int d = 0; d < m->dim; ++d) to[d] *= sqrt(sum) / own;
+  m->first[m->n + 1] = first + 1;
+}
+
+/* The contact of one row that moves along the same line as the last one does; -1: none. *ratio: of their motions. */
+static int same_line(const metric *m, double *ratio)
+{
+  const double *row = row_of(m, m->first[m->n]), size = dot_product(m->dim, row, row);
+  for (int j = 0; j < m->n && m->first[m->n + 1] == m->first[m->n] + 1; ++j) {
+    const double *other = row_of(m, m->first[j]);
+    if (m->first[j + 1] != m->first[j] + 1) continue;
+    const double along = dot_product(m->dim, row, other), of_other = dot_product(m->dim, other, other);
+    *ratio = sqrt(of_other / size);
+    if (size * of_other - along * along <= one_line * size * of_other) return j;
+  }
+  return -1;
+}
+
+/* The contact whose rows were added last, or the response. */
+static void end_contact(metric *m, double own)
+{
+  double ratio;
+  if (m->first[m->n + 1] == m->first[m->n]) return; /* nothing moves it */
+  join_rows(m);
+  const int twin = same_line(m, &ratio);
+  if (twin >= 0) {
+    m->own[twin] = fmin(m->own[twin], own * ratio);
+    m->first[m->n + 1] = m->first[m->n];
+    return;
+  }
+  m->own[m->n++] = own;
+  m->first[m->n + 1] = m->first[m->n];
+}
+
+static void join(int n, int *part, int a, int b)
+{
+  for (int i = 0; i < n && a != b; ++i)
+    if (part[i] == a) part[i] = b;
+}
+
+/* part[n] of each degree of freedom, part_of_q[dim] of each coordinate: two that a matrix, a contact's direction or a
+ * coordinate joins are of one. unit[n], q[dim]: room. */
+static void find_parts(const model *of, const condensation *c, int dim, int *part, double *unit, double *q,
+                       int *part_of_q)
+{
+  const int n = of->n;
+  for (int i = 0; i < n; ++i) part[i] = i;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) {
+      const size_t at = (size_t)i * (size_t)n + (size_t)k;
+      if (of->mass[at] != 0 || of->damping[at] != 0 || of->stiffness[at] != 0) join(n, part, part[i], part[k]);
+    }
+  for (const model_contact *at = of->contacts; at < of->contacts + of->n_contacts; ++at)
+    for (int i = 0, last = -1; i < n; ++i) {
+      if (at->tangent[i] == 0 && at->normal[i] == 0) continue;
+      if (last >= 0) join(n, part, part[i], part[last]);
+      last = i;
+    }
+  for (int d = 0; d < dim; ++d) part_of_q[d] = -1;
+  for (int i = 0; i < n; ++i) {
+    unit[i] = 1;
+    condensation_coordinates(c, unit, q);
+    unit[i] = 0;
+    for (int d = 0; d < dim; ++d) {
+      if (q[d] == 0) continue;
+      if (part_of_q[d] >= 0) join(n, part, part[i], part[part_of_q[d]]);
+      part_of_q[d] = i;
+    }
+  }
+  for (int d = 0; d < dim; ++d) part_of_q[d] = part_of_q[d] < 0 ? -1 : part[part_of_q[d]];
+}
+
+static void add_contacts(metric *m, const model *about, const condensation *c)
+{
+  for (int j = 0; j < about->n_contacts;) {
+    double own = 0;
+    int next = j;
+    do { /* a contact of the case: two tangents, or a table's springs */
+      const contact *law = &about->contacts[next].law;
+      const double length = contact_length(law);
+      if (contact_rubs(law)) add_row(m, condensation_tangent(c, next));
+      if ((law->kn > 0 || contact_never_opens(law)) && next == j) add_row(m, condensation_normal(c, next));
+      if (length > 0) own = own > 0 ? fmin(own, length) : length;
+    } while (++next < about->n_contacts && contact_goes_on(about->contacts[next].pair));
+    end_contact(m, own);
+    j = next;
+  }
+  if (about->n_responses > 0) add_row(m, condensation_first_response(c));
+  end_contact(m, 0);
+}
+
+hc_status metric_new(const model *of, const condensation *c, metric **out)
+{
+  const size_t dim = (size_t)condensation_dim(c), contacts = (size_t)of->n_contacts;
+  metric *m = calloc(1, sizeof *m);
+  model *about = NULL;
+  *out = NULL;
+  if (!m) return HC_NO_MEMORY;
+  atomic_init(&m->owners, 1);
+  m->dim = (int)dim;
+  m->first = workspace_array(&m->memory, contacts + 3, sizeof *m->first);
+  m->row = workspace_doubles(&m->memory, (2 * contacts + 1) * dim);
+  m->own = workspace_doubles(&m->memory, contacts + 1);
+  m->rest = workspace_doubles(&m->memory, dim);
+  m->part = workspace_array(&m->memory, dim, sizeof *m->part);
+  workspace own = {0};
+  double *x = workspace_doubles(&own, (size_t)of->n), *unit = workspace_doubles(&own, (size_t)of->n),
+         *q = workspace_doubles(&own, dim);
+  int *part = workspace_array(&own, (size_t)of->n, sizeof *part);
+  hc_status st = m->memory.failed || own.failed ? HC_NO_MEMORY : model_about_rest(of, &about, x);
+  if (st == HC_OK) {
+    condensation_coordinates(c, x, m->rest);
+    find_parts(of, c, m->dim, part, unit, q, m->part);
+    add_contacts(m, about, c);
+    *out = m;
+  } else {
+    metric_free(m);
+  }
+  model_free(about);
+  workspace_free(&own);
+  return st;
+}
+
+metric *metric_share(metric *m)
+{
+  if (m) atomic_fetch_add(&m->owners, 1);
+  return m;
+}
+
+void metric_free(metric *m)
+{
+  if (!m || atomic_fetch_sub(&m->owners, 1) > 1) return;
+  workspace_free(&m->memory);
+  free(m);
+}
+
+const double *metric_rest(const metric *m) { return m->rest; }
+
+/* ---- measured --------------------------------------------------------------------------------------------- */
+
+/* Sum over contact j's rows, and coefficients from `from` on, of products of what a and b do there. */
+static double product(const metric_at *at, int j, int from, const double *a, const double *b)
+{
+  const metric *m = at->m;
+  const int dim = m->dim;
+  double sum = 0;
+  for (int r = m->first[j]; r < m->first[j + 1]; ++r)
+    for (int i = from; i < at->n_coef; i += dim) {
+      const double by_a = dot_product(dim, row_of(m, r), a + i);
+      sum += by_a * (a == b ? by_a : dot_product(dim, row_of(m, r), b + i));
+    }
+  return sum;
+}
+
+static double vibration(const metric_at *at, int j)
+{
+  const double of_X = product(at, j, at->m->dim, at->X, at->X),
+               of_Y = at->Y ? product(at, j, at->m->dim, at->Y, at->Y) : 0;
+  return sqrt(fmax(of_X, of_Y));
+}
+
+/* What no size is less than [length]: 1 where there is none at all. */
+static double floor_of(const metric_at *at)
+{
+  double most = 0;
+  for (int j = 0; j < at->m->n; ++j) most = fmax(most, fmax(vibration(at, j), at->m->own[j]));
+  return most > 0 ? least_size * most : 1;
+}
+
+static double size_of(const metric_at *at, int j, double least)
+{
+  return fmax(fmax(vibration(at, j), at->m->own[j]), least);
+}
+
+double metric_length(const metric_at *at, const double *a)
+{
+  const double least = floor_of(at);
+  double most = 0;
+  for (int j = 0; j < at->m->n; ++j) most = larger(most, sqrt(product(at, j, 0, a, a)) / size_of(at, j, least));
+  return most;
+}
+
+double metric_tail(const metric_at *at, int from)
+{
+  const double least = floor_of(at);
+  double most = 0;
+  for (int j = 0; j < at->m->n; ++j)
+    most = larger(most, sqrt(product(at, j, from, at->X, at->X)) / size_of(at, j, least));
+  return most;
+}
+
+double metric_distance(const metric_at *at, const double *a, const double *b)
+{
+  const metric *m = at->m;
+  const double least = floor_of(at);
+  double most = 0;
+  for (int j = 0; j < m->n; ++j) {
+    double sum = 0;
+    for (int r = m->first[j]; r < m->first[j + 1]; ++r)
+      for (int i = 0; i < at->n_coef; i += m->dim) {
+        double apart = 0;
+        for (int d = 0; d < m->dim; ++d) apart += row_of(m, r)[d] * (a[i + d] - b[i + d]);
+        sum += apart * apart;
+      }
+    most = larger(most, sqrt(sum) / size_of(at, j, least));
+  }
+  return most;
+}
+
+double metric_inner(const metric_at *at, const double *a, const double *b)
+{
+  const double least = floor_of(at);
+  double sum = 0;
+  for (int j = 0; j < at->m->n; ++j) {
+    const double size = size_of(at, j, least);
+    sum += product(at, j, 0, a, b) / (size * size);
+  }
+  return sum;
+}
+
+void metric_apply(const metric_at *at, const double *a, double *out)
+{
+  const metric *m = at->m;
+  const double least = floor_of(at);
+  memset(out, 0, (size_t)at->n_coef * sizeof *out);
+  for (int j = 0; j < m->n; ++j) {
+    const double size = size_of(at, j, least);
+    for (int r = m->first[j]; r < m->first[j + 1]; ++r)
+      for (int i = 0; i < at->n_coef; i += m->dim) {
+        const double by_a = dot_product(m->dim, row_of(m, r), a + i) / (size * size);
+        for (int d = 0; d < m->dim; ++d) out[i + d] += by_a * row_of(m, r)[d];
+      }
+  }
+}
+
+/* [length] How far contact j is from rest, its mean included, and no less than its own length. */
+static double excursion(const metric_at *at, int j)
+{
+  const metric *m = at->m;
+  double sum = product(at, j, m->dim, at->X, at->X);
+  for (int r = m->first[j]; r < m->first[j + 1]; ++r) {
+    double mean = 0;
+    for (int d = 0; d < m->dim; ++d) mean += row_of(m, r)[d] * (at->X[d] - m->rest[d]);
+    sum += mean * mean;
+  }
+  return fmax(sqrt(sum), m->own[j]);
+}
+
+/* Is coordinate d of the part of the structure that contact j is in? */
+static bool is_coupled(const metric *m, int j, int d)
+{
+  for (int r = m->first[j]; r < m->first[j + 1]; ++r)
+    for (int e = 0; e < m->dim; ++e)
+      if (row_of(m, r)[e] != 0 && m->part[e] == m->part[d]) return true;
+  return false;
+}
+
+void metric_reach(const metric_at *at, double *weight)
+{
+  const metric *m = at->m;
+  double least = INFINITY;
+  for (int d = 0; d < m->dim; ++d) {
+    double size = 0, row = 0;
+    for (int j = 0; j < m->n; ++j) {
+      if (!is_coupled(m, j, d)) continue;
+      size = fmax(size, excursion(at, j));
+      for (int r = m->first[j]; r < m->first[j + 1]; ++r) row = fmax(row, fabs(row_of(m, r)[d]));
+    }
+    weight[d] = size > 0 ? row / size : 0;
+    if (weight[d] > 0) least = fmin(least, weight[d]);
+  }
+  /* What moves no contact may go anywhere; without any size nothing is known. */
+  for (int d = 0; d < m->dim; ++d)
+    if (!(weight[d] > 0)) weight[d] = isfinite(least) ? least : 1;
+}
