@@ -3,7 +3,9 @@
  *
  * Two lists are as far apart as the answer that is farthest from all of its kind in the other list. Two answers of a
  * kind nearer to each other than twice the bound are twins: a contact that reaches its limit and leaves it at once
- * changes twice or, by rounding, not at all, and what is found may be one of them.
+ * changes twice or, by rounding, not at all, and what is found may be one of them. Two period doublings or
+ * Neimark-Sacker points are, if they are nearer than a step of the curve: they are seen from its points, and undo each
+ * other between two (special_points.h).
  *
  * Bounds are those of what is asked: special points are located to 1e-9 of omega, in numbers that have `ratio` times
  * the rounding; the peak is a row's amplitude; transients have errors of integration and of regularisation, the same
@@ -60,6 +62,7 @@ struct stress_answers {
   bool asked[GROUPS];
   hc_status status[GROUPS];
   bool history[GROUPS]; /* a slider never slips in what was found */
+  double step;          /* [1] of omega, the mean one of the curve */
   int n[QUESTIONS];
   answer of[QUESTIONS][MOST_ANSWERS];
 };
@@ -101,6 +104,7 @@ static hc_status ask_curve(solved_scene *s, const model *m, const double *start,
   for (int k = 0; k < curve.n && st == HC_OK; ++k) {
     st = amplitude_of(h, hbm_curve_X(&curve, k), &x, history);
     highest = fmax(highest, x);
+    if (k > 0) a->step += fabs(curve.points[k].omega / curve.points[k - 1].omega - 1) / (curve.n - 1);
   }
   if (st == HC_OK) st = hbm_curve_peak(h, &curve, &peak);
   if (st == HC_OK) st = amplitude_of(h, hbm_curve_X(&peak, 0), &x, history);
@@ -188,7 +192,8 @@ static hc_status ask_verdicts(solved_scene *s, const model *m, const double *sta
 }
 
 /* At the scene's omega, of few unknowns: with exact forces the harmonics; with sampled ones, for such harmonics, the
- * power of two of samples. One more or less may do where the error is at the limit. */
+ * power of two of samples. One more or less may do where the error is at the limit. Of several solutions the curve of
+ * few harmonics has one or another. */
 static hc_status ask_advice(solved_scene *s, const model *m, const double *start, stress_answers *a)
 {
   enum { MOST_COORDINATES = 2 };
@@ -201,10 +206,10 @@ static hc_status ask_advice(solved_scene *s, const model *m, const double *start
   compare_setup asked = setup;
   asked.model = m;
   if (st == HC_OK) st = sufficient_run(&asked, 1e-3, false, &s->monitor, &found);
-  for (int i = 0; i < found.n && st == HC_OK; ++i) {
+  for (int i = 0; i < found.n && found.solutions == 1 && st == HC_OK; ++i) {
     const sufficient_row *r = &found.rows[i];
-    if (r->harmonics > 0)
-      put(a, ADVICE, (answer){.code = r->sampled ? r->harmonics : 0, .value = r->sampled ? log2(r->samples) : r->harmonics});
+    if (!r->sampled) put(a, ADVICE, (answer){.value = r->harmonics}); /* 0: none do */
+    else if (r->harmonics > 0) put(a, ADVICE, (answer){.code = r->harmonics, .value = log2(r->samples)});
   }
   scene_setup_clear(&setup);
   return st;
@@ -233,6 +238,7 @@ static void ask(solved_scene *s, const model *m, const double *start, answer_gro
 typedef struct scale {
   double bound;
   bool absolute;
+  double step;           /* [1] of special points */
   contact_regime hidden; /* contact changes up to this regime may be missing */
 } scale;
 
@@ -246,8 +252,9 @@ static double apart(const answer *a, const answer *b, const scale *of)
 /* May a[i] be missing in the other list? */
 static bool may_miss(int n, const answer *a, int i, const scale *of)
 {
+  const bool by_points = a[i].code == HBM_PERIOD_DOUBLING || a[i].code == HBM_NEIMARK_SACKER;
   for (int k = 0; k < n; ++k)
-    if (k != i && apart(&a[k], &a[i], of) <= 2 * of->bound) return true;
+    if (k != i && apart(&a[k], &a[i], of) <= fmax(2 * of->bound, by_points ? of->step : 0)) return true;
   if (of->absolute && a[i].code > 0) return true; /* a pair of other harmonics and samples costs a little less */
   return a[i].before != a[i].after && contact_regime_larger(a[i].before, of->hidden) == of->hidden &&
          contact_regime_larger(a[i].after, of->hidden) == of->hidden;
@@ -299,10 +306,11 @@ static double sensitive(solved_scene *s, double ratio, answer_question q, const 
 static stress_check hold_question(solved_scene *s, const rewritten *w, answer_question q, const stress_answers *other,
                                   stress_answers *changed)
 {
-  const scale of = {questions[q].bound, questions[q].absolute, w->regime};
+  const scale of = {questions[q].bound, questions[q].absolute, q == SPECIALS ? s->plain->step : 0, w->regime};
   const double error = lists_apart(s->plain, other, q, &of);
-  const bool transient = q == EXACT || q == BY_DEFAULT;
-  if (s->plain->n[q] == 0 && (transient || other->n[q] == 0)) return stress_skip(STRESS_NOT_APPLICABLE);
+  const bool none = s->plain->n[q] == 0, no_other = other->n[q] == 0;
+  if (q == ADVICE ? none || no_other : none && (no_other || q == EXACT || q == BY_DEFAULT))
+    return stress_skip(STRESS_NOT_APPLICABLE); /* not asked */
   if (error <= of.bound) return stress_agree(error, of.bound);
   stress_check c = stress_agree_within(error, of.bound, sensitive(s, w->ratio, q, &of, changed));
   if (changed->status[questions[q].group] == HC_INTERRUPTED) return stress_refuse(s, HC_INTERRUPTED);
