@@ -21,7 +21,14 @@
 #include "stress/solved_scene.h"
 
 /* What is found together, by one function of asking[]. */
-typedef enum answer_group { ABOUT_CURVE, ABOUT_EXACT, ABOUT_DEFAULT, ABOUT_VERDICTS, ABOUT_ADVICE, GROUPS } answer_group;
+typedef enum answer_group {
+  ABOUT_CURVE,
+  ABOUT_EXACT,
+  ABOUT_DEFAULT,
+  ABOUT_VERDICTS,
+  ABOUT_ADVICE,
+  GROUPS
+} answer_group;
 typedef enum answer_question {
   SPECIALS,
   HIGHEST,
@@ -51,13 +58,13 @@ static const struct {
 };
 
 typedef struct answer {
-  int code;     /* kind of special point, verdict, ...: those of one code are held together */
-  double value; /* frequency, amplitude, ... */
-  bool border;  /* a verdict between two: another may be said */
+  int code;                     /* kind of special point, verdict, ...: those of one code are held together */
+  double value;                 /* frequency, amplitude, ... */
+  bool border;                  /* a verdict between two: another may be said */
   contact_regime before, after; /* of a contact change, else the same */
 } answer;
 
-enum { MOST_ANSWERS = 64 };
+enum { MOST_ANSWERS = 256 };
 struct stress_answers {
   bool asked[GROUPS];
   hc_status status[GROUPS];
@@ -90,7 +97,7 @@ static bool is_at_end(const solved_scene *s, double omega)
   return fmin(fabs(omega - s->from), fabs(omega - s->to)) <= 1e-5 * omega;
 }
 
-static hc_status ask_curve(solved_scene *s, const model *m, const double *start, stress_answers *a)
+static hc_status ask_curve(solved_scene *s, const model *m, stress_answers *a)
 {
   hbm_solver *h = NULL;
   hbm_curve curve = {0}, found = {0}, peak = {0};
@@ -98,7 +105,6 @@ static hc_status ask_curve(solved_scene *s, const model *m, const double *start,
   bool *history = &a->history[ABOUT_CURVE];
   double highest = 0, x = 0;
   int n = 0;
-  (void)start;
   hc_status st = guided_hbm_solver_new(m, &s->how, &h);
   if (st == HC_OK) st = hbm_trace(h, s->from, s->to, &s->monitor, &curve);
   for (int k = 0; k < curve.n && st == HC_OK; ++k) {
@@ -132,15 +138,15 @@ static hc_status ask_curve(solved_scene *s, const model *m, const double *start,
 static bool attracts(const solved_scene *s) { return s->path.status == HC_OK && s->path.r.multiplier < 1 - 1e-3; }
 
 /* Where the motion goes from the start, if to that orbit. */
-static hc_status ask_transient(solved_scene *s, const model *m, const double *start, transient_law law,
-                               answer_question q, stress_answers *a)
+static hc_status ask_transient(solved_scene *s, const model *m, const double *start, answer_question q,
+                               stress_answers *a)
 {
   transient_settings how = s->asked->transient;
   timeint *ti = NULL;
   timeint_result r = {0};
   if (!attracts(s)) return HC_OK;
-  const bool closed = law == TRANSIENT_LAW_EXACT && !model_is_smooth(m);
-  how.law = law;
+  const bool closed = q == EXACT && !model_is_smooth(m);
+  how.law = q == EXACT ? TRANSIENT_LAW_EXACT : TRANSIENT_LAW_REGULARISED;
   how.method = closed ? TRANSIENT_METHOD_CLOSED_FORM : TRANSIENT_METHOD_CVODE;
   how.start = TRANSIENT_START_HBM;
   hc_status st = timeint_new(m, &how, &ti);
@@ -157,22 +163,11 @@ static hc_status ask_transient(solved_scene *s, const model *m, const double *st
   return st == HC_NOT_SETTLED || st == HC_APERIODIC ? HC_OK : st;
 }
 
-static hc_status ask_exact(solved_scene *s, const model *m, const double *start, stress_answers *a)
-{
-  return ask_transient(s, m, start, TRANSIENT_LAW_EXACT, EXACT, a);
-}
-
-static hc_status ask_default(solved_scene *s, const model *m, const double *start, stress_answers *a)
-{
-  return ask_transient(s, m, start, TRANSIENT_LAW_REGULARISED, BY_DEFAULT, a);
-}
-
 /* A verdict may be another where an error is within a tenth of the gate, a multiplier as near to 1 as HBM's and time
  * integration's may differ, or where the motion leaves the solution, and rounding says where to. */
-static hc_status ask_verdicts(solved_scene *s, const model *m, const double *start, stress_answers *a)
+static hc_status ask_verdicts(solved_scene *s, const model *m, stress_answers *a)
 {
   comparison c;
-  (void)start;
   hc_status st = stress_compare(s, m, &c);
   const discrepancy gate = gate_limits_at(&s->asked->gate, s->omega);
   for (int i = 0; i < c.n_rows && st == HC_OK; ++i) {
@@ -194,13 +189,12 @@ static hc_status ask_verdicts(solved_scene *s, const model *m, const double *sta
 /* At the scene's omega, of few unknowns: with exact forces the harmonics; with sampled ones, for such harmonics, the
  * power of two of samples. One more or less may do where the error is at the limit. Of several solutions the curve of
  * few harmonics has one or another. */
-static hc_status ask_advice(solved_scene *s, const model *m, const double *start, stress_answers *a)
+static hc_status ask_advice(solved_scene *s, const model *m, stress_answers *a)
 {
   enum { MOST_COORDINATES = 2 };
   const int coordinates = 2 * s->model->n_contacts < s->n ? 2 * s->model->n_contacts : s->n;
   sufficient found = {0};
   compare_setup setup;
-  (void)start;
   if (coordinates > MOST_COORDINATES) return HC_OK;
   hc_status st = scene_setup(s->asked, &setup);
   compare_setup asked = setup;
@@ -215,18 +209,19 @@ static hc_status ask_advice(solved_scene *s, const model *m, const double *start
   return st;
 }
 
-static hc_status (*const asking[GROUPS])(solved_scene *, const model *, const double *, stress_answers *) = {
-    [ABOUT_CURVE] = ask_curve,       [ABOUT_EXACT] = ask_exact,   [ABOUT_DEFAULT] = ask_default,
-    [ABOUT_VERDICTS] = ask_verdicts, [ABOUT_ADVICE] = ask_advice,
-};
-
 /* As a user has it, with the first response alone. */
 static void ask(solved_scene *s, const model *m, const double *start, answer_group g, stress_answers *a)
 {
   model *alone;
   if (a->asked[g]) return;
   hc_status st = model_copy_sized(m, m->n_contacts, 1, &alone);
-  if (st == HC_OK) st = asking[g](s, alone, start, a);
+  if (st == HC_OK) switch (g) {
+    case ABOUT_CURVE: st = ask_curve(s, alone, a); break;
+    case ABOUT_EXACT: st = ask_transient(s, alone, start, EXACT, a); break;
+    case ABOUT_DEFAULT: st = ask_transient(s, alone, start, BY_DEFAULT, a); break;
+    case ABOUT_VERDICTS: st = ask_verdicts(s, alone, a); break;
+    default: st = ask_advice(s, alone, a);
+    }
   model_free(alone);
   if (st == HC_NO_MEMORY) s->fatal = st;
   a->status[g] = st;
@@ -275,8 +270,7 @@ static double one_sided(int n_a, const answer *a, int n_b, const answer *b, cons
 static double lists_apart(const stress_answers *a, const stress_answers *b, answer_question q, const scale *of)
 {
   if (b->status[questions[q].group] != HC_OK) return INFINITY;
-  return fmax(one_sided(a->n[q], a->of[q], b->n[q], b->of[q], of),
-              one_sided(b->n[q], b->of[q], a->n[q], a->of[q], of));
+  return fmax(one_sided(a->n[q], a->of[q], b->n[q], b->of[q], of), one_sided(b->n[q], b->of[q], a->n[q], a->of[q], of));
 }
 
 /* What the scene says with its numbers changed by the rounding of one `ratio` times as large (ways.c), ten times over,

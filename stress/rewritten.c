@@ -320,8 +320,8 @@ static void remove_span(int n, int k, const double *basis, double *d, double *ke
   *kept = before > 0 ? norm_2(n, d) / before : 0;
 }
 
-/* A random position x[n], largest entry 1, that moves no polynomial, and no slider where `sliders` says so. False: there
- * is none. basis: room for [2 n_contacts][n]. */
+/* A random position x[n], largest entry 1, that moves no polynomial, and no slider where `sliders` says so; false if
+ * there is none. basis: room for [2 n_contacts][n]. */
 static bool free_position(const model *m, bool sliders, uint64_t *random, double *basis, double *x)
 {
   const int n = m->n;

@@ -84,7 +84,7 @@ void stress_scenes_point(stress_scenes *s, long index, double p[STRESS_DIMENSION
 
 static double geometric(double u, double from, double to) { return from * pow(to / from, u); }
 
-/* The key is one that leaves the scenes named in tests/stress, drawn before there were cubic springs, what they were. */
+/* The key leaves the scenes that tests name, drawn before there were cubic springs, what they were. */
 bool stress_scenes_cubic(const stress_scenes *s, long index, uint64_t *random)
 {
   uint64_t key = (((uint64_t)s->seed << 32) + (uint64_t)index) ^ 0x1a7ULL << 48;
@@ -119,8 +119,8 @@ static scene_contact contact_at(const double *p)
   return c;
 }
 
-/* In the place of the last contact, or beside the only one, a cubic spring that is as stiff as the linear one at the
- * motion x, and next to nothing of that one. */
+/* A cubic spring as stiff as the linear one at the motion x, and next to nothing of that one: in the place of the last
+ * contact, or beside the only one. */
 static void weaken(uint64_t *random, double x, scene *sc)
 {
   if (sc->n_contacts == 1) ++sc->n_contacts;

@@ -69,7 +69,8 @@
     "a contact elsewhere that nothing couples and that moves less or far more: the same answers")                      \
   X(STRESS_STRETCHED, "stretched", stress_check_stretched, "one coordinate in another unit: the same answers")         \
   X(STRESS_TURNED, "turned", stress_check_turned, "all loads at another time: the same answers")                       \
-  X(STRESS_MIRRORED, "mirrored", stress_check_mirrored, "all motions and loads in the other direction: the same answers")
+  X(STRESS_MIRRORED, "mirrored", stress_check_mirrored,                                                                \
+    "all motions and loads in the other direction: the same answers")
 
 #define STRESS_REASONS(X)                                                                                              \
   X(STRESS_NO_REASON, "", "")                                                                                          \

@@ -7,8 +7,8 @@
  * loads of harmonics up to 5 with phases, and a static one; H 1..20. Friction limits and gaps are of the order of
  * what the structure without contacts does at that frequency: far from it nothing happens. What the numbers are many
  * of (matrices, directions) comes from a generator of its own for each scene, all else from the Sobol point. In two
- * scenes of five contacts become polynomials, tables or tanh friction, by a generator of their own; in one of six, in space
- * too, one degree of freedom hangs on a cubic spring. */
+ * scenes of five contacts become polynomials, tables or tanh friction, by a generator of their own; in one of six one
+ * degree of freedom hangs on a cubic spring. */
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
@@ -374,7 +374,7 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
 
 /* ---- in space ----
  *
- * Friction and gaps alone. Most contacts with friction get a second tangent. One in seven has nearly the line of the
+ * Friction and gaps, and these cubic springs, alone. Most contacts with friction get a second tangent. One in seven has nearly the line of the
  * first, by 1e-1 .. 1e-4: the motion then is nearly straight, and slip turns about at once. The limit is the circle's
  * in four of five. Numbers come from a generator of its own for each scene: what is drawn above is what it is
  * without. */

@@ -187,14 +187,11 @@ static stress_check explain(solved_scene *s, hc_status refused, double error, do
   stress_condition(s);
   const double errs = ratio * s->solution_errs;
   if (refused == HC_SINGULAR && floats(s)) return stress_explain(STRESS_FAMILY, error, NAN);
-  if (error <= errs && errs <= STRESS_SAYS_SOMETHING)
-    return stress_explain(STRESS_ILL_CONDITIONED, error, errs);
+  if (error <= errs && errs <= STRESS_SAYS_SOMETHING) return stress_explain(STRESS_ILL_CONDITIONED, error, errs);
   if (error > elsewhere && balanced) return stress_explain(STRESS_OTHER_ORBIT, error, elsewhere);
   if (error > elsewhere && rests) return stress_explain(STRESS_FAMILY, error, elsewhere);
-  if (errs > STRESS_SAYS_SOMETHING && (error <= errs || refused != HC_OK))
-    return stress_skip(STRESS_ILL_CONDITIONED);
-  if (refused != HC_OK && errs > elsewhere)
-    return stress_explain(STRESS_ILL_CONDITIONED, error, errs);
+  if (errs > STRESS_SAYS_SOMETHING && (error <= errs || refused != HC_OK)) return stress_skip(STRESS_ILL_CONDITIONED);
+  if (refused != HC_OK && errs > elsewhere) return stress_explain(STRESS_ILL_CONDITIONED, error, errs);
   return stress_find(refused == HC_OK && isnan(error) ? STRESS_INTERNAL : STRESS_DISAGREES, error,
                      fmax(ratio * close_enough, errs));
 }
@@ -380,7 +377,10 @@ static stress_check stretched(solved_scene *s, double one, double others)
   return hold_all(s, made, &w, false);
 }
 
-stress_check stress_check_stretched(solved_scene *s) { return stretched(s, between(s, 1 / most_stretch, most_stretch), 1); }
+stress_check stress_check_stretched(solved_scene *s)
+{
+  return stretched(s, between(s, 1 / most_stretch, most_stretch), 1);
+}
 stress_check stress_check_mirrored(solved_scene *s) { return stretched(s, -1, -1); }
 
 /* By whole samples, where forces are sampled: between them they are others. */

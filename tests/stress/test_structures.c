@@ -37,15 +37,15 @@ typedef enum spoil {
   PROOF_MEASURED,   /* another amplitude, by a little */
   VERDICT_TURNED,   /* into a match */
   /* of the model written another way alone: */
-  OTHER_HEAVIER,    /* in what is solved, by a little */
-  SPECIAL_LOST,     /* one special point of its curve */
-  PEAK_MOVED,       /* the peak between points */
-  POINTS_MOVED,     /* the curve's points */
-  SOLUTIONS_MOVED,  /* those found along it */
-  TRANSIENT_MOVED,  /* by the exact law */
-  DEFAULT_MOVED,    /* by the regularised one */
-  VERDICT_OTHER,    /* unstable, whatever it is */
-  ADVICE_OTHER,     /* more harmonics */
+  OTHER_HEAVIER,   /* in what is solved, by a little */
+  SPECIAL_LOST,    /* one special point of its curve */
+  PEAK_MOVED,      /* the peak between points */
+  POINTS_MOVED,    /* the curve's points */
+  SOLUTIONS_MOVED, /* those found along it */
+  TRANSIENT_MOVED, /* by the exact law */
+  DEFAULT_MOVED,   /* by the regularised one */
+  VERDICT_OTHER,   /* unstable, whatever it is */
+  ADVICE_OTHER,    /* more harmonics */
   NUMBER_LOST
 } spoil;
 static spoil spoiled;
@@ -484,14 +484,12 @@ static void a_wrong_oscillator_is_found(CHECK_STATE)
 /* A scene written another way, of which one answer is wrong, whatever the way. */
 static void expect_other_answers(const scene *sc, int n, const stress_reason reasons[])
 {
-  static const spoil spoils[] = {[STRESS_DISAGREES] = OTHER_HEAVIER,   [STRESS_SPECIALS] = SPECIAL_LOST,
-                                 [STRESS_PEAK] = PEAK_MOVED,           [STRESS_HIGHEST] = POINTS_MOVED,
-                                 [STRESS_SOLUTIONS] = SOLUTIONS_MOVED, [STRESS_TRANSIENT] = TRANSIENT_MOVED,
-                                 [STRESS_REGULARISED] = DEFAULT_MOVED, [STRESS_VERDICTS] = VERDICT_OTHER,
-                                 [STRESS_ADVICE] = ADVICE_OTHER};
-  static stress_check (*const checks[])(solved_scene *) = {stress_check_shifted, stress_check_beside,
-                                                           stress_check_stretched, stress_check_turned,
-                                                           stress_check_mirrored};
+  static const spoil spoils[] = {
+      [STRESS_DISAGREES] = OTHER_HEAVIER,   [STRESS_SPECIALS] = SPECIAL_LOST,     [STRESS_PEAK] = PEAK_MOVED,
+      [STRESS_HIGHEST] = POINTS_MOVED,      [STRESS_SOLUTIONS] = SOLUTIONS_MOVED, [STRESS_TRANSIENT] = TRANSIENT_MOVED,
+      [STRESS_REGULARISED] = DEFAULT_MOVED, [STRESS_VERDICTS] = VERDICT_OTHER,    [STRESS_ADVICE] = ADVICE_OTHER};
+  static stress_check (*const checks[])(solved_scene *) = {
+      stress_check_shifted, stress_check_beside, stress_check_stretched, stress_check_turned, stress_check_mirrored};
   const hc_monitor none = {0};
   CHECK_FILLED(solved_scene, s, solved_scene_start(&s, sc, 60, &none));
   stress_check_orbit(&s);
@@ -511,7 +509,7 @@ static void expect_other_answers(const scene *sc, int n, const stress_reason rea
 
 static void another_answer_of_a_scene_written_another_way_is_found(CHECK_STATE)
 {
-  static const stress_reason reasons[] = {STRESS_DISAGREES, STRESS_SPECIALS,   STRESS_PEAK,        STRESS_HIGHEST,
+  static const stress_reason reasons[] = {STRESS_DISAGREES, STRESS_SPECIALS,  STRESS_PEAK,        STRESS_HIGHEST,
                                           STRESS_SOLUTIONS, STRESS_TRANSIENT, STRESS_REGULARISED, STRESS_VERDICTS};
   static const stress_reason advice[] = {STRESS_ADVICE};
   scene sc = parsed(text), oscillator = case_2();
