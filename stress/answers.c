@@ -277,7 +277,7 @@ static double lists_apart(const stress_answers *a, const stress_answers *b, answ
  * as it is changed once only. */
 static double sensitive(solved_scene *s, double ratio, answer_question q, const scale *of, stress_answers *changed)
 {
-  const double rounding = 4e-13, draws = 10;
+  const double rounding = 4e-13, draws = of->absolute ? 1 : 10;
   const answer_group g = questions[q].group;
   rewritten other;
   stress_motion moved = {0};

@@ -374,10 +374,10 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
 
 /* ---- in space ----
  *
- * Friction and gaps, and these cubic springs, alone. Most contacts with friction get a second tangent. One in seven has nearly the line of the
- * first, by 1e-1 .. 1e-4: the motion then is nearly straight, and slip turns about at once. The limit is the circle's
- * in four of five. Numbers come from a generator of its own for each scene: what is drawn above is what it is
- * without. */
+ * Friction and gaps alone, but for cubic springs. Most contacts with friction get a second tangent. One in seven has
+ * nearly the line of the first, by 1e-1 .. 1e-4: the motion then is nearly straight, and slip turns about at once. The
+ * limit is the circle's in four of five. Numbers come from a generator of its own for each scene: what is drawn above
+ * is what it is without. */
 
 /* |sin| of the angle between a and b, of which neither is 0. */
 static double across(int n, const double *a, const double *b)
