@@ -315,13 +315,13 @@ static stress_check hold_question(solved_scene *s, const rewritten *w, answer_qu
 stress_check stress_hold_answers(solved_scene *s, const rewritten *w, const double *start)
 {
   stress_check worst = stress_skip(STRESS_NOT_APPLICABLE);
-  stress_answers *other = calloc(2, sizeof *other), *changed = other + 1;
-  if (other && !s->plain && (s->plain = calloc(1, sizeof *s->plain))) {
+  stress_answers *other = calloc(1, sizeof *other), *changed = calloc(1, sizeof *changed);
+  if (!s->plain && (s->plain = calloc(1, sizeof *s->plain))) {
     solved_scene_clock(s, 1);
     for (int g = 0; g < GROUPS && s->fatal == HC_OK; ++g) ask(s, s->model, s->fine.start, (answer_group)g, s->plain);
     solved_scene_clock(s, 1);
   }
-  if (!other || !s->plain) s->fatal = HC_NO_MEMORY;
+  if (!other || !changed || !s->plain) s->fatal = HC_NO_MEMORY;
   for (int q = 0; q < QUESTIONS && s->fatal == HC_OK; ++q) {
     const answer_group g = questions[q].group;
     stress_check c = stress_skip(STRESS_NOT_APPLICABLE);
@@ -335,5 +335,6 @@ stress_check stress_hold_answers(solved_scene *s, const rewritten *w, const doub
     worst = stress_worse(worst, c);
   }
   free(other);
+  free(changed);
   return worst;
 }
