@@ -10,7 +10,8 @@
 #include "numerics/base/workspace.h"
 #include "numerics/norm.h"
 
-static const double least_size = 1e-6; /* [largest size] */
+enum { METRIC_MOST = 512 };            /* contacts that are measured one by one */
+static const double least_size = 1e-6; /* [largest vibration] */
 static const double one_line = 1e-14;  /* [1] rounding of the square of what a row has beside a line */
 
 struct metric {
@@ -21,6 +22,7 @@ struct metric {
   double *own;       /* [n] [length] */
   double *rest;      /* [dim] */
   int *part;         /* [dim] which uncoupled part of the structure coordinate d is of */
+  int *leader;       /* [n] the first contact of the part that contact j is of */
   double *x;         /* [n_dof] of metric_new */
   workspace memory;
 };
@@ -65,11 +67,24 @@ static int same_line(const metric *m, double *ratio)
   return -1;
 }
 
+/* Of the coordinates that move contact j. */
+static int part_of(const metric *m, int j)
+{
+  const double *row = row_of(m, m->first[j]);
+  int d = 0;
+  while (row[d] == 0) ++d;
+  return m->part[d];
+}
+
 /* The contact whose rows were added last, or the response. */
 static void end_contact(metric *m, double own)
 {
   double ratio;
   if (m->first[m->n + 1] == m->first[m->n]) return; /* nothing moves it */
+  if (m->n == METRIC_MOST) {                        /* measured with the last */
+    m->first[m->n] = m->first[m->n + 1];
+    return;
+  }
   join_rows(m);
   const int twin = same_line(m, &ratio);
   if (twin >= 0) {
@@ -77,7 +92,10 @@ static void end_contact(metric *m, double own)
     m->first[m->n + 1] = m->first[m->n];
     return;
   }
-  m->own[m->n++] = own;
+  m->own[m->n] = own;
+  for (m->leader[m->n] = 0; m->leader[m->n] < m->n; ++m->leader[m->n])
+    if (part_of(m, m->leader[m->n]) == part_of(m, m->n)) break;
+  ++m->n;
   m->first[m->n + 1] = m->first[m->n];
 }
 
@@ -152,6 +170,7 @@ hc_status metric_new(const model *of, const condensation *c, metric **out)
   m->own = workspace_doubles(&m->memory, contacts + 1);
   m->rest = workspace_doubles(&m->memory, dim);
   m->part = workspace_array(&m->memory, dim, sizeof *m->part);
+  m->leader = workspace_array(&m->memory, contacts + 1, sizeof *m->leader);
   workspace own = {0};
   double *x = workspace_doubles(&own, (size_t)of->n), *unit = workspace_doubles(&own, (size_t)of->n),
          *q = workspace_doubles(&own, dim);
@@ -193,6 +212,10 @@ static double product(const metric_at *at, int j, int from, const double *a, con
   const metric *m = at->m;
   const int dim = m->dim;
   double sum = 0;
+  if (dim == 1) {
+    for (int i = from; i < at->n_coef; ++i) sum += a[i] * b[i];
+    return sum * m->row[m->first[j]] * m->row[m->first[j]]; /* one line */
+  }
   for (int r = m->first[j]; r < m->first[j + 1]; ++r)
     for (int i = from; i < at->n_coef; i += dim) {
       const double by_a = dot_product(dim, row_of(m, r), a + i);
@@ -201,48 +224,54 @@ static double product(const metric_at *at, int j, int from, const double *a, con
   return sum;
 }
 
-static double vibration(const metric_at *at, int j)
-{
-  const double of_X = product(at, j, at->m->dim, at->X, at->X),
-               of_Y = at->Y ? product(at, j, at->m->dim, at->Y, at->Y) : 0;
-  return sqrt(fmax(of_X, of_Y));
-}
+/* [length] The sizes of all contacts at a solution. */
+typedef struct sizes {
+  double of[METRIC_MOST];
+} sizes;
 
-/* What no size is less than [length]: 1 where there is none at all. */
-static double floor_of(const metric_at *at)
+static void find_sizes(const metric_at *at, sizes *s)
 {
-  double most = 0;
-  for (int j = 0; j < at->m->n; ++j) most = fmax(most, fmax(vibration(at, j), at->m->own[j]));
-  return most > 0 ? least_size * most : 1;
-}
-
-static double size_of(const metric_at *at, int j, double least)
-{
-  return fmax(fmax(vibration(at, j), at->m->own[j]), least);
+  const metric *m = at->m;
+  double most[METRIC_MOST] = {0}, all = 0, own = 0; /* of each part, by its first contact; of all */
+  for (int j = 0; j < m->n; ++j) {
+    double vibration = product(at, j, m->dim, at->X, at->X);
+    if (at->Y) vibration = fmax(vibration, product(at, j, m->dim, at->Y, at->Y));
+    s->of[j] = sqrt(vibration);
+    most[m->leader[j]] = fmax(most[m->leader[j]], s->of[j]);
+    all = fmax(all, s->of[j]);
+    own = fmax(own, m->own[j]);
+  }
+  const double least = all > 0 || own > 0 ? least_size * all : 1;
+  for (int j = 0; j < m->n; ++j) {
+    const double size = fmax(fmax(sqrt(s->of[j] * most[m->leader[j]]), m->own[j]), least);
+    s->of[j] = size > 0 ? size : INFINITY; /* it has none, others have: nothing is known of it */
+  }
 }
 
 double metric_length(const metric_at *at, const double *a)
 {
-  const double least = floor_of(at);
+  sizes s;
   double most = 0;
-  for (int j = 0; j < at->m->n; ++j) most = larger(most, sqrt(product(at, j, 0, a, a)) / size_of(at, j, least));
+  find_sizes(at, &s);
+  for (int j = 0; j < at->m->n; ++j) most = larger(most, sqrt(product(at, j, 0, a, a)) / s.of[j]);
   return most;
 }
 
 double metric_tail(const metric_at *at, int from)
 {
-  const double least = floor_of(at);
+  sizes s;
   double most = 0;
-  for (int j = 0; j < at->m->n; ++j)
-    most = larger(most, sqrt(product(at, j, from, at->X, at->X)) / size_of(at, j, least));
+  find_sizes(at, &s);
+  for (int j = 0; j < at->m->n; ++j) most = larger(most, sqrt(product(at, j, from, at->X, at->X)) / s.of[j]);
   return most;
 }
 
 double metric_distance(const metric_at *at, const double *a, const double *b)
 {
   const metric *m = at->m;
-  const double least = floor_of(at);
+  sizes s;
   double most = 0;
+  find_sizes(at, &s);
   for (int j = 0; j < m->n; ++j) {
     double sum = 0;
     for (int r = m->first[j]; r < m->first[j + 1]; ++r)
@@ -251,29 +280,28 @@ double metric_distance(const metric_at *at, const double *a, const double *b)
         for (int d = 0; d < m->dim; ++d) apart += row_of(m, r)[d] * (a[i + d] - b[i + d]);
         sum += apart * apart;
       }
-    most = larger(most, sqrt(sum) / size_of(at, j, least));
+    most = larger(most, sqrt(sum) / s.of[j]);
   }
   return most;
 }
 
 double metric_inner(const metric_at *at, const double *a, const double *b)
 {
-  const double least = floor_of(at);
+  sizes s;
   double sum = 0;
-  for (int j = 0; j < at->m->n; ++j) {
-    const double size = size_of(at, j, least);
-    sum += product(at, j, 0, a, b) / (size * size);
-  }
+  find_sizes(at, &s);
+  for (int j = 0; j < at->m->n; ++j) sum += product(at, j, 0, a, b) / (s.of[j] * s.of[j]);
   return sum;
 }
 
 void metric_apply(const metric_at *at, const double *a, double *out)
 {
   const metric *m = at->m;
-  const double least = floor_of(at);
+  sizes s;
+  find_sizes(at, &s);
   memset(out, 0, (size_t)at->n_coef * sizeof *out);
   for (int j = 0; j < m->n; ++j) {
-    const double size = size_of(at, j, least);
+    const double size = s.of[j];
     for (int r = m->first[j]; r < m->first[j + 1]; ++r)
       for (int i = 0; i < at->n_coef; i += m->dim) {
         const double by_a = dot_product(m->dim, row_of(m, r), a + i) / (size * size);
