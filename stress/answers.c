@@ -3,9 +3,9 @@
  *
  * Two lists are as far apart as the answer that is farthest from all of its kind in the other list. Two answers of a
  * kind nearer to each other than twice the bound are twins: a contact that reaches its limit and leaves it at once
- * changes twice or, by rounding, not at all, and what is found may be one of them. Two period doublings or
- * Neimark-Sacker points are, if they are nearer than a step of the curve: they are seen from its points, and undo each
- * other between two (special_points.h).
+ * changes twice or, by rounding, not at all, and what is found may be one of them. Two that multipliers tell, of one
+ * kind, are twins if they are nearer than a step of the curve: between two of its points they undo each other
+ * (special_points.h). Curves that begin at two solutions are two curves.
  *
  * Bounds are those of what is asked: special points are located to 1e-9 of omega, in numbers that have `ratio` times
  * the rounding; the peak is a row's amplitude; transients have errors of integration and of regularisation, the same
@@ -70,6 +70,8 @@ struct stress_answers {
   hc_status status[GROUPS];
   bool history[GROUPS]; /* a slider never slips in what was found */
   double step;          /* [1] of omega, the mean one of the curve */
+  double first;         /* [length] amplitude where the curve begins */
+  bool no_multipliers;  /* along the curve: they are costly */
   int n[QUESTIONS];
   answer of[QUESTIONS][MOST_ANSWERS];
 };
@@ -106,10 +108,12 @@ static hc_status ask_curve(solved_scene *s, const model *m, stress_answers *a)
   double highest = 0, x = 0;
   int n = 0;
   hc_status st = guided_hbm_solver_new(m, &s->how, &h);
+  a->no_multipliers = st == HC_OK && hbm_stability_is_costly(h);
   if (st == HC_OK) st = hbm_trace(h, s->from, s->to, &s->monitor, &curve);
   for (int k = 0; k < curve.n && st == HC_OK; ++k) {
     st = amplitude_of(h, hbm_curve_X(&curve, k), &x, history);
     highest = fmax(highest, x);
+    if (k == 0) a->first = x;
     if (k > 0) a->step += fabs(curve.points[k].omega / curve.points[k - 1].omega - 1) / (curve.n - 1);
   }
   if (st == HC_OK) st = hbm_curve_peak(h, &curve, &peak);
@@ -234,6 +238,7 @@ typedef struct scale {
   double bound;
   bool absolute;
   double step;           /* [1] of special points */
+  bool no_multipliers;   /* on one side */
   contact_regime hidden; /* contact changes up to this regime may be missing */
 } scale;
 
@@ -247,9 +252,10 @@ static double apart(const answer *a, const answer *b, const scale *of)
 /* May a[i] be missing in the other list? */
 static bool may_miss(int n, const answer *a, int i, const scale *of)
 {
-  const bool by_points = a[i].code == HBM_PERIOD_DOUBLING || a[i].code == HBM_NEIMARK_SACKER;
+  const bool by_points = of->step > 0 && a[i].code != HBM_TURNING_POINT && a[i].code != HBM_CONTACT_CHANGE;
   for (int k = 0; k < n; ++k)
     if (k != i && apart(&a[k], &a[i], of) <= fmax(2 * of->bound, by_points ? of->step : 0)) return true;
+  if (by_points && of->no_multipliers) return true;
   if (of->absolute && a[i].code > 0) return true; /* a pair of other harmonics and samples costs a little less */
   return a[i].before != a[i].after && contact_regime_larger(a[i].before, of->hidden) == of->hidden &&
          contact_regime_larger(a[i].after, of->hidden) == of->hidden;
@@ -300,8 +306,13 @@ static double sensitive(solved_scene *s, double ratio, answer_question q, const 
 static stress_check hold_question(solved_scene *s, const rewritten *w, answer_question q, const stress_answers *other,
                                   stress_answers *changed)
 {
-  const scale of = {questions[q].bound, questions[q].absolute, q == SPECIALS ? s->plain->step : 0, w->regime};
+  const bool specials = q == SPECIALS, no_multipliers = s->plain->no_multipliers || other->no_multipliers;
+  const scale of = {questions[q].bound, questions[q].absolute, specials ? s->plain->step : 0, no_multipliers,
+                    w->regime};
   const double error = lists_apart(s->plain, other, q, &of);
+  const double begins = fabs(s->plain->first / other->first - 1); /* two solutions there, and two curves */
+  if (questions[q].group == ABOUT_CURVE && other->status[ABOUT_CURVE] == HC_OK && begins > 1e-3)
+    return stress_explain(STRESS_OTHER_ORBIT, begins, 1e-3);
   const bool none = s->plain->n[q] == 0, no_other = other->n[q] == 0;
   if (q == ADVICE ? none || no_other : none && (no_other || q == EXACT || q == BY_DEFAULT))
     return stress_skip(STRESS_NOT_APPLICABLE); /* not asked */
