@@ -218,6 +218,7 @@ static stress_check hold_way(solved_scene *s, hc_status made, const rewritten *w
     stress_motion_free(&other);
   }
   free(known);
+  if (refused == HC_INTERRUPTED) return stress_refuse(s, refused);
   return same || s->fatal != HC_OK ? result : explain(s, refused, error, w->ratio, balanced, rests);
 }
 
