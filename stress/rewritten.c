@@ -359,9 +359,12 @@ hc_status rewritten_shifted(const model *m, double size, uint64_t *random, rewri
     for (int j = 0; j < m->n_contacts; ++j) {
       model_contact *c = &out->model->contacts[j];
       if (contact_never_opens(&c->law)) continue;
-      const double before = contact_preload(&c->law);
-      c->law.gap -= dot_product(n, c->normal, x);
-      for (int i = 0; i < n; ++i) load[i] += c->normal[i] * (before - contact_preload(&c->law));
+      /* N0 - N0' of a preload far above the vibration would be rounding only as a difference of these */
+      const double moved = dot_product(n, c->normal, x), before = contact_preload(&c->law);
+      c->law.gap -= moved;
+      const double after = contact_preload(&c->law),
+                   change = before > 0 && after > 0 ? c->law.kn * moved : before - after;
+      for (int i = 0; i < n; ++i) load[i] += c->normal[i] * change;
     }
   }
   free(basis);
