@@ -57,6 +57,10 @@ static const struct {
     [ADVICE] = {STRESS_ADVICE, ABOUT_ADVICE, 1, true},
 };
 
+/* [1] Sliders in the plane settle to some 5e-8: so far is the slip rate off that reaches 0 where a short stick begins. A
+ * rate that changes by a hundredth as fast as omega has that at 5e-6 of omega beside. */
+static const double in_the_plane = 10;
+
 typedef struct answer {
   int code;                     /* kind of special point, verdict, ...: those of one code are held together */
   double value;                 /* frequency, amplitude, ... */
@@ -307,8 +311,8 @@ static stress_check hold_question(solved_scene *s, const rewritten *w, answer_qu
                                   stress_answers *changed)
 {
   const bool specials = q == SPECIALS, no_multipliers = s->plain->no_multipliers || other->no_multipliers;
-  const scale of = {questions[q].bound, questions[q].absolute, specials ? s->plain->step : 0, no_multipliers,
-                    w->regime};
+  const double bound = questions[q].bound * (specials && model_has_circle(s->model) ? in_the_plane : 1);
+  const scale of = {bound, questions[q].absolute, specials ? s->plain->step : 0, no_multipliers, w->regime};
   const double error = lists_apart(s->plain, other, q, &of);
   const double begins = fabs(s->plain->first / other->first - 1); /* two solutions there, and two curves */
   if (questions[q].group == ABOUT_CURVE && other->status[ABOUT_CURVE] == HC_OK && begins > 1e-3)

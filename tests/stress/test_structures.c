@@ -40,7 +40,7 @@ typedef enum spoil {
   OTHER_HEAVIER,   /* in what is solved, by a little */
   SPECIAL_LOST,    /* one special point of its curve */
   PEAK_MOVED,      /* the peak between points */
-  POINTS_MOVED,    /* the curve's points */
+  POINTS_MOVED,    /* the curve's points but for the first */
   SOLUTIONS_MOVED, /* those found along it */
   TRANSIENT_MOVED, /* by the exact law */
   DEFAULT_MOVED,   /* by the regularised one */
@@ -118,30 +118,30 @@ WRAP(hc_status, hbm_stability_at, (hbm_solver * s, double omega, const double *X
   return st;
 }
 
-static void move_curve(hbm_curve *c, double by)
+static void move_curve(hbm_curve *c, int first, double by)
 {
-  for (int i = 0; i < c->n * c->n_coef; ++i) c->X[i] *= 1 + by;
+  for (int i = first * c->n_coef; i < c->n * c->n_coef; ++i) c->X[i] *= 1 + by;
 }
 
 WRAP(hc_status, hbm_curve_at, (hbm_solver * s, const hbm_curve *curve, double omega, hbm_curve *at))
 {
   hc_status st = __real_hbm_curve_at(s, curve, omega, at);
-  if (spoiled == CURVE_MOVED) move_curve(at, 1e-7);
-  if (spoiled == SOLUTIONS_MOVED && is_other(s->model)) move_curve(at, 5e-7);
+  if (spoiled == CURVE_MOVED) move_curve(at, 0, 1e-7);
+  if (spoiled == SOLUTIONS_MOVED && is_other(s->model)) move_curve(at, 0, 5e-7);
   return st;
 }
 
 WRAP(hc_status, hbm_trace, (hbm_solver * s, double from, double to, const hc_monitor *monitor, hbm_curve *curve))
 {
   hc_status st = __real_hbm_trace(s, from, to, monitor, curve);
-  if (spoiled == POINTS_MOVED && is_other(s->model)) move_curve(curve, 1e-2);
+  if (spoiled == POINTS_MOVED && is_other(s->model)) move_curve(curve, 1, 1e-2);
   return st;
 }
 
 WRAP(hc_status, hbm_curve_peak, (hbm_solver * s, const hbm_curve *curve, hbm_curve *peak))
 {
   hc_status st = __real_hbm_curve_peak(s, curve, peak);
-  if (spoiled == PEAK_MOVED && is_other(s->model)) move_curve(peak, 1e-5);
+  if (spoiled == PEAK_MOVED && is_other(s->model)) move_curve(peak, 0, 1e-5);
   return st;
 }
 
