@@ -57,8 +57,8 @@ static const struct {
     [ADVICE] = {STRESS_ADVICE, ABOUT_ADVICE, 1, true},
 };
 
-/* [1] Sliders in the plane settle to some 5e-8: so far is the slip rate off that reaches 0 where a short stick begins. A
- * rate that changes by a hundredth as fast as omega has that at 5e-6 of omega beside. */
+/* [1] Sliders in the plane settle to some 5e-8, and so far off is the slip rate that reaches 0 where a short stick
+ * begins: where it changes a hundredth as fast as omega, that is 5e-6 of omega beside. */
 static const double in_the_plane = 10;
 
 typedef struct answer {
