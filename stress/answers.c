@@ -17,6 +17,7 @@
 
 #include "compare/accuracy/sufficient.h"
 #include "compare/first_guess.h"
+#include "numerics/base/thread_clock.h"
 #include "numerics/norm.h"
 #include "stress/solved_scene.h"
 
@@ -76,6 +77,7 @@ struct stress_answers {
   double step;          /* [1] of omega, the mean one of the curve */
   double first;         /* [length] amplitude where the curve begins */
   bool no_multipliers;  /* along the curve: they are costly */
+  bool specials_too_dear;
   int n[QUESTIONS];
   answer of[QUESTIONS][MOST_ANSWERS];
 };
@@ -103,6 +105,18 @@ static bool is_at_end(const solved_scene *s, double omega)
   return fmin(fabs(omega - s->from), fabs(omega - s->to)) <= 1e-5 * omega;
 }
 
+/* hbm_specials asks nobody whether to go on: it takes the multipliers of each point, and of tens to locate a change. In
+ * the plane each may take as long as the curve. */
+static bool specials_are_affordable(const solved_scene *s, hbm_solver *h, const hbm_curve *c)
+{
+  enum { LOCATING = 100 };
+  const double start = thread_seconds();
+  hbm_stability one;
+  if (c->n == 0 || hbm_stability_is_costly(h)) return true;
+  hbm_stability_at(h, c->points[0].omega, hbm_curve_X(c, 0), &one);
+  return (thread_seconds() - start) * (c->n + LOCATING) <= s->deadline - start;
+}
+
 static hc_status ask_curve(solved_scene *s, const model *m, stress_answers *a)
 {
   hbm_solver *h = NULL;
@@ -128,7 +142,8 @@ static hc_status ask_curve(solved_scene *s, const model *m, stress_answers *a)
     st = amplitude_of(h, hbm_curve_X(&found, k), &x, history);
     put(a, SOLUTIONS, (answer){.value = x});
   }
-  if (st == HC_OK) st = hbm_specials(h, &curve, MOST_ANSWERS, special, &n);
+  a->specials_too_dear = st == HC_OK && !specials_are_affordable(s, h, &curve);
+  if (st == HC_OK && !a->specials_too_dear) st = hbm_specials(h, &curve, MOST_ANSWERS, special, &n);
   for (int i = 0; i < n && i < MOST_ANSWERS && st == HC_OK; ++i) {
     const hbm_special *p = &special[i];
     if (is_at_end(s, p->omega)) continue;
@@ -314,6 +329,7 @@ static stress_check hold_question(solved_scene *s, const rewritten *w, answer_qu
   const double bound = questions[q].bound * (specials && model_has_circle(s->model) ? in_the_plane : 1);
   const scale of = {bound, questions[q].absolute, specials ? s->plain->step : 0, no_multipliers, w->regime};
   const double error = lists_apart(s->plain, other, q, &of);
+  if (specials && (s->plain->specials_too_dear || other->specials_too_dear)) return stress_refuse(s, HC_INTERRUPTED);
   const double begins = fabs(s->plain->first / other->first - 1); /* two solutions there, and two curves */
   if (questions[q].group == ABOUT_CURVE && other->status[ABOUT_CURVE] == HC_OK && begins > 1e-3)
     return stress_explain(STRESS_OTHER_ORBIT, begins, 1e-3);
