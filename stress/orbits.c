@@ -615,11 +615,11 @@ stress_check stress_check_regularised(solved_scene *s)
  * amplitude; a multiplier on the wrong side of the circle is far outside. */
 static stress_check hold_proven(solved_scene *s, const timeint_result *r, const json_t *answer)
 {
-  const char *verdict = json_string_value(json_object_get(answer, "verdict"));
+  const char *said = json_string_value(json_object_get(answer, "verdict"));
   const double low = certificate_bound(answer, "amplitude", 0, -1), high = certificate_bound(answer, "amplitude", 1, 1),
                least = certificate_bound(answer, "multiplier", 0, -1),
                most = certificate_bound(answer, "multiplier", 1, 1);
-  if (!verdict || strcmp(verdict, "accepted") != 0) return stress_skip(STRESS_NOT_APPLICABLE);
+  if (!said || strcmp(said, "accepted") != 0) return stress_skip(STRESS_NOT_APPLICABLE);
   const int side = timeint_stability(r);
   if ((most < 1 && side < 0) || (least > 1 && side > 0)) {
     const double error = fabs(r->multiplier - (side < 0 ? most : least));

@@ -6,6 +6,7 @@
 
 #include "numerics/base/constants.h"
 #include "numerics/dense.h"
+#include "numerics/norm.h"
 #include "numerics/random.h"
 
 static size_t vector(int n) { return (size_t)n * sizeof(double); }
@@ -16,7 +17,16 @@ static void put_block(int n, const double *A, int N, int at, double *B)
   for (int j = 0; j < n; ++j) memcpy(B + (size_t)(at + j) * (size_t)N + at, A + (size_t)j * (size_t)n, vector(n));
 }
 
-/* m's loads, contacts and matrices into those of `to`, from its DOF `at` and its contact `first` on. */
+/* NULL: there is none. */
+static model_load *load_of(const model *m, int harmonic)
+{
+  for (int l = 0; l < m->n_loads; ++l)
+    if (m->loads[l].harmonic == harmonic) return &m->loads[l];
+  return NULL;
+}
+
+/* m's loads, contacts and matrices into those of `to`, which has loads of the same harmonics, from its DOF `at` and its
+ * contact `first` on. */
 static void put_part(const model *m, model *to, int at, int first)
 {
   const int n = m->n;
@@ -24,9 +34,9 @@ static void put_part(const model *m, model *to, int at, int first)
   put_block(n, m->damping, to->n, at, to->damping);
   put_block(n, m->stiffness, to->n, at, to->stiffness);
   for (int l = 0; l < m->n_loads; ++l) {
-    to->loads[l].harmonic = m->loads[l].harmonic;
-    memcpy(to->loads[l].cosine + at, m->loads[l].cosine, vector(n));
-    memcpy(to->loads[l].sine + at, m->loads[l].sine, vector(n));
+    model_load *load = load_of(to, m->loads[l].harmonic);
+    memcpy(load->cosine + at, m->loads[l].cosine, vector(n));
+    memcpy(load->sine + at, m->loads[l].sine, vector(n));
   }
   for (int j = 0; j < m->n_contacts; ++j) {
     model_contact *c = &to->contacts[first + j];
@@ -41,7 +51,9 @@ static void put_part(const model *m, model *to, int at, int first)
 void rewritten_clear(rewritten *w)
 {
   model_free(w->model);
+  model_free(w->company);
   free(w->map);
+  free(w->offset);
 }
 
 void rewritten_motion(const rewritten *w, int n, const double *x, double *out)
@@ -50,7 +62,7 @@ void rewritten_motion(const rewritten *w, int n, const double *x, double *out)
   else memcpy(out, x, vector(n));
 }
 
-static const rewritten same = {.length = 1, .force = 1, .time = 1};
+static const rewritten same = {.length = 1, .force = 1, .time = 1, .ratio = 1};
 
 hc_status rewritten_with_all_responses(const model *m, model **out)
 {
@@ -70,33 +82,55 @@ static void turn_matrix(int n, const double *Q, const double *A, double *work, d
     for (int i = 0; i < j; ++i) out[i * n + j] = out[j * n + i];
 }
 
-/* m in y, x = Q y. */
-static hc_status turn(const model *m, void (*draw)(uint64_t *, int, double *), uint64_t *random, rewritten *out)
+/* m in y, x = Q y; out->map is Q^T, which is Q^-1 of an orthogonal Q. */
+static hc_status change(const model *m, const double *Q, rewritten *out)
 {
   const int n = m->n;
-  double *Q = calloc((size_t)n, vector(n)), *work = malloc((size_t)n * vector(2 * n)), *map;
+  double *work = malloc((size_t)n * vector(2 * n)), *back;
   *out = same;
-  out->map = map = malloc((size_t)n * vector(n));
-  hc_status st = Q && work && map ? model_copy(m, &out->model) : HC_NO_MEMORY;
+  out->map = back = malloc((size_t)n * vector(n));
+  hc_status st = work && back ? model_copy(m, &out->model) : HC_NO_MEMORY;
   if (st == HC_OK) {
     model *t = out->model;
-    draw(random, n, Q);
-    dense_transpose(n, n, Q, map);
+    dense_transpose(n, n, Q, back);
     turn_matrix(n, Q, m->mass, work, t->mass);
     turn_matrix(n, Q, m->damping, work, t->damping);
     turn_matrix(n, Q, m->stiffness, work, t->stiffness);
     for (int l = 0; l < m->n_loads; ++l) {
-      dense_multiply(n, 1, n, map, m->loads[l].cosine, t->loads[l].cosine);
-      dense_multiply(n, 1, n, map, m->loads[l].sine, t->loads[l].sine);
+      dense_multiply(n, 1, n, back, m->loads[l].cosine, t->loads[l].cosine);
+      dense_multiply(n, 1, n, back, m->loads[l].sine, t->loads[l].sine);
     }
     for (int j = 0; j < m->n_contacts; ++j) {
-      dense_multiply(n, 1, n, map, m->contacts[j].tangent, t->contacts[j].tangent);
-      dense_multiply(n, 1, n, map, m->contacts[j].normal, t->contacts[j].normal);
+      dense_multiply(n, 1, n, back, m->contacts[j].tangent, t->contacts[j].tangent);
+      dense_multiply(n, 1, n, back, m->contacts[j].normal, t->contacts[j].normal);
     }
-    dense_multiply(n, m->n_responses, n, map, m->responses, t->responses);
+    dense_multiply(n, m->n_responses, n, back, m->responses, t->responses);
   }
-  free(Q);
   free(work);
+  return st;
+}
+
+static hc_status turn(const model *m, void (*draw)(uint64_t *, int, double *), uint64_t *random, rewritten *out)
+{
+  double *Q = calloc((size_t)m->n, vector(m->n));
+  *out = same;
+  if (!Q) return HC_NO_MEMORY;
+  draw(random, m->n, Q);
+  hc_status st = change(m, Q, out);
+  free(Q);
+  return st;
+}
+
+hc_status rewritten_stretched(const model *m, const double *by, rewritten *out)
+{
+  const int n = m->n;
+  double *Q = calloc((size_t)n, vector(n));
+  *out = same;
+  if (!Q) return HC_NO_MEMORY;
+  for (int i = 0; i < n; ++i) Q[i * n + i] = by[i];
+  hc_status st = change(m, Q, out);
+  for (int i = 0; i < n && st == HC_OK; ++i) out->map[i * n + i] = 1 / by[i];
+  free(Q);
   return st;
 }
 
@@ -162,7 +196,7 @@ static void scale(double *v, int n, double by)
 hc_status rewritten_in_units(const model *m, double length, double force, double time, rewritten *out)
 {
   const int n = m->n;
-  *out = (rewritten){.length = length, .force = force, .time = time};
+  *out = (rewritten){.length = length, .force = force, .time = time, .ratio = 1};
   hc_status st = model_copy(m, &out->model);
   if (st != HC_OK) return st;
   model *u = out->model;
@@ -177,21 +211,26 @@ hc_status rewritten_in_units(const model *m, double length, double force, double
   return HC_OK;
 }
 
-/* Room for m's degrees of freedom and `more`, with m's contacts once or twice, filled with m once. */
-static hc_status beside(const model *m, int more, int times, model **out)
+enum { NO_LOAD = -1 };
+
+/* Room for m's degrees of freedom and contacts and so many more, and for a load of that harmonic; filled with m. */
+static hc_status larger_model(const model *m, int dofs, int contacts, int harmonic, model **out)
 {
-  hc_status st = model_new(m->n + more, m->n_loads, times * m->n_contacts, m->n_responses, out);
+  const bool loaded = harmonic == NO_LOAD || load_of(m, harmonic);
+  hc_status st = model_new(m->n + dofs, m->n_loads + !loaded, m->n_contacts + contacts, m->n_responses, out);
   if (st != HC_OK) return st;
+  for (int l = 0; l < m->n_loads; ++l) (*out)->loads[l].harmonic = m->loads[l].harmonic;
+  if (!loaded) (*out)->loads[m->n_loads].harmonic = harmonic;
   put_part(m, *out, 0, 0);
   for (int r = 0; r < m->n_responses; ++r)
-    memcpy((*out)->responses + r * (m->n + more), m->responses + r * m->n, vector(m->n));
+    memcpy((*out)->responses + r * (m->n + dofs), m->responses + r * m->n, vector(m->n));
   return HC_OK;
 }
 
 hc_status rewritten_split(const model *m, double part, rewritten *out)
 {
   *out = same;
-  hc_status st = beside(m, 0, 2, &out->model);
+  hc_status st = larger_model(m, 0, m->n_contacts, NO_LOAD, &out->model);
   if (st == HC_OK) put_part(m, out->model, 0, m->n_contacts);
   for (int j = 0; j < 2 * m->n_contacts && st == HC_OK; ++j) {
     contact *law = &out->model->contacts[j].law;
@@ -207,7 +246,7 @@ hc_status rewritten_copies(const model *m, rewritten *out)
   const int n = m->n;
   *out = same;
   out->map = calloc((size_t)n, vector(2 * n));
-  hc_status st = out->map ? beside(m, n, 2, &out->model) : HC_NO_MEMORY;
+  hc_status st = out->map ? larger_model(m, n, m->n_contacts, NO_LOAD, &out->model) : HC_NO_MEMORY;
   if (st == HC_OK) put_part(m, out->model, n, m->n_contacts);
   for (int k = 0; k < n && st == HC_OK; ++k) out->map[2 * n * k + k] = out->map[2 * n * k + n + k] = 1;
   return st;
@@ -218,7 +257,7 @@ hc_status rewritten_bystander(const model *m, uint64_t *random, rewritten *out)
   const int n = m->n, last = n * (n + 2);
   model *straight;
   *out = same;
-  hc_status st = beside(m, 1, 1, &straight);
+  hc_status st = larger_model(m, 1, 0, NO_LOAD, &straight);
   if (st != HC_OK) return st;
   straight->mass[last] = largest(m->mass, n * n);
   /* The largest entry of K; where there is none, of a contact: far stiffer, it would only bring rounding. */
@@ -246,6 +285,7 @@ hc_status rewritten_delayed(const model *m, double delay, rewritten *out)
 {
   *out = same;
   out->delay = delay;
+  out->history = true;
   hc_status st = model_copy(m, &out->model);
   for (int l = 0; l < m->n_loads && st == HC_OK; ++l) {
     model_load *load = &out->model->loads[l];
@@ -264,6 +304,103 @@ hc_status rewritten_other_tangents(const model *m, uint64_t *random, rewritten *
       rewritten_turn(m->n, TWO_PI * random_unit(random), c->tangent, c[1].tangent);
   }
   return st;
+}
+
+/* ---- other sizes -------------------------------------------------------------------------------------- */
+
+/* d without its part in the span of basis[k][n], orthonormal; its length before and after in *kept [1]. */
+static void remove_span(int n, int k, const double *basis, double *d, double *kept)
+{
+  const double before = norm_2(n, d);
+  for (int pass = 0; pass < 2; ++pass) /* the second removes what rounding left */
+    for (int b = 0; b < k; ++b) {
+      const double along = dot_product(n, basis + b * n, d);
+      for (int i = 0; i < n; ++i) d[i] -= along * basis[b * n + i];
+    }
+  *kept = before > 0 ? norm_2(n, d) / before : 0;
+}
+
+/* A random position x[n], largest entry 1, that moves no polynomial, and no slider where `sliders` says so; false if
+ * there is none. basis: room for [2 n_contacts][n]. */
+static bool free_position(const model *m, bool sliders, uint64_t *random, double *basis, double *x)
+{
+  const int n = m->n;
+  int k = 0;
+  double kept;
+  for (int j = 0; j < 2 * m->n_contacts; ++j) {
+    const model_contact *c = &m->contacts[j / 2];
+    double *d = basis + k * n;
+    if (j % 2 ? !contact_never_opens(&c->law) : !sliders || !contact_has_friction(&c->law)) continue;
+    memcpy(d, j % 2 ? c->normal : c->tangent, vector(n));
+    remove_span(n, k, basis, d, &kept);
+    if (kept > 1e-9) scale(d, n, 1 / norm_2(n, d)), ++k;
+  }
+  for (int i = 0; i < n; ++i) x[i] = random_signed(random);
+  remove_span(n, k, basis, x, &kept);
+  if (k >= n || kept < 1e-3) return false;
+  scale(x, n, 1 / largest(x, n));
+  return true;
+}
+
+hc_status rewritten_shifted(const model *m, double size, uint64_t *random, rewritten *out)
+{
+  const int n = m->n;
+  double *basis = malloc(2 * (size_t)m->n_contacts * vector(n)), *x = malloc(vector(n)), *held = malloc(vector(n));
+  *out = same;
+  out->offset = x;
+  hc_status st = basis && x && held ? larger_model(m, 0, 0, 0, &out->model) : HC_NO_MEMORY;
+  if (st == HC_OK) out->history = !free_position(m, true, random, basis, x);
+  if (st == HC_OK && out->history && !free_position(m, false, random, basis, x)) st = HC_BAD_INPUT;
+  if (st == HC_OK) {
+    double *load = load_of(out->model, 0)->cosine;
+    scale(x, n, size);
+    dense_multiply(n, 1, n, m->stiffness, x, held);
+    for (int i = 0; i < n; ++i) load[i] += held[i];
+    for (int j = 0; j < m->n_contacts; ++j) {
+      model_contact *c = &out->model->contacts[j];
+      if (contact_never_opens(&c->law)) continue;
+      /* N0 - N0' of a preload far above the vibration would be rounding only as a difference of these */
+      const double moved = dot_product(n, c->normal, x), before = contact_preload(&c->law);
+      c->law.gap -= moved;
+      const double after = contact_preload(&c->law),
+                   change = before > 0 && after > 0 ? c->law.kn * moved : before - after;
+      for (int i = 0; i < n; ++i) load[i] += c->normal[i] * change;
+    }
+  }
+  free(basis);
+  free(held);
+  return st;
+}
+
+/* 2.3 times below its resonance, 0.4 of critical: no harmonic makes it move much, and one motion is all it has. */
+static hc_status company_of(double mass, double omega, double moves, rewritten_company kind, model **out)
+{
+  const double own = 2.3 * omega, k = mass * own * own, c = 0.8 * own * mass, held = kind == COMPANY_STUCK ? 2 * k : k;
+  hc_status st = model_oscillator(mass, c, k, moves * hypot(held - mass * omega * omega, c * omega), 1, out);
+  if (st != HC_OK) return st;
+  model_contact *contact_of = (*out)->contacts;
+  if (kind == COMPANY_STOPPED) {
+    contact_of->law = (contact){.kn = k, .gap = -0.3 * moves};
+    contact_of->normal[0] = 1;
+  } else {
+    contact_of->law = (contact){.kt = k, .mu = 0.5, .load = k * moves * (kind == COMPANY_STUCK ? 20 : 0.4)};
+    contact_of->tangent[0] = 1;
+  }
+  return HC_OK;
+}
+
+hc_status rewritten_beside(const model *m, double omega, double moves, rewritten_company kind, rewritten *out)
+{
+  const int n = m->n;
+  *out = same;
+  out->regime = kind == COMPANY_STUCK ? CONTACT_STUCK : kind == COMPANY_SLIPS ? CONTACT_SLIPS : CONTACT_SEPARATES;
+  out->map = calloc((size_t)n, vector(n + 1));
+  hc_status st = out->map ? company_of(largest(m->mass, n * n), omega, moves, kind, &out->company) : HC_NO_MEMORY;
+  if (st == HC_OK) st = larger_model(m, 1, 1, 1, &out->model);
+  if (st != HC_OK) return st;
+  put_part(out->company, out->model, n, m->n_contacts);
+  for (int i = 0; i < n; ++i) out->map[i * (n + 1) + i] = 1;
+  return HC_OK;
 }
 
 /* ---- nudges ---------------------------------------------------------------------------------------- */

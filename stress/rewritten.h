@@ -6,12 +6,17 @@
 
 #include "model/model.h"
 
-/* Its motion is length map x at the time t time, later by the delay. */
+/* Its motion is length map x + offset at the time t time, later by the delay. */
 typedef struct rewritten {
-  model *model; /* NULL: out of memory */
-  double *map;  /* [n][model->n] of each x, what moves as it does, and maybe more columns; NULL: x itself */
+  model *model;   /* NULL: out of memory */
+  double *map;    /* [n][model->n] of each x, what moves as it does, and maybe more columns; NULL: x itself */
+  double *offset; /* [n] [length] static position beside x, which responses have, too; NULL: none */
+  model *company; /* of one degree of freedom, which comes last in the model and nothing couples; NULL: none */
   double length, force, time; /* [1] numbers of lengths, forces, times are multiplied by these; responses by length */
   double delay;               /* [rad] */
+  double ratio;               /* [1] >= 1, its position over the vibration: so much more rounding is in its numbers */
+  bool history;               /* a slider that never slips rests elsewhere in it */
+  contact_regime regime;      /* of the company, at all frequencies: contact changes below it are not seen */
 } rewritten;
 
 void rewritten_clear(rewritten *w);
@@ -48,6 +53,20 @@ hc_status rewritten_delayed(const model *m, double delay, rewritten *out);
 
 /* The two tangents of every contact with one limit for both turned by an angle of its own, drawn at random. */
 hc_status rewritten_other_tangents(const model *m, uint64_t *random, rewritten *out);
+
+/* With a static load that moves it by about `size` [length], and gaps moved along: the motion about the new position is
+ * the same. That position is drawn so that no slider and no polynomial is moved; where these leave no such position,
+ * sliders are (history), and where polynomials alone leave none, there is none (HC_BAD_INPUT). */
+hc_status rewritten_shifted(const model *m, double size, uint64_t *random, rewritten *out);
+
+/* With one degree of freedom more, and a contact of its own, that nothing couples to m's: under a load of its own it
+ * moves by about `moves` [length] at omega, far below its resonance and well damped: sticking, slipping twice a
+ * period, or against a stop that it reaches once a period. */
+typedef enum rewritten_company { COMPANY_STUCK, COMPANY_SLIPS, COMPANY_STOPPED, COMPANY_KINDS } rewritten_company;
+hc_status rewritten_beside(const model *m, double omega, double moves, rewritten_company kind, rewritten *out);
+
+/* In y_i, x_i = by[i] y_i. */
+hc_status rewritten_stretched(const model *m, const double *by, rewritten *out);
 
 /* Every matrix and vector, each contact's numbers and every load changed by `part` of their largest entry, at random;
  * what is 0 altogether, and what is symmetric, stays so. Its motions are others. */

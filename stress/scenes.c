@@ -6,13 +6,15 @@
  * measure zero and would never be drawn: each gets a twentieth of its range. A force drawn from twelve decades
  * mostly moves the mass either far less than the gap or far more: for two scenes in three it is drawn such that the
  * gap is just reached. The frequency lies near the free resonance, near that of the stuck mass, or between; not so
- * low that the stuck mass makes more than MOST_OSCILLATIONS in a period, which only costs time. */
+ * low that the stuck mass makes more than MOST_OSCILLATIONS in a period, which only costs time. In a sixth of the
+ * scenes a cubic spring holds the mass, and hardly a linear one. */
 #include "stress/scenes.h"
 
 #include <gsl/gsl_qrng.h>
 #include <gsl/gsl_rng.h>
 
 #include "casefile/fields.h"
+#include "numerics/random.h"
 
 enum {
   MASS,
@@ -82,6 +84,19 @@ void stress_scenes_point(stress_scenes *s, long index, double p[STRESS_DIMENSION
 
 static double geometric(double u, double from, double to) { return from * pow(to / from, u); }
 
+/* The key leaves the scenes that tests name, drawn before there were cubic springs, what they were. */
+bool stress_scenes_cubic(const stress_scenes *s, long index, uint64_t *random)
+{
+  uint64_t key = (((uint64_t)s->seed << 32) + (uint64_t)index) ^ 0x1a7ULL << 48;
+  *random = random_bits(&key);
+  return random_unit(random) < 1.0 / 6;
+}
+
+double stress_scenes_weak(uint64_t *random)
+{
+  return random_unit(random) < 1.0 / 3 ? 1e-9 : geometric(random_unit(random), 1e-6, 1e-3);
+}
+
 /* u beyond the part of the special point, mapped to 0..1 again. */
 static double beyond(double u) { return (u - special) / (1 - special); }
 
@@ -102,6 +117,18 @@ static scene_contact contact_at(const double *p)
   c.law.gap = p[GAP] < special ? 0 : -10 + 20 * beyond(p[GAP]);
   c.angle_deg = angle(p[ANGLE]);
   return c;
+}
+
+/* A cubic spring as stiff as the linear one at the motion x, and next to nothing of that one: in the place of the last
+ * contact, or beside the only one. */
+static void weaken(uint64_t *random, double x, scene *sc)
+{
+  if (sc->n_contacts == 1) ++sc->n_contacts;
+  scene_contact *c = &sc->contacts[sc->n_contacts - 1];
+  field_contact_defaults(c);
+  c->kind = CONTACT_POLYNOMIAL;
+  c->law = (contact){.power = {[3 - CONTACT_LEAST_POWER] = sc->stiffness / (x * x)}};
+  sc->stiffness *= stress_scenes_weak(random);
 }
 
 /* The force that moves the mass without contacts by about the first gap, or from all of the range. */
@@ -137,6 +164,9 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out)
   for (int j = 0; j < sc.n_contacts; ++j) sc.contacts[j] = contact_at(p + CONTACT + j * PER_CONTACT);
   double omega = frequency(p, &sc);
   sc.force = force_at(p, &sc, omega);
+  uint64_t random;
+  if (stress_scenes_cubic(s, index, &random))
+    weaken(&random, sc.force / hypot(sc.stiffness - sc.mass * omega * omega, sc.damping * omega), &sc);
   sc.compare.omega = (number_list){1, {omega}};
   sc.hbm.harmonics = (int)geometric(p[HARMONICS], 1, 50.999);
   sc.hbm.samples = (int)geometric(p[SAMPLES], 16, 16384.999);

@@ -1,6 +1,8 @@
 /* scenes.h - the scenes of a stress run, points of a shifted Sobol sequence over every range. */
 #pragma once
 
+#include <stdint.h>
+
 #include "casefile/scene.h"
 #include "numerics/base/status.h"
 #include "stress/stress.h"
@@ -24,6 +26,12 @@ hc_status stress_scene_of(stress_scenes *s, stress_family family, long index, sc
 enum { STRESS_DIMENSIONS = 33 };
 
 unsigned long stress_scenes_seed(const stress_scenes *s);
+
+/* Has scene number `index` of any family a spring that is cubic, or nearly? Then *random is to be drawn from for it. */
+bool stress_scenes_cubic(const stress_scenes *s, long index, uint64_t *random);
+
+/* What is left of a linear stiffness [1] beside it: 1e-6 to 1e-3, or in a third of them as good as nothing. */
+double stress_scenes_weak(uint64_t *random);
 
 /* Point number `index` of the shifted sequence, each entry in [0, 1). */
 void stress_scenes_point(stress_scenes *s, long index, double p[STRESS_DIMENSIONS]);

@@ -56,6 +56,7 @@ void solved_scene_clear(solved_scene *s)
   stress_motion_free(&s->base);
   stress_motion_free(&s->fine);
   stress_path_free(&s->path);
+  free(s->plain);
 }
 
 /* ---- one solution --------------------------------------------------------------------------------- */

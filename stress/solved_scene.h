@@ -4,12 +4,14 @@
 
 #include <stdint.h>
 
+#include "compare/comparison.h"
 #include "hbm/hbm.h"
 #include "stress/rewritten.h"
 #include "stress/stress.h"
 #include "timeint/steady/steady.h"
 
 typedef struct solved_scene solved_scene;
+typedef struct stress_answers stress_answers; /* answers.c */
 
 /* One solution. */
 typedef struct stress_motion {
@@ -53,6 +55,7 @@ struct solved_scene {
   stress_path path;       /* the exact law's orbit next to it */
   int enough;             /* harmonics, the fewest tried that are within a hundredth of the gate of it; 0: none are */
   stress_check predicted; /* of the comparison that STRESS_VERDICT made */
+  stress_answers *plain;  /* to what is asked of the scene and of it written another way; NULL: not asked yet */
 };
 
 /* The base solution, from nothing. HC_NO_MEMORY; solved_scene_clear in any case. */
@@ -104,6 +107,20 @@ void stress_path_of(solved_scene *s, const model *m, const double *from, stress_
 
 /* Largest difference of the series x[n_coef][n] and an orbit, over the orbit's largest amplitude. */
 double stress_path_off(const solved_scene *s, int n_coef, const double *x, const stress_path *p);
+
+/* `compare` at the scene's omega, of m or, NULL, of the scene's model: with as many harmonics as have turned out to be
+ * enough for the gate, but for a limit of unknowns, where forces are exact (samples are too few for more than they were
+ * drawn with): with too few, all that is said is that the two differ. Along a curve just long enough for what lies
+ * beside (`curve` has the long one). What takes more periods is not_settled: chaos takes seconds. Its status, of which
+ * HC_NO_MEMORY goes to s->fatal; comparison_clear in any case. */
+hc_status stress_compare(solved_scene *s, const model *m, comparison *out);
+
+/* Largest ratio of a row's errors to the gate; above 1: beyond. */
+double stress_gate_ratio(const comparison_row *r, const discrepancy *gate);
+
+/* What the program says of the scene, and of it written another way, whose transients begin at start[]: the worst of
+ * all that is asked (answers.c). */
+stress_check stress_hold_answers(solved_scene *s, const rewritten *w, const double *start);
 
 /* ---- the words a check ends with ---- */
 

@@ -62,7 +62,15 @@
     "where the motion goes from rest, in closed form and by CVODE")                                                    \
   X(STRESS_VERDICT, "verdict", stress_check_verdict, "what compare says, held against what it says it from")           \
   X(STRESS_PREDICTED, "prediction", stress_check_predicted,                                                            \
-    "what compare found, against what both sides said beforehand they would be off")
+    "what compare found, against what both sides said beforehand they would be off")                                   \
+  X(STRESS_SHIFTED, "shifted", stress_check_shifted,                                                                   \
+    "under a static load with gaps moved along: the same answers about another position")                              \
+  X(STRESS_BESIDE, "beside", stress_check_beside,                                                                      \
+    "a contact elsewhere that nothing couples and that moves less or far more: the same answers")                      \
+  X(STRESS_STRETCHED, "stretched", stress_check_stretched, "one coordinate in another unit: the same answers")         \
+  X(STRESS_TURNED, "turned", stress_check_turned, "all loads at another time: the same answers")                       \
+  X(STRESS_MIRRORED, "mirrored", stress_check_mirrored,                                                                \
+    "all motions and loads in the other direction: the same answers")
 
 #define STRESS_REASONS(X)                                                                                              \
   X(STRESS_NO_REASON, "", "")                                                                                          \
@@ -83,6 +91,14 @@
   X(STRESS_UNEXPECTED, "unexpected", "compare itself says that neither side expected so much")                         \
   X(STRESS_FAMILY, "family", "steady states are a family, of which the two are members or next to some")               \
   X(STRESS_DISAGREES, "disagrees", "two methods differ, and nothing explains it")                                      \
+  X(STRESS_SPECIALS, "special_points", "written another way the response curve has other special points")              \
+  X(STRESS_PEAK, "peak", "written another way the response curve has another peak")                                    \
+  X(STRESS_HIGHEST, "highest_row", "written another way the highest of the curve's points is another")                 \
+  X(STRESS_SOLUTIONS, "solutions", "written another way there are other solutions")                                    \
+  X(STRESS_TRANSIENT, "transient", "written another way the transient goes elsewhere")                                 \
+  X(STRESS_REGULARISED, "regularised", "written another way the transient of the default law goes elsewhere")          \
+  X(STRESS_VERDICTS, "verdicts", "written another way compare says otherwise")                                         \
+  X(STRESS_ADVICE, "advice", "written another way advise says otherwise")                                              \
   X(STRESS_WRONG_VERDICT, "wrong_verdict", "compare says what is known not to be so")                                  \
   X(STRESS_INTERNAL, "internal", "an internal error, or a number that is none")
 

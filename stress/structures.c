@@ -7,7 +7,8 @@
  * loads of harmonics up to 5 with phases, and a static one; H 1..20. Friction limits and gaps are of the order of
  * what the structure without contacts does at that frequency: far from it nothing happens. What the numbers are many
  * of (matrices, directions) comes from a generator of its own for each scene, all else from the Sobol point. In two
- * scenes of five contacts become polynomials, tables or tanh friction, by a generator of their own. */
+ * scenes of five contacts become polynomials, tables or tanh friction, by a generator of their own; in one of six one
+ * degree of freedom hangs on a cubic spring. */
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
@@ -218,6 +219,25 @@ static void draw_law(uint64_t *r, int n, double omega, const double complex *x, 
   }
 }
 
+/* One degree of freedom, to which next to nothing of K is left, held by a cubic spring that is as stiff as K was at the
+ * motion x: in the place of the last contact, or beside the only one. Damping stays. */
+static hc_status weaken(uint64_t *r, const double complex *x, scene_structure *s)
+{
+  const int n = s->n, i = random_int(r, 0, n - 1);
+  const double weak = sqrt(stress_scenes_weak(r)), k = fmax(AT(s->stiffness.v, i, i), 0.1);
+  structure_contact *c = s->n_contacts > 1 ? &s->contacts[s->n_contacts - 1] : structure_add_contact(s);
+  if (!c) return HC_NO_MEMORY;
+  for (int j = 0; j < n; ++j) AT(s->stiffness.v, i, j) *= weak, AT(s->stiffness.v, j, i) *= weak;
+  memset(c->tangent, 0, (size_t)n * sizeof *c->tangent);
+  memset(c->normal, 0, (size_t)n * sizeof *c->normal);
+  c->normal[i] = 1;
+  field_contact_defaults(&c->given);
+  c->given.kind = CONTACT_POLYNOMIAL;
+  c->given.law = (contact){.power = {[3 - CONTACT_LEAST_POWER] = k / pow(along(n, c->normal, x), 2)}};
+  s->how = STRUCTURE_DAMPING_MATRIX;
+  return HC_OK;
+}
+
 /* Between a mode with the contacts apart and with all of them stuck, or beside. */
 static hc_status draw_frequency(uint64_t *r, const double *p, const model *m, double *omega)
 {
@@ -312,9 +332,11 @@ static hc_status structure_at(stress_scenes *scenes, long index, bool may_have_l
     const bool other_laws = may_have_laws && random_unit(&own) < 0.4;
     for (int j = 0; j < s->n_contacts && st == HC_OK && other_laws; ++j)
       if (random_unit(&own) < 0.6) draw_law(&own, s->n, sc.compare.omega.v[0], x, &s->contacts[j]);
+    const bool cubic = stress_scenes_cubic(scenes, index, &own);
+    if (st == HC_OK && cubic) st = weaken(&own, x, s);
     double moves[MOST_DOFS];
     bool adrift = false;
-    if (st == HC_OK && other_laws) st = structure_free_motion(s, false, moves, &adrift);
+    if (st == HC_OK && (other_laws || cubic)) st = structure_free_motion(s, false, moves, &adrift);
     if (adrift) add_between(s->n, s->stiffness.v, 1, 0, -1);
     model_free(m);
   }
@@ -352,10 +374,10 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
 
 /* ---- in space ----
  *
- * Friction and gaps alone. Most contacts with friction get a second tangent. One in seven has nearly the line of the
- * first, by 1e-1 .. 1e-4: the motion then is nearly straight, and slip turns about at once. The limit is the circle's
- * in four of five. Numbers come from a generator of its own for each scene: what is drawn above is what it is
- * without. */
+ * Friction and gaps alone, but for cubic springs. Most contacts with friction get a second tangent. One in seven has
+ * nearly the line of the first, by 1e-1 .. 1e-4: the motion then is nearly straight, and slip turns about at once. The
+ * limit is the circle's in four of five. Numbers come from a generator of its own for each scene: what is drawn above
+ * is what it is without. */
 
 /* |sin| of the angle between a and b, of which neither is 0. */
 static double across(int n, const double *a, const double *b)

@@ -14,12 +14,16 @@
 
 static double known(double part) { return part > 0 ? part : 0; }
 
-static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
+double stress_gate_ratio(const comparison_row *r, const discrepancy *g)
 {
-  /* Largest ratio of the gate; above 1: beyond. */
   double worst = fmax(r->errors.amplitude / g->amplitude,
                       fmax(r->errors.harmonic_1 / g->harmonic_1, r->errors.waveform / g->waveform));
-  *ratio = motion_mean_is_free(&r->transient) ? worst : fmax(worst, r->errors.mean / g->mean);
+  return motion_mean_is_free(&r->transient) ? worst : fmax(worst, r->errors.mean / g->mean);
+}
+
+static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
+{
+  *ratio = stress_gate_ratio(r, g);
   if (r->still) return false; /* not compared */
   bool orbit = r->orbit_status == HC_OK && !r->transient.left_orbit && budget_same_orbit(&r->transient, &r->orbit);
   switch (r->verdict) {
@@ -41,9 +45,9 @@ static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
   }
 }
 
-static stress_check row_check(solved_scene *s, const scene *sc, const comparison_row *r)
+static stress_check row_check(solved_scene *s, const comparison_row *r)
 {
-  const discrepancy g = gate_limits_at(&sc->gate, r->omega);
+  const discrepancy g = gate_limits_at(&s->asked->gate, r->omega);
   double ratio;
   if (r->hbm_status == HC_BUG || r->transient_status == HC_BUG) return stress_find(STRESS_INTERNAL, NAN, NAN);
   if (wrong(r, &g, &ratio)) return stress_find(STRESS_WRONG_VERDICT, ratio, 1);
@@ -71,12 +75,7 @@ static void hold_prediction(const comparison_row *r, stress_check *so_far)
     *so_far = stress_explain(r->family ? STRESS_FAMILY : STRESS_UNEXPECTED, ratio, bound);
 }
 
-/* With as many harmonics as have turned out to be enough for the gate, but for MOST_UNKNOWNS, where forces are exact
- * (samples are too few for more than they were drawn with): with too few, all that is said is that the two differ.
- * Along a curve just long enough for what lies beside (`curve` has the long one). What takes more periods is
- * not_settled: chaos takes seconds. The worst of all rows; s->predicted: the worst of what their errors are of what
- * both sides said beforehand. */
-stress_check stress_check_verdict(solved_scene *s)
+hc_status stress_compare(solved_scene *s, const model *m, comparison *out)
 {
   enum { MOST_PERIODS = 600, MOST_UNKNOWNS = 400 };
   const double beside = 1e-3;
@@ -88,18 +87,29 @@ stress_check stress_check_verdict(solved_scene *s)
     sc.hbm.harmonics = enough < most ? enough : given < most ? most : given;
   if (sc.transient.max_periods > MOST_PERIODS) sc.transient.max_periods = MOST_PERIODS;
   sc.omega_from = s->omega * (1 - beside), sc.omega_to = s->omega * (1 + beside);
-  comparison c = {0};
+  *out = (comparison){0};
   compare_setup setup;
   hc_status st = scene_setup(&sc, &setup);
-  setup.spare = true;
-  if (st == HC_OK) st = comparison_run(&setup, &s->monitor, &c);
+  compare_setup asked = setup;
+  if (m) asked.model = m;
+  asked.limits = &s->asked->gate;
+  asked.spare = true;
+  if (st == HC_OK) st = comparison_run(&asked, &s->monitor, out);
   scene_setup_clear(&setup);
-  stress_check worst = stress_skip(STRESS_NO_ORBIT);
   if (st == HC_NO_MEMORY) s->fatal = st;
+  return st;
+}
+
+/* The worst of all rows; s->predicted: the worst of what their errors are of what both sides said beforehand. */
+stress_check stress_check_verdict(solved_scene *s)
+{
+  comparison c;
+  stress_check worst = stress_skip(STRESS_NO_ORBIT);
+  hc_status st = stress_compare(s, NULL, &c);
   /* a frequency without an answer */
   if (c.n_rows == 0) worst = st == HC_OK ? stress_find(STRESS_INTERNAL, NAN, NAN) : stress_refuse(s, st);
   for (int i = 0; i < c.n_rows; ++i) {
-    stress_check row = row_check(s, &sc, &c.rows[i]);
+    stress_check row = row_check(s, &c.rows[i]);
     hold_prediction(&c.rows[i], &s->predicted);
     if (row.outcome > worst.outcome) worst = row;
   }

@@ -318,10 +318,17 @@ static hc_status refine(search *s, bool everywhere)
   return st;
 }
 
+/* None of the loads' may be missing. */
+static int fewest_harmonics(const search *s)
+{
+  const int highest = model_highest_load(s->setup->model);
+  return highest > 1 ? highest : 1;
+}
+
 /* The least harmonics from which on `allowed` is kept, into row, from row->harmonics on; how: the rest. */
 static hc_status least_harmonics(search *s, hbm_settings how, int most, sufficient_row *row)
 {
-  const int from = row->harmonics > 0 ? row->harmonics : 1;
+  const int from = row->harmonics > 0 ? row->harmonics : fewest_harmonics(s);
   const double allowed = seen * s->allowed;
   int first = 0;
   hc_status st = HC_OK;
@@ -366,7 +373,7 @@ static hc_status exact_row(search *s, bool keep_mean, int most, sufficient_row *
     if (s->n == before) break;
   }
   sufficient_row next;
-  if (st != HC_OK || row->harmonics == 1) return st;
+  if (st != HC_OK || row->harmonics == fewest_harmonics(s)) return st;
   row->next_harmonics = how.harmonics = row->harmonics - 1;
   st = error_of(s, &how, &next);
   row->next_error = next.error;
@@ -435,9 +442,10 @@ static hc_status sampled_row(search *s, const sufficient_row *exact, sufficient_
   }
   const bool halved = row->samples / 2 >= 2 * row->harmonics + 2;
   sufficient_row next;
-  row->next_harmonics = how.harmonics = halved ? row->harmonics : row->harmonics - 1;
-  row->next_samples = how.samples = halved ? row->samples / 2 : row->samples;
-  if (st != HC_OK || how.harmonics == 0) return st;
+  how.harmonics = halved ? row->harmonics : row->harmonics - 1;
+  how.samples = halved ? row->samples / 2 : row->samples;
+  if (st != HC_OK || how.harmonics < fewest_harmonics(s)) return st;
+  row->next_harmonics = how.harmonics, row->next_samples = how.samples;
   st = error_of(s, &how, &next);
   row->next_error = next.error;
   return st;

@@ -137,6 +137,17 @@ class Advise(unittest.TestCase):
         self.assertEqual((code, [r["harmonics"] for r in table(out.split("\n\n")[0])]), (3, ["", ""]), out + err)
         self.assertIn("2 solutions left out", out)
 
+    def test_no_fewer_harmonics_than_the_loads_have(self):
+        """A contact that never closes: any number would do, but for the load of harmonic 4."""
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as case:
+            case.write("structure: {mass: [1], stiffness: [[1]], damping: [[0.1]]}\n"
+                       "forcing: [{dof: 1, amplitude: 1}, {dof: 1, amplitude: 1, harmonic: 4}]\n"
+                       "contacts: [{normal_stiffness: 1, gap: -100, normal: 1}]\nsweep: {omega: [2, 3]}\n")
+            case.flush()
+            code, out, err = run("advise", case.name, "--at", "2", "--format", "csv")
+        self.assertEqual(code, 0, err)
+        self.assertEqual([r["harmonics"] for r in table(out.split("\n\n")[0])], ["4", "4"])
+
     def test_other_programs_and_wrong_usage(self):
         _, out, _ = run("advise", f"{CASES}/paper/case_a.yaml")
         self.assertRegex(out, r"NLvib +H = 6; N = \d+")

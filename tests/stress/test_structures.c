@@ -4,6 +4,7 @@
 
 #include "casefile/case_file.h"
 #include "casefile/fields.h"
+#include "compare/accuracy/sufficient.h"
 #include "compare/comparison.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/solver/hbm_solver_impl.h"
@@ -35,10 +36,34 @@ typedef enum spoil {
   PROOF_OF_ANOTHER, /* model, by a little */
   PROOF_MEASURED,   /* another amplitude, by a little */
   VERDICT_TURNED,   /* into a match */
+  /* of the model written another way alone: */
+  OTHER_HEAVIER,   /* in what is solved, by a little */
+  SPECIAL_LOST,    /* one special point of its curve */
+  PEAK_MOVED,      /* the peak between points */
+  POINTS_MOVED,    /* the curve's points but for the first */
+  SOLUTIONS_MOVED, /* those found along it */
+  TRANSIENT_MOVED, /* by the exact law */
+  DEFAULT_MOVED,   /* by the regularised one */
+  VERDICT_OTHER,   /* unstable, whatever it is */
+  ADVICE_OTHER,    /* more harmonics */
   NUMBER_LOST
 } spoil;
 static spoil spoiled;
 static int multipliers, orbits; /* asked for so far */
+static const model *plain;      /* that others are another way of; NULL: none are */
+static const timeint *last;     /* made, with the next two */
+static bool last_is_other;
+static transient_law last_law;
+
+static bool apart(int n, const double *a, const double *b) { return distance_2(n, a, b) > 1e-6 * norm_2(n, a); }
+
+/* Has m other numbers than the plain one, by more than rounding? */
+static bool is_other(const model *m)
+{
+  if (!plain) return false;
+  return m->n != plain->n || m->n_loads != plain->n_loads || apart(m->n * m->n, plain->mass, m->mass) ||
+         apart(m->n, plain->loads[0].cosine, m->loads[0].cosine);
+}
 
 WRAP(hc_status, hbm_response, (hbm_solver * s, double omega, const double *X, int r, double *x))
 {
@@ -62,8 +87,9 @@ WRAP(hc_status, hbm_solver_new, (const model *m, const hbm_settings *how, hbm_so
   for (int j = 0; j < m->n_contacts && spoiled == LIMIT_SQUARE; ++j) other->contacts[j].circle = false;
   for (int j = 0; j < m->n_contacts && spoiled == SAMPLES_STIFFER && how->force == HBM_FORCE_SAMPLED; ++j)
     other->contacts[j].law.kt *= 1 + 1e-5, other->contacts[j].law.kn *= 1 + 1e-5;
-  if (spoiled == CONTACT_SIGN) other->contacts[1].tangent[0] *= -1;
-  if (spoiled == SECOND_HARMONIC) other->loads[m->n_loads - 1].cosine[1] *= 1 + 1e-7;
+  if (spoiled == OTHER_HEAVIER && is_other(m)) other->mass[0] *= 1 + 1e-4;
+  if (spoiled == CONTACT_SIGN && m->n_contacts > 1) other->contacts[1].tangent[0] *= -1;
+  if (spoiled == SECOND_HARMONIC && m->n > 1) other->loads[m->n_loads - 1].cosine[1] *= 1 + 1e-7;
   hc_status st = __real_hbm_solver_new(other, how, out);
   model_free(other);
   return st;
@@ -92,10 +118,52 @@ WRAP(hc_status, hbm_stability_at, (hbm_solver * s, double omega, const double *X
   return st;
 }
 
+static void move_curve(hbm_curve *c, int first, double by)
+{
+  for (int i = first * c->n_coef; i < c->n * c->n_coef; ++i) c->X[i] *= 1 + by;
+}
+
 WRAP(hc_status, hbm_curve_at, (hbm_solver * s, const hbm_curve *curve, double omega, hbm_curve *at))
 {
   hc_status st = __real_hbm_curve_at(s, curve, omega, at);
-  for (int i = 0; i < at->n * at->n_coef && spoiled == CURVE_MOVED; ++i) at->X[i] *= 1 + 1e-7;
+  if (spoiled == CURVE_MOVED) move_curve(at, 0, 1e-7);
+  if (spoiled == SOLUTIONS_MOVED && is_other(s->model)) move_curve(at, 0, 5e-7);
+  return st;
+}
+
+WRAP(hc_status, hbm_trace, (hbm_solver * s, double from, double to, const hc_monitor *monitor, hbm_curve *curve))
+{
+  hc_status st = __real_hbm_trace(s, from, to, monitor, curve);
+  if (spoiled == POINTS_MOVED && is_other(s->model)) move_curve(curve, 1, 1e-2);
+  return st;
+}
+
+WRAP(hc_status, hbm_curve_peak, (hbm_solver * s, const hbm_curve *curve, hbm_curve *peak))
+{
+  hc_status st = __real_hbm_curve_peak(s, curve, peak);
+  if (spoiled == PEAK_MOVED && is_other(s->model)) move_curve(peak, 0, 1e-5);
+  return st;
+}
+
+WRAP(hc_status, hbm_specials, (hbm_solver * s, const hbm_curve *curve, int cap, hbm_special *out, int *n))
+{
+  hc_status st = __real_hbm_specials(s, curve, cap, out, n);
+  if (spoiled == SPECIAL_LOST && is_other(s->model)) --*n;
+  return st;
+}
+
+WRAP(hc_status, timeint_new, (const model *m, const transient_settings *how, timeint **out))
+{
+  hc_status st = __real_timeint_new(m, how, out);
+  last = *out, last_is_other = is_other(m), last_law = how->law;
+  return st;
+}
+
+WRAP(hc_status, sufficient_run,
+     (const compare_setup *setup, double error, bool without_mean, const hc_monitor *monitor, sufficient *out))
+{
+  hc_status st = __real_sufficient_run(setup, error, without_mean, monitor, out);
+  for (int i = 0; i < out->n && spoiled == ADVICE_OTHER && is_other(setup->model); ++i) out->rows[i].harmonics += 2;
   return st;
 }
 
@@ -112,7 +180,10 @@ WRAP(hc_status, timeint_steady,
      (timeint * ti, double omega, double *state, const hc_monitor *monitor, timeint_result *r))
 {
   ++orbits;
-  return __real_timeint_steady(ti, omega, state, monitor, r);
+  hc_status st = __real_timeint_steady(ti, omega, state, monitor, r);
+  const spoil its = last_law == TRANSIENT_LAW_EXACT ? TRANSIENT_MOVED : DEFAULT_MOVED;
+  if (spoiled == its && ti == last && last_is_other) r->amplitude *= 1 + 1e-3;
+  return st;
 }
 
 WRAP(hc_status, timeint_again,
@@ -146,6 +217,8 @@ WRAP(hc_status, comparison_run, (const compare_setup *setup, const hc_monitor *m
   hc_status st = __real_comparison_run(setup, monitor, out);
   for (int i = 0; i < out->n_rows && spoiled == VERDICT_TURNED; ++i)
     out->rows[i].verdict = VERDICT_MATCH, out->rows[i].errors.waveform = 0.1;
+  for (int i = 0; i < out->n_rows && spoiled == VERDICT_OTHER && is_other(setup->model); ++i)
+    out->rows[i].verdict = VERDICT_UNSTABLE;
   return st;
 }
 
@@ -406,6 +479,43 @@ static void a_wrong_oscillator_is_found(CHECK_STATE)
       fail_msg("spoil %d: %s says %s", (int)rows[i].with, stress_kind_name(rows[i].kind),
                stress_outcome_name(r.check[rows[i].kind].outcome));
   }
+}
+
+/* A scene written another way, of which one answer is wrong, whatever the way. */
+static void expect_other_answers(const scene *sc, int n, const stress_reason reasons[])
+{
+  static const spoil spoils[] = {
+      [STRESS_DISAGREES] = OTHER_HEAVIER,   [STRESS_SPECIALS] = SPECIAL_LOST,     [STRESS_PEAK] = PEAK_MOVED,
+      [STRESS_HIGHEST] = POINTS_MOVED,      [STRESS_SOLUTIONS] = SOLUTIONS_MOVED, [STRESS_TRANSIENT] = TRANSIENT_MOVED,
+      [STRESS_REGULARISED] = DEFAULT_MOVED, [STRESS_VERDICTS] = VERDICT_OTHER,    [STRESS_ADVICE] = ADVICE_OTHER};
+  static stress_check (*const checks[])(solved_scene *) = {
+      stress_check_shifted, stress_check_beside, stress_check_stretched, stress_check_turned, stress_check_mirrored};
+  const hc_monitor none = {0};
+  CHECK_FILLED(solved_scene, s, solved_scene_start(&s, sc, 60, &none));
+  stress_check_orbit(&s);
+  plain = s.model;
+  for (int i = -1; i < n; ++i)
+    for (int k = 0; k < 5; ++k) {
+      spoiled = i < 0 ? NOTHING : spoils[reasons[i]];
+      const stress_check c = checks[k](&s);
+      if (i < 0 ? c.outcome != STRESS_AGREED : c.outcome != STRESS_FINDING || c.reason != reasons[i])
+        fail_msg("%s, spoil %d: %s %s, %g of %g", stress_kind_name((stress_kind)(STRESS_SHIFTED + k)), (int)spoiled,
+                 stress_outcome_name(c.outcome), stress_reason_name(c.reason), c.error, c.bound);
+    }
+  spoiled = NOTHING;
+  plain = NULL;
+  solved_scene_clear(&s);
+}
+
+static void another_answer_of_a_scene_written_another_way_is_found(CHECK_STATE)
+{
+  static const stress_reason reasons[] = {STRESS_DISAGREES, STRESS_SPECIALS,  STRESS_PEAK,        STRESS_HIGHEST,
+                                          STRESS_SOLUTIONS, STRESS_TRANSIENT, STRESS_REGULARISED, STRESS_VERDICTS};
+  static const stress_reason advice[] = {STRESS_ADVICE};
+  scene sc = parsed(text), oscillator = case_2();
+  expect_other_answers(&sc, sizeof reasons / sizeof *reasons, reasons);
+  case_clear(&sc);
+  expect_other_answers(&oscillator, 1, advice);
 }
 
 /* What has nothing to do with the fault goes: contacts, harmonics, digits. */
@@ -695,7 +805,8 @@ static void first_solutions_in_space_take_few_iterations(CHECK_STATE)
 
 CHECK_TESTS("stress.structures", 600, jacobians_of_mixed_laws, good_answers_agree, a_wrong_solution_is_found,
             a_wrong_force_is_found, another_solution_is_found, a_wrong_orbit_is_found, a_finding_is_made_small,
-            good_oscillators_are_no_findings, a_wrong_oscillator_is_found, an_oscillator_is_made_small,
+            good_oscillators_are_no_findings, a_wrong_oscillator_is_found,
+            another_answer_of_a_scene_written_another_way_is_found, an_oscillator_is_made_small,
             findings_of_other_seeds_are_none, what_only_sensitivity_allows_is_ill_conditioned,
             every_scene_is_a_case_file, circles_are_held_against_their_law, scenes_in_space_are_case_files,
             orbits_on_an_edge_of_slip_are_kept, first_solutions_in_space_take_few_iterations)
