@@ -78,6 +78,9 @@ hc_status scene_model(const scene *sc, model **out)
   return HC_OK;
 }
 
+/* [gate.amplitude] the regularised law's own error; a coarser law than usual is what somebody wants to see. */
+#define CHECKED_TO 0.1
+
 hc_status scene_setup(const scene *sc, compare_setup *out)
 {
   model *m;
@@ -90,6 +93,8 @@ hc_status scene_setup(const scene *sc, compare_setup *out)
                          .compare = sc->compare,
                          .limits = &sc->gate,
                          .reduction = sc->structure ? sc->structure->reduction_error : 0};
+  if (sc->transient.regularisation <= TRANSIENT_USUAL_REGULARISATION)
+    out->transient.regularisation_error = CHECKED_TO * sc->gate.most.amplitude;
   return st;
 }
 

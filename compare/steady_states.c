@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "compare/comparison.h"
+#include "compare/gate_limits.h"
 #include "compare/motion.h"
 #include "numerics/base/growing.h"
 #include "numerics/base/workspace.h"
@@ -99,6 +100,7 @@ static hc_status steady_settle(steady_work *w, double omega, const char *start, 
   snprintf(row.start, sizeof row.start, "%s", start);
   row.status = timeint_steady(w->ti, omega, w->state, w->monitor, &row.result);
   if (row.status == HC_OK) row.from_regularisation = regularisation_error(w, &row.result, &row.status);
+  if (row.from_regularisation > w->setup->limits->most.amplitude) row.status = HC_NOT_SETTLED; /* a gate refuses it */
   if (row.status == HC_NO_MEMORY) return HC_NO_MEMORY;
   hc_status st = add_row(w, &row);
   /* Appends what each contact does in the periods that w->ti holds. */

@@ -5,8 +5,9 @@
  *
  * with the contact law of model/contact_law.h, exact or regularised (law_regularised.h) as transient.law says.
  * A state is an array of timeint_n_states doubles, memory of the caller: x [length], v [length/time], and the slider
- * w_j [length] of contact j. Phase: t = 0 is that of the loads in model.h; every state passed in or out is at a whole
- * number of periods 2 pi/omega. Handles are opaque, one a thread. Not here: harmonic balance, verdicts. */
+ * w_j [length] of contact j. Inside, the motion is about static equilibrium (model/rest.h). Phase: t = 0 is that of the
+ * loads in model.h; every state passed in or out is at a whole number of periods 2 pi/omega. Handles are opaque, one a
+ * thread. Not here: harmonic balance, verdicts. */
 #pragma once
 
 #include "model/model.h"
@@ -45,5 +46,5 @@ void timeint_count(const timeint *ti, long *by_cvode, long *closed_form);
 /* Doubles in a state: 2 n + the model's contacts. */
 int timeint_n_states(const timeint *ti);
 
-/* state[timeint_n_states]: at rest, x = v = w_j = 0: in equilibrium where there are no static loads. */
+/* state[timeint_n_states]: at rest under the static loads, v = w_j = 0; x = 0 where there are none. */
 void timeint_rest(const timeint *ti, double *state);

@@ -5,8 +5,9 @@
 #include <stdbool.h>
 
 /* The ends of their ranges that advice must know. */
-#define TRANSIENT_LEAST_TOLERANCE     1e-13
-#define TRANSIENT_MOST_REGULARISATION 1e-1
+#define TRANSIENT_LEAST_TOLERANCE      1e-13
+#define TRANSIENT_MOST_REGULARISATION  1e-1
+#define TRANSIENT_USUAL_REGULARISATION 1e-4
 enum { TRANSIENT_MOST_PERIODS = 10000000 };
 
 typedef enum transient_law { TRANSIENT_LAW_REGULARISED, TRANSIENT_LAW_EXACT } transient_law;
@@ -32,4 +33,6 @@ typedef struct transient_settings {
   transient_start start;
   double tolerance; /* [1] relative distance to the periodic orbit */
   int max_periods;
+  double regularisation_error; /* [1] of an amplitude, relative: where it is larger the regularisation is halved; 0: it
+                                  stays as it is. No field of a case: a tenth of gate.amplitude */
 } transient_settings;

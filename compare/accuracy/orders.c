@@ -79,6 +79,7 @@ static hc_status error_at(const compare_setup *setup, double regularisation, con
   hc_monitor bounded = {work_limit_tick, &p};
   *e = NAN;
   other.transient.regularisation = regularisation;
+  other.transient.regularisation_error = 0; /* the error is what is asked for */
   hc_status st = timeint_new(other.model, &other.transient, &ti);
   if (st == HC_OK) {
     st = timeint_orbit(ti, row->omega, 1, state, &bounded, &r);

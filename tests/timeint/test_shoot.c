@@ -98,7 +98,7 @@ static double nearest_eigenvalue(double phi[3][3], double complex lambda, double
   return off;
 }
 
-/* Is y on an orbit whose multiplier is *r's?
+/* Is y on an orbit of ti's, with the corner in N that it has there, whose multiplier is *r's?
  * - Shooting ends at a distance of `tolerance` times the size of the state (X, P), of 1 to 1.4 amplitudes.
  * - timeint.h promises the orbit z* within `tolerance` of the amplitude: |F(y) - y| <= |F(y) - F(z*)| + |z* - y| <=
  *   (|Phi| + 1) tolerance, in units of the amplitude, Phi the derivative of the period map F.
@@ -106,11 +106,13 @@ static double nearest_eigenvalue(double phi[3][3], double complex lambda, double
  *   Exact law: 1e-6 by the differences in the slider (1e2 h^2 as in test_integrate_exact.c; those in X and P are
  *   nearer). Regularised law: each step of the variational equations errs by up to 1e-6 (variation_tolerance), and
  *   their errors, of either sign, add up like the root of their number. */
-static void check_orbit(const scene *sc, int law, scene_state y, const timeint_result *r, double tolerance)
+static void check_orbit(const scene *sc, const timeint *ti, int law, scene_state y, const timeint_result *r,
+                        double tolerance)
 {
-  const period_map map = map_of(*sc, law, r->omega, r->amplitude);
+  period_map map = map_of(*sc, law, r->omega, r->amplitude);
   const double z[3] = {y.x / r->amplitude, y.v / (r->omega * r->amplitude), y.w[0] / r->amplitude};
   double image[3] = {z[0], z[1], z[2]}, phi[3][3], norm = 0, largest;
+  map.m.contact[0].law.width = ti->scaled.contact[0].law.width * ti->length / r->amplitude;
   CHECK_LE(r->closure, tolerance * fmax(1, hypot(z[0], z[1])), "closure at %g", r->omega);
   apply(&map, state_at(&map.m, z), image);
   differentiate(&map, z, law == TRANSIENT_LAW_EXACT ? 1e-4 : 1e-5, phi);
@@ -146,7 +148,7 @@ static void finds_what_marching_finds(CHECK_STATE)
       assert_int_equal(marched.method, TIMEINT_BY_MARCHING);
       assert_int_equal(shot.method, TIMEINT_BY_SHOOTING);
       CHECK_LE(shot.periods, 0.7 * marched.periods, "law %d case %d periods", law, i);
-      check_orbit(&cases[i].sc, law, z, &shot, cases[i].sc.transient.tolerance);
+      check_orbit(&cases[i].sc, automatic, law, z, &shot, cases[i].sc.transient.tolerance);
       timeint_free(automatic);
       timeint_free(march);
     }
@@ -239,7 +241,7 @@ static void unstable_orbits_are_found_and_named(CHECK_STATE)
       scene_state y = {.x = orbits[i].x * off_x, .v = orbits[i].v * off_v, .w = {orbits[i].w}};
       assert_int_equal(timeint_orbit(ti, 9, 1, y.all, NULL, &r), HC_OK);
       assert_int_equal(timeint_stability(&r), orbits[i].stable);
-      check_orbit(&sc, TRANSIENT_LAW_EXACT, y, &r, 1e-9);
+      check_orbit(&sc, ti, TRANSIENT_LAW_EXACT, y, &r, 1e-9);
       CHECK_NEAR(y.x, orbits[i].x, 5e-3 * fabs(orbits[i].x), "orbit %d, to the digits above", i);
       if (orbits[i].stable < 0) CHECK_NEAR(r.multiplier_im, 0, 0, "a saddle");
     }

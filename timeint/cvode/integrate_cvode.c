@@ -52,7 +52,20 @@ hc_status integrate_begin_period(cvode_integrator *in)
 hc_status integrate_cvode_tolerance(integrator *base, double tolerance)
 {
   cvode_integrator *in = (cvode_integrator *)base;
-  return integrate_translate(in, CVodeSStolerances(in->cv, tolerance, tolerance));
+  if (!(tolerance > 0)) return integrate_translate(in, CV_ILL_INPUT);
+  in->tolerance = tolerance;
+  return HC_OK;
+}
+
+int integrate_weights(N_Vector y, N_Vector weight, void *self)
+{
+  const cvode_integrator *in = self;
+  const double *size = in->m->size;
+  for (int i = 0; i < NV_LENGTH_S(y); ++i) {
+    const double within = in->tolerance * (size && i < in->n_sized ? size[i] : 1);
+    NV_Ith_S(weight, i) = 1 / (within * fabs(NV_Ith_S(y, i)) + within);
+  }
+  return 0;
 }
 
 hc_status integrate_dense_samples(const integrator *in, int r, double theta, double step, int count, double *x)
@@ -82,6 +95,7 @@ int integrate_first_flag(const int *flags, size_t n)
 hc_status integrate_make_parts(cvode_integrator *in, int n, int method, void *equations,
                                void (*solve_by)(void *equations, double *r))
 {
+  if (!(in->tolerance > 0)) return HC_BAD_INPUT;
   in->equations = equations;
   in->solve = solve_by;
   if (hc_sundials_context(&in->ctx)) return HC_NO_MEMORY;

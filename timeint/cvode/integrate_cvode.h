@@ -16,6 +16,8 @@ typedef struct cvode_integrator { /* the first member of each kind */
   const scaled_model *m; /* of the period under way; the caller's */
   bool not_finite;       /* a right-hand side was not finite in the period under way */
   bool interrupted;      /* the monitor stopped it */
+  double tolerance;      /* [sizes of states] of a step; > 0 */
+  int n_sized;           /* how many of the equations' states have a size; the others are angles */
   bool called;     /* CVODE has been called: its first call allocates, and crashes if it cannot (numerics/room.h) */
   SUNContext ctx;  /* made first, freed last, this integrator's alone */
   N_Vector y, dky; /* [n] what CVODE integrates; dense output */
@@ -29,7 +31,7 @@ typedef struct cvode_integrator { /* the first member of each kind */
 
 enum { INTEGRATE_SINGULAR = 1 }; /* what a CVLsLinSysFn answers to have CVODE try a shorter step */
 
-/* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF), whose linear ones are solved by
+/* From the context to CVODE's memory, for n equations by `method` (CV_ADAMS, CV_BDF) whose linear ones are solved by
  * solve_by (the owner's CVLsLinSysFn makes their factors), and back; freeing works half-built. */
 hc_status integrate_make_parts(cvode_integrator *in, int n, int method, void *equations,
                                void (*solve_by)(void *equations, double *r));
@@ -53,6 +55,9 @@ hc_status integrate_add_counts(cvode_integrator *in);
 
 /* The first of n flags that is not CV_SUCCESS, else CV_SUCCESS. */
 int integrate_first_flag(const int *flags, size_t n);
+
+/* CVODE's weights at y, a CVEwtFn: the error of a step is held against tolerance (1 + |y_i|) size_i of each state. */
+int integrate_weights(N_Vector y, N_Vector weight, void *in);
 
 /* The methods of integrator_class that are the same for both laws: samples one by one by dense output, no integrals,
  * CVODE's tolerance. */

@@ -34,7 +34,6 @@ enum {
 typedef struct events { /* from integrate_new_events, to integrate_free; not shared between threads */
   cvode_integrator base;
   int n, n_contacts;
-  double tolerance;
   bool is_single;                  /* of motion_single.h: */
   double theta0, theta1, began[2]; /* the step under way, and where it began */
   contact_track *track;            /* [n_contacts] now */
@@ -474,7 +473,7 @@ static hc_status make_cvode(events *in)
   for (int i = 0; i < ROOTS * in->n_contacts; ++i) in->info[i] = i % ROOTS < TRACK_GUARDS ? -1 : 0; /* guards fall */
   const int flags[] = {
       HC_CVODE_QUIET(in->base.cv),
-      CVodeSStolerances(in->base.cv, in->tolerance, in->tolerance),
+      CVodeWFtolerances(in->base.cv, integrate_weights),
       CVodeSetUserData(in->base.cv, in),
       CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
       CVodeSetLinSysFn(in->base.cv, linear_system),
@@ -502,7 +501,8 @@ hc_status integrate_new_events(const modal_base *base, double tolerance, integra
   in->base.base.scatter = bdf ? INTEGRATE_BDF_SCATTER : INTEGRATE_ADAMS_SCATTER;
   in->n = base->n;
   in->n_contacts = base->n_contacts;
-  in->tolerance = tolerance;
+  in->base.tolerance = tolerance;
+  in->base.n_sized = 2 * base->n;
   in->held_pull = fmax(1e-17, 1e-3 * tolerance);
   in->is_single = motion_single_fits(base) && base->n_planar == 0;
   in->n_equations = 2 * base->n + base->n_planar;

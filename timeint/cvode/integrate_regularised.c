@@ -68,14 +68,14 @@ static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Ve
 /* What fails here is memory, whatever the flag: CVodeSetLinearSolver's CVLS_MEM_FAIL is the number of CV_CONV_FAILURE.
  * CVODE's rule for when to renew the Jacobian stays as it is: renewing it in every step was measured 30 % slower, since
  * CVODE then forgets the rate of convergence and takes a second Newton iteration to learn it. */
-static hc_status make_cvode(regularised *in, double tolerance)
+static hc_status make_cvode(regularised *in)
 {
   N_VConst(0.0, in->base.y);
   int flag = CVodeInit(in->base.cv, rhs, 0.0, in->base.y); /* first: the other calls need it */
   if (flag != CV_SUCCESS) return HC_NO_MEMORY;
   const int flags[] = {
       HC_CVODE_QUIET(in->base.cv),
-      CVodeSStolerances(in->base.cv, tolerance, tolerance),
+      CVodeWFtolerances(in->base.cv, integrate_weights),
       CVodeSetUserData(in->base.cv, in),
       CVodeSetLinearSolver(in->base.cv, in->base.ls, in->base.jac),
       CVodeSetLinSysFn(in->base.cv, linear_system),
@@ -216,9 +216,10 @@ hc_status integrate_new_regularised(const modal_base *base, double tolerance, in
   if (!in) return HC_NO_MEMORY;
   in->base.base.does = &class;
   in->base.base.scatter = INTEGRATE_BDF_SCATTER;
-  in->n = 2 * base->n + base->n_contacts;
+  in->base.tolerance = tolerance;
+  in->base.n_sized = in->n = 2 * base->n + base->n_contacts;
   hc_status st = make_parts(in, base);
-  if (st == HC_OK) st = make_cvode(in, tolerance);
+  if (st == HC_OK) st = make_cvode(in);
   if (st == HC_OK) st = make_variations(in);
   if (st == HC_OK) {
     *out = &in->base.base;

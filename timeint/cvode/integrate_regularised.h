@@ -5,6 +5,6 @@
 
 #include "timeint/period/integrate.h"
 
-/* In steps whose error is `tolerance` of the states (of 1, for states smaller than that). HC_NO_MEMORY, also for a
- * tolerance that CVODE refuses. */
+/* In steps whose error is `tolerance` > 0 of the states' sizes (integrate_weights). HC_BAD_INPUT,
+ * HC_NO_MEMORY. */
 hc_status integrate_new_regularised(const modal_base *base, double tolerance, integrator **out);

@@ -7,7 +7,7 @@ static planar_value polynomial_value(const law_regularised *c, const contact_mot
   double slope;
   (void)w;
   const double f = contact_polynomial(&c->smooth, at->v, &slope);
-  return (planar_value){.n = f, .change = f};
+  return (planar_value){.n = f + c->smooth.across[0] + c->smooth.across[1] * at->v, .change = f};
 }
 
 static planar_derivatives polynomial_derivatives(const law_regularised *c, const contact_motion *at, const double *w)

@@ -116,37 +116,14 @@ static void fill(modal_base *b, const model *m, const double *omega2, double *ve
   scale(ld * ld, b->inverse, b->s);
 }
 
-/* The largest motion of a contact under that load (of a single mass, its own), at rest in these modes; modes that
- * nothing holds are left out. */
-static double motion_under(const modal_base *b, const model *m, const double *load, const double *omega2,
-                           const double *phi, double *x)
-{
-  const size_t n = (size_t)b->n;
-  memset(x, 0, n * sizeof *x);
-  for (size_t i = 0; i < n; ++i) {
-    if (!(omega2[i] > rounding * omega2[n - 1])) continue;
-    const double q = dot_product(b->n, phi + i * n, load) / omega2[i];
-    for (size_t row = 0; row < n; ++row) x[row] += q * phi[i * n + row];
-  }
-  double most = n == 1 ? fabs(*x) : 0;
-  for (int j = 0; j < m->n_contacts; ++j)
-    most = fmax(most, fmax(fabs(dot_product(b->n, m->contacts[j].tangent, x)),
-                           fabs(dot_product(b->n, m->contacts[j].normal, x))));
-  return most;
-}
-
 /* What is known from the modes with all contacts stuck; phi[n][n]: room for them. */
-static hc_status look_at_stuck(modal_base *b, const model *m, double *omega2, double *x, double *phi)
+static hc_status look_at_stuck(modal_base *b, const model *m, double *omega2, double *phi)
 {
   hc_status st = model_modes(m, true, omega2, phi);
   if (st != HC_OK) return st;
   b->highest = sqrt(fmax(omega2[b->n - 1], 0));
   b->lowest = b->highest;
   for (int i = b->n - 1; i >= 0 && omega2[i] > rounding * omega2[b->n - 1]; --i) b->lowest = sqrt(omega2[i]);
-  b->stuck_motion = 0;
-  for (int k = 0; k < m->n_loads; ++k)
-    b->stuck_motion += hypot(motion_under(b, m, m->loads[k].cosine, omega2, phi, x),
-                             motion_under(b, m, m->loads[k].sine, omega2, phi, x));
   return HC_OK;
 }
 
@@ -193,7 +170,7 @@ hc_status modal_base_new(const model *m, modal_base **out)
       b->n_planar += m->contacts[j].circle && m->contacts[j].pair == CONTACT_FIRST;
     st = make_memory(b);
   }
-  if (st == HC_OK) st = look_at_stuck(b, m, room, room + m->n, b->shape);
+  if (st == HC_OK) st = look_at_stuck(b, m, room, b->shape);
   if (st == HC_OK) st = model_modes(m, false, room, b->shape);
   if (st == HC_OK) {
     fill(b, m, room, room + m->n);

@@ -28,8 +28,6 @@ typedef struct modal_base { /* from modal_base_new, to modal_base_free; only rea
   double lowest;               /* [rad/time] the lowest that is not 0, contacts stuck */
   double decay;                /* [1/time] >= 0: the largest C_ii: a mode without stiffness decays at C_ii */
   double slowest;              /* [1/time] >= 0: the least C_ii/2: an underdamped mode decays at C_ii/2 */
-  double stuck_motion;         /* [length] the largest motion of a contact under the loads, all contacts stuck: a
-                                       size that does not depend on omega */
   double *slowed;              /* [n] 1, or by what this mode's frequency has been divided: modal_base_slowed */
   double *numbers;             /* of all arrays of doubles */
 } modal_base;

@@ -25,7 +25,10 @@ typedef struct scaled_model {
   const modal_base *base;      /* the owner's */
   double by_K, by_C, by_load;
   bool by_rates;           /* a law depends on U' */
-  scaled_contact *contact; /* [n_contacts], memory of whoever owns the scaled_model */
+  scaled_contact *contact; /* [n_contacts], memory of whoever owns the scaled_model, as are: */
+  const double *vibration; /* [n_contacts] [length] of each v_j (state_sizes.h), of which the corner in N is a part;
+                              NULL: L */
+  const double *size;      /* [n_states] [L] of states (state_sizes.h); NULL: 1 */
 } scaled_model;
 
 /* The equations of *from at omega [rad/time] > 0, in lengths L = length > 0. m->contact points at memory for

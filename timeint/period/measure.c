@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "numerics/base/constants.h"
+#include "numerics/norm.h"
 #include "numerics/roots.h"
 
 hc_status measure_make(measure *me, int n_states, int n_responses, int n_contacts, workspace *w)
@@ -16,6 +17,7 @@ hc_status measure_make(measure *me, int n_states, int n_responses, int n_contact
   me->state = workspace_array(w, contacts, sizeof *me->state);
   me->seen = workspace_array(w, contacts, 1);
   me->slider = workspace_doubles(w, 2 * contacts);
+  me->range = workspace_array(w, 2 * contacts, sizeof *me->range);
   double **const states[] = {&me->end, &me->end_rate, &me->inside};
   for (size_t i = 0; i < 3; ++i) *states[i] = workspace_doubles(w, n);
   me->circle = workspace_doubles(w, 2 * (size_t)TIMEINT_WAVE);
@@ -34,6 +36,7 @@ void measure_begin(measure *me, const scaled_model *m)
   me->no_integrals = false;
   memset(me->seen, 0, (size_t)me->n_contacts);
   for (int j = 0; j < me->n_contacts; ++j) me->slider[2 * j] = INFINITY, me->slider[2 * j + 1] = -INFINITY;
+  for (int r = 0; r < 2 * me->n_contacts; ++r) me->range[r] = (contact_range){.min = INFINITY, .max = -INFINITY};
   for (int i = 0; i < me->n_responses; ++i) me->response[i] = (response_measure){.max = -INFINITY, .min = INFINITY};
 }
 
@@ -95,10 +98,32 @@ static void begin_step(response_measure *r, const jet *at)
   extend(r, r->x);
 }
 
+/* U and V of all contacts at y, a step of h after they were seen last; h = 0: at the beginning of a period. */
+static void extend_ranges(measure *me, double h, const double *y)
+{
+  const modal_base *b = me->m->base;
+  const size_t n = (size_t)me->m->n, contacts = (size_t)me->n_contacts;
+  for (size_t j = 0; j < 2 * contacts; ++j) {
+    const double *row = j < contacts ? b->tangent + j * n : b->normal + (j - contacts) * n;
+    contact_range *r = &me->range[j];
+    const double x = dot_product(me->m->n, row, y), p = dot_product(me->m->n, row, y + n);
+    double peak = x;
+    if (h > 0 && r->p * p < 0) { /* where the rate, taken for linear, is 0 */
+      const double t = r->p / (r->p - p), s = 1 - t;
+      peak = s * s * ((1 + 2 * t) * r->x + t * h * r->p) + t * t * ((1 + 2 * s) * x - s * h * p);
+    }
+    r->min = fmin(r->min, fmin(x, peak));
+    r->max = fmax(r->max, fmax(x, peak));
+    r->x = x;
+    r->p = p;
+  }
+}
+
 void measure_period(measure *me, const double *y)
 {
   ++me->periods;
   me->next = 1;
+  extend_ranges(me, 0, y);
   scaled_rhs(me->m, 0, y, me->end_rate); /* not finite: then CVODE fails in its first step */
   for (int i = 0; i < me->n_responses; ++i) {
     const jet at = jet_of(me->m, i, y, me->end_rate);
@@ -209,7 +234,22 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
     me->slider[2 * j] = fmin(me->slider[2 * j], w);
     me->slider[2 * j + 1] = fmax(me->slider[2 * j + 1], w);
   }
-  return HC_OK;
+  const int looks = 1 + (int)((theta1 - theta0) / INTEGRATE_LONGEST_STEP);
+  const double look = (theta1 - theta0) / looks;
+  for (int i = 1; i < looks && st == HC_OK; ++i) {
+    st = integrate_dense(in, theta0 + i * look, 0, me->inside);
+    extend_ranges(me, look, me->inside);
+  }
+  extend_ranges(me, look, y);
+  return st;
+}
+
+void measure_vibration(const measure *me, double length, double *vibration)
+{
+  const int rows = 2 * me->n_contacts;
+  for (int r = 0; r < rows; ++r) vibration[r] = motion_amplitude(me->range[r].max, me->range[r].min) * length;
+  for (int i = 0; i < me->n_responses; ++i)
+    vibration[rows + i] = motion_amplitude(me->response[i].max, me->response[i].min) * length;
 }
 
 int measure_resting_sliders(const measure *me)
@@ -220,8 +260,10 @@ int measure_resting_sliders(const measure *me)
   for (int j = 0; j < me->m->n_contacts; j += scaled_directions(me->m, j)) {
     const bool leaves = !me->m->contact[j].law.has_friction || me->seen[j] & SEEN_SEPARATED;
     double path = 0;
-    for (int a = j; a < j + scaled_directions(me->m, j); ++a)
-      path = fmax(path, me->slider[2 * a + 1] - me->slider[2 * a]);
+    for (int a = j; a < j + scaled_directions(me->m, j); ++a) {
+      const double own = me->m->size ? me->m->size[2 * me->m->n + a] : 1;
+      path = fmax(path, (me->slider[2 * a + 1] - me->slider[2 * a]) / own);
+    }
     resting += !leaves && path <= MEASURE_RESTS * range;
   }
   return resting;

@@ -27,6 +27,12 @@ enum { SEEN_SEPARATED = 1, SEEN_STUCK = 2, SEEN_SLIPPING = 4 };
 unsigned char measure_seen(contact_state state);
 contact_regime measure_seen_regime(unsigned char seen, const contact *law);
 
+/* A contact's motion x: its least and largest value, between steps by the cubic through both ends: off by some 1e-5 of
+ * it; x, x' at the end of the last step. */
+typedef struct contact_range {
+  double min, max, x, p;
+} contact_range;
+
 typedef struct measure { /* lengths in units of the model's L, until measure_report */
   const scaled_model *m;
   int n_responses, n_contacts;
@@ -37,6 +43,7 @@ typedef struct measure { /* lengths in units of the model's L, until measure_rep
   contact_state *state;            /* [n_contacts] at the end of the last step */
   unsigned char *seen;             /* [n_contacts] at the ends of steps */
   double *slider;                  /* [n_contacts][2] least and largest W at the ends of steps */
+  contact_range *range;            /* [2 n_contacts] of U of all contacts, then of V */
   double *circle;                  /* [TIMEINT_WAVE][2] cos and sin of the instants */
   double *end, *end_rate, *inside; /* [n_states] a state at a step's end, its derivative, a state inside a step */
 } measure;
@@ -54,6 +61,10 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
 /* Contacts whose slider was nowhere seen to leave its place while it was in contact: where it rests depends on the
  * start. A place is one to MEASURE_RESTS of the largest response's range, ten times what CVODE's steps scatter. */
 int measure_resting_sliders(const measure *me);
+
+/* Alternating parts [length], (max - min)/2, of U of all contacts, V of all contacts, all responses: vibration of
+ * state_sizes.h. */
+void measure_vibration(const measure *me, double length, double *vibration);
 
 /* max, min, amplitude, rms, mean, a1, b1, harmonic_1 and wave (of the last period) of response i, and the regime of all
  * contacts, into *r; L = length. */

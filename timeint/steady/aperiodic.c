@@ -53,14 +53,13 @@ static double distance(int n, const double *a, const double *b)
 static hc_status integrate_neighbours(timeint *ti, double *log_growth)
 {
   const int n = ti->n;
-  double *d = ti->separation, *other = ti->neighbour, size = 0;
+  double *d = ti->separation, *other = ti->neighbour;
   for (int i = 0; i < n; ++i) other[i] = ti->y[i] + d[i];
   hc_status st = integrate_period(ti->in, &ti->scaled, ti->y, NULL, NULL);
   if (st == HC_OK) st = integrate_period(ti->in, &ti->scaled, other, NULL, NULL);
   if (st != HC_OK) return st;
   ti->periods += 2;
-  for (int i = 0; i < n; ++i) size += (other[i] - ti->y[i]) * (other[i] - ti->y[i]);
-  size = sqrt(size);
+  const double size = timeint_distance(ti, other, ti->y);
   *log_growth = log(fmax(size / separation, DBL_EPSILON));
   for (int i = 0; i < n && size > 0; ++i) d[i] = (other[i] - ti->y[i]) * (separation / size);
   return isfinite(size) && isfinite(*log_growth) ? HC_OK : HC_NOT_FINITE;
@@ -128,7 +127,8 @@ hc_status chaos_test(timeint *ti, const hc_monitor *monitor, bool *chaos, double
   measurement m = {.ti = ti, .monitor = monitor};
   *chaos = false;
   if (!(ti->periods > fmax(AFTER, FOLDS / (1 - ti->contraction))) || !periods_left(ti, BATCHES + 1)) return HC_OK;
-  for (int i = 0; i < ti->n; ++i) ti->separation[i] = i < ti->n_dof ? separation / sqrt(ti->n_dof) : 0;
+  for (int i = 0; i < ti->n; ++i)
+    ti->separation[i] = i < ti->n_dof ? separation / sqrt(ti->n_dof) * ti->sizes.of[i] : 0;
   hc_status st = integrate_batch(&m, true, rate);
   if (st != HC_OK) return st;
   const double enough = folds_of_leaving(&m) + beyond;

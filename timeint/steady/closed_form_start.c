@@ -5,14 +5,15 @@
 #include <string.h>
 
 #include "timeint/steady/linear_regime.h"
+#include "timeint/steady/regularised.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
 static const double closed_start_tolerance = 1e-12; /* rounding of a period is some 1e-14; CVODE confirms to 1e-9 */
 static const double large_tolerance = 1e-8; /* of a large structure: the distance that periods by CVODE resolve */
 static const double same_point = 1e-14; /* [1] a state that went to the model's units and back differs by rounding */
-static const double same_orbit = 1e-9;  /* [length] of two such states, relative to their size: a hundred times what the
-                                          orbits found are off; of large structures as much */
+static const double same_orbit = 1e-9;  /* [sizes] between two such states: a hundred times what the orbits found are
+                                          off; of large structures as much */
 
 /* Orbits confirmed lately: another start at the same frequency often leads to one of them, and nothing is integrated
  * twice. Those of a handle have the same settings. */
@@ -49,7 +50,7 @@ hc_status closed_start_new(timeint *ti)
   how.method = TRANSIENT_METHOD_CLOSED_FORM;
   how.scout = false; /* it has none of its own */
   how.tolerance = fmin(how.tolerance, closed_start_tolerance);
-  hc_status st = timeint_new(ti->model, &how, &ti->closed_form);
+  hc_status st = timeint_new_like(ti, &how, &ti->closed_form);
   if (st == HC_OK && ti->closed_form->slowed)
     ti->closed_form->how.tolerance = fmin(10 * ti->how.tolerance, large_tolerance); /* share_of_goal of it is reached */
   return st == HC_OK ? make_memory(ti) : st;
@@ -63,11 +64,12 @@ hc_status closed_start_share(timeint *ti, timeint *closed_form)
   return make_memory(ti);
 }
 
-static bool same_state(int n, const double *a, const double *b, double within)
+/* Do the two differ by rounding? */
+static bool same_state(int n, const double *a, const double *b)
 {
   double apart = 0, size = 0;
   for (int i = 0; i < n; ++i) apart = fmax(apart, fabs(a[i] - b[i])), size = fmax(size, fabs(a[i]));
-  return apart <= within * size;
+  return apart <= same_point * size;
 }
 
 void timeint_forget(timeint *ti)
@@ -78,12 +80,13 @@ void timeint_forget(timeint *ti)
 /* The orbit that was reached from this one in closed form, if it is remembered; else NULL. */
 static const struct confirmed *recall(const timeint *ti, int k, const double *start)
 {
-  const int moving = 2 * ti->n_dof;
+  double *here = ti->point[0], *there = ti->point[1];
+  timeint_take_state(ti, start, here);
   for (int i = 0; i < REMEMBERED; ++i) {
     const struct confirmed *c = &ti->confirmed->orbit[i];
-    if (c->k == k && c->omega == ti->omega && same_state(moving, c->start, start, same_orbit) &&
-        same_state(ti->n - moving, c->start + moving, start + moving, same_orbit))
-      return c;
+    if (c->k != k || c->omega != ti->omega) continue;
+    timeint_take_state(ti, c->start, there);
+    if (timeint_farthest(ti, here, there) <= same_orbit) return c;
   }
   return NULL;
 }
@@ -92,7 +95,7 @@ motion_error *closed_start_predictions(timeint *ti, const double *state, const d
 {
   for (int i = 0; i < REMEMBERED; ++i) {
     struct confirmed *c = &ti->confirmed->orbit[i];
-    if (c->k > 0 && c->omega == ti->omega && same_state(ti->n, c->state, state, same_point)) {
+    if (c->k > 0 && c->omega == ti->omega && same_state(ti->n, c->state, state)) {
       *start = c->start;
       return c->predicted;
     }
@@ -132,18 +135,21 @@ static hc_status confirm(timeint *ti, const double *start, const timeint_result 
       tried = HC_NOT_CONVERGED;
     st = tried == HC_OK ? orbit_report(ti, k, TIMEINT_BY_SHOOTING, &beside, r) : tried;
   }
-  if (st == HC_OK) {
-    struct memory *m = ti->confirmed;
-    struct confirmed *c = &m->orbit[m->next];
-    m->next = (m->next + 1) % REMEMBERED;
-    c->k = k;
-    c->omega = ti->omega;
-    c->result = *r;
-    for (int i = 0; i < ti->measure.n_responses; ++i) c->predicted[i] = (motion_error){NAN, NAN, NAN};
-    memcpy(c->start, start, sizeof *start * (size_t)ti->n);
-    timeint_get_state(ti, c->state);
-  }
   return st;
+}
+
+void closed_start_remember(timeint *ti, const double *state, const timeint_result *r)
+{
+  struct memory *m = ti->confirmed;
+  if (!m || !ti->measured) return;
+  struct confirmed *c = &m->orbit[m->next];
+  m->next = (m->next + 1) % REMEMBERED;
+  c->k = r->period_multiple;
+  c->omega = ti->omega;
+  c->result = *r;
+  for (int i = 0; i < ti->measure.n_responses; ++i) c->predicted[i] = (motion_error){NAN, NAN, NAN};
+  memcpy(c->start, ti->closed_form_state, sizeof *c->start * (size_t)ti->n);
+  memcpy(c->state, state, sizeof *c->state * (size_t)ti->n);
 }
 
 /* Back to where the motion was before the closed form's orbit was tried; what that took stays counted. */
@@ -180,6 +186,7 @@ hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, co
     st = timeint_begin(ti, ti->omega, start);
     if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
     r->left_orbit = first.left_orbit;
+    if (st == HC_OK) timeint_use_measured(ti, ti->closed_form);
     if (st == HC_OK && why == HC_OK) st = confirm(ti, start, &first, orbit_of == 0, monitor, r);
     else if (st == HC_OK) {
       st = orbit_report_none(ti, why, r);
@@ -199,6 +206,7 @@ hc_status closed_start_confirm(timeint *ti, int k, const hc_monitor *monitor, ti
   *done = true;
   if (linear_regime_steady(ti, r)) return HC_OK;
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
+  if (st == HC_OK) st = regularised_begin(ti, k, monitor);
   if (st == HC_OK) st = shoot_confirm(ti->shoot, k, orbit_goal(ti), 0, monitor, &found, r);
   *done = !shoot_found_no_orbit(st);
   return *done ? st : HC_OK;

@@ -18,6 +18,9 @@ hc_status closed_start_share(timeint *ti, timeint *closed_form);
 hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, const hc_monitor *monitor,
                               timeint_result *r, bool *done);
 
+/* The orbit *r that was reached from ti->closed_form_state in closed form, and given out as `state`. */
+void closed_start_remember(timeint *ti, const double *state, const timeint_result *r);
+
 /* The orbit of k periods next to ti->y, without looking for it. !*done: CVODE's periods do not confirm that there is
  * one; the motion is where it was. */
 hc_status closed_start_confirm(timeint *ti, int k, const hc_monitor *monitor, timeint_result *r, bool *done);

@@ -34,9 +34,15 @@ static bool closed(const one_contact *c, double x) { return c->law->kn > 0 && c-
 static linear linear_now(const timeint *ti)
 {
   const scaled_model *m = &ti->scaled;
+  const modal_base *b = m->base;
   const double x = ti->y[0], p = ti->y[1];
-  linear l = {.c = m->by_C * m->base->C[0], .k = m->by_K * m->base->K[0]};
+  linear l = {.c = m->by_C * b->C[0], .k = m->by_K * b->K[0]};
+  double complex load = 0;
   double d = 0;
+  for (int i = 0; i < b->n_loads; ++i) { /* a cos(theta) + b sin(theta) = Re (a - i b) e^{i theta}, or constant */
+    if (b->harmonic[i] == 0) d += m->by_load * b->cosine[i];
+    else load += m->by_load * (b->cosine[i] - I * b->sine[i]);
+  }
   for (int j = 0; j < m->n_contacts; ++j) {
     const one_contact c = contact_of(m, j);
     const double kt = c.law->has_friction ? c.law->kt : 0; /* without friction T = 0 */
@@ -48,7 +54,7 @@ static linear linear_now(const timeint *ti)
     d += kt * c.cosine * ti->y[2 + j] + (c.preload - c.law->kn * c.law->gap) * c.sine;
   }
   l.center = d / l.k;
-  l.steady = linear_response(1, l.c, l.k, m->by_load * m->base->cosine[0], 1);
+  l.steady = load * linear_response(1, l.c, l.k, 1, 1);
   l.free = hypot(x - l.center - creal(l.steady), (p + cimag(l.steady)) / sqrt(l.k));
   return l;
 }
@@ -77,10 +83,18 @@ static bool keeps_state(const one_contact *c, double x, double w, double center,
          positive_within(n * law->gap - t * w, n * c->sine + t * c->cosine, center, reach);
 }
 
+/* Has it one degree of freedom under loads that are constant or have the period's own harmonic? */
+static bool is_single(const model *m)
+{
+  bool one = m->n == 1;
+  for (int l = 0; l < m->n_loads; ++l) one = one && m->loads[l].harmonic <= 1;
+  return one;
+}
+
 bool linear_regime_is_final(const timeint *ti)
 {
   const scaled_model *m = &ti->scaled;
-  if (!model_is_oscillator(ti->model)) return false; /* Newton finds a structure's linear motion in one step */
+  if (!is_single(ti->model)) return false; /* Newton finds a structure's linear motion in one step */
   const linear l = linear_now(ti);
   const double amplitude = cabs(l.steady), reach = amplitude + l.free;
   if (!(l.k > 0) || !isfinite(fabs(l.center) + reach)) return false;
@@ -98,6 +112,23 @@ static double complex slowest_multiplier(double c, double k)
   const double d = 0.25 * c * c - k;
   if (d < 0) return cexp(TWO_PI * (-0.5 * c + I * sqrt(-d)));
   return exp(-TWO_PI * k / (0.5 * c + sqrt(d))); /* c/2 - sqrt(d) without cancellation */
+}
+
+/* The steady motion times `unit`, what the response is in lengths of X. */
+static void measure_linear(const linear *l, double unit, timeint_result *r)
+{
+  const double amplitude = cabs(l->steady) * fabs(unit);
+  r->amplitude = r->harmonic_1 = amplitude;
+  r->mean = l->center * unit;
+  r->max = r->mean + amplitude;
+  r->min = r->mean - amplitude;
+  r->rms = hypot(r->mean, amplitude * sqrt(0.5));
+  r->a1 = creal(l->steady) * unit; /* Re(Z e^{i theta}) = Re Z cos - Im Z sin */
+  r->b1 = -cimag(l->steady) * unit;
+  for (int i = 0; i < TIMEINT_WAVE; ++i) {
+    const double theta = TWO_PI * i / TIMEINT_WAVE;
+    r->wave[i] = r->mean + r->a1 * cos(theta) + r->b1 * sin(theta);
+  }
 }
 
 bool linear_regime_steady(timeint *ti, timeint_result *r)
@@ -119,18 +150,8 @@ bool linear_regime_steady(timeint *ti, timeint_result *r)
       ti->y[2 + j] = c.cosine * (l.center + creal(l.steady / (1 + I * lag)));
     }
   }
-  const double amplitude = cabs(l.steady);
-  r->amplitude = r->harmonic_1 = amplitude * ti->length;
-  r->max = (l.center + amplitude) * ti->length;
-  r->min = (l.center - amplitude) * ti->length;
-  r->mean = l.center * ti->length;
-  r->rms = hypot(l.center, amplitude * sqrt(0.5)) * ti->length;
-  r->a1 = creal(l.steady) * ti->length; /* Re(Z e^{i theta}) = Re Z cos - Im Z sin */
-  r->b1 = -cimag(l.steady) * ti->length;
-  for (int i = 0; i < TIMEINT_WAVE; ++i) {
-    double theta = TWO_PI * i / TIMEINT_WAVE;
-    r->wave[i] = l.center * ti->length + r->a1 * cos(theta) + r->b1 * sin(theta);
-  }
+  measure_linear(&l, m->base->response[0] * ti->length, r);
+  timeint_shift_result(ti, 0, r);
   const double complex lambda = slowest_multiplier(l.c, l.k);
   r->multiplier = r->contraction = cabs(lambda);
   r->multiplier_re = creal(lambda);

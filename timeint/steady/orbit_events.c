@@ -57,7 +57,7 @@ static hc_status add_event(events_watch *w, const integrator *in, double theta)
   modal_base_to_model(ti->base, w->y, e->x + at);
   modal_base_to_model(ti->base, w->y + e->n_dof, e->v + at);
   for (int i = 0; i < e->n_dof; ++i) {
-    e->x[at + (size_t)i] *= ti->length;
+    e->x[at + (size_t)i] = e->x[at + (size_t)i] * ti->length + ti->rest[i];
     e->v[at + (size_t)i] *= ti->length * ti->omega;
   }
   e->t[e->n] = (w->turned + theta) / ti->omega;
@@ -78,8 +78,8 @@ static void note_limits(events_watch *w, const integrator *in)
     if (isnan(e->rest[j])) continue;
     scaled_contact_motion(m, j, w->y, u, &v);
     const double radius = contact_track_radius(c, v);
-    e->lowest[j] = fmax(e->lowest[j], (u[0] - radius) * w->ti->length);
-    e->highest[j] = fmin(e->highest[j], (u[0] + radius) * w->ti->length);
+    e->lowest[j] = fmax(e->lowest[j], (u[0] - radius) * w->ti->length + w->ti->rest_u[j]);
+    e->highest[j] = fmin(e->highest[j], (u[0] + radius) * w->ti->length + w->ti->rest_u[j]);
   }
 }
 
@@ -127,7 +127,7 @@ static hc_status make(const timeint *ti, orbit_events *out)
   out->lowest = out->rest + n_contacts;
   out->highest = out->lowest + n_contacts;
   for (size_t j = 0; j < n_contacts; ++j) {
-    out->rest[j] = ti->y[2 * ti->n_dof + (int)j] * ti->length;
+    out->rest[j] = ti->y[2 * ti->n_dof + (int)j] * ti->length + ti->rest_u[j];
     out->lowest[j] = -INFINITY;
     out->highest[j] = INFINITY;
   }

@@ -9,11 +9,11 @@
 #include "timeint/steady/timeint_private.h"
 
 static const double rounding = 16 * DBL_EPSILON; /* [amplitude] of a closed form */
-static const double enough = 1e-3;   /* [change] to which half the regularisation's orbit need be known: a second-order
+static const double enough = 1e-4;   /* [change] to which half the regularisation's orbit need be known: a second-order
                                        error of the amplitude is far smaller than the sliders' first-order change */
 static const double rough = 0.25;    /* [change] to which it may be known where steps contract no more */
 static const double coarsest = 1e-8; /* CVODE's tolerance for it */
-static const double per_change = 1e-6; /* that tolerance, relative to the change: it scatters by 250 times itself */
+static const double per_change = 1e-7; /* that tolerance, relative to the change: it scatters by 250 times itself */
 
 static periodic_motion motion_of(const timeint_result *r)
 {
@@ -55,13 +55,12 @@ static hc_status halve(timeint *ti, const double *state, int k, const hc_monitor
   shoot_report found = {.distance = INFINITY, .multiplier = NAN};
   double goal = orbit_goal(ti);
   if (ti->closed_form) {
-    double change = 0;
     hc_status st = find_closed_form(ti, ti->omega, k, state, monitor);
     if (st != HC_OK) return st;
     timeint_take_state(ti, ti->closed_form_state, ti->point[0]);
+    const double change = timeint_farthest(ti, ti->point[0], ti->y);
     for (int i = 0; i < ti->n; ++i) {
       const double apart = ti->point[0][i] - ti->y[i];
-      change = fmax(change, fabs(apart));
       ti->y[i] += 0.5 * apart;
     }
     goal = fmax(goal, enough * change);

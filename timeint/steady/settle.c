@@ -226,6 +226,12 @@ static hc_status adapt_tolerance(timeint *ti, progress *p)
   return use_tolerance(ti, p, fmax(finest, refine_by * ti->tolerance));
 }
 
+/* The distance [length] between points (timeint_point) that puts a response of that amplitude off by the tolerance. */
+static double point_goal(const timeint *ti, double amplitude)
+{
+  return ti->how.tolerance * amplitude / timeint_response_unit(ti, 0) * ti->length;
+}
+
 /* The next k periods into *r, and how near the orbit they are. */
 static hc_status measure_orbit(timeint *ti, int k, progress *p, timeint_result *r)
 {
@@ -234,11 +240,11 @@ static hc_status measure_orbit(timeint *ti, int k, progress *p, timeint_result *
     hc_status st = one_period(ti, true);
     if (st != HC_OK) return st;
   }
-  measure_report(&ti->measure, ti->model, 0, ti->length, r);
+  timeint_report(ti, 0, r);
   r->free_sliders = measure_resting_sliders(&ti->measure);
   ti->measured = true;
-  settle_estimate e = settle_judge(ti->settle, ti->how.tolerance * r->amplitude);
-  r->closure = e.distance / r->amplitude;
+  settle_estimate e = settle_judge(ti->settle, point_goal(ti, r->amplitude));
+  r->closure = e.distance / ti->length * timeint_response_unit(ti, 0) / r->amplitude;
   r->contraction = isnan(e.contraction) ? p->contraction : e.contraction;
   r->period_multiple = e.multiple;
   p->amplitude = r->amplitude;
@@ -250,7 +256,7 @@ static hc_status measure_orbit(timeint *ti, int k, progress *p, timeint_result *
 static int seems_settled(const timeint *ti, double amplitude)
 {
   if (ti->tolerance > timeint_final_tolerance(ti)) return 0;
-  const double goal = ti->how.tolerance * amplitude;
+  const double goal = point_goal(ti, amplitude);
   if (!(settle_drift(ti->settle) <= 2 * goal)) return 0; /* a necessary condition that costs little */
   return settle_judge(ti->settle, goal).multiple;
 }

@@ -85,7 +85,7 @@ struct shoot { /* from shoot_new, to shoot_free */
   int found_k; /* 0: none; and what was reported of it */
   shoot_report found;
   double *iterate, *step, *best; /* [n] of a solve; Newton's step from there; the iterate nearest to the orbit */
-  double *ones;                  /* [n] 1: weights of Newton's unknowns and residuals */
+  double *weight;                /* [n] 1/size of each state: of Newton's unknowns and residuals */
   double *vector, *other;        /* [n] for what one function needs */
   double *one_period, *product;  /* [n][n] monodromy matrix of one period out of k; a copy of phi */
   double *matrix;                /* [n][n] factors of Newton's matrix */
@@ -221,8 +221,10 @@ static hc_status keep_at_rest(const shoot *s, timeint *giver, double *y)
       note_travel(of);
     }
     for (int i = 2 * s->ti->n_dof; i < s->n; ++i) {
-      if (!(s->travel[i] <= MEASURE_RESTS * size && of->travel[i] > 0 && isfinite(of->travel[i]))) continue;
-      y[i] += copysign(of->travel[i] + same_matrix * size, of->f[i] - y[i]);
+      const double own = size * s->ti->sizes.of[i];
+      if (!(s->travel[i] <= MEASURE_RESTS * own && of->travel[i] > 0 && isfinite(of->travel[i]))) continue;
+      const double moves = fmin(own, state_sizes_slider(&s->ti->sizes, i - 2 * s->ti->n_dof) / s->ti->length);
+      y[i] += copysign(of->travel[i] + same_matrix * moves, of->f[i] - y[i]);
       moved = true;
     }
   }
@@ -294,6 +296,27 @@ static hc_status give_own_matrix(shoot *s)
   return st;
 }
 
+static bool is_unit_row(const shoot *s, int i)
+{
+  for (int j = 0; j < s->n; ++j)
+    if (s->phi[i + j * s->n] != (i == j)) return false;
+  return true;
+}
+
+/* Did slider i rest in the last periods, but for a slip as small as rounding? */
+static bool rested(const shoot *s, int i)
+{
+  return s->travel[i] <= MEASURE_RESTS * timeint_scaled_size(s->ti) * s->ti->sizes.of[i];
+}
+
+/* Is the giver's matrix one along which a slider slips that rested? */
+static bool slips_where_rested(const shoot *s, const shoot *of)
+{
+  for (int i = 2 * s->ti->n_dof; i < s->n; ++i)
+    if (rested(s, i) && !is_unit_row(of, i)) return true;
+  return false;
+}
+
 /* s->phi at the last point asked, to within same_matrix, if it is for a giver to find. Where nothing changes at the
  * contacts, but did on the giver's periods, as slowed modes shake them or from a point where they still slip, its
  * matrix is of another motion, however near. */
@@ -305,27 +328,23 @@ static hc_status find_matrix(shoot *s)
   if (!giver) return HC_OK;
   const shoot *of = giver->shoot;
   const bool exact = s->ti->how.method == TRANSIENT_METHOD_CLOSED_FORM && s->n <= SERIES_COLUMNS_SQUARED;
-  for (int i = 0; i < s->n && has_slowed_matrix(s) && !s->ti->no_multipliers; ++i)
-    apart = fmax(apart, fabs(s->z[i] - of->phi_at[i] / unit_ratio(giver, s->ti, i) * of->phi_length / s->ti->length));
+  for (int i = 0; i < s->n && has_slowed_matrix(s) && !s->ti->no_multipliers; ++i) {
+    const double at = of->phi_at[i] / unit_ratio(giver, s->ti, i) * of->phi_length / s->ti->length;
+    apart = fmax(apart, fabs(s->z[i] - at) / s->ti->sizes.of[i]);
+  }
   if (exact && giver != s->ti && s->events == 0 && has_slowed_matrix(s) && of->phi_events > 0) st = give_own_matrix(s);
-  else if (!has_slowed_matrix(s) || !(apart <= same_matrix * timeint_scaled_size(s->ti)))
+  else if (!has_slowed_matrix(s) || !(apart <= same_matrix * timeint_scaled_size(s->ti)) ||
+           (apart > 0 && giver != s->ti && slips_where_rested(s, of)))
     st = find_slowed_matrix(s, s->z);
   if (st == HC_OK) take_slowed_matrix(s);
   return st;
 }
 
-static bool is_unit_row(const shoot *s, int i)
-{
-  for (int j = 0; j < s->n; ++j)
-    if (s->phi[i + j * s->n] != (i == j)) return false;
-  return true;
-}
-
-/* Is state i a slider at a fixed point of F^k wherever it is, or one that rests but for a slip as small as rounding? */
+/* Is state i a slider at a fixed point of F^k wherever it is, or one that rested? */
 static bool is_free(const shoot *s, int i)
 {
   if (i < 2 * s->ti->n_dof) return false;
-  if (s->travel[i] <= MEASURE_RESTS * timeint_scaled_size(s->ti)) return true;
+  if (rested(s, i)) return true;
   return s->f[i] == s->z[i] && is_unit_row(s, i);
 }
 
@@ -377,7 +396,6 @@ static hc_status make_anderson(shoot *s)
   s->weights = vectors_new(s->n, s->ctx);
   s->kin = s->u && s->weights ? KINCreate(s->ctx) : NULL;
   if (!s->kin || !hc_room_for(0)) return HC_NO_MEMORY;
-  N_VConst(1, s->weights);
   int bad = HC_KINSOL_QUIET(s->kin);
   bad |= KINSetUserData(s->kin, s);
   bad |= KINSetNumMaxIters(s->kin, ANDERSON_ITERATIONS);
@@ -388,8 +406,8 @@ static hc_status make_anderson(shoot *s)
 
 static hc_status make_memory(shoot *s)
 {
-  double **const vectors[] = {&s->z,    &s->f,    &s->start,  &s->first, &s->before, &s->iterate, &s->step,
-                              &s->best, &s->ones, &s->vector, &s->other, &s->travel, &s->phi_at,  &s->found_from};
+  double **const vectors[] = {&s->z,    &s->f,      &s->start,  &s->first, &s->before, &s->iterate, &s->step,
+                              &s->best, &s->weight, &s->vector, &s->other, &s->travel, &s->phi_at,  &s->found_from};
   double **const matrices[] = {&s->phi, &s->one_period, &s->product, &s->matrix};
   const size_t n = (size_t)s->n;
   workspace *w = &s->memory;
@@ -398,7 +416,6 @@ static hc_status make_memory(shoot *s)
   s->multipliers = workspace_array(w, n, sizeof *s->multipliers);
   s->active = workspace_array(w, n, sizeof *s->active);
   s->pivot = workspace_array(w, n, sizeof *s->pivot);
-  for (int i = 0; i < s->n && !w->failed; ++i) s->ones[i] = 1;
   return w->failed ? HC_NO_MEMORY : HC_OK;
 }
 
@@ -440,6 +457,7 @@ static void begin(shoot *s, int k, const hc_monitor *monitor)
   const size_t bytes = sizeof *s->before * (size_t)s->n;
   memcpy(s->before, s->ti->y, bytes);
   memcpy(s->iterate, s->ti->y, bytes);
+  for (int i = 0; i < s->n; ++i) s->weight[i] = 1 / s->ti->sizes.of[i];
   s->k = k;
   s->monitor = monitor;
   s->known = s->begun = s->measures = false;
@@ -492,8 +510,8 @@ static double nonlinear_part(const shoot *s, const double *z)
     left[i] = s->first[i] - s->f[i]; /* F(z*) is z*, and nearer to F(z0)'s own errors */
     for (int j = 0; j < n; ++j) left[i] -= s->phi[i + j * n] * e[j];
   }
-  const double size = norm_2(n, e), rounding = both_scatter * s->ti->tolerance;
-  return size > rounding ? fmax(norm_2(n, left) - rounding, 0) / size : 0;
+  const double size = timeint_norm(s->ti, e), rounding = both_scatter * s->ti->tolerance;
+  return size > rounding ? fmax(timeint_norm(s->ti, left) - rounding, 0) / size : 0;
 }
 
 /* The states in s->active[m] without those whose column of Phi is rounding: their multiplier is 0. How many are
@@ -541,7 +559,7 @@ static hc_status newton_step(shoot *s, const double *z, double *step, double *le
   if (st != HC_OK) return st;
   for (int i = 0; i < s->n; ++i) step[i] = z[i] - s->f[i];
   dense_solve(s->n, s->matrix, s->pivot, 1, step);
-  *length = norm_2(s->n, step);
+  *length = timeint_norm(s->ti, step);
   return HC_OK;
 }
 
@@ -550,9 +568,10 @@ static double attainable(shoot *s)
 {
   double sum = 0, *column = s->vector;
   for (int j = 0; j < s->n; ++j) {
-    for (int i = 0; i < s->n; ++i) column[i] = i == j;
+    for (int i = 0; i < s->n; ++i) column[i] = i == j ? s->ti->sizes.of[j] : 0;
     dense_solve(s->n, s->matrix, s->pivot, 1, column);
-    sum += norm_2(s->n, column) * norm_2(s->n, column);
+    const double length = timeint_norm(s->ti, column);
+    sum += length * length;
   }
   return sqrt(sum) * orbit_scatter(s->ti, s->k);
 }
@@ -577,9 +596,10 @@ static hc_status take_side_that_sticks(shoot *s)
   while (slips) {
     slips = false;
     for (int i = 2 * s->ti->n_dof; i < s->n; ++i) {
-      if (!(travel[i] <= rests && s->travel[i] > 0)) continue;
+      const double own = s->ti->sizes.of[i];
+      if (!(travel[i] <= rests * own && s->travel[i] > 0)) continue;
       if (z[i] != s->best[i]) return evaluate(s, s->best);
-      z[i] += copysign(s->travel[i] + EDGE_SCATTERS * orbit_scatter(s->ti, s->k), s->f[i] - z[i]);
+      z[i] += copysign(s->travel[i] + EDGE_SCATTERS * orbit_scatter(s->ti, s->k) * own, s->f[i] - z[i]);
       slips = true;
     }
     const hc_status st = slips ? evaluate(s, z) : HC_OK;
@@ -607,7 +627,7 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   if (st == HC_OK && r->distance < INFINITY) st = find_matrix(s);
   if (st != HC_OK || !(r->distance < INFINITY)) return st != HC_OK ? st : HC_NOT_CONVERGED;
   const bool asked = !(matrix_giver(s->ti) && s->ti->no_multipliers);
-  r->moved = distance_2(s->n, s->start, s->best);
+  r->moved = timeint_distance(s->ti, s->start, s->best);
   r->nonlinear = nonlinear_part(s, s->best);
   if ((st = take_side_that_sticks(s)) != HC_OK || (st = asked ? find_multiplier(s, r) : HC_OK) != HC_OK) return st;
   memcpy(s->ti->y, s->best, bytes);
@@ -630,7 +650,7 @@ static bool has_slider_nearly_at_rest(const shoot *s)
 {
   const double size = timeint_scaled_size(s->ti);
   for (int i = 2 * s->ti->n_dof; i < s->n && s->ti->slowed; ++i)
-    if (s->travel[i] > 0 && s->travel[i] <= nearly_at_rest * size) return true;
+    if (s->travel[i] > 0 && s->travel[i] <= nearly_at_rest * size * s->ti->sizes.of[i]) return true;
   return false;
 }
 
@@ -643,7 +663,7 @@ static hc_status by_chords(shoot *s, double reach, double enough, double near)
     hc_status st = evaluate(s, z);
     if (st != HC_OK) return st;
     for (int i = 0; i < s->n; ++i) s->step[i] = z[i] - s->f[i];
-    const double size = norm_2(s->n, s->step);
+    const double size = timeint_norm(s->ti, s->step);
     const bool near_rest = has_slider_nearly_at_rest(s);
     if (size <= enough && !near_rest) return HC_OK;
     idle = size <= chord_contracts * least ? 0 : idle + 1;
@@ -654,7 +674,7 @@ static hc_status by_chords(shoot *s, double reach, double enough, double near)
     if (renewed || steps == 0) st = factor_slowed_matrix(s, renewed);
     if (st != HC_OK) return st;
     dense_solve(s->n, s->matrix, s->pivot, 1, s->step);
-    const double length = norm_2(s->n, s->step), share = length > reach ? reach / length : 1;
+    const double length = timeint_norm(s->ti, s->step), share = length > reach ? reach / length : 1;
     if (!isfinite(length)) return HC_NOT_FINITE;
     if (length <= near && (length <= resolves_rest * timeint_scaled_size(s->ti) || !near_rest)) return HC_OK;
     const double shorter = steps > 0 ? chord_contracts_to * fmin(length / last, 1) : chord_contracts_to;
@@ -694,7 +714,7 @@ static hc_status begin_with_slowed(shoot *s, double reach, double enough)
 static bool starts_next_to(shoot *s)
 {
   return s->ti->no_multipliers && has_slowed_matrix(s) && evaluate(s, s->iterate) == HC_OK &&
-         distance_2(s->n, s->z, s->f) <= next_to_orbit * timeint_scaled_size(s->ti);
+         timeint_distance(s->ti, s->z, s->f) <= next_to_orbit * timeint_scaled_size(s->ti);
 }
 
 /* s->iterate next to the orbit of a large structure. */
@@ -714,8 +734,8 @@ hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_moni
     return HC_OK;
   }
   begin(s, k, monitor);
-  const newton_options options = {.z_scale = s->ones,
-                                  .r_scale = s->ones,
+  const newton_options options = {.z_scale = s->weight,
+                                  .r_scale = s->weight,
                                   .tolerance = small_residual(s, goal),
                                   .max_step = reach,
                                   .max_iterations = takes_coarse(s) ? KEPT_ITERATIONS : NEWTON_ITERATIONS,
@@ -738,6 +758,7 @@ hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor
   s->refusal = HC_OK;
   if (KINSetFuncNormTol(s->kin, small_residual(s, goal)) != KIN_SUCCESS) return HC_BAD_INPUT;
   memcpy(NV_DATA_S(s->u), s->before, bytes);
+  memcpy(NV_DATA_S(s->weights), s->weight, bytes);
   int flag = KINSol(s->kin, s->u, KIN_FP, s->weights, s->weights);
   memcpy(s->iterate, NV_DATA_S(s->u), bytes);
   if (s->refusal != HC_OK) return s->refusal;
@@ -766,13 +787,13 @@ bool shoot_found_no_orbit(hc_status st)
 void shoot_direction(shoot *s, double *z)
 {
   double *next = s->vector;
-  for (int i = 0; i < s->n; ++i) z[i] = 1 / sqrt(s->n);
+  for (int i = 0; i < s->n; ++i) z[i] = s->ti->sizes.of[i] / sqrt(s->n);
   for (int step = 0; step < DIRECTION_STEPS; ++step) {
     for (int i = 0; i < s->n; ++i) {
       next[i] = 0;
       for (int j = 0; j < s->n; ++j) next[i] += (is_free(s, i) ? 0 : s->phi[i + j * s->n]) * z[j];
     }
-    double size = norm_2(s->n, next);
+    double size = timeint_norm(s->ti, next);
     if (!(size > 0)) return;
     for (int i = 0; i < s->n; ++i) z[i] = next[i] / size;
   }
@@ -791,7 +812,7 @@ static int shortest_period(int k, double size, const double *returned)
 
 static double relative_closure(const timeint *ti, double distance, double amplitude)
 {
-  if (amplitude > 0) return distance * ti->length / amplitude;
+  if (amplitude > 0) return distance * timeint_response_unit(ti, 0) / amplitude;
   return distance > 0 ? INFINITY : 0;
 }
 
@@ -800,17 +821,19 @@ static bool is_measured(timeint *ti, int k)
 {
   double apart = 0;
   if (ti->last.k != k || ti->last.omega != ti->omega) return false;
-  for (int i = 0; i < ti->n; ++i) apart = fmax(apart, fabs(ti->y[i] * ti->length - ti->last.end[i] * ti->last.length));
-  if (!(apart <= orbit_goal(ti) * ti->length)) return false;
+  for (int i = 0; i < ti->n; ++i) {
+    const double there = ti->last.end[i] * ti->last.length / ti->length;
+    apart = fmax(apart, fabs(ti->y[i] - there) / ti->sizes.of[i]);
+  }
+  if (!(apart <= orbit_goal(ti))) return false;
+  timeint_use_length(ti, ti->last.length);
   memcpy(ti->y, ti->last.end, sizeof *ti->y * (size_t)ti->n);
-  ti->length = ti->last.length;
-  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
   return true;
 }
 
 static void report_measured(timeint *ti, timeint_result *r)
 {
-  measure_report(&ti->measure, ti->model, 0, ti->length, r);
+  timeint_report(ti, 0, r);
   r->free_sliders = measure_resting_sliders(&ti->measure);
   ti->measured = true;
 }
@@ -833,7 +856,8 @@ hc_status orbit_measure(timeint *ti, int k, timeint_result *r)
     hc_status st = timeint_period(ti, true);
     if (st != HC_OK) return st;
     returned[i + 1] = 0;
-    for (size_t c = 0; c < moving; ++c) returned[i + 1] = fmax(returned[i + 1], fabs(ti->y[c] - began[c]));
+    for (size_t c = 0; c < moving; ++c)
+      returned[i + 1] = fmax(returned[i + 1], fabs(ti->y[c] - began[c]) / ti->sizes.of[c]);
   }
   report_measured(ti, r);
   r->switches = (int)(integrate_transitions(ti->in) - transitions);
@@ -942,7 +966,7 @@ static hc_status integrate_and_step(shoot *s, double *length, timeint_result *r)
   if (st != HC_OK) return st;
   for (int i = 0; i < s->n; ++i) s->step[i] = s->iterate[i] - ti->y[i];
   dense_solve(s->n, s->matrix, s->pivot, 1, s->step);
-  *length = norm_2(s->n, s->step);
+  *length = timeint_norm(s->ti, s->step);
   return isfinite(*length) ? HC_OK : HC_NOT_FINITE;
 }
 
@@ -990,7 +1014,7 @@ hc_status shoot_confirm(shoot *s, int k, double goal, double off, const hc_monit
       break;
     }
     for (int i = 0; i < s->n; ++i) s->iterate[i] -= s->step[i];
-    if (!(distance_2(s->n, s->iterate, s->before) <= ORBIT_REGULARISED_WITHIN * size)) st = HC_NOT_CONVERGED;
+    if (!(timeint_distance(s->ti, s->iterate, s->before) <= ORBIT_REGULARISED_WITHIN * size)) st = HC_NOT_CONVERGED;
     last = length;
   }
   if (st != HC_OK) memcpy(ti->y, s->before, bytes);

@@ -11,6 +11,8 @@
 #include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/timeint_private.h"
 
+static const double finest = 1e-14; /* [1] of its own motion to which a state can be resolved */
+
 static bool state_ok(const timeint *ti, const double *state)
 {
   bool ok = true;
@@ -34,7 +36,8 @@ static double least_length(const timeint *ti)
 static void take_state(const timeint *ti, const double *state, double length, double *y)
 {
   const int n = ti->n_dof;
-  modal_base_to_modes(ti->base, state, y);
+  for (int i = 0; i < n; ++i) ti->from_rest[i] = state[i] - ti->rest[i];
+  modal_base_to_modes(ti->base, ti->from_rest, y);
   modal_base_to_modes(ti->base, state + n, y + n);
   for (int i = 0; i < n; ++i) {
     y[i] /= length;
@@ -43,7 +46,7 @@ static void take_state(const timeint *ti, const double *state, double length, do
   for (int j = 0; j < ti->model->n_contacts; ++j) {
     const double *tangent = ti->base->tangent + (size_t)j * (size_t)n;
     const bool friction = contact_has_friction(&ti->model->contacts[j].law);
-    y[2 * n + j] = friction ? state[2 * n + j] / length : dot_product(n, tangent, y);
+    y[2 * n + j] = friction ? (state[2 * n + j] - ti->rest_u[j]) / length : dot_product(n, tangent, y);
   }
 }
 
@@ -92,6 +95,48 @@ hc_status timeint_slow_modes(timeint *ti, double omega)
   return st;
 }
 
+/* Sizes of states at ti->y from what is known of vibrations, and the equations with them. */
+static void use_sizes(timeint *ti)
+{
+  const bool closed = ti->how.method == TRANSIENT_METHOD_CLOSED_FORM;
+  const double within = closed ? ti->how.tolerance : timeint_final_tolerance(ti);
+  state_sizes_find(&ti->sizes, ti->base, finest / within, ti->y);
+  scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, ti->length);
+}
+
+void timeint_use_length(timeint *ti, double length)
+{
+  for (int i = 0; i < ti->n; ++i) ti->y[i] *= ti->length / length;
+  ti->length = length;
+  use_sizes(ti);
+}
+
+void timeint_use_measured(timeint *ti, const timeint *of)
+{
+  if (!of->measured) return;
+  measure_vibration(&of->measure, of->length, ti->sizes.vibration);
+  use_sizes(ti);
+}
+
+/* The orbit at ti->omega that was given out as `state`; NULL: none was lately. */
+static const known_orbit *recall(const timeint *ti, const double *state)
+{
+  for (const known_orbit *k = ti->known; k < ti->known + KNOWN_ORBITS; ++k)
+    if (k->omega == ti->omega && !memcmp(k->state, state, (size_t)ti->n * sizeof *state)) return k;
+  return NULL;
+}
+
+void timeint_remember(timeint *ti, const double *state)
+{
+  if (recall(ti, state)) return;
+  known_orbit *k = &ti->known[ti->next_known];
+  ti->next_known = (ti->next_known + 1) % KNOWN_ORBITS;
+  k->omega = ti->omega;
+  k->regularisation = ti->how.regularisation;
+  memcpy(k->state, state, (size_t)ti->n * sizeof *state);
+  memcpy(k->vibration, ti->sizes.vibration, (size_t)ti->sizes.n_rows * sizeof *k->vibration);
+}
+
 hc_status timeint_begin(timeint *ti, double omega, const double *state)
 {
   const model *m = ti->model;
@@ -114,9 +159,14 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
     length = l > 0 ? l : 1;
   }
   if (!(ti->least_length > 0)) ti->least_length = length;
-  ti->length = length;
   take_state(ti, state, length, ti->y);
-  scaled_make(&ti->scaled, m, &ti->how, omega, length);
+  ti->length = length;
+  state_sizes_begin(&ti->sizes, ti->base, m, omega);
+  const known_orbit *known = recall(ti, state);
+  ti->how.regularisation = known ? known->regularisation : ti->regularisation;
+  if (known) memcpy(ti->sizes.vibration, known->vibration, (size_t)ti->sizes.n_rows * sizeof(double));
+  else state_sizes_see(&ti->sizes, ti->base, length, ti->y);
+  use_sizes(ti);
   return HC_OK;
 }
 
@@ -137,13 +187,10 @@ hc_status timeint_set_tolerance(timeint *ti, double tolerance)
 static const double unit_factor = 4;
 static void follow_length(timeint *ti)
 {
-  double size = timeint_motion_size(ti);
-  if (size > unit_factor * ti->length || size * unit_factor < ti->length) {
-    const double ratio = ti->length / size;
-    for (int i = 0; i < ti->scaled.n_states; ++i) ti->y[i] *= ratio;
-    ti->length = size;
-    scaled_make(&ti->scaled, ti->model, &ti->how, ti->omega, size);
-  }
+  const double size = timeint_motion_size(ti);
+  const bool larger = state_sizes_see(&ti->sizes, ti->base, ti->length, ti->y);
+  if (size > unit_factor * ti->length || size * unit_factor < ti->length) timeint_use_length(ti, size);
+  else if (larger) use_sizes(ti);
 }
 
 const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor)
@@ -172,18 +219,53 @@ void timeint_get_state(const timeint *ti, double *state)
   modal_base_to_model(ti->base, ti->y, state);
   modal_base_to_model(ti->base, ti->y + n, state + n);
   for (int i = 0; i < n; ++i) {
-    state[i] *= length;
+    state[i] = state[i] * length + ti->rest[i];
     state[n + i] = state[n + i] * length * ti->omega;
   }
   for (int j = 0; j < ti->model->n_contacts; ++j) {
     double u[2], v;
     scaled_contact_motion(&ti->scaled, j, ti->y, u, &v);
-    state[2 * n + j] = (ti->scaled.contact[j].law.has_friction ? ti->y[2 * n + j] : u[0]) * length;
+    state[2 * n + j] = (ti->scaled.contact[j].law.has_friction ? ti->y[2 * n + j] : u[0]) * length + ti->rest_u[j];
   }
+}
+
+void timeint_shift_result(const timeint *ti, int i, timeint_result *r)
+{
+  const double by = dot_product(ti->n_dof, ti->model->responses + (size_t)i * (size_t)ti->n_dof, ti->rest);
+  r->rms = sqrt(r->rms * r->rms + (2 * r->mean + by) * by);
+  r->mean += by;
+  r->max += by;
+  r->min += by;
+  for (int k = 0; k < TIMEINT_WAVE; ++k) r->wave[k] += by;
+}
+
+void timeint_report(const timeint *ti, int i, timeint_result *r)
+{
+  measure_report(&ti->measure, ti->model, i, ti->length, r);
+  timeint_shift_result(ti, i, r);
 }
 
 void timeint_save(timeint *ti) { memcpy(ti->saved, ti->y, sizeof *ti->y * (size_t)ti->n); }
 void timeint_restore(timeint *ti) { memcpy(ti->y, ti->saved, sizeof *ti->y * (size_t)ti->n); }
+
+double timeint_norm(const timeint *ti, const double *z) { return state_sizes_norm(ti->n, ti->sizes.of, z); }
+
+double timeint_distance(const timeint *ti, const double *a, const double *b)
+{
+  return state_sizes_distance(ti->n, ti->sizes.of, a, b);
+}
+
+double timeint_farthest(const timeint *ti, const double *a, const double *b)
+{
+  double most = 0;
+  for (int i = 0; i < ti->n; ++i) most = larger(most, fabs(a[i] - b[i]) / ti->sizes.of[i]);
+  return most;
+}
+
+double timeint_response_unit(const timeint *ti, int i)
+{
+  return state_sizes_unit(&ti->sizes, 2 * ti->model->n_contacts + i) * ti->length;
+}
 
 double timeint_size(const timeint *ti) { return size_of(ti) * ti->length; }
 double timeint_motion_size(const timeint *ti) { return fmax(timeint_size(ti), ti->least_length); }
@@ -194,11 +276,12 @@ void timeint_point(const timeint *ti, double *z)
   const scaled_model *m = &ti->scaled;
   const int moving = 2 * ti->n_dof;
   const double stiffest = ti->base->highest * ti->base->highest / (ti->omega * ti->omega);
-  for (int i = 0; i < moving; ++i) z[i] = ti->y[i] * ti->length;
+  for (int i = 0; i < moving; ++i) z[i] = ti->y[i] / ti->sizes.of[i] * ti->length;
   for (int j = 0; j < m->n_contacts; ++j) {
     const scaled_contact *c = &m->contact[j];
     const double pull = c->law.kt * scaled_pull(m, j);
-    z[moving + j] = c->law.has_friction ? pull / stiffest * ti->y[moving + j] * ti->length : 0.0;
+    z[moving + j] =
+        c->law.has_friction ? pull / stiffest * ti->y[moving + j] / ti->sizes.of[moving + j] * ti->length : 0.0;
   }
 }
 
@@ -209,7 +292,7 @@ void timeint_point(const timeint *ti, double *z)
  * pass over whole contacts. */
 double timeint_final_tolerance(const timeint *ti)
 {
-  const double finest = 1e-14, coarsest = 1e-6, share = 1e-3;
+  const double coarsest = 1e-6, share = 1e-3;
   if (ti->how.method == TRANSIENT_METHOD_CLOSED_FORM) return finest; /* of rounding alone */
   return fmin(fmax(share * ti->how.tolerance * sqrt(1 - fmin(ti->contraction, 1)), finest), coarsest);
 }

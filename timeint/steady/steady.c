@@ -13,6 +13,7 @@
 #include "timeint/steady/closed_form_start.h"
 #include "timeint/steady/linear_regime.h"
 #include "timeint/steady/mass_scaling.h"
+#include "timeint/steady/regularised.h"
 #include "timeint/steady/settle.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
@@ -255,9 +256,10 @@ static hc_status to_nearest_orbit(timeint *ti, int k, const hc_monitor *monitor,
 static void leave_unstable_orbit(timeint *ti)
 {
   const double size = timeint_size(ti) / ti->length, *began = ti->saved, *direction = ti->direction;
+  const double *own = ti->sizes.of;
   double along = 0;
   shoot_direction(ti->shoot, ti->direction);
-  for (int i = 0; i < ti->n; ++i) along += direction[i] * (began[i] - ti->y[i]);
+  for (int i = 0; i < ti->n; ++i) along += direction[i] / own[i] * (began[i] - ti->y[i]) / own[i];
   const double step = (along < 0 ? -perturbation : perturbation) * size;
   for (int i = 0; i < ti->n; ++i) ti->y[i] = began[i] + step * direction[i];
 }
@@ -328,7 +330,10 @@ static hc_status reach(timeint *ti, double omega, int k, bool at_state, double *
   if (closed_first && at_state) st = closed_start_confirm(ti, k, monitor, result, &done);
   else if (closed_first) st = closed_start_steady(ti, k, state, monitor, result, &done);
   if (st == HC_OK && !done) st = k > 0 ? to_nearest_orbit(ti, k, monitor, result) : by_itself(ti, monitor, result);
+  if (st == HC_OK) st = regularised_check(ti, monitor, result);
   timeint_get_state(ti, state); /* on failure, the last one that was reached */
+  if (st == HC_OK) timeint_remember(ti, state);
+  if (st == HC_OK && done && !at_state) closed_start_remember(ti, state, result);
   timeint_hear(ti, before);
   result->periods = ti->periods;
   result->steps = integrate_steps(ti->in) - ti->steps0;
@@ -357,14 +362,15 @@ hc_status timeint_again(timeint *ti, double omega, int k, double *state, const h
 hc_status timeint_response(timeint *ti, int i, timeint_result *r)
 {
   if (i < 0 || i >= scaled_n_responses(&ti->scaled)) return HC_BAD_INPUT;
-  const double amplitude = r->amplitude;
+  const double one = r->amplitude / timeint_response_unit(ti, 0);
   if (!ti->measured) {
     timeint_result again = *r;
     hc_status st = orbit_measure(ti, r->period_multiple > 0 ? r->period_multiple : 1, &again);
     if (st != HC_OK) return st;
   }
-  measure_report(&ti->measure, ti->model, i, ti->length, r);
-  r->closure *= amplitude / r->amplitude; /* they are relative to it */
-  r->attainable *= amplitude / r->amplitude;
+  timeint_report(ti, i, r);
+  const double other = r->amplitude / timeint_response_unit(ti, i); /* closure and attainable are relative to it */
+  r->closure *= one / other;
+  r->attainable *= one / other;
   return HC_OK;
 }

@@ -2,7 +2,10 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "model/rest.h"
+#include "numerics/norm.h"
 #include "timeint/steady/closed_form_start.h"
 #include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/shoot.h"
@@ -34,9 +37,18 @@ static hc_status make_memory(timeint *ti)
   const size_t n = (size_t)ti->n;
   workspace *w = &ti->memory;
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i) *vectors[i] = workspace_doubles(w, n);
+  ti->from_rest = workspace_doubles(w, (size_t)ti->n_dof);
+  ti->amplitudes = workspace_doubles(w, 2 * (size_t)ti->base->n_responses);
   ti->past = workspace_doubles(w, SETTLE_MAX_MULTIPLE * n);
   ti->scaled.contact = workspace_array(w, (size_t)ti->model->n_contacts, sizeof *ti->scaled.contact);
-  return measure_make(&ti->measure, ti->n, ti->base->n_responses, ti->model->n_contacts, w);
+  hc_status st = state_sizes_make(&ti->sizes, ti->base, w);
+  for (int i = 0; i < KNOWN_ORBITS && st == HC_OK; ++i) {
+    ti->known[i].state = workspace_doubles(w, n);
+    ti->known[i].vibration = workspace_doubles(w, (size_t)ti->sizes.n_rows);
+  }
+  ti->scaled.size = ti->sizes.of;
+  ti->scaled.vibration = st == HC_OK ? ti->sizes.vibration + ti->model->n_contacts : NULL;
+  return st != HC_OK ? st : measure_make(&ti->measure, ti->n, ti->base->n_responses, ti->model->n_contacts, w);
 }
 
 static hc_status make_parts(timeint *ti)
@@ -47,8 +59,22 @@ static hc_status make_parts(timeint *ti)
   return st == HC_OK ? shoot_new(ti, &ti->shoot) : st;
 }
 
-/* The handle, alone. */
-static hc_status make(const model *m, const transient_settings *how, bool may_slow, timeint **out)
+/* ti->model, rest, rest_u: of m, or where `of` has them already. */
+static hc_status settle_to_rest(timeint *ti, const model *m, const timeint *of)
+{
+  const size_t n = (size_t)m->n;
+  ti->rest = workspace_doubles(&ti->memory, n);
+  ti->rest_u = workspace_doubles(&ti->memory, (size_t)m->n_contacts);
+  if (ti->memory.failed) return HC_NO_MEMORY;
+  hc_status st = of ? model_copy(of->model, &ti->model) : model_about_rest(m, &ti->model, ti->rest);
+  if (of) memcpy(ti->rest, of->rest, n * sizeof *ti->rest);
+  for (int j = 0; j < m->n_contacts && st == HC_OK; ++j)
+    ti->rest_u[j] = dot_product(m->n, m->contacts[j].tangent, ti->rest);
+  return st;
+}
+
+/* The handle, alone: of m, or of the model about rest that `of` has. */
+static hc_status make(const model *m, const timeint *of, const transient_settings *how, bool may_slow, timeint **out)
 {
   *out = NULL;
   const size_t n = (size_t)m->n;
@@ -67,6 +93,7 @@ static hc_status make(const model *m, const transient_settings *how, bool may_sl
   timeint *ti = calloc(1, sizeof *ti); /* zeroed, so free works half-built */
   if (!ti) return HC_NO_MEMORY;
   ti->how = *how;
+  ti->regularisation = how->regularisation;
   ti->how.scout = how->scout && !model_is_smooth(m); /* which has no closed form */
   ti->owners = 1;
   ti->may_slow = may_slow;
@@ -74,8 +101,8 @@ static hc_status make(const model *m, const transient_settings *how, bool may_sl
   ti->n_dof = m->n;
   ti->n = 2 * m->n + m->n_contacts;
   ti->tolerance = timeint_final_tolerance(ti);
-  hc_status st = model_copy(m, &ti->model);
-  if (st == HC_OK) st = modal_base_new(m, &ti->whole);
+  hc_status st = settle_to_rest(ti, m, of);
+  if (st == HC_OK) st = modal_base_new(ti->model, &ti->whole);
   ti->base = ti->whole;
   if (st == HC_OK && (st = make_parts(ti)) == HC_OK) {
     *out = ti;
@@ -92,15 +119,26 @@ static hc_status keep_or_free(timeint *ti, hc_status st, timeint **out)
   return st;
 }
 
-hc_status timeint_new(const model *m, const transient_settings *how, timeint **out)
+/* With what it needs beside it. */
+static hc_status make_all(const model *m, const timeint *of, const transient_settings *how, timeint **out)
 {
   const bool closed = how->method == TRANSIENT_METHOD_CLOSED_FORM;
   timeint *ti;
   *out = NULL;
-  hc_status st = make(m, how, !closed, &ti);
-  if (st == HC_OK && closed && mass_scaling_may_pay(ti->whole)) st = make(m, how, true, &ti->slowed);
+  hc_status st = make(m, of, how, !closed, &ti);
+  if (st == HC_OK && closed && mass_scaling_may_pay(ti->whole)) st = make(ti->model, ti, how, true, &ti->slowed);
   if (st == HC_OK && !closed && ti->how.scout) st = closed_start_new(ti);
   return keep_or_free(ti, st, out);
+}
+
+hc_status timeint_new(const model *m, const transient_settings *how, timeint **out)
+{
+  return make_all(m, NULL, how, out);
+}
+
+hc_status timeint_new_like(const timeint *of, const transient_settings *how, timeint **out)
+{
+  return make_all(of->model, of, how, out);
 }
 
 bool timeint_slows_modes(const timeint *ti, double omega)
@@ -127,9 +165,9 @@ hc_status timeint_new_beside(timeint *of, const transient_settings *how, timeint
   timeint *ti;
   *out = NULL;
   const bool same = of->closed_form && (of->closed_form->slowed || of->closed_form->how.tolerance <= how->tolerance);
-  if (!same || !how->scout || how->method == TRANSIENT_METHOD_CLOSED_FORM) return timeint_new(of->model, how, out);
+  if (!same || !how->scout || how->method == TRANSIENT_METHOD_CLOSED_FORM) return timeint_new_like(of, how, out);
   if (how->law == TRANSIENT_LAW_EXACT && (*out = timeint_closed_form_of(of))) return HC_OK;
-  hc_status st = make(of->model, how, true, &ti);
+  hc_status st = make(of->model, of, how, true, &ti);
   if (st == HC_OK) st = closed_start_share(ti, of->closed_form);
   return keep_or_free(ti, st, out);
 }
@@ -166,7 +204,7 @@ void timeint_count(const timeint *ti, long *by_cvode, long *closed_form)
 
 int timeint_n_states(const timeint *ti) { return ti->n; }
 
-void timeint_rest(const timeint *ti, double *state) /* x = 0 is static equilibrium without the static loads */
+void timeint_rest(const timeint *ti, double *state)
 {
-  for (int i = 0; i < ti->n; ++i) state[i] = 0;
+  for (int i = 0; i < ti->n; ++i) state[i] = i < ti->n_dof ? ti->rest[i] : 0;
 }

@@ -5,14 +5,26 @@
 #pragma once
 
 #include "timeint/law/scaled.h"
+#include "timeint/law/state_sizes.h"
 #include "timeint/period/integrate.h"
 #include "timeint/period/measure.h"
 #include "timeint/steady/settle.h"
 #include "timeint/timeint.h"
 
+/* What the equations were of an orbit that was found: kept as long as somebody may come back to it. */
+enum { KNOWN_ORBITS = 4 };
+typedef struct known_orbit {
+  double omega, regularisation;
+  double *state;     /* [n] as it was given out */
+  double *vibration; /* [rows of state_sizes.h] */
+} known_orbit;
+
 struct timeint {          /* from timeint_new, to timeint_free; not shared between threads              */
-  model *model;           /* a copy: the caller may drop theirs                                         */
-  transient_settings how; /* a copy                                                                     */
+  model *model;           /* the caller's, about rest: x of it is x - rest (model/rest.h)                */
+  double *rest;           /* [n_dof] [length] */
+  double *rest_u;         /* [contacts] [length] tangent . rest: a slider of it is w - rest_u */
+  transient_settings how; /* a copy; its regularisation may be halved for an orbit                      */
+  double regularisation;  /* what was asked for                                                         */
   modal_base *whole;      /* the model in its modes                                                     */
   modal_base *base;       /* what is integrated: `whole`, or a copy with its fastest modes slowed       */
   bool may_slow;          /* it may be that (mass_scaling.h)                                             */
@@ -38,10 +50,14 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
     double omega, length;  /* and where these periods ended, in that unit                               */
     double *end;           /* [n]                                                                       */
   } last;
-  scaled_model scaled;       /* the equations at omega in units of length                                     */
-  double omega;              /* [rad/time]                                                                    */
-  double length;             /* [length] about the size of the motion; y is in units of it                    */
-  double least_length;       /* [length] the unit is never smaller                                            */
+  scaled_model scaled; /* the equations at omega in units of length                                     */
+  double omega;        /* [rad/time]                                                                    */
+  double length;       /* [length] about the size of the motion; y is in units of it                    */
+  double least_length; /* [length] the unit is never smaller                                            */
+  state_sizes sizes;   /* of states in that unit                                                        */
+  known_orbit known[KNOWN_ORBITS];
+  int next_known;
+  double *amplitudes;        /* [2][responses] of the exact law's orbit; of the orbit before the last           */
   double tolerance;          /* [1] CVODE's at present                                                        */
   double contraction;        /* [1] a priori, per period: exp(-T least C_ii/2), of modes                       */
   int periods;               /* since timeint_begin                                                           */
@@ -49,6 +65,7 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double *y;                 /* [n] the state                                                                 */
   double *saved;             /* [n] y before a Newton solve whose answer may be rejected                      */
   double *direction;         /* [n] in which an unstable orbit is left                                        */
+  double *from_rest;         /* [n_dof] x of a state as it comes in, less rest                                  */
   double *closed_form_state; /* [n] of the closed form's orbit, in the model's units                                */
   double *neighbour;         /* [n] state of a second motion, drawn along with the first                      */
   double *separation;        /* [n] neighbour - y at the beginning of a period                                */
@@ -57,6 +74,9 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double *past;              /* [SETTLE_MAX_MULTIPLE][n] a ring of the latest of these                        */
   workspace memory;          /* of all the arrays above                                                       */
 };
+
+/* As timeint_new, for the model of another handle. */
+hc_status timeint_new_like(const timeint *of, const transient_settings *how, timeint **out);
 
 /* ti->in and ti->exact, of ti->base, whatever they were of before. HC_NO_MEMORY. */
 hc_status timeint_make_integrators(timeint *ti);
@@ -68,11 +88,35 @@ hc_status timeint_slow_modes(timeint *ti, double omega);
  * state are finite, omega > 0. */
 hc_status timeint_begin(timeint *ti, double omega, const double *state);
 
+/* The equations in another unit of length, ti->y in it, and sizes of states there. */
+void timeint_use_length(timeint *ti, double length);
+
+/* Vibrations become those of the periods that `of`, a handle of the same model, measured last; nothing happens where
+ * there are none. */
+void timeint_use_measured(timeint *ti, const timeint *of);
+
+/* [1] |z| in units of states' sizes, z[n] as ti->y; and of a - b; and the largest component of that. */
+double timeint_norm(const timeint *ti, const double *z);
+double timeint_distance(const timeint *ti, const double *a, const double *b);
+double timeint_farthest(const timeint *ti, const double *a, const double *b);
+
+/* [length] By about how much response i is off where a state is by 1 of its size. */
+double timeint_response_unit(const timeint *ti, int i);
+
+/* ti->y is on an orbit, which has been given out as `state`. */
+void timeint_remember(timeint *ti, const double *state);
+
 /* Another regularisation from the next period on. */
 void timeint_regularise(timeint *ti, double regularisation);
 
 /* Another tolerance of CVODE's from the next period on. */
 hc_status timeint_set_tolerance(timeint *ti, double tolerance);
+
+/* Measures of response i of the periods measured last, in the case's coordinates, into *r. */
+void timeint_report(const timeint *ti, int i, timeint_result *r);
+
+/* Those of a motion about rest become those in the case's coordinates. */
+void timeint_shift_result(const timeint *ti, int i, timeint_result *r);
 
 /* What periods hear between their steps, of closed_form, too, until something else is given; what it was before. */
 const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor);
@@ -80,11 +124,11 @@ const hc_monitor *timeint_hear(timeint *ti, const hc_monitor *monitor);
 /* One period, measured or not; then the unit of length follows the motion. */
 hc_status timeint_period(timeint *ti, bool measured);
 
-/* state[n]: where the motion is, in the model's units. A contact without friction has its slider where the exact law
- * has it, at u. */
+/* state[n]: where the motion is, in the case's coordinates and units. A contact without friction has its slider where
+ * the exact law has it, at u. */
 void timeint_get_state(const timeint *ti, double *state);
 
-/* y[n]: `state` as ti->y has it, at the present omega, in the present unit of length. */
+/* y[n]: `state`, of the case's coordinates, as ti->y has it, at the present omega, in the present unit of length. */
 void timeint_take_state(const timeint *ti, const double *state, double *y);
 
 /* ti->y becomes what it was when timeint_save was last called; neither changes the unit of length. */
@@ -101,7 +145,8 @@ double timeint_motion_size(const timeint *ti);
 double timeint_scaled_size(const timeint *ti);
 
 /* z[n] [length]: what settling is judged by: modal q and q'/omega (modal_base.h), and of each slider about how far q
- * would follow it, s^2 kt |t_j| w_j/highest^2; 0 without friction. */
+ * would follow it, s^2 kt |t_j| w_j/highest^2; 0 without friction. In units of states' sizes, times the unit of
+ * length. */
 void timeint_point(const timeint *ti, double *z);
 
 /* CVODE's tolerance for a steady state within transient.tolerance. */
