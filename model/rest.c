@@ -21,7 +21,7 @@ typedef struct statics {
   double *tractions;  /* [n] sum t_j T_j at rest */
   double *J;          /* [n][n] dR/dx */
   int *pivot;         /* [n] */
-  double size;        /* [force] all forces of the last residual, added up by size */
+  double size;        /* [force] all forces of the last residual, and what they are differences of, added up by size */
   double pull;        /* [force] its tractions alone */
 } statics;
 
@@ -72,6 +72,7 @@ static void residual(statics *s, const double *x, double *R, double *J)
     const double f =
         contact_never_opens(&c->law) ? contact_polynomial(&c->law, v, &slope) : contact_normal_change(&c->law, v);
     add_force(s, f, c->normal, R);
+    if (v + c->law.gap > 0) s->size += c->law.kn * (fabs(v) + fabs(c->law.gap)) * norm_2(n, c->normal);
     if (J) add_outer(n, slope, c->normal, c->normal, J);
     const bool second_of_two = c->circle && c->pair == CONTACT_SECOND;
     if (contact_has_friction(&c->law) && !second_of_two) add_traction(s, j, x, R, J);
