@@ -125,7 +125,10 @@ static double found_again(solved_scene *s, const rewritten *w, const double *kno
 {
   const size_t n = (size_t)w->model->n * (size_t)s->n_coef;
   double *guess = malloc(n * sizeof *guess);
-  for (size_t i = 0; guess && i < n; ++i) guess[i] = known[i] * (1 + beside * random_signed(&s->random));
+  for (size_t i = 0; guess && i < n; ++i) {
+    const double rests = w->offset && i < (size_t)s->n ? w->offset[i] : 0;
+    guess[i] = known[i] + beside * random_signed(&s->random) * (known[i] - rests);
+  }
   if (!guess) s->fatal = HC_NO_MEMORY;
   stress_motion_solve(s, w->model, &s->how, s->omega / w->time, guess, w->length, out);
   free(guess);
@@ -341,6 +344,17 @@ static stress_check hold_all(solved_scene *s, hc_status made, rewritten *w, bool
   return c;
 }
 
+/* [1] Static loads, relative to those that vibrate: what rounding of the model's numbers is multiplied by. */
+static double static_share(const model *m)
+{
+  double rests = 0, vibrates = 0;
+  for (int l = 0; l < m->n_loads; ++l) {
+    const double size = norm_2(m->n, m->loads[l].cosine) + norm_2(m->n, m->loads[l].sine);
+    *(m->loads[l].harmonic == 0 ? &rests : &vibrates) += size;
+  }
+  return rests / vibrates;
+}
+
 /* Without harmonic 0 static loads are left out. */
 stress_check stress_check_shifted(solved_scene *s)
 {
@@ -348,7 +362,7 @@ stress_check stress_check_shifted(solved_scene *s)
   if (!s->how.keep_mean) return stress_skip(STRESS_NOT_APPLICABLE);
   const double ratio = between(s, 1, most_shift);
   hc_status made = rewritten_shifted(s->model, ratio * vibration(s, NULL), &s->random, &w);
-  w.ratio = ratio;
+  w.ratio = made == HC_OK ? fmax(ratio, static_share(w.model)) : ratio;
   return hold_all(s, made, &w, false);
 }
 

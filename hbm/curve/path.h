@@ -69,8 +69,8 @@ void path_fill_normal(path *p);
 hc_status path_correct_in_plane(path *p);
 
 /* One step of fixed length into the trial, predicted along the last tangent and corrected by plain Newton. HC_OK, and
- * accepted; HC_NOT_CONVERGED where hbm.iterations of Newton's were not enough, HC_JUMPED, or another error of hbm_solve_plane and
- * hbm_tangent_plane. */
+ * accepted; HC_NOT_CONVERGED where hbm.iterations of Newton's were not enough, HC_JUMPED, or another error of
+ * hbm_solve_plane and hbm_tangent_plane. */
 hc_status path_fixed_step(path *p, bool *accepted);
 
 /* As many harmonics as the last point needs. HC_OK once the estimated error (refine.h) meets hbm.accuracy, or where no

@@ -16,8 +16,9 @@ enum {
 };
 
 static const double converged = 0.02; /* a step this small beside what all came to changes the error by as little */
-/* [1] in the metric at X. Newton that has not converged after steps as long has no such solution to come to; one that far away is
- * another: beyond a fold of theirs the finer equations have none next to X, and no number bounds what X is off. */
+/* [1] in the metric at X. Newton that has not converged after steps as long has no such solution to come to; one that
+ * far away is another: beyond a fold of theirs the finer equations have none next to X, and no number bounds what X is
+ * off. */
 static const double lost = 0.1, another = 0.3;
 static const double roundings = 4; /* a motion and its measures take a few */
 

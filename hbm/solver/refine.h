@@ -1,7 +1,8 @@
 /* refine.h - the error of a solution by truncation or sampling, estimated by one Newton step on finer equations. With
  * R' the residual of twice the harmonics (or samples), J' its Jacobian and X the solution padded with zeros, X - J'^-1
  * R'(X) is their solution to second order, so the length of J'^-1 R'(X) in the metric at X (metric.h) estimates the
- * relative error of X, low harmonics included. The difference of solutions for H and H + 1 is no estimate: convergence in H is not monotone. */
+ * relative error of X, low harmonics included. The difference of solutions for H and H + 1 is no estimate: convergence
+ * in H is not monotone. */
 #pragma once
 
 #include "hbm/solver/system.h"
@@ -15,15 +16,15 @@ void refinement_free(refinement *r);
 
 int refinement_harmonics(const refinement *r);
 
-/* Y[dim (2 n' + 1)] := Y - J'^-1 R'(Y), n' = refinement_harmonics; *step [1] = its length in the metric. Errors of the contact
- * force, HC_SINGULAR, HC_NOT_FINITE: Y is as it was, *step INFINITY. */
+/* Y[dim (2 n' + 1)] := Y - J'^-1 R'(Y), n' = refinement_harmonics; *step [1] = its length in the metric. Errors of the
+ * contact force, HC_SINGULAR, HC_NOT_FINITE: Y is as it was, *step INFINITY. */
 hc_status refinement_step(refinement *r, double omega, double *Y, double *step);
 
 /* x[2 n' + 1]: response r of the model, of Y at omega. Errors of hbm_response. */
 hc_status refinement_response(refinement *r, double omega, const double *Y, int response, double *x);
 
-/* [1] How far rounding may move what the last step came to: the length of J'^-1 s, where each s_i is one rounding of the
- * sum of all forces on its coordinate. INFINITY rather than a NaN. */
+/* [1] How far rounding may move what the last step came to: the length of J'^-1 s, where each s_i is one rounding of
+ * the sum of all forces on its coordinate. INFINITY rather than a NaN. */
 double refinement_rounding(refinement *r, double omega);
 
 /* Relative error of the solution X[dim (2 n_harm + 1)], n_harm <= refinement_harmonics; INFINITY if the step fails. */

@@ -1,5 +1,5 @@
-/* test_metric.c - lengths of harmonic balance's motions, contact by contact; and what hangs on them: a curve is the same
- * beside a contact that moves more, about another rest, and in other coordinates. */
+/* test_metric.c - lengths of harmonic balance's motions, contact by contact; and what hangs on them: a curve is the
+ * same beside a contact that moves more, about another rest, and in other coordinates. */
 #include "hbm/curve/special_points.h"
 #include "hbm/hbm.h"
 #include "hbm/solver/metric.h"

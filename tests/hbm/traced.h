@@ -70,8 +70,8 @@ static inline void free_traced(traced *t)
 
 /* The rows[n] of one curve, as one frequency after the other, to `tol` of the amplitude; in the order of the curve,
  * reversed or not, one solution for each row. There may be more turning points than the reference has: false ones of
- * sampling (test_paper.c), true ones that its steps passed over (a10 with H = 5 at 12.83386). They come in pairs: rising
- * stays rising. Returns how many. */
+ * sampling (test_paper.c), true ones that its steps passed over (a10 with H = 5 at 12.83386). They come in pairs:
+ * rising stays rising. Returns how many. */
 static inline int check_rows(int n, const reference_row *rows, const traced *t, const char *name, int n_harm,
                              int keep_mean, bool reversed, double tol)
 {

@@ -103,18 +103,17 @@ static hc_status find_exact(timeint *ti, int k, const hc_monitor *monitor, bool 
 }
 
 /* The regularisation is halved, and the orbit found with that, until amplitudes are within `limit` of exact[responses],
- * or where that is not known (NULL), of what half the regularisation makes of them. *error: what is left. */
-static hc_status halve(timeint *ti, const double *exact, double limit, const hc_monitor *monitor, timeint_result *r,
-                       double *error)
+ * or where that is not known (NULL), of what half the regularisation makes of them. */
+static hc_status halve(timeint *ti, const double *exact, double limit, const hc_monitor *monitor, timeint_result *r)
 {
   double *before = ti->amplitudes + ti->measure.n_responses;
-  *error = exact ? largest_change(ti, exact) : INFINITY;
-  for (int i = 0; i < MOST_HALVINGS && !(*error <= limit); ++i) {
+  double error = exact ? largest_change(ti, exact) : INFINITY;
+  for (int i = 0; i < MOST_HALVINGS && !(error <= limit); ++i) {
     note_amplitudes(ti, before);
     timeint_regularise(ti, 0.5 * ti->how.regularisation);
     hc_status st = find_again(ti, monitor, r);
     if (st != HC_OK) return st;
-    *error = exact ? largest_change(ti, exact) : largest_change(ti, before);
+    error = exact ? largest_change(ti, exact) : largest_change(ti, before);
   }
   return HC_OK;
 }
@@ -130,8 +129,7 @@ hc_status regularised_begin(timeint *ti, int k, const hc_monitor *monitor)
 
 hc_status regularised_check(timeint *ti, const hc_monitor *monitor, timeint_result *r)
 {
-  const double limit = ti->how.regularisation_error;
-  double error = 0;
+  const double limit = ti->how.regularisation_error, resolved = fmax(limit, ti->how.tolerance);
   bool known;
   if (ti->how.law == TRANSIENT_LAW_EXACT || !ti->measured || r->period_multiple < 1 || !any_acts(ti)) return HC_OK;
   hc_status st = find_exact(ti, r->period_multiple, monitor, &known);
@@ -140,7 +138,6 @@ hc_status regularised_check(timeint *ti, const hc_monitor *monitor, timeint_resu
     st = find_again(ti, monitor, r);
   }
   if (st == HC_OK && known) note_amplitudes(ti->closed_form, ti->amplitudes);
-  if (st == HC_OK && limit > 0) st = halve(ti, known ? ti->amplitudes : NULL, limit, monitor, r, &error);
-  if (shoot_found_no_orbit(st)) return HC_NOT_SETTLED;
-  return st == HC_OK && !(error <= REGULARISED_REFUSED * limit) ? HC_NOT_SETTLED : st;
+  if (st == HC_OK && limit > 0) st = halve(ti, known ? ti->amplitudes : NULL, resolved, monitor, r);
+  return shoot_found_no_orbit(st) ? HC_NOT_SETTLED : st;
 }

@@ -15,9 +15,6 @@
  * of orbits. */
 hc_status regularised_begin(timeint *ti, int k, const hc_monitor *monitor);
 
-/* On the orbit just found and measured, *r. HC_OK; HC_NOT_SETTLED where the error is above REGULARISED_REFUSED times
- * that limit whatever the regularisation; errors of orbits: HC_NO_MEMORY, HC_INTERRUPTED. */
+/* On the orbit just found and measured, *r. HC_OK, also where no halving is enough: who reads the number asks for its
+ * error (timeint_predict). HC_NOT_SETTLED where an orbit is lost on the way; HC_NO_MEMORY, HC_INTERRUPTED. */
 hc_status regularised_check(timeint *ti, const hc_monitor *monitor, timeint_result *r);
-
-/* The limit is a tenth of what is accepted. */
-#define REGULARISED_REFUSED 10
