@@ -8,11 +8,11 @@
  *
  * vibration: |r_j X| without the mean, |.| over its rows and harmonics; most: the largest vibration of a contact of the
  * same part of the structure, parts being what no matrix and no contact joins. So a contact that moves a hundredth of
- * another of its part is followed to ten times the error, relative to itself, that the other is: by their vibration
- * alone curves of many contacts took two to ten times the points, and showed nothing more. Own length: contact_length,
- * of the law about rest, which keeps a resting contact from having none. The first response counts as a contact whose
- * own length is 0. What moves along one line (several contacts of one mass, and its response) is one, with the least of its own lengths.
- * No size is less than a millionth of the largest vibration, where it would be rounding.
+ * another of its part is followed to ten times the error, relative to itself, that the other is: by vibrations alone
+ * curves of many contacts took two to ten times the points, and showed nothing more. Own length: contact_length, of the
+ * law about rest, which keeps a resting contact from having none. The first response counts as a contact whose own
+ * length is 0. What moves along one line (several contacts of one mass, and its response) is one, with the least of its
+ * own lengths. No size is less than a millionth of the largest vibration, where it would be rounding.
  *     length   the largest relative change: decides about errors, steps, and what is the same
  *     inner    sum over contacts of products of relative changes: angles and planes, which need a scalar product
  * Unknowns are coordinates in a basis of the contacts' rows, no motions of contacts: no norm of theirs is used. */

@@ -131,6 +131,15 @@ static void measure_linear(const linear *l, double unit, timeint_result *r)
   }
 }
 
+bool linear_regime_response(const timeint *ti, int i, timeint_result *r)
+{
+  if (r->method != TIMEINT_BY_CLOSED_FORM || !linear_regime_is_final(ti)) return false;
+  const linear l = linear_now(ti);
+  measure_linear(&l, ti->scaled.base->response[i] * ti->length, r);
+  timeint_shift_result(ti, i, r);
+  return true;
+}
+
 bool linear_regime_steady(timeint *ti, timeint_result *r)
 {
   if (!linear_regime_is_final(ti)) return false;

@@ -22,3 +22,6 @@ bool linear_regime_is_final(const timeint *ti);
  * are where the law has them on the orbit. The multiplier is the oscillator's; that of the regularised slider of a
  * separated contact, exp(-2 pi/regularisation), is left out: it has no influence on X. */
 bool linear_regime_steady(timeint *ti, timeint_result *r);
+
+/* Where *r is what that said and ti->y is still there: the measures of response i into *r. */
+bool linear_regime_response(const timeint *ti, int i, timeint_result *r);

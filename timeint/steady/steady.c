@@ -363,6 +363,7 @@ hc_status timeint_response(timeint *ti, int i, timeint_result *r)
 {
   if (i < 0 || i >= scaled_n_responses(&ti->scaled)) return HC_BAD_INPUT;
   const double one = r->amplitude / timeint_response_unit(ti, 0);
+  if (!ti->measured && linear_regime_response(ti, i, r)) return HC_OK;
   if (!ti->measured) {
     timeint_result again = *r;
     hc_status st = orbit_measure(ti, r->period_multiple > 0 ? r->period_multiple : 1, &again);
