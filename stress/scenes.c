@@ -127,7 +127,8 @@ static void weaken(uint64_t *random, double x, scene *sc)
   scene_contact *c = &sc->contacts[sc->n_contacts - 1];
   field_contact_defaults(c);
   c->kind = CONTACT_POLYNOMIAL;
-  c->law = (contact){.power = {[3 - CONTACT_LEAST_POWER] = sc->stiffness / (x * x)}};
+  c->law = (contact){0};
+  c->law.power[3 - CONTACT_LEAST_POWER] = sc->stiffness / (x * x);
   sc->stiffness *= stress_scenes_weak(random);
 }
 

@@ -233,7 +233,8 @@ static hc_status weaken(uint64_t *r, const double complex *x, scene_structure *s
   c->normal[i] = 1;
   field_contact_defaults(&c->given);
   c->given.kind = CONTACT_POLYNOMIAL;
-  c->given.law = (contact){.power = {[3 - CONTACT_LEAST_POWER] = k / pow(along(n, c->normal, x), 2)}};
+  c->given.law = (contact){0};
+  c->given.law.power[3 - CONTACT_LEAST_POWER] = k / pow(along(n, c->normal, x), 2);
   s->how = STRUCTURE_DAMPING_MATRIX;
   return HC_OK;
 }
