@@ -526,13 +526,14 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
 /* ---- summits become points ------------------------------------------------------------------------------- */
 
 /* The summit of the curve on segment k into x: where the interpolant has one, and again between the solution there and
- * the end on the other side. True if it is higher than `highest`. */
+ * the end on the other side, unless a solve takes long. True if it is higher than `highest`. */
 static bool find_summit(peak_search *p, int k, double highest)
 {
+  const int times_most = hbm_has_many_unknowns(p->s) ? 1 : 2;
   double rise[2];
   root_point summit;
   if (hbm_narrowing_start(&p->near, p->c, k) != HC_OK) return false;
-  for (int times = 0; times < 2; ++times) {
+  for (int times = 0; times < times_most; ++times) {
     const double from = p->near.from, to = p->near.to;
     guessed_slope(p, from, &rise[0]), guessed_slope(p, to, &rise[1]);
     if (!(rise[0] > 0 && rise[1] < 0)) return times > 0 && amplitude_of(p->s, p->x->X) > highest;

@@ -15,15 +15,17 @@ static const double least_size = 1e-6; /* [largest vibration] */
 static const double one_line = 1e-14;  /* [1] rounding of the square of what a row has beside a line */
 
 struct metric {
-  atomic_int owners; /* threads that work on one curve each have solutions of it */
-  int dim, n;        /* coordinates; contacts, the response one of them */
-  int *first;        /* [n + 1] contact j has the rows first[j] .. first[j+1] - 1 */
-  double *row;       /* [first[n]][dim] */
-  double *own;       /* [n] [length] */
-  double *rest;      /* [dim] */
-  int *part;         /* [dim] which uncoupled part of the structure coordinate d is of */
-  int *leader;       /* [n] the first contact of the part that contact j is of */
-  double *x;         /* [n_dof] of metric_new */
+  atomic_int owners;   /* threads that work on one curve each have solutions of it */
+  int dim, n;          /* coordinates; contacts, the response one of them */
+  int *first;          /* [n + 1] contact j has the rows first[j] .. first[j+1] - 1 */
+  double *row;         /* [first[n]][dim] */
+  int *begin, *column; /* [first[n] + 1] where the entries of a row that are not 0 begin, and which they are; */
+  double *value;       /* they themselves: a contact's row is a coordinate, as a rule */
+  double *own;         /* [n] [length] */
+  double *rest;        /* [dim] */
+  int *part;           /* [dim] which uncoupled part of the structure coordinate d is of */
+  int *leader;         /* [n] the first contact of the part that contact j is of */
+  double *x;           /* [n_dof] of metric_new */
   workspace memory;
 };
 
@@ -156,6 +158,18 @@ static void add_contacts(metric *m, const model *about, const condensation *c)
   end_contact(m, 0);
 }
 
+static void list_entries(metric *m)
+{
+  for (int r = 0; r < m->first[m->n]; ++r) {
+    m->begin[r + 1] = m->begin[r];
+    for (int d = 0; d < m->dim; ++d) {
+      if (row_of(m, r)[d] == 0) continue;
+      m->column[m->begin[r + 1]] = d;
+      m->value[m->begin[r + 1]++] = row_of(m, r)[d];
+    }
+  }
+}
+
 hc_status metric_new(const model *of, const condensation *c, metric **out)
 {
   const size_t dim = (size_t)condensation_dim(c), contacts = (size_t)of->n_contacts;
@@ -167,6 +181,9 @@ hc_status metric_new(const model *of, const condensation *c, metric **out)
   m->dim = (int)dim;
   m->first = workspace_array(&m->memory, contacts + 3, sizeof *m->first);
   m->row = workspace_doubles(&m->memory, (2 * contacts + 1) * dim);
+  m->begin = workspace_array(&m->memory, 2 * contacts + 2, sizeof *m->begin);
+  m->column = workspace_array(&m->memory, (2 * contacts + 1) * dim, sizeof *m->column);
+  m->value = workspace_doubles(&m->memory, (2 * contacts + 1) * dim);
   m->own = workspace_doubles(&m->memory, contacts + 1);
   m->rest = workspace_doubles(&m->memory, dim);
   m->part = workspace_array(&m->memory, dim, sizeof *m->part);
@@ -180,6 +197,7 @@ hc_status metric_new(const model *of, const condensation *c, metric **out)
     condensation_coordinates(c, x, m->rest);
     find_parts(of, c, m->dim, part, unit, q, m->part);
     add_contacts(m, about, c);
+    list_entries(m);
     *out = m;
   } else {
     metric_free(m);
@@ -206,6 +224,14 @@ const double *metric_rest(const metric *m) { return m->rest; }
 
 /* ---- measured --------------------------------------------------------------------------------------------- */
 
+/* Row r of x[dim]. */
+static double along(const metric *m, int r, const double *x)
+{
+  double sum = 0;
+  for (int e = m->begin[r]; e < m->begin[r + 1]; ++e) sum += m->value[e] * x[m->column[e]];
+  return sum;
+}
+
 /* Sum over contact j's rows, and coefficients from `from` on, of products of what a and b do there. */
 static double product(const metric_at *at, int j, int from, const double *a, const double *b)
 {
@@ -218,8 +244,8 @@ static double product(const metric_at *at, int j, int from, const double *a, con
   }
   for (int r = m->first[j]; r < m->first[j + 1]; ++r)
     for (int i = from; i < at->n_coef; i += dim) {
-      const double by_a = dot_product(dim, row_of(m, r), a + i);
-      sum += by_a * (a == b ? by_a : dot_product(dim, row_of(m, r), b + i));
+      const double by_a = along(m, r, a + i);
+      sum += by_a * (a == b ? by_a : along(m, r, b + i));
     }
   return sum;
 }
@@ -276,8 +302,7 @@ double metric_distance(const metric_at *at, const double *a, const double *b)
     double sum = 0;
     for (int r = m->first[j]; r < m->first[j + 1]; ++r)
       for (int i = 0; i < at->n_coef; i += m->dim) {
-        double apart = 0;
-        for (int d = 0; d < m->dim; ++d) apart += row_of(m, r)[d] * (a[i + d] - b[i + d]);
+        const double apart = along(m, r, a + i) - along(m, r, b + i);
         sum += apart * apart;
       }
     most = larger(most, sqrt(sum) / s.of[j]);
@@ -304,8 +329,8 @@ void metric_apply(const metric_at *at, const double *a, double *out)
     const double size = s.of[j];
     for (int r = m->first[j]; r < m->first[j + 1]; ++r)
       for (int i = 0; i < at->n_coef; i += m->dim) {
-        const double by_a = dot_product(m->dim, row_of(m, r), a + i) / (size * size);
-        for (int d = 0; d < m->dim; ++d) out[i + d] += by_a * row_of(m, r)[d];
+        const double by_a = along(m, r, a + i) / (size * size);
+        for (int e = m->begin[r]; e < m->begin[r + 1]; ++e) out[i + m->column[e]] += by_a * m->value[e];
       }
   }
 }
@@ -316,8 +341,7 @@ static double excursion(const metric_at *at, int j)
   const metric *m = at->m;
   double sum = product(at, j, m->dim, at->X, at->X);
   for (int r = m->first[j]; r < m->first[j + 1]; ++r) {
-    double mean = 0;
-    for (int d = 0; d < m->dim; ++d) mean += row_of(m, r)[d] * (at->X[d] - m->rest[d]);
+    const double mean = along(m, r, at->X) - along(m, r, m->rest);
     sum += mean * mean;
   }
   return fmax(sqrt(sum), m->own[j]);
