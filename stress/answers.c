@@ -187,23 +187,28 @@ static hc_status ask_transient(solved_scene *s, const model *m, const double *st
 }
 
 /* A verdict may be another where an error is within a tenth of the gate, a multiplier as near to 1 as HBM's and time
- * integration's may differ, or where the motion leaves the solution, and rounding says where to. */
+ * integration's may differ, or where the motion leaves the solution, and rounding says where to; and where the mean
+ * alone decides, which is not compared beside a slider that never slips, wherever that is. */
 static hc_status ask_verdicts(solved_scene *s, const model *m, stress_answers *a)
 {
   comparison c;
   hc_status st = stress_compare(s, m, &c);
   const discrepancy gate = gate_limits_at(&s->asked->gate, s->omega);
+  discrepancy but_mean = gate;
+  but_mean.mean = INFINITY;
   for (int i = 0; i < c.n_rows && st == HC_OK; ++i) {
     const comparison_row *r = &c.rows[i];
     const bool leaves = r->verdict == VERDICT_APERIODIC || r->verdict == VERDICT_NOT_SETTLED ||
                         r->verdict == VERDICT_PERIOD_K || r->transient.left_orbit;
     const bool by_gate = fabs(stress_gate_ratio(r, &gate) - 1) < 0.1;
+    const bool rests = r->transient.free_sliders > 0 || r->hbm.contact.free_sliders > 0;
+    const bool by_mean = (rests || r->verdict == VERDICT_DIFFERS) && stress_gate_ratio(r, &but_mean) < 1;
     const bool by_multiplier = r->orbit_status == HC_OK && fabs(r->orbit.multiplier - 1) < 1e-3;
     put(a, VERDICTS,
         (answer){.code = (int)r->verdict,
                  .value = r->hbm_status == HC_OK ? r->hbm.amplitude : 0,
-                 .border = leaves || by_gate || by_multiplier});
-    a->history[ABOUT_VERDICTS] |= r->transient.free_sliders > 0 || r->hbm.contact.free_sliders > 0;
+                 .border = leaves || by_gate || by_multiplier || by_mean});
+    a->history[ABOUT_VERDICTS] |= rests;
   }
   comparison_clear(&c);
   return st;
