@@ -77,15 +77,6 @@ static hc_status find_static_state(const hbm_system *sys, double *X)
 {
   enum { TRIES = 50 };
   const bool loaded = load_of(sys, 0) && sys->first == 0;
-  const double *rest = metric_rest(sys->metric);
-  if (loaded && sys->force_factor == 1 && !is_zero(sys->dim, rest)) { /* it is known where all rests */
-    for (int d = 0; d < sys->dim; ++d) sys->z[d] = rest[d];
-    put_amplitude(sys, 0, sys->z, X);
-    for (int j = 0; j < sys->model->n_contacts; ++j)
-      sys->stuck[j] = contact_normal(&sys->model->contacts[j].law, rest_motion(sys, j)) > 0;
-    add_stuck_stiffness(sys);
-    return HC_OK;
-  }
   for (int j = 0; j < sys->model->n_contacts; ++j) {
     const contact *law = &sys->model->contacts[j].law;
     sys->stuck[j] = loaded || law->gap > 0 || law->load > 0;

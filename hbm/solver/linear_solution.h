@@ -3,9 +3,8 @@
  *
  *     (S_h + K') q_h + constant = phi p_h,      K' = sum over stuck contacts of kt t t^T + kn n n^T
  *
- * The static state is the rest of model/rest.h; where there is none, and on the ramp of the force, that of the loads of
- * harmonic 0 with all contacts stuck or apart, found by trying: from those that are preloaded (gap > 0) or, under such
- * loads, from all. */
+ * The static state is that of the loads of harmonic 0 with all contacts stuck or apart, found by trying: from those
+ * that are preloaded (gap > 0) or, under such loads, from all. */
 #pragma once
 
 #include "hbm/solver/hbm_solver.h"
