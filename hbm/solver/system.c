@@ -324,16 +324,13 @@ bool hbm_system_knows_means(const hbm_system *sys)
   return sys->load == 0 || sum <= two_digits * sys->load;
 }
 
-/* [least] The share of other coordinates' forces whose rounding may show in a row. */
-static const double of_others = 0.016;
-
 void hbm_system_weights(hbm_system *sys, double omega, double least, double *weight)
 {
   double sum = 0;
   hbm_system_sizes(sys, omega, sys->all, sys->moved);
   for (int d = 0; d < sys->dim; ++d) sum += sys->all[d];
   for (int d = 0; d < sys->dim; ++d) {
-    const double size = larger(sys->moved[d], larger(least * sys->all[d], of_others * least * sum));
+    const double size = larger(sys->moved[d], least * sum);
     sys->moved[d] = size == 0 ? 1 : 1 / size;
   }
   for (int i = 0; i < sys->n; ++i) weight[i] = sys->moved[i % sys->dim];

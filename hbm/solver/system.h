@@ -94,6 +94,6 @@ bool hbm_system_knows_means(const hbm_system *sys);
 
 /* weight[n]: 1 over what each row of a residual is compared with [1/force]: `moved` of its own coordinate, so that no
  * part of a structure is solved less well for another part's larger forces, nor the vibration for its static load; but
- * no less than `least` of `all`, nor than a sixtieth of that of all coordinates' forces: what is left beside is their
- * rounding. 1 where there is no force at all; NaN where condensation_at fails. */
+ * no less than `least` of the sum of `all`, whose rounding is left. 1 where there is no force at all; NaN where
+ * condensation_at fails. */
 void hbm_system_weights(hbm_system *sys, double omega, double least, double *weight);
