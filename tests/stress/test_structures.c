@@ -350,10 +350,8 @@ static void orbits_on_an_edge_of_slip_are_kept(CHECK_STATE)
     stress_family family;
     unsigned long seed;
     long index;
-  } on_edges[] = {{STRESS_SPACE, 1, 1650},
-                  {STRESS_SPACE, 1, 1672},
-                  {STRESS_SPACE, 63001, 6},
-                  {STRESS_STRUCTURES, 62004, 68}};
+  } on_edges[] = {
+      {STRESS_SPACE, 1, 1650}, {STRESS_SPACE, 1, 1672}, {STRESS_SPACE, 63001, 6}, {STRESS_STRUCTURES, 62004, 68}};
   static const stress_kind orbits_again[] = {STRESS_MULTIPLIER, STRESS_ORBIT_REWRITTEN, STRESS_ORBIT_CVODE};
   for (size_t i = 0; i < sizeof on_edges / sizeof *on_edges; ++i) {
     const stress_result r = drawn_stressed(on_edges[i].family, on_edges[i].seed, on_edges[i].index, 5);
@@ -497,7 +495,9 @@ static void expect_other_answers(const scene *sc, int n, const stress_reason rea
     for (int k = 0; k < 5; ++k) {
       spoiled = i < 0 ? NOTHING : spoils[reasons[i]];
       const stress_check c = checks[k](&s);
-      if (i < 0 ? c.outcome != STRESS_AGREED : c.outcome != STRESS_FINDING || c.reason != reasons[i])
+      /* points that were moved may take special points with them, which are held first */
+      const bool other = spoiled == POINTS_MOVED && c.reason == STRESS_SPECIALS;
+      if (i < 0 ? c.outcome != STRESS_AGREED : c.outcome != STRESS_FINDING || (c.reason != reasons[i] && !other))
         fail_msg("%s, spoil %d: %s %s, %g of %g", stress_kind_name((stress_kind)(STRESS_SHIFTED + k)), (int)spoiled,
                  stress_outcome_name(c.outcome), stress_reason_name(c.reason), c.error, c.bound);
     }
@@ -554,7 +554,7 @@ static void findings_of_other_seeds_are_none(CHECK_STATE)
               {STRESS_OSCILLATORS, 90001, 9, STRESS_ORBIT, STRESS_NO_REASON},
               {STRESS_STRUCTURES, 90003, 85, STRESS_MULTIPLIER, STRESS_TRUNCATED},
               {STRESS_OSCILLATORS, 7271313, 1438, STRESS_MULTIPLIER, STRESS_TRUNCATED},
-              {STRESS_SPACE, 7261131, 258, STRESS_COPIES, STRESS_FAMILY},
+              {STRESS_SPACE, 7261131, 258, STRESS_COPIES, STRESS_ILL_CONDITIONED},
               {STRESS_STRUCTURES, 7271321, 282, STRESS_FREE, STRESS_NO_REASON},
               {STRESS_STRUCTURES, 7271322, 99, STRESS_FREE, STRESS_NO_REASON},
               {STRESS_SPACE, 7271331, 113, STRESS_SAMPLED, STRESS_NO_REASON},
