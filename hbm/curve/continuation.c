@@ -85,7 +85,7 @@ static void fill_chord(path *p)
   for (int i = 0; i < p->curve->n_coef; ++i) p->chord[i] = p->X[i] - X0[i];
 }
 
-/* Of the angle between two directions. */
+/* The cosine of the angle between two directions. */
 static double cosine(const path *p, const double *aX, double a_omega, const double *bX, double b_omega)
 {
   return path_inner(p, aX, a_omega, bX, b_omega) /

@@ -10,7 +10,7 @@
 #include "numerics/base/workspace.h"
 #include "numerics/norm.h"
 
-enum { METRIC_MOST = 512 };            /* contacts that are measured one by one */
+enum { METRIC_MOST = 4096 };           /* contacts that are measured one by one */
 static const double least_size = 1e-6; /* [largest vibration] */
 static const double one_line = 1e-14;  /* [1] rounding of the square of what a row has beside a line */
 
@@ -69,7 +69,7 @@ static int same_line(const metric *m, double *ratio)
   return -1;
 }
 
-/* Of the coordinates that move contact j. */
+/* The part of the structure whose coordinates move contact j. */
 static int part_of(const metric *m, int j)
 {
   const double *row = row_of(m, m->first[j]);
@@ -258,7 +258,8 @@ typedef struct sizes {
 static void find_sizes(const metric_at *at, sizes *s)
 {
   const metric *m = at->m;
-  double most[METRIC_MOST] = {0}, all = 0, own = 0; /* of each part, by its first contact; of all */
+  double most[METRIC_MOST], all = 0, own = 0; /* of each part, by its first contact; of all */
+  memset(most, 0, (size_t)m->n * sizeof *most);
   for (int j = 0; j < m->n; ++j) {
     double vibration = product(at, j, m->dim, at->X, at->X);
     if (at->Y) vibration = fmax(vibration, product(at, j, m->dim, at->Y, at->Y));

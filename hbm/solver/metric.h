@@ -12,7 +12,8 @@
  * curves of many contacts took two to ten times the points, and showed nothing more. Own length: contact_length, of the
  * law about rest, which keeps a resting contact from having none. The first response counts as a contact whose own
  * length is 0. What moves along one line (several contacts of one mass, and its response) is one, with the least of its
- * own lengths. No size is less than a millionth of the largest vibration, where it would be rounding.
+ * own lengths; what comes after 4096 is measured with the last. No size is less than a millionth of the largest
+ * vibration, where it would be rounding.
  *     length   the largest relative change: decides about errors, steps, and what is the same
  *     inner    sum over contacts of products of relative changes: angles and planes, which need a scalar product
  * Unknowns are coordinates in a basis of the contacts' rows, no motions of contacts: no norm of theirs is used. */
@@ -22,7 +23,7 @@
 
 typedef struct metric metric; /* never changed once it is made: threads may share it */
 
-/* Of m, whose condensation is c. HC_NO_MEMORY: *out is NULL. */
+/* The metric of m, whose condensation is c. HC_NO_MEMORY: *out is NULL. */
 hc_status metric_new(const model *m, const condensation *c, metric **out);
 metric *metric_share(metric *m); /* m, one more owner; NULL is allowed */
 void metric_free(metric *m);     /* one owner less; NULL is allowed */

@@ -48,7 +48,7 @@ void refinement_free(refinement *r)
 
 int refinement_harmonics(const refinement *r) { return r->sys.n_harm; }
 
-/* Of r->R, a change of the unknowns, at Y. */
+/* The length, at Y, of the change of the unknowns that r->R holds. */
 static double length_at(refinement *r, const double *Y)
 {
   const metric_at at = {r->sys.metric, r->sys.n_coef, Y, NULL};

@@ -11,9 +11,8 @@ static const law_kind *const kinds[] = {&law_line, &law_planar};
 static const law_kind *const smooth_kinds[] = {CONTACT_SMOOTH_LIST(ROW)};
 #undef ROW
 
-static const double of_vibration =
-    0.25; /* with regularisation 1e-4 the corner puts case 2 off by less than the slider's
-                                            lag does, 2e-5 */
+/* [vibration * regularisation]: with 1e-4 the corner puts case 2 off by less than the slider's lag does, 2e-5. */
+static const double of_vibration = 0.25;
 
 /* Width [length] of the corner in N of contact j: a part of its own vibration. What others move, the gap, and where the
  * structure rests have no share in it. */
