@@ -7,11 +7,12 @@
  * mostly moves the mass either far less than the gap or far more: for two scenes in three it is drawn such that the
  * gap is just reached. The frequency lies near the free resonance, near that of the stuck mass, or between; not so
  * low that the stuck mass makes more than MOST_OSCILLATIONS in a period, which only costs time. In a sixth of the
- * scenes a cubic spring holds the mass, and hardly a linear one. */
+ * scenes a cubic spring holds the mass, and hardly a linear one; in one of 24 it moves between two equal stops. */
 #include "stress/scenes.h"
 
 #include <gsl/gsl_qrng.h>
 #include <gsl/gsl_rng.h>
+#include <string.h>
 
 #include "casefile/fields.h"
 #include "numerics/random.h"
@@ -84,12 +85,28 @@ void stress_scenes_point(stress_scenes *s, long index, double p[STRESS_DIMENSION
 
 static double geometric(double u, double from, double to) { return from * pow(to / from, u); }
 
-/* The key leaves the scenes that tests name, drawn before there were cubic springs, what they were. */
+/* One scene in so many is of a kind. Keys leave the scenes that tests name, drawn before there was the kind, what they
+ * were. */
+static bool is_of_kind(const stress_scenes *s, long index, uint64_t key_of_kind, double part, uint64_t *random)
+{
+  uint64_t key = (((uint64_t)s->seed << 32) + (uint64_t)index) ^ key_of_kind << 48;
+  *random = random_bits(&key);
+  return random_unit(random) < part;
+}
+
 bool stress_scenes_cubic(const stress_scenes *s, long index, uint64_t *random)
 {
-  uint64_t key = (((uint64_t)s->seed << 32) + (uint64_t)index) ^ 0x1a7ULL << 48;
-  *random = random_bits(&key);
-  return random_unit(random) < 1.0 / 6;
+  return is_of_kind(s, index, 0x1a7, 1.0 / 6, random);
+}
+
+bool stress_scenes_facing(const stress_scenes *s, long index, uint64_t *random)
+{
+  return is_of_kind(s, index, 0x1224, 1.0 / 24, random);
+}
+
+bool stress_scenes_circles(const stress_scenes *s, long index, uint64_t *random)
+{
+  return is_of_kind(s, index, 0x393, 1.0 / 10, random);
 }
 
 double stress_scenes_weak(uint64_t *random)
@@ -132,6 +149,20 @@ static void weaken(uint64_t *random, double x, scene *sc)
   sc->stiffness *= stress_scenes_weak(random);
 }
 
+/* In the place of all contacts two stops as stiff as the first, at its gap on either side. */
+static void face(scene *sc)
+{
+  scene_contact *c = &sc->contacts[0];
+  const double gap = fmax(fabs(c->law.gap), 1e-3), stop = gap + 1, force = c->law.kn;
+  const double points[4][2] = {{-stop, -force}, {-gap, 0}, {gap, 0}, {stop, force}};
+  field_contact_defaults(c);
+  c->law = (contact){0};
+  c->kind = SCENE_LAW_TABLE;
+  c->n_points = 4;
+  memcpy(c->points, points, sizeof points);
+  sc->n_contacts = 1;
+}
+
 /* The force that moves the mass without contacts by about the first gap, or from all of the range. */
 static double force_at(const double *p, const scene *sc, double omega)
 {
@@ -168,6 +199,7 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out)
   uint64_t random;
   if (stress_scenes_cubic(s, index, &random))
     weaken(&random, sc.force / hypot(sc.stiffness - sc.mass * omega * omega, sc.damping * omega), &sc);
+  if (stress_scenes_facing(s, index, &random)) face(&sc);
   sc.compare.omega = (number_list){1, {omega}};
   sc.hbm.harmonics = (int)geometric(p[HARMONICS], 1, 50.999);
   sc.hbm.samples = (int)geometric(p[SAMPLES], 16, 16384.999);

@@ -30,6 +30,11 @@ unsigned long stress_scenes_seed(const stress_scenes *s);
 /* Has scene number `index` of any family a spring that is cubic, or nearly? Then *random is to be drawn from for it. */
 bool stress_scenes_cubic(const stress_scenes *s, long index, uint64_t *random);
 
+/* Do equal stops face each other in scene number `index` of any family; has one in space circles in two contacts or more,
+ * under static and turning loads? *random is to be drawn from for it. */
+bool stress_scenes_facing(const stress_scenes *s, long index, uint64_t *random);
+bool stress_scenes_circles(const stress_scenes *s, long index, uint64_t *random);
+
 /* What is left of a linear stiffness [1] beside it: 1e-6 to 1e-3, or in a third of them as good as nothing. */
 double stress_scenes_weak(uint64_t *random);
 

@@ -8,7 +8,7 @@
  * what the structure without contacts does at that frequency: far from it nothing happens. What the numbers are many
  * of (matrices, directions) comes from a generator of its own for each scene, all else from the Sobol point. In two
  * scenes of five contacts become polynomials, tables or tanh friction, by a generator of their own; in one of six one
- * degree of freedom hangs on a cubic spring. */
+ * degree of freedom hangs on a cubic spring; in one of 24 each contact across which a spring acts faces its like. */
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
@@ -239,6 +239,25 @@ static hc_status weaken(uint64_t *r, const double complex *x, scene_structure *s
   return HC_OK;
 }
 
+/* Each contact with a normal has one of the same law on the other side, and loads are of odd harmonics: -x(t + T/2)
+ * solves the equations with each x(t). */
+static hc_status face(int n_harm, scene_structure *s)
+{
+  const int n = s->n, given = s->n_contacts;
+  for (int l = 0; l < s->n_loads; ++l)
+    s->loads[l].harmonic = s->loads[l].harmonic < n_harm ? s->loads[l].harmonic | 1 : 1;
+  for (int j = 0; j < given; ++j) {
+    if (is_zero(n, s->contacts[j].normal)) continue;
+    structure_contact *c = structure_add_contact(s);
+    if (!c) return HC_NO_MEMORY;
+    const structure_contact *like = &s->contacts[j];
+    c->given = like->given;
+    memcpy(c->tangent, like->tangent, (size_t)n * sizeof *c->tangent);
+    for (int i = 0; i < n; ++i) c->normal[i] = -like->normal[i];
+  }
+  return HC_OK;
+}
+
 /* Between a mode with the contacts apart and with all of them stuck, or beside. */
 static hc_status draw_frequency(uint64_t *r, const double *p, const model *m, double *omega)
 {
@@ -335,6 +354,7 @@ static hc_status structure_at(stress_scenes *scenes, long index, bool may_have_l
       if (random_unit(&own) < 0.6) draw_law(&own, s->n, sc.compare.omega.v[0], x, &s->contacts[j]);
     const bool cubic = stress_scenes_cubic(scenes, index, &own);
     if (st == HC_OK && cubic) st = weaken(&own, x, s);
+    if (st == HC_OK && stress_scenes_facing(scenes, index, &own)) st = face(sc.hbm.harmonics, s);
     double moves[MOST_DOFS];
     bool adrift = false;
     if (st == HC_OK && (other_laws || cubic)) st = structure_free_motion(s, false, moves, &adrift);
@@ -377,7 +397,7 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
  *
  * Friction and gaps alone, but for cubic springs. Most contacts with friction get a second tangent. One in seven has
  * nearly the line of the first, by 1e-1 .. 1e-4: the motion then is nearly straight, and slip turns about at once. The
- * limit is the circle's in four of five. Numbers come from a generator of its own for each scene: what is drawn above
+ * limit is the circle's in four of five. In one scene of ten circles turn under static loads. Numbers come from a generator of its own for each scene: what is drawn above
  * is what it is without. */
 
 /* |sin| of the angle between a and b, of which neither is 0. */
@@ -385,6 +405,38 @@ static double across(int n, const double *a, const double *b)
 {
   const double ab = dot_product(n, a, b);
   return sqrt(fmax(1 - ab * ab / (dot_product(n, a, a) * dot_product(n, b, b)), 0));
+}
+
+/* Two contacts or more with two tangents, pressed together by a static load along each normal, and loads that turn in
+ * their planes: what sticks, creeps and lifts off under dampers and joints. */
+static hc_status turn_in_planes(uint64_t *r, scene_structure *s)
+{
+  const int n = s->n;
+  double stiffness = 0;
+  for (int i = 0; i < n; ++i) stiffness = fmax(stiffness, AT(s->stiffness.v, i, i));
+  while (s->n_contacts < 2)
+    if (!structure_add_contact(s)) return HC_NO_MEMORY;
+  for (int j = 0; j < s->n_contacts; ++j) {
+    structure_contact *c = &s->contacts[j];
+    if (!is_zero(n, c->tangent) && !is_zero(n, c->normal)) continue;
+    draw_contact(r, stiffness, s, c);
+    if (is_zero(n, c->normal)) draw_direction(r, n, c->normal);
+    if (is_zero(n, c->tangent)) draw_direction(r, n, c->tangent);
+    c->given.law.kt = stiffness * geometric(r, 0.1, 10), c->given.law.kn = stiffness * geometric(r, 0.1, 10);
+    c->given.law.mu = 0.1 + 0.5 * random_unit(r);
+    c->given.preload = c->given.law.gap = 0;
+  }
+  const double size = s->n_loads > 0 ? fabs(s->loads[0].amplitude) : 1;
+  for (int k = 0; k < 3; ++k) {
+    structure_load *load = structure_add_load(s);
+    if (!load) return HC_NO_MEMORY;
+    const structure_contact *c = &s->contacts[random_int(r, 0, s->n_contacts - 1)];
+    memcpy(load->direction, k == 0 ? c->normal : c->tangent, (size_t)n * sizeof *load->direction);
+    load->amplitude = size * geometric(r, 0.3, 3);
+    load->harmonic = k == 0 ? 0 : 1;
+    load->phase_deg = k == 2 ? 90 : 0;
+  }
+  return HC_OK;
 }
 
 /* Not along the tangent, which a structure of one degree of freedom could not have. */
@@ -409,12 +461,16 @@ hc_status stress_scene_of(stress_scenes *scenes, stress_family family, long inde
     uint64_t key = (((uint64_t)stress_scenes_seed(scenes) << 32) + (uint64_t)index) ^ other, r = random_bits(&key);
     snprintf(out->title, sizeof out->title, "Stress structure in space %ld of seed %lu", index,
              stress_scenes_seed(scenes));
+    uint64_t own;
+    const bool faces = stress_scenes_facing(scenes, index, &own),
+               turns = s->n > 1 && !faces && stress_scenes_circles(scenes, index, &own);
+    if (turns && (st = turn_in_planes(&own, s)) != HC_OK) return case_clear(out), st;
     int directions = 2 * s->n_contacts;
-    for (int j = 0; j < s->n_contacts && s->n > 1; ++j) {
+    for (int j = 0; j < s->n_contacts && s->n > 1 && !faces; ++j) {
       structure_contact *c = &s->contacts[j];
-      if (is_zero(s->n, c->tangent) || random_unit(&r) > 0.7) continue;
+      if (is_zero(s->n, c->tangent) || (random_unit(&r) > 0.7 && !turns)) continue;
       draw_second_tangent(&r, s->n, c);
-      c->given.limit = random_unit(&r) < 0.8 ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
+      c->given.limit = random_unit(&r) < 0.8 || turns ? CONTACT_LIMIT_CIRCLE : CONTACT_LIMIT_SQUARE;
       ++directions;
     }
     const int most = most_harmonics(s->n, directions);
