@@ -181,7 +181,7 @@ hc_status comparison_run(const compare_setup *setup, const hc_monitor *monitor, 
     double from, to;
     comparison_sweep(setup->omega_from, setup->omega_to, &setup->compare.omega, &from, &to);
     progress_part part = {monitor, 0, curve_share};
-    st = hbm_trace(w.hbm, from, to, &(hc_monitor){tick_part, &part}, &out->curve);
+    st = hbm_trace_all(w.hbm, from, to, &(hc_monitor){tick_part, &part}, &out->curve);
     out->harmonics = hbm_n_harmonics(w.hbm);
     out->samples = hbm_n_samples(w.hbm);
     hc_status summed = response_summarise(w.hbm, &out->curve, &out->summary);

@@ -15,7 +15,7 @@ hc_status response_trace(const compare_setup *setup, const number_list *asked, c
   *out = (response_curve){.hbm = NULL};
   comparison_sweep(setup->omega_from, setup->omega_to, asked ? asked : &none, &from, &to);
   out->status = guided_hbm_solver_new(setup->model, &setup->hbm, &out->hbm);
-  if (out->status == HC_OK) out->status = hbm_trace(out->hbm, from, to, monitor, &out->curve);
+  if (out->status == HC_OK) out->status = hbm_trace_all(out->hbm, from, to, monitor, &out->curve);
   out->seconds = thread_seconds() - began;
   return out->status == HC_INTERRUPTED || out->status == HC_NO_MEMORY ? out->status : HC_OK;
 }

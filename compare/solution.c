@@ -36,16 +36,21 @@ static bool within_limits(const compare_setup *setup, const discrepancy *e, cons
   return gate_limits_hold(setup->limits, tr->omega, e, motion_mean_is_free(tr));
 }
 
-/* Is response r of the transient within the limits of any HBM solution at this omega? */
+/* Is response r of the transient within the limits of any HBM solution at this omega, or of a symmetric model of its
+ * mirror image? */
 static bool accounted_for(const comparison_work *w, int r, const hbm_curve *at, const timeint_result *tr)
 {
-  for (int i = 0; i < at->n; ++i) {
-    const double *X = at->X + (size_t)i * at->n_coef;
+  bool within = false;
+  for (int i = 0; i < at->n && !within; ++i) {
+    double *X = at->X + (size_t)i * at->n_coef;
+    const double omega = at->points[i].omega;
     discrepancy e;
-    if (errors_of(w, r, at->points[i].omega, X, tr, NULL, &e) != HC_OK) continue;
-    if (within_limits(w->setup, &e, tr)) return true;
+    within = errors_of(w, r, omega, X, tr, NULL, &e) == HC_OK && within_limits(w->setup, &e, tr);
+    if (within || !hbm_mirror(w->hbm, X)) continue;
+    within = errors_of(w, r, omega, X, tr, NULL, &e) == HC_OK && within_limits(w->setup, &e, tr);
+    hbm_mirror(w->hbm, X); /* as it was */
   }
-  return false;
+  return within;
 }
 
 /* w->state at the start of a row. HC_OK, or why the sweep up to here failed. */

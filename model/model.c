@@ -130,16 +130,49 @@ bool model_is_smooth(const model *m)
   return false;
 }
 
+static bool law_is_odd(const contact *c)
+{
+  bool odd = c->kn == 0 && c->across[0] == 0;
+  for (int i = 0; i < CONTACT_POWERS; ++i) odd = odd && (c->power[i] == 0 || (i + CONTACT_LEAST_POWER) % 2);
+  return odd;
+}
+
+/* Is a = sign b, to the last bit? */
+static bool along_one_line(int n, const double *a, double sign, const double *b)
+{
+  for (int i = 0; i < n; ++i)
+    if (!(a[i] == sign * b[i])) return false;
+  return true;
+}
+
+static bool same_law(const contact *a, const contact *b)
+{
+  bool same = a->kt == b->kt && a->kn == b->kn && a->mu == b->mu && a->gap == b->gap && a->load == b->load &&
+              a->smooth == b->smooth && a->epsilon == b->epsilon;
+  for (int i = 0; i < 2; ++i) same = same && a->across[i] == b->across[i];
+  for (int i = 0; i < CONTACT_POWERS; ++i) same = same && a->power[i] == b->power[i];
+  return same;
+}
+
+static bool face_each_other(int n, const model_contact *a, const model_contact *b)
+{
+  const bool tangents = !contact_rubs(&a->law) || along_one_line(n, a->tangent, 1, b->tangent) ||
+                        along_one_line(n, a->tangent, -1, b->tangent);
+  return tangents && a->circle == b->circle && same_law(&a->law, &b->law) &&
+         along_one_line(n, a->normal, -1, b->normal);
+}
+
 bool model_is_symmetric(const model *m)
 {
-  bool all = model_is_smooth(m);
-  for (int l = 0; l < m->n_loads; ++l) all = all && m->loads[l].harmonic % 2;
+  for (int l = 0; l < m->n_loads; ++l)
+    if (m->loads[l].harmonic % 2 == 0) return false;
   for (int j = 0; j < m->n_contacts; ++j) {
-    const contact *c = &m->contacts[j].law;
-    all = all && c->kn == 0;
-    for (int i = 0; i < CONTACT_POWERS; ++i) all = all && (c->power[i] == 0 || (i + CONTACT_LEAST_POWER) % 2);
+    bool symmetric = law_is_odd(&m->contacts[j].law);
+    for (int k = 0; k < m->n_contacts && !symmetric; ++k)
+      symmetric = k != j && face_each_other(m->n, &m->contacts[j], &m->contacts[k]);
+    if (!symmetric) return false;
   }
-  return all;
+  return true;
 }
 
 contact model_half_law(const contact *whole)

@@ -78,7 +78,8 @@ bool model_has_circle(const model *m);
 /* Does any contact follow a smooth law? */
 bool model_is_smooth(const model *m);
 
-/* Has it smooth contacts, and is -x(t + T/2) a solution with each x(t)? Odd forces, no normal springs, odd loads. */
+/* Is -x(t + T/2) a solution with each x(t)? Loads of odd harmonics alone, and each contact's forces are odd in x, or
+ * another contact of the same law faces it: normals opposite, tangents along one line. */
 bool model_is_symmetric(const model *m);
 
 /* The law of either of a pair's two, from the whole contact's. */

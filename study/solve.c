@@ -154,8 +154,7 @@ static hc_status solve_compare(const scene *sc, const hc_monitor *monitor, study
       if (row->hbm_status != HC_OK) fail_with(r, "harmonic balance", row->hbm_status, row->omega);
       else if (row->transient_status != HC_OK) fail_with(r, "time integration", row->transient_status, row->omega);
     }
-    if (c.curve.end != HC_OK)
-      fail_with(r, "the response curve stopped", c.curve.end, c.curve.n ? c.curve.points[c.curve.n - 1].omega : 0);
+    if (c.curve.end != HC_OK) fail_with(r, "the response curve stopped", c.curve.end, c.curve.ends_at);
   }
   comparison_clear(&c);
   return st;

@@ -63,7 +63,7 @@ static void find_folds(const hbm_curve *c, double *X, sufficient *out)
 {
   enum { STEPS = 64 };
   for (int k = 0; k + 1 < c->n && out->n_folds < SUFFICIENT_FOLDS; ++k) {
-    if (c->points[k].branch == c->points[k + 1].branch) continue;
+    if (c->points[k].branch == c->points[k + 1].branch || !hbm_curve_has_segment(c, k)) continue;
     const hbm_segment seg = hbm_segment_between(c, k);
     const double sign = c->points[k].d_omega < 0 ? -1 : 1;
     double most = -INFINITY, omega;

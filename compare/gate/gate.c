@@ -159,7 +159,7 @@ static void judge_curve(judge *j)
   gate_check c = check_of(NULL, "curve", NULL);
   const hbm_curve *curve = &j->c->curve;
   if (curve->end != HC_OK && curve->n > 0)
-    not_passed(&c, GATE_ERROR, "the HBM curve stopped at omega = %.10g: %s", curve->points[curve->n - 1].omega,
+    not_passed(&c, GATE_ERROR, "the HBM curve stopped at omega = %.10g: %s", curve->ends_at,
                hc_status_text(curve->end));
   else if (curve->end != HC_OK)
     not_passed(&c, GATE_ERROR, "the HBM curve has no points: %s", hc_status_text(curve->end));

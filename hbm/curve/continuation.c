@@ -310,36 +310,62 @@ static hc_status end_at_limit(path *p, bool *done)
     *done = end_on(p, p->to, false) == HC_OK;
     if (*done) return HC_OK;
   }
-  if (p->direction * (omega - p->from) >= 0) {
+  const double behind = p->course->behind;
+  if (p->direction * (omega - behind) >= 0) {
     p->first_outside = 0;
     return HC_OK;
   }
   if (!p->first_outside) p->first_outside = c->n - 1;
-  *done = c->left_at_start = p->direction > 0 ? omega < p->from / LOOP_RANGE : omega > p->from * LOOP_RANGE;
+  *done = c->left_at_start = p->direction > 0 ? omega < behind / LOOP_RANGE : omega > behind * LOOP_RANGE;
   if (!*done) return HC_OK;
   c->n = p->first_outside + 1;
   c->turning_points = c->points[p->first_outside].branch;
-  return end_on(p, p->from, true);
+  return end_on(p, behind, true);
 }
 
-static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from_above, const hc_monitor *monitor,
-                       hbm_curve *curve);
+/* *known: the curve goes on along what is known, its own points, where it is closed, or another part. */
+static hc_status is_known_from_here(path *p, bool *known)
+{
+  enum { NEIGHBOURS = 4 }; /* segments before the last point that it may be next to by a turn */
+  hbm_curve *c = p->curve;
+  const hbm_curve *others = p->course->known;
+  const int last = c->n - 1;
+  int segment;
+  *known = false;
+  if (p->s->ramp || steps_are_fixed(p->s)) return HC_OK;
+  hc_status st = hbm_curve_passes(p->s, c, last - NEIGHBOURS, c, last, true, &segment);
+  c->closed = st == HC_OK && segment >= 0;
+  if (st == HC_OK && others) st = hbm_curve_passes(p->s, others, others->n, c, last, false, &c->met_segment);
+  c->met = st == HC_OK && others && c->met_segment >= 0;
+  *known = c->closed || c->met;
+  return st;
+}
 
 static hc_status first_point(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
   hbm_solver *s = p->s;
+  const path_seed *seed = p->course->seed;
+  if (seed) memcpy(p->X, seed->X, (size_t)s->sys.n_coef * sizeof *p->X);
+  if (seed && seed->dX) {
+    memcpy(p->dX, seed->dX, (size_t)s->sys.n_coef * sizeof *p->dX);
+    p->orientation = seed->orientation;
+    p->point = (hbm_point){.omega = p->from, .d_omega = seed->d_omega, .harmonics = s->sys.n_harm, .error = NAN};
+    switch_to_arclength(p);
+    return hbm_curve_append(c, c->n_coef, p->X, p->dX, &p->point);
+  }
   if (s->ramp) hbm_ramp_start(s->ramp, &s->sys, p->X);
-  hc_status st =
-      s->ramp ? hbm_solve_fixed(s, p->from, p->X, &p->point) : hbm_first_solution(s, p->from, monitor, p->X, &p->point);
+  hc_status st = s->ramp || seed ? hbm_solve_fixed(s, p->from, p->X, &p->point)
+                                 : hbm_first_solution(s, p->from, monitor, p->X, &p->point);
   bool no_solution = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED;
   /* The solution at p->from as the end of a curve that comes down from well above every resonance: inertia dominates
    * there, and Newton converges from the linear response. */
-  if (no_solution && p->may_come_from_above) {
+  if (no_solution && p->course->may_come_from_above) {
     const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor};
     hbm_curve down = {0};
     double high = LOOP_RANGE * fmax(p->from, p->s->sys.scales.highest);
-    st = trace(p->s, high, p->from, false, &aside, &down);
+    const path_course from_above = {high, p->from, high, .seed = NULL};
+    st = path_trace(p->s, &from_above, &aside, &down);
     if (st == HC_OK && down.left_at_start) st = HC_NOT_CONVERGED;
     if (st == HC_OK) {
       memcpy(p->X, hbm_curve_X(&down, down.n - 1), (size_t)p->s->sys.n_coef * sizeof(double));
@@ -349,7 +375,10 @@ static hc_status first_point(path *p, const hc_monitor *monitor)
   }
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
   if (st != HC_OK) return st;
+  p->omega = p->from;
   p->orientation = newton_sign(p->s->fixed) * (p->direction > 0 ? 1 : -1);
+  p->point.even_sign = path_even_sign(p);
+  if (p->point.even_sign) p->orientation *= p->point.even_sign;
   for (int i = 0; i < c->n_coef; ++i) p->dX[i] *= p->direction;
   p->point.d_omega = p->direction;
   p->point.branch = 0;
@@ -370,10 +399,14 @@ static hc_status accept_trial(path *p, bool *done)
   hc_status st = append_trial(p);
   if (st == HC_OK) st = path_adapt(p);
   if (st == HC_OK) st = end_at_limit(p, done);
-  if (st != HC_OK || !*done) return st;
+  bool known = false;
+  if (st == HC_OK && !*done) st = is_known_from_here(p, &known);
+  if (known) *done = true;
+  if (st != HC_OK || !*done || known) return st;
   st = path_adapt(p); /* the limit is a point of its own */
   double last = c->points[c->n - 1].omega;
-  *done = last == p->to || (c->left_at_start && last == p->from); /* false if the adaptation dropped that point */
+  *done =
+      last == p->to || (c->left_at_start && last == p->course->behind); /* false if the adaptation dropped that point */
   return st;
 }
 
@@ -414,7 +447,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
     if (c->n >= MAX_POINTS) return HC_TOO_MANY_POINTS;
     if (!hc_monitor_tick(monitor, part_done(p))) return HC_INTERRUPTED;
     bool accepted;
-    p->s->done = p->may_come_from_above ? part_done(p) : -1;
+    p->s->done = p->course->may_come_from_above ? part_done(p) : -1;
     hc_status step_status = steps_are_fixed(s) ? path_fixed_step(p, &accepted) : trial_step(p, &accepted);
     bool no_other_step = !accepted && steps_are_fixed(s);
     if (step_status == HC_NO_MEMORY || no_other_step) return step_status;
@@ -430,7 +463,7 @@ static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_sampl
   hbm_curve *c = p->curve;
   c->n = c->turning_points = c->linear = c->edges = 0;
   c->edge_omega = c->edge_motion = 0;
-  c->inaccurate = c->left_at_start = false;
+  c->inaccurate = c->left_at_start = c->closed = c->met = false;
   p->step = STEP_FIRST;
   p->natural = natural_allowed(p);
   c->arclength = !p->natural;
@@ -447,18 +480,14 @@ static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_sampl
   return st;
 }
 
-static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from_above, const hc_monitor *monitor,
-                       hbm_curve *curve)
+hc_status path_trace(hbm_solver *s, const path_course *course, const hc_monitor *monitor, hbm_curve *curve)
 {
-  const path start = {.s = s,
-                      .curve = curve,
-                      .from = from,
-                      .to = to,
-                      .direction = to >= from ? 1 : -1,
-                      .may_come_from_above = may_come_from_above};
+  const double from = course->from, to = course->to;
+  const path start = {
+      .s = s, .curve = curve, .course = course, .from = from, .to = to, .direction = to >= from ? 1 : -1};
   bool adapts = s->how.harmonics == HBM_AUTO, more_samples;
   curve->n_coef = adapts ? hbm_system_length(&s->sys, REFINE_MOST_HARMONICS) : s->sys.n_coef;
-  hbm_curve_measure_by(curve, s->sys.metric, fmax(fabs(to - from) / SWEEP_UNITS, LEAST_UNIT * from));
+  hbm_curve_measure_by(curve, s->sys.metric, fmax(fabs(to - course->behind) / SWEEP_UNITS, LEAST_UNIT * from));
   long before = s->sys.evaluations;
   hc_status st;
   do {
@@ -473,6 +502,7 @@ static hc_status trace(hbm_solver *s, double from, double to, bool may_come_from
     if (st == HC_OK) st = cut;
   }
   curve->evaluations = s->sys.evaluations - before;
+  curve->ends_at = curve->n > 0 ? curve->points[curve->n - 1].omega : from;
   return curve->end = st;
 }
 
@@ -484,7 +514,8 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
   s->monitor = monitor;
   s->done = -1;
   s->stopped = false;
-  hc_status st = trace(s, from, to, !s->ramp, monitor, curve);
+  const path_course whole = {from, to, .behind = from, .may_come_from_above = !s->ramp};
+  hc_status st = path_trace(s, &whole, monitor, curve);
   if (st == HC_OK && !s->ramp && !steps_are_fixed(s)) st = hbm_curve_add_summits(s, curve);
   s->monitor = NULL;
   s->stopped = false;

@@ -74,17 +74,19 @@ double path_predict(path *p, double h)
   return ratio;
 }
 
+int path_even_sign(path *p)
+{
+  const bool asked = p->s->on_symmetric && !p->s->ramp;
+  return asked ? hbm_even_sign(p->s, p->omega, p->X) : 0;
+}
+
 void path_orient_tangent(path *p)
 {
-  if (p->s->on_symmetric) {
-    /* Where its symmetry breaks the determinant changes its sign, and the curve does not turn: on along the last
-     * tangent. */
-    const hbm_curve *c = p->curve;
-    const double *dX = hbm_curve_dX(c, c->n - 1);
-    const bool onward = path_inner(p, p->dX, p->d_omega, dX, c->points[c->n - 1].d_omega) > 0;
-    p->orientation = onward ? p->det_sign : -p->det_sign;
-  }
-  if (p->det_sign == p->orientation) return;
+  p->point.even_sign = path_even_sign(p);
+  /* Where its symmetry breaks the determinant changes its sign, and the curve does not turn: the symmetric block's
+   * decides. */
+  const int sign = p->point.even_sign ? p->det_sign * p->point.even_sign : p->det_sign;
+  if (sign == p->orientation) return;
   for (int i = 0; i < p->curve->n_coef; ++i) p->dX[i] = -p->dX[i];
   p->d_omega = -p->d_omega;
 }

@@ -6,11 +6,29 @@
 #include "hbm/curve/response_curve.h"
 #include "hbm/solver/hbm_solver_impl.h"
 
+/* A solution that a curve begins with. */
+typedef struct path_seed {
+  const double *X;  /* [n_coef] */
+  const double *dX; /* [n_coef] its tangent; NULL: that by omega, towards `to` */
+  double d_omega;
+  int orientation; /* of path, with dX */
+} path_seed;
+
+/* Where a curve begins, and where it ends. */
+typedef struct path_course {
+  double from, to; /* [rad/time] it begins at `from` towards the limit `to` of the sweep. On a ramp, here and below,
+                      places on it stand for omega */
+  double behind;   /* [rad/time] the sweep's other limit: `from`, where it begins there */
+  bool may_come_from_above; /* a first solution may be looked for by following the curve down from high omega */
+  const path_seed *seed;    /* NULL: hbm_first_solution at `from` */
+  const hbm_curve *known;   /* ends where it comes to a part of this one; NULL: there is none */
+} path_course;
+
 typedef struct path {
   hbm_solver *s;
   hbm_curve *curve;
-  double from, to, direction; /* [rad/time] the sweep; direction: sign of to - from. On a ramp, here and below, places
-                                 on it stand for omega */
+  const path_course *course;
+  double from, to, direction; /* [rad/time] of the course; direction: sign of to - from */
   double resolution;          /* [rad/time] width of the narrowest feature in omega: the linear resonance's half width,
                                  C/2M */
   double step;                /* [1] arc length to the next prediction */
@@ -22,7 +40,6 @@ typedef struct path {
   int droppable_points;       /* points in a row whose highest harmonics could be dropped; negative after dropping them
                                  failed, so that more points are waited for */
   bool more_samples;          /* start again with twice as many: these do not meet hbm.accuracy */
-  bool may_come_from_above;   /* a first solution may be looked for by following the curve down from high omega */
   int edges;                  /* edges of slip that were passed, or where that was tried */
   int points_at_last_edge;    /* number of points when a step past an edge of slip last failed */
   int points_at_last_corner;  /* number of points when a step round a corner last failed */
@@ -35,6 +52,9 @@ typedef struct path {
   int det_sign;                         /* of the trial's Jacobian */
   hbm_point point;                      /* of the trial */
 } path;
+
+/* The curve of a course, appended to an empty *curve, as of hbm_trace, whose statuses it has. */
+hc_status path_trace(hbm_solver *s, const path_course *course, const hc_monitor *monitor, hbm_curve *curve);
 
 /* The metric of harmonics at the last point. */
 metric_at path_metric(const path *p);
@@ -57,6 +77,9 @@ double path_flatness(const path *p);
 /* Prediction by the arc length h into X, omega; its direction into dX, d_omega (unit length). Returns interpolation
  * error / prediction error. */
 double path_predict(path *p, double h);
+
+/* hbm_even_sign of the trial; 0 where it is not symmetric. */
+int path_even_sign(path *p);
 
 /* Turn the trial's tangent forward: the sign of its determinant becomes the curve's orientation. */
 void path_orient_tangent(path *p);

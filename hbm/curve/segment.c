@@ -8,6 +8,7 @@
 
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
+#include "hbm/solver/linear_solution.h"
 #include "model/periodic_motion.h"
 #include "numerics/norm.h"
 #include "numerics/roots.h"
@@ -169,9 +170,9 @@ static int branch_on_segment(const hbm_curve *c, int k, double d_omega)
   return (d_omega > 0) == (a->d_omega > 0) ? a->branch : a[1].branch;
 }
 
-/* Newton at omega from the interpolant at sigma. False: no solution next to it. */
-static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, double sigma, double omega,
-                     hbm_candidate *x)
+/* Newton at omega from the interpolant at sigma. HC_NOT_CONVERGED: no solution next to it. */
+static hc_status solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment *seg, double sigma, double omega,
+                          hbm_candidate *x)
 {
   double at, d_omega;
   size_t bytes = (size_t)c->n_coef * sizeof(double);
@@ -180,14 +181,17 @@ static bool solve_at(hbm_solver *s, const hbm_curve *c, int k, const hbm_segment
   hbm_truncate(s, c->n_coef, x->X);
   hbm_truncate(s, c->n_coef, x->dX);
   memcpy(x->guess, x->X, bytes);
-  if (hbm_solve_fixed(s, omega, x->X, &x->point) != HC_OK) return false;
-  if (!(metric_distance(&seg->at, x->X, x->guess) <= NEAR * seg->length + ROUNDING)) return false;
-  if (hbm_tangent_fixed(s, x->X, x->dX) != HC_OK) return false;
+  hc_status st = hbm_solve_fixed(s, omega, x->X, &x->point);
+  if (st == HC_OK && !(metric_distance(&seg->at, x->X, x->guess) <= NEAR * seg->length + ROUNDING))
+    st = HC_NOT_CONVERGED;
+  if (st == HC_OK) st = hbm_tangent_fixed(s, x->X, x->dX);
+  if (st != HC_OK) return st;
   double sign = d_omega < 0 ? -1 : 1;
   for (int i = 0; i < c->n_coef; ++i) x->dX[i] *= sign;
   x->point.d_omega = sign;
   x->point.branch = branch_on_segment(c, k, d_omega);
-  return true;
+  x->point.part = c->points[k].part;
+  return HC_OK;
 }
 
 hc_status hbm_segment_point(hbm_solver *s, const hbm_curve *c, int k, double sigma, hbm_candidate *x)
@@ -205,6 +209,7 @@ hc_status hbm_segment_point(hbm_solver *s, const hbm_curve *c, int k, double sig
   hc_status st = hbm_solve_plane(s, normal, seg->omega_scale, x->X, &omega, &x->point);
   if (st == HC_OK) st = hbm_tangent_plane(s, x->dX, &x->point.d_omega);
   x->point.branch = branch_on_segment(c, k, x->point.d_omega);
+  x->point.part = c->points[k].part;
   return st;
 }
 
@@ -249,7 +254,7 @@ static hc_status search_solutions(hbm_solver *s, const hbm_curve *c, int k, doub
   int crossings = find_omega(&seg, omega, include_end, sigma), before = out->n;
   bool all_found = crossings > 0 || halvings_left == 0 || !may_turn_at(&seg, omega);
   for (int i = 0; i < crossings && all_found; ++i) {
-    all_found = solve_at(s, c, k, &seg, sigma[i], omega, x) && !has_point(out, before, x->X);
+    all_found = solve_at(s, c, k, &seg, sigma[i], omega, x) == HC_OK && !has_point(out, before, x->X);
     if (all_found && hbm_curve_append(out, c->n_coef, x->X, x->dX, &x->point) != HC_OK) return HC_NO_MEMORY;
   }
   if (all_found) return HC_OK;
@@ -273,6 +278,48 @@ hc_status hbm_segment_solutions(hbm_solver *s, const hbm_curve *c, int k, double
   st = search_solutions(s, c, k, omega, include_end, MAX_HALVINGS, &x, out);
   free(x.X);
   return st;
+}
+
+/* Solutions that Newton finds from two sides, each to 1e-10 of the forces, are within this of each other in the metric
+ * also where the equations are a thousand times as ill conditioned. */
+static const double MET = 1e-7;
+
+/* Where the equations have other harmonics by now, a point is on the segment if the interpolant, whose error is some
+ * 2e-4, comes this near. */
+static const double NEAR_OTHER = 1e-3;
+
+hc_status hbm_curve_passes(hbm_solver *s, const hbm_curve *c, int segments, const hbm_curve *of, int point,
+                           bool same_way, int *segment)
+{
+  const double omega = of->points[point].omega, *X = hbm_curve_X(of, point);
+  const bool other_equations = s->sys.n_coef != c->n_coef || of->n_coef != c->n_coef; /* adaptive harmonics */
+  const int n_coef = c->n_coef < of->n_coef ? c->n_coef : of->n_coef;
+  hbm_candidate x = {0};
+  int found = -1;
+  *segment = -1;
+  hc_status st = HC_OK;
+  for (int k = 0; k < segments && found < 0 && st != HC_NO_MEMORY; ++k) {
+    double sigma[3];
+    if (!hbm_curve_has_segment(c, k)) continue;
+    if (!((c->points[k].omega - omega) * (c->points[k + 1].omega - omega) <= 0)) continue;
+    if (same_way && (c->points[k].d_omega > 0) != (of->points[point].d_omega > 0)) continue;
+    const hbm_segment seg = hbm_segment_between(c, k);
+    const int n = find_omega(&seg, omega, true, sigma);
+    for (int i = 0; i < n && found < 0; ++i) {
+      if (!x.X && hbm_candidate_new(c->n_coef, &x) != HC_OK) return HC_NO_MEMORY;
+      double at;
+      hbm_segment_at(&seg, sigma[i], x.X, &at, NULL, NULL);
+      const metric_at apart = {c->metric, n_coef, hbm_curve_X(c, k), hbm_curve_X(c, k + 1)};
+      const double distance = metric_distance(&apart, x.X, X);
+      if (other_equations && distance <= NEAR_OTHER + s->how.accuracy) found = k;
+      if (other_equations || !(distance <= NEAR * seg.length + ROUNDING)) continue;
+      st = solve_at(s, c, k, &seg, sigma[i], omega, &x);
+      if (st == HC_OK && metric_distance(&apart, x.X, X) <= MET) found = k;
+    }
+  }
+  free(x.X);
+  *segment = found;
+  return st == HC_NO_MEMORY ? st : HC_OK;
 }
 
 /* ---- of the whole curve: at an omega -------------------------------------------------------------------- */
@@ -301,6 +348,62 @@ static hc_status solve_from_ends(hbm_solver *s, const hbm_curve *c, int k, doubl
   return at->n > before ? HC_OK : HC_NOT_CONVERGED;
 }
 
+/* Is point i, or its mirror image where the model is symmetric, one of the points before `end`? Solutions of one part
+ * are told apart as finely as Newton leaves them: next to a fold there are two. */
+static bool is_twin(const hbm_solver *s, const hbm_curve *at, int before, int end, int i)
+{
+  double *X = hbm_curve_X(at, i);
+  const metric_at m = {at->metric, at->n_coef, X, NULL};
+  bool twin = false;
+  for (int j = before; j < end && !twin; ++j) {
+    twin = !(metric_distance(&m, X, hbm_curve_X(at, j)) > (at->points[i].part == at->points[j].part ? SAME : MET));
+    if (twin || !hbm_mirror(s, X)) continue;
+    twin = !(metric_distance(&m, X, hbm_curve_X(at, j)) > MET);
+    hbm_mirror(s, X); /* as it was */
+  }
+  return twin;
+}
+
+/* Solutions that are there twice: interpolants of steep segments may overshoot into the next one, parts of a curve may
+ * end on one another, and a branch of a symmetric model has its mirror image. */
+static void drop_twins(const hbm_solver *s, int before, hbm_curve *at)
+{
+  const size_t row = (size_t)at->n_coef * sizeof(double);
+  int n = before;
+  for (int i = before; i < at->n; ++i) {
+    if (is_twin(s, at, before, n, i)) continue;
+    at->points[n] = at->points[i];
+    memmove(hbm_curve_X(at, n), hbm_curve_X(at, i), row);
+    memmove(hbm_curve_dX(at, n), hbm_curve_dX(at, i), row);
+    ++n;
+  }
+  at->n = n;
+}
+
+static bool is_within(const hbm_curve *c, double omega)
+{
+  bool below = false, above = false;
+  for (int k = 0; k < c->n; ++k) below |= c->points[k].omega <= omega, above |= c->points[k].omega >= omega;
+  return below && above;
+}
+
+/* The motion in which no contact changes state, where it solves the equations: in closed form at any omega that the
+ * curve spans, whether or not a part of it has come to it. */
+static hc_status append_linear(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
+{
+  hbm_candidate x;
+  if (!is_within(c, omega)) return HC_OK;
+  hc_status st = hbm_candidate_new(s->sys.n_coef > c->n_coef ? s->sys.n_coef : c->n_coef, &x);
+  if (st == HC_OK && hbm_linear_point(s, omega, INFINITY, x.X, x.dX, &x.point)) {
+    x.point.d_omega = 1;
+    x.point.branch = c->points[c->n - 1].branch + 1;
+    x.point.part = c->n_parts;
+    st = hbm_curve_append(at, c->n_coef, x.X, x.dX, &x.point);
+  }
+  free(x.X);
+  return st;
+}
+
 hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
 {
   const int before = at->n;
@@ -308,28 +411,13 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curv
   hbm_curve_measure_by(at, c->metric, c->omega_scale);
   at->asked = true;
   for (int k = 0; k + 1 < c->n; ++k) {
-    hc_status st = hbm_segment_solutions(s, c, k, omega, k + 2 == c->n, at);
+    if (!hbm_curve_has_segment(c, k)) continue;
+    hc_status st = hbm_segment_solutions(s, c, k, omega, !hbm_curve_has_segment(c, k + 1), at);
     if (st != HC_OK && s->edges) st = solve_from_ends(s, c, k, omega, before, at);
     if (st != HC_OK) worst = st;
   }
-  /* Solutions that are there twice: interpolants of steep segments may overshoot into the next one. */
-  if (s->edges) {
-    const size_t row = (size_t)at->n_coef * sizeof(double);
-    int n = before;
-    for (int i = before; i < at->n; ++i) {
-      const int all = at->n;
-      at->n = n;
-      const double *X = hbm_curve_X(at, i);
-      const bool twin = has_point(at, before, X);
-      at->n = all;
-      if (twin) continue;
-      at->points[n] = at->points[i];
-      memmove(hbm_curve_X(at, n), hbm_curve_X(at, i), row);
-      memmove(hbm_curve_dX(at, n), hbm_curve_dX(at, i), row);
-      ++n;
-    }
-    at->n = n;
-  }
+  if (c->n_parts > 0 && c->n > 0 && append_linear(s, c, omega, at) == HC_NO_MEMORY) return HC_NO_MEMORY;
+  drop_twins(s, before, at);
   const bool stopped = at->n == before && c->n > 0 && c->end != HC_OK;
   return stopped && s->edges ? append_solution(s, c, NULL, omega, before, at) : worst;
 }
@@ -512,7 +600,8 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
   }
   if (top < 0) return HC_BAD_INPUT;
   hbm_curve_measure_by(peak, c->metric, c->omega_scale);
-  if (top == 0 || top == c->n - 1) /* an end of the sweep: the peak may lie outside */
+  if (top == 0 || !hbm_curve_has_segment(c, top - 1) ||
+      !hbm_curve_has_segment(c, top)) /* an end of the sweep: the peak may lie outside */
     return hbm_curve_append(peak, c->n_coef, hbm_curve_X(c, top), hbm_curve_dX(c, top), &c->points[top]);
   for (int side = -1; side <= 1; side += 2) beside[1 + side] = amplitude_of(s, hbm_curve_X(c, top + side));
   hbm_candidate x;
@@ -568,6 +657,7 @@ hc_status hbm_curve_add_summits(hbm_solver *s, hbm_curve *c)
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
   st = hbm_candidate_new(c->n_coef, &p.between);
+  if (st == HC_OK && c->n > 2) st = hbm_narrowing_start(&p.near, c, 0); /* allocates once for all */
   for (int top = 1; top + 1 < c->n && st == HC_OK; ++top) {
     double high[3];
     for (int i = 0; i < 3; ++i) high[i] = amplitude_of(s, hbm_curve_X(c, top - 1 + i));

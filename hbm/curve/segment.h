@@ -49,7 +49,14 @@ hc_status hbm_segment_point(hbm_solver *s, const hbm_curve *curve, int k, double
 
 /* ---- of the whole curve ---- */
 
-/* Every solution of the curve at omega, appended to *at in the curve's order. The status is HC_OK, or that of the
+/* *segment: the first of c's segments 0..segments - 1 on which the given point of the curve `of`, which may be c, lies;
+ * negative: none. same_way: of those alone on which omega goes the same way. Newton is asked only where the interpolant
+ * comes near. HC_NO_MEMORY. */
+hc_status hbm_curve_passes(hbm_solver *s, const hbm_curve *c, int segments, const hbm_curve *of, int point,
+                           bool same_way, int *segment);
+
+/* Every solution of the curve at omega, appended to *at in the curve's order, each once; of one with parts also the
+ * motion in which no contact changes state, where there is one, behind the others with a branch of its own. The status is HC_OK, or that of the
  * last segment on which a solution could not be found; the other segments' solutions are there all the same. Where a
  * curve whose contacts have edges of slip stopped before omega: one solution, found without it; of their edges of
  * slip (README.md) those that Newton finds at omega from a segment's ends. */

@@ -378,7 +378,7 @@ hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *
   if (st == HC_OK) st = evaluate_at_point(&d, 0, &before);
   for (int k = 0; st == HC_OK && k + 1 < c->n; ++k) {
     st = evaluate_at_point(&d, k + 1, &here);
-    hc_status found = st == HC_OK ? search_segment(&d, k, &before, &here) : st;
+    hc_status found = st == HC_OK && hbm_curve_has_segment(c, k) ? search_segment(&d, k, &before, &here) : st;
     if (found != HC_OK) not_located = found; /* the search goes on: the others are still to be found */
     before = here;
   }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "hbm/solver/hbm_solver_impl.h"
+#include "numerics/dense.h"
 #include "numerics/norm.h"
 
 /* On a quick ramp a step that needs more iterations than QUICK_ITERATIONS is halved instead. */
@@ -190,9 +191,9 @@ static newton_options corrector_options(const hbm_solver *s, double max_step, in
                           .ends_fresh = true};
 }
 
-static hc_status solve_fixed(hbm_solver *s, double omega, bool polish, double *X, hbm_point *point)
+static hc_status solve_fixed(hbm_solver *s, double omega, bool polish, bool plain, double *X, hbm_point *point)
 {
-  newton_options opt = corrector_options(s, 3.0, MAX_NEWTON_ITERATIONS, false);
+  newton_options opt = corrector_options(s, 3.0, MAX_NEWTON_ITERATIONS, plain);
   if (!polish) opt.unpolished = true;
   ++s->solves;
   hc_status st = set_scales(s, omega, X);
@@ -204,12 +205,17 @@ static hc_status solve_fixed(hbm_solver *s, double omega, bool polish, double *X
 
 hc_status hbm_solve_fixed(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
-  return solve_fixed(s, omega, true, X, point);
+  return solve_fixed(s, omega, true, false, X, point);
+}
+
+hc_status hbm_solve_plainly(hbm_solver *s, double omega, double *X, hbm_point *point)
+{
+  return solve_fixed(s, omega, true, true, X, point);
 }
 
 hc_status hbm_solve_roughly(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
-  return solve_fixed(s, omega, false, X, point);
+  return solve_fixed(s, omega, false, false, X, point);
 }
 
 static hc_status solve_plane(hbm_solver *s, const double *normal, double omega_scale, int max_iterations, bool plain,
@@ -269,6 +275,54 @@ hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, do
   if (st == HC_OK) st = hbm_tangent_plane(s, dX, d_omega);
   *det_sign = newton_sign(s->plane);
   return st;
+}
+
+/* s->even_block: dR/dX of even harmonics at X, factored. */
+static hc_status factor_even(hbm_solver *s, double omega, const double *X)
+{
+  const hbm_system *sys = &s->sys;
+  int n = 0;
+  hc_status st = hbm_system_residual(&s->sys, omega_at(s, omega), X, s->z);
+  if (st != HC_OK) return st;
+  hbm_system_jacobian(&s->sys, omega_at(s, omega), sys->n, s->whole_block);
+  for (int i = 0; i < sys->n; ++i)
+    if (is_even(s, i + sys->first)) s->even_index[n++] = i;
+  s->n_even = n;
+  for (int q = 0; q < n; ++q)
+    for (int i = 0; i < n; ++i)
+      s->even_block[i + (size_t)n * (size_t)q] =
+          s->whole_block[s->even_index[i] + (size_t)sys->n * (size_t)s->even_index[q]];
+  return dense_factor(n, s->even_block, s->even_pivot);
+}
+
+int hbm_even_sign(hbm_solver *s, double omega, const double *X)
+{
+  return factor_even(s, omega, X) == HC_OK ? dense_sign(s->n_even, s->even_block, s->even_pivot) : 0;
+}
+
+hc_status hbm_even_kernel(hbm_solver *s, double omega, const double *X, double *phi)
+{
+  enum { STEPS = 4 }; /* of inverse iteration: each leaves the ratio of the two least eigenvalues, which is tiny here */
+  const metric_at at = hbm_metric_at(s, X);
+  hc_status st = factor_even(s, omega, X);
+  for (int i = 0; i < s->n_even; ++i) s->z[i] = 1 + 0.1 * (i % 7); /* any vector with a part of every kernel */
+  for (int k = 0; k < STEPS && st == HC_OK; ++k) {
+    memset(phi, 0, (size_t)s->sys.n_coef * sizeof *phi);
+    dense_solve(s->n_even, s->even_block, s->even_pivot, 1, s->z);
+    for (int i = 0; i < s->n_even; ++i) phi[s->sys.first + s->even_index[i]] = s->z[i];
+    const double length = metric_length(&at, phi);
+    if (!(length > 0 && isfinite(length))) st = HC_SINGULAR;
+    for (int i = 0; i < s->n_even && st == HC_OK; ++i) s->z[i] /= length;
+    for (int i = 0; i < s->sys.n_coef && st == HC_OK; ++i) phi[i] /= length;
+  }
+  return st;
+}
+
+bool hbm_mirror(const hbm_solver *s, double *X)
+{
+  for (int i = 0; i < s->sys.n_coef && s->symmetric; ++i)
+    if (is_even(s, i)) X[i] = -X[i];
+  return s->symmetric;
 }
 
 hc_status hbm_det_sign_at(hbm_solver *s, double omega, const double *X, int *det_sign)

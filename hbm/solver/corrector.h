@@ -20,6 +20,9 @@ hc_status hbm_solve_fixed(hbm_solver *s, double omega, double *X, hbm_point *poi
 hc_status hbm_solve_plane(hbm_solver *s, const double *normal, double omega_scale, double *X, double *omega,
                           hbm_point *point);
 
+/* The fixed form without a line search, which takes many times as long where it fails, too. */
+hc_status hbm_solve_plainly(hbm_solver *s, double omega, double *X, hbm_point *point);
+
 /* The plane form by plain Newton: at most hbm.iterations of them, no line search. Errors of hbm_solve_plane. */
 hc_status hbm_solve_plane_plainly(hbm_solver *s, const double *normal, double omega_scale, double *X, double *omega,
                                   hbm_point *point);
@@ -33,6 +36,15 @@ hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega);
  * (dX, d_omega) = 1. *det_sign: that of the plane form's Jacobian. X need not be a solution. HC_SINGULAR. */
 hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, double omega, double *dX, double *d_omega,
                         int *det_sign);
+
+/* Of a symmetric solution X of a symmetric model, dR/dX has no entries between even harmonics (the mean among them) and
+ * odd ones. Sign of the determinant of the even ones' block: it changes where the symmetry breaks (a branch point), and
+ * the rest's where the symmetric branch turns. 0 where it is singular or cannot be evaluated. */
+int hbm_even_sign(hbm_solver *s, double omega, const double *X);
+
+/* phi[n_coef], even harmonics alone, of length 1 in the metric at X: nearest to the kernel of that block, by which the
+ * other branch leaves a branch point. HC_SINGULAR, or errors of the contact force. */
+hc_status hbm_even_kernel(hbm_solver *s, double omega, const double *X, double *phi);
 
 /* Sign of det dR/dX at (X, omega) in *det_sign, 0 if it is singular. HC_SINGULAR, or errors of the contact force. */
 hc_status hbm_det_sign_at(hbm_solver *s, double omega, const double *X, int *det_sign);

@@ -35,6 +35,11 @@ static hc_status make_equations(hbm_solver *s, int n_harm, int n_time, metric *s
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
     *arrays[i] = workspace_doubles(&s->memory, (size_t)s->sys.n_coef + 1);
   s->x = workspace_doubles(&s->memory, (size_t)series_length(HBM_MAX_HARMONICS));
+  const size_t unknowns = s->symmetric ? (size_t)s->sys.n : 0;
+  s->whole_block = workspace_doubles(&s->memory, unknowns * unknowns);
+  s->even_block = workspace_doubles(&s->memory, unknowns * unknowns);
+  s->even_index = workspace_array(&s->memory, unknowns, sizeof *s->even_index);
+  s->even_pivot = workspace_array(&s->memory, unknowns, sizeof *s->even_pivot);
   s->n_time = n_time;
   if (st == HC_OK) st = s->memory.failed ? HC_NO_MEMORY : hbm_corrector_new(s);
   const evaluator_settings exact = {.n_harm = n_harm};

@@ -57,10 +57,12 @@ typedef struct hbm_point {
   double omega;    /* [rad/time] */
   double residual; /* [1] |R|, largest component, relative to the forces on its coordinate: hbm_system_weights */
   double d_omega;  /* [rad/time] tangent of the curve with respect to its parameter, beside hbm_curve's dX */
-  int branch;      /* turning points passed since the start of the curve */
-  int iterations;  /* Newton iterations spent on this point; 0: taken from the linear closed form */
-  int harmonics;   /* kept at this point: changes along the curve for hbm.harmonics: auto */
-  double error;    /* [1] estimated relative error for auto harmonics or samples, NaN when a number was given */
+  int branch;     /* turning points passed since the start of the curve; of later parts (response_curve.h) counted on */
+  int part;       /* of the curve, from 0: points of different parts are not connected */
+  int iterations; /* Newton iterations spent on this point; 0: taken from the linear closed form */
+  int even_sign;  /* of a symmetric solution hbm_even_sign (corrector.h), which changes at a branch point; else 0 */
+  int harmonics;  /* kept at this point: changes along the curve for hbm.harmonics: auto */
+  double error;   /* [1] estimated relative error for auto harmonics or samples, NaN when a number was given */
 } hbm_point;
 
 /* Solve at a fixed omega from the guess X[hbm_n_coefficients]; X is the solution on HC_OK and untouched otherwise. A
@@ -75,6 +77,10 @@ hc_status hbm_solve_roughly(hbm_solver *s, double omega, double *X, hbm_point *p
  * (ramp.h) or from the guess of hbm_solver_take_guess, in the order of continuation.c. X[hbm_n_coefficients] is
  * overwritten, and is a solution on HC_OK alone. HC_INTERRUPTED, HC_NO_MEMORY, or why the last ramp ended. */
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point);
+
+/* X becomes its mirror image, the motion -x(t + T/2), which solves a symmetric model's equations where X does. False,
+ * and nothing is changed: the model is not symmetric. */
+bool hbm_mirror(const hbm_solver *s, double *X);
 
 /* Measures of one response over its period, from its series x[2H+1]. */
 typedef struct hbm_measures {

@@ -90,7 +90,7 @@ static void print_failures(const cli_common *common, const comparison *c)
       cli_solver_failed(common, CLI_TRANSIENT, "time integration", r->transient_status, r->omega);
   }
   if (c->curve.end != HC_OK && c->curve.n)
-    cli_solver_failed(common, CLI_HBM, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
+    cli_solver_failed(common, CLI_HBM, "the HBM response curve", c->curve.end, c->curve.ends_at);
 }
 
 /* "3 rows without ...": where there are such rows. */
@@ -179,8 +179,7 @@ static table *table_of_rows(const cli_common *common, const comparison *c)
   table_note(t, "gate: amplitude %g, harmonic_1 %g, mean %g, waveform %g of the transient's amplitude",
              sc->gate.most.amplitude, sc->gate.most.harmonic_1, sc->gate.most.mean, sc->gate.most.waveform);
   if (c->curve.end != HC_OK && c->curve.n)
-    table_note(t, "the HBM curve STOPPED at %s: %s",
-               scene_where(sc, c->curve.points[c->curve.n - 1].omega, (char[SCENE_WHERE]){0}),
+    table_note(t, "the HBM curve STOPPED at %s: %s", scene_where(sc, c->curve.ends_at, (char[SCENE_WHERE]){0}),
                hc_status_text(c->curve.end));
   table_notes_of_rows(t);
   return t;

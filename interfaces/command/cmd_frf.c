@@ -14,8 +14,8 @@
 
 static const char help[] =
     "You want the response curve: harmonic balance along the sweep of CASE, turning points included, or every "
-    "solution of that curve at the omegas of --at. What is not connected to the sweep's first omega is not seen: try "
-    "the sweep the other way."
+    "solution of that curve at the omegas of --at. Branches that begin at the sweep's other end or where symmetry "
+    "breaks come with it."
     "\vColumns: amplitude = (max - min)/2 of x over a period, branch = turning points passed, contact = the "
     "strongest thing that happens in a period.\n"
     "exit: 0 the whole sweep  2 case file wrong  3 stopped before the end (where and why on stderr)  64 usage\n"
@@ -77,6 +77,25 @@ static hc_status put_contacts(const cli_common *common, hbm_solver *s, const hbm
   return st;
 }
 
+/* Where each further part begins and ends, and the branches it has. */
+static void note_parts(table *t, const scene *sc, const hbm_curve *c)
+{
+  static const char *const start[] = {"the sweep's beginning", "the other end of the sweep", "a branch point"};
+  for (int i = 1; i < c->n_parts; ++i) {
+    const hbm_curve_part *p = &c->parts[i];
+    const hbm_point *first = &c->points[p->first], *last = first + p->n - 1;
+    char from[SCENE_WHERE], to[SCENE_WHERE], reason[160] = "";
+    scene_where(sc, first->omega, from);
+    scene_where(sc, p->ends_at, to);
+    if (p->end != HC_OK) snprintf(reason, sizeof reason, ": it STOPPED there, %s", hc_status_text(p->end));
+    else if (p->met) snprintf(reason, sizeof reason, ", where it meets another branch");
+    else if (p->closed) snprintf(reason, sizeof reason, ", where it closes");
+    table_note(t, "branch %d%s%.0d: not connected to the sweep's beginning; %d points from %s, %s, to %s%s",
+               first->branch, last->branch > first->branch ? " to " : "",
+               last->branch > first->branch ? last->branch : 0, p->n, start[p->start], from, to, reason);
+  }
+}
+
 static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm_curve *c, bool at_given)
 {
   char how[128];
@@ -100,10 +119,11 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
   if (sc->hbm.keep_mean && scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (c->n == 0) return;
   char last[SCENE_WHERE];
-  scene_where(sc, c->points[c->n - 1].omega, last);
+  scene_where(sc, c->ends_at, last);
   if (c->left_at_start) table_note(t, "the branch turned back and left the sweep where it began, at %s", last);
   else if (c->end == HC_OK) table_note(t, "reached the end of the sweep, %s", last);
   else table_note(t, "STOPPED at %s: %s", last, hc_status_text(c->end));
+  note_parts(t, sc, c);
 }
 
 static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const hbm_curve *c)
@@ -154,8 +174,8 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   comparison_sweep(sc->omega_from, sc->omega_to, at, &from, &to);
   hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK) {
-    st = hbm_trace(s, from, to, &monitor, &curve);
-    if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;
+    st = hbm_trace_all(s, from, to, &monitor, &curve);
+    if (st != HC_OK) failed_at = curve.ends_at;
     const hbm_curve *shown = at->n ? &found : &curve;
     hc_status solved = at->n ? response_at(s, &curve, at, &found, &failed_at) : HC_OK;
     /* also with --at a curve that stops early is a failure: it might have turned back to those omegas */

@@ -140,7 +140,7 @@ hbmcheck_status hbmcheck_curve_trace(const hbmcheck_case *c, const hbmcheck_moni
   curve->n_contacts = scene_contact_count(&c->sc);
   if (st == HC_OK) st = guided_hbm_solver_new(setup.model, &setup.hbm, &curve->solver);
   if (st == HC_OK) {
-    st = hbm_trace(curve->solver, setup.omega_from, setup.omega_to, &inner, &curve->points.curve);
+    st = hbm_trace_all(curve->solver, setup.omega_from, setup.omega_to, &inner, &curve->points.curve);
     st = finish_search(curve->solver, st, setup.model->n_responses, &curve->points);
   }
   scene_setup_clear(&setup);

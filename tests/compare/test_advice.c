@@ -58,7 +58,7 @@ static void advice_is_a_sentence(CHECK_STATE)
   assert_string_equal(advice_for_hbm(&hbm, HC_NOT_CONVERGED, text),
                       "try --set hbm.continuation=auto, --set hbm.force=exact or a sweep from the other end");
   hbm.continuation = HBM_CONTINUATION_AUTO, hbm.force = HBM_FORCE_EXACT;
-  assert_string_equal(advice_for_hbm(&hbm, HC_NOT_CONVERGED, text), "try a sweep from the other end");
+  assert_string_equal(advice_for_hbm(&hbm, HC_NOT_CONVERGED, text), "try another number of --set hbm.harmonics=...");
   assert_string_equal(advice_for_hbm(&hbm, HC_BUG, text), "");
   assert_non_null(strstr(advice_on_size(0), "damping is 0"));
   assert_null(strstr(advice_on_size(0.4), "damping"));

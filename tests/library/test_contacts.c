@@ -25,7 +25,7 @@ static void every_solution_has_its_contacts(CHECK_STATE)
     CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(b.c, NULL, &curve));
     CHECK_MADE(hbmcheck_solutions, at, hbmcheck_curve_at(curve, omega[i], &at));
     CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s));
-    assert_int_equal(hbm_trace(s, b.setup.omega_from, b.setup.omega_to, NULL, &traced), HC_OK);
+    assert_int_equal(hbm_trace_all(s, b.setup.omega_from, b.setup.omega_to, NULL, &traced), HC_OK);
     assert_int_equal(hbm_curve_at(s, &traced, omega[i], &there), HC_OK);
     assert_in_range(there.n, 1, 8);
     for (int k = 0; k < there.n; ++k) {

@@ -64,7 +64,7 @@ static void check_curve(const char *const *set)
   hbm_curve expected = {0}, at = {0};
   hbmcheck_case *c = case2_with(set);
   CHECK_MADE(hbm_solver, s, hbm_solver_new(setup.model, &setup.hbm, &s));
-  assert_int_equal(hbm_trace(s, setup.omega_from, setup.omega_to, NULL, &expected), HC_OK);
+  assert_int_equal(hbm_trace_all(s, setup.omega_from, setup.omega_to, NULL, &expected), HC_OK);
   CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(c, NULL, &curve));
   hbmcheck_case_free(c); /* results do not need it any more */
   const hbmcheck_solutions *points = hbmcheck_curve_points(curve);

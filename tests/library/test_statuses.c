@@ -26,7 +26,7 @@
 /* What each is to answer in the place of HC_OK. */
 #define FIELD(name, parameters, arguments) hc_status name;
 static struct {
-  WRAPPED(FIELD) hc_status hbm_trace, response_row_of, steady_states_run, comparison_run;
+  WRAPPED(FIELD) hc_status hbm_trace_all, response_row_of, steady_states_run, comparison_run;
   int rows_before; /* response_row_of: rows that are measured before */
 } forced;
 
@@ -38,10 +38,10 @@ static struct {
   }
 WRAPPED(ANSWER)
 
-WRAP(hc_status, hbm_trace, (hbm_solver * s, double from, double to, const hc_monitor *monitor, hbm_curve *curve))
+WRAP(hc_status, hbm_trace_all, (hbm_solver * s, double from, double to, const hc_monitor *monitor, hbm_curve *curve))
 {
-  hc_status st = __real_hbm_trace(s, from, to, monitor, curve);
-  return forced.hbm_trace != HC_OK ? (curve->end = forced.hbm_trace) : st;
+  hc_status st = __real_hbm_trace_all(s, from, to, monitor, curve);
+  return forced.hbm_trace_all != HC_OK ? (curve->end = forced.hbm_trace_all) : st;
 }
 
 WRAP(hc_status, response_row_of, (hbm_solver * s, const hbm_curve *c, int k, response_row *out))
@@ -114,7 +114,7 @@ static void curve(CHECK_STATE)
   hbmcheck_curve *curve;
   EACH(st)
   {
-    forced.hbm_trace = st;
+    forced.hbm_trace_all = st;
     EXPECT(hbmcheck_curve_trace(c, NULL, &curve), st, curve);
     if (curve) { /* solutions may be missing, and the status says why */
       hbmcheck_solutions *at;
@@ -149,10 +149,10 @@ static void measures(CHECK_STATE)
     EXPECT(hbmcheck_curve_trace(c, NULL, &curve), st, curve);
     assert_int_equal(hbmcheck_solutions_count(hbmcheck_curve_points(curve)), keeps(st) ? 2 : 0);
     hbmcheck_curve_free(curve);
-    forced.hbm_trace = HC_STALLED;
+    forced.hbm_trace_all = HC_STALLED;
     EXPECT(hbmcheck_curve_trace(c, NULL, &curve), st == HC_NO_MEMORY ? HC_NO_MEMORY : HC_STALLED, curve);
     hbmcheck_curve_free(curve);
-    forced.hbm_trace = HC_OK;
+    forced.hbm_trace_all = HC_OK;
   }
   UNFORCED;
   hbmcheck_case_free(c);

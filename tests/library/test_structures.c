@@ -31,7 +31,7 @@ static void solutions_are_of_every_response(CHECK_STATE)
   CHECK_MADE(hbmcheck_curve, curve, hbmcheck_curve_trace(b.c, NULL, &curve));
   CHECK_MADE(hbmcheck_solutions, found, hbmcheck_curve_at(curve, at[0], &found));
   CHECK_MADE(hbm_solver, s, guided_hbm_solver_new(b.setup.model, &b.setup.hbm, &s));
-  assert_int_equal(hbm_trace(s, b.setup.omega_from, b.setup.omega_to, NULL, &traced), HC_OK);
+  assert_int_equal(hbm_trace_all(s, b.setup.omega_from, b.setup.omega_to, NULL, &traced), HC_OK);
   assert_int_equal(hbm_curve_at(s, &traced, at[0], &there), HC_OK);
   assert_int_equal(hbmcheck_solutions_count(found), 1);
   for (int r = 0; r < RESPONSES; ++r) {

@@ -100,6 +100,7 @@ static hc_status outline_new(search *s, outline *out)
   out->omega = malloc(2 * room * sizeof *out->omega);
   if (!X || !out->omega) st = HC_NO_MEMORY;
   for (int k = 0; k + 1 < curve->n && st == HC_OK; ++k) {
+    if (!hbm_curve_has_segment(curve, k)) continue;
     const hbm_segment seg = hbm_segment_between(curve, k);
     for (int i = 0; i < BETWEEN; ++i) {
       double *const omega = &out->omega[out->n];

@@ -242,7 +242,7 @@ hc_status verify_solutions_of(const compare_setup *setup, const verify_equations
   hbm_curve own = {0};
   const hbm_curve *known = known_curve(at, setup->model, e), *curve = known ? known : &own;
   hc_status st = start(setup, e, at, &p, out);
-  if (st == HC_OK && !known) st = hbm_trace(p.hbm, at->from, at->to, monitor, &own);
+  if (st == HC_OK && !known) st = hbm_trace_all(p.hbm, at->from, at->to, monitor, &own);
   if (st != HC_INTERRUPTED && st != HC_NO_MEMORY && p.hbm) st = HC_OK; /* as far as it came */
   for (int i = 0; i < at->n && st == HC_OK; ++i) {
     hbm_curve there = {0};

@@ -4,9 +4,6 @@
 #include "numerics/base/constants.h"
 #include "study/scene_solvers.h"
 
-/* [1] A point farther from the curve than this fraction of the drawing is on another branch. */
-static const double off_curve = 0.01;
-
 /* ---- where the curve goes ---- */
 
 /* Straight lines need more points: BETWEEN steps between two, on the cubic of hbm/curve/segment.h. */
@@ -24,7 +21,7 @@ static hc_status measure_point(hbm_solver *s, double omega, const double *X, dra
   hbm_stability floquet;
   hc_status st = as.response ? hbm_measure_response(s, omega, X, as.response, &m) : hbm_measure(s, X, &m);
   if (st != HC_OK) return st;
-  *p = (curve_point){omega, m.amplitude, 0};
+  p->omega = omega, p->amplitude = m.amplitude, p->stable = 0;
   const bool judge = as.judge && !hbm_stability_is_costly(s);
   if (judge && hbm_stability_at(s, omega, X, &floquet) == HC_OK) p->stable = hbm_stability_verdict(&floquet);
   return HC_OK;
@@ -38,10 +35,14 @@ static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, drawn_as as, cu
   *points = calloc((size_t)BETWEEN * (size_t)(c->n > 0 ? c->n : 1), sizeof **points);
   double *X = malloc((size_t)(c->n_coef > 0 ? c->n_coef : 1) * sizeof *X);
   if (!*points || !X) st = HC_NO_MEMORY;
-  for (int k = 0; k < c->n && st == HC_OK; ++k)
+  for (int k = 0; k < c->n && st == HC_OK; ++k) {
+    (*points)[BETWEEN * k].part = c->points[k].part;
     st = measure_point(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, as, &(*points)[BETWEEN * k]);
+  }
   for (int k = 0; k + 1 < c->n && st == HC_OK; ++k) {
     int here = (*points)[BETWEEN * k].stable, next = (*points)[BETWEEN * (k + 1)].stable;
+    for (int i = 1; i < BETWEEN; ++i) (*points)[BETWEEN * k + i] = (*points)[BETWEEN * k];
+    if (!hbm_curve_has_segment(c, k)) continue;
     const hbm_segment segment = hbm_segment_between(c, k);
     for (int i = 1; i < BETWEEN && st == HC_OK; ++i) {
       curve_point *p = &(*points)[BETWEEN * k + i];
@@ -57,8 +58,6 @@ static hc_status sample_curve(hbm_solver *s, const hbm_curve *c, drawn_as as, cu
   return st;
 }
 
-/* ---- the other end ---- */
-
 static double sq(double x) { return x * x; }
 
 /* Distance of p from the segment a b, in fractions of the drawing's width and height. */
@@ -69,13 +68,6 @@ static double distance(const curve_point *p, const curve_point *a, const curve_p
   double along = bx * bx + by * by > 0 ? (px * bx + py * by) / (bx * bx + by * by) : 0;
   along = along < 0 ? 0 : along > 1 ? 1 : along;
   return sqrt(sq(px - along * bx) + sq(py - along * by));
-}
-
-static bool on_curve(const curve_shape *c, const curve_point *p, double wide, double high)
-{
-  for (int k = 0; k + 1 < c->n; ++k)
-    if (distance(p, &c->points[k], &c->points[k + 1], wide, high) <= off_curve) return true;
-  return false;
 }
 
 /* ---- made and freed ---- */
@@ -98,43 +90,18 @@ hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve,
   hc_status st = sample_curve(s, curve, (drawn_as){0, true}, &out->points, &out->n);
   if (st == HC_OK && curve->n > 0) hbm_specials(s, curve, CURVE_MOST_SPECIALS, out->special, &out->n_special);
   if (out->n_special > CURVE_MOST_SPECIALS) out->n_special = CURVE_MOST_SPECIALS;
-  /* The sweep from the other end. If it fails nothing of it is drawn; the only error is HC_NO_MEMORY. */
-  if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT) {
-    hbm_solver *reverse = NULL;
-    hbm_curve back = {0};
-    hc_status traced = scene_hbm_solver(sc, &reverse);
-    if (traced == HC_OK) hbm_trace(reverse, sc->omega_to, sc->omega_from, NULL, &back);
-    if (traced == HC_OK && back.n > 0)
-      traced = sample_curve(reverse, &back, (drawn_as){0, false}, &out->other, &out->n_other);
-    /* Drops the points of `other` that lie on the curve; a gap stands where some were dropped. */
-    if (traced == HC_OK) {
-      int kept = 0;
-      double high = 0;
-      for (int k = 0; k < out->n; ++k) high = fmax(high, out->points[k].amplitude);
-      for (int k = 0; k < out->n_other; ++k) {
-        const curve_point p = out->other[k];
-        bool off = p.omega >= out->low && p.omega <= out->high &&
-                   !on_curve(out, &p, out->high - out->low, high > 0 ? high : 1);
-        if (off) out->other[kept++] = p;
-        else if (kept && !isnan(out->other[kept - 1].omega)) out->other[kept++] = (curve_point){.omega = NAN};
-      }
-      out->n_other = kept;
-    } else out->n_other = 0;
-    hbm_curve_free(&back);
-    hbm_solver_free(reverse);
-    st = traced == HC_NO_MEMORY ? traced : HC_OK;
-  }
   return st;
 }
 
 /* The response's amplitude where the first one's point lies on its curve. */
 static double amplitude_there(const curve_shape *first, const curve_point *points, const hbm_special *p)
 {
-  const curve_point at = {p->omega, p->amplitude, 0};
+  const curve_point at = {p->omega, p->amplitude, 0, 0};
   double nearest = INFINITY, amplitude = NAN, high = 0;
   for (int k = 0; k < first->n; ++k) high = fmax(high, first->points[k].amplitude);
   for (int k = 0; k + 1 < first->n; ++k) {
     const curve_point *a = &first->points[k], *b = a + 1;
+    if (a->part != b->part) continue;
     const double d = distance(&at, a, b, first->high - first->low, high > 0 ? high : 1);
     if (!(d < nearest)) continue;
     const double part = b->omega != a->omega ? fmin(fmax((p->omega - a->omega) / (b->omega - a->omega), 0), 1) : 0;
@@ -148,8 +115,7 @@ hc_status curve_shape_response(const curve_shape *first, const scene *sc, hbm_so
                                curve_shape *out)
 {
   *out = *first;
-  out->points = out->other = NULL;
-  out->n_other = 0;
+  out->points = NULL;
   curve_response_name(sc, r, out->of);
   hc_status st = sample_curve(s, curve, (drawn_as){r, false}, &out->points, &out->n);
   if (st != HC_OK) return st;
@@ -168,7 +134,7 @@ hc_status curve_shape_trace(const scene *sc, const number_list *asked, curve_sha
   comparison_sweep(sc->omega_from, sc->omega_to, asked, &from, &to);
   hc_status st = scene_hbm_solver(sc, &s);
   if (st == HC_OK) {
-    hbm_trace(s, from, to, NULL, &curve);
+    hbm_trace_all(s, from, to, NULL, &curve);
     st = curve_shape_of(sc, s, &curve, out);
   }
   out->low = fmin(out->low, fmin(from, to));
@@ -181,8 +147,7 @@ hc_status curve_shape_trace(const scene *sc, const number_list *asked, curve_sha
 void curve_shape_clear(curve_shape *c)
 {
   free(c->points);
-  free(c->other);
-  c->points = c->other = NULL;
+  c->points = NULL;
 }
 
 /* ---- drawn ---- */
@@ -236,7 +201,9 @@ void curve_shape_data(figure *g, const curve_shape *c)
      * point's, so the point after the last of a stability is written too. */
     int stable = stabilities[r].stable;
     for (int k = 0; k < c->n; ++k) {
-      bool mine = c->points[k].stable == stable, ends = k > 0 && c->points[k - 1].stable == stable;
+      const bool joined = k > 0 && c->points[k - 1].part == c->points[k].part;
+      const bool mine = c->points[k].stable == stable, ends = joined && c->points[k - 1].stable == stable;
+      if (!joined) figure_gap(g);
       if (mine || ends) figure_point(g, c->points[k].omega, c->points[k].amplitude);
       if (!mine && ends) figure_gap(g);
     }
@@ -249,12 +216,6 @@ void curve_shape_data(figure *g, const curve_shape *c)
         figure_point(g, c->special[i].omega, c->special[i].amplitude);
     figure_block_end(g);
   }
-  figure_block(g, "other%d", c->among);
-  for (int k = 0; k < c->n_other; ++k) {
-    if (isnan(c->other[k].omega)) figure_gap(g);
-    figure_point(g, c->other[k].omega, c->other[k].amplitude);
-  }
-  figure_block_end(g);
 }
 
 static void special_items(figure *g, const curve_shape *c)
@@ -282,9 +243,6 @@ void curve_shape_items(figure *g, const curve_shape *c, bool quiet)
     }
     return;
   }
-  if (c->n_other > 1)
-    figure_item(g, figure_look(g, 5, "lw 3 dt 1 lc rgb '#c8c8c8'"), "other branch, from the sweep's other end",
-                "$other0 using 1:2 with lines");
   for (int r = 0; r < N_STABILITIES; ++r)
     if (count_points_of(c, stabilities[r].stable) > 0)
       figure_item(g,

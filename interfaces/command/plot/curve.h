@@ -6,6 +6,7 @@
 typedef struct curve_point {
   double omega, amplitude; /* [rad/time], [length] */
   int stable;              /* +1, -1, 0 unknown */
+  int part;                /* of the curve: points of two parts are not joined */
 } curve_point;
 
 enum { CURVE_MOST_SPECIALS = 256 };
@@ -14,9 +15,8 @@ typedef struct curve_shape {
   char of[RESPONSE_NAME];   /* the response in words; "x" of an oscillator */
   int among;                /* of several on the same axes which one, from 1; 0: it is the only one */
   const char *stable_title; /* its stable parts in the legend; NULL: harmonic balance's */
-  int n, n_other;
+  int n;
   curve_point *points; /* [n] along the curve */
-  curve_point *other;  /* [n_other] of the sweep from its other end, without those on the curve; NaN omega: a gap */
   int n_special;
   hbm_special special[CURVE_MOST_SPECIALS];
   int harmonics, samples; /* in use */
@@ -28,7 +28,7 @@ void curve_response_name(const scene *sc, int r, char text[RESPONSE_NAME]);
 
 /* The shape of a curve that was computed, by the model's first response. */
 hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve, curve_shape *out);
-/* The same curve, of which `first` is the shape, by response r; without what the other end finds. */
+/* The same curve, of which `first` is the shape, by response r. */
 hc_status curve_shape_response(const curve_shape *first, const scene *sc, hbm_solver *s, const hbm_curve *curve, int r,
                                curve_shape *out);
 /* Computes the curve over the sweep, widened to `asked`, as far as it goes. HC_OK, HC_NO_MEMORY. */

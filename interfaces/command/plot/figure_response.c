@@ -270,7 +270,8 @@ static hc_status make_line(const verify_quantity *q, const verify_report *r, cur
   *out = (curve_shape){.n = r->n_line, .stable_title = "ours: stable"};
   if (!(out->points = calloc((size_t)r->n_line + 1, sizeof *out->points))) return HC_NO_MEMORY;
   for (int k = 0; k < r->n_line; ++k)
-    out->points[k] = (curve_point){r->line[k].omega, verify_quantity_to_column(q, r->line[k].value), r->line[k].stable};
+    out->points[k] =
+        (curve_point){r->line[k].omega, verify_quantity_to_column(q, r->line[k].value), r->line[k].stable, 0};
   return HC_OK;
 }
 

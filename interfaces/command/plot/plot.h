@@ -37,7 +37,7 @@ typedef struct plot_responses {
   int first, last;
 } plot_responses;
 
-/* The curve, its stability and special points, faint what the sweep's other end finds. `asked` (or NULL): marked. */
+/* The curve, its stability and special points. `asked` (or NULL): marked. */
 hc_status plot_frf(plot_order *p, const scene *sc, hbm_solver *s, const hbm_curve *curve, const hbm_curve *asked,
                    plot_responses of);
 

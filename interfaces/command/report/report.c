@@ -55,7 +55,7 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
   hc_status st = scene_hbm_solver(&solved, &s);
   if (st == HC_OK) hbm_leave_stability(s);
   if (st == HC_OK && sc->hbm.force == HBM_FORCE_EXACT && !large) hbm_scale_steps(s, shorter_steps);
-  if (st == HC_OK && curve == &traced) st = hbm_trace(s, from, to, monitor, &traced);
+  if (st == HC_OK && curve == &traced) st = hbm_trace_all(s, from, to, monitor, &traced);
   for (int k = 0; s && k < curve->n; ++k) {
     response_row row;
     if (response_row_of(s, curve, k, &row) != HC_OK) continue;

@@ -50,7 +50,7 @@ void words_verdict(const report_data *d, FILE *to)
             missing == 1 ? " matches" : "s match");
   if (c->curve.end != HC_OK && c->curve.n) {
     fputs("<p class=\"verdict open\">The response curve <strong>stopped</strong> at ", to);
-    write_where(d, c->curve.points[c->curve.n - 1].omega, to);
+    write_where(d, c->curve.ends_at, to);
     fputs(": ", to);
     html_text(to, hc_status_text(c->curve.end));
     fputs(".</p>\n", to);

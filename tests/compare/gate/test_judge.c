@@ -186,7 +186,7 @@ static void what_could_not_be_compared_is_an_error(CHECK_STATE)
   assert_int_equal(judged(m), 3);
   end(m);
   m = start(1);
-  m->c.curve.end = HC_STEP_TOO_SMALL, m->c.curve.n = 1, m->point.omega = 9.25;
+  m->c.curve.end = HC_STEP_TOO_SMALL, m->c.curve.n = 1, m->c.curve.ends_at = 9.25;
   assert_int_equal(judged(m), 3);
   assert_non_null(strstr(find(m, -1, "curve")->reason, "9.25"));
   end(m);
