@@ -394,7 +394,8 @@ static hc_status append_linear(hbm_solver *s, const hbm_curve *c, double omega, 
   hbm_candidate x;
   if (!is_within(c, omega)) return HC_OK;
   hc_status st = hbm_candidate_new(s->sys.n_coef > c->n_coef ? s->sys.n_coef : c->n_coef, &x);
-  if (st == HC_OK && hbm_linear_point(s, omega, INFINITY, x.X, x.dX, &x.point)) {
+  if (st != HC_OK) return st;
+  if (hbm_linear_point(s, omega, INFINITY, x.X, x.dX, &x.point)) {
     x.point.d_omega = 1;
     x.point.branch = c->points[c->n - 1].branch + 1;
     x.point.part = c->n_parts;
