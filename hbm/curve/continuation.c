@@ -402,6 +402,28 @@ static hc_status recover(path *p, hc_status step_status, bool *done)
   return HC_OK;
 }
 
+/* Summits between points that stay become points themselves, and those that watch the curve get all of these, but for
+ * the last `left` points. */
+static hc_status settle(hbm_solver *s, hbm_curve *c, int left)
+{
+  int settled = steps_are_fixed(s) ? c->n - left : c->settled;
+  hc_status st = steps_are_fixed(s) ? HC_OK : hbm_curve_add_summits(s, c, left, &settled);
+  if (st == HC_OK) st = hbm_curve_settle(c, left ? settled : c->n);
+  return st;
+}
+
+/* After a step: the last point may yet be replaced by one on a limit of the sweep, and so may the first one outside;
+ * where harmonics or samples adapt, any point. */
+static hc_status settle_path(path *p)
+{
+  const int n = p->curve->n, left = p->first_outside ? n - p->first_outside : 1;
+  const bool adapts = p->s->finer_harmonics || p->s->finer_samples;
+  if (adapts || p->s->ramp || !p->may_come_from_above) return HC_OK;
+  hc_status st = settle(p->s, p->curve, left);
+  if (p->first_outside) p->first_outside += p->curve->n - n;
+  return st;
+}
+
 static hc_status follow(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
@@ -419,6 +441,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
     bool no_other_step = !accepted && steps_are_fixed(s);
     if (step_status == HC_NO_MEMORY || no_other_step) return step_status;
     st = accepted ? accept_trial(p, &done) : recover(p, step_status, &done);
+    if (st == HC_OK && accepted && !done) st = settle_path(p);
     if (p->s->stopped) return HC_INTERRUPTED;
   }
   return st;
@@ -428,7 +451,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
 static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_samples)
 {
   hbm_curve *c = p->curve;
-  c->n = c->turning_points = c->linear = c->edges = 0;
+  c->n = c->turning_points = c->linear = c->edges = c->settled = 0;
   c->edge_omega = c->edge_motion = 0;
   c->inaccurate = c->left_at_start = false;
   p->step = STEP_FIRST;
@@ -485,7 +508,11 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
   s->done = -1;
   s->stopped = false;
   hc_status st = trace(s, from, to, !s->ramp, monitor, curve);
-  if (st == HC_OK && !s->ramp && !steps_are_fixed(s)) st = hbm_curve_add_summits(s, curve);
+  if (st == HC_INTERRUPTED || s->ramp) hbm_curve_settle(curve, curve->n);
+  else if (st != HC_NO_MEMORY) {
+    const hc_status settled = settle(s, curve, 0);
+    if (st == HC_OK) st = settled;
+  }
   s->monitor = NULL;
   s->stopped = false;
   return st;

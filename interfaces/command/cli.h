@@ -194,7 +194,8 @@ int cli_write_rest(const cli_common *common, int n, table *const *tables, const 
 void cli_foretell_memory(const cli_common *common, double bytes);
 
 /* The same of processor time, if that is more than 10 s (compare/duration.h): "takes about 40 s of processor time: 3
- * frequencies, 84 degrees of freedom, 24 contact rows", without sizes where m is NULL. */
+ * frequencies, 84 degrees of freedom, 24 contact rows", without sizes where m is NULL; "a response curve" without
+ * frequencies. */
 void cli_foretell_time(const cli_common *common, double seconds, int frequencies, const model *m);
 
 /* A folder for results (NULL: none), made if it is not there. 0, or the exit code after the message. */
