@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hbm/curve/growth.h"
 #include "hbm/curve/path.h"
 #include "hbm/curve/segment.h"
 #include "hbm/solver/corrector.h"
@@ -424,6 +425,18 @@ static hc_status settle_path(path *p)
   return st;
 }
 
+/* HC_UNBOUNDED where the curve goes to infinity at the frequency of its last point. Where E is 1e6 W (growth.h), the
+ * amplitude changes by itself over 1e-7 of omega; where the curve is less steep, that is not asked. */
+static hc_status end_without_bound(const path *p)
+{
+  const hbm_point *last = &p->curve->points[p->curve->n - 1];
+  const double steep = 1e-5; /* [1] change of ln omega by that of the motion */
+  bool grows;
+  if (p->s->ramp || !(path_flatness(p) * p->curve->omega_scale <= steep * last->omega)) return HC_OK;
+  const hc_status st = hbm_growth(p->s, last->omega, hbm_curve_X(p->curve, p->curve->n - 1), &grows);
+  return st == HC_NO_MEMORY ? st : st == HC_OK && grows ? HC_UNBOUNDED : HC_OK;
+}
+
 static hc_status follow(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
@@ -442,6 +455,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
     if (step_status == HC_NO_MEMORY || no_other_step) return step_status;
     st = accepted ? accept_trial(p, &done) : recover(p, step_status, &done);
     if (st == HC_OK && accepted && !done) st = settle_path(p);
+    if (st == HC_OK && accepted && !done) st = end_without_bound(p);
     if (p->s->stopped) return HC_INTERRUPTED;
   }
   return st;
@@ -465,7 +479,8 @@ static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_sampl
   p->normal = workspace_doubles(&rows, n + 1);
   hc_status st = rows.failed ? HC_NO_MEMORY : follow(p, monitor);
   workspace_free(&rows);
-  bool gave_up = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED; /* at a kink that more samples may smooth */
+  bool gave_up = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED &&
+                 st != HC_UNBOUNDED; /* at a kink that more samples may smooth */
   *more_samples = p->more_samples || (gave_up && p->s->finer_samples && p->s->n_time < REFINE_MOST_SAMPLES);
   return st;
 }

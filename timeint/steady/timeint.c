@@ -78,7 +78,7 @@ static hc_status make(const model *m, const timeint *of, const transient_setting
 {
   *out = NULL;
   const size_t n = (size_t)m->n;
-  if (m->n == 1 && !(positive(*m->mass) && not_negative(*m->damping))) return HC_BAD_INPUT;
+  if (m->n == 1 && !(positive(*m->mass) && isfinite(*m->damping))) return HC_BAD_INPUT;
   bool ok = all_finite(n * n, m->mass) && all_finite(n * n, m->damping) && all_finite(n * n, m->stiffness);
   for (int l = 0; l < m->n_loads; ++l) ok = ok && all_finite(n, m->loads[l].cosine) && all_finite(n, m->loads[l].sine);
   for (int j = 0; j < m->n_contacts; ++j)
