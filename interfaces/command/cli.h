@@ -163,6 +163,10 @@ typedef enum cli_solver { CLI_HBM, CLI_TRANSIENT, CLI_BOTH } cli_solver;
 /* Says that `what` failed, where (omega <= 0: nowhere), why, and what to try. Returns the exit code. */
 int cli_solver_failed(const cli_common *common, cli_solver solver, const char *what, hc_status st, double omega);
 
+/* Says that there is no periodic motion at omega, and by how much that response ("": the only one) moves on a period.
+ * Returns the exit code. */
+int cli_creeps(const cli_common *common, double omega, const char *response, double drift);
+
 /* Says why the file (NULL: standard output) was not written, by errno. Returns the exit code. */
 int cli_file_failed(const cli_common *common, const char *path, hc_status st);
 

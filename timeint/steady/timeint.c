@@ -39,6 +39,8 @@ static hc_status make_memory(timeint *ti)
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i) *vectors[i] = workspace_doubles(w, n);
   ti->from_rest = workspace_doubles(w, (size_t)ti->n_dof);
   ti->amplitudes = workspace_doubles(w, 2 * (size_t)ti->base->n_responses);
+  ti->drift = workspace_doubles(w, n);
+  for (int k = 0; k < 3; ++k) ti->states[k] = workspace_doubles(w, n);
   ti->past = workspace_doubles(w, SETTLE_MAX_MULTIPLE * n);
   ti->scaled.contact = workspace_array(w, (size_t)ti->model->n_contacts, sizeof *ti->scaled.contact);
   hc_status st = state_sizes_make(&ti->sizes, ti->base, w);
