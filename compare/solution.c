@@ -503,7 +503,8 @@ int comparison_exit_code(const comparison *c)
   for (int i = 0; i < c->n_rows; ++i)
     if (comparison_unaccounted(&c->rows[i])) return 1;
   if (c->curve.end != HC_OK) return 3; /* what lies beyond was not compared, and the curve might have come back */
-  if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_MATCH] == 0)
+  if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_UNBOUNDED] > 0 ||
+      c->count[VERDICT_CREEPS] > 0 || c->count[VERDICT_MATCH] == 0)
     return 3;
   return 0;
 }

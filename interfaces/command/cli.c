@@ -553,8 +553,9 @@ int cli_solver_failed(const cli_common *common, cli_solver solver, const char *w
 int cli_creeps(const cli_common *common, double omega, const char *response, double drift)
 {
   char at[SCENE_WHERE];
-  cli_message(common, "at %s the body slides on%s%s by %.9g in each period: there is no periodic motion; %s",
-              scene_where(common->scene, omega, at), *response ? ", " : "", response, drift, ADVICE_ON_CREEP);
+  cli_message(common, "at %s %s%s slides on by %.9g in each period: there is no periodic motion; %s",
+              scene_where(common->scene, omega, at), *response ? "response " : "the body", response, drift,
+              ADVICE_ON_CREEP);
   return EXIT_NO_SOLUTION;
 }
 

@@ -83,15 +83,19 @@ static void say_unexpected(const cli_common *common, const comparison *c, table 
 
 static void print_failures(const cli_common *common, const comparison *c)
 {
+  bool creeps = false;
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
+    creeps |= r->transient_status == HC_CREEPS;
     if (r->transient_status == HC_CREEPS) cli_creeps(common, r->omega, r->response_name, r->transient.drift);
-    else if (r->hbm_status != HC_OK) cli_solver_failed(common, CLI_HBM, "harmonic balance", r->hbm_status, r->omega);
+    else if (r->hbm_status != HC_OK && r->transient_status != HC_UNBOUNDED)
+      cli_solver_failed(common, CLI_HBM, "harmonic balance", r->hbm_status, r->omega);
     else if (r->transient_status != HC_OK && r->transient_status != HC_APERIODIC)
       cli_solver_failed(common, CLI_TRANSIENT, "time integration", r->transient_status, r->omega);
   }
   if (c->curve.end != HC_OK && c->curve.n)
-    cli_solver_failed(common, CLI_HBM, "the HBM response curve", c->curve.end, c->curve.points[c->curve.n - 1].omega);
+    cli_solver_failed(common, CLI_HBM, "the HBM response curve", creeps ? HC_CREEPS : c->curve.end,
+                      c->curve.points[c->curve.n - 1].omega);
 }
 
 /* "3 rows without ...": where there are such rows. */

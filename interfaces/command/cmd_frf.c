@@ -1,4 +1,5 @@
 /* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,6 +8,7 @@
 #include "compare/duration.h"
 #include "compare/memory.h"
 #include "compare/response.h"
+#include "compare/steady_states.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
 #include "interfaces/command/keep_found.h"
@@ -30,6 +32,9 @@ typedef struct frf_options {
   bool contacts;        /* what each contact does, too */
   bool verbose;         /* how Newton's equations were solved, too */
 } frf_options;
+
+static const double BEYOND =
+    1e-3; /* [omega] of the last point of a curve that stops, where another motion may be seen */
 
 static const cli_option options[] = {
     {CLI_LIST, "at", "LIST", "Only the solutions at these " CLI_FREQUENCIES, offsetof(frf_options, at)},
@@ -200,6 +205,16 @@ static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const h
   return st;
 }
 
+/* Why there is no solution at omega: true where the body creeps, a response by *drift in each period. */
+static bool it_creeps(const scene *sc, double omega, const hc_monitor *monitor, int *response, double *drift)
+{
+  compare_setup setup;
+  hc_status st = scene_setup(sc, &setup);
+  if (st == HC_OK) st = steady_state_creeps(&setup, omega, monitor, response, drift);
+  scene_setup_clear(&setup);
+  return st == HC_CREEPS;
+}
+
 static int run_frf(cli_common *common, void *given, scene *sc)
 {
   const frf_options *own = given;
@@ -210,7 +225,8 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   const int refused = cli_take_frequencies(common, &own->at, true, sc);
   if (refused) return refused;
   hbm_curve curve = {0}, found = {0};
-  double from, to, failed_at = 0;
+  double from, to, failed_at = 0, drift = NAN;
+  int creeping = 0;                           /* the response */
   const number_list *at = &sc->compare.omega; /* n = 0: the whole curve */
   compare_setup setup;
   if (scene_setup(sc, &setup) == HC_OK) cli_foretell_memory(common, memory_of_curve(setup.model, &setup.hbm));
@@ -232,7 +248,9 @@ static int run_frf(cli_common *common, void *given, scene *sc)
     else curve.watch = (hbm_curve_watch){put_curve, &f};
     st = hbm_trace(s, from, to, &monitor, &curve);
     if (st != HC_OK) failed_at = curve.n ? curve.points[curve.n - 1].omega : from;
-    hc_status solved = at->n ? response_at(s, &curve, at, &found, &failed_at) : HC_OK;
+    double lacks_at = 0;
+    hc_status solved = at->n ? response_at(s, &curve, at, &found, &lacks_at) : HC_OK;
+    if (st == HC_OK) failed_at = lacks_at;
     /* also with --at a curve that stops early is a failure: it might have turned back to those omegas */
     if (st == HC_OK) st = solved;
     note_curve(t, sc, s, &curve, at->n > 0);
@@ -240,6 +258,15 @@ static int run_frf(cli_common *common, void *given, scene *sc)
     if (own->verbose) table_note(t, "Newton: %d unknowns, %ld factorisations", work.unknowns, work.factorisations);
     solved = at->n || st == HC_INTERRUPTED ? HC_OK : note_specials(t, sc, s, &curve);
     if (st == HC_OK && solved == HC_NO_MEMORY) st = solved; /* another failure to locate one is in the note */
+    /* where there is no solution: at the first frequency without, else past the last point */
+    const double past = 1 + (to > from ? BEYOND : -BEYOND);
+    const double none_at = lacks_at > 0 ? lacks_at : curve.n ? failed_at * past : failed_at;
+    const bool given_up = st == HC_NO_MEMORY || st == HC_INTERRUPTED || st == HC_UNBOUNDED;
+    if (st != HC_OK && !given_up && none_at > 0 && it_creeps(sc, none_at, &monitor, &creeping, &drift)) {
+      st = HC_CREEPS, failed_at = none_at;
+      table_note(t, "at %s the body slides on by %.9g in each period", scene_where(sc, none_at, (char[SCENE_WHERE]){0}),
+                 drift);
+    }
     if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
     if (!f.free) table_hide(t, "mean_free");
     if (f.contacts && sc->hbm.force == HBM_FORCE_SAMPLED)
@@ -247,7 +274,11 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   }
   keep_found_end(&f.beside);
   progress_end(bar);
-  int code = st == HC_OK ? 0 : cli_solver_failed(common, CLI_HBM, "harmonic balance", st, failed_at);
+  char name[RESPONSE_NAME] = "";
+  if (sc->structure) structure_response_name(sc->structure, creeping, name, sizeof name);
+  int code = 0;
+  if (st == HC_CREEPS) code = cli_creeps(common, failed_at, name, drift);
+  else if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "harmonic balance", st, failed_at);
   int written = s ? cli_write_rest(common, own->contacts ? 2 : 1, (table *[]){t, f.contacts}, &f.shown.begun) : 0;
   if (common->drawing.path && s && !written)
     written = cli_plotted(common, plot_frf(&common->drawing, sc, s, &curve, at->n ? &found : NULL, of_case));

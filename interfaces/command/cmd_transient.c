@@ -44,6 +44,7 @@ static int say_failure(const cli_common *common, const steady_row *r)
   if (r->without_hbm != HC_OK && !common->quiet)
     cli_message(common, "no HBM solution at %s (%s): starting at rest",
                 scene_where(common->scene, r->result.omega, (char[SCENE_WHERE]){0}), hc_status_text(r->without_hbm));
+  if (r->status == HC_CREEPS && fabs(r->result.drift) <= 1e-6 * r->result.amplitude) return EXIT_NO_SOLUTION;
   if (r->status == HC_CREEPS) return cli_creeps(common, r->result.omega, r->response_name, r->result.drift);
   if (r->status == HC_INTERRUPTED || r->status == HC_OK || r->status == HC_APERIODIC) return 0;
   return cli_solver_failed(common, r->stage == STEADY_HBM ? CLI_HBM : CLI_TRANSIENT, stages[r->stage], r->status,

@@ -23,12 +23,13 @@ void escape_begin(timeint *ti)
   ti->creeps = false;
 }
 
-void escape_note(timeint *ti)
+bool escape_note(timeint *ti)
 {
-  if (ti->periods < 2 * ti->noted[1].periods || ti->periods == 0) return;
+  if (ti->periods < 2 * ti->noted[1].periods || ti->periods == 0) return false;
   ti->noted[0] = ti->noted[1];
   ti->noted[1].periods = ti->periods;
   ti->noted[1].size = timeint_size(ti);
+  return true;
 }
 
 bool escape_grows(const timeint *ti)
@@ -44,8 +45,7 @@ bool escape_grows(const timeint *ti)
 
 /* ---- creep ---- */
 
-/* True if K has a direction without stiffness, or may have one. */
-static bool may_creep(const timeint *ti)
+bool timeint_may_creep(const timeint *ti)
 {
   const modal_base *b = ti->base;
   if (!b->diagonal_K) return true;
@@ -83,7 +83,7 @@ hc_status escape_look_for_creep(timeint *ti, bool *creeps)
   double step = 0, speed = 0, differs = 0, changes = 0;
   hc_status st = HC_OK;
   *creeps = ti->creeps = false;
-  if (!may_creep(ti)) return HC_OK;
+  if (!timeint_may_creep(ti)) return HC_OK;
   for (int k = 0; k < 3 && st == HC_OK; ++k) {
     if (k > 0) st = timeint_period(ti, false);
     timeint_get_state(ti, ti->states[k]);

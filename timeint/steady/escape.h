@@ -12,9 +12,13 @@
 
 #include "timeint/steady/steady.h"
 
-/* After a timeint_begin, and after periods: their number, and the size of the motion, where that has doubled. */
+/* False where K has no direction without stiffness: nothing creeps. */
+bool timeint_may_creep(const timeint *ti);
+
+/* After a timeint_begin, and after periods: their number, and the size of the motion, where that has doubled:
+ * true. */
 void escape_begin(timeint *ti);
-void escape_note(timeint *ti);
+bool escape_note(timeint *ti);
 
 /* True if the motion at ti->y grows, by three sizes noted and the present one. */
 bool escape_grows(const timeint *ti);
