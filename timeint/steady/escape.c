@@ -84,10 +84,13 @@ hc_status escape_look_for_creep(timeint *ti, bool *creeps)
   hc_status st = HC_OK;
   *creeps = ti->creeps = false;
   if (!timeint_may_creep(ti)) return HC_OK;
+  const double tolerance = ti->tolerance;
+  st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   for (int k = 0; k < 3 && st == HC_OK; ++k) {
     if (k > 0) st = timeint_period(ti, false);
     timeint_get_state(ti, ti->states[k]);
   }
+  if (st == HC_OK) st = timeint_set_tolerance(ti, tolerance);
   if (st != HC_OK) return st;
   const double *a = ti->states[0], *b = ti->states[1], *c = ti->states[2];
   double *d = ti->states[0]; /* [n] the last step: what a was is not needed where d is written */
