@@ -65,7 +65,7 @@ const char *contact_comparison_text(const contact_comparison *c, char text[CONTA
   X(VERDICT_NOT_SETTLED, "not_settled", "the transient found no steady state in max_periods")                          \
   X(VERDICT_SOLVER_FAILED, "solver_failed", "one of the solvers gave up")                                              \
   X(VERDICT_UNBOUNDED, "unbounded", "the motion grows without bound")                                                  \
-  X(VERDICT_CREEPS, "creeps", "the body slides on by `drift` in each period: there is no periodic motion")
+  X(VERDICT_CREEPS, "creeps", "the body slides on by `drift` each period")
 #define VERDICT_ENUM(code, name, meaning) code,
 typedef enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT } verdict;
 #undef VERDICT_ENUM
