@@ -5,9 +5,9 @@
 
 #include "compare/comparison_private.h"
 #include "compare/first_guess.h"
+#include "compare/no_steady_state.h"
 #include "compare/remedy.h"
 #include "compare/response.h"
-#include "compare/steady_states.h"
 #include "numerics/base/growing.h"
 
 const double *comparison_state(const comparison *c, int i) { return c->states + (size_t)i * (size_t)c->n_states; }

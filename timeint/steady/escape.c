@@ -17,12 +17,6 @@ static const double steady_growth = 1e-3;
 static const double same_step = 1e-6;
 static const double rounding = 1e-9; /* [1] of K d, beside the terms it is made of; of d, beside the motion */
 
-void escape_begin(timeint *ti)
-{
-  memset(ti->noted, 0, sizeof ti->noted);
-  ti->creeps = false;
-}
-
 bool escape_note(timeint *ti)
 {
   if (ti->periods < 2 * ti->noted[1].periods || ti->periods == 0) return false;

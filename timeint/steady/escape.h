@@ -15,9 +15,7 @@
 /* False where K has no direction without stiffness: nothing creeps. */
 bool timeint_may_creep(const timeint *ti);
 
-/* After a timeint_begin, and after periods: their number, and the size of the motion, where that has doubled:
- * true. */
-void escape_begin(timeint *ti);
+/* After some periods: their number, and the size of the motion, where the number has doubled since: true. */
 bool escape_note(timeint *ti);
 
 /* True if the motion at ti->y grows, by three sizes noted and the present one. */

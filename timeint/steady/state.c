@@ -8,7 +8,6 @@
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/integrate_events.h"
 #include "timeint/cvode/integrate_regularised.h"
-#include "timeint/steady/escape.h"
 #include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/timeint_private.h"
 
@@ -148,7 +147,8 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   ti->measured = false;
   ti->contraction = exp(-TWO_PI * ti->base->slowest / omega);
   ti->periods = 0;
-  escape_begin(ti);
+  memset(ti->noted, 0, sizeof ti->noted);
+  ti->creeps = false;
   ti->steps0 = integrate_steps(ti->in);
   ti->rhs0 = integrate_rhs(ti->in);
   ti->least_length = least_length(ti);
