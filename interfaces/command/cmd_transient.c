@@ -41,7 +41,7 @@ static int say_failure(const cli_common *common, const steady_row *r)
   static const char *const stages[] = {[STEADY_TRANSIENT] = "time integration",
                                        [STEADY_SWEEP] = "the frequency sweep",
                                        [STEADY_HBM] = "harmonic balance"};
-  if (r->without_hbm != HC_OK && !common->quiet)
+  if (r->without_hbm != HC_OK && r->status != HC_CREEPS && !common->quiet)
     cli_message(common, "no HBM solution at %s (%s): starting at rest",
                 scene_where(common->scene, r->result.omega, (char[SCENE_WHERE]){0}), hc_status_text(r->without_hbm));
   if (r->status == HC_CREEPS && fabs(r->result.drift) <= 1e-6 * r->result.amplitude) return EXIT_NO_SOLUTION;
