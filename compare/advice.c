@@ -48,6 +48,11 @@ const char *advice_for_hbm(const hbm_settings *how, hc_status failure, char text
     add_unless(&r, !fixed, "a longer --set hbm.step=...");
     add_unless(&r, false, "a narrower --set sweep.omega=...");
     break;
+  case HC_UNBOUNDED:
+    add_unless(&r, false, "damping");
+    add_unless(&r, false, "a load that friction takes (4 mu N/pi a slider)");
+    add_unless(&r, false, "a sweep from the other end for what lies beyond");
+    break;
   case HC_NOT_CLOSED: add_unless(&r, false, exact ? "--set hbm.force=sampled" : "--set hbm.force=exact"); break;
   case HC_CHATTER: add_unless(&r, !exact, "--set hbm.force=sampled, which counts no transitions"); break;
   default: break;
@@ -76,6 +81,10 @@ const char *advice_for_transient(const transient_settings *how, hc_status failur
                "a larger --set transient.regularisation=...");
     add_unless(&r, how->tolerance <= TRANSIENT_LEAST_TOLERANCE, "a tighter --set transient.tolerance=...");
     add_unless(&r, false, exact ? "--set transient.law=regularised" : "--set transient.law=exact");
+    break;
+  case HC_UNBOUNDED:
+    add_unless(&r, false, "more damping");
+    add_unless(&r, false, "another frequency, where the load meets no resonance");
     break;
   case HC_NOT_SETTLED:
     add_unless(&r, how->max_periods >= TRANSIENT_MOST_PERIODS, "a larger --set transient.max_periods=...");

@@ -12,6 +12,8 @@ enum { ADVICE_TEXT = 320 };
 const char *advice_for_hbm(const hbm_settings *how, hc_status failure, char text[ADVICE_TEXT]);
 const char *advice_for_transient(const transient_settings *how, hc_status failure, char text[ADVICE_TEXT]);
 
+#define ADVICE_ON_CREEP "try a spring or a stop that holds it, or a load that friction holds all the time"
+
 /* After HC_NOT_FINITE of either side, from the scene's damping. A constant string. */
 const char *advice_on_size(double damping);
 #define ADVICE_ON_STRUCTURE /* the same of a structure, whose damping is a matrix */                                   \

@@ -5,6 +5,7 @@
 
 #include "compare/comparison_private.h"
 #include "compare/first_guess.h"
+#include "compare/no_steady_state.h"
 #include "compare/remedy.h"
 #include "compare/response.h"
 #include "numerics/base/growing.h"
@@ -73,9 +74,15 @@ static hc_status compare_at(comparison_work *w, double omega)
   row.hbm_status = hbm_curve_at(w->hbm, &w->out->curve, omega, &at);
   if (row.hbm_status == HC_OK && at.n == 0)
     row.hbm_status = w->out->curve.end != HC_OK ? w->out->curve.end : HC_NOT_CONVERGED;
-  hc_status st = row.hbm_status == HC_NO_MEMORY         ? row.hbm_status
-                 : at.n == 0 || row.hbm_status != HC_OK ? add_solution(w, &at, -1, &row)
-                                                        : HC_OK;
+  hc_status st = row.hbm_status == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK;
+  if (st == HC_OK && row.hbm_status != HC_OK) {
+    const hc_status why = steady_state_lacks(w->ti, omega, w->scratch, w->monitor, &row.transient);
+    if (why == HC_NO_MEMORY || why == HC_INTERRUPTED) st = why;
+    if (why == HC_CREEPS || why == HC_UNBOUNDED) row.transient_status = why;
+    if (why == HC_CREEPS) row.verdict = VERDICT_CREEPS;
+    if (why == HC_UNBOUNDED) row.verdict = VERDICT_UNBOUNDED;
+    if (st == HC_OK) st = add_solution(w, &at, -1, &row);
+  }
   for (int k = 0; k < at.n && st == HC_OK; ++k) {
     row = none;
     st = solution_compare(w, &at, k, &row);

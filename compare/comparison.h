@@ -63,7 +63,9 @@ const char *contact_comparison_text(const contact_comparison *c, char text[CONTA
   X(VERDICT_PERIOD_K, "period_k", "the transient repeats only after k forcing periods")                                \
   X(VERDICT_APERIODIC, "aperiodic", "the transient never repeats: it is chaotic, or runs on a torus")                  \
   X(VERDICT_NOT_SETTLED, "not_settled", "the transient found no steady state in max_periods")                          \
-  X(VERDICT_SOLVER_FAILED, "solver_failed", "one of the solvers gave up")
+  X(VERDICT_SOLVER_FAILED, "solver_failed", "one of the solvers gave up")                                              \
+  X(VERDICT_UNBOUNDED, "unbounded", "the motion grows without bound")                                                  \
+  X(VERDICT_CREEPS, "creeps", "the body slides on by `drift` each period")
 #define VERDICT_ENUM(code, name, meaning) code,
 typedef enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT } verdict;
 #undef VERDICT_ENUM
@@ -85,7 +87,7 @@ typedef struct comparison_row {
   hbm_stability stability;  /* of the HBM solution; multiplier NaN: unknown, not needed (setup.multipliers) */
   bool accounted;           /* the transient is within the gate of this or another HBM solution */
   hbm_measures hbm;         /* valid when hbm_status is HC_OK */
-  timeint_result transient; /* valid when transient_status is HC_OK, HC_NOT_SETTLED or HC_APERIODIC */
+  timeint_result transient; /* valid when motion_is_measured(transient_status) */
   hc_status orbit_status;
   timeint_result orbit;     /* the referee's, valid when orbit_status is HC_OK */
   discrepancy orbit_errors; /* of the HBM solution against that orbit, NaN without it */
@@ -145,7 +147,8 @@ bool comparison_unaccounted(const comparison_row *row);
  * open: a slider never slips, and where it rests is a matter of history? Such means are not compared. */
 bool comparison_mean_free(const comparison_row *row);
 
-/* Does a contact change its state, in any row, on either side? If not, two linear responses were compared. */
+/* Does a contact change its state, in any row, on either side? If not, two linear responses were compared; true
+ * where nothing was. */
 bool comparison_nonlinear(const comparison *c);
 #define COMPARISON_LINEAR /* the remark, with the number of rows */                                                    \
   "nothing nonlinear was compared: no contact changes its state in any of the %d rows; are the gap's sign, the angle " \

@@ -13,7 +13,7 @@ hc_status motion_of_response(hbm_solver *s, double omega, const double *X, int r
 /* Has a transient that ended with st been measured? */
 static inline bool motion_is_measured(hc_status st)
 {
-  return st == HC_OK || st == HC_NOT_SETTLED || st == HC_APERIODIC;
+  return st == HC_OK || st == HC_NOT_SETTLED || st == HC_APERIODIC || st == HC_CREEPS;
 }
 
 /* The motion over a transient's reported period. */

@@ -49,6 +49,8 @@ hc_status response_at(hbm_solver *s, const hbm_curve *curve, const number_list *
   for (int i = 0; i < at->n; ++i) {
     int before = found->n;
     hc_status st = hbm_curve_at(s, curve, at->v[i], found);
+    const hc_status taken = hbm_curve_settle(found, found->n);
+    if (taken != HC_OK) return taken;
     if (st == HC_OK && found->n == before) st = curve->end != HC_OK ? curve->end : HC_NOT_CONVERGED;
     if (st != HC_OK && worst == HC_OK) {
       worst = st;

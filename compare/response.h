@@ -52,7 +52,8 @@ typedef struct contact_row {
 } contact_row;
 
 /* All solutions at the asked frequencies, appended to *found. A frequency without any is a failure, the first of
- * which is returned with its omega, unless the curve says the branch never goes there. */
+ * which is returned with its omega, unless the curve says the branch never goes there. found->watch is called after
+ * each frequency, and its failure is returned at once. */
 hc_status response_at(hbm_solver *s, const hbm_curve *curve, const number_list *at, hbm_curve *found,
                       double *failed_at);
 

@@ -147,6 +147,8 @@ static hc_status perturbations_decay(comparison_work *w, const comparison_row *r
 /* HC_NO_MEMORY, HC_INTERRUPTED: *out is not known. */
 static hc_status judge(comparison_work *w, const comparison_row *row, const double *X, verdict *out)
 {
+  if (row->transient_status == HC_CREEPS) return *out = VERDICT_CREEPS, HC_OK;
+  if (row->transient_status == HC_UNBOUNDED) return *out = VERDICT_UNBOUNDED, HC_OK;
   if (row->transient_status == HC_NOT_SETTLED) return *out = VERDICT_NOT_SETTLED, HC_OK;
   if (row->transient_status == HC_APERIODIC && row->hbm_status == HC_OK) return *out = VERDICT_APERIODIC, HC_OK;
   if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return *out = VERDICT_SOLVER_FAILED, HC_OK;
@@ -458,12 +460,14 @@ const char *comparison_worst_text(const comparison *c, const comparison_row *wor
 
 bool comparison_nonlinear(const comparison *c)
 {
+  bool compared = false;
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     if (r->hbm_status == HC_OK && r->hbm.contact.regime > CONTACT_STUCK) return true;
     if (motion_is_measured(r->transient_status) && r->transient.regime > CONTACT_STUCK) return true;
+    compared |= r->hbm_status == HC_OK || motion_is_measured(r->transient_status);
   }
-  return false;
+  return !compared;
 }
 
 bool comparison_unaccounted(const comparison_row *row)
@@ -504,7 +508,8 @@ int comparison_exit_code(const comparison *c)
   for (int i = 0; i < c->n_rows; ++i)
     if (comparison_unaccounted(&c->rows[i])) return 1;
   if (c->curve.end != HC_OK) return 3; /* what lies beyond was not compared, and the curve might have come back */
-  if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_MATCH] == 0)
+  if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_UNBOUNDED] > 0 ||
+      c->count[VERDICT_CREEPS] > 0 || c->count[VERDICT_MATCH] == 0)
     return 3;
   return 0;
 }

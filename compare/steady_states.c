@@ -21,6 +21,8 @@ const char *steady_verdict_text(const steady_row *r, char text[24])
   else if (r->status == HC_OK) snprintf(text, 24, "settled");
   else if (r->status == HC_NOT_SETTLED) snprintf(text, 24, "%s", verdict_name(VERDICT_NOT_SETTLED));
   else if (r->status == HC_APERIODIC) snprintf(text, 24, "%s", verdict_name(VERDICT_APERIODIC));
+  else if (r->status == HC_UNBOUNDED) snprintf(text, 24, "%s", verdict_name(VERDICT_UNBOUNDED));
+  else if (r->status == HC_CREEPS) snprintf(text, 24, "%s", verdict_name(VERDICT_CREEPS));
   else snprintf(text, 24, "%s", verdict_name(VERDICT_SOLVER_FAILED));
   return text;
 }

@@ -43,5 +43,6 @@ typedef struct steady_states {
 hc_status steady_states_run(const compare_setup *setup, const hc_monitor *monitor, steady_states *out);
 void steady_states_clear(steady_states *s);
 
-/* "settled", "unstable", "period_2", "aperiodic", "not_settled", "solver_failed" in text[24], which is returned. */
+/* "settled", "unstable", "period_2", "aperiodic", "not_settled", "unbounded", "creeps", "solver_failed" in text[24],
+ * which is returned. */
 const char *steady_verdict_text(const steady_row *row, char text[24]);

@@ -15,11 +15,15 @@
 #include "output/output.h"
 
 enum { LINE_ROOM = 512, MIN_ELAPSED = 1 /* [s] below that an estimate is noise */ };
-static const double interval = 0.1; /* [s] between two drawings */
+static const double interval = 0.1;    /* [s] between two drawings */
+static const double first_report = 20; /* [s] after the start; each later one when the time has doubled */
+enum { REPORT_COLUMNS = 100 };
 
 struct progress {
-  char *label;         /* one line, valid UTF-8; NULL: draw nothing */
+  char *label;         /* one line, valid UTF-8; NULL: say nothing */
+  bool line;           /* drawn on a terminal; else reported */
   double start, drawn; /* [s] on the monotonic clock */
+  double report;       /* [s] after the start, when the next report is due */
 };
 
 static const struct timespec grace = {.tv_nsec = 700000000}; /* for the work to end by itself */
@@ -148,14 +152,26 @@ static void draw_line(progress *p, double done)
   fflush(stderr);
 }
 
+static void report(progress *p, double done)
+{
+  char line[LINE_ROOM];
+  const double elapsed = wall_seconds() - p->start;
+  if (elapsed < p->report) return;
+  progress_line(line, sizeof line, p->label, done, elapsed, REPORT_COLUMNS);
+  fprintf(stderr, "hbmcheck: %s\n", line);
+  p->report = 2 * elapsed;
+}
+
 progress *progress_start(const char *label, bool quiet)
 {
   progress *p = calloc(1, sizeof *p);
   const char *term = getenv("TERM");
   if (!p) return NULL;
-  if (!quiet && term && *term && strcmp(term, "dumb") != 0 && isatty(STDERR_FILENO)) p->label = utf8_clean(label, true);
+  if (!quiet) p->label = utf8_clean(label, true);
+  p->line = p->label && term && *term && strcmp(term, "dumb") != 0 && isatty(STDERR_FILENO);
   p->start = wall_seconds();
-  if (p->label) draw_line(p, -1);
+  p->report = first_report;
+  if (p->line) draw_line(p, -1);
   return p;
 }
 
@@ -163,7 +179,8 @@ static bool tick_progress(void *self, double done)
 {
   progress *p = self;
   if (stop_signal) return false;
-  if (p && p->label && wall_seconds() - p->drawn >= interval) draw_line(p, done);
+  if (p && p->line && wall_seconds() - p->drawn >= interval) draw_line(p, done);
+  else if (p && p->label && !p->line) report(p, done);
   return true;
 }
 
@@ -180,7 +197,7 @@ void progress_relabel(progress *p, const char *label)
 void progress_end(progress *p)
 {
   if (!p) return;
-  if (p->label) {
+  if (p->line) {
     fputs("\r\033[K", stderr);
     fflush(stderr);
     line_drawn = false;

@@ -85,7 +85,8 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(REAL,    "lyapunov",   measured(r), r->result.lyapunov)                 \
   X(REAL,    "from_regularisation", settled(r), r->from_regularisation)     \
   X(TEXT,    "mean_free",  settled(r), yes_no(motion_mean_is_free(&r->result))) \
-  R(REAL,    "second_frequency", measured(r), r->result.second_frequency)
+  R(REAL,    "second_frequency", measured(r), r->result.second_frequency) \
+  X(REAL,    "drift",      r->status == HC_CREEPS, r->result.drift)
 
 #define COMPARE_COLUMNS(X, C, R)                                               \
   AT_OMEGA(X, C, r->omega) \
@@ -120,7 +121,8 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(REAL,    "transient_predicted_harmonic_1", true, r->transient_predicted.harmonic_1) \
   X(REAL,    "transient_predicted_waveform", true, r->transient_predicted.waveform) \
   X(TEXT,    "unexpected",          prediction_known(r), yes_no(r->unexpected)) \
-  X(TEXT,    "mean_free",           has_hbm(r), yes_no(comparison_mean_free(r)))
+  X(TEXT,    "mean_free",           has_hbm(r), yes_no(comparison_mean_free(r))) \
+  X(REAL,    "drift",               r->transient_status == HC_CREEPS, r->transient.drift)
 
 #define CURVE_COLUMNS(X, C, R)                                                 \
   X(INTEGER, "harmonics",       true, r->harmonics)                         \

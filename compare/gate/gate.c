@@ -137,7 +137,9 @@ static void judge_solution(judge *j, const comparison_row *r)
     return;
   default: break;
   }
-  if (r->hbm_status != HC_OK) not_passed(&lost, GATE_ERROR, "harmonic balance: %s", hc_status_text(r->hbm_status));
+  const bool goes_away = r->verdict == VERDICT_CREEPS || r->verdict == VERDICT_UNBOUNDED;
+  if (r->hbm_status != HC_OK && !goes_away)
+    not_passed(&lost, GATE_ERROR, "harmonic balance: %s", hc_status_text(r->hbm_status));
   else not_passed(&lost, GATE_ERROR, "time integration: %s", hc_status_text(r->transient_status));
   add(j, &lost);
 }

@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hbm/curve/growth.h"
 #include "hbm/curve/path.h"
 #include "hbm/curve/segment.h"
 #include "hbm/solver/corrector.h"
@@ -435,6 +436,38 @@ static hc_status recover(path *p, hc_status step_status, bool *done)
   return HC_OK;
 }
 
+hc_status path_settle(hbm_solver *s, hbm_curve *c, int left)
+{
+  int settled = steps_are_fixed(s) ? c->n - left : c->settled;
+  hc_status st = steps_are_fixed(s) ? HC_OK : hbm_curve_add_summits(s, c, left, &settled);
+  if (st == HC_OK) st = hbm_curve_settle(c, left ? settled : c->n);
+  return st;
+}
+
+/* After a step: the last point may yet be replaced by one on a limit of the sweep, and so may the first one outside;
+ * where harmonics or samples adapt, any point. */
+static hc_status settle_path(path *p)
+{
+  const int n = p->curve->n, left = p->first_outside ? n - p->first_outside : 1;
+  const bool adapts = p->s->finer_harmonics || p->s->finer_samples;
+  if (adapts || p->s->ramp || !p->course->may_come_from_above) return HC_OK;
+  hc_status st = path_settle(p->s, p->curve, left);
+  if (p->first_outside) p->first_outside += p->curve->n - n;
+  return st;
+}
+
+/* HC_UNBOUNDED where the curve goes to infinity at the frequency of its last point. Where E is 1e6 W (growth.h), the
+ * amplitude changes by itself over 1e-7 of omega; where the curve is less steep, that is not asked. */
+static hc_status end_without_bound(const path *p)
+{
+  const hbm_point *last = &p->curve->points[p->curve->n - 1];
+  const double steep = 1e-5; /* [1] change of ln omega by that of the motion */
+  bool grows;
+  if (p->s->ramp || !(path_flatness(p) * p->curve->omega_scale <= steep * last->omega)) return HC_OK;
+  const hc_status st = hbm_growth(p->s, last->omega, hbm_curve_X(p->curve, p->curve->n - 1), &grows);
+  return st == HC_NO_MEMORY ? st : st == HC_OK && grows ? HC_UNBOUNDED : HC_OK;
+}
+
 static hc_status follow(path *p, const hc_monitor *monitor)
 {
   hbm_curve *c = p->curve;
@@ -452,6 +485,8 @@ static hc_status follow(path *p, const hc_monitor *monitor)
     bool no_other_step = !accepted && steps_are_fixed(s);
     if (step_status == HC_NO_MEMORY || no_other_step) return step_status;
     st = accepted ? accept_trial(p, &done) : recover(p, step_status, &done);
+    if (st == HC_OK && accepted && !done) st = settle_path(p);
+    if (st == HC_OK && accepted && !done) st = end_without_bound(p);
     if (p->s->stopped) return HC_INTERRUPTED;
   }
   return st;
@@ -461,7 +496,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
 static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_samples)
 {
   hbm_curve *c = p->curve;
-  c->n = c->turning_points = c->linear = c->edges = 0;
+  c->n = c->turning_points = c->linear = c->edges = c->settled = 0;
   c->edge_omega = c->edge_motion = 0;
   c->inaccurate = c->left_at_start = c->closed = c->met = false;
   p->step = STEP_FIRST;
@@ -475,7 +510,8 @@ static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_sampl
   p->normal = workspace_doubles(&rows, n + 1);
   hc_status st = rows.failed ? HC_NO_MEMORY : follow(p, monitor);
   workspace_free(&rows);
-  bool gave_up = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED; /* at a kink that more samples may smooth */
+  bool gave_up = st != HC_OK && st != HC_NO_MEMORY && st != HC_INTERRUPTED &&
+                 st != HC_UNBOUNDED; /* at a kink that more samples may smooth */
   *more_samples = p->more_samples || (gave_up && p->s->finer_samples && p->s->n_time < REFINE_MOST_SAMPLES);
   return st;
 }
@@ -516,7 +552,11 @@ hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *mon
   s->stopped = false;
   const path_course whole = {from, to, .behind = from, .may_come_from_above = !s->ramp};
   hc_status st = path_trace(s, &whole, monitor, curve);
-  if (st == HC_OK && !s->ramp && !steps_are_fixed(s)) st = hbm_curve_add_summits(s, curve);
+  if (st == HC_INTERRUPTED || s->ramp) hbm_curve_settle(curve, curve->n);
+  else if (st != HC_NO_MEMORY) {
+    const hc_status settled = path_settle(s, curve, 0);
+    if (st == HC_OK) st = settled;
+  }
   s->monitor = NULL;
   s->stopped = false;
   return st;

@@ -4,8 +4,9 @@
 #include "hbm/curve/response_curve.h"
 
 /* The response curve from omega `from` to `to`, appended to an empty *curve. What was found is kept whatever the
- * status, which is also in curve->end: HC_STEP_TOO_SMALL, HC_TOO_MANY_POINTS, HC_INTERRUPTED, HC_NO_MEMORY, or why the
- * last step failed. HC_BAD_INPUT, and nothing is changed, for a curve that is not empty, an omega not positive, or
+ * status, which is also in curve->end: HC_UNBOUNDED (growth.h), HC_STEP_TOO_SMALL, HC_TOO_MANY_POINTS, HC_INTERRUPTED,
+ * HC_NO_MEMORY, or why the last step failed. curve->watch is called while it grows; where harmonics or samples are to
+ * adapt, at its end. HC_BAD_INPUT, and nothing is changed, for a curve that is not empty, an omega not positive, or
  * steps that are fixed where harmonics or samples are to adapt. */
 hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve);
 

@@ -43,12 +43,13 @@ static hc_status add_part(part_search *p, const path_course *course, hbm_part_st
   hbm_curve part = {0};
   const double scale = p->curve->omega_scale;
   hc_status st = path_trace(p->s, course, p->monitor, &part);
-  if (st == HC_OK) st = hbm_curve_add_summits(p->s, &part);
+  if (st == HC_OK) st = path_settle(p->s, &part, 0);
   hbm_curve *first = p->curve;
   const bool bridges = part.met && first->end != HC_OK && part.met_segment + 3 >= first->parts[0].n &&
                        part.met_segment < first->parts[0].n;
   if (part.n > 1 && !(st == HC_NO_MEMORY)) {
-    const hc_status added = hbm_curve_add_part(first, &part, start);
+    hc_status added = hbm_curve_add_part(first, &part, start);
+    if (added == HC_OK) added = hbm_curve_settle(first, first->n);
     if (added != HC_OK) st = added;
   }
   if (bridges) first->end = first->parts[0].end = HC_OK;
@@ -194,11 +195,13 @@ hc_status hbm_trace_all(hbm_solver *s, double from, double to, const hc_monitor 
   hbm_curve first = {0};
   part_search p = {s, curve, from, to, monitor};
   if (curve->n) return HC_BAD_INPUT;
+  first.watch = curve->watch;
   const hc_status main = hbm_trace(s, from, to, monitor, &first);
   if (main == HC_BAD_INPUT) return main;
   hbm_curve_measure_by(curve, first.metric, first.omega_scale);
   curve->n_coef = first.n_coef;
   hc_status st = first.n > 0 ? hbm_curve_add_part(curve, &first, HBM_PART_FROM_FIRST) : HC_OK;
+  curve->settled = curve->n; /* those have been told of */
   curve->end = main, curve->ends_at = first.ends_at, curve->left_at_start = first.left_at_start;
   hbm_curve_free(&first);
   if (st == HC_OK && !must_end(main) && from != to && s->how.continuation == HBM_CONTINUATION_AUTO) {

@@ -56,6 +56,10 @@ typedef struct path {
 /* The curve of a course, appended to an empty *curve, as of hbm_trace, whose statuses it has. */
 hc_status path_trace(hbm_solver *s, const path_course *course, const hc_monitor *monitor, hbm_curve *curve);
 
+/* Summits between points that stay become points themselves, and who watches the curve gets all of these, but for the
+ * last `left` points. Errors of hbm_curve_add_summits, hbm_curve_settle. */
+hc_status path_settle(hbm_solver *s, hbm_curve *curve, int left);
+
 /* The metric of harmonics at the last point. */
 metric_at path_metric(const path *p);
 

@@ -111,6 +111,14 @@ void hbm_curve_reverse(hbm_curve *c)
   }
 }
 
+hc_status hbm_curve_settle(hbm_curve *c, int settled)
+{
+  const int from = c->settled;
+  if (settled <= from) return HC_OK;
+  c->settled = settled;
+  return c->watch.added ? c->watch.added(c->watch.self, c, from, settled) : HC_OK;
+}
+
 void hbm_curve_measure_by(hbm_curve *c, metric *m, double omega_scale)
 {
   metric *const before = c->metric;

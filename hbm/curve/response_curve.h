@@ -20,6 +20,13 @@ typedef struct hbm_curve_part {
   bool met;           /* came to another part */
   double ends_at;     /* [rad/time] of its last point */
 } hbm_curve_part;
+/* Whoever wants points as soon as they are found. added(): points from..to-1 of *curve, which follow those of the last
+ * call, stay as they are. The solver may be asked about them, but not trace; a failure ends the curve with it. */
+struct hbm_curve;
+typedef struct hbm_curve_watch {
+  hc_status (*added)(void *self, const struct hbm_curve *curve, int from, int to); /* NULL: nobody does */
+  void *self;
+} hbm_curve_watch;
 
 typedef struct hbm_curve { /* made empty with {0}, freed by hbm_curve_free */
   int n, cap, n_coef;      /* points; room; entries of a row of X: hbm_n_coefficients */
@@ -27,6 +34,8 @@ typedef struct hbm_curve { /* made empty with {0}, freed by hbm_curve_free */
   double *X, *dX;          /* [n][n_coef] [length]; dX: tangent, same parameter as d_omega */
   metric *metric;          /* an owner of it; NULL while the curve is empty */
   double omega_scale;      /* [rad/time] what omega is measured by along the curve */
+  hbm_curve_watch watch;   /* set in an empty curve */
+  int settled;             /* points, from the first one on, that stay as they are */
   int n_parts;             /* 0 of a curve that is one part, as hbm_trace makes it */
   hbm_curve_part *parts;   /* [n_parts] of hbm_trace_all */
   hc_status end;           /* HC_OK: the sweep was covered, or left_at_start; else why the first part stops */
@@ -48,6 +57,10 @@ typedef struct hbm_curve { /* made empty with {0}, freed by hbm_curve_free */
 /* One more point, X[n_coef] and dX[n_coef] copied; n_coef is that of the curve's other points. HC_NO_MEMORY leaves the
  * curve as it was. */
 hc_status hbm_curve_append(hbm_curve *curve, int n_coef, const double *X, const double *dX, const hbm_point *point);
+
+/* The first `settled` points stay as they are from now on: watch.added is called with the new ones among them, and its
+ * status returned. */
+hc_status hbm_curve_settle(hbm_curve *curve, int settled);
 
 /* Lengths along the curve are those of m and omega_scale from now on. */
 void hbm_curve_measure_by(hbm_curve *curve, metric *m, double omega_scale);

@@ -651,26 +651,37 @@ static hc_status insert_point(hbm_curve *c, int k, const hbm_candidate *x)
   return HC_OK;
 }
 
-hc_status hbm_curve_add_summits(hbm_solver *s, hbm_curve *c)
+/* The summit beside point *top, whose amplitude and its neighbours' are high[3], becomes a point, after which *top is
+ * the later one of the two. */
+static hc_status add_summit(hbm_solver *s, hbm_curve *c, const double *high, int *top)
 {
   hbm_candidate x;
   peak_search p = {.s = s, .c = c, .x = &x};
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
   st = hbm_candidate_new(c->n_coef, &p.between);
-  if (st == HC_OK && c->n > 2) st = hbm_narrowing_start(&p.near, c, 0); /* allocates once for all */
-  for (int top = 1; top + 1 < c->n && st == HC_OK; ++top) {
-    double high[3];
-    for (int i = 0; i < 3; ++i) high[i] = amplitude_of(s, hbm_curve_X(c, top - 1 + i));
-    if (!(high[1] >= high[0] && high[1] >= high[2])) continue;
-    const int k = find_summit(&p, top - 1, high[1]) ? top - 1 : find_summit(&p, top, high[1]) ? top : -1;
+  if (st == HC_OK) st = hbm_narrowing_start(&p.near, c, 0); /* allocates, which find_summit then need not */
+  if (st == HC_OK) {
+    const int k = find_summit(&p, *top - 1, high[1]) ? *top - 1 : find_summit(&p, *top, high[1]) ? *top : -1;
     /* A pair of turning points that only the summit is between, as sampled forces have, is left out as before. */
     const bool turns = k >= 0 && (x.point.d_omega > 0) != (c->points[k].d_omega > 0) &&
                        (x.point.d_omega > 0) != (c->points[k + 1].d_omega > 0);
-    if (k >= 0 && !turns) st = insert_point(c, k, &x), ++top;
+    if (k >= 0 && !turns) st = insert_point(c, k, &x), ++*top;
   }
   hbm_curve_free(&p.near.ends);
   free(p.between.X);
   free(x.X);
+  return st;
+}
+
+hc_status hbm_curve_add_summits(hbm_solver *s, hbm_curve *c, int left, int *top)
+{
+  hc_status st = HC_OK;
+  if (*top == 0 && c->n > left) *top = 1;
+  for (; *top + 1 + left < c->n && st == HC_OK; ++*top) {
+    double high[3];
+    for (int i = 0; i < 3; ++i) high[i] = amplitude_of(s, hbm_curve_X(c, *top - 1 + i));
+    if (high[1] >= high[0] && high[1] >= high[2]) st = add_summit(s, c, high, top);
+  }
   return st;
 }

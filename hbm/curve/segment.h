@@ -67,8 +67,10 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_
 hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *curve, hbm_curve *peak);
 
 /* One more point at each summit of the first response's amplitude that lies between points: so the highest point of the
- * curve is its peak, to 1e-8 of the amplitude where it is smooth there, of many unknowns to 1e-5. HC_NO_MEMORY. */
-hc_status hbm_curve_add_summits(hbm_solver *s, hbm_curve *curve);
+ * curve is its peak, to 1e-8 of the amplitude where it is smooth there, of many unknowns to 1e-5. Summits beside point
+ * *top (0 at first) and all after it are looked for, but for the last `left` + 1 points of the curve; *top becomes the
+ * first point that was not: all before it stay in their places. HC_NO_MEMORY. */
+hc_status hbm_curve_add_summits(hbm_solver *s, hbm_curve *curve, int left, int *top);
 
 /* ---- a part of a segment that shrinks ---- */
 

@@ -350,11 +350,11 @@ void cli_foretell_memory(const cli_common *common, double bytes)
 void cli_foretell_time(const cli_common *common, double seconds, int frequencies, const model *m)
 {
   const double long_time = 10;
-  char sizes[96] = "", time[PROGRESS_TIME];
+  char sizes[96] = "", count[48] = "a response curve", time[PROGRESS_TIME];
   if (common->quiet || !(seconds > long_time)) return;
   if (m) snprintf(sizes, sizeof sizes, ", %d degrees of freedom, %d contact rows", m->n, m->n_contacts);
-  cli_message(common, "takes about %s of processor time: %d frequenc%s%s", progress_time(seconds, time), frequencies,
-              frequencies == 1 ? "y" : "ies", sizes);
+  if (frequencies) snprintf(count, sizeof count, "%d frequenc%s", frequencies, frequencies == 1 ? "y" : "ies");
+  cli_message(common, "takes about %s of processor time: %s%s", progress_time(seconds, time), count, sizes);
 }
 
 int cli_plotted(const cli_common *common, hc_status st)
@@ -541,11 +541,21 @@ int cli_solver_failed(const cli_common *common, cli_solver solver, const char *w
   char advice[ADVICE_TEXT], at[SCENE_WHERE] = "";
   if (omega > 0) scene_where(common->scene, omega, at);
   advice_for(common->scene, solver, st, advice);
-  if (st == HC_INTERRUPTED) cli_message(common, "%s: stopped on request; what was found is kept", what);
+  if (st == HC_INTERRUPTED)
+    cli_message(common, "%s: stopped on request%s%s; what was found is kept", what, *at ? " at " : "", at);
   else if (st == HC_NO_MEMORY) cli_message(common, "%s", hc_status_text(st));
   else
     cli_message(common, "%s%s%s: %s%s%s", what, *at ? " stopped at " : "", at, hc_status_text(st), *advice ? "; " : "",
                 advice);
+  return EXIT_NO_SOLUTION;
+}
+
+int cli_creeps(const cli_common *common, double omega, const char *response, double drift)
+{
+  char at[SCENE_WHERE];
+  cli_message(common, "at %s %s%s slides on by %.9g in each period: there is no periodic motion; %s",
+              scene_where(common->scene, omega, at), *response ? "response " : "the body", response, drift,
+              ADVICE_ON_CREEP);
   return EXIT_NO_SOLUTION;
 }
 

@@ -163,6 +163,10 @@ typedef enum cli_solver { CLI_HBM, CLI_TRANSIENT, CLI_BOTH } cli_solver;
 /* Says that `what` failed, where (omega <= 0: nowhere), why, and what to try. Returns the exit code. */
 int cli_solver_failed(const cli_common *common, cli_solver solver, const char *what, hc_status st, double omega);
 
+/* Says that there is no periodic motion at omega, and by how much that response ("": the only one) moves on a period.
+ * Returns the exit code. */
+int cli_creeps(const cli_common *common, double omega, const char *response, double drift);
+
 /* Says why the file (NULL: standard output) was not written, by errno. Returns the exit code. */
 int cli_file_failed(const cli_common *common, const char *path, hc_status st);
 
@@ -194,7 +198,8 @@ int cli_write_rest(const cli_common *common, int n, table *const *tables, const 
 void cli_foretell_memory(const cli_common *common, double bytes);
 
 /* The same of processor time, if that is more than 10 s (compare/duration.h): "takes about 40 s of processor time: 3
- * frequencies, 84 degrees of freedom, 24 contact rows", without sizes where m is NULL. */
+ * frequencies, 84 degrees of freedom, 24 contact rows", without sizes where m is NULL; "a response curve" without
+ * frequencies. */
 void cli_foretell_time(const cli_common *common, double seconds, int frequencies, const model *m);
 
 /* A folder for results (NULL: none), made if it is not there. 0, or the exit code after the message. */

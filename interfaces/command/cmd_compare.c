@@ -83,14 +83,19 @@ static void say_unexpected(const cli_common *common, const comparison *c, table 
 
 static void print_failures(const cli_common *common, const comparison *c)
 {
+  bool creeps = false;
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
-    if (r->hbm_status != HC_OK) cli_solver_failed(common, CLI_HBM, "harmonic balance", r->hbm_status, r->omega);
+    creeps |= r->transient_status == HC_CREEPS;
+    if (r->transient_status == HC_CREEPS) cli_creeps(common, r->omega, r->response_name, r->transient.drift);
+    else if (r->hbm_status != HC_OK && r->transient_status != HC_UNBOUNDED)
+      cli_solver_failed(common, CLI_HBM, "harmonic balance", r->hbm_status, r->omega);
     else if (r->transient_status != HC_OK && r->transient_status != HC_APERIODIC)
       cli_solver_failed(common, CLI_TRANSIENT, "time integration", r->transient_status, r->omega);
   }
   if (c->curve.end != HC_OK && c->curve.n)
-    cli_solver_failed(common, CLI_HBM, "the HBM response curve", c->curve.end, c->curve.ends_at);
+    cli_solver_failed(common, CLI_HBM, "the HBM response curve", creeps ? HC_CREEPS : c->curve.end,
+                      c->curve.ends_at);
 }
 
 /* "3 rows without ...": where there are such rows. */
@@ -203,13 +208,14 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
   table *t = table_of_rows(common, c);
   const comparison_row *top = comparison_worst(c, setup->limits);
   double reduction = 0;
-  int unaccounted = 0, unknown = 0, mean_free = 0, family = 0, still = 0;
+  int unaccounted = 0, unknown = 0, creeping = 0, mean_free = 0, family = 0, still = 0;
   put_rows(common, c, t);
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     unknown += !r->budget.known && r->response == 0;
     unaccounted += comparison_unaccounted(r);
     mean_free += comparison_mean_free(r);
+    creeping += r->transient_status == HC_CREEPS;
     family += r->family;
     still += r->still;
     reduction = fmax(reduction, r->budget.reduction);
@@ -228,6 +234,7 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
   else table_hide(t, "from_reduction");
   note_rows(t, unknown, "without a budget: no periodic orbit was found next to the HBM solution");
   say_unexpected(common, c, t);
+  if (creeping == 0) table_hide(t, "drift");
   if (mean_free == 0) table_hide(t, "mean_free");
   note_rows(t, mean_free,
             "without a mean to compare (mean_free): a slider that never slips rests where the history left it, and the "

@@ -1,14 +1,19 @@
 /* cmd_frf.c - hbmcheck frf: the response curve, or every solution at given frequencies. */
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "casefile/structure.h"
+#include "compare/duration.h"
 #include "compare/memory.h"
+#include "compare/no_steady_state.h"
 #include "compare/response.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
+#include "interfaces/command/keep_found.h"
 #include "numerics/base/constants.h"
+#include "numerics/base/thread_clock.h"
 #include "output/progress.h"
 #include "study/scene_solvers.h"
 
@@ -28,6 +33,9 @@ typedef struct frf_options {
   bool verbose;         /* how Newton's equations were solved, too */
 } frf_options;
 
+static const double BEYOND =
+    1e-3; /* [omega] of the last point of a curve that stops, where another motion may be seen */
+
 static const cli_option options[] = {
     {CLI_LIST, "at", "LIST", "Only the solutions at these " CLI_FREQUENCIES, offsetof(frf_options, at)},
     CLI_RESPONSE_OPTION(frf_options),
@@ -37,43 +45,60 @@ static const cli_option options[] = {
     {0},
 };
 
-static hc_status put_points(const cli_common *common, hbm_solver *s, const hbm_curve *c, plot_responses of_case,
-                            table *t)
+/* What was found, while the solver is at work. */
+typedef struct found_points {
+  const cli_common *common;
+  hbm_solver *s;
+  plot_responses of_case;
+  progress *bar;
+  double began; /* [s] processor time of this thread */
+  bool free;    /* a slider that never slips leaves a mean to history */
+  int points;   /* so many */
+  double last;  /* [rad/time] the last one's omega */
+  keep_found beside;
+  shown_rows shown;            /* the rows of all points, of the thread that finds them */
+  table *contacts;             /* and of all contacts; NULL without --contacts */
+  table *kept, *contacts_kept; /* the same rows for the other thread, under its lock */
+} found_points;
+
+static table *table_of_points(const cli_common *common)
 {
-  const scene_structure *of = common->scene->structure;
-  bool free = false;
-  for (int k = 0; k < c->n; ++k) {
-    response_row row;
-    hc_status st = response_row_of(s, c, k, &row);
-    for (int r = of_case.first; r <= of_case.last && st == HC_OK; ++r) {
-      if (r > 0) st = response_row_turn(s, c, k, r, &row);
-      if (of) structure_response_name(of, r, row.response, sizeof row.response);
-      free |= row.measures.contact.free_sliders > 0;
-      cli_put_row(common, t, ROWS_FRF, &row);
-    }
-    if (st != HC_OK) return st;
-  }
-  if (!free) table_hide(t, "mean_free");
-  return HC_OK;
+  table *t = cli_table(common, "Response curve", ROWS_FRF);
+  table_notes_of_rows(t);
+  return t;
 }
 
-static hc_status put_contacts(const cli_common *common, hbm_solver *s, const hbm_curve *c, table *t)
+static hc_status put_point(found_points *f, const hbm_curve *c, int k)
 {
-  const scene *sc = common->scene;
-  const int n = scene_contact_count(sc);
-  contact_period *periods = calloc((size_t)hbm_n_contacts(s) + 1, sizeof *periods);
-  hc_status st = periods ? HC_OK : HC_NO_MEMORY;
-  for (int k = 0; k < c->n && st == HC_OK; ++k) {
-    st = hbm_measure_contacts(s, c->points[k].omega, c->X + (size_t)k * (size_t)c->n_coef, periods);
-    for (int j = 0; j < n && st == HC_OK; ++j) {
-      contact_row row = {c->points[k].omega, c->points[k].branch, .contact = j, .period = periods[j]};
-      snprintf(row.name, sizeof row.name, "%s", scene_contact_at(sc, j)->name);
-      cli_put_row(common, t, ROWS_CONTACT, &row);
-    }
+  const scene_structure *of = f->common->scene->structure;
+  response_row row;
+  hc_status st = response_row_of(f->s, c, k, &row);
+  for (int r = f->of_case.first; r <= f->of_case.last && st == HC_OK; ++r) {
+    if (r > 0) st = response_row_turn(f->s, c, k, r, &row);
+    if (of) structure_response_name(of, r, row.response, sizeof row.response);
+    f->free |= row.measures.contact.free_sliders > 0;
+    pthread_mutex_lock(&f->beside.found);
+    cli_put_row(f->common, f->kept, ROWS_FRF, &row);
+    pthread_mutex_unlock(&f->beside.found);
+    cli_put_row(f->common, f->shown.rows, ROWS_FRF, &row);
+  }
+  return st;
+}
+
+static hc_status put_contacts(found_points *f, const hbm_curve *c, int k)
+{
+  const scene *sc = f->common->scene;
+  contact_period *periods = calloc((size_t)hbm_n_contacts(f->s) + 1, sizeof *periods);
+  hc_status st = periods ? hbm_measure_contacts(f->s, c->points[k].omega, hbm_curve_X(c, k), periods) : HC_NO_MEMORY;
+  for (int j = 0; j < scene_contact_count(sc) && st == HC_OK; ++j) {
+    contact_row row = {c->points[k].omega, c->points[k].branch, .contact = j, .period = periods[j]};
+    snprintf(row.name, sizeof row.name, "%s", scene_contact_at(sc, j)->name);
+    pthread_mutex_lock(&f->beside.found);
+    cli_put_row(f->common, f->contacts_kept, ROWS_CONTACT, &row);
+    pthread_mutex_unlock(&f->beside.found);
+    cli_put_row(f->common, f->contacts, ROWS_CONTACT, &row);
   }
   free(periods);
-  if (sc->hbm.force == HBM_FORCE_SAMPLED)
-    table_note(t, "contacts by the exact law along the motion found with sampled forces");
   return st;
 }
 
@@ -94,6 +119,55 @@ static void note_parts(table *t, const scene *sc, const hbm_curve *c)
                first->branch, last->branch > first->branch ? " to " : "",
                last->branch > first->branch ? last->branch : 0, p->n, start[p->start], from, to, reason);
   }
+}
+
+/* For hbm_curve_watch. */
+static hc_status put_points(void *self, const hbm_curve *c, int from, int to)
+{
+  found_points *f = self;
+  hc_status st = HC_OK;
+  for (int k = from; k < to && st == HC_OK; ++k) {
+    st = put_point(f, c, k);
+    if (st == HC_OK && f->contacts) st = put_contacts(f, c, k);
+    if (st != HC_OK) continue;
+    pthread_mutex_lock(&f->beside.found);
+    f->last = c->points[k].omega;
+    ++f->points;
+    pthread_mutex_unlock(&f->beside.found);
+  }
+  shown_rows_write(&f->shown, f->common);
+  return st;
+}
+
+/* For hbm_curve_watch of a curve whose points are the result. */
+static hc_status put_curve(void *self, const hbm_curve *c, int from, int to)
+{
+  found_points *f = self;
+  char label[64];
+  if (f->points == 0 && c->points[0].iterations > 0) { /* what the first solution took tells what a curve will */
+    const double newton = (thread_seconds() - f->began) / c->points[0].iterations;
+    const int n_harm = hbm_n_harmonics(f->s);
+    progress_erase();
+    cli_foretell_time(f->common, duration_of_curve(&(duration_units){.newton = newton, .harmonics = n_harm}, n_harm), 0,
+                      NULL);
+  }
+  const hc_status st = put_points(f, c, from, to);
+  snprintf(label, sizeof label, "harmonic balance, %d points", f->points);
+  progress_relabel(f->bar, label);
+  return st;
+}
+
+/* For keep_found_begin. */
+static int write_found(void *self)
+{
+  found_points *f = self;
+  if (f->points == 0) return -1;
+  table_note(f->kept, "STOPPED at %s: %s", scene_where(f->common->scene, f->last, (char[SCENE_WHERE]){0}),
+             hc_status_text(HC_INTERRUPTED));
+  const int code = cli_solver_failed(f->common, CLI_HBM, "harmonic balance", HC_INTERRUPTED, f->last);
+  pthread_mutex_lock(&f->shown.writing);
+  cli_write_rest(f->common, f->contacts ? 2 : 1, (table *[]){f->kept, f->contacts_kept}, &f->shown.begun);
+  return code;
 }
 
 static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm_curve *c, bool at_given)
@@ -151,6 +225,16 @@ static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const h
   return st;
 }
 
+/* Why there is no solution at omega: true where the body creeps, a response by *drift in each period. */
+static bool it_creeps(const scene *sc, double omega, const hc_monitor *monitor, int *response, double *drift)
+{
+  compare_setup setup;
+  hc_status st = scene_setup(sc, &setup);
+  if (st == HC_OK) st = steady_state_creeps(&setup, omega, monitor, response, drift);
+  scene_setup_clear(&setup);
+  return st == HC_CREEPS;
+}
+
 static int run_frf(cli_common *common, void *given, scene *sc)
 {
   const frf_options *own = given;
@@ -160,44 +244,68 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   if (!own->at.n) sc->compare.omega.n = 0; /* those of the case are for the comparison */
   const int refused = cli_take_frequencies(common, &own->at, true, sc);
   if (refused) return refused;
-  hbm_solver *s = NULL;
   hbm_curve curve = {0}, found = {0};
-  double from, to, failed_at = 0;
-  table *t = cli_table(common, "Response curve", ROWS_FRF);
-  table *contacts = own->contacts ? cli_table(common, "Contacts", ROWS_CONTACT) : NULL;
+  double from, to, failed_at = 0, drift = NAN;
+  int creeping = 0;                           /* the response */
+  const number_list *at = &sc->compare.omega; /* n = 0: the whole curve */
   compare_setup setup;
   if (scene_setup(sc, &setup) == HC_OK) cli_foretell_memory(common, memory_of_curve(setup.model, &setup.hbm));
   scene_setup_clear(&setup);
   progress *bar = progress_start("harmonic balance", common->quiet);
   hc_monitor monitor = progress_monitor(bar);
-  const number_list *at = &sc->compare.omega; /* n = 0: the whole curve */
+  found_points f = {.common = common, .of_case = of_case, .bar = bar, .began = thread_seconds()};
+  shown_rows_begin(&f.shown, own->contacts);
+  table *t = f.shown.rows = table_of_points(common);
+  f.kept = table_of_points(common);
+  if (own->contacts) f.contacts = cli_table(common, "Contacts", ROWS_CONTACT);
+  if (own->contacts) f.contacts_kept = cli_table(common, "Contacts", ROWS_CONTACT);
+  keep_found_begin(&f.beside, write_found, &f);
   comparison_sweep(sc->omega_from, sc->omega_to, at, &from, &to);
-  hc_status st = scene_hbm_solver(sc, &s);
+  hc_status st = scene_hbm_solver(sc, &f.s);
+  hbm_solver *s = f.s;
   if (st == HC_OK) {
+    if (at->n) found.watch = (hbm_curve_watch){put_points, &f};
+    else curve.watch = (hbm_curve_watch){put_curve, &f};
     st = hbm_trace_all(s, from, to, &monitor, &curve);
     if (st != HC_OK) failed_at = curve.ends_at;
-    const hbm_curve *shown = at->n ? &found : &curve;
-    hc_status solved = at->n ? response_at(s, &curve, at, &found, &failed_at) : HC_OK;
+    double lacks_at = 0;
+    hc_status solved = at->n ? response_at(s, &curve, at, &found, &lacks_at) : HC_OK;
+    if (st == HC_OK) failed_at = lacks_at;
     /* also with --at a curve that stops early is a failure: it might have turned back to those omegas */
-    if (st == HC_OK) st = solved;
-    solved = put_points(common, s, shown, of_case, t);
-    if (st == HC_OK) st = solved;
-    if (contacts) solved = put_contacts(common, s, shown, contacts);
     if (st == HC_OK) st = solved;
     note_curve(t, sc, s, &curve, at->n > 0);
     const hbm_newton_report work = hbm_newton_work(s);
     if (own->verbose) table_note(t, "Newton: %d unknowns, %ld factorisations", work.unknowns, work.factorisations);
-    solved = at->n ? HC_OK : note_specials(t, sc, s, &curve);
+    solved = at->n || st == HC_INTERRUPTED ? HC_OK : note_specials(t, sc, s, &curve);
     if (st == HC_OK && solved == HC_NO_MEMORY) st = solved; /* another failure to locate one is in the note */
+    /* where there is no solution: at the first frequency without, else past the last point */
+    const double past = 1 + (to > from ? BEYOND : -BEYOND);
+    const double none_at = lacks_at > 0 ? lacks_at : curve.n ? failed_at * past : failed_at;
+    const bool given_up = st == HC_NO_MEMORY || st == HC_INTERRUPTED || st == HC_UNBOUNDED;
+    if (st != HC_OK && !given_up && none_at > 0 && it_creeps(sc, none_at, &monitor, &creeping, &drift)) {
+      st = HC_CREEPS, failed_at = none_at;
+      table_note(t, "at %s the body slides on by %.9g in each period", scene_where(sc, none_at, (char[SCENE_WHERE]){0}),
+                 drift);
+    }
     if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
+    if (!f.free) table_hide(t, "mean_free");
+    if (f.contacts && sc->hbm.force == HBM_FORCE_SAMPLED)
+      table_note(f.contacts, "contacts by the exact law along the motion found with sampled forces");
   }
+  keep_found_end(&f.beside);
   progress_end(bar);
-  int code = st == HC_OK ? 0 : cli_solver_failed(common, CLI_HBM, "harmonic balance", st, failed_at);
-  int written = s ? cli_write(common, own->contacts ? 2 : 1, (table *[]){t, contacts}) : 0;
+  char name[RESPONSE_NAME] = "";
+  if (sc->structure) structure_response_name(sc->structure, creeping, name, sizeof name);
+  int code = 0;
+  if (st == HC_CREEPS) code = cli_creeps(common, failed_at, name, drift);
+  else if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "harmonic balance", st, failed_at);
+  int written = s ? cli_write_rest(common, own->contacts ? 2 : 1, (table *[]){t, f.contacts}, &f.shown.begun) : 0;
   if (common->drawing.path && s && !written)
     written = cli_plotted(common, plot_frf(&common->drawing, sc, s, &curve, at->n ? &found : NULL, of_case));
-  table_free(t);
-  table_free(contacts);
+  shown_rows_end(&f.shown);
+  table_free(f.contacts);
+  table_free(f.kept);
+  table_free(f.contacts_kept);
   hbm_curve_free(&found);
   hbm_curve_free(&curve);
   hbm_solver_free(s);

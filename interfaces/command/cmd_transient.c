@@ -41,9 +41,11 @@ static int say_failure(const cli_common *common, const steady_row *r)
   static const char *const stages[] = {[STEADY_TRANSIENT] = "time integration",
                                        [STEADY_SWEEP] = "the frequency sweep",
                                        [STEADY_HBM] = "harmonic balance"};
-  if (r->without_hbm != HC_OK && !common->quiet)
+  if (r->without_hbm != HC_OK && r->status != HC_CREEPS && !common->quiet)
     cli_message(common, "no HBM solution at %s (%s): starting at rest",
                 scene_where(common->scene, r->result.omega, (char[SCENE_WHERE]){0}), hc_status_text(r->without_hbm));
+  if (r->status == HC_CREEPS && fabs(r->result.drift) <= 1e-6 * r->result.amplitude) return EXIT_NO_SOLUTION;
+  if (r->status == HC_CREEPS) return cli_creeps(common, r->result.omega, r->response_name, r->result.drift);
   if (r->status == HC_INTERRUPTED || r->status == HC_OK || r->status == HC_APERIODIC) return 0;
   return cli_solver_failed(common, r->stage == STEADY_HBM ? CLI_HBM : CLI_TRANSIENT, stages[r->stage], r->status,
                            r->result.omega);
@@ -98,16 +100,18 @@ static int tables_of_found(const found_states *f, hc_status st, table *tables[2]
   int code = 0;
   table *t = table_of_rows(common);
   put_rows(common, f->found, 0, t);
-  bool free = false, torus = false;
+  bool free = false, torus = false, creeps = false;
   for (int i = 0; i < f->found->n; ++i) {
     const steady_row *row = &f->found->rows[i];
     free |= row->status == HC_OK && motion_mean_is_free(&row->result);
+    creeps |= row->status == HC_CREEPS;
     torus |= row->status == HC_APERIODIC && !isnan(row->result.second_frequency);
     int row_code = say_failure(common, row);
     if (row_code) code = row_code;
   }
   if (!free) table_hide(t, "mean_free");
   if (!torus) table_hide(t, "second_frequency");
+  if (!creeps) table_hide(t, "drift");
   if (st != HC_OK) {
     table_note(t, "INCOMPLETE: %s", hc_status_text(st));
     code = cli_solver_failed(common, CLI_TRANSIENT, "time integration", st, 0);

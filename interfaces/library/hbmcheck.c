@@ -19,9 +19,10 @@
 #define STATUSES(X)                                                                                              \
   X(OK) X(BAD_INPUT) X(NO_MEMORY) X(IO) X(STALLED) X(NOT_CONVERGED) X(SINGULAR) X(NOT_FINITE) X(STEP_TOO_SMALL)  \
   X(TOO_MANY_POINTS) X(NOT_CLOSED) X(INTEGRATOR) X(CHATTER) X(NOT_SETTLED) X(APERIODIC) X(INTERRUPTED)           \
-  X(UNSUPPORTED) X(BUG) X(JUMPED)
+  X(UNSUPPORTED) X(BUG) X(JUMPED) X(UNBOUNDED) X(CREEPS)
 #define VERDICTS(X)                                                                                              \
-  X(MATCH) X(DIFFERS) X(OTHER_BRANCH) X(UNSTABLE) X(PERIOD_K) X(APERIODIC) X(NOT_SETTLED) X(SOLVER_FAILED)
+  X(MATCH) X(DIFFERS) X(OTHER_BRANCH) X(UNSTABLE) X(PERIOD_K) X(APERIODIC) X(NOT_SETTLED) X(SOLVER_FAILED)       \
+  X(UNBOUNDED) X(CREEPS)
 /* clang-format on */
 
 #define ONE(...)           "." /* as many as the list is long: sizeof counts them */

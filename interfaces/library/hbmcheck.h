@@ -67,7 +67,9 @@ typedef enum hbmcheck_status {
   HBMCHECK_INTERRUPTED,     /* the monitor asked to stop */
   HBMCHECK_UNSUPPORTED,     /* not done: in a row, what was not computed because something before it failed */
   HBMCHECK_BUG,             /* an error of the library: please report it */
-  HBMCHECK_JUMPED           /* a fixed step of the curve leads to another branch */
+  HBMCHECK_JUMPED,          /* a fixed step of the curve leads to another branch */
+  HBMCHECK_UNBOUNDED,       /* the motion grows without bound */
+  HBMCHECK_CREEPS           /* the body slides on by as much in each period: there is no periodic motion */
 } hbmcheck_status;
 
 /* The words for a status; a constant string, never NULL. */
@@ -314,10 +316,13 @@ typedef enum hbmcheck_verdict {
   HBMCHECK_VERDICT_PERIOD_K,     /* the transient repeats only after k > 1 forcing periods: period_multiple */
   HBMCHECK_VERDICT_APERIODIC,    /* the transient never repeats: it is chaotic, or runs on a torus */
   HBMCHECK_VERDICT_NOT_SETTLED,  /* no steady state within transient.max_periods */
-  HBMCHECK_VERDICT_SOLVER_FAILED /* one side gave up: hbm_status, transient_status */
+  HBMCHECK_VERDICT_SOLVER_FAILED, /* one side gave up: hbm_status, transient_status */
+  HBMCHECK_VERDICT_UNBOUNDED,     /* the motion grows without bound */
+  HBMCHECK_VERDICT_CREEPS         /* the body slides on by as much in each period */
 } hbmcheck_verdict;
 
-/* "match", "differs", "other_branch", "unstable", "period_k", "aperiodic", "not_settled", "solver_failed"; not NULL. */
+/* "match", "differs", "other_branch", "unstable", "period_k", "aperiodic", "not_settled", "solver_failed", "unbounded",
+ * "creeps"; not NULL. */
 const char *hbmcheck_verdict_name(hbmcheck_verdict verdict);
 
 /* One HBM solution and the transient. Errors are relative to the transient's amplitude, those named orbit_ to the

@@ -16,14 +16,16 @@
   X(HC_STEP_TOO_SMALL, "the continuation step shrank to its minimum")                                                  \
   X(HC_TOO_MANY_POINTS, "the response curve needs more points than allowed")                                           \
   X(HC_NOT_CLOSED, "the slider did not close over a period")                                                           \
-  X(HC_INTEGRATOR, "CVODE gave up; its own flag is in detail")                                                         \
+  X(HC_INTEGRATOR, "the time integrator gave up: its steps became too short, or a step's equations had no solution")   \
   X(HC_CHATTER, "more contact transitions in a period than allowed")                                                   \
   X(HC_NOT_SETTLED, "the transient did not reach a steady state within the allowed periods")                           \
   X(HC_APERIODIC, "the motion never repeats: neighbouring motions drift apart, or it runs on a torus")                 \
   X(HC_INTERRUPTED, "stopped on request")                                                                              \
   X(HC_UNSUPPORTED, "a file was written by another version of hbmcheck")                                               \
   X(HC_BUG, "internal error: please report it")                                                                        \
-  X(HC_JUMPED, "the next solution is further from where it was predicted than the step explains")
+  X(HC_JUMPED, "the next solution is further from where it was predicted than the step explains")                      \
+  X(HC_UNBOUNDED, "the motion grows without bound")                                                                    \
+  X(HC_CREEPS, "the body slides on by as much in each period: there is no periodic motion")
 
 #define HC_STATUS_ENUM(code, text) code,
 typedef enum hc_status { HC_STATUS_LIST(HC_STATUS_ENUM) } hc_status;

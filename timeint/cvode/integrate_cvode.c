@@ -125,11 +125,15 @@ bool integrate_cvode_goes_on(cvode_integrator *in)
   return !in->interrupted;
 }
 
+/* [1] Within a period the state may grow to so much of the unit of length, which is about its size at the beginning. */
+static const double most_growth = 1e9;
+
 hc_status integrate_translate(cvode_integrator *in, int flag)
 {
   if (flag == CV_SUCCESS) return HC_OK;
   in->base.flag = flag;
   if (in->interrupted) return HC_INTERRUPTED;
+  if (N_VMaxNorm(in->y) > most_growth) return HC_UNBOUNDED; /* where CVODE stopped */
   if (in->not_finite) return HC_NOT_FINITE;
   return flag == CV_MEM_FAIL ? HC_NO_MEMORY : HC_INTEGRATOR; /* warnings, and flags yet unknown, too */
 }
@@ -138,7 +142,8 @@ hc_status integrate_check_end(cvode_integrator *in, double theta, int n)
 {
   double size = 0;
   for (int i = 0; i < n; ++i) size += fabs(NV_Ith_S(in->y, i));
-  if (theta > TWO_PI - 1e-13) return isfinite(size) ? HC_OK : HC_NOT_FINITE; /* CVODE: within 100 roundings */
+  if (theta > TWO_PI - 1e-13 && isinf(size)) return HC_UNBOUNDED;
+  if (theta > TWO_PI - 1e-13) return isnan(size) ? HC_NOT_FINITE : HC_OK; /* CVODE: within 100 roundings */
   in->base.flag = CV_UNRECOGNIZED_ERR;
   return HC_INTEGRATOR;
 }

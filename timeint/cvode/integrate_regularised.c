@@ -3,6 +3,7 @@
  * periods without; a period with them takes other steps of the same tolerance: y is as good, but not the same bits. */
 #include "timeint/cvode/integrate_regularised.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -158,6 +159,9 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
   const size_t bytes = sizeof *y * (size_t)in->n;
   in->base.m = m;
   hc_status st = integrate_begin_period(&in->base);
+  double size = 0;
+  for (int i = 0; i < in->n; ++i) size += fabs(y[i]);
+  if (st == HC_OK && !isfinite(size)) st = HC_NOT_FINITE;
   if (st != HC_OK) return st;
   memcpy(NV_DATA_S(in->base.y), y, bytes);
   int flag = CVodeReInit(in->base.cv, 0.0, in->base.y);

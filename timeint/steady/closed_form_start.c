@@ -177,11 +177,11 @@ hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, co
   hc_status st = orbit_of > 0 ? timeint_orbit(ti->closed_form, ti->omega, orbit_of, start, monitor, &first)
                               : timeint_steady(ti->closed_form, ti->omega, start, monitor, &first);
   r->closed_form_periods = first.periods;
-  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
+  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY || st == HC_UNBOUNDED) return st;
   const bool orbit_wanted = orbit_of > 0 || ti->how.steady == TRANSIENT_STEADY_SHOOTING;
   if (orbit_wanted && shoot_found_no_orbit(st) && st != HC_CHATTER)
     return st; /* where there is none, CVODE finds none */
-  if (st == HC_OK || st == HC_NOT_SETTLED || st == HC_APERIODIC) {
+  if (st == HC_OK || st == HC_NOT_SETTLED || st == HC_APERIODIC || st == HC_CREEPS) {
     const hc_status why = st;
     st = timeint_begin(ti, ti->omega, start);
     if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
@@ -189,6 +189,8 @@ hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, co
     if (st == HC_OK) timeint_use_measured(ti, ti->closed_form);
     if (st == HC_OK && why == HC_OK) st = confirm(ti, start, &first, orbit_of == 0, monitor, r);
     else if (st == HC_OK) {
+      ti->creeps = why == HC_CREEPS;
+      if (ti->creeps) memcpy(ti->drift, ti->closed_form->drift, sizeof *ti->drift * (size_t)ti->n_dof);
       st = orbit_report_none(ti, why, r);
       r->lyapunov = first.lyapunov;
       r->second_frequency = first.second_frequency;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "timeint/steady/escape.h"
 #include "timeint/steady/timeint_private.h"
 
 enum {
@@ -265,6 +266,7 @@ hc_status settle_by_integration(timeint *ti, const hc_monitor *monitor, timeint_
 {
   const int most = ti->how.max_periods;
   progress p = {.contraction = NAN, .amplitude = INFINITY};
+  bool creeps = false;
   settle_start(ti->settle, ti->contraction);
   push(ti);
   hc_status st = use_tolerance(ti, &p, timeint_final_tolerance(ti));
@@ -272,10 +274,18 @@ hc_status settle_by_integration(timeint *ti, const hc_monitor *monitor, timeint_
   while (st == HC_OK && ti->periods < most - 1) {
     if (!hc_monitor_tick(monitor, (double)ti->periods / most)) return HC_INTERRUPTED;
     if ((st = one_period(ti, false)) != HC_OK || (st = adapt_tolerance(ti, &p)) != HC_OK) return st;
+    if (!(timeint_size(ti) <= SETTLE_UNBOUNDED * ti->least_length)) return HC_UNBOUNDED;
+    if (escape_note(ti) && timeint_may_creep(ti)) {
+      if ((st = escape_look_for_creep(ti, &creeps)) != HC_OK) return st;
+      if (creeps) break;
+      push(ti);
+      settle_restart(ti->settle); /* after periods that it has not seen */
+    }
     int k = seems_settled(ti, fmin(p.amplitude, timeint_size(ti)));
     if (k == 0 || ti->periods + k > most) continue;
     if ((st = measure_orbit(ti, k, &p, r)) != HC_OK || r->period_multiple > 0) return st;
   }
-  if (st == HC_OK && ti->periods < most) st = measure_orbit(ti, 1, &p, r);
-  return st == HC_OK && r->period_multiple == 0 ? HC_NOT_SETTLED : st;
+  const hc_status why = creeps ? HC_CREEPS : escape_grows(ti) ? HC_UNBOUNDED : HC_NOT_SETTLED;
+  if (st == HC_OK && (creeps || ti->periods < most)) st = measure_orbit(ti, 1, &p, r);
+  return st == HC_OK && r->period_multiple == 0 ? why : st;
 }

@@ -147,6 +147,8 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   ti->measured = false;
   ti->contraction = exp(-TWO_PI * ti->base->slowest / omega);
   ti->periods = 0;
+  memset(ti->noted, 0, sizeof ti->noted);
+  ti->creeps = false;
   ti->steps0 = integrate_steps(ti->in);
   ti->rhs0 = integrate_rhs(ti->in);
   ti->least_length = least_length(ti);
@@ -243,6 +245,7 @@ void timeint_report(const timeint *ti, int i, timeint_result *r)
 {
   measure_report(&ti->measure, ti->model, i, ti->length, r);
   timeint_shift_result(ti, i, r);
+  r->drift = ti->creeps ? dot_product(ti->n_dof, ti->model->responses + (size_t)i * (size_t)ti->n_dof, ti->drift) : NAN;
 }
 
 void timeint_save(timeint *ti) { memcpy(ti->saved, ti->y, sizeof *ti->y * (size_t)ti->n); }

@@ -11,6 +11,7 @@
 #include "numerics/norm.h"
 #include "timeint/steady/aperiodic.h"
 #include "timeint/steady/closed_form_start.h"
+#include "timeint/steady/escape.h"
 #include "timeint/steady/linear_regime.h"
 #include "timeint/steady/mass_scaling.h"
 #include "timeint/steady/regularised.h"
@@ -33,7 +34,6 @@
  * orbit after either of them or at the end. */
 static const double coarse = 1e-9;     /* CVODE's tolerance in a stretch, if the final one is not coarser */
 static const double along_the_way = 5; /* [ORBIT_NEXT_TO] a return is (1 - rho) of the distance: rho up to 0.8 */
-static const double unbounded = 1e9;   /* [least_length] no damped resonance is as high: the motion grows for ever */
 static const double on_a_torus = 0.05; /* [1/period] neighbours there part in proportion to time: log(680)/640 = 0.01 */
 enum {
   MOST_FAILURES = 6,                  /* of Newton; then period after period decides */
@@ -82,7 +82,7 @@ static hc_status integrate_stretch(approach *a, int periods, bool *linear)
     if (!hc_monitor_tick(a->monitor, (double)ti->periods / most)) return HC_INTERRUPTED;
     timeint_point(a->ti, past_state(a, a->n_past++));
     st = timeint_period(ti, false);
-    if (st == HC_OK && !(timeint_size(ti) <= unbounded * ti->least_length)) st = HC_NOT_FINITE;
+    if (st == HC_OK && !(timeint_size(ti) <= SETTLE_UNBOUNDED * ti->least_length)) st = HC_UNBOUNDED;
   }
   if (st == HC_OK) *linear = linear_regime_is_final(ti);
   hc_status back = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
@@ -181,7 +181,11 @@ static hc_status by_stretches(approach *a, int first, timeint_result *r)
     if (st != HC_OK || done) return st;
   }
   for (int stretch = first; ti->periods < ti->how.max_periods - 1; stretch *= 2) {
+    bool creeps;
     hc_status st = integrate_stretch(a, stretch, &done);
+    escape_note(ti);
+    if (st == HC_OK && !done && (st = escape_look_for_creep(ti, &creeps)) == HC_OK && creeps)
+      return orbit_report_none(ti, HC_CREEPS, r);
     if (st == HC_OK) st = try_to_end(a, done, &done, r);
     if (st != HC_OK || done) return st;
     if ((st = try_aperiodic(a, &done, r)) != HC_OK || done) return st;
@@ -197,7 +201,7 @@ static hc_status approach_attractor(timeint *ti, int first, const hc_monitor *mo
 {
   approach a = {.ti = ti, .monitor = monitor};
   hc_status st = by_stretches(&a, first, r);
-  return st == HC_CHATTER && !(timeint_size(ti) <= unbounded * ti->least_length) ? HC_NOT_FINITE : st;
+  return st == HC_CHATTER && !(timeint_size(ti) <= SETTLE_UNBOUNDED * ti->least_length) ? HC_UNBOUNDED : st;
 }
 
 /* ---- the ways to the steady state ---------------------------------------------------------------------- */
@@ -232,7 +236,7 @@ static void clear_result(timeint_result *r, double omega)
   r->omega = omega;
   r->amplitude = r->max = r->min = r->rms = r->mean = r->a1 = r->b1 = r->harmonic_1 = r->closure = r->attainable =
       r->contraction = NAN;
-  r->multiplier = r->multiplier_re = r->multiplier_im = r->lyapunov = r->second_frequency = NAN;
+  r->multiplier = r->multiplier_re = r->multiplier_im = r->lyapunov = r->second_frequency = r->drift = NAN;
   r->predicted = (motion_error){NAN, NAN, NAN};
   for (int i = 0; i < TIMEINT_WAVE; ++i) r->wave[i] = NAN;
 }

@@ -13,9 +13,10 @@ const char *timeint_method_name(timeint_method method); /* "closed_form", "shoot
  *     shooting  the period-1 orbit next to the state, stable or not.
  *     march     period after period.
  * HC_OK: settled. HC_NOT_SETTLED after max_periods, HC_APERIODIC when nothing repeats within 16 periods and neighbours
- * drift apart, or the motion runs on a torus: in both *result is the last period. HC_INTEGRATOR,
- * HC_NOT_FINITE, HC_CHATTER; HC_NOT_CONVERGED,
- * HC_SINGULAR, HC_STALLED from shooting alone; HC_BAD_INPUT, HC_NO_MEMORY, HC_INTERRUPTED. */
+ * drift apart, or the motion runs on a torus, HC_CREEPS where the structure slides on (escape.h): in all *result is the
+ * last period. HC_UNBOUNDED, without one but where it grows by as much each period. HC_INTEGRATOR, HC_NOT_FINITE,
+ * HC_CHATTER; HC_NOT_CONVERGED, HC_SINGULAR, HC_STALLED from shooting alone; HC_BAD_INPUT, HC_NO_MEMORY,
+ * HC_INTERRUPTED. */
 hc_status timeint_steady(timeint *ti, double omega, double *state, const hc_monitor *monitor, timeint_result *result);
 
 /* The orbit of k forcing periods next to `state` by Newton on the period map, stable or not, whatever

@@ -39,6 +39,8 @@ static hc_status make_memory(timeint *ti)
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i) *vectors[i] = workspace_doubles(w, n);
   ti->from_rest = workspace_doubles(w, (size_t)ti->n_dof);
   ti->amplitudes = workspace_doubles(w, 2 * (size_t)ti->base->n_responses);
+  ti->drift = workspace_doubles(w, n);
+  for (int k = 0; k < 3; ++k) ti->states[k] = workspace_doubles(w, n);
   ti->past = workspace_doubles(w, SETTLE_MAX_MULTIPLE * n);
   ti->scaled.contact = workspace_array(w, (size_t)ti->model->n_contacts, sizeof *ti->scaled.contact);
   hc_status st = state_sizes_make(&ti->sizes, ti->base, w);
@@ -78,7 +80,7 @@ static hc_status make(const model *m, const timeint *of, const transient_setting
 {
   *out = NULL;
   const size_t n = (size_t)m->n;
-  if (m->n == 1 && !(positive(*m->mass) && not_negative(*m->damping))) return HC_BAD_INPUT;
+  if (m->n == 1 && !(positive(*m->mass) && isfinite(*m->damping))) return HC_BAD_INPUT;
   bool ok = all_finite(n * n, m->mass) && all_finite(n * n, m->damping) && all_finite(n * n, m->stiffness);
   for (int l = 0; l < m->n_loads; ++l) ok = ok && all_finite(n, m->loads[l].cosine) && all_finite(n, m->loads[l].sine);
   for (int j = 0; j < m->n_contacts; ++j)

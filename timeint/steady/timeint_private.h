@@ -19,6 +19,12 @@ typedef struct known_orbit {
   double *vibration; /* [rows of state_sizes.h] */
 } known_orbit;
 
+/* The size of a motion [length] after so many periods; 0: none yet. */
+typedef struct size_noted {
+  int periods;
+  double size;
+} size_noted;
+
 struct timeint {          /* from timeint_new, to timeint_free; not shared between threads              */
   model *model;           /* the caller's, about rest: x of it is x - rest (model/rest.h)                */
   double *rest;           /* [n_dof] [length] */
@@ -61,6 +67,10 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   double tolerance;          /* [1] CVODE's at present                                                        */
   double contraction;        /* [1] a priori, per period: exp(-T least C_ii/2), of modes                       */
   int periods;               /* since timeint_begin                                                           */
+  size_noted noted[2];       /* the last but one, and the last (escape.h)                                      */
+  bool creeps;               /* by drift[n_dof] [length] a period                                              */
+  double *drift;             /*                                                                                */
+  double *states[3];         /* [n] in the case's coordinates, a period apart                                  */
   long steps0, rhs0;         /* counts at timeint_begin                                                       */
   double *y;                 /* [n] the state                                                                 */
   double *saved;             /* [n] y before a Newton solve whose answer may be rejected                      */
