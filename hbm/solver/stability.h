@@ -11,9 +11,10 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
 
 /* Multipliers of a structure of more than 50 degrees of freedom cost as much as a good part of its curve, unless it has
  * planar friction, no smooth law and at most 48 contacts (hbm_n_contacts); so do those of a smaller one with planar
- * friction or a smooth law that has more than 12 degrees of freedom and contacts together. They are computed for a
- * solution that is asked for, and left unknown at the points of a curve. */
+ * friction or a smooth law where states and harmonics are so many that a solution takes 40 ms and more. They are
+ * computed for a solution that is asked for, and left unknown at the points of a curve. */
 bool hbm_stability_is_costly(const hbm_solver *s);
+const char *hbm_stability_limit(const hbm_solver *s); /* why they are, in words; NULL: they are not */
 
 /* With planar friction, no smooth law and more than 50 degrees of freedom hbm_stability_at finds NaN, which is unknown,
  * where modes do not diagonalise the damping or it is so light that steps would take minutes: true once that was so. */

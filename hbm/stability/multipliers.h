@@ -1,4 +1,4 @@
-/* multipliers.h - the Floquet multipliers of a solution, in numbers. */
+/* multipliers.h - the Floquet multipliers of a solution, in numbers. What predicts their error is hbm/curve/predict.h. */
 #pragma once
 
 #include <stdbool.h>
@@ -12,4 +12,6 @@ typedef struct hbm_stability {
   int pairs_outside;  /* complex pairs outside the unit circle, by more than 1e-10 */
   double pair;        /* modulus of the complex pair nearest to the circle, NaN without one */
   bool agrees;        /* det dR/dX has the sign of `fold`; it need not where few harmonics move the turning point */
+  bool of_motion;     /* the multipliers depend on the motion, and so are off by what it is off */
+  double low, high;   /* what `multiplier` is between by its predicted error; itself where that was not asked for */
 } hbm_stability;

@@ -95,8 +95,8 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
     table_note(t, "stability is not found everywhere, nor period doublings and such: a limit of both tangents "
                   "together, more than 50 degrees of freedom, and damping that is not modal or too light");
   else if (hbm_stability_is_costly(s) && !at_given)
-    table_note(t, "stability is found at the omegas of --at alone, nor are period doublings and such looked for: more "
-                  "than 50 degrees of freedom, or 12 with contacts of two tangents");
+    table_note(t, "stability is found at the omegas of --at alone, nor are period doublings and such looked for: %s",
+               hbm_stability_limit(s));
   if (sc->hbm.keep_mean && scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (c->n == 0) return;
   char last[SCENE_WHERE];
