@@ -6,6 +6,7 @@
 
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
+#include "numerics/base/number.h"
 #include "numerics/collocation.h"
 #include "numerics/series.h"
 
@@ -89,10 +90,44 @@ hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double ome
   if (modal && st == HC_BAD_INPUT) s->multipliers_unknown = true;
   if (!s->monodromy && s->multipliers_unknown) return HC_OK;
   if (st == HC_OK) st = monodromy_stability(s->monodromy, s->model, orbit, omega, out);
+  s->multipliers_of = st == HC_OK ? key : 0;
   if (st == HC_OK) *known = (known_stability){key, *out};
   if (!modal || st != HC_NOT_CONVERGED) return st;
   s->multipliers_unknown = true;
   return HC_OK;
+}
+
+void hbm_keep_stability(hbm_solver *s, double omega, const double *X, const hbm_stability *st)
+{
+  const uint64_t key = fingerprint(s, omega, X);
+  s->known_stability[key / 2 % KNOWN_STABILITIES] = (known_stability){key, *st};
+}
+
+static void take_moduli(const hbm_solver *s, double *moduli)
+{
+  const double complex *lambda;
+  const int states = 2 * s->model->n + s->model->n_contacts, n = monodromy_multipliers(s->monodromy, &lambda);
+  for (int i = 0; i < states; ++i) moduli[i] = i < n ? -cabs(lambda[i]) : 0;
+  qsort(moduli, (size_t)states, sizeof *moduli, ascending);
+  for (int i = 0; i < states; ++i) moduli[i] = -moduli[i];
+}
+
+hc_status hbm_moduli(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out, double *moduli)
+{
+  s->multipliers_of = 0;
+  const hc_status st = monodromy_stability(s->monodromy, s->model, orbit, omega, out);
+  if (st == HC_OK) take_moduli(s, moduli);
+  return st;
+}
+
+hc_status hbm_moduli_of(hbm_solver *s, double omega, const double *X, double *moduli)
+{
+  const contact_forces *orbit;
+  contact_report report;
+  hbm_stability again;
+  if (s->multipliers_of == fingerprint(s, omega, X)) return take_moduli(s, moduli), HC_OK;
+  const hc_status st = hbm_located_orbit(s, X, &orbit, &report);
+  return st == HC_OK ? hbm_moduli(s, orbit, omega, &again, moduli) : st;
 }
 
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out)
@@ -110,7 +145,7 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
 
 int hbm_stability_verdict(const hbm_stability *st)
 {
-  bool clear = fabs(st->multiplier - 1) > 1e-9; /* false for NaN */
-  if (!clear || !st->agrees) return 0;
-  return st->multiplier < 1 ? 1 : -1;
+  const double rounding = 1e-9;
+  if (!st->agrees) return 0;
+  return st->high < 1 - rounding ? 1 : st->low > 1 + rounding ? -1 : 0; /* 0 of NaN */
 }

@@ -24,6 +24,6 @@ bool hbm_stability_is_unknown(const hbm_solver *s);
  * for curves that are only drawn. */
 void hbm_leave_stability(hbm_solver *s);
 
-/* +1 stable, -1 unstable, 0 unknown: the largest multiplier is within 1e-9 of 1 in size, or the truncated equations
- * disagree. */
+/* +1 stable, -1 unstable, 0 unknown: the largest multiplier's size, or what its predicted error leaves of it, comes
+ * within 1e-9 of 1, or the truncated equations disagree. */
 int hbm_stability_verdict(const hbm_stability *st);

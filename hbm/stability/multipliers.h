@@ -13,5 +13,6 @@ typedef struct hbm_stability {
   double pair;        /* modulus of the complex pair nearest to the circle, NaN without one */
   bool agrees;        /* det dR/dX has the sign of `fold`; it need not where few harmonics move the turning point */
   bool of_motion;     /* the multipliers depend on the motion, and so are off by what it is off */
-  double low, high;   /* what `multiplier` is between by its predicted error; itself where that was not asked for */
+  bool predicted;     /* their error was asked for (hbm_stability_with_error); else low = high = multiplier */
+  double low, high;   /* what the largest modulus is between; 0 and INFINITY: nobody knows */
 } hbm_stability;

@@ -26,7 +26,8 @@ static hc_status measure_point(hbm_solver *s, double omega, const double *X, dra
   if (st != HC_OK) return st;
   *p = (curve_point){omega, m.amplitude, 0};
   const bool judge = as.judge && !hbm_stability_is_costly(s);
-  if (judge && hbm_stability_at(s, omega, X, &floquet) == HC_OK) p->stable = hbm_stability_verdict(&floquet);
+  if (judge && hbm_stability_with_error(s, omega, X, true, &floquet) == HC_OK)
+    p->stable = hbm_stability_verdict(&floquet);
   return HC_OK;
 }
 
