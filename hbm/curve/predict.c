@@ -13,7 +13,8 @@ enum {
   MOST_FINER = 100,     /* some milliseconds of an oscillator */
   MOST_UNKNOWNS = 1500, /* of the finer equations of many coordinates: about a second a step */
   STRIDE = 20,          /* harmonics between two sizes of the workspace, which is remade with each */
-  MOST_STEPS = 10       /* of Newton: one or two but near turning points and for stiff contacts */
+  MOST_STEPS = 10,      /* of Newton: one or two but near turning points and for stiff contacts */
+  FEW_STEPS = 5         /* where not finding a solution says enough */
 };
 
 static const double converged = 0.02; /* a step this small beside what all came to changes the error by as little */
@@ -70,12 +71,12 @@ static double improvement(const hbm_solver *s, const finer_solution *f)
 /* Newton on the finer equations from f->improved. f->least [1] is added to the error: some roundings; where Newton does
  * not converge, also its longest step; INFINITY where it ends too far from X, or takes steps as long without
  * converging: no solution is next to X. */
-static hc_status improve(hbm_solver *s, finer_solution *f, double omega)
+static hc_status improve(hbm_solver *s, finer_solution *f, double omega, int most)
 {
   double last, longest = 0;
   f->least = 0;
   f->found = false;
-  for (int k = 0; k < MOST_STEPS && !f->found; ++k) {
+  for (int k = 0; k < most && !f->found; ++k) {
     const hc_status st = refinement_step(f->by, omega, f->improved, &last);
     if (st != HC_OK && k == 0) return st;
     if (st != HC_OK) break;
@@ -132,7 +133,7 @@ hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error
   const int n_harm = s->sys.n_harm, n = finer_harmonics(s->sys.scales.highest, n_harm, s->sys.dim, omega);
   finer_solution *f = &s->exact_finer;
   hc_status st = begin_finer(s, f, n, X);
-  if (st == HC_OK) st = improve(s, f, omega);
+  if (st == HC_OK) st = improve(s, f, omega, MOST_STEPS);
   if (st != HC_OK) return st;
   const periodic_motion ours = measured(s, n_harm, X, s->x), better = measured(s, n, f->improved, s->x);
   return error_between(s, &ours, &better, out);
@@ -158,7 +159,7 @@ static hc_status finer_moduli(hbm_solver *s, double omega, const double *X, hbm_
   finer_solution *f = &s->twice_finer;
   const int n = finer_harmonics(0, s->sys.n_harm, s->sys.dim, omega);
   hc_status st = begin_finer(s, f, n, X);
-  if (st == HC_OK) st = improve(s, f, omega);
+  if (st == HC_OK) st = improve(s, f, omega, FEW_STEPS);
   if (st == HC_OK && !f->found) st = HC_NOT_CONVERGED;
   if (st == HC_OK) st = refinement_orbit(f->by, f->improved, &orbit);
   if (st == HC_OK) st = hbm_moduli(s, orbit, omega, finer, moduli);
