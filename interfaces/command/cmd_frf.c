@@ -106,28 +106,38 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
   else table_note(t, "STOPPED at %s: %s", last, hc_status_text(c->end));
 }
 
-static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const hbm_curve *c)
+/* In the table the first contact changes only, which may be many; all that stability changes at, and in csv and json
+ * everything. */
+static hc_status note_specials(const cli_common *common, table *t, hbm_solver *s, const hbm_curve *c)
 {
   enum { SHOWN = 24 };
-  hbm_special special[SHOWN];
+  const scene *sc = common->scene;
+  const bool all = common->format != FORMAT_TABLE;
   char amplitude[16 + RESPONSE_NAME] = "amplitude", name[RESPONSE_NAME];
-  int n = 0;
+  hbm_special *special;
+  int n, changes = 0;
   if (sc->structure)
     snprintf(amplitude, sizeof amplitude, "amplitude of %s",
              structure_response_name(sc->structure, 0, name, sizeof name));
   if (!hbm_specials_follow_each(s))
     table_note(t,
                "contact changes are listed where the strongest state of all contacts changes: there are more than 24");
-  hc_status st = hbm_specials(s, c, SHOWN, special, &n);
-  for (int i = 0; i < n && i < SHOWN; ++i) {
+  hc_status st = hbm_specials(s, c, &special, &n);
+  for (int i = 0; i < n; ++i) {
     const hbm_special *p = &special[i];
-    char what[ROWS_SPECIAL], where[SCENE_WHERE];
-    if (sc->in_cycles) snprintf(where, sizeof where, "frequency = %.10f (omega = %.10f)", p->omega / TWO_PI, p->omega);
-    else snprintf(where, sizeof where, "omega = %.10f", p->omega);
-    table_note(t, "%s at %s, %s %.9g", rows_special_text(p, what), where, amplitude, p->amplitude);
+    char what[ROWS_SPECIAL], omega[ROWS_WITH_ERROR], frequency[ROWS_WITH_ERROR];
+    changes += p->kind == HBM_CONTACT_CHANGE;
+    if (p->kind == HBM_CONTACT_CHANGE && changes > SHOWN && !all) continue;
+    rows_special_text(p, what);
+    rows_with_error(p->omega, p->omega_error, omega);
+    rows_with_error(p->omega / TWO_PI, p->omega_error / TWO_PI, frequency);
+    if (sc->in_cycles)
+      table_note(t, "%s at frequency = %s (omega = %s), %s %.9g", what, frequency, omega, amplitude, p->amplitude);
+    else table_note(t, "%s at omega = %s, %s %.9g", what, omega, amplitude, p->amplitude);
   }
-  if (n > SHOWN) table_note(t, "and %d more", n - SHOWN);
+  if (changes > SHOWN && !all) table_note(t, "and %d more contact changes (all in csv and json)", changes - SHOWN);
   if (st != HC_OK) table_note(t, "at least one more was noticed but not located: %s", hc_status_text(st));
+  free(special);
   return st;
 }
 
@@ -167,7 +177,7 @@ static int run_frf(cli_common *common, void *given, scene *sc)
     note_curve(t, sc, s, &curve, at->n > 0);
     const hbm_newton_report work = hbm_newton_work(s);
     if (own->verbose) table_note(t, "Newton: %d unknowns, %ld factorisations", work.unknowns, work.factorisations);
-    solved = at->n ? HC_OK : note_specials(t, sc, s, &curve);
+    solved = at->n ? HC_OK : note_specials(common, t, s, &curve);
     if (st == HC_OK && solved == HC_NO_MEMORY) st = solved; /* another failure to locate one is in the note */
     if (st != HC_OK && (curve.n == 0 || curve.end == HC_OK)) table_note(t, "INCOMPLETE: %s", hc_status_text(st));
   }

@@ -8,8 +8,6 @@ typedef struct curve_point {
   int stable;              /* +1, -1, 0 unknown */
 } curve_point;
 
-enum { CURVE_MOST_SPECIALS = 256 };
-
 typedef struct curve_shape {
   char of[RESPONSE_NAME];   /* the response in words; "x" of an oscillator */
   int among;                /* of several on the same axes which one, from 1; 0: it is the only one */
@@ -18,7 +16,7 @@ typedef struct curve_shape {
   curve_point *points; /* [n] along the curve */
   curve_point *other;  /* [n_other] of the sweep from its other end, without those on the curve; NaN omega: a gap */
   int n_special;
-  hbm_special special[CURVE_MOST_SPECIALS];
+  hbm_special *special;   /* [n_special] */
   int harmonics, samples; /* in use */
   double low, high;       /* [rad/time] the sweep */
 } curve_shape;
