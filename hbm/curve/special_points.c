@@ -37,6 +37,7 @@ typedef struct test_values {
   double pair;           /* as in hbm_stability */
   contact_regime regime; /* regime and number of transitions: the contact pattern */
   int transitions;
+  bool of_motion; /* as in hbm_stability: else the structure's own roots are all there is to it */
 } test_values;
 
 /* A special point; of a contact change, how many transitions the pattern has on either side. */
@@ -84,7 +85,8 @@ static hc_status evaluate_tests(detector *d, double omega, double d_omega, const
                        stability.pairs_outside,
                        stability.pair,
                        report.regime,
-                       transitions};
+                       transitions,
+                       stability.of_motion};
   return st;
 }
 
@@ -451,7 +453,7 @@ static hc_status take_end(detector *d, int k, hbm_special_kind kind, const test_
 static hc_status search_segment(detector *d, int k, const test_values *v)
 {
   const test_values *a = v, *b = v + 1;
-  const bool inside = k > 0 && k + 2 < d->c->n;
+  const bool inside = k > 0 && k + 2 < d->c->n && (a->of_motion || b->of_motion);
   hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK, breaking = HC_OK;
   d->first = d->n;
   if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
