@@ -175,16 +175,16 @@ hc_status hbm_finer_stability(hbm_solver *s, double omega, const double *X, hbm_
   return st == HC_OK ? finer_moduli(s, omega, X, finer, s->moduli, factor) : st;
 }
 
-/* What the largest modulus is between if each of them is off by factor times what it is from the other's: the largest
- * need not be the one that passes 1. */
-static void take_range(const hbm_solver *s, double factor, hbm_stability *out)
+/* What the largest modulus is between if each is off by something between `from` and `to` times what the other's differs
+ * by: the largest need not be the one that passes 1. */
+static void take_range(const hbm_solver *s, double from, double to, hbm_stability *out)
 {
   const double *ours = s->moduli, *theirs = ours + n_states(s);
   out->low = out->high = 0;
   for (int i = 0; i < n_states(s); ++i) {
-    const double error = factor * fabs(ours[i] - theirs[i]);
-    out->low = fmax(out->low, ours[i] - error);
-    out->high = fmax(out->high, ours[i] + error);
+    const double d = theirs[i] - ours[i], a = ours[i] + from * d, b = ours[i] + to * d;
+    out->low = fmax(out->low, fmin(a, b));
+    out->high = fmax(out->high, fmax(a, b));
   }
 }
 
@@ -200,15 +200,16 @@ static bool is_plain_by_share(hbm_solver *s, double omega, const double *X, doub
   return fmax(multiplier, 1) * own * sqrt(share) <= fabs(multiplier - 1);
 }
 
-/* Is the row of a curve as plain as one before? Errors change little from row to row where contacts do the same: not by
- * four times over eight rows. */
+/* Is the row of a curve as plain as one before, on the same side of 1? Errors change little from row to row where
+ * contacts do the same: not by four times over eight rows. */
 static bool is_plain_by_rows_before(const hbm_solver *s, const contact_report *now, double multiplier)
 {
   enum { MOST_ROWS = 8 };
   const double margin = 4;
   const row_before *b = &s->row_before;
-  return b->regime == now->regime && b->transitions == now->transitions && b->since < MOST_ROWS &&
-         margin * b->error <= fabs(multiplier - 1);
+  const bool same =
+      b->regime == now->regime && b->transitions == now->transitions && (b->multiplier > 1) == (multiplier > 1);
+  return same && b->since < MOST_ROWS && margin * b->error <= fabs(multiplier - 1);
 }
 
 /* Has s->truncated all of its multipliers where X has them? Asked where its harmonics reach the contacts' own frequency:
@@ -221,7 +222,7 @@ static bool is_plain_by_truncation(hbm_solver *s, double omega, hbm_stability *o
   if (!(s->sys.n_harm / 2 * omega >= s->sys.scales.highest)) return false;
   if (hbm_located_orbit(s, s->truncated, &orbit, &report) != HC_OK) return false;
   if (hbm_moduli(s, orbit, omega, &there, s->moduli + n_states(s)) != HC_OK) return false;
-  take_range(s, 1, out);
+  take_range(s, -1, 1, out);
   return out->high < 1 || out->low > 1;
 }
 
@@ -232,22 +233,27 @@ hc_status hbm_stability_with_error(hbm_solver *s, double omega, const double *X,
   hbm_stability finer;
   double factor = NAN;
   hc_status st = hbm_stability_at(s, omega, X, out);
-  if (st != HC_OK || out->predicted || !out->of_motion) return st;
+  if (st != HC_OK || out->predicted || (is_row && out->as_row_before) || !out->of_motion) return st;
   if (!need_moduli(s)) return HC_NO_MEMORY;
   s->row_before.since += 1;
   if (is_plain_by_share(s, omega, X, out->multiplier)) return HC_OK;
   if ((st = hbm_located_orbit(s, X, &orbit, &report)) != HC_OK) return st;
-  if (is_row && is_plain_by_rows_before(s, &report, out->multiplier)) return HC_OK;
+  if (is_row && is_plain_by_rows_before(s, &report, out->multiplier)) {
+    out->as_row_before = true;
+    hbm_keep_stability(s, omega, X, out); /* the same word when it is asked for again, for a drawing */
+    return HC_OK;
+  }
   st = hbm_moduli_of(s, omega, X, s->moduli);
   if (st == HC_OK && !is_plain_by_truncation(s, omega, out)) {
     st = finer_moduli(s, omega, X, &finer, s->moduli + n_states(s), &factor);
-    if (st == HC_OK) take_range(s, factor, out);
+    if (st == HC_OK) take_range(s, 0, factor, out);
   }
   if (st == HC_NO_MEMORY) return st;
   if (st != HC_OK) out->low = 0, out->high = INFINITY;
   const double error = fmax(out->high - out->multiplier, out->multiplier - out->low);
-  s->row_before = (row_before){report.regime, report.transitions, error, 0};
+  s->row_before = (row_before){report.regime, report.transitions, out->multiplier, error, 0};
   out->predicted = true;
+  out->as_row_before = false;
   hbm_keep_stability(s, omega, X, out);
   return HC_OK;
 }

@@ -32,16 +32,16 @@ hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error
 hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int r, motion_error *out);
 
 /* The multipliers of X at omega as of hbm_stability_at, and between what the largest one's modulus is (out->low, high).
- * Each modulus is off by what it is off that of the solution next to X with twice the harmonics, 14 at least, times the
- * same factor as above; twice that distance where H harmonics do not reach the contacts' own frequency. Where there is
- * no such solution nothing is known: 0 and INFINITY.
+ * Each modulus is off, towards that of the solution next to X with twice the harmonics, 14 at least, by that distance
+ * times the same factor as above; by twice the distance where H harmonics do not reach the contacts' own frequency.
+ * Where there is no such solution nothing is known: 0 and INFINITY.
  *
  * That solution costs as much as a point of a curve or several, and is asked only where it would tell: not where nothing
- * changes over the period, so that the multipliers are exact; nor where what X has in the upper half of its harmonics
- * is too little for 1, or where that half reaches the contacts' own frequency, where X without it has all multipliers on
- * the same side of 1. Of a row (is_row: after the rows before it, along one curve) neither where contacts do the same
- * as in a row up to 8 before, whose error was less than a tenth of what this one is from 1. Then low = high, or what X
- * without that half says. Errors of hbm_stability_at. */
+ * changes over the period, so that the multipliers are exact; nor where X has too little in the upper half of its
+ * harmonics; nor where its lower half reaches the contacts' own frequency and alone has all multipliers on the same side
+ * of 1. Of a row (is_row: asked about after the rows before it, along one curve) neither where contacts do the same as
+ * in a row up to 8 before, on the same side of 1, whose error was at most a quarter of what this one is from 1. Then
+ * low = high, or what the lower half says. Errors of hbm_stability_at. */
 hc_status hbm_stability_with_error(hbm_solver *s, double omega, const double *X, bool is_row, hbm_stability *out);
 
 /* The multipliers of that solution; what they differ by from X's, times *factor, is the error of X's. Errors of

@@ -30,8 +30,8 @@ typedef struct finer_solution {
 typedef struct row_before {
   contact_regime regime;
   int transitions;
-  double error; /* [1] of its largest multiplier; NaN: there is none before */
-  int since;    /* rows since that error was found */
+  double multiplier, error; /* [1] its largest multiplier, and by how much it may be off; 0: there is none before */
+  int since;                /* rows since that error was found */
 } row_before;
 
 struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; not shared between threads */

@@ -14,5 +14,6 @@ typedef struct hbm_stability {
   bool agrees;        /* det dR/dX has the sign of `fold`; it need not where few harmonics move the turning point */
   bool of_motion;     /* the multipliers depend on the motion, and so are off by what it is off */
   bool predicted;     /* their error was asked for (hbm_stability_with_error); else low = high = multiplier */
+  bool as_row_before; /* it was not, since that of a row before was enough */
   double low, high;   /* what the largest modulus is between; 0 and INFINITY: nobody knows */
 } hbm_stability;
