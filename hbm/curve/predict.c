@@ -10,6 +10,7 @@
 #include "numerics/series.h"
 
 enum {
+  MOST_OF_ROWS = 600,   /* of the equations with twice the harmonics, for each row of a curve: tens of milliseconds */
   MOST_FINER = 100,     /* some milliseconds of an oscillator */
   MOST_UNKNOWNS = 1500, /* of the finer equations of many coordinates: about a second a step */
   STRIDE = 20,          /* harmonics between two sizes of the workspace, which is remade with each */
@@ -168,6 +169,11 @@ static hc_status finer_moduli(hbm_solver *s, double omega, const double *X, hbm_
   return st;
 }
 
+bool hbm_stability_error_is_costly(const hbm_solver *s)
+{
+  return hbm_system_length(&s->sys, finer_harmonics(0, s->sys.n_harm, s->sys.dim, 1)) > MOST_OF_ROWS;
+}
+
 hc_status hbm_finer_stability(hbm_solver *s, double omega, const double *X, hbm_stability *finer, double *factor)
 {
   hc_status st = hbm_stability_at(s, omega, X, finer); /* makes what is needed */
@@ -234,6 +240,7 @@ hc_status hbm_stability_with_error(hbm_solver *s, double omega, const double *X,
   double factor = NAN;
   hc_status st = hbm_stability_at(s, omega, X, out);
   if (st != HC_OK || out->predicted || (is_row && out->as_row_before) || !out->of_motion) return st;
+  if (is_row && hbm_stability_error_is_costly(s)) return HC_OK;
   if (!need_moduli(s)) return HC_NO_MEMORY;
   s->row_before.since += 1;
   if (is_plain_by_share(s, omega, X, out->multiplier)) return HC_OK;

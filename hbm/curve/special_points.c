@@ -242,7 +242,7 @@ static hc_status insert_with_error(segment_search *s, double sigma)
   double factor = NAN, error = INFINITY;
   hc_status st = insert_special(d, sigma, s->kind, &at, &at);
   if (st != HC_OK || s->kind == HBM_TURNING_POINT) return st;
-  st = evaluate_at(s, beside);
+  st = hbm_stability_error_is_costly(d->s) ? HC_NOT_CONVERGED : evaluate_at(s, beside);
   const double slope = (test_of(s->kind, &s->here) - test_of(s->kind, &at)) / (d->x.point.omega - omega);
   if (st == HC_OK) st = hbm_finer_stability(d->s, d->x.point.omega, d->x.X, &finer, &factor);
   if (st == HC_NO_MEMORY) return st;

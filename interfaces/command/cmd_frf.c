@@ -122,6 +122,10 @@ static hc_status note_specials(const cli_common *common, table *t, hbm_solver *s
   if (!hbm_specials_follow_each(s))
     table_note(t,
                "contact changes are listed where the strongest state of all contacts changes: there are more than 24");
+  if (!hbm_stability_is_costly(s) && hbm_stability_error_is_costly(s))
+    table_note(t,
+               "stability by HBM's own multipliers: that they err is seen at the omegas of --at alone, with twice the "
+               "harmonics, which are more than 600 unknowns");
   hc_status st = hbm_specials(s, c, &special, &n);
   for (int i = 0; i < n; ++i) {
     const hbm_special *p = &special[i];
