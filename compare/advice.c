@@ -51,7 +51,6 @@ const char *advice_for_hbm(const hbm_settings *how, hc_status failure, char text
   case HC_UNBOUNDED:
     add_unless(&r, false, "damping");
     add_unless(&r, false, "a load that friction takes (4 mu N/pi a slider)");
-    add_unless(&r, false, "a sweep from the other end for what lies beyond");
     break;
   case HC_NOT_CLOSED: add_unless(&r, false, exact ? "--set hbm.force=sampled" : "--set hbm.force=exact"); break;
   case HC_CHATTER: add_unless(&r, !exact, "--set hbm.force=sampled, which counts no transitions"); break;

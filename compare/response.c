@@ -33,7 +33,8 @@ hc_status response_row_of(hbm_solver *s, const hbm_curve *c, int k, response_row
   *out = (response_row){.point = c->points[k]};
   hc_status st = hbm_measure(s, X, &out->measures);
   const bool wanted = c->asked || !hbm_stability_is_costly(s);
-  hc_status known = st == HC_OK && wanted ? hbm_stability_at(s, out->point.omega, X, &out->stability) : st;
+  hc_status known =
+      st == HC_OK && wanted ? hbm_stability_with_error(s, out->point.omega, X, !c->asked, &out->stability) : st;
   out->stability_known = wanted && known == HC_OK;
   return known == HC_NO_MEMORY ? known : st;
 }

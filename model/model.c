@@ -130,6 +130,13 @@ bool model_is_smooth(const model *m)
   return false;
 }
 
+bool model_has_kinks(const model *m)
+{
+  for (int j = 0; j < m->n_contacts; ++j)
+    if (m->contacts[j].law.smooth == CONTACT_KINKED) return true;
+  return false;
+}
+
 static bool law_is_odd(const contact *c)
 {
   bool odd = c->kn == 0 && c->across[0] == 0;

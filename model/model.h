@@ -78,6 +78,9 @@ bool model_has_circle(const model *m);
 /* Does any contact follow a smooth law? */
 bool model_is_smooth(const model *m);
 
+/* Does any contact follow a law with kinks? */
+bool model_has_kinks(const model *m);
+
 /* Is -x(t + T/2) a solution with each x(t)? Loads of odd harmonics alone, and each contact's forces are odd in x, or
  * another contact of the same law faces it: normals opposite, tangents along one line. */
 bool model_is_symmetric(const model *m);

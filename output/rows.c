@@ -376,3 +376,13 @@ const char *rows_special_text(const hbm_special *p, char text[ROWS_SPECIAL])
   else snprintf(text, ROWS_SPECIAL, "contact pattern changes (%s)", to);
   return text;
 }
+
+const char *rows_with_error(double value, double error, char text[ROWS_WITH_ERROR])
+{
+  const int most = 10;
+  const double decimals = error > 0 ? fmax(1 - floor(log10(error)), 0) : most; /* two digits of the error */
+  if (isinf(error)) snprintf(text, ROWS_WITH_ERROR, "%.*f (error not known)", most, value);
+  else if (!(decimals < most)) snprintf(text, ROWS_WITH_ERROR, "%.*f", most, value);
+  else snprintf(text, ROWS_WITH_ERROR, "%.*f +- %.*f", (int)decimals, value, (int)decimals, error);
+  return text;
+}

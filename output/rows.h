@@ -50,5 +50,10 @@ void rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells
 enum { ROWS_SPECIAL = 96 };
 const char *rows_special_text(const hbm_special *p, char text[ROWS_SPECIAL]);
 
+/* "0.6780359995"; where the error is two digits and more of these ten, "0.68 +- 0.12"; INFINITY: not known, in words.
+ * Returns text. */
+enum { ROWS_WITH_ERROR = 96 };
+const char *rows_with_error(double value, double error, char text[ROWS_WITH_ERROR]);
+
 /* Entry i of rows[] of that type. */
 const void *rows_at(rows_kind kind, const void *rows, int i);

@@ -121,7 +121,7 @@ static hc_status ask_curve(solved_scene *s, const model *m, stress_answers *a)
 {
   hbm_solver *h = NULL;
   hbm_curve curve = {0}, found = {0}, peak = {0};
-  hbm_special special[MOST_ANSWERS];
+  hbm_special *special = NULL;
   bool *history = &a->history[ABOUT_CURVE];
   double highest = 0, x = 0;
   int n = 0;
@@ -143,12 +143,13 @@ static hc_status ask_curve(solved_scene *s, const model *m, stress_answers *a)
     put(a, SOLUTIONS, (answer){.value = x});
   }
   a->specials_too_dear = st == HC_OK && !specials_are_affordable(s, h, &curve);
-  if (st == HC_OK && !a->specials_too_dear) st = hbm_specials(h, &curve, MOST_ANSWERS, special, &n);
+  if (st == HC_OK && !a->specials_too_dear) st = hbm_specials(h, &curve, &special, &n);
   for (int i = 0; i < n && i < MOST_ANSWERS && st == HC_OK; ++i) {
     const hbm_special *p = &special[i];
     if (is_at_end(s, p->omega)) continue;
     put(a, SPECIALS, (answer){.code = (int)p->kind, .value = p->omega, .before = p->before, .after = p->after});
   }
+  free(special);
   hbm_curve_free(&peak);
   hbm_curve_free(&found);
   hbm_curve_free(&curve);

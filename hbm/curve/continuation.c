@@ -519,8 +519,13 @@ static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_sampl
 hc_status path_trace(hbm_solver *s, const path_course *course, const hc_monitor *monitor, hbm_curve *curve)
 {
   const double from = course->from, to = course->to;
-  const path start = {
-      .s = s, .curve = curve, .course = course, .from = from, .to = to, .direction = to >= from ? 1 : -1};
+  const path start = {.s = s,
+                      .curve = curve,
+                      .course = course,
+                      .from = from,
+                      .to = to,
+                      .direction = to >= from ? 1 : -1,
+                      .kinked = model_has_kinks(s->model)};
   bool adapts = s->how.harmonics == HBM_AUTO, more_samples;
   curve->n_coef = adapts ? hbm_system_length(&s->sys, REFINE_MOST_HARMONICS) : s->sys.n_coef;
   hbm_curve_measure_by(curve, s->sys.metric, fmax(fabs(to - course->behind) / SWEEP_UNITS, LEAST_UNIT * from));

@@ -84,8 +84,15 @@ void path_orient_tangent(path *p)
 {
   p->point.even_sign = path_even_sign(p);
   /* Where its symmetry breaks the determinant changes its sign, and the curve does not turn: the symmetric block's
-   * decides. */
+   * decides. Without kinks the tangent turns little in a step: it goes on along the last one at branch points of
+   * whatever symmetry, of equal sectors, too. */
   const int sign = p->point.even_sign ? p->det_sign * p->point.even_sign : p->det_sign;
+  if (!p->kinked) {
+    const hbm_curve *c = p->curve;
+    const double *dX = hbm_curve_dX(c, c->n - 1);
+    const bool onward = path_inner(p, p->dX, p->d_omega, dX, c->points[c->n - 1].d_omega) > 0;
+    p->orientation = onward ? sign : -sign;
+  }
   if (sign == p->orientation) return;
   for (int i = 0; i < p->curve->n_coef; ++i) p->dX[i] = -p->dX[i];
   p->d_omega = -p->d_omega;

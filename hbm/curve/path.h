@@ -35,6 +35,7 @@ typedef struct path {
   bool natural;               /* correct at the predicted omega; else in the plane across the predicted tangent */
   bool tangent_only;          /* predict by the last tangent alone: the point before is on the far side of a corner, or
                                  solves other equations */
+  bool kinked;                /* model_has_kinks */
   int orientation;            /* sign of det [dR/dX dR/domega; tangent]: changes only where a symmetry breaks */
   int first_outside;          /* index of the first point outside the sweep behind its start; 0 while inside */
   int droppable_points;       /* points in a row whose highest harmonics could be dropped; negative after dropping them

@@ -5,14 +5,17 @@
 #include <string.h>
 
 #include "hbm/solver/hbm_solver_impl.h"
+#include "hbm/solver/stability.h"
 #include "numerics/norm.h"
 #include "numerics/series.h"
 
 enum {
+  MOST_OF_ROWS = 600,   /* of the equations with twice the harmonics, for each row of a curve: tens of milliseconds */
   MOST_FINER = 100,     /* some milliseconds of an oscillator */
   MOST_UNKNOWNS = 1500, /* of the finer equations of many coordinates: about a second a step */
   STRIDE = 20,          /* harmonics between two sizes of the workspace, which is remade with each */
-  MOST_STEPS = 10       /* of Newton: one or two but near turning points and for stiff contacts */
+  MOST_STEPS = 10,      /* of Newton: one or two but near turning points and for stiff contacts */
+  FEW_STEPS = 5         /* where not finding a solution says enough */
 };
 
 static const double converged = 0.02; /* a step this small beside what all came to changes the error by as little */
@@ -35,49 +38,56 @@ static int finer_harmonics(double highest, int n_harm, int dim, double omega)
   return own > twice ? (int)fmin(own, fmax(most, twice)) : twice;
 }
 
-/* What is made at the first call; freed with the equations. */
-static hc_status need_finer(hbm_solver *s, double omega)
+/* Equations of n_harm harmonics, and X with zeros for what they have more; made anew where the number is another, freed
+ * with the solver's equations. */
+static hc_status begin_finer(hbm_solver *s, finer_solution *f, int n_harm, const double *X)
 {
-  const int n_harm = finer_harmonics(s->sys.scales.highest, s->sys.n_harm, s->sys.dim, omega);
-  if (s->exact_finer && refinement_harmonics(s->exact_finer) == n_harm) return HC_OK;
-  refinement_free(s->exact_finer);
-  free(s->improved);
-  s->exact_finer = NULL;
-  hbm_settings how = s->how;
-  how.force = HBM_FORCE_EXACT;
-  how.keep_mean = true;
-  s->n_improved = hbm_system_length(&s->sys, n_harm > s->sys.n_harm ? n_harm : s->sys.n_harm);
-  s->improved = calloc(2 * (size_t)s->n_improved, sizeof *s->improved);
-  s->asked = s->improved ? s->improved + s->n_improved : NULL;
-  return s->improved ? refinement_new(&s->sys, &how, n_harm, 0, &s->exact_finer) : HC_NO_MEMORY;
+  const int ours = s->sys.n_harm;
+  hc_status st = HC_OK;
+  if (!f->by || refinement_harmonics(f->by) != n_harm) {
+    hbm_settings how = s->how;
+    how.force = HBM_FORCE_EXACT;
+    how.keep_mean = true;
+    refinement_free(f->by);
+    free(f->improved);
+    *f = (finer_solution){.n = hbm_system_length(&s->sys, n_harm > ours ? n_harm : ours)};
+    f->improved = calloc(2 * (size_t)f->n, sizeof *f->improved);
+    f->asked = f->improved ? f->improved + f->n : NULL;
+    st = f->improved ? refinement_new(&s->sys, &how, n_harm, 0, &f->by) : HC_NO_MEMORY;
+  }
+  if (st != HC_OK) return st;
+  memset(f->improved, 0, 2 * (size_t)f->n * sizeof *f->improved);
+  memcpy(f->asked, X, (size_t)s->sys.n_coef * sizeof *X);
+  memcpy(f->improved, X, (size_t)hbm_system_length(&s->sys, n_harm < ours ? n_harm : ours) * sizeof *X);
+  return HC_OK;
 }
 
-/* [1] How far s->improved is from X. */
-static double improvement(const hbm_solver *s)
+/* [1] How far f->improved is from X. */
+static double improvement(const hbm_solver *s, const finer_solution *f)
 {
-  const metric_at at = {s->sys.metric, s->n_improved, s->asked, NULL};
-  return metric_distance(&at, s->improved, s->asked);
+  const metric_at at = {s->sys.metric, f->n, f->asked, NULL};
+  return metric_distance(&at, f->improved, f->asked);
 }
 
-/* Newton on the finer equations from s->improved. *least [1] is added to the error: some roundings; where Newton does
+/* Newton on the finer equations from f->improved. f->least [1] is added to the error: some roundings; where Newton does
  * not converge, also its longest step; INFINITY where it ends too far from X, or takes steps as long without
  * converging: no solution is next to X. */
-static hc_status improve(hbm_solver *s, double omega, double *least)
+static hc_status improve(hbm_solver *s, finer_solution *f, double omega, int most)
 {
   double last, longest = 0;
-  *least = 0;
-  bool found = false;
-  for (int k = 0; k < MOST_STEPS && !found; ++k) {
-    const hc_status st = refinement_step(s->exact_finer, omega, s->improved, &last);
+  f->least = 0;
+  f->found = false;
+  for (int k = 0; k < most && !f->found; ++k) {
+    const hc_status st = refinement_step(f->by, omega, f->improved, &last);
     if (st != HC_OK && k == 0) return st;
     if (st != HC_OK) break;
-    if (k == 0) *least = roundings * refinement_rounding(s->exact_finer, omega);
+    if (k == 0) f->least = roundings * refinement_rounding(f->by, omega);
     longest = fmax(longest, last);
-    found = last <= *least || (k > 0 && last <= converged * improvement(s));
+    f->found = last <= f->least || (k > 0 && last <= converged * improvement(s, f));
   }
-  if (!found) *least += longest;
-  const double far = fmax(found ? 0 : longest, improvement(s));
-  if (!(far <= (found ? another : lost))) *least = INFINITY;
+  if (!f->found) f->least += longest;
+  const double far = fmax(f->found ? 0 : longest, improvement(s, f));
+  if (!(far <= (f->found ? another : lost))) f->least = INFINITY, f->found = false;
   return HC_OK;
 }
 
@@ -108,8 +118,8 @@ static hc_status error_between(const hbm_solver *s, const periodic_motion *ours,
                                motion_error *out)
 {
   const motion_distance d = motion_between(ours, better);
-  const double factor = extrapolation(s, refinement_harmonics(s->exact_finer)), waveform = factor * d.waveform;
-  const double least = s->improved_least * ours->amplitude;
+  const double factor = extrapolation(s, refinement_harmonics(s->exact_finer.by)), waveform = factor * d.waveform;
+  const double least = s->exact_finer.least * ours->amplitude;
   *out = (motion_error){.amplitude = fmax(factor * d.amplitude, MOTION_LEAST_SHARE * waveform) + least,
                         .harmonic_1 = fmax(factor * d.harmonic_1, MOTION_LEAST_SHARE * waveform) + least,
                         .waveform = waveform + least};
@@ -121,16 +131,138 @@ static hc_status error_between(const hbm_solver *s, const periodic_motion *ours,
 hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out)
 {
   *out = (motion_error){NAN, NAN, NAN};
-  hc_status st = need_finer(s, omega);
+  const int n_harm = s->sys.n_harm, n = finer_harmonics(s->sys.scales.highest, n_harm, s->sys.dim, omega);
+  finer_solution *f = &s->exact_finer;
+  hc_status st = begin_finer(s, f, n, X);
+  if (st == HC_OK) st = improve(s, f, omega, MOST_STEPS);
   if (st != HC_OK) return st;
-  const int n_harm = s->sys.n_harm, n = refinement_harmonics(s->exact_finer);
-  memset(s->improved, 0, 2 * (size_t)s->n_improved * sizeof *s->improved);
-  memcpy(s->asked, X, (size_t)s->sys.n_coef * sizeof *s->asked);
-  memcpy(s->improved, X, (size_t)hbm_system_length(&s->sys, n < n_harm ? n : n_harm) * sizeof *s->improved);
-  st = improve(s, omega, &s->improved_least);
-  if (st != HC_OK) return st;
-  const periodic_motion ours = measured(s, n_harm, X, s->x), better = measured(s, n, s->improved, s->x);
+  const periodic_motion ours = measured(s, n_harm, X, s->x), better = measured(s, n, f->improved, s->x);
   return error_between(s, &ours, &better, out);
+}
+
+/* ---- multipliers ---- */
+
+static int n_states(const hbm_solver *s) { return 2 * s->model->n + s->model->n_contacts; }
+
+static bool need_moduli(hbm_solver *s)
+{
+  if (!s->moduli) s->moduli = calloc(2 * (size_t)n_states(s), sizeof *s->moduli);
+  return s->moduli != NULL;
+}
+
+/* moduli[n_states] of the solution next to X with twice the harmonics, and by what to multiply what differs. With fewer
+ * harmonics than reach the contacts' own frequency errors do not fall with their number yet: twice as many are off by
+ * as much again. */
+static hc_status finer_moduli(hbm_solver *s, double omega, const double *X, hbm_stability *finer, double *moduli,
+                              double *factor)
+{
+  const contact_forces *orbit;
+  finer_solution *f = &s->twice_finer;
+  const int n = finer_harmonics(0, s->sys.n_harm, s->sys.dim, omega);
+  hc_status st = begin_finer(s, f, n, X);
+  if (st == HC_OK) st = improve(s, f, omega, FEW_STEPS);
+  if (st == HC_OK && !f->found) st = HC_NOT_CONVERGED;
+  if (st == HC_OK) st = refinement_orbit(f->by, f->improved, &orbit);
+  if (st == HC_OK) st = hbm_moduli(s, orbit, omega, finer, moduli);
+  *factor = extrapolation(s, n);
+  if (s->sys.n_harm * omega < s->sys.scales.highest) *factor = fmax(*factor, 2);
+  return st;
+}
+
+bool hbm_stability_error_is_costly(const hbm_solver *s)
+{
+  return hbm_system_length(&s->sys, finer_harmonics(0, s->sys.n_harm, s->sys.dim, 1)) > MOST_OF_ROWS;
+}
+
+hc_status hbm_finer_stability(hbm_solver *s, double omega, const double *X, hbm_stability *finer, double *factor)
+{
+  hc_status st = hbm_stability_at(s, omega, X, finer); /* makes what is needed */
+  if (st == HC_OK && !need_moduli(s)) st = HC_NO_MEMORY;
+  return st == HC_OK ? finer_moduli(s, omega, X, finer, s->moduli, factor) : st;
+}
+
+/* What the largest modulus is between if each is off by something between `from` and `to` times what the other's differs
+ * by: the largest need not be the one that passes 1. */
+static void take_range(const hbm_solver *s, double from, double to, hbm_stability *out)
+{
+  const double *ours = s->moduli, *theirs = ours + n_states(s);
+  out->low = out->high = 0;
+  for (int i = 0; i < n_states(s); ++i) {
+    const double d = theirs[i] - ours[i], a = ours[i] + from * d, b = ours[i] + to * d;
+    out->low = fmax(out->low, fmin(a, b));
+    out->high = fmax(out->high, fmax(a, b));
+  }
+}
+
+/* Is the share of X in the upper half of its harmonics so small that the error does not reach 1? X is off by about a
+ * seventh of it where errors fall like H^-3. Where a contact grazes, its instants move by the root of what the motion
+ * does, and multipliers by as many radians of the contact's own frequency. s->truncated becomes X without that half. */
+static bool is_plain_by_share(hbm_solver *s, double omega, const double *X, double multiplier)
+{
+  const metric_at at = hbm_metric_at(s, X);
+  memcpy(s->truncated, X, (size_t)s->sys.n_coef * sizeof *X);
+  for (int i = hbm_system_length(&s->sys, s->sys.n_harm / 2); i < s->sys.n_coef; ++i) s->truncated[i] = 0;
+  const double share = metric_distance(&at, X, s->truncated), own = fmax(s->sys.scales.highest / omega, 1);
+  return fmax(multiplier, 1) * own * sqrt(share) <= fabs(multiplier - 1);
+}
+
+/* Is the row of a curve as plain as one before, on the same side of 1? Errors change little from row to row where
+ * contacts do the same: not by four times over eight rows. */
+static bool is_plain_by_rows_before(const hbm_solver *s, const contact_report *now, double multiplier)
+{
+  enum { MOST_ROWS = 8 };
+  const double margin = 4;
+  const row_before *b = &s->row_before;
+  const bool same =
+      b->regime == now->regime && b->transitions == now->transitions && (b->multiplier > 1) == (multiplier > 1);
+  return same && b->since < MOST_ROWS && margin * b->error <= fabs(multiplier - 1);
+}
+
+/* Has s->truncated all of its multipliers where X has them? Asked where its harmonics reach the contacts' own frequency:
+ * up to there errors do not fall with their number, and two motions may agree by chance. */
+static bool is_plain_by_truncation(hbm_solver *s, double omega, hbm_stability *out)
+{
+  const contact_forces *orbit;
+  contact_report report;
+  hbm_stability there;
+  if (!(s->sys.n_harm / 2 * omega >= s->sys.scales.highest)) return false;
+  if (hbm_located_orbit(s, s->truncated, &orbit, &report) != HC_OK) return false;
+  if (hbm_moduli(s, orbit, omega, &there, s->moduli + n_states(s)) != HC_OK) return false;
+  take_range(s, -1, 1, out);
+  return out->high < 1 || out->low > 1;
+}
+
+hc_status hbm_stability_with_error(hbm_solver *s, double omega, const double *X, bool is_row, hbm_stability *out)
+{
+  const contact_forces *orbit;
+  contact_report report;
+  hbm_stability finer;
+  double factor = NAN;
+  hc_status st = hbm_stability_at(s, omega, X, out);
+  if (st != HC_OK || out->predicted || (is_row && out->as_row_before) || !out->of_motion) return st;
+  if (is_row && hbm_stability_error_is_costly(s)) return HC_OK;
+  if (!need_moduli(s)) return HC_NO_MEMORY;
+  s->row_before.since += 1;
+  if (is_plain_by_share(s, omega, X, out->multiplier)) return HC_OK;
+  if ((st = hbm_located_orbit(s, X, &orbit, &report)) != HC_OK) return st;
+  if (is_row && is_plain_by_rows_before(s, &report, out->multiplier)) {
+    out->as_row_before = true;
+    hbm_keep_stability(s, omega, X, out); /* the same word when it is asked for again, for a drawing */
+    return HC_OK;
+  }
+  st = hbm_moduli_of(s, omega, X, s->moduli);
+  if (st == HC_OK && !is_plain_by_truncation(s, omega, out)) {
+    st = finer_moduli(s, omega, X, &finer, s->moduli + n_states(s), &factor);
+    if (st == HC_OK) take_range(s, 0, factor, out);
+  }
+  if (st == HC_NO_MEMORY) return st;
+  if (st != HC_OK) out->low = 0, out->high = INFINITY;
+  const double error = fmax(out->high - out->multiplier, out->multiplier - out->low);
+  s->row_before = (row_before){report.regime, report.transitions, out->multiplier, error, 0};
+  out->predicted = true;
+  out->as_row_before = false;
+  hbm_keep_stability(s, omega, X, out);
+  return HC_OK;
 }
 
 hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int r, motion_error *out)
@@ -139,8 +271,8 @@ hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int
   hc_status st = hbm_response(s, omega, X, r, s->x);
   if (st != HC_OK) return st;
   const periodic_motion ours = motion_of(s->sys.n_harm, s->x);
-  if ((st = refinement_response(s->exact_finer, omega, s->improved, r, s->x)) != HC_OK) return st;
-  const periodic_motion better = motion_of(refinement_harmonics(s->exact_finer), s->x);
+  if ((st = refinement_response(s->exact_finer.by, omega, s->exact_finer.improved, r, s->x)) != HC_OK) return st;
+  const periodic_motion better = motion_of(refinement_harmonics(s->exact_finer.by), s->x);
   return error_between(s, &ours, &better, out);
 }
 

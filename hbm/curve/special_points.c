@@ -4,14 +4,16 @@
  * interpolation. The contact pattern is not: its change is bisected, with the pattern of the interpolant as a guess of
  * where (segment.h), and the rest of the segment searched for the next. Bisected, too, is the number of complex pairs
  * of multipliers outside the unit circle (Neimark-Sacker): where it changes without a pair on the circle, two real ones
- * have met, or multipliers jump with the pattern. The product of 1 - multiplier changes its sign where the curve turns,
- * and else where the symmetry of a symmetric solution (model_is_symmetric) breaks. What is too near to be told apart is
- * one change: slip and separation that begin at once, two contacts that are alike. */
+ * have met, or multipliers jump with the pattern. Where a symmetry breaks the sign of the determinant changes, and the curve
+ * does not turn: that is bisected, too. Two changes between neighbouring
+ * points leave no trace at these: they are looked for where a test function falls towards 0 from either side. What is
+ * too near to be told apart is one change: slip and separation that begin at once, two contacts that are alike. */
 #include "hbm/curve/special_points.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "hbm/curve/predict.h"
 #include "hbm/curve/segment.h"
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
@@ -30,11 +32,13 @@ static const double SAME_OMEGA = 1e-9, SAME_AMPLITUDE = 1e-8;
 
 /* The test functions at a point. */
 typedef struct test_values {
-  double d_omega, flip, fold; /* fold: of a symmetric solution, else NaN */
+  double d_omega, flip;
+  int branch_sign;
   int pairs_outside;
   double pair;           /* as in hbm_stability */
   contact_regime regime; /* regime and number of transitions: the contact pattern */
   int transitions;
+  bool of_motion; /* as in hbm_stability: else the structure's own roots are all there is to it */
 } test_values;
 
 /* A special point; of a contact change, how many transitions the pattern has on either side. */
@@ -56,12 +60,14 @@ typedef struct detector {
 
 bool hbm_specials_follow_each(const hbm_solver *s) { return s->model->n_contacts <= MOST_CONTACTS_FOLLOWED; }
 
-static bool is_symmetric(const detector *d, const double *X)
+/* Sign of det dR/dX times that of d_omega: the same on either side of a turning point, and of other places but branch
+ * points. Of symmetric models and of those without kinks, whose curves pass these; else 0. */
+static int branch_sign(const detector *d, double omega, double d_omega, const double *X)
 {
-  const hbm_system *sys = &d->s->sys;
-  for (int i = 0; i < sys->n_coef && d->s->symmetric; ++i)
-    if ((i / sys->dim + 1) / 2 % 2 == 0 && X[i] != 0) return false; /* cleared where it is (corrector.c) */
-  return d->s->symmetric;
+  int det_sign = 0;
+  if (!d->s->symmetric && model_has_kinks(d->s->model)) return 0;
+  if (hbm_det_sign_at(d->s, omega, X, &det_sign) != HC_OK) return 0;
+  return d_omega > 0 ? det_sign : -det_sign;
 }
 
 /* with_multipliers: they cost more than all the rest, and only the searches for a period doubling or a Neimark-Sacker
@@ -71,18 +77,19 @@ static hc_status evaluate_tests(detector *d, double omega, double d_omega, const
 {
   const contact_forces *orbit;
   contact_report report;
-  hbm_stability stability = {.flip = NAN, .fold = NAN, .pair = NAN};
+  hbm_stability stability = {.flip = NAN, .pair = NAN};
   hc_status st = hbm_located_orbit(d->s, X, &orbit, &report);
   if (st == HC_OK && with_multipliers) st = hbm_multipliers(d->s, orbit, omega, X, &stability);
   const int transitions = hbm_specials_follow_each(d->s) ? report.transitions : 0;
   if (st == HC_OK)
     *v = (test_values){d_omega,
                        stability.flip,
-                       is_symmetric(d, X) ? stability.fold : NAN,
+                       branch_sign(d, omega, d_omega, X),
                        stability.pairs_outside,
                        stability.pair,
                        report.regime,
-                       transitions};
+                       transitions,
+                       stability.of_motion};
   return st;
 }
 
@@ -154,19 +161,23 @@ static hc_status evaluate_at(segment_search *s, double sigma)
   if (s->sigma == sigma) return HC_OK;
   hc_status st = s->kind == HBM_CONTACT_CHANGE ? hbm_narrowing_point(d->s, &d->near, sigma, &d->x)
                                                : hbm_segment_point(d->s, d->c, s->k, sigma, &d->x);
-  const bool asked = s->kind != HBM_TURNING_POINT && s->kind != HBM_CONTACT_CHANGE;
+  const bool asked = s->kind == HBM_PERIOD_DOUBLING || s->kind == HBM_NEIMARK_SACKER;
   if (st == HC_OK) st = evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, asked, &s->here);
   s->sigma = st == HC_OK ? sigma : NAN;
   return st;
+}
+
+/* The test function of that kind. */
+static double test_of(hbm_special_kind kind, const test_values *v)
+{
+  return kind == HBM_TURNING_POINT ? v->d_omega : kind == HBM_PERIOD_DOUBLING ? v->flip : v->pair - 1;
 }
 
 static hc_status smooth_test_at(void *self, double sigma, double *value)
 {
   segment_search *s = self;
   hc_status st = evaluate_at(s, sigma);
-  *value = s->kind == HBM_TURNING_POINT     ? s->here.d_omega
-           : s->kind == HBM_PERIOD_DOUBLING ? s->here.flip
-                                            : s->here.fold;
+  *value = test_of(s->kind, &s->here);
   return st;
 }
 
@@ -201,29 +212,80 @@ static hc_status pairs_outside_differ_at(void *self, double sigma, bool *differ)
   return st;
 }
 
-/* A sign change of a smooth test function on segment k, from f0 at its start to f1 at its end. */
-static hc_status locate_root(detector *d, int k, hbm_special_kind kind, double f0, double f1)
+/* [rad/time] From omega along the curve to the first point from k on, in that direction, whose stability is known: a
+ * change of stability is not beyond it. 0: it is that one. */
+static double reach_of_unknown(detector *d, int k, int direction, double omega)
+{
+  double reach = 0;
+  for (int first = k; k >= 0 && k < d->c->n; k += direction) {
+    hbm_stability at;
+    const double here = d->c->points[k].omega;
+    const hc_status st = hbm_stability_with_error(d->s, here, hbm_curve_X(d->c, k), false, &at);
+    const bool known = st == HC_OK && hbm_stability_verdict(&at) != 0;
+    if (known && k == first) return 0;
+    reach = fmax(reach, fabs(here - omega));
+    if (known) break;
+  }
+  return reach;
+}
+
+/* The point found at sigma, where d->x is, into the list, with its error in omega: that of the test function, by what it
+ * is of the solution with twice the harmonics, over its slope along the curve; but as far as stability is unknown about
+ * it, over which that slope need not hold. Beside it, since at a broken symmetry the equations are singular. */
+static hc_status insert_with_error(segment_search *s, double sigma)
+{
+  const double beside = sigma < 0.5 ? sigma + 0.05 : sigma - 0.05;
+  detector *d = s->d;
+  const test_values at = s->here;
+  const double omega = d->x.point.omega;
+  hbm_stability finer;
+  double factor = NAN, error = INFINITY;
+  hc_status st = insert_special(d, sigma, s->kind, &at, &at);
+  if (st != HC_OK || s->kind == HBM_TURNING_POINT) return st;
+  st = hbm_stability_error_is_costly(d->s) ? HC_NOT_CONVERGED : evaluate_at(s, beside);
+  const double slope = (test_of(s->kind, &s->here) - test_of(s->kind, &at)) / (d->x.point.omega - omega);
+  if (st == HC_OK) st = hbm_finer_stability(d->s, d->x.point.omega, d->x.X, &finer, &factor);
+  if (st == HC_NO_MEMORY) return st;
+  if (st == HC_OK) {
+    const test_values better = {.flip = finer.flip, .pair = finer.pair};
+    error = fabs(factor * (test_of(s->kind, &better) - test_of(s->kind, &s->here)) / slope);
+    error = fmax(isfinite(error) ? error : INFINITY, reach_of_unknown(d, s->k, -1, omega));
+    error = fmax(error, reach_of_unknown(d, s->k + 1, 1, omega));
+  }
+  for (int i = d->first; i < d->n; ++i)
+    if (d->found[i].sigma == sigma && d->found[i].special.kind == s->kind) d->found[i].special.omega_error = error;
+  return HC_OK;
+}
+
+/* A sign change of a smooth test function on part of segment k, f0 and f1 at its ends. */
+static hc_status locate_root(detector *d, int k, hbm_special_kind kind, double from, double f0, double to, double f1)
 {
   segment_search s = {.d = d, .k = k, .kind = kind, .sigma = NAN};
   root_point root;
-  hc_status st = root_between(smooth_test_at, &s, 0, f0, 1, f1, SIGMA_TOLERANCE, &root);
+  hc_status st = root_between(smooth_test_at, &s, from, f0, to, f1, SIGMA_TOLERANCE, &root);
   if (st == HC_OK) st = evaluate_at(&s, root.x);
   if (st != HC_OK) return st;
   /* a turning point belongs to the branch that it ends */
   if (kind == HBM_TURNING_POINT) d->x.point.branch = d->c->points[k].branch;
-  return insert_special(d, root.x, kind, &s.here, &s.here);
+  return insert_with_error(&s, root.x);
 }
 
-/* The equations are singular where the curve turns, the located orbit's multiplier is 1 a little beside it: does their
- * determinant change its sign on segment k with the multipliers' product? */
-static hc_status locate_breaking(detector *d, int k, const test_values *a, const test_values *b)
+static hc_status is_broken(void *self, double sigma, bool *broken)
 {
-  hbm_stability end[2];
-  for (int i = 0; i < 2; ++i) {
-    const hc_status st = hbm_stability_at(d->s, d->c->points[k + i].omega, hbm_curve_X(d->c, k + i), &end[i]);
-    if (st != HC_OK) return st;
-  }
-  return end[0].agrees == end[1].agrees ? locate_root(d, k, HBM_SYMMETRY_BREAKING, a->fold, b->fold) : HC_OK;
+  segment_search *s = self;
+  const hc_status st = evaluate_at(s, sigma);
+  *broken = st == HC_OK && s->here.branch_sign != s->before->branch_sign;
+  return st;
+}
+
+/* Where the sign changes on segment k: a branch point of the equations themselves, so that it has no error. */
+static hc_status locate_breaking(detector *d, int k, const test_values *a)
+{
+  segment_search s = {.d = d, .k = k, .kind = HBM_SYMMETRY_BREAKING, .before = a, .sigma = NAN};
+  root_point change;
+  hc_status st = root_change(is_broken, &s, 0, 1, SIGMA_TOLERANCE, &change);
+  if (st == HC_OK) st = evaluate_at(&s, change.x);
+  return st == HC_OK ? insert_special(d, change.x, HBM_SYMMETRY_BREAKING, &s.here, &s.here) : st;
 }
 
 /* A point at omega, from one of the guesses, into d->x. */
@@ -311,16 +373,66 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
   return HC_OK;
 }
 
-/* Where the number of complex pairs outside the unit circle first changes on segment k, if a pair is on it there. */
-static hc_status locate_neimark_sacker(detector *d, int k, const test_values *before)
+/* Where the number of complex pairs outside the unit circle first changes on part of segment k, if a pair is on it
+ * there. */
+static hc_status locate_neimark_sacker(detector *d, int k, const test_values *before, double from, double to)
 {
   const double on_circle = 1e-6; /* located to 1e-11 of the segment, over which a pair moves by less than 1e5 */
   segment_search s = {.d = d, .k = k, .kind = HBM_NEIMARK_SACKER, .before = before, .sigma = NAN};
   root_point change;
-  hc_status st = root_change(pairs_outside_differ_at, &s, 0, 1, SIGMA_TOLERANCE, &change);
+  hc_status st = root_change(pairs_outside_differ_at, &s, from, to, SIGMA_TOLERANCE, &change);
   if (st == HC_OK) st = evaluate_at(&s, change.x);
   if (st != HC_OK || !(fabs(s.here.pair - 1) <= on_circle)) return st;
-  return insert_special(d, change.x, HBM_NEIMARK_SACKER, &s.here, &s.here);
+  return insert_with_error(&s, change.x);
+}
+
+/* How far the test function is from where it is 0, negative beyond: the sign is that of `before`, or of pairs as many
+ * pairs outside. NaN where there is none. */
+static double distance_of(hbm_special_kind kind, const test_values *before, const test_values *v)
+{
+  const double f = test_of(kind, v);
+  if (kind == HBM_NEIMARK_SACKER) return v->pairs_outside == before->pairs_outside ? fabs(f) : -fabs(f);
+  return test_of(kind, before) > 0 ? f : -f;
+}
+
+/* HC_STALLED: beyond, and nothing less is looked for. */
+static hc_status distance_at(void *self, double sigma, double *value)
+{
+  segment_search *s = self;
+  const hc_status st = evaluate_at(s, sigma);
+  *value = distance_of(s->kind, s->before, &s->here);
+  return st == HC_OK && *value < 0 ? HC_STALLED : st;
+}
+
+/* Two changes of that kind on segment k, at whose ends the test function is on one side of 0. v: the test functions at
+ * the points k - 1 to k + 2. A function that is convex lies above the lines through the points before and behind: only
+ * where both are beyond 0 at once can it be. */
+static hc_status locate_pair(detector *d, int k, hbm_special_kind kind, const test_values *v)
+{
+  const double near_enough = 1e-3; /* of the segment: what is between two changes nearer to each other is missed */
+  segment_search s = {.d = d, .k = k, .kind = kind, .before = &v[1], .sigma = NAN};
+  double f[4], length[3];
+  for (int i = 0; i < 4; ++i) f[i] = distance_of(kind, s.before, &v[i]);
+  for (int i = 0; i < 3; ++i) length[i] = hbm_segment_between(d->c, k - 1 + i).length;
+  const double fall = (f[0] - f[1]) / length[0], rise = (f[3] - f[2]) / length[2];
+  if (!(f[1] > 0 && f[2] > 0 && fall > 0 && rise > 0 && isfinite(fall) && isfinite(rise))) return HC_OK;
+  const double from = f[1] / (fall * length[1]), to = 1 - f[2] / (rise * length[1]), middle = 0.5 * (from + to);
+  double there;
+  if (!(from < to)) return HC_OK;
+  hc_status st = distance_at(&s, middle, &there);
+  root_point least = {.x = middle};
+  if (st == HC_OK && there <= fmin(f[1], f[2]))
+    st = root_minimum(distance_at, &s, 0, f[1], middle, there, 1, f[2], near_enough, &least);
+  if (st != HC_STALLED) return st;
+  const double beyond = s.sigma;
+  const test_values here = s.here;
+  if (kind == HBM_NEIMARK_SACKER) {
+    st = locate_neimark_sacker(d, k, &v[1], 0, beyond);
+    return st == HC_OK ? locate_neimark_sacker(d, k, &here, beyond, 1) : st;
+  }
+  const double value = test_of(kind, &here);
+  st = locate_root(d, k, kind, 0, test_of(kind, &v[1]), beyond, value);
+  return st == HC_OK ? locate_root(d, k, kind, beyond, value, 1, test_of(kind, &v[2])) : st;
 }
 
 /* Do the ends of segment k lie at one place, to what special_points.h promises? What changes between them is then
@@ -343,17 +455,23 @@ static hc_status take_end(detector *d, int k, hbm_special_kind kind, const test_
   return insert_special(d, 1, kind, before, after);
 }
 
-static hc_status search_segment(detector *d, int k, const test_values *a, const test_values *b)
+/* v[0] and v[1]: the test functions at the ends of segment k; of the points beside these too where there are both. */
+static hc_status search_segment(detector *d, int k, const test_values *v)
 {
+  const test_values *a = v, *b = v + 1;
+  const bool joined = k > 0 && hbm_curve_has_segment(d->c, k - 1) && hbm_curve_has_segment(d->c, k + 1);
+  const bool inside = joined && (a->of_motion || b->of_motion);
   hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK, breaking = HC_OK;
   d->first = d->n;
   if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
   if (changes != HC_OK && d->n == d->first && d->s->edges) changes = locate_edge(d, k, a, b);
-  const bool turns = (a->d_omega > 0) != (b->d_omega > 0), breaks = !turns && a->fold * b->fold < 0;
-  if (turns) turning = locate_root(d, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
-  if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, a->flip, b->flip);
-  if (breaks) breaking = locate_breaking(d, k, a, b);
-  if (a->pairs_outside != b->pairs_outside) torus = locate_neimark_sacker(d, k, a);
+  const bool turns = (a->d_omega > 0) != (b->d_omega > 0), breaks = a->branch_sign * b->branch_sign < 0;
+  if (turns) turning = locate_root(d, k, HBM_TURNING_POINT, 0, a->d_omega, 1, b->d_omega);
+  if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, 0, a->flip, 1, b->flip);
+  else if (inside) doubling = locate_pair(d, k, HBM_PERIOD_DOUBLING, v - 1);
+  if (breaks) breaking = locate_breaking(d, k, a);
+  if (a->pairs_outside != b->pairs_outside) torus = locate_neimark_sacker(d, k, a, 0, 1);
+  else if (inside) torus = locate_pair(d, k, HBM_NEIMARK_SACKER, v - 1);
   if (is_one_place(d, k)) {
     if (changes != HC_OK) changes = take_end(d, k, HBM_CONTACT_CHANGE, a, b);
     if (turning != HC_OK) turning = take_end(d, k, HBM_TURNING_POINT, b, b);
@@ -366,21 +484,25 @@ static hc_status search_segment(detector *d, int k, const test_values *a, const 
   return torus;
 }
 
-hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *out, int *n)
+hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, hbm_special **out, int *n)
 {
   detector d = {.s = s, .c = c};
-  test_values before = {0}, here = {0};
   *n = 0;
+  *out = NULL;
   if (c->n == 0) return HC_OK;
   hc_status st = hbm_candidate_new(c->n_coef, &d.x), not_located = HC_OK;
+  test_values *v = calloc((size_t)c->n, sizeof *v);
   d.was = calloc((size_t)s->model->n_contacts + 1, sizeof *d.was);
-  if (st == HC_OK && !d.was) st = HC_NO_MEMORY;
-  if (st == HC_OK) st = evaluate_at_point(&d, 0, &before);
-  for (int k = 0; st == HC_OK && k + 1 < c->n; ++k) {
-    st = evaluate_at_point(&d, k + 1, &here);
-    hc_status found = st == HC_OK && hbm_curve_has_segment(c, k) ? search_segment(&d, k, &before, &here) : st;
+  if (st == HC_OK && (!d.was || !v)) st = HC_NO_MEMORY;
+  int evaluated = 0;
+  while (st == HC_OK && evaluated < c->n) {
+    st = evaluate_at_point(&d, evaluated, &v[evaluated]);
+    evaluated += st == HC_OK;
+  }
+  for (int k = 0; st != HC_NO_MEMORY && k + 1 < evaluated; ++k) {
+    const hc_status found = hbm_curve_has_segment(c, k) ? search_segment(&d, k, &v[k]) : HC_OK;
+    if (found == HC_NO_MEMORY) st = found;
     if (found != HC_OK) not_located = found; /* the search goes on: the others are still to be found */
-    before = here;
   }
   /* One point of those that cannot be told apart. */
   int kept = 0;
@@ -390,12 +512,14 @@ hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, int cap, hbm_special *
     else if (!take_in(&d.found[k], &d.found[i]))
       memmove(&d.found[k], &d.found[k + 1], (size_t)(--kept - k) * sizeof *d.found);
   }
-  d.n = kept;
-  for (int i = 0; i < d.n && i < cap; ++i) out[i] = d.found[i].special;
-  *n = d.n;
+  *out = malloc(((size_t)kept + 1) * sizeof **out);
+  if (*out) *n = kept;
+  else st = HC_NO_MEMORY;
+  for (int i = 0; i < *n; ++i) (*out)[i] = d.found[i].special;
   hbm_curve_free(&d.near.ends);
   free(d.x.X);
   free(d.was);
   free(d.found);
+  free(v);
   return st != HC_OK ? st : not_located;
 }

@@ -16,12 +16,16 @@ typedef struct hbm_special {
   double omega, amplitude;      /* [rad/time], [length] */
   int branch;                   /* as in hbm_point; a turning point belongs to the branch that it ends */
   contact_regime before, after; /* along the curve; the same where only the number of transitions changes */
+  /* [rad/time] How far away it may be by the error of its multipliers (predict.h), to first order; INFINITY: nobody
+   * knows. 0 of turning points, which are the equations' own, and of contact changes. */
+  double omega_error;
 } hbm_special;
 
-/* All of them in the curve's order, located to 1e-9 of omega or better (to 1e-6 at an edge of slip), into out[cap];
- * *n is how many there are, which may exceed cap. Those of a kind that this cannot tell apart are one, or none if
- * they undo each other. One that could not be located makes the status, and leaves the others in place. */
-hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, int cap, hbm_special *out, int *n);
+/* All of them in the curve's order, located to 1e-9 of omega or better (to 1e-6 at an edge of slip): *out [*n], to be
+ * freed by the caller, whatever the status. Those of a kind that this cannot tell apart are one, or none if they undo
+ * each other. Two between neighbouring points are found where multipliers go down towards them on either side. One that
+ * could not be located makes the status, and leaves the others in place. */
+hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, hbm_special **out, int *n);
 
 /* Where there are more than 24 contacts (directions, where two belong to one) some pattern changes on every bit of a
  * curve: a contact change is then one of the strongest state of all of them. */

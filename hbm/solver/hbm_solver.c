@@ -31,7 +31,7 @@ static hc_status make_refinements(hbm_solver *s, int n_time)
 static hc_status make_equations(hbm_solver *s, int n_harm, int n_time, metric *shared)
 {
   hc_status st = hbm_system_init(&s->sys, s->model, &s->how, n_harm, n_time, shared);
-  double **const arrays[] = {&s->X, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor};
+  double **const arrays[] = {&s->X, &s->z, &s->z_scale, &s->r_scale, &s->normal, &s->anchor, &s->truncated};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
     *arrays[i] = workspace_doubles(&s->memory, (size_t)s->sys.n_coef + 1);
   s->x = workspace_doubles(&s->memory, (size_t)series_length(HBM_MAX_HARMONICS));
@@ -55,8 +55,10 @@ static void free_equations(hbm_solver *s)
   contact_forces_free(s->orbit);
   refinement_free(s->finer_harmonics);
   refinement_free(s->finer_samples);
-  refinement_free(s->exact_finer);
-  free(s->improved);
+  refinement_free(s->exact_finer.by);
+  free(s->exact_finer.improved);
+  refinement_free(s->twice_finer.by);
+  free(s->twice_finer.improved);
   hbm_system_clear(&s->sys);
   workspace_free(&s->memory);
   *s = (hbm_solver){.model = s->model,
@@ -66,6 +68,7 @@ static void free_equations(hbm_solver *s)
                     .monodromy = s->monodromy,
                     .multipliers_unknown = s->multipliers_unknown,
                     .known_stability = s->known_stability,
+                    .moduli = s->moduli,
                     .ramp = s->ramp,
                     .guess = s->guess,
                     .solves = s->solves,
@@ -116,6 +119,7 @@ void hbm_solver_free(hbm_solver *s)
   free_equations(s);
   monodromy_free(s->monodromy);
   free(s->known_stability);
+  free(s->moduli);
   model_free(s->model);
   if (s->guess.free) s->guess.free(s->guess.self);
   free(s);

@@ -17,6 +17,23 @@ typedef struct known_stability {
   hbm_stability stability;
 } known_stability;
 
+/* The solution of finer equations next to one that was asked about; made at the first question. */
+typedef struct finer_solution {
+  refinement *by;           /* the equations; NULL until then */
+  double *improved, *asked; /* [n] their solution, and the one asked about */
+  int n;                    /* the larger one's coefficients */
+  double least;             /* [1] the error is never less than this there */
+  bool found;               /* Newton converged there, next to the one asked about */
+} finer_solution;
+
+/* What is known of the row of a curve that came before, for the next one. */
+typedef struct row_before {
+  contact_regime regime;
+  int transitions;
+  double multiplier, error; /* [1] its largest multiplier, and by how much it may be off; 0: there is none before */
+  int since;                /* rows since that error was found */
+} row_before;
+
 struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; not shared between threads */
   model *model;                     /* a copy: the caller may drop theirs */
   hbm_settings how;                 /* a copy */
@@ -32,12 +49,13 @@ struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; 
   monodromy *monodromy;             /* NULL until it is needed */
   bool multipliers_unknown;         /* hbm_stability_is_unknown */
   known_stability *known_stability; /* [KNOWN_STABILITIES] of solutions asked about; NULL until the first */
+  uint64_t multipliers_of;          /* fingerprint of the solution whose multipliers `monodromy` holds; 0: none's */
+  double *moduli;                   /* [2][2 n + contacts] of predict.c; NULL until it is needed */
   refinement *finer_harmonics; /* tells auto the error of this many harmonics; NULL where the settings give a number */
   refinement *finer_samples;   /* the same of samples */
-  refinement *exact_finer;     /* hbm_predict's equations; NULL until it is asked */
-  double *improved, *asked;    /* [n_improved] their solution next to the one asked about, and that one */
-  int n_improved;              /* the larger one's coefficients */
-  double improved_least;       /* [1] the error is never less than this there */
+  finer_solution exact_finer;  /* hbm_predict's */
+  finer_solution twice_finer;  /* hbm_stability_with_error's */
+  row_before row_before;       /* of the same */
   hbm_guess guess;             /* .ask NULL: none */
   long solves;                 /* of either form, since it was made */
   const hbm_ramp *ramp;        /* the one that is followed; NULL: none is */
@@ -52,6 +70,7 @@ struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; 
   double *z;                   /* [n+1]     unknowns of a solve */
   double *z_scale, *r_scale;   /* [n+1]     weights for KINSOL */
   double *normal, *anchor;     /* [n+1]     of the plane form; the metric's weights are included in normal */
+  double *truncated;           /* [n_coef]  a solution without half of its harmonics, of predict.c */
   workspace memory;            /* of these arrays */
 };
 
@@ -77,6 +96,13 @@ void hbm_truncate(const hbm_solver *s, int n_coef, double *X);
  * found. Errors of contact_forces_eval. */
 hc_status hbm_located_orbit(hbm_solver *s, const double *X, const contact_forces **orbit, contact_report *report);
 
-/* The multipliers along an orbit of hbm_located_orbit, X at omega: monodromy_stability. */
+/* The multipliers along an orbit of hbm_located_orbit, X at omega: monodromy_stability, which is not asked again about a
+ * solution that hbm_keep_stability was told about. */
+void hbm_keep_stability(hbm_solver *s, double omega, const double *X, const hbm_stability *known);
 hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, const double *X,
                           hbm_stability *out);
+
+/* Those of any orbit of the model; moduli[2 n + contacts], the largest first, 0 beyond their number. */
+hc_status hbm_moduli(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out, double *moduli);
+/* The same of X, whose orbit is located only where `monodromy` has another's. */
+hc_status hbm_moduli_of(hbm_solver *s, double omega, const double *X, double *moduli);

@@ -78,6 +78,12 @@ hc_status refinement_response(refinement *r, double omega, const double *Y, int 
   return hbm_system_any_response(&r->sys, omega, Y, response, x);
 }
 
+hc_status refinement_orbit(refinement *r, const double *Y, const contact_forces **orbit)
+{
+  *orbit = r->sys.contacts;
+  return hbm_system_contact(&r->sys, Y, false);
+}
+
 double refinement_rounding(refinement *r, double omega)
 {
   const int n = r->sys.n;

@@ -23,6 +23,9 @@ hc_status refinement_step(refinement *r, double omega, double *Y, double *step);
 /* x[2 n' + 1]: response r of the model, of Y at omega. Errors of hbm_response. */
 hc_status refinement_response(refinement *r, double omega, const double *Y, int response, double *x);
 
+/* *orbit: the contact forces of these equations, evaluated at Y. Errors of the contact force. */
+hc_status refinement_orbit(refinement *r, const double *Y, const contact_forces **orbit);
+
 /* [1] How far rounding may move what the last step came to: the length of J'^-1 s, where each s_i is one rounding of
  * the sum of all forces on its coordinate. INFINITY rather than a NaN. */
 double refinement_rounding(refinement *r, double omega);

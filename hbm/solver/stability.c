@@ -6,20 +6,45 @@
 
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/hbm_solver_impl.h"
+#include "numerics/base/number.h"
+#include "numerics/collocation.h"
+#include "numerics/series.h"
 
-/* A structure of more degrees of freedom is large; with planar friction or smooth laws, which are followed step by
- * step, one of more states. Large ones with planar friction are followed in their modes: up to 24 planar contacts (two
- * each in the list) a solution of the plates of cases/structures takes as long as 10 to 20 points of a curve, and the
- * cube of that many times more beyond. */
-enum { LARGE = 50, LARGE_WITH_PLANAR = 12, MOST_IN_MODES = 48 };
+/* A structure of more degrees of freedom is large. Large ones with planar friction are followed in their modes: up to
+ * 24 planar contacts (two each in the list) a solution of the plates of cases/structures takes as long as 10 to 20
+ * points of a curve, and the cube of that many times more beyond. */
+enum { LARGE = 50, MOST_IN_MODES = 48 };
 
 static bool in_modes(const model *m) { return m->n > LARGE && model_has_circle(m) && !model_is_smooth(m); }
+
+/* Operations of one solution where planar friction or smooth laws are followed step by step (planar_flow.h): of each
+ * step the factors and the right sides of all states, and a step a harmonic, more or less, since both go with what
+ * moves fastest. 3e8 take some 40 ms (8 degrees of freedom with as many smooth contacts come to 7e6 with 5 harmonics and
+ * take 2 ms, 24 to 2e8 and 24 ms), a curve of 100 points with its special points some seconds. */
+static const double MOST_OPERATIONS_OF_STEPS = 3e8;
+
+static double operations_of_steps(const hbm_solver *s)
+{
+  const double states = 2 * s->model->n + s->model->n_contacts,
+               unknowns = COLLOCATION_POINTS * (s->model->n + 0.5 * s->model->n_contacts * !model_is_smooth(s->model));
+  return series_length(s->sys.n_harm) * (2.0 / 3 * unknowns + 2 * states) * unknowns * unknowns;
+}
 
 bool hbm_stability_is_costly(const hbm_solver *s)
 {
   const model *m = s->model;
   if (in_modes(m)) return m->n_contacts > MOST_IN_MODES;
-  return m->n > LARGE || ((model_has_circle(m) || model_is_smooth(m)) && m->n + m->n_contacts > LARGE_WITH_PLANAR);
+  const bool by_steps = model_has_circle(m) || model_is_smooth(m);
+  return m->n > LARGE || (by_steps && operations_of_steps(s) > MOST_OPERATIONS_OF_STEPS);
+}
+
+const char *hbm_stability_limit(const hbm_solver *s)
+{
+  if (!hbm_stability_is_costly(s)) return NULL;
+  return s->model->n > LARGE
+             ? "more than 50 degrees of freedom"
+             : "with so many states and harmonics, smooth laws or contacts with two tangents take 40 ms "
+               "and more for each solution";
 }
 
 void hbm_leave_stability(hbm_solver *s)
@@ -44,7 +69,15 @@ static uint64_t fingerprint(const hbm_solver *s, double omega, const double *X)
 
 hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, const double *X, hbm_stability *out)
 {
-  *out = (hbm_stability){NAN, NAN, NAN, NAN, NAN, NAN, 0, NAN, false};
+  *out = (hbm_stability){.multiplier = NAN,
+                         .re = NAN,
+                         .im = NAN,
+                         .flip = NAN,
+                         .fold = NAN,
+                         .determinant = NAN,
+                         .pair = NAN,
+                         .low = NAN,
+                         .high = NAN};
   const bool modal = in_modes(s->model);
   const uint64_t key = fingerprint(s, omega, X);
   if (!s->known_stability) s->known_stability = calloc(KNOWN_STABILITIES, sizeof *s->known_stability);
@@ -57,10 +90,44 @@ hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double ome
   if (modal && st == HC_BAD_INPUT) s->multipliers_unknown = true;
   if (!s->monodromy && s->multipliers_unknown) return HC_OK;
   if (st == HC_OK) st = monodromy_stability(s->monodromy, s->model, orbit, omega, out);
+  s->multipliers_of = st == HC_OK ? key : 0;
   if (st == HC_OK) *known = (known_stability){key, *out};
   if (!modal || st != HC_NOT_CONVERGED) return st;
   s->multipliers_unknown = true;
   return HC_OK;
+}
+
+void hbm_keep_stability(hbm_solver *s, double omega, const double *X, const hbm_stability *st)
+{
+  const uint64_t key = fingerprint(s, omega, X);
+  s->known_stability[key / 2 % KNOWN_STABILITIES] = (known_stability){key, *st};
+}
+
+static void take_moduli(const hbm_solver *s, double *moduli)
+{
+  const double complex *lambda;
+  const int states = 2 * s->model->n + s->model->n_contacts, n = monodromy_multipliers(s->monodromy, &lambda);
+  for (int i = 0; i < states; ++i) moduli[i] = i < n ? -cabs(lambda[i]) : 0;
+  qsort(moduli, (size_t)states, sizeof *moduli, ascending);
+  for (int i = 0; i < states; ++i) moduli[i] = -moduli[i];
+}
+
+hc_status hbm_moduli(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out, double *moduli)
+{
+  s->multipliers_of = 0;
+  const hc_status st = monodromy_stability(s->monodromy, s->model, orbit, omega, out);
+  if (st == HC_OK) take_moduli(s, moduli);
+  return st;
+}
+
+hc_status hbm_moduli_of(hbm_solver *s, double omega, const double *X, double *moduli)
+{
+  const contact_forces *orbit;
+  contact_report report;
+  hbm_stability again;
+  if (s->multipliers_of == fingerprint(s, omega, X)) return take_moduli(s, moduli), HC_OK;
+  const hc_status st = hbm_located_orbit(s, X, &orbit, &report);
+  return st == HC_OK ? hbm_moduli(s, orbit, omega, &again, moduli) : st;
 }
 
 hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_stability *out)
@@ -78,7 +145,7 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
 
 int hbm_stability_verdict(const hbm_stability *st)
 {
-  bool clear = fabs(st->multiplier - 1) > 1e-9; /* false for NaN */
-  if (!clear || !st->agrees) return 0;
-  return st->multiplier < 1 ? 1 : -1;
+  const double rounding = 1e-9;
+  if (!st->agrees) return 0;
+  return st->high < 1 - rounding ? 1 : st->low > 1 + rounding ? -1 : 0; /* 0 of NaN */
 }

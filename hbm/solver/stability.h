@@ -11,9 +11,10 @@ hc_status hbm_stability_at(hbm_solver *s, double omega, const double *X, hbm_sta
 
 /* Multipliers of a structure of more than 50 degrees of freedom cost as much as a good part of its curve, unless it has
  * planar friction, no smooth law and at most 48 contacts (hbm_n_contacts); so do those of a smaller one with planar
- * friction or a smooth law that has more than 12 degrees of freedom and contacts together. They are computed for a
- * solution that is asked for, and left unknown at the points of a curve. */
+ * friction or a smooth law where states and harmonics are so many that a solution takes 40 ms and more. They are
+ * computed for a solution that is asked for, and left unknown at the points of a curve. */
 bool hbm_stability_is_costly(const hbm_solver *s);
+const char *hbm_stability_limit(const hbm_solver *s); /* why they are, in words; NULL: they are not */
 
 /* With planar friction, no smooth law and more than 50 degrees of freedom hbm_stability_at finds NaN, which is unknown,
  * where modes do not diagonalise the damping or it is so light that steps would take minutes: true once that was so. */
@@ -23,6 +24,6 @@ bool hbm_stability_is_unknown(const hbm_solver *s);
  * for curves that are only drawn. */
 void hbm_leave_stability(hbm_solver *s);
 
-/* +1 stable, -1 unstable, 0 unknown: the largest multiplier is within 1e-9 of 1 in size, or the truncated equations
- * disagree. */
+/* +1 stable, -1 unstable, 0 unknown: the largest multiplier's size, or what its predicted error leaves of it, comes
+ * within 1e-9 of 1, or the truncated equations disagree. */
 int hbm_stability_verdict(const hbm_stability *st);

@@ -695,13 +695,13 @@ static hc_status close_period(monodromy *w, const contact_forces *orbit, double 
   return st;
 }
 
-/* Do all contacts stay stuck or apart all period? */
+/* Do all contacts stay stuck or apart all period, and none follows a law that bends? */
 static bool nothing_changes(const contact_forces *orbit, int n_contacts)
 {
   for (int j = 0, intervals; j < n_contacts; ++j) {
     const contact_interval *p = contact_forces_intervals(orbit, j, &intervals);
     const bool stays = intervals == 1 && p->state == CONTACT_STICK && p->to - p->from >= TWO_PI * (1 - 1e-15);
-    if (intervals > 0 && !stays) return false;
+    if ((intervals > 0 && !stays) || contact_forces_bends(orbit, j)) return false;
   }
   return true;
 }
@@ -770,7 +770,13 @@ static void summarise(int n, int m, const double complex *lambda, hbm_stability 
     fold *= 1 - lambda[i];
     all *= lambda[i];
   }
-  *out = (hbm_stability){.multiplier = cabs(largest), .re = creal(largest), .im = cimag(largest), .pair = NAN};
+  const double size_of_largest = cabs(largest);
+  *out = (hbm_stability){.multiplier = size_of_largest,
+                         .re = creal(largest),
+                         .im = cimag(largest),
+                         .pair = NAN,
+                         .low = size_of_largest,
+                         .high = size_of_largest};
   for (int i = 0; i < m; ++i) {
     const double size = cabs(lambda[i]);
     if (!(cimag(lambda[i]) > 0)) continue; /* one of the two */
@@ -795,6 +801,7 @@ hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces
     if (st == HC_OK) st = floquet_multipliers(w->floquet, w->left, w->n_states, 1, w->n_active, w->active, w->lambda);
   }
   if (st == HC_OK) summarise(2 * w->n, w->n_active, w->lambda, out);
+  if (st == HC_OK) out->of_motion = !nothing_changes(orbit, m->n_contacts);
   return st;
 }
 

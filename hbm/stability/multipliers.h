@@ -1,4 +1,4 @@
-/* multipliers.h - the Floquet multipliers of a solution, in numbers. */
+/* multipliers.h - the Floquet multipliers of a solution, in numbers. What predicts their error is hbm/curve/predict.h. */
 #pragma once
 
 #include <stdbool.h>
@@ -12,4 +12,8 @@ typedef struct hbm_stability {
   int pairs_outside;  /* complex pairs outside the unit circle, by more than 1e-10 */
   double pair;        /* modulus of the complex pair nearest to the circle, NaN without one */
   bool agrees;        /* det dR/dX has the sign of `fold`; it need not where few harmonics move the turning point */
+  bool of_motion;     /* the multipliers depend on the motion, and so are off by what it is off */
+  bool predicted;     /* their error was asked for (hbm_stability_with_error); else low = high = multiplier */
+  bool as_row_before; /* it was not, since that of a row before was enough */
+  double low, high;   /* what the largest modulus is between; 0 and INFINITY: nobody knows */
 } hbm_stability;

@@ -188,8 +188,8 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
     table_note(t, "stability is not found everywhere, nor period doublings and such: a limit of both tangents "
                   "together, more than 50 degrees of freedom, and damping that is not modal or too light");
   else if (hbm_stability_is_costly(s) && !at_given)
-    table_note(t, "stability is found at the omegas of --at alone, nor are period doublings and such looked for: more "
-                  "than 50 degrees of freedom, or 12 with contacts of two tangents");
+    table_note(t, "stability is found at the omegas of --at alone, nor are period doublings and such looked for: %s",
+               hbm_stability_limit(s));
   if (sc->hbm.keep_mean && scene_adrift(sc)) table_note(t, "%s", SCENE_ADRIFT);
   if (c->n == 0) return;
   char last[SCENE_WHERE];
@@ -200,28 +200,42 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
   note_parts(t, sc, c);
 }
 
-static hc_status note_specials(table *t, const scene *sc, hbm_solver *s, const hbm_curve *c)
+/* In the table the first contact changes only, which may be many; all that stability changes at, and in csv and json
+ * everything. */
+static hc_status note_specials(const cli_common *common, table *t, hbm_solver *s, const hbm_curve *c)
 {
   enum { SHOWN = 24 };
-  hbm_special special[SHOWN];
+  const scene *sc = common->scene;
+  const bool all = common->format != FORMAT_TABLE;
   char amplitude[16 + RESPONSE_NAME] = "amplitude", name[RESPONSE_NAME];
-  int n = 0;
+  hbm_special *special;
+  int n, changes = 0;
   if (sc->structure)
     snprintf(amplitude, sizeof amplitude, "amplitude of %s",
              structure_response_name(sc->structure, 0, name, sizeof name));
   if (!hbm_specials_follow_each(s))
     table_note(t,
                "contact changes are listed where the strongest state of all contacts changes: there are more than 24");
-  hc_status st = hbm_specials(s, c, SHOWN, special, &n);
-  for (int i = 0; i < n && i < SHOWN; ++i) {
+  if (!hbm_stability_is_costly(s) && hbm_stability_error_is_costly(s))
+    table_note(t,
+               "stability by HBM's own multipliers: that they err is seen at the omegas of --at alone, with twice the "
+               "harmonics, which are more than 600 unknowns");
+  hc_status st = hbm_specials(s, c, &special, &n);
+  for (int i = 0; i < n; ++i) {
     const hbm_special *p = &special[i];
-    char what[ROWS_SPECIAL], where[SCENE_WHERE];
-    if (sc->in_cycles) snprintf(where, sizeof where, "frequency = %.10f (omega = %.10f)", p->omega / TWO_PI, p->omega);
-    else snprintf(where, sizeof where, "omega = %.10f", p->omega);
-    table_note(t, "%s at %s, %s %.9g", rows_special_text(p, what), where, amplitude, p->amplitude);
+    char what[ROWS_SPECIAL], omega[ROWS_WITH_ERROR], frequency[ROWS_WITH_ERROR];
+    changes += p->kind == HBM_CONTACT_CHANGE;
+    if (p->kind == HBM_CONTACT_CHANGE && changes > SHOWN && !all) continue;
+    rows_special_text(p, what);
+    rows_with_error(p->omega, p->omega_error, omega);
+    rows_with_error(p->omega / TWO_PI, p->omega_error / TWO_PI, frequency);
+    if (sc->in_cycles)
+      table_note(t, "%s at frequency = %s (omega = %s), %s %.9g", what, frequency, omega, amplitude, p->amplitude);
+    else table_note(t, "%s at omega = %s, %s %.9g", what, omega, amplitude, p->amplitude);
   }
-  if (n > SHOWN) table_note(t, "and %d more", n - SHOWN);
+  if (changes > SHOWN && !all) table_note(t, "and %d more contact changes (all in csv and json)", changes - SHOWN);
   if (st != HC_OK) table_note(t, "at least one more was noticed but not located: %s", hc_status_text(st));
+  free(special);
   return st;
 }
 
@@ -276,7 +290,7 @@ static int run_frf(cli_common *common, void *given, scene *sc)
     note_curve(t, sc, s, &curve, at->n > 0);
     const hbm_newton_report work = hbm_newton_work(s);
     if (own->verbose) table_note(t, "Newton: %d unknowns, %ld factorisations", work.unknowns, work.factorisations);
-    solved = at->n || st == HC_INTERRUPTED ? HC_OK : note_specials(t, sc, s, &curve);
+    solved = at->n || st == HC_INTERRUPTED ? HC_OK : note_specials(common, t, s, &curve);
     if (st == HC_OK && solved == HC_NO_MEMORY) st = solved; /* another failure to locate one is in the note */
     /* where there is no solution: at the first frequency without, else past the last point */
     const double past = 1 + (to > from ? BEYOND : -BEYOND);

@@ -151,14 +151,14 @@ int lab_neighbours_at(lab *l, double omega)
 
 int lab_specials(lab *l, int force)
 {
-  enum { MOST = 256, COLUMNS = 6 };
+  enum { COLUMNS = 6 };
   lab_kept *kept = kept_curve(l, force);
   lab_begin(l, COLUMNS);
   if (!kept) return lab_answer(l, HC_BAD_INPUT);
   int found = 0;
-  hbm_special *list = calloc(MOST, sizeof *list);
-  hc_status st = list ? hbm_specials(kept->solver, &kept->curve, MOST, list, &found) : HC_NO_MEMORY;
-  for (int i = 0; list && i < found && i < MOST && st != HC_NO_MEMORY; ++i) {
+  hbm_special *list;
+  hc_status st = hbm_specials(kept->solver, &kept->curve, &list, &found);
+  for (int i = 0; i < found && st != HC_NO_MEMORY; ++i) {
     const hbm_special *p = &list[i];
     if (LAB_ADD(l, p->omega, p->amplitude, p->branch, p->kind, p->before, p->after) != HC_OK) st = HC_NO_MEMORY;
   }

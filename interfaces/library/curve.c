@@ -185,9 +185,8 @@ hbmcheck_status hbmcheck_curve_specials(hbmcheck_curve *curve, int cap, hbmcheck
 {
   if (!curve || !n || cap < 0 || (cap > 0 && !out)) return HBMCHECK_BAD_INPUT;
   int found;
-  hbm_special *list = calloc(cap > 0 ? (size_t)cap : 1, sizeof *list);
-  if (!list) return HBMCHECK_NO_MEMORY;
-  hc_status st = hbm_specials(curve->solver, &curve->points.curve, cap, list, &found);
+  hbm_special *list;
+  hc_status st = hbm_specials(curve->solver, &curve->points.curve, &list, &found);
   for (int i = 0; has_result(st) && i < cap && i < found; ++i)
     out[i] = (hbmcheck_special){.omega = list[i].omega,
                                 .amplitude = list[i].amplitude,

@@ -158,7 +158,10 @@ static seen look(model *m)
   hbm_curve curve = {0}, at = {0};
   CHECK_MADE(hbm_solver, s, hbm_solver_new(m, &how, &s));
   assert_int_equal(hbm_trace(s, 3, 20, NULL, &curve), HC_OK);
-  assert_int_equal(hbm_specials(s, &curve, MOST, out.special, &out.n), HC_OK);
+  hbm_special *special;
+  assert_int_equal(hbm_specials(s, &curve, &special, &out.n), HC_OK);
+  for (int i = 0; i < out.n && i < MOST; ++i) out.special[i] = special[i];
+  free(special);
   for (int k = 0; k < curve.n; ++k) out.peak = fmax(out.peak, amplitude(s, hbm_curve_X(&curve, k)));
   assert_int_equal(hbm_curve_at(s, &curve, 8, &at), HC_OK);
   out.n_at = at.n;

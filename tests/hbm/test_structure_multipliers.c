@@ -64,15 +64,16 @@ static double pair_at(hbm_solver *s, const model *m, const hbm_curve *curve, dou
 /* A curve with its solver, and its Neimark-Sacker points' omega; their number. */
 static int neimark_sacker_points(const char *name, structure_case *c, hbm_solver **s, hbm_curve *curve, double *omega)
 {
-  hbm_special special[64];
+  hbm_special *special;
   int n, found = 0;
   *c = structure_case_named(name, H);
   *s = structure_solver(c);
   *curve = (hbm_curve){0};
   assert_int_equal(hbm_trace(*s, c->from, c->to, NULL, curve), HC_OK);
-  assert_int_equal(hbm_specials(*s, curve, 64, special, &n), HC_OK);
-  for (int k = 0; k < n && k < 64; ++k)
+  assert_int_equal(hbm_specials(*s, curve, &special, &n), HC_OK);
+  for (int k = 0; k < n; ++k)
     if (special[k].kind == HBM_NEIMARK_SACKER) omega[found++] = special[k].omega;
+  free(special);
   return found;
 }
 

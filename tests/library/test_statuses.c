@@ -17,7 +17,7 @@
     (path, n, set, out, err))                                                                                          \
   X(hbm_solver_new, (const model *m, const hbm_settings *how, hbm_solver **out), (m, how, out))                        \
   X(hbm_curve_at, (hbm_solver * s, const hbm_curve *c, double omega, hbm_curve *at), (s, c, omega, at))                \
-  X(hbm_specials, (hbm_solver * s, const hbm_curve *c, int cap, hbm_special *out, int *n), (s, c, cap, out, n))        \
+  X(hbm_specials, (hbm_solver * s, const hbm_curve *c, hbm_special **out, int *n), (s, c, out, n))                     \
   X(response_summarise, (hbm_solver * s, const hbm_curve *c, response_summary *out), (s, c, out))                      \
   X(gate_judge, (const char *name, const compare_setup *setup, const comparison *c, gate_case *out),                   \
     (name, setup, c, out))                                                                                             \

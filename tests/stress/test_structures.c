@@ -145,9 +145,9 @@ WRAP(hc_status, hbm_curve_peak, (hbm_solver * s, const hbm_curve *curve, hbm_cur
   return st;
 }
 
-WRAP(hc_status, hbm_specials, (hbm_solver * s, const hbm_curve *curve, int cap, hbm_special *out, int *n))
+WRAP(hc_status, hbm_specials, (hbm_solver * s, const hbm_curve *curve, hbm_special **out, int *n))
 {
-  hc_status st = __real_hbm_specials(s, curve, cap, out, n);
+  hc_status st = __real_hbm_specials(s, curve, out, n);
   if (spoiled == SPECIAL_LOST && is_other(s->model)) --*n;
   return st;
 }

@@ -23,7 +23,8 @@ static hc_status measure_point(hbm_solver *s, double omega, const double *X, dra
   if (st != HC_OK) return st;
   p->omega = omega, p->amplitude = m.amplitude, p->stable = 0;
   const bool judge = as.judge && !hbm_stability_is_costly(s);
-  if (judge && hbm_stability_at(s, omega, X, &floquet) == HC_OK) p->stable = hbm_stability_verdict(&floquet);
+  if (judge && hbm_stability_with_error(s, omega, X, true, &floquet) == HC_OK)
+    p->stable = hbm_stability_verdict(&floquet);
   return HC_OK;
 }
 
@@ -88,8 +89,7 @@ hc_status curve_shape_of(const scene *sc, hbm_solver *s, const hbm_curve *curve,
   out->low = fmin(sc->omega_from, sc->omega_to);
   out->high = fmax(sc->omega_from, sc->omega_to);
   hc_status st = sample_curve(s, curve, (drawn_as){0, true}, &out->points, &out->n);
-  if (st == HC_OK && curve->n > 0) hbm_specials(s, curve, CURVE_MOST_SPECIALS, out->special, &out->n_special);
-  if (out->n_special > CURVE_MOST_SPECIALS) out->n_special = CURVE_MOST_SPECIALS;
+  if (st == HC_OK && curve->n > 0) hbm_specials(s, curve, &out->special, &out->n_special);
   return st;
 }
 
@@ -116,12 +116,15 @@ hc_status curve_shape_response(const curve_shape *first, const scene *sc, hbm_so
 {
   *out = *first;
   out->points = NULL;
+  out->special = malloc(((size_t)first->n_special + 1) * sizeof *out->special);
   curve_response_name(sc, r, out->of);
-  hc_status st = sample_curve(s, curve, (drawn_as){r, false}, &out->points, &out->n);
+  hc_status st = out->special ? sample_curve(s, curve, (drawn_as){r, false}, &out->points, &out->n) : HC_NO_MEMORY;
   if (st != HC_OK) return st;
   for (int k = 0; k < out->n; ++k) out->points[k].stable = first->points[k].stable;
-  for (int i = 0; i < out->n_special; ++i)
+  for (int i = 0; i < out->n_special; ++i) {
+    out->special[i] = first->special[i];
     out->special[i].amplitude = amplitude_there(first, out->points, &first->special[i]);
+  }
   return HC_OK;
 }
 
@@ -147,7 +150,9 @@ hc_status curve_shape_trace(const scene *sc, const number_list *asked, curve_sha
 void curve_shape_clear(curve_shape *c)
 {
   free(c->points);
+  free(c->special);
   c->points = NULL;
+  c->special = NULL;
 }
 
 /* ---- drawn ---- */

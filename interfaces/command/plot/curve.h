@@ -9,8 +9,6 @@ typedef struct curve_point {
   int part;                /* of the curve: points of two parts are not joined */
 } curve_point;
 
-enum { CURVE_MOST_SPECIALS = 256 };
-
 typedef struct curve_shape {
   char of[RESPONSE_NAME];   /* the response in words; "x" of an oscillator */
   int among;                /* of several on the same axes which one, from 1; 0: it is the only one */
@@ -18,7 +16,7 @@ typedef struct curve_shape {
   int n;
   curve_point *points; /* [n] along the curve */
   int n_special;
-  hbm_special special[CURVE_MOST_SPECIALS];
+  hbm_special *special;   /* [n_special] */
   int harmonics, samples; /* in use */
   double low, high;       /* [rad/time] the sweep */
 } curve_shape;

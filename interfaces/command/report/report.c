@@ -64,16 +64,16 @@ static hc_status append_curve(const scene *sc, const comparison *c, const hc_mon
       if (response_row_turn(s, curve, k, r, &row) == HC_OK) append_point(columns[r], &row);
   }
   if (s && specials) {
-    enum { MOST = 64 };
-    hbm_special special[MOST];
-    int n_special = 0;
-    hbm_specials(s, curve, MOST, special, &n_special); /* if one cannot be located, those before it are shown */
-    for (int i = 0; i < n_special && i < MOST; ++i) {
+    hbm_special *special;
+    int n_special;
+    hbm_specials(s, curve, &special, &n_special); /* if one cannot be located, the others are shown */
+    for (int i = 0; i < n_special; ++i) {
       const hbm_special *p = &special[i];
       char text[ROWS_SPECIAL];
       json_array_append_new(specials, json_pack("{s:f, s:f, s:i, s:s}", "omega", p->omega, "amplitude", p->amplitude,
                                                 "branch", p->branch, "what", rows_special_text(p, text)));
     }
+    free(special);
   }
   hbm_curve_free(&traced);
   hbm_solver_free(s);
