@@ -41,7 +41,6 @@ static size_t row_length(const hbm_solver *s)
 static hc_status add_part(part_search *p, const path_course *course, hbm_part_start start)
 {
   hbm_curve part = {0};
-  const double scale = p->curve->omega_scale;
   hc_status st = path_trace(p->s, course, p->monitor, &part);
   if (st == HC_OK) st = path_settle(p->s, &part, 0);
   hbm_curve *first = p->curve;
@@ -53,7 +52,6 @@ static hc_status add_part(part_search *p, const path_course *course, hbm_part_st
     if (added != HC_OK) st = added;
   }
   if (bridges) first->end = first->parts[0].end = HC_OK;
-  if (scale > 0) first->omega_scale = scale;
   hbm_curve_free(&part);
   return must_end(st) ? st : HC_OK;
 }

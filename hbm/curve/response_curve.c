@@ -91,26 +91,6 @@ hc_status hbm_curve_add_part(hbm_curve *c, const hbm_curve *part, hbm_part_start
   return HC_OK;
 }
 
-void hbm_curve_reverse(hbm_curve *c)
-{
-  const int last = c->n > 0 ? c->points[c->n - 1].branch : 0;
-  for (int k = 0, other = c->n - 1; k < other; ++k, --other) {
-    const hbm_point swap = c->points[k];
-    c->points[k] = c->points[other], c->points[other] = swap;
-    for (int i = 0; i < c->n_coef; ++i) {
-      double *X[2] = {&hbm_curve_X(c, k)[i], &hbm_curve_X(c, other)[i]}, x = *X[0];
-      *X[0] = *X[1], *X[1] = x;
-      double *dX[2] = {&hbm_curve_dX(c, k)[i], &hbm_curve_dX(c, other)[i]}, dx = *dX[0];
-      *dX[0] = *dX[1], *dX[1] = dx;
-    }
-  }
-  for (int k = 0; k < c->n; ++k) {
-    c->points[k].branch = last - c->points[k].branch;
-    c->points[k].d_omega = -c->points[k].d_omega;
-    for (int i = 0; i < c->n_coef; ++i) hbm_curve_dX(c, k)[i] = -hbm_curve_dX(c, k)[i];
-  }
-}
-
 hc_status hbm_curve_settle(hbm_curve *c, int settled)
 {
   const int from = c->settled;

@@ -77,9 +77,6 @@ static inline bool hbm_curve_has_segment(const hbm_curve *c, int k)
  * from theirs. Rows get the longer of the two's lengths. HC_NO_MEMORY leaves *curve as it was. */
 hc_status hbm_curve_add_part(hbm_curve *curve, const hbm_curve *part, hbm_part_start start);
 
-/* The other way round: the last point first, tangents turned. */
-void hbm_curve_reverse(hbm_curve *curve);
-
 /* The metric at point k. */
 static inline metric_at hbm_curve_metric(const hbm_curve *c, int k)
 {
