@@ -460,7 +460,7 @@ static hc_status search_segment(detector *d, int k, const test_values *v)
 {
   const test_values *a = v, *b = v + 1;
   const bool joined = k > 0 && hbm_curve_has_segment(d->c, k - 1) && hbm_curve_has_segment(d->c, k + 1);
-  const bool inside = joined && (a->of_motion || b->of_motion);
+  const bool inside = joined && (a->of_motion || b->of_motion) && !hbm_stability_error_is_costly(d->s);
   hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK, breaking = HC_OK;
   d->first = d->n;
   if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
