@@ -148,8 +148,7 @@ static bool shift_pass(planar_cycle *c, const double dw0[2])
   return true;
 }
 
-static const double LITTLE_SLIP = 0.2; /* [rad] of a period */
-enum { MAX_CHANGES_PER_HARMONIC = 64, MAX_CHANGES_AT_ANGLE = 3, MAX_NEWTON = 20, MAX_PASSES = 500 };
+enum { MAX_CHANGES_PER_HARMONIC = 64, MAX_CHANGES_AT_ANGLE = 3, MAX_NEWTON = 20, MAX_PASSES = 100 };
 
 /* The slider while it is followed. */
 typedef struct slider {
@@ -320,15 +319,12 @@ static hc_status follow_contacts(planar_cycle *c)
   return st;
 }
 
-static bool slips(const planar_cycle *c)
-{
-  for (int i = 0; i < c->n; ++i)
-    if (c->interval[i].state != CONTACT_STICK) return true;
-  return false;
-}
-
 /* [length] */
 static double size_of(const planar_cycle *c) { return c->m->of_u[0] + c->m->of_R[0]; }
+
+/* [length] An excursion beyond the limit that is rounding: half of what stick_ends() does not count, so that it does not
+ * find again what is taken for touched. */
+static double planar_rest_noise(const planar_cycle *c) { return 8 * DBL_EPSILON * size_of(c); }
 
 static double length_of(const double x[2]) { return hypot(x[0], x[1]); }
 
@@ -352,143 +348,133 @@ static hc_status try_from(planar_cycle *c, const double w[2], closing *out)
   return st;
 }
 
-/* Newton's next iterate; if damped, its step is halved until the slider slips from there. Where it does not slip, it
- * rests at any place near by, and the orbit looked for is the last one that slips, which marching approaches. If
- * no part of the step will do, *out is *now. */
-static hc_status take_step(planar_cycle *c, const closing *now, bool damped, closing *out)
-{
-  const double rounding = 8 * DBL_EPSILON * size_of(c);
-  hc_status st = HC_OK;
-  *out = *now;
-  for (double part = 1; st == HC_OK && part * length_of(now->step) > rounding; part /= 2) {
-    closing next;
-    st = try_from(c, (double[2]){now->w[0] + part * now->step[0], now->w[1] + part * now->step[1]}, &next);
-    if (st != HC_OK || slips(c)) {
-      *out = next;
-      return st;
-    }
-    if (!damped) return HC_OK;
-  }
-  return st;
-}
-
-/* Newton from the last pass until the distance does not become less; *closed if it has become little and the slider
- * still slips. */
-static hc_status close_by_newton(planar_cycle *c, closing now, bool damped, bool *closed)
+/* Newton from the last pass until the distance does not become less; *closed if it has become little. */
+static hc_status close_by_newton(planar_cycle *c, closing *now, bool *closed)
 {
   const double rounding = 64 * DBL_EPSILON * size_of(c), enough = 1e-11 * size_of(c);
   closing next;
   hc_status st = HC_OK;
   *closed = false;
-  for (int i = 0; i < MAX_NEWTON && st == HC_OK && length_of(now.step) > rounding && slips(c); ++i) {
-    const bool last_pass = c->start[0] == now.w[0] && c->start[1] == now.w[1], forgets = now.left <= 0.5;
-    *closed = c->may_shift && last_pass && forgets && shift_pass(c, now.step);
+  for (int i = 0; i < MAX_NEWTON && st == HC_OK && length_of(now->step) > rounding; ++i) {
+    const bool last_pass = c->start[0] == now->w[0] && c->start[1] == now->w[1], forgets = now->left <= 0.5;
+    *closed = c->may_shift && last_pass && forgets && shift_pass(c, now->step);
     if (*closed) return HC_OK;
-    st = take_step(c, &now, damped, &next);
-    if (st != HC_OK || (!slips(c) && !(now.distance <= enough))) return st;
-    const bool better = next.distance < now.distance;
-    if (better || next.distance <= enough || !(now.distance <= enough)) now = next;
-    if (!better && now.distance <= enough) break;
+    st = try_from(c, (double[2]){now->w[0] + now->step[0], now->w[1] + now->step[1]}, &next);
+    if (st != HC_OK) return st;
+    const bool better = next.distance < now->distance;
+    if (better || next.distance <= enough || !(now->distance <= enough)) *now = next;
+    if (!better && now->distance <= enough) break;
   }
-  *closed = st == HC_OK && now.distance <= enough && slips(c);
-  if (*closed && (c->start[0] != now.w[0] || c->start[1] != now.w[1])) st = try_from(c, now.w, &now);
-  *closed = *closed && slips(c);
+  *closed = st == HC_OK && now->distance <= enough;
+  if (*closed && (c->start[0] != now->w[0] || c->start[1] != now->w[1])) st = try_from(c, now->w, now);
   return st;
 }
 
-/* Pass by pass from w = 0; *ended where the last pass does not slip (c->marched passes before it did), or comes back to
- * where it began, to rounding. */
-static hc_status march(planar_cycle *c, int passes, closing *last, bool *ended)
-{
-  const double rounding = 8 * DBL_EPSILON * size_of(c);
-  hc_status st = HC_OK;
-  *last = (closing){.distance = 0};
-  *ended = false;
-  for (int i = 0; i < passes && st == HC_OK && !*ended; ++i) {
-    st = try_from(c, (double[2]){last->end[0], last->end[1]}, last);
-    const bool free = st == HC_OK && !slips(c);
-    if (free) c->marched = i;
-    *ended = free || (i > 0 && last->distance <= rounding);
-  }
-  return st;
-}
-
-/* Ends of slip into th[2], if the last pass has two, after so little slip that circles may share a lens. */
-static bool two_touches(const planar_cycle *c, double th[2])
-{
-  int found = 0;
-  double slipped = 0;
-  for (int i = 0; i < c->n; ++i) {
-    if (c->interval[i].state == CONTACT_STICK) continue;
-    slipped += c->interval[i].to - c->interval[i].from;
-    if (c->interval[(i + 1) % c->n].state != CONTACT_STICK) continue;
-    if (found < 2) th[found] = c->interval[i].to;
-    ++found;
-  }
-  return found == 2 && slipped <= LITTLE_SLIP;
-}
-
-/* The corner that marching creeps to from w, if there is one and the circles of all other instants hold it, too. Else
- * the last pass is as it was. */
-static hc_status rest_in_corner(planar_cycle *c, const double w[2], bool *rests)
-{
-  planar_corner corner;
-  double th[2];
-  *rests = false;
-  if (!two_touches(c, th) || !planar_corner_find(c->m, w, th, &corner)) return HC_OK;
-  double end[2] = {corner.w[0], corner.w[1]}, before[2] = {c->start[0], c->start[1]};
-  const hc_status st = planar_cycle_pass(c, end, NULL);
-  *rests = st == HC_OK && hypot(end[0] - corner.w[0], end[1] - corner.w[1]) <= 64 * DBL_EPSILON * size_of(c);
-  if (!*rests) return st == HC_OK ? planar_cycle_pass(c, before, NULL) : st;
-  c->cornered = true;
-  c->corner = corner;
-  c->n = 1;
-  c->slip.n = 0;
-  c->interval[0] = (planar_interval){.to = TWO_PI, .state = CONTACT_STICK, .w = {corner.w[0], corner.w[1]}};
-  return HC_OK;
-}
-
-/* The first pass as far as what is left of it after the second matters, which is little: where that one slips, too, it
- * goes on from an angle or a place that is off by the rough panels' error times what slip leaves of it. */
-static hc_status begin_roughly(planar_cycle *c, closing *last, bool *ended)
+/* Two passes; the first as far as what is left of it after the second matters, which is little: that one goes on from
+ * an angle or a place that is off by the rough panels' error times what slip leaves of it. */
+static hc_status begin_roughly(planar_cycle *c, const double w[2], closing *last)
 {
   c->slip.resolved = PLANAR_ROUGH;
-  hc_status st = try_from(c, (double[2]){0}, last);
+  const hc_status st = try_from(c, w, last);
   c->slip.resolved = PLANAR_RESOLVED;
   c->slip.width *= pow(PLANAR_RESOLVED / PLANAR_ROUGH, 1.0 / COLLOCATION_POINTS);
-  *ended = st == HC_OK && !slips(c);
-  if (*ended) c->marched = 0;
-  if (*ended || st != HC_OK) return st;
-  st = try_from(c, (double[2]){last->end[0], last->end[1]}, last);
-  *ended = st == HC_OK && slips(c) && last->distance <= 8 * DBL_EPSILON * size_of(c);
-  return st;
+  return st == HC_OK ? try_from(c, (double[2]){last->end[0], last->end[1]}, last) : st;
 }
 
-/* A few passes as they come tell whether it goes on slipping; Newton ends what does. Where Newton comes upon an orbit
- * that does not slip, that is not the one that marching leads to: more passes, and Newton that stays where it slips. */
-static hc_status settle(planar_cycle *c)
+/* It slips for ever: Newton from where the discs that have no point in common leave it most room; where Newton does not
+ * end, from some passes further on. */
+static hc_status close_slip(planar_cycle *c)
 {
-  static const int passes[] = {0, 30, MAX_PASSES};
-  closing last;
-  bool done = false;
-  hc_status st = HC_OK;
-  for (int i = 0; i < 3 && st == HC_OK && !done; ++i) {
-    st = i == 0 ? begin_roughly(c, &last, &done) : march(c, passes[i], &last, &done);
-    if (st == HC_OK && !done) st = rest_in_corner(c, last.end, &done);
-    if (st != HC_OK || done || i == 2) continue;
-    st = close_by_newton(c, last, i > 0, &done);
-    bool rests;
-    if (st == HC_OK && done) st = rest_in_corner(c, c->start, &rests);
+  closing now;
+  bool closed = false;
+  hc_status st = begin_roughly(c, c->rest.w, &now);
+  for (int passes = 0; passes < MAX_PASSES && st == HC_OK && !closed; ++passes) {
+    if (passes % 10 == 0) st = close_by_newton(c, &now, &closed);
+    if (st == HC_OK && !closed) st = try_from(c, (double[2]){now.end[0], now.end[1]}, &now);
   }
-  return st == HC_OK && !done ? HC_NOT_CLOSED : st;
+  return st == HC_OK && !closed ? HC_NOT_CLOSED : st;
+}
+
+/* ---- rest ---------------------------------------------------------------------------------------------- */
+
+/* h(w, th) = |u - w| - R and its derivatives by th. */
+typedef struct disc_distance {
+  double h, rate, bend;
+} disc_distance;
+
+static disc_distance distance_at(const planar_point *p, const double w[2])
+{
+  const double t1 = p->u[0] - w[0], t2 = p->u[1] - w[1], length = fmax(sqrt(t1 * t1 + t2 * t2), DBL_MIN);
+  const double e1 = t1 / length, e2 = t2 / length, across = p->du[1] * e1 - p->du[0] * e2;
+  return (disc_distance){.h = length - p->R,
+                         .rate = p->du[0] * e1 + p->du[1] * e2 - p->dR,
+                         .bend = p->ddu[0] * e1 + p->ddu[1] * e2 + across * across / length - p->ddR};
+}
+
+/* The angle in (low, high) where h is stationary, from one near it: Newton, or halves where that leads out. An error d
+ * of the angle makes h'' d^2/2 in h. */
+static planar_point climb(const planar_motion *m, const double w[2], double th, double low, double high)
+{
+  enum { MOST_STEPS = 60 };
+  planar_point p = planar_motion_at(m, th);
+  for (int i = 0; i < MOST_STEPS; ++i) {
+    const disc_distance at = distance_at(&p, w);
+    if (fabs(at.rate) <= 1e-9 * -at.bend) break;
+    if (at.rate > 0) low = p.th;
+    else high = p.th;
+    double next = p.th - at.rate / at.bend;
+    if (!(at.bend < 0 && next > low && next < high)) next = 0.5 * (low + high);
+    if (!(next > low && next < high)) break;
+    p = planar_motion_at(m, next);
+  }
+  return p;
+}
+
+/* Of planar_rest.h: the highest of the peaks beside nodes of the grid that are above their neighbours; then what these
+ * have between them. */
+static double farthest(void *self, const double w[2], const planar_point *near, planar_point *out)
+{
+  enum { N_GRID = SERIES_GRID };
+  const double step = TWO_PI / N_GRID;
+  const planar_cycle *c = self;
+  disc_distance at[N_GRID];
+  double most = -INFINITY;
+  if (near) *out = climb(c->m, w, near->th, near->th - step, near->th + step);
+  if (near) return distance_at(out, w).h;
+  for (int i = 0; i < N_GRID; ++i) at[i] = distance_at(&c->grid[i], w);
+  for (int i = 0; i < N_GRID; ++i) {
+    const double before = at[(i + N_GRID - 1) % N_GRID].h, after = at[(i + 1) % N_GRID].h, th = c->grid[i].th;
+    if (!(at[i].h >= before && at[i].h >= after)) continue;
+    const planar_point top = climb(c->m, w, th, th - step, th + step);
+    const double h = distance_at(&top, w).h;
+    if (!(h > most)) continue;
+    most = h;
+    *out = top;
+  }
+  planar_point root;
+  if (most > planar_rest_noise(c) || !stick_ends(c->m, c->grid, w, &c->grid[0], TWO_PI, &root)) return most;
+  *out = climb(c->m, w, root.th, root.th - step, root.th + step);
+  return distance_at(out, w).h;
+}
+
+/* c->rest; if there is one, the cycle is that. */
+static hc_status find_rest(planar_cycle *c)
+{
+  const hc_status st = planar_rest_find(farthest, c, planar_rest_noise(c), &c->rest);
+  if (!c->rest.exists) return st;
+  begin_pass(c);
+  c->n = 1;
+  c->interval[0] = (planar_interval){.to = TWO_PI, .state = CONTACT_STICK, .w = {c->rest.w[0], c->rest.w[1]}};
+  return st;
 }
 
 hc_status planar_cycle_find(planar_cycle *c)
 {
-  c->marched = -1;
-  c->cornered = false;
+  c->rest.exists = false;
   c->slip.resolved = PLANAR_RESOLVED;
-  return c->always ? settle(c) : follow_contacts(c);
+  if (!c->always) return follow_contacts(c);
+  const hc_status st = find_rest(c);
+  return st == HC_OK && !c->rest.exists ? close_slip(c) : st;
 }
 
 /* ---- what was found ------------------------------------------------------------------------------------ */

@@ -4,7 +4,6 @@
 
 #include <float.h>
 
-#include "hbm/planar/planar_corner.h"
 #include "tests/hbm/planar_scenes.h"
 
 static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X];
@@ -145,7 +144,7 @@ static void a_slider_creeps_to_the_corner_of_a_lens(CHECK_STATE)
       static const int of[] = {1, 3, 6, 8}; /* a, Y, r, b */
       CHECK_NEAR(w[0], 0, tolerance, "b %g, room %g", b, part);
       CHECK_NEAR(F[3], 2 * d, 2 * tolerance, "b %g, room %g", b, part);
-      /* An instant of touching is found to 1e-9 (planar_corner.c): to rounding by symmetry, where R is constant. */
+      /* An instant of touching is found to 1e-9 (planar_cycle.c): to rounding by symmetry, where R is constant. */
       const double found = 2 * tolerance / deep + (b > 0 ? 1e-8 : 0);
       for (int i = 0; i < 4 && of[i] < n; ++i)
         CHECK_NEAR(jac[3 + n * of[i]], 2 * by[i], found / (by[i] == 0 ? 1 : deep), "b %g, room %g, %d", b, part, of[i]);
@@ -177,19 +176,23 @@ static void stuck_and_open_are_linear(CHECK_STATE)
   planar_force_free(f);
 }
 
-/* u = (a sin th, 0) and R = 1 + b cos 2 th, least where u is (a, 0) and (-a, 0): the corner is as far as that R from
+/* u = (a sin th, Y) and R = 1 + b cos 2 th, least where u is (a, Y) and (-a, Y): the corner is as far as that R from
  * both. h'' = -a^2/R - R'' there, in which R'' = 4 b is much the larger part. */
 static void a_corner_between_two_dips_of_the_limit(CHECK_STATE)
 {
-  const double a = 0.1, b = 0.2, R = 1 - b, from[] = {0.02, 0.9}, th[] = {PI / 2 + 0.1, 3 * PI / 2 - 0.2};
-  const contact law = {.kt = 1, .kn = 1, .mu = 1, .gap = 1};
-  const double u1[] = {0, 0, a, 0, 0}, u2[5] = {0}, v[] = {0, 0, 0, b, 0};
-  const planar_motion m = planar_motion_make(&law, 2, u1, u2, v);
-  planar_corner c;
-  assert_true(planar_corner_find(&m, from, th, &c));
-  CHECK_NEAR(c.w[0], 0, 4 * DBL_EPSILON / a, "rounding over the angle between the circles, 2 a/R");
-  CHECK_NEAR(c.w[1], sqrt(R * R - a * a), 4 * DBL_EPSILON, "w_2");
-  CHECK_NEAR(c.at[0].th, PI / 2, 1e-9, "where it touches");
+  const double a = 0.1, b = 0.2, R = 1 - b, Y = 3;
+  const contact law = {.kt = 2, .kn = 4, .mu = 0.5, .gap = 1}; /* of a half: R = v + 1 */
+  const double X[15] = {0, 0, a, 0, 0, Y, 0, 0, 0, 0, 0, 0, 0, b, 0};
+  double F[15], w[2];
+  planar_force *f = make(&law, 2);
+  assert_int_equal(planar_force_eval(f, X, F, NULL, NULL), HC_OK);
+  const planar_rest *rest = &planar_force_cycle(f)->rest;
+  planar_force_slider(f, w);
+  CHECK_NEAR(w[0], 0, 4 * DBL_EPSILON * Y / a, "rounding over the angle between the circles, 2 a/R");
+  CHECK_NEAR(w[1], Y - sqrt(R * R - a * a), 8 * DBL_EPSILON * Y, "w_2");
+  assert_int_equal(rest->n, 2);
+  CHECK_NEAR(fabs(rest->at[0].th - rest->at[1].th), PI, 2e-9, "where it touches");
+  planar_force_free(f);
 }
 
 static void refuses(CHECK_STATE)
