@@ -255,8 +255,7 @@ static double farthest_sample(void *self, const double w[2], const planar_point 
     const double h = hypot(a->motion[0][i] - w[0], a->motion[1][i] - w[1]) - a->motion[2][i];
     if (h > most) most = h, at = i;
   }
-  *out = near ? *near
-              : (planar_point){.th = at, .u = {a->motion[0][at], a->motion[1][at]}, .R = a->motion[2][at]};
+  *out = near ? *near : (planar_point){.th = at, .u = {a->motion[0][at], a->motion[1][at]}, .R = a->motion[2][at]};
   return most;
 }
 

@@ -27,7 +27,8 @@ static void consider(choice *c, const double w[2], int j)
   const bool nearer = hypot(w[0], w[1]) < hypot(c->best.w[0], c->best.w[1]);
   if (!(worst < c->excluded || (worst == 0 && c->excluded == 0 && nearer))) return;
   c->excluded = worst;
-  c->best = (planar_rest){.exists = worst == 0, .w = {w[0], w[1]}, .n = j > 0 ? 2 : 1, .at = {*c->disc[0], *c->disc[j]}};
+  c->best =
+      (planar_rest){.exists = worst == 0, .w = {w[0], w[1]}, .n = j > 0 ? 2 : 1, .at = {*c->disc[0], *c->disc[j]}};
 }
 
 /* The point of disc[0] nearest to 0. */
@@ -38,20 +39,48 @@ static void consider_alone(choice *c)
   consider(c, (double[2]){part * a->u[0], part * a->u[1]}, 0);
 }
 
+/* dw with e_1.dw = away_1, e_2.dw = away_2, of unit vectors. The sine of the angle between them is 0 where discs touch
+ * from outside, where their corner moves like a root; nearer than the root of rounding it is not told from that. */
+static void move_corner(const double e_1[2], const double e_2[2], double away_1, double away_2, double dw[2])
+{
+  const double sine = e_1[0] * e_2[1] - e_1[1] * e_2[0];
+  const double det = copysign(fmax(fabs(sine), sqrt(DBL_EPSILON)), sine);
+  dw[0] = (e_2[1] * away_1 - e_1[1] * away_2) / det;
+  dw[1] = (e_1[0] * away_2 - e_2[0] * away_1) / det;
+}
+
+/* |u - w| - R and the direction of u - w. */
+static double direction(const planar_point *disc, const double w[2], double e[2])
+{
+  const double t1 = disc->u[0] - w[0], t2 = disc->u[1] - w[1], length = fmax(hypot(t1, t2), DBL_MIN);
+  e[0] = t1 / length, e[1] = t2 / length;
+  return length - disc->R;
+}
+
 /* Both corners of disc[0] and disc[j]; the middle of the gap where there is one. With D the distance of the centres the
  * corners are +-a off the line through them,
- *     4 D^2 a^2 = (R_1 + R_2 - D) (R_1 + R_2 + D) (D + R_1 - R_2) (D - R_1 + R_2). */
+ *     4 D^2 a^2 = (R_1 + R_2 - D) (R_1 + R_2 + D) (D + R_1 - R_2) (D - R_1 + R_2),
+ * of discs that are nearly the same to rounding over D/R: then Newton. */
 static void consider_corners(choice *c, int j)
 {
+  enum { NEWTON_STEPS = 2 };
   const planar_point *a = c->disc[0], *b = c->disc[j];
   const double way[2] = {b->u[0] - a->u[0], b->u[1] - a->u[1]}, D = hypot(way[0], way[1]), gap = D - a->R - b->R;
   const double squared = -gap * (a->R + b->R + D) * (D + a->R - b->R) * (D - a->R + b->R);
   if (!(D > fabs(a->R - b->R))) return; /* one lies in the other */
   const double off = squared > 0 ? 0.5 * sqrt(squared) / D : 0;
   const double along = gap > 0 ? a->R + 0.5 * gap : 0.5 * (D + (a->R - b->R) * (a->R + b->R) / D);
-  for (int side = -1; side <= 1; side += 2)
-    consider(c, (double[2]){a->u[0] + (along * way[0] - side * off * way[1]) / D,
-                            a->u[1] + (along * way[1] + side * off * way[0]) / D}, j);
+  for (int side = -1; side <= 1; side += 2) {
+    double w[2] = {a->u[0] + (along * way[0] - side * off * way[1]) / D,
+                   a->u[1] + (along * way[1] + side * off * way[0]) / D};
+    for (int i = 0; i < NEWTON_STEPS && off > 0; ++i) {
+      double e[2][2], dw[2];
+      const double h[] = {direction(a, w, e[0]), direction(b, w, e[1])};
+      move_corner(e[0], e[1], h[0], h[1], dw);
+      w[0] += dw[0], w[1] += dw[1];
+    }
+    consider(c, w, j);
+  }
 }
 
 /* w moves to the nearest point of its discs and `next`; or, not `exists`, to the one that they exclude least. */
@@ -78,24 +107,12 @@ hc_status planar_rest_find(planar_farthest *farthest, void *self, double noise, 
   for (int i = 0; i < out->n; ++i) { /* where h is largest at w itself: so far, at the one before the last exchange */
     const planar_point before = out->at[i];
     if (out->exists) farthest(self, out->w, &before, &out->at[i]);
-    const double t1 = out->at[i].u[0] - out->w[0], t2 = out->at[i].u[1] - out->w[1], length = hypot(t1, t2);
-    out->e[i][0] = t1 / length, out->e[i][1] = t2 / length;
+    direction(&out->at[i], out->w, out->e[i]);
   }
   return ended ? HC_OK : HC_NOT_CONVERGED;
 }
 
 /* ---- how it moves ---------------------------------------------------------------------------------------- */
-
-/* At a corner h_i = 0 at an instant where it is largest, whose own shift changes nothing to first order: e_i.dw = away.
- * sin is that of the angle from e_1 to e_2: 0 where the discs touch from outside, where the corner moves like a root;
- * nearer than the root of rounding it is not told from that. */
-static void move_corner(const planar_rest *r, const planar_disc_change *change, double dw[2])
-{
-  const double sine = r->e[0][0] * r->e[1][1] - r->e[0][1] * r->e[1][0];
-  const double det = copysign(fmax(fabs(sine), sqrt(DBL_EPSILON)), sine);
-  dw[0] = (r->e[1][1] * change[0].away - r->e[0][1] * change[1].away) / det;
-  dw[1] = (r->e[0][0] * change[1].away - r->e[1][0] * change[0].away) / det;
-}
 
 /* w = k R e, R = |u - w|, e its direction. Along e w moves with the disc; across, e turns, and the instant shifts, by
  * dth: with U = u'.e_perp, B = -h'' > 0 and q = dw.e_perp
@@ -120,7 +137,8 @@ void planar_rest_move(const planar_rest *r, const planar_disc_change *change, do
 {
   dw[0] = dw[1] = 0;
   if (r->n == 1) move_on_circle(r, change, dw);
-  if (r->n == 2) move_corner(r, change, dw);
+  /* h_i = 0 at an instant where it is largest, whose own shift changes nothing to first order. */
+  if (r->n == 2) move_corner(r->e[0], r->e[1], change[0].away, change[1].away, dw);
 }
 
 /* A part d of omega from the edge X differs by about sqrt(d): the longest step, 1e-3, goes with 3e-2 of X, the
