@@ -155,6 +155,7 @@ typedef struct slider {
   bool slips;
   double w[2], dw[2][2]; /* while it sticks: position and d w/d w0 */
   double phi, dphi[2];   /* while it slips: direction and d phi/d w0 */
+  double way[2];         /* what w has moved by since th = 0, by the sums of its speed */
   planar_begin begin;    /* of the interval under way */
 } slider;
 
@@ -240,14 +241,31 @@ static hc_status stick(planar_cycle *c, slider *k, planar_point *at, double to)
   return st;
 }
 
+/* += the integral of s e over a panel. */
+static void add_way(const planar_cycle *c, const planar_panel *p, double way[2])
+{
+  const double width = p->to - p->from;
+  double cosine[N], sine[N];
+  planar_rates r;
+  planar_panel_directions(p, cosine, sine);
+  planar_motion_rates(c->m, c->slip.c, p->from, p->to, &r);
+  for (int i = 0; i < N; ++i) {
+    const double path = width * c->slip.c->a[N - 1][i] * (r.du[0][i] * cosine[i] + r.du[1][i] * sine[i] - r.dR[i]);
+    way[0] += path * cosine[i];
+    way[1] += path * sine[i];
+  }
+}
+
 static hc_status slip(planar_cycle *c, slider *k, planar_point *at, double to)
 {
   const int first = c->slip.n;
   slip_end end;
   hc_status st = planar_slip_follow(&c->slip, at, k->phi, to, !c->always, &end);
   if (st == HC_OK) st = close_interval(c, k, at->th, end.at.th, first);
-  for (int i = first; i < c->slip.n; ++i)
+  for (int i = first; i < c->slip.n; ++i) {
     for (int j = 0; j < 2; ++j) k->dphi[j] *= c->slip.panel[i].growth;
+    add_way(c, &c->slip.panel[i], k->way);
+  }
   *at = end.at;
   k->phi = end.phi;
   k->slips = !end.rests;
@@ -292,15 +310,21 @@ static void begin_pass(planar_cycle *c)
   c->changes = 0;
 }
 
-hc_status planar_cycle_pass(planar_cycle *c, double w[2], double A[2][2])
+/* One pass from w0, which becomes the slider at its end; A[row][col] = d(that)/d w0. moved: end - w0. Where w has moved
+ * little, that is better known from its speed than from the difference of two places. */
+static hc_status go_round(planar_cycle *c, double w[2], double A[2][2], double moved[2])
 {
   slider k;
   begin_pass(c);
   c->start[0] = w[0], c->start[1] = w[1];
   start(c, &k, w);
+  const bool jumped = k.slips || k.w[0] != w[0] || k.w[1] != w[1];
   const hc_status st = follow(c, &k, c->grid[0], TWO_PI);
-  w[0] = k.w[0], w[1] = k.w[1];
-  if (A) memcpy(A, k.dw, sizeof k.dw);
+  for (int d = 0; d < 2; ++d) {
+    moved[d] = jumped ? k.w[d] - w[d] : k.way[d];
+    w[d] = k.w[d];
+  }
+  memcpy(A, k.dw, sizeof k.dw);
   return st;
 }
 
@@ -336,9 +360,9 @@ typedef struct closing {
 
 static hc_status try_from(planar_cycle *c, const double w[2], closing *out)
 {
-  double A[2][2], end[2] = {w[0], w[1]};
-  const hc_status st = planar_cycle_pass(c, end, A);
-  *out = (closing){.w = {w[0], w[1]}, .end = {end[0], end[1]}, .step = {end[0] - w[0], end[1] - w[1]}};
+  double A[2][2], end[2] = {w[0], w[1]}, moved[2];
+  const hc_status st = go_round(c, end, A, moved);
+  *out = (closing){.w = {w[0], w[1]}, .end = {end[0], end[1]}, .step = {moved[0], moved[1]}};
   out->distance = hypot(out->step[0], out->step[1]);
   out->left = hypot(hypot(A[0][0], A[0][1]), hypot(A[1][0], A[1][1]));
   /* Newton's step (1 - A)^-1 step; the step as it is where that does not exist, or is longer than size_of(c). */
@@ -348,7 +372,8 @@ static hc_status try_from(planar_cycle *c, const double w[2], closing *out)
   return st;
 }
 
-/* Newton from the last pass until the distance does not become less; *closed if it has become little. */
+/* Newton from the last pass until its step does not become less; one that does not is halved, unless it is rounding.
+ * Where slip begins a pass moves w by little, wherever it is: the step tells how far off that is. */
 static hc_status close_by_newton(planar_cycle *c, closing *now, bool *closed)
 {
   const double rounding = 64 * DBL_EPSILON * size_of(c), enough = 1e-11 * size_of(c);
@@ -361,9 +386,10 @@ static hc_status close_by_newton(planar_cycle *c, closing *now, bool *closed)
     if (*closed) return HC_OK;
     st = try_from(c, (double[2]){now->w[0] + now->step[0], now->w[1] + now->step[1]}, &next);
     if (st != HC_OK) return st;
-    const bool better = next.distance < now->distance;
-    if (better || next.distance <= enough || !(now->distance <= enough)) *now = next;
-    if (!better && now->distance <= enough) break;
+    const bool better = length_of(next.step) < length_of(now->step);
+    if (better || !(now->distance <= enough)) *now = next;
+    else if (length_of(now->step) <= enough) break;
+    else now->step[0] *= 0.5, now->step[1] *= 0.5;
   }
   *closed = st == HC_OK && now->distance <= enough;
   if (*closed && (c->start[0] != now->w[0] || c->start[1] != now->w[1])) st = try_from(c, now->w, now);

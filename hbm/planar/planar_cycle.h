@@ -51,8 +51,5 @@ typedef struct planar_cycle {
  * 64 (H + 1) changes of state. HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_CONVERGED. */
 hc_status planar_cycle_find(planar_cycle *c);
 
-/* One pass from w0, which becomes the slider at its end; A[row][col] = d(that)/d w0 unless NULL. Errors as above. */
-hc_status planar_cycle_pass(planar_cycle *c, double w[2], double A[2][2]);
-
 /* w [length] at th = 0. */
 void planar_cycle_slider(const planar_cycle *c, double w[2]);
