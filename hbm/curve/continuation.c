@@ -31,6 +31,7 @@ static const double STEP_CORNER = 1e-4; /* where steps are this short the curve 
 static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
 static const double LOOP_RANGE = 4;     /* factor beyond the start of the sweep up to which a loop is followed */
 static const double LONGER = 4; /* factor from one length of a step round a corner or past an edge to the next */
+static const double LEAST_PART = 1e-6; /* of a step over a join, by which the vibration is changed at first */
 static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
 static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
 
@@ -193,59 +194,76 @@ static bool round_corner(path *p)
   return accepted;
 }
 
-/* Is the trial on a segment that the curve has already? Off it by a small part of the chord at most. */
-static bool traced_before(const path *p)
+/* ---- joins of rest and slip ---------------------------------------------------------------------------- */
+
+/* Where the places of rest of a slider have shrunk to one (planar_rest.h) rest and slip meet. With s the way of the slider
+ * along the discs' lens, omega is on either side a line in s, the same, and a parabola, one for each; the tangents
+ * meet, but one side may lead on and one back: a cusp. On both sides dX/domega grows without bound towards it. So the
+ * far side is looked for in planes across the last tangent, before and behind the last point, from starts in which
+ * another set of contacts rests: where the force grows like a root, Newton comes to a solution from any start
+ * nearer to the join. The orientation tells the way that the curve goes on from what it came by. */
+
+/* Which contacts rest all period in the trial, as a number; 0: the forces are not found. */
+static uint64_t resting(path *p)
 {
-  const hbm_curve *c = p->curve;
-  const metric_at at = path_metric(p);
-  const double chord = metric_length(&at, p->chord);
-  for (int k = 0; k + 1 < c->n; ++k) {
-    const double *X0 = hbm_curve_X(c, k), *X1 = hbm_curve_X(c, k + 1), from = c->points[k].omega,
-                 part = (p->omega - from) / (c->points[k + 1].omega - from);
-    if (!(part >= 0 && part <= 1)) continue;
-    for (int i = 0; i < c->n_coef; ++i) p->missed[i] = p->X[i] - X0[i] - part * (X1[i] - X0[i]);
-    if (metric_length(&at, p->missed) <= p->s->edges->traced * chord) return true;
+  const contact_forces *f;
+  uint64_t mark = 1;
+  if (hbm_system_contact(&p->s->sys, p->X, false) != HC_OK) return 0;
+  f = p->s->sys.contacts;
+  for (int j = 0; j < p->s->model->n_contacts; ++j) mark = 31 * mark + (contact_forces_regime(f, j) == CONTACT_STUCK);
+  return mark;
+}
+
+/* The trial's vibration, made larger or smaller by less than the step h, until other contacts rest than did: false if
+ * that does not come about. */
+static bool change_who_rests(path *p, uint64_t before, double h, double sign)
+{
+  const int dim = p->s->sys.dim;
+  for (double part = LEAST_PART * h; part < h; part *= LONGER) {
+    for (int i = dim; i < p->curve->n_coef; ++i) p->X[i] = p->X_predicted[i] * (1 + sign * part);
+    const uint64_t now = resting(p);
+    if (now != 0 && now != before) return true;
   }
   return false;
 }
 
-/* The solution at omega, if it is new, near the last point, and the curve goes on from there away from it. */
-static bool solve_past_edge(path *p, double omega)
+/* The point of the curve in the plane at the length h along the last tangent, from a start with the vibration larger
+ * or smaller by sign; accepted if other contacts rest than `before`. */
+static bool step_over_join(path *p, uint64_t before, double h, double sign)
 {
   const hbm_curve *c = p->curve;
-  const double *X0 = hbm_curve_X(c, c->n - 1), omega0 = c->points[c->n - 1].omega;
-  memcpy(p->X, X0, (size_t)c->n_coef * sizeof *X0);
-  p->omega = omega;
-  hc_status st = hbm_solve_fixed(p->s, omega, p->X, &p->point);
+  p->tangent_only = true;
+  path_predict(p, h);
+  if (!change_who_rests(p, before, fabs(h), sign)) return false;
+  const hc_status st = path_correct_in_plane(p);
   p->curve->iterations += p->point.iterations;
-  if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
-  if (st != HC_OK) return false;
-  p->d_omega = 1;
-  p->det_sign = newton_sign(p->s->fixed);
+  if (st != HC_OK || resting(p) == before) return false;
   path_orient_tangent(p);
   fill_chord(p);
-  const metric_at at = path_metric(p);
-  const bool near = metric_length(&at, p->chord) <= p->s->edges->widest;
-  return p->d_omega * (omega - omega0) > 0 && near && !traced_before(p);
+  const double w = p->omega - c->points[c->n - 1].omega;
+  return path_inner(p, p->dX, p->d_omega, p->chord, w) > 0 && path_correction(p, c->omega_scale) <= fabs(h);
 }
 
-/* Past an edge of slip, where the curve's tangent is steep on both sides, and it may turn back. */
-static bool pass_edge(path *p)
+/* Over a join, by the shortest step that leads to the other side. */
+static bool pass_join(path *p)
 {
   hbm_curve *c = p->curve;
   const slip_edges *edges = p->s->edges;
-  const hbm_point *last = &c->points[c->n - 1];
-  const double onward = last->d_omega > 0 ? last->omega : -last->omega;
   bool accepted = false;
+  double h = edges->first;
   if (p->edges++ >= edges->most) return false;
-  for (double part = edges->first; part <= edges->last && !accepted; part *= LONGER)
-    accepted = solve_past_edge(p, last->omega + part * onward) || solve_past_edge(p, last->omega - part * onward);
+  memcpy(p->X, hbm_curve_X(c, c->n - 1), (size_t)c->n_coef * sizeof *p->X);
+  const uint64_t before = resting(p);
+  for (; h <= edges->last; h *= LONGER) {
+    for (int way = 0; way < 4 && !accepted; ++way)
+      accepted = step_over_join(p, before, way < 2 ? h : -h, way % 2 ? 1 : -1);
+    if (accepted) break;
+  }
   if (!accepted) return false;
   ++c->edges;
-  c->edge_omega = fmax(c->edge_omega, fabs(p->omega / last->omega - 1));
-  const metric_at at = path_metric(p);
-  c->edge_motion = fmax(c->edge_motion, metric_length(&at, p->chord));
-  p->step = edges->too_short;
+  c->edge_omega = fmax(c->edge_omega, fabs(p->omega / c->points[c->n - 1].omega - 1));
+  c->edge_motion = fmax(c->edge_motion, h);
+  p->step = h;
   return true;
 }
 
@@ -388,7 +406,7 @@ static hc_status recover(path *p, hc_status step_status, bool *done)
   const slip_edges *edges = p->s->edges;
   const bool at_edge = edges && p->step < edges->too_short && p->points_at_last_edge != c->n;
   bool at_corner = p->step < STEP_ROUND;
-  bool past = at_edge && !p->natural && pass_edge(p);
+  bool past = at_edge && !p->natural && pass_join(p);
   if (!past) past = at_corner && !p->natural && p->points_at_last_corner != c->n && round_corner(p);
   if (past) {
     hc_status st = append_trial(p);

@@ -141,16 +141,6 @@ void planar_rest_move(const planar_rest *r, const planar_disc_change *change, do
   if (r->n == 2) move_corner(r->e[0], r->e[1], change[0].away, change[1].away, dw);
 }
 
-/* A part d of omega from the edge X differs by about sqrt(d): the longest step, 1e-3, goes with 3e-2 of X, the
- * shortest, 1e-7, with 3e-4, some times the steps at a corner. A solution on the other side of the edge is off the last
- * segment by about as much as the step is long; one that is off it by 5 % of that at most lies on the curve already.
- * Where the branch turns back three solutions coexist, over 1.2e-6 of omega in space_F0.1: an edge's place is told to
- * that. 60 halvings pass the last bit of omega; 100 edges bound the work of a curve that chatters. */
-const slip_edges planar_edges = {.too_short = 1e-6,
-                                 .first = 1e-7,
-                                 .last = 1e-3,
-                                 .widest = 3e-2,
-                                 .traced = 0.05,
-                                 .located = 1e-6,
-                                 .most = 100,
-                                 .bisections = 60};
+/* 100 joins bound the work of a curve that chatters; 60 halvings pass the last bit of omega. */
+const slip_edges planar_edges = {
+    .too_short = 1e-6, .first = 1e-6, .last = 3e-2, .located = 1e-6, .most = 100, .bisections = 60};
