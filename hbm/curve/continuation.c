@@ -32,6 +32,7 @@ static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step r
 static const double LOOP_RANGE = 4;     /* factor beyond the start of the sweep up to which a loop is followed */
 static const double LONGER = 4; /* factor from one length of a step round a corner or past an edge to the next */
 static const double LEAST_PART = 1e-6; /* of a step over a join, by which the vibration is changed at first */
+enum { CLOSER = 20 };                     /* halvings of that change: parabolas of both sides may differ by thousands */
 static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
 static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
 
@@ -203,28 +204,48 @@ static bool round_corner(path *p)
  * another set of contacts rests: where the force grows like a root, Newton comes to a solution from any start
  * nearer to the join. The orientation tells the way that the curve goes on from what it came by. */
 
-/* Which contacts rest all period in the trial, as a number; 0: the forces are not found. */
+/* Which contacts rest all period in the trial, held by how many discs, as a number; 0: the forces are not found. */
 static uint64_t resting(path *p)
 {
-  const contact_forces *f;
+  const contact_forces *f = p->s->sys.contacts;
   uint64_t mark = 1;
   if (hbm_system_contact(&p->s->sys, p->X, false) != HC_OK) return 0;
-  f = p->s->sys.contacts;
-  for (int j = 0; j < p->s->model->n_contacts; ++j) mark = 31 * mark + (contact_forces_regime(f, j) == CONTACT_STUCK);
+  for (int j = 0; j < p->s->model->n_contacts; ++j) {
+    const planar_cycle *c = contact_forces_planar(f, j);
+    const bool rests = contact_forces_regime(f, j) == CONTACT_STUCK;
+    mark = 31 * mark + (uint64_t)(rests ? 1 + (c ? c->rest.n : 0) : 0);
+  }
   return mark;
 }
 
-/* The trial's vibration, made larger or smaller by less than the step h, until other contacts rest than did: false if
- * that does not come about. */
+static bool rests_like(path *p, uint64_t before)
+{
+  const uint64_t now = resting(p);
+  return now == 0 || now == before;
+}
+
+/* The trial: the prediction, its vibration multiplied. */
+static void vibrate_by(path *p, double factor)
+{
+  for (int i = p->s->sys.dim; i < p->curve->n_coef; ++i) p->X[i] = factor * p->X_predicted[i];
+}
+
+/* The trial's vibration, made larger or smaller by less than the step h, until other contacts rest than did, by as
+ * little as that takes: false if it does not come about. */
 static bool change_who_rests(path *p, uint64_t before, double h, double sign)
 {
-  const int dim = p->s->sys.dim;
-  for (double part = LEAST_PART * h; part < h; part *= LONGER) {
-    for (int i = dim; i < p->curve->n_coef; ++i) p->X[i] = p->X_predicted[i] * (1 + sign * part);
-    const uint64_t now = resting(p);
-    if (now != 0 && now != before) return true;
+  double same = 0, other = LEAST_PART * h;
+  vibrate_by(p, 1 + sign * other);
+  for (; rests_like(p, before) && other < h; vibrate_by(p, 1 + sign * other)) same = other, other *= LONGER;
+  if (!(other < h)) return false;
+  for (int i = 0; i < CLOSER && same > 0; ++i) {
+    const double middle = same + 0.5 * (other - same);
+    vibrate_by(p, 1 + sign * middle);
+    if (rests_like(p, before)) same = middle;
+    else other = middle;
   }
-  return false;
+  vibrate_by(p, 1 + sign * other);
+  return true;
 }
 
 /* The point of the curve in the plane at the length h along the last tangent, from a start with the vibration larger
@@ -237,7 +258,7 @@ static bool step_over_join(path *p, uint64_t before, double h, double sign)
   if (!change_who_rests(p, before, fabs(h), sign)) return false;
   const hc_status st = path_correct_in_plane(p);
   p->curve->iterations += p->point.iterations;
-  if (st != HC_OK || resting(p) == before) return false;
+  if (st != HC_OK || rests_like(p, before)) return false;
   path_orient_tangent(p);
   fill_chord(p);
   const double w = p->omega - c->points[c->n - 1].omega;
