@@ -79,7 +79,6 @@ CONTACT_SMOOTH_LIST(SMOOTH_EVALUATORS)
  * either side, so that its rate is infinite, and the curve may turn back. */
 typedef struct slip_edges {
   double too_short;     /* [1] arc length of steps that suggest one */
-  double first, last;   /* [1] arc lengths by which it is stepped over, each four times the one before */
   double located;       /* [1] part of omega to which its place can be told */
   int most, bisections; /* edges of a curve; halvings of omega to locate one */
 } slip_edges;

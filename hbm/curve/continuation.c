@@ -30,9 +30,11 @@ static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
 static const double STEP_CORNER = 1e-4; /* where steps are this short the curve has a corner: a kink is accepted */
 static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
 static const double LOOP_RANGE = 4;     /* factor beyond the start of the sweep up to which a loop is followed */
-static const double LONGER = 4; /* factor from one length of a step round a corner or past an edge to the next */
+static const double LONGER = 4;        /* factor from one length of a step round a corner or past an edge to the next */
+static const double LESS = 0.1;        /* of the last step over a join that failed: then one is tried again */
+static const double LONGEST_OVER = 16; /* times the step that failed: over a join */
 static const double LEAST_PART = 1e-6; /* of a step over a join, by which the vibration is changed at first */
-enum { CLOSER = 20 };                     /* halvings of that change: parabolas of both sides may differ by thousands */
+enum { CLOSER = 20 };                  /* halvings of that change: parabolas of both sides may differ by thousands */
 static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
 static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
 
@@ -151,6 +153,19 @@ static hc_status trial_step(path *p, bool *accepted)
   return st;
 }
 
+/* The trial: h from the last point along the trial's tangent, which becomes of unit length. */
+static void predict_along_own_tangent(path *p, double h)
+{
+  const hbm_curve *c = p->curve;
+  const double *X0 = hbm_curve_X(c, c->n - 1), length = path_length(p, p->dX, p->d_omega);
+  for (int i = 0; i < c->n_coef; ++i) {
+    p->dX[i] /= length;
+    p->X[i] = p->X_predicted[i] = X0[i] + h * p->dX[i];
+  }
+  p->d_omega /= length;
+  p->omega = p->omega_predicted = c->points[c->n - 1].omega + h * p->d_omega;
+}
+
 /* A step of length h round a corner too sharp for a plane across the old tangent, as where a nearly rigid contact is
  * made or lost: the equations at h beyond the corner tell the direction there (their kernel, turned by the curve's
  * orientation), and the prediction is made along that. */
@@ -158,21 +173,16 @@ static hc_status step_round_corner(path *p, double h, bool *accepted)
 {
   const hbm_curve *c = p->curve;
   const hbm_point *last = &c->points[c->n - 1];
-  const double *X0 = hbm_curve_X(c, c->n - 1), *dX0 = hbm_curve_dX(c, c->n - 1);
+  const double *dX0 = hbm_curve_dX(c, c->n - 1);
   int det_sign;
   p->tangent_only = true; /* an extrapolation of the last segment is not valid beyond the corner */
   path_predict(p, h);
   path_fill_normal(p);
   hc_status st = hbm_kernel_at(p->s, p->normal, p->X, p->omega, p->dX, &p->d_omega, &det_sign);
   if (st != HC_OK || det_sign == 0) return st != HC_OK ? st : HC_SINGULAR;
-  double length = path_length(p, p->dX, p->d_omega);
-  length = det_sign == p->orientation ? length : -length;
-  for (int i = 0; i < c->n_coef; ++i) {
-    p->dX[i] /= length;
-    p->X[i] = p->X_predicted[i] = X0[i] + h * p->dX[i];
-  }
-  p->d_omega /= length;
-  p->omega = p->omega_predicted = last->omega + h * p->d_omega;
+  p->det_sign = det_sign;
+  path_orient_tangent(p);
+  predict_along_own_tangent(p, h);
   st = path_correct_in_plane(p);
   p->curve->iterations += p->point.iterations;
   if (st != HC_OK) return st;
@@ -249,33 +259,38 @@ static bool change_who_rests(path *p, uint64_t before, double h, double sign)
 }
 
 /* The point of the curve in the plane at the length h along the last tangent, from a start with the vibration larger
- * or smaller by sign; accepted if other contacts rest than `before`. */
+ * or smaller by sign, at which other contacts rest than `before`; where it is far off, that in the plane along its own
+ * tangent, as where a corner is too sharp for a plane across the last one. Accepted if the curve goes on from there. */
 static bool step_over_join(path *p, uint64_t before, double h, double sign)
 {
   const hbm_curve *c = p->curve;
   p->tangent_only = true;
   path_predict(p, h);
-  if (!change_who_rests(p, before, fabs(h), sign)) return false;
-  const hc_status st = path_correct_in_plane(p);
-  p->curve->iterations += p->point.iterations;
-  if (st != HC_OK || rests_like(p, before)) return false;
-  path_orient_tangent(p);
-  fill_chord(p);
-  const double w = p->omega - c->points[c->n - 1].omega;
-  return path_inner(p, p->dX, p->d_omega, p->chord, w) > 0 && path_correction(p, c->omega_scale) <= fabs(h);
+  for (int turn = 0; turn < 2; ++turn) {
+    if (turn > 0) predict_along_own_tangent(p, fabs(h));
+    if (!change_who_rests(p, before, fabs(h), sign)) return false;
+    const hc_status st = path_correct_in_plane(p);
+    p->curve->iterations += p->point.iterations;
+    if (st != HC_OK || rests_like(p, before)) return false;
+    path_orient_tangent(p);
+    fill_chord(p);
+    const double w = p->omega - c->points[c->n - 1].omega;
+    if (path_inner(p, p->dX, p->d_omega, p->chord, w) > 0 && path_correction(p, c->omega_scale) <= fabs(h)) return true;
+  }
+  return false;
 }
 
-/* Over a join, by the shortest step that leads to the other side. */
+/* Over a join that lies within the step that failed, by the shortest one that leads to the other side. */
 static bool pass_join(path *p)
 {
   hbm_curve *c = p->curve;
-  const slip_edges *edges = p->s->edges;
+  const double longest = LONGEST_OVER * p->step;
   bool accepted = false;
-  double h = edges->first;
-  if (p->edges++ >= edges->most) return false;
+  double h = p->step;
+  if (p->edges++ >= p->s->edges->most) return false;
   memcpy(p->X, hbm_curve_X(c, c->n - 1), (size_t)c->n_coef * sizeof *p->X);
   const uint64_t before = resting(p);
-  for (; h <= edges->last; h *= LONGER) {
+  for (; h <= longest; h *= LONGER) {
     for (int way = 0; way < 4 && !accepted; ++way)
       accepted = step_over_join(p, before, way < 2 ? h : -h, way % 2 ? 1 : -1);
     if (accepted) break;
@@ -425,7 +440,8 @@ static hc_status recover(path *p, hc_status step_status, bool *done)
   bool natural_fails = step_status != HC_OK || p->step < STEP_FIRST;
   if (p->natural && arclength_allowed(p) && natural_fails) switch_to_arclength(p);
   const slip_edges *edges = p->s->edges;
-  const bool at_edge = edges && p->step < edges->too_short && p->points_at_last_edge != c->n;
+  const bool nearer = p->points_at_last_edge != c->n || p->step <= LESS * p->step_at_last_edge;
+  const bool at_edge = edges && p->step < edges->too_short && nearer;
   bool at_corner = p->step < STEP_ROUND;
   bool past = at_edge && !p->natural && pass_join(p);
   if (!past) past = at_corner && !p->natural && p->points_at_last_corner != c->n && round_corner(p);
@@ -435,7 +451,7 @@ static hc_status recover(path *p, hc_status step_status, bool *done)
     p->tangent_only = true;
     return st;
   }
-  if (at_edge) p->points_at_last_edge = c->n;
+  if (at_edge) p->points_at_last_edge = c->n, p->step_at_last_edge = p->step;
   if (at_corner) p->points_at_last_corner = c->n;
   if (p->step < STEP_MIN) return step_status != HC_OK ? step_status : HC_STEP_TOO_SMALL;
   return HC_OK;

@@ -142,5 +142,4 @@ void planar_rest_move(const planar_rest *r, const planar_disc_change *change, do
 }
 
 /* 100 joins bound the work of a curve that chatters; 60 halvings pass the last bit of omega. */
-const slip_edges planar_edges = {
-    .too_short = 1e-4, .first = 1e-6, .last = 3e-2, .located = 1e-6, .most = 100, .bisections = 60};
+const slip_edges planar_edges = {.too_short = 1e-4, .located = 1e-6, .most = 100, .bisections = 60};
