@@ -223,7 +223,7 @@ static uint64_t resting(path *p)
   for (int j = 0; j < p->s->model->n_contacts; ++j) {
     const planar_cycle *c = contact_forces_planar(f, j);
     const bool rests = contact_forces_regime(f, j) == CONTACT_STUCK;
-    mark = 31 * mark + (uint64_t)(rests ? 1 + (c ? c->rest.n : 0) : 0);
+    mark = 31 * mark + (uint64_t)(rests ? 1 + (c ? 2 * c->rest.n + (c->rest.w[0] != 0 || c->rest.w[1] != 0) : 0) : 0);
   }
   return mark;
 }

@@ -451,23 +451,26 @@ static void rows_of_rest(planar_aft *a)
 {
   const planar_rest *r = &a->rest;
   const int length = series_length(a->n_harm);
-  const double radius = a->law.mu * a->law.kn / a->law.kt;
+  const double per_v = a->law.mu * a->law.kn / a->law.kt;
   clear_rows(a);
-  for (int i = 0; i < r->n; ++i) {
-    harmonics_at(a, (int)r->at[i].th, a->basis[0]);
-    const double *e = r->e[i], away[] = {e[0], e[1], -radius}, across[] = {-e[1], e[0], 0};
-    for (int d = 0; d < a->n_dof; ++d)
-      for (int m = 0; m < length; ++m) {
-        a->by[i][d * length + m] = away[d] * a->basis[0][m];
-        if (r->n == 1) a->by[1][d * length + m] = across[d] * a->basis[0][m];
+  for (int i = 0; i < r->n; ++i) harmonics_at(a, (int)r->at[i].th, a->harmonic + i * length);
+  for (int d = 0; d < a->n_dof; ++d)
+    for (int m = 0; m < length; ++m) {
+      planar_disc_change change[3] = {{0}};
+      double dw[2];
+      for (int i = 0; i < r->n; ++i) {
+        const double *e = r->e[i], at = a->harmonic[i * length + m];
+        change[i] = (planar_disc_change){.away = at * (d == 0   ? e[0]
+                                                       : d == 1 ? e[1]
+                                                                : -per_v),
+                                         .across = at * (d == 0   ? -e[1]
+                                                         : d == 1 ? e[0]
+                                                                  : 0),
+                                         .radius = d < 2 ? 0 : at * per_v};
       }
-  }
-  for (int q = 0; q < columns(a); ++q) {
-    const double first = a->by[0][q], second = a->by[1][q];
-    double dw[2];
-    planar_rest_move(r, (planar_disc_change[]){{.away = first, .across = second}, {.away = second}}, dw);
-    a->by[0][q] = dw[0], a->by[1][q] = dw[1];
-  }
+      planar_rest_move(r, change, dw);
+      a->by[0][d * length + m] = dw[0], a->by[1][d * length + m] = dw[1];
+    }
 }
 
 /* by = dw_0/dX of an orbit that sticks where it was dragged to. */

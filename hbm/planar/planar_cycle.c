@@ -456,8 +456,7 @@ static planar_point climb(const planar_motion *m, const double w[2], double th, 
   return p;
 }
 
-/* Of planar_rest.h: the highest of the peaks beside nodes of the grid that are above their neighbours; then what these
- * have between them. */
+/* Of planar_rest.h: the highest of the peaks beside nodes of the grid that are above their neighbours. */
 static double farthest(void *self, const double w[2], const planar_point *near, planar_point *out)
 {
   enum { N_GRID = SERIES_GRID };
@@ -477,17 +476,14 @@ static double farthest(void *self, const double w[2], const planar_point *near, 
     most = h;
     *out = top;
   }
-  planar_point root;
-  if (most > planar_rest_noise(c) || !stick_ends(c->m, c->grid, w, &c->grid[0], TWO_PI, &root)) return most;
-  *out = climb(c->m, w, root.th, root.th - step, root.th + step);
-  return distance_at(out, w).h;
+  return most;
 }
 
 /* c->rest; if there is one, the cycle is that. */
 static hc_status find_rest(planar_cycle *c)
 {
   const hc_status st = planar_rest_find(farthest, c, planar_rest_noise(c), &c->rest);
-  if (!c->rest.exists) return st;
+  if (st != HC_OK || !c->rest.exists) return st;
   begin_pass(c);
   c->n = 1;
   c->interval[0] = (planar_interval){.to = TWO_PI, .state = CONTACT_STICK, .w = {c->rest.w[0], c->rest.w[1]}};

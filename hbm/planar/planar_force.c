@@ -410,20 +410,24 @@ static void follow_rest(planar_force *f)
 {
   const planar_rest *r = &f->cycle.rest;
   const double per_v = f->motion.per_v;
-  double *row[] = {f->dw[0], f->dw[1], f->dphi}; /* away; the second disc's, or across; rate */
-  for (int i = 0; i < 3; ++i) clear_row(f, row[i]);
+  double *away[3], *across[3], *other[3];
   for (int i = 0; i < r->n; ++i) {
+    const double *e = r->e[i];
+    double **row[] = {&away[i], &across[i], &other[i]};
+    for (int k = 0; k < 3; ++k) {
+      *row[k] = f->node + (size_t)(3 * i + k) * (size_t)f->n_col;
+      clear_row(f, *row[k]);
+    }
     fill_base(f->n_harm, r->at[i].th, f->base, f->rate);
-    add_motion(f, f->base, r->e[i][0], r->e[i][1], -per_v, row[i]);
-  }
-  if (r->n == 1) {
-    add_motion(f, f->base, -r->e[0][1], r->e[0][0], 0, row[1]);
-    add_motion(f, f->rate, r->e[0][0], r->e[0][1], -per_v, row[2]);
+    add_motion(f, f->base, e[0], e[1], -per_v, away[i]);
+    add_motion(f, f->base, -e[1], e[0], 0, across[i]);
+    if (r->n == 1) add_motion(f, f->base, 0, 0, per_v, other[i]);
+    else add_motion(f, f->rate, e[0], e[1], -per_v, other[i]);
   }
   for (int q = 0; q < f->n_size; ++q) {
-    const planar_disc_change change[] = {{.away = row[0][q], .across = row[1][q], .rate = row[2][q]},
-                                         {.away = row[1][q]}};
+    planar_disc_change change[3] = {{0}};
     double dw[2];
+    for (int i = 0; i < r->n; ++i) change[i] = (planar_disc_change){away[i][q], across[i][q], other[i][q], other[i][q]};
     planar_rest_move(r, change, dw);
     f->dw[0][q] = dw[0], f->dw[1][q] = dw[1];
   }

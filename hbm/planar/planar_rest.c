@@ -3,142 +3,170 @@
 
 #include <float.h>
 
-enum { MAX_EXCHANGES = 100 };
+enum { MAX_EXCHANGES = 100, MAX_NEWTON = 30, MOST_HOLD = 3 };
 
-static double outside(const planar_point *disc, const double w[2])
+static const double ONE_INSTANT = 1e-6; /* [rad] they are located to 1e-9 */
+
+/* |u - w| - R; the direction of u - w. */
+static double outside(const planar_point *disc, const double w[2], double e[2])
 {
-  return hypot(disc->u[0] - w[0], disc->u[1] - w[1]) - disc->R;
-}
-
-/* Of the candidates for the next place the best so far. */
-typedef struct choice {
-  const planar_point *disc[3]; /* the new one, and those that held the place before */
-  int n;
-  double noise, excluded; /* [length] the most that one of them excludes the best one by; 0 for all below noise */
-  planar_rest best;
-} choice;
-
-/* The point w, at which disc[0] and, if j > 0, disc[j] hold it. */
-static void consider(choice *c, const double w[2], int j)
-{
-  double worst = 0;
-  for (int i = 0; i < c->n; ++i) worst = fmax(worst, outside(c->disc[i], w));
-  if (worst <= c->noise) worst = 0;
-  const bool nearer = hypot(w[0], w[1]) < hypot(c->best.w[0], c->best.w[1]);
-  if (!(worst < c->excluded || (worst == 0 && c->excluded == 0 && nearer))) return;
-  c->excluded = worst;
-  c->best =
-      (planar_rest){.exists = worst == 0, .w = {w[0], w[1]}, .n = j > 0 ? 2 : 1, .at = {*c->disc[0], *c->disc[j]}};
-}
-
-/* The point of disc[0] nearest to 0. */
-static void consider_alone(choice *c)
-{
-  const planar_point *a = c->disc[0];
-  const double length = hypot(a->u[0], a->u[1]), part = length > a->R ? 1 - a->R / length : 0;
-  consider(c, (double[2]){part * a->u[0], part * a->u[1]}, 0);
-}
-
-/* dw with e_1.dw = away_1, e_2.dw = away_2, of unit vectors. The sine of the angle between them is 0 where discs touch
- * from outside, where their corner moves like a root; nearer than the root of rounding it is not told from that. */
-static void move_corner(const double e_1[2], const double e_2[2], double away_1, double away_2, double dw[2])
-{
-  const double sine = e_1[0] * e_2[1] - e_1[1] * e_2[0];
-  const double det = copysign(fmax(fabs(sine), sqrt(DBL_EPSILON)), sine);
-  dw[0] = (e_2[1] * away_1 - e_1[1] * away_2) / det;
-  dw[1] = (e_1[0] * away_2 - e_2[0] * away_1) / det;
-}
-
-/* |u - w| - R and the direction of u - w. */
-static double direction(const planar_point *disc, const double w[2], double e[2])
-{
-  const double t1 = disc->u[0] - w[0], t2 = disc->u[1] - w[1], length = fmax(hypot(t1, t2), DBL_MIN);
-  e[0] = t1 / length, e[1] = t2 / length;
+  const double t1 = disc->u[0] - w[0], t2 = disc->u[1] - w[1], length = hypot(t1, t2);
+  e[0] = length > 0 ? t1 / length : 1, e[1] = length > 0 ? t2 / length : 0;
   return length - disc->R;
 }
 
-/* Both corners of disc[0] and disc[j]; the middle of the gap where there is one. With D the distance of the centres the
- * corners are +-a off the line through them,
- *     4 D^2 a^2 = (R_1 + R_2 - D) (R_1 + R_2 + D) (D + R_1 - R_2) (D - R_1 + R_2),
- * of discs that are nearly the same to rounding over D/R: then Newton. */
-static void consider_corners(choice *c, int j)
+/* dw and dv with e_i.dw + dv = away_i; false where the three directions do not tell them. */
+static bool move_three(const double e[][2], const double away[3], double dw[2], double *dv)
 {
-  enum { NEWTON_STEPS = 2 };
-  const planar_point *a = c->disc[0], *b = c->disc[j];
-  const double way[2] = {b->u[0] - a->u[0], b->u[1] - a->u[1]}, D = hypot(way[0], way[1]), gap = D - a->R - b->R;
-  const double squared = -gap * (a->R + b->R + D) * (D + a->R - b->R) * (D - a->R + b->R);
-  if (!(D > fabs(a->R - b->R))) return; /* one lies in the other */
-  const double off = squared > 0 ? 0.5 * sqrt(squared) / D : 0;
-  const double along = gap > 0 ? a->R + 0.5 * gap : 0.5 * (D + (a->R - b->R) * (a->R + b->R) / D);
-  for (int side = -1; side <= 1; side += 2) {
-    double w[2] = {a->u[0] + (along * way[0] - side * off * way[1]) / D,
-                   a->u[1] + (along * way[1] + side * off * way[0]) / D};
-    for (int i = 0; i < NEWTON_STEPS && off > 0; ++i) {
-      double e[2][2], dw[2];
-      const double h[] = {direction(a, w, e[0]), direction(b, w, e[1])};
-      move_corner(e[0], e[1], h[0], h[1], dw);
-      w[0] += dw[0], w[1] += dw[1];
-    }
-    consider(c, w, j);
-  }
+  const double a = e[0][0] - e[2][0], b = e[0][1] - e[2][1], c = e[1][0] - e[2][0], d = e[1][1] - e[2][1];
+  const double x = away[0] - away[2], y = away[1] - away[2], det = a * d - b * c;
+  if (!(fabs(det) > sqrt(DBL_EPSILON) * hypot(a, b) * hypot(c, d))) return false;
+  dw[0] = (d * x - b * y) / det;
+  dw[1] = (a * y - c * x) / det;
+  *dv = away[2] - e[2][0] * dw[0] - e[2][1] * dw[1];
+  return true;
 }
 
-/* w moves to the nearest point of its discs and `next`; or, not `exists`, to the one that they exclude least. */
+/* ---- exchange ------------------------------------------------------------------------------------------ */
+
+/* Of the candidates for c the best so far. */
+typedef struct choice {
+  const planar_point *disc[1 + MOST_HOLD]; /* the new one, and those that held c before */
+  int n;
+  double worst; /* [length] the largest h of all these discs at the best one */
+  planar_rest best;
+} choice;
+
+/* The point c, held by disc[0] and disc[j], disc[k], of which 0 stand for none. */
+static void consider(choice *c, const double w[2], int j, int k)
+{
+  double worst = -INFINITY, e[2];
+  for (int i = 0; i < c->n; ++i) worst = fmax(worst, outside(c->disc[i], w, e));
+  if (!(worst < c->worst)) return;
+  c->worst = worst;
+  c->best = (planar_rest){.centre = {w[0], w[1]},
+                          .room = -worst,
+                          .n = 1 + (j > 0) + (k > 0),
+                          .at = {*c->disc[0], *c->disc[j], *c->disc[k]}};
+}
+
+/* On the line through the centres of disc[0] and disc[j], as far out of the one as of the other. */
+static void consider_two(choice *c, int j)
+{
+  const planar_point *a = c->disc[0], *b = c->disc[j];
+  const double way[2] = {b->u[0] - a->u[0], b->u[1] - a->u[1]}, D = hypot(way[0], way[1]);
+  if (!(D > fabs(a->R - b->R))) return; /* one lies in the other */
+  const double part = 0.5 * (D + a->R - b->R) / D;
+  consider(c, (double[2]){a->u[0] + part * way[0], a->u[1] + part * way[1]}, j, 0);
+}
+
+/* As far out of disc[0] as of disc[j] and disc[k]: Newton, since h are convex, from w. */
+static void consider_three(choice *c, int j, int k, const double from[2], double noise)
+{
+  const planar_point *const disc[] = {c->disc[0], c->disc[j], c->disc[k]};
+  double w[2] = {from[0], from[1]}, e[3][2], h[3], dw[2], v;
+  for (int i = 0; i < MAX_NEWTON; ++i) {
+    for (int m = 0; m < 3; ++m) h[m] = outside(disc[m], w, e[m]);
+    const double apart = fmax(fabs(h[0] - h[2]), fabs(h[1] - h[2]));
+    if (apart <= 0.25 * noise) break;
+    if (!move_three((const double(*)[2])e, h, dw, &v)) return;
+    w[0] += dw[0], w[1] += dw[1];
+  }
+  consider(c, w, j, k);
+}
+
 static void exchange(planar_rest *r, const planar_point *next, double noise)
 {
   const planar_rest before = *r;
-  choice c = {.disc = {next, &before.at[0], &before.at[1]}, .n = 1 + before.n, .noise = noise, .excluded = INFINITY};
-  consider_alone(&c);
-  for (int j = 1; j <= before.n; ++j) consider_corners(&c, j);
+  choice c = {.disc = {next, &before.at[0], &before.at[1], &before.at[2]}, .n = 1 + before.n, .worst = INFINITY};
+  consider(&c, next->u, 0, 0);
+  for (int j = 1; j <= before.n; ++j) consider_two(&c, j);
+  for (int j = 1; j <= before.n; ++j)
+    for (int k = j + 1; k <= before.n; ++k) {
+      consider_three(&c, j, k, before.centre, noise);
+      consider_three(&c, j, k, c.best.centre, noise);
+    }
   *r = c.best;
 }
 
 hc_status planar_rest_find(planar_farthest *farthest, void *self, double noise, planar_rest *out)
 {
   bool ended = false;
-  *out = (planar_rest){.exists = true};
+  *out = (planar_rest){.room = INFINITY};
   for (int i = 0; i < MAX_EXCHANGES && !ended; ++i) {
     planar_point next;
-    ended = farthest(self, out->w, NULL, &next) <= noise;
-    if (ended) break;
-    exchange(out, &next, noise);
-    ended = !out->exists;
+    ended = farthest(self, out->centre, NULL, &next) <= noise - out->room;
+    if (!ended) exchange(out, &next, noise);
   }
-  for (int i = 0; i < out->n; ++i) { /* where h is largest at w itself: so far, at the one before the last exchange */
+  if (!ended) return HC_NOT_CONVERGED;
+  /* The instants where h is largest at c itself: so far, at the c before the last exchange. */
+  const int held = out->n;
+  out->n = 0;
+  for (int i = 0; i < held; ++i) {
     const planar_point before = out->at[i];
-    if (out->exists) farthest(self, out->w, &before, &out->at[i]);
-    direction(&out->at[i], out->w, out->e[i]);
+    planar_point *at = &out->at[out->n];
+    farthest(self, out->centre, &before, at);
+    bool known = false;
+    for (int k = 0; k < out->n; ++k) known |= fabs(at->th - out->at[k].th) <= ONE_INSTANT;
+    if (known) continue;
+    out->length[out->n] = outside(at, out->centre, out->e[out->n]) + at->R;
+    ++out->n;
   }
-  return ended ? HC_OK : HC_NOT_CONVERGED;
+  const double size = hypot(out->centre[0], out->centre[1]);
+  const double part = !(out->room > 0) ? 1 : size > out->room ? 1 - out->room / size : 0;
+  out->exists = out->room >= -noise;
+  for (int d = 0; d < 2; ++d) out->w[d] = part * out->centre[d];
+  return HC_OK;
 }
 
 /* ---- how it moves ---------------------------------------------------------------------------------------- */
 
-/* w = k R e, R = |u - w|, e its direction. Along e w moves with the disc; across, e turns, and the instant shifts, by
- * dth: with U = u'.e_perp, B = -h'' > 0 and q = dw.e_perp
+/* How the direction e of a disc turns, by what c moves across it: turned - by_c q. The instant where h is largest shifts
+ * by dth: with U = u'.e_perp, B = -h'' > 0, L = |u - c| and q = dc.e_perp
  *
- *     q = k (across + U dth - q),      B dth = rate + U (across - q)/R
+ *     L turn = across + U dth - q,      B dth = rate + U (across - q)/L
  *
  * At an instant of which B is 0 to rounding, as of samples, dth = 0. */
-static void move_on_circle(const planar_rest *r, const planar_disc_change *change, double dw[2])
+static void turn_of(const planar_rest *r, int i, const planar_disc_change *change, double *turned, double *by_c)
 {
-  const planar_point *p = &r->at[0];
-  const double *e = r->e[0], k = (r->w[0] * e[0] + r->w[1] * e[1]) / p->R, U = p->du[1] * e[0] - p->du[0] * e[1];
-  const double terms[] = {p->ddu[0] * e[0] + p->ddu[1] * e[1], U * U / p->R, -p->ddR};
+  const planar_point *p = &r->at[i];
+  const double *e = r->e[i], L = r->length[i], U = p->du[1] * e[0] - p->du[0] * e[1];
+  const double terms[] = {p->ddu[0] * e[0] + p->ddu[1] * e[1], U * U / L, -p->ddR};
   const double B = -(terms[0] + terms[1] + terms[2]);
   const bool shifts = B > 16 * DBL_EPSILON * (fabs(terms[0]) + terms[1] + fabs(terms[2]));
-  const double shift = shifts ? (change->rate + U * change->across / p->R) / B : 0;
-  const double q = k * (change->across + U * shift) / (1 + k + (shifts ? k * U * U / (p->R * B) : 0));
-  dw[0] = change->away * e[0] - q * e[1];
-  dw[1] = change->away * e[1] + q * e[0];
+  *by_c = (1 + (shifts ? U * U / (L * B) : 0)) / L;
+  *turned = *by_c * change->across + (shifts ? U * change->rate / (B * L) : 0);
+}
+
+/* dc and d(-room): h_i = -room at instants where they are largest, whose shift changes nothing to first order. Two discs
+ * hold c between their centres, so that both directions turn by the same; the second's e_perp is the other way. */
+static void move_centre(const planar_rest *r, const planar_disc_change *change, double dc[2], double *dv)
+{
+  const double away[] = {change[0].away, r->n > 1 ? change[1].away : 0, r->n > 2 ? change[2].away : 0};
+  const double *e = r->e[0];
+  if (r->n == 3 && move_three(r->e, away, dc, dv)) return;
+  double along = change[0].away + change[0].radius, across = change[0].across;
+  *dv = -change[0].radius; /* of one disc c is the centre */
+  if (r->n > 1) {
+    double turned[2], by_c[2];
+    for (int i = 0; i < 2; ++i) turn_of(r, i, &change[i], &turned[i], &by_c[i]);
+    along = 0.5 * (away[0] - away[1]);
+    *dv = 0.5 * (away[0] + away[1]);
+    across = (turned[0] - turned[1]) / (by_c[0] + by_c[1]);
+  }
+  dc[0] = along * e[0] - across * e[1];
+  dc[1] = along * e[1] + across * e[0];
 }
 
 void planar_rest_move(const planar_rest *r, const planar_disc_change *change, double dw[2])
 {
+  double dc[2], dv;
+  const double size = hypot(r->centre[0], r->centre[1]), room = fmax(r->room, 0);
   dw[0] = dw[1] = 0;
-  if (r->n == 1) move_on_circle(r, change, dw);
-  /* h_i = 0 at an instant where it is largest, whose own shift changes nothing to first order. */
-  if (r->n == 2) move_corner(r->e[0], r->e[1], change[0].away, change[1].away, dw);
+  if (size <= room) return;
+  move_centre(r, change, dc, &dv);
+  const double o[2] = {r->centre[0] / size, r->centre[1] / size}, along = o[0] * dc[0] + o[1] * dc[1];
+  for (int d = 0; d < 2; ++d) dw[d] = dc[d] + dv * o[d] - room / size * (dc[d] - along * o[d]);
 }
 
 /* 100 joins bound the work of a curve that chatters; 60 halvings pass the last bit of omega. */
