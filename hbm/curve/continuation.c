@@ -211,8 +211,7 @@ static bool round_corner(path *p)
  * along the discs' lens, omega is on either side a line in s, the same, and a parabola, one for each; the tangents
  * meet, but one side may lead on and one back: a cusp. On both sides dX/domega grows without bound towards it. So the
  * far side is looked for in planes across the last tangent, before and behind the last point, from starts in which
- * another set of contacts rests: where the force grows like a root, Newton comes to a solution from any start
- * nearer to the join. The orientation tells the way that the curve goes on from what it came by. */
+ * another set of contacts rests. The orientation tells the way that the curve goes on from what it came by. */
 
 /* Which contacts rest all period in the trial, held by how many discs, as a number; 0: the forces are not found. */
 static uint64_t resting(path *p)
@@ -240,22 +239,33 @@ static void vibrate_by(path *p, double factor)
   for (int i = p->s->sys.dim; i < p->curve->n_coef; ++i) p->X[i] = factor * p->X_predicted[i];
 }
 
-/* The trial's vibration, made larger or smaller by less than the step h, until other contacts rest than did, by as
- * little as that takes: false if it does not come about. */
-static bool change_who_rests(path *p, uint64_t before, double h, double sign)
+/* The trial: the prediction with its vibration made larger or smaller by a part less than h, so that other contacts rest
+ * than did, and of these starts that with the least residual: next to the join the force grows like a root, and from a
+ * start farther from it than the solution Newton comes to the wrong side. False if there is no such start. */
+static bool start_beyond(path *p, uint64_t before, double h, double sign)
 {
-  double same = 0, other = LEAST_PART * h;
-  vibrate_by(p, 1 + sign * other);
-  for (; rests_like(p, before) && other < h; vibrate_by(p, 1 + sign * other)) same = other, other *= LONGER;
-  if (!(other < h)) return false;
-  for (int i = 0; i < CLOSER && same > 0; ++i) {
-    const double middle = same + 0.5 * (other - same);
-    vibrate_by(p, 1 + sign * middle);
-    if (rests_like(p, before)) same = middle;
-    else other = middle;
+  vibrate_by(p, 1);
+  const bool is_beyond = !rests_like(p, before); /* the prediction itself */
+  double near = 0, far = LEAST_PART * h, best = 0, least = INFINITY, residual;
+  for (;; near = far, far *= LONGER) {
+    vibrate_by(p, 1 + sign * far);
+    if (!(far < h) || rests_like(p, before) == is_beyond) break;
   }
-  vibrate_by(p, 1 + sign * other);
-  return true;
+  if (!(far < h) && !is_beyond) return false;
+  for (int i = 0; i < CLOSER && far < h; ++i) {
+    const double middle = near + 0.5 * (far - near);
+    vibrate_by(p, 1 + sign * middle);
+    *(rests_like(p, before) == is_beyond ? &far : &near) = middle;
+  }
+  const double edge = !(far < h) ? 0 : is_beyond ? near : far, away = is_beyond ? -1 : 1;
+  for (double part = h; part > LEAST_PART * LEAST_PART * h; part /= LONGER) {
+    const double there = fmax(0, edge + away * part);
+    vibrate_by(p, 1 + sign * there);
+    if (rests_like(p, before) || hbm_residual_at(p->s, p->omega, p->X, &residual) != HC_OK) continue;
+    if (residual < least) least = residual, best = there;
+  }
+  vibrate_by(p, 1 + sign * best);
+  return least < INFINITY;
 }
 
 /* The point of the curve in the plane at the length h along the last tangent, from a start with the vibration larger
@@ -268,7 +278,7 @@ static bool step_over_join(path *p, uint64_t before, double h, double sign)
   path_predict(p, h);
   for (int turn = 0; turn < 2; ++turn) {
     if (turn > 0) predict_along_own_tangent(p, fabs(h));
-    if (!change_who_rests(p, before, fabs(h), sign)) return false;
+    if (!start_beyond(p, before, fabs(h), sign)) return false;
     const hc_status st = path_correct_in_plane(p);
     p->curve->iterations += p->point.iterations;
     if (st != HC_OK || rests_like(p, before)) return false;

@@ -237,29 +237,33 @@ static hc_status solve_at_omega(detector *d, double *const guess[2], double omeg
   return st;
 }
 
-/* Planes across the interpolant may miss an edge of slip: the change on segment k by bisection of omega, as far as
- * there are solutions, but to what it can be told to. */
+/* Planes across the interpolant may miss a join of rest and slip: the change on segment k by bisection of omega. Next to
+ * the join Newton may not come to the motion that slips, to that which rests it does: where there is neither, over the
+ * last part of omega, it slips. */
 static hc_status locate_edge(detector *d, int k, const test_values *before, const test_values *end)
 {
   const hbm_point *p = &d->c->points[k];
+  const slip_edges *edges = d->s->edges;
+  const bool rests_before = before->transitions < end->transitions;
   double from = p[0].omega, to = p[1].omega;
   hc_status st = hbm_narrowing_start(&d->near, d->c, k);
   if (st != HC_OK) return st;
   double *const guess[2] = {hbm_curve_X(&d->near.ends, 0), hbm_curve_X(&d->near.ends, 1)};
-  for (int i = 0; i < d->s->edges->bisections && st == HC_OK && fabs(to - from) > 0.5 * SAME_OMEGA * to; ++i) {
+  for (int i = 0; i < edges->bisections && fabs(to - from) > 0.5 * SAME_OMEGA * to; ++i) {
     const double middle = from + 0.5 * (to - from);
     test_values here = {0};
     st = solve_at_omega(d, guess, middle);
     if (st == HC_OK) st = evaluate_tests(d, middle, 0, d->x.X, false, &here);
-    if (st != HC_OK) break;
-    const bool is_beyond = !same_pattern(&here, before);
+    if (st != HC_OK && !(fabs(to - from) <= edges->located * to)) return st;
+    const bool is_beyond = st == HC_OK ? !same_pattern(&here, before) : rests_before;
     *(is_beyond ? &to : &from) = middle;
-    memcpy(guess[is_beyond], d->x.X, (size_t)d->c->n_coef * sizeof(double));
+    if (st == HC_OK) memcpy(guess[is_beyond], d->x.X, (size_t)d->c->n_coef * sizeof(double));
   }
-  if (!(fabs(to - from) <= d->s->edges->located * to)) return st == HC_OK ? HC_NOT_CONVERGED : st;
-  st = solve_at_omega(d, guess, from);
-  d->x.point.branch = p->branch;
-  return st == HC_OK ? insert_special(d, 0.5, HBM_CONTACT_CHANGE, before, end) : st;
+  if (!(fabs(to - from) <= edges->located * to)) return HC_NOT_CONVERGED;
+  d->x.point = p[0];
+  d->x.point.omega = from;
+  memcpy(d->x.X, guess[!rests_before], (size_t)d->c->n_coef * sizeof(double));
+  return insert_special(d, 0.5, HBM_CONTACT_CHANGE, before, end);
 }
 
 /* The regimes that a contact change is named by: of the contacts whose own one changes between its two sides, the

@@ -437,21 +437,22 @@ static disc_distance distance_at(const planar_point *p, const double w[2])
                          .bend = p->ddu[0] * e1 + p->ddu[1] * e2 + across * across / length - p->ddR};
 }
 
-/* The angle in (low, high) where h is stationary, from one near it: Newton, or halves where that leads out. An error d
- * of the angle makes h'' d^2/2 in h. */
+/* The angle in (low, high) where h is stationary, from one near it: Newton, or halves where that leads out. From an
+ * angle that is good to 1e-9 one more step leads to it, to rounding. */
 static planar_point climb(const planar_motion *m, const double w[2], double th, double low, double high)
 {
   enum { MOST_STEPS = 60 };
   planar_point p = planar_motion_at(m, th);
-  for (int i = 0; i < MOST_STEPS; ++i) {
+  bool last = false;
+  for (int i = 0; i < MOST_STEPS && !last; ++i) {
     const disc_distance at = distance_at(&p, w);
-    if (fabs(at.rate) <= 1e-9 * -at.bend) break;
+    last = fabs(at.rate) <= 1e-9 * -at.bend;
     if (at.rate > 0) low = p.th;
     else high = p.th;
     double next = p.th - at.rate / at.bend;
-    if (!(at.bend < 0 && next > low && next < high)) next = 0.5 * (low + high);
-    if (!(next > low && next < high)) break;
-    p = planar_motion_at(m, next);
+    if (!(at.bend < 0 && next > low && next < high)) next = last ? p.th : 0.5 * (low + high);
+    if (next != p.th) p = planar_motion_at(m, next);
+    last |= !(high > low);
   }
   return p;
 }

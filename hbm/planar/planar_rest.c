@@ -89,37 +89,7 @@ static void exchange(planar_rest *r, const planar_point *next, double noise)
   *r = c.best;
 }
 
-hc_status planar_rest_find(planar_farthest *farthest, void *self, double noise, planar_rest *out)
-{
-  bool ended = false;
-  *out = (planar_rest){.room = INFINITY};
-  for (int i = 0; i < MAX_EXCHANGES && !ended; ++i) {
-    planar_point next;
-    ended = farthest(self, out->centre, NULL, &next) <= noise - out->room;
-    if (!ended) exchange(out, &next, noise);
-  }
-  if (!ended) return HC_NOT_CONVERGED;
-  /* The instants where h is largest at c itself: so far, at the c before the last exchange. */
-  const int held = out->n;
-  out->n = 0;
-  for (int i = 0; i < held; ++i) {
-    const planar_point before = out->at[i];
-    planar_point *at = &out->at[out->n];
-    farthest(self, out->centre, &before, at);
-    bool known = false;
-    for (int k = 0; k < out->n; ++k) known |= fabs(at->th - out->at[k].th) <= ONE_INSTANT;
-    if (known) continue;
-    out->length[out->n] = outside(at, out->centre, out->e[out->n]) + at->R;
-    ++out->n;
-  }
-  const double size = hypot(out->centre[0], out->centre[1]);
-  const double part = !(out->room > 0) ? 1 : size > out->room ? 1 - out->room / size : 0;
-  out->exists = out->room >= -noise;
-  for (int d = 0; d < 2; ++d) out->w[d] = part * out->centre[d];
-  return HC_OK;
-}
-
-/* ---- how it moves ---------------------------------------------------------------------------------------- */
+/* ---- where it is ----------------------------------------------------------------------------------------- */
 
 /* How the direction e of a disc turns, by what c moves across it: turned - by_c q. The instant where h is largest shifts
  * by dth: with U = u'.e_perp, B = -h'' > 0, L = |u - c| and q = dc.e_perp
@@ -137,6 +107,62 @@ static void turn_of(const planar_rest *r, int i, const planar_disc_change *chang
   *by_c = (1 + (shifts ? U * U / (L * B) : 0)) / L;
   *turned = *by_c * change->across + (shifts ? U * change->rate / (B * L) : 0);
 }
+
+/* The instants where h is largest at c itself; so far they are those at the c before the last exchange. */
+static void locate(planar_rest *r, planar_farthest *farthest, void *self)
+{
+  const int held = r->n;
+  r->n = 0;
+  for (int i = 0; i < held; ++i) {
+    const planar_point before = r->at[i];
+    planar_point *at = &r->at[r->n];
+    farthest(self, r->centre, &before, at);
+    bool known = false;
+    for (int k = 0; k < r->n; ++k) known |= fabs(at->th - r->at[k].th) <= ONE_INSTANT;
+    if (known) continue;
+    r->length[r->n] = outside(at, r->centre, r->e[r->n]) + at->R;
+    ++r->n;
+  }
+}
+
+/* c between two discs, to rounding: where e_1 + e_2 = 0 and both h are equal, by one step of Newton. The exchange
+ * leaves instants off by the root of rounding, and c by as much across the line. */
+static void centre_between_two(planar_rest *r)
+{
+  const double *e = r->e[0], *f = r->e[1], h[] = {r->length[0] - r->at[0].R, r->length[1] - r->at[1].R};
+  const double along = 0.5 * (h[0] - h[1]), mismatch = e[1] * f[0] - e[0] * f[1];
+  double by_c[2], turned;
+  for (int i = 0; i < 2; ++i) turn_of(r, i, &(planar_disc_change){0}, &turned, &by_c[i]);
+  const double across = -mismatch / (by_c[0] + by_c[1]);
+  r->centre[0] += along * e[0] - across * e[1];
+  r->centre[1] += along * e[1] + across * e[0];
+  r->room = -0.5 * (h[0] + h[1]);
+}
+
+hc_status planar_rest_find(planar_farthest *farthest, void *self, double noise, planar_rest *out)
+{
+  enum { NEWTON_STEPS = 2 };
+  bool ended = false;
+  *out = (planar_rest){.room = INFINITY};
+  for (int i = 0; i < MAX_EXCHANGES && !ended; ++i) {
+    planar_point next;
+    ended = farthest(self, out->centre, NULL, &next) <= noise - out->room;
+    if (!ended) exchange(out, &next, noise);
+  }
+  if (!ended) return HC_NOT_CONVERGED;
+  locate(out, farthest, self);
+  for (int i = 0; i < NEWTON_STEPS && out->n == 2; ++i) {
+    centre_between_two(out);
+    locate(out, farthest, self);
+  }
+  const double size = hypot(out->centre[0], out->centre[1]);
+  const double part = !(out->room > 0) ? 1 : size > out->room ? 1 - out->room / size : 0;
+  out->exists = out->room >= -noise;
+  for (int d = 0; d < 2; ++d) out->w[d] = part * out->centre[d];
+  return HC_OK;
+}
+
+/* ---- how it moves ---------------------------------------------------------------------------------------- */
 
 /* dc and d(-room): h_i = -room at instants where they are largest, whose shift changes nothing to first order. Two discs
  * hold c between their centres, so that both directions turn by the same; the second's e_perp is the other way. */

@@ -34,5 +34,8 @@ hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega);
 hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, double omega, double *dX, double *d_omega,
                         int *det_sign);
 
+/* [1] The largest row of R(X, omega), relative to the forces that make it up. Errors of the contact force. */
+hc_status hbm_residual_at(hbm_solver *s, double omega, const double *X, double *residual);
+
 /* Sign of det dR/dX at (X, omega) in *det_sign, 0 if it is singular. HC_SINGULAR, or errors of the contact force. */
 hc_status hbm_det_sign_at(hbm_solver *s, double omega, const double *X, int *det_sign);
