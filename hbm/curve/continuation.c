@@ -239,25 +239,26 @@ static void vibrate_by(path *p, double factor)
   for (int i = p->s->sys.dim; i < p->curve->n_coef; ++i) p->X[i] = factor * p->X_predicted[i];
 }
 
-/* The trial: the prediction with its vibration made larger or smaller by a part less than h, so that other contacts rest
+/* The trial: the prediction with its vibration made larger or smaller by some h at most, so that other contacts rest
  * than did, and of these starts that with the least residual: next to the join the force grows like a root, and from a
  * start farther from it than the solution Newton comes to the wrong side. False if there is no such start. */
 static bool start_beyond(path *p, uint64_t before, double h, double sign)
 {
   vibrate_by(p, 1);
   const bool is_beyond = !rests_like(p, before); /* the prediction itself */
+  const double most = LONGEST_OVER * h;
   double near = 0, far = LEAST_PART * h, best = 0, least = INFINITY, residual;
   for (;; near = far, far *= LONGER) {
     vibrate_by(p, 1 + sign * far);
-    if (!(far < h) || rests_like(p, before) == is_beyond) break;
+    if (!(far < most) || rests_like(p, before) == is_beyond) break;
   }
-  if (!(far < h) && !is_beyond) return false;
-  for (int i = 0; i < CLOSER && far < h; ++i) {
+  if (!(far < most) && !is_beyond) return false;
+  for (int i = 0; i < CLOSER && far < most; ++i) {
     const double middle = near + 0.5 * (far - near);
     vibrate_by(p, 1 + sign * middle);
     *(rests_like(p, before) == is_beyond ? &far : &near) = middle;
   }
-  const double edge = !(far < h) ? 0 : is_beyond ? near : far, away = is_beyond ? -1 : 1;
+  const double edge = !(far < most) ? 0 : is_beyond ? near : far, away = is_beyond ? -1 : 1;
   for (double part = h; part > LEAST_PART * LEAST_PART * h; part /= LONGER) {
     const double there = fmax(0, edge + away * part);
     vibrate_by(p, 1 + sign * there);
@@ -269,8 +270,9 @@ static bool start_beyond(path *p, uint64_t before, double h, double sign)
 }
 
 /* The point of the curve in the plane at the length h along the last tangent, from a start with the vibration larger
- * or smaller by sign, at which other contacts rest than `before`; where it is far off, that in the plane along its own
- * tangent, as where a corner is too sharp for a plane across the last one. Accepted if the curve goes on from there. */
+ * or smaller by sign, at which other contacts rest than `before`. Where it is far off, or not found, that in the plane
+ * across the direction that the equations have there: the last tangent does not lead to it where the slider begins to
+ * drift, or at a sharp corner. Accepted if the curve goes on from there. */
 static bool step_over_join(path *p, uint64_t before, double h, double sign)
 {
   const hbm_curve *c = p->curve;
@@ -279,13 +281,16 @@ static bool step_over_join(path *p, uint64_t before, double h, double sign)
   for (int turn = 0; turn < 2; ++turn) {
     if (turn > 0) predict_along_own_tangent(p, fabs(h));
     if (!start_beyond(p, before, fabs(h), sign)) return false;
-    const hc_status st = path_correct_in_plane(p);
+    hc_status st = path_correct_in_plane(p);
     p->curve->iterations += p->point.iterations;
-    if (st != HC_OK || rests_like(p, before)) return false;
+    const bool found = st == HC_OK && !rests_like(p, before);
+    if (st != HC_OK && turn == 0) st = hbm_kernel_at(p->s, p->normal, p->X, p->omega, p->dX, &p->d_omega, &p->det_sign);
+    if (st != HC_OK || p->det_sign == 0) return false;
     path_orient_tangent(p);
     fill_chord(p);
     const double w = p->omega - c->points[c->n - 1].omega;
-    if (path_inner(p, p->dX, p->d_omega, p->chord, w) > 0 && path_correction(p, c->omega_scale) <= fabs(h)) return true;
+    const bool onward = path_inner(p, p->dX, p->d_omega, p->chord, w) > 0;
+    if (found && onward && path_correction(p, c->omega_scale) <= fabs(h)) return true;
   }
   return false;
 }
