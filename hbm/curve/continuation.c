@@ -458,10 +458,12 @@ static hc_status recover(path *p, hc_status step_status, bool *done)
   const bool nearer = p->points_at_last_edge != c->n || p->step <= LESS * p->step_at_last_edge;
   const bool at_edge = edges && p->step < edges->too_short && nearer;
   bool at_corner = p->step < STEP_ROUND;
-  bool past = at_edge && !p->natural && pass_join(p);
+  const bool joined = at_edge && !p->natural && pass_join(p);
+  bool past = joined;
   if (!past) past = at_corner && !p->natural && p->points_at_last_corner != c->n && round_corner(p);
   if (past) {
     hc_status st = append_trial(p);
+    if (st == HC_OK) c->points[c->n - 1].over_join = joined;
     if (st == HC_OK) st = end_at_limit(p, done);
     p->tangent_only = true;
     return st;

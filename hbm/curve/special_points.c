@@ -350,14 +350,17 @@ static hc_status take_end(detector *d, int k, hbm_special_kind kind, const test_
 static hc_status search_segment(detector *d, int k, const test_values *a, const test_values *b)
 {
   hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK, breaking = HC_OK;
+  const hbm_point *p = &d->c->points[k];
   d->first = d->n;
   if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
   if (changes != HC_OK && d->n == d->first && d->s->edges) changes = locate_edge(d, k, a, b);
-  const bool turns = (a->d_omega > 0) != (b->d_omega > 0), breaks = !turns && a->fold * b->fold < 0;
+  const bool turns = !p[1].over_join && (a->d_omega > 0) != (b->d_omega > 0), breaks = !turns && a->fold * b->fold < 0;
   if (turns) turning = locate_root(d, k, HBM_TURNING_POINT, a->d_omega, b->d_omega);
   if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, a->flip, b->flip);
   if (breaks) breaking = locate_breaking(d, k, a, b);
   if (a->pairs_outside != b->pairs_outside) torus = locate_neimark_sacker(d, k, a);
+  const bool near = p[1].over_join && fabs(p[1].omega - p[0].omega) <= d->s->edges->located * p[0].omega;
+  if (changes != HC_OK && d->n == d->first && near) changes = take_end(d, k, HBM_CONTACT_CHANGE, a, b);
   if (is_one_place(d, k)) {
     if (changes != HC_OK) changes = take_end(d, k, HBM_CONTACT_CHANGE, a, b);
     if (turning != HC_OK) turning = take_end(d, k, HBM_TURNING_POINT, b, b);
