@@ -238,13 +238,14 @@ static hc_status solve_at_omega(detector *d, double *const guess[2], double omeg
 }
 
 /* Planes across the interpolant may miss a join of rest and slip: the change on segment k by bisection of omega. Next to
- * the join Newton may not come to the motion that slips, to that which rests it does: where there is neither, over the
- * last part of omega, it slips. */
+ * the join Newton may not come to the motion that slips, to that which rests it does: where there is neither, within a
+ * step over a join or the last part of omega, it slips. */
 static hc_status locate_edge(detector *d, int k, const test_values *before, const test_values *end)
 {
   const hbm_point *p = &d->c->points[k];
   const slip_edges *edges = d->s->edges;
   const bool rests_before = before->transitions < end->transitions;
+  const double unsolved = p[1].over_join ? fabs(p[1].omega - p[0].omega) : edges->located * p[0].omega;
   double from = p[0].omega, to = p[1].omega;
   hc_status st = hbm_narrowing_start(&d->near, d->c, k);
   if (st != HC_OK) return st;
@@ -254,7 +255,7 @@ static hc_status locate_edge(detector *d, int k, const test_values *before, cons
     test_values here = {0};
     st = solve_at_omega(d, guess, middle);
     if (st == HC_OK) st = evaluate_tests(d, middle, 0, d->x.X, false, &here);
-    if (st != HC_OK && !(fabs(to - from) <= edges->located * to)) return st;
+    if (st != HC_OK && !(fabs(to - from) <= unsolved)) return st;
     const bool is_beyond = st == HC_OK ? !same_pattern(&here, before) : rests_before;
     *(is_beyond ? &to : &from) = middle;
     if (st == HC_OK) memcpy(guess[is_beyond], d->x.X, (size_t)d->c->n_coef * sizeof(double));
