@@ -447,7 +447,7 @@ static hc_status accept_trial(path *p, bool *done)
 }
 
 /* After a step that was not accepted, step_status being HC_OK or why there was no trial: arc length instead of natural
- * steps, or a step past an edge of slip or round a corner, each once a point. HC_OK: try again with a shorter step. */
+ * steps, or a step over a join or round a corner, each once a point and distance. HC_OK: try again with a shorter step. */
 static hc_status recover(path *p, hc_status step_status, bool *done)
 {
   hbm_curve *c = p->curve;

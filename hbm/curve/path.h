@@ -23,7 +23,7 @@ typedef struct path {
                                  failed, so that more points are waited for */
   bool more_samples;          /* start again with twice as many: these do not meet hbm.accuracy */
   bool may_come_from_above;   /* a first solution may be looked for by following the curve down from high omega */
-  int edges;                  /* edges of slip that were passed, or where that was tried */
+  int edges;                  /* joins of rest and slip that were passed, or where that was tried */
   int points_at_last_edge;    /* number of points when a step over a join of rest and slip last failed */
   double step_at_last_edge;   /* [1] its length */
   int points_at_last_corner;  /* number of points when a step round a corner last failed */

@@ -18,7 +18,7 @@ typedef struct hbm_special {
   contact_regime before, after; /* along the curve; the same where only the number of transitions changes */
 } hbm_special;
 
-/* All of them in the curve's order, located to 1e-9 of omega or better (to 1e-6 at an edge of slip), into out[cap];
+/* All of them in the curve's order, located to 1e-9 of omega or better (to 1e-6 at a join of rest and slip), into out[cap];
  * *n is how many there are, which may exceed cap. Those of a kind that this cannot tell apart are one, or none if
  * they undo each other. One that could not be located makes the status, and leaves the others in place. */
 hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, int cap, hbm_special *out, int *n);
