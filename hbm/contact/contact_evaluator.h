@@ -75,14 +75,10 @@ typedef struct contact_evaluator {
 CONTACT_SMOOTH_LIST(SMOOTH_EVALUATORS)
 #undef SMOOTH_EVALUATORS
 
-/* Edges of slip in a law's response curves (README.md): X goes like a root of the distance from them on either side,
- * so that its rate is infinite, and the curve may turn back. Planes across a tangent miss such a place; solutions at
- * fixed omegas a little further on do not. */
+/* Joins of rest and slip in a law's response curves (continuation.c): X goes like a root of the distance from them on
+ * either side, so that its rate is infinite, and the curve may turn back. */
 typedef struct slip_edges {
   double too_short;     /* [1] arc length of steps that suggest one */
-  double first, last;   /* [1] parts of omega by which it is stepped over, each four times the one before */
-  double widest;        /* [1] the most that X may change by it */
-  double traced;        /* [1] a solution no further off a segment than this part of the step is on it */
   double located;       /* [1] part of omega to which its place can be told */
   int most, bisections; /* edges of a curve; halvings of omega to locate one */
 } slip_edges;

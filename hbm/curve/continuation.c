@@ -31,7 +31,11 @@ static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
 static const double STEP_CORNER = 1e-4; /* where steps are this short the curve has a corner: a kink is accepted */
 static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
 static const double LOOP_RANGE = 4;     /* factor beyond the start of the sweep up to which a loop is followed */
-static const double LONGER = 4; /* factor from one length of a step round a corner or past an edge to the next */
+static const double LONGER = 4;        /* factor from one length of a step round a corner or past an edge to the next */
+static const double LESS = 0.1;        /* of the last step over a join that failed: then one is tried again */
+static const double LONGEST_OVER = 16; /* times the step that failed: over a join */
+static const double LEAST_PART = 1e-6; /* of a step over a join, by which the vibration is changed at first */
+enum { CLOSER = 20 };                  /* halvings of that change: parabolas of both sides may differ by thousands */
 static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
 static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
 
@@ -150,6 +154,19 @@ static hc_status trial_step(path *p, bool *accepted)
   return st;
 }
 
+/* The trial: h from the last point along the trial's tangent, which becomes of unit length. */
+static void predict_along_own_tangent(path *p, double h)
+{
+  const hbm_curve *c = p->curve;
+  const double *X0 = hbm_curve_X(c, c->n - 1), length = path_length(p, p->dX, p->d_omega);
+  for (int i = 0; i < c->n_coef; ++i) {
+    p->dX[i] /= length;
+    p->X[i] = p->X_predicted[i] = X0[i] + h * p->dX[i];
+  }
+  p->d_omega /= length;
+  p->omega = p->omega_predicted = c->points[c->n - 1].omega + h * p->d_omega;
+}
+
 /* A step of length h round a corner too sharp for a plane across the old tangent, as where a nearly rigid contact is
  * made or lost: the equations at h beyond the corner tell the direction there (their kernel, turned by the curve's
  * orientation), and the prediction is made along that. */
@@ -157,21 +174,16 @@ static hc_status step_round_corner(path *p, double h, bool *accepted)
 {
   const hbm_curve *c = p->curve;
   const hbm_point *last = &c->points[c->n - 1];
-  const double *X0 = hbm_curve_X(c, c->n - 1), *dX0 = hbm_curve_dX(c, c->n - 1);
+  const double *dX0 = hbm_curve_dX(c, c->n - 1);
   int det_sign;
   p->tangent_only = true; /* an extrapolation of the last segment is not valid beyond the corner */
   path_predict(p, h);
   path_fill_normal(p);
   hc_status st = hbm_kernel_at(p->s, p->normal, p->X, p->omega, p->dX, &p->d_omega, &det_sign);
   if (st != HC_OK || det_sign == 0) return st != HC_OK ? st : HC_SINGULAR;
-  double length = path_length(p, p->dX, p->d_omega);
-  length = det_sign == p->orientation ? length : -length;
-  for (int i = 0; i < c->n_coef; ++i) {
-    p->dX[i] /= length;
-    p->X[i] = p->X_predicted[i] = X0[i] + h * p->dX[i];
-  }
-  p->d_omega /= length;
-  p->omega = p->omega_predicted = last->omega + h * p->d_omega;
+  p->det_sign = det_sign;
+  path_orient_tangent(p);
+  predict_along_own_tangent(p, h);
   st = path_correct_in_plane(p);
   p->curve->iterations += p->point.iterations;
   if (st != HC_OK) return st;
@@ -194,59 +206,116 @@ static bool round_corner(path *p)
   return accepted;
 }
 
-/* Is the trial on a segment that the curve has already? Off it by a small part of the chord at most. */
-static bool traced_before(const path *p)
+/* ---- joins of rest and slip ---------------------------------------------------------------------------- */
+
+/* Where the places of rest of a slider have shrunk to one (planar_rest.h) rest and slip meet. With s the way of the slider
+ * along the discs' lens, omega is on either side a line in s, the same, and a parabola, one for each; the tangents
+ * meet, but one side may lead on and one back: a cusp. On both sides dX/domega grows without bound towards it. So the
+ * far side is looked for in planes across the last tangent, before and behind the last point, from starts in which
+ * another set of contacts rests. The orientation tells the way that the curve goes on from what it came by. */
+
+/* Which contacts rest all period in the trial, held by how many discs, as a number; 0: the forces are not found. */
+static uint64_t resting(path *p)
+{
+  const contact_forces *f = p->s->sys.contacts;
+  uint64_t mark = 1;
+  if (hbm_system_contact(&p->s->sys, p->X, false) != HC_OK) return 0;
+  for (int j = 0; j < p->s->model->n_contacts; ++j) {
+    const planar_cycle *c = contact_forces_planar(f, j);
+    const bool rests = contact_forces_regime(f, j) == CONTACT_STUCK;
+    mark = 31 * mark + (uint64_t)(rests ? 1 + (c ? 2 * c->rest.n + (c->rest.w[0] != 0 || c->rest.w[1] != 0) : 0) : 0);
+  }
+  return mark;
+}
+
+static bool rests_like(path *p, uint64_t before)
+{
+  const uint64_t now = resting(p);
+  return now == 0 || now == before;
+}
+
+/* The trial: the prediction, its vibration multiplied. */
+static void vibrate_by(path *p, double factor)
+{
+  for (int i = p->s->sys.dim; i < p->curve->n_coef; ++i) p->X[i] = factor * p->X_predicted[i];
+}
+
+/* The trial: the prediction with its vibration made larger or smaller by some h at most, so that other contacts rest
+ * than did, and of these starts that with the least residual: next to the join the force grows like a root, and from a
+ * start farther from it than the solution Newton comes to the wrong side. False if there is no such start. */
+static bool start_beyond(path *p, uint64_t before, double h, double sign)
+{
+  vibrate_by(p, 1);
+  const bool is_beyond = !rests_like(p, before); /* the prediction itself */
+  const double most = LONGEST_OVER * h;
+  double near = 0, far = LEAST_PART * h, best = 0, least = INFINITY, residual;
+  for (;; near = far, far *= LONGER) {
+    vibrate_by(p, 1 + sign * far);
+    if (!(far < most) || rests_like(p, before) == is_beyond) break;
+  }
+  if (!(far < most) && !is_beyond) return false;
+  for (int i = 0; i < CLOSER && far < most; ++i) {
+    const double middle = near + 0.5 * (far - near);
+    vibrate_by(p, 1 + sign * middle);
+    *(rests_like(p, before) == is_beyond ? &far : &near) = middle;
+  }
+  const double edge = !(far < most) ? 0 : is_beyond ? near : far, away = is_beyond ? -1 : 1;
+  for (double part = h; part > LEAST_PART * LEAST_PART * h; part /= LONGER) {
+    const double there = fmax(0, edge + away * part);
+    vibrate_by(p, 1 + sign * there);
+    if (rests_like(p, before) || hbm_residual_at(p->s, p->omega, p->X, &residual) != HC_OK) continue;
+    if (residual < least) least = residual, best = there;
+  }
+  vibrate_by(p, 1 + sign * best);
+  return least < INFINITY;
+}
+
+/* The point of the curve in the plane at the length h along the last tangent, from a start with the vibration larger
+ * or smaller by sign, at which other contacts rest than `before`. Where it is far off, or not found, that in the plane
+ * across the direction that the equations have there: the last tangent does not lead to it where the slider begins to
+ * drift, or at a sharp corner. Accepted if the curve goes on from there. */
+static bool step_over_join(path *p, uint64_t before, double h, double sign)
 {
   const hbm_curve *c = p->curve;
-  const metric_at at = path_metric(p);
-  const double chord = metric_length(&at, p->chord);
-  for (int k = 0; k + 1 < c->n; ++k) {
-    const double *X0 = hbm_curve_X(c, k), *X1 = hbm_curve_X(c, k + 1), from = c->points[k].omega,
-                 part = (p->omega - from) / (c->points[k + 1].omega - from);
-    if (!(part >= 0 && part <= 1)) continue;
-    for (int i = 0; i < c->n_coef; ++i) p->missed[i] = p->X[i] - X0[i] - part * (X1[i] - X0[i]);
-    if (metric_length(&at, p->missed) <= p->s->edges->traced * chord) return true;
+  p->tangent_only = true;
+  path_predict(p, h);
+  for (int turn = 0; turn < 2; ++turn) {
+    if (turn > 0) predict_along_own_tangent(p, fabs(h));
+    if (!start_beyond(p, before, fabs(h), sign)) return false;
+    hc_status st = path_correct_in_plane(p);
+    p->curve->iterations += p->point.iterations;
+    const bool found = st == HC_OK && !rests_like(p, before);
+    if (st != HC_OK && turn == 0) st = hbm_kernel_at(p->s, p->normal, p->X, p->omega, p->dX, &p->d_omega, &p->det_sign);
+    if (st != HC_OK || p->det_sign == 0) return false;
+    path_orient_tangent(p);
+    fill_chord(p);
+    const double w = p->omega - c->points[c->n - 1].omega;
+    const bool onward = path_inner(p, p->dX, p->d_omega, p->chord, w) > 0;
+    if (found && onward && path_correction(p, c->omega_scale) <= fabs(h)) return true;
   }
   return false;
 }
 
-/* The solution at omega, if it is new, near the last point, and the curve goes on from there away from it. */
-static bool solve_past_edge(path *p, double omega)
-{
-  const hbm_curve *c = p->curve;
-  const double *X0 = hbm_curve_X(c, c->n - 1), omega0 = c->points[c->n - 1].omega;
-  memcpy(p->X, X0, (size_t)c->n_coef * sizeof *X0);
-  p->omega = omega;
-  hc_status st = hbm_solve_fixed(p->s, omega, p->X, &p->point);
-  p->curve->iterations += p->point.iterations;
-  if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
-  if (st != HC_OK) return false;
-  p->d_omega = 1;
-  p->det_sign = newton_sign(p->s->fixed);
-  path_orient_tangent(p);
-  fill_chord(p);
-  const metric_at at = path_metric(p);
-  const bool near = metric_length(&at, p->chord) <= p->s->edges->widest;
-  return p->d_omega * (omega - omega0) > 0 && near && !traced_before(p);
-}
-
-/* Past an edge of slip, where the curve's tangent is steep on both sides, and it may turn back. */
-static bool pass_edge(path *p)
+/* Over a join that lies within the step that failed, by the shortest one that leads to the other side. */
+static bool pass_join(path *p)
 {
   hbm_curve *c = p->curve;
-  const slip_edges *edges = p->s->edges;
-  const hbm_point *last = &c->points[c->n - 1];
-  const double onward = last->d_omega > 0 ? last->omega : -last->omega;
+  const double longest = LONGEST_OVER * p->step;
   bool accepted = false;
-  if (p->edges++ >= edges->most) return false;
-  for (double part = edges->first; part <= edges->last && !accepted; part *= LONGER)
-    accepted = solve_past_edge(p, last->omega + part * onward) || solve_past_edge(p, last->omega - part * onward);
+  double h = p->step;
+  if (p->edges++ >= p->s->edges->most) return false;
+  memcpy(p->X, hbm_curve_X(c, c->n - 1), (size_t)c->n_coef * sizeof *p->X);
+  const uint64_t before = resting(p);
+  for (; h <= longest; h *= LONGER) {
+    for (int way = 0; way < 4 && !accepted; ++way)
+      accepted = step_over_join(p, before, way < 2 ? h : -h, way % 2 ? 1 : -1);
+    if (accepted) break;
+  }
   if (!accepted) return false;
   ++c->edges;
-  c->edge_omega = fmax(c->edge_omega, fabs(p->omega / last->omega - 1));
-  const metric_at at = path_metric(p);
-  c->edge_motion = fmax(c->edge_motion, metric_length(&at, p->chord));
-  p->step = edges->too_short;
+  c->edge_omega = fmax(c->edge_omega, fabs(p->omega / c->points[c->n - 1].omega - 1));
+  c->edge_motion = fmax(c->edge_motion, h);
+  p->step = h;
   return true;
 }
 
@@ -412,7 +481,7 @@ static hc_status accept_trial(path *p, bool *done)
 }
 
 /* After a step that was not accepted, step_status being HC_OK or why there was no trial: arc length instead of natural
- * steps, or a step past an edge of slip or round a corner, each once a point. HC_OK: try again with a shorter step. */
+ * steps, or a step over a join or round a corner, each once a point and distance. HC_OK: try again with a shorter step. */
 static hc_status recover(path *p, hc_status step_status, bool *done)
 {
   hbm_curve *c = p->curve;
@@ -420,17 +489,20 @@ static hc_status recover(path *p, hc_status step_status, bool *done)
   bool natural_fails = step_status != HC_OK || p->step < STEP_FIRST;
   if (p->natural && arclength_allowed(p) && natural_fails) switch_to_arclength(p);
   const slip_edges *edges = p->s->edges;
-  const bool at_edge = edges && p->step < edges->too_short && p->points_at_last_edge != c->n;
+  const bool nearer = p->points_at_last_edge != c->n || p->step <= LESS * p->step_at_last_edge;
+  const bool at_edge = edges && p->step < edges->too_short && nearer;
   bool at_corner = p->step < STEP_ROUND;
-  bool past = at_edge && !p->natural && pass_edge(p);
+  const bool joined = at_edge && !p->natural && pass_join(p);
+  bool past = joined;
   if (!past) past = at_corner && !p->natural && p->points_at_last_corner != c->n && round_corner(p);
   if (past) {
     hc_status st = append_trial(p);
+    if (st == HC_OK) c->points[c->n - 1].over_join = joined;
     if (st == HC_OK) st = end_at_limit(p, done);
     p->tangent_only = true;
     return st;
   }
-  if (at_edge) p->points_at_last_edge = c->n;
+  if (at_edge) p->points_at_last_edge = c->n, p->step_at_last_edge = p->step;
   if (at_corner) p->points_at_last_corner = c->n;
   if (p->step < STEP_MIN) return step_status != HC_OK ? step_status : HC_STEP_TOO_SMALL;
   return HC_OK;

@@ -41,8 +41,9 @@ typedef struct path {
   int droppable_points;       /* points in a row whose highest harmonics could be dropped; negative after dropping them
                                  failed, so that more points are waited for */
   bool more_samples;          /* start again with twice as many: these do not meet hbm.accuracy */
-  int edges;                  /* edges of slip that were passed, or where that was tried */
-  int points_at_last_edge;    /* number of points when a step past an edge of slip last failed */
+  int edges;                  /* joins of rest and slip that were passed, or where that was tried */
+  int points_at_last_edge;    /* number of points when a step over a join of rest and slip last failed */
+  double step_at_last_edge;   /* [1] its length */
   int points_at_last_corner;  /* number of points when a step round a corner last failed */
   int flat_steps;             /* accepted in a row on flat curve while correcting in planes */
   double *X, *dX, omega, d_omega;       /* prediction, then corrected point (the trial), and its tangent */

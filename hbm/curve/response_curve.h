@@ -48,7 +48,7 @@ typedef struct hbm_curve { /* made empty with {0}, freed by hbm_curve_free */
   bool inaccurate;         /* auto: somewhere not even the most harmonics or samples met hbm.accuracy */
   int linear;              /* points taken from the linear closed form */
   int turning_points;      /* passed by the whole curve */
-  int edges;               /* of slip, stepped over: what lies on them may be missing (README.md) */
+  int edges; /* joins of rest and slip that were stepped over: what lies on them may be missing (README.md) */
   double edge_omega, edge_motion; /* [1] the longest such step, of omega and in the metric */
   int rejected;                   /* continuation steps that were tried and not accepted */
   long iterations, evaluations;   /* Newton iterations and contact force evaluations, rejected steps included */

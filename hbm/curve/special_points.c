@@ -299,29 +299,34 @@ static hc_status solve_at_omega(detector *d, double *const guess[2], double omeg
   return st;
 }
 
-/* Planes across the interpolant may miss an edge of slip: the change on segment k by bisection of omega, as far as
- * there are solutions, but to what it can be told to. */
+/* Planes across the interpolant may miss a join of rest and slip: the change on segment k by bisection of omega. Next to
+ * the join Newton may not come to the motion that slips, to that which rests it does: where there is neither, within a
+ * step over a join or the last part of omega, it slips. */
 static hc_status locate_edge(detector *d, int k, const test_values *before, const test_values *end)
 {
   const hbm_point *p = &d->c->points[k];
+  const slip_edges *edges = d->s->edges;
+  const bool rests_before = before->transitions < end->transitions;
+  const double unsolved = p[1].over_join ? fabs(p[1].omega - p[0].omega) : edges->located * p[0].omega;
   double from = p[0].omega, to = p[1].omega;
   hc_status st = hbm_narrowing_start(&d->near, d->c, k);
   if (st != HC_OK) return st;
   double *const guess[2] = {hbm_curve_X(&d->near.ends, 0), hbm_curve_X(&d->near.ends, 1)};
-  for (int i = 0; i < d->s->edges->bisections && st == HC_OK && fabs(to - from) > 0.5 * SAME_OMEGA * to; ++i) {
+  for (int i = 0; i < edges->bisections && fabs(to - from) > 0.5 * SAME_OMEGA * to; ++i) {
     const double middle = from + 0.5 * (to - from);
     test_values here = {0};
     st = solve_at_omega(d, guess, middle);
     if (st == HC_OK) st = evaluate_tests(d, middle, 0, d->x.X, false, &here);
-    if (st != HC_OK) break;
-    const bool is_beyond = !same_pattern(&here, before);
+    if (st != HC_OK && !(fabs(to - from) <= unsolved)) return st;
+    const bool is_beyond = st == HC_OK ? !same_pattern(&here, before) : rests_before;
     *(is_beyond ? &to : &from) = middle;
-    memcpy(guess[is_beyond], d->x.X, (size_t)d->c->n_coef * sizeof(double));
+    if (st == HC_OK) memcpy(guess[is_beyond], d->x.X, (size_t)d->c->n_coef * sizeof(double));
   }
-  if (!(fabs(to - from) <= d->s->edges->located * to)) return st == HC_OK ? HC_NOT_CONVERGED : st;
-  st = solve_at_omega(d, guess, from);
-  d->x.point.branch = p->branch;
-  return st == HC_OK ? insert_special(d, 0.5, HBM_CONTACT_CHANGE, before, end) : st;
+  if (!(fabs(to - from) <= edges->located * to)) return HC_NOT_CONVERGED;
+  d->x.point = p[0];
+  d->x.point.omega = from;
+  memcpy(d->x.X, guess[!rests_before], (size_t)d->c->n_coef * sizeof(double));
+  return insert_special(d, 0.5, HBM_CONTACT_CHANGE, before, end);
 }
 
 /* The regimes that a contact change is named by: of the contacts whose own one changes between its two sides, the
@@ -462,16 +467,20 @@ static hc_status search_segment(detector *d, int k, const test_values *v)
   const bool joined = k > 0 && hbm_curve_has_segment(d->c, k - 1) && hbm_curve_has_segment(d->c, k + 1);
   const bool inside = joined && (a->of_motion || b->of_motion) && !hbm_stability_error_is_costly(d->s);
   hc_status changes = HC_OK, turning = HC_OK, doubling = HC_OK, torus = HC_OK, breaking = HC_OK;
+  const hbm_point *p = &d->c->points[k];
   d->first = d->n;
   if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
   if (changes != HC_OK && d->n == d->first && d->s->edges) changes = locate_edge(d, k, a, b);
-  const bool turns = (a->d_omega > 0) != (b->d_omega > 0), breaks = a->branch_sign * b->branch_sign < 0;
+  const bool turns = !p[1].over_join && (a->d_omega > 0) != (b->d_omega > 0),
+             breaks = !p[1].over_join && a->branch_sign * b->branch_sign < 0;
   if (turns) turning = locate_root(d, k, HBM_TURNING_POINT, 0, a->d_omega, 1, b->d_omega);
   if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, 0, a->flip, 1, b->flip);
   else if (inside) doubling = locate_pair(d, k, HBM_PERIOD_DOUBLING, v - 1);
   if (breaks) breaking = locate_breaking(d, k, a);
   if (a->pairs_outside != b->pairs_outside) torus = locate_neimark_sacker(d, k, a, 0, 1);
   else if (inside) torus = locate_pair(d, k, HBM_NEIMARK_SACKER, v - 1);
+  const bool near = p[1].over_join && fabs(p[1].omega - p[0].omega) <= d->s->edges->located * p[0].omega;
+  if (changes != HC_OK && d->n == d->first && near) changes = take_end(d, k, HBM_CONTACT_CHANGE, a, b);
   if (is_one_place(d, k)) {
     if (changes != HC_OK) changes = take_end(d, k, HBM_CONTACT_CHANGE, a, b);
     if (turning != HC_OK) turning = take_end(d, k, HBM_TURNING_POINT, b, b);

@@ -7,9 +7,9 @@
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/planar/planar_aft.h"
-#include "hbm/planar/planar_corner.h"
 #include "hbm/planar/planar_force.h"
 #include "hbm/planar/planar_measures.h"
+#include "hbm/planar/planar_rest.h"
 #include "numerics/norm.h"
 
 static int largest_entry(int n, const double *direction)

@@ -18,7 +18,7 @@ typedef struct contact_kind {
 
 const contact_kind *contact_kind_of(const placed_contact *c);
 
-/* The edges of slip that curves of m may have; NULL: none. */
+/* The joins of rest and slip that curves of m may have; NULL: none. */
 const slip_edges *contact_edges_of(const model *m);
 
 /* Contact j of the model, whose directions are left to be set but for a second one of two tangents under one limit.

@@ -9,10 +9,12 @@
  * must have the same forces. */
 #include "hbm/planar/planar_aft.h"
 
+#include <float.h>
 #include <string.h>
 
 #include "hbm/contact/fft_plan.h"
 #include "hbm/contact/force_jacobian.h"
+#include "hbm/planar/planar_rest.h"
 #include "hbm/planar/planar_slider.h"
 #include "numerics/base/workspace.h"
 #include "numerics/dense.h"
@@ -26,6 +28,7 @@ enum {
 /* How the orbit of the last evaluation came about: what its slider depends on. */
 typedef enum planar_orbit {
   PLANAR_CLOSED,  /* it slips or separates: the one closed orbit there is */
+  PLANAR_RESTS,   /* stuck, in `rest` */
   PLANAR_DRAGGED, /* stuck, where `passes` periods from w = 0 have left it */
   PLANAR_GUESSED, /* stuck, where `passes` or more have, some of them guessed; `last` is where one of these began */
   PLANAR_ONE_PASS /* one period from w = 0, whether it closes or not */
@@ -44,6 +47,7 @@ typedef struct planar_aft {
   double start[2]; /* slider before sample 0 on the orbit; of PLANAR_ONE_PASS 0 */
   double last[2];  /* of PLANAR_GUESSED */
   double first[2]; /* slider at sample 0 */
+  planar_rest rest;
   /* For the Jacobian; n_col = n_dof (2H+1) columns by X and two by the slider before sample 0. */
   double *symbol;   /* [4H+1] */
   double *basis[2]; /* [2H+1] harmonics at the sample before and at the one that is looked at */
@@ -233,6 +237,39 @@ static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double 
   return missed <= most ? HC_OK : HC_NOT_CLOSED;
 }
 
+/* ---- rest ----------------------------------------------------------------------------------------------- */
+
+/* Other programs march, and so does what repeats their habits. */
+static bool rests_where_nearest(const planar_aft *a)
+{
+  return a->restart == HBM_RESTART_INTERPOLATED || a->restart == HBM_RESTART_SAMPLE;
+}
+
+/* Of planar_rest.h: between samples u and R change evenly, and |u - w| - R is largest at one. */
+static double farthest_sample(void *self, const double w[2], const planar_point *near, planar_point *out)
+{
+  const planar_aft *a = self;
+  double most = -INFINITY;
+  int at = 0;
+  for (int i = 0; i < a->n_time && !near; ++i) {
+    const double h = hypot(a->motion[0][i] - w[0], a->motion[1][i] - w[1]) - a->motion[2][i];
+    if (h > most) most = h, at = i;
+  }
+  *out = near ? *near : (planar_point){.th = at, .u = {a->motion[0][at], a->motion[1][at]}, .R = a->motion[2][at]};
+  return most;
+}
+
+/* The orbit of a slider that stays in a->rest. */
+static void take_rest(planar_aft *a)
+{
+  a->orbit = PLANAR_RESTS;
+  for (int d = 0; d < 2; ++d) {
+    for (int i = 0; i < a->n_time; ++i) a->traction[d][i] = a->law.kt * (a->motion[d][i] - a->rest.w[d]);
+    a->start[d] = a->first[d] = a->rest.w[d];
+  }
+  memset(a->move, PLANAR_HELD, (size_t)a->n_time);
+}
+
 /* ---- the force ---------------------------------------------------------------------------------------- */
 
 /* The state at a sample: separated, stuck or slipping. */
@@ -269,20 +306,26 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
     period_samples_series(&a->of, a->of.sample, a->n_harm, F + 2 * length);
   }
   radius(a);
-  double least = a->motion[2][0];
-  for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]);
+  double least = a->motion[2][0], most = least;
+  for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]), most = fmax(most, a->motion[2][i]);
   const bool apart = !(least > 0);
   const bool once = a->restart == HBM_RESTART_ONE_PASS || a->restart == HBM_RESTART_ONE_PASS_SAMPLE;
   double w[2] = {a->start[0], a->start[1]};
   const bool near_orbit = a->orbit == PLANAR_CLOSED && !once && !apart;
   hc_status st = near_orbit ? close_orbit(a, apart, true, w, size) : HC_NOT_CLOSED;
+  a->rest = (planar_rest){.exists = false};
   if (st != HC_OK || a->orbit != PLANAR_CLOSED) { /* not known from the last motion */
-    memset(w, 0, sizeof w);
-    memset(a->start, 0, sizeof a->start);
+    st = HC_OK;
+    if (!apart && rests_where_nearest(a))
+      st = planar_rest_find(farthest_sample, a, 8 * DBL_EPSILON * (size + most), &a->rest);
+    if (st != HC_OK) return st;
+    memcpy(w, a->rest.w, sizeof w);
+    memcpy(a->start, w, sizeof w);
     a->passes = 0;
     a->orbit = PLANAR_ONE_PASS;
-    drag(a, true, false, false, w);
-    st = once ? HC_OK : close_orbit(a, apart, false, w, size);
+    if (a->rest.exists) take_rest(a);
+    else drag(a, true, false, false, w);
+    if (!a->rest.exists && !once) st = close_orbit(a, apart, false, w, size);
   }
   if (st != HC_OK) return st;
   for (int d = 0; d < 2; ++d) period_samples_series(&a->of, a->traction[d], a->n_harm, F + d * length);
@@ -403,7 +446,34 @@ static bool close_rows(planar_aft *a)
   return closed;
 }
 
-/* by = dw_0/dX of an orbit that sticks. */
+/* by = dw/dX in a->rest. */
+static void rows_of_rest(planar_aft *a)
+{
+  const planar_rest *r = &a->rest;
+  const int length = series_length(a->n_harm);
+  const double per_v = a->law.mu * a->law.kn / a->law.kt;
+  clear_rows(a);
+  for (int i = 0; i < r->n; ++i) harmonics_at(a, (int)r->at[i].th, a->harmonic + i * length);
+  for (int d = 0; d < a->n_dof; ++d)
+    for (int m = 0; m < length; ++m) {
+      planar_disc_change change[3] = {{0}};
+      double dw[2];
+      for (int i = 0; i < r->n; ++i) {
+        const double *e = r->e[i], at = a->harmonic[i * length + m];
+        change[i] = (planar_disc_change){.away = at * (d == 0   ? e[0]
+                                                       : d == 1 ? e[1]
+                                                                : -per_v),
+                                         .across = at * (d == 0   ? -e[1]
+                                                         : d == 1 ? e[0]
+                                                                  : 0),
+                                         .radius = d < 2 ? 0 : at * per_v};
+      }
+      planar_rest_move(r, change, dw);
+      a->by[0][d * length + m] = dw[0], a->by[1][d * length + m] = dw[1];
+    }
+}
+
+/* by = dw_0/dX of an orbit that sticks where it was dragged to. */
 static void rows_of_history(planar_aft *a)
 {
   double w[2] = {0};
@@ -450,6 +520,7 @@ static void jacobian(void *self, double *jac)
   differentiate_period(a, a->orbit == PLANAR_ONE_PASS, w, true);
   const bool closed = a->orbit == PLANAR_CLOSED && close_rows(a);
   if (a->orbit == PLANAR_ONE_PASS) clear_rows(a);
+  else if (a->orbit == PLANAR_RESTS) rows_of_rest(a);
   else if (!closed) rows_of_history(a);
   add_start(a);
   memset(jac, 0, n * n * sizeof(double));

@@ -148,14 +148,14 @@ static bool shift_pass(planar_cycle *c, const double dw0[2])
   return true;
 }
 
-static const double LITTLE_SLIP = 0.2; /* [rad] of a period */
-enum { MAX_CHANGES_PER_HARMONIC = 64, MAX_CHANGES_AT_ANGLE = 3, MAX_NEWTON = 20, MAX_PASSES = 500 };
+enum { MAX_CHANGES_PER_HARMONIC = 64, MAX_CHANGES_AT_ANGLE = 3, MAX_NEWTON = 20, MAX_PASSES = 100 };
 
 /* The slider while it is followed. */
 typedef struct slider {
   bool slips;
   double w[2], dw[2][2]; /* while it sticks: position and d w/d w0 */
   double phi, dphi[2];   /* while it slips: direction and d phi/d w0 */
+  double way[2];         /* what w has moved by since th = 0, by the sums of its speed */
   planar_begin begin;    /* of the interval under way */
 } slider;
 
@@ -241,14 +241,31 @@ static hc_status stick(planar_cycle *c, slider *k, planar_point *at, double to)
   return st;
 }
 
+/* += the integral of s e over a panel. */
+static void add_way(const planar_cycle *c, const planar_panel *p, double way[2])
+{
+  const double width = p->to - p->from;
+  double cosine[N], sine[N];
+  planar_rates r;
+  planar_panel_directions(p, cosine, sine);
+  planar_motion_rates(c->m, c->slip.c, p->from, p->to, &r);
+  for (int i = 0; i < N; ++i) {
+    const double path = width * c->slip.c->a[N - 1][i] * (r.du[0][i] * cosine[i] + r.du[1][i] * sine[i] - r.dR[i]);
+    way[0] += path * cosine[i];
+    way[1] += path * sine[i];
+  }
+}
+
 static hc_status slip(planar_cycle *c, slider *k, planar_point *at, double to)
 {
   const int first = c->slip.n;
   slip_end end;
   hc_status st = planar_slip_follow(&c->slip, at, k->phi, to, !c->always, &end);
   if (st == HC_OK) st = close_interval(c, k, at->th, end.at.th, first);
-  for (int i = first; i < c->slip.n; ++i)
+  for (int i = first; i < c->slip.n; ++i) {
     for (int j = 0; j < 2; ++j) k->dphi[j] *= c->slip.panel[i].growth;
+    add_way(c, &c->slip.panel[i], k->way);
+  }
   *at = end.at;
   k->phi = end.phi;
   k->slips = !end.rests;
@@ -293,15 +310,21 @@ static void begin_pass(planar_cycle *c)
   c->changes = 0;
 }
 
-hc_status planar_cycle_pass(planar_cycle *c, double w[2], double A[2][2])
+/* One pass from w0, which becomes the slider at its end; A[row][col] = d(that)/d w0. moved: end - w0. Where w has moved
+ * little, that is better known from its speed than from the difference of two places. */
+static hc_status go_round(planar_cycle *c, double w[2], double A[2][2], double moved[2])
 {
   slider k;
   begin_pass(c);
   c->start[0] = w[0], c->start[1] = w[1];
   start(c, &k, w);
+  const bool jumped = k.slips || k.w[0] != w[0] || k.w[1] != w[1];
   const hc_status st = follow(c, &k, c->grid[0], TWO_PI);
-  w[0] = k.w[0], w[1] = k.w[1];
-  if (A) memcpy(A, k.dw, sizeof k.dw);
+  for (int d = 0; d < 2; ++d) {
+    moved[d] = jumped ? k.w[d] - w[d] : k.way[d];
+    w[d] = k.w[d];
+  }
+  memcpy(A, k.dw, sizeof k.dw);
   return st;
 }
 
@@ -320,15 +343,12 @@ static hc_status follow_contacts(planar_cycle *c)
   return st;
 }
 
-static bool slips(const planar_cycle *c)
-{
-  for (int i = 0; i < c->n; ++i)
-    if (c->interval[i].state != CONTACT_STICK) return true;
-  return false;
-}
-
 /* [length] */
 static double size_of(const planar_cycle *c) { return c->m->of_u[0] + c->m->of_R[0]; }
+
+/* [length] An excursion beyond the limit that is rounding: half of what stick_ends() does not count, so that it does not
+ * find again what is taken for touched. */
+static double planar_rest_noise(const planar_cycle *c) { return 8 * DBL_EPSILON * size_of(c); }
 
 static double length_of(const double x[2]) { return hypot(x[0], x[1]); }
 
@@ -340,9 +360,9 @@ typedef struct closing {
 
 static hc_status try_from(planar_cycle *c, const double w[2], closing *out)
 {
-  double A[2][2], end[2] = {w[0], w[1]};
-  const hc_status st = planar_cycle_pass(c, end, A);
-  *out = (closing){.w = {w[0], w[1]}, .end = {end[0], end[1]}, .step = {end[0] - w[0], end[1] - w[1]}};
+  double A[2][2], end[2] = {w[0], w[1]}, moved[2];
+  const hc_status st = go_round(c, end, A, moved);
+  *out = (closing){.w = {w[0], w[1]}, .end = {end[0], end[1]}, .step = {moved[0], moved[1]}};
   out->distance = hypot(out->step[0], out->step[1]);
   out->left = hypot(hypot(A[0][0], A[0][1]), hypot(A[1][0], A[1][1]));
   /* Newton's step (1 - A)^-1 step; the step as it is where that does not exist, or is longer than size_of(c). */
@@ -352,143 +372,132 @@ static hc_status try_from(planar_cycle *c, const double w[2], closing *out)
   return st;
 }
 
-/* Newton's next iterate; if damped, its step is halved until the slider slips from there. Where it does not slip, it
- * rests at any place near by, and the orbit looked for is the last one that slips, which marching approaches. If
- * no part of the step will do, *out is *now. */
-static hc_status take_step(planar_cycle *c, const closing *now, bool damped, closing *out)
-{
-  const double rounding = 8 * DBL_EPSILON * size_of(c);
-  hc_status st = HC_OK;
-  *out = *now;
-  for (double part = 1; st == HC_OK && part * length_of(now->step) > rounding; part /= 2) {
-    closing next;
-    st = try_from(c, (double[2]){now->w[0] + part * now->step[0], now->w[1] + part * now->step[1]}, &next);
-    if (st != HC_OK || slips(c)) {
-      *out = next;
-      return st;
-    }
-    if (!damped) return HC_OK;
-  }
-  return st;
-}
-
-/* Newton from the last pass until the distance does not become less; *closed if it has become little and the slider
- * still slips. */
-static hc_status close_by_newton(planar_cycle *c, closing now, bool damped, bool *closed)
+/* Newton from the last pass until its step does not become less; one that does not is halved, unless it is rounding.
+ * Where slip begins a pass moves w by little, wherever it is: the step tells how far off that is. */
+static hc_status close_by_newton(planar_cycle *c, closing *now, bool *closed)
 {
   const double rounding = 64 * DBL_EPSILON * size_of(c), enough = 1e-11 * size_of(c);
   closing next;
   hc_status st = HC_OK;
   *closed = false;
-  for (int i = 0; i < MAX_NEWTON && st == HC_OK && length_of(now.step) > rounding && slips(c); ++i) {
-    const bool last_pass = c->start[0] == now.w[0] && c->start[1] == now.w[1], forgets = now.left <= 0.5;
-    *closed = c->may_shift && last_pass && forgets && shift_pass(c, now.step);
+  for (int i = 0; i < MAX_NEWTON && st == HC_OK && length_of(now->step) > rounding; ++i) {
+    const bool last_pass = c->start[0] == now->w[0] && c->start[1] == now->w[1], forgets = now->left <= 0.5;
+    *closed = c->may_shift && last_pass && forgets && shift_pass(c, now->step);
     if (*closed) return HC_OK;
-    st = take_step(c, &now, damped, &next);
-    if (st != HC_OK || (!slips(c) && !(now.distance <= enough))) return st;
-    const bool better = next.distance < now.distance;
-    if (better || next.distance <= enough || !(now.distance <= enough)) now = next;
-    if (!better && now.distance <= enough) break;
+    st = try_from(c, (double[2]){now->w[0] + now->step[0], now->w[1] + now->step[1]}, &next);
+    if (st != HC_OK) return st;
+    const bool better = length_of(next.step) < length_of(now->step);
+    if (better || !(now->distance <= enough)) *now = next;
+    else if (length_of(now->step) <= enough) break;
+    else now->step[0] *= 0.5, now->step[1] *= 0.5;
   }
-  *closed = st == HC_OK && now.distance <= enough && slips(c);
-  if (*closed && (c->start[0] != now.w[0] || c->start[1] != now.w[1])) st = try_from(c, now.w, &now);
-  *closed = *closed && slips(c);
+  *closed = st == HC_OK && now->distance <= enough;
+  if (*closed && (c->start[0] != now->w[0] || c->start[1] != now->w[1])) st = try_from(c, now->w, now);
   return st;
 }
 
-/* Pass by pass from w = 0; *ended where the last pass does not slip (c->marched passes before it did), or comes back to
- * where it began, to rounding. */
-static hc_status march(planar_cycle *c, int passes, closing *last, bool *ended)
-{
-  const double rounding = 8 * DBL_EPSILON * size_of(c);
-  hc_status st = HC_OK;
-  *last = (closing){.distance = 0};
-  *ended = false;
-  for (int i = 0; i < passes && st == HC_OK && !*ended; ++i) {
-    st = try_from(c, (double[2]){last->end[0], last->end[1]}, last);
-    const bool free = st == HC_OK && !slips(c);
-    if (free) c->marched = i;
-    *ended = free || (i > 0 && last->distance <= rounding);
-  }
-  return st;
-}
-
-/* Ends of slip into th[2], if the last pass has two, after so little slip that circles may share a lens. */
-static bool two_touches(const planar_cycle *c, double th[2])
-{
-  int found = 0;
-  double slipped = 0;
-  for (int i = 0; i < c->n; ++i) {
-    if (c->interval[i].state == CONTACT_STICK) continue;
-    slipped += c->interval[i].to - c->interval[i].from;
-    if (c->interval[(i + 1) % c->n].state != CONTACT_STICK) continue;
-    if (found < 2) th[found] = c->interval[i].to;
-    ++found;
-  }
-  return found == 2 && slipped <= LITTLE_SLIP;
-}
-
-/* The corner that marching creeps to from w, if there is one and the circles of all other instants hold it, too. Else
- * the last pass is as it was. */
-static hc_status rest_in_corner(planar_cycle *c, const double w[2], bool *rests)
-{
-  planar_corner corner;
-  double th[2];
-  *rests = false;
-  if (!two_touches(c, th) || !planar_corner_find(c->m, w, th, &corner)) return HC_OK;
-  double end[2] = {corner.w[0], corner.w[1]}, before[2] = {c->start[0], c->start[1]};
-  const hc_status st = planar_cycle_pass(c, end, NULL);
-  *rests = st == HC_OK && hypot(end[0] - corner.w[0], end[1] - corner.w[1]) <= 64 * DBL_EPSILON * size_of(c);
-  if (!*rests) return st == HC_OK ? planar_cycle_pass(c, before, NULL) : st;
-  c->cornered = true;
-  c->corner = corner;
-  c->n = 1;
-  c->slip.n = 0;
-  c->interval[0] = (planar_interval){.to = TWO_PI, .state = CONTACT_STICK, .w = {corner.w[0], corner.w[1]}};
-  return HC_OK;
-}
-
-/* The first pass as far as what is left of it after the second matters, which is little: where that one slips, too, it
- * goes on from an angle or a place that is off by the rough panels' error times what slip leaves of it. */
-static hc_status begin_roughly(planar_cycle *c, closing *last, bool *ended)
+/* Two passes; the first as far as what is left of it after the second matters, which is little: that one goes on from
+ * an angle or a place that is off by the rough panels' error times what slip leaves of it. */
+static hc_status begin_roughly(planar_cycle *c, const double w[2], closing *last)
 {
   c->slip.resolved = PLANAR_ROUGH;
-  hc_status st = try_from(c, (double[2]){0}, last);
+  const hc_status st = try_from(c, w, last);
   c->slip.resolved = PLANAR_RESOLVED;
   c->slip.width *= pow(PLANAR_RESOLVED / PLANAR_ROUGH, 1.0 / COLLOCATION_POINTS);
-  *ended = st == HC_OK && !slips(c);
-  if (*ended) c->marched = 0;
-  if (*ended || st != HC_OK) return st;
-  st = try_from(c, (double[2]){last->end[0], last->end[1]}, last);
-  *ended = st == HC_OK && slips(c) && last->distance <= 8 * DBL_EPSILON * size_of(c);
-  return st;
+  return st == HC_OK ? try_from(c, (double[2]){last->end[0], last->end[1]}, last) : st;
 }
 
-/* A few passes as they come tell whether it goes on slipping; Newton ends what does. Where Newton comes upon an orbit
- * that does not slip, that is not the one that marching leads to: more passes, and Newton that stays where it slips. */
-static hc_status settle(planar_cycle *c)
+/* It slips for ever: Newton from where the discs that have no point in common leave it most room; where Newton does not
+ * end, from some passes further on. */
+static hc_status close_slip(planar_cycle *c)
 {
-  static const int passes[] = {0, 30, MAX_PASSES};
-  closing last;
-  bool done = false;
-  hc_status st = HC_OK;
-  for (int i = 0; i < 3 && st == HC_OK && !done; ++i) {
-    st = i == 0 ? begin_roughly(c, &last, &done) : march(c, passes[i], &last, &done);
-    if (st == HC_OK && !done) st = rest_in_corner(c, last.end, &done);
-    if (st != HC_OK || done || i == 2) continue;
-    st = close_by_newton(c, last, i > 0, &done);
-    bool rests;
-    if (st == HC_OK && done) st = rest_in_corner(c, c->start, &rests);
+  closing now;
+  bool closed = false;
+  hc_status st = begin_roughly(c, c->rest.w, &now);
+  for (int passes = 0; passes < MAX_PASSES && st == HC_OK && !closed; ++passes) {
+    if (passes % 10 == 0) st = close_by_newton(c, &now, &closed);
+    if (st == HC_OK && !closed) st = try_from(c, (double[2]){now.end[0], now.end[1]}, &now);
   }
-  return st == HC_OK && !done ? HC_NOT_CLOSED : st;
+  return st == HC_OK && !closed ? HC_NOT_CLOSED : st;
+}
+
+/* ---- rest ---------------------------------------------------------------------------------------------- */
+
+/* h(w, th) = |u - w| - R and its derivatives by th. */
+typedef struct disc_distance {
+  double h, rate, bend;
+} disc_distance;
+
+static disc_distance distance_at(const planar_point *p, const double w[2])
+{
+  const double t1 = p->u[0] - w[0], t2 = p->u[1] - w[1], length = fmax(sqrt(t1 * t1 + t2 * t2), DBL_MIN);
+  const double e1 = t1 / length, e2 = t2 / length, across = p->du[1] * e1 - p->du[0] * e2;
+  return (disc_distance){.h = length - p->R,
+                         .rate = p->du[0] * e1 + p->du[1] * e2 - p->dR,
+                         .bend = p->ddu[0] * e1 + p->ddu[1] * e2 + across * across / length - p->ddR};
+}
+
+/* The angle in (low, high) where h is stationary, from one near it: Newton, or halves where that leads out. From an
+ * angle that is good to 1e-9 one more step leads to it, to rounding. */
+static planar_point climb(const planar_motion *m, const double w[2], double th, double low, double high)
+{
+  enum { MOST_STEPS = 60 };
+  planar_point p = planar_motion_at(m, th);
+  bool last = false;
+  for (int i = 0; i < MOST_STEPS && !last; ++i) {
+    const disc_distance at = distance_at(&p, w);
+    last = fabs(at.rate) <= 1e-9 * -at.bend;
+    if (at.rate > 0) low = p.th;
+    else high = p.th;
+    double next = p.th - at.rate / at.bend;
+    if (!(at.bend < 0 && next > low && next < high)) next = last ? p.th : 0.5 * (low + high);
+    if (next != p.th) p = planar_motion_at(m, next);
+    last |= !(high > low);
+  }
+  return p;
+}
+
+/* Of planar_rest.h: the highest of the peaks beside nodes of the grid that are above their neighbours. */
+static double farthest(void *self, const double w[2], const planar_point *near, planar_point *out)
+{
+  enum { N_GRID = SERIES_GRID };
+  const double step = TWO_PI / N_GRID;
+  const planar_cycle *c = self;
+  disc_distance at[N_GRID];
+  double most = -INFINITY;
+  if (near) *out = climb(c->m, w, near->th, near->th - step, near->th + step);
+  if (near) return distance_at(out, w).h;
+  for (int i = 0; i < N_GRID; ++i) at[i] = distance_at(&c->grid[i], w);
+  for (int i = 0; i < N_GRID; ++i) {
+    const double before = at[(i + N_GRID - 1) % N_GRID].h, after = at[(i + 1) % N_GRID].h, th = c->grid[i].th;
+    if (!(at[i].h >= before && at[i].h >= after)) continue;
+    const planar_point top = climb(c->m, w, th, th - step, th + step);
+    const double h = distance_at(&top, w).h;
+    if (!(h > most)) continue;
+    most = h;
+    *out = top;
+  }
+  return most;
+}
+
+/* c->rest; if there is one, the cycle is that. */
+static hc_status find_rest(planar_cycle *c)
+{
+  const hc_status st = planar_rest_find(farthest, c, planar_rest_noise(c), &c->rest);
+  if (st != HC_OK || !c->rest.exists) return st;
+  begin_pass(c);
+  c->n = 1;
+  c->interval[0] = (planar_interval){.to = TWO_PI, .state = CONTACT_STICK, .w = {c->rest.w[0], c->rest.w[1]}};
+  return st;
 }
 
 hc_status planar_cycle_find(planar_cycle *c)
 {
-  c->marched = -1;
-  c->cornered = false;
+  c->rest.exists = false;
   c->slip.resolved = PLANAR_RESOLVED;
-  return c->always ? settle(c) : follow_contacts(c);
+  if (!c->always) return follow_contacts(c);
+  const hc_status st = find_rest(c);
+  return st == HC_OK && !c->rest.exists ? close_slip(c) : st;
 }
 
 /* ---- what was found ------------------------------------------------------------------------------------ */

@@ -1,18 +1,16 @@
 /* planar_cycle.h - one period of a contact of two tangents with one limit, from a motion: when it sticks and slips,
  * and the closed orbit of its slider.
  *
- * Where contact is lost, touch-down puts the slider at w = u and one pass is enough. Else it starts from w = 0, put
- * into the circle at once, and is marched. A pass maps w(0) to w(2 pi) without expanding distances, for w is dragged
- * by a moving convex set (Moreau 1977, J. Differential Equations 26, 347-374); that is no clamp, and repeats itself in
- * the limit only. So the closed orbit is found by Newton on w(0), with the 2x2 derivative of the pass; the first pass,
- * of which the second forgets nearly all, is a rough one, and the last step is to first order where that is wanted
- * (planar_cycle.c). A slider that does not slip after some pass stays where marching left it; one that is dragged to
- * and fro by two circles that only just leave it room is brought where that ends (planar_corner.h). libm only, nothing
- * is allocated. */
+ * Where contact is lost, touch-down puts the slider at w = u and one pass is enough. Else it rests where it can
+ * (planar_rest.h). Where it cannot, it slips in every period. A pass maps w(0) to w(2 pi) without expanding distances,
+ * for w is dragged by a moving convex set (Moreau 1977, J. Differential Equations 26, 347-374); that is no clamp, and
+ * repeats itself in the limit only. So the closed orbit is found by Newton on w(0), with the 2x2 derivative of the pass;
+ * the first pass, of which the second forgets nearly all, is a rough one, and the last step is to first order where that
+ * is wanted (planar_cycle.c). libm only, nothing is allocated. */
 #pragma once
 
-#include "hbm/planar/planar_corner.h"
 #include "hbm/planar/planar_motion.h"
+#include "hbm/planar/planar_rest.h"
 #include "hbm/planar/planar_slip.h"
 #include "numerics/base/status.h"
 
@@ -45,18 +43,13 @@ typedef struct planar_cycle {
   int n, cap;                    /* intervals found */
   planar_slip slip;              /* its panels */
   double start[2];               /* [length] w0: where the last pass began, not yet put into the circle; if `always` */
-  int marched;                   /* passes from w0 = 0 after which it does not slip any more; -1: it slips for ever */
-  bool cornered;                 /* it rests, where marching creeps: in .. */
-  planar_corner corner;          /* .. */
+  planar_rest rest;              /* `exists`: it rests there for the whole period, which is its one interval */
   int changes;                   /* of state in this pass, to recognise chatter */
 } planar_cycle;
 
 /* The intervals of one period on the closed orbit. HC_CHATTER: more intervals or panels than there is room for, or
  * 64 (H + 1) changes of state. HC_NOT_CLOSED: the slider is not where it was a period before. HC_NOT_CONVERGED. */
 hc_status planar_cycle_find(planar_cycle *c);
-
-/* One pass from w0, which becomes the slider at its end; A[row][col] = d(that)/d w0 unless NULL. Errors as above. */
-hc_status planar_cycle_pass(planar_cycle *c, double w[2], double A[2][2]);
 
 /* w [length] at th = 0. */
 void planar_cycle_slider(const planar_cycle *c, double w[2]);

@@ -393,7 +393,7 @@ static void add_intervals(planar_force *f, bool derive)
   clear_sums(f);
   for (int i = 0; i < c->n; ++i) {
     const planar_interval *p = &c->interval[i];
-    if (derive) begin_interval(f, i, base, rate);
+    if (derive && !c->rest.exists) begin_interval(f, i, base, rate);
     if (p->state == CONTACT_STICK) add_stick(f, p, derive);
     for (int k = p->panel; p->state != CONTACT_STICK && k < p->panel + p->n_panels; ++k)
       add_panel(f, &c->slip.panel[k], derive);
@@ -405,47 +405,44 @@ static void add_intervals(planar_force *f, bool derive)
   come_to_rest(f, base, c->slip.panel[last->panel + last->n_panels - 1].phi[N - 1], at.R);
 }
 
-/* Derivatives of the corner it rests in. */
-static void follow_corner(planar_force *f)
+/* Derivatives of the place where it rests. */
+static void follow_rest(planar_force *f)
 {
-  const planar_corner *c = &f->cycle.corner;
+  const planar_rest *r = &f->cycle.rest;
   const double per_v = f->motion.per_v;
-  double *grows[2] = {f->dw[0], f->dw[1]};
-  for (int i = 0; i < 2; ++i) {
-    clear_row(f, grows[i]);
-    fill_base(f->n_harm, c->at[i].th, f->base, f->rate);
-    add_motion(f, f->base, c->e[i][0], c->e[i][1], -per_v, grows[i]);
+  double *away[3], *across[3], *other[3];
+  for (int i = 0; i < r->n; ++i) {
+    const double *e = r->e[i];
+    double **row[] = {&away[i], &across[i], &other[i]};
+    for (int k = 0; k < 3; ++k) {
+      *row[k] = f->node + (size_t)(3 * i + k) * (size_t)f->n_col;
+      clear_row(f, *row[k]);
+    }
+    fill_base(f->n_harm, r->at[i].th, f->base, f->rate);
+    add_motion(f, f->base, e[0], e[1], -per_v, away[i]);
+    add_motion(f, f->base, -e[1], e[0], 0, across[i]);
+    if (r->n == 1) add_motion(f, f->base, 0, 0, per_v, other[i]);
+    else add_motion(f, f->rate, e[0], e[1], -per_v, other[i]);
   }
   for (int q = 0; q < f->n_size; ++q) {
+    planar_disc_change change[3] = {{0}};
     double dw[2];
-    planar_corner_move(c, (double[2]){grows[0][q], grows[1][q]}, dw);
+    for (int i = 0; i < r->n; ++i) change[i] = (planar_disc_change){away[i][q], across[i][q], other[i][q], other[i][q]};
+    planar_rest_move(r, change, dw);
     f->dw[0][q] = dw[0], f->dw[1][q] = dw[1];
   }
 }
 
-static hc_status integrate(planar_force *f, bool derive)
+static void integrate(planar_force *f, bool derive)
 {
-  hc_status st = HC_OK;
-  const bool closes = derive && f->cycle.always && f->cycle.marched < 0 && !f->cycle.cornered;
+  const bool closes = derive && f->cycle.always && !f->cycle.rest.exists;
   if (f->cycle.n_contacts == 0) clear_sums(f);
-  if (f->cycle.n_contacts == 0) return HC_OK;
+  if (f->cycle.n_contacts == 0) return;
   for (int d = 0; d < 2 && closes; ++d) { /* from w0 */
     clear_row(f, f->dw[d]);
     f->dw[d][f->n_size + d] = 1;
   }
-  if (derive && f->cycle.cornered) follow_corner(f);
-  else if (derive && f->cycle.always && !closes) {
-    /* Free to rest anywhere: the passes from w = 0 that brought it where it is, once more. */
-    double w[2] = {0};
-    clear_row(f, f->dw[0]);
-    clear_row(f, f->dw[1]);
-    for (int i = 0; i < f->cycle.marched && st == HC_OK; ++i) {
-      st = planar_cycle_pass(&f->cycle, w, NULL);
-      if (st == HC_OK) add_intervals(f, true);
-    }
-    st = st == HC_OK ? planar_cycle_pass(&f->cycle, w, NULL) : st;
-  }
-  if (st != HC_OK) return st;
+  if (derive && f->cycle.rest.exists) follow_rest(f);
   add_intervals(f, derive);
   /* On the closed orbit d w0 = A d w0 + B: of what dw has after a pass from w0, into dw; then by += (derivatives by w0)
    * d w0. */
@@ -464,7 +461,6 @@ static hc_status integrate(planar_force *f, bool derive)
       for (int q = 0; q < n; ++q) by[q] += by_w0[0] * f->dw[0][q] + by_w0[1] * f->dw[1][q];
     }
   }
-  return HC_OK;
 }
 
 /* ---- put together --------------------------------------------------------------------------------------- */
@@ -494,8 +490,8 @@ static hc_status find_force(planar_force *f, const double *X, bool may_shift, bo
   memcpy(f->X, X, (size_t)f->n_size * sizeof *X);
   f->cycle.may_shift = may_shift;
   hc_status st = find_orbit(f, f->X);
-  if (st == HC_OK) st = integrate(f, derive);
   if (st != HC_OK) return st;
+  integrate(f, derive);
   const size_t L = (size_t)f->n_coef;
   memset(f->matrix, 0, L * L * sizeof *f->matrix);
   force_jacobian_add(f->n_harm, f->symbol, f->n_coef, f->matrix);
@@ -545,7 +541,8 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
 static void jacobian(void *self, double *jac)
 {
   planar_force *f = self;
-  if (integrate(f, true) == HC_OK) put_jacobian(f, jac);
+  integrate(f, true);
+  put_jacobian(f, jac);
 }
 
 static const contact_interval *intervals(const void *self, int *n)

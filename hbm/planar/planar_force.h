@@ -25,7 +25,7 @@ void planar_force_free(planar_force *f); /* NULL is allowed */
 
 /* F[n_dof (2H+1)] [force], N - N0 of both halves, at X (same layout) [length]. jac[row + ld col], ld = n_dof (2H+1):
  * dF/dX, unless NULL. report may be NULL. HC_NOT_FINITE, and the errors of planar_cycle_find. A slider that slips no
- * more rests where the passes from w = 0 left it, or in a corner (planar_corner.h); dF/dX follows that place. */
+ * more rests where planar_rest.h says; dF/dX follows that place. */
 hc_status planar_force_eval(planar_force *f, const double *X, double *F, double *jac, contact_report *report);
 
 /* w [length] at th = 0 on the closed orbit of the last evaluation. */

@@ -10,7 +10,7 @@
 #include "numerics/base/status.h"
 
 /* out[2]: of the two halves, as contact_period.h has them; `half` is their law, with friction. The motion is
- * u1[2 n_harm + 1], u2, v [length] (numerics/series.h), n_harm >= 1; where the history decides, the slider starts from
- * w = 0. HC_BAD_INPUT, HC_NO_MEMORY, and the errors of planar_force_eval. */
+ * u1[2 n_harm + 1], u2, v [length] (numerics/series.h), n_harm >= 1; where the history decides, the slider rests
+ * as near to w = 0 as planar_rest.h has it. HC_BAD_INPUT, HC_NO_MEMORY, and the errors of planar_force_eval. */
 hc_status planar_measures_of(const contact *half, int n_harm, const double *u1, const double *u2, const double *v,
                              contact_period out[2]);

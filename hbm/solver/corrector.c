@@ -333,3 +333,13 @@ hc_status hbm_det_sign_at(hbm_solver *s, double omega, const double *X, int *det
   *det_sign = newton_sign(s->fixed);
   return st;
 }
+
+hc_status hbm_residual_at(hbm_solver *s, double omega, const double *X, double *residual)
+{
+  const double at = omega_at(s, omega);
+  const hc_status st = hbm_system_residual(&s->sys, at, X, s->z);
+  if (st != HC_OK) return st;
+  hbm_system_weights(&s->sys, at, hbm_least_share(s), s->r_scale);
+  *residual = norm_weighted_max(s->sys.n, s->r_scale, s->z);
+  return HC_OK;
+}

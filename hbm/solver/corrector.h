@@ -46,5 +46,8 @@ int hbm_even_sign(hbm_solver *s, double omega, const double *X);
  * other branch leaves a branch point. HC_SINGULAR, or errors of the contact force. */
 hc_status hbm_even_kernel(hbm_solver *s, double omega, const double *X, double *phi);
 
+/* [1] The largest row of R(X, omega), relative to the forces that make it up. Errors of the contact force. */
+hc_status hbm_residual_at(hbm_solver *s, double omega, const double *X, double *residual);
+
 /* Sign of det dR/dX at (X, omega) in *det_sign, 0 if it is singular. HC_SINGULAR, or errors of the contact force. */
 hc_status hbm_det_sign_at(hbm_solver *s, double omega, const double *X, int *det_sign);

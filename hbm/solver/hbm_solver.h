@@ -63,6 +63,7 @@ typedef struct hbm_point {
   int even_sign;  /* of a symmetric solution hbm_even_sign (corrector.h), which changes at a branch point; else 0 */
   int harmonics;  /* kept at this point: changes along the curve for hbm.harmonics: auto */
   double error;   /* [1] estimated relative error for auto harmonics or samples, NaN when a number was given */
+  bool over_join; /* of a curve: reached over a join of rest and slip (continuation.c), which is no turning point */
 } hbm_point;
 
 /* Solve at a fixed omega from the guess X[hbm_n_coefficients]; X is the solution on HC_OK and untouched otherwise. A

@@ -180,10 +180,11 @@ static void note_curve(table *t, const scene *sc, const hbm_solver *s, const hbm
     table_note(t, "hbm.accuracy %g was NOT met everywhere with the most harmonics or samples that auto takes",
                sc->hbm.accuracy);
   if (c->edges > 0)
-    table_note(t,
-               "%d steps over edges of slip of contacts with two tangents, by up to %.1g of omega and %.1g of the "
-               "motion: solutions on them may be missing",
-               c->edges, c->edge_omega, c->edge_motion);
+    table_note(
+        t,
+        "%d steps over joins of rest and slip of contacts with two tangents, by up to %.1g of omega and %.1g of the "
+        "motion: solutions on them may be missing",
+        c->edges, c->edge_omega, c->edge_motion);
   if (hbm_stability_is_unknown(s))
     table_note(t, "stability is not found everywhere, nor period doublings and such: a limit of both tangents "
                   "together, more than 50 degrees of freedom, and damping that is not modal or too light");

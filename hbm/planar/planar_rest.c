@@ -1,0 +1,199 @@
+/* planar_rest.c - see planar_rest.h. */
+#include "hbm/planar/planar_rest.h"
+
+#include <float.h>
+
+enum { MAX_EXCHANGES = 100, MAX_NEWTON = 30, MOST_HOLD = 3 };
+
+static const double ONE_INSTANT = 1e-6; /* [rad] they are located to 1e-9 */
+
+/* |u - w| - R; the direction of u - w. */
+static double outside(const planar_point *disc, const double w[2], double e[2])
+{
+  const double t1 = disc->u[0] - w[0], t2 = disc->u[1] - w[1], length = hypot(t1, t2);
+  e[0] = length > 0 ? t1 / length : 1, e[1] = length > 0 ? t2 / length : 0;
+  return length - disc->R;
+}
+
+/* dw and dv with e_i.dw + dv = away_i; false where the three directions do not tell them. */
+static bool move_three(const double e[][2], const double away[3], double dw[2], double *dv)
+{
+  const double a = e[0][0] - e[2][0], b = e[0][1] - e[2][1], c = e[1][0] - e[2][0], d = e[1][1] - e[2][1];
+  const double x = away[0] - away[2], y = away[1] - away[2], det = a * d - b * c;
+  if (!(fabs(det) > sqrt(DBL_EPSILON) * hypot(a, b) * hypot(c, d))) return false;
+  dw[0] = (d * x - b * y) / det;
+  dw[1] = (a * y - c * x) / det;
+  *dv = away[2] - e[2][0] * dw[0] - e[2][1] * dw[1];
+  return true;
+}
+
+/* ---- exchange ------------------------------------------------------------------------------------------ */
+
+/* Of the candidates for c the best so far. */
+typedef struct choice {
+  const planar_point *disc[1 + MOST_HOLD]; /* the new one, and those that held c before */
+  int n;
+  double worst; /* [length] the largest h of all these discs at the best one */
+  planar_rest best;
+} choice;
+
+/* The point c, held by disc[0] and disc[j], disc[k], of which 0 stand for none. */
+static void consider(choice *c, const double w[2], int j, int k)
+{
+  double worst = -INFINITY, e[2];
+  for (int i = 0; i < c->n; ++i) worst = fmax(worst, outside(c->disc[i], w, e));
+  if (!(worst < c->worst)) return;
+  c->worst = worst;
+  c->best = (planar_rest){.centre = {w[0], w[1]},
+                          .room = -worst,
+                          .n = 1 + (j > 0) + (k > 0),
+                          .at = {*c->disc[0], *c->disc[j], *c->disc[k]}};
+}
+
+/* On the line through the centres of disc[0] and disc[j], as far out of the one as of the other. */
+static void consider_two(choice *c, int j)
+{
+  const planar_point *a = c->disc[0], *b = c->disc[j];
+  const double way[2] = {b->u[0] - a->u[0], b->u[1] - a->u[1]}, D = hypot(way[0], way[1]);
+  if (!(D > fabs(a->R - b->R))) return; /* one lies in the other */
+  const double part = 0.5 * (D + a->R - b->R) / D;
+  consider(c, (double[2]){a->u[0] + part * way[0], a->u[1] + part * way[1]}, j, 0);
+}
+
+/* As far out of disc[0] as of disc[j] and disc[k]: Newton, since h are convex, from w. */
+static void consider_three(choice *c, int j, int k, const double from[2], double noise)
+{
+  const planar_point *const disc[] = {c->disc[0], c->disc[j], c->disc[k]};
+  double w[2] = {from[0], from[1]}, e[3][2], h[3], dw[2], v;
+  for (int i = 0; i < MAX_NEWTON; ++i) {
+    for (int m = 0; m < 3; ++m) h[m] = outside(disc[m], w, e[m]);
+    const double apart = fmax(fabs(h[0] - h[2]), fabs(h[1] - h[2]));
+    if (apart <= 0.25 * noise) break;
+    if (!move_three((const double(*)[2])e, h, dw, &v)) return;
+    w[0] += dw[0], w[1] += dw[1];
+  }
+  consider(c, w, j, k);
+}
+
+static void exchange(planar_rest *r, const planar_point *next, double noise)
+{
+  const planar_rest before = *r;
+  choice c = {.disc = {next, &before.at[0], &before.at[1], &before.at[2]}, .n = 1 + before.n, .worst = INFINITY};
+  consider(&c, next->u, 0, 0);
+  for (int j = 1; j <= before.n; ++j) consider_two(&c, j);
+  for (int j = 1; j <= before.n; ++j)
+    for (int k = j + 1; k <= before.n; ++k) {
+      consider_three(&c, j, k, before.centre, noise);
+      consider_three(&c, j, k, c.best.centre, noise);
+    }
+  *r = c.best;
+}
+
+/* ---- where it is ----------------------------------------------------------------------------------------- */
+
+/* How the direction e of a disc turns, by what c moves across it: turned - by_c q. The instant where h is largest shifts
+ * by dth: with U = u'.e_perp, B = -h'' > 0, L = |u - c| and q = dc.e_perp
+ *
+ *     L turn = across + U dth - q,      B dth = rate + U (across - q)/L
+ *
+ * At an instant of which B is 0 to rounding, as of samples, dth = 0. */
+static void turn_of(const planar_rest *r, int i, const planar_disc_change *change, double *turned, double *by_c)
+{
+  const planar_point *p = &r->at[i];
+  const double *e = r->e[i], L = r->length[i], U = p->du[1] * e[0] - p->du[0] * e[1];
+  const double terms[] = {p->ddu[0] * e[0] + p->ddu[1] * e[1], U * U / L, -p->ddR};
+  const double B = -(terms[0] + terms[1] + terms[2]);
+  const bool shifts = B > 16 * DBL_EPSILON * (fabs(terms[0]) + terms[1] + fabs(terms[2]));
+  *by_c = (1 + (shifts ? U * U / (L * B) : 0)) / L;
+  *turned = *by_c * change->across + (shifts ? U * change->rate / (B * L) : 0);
+}
+
+/* The instants where h is largest at c itself; so far they are those at the c before the last exchange. */
+static void locate(planar_rest *r, planar_farthest *farthest, void *self)
+{
+  const int held = r->n;
+  r->n = 0;
+  for (int i = 0; i < held; ++i) {
+    const planar_point before = r->at[i];
+    planar_point *at = &r->at[r->n];
+    farthest(self, r->centre, &before, at);
+    bool known = false;
+    for (int k = 0; k < r->n; ++k) known |= fabs(at->th - r->at[k].th) <= ONE_INSTANT;
+    if (known) continue;
+    r->length[r->n] = outside(at, r->centre, r->e[r->n]) + at->R;
+    ++r->n;
+  }
+}
+
+/* c between two discs, to rounding: where e_1 + e_2 = 0 and both h are equal, by one step of Newton. The exchange
+ * leaves instants off by the root of rounding, and c by as much across the line. */
+static void centre_between_two(planar_rest *r)
+{
+  const double *e = r->e[0], *f = r->e[1], h[] = {r->length[0] - r->at[0].R, r->length[1] - r->at[1].R};
+  const double along = 0.5 * (h[0] - h[1]), mismatch = e[1] * f[0] - e[0] * f[1];
+  double by_c[2], turned;
+  for (int i = 0; i < 2; ++i) turn_of(r, i, &(planar_disc_change){0}, &turned, &by_c[i]);
+  const double across = -mismatch / (by_c[0] + by_c[1]);
+  r->centre[0] += along * e[0] - across * e[1];
+  r->centre[1] += along * e[1] + across * e[0];
+  r->room = -0.5 * (h[0] + h[1]);
+}
+
+hc_status planar_rest_find(planar_farthest *farthest, void *self, double noise, planar_rest *out)
+{
+  enum { NEWTON_STEPS = 2 };
+  bool ended = false;
+  *out = (planar_rest){.room = INFINITY};
+  for (int i = 0; i < MAX_EXCHANGES && !ended; ++i) {
+    planar_point next;
+    ended = farthest(self, out->centre, NULL, &next) <= noise - out->room;
+    if (!ended) exchange(out, &next, noise);
+  }
+  if (!ended) return HC_NOT_CONVERGED;
+  locate(out, farthest, self);
+  for (int i = 0; i < NEWTON_STEPS && out->n == 2; ++i) {
+    centre_between_two(out);
+    locate(out, farthest, self);
+  }
+  const double size = hypot(out->centre[0], out->centre[1]);
+  const double part = !(out->room > 0) ? 1 : size > out->room ? 1 - out->room / size : 0;
+  out->exists = out->room >= -noise;
+  for (int d = 0; d < 2; ++d) out->w[d] = part * out->centre[d];
+  return HC_OK;
+}
+
+/* ---- how it moves ---------------------------------------------------------------------------------------- */
+
+/* dc and d(-room): h_i = -room at instants where they are largest, whose shift changes nothing to first order. Two discs
+ * hold c between their centres, so that both directions turn by the same; the second's e_perp is the other way. */
+static void move_centre(const planar_rest *r, const planar_disc_change *change, double dc[2], double *dv)
+{
+  const double away[] = {change[0].away, r->n > 1 ? change[1].away : 0, r->n > 2 ? change[2].away : 0};
+  const double *e = r->e[0];
+  if (r->n == 3 && move_three(r->e, away, dc, dv)) return;
+  double along = change[0].away + change[0].radius, across = change[0].across;
+  *dv = -change[0].radius; /* of one disc c is the centre */
+  if (r->n > 1) {
+    double turned[2], by_c[2];
+    for (int i = 0; i < 2; ++i) turn_of(r, i, &change[i], &turned[i], &by_c[i]);
+    along = 0.5 * (away[0] - away[1]);
+    *dv = 0.5 * (away[0] + away[1]);
+    across = (turned[0] - turned[1]) / (by_c[0] + by_c[1]);
+  }
+  dc[0] = along * e[0] - across * e[1];
+  dc[1] = along * e[1] + across * e[0];
+}
+
+void planar_rest_move(const planar_rest *r, const planar_disc_change *change, double dw[2])
+{
+  double dc[2], dv;
+  const double size = hypot(r->centre[0], r->centre[1]), room = fmax(r->room, 0);
+  dw[0] = dw[1] = 0;
+  if (size <= room) return;
+  move_centre(r, change, dc, &dv);
+  const double o[2] = {r->centre[0] / size, r->centre[1] / size}, along = o[0] * dc[0] + o[1] * dc[1];
+  for (int d = 0; d < 2; ++d) dw[d] = dc[d] + dv * o[d] - room / size * (dc[d] - along * o[d]);
+}
+
+/* 100 joins bound the work of a curve that chatters; 60 halvings pass the last bit of omega. */
+const slip_edges planar_edges = {.too_short = 1e-4, .located = 1e-6, .most = 100, .bisections = 60};
