@@ -9,7 +9,6 @@
  * must have the same forces. */
 #include "hbm/planar/planar_aft.h"
 
-#include <float.h>
 #include <string.h>
 
 #include "hbm/contact/fft_plan.h"
@@ -48,6 +47,8 @@ typedef struct planar_aft {
   double last[2];  /* of PLANAR_GUESSED */
   double first[2]; /* slider at sample 0 */
   planar_rest rest;
+  double *table; /* of series.h */
+  planar_point grid[PLANAR_GRID];
   /* For the Jacobian; n_col = n_dof (2H+1) columns by X and two by the slider before sample 0. */
   double *symbol;   /* [4H+1] */
   double *basis[2]; /* [2H+1] harmonics at the sample before and at the one that is looked at */
@@ -98,10 +99,12 @@ static hc_status make(const contact_coordinates *c, const evaluator_settings *ho
     a->by[d] = workspace_doubles(w, n_col);
   }
   a->held = workspace_doubles(w, length);
+  a->table = workspace_doubles(w, (size_t)series_grid_table_length(a->n_harm));
   a->whole = workspace_doubles(w, 2 * length * n_col);
   a->harmonic = workspace_doubles(w, PANEL * length);
   a->moved = workspace_doubles(w, 2 * PANEL * n_col);
   const hc_status st = period_samples_make(a->n_harm, a->n_time, &a->memory, &a->of);
+  if (st == HC_OK) series_grid_table_fill(a->n_harm, a->table);
   if (st == HC_OK) *self = a;
   else let_go(a);
   return st;
@@ -245,18 +248,13 @@ static bool rests_where_nearest(const planar_aft *a)
   return a->restart == HBM_RESTART_INTERPOLATED || a->restart == HBM_RESTART_SAMPLE;
 }
 
-/* Of planar_rest.h: between samples u and R change evenly, and |u - w| - R is largest at one. */
-static double farthest_sample(void *self, const double w[2], const planar_point *near, planar_point *out)
+/* a->rest: of the motion itself, not of its samples, between which an instant where a disc holds the slider would jump. */
+static hc_status find_rest(planar_aft *a, const double *X)
 {
-  const planar_aft *a = self;
-  double most = -INFINITY;
-  int at = 0;
-  for (int i = 0; i < a->n_time && !near; ++i) {
-    const double h = hypot(a->motion[0][i] - w[0], a->motion[1][i] - w[1]) - a->motion[2][i];
-    if (h > most) most = h, at = i;
-  }
-  *out = near ? *near : (planar_point){.th = at, .u = {a->motion[0][at], a->motion[1][at]}, .R = a->motion[2][at]};
-  return most;
+  const int length = series_length(a->n_harm);
+  const planar_motion m = planar_motion_make(&a->law, a->n_harm, X, X + length, a->n_dof == 3 ? X + 2 * length : NULL);
+  planar_motion_grid(&m, a->table, a->grid);
+  return planar_rest_find(&m, a->grid, &a->rest);
 }
 
 /* The orbit of a slider that stays in a->rest. */
@@ -306,8 +304,8 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
     period_samples_series(&a->of, a->of.sample, a->n_harm, F + 2 * length);
   }
   radius(a);
-  double least = a->motion[2][0], most = least;
-  for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]), most = fmax(most, a->motion[2][i]);
+  double least = a->motion[2][0];
+  for (int i = 1; i < a->n_time; ++i) least = fmin(least, a->motion[2][i]);
   const bool apart = !(least > 0);
   const bool once = a->restart == HBM_RESTART_ONE_PASS || a->restart == HBM_RESTART_ONE_PASS_SAMPLE;
   double w[2] = {a->start[0], a->start[1]};
@@ -316,8 +314,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   a->rest = (planar_rest){.exists = false};
   if (st != HC_OK || a->orbit != PLANAR_CLOSED) { /* not known from the last motion */
     st = HC_OK;
-    if (!apart && rests_where_nearest(a))
-      st = planar_rest_find(farthest_sample, a, 8 * DBL_EPSILON * (size + most), &a->rest);
+    if (!apart && rests_where_nearest(a)) st = find_rest(a, X);
     if (st != HC_OK) return st;
     memcpy(w, a->rest.w, sizeof w);
     memcpy(a->start, w, sizeof w);
@@ -450,26 +447,25 @@ static bool close_rows(planar_aft *a)
 static void rows_of_rest(planar_aft *a)
 {
   const planar_rest *r = &a->rest;
-  const int length = series_length(a->n_harm);
   const double per_v = a->law.mu * a->law.kn / a->law.kt;
-  clear_rows(a);
-  for (int i = 0; i < r->n; ++i) harmonics_at(a, (int)r->at[i].th, a->harmonic + i * length);
   for (int d = 0; d < a->n_dof; ++d)
-    for (int m = 0; m < length; ++m) {
+    for (int m = 0; m < series_length(a->n_harm); ++m) {
+      const int h = (m + 1) / 2;
       planar_disc_change change[3] = {{0}};
       double dw[2];
       for (int i = 0; i < r->n; ++i) {
-        const double *e = r->e[i], at = a->harmonic[i * length + m];
-        change[i] = (planar_disc_change){.away = at * (d == 0   ? e[0]
-                                                       : d == 1 ? e[1]
-                                                                : -per_v),
+        const double *e = r->e[i], c = cos(h * r->at[i].th), s = sin(h * r->at[i].th);
+        const double at = m % 2 == 1 || m == 0 ? c : s, rate = m % 2 == 1 || m == 0 ? -h * s : h * c;
+        const double away = d == 0 ? e[0] : d == 1 ? e[1] : -per_v;
+        change[i] = (planar_disc_change){.away = at * away,
                                          .across = at * (d == 0   ? -e[1]
                                                          : d == 1 ? e[0]
                                                                   : 0),
-                                         .radius = d < 2 ? 0 : at * per_v};
+                                         .radius = d < 2 ? 0 : at * per_v,
+                                         .rate = rate * away};
       }
       planar_rest_move(r, change, dw);
-      a->by[0][d * length + m] = dw[0], a->by[1][d * length + m] = dw[1];
+      for (int k = 0; k < 2; ++k) a->by[k][d * series_length(a->n_harm) + m] = dw[k];
     }
 }
 

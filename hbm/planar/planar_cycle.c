@@ -5,70 +5,8 @@
 #include <string.h>
 
 #include "numerics/base/constants.h"
-#include "numerics/crossing.h"
 
 enum { N = COLLOCATION_POINTS };
-
-/* ---- where stick ends --------------------------------------------------------------------------------------
- *
- * A slider that sticks begins to slip at the first angle where
- *
- *     g = R^2 - |u - w|^2,      a trigonometric polynomial of degree 2H,
- *
- * falls through 0 (numerics/crossing.h). g is computed as (R - |u - w|)(R + |u - w|): its terms are as large as the
- * squares of u, however small R is, and their difference would be rounding. */
-
-typedef struct stick_guard {
-  const planar_motion *m;
-  double w[2];
-  planar_point last; /* evaluated */
-} stick_guard;
-
-static guarded_point guard_at(const stick_guard *s, const planar_point *p)
-{
-  const double t1 = p->u[0] - s->w[0], t2 = p->u[1] - s->w[1], size = sqrt(t1 * t1 + t2 * t2);
-  return (guarded_point){.th = p->th,
-                         .f = (p->R - size) * (p->R + size),
-                         .d1 = 2 * (p->R * p->dR - t1 * p->du[0] - t2 * p->du[1]),
-                         .d2 = 2 * (p->dR * p->dR + p->R * p->ddR - p->du[0] * p->du[0] - p->du[1] * p->du[1] -
-                                    t1 * p->ddu[0] - t2 * p->ddu[1])};
-}
-
-static guarded_point guard_new_at(void *self, double th)
-{
-  stick_guard *s = self;
-  s->last = planar_motion_at(s->m, th);
-  return guard_at(s, &s->last);
-}
-
-/* The first such angle in (from, to], 0 <= from < to <= from + 2 pi and from <= 2 pi; false if there is none. g >= 0 at
- * `from`, to rounding; excursions below 0 by no more than rounding do not count. */
-static bool stick_ends(const planar_motion *m, const planar_point *grid, const double w[2], const planar_point *from,
-                       double to, planar_point *root)
-{
-  /* On an interval of the grid that begins in stick |u - w| grows to no more than the largest R and what u moves. */
-  const double *U = m->of_u, *R = m->of_R, step = TWO_PI / SERIES_GRID;
-  const double pulled = fmin(R[0] + U[1] * step, U[0] + hypot(w[0], w[1]));
-  stick_guard stick = {m, {w[0], w[1]}, *from};
-  guarded s = {.at = guard_new_at, .self = &stick};
-  s.bound2 = 2 * (R[1] * R[1] + R[0] * R[2] + U[1] * U[1] + pulled * U[2]);
-  s.bound3 = 2 * (3 * R[1] * R[2] + R[0] * R[3] + 3 * U[1] * U[2] + pulled * U[3]);
-  s.noise = DBL_EPSILON * R[0] * (32 * (U[0] + hypot(w[0], w[1]) + R[0]) + 64 * (R[1] + U[1]));
-  const planar_point *next = grid + (int)(from->th * (SERIES_GRID / TWO_PI));
-  guarded_point a = guard_at(&stick, from), found;
-  while (next->th <= a.th) ++next;
-  while (a.th < to) {
-    const planar_point end = next->th < to ? *next : planar_motion_at(m, to);
-    const guarded_point b = guard_at(&stick, &end);
-    if (guarded_first(&s, a, b, &found)) {
-      *root = found.th == stick.last.th ? stick.last : found.th == end.th ? end : planar_motion_at(m, found.th);
-      return true;
-    }
-    a = b;
-    ++next;
-  }
-  return false;
-}
 
 /* ---- the last step, to first order ------------------------------------------------------------------------ */
 
@@ -233,7 +171,7 @@ static hc_status close_interval(planar_cycle *c, slider *k, double from, double 
 static hc_status stick(planar_cycle *c, slider *k, planar_point *at, double to)
 {
   planar_point root;
-  const bool ends = stick_ends(c->m, c->grid, k->w, at, to, &root);
+  const bool ends = planar_stick_ends(c->m, c->grid, k->w, at, to, &root);
   const hc_status st = close_interval(c, k, at->th, ends ? root.th : to, 0);
   if (ends) *at = root;
   else *at = planar_motion_at(c->m, to);
@@ -346,10 +284,6 @@ static hc_status follow_contacts(planar_cycle *c)
 /* [length] */
 static double size_of(const planar_cycle *c) { return c->m->of_u[0] + c->m->of_R[0]; }
 
-/* [length] An excursion beyond the limit that is rounding: half of what stick_ends() does not count, so that it does not
- * find again what is taken for touched. */
-static double planar_rest_noise(const planar_cycle *c) { return 8 * DBL_EPSILON * size_of(c); }
-
 static double length_of(const double x[2]) { return hypot(x[0], x[1]); }
 
 typedef struct closing {
@@ -423,67 +357,10 @@ static hc_status close_slip(planar_cycle *c)
 
 /* ---- rest ---------------------------------------------------------------------------------------------- */
 
-/* h(w, th) = |u - w| - R and its derivatives by th. */
-typedef struct disc_distance {
-  double h, rate, bend;
-} disc_distance;
-
-static disc_distance distance_at(const planar_point *p, const double w[2])
-{
-  const double t1 = p->u[0] - w[0], t2 = p->u[1] - w[1], length = fmax(sqrt(t1 * t1 + t2 * t2), DBL_MIN);
-  const double e1 = t1 / length, e2 = t2 / length, across = p->du[1] * e1 - p->du[0] * e2;
-  return (disc_distance){.h = length - p->R,
-                         .rate = p->du[0] * e1 + p->du[1] * e2 - p->dR,
-                         .bend = p->ddu[0] * e1 + p->ddu[1] * e2 + across * across / length - p->ddR};
-}
-
-/* The angle in (low, high) where h is stationary, from one near it: Newton, or halves where that leads out. From an
- * angle that is good to 1e-9 one more step leads to it, to rounding. */
-static planar_point climb(const planar_motion *m, const double w[2], double th, double low, double high)
-{
-  enum { MOST_STEPS = 60 };
-  planar_point p = planar_motion_at(m, th);
-  bool last = false;
-  for (int i = 0; i < MOST_STEPS && !last; ++i) {
-    const disc_distance at = distance_at(&p, w);
-    last = fabs(at.rate) <= 1e-9 * -at.bend;
-    if (at.rate > 0) low = p.th;
-    else high = p.th;
-    double next = p.th - at.rate / at.bend;
-    if (!(at.bend < 0 && next > low && next < high)) next = last ? p.th : 0.5 * (low + high);
-    if (next != p.th) p = planar_motion_at(m, next);
-    last |= !(high > low);
-  }
-  return p;
-}
-
-/* Of planar_rest.h: the highest of the peaks beside nodes of the grid that are above their neighbours. */
-static double farthest(void *self, const double w[2], const planar_point *near, planar_point *out)
-{
-  enum { N_GRID = SERIES_GRID };
-  const double step = TWO_PI / N_GRID;
-  const planar_cycle *c = self;
-  disc_distance at[N_GRID];
-  double most = -INFINITY;
-  if (near) *out = climb(c->m, w, near->th, near->th - step, near->th + step);
-  if (near) return distance_at(out, w).h;
-  for (int i = 0; i < N_GRID; ++i) at[i] = distance_at(&c->grid[i], w);
-  for (int i = 0; i < N_GRID; ++i) {
-    const double before = at[(i + N_GRID - 1) % N_GRID].h, after = at[(i + 1) % N_GRID].h, th = c->grid[i].th;
-    if (!(at[i].h >= before && at[i].h >= after)) continue;
-    const planar_point top = climb(c->m, w, th, th - step, th + step);
-    const double h = distance_at(&top, w).h;
-    if (!(h > most)) continue;
-    most = h;
-    *out = top;
-  }
-  return most;
-}
-
 /* c->rest; if there is one, the cycle is that. */
 static hc_status find_rest(planar_cycle *c)
 {
-  const hc_status st = planar_rest_find(farthest, c, planar_rest_noise(c), &c->rest);
+  const hc_status st = planar_rest_find(c->m, c->grid, &c->rest);
   if (st != HC_OK || !c->rest.exists) return st;
   begin_pass(c);
   c->n = 1;

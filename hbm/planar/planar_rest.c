@@ -3,7 +3,127 @@
 
 #include <float.h>
 
+#include "numerics/base/constants.h"
+#include "numerics/crossing.h"
+
 enum { MAX_EXCHANGES = 100, MAX_NEWTON = 30, MOST_HOLD = 3 };
+
+/* ---- where stick ends --------------------------------------------------------------------------------------
+ *
+ * A slider that sticks begins to slip at the first angle where
+ *
+ *     g = R^2 - |u - w|^2,      a trigonometric polynomial of degree 2H,
+ *
+ * falls through 0 (numerics/crossing.h). g is computed as (R - |u - w|)(R + |u - w|): its terms are as large as the
+ * squares of u, however small R is, and their difference would be rounding. */
+
+typedef struct stick_guard {
+  const planar_motion *m;
+  double w[2];
+  planar_point last; /* evaluated */
+} stick_guard;
+
+static guarded_point guard_at(const stick_guard *s, const planar_point *p)
+{
+  const double t1 = p->u[0] - s->w[0], t2 = p->u[1] - s->w[1], size = sqrt(t1 * t1 + t2 * t2);
+  return (guarded_point){.th = p->th,
+                         .f = (p->R - size) * (p->R + size),
+                         .d1 = 2 * (p->R * p->dR - t1 * p->du[0] - t2 * p->du[1]),
+                         .d2 = 2 * (p->dR * p->dR + p->R * p->ddR - p->du[0] * p->du[0] - p->du[1] * p->du[1] -
+                                    t1 * p->ddu[0] - t2 * p->ddu[1])};
+}
+
+static guarded_point guard_new_at(void *self, double th)
+{
+  stick_guard *s = self;
+  s->last = planar_motion_at(s->m, th);
+  return guard_at(s, &s->last);
+}
+
+bool planar_stick_ends(const planar_motion *m, const planar_point *grid, const double w[2], const planar_point *from,
+                       double to, planar_point *root)
+{
+  /* On an interval of the grid that begins in stick |u - w| grows to no more than the largest R and what u moves. */
+  const double *U = m->of_u, *R = m->of_R, step = TWO_PI / SERIES_GRID;
+  const double pulled = fmin(R[0] + U[1] * step, U[0] + hypot(w[0], w[1]));
+  stick_guard stick = {m, {w[0], w[1]}, *from};
+  guarded s = {.at = guard_new_at, .self = &stick};
+  s.bound2 = 2 * (R[1] * R[1] + R[0] * R[2] + U[1] * U[1] + pulled * U[2]);
+  s.bound3 = 2 * (3 * R[1] * R[2] + R[0] * R[3] + 3 * U[1] * U[2] + pulled * U[3]);
+  s.noise = DBL_EPSILON * R[0] * (32 * (U[0] + hypot(w[0], w[1]) + R[0]) + 64 * (R[1] + U[1]));
+  const planar_point *next = grid + (int)(from->th * (SERIES_GRID / TWO_PI));
+  guarded_point a = guard_at(&stick, from), found;
+  while (next->th <= a.th) ++next;
+  while (a.th < to) {
+    const planar_point end = next->th < to ? *next : planar_motion_at(m, to);
+    const guarded_point b = guard_at(&stick, &end);
+    if (guarded_first(&s, a, b, &found)) {
+      *root = found.th == stick.last.th ? stick.last : found.th == end.th ? end : planar_motion_at(m, found.th);
+      return true;
+    }
+    a = b;
+    ++next;
+  }
+  return false;
+}
+
+/* ---- the disc that a place is farthest out of ------------------------------------------------------------- */
+
+/* h(w, th) = |u - w| - R and its derivatives by th. */
+typedef struct disc_distance {
+  double h, rate, bend;
+} disc_distance;
+
+static disc_distance distance_at(const planar_point *p, const double w[2])
+{
+  const double t1 = p->u[0] - w[0], t2 = p->u[1] - w[1], length = fmax(sqrt(t1 * t1 + t2 * t2), DBL_MIN);
+  const double e1 = t1 / length, e2 = t2 / length, across = p->du[1] * e1 - p->du[0] * e2;
+  return (disc_distance){.h = length - p->R,
+                         .rate = p->du[0] * e1 + p->du[1] * e2 - p->dR,
+                         .bend = p->ddu[0] * e1 + p->ddu[1] * e2 + across * across / length - p->ddR};
+}
+
+/* The angle where h is stationary, from one no farther from it than from the next of the grid: Newton, or halves where that leads out. From an
+ * angle that is good to 1e-9 one more step leads to it, to rounding. */
+static planar_point climb(const planar_motion *m, const double w[2], double th)
+{
+  enum { MOST_STEPS = 60 };
+  const double step = TWO_PI / SERIES_GRID;
+  double low = th - step, high = th + step;
+  planar_point p = planar_motion_at(m, th);
+  bool last = false;
+  for (int i = 0; i < MOST_STEPS && !last; ++i) {
+    const disc_distance at = distance_at(&p, w);
+    last = fabs(at.rate) <= 1e-9 * -at.bend;
+    if (at.rate > 0) low = p.th;
+    else high = p.th;
+    double next = p.th - at.rate / at.bend;
+    if (!(at.bend < 0 && next > low && next < high)) next = last ? p.th : 0.5 * (low + high);
+    if (next != p.th) p = planar_motion_at(m, next);
+    last |= !(high > low);
+  }
+  return p;
+}
+
+/* The disc that w is farthest out of, into *out, and h there: of the peaks between nodes of the grid where h rises at
+ * the one and falls at the next. */
+static double farthest(const planar_motion *m, const planar_point *grid, const double w[2], planar_point *out)
+{
+  enum { N_GRID = SERIES_GRID };
+  disc_distance at[N_GRID];
+  double most = -INFINITY;
+  for (int i = 0; i < N_GRID; ++i) at[i] = distance_at(&grid[i], w);
+  for (int i = 0; i < N_GRID; ++i) {
+    const disc_distance *a = &at[i], *b = &at[(i + 1) % N_GRID];
+    if (!(a->rate >= 0 && b->rate <= 0)) continue;
+    const planar_point top = climb(m, w, a->h > b->h ? grid[i].th : grid[i + 1].th);
+    const double h = distance_at(&top, w).h;
+    if (!(h > most)) continue;
+    most = h;
+    *out = top;
+  }
+  return most;
+}
 
 static const double ONE_INSTANT = 1e-6; /* [rad] they are located to 1e-9 */
 
@@ -109,14 +229,13 @@ static void turn_of(const planar_rest *r, int i, const planar_disc_change *chang
 }
 
 /* The instants where h is largest at c itself; so far they are those at the c before the last exchange. */
-static void locate(planar_rest *r, planar_farthest *farthest, void *self)
+static void locate(const planar_motion *m, planar_rest *r)
 {
   const int held = r->n;
   r->n = 0;
   for (int i = 0; i < held; ++i) {
-    const planar_point before = r->at[i];
     planar_point *at = &r->at[r->n];
-    farthest(self, r->centre, &before, at);
+    *at = climb(m, r->centre, r->at[i].th);
     bool known = false;
     for (int k = 0; k < r->n; ++k) known |= fabs(at->th - r->at[k].th) <= ONE_INSTANT;
     if (known) continue;
@@ -139,27 +258,35 @@ static void centre_between_two(planar_rest *r)
   r->room = -0.5 * (h[0] + h[1]);
 }
 
-hc_status planar_rest_find(planar_farthest *farthest, void *self, double noise, planar_rest *out)
+hc_status planar_rest_find(const planar_motion *m, const planar_point *grid, planar_rest *out)
 {
   enum { NEWTON_STEPS = 2 };
-  bool ended = false;
+  /* Half of the excursions that are not counted as slip (planar_cycle.c). */
+  const double noise = 8 * DBL_EPSILON * (m->of_u[0] + m->of_R[0]);
   *out = (planar_rest){.room = INFINITY};
-  for (int i = 0; i < MAX_EXCHANGES && !ended; ++i) {
+  for (int i = 0; i < MAX_EXCHANGES; ++i) {
     planar_point next;
-    ended = farthest(self, out->centre, NULL, &next) <= noise - out->room;
-    if (!ended) exchange(out, &next, noise);
+    if (!(farthest(m, grid, out->centre, &next) <= noise - out->room)) {
+      exchange(out, &next, noise);
+      continue;
+    }
+    locate(m, out);
+    for (int k = 0; k < NEWTON_STEPS && out->n == 2; ++k) {
+      centre_between_two(out);
+      locate(m, out);
+    }
+    const double size = hypot(out->centre[0], out->centre[1]);
+    const double part = !(out->room > 0) ? 1 : size > out->room ? 1 - out->room / size : 0;
+    out->exists = out->room >= -noise;
+    for (int d = 0; d < 2; ++d) out->w[d] = part * out->centre[d];
+    /* Peaks that nodes of the grid do not tell. */
+    double e[2];
+    if (!out->exists || !planar_stick_ends(m, grid, out->w, &grid[0], TWO_PI, &next)) return HC_OK;
+    next = climb(m, out->w, next.th);
+    if (outside(&next, out->w, e) <= noise) return HC_OK;
+    exchange(out, &next, noise);
   }
-  if (!ended) return HC_NOT_CONVERGED;
-  locate(out, farthest, self);
-  for (int i = 0; i < NEWTON_STEPS && out->n == 2; ++i) {
-    centre_between_two(out);
-    locate(out, farthest, self);
-  }
-  const double size = hypot(out->centre[0], out->centre[1]);
-  const double part = !(out->room > 0) ? 1 : size > out->room ? 1 - out->room / size : 0;
-  out->exists = out->room >= -noise;
-  for (int d = 0; d < 2; ++d) out->w[d] = part * out->centre[d];
-  return HC_OK;
+  return HC_NOT_CONVERGED;
 }
 
 /* ---- how it moves ---------------------------------------------------------------------------------------- */

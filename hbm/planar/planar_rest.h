@@ -29,15 +29,18 @@ typedef struct planar_rest {
   double w[2];               /* [length] where it rests; else c */
   double centre[2], room;    /* [length] c */
   int n;                     /* discs that hold c, 1 to 3 */
-  planar_point at[3];        /* their instants; of an instant among samples its rates are 0 */
+  planar_point at[3];        /* their instants */
   double e[3][2], length[3]; /* direction and length of u - c there */
 } planar_rest;
 
-/* The disc that w is farthest out of, into *out, of all or, unless NULL, of those near that one; h [length] there. */
-typedef double planar_farthest(void *self, const double w[2], const planar_point *near, planar_point *out);
+/* Where a slider at w begins to slip: the first angle in (from, to] where |u - w| exceeds R, 0 <= from < to <= from +
+ * 2 pi and from <= 2 pi; false if there is none. It does not at `from`, to rounding; excursions by no more than rounding
+ * do not count. grid: of planar_motion_grid. */
+bool planar_stick_ends(const planar_motion *m, const planar_point *grid, const double w[2], const planar_point *from,
+                       double to, planar_point *root);
 
-/* noise [length]: h that differ by less are not told apart. HC_NOT_CONVERGED: after 100 exchanges there is no answer. */
-hc_status planar_rest_find(planar_farthest *farthest, void *self, double noise, planar_rest *out);
+/* In contact all the time. HC_NOT_CONVERGED: after 100 exchanges there is no answer. */
+hc_status planar_rest_find(const planar_motion *m, const planar_point *grid, planar_rest *out);
 
 /* How the disc at a fixed instant moves: away from c, du.e - dR; where one or two hold c, across that, too, du.e_perp;
  * and dR of the one, of the two the rate of `away` by th, du'.e - dR'. */
