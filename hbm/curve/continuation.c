@@ -208,11 +208,12 @@ static bool round_corner(path *p)
 
 /* ---- joins of rest and slip ---------------------------------------------------------------------------- */
 
-/* Where the places of rest of a slider have shrunk to one (planar_rest.h) rest and slip meet. With s the way of the slider
- * along the discs' lens, omega is on either side a line in s, the same, and a parabola, one for each; the tangents
- * meet, but one side may lead on and one back: a cusp. On both sides dX/domega grows without bound towards it. So the
- * far side is looked for in planes across the last tangent, before and behind the last point, from starts in which
- * another set of contacts rests. The orientation tells the way that the curve goes on from what it came by. */
+/* Where the places of rest of a slider have shrunk to one (planar_rest.h) rest and slip meet. The curve of rest comes
+ * there smoothly; that of slip leaves it along the discs' lens, by s, with omega a line and a parabola in s: dX/domega
+ * grows without bound towards the join, and omega may turn back within a little. Corners of the same kind are where
+ * other discs come to hold a slider. The far side is looked for in planes across the last tangent, before and behind the
+ * last point, then across the direction found there, from starts at which other contacts rest, or by other discs. The
+ * orientation tells the way that the curve goes on from what it came by. */
 
 /* Which contacts rest all period in the trial, held by how many discs, as a number; 0: the forces are not found. */
 static uint64_t resting(path *p)

@@ -369,6 +369,7 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
     test_values named = before, named_after = {0};
     if (st == HC_OK) st = evaluate_at(&s, change.x);
     const test_values after = change.x < 1 ? s.here : *end;
+    if (st == HC_OK && same_pattern(&before, &after)) st = HC_NOT_CONVERGED; /* solved again, another solution */
     if (st == HC_OK) named_after = after, st = name_change(&s, &change, &named, &named_after);
     if (st == HC_OK) st = insert_special(d, change.x, HBM_CONTACT_CHANGE, &named, &named_after);
     if (st != HC_OK) return st;
