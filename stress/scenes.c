@@ -160,6 +160,7 @@ static void face(scene *sc)
   c->kind = SCENE_LAW_TABLE;
   c->n_points = 4;
   memcpy(c->points, points, sizeof points);
+  memset(c + 1, 0, (size_t)(sc->n_contacts - 1) * sizeof *c);
   sc->n_contacts = 1;
 }
 
@@ -197,9 +198,10 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out)
   double omega = frequency(p, &sc);
   sc.force = force_at(p, &sc, omega);
   uint64_t random;
-  if (stress_scenes_cubic(s, index, &random))
+  const bool cubic = stress_scenes_cubic(s, index, &random);
+  if (cubic)
     weaken(&random, sc.force / hypot(sc.stiffness - sc.mass * omega * omega, sc.damping * omega), &sc);
-  if (stress_scenes_facing(s, index, &random)) face(&sc);
+  if (!cubic && stress_scenes_facing(s, index, &random)) face(&sc);
   sc.compare.omega = (number_list){1, {omega}};
   sc.hbm.harmonics = (int)geometric(p[HARMONICS], 1, 50.999);
   sc.hbm.samples = (int)geometric(p[SAMPLES], 16, 16384.999);

@@ -17,6 +17,13 @@ static const double steady_growth = 1e-3;
 static const double same_step = 1e-6;
 static const double rounding = 1e-9; /* [1] of K d, beside the terms it is made of; of d, beside the motion */
 
+hc_status escape_size(const timeint *ti)
+{
+  const double unbounded = 1e9, size = timeint_size(ti); /* [least_length] */
+  if (!isfinite(size)) return HC_NOT_FINITE;
+  return size <= unbounded * ti->least_length ? HC_OK : HC_UNBOUNDED;
+}
+
 bool escape_note(timeint *ti)
 {
   if (ti->periods < 2 * ti->noted[1].periods || ti->periods == 0) return false;

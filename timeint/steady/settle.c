@@ -274,7 +274,7 @@ hc_status settle_by_integration(timeint *ti, const hc_monitor *monitor, timeint_
   while (st == HC_OK && ti->periods < most - 1) {
     if (!hc_monitor_tick(monitor, (double)ti->periods / most)) return HC_INTERRUPTED;
     if ((st = one_period(ti, false)) != HC_OK || (st = adapt_tolerance(ti, &p)) != HC_OK) return st;
-    if (!(timeint_size(ti) <= SETTLE_UNBOUNDED * ti->least_length)) return HC_UNBOUNDED;
+    if ((st = escape_size(ti)) != HC_OK) return st;
     if (escape_note(ti) && timeint_may_creep(ti)) {
       if ((st = escape_look_for_creep(ti, &creeps)) != HC_OK) return st;
       if (creeps) break;

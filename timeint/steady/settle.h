@@ -52,9 +52,6 @@ double settle_drift(const settle *s);
  * goal > 0. */
 settle_estimate settle_judge(const settle *s, double goal);
 
-/* [least_length] No damped resonance is as high: a motion that is grows for ever. */
-#define SETTLE_UNBOUNDED 1e9
-
 /* ---- the steady state by integrating period after period until the state repeats itself ---- */
 
 /* From ti->y to the steady state, its measures into *r. HC_NOT_SETTLED after max_periods: *r is then the last

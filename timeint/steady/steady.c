@@ -82,7 +82,7 @@ static hc_status integrate_stretch(approach *a, int periods, bool *linear)
     if (!hc_monitor_tick(a->monitor, (double)ti->periods / most)) return HC_INTERRUPTED;
     timeint_point(a->ti, past_state(a, a->n_past++));
     st = timeint_period(ti, false);
-    if (st == HC_OK && !(timeint_size(ti) <= SETTLE_UNBOUNDED * ti->least_length)) st = HC_UNBOUNDED;
+    if (st == HC_OK) st = escape_size(ti);
   }
   if (st == HC_OK) *linear = linear_regime_is_final(ti);
   hc_status back = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
@@ -201,7 +201,8 @@ static hc_status approach_attractor(timeint *ti, int first, const hc_monitor *mo
 {
   approach a = {.ti = ti, .monitor = monitor};
   hc_status st = by_stretches(&a, first, r);
-  return st == HC_CHATTER && !(timeint_size(ti) <= SETTLE_UNBOUNDED * ti->least_length) ? HC_UNBOUNDED : st;
+  const hc_status size = escape_size(ti);
+  return st == HC_CHATTER && size != HC_OK ? size : st;
 }
 
 /* ---- the ways to the steady state ---------------------------------------------------------------------- */
