@@ -408,6 +408,8 @@ static hc_status is_known_from_here(path *p, bool *known)
   c->closed = st == HC_OK && segment >= 0;
   if (st == HC_OK && others) st = hbm_curve_passes(p->s, others, others->n, c, last, false, &c->met_segment);
   c->met = st == HC_OK && others && c->met_segment >= 0;
+  /* through a branch point to the mirror image of what it came along */
+  c->met |= others && hbm_on_either_side(p->s, c->n_coef, hbm_curve_X(c, last - 1), hbm_curve_X(c, last));
   *known = c->closed || c->met;
   return st;
 }

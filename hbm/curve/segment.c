@@ -301,7 +301,9 @@ hc_status hbm_curve_passes(hbm_solver *s, const hbm_curve *c, int segments, cons
   for (int k = 0; k < segments && found < 0 && st != HC_NO_MEMORY; ++k) {
     double sigma[3];
     if (!hbm_curve_has_segment(c, k)) continue;
-    if (!((c->points[k].omega - omega) * (c->points[k + 1].omega - omega) <= 0)) continue;
+    const bool between = (c->points[k].omega - omega) * (c->points[k + 1].omega - omega) <= 0,
+               turns = (c->points[k].d_omega > 0) != (c->points[k + 1].d_omega > 0); /* omega may lie beyond both */
+    if (!between && !turns) continue;
     if (same_way && (c->points[k].d_omega > 0) != (of->points[point].d_omega > 0)) continue;
     const hbm_segment seg = hbm_segment_between(c, k);
     const int n = find_omega(&seg, omega, true, sigma);

@@ -369,7 +369,8 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
     test_values named = before, named_after = {0};
     if (st == HC_OK) st = evaluate_at(&s, change.x);
     const test_values after = change.x < 1 ? s.here : *end;
-    if (st == HC_OK && same_pattern(&before, &after)) st = HC_NOT_CONVERGED; /* solved again, another solution */
+    const bool other = d->s->edges && same_pattern(&before, &after); /* solved again at a join, another solution */
+    if (st == HC_OK && other) st = HC_NOT_CONVERGED;
     if (st == HC_OK) named_after = after, st = name_change(&s, &change, &named, &named_after);
     if (st == HC_OK) st = insert_special(d, change.x, HBM_CONTACT_CHANGE, &named, &named_after);
     if (st != HC_OK) return st;
@@ -472,8 +473,11 @@ static hc_status search_segment(detector *d, int k, const test_values *v)
   d->first = d->n;
   if (!same_pattern(a, b)) changes = locate_contact_changes(d, k, *a, b);
   if (changes != HC_OK && d->n == d->first && d->s->edges) changes = locate_edge(d, k, a, b);
-  const bool turns = !p[1].over_join && (a->d_omega > 0) != (b->d_omega > 0),
-             breaks = !p[1].over_join && a->branch_sign * b->branch_sign < 0;
+  /* A branch that is not symmetric ends where it comes to the symmetric one, on which that is named. */
+  const bool ends = hbm_on_either_side(d->s, d->c->n_coef, hbm_curve_X(d->c, k), hbm_curve_X(d->c, k + 1)),
+             smooth = !p[1].over_join && !ends;
+  const bool turns = smooth && (a->d_omega > 0) != (b->d_omega > 0),
+             breaks = smooth && a->branch_sign * b->branch_sign < 0;
   if (turns) turning = locate_root(d, k, HBM_TURNING_POINT, 0, a->d_omega, 1, b->d_omega);
   if ((a->flip > 0) != (b->flip > 0)) doubling = locate_root(d, k, HBM_PERIOD_DOUBLING, 0, a->flip, 1, b->flip);
   else if (inside) doubling = locate_pair(d, k, HBM_PERIOD_DOUBLING, v - 1);

@@ -318,6 +318,14 @@ hc_status hbm_even_kernel(hbm_solver *s, double omega, const double *X, double *
   return st;
 }
 
+bool hbm_on_either_side(const hbm_solver *s, int n_coef, const double *X, const double *Y)
+{
+  double together = 0;
+  for (int i = 0; i < n_coef && s->symmetric; ++i)
+    if (is_even(s, i)) together += X[i] * Y[i];
+  return together < 0;
+}
+
 bool hbm_mirror(const hbm_solver *s, double *X)
 {
   for (int i = 0; i < s->sys.n_coef && s->symmetric; ++i)

@@ -42,6 +42,10 @@ hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, do
  * the rest's where the symmetric branch turns. 0 where it is singular or cannot be evaluated. */
 int hbm_even_sign(hbm_solver *s, double omega, const double *X);
 
+/* Do X and Y[n_coef] of a symmetric model lie on either side of its symmetric motions: has what even harmonics of one
+ * have the other sign in the other? */
+bool hbm_on_either_side(const hbm_solver *s, int n_coef, const double *X, const double *Y);
+
 /* phi[n_coef], even harmonics alone, of length 1 in the metric at X: nearest to the kernel of that block, by which the
  * other branch leaves a branch point. HC_SINGULAR, or errors of the contact force. */
 hc_status hbm_even_kernel(hbm_solver *s, double omega, const double *X, double *phi);

@@ -129,8 +129,8 @@ def a_table_is_what_it_stands_for():
 
 def symmetry_breaks():
     """A hard-driven Duffing: between two points the symmetric motion is unstable, though the curve does not turn, and time
-    integration has a mean. Where they are hangs on the orbit's multiplier: to 1e-9 the same with 12 and with 25 harmonics,
-    and the point beside a turning point, where only too few harmonics tell the two apart, is none."""
+    integration has a mean. They are branch points of the truncated equations, to 1e-9 the same with 12 and with 25 harmonics;
+    the point beside a turning point, where only too few harmonics tell the two apart, is none."""
     case = os.path.join(ROOT, "cases/peers/tmdsimpy_sdof_duffing.yaml")
     said = [re.findall(r"symmetry breaking at omega = ([0-9.]+)", run("frf", case, "--set", f"hbm.harmonics={harmonics}").stdout)
             for harmonics in (12, 25)]
@@ -140,8 +140,9 @@ def symmetry_breaks():
         near(w, other, 2e-9, "with more harmonics")
     assert not any(0.4 < float(w) < 0.6 for w in said[0]), said
     for omega, stable in ((low * (1 - 1e-6), "yes"), (low * (1 + 1e-6), "no"), (high * (1 - 1e-6), "no"), (high * (1 + 1e-6), "yes")):
-        found = [r for r in rows("frf", case, "--at", repr(omega)) if float(r["amplitude"]) < 2]
-        assert [r["stable"] for r in found] == [stable] and float(found[0]["mean"]) == 0, found
+        found = [r for r in rows("frf", case, "--at", repr(omega), "--set", "hbm.harmonics=12")
+                 if float(r["amplitude"]) < 2 and float(r["mean"]) == 0]
+        assert [r["stable"] for r in found] == [stable], found  # beside it, in between, one with a mean: the other branch
     settled = rows("transient", case, "--at", repr((low + high) / 2), "--set", "sweep.omega=[0.6, 0.9]")
     assert abs(float(settled[0]["mean"])) > 0.01, settled
 

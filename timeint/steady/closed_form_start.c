@@ -166,6 +166,8 @@ static hc_status begin_again(timeint *ti, const double *state, const timeint_res
   return st;
 }
 
+enum { LEAST_GROWTH = 4 }; /* periods */
+
 hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, const hc_monitor *monitor,
                               timeint_result *r, bool *done)
 {
@@ -177,7 +179,9 @@ hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, co
   hc_status st = orbit_of > 0 ? timeint_orbit(ti->closed_form, ti->omega, orbit_of, start, monitor, &first)
                               : timeint_steady(ti->closed_form, ti->omega, start, monitor, &first);
   r->closed_form_periods = first.periods;
-  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY || st == HC_UNBOUNDED) return st;
+  /* What is beyond all bounds after the first periods has not grown: its numbers are too large for closed form. */
+  const bool grew = st == HC_UNBOUNDED && first.periods >= LEAST_GROWTH;
+  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY || grew) return st;
   const bool orbit_wanted = orbit_of > 0 || ti->how.steady == TRANSIENT_STEADY_SHOOTING;
   if (orbit_wanted && shoot_found_no_orbit(st) && st != HC_CHATTER)
     return st; /* where there is none, CVODE finds none */
