@@ -4,6 +4,7 @@
 #include <complex.h>
 #include <string.h>
 
+#include "timeint/steady/escape.h"
 #include "timeint/steady/linear_regime.h"
 #include "timeint/steady/regularised.h"
 #include "timeint/steady/shoot.h"
@@ -166,8 +167,6 @@ static hc_status begin_again(timeint *ti, const double *state, const timeint_res
   return st;
 }
 
-enum { LEAST_GROWTH = 4 }; /* periods */
-
 hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, const hc_monitor *monitor,
                               timeint_result *r, bool *done)
 {
@@ -179,8 +178,8 @@ hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, co
   hc_status st = orbit_of > 0 ? timeint_orbit(ti->closed_form, ti->omega, orbit_of, start, monitor, &first)
                               : timeint_steady(ti->closed_form, ti->omega, start, monitor, &first);
   r->closed_form_periods = first.periods;
-  /* What is beyond all bounds after the first periods has not grown: its numbers are too large for closed form. */
-  const bool grew = st == HC_UNBOUNDED && first.periods >= LEAST_GROWTH;
+  /* Steady growth is believed; a size beyond all bounds may be numbers too large for closed form. */
+  const bool grew = st == HC_UNBOUNDED && escape_size(ti->closed_form) == HC_OK;
   if (st == HC_INTERRUPTED || st == HC_NO_MEMORY || grew) return st;
   const bool orbit_wanted = orbit_of > 0 || ti->how.steady == TRANSIENT_STEADY_SHOOTING;
   if (orbit_wanted && shoot_found_no_orbit(st) && st != HC_CHATTER)
