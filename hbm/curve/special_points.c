@@ -60,14 +60,13 @@ typedef struct detector {
 
 bool hbm_specials_follow_each(const hbm_solver *s) { return s->model->n_contacts <= MOST_CONTACTS_FOLLOWED; }
 
-/* Sign of det dR/dX times that of d_omega: the same on either side of a turning point, and of other places but branch
- * points. Of symmetric models and of those without kinks, whose curves pass these; else 0. */
-static int branch_sign(const detector *d, double omega, double d_omega, const double *X)
+/* A sign that changes at branch points alone: of symmetric models with kinks the even harmonics' (hbm_even_sign), without
+ * kinks that of det dR/dX times that of d_omega, whatever symmetry breaks. 0 of other models. */
+static int branch_sign(const detector *d, const double *X, double omega, double d_omega)
 {
   int det_sign = 0;
-  if (!d->s->symmetric && model_has_kinks(d->s->model)) return 0;
-  if (hbm_det_sign_at(d->s, omega, X, &det_sign) != HC_OK) return 0;
-  return d_omega > 0 ? det_sign : -det_sign;
+  if (model_has_kinks(d->s->model)) return d->s->symmetric ? hbm_even_sign(d->s, omega, X) : 0;
+  return hbm_det_sign_at(d->s, omega, X, &det_sign) == HC_OK ? (d_omega > 0 ? det_sign : -det_sign) : 0;
 }
 
 /* with_multipliers: they cost more than all the rest, and only the searches for a period doubling or a Neimark-Sacker
@@ -82,21 +81,19 @@ static hc_status evaluate_tests(detector *d, double omega, double d_omega, const
   if (st == HC_OK && with_multipliers) st = hbm_multipliers(d->s, orbit, omega, X, &stability);
   const int transitions = hbm_specials_follow_each(d->s) ? report.transitions : 0;
   if (st == HC_OK)
-    *v = (test_values){d_omega,
-                       stability.flip,
-                       branch_sign(d, omega, d_omega, X),
-                       stability.pairs_outside,
-                       stability.pair,
-                       report.regime,
-                       transitions,
-                       stability.of_motion};
+    *v = (test_values){d_omega,        stability.flip, 0,           stability.pairs_outside,
+                       stability.pair, report.regime,  transitions, stability.of_motion};
   return st;
 }
 
 static hc_status evaluate_at_point(detector *d, int k, test_values *v)
 {
   const hbm_point *p = &d->c->points[k];
-  return evaluate_tests(d, p->omega, p->d_omega, hbm_curve_X(d->c, k), !hbm_stability_is_costly(d->s), v);
+  const double *X = hbm_curve_X(d->c, k);
+  hc_status st = evaluate_tests(d, p->omega, p->d_omega, X, !hbm_stability_is_costly(d->s), v);
+  const bool known = model_has_kinks(d->s->model); /* the curve has it of its symmetric points */
+  if (st == HC_OK) v->branch_sign = known ? p->even_sign : branch_sign(d, X, p->omega, p->d_omega);
+  return st;
 }
 
 static bool same_pattern(const test_values *a, const test_values *b)
@@ -163,6 +160,8 @@ static hc_status evaluate_at(segment_search *s, double sigma)
                                                : hbm_segment_point(d->s, d->c, s->k, sigma, &d->x);
   const bool asked = s->kind == HBM_PERIOD_DOUBLING || s->kind == HBM_NEIMARK_SACKER;
   if (st == HC_OK) st = evaluate_tests(d, d->x.point.omega, d->x.point.d_omega, d->x.X, asked, &s->here);
+  if (st == HC_OK && s->kind == HBM_SYMMETRY_BREAKING)
+    s->here.branch_sign = branch_sign(d, d->x.X, d->x.point.omega, d->x.point.d_omega);
   s->sigma = st == HC_OK ? sigma : NAN;
   return st;
 }

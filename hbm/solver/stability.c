@@ -23,6 +23,17 @@ static bool in_modes(const model *m) { return m->n > LARGE && model_has_circle(m
  * take 2 ms, 24 to 2e8 and 24 ms), a curve of 100 points with its special points some seconds. */
 static const double MOST_OPERATIONS_OF_STEPS = 3e8;
 
+/* Friction by tanh turns over within epsilon/u' of a period, which may be a millionth of it: its steps are counted by no
+ * harmonics, and of larger structures a solution takes seconds. */
+enum { LARGE_WITH_TANH = 12 };
+
+static bool turns_sharply(const model *m)
+{
+  bool any = false;
+  for (int j = 0; j < m->n_contacts; ++j) any |= m->contacts[j].law.smooth == CONTACT_TANH;
+  return any && m->n + m->n_contacts > LARGE_WITH_TANH;
+}
+
 static double operations_of_steps(const hbm_solver *s)
 {
   const double states = 2 * s->model->n + s->model->n_contacts,
@@ -35,12 +46,13 @@ bool hbm_stability_is_costly(const hbm_solver *s)
   const model *m = s->model;
   if (in_modes(m)) return m->n_contacts > MOST_IN_MODES;
   const bool by_steps = model_has_circle(m) || model_is_smooth(m);
-  return m->n > LARGE || (by_steps && operations_of_steps(s) > MOST_OPERATIONS_OF_STEPS);
+  return m->n > LARGE || turns_sharply(m) || (by_steps && operations_of_steps(s) > MOST_OPERATIONS_OF_STEPS);
 }
 
 const char *hbm_stability_limit(const hbm_solver *s)
 {
   if (!hbm_stability_is_costly(s)) return NULL;
+  if (turns_sharply(s->model)) return "friction by tanh and more than 12 degrees of freedom";
   return s->model->n > LARGE
              ? "more than 50 degrees of freedom"
              : "with so many states and harmonics, smooth laws or contacts with two tangents take 40 ms "
