@@ -37,7 +37,8 @@ int progress_interrupted(void);
 
 /* Draws "label", then at most 10 times a second "label  37 %  12 s left" on stderr, if a terminal, TERM set and not
  * dumb, not quiet; elsewhere, not quiet, after 20 s and each time the time has doubled a line "hbmcheck: label  37 %
- * 40 s left" of its own. Never fails: NULL (no memory) draws nothing, and its ticks still answer false after a signal. */
+ * 40 s left" of its own. Never fails: NULL (no memory) draws nothing, and its ticks still answer false after a
+ * signal. */
 progress *progress_start(const char *label, bool quiet);
 
 /* For long work; one thread at a time may tick. done is 0..1, or negative: unknown, the time is shown. */

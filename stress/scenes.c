@@ -199,8 +199,7 @@ hc_status stress_scenes_at(stress_scenes *s, long index, scene *out)
   sc.force = force_at(p, &sc, omega);
   uint64_t random;
   const bool cubic = stress_scenes_cubic(s, index, &random);
-  if (cubic)
-    weaken(&random, sc.force / hypot(sc.stiffness - sc.mass * omega * omega, sc.damping * omega), &sc);
+  if (cubic) weaken(&random, sc.force / hypot(sc.stiffness - sc.mass * omega * omega, sc.damping * omega), &sc);
   if (!cubic && stress_scenes_facing(s, index, &random)) face(&sc);
   sc.compare.omega = (number_list){1, {omega}};
   sc.hbm.harmonics = (int)geometric(p[HARMONICS], 1, 50.999);

@@ -30,8 +30,8 @@ unsigned long stress_scenes_seed(const stress_scenes *s);
 /* Has scene number `index` of any family a spring that is cubic, or nearly? Then *random is to be drawn from for it. */
 bool stress_scenes_cubic(const stress_scenes *s, long index, uint64_t *random);
 
-/* Do equal stops face each other in scene number `index` of any family; has one in space circles in two contacts or more,
- * under static and turning loads? *random is to be drawn from for it. */
+/* Do equal stops face each other in scene number `index` of any family; has one in space circles in two contacts or
+ * more, under static and turning loads? *random is to be drawn from for it. */
 bool stress_scenes_facing(const stress_scenes *s, long index, uint64_t *random);
 bool stress_scenes_circles(const stress_scenes *s, long index, uint64_t *random);
 

@@ -397,8 +397,8 @@ hc_status stress_structures_at(stress_scenes *scenes, long index, scene *out)
  *
  * Friction and gaps alone, but for cubic springs. Most contacts with friction get a second tangent. One in seven has
  * nearly the line of the first, by 1e-1 .. 1e-4: the motion then is nearly straight, and slip turns about at once. The
- * limit is the circle's in four of five. In one scene of ten circles turn under static loads. Numbers come from a generator of its own for each scene: what is drawn above
- * is what it is without. */
+ * limit is the circle's in four of five. In one scene of ten circles turn under static loads. Numbers come from a
+ * generator of its own for each scene: what is drawn above is what it is without. */
 
 /* |sin| of the angle between a and b, of which neither is 0. */
 static double across(int n, const double *a, const double *b)

@@ -211,9 +211,9 @@ static bool round_corner(path *p)
 /* Where the places of rest of a slider have shrunk to one (planar_rest.h) rest and slip meet. The curve of rest comes
  * there smoothly; that of slip leaves it along the discs' lens, by s, with omega a line and a parabola in s: dX/domega
  * grows without bound towards the join, and omega may turn back within a little. Corners of the same kind are where
- * other discs come to hold a slider. The far side is looked for in planes across the last tangent, before and behind the
- * last point, then across the direction found there, from starts at which other contacts rest, or by other discs. The
- * orientation tells the way that the curve goes on from what it came by. */
+ * other discs come to hold a slider. The far side is looked for in planes across the last tangent, before and behind
+ * the last point, then across the direction found there, from starts at which other contacts rest, or by other discs.
+ * The orientation tells the way that the curve goes on from what it came by. */
 
 /* Which contacts rest all period in the trial, held by how many discs, as a number; 0: the forces are not found. */
 static uint64_t resting(path *p)
@@ -484,7 +484,8 @@ static hc_status accept_trial(path *p, bool *done)
 }
 
 /* After a step that was not accepted, step_status being HC_OK or why there was no trial: arc length instead of natural
- * steps, or a step over a join or round a corner, each once a point and distance. HC_OK: try again with a shorter step. */
+ * steps, or a step over a join or round a corner, each once a point and distance. HC_OK: try again with a shorter
+ * step. */
 static hc_status recover(path *p, hc_status step_status, bool *done)
 {
   hbm_curve *c = p->curve;

@@ -4,10 +4,10 @@
  *     W = pi sum_k k |x_k^H p_k|                     the most that the loads can do in a period, in the best phase
  *     D = pi omega sum_h h^2 |x_h^H C x_h|           what damping takes in a period
  *
- * Over a period the loads do what damping and friction take. In proportion to the amplitude A, E and D grow as A^2, W as
- * A, and so does what friction under bounded normal forces takes, 4 mu N a slider and unit of its amplitude. Where E is
- * far above W, loads and friction no longer tell at which amplitude the motion is; damping alone could. Coulomb friction
- * and an undamped spring: F > 4 mu N/pi (Den Hartog 1931), with the natural frequency of the open mass. */
+ * Over a period the loads do what damping and friction take. In proportion to the amplitude A, E and D grow as A^2, W
+ * as A, and so does what friction under bounded normal forces takes, 4 mu N a slider and unit of its amplitude. Where E
+ * is far above W, loads and friction no longer tell at which amplitude the motion is; damping alone could. Coulomb
+ * friction and an undamped spring: F > 4 mu N/pi (Den Hartog 1931), with the natural frequency of the open mass. */
 #pragma once
 
 #include "hbm/solver/hbm_solver.h"

@@ -8,8 +8,8 @@
  *                             is the other branch's direction there; its mirror image is not followed.
  *
  * Newton is given no line search at an end that a part has come to.
- * A start that lies on a known part costs its check alone; a part ends where it comes to a known one. Where one comes to
- * the place at which the first part had to stop, from the other side, the curve is whole. */
+ * A start that lies on a known part costs its check alone; a part ends where it comes to a known one. Where one comes
+ * to the place at which the first part had to stop, from the other side, the curve is whole. */
 #include <string.h>
 
 #include "hbm/curve/continuation.h"

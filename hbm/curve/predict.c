@@ -181,8 +181,8 @@ hc_status hbm_finer_stability(hbm_solver *s, double omega, const double *X, hbm_
   return st == HC_OK ? finer_moduli(s, omega, X, finer, s->moduli, factor) : st;
 }
 
-/* What the largest modulus is between if each is off by something between `from` and `to` times what the other's differs
- * by: the largest need not be the one that passes 1. */
+/* What the largest modulus is between if each is off by something between `from` and `to` times what the other's
+ * differs by: the largest need not be the one that passes 1. */
 static void take_range(const hbm_solver *s, double from, double to, hbm_stability *out)
 {
   const double *ours = s->moduli, *theirs = ours + n_states(s);
@@ -218,8 +218,8 @@ static bool is_plain_by_rows_before(const hbm_solver *s, const contact_report *n
   return same && b->since < MOST_ROWS && margin * b->error <= fabs(multiplier - 1);
 }
 
-/* Has s->truncated all of its multipliers where X has them? Asked where its harmonics reach the contacts' own frequency:
- * up to there errors do not fall with their number, and two motions may agree by chance. */
+/* Has s->truncated all of its multipliers where X has them? Asked where its harmonics reach the contacts' own
+ * frequency: up to there errors do not fall with their number, and two motions may agree by chance. */
 static bool is_plain_by_truncation(hbm_solver *s, double omega, hbm_stability *out)
 {
   const contact_forces *orbit;

@@ -36,12 +36,12 @@ hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int
  * times the same factor as above; by twice the distance where H harmonics do not reach the contacts' own frequency.
  * Where there is no such solution nothing is known: 0 and INFINITY.
  *
- * That solution costs as much as a point of a curve or several, and is asked only where it would tell: not where nothing
- * changes over the period, so that the multipliers are exact; nor where X has too little in the upper half of its
- * harmonics; nor where its lower half reaches the contacts' own frequency and alone has all multipliers on the same side
- * of 1. Of a row (is_row: asked about after the rows before it, along one curve) neither where contacts do the same as
- * in a row up to 8 before, on the same side of 1, whose error was at most a quarter of what this one is from 1; nor
- * where hbm_stability_error_is_costly. Then low = high, or what the lower half says. Errors of hbm_stability_at. */
+ * That solution costs as much as a point of a curve or several, and is asked only where it would tell: not where
+ * nothing changes over the period, so that the multipliers are exact; nor where X has too little in the upper half of
+ * its harmonics; nor where its lower half reaches the contacts' own frequency and alone has all multipliers on the same
+ * side of 1. Of a row (is_row: asked about after the rows before it, along one curve) neither where contacts do the
+ * same as in a row up to 8 before, on the same side of 1, whose error was at most a quarter of what this one is from 1;
+ * nor where hbm_stability_error_is_costly. Then low = high, or what the lower half says. Errors of hbm_stability_at. */
 hc_status hbm_stability_with_error(hbm_solver *s, double omega, const double *X, bool is_row, hbm_stability *out);
 
 /* Do those equations have more than 600 unknowns? */

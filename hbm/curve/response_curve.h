@@ -7,7 +7,8 @@
 #include "hbm/solver/hbm_solver.h"
 #include "hbm/solver/metric.h"
 
-/* Where a part of a curve began: at the sweep's first omega, at its last one, or at a branch point of a symmetric part. */
+/* Where a part of a curve began: at the sweep's first omega, at its last one, or at a branch point of a symmetric
+ * part. */
 typedef enum hbm_part_start { HBM_PART_FROM_FIRST, HBM_PART_FROM_LAST, HBM_PART_FROM_BRANCH } hbm_part_start;
 
 /* Points that are connected, in their order along the curve. */

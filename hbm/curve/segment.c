@@ -342,7 +342,8 @@ static hc_status append_solution(hbm_solver *s, const hbm_curve *c, const double
   return st;
 }
 
-/* Planes across the interpolant may miss the curve at a join of rest and slip: from both ends of a segment, at omega. */
+/* Planes across the interpolant may miss the curve at a join of rest and slip: from both ends of a segment, at
+ * omega. */
 static hc_status solve_from_ends(hbm_solver *s, const hbm_curve *c, int k, double omega, int before, hbm_curve *at)
 {
   for (int end = k; end <= k + 1; ++end)

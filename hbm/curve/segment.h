@@ -56,10 +56,10 @@ hc_status hbm_curve_passes(hbm_solver *s, const hbm_curve *c, int segments, cons
                            bool same_way, int *segment);
 
 /* Every solution of the curve at omega, appended to *at in the curve's order, each once; of one with parts also the
- * motion in which no contact changes state, where there is one, behind the others with a branch of its own. The status is HC_OK, or that of the
- * last segment on which a solution could not be found; the other segments' solutions are there all the same. Where a
- * curve whose contacts have edges of slip stopped before omega: one solution, found without it; of their edges of
- * slip (README.md) those that Newton finds at omega from a segment's ends. */
+ * motion in which no contact changes state, where there is one, behind the others with a branch of its own. The status
+ * is HC_OK, or that of the last segment on which a solution could not be found; the other segments' solutions are there
+ * all the same. Where a curve whose contacts have edges of slip stopped before omega: one solution, found without it;
+ * of their edges of slip (README.md) those that Newton finds at omega from a segment's ends. */
 hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at);
 
 /* The point of largest amplitude of the curve, refined between its points, appended to *peak. HC_BAD_INPUT for an

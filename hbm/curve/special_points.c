@@ -4,8 +4,8 @@
  * interpolation. The contact pattern is not: its change is bisected, with the pattern of the interpolant as a guess of
  * where (segment.h), and the rest of the segment searched for the next. Bisected, too, is the number of complex pairs
  * of multipliers outside the unit circle (Neimark-Sacker): where it changes without a pair on the circle, two real ones
- * have met, or multipliers jump with the pattern. Where a symmetry breaks the sign of the determinant changes, and the curve
- * does not turn: that is bisected, too. Two changes between neighbouring
+ * have met, or multipliers jump with the pattern. Where a symmetry breaks the sign of the determinant changes, and the
+ * curve does not turn: that is bisected, too. Two changes between neighbouring
  * points leave no trace at these: they are looked for where a test function falls towards 0 from either side. What is
  * too near to be told apart is one change: slip and separation that begin at once, two contacts that are alike. */
 #include "hbm/curve/special_points.h"
@@ -60,8 +60,8 @@ typedef struct detector {
 
 bool hbm_specials_follow_each(const hbm_solver *s) { return s->model->n_contacts <= MOST_CONTACTS_FOLLOWED; }
 
-/* A sign that changes at branch points alone: of symmetric models with kinks the even harmonics' (hbm_even_sign), without
- * kinks that of det dR/dX times that of d_omega, whatever symmetry breaks. 0 of other models. */
+/* A sign that changes at branch points alone: of symmetric models with kinks the even harmonics' (hbm_even_sign),
+ * without kinks that of det dR/dX times that of d_omega, whatever symmetry breaks. 0 of other models. */
 static int branch_sign(const detector *d, const double *X, double omega, double d_omega)
 {
   int det_sign = 0;
@@ -228,9 +228,9 @@ static double reach_of_unknown(detector *d, int k, int direction, double omega)
   return reach;
 }
 
-/* The point found at sigma, where d->x is, into the list, with its error in omega: that of the test function, by what it
- * is of the solution with twice the harmonics, over its slope along the curve; but as far as stability is unknown about
- * it, over which that slope need not hold. Beside it, since at a broken symmetry the equations are singular. */
+/* The point found at sigma, where d->x is, into the list, with its error in omega: that of the test function, by what
+ * it is of the solution with twice the harmonics, over its slope along the curve; but as far as stability is unknown
+ * about it, over which that slope need not hold. Beside it, since at a broken symmetry the equations are singular. */
 static hc_status insert_with_error(segment_search *s, double sigma)
 {
   const double beside = sigma < 0.5 ? sigma + 0.05 : sigma - 0.05;
@@ -298,9 +298,9 @@ static hc_status solve_at_omega(detector *d, double *const guess[2], double omeg
   return st;
 }
 
-/* Planes across the interpolant may miss a join of rest and slip: the change on segment k by bisection of omega. Next to
- * the join Newton may not come to the motion that slips, to that which rests it does: where there is neither, within a
- * step over a join or the last part of omega, it slips. */
+/* Planes across the interpolant may miss a join of rest and slip: the change on segment k by bisection of omega. Next
+ * to the join Newton may not come to the motion that slips, to that which rests it does: where there is neither, within
+ * a step over a join or the last part of omega, it slips. */
 static hc_status locate_edge(detector *d, int k, const test_values *before, const test_values *end)
 {
   const hbm_point *p = &d->c->points[k];

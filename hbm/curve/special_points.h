@@ -21,9 +21,9 @@ typedef struct hbm_special {
   double omega_error;
 } hbm_special;
 
-/* All of them in the curve's order, located to 1e-9 of omega or better (to 1e-6 at a join of rest and slip): *out [*n], to be
- * freed by the caller, whatever the status. Those of a kind that this cannot tell apart are one, or none if they undo
- * each other. Two between neighbouring points are found where multipliers go down towards them on either side, and
+/* All of them in the curve's order, located to 1e-9 of omega or better (to 1e-6 at a join of rest and slip): *out [*n],
+ * to be freed by the caller, whatever the status. Those of a kind that this cannot tell apart are one, or none if they
+ * undo each other. Two between neighbouring points are found where multipliers go down towards them on either side, and
  * hbm_stability_error_is_costly says no. One that
  * could not be located makes the status, and leaves the others in place. */
 hc_status hbm_specials(hbm_solver *s, const hbm_curve *curve, hbm_special **out, int *n);

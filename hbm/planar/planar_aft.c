@@ -248,7 +248,8 @@ static bool rests_where_nearest(const planar_aft *a)
   return a->restart == HBM_RESTART_INTERPOLATED || a->restart == HBM_RESTART_SAMPLE;
 }
 
-/* a->rest: of the motion itself, not of its samples, between which an instant where a disc holds the slider would jump. */
+/* a->rest: of the motion itself, not of its samples, between which an instant where a disc holds the slider would
+ * jump. */
 static hc_status find_rest(planar_aft *a, const double *X)
 {
   const int length = series_length(a->n_harm);

@@ -4,9 +4,9 @@
  * Where contact is lost, touch-down puts the slider at w = u and one pass is enough. Else it rests where it can
  * (planar_rest.h). Where it cannot, it slips in every period. A pass maps w(0) to w(2 pi) without expanding distances,
  * for w is dragged by a moving convex set (Moreau 1977, J. Differential Equations 26, 347-374); that is no clamp, and
- * repeats itself in the limit only. So the closed orbit is found by Newton on w(0), with the 2x2 derivative of the pass;
- * the first pass, of which the second forgets nearly all, is a rough one, and the last step is to first order where that
- * is wanted (planar_cycle.c). libm only, nothing is allocated. */
+ * repeats itself in the limit only. So the closed orbit is found by Newton on w(0), with the 2x2 derivative of the
+ * pass; the first pass, of which the second forgets nearly all, is a rough one, and the last step is to first order
+ * where that is wanted (planar_cycle.c). libm only, nothing is allocated. */
 #pragma once
 
 #include "hbm/planar/planar_motion.h"

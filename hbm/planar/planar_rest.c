@@ -83,8 +83,8 @@ static disc_distance distance_at(const planar_point *p, const double w[2])
                          .bend = p->ddu[0] * e1 + p->ddu[1] * e2 + across * across / length - p->ddR};
 }
 
-/* The angle where h is stationary, from one no farther from it than from the next of the grid: Newton, or halves where that leads out. From an
- * angle that is good to 1e-9 one more step leads to it, to rounding. */
+/* The angle where h is stationary, from one no farther from it than from the next of the grid: Newton, or halves where
+ * that leads out. From an angle that is good to 1e-9 one more step leads to it, to rounding. */
 static planar_point climb(const planar_motion *m, const double w[2], double th)
 {
   enum { MOST_STEPS = 60 };
@@ -211,8 +211,8 @@ static void exchange(planar_rest *r, const planar_point *next, double noise)
 
 /* ---- where it is ----------------------------------------------------------------------------------------- */
 
-/* How the direction e of a disc turns, by what c moves across it: turned - by_c q. The instant where h is largest shifts
- * by dth: with U = u'.e_perp, B = -h'' > 0, L = |u - c| and q = dc.e_perp
+/* How the direction e of a disc turns, by what c moves across it: turned - by_c q. The instant where h is largest
+ * shifts by dth: with U = u'.e_perp, B = -h'' > 0, L = |u - c| and q = dc.e_perp
  *
  *     L turn = across + U dth - q,      B dth = rate + U (across - q)/L
  *
@@ -291,8 +291,9 @@ hc_status planar_rest_find(const planar_motion *m, const planar_point *grid, pla
 
 /* ---- how it moves ---------------------------------------------------------------------------------------- */
 
-/* dc and d(-room): h_i = -room at instants where they are largest, whose shift changes nothing to first order. Two discs
- * hold c between their centres, so that both directions turn by the same; the second's e_perp is the other way. */
+/* dc and d(-room): h_i = -room at instants where they are largest, whose shift changes nothing to first order. Two
+ * discs hold c between their centres, so that both directions turn by the same; the second's e_perp is the other
+ * way. */
 static void move_centre(const planar_rest *r, const planar_disc_change *change, double dc[2], double *dv)
 {
   const double away[] = {change[0].away, r->n > 1 ? change[1].away : 0, r->n > 2 ? change[2].away : 0};

@@ -10,8 +10,8 @@
  *     w = 0 where |c| <= room, else c (1 - room/|c|).
  *
  * Of one tangent that is where marching from w = 0 comes to. In a plane marching comes to A in the limit only, and to
- * any point of it. The point of A itself nearest to 0 would be a corner of the lens of two discs where A is small, which
- * moves like the root of its width: of that branches fold which only the choice makes.
+ * any point of it. The point of A itself nearest to 0 would be a corner of the lens of two discs where A is small,
+ * which moves like the root of its width: of that branches fold which only the choice makes.
  *
  * c is held by two discs or three (one, where the others have it inside). By exchange: of these and the disc that c is
  * farthest out of, those that hold the best point for all of them; until none is farther out than by rounding. libm
@@ -34,8 +34,8 @@ typedef struct planar_rest {
 } planar_rest;
 
 /* Where a slider at w begins to slip: the first angle in (from, to] where |u - w| exceeds R, 0 <= from < to <= from +
- * 2 pi and from <= 2 pi; false if there is none. It does not at `from`, to rounding; excursions by no more than rounding
- * do not count. grid: of planar_motion_grid. */
+ * 2 pi and from <= 2 pi; false if there is none. It does not at `from`, to rounding; excursions by no more than
+ * rounding do not count. grid: of planar_motion_grid. */
 bool planar_stick_ends(const planar_motion *m, const planar_point *grid, const double w[2], const planar_point *from,
                        double to, planar_point *root);
 

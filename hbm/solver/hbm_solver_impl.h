@@ -96,8 +96,8 @@ void hbm_truncate(const hbm_solver *s, int n_coef, double *X);
  * found. Errors of contact_forces_eval. */
 hc_status hbm_located_orbit(hbm_solver *s, const double *X, const contact_forces **orbit, contact_report *report);
 
-/* The multipliers along an orbit of hbm_located_orbit, X at omega: monodromy_stability, which is not asked again about a
- * solution that hbm_keep_stability was told about. */
+/* The multipliers along an orbit of hbm_located_orbit, X at omega: monodromy_stability, which is not asked again about
+ * a solution that hbm_keep_stability was told about. */
 void hbm_keep_stability(hbm_solver *s, double omega, const double *X, const hbm_stability *known);
 hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double omega, const double *X,
                           hbm_stability *out);

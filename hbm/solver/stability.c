@@ -19,12 +19,12 @@ static bool in_modes(const model *m) { return m->n > LARGE && model_has_circle(m
 
 /* Operations of one solution where planar friction or smooth laws are followed step by step (planar_flow.h): of each
  * step the factors and the right sides of all states, and a step a harmonic, more or less, since both go with what
- * moves fastest. 3e8 take some 40 ms (8 degrees of freedom with as many smooth contacts come to 7e6 with 5 harmonics and
- * take 2 ms, 24 to 2e8 and 24 ms), a curve of 100 points with its special points some seconds. */
+ * moves fastest. 3e8 take some 40 ms (8 degrees of freedom with as many smooth contacts come to 7e6 with 5 harmonics
+ * and take 2 ms, 24 to 2e8 and 24 ms), a curve of 100 points with its special points some seconds. */
 static const double MOST_OPERATIONS_OF_STEPS = 3e8;
 
-/* Friction by tanh turns over within epsilon/u' of a period, which may be a millionth of it: its steps are counted by no
- * harmonics, and of larger structures a solution takes seconds. */
+/* Friction by tanh turns over within epsilon/u' of a period, which may be a millionth of it: its steps are counted by
+ * no harmonics, and of larger structures a solution takes seconds. */
 enum { LARGE_WITH_TANH = 12 };
 
 static bool turns_sharply(const model *m)

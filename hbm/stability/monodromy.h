@@ -29,10 +29,11 @@ typedef enum monodromy_method {
 hc_status monodromy_new(const model *m, monodromy_method how, monodromy **out);
 void monodromy_free(monodromy *w);
 
-/* Everything but `agrees`, which is left false, and low = high = multiplier, for the orbit last evaluated by `orbit`, at omega. A slider stuck all
- * period has a multiplier 1 of its own, since its residual traction is not determined: it is left out.
- * HC_NOT_CONVERGED if the eigenvalues could not be computed, or not within minutes, HC_NOT_FINITE if they are too
- * large, HC_NO_MEMORY. GSL's error handler must be switched off: its errors come back as HC_NOT_CONVERGED then. */
+/* Everything but `agrees`, which is left false, and low = high = multiplier, for the orbit last evaluated by `orbit`,
+ * at omega. A slider stuck all period has a multiplier 1 of its own, since its residual traction is not determined: it
+ * is left out. HC_NOT_CONVERGED if the eigenvalues could not be computed, or not within minutes, HC_NOT_FINITE if they
+ * are too large, HC_NO_MEMORY. GSL's error handler must be switched off: its errors come back as HC_NOT_CONVERGED
+ * then. */
 hc_status monodromy_stability(monodromy *w, const model *m, const contact_forces *orbit, double omega,
                               hbm_stability *out);
 

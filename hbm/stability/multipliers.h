@@ -1,4 +1,5 @@
-/* multipliers.h - the Floquet multipliers of a solution, in numbers. What predicts their error is hbm/curve/predict.h. */
+/* multipliers.h - the Floquet multipliers of a solution, in numbers. What predicts their error is
+ * hbm/curve/predict.h. */
 #pragma once
 
 #include <stdbool.h>

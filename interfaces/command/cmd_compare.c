@@ -94,8 +94,7 @@ static void print_failures(const cli_common *common, const comparison *c)
       cli_solver_failed(common, CLI_TRANSIENT, "time integration", r->transient_status, r->omega);
   }
   if (c->curve.end != HC_OK && c->curve.n)
-    cli_solver_failed(common, CLI_HBM, "the HBM response curve", creeps ? HC_CREEPS : c->curve.end,
-                      c->curve.ends_at);
+    cli_solver_failed(common, CLI_HBM, "the HBM response curve", creeps ? HC_CREEPS : c->curve.end, c->curve.ends_at);
 }
 
 /* "3 rows without ...": where there are such rows. */

@@ -1,7 +1,7 @@
 /* test_rescue.c - `compare` or `transient` is stopped inside a period of time integration that never ends, `frf` where
- * the stability of a point is never found, timeint_steady and hbm_stability_at being wrapped by the linker: the rows that were found before are written as in a run that is not
- * stopped, the first table says that it is not whole, the exit code is 3; however many signals come. Where no row was
- * found yet, it ends as everything does. */
+ * the stability of a point is never found, timeint_steady and hbm_stability_at being wrapped by the linker: the rows
+ * that were found before are written as in a run that is not stopped, the first table says that it is not whole, the
+ * exit code is 3; however many signals come. Where no row was found yet, it ends as everything does. */
 #include <jansson.h>
 
 #include "hbm/hbm.h"

@@ -28,9 +28,9 @@ static hc_status end_of(double damping, double force, contact law, double angle,
   return st;
 }
 
-/* With E = 1e6 W = 1e6 pi F A of E = omega^2 A^2/4 the amplitude is A = 4e6 pi F, and |1 - omega^2| <= (F + 4 mu N/pi)/A:
- * the curve ends within (1 + 4 mu N/pi/F)/(8e6 pi) of the natural frequency, or within four times that, by the last step
- * of at most half a unit. */
+/* With E = 1e6 W = 1e6 pi F A of E = omega^2 A^2/4 the amplitude is A = 4e6 pi F, and |1 - omega^2| <= (F + 4 mu
+ * N/pi)/A: the curve ends within (1 + 4 mu N/pi/F)/(8e6 pi) of the natural frequency, or within four times that, by the
+ * last step of at most half a unit. */
 static const double near = 4 * 2 / (8e6 * PI);
 
 /* Between the stuck mass's resonances of harmonics 3 and 5, at sqrt(21)/3 and sqrt(21)/5, undamped too. */

@@ -85,9 +85,9 @@ static int count_symmetric(const whole *w, double omega, bool symmetric)
 }
 
 /* Between equal stops a symmetric motion loses its symmetry and gets it back; each motion in between that is not
- * symmetric has a mirror image, and one of the two is listed. Where one stop is 1e-6 off the curve is one without branch
- * points: there both images are, each off by a part of 1e-6 that grows towards the branch points (as the root of the
- * distance from them, where 1e-3 is reached 1e-6 away). */
+ * symmetric has a mirror image, and one of the two is listed. Where one stop is 1e-6 off the curve is one without
+ * branch points: there both images are, each off by a part of 1e-6 that grows towards the branch points (as the root of
+ * the distance from them, where 1e-3 is reached 1e-6 away). */
 static void a_symmetric_curve_has_its_other_branch_from_either_end(CHECK_STATE)
 {
   const scene equal = between_stops(0), unequal = between_stops(1e-6);

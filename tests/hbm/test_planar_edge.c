@@ -50,8 +50,8 @@ static void a_curve_passes_both_edges(CHECK_STATE)
 }
 
 /* Stuck motions, by the linear structure with the contact's springs, their slider w anywhere: where the least over w of
- * the largest |u - w| - R over the period falls through 0 there is room for one w only, and slip begins. A search over w
- * of its own, by nested golden sections, has that zero at 12.77034103, to the 1e-9 of R that those are good to, which
+ * the largest |u - w| - R over the period falls through 0 there is room for one w only, and slip begins. A search over
+ * w of its own, by nested golden sections, has that zero at 12.77034103, to the 1e-9 of R that those are good to, which
  * is 3e-10 in omega. Motions that slip go on beside it for 1.2e-6 before they turn: its place is told to 2e-6. */
 static void slip_begins_where_the_last_slider_is_stuck(CHECK_STATE)
 {

@@ -117,10 +117,10 @@ static void with_jacobian_the_force_is_the_same(CHECK_STATE)
 
 /* ---- a lens ------------------------------------------------------------------------------------------ */
 
-/* u = (a cos th, Y), R = r + b sin th: with l^2 = a^2 + b^2 the circles share a lens where r > l, whose largest disc has
- * the centre (0, Y), where |u - c| - R = a |cos th| - b sin th - r is l - r at most, and the radius r - l: from w = 0
- * below it the slider rests at Y - (r - l). T_2 = kt (r - l) there, whose derivatives follow. Where r < l it slips for
- * ever, by symmetry about Y, to as many roundings of R over the part of a radius that it slips. */
+/* u = (a cos th, Y), R = r + b sin th: with l^2 = a^2 + b^2 the circles share a lens where r > l, whose largest disc
+ * has the centre (0, Y), where |u - c| - R = a |cos th| - b sin th - r is l - r at most, and the radius r - l: from w =
+ * 0 below it the slider rests at Y - (r - l). T_2 = kt (r - l) there, whose derivatives follow. Where r < l it slips
+ * for ever, by symmetry about Y, to as many roundings of R over the part of a radius that it slips. */
 static void a_slider_rests_in_the_largest_disc_of_a_lens(CHECK_STATE)
 {
   const double Y = 3, a = 1, room[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, -1e-2, -1e-4}, rounding = 64 * DBL_EPSILON * Y;
@@ -147,8 +147,8 @@ static void a_slider_rests_in_the_largest_disc_of_a_lens(CHECK_STATE)
   }
 }
 
-/* u = C + a (2 cos th + cos 2 th, 2 sin th - sin 2 th) is farthest from C at th = 0 and +-2 pi/3, 3 a: with a constant R
- * the largest disc of all places of rest is that about C of the radius R - 3 a, held by three. */
+/* u = C + a (2 cos th + cos 2 th, 2 sin th - sin 2 th) is farthest from C at th = 0 and +-2 pi/3, 3 a: with a constant
+ * R the largest disc of all places of rest is that about C of the radius R - 3 a, held by three. */
 static void three_discs_hold_it(CHECK_STATE)
 {
   const double a = 0.1, R = 0.5, C[2] = {0.6, -0.8}, room = R - 3 * a;

@@ -74,8 +74,8 @@ static void a_doubling_is_placed_to_its_error(CHECK_STATE)
   CHECK_LE(last, 0.01, "60 harmonics know better");
 }
 
-/* Two masses, a contact that opens and one that does not. Between 8 and 8.3 a multiplier goes through -1 and back within
- * one step of the sweep upwards. */
+/* Two masses, a contact that opens and one that does not. Between 8 and 8.3 a multiplier goes through -1 and back
+ * within one step of the sweep upwards. */
 static const char two_masses[] =
     "title: t\nstructure:\n  mass: [[1, 0], [0, 2]]\n  stiffness: [[90, -30], [-30, 150]]\n"
     "  damping: [[0.3, -0.1], [-0.1, 0.3]]\nforcing:\n  - {direction: {1: 1}, amplitude: 4, harmonic: 1}\n"

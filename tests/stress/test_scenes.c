@@ -46,7 +46,8 @@ static void the_whole_of_every_range_is_drawn(CHECK_STATE)
                        {"H", 1, 50, 0, 0},        {"N", 16, 16384, 0, 0}};
   for (int i = 0; i < N_RANGES; ++i) r[i].least = INFINITY, r[i].most = -INFINITY;
   stress_scenes *s = sequence(1);
-  int contacts[5] = {0}, mean[2] = {0}, zero_mu = 0, angle_0 = 0, angle_90 = 0, zero_gap = 0, undamped = 0, cubics = 0, facing = 0;
+  int contacts[5] = {0}, mean[2] = {0}, zero_mu = 0, angle_0 = 0, angle_90 = 0, zero_gap = 0, undamped = 0, cubics = 0,
+      facing = 0;
   for (long i = 0; i < MANY; ++i) {
     CHECK_FILLED(scene, sc, stress_scenes_at(s, i, &sc));
     ++contacts[sc.n_contacts];

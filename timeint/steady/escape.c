@@ -10,8 +10,8 @@
 
 /* [least_length] Loads alone cause so much only within a thousandth of a resonance. */
 static const double large = 1e3;
-/* [1] A beat of detuning delta grows as sin(delta t/2): at twice the time by 2 cos(delta t/4) - 1 of what it grew before.
- * Within this it reaches 16 times the present size and more, after max_periods. */
+/* [1] A beat of detuning delta grows as sin(delta t/2): at twice the time by 2 cos(delta t/4) - 1 of what it grew
+ * before. Within this it reaches 16 times the present size and more, after max_periods. */
 static const double steady_growth = 1e-3;
 /* [1] CVODE's errors are 1e-9 of the place the body has come to, up to a hundred steps d away */
 static const double same_step = 1e-6;
