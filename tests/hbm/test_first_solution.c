@@ -240,7 +240,7 @@ static void the_last_ramp_arrives(CHECK_STATE)
   hc_status st = HC_NOT_CONVERGED;
   CHECK_MADE(hbm_solver, s, unguided_solver(&sc, &s));
   for (int k = 1; k <= 24 && st != HC_OK; ++k)
-    st = hbm_first_solution(s, sc.omega_from * (1 + 1e-4 * k), NULL, X, &(hbm_point){0});
+    st = hbm_first_solution(s, sc.omega_from * (1 + 1e-3 * k), NULL, X, &(hbm_point){0});
   assert_int_equal(st, HC_OK);
   hbm_solver_free(s);
   case_clear(&sc);
