@@ -261,8 +261,10 @@ static bool start_beyond(path *p, uint64_t before, double h, double sign)
     *(rests_like(p, before) == is_beyond ? &far : &near) = middle;
   }
   const double edge = !(far < most) ? 0 : is_beyond ? near : far, away = is_beyond ? -1 : 1;
-  for (double part = h; part > LEAST_PART * LEAST_PART * h; part /= LONGER) {
+  double part = h;
+  while (part > LEAST_PART * LEAST_PART * h) {
     const double there = fmax(0, edge + away * part);
+    part /= LONGER;
     vibrate_by(p, 1 + sign * there);
     if (rests_like(p, before) || hbm_residual_at(p->s, p->omega, p->X, &residual) != HC_OK) continue;
     if (residual < least) least = residual, best = there;
@@ -307,10 +309,11 @@ static bool pass_join(path *p)
   if (p->edges++ >= p->s->edges->most) return false;
   memcpy(p->X, hbm_curve_X(c, c->n - 1), (size_t)c->n_coef * sizeof *p->X);
   const uint64_t before = resting(p);
-  for (; h <= longest; h *= LONGER) {
+  while (h <= longest) {
     for (int way = 0; way < 4 && !accepted; ++way)
       accepted = step_over_join(p, before, way < 2 ? h : -h, way % 2 ? 1 : -1);
     if (accepted) break;
+    h *= LONGER;
   }
   if (!accepted) return false;
   ++c->edges;

@@ -225,7 +225,8 @@ static bool is_plain_by_truncation(hbm_solver *s, double omega, hbm_stability *o
   const contact_forces *orbit;
   contact_report report;
   hbm_stability there;
-  if (!(s->sys.n_harm / 2 * omega >= s->sys.scales.highest)) return false;
+  const int half = s->sys.n_harm / 2;
+  if (!(half * omega >= s->sys.scales.highest)) return false;
   if (hbm_located_orbit(s, s->truncated, &orbit, &report) != HC_OK) return false;
   if (hbm_moduli(s, orbit, omega, &there, s->moduli + n_states(s)) != HC_OK) return false;
   take_range(s, -1, 1, out);
