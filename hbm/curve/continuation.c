@@ -535,8 +535,9 @@ static hc_status settle_path(path *p)
   return st;
 }
 
-/* HC_UNBOUNDED where the curve goes to infinity at the frequency of its last point. Where E is 1e6 W (growth.h), the
- * amplitude changes by itself over 1e-7 of omega; where the curve is less steep, that is not asked. */
+/* HC_UNBOUNDED where the curve goes to infinity at the frequency of its last point. Where E is 1e6 W (growth.h), a
+ * change of omega by 1e-7 of it changes the amplitude by as much as there is: only a curve as steep as that is
+ * examined. */
 static hc_status end_without_bound(const path *p)
 {
   const hbm_point *last = &p->curve->points[p->curve->n - 1];

@@ -37,6 +37,15 @@ static size_t row_length(const hbm_solver *s)
                                    s->sys.n_harm > REFINE_MOST_HARMONICS ? s->sys.n_harm : REFINE_MOST_HARMONICS);
 }
 
+/* Does the first part stop early, within the next segments behind the given one of the curve? Negative: none. */
+static bool leads_to_stop(const hbm_curve *c, int segment)
+{
+  enum { NEXT = 3 };
+  const hbm_curve_part *first = c->parts;
+  if (c->n_parts == 0 || first->start != HBM_PART_FROM_FIRST || first->end == HC_OK) return false;
+  return segment >= 0 && segment < first->n && segment + NEXT >= first->n;
+}
+
 /* The part of a course becomes one of the curve. Not HC_OK only where there is no going on: how it ended is in it. */
 static hc_status add_part(part_search *p, const path_course *course, hbm_part_start start)
 {
@@ -44,8 +53,7 @@ static hc_status add_part(part_search *p, const path_course *course, hbm_part_st
   hc_status st = path_trace(p->s, course, p->monitor, &part);
   if (st == HC_OK) st = path_settle(p->s, &part, 0);
   hbm_curve *first = p->curve;
-  const bool bridges = part.met && first->end != HC_OK && part.met_segment + 3 >= first->parts[0].n &&
-                       part.met_segment < first->parts[0].n;
+  const bool bridges = part.met && leads_to_stop(first, part.met_segment);
   if (part.n > 1 && !(st == HC_NO_MEMORY)) {
     hc_status added = hbm_curve_add_part(first, &part, start);
     if (added == HC_OK) added = hbm_curve_settle(first, first->n);
@@ -203,10 +211,14 @@ hc_status hbm_trace_all(hbm_solver *s, double from, double to, const hc_monitor 
   curve->end = main, curve->ends_at = first.ends_at, curve->left_at_start = first.left_at_start;
   hbm_curve_free(&first);
   if (st == HC_OK && !must_end(main) && from != to && s->how.continuation == HBM_CONTINUATION_AUTO) {
+    s->monitor = monitor; /* asked inside long solves, too */
+    s->done = -1;
     st = from_the_other_end(&p);
     for (int i = 0; i < curve->n_parts && st == HC_OK && s->symmetric; ++i) st = from_branch_points(&p, i);
     const int most = (curve->n_coef / s->sys.dim - 1) / 2;
     if (st == HC_OK && most > s->sys.n_harm) st = hbm_solver_resize(s, most, s->n_time);
+    s->monitor = NULL;
+    s->stopped = false;
   }
   if (must_end(st)) curve->end = st;
   return curve->end;

@@ -149,7 +149,7 @@ static bool move_three(const double e[][2], const double away[3], double dw[2], 
 
 /* ---- exchange ------------------------------------------------------------------------------------------ */
 
-/* Of the candidates for c the best so far. */
+/* The best candidate for c so far. */
 typedef struct choice {
   const planar_point *disc[1 + MOST_HOLD]; /* the new one, and those that held c before */
   int n;

@@ -9,9 +9,9 @@
  *
  *     w = 0 where |c| <= room, else c (1 - room/|c|).
  *
- * Of one tangent that is where marching from w = 0 comes to. In a plane marching comes to A in the limit only, and to
- * any point of it. The point of A itself nearest to 0 would be a corner of the lens of two discs where A is small,
- * which moves like the root of its width: of that branches fold which only the choice makes.
+ * With one tangent, marching from w = 0 ends there, too. In a plane marching approaches A without reaching it, and ends
+ * at any point of its border. The point of A nearest to 0 would be a corner of the lens of two discs where A is small,
+ * which moves like the root of the lens's width: branches would fold by that choice alone.
  *
  * c is held by two discs or three (one, where the others have it inside). By exchange: of these and the disc that c is
  * farthest out of, those that hold the best point for all of them; until none is farther out than by rounding. libm

@@ -62,15 +62,20 @@ static bool goes_on(hbm_solver *s)
 
 static bool is_even(const hbm_solver *s, int coefficient) { return (coefficient / s->sys.dim + 1) / 2 % 2 == 0; }
 
+/* s->even_part[n_coef] := what even harmonics have of X. */
+static void take_even(const hbm_solver *s, int n_coef, const double *X)
+{
+  for (int i = 0; i < n_coef; ++i) s->even_part[i] = is_even(s, i) ? X[i] : 0;
+}
+
+/* Every contact is symmetric by its own size: a small one beside a large one, too. */
 static bool nearly_symmetric(const hbm_solver *s, const double *X)
 {
   const double rounding = 1e-6;
-  double even = 0, all = 0;
-  for (int i = 0; i < s->sys.n_coef && s->symmetric; ++i) {
-    all = fmax(all, fabs(X[i]));
-    if (is_even(s, i)) even = fmax(even, fabs(X[i]));
-  }
-  return s->symmetric && even <= rounding * all;
+  const metric_at at = hbm_metric_at(s, X);
+  if (!s->symmetric) return false;
+  take_even(s, s->sys.n_coef, X);
+  return metric_length(&at, s->even_part) <= rounding;
 }
 
 /* v[n] := 0 where it is of an even harmonic; v is of the coefficients from `first` on. */
@@ -320,10 +325,11 @@ hc_status hbm_even_kernel(hbm_solver *s, double omega, const double *X, double *
 
 bool hbm_on_either_side(const hbm_solver *s, int n_coef, const double *X, const double *Y)
 {
-  double together = 0;
-  for (int i = 0; i < n_coef && s->symmetric; ++i)
-    if (is_even(s, i)) together += X[i] * Y[i];
-  return together < 0;
+  const int n = n_coef < s->sys.n_coef ? n_coef : s->sys.n_coef;
+  const metric_at at = {s->sys.metric, n, X, Y};
+  if (!s->symmetric) return false;
+  take_even(s, n, X);
+  return metric_inner(&at, s->even_part, Y) < 0; /* coefficients meet only themselves: of Y's the even ones */
 }
 
 bool hbm_mirror(const hbm_solver *s, double *X)

@@ -37,13 +37,13 @@ hc_status hbm_tangent_plane(hbm_solver *s, double *dX, double *d_omega);
 hc_status hbm_kernel_at(hbm_solver *s, const double *normal, const double *X, double omega, double *dX, double *d_omega,
                         int *det_sign);
 
-/* Of a symmetric solution X of a symmetric model, dR/dX has no entries between even harmonics (the mean among them) and
+/* A symmetric solution X of a symmetric model has no entries of dR/dX between even harmonics (the mean among them) and
  * odd ones. Sign of the determinant of the even ones' block: it changes where the symmetry breaks (a branch point), and
  * the rest's where the symmetric branch turns. 0 where it is singular or cannot be evaluated. */
 int hbm_even_sign(hbm_solver *s, double omega, const double *X);
 
-/* Do X and Y[n_coef] of a symmetric model lie on either side of its symmetric motions: has what even harmonics of one
- * have the other sign in the other? */
+/* True if the even harmonics of X and Y[n_coef], solutions of a symmetric model, point in opposite directions in the
+ * metric: the symmetric motions lie between the two. */
 bool hbm_on_either_side(const hbm_solver *s, int n_coef, const double *X, const double *Y);
 
 /* phi[n_coef], even harmonics alone, of length 1 in the metric at X: nearest to the kernel of that block, by which the

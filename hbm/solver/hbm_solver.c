@@ -37,6 +37,7 @@ static hc_status make_equations(hbm_solver *s, int n_harm, int n_time, metric *s
   s->x = workspace_doubles(&s->memory, (size_t)series_length(HBM_MAX_HARMONICS));
   const size_t unknowns = s->symmetric ? (size_t)s->sys.n : 0;
   s->whole_block = workspace_doubles(&s->memory, unknowns * unknowns);
+  s->even_part = workspace_doubles(&s->memory, s->symmetric ? (size_t)s->sys.n_coef : 0);
   s->even_block = workspace_doubles(&s->memory, unknowns * unknowns);
   s->even_index = workspace_array(&s->memory, unknowns, sizeof *s->even_index);
   s->even_pivot = workspace_array(&s->memory, unknowns, sizeof *s->even_pivot);

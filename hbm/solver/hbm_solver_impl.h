@@ -42,6 +42,7 @@ struct hbm_solver {                 /* from hbm_solver_new, to hbm_solver_free; 
   newton *fixed, *plane;            /* the two forms of corrector.h */
   bool symmetric, on_symmetric;     /* model_is_symmetric; and the last solution has no even harmonics */
   double *whole_block, *even_block; /* [n][n], [n_even][n_even] dR/dX of a symmetric model's, for hbm_even_sign */
+  double *even_part;                /* [n_coef] of a solution of a symmetric model */
   int *even_index, *even_pivot;     /* [n_even] places of even harmonics among the unknowns; the factors' pivots */
   int n_even;
   const slip_edges *edges;          /* of the model's response curves; NULL: there are none */

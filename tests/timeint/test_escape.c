@@ -63,7 +63,8 @@ static void a_body_that_slides_on_is_said_to_creep(CHECK_STATE)
   model_free(m);
 }
 
-/* Of a load that friction holds at times, in one direction: it moves on in jerks, the same by every integrator. */
+/* Friction holds the load during a part of the period, in one direction: the body moves on in jerks, the same by every
+ * integrator. */
 static void stick_and_slip_in_one_direction_is_creep(CHECK_STATE)
 {
   model *m = slider(0, 0, 0.4, 0.8);
