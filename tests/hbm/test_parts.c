@@ -93,11 +93,14 @@ static void a_symmetric_curve_has_its_other_branch_from_either_end(CHECK_STATE)
   const scene equal = between_stops(0), unequal = between_stops(1e-6);
   whole up = trace_whole(&equal, 0.4, 1.2), down = trace_whole(&equal, 1.2, 0.4), off = trace_whole(&unequal, 0.4, 1.2);
   bool broken = false;
+  assert_int_equal(up.curve.n_parts, down.curve.n_parts);
   for (double omega = 0.45; omega < 1.19; omega += 0.05) {
     double a[ROOM], b[ROOM], c[ROOM];
     const int n = amplitudes_at(&up, omega, a, ROOM), m = amplitudes_at(&down, omega, b, ROOM);
     assert_int_equal(n, m);
     for (int i = 0; i < n; ++i) CHECK_NEAR(a[i], b[i], 1e-7 * a[i], "solution %d at omega = %g", i, omega);
+    for (int i = 1; i < n; ++i)
+      CHECK_LE(1e-6 * a[i], a[i] - a[i - 1], "an image of solution %d at omega = %g", i, omega);
     const int unsymmetric = count_symmetric(&up, omega, false), all = amplitudes_at(&off, omega, c, ROOM);
     broken |= unsymmetric > 0;
     /* The images of the unequal pair that its curve from this end comes to are among the equal pair's. */
