@@ -13,7 +13,6 @@
 #include "compare/work_limit.h"
 #include "numerics/base/workspace.h"
 
-static const double same_orbit = 0.05; /* [amplitude] */
 static const double negligible = 1e-2; /* of the discrepancy: a part that no remark would name */
 static const double finest = 1e-10;    /* transient.tolerance below which rounding keeps shooting from converging */
 
@@ -86,7 +85,7 @@ bool budget_same_orbit(const timeint_result *a, const timeint_result *b)
 {
   periodic_motion ma = motion_of_transient(a), mb = motion_of_transient(b);
   if (a->period_multiple != b->period_multiple || timeint_stability(a) * timeint_stability(b) < 0) return false;
-  return discrepancy_relative(motion_between(&ma, &mb).waveform, b->amplitude) <= same_orbit;
+  return discrepancy_relative(motion_between(&ma, &mb).waveform, b->amplitude) <= BUDGET_SAME_ORBIT;
 }
 
 double budget_regularisation(const timeint_result *tr, const timeint_result *orbit)
@@ -198,7 +197,7 @@ static double known(double part) { return part >= 0 ? part : 0; }
 
 /* Distances between the solutions of a chain in one response. */
 typedef struct distances {
-  motion_distance observed, direct, aliasing, truncation, regularisation, integration;
+  motion_distance observed, aliasing, truncation, regularisation, integration;
 } distances;
 
 /* One measure of a distance, at its offset in motion_distance, relative to the amplitude `unit`. */
@@ -216,8 +215,7 @@ static budget_parts split(const chain *c, bool one_law, double settling, double 
   if (c->has_hx) {
     p.aliasing = relative(&d->aliasing, measure, unit);
     p.truncation = relative(&d->truncation, measure, unit);
-  } else
-    p.aliasing = relative(&d->direct, measure, unit); /* exact forces have no solution here: h is there by aliasing */
+  }
   if (c->has_transient) {
     p.regularisation = one_law ? 0 : c->has_orbit ? relative(&d->regularisation, measure, unit) : NAN;
     p.settling = settling;
@@ -239,7 +237,6 @@ static void fill_budget(const chain *c, const link *of, bool one_law, error_budg
   const periodic_motion *orbit = c->has_transient && (one_law || !c->has_orbit) ? last : &of->orbit;
   const periodic_motion *end = c->has_transient ? &of->transient : orbit;
   const distances d = {.observed = motion_between(&of->h, end),
-                       .direct = motion_between(&of->h, orbit),
                        .aliasing = motion_between(&of->h, &of->hx),
                        .truncation = motion_between(&of->hx, orbit),
                        .regularisation = c->has_transient ? motion_between(orbit, last) : (motion_distance){0},
@@ -293,6 +290,7 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
 enum { REGULARISATION = 2 };          /* among the parts */
 static const double rounding = 1e-14; /* [1] no smaller part is named */
 
+/* NULL: none, or what HBM's part of the error is made of is not known. */
 static const char *largest_of(const budget_parts *p, bool family, double *share)
 {
   static const char *const names[BUDGET_N_PARTS] = {
@@ -308,6 +306,7 @@ static const char *largest_of(const budget_parts *p, bool family, double *share)
   int top = -1;
   for (int i = 0; i < BUDGET_N_PARTS; ++i)
     if (parts[i] > (top < 0 ? rounding : parts[top])) top = i;
+  if (isnan(p->aliasing)) top = -1;
   *share = top < 0 ? NAN : isinf(parts[top]) ? 1 : parts[top] / p->sum;
   return top < 0 ? NULL : top == REGULARISATION && family ? "family" : names[top];
 }
@@ -338,7 +337,10 @@ const char *budget_text(const error_budget *b, const discrepancy *limits, char t
   double share;
   const char *name = worst.quantity ? largest_of(worst.parts, b->family, &share) : NULL;
   if (!worst.quantity) snprintf(text, BUDGET_TEXT, "no orbit to account for");
-  else if (!name) snprintf(text, BUDGET_TEXT, "%s 0 %%", worst.quantity);
+  else if (!name)
+    snprintf(text, BUDGET_TEXT, "%s %.2g %%%s", worst.quantity,
+             worst.parts->observed > rounding ? 100 * worst.parts->observed : 0,
+             isnan(worst.parts->aliasing) ? ", of parts that are not known" : "");
   else
     snprintf(text, BUDGET_TEXT, "%s %.2g %%: %s (%.0f %%)%s", worst.quantity, 100 * worst.parts->observed, name,
              100 * share, worst.ratio <= 1 ? "; within the gate" : "");

@@ -70,6 +70,7 @@ hc_status budgeter_run(budgeter *b, const budget_case *from, const hc_monitor *m
 
 /* Are the two the same orbit: as many periods, nowhere farther apart than a twentieth of the amplitude, and not one
  * stable, the other not? Laws and integrations differ by far less, branches by more. */
+#define BUDGET_SAME_ORBIT 0.05 /* [amplitude] */
 bool budget_same_orbit(const timeint_result *a, const timeint_result *b);
 
 /* |difference of amplitudes|, relative, of a transient and the exact law's orbit; NaN: not the same orbit. */

@@ -48,8 +48,8 @@ static hc_status add_solution(comparison_work *w, const hbm_curve *at, int k, co
   if (st == HC_OK && k >= 0 && setup->contacts) st = add_contacts(w, at->X + (size_t)k * at->n_coef, row);
   for (int r = 1; r < setup->model->n_responses && st == HC_OK && k >= 0; ++r) { /* behind that of the first response */
     comparison_row other;
-    solution_turn(w, at, k, r, row, &other);
-    st = add_row(w->out, &other, w->state);
+    st = solution_turn(w, at, k, r, row, &other);
+    if (st == HC_OK) st = add_row(w->out, &other, w->state);
   }
   if (setup->found) pthread_mutex_unlock(setup->found);
   if (setup->added) setup->added(setup->added_to);
@@ -169,6 +169,7 @@ static hc_status make_states(comparison_work *w)
   w->motions = workspace_array(memory, responses, sizeof *w->motions);
   w->budgets = workspace_array(memory, responses, sizeof *w->budgets);
   const size_t longest = (size_t)(2 * HBM_MAX_HARMONICS + 1) * (size_t)w->setup->model->n;
+  w->beside = workspace_doubles(memory, longest);
   w->moved = workspace_doubles(memory, w->setup->reduction > 0 ? 2 * longest : 0);
   w->acting = workspace_array(memory, contacts, sizeof *w->acting);
   w->balanced = workspace_array(memory, contacts, sizeof *w->balanced);

@@ -65,7 +65,9 @@ const char *contact_comparison_text(const contact_comparison *c, char text[CONTA
   X(VERDICT_NOT_SETTLED, "not_settled", "the transient found no steady state in max_periods")                          \
   X(VERDICT_SOLVER_FAILED, "solver_failed", "one of the solvers gave up")                                              \
   X(VERDICT_UNBOUNDED, "unbounded", "the motion grows without bound")                                                  \
-  X(VERDICT_CREEPS, "creeps", "the body slides on by `drift` each period")
+  X(VERDICT_CREEPS, "creeps", "the body slides on by `drift` each period")                                             \
+  X(VERDICT_UNDECIDED, "undecided",                                                                                    \
+    "not known whether HBM is wrong: no orbit was found next to its solution; try more harmonics")
 #define VERDICT_ENUM(code, name, meaning) code,
 typedef enum verdict { VERDICT_LIST(VERDICT_ENUM) VERDICT_COUNT } verdict;
 #undef VERDICT_ENUM
@@ -86,6 +88,7 @@ typedef struct comparison_row {
   hc_status hbm_status, transient_status;
   hbm_stability stability;  /* of the HBM solution; multiplier NaN: unknown, not needed (setup.multipliers) */
   bool accounted;           /* the transient is within the gate of this or another HBM solution */
+  bool beside;              /* of one that the curve has not come to: Newton found it from the transient */
   hbm_measures hbm;         /* valid when hbm_status is HC_OK */
   timeint_result transient; /* valid when motion_is_measured(transient_status) */
   hc_status orbit_status;
@@ -139,6 +142,9 @@ const char *comparison_worst_text(const comparison *c, const comparison_row *wor
 
 /* "match", "period_2", ...: the row's verdict in text[24], which is returned. */
 const char *comparison_verdict_text(const comparison_row *row, char text[24]);
+
+/* Does the row compare two descriptions of one orbit: `match` or `differs`? */
+bool comparison_one_orbit(const comparison_row *row);
 
 /* Is it known where the transient went, and no HBM solution is there? */
 bool comparison_unaccounted(const comparison_row *row);

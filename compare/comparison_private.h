@@ -25,6 +25,8 @@ struct comparison_work {
   motion_error *expected;
   periodic_motion *motions;
   error_budget *budgets;
+  double *beside; /* [n_coef] a solution that the transient of the row runs on, and the curve has not come to */
+  bool looked_beside, has_beside;
   double *moved; /* [2][n_coef] of from_reduction; as long as any solution may be */
   /* [n_contacts] of the model, filled as the case counts them (model_whole_contacts), of the row under way: what the
    * transient's contacts do, where that is HC_OK, and the solution's */
@@ -36,9 +38,9 @@ struct comparison_work {
  * others and the contacts are made of. HC_NO_MEMORY, HC_INTERRUPTED: no going on. */
 hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, comparison_row *row);
 
-/* *row becomes that of response r > 0 of the solution whose first row is `first`. */
-void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,
-                   comparison_row *row);
+/* *row becomes that of response r > 0 of the solution whose first row is `first`. HC_NO_MEMORY, HC_INTERRUPTED. */
+hc_status solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,
+                        comparison_row *row);
 
 /* c[model_whole_contacts]: of the same solution X. HC_NO_MEMORY. */
 hc_status solution_contacts(comparison_work *w, const double *X, const comparison_row *row, contact_comparison *c);

@@ -2,6 +2,7 @@
 #include "compare/first_guess.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "compare/motion.h"
 #include "compare/work_limit.h"
@@ -18,21 +19,29 @@ typedef struct guide { /* made with the first question, freed with the solver */
   double *state; /* [n_states] */
 } guide;
 
-static hc_status make(guide *g, const model *m)
+/* Time integration that can report every DOF. */
+static hc_status make(guide *g, const model *m, const transient_settings *how)
 {
-  const transient_settings how = {.law = TRANSIENT_LAW_EXACT,
-                                  .method = model_is_smooth(m) ? TRANSIENT_METHOD_CVODE : TRANSIENT_METHOD_CLOSED_FORM,
-                                  .regularisation = 1,
-                                  .steady = TRANSIENT_STEADY_AUTO,
-                                  .start = TRANSIENT_START_REST,
-                                  .tolerance = 1e-6,
-                                  .max_periods = MOST_PERIODS};
   model *seen;
   hc_status st = model_copy_all_seen(m, &seen);
   if (st != HC_OK) return st;
-  st = timeint_new(seen, &how, &g->ti);
+  st = timeint_new(seen, how, &g->ti);
   model_free(seen);
   if (st == HC_OK && !(g->state = calloc((size_t)timeint_n_states(g->ti), sizeof *g->state))) st = HC_NO_MEMORY;
+  return st;
+}
+
+/* The harmonics of all DOFs of what was found last. */
+static hc_status harmonics(guide *g, int n, int n_harm, timeint_result *r, double *x)
+{
+  double X[2 * HBM_MAX_HARMONICS + 1];
+  hc_status st = HC_OK;
+  for (int i = 0; i < n && st == HC_OK; ++i) {
+    if (i > 0) st = timeint_response(g->ti, i, r);
+    const periodic_motion motion = motion_of_transient(r);
+    motion_harmonics(&motion, n_harm, X);
+    for (int c = 0; c < 2 * n_harm + 1; ++c) x[c * n + i] = X[c];
+  }
   return st;
 }
 
@@ -41,9 +50,15 @@ static hc_status ask(void *self, const model *m, double omega, int n_harm, const
 {
   guide *g = self;
   timeint_result r;
-  double X[2 * HBM_MAX_HARMONICS + 1];
+  const transient_settings how = {.law = TRANSIENT_LAW_EXACT,
+                                  .method = model_is_smooth(m) ? TRANSIENT_METHOD_CVODE : TRANSIENT_METHOD_CLOSED_FORM,
+                                  .regularisation = 1,
+                                  .steady = TRANSIENT_STEADY_AUTO,
+                                  .start = TRANSIENT_START_REST,
+                                  .tolerance = 1e-6,
+                                  .max_periods = MOST_PERIODS};
   if (m->n > MOST_DOF) return HC_UNSUPPORTED;
-  hc_status st = g->state ? HC_OK : make(g, m);
+  hc_status st = g->state ? HC_OK : make(g, m, &how);
   if (st != HC_OK) return st;
   work_limit limit = {.outer = monitor, .most = MOST_TICKS};
   const hc_monitor bounded = {work_limit_tick, &limit};
@@ -52,12 +67,21 @@ static hc_status ask(void *self, const model *m, double omega, int n_harm, const
   if (st == HC_NO_MEMORY || limit.stopped) return st;
   if (st != HC_OK || r.period_multiple != 1) st = timeint_orbit(g->ti, omega, 1, g->state, &bounded, &r);
   if (st == HC_INTERRUPTED && !limit.stopped) st = HC_NOT_SETTLED;
-  for (int i = 0; i < m->n && st == HC_OK; ++i) {
-    if (i > 0) st = timeint_response(g->ti, i, &r);
-    const periodic_motion motion = motion_of_transient(&r);
-    motion_harmonics(&motion, n_harm, X);
-    for (int c = 0; c < 2 * n_harm + 1; ++c) x[c * m->n + i] = X[c];
-  }
+  return st == HC_OK ? harmonics(g, m->n, n_harm, &r, x) : st;
+}
+
+hc_status harmonics_of_motion(const model *m, const transient_settings *how, double omega, const double *state,
+                              int n_harm, const hc_monitor *monitor, double *X)
+{
+  guide g = {0};
+  timeint_result r;
+  if (m->n > MOST_DOF) return HC_UNSUPPORTED;
+  hc_status st = make(&g, m, how);
+  if (st == HC_OK) memcpy(g.state, state, (size_t)timeint_n_states(g.ti) * sizeof *state);
+  if (st == HC_OK) st = timeint_orbit(g.ti, omega, 1, g.state, monitor, &r);
+  if (st == HC_OK) st = harmonics(&g, m->n, n_harm, &r, X);
+  timeint_free(g.ti);
+  free(g.state);
   return st;
 }
 

@@ -42,7 +42,8 @@ typedef struct remedy_search {
   /* What the solution is held against: the row's own transient or orbit, or that of the settings under way. */
   timeint_result *target; /* [responses] */
   bool has_target;
-  bool cut; /* work or time did not suffice for something that was to be tried */
+  bool unfollowed; /* the curve of what passes took too long */
+  bool cut;        /* work or time did not suffice for something that was to be tried */
 } remedy_search;
 
 /* Newton's start: next to the orbit, else the transient if one response's harmonics are all, else the last one. */
@@ -176,7 +177,7 @@ static hc_status curve_passes(remedy_search *s, const trial *t, const compare_se
 }
 
 /* *yes: the curve of these settings has a solution within the limits; `or_slow`: or takes more than half of the time
- * that is left. The curve as far as the row's omega is tried first: it is shorter. All of it is needed to tell which
+ * that is left, which is said. The curve as far as the row's omega is tried first: it is shorter. All of it is needed to tell which
  * solution is nearest to a transient that is not integrated yet. */
 static hc_status confirm(remedy_search *s, const trial *t, bool or_slow, bool *yes)
 {
@@ -195,7 +196,8 @@ static hc_status confirm(remedy_search *s, const trial *t, bool or_slow, bool *y
   if (!*yes && st != HC_NO_MEMORY) st = curve_passes(s, t, &setup, &monitor, yes);
   s->seconds += thread_seconds() - began;
   const bool slow = thread_seconds() >= limit.until;
-  *yes |= or_slow && slow;
+  s->unfollowed = !*yes && or_slow && slow;
+  *yes |= s->unfollowed;
   s->cut |= slow;
   return limit.stopped ? HC_INTERRUPTED : st == HC_NO_MEMORY ? st : HC_OK;
 }
@@ -330,6 +332,7 @@ static void say(const remedy_search *s, const trial *t, char text[COMPARISON_ADV
     default: message_add(&m, "transient.tolerance <= %.0e", t->transient.tolerance);
     }
   }
+  if (s->unfollowed) message_add(&m, ", if its curve comes there");
 }
 
 /* One change alone, and more harmonics alone. */

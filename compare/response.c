@@ -100,7 +100,7 @@ void comparison_sweep(double omega_from, double omega_to, const number_list *ask
   *to = up ? high : low;
 }
 
-/* length[k]: arc length of the plotted curve from its start to point k. */
+/* length[k]: arc length of the plotted curve from its start to point k, without what lies between its parts. */
 static hc_status drawn_lengths(hbm_solver *hbm, const hbm_curve *c, double *amplitude, double *length)
 {
   double top = 0, span = fabs(c->points[c->n - 1].omega - c->points[0].omega);
@@ -115,7 +115,7 @@ static hc_status drawn_lengths(hbm_solver *hbm, const hbm_curve *c, double *ampl
   for (int k = 1; k < c->n; ++k) {
     double across = span > 0 ? (c->points[k].omega - c->points[k - 1].omega) / span : 0;
     double upward = top > 0 ? (amplitude[k] - amplitude[k - 1]) / top : 0;
-    length[k] = length[k - 1] + hypot(across, upward);
+    length[k] = length[k - 1] + (hbm_curve_has_segment(c, k - 1) ? hypot(across, upward) : 0);
   }
   return HC_OK;
 }

@@ -6,6 +6,7 @@
 
 #include "compare/comparison_private.h"
 #include "compare/discrepancy.h"
+#include "compare/first_guess.h"
 #include "compare/gate_limits.h"
 #include "compare/motion.h"
 #include "timeint/steady/contact_watch.h"
@@ -36,21 +37,56 @@ static bool within_limits(const compare_setup *setup, const discrepancy *e, cons
   return gate_limits_hold(setup->limits, tr->omega, e, motion_mean_is_free(tr));
 }
 
-/* Is response r of the transient within the limits of any HBM solution at this omega, or of a symmetric model of its
- * mirror image? */
-static bool accounted_for(const comparison_work *w, int r, const hbm_curve *at, const timeint_result *tr)
+/* *within: response r of the transient runs within the limits of the solution X, or of a symmetric model of its mirror
+ * image. Errors of motion_of_response. */
+static hc_status runs_on(const comparison_work *w, int r, double omega, double *X, const timeint_result *tr,
+                         bool *within)
 {
-  bool within = false;
-  for (int i = 0; i < at->n && !within; ++i) {
-    double *X = at->X + (size_t)i * at->n_coef;
-    const double omega = at->points[i].omega;
-    discrepancy e;
-    within = errors_of(w, r, omega, X, tr, NULL, &e) == HC_OK && within_limits(w->setup, &e, tr);
-    if (within || !hbm_mirror(w->hbm, X)) continue;
-    within = errors_of(w, r, omega, X, tr, NULL, &e) == HC_OK && within_limits(w->setup, &e, tr);
-    hbm_mirror(w->hbm, X); /* as it was */
-  }
-  return within;
+  discrepancy e;
+  hc_status st = errors_of(w, r, omega, X, tr, NULL, &e);
+  *within = st == HC_OK && within_limits(w->setup, &e, tr);
+  if (st != HC_OK || *within || !hbm_mirror(w->hbm, X)) return st;
+  st = errors_of(w, r, omega, X, tr, NULL, &e);
+  *within = st == HC_OK && within_limits(w->setup, &e, tr);
+  hbm_mirror(w->hbm, X); /* as it was */
+  return st;
+}
+
+/* *within: it runs so on a solution of *at, but for number `without`, which may be -1. */
+static hc_status runs_on_any(const comparison_work *w, int r, const hbm_curve *at, int without,
+                             const timeint_result *tr, bool *within)
+{
+  hc_status st = HC_OK;
+  *within = false;
+  for (int i = 0; i < at->n && st == HC_OK && !*within; ++i)
+    if (i != without) st = runs_on(w, r, at->points[i].omega, at->X + (size_t)i * at->n_coef, tr, within);
+  return st;
+}
+
+/* A solution that the curve has not come to may be there all the same: Newton from the harmonics of the transient, once
+ * a row. HC_NO_MEMORY, HC_INTERRUPTED; else w->has_beside says whether w->beside is one. */
+static hc_status look_beside(comparison_work *w, const comparison_row *row, double omega)
+{
+  hbm_point point;
+  if (w->looked_beside) return HC_OK;
+  w->looked_beside = true;
+  hc_status st = harmonics_of_motion(w->setup->model, &w->setup->transient, omega, w->state, hbm_n_harmonics(w->hbm),
+                                     w->monitor, w->beside);
+  if (st == HC_OK && !w->setup->hbm.keep_mean) memset(w->beside, 0, (size_t)hbm_n_dof(w->hbm) * sizeof *w->beside);
+  if (st == HC_OK) st = hbm_solve(w->hbm, omega, w->beside, &point);
+  w->has_beside = st == HC_OK && row->transient_status == HC_OK;
+  return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
+}
+
+/* row->accounted, row->beside of response r. */
+static hc_status account_for(comparison_work *w, int r, const hbm_curve *at, comparison_row *row)
+{
+  hc_status st = runs_on_any(w, r, at, -1, &row->transient, &row->accounted);
+  if (st != HC_OK || row->accounted) return st;
+  st = look_beside(w, row, row->omega);
+  if (st == HC_OK && w->has_beside) st = runs_on(w, r, row->omega, w->beside, &row->transient, &row->beside);
+  row->accounted = row->beside;
+  return st;
 }
 
 /* w->state at the start of a row. HC_OK, or why the sweep up to here failed. */
@@ -67,23 +103,34 @@ static hc_status start_state(comparison_work *w, const comparison_row *row, cons
   return st;
 }
 
-/* Does the transient run on the orbit next to the HBM solution? It does if it was found there. Otherwise, having
- * come from elsewhere, that orbit is computed from the HBM solution, with the transient's own law, and the two are
- * held together: same law, same orbit, so that the difference is of the order of transient.tolerance, and anything
- * beyond `same` is another orbit. */
-static hc_status runs_next_to(comparison_work *w, const comparison_row *row, const double *X, bool *next)
+/* Is an orbit that was found from the HBM solution, e apart from it, next to it? Not if one is ten times the other, or
+ * they are more than half the larger amplitude apart and contacts do not do the same: shooting has gone elsewhere. */
+static bool is_next_to(const comparison_row *row, const discrepancy *e, const timeint_result *orbit)
+{
+  const double a = row->hbm.amplitude, b = orbit->amplitude, larger = fmax(a, b);
+  if (!(larger <= 10 * fmin(a, b))) return false;
+  return e->waveform * b <= 0.5 * larger || orbit->regime == row->hbm.contact.regime;
+}
+
+/* *next: 1: the transient runs on the orbit next to the HBM solution, -1: on another one, 0: not known. Shooting from
+ * the solution has found it, or left it. Of a transient that has come from elsewhere, or was marched, that orbit is
+ * computed from the HBM solution, with the transient's own law, and the two are held together: same law, same orbit, so
+ * that the difference is of the order of transient.tolerance, and anything beyond `same` is another orbit. What was
+ * found may be an orbit far away, or none: whether there is one next to the solution is not known then. */
+static hc_status runs_next_to(comparison_work *w, const comparison_row *row, const double *X, int *next)
 {
   const double same = fmax(1e-6, 100 * w->setup->transient.tolerance);
+  const bool near = is_next_to(row, &row->errors, &row->transient);
   if (w->setup->transient.start == TRANSIENT_START_HBM && row->transient.method != TIMEINT_BY_MARCHING)
-    return *next = !row->transient.left_orbit, HC_OK;
-  *next = true; /* also where there is no orbit: what differs is HBM */
+    return *next = row->transient.left_orbit ? -1 : near, HC_OK;
+  *next = row->errors.waveform <= BUDGET_SAME_ORBIT;
   timeint_result restarted;
   hc_status st = comparison_orbit_start(w->hbm, X, row->omega, w->scratch);
   if (st == HC_OK) st = timeint_orbit(w->ti, row->omega, 1, w->scratch, w->monitor, &restarted);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st; /* nothing is known */
   if (st != HC_OK) return HC_OK;
   const periodic_motion there = motion_of_transient(&restarted), here = motion_of_transient(&row->transient);
-  *next = motion_discrepancy(&there, &here).waveform <= same;
+  *next = motion_discrepancy(&there, &here).waveform <= same ? near : -1;
   return HC_OK;
 }
 
@@ -129,55 +176,85 @@ static hc_status perturbed_motion(comparison_work *w, double omega, int directio
   return st;
 }
 
-/* *it_stays: perturbed motions return to within the limits of the solution, or do not converge. */
-static hc_status perturbations_decay(comparison_work *w, const comparison_row *row, const double *X, bool *it_stays)
+/* *stays: 1: motions perturbed to either side are within the limits of the solution in the end, or after
+ * PERTURBED_PERIODS; -1: one has left; 0: not known. */
+static hc_status perturbations_decay(comparison_work *w, const comparison_row *row, const double *X, int *stays)
 {
-  *it_stays = true;
-  for (int to = -1; to <= 1 && *it_stays; to += 2) {
+  *stays = 1;
+  for (int to = -1; to <= 1 && *stays >= 0; to += 2) {
     timeint_result there;
     discrepancy e;
     hc_status st = perturbed_motion(w, row->omega, to, &there);
     if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
-    if (st != HC_OK || errors_of(w, 0, row->omega, X, &there, NULL, &e) != HC_OK) continue;
-    *it_stays = there.period_multiple == 1 && within_limits(w->setup, &e, &there);
+    const bool escapes = st == HC_UNBOUNDED || st == HC_CREEPS;
+    if (!escapes && motion_is_measured(st)) st = errors_of(w, 0, row->omega, X, &there, NULL, &e);
+    else if (!escapes) st = HC_NOT_CONVERGED;
+    if (escapes || (st == HC_OK && !(there.period_multiple == 1 && within_limits(w->setup, &e, &there)))) *stays = -1;
+    else if (st != HC_OK) *stays = 0;
   }
   return HC_OK;
 }
 
-/* HC_NO_MEMORY, HC_INTERRUPTED: *out is not known. */
-static hc_status judge(comparison_work *w, const comparison_row *row, const double *X, verdict *out)
+/* Of a transient that is within the limits of X. */
+static hc_status judge_near(comparison_work *w, const comparison_row *row, const double *X, verdict *out)
 {
-  if (row->transient_status == HC_CREEPS) return *out = VERDICT_CREEPS, HC_OK;
-  if (row->transient_status == HC_UNBOUNDED) return *out = VERDICT_UNBOUNDED, HC_OK;
-  if (row->transient_status == HC_NOT_SETTLED) return *out = VERDICT_NOT_SETTLED, HC_OK;
-  if (row->transient_status == HC_APERIODIC && row->hbm_status == HC_OK) return *out = VERDICT_APERIODIC, HC_OK;
-  if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return *out = VERDICT_SOLVER_FAILED, HC_OK;
-  if (row->transient.period_multiple > 1) return *out = VERDICT_PERIOD_K, HC_OK;
-  if (within_limits(w->setup, &row->errors, &row->transient)) {
-    bool it_stays = true;
-    const bool doubted = hbm_stability_verdict(&row->stability) == 0 && !hbm_stability_is_unknown(w->hbm);
-    const bool at_corner = row->transient.free_sliders > 0 && doubted; /* where the structure is not too large to ask */
-    const hc_status st = at_corner ? perturbations_decay(w, row, X, &it_stays) : HC_OK;
-    *out = it_stays ? VERDICT_MATCH : VERDICT_UNSTABLE;
-    return st;
-  }
-  if (stability_of(row) < 0) return *out = VERDICT_UNSTABLE, HC_OK;
-  bool next = true;
-  hc_status st = runs_next_to(w, row, X, &next);
-  *out = next ? VERDICT_DIFFERS : VERDICT_OTHER_BRANCH;
+  int stays = 1;
+  const bool doubted = hbm_stability_verdict(&row->stability) == 0 && !hbm_stability_is_unknown(w->hbm);
+  const bool at_corner = row->transient.free_sliders > 0 && doubted; /* where the structure is not too large to ask */
+  const hc_status st = at_corner ? perturbations_decay(w, row, X, &stays) : HC_OK;
+  *out = stays > 0 ? VERDICT_MATCH : stays < 0 ? VERDICT_UNSTABLE : VERDICT_UNDECIDED;
   return st;
 }
 
-/* The orbit of the exact law next to the HBM solution; not computed again where the transient is just that. */
-static void referee(comparison_work *w, comparison_row *row, const double *X)
+/* Of one that is not: on the orbit next to solution k, or on another one. */
+static hc_status judge_far(comparison_work *w, const comparison_row *row, const hbm_curve *at, int k, verdict *out)
+{
+  bool elsewhere;
+  int next = 0;
+  hc_status st = runs_on_any(w, 0, at, k, &row->transient, &elsewhere);
+  if (st == HC_OK && !elsewhere) st = runs_next_to(w, row, at->X + (size_t)k * at->n_coef, &next);
+  *out = elsewhere || next < 0 ? VERDICT_OTHER_BRANCH : next > 0 ? VERDICT_DIFFERS : VERDICT_UNDECIDED;
+  return st;
+}
+
+/* HC_NO_MEMORY, HC_INTERRUPTED: *out is not known. */
+static hc_status judge(comparison_work *w, const comparison_row *row, const hbm_curve *at, int k, verdict *out)
+{
+  const bool unstable = row->hbm_status == HC_OK && stability_of(row) < 0;
+  if (row->transient_status == HC_CREEPS) return *out = VERDICT_CREEPS, HC_OK;
+  if (row->transient_status == HC_NOT_SETTLED) return *out = VERDICT_NOT_SETTLED, HC_OK;
+  if (row->transient_status == HC_APERIODIC && row->hbm_status == HC_OK) return *out = VERDICT_APERIODIC, HC_OK;
+  if (row->transient_status != HC_OK && unstable) return *out = VERDICT_UNSTABLE, HC_OK; /* also if it escapes */
+  if (row->transient_status == HC_UNBOUNDED) return *out = VERDICT_UNBOUNDED, HC_OK;
+  if (row->transient_status != HC_OK || row->hbm_status != HC_OK) return *out = VERDICT_SOLVER_FAILED, HC_OK;
+  if (row->transient.period_multiple > 1) return *out = VERDICT_PERIOD_K, HC_OK;
+  if (within_limits(w->setup, &row->errors, &row->transient))
+    return judge_near(w, row, at->X + (size_t)k * at->n_coef, out);
+  return unstable ? *out = VERDICT_UNSTABLE, HC_OK : judge_far(w, row, at, k, out);
+}
+
+/* HC_NOT_CONVERGED where shooting from solution k has come to the orbit of another solution, or far away. */
+static hc_status is_own(const comparison_work *w, const comparison_row *row, const hbm_curve *at, int k)
+{
+  discrepancy e;
+  bool other = false;
+  hc_status st = errors_of(w, 0, row->omega, at->X + (size_t)k * at->n_coef, &row->orbit, NULL, &e);
+  if (st == HC_OK && !within_limits(w->setup, &e, &row->orbit)) st = runs_on_any(w, 0, at, k, &row->orbit, &other);
+  return st == HC_OK && (other || !is_next_to(row, &e, &row->orbit)) ? HC_NOT_CONVERGED : st;
+}
+
+/* The orbit of the exact law next to solution k; not computed again where the transient is just that. */
+static void referee(comparison_work *w, comparison_row *row, const hbm_curve *at, int k)
 {
   const transient_settings *t = &w->setup->transient;
   const timeint_result *tr = &row->transient;
+  const double *X = at->X + (size_t)k * at->n_coef;
   bool same = t->law == TRANSIENT_LAW_EXACT && t->start == TRANSIENT_START_HBM && row->transient_status == HC_OK &&
               !tr->left_orbit && tr->period_multiple == 1 && tr->method == TIMEINT_BY_SHOOTING;
   if (same) row->orbit = *tr, row->orbit_status = HC_OK;
   else if ((row->orbit_status = comparison_orbit_start(w->hbm, X, row->omega, w->scratch)) == HC_OK)
     row->orbit_status = timeint_orbit(w->exact, row->omega, 1, w->scratch, w->monitor, &row->orbit);
+  if (row->orbit_status == HC_OK) row->orbit_status = is_own(w, row, at, k);
   w->orbits[0] = row->orbit;
   for (int r = 1; r < w->setup->model->n_responses && row->orbit_status == HC_OK; ++r) {
     w->orbits[r] = same ? w->responses[r] : row->orbit;
@@ -218,7 +295,9 @@ static hc_status account(comparison_work *w, const hbm_curve *at, int k, compari
                             .n_harm = at->points[k].harmonics,
                             .X = X,
                             .motion = w->motions,
-                            .transient_status = row->transient_status,
+                            .transient_status = comparison_one_orbit(row) || row->orbit_status == HC_OK
+                                                    ? row->transient_status
+                                                    : HC_UNSUPPORTED,
                             .transient = w->responses,
                             .orbit_status = row->orbit_status,
                             .orbit = w->orbits,
@@ -296,28 +375,31 @@ static double largest_amplitude(const comparison_work *w)
 }
 
 /* Response r in *row: the measures of HBM, transient and orbit, their errors, and what was expected of them. */
-static void measure_response(comparison_work *w, const hbm_curve *at, int k, int r, comparison_row *row)
+static hc_status measure_response(comparison_work *w, const hbm_curve *at, int k, int r, comparison_row *row)
 {
   const double *X = at->X + (size_t)k * at->n_coef;
   const discrepancy nothing = {NAN, NAN, NAN, NAN};
   const bool comparable = row->hbm_status == HC_OK && row->transient_status == HC_OK;
   row->response = r;
   row->errors = row->orbit_errors = row->hbm_predicted = row->transient_predicted = nothing;
-  row->accounted = false;
+  row->accounted = row->beside = false;
   if (row->hbm_status == HC_OK) row->hbm_status = hbm_measure_response(w->hbm, row->omega, X, r, &row->hbm);
   if (row->hbm_status == HC_OK) row->hbm_predicted = relative_prediction(&w->expected[r], row->hbm.amplitude);
   if (row->orbit_status == HC_OK && row->hbm_status == HC_OK) {
     row->orbit = w->orbits[r];
     row->hbm_status = errors_of(w, r, row->omega, X, &row->orbit, &row->hbm, &row->orbit_errors);
   }
-  if (!motion_is_measured(row->transient_status)) return;
+  if (!motion_is_measured(row->transient_status)) return HC_OK;
   row->transient = w->responses[r];
   row->transient_predicted = relative_prediction(&row->transient.predicted, row->transient.amplitude);
   if (comparable) row->hbm_status = errors_of(w, r, row->omega, X, &row->transient, &row->hbm, &row->errors);
-  if (!comparable || row->transient.period_multiple != 1) return;
-  row->still = r > 0 && !(row->transient.amplitude > still * largest_amplitude(w));
-  row->accounted = row->still || accounted_for(w, r, at, &row->transient);
+  if (!comparable || row->transient.period_multiple != 1) return HC_OK;
+  row->accounted = row->still = r > 0 && !(row->transient.amplitude > still * largest_amplitude(w));
   if (row->still) row->errors = row->hbm_predicted = row->transient_predicted = nothing;
+  const hc_status st = row->still ? HC_OK : account_for(w, r, at, row);
+  if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
+  if (st != HC_OK) row->hbm_status = st;
+  return HC_OK;
 }
 
 hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, comparison_row *row)
@@ -334,7 +416,7 @@ hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, compa
   if ((known = keep_responses(w, row)) != HC_OK) return known;
   if ((known = keep_contacts(w, row)) != HC_OK) return known;
   if ((known = predict_transient(w, row)) != HC_OK) return known;
-  referee(w, row, X);
+  referee(w, row, at, k);
   if (row->orbit_status == HC_INTERRUPTED || row->orbit_status == HC_NO_MEMORY) return row->orbit_status;
   row->stability.multiplier = NAN;
   if (w->setup->multipliers || stability_of(row) == 0 || row->transient.free_sliders > 0) {
@@ -343,24 +425,26 @@ hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, compa
     if (known != HC_OK) row->stability.multiplier = NAN;
   }
   row->family = w->setup->model->n_contacts > 1 && comparison_mean_free(row) && row->transient.regime > CONTACT_STUCK;
-  measure_response(w, at, k, 0, row);
-  hc_status judged = judge(w, row, X, &row->verdict);
-  if (judged != HC_OK) return judged;
+  w->looked_beside = w->has_beside = false;
+  known = measure_response(w, at, k, 0, row);
+  if (known == HC_OK) known = judge(w, row, at, k, &row->verdict);
+  if (known != HC_OK) return known;
   row->unexpected = comparison_unexpected(row);
   return account(w, at, k, row);
 }
 
-void solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,
-                   comparison_row *row)
+hc_status solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, const comparison_row *first,
+                        comparison_row *row)
 {
   *row = *first;
-  measure_response(w, at, k, r, row);
+  const hc_status st = measure_response(w, at, k, r, row);
   row->budget = row->still ? budget_nothing() : w->budgets[r];
-  if (first->verdict == VERDICT_MATCH || first->verdict == VERDICT_DIFFERS) {
+  if (comparison_one_orbit(first)) {
     const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
     row->verdict = within ? VERDICT_MATCH : stability_of(first) < 0 ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
   }
   row->unexpected = comparison_unexpected(row);
+  return st;
 }
 
 hc_status solution_contacts(comparison_work *w, const double *X, const comparison_row *row, contact_comparison *c)
@@ -372,7 +456,7 @@ hc_status solution_contacts(comparison_work *w, const double *X, const compariso
     c[j] = (contact_comparison){.omega = row->omega,
                                 .branch = row->branch,
                                 .contact = j,
-                                .one_orbit = row->verdict == VERDICT_MATCH || row->verdict == VERDICT_DIFFERS,
+                                .one_orbit = comparison_one_orbit(row),
                                 .hbm_status = measured,
                                 .transient_status = w->acted,
                                 .hbm = w->balanced[j],
@@ -403,6 +487,11 @@ const char *comparison_verdict_text(const comparison_row *row, char text[24])
   if (row->verdict == VERDICT_PERIOD_K) snprintf(text, 24, "period_%d", row->transient.period_multiple);
   else snprintf(text, 24, "%s", verdict_name(row->verdict));
   return text;
+}
+
+bool comparison_one_orbit(const comparison_row *row)
+{
+  return row->verdict == VERDICT_MATCH || row->verdict == VERDICT_DIFFERS;
 }
 
 bool comparison_mean_free(const comparison_row *row)
@@ -485,8 +574,7 @@ static bool beyond(double observed, double hbm, double transient)
 bool comparison_unexpected(const comparison_row *row)
 {
   const discrepancy *h = &row->hbm_predicted, *t = &row->transient_predicted;
-  const bool one_orbit = row->verdict == VERDICT_MATCH || row->verdict == VERDICT_DIFFERS;
-  return one_orbit && !row->family && row->transient.period_multiple == 1 &&
+  return comparison_one_orbit(row) && !row->family && row->transient.period_multiple == 1 &&
          (beyond(row->errors.amplitude, h->amplitude, t->amplitude) ||
           beyond(row->errors.waveform, h->waveform, t->waveform));
 }
@@ -509,7 +597,7 @@ int comparison_exit_code(const comparison *c)
     if (comparison_unaccounted(&c->rows[i])) return 1;
   if (c->curve.end != HC_OK) return 3; /* what lies beyond was not compared, and the curve might have come back */
   if (c->count[VERDICT_SOLVER_FAILED] > 0 || c->count[VERDICT_NOT_SETTLED] > 0 || c->count[VERDICT_UNBOUNDED] > 0 ||
-      c->count[VERDICT_CREEPS] > 0 || c->count[VERDICT_MATCH] == 0)
+      c->count[VERDICT_CREEPS] > 0 || c->count[VERDICT_UNDECIDED] > 0 || c->count[VERDICT_MATCH] == 0)
     return 3;
   return 0;
 }

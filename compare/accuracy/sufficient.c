@@ -120,6 +120,7 @@ static hc_status add_frequency(search *s, double omega, double *predicted)
   hbm_curve at = {0};
   hc_status st = hbm_curve_at(s->curve.hbm, &s->curve.curve, omega, &at) == HC_NO_MEMORY ? HC_NO_MEMORY : HC_OK;
   ++s->out->frequencies;
+  if (at.n == 0) ++s->out->lost;
   for (int k = 0; k < at.n && st == HC_OK; ++k)
     st = add_target(s, omega, at.X + (size_t)k * (size_t)at.n_coef, at.n_coef, predicted);
   hbm_curve_free(&at);

@@ -132,6 +132,7 @@ static void judge_solution(judge *j, const comparison_row *r)
   case VERDICT_OTHER_BRANCH:
   case VERDICT_PERIOD_K:
   case VERDICT_APERIODIC:
+  case VERDICT_UNDECIDED:
     judge_orbit(j, r);
     judge_transient(j, r);
     return;

@@ -207,12 +207,13 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
   table *t = table_of_rows(common, c);
   const comparison_row *top = comparison_worst(c, setup->limits);
   double reduction = 0;
-  int unaccounted = 0, unknown = 0, creeping = 0, mean_free = 0, family = 0, still = 0;
+  int unaccounted = 0, beside = 0, unknown = 0, creeping = 0, mean_free = 0, family = 0, still = 0;
   put_rows(common, c, t);
   for (int i = 0; i < c->n_rows; ++i) {
     const comparison_row *r = &c->rows[i];
     unknown += !r->budget.known && r->response == 0;
     unaccounted += comparison_unaccounted(r);
+    beside += r->beside;
     mean_free += comparison_mean_free(r);
     creeping += r->transient_status == HC_CREEPS;
     family += r->family;
@@ -222,6 +223,7 @@ static int tables_of_found(const cli_common *common, bool contacts, const compar
   if (unaccounted)
     table_note(t, "%d transient%s NO HBM solution of this curve within the gate", unaccounted,
                unaccounted == 1 ? " matches" : "s match");
+  note_rows(t, beside, "whose transient runs on an HBM solution that this curve has not come to");
   for (int v = 0; v < VERDICT_COUNT; ++v)
     if (c->count[v]) table_note(t, "%d %s: %s", c->count[v], verdict_name((verdict)v), verdict_meaning((verdict)v));
   char text[COMPARISON_WORST_TEXT], at[WHERE];

@@ -22,7 +22,7 @@
   X(UNSUPPORTED) X(BUG) X(JUMPED) X(UNBOUNDED) X(CREEPS)
 #define VERDICTS(X)                                                                                              \
   X(MATCH) X(DIFFERS) X(OTHER_BRANCH) X(UNSTABLE) X(PERIOD_K) X(APERIODIC) X(NOT_SETTLED) X(SOLVER_FAILED)       \
-  X(UNBOUNDED) X(CREEPS)
+  X(UNBOUNDED) X(CREEPS) X(UNDECIDED)
 /* clang-format on */
 
 #define ONE(...)           "." /* as many as the list is long: sizeof counts them */

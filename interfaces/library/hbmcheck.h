@@ -318,11 +318,12 @@ typedef enum hbmcheck_verdict {
   HBMCHECK_VERDICT_NOT_SETTLED,  /* no steady state within transient.max_periods */
   HBMCHECK_VERDICT_SOLVER_FAILED, /* one side gave up: hbm_status, transient_status */
   HBMCHECK_VERDICT_UNBOUNDED,     /* the motion grows without bound */
-  HBMCHECK_VERDICT_CREEPS         /* the body slides on by as much in each period */
+  HBMCHECK_VERDICT_CREEPS,        /* the body slides on by as much in each period */
+  HBMCHECK_VERDICT_UNDECIDED      /* no orbit was found next to the HBM solution: not known whether that is wrong */
 } hbmcheck_verdict;
 
 /* "match", "differs", "other_branch", "unstable", "period_k", "aperiodic", "not_settled", "solver_failed", "unbounded",
- * "creeps"; not NULL. */
+ * "creeps", "undecided"; not NULL. */
 const char *hbmcheck_verdict_name(hbmcheck_verdict verdict);
 
 /* One HBM solution and the transient. Errors are relative to the transient's amplitude, those named orbit_ to the

@@ -57,12 +57,17 @@ hc_status integrate_cvode_tolerance(integrator *base, double tolerance)
   return HC_OK;
 }
 
+/* [1] Within a period the state may grow to so much of the unit of length, which is about its size at the beginning. */
+static const double most_growth = 1e9;
+
+/* Fails beyond most_growth: what escapes in finite time takes steps without end. */
 int integrate_weights(N_Vector y, N_Vector weight, void *self)
 {
   const cvode_integrator *in = self;
   const double *size = in->m->size;
   for (int i = 0; i < NV_LENGTH_S(y); ++i) {
     const double within = in->tolerance * (size && i < in->n_sized ? size[i] : 1);
+    if (fabs(NV_Ith_S(y, i)) > most_growth) return -1;
     NV_Ith_S(weight, i) = 1 / (within * fabs(NV_Ith_S(y, i)) + within);
   }
   return 0;
@@ -124,9 +129,6 @@ bool integrate_cvode_goes_on(cvode_integrator *in)
   in->interrupted = in->interrupted || !integrate_goes_on(&in->base);
   return !in->interrupted;
 }
-
-/* [1] Within a period the state may grow to so much of the unit of length, which is about its size at the beginning. */
-static const double most_growth = 1e9;
 
 hc_status integrate_translate(cvode_integrator *in, int flag)
 {

@@ -422,6 +422,7 @@ static const struct verdict_look {
     {"solver_failed", "pt 10 ps 1.2 lw 1.6 lc rgb '#555555'"},
     {"unbounded", "pt 9 ps 1.2 lw 1.6 lc rgb '#D55E00'"},
     {"creeps", "pt 4 ps 1.1 lw 1.6 lc rgb '#0072B2'"},
+    {"undecided", "pt 14 ps 1.2 lw 1.6 lc rgb '#555555'"},
     {"skipped", "pt 7 ps 0.4 lc rgb '#999999'"},
     {"period_k", "pt 12 ps 1.3 lw 1.6 lc rgb '#CC79A7'"},
 };

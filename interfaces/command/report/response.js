@@ -7,7 +7,8 @@ const verdictStyle = {
   unstable: ['rectRot', 3],
   aperiodic: ['star', 4],
   not_settled: ['cross', 5],
-  solver_failed: ['crossRot', 4]
+  solver_failed: ['crossRot', 4],
+  undecided: ['star', 5]
 };
 const responseToggles = ['unstable', 'transient', 'special', 'turned'];
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 COLOURS = {"match": "tab:green", "differs": "tab:red", "unstable": "tab:orange", "other_branch": "tab:purple",
-           "solver_failed": "tab:gray"}
+           "solver_failed": "tab:gray", "undecided": "tab:gray"}
 
 
 def _axes(axes: Any) -> Any:

@@ -318,7 +318,7 @@ class Comparison(Table):
     """Both sides at the same frequencies; a row for each frequency, solution of harmonic balance, and response.
 
     omega [rad/time], verdict ("match", "differs", "other_branch", "unstable", "period_k", "aperiodic", "not_settled",
-    "solver_failed"), hbm_amplitude, transient_amplitude, orbit_amplitude [length], amplitude_error, harmonic_1_error,
+    "solver_failed", "unbounded", "creeps", "undecided"), hbm_amplitude, transient_amplitude, orbit_amplitude [length], amplitude_error, harmonic_1_error,
     mean_error, waveform_error, orbit_error, from_aliasing, from_truncation, from_regularisation, from_integration,
     from_settling, hbm_predicted, transient_predicted [1], branch, stable, period_multiple, response, unexpected,
     mean_free, still, family, accounted (bool), hbm_status, transient_status, orbit_status (words).
