@@ -6,7 +6,6 @@
 #include <float.h>
 #include <gsl/gsl_version.h>
 #include <sundials/sundials_version.h>
-#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <yaml.h>
@@ -636,11 +635,7 @@ void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void 
 int cli_width(const cli_common *common)
 {
   enum { LEAST = 40, USUAL = 100 };
-  struct winsize size;
-  const char *columns = getenv("COLUMNS");
-  int width = columns ? (int)strtol(columns, NULL, 10) : 0;
-  if (!common->output && isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-    width = size.ws_col;
+  const int width = output_columns(common->output, &(int){0});
   return width <= 0 ? USUAL : width < LEAST ? LEAST : width;
 }
 

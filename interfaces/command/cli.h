@@ -181,7 +181,7 @@ unsigned cli_extra_columns(const scene *sc);
 table *cli_table(const cli_common *common, const char *title, rows_kind kind);
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void *row);
 
-/* The length of a line: the terminal's columns; elsewhere what COLUMNS says, or 100. At least 40. */
+/* The length of a line: output_columns, or 100. At least 40. */
 int cli_width(const cli_common *common);
 
 /* Write the tables to stdout or --output, whole or not at all, within cli_width unless --wide. 0 or the exit code. */
