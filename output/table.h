@@ -90,7 +90,7 @@ void table_hide(table *t, const char *column);
 
 /* In the format table, what lines longer than `width` lose: the columns of `spare`, NULL at the end, one after the
  * other until the rest fits, with a remark that says so; empty ones go first. If that does not do, the rest stands in
- * blocks under each other, each of which begins with the columns that tell rows apart, and texts go on in further lines.
+ * blocks under each other, each of which begins with the columns that tell rows apart, and texts go on in more lines.
  * A table that is wrapped loses columns of `spare` only where words would have to be broken. The list must outlive the
  * table; NULL: nothing to lose. */
 void table_spare(table *t, const char *const *spare);

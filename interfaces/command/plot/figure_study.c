@@ -12,7 +12,7 @@ enum {
   MOST_LINES = 12,
   LEAST_HEAT = 4,
   TEXT = 160,
-  /* of a heat map in the largest font of figure.c's terminals: characters across, with those of its rows' texts; rows */
+  /* of a heat map in the largest font of the terminals: characters across, with those of its rows' texts; rows */
   ACROSS = 92,
   DOWN = 24
 };
