@@ -11,6 +11,7 @@
 #include <yaml.h>
 
 #include "compare/advice.h"
+#include "compare/no_steady_state.h"
 #include "numerics/base/constants.h"
 #include "numerics/base/nearest.h"
 #include "output/output.h"
@@ -556,6 +557,23 @@ int cli_creeps(const cli_common *common, double omega, const char *response, dou
               scene_where(common->scene, omega, at), *response ? "response " : "the body", response, drift,
               ADVICE_ON_CREEP);
   return EXIT_NO_SOLUTION;
+}
+
+bool cli_it_creeps(const scene *sc, double omega, const hc_monitor *monitor, char *name, double *drift)
+{
+  compare_setup setup;
+  int response = 0;
+  hc_status st = scene_setup(sc, &setup);
+  if (st == HC_OK) st = steady_state_creeps(&setup, omega, monitor, &response, drift);
+  scene_setup_clear(&setup);
+  if (st == HC_CREEPS && sc->structure) structure_response_name(sc->structure, response, name, RESPONSE_NAME);
+  return st == HC_CREEPS;
+}
+
+double cli_past(const scene *sc, double omega)
+{
+  const double beyond = 1e-3; /* of omega */
+  return omega * (1 + (sc->omega_to > sc->omega_from ? beyond : -beyond));
 }
 
 int cli_file_failed(const cli_common *common, const char *path, hc_status st)
