@@ -49,6 +49,18 @@ double scene_contact_stiffness(const scene_contact *c, bool at_rest)
   return k;
 }
 
+bool scene_contact_restores(const scene_contact *c, bool at_rest)
+{
+  const contact law = scene_contact_law(c);
+  const int degree = contact_degree(&law);
+  bool somewhere = false;
+  for (int p = CONTACT_LEAST_POWER; p <= degree; ++p) {
+    const double k = law.power[p - CONTACT_LEAST_POWER];
+    somewhere |= p % 2 ? k > 0 : k != 0;
+  }
+  return at_rest ? degree % 2 && law.power[degree - CONTACT_LEAST_POWER] > 0 : somewhere;
+}
+
 /* Where the table's slope rises by k at d, there is one spring more: it closes there. Where it falls, one less: it
  * opens there, k long before that; hence the mirrored direction, and scene_contact_slope. */
 void scene_contact_put(const scene_contact *c, int n, const double *direction, model_contact *to)

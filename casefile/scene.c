@@ -55,7 +55,7 @@ bool scene_adrift(const scene *sc)
   bool held = sc->structure || sc->stiffness > 0; /* of a structure the reader sees to it */
   for (int j = 0; j < sc->n_contacts; ++j) {
     const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-    held |= scene_contact_stiffness(&sc->contacts[j], true) > 0;
+    held |= scene_contact_stiffness(&sc->contacts[j], true) > 0 || scene_contact_restores(&sc->contacts[j], true);
     held |= c.law.gap > 0 && moving_contact_stuck_stiffness(&c) > 0;
   }
   return !held;

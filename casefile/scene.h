@@ -87,7 +87,10 @@ const scene_contact *scene_contact_at(const scene *sc, int j);
 /* Contact j in the model of the scene: the first of its one or two contacts there (contact_pair, model.h). */
 int scene_model_contact(const scene *sc, int j);
 
-/* Is the mean undetermined: stiffness 0, and no contact under a preload? */
+/* Does a polynomial push back, somewhere; at_rest: from both sides, far out? False of other laws. */
+bool scene_contact_restores(const scene_contact *c, bool at_rest);
+
+/* Is the mean undetermined: stiffness 0, no contact under a preload, and no polynomial that restores? */
 bool scene_adrift(const scene *sc);
 #define SCENE_ADRIFT                                                                                                   \
   "the mean is undetermined while nothing touches: oscillator.stiffness is 0 and no contact has a gap > 0 that gives " \

@@ -181,8 +181,8 @@ bool structure_unsymmetric(int n, const double *A, int *i, int *j);
 hc_status structure_not_definite(int n, const double *M, int *order);
 
 /* A motion x[n], largest entry 1, that neither K nor any contact resists: *free_motion = true if there is one. The
- * stiffness then is singular to rounding with every contact stuck, kt t t^T + kn n n^T each where it can hold; at_rest:
- * each that is pressed on without a load. HC_NO_MEMORY. */
+ * stiffness then is singular to rounding with every contact stuck, kt t t^T + kn n n^T each where it can hold, and with
+ * d d^T of any size where a polynomial restores; at_rest: each that is pressed on without a load. HC_NO_MEMORY. */
 hc_status structure_free_motion(const scene_structure *s, bool at_rest, double *x, bool *free_motion);
 
 /* The same of a motion that M[n][n], symmetric, gives no kinetic energy to. HC_NO_MEMORY. */

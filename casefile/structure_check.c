@@ -45,14 +45,17 @@ hc_status structure_not_definite(int n, const double *M, int *order)
 /* Does it press on while nothing moves? */
 static bool is_pressed(const scene_contact *c) { return c->law.gap > 0 || c->preload > 0; }
 
-/* K with every contact stuck that can hold; at_rest: that is pressed on, too. */
+/* K with every contact stuck that can hold; at_rest: that is pressed on, too. A polynomial that restores has no
+ * stiffness of its own at rest: it counts as stiff as K. */
 static void stuck_stiffness(const scene_structure *s, bool at_rest, double *A)
 {
+  const double largest = norm_max(s->n * s->n, s->stiffness.v), curved = largest > 0 ? largest : 1;
   memcpy(A, s->stiffness.v, (size_t)s->n * (size_t)s->n * sizeof *A);
   for (int j = 0; j < s->n_contacts; ++j) {
     const structure_contact *c = &s->contacts[j];
     const bool holds = c->given.law.mu > 0 && (c->given.law.kn > 0 || c->given.preload > 0);
-    add_outer(s->n, scene_contact_stiffness(&c->given, at_rest), c->normal, c->normal, A);
+    const double smooth = scene_contact_restores(&c->given, at_rest) ? curved : 0;
+    add_outer(s->n, scene_contact_stiffness(&c->given, at_rest) + smooth, c->normal, c->normal, A);
     if (at_rest && !is_pressed(&c->given)) continue;
     add_outer(s->n, holds ? c->given.law.kt : 0, c->tangent, c->tangent, A);
     add_outer(s->n, holds ? c->given.law.kt : 0, c->tangent_2, c->tangent_2, A);

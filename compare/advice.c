@@ -40,8 +40,7 @@ const char *advice_for_hbm(const hbm_settings *how, hc_status failure, char text
     add_unless(&r, how->continuation == HBM_CONTINUATION_AUTO, "--set hbm.continuation=auto");
     add_unless(&r, exact, "--set hbm.force=exact");
     add_unless(&r, how->tolerance >= usual_tolerance, "--set hbm.tolerance=1e-10");
-    add_unless(&r, how->continuation != HBM_CONTINUATION_AUTO, "another number of --set hbm.harmonics=...");
-    add_unless(&r, how->continuation == HBM_CONTINUATION_AUTO, "a sweep from the other end");
+    add_unless(&r, r.n > 0, "another number of --set hbm.harmonics=...");
     break;
   case HC_TOO_MANY_POINTS:
     add_unless(&r, exact, "--set hbm.force=exact (too few samples make false turning points)");

@@ -7,7 +7,7 @@
 
 enum { ADVICE_TEXT = 320 };
 
-/* "try --set hbm.force=exact or a sweep from the other end", what may mend this failure of harmonic balance (of time
+/* "try --set hbm.continuation=auto or --set hbm.force=exact", what may mend this failure of harmonic balance (of time
  * integration); "" where no setting does, or all that might are in force. Returns text. */
 const char *advice_for_hbm(const hbm_settings *how, hc_status failure, char text[ADVICE_TEXT]);
 const char *advice_for_transient(const transient_settings *how, hc_status failure, char text[ADVICE_TEXT]);

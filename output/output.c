@@ -7,13 +7,14 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "numerics/base/path.h"
 #include "output/same_file.h"
 
-enum { MAX_TRIES = 10000, MOST_BESIDE = 8 };
+enum { MAX_TRIES = 10000, MOST_BESIDE = 8, MOST_COLUMNS = 10000 };
 
 /* The files beside that exist now, for output_abandon_all in a signal handler, which gets no argument: so many. */
 static _Atomic(char *) all_beside[MOST_BESIDE];
@@ -160,4 +161,30 @@ hc_status output_finish(output *o, hc_status st)
   if (st == HC_OK) return output_commit(o);
   output_abandon(o);
   return st;
+}
+
+/* The columns of a terminal, 0 where there is none. */
+static int terminal_columns(int fd, int *rows)
+{
+  struct winsize size;
+  if (ioctl(fd, TIOCGWINSZ, &size) != 0) return 0;
+  *rows = size.ws_row;
+  return size.ws_col;
+}
+
+int output_columns(const char *path, int *rows)
+{
+  struct stat out;
+  int columns = 0;
+  *rows = 0;
+  if (!path || !strcmp(path, "-")) {
+    columns = terminal_columns(STDOUT_FILENO, rows);
+    if (columns == 0 && fstat(STDOUT_FILENO, &out) == 0 && S_ISFIFO(out.st_mode))
+      columns = terminal_columns(STDERR_FILENO, &(int){0});
+  }
+  if (columns > 0) return columns;
+  const char *said = getenv("COLUMNS");
+  char *end = NULL;
+  const long number = said ? strtol(said, &end, 10) : 0;
+  return end && !*end && number > 0 && number <= MOST_COLUMNS ? (int)number : 0;
 }

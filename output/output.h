@@ -24,5 +24,10 @@ void output_abandon(output *o);
 /* After writing ended with st: the commit; or the abandoning, and st. */
 hc_status output_finish(output *o, hc_status st);
 
+/* Characters a line has where `path` (NULL or "-": standard output) is read: those of standard output's terminal; of
+ * standard error's where standard output is a pipe; else what the variable COLUMNS says; 0: not known, or no number.
+ * *rows: lines of the former terminal, else 0. */
+int output_columns(const char *path, int *rows);
+
 /* Removes what is written beside, in a signal handler that ends the program. Async-signal-safe. */
 void output_abandon_all(void);

@@ -303,7 +303,7 @@ hc_status table_write_rest(int n, table *const *tables, table_format format, FIL
       const table_begun later = {.several = begun->several};
       write_csv_begun(t, to, k ? &later : begun);
       if (t->notes_split) write_csv_notes(t, t->n_first_notes, t->n_notes, to);
-    } else st = t->wrap ? table_write_wrapped(t, to) : table_write_aligned(t, to);
+    } else st = table_write_aligned(t, to);
   }
   leave_c_locale(c, before);
   return ferror(to) ? HC_IO : st;

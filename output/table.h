@@ -90,8 +90,9 @@ void table_hide(table *t, const char *column);
 
 /* In the format table, what lines longer than `width` lose: the columns of `spare`, NULL at the end, one after the
  * other until the rest fits, with a remark that says so; empty ones go first. If that does not do, the rest stands in
- * blocks under each other, each of which begins with the first column. A table that is wrapped loses columns of `spare`
- * only where words would have to be broken. The list must outlive the table; NULL: nothing to lose. */
+ * blocks under each other, each of which begins with the columns that tell rows apart, and texts go on in more lines.
+ * A table that is wrapped loses columns of `spare` only where words would have to be broken. The list must outlive the
+ * table; NULL: nothing to lose. */
 void table_spare(table *t, const char *const *spare);
 void table_fit(table *t, int width); /* 0: as long as they are, the default */
 
@@ -103,7 +104,8 @@ int table_rows(const table *t);
 
 /* All tables of one command.
  * table: one after another, each under its title; 7 significant digits, a column in one notation with its decimal
- *        points aligned. A text of more than 60 columns is cut with an ellipsis unless it is the row's last.
+ *        points aligned. A text of more than 60 columns goes on in the next line unless it is the row's last.
+ *        On a terminal remarks are broken at blanks.
  * csv:   RFC 4180 quoting, lines end in \n, tables separated by a blank line, "# title" first when n > 1. Empty text is
  *        "" in quotes: not missing.
  * json:  for n = 1 {"rows": [{column: value}, ...], "notes": [...]}; else one object {"title": [{column: value}, ...],

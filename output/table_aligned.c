@@ -1,11 +1,15 @@
 /* table_aligned.c - a table for people: columns two spaces apart, text to the left, numbers to the right under their
  * header. A column of reals is written in one notation, so that its decimal points stand under each other: fixed
  * with as many decimals as its values need for 7 significant digits each, or scientific when that would take more
- * than 11 digits. An exact zero is "0". Spaces are written only once something follows them, so no line ends in one.
- * Lines that are too long lose columns to spare, then are broken into blocks. Proof: tests/output/test_table.c. */
+ * than 11 digits. An exact zero is "0". A text wider than its column goes on in the next line, from a blank on, and an
+ * empty line follows the row. Lines that are too long lose columns to spare; a table to be wrapped then narrows its
+ * texts; what is still too long stands in blocks, each of which begins with the columns that tell the rows apart.
+ * Proof: tests/output/test_table.c. */
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "numerics/base/utf8.h"
 #include "output/table_private.h"
@@ -17,57 +21,29 @@ enum {
   MAX_TEXT_WIDTH = 60,
   NUMBER_ROOM = 40,
   BETWEEN = 2,  /* columns */
-  NARROWEST = 8 /* a column that is wrapped */
+  NARROWEST = 8 /* a text that is wrapped */
 };
 
 typedef struct column_style {
-  bool shown;
+  bool shown, number;
   int width; /* in terminal columns */
-  /* of numbers in lines that are not wrapped */
+  int word;  /* width of the longest one, header included; of numbers the same as width */
+  /* of reals */
   bool scientific;
   int decimals;
-  /* of texts that are wrapped */
-  int word;         /* width of the longest one, header included */
   const char *rest; /* of the text being written */
 } column_style;
 
 /* A table as it will look. */
 typedef struct layout {
   const table *t;
-  column_style *style; /* [n_columns] */
-  int first, last;     /* columns shown: the first one begins every block, the last one's texts are never cut */
+  char **texts;        /* [rows + 1][columns], the header first */
+  column_style *style; /* [columns] */
+  int longest;         /* line [terminal columns]; INT_MAX: any */
+  int keys;            /* the columns before it begin every block; 0: one block holds all */
 } layout;
 
-/* The line being written. */
-typedef struct line_writer {
-  FILE *to;
-  int spaces; /* owed before the next visible character */
-  bool begun; /* has a cell */
-} line_writer;
-
-static void owe_spaces(line_writer *l, int n) { l->spaces += n; }
-
-/* The first `bytes` of a text; control characters become spaces. */
-static void write_bytes(line_writer *l, const char *s, size_t bytes)
-{
-  for (const char *end = s + bytes; s < end;) {
-    const char *from = s;
-    unsigned long code = utf8_next(&s);
-    if (code == ' ' || utf8_is_control(code)) {
-      ++l->spaces;
-      continue;
-    }
-    for (; l->spaces > 0; --l->spaces) putc(' ', l->to);
-    fwrite(from, 1, (size_t)(s - from), l->to);
-  }
-}
-
-static void end_line(line_writer *l)
-{
-  l->spaces = 0;
-  l->begun = false;
-  putc('\n', l->to);
-}
+/* ---- cells as texts ---- */
 
 /* Exponent of v, finite and not 0, to 7 significant digits, and how many of 6 mantissa decimals it needs. */
 static void significant_digits(double v, int *exponent, int *mantissa)
@@ -80,49 +56,90 @@ static void significant_digits(double v, int *exponent, int *mantissa)
   while (*mantissa > 0 && *--e == '0') --*mantissa;
 }
 
-/* The cell's text, in `digits` unless it is a text already. */
-static const char *cell_text(const table *t, int row, int column, const column_style *style, char digits[NUMBER_ROOM])
+static void choose_notation(const table *t, int column, column_style *style)
 {
+  int largest = 0, decimals = 0, mantissa = 0;
+  for (int i = 0; i < table_row_count(t); ++i) {
+    const table_cell *cell = table_at(t, i, column);
+    if (!cell->there || !isfinite(cell->as.real) || cell->as.real == 0) continue;
+    int e, m;
+    significant_digits(cell->as.real, &e, &m);
+    if (e > largest) largest = e;
+    if (m > mantissa) mantissa = m;
+    if (m - e > decimals) decimals = m - e;
+  }
+  style->scientific = largest > MAX_EXPONENT || largest + 1 + decimals > MAX_DIGITS;
+  style->decimals = style->scientific ? mantissa : decimals;
+}
+
+/* The text of a cell, of row -1 the header; free() it. NULL: out of memory. */
+static char *cell_text(const table *t, int row, int column, const column_style *style)
+{
+  if (row < 0) return strdup(t->columns[column].name);
   const table_cell *cell = table_at(t, row, column);
-  if (!cell->there) return "";
+  char number[NUMBER_ROOM] = "";
+  if (!cell->there) return strdup("");
   switch (t->columns[column].kind) {
-  case TABLE_TEXT: return cell->as.text;
-  case TABLE_INTEGER: snprintf(digits, NUMBER_ROOM, "%ld", cell->as.integer); return digits;
+  case TABLE_TEXT: return utf8_clean(cell->as.text, true);
+  case TABLE_INTEGER: snprintf(number, sizeof number, "%ld", cell->as.integer); break;
   case TABLE_REAL:
-    if (cell->as.real == 0) return "0";
-    snprintf(digits, NUMBER_ROOM, style->scientific ? "%.*e" : "%.*f", style->decimals, cell->as.real);
-    return digits;
+    if (cell->as.real == 0) return strdup("0");
+    snprintf(number, sizeof number, style->scientific ? "%.*e" : "%.*f", style->decimals, cell->as.real);
   }
-  return "";
+  return strdup(number);
 }
 
-/* A text in a column of that many; too long, it ends in an ellipsis. */
-static void write_fitted(line_writer *l, const char *text, int columns)
+static const char *text_at(const layout *l, int row, int column)
 {
-  int width = utf8_width(text);
-  if (width <= columns) {
-    write_bytes(l, text, strlen(text));
-  } else {
-    write_bytes(l, text, utf8_fit(text, columns - 1, &width));
-    write_bytes(l, "\xe2\x80\xa6", 3);
-    width += 1;
-  }
-  owe_spaces(l, columns - width);
+  return l->texts[(size_t)(row + 1) * (size_t)l->t->n_columns + (size_t)column];
 }
 
-static int count_shown(const table *t, const column_style *style)
+static int width_of(const char *text, size_t bytes)
+{
+  int width = 0;
+  for (const char *end = text + bytes; text < end;) width += utf8_columns(utf8_next(&text));
+  return width;
+}
+
+/* The texts of a column, how wide the widest is, and their longest word. */
+static bool make_texts(layout *l, int column)
+{
+  const table *t = l->t;
+  column_style *style = &l->style[column];
+  style->shown = !t->hidden[column];
+  style->number = t->columns[column].kind != TABLE_TEXT;
+  if (t->columns[column].kind == TABLE_REAL) choose_notation(t, column, style);
+  for (int i = -1; i < table_row_count(t); ++i) {
+    char *text = cell_text(t, i, column, style);
+    if (!text) return false;
+    l->texts[(size_t)(i + 1) * (size_t)t->n_columns + (size_t)column] = text;
+    const int width = utf8_width(text);
+    if (width > style->width) style->width = width;
+    for (const char *at = text; *at; at += strspn(at, " ")) {
+      const size_t bytes = strcspn(at, " ");
+      const int word = width_of(at, bytes);
+      if (word > style->word) style->word = word;
+      at += bytes;
+    }
+  }
+  return true;
+}
+
+/* ---- what fits ---- */
+
+static int count_shown(const layout *l)
 {
   int n = 0;
-  for (int j = 0; j < t->n_columns; ++j) n += style[j].shown;
+  for (int j = 0; j < l->t->n_columns; ++j) n += l->style[j].shown;
   return n;
 }
 
-/* The width of a line in which each column has its own, or that of its longest word. */
-static int line_width(const table *t, const column_style *style, bool words)
+/* The width of a line of the columns before `end`, each with its own or that of its longest word. */
+static int line_width(const layout *l, int end, bool words)
 {
   int width = -BETWEEN;
-  for (int j = 0; j < t->n_columns; ++j)
-    if (style[j].shown) width += BETWEEN + (words ? style[j].word : style[j].width);
+  for (int j = 0; j < end; ++j)
+    if (l->style[j].shown) width += BETWEEN + (words ? l->style[j].word : l->style[j].width);
   return width;
 }
 
@@ -133,245 +150,211 @@ static bool is_empty(const table *t, int column)
   return true;
 }
 
-/* Columns to spare go, one after the other, while a line is too long; only_empty: of these the empty ones. */
-static void drop_columns(const table *t, column_style *style, int longest, bool words, bool only_empty)
+/* Columns to spare go, one after the other, while a line is too long, or its words are where texts can be narrowed;
+ * only_empty: of these the empty ones. */
+static void drop_columns(layout *l, bool only_empty)
 {
+  const table *t = l->t;
   const char *const *name = t->spare;
-  for (; name && *name && longest > 0 && line_width(t, style, words) > longest; ++name)
+  for (; name && *name && line_width(l, t->n_columns, t->wrap > 0) > l->longest; ++name)
     for (int j = 0; j < t->n_columns; ++j)
-      if (!strcmp(t->columns[j].name, *name) && (!only_empty || is_empty(t, j))) style[j].shown = false;
+      if (!strcmp(t->columns[j].name, *name) && (!only_empty || is_empty(t, j))) l->style[j].shown = false;
 }
 
-static void write_cell(line_writer *w, const layout *l, int column, const char *text)
-{
-  const column_style *style = &l->style[column];
-  bool number = l->t->columns[column].kind != TABLE_TEXT;
-  if (!style->shown) return;
-  if (w->begun) owe_spaces(w, BETWEEN);
-  w->begun = true;
-  if (number) owe_spaces(w, style->width - utf8_width(text));
-  if (number || column == l->last) write_bytes(w, text, strlen(text));
-  else write_fitted(w, text, style->width);
-}
-
-static void write_line(line_writer *l, const char *text)
-{
-  write_bytes(l, text, strlen(text));
-  end_line(l);
-}
-
-/* The remarks, and how many columns are shown if there were to be more. */
-static void write_notes(line_writer *w, const table *t, int wanted, int shown)
-{
-  char text[64];
-  if (t->n_notes || shown < wanted) end_line(w);
-  for (size_t i = 0; i < t->n_notes; ++i) write_line(w, t->notes[i]);
-  snprintf(text, sizeof text, "%d of %d columns shown; --wide shows all", shown, t->n_columns);
-  if (shown < wanted) write_line(w, text);
-}
-
-/* Where the block ends that begins at `from`: it has one column at least, beside the first one of all. */
-static int end_of_block(const layout *l, int from)
-{
-  int width = l->style[l->first].width, to = from > l->first ? from : l->first + 1;
-  for (int n = 0; to <= l->last; ++to) {
-    if (!l->style[to].shown) continue;
-    width += BETWEEN + l->style[to].width;
-    if (n++ > 0 && l->t->fit > 0 && width > l->t->fit) break;
-  }
-  return to;
-}
-
-hc_status table_write_aligned(const table *t, FILE *to)
-{
-  const size_t n = (size_t)t->n_columns;
-  line_writer w = {.to = to};
-  layout l = {.t = t, .style = calloc(n, sizeof *l.style)};
-  if (l.style) {
-    if (*t->title) write_line(&w, t->title);
-    for (int j = 0; j < t->n_columns; ++j) {
-      column_style *style = &l.style[j];
-      style->shown = !t->hidden[j];
-      if (t->columns[j].kind == TABLE_REAL) {
-        int largest = 0, decimals = 0, mantissa = 0;
-        for (int i = 0; i < table_row_count(t); ++i) {
-          const table_cell *cell = table_at(t, i, j);
-          if (!cell->there || !isfinite(cell->as.real) || cell->as.real == 0) continue;
-          int e, m;
-          significant_digits(cell->as.real, &e, &m);
-          if (e > largest) largest = e;
-          if (m > mantissa) mantissa = m;
-          if (m - e > decimals) decimals = m - e;
-        }
-        style->scientific = largest > MAX_EXPONENT || largest + 1 + decimals > MAX_DIGITS;
-        style->decimals = style->scientific ? mantissa : decimals;
-      }
-      for (int i = 0; i < table_row_count(t); ++i) {
-        char digits[NUMBER_ROOM];
-        int width = utf8_width(cell_text(t, i, j, style, digits));
-        if (width > style->width) style->width = width;
-      }
-      if (style->width > MAX_TEXT_WIDTH) style->width = MAX_TEXT_WIDTH;
-      int header = utf8_width(t->columns[j].name);
-      if (header > style->width) style->width = header;
-    }
-    const int wanted = count_shown(t, l.style);
-    drop_columns(t, l.style, t->fit, false, true);
-    drop_columns(t, l.style, t->fit, false, false);
-    l.last = t->n_columns - 1;
-    while (l.first < l.last && !l.style[l.first].shown) ++l.first;
-    while (l.last > l.first && !l.style[l.last].shown) --l.last;
-    for (int from = l.first, end; from <= l.last; from = end) {
-      end = end_of_block(&l, from);
-      if (from > l.first) end_line(&w);
-      /* The columns from..to-1, and before them the first one of all. Row -1: the header. */
-      for (int row = -1; row < table_row_count(l.t); ++row) {
-        for (int j = l.first; j < end; ++j) {
-          char digits[NUMBER_ROOM];
-          if (j > l.first && j < from) continue;
-          write_cell(&w, &l, j, row < 0 ? l.t->columns[j].name : cell_text(l.t, row, j, &l.style[j], digits));
-        }
-        end_line(&w);
-      }
-    }
-    write_notes(&w, t, wanted, count_shown(t, l.style));
-  }
-  const bool good = l.style;
-  free(l.style);
-  return good ? HC_OK : HC_NO_MEMORY;
-}
-
-/* ---- wrapped: a table of texts too long for one line each: columns that fit the terminal, words carried over, an
- * empty line after a row of more than one line; a number is a text like any other ---- */
-
-typedef struct wrapped {
-  char **texts;        /* [rows + 1][columns], the header first */
-  column_style *style; /* [columns] */
-} wrapped;
-
-static int width_of(const char *text, size_t bytes)
-{
-  int width = 0;
-  for (const char *end = text + bytes; text < end;) width += utf8_columns(utf8_next(&text));
-  return width;
-}
-
-/* The widest column wider than its longest word, or if none is, than NARROWEST; -1: none. */
-static int column_to_narrow(const table *t, const column_style *style)
+/* The widest text wider than its longest word, or if none is, than NARROWEST; -1: none. */
+static int column_to_narrow(const layout *l)
 {
   int whole = -1, any = -1;
-  for (int j = 0; j < t->n_columns; ++j) {
-    const column_style *c = &style[j];
-    if (!c->shown || c->width <= NARROWEST) continue;
-    if (any < 0 || c->width > style[any].width) any = j;
-    if (c->width > c->word && (whole < 0 || c->width > style[whole].width)) whole = j;
+  for (int j = 0; j < l->t->n_columns; ++j) {
+    const column_style *c = &l->style[j];
+    if (!c->shown || c->number || c->width <= NARROWEST) continue;
+    if (any < 0 || c->width > l->style[any].width) any = j;
+    if (c->width > c->word && (whole < 0 || c->width > l->style[whole].width)) whole = j;
   }
   return whole >= 0 ? whole : any;
 }
 
-/* Bytes of the next line of *rest, which moves past them and the spaces before; it starts at *from. */
-static size_t next_part(const char **rest, int width, const char **from)
+typedef struct sorted_row {
+  const layout *l;
+  int row;
+} sorted_row;
+
+/* The first column shown in which two rows differ; the number of columns: none. */
+static int first_difference(const sorted_row *a, const sorted_row *b)
 {
-  int own;
-  *from = *rest + strspn(*rest, " ");
-  size_t fits = utf8_fit(*from, width, &own), cut = fits;
-  if ((*from)[fits] && (*from)[fits] != ' ') {
-    while (cut > 0 && (*from)[cut - 1] != ' ') --cut;
-    if (cut == 0) cut = fits;
+  int j = 0;
+  for (; j < a->l->t->n_columns; ++j)
+    if (a->l->style[j].shown && strcmp(text_at(a->l, a->row, j), text_at(a->l, b->row, j)) != 0) break;
+  return j;
+}
+
+static int in_order(const void *a, const void *b)
+{
+  const sorted_row *x = a, *y = b;
+  const int j = first_difference(x, y);
+  return j < x->l->t->n_columns ? strcmp(text_at(x->l, x->row, j), text_at(x->l, y->row, j)) : 0;
+}
+
+/* The terminal columns that the blocks' keys leave, and those that the columns beside them need at least. */
+static int room_beside(const layout *l) { return l->longest - line_width(l, l->keys, false) - BETWEEN; }
+static int needed_beside(const layout *l)
+{
+  int most = 0;
+  for (int j = l->keys; j < l->t->n_columns; ++j)
+    if (l->style[j].shown && l->style[j].word > most) most = l->style[j].word;
+  return most;
+}
+
+/* The fewest first columns in which no two rows are alike begin every block: of sorted rows, neighbours agree
+ * longest. Of these only as many as leave room for the others, but one. Texts become as narrow as what is left. */
+static bool choose_keys(layout *l)
+{
+  const int n = table_row_count(l->t);
+  sorted_row *rows = malloc(((size_t)n + 1) * sizeof *rows);
+  if (!rows) return false;
+  for (int i = 0; i < n; ++i) rows[i] = (sorted_row){l, i};
+  qsort(rows, (size_t)n, sizeof *rows, in_order);
+  int first = 0;
+  while (first < l->t->n_columns - 1 && !l->style[first].shown) ++first;
+  l->keys = first + 1;
+  for (int i = 1; i < n; ++i) {
+    const int j = first_difference(&rows[i - 1], &rows[i]);
+    if (j < l->t->n_columns && j >= l->keys) l->keys = j + 1;
   }
-  if (cut == 0 && **from) { /* not even one character fits */
-    const char *past = *from;
-    utf8_next(&past);
-    cut = (size_t)(past - *from);
-  }
-  *rest = *from + cut;
-  *rest += strspn(*rest, " ");
-  while (cut > 0 && (*from)[cut - 1] == ' ') --cut;
-  return cut;
-}
-
-static bool anything_left(const table *t, const wrapped *w)
-{
-  for (int j = 0; j < t->n_columns; ++j)
-    if (*w->style[j].rest) return true;
-  return false;
-}
-
-static char *wrapped_text(const table *t, int row, int column)
-{
-  const table_cell *cell = table_at(t, row, column);
-  char number[40] = "";
-  table_kind kind = t->columns[column].kind;
-  if (cell->there && kind == TABLE_INTEGER) snprintf(number, sizeof number, "%ld", cell->as.integer);
-  if (cell->there && kind == TABLE_REAL) snprintf(number, sizeof number, "%.7g", cell->as.real);
-  return utf8_clean(cell->there && kind == TABLE_TEXT ? cell->as.text : number, true);
-}
-
-static bool copy_texts(const table *t, const wrapped *w)
-{
-  if (!w->texts || !w->style) return false;
-  for (int j = 0; j < t->n_columns; ++j)
-    if (!(w->texts[j] = strdup(t->columns[j].name))) return false;
-  for (int i = 0; i < table_row_count(t); ++i)
-    for (int j = 0; j < t->n_columns; ++j)
-      if (!(w->texts[(i + 1) * t->n_columns + j] = wrapped_text(t, i, j))) return false;
+  free(rows);
+  while (l->keys > first + 1 && needed_beside(l) > room_beside(l)) --l->keys;
+  const int room = room_beside(l) > NARROWEST ? room_beside(l) : NARROWEST;
+  for (int j = l->keys; j < l->t->n_columns; ++j)
+    if (!l->style[j].number && l->style[j].width > room) l->style[j].width = room;
   return true;
 }
 
-hc_status table_write_wrapped(const table *t, FILE *to)
+/* Columns and their widths; the last text is as wide as the line lets it be. */
+static bool fit(layout *l)
 {
-  const size_t columns = (size_t)t->n_columns + 1,
-               cells = columns * ((size_t)table_row_count(t) + 1); /* none of 0 bytes */
-  wrapped w = {calloc(cells, sizeof *w.texts), calloc(columns, sizeof *w.style)};
-  line_writer line = {.to = to};
-  bool good = copy_texts(t, &w);
-  if (good) {
-    for (int j = 0; j < t->n_columns; ++j) {
-      w.style[j].shown = !t->hidden[j];
-      /* The widest text of a column and its longest word, header included. */
-      column_style *style = &w.style[j];
-      for (int i = 0; i <= table_row_count(t); ++i) {
-        const char *text = w.texts[i * t->n_columns + j];
-        const int width = utf8_width(text);
-        if (width > style->width) style->width = width;
-        for (const char *at = text; *at; at += strspn(at, " ")) {
-          const size_t bytes = strcspn(at, " ");
-          const int word = width_of(at, bytes);
-          if (word > style->word) style->word = word;
-          at += bytes;
-        }
-      }
-    }
-    const int wanted = count_shown(t, w.style);
-    drop_columns(t, w.style, t->wrap, true, false); /* while the words of the others do not fit side by side */
-    /* From each as wide as its widest text, one after the other is narrowed until the line fits. */
-    int total = line_width(t, w.style, false);
-    for (int j; total > t->wrap && (j = column_to_narrow(t, w.style)) >= 0; --total) --w.style[j].width;
-    if (*t->title) write_line(&line, t->title);
-    for (int i = 0, lines = 1; i <= table_row_count(t); ++i) {
-      if (i > 1 && lines > 1) putc('\n', to);
-      /* the row, in as many lines as it takes */
-      for (int j = 0; j < t->n_columns; ++j) w.style[j].rest = w.style[j].shown ? w.texts[i * t->n_columns + j] : "";
-      lines = 0;
-      do {
-        int spaces = 0;
-        for (int j = 0; j < t->n_columns; ++j) {
-          column_style *c = &w.style[j];
-          const char *from;
-          if (!c->shown) continue;
-          size_t n = next_part(&c->rest, c->width, &from);
-          int own = width_of(from, n);
-          if (n) fprintf(to, "%*s%.*s", spaces, "", (int)n, from);
-          spaces = (n ? 0 : spaces) + c->width - own + BETWEEN;
-        }
-        putc('\n', to);
-        ++lines;
-      } while (anything_left(t, &w));
-    }
-    write_notes(&line, t, wanted, count_shown(t, w.style));
+  const table *t = l->t;
+  const int n = t->n_columns;
+  int last = n - 1;
+  while (last > 0 && t->hidden[last]) --last;
+  column_style *end = &l->style[last];
+  const int widest = end->width;
+  for (int j = 0; j < n && !t->wrap; ++j)
+    if (!l->style[j].number && l->style[j].width > MAX_TEXT_WIDTH) l->style[j].width = MAX_TEXT_WIDTH;
+  drop_columns(l, true);
+  drop_columns(l, false);
+  for (int j; t->wrap && line_width(l, n, false) > l->longest && (j = column_to_narrow(l)) >= 0;) --l->style[j].width;
+  const int left = l->longest - line_width(l, n, false);
+  if (left < 0) return choose_keys(l);
+  end->width = widest - end->width < left ? widest : end->width + left;
+  return true;
+}
+
+/* ---- lines ---- */
+
+/* Bytes of the next line of *rest, which moves past them and the spaces behind. */
+static size_t next_part(const char **rest, int width)
+{
+  int own;
+  const char *from = *rest;
+  size_t fits = utf8_fit(from, width, &own), cut = fits;
+  if (from[fits] && from[fits] != ' ') {
+    while (cut > 0 && from[cut - 1] != ' ') --cut;
+    if (cut == 0) cut = fits;
   }
-  for (size_t i = 0; w.texts && i < cells; ++i) free(w.texts[i]);
-  free(w.texts);
-  free(w.style);
+  if (cut == 0 && *from) { /* not even one character fits */
+    const char *past = from;
+    utf8_next(&past);
+    cut = (size_t)(past - from);
+  }
+  *rest = from + cut;
+  *rest += strspn(*rest, " ");
+  while (cut > 0 && from[cut - 1] == ' ') --cut;
+  return cut;
+}
+
+/* A text of its own, in lines. */
+static void write_text(const char *text, int width, FILE *to)
+{
+  do {
+    const char *from = text;
+    fprintf(to, "%.*s\n", (int)next_part(&text, width), from);
+  } while (*text);
+}
+
+/* A row of the block of columns from..end-1, in as many lines as it takes; how many. */
+static int write_row(const layout *l, int row, int from, int end, FILE *to)
+{
+  int lines = 0;
+  bool left = true;
+  for (int j = 0; j < end; ++j) l->style[j].rest = text_at(l, row, j);
+  for (; left; ++lines) {
+    int spaces = 0;
+    left = false;
+    for (int j = 0; j < end; ++j) {
+      column_style *c = &l->style[j];
+      if (!c->shown || (j >= l->keys && j < from)) continue;
+      const char *part = c->rest;
+      const size_t bytes = next_part(&c->rest, c->width);
+      const int pad = c->width - width_of(part, bytes);
+      if (c->number) spaces += pad;
+      if (bytes) fprintf(to, "%*s%.*s", spaces, "", (int)bytes, part);
+      spaces = (bytes ? 0 : spaces) + (c->number ? 0 : pad) + BETWEEN;
+      left |= *c->rest;
+    }
+    putc('\n', to);
+  }
+  return lines;
+}
+
+/* Where the block ends that begins at `from`: it has one column at least, beside the keys. */
+static int end_of_block(const layout *l, int from)
+{
+  int width = line_width(l, l->keys, false), to = from;
+  for (int n = 0; to < l->t->n_columns; ++to) {
+    if (!l->style[to].shown) continue;
+    width += BETWEEN + l->style[to].width;
+    if (n++ > 0 && width > l->longest) break;
+  }
+  return to;
+}
+
+static void write_blocks(const layout *l, FILE *to)
+{
+  for (int from = l->keys, end; end = end_of_block(l, from), true; from = end) {
+    if (from > l->keys) putc('\n', to);
+    for (int row = -1, lines = 1; row < table_row_count(l->t); ++row) {
+      if (row > 0 && lines > 1) putc('\n', to);
+      lines = write_row(l, row, from, end, to);
+    }
+    if (end >= l->t->n_columns) return;
+  }
+}
+
+/* The remarks, and how many columns are shown if there were to be more. */
+static void write_notes(const layout *l, int wanted, FILE *to)
+{
+  const table *t = l->t;
+  const int shown = count_shown(l), width = isatty(fileno(to)) ? l->longest : INT_MAX;
+  if (t->n_notes || shown < wanted) putc('\n', to);
+  for (size_t i = 0; i < t->n_notes; ++i) write_text(t->notes[i], width, to);
+  if (shown < wanted) fprintf(to, "%d of %d columns shown; --wide shows all\n", shown, t->n_columns);
+}
+
+hc_status table_write_aligned(const table *t, FILE *to)
+{
+  const size_t n = (size_t)t->n_columns, cells = n * ((size_t)table_row_count(t) + 1);
+  layout l = {.t = t, .texts = calloc(cells, sizeof *l.texts), .style = calloc(n, sizeof *l.style)};
+  l.longest = t->wrap ? t->wrap : t->fit ? t->fit : INT_MAX;
+  bool good = l.texts && l.style;
+  for (int j = 0; j < t->n_columns && good; ++j) good = make_texts(&l, j);
+  const int wanted = good ? count_shown(&l) : 0;
+  if (good && (good = fit(&l))) {
+    if (*t->title) write_text(t->title, INT_MAX, to);
+    write_blocks(&l, to);
+    write_notes(&l, wanted, to);
+  }
+  for (size_t i = 0; l.texts && i < cells; ++i) free(l.texts[i]);
+  free(l.texts);
+  free(l.style);
   return good ? HC_OK : HC_NO_MEMORY;
 }

@@ -41,7 +41,6 @@ static inline const table_cell *table_at(const table *t, int row, int column)
 
 /* Called with the C locale in force; HC_OK or HC_NO_MEMORY: whether the stream failed is the caller's to ask. */
 hc_status table_write_aligned(const table *t, FILE *to);
-hc_status table_write_wrapped(const table *t, FILE *to);
 /* A csv cell, quoted by RFC 4180, where a reader might strip or skip it, and for empty text. */
 void table_write_csv_text(const char *s, FILE *to);
 hc_status table_write_json(int n, table *const *tables, FILE *to, const table_begun *begun);

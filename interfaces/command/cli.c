@@ -6,12 +6,12 @@
 #include <float.h>
 #include <gsl/gsl_version.h>
 #include <sundials/sundials_version.h>
-#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <yaml.h>
 
 #include "compare/advice.h"
+#include "compare/no_steady_state.h"
 #include "numerics/base/constants.h"
 #include "numerics/base/nearest.h"
 #include "output/output.h"
@@ -559,6 +559,23 @@ int cli_creeps(const cli_common *common, double omega, const char *response, dou
   return EXIT_NO_SOLUTION;
 }
 
+bool cli_it_creeps(const scene *sc, double omega, const hc_monitor *monitor, char *name, double *drift)
+{
+  compare_setup setup;
+  int response = 0;
+  hc_status st = scene_setup(sc, &setup);
+  if (st == HC_OK) st = steady_state_creeps(&setup, omega, monitor, &response, drift);
+  scene_setup_clear(&setup);
+  if (st == HC_CREEPS && sc->structure) structure_response_name(sc->structure, response, name, RESPONSE_NAME);
+  return st == HC_CREEPS;
+}
+
+double cli_past(const scene *sc, double omega)
+{
+  const double beyond = 1e-3; /* of omega */
+  return omega * (1 + (sc->omega_to > sc->omega_from ? beyond : -beyond));
+}
+
 int cli_file_failed(const cli_common *common, const char *path, hc_status st)
 {
   const char *why = st == HC_IO && errno ? strerror(errno) : hc_status_text(st);
@@ -636,11 +653,7 @@ void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void 
 int cli_width(const cli_common *common)
 {
   enum { LEAST = 40, USUAL = 100 };
-  struct winsize size;
-  const char *columns = getenv("COLUMNS");
-  int width = columns ? (int)strtol(columns, NULL, 10) : 0;
-  if (!common->output && isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-    width = size.ws_col;
+  const int width = output_columns(common->output, &(int){0});
   return width <= 0 ? USUAL : width < LEAST ? LEAST : width;
 }
 

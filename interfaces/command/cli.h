@@ -167,6 +167,12 @@ int cli_solver_failed(const cli_common *common, cli_solver solver, const char *w
  * Returns the exit code. */
 int cli_creeps(const cli_common *common, double omega, const char *response, double drift);
 
+/* Where no solution was found: does the body creep there, that response (name[RESPONSE_NAME]) by *drift a period? */
+bool cli_it_creeps(const scene *sc, double omega, const hc_monitor *monitor, char *name, double *drift);
+
+/* Just past the end of a curve that stops, where another motion may be seen [omega]. */
+double cli_past(const scene *sc, double omega);
+
 /* Says why the file (NULL: standard output) was not written, by errno. Returns the exit code. */
 int cli_file_failed(const cli_common *common, const char *path, hc_status st);
 
@@ -181,7 +187,7 @@ unsigned cli_extra_columns(const scene *sc);
 table *cli_table(const cli_common *common, const char *title, rows_kind kind);
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void *row);
 
-/* The length of a line: the terminal's columns; elsewhere what COLUMNS says, or 100. At least 40. */
+/* The length of a line: output_columns, or 100. At least 40. */
 int cli_width(const cli_common *common);
 
 /* Write the tables to stdout or --output, whole or not at all, within cli_width unless --wide. 0 or the exit code. */

@@ -81,7 +81,8 @@ static void say_unexpected(const cli_common *common, const comparison *c, table 
   }
 }
 
-static void print_failures(const cli_common *common, const comparison *c)
+/* Of rows that creep, and of a curve that ends where the body begins to, that is said; in haste, of rows alone. */
+static void print_failures(const cli_common *common, const comparison *c, bool in_haste)
 {
   bool creeps = false;
   for (int i = 0; i < c->n_rows; ++i) {
@@ -93,8 +94,15 @@ static void print_failures(const cli_common *common, const comparison *c)
     else if (r->transient_status != HC_OK && r->transient_status != HC_APERIODIC)
       cli_solver_failed(common, CLI_TRANSIENT, "time integration", r->transient_status, r->omega);
   }
-  if (c->curve.end != HC_OK && c->curve.n)
-    cli_solver_failed(common, CLI_HBM, "the HBM response curve", creeps ? HC_CREEPS : c->curve.end, c->curve.ends_at);
+  const hc_status end = c->curve.end;
+  if (end == HC_OK || c->curve.n == 0) return;
+  char name[RESPONSE_NAME] = "";
+  double drift;
+  const double past = cli_past(common->scene, c->curve.ends_at);
+  const bool given_up = in_haste || end == HC_NO_MEMORY || end == HC_INTERRUPTED || end == HC_UNBOUNDED;
+  if (!creeps && !given_up && cli_it_creeps(common->scene, past, NULL, name, &drift))
+    cli_creeps(common, past, name, drift);
+  else cli_solver_failed(common, CLI_HBM, "the HBM response curve", creeps ? HC_CREEPS : end, c->curve.ends_at);
 }
 
 /* "3 rows without ...": where there are such rows. */
@@ -267,7 +275,7 @@ static int write_found(void *self)
   if (f->c->n_rows == 0) return -1;
   const int n = tables_of_found(f->common, f->setup->contacts, f->setup, f->c, HC_INTERRUPTED, tables);
   const int code = cli_solver_failed(f->common, CLI_BOTH, "the comparison", HC_INTERRUPTED, 0);
-  print_failures(f->common, f->c);
+  print_failures(f->common, f->c, true);
   pthread_mutex_lock(&f->shown.writing);
   const int written = cli_write_rest(f->common, n, tables, &f->shown.begun);
   return code ? code : written;
@@ -343,7 +351,7 @@ static int run_compare(cli_common *common, void *given, scene *sc)
   else code = comparison_exit_code(&c);
   if (proved != HC_OK) code = EXIT_NO_SOLUTION;
   if (tabled != HC_OK) code = cli_solver_failed(common, CLI_BOTH, "the tables", tabled, 0);
-  print_failures(common, &c);
+  print_failures(common, &c, false);
   say_unexpected(common, &c, NULL);
   if (c.n_rows && !common->quiet && !comparison_nonlinear(&c)) cli_message(common, COMPARISON_LINEAR, c.n_rows);
   int written = c.n_rows ? cli_write_rest(common, n_tables, tables, &found.shown.begun) : 0;

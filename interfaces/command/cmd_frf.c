@@ -7,7 +7,6 @@
 #include "casefile/structure.h"
 #include "compare/duration.h"
 #include "compare/memory.h"
-#include "compare/no_steady_state.h"
 #include "compare/response.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
@@ -32,9 +31,6 @@ typedef struct frf_options {
   bool contacts;        /* what each contact does, too */
   bool verbose;         /* how Newton's equations were solved, too */
 } frf_options;
-
-static const double BEYOND =
-    1e-3; /* [omega] of the last point of a curve that stops, where another motion may be seen */
 
 static const cli_option options[] = {
     {CLI_LIST, "at", "LIST", "Only the solutions at these " CLI_FREQUENCIES, offsetof(frf_options, at)},
@@ -240,16 +236,6 @@ static hc_status note_specials(const cli_common *common, table *t, hbm_solver *s
   return st;
 }
 
-/* Why there is no solution at omega: true where the body creeps, a response by *drift in each period. */
-static bool it_creeps(const scene *sc, double omega, const hc_monitor *monitor, int *response, double *drift)
-{
-  compare_setup setup;
-  hc_status st = scene_setup(sc, &setup);
-  if (st == HC_OK) st = steady_state_creeps(&setup, omega, monitor, response, drift);
-  scene_setup_clear(&setup);
-  return st == HC_CREEPS;
-}
-
 static int run_frf(cli_common *common, void *given, scene *sc)
 {
   const frf_options *own = given;
@@ -261,7 +247,7 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   if (refused) return refused;
   hbm_curve curve = {0}, found = {0};
   double from, to, failed_at = 0, drift = NAN;
-  int creeping = 0;                           /* the response */
+  char name[RESPONSE_NAME] = "";              /* of the response that creeps */
   const number_list *at = &sc->compare.omega; /* n = 0: the whole curve */
   compare_setup setup;
   if (scene_setup(sc, &setup) == HC_OK) cli_foretell_memory(common, memory_of_curve(setup.model, &setup.hbm));
@@ -294,10 +280,9 @@ static int run_frf(cli_common *common, void *given, scene *sc)
     solved = at->n || st == HC_INTERRUPTED ? HC_OK : note_specials(common, t, s, &curve);
     if (st == HC_OK && solved == HC_NO_MEMORY) st = solved; /* another failure to locate one is in the note */
     /* where there is no solution: at the first frequency without, else past the last point */
-    const double past = 1 + (to > from ? BEYOND : -BEYOND);
-    const double none_at = lacks_at > 0 ? lacks_at : curve.n ? failed_at * past : failed_at;
+    const double none_at = lacks_at > 0 ? lacks_at : curve.n ? cli_past(sc, failed_at) : failed_at;
     const bool given_up = st == HC_NO_MEMORY || st == HC_INTERRUPTED || st == HC_UNBOUNDED;
-    if (st != HC_OK && !given_up && none_at > 0 && it_creeps(sc, none_at, &monitor, &creeping, &drift)) {
+    if (st != HC_OK && !given_up && none_at > 0 && cli_it_creeps(sc, none_at, &monitor, name, &drift)) {
       st = HC_CREEPS, failed_at = none_at;
       table_note(t, "at %s the body slides on by %.9g in each period", scene_where(sc, none_at, (char[SCENE_WHERE]){0}),
                  drift);
@@ -309,8 +294,6 @@ static int run_frf(cli_common *common, void *given, scene *sc)
   }
   keep_found_end(&f.beside);
   progress_end(bar);
-  char name[RESPONSE_NAME] = "";
-  if (sc->structure) structure_response_name(sc->structure, creeping, name, sizeof name);
   int code = 0;
   if (st == HC_CREEPS) code = cli_creeps(common, failed_at, name, drift);
   else if (st != HC_OK) code = cli_solver_failed(common, CLI_HBM, "harmonic balance", st, failed_at);

@@ -325,15 +325,51 @@ static void utf8_is_decoded_strictly(CHECK_STATE)
   assert_int_equal(utf8_width("\xf0\x9f\x98\x80"), 2); /* an emoji */
 }
 
-static void long_text_is_cut_except_at_the_end(CHECK_STATE)
+/* A text of more than 60 columns goes on in the next line; the last one only where lines have a longest. */
+static void long_texts_go_on_in_the_next_line(CHECK_STATE)
 {
   char longest[101], expected[512];
   memset(longest, 'x', 100);
   longest[100] = 0;
   table *t = table_new(NULL, 2, two_texts);
   for (int i = 0; i < 2; ++i) table_put_text(t, longest);
-  snprintf(expected, sizeof expected, "a%61sb\n%.59s\xe2\x80\xa6  %s\n", "", longest, longest);
+  snprintf(expected, sizeof expected, "a%61sb\n%.60s  %s\n%.40s\n", "", longest, longest, longest);
   expect(1, &t, FORMAT_TABLE, expected);
+  table_free(t);
+}
+
+/* What tells rows apart stands before every block: here the first two columns, for each has rows that are alike. */
+static void blocks_repeat_the_keys(CHECK_STATE)
+{
+  static const table_column of[] = {{"omega", TABLE_REAL},
+                                    {"hidden", TABLE_TEXT},
+                                    {"branch", TABLE_INTEGER},
+                                    {"amplitude", TABLE_REAL},
+                                    {"why", TABLE_TEXT}};
+  table *t = table_new(NULL, 5, of);
+  for (int i = 0; i < 4; ++i) {
+    const double omega[] = {1, 2, 1, 2};
+    table_put_real(t, omega[i]);
+    table_put_text(t, "same");
+    table_put_integer(t, i / 2);
+    table_put_real(t, 0.5);
+    table_put_text(t, i == 2 ? "one two, three" : "four");
+  }
+  table_hide(t, "hidden");
+  table_fit(t, 24);
+  expect(1, &t, FORMAT_TABLE,
+         "omega  branch  amplitude\n    1       0        0.5\n    2       0        0.5\n    1       1        0.5\n"
+         "    2       1        0.5\n"
+         "\n"
+         "omega  branch  why\n    1       0  four\n    2       0  four\n    1       1  one two,\n               three\n"
+         "\n    2       1  four\n");
+  table_fit(t, 23); /* no room beside both */
+  expect(1, &t, FORMAT_TABLE,
+         "omega  branch\n    1       0\n    2       0\n    1       1\n    2       1\n"
+         "\n"
+         "omega  amplitude\n    1        0.5\n    2        0.5\n    1        0.5\n    2        0.5\n"
+         "\n"
+         "omega  why\n    1  four\n    2  four\n    1  one two, three\n    2  four\n");
   table_free(t);
 }
 
@@ -533,5 +569,5 @@ CHECK_TESTS("compare.table", 60, hidden_columns_are_for_machines, lines_fit_the_
             wrapped_columns_keep_their_words, three_formats, no_rows_and_no_title, several_tables,
             rows_that_are_shown_at_once, notes_of_rows_stand_behind_them, csv_quotes_what_a_reader_could_misread,
             reals_get_one_notation_a_column, text_is_utf8_and_safe, utf8_is_decoded_strictly,
-            long_text_is_cut_except_at_the_end, doubles_come_back_bit_for_bit, a_comma_locale_changes_nothing,
-            failures_are_reported, misuse_is_a_bug)
+            long_texts_go_on_in_the_next_line, blocks_repeat_the_keys, doubles_come_back_bit_for_bit,
+            a_comma_locale_changes_nothing, failures_are_reported, misuse_is_a_bug)

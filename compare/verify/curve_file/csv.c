@@ -196,11 +196,18 @@ static void list_names(int n, const field *fields, int most, const char *quote, 
   if (n > most) message_add(m, ", ...");
 }
 
-static void say_ambiguous(int n, const field *fields, const char *what, int found, message *m)
+/* What is expected has the columns that were recognised, the first of several. */
+static void say_ambiguous(int n, const field *fields, const char *what, int found, const verify_columns *seen,
+                          message *m)
 {
+  char quantity[VERIFY_QUANTITY_TEXT] = "amplitude";
+  const int value = seen->value.number ? seen->value.number : 2;
+  const int omega = seen->omega.number ? seen->omega.number : value == 1 ? 2 : 1;
+  if (seen->value.number) verify_quantity_name(&seen->quantity, quantity);
   message_add(m, found ? "more than one column of %s among " : "no column named like %s among ", what);
   list_names(n, fields, 10, "'", m);
-  message_add(m, ", expected --columns omega=1,amplitude=2 (or frequency=, and any of --quantity)");
+  message_add(m, ", expected --columns %s=%d,%s=%d (or frequency=, and any of --quantity)",
+              seen->omega.number && seen->cycles ? "frequency" : "omega", omega, quantity, value);
 }
 
 /* "omega", "w", "Frequency [Hz]", "|X1|", "Amplitude (mm)", ...: case, blanks, _ - | and a unit behind it do not count.
@@ -213,13 +220,12 @@ static bool recognise_columns(int n, const field *fields, bool quantity_given, v
   for (int i = 0; i < n; ++i) {
     verify_quantity q = {0};
     switch (meaning_of(&fields[i], &q)) {
-    case MEANS_OMEGA: ++of_omega, omega = i + 1; break;
-    case MEANS_CYCLES: ++of_cycles, cycle = i + 1; break;
-    case MEANS_VALUE: ++of_unnamed, unnamed = i + 1; break;
+    case MEANS_OMEGA: omega = of_omega++ ? omega : i + 1; break;
+    case MEANS_CYCLES: cycle = of_cycles++ ? cycle : i + 1; break;
+    case MEANS_VALUE: unnamed = of_unnamed++ ? unnamed : i + 1; break;
     case MEANS_QUANTITY:
       if (quantity_given && !verify_quantity_same(&q, &wanted)) break;
-      ++of_value, value = i + 1;
-      columns->quantity = q;
+      if (of_value++ == 0) value = i + 1, columns->quantity = q;
       break;
     case MEANS_NOTHING: break;
     }
@@ -229,8 +235,8 @@ static bool recognise_columns(int n, const field *fields, bool quantity_given, v
   columns->omega = (verify_column){.number = of_omega ? omega : cycle};
   columns->value = (verify_column){.number = value};
   const int frequencies = of_omega ? of_omega : of_cycles; /* omega and frequency side by side say the same */
-  if (frequencies != 1) say_ambiguous(n, fields, "frequencies", frequencies, m);
-  else if (of_value != 1) say_ambiguous(n, fields, "values", of_value, m);
+  if (frequencies != 1) say_ambiguous(n, fields, "frequencies", frequencies, columns, m);
+  else if (of_value != 1) say_ambiguous(n, fields, "values", of_value, columns, m);
   return frequencies == 1 && of_value == 1;
 }
 

@@ -5,7 +5,6 @@
 #include <errno.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -115,15 +114,10 @@ hc_status figure_open(figure *g, plot_order *p, int width, int height)
   p->why[0] = 0;
   const char *path = g->order->path;
   figure_script(g, "set encoding utf8\n");
-  /* As wide as the terminal, or as COLUMNS says; two lines less high, so that the prompt leaves all of it visible. */
+  /* Two lines less high than the terminal, so that the prompt leaves all of it visible. */
   if (g->letters) {
-    struct winsize size;
-    const char *columns = getenv("COLUMNS");
-    int across = columns ? (int)strtol(columns, NULL, 10) : 0, down = 0;
-    if (isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
-      across = size.ws_col;
-      down = size.ws_row - 2;
-    }
+    int down, across = output_columns(path, &down);
+    down -= 2;
     if (across <= 0) across = PLAIN_WIDTH;
     across = across < LEAST_WIDTH ? LEAST_WIDTH : across > MOST_WIDTH ? MOST_WIDTH : across;
     if (down <= 0 || down > across / 2) down = across > 2 * PLAIN_HEIGHT ? PLAIN_HEIGHT : across / 2;
@@ -386,10 +380,18 @@ const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT
   return text;
 }
 
-/* Small values are light; the palette darkens evenly, also in grey. Numbers on the darker half are white. */
-void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high)
+#define CELL_NUMBER "%.3g"
+
+int figure_cell(figure *g, int column, int row, double value)
 {
-  if (!(high > low)) high = low + (low != 0 ? 1e-6 * fabs(low) : 1); /* one value only */
+  figure_script(g, "%d %d %.8g\n", column, row, value);
+  return snprintf(NULL, 0, CELL_NUMBER, value);
+}
+
+/* Small values are light; the palette darkens evenly, also in grey. Numbers on the darker half are white. */
+void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high, bool numbered)
+{
+  if (!(high > low)) high = low + (low != 0 ? 0.1 * fabs(low) : 1); /* one value only */
   figure_script(g, "set palette defined (0 '#fdf6e3', 0.35 '#f0a860', 0.7 '#a8325a', 1 '#2a0a4a')\nset cblabel ");
   figure_text(g, "%s", label);
   figure_script(g, "\nunset key\nunset grid\nset tics scale 0\nset autoscale noextend\n%s",
@@ -397,13 +399,14 @@ void figure_heat(figure *g, const char *label, bool logarithmic, double low, dou
   figure_script(g, "low = %.10g\nhigh = %.10g\n", low, high);
   figure_script(g, "set cbrange [low:high]\nfraction(v) = %s\n",
                 logarithmic ? "log(v/low)/log(high/low)" : "(v - low)/(high - low)");
-  figure_script(
-      g, "half = 0.5\nplot $cells using 1:2:($1-half):($1+half):($2-half):($2+half):3 with boxxyerror fill solid "
-         "noborder lc palette, \\\n");
-  figure_script(
-      g, "  $cells using (fraction($3) < 0.5 ? $1 : NaN):2:(sprintf('%%.3g', $3)) with labels tc rgb 'black', \\\n");
-  figure_script(g,
-                "  $cells using (fraction($3) < 0.5 ? NaN : $1):2:(sprintf('%%.3g', $3)) with labels tc rgb 'white'\n");
+  figure_script(g, "half = 0.5\nplot $cells using 1:2:($1-half):($1+half):($2-half):($2+half):3 with boxxyerror "
+                   "fill solid noborder lc palette");
+  for (int dark = 0; dark < 2 && numbered; ++dark)
+    figure_script(g,
+                  ", \\\n  $cells using (fraction($3) < 0.5 ? %s):2:(sprintf('%s', $3)) with labels "
+                  "tc rgb '%s'",
+                  dark ? "NaN : $1" : "$1 : NaN", CELL_NUMBER, dark ? "white" : "black");
+  figure_draw(g);
 }
 
 /* ---- points by verdict ---- */

@@ -65,8 +65,10 @@ void figure_log(figure *g, const char *axis);
 enum { FIGURE_UNIT = 64 };
 const char *figure_unit(const scene *sc, const char *unit, char text[FIGURE_UNIT]);
 
-/* Cells (column, row, value) of $cells, low <= value <= high, each with its value. Axes and tics are the caller's. */
-void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high);
+/* A cell of the block $cells; characters of its number. */
+int figure_cell(figure *g, int column, int row, double value);
+/* The cells, low <= value <= high; numbered: each with its number. Axes and tics are the caller's. */
+void figure_heat(figure *g, const char *label, bool logarithmic, double low, double high, bool numbered);
 
 /* Points drawn by their verdict, in order of appearance. */
 enum { VERDICTS_MOST = 16 };

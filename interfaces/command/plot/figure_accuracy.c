@@ -133,14 +133,16 @@ static void panel_over_harmonics(figure *g, const accuracy *a, const accuracy_gr
 
 static void panel_heat(figure *g, const accuracy *a, const accuracy_grid *q)
 {
-  int columns = q->n_time + q->exact;
+  enum { ACROSS = 66, DOWN = 16 }; /* characters, and lines, of a panel in the largest font of figure.c's terminals */
+  int columns = q->n_time + q->exact, longest = 0;
   double low = INFINITY, high = 0;
   figure_block(g, "cells");
   for (int h = 0; h < q->n_harm; ++h)
     for (int i = 0; i < columns; ++i) {
       const double *e = worst_of(row_at(a, q->harmonics[h], i < q->n_time ? q->samples[i] : EXACT));
       if (!e || !isfinite(*e)) continue;
-      figure_script(g, "%d %d %.6g\n", i, h, fmax(*e, no_less));
+      const int n = figure_cell(g, i, h, fmax(*e, no_less));
+      if (n > longest) longest = n;
       low = fmin(low, fmax(*e, no_less));
       high = fmax(high, *e);
     }
@@ -158,7 +160,8 @@ static void panel_heat(figure *g, const accuracy *a, const accuracy_grid *q)
   figure_script(g, ")\nset ytics (");
   for (int h = 0; h < q->n_harm; ++h) figure_script(g, "%s'%d' %d", h ? ", " : "", q->harmonics[h], h);
   figure_script(g, ")\n");
-  figure_heat(g, "largest relative amplitude error", true, low, high);
+  figure_heat(g, "largest relative amplitude error", true, low, high,
+              columns * (longest + 1) <= ACROSS && q->n_harm <= DOWN);
 }
 
 void panels_accuracy(figure *g, const accuracy *a)

@@ -6,8 +6,16 @@
 
 #include "interfaces/command/plot/figure.h"
 #include "numerics/base/number.h"
+#include "numerics/base/utf8.h"
 
-enum { MOST_LINES = 12, MOST_HEAT_LABELS = 24, LEAST_HEAT = 4, TEXT = 160 };
+enum {
+  MOST_LINES = 12,
+  LEAST_HEAT = 4,
+  TEXT = 160,
+  /* of a heat map in the largest font of the terminals: characters across, with those of its rows' texts; rows */
+  ACROSS = 92,
+  DOWN = 24
+};
 
 typedef struct chart {
   const study *s;
@@ -199,17 +207,38 @@ static void measure_label(const chart *c, char text[TEXT])
            c->response ? c->response : "", measure_unit(c, unit));
 }
 
-/* "false, sampled": value i of all fields of an axis; with i < 0 their names. */
-static void join_fields(const study_axis *a, int i, char text[TEXT])
+static bool varies(const study_axis *a, const study_field *f)
 {
-  text[0] = 0;
-  for (int k = 0; k < a->n_fields; ++k) {
-    const size_t used = strlen(text);
-    snprintf(text + used, TEXT - used, "%s%s", k ? ", " : "", i < 0 ? a->fields[k].path : a->fields[k].values[i].text);
-  }
+  for (int i = 1; i < a->n; ++i)
+    if (strcmp(f->values[i].text, f->values[0].text) != 0) return true;
+  return false;
 }
 
-/* "hbm.samples [1]" or the names of all fields of an axis without a scale. */
+/* Value i of a field as it was given; a long number with four digits, and as many as tell it from its neighbour. */
+static const char *short_value(const study_axis *a, const study_field *f, int i, char text[TEXT])
+{
+  enum { LONG = 8, LEAST = 4, MOST = 15 };
+  double v, beside;
+  snprintf(text, TEXT, "%s", f->values[i].text);
+  if (strlen(text) <= LONG || !number_of(f, i, &v)) return text;
+  if (a->n < 2 || !number_of(f, i > 0 ? i - 1 : 1, &beside) || beside == v) beside = 0;
+  const double digits = 1 + ceil(log10(fabs(v) / fabs(v - beside))); /* the last one is a tenth of the step */
+  snprintf(text, TEXT, "%.*g", digits > LEAST ? digits < MOST ? (int)digits : MOST : LEAST, v);
+  return text;
+}
+
+/* "false, sampled": value i of the fields of an axis that vary; with i < 0 their names. */
+static void join_fields(const study_axis *a, int i, char text[TEXT])
+{
+  char value[TEXT];
+  size_t used = text[0] = 0;
+  for (int k = 0; k < a->n_fields && used < TEXT - 1; ++k)
+    if (varies(a, &a->fields[k]))
+      used += (size_t)snprintf(text + used, TEXT - used, "%s%s", used ? ", " : "",
+                               i < 0 ? a->fields[k].path : short_value(a, &a->fields[k], i, value));
+}
+
+/* "hbm.samples [1]" or the names of the fields that vary of an axis without a scale. */
 static const char *axis_text(const study *s, const study_axis *a, const study_field *scale, char text[TEXT])
 {
   char unit[FIGURE_UNIT];
@@ -218,29 +247,45 @@ static const char *axis_text(const study *s, const study_axis *a, const study_fi
   return text;
 }
 
-/* Value i of an axis: its scale's number, or those of all its fields. */
+/* Value i of an axis: its scale's number, or those of its fields. */
 static const char *value_text(const study_axis *a, const study_field *scale, int i, char text[TEXT])
 {
-  if (scale) snprintf(text, TEXT, "%s", scale->values[i].text);
+  if (scale) short_value(a, scale, i, text);
   else join_fields(a, i, text);
   return text;
 }
 
-/* "gap = -1; static = false, force = sampled": the values of all axes but x in that scene. */
+/* The last part of a field's path; all of it where another field in the legend ends alike. */
+static const char *short_name(const chart *c, const study_field *f)
+{
+  const char *dot = strrchr(f->path, '.');
+  for (int i = 0; i < c->s->n_axes && dot; ++i)
+    for (int k = 0; k < c->s->axes[i].n_fields && i != c->x; ++k) {
+      const study_field *other = &c->s->axes[i].fields[k];
+      const char *end = strrchr(other->path, '.');
+      if (other != f && end && !strcmp(dot, end) && varies(&c->s->axes[i], other)) return f->path;
+    }
+  return dot ? dot + 1 : f->path;
+}
+
+/* "gap = -1; static = false, force = sampled": what varies beside x, in that scene. */
 static const char *line_text(const chart *c, long id, char text[TEXT])
 {
+  char value[TEXT];
   size_t n = 0;
   text[0] = 0;
-  for (int i = 0; i < c->s->n_axes && n < TEXT - 1; ++i) {
+  for (int i = 0; i < c->s->n_axes; ++i) {
     const study_axis *a = &c->s->axes[i];
-    if (i == c->x || a->n < 2) continue;
+    bool first = true;
     for (int k = 0; k < a->n_fields && n < TEXT - 1; ++k) {
-      const char *dot = strrchr(a->fields[k].path, '.');
+      const study_field *f = &a->fields[k];
+      if (i == c->x || !varies(a, f)) continue;
       n += (size_t)snprintf(text + n, TEXT - n, "%s%s = %s",
-                            k   ? ", "
-                            : n ? "; "
-                                : "",
-                            dot ? dot + 1 : a->fields[k].path, a->fields[k].values[study_index(c->s, id, i)].text);
+                            n == 0  ? ""
+                            : first ? "; "
+                                    : ", ",
+                            short_name(c, f), short_value(a, f, study_index(c->s, id, i), value));
+      first = false;
     }
   }
   return text;
@@ -275,6 +320,18 @@ static void write_tics(figure *g, const char *command, const study_axis *a, cons
   figure_script(g, ")\n");
 }
 
+/* Characters of an axis' longest text. */
+static int longest_text(const study_axis *a, const study_field *scale)
+{
+  char text[TEXT];
+  int longest = 0;
+  for (int i = 0; i < a->n; ++i) {
+    const int n = utf8_width(value_text(a, scale, i, text));
+    if (n > longest) longest = n;
+  }
+  return longest;
+}
+
 static void draw_lines(figure *g, chart *c)
 {
   const study_axis *a = &c->s->axes[c->x];
@@ -294,7 +351,10 @@ static void draw_lines(figure *g, chart *c)
   figure_below(g, "%s", axis_text(c->s, a, c->scale, text));
   if (!c->scale) {
     write_tics(g, "xtics", a, NULL, 12);
-    figure_script(g, "set xrange [-0.5:%g]\n%s", a->n - 0.5, a->n > 3 ? "set xtics rotate by 20 right\n" : "");
+    figure_script(g, "set xrange [-0.5:%g]\n", a->n - 0.5);
+    /* the first one, of a slope, begins left of the axis */
+    const int left = 4 * longest_text(a, NULL) / 5 - 40 / a->n, least = 10;
+    if (a->n > 3) figure_script(g, "set xtics rotate by 20 right\nset lmargin %d\n", left > least ? left : least);
   } else if (is_log_axis(c->scale, a->n)) {
     double first = 1, last = 1;
     number_of(c->scale, 0, &first);
@@ -325,19 +385,23 @@ static void draw_heat(figure *g, chart *c)
   const study_field *sy = scale_of(ay);
   double low, high;
   char text[TEXT];
+  int longest = 0;
   figure_block(g, "cells");
-  for (long id = 0; id < c->s->n_scenes; ++id)
-    if (isfinite(c->value[id]))
-      figure_script(g, "%d %d %.8g\n", study_index(c->s, id, c->x), study_index(c->s, id, c->heat), c->value[id]);
+  for (long id = 0; id < c->s->n_scenes; ++id) {
+    if (!isfinite(c->value[id])) continue;
+    const int n = figure_cell(g, study_index(c->s, id, c->x), study_index(c->s, id, c->heat), c->value[id]);
+    if (n > longest) longest = n;
+  }
   figure_block_end(g);
   figure_below(g, "%s", axis_text(c->s, ax, c->scale, text));
   figure_set(g, "ylabel", "%s", axis_text(c->s, ay, sy, text));
-  write_tics(g, "xtics", ax, c->scale, MOST_HEAT_LABELS);
-  write_tics(g, "ytics", ay, sy, MOST_HEAT_LABELS);
+  const int across = ACROSS - longest_text(ay, sy), texts = across / (longest_text(ax, c->scale) + 1);
+  write_tics(g, "xtics", ax, c->scale, texts > 1 ? texts : 1);
+  write_tics(g, "ytics", ay, sy, DOWN);
   figure_script(g, "set xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", ax->n - 0.5, ay->n - 0.5);
   measure_label(c, text);
   bool logarithmic = is_log_measure(c, &low, &high);
-  figure_heat(g, text, logarithmic, low, high);
+  figure_heat(g, text, logarithmic, low, high, ax->n * (longest + 1) <= across && ay->n <= DOWN);
 }
 
 hc_status plot_study_check(plot_order *p, const study *s, const char *measure, const char *response)

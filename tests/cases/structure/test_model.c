@@ -223,6 +223,41 @@ static void what_contacts_hold_is_held(CHECK_STATE)
       NULL)); /* walls and units */
 }
 
+/* A curved spring holds, though K and its stiffness at rest are singular, however stiff K is; one that only pushes
+ * away, or acts along another motion, does not. */
+static void what_a_polynomial_holds_is_held(CHECK_STATE)
+{
+  static const char text[] = "structure:\n  mass: [1, 0.05]\n  stiffness: [1e12, 0]\n  damping: [0.3, 0.2]\n" SWEEP
+                             "contacts: [{law: polynomial, direction: {1: 1, 2: -1}, coefficients: {3: 500}}]\n";
+  model_free(model_of(text, NULL));
+  model_free(model_of(text, "contacts[0].coefficients.3=1e-9"));
+  model_free(model_of(text, "contacts[0].coefficients={2: -500}"));
+  model_free(model_of(text, "structure.stiffness=[1e-12, 0]"));
+  refused(text, "contacts[0].coefficients.3=-500",
+          "--set contacts[0].coefficients.3=-500: ", "nothing holds the motion {2: 1}");
+  refused(text, "contacts[0].direction=1", "--set contacts[0].direction=1: ", "nothing holds the motion {2: 1}");
+}
+
+/* At rest, where a mean is to be found, it has to push back from both sides. */
+static void at_rest_polynomials_hold_from_both_sides(CHECK_STATE)
+{
+  static const char *const powers[] = {"{3: 500}", "{3: -1, 5: 1}", "{2: 500}", "{3: 500, 4: 1}", "{3: 1, 5: -1}"};
+  for (int i = 0; i < 5; ++i) {
+    char text[400];
+    scene sc;
+    double x[2];
+    bool is_free;
+    snprintf(text, sizeof text,
+             "structure: {mass: [1, 1], stiffness: [1, 0], damping: [1, 1]}\n" SWEEP
+             "contacts: [{law: polynomial, direction: {2: 1}, coefficients: %s}]\n",
+             powers[i]);
+    accepted(text, NULL, &sc);
+    assert_int_equal(structure_free_motion(sc.structure, true, x, &is_free), HC_OK);
+    assert_int_equal(is_free, i >= 2);
+    case_clear(&sc);
+  }
+}
+
 /* In the model a contact with two tangents is two, with half the normal stiffness and twice the friction each. */
 static void two_tangents_are_two_contacts_of_the_model(CHECK_STATE)
 {
@@ -272,4 +307,5 @@ CHECK_TESTS("structure.model", 60, matrices_are_by_columns, what_is_symmetric_bu
             one_degree_of_freedom_is_the_oscillator_to_the_bit, contacts_have_directions_and_laws,
             loads_of_a_harmonic_are_summed, quarters_of_a_turn_are_exact, degrees_of_freedom_go_by_name_number_or_node,
             files_of_matrices_lie_beside_the_case, modal_damping_damps_every_mode_as_asked, what_contacts_hold_is_held,
+            what_a_polynomial_holds_is_held, at_rest_polynomials_hold_from_both_sides,
             two_tangents_are_two_contacts_of_the_model, names_of_responses)

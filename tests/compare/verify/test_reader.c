@@ -100,6 +100,8 @@ static void ambiguous_names_need_columns(CHECK_STATE)
     const char *text, *fragment;
   } list[] = {
       {"omega,amplitude,rms\n5,1,1\n", "more than one column of values among 'omega', 'amplitude', 'rms'"},
+      {"frequency,branch,rms,max\n5,0,1,1\n", "'max', expected --columns frequency=1,rms=3 (or"},
+      {"amplitude,time\n5,1\n", "'time', expected --columns omega=2,amplitude=1 (or"},
       {"omega,thing\n5,1\n", "no column named like values among 'omega', 'thing'"},
       {"time,amplitude\n5,1\n", "no column named like frequencies"},
       {"omega [Hz],amplitude\n5,1\n", "no column named like frequencies"},
