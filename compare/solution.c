@@ -554,7 +554,8 @@ bool comparison_nonlinear(const comparison *c)
     const comparison_row *r = &c->rows[i];
     if (r->hbm_status == HC_OK && r->hbm.contact.regime > CONTACT_STUCK) return true;
     if (motion_is_measured(r->transient_status) && r->transient.regime > CONTACT_STUCK) return true;
-    compared |= r->hbm_status == HC_OK || motion_is_measured(r->transient_status);
+    compared |=
+        r->hbm_status == HC_OK && motion_is_measured(r->transient_status) && r->transient_status != HC_NOT_SETTLED;
   }
   return !compared;
 }
