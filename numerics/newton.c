@@ -261,7 +261,7 @@ static hc_status solve_from_start(newton *nw, int strategy, const newton_options
   const bool keeps = opt->keeps > 0 && strategy == KIN_NONE;
   bad |= KINSetMaxSetupCalls(nw->kin, keeps ? opt->max_iterations : 1);
   if (keeps) bad |= KINSetResMonConstValue(nw->kin, opt->keeps);
-  if (bad) return HC_BAD_INPUT;
+  if (bad) return HC_NOT_FINITE;
   nw->refusal = HC_OK;
   nw->trials = 0;
   int flag = KINSol(nw->kin, nw->z, strategy, nw->z_scale, nw->r_scale);

@@ -756,7 +756,7 @@ hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor
   s->found_k = 0;
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
   s->refusal = HC_OK;
-  if (KINSetFuncNormTol(s->kin, small_residual(s, goal)) != KIN_SUCCESS) return HC_BAD_INPUT;
+  if (KINSetFuncNormTol(s->kin, small_residual(s, goal)) != KIN_SUCCESS) return HC_NOT_FINITE;
   memcpy(NV_DATA_S(s->u), s->before, bytes);
   memcpy(NV_DATA_S(s->weights), s->weight, bytes);
   int flag = KINSol(s->kin, s->u, KIN_FP, s->weights, s->weights);
