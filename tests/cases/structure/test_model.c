@@ -37,14 +37,25 @@ static void what_is_symmetric_but_for_rounding_is_symmetric(CHECK_STATE)
 /* One degree of freedom in every way it can be written. */
 static void one_degree_of_freedom_is_the_oscillator_to_the_bit(CHECK_STATE)
 {
-  static const char *const laws[] = {"angle_deg: 45", "angle_deg: 0", "angle_deg: 90"};
-  for (size_t i = 0; i < sizeof laws / sizeof *laws; ++i) {
+  static const char *const contacts[][2] = {
+      /* as an oscillator has it, as a structure can say it */
+#define RUBS "tangential_stiffness: 100.7, friction: 0.3"
+#define BOTH RUBS ", normal_stiffness: 1000.3"
+      {BOTH ", gap: -0.7, angle_deg: 45", ""},
+      {BOTH ", gap: -0.7, angle_deg: 0", ""},
+      {BOTH ", gap: -0.7, angle_deg: 90", ""},
+      {BOTH ", preload: 0.7, angle_deg: -30", ""},
+      {RUBS ", preload: 0.7", RUBS ", preload: 0.7, tangent: 1"},
+      {RUBS ", preload: 0.7, angle_deg: 0", ""},
+      {"normal_stiffness: 3, gap: -0.7, angle_deg: -90", "normal_stiffness: 3, gap: -0.7, normal: {1: -1}"},
+      {"normal_stiffness: 4, gap: 0.5, angle_deg: 90", "normal_stiffness: 4, preload: 2, normal: 1"}};
+  for (size_t i = 0; i < sizeof contacts / sizeof *contacts; ++i) {
     char old[512], new[512];
-    const char *numbers = "tangential_stiffness: 100.7, normal_stiffness: 1000.3, friction: 0.3, gap: -0.7";
+    const char *given = contacts[i][0];
     snprintf(old, sizeof old,
              "oscillator: {mass: 1.1, damping: 0.4, stiffness: 40.3}\nforcing: {amplitude: 100.9}\n" SWEEP
-             "contacts: [{%s, %s}]\n",
-             numbers, laws[i]);
+             "contacts: [{%s}]\n",
+             given);
     model *a = model_of(old, NULL), *b;
     static const char *const matrices[] = {"mass: [[1.1]], damping: [[0.4]], stiffness: [[40.3]]",
                                            "mass: [1.1], damping: [0.4], stiffness: [40.3]",
@@ -52,8 +63,8 @@ static void one_degree_of_freedom_is_the_oscillator_to_the_bit(CHECK_STATE)
     static const char *const loads[] = {"{amplitude: 100.9}", "[{dof: 1, amplitude: 100.9}]", "[{amplitude: 100.9}]",
                                         "[{direction: {1: 1}, amplitude: 100.9, phase_deg: 0, harmonic: 1}]"};
     for (size_t k = 0; k < 12; ++k) {
-      snprintf(new, sizeof new, "structure: {%s}\nforcing: %s\n" SWEEP "contacts: [{%s, %s}]\n", matrices[k % 3],
-               loads[k / 3], numbers, laws[i]);
+      snprintf(new, sizeof new, "structure: {%s}\nforcing: %s\n" SWEEP "contacts: [{%s}]\n", matrices[k % 3],
+               loads[k / 3], k % 2 && *contacts[i][1] ? contacts[i][1] : given);
       b = model_of(new, NULL);
       same_models(a, b);
       assert_true(model_is_oscillator(b));
