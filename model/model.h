@@ -92,7 +92,7 @@ bool model_is_symmetric(const model *m);
 /* The law of either of a pair's two, from the whole contact's. */
 contact model_half_law(const contact *whole);
 
-/* (tangent, normal) = (cos, sin) of the angle [deg] between x and the contact's tangent, exact at 0 and +-90 degrees. */
+/* (tangent, normal) = (cos, sin) of the angle [deg] between x and the contact's tangent, exact at 0 and +-90. */
 void model_direction(double angle_deg, double *tangent, double *normal);
 
 /* Is it one mass under F0 cos(omega t), with x as its only response? And F0 [force], of such a model alone. */
