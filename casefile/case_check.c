@@ -96,6 +96,9 @@ static hc_status check_laws(case_reader *r)
     const case_place at = r->sc.structure ? r->sc.structure->contacts[j].place : r->contact_at[j];
     const hc_status st = case_check_law_given(r, j, scene_contact_at(&r->sc, j), at);
     if (st != HC_OK) return st;
+    if (!isfinite(scene_contact_law(scene_contact_at(&r->sc, j)).gap))
+      return case_refuse(r, at,
+                         "contacts[%d] has a preload/normal_stiffness too large to be held, expected a finite gap", j);
   }
   return HC_OK;
 }
@@ -106,8 +109,7 @@ static hc_status check_contacts(case_reader *r)
   for (int j = 0; j < r->sc.n_contacts; ++j)
     for (int i = 0; i < field_count(); ++i) {
       const field *f = field_at(i);
-      if (!(f->flags & FIELD_IN_CONTACT) || f->fallback || r->contact_has[j] & case_field_bit(f)) continue;
-      if (f->flags & FIELD_STRUCTURE || !field_is_of_law(f, &r->sc.contacts[j])) continue;
+      if (!case_contact_needs(&r->sc.contacts[j], r->contact_has[j], f)) continue;
       message *m = case_blame(r, r->contact_at[j]);
       message_add(m, "this appends a contact without `%s`, expected contacts[%d].%s=VALUE too: ", f->name, j, f->name);
       field_expected(f, m);
@@ -149,6 +151,27 @@ static hc_status check_damping(case_reader *r)
 }
 
 /* ---- loads and contacts ---- */
+
+/* A moving base is the one load with omega, and a structure says where it moves it. */
+static hc_status check_base(case_reader *r)
+{
+  scene_structure *s = r->sc.structure;
+  const case_place at = last_given(r, "base", "amplitude", "acceleration");
+  const field *direction = field_named("base", "direction");
+  if (!scene_base_moves(&r->sc) && !(s && s->base)) return HC_OK;
+  if (!s && r->sc.force != 0)
+    return case_refuse(r, at, "both the base and forcing.amplitude act with omega, expected one of them");
+  for (int i = 0; s && i < s->n_loads; ++i)
+    if (s->loads[i].harmonic == 1)
+      return case_refuse(r, s->loads[i].place, "both the base and forcing[%d] act with omega, expected one of them", i);
+  if (!s || s->base) return HC_OK;
+  if (s->n > 1)
+    return case_refuse(r, at, "the base moves, but base.direction does not say which DOFs, expected %s",
+                       direction->expects);
+  if (!(s->base = malloc(sizeof *s->base))) return case_out_of_memory(r);
+  *s->base = 1;
+  return HC_OK;
+}
 
 static hc_status check_loads(case_reader *r)
 {
@@ -204,9 +227,6 @@ static hc_status check_contact(case_reader *r, int j)
     return case_refuse(r, c->place, "contacts[%d] has tangent_2 along its tangent, expected a direction across it", j);
   if (!isfinite(2 * law->mu))
     return case_refuse(r, c->place, "contacts[%d] has too large a friction to be held, expected less", j);
-  if (!isfinite(structure_contact_law(c).gap))
-    return case_refuse(r, c->place,
-                       "contacts[%d] has a preload/normal_stiffness too large to be held, expected a finite gap", j);
   if (*c->given.name && !is_good_name(c->given.name))
     return case_refuse(
         r, c->place,
@@ -256,6 +276,7 @@ hc_status case_check(case_reader *r)
   r->sc.gate.ranges.in_cycles = r->sc.in_cycles;
   hc_status st = check_laws(r);
   if (st == HC_OK) st = r->sc.structure ? check_structure(r) : check_contacts(r);
+  if (st == HC_OK) st = check_base(r);
   if (st == HC_OK) st = check_sweep(r);
   if (st == HC_OK) st = check_samples(r);
   if (st == HC_OK) st = check_fixed_step(r);

@@ -134,7 +134,7 @@ int case_derive(const scene *sc, case_derived *out)
   for (int j = 0; j < sc->n_contacts; ++j) {
     const moving_contact c = scene_moving_contact(&sc->contacts[j]);
     if (sc->contacts[j].kind != CONTACT_KINKED) continue;
-    const double preload = contact_preload(&c.law), touches = c.cv[0] > 0 ? 0 - c.law.gap / c.cv[0] : NAN;
+    const double preload = contact_preload(&c.law) + c.law.load, touches = c.cv[0] != 0 ? 0 - c.law.gap / c.cv[0] : NAN;
     const case_derived of_contact[] = {
         {"preload", preload, "force", "N0 = kn gap, at rest; 0 with a clearance"},
         {"friction_limit", c.law.mu * preload, "force", "mu N0, at rest"},

@@ -176,14 +176,15 @@ static bool has_direction(const scene_structure *s, const structure_contact *c, 
   return !is_zero(s->n, field_direction(f, c));
 }
 
-bool case_contact_field_counts(const scene_structure *s, const structure_contact *c, const field *f)
+bool case_contact_field_counts(const scene_structure *s, const structure_contact *c, const scene_contact *given,
+                               const field *f)
 {
   const bool preload = !strcmp(f->name, "preload");
-  if (!field_is_echoed(f, &c->given)) return false;
-  if (!strcmp(f->name, "angle_deg")) return c->by_angle;
-  if (!strcmp(f->name, "name")) return *c->given.name;
-  if (f->along && !has_direction(s, c, f->along)) return false;
-  return !f->group || !has_direction(s, c, "normal") || preload == (c->given.preload > 0);
+  if (!field_is_echoed(f, given) || (!s && f->flags & FIELD_STRUCTURE)) return false;
+  if (s && !strcmp(f->name, "angle_deg")) return c->by_angle;
+  if (!strcmp(f->name, "name")) return *given->name;
+  if (s && f->along && !has_direction(s, c, f->along)) return false;
+  return !f->group || (s && !has_direction(s, c, "normal")) || preload == (given->preload > 0);
 }
 
 static void begin_line(const char **before, const field *f, FILE *to)
@@ -243,8 +244,7 @@ static void write_entry(const char *section, const scene_structure *s, const str
       putc('\n', to);
       continue;
     }
-    if (f->flags & FIELD_NO_ECHO || (!s && !field_is_echoed(f, base))) continue;
-    if (s ? c && !case_contact_field_counts(s, c, f) : f->flags & FIELD_STRUCTURE) continue;
+    if (f->flags & FIELD_NO_ECHO || (!(s && !c) && !case_contact_field_counts(s, c, base, f))) continue;
     begin_line(&before, f, to);
     field_write(f, base, to);
     putc('\n', to);
@@ -290,6 +290,8 @@ static bool choices_are_known(const scene *sc)
 bool case_field_counts(const field *f, const scene *sc)
 {
   if (f->flags & (FIELD_NO_ECHO | FIELD_STRUCTURE | FIELD_IN_CONTACT)) return false; /* those have ways of their own */
+  if (!strcmp(f->section, "base")) return *(const double *)field_look(f, sc) != 0;
+  if (!strcmp(f->section, "forcing")) return !scene_base_moves(sc);
   if (f->in_cycles) return (f->scale != 0) == sc->in_cycles;
   if (f->kind == FIELD_REALS || f->kind == FIELD_INTEGERS) return ((const number_list *)field_look(f, sc))->n > 0;
   const field *rival;
@@ -305,6 +307,11 @@ static void write_section(const field_section *s, const scene *sc, FILE *to)
     const field *f = field_at(i);
     if (strcmp(f->section, s->name) || !case_field_counts(f, sc)) continue;
     if (!begun) fprintf(to, "%s:\n", s->name);
+    if (!begun && sc->structure && sc->structure->base && !strcmp(s->name, "base")) {
+      fputs("  direction: ", to);
+      write_direction(sc->structure, sc->structure->base, to);
+      putc('\n', to);
+    }
     begun = true;
     fprintf(to, "%s%s: ", *s->name ? "  " : "", f->name);
     field_write(f, sc, to);

@@ -166,7 +166,7 @@ hc_status yaml_scene_contact(case_reader *r, const yaml_node_t *node, int j);
 /* The section `structure` into a new structure; read first, since the others speak of its degrees of freedom. */
 hc_status yaml_structure_read(case_reader *r, const yaml_node_t *node);
 
-/* One part of it, `structure.mass`, or one number, `structure.damping.modal`. */
+/* One part of it, `structure.mass`, or `base.direction`; or one number, `structure.damping.modal`. */
 hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t *node);
 
 /* The lists, which replace what there was; or entry j, one past the last being new. */
@@ -191,6 +191,11 @@ hc_status yaml_fields_read(case_reader *r, const yaml_node_t *node, const char *
 /* The coefficients or points of contact j, of an oscillator or a structure; and whether the field is one of these. */
 hc_status yaml_law_part(case_reader *r, const field *f, int j, const yaml_node_t *node);
 bool yaml_is_law_part(const field *f);
+
+/* case_field_bit of all that is given of the contact being read. Must contact c, whose direction is an angle, give f,
+ * too? Nothing of a tangent at +-90 degrees; with `preload` and no normal spring it slides along x. */
+unsigned long long case_contact_given(const case_reader *r);
+bool case_contact_needs(const scene_contact *c, unsigned long long has, const field *f);
 
 /* Contact j, whose fields r->at tells the places of, has none of another law, and what its own needs. */
 hc_status case_check_law(case_reader *r, int j, const scene_contact *c, case_place place);

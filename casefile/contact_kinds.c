@@ -87,6 +87,29 @@ static bool is_missing(const field *f, const scene_contact *c)
   return !strcmp(f->name, "points") && c->n_points < 2;
 }
 
+static bool has_field(unsigned long long has, const char *name)
+{
+  return has & case_field_bit(field_named("contacts", name));
+}
+
+unsigned long long case_contact_given(const case_reader *r)
+{
+  unsigned long long has = 0;
+  for (int i = 0; i < field_count(); ++i)
+    if (field_at(i)->flags & FIELD_IN_CONTACT && case_given(r, field_at(i))) has |= case_field_bit(field_at(i));
+  return has;
+}
+
+bool case_contact_needs(const scene_contact *c, unsigned long long has, const field *f)
+{
+  const bool slides = has_field(has, "preload") && !has_field(has, "normal_stiffness") && c->angle_deg == 0;
+  if (!(f->flags & FIELD_IN_CONTACT) || f->flags & FIELD_STRUCTURE || f->fallback || has & case_field_bit(f))
+    return false;
+  if (!field_is_of_law(f, c)) return false;
+  if (f->along && !strcmp(f->along, "tangent")) return fabs(c->angle_deg) != 90;
+  return !(slides && (f == field_named("contacts", "angle_deg") || f == field_named("contacts", "normal_stiffness")));
+}
+
 hc_status case_check_law_given(case_reader *r, int j, const scene_contact *c, case_place place)
 {
   for (int i = 0; i < field_count(); ++i) {

@@ -12,6 +12,8 @@ contact scene_contact_law(const scene_contact *c)
       *(double *)field_place(f, &own) = 0;
   }
   own.law.smooth = scene_contact_is_composed(c) ? CONTACT_KINKED : (contact_smooth)c->kind;
+  if (own.preload > 0 && own.law.kn > 0) own.law.gap = own.preload / own.law.kn;
+  if (!(own.law.kn > 0)) own.law.load = own.preload;
   return own.law;
 }
 

@@ -56,17 +56,32 @@ bool scene_adrift(const scene *sc)
   for (int j = 0; j < sc->n_contacts; ++j) {
     const moving_contact c = scene_moving_contact(&sc->contacts[j]);
     held |= scene_contact_stiffness(&sc->contacts[j], true) > 0 || scene_contact_restores(&sc->contacts[j], true);
-    held |= c.law.gap > 0 && moving_contact_stuck_stiffness(&c) > 0;
+    held |= (c.law.gap > 0 || c.law.load > 0) && moving_contact_stuck_stiffness(&c) > 0;
   }
   return !held;
 }
 
+/* load: M r. In coordinates that move with the base, by A cos(omega t) or a cos(omega t) of acceleration, its motion is
+ * the load omega^2 M r A cos(omega t), or -M r a cos(omega t). */
+static void move_base(const scene_base *base, int n, model_load *load)
+{
+  load->inertial = base->acceleration == 0;
+  for (int i = 0; i < n; ++i) load->cosine[i] *= load->inertial ? base->amplitude : -base->acceleration;
+}
+
 hc_status scene_model(const scene *sc, model **out)
 {
-  if (sc->structure) return structure_model(sc->structure, out);
+  const bool moves = scene_base_moves(sc);
+  if (sc->structure) {
+    const hc_status made = structure_model(sc->structure, out);
+    if (made == HC_OK && sc->structure->base)
+      move_base(&sc->base, sc->structure->n, (*out)->loads + (*out)->n_loads - 1);
+    return made;
+  }
   const int n_contacts = scene_model_contact(sc, sc->n_contacts);
-  hc_status st = model_oscillator(sc->mass, sc->damping, sc->stiffness, sc->force, n_contacts, out);
+  hc_status st = model_oscillator(sc->mass, sc->damping, sc->stiffness, moves ? sc->mass : sc->force, n_contacts, out);
   if (st != HC_OK) return st;
+  if (moves) move_base(&sc->base, 1, (*out)->loads);
   model_contact *to = (*out)->contacts;
   for (int j = 0; j < sc->n_contacts; to += scene_contact_parts(&sc->contacts[j++])) {
     const scene_contact *c = &sc->contacts[j];

@@ -29,9 +29,9 @@ enum { SCENE_LAW_TABLE = CONTACT_LAWS };
 enum { SCENE_MOST_POINTS = 32 };
 
 typedef struct scene_contact {
-  contact law;      /* as it was given: scene_contact_law */
-  double angle_deg; /* [deg] 0..90, of the contact's tangent to x */
-  double preload;   /* [force] >= 0, of a structure's contact: kn gap, or its constant normal force without normal */
+  contact law;           /* as it was given: scene_contact_law */
+  double angle_deg;      /* [deg] -90..90, of the contact's tangent to x */
+  double preload;        /* [force] >= 0: kn gap, or without kn the constant normal force */
   char name[SCENE_NAME]; /* of a structure's contact, or "" */
   contact_limit limit;   /* of a structure's contact with two tangents */
   int kind;
@@ -39,11 +39,18 @@ typedef struct scene_contact {
   double points[SCENE_MOST_POINTS][2]; /* [length] ascending, [force] of a table */
 } scene_contact;
 
+/* A base that moves harmonically; of both at most one is not 0. */
+typedef struct scene_base {
+  double amplitude;    /* [length] A of A cos(omega t) */
+  double acceleration; /* [length/time^2] a of a cos(omega t) */
+} scene_base;
+
 typedef struct scene {
   char title[SCENE_MAX_TEXT], unit_length[16], unit_force[16], unit_time[16];
   scene_structure *structure; /* NULL: an oscillator, of which alone the numbers down to the contacts speak */
   double mass, damping, stiffness;
-  double force; /* forcing.amplitude F0 [force] */
+  double force;    /* forcing.amplitude F0 [force] */
+  scene_base base; /* of a structure, too */
   int n_contacts;
   scene_contact contacts[SCENE_MAX_CONTACTS];
   double omega_from, omega_to; /* [rad/time] > 0, from != to; from > to sweeps downwards */
@@ -62,7 +69,7 @@ double scene_frequency(const scene *sc, double omega);
 enum { SCENE_WHERE = 64 };
 const char *scene_where(const scene *sc, double omega, char text[SCENE_WHERE]);
 
-/* The law in the model, but for the load; of a composed one nothing. */
+/* The law in the model, its gap or constant normal force from a preload given instead; of a composed one nothing. */
 contact scene_contact_law(const scene_contact *c);
 static inline bool scene_contact_is_composed(const scene_contact *c) { return c->kind >= CONTACT_LAWS; }
 
@@ -90,11 +97,13 @@ int scene_model_contact(const scene *sc, int j);
 /* Does a polynomial push back, somewhere; at_rest: from both sides, far out? False of other laws. */
 bool scene_contact_restores(const scene_contact *c, bool at_rest);
 
+static inline bool scene_base_moves(const scene *sc) { return sc->base.amplitude != 0 || sc->base.acceleration != 0; }
+
 /* Is the mean undetermined: stiffness 0, no contact under a preload, and no polynomial that restores? */
 bool scene_adrift(const scene *sc);
 #define SCENE_ADRIFT                                                                                                   \
-  "the mean is undetermined while nothing touches: oscillator.stiffness is 0 and no contact has a gap > 0 that gives " \
-  "it a stiffness"
+  "the mean is undetermined while nothing touches: oscillator.stiffness is 0 and no contact under a preload gives it " \
+  "a stiffness"
 
 /* The model of the scene, to free with model_free. HC_NO_MEMORY: *out is NULL. */
 hc_status scene_model(const scene *sc, model **out);

@@ -6,6 +6,7 @@
 
 #include "numerics/base/constants.h"
 #include "numerics/base/growing.h"
+#include "numerics/dense.h"
 #include "numerics/norm.h"
 
 scene_structure *structure_new(void) { return calloc(1, sizeof(scene_structure)); }
@@ -62,6 +63,7 @@ void structure_free(scene_structure *s)
   free(s->names);
   free(s->nodes);
   free(s->mesh);
+  free(s->base);
   structure_clear_loads(s);
   structure_clear_contacts(s);
   structure_clear_responses(s);
@@ -156,6 +158,7 @@ scene_structure *structure_copy(const scene_structure *s)
   if (!to) return NULL;
   *to = *s;
   to->names = NULL;
+  to->base = copied(s->base, vector, &failed);
   to->mesh = copied(s->mesh, s->mesh ? strlen(s->mesh) + 1 : 0, &failed);
   to->notes = copied(s->notes, s->notes ? strlen(s->notes) + 1 : 0, &failed);
   to->loads = copied_list(s->loads, sizeof *to->loads, s->n_loads, vector, &failed);
@@ -257,14 +260,6 @@ const char *structure_direction_name(const scene_structure *s, const double *dir
 
 /* ---- the model ---- */
 
-contact structure_contact_law(const structure_contact *c)
-{
-  contact law = scene_contact_law(&c->given);
-  if (c->given.preload > 0 && law.kn > 0) law.gap = c->given.preload / law.kn;
-  if (!(law.kn > 0)) law.load = c->given.preload; /* a field of laws that rub */
-  return law;
-}
-
 void structure_cosine_sine(double angle_deg, double *cosine, double *sine)
 {
   static const double quarter_cosines[] = {1, 0, -1, 0};
@@ -293,7 +288,7 @@ int structure_model_contact(const scene_structure *s, int j)
 static void set_contact(const scene_structure *s, const structure_contact *c, const double *tangent, model_contact *to)
 {
   const size_t bytes = (size_t)s->n * sizeof *tangent;
-  to->law = structure_contact_law(c);
+  to->law = scene_contact_law(&c->given);
   memcpy(to->tangent, tangent, bytes);
   memcpy(to->normal, c->normal, bytes);
   if (c->by_angle) model_direction(c->given.angle_deg, to->tangent, to->normal);
@@ -301,7 +296,7 @@ static void set_contact(const scene_structure *s, const structure_contact *c, co
 
 static void set_pair(const scene_structure *s, const structure_contact *c, model_contact to[2])
 {
-  const contact whole = structure_contact_law(c);
+  const contact whole = scene_contact_law(&c->given);
   for (int d = 0; d < 2; ++d) {
     set_contact(s, c, d == 0 ? c->tangent : c->tangent_2, &to[d]);
     to[d].law = model_half_law(&whole);
@@ -387,7 +382,7 @@ hc_status structure_model(const scene_structure *s, model **out)
   int harmonic[HBM_MAX_HARMONICS + 1];
   const int n_loads = harmonics(s, harmonic), n_contacts = structure_model_contact(s, s->n_contacts);
   const size_t n = (size_t)s->n, vector = n * sizeof(double);
-  hc_status st = model_new(s->n, n_loads, n_contacts, structure_response_count(s), out);
+  hc_status st = model_new(s->n, n_loads + (s->base != NULL), n_contacts, structure_response_count(s), out);
   if (st != HC_OK) return st;
   model *m = *out;
   put_matrix(s->n, s->mass.v, m->mass);
@@ -405,6 +400,10 @@ hc_status structure_model(const scene_structure *s, model **out)
         if (load->harmonic > 0) to->sine[i] -= load->amplitude * sine * load->direction[i];
       }
     }
+  }
+  if (s->base) {
+    m->loads[n_loads].harmonic = 1;
+    dense_multiply(s->n, 1, s->n, m->mass, s->base, m->loads[n_loads].cosine);
   }
   model_contact *to = m->contacts;
   for (int j = 0; j < s->n_contacts; ++j) {

@@ -83,6 +83,7 @@ struct scene_structure {
   char *notes; /* how pairs of nodes were found, a line an entry, or NULL */
   int n_loads;
   structure_load *loads;
+  double *base; /* [n] [1] the way of each degree of freedom as the base moves by 1; NULL: it does not move */
   int n_contacts;
   structure_contact *contacts;
   int n_responses; /* 0: the default */
@@ -153,8 +154,9 @@ hc_status nodes_file_parse(const char *name, const char *text, size_t length, sc
 /* ---- the model ---- */
 
 /* To free with model_free. The loads of a harmonic are summed: amplitude cos(k omega t + phase) is amplitude
- * cos(phase) cos(k omega t) - amplitude sin(phase) sin(k omega t). A response where the case names none is the DOF that
- * the first load with a harmonic >= 1 acts on most, or else the first one. HC_NO_MEMORY: *out is NULL. */
+ * cos(phase) cos(k omega t) - amplitude sin(phase) sin(k omega t). M base cos(omega t) is one more, the last. A
+ * response where the case names none is the DOF that the first load with a harmonic >= 1 acts on most, or else the
+ * first one. HC_NO_MEMORY: *out is NULL. */
 hc_status structure_model(const scene_structure *s, model **out);
 
 /* The first of the model's contacts that contact j is, for 0 <= j <= n_contacts: n_contacts gives their number. */
@@ -163,9 +165,6 @@ int structure_model_contact(const scene_structure *s, int j);
 /* The number of responses; the name of one, its node `1328 z` or its direction, in text[size], which is returned. */
 int structure_response_count(const scene_structure *s);
 const char *structure_response_name(const scene_structure *s, int r, char *text, size_t size);
-
-/* The contact's law: its gap from a preload given instead, or its constant normal force. */
-contact structure_contact_law(const structure_contact *c);
 
 /* Cosine and sine of an angle [deg], exact at multiples of 90. */
 void structure_cosine_sine(double angle_deg, double *cosine, double *sine);

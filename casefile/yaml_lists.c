@@ -58,7 +58,8 @@ hc_status yaml_field_read(case_reader *r, const field *f, const yaml_node_t *key
   if (is_of_pairs(f)) return not_of_one(r, key, f->name);
   const hc_status st = yaml_give(r, f, key, value);
   if (st != HC_OK) return st;
-  return f->kind == FIELD_PART ? yaml_entry_part(r, f, j, value) : yaml_scene_value(r, f, j, base, value);
+  if (f->kind != FIELD_PART) return yaml_scene_value(r, f, j, base, value);
+  return field_is_in_list(f) ? yaml_entry_part(r, f, j, value) : yaml_structure_part(r, f, value);
 }
 
 hc_status yaml_fields_read(case_reader *r, const yaml_node_t *node, const char *section, int j, void *base,
@@ -135,7 +136,9 @@ static hc_status check_needed(case_reader *r, int j, const char *direction)
 {
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i);
-    if (!field_is_of_law(f, &r->sc.structure->contacts[j].given)) continue;
+    const structure_contact *c = &r->sc.structure->contacts[j];
+    if (c->by_angle && case_contact_needs(&c->given, case_contact_given(r), f)) return missing(r, j, f, f->along);
+    if (c->by_angle || !field_is_of_law(f, &c->given)) continue;
     if (!(f->flags & FIELD_IN_CONTACT) || f->fallback || case_given(r, f)) continue;
     if (direction ? f->along && !strcmp(f->along, direction) : !f->along) return missing(r, j, f, direction);
   }
@@ -146,7 +149,8 @@ static hc_status check_contact(case_reader *r, int j)
 {
   structure_contact *c = &r->sc.structure->contacts[j];
   const bool one_dof = r->sc.structure->n == 1;
-  const bool tangent = place(r, "contacts", "tangent").line > 0, normal = place(r, "contacts", "normal").line > 0;
+  const bool normal = place(r, "contacts", "normal").line > 0;
+  bool tangent = place(r, "contacts", "tangent").line > 0;
   const case_place angle = place(r, "contacts", "angle_deg"), tangent_2 = place(r, "contacts", "tangent_2"),
                    limit = place(r, "contacts", "limit");
   c->by_angle = angle.line > 0;
@@ -166,11 +170,13 @@ static hc_status check_contact(case_reader *r, int j)
   if (limit.line > 0 && tangent_2.line == 0)
     return case_refuse(r, limit, "limit in `contacts[%d]`, which has one tangent, expected it beside `tangent_2` only",
                        j);
+  const field *preload = field_named("contacts", "preload"), *kn = field_named("contacts", "normal_stiffness");
+  if (one_dof && !tangent && !normal && !c->by_angle && case_given(r, preload) && !case_given(r, kn))
+    *c->tangent = 1, tangent = true;
   if (!tangent && !normal && !c->by_angle)
     return case_refuse(r, c->place, "contacts[%d] moves nothing, expected `tangent`, `normal` or both", j);
   st = tangent || c->by_angle ? check_needed(r, j, "tangent") : HC_OK;
-  if (st != HC_OK || normal || c->by_angle) return st == HC_OK ? check_needed(r, j, "normal") : st;
-  const field *preload = field_named("contacts", "preload");
+  if (st != HC_OK || normal || c->by_angle) return st == HC_OK && normal ? check_needed(r, j, "normal") : st;
   return case_given(r, preload) ? HC_OK : missing(r, j, preload, "tangent but no normal");
 }
 

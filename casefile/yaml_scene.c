@@ -17,11 +17,14 @@ static hc_status read_section(case_reader *r, const field_section *s, int j, voi
   }
   const hc_status st = yaml_fields_read(r, node, s->name, j, base, false);
   if (st != HC_OK) return st;
+  const field *amplitude = field_named("base", "amplitude");
+  if (!strcmp(s->name, "base") && !case_given(r, amplitude) && !yaml_given_rival(r, amplitude))
+    return yaml_refuse(r, node, "missing key `amplitude` in `base`, expected a number >= 0, or `acceleration`");
+  const unsigned long long has = case_contact_given(r);
   for (int i = 0; i < field_count(); ++i) {
     const field *f = field_at(i), *rival = field_rival(f, 0);
     if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_STRUCTURE) continue;
-    if (j >= 0 && !field_is_of_law(f, base)) continue;
-    if (case_given(r, f) || yaml_given_rival(r, f)) continue;
+    if (case_given(r, f) || yaml_given_rival(r, f) || (j >= 0 && !case_contact_needs(base, has, f))) continue;
     message *m = yaml_blame(r, node);
     message_add(m, j >= 0 ? "missing key `%s` in `%s[%d]" : "missing key `%s` in `%s", f->name, s->name, j);
     message_add(m, "`, expected ");
@@ -116,8 +119,9 @@ hc_status yaml_scene_read(case_reader *r, const yaml_node_t *root)
   for (int i = 1; (s = field_section_at(i)) != NULL; ++i) {
     message *m = NULL;
     /* a structure has neither mass nor force as an oscillator has */
-    const bool of_oscillator = !strcmp(s->name, "oscillator") || !strcmp(s->name, "forcing");
+    const bool forcing = !strcmp(s->name, "forcing"), of_oscillator = !strcmp(s->name, "oscillator") || forcing;
     if (given[i].line > 0 || (r->sc.structure && of_oscillator)) continue;
+    if (forcing && given[field_find_section("base", 4) - field_section_at(0)].line > 0) continue;
     for (int j = 0; j < field_count(); ++j) {
       const field *f = field_at(j);
       if (strcmp(f->section, s->name) || f->fallback || f->scale != 0) continue;

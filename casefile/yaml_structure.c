@@ -8,6 +8,7 @@
 #include "numerics/base/number.h"
 #include "numerics/base/path.h"
 #include "numerics/base/utf8.h"
+#include "numerics/norm.h"
 
 /* ---- matrices ---- */
 
@@ -270,6 +271,21 @@ static hc_status read_reduction(case_reader *r, const yaml_node_t *node)
   return HC_OK;
 }
 
+/* ---- the way of the base ---- */
+
+static hc_status read_base(case_reader *r, const yaml_node_t *node)
+{
+  scene_structure *s = r->sc.structure;
+  if (!s->base && !(s->base = calloc((size_t)s->n, sizeof *s->base))) return case_out_of_memory(r);
+  if (!yaml_node_is_axis(node) || s->n_nodes == 0) return yaml_direction(r, "base.direction", node, s->base);
+  memset(s->base, 0, (size_t)s->n * sizeof *s->base);
+  for (int i = 0; i < s->n_nodes; ++i)
+    if (s->nodes[i].direction == *yaml_node_text(node)) s->base[s->nodes[i].dof] = 1;
+  if (!is_zero(s->n, s->base)) return HC_OK;
+  return yaml_refuse(r, node, "base.direction is %s, in which no node of structure.nodes moves, expected another",
+                     yaml_node_text(node));
+}
+
 /* ---- the section ---- */
 
 /* The character behind the last one of what a node says; libyaml has a block end where the next key stands. */
@@ -289,13 +305,10 @@ hc_status yaml_structure_part(case_reader *r, const field *f, const yaml_node_t 
   static const struct {
     const char *name;
     hc_status (*read)(case_reader *, const yaml_node_t *);
-  } parts[] = {{"mass", read_mass},
-               {"stiffness", read_stiffness},
-               {"damping", read_damping},
-               {"names", read_names},
-               {"nodes", read_nodes},
-               {"mesh", read_mesh},
-               {"response", yaml_responses_read},
+  } parts[] = {{"mass", read_mass},          {"stiffness", read_stiffness},
+               {"damping", read_damping},    {"names", read_names},
+               {"nodes", read_nodes},        {"mesh", read_mesh},
+               {"direction", read_base},     {"response", yaml_responses_read},
                {"reduction", read_reduction}};
   size_t i = 0;
   if (f->flags & FIELD_IN_STRUCTURE) return read_damping_value(r, f, node);

@@ -76,6 +76,7 @@ hc_status model_copy_sized(const model *m, int n_contacts, int n_responses, mode
   memcpy(copy->stiffness, m->stiffness, matrix);
   for (int i = 0; i < m->n_loads; ++i) {
     copy->loads[i].harmonic = m->loads[i].harmonic;
+    copy->loads[i].inertial = m->loads[i].inertial;
     memcpy(copy->loads[i].cosine, m->loads[i].cosine, vector);
     memcpy(copy->loads[i].sine, m->loads[i].sine, vector);
   }
@@ -194,14 +195,14 @@ contact model_half_law(const contact *whole)
 void model_direction(double angle_deg, double *tangent, double *normal)
 {
   const double deg = 0.017453292519943295769; /* pi/180 */
-  *tangent = angle_deg == 90 ? 0.0 : cos(angle_deg * deg);
+  *tangent = fabs(angle_deg) == 90 ? 0.0 : cos(angle_deg * deg);
   *normal = angle_deg == 0 ? 0.0 : sin(angle_deg * deg);
 }
 
 bool model_is_oscillator(const model *m)
 {
   const bool one = m->n == 1 && m->n_loads == 1 && m->loads[0].harmonic == 1 && *m->loads[0].sine == 0;
-  return one && m->n_responses == 1 && *m->responses == 1;
+  return one && !m->loads[0].inertial && m->n_responses == 1 && *m->responses == 1;
 }
 
 double model_force(const model *m) { return *m->loads[0].cosine; }

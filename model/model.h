@@ -33,11 +33,15 @@ typedef struct model_contact {
   bool circle; /* of a pair, on both: the law of the circle */
 } model_contact;
 
-/* cosine cos(k omega t) + sine sin(k omega t), k = harmonic >= 0: one load for each k. */
+/* cosine cos(k omega t) + sine sin(k omega t), k = harmonic >= 0: one load for each k. That of a base that moves by
+ * A cos(omega t) is omega^2 times M r A, x being the motion relative to it: inertial. */
 typedef struct model_load {
   int harmonic;
-  double *cosine, *sine; /* [n] [force] */
+  bool inertial;         /* omega^2 times what follows */
+  double *cosine, *sine; /* [n] [force]; [force time^2] of an inertial one */
 } model_load;
+
+static inline double model_load_factor(bool inertial, double omega) { return inertial ? omega * omega : 1; }
 
 typedef struct model {
   int n;                              /* degrees of freedom >= 1 */
@@ -88,7 +92,7 @@ bool model_is_symmetric(const model *m);
 /* The law of either of a pair's two, from the whole contact's. */
 contact model_half_law(const contact *whole);
 
-/* (tangent, normal) = (cos, sin) of the angle [deg] between x and the contact's tangent, exact at 0 and 90 degrees. */
+/* (tangent, normal) = (cos, sin) of the angle [deg] between x and the contact's tangent, exact at 0 and +-90. */
 void model_direction(double angle_deg, double *tangent, double *normal);
 
 /* Is it one mass under F0 cos(omega t), with x as its only response? And F0 [force], of such a model alone. */

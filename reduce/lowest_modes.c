@@ -105,7 +105,7 @@ static hc_status contact_stiffness(const scene_structure *s, sparse *out)
   hc_status st = K ? sparse_new(s->n, touched * touched, out) : HC_NO_MEMORY;
   for (int j = 0; j < s->n_contacts && st == HC_OK; ++j) {
     const structure_contact *c = &s->contacts[j];
-    const contact law = structure_contact_law(c);
+    const contact law = scene_contact_law(&c->given);
     const double *const from[] = {c->tangent, c->tangent_2, c->normal};
     for (int d = 0; d < 3; ++d) {
       double *along = K + t * t, k = d == 2 ? law.kn : contact_has_friction(&law) ? law.kt : 0;

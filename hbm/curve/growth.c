@@ -37,7 +37,7 @@ hc_status hbm_growth(hbm_solver *s, double omega, const double *X, bool *grows)
       double complex work = 0;
       if (m->loads[k].harmonic != h) continue;
       for (int i = 0; i < n; ++i) work += conj(x[i]) * (m->loads[k].cosine[i] - I * m->loads[k].sine[i]);
-      most += PI * h * cabs(work);
+      most += PI * h * cabs(work) * model_load_factor(m->loads[k].inertial, omega);
     }
   }
   free(x);

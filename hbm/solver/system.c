@@ -15,7 +15,6 @@ hc_status hbm_system_init(hbm_system *sys, const model *m, const hbm_settings *h
   sys->metric = metric_share(shared);
   if (st == HC_OK && !shared) st = metric_new(m, sys->linear, &sys->metric);
   if (st != HC_OK) return st;
-  for (int l = 0; l < m->n_loads; ++l) sys->load += norm_2(m->n, m->loads[l].cosine) + norm_2(m->n, m->loads[l].sine);
   if (how->mistakes.hysteretic) condensation_make_hysteretic(sys->linear);
   sys->dim = condensation_dim(sys->linear);
   sys->n_coef = hbm_system_length(sys, n_harm);
@@ -319,9 +318,13 @@ void hbm_system_sizes(const hbm_system *sys, double omega, double *all, double *
 bool hbm_system_knows_means(const hbm_system *sys)
 {
   const double two_digits = 1e-2, *unknown = condensation_rounding(sys->linear);
-  double sum = 0;
+  const model *m = sys->model;
+  double sum = 0, load = 0;
   for (int d = 0; d < sys->dim; ++d) sum += unknown[d] * fabs(sys->X[d]);
-  return sys->load == 0 || sum <= two_digits * sys->load;
+  for (int l = 0; l < m->n_loads; ++l)
+    load += model_load_factor(m->loads[l].inertial, sys->omega) *
+            (norm_2(m->n, m->loads[l].cosine) + norm_2(m->n, m->loads[l].sine));
+  return load == 0 || sum <= two_digits * load;
 }
 
 void hbm_system_weights(hbm_system *sys, double omega, double least, double *weight)

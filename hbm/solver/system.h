@@ -24,7 +24,6 @@ typedef struct hbm_system {
   int n_coef;         /* dim (2 n_harm + 1) */
   int first, n;       /* first unknown in X (0, or dim without harmonic 0); number of unknowns */
   double force_factor /* phi */, more_damping /* D [force time/length] */;
-  double load; /* [force] all loads by size, phi = 1 */
   condensation *linear;
   metric *metric; /* shared with whoever else measures this model's solutions */
   contact_forces *contacts;

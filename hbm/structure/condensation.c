@@ -19,7 +19,7 @@ struct condensation {
   double omega, more_damping;
   bool hysteretic; /* condensation_make_hysteretic */
   bool known;
-  bool loaded;               /* without a rest: loads, the same at every omega, are there */
+  bool loaded;               /* without a rest: loads, the same at every omega but for inertial ones, are there */
   bool *by_compliance;       /* [n_harm + 1] the harmonic is by it */
   double complex *motion;    /* [n_loads][dim] of q under a load, nothing else acting, where it is */
   double complex *workspace; /* [2 n_loads][dim] */
@@ -39,7 +39,7 @@ struct condensation {
 static condensation_change dynamic_at(const condensation *c, int h)
 {
   const double w = h * c->omega;
-  return (condensation_change){-w * w + I * (w * c->more_damping * c->more_mass), I * (c->hysteretic ? h > 0 : w)};
+  return (condensation_change){-w * w + I * (w * c->more_damping * c->more_mass), I * (c->hysteretic ? h > 0 : w), 0};
 }
 
 static size_t entry(const condensation *c, int row, int column)
@@ -187,6 +187,8 @@ static void fill_couplings(condensation *c, int h, condensation_change dynamic)
   solve_rest(c, h, true, dim, c->by_y + start);
 }
 
+static double load_factor(const condensation *c, int l) { return model_load_factor(c->m->loads[l].inertial, c->omega); }
+
 /* p and Z_yy^-1 p_y of load l. */
 static void fill_load(condensation *c, int l)
 {
@@ -194,9 +196,10 @@ static void fill_load(condensation *c, int l)
   const double *cosine = c->basis.loads + (size_t)(2 * l) * (size_t)c->m->n, *sine = cosine + c->m->n;
   double complex *y = c->rest_of + (size_t)l * (size_t)rest, *p = c->load + (size_t)l * (size_t)dim;
   const double complex *by_y = c->by_y + (size_t)h * (size_t)dim * (size_t)rest;
-  for (int i = 0; i < rest; ++i) y[i] = cosine[dim + i] - I * sine[dim + i];
+  const double factor = load_factor(c, l);
+  for (int i = 0; i < rest; ++i) y[i] = factor * (cosine[dim + i] - I * sine[dim + i]);
   for (int d = 0; d < dim; ++d) {
-    p[d] = cosine[d] - I * sine[d];
+    p[d] = factor * (cosine[d] - I * sine[d]);
     for (int i = 0; i < rest; ++i) p[d] -= by_y[(size_t)d * (size_t)rest + (size_t)i] * y[i];
   }
   solve_rest(c, h, false, 1, y);
@@ -249,7 +252,8 @@ static bool fill_by_compliance(condensation *c, int h)
   for (size_t l = 0; l < (size_t)c->m->n_loads; ++l) {
     if (c->m->loads[l].harmonic != h) continue;
     for (size_t d = 0; d < dim; ++d)
-      c->motion[l * dim + d] = c->workspace[2 * l * dim + d] - I * c->workspace[(2 * l + 1) * dim + d];
+      c->motion[l * dim + d] =
+          load_factor(c, (int)l) * (c->workspace[2 * l * dim + d] - I * c->workspace[(2 * l + 1) * dim + d]);
     multiply(c->basis.dim, S, c->motion + l * dim, c->load + l * dim);
   }
   return true;
@@ -270,8 +274,8 @@ hc_status condensation_at(condensation *c, double omega, double more_damping)
       const condensation_change dynamic = dynamic_at(c, h);
       for (size_t at = 0; at < entries; ++at) *S++ = Z_at(c, dynamic, at);
     }
-    for (int l = 0; l < c->m->n_loads && !c->loaded; ++l)
-      if (c->m->loads[l].harmonic <= c->n_harm) fill_load(c, l);
+    for (int l = 0; l < c->m->n_loads; ++l)
+      if (c->m->loads[l].harmonic <= c->n_harm && (!c->loaded || c->m->loads[l].inertial)) fill_load(c, l);
     c->loaded = true;
   }
   for (int h = 0; h <= c->n_harm && st == HC_OK && c->basis.rest > 0; ++h) {
@@ -318,12 +322,12 @@ const double complex *condensation_load(const condensation *c, int i)
 condensation_change condensation_by_omega(const condensation *c, int h)
 {
   return (condensation_change){-2.0 * h * h * c->omega + I * (h * c->more_damping * c->more_mass),
-                               c->hysteretic ? 0 : I * h};
+                               c->hysteretic ? 0 : I * h, 2 / c->omega};
 }
 
 condensation_change condensation_by_damping(const condensation *c, int h)
 {
-  return (condensation_change){I * (h * c->omega * c->more_mass), 0};
+  return (condensation_change){I * (h * c->omega * c->more_mass), 0, 0};
 }
 
 /* dG and dg of compliance.h. NULL where it cannot tell: Z_yy is then there. */
@@ -407,7 +411,8 @@ void condensation_stiffness_change(condensation *c, int h, condensation_change b
   else apply_by_rest(c, h, by, a, c->vector, dS_a);
 }
 
-/* By compliance p = S g:  dp = dS g + S dg; by the rest dp = Z_qy Z_yy^-1 dZ_yy Z_yy^-1 p_y - dZ_qy Z_yy^-1 p_y. */
+/* By compliance p = S g:  dp = dS g + S dg; by the rest dp = Z_qy Z_yy^-1 dZ_yy Z_yy^-1 p_y - dZ_qy Z_yy^-1 p_y; and of
+ * an inertial load 2/omega p more. */
 void condensation_load_change(condensation *c, int l, condensation_change by, double complex *dp)
 {
   const int h = c->m->loads[l].harmonic;
@@ -415,17 +420,18 @@ void condensation_load_change(condensation *c, int l, condensation_change by, do
   memset(dp, 0, dim * sizeof *dp);
   if (by.alpha == 0 && by.beta == 0) return;
   const double complex *dG = change_by_compliance(c, h, by), *y = c->rest_of + (size_t)l * rest;
-  if (!dG) {
+  if (dG) {
+    const double complex *dg = dG + dim * dim + 2 * (size_t)l * dim;
+    apply_by_compliance(c, h, dG, c->motion + (size_t)l * dim, c->vector, dp);
+    for (size_t d = 0; d < dim; ++d) c->workspace[d] = load_factor(c, l) * (dg[d] - I * dg[dim + d]);
+    multiply(c->basis.dim, condensation_stiffness(c, h), c->workspace, c->vector);
+    for (size_t d = 0; d < dim; ++d) dp[d] += c->vector[d];
+  } else {
     memset(c->vector, 0, rest * sizeof *c->vector);
     subtract_rest(c, h, by, y, c->vector);
     subtract_coupling(c, h, by, y, c->vector, dp);
-    return;
   }
-  const double complex *dg = dG + dim * dim + 2 * (size_t)l * dim;
-  apply_by_compliance(c, h, dG, c->motion + (size_t)l * dim, c->vector, dp);
-  for (size_t d = 0; d < dim; ++d) c->workspace[d] = dg[d] - I * dg[dim + d];
-  multiply(c->basis.dim, condensation_stiffness(c, h), c->workspace, c->vector);
-  for (size_t d = 0; d < dim; ++d) dp[d] += c->vector[d];
+  for (size_t d = 0; d < dim && c->m->loads[l].inertial; ++d) dp[d] += by.inertial * c->load[(size_t)l * dim + d];
 }
 
 /* row = G_r S, rest = g_r - G_r p. */
@@ -445,7 +451,7 @@ static bool response_by_compliance(condensation *c, int h, int r, double factor,
   }
   for (int l = 0; l < c->m->n_loads; ++l) {
     if (c->m->loads[l].harmonic != h) continue;
-    *rest_of_it += factor * (g_r[2 * l] - I * g_r[2 * l + 1]);
+    *rest_of_it += factor * load_factor(c, l) * (g_r[2 * l] - I * g_r[2 * l + 1]);
     for (int d = 0; d < dim; ++d) *rest_of_it -= factor * G_r[d] * c->load[(size_t)l * (size_t)dim + (size_t)d];
   }
   return true;

@@ -60,9 +60,11 @@ bool condensation_is_by_modes(const condensation *c, int h); /* S is compliance.
 const double complex *condensation_load(const condensation *c, int i);
 
 /* dS a and dp of harmonic h and load i, a[dim], where Z changes by dZ = (alpha M + beta C): by omega,
- * alpha = -2 h^2 omega + i h D n/trace M, beta = i h; by D, alpha = i h omega n/trace M, beta = 0. */
+ * alpha = -2 h^2 omega + i h D n/trace M, beta = i h; by D, alpha = i h omega n/trace M, beta = 0. An inertial load
+ * changes by `inertial` of itself: 2/omega, or 0. */
 typedef struct condensation_change {
   double complex alpha, beta;
+  double inertial;
 } condensation_change;
 condensation_change condensation_by_omega(const condensation *c, int h);
 condensation_change condensation_by_damping(const condensation *c, int h);

@@ -65,6 +65,7 @@ static void write_part(const scene_structure *s, const field *f, FILE *to)
   else if (!strcmp(f->name, "response"))
     for (int r = 0; r < structure_response_count(s); ++r)
       fprintf(to, "%s%s", r ? ", " : "", structure_response_name(s, r, text, sizeof text));
+  else if (!strcmp(f->name, "direction") && s->base) write_direction(s, s->base, to);
   else if (!strcmp(f->name, "nodes") && s->n_nodes > 0) fprintf(to, "%d", s->n_nodes);
 }
 
@@ -204,7 +205,8 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
   if (own && (points ? !field_is_of_law(f, own) : !is_law && !field_is_echoed(f, own))) return HC_OK;
   if (own && !strcmp(f->name, "coefficients")) return HC_OK; /* each has a row */
   const case_place at = part ? place_of(d->sc->structure, f, j) : case_field_place(d->places, f, in_contact ? j : -1);
-  bool counts = part || in_contact || case_field_counts(f, d->sc);
+  bool counts = part || points || is_law ||
+                (in_contact ? case_contact_field_counts(NULL, NULL, own, f) : case_field_counts(f, d->sc));
   FILE *to = open_memstream(&text, &size);
   /* The value of f as a case file has it, text without quotes; of entry j of a list. */
   if (to && counts) {
@@ -221,7 +223,8 @@ static hc_status put_value(table *t, const described *d, const field *f, int j)
       if (points) case_write_points(own, to);
       else if (f->kind == FIELD_PART && f->size > 0) write_direction(s, field_direction(f, c), to);
       else if (!strcmp(f->name, "name")) fputs(c->given.name, to);
-      else if (f->kind != FIELD_PART && !without && case_contact_field_counts(s, c, f)) field_write(f, &c->given, to);
+      else if (f->kind != FIELD_PART && !without && case_contact_field_counts(s, c, own, f))
+        field_write(f, &c->given, to);
     } else write_part(s, f, to);
   }
   const bool written = to && fclose(to) == 0;

@@ -86,6 +86,8 @@ static int run_lab(cli_common *common, void *given, scene *sc)
   if (!code && own->case_file && sc->structure)
     code = cli_failed(common, EXIT_BAD_CASE,
                       "%s: structure: the lab has one degree of freedom, an `oscillator` was expected", own->case_file);
+  if (!code && own->case_file && scene_base_moves(sc))
+    code = cli_failed(common, EXIT_BAD_CASE, "%s: base: the lab has a force, `forcing` was expected", own->case_file);
   if (code) return code;
   hc_status st = read_page(&page);
   if (st == HC_NO_MEMORY) code = cli_failed(common, EXIT_NO_SOLUTION, "%s", hc_status_text(st));

@@ -178,6 +178,9 @@ static int run_reduce(cli_common *common, void *own, scene *sc)
     fprintf(stderr, "%s: an oscillator, expected `structure`, which can be reduced\n", common->arguments[0]);
     code = EXIT_BAD_CASE;
   }
+  if (!code && sc->structure->base)
+    code = cli_failed(common, EXIT_BAD_CASE, "%s: base: a reduced case does not carry it, expected `forcing`",
+                      common->arguments[0]);
   if (!code) cli_say_notes(common, sc);
   if (!code) code = reduce(common, own, sc, &source);
   case_source_free(&source);

@@ -38,10 +38,12 @@ static hc_status read_oscillator(const char *text, scene *sc, case_error *err)
   bool other_law = false;
   for (int j = 0; j < sc->n_contacts; ++j)
     other_law |= sc->contacts[j].kind > LAB_POLYNOMIAL && sc->contacts[j].kind != LAB_TABLE;
-  if (!sc->structure && !other_law) return HC_OK;
+  if (!sc->structure && !other_law && !scene_base_moves(sc)) return HC_OK;
   snprintf(err->message, sizeof err->message, "case: %s",
            sc->structure ? "structure: the lab has one degree of freedom, an `oscillator` was expected"
-                         : "the lab has no fields for a contact's law, contact, polynomial or table were expected");
+           : scene_base_moves(sc)
+               ? "base: the lab has a force, `forcing` was expected"
+               : "the lab has no fields for a contact's law, contact, polynomial or table were expected");
   case_clear(sc);
   return HC_BAD_INPUT;
 }
@@ -76,7 +78,10 @@ int lab_case(lab *l)
     const scene_contact *c = &sc->contacts[j];
     double *row = lab_row(l);
     if (!row) return lab_answer(l, HC_NO_MEMORY);
-    const double touching[] = {c->law.kt, c->law.kn, c->law.mu, c->angle_deg, c->law.gap};
+    /* The page has no constant normal force: of a contact along x it is that of any spring and gap. */
+    const contact law = scene_contact_law(c);
+    const bool slides = law.load > 0 && law.kn == 0;
+    const double touching[] = {law.kt, slides ? law.load : law.kn, law.mu, c->angle_deg, slides ? 1 : law.gap};
     if (c->kind == CONTACT_KINKED) memcpy(row, touching, sizeof touching);
     if (c->kind == CONTACT_POLYNOMIAL) memcpy(row, c->law.power, sizeof c->law.power);
     memcpy(row + LAB_POINTS, c->points, (size_t)c->n_points * sizeof *c->points);

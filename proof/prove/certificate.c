@@ -13,12 +13,14 @@
 static json_t *decimal(double value) { return json_string(number_write(value, (char[NUMBER_TEXT]){0})); }
 
 /* v[n], entries `step` apart. */
-static json_t *vector(int n, const double *v, int step)
+static json_t *times_vector(double by, int n, const double *v, int step)
 {
   json_t *list = json_array();
-  for (int i = 0; i < n; ++i) json_array_append_new(list, decimal(v[(size_t)i * (size_t)step]));
+  for (int i = 0; i < n; ++i) json_array_append_new(list, decimal(by * v[(size_t)i * (size_t)step]));
   return list;
 }
+
+static json_t *vector(int n, const double *v, int step) { return times_vector(1, n, v, step); }
 
 static json_t *matrix(int n, const double *A)
 {
@@ -27,13 +29,15 @@ static json_t *matrix(int n, const double *A)
   return rows;
 }
 
-static json_t *forcing(const model *m)
+static json_t *forcing(const model *m, double omega)
 {
   json_t *loads = json_array();
-  for (int l = 0; l < m->n_loads; ++l)
-    json_array_append_new(loads,
-                          json_pack("{s:i,s:o,s:o}", "harmonic", m->loads[l].harmonic, "cos",
-                                    vector(m->n, m->loads[l].cosine, 1), "sin", vector(m->n, m->loads[l].sine, 1)));
+  for (int l = 0; l < m->n_loads; ++l) {
+    const double by = model_load_factor(m->loads[l].inertial, omega);
+    json_array_append_new(loads, json_pack("{s:i,s:o,s:o}", "harmonic", m->loads[l].harmonic, "cos",
+                                           times_vector(by, m->n, m->loads[l].cosine, 1), "sin",
+                                           times_vector(by, m->n, m->loads[l].sine, 1)));
+  }
   return loads;
 }
 
@@ -43,7 +47,7 @@ static double inclined(const scene *sc, int j)
 {
   if (sc->structure && !sc->structure->contacts[j].by_angle) return 0;
   const double angle = scene_contact_at(sc, j)->angle_deg;
-  return angle < 90 ? angle : 0;
+  return fabs(angle) < 90 ? angle : 0;
 }
 
 /* NULL: it exerts no force that changes. */
@@ -55,14 +59,14 @@ static json_t *contact_of(const model *m, const model_contact *c, double angle, 
   *friction = contact_has_friction(law) && !is_zero(m->n, c->tangent) && (closes || load > 0);
   if (!closes && !*friction) return NULL;
   json_t *to = json_object();
-  if (angle > 0) {
+  if (angle != 0) {
     json_object_set_new(to, "direction", json_pack("[s]", "1"));
     json_object_set_new(to, "angle_deg", decimal(angle));
   } else {
     if (*friction) json_object_set_new(to, "tangent", vector(m->n, c->tangent, 1));
     if (closes) json_object_set_new(to, "normal", vector(m->n, c->normal, 1));
   }
-  if (*friction || angle > 0) {
+  if (*friction || angle != 0) {
     json_object_set_new(to, "tangential_stiffness", decimal(law->kt));
     json_object_set_new(to, "friction", decimal(law->mu));
   }
@@ -78,7 +82,7 @@ hc_status certificate_model_make(const scene *sc, const model *m, int r, certifi
 {
   const size_t most = (size_t)m->n_contacts + 1;
   json_t *contacts = json_array();
-  *out = (certificate_model){.contact = calloc(most, sizeof(int)), .friction = calloc(most, sizeof(bool))};
+  *out = (certificate_model){.of = m, .contact = calloc(most, sizeof(int)), .friction = calloc(most, sizeof(bool))};
   for (int j = 0, of_case = 0; j < m->n_contacts && out->contact && out->friction; ++j) {
     json_t *one = contact_of(m, &m->contacts[j], inclined(sc, of_case), &out->friction[out->n_contacts]);
     if (one && !json_array_append_new(contacts, one)) out->contact[out->n_contacts++] = j;
@@ -86,7 +90,7 @@ hc_status certificate_model_make(const scene *sc, const model *m, int r, certifi
   }
   out->response = vector(m->n, m->responses + (size_t)r * (size_t)m->n, 1);
   out->model = json_pack("{s:o,s:o,s:o,s:o,s:o}", "mass", matrix(m->n, m->mass), "damping", matrix(m->n, m->damping),
-                         "stiffness", matrix(m->n, m->stiffness), "forcing", forcing(m), "contacts", contacts);
+                         "stiffness", matrix(m->n, m->stiffness), "forcing", json_null(), "contacts", contacts);
   return out->model && out->response && out->contact && out->friction ? HC_OK : HC_NO_MEMORY;
 }
 
@@ -119,6 +123,14 @@ static json_t *event(const certificate_model *c, const orbit_events *e, int i)
   return to;
 }
 
+/* The model with its loads at omega, a new reference. */
+static json_t *model_at(const certificate_model *c, double omega)
+{
+  json_t *own = json_copy(c->model);
+  json_object_set_new(own, "forcing", forcing(c->of, omega));
+  return own;
+}
+
 json_t *certificate_of(const certificate_model *c, double omega, int k, double amplitude, const orbit_events *e)
 {
   const int n = e->n * e->n_dof;
@@ -133,16 +145,19 @@ json_t *certificate_of(const certificate_model *c, double omega, int k, double a
   double x = fmax(norm_max(n, e->x), amplitude), v = fmax(norm_max(n, e->v), omega * amplitude);
   if (!(x > 0)) x = v = 1; /* nothing moves */
   json_t *scales = json_pack("{s:o,s:o,s:o}", "x", decimal(x), "v", decimal(v), "t", decimal(1 / omega));
-  return json_pack("{s:O,s:o,s:i,s:i,s:O,s:o,s:o,s:o}", "model", c->model, "omega", decimal(omega), "multiple", k,
-                   "precision_bits", 128, "response", c->response, "rest", rest, "scales", scales, "events", events);
+  return json_pack("{s:o,s:o,s:i,s:i,s:O,s:o,s:o,s:o}", "model", model_at(c, omega), "omega", decimal(omega),
+                   "multiple", k, "precision_bits", 128, "response", c->response, "rest", rest, "scales", scales,
+                   "events", events);
 }
 
 bool certificate_is_of(const json_t *certificate, const certificate_model *c, double omega, int k)
 {
   char text[NUMBER_TEXT];
   const char *own = json_string_value(json_object_get(certificate, "omega"));
-  return own && !strcmp(own, number_write(omega, text)) &&
-         json_equal(json_object_get(certificate, "model"), c->model) &&
+  json_t *own_model = model_at(c, omega);
+  const bool same = json_equal(json_object_get(certificate, "model"), own_model);
+  json_decref(own_model);
+  return same && own && !strcmp(own, number_write(omega, text)) &&
          json_equal(json_object_get(certificate, "response"), c->response) &&
          json_integer_value(json_object_get(certificate, "multiple")) == k;
 }

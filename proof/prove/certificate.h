@@ -8,15 +8,16 @@
 #include "casefile/scene.h"
 #include "timeint/steady/orbit_events.h"
 
-/* The scene's model, as certificates have it, and which of their contacts are the model's. */
+/* The scene's model, as certificates have it but for the loads, and which of their contacts are the model's. */
 typedef struct certificate_model {
+  const model *of;
   json_t *model, *response;
   int n_contacts; /* of the certificate: a contact that can exert no force that changes is left out */
   int *contact;   /* [n_contacts] of the model */
   bool *friction; /* [n_contacts] its letters are O S + -, else O N */
 } certificate_model;
 
-/* By the model's response r. Free in any case. HC_NO_MEMORY. */
+/* By response r of m, which must live as long. Free in any case. HC_NO_MEMORY. */
 hc_status certificate_model_make(const scene *sc, const model *m, int r, certificate_model *out);
 void certificate_model_free(certificate_model *c);
 

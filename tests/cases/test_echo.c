@@ -96,6 +96,8 @@ static void random_contact(scene_contact *c, uint64_t *s)
     const bool plain = f->flags & FIELD_IN_CONTACT && !(f->flags & FIELD_STRUCTURE) && f->kind != FIELD_PART;
     if (plain && field_is_of_law(f, c) && strcmp(f->name, "law") != 0) random_field(f, c, s);
   }
+  if (!isfinite(scene_contact_law(c).gap) || random_bits(s) % 2) c->preload = 0;
+  if (c->preload > 0) c->law.gap = 0;
   if (c->kind != SCENE_LAW_TABLE) return;
   c->n_points = random_int(s, 2, SCENE_MOST_POINTS);
   for (int i = 0; i < c->n_points; ++i) c->points[i][0] = i + random_unit(s) / 2, c->points[i][1] = random_signed(s);
@@ -119,6 +121,9 @@ static void random_scene(scene *sc, uint64_t *s)
     random_contact(&sc->contacts[j], s);
     smooth |= sc->contacts[j].kind == CONTACT_POLYNOMIAL || sc->contacts[j].kind == CONTACT_TANH;
   }
+  *(random_bits(s) % 2 ? &sc->base.amplitude : &sc->base.acceleration) = 0;
+  if (random_bits(s) % 2) sc->base = (scene_base){0};
+  else if (scene_base_moves(sc)) sc->force = 0;
   mend_gate_ranges(&sc->gate.ranges);
   if (random_bits(s) % 2) sc->compare.points = 20;
   else memset(&sc->compare.omega, 0, sizeof sc->compare.omega);

@@ -66,7 +66,7 @@ static void a_contact_may_be_appended_field_by_field(CHECK_STATE)
   assert_int_equal(case_parse("f", SMALLEST, strlen(SMALLEST), 3, set, &sc, &err), HC_BAD_INPUT);
   assert_string_equal(err.message,
                       "--set contacts[0].tangential_stiffness=1: this appends a contact without `angle_deg`, expected "
-                      "contacts[0].angle_deg=VALUE too: a number 0..90");
+                      "contacts[0].angle_deg=VALUE too: a number -90..90");
 }
 
 static void later_ones_win_and_rivals_give_way(CHECK_STATE)

@@ -14,6 +14,7 @@ static model *large_structure(uint64_t *seed, damping how)
 {
   model *m = random_structure(seed, N, CONTACTS);
   m->loads[1].harmonic = 2;
+  m->loads[1].inertial = true;
   for (int j = 0; j < N; ++j)
     for (int i = 0; i < N; ++i) m->stiffness[j * N + i] *= (1 + i / 2.0) * (1 + j / 2.0);
   for (int j = 0; j < N; ++j) /* but for rounding it is */
@@ -61,7 +62,8 @@ static void solve_whole(const model *m, double omega, double more, int h, const 
   for (int i = 0; i < N; ++i) {
     x[i] = 0;
     for (int l = 0; l < m->n_loads; ++l)
-      if (m->loads[l].harmonic == h) x[i] += m->loads[l].cosine[i] - I * m->loads[l].sine[i];
+      if (m->loads[l].harmonic == h)
+        x[i] += (m->loads[l].inertial ? omega * omega : 1) * (m->loads[l].cosine[i] - I * m->loads[l].sine[i]);
     for (int j = 0; j < CONTACTS; ++j) x[i] -= m->contacts[j].tangent[i] * T[j] + m->contacts[j].normal[i] * force[j];
   }
   assert_int_equal(dense_factor_complex(N, Z, pivot), HC_OK);

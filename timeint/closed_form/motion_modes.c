@@ -49,7 +49,6 @@ static void force(motion_modes *mm, const scaled_model *m, const contact_track *
   const complex_modes *modes = mm->modes;
   const size_t loads = (size_t)mm->base->n_loads, contacts = (size_t)mm->base->n_contacts;
   const double complex lambda = modes->lambda[k];
-  const double size = m->by_load / m->by_K;
   double complex constant = 0;
   for (size_t j = 0; j < contacts; ++j) {
     const contact_forces_linear f = contact_track_forces(&track[j], &m->contact[j]);
@@ -57,7 +56,7 @@ static void force(motion_modes *mm, const scaled_model *m, const contact_track *
   }
   mm->fixed[k] = constant == 0 ? 0 : constant / (m->by_K * lambda);
   for (size_t l = 0; l < loads; ++l) {
-    const double h = mm->base->harmonic[l];
+    const double h = mm->base->harmonic[l], size = scaled_by_load(m, (int)l) / m->by_K;
     const double complex turn = on_circle(h * mm->theta), turns = I * (h * omega);
     mm->forward[k * loads + l] = 0.5 * size * modes->load[k * loads + l] * turn / (turns - lambda);
     mm->back[k * loads + l] = -0.5 * size * modes->load_back[k * loads + l] * conj(turn) / (turns + lambda);

@@ -83,7 +83,7 @@ static double expand(motion_series *s, const scaled_model *m, double theta)
       const double h = b->harmonic[l], before = c[0];
       if (k == 0) c[0] = cos(h * theta), c[1] = sin(h * theta);
       else c[0] = -h * c[1] / k, c[1] = h * before / k;
-      const double by_cosine = m->by_load * c[0], by_sine = m->by_load * c[1];
+      const double by = scaled_by_load(m, l), by_cosine = by * c[0], by_sine = by * c[1];
       const double *cosine = b->cosine + (size_t)l * (size_t)s->n, *sine = b->sine + (size_t)l * (size_t)s->n;
       for (int i = 0; i < s->n; ++i) force[i] += by_cosine * cosine[i] + by_sine * sine[i];
     }

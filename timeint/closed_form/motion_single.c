@@ -28,8 +28,8 @@ static void begin(motion_single *s, const scaled_model *m, const contact_track *
   double k = m->by_K * b->K[0], d = 0;
   double complex load = 0;
   for (int l = 0; l < b->n_loads; ++l) {
-    if (b->harmonic[l] == 0) d += m->by_load * b->cosine[l];
-    else load += m->by_load * (b->cosine[l] - I * b->sine[l]);
+    if (b->harmonic[l] == 0) d += scaled_by_load(m, l) * b->cosine[l];
+    else load += scaled_by_load(m, l) * (b->cosine[l] - I * b->sine[l]);
   }
   for (int j = 0; j < m->n_contacts; ++j) {
     const contact_forces_linear f = contact_track_forces(&track[j], &m->contact[j]);

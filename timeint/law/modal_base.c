@@ -87,7 +87,7 @@ static void fill(modal_base *b, const model *m, const double *omega2, double *ve
   for (int r = 0; r < b->n_responses; ++r)
     transposed_times(n, phi, m->responses + (size_t)r * ld, b->response + (size_t)r * ld);
   for (size_t k = 0; k < loads; ++k) {
-    b->harmonic[k] = m->loads[k].harmonic;
+    b->harmonic[k] = m->loads[k].harmonic, b->inertial[k] = m->loads[k].inertial;
     transposed_times(n, phi, m->loads[k].cosine, b->cosine + k * ld);
     transposed_times(n, phi, m->loads[k].sine, b->sine + k * ld);
   }
@@ -150,7 +150,8 @@ static size_t place_arrays(modal_base *b)
 static hc_status make_memory(modal_base *b)
 {
   b->numbers = calloc(place_arrays(b), sizeof *b->numbers);
-  b->harmonic = calloc((size_t)b->n_loads + 1, sizeof *b->harmonic);
+  b->harmonic = calloc(2 * (size_t)b->n_loads + 1, sizeof *b->harmonic);
+  b->inertial = b->harmonic + b->n_loads;
   if (!b->numbers || !b->harmonic) return HC_NO_MEMORY;
   place_arrays(b);
   for (int i = 0; i < b->n; ++i) b->slowed[i] = 1;
@@ -221,7 +222,7 @@ hc_status modal_base_slowed(const modal_base *b, const model *m, double fastest,
   hc_status st = copy ? make_memory(copy) : HC_NO_MEMORY;
   if (st == HC_OK && room) {
     memcpy(copy->numbers, b->numbers, place_arrays(copy) * sizeof *b->numbers);
-    memcpy(copy->harmonic, b->harmonic, (size_t)b->n_loads * sizeof *b->harmonic);
+    memcpy(copy->harmonic, b->harmonic, 2 * (size_t)b->n_loads * sizeof *b->harmonic);
     copy->slowest = INFINITY, copy->decay = 0;
     for (size_t i = 0; i < n; ++i) {
       const double a = sqrt(fmax(b->K[i], 0)) / fastest, *C = copy->C + (b->diagonal_C ? i : i * (n + 1));

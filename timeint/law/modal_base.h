@@ -22,6 +22,7 @@ typedef struct modal_base { /* from modal_base_new, to modal_base_free; only rea
   double *K, *C;               /* [n] or [n][n] by columns: [1/time^2], [1/time] */
   double *tangent, *normal;    /* [n_contacts][n] [1] */
   int *harmonic;               /* [n_loads] */
+  int *inertial;               /* [n_loads] behind them: omega^2 times */
   double *cosine, *sine;       /* [n_loads][n] [length/time^2] of p(t) */
   double *response;            /* [n_responses][n] [1] */
   double highest;              /* [rad/time] the highest natural frequency, contacts stuck */

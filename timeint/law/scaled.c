@@ -117,7 +117,7 @@ void scaled_linear_force(const scaled_model *m, double theta, const double *y, d
   const int n = m->n;
   memset(out, 0, (size_t)n * sizeof *out);
   for (int l = 0; l < b->n_loads; ++l) {
-    const double c = m->by_load * cos(b->harmonic[l] * theta), s = m->by_load * sin(b->harmonic[l] * theta);
+    const double by = scaled_by_load(m, l), c = by * cos(b->harmonic[l] * theta), s = by * sin(b->harmonic[l] * theta);
     const double *cosine = b->cosine + (size_t)l * (size_t)n, *sine = b->sine + (size_t)l * (size_t)n;
     for (int i = 0; i < n; ++i) out[i] += c * cosine[i] + s * sine[i];
   }

@@ -31,6 +31,12 @@ typedef struct scaled_model {
   const double *size;      /* [n_states] [L] of states (state_sizes.h); NULL: 1 */
 } scaled_model;
 
+/* by_load of load l at that omega. */
+static inline double scaled_by_load(const scaled_model *m, int l)
+{
+  return m->by_load * model_load_factor(m->base->inertial[l], 1 / m->by_C);
+}
+
 /* The equations of *from at omega [rad/time] > 0, in lengths L = length > 0. m->contact points at memory for
  * from->n_contacts contacts; it is filled. m->base is *from's; everything else in *m is set. */
 void scaled_make(scaled_model *m, const model *from, const transient_settings *how, double omega, double length);

@@ -35,9 +35,10 @@ static double driven(const modal_base *base, const double *b, double omega)
   double moves = 0;
   for (int l = 0; l < base->n_loads; ++l) {
     const double *cosine = base->cosine + (size_t)l * n, *sine = base->sine + (size_t)l * n;
-    const double at = base->harmonic[l] * omega;
+    const double at = base->harmonic[l] * omega, factor = model_load_factor(base->inertial[l], omega);
     for (size_t i = 0; i < n && base->harmonic[l] > 0; ++i)
-      moves += fabs(b[i]) * hypot(cosine[i], sine[i]) / (fabs(base->K[base->diagonal_K ? i : i * (n + 1)]) + at * at);
+      moves += fabs(b[i]) * factor * hypot(cosine[i], sine[i]) /
+               (fabs(base->K[base->diagonal_K ? i : i * (n + 1)]) + at * at);
   }
   return moves;
 }

@@ -40,8 +40,8 @@ static linear linear_now(const timeint *ti)
   double complex load = 0;
   double d = 0;
   for (int i = 0; i < b->n_loads; ++i) { /* a cos(theta) + b sin(theta) = Re (a - i b) e^{i theta}, or constant */
-    if (b->harmonic[i] == 0) d += m->by_load * b->cosine[i];
-    else load += m->by_load * (b->cosine[i] - I * b->sine[i]);
+    if (b->harmonic[i] == 0) d += scaled_by_load(m, i) * b->cosine[i];
+    else load += scaled_by_load(m, i) * (b->cosine[i] - I * b->sine[i]);
   }
   for (int j = 0; j < m->n_contacts; ++j) {
     const one_contact c = contact_of(m, j);

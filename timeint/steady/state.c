@@ -27,7 +27,8 @@ static double least_length(const timeint *ti)
   const modal_base *b = ti->base;
   const double omega = ti->omega;
   double force = 0;
-  for (int i = 0; i < b->n_loads * b->n; ++i) force += hypot(b->cosine[i], b->sine[i]);
+  for (int i = 0; i < b->n_loads * b->n; ++i)
+    force += model_load_factor(b->inertial[i / b->n], omega) * hypot(b->cosine[i], b->sine[i]);
   return force / (b->highest * b->highest + omega * omega + 2 * b->slowest * omega);
 }
 

@@ -226,10 +226,10 @@ static hc_status plot_waves(plot_order *p, const scene *sc, const steady_states 
   /* Where contacts close, if the motions pass there: x sin(alpha) + gap = 0. */
   for (int j = 0; j < sc->n_contacts; ++j) {
     const moving_contact c = scene_moving_contact(&sc->contacts[j]);
-    const double x = c.cv[0] > 0 ? -c.law.gap / c.cv[0] : NAN;
+    const double x = c.cv[0] != 0 ? -c.law.gap / c.cv[0] : NAN;
     if (x >= low && x <= high)
-      figure_item(&g, figure_look(&g, 7, "lw 1 dt 3 lc rgb '#777777'"), figure_words(&g, "contact %d closes above", j),
-                  "%.10g with lines", x);
+      figure_item(&g, figure_look(&g, 7, "lw 1 dt 3 lc rgb '#777777'"),
+                  figure_words(&g, "contact %d closes %s", j, c.cv[0] > 0 ? "above" : "below"), "%.10g with lines", x);
   }
   figure_draw(&g);
   return figure_close(&g, HC_OK);

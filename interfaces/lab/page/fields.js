@@ -17,7 +17,7 @@ const contactList = [
   {key: 'kt', name: 'Tangential stiffness kt', log: true, min: 0, size: s => s.stiffness || 1},
   {key: 'kn', name: 'Normal stiffness kn', log: true, min: 0, size: s => s.stiffness || 1},
   {key: 'mu', name: 'Friction mu', from: 0, to: 1.5, min: 0},
-  {key: 'angle', name: 'Angle [deg]', from: 0, to: 90, min: 0, max: 90},
+  {key: 'angle', name: 'Angle [deg]', from: 0, to: 90, min: -90, max: 90},
   {key: 'gap', name: 'Gap (> 0: preload)', around: s => s.force / (s.stiffness || 1)}
 ];
 const polynomialList = powers.map(p => ({key: 'k' + p, name: `Coefficient of d^${p}`, around: s => (s.stiffness || 1) / Math.pow(s.force / (s.stiffness || 1) || 1, p - 1)}));

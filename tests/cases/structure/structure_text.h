@@ -38,6 +38,7 @@ static inline void same_models(const model *a, const model *b)
   assert_memory_equal(a->stiffness, b->stiffness, n * vector);
   for (int i = 0; i < a->n_loads; ++i) {
     assert_int_equal(a->loads[i].harmonic, b->loads[i].harmonic);
+    assert_int_equal(a->loads[i].inertial, b->loads[i].inertial);
     assert_memory_equal(a->loads[i].cosine, b->loads[i].cosine, vector);
     assert_memory_equal(a->loads[i].sine, b->loads[i].sine, vector);
   }

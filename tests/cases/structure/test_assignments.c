@@ -81,8 +81,8 @@ static void mistakes_name_the_assignment(CHECK_STATE)
   refused(SMALLEST, "structure.damping.modal=1", "--set structure.damping.modal=1: ",
           "`structure.damping.modal` is a structure's, and the case has an oscillator");
   refused(SMALLEST, "response=[1]", "--set response=[1]: ", "`response` is a structure's");
-  refused(SMALLEST "contacts: [" CONTACT_1 "]\n", "contacts[0].preload=1",
-          "--set contacts[0].preload=1: ", "is a structure's");
+  refused(SMALLEST "contacts: [" CONTACT_1 "]\n", "contacts[0].limit=circle",
+          "--set contacts[0].limit=circle: ", "is a structure's");
   refused(SMALLEST, "forcing[0].amplitude=1", "--set forcing[0].amplitude=1: ", "unknown field");
 }
 

@@ -37,6 +37,9 @@ static void every_form_comes_back(CHECK_STATE)
       "structure: {mass: [1, 1], stiffness: [3, 4], damping: {modal: [0.1, 0.2]}, nodes: [[1, 17, x], [2, -3, z]]}\n"
       "forcing: [{node: 17, direction: x, amplitude: -0.1, phase_deg: 1e-3}, {dof: 2, amplitude: 1}]\n" SWEEP
       "response: [2, {1: 0.1, 2: -3}]\n",
+      "structure: {mass: [1, 1, 1], stiffness: [3, 4, 5], damping: {modal: 0.1}, nodes: [[1, 17, x], [2, 17, z], "
+      "[3, 18, x]]}\nbase: {direction: x, amplitude: 0.1}\nforcing: [{dof: 2, amplitude: 9, harmonic: 0}]\n" SWEEP,
+      TWO_NAMED "base: {direction: {tip: 1, root: 0.5}, acceleration: 0.1}\n",
       TWO_NAMED "contacts:\n  - {name: \"a\\\"\", tangential_stiffness: 200, friction: 1, preload: 5, tangent: root}\n"
                 "  - {normal_stiffness: 3, preload: 0.1, normal: tip}\n"
                 "  - {normal_stiffness: 3, gap: -0.1, normal: {tip: 0.1, root: 3}}\n"

@@ -37,14 +37,25 @@ static void what_is_symmetric_but_for_rounding_is_symmetric(CHECK_STATE)
 /* One degree of freedom in every way it can be written. */
 static void one_degree_of_freedom_is_the_oscillator_to_the_bit(CHECK_STATE)
 {
-  static const char *const laws[] = {"angle_deg: 45", "angle_deg: 0", "angle_deg: 90"};
-  for (size_t i = 0; i < sizeof laws / sizeof *laws; ++i) {
+  static const char *const contacts[][2] = {
+  /* as an oscillator has it, as a structure can say it */
+#define RUBS "tangential_stiffness: 100.7, friction: 0.3"
+#define BOTH RUBS ", normal_stiffness: 1000.3"
+      {BOTH ", gap: -0.7, angle_deg: 45", ""},
+      {BOTH ", gap: -0.7, angle_deg: 0", ""},
+      {BOTH ", gap: -0.7, angle_deg: 90", ""},
+      {BOTH ", preload: 0.7, angle_deg: -30", ""},
+      {RUBS ", preload: 0.7", RUBS ", preload: 0.7, tangent: 1"},
+      {RUBS ", preload: 0.7, angle_deg: 0", ""},
+      {"normal_stiffness: 3, gap: -0.7, angle_deg: -90", "normal_stiffness: 3, gap: -0.7, normal: {1: -1}"},
+      {"normal_stiffness: 4, gap: 0.5, angle_deg: 90", "normal_stiffness: 4, preload: 2, normal: 1"}};
+  for (size_t i = 0; i < sizeof contacts / sizeof *contacts; ++i) {
     char old[512], new[512];
-    const char *numbers = "tangential_stiffness: 100.7, normal_stiffness: 1000.3, friction: 0.3, gap: -0.7";
+    const char *given = contacts[i][0];
     snprintf(old, sizeof old,
              "oscillator: {mass: 1.1, damping: 0.4, stiffness: 40.3}\nforcing: {amplitude: 100.9}\n" SWEEP
-             "contacts: [{%s, %s}]\n",
-             numbers, laws[i]);
+             "contacts: [{%s}]\n",
+             given);
     model *a = model_of(old, NULL), *b;
     static const char *const matrices[] = {"mass: [[1.1]], damping: [[0.4]], stiffness: [[40.3]]",
                                            "mass: [1.1], damping: [0.4], stiffness: [40.3]",
@@ -52,8 +63,8 @@ static void one_degree_of_freedom_is_the_oscillator_to_the_bit(CHECK_STATE)
     static const char *const loads[] = {"{amplitude: 100.9}", "[{dof: 1, amplitude: 100.9}]", "[{amplitude: 100.9}]",
                                         "[{direction: {1: 1}, amplitude: 100.9, phase_deg: 0, harmonic: 1}]"};
     for (size_t k = 0; k < 12; ++k) {
-      snprintf(new, sizeof new, "structure: {%s}\nforcing: %s\n" SWEEP "contacts: [{%s, %s}]\n", matrices[k % 3],
-               loads[k / 3], numbers, laws[i]);
+      snprintf(new, sizeof new, "structure: {%s}\nforcing: %s\n" SWEEP "contacts: [{%s}]\n", matrices[k % 3],
+               loads[k / 3], k % 2 && *contacts[i][1] ? contacts[i][1] : given);
       b = model_of(new, NULL);
       same_models(a, b);
       assert_true(model_is_oscillator(b));
@@ -61,6 +72,38 @@ static void one_degree_of_freedom_is_the_oscillator_to_the_bit(CHECK_STATE)
     }
     model_free(a);
   }
+}
+
+/* M r A omega^2 behind the other loads; -M r a of an acceleration; of all nodes that move in x, or of DOFs. */
+static void a_moving_base_is_the_last_load(CHECK_STATE)
+{
+  static const char text[] =
+      "structure: {mass: [[2, 1, 0.5], [1, 3, 0.25], [0.5, 0.25, 4]], stiffness: [3, 4, 5], damping: {modal: 0.1},\n"
+      "  nodes: [[1, 17, x], [2, 17, z], [3, 18, x]]}\n"
+      "forcing: [{dof: 2, amplitude: 9, harmonic: 2}]\nbase: {direction: x, amplitude: 0.5}\n" SWEEP;
+  static const struct {
+    const char *set;
+    bool inertial;
+    double cosine[3];
+  } as[] = {{NULL, true, {1.25, 0.625, 2.25}},
+            {"base.acceleration=4", false, {-10, -5, -18}},
+            {"base.direction={1: 1, 2: 2}", true, {2, 3.5, 0.5}},
+            {"base.amplitude=0", true, {0, 0, 0}}};
+  for (size_t k = 0; k < sizeof as / sizeof *as; ++k) {
+    model *m = model_of(text, as[k].set);
+    assert_int_equal(m->n_loads, 2);
+    assert_int_equal(m->loads[0].harmonic, 2);
+    assert_int_equal(m->loads[1].harmonic, 1);
+    assert_int_equal(m->loads[1].inertial, as[k].inertial);
+    for (int i = 0; i < 3; ++i) {
+      CHECK_NEAR(m->loads[1].cosine[i], as[k].cosine[i], 0, "%zu: cosine %d", k, i);
+      CHECK_NEAR(m->loads[1].sine[i], 0, 0, "%zu: sine %d", k, i);
+    }
+    model_free(m);
+  }
+  model *alone = model_of("structure: {mass: 2, stiffness: 3, damping: 0.1}\nbase: {amplitude: 3}\n" SWEEP, NULL);
+  assert_true(alone->n_loads == 1 && *alone->loads->cosine == 6 && !model_is_oscillator(alone));
+  model_free(alone);
 }
 
 static void contacts_have_directions_and_laws(CHECK_STATE)
@@ -304,8 +347,9 @@ static void names_of_responses(CHECK_STATE)
 }
 
 CHECK_TESTS("structure.model", 60, matrices_are_by_columns, what_is_symmetric_but_for_rounding_is_symmetric,
-            one_degree_of_freedom_is_the_oscillator_to_the_bit, contacts_have_directions_and_laws,
-            loads_of_a_harmonic_are_summed, quarters_of_a_turn_are_exact, degrees_of_freedom_go_by_name_number_or_node,
-            files_of_matrices_lie_beside_the_case, modal_damping_damps_every_mode_as_asked, what_contacts_hold_is_held,
-            what_a_polynomial_holds_is_held, at_rest_polynomials_hold_from_both_sides,
+            one_degree_of_freedom_is_the_oscillator_to_the_bit, a_moving_base_is_the_last_load,
+            contacts_have_directions_and_laws, loads_of_a_harmonic_are_summed, quarters_of_a_turn_are_exact,
+            degrees_of_freedom_go_by_name_number_or_node, files_of_matrices_lie_beside_the_case,
+            modal_damping_damps_every_mode_as_asked, what_contacts_hold_is_held, what_a_polynomial_holds_is_held,
+            at_rest_polynomials_hold_from_both_sides,
             two_tangents_are_two_contacts_of_the_model, names_of_responses)
