@@ -516,6 +516,16 @@ class Segment:
             out.append(total)
         return out
 
+    def carried(self, columns, h):
+        """exp(A h) times a matrix, by Taylor's series on its columns: of an h = 0 +- r, r |A columns| is added, not r |A| |columns|."""
+        (q, rest), width, out, term = self.terms(h), range(len(columns[0])), columns, columns
+        for j in range(1, q + 1):
+            by = h.over(j)
+            term = [[dot(row.values(), [term[c][k] for c in row]) * by for k in width] for row in self.A]
+            out = [[a + b for a, b in zip(*rows)] for rows in zip(out, term)]
+        left_out = [(max(shift(row[k].size, -e) for row, e in zip(columns, self.e)) * rest >> Ball.bits) + 1 for k in width]
+        return [[Ball(v.m, v.r + shift(left_out[k], e)) for k, v in enumerate(row)] if a else row for row, a, e in zip(out, self.A, self.e)]
+
     def powers(self, tau):
         """exp(A h)^(2^b), b = 0..p, with 2^p substeps h = tau / 2^p, |A| h <= 2. The last is exp(A tau)."""
         nu, p = self.norm * tau.size >> Ball.bits, 0
@@ -613,11 +623,18 @@ class Orbit:
                 raise Unproven(f"segment {i}, contact {c}: {change[0]} to {change[1]} directly", i, None, c)
             out = out or row
             forms.append(at)
-        # Several contacts at one event: only if all their guards are proportional, so that the first one's zero is a zero of all.
+        # Several contacts at one event: only if all their guards are proportional, so that the first one's zero is a zero of all;
+        # a limit, which has a history, only that of equal contacts with equal histories.
+        first, slips = changed[0], before[changed[0]] == "S" and after[changed[0]] != "O"
         for c, form in zip(changed[1:], forms[1:]):
-            if not proportional(forms[0], form):
+            if not proportional(forms[0], form) or slips and not self.twins(first, c):
                 raise Unproven(f"two independent transitions at once: event {i}, contacts {changed[0]} and {c}", i, None, c)
         return out
+
+    def twins(self, a, b):
+        """Are two contacts equal, with equal histories?"""
+        numbers = [(c.kt, c.mu, c.kn, c.preload, c.gap, c.t, c.n) for c in (self.cert.contacts[a], self.cert.contacts[b])]
+        return numbers[0] == numbers[1] and self.cert.rest.get(a) == self.cert.rest.get(b) and all(s[a] == s[b] for s in self.cert.letters)
 
     def touched_in_proportion(self, c, i):
         return self.cert.contacts[c].ratio is not None and self.rests[i][c][3] == "O"
@@ -658,15 +675,14 @@ class Orbit:
                 raise Unproven(f"times not in order: segment {i} takes {float(tau):.6g}")
         return taus
 
-    def shoot(self, y, flows):
-        """F(y) and the rows of DF(y): the flow of event i less event i + 1 (2n rows), the guard of event i."""
+    def shoot(self, y, flows, middles):
+        """F(y) and the rows of DF(y): the flow of event i less event i + 1 (2n rows), the guard of event i. flows: exp(A middle) of each segment."""
         n, width, values, rows = self.cert.n, self.width, [], []
-        for i, segment in enumerate(self.segments):
-            E, z, at, to = flows[i], self.state(i, y), i * width, (i + 1) % self.m * width
-            end = [dot(row, z) for row in E]
-            if not self.cert.section:
-                turning = [Ball(0)] * (2 * n) + [apply_row(row, z) for row in segment.A[2 * n:]]  # dZ / dt of the event: only the load's phase
-                rate = [apply_row(row, end) for row in segment.A[:2 * n]]
+        for i, (segment, tau, middle) in enumerate(zip(self.segments, self.times(y), middles)):
+            z, at, to = self.state(i, y), i * width, (i + 1) % self.m * width
+            E = segment.carried([row + [dot(row, z)] for row in flows[i]], tau - middle)
+            end = [row[-1] for row in E]
+            start_rate, rate = ([apply_row(row, at_z) for row in segment.A[:2 * n]] for at_z in (z, end))
             for r in range(2 * n):
                 row = dict(enumerate(E[r][:2 * n], at))
                 row[to + r] = row.get(to + r, Ball(0)) - Ball.of(1)
@@ -676,7 +692,7 @@ class Orbit:
                         k = event * width + j
                         row[k] = row.get(k, Ball(0)) + E[r][segment.w[c]] * v
                 if not self.cert.section:
-                    row[at + 2 * n] = dot(E[r], turning) - rate[r]
+                    row[at + 2 * n] = -dot(E[r][:2 * n], start_rate)  # dZ/dt of the event, the load's phase, less A Z
                     row[to + 2 * n] = row.get(to + 2 * n, Ball(0)) + rate[r]
                 values.append(end[r] - y[to + r])
                 rows.append(row)
@@ -727,7 +743,7 @@ class Krawczyk:
         self.y = [Ball.of(v) for t, x, v, _ in cert.events for v in x + v + ([] if cert.section else [t])]
         self.taus = [Ball(tau.m) for tau in orbit.times(self.y)]
         self.flows = [s.powers(tau)[-1] for s, tau in zip(orbit.segments, self.taus)]  # exp(A mid)
-        values, rows = orbit.shoot(self.y, self.flows_of(self.y))
+        values, rows = orbit.shoot(self.y, self.flows, self.taus)
         size = len(self.y)
         try:
             floats = [[float(row[k] * orbit.scale[k]) if k in row else 0.0 for k in range(size)] for row in rows]
@@ -739,19 +755,14 @@ class Krawczyk:
         self.B = [[Ball.of(v).m for v in row] for row in inverse]
         self.step = [rounded(sum(b * f.m for b, f in zip(row, values)), sum(abs(b) * f.r for b, f in zip(row, values))).size for row in self.B]
 
-    def flows_of(self, y):
-        """exp(A tau) = exp(A mid) exp(A [-r, r])."""
-        out = []
-        for segment, tau, middle, flow in zip(self.orbit.segments, self.orbit.times(y), self.taus, self.flows):
-            spread = tau - middle
-            out.append(matmul(flow, segment.exponential(Ball(0, spread.size))))
-        return out
-
     def image(self, rho, name="radius"):
         """The half widths |B F(y0)| + |I - B DF(Y)| rho in scaled unknowns, in units; an error if they are not within rho."""
         wide = Ball.of(rho)
         y = [Ball(v.m, v.r + (s * wide).size) for v, s in zip(self.y, self.orbit.scale)]
-        _, rows = self.orbit.shoot(y, self.flows_of(y))
+        try:
+            _, rows = self.orbit.shoot(y, self.flows, self.taus)
+        except Unproven:  # the box is so wide that times may be in another order
+            raise Unproven(f"Krawczyk gives inf of the {name}") from None
         rows = [{k: v * self.orbit.scale[k] for k, v in row.items()} for row in rows]
         widths = []
         for i, b in enumerate(self.B):
@@ -818,7 +829,7 @@ class Motion:
         middle, spread = Ball(tau.m), Ball(0, tau.r)
         powers = s.powers(middle)
         p = len(powers) - 1
-        self.flow, self.steps = matmul(powers[-1], s.exponential(spread)), 1 << p
+        self.flow, self.steps = s.carried(powers[-1], spread), 1 << p
         self.h = Ball(tau.m >> p, 2)
         self.last = self.h + spread
         self.states = [orbit.state(i, y)]
@@ -928,7 +939,7 @@ def monodromy(orbit, y, flows):
 
 
 def multipliers(matrix, vectors):
-    """Lower and upper bound (units) of the largest modulus of an eigenvalue, and of any: Gershgorin on V^-1 M V, by rows and by columns.
+    """Lower and upper bound (units) of the largest modulus of an eigenvalue, and of any: Gershgorin on V^-1 M V, by rows.
     Complex matrices stand as real ones of twice the size, [[Re, -Im], [Im, Re]]. W is V's inverse in floats, bettered twice;
     with E = I - W V it is V^-1 M V = (I - E)^-1 W M V, which differs from W M V by at most |E| / (1 - |E|) times its columns' largest entry."""
     n = len(matrix)
@@ -952,18 +963,14 @@ def multipliers(matrix, vectors):
     extra = [(2 * worst * t >> Ball.bits) + 1 for t in top]  # 1 / (1 - |E|) <= 2
     entry = [[(Ball(X[j][k].m, X[j][k].r + extra[k]), Ball(X[j + n][k].m, X[j + n][k].r + extra[k])) for k in range(n)] for j in range(n)]
     size = lambda z: (z[0] * z[0] + z[1] * z[1]).root()
-    low, high = 0, None
-    for turned in (False, True):
-        radius = [sum(size(entry[k][j] if turned else entry[j][k]).hi for k in range(n) if k != j) for j in range(n)]
-        centre = [entry[j][j] for j in range(n)]
-        inner, outer = ([size(z).lo - r for z, r in zip(centre, radius)], [size(z).hi + r for z, r in zip(centre, radius)])
-        group = list(range(n))  # a connected group of k discs holds k multipliers
-        for j in range(n):
-            for k in range(j):
-                if size((centre[j][0] - centre[k][0], centre[j][1] - centre[k][1])).lo <= radius[j] + radius[k]:
-                    group = [group[k] if g == group[j] else g for g in group]
-        low = max([low] + [min(inner[j] for j in range(n) if group[j] == g) for g in set(group)])
-        high = max(outer) if high is None else min(high, max(outer))
+    radius = [sum(size(entry[j][k]).hi for k in range(n) if k != j) for j in range(n)]
+    inner, outer = ([size(entry[j][j]).lo - radius[j] for j in range(n)], [size(entry[j][j]).hi + radius[j] for j in range(n)])
+    group = list(range(n))  # a connected group of k discs holds k multipliers
+    for j in range(n):
+        for k in range(j):
+            if size([a - b for a, b in zip(entry[j][j], entry[k][k])]).lo <= radius[j] + radius[k]:
+                group = [group[k] if g == group[j] else g for g in group]
+    low, high = max([0] + [min(inner[j] for j in range(n) if group[j] == g) for g in set(group)]), max(outer)
     return between(low, high)
 
 
@@ -1023,10 +1030,9 @@ def decide(cert, answer):
     orbit = Orbit(cert)
     test = Krawczyk(orbit)
     try:
-        y = test.box(cert.radius)
-        answer["radius"] = decimal_text(cert.radius)
         test.image(cert.uniqueness, "uniqueness radius")
-        answer["uniqueness_radius"] = decimal_text(cert.uniqueness)
+        y = test.box(cert.radius)
+        answer.update(radius=decimal_text(cert.radius), uniqueness_radius=decimal_text(cert.uniqueness))
     except Unproven as error:
         raise Unproven(f"existence: {error}") from None
     flows, measures, unit = [], Measures(orbit), 1 << Ball.bits

@@ -305,27 +305,30 @@ static double lists_apart(const stress_answers *a, const stress_answers *b, answ
 }
 
 /* What the scene says with its numbers changed by the rounding of one `ratio` times as large (ways.c), ten times over,
- * as it is changed once only. */
-static double sensitive(solved_scene *s, double ratio, answer_question q, const scale *of, stress_answers *changed)
+ * as it is changed once only. An answer that is lost or new is no number: that it is so by rounding is said only if the
+ * changed scene says what the `other` does. */
+static double sensitive(solved_scene *s, double ratio, answer_question q, const scale *of, const stress_answers *other,
+                        stress_answers *changed)
 {
   const double rounding = 4e-13, draws = of->absolute ? 1 : 10;
   const answer_group g = questions[q].group;
-  rewritten other;
-  stress_motion moved = {0};
+  rewritten nudged;
+  stress_motion beside = {0};
   if (!changed->asked[g]) {
-    s->fatal = rewritten_nudged(s->model, rounding * ratio, &s->random, &other);
+    s->fatal = rewritten_nudged(s->model, rounding * ratio, &s->random, &nudged);
     if (s->fatal == HC_OK) {
       hbm_settings how = s->how;
       how.harmonics = s->fine.harmonics;
-      stress_motion_solve(s, other.model, &how, s->omega, s->fine.x, 1, &moved);
+      stress_motion_solve(s, nudged.model, &how, s->omega, s->fine.x, 1, &beside);
     }
-    changed->status[g] = moved.status;
-    if (s->fatal == HC_OK && moved.status == HC_OK) ask(s, other.model, moved.start, g, changed);
+    changed->status[g] = beside.status;
+    if (s->fatal == HC_OK && beside.status == HC_OK) ask(s, nudged.model, beside.start, g, changed);
     changed->asked[g] = true;
-    stress_motion_free(&moved);
-    rewritten_clear(&other);
+    stress_motion_free(&beside);
+    rewritten_clear(&nudged);
   }
-  return draws * lists_apart(s->plain, changed, q, of);
+  const double moved = lists_apart(s->plain, changed, q, of);
+  return isinf(moved) && isinf(lists_apart(other, changed, q, of)) ? 0 : draws * moved;
 }
 
 static stress_check hold_question(solved_scene *s, const rewritten *w, answer_question q, const stress_answers *other,
@@ -337,14 +340,15 @@ static stress_check hold_question(solved_scene *s, const rewritten *w, answer_qu
   const double error = lists_apart(s->plain, other, q, &of);
   if (specials && (s->plain->specials_too_dear || other->specials_too_dear)) return stress_refuse(s, HC_INTERRUPTED);
   const double begins = fabs(s->plain->first / other->first - 1); /* two solutions there, and two curves */
-  if (questions[q].group == ABOUT_CURVE && other->status[ABOUT_CURVE] == HC_OK && begins > 1e-3)
+  if (questions[q].group == ABOUT_CURVE && other->status[ABOUT_CURVE] == HC_OK && begins > 1e-3 && isfinite(begins))
     return stress_explain(STRESS_OTHER_ORBIT, begins, 1e-3);
   const bool none = s->plain->n[q] == 0, no_other = other->n[q] == 0;
   if (q == ADVICE ? none || no_other : none && (no_other || q == EXACT || q == BY_DEFAULT))
     return stress_skip(STRESS_NOT_APPLICABLE); /* not asked */
   if (error <= of.bound) return stress_agree(error, of.bound);
-  stress_check c = stress_agree_within(error, of.bound, sensitive(s, w->ratio, q, &of, changed));
-  if (changed->status[questions[q].group] == HC_INTERRUPTED) return stress_refuse(s, HC_INTERRUPTED);
+  stress_check c = stress_agree_within(error, of.bound, sensitive(s, w->ratio, q, &of, other, changed));
+  const hc_status asked = changed->status[questions[q].group];
+  if (asked != HC_OK) return stress_refuse(s, asked);
   if (c.outcome == STRESS_FINDING) c.reason = questions[q].reason;
   return c;
 }

@@ -182,28 +182,44 @@ static double shoot_from(solved_scene *s, const stress_motion *from, stress_path
   return path->status == HC_OK ? motion_off(s, from, path) : NAN;
 }
 
-/* HBM of m, the base model or one rewritten with its coordinates, from the harmonics of the orbit `shift` samples
- * later; with as many as s->fine has. stress_motion_free in any case. */
-static void motion_beside(solved_scene *s, const model *m, const stress_path *path, int shift, stress_motion *out)
+/* The orbit's harmonics [2H+1][n], `shift` samples later, as many as s->fine has. NULL: out of memory, s->fatal. */
+static double *harmonics_of(solved_scene *s, const stress_path *path, int shift)
 {
   const int n_harm = s->fine.harmonics, n_coef = series_length(n_harm);
-  double *guess = calloc((size_t)n_coef * (size_t)s->n, sizeof *guess), *one = calloc((size_t)n_coef, sizeof *one);
-  *out = (stress_motion){.status = HC_NO_MEMORY};
-  if (!guess || !one) s->fatal = HC_NO_MEMORY;
-  for (int i = 0; guess && one && i < s->n; ++i) {
+  double *x = calloc((size_t)n_coef * (size_t)s->n, sizeof *x), *one = calloc((size_t)n_coef, sizeof *one);
+  if (!x || !one) s->fatal = HC_NO_MEMORY;
+  for (int i = 0; x && one && i < s->n; ++i) {
     periodic_motion motion = {.amplitude = 1};
     for (int k = 0; k < TIMEINT_WAVE; ++k)
       motion.samples[k] = path->wave[i * TIMEINT_WAVE + (k + shift) % TIMEINT_WAVE];
     motion_harmonics(&motion, n_harm, one);
-    for (int c = 0; c < n_coef; ++c) guess[c * s->n + i] = one[c];
+    for (int c = 0; c < n_coef; ++c) x[c * s->n + i] = one[c];
   }
-  if (s->fatal == HC_OK) solve_with(s, m, n_harm, n_coef, guess, out);
+  free(one ? one : x);
+  return one ? x : NULL;
+}
+
+/* HBM of m, the base model or one rewritten with its coordinates, from the orbit's harmonics. stress_motion_free in any
+ * case. */
+static void motion_beside(solved_scene *s, const model *m, const stress_path *path, int shift, stress_motion *out)
+{
+  double *guess = harmonics_of(s, path, shift);
+  *out = (stress_motion){.status = HC_NO_MEMORY};
+  if (guess) solve_with(s, m, s->fine.harmonics, series_length(s->fine.harmonics), guess, out);
   free(guess);
-  free(one);
+}
+
+/* How much of the orbit, over its amplitude, lies beyond the harmonics of s->fine; 0: it is not known. */
+static double beyond_harmonics(solved_scene *s)
+{
+  double *x = harmonics_of(s, &s->path, 0);
+  const double left = x ? stress_path_off(s, series_length(s->fine.harmonics), x, &s->path) : 0;
+  free(x);
+  return left;
 }
 
 /* Does the stuck structure ring, after each transition, above a tenth of the last harmonic? */
-static bool beyond_harmonics(solved_scene *s)
+static bool rings_beyond(solved_scene *s)
 {
   model_scales scales;
   hc_status st = model_find_scales(s->model, &scales);
@@ -312,8 +328,10 @@ stress_check stress_check_orbit(solved_scene *s)
 
   /* beyond the bound with as many harmonics as may be */
   if (s->path.status != HC_OK) return stress_refuse(s, s->path.status);
-  if (error <= before / 2 || error <= 3 * step) return stress_explain(STRESS_TRUNCATED, error, 3 * step);
-  if (beyond_harmonics(s)) return stress_explain(STRESS_UNRESOLVED, error, NAN);
+  if (error <= before / 2 || (error < before && error <= 3 * step))
+    return stress_explain(STRESS_TRUNCATED, error, 3 * step);
+  const double unkept = 10 * beyond_harmonics(s);
+  if (error <= unkept && rings_beyond(s)) return stress_explain(STRESS_UNRESOLVED, error, unkept);
   if (s->path.r.free_sliders > 0 && member <= error / 10) return stress_explain(STRESS_FAMILY, error, member);
   const double follows = follows_sliders(s, s->fine.start + 2 * s->n, 1);
   if (error <= follows) return stress_explain(STRESS_FAMILY, error, follows);
@@ -323,12 +341,13 @@ stress_check stress_check_orbit(solved_scene *s)
   stress_motion_free(&from_orbit);
   if (other <= fmin(error / 10, same_orbit)) return stress_explain(STRESS_OTHER_ORBIT, error, other);
   stress_condition(s);
-  if (error <= s->solution_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->solution_errs);
+  const stress_check c = stress_agree_within(error, tolerance_of(&s->path), s->solution_errs);
+  if (c.outcome != STRESS_FINDING) return c;
   /* The last doubling may have been nearer by chance, as where the error changes its sign. */
   if (affordable(s, HBM_MAX_HARMONICS) && refine(s, HBM_MAX_HARMONICS, &error, &step, &member) &&
       error <= tolerance_of(&s->path))
     return stress_explain(STRESS_TRUNCATED, coarse, NAN);
-  return stress_find(STRESS_DISAGREES, error, tolerance_of(&s->path));
+  return c;
 }
 
 /* ---- its multiplier ----------------------------------------------------------------------------------- */
@@ -405,16 +424,16 @@ stress_check stress_check_multiplier(solved_scene *s)
   const double better = better_multiplier(s, error, bound, &truncated, &unresolved);
   if (truncated) return stress_explain(STRESS_TRUNCATED, error, better);
   if (s->fine.m.contact.transitions != s->path.r.switches) return stress_explain(STRESS_OTHER_EVENTS, error, better);
-  if ((far > close_enough || unresolved) && beyond_harmonics(s))
-    return stress_explain(STRESS_UNRESOLVED, error, better);
+  if (unresolved && rings_beyond(s)) return stress_explain(STRESS_UNRESOLVED, error, better);
   if (beside_its_limit(s, bound)) return stress_explain(STRESS_FAMILY, error, better);
   stress_condition(s);
   if (s->solution_errs > STRESS_SAYS_SOMETHING) return stress_skip(STRESS_ILL_CONDITIONED);
-  if (error <= s->multiplier_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->multiplier_errs);
+  const stress_check c = stress_agree_within(error, bound, s->multiplier_errs);
+  if (c.outcome != STRESS_FINDING) return c;
   const double by_motion = s->multiplier_rate * far; /* of what fewer harmonics than there are leave of the motion */
   if (error <= by_motion) return stress_explain(STRESS_TRUNCATED, error, by_motion);
   if (!hc_monitor_tick(&s->monitor, -1)) return stress_refuse(s, HC_INTERRUPTED); /* some of these had no time */
-  return stress_find(STRESS_DISAGREES, error, bound);
+  return c;
 }
 
 /* ---- that orbit again ---------------------------------------------------------------------------------- */
@@ -446,7 +465,7 @@ static stress_check hold_found(solved_scene *s, const search *at, const double *
 {
   stress_path other = find_path(s, at, from);
   stress_check c = hold(s, &other, shift, least);
-  if (c.outcome == STRESS_FINDING && at->how.law == TRANSIENT_LAW_EXACT) {
+  if (c.outcome == STRESS_FINDING) {
     const double follows = follows_sliders(s, other.state + 2 * at->m->n, at->length);
     if (c.error <= follows + c.bound) c = stress_explain(STRESS_FAMILY, c.error, follows + c.bound);
   }
@@ -576,11 +595,16 @@ stress_check stress_check_cvode(solved_scene *s)
   return hold_found(s, &at, s->path.state, 0, by_cvode(&s->path));
 }
 
-/* A slider that never slips may rest elsewhere by another law: another member of the family. */
-static stress_check unless_family(const solved_scene *s, stress_check c)
+/* A slider that never slips may rest elsewhere by another law: how far is `other` from the member of the family, by the
+ * exact law, that begins where it does? NaN: there is none. */
+static double off_member(solved_scene *s, const stress_path *other)
 {
-  const bool family = s->model->n_contacts > 1 && s->path.r.free_sliders > 0;
-  return c.outcome == STRESS_FINDING && family ? stress_explain(STRESS_FAMILY, c.error, c.bound) : c;
+  const search at = next_to(s);
+  if (s->path.r.free_sliders == 0 || other->status != HC_OK) return NAN;
+  stress_path member = find_path(s, &at, other->state);
+  const double off = member.status == HC_OK ? paths_apart(s, &member, other, 0) : NAN;
+  stress_path_free(&member);
+  return off;
 }
 
 /* With a tenth of the regularisation an error of first or second order falls to a quarter or less. */
@@ -598,17 +622,22 @@ stress_check stress_check_regularised(solved_scene *s)
   double before = -1;
   int solved = 0;
   for (how->regularisation = 1e-4; how->regularisation >= 0.9e-7; how->regularisation /= 10) {
-    c = hold_found(s, &at, s->path.state, 0, same_law);
+    stress_path other = find_path(s, &at, s->path.state);
+    c = hold(s, &other, 0, same_law);
+    const double off = c.outcome == STRESS_FINDING ? off_member(s, &other) : NAN;
+    stress_path_free(&other);
     if (c.outcome == STRESS_REFUSED && solved >= 2) { /* it did not shrink, so far */
       c = stress_find(STRESS_DISAGREES, before, same_law);
       continue;
     }
     if (c.outcome != STRESS_FINDING || isnan(c.error)) return c;
+    if (off <= same_law) return stress_explain(STRESS_FAMILY, c.error, off);
+    c.error = fmin(c.error, off);
     ++solved;
     if (c.error <= before / 4) return stress_explain(STRESS_SMOOTHED, c.error, before / 4);
     before = c.error;
   }
-  return unless_family(s, c);
+  return c;
 }
 
 /* Is it proven, and does what is proven hold what was measured? Both bounds by how far it is outside, over the largest
@@ -624,8 +653,7 @@ static stress_check hold_proven(solved_scene *s, const timeint_result *r, const 
   if ((most < 1 && side < 0) || (least > 1 && side > 0)) {
     const double error = fabs(r->multiplier - (side < 0 ? most : least));
     stress_condition(s);
-    if (error <= s->multiplier_errs) return stress_explain(STRESS_ILL_CONDITIONED, error, s->multiplier_errs);
-    return stress_find(STRESS_DISAGREES, INFINITY, 0);
+    return stress_agree_within(error, 0, s->multiplier_errs);
   }
   const double off = r->amplitude < low ? low - r->amplitude : r->amplitude > high ? r->amplitude - high : 0;
   return stress_agree_within(off / s->path.amplitude, same_in_closed_form, sensitive(&s->path, NULL));

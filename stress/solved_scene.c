@@ -110,7 +110,7 @@ double stress_motion_distance(const solved_scene *s, const double *x, const doub
 {
   double apart = 0, size = 0;
   for (int i = means_out ? s->n : 0; i < s->n * s->n_coef; ++i) {
-    if (isnan(x[i]) || isnan(y[i])) return NAN;
+    if (!isfinite(x[i]) || !isfinite(y[i])) return NAN;
     apart = fmax(apart, fabs(x[i] - y[i]));
     size = fmax(size, fabs(y[i]));
   }
@@ -120,7 +120,7 @@ double stress_motion_distance(const solved_scene *s, const double *x, const doub
 double stress_multipliers_apart(const stress_motion *a, const stress_motion *b)
 {
   const double x = a->stability.multiplier, y = b->stability.multiplier;
-  if (a->stability_status != HC_OK || b->stability_status != HC_OK) return INFINITY;
+  if (a->stability_status != HC_OK || b->stability_status != HC_OK) return NAN;
   return fabs(x - y) / fmax(1, fabs(x));
 }
 

@@ -54,7 +54,7 @@ struct solved_scene {
   stress_motion fine;     /* with the most harmonics that were needed, from STRESS_ORBIT on */
   stress_path path;       /* the exact law's orbit next to it */
   int enough;             /* harmonics, the fewest tried that are within a hundredth of the gate of it; 0: none are */
-  stress_check predicted; /* of the comparison that STRESS_VERDICT made */
+  stress_check predicted; /* the worst row of the comparison that STRESS_VERDICT made */
   stress_answers *plain;  /* to what is asked of the scene and of it written another way; NULL: not asked yet */
 };
 
@@ -74,14 +74,14 @@ void stress_motion_free(stress_motion *m);
 hc_status stress_motion_read(const solved_scene *s, hbm_solver *h, double omega, const double *X, int n_coef,
                              double *x);
 
-/* Largest |x - y| over the largest |y|, without the means where they are left `out`; NaN if one is. */
+/* Largest |x - y| over the largest |y|, without the means where they are left `out`; NaN if one is not finite. */
 double stress_motion_distance(const solved_scene *s, const double *x, const double *y, bool means_out);
 
 /* s->solution_errs, multiplier_rate and multiplier_errs: by data changed at random, and by the same data from other
  * guesses. Noise in the multiplier of one and the same motion is no excuse, it must follow from the motion's. */
 void stress_condition(solved_scene *s);
 
-/* |difference| of the largest multipliers, relative where they are above 1; INFINITY: one is not known. */
+/* |difference| of the largest multipliers, relative where they are above 1; NaN: one is not known. */
 double stress_multipliers_apart(const stress_motion *a, const stress_motion *b);
 
 /* What is left of M x'' + C x' + K x + contact forces - loads for the motion x, over the largest sum of the sizes of
@@ -115,7 +115,7 @@ double stress_path_off(const solved_scene *s, int n_coef, const double *x, const
  * HC_NO_MEMORY goes to s->fatal; comparison_clear in any case. */
 hc_status stress_compare(solved_scene *s, const model *m, comparison *out);
 
-/* Largest ratio of a row's errors to the gate; above 1: beyond. */
+/* Largest ratio of a row's errors to the gate; above 1: beyond; NaN: one is not known, but for a mean that is free. */
 double stress_gate_ratio(const comparison_row *r, const discrepancy *gate);
 
 /* What the program says of the scene, and of it written another way, whose transients begin at start[]: the worst of
@@ -140,6 +140,9 @@ stress_check stress_agree_within(double error, double least, double sensitive);
 stress_check stress_refuse(solved_scene *s, hc_status st);
 
 stress_check stress_worse(stress_check a, stress_check b);
+
+/* What `compare` found in a row beside what both sides said it would be. */
+stress_check stress_hold_prediction(const comparison_row *r);
 
 /* The checks. */
 #define STRESS_FUNCTION(code, name, function, meaning) stress_check function(solved_scene *);

@@ -5,20 +5,22 @@
  *     unstable              the orbit next to the HBM solution is unstable by time integration, or at a corner
  *     differs, other_branch some discrepancy is beyond the gate
  *     period_k              k is 2 or more
- * What is true of its verdict ends as agreed (match), refused (solver_failed) or explained (all others). */
+ * What is true of its verdict ends as agreed (match), explained (these others) or refused (no steady state was found:
+ * solver_failed, not_settled, aperiodic, unbounded, creeps). */
 #include <math.h>
 
 #include "compare/comparison.h"
 #include "compare/motion.h"
+#include "numerics/norm.h"
 #include "stress/solved_scene.h"
 
 static double known(double part) { return part > 0 ? part : 0; }
 
 double stress_gate_ratio(const comparison_row *r, const discrepancy *g)
 {
-  double worst = fmax(r->errors.amplitude / g->amplitude,
-                      fmax(r->errors.harmonic_1 / g->harmonic_1, r->errors.waveform / g->waveform));
-  return motion_mean_is_free(&r->transient) ? worst : fmax(worst, r->errors.mean / g->mean);
+  double worst = larger(r->errors.amplitude / g->amplitude,
+                        larger(r->errors.harmonic_1 / g->harmonic_1, r->errors.waveform / g->waveform));
+  return motion_mean_is_free(&r->transient) ? worst : larger(worst, r->errors.mean / g->mean);
 }
 
 static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
@@ -39,7 +41,7 @@ static bool wrong(const comparison_row *r, const discrepancy *g, double *ratio)
       return false; /* multipliers are those of one side (compare/solution.c) */
     return r->orbit_status == HC_OK ? timeint_stability(&r->orbit) > 0 : hbm_stability_verdict(&r->stability) > 0;
   case VERDICT_DIFFERS:
-  case VERDICT_OTHER_BRANCH: return *ratio <= 1;
+  case VERDICT_OTHER_BRANCH: return !(*ratio > 1);
   case VERDICT_PERIOD_K: return r->transient.period_multiple < 2;
   default: return false;
   }
@@ -52,27 +54,33 @@ static stress_check row_check(solved_scene *s, const comparison_row *r)
   if (r->hbm_status == HC_BUG || r->transient_status == HC_BUG) return stress_find(STRESS_INTERNAL, NAN, NAN);
   if (wrong(r, &g, &ratio)) return stress_find(STRESS_WRONG_VERDICT, ratio, 1);
   if (r->verdict == VERDICT_MATCH) return stress_agree(r->still ? 0 : ratio, 1);
-  if (r->verdict != VERDICT_SOLVER_FAILED) return stress_explain(STRESS_SAID_SO, ratio, 1);
-  return stress_refuse(s, r->hbm_status != HC_OK ? r->hbm_status : r->transient_status);
+  const hc_status failed = r->hbm_status != HC_OK ? r->hbm_status : r->transient_status;
+  return failed == HC_OK ? stress_explain(STRESS_SAID_SO, ratio, 1) : stress_refuse(s, failed);
 }
 
-/* The amplitude's discrepancy of a row beside what both sides said it would be, or *so_far if that is worse. Rows in
- * which no contact changes its state are left out: linear motions, rounding against rounding. */
-static void hold_prediction(const comparison_row *r, stress_check *so_far)
+/* Amplitude and waveform, as far as both sides said something. Rows in which no contact changes its state are left out:
+ * linear motions, rounding against rounding. Predictions know nothing of a family: its members may be as far apart as
+ * the budget's two are. */
+stress_check stress_hold_prediction(const comparison_row *r)
 {
-  const double said = r->hbm_predicted.amplitude + r->transient_predicted.amplitude;
+  const discrepancy *hbm = &r->hbm_predicted, *transient = &r->transient_predicted;
+  const double said[] = {hbm->amplitude + transient->amplitude, hbm->waveform + transient->waveform};
+  const double found[] = {r->errors.amplitude, r->errors.waveform},
+               apart[] = {known(r->budget.amplitude.regularisation), known(r->budget.waveform.regularisation)};
   const bool one_orbit = r->verdict == VERDICT_MATCH || r->verdict == VERDICT_DIFFERS;
-  if (!one_orbit || r->transient.period_multiple != 1 || isnan(said)) return;
-  if (r->hbm.contact.regime <= CONTACT_STUCK) {
-    if (so_far->outcome == STRESS_SKIPPED) *so_far = stress_skip(STRESS_NOT_APPLICABLE);
-    return;
+  stress_check worst = stress_skip(STRESS_NO_ORBIT);
+  if (!one_orbit || r->transient.period_multiple != 1) return worst;
+  if (r->hbm.contact.regime <= CONTACT_STUCK) return stress_skip(STRESS_NOT_APPLICABLE);
+  for (int i = 0; i < 2; ++i) {
+    const double ratio = found[i] == 0 ? 0 : found[i] / said[i], bound = COMPARISON_SLACK;
+    if (!isfinite(said[i])) continue;
+    stress_check c = stress_agree(ratio, bound);
+    if (c.outcome == STRESS_FINDING && !isnan(ratio)) c.reason = STRESS_UNEXPECTED;
+    if (ratio > bound && r->family && found[i] <= bound * said[i] + apart[i])
+      c = stress_explain(STRESS_FAMILY, ratio, bound + apart[i] / said[i]);
+    worst = stress_worse(worst, c);
   }
-  const double ratio = r->errors.amplitude == 0 ? 0 : r->errors.amplitude / said, bound = COMPARISON_SLACK;
-  if (so_far->outcome != STRESS_SKIPPED && !(ratio > so_far->error)) return;
-  const stress_check agrees = stress_agree(ratio, bound);
-  *so_far = agrees;
-  if (agrees.outcome != STRESS_AGREED && (r->family || r->unexpected))
-    *so_far = stress_explain(r->family ? STRESS_FAMILY : STRESS_UNEXPECTED, ratio, bound);
+  return worst;
 }
 
 hc_status stress_compare(solved_scene *s, const model *m, comparison *out)
@@ -110,7 +118,8 @@ stress_check stress_check_verdict(solved_scene *s)
   if (c.n_rows == 0) worst = st == HC_OK ? stress_find(STRESS_INTERNAL, NAN, NAN) : stress_refuse(s, st);
   for (int i = 0; i < c.n_rows; ++i) {
     stress_check row = row_check(s, &c.rows[i]);
-    hold_prediction(&c.rows[i], &s->predicted);
+    const stress_check predicted = stress_hold_prediction(&c.rows[i]);
+    s->predicted = s->predicted.outcome == STRESS_SKIPPED ? predicted : stress_worse(s->predicted, predicted);
     if (row.outcome > worst.outcome) worst = row;
   }
   comparison_clear(&c);

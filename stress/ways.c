@@ -146,8 +146,7 @@ static stress_check same_multiplier(solved_scene *s, const stress_motion *other,
   if (apart <= same_multipliers) return stress_agree(error, bound);
   stress_condition(s);
   if (s->solution_errs > STRESS_SAYS_SOMETHING) return stress_skip(STRESS_ILL_CONDITIONED);
-  return apart <= s->multiplier_errs ? stress_explain(STRESS_ILL_CONDITIONED, apart, s->multiplier_errs)
-                                     : stress_find(STRESS_DISAGREES, apart, fmax(same_multipliers, s->multiplier_errs));
+  return stress_agree_within(apart, same_multipliers, s->multiplier_errs);
 }
 
 /* Is the base solution, moved a little to either side along a motion that K does not hold, in balance, too? */

@@ -4,7 +4,9 @@
 
 #include <float.h>
 
+#include "hbm/planar/planar_slip.h"
 #include "tests/hbm/planar_scenes.h"
+#include "tests/wrap.h"
 
 static double jac[CIRCLE_MAX_X * CIRCLE_MAX_X];
 
@@ -209,7 +211,37 @@ static void refuses(CHECK_STATE)
   planar_force_free(f);
 }
 
+/* Slip that cannot be followed, as if it had run out of room, at that call; before, it is off by `noise` to either side,
+ * so that Newton does not end. */
+static int calls, fails_at;
+static double noise;
+WRAP(hc_status, planar_slip_follow,
+     (planar_slip * s, const planar_point *from, double phi, double to, bool lifts_off, slip_end *end))
+{
+  const hc_status st = __real_planar_slip_follow(s, from, phi, to, lifts_off, end);
+  end->phi += ++calls % 2 ? noise : -noise;
+  return calls == fails_at ? HC_CHATTER : st;
+}
+
+/* In whichever pass slip fails, the force says so: in the two that begin, Newton's 20, those that follow when Newton
+ * has not ended, and Newton's again. */
+static void a_failure_in_any_pass_is_told(CHECK_STATE)
+{
+  const contact law = {.kt = 3, .mu = 0.4, .load = 2.5};
+  const double X[6] = {0, 1, 0, 0, 0, 1};
+  double F[6];
+  planar_force *f = make(&law, 1);
+  noise = 1e-3;
+  for (fails_at = 1; fails_at <= 40; ++fails_at) {
+    calls = 0;
+    assert_int_equal(planar_force_eval(f, X, F, NULL, NULL), HC_CHATTER);
+    assert_int_equal(calls, fails_at);
+  }
+  noise = fails_at = 0;
+  planar_force_free(f);
+}
+
 CHECK_TESTS("hbm.planar_force", 300, a_line_is_one_tangent, a_circle_by_its_closed_form,
             random_scenes_meet_the_sampled_ones, turns_and_shifts, with_jacobian_the_force_is_the_same,
             jacobian_equals_differences, stuck_and_open_are_linear, a_slider_rests_in_the_largest_disc_of_a_lens,
-            three_discs_hold_it, refuses)
+            three_discs_hold_it, refuses, a_failure_in_any_pass_is_told)

@@ -173,7 +173,7 @@ def newton(data, steps=40, count=25, damped=True):
             test.__init__(orbit)
         except (check.Wrong, check.Unproven, OverflowError, ValueError, ZeroDivisionError):
             return None
-        values, _ = orbit.shoot(test.y, test.flows_of(test.y))
+        values, _ = orbit.shoot(test.y, test.flows, test.taus)
         unit = 1 << check.Ball.bits
         step = [Fraction(sum(b * f.m for b, f in zip(row, values)) >> check.Ball.bits, unit) for row in test.B]  # scaled
         size = float(min(max(map(abs, step)), 10 ** 9))

@@ -252,6 +252,22 @@ class Certificates(unittest.TestCase):
             room = (high - low) / 4
             self.assertTrue(low + room <= found[0] <= found[1] <= high - room, (name, float((found[1] - found[0]) / (high - low))))
 
+    def test_limits_that_are_reached_together(self):
+        """A contact as two: of equal shares they are one limit; of others, although they slip together, two."""
+        if not PROGRAM:
+            self.skipTest("without the checker in C")
+        whole = json.loads((HERE / "certificates/chain3_1.2585.json").read_text())
+        contacts = whole["model"]["contacts"]
+        shares = lambda *parts: [{**contacts[0], **{k: str(part * float(contacts[0][k])) for k in ("tangential_stiffness", "preload")}} for part in parts]
+        events = [{**e, **{k: [float(v) for v in e[k]] for k in "xv"}, "t": float(e["t"]), "state": e["state"][0] + e["state"]} for e in whole["events"]]
+        candidate = {k: whole[k] for k in ("omega", "multiple", "response")} | {"events": events}
+        candidate["model"] = {**whole["model"], "contacts": shares(0.5, 0.5) + contacts[1:]}
+        run = subprocess.run([PROGRAM, "complete", "-", "-o", "-"], input=json.dumps(candidate), capture_output=True, text=True)
+        made = json.loads(run.stdout)["certificate"]
+        self.assertEqual(judged(made)["verdict"], "accepted")
+        made["model"]["contacts"][:2] = shares(0.25, 0.75)
+        self.assertRegex(judged(made)["reason"] or "accepted", "^two independent transitions at once")
+
     def test_null_is_no_claim(self):
         data = json.loads(CERTIFICATES[0].read_text())
         for name in data["claims"]:

@@ -372,8 +372,10 @@ class Wrong(unittest.TestCase):
         self.assertEqual(run("check", __file__).returncode, 2)
         self.assertEqual(json.loads(run("check", "--format", "json", path).stdout)["file"], path)
         for arguments in ((), ("check",), ("chek", path), ("check", path, "--format"), ("check", path, "--format", "xml"), ("complete", path),
-                          ("complete", "-", "-o", "file"), ("complete", path, "-o", "-", "--precision-bits", "3")):
+                          ("complete", "-", "-o", "file"), ("complete", path, "-o", "-", "--precision-bits", "3"), ("complete", path, path, "-o", os.devnull),
+                          ("complete", "-"), ("complete", "-o", os.devnull)):
             self.assertEqual(run(*arguments).returncode, 64, arguments)
+        self.assertEqual(run("complete", path, "-o", os.devnull).returncode, 0)
 
 
 if __name__ == "__main__":

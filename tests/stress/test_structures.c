@@ -31,11 +31,17 @@ typedef enum spoil {
   DETERMINANT,
   CURVE_MOVED,      /* the solutions found along a curve */
   ORBITS_SCALED,    /* by time integration, as they are read */
+  ORBITS_FAR,       /* by ten times as much */
   LATER_ORBITS,     /* each more than the one before */
   ORBIT_MULTIPLIER, /* of all */
   PROOF_OF_ANOTHER, /* model, by a little */
   PROOF_MEASURED,   /* another amplitude, by a little */
+  LAW_ORBITS,       /* of the regularised law, all by as much */
   VERDICT_TURNED,   /* into a match */
+  MATCH_UNKNOWN,    /* a match whose amplitude is not known, */
+  DIFFERS_UNKNOWN,  /* or something that differs */
+  PREDICTED_LESS,   /* by both sides, a thousandth; `unexpected` says so */
+  PREDICTED_WAVE,   /* the same of the waveform alone */
   /* of the model written another way alone: */
   OTHER_HEAVIER,   /* in what is solved, by a little */
   SPECIAL_LOST,    /* one special point of its curve */
@@ -207,7 +213,12 @@ WRAP(hc_status, certificate_model_make, (const scene *sc, const model *m, int r,
 WRAP(hc_status, timeint_response, (timeint * ti, int i, timeint_result *r))
 {
   hc_status st = __real_timeint_response(ti, i, r);
-  const double by = spoiled == ORBITS_SCALED ? 1e-5 : spoiled == LATER_ORBITS ? 1e-5 * orbits : 0;
+  const bool law = spoiled == LAW_ORBITS && last_law == TRANSIENT_LAW_REGULARISED;
+  const double by = law                        ? 1e-3
+                    : spoiled == ORBITS_SCALED ? 1e-5
+                    : spoiled == ORBITS_FAR    ? 1e-4
+                    : spoiled == LATER_ORBITS  ? 1e-5 * orbits
+                                               : 0;
   for (int k = 0; k < TIMEINT_WAVE; ++k) r->wave[k] *= 1 + by;
   return st;
 }
@@ -217,6 +228,16 @@ WRAP(hc_status, comparison_run, (const compare_setup *setup, const hc_monitor *m
   hc_status st = __real_comparison_run(setup, monitor, out);
   for (int i = 0; i < out->n_rows && spoiled == VERDICT_TURNED; ++i)
     out->rows[i].verdict = VERDICT_MATCH, out->rows[i].errors.waveform = 0.1;
+  for (int i = 0; i < out->n_rows && (spoiled == MATCH_UNKNOWN || spoiled == DIFFERS_UNKNOWN); ++i) {
+    out->rows[i].verdict = spoiled == MATCH_UNKNOWN ? VERDICT_MATCH : VERDICT_DIFFERS;
+    out->rows[i].errors.amplitude = NAN;
+  }
+  for (int i = 0; i < out->n_rows && (spoiled == PREDICTED_LESS || spoiled == PREDICTED_WAVE); ++i) {
+    comparison_row *r = &out->rows[i];
+    discrepancy *const said[] = {&r->hbm_predicted, &r->transient_predicted};
+    for (int k = 0; k < 2; ++k) said[k]->waveform *= 1e-3, said[k]->amplitude *= spoiled == PREDICTED_LESS ? 1e-3 : 1;
+    r->unexpected = comparison_unexpected(r);
+  }
   for (int i = 0; i < out->n_rows && spoiled == VERDICT_OTHER && is_other(setup->model); ++i)
     out->rows[i].verdict = VERDICT_UNSTABLE;
   return st;
@@ -414,6 +435,37 @@ static void a_wrong_orbit_is_found(CHECK_STATE)
   for (stress_kind kind = STRESS_ORBIT_REWRITTEN; kind <= STRESS_ORBIT_LAWS; ++kind)
     expect_finding(true, LATER_ORBITS, kind);
   expect_finding(true, VERDICT_TURNED, STRESS_VERDICT);
+  expect_finding(true, MATCH_UNKNOWN, STRESS_VERDICT);
+  expect_finding(true, DIFFERS_UNKNOWN, STRESS_VERDICT);
+  expect_finding(true, PREDICTED_LESS, STRESS_PREDICTED);
+  expect_finding(true, PREDICTED_WAVE, STRESS_PREDICTED);
+}
+
+/* That scene and a stiff spring of friction that never slips: the orbits are a family, and the stuck structure would
+ * ring far beyond all harmonics. No orbit that is off is a member, nor is the error among harmonics that are left. */
+static void neither_a_family_nor_stiffness_excuses(CHECK_STATE)
+{
+  char stiff[2048];
+  const char *end = strstr(text, "sweep:");
+  snprintf(stiff, sizeof stiff, "%.*s  - {tangential_stiffness: 1e5, friction: 1, preload: 1e6, tangent: {3: 1}}\n%s",
+           (int)(end - text), text, end);
+  scene sc = parsed(stiff);
+  stress_result r = spoiled_stress(&sc, NOTHING);
+  for (int k = 0; k < STRESS_N_CHECKS; ++k)
+    if (r.check[k].outcome == STRESS_FINDING)
+      fail_msg("%s: %s", stress_kind_name((stress_kind)k), stress_reason_name(r.check[k].reason));
+  static const struct {
+    spoil with;
+    stress_kind kind;
+  } rows[] = {{ORBITS_FAR, STRESS_ORBIT}, {ORBIT_MULTIPLIER, STRESS_MULTIPLIER}, {LAW_ORBITS, STRESS_ORBIT_LAWS}};
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+    r = spoiled_stress(&sc, rows[i].with);
+    const stress_check *c = &r.check[rows[i].kind];
+    if (c->outcome != STRESS_FINDING)
+      fail_msg("spoil %d: %s %s, %g of %g", (int)rows[i].with, stress_outcome_name(c->outcome),
+               stress_reason_name(c->reason), c->error, c->bound);
+  }
+  case_clear(&sc);
 }
 
 static void a_finding_is_made_small(CHECK_STATE)
@@ -453,7 +505,7 @@ static void good_oscillators_are_no_findings(CHECK_STATE)
     const scene sc = i ? slips : case_2();
     const stress_result r = spoiled_stress(&sc, NOTHING);
     for (int k = 0; k < STRESS_N_CHECKS; ++k)
-      if (r.check[k].outcome >= STRESS_DEAR)
+      if (r.check[k].outcome >= STRESS_DEAR && !(k == STRESS_VERDICT && r.check[k].status == HC_NOT_SETTLED))
         fail_msg("scene %d, %s: %s %s", i, stress_kind_name((stress_kind)k), stress_outcome_name(r.check[k].outcome),
                  stress_reason_name(r.check[k].reason));
   }
@@ -464,11 +516,8 @@ static void a_wrong_oscillator_is_found(CHECK_STATE)
   static const struct {
     spoil with;
     stress_kind kind;
-  } rows[] = {{FOUND_MOVED, STRESS_FREE},
-              {FOUND_MOVED, STRESS_STUCK},
-              {FOUND_MOVED, STRESS_UNITS},
-              {ORBITS_SCALED, STRESS_ORBIT},
-              {VERDICT_TURNED, STRESS_VERDICT}};
+  } rows[] = {{FOUND_MOVED, STRESS_FREE},    {FOUND_MOVED, STRESS_STUCK},      {FOUND_MOVED, STRESS_UNITS},
+              {ORBITS_SCALED, STRESS_ORBIT}, {VERDICT_TURNED, STRESS_VERDICT}, {PREDICTED_LESS, STRESS_PREDICTED}};
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
     const scene sc = case_2();
     const stress_result r = spoiled_stress(&sc, rows[i].with);
@@ -563,7 +612,7 @@ static void findings_of_other_seeds_are_none(CHECK_STATE)
               {STRESS_STRUCTURES, 7271321, 282, STRESS_FREE, STRESS_NO_REASON},
               {STRESS_STRUCTURES, 7271322, 99, STRESS_FREE, STRESS_NO_REASON},
               {STRESS_SPACE, 7271331, 113, STRESS_SAMPLED, STRESS_NO_REASON},
-              {STRESS_SPACE, 7271332, 166, STRESS_ORBIT, STRESS_FAMILY},
+              {STRESS_SPACE, 7271332, 166, STRESS_ORBIT, STRESS_TRUNCATED},
               {STRESS_SPACE, 7271353, 179, STRESS_ORBIT_REWRITTEN, STRESS_NO_ORBIT},
               {STRESS_STRUCTURES, 7271361, 176, STRESS_PROOF, STRESS_ILL_CONDITIONED},
               {STRESS_STRUCTURES, 7281401, 107, STRESS_MULTIPLIER, STRESS_NO_REASON},
@@ -573,8 +622,7 @@ static void findings_of_other_seeds_are_none(CHECK_STATE)
               {STRESS_OSCILLATORS, 7281501, 1773, STRESS_MULTIPLIER, STRESS_UNRESOLVED},
               {STRESS_OSCILLATORS, 7284001, 1223, STRESS_MULTIPLIER, STRESS_TRUNCATED},
               {STRESS_STRUCTURES, 7281602, 305, STRESS_ORBIT_REWRITTEN, STRESS_FAMILY},
-              {STRESS_SPACE, 7282803, 422, STRESS_DELAYED, STRESS_FAMILY},
-              {STRESS_SPACE, 7282903, 350, STRESS_ORBIT, STRESS_FAMILY},
+              {STRESS_SPACE, 7282903, 350, STRESS_ORBIT, STRESS_TRUNCATED},
               {STRESS_OSCILLATORS, 7271313, 908, STRESS_ORBIT_LAWS, STRESS_SMOOTHED}};
   gsl_set_error_handler_off(); /* as the command does: eigenvalues that do not converge are a status */
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
@@ -637,14 +685,14 @@ static void check_echo(int i, const scene *sc)
 /* Every scene is a case file that reads back to the same; all kinds of everything come up; the index alone decides. */
 static void every_scene_is_a_case_file(CHECK_STATE)
 {
-  int damping[4] = {0}, sizes[13] = {0}, contacts[7] = {0}, jenkins = 0, springs = 0, loads = 0, at_rest = 0,
+  int damping[4] = {0}, sizes[13] = {0}, contacts[13] = {0}, jenkins = 0, springs = 0, loads = 0, at_rest = 0,
       laws[4] = {0};
   CHECK_MADE(stress_scenes, scenes, stress_scenes_new(1, &scenes));
   for (int i = 0; i < 300; ++i) {
     CHECK_FILLED(scene, sc, stress_structures_at(scenes, i, &sc));
     check_echo(i, &sc);
     const scene_structure *s = sc.structure;
-    assert_true(s->n >= 1 && s->n <= 12 && s->n_contacts >= 1 && s->n_contacts <= 6);
+    assert_true(s->n >= 1 && s->n <= 12 && s->n_contacts >= 1 && s->n_contacts <= 12); /* 6 may have 6 that face them */
     ++damping[s->how], ++sizes[s->n], ++contacts[s->n_contacts];
     for (int j = 0; j < s->n_contacts; ++j) {
       jenkins += s->contacts[j].given.law.kn == 0;
@@ -688,8 +736,11 @@ static void scenes_in_space_are_case_files(CHECK_STATE)
     for (int j = 0; j < s->n_contacts; ++j) {
       bool pair = false;
       for (int k = 0; k < s->n; ++k) pair |= s->contacts[j].tangent_2[k] != 0;
-      if (flat.structure->contacts[j].given.kind == CONTACT_KINKED) /* in space all are */
-        assert_memory_equal(s->contacts[j].tangent, flat.structure->contacts[j].tangent, bytes);
+      const structure_contact *c = j < flat.structure->n_contacts ? &flat.structure->contacts[j] : NULL;
+      const bool whole =
+          c && !is_zero(s->n, c->tangent) && !is_zero(s->n, c->normal); /* of others some are drawn anew */
+      if (whole && c->given.kind == CONTACT_KINKED)                     /* in space all are */
+        assert_memory_equal(s->contacts[j].tangent, c->tangent, bytes);
       pairs += pair;
       circles += pair && s->contacts[j].given.limit == CONTACT_LIMIT_CIRCLE;
     }
@@ -809,9 +860,10 @@ static void first_solutions_in_space_take_few_iterations(CHECK_STATE)
 }
 
 CHECK_TESTS("stress.structures", 600, jacobians_of_mixed_laws, good_answers_agree, a_wrong_solution_is_found,
-            a_wrong_force_is_found, another_solution_is_found, a_wrong_orbit_is_found, a_finding_is_made_small,
-            good_oscillators_are_no_findings, a_wrong_oscillator_is_found,
-            another_answer_of_a_scene_written_another_way_is_found, an_oscillator_is_made_small,
-            findings_of_other_seeds_are_none, what_only_sensitivity_allows_is_ill_conditioned,
-            every_scene_is_a_case_file, circles_are_held_against_their_law, scenes_in_space_are_case_files,
-            orbits_on_an_edge_of_slip_are_kept, first_solutions_in_space_take_few_iterations)
+            a_wrong_force_is_found, another_solution_is_found, a_wrong_orbit_is_found,
+            neither_a_family_nor_stiffness_excuses, a_finding_is_made_small, good_oscillators_are_no_findings,
+            a_wrong_oscillator_is_found, another_answer_of_a_scene_written_another_way_is_found,
+            an_oscillator_is_made_small, findings_of_other_seeds_are_none,
+            what_only_sensitivity_allows_is_ill_conditioned, every_scene_is_a_case_file,
+            circles_are_held_against_their_law, scenes_in_space_are_case_files, orbits_on_an_edge_of_slip_are_kept,
+            first_solutions_in_space_take_few_iterations)

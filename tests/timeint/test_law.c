@@ -3,6 +3,8 @@
 
 #include <float.h>
 
+#include "numerics/random.h"
+#include "timeint/law/contact_track.h"
 #include "timeint/law/law_regularised.h"
 
 static const contact steel = {.kt = 3, .kn = 5, .mu = 0.3, .gap = 0.2};
@@ -104,5 +106,24 @@ static void limits(CHECK_STATE)
   CHECK_LE(1, isnan(law_regularised_eval(&c, 0, NAN, 0).n), "NaN is not swallowed");
 }
 
+/* Of either sign and any size: sums of three terms, of which each and each partial sum is rounded once, are off by less
+ * than five half units of the sizes of what they are made of. */
+static void guards_are_noisier_than_rounding(CHECK_STATE)
+{
+  const law_regularised l = law_regularised_make(&steel, 0, 1);
+  const scaled_contact c = {.law = l};
+  uint64_t seed = 25;
+  for (int i = 0; i < 10000; ++i) {
+    double x[3];
+    for (int k = 0; k < 3; ++k) x[k] = pow(10, 3 * random_signed(&seed)) * random_signed(&seed);
+    const double half = 0.5 * DBL_EPSILON, u = fabs(x[0]), v = fabs(x[1]), w = fabs(x[2]);
+    CHECK_LE(5 * half * (v + l.gap), contact_track_distance_noise(&c, x[1]), "V + gap at %g", x[1]);
+    CHECK_LE(5 * half * (l.kt * (u + w) + l.mu * l.kn * (v + l.gap)), contact_track_force_noise(&c, x[0], x[1], x[2]),
+             "forces at %g, %g, %g", x[0], x[1], x[2]);
+    CHECK_LE(5 * half * (l.kt * u + l.mu * l.kn * v), contact_track_rate_noise(&c, x[0], x[1]), "rates at %g, %g", x[0],
+             x[1]);
+  }
+}
+
 CHECK_TESTS("timeint.law", 60, branches_are_exact, sign_follows_the_motion, softplus_errs_by_second_order,
-            derivatives_are_those_of_the_values, limits)
+            derivatives_are_those_of_the_values, limits, guards_are_noisier_than_rounding)
