@@ -182,8 +182,8 @@ static hc_status perturbations_decay(comparison_work *w, const comparison_row *r
 {
   *stays = 1;
   for (int to = -1; to <= 1 && *stays >= 0; to += 2) {
-    timeint_result there;
-    discrepancy e;
+    timeint_result there = {.period_multiple = 0};
+    discrepancy e = {NAN, NAN, NAN, NAN};
     hc_status st = perturbed_motion(w, row->omega, to, &there);
     if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
     const bool escapes = st == HC_UNBOUNDED || st == HC_CREEPS;

@@ -342,8 +342,8 @@ static void write_notes(const layout *l, int wanted, FILE *to)
 
 hc_status table_write_aligned(const table *t, FILE *to)
 {
-  const size_t n = (size_t)t->n_columns, cells = n * ((size_t)table_row_count(t) + 1);
-  layout l = {.t = t, .texts = calloc(cells, sizeof *l.texts), .style = calloc(n, sizeof *l.style)};
+  const size_t n = (size_t)t->n_columns, cells = n * ((size_t)table_row_count(t) + 1) + 1;
+  layout l = {.t = t, .texts = calloc(cells, sizeof *l.texts), .style = calloc(n + 1, sizeof *l.style)};
   l.longest = t->wrap ? t->wrap : t->fit ? t->fit : INT_MAX;
   bool good = l.texts && l.style;
   for (int j = 0; j < t->n_columns && good; ++j) good = make_texts(&l, j);

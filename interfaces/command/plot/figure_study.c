@@ -231,7 +231,8 @@ static const char *short_value(const study_axis *a, const study_field *f, int i,
 static void join_fields(const study_axis *a, int i, char text[TEXT])
 {
   char value[TEXT];
-  size_t used = text[0] = 0;
+  size_t used = 0;
+  text[0] = 0;
   for (int k = 0; k < a->n_fields && used < TEXT - 1; ++k)
     if (varies(a, &a->fields[k]))
       used += (size_t)snprintf(text + used, TEXT - used, "%s%s", used ? ", " : "",
