@@ -234,7 +234,8 @@ static const char *stability_text(int s) { return s > 0 ? "stable" : s < 0 ? "un
   X(REAL,    "hbm_amplitude",   true, r->hbm_amplitude)                     \
   X(REAL,    "error_predicted", true, r->predicted)                         \
   X(INTEGER, "harmonics",       r->harmonics > 0 && r->multiple > 0, r->harmonics) \
-  X(REAL,    "seconds",         r->multiple > 0, r->seconds)
+  X(REAL,    "seconds",         r->multiple > 0, r->seconds)                \
+  X(INTEGER, "free_sliders",    r->proven, r->free_sliders)
 /* clang-format on */
 
 static void fill_REAL(row_cell *c, bool there, double value)
@@ -286,9 +287,9 @@ static const char *const of_compare_contact[] = {
     "normal_error", "verdict", NULL};
 
 static const char *const of_prove[] = {
-    "omega", "seconds", "harmonics", "mean_low", "mean_high", "harmonic_1_low", "harmonic_1_high", "multiplier_low",
-    "multiplier_high", "hbm_amplitude", "period_multiple", "radius", "transitions", "error_predicted", "certificate",
-    "states", "amplitude_high", "reason", NULL};
+    "omega", "seconds", "free_sliders", "harmonics", "mean_low", "mean_high", "harmonic_1_low", "harmonic_1_high",
+    "multiplier_low", "multiplier_high", "hbm_amplitude", "period_multiple", "radius", "transitions", "error_predicted",
+    "certificate", "states", "amplitude_high", "reason", NULL};
 
 static const char *const of_others[] = {"omega", NULL};
 /* clang-format on */

@@ -175,9 +175,12 @@ static void put_answer(const study_claim *c, int which, const said *a, table *t,
   ++*(is == STUDY_EXPECT_AGREE      ? &tally->agree[which]
       : is == STUDY_EXPECT_DISAGREE ? &tally->disagree[which]
                                     : &tally->unsaid[which]);
+  const char *source = c->source.text ? c->source.text : "a claim";
+  if (expect != STUDY_EXPECT_UNSAID && !*a->holds)
+    table_note(t, "no row answers%s: %s: %s", with[which], source, c->says.text);
   if (expect == STUDY_EXPECT_NOTHING || expect == is) return;
   ++tally->unexpected;
-  table_note(t, "not as expected%s: %s: %s", with[which], c->source.text ? c->source.text : "a claim", c->says.text);
+  table_note(t, "not as expected%s: %s: %s", with[which], source, c->says.text);
 }
 
 static void put_claim(const study_claim *c, const said a[STUDY_ANSWERS], table *const t[STUDY_CLAIM_TABLES],

@@ -78,7 +78,7 @@ static hc_status keep_certificate(void *self, proof_row *row, const json_t *cert
 table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
 {
   const char *title = common->scene->title;
-  int proven = 0, for_reason[PROOF_N_REASONS] = {0}, moved = 0, led = 0;
+  int proven = 0, for_reason[PROOF_N_REASONS] = {0}, moved = 0, led = 0, members = 0;
   char of[RESPONSE_NAME], at[SCENE_WHERE];
   table *t = cli_table(common, "Proofs", ROWS_PROVE);
   for (int i = 0; i < p->n; ++i) {
@@ -86,6 +86,7 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
     cli_put_row(common, t, ROWS_PROVE, r);
     proven += r->proven;
     moved += r->moved;
+    members += r->proven && r->free_sliders > 0;
     led += r->proven && (r->harmonics > 0 || r->by_events);
     if (r->proven) continue;
     ++for_reason[r->reason];
@@ -104,6 +105,11 @@ table *proofs_table(const cli_common *common, const proofs *p, hc_status st)
         "in %d row%s no orbit is next to the solution: it is the one that harmonic balance from there on leads to, "
         "from more harmonics and with the mean, or Newton from the contacts' changes along its motion",
         led, led == 1 ? "" : "s");
+  if (members)
+    table_note(t,
+               "in %d row%s a slider never slips: the orbit is one of a family, and the only one near it whose sliders "
+               "rest where the certificate says",
+               members, members == 1 ? "" : "s");
   if (moved)
     table_note(
         t,

@@ -167,6 +167,7 @@ static hc_status ask(prover *p, const timeint_result *r, const orbit_events *e, 
   const char *words = json_string_value(json_object_get(answer, "reason"));
   row->proven = said && !strcmp(said, "accepted") && certificate_is_of(refined, &p->model, row->omega, row->multiple);
   row->reason = row->proven ? PROOF_NO_REASON : reason_of(answer, json_object_get(candidate, "rest"), r);
+  row->free_sliders = (int)json_object_size(json_object_get(candidate, "rest"));
   certificate_letters(candidate, row->states, sizeof row->states);
   snprintf(row->detail, sizeof row->detail, "%s", words ? words : "");
   if (row->proven) read_claims(json_object_get(refined, "claims"), row);

@@ -52,6 +52,8 @@ typedef struct proof_row {
   bool by_events;            /* the orbit was found from the events of the motion from the solution */
   bool moved;                /* sliders that never slip had to be moved for it, */
   bool other_member;         /* which changed its amplitude: the error of HBM's is not known */
+  int free_sliders;          /* that never slip: where they rest is in the certificate, and for each place there is an
+                                orbit; unique is that of these places */
   int stability;             /* +1 proven stable, -1 proven unstable, 0 unproven */
   proof_bounds amplitude, mean, harmonic_1; /* [length] of the orbit */
   proof_bounds multiplier;         /* [1] of the largest Floquet multiplier's modulus, over the orbit's period */

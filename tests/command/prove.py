@@ -117,6 +117,32 @@ class Prove(unittest.TestCase):
         self.assertEqual(code, 0, err)
         self.assertIn("a slider that never slips was on the verge of it", out)
 
+    def test_a_member_of_a_family_says_so(self):
+        """Beside a contact that slips and a stop one that never slips: where its slider rests, the orbit is another. Without such a slider nothing is said."""
+        case = f"{self.folder}/family.yaml"
+        with open(case, "w") as file:
+            file.write("structure: {mass: [1], stiffness: [[40]], damping: [[0.4]]}\nforcing: [{dof: 1, amplitude: 10}]\ncontacts:\n"
+                       "  - {tangential_stiffness: 20, friction: 0.5, preload: 3, tangent: {1: 1}}\n"
+                       "  - {tangential_stiffness: 10, friction: 0.5, preload: 40, tangent: {1: 1}}\n"
+                       "  - {normal_stiffness: 30, gap: -0.3, normal: {1: 1}}\nsweep: {omega: [5, 9]}\n")
+        words = "in 1 row a slider never slips: the orbit is one of a family"
+        code, rows, _ = prove(case, "--at", "6", "-o", self.folder)
+        self.assertEqual((code, [(r["verdict"], r["free_sliders"]) for r in rows]), (0, [("proven", "1")]))
+        self.assertIn(words, run("prove", case, "--at", "6")[1])
+        self.assertIn(words, run("prove", case, "--at", "6", "--format", "json")[1])
+        self.assertIn(words, run("compare", case, "--at", "6", "--prove")[1])
+        # another member: the same certificate, its slider elsewhere, is proven, too, and the amplitudes exclude each other
+        with open(f"{self.folder}/{rows[0]['certificate']}") as file:
+            member = json.load(file)
+        member["rest"]["1"] = "0.1"
+        done = subprocess.run([PROOF, "complete", "-", "-o", "-"], input=json.dumps(member), capture_output=True, text=True, timeout=60)
+        other = json.loads(done.stdout)
+        self.assertEqual(other["verdict"], "accepted", other["reason"])
+        self.assertTrue(Fraction(other["amplitude"][1]) < Fraction(rows[0]["amplitude_low"]) or Fraction(other["amplitude"][0]) > Fraction(rows[0]["amplitude_high"]))
+        _, rows, _ = prove(CASE2, "--at", "9")
+        self.assertEqual({r["free_sliders"] for r in rows}, {"0"})
+        self.assertNotIn("family", run("prove", CASE2, "--at", "9")[1])
+
     def test_circle(self):
         code, rows, _ = prove(f"{CASES}/structures/plane.yaml")
         self.assertEqual((code, {(r["verdict"], r["reason"], r["certificate"]) for r in rows}), (0, {("unproven", "circle", "")}))
