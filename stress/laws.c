@@ -30,6 +30,7 @@ typedef struct one_contact {
   const double *direction[ONE_CONTACT_MOST]; /* [n] */
   double stiffness[ONE_CONTACT_MOST];        /* [force/length] of the whole contact along each */
   double *motion, *force;                    /* [n_dof][2H+1] coordinates, and T and N - N0 along them */
+  double rest[2];                            /* [length] of a circle: where its slider stays, if it never slips */
   contact_report report;
 } one_contact;
 
@@ -120,8 +121,10 @@ static hc_status locate(int n_harm, one_contact *c)
   contact_report report = {0};
   hc_status st =
       c->circle ? planar_force_new(n_harm, c->n_dof, c->law, &plane) : exact_force_new(n_harm, 2, 1, &alone, &line);
+  memset(c->rest, 0, sizeof c->rest);
   if (st == HC_OK && c->circle) st = planar_force_eval(plane, c->motion, c->force, NULL, &report);
   else if (st == HC_OK) st = exact_force_eval(line, c->motion, c->force, NULL, &report);
+  if (st == HC_OK && c->circle && report.free_sliders > 0) planar_force_slider(plane, c->rest);
   c->report = report;
   exact_force_free(line);
   planar_force_free(plane);
@@ -197,17 +200,18 @@ static void step_period(const one_contact *c, int n_harm, int N, const double *m
   }
 }
 
-/* The law stepped through N instants a period, from w = 0 until the slider has settled: harmonics force[n_dof][2H+1] of
- * one period more. Between instants u and v go evenly, as in hbm/planar/planar_slider.h. A slider on a line has
- * settled after one period; one in the plane settles by a factor each, or creeps into a corner between two circles,
- * the slower the nearer. HC_INTERRUPTED: after 2^23 instants it still has not settled; HC_NO_MEMORY. */
+/* The law stepped through N instants a period until the slider has settled: harmonics force[n_dof][2H+1] of one period
+ * more. Between instants u and v go evenly, as in hbm/planar/planar_slider.h. From w = 0 a slider on a line comes to
+ * where HBM has it in one period, even if it rests; in the plane it begins where it is said to rest and must stay, or
+ * settles by a factor each, or creeps into a corner between two circles, the slower the nearer. HC_INTERRUPTED: after
+ * 2^23 instants it still has not settled; HC_NO_MEMORY. */
 static hc_status step_contact(const one_contact *c, int n_harm, int N, double *force)
 {
   const int most = c->circle ? 1 << 23 : N; /* instants in all */
   const int n_coef = series_length(n_harm);
   const double settled = 1e-9, near = 5e-8; /* [w] moved by a period, and still to go */
   double basis[2 * HBM_MAX_HARMONICS + 1] = {0}, *motion = malloc((size_t)N * (size_t)(c->n_dof + 1) * sizeof *motion);
-  stepper s = {0};
+  stepper s = {.w = {c->rest[0], c->rest[1]}};
   bool rests = !c->circle;
   double last = INFINITY; /* moved by the period before */
   if (!motion) return HC_NO_MEMORY;

@@ -35,7 +35,7 @@ static stress_check check(solved_scene *s, stress_check (*of)(solved_scene *))
   return of(s);
 }
 
-hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out)
+hc_status stress_scene(const scene *sc, stress_kind last, double seconds, const hc_monitor *monitor, stress_result *out)
 {
 #define FUNCTION(code, name, function, meaning) function,
   static stress_check (*const checks[])(solved_scene *) = {STRESS_CHECKS(FUNCTION)};
@@ -43,7 +43,7 @@ hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monito
   solved_scene s;
   const double start = thread_seconds();
   hc_status st = solved_scene_start(&s, sc, seconds, monitor);
-  for (int k = 0; k < STRESS_N_CHECKS && st == HC_OK; ++k) {
+  for (int k = 0; k <= (int)last && st == HC_OK; ++k) {
     solved_scene_clock(&s, 1);
     const double began = thread_seconds();
     out->check[k] = check(&s, checks[k]);
@@ -214,7 +214,7 @@ static hc_status classify(void *self, int task, const hc_monitor *monitor)
   hc_status st = stress_scene_of(p->scenes, p->plan->family, r->index, &sc);
   pthread_mutex_unlock(&p->lock);
   if (st != HC_OK) return st;
-  st = stress_scene(&sc, p->plan->seconds, monitor, r);
+  st = stress_scene(&sc, STRESS_N_CHECKS - 1, p->plan->seconds, monitor, r);
   case_clear(&sc);
   if (st != HC_OK || !p->journal) return st;
   pthread_mutex_lock(&p->lock);

@@ -35,7 +35,7 @@ static bool take(shrinker *s, scene *sc, scene *smaller)
   if (t && s->status == HC_OK) s->status = x ? structure_free_motion(t, false, x, &adrift) : HC_NO_MEMORY;
   free(x);
   if (s->status == HC_OK && !adrift) {
-    s->status = stress_scene(smaller, s->seconds, s->monitor, &r);
+    s->status = stress_scene(smaller, s->kind, s->seconds, s->monitor, &r);
     finds = s->status == HC_OK && r.check[s->kind].outcome == STRESS_FINDING;
   }
   case_clear(finds ? sc : smaller);

@@ -150,8 +150,10 @@ typedef struct stress_plan {
   const char *journal; /* file that keeps results as they come, and from which the same plan goes on; NULL: none */
 } stress_plan;
 
-/* All checks on one scene. HC_OK whatever they say; HC_INTERRUPTED, HC_NO_MEMORY. */
-hc_status stress_scene(const scene *sc, double seconds, const hc_monitor *monitor, stress_result *out);
+/* The checks on one scene up to `last`, of whose results those before may be part; seconds [s] for each. HC_OK whatever
+ * they say; HC_INTERRUPTED, HC_NO_MEMORY. */
+hc_status stress_scene(const scene *sc, stress_kind last, double seconds, const hc_monitor *monitor,
+                       stress_result *out);
 
 /* The whole plan by several threads, into results[plan->scenes]. *resumed, from before the first tick: scenes that the
  * journal had; ticks tell the part of the others that is done. HC_INTERRUPTED keeps what is there; HC_BAD_INPUT: the

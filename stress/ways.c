@@ -293,11 +293,9 @@ stress_check stress_check_other_tangents(solved_scene *s)
   return check_way(s, rewritten_other_tangents(s->model, &s->random, &w), &w, false);
 }
 
-/* Where a slider that never slips rests hangs on time 0. */
 stress_check stress_check_delayed(solved_scene *s)
 {
   rewritten w;
-  if (s->base.m.contact.free_sliders > 0) return stress_skip(STRESS_NOT_APPLICABLE);
   const double delay = random_unit(&s->random) < 0.5 ? PI : TWO_PI * random_unit(&s->random);
   return check_way(s, rewritten_delayed(s->model, delay, &w), &w, false);
 }

@@ -55,6 +55,7 @@ typedef enum spoil {
   NUMBER_LOST
 } spoil;
 static spoil spoiled;
+static const stress_kind ALL = STRESS_N_CHECKS - 1;
 static int multipliers, orbits; /* asked for so far */
 static const model *plain;      /* that others are another way of; NULL: none are */
 static const timeint *last;     /* made, with the next two */
@@ -270,21 +271,21 @@ static scene parsed(const char *of)
   return sc;
 }
 
-/* The checks of a scene, with that wrong answer. */
-static stress_result spoiled_stress(const scene *sc, spoil with)
+/* The checks of a scene up to `last`, with that wrong answer. */
+static stress_result spoiled_stress(const scene *sc, spoil with, stress_kind last)
 {
   spoiled = with;
   multipliers = orbits = 0;
-  CHECK_FILLED(stress_result, r, stress_scene(sc, 20, NULL, &r));
+  CHECK_FILLED(stress_result, r, stress_scene(sc, last, 20, NULL, &r));
   spoiled = NOTHING;
   return r;
 }
 
-static stress_result stressed(bool friction, spoil with)
+static stress_result stressed(bool friction, spoil with, stress_kind last)
 {
   scene sc = parsed(text);
   for (int j = 0; j < 3 && !friction; ++j) sc.structure->contacts[j].given.law.mu = 0;
-  const stress_result r = spoiled_stress(&sc, with);
+  const stress_result r = spoiled_stress(&sc, with, last);
   case_clear(&sc);
   return r;
 }
@@ -302,7 +303,7 @@ static bool ends_well(const stress_check *c, int kind, bool friction)
 static void good_answers_agree(CHECK_STATE)
 {
   for (int friction = 0; friction < 2; ++friction) {
-    const stress_result r = stressed(friction, NOTHING);
+    const stress_result r = stressed(friction, NOTHING, ALL);
     for (int k = 0; k < STRESS_N_CHECKS; ++k)
       if (!ends_well(&r.check[k], k, friction))
         fail_msg("%s: %s %s, %g of %g", stress_kind_name((stress_kind)k), stress_outcome_name(r.check[k].outcome),
@@ -332,7 +333,7 @@ static const char *const text_in_space =
 static stress_check in_space(spoil with, stress_kind kind)
 {
   scene sc = parsed(text_in_space);
-  const stress_result r = spoiled_stress(&sc, with);
+  const stress_result r = spoiled_stress(&sc, with, with == NOTHING ? ALL : kind);
   case_clear(&sc);
   for (int k = 0; k < STRESS_N_CHECKS && with == NOTHING; ++k)
     if (r.check[k].outcome == STRESS_FINDING)
@@ -352,12 +353,13 @@ static void circles_are_held_against_their_law(CHECK_STATE)
   assert_int_equal(in_space(SAMPLES_STIFFER, STRESS_SAMPLED).outcome, STRESS_FINDING);
 }
 
-/* The checks of a scene that is drawn, in so many seconds. */
-static stress_result drawn_stressed(stress_family family, unsigned long seed, long index, double seconds)
+/* The checks of a scene that is drawn up to `last`, in so many seconds each. */
+static stress_result drawn_stressed(stress_family family, unsigned long seed, long index, stress_kind last,
+                                    double seconds)
 {
   CHECK_MADE(stress_scenes, scenes, stress_scenes_new(seed, &scenes));
   CHECK_FILLED(scene, sc, stress_scene_of(scenes, family, index, &sc));
-  CHECK_FILLED(stress_result, r, stress_scene(&sc, seconds, NULL, &r));
+  CHECK_FILLED(stress_result, r, stress_scene(&sc, last, seconds, NULL, &r));
   case_clear(&sc);
   stress_scenes_free(scenes);
   return r;
@@ -375,7 +377,8 @@ static void orbits_on_an_edge_of_slip_are_kept(CHECK_STATE)
       {STRESS_SPACE, 1, 1650}, {STRESS_SPACE, 1, 1672}, {STRESS_SPACE, 63001, 6}, {STRESS_STRUCTURES, 62004, 68}};
   static const stress_kind orbits_again[] = {STRESS_MULTIPLIER, STRESS_ORBIT_REWRITTEN, STRESS_ORBIT_CVODE};
   for (size_t i = 0; i < sizeof on_edges / sizeof *on_edges; ++i) {
-    const stress_result r = drawn_stressed(on_edges[i].family, on_edges[i].seed, on_edges[i].index, 5);
+    const stress_result r =
+        drawn_stressed(on_edges[i].family, on_edges[i].seed, on_edges[i].index, STRESS_ORBIT_CVODE, 5);
     for (size_t k = 0; k < sizeof orbits_again / sizeof *orbits_again; ++k) {
       const stress_check *c = &r.check[orbits_again[k]];
       if (c->outcome != STRESS_AGREED)
@@ -387,7 +390,7 @@ static void orbits_on_an_edge_of_slip_are_kept(CHECK_STATE)
 
 static void expect_finding(bool friction, spoil with, stress_kind kind)
 {
-  const stress_result r = stressed(friction, with);
+  const stress_result r = stressed(friction, with, kind);
   const stress_check *c = &r.check[kind];
   if (c->outcome != STRESS_FINDING)
     fail_msg("spoil %d: %s says %s %s, %g of %g", (int)with, stress_kind_name(kind), stress_outcome_name(c->outcome),
@@ -473,7 +476,7 @@ static void a_finding_is_made_small(CHECK_STATE)
   scene sc = parsed(text);
   spoiled = FORCE_SCALED;
   assert_int_equal(stress_shrink(&sc, STRESS_FORCE, 20, NULL), HC_OK);
-  const stress_result r = spoiled_stress(&sc, FORCE_SCALED);
+  const stress_result r = spoiled_stress(&sc, FORCE_SCALED, STRESS_FORCE);
   assert_int_equal(r.check[STRESS_FORCE].outcome, STRESS_FINDING);
   assert_int_equal(sc.structure->n_contacts, 1);
   assert_int_equal(sc.structure->n_loads, 1);
@@ -503,7 +506,7 @@ static void good_oscillators_are_no_findings(CHECK_STATE)
   slips.contacts[0].law.gap = 0.05;
   for (int i = 0; i < 2; ++i) {
     const scene sc = i ? slips : case_2();
-    const stress_result r = spoiled_stress(&sc, NOTHING);
+    const stress_result r = spoiled_stress(&sc, NOTHING, ALL);
     for (int k = 0; k < STRESS_N_CHECKS; ++k)
       if (r.check[k].outcome >= STRESS_DEAR && !(k == STRESS_VERDICT && r.check[k].status == HC_NOT_SETTLED))
         fail_msg("scene %d, %s: %s %s", i, stress_kind_name((stress_kind)k), stress_outcome_name(r.check[k].outcome),
@@ -520,7 +523,7 @@ static void a_wrong_oscillator_is_found(CHECK_STATE)
               {ORBITS_SCALED, STRESS_ORBIT}, {VERDICT_TURNED, STRESS_VERDICT}, {PREDICTED_LESS, STRESS_PREDICTED}};
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
     const scene sc = case_2();
-    const stress_result r = spoiled_stress(&sc, rows[i].with);
+    const stress_result r = spoiled_stress(&sc, rows[i].with, rows[i].kind);
     if (r.check[rows[i].kind].outcome != STRESS_FINDING)
       fail_msg("spoil %d: %s says %s", (int)rows[i].with, stress_kind_name(rows[i].kind),
                stress_outcome_name(r.check[rows[i].kind].outcome));
@@ -583,7 +586,7 @@ static void an_oscillator_is_made_small(CHECK_STATE)
   spoiled = NOTHING;
   assert_int_equal(sc.n_contacts, 1);
   assert_true(sc.hbm.harmonics < 20 && sc.mass == 1);
-  const stress_result r = spoiled_stress(&sc, ORBIT_MULTIPLIER);
+  const stress_result r = spoiled_stress(&sc, ORBIT_MULTIPLIER, STRESS_MULTIPLIER);
   assert_int_equal(r.check[STRESS_MULTIPLIER].outcome, STRESS_FINDING);
 }
 
@@ -626,14 +629,15 @@ static void findings_of_other_seeds_are_none(CHECK_STATE)
               {STRESS_OSCILLATORS, 7271313, 908, STRESS_ORBIT_LAWS, STRESS_SMOOTHED}};
   gsl_set_error_handler_off(); /* as the command does: eigenvalues that do not converge are a status */
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
-    const stress_result r = drawn_stressed(rows[i].family, rows[i].seed, rows[i].index, 5);
+    const stress_result r = drawn_stressed(rows[i].family, rows[i].seed, rows[i].index, rows[i].kind, 5);
     const stress_check *c = &r.check[rows[i].kind];
     if (c->outcome != STRESS_AGREED && (c->outcome == STRESS_FINDING || c->reason != rows[i].reason))
       fail_msg("%lu, %ld: %s %s, %g of %g", rows[i].seed, rows[i].index, stress_outcome_name(c->outcome),
                stress_reason_name(c->reason), c->error, c->bound);
   }
   /* a first solution of seconds, which it may take */
-  assert_int_equal(drawn_stressed(STRESS_STRUCTURES, 7282902, 428, 0.5).check[STRESS_FORCE].outcome, STRESS_AGREED);
+  assert_int_equal(drawn_stressed(STRESS_STRUCTURES, 7282902, 428, STRESS_FORCE, 0.5).check[STRESS_FORCE].outcome,
+                   STRESS_AGREED);
 }
 
 /* Up to the scene's own sensitivity a difference is explained, no agreement; beyond 1e-3 nothing is said. */
@@ -692,7 +696,9 @@ static void every_scene_is_a_case_file(CHECK_STATE)
     CHECK_FILLED(scene, sc, stress_structures_at(scenes, i, &sc));
     check_echo(i, &sc);
     const scene_structure *s = sc.structure;
-    assert_true(s->n >= 1 && s->n <= 12 && s->n_contacts >= 1 && s->n_contacts <= 12); /* 6 may have 6 that face them */
+    uint64_t random;
+    const int most = stress_scenes_facing(scenes, i, &random) ? 12 : 6; /* contacts that face their like */
+    assert_true(s->n >= 1 && s->n <= 12 && s->n_contacts >= 1 && s->n_contacts <= most);
     ++damping[s->how], ++sizes[s->n], ++contacts[s->n_contacts];
     for (int j = 0; j < s->n_contacts; ++j) {
       jenkins += s->contacts[j].given.law.kn == 0;
@@ -733,14 +739,13 @@ static void scenes_in_space_are_case_files(CHECK_STATE)
     const size_t bytes = (size_t)s->n * sizeof(double);
     assert_memory_equal(s->mass.v, flat.structure->mass.v, bytes * (size_t)s->n);
     assert_true(sc.hbm.harmonics <= flat.hbm.harmonics && sc.compare.omega.v[0] == flat.compare.omega.v[0]);
+    uint64_t random;
+    const bool turns = stress_scenes_circles(scenes, i, &random); /* what has not both directions is drawn anew */
+    assert_true(turns || s->n_contacts == flat.structure->n_contacts);
     for (int j = 0; j < s->n_contacts; ++j) {
-      bool pair = false;
-      for (int k = 0; k < s->n; ++k) pair |= s->contacts[j].tangent_2[k] != 0;
-      const structure_contact *c = j < flat.structure->n_contacts ? &flat.structure->contacts[j] : NULL;
-      const bool whole =
-          c && !is_zero(s->n, c->tangent) && !is_zero(s->n, c->normal); /* of others some are drawn anew */
-      if (whole && c->given.kind == CONTACT_KINKED)                     /* in space all are */
-        assert_memory_equal(s->contacts[j].tangent, c->tangent, bytes);
+      const bool pair = !is_zero(s->n, s->contacts[j].tangent_2);
+      if (!turns && flat.structure->contacts[j].given.kind == CONTACT_KINKED) /* in space all are */
+        assert_memory_equal(s->contacts[j].tangent, flat.structure->contacts[j].tangent, bytes);
       pairs += pair;
       circles += pair && s->contacts[j].given.limit == CONTACT_LIMIT_CIRCLE;
     }
@@ -833,12 +838,13 @@ static hc_status count_questions(void *asked, const model *m, double omega, int 
 }
 
 /* In space most of Newton's iterations on a ramp were those of steps that failed in the end: scene 169 took 4300 of
- * them and 19 000 residuals, the others had no solution after ten seconds. A quick ramp arrives before time integration
+ * them and 19 000 residuals, scene 36 had no solution after ten seconds. A quick ramp arrives before time integration
  * is asked, which may take seconds where a motion does not settle. (Scene 169 has none in ten seconds again: Newton's
- * steps from a linear response that hardly moves are ten times too short for it.) */
+ * steps from a linear response that hardly moves are ten times too short for it. Nor has scene 102: every ramp ends at
+ * a join of rest and slip of which the other side is not found.) */
 static void first_solutions_in_space_take_few_iterations(CHECK_STATE)
 {
-  static const long drawn[] = {36, 102};
+  static const long drawn[] = {36, 119};
   int asked = 0;
   CHECK_MADE(stress_scenes, scenes, stress_scenes_new(950061, &scenes));
   for (size_t i = 0; i < sizeof drawn / sizeof *drawn; ++i) {
