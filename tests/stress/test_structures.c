@@ -271,21 +271,21 @@ static scene parsed(const char *of)
   return sc;
 }
 
-/* The checks of a scene up to `last`, with that wrong answer. */
-static stress_result spoiled_stress(const scene *sc, spoil with, stress_kind last)
+/* The checks of a scene up to `up_to`, with that wrong answer. */
+static stress_result spoiled_stress(const scene *sc, spoil with, stress_kind up_to)
 {
   spoiled = with;
   multipliers = orbits = 0;
-  CHECK_FILLED(stress_result, r, stress_scene(sc, last, 20, NULL, &r));
+  CHECK_FILLED(stress_result, r, stress_scene(sc, up_to, 20, NULL, &r));
   spoiled = NOTHING;
   return r;
 }
 
-static stress_result stressed(bool friction, spoil with, stress_kind last)
+static stress_result stressed(bool friction, spoil with, stress_kind up_to)
 {
   scene sc = parsed(text);
   for (int j = 0; j < 3 && !friction; ++j) sc.structure->contacts[j].given.law.mu = 0;
-  const stress_result r = spoiled_stress(&sc, with, last);
+  const stress_result r = spoiled_stress(&sc, with, up_to);
   case_clear(&sc);
   return r;
 }
