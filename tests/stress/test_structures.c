@@ -353,13 +353,13 @@ static void circles_are_held_against_their_law(CHECK_STATE)
   assert_int_equal(in_space(SAMPLES_STIFFER, STRESS_SAMPLED).outcome, STRESS_FINDING);
 }
 
-/* The checks of a scene that is drawn up to `last`, in so many seconds each. */
-static stress_result drawn_stressed(stress_family family, unsigned long seed, long index, stress_kind last,
+/* The checks of a scene that is drawn up to `up_to`, in so many seconds each. */
+static stress_result drawn_stressed(stress_family family, unsigned long seed, long index, stress_kind up_to,
                                     double seconds)
 {
   CHECK_MADE(stress_scenes, scenes, stress_scenes_new(seed, &scenes));
   CHECK_FILLED(scene, sc, stress_scene_of(scenes, family, index, &sc));
-  CHECK_FILLED(stress_result, r, stress_scene(&sc, last, seconds, NULL, &r));
+  CHECK_FILLED(stress_result, r, stress_scene(&sc, up_to, seconds, NULL, &r));
   case_clear(&sc);
   stress_scenes_free(scenes);
   return r;
@@ -453,7 +453,7 @@ static void neither_a_family_nor_stiffness_excuses(CHECK_STATE)
   snprintf(stiff, sizeof stiff, "%.*s  - {tangential_stiffness: 1e5, friction: 1, preload: 1e6, tangent: {3: 1}}\n%s",
            (int)(end - text), text, end);
   scene sc = parsed(stiff);
-  stress_result r = spoiled_stress(&sc, NOTHING);
+  stress_result r = spoiled_stress(&sc, NOTHING, ALL);
   for (int k = 0; k < STRESS_N_CHECKS; ++k)
     if (r.check[k].outcome == STRESS_FINDING)
       fail_msg("%s: %s", stress_kind_name((stress_kind)k), stress_reason_name(r.check[k].reason));
