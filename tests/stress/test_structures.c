@@ -462,7 +462,7 @@ static void neither_a_family_nor_stiffness_excuses(CHECK_STATE)
     stress_kind kind;
   } rows[] = {{ORBITS_FAR, STRESS_ORBIT}, {ORBIT_MULTIPLIER, STRESS_MULTIPLIER}, {LAW_ORBITS, STRESS_ORBIT_LAWS}};
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
-    r = spoiled_stress(&sc, rows[i].with);
+    r = spoiled_stress(&sc, rows[i].with, ALL);
     const stress_check *c = &r.check[rows[i].kind];
     if (c->outcome != STRESS_FINDING)
       fail_msg("spoil %d: %s %s, %g of %g", (int)rows[i].with, stress_outcome_name(c->outcome),
