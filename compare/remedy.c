@@ -177,8 +177,8 @@ static hc_status curve_passes(remedy_search *s, const trial *t, const compare_se
 }
 
 /* *yes: the curve of these settings has a solution within the limits; `or_slow`: or takes more than half of the time
- * that is left, which is said. The curve as far as the row's omega is tried first: it is shorter. All of it is needed to tell which
- * solution is nearest to a transient that is not integrated yet. */
+ * that is left, which is said. The curve as far as the row's omega is tried first: it is shorter. All of it is needed
+ * to tell which solution is nearest to a transient that is not integrated yet. */
 static hc_status confirm(remedy_search *s, const trial *t, bool or_slow, bool *yes)
 {
   const double began = thread_seconds(), omega = s->row->omega;

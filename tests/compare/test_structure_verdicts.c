@@ -44,7 +44,7 @@ static hc_status march_from(const compare_setup *setup, double omega, const doub
 }
 
 /* A match stays what it is within twice the gate, but for sliders that come to rest elsewhere; what is unstable ends
- * elsewhere, or escapes; what leads to two periods does, or ends on another orbit; what never repeats does not settle. */
+ * elsewhere, or escapes; what leads to two periods does, or ends on another orbit; what never repeats settles not. */
 static void check_row(const compare_setup *setup, const comparison *c, int i)
 {
   const comparison_row *row = &c->rows[i];

@@ -211,7 +211,7 @@ static void refuses(CHECK_STATE)
   planar_force_free(f);
 }
 
-/* Slip that cannot be followed, as if it had run out of room, at that call; before, it is off by `noise` to either side,
+/* Slip that cannot be followed, as if it had run out of room, at that call; before, it is off by `noise` to a side,
  * so that Newton does not end. */
 static int calls, fails_at;
 static double noise;

@@ -271,21 +271,21 @@ static scene parsed(const char *of)
   return sc;
 }
 
-/* The checks of a scene up to `last`, with that wrong answer. */
-static stress_result spoiled_stress(const scene *sc, spoil with, stress_kind last)
+/* The checks of a scene up to `up_to`, with that wrong answer. */
+static stress_result spoiled_stress(const scene *sc, spoil with, stress_kind up_to)
 {
   spoiled = with;
   multipliers = orbits = 0;
-  CHECK_FILLED(stress_result, r, stress_scene(sc, last, 20, NULL, &r));
+  CHECK_FILLED(stress_result, r, stress_scene(sc, up_to, 20, NULL, &r));
   spoiled = NOTHING;
   return r;
 }
 
-static stress_result stressed(bool friction, spoil with, stress_kind last)
+static stress_result stressed(bool friction, spoil with, stress_kind up_to)
 {
   scene sc = parsed(text);
   for (int j = 0; j < 3 && !friction; ++j) sc.structure->contacts[j].given.law.mu = 0;
-  const stress_result r = spoiled_stress(&sc, with, last);
+  const stress_result r = spoiled_stress(&sc, with, up_to);
   case_clear(&sc);
   return r;
 }
@@ -353,13 +353,13 @@ static void circles_are_held_against_their_law(CHECK_STATE)
   assert_int_equal(in_space(SAMPLES_STIFFER, STRESS_SAMPLED).outcome, STRESS_FINDING);
 }
 
-/* The checks of a scene that is drawn up to `last`, in so many seconds each. */
-static stress_result drawn_stressed(stress_family family, unsigned long seed, long index, stress_kind last,
+/* The checks of a scene that is drawn up to `up_to`, in so many seconds each. */
+static stress_result drawn_stressed(stress_family family, unsigned long seed, long index, stress_kind up_to,
                                     double seconds)
 {
   CHECK_MADE(stress_scenes, scenes, stress_scenes_new(seed, &scenes));
   CHECK_FILLED(scene, sc, stress_scene_of(scenes, family, index, &sc));
-  CHECK_FILLED(stress_result, r, stress_scene(&sc, last, seconds, NULL, &r));
+  CHECK_FILLED(stress_result, r, stress_scene(&sc, up_to, seconds, NULL, &r));
   case_clear(&sc);
   stress_scenes_free(scenes);
   return r;

@@ -13,7 +13,7 @@ static void after_two_named(const mistake *m)
   refused(text, NULL, start, m->words);
 }
 
-static void in_the_section(CHECK_STATE) { each_mistake("structures", 69, as_it_stands); }
+static void in_the_section(CHECK_STATE) { each_mistake("structures", 70, as_it_stands); }
 static void in_loads_contacts_and_responses(CHECK_STATE) { each_mistake("parts of a structure", 45, after_two_named); }
 
 /* For a matrix that came from a file the line there. */

@@ -351,5 +351,4 @@ CHECK_TESTS("structure.model", 60, matrices_are_by_columns, what_is_symmetric_bu
             contacts_have_directions_and_laws, loads_of_a_harmonic_are_summed, quarters_of_a_turn_are_exact,
             degrees_of_freedom_go_by_name_number_or_node, files_of_matrices_lie_beside_the_case,
             modal_damping_damps_every_mode_as_asked, what_contacts_hold_is_held, what_a_polynomial_holds_is_held,
-            at_rest_polynomials_hold_from_both_sides,
-            two_tangents_are_two_contacts_of_the_model, names_of_responses)
+            at_rest_polynomials_hold_from_both_sides, two_tangents_are_two_contacts_of_the_model, names_of_responses)
