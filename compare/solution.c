@@ -64,8 +64,8 @@ static hc_status runs_on_any(const comparison_work *w, int r, const hbm_curve *a
 }
 
 /* A solution that the curve has not come to may be there all the same: Newton from the harmonics of the transient, once
- * a row. HC_NO_MEMORY, HC_INTERRUPTED; else w->has_beside says whether w->beside is one. */
-static hc_status look_beside(comparison_work *w, const comparison_row *row, double omega)
+ * for all responses. HC_NO_MEMORY, HC_INTERRUPTED; else w->has_beside says whether w->beside is one. */
+static hc_status look_beside(comparison_work *w, double omega)
 {
   hbm_point point;
   if (w->looked_beside) return HC_OK;
@@ -74,16 +74,17 @@ static hc_status look_beside(comparison_work *w, const comparison_row *row, doub
                                      w->monitor, w->beside);
   if (st == HC_OK && !w->setup->hbm.keep_mean) memset(w->beside, 0, (size_t)hbm_n_dof(w->hbm) * sizeof *w->beside);
   if (st == HC_OK) st = hbm_solve(w->hbm, omega, w->beside, &point);
-  w->has_beside = st == HC_OK && row->transient_status == HC_OK;
+  w->has_beside = st == HC_OK;
   return st == HC_NO_MEMORY || st == HC_INTERRUPTED ? st : HC_OK;
 }
 
-/* row->accounted, row->beside of response r. */
-static hc_status account_for(comparison_work *w, int r, const hbm_curve *at, comparison_row *row)
+/* row->beside of response r, once the verdict is known: where the transient is next to the row's own solution, Newton
+ * would only come back to that. */
+static hc_status account_beside(comparison_work *w, int r, comparison_row *row)
 {
-  hc_status st = runs_on_any(w, r, at, -1, &row->transient, &row->accounted);
-  if (st != HC_OK || row->accounted) return st;
-  st = look_beside(w, row, row->omega);
+  const bool periodic = row->transient_status == HC_OK && row->transient.period_multiple == 1;
+  if (row->accounted || comparison_one_orbit(row) || !periodic || row->hbm_status != HC_OK) return HC_OK;
+  hc_status st = look_beside(w, row->omega);
   if (st == HC_OK && w->has_beside) st = runs_on(w, r, row->omega, w->beside, &row->transient, &row->beside);
   row->accounted = row->beside;
   return st;
@@ -195,7 +196,7 @@ static hc_status perturbations_decay(comparison_work *w, const comparison_row *r
   return HC_OK;
 }
 
-/* Of a transient that is within the limits of X. */
+/* The verdict where the transient is within the limits of X. */
 static hc_status judge_near(comparison_work *w, const comparison_row *row, const double *X, verdict *out)
 {
   int stays = 1;
@@ -206,7 +207,7 @@ static hc_status judge_near(comparison_work *w, const comparison_row *row, const
   return st;
 }
 
-/* Of one that is not: on the orbit next to solution k, or on another one. */
+/* The verdict where it is not: does it run on the orbit next to solution k? */
 static hc_status judge_far(comparison_work *w, const comparison_row *row, const hbm_curve *at, int k, verdict *out)
 {
   bool elsewhere;
@@ -396,7 +397,7 @@ static hc_status measure_response(comparison_work *w, const hbm_curve *at, int k
   if (!comparable || row->transient.period_multiple != 1) return HC_OK;
   row->accounted = row->still = r > 0 && !(row->transient.amplitude > still * largest_amplitude(w));
   if (row->still) row->errors = row->hbm_predicted = row->transient_predicted = nothing;
-  const hc_status st = row->still ? HC_OK : account_for(w, r, at, row);
+  const hc_status st = row->still ? HC_OK : runs_on_any(w, r, at, -1, &row->transient, &row->accounted);
   if (st == HC_NO_MEMORY || st == HC_INTERRUPTED) return st;
   if (st != HC_OK) row->hbm_status = st;
   return HC_OK;
@@ -428,6 +429,7 @@ hc_status solution_compare(comparison_work *w, const hbm_curve *at, int k, compa
   w->looked_beside = w->has_beside = false;
   known = measure_response(w, at, k, 0, row);
   if (known == HC_OK) known = judge(w, row, at, k, &row->verdict);
+  if (known == HC_OK) known = account_beside(w, 0, row);
   if (known != HC_OK) return known;
   row->unexpected = comparison_unexpected(row);
   return account(w, at, k, row);
@@ -437,14 +439,14 @@ hc_status solution_turn(comparison_work *w, const hbm_curve *at, int k, int r, c
                         comparison_row *row)
 {
   *row = *first;
-  const hc_status st = measure_response(w, at, k, r, row);
+  hc_status st = measure_response(w, at, k, r, row);
   row->budget = row->still ? budget_nothing() : w->budgets[r];
   if (comparison_one_orbit(first)) {
     const bool within = row->still || within_limits(w->setup, &row->errors, &row->transient);
     row->verdict = within ? VERDICT_MATCH : stability_of(first) < 0 ? VERDICT_UNSTABLE : VERDICT_DIFFERS;
   }
   row->unexpected = comparison_unexpected(row);
-  return st;
+  return st == HC_OK ? account_beside(w, r, row) : st;
 }
 
 hc_status solution_contacts(comparison_work *w, const double *X, const comparison_row *row, contact_comparison *c)

@@ -81,7 +81,8 @@ static void say_unexpected(const cli_common *common, const comparison *c, table 
   }
 }
 
-/* Of rows that creep, and of a curve that ends where the body begins to, that is said; in haste, of rows alone. */
+/* Says why rows failed, and why the curve ended early: because the body creeps there, unless in_haste, which asks only
+ * the rows. */
 static void print_failures(const cli_common *common, const comparison *c, bool in_haste)
 {
   bool creeps = false;

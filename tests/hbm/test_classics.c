@@ -14,7 +14,7 @@ static double hbm_amplitude(const hbm_curve *at, int k)
   return (high - low) / 2;
 }
 
-/* Of the steady state by time integration, from rest. */
+/* The steady state that time integration comes to from rest. */
 static timeint_result march(const scene *sc, double omega)
 {
   timeint_result r;
