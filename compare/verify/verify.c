@@ -12,17 +12,12 @@
 #include "compare/work_limit.h"
 #include "numerics/base/message.h"
 
-/* How many points differ. Such as could not be judged count as if they did, but not where no other is known to: then
- * there is nothing that a mistake must explain. */
+/* How many points are known to differ. */
 static int differing(const verify_report *r)
 {
-  int differ = 0, open = 0;
-  for (int i = 0; i < r->n_rows; ++i) {
-    if (!verify_row_differs(&r->rows[i])) continue;
-    if (r->rows[i].verdict == VERDICT_DIFFERS) ++differ;
-    else ++open;
-  }
-  return differ > 0 ? differ + open : 0;
+  int differ = 0;
+  for (int i = 0; i < r->n_rows; ++i) differ += !r->rows[i].skipped && r->rows[i].verdict == VERDICT_DIFFERS;
+  return differ;
 }
 
 /* The truth of one response, as far as it is found before `until` [s], and what its points tell by themselves. */
@@ -78,6 +73,7 @@ static hc_status find_cause(const compare_setup *setup, int n, const verify_judg
     if (!judged[k].wrong || to == found) continue;
     to->causes = found->causes;
     to->nearest_guess = found->nearest_guess;
+    to->unsolved = found->unsolved;
     to->n_hypotheses = found->n_hypotheses;
     to->truth_distance = found->truth_distance;
     memcpy(to->hypotheses, found->hypotheses, sizeof found->hypotheses);
@@ -186,6 +182,13 @@ static void add_change(message *m, const verify_equations *e)
                   (e->which - 1) % CONTACT_POWERS + CONTACT_LEAST_POWER);
       break;
     case PART_DOF: message_add(m, " DOF %d", e->which); break;
+    case PART_TWO_CONTACTS:
+      message_add(m, " contacts %d and %d", (e->which - 1) / VERIFY_MOST_CONTACTS,
+                  (e->which - 1) % VERIFY_MOST_CONTACTS);
+      break;
+    case PART_LOAD:
+      message_add(m, " of harmonic %d at DOF %d", (e->which - 1) / e->n, (e->which - 1) % e->n + 1);
+      break;
     case PART_PAIR: message_add(m, " DOFs %d and %d", (e->which - 1) / e->n + 1, (e->which - 1) % e->n + 1); break;
     case PART_ALL: break;
     }

@@ -235,6 +235,8 @@ static void note_verification(table *t, const scene *sc, const verify_data *data
   table_note(t, "%s", verify_sentence(r, text));
   table_note(t, "cause: %s", verify_word(r, text));
   if (r->nearest_guess) table_note(t, "nearest guess: %s", verify_cause_words(r->nearest_guess, text));
+  const verify_causes unsolved = r->unsolved & ~(r->causes | r->nearest_guess);
+  if (unsolved) table_note(t, "not judged, since solutions are missing: %s", verify_cause_words(unsolved, text));
   if (!r->causes && *r->tried) table_note(t, "tried: %s", r->tried);
   if (*r->not_tried) table_note(t, "NOT tried, out of patience (--patience): %s", r->not_tried);
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <stdbool.h>
-#include <stdint.h>
 
 /* clang-format off */
 #define VERIFY_CAUSE_LIST(X) \
@@ -75,10 +74,16 @@
   X(CAUSE_TRANSPOSED, "transposed", "a matrix is transposed", "is it written by rows or by columns?") \
   X(CAUSE_ONE_SIDE, "one_side_turned", "one side of a contact has the other sign", \
     "compare the contact's tangent and normal with the case's") \
+  X(CAUSE_ONE_LOAD, "one_load", "one of several loads is another", "compare the loads one by one, and their phases") \
+  X(CAUSE_CONTACTS_EXCHANGED, "contacts_exchanged", "the stiffnesses of two contacts are exchanged", \
+    "compare the order of the contacts with the case's") \
+  X(CAUSE_LUMPED_MASS, "lumped_mass", "the mass matrix is lumped", "give the consistent mass matrix") \
   X(CAUSE_DOFS_EXCHANGED, "dofs_exchanged", "two degrees of freedom are exchanged", \
     "compare the numbering in matrices, loads and contacts") \
   /* the columns */ \
   X(CAUSE_RESPONSE, "other_response", "the values are those of another response", "name the right one: --response") \
+  X(CAUSE_RELATIVE, "relative_response", "the values are those of a motion relative to another", \
+    "give the motion itself, or --response both of them: {a: 1, b: -1}") \
   X(CAUSE_FREQUENCY, "frequency_unit", "rad per time and cycles per time are mixed up", \
     "name the column omega or frequency as it is") \
   X(CAUSE_TWICE, "peak_to_peak", "the values are twice as large, as from peak to peak", "halve them") \
@@ -118,9 +123,10 @@
 enum { VERIFY_CAUSE_LIST(VERIFY_CAUSE_NUMBER) VERIFY_CAUSES };
 #undef VERIFY_CAUSE_NUMBER
 
-/* Bits; one of the points stands alone, as the complement of its number: no equations have nearly all causes. */
-typedef uint64_t verify_causes;
-enum { VERIFY_MOST_BITS = 64 };
+/* Bits; one of the points stands alone, as the complement of its number: no equations have nearly all causes. More bits
+ * than uint64_t has: of gcc and clang on every machine of 64 bits. */
+__extension__ typedef unsigned __int128 verify_causes;
+enum { VERIFY_MOST_BITS = 128 };
 #define VERIFY_BIT(cause)                                                                                              \
   ((cause) < CAUSE_OUTLIER ? (verify_causes)1 << ((cause) % VERIFY_MOST_BITS) : ~(verify_causes)((cause)-CAUSE_OUTLIER))
 static inline bool verify_has(verify_causes causes, int cause)

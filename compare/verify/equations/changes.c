@@ -19,15 +19,17 @@ const verify_change_kind verify_changes[] = {
 #undef VERIFY_CHANGE_WORDS
 };
 
-enum { MOST_SINGLE_CONTACTS = 12, MOST_PAIRED_DOFS = 8 };
+enum { MOST_PAIRED_DOFS = 8 };
 
 int verify_change_variants(const model *m, verify_change c)
 {
   const int contacts = model_whole_contacts(m);
   switch (verify_changes[c].part) {
-  case PART_CONTACT: return 1 + (m->n > 1 && contacts > 1 && contacts <= MOST_SINGLE_CONTACTS) * contacts;
-  case PART_ONE_CONTACT: return contacts <= MOST_SINGLE_CONTACTS ? 1 + contacts : 1;
-  case PART_POWER: return contacts <= MOST_SINGLE_CONTACTS ? 1 + contacts * CONTACT_POWERS : 1;
+  case PART_CONTACT: return 1 + (m->n > 1 && contacts > 1 && contacts <= VERIFY_MOST_CONTACTS) * contacts;
+  case PART_ONE_CONTACT: return contacts <= VERIFY_MOST_CONTACTS ? 1 + contacts : 1;
+  case PART_POWER: return contacts <= VERIFY_MOST_CONTACTS ? 1 + contacts * CONTACT_POWERS : 1;
+  case PART_TWO_CONTACTS: return contacts > 1 && contacts <= VERIFY_MOST_CONTACTS ? contacts * VERIFY_MOST_CONTACTS : 1;
+  case PART_LOAD: return m->n <= VERIFY_MOST_DOFS ? 1 + (1 + model_highest_load(m)) * m->n : 1;
   case PART_DOF: return m->n > 1 && m->n <= VERIFY_MOST_DOFS ? 1 + m->n : 1;
   case PART_PAIR: return m->n > 1 && m->n <= MOST_PAIRED_DOFS ? 1 + m->n * m->n : 1;
   default: return 1;
@@ -146,6 +148,45 @@ static void change_contact(int n, model_contact *c, verify_change change, double
   }
 }
 
+/* The first of the *parts that whole contact number `which` is in the model. */
+static model_contact *whole_contact(const model *m, int which, int *parts)
+{
+  int first = 0;
+  for (int whole = -1; first < m->n_contacts; ++first)
+    if ((whole += !contact_goes_on(m->contacts[first].pair)) == which) break;
+  for (*parts = 1; first + *parts < m->n_contacts && contact_goes_on(m->contacts[first + *parts].pair);) ++*parts;
+  return &m->contacts[first];
+}
+
+/* kt of whole contacts i < k, and kn where both have a normal spring; of a pair each of the two has half of kn. Not of
+ * smooth ones, nor of those that are several springs across. */
+static void exchange_contacts(const model *m, int i, int k)
+{
+  int n[2];
+  model_contact *c[2] = {whole_contact(m, i, &n[0]), whole_contact(m, k, &n[1])};
+  for (int a = 0; a < 2; ++a)
+    if (c[a]->law.smooth != CONTACT_KINKED || (n[a] > 1 && c[a][1].pair == CONTACT_MORE)) return;
+  const contact law[2] = {c[0]->law, c[1]->law};
+  const bool normal = law[0].load == 0 && law[1].load == 0, tangential = law[0].mu > 0 && law[1].mu > 0;
+  for (int a = 0; a < 2; ++a)
+    for (int j = 0; j < n[a]; ++j) {
+      if (tangential) c[a][j].law.kt = law[!a].kt;
+      if (normal) c[a][j].law.kn = law[!a].kn * n[!a] / n[a];
+    }
+}
+
+/* The sums of M's rows on its diagonal. HC_BAD_INPUT: one of them is no mass. */
+static hc_status lump(int n, double *M)
+{
+  for (int i = 0; i < n; ++i) {
+    double sum = 0;
+    for (int k = 0; k < n; ++k) sum += M[i + n * k], M[i + n * k] = 0;
+    if (!(sum > 0)) return HC_BAD_INPUT;
+    M[i + n * i] = sum;
+  }
+  return HC_OK;
+}
+
 static void change_matrices(model *m, verify_change change, double factor)
 {
   const size_t entries = (size_t)m->n * (size_t)m->n;
@@ -211,6 +252,16 @@ static hc_status change_damping(model *m, verify_change change, double factor)
   memcpy(m->damping, like, square * sizeof *like);
   scale(square, factor * share * omega, m->damping);
   return HC_OK;
+}
+
+/* The number of loads of single degrees of freedom: static ones (fixed), or those of all other harmonics. */
+static int count_loads(const model *m, bool fixed)
+{
+  int count = 0;
+  for (int l = 0; l < m->n_loads; ++l)
+    for (int i = 0; i < m->n && (m->loads[l].harmonic == 0) == fixed; ++i)
+      count += m->loads[l].cosine[i] != 0 || m->loads[l].sine[i] != 0;
+  return count;
 }
 
 static void move_load(int n, int to, double *load)
@@ -371,6 +422,11 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
   const hc_status damped = change_damping(own, c, how->factor);
   if (damped != HC_OK) return damped;
   mistakes->hysteretic = c == CHANGE_HYSTERETIC;
+  if (c == CHANGE_LUMPED && lump(own->n, own->mass) != HC_OK) return HC_BAD_INPUT;
+  if (c == CHANGE_CONTACTS_EXCHANGED && which / VERIFY_MOST_CONTACTS < which % VERIFY_MOST_CONTACTS &&
+      which % VERIFY_MOST_CONTACTS < model_whole_contacts(m))
+    exchange_contacts(own, which / VERIFY_MOST_CONTACTS, which % VERIFY_MOST_CONTACTS);
+  const double one_load = c == CHANGE_LOAD_SIGN ? -1 : how->factor;
   const size_t n = (size_t)own->n;
   for (int l = 0; l < own->n_loads; ++l) {
     model_load *load = &own->loads[l];
@@ -378,6 +434,9 @@ static hc_status change_copy(const model *m, const verify_changed *how, bool kee
     if (c == CHANGE_FORCE && !fixed) scale(n, how->factor, load->cosine), scale(n, how->factor, load->sine);
     if (c == CHANGE_STATIC_LOAD && fixed) scale(n, how->factor, load->cosine);
     if (c == CHANGE_PHASE_SIGN) scale(n, -1, load->sine);
+    if (verify_changes[c].part == PART_LOAD && which >= 0 && which / m->n == load->harmonic &&
+        count_loads(m, fixed) > 1)
+      load->cosine[which % m->n] *= one_load, load->sine[which % m->n] *= one_load;
     if (c == CHANGE_LOAD_DOF && which >= 0 && !fixed)
       move_load(own->n, which, load->cosine), move_load(own->n, which, load->sine);
   }

@@ -8,8 +8,18 @@
 #include "model/model.h"
 
 /* What of a model a change is of: all of it, every contact or a single one of several, a single contact at a time (or
- * all), a power of a single one's polynomial, a degree of freedom, or two of them. */
-typedef enum verify_part { PART_ALL, PART_CONTACT, PART_ONE_CONTACT, PART_POWER, PART_DOF, PART_PAIR } verify_part;
+ * all), a power of a single one's polynomial, two contacts, a degree of freedom, two of them, or the loads of one
+ * harmonic at one of them. */
+typedef enum verify_part {
+  PART_ALL,
+  PART_CONTACT,
+  PART_ONE_CONTACT,
+  PART_POWER,
+  PART_TWO_CONTACTS,
+  PART_DOF,
+  PART_PAIR,
+  PART_LOAD
+} verify_part;
 
 /* Has it a number, and which: a factor, or an angle [degree]? */
 typedef enum verify_scan { SCAN_NONE, SCAN_FACTOR, SCAN_TURN } verify_scan;
@@ -61,11 +71,16 @@ typedef enum verify_scan { SCAN_NONE, SCAN_FACTOR, SCAN_TURN } verify_scan;
   X(CHANGE_CONSTANT_LIMIT_LINEAR, CAUSE_CONSTANT_N, "|T| <= mu N0, N = kn (v + gap)", SCAN_NONE, PART_ALL)             \
   X(CHANGE_PRELOAD_ADDED, CAUSE_PRELOAD_ADDED, "N in the place of N - N0", SCAN_NONE, PART_ALL)                        \
   X(CHANGE_RESPONSE, CAUSE_RESPONSE, "the motion of", SCAN_NONE, PART_DOF)                                             \
+  X(CHANGE_RELATIVE, CAUSE_RELATIVE, "the motion relative to", SCAN_NONE, PART_DOF)                                    \
+  X(CHANGE_ONE_LOAD, CAUSE_ONE_LOAD, "the load", SCAN_FACTOR, PART_LOAD)                                               \
+  X(CHANGE_LOAD_SIGN, CAUSE_ONE_LOAD, "the other sign of the load", SCAN_NONE, PART_LOAD)                              \
   X(CHANGE_LOAD_DOF, CAUSE_LOAD_DOF, "the force at", SCAN_NONE, PART_DOF)                                              \
   X(CHANGE_STATIC_LOAD, CAUSE_NO_STATIC_LOAD, "static loads", SCAN_FACTOR, PART_ALL)                                   \
   X(CHANGE_PHASE_SIGN, CAUSE_PHASE_SIGN, "phases of the loads times -1", SCAN_NONE, PART_ALL)                          \
   X(CHANGE_DAMPING_TRANSPOSED, CAUSE_TRANSPOSED, "C transposed", SCAN_NONE, PART_ALL)                                  \
   X(CHANGE_STIFFNESS_TRANSPOSED, CAUSE_TRANSPOSED, "K transposed", SCAN_NONE, PART_ALL)                                \
+  X(CHANGE_LUMPED, CAUSE_LUMPED_MASS, "M as the sums of its rows", SCAN_NONE, PART_ALL)                                \
+  X(CHANGE_CONTACTS_EXCHANGED, CAUSE_CONTACTS_EXCHANGED, "kt and kn exchanged between", SCAN_NONE, PART_TWO_CONTACTS)  \
   X(CHANGE_ONE_SIDE, CAUSE_ONE_SIDE, "one side turned", SCAN_NONE, PART_ONE_CONTACT)                                   \
   X(CHANGE_MATRICES_EXCHANGED, CAUSE_DOFS_EXCHANGED, "M, C and K exchanged in", SCAN_NONE, PART_PAIR)                  \
   X(CHANGE_CONTACT_DOFS_EXCHANGED, CAUSE_DOFS_EXCHANGED, "the contacts exchanged in", SCAN_NONE, PART_PAIR)
@@ -87,7 +102,7 @@ static inline bool verify_change_of_kind(verify_change c)
   return c >= CHANGE_DAMPING_MODAL && c <= CHANGE_HYSTERETIC;
 }
 
-enum { VERIFY_MOST_DOFS = 200 }; /* that are tried one by one */
+enum { VERIFY_MOST_DOFS = 200, VERIFY_MOST_CONTACTS = 12 }; /* that are tried one by one */
 
 /* In how many ways it can be made of this model: values of verify_changed.which, from 0 on. */
 int verify_change_variants(const model *m, verify_change c);
@@ -97,7 +112,8 @@ typedef struct verify_changed {
   verify_change change;
   double factor; /* the number of a change that has one */
   int which;     /* 0: all; else one more than the contact, a pair being one, CONTACT_POWERS times that and the
-                    power's index, the degree of freedom i, or i n + k of the two, i < k */
+                    power's index, the degree of freedom i, i n + k of the two, i < k, of two contacts likewise with
+                    n = VERIFY_MOST_CONTACTS, or k n + i of the loads of harmonic k at i */
 } verify_changed;
 
 /* The other program's model: *out, the caller's, whose response r plus offset[r] [length] is theirs, and mistakes in

@@ -25,6 +25,7 @@ static const struct {
     {1e-2, VERIFY_BIT(CAUSE_LENGTH)},
 };
 enum { FACTORS = sizeof factors / sizeof *factors };
+static const double good = 0.01; /* [1] what a cause may leave */
 /* At most so many points that match and that differ, for each look. */
 static const int most_looked_at[SEARCH_LOOKS][2] = {{16, SEARCH_MOST_POINTS - 16}, {3, 10}, {2, 5}};
 _Static_assert(FACTORS + 1 == SEARCH_FACTORS, "and dB");
@@ -51,6 +52,12 @@ static bool is_taken(int i, int n, int wanted, int taken)
   return taken < wanted && (long)i * wanted >= (long)taken * n;
 }
 
+static double relative(double a, double b, double least)
+{
+  double d = fabs(a - b), scale = fmax(fmax(fabs(a), fabs(b)), least);
+  return d == 0 ? 0 : d <= scale ? d / scale : 1; /* NaN is as far as can be */
+}
+
 static void put_place(const place *from, int n, const verify_judged *responses, verify_sample *out)
 {
   const int i = out->n++;
@@ -65,6 +72,7 @@ static void put_place(const place *from, int n, const verify_judged *responses, 
                          : decibel ? verify_quantity_to_column(&other, row->value)
                                    : verify_quantity_from_column(&other, row->value);
     out->differs[r][i] = row && verify_row_differs(row);
+    out->off[r][i] = row && !isnan(row->nearest) ? relative(row->value, row->nearest, row->scale) : NAN;
   }
 }
 
@@ -72,7 +80,7 @@ static void put_place(const place *from, int n, const verify_judged *responses, 
 hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample *out)
 {
   size_t rows = 1;
-  *out = (verify_sample){.n_responses = n, .part = 0.9};
+  *out = (verify_sample){.n_responses = n, .part = 0.9, .left = good};
   for (int r = n - 1; r >= 0; --r) {
     rows += (size_t)responses[r].report->n_rows;
     out->quantity[r] = responses[r].data->quantity;
@@ -139,12 +147,6 @@ static double within(int n, double *d, double part)
   return d[(int)ceil(part * n - 1e-9) - 1];
 }
 
-static double relative(double a, double b, double least)
-{
-  double d = fabs(a - b), scale = fmax(fmax(fabs(a), fabs(b)), least);
-  return d == 0 ? 0 : d <= scale ? d / scale : 1; /* NaN is as far as can be */
-}
-
 /* How far the value is from the nearest solution at omega number i, read as quantity q of response r times the
  * factor. */
 static double nearest(double value, const verify_solutions *s, int i, int r, int q, double factor)
@@ -166,7 +168,8 @@ static bool looked_at(const verify_sample *p, int r, int i)
 static double distance_of(const verify_sample *p, int r, bool decibel, const verify_solutions *s, int q, double factor)
 {
   int off = 0, on = 0;
-  double far[SEARCH_MOST_POINTS], near[SEARCH_MOST_POINTS];
+  double far[SEARCH_MOST_POINTS], near[SEARCH_MOST_POINTS],
+      taken = 0; /* the farthest that matches, and is solved for */
   const bool read = p->wrong[r];
   const double *value = read && decibel ? p->decibel[r] : p->value[r];
   for (int i = 0; i < p->n; ++i) {
@@ -174,14 +177,28 @@ static double distance_of(const verify_sample *p, int r, bool decibel, const ver
     const double least = nearest(value[i], s, i, r, read ? q : 0, read ? factor : 1);
     if (p->differs[r][i]) far[off++] = least;
     else near[on++] = least;
+    if (!p->differs[r][i] && s->first[i] < s->first[i + 1]) taken = fmax(taken, least);
   }
-  return fmax(within(off, far, p->part), within(on, near, p->part));
+  return fmax(fmax(within(off, far, p->part), within(on, near, p->part)), taken > p->left ? taken : 0);
 }
 
 static double distance(const verify_sample *p, bool decibel, const verify_solutions *s, int q, double factor)
 {
   double most = 0;
   for (int r = 0; r < p->n_responses; ++r) most = fmax(most, distance_of(p, r, decibel, s, q, factor));
+  return most;
+}
+
+double verify_truth_distance(const verify_sample *p)
+{
+  double most = 0;
+  for (int r = 0; r < p->n_responses; ++r) {
+    int n = 0;
+    double far[SEARCH_MOST_POINTS];
+    for (int i = 0; i < p->n; ++i)
+      if (p->differs[r][i] && !isnan(p->off[r][i])) far[n++] = p->off[r][i];
+    most = fmax(most, within(n, far, p->part));
+  }
   return most;
 }
 
@@ -229,7 +246,8 @@ static double apart_of(const verify_sample *p, int r, const verify_solutions *a,
   double far[SEARCH_MOST_POINTS];
   for (int i = 0; i < p->n; ++i) {
     if (!p->differs[r][i] || !looked_at(p, r, i)) continue;
-    double worst = a->first[i] < a->first[i + 1] ? 0 : 1;
+    if (a->first[i] == a->first[i + 1] || b->first[i] == b->first[i + 1]) continue; /* not known */
+    double worst = 0;
     for (int k = a->first[i]; k < a->first[i + 1]; ++k)
       worst = fmax(worst, nearest(a->of[k * a->n_responses + r].q[0], b, i, r, 0, 1));
     far[n++] = worst;
@@ -237,9 +255,7 @@ static double apart_of(const verify_sample *p, int r, const verify_solutions *a,
   return within(n, far, p->part);
 }
 
-/* [1] How far solutions a are from the nearest of b: the largest at an omega, nine of ten points that differ are
- * within. */
-static double apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b)
+double verify_apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b)
 {
   double most = 0;
   for (int r = 0; r < p->n_responses; ++r) most = fmax(most, apart_of(p, r, a, b));
@@ -307,10 +323,10 @@ const verify_scale *verify_scale_near(const verify_scale *s, int n, double facto
  *   alone    no other set of causes, not larger, comes within a factor `rival` of that distance, or of a tenth of the
  *            gate if that is larger
  * One that fits alone is named; else it, and its rivals, are the nearest guess. A fit is no rival of what nothing was
- * fitted of. Causes that are among the best's, and those with more to them, are no rivals: they say nothing else. Nor
- * are changes of the model that leave its contacts
- * apart, or stuck, where that is the best: they may be why. */
-static const double good = 0.01, much_better = 0.2, much_better_fitted = 0.1, rival = 3, guess_worth = 0.2;
+ * fitted of and is within the gate. Causes that are among the best's, and those with more to them, are no rivals: they
+ * say nothing else. Nor are changes of the model that leave its contacts apart, or stuck, where that is the best: they
+ * may be why. */
+static const double much_better = 0.2, much_better_fitted = 0.1, rival = 3, guess_worth = 0.2;
 
 bool verify_fits(const verify_report *r)
 {
@@ -340,7 +356,7 @@ bool verify_rival(const verify_report *r, int i)
   const verify_causes both = best->causes & other->causes;
   if (both == best->causes || both == other->causes || explains(other, best)) return false;
   if (verify_cause_count(other->causes) > verify_cause_count(best->causes)) return false;
-  if (other->fitted && !best->fitted) return false;
+  if (other->fitted && !best->fitted && best->distance <= r->gate) return false;
   return other->distance <= close_to(r, best);
 }
 
@@ -436,15 +452,15 @@ static bool too_few_harmonics(const search *s, const verify_equations *e, int fr
   return false;
 }
 
+/* A mistake about the slider is one whatever the samples: they are a cause, too, of readings that fewer than
+ * SEARCH_MOST_SAMPLES bring closer. */
 static verify_causes causes_of_slider(const verify_equations *e)
 {
-  enum { ENOUGH_SAMPLES = 128 }; /* for a mistake about the slider to be the larger one */
-  const verify_causes few = e->samples < ENOUGH_SAMPLES ? VERIFY_BIT(CAUSE_SAMPLES) : 0;
   switch (e->restart) {
-  case HBM_RESTART_ZEROED: return few | VERIFY_BIT(CAUSE_SLIDER_ZEROED);
-  case HBM_RESTART_KEPT: return few | VERIFY_BIT(CAUSE_SLIDER_KEPT);
+  case HBM_RESTART_ZEROED: return VERIFY_BIT(CAUSE_SLIDER_ZEROED);
+  case HBM_RESTART_KEPT: return VERIFY_BIT(CAUSE_SLIDER_KEPT);
   case HBM_RESTART_ONE_PASS:
-  case HBM_RESTART_ONE_PASS_SAMPLE: return few | VERIFY_BIT(CAUSE_SINGLE_PASS);
+  case HBM_RESTART_ONE_PASS_SAMPLE: return VERIFY_BIT(CAUSE_SINGLE_PASS);
   case HBM_RESTART_SAMPLE: return VERIFY_BIT(CAUSE_SAMPLES) | VERIFY_BIT(CAUSE_SLIDER);
   default: return VERIFY_BIT(CAUSE_SAMPLES);
   }
@@ -477,18 +493,61 @@ static bool usual_number(const verify_equations *e)
   return usual;
 }
 
-void search_read(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
+static void largest_distances(const verify_sample *p, const verify_solutions *of, search_distances out)
 {
-  search_distances d = {0}, one;
-  for (int r = 0; r < s->points.n_responses; ++r) {
-    search_distances_of(&s->points, r, of, one);
-    for (int k = 0; k < SEARCH_DISTANCES; ++k) d[k] = fmax(d[k], one[k]);
+  search_distances one;
+  for (int k = 0; k < SEARCH_DISTANCES; ++k) out[k] = 0;
+  for (int r = 0; r < p->n_responses; ++r) {
+    search_distances_of(p, r, of, one);
+    for (int k = 0; k < SEARCH_DISTANCES; ++k) out[k] = fmax(out[k], one[k]);
   }
-  search_read_distances(s, e, frequency, d);
 }
 
-void search_read_distances(search *s, const verify_equations *e, int frequency, const search_distances d)
+void search_read(search *s, const verify_equations *e, int frequency, const verify_solutions *of)
 {
+  search_distances d, d_solved;
+  verify_sample solved = s->points;
+  int there = 0, without = 0; /* of the points that differ in the first response that is wrong; of all */
+  for (int i = 0; i < solved.n; ++i) {
+    bool *const looked = &solved.looked_at[solved.look][i];
+    const bool is_there = of->first[i] < of->first[i + 1];
+    without += *looked && !is_there;
+    there += *looked && is_there && solved.differs[solved.first][i];
+    *looked &= is_there;
+  }
+  largest_distances(&s->points, of, d);
+  const bool enough = without > 0 && there >= VERIFY_LEAST_DIFFERING && there > without;
+  if (enough) largest_distances(&solved, of, d_solved);
+  search_read_distances(s, e, frequency, d, enough ? d_solved : NULL);
+}
+
+/* [SEARCH_DISTANCES] of the same equations with nothing wrong but their number of harmonics; NULL: these are they. */
+static const double *plain_distances(const search *s, const verify_equations *e, int frequency)
+{
+  const bool plain = e->change == CHANGE_NONE && !e->odd_only && e->samples == 0;
+  for (int i = 0; i < s->n_orders && !plain; ++i)
+    if (s->orders[i].harmonics == e->harmonics && s->orders[i].keep_mean == e->keep_mean)
+      return s->orders[i].distance[frequency];
+  return NULL;
+}
+
+static bool says_more(const search *s, const double *plain, int k, double distance)
+{
+  return !plain || distance < plain[k] - s->floor;
+}
+
+hc_status search_passed(search *s, const verify_equations *e, int frequency, hc_status st)
+{
+  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
+  if (st != HC_OK && st != HC_BAD_INPUT) s->out->unsolved |= causes_of(s, e, frequency);
+  return HC_OK;
+}
+
+void search_read_distances(search *s, const verify_equations *e, int frequency, const search_distances d,
+                           const double *d_solved)
+{
+  const double *plain = plain_distances(s, e, frequency);
+  double *const most = e->restart >= HBM_RESTART_ZEROED ? s->most_samples[e->restart] : NULL;
   const verify_sample *p = &s->points;
   const verify_quantity *asked = &p->quantity[p->first];
   const verify_causes otherwise = e->harmonics < s->out->harmonics ? VERIFY_BIT(CAUSE_HARMONICS) : 0;
@@ -509,11 +568,16 @@ void search_read_distances(search *s, const verify_equations *e, int frequency, 
       if (given.causes && of_factor && of_reading) continue; /* nothing is that wrong */
       h.causes |= of_factor | of_reading;
       if (!h.causes && !(h.causes = otherwise)) continue; /* the truth as it stands is no hypothesis */
+      const int k = f * VERIFY_READINGS + i;
       h.decibel = decibel;
       h.value_factor = decibel ? 1 : factors[f].factor;
-      h.distance = d[f * VERIFY_READINGS + i];
+      h.distance = d[k];
+      if (most && e->samples == SEARCH_MOST_SAMPLES) most[k] = d[k];
+      else if (most && d[k] < most[k] - s->floor) h.causes |= VERIFY_BIT(CAUSE_SAMPLES);
       rank(&h, s->floor);
-      search_keep(s, &h);
+      if (says_more(s, plain, k, d[k])) search_keep(s, &h);
+      if (d_solved && d_solved[k] <= s->out->gate && d[k] > s->out->gate && says_more(s, plain, k, d_solved[k]))
+        s->out->unsolved |= h.causes;
     }
 }
 
@@ -560,6 +624,7 @@ static double least_distance(const search *s, const verify_solutions *of, double
   double least = 1;
   verify_sample p = s->points;
   p.part = part;
+  p.left = INFINITY;
   for (int f = 0; f <= FACTORS; ++f)
     for (int i = 0; i < VERIFY_READINGS; ++i)
       least = fmin(least, distance(&p, f == FACTORS, of, i, f == FACTORS ? 1 : factors[f].factor));
@@ -588,7 +653,8 @@ static void read_tried(search *s, const verify_equations *e, int frequency, cons
 {
   order *o = s->current;
   const verify_solutions *many = &s->many[e->keep_mean][frequency];
-  if (o && e->harmonics < s->out->harmonics) o->matters[frequency] = apart(&s->points, of, many) > s->out->gate;
+  if (o) largest_distances(&s->points, of, o->distance[frequency]);
+  if (o && e->harmonics < s->out->harmonics) o->matters[frequency] = verify_apart(&s->points, of, many) > s->out->gate;
   if (o) o->score = fmin(o->score, verify_closeness(&s->points, of));
   search_read(s, e, frequency, of);
 }
@@ -628,6 +694,8 @@ hc_status search_try(search *s, const verify_equations *e, int frequency, const 
 
 hc_status search_fit(search *s, verify_hypothesis h, const verify_solutions *near)
 {
+  const bool stands = h.omega_factor == 1 && h.value_factor == 1;
+  const double *plain = stands ? plain_distances(s, &h.equations, 0) : NULL;
   verify_solutions of = {0};
   s->points.look = SEARCH_ALL;
   hc_status st = HC_OK;
@@ -635,7 +703,7 @@ hc_status search_fit(search *s, verify_hypothesis h, const verify_solutions *nea
     st = followed ? search_follow(s, &h.equations, h.omega_factor, &of)
                   : search_near(s, &h.equations, h.omega_factor, near, &of);
     if (st == HC_OK) verify_read_one(&s->points, &of, 0, h.value_factor, s->floor, &h);
-    if (st == HC_OK) search_keep(s, &h);
+    if (st == HC_OK && says_more(s, plain, 0, h.distance)) search_keep(s, &h);
     verify_solutions_clear(&of);
     if (h.distance <= s->out->gate) break;
   }

@@ -415,9 +415,8 @@ hc_status search_fits(search *s)
       f.equations.which = which;
       f.equations.n = m->n;
       if (!s->oscillator && f.equations.harmonics < USUAL_HARMONICS) f.equations.harmonics = USUAL_HARMONICS;
-      st = fit_number(s, &f);
+      st = search_passed(s, &f.equations, 0, fit_number(s, &f));
       verify_solutions_clear(&f.last);
-      if (st == HC_BAD_INPUT) st = HC_OK;
     }
   return st;
 }

@@ -31,6 +31,11 @@ enum {
   USUAL_HARMONICS = 10
 };
 
+static void fill(int n, double value, double *out)
+{
+  for (int i = 0; i < n; ++i) out[i] = value;
+}
+
 /* Where Newton starts for one reading of the frequency; NULL: the curve is followed. */
 static const verify_solutions *start_of(const search *s, int frequency)
 {
@@ -38,14 +43,14 @@ static const verify_solutions *start_of(const search *s, int frequency)
   return s->oscillator || !truth->n ? NULL : truth;
 }
 
-/* Every reading of the solutions of *e, for one reading of the frequency. Errors of search_try. */
+/* Every reading of the solutions of *e, for one reading of the frequency. HC_OK where there are no such equations. */
 static hc_status try_at(search *s, const verify_equations *e, int frequency)
 {
   verify_solutions of = {0};
   hc_status st = search_try(s, e, frequency, start_of(s, frequency), &of);
   s->points.look = SEARCH_ALL;
   verify_solutions_clear(&of);
-  return st;
+  return search_passed(s, e, frequency, st);
 }
 
 /* Each possible reading of the frequency. HC_OK where there are no such equations. */
@@ -54,8 +59,7 @@ static hc_status try_equations(search *s, const verify_equations *e)
   hc_status st = HC_OK;
   for (int f = 0; f < SEARCH_FREQUENCIES && st == HC_OK; ++f)
     if (s->scaled[f]) st = try_at(s, e, f);
-  if (st == HC_INTERRUPTED || st == HC_NO_MEMORY) return st;
-  return search_tick(s) ? HC_OK : HC_INTERRUPTED;
+  return st == HC_OK && !search_tick(s) ? HC_INTERRUPTED : st;
 }
 
 /* Equations that are otherwise *like, with each of n numbers of harmonics. */
@@ -79,13 +83,13 @@ static hc_status try_order(search *s, int harmonics, bool keep_mean)
   order *o = &s->orders[s->n_orders++];
   hc_status st = HC_OK;
   *o = (order){.harmonics = harmonics, .keep_mean = keep_mean, .score = INFINITY};
+  for (int f = 0; f < SEARCH_FREQUENCIES; ++f) fill(SEARCH_DISTANCES, INFINITY, o->distance[f]);
   s->current = o;
   for (int f = 0; f < SEARCH_FREQUENCIES && st == HC_OK; ++f) {
     if (!s->scaled[f]) continue;
     verify_solutions of = {0};
     /* What others start from is of all points. */
     st = search_try(s, &e, f, many ? NULL : start_of(s, f), &of);
-    if (st == HC_OK && many && keep_mean && f == 0) s->out->truth_distance = verify_read_plain(&s->points, &of);
     if (many) s->many[keep_mean][f] = of;
     else verify_solutions_clear(&of);
     s->points.look = SEARCH_ALL;
@@ -94,20 +98,23 @@ static hc_status try_order(search *s, int harmonics, bool keep_mean)
   return st == HC_OK && !search_tick(s) ? HC_INTERRUPTED : st;
 }
 
-static hc_status try_truth(search *s) { return try_order(s, s->out->harmonics, true); }
+/* With the truth's harmonics, and with the case's: what hypotheses must be better than. */
+static hc_status try_truth(search *s)
+{
+  const hc_status st = try_order(s, s->out->harmonics, true);
+  return st == HC_OK && s->own < s->out->harmonics ? try_order(s, s->own, true) : st;
+}
 
-/* All but the truth's own. */
+/* All but these. */
 static hc_status try_other_orders(search *s)
 {
   hc_status st = try_order(s, s->out->harmonics, false);
-  bool own_too = s->own < s->out->harmonics;
+  if (st == HC_OK && s->own < s->out->harmonics) st = try_order(s, s->own, false);
   for (int i = HARMONICS_TRIED - 1; i >= 0 && st == HC_OK; --i) {
     int harmonics = harmonics_tried[i];
     if (harmonics >= s->out->harmonics || harmonics < model_highest_load(s->setup->model)) continue;
-    own_too &= harmonics != s->own;
-    for (int mean = 1; mean >= 0 && st == HC_OK; --mean) st = try_order(s, harmonics, mean);
+    for (int mean = 1; harmonics != s->own && mean >= 0 && st == HC_OK; --mean) st = try_order(s, harmonics, mean);
   }
-  for (int mean = 1; own_too && mean >= 0 && st == HC_OK; --mean) st = try_order(s, s->own, mean);
   return st;
 }
 
@@ -147,11 +154,13 @@ static hc_status try_changes(search *s, const verify_equations *like, verify_cha
   for (int c = first; c <= (int)last && st == HC_OK; ++c) {
     const int variants = verify_change_variants(m, c);
     const bool factor = verify_changes[c].scan == SCAN_FACTOR;
-    const bool may_be_zero = verify_changes[c].cause == CAUSE_GAP || c == CHANGE_STATIC_LOAD;
+    const bool may_be_zero = verify_changes[c].cause == CAUSE_GAP || c == CHANGE_STATIC_LOAD || c == CHANGE_ONE_LOAD,
+               of_response = c == CHANGE_RESPONSE || c == CHANGE_RELATIVE;
     const int numbers = factor ? SEARCH_USUAL_FACTORS - !may_be_zero : 1;
-    for (int i = 0; i < numbers * variants && c != CHANGE_RESPONSE && st == HC_OK; ++i) {
+    for (int i = 0; i < numbers * variants && !of_response && st == HC_OK; ++i) {
       /* For a single contact search_fits knows all but the factor 0. */
-      if (factor && !s->oscillator && i % variants > 0 && search_factors[i / variants] != 0) continue;
+      const bool fitted = factor && !s->oscillator && c != CHANGE_ONE_LOAD && i % variants > 0;
+      if (fitted && search_factors[i / variants] != 0) continue;
       verify_equations e = *like;
       e.change = c;
       e.which = i % variants;
@@ -204,29 +213,33 @@ static hc_status try_orders_of_changed(search *s)
 
 /* ---- another response ---- */
 
-/* For every response that is wrong the degree of freedom whose motion fits best, by the truth and with the case's own
- * harmonics; the hypothesis names the first's. */
+/* For every response that is wrong the degree of freedom whose motion fits best, or the one that it is relative to, by
+ * the truth and with the case's own harmonics; the hypothesis names the first's, others may be as they stand. */
 static hc_status try_responses(search *s)
 {
   const int orders[] = {s->out->harmonics, s->own}, n = s->setup->model->n;
   const verify_sample *p = &s->points;
   const verify_places at = {.n = p->n, .omega = p->omega, .n_responses = p->n_responses, .asked = p->quantity};
   hc_status st = HC_OK;
-  for (int i = 0; i < 2 && n > 1 && n <= VERIFY_MOST_DOFS && st == HC_OK && !search_explained(s); ++i) {
-    verify_equations e = search_equations(orders[i], true);
+  for (int i = 0; i < 4 && n > 1 && n <= VERIFY_MOST_DOFS && st == HC_OK && !search_explained(s); ++i) {
+    verify_equations e = search_equations(orders[i / 2], true);
     verify_solutions of;
+    e.change = i % 2 ? CHANGE_RELATIVE : CHANGE_RESPONSE;
     search_distances best[SEARCH_MOST_RESPONSES] = {{0}}, one;
     int dof[SEARCH_DISTANCES] = {0}, least = 0;
     for (int r = 0; r < p->n_responses; ++r)
       for (int k = 0; k < SEARCH_DISTANCES; ++k) best[r][k] = 1;
+    const verify_equations plain = search_equations(e.harmonics, true);
     s->plainly = true;
-    st = search_near(s, &e, 1, &s->many[true][0], &of);
+    st = search_near(s, &plain, 1, &s->many[true][0], &of);
     s->plainly = false;
+    for (int r = 0; r < p->n_responses && st == HC_OK; ++r)
+      if (r != p->first) search_distances_of(p, r, &of, best[r]); /* it may be the one that is meant */
     for (int d = 0; d < n && st == HC_OK; ++d) {
-      verify_solutions_move(&of, &at, n, d);
+      verify_solutions_move(&of, &at, s->setup->model, d, e.change == CHANGE_RELATIVE, p->wrong);
       for (int r = 0; r < p->n_responses; ++r) {
         const double *row = s->setup->model->responses + (size_t)r * (size_t)n;
-        bool asked = p->wrong[r]; /* is it the response itself? */
+        bool asked = p->wrong[r]; /* is it the response itself, or nothing? */
         for (int k = 0; k < n; ++k) asked &= row[k] == (k == d);
         search_distances_of(p, r, &of, one);
         for (int k = 0; k < SEARCH_DISTANCES && !asked; ++k) {
@@ -242,10 +255,9 @@ static hc_status try_responses(search *s)
       for (int r = 1; r < p->n_responses; ++r) best[0][k] = fmax(best[0][k], best[r][k]);
       if (best[0][k] < best[0][least]) least = k;
     }
-    e.change = CHANGE_RESPONSE;
     e.which = dof[least] + 1;
     e.n = n;
-    if (st == HC_OK) search_read_distances(s, &e, 0, best[0]);
+    if (st == HC_OK) search_read_distances(s, &e, 0, best[0], NULL);
     verify_solutions_clear(&of);
   }
   return st;
@@ -445,7 +457,7 @@ static hc_status try_curves(search *s)
 
 static hc_status try_sliders(search *s)
 {
-  static const int rates[] = {256, 1024, 512, 128, 64};
+  static const int rates[] = {SEARCH_MOST_SAMPLES, 256, 512, 128, 64};
   const int orders[] = {s->own, USUAL_HARMONICS};
   const int n = !s->oscillator && s->own < USUAL_HARMONICS ? 2 : 1; /* their number may not be the case's */
   hc_status st = HC_OK;
@@ -453,6 +465,7 @@ static hc_status try_sliders(search *s)
     const verify_equations e = search_equations(orders[k], true);
     base b;
     st = base_solve(s, &e, 0, &b);
+    for (int i = 0; i <= HBM_RESTART_ONE_PASS_SAMPLE; ++i) fill(SEARCH_DISTANCES, INFINITY, s->most_samples[i]);
     for (int restart = HBM_RESTART_ZEROED; restart <= HBM_RESTART_ONE_PASS_SAMPLE && st == HC_OK; ++restart)
       for (size_t i = 0; i < sizeof rates / sizeof *rates && st == HC_OK; ++i) st = try_rate(s, &b, rates[i], restart);
     verify_solutions_clear(&b.exact);
@@ -593,7 +606,7 @@ hc_status verify_search(const compare_setup *setup, int n, const verify_judged *
   hc_status st = verify_sample_of(n, responses, &s->points);
   verify_window(setup, responses[s->points.first].data, &s->from, &s->to);
   out->n_hypotheses = 0;
-  out->truth_distance = NAN;
+  out->truth_distance = verify_truth_distance(&s->points);
   if (st == HC_OK) {
     find_frequencies(s);
     st = s->oscillator ? run_stages(s, OF_OSCILLATOR, of_oscillator) : run_stages(s, OF_STRUCTURE, of_structure);

@@ -67,8 +67,13 @@ typedef struct verify_sample {
   int first;        /* of these */
   search_look look; /* now */
   bool looked_at[SEARCH_LOOKS][SEARCH_MOST_POINTS];
-  double part; /* [1] a distance is what this part of the points is within, 0.9; 0: their geometric mean */
+  double part; /* [1] a distance is what this part of the points that differ is within, 0.9; 0: geometric mean */
+  double left; /* [1] and the farthest that matches and is solved for, where it is more: no cause takes one away */
+  double off[SEARCH_MOST_RESPONSES][SEARCH_MOST_POINTS]; /* [1] distance from the truth; NaN: not known */
 } verify_sample;
+
+/* [1] Of the points as they stand from the truth, as far as it is known. */
+double verify_truth_distance(const verify_sample *p);
 
 /* HC_NO_MEMORY. */
 hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample *out);
@@ -76,7 +81,7 @@ hc_status verify_sample_of(int n, const verify_judged *responses, verify_sample 
 /* [1] The largest distance of a response: of each factor of the values (the last: dB) and reading. */
 enum { SEARCH_FACTORS = 9 };
 enum { SEARCH_DISTANCES = SEARCH_FACTORS * VERIFY_READINGS };
-typedef double search_distances[SEARCH_DISTANCES]; /* the readings of one factor together */
+typedef double search_distances[SEARCH_DISTANCES]; /* the readings of one factor together; the first: as it stands */
 void search_distances_of(const verify_sample *p, int response, const verify_solutions *of, search_distances out);
 
 /* One reading: number `reading` of verify_reading, times `factor`, into *h. Distances below `floor` are
@@ -88,6 +93,10 @@ void verify_read_one(const verify_sample *p, const verify_solutions *s, int read
  * it changes with every point. */
 double verify_closeness(const verify_sample *p, const verify_solutions *s);
 
+/* [1] How far solutions a are from the nearest of b: the largest at an omega, nine of ten points that differ, and have
+ * both, are within. */
+double verify_apart(const verify_sample *p, const verify_solutions *a, const verify_solutions *b);
+
 /* How far the points are as they stand. */
 double verify_read_plain(const verify_sample *p, const verify_solutions *s);
 
@@ -96,6 +105,7 @@ double verify_read_plain(const verify_sample *p, const verify_solutions *s);
 enum {
   SEARCH_FREQUENCIES = 3, /* omega as it stands, in cycles, or the other way */
   SEARCH_MOST_ORDERS = 40,
+  SEARCH_MOST_SAMPLES = 1024, /* of a mistake about the slider */
   SEARCH_MOST_LIKELY = 4
 };
 
@@ -105,6 +115,7 @@ typedef struct order {
   bool keep_mean;
   bool matters[SEARCH_FREQUENCIES]; /* is it far from many harmonics, by the gate? */
   double score;
+  search_distances distance[SEARCH_FREQUENCIES]; /* INFINITY where there are none */
 } order;
 
 typedef struct search {
@@ -130,6 +141,7 @@ typedef struct search {
   order *current; /* the one that is tried now; NULL: none */
   int n_likely;   /* sampled equations that may be it, likeliest first */
   int frequency;  /* the reading of it that these have */
+  search_distances most_samples[HBM_RESTART_ONE_PASS_SAMPLE + 1]; /* of each mistake about the slider, or INFINITY */
   verify_equations likely[SEARCH_MOST_LIKELY];
   double likely_score[SEARCH_MOST_LIKELY];
   double last;        /* [1] distance of the best reading of what was tried last */
@@ -169,10 +181,16 @@ hc_status search_near(search *s, const verify_equations *e, double omega_factor,
 hc_status search_try(search *s, const verify_equations *e, int frequency, const verify_solutions *near,
                      verify_solutions *out);
 
-/* Every reading of the points among the hypotheses, by its distance. A unit of length is no cause where it is one
- * of s->scales, which may be meant. */
+/* Every reading of the points among the hypotheses, by its distance, if that is better than that of the same equations
+ * with nothing wrong but their number of harmonics. A unit of length is no cause where it is one of s->scales, which
+ * may be meant. d_solved: distances of the points that there are solutions at, NULL: at all. */
 void search_read(search *s, const verify_equations *e, int frequency, const verify_solutions *of);
-void search_read_distances(search *s, const verify_equations *e, int frequency, const search_distances d);
+void search_read_distances(search *s, const verify_equations *e, int frequency, const search_distances d,
+                           const double *d_solved);
+
+/* HC_OK where equations could not be solved for one reading of the frequency, which out->unsolved says then, or where
+ * there are none (HC_BAD_INPUT); else st. */
+hc_status search_passed(search *s, const verify_equations *e, int frequency, hc_status st);
 
 /* The hypothesis with its equations and factors, as the file says the quantity: solved, and among the hypotheses. */
 hc_status search_fit(search *s, verify_hypothesis h, const verify_solutions *near);

@@ -89,6 +89,7 @@ typedef struct verify_report {
   hc_status status;                                /* of verify_run */
   verify_causes causes;                            /* suspected; 0: none, or none found */
   verify_causes nearest_guess;                     /* where no cause is sure; 0: none */
+  verify_causes unsolved; /* of hypotheses with no solution at some points, which fit at the others or have none */
   char tried[256], not_tried[256]; /* kinds of causes, by their words; not_tried: the patience ended before */
   double noise;                    /* [1] standard deviation from point to point around the truth; NaN: not estimated */
   double noise_said;               /* [1] what the values are said to scatter by */

@@ -7,6 +7,7 @@
 
 #include "compare/first_guess.h"
 #include "numerics/base/growing.h"
+#include "numerics/norm.h"
 
 static const double close_omegas = 0.1; /* [1] a step that Newton may take in one go */
 
@@ -208,16 +209,22 @@ static hc_status add(verify_solutions *s, problem *p, const verify_places *at, d
   return HC_OK;
 }
 
-void verify_solutions_move(verify_solutions *s, const verify_places *at, int dofs, int dof)
+void verify_solutions_move(verify_solutions *s, const verify_places *at, const model *m, int dof, bool relative,
+                           const bool *wrong)
 {
   double series[2 * HBM_MAX_HARMONICS + 1];
-  const int coefficients = s->length / dofs;
+  const int dofs = m->n, coefficients = s->length / dofs;
   for (int i = 0; i < s->n; ++i)
     for (int k = s->first[i]; k < s->first[i + 1]; ++k) {
       const double *x = s->x + (size_t)k * (size_t)s->length;
-      for (int c = 0; c < coefficients; ++c) series[c] = x[c * dofs + dof];
-      const verify_motion motion = verify_motion_of(at->omega[i], coefficients / 2, series);
-      for (int r = 0; r < s->n_responses; ++r) s->of[k * s->n_responses + r] = read_all(&at->asked[r], motion);
+      for (int r = 0; r < s->n_responses; ++r) {
+        const double *row = m->responses + (size_t)r * (size_t)dofs;
+        if (!wrong[r]) continue;
+        for (int c = 0; c < coefficients; ++c)
+          series[c] = relative ? dot_product(dofs, row, x + c * dofs) - x[c * dofs + dof] : x[c * dofs + dof];
+        const verify_motion motion = verify_motion_of(at->omega[i], coefficients / 2, series);
+        s->of[k * s->n_responses + r] = read_all(&at->asked[r], motion);
+      }
     }
 }
 

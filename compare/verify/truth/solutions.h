@@ -78,8 +78,10 @@ typedef struct verify_places {
 hc_status verify_solutions_of(const compare_setup *setup, const verify_equations *e, const verify_places *at,
                               const hc_monitor *monitor, verify_solutions *out);
 
-/* A degree of freedom in the place of every response: of[k][r] of the motions that are there. */
-void verify_solutions_move(verify_solutions *s, const verify_places *at, int dofs, int dof);
+/* A degree of freedom in the place of each response that is wrong, or taken from it: of[k][r] of the motions that are
+ * there. */
+void verify_solutions_move(verify_solutions *s, const verify_places *at, const model *m, int dof, bool relative,
+                           const bool *wrong);
 
 /* By Newton from the solutions `near` of other equations at the same omegas; from those scaled to the file's values,
  * where none is near these; and from those at the omega before if that is close: at a small part of what their curve

@@ -121,6 +121,7 @@ typedef struct truth {
   double near_error;                        /* [1] the largest error of the truth that is not another motion's */
   double *room;                             /* acceleration_room */
   double series[2 * HBM_MAX_HARMONICS + 1]; /* of a response */
+  bool incomplete;                          /* of the row that is judged a solution is not known, or its measures */
 } truth;
 
 /* A solution as the file's quantity is taken of it. */
@@ -190,18 +191,23 @@ static int truth_nearest(truth *t, const hbm_curve *at, const verify_row *row, m
   double least = INFINITY;
   for (int k = 0; k < at->n; ++k) {
     measured m;
-    if (truth_measure(t, row->omega, at->X + (size_t)k * at->n_coef, &m) != HC_OK) continue;
+    const bool known = truth_measure(t, row->omega, at->X + (size_t)k * at->n_coef, &m) == HC_OK;
+    t->incomplete |= !known;
+    if (!known) continue;
     double d = fabs(m.value - row->value);
     if (d < least) least = d, best = k, *nearest = m;
   }
   return best;
 }
 
-/* Every solution of the curve at omega; where the curve ended before, one found without it. HC_NO_MEMORY. */
+/* Every solution of the curve at omega; where the curve ended before, one found without it. HC_NO_MEMORY. t->incomplete
+ * where one that the curve has was not found. */
 static hc_status truth_at(truth *t, double omega, hbm_curve *at)
 {
   if (omega < fmin(t->from, t->to) || omega > fmax(t->from, t->to)) return HC_OK;
-  if (hbm_curve_at(t->response.hbm, &t->response.curve, omega, at) == HC_NO_MEMORY) return HC_NO_MEMORY;
+  const hc_status found = hbm_curve_at(t->response.hbm, &t->response.curve, omega, at);
+  if (found == HC_NO_MEMORY) return found;
+  t->incomplete |= found != HC_OK;
   if (at->n > 0) return HC_OK;
   double *X = calloc((size_t)t->response.curve.n_coef, sizeof *X);
   hbm_point point;
@@ -555,6 +561,7 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
   hbm_curve at = {0};
   measured m = {0};
   *row = verify_row_unjudged(p);
+  t->incomplete = false;
   hc_status st = truth_at(t, p->omega, &at);
   int k = st == HC_OK ? truth_nearest(t, &at, row, &m) : -1;
   if (k >= 0 && at.points) {
@@ -565,7 +572,7 @@ static hc_status judge_point(truth *t, const verify_point *p, verify_row *row)
     row->stable_too = row->stable > 0;
     if (row->stable < 0) look_for_stable(t, &at, k, row, &st);
     row->verdict = row->skipped                    ? VERDICT_MATCH
-                   : !(row->error <= t->out->gate) ? VERDICT_DIFFERS
+                   : !(row->error <= t->out->gate) ? (t->incomplete ? VERDICT_SOLVER_FAILED : VERDICT_DIFFERS)
                    : row->stable < 0               ? VERDICT_UNSTABLE
                                                    : VERDICT_MATCH;
   }

@@ -119,6 +119,45 @@ static void mistakes_of_structures_are_named(CHECK_STATE)
   }
 }
 
+/* Loads, contacts and masses of which one alone, or the order, is another: `was` is `ours` here, and `theirs` there. Of
+ * two moving loads either may be the one that is turned: half a period later the other is. */
+static void one_of_several_is_named(CHECK_STATE)
+{
+#define SLIDERS(kt, other)                                                                                             \
+  "stiffness: " #kt ", friction: 0.5, preload: 3, tangent: {a: 1, b: -1}}\n"                                           \
+  "  - {tangential_stiffness: " #other ", friction: 1, preload: 2, tangent: {b: 1}}\n"
+  static const char first[] = "stiffness: 12, friction: 0.5, preload: 3, tangent: {a: 1, b: -1}}\n",
+                    consistent[] = "mass: [[0.8, 0.2, 0], [0.2, 0.4, 0.1], [0, 0.1, 1.4]]", at_a[] = "amplitude: 10";
+  static const struct one {
+    const char *was, *ours, *theirs, *words, *cause;
+  } all[] = {
+      {masses, consistent, masses, "(M as the sums of its rows, H = ", "# cause: lumped_mass\n"},
+      {at_a, at_a, "amplitude: 5", "(the load of harmonic 1 at DOF 1 times 0.5, ", "# cause: one_load\n"},
+      {phase, phase, "phase_deg: 240", "(the other sign of the load of harmonic 1 at DOF ", "# cause: one_load\n"},
+      {first, SLIDERS(12, 30), SLIDERS(30, 12), "(kt and kn exchanged between contacts 0 and 1, ",
+       "# cause: contacts_exchanged\n"},
+  };
+  for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+    put_case("ours.yaml", all[i].was, all[i].ours);
+    put_case("theirs.yaml", all[i].was, all[i].theirs);
+    make_curve("");
+    judged("--columns omega=omega,harmonic_1@b=harmonic_1", 1, all[i].cause);
+    HAVE(all[i].words);
+  }
+}
+
+/* The motion of a less that of c under the name of a, and b as it is. */
+static void a_relative_motion_is_named(CHECK_STATE)
+{
+  put_case("ours.yaml", NULL, NULL);
+  put_case("theirs.yaml", "response: [a, b]", "response: [{a: 1, c: -1}, b]");
+  make_curve("");
+  shell("sed -i 's/,a-c,/,a,/' $D/theirs.csv");
+  judged("--columns omega=omega,amplitude=amplitude --response a --response b", 1, "# cause: relative_response\n");
+  HAVE("the motion relative to DOF 3, ");
+  HAVE("# cause: none");
+}
+
 /* The motion of c under the name of a; c is no response of the case. */
 static void another_degree_of_freedom_is_named(CHECK_STATE)
 {
@@ -178,5 +217,6 @@ static void what_history_decides_is_said(CHECK_STATE)
 }
 
 CHECK_TESTS_WITH("verify.structures", 600, folder_make, folder_remove, every_response_is_judged,
-                 mistakes_of_structures_are_named, another_degree_of_freedom_is_named, a_load_elsewhere_is_named,
-                 a_missing_tangent_is_named, what_history_decides_is_said)
+                 mistakes_of_structures_are_named, one_of_several_is_named, a_relative_motion_is_named,
+                 another_degree_of_freedom_is_named, a_load_elsewhere_is_named, a_missing_tangent_is_named,
+                 what_history_decides_is_said)

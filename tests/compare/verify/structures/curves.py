@@ -190,6 +190,14 @@ def loads(function):
     return change
 
 
+def exchanged_kt(i, k):
+    def change(s, c):
+        s = s.copy()
+        s.contacts[i].kt, s.contacts[k].kt = s.contacts[k].kt, s.contacts[i].kt
+        return s, c
+    return change
+
+
 def tangent_gone(which):
     def change(s, c):
         s = s.copy()
@@ -262,6 +270,15 @@ def responses(*order):
     return lambda omega, values, X, scene: (omega, values[list(order)])
 
 
+def relative(response, dof):
+    """One response is the motion less that of a degree of freedom."""
+    def read(omega, values, X, scene):
+        values = values.copy()
+        values[response] = [half_range(x[scene.dofs[response]] - x[dof]) for x in X]
+        return omega, values
+    return read
+
+
 SAMPLES = ["too_few_samples"]
 MISTAKES = []
 
@@ -329,6 +346,12 @@ add("tower", "gap of 3 half", ["wrong_gap"], contact(2, gap=times(0.5)))
 add("tower", "phase sign", ["phase_sign"], loads(lambda l: [(d, a, k, -p) for d, a, k, p in l]))
 add("tower", "responses exchanged", ["other_response"], None, responses(1, 0))
 add("tower", "chords", ["interpolated"], None, chords(2))
+add("tower", "second load half", ["one_load"], loads(lambda l: [l[0], (l[1][0], l[1][1] / 2, *l[1][2:])]))
+add("tower", "first load turned", ["one_load"], loads(lambda l: [(l[0][0], -l[0][1], *l[0][2:]), l[1]]))
+add("tower", "kt of 1 and 2 exchanged", ["contacts_exchanged"], exchanged_kt(0, 1))
+add("tower", "top less middle", ["relative_response"], None, relative(0, 5))
+add("corner", "third load missing", ["one_load"], loads(lambda l: l[:2]))
+add("corner", "ay less bx", ["relative_response"], None, relative(1, 3))
 add("corner", "square", ["square_limit"], contact(0, square=True))
 add("corner", "no tangent 2", ["tangent_missing"], tangent_gone(1))
 add("corner", "phase sign", ["phase_sign"], loads(lambda l: [(d, a, k, -p) for d, a, k, p in l]))
