@@ -1,5 +1,5 @@
 /* compare_settings.h - the frequencies, harmonics and samples of a comparison; with the model, both sides' settings and
- * the limits, all that it works from. Names, defaults, ranges, meanings: `compare` in casefile/fields.c. */
+ * the limits, all that it works from. Names, defaults, ranges, meanings: `compare` in model/casefile/fields.c. */
 #pragma once
 
 #include "hbm/hbm_settings.h"

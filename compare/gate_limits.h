@@ -1,5 +1,5 @@
 /* gate_limits.h - the largest discrepancies that count as agreement, and the most a response curve may cost; only the
- * gate and the rule of a match look inside. Names, defaults, ranges, meanings: `gate` in casefile/fields.c. */
+ * gate and the rule of a match look inside. Names, defaults, ranges, meanings: `gate` in model/casefile/fields.c. */
 #pragma once
 
 #include <stdbool.h>

@@ -23,7 +23,7 @@ COMMANDS = {  # what is run for the columns of each command: one degree of freed
     "verify": ["verify", "cases/verify/case2.yaml", "--against", "cases/verify/no_static.csv",
                "--columns", "omega=1,harmonic_1=2"],
     "bench": ["bench", CASE2, "--at", "9", "--alone", "--repeats", "1"],
-    "suite": ["suite", str(ROOT / "suite"), "--results", "results", "--all"],
+    "suite": ["suite", str(ROOT / "compare" / "suite"), "--results", "results", "--all"],
     "stress": ["stress", "--scenes", "1"],
     "describe": ["describe"],
     "describe --case": ["describe", "--case", CASE2],

@@ -1,5 +1,5 @@
 /* hbm_settings.h - how harmonic balance solves a model. Plain data: copy it freely. Names, defaults, ranges and
- * meanings of the fields are those of `hbm` in a case file (casefile/fields.c). */
+ * meanings of the fields are those of `hbm` in a case file (model/casefile/fields.c). */
 #pragma once
 
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 /* case_scene.h - a case of cases/ as a scene, for tests. */
 #pragma once
 
-#include "casefile/case_file.h"
+#include "model/casefile/case_file.h"
 #include "tests/check.h"
 
 /* The case of that name below cases/, with assignments; case_clear in the end. */

@@ -2,7 +2,7 @@
  * integration. */
 #pragma once
 
-#include "study/scene_solvers.h"
+#include "compare/study/scene_solvers.h"
 #include "tests/check.h"
 #include "timeint/closed_form/integrate_closed_form.h"
 #include "timeint/cvode/integrate_events.h"

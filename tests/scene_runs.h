@@ -3,8 +3,8 @@
 
 #include "compare/accuracy/accuracy.h"
 #include "compare/gate/gate.h"
+#include "compare/study/scene_solvers.h"
 #include "compare/verify/verify.h"
-#include "study/scene_solvers.h"
 #include "tests/case_scene.h"
 
 #define SCENE_RUN(call)                                                                                                \

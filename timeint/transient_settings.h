@@ -1,5 +1,5 @@
 /* transient_settings.h - how a steady state is found by time integration. Plain data: copy it freely. Names, defaults,
- * ranges and meanings of the fields are those of `transient` in a case file (casefile/fields.c). */
+ * ranges and meanings of the fields are those of `transient` in a case file (model/casefile/fields.c). */
 #pragma once
 
 #include <stdbool.h>

@@ -12,11 +12,11 @@
 
 #include "compare/advice.h"
 #include "compare/no_steady_state.h"
+#include "compare/output/output.h"
+#include "compare/output/progress.h"
+#include "compare/output/same_file.h"
 #include "numerics/base/constants.h"
 #include "numerics/base/nearest.h"
-#include "output/output.h"
-#include "output/progress.h"
-#include "output/same_file.h"
 
 enum { KEY_SET = 0x100, KEY_FORMAT, KEY_WIDE };
 

@@ -5,13 +5,13 @@
 #include <argp.h>
 #include <stdbool.h>
 
-#include "casefile/case_file.h"
-#include "casefile/scene.h"
+#include "compare/output/rows.h"
+#include "compare/output/table.h"
 #include "interfaces/command/plot/plot.h"
+#include "model/casefile/case_file.h"
+#include "model/casefile/scene.h"
 #include "model/model.h"
 #include "numerics/base/status.h"
-#include "output/rows.h"
-#include "output/table.h"
 
 enum { EXIT_AGREED = 0, EXIT_DISAGREED = 1, EXIT_BAD_CASE = 2, EXIT_NO_SOLUTION = 3, EXIT_USAGE = 64, EXIT_BUG = 70 };
 
@@ -118,7 +118,7 @@ int cli_run(const cli_command *self, int argc, char **argv);
 
 /* No output of a command may replace one of its inputs or another of its outputs: every command hands in the files
  * that it reads and writes before it opens or computes anything. Names that mean one file are told by device and inode
- * number (output/same_file.h); /dev/null, terminals and pipes may be given any number of times. */
+ * number (compare/output/same_file.h); /dev/null, terminals and pipes may be given any number of times. */
 typedef struct cli_file {
   const char *what; /* "--junit", "the curve": how messages call it                                                   */
   const char *path; /* NULL: there is none; "-": standard input or output, but for CLI_RESULTS                        */
@@ -183,7 +183,7 @@ table *cli_own_table(const char *title, unsigned extra, int n, const table_colum
 /* The columns of rows.h that only some cases have, for this one. */
 unsigned cli_extra_columns(const scene *sc);
 
-/* An empty table of that kind of rows (output/rows.h), which a narrow screen may show in part; and one row of it. */
+/* An empty table of that kind of rows (rows.h), which a narrow screen may show in part; and one row of it. */
 table *cli_table(const cli_common *common, const char *title, rows_kind kind);
 void cli_put_row(const cli_common *common, table *t, rows_kind kind, const void *row);
 

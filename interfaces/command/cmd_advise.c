@@ -4,9 +4,9 @@
 #include <stdio.h>
 
 #include "compare/accuracy/sufficient.h"
+#include "compare/output/progress.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
-#include "output/progress.h"
 
 static const char help[] =
     "You set up another program: the fewest harmonics with exact forces, and the cheapest harmonics and samples, that "

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "compare/accuracy/bench.h"
+#include "compare/output/progress.h"
 #include "interfaces/command/commands.h"
-#include "output/progress.h"
 
 static const char help[] =
     "You choose a method: time against error of harmonic balance with exact and sampled forces, and of time "

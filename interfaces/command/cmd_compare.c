@@ -5,15 +5,15 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "casefile/structure.h"
 #include "compare/comparison.h"
 #include "compare/duration.h"
 #include "compare/memory.h"
+#include "compare/output/progress.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
 #include "interfaces/command/keep_found.h"
 #include "interfaces/command/proofs.h"
-#include "output/progress.h"
+#include "model/casefile/structure.h"
 
 static const char help[] =
     "You want to know whether an HBM result of your case is right: solves CASE by harmonic balance and by time "

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compare/output/table.h"
 #include "hbm/contact/contact_measures.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/forces/contact_kind.h"
@@ -17,7 +18,6 @@
 #include "numerics/base/number.h"
 #include "numerics/norm.h"
 #include "numerics/series.h"
-#include "output/table.h"
 
 /* ---- the motion that is asked about ------------------------------------------------------------ */
 

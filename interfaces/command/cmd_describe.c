@@ -7,13 +7,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "casefile/case_values.h"
-#include "casefile/structure.h"
+#include "compare/output/output.h"
 #include "interfaces/command/commands.h"
+#include "model/casefile/case_values.h"
+#include "model/casefile/structure.h"
 #include "model/modes.h"
 #include "numerics/base/constants.h"
 #include "numerics/norm.h"
-#include "output/output.h"
 
 /* ---- what the parts of a structure resolved to ----------------------------------------------------- */
 

@@ -4,17 +4,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "casefile/structure.h"
 #include "compare/duration.h"
 #include "compare/memory.h"
+#include "compare/output/progress.h"
 #include "compare/response.h"
+#include "compare/study/scene_solvers.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
 #include "interfaces/command/keep_found.h"
+#include "model/casefile/structure.h"
 #include "numerics/base/constants.h"
 #include "numerics/base/thread_clock.h"
-#include "output/progress.h"
-#include "study/scene_solvers.h"
 
 static const char help[] =
     "You want the response curve: harmonic balance along the sweep of CASE, turning points included, or every "

@@ -7,14 +7,14 @@
 
 #include "compare/duration.h"
 #include "compare/gate/gate.h"
+#include "compare/output/output.h"
+#include "compare/output/progress.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
 #include "interfaces/command/proofs.h"
 #include "numerics/base/number.h"
 #include "numerics/base/path.h"
 #include "numerics/workers.h"
-#include "output/output.h"
-#include "output/progress.h"
 
 static const char help[] =
     "You want CI to fail where a result becomes wrong: compares harmonic balance with time integration on every CASE, "

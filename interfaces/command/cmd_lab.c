@@ -6,11 +6,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "casefile/matrices/text_file.h"
+#include "compare/output/output.h"
 #include "interfaces/command/commands.h"
 #include "interfaces/command/report/html.h"
+#include "model/casefile/matrices/text_file.h"
 #include "numerics/base/message.h"
-#include "output/output.h"
 
 static const char help[] =
     "You teach or learn: writes the lab, one HTML page that solves cases of one degree of freedom itself, as fast as "

@@ -2,11 +2,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "compare/study/scene_solvers.h"
 #include "interfaces/command/commands.h"
 #include "model/modes.h"
+#include "model/reduce/lowest_modes.h"
 #include "numerics/base/constants.h"
-#include "reduce/lowest_modes.h"
-#include "study/scene_solvers.h"
 
 static const char help[] =
     "You have a new model and want to see whether it is the right one: natural frequencies and damping ratios of CASE "

@@ -4,14 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "casefile/structure.h"
+#include "compare/output/output.h"
+#include "compare/output/progress.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
 #include "interfaces/command/proofs.h"
+#include "model/casefile/structure.h"
 #include "numerics/base/number.h"
 #include "numerics/base/path.h"
-#include "output/output.h"
-#include "output/progress.h"
 
 static const char help[] =
     "You need certainty, not agreement: proves, next to each HBM solution of CASE, that the exact contact law has a "

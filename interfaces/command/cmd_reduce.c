@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "interfaces/command/commands.h"
+#include "model/reduce/reduced_case.h"
 #include "numerics/base/constants.h"
 #include "numerics/base/path.h"
-#include "reduce/reduced_case.h"
 
 static const char help[] =
     "You have large sparse matrices of a finite-element model: reduces them to the nodes that contacts, loads and "

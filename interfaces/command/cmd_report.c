@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include "compare/duration.h"
+#include "compare/output/output.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
 #include "interfaces/command/proofs.h"
 #include "interfaces/command/report/report.h"
 #include "numerics/base/path.h"
-#include "output/output.h"
 
 static const char help[] =
     "You want to show a result: writes one HTML page about CASE: verdict and error budget in words, interactive "

@@ -8,16 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "casefile/case_file.h"
+#include "compare/output/output.h"
+#include "compare/output/progress.h"
+#include "compare/output/same_file.h"
+#include "compare/stress/scenes.h"
+#include "compare/stress/stress.h"
 #include "interfaces/command/cli.h"
 #include "interfaces/command/commands.h"
+#include "model/casefile/case_file.h"
 #include "numerics/base/number.h"
 #include "numerics/base/path.h"
-#include "output/output.h"
-#include "output/progress.h"
-#include "output/same_file.h"
-#include "stress/scenes.h"
-#include "stress/stress.h"
 
 /* ---- files: none in two roles, and a folder for the findings (tests/command/files.transcript) ---- */
 

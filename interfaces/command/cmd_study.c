@@ -6,15 +6,15 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "casefile/structure.h"
+#include "compare/output/output.h"
+#include "compare/output/progress.h"
+#include "compare/study/cluster.h"
+#include "compare/study/store.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
+#include "model/casefile/structure.h"
 #include "numerics/base/path.h"
 #include "numerics/base/thread_clock.h"
-#include "output/output.h"
-#include "output/progress.h"
-#include "study/cluster.h"
-#include "study/store.h"
 
 static const char help[] =
     "You vary numbers of a case, or test what a paper claims: computes every scene of each STUDY (a YAML file: a base "

@@ -6,13 +6,13 @@
 #include <unistd.h>
 
 #include "compare/gate/gate.h"
+#include "compare/output/output.h"
+#include "compare/output/progress.h"
 #include "compare/verify/verify.h"
 #include "interfaces/command/commands.h"
 #include "interfaces/command/report/scores.h"
 #include "numerics/base/number.h"
 #include "numerics/base/thread_clock.h"
-#include "output/output.h"
-#include "output/progress.h"
 
 static const char help[] =
     "Score a program's results on the published cases of SUITE, whose references are proven: digits of amplitude, mean "
@@ -75,7 +75,7 @@ typedef struct suite_call {
 static const char *folder_of(const cli_common *common)
 {
   if (common->n_arguments) return common->arguments[0];
-  return access("suite/suite.json", R_OK) == 0 ? "suite" : HBMCHECK_SUITE;
+  return access("compare/suite/suite.json", R_OK) == 0 ? "compare/suite" : HBMCHECK_SUITE;
 }
 
 /* What a solver makes of case i, as a scene. */

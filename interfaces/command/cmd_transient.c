@@ -3,14 +3,14 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "casefile/structure.h"
 #include "compare/duration.h"
 #include "compare/motion.h"
+#include "compare/output/progress.h"
 #include "compare/steady_states.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/commands.h"
 #include "interfaces/command/keep_found.h"
-#include "output/progress.h"
+#include "model/casefile/structure.h"
 
 static const char help[] =
     "You want to know which motion happens: the steady state of CASE by time integration at the omegas of --at. It "

@@ -5,14 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "casefile/structure.h"
 #include "compare/duration.h"
+#include "compare/output/progress.h"
 #include "compare/verify/verify.h"
 #include "interfaces/command/case_names.h"
 #include "interfaces/command/cli.h"
 #include "interfaces/command/commands.h"
+#include "model/casefile/structure.h"
 #include "numerics/base/number.h"
-#include "output/progress.h"
 
 /* ---- which curves of the file ------------------------------------------------------------ */
 

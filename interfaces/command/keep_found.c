@@ -4,7 +4,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "output/progress.h"
+#include "compare/output/progress.h"
 
 enum { LOOK_MS = 50, GRACE_MS = 500 };
 

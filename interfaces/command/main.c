@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "compare/output/progress.h"
 #include "interfaces/command/commands.h"
 #include "numerics/base/nearest.h"
 #include "numerics/dense.h"
-#include "output/progress.h"
 
 #define ADDRESS_OF(name) &cmd_##name,
 static const cli_command *const commands[] = {COMMANDS(ADDRESS_OF)};

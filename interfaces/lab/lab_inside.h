@@ -1,9 +1,9 @@
 /* lab_inside.h - what the parts of the lab share: its case, the table of the last answer, the curves it keeps. */
 #pragma once
 
-#include "casefile/case_file.h"
 #include "hbm/hbm.h"
 #include "interfaces/lab/lab.h"
+#include "model/casefile/case_file.h"
 
 enum { LAB_FORCES = 2, LAB_MOST_COEF = 2 * HBM_MAX_HARMONICS + 1 };
 

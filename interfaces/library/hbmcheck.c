@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "casefile/case_file.h"
-#include "casefile/structure.h"
 #include "compare/comparison.h"
 #include "interfaces/library/inside.h"
+#include "model/casefile/case_file.h"
+#include "model/casefile/structure.h"
 #include "numerics/base/number.h"
 
 /* ---- enumerations: the public ones have the values of the inner ones, all of them ---- */

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "casefile/scene.h"
 #include "interfaces/library/hbmcheck.h"
+#include "model/casefile/scene.h"
 #include "model/contact_period.h"
 #include "numerics/base/status.h"
 

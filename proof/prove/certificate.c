@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "casefile/structure.h"
+#include "model/casefile/structure.h"
 #include "numerics/base/message.h"
 #include "numerics/base/number.h"
 #include "numerics/norm.h"

@@ -5,7 +5,7 @@
 
 #include <jansson.h>
 
-#include "casefile/scene.h"
+#include "model/casefile/scene.h"
 #include "timeint/steady/orbit_events.h"
 
 /* The scene's model, as certificates have it but for the loads, and which of their contacts are the model's. */

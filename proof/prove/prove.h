@@ -5,8 +5,8 @@
 
 #include <jansson.h>
 
-#include "casefile/scene.h"
 #include "compare/compare_settings.h"
+#include "model/casefile/scene.h"
 
 /* Why a row is unproven, X(code, words, meaning). */
 #define PROOF_REASONS(X)                                                                                               \

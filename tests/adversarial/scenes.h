@@ -1,7 +1,7 @@
 /* scenes.h - a scene of cases/adversarial with fields changed, and all its HBM solutions at a frequency. */
 #pragma once
 
-#include "study/scene_solvers.h"
+#include "compare/study/scene_solvers.h"
 #include "tests/case_scene.h"
 
 /* set: "PATH=VALUE", ended by NULL. */

@@ -1,5 +1,5 @@
 /* test_accuracy.c - harmonic balance with 30 harmonics against the exact transient at every reference row. */
-#include "study/scene_solvers.h"
+#include "compare/study/scene_solvers.h"
 #include "tests/adversarial/steady_references.h"
 #include "tests/scene_parts.h"
 #include "tests/timeint/reference_rows.h"

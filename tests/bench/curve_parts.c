@@ -6,11 +6,11 @@
  * all but the case file (median), for versus_peer.py, and of the curve; the other parts in terms of the curve. */
 #include <time.h>
 
-#include "casefile/case_file.h"
 #include "compare/response.h"
+#include "compare/study/scene_solvers.h"
 #include "hbm/solver/hbm_solver_impl.h"
+#include "model/casefile/case_file.h"
 #include "numerics/base/path.h"
-#include "study/scene_solvers.h"
 
 enum { MOST_ROUNDS = 1001 };
 enum { READ, SET_UP, CURVE, STABILITY, SPECIAL, WHOLE, PARTS };

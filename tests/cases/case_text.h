@@ -3,7 +3,7 @@
 
 #include <dirent.h>
 
-#include "casefile/case_file.h"
+#include "model/casefile/case_file.h"
 #include "numerics/random.h"
 #include "tests/check.h"
 

@@ -1,6 +1,6 @@
 /* test_echo.c - what is echoed reads back to the same bytes; the paper's scenes are what they say. */
 
-#include "casefile/fields.h"
+#include "model/casefile/fields.h"
 #include "tests/case_scene.h"
 #include "tests/cases/case_text.h"
 

@@ -1,5 +1,5 @@
 /* test_fields.c - defaults inside their ranges, names unique, rivals mutual; describe shows all fields. */
-#include "casefile/fields.h"
+#include "model/casefile/fields.h"
 #include "tests/cases/case_text.h"
 
 static void defaults_pass_their_own_reader(CHECK_STATE)

@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "casefile/case_reader.h"
+#include "model/casefile/case_reader.h"
 #include "tests/cases/case_text.h"
 
 enum { MEGABYTE = 1 << 20 };

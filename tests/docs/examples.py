@@ -142,7 +142,7 @@ def main(hbmcheck, source, *pages):
         folder = pathlib.Path(page.stem).absolute()
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(pathlib.Path(source, "cases"), folder / "cases")
-        (folder / "suite").symlink_to(pathlib.Path(source, "suite").resolve())
+        (folder / "compare").symlink_to(pathlib.Path(source, "compare").resolve())
         (folder / "bin").mkdir()
         program = pathlib.Path(hbmcheck).absolute()
         (folder / "bin" / "hbmcheck").symlink_to(program)

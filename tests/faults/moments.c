@@ -8,10 +8,10 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include "compare/output/output.h"
+#include "compare/study/store.h"
 #include "hbm/forces/contact_forces.h"
 #include "numerics/workers.h"
-#include "output/output.h"
-#include "study/store.h"
 #include "tests/wrap.h"
 
 enum { HANGS = 600 /* [s] of a child, to end hangs */ };

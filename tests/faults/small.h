@@ -4,7 +4,7 @@
 #include <dirent.h>
 #include <signal.h>
 
-#include "casefile/case_file.h"
+#include "model/casefile/case_file.h"
 #include "tests/check.h"
 
 #define SMALL SOURCE_DIR "/tests/faults/small"

@@ -6,7 +6,7 @@
 #include <kinsol/kinsol.h>
 #include <nvector/nvector_serial.h>
 
-#include "study/scene_solvers.h"
+#include "compare/study/scene_solvers.h"
 #include "tests/faults/child.h"
 #include "tests/faults/small.h"
 #include "tests/wrap.h"

@@ -3,8 +3,8 @@
  * test_memory.c tries commands, on small scenes. */
 #include <gsl/gsl_errno.h>
 
+#include "compare/study/scene_solvers.h"
 #include "numerics/norm.h"
-#include "study/scene_solvers.h"
 #include "tests/faults/memory.h"
 #include "tests/faults/small.h"
 

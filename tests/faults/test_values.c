@@ -2,8 +2,8 @@
  * the right-hand side of the regularised law (timeint/law/scaled.c), with the status of a good evaluation or the one
  * it owes: no hang, no wrong answer, and the handle is not poisoned: asked again it answers what a new one answers,
  * bit for bit. */
+#include "compare/study/scene_solvers.h"
 #include "hbm/forces/contact_forces.h"
-#include "study/scene_solvers.h"
 #include "tests/faults/small.h"
 #include "tests/wrap.h"
 #include "timeint/cvode/structure_newton.h"

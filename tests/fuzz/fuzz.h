@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "casefile/case_file.h"
+#include "model/casefile/case_file.h"
 
 /* One input; libFuzzer fixes the name. Always 0. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

@@ -1,6 +1,6 @@
 /* fuzz_case.c - bytes as a case file: read and echoed bit for bit, or refused with a place. */
 
-#include "casefile/case_reader.h"
+#include "model/casefile/case_reader.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -1,7 +1,7 @@
 /* fuzz_matrix.c - bytes as a matrix file: read, and the same written as Matrix Market; or refused. */
 #include <string.h>
 
-#include "casefile/matrices/matrix_file.h"
+#include "model/casefile/matrices/matrix_file.h"
 #include "tests/fuzz/fuzz.h"
 
 enum { WORDS = 512, LARGE = 50 /* rows: what is larger is zeros for the most part, and takes long to write */ };

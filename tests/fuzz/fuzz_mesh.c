@@ -1,7 +1,7 @@
 /* fuzz_mesh.c - an input file of CalculiX: finite coordinates; each set or surface a patch of ascending nodes and
  * shares of area >= 0, or refused with a place; of the first two, paired, each node is in one pair at most. */
 
-#include "casefile/mesh/pairing.h"
+#include "model/casefile/mesh/pairing.h"
 #include "tests/fuzz/fuzz.h"
 
 enum { SETS = 4 };

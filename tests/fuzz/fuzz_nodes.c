@@ -1,5 +1,5 @@
 /* fuzz_nodes.c - bytes as a file of nodes: each node and direction once, DOFs in range; or refused. */
-#include "casefile/structure.h"
+#include "model/casefile/structure.h"
 #include "tests/fuzz/fuzz.h"
 
 enum { DOFS = 3 };

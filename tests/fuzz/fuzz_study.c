@@ -1,6 +1,6 @@
 /* fuzz_study.c - a study beside base.yaml: refused with a place in either, or the scenes that --set makes of it. */
 
-#include "study/study.h"
+#include "compare/study/study.h"
 #include "tests/fuzz/fuzz.h"
 
 static const char base[] =

@@ -1,7 +1,7 @@
 /* properties.c - see fuzz.h. */
 #include <unistd.h>
 
-#include "casefile/fields.h"
+#include "model/casefile/fields.h"
 #include "numerics/base/utf8.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-#include "casefile/scene.h"
+#include "model/casefile/scene.h"
 #include "numerics/random.h"
 #include "tests/reference_scenes.h"
 #include "tests/reference_table.h"

@@ -1,6 +1,6 @@
 /* test_auto.c - hbm.harmonics: auto and hbm.samples: auto keep hbm.accuracy, what they cost, and every switch that
  * saves work changes nothing else. */
-#include "study/scene_solvers.h"
+#include "compare/study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 
 typedef struct solved_curve {

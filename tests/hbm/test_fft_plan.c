@@ -1,8 +1,8 @@
 /* test_fft_plan.c - every call of FFTW's planner is made under one and the same lock, and the plans do what fft_plan.h
  * promises. The linker wraps the planner and the locks, so that the test sees which lock is held. */
 
+#include "compare/study/scene_solvers.h"
 #include "hbm/contact/fft_plan.h"
-#include "study/scene_solvers.h"
 #include "tests/check.h"
 #include "tests/wrap.h"
 

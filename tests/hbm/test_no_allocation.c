@@ -3,9 +3,9 @@
 #include <fftw3.h>
 #include <nvector/nvector_serial.h>
 
+#include "compare/study/scene_solvers.h"
 #include "hbm/planar/planar_force.h"
 #include "numerics/sundials_compat.h"
-#include "study/scene_solvers.h"
 #include "tests/counted.h"
 #include "tests/hbm/scenes.h"
 

@@ -1,7 +1,7 @@
 /* test_paper.c - what the paper observed of sampled harmonic balance, in its own mode: harmonic 0 dropped, H = 1,
  * slider restarted on a sample. Turning points are counted against the same curve with exact forces: what exceeds its
  * number is false. Where what is found is not what the paper says, a comment says so. Peaks: hbm_peak.csv. */
-#include "study/scene_solvers.h"
+#include "compare/study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 
 typedef struct outcome {

@@ -2,7 +2,7 @@
  * solution of 80 harmonics with exact forces and harmonic 0, which is off by (30/80)^3 = 1/19 of H = 30 itself. The
  * rule that both must keep is the one predictions are used by: three times. */
 
-#include "study/scene_solvers.h"
+#include "compare/study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 
 enum { TRUTH = 80, MOST = 2 * HBM_MAX_HARMONICS + 1 };

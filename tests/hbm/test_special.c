@@ -1,8 +1,8 @@
 /* test_special.c - grazing onsets, folds and period doublings of the paper's case 2: against a closed form, against
  * what a fold is, and against the values of the true orbit (docs/measurements/case2.md, by AUTO-07p, too), to which
  * truncation must tend. */
+#include "compare/study/scene_solvers.h"
 #include "hbm/solver/hbm_solver_impl.h"
-#include "study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 
 typedef struct found {

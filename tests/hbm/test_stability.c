@@ -1,7 +1,7 @@
 /* test_stability.c - Floquet multipliers: where the oscillator is linear against its eigenvalues, where nothing
  * slips by their product, where it slips against the derivative of a period map that the test marches itself. */
 
-#include "study/scene_solvers.h"
+#include "compare/study/scene_solvers.h"
 #include "tests/hbm/period_map.h"
 #include "tests/hbm/scenes.h"
 #include "tests/scene_parts.h"

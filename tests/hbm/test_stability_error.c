@@ -1,8 +1,8 @@
 /* test_stability_error.c - what the words about stability are worth: the multipliers' predicted error, the special
  * points' error in omega, and whether either end of a sweep finds the same ones. */
-#include "casefile/case_file.h"
+#include "compare/study/scene_solvers.h"
 #include "hbm/hbm.h"
-#include "study/scene_solvers.h"
+#include "model/casefile/case_file.h"
 #include "tests/hbm/structure_cases.h"
 
 /* Two masses and a stop (NLvib's example 03). Of the exact orbit's upper branch at 0.7 the multiplier is 0.8586, proven

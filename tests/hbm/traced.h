@@ -3,7 +3,7 @@
 
 #include <complex.h>
 
-#include "study/scene_solvers.h"
+#include "compare/study/scene_solvers.h"
 #include "tests/hbm/scenes.h"
 
 /* A monitor that stops the work after so many ticks. */

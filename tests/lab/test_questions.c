@@ -1,10 +1,10 @@
 /* test_questions.c - the lab's questions against those they come from, and against what the numbers must be. */
 #include <float.h>
 
-#include "casefile/case_file.h"
 #include "compare/first_guess.h"
 #include "compare/response.h"
 #include "interfaces/lab/lab.h"
+#include "model/casefile/case_file.h"
 #include "tests/check.h"
 
 enum { MOST = 2 * HBM_MAX_HARMONICS + 1, CONTACT = 2 /* of a signal: th, x, then u, v, N, T */ };

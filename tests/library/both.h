@@ -1,11 +1,11 @@
 /* both.h - a structure's case as the public reads it and as the library has it inside, at one frequency of its own. */
 #pragma once
 
-#include "casefile/case_file.h"
 #include "compare/comparison.h"
 #include "compare/first_guess.h"
 #include "compare/steady_states.h"
 #include "interfaces/library/hbmcheck.h"
+#include "model/casefile/case_file.h"
 #include "tests/check.h"
 
 #define FOLDER SOURCE_DIR "/cases/structures/"

@@ -2,9 +2,9 @@
  * was not computed is NaN. The scenes show every verdict's side: stable, unstable, period k, aperiodic, failed. */
 #include "tests/library/case2.h"
 
-#include "casefile/case_file.h"
 #include "compare/gate/gate.h"
 #include "compare/steady_states.h"
+#include "model/casefile/case_file.h"
 #include "tests/library/same.h"
 
 /* The inner form of CASE2(set...). */

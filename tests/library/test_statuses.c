@@ -2,9 +2,9 @@
  * HBMCHECK_BAD_INPUT and HBMCHECK_NO_MEMORY. Inner functions do their work, then answer what the test says (--wrap). */
 #include "tests/library/case2.h"
 
-#include "casefile/case_file.h"
 #include "compare/gate/gate.h"
 #include "compare/steady_states.h"
+#include "model/casefile/case_file.h"
 #include "tests/library/same.h"
 #include "tests/wrap.h"
 

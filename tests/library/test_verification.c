@@ -1,6 +1,6 @@
 /* test_verification.c - another program's curve by the C API: verdicts, words; bad arrays; a monitor that stops. */
-#include "casefile/case_file.h"
 #include "compare/verify/verify.h"
+#include "model/casefile/case_file.h"
 #include "tests/library/case2.h"
 #include "tests/library/same.h"
 

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
-#include "output/output.h"
+#include "compare/output/output.h"
 #include "tests/check.h"
 
 enum { BIG = 1 << 20 /* more than any stdio buffer */ };

@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <time.h>
 
-#include "output/progress.h"
+#include "compare/output/progress.h"
 #include "tests/check.h"
 #include "tests/wrap.h"
 

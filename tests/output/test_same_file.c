@@ -2,7 +2,7 @@
 #include <errno.h>
 #include <fcntl.h>
 
-#include "output/same_file.h"
+#include "compare/output/same_file.h"
 #include "tests/folder.h"
 
 static bool same(const char *a, const char *b)

@@ -2,9 +2,9 @@
 #include <jansson.h>
 #include <locale.h>
 
+#include "compare/output/table_private.h"
 #include "numerics/base/utf8.h"
 #include "numerics/random.h"
-#include "output/table_private.h"
 #include "tests/check.h"
 
 static const table_column columns[] = {

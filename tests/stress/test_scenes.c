@@ -1,8 +1,8 @@
 /* test_scenes.c - scenes cover every range and its special points; the same numbers give the same scene. */
 #include <float.h>
 
-#include "casefile/case_file.h"
-#include "stress/scenes.h"
+#include "compare/stress/scenes.h"
+#include "model/casefile/case_file.h"
 #include "tests/check.h"
 
 enum { MANY = 4000 };

@@ -2,17 +2,17 @@
  * arrives (--wrap) must be a finding; unspoiled, the scene ends without one. Oscillators go the same ways. */
 #include <gsl/gsl_errno.h>
 
-#include "casefile/case_file.h"
-#include "casefile/fields.h"
 #include "compare/accuracy/sufficient.h"
 #include "compare/comparison.h"
+#include "compare/stress/scenes.h"
+#include "compare/stress/solved_scene.h"
 #include "hbm/contact/exact_force.h"
 #include "hbm/solver/hbm_solver_impl.h"
+#include "model/casefile/case_file.h"
+#include "model/casefile/fields.h"
 #include "numerics/norm.h"
 #include "numerics/random.h"
 #include "proof/prove/certificate.h"
-#include "stress/scenes.h"
-#include "stress/solved_scene.h"
 #include "tests/check.h"
 #include "tests/wrap.h"
 

@@ -1,6 +1,6 @@
 /* test_verdict.c - what a check says of numbers that it is given. */
 #include "compare/comparison.h"
-#include "stress/solved_scene.h"
+#include "compare/stress/solved_scene.h"
 #include "tests/check.h"
 
 /* A prediction of infinity says nothing; an error that is no number is a finding, whatever else is; members of a family

@@ -1,7 +1,7 @@
 /* study_text.h - a study from text, by way of a file in a folder of the test's own. */
 #pragma once
 
-#include "study/study.h"
+#include "compare/study/study.h"
 #include "tests/folder.h"
 
 /* A linear scene: cheap, and enough wherever the scene is beside the point. */

@@ -3,7 +3,7 @@
 #include <dirent.h>
 #include <sys/wait.h>
 
-#include "study/store.h"
+#include "compare/study/store.h"
 #include "tests/check.h"
 
 static int check_file(const char *folder, const char *name)

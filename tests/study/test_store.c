@@ -1,5 +1,5 @@
 /* test_store.c - what the results file refuses, and that what it refuses stays as it was, byte for byte. */
-#include "study/store.h"
+#include "compare/study/store.h"
 #include "tests/study/study_text.h"
 
 static char file[64]; /* r.sqlite in the folder */

@@ -17,7 +17,7 @@ import tempfile
 from fractions import Fraction
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SUITE = ROOT / "suite"
+SUITE = ROOT / "compare" / "suite"
 HBMCHECK, PROOF = sys.argv[1], sys.argv[2]
 VERSION, NAMES = (json.loads((SUITE / "suite.json").read_text())[key] for key in ("suite", "cases"))
 # Numbers as they stand in the files, exactly.
@@ -103,9 +103,9 @@ def family():
     import make, table
     stuck, slips = table.jenkins(60, 1000), table.jenkins(50, 5)
     with tempfile.TemporaryDirectory() as folder:
-        make.HERE = f"{folder}/suite"
+        make.HERE = f"{folder}/compare/suite"
         for name in ("cases", "certificates"):
-            os.makedirs(f"{folder}/suite/{name}")
+            os.makedirs(f"{folder}/compare/suite/{name}")
         os.symlink(ROOT / "proof", f"{folder}/proof")
         for name, contacts, refused in (("stop", [stuck, table.stop(50, 0)], True), ("foot", [stuck, table.foot(40, 60, 0.3, 0.3)], True), ("slider", [stuck, slips], False)):
             table.one("test", name, "title", "tests", "wrong", [9], contacts, harmonics=20)
@@ -114,7 +114,7 @@ def family():
             except SystemExit as stopped:
                 made, said = 0, str(stopped)
             check(made == (not refused) and ("history decides the amplitude" in said) == refused, f"{name}: {made} references; {said}")
-        case = json.loads(pathlib.Path(folder, "suite", "cases", "slider.json").read_text())
+        case = json.loads(pathlib.Path(folder, "compare", "suite", "cases", "slider.json").read_text())
         check(case["references"][0]["mean"] is None and case["references"][0]["amplitude"], "slider beside slider: the mean alone is not asked")
 
 

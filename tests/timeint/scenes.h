@@ -1,7 +1,7 @@
 /* scenes.h - what the tests of timeint/ share: the reference scenes and others, settings at their defaults. */
 #pragma once
 
-#include "study/scene_solvers.h"
+#include "compare/study/scene_solvers.h"
 #include "tests/reference_scenes.h"
 
 static inline scene scene_linear(double mass, double damping, double stiffness, double force)

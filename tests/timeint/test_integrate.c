@@ -85,9 +85,9 @@ static void a_period_has_no_memory(CHECK_STATE)
   integrate_free(in);
 }
 
-/* x'' = ... + 0.2 x^3 beyond its saddle at 2.24 ends in finite time as 3.2/(t* - t): a factor e takes CVODE about 1/h of a
- * step h in ln(t* - t), 30 at this tolerance; ln 1e9 of them 600. Without a bound it walks on through the ten million
- * steps a period may have. */
+/* x'' = ... + 0.2 x^3 beyond its saddle at 2.24 ends in finite time as 3.2/(t* - t): CVODE's step is a fixed part of t* - t,
+ * 1/30 at this tolerance, so that a factor e takes 30 steps and ln 1e9 of them 600. Without a bound it walks on through
+ * the ten million steps a period may have. */
 static void what_escapes_ends_in_few_steps(CHECK_STATE)
 {
   scene sc = scene_linear(1, 0.05, 1, 0.25);

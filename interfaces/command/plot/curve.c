@@ -1,8 +1,8 @@
 /* curve.c - see curve.h. */
 #include "interfaces/command/plot/curve.h"
 
+#include "compare/study/scene_solvers.h"
 #include "numerics/base/constants.h"
-#include "study/scene_solvers.h"
 
 /* ---- where the curve goes ---- */
 

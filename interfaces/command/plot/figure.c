@@ -8,9 +8,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "compare/output/output.h"
+#include "compare/output/progress.h"
 #include "numerics/base/utf8.h"
-#include "output/output.h"
-#include "output/progress.h"
 
 /* ---- gnuplot: a child process, without a shell; script and drawing are temporary files: no pipe can fill or break */
 

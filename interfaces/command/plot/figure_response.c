@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "casefile/scene.h"
 #include "compare/motion.h"
 #include "interfaces/command/plot/curve.h"
+#include "model/casefile/scene.h"
 #include "numerics/base/constants.h"
 
 enum { WIDTH = 800, HEIGHT = 540, MOST_RESPONSES = 8 };

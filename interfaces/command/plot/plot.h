@@ -12,10 +12,10 @@
 #include "compare/accuracy/bench.h"
 #include "compare/comparison.h"
 #include "compare/steady_states.h"
+#include "compare/study/store.h"
 #include "compare/verify/verify.h"
 #include "hbm/forces/given_motion.h"
 #include "hbm/hbm.h"
-#include "study/store.h"
 
 #define PLOT_ENDINGS ".svg, .png or .pdf"
 

@@ -7,12 +7,12 @@
 #include <string.h>
 
 #include "compare/response.h"
+#include "compare/study/scene_solvers.h"
 #include "hbm/contact/aft.h"
 #include "hbm/contact/exact_force.h"
 #include "numerics/base/constants.h"
 #include "numerics/series.h"
 #include "numerics/workers.h"
-#include "study/scene_solvers.h"
 
 enum {
   N_STIFFNESS = 2,

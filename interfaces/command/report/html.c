@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "casefile/case_file.h"
+#include "model/casefile/case_file.h"
 
 enum { DECADES = 12, JSON_DIGITS = 12 };
 

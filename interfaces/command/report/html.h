@@ -4,8 +4,8 @@
 #include <jansson.h>
 #include <stdio.h>
 
-#include "casefile/scene.h"
-#include "output/rows.h"
+#include "compare/output/rows.h"
+#include "model/casefile/scene.h"
 
 /* Text between tags or in an attribute: <, >, &, quotes escaped, control characters as spaces. */
 void html_text(FILE *to, const char *text);

@@ -1,11 +1,11 @@
 /* report.c - see report.h: everything the page shows is computed here, in stages. */
 #include "interfaces/command/report/report.h"
 
-#include "casefile/structure.h"
 #include "compare/motion.h"
+#include "compare/output/rows.h"
+#include "compare/study/scene_solvers.h"
 #include "interfaces/command/report/parts.h"
-#include "output/rows.h"
-#include "study/scene_solvers.h"
+#include "model/casefile/structure.h"
 
 /* ---- the response curve ------------------------------------------------------------ */
 

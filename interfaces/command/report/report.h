@@ -12,11 +12,11 @@
 #include <jansson.h>
 #include <stdio.h>
 
-#include "casefile/scene.h"
 #include "compare/accuracy/accuracy.h"
 #include "compare/comparison.h"
+#include "compare/output/progress.h"
+#include "model/casefile/scene.h"
 #include "numerics/base/status.h"
-#include "output/progress.h"
 #include "proof/prove/prove.h"
 
 typedef struct report_data {

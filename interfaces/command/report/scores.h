@@ -3,8 +3,8 @@
 
 #include <stdio.h>
 
+#include "compare/suite/suite.h"
 #include "numerics/base/status.h"
-#include "suite/suite.h"
 
 /* What one program has of the suite. */
 typedef struct scores {

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "casefile/structure.h"
+#include "model/casefile/structure.h"
 #include "model/contact_law.h"
 #include "numerics/base/constants.h"
 #include "numerics/norm.h"

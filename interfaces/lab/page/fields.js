@@ -2,7 +2,7 @@
 'use strict';
 
 /* log: the slider multiplies, by 1/30 to 30; from, to: its ends where they do not depend on the case. Limits of what may
- * be typed are those of casefile/fields.c. */
+ * be typed are those of model/casefile/fields.c. */
 const fieldList = [
   {key: 'mass', name: 'Mass M', log: true, above: 0},
   {key: 'damping', name: 'Damping C', log: true, min: 0, size: s => 0.02 * Math.sqrt(s.mass * s.stiffness) || 0.1},

@@ -7,7 +7,7 @@
  * Followed by case_text.js to main.js in the same script, and shared with the worker. */
 'use strict';
 
-const mostContacts = 16; /* SCENE_MAX_CONTACTS of casefile/scene.h */
+const mostContacts = 16; /* SCENE_MAX_CONTACTS of model/casefile/scene.h */
 const scalars = ['mass', 'damping', 'stiffness', 'force', 'from', 'to', 'H', 'N', 'omega', 'near', 'look', 'harmonic'];
 const contactKeys = ['kt', 'kn', 'mu', 'angle', 'gap'];
 const someContact = {kt: 100, kn: 1000, mu: 0.3, angle: 45, gap: -5};

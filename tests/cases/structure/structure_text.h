@@ -1,7 +1,7 @@
 /* structure_text.h - what the tests of structures share: texts of cases, and the model of one. */
 #pragma once
 
-#include "casefile/structure.h"
+#include "model/casefile/structure.h"
 #include "tests/cases/case_text.h"
 
 #define SWEEP "sweep: {omega: [3, 20]}\n"

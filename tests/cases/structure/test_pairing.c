@@ -1,7 +1,7 @@
 /* test_pairing.c - pairs by position: the mesh, areas and normals, which nodes pair, every mistake with its place. */
 #include <float.h>
 
-#include "casefile/mesh/pairing.h"
+#include "model/casefile/mesh/pairing.h"
 #include "numerics/norm.h"
 #include "tests/cases/structure/structure_text.h"
 

@@ -2,9 +2,9 @@
  * somebody else would say it. */
 #pragma once
 
-#include "casefile/case_file.h"
+#include "compare/study/scene_solvers.h"
 #include "compare/verify/verify.h"
-#include "study/scene_solvers.h"
+#include "model/casefile/case_file.h"
 #include "tests/check.h"
 
 enum { CURVE_ROOM = 512 };

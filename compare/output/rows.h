@@ -1,0 +1,59 @@
+/* rows.h - the columns of results, a table a kind, for all that shows or keeps them. Names: docs/interface.md, 3. A new
+ * column is a new line in rows.c and nothing else. How they are written: compare/output/table.h. */
+#pragma once
+
+#include "compare/accuracy/accuracy.h"
+#include "compare/comparison.h"
+#include "compare/output/table.h"
+#include "compare/response.h"
+#include "compare/steady_states.h"
+#include "proof/prove/prove.h"
+
+typedef enum {
+  ROWS_FRF,             /* of response_row      */
+  ROWS_TRANSIENT,       /* of steady_row        */
+  ROWS_COMPARE,         /* of comparison_row    */
+  ROWS_CURVE,           /* of response_summary  */
+  ROWS_ACCURACY,        /* of accuracy_row      */
+  ROWS_ORDER,           /* of order_row         */
+  ROWS_CONTACT,         /* of contact_row       */
+  ROWS_STEADY_CONTACT,  /* of steady_contact    */
+  ROWS_COMPARE_CONTACT, /* of contact_comparison */
+  ROWS_PROVE            /* of proof_row          */
+} rows_kind;
+
+/* Columns of some cases: frequencies in cycles beside the omegas; the name of response or contact. */
+enum { ROWS_IN_CYCLES = 1, ROWS_RESPONSES = 2 };
+
+enum { ROWS_MOST = 48, ROWS_TEXT = 64 }; /* columns of a kind, asserted; bytes of a text, the end included */
+
+typedef struct row_cell {
+  table_kind kind;
+  bool there;
+  union {
+    char text[ROWS_TEXT];
+    long integer;
+    double real;
+  } as;
+} row_cell;
+
+/* The columns of a kind, *n of them; constant. extra: a sum of ROWS_IN_CYCLES and ROWS_RESPONSES. */
+const table_column *rows_columns(rows_kind kind, unsigned extra, int *n);
+
+/* For table_spare: which of them a narrow screen does without, the first ones first. */
+const char *const *rows_spare(rows_kind kind, bool in_cycles);
+
+/* One row: cells[n] in the columns' order. A real that is no number is not there. Cannot fail. */
+void rows_cells(rows_kind kind, const void *row, unsigned extra, row_cell *cells);
+
+/* "turning point", "contact goes from slip to separation": what happens there. Returns text. */
+enum { ROWS_SPECIAL = 96 };
+const char *rows_special_text(const hbm_special *p, char text[ROWS_SPECIAL]);
+
+/* "0.6780359995"; where the error is two digits and more of these ten, "0.68 +- 0.12"; INFINITY: not known, in words.
+ * Returns text. */
+enum { ROWS_WITH_ERROR = 96 };
+const char *rows_with_error(double value, double error, char text[ROWS_WITH_ERROR]);
+
+/* Entry i of rows[] of that type. */
+const void *rows_at(rows_kind kind, const void *rows, int i);

@@ -1,0 +1,310 @@
+/* table.c - the table itself, and csv. The other formats: table_aligned.c, table_json.c. */
+#include "compare/output/table.h"
+
+#include <limits.h>
+#include <locale.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compare/output/table_private.h"
+#include "numerics/base/growing.h"
+#include "numerics/base/utf8.h"
+
+/* The C locale for this thread alone; printf and jansson then write '.'. */
+static bool enter_c_locale(locale_t *c, locale_t *before)
+{
+  *c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+  if (!*c) return false;
+  *before = uselocale(*c);
+  return true;
+}
+
+static void leave_c_locale(locale_t c, locale_t before)
+{
+  uselocale(before);
+  freelocale(c);
+}
+
+/* At least one column, all of a known kind, no two of one name? */
+static bool columns_are_sound(int n, const table_column *columns)
+{
+  if (n < 1 || !columns) return false;
+  for (int i = 0; i < n; ++i) {
+    table_kind kind = columns[i].kind;
+    if (kind != TABLE_TEXT && kind != TABLE_INTEGER && kind != TABLE_REAL) return false;
+    for (int j = 0; j < i; ++j)
+      if (!strcmp(columns[i].name, columns[j].name)) return false;
+  }
+  return true;
+}
+
+/* The first failure is kept: nothing is appended after it. */
+static void give_up(table *t, hc_status why)
+{
+  if (t->status == HC_OK) t->status = why;
+}
+
+table *table_new(const char *title, int n_columns, const table_column *columns)
+{
+  table *t = calloc(1, sizeof *t);
+  if (!t) return NULL;
+  t->title = utf8_clean(title ? title : "", true);
+  if (!t->title) give_up(t, HC_NO_MEMORY);
+  if (!columns_are_sound(n_columns, columns)) {
+    give_up(t, HC_BUG);
+    return t;
+  }
+  t->columns = malloc((size_t)n_columns * sizeof *columns);
+  t->hidden = calloc((size_t)n_columns, sizeof *t->hidden);
+  if (t->columns) memcpy(t->columns, columns, (size_t)n_columns * sizeof *columns), t->n_columns = n_columns;
+  if (!t->columns || !t->hidden) give_up(t, HC_NO_MEMORY);
+  return t;
+}
+
+void table_free(table *t)
+{
+  if (!t) return;
+  for (size_t i = 0; i < t->n_cells; ++i)
+    if (t->columns[i % (size_t)t->n_columns].kind == TABLE_TEXT) free(t->cells[i].as.text);
+  for (size_t i = 0; i < t->n_notes; ++i) free(t->notes[i]);
+  free(t->cells);
+  free(t->notes);
+  free(t->title);
+  free(t->hidden);
+  free(t->columns);
+  free(t);
+}
+
+/* The next cell, appended as missing; NULL if the table failed before or memory runs out. */
+static table_cell *next_cell(table *t)
+{
+  if (!t || t->status != HC_OK) return NULL;
+  table_cell *cells = t->n_cells < INT_MAX ? growing(t->cells, (int)t->n_cells, sizeof *cells) : NULL;
+  if (!cells) {
+    give_up(t, HC_NO_MEMORY);
+    return NULL;
+  }
+  t->cells = cells;
+  table_cell *cell = &t->cells[t->n_cells++];
+  *cell = (table_cell){.there = false};
+  return cell;
+}
+
+/* The same for a value of that kind, which has to be its column's: the writers read the cell by the column's kind. */
+static table_cell *next_cell_of(table *t, table_kind kind)
+{
+  if (!t || t->status != HC_OK) return NULL;
+  if (t->columns[t->n_cells % (size_t)t->n_columns].kind != kind) {
+    give_up(t, HC_BUG);
+    return NULL;
+  }
+  return next_cell(t);
+}
+
+void table_put_text(table *t, const char *value)
+{
+  table_cell *cell = next_cell_of(t, TABLE_TEXT);
+  if (!cell || !value) return;
+  cell->as.text = utf8_clean(value, false);
+  cell->there = cell->as.text != NULL;
+  if (!cell->there) give_up(t, HC_NO_MEMORY);
+}
+
+void table_put_integer(table *t, long value)
+{
+  table_cell *cell = next_cell_of(t, TABLE_INTEGER);
+  if (cell) *cell = (table_cell){.there = true, .as.integer = value};
+}
+
+void table_put_real(table *t, double value)
+{
+  table_cell *cell = next_cell_of(t, TABLE_REAL);
+  if (cell && !isnan(value)) *cell = (table_cell){.there = true, .as.real = value};
+}
+
+void table_put_missing(table *t) { next_cell(t); }
+
+void table_put_values(table *t, int n, const table_value *values)
+{
+  for (const table_value *v = values; v < values + n; ++v) {
+    if (!v->has) continue;
+    if (!v->there) table_put_missing(t);
+    else if (v->kind == TABLE_TEXT) table_put_text(t, v->as.text);
+    else if (v->kind == TABLE_INTEGER) table_put_integer(t, v->as.integer);
+    else table_put_real(t, v->as.real);
+  }
+}
+
+/* printf into new memory, with '.' for the decimal point. */
+__attribute__((format(printf, 1, 0))) static char *print_to_memory(const char *format, va_list args)
+{
+  locale_t c, before;
+  if (!enter_c_locale(&c, &before)) return NULL;
+  va_list again;
+  va_copy(again, args);
+  int n = vsnprintf(NULL, 0, format, args);
+  char *text = n < 0 ? NULL : malloc((size_t)n + 1);
+  if (text) vsnprintf(text, (size_t)n + 1, format, again);
+  va_end(again);
+  leave_c_locale(c, before);
+  return text;
+}
+
+void table_note(table *t, const char *format, ...)
+{
+  if (!t || t->status != HC_OK) return;
+  va_list args;
+  va_start(args, format);
+  char *text = print_to_memory(format, args);
+  va_end(args);
+  char *note = text ? utf8_clean(text, true) : NULL;
+  free(text);
+  char **notes = note && t->n_notes < INT_MAX ? growing(t->notes, (int)t->n_notes, sizeof *notes) : NULL;
+  if (!notes) {
+    free(note);
+    give_up(t, HC_NO_MEMORY);
+    return;
+  }
+  t->notes = notes;
+  t->notes[t->n_notes++] = note;
+}
+
+void table_notes_of_rows(table *t)
+{
+  if (t) t->notes_split = true, t->n_first_notes = t->n_notes;
+}
+
+void table_wrap(table *t, int width)
+{
+  if (t) t->wrap = width > 0 ? width : 0;
+}
+
+void table_hide(table *t, const char *column)
+{
+  for (int i = 0; t && t->hidden && i < t->n_columns; ++i)
+    if (!strcmp(t->columns[i].name, column)) t->hidden[i] = true;
+}
+
+void table_spare(table *t, const char *const *spare)
+{
+  if (t) t->spare = spare;
+}
+
+void table_fit(table *t, int width)
+{
+  if (t) t->fit = width > 0 ? width : 0;
+}
+
+void table_show_all(table *t)
+{
+  if (!t || !t->hidden) return;
+  memset(t->hidden, 0, (size_t)t->n_columns * sizeof *t->hidden);
+  t->spare = NULL;
+}
+
+int table_rows(const table *t) { return table_row_count(t); }
+
+void table_write_csv_text(const char *s, FILE *to)
+{
+  bool plain = *s && !strpbrk(s, ",\"\r\n") && !strchr("# \t", *s) && !strchr(" \t", s[strlen(s) - 1]);
+  if (plain) {
+    fputs(s, to);
+    return;
+  }
+  putc('"', to);
+  for (; *s; ++s) {
+    if (*s == '"') putc('"', to);
+    putc(*s, to);
+  }
+  putc('"', to);
+}
+
+static void write_csv_cell(const table *t, int row, int column, FILE *to)
+{
+  const table_cell *cell = table_at(t, row, column);
+  if (!cell->there) {
+    if (t->n_columns == 1) fputs("\"\"", to); /* an empty line would end the table */
+    return;
+  }
+  switch (t->columns[column].kind) {
+  case TABLE_TEXT: table_write_csv_text(cell->as.text, to); break;
+  case TABLE_INTEGER: fprintf(to, "%ld", cell->as.integer); break;
+  case TABLE_REAL: fprintf(to, "%.17g", cell->as.real); break; /* inf and -inf, too */
+  }
+}
+
+static void write_csv_notes(const table *t, size_t from, size_t to_note, FILE *to)
+{
+  for (size_t i = from; i < to_note; ++i) fprintf(to, *t->notes[i] ? "# %s\n" : "#\n", t->notes[i]);
+}
+
+/* The rows of t that have not been written, and what stands before the first one. */
+static void write_csv_begun(const table *t, FILE *to, const table_begun *begun)
+{
+  if (!begun->begun) {
+    if (begun->several) fprintf(to, *t->title ? "# %s\n" : "# table\n", t->title);
+    write_csv_notes(t, 0, t->notes_split ? t->n_first_notes : t->n_notes, to);
+    for (int j = 0; j < t->n_columns; ++j) {
+      if (j) putc(',', to);
+      table_write_csv_text(t->columns[j].name, to);
+    }
+    putc('\n', to);
+  }
+  for (int i = begun->rows; i < table_rows(t); ++i) {
+    for (int j = 0; j < t->n_columns; ++j) {
+      if (j) putc(',', to);
+      write_csv_cell(t, i, j, to);
+    }
+    putc('\n', to);
+  }
+}
+
+/* HC_OK where all its rows are full and nothing went wrong before. */
+static hc_status ready(const table *t)
+{
+  if (!t) return HC_NO_MEMORY;
+  if (t->status != HC_OK) return t->status;
+  return t->n_cells % (size_t)t->n_columns == 0 ? HC_OK : HC_BUG;
+}
+
+hc_status table_write(int n, table *const *tables, table_format format, FILE *to)
+{
+  return table_write_rest(n, tables, format, to, &(table_begun){.several = n != 1});
+}
+
+hc_status table_write_begun(const table *t, table_format format, FILE *to, table_begun *begun)
+{
+  locale_t c, before;
+  hc_status st = ready(t);
+  if (st != HC_OK || format == FORMAT_TABLE || table_rows(t) <= begun->rows) return st;
+  if (!enter_c_locale(&c, &before)) return HC_NO_MEMORY;
+  if (format == FORMAT_JSON) st = table_write_json_begun(t, to, begun);
+  else write_csv_begun(t, to, begun);
+  leave_c_locale(c, before);
+  begun->begun = true;
+  begun->rows = table_rows(t);
+  return ferror(to) ? HC_IO : st;
+}
+
+hc_status table_write_rest(int n, table *const *tables, table_format format, FILE *to, const table_begun *begun)
+{
+  hc_status st = HC_OK;
+  for (int k = 0; k < n && st == HC_OK; ++k) st = ready(tables[k]);
+  if (st != HC_OK) return st;
+  locale_t c, before;
+  if (!enter_c_locale(&c, &before)) return HC_NO_MEMORY;
+  if (format == FORMAT_JSON) st = table_write_json(n, tables, to, begun);
+  for (int k = 0; k < n && format != FORMAT_JSON && st == HC_OK; ++k) {
+    const table *t = tables[k];
+    if (k) putc('\n', to);
+    if (format == FORMAT_CSV) {
+      const table_begun later = {.several = begun->several};
+      write_csv_begun(t, to, k ? &later : begun);
+      if (t->notes_split) write_csv_notes(t, t->n_first_notes, t->n_notes, to);
+    } else st = table_write_aligned(t, to);
+  }
+  leave_c_locale(c, before);
+  return ferror(to) ? HC_IO : st;
+}

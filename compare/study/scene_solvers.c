@@ -1,0 +1,30 @@
+/* scene_solvers.c - see scene_solvers.h. */
+#include "compare/study/scene_solvers.h"
+
+#include "compare/first_guess.h"
+
+/* What `call` makes of m, the scene's model. */
+#define MADE_OF_MODEL(call)                                                                                            \
+  model *m;                                                                                                            \
+  *out = NULL;                                                                                                         \
+  hc_status st = scene_model(sc, &m);                                                                                  \
+  if (st == HC_OK) st = (call);                                                                                        \
+  model_free(m);                                                                                                       \
+  return st
+
+hc_status scene_hbm_solver(const scene *sc, hbm_solver **out)
+{
+  MADE_OF_MODEL(guided_hbm_solver_new(m, &sc->hbm, out));
+}
+
+hc_status scene_timeint(const scene *sc, timeint **out) { MADE_OF_MODEL(timeint_new(m, &sc->transient, out)); }
+
+hc_status scene_aft(const scene *sc, int n_harm, int n_time, aft **out)
+{
+  MADE_OF_MODEL(aft_new_of_model(m, sc->hbm.restart, n_harm, n_time, out));
+}
+
+hc_status scene_exact(const scene *sc, int n_harm, exact_force **out)
+{
+  MADE_OF_MODEL(exact_force_new_of_model(n_harm, m, out));
+}

@@ -1,0 +1,137 @@
+/* yaml_scene.c - from a YAML document to a scene, every key through the table of fields. The first mistake ends it. */
+#include <string.h>
+
+#include "model/casefile/case_reader.h"
+
+/* A section that is a mapping, or one contact of an oscillator. */
+static hc_status read_section(case_reader *r, const field_section *s, int j, void *base, const yaml_node_t *node)
+{
+  if (node->type != YAML_MAPPING_NODE) {
+    message *m = yaml_blame(r, node);
+    message_add(m, j >= 0 ? "%s[%d]" : "%s", s->name, j);
+    message_add(m, " is %s, expected a mapping such as {", yaml_node_what(node));
+    for (int i = 0, n = 0; i < field_count() && n < 2; ++i)
+      if (!strcmp(field_at(i)->section, s->name)) message_add(m, "%s: ..., ", field_at(i)->name), ++n;
+    message_add(m, "...}");
+    return HC_BAD_INPUT;
+  }
+  const hc_status st = yaml_fields_read(r, node, s->name, j, base, false);
+  if (st != HC_OK) return st;
+  const field *amplitude = field_named("base", "amplitude");
+  if (!strcmp(s->name, "base") && !case_given(r, amplitude) && !yaml_given_rival(r, amplitude))
+    return yaml_refuse(r, node, "missing key `amplitude` in `base`, expected a number >= 0, or `acceleration`");
+  const unsigned long long has = case_contact_given(r);
+  for (int i = 0; i < field_count(); ++i) {
+    const field *f = field_at(i), *rival = field_rival(f, 0);
+    if (strcmp(f->section, s->name) || f->fallback || f->flags & FIELD_STRUCTURE) continue;
+    if (case_given(r, f) || yaml_given_rival(r, f) || (j >= 0 && !case_contact_needs(base, has, f))) continue;
+    message *m = yaml_blame(r, node);
+    message_add(m, j >= 0 ? "missing key `%s` in `%s[%d]" : "missing key `%s` in `%s", f->name, s->name, j);
+    message_add(m, "`, expected ");
+    field_expected(f, m);
+    if (rival) message_add(m, ", or `%s`", rival->name);
+    return HC_BAD_INPUT;
+  }
+  return HC_OK;
+}
+
+hc_status yaml_scene_contact(case_reader *r, const yaml_node_t *node, int j)
+{
+  yaml_forget_fields(r, FIELD_IN_CONTACT);
+  field_contact_defaults(&r->sc.contacts[j]);
+  r->contact_has[j] = ~0ull; /* what is missing is found here and now */
+  r->contact_at[j] = yaml_place(r, node);
+  hc_status st = read_section(r, field_find_section("contacts", 8), j, &r->sc.contacts[j], node);
+  if (st == HC_OK) st = case_check_law(r, j, &r->sc.contacts[j], r->contact_at[j]);
+  memcpy(r->contact_field_at[j], r->at, sizeof r->at);
+  return st;
+}
+
+hc_status yaml_scene_contacts(case_reader *r, const yaml_node_t *node)
+{
+  if (node->type != YAML_SEQUENCE_NODE)
+    return yaml_refuse(r, node, "contacts is %s, expected a list of contacts, or [] for none", yaml_node_what(node));
+  memset(r->sc.contacts, 0, sizeof r->sc.contacts);
+  r->sc.n_contacts = 0;
+  for (int i = 0; i < yaml_length(node); ++i) {
+    const yaml_node_t *entry = yaml_entry(r, node, i);
+    if (r->sc.n_contacts == SCENE_MAX_CONTACTS)
+      return yaml_refuse(r, entry, "one contact too many, expected at most %d", SCENE_MAX_CONTACTS);
+    hc_status st = yaml_scene_contact(r, entry, r->sc.n_contacts++);
+    if (st != HC_OK) return st;
+  }
+  return HC_OK;
+}
+
+static hc_status read_top_level(case_reader *r, const yaml_node_t *key, const yaml_node_t *value, case_place *given)
+{
+  hc_status st = yaml_check_key(r, key);
+  if (st != HC_OK) return st;
+  const field *f = field_find("", yaml_node_text(key), key->data.scalar.length);
+  if (f && f->kind == FIELD_PART && r->sc.structure) { /* response */
+    st = yaml_give(r, f, key, value);
+    return st == HC_OK ? yaml_structure_part(r, f, value) : st;
+  }
+  if (f) return yaml_field_read(r, f, key, value, -1, &r->sc);
+  const field_section *s = field_find_section(yaml_node_text(key), key->data.scalar.length);
+  if (!s || strchr(s->name, '[')) return yaml_unknown_key(r, key, "");
+  case_place *at = &given[s - field_section_at(0)];
+  if (at->line > 0) return yaml_duplicate_key(r, key, *at);
+  *at = yaml_place(r, key);
+  /* What a section holds, wherever it stands. */
+  const bool contacts = !strcmp(s->name, "contacts");
+  if (!strcmp(s->name, "structure")) return yaml_structure_read(r, value);
+  if (r->sc.structure && contacts) return yaml_contacts_read(r, value);
+  if (r->sc.structure && !strcmp(s->name, "forcing")) return yaml_loads_read(r, value);
+  if (contacts) return yaml_scene_contacts(r, value);
+  return read_section(r, s, -1, &r->sc, value);
+}
+
+/* The first key of that name, -1 if there is none. */
+static int find_key(case_reader *r, const yaml_node_t *root, const char *name)
+{
+  for (int i = 0; i < yaml_keys(root); ++i) {
+    const yaml_node_t *key = yaml_key(r, root, i);
+    if (key->type == YAML_SCALAR_NODE && !strcmp(yaml_node_text(key), name)) return i;
+  }
+  return -1;
+}
+
+hc_status yaml_scene_read(case_reader *r, const yaml_node_t *root)
+{
+  case_place given[FIELD_MAX] = {{0}}; /* [section] */
+  if (root->type != YAML_MAPPING_NODE)
+    return yaml_refuse(r, root, "the case is %s, expected a mapping with `oscillator`, `forcing` and `sweep`",
+                       yaml_node_what(root));
+  const int structure = find_key(r, root, "structure"), oscillator = find_key(r, root, "oscillator");
+  if (structure >= 0 && oscillator >= 0) {
+    const yaml_node_t *first = yaml_key(r, root, structure < oscillator ? structure : oscillator),
+                      *last = yaml_key(r, root, structure < oscillator ? oscillator : structure);
+    return yaml_refuse(r, last, "both `%s` (line %zu) and `%s`, expected one of them", yaml_node_text(first),
+                       yaml_place(r, first).line, yaml_node_text(last));
+  }
+  hc_status st = HC_OK;
+  if (structure >= 0) st = read_top_level(r, yaml_key(r, root, structure), yaml_value(r, root, structure), given);
+  for (int i = 0; i < yaml_keys(root) && st == HC_OK; ++i)
+    if (i != structure) st = read_top_level(r, yaml_key(r, root, i), yaml_value(r, root, i), given);
+  if (st != HC_OK) return st;
+  const field_section *s;
+  for (int i = 1; (s = field_section_at(i)) != NULL; ++i) {
+    message *m = NULL;
+    /* a structure has neither mass nor force as an oscillator has */
+    const bool forcing = !strcmp(s->name, "forcing"), of_oscillator = !strcmp(s->name, "oscillator") || forcing;
+    if (given[i].line > 0 || (r->sc.structure && of_oscillator)) continue;
+    if (forcing && given[field_find_section("base", 4) - field_section_at(0)].line > 0) continue;
+    for (int j = 0; j < field_count(); ++j) {
+      const field *f = field_at(j);
+      if (strcmp(f->section, s->name) || f->fallback || f->scale != 0) continue;
+      if (f->flags & (FIELD_ELSEWHERE | FIELD_STRUCTURE)) continue;
+      if (!m) message_add(m = yaml_blame(r, root), "missing section `%s`, expected `%s: {", s->name, s->name);
+      else message_add(m, ", ");
+      message_add(m, "%s: ...", f->name);
+    }
+    if (m) message_add(m, "}`%s", !strcmp(s->name, "oscillator") ? ", or `structure`" : "");
+    if (m) return HC_BAD_INPUT;
+  }
+  return HC_OK;
+}
