@@ -12,6 +12,7 @@
 #include <sundials/sundials_linearsolver.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
+#include "numerics/base/trace.h"
 #include "numerics/dense.h"
 #include "numerics/grouped.h"
 #include "numerics/norm.h"
@@ -78,6 +79,9 @@ static int kinsol_jacobian(N_Vector z, N_Vector r, SUNMatrix jac, void *self, N_
 {
   newton *nw = self;
   nw->trials = 0;
+  if (trace_on(TRACE_newton))
+    trace_line(TRACE_newton, "%d unknowns: residual %.3g", nw->problem.n,
+               norm_weighted_max(nw->problem.n, N_VGetArrayPointer(nw->r_scale), N_VGetArrayPointer(r)));
   if (nw->refusal != HC_NO_MEMORY && on_jacobian(z, r, jac, nw, t1, t2) == 0) return 0;
   if (nw->refusal != HC_NO_MEMORY) return 1;
   for (int i = 0; i < nw->problem.n; ++i)
@@ -302,5 +306,7 @@ hc_status newton_solve(newton *nw, double *z, const newton_options *opt, newton_
   if (st == HC_OK && !(opt->unpolished && nw->factored)) st = polish(nw, opt, report);
   if (st == HC_OK) memcpy(z, N_VGetArrayPointer(nw->z), bytes);
   else nw->factored = false;
+  TRACE(newton, "%d unknowns: residual %.3g after %d steps: %s", nw->problem.n, report->residual, report->iterations,
+        hc_status_text(st));
   return st;
 }

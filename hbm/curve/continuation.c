@@ -21,6 +21,7 @@
 #include "hbm/curve/segment.h"
 #include "hbm/solver/corrector.h"
 #include "hbm/solver/linear_solution.h"
+#include "numerics/base/trace.h"
 #include "numerics/base/workspace.h"
 #include "numerics/norm.h"
 
@@ -113,6 +114,15 @@ static double orient(path *p, bool *forward)
   return cosine(p, dX0, d_omega0, p->dX, p->d_omega);
 }
 
+/* The trial in one line, before the next step is chosen; objection: why it is refused, or NULL. */
+static void trace_trial(const path *p, const char *objection)
+{
+  if (!trace_on(TRACE_curve)) return;
+  trace_line(TRACE_curve, "%s %.9g  amplitude %.6g  step %.3g %s  newton %d  %s%s", p->s->ramp ? "ramp" : "omega",
+             p->omega, hbm_amplitude_at(p->s, p->X), p->step, p->natural ? "natural" : "along the arc",
+             p->point.iterations, objection ? "refused: " : "point", objection ? objection : "");
+}
+
 /* Accept the corrected trial? Sets the next step, or the shorter one to try again with. ratio: of path_predict. */
 static bool check_trial(path *p, double ratio)
 {
@@ -122,9 +132,15 @@ static bool check_trial(path *p, double ratio)
   double scale = p->s->step_scale, tolerance = p->s->how.force == HBM_FORCE_SAMPLED ? TOLERANCE_SAMPLED : TOLERANCE;
   tolerance *= scale * scale * scale * scale;
   bool corner = p->step <= STEP_CORNER;
-  bool smooth = moved <= MOST_MOVED * p->step && turned >= LEAST_COSINE && error <= MOST_ERROR * tolerance;
   bool kink = moved <= p->step || (p->natural && path_agrees_backwards(p, p->step));
-  bool accepted = forward && (corner ? kink : smooth);
+  const char *objection = !forward                             ? "it runs back"
+                          : corner                             ? (kink ? NULL : "it jumps at a corner")
+                          : !(moved <= MOST_MOVED * p->step)   ? "the corrector moved it"
+                          : !(turned >= LEAST_COSINE)          ? "the tangent turned"
+                          : !(error <= MOST_ERROR * tolerance) ? "the interpolation errs"
+                                                               : NULL;
+  const bool accepted = !objection;
+  trace_trial(p, objection);
   double growth = SAFETY * pow(tolerance / fmax(error, 1e-12 * tolerance), 0.25);
   if (p->point.iterations > MANY_ITERATIONS) growth = fmin(growth, SHRINK_SLOW);
   p->step *=
@@ -150,7 +166,7 @@ static hc_status trial_step(path *p, bool *accepted)
   p->s->predicted = false;
   p->curve->iterations += p->point.iterations;
   if (st == HC_OK) *accepted = check_trial(p, ratio);
-  else p->step *= SHRINK_FAILED;
+  else trace_trial(p, hc_status_text(st)), p->step *= SHRINK_FAILED;
   return st;
 }
 
@@ -503,6 +519,7 @@ static hc_status recover(path *p, hc_status step_status, bool *done)
   bool past = joined;
   if (!past) past = at_corner && !p->natural && p->points_at_last_corner != c->n && round_corner(p);
   if (past) {
+    TRACE(curve, "omega %.9g  %s", p->omega, joined ? "over a join of rest and slip" : "round a corner");
     hc_status st = append_trial(p);
     if (st == HC_OK) c->points[c->n - 1].over_join = joined;
     if (st == HC_OK) st = end_at_limit(p, done);
@@ -624,6 +641,11 @@ hc_status path_trace(hbm_solver *s, const path_course *course, const hc_monitor 
   }
   curve->evaluations = s->sys.evaluations - before;
   curve->ends_at = curve->n > 0 ? curve->points[curve->n - 1].omega : from;
+  TRACE(curve, "ends at %.9g after %d points, %ld refused: %s%s", curve->ends_at, curve->n, (long)curve->rejected,
+        hc_status_text(st),
+        curve->closed ? ", closed"
+        : curve->met  ? ", it met another part"
+                      : "");
   return curve->end = st;
 }
 
@@ -770,15 +792,17 @@ static hc_status from_exact_forces(hbm_solver *s, double omega, const hc_monitor
   return from_other(s, &how, hbm_first_solution, omega, monitor, X, point);
 }
 
-static hc_status from_linear_response(hbm_solver *s, double omega, double *X, hbm_point *point)
+static hc_status from_linear_response(hbm_solver *s, double omega, const hc_monitor *monitor, double *X,
+                                      hbm_point *point)
 {
+  (void)monitor;
   hbm_linear_response(&s->sys, omega, X);
   return hbm_solve_fixed(s, omega, X, point);
 }
 
 static hc_status by_quick_ramp(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
-  hc_status st = from_linear_response(s, omega, X, point);
+  hc_status st = from_linear_response(s, omega, monitor, X, point);
   return may_go_on(st) ? follow_ramp(s, HBM_RAMP_DAMPING, true, omega, monitor, X, point) : st;
 }
 
@@ -803,16 +827,43 @@ static hc_status from_guess(hbm_solver *s, double omega, const hc_monitor *monit
   return hbm_solve_fixed(s, omega, X, point);
 }
 
+static hc_status by_quick_force(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
+{
+  return follow_ramp(s, HBM_RAMP_FORCE, true, omega, monitor, X, point);
+}
+
+static hc_status by_slow_damping(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
+{
+  return follow_ramp(s, HBM_RAMP_DAMPING, false, omega, monitor, X, point);
+}
+
+static hc_status by_slow_force(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
+{
+  return follow_ramp(s, HBM_RAMP_FORCE, false, omega, monitor, X, point);
+}
+
 hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   const bool exact = s->how.force == HBM_FORCE_EXACT;
-  hc_status st = from_linear_response(s, omega, X, point);
-  if (may_go_on(st) && !exact) st = from_exact_forces(s, omega, monitor, X, point);
-  if (may_go_on(st) && exact) st = by_quick_ramps(s, omega, monitor, X, point);
-  if (may_go_on(st) && exact) st = follow_ramp(s, HBM_RAMP_FORCE, true, omega, monitor, X, point);
-  if (may_go_on(st) && s->guess.ask) st = from_guess(s, omega, monitor, X, point);
-  if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_DAMPING, false, omega, monitor, X, point);
-  if (may_go_on(st)) st = follow_ramp(s, HBM_RAMP_FORCE, false, omega, monitor, X, point);
+  const struct {
+    const char *name;
+    first_solution *find;
+    bool applies;
+  } ways[] = {
+      {"from the linear response", from_linear_response, true},
+      {"from the solution with exact forces", from_exact_forces, !exact},
+      {"by a quick ramp of the damping", by_quick_ramps, exact},
+      {"by a quick ramp of the force", by_quick_force, exact},
+      {"from the guess", from_guess, s->guess.ask != NULL},
+      {"by a slow ramp of the damping", by_slow_damping, true},
+      {"by a slow ramp of the force", by_slow_force, true},
+  };
+  hc_status st = HC_NOT_CONVERGED;
+  for (size_t i = 0; i < sizeof ways / sizeof *ways && may_go_on(st); ++i) {
+    if (!ways[i].applies) continue;
+    st = ways[i].find(s, omega, monitor, X, point);
+    TRACE(first, "%d unknowns at omega %.9g, %s: %s", s->sys.n_coef, omega, ways[i].name, hc_status_text(st));
+  }
   return st;
 }
 

@@ -479,8 +479,7 @@ typedef struct peak_search {
   hbm_candidate between; /* a point of the interpolant */
 } peak_search;
 
-/* (max - min)/2 of the first response. */
-static double amplitude_of(hbm_solver *s, const double *X)
+double hbm_amplitude_at(hbm_solver *s, const double *X)
 {
   double max, min;
   hbm_system_response(&s->sys, s->sys.n_harm, X, s->x);
@@ -493,7 +492,7 @@ static hc_status minus_amplitude_at(void *self, double position, double *minus_a
   const peak_search *p = self;
   const int k = position < 0 ? p->top - 1 : p->top;
   const hc_status st = hbm_segment_point(p->s, p->c, k, position - (k - p->top), p->x);
-  *minus_amplitude = st == HC_OK ? -amplitude_of(p->s, p->x->X) : NAN;
+  *minus_amplitude = st == HC_OK ? -hbm_amplitude_at(p->s, p->x->X) : NAN;
   return st;
 }
 
@@ -506,7 +505,7 @@ static double amplitude_slope(hbm_solver *s, int n, const double *X, const doubl
   double amplitude[2];
   for (int k = 0; k < 2; ++k) {
     for (int i = 0; i < n; ++i) moved[i] = X[i] + (k ? step : -step) * dX[i];
-    amplitude[k] = amplitude_of(s, moved);
+    amplitude[k] = hbm_amplitude_at(s, moved);
   }
   return step > 0 ? (amplitude[1] - amplitude[0]) / (2 * step) : 0;
 }
@@ -524,7 +523,7 @@ static hc_status guessed_slope(void *self, double sigma, double *slope)
 static double guessed_amplitude(peak_search *p, double sigma)
 {
   hbm_narrowing_guess(&p->near, sigma, p->between.X, &p->between.point.omega, NULL);
-  return amplitude_of(p->s, p->between.X);
+  return hbm_amplitude_at(p->s, p->between.X);
 }
 
 /* Where the amplitude no longer rises, beside the highest point: an end of what is left between solutions where the
@@ -550,7 +549,7 @@ static const hbm_point *peak_by_slope(peak_search *p, double highest, double **X
     end[0] = guessed_amplitude(p, from), end[1] = guessed_amplitude(p, to);
     const int higher = end[1] > end[0];
     const double gain = guessed_amplitude(p, summit.x) - end[higher];
-    if (shortest && amplitude_of(p->s, p->x->X) > fmax(end[higher], highest)) return &p->x->point;
+    if (shortest && hbm_amplitude_at(p->s, p->x->X) > fmax(end[higher], highest)) return &p->x->point;
     if (shortest || gain <= least_gain * end[higher]) {
       if (!(end[higher] >= highest)) return NULL;
       *X = hbm_curve_X(&p->near.ends, higher), *dX = hbm_curve_dX(&p->near.ends, higher);
@@ -599,7 +598,7 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
     hbm_system_response(&s->sys, s->sys.n_harm, hbm_curve_X(c, k), s->x);
     for (int h = 1; h <= s->sys.n_harm; ++h) reach += hypot(s->x[2 * h - 1], s->x[2 * h]);
     if (reach < beside[1]) continue;
-    const double amplitude = amplitude_of(s, hbm_curve_X(c, k));
+    const double amplitude = hbm_amplitude_at(s, hbm_curve_X(c, k));
     if (amplitude > beside[1]) beside[1] = amplitude, top = k;
   }
   if (top < 0) return HC_BAD_INPUT;
@@ -607,7 +606,7 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
   if (top == 0 || !hbm_curve_has_segment(c, top - 1) ||
       !hbm_curve_has_segment(c, top)) /* an end of the sweep: the peak may lie outside */
     return hbm_curve_append(peak, c->n_coef, hbm_curve_X(c, top), hbm_curve_dX(c, top), &c->points[top]);
-  for (int side = -1; side <= 1; side += 2) beside[1 + side] = amplitude_of(s, hbm_curve_X(c, top + side));
+  for (int side = -1; side <= 1; side += 2) beside[1 + side] = hbm_amplitude_at(s, hbm_curve_X(c, top + side));
   hbm_candidate x;
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
@@ -629,13 +628,13 @@ static bool find_summit(peak_search *p, int k, double highest)
   for (int times = 0; times < times_most; ++times) {
     const double from = p->near.from, to = p->near.to;
     guessed_slope(p, from, &rise[0]), guessed_slope(p, to, &rise[1]);
-    if (!(rise[0] > 0 && rise[1] < 0)) return times > 0 && amplitude_of(p->s, p->x->X) > highest;
+    if (!(rise[0] > 0 && rise[1] < 0)) return times > 0 && hbm_amplitude_at(p->s, p->x->X) > highest;
     if (root_between(guessed_slope, p, from, rise[0], to, rise[1], 1e-7 * (to - from), &summit) != HC_OK) return false;
     if (hbm_narrowing_point(p->s, &p->near, summit.x, p->x) != HC_OK) return false;
     const double onward = amplitude_slope(p->s, p->c->n_coef, p->x->X, p->x->dX, p->between.guess);
     hbm_narrowing_move(&p->near, onward > 0, summit.x, p->x);
   }
-  return amplitude_of(p->s, p->x->X) > highest;
+  return hbm_amplitude_at(p->s, p->x->X) > highest;
 }
 
 /* x between points k and k + 1. */
@@ -683,7 +682,7 @@ hc_status hbm_curve_add_summits(hbm_solver *s, hbm_curve *c, int left, int *top)
   if (*top == 0 && c->n > left) *top = 1;
   for (; *top + 1 + left < c->n && st == HC_OK; ++*top) {
     double high[3];
-    for (int i = 0; i < 3; ++i) high[i] = amplitude_of(s, hbm_curve_X(c, *top - 1 + i));
+    for (int i = 0; i < 3; ++i) high[i] = hbm_amplitude_at(s, hbm_curve_X(c, *top - 1 + i));
     if (high[1] >= high[0] && high[1] >= high[2]) st = add_summit(s, c, high, top);
   }
   return st;

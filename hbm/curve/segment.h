@@ -62,6 +62,9 @@ hc_status hbm_curve_passes(hbm_solver *s, const hbm_curve *c, int segments, cons
  * of their edges of slip (README.md) those that Newton finds at omega from a segment's ends. */
 hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *curve, double omega, hbm_curve *at);
 
+/* (max - min)/2 of the first response of X. */
+double hbm_amplitude_at(hbm_solver *s, const double *X);
+
 /* The point of largest amplitude of the curve, refined between its points, appended to *peak. HC_BAD_INPUT for an
  * empty curve. */
 hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *curve, hbm_curve *peak);

@@ -4,11 +4,13 @@
 #include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "compare/output/progress.h"
 #include "interfaces/command/commands.h"
 #include "numerics/base/nearest.h"
+#include "numerics/base/trace.h"
 #include "numerics/dense.h"
 
 #define ADDRESS_OF(name) &cmd_##name,
@@ -55,6 +57,13 @@ int main(int argc, char **argv)
   if (!strcmp(argv[1], "--version")) {
     cli_print_version(stdout, NULL);
     return written("--version");
+  }
+  char wrong[256];
+  message msg;
+  message_start(&msg, wrong, sizeof wrong);
+  if (trace_start(getenv("HBMCHECK_TRACE"), &msg) != HC_OK) {
+    fprintf(stderr, "%s\n", wrong);
+    return EXIT_USAGE;
   }
   const bool help = !strcmp(argv[1], "help"); /* help NAME is NAME --help */
   const char *name = argv[help ? 2 : 1];
