@@ -84,10 +84,17 @@ static inline int check_ended(int failed)
 #define CHECK_TRIALS(n) (n)
 #endif
 
-/* The main of a test program whose tests are a struct CMUnitTest tests[] (since some have a setup of their own): the
+/* The function that runs a file's tests, which returns what check_ended does: CHECK_ENTRY_FUNCTION { ... }. In a program
+ * of several files tests/CMakeLists.txt names it, and tests/folder.c calls it; else it is main. */
+#ifndef CHECK_ENTRY
+#define CHECK_ENTRY main
+#endif
+#define CHECK_ENTRY_FUNCTION int CHECK_ENTRY(int argc __attribute__((unused)), char **argv __attribute__((unused)))
+
+/* The entry of a file whose tests are a struct CMUnitTest tests[] (since some have a setup of their own): the
  * seconds after which it ends, their common setup and teardown or NULL. */
 #define CHECK_MAIN_WITH(name, tests, seconds, setup, teardown)                                                         \
-  int main(void)                                                                                                       \
+  CHECK_ENTRY_FUNCTION                                                                                                 \
   {                                                                                                                    \
     check_watchdog(seconds);                                                                                           \
     return cmocka_run_group_tests_name(name, tests, setup, teardown);                                                  \
@@ -114,9 +121,9 @@ static inline int check_run(const char *group, char *names, size_t n, const CMUn
 #define CHECK_RUN(name, setup, teardown, ...)                                                                          \
   check_run(name, (char[]){#__VA_ARGS__}, CHECK_COUNT(__VA_ARGS__), CHECK_FUNCTIONS(__VA_ARGS__), setup, teardown)
 
-/* The main of a test program whose tests are these functions. */
+/* The entry of a file whose tests are these functions. */
 #define CHECK_TESTS_WITH(name, seconds, setup, teardown, ...)                                                          \
-  int main(void)                                                                                                       \
+  CHECK_ENTRY_FUNCTION                                                                                                 \
   {                                                                                                                    \
     _Static_assert(CHECK_COUNT(__VA_ARGS__) <= CHECK_MOST_TESTS, "more tests than check_run has room for");            \
     check_watchdog(seconds);                                                                                           \

@@ -234,7 +234,7 @@ static void words_are_of_what_failed(CHECK_STATE)
   assert_string_equal(budget_text(&b, &limits, text), "harmonic_1 inf %: truncation (100 %)");
 }
 
-int main(void)
+CHECK_ENTRY_FUNCTION
 {
   check_watchdog(600);
   n_reference = read_reference_rows(reference_rows);

@@ -178,7 +178,7 @@ static void describe(CHECK_STATE)
   try("describe hbm.samples -q -o result");
 }
 
-int main(int argc, char **argv)
+CHECK_ENTRY_FUNCTION
 {
   every = argc > 1 && !strcmp(argv[1], "every");
   /* at N one|all|limit "ARG ...": that failure here and now, for a debugger. */

@@ -216,7 +216,7 @@ static void nothing_found_yet(CHECK_STATE)
   assert_non_null(strstr(stopped.err, "stopped on request; what was under way is lost"));
 }
 
-int main(void)
+CHECK_ENTRY_FUNCTION
 {
   return SMALL_MAIN("rescue", 600, rows_found_before_are_written, steady_states_are_kept_too,
                     points_of_a_curve_are_kept_too, a_second_signal_loses_none_of_them, rows_appear_when_they_are_found,

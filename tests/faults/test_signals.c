@@ -102,7 +102,7 @@ static void study(CHECK_STATE)
   assert_int_equal(system("cmp whole.csv killed.csv"), 0);
 }
 
-int main(int argc, char **argv)
+CHECK_ENTRY_FUNCTION
 {
   if (argc > 1 && !strcmp(argv[1], "every")) times = 20;
   setenv("H", HBMCHECK_COMMAND, 1);

@@ -288,7 +288,7 @@ static void failures_are_told(CHECK_STATE)
   }
 }
 
-int main(void)
+CHECK_ENTRY_FUNCTION
 {
   for (int law = 0; law < 2; ++law) {
     scene sc = small_scene(law ? exactly : smoothly);

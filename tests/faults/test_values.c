@@ -181,7 +181,7 @@ static void right_hand_side_with_a_scout(CHECK_STATE)
   sc.transient.scout = true;
   right_hand_side_of(sc);
 }
-int main(void)
+CHECK_ENTRY_FUNCTION
 {
   small_watchdog(300);
   return CHECK_RUN("faults.values", NULL, NULL, located_force, sampled_force, right_hand_side,

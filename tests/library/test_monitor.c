@@ -100,7 +100,7 @@ static void silent(CHECK_STATE)
   hbmcheck_case_free(c);
 }
 
-int main(void)
+CHECK_ENTRY_FUNCTION
 {
   check_watchdog(300);
   if (sigaction(SIGINT, &(struct sigaction){.sa_handler = on_interrupt}, NULL)) return 1;

@@ -214,7 +214,7 @@ static void signals_stop_the_work(CHECK_STATE)
   assert_int_equal(fate(interrupt_once, SIG_IGN), 2); /* ignored before: stays ignored, ticks go on */
 }
 
-int main(void)
+CHECK_ENTRY_FUNCTION
 {
   const struct CMUnitTest on_a_terminal[] = {
       cmocka_unit_test_setup(a_terminal_shows_it_and_is_left_clean, set_term),

@@ -325,7 +325,7 @@ static void work_on_a_candidate_is_bounded(CHECK_STATE)
   json_decref(answer);
 }
 
-int main(void)
+CHECK_ENTRY_FUNCTION
 {
   check_watchdog(60);
   const struct CMUnitTest proof_balls[] = {

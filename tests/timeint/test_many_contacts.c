@@ -102,7 +102,7 @@ static void sweep(CHECK_STATE)
   model_free(m);
 }
 
-int main(void)
+CHECK_ENTRY_FUNCTION
 {
   gsl_set_error_handler_off(); /* as the command does: eigenvalues that do not converge are a status */
   check_watchdog(300);

@@ -336,7 +336,7 @@ static void disagreement_is_said(CHECK_STATE)
 /* Built without Chart.js, the command names what is missing. */
 static void missing_charts_are_named(CHECK_STATE) { expect("report " CASE2 " 2>&1", 64, "libjs-chart.js"); }
 
-int main(void)
+CHECK_ENTRY_FUNCTION
 {
   check_watchdog(600);
   return HAVE_CHARTJS
