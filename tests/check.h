@@ -84,6 +84,10 @@ static inline int check_ended(int failed)
 #define CHECK_TRIALS(n) (n)
 #endif
 
+/* So many in the file's long run (CHECK_TESTS_AND_LONG), an eighth of them in the other. */
+static bool check_long __attribute__((unused));
+#define CHECK_LONG_TRIALS(n) (check_long ? CHECK_TRIALS(n) : (n) / 8)
+
 /* The function that runs a file's tests, which returns what check_ended does: CHECK_ENTRY_FUNCTION { ... }. In a program
  * of several files tests/CMakeLists.txt names it, and tests/folder.c calls it; else it is main. */
 #ifndef CHECK_ENTRY
@@ -130,3 +134,18 @@ static inline int check_run(const char *group, char *names, size_t n, const CMUn
     return CHECK_RUN(name, setup, teardown, __VA_ARGS__);                                                              \
   }
 #define CHECK_TESTS(name, seconds, ...) CHECK_TESTS_WITH(name, seconds, NULL, NULL, __VA_ARGS__)
+
+/* The same with a second list, of tests that take long, or of more trials: where the first argument is `long` it runs
+ * instead of the first, as ctest's folder.file_long. Both lists in parentheses. */
+#define CHECK_UNPACK(...)       __VA_ARGS__
+#define CHECK_RUN_UNPACKED(...) CHECK_RUN(__VA_ARGS__)
+#define CHECK_TESTS_AND_LONG_WITH(name, seconds, setup, teardown, tests, long_tests)                                   \
+  CHECK_ENTRY_FUNCTION                                                                                                 \
+  {                                                                                                                    \
+    check_watchdog(seconds);                                                                                           \
+    if ((check_long = argc > 1 && strcmp(argv[1], "long") == 0))                                                       \
+      return CHECK_RUN_UNPACKED(name "_long", setup, teardown, CHECK_UNPACK long_tests);                               \
+    return CHECK_RUN_UNPACKED(name, setup, teardown, CHECK_UNPACK tests);                                              \
+  }
+#define CHECK_TESTS_AND_LONG(name, seconds, tests, long_tests)                                                         \
+  CHECK_TESTS_AND_LONG_WITH(name, seconds, NULL, NULL, tests, long_tests)

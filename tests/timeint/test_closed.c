@@ -112,7 +112,7 @@ static void random_scenes_follow_cvode(CHECK_STATE)
   uint64_t seed = 19;
   double worst = 0, worst_matrix = 0;
   int transitions = 0;
-  for (int trial = 0; trial < CHECK_TRIALS(1000); ++trial) {
+  for (int trial = 0; trial < CHECK_LONG_TRIALS(1000); ++trial) {
     scaled_model m = exact_model(random_scene(&seed), 2 + 10 * random_unit(&seed), 1 + 4 * random_unit(&seed));
     integrator *in = closed_of(&m), *ref = cvode_of(&m);
     double y[SCENE_MAX_STATES], z[SCENE_MAX_STATES], fx[2][SCENE_MAX_STATES * SCENE_MAX_STATES], size = 1, apart = 0;
@@ -211,7 +211,7 @@ static void measures_are_those_of_the_motion(CHECK_STATE)
  * does, (1e-8)^3. So for 3 periods. */
 static void ends_at_a_turn(CHECK_STATE)
 {
-  for (int trial = 0; trial < CHECK_TRIALS(300); ++trial) {
+  for (int trial = 0; trial < CHECK_LONG_TRIALS(300); ++trial) {
     const bool apart = trial % 2;
     const double angle = apart ? 45 : 0;
     scaled_model m = exact_model(one(100, 100 + trial, 200, 0.3, 0.5, angle), 5 + 0.03 * trial, 1);
@@ -314,7 +314,10 @@ static void failures_are_reported(CHECK_STATE)
   integrate_free(in);
 }
 
-CHECK_TESTS_WITH("timeint.closed", 120, read_steady_references, NULL, they_follow_the_oracle,
-                 slip_that_begins_on_a_flat_guard, random_scenes_follow_cvode, soft_and_overdamped_scenes_follow_cvode,
-                 measures_are_those_of_the_motion, ends_at_a_turn, a_transition_at_the_end_of_the_period,
-                 monodromy_is_that_of_the_period, every_row_of_the_reference, rest_stays_at_rest, failures_are_reported)
+CHECK_TESTS_AND_LONG_WITH("timeint.closed", 120, read_steady_references, NULL,
+                          (random_scenes_follow_cvode, ends_at_a_turn, they_follow_the_oracle,
+                           slip_that_begins_on_a_flat_guard, soft_and_overdamped_scenes_follow_cvode,
+                           measures_are_those_of_the_motion, a_transition_at_the_end_of_the_period,
+                           monodromy_is_that_of_the_period, every_row_of_the_reference, rest_stays_at_rest,
+                           failures_are_reported),
+                          (random_scenes_follow_cvode, ends_at_a_turn))

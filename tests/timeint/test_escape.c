@@ -71,7 +71,7 @@ static void stick_and_slip_in_one_direction_is_creep(CHECK_STATE)
   timeint_result exact, r;
   assert_int_equal(from_rest(m, &ways[2], 2, &exact), HC_CREEPS);
   assert_true(exact.drift > 0.1);
-  for (int i = 0; i < WAYS; ++i) {
+  for (int i = check_long ? 0 : 2; i < (check_long ? WAYS : 3); ++i) { /* by CVODE it takes seconds */
     assert_int_equal(from_rest(m, &ways[i], 2, &r), HC_CREEPS);
     CHECK_NEAR(r.drift, exact.drift, 1e-4 * exact.drift, "way %d", i); /* the regularisation */
   }
@@ -121,6 +121,8 @@ static void instability_grows_without_bound(CHECK_STATE)
   }
 }
 
-CHECK_TESTS("timeint.escape", 600, a_body_that_slides_on_is_said_to_creep, stick_and_slip_in_one_direction_is_creep,
-            what_something_holds_settles, more_load_than_friction_takes_grows_without_bound,
-            instability_grows_without_bound)
+CHECK_TESTS_AND_LONG("timeint.escape", 600,
+                     (a_body_that_slides_on_is_said_to_creep, stick_and_slip_in_one_direction_is_creep,
+                      what_something_holds_settles, more_load_than_friction_takes_grows_without_bound,
+                      instability_grows_without_bound),
+                     (stick_and_slip_in_one_direction_is_creep))

@@ -757,9 +757,11 @@ static void cvode_is_off_by_what_it_predicts(CHECK_STATE)
   check_cvode(&orbits[1], TRANSIENT_LAW_EXACT, 1e-7);
 }
 
-CHECK_TESTS_WITH("timeint.large", 120, find_orbits, free_orbits, slowed_modes_stay_springs,
-                 neighbours_share_the_fastest_mode, small_or_unsymmetric_structures_are_not_slowed,
-                 rates_by_rows_are_the_equations, orbits_close, orbits_are_found_where_nothing_is_slowed,
-                 orbits_are_those_of_another_integrator, slowed_modes_follow_in_columns,
-                 the_multiplier_is_that_of_the_whole_model, orbits_need_no_matrix_of_their_own, rest_leads_to_the_orbit,
-                 cvode_is_off_by_what_it_predicts)
+CHECK_TESTS_AND_LONG_WITH("timeint.large", 120, find_orbits, free_orbits,
+                          (slowed_modes_stay_springs, neighbours_share_the_fastest_mode,
+                           small_or_unsymmetric_structures_are_not_slowed, rates_by_rows_are_the_equations,
+                           orbits_close, orbits_are_those_of_another_integrator,
+                           the_multiplier_is_that_of_the_whole_model),
+                          (orbits_are_found_where_nothing_is_slowed, slowed_modes_follow_in_columns,
+                           orbits_need_no_matrix_of_their_own, rest_leads_to_the_orbit,
+                           cvode_is_off_by_what_it_predicts))
