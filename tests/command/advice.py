@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""advice.py HBMCHECK CASES - what compare advises was tried, and holds when it is followed; what advise says keeps the error."""
+"""advice.py HBMCHECK CASES [long] - what compare advises was tried, and holds when it is followed; what advise says keeps the error."""
 import csv
 import io
 import json
@@ -80,7 +80,7 @@ class Compare(unittest.TestCase):
         self.assertIn("; nothing within 200 harmonics, exact forces, the exact law and transient.tolerance >= 1e-10 passes", said)
 
 
-    def test_what_helps_is_found_where_newton_from_the_solution_does_not_lead(self):
+    def long_what_helps_is_found_where_newton_from_the_solution_does_not_lead(self):
         """A curve of 30 harmonics, of 71, and forces before transients that take all of the time."""
         for scene, words, *sets in (
                 (900785, "use hbm.force: exact and hbm.harmonics >= 30", "hbm.harmonics=1", "hbm.force=sampled", "hbm.samples=64"),
@@ -99,7 +99,7 @@ class Compare(unittest.TestCase):
 
 
 class Advise(unittest.TestCase):
-    def test_the_error_is_kept_and_the_next_smaller_breaks_it(self):
+    def long_the_error_is_kept_and_the_next_smaller_breaks_it(self):
         code, out, err = run("advise", CASE2, "--error", "1e-3", "--format", "csv")
         self.assertEqual(code, 0, err)
         rows = table(out.split("\n\n")[0])
@@ -156,4 +156,6 @@ class Advise(unittest.TestCase):
         self.assertEqual(run("advise", CASE2, "--set", "contacts[0].friction=-1")[0], 2)
 
 
-unittest.main(argv=sys.argv[:1])
+loader = unittest.TestLoader()
+if sys.argv[3:] == ["long"]: loader.testMethodPrefix = "long"
+unittest.main(argv=sys.argv[:1], testLoader=loader)

@@ -103,9 +103,9 @@ static void two_causes_may_cancel_but_seldom(CHECK_STATE)
                          {"N = 1024, exact law", HBM_FORCE_SAMPLED, 1024, TRANSIENT_LAW_EXACT, 8},
                          {"exact forces, regularised law", HBM_FORCE_EXACT, 1024, TRANSIENT_LAW_REGULARISED, 8},
                          {"N = 64, regularised law, without r2", HBM_FORCE_SAMPLED, 64, TRANSIENT_LAW_REGULARISED, 7}};
-  const int n = SANITIZED ? 2 : sizeof all / sizeof *all; /* regularised: some minutes under the sanitizers, and the
-                                                             same code */
-  for (int i = SANITIZED; i < n; ++i) {
+  const bool few = SANITIZED || !check_long; /* the others take minutes, regularised under the sanitizers */
+  const int n = few ? 2 : sizeof all / sizeof *all;
+  for (int i = few; i < n; ++i) {
     tally t = run_all(&all[i]);
     assert_true(t.large > 20);
     CHECK_LE(2.0 / 3, (double)t.within / t.large, "%s", all[i].name);
@@ -234,11 +234,14 @@ static void words_are_of_what_failed(CHECK_STATE)
   assert_string_equal(budget_text(&b, &limits, text), "harmonic_1 inf %: truncation (100 %)");
 }
 
-CHECK_ENTRY_FUNCTION
+static int read_references(CHECK_STATE)
 {
-  check_watchdog(600);
   n_reference = read_reference_rows(reference_rows);
-  return CHECK_RUN("compare.budget_parts", NULL, NULL, words_are_of_what_failed, each_setting_made_worse_is_the_cause,
-                   integration_is_the_distance_to_fine_steps, a_loose_tolerance_is_integration_or_settling,
-                   one_cause_is_accounted_for_in_full, two_causes_may_cancel_but_seldom);
+  return 0;
 }
+
+CHECK_TESTS_AND_LONG_WITH("compare.budget_parts", 600, read_references, NULL,
+                          (words_are_of_what_failed, each_setting_made_worse_is_the_cause,
+                           integration_is_the_distance_to_fine_steps, a_loose_tolerance_is_integration_or_settling,
+                           one_cause_is_accounted_for_in_full, two_causes_may_cancel_but_seldom),
+                          (two_causes_may_cancel_but_seldom))
