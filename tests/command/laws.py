@@ -87,8 +87,8 @@ def mixed_laws_meet():
     """To what 15 harmonics leave of kinks; three times as many leave some 3^-3 of that."""
     case = write(MIXED)
     errors = []
-    for harmonics in (15, 45):
-        for law in ("regularised", "exact"):
+    for harmonics, laws in ((15, ("regularised", "exact")), (45, ("exact",))):
+        for law in laws:
             found = rows("compare", case, "--at", "1.5", "--set", f"hbm.harmonics={harmonics}", "--set",
                          f"transient.law={law}")
             assert [r["verdict"] for r in found] == ["match"], found
