@@ -1,12 +1,16 @@
-/* planar_slider.h - the slider of a contact with two tangents under the law of the circle (planar_slip.h), from one *
- * sample of the motion to the next. With r = mu N/kt [length] the law is: the slider w stays within r of u, moves only
- * * if it must, and then straight towards u, * * |u - w| <= r, T = kt (u - w), separated where r <= 0: w = u, T = 0 * *
- * r is computed with N as if in contact, so it becomes negative where contact is lost. Two rules: * along the line
- * between samples u and r vary linearly, and the law is integrated exactly: as the restart `interpolated` does with one
- * tangent. Error of order 2 in the step. * radial return the slider stays, or moves straight onto the circle about the
- * next sample, as in other programs: for the restart `sample` and the mistakes that hbm_settings.h lists. Error of
- * order 1 where the direction of slip turns, since each step uses the direction at its end. * On a straight motion both
- * equal the law of one tangent. libm only, nothing is allocated, cannot fail. */
+/* planar_slider.h - the slider of a contact with two tangents under the law of the circle (planar_slip.h), from
+ * one sample of the motion to the next. With r = mu N/kt [length] the law is: the slider w stays within r of u, moves
+ * only if it must, and then straight towards u,
+ *
+ *     |u - w| <= r,      T = kt (u - w),      separated where r <= 0: w = u, T = 0
+ *
+ * r is computed with N as if in contact, so it becomes negative where contact is lost. Two rules:
+ *     along the line   between samples u and r vary linearly, and the law is integrated exactly: as the restart
+ *                      `interpolated` does with one tangent. Error of order 2 in the step.
+ *     radial return    the slider stays, or moves straight onto the circle about the next sample, as in other programs:
+ *                      for the restart `sample` and the mistakes that hbm_settings.h lists. Error of order 1 where the
+ *                      direction of slip turns, since each step uses the direction at its end.
+ * On a straight motion both equal the law of one tangent. libm only, nothing is allocated, cannot fail. */
 #pragma once
 
 #include "hbm/hbm_settings.h"

@@ -1,8 +1,11 @@
-/* compliance.h - the dynamic stiffness of a large structure in its coordinates q, without contacts, from its modes: * *
- * S = G^-1, G = B Z^-1 B^T, p = S g, g = B Z^-1 (load), q = B x * response r = G_r S q + (g_r - G_r p) (G_r, g_r: with
- * the row of r in place of B) * * Z^-1 is a sum over modes where C is diagonal in them, as modal and Rayleigh damping
- * are, and else over the * eigenvectors of the first-order form, found once. Either way a harmonic costs O(n dim^2) at
- * most. Not for s = 0, * where a structure that is free to move has no Z^-1. */
+/* compliance.h - the dynamic stiffness of a large structure in its coordinates q, without contacts, from its modes:
+ *
+ *     S = G^-1,   G = B Z^-1 B^T,   p = S g,   g = B Z^-1 (load),   q = B x
+ *     response r = G_r S q + (g_r - G_r p)                        (G_r, g_r: with the row of r in place of B)
+ *
+ * Z^-1 is a sum over modes where C is diagonal in them, as modal and Rayleigh damping are, and else over
+ * the eigenvectors of the first-order form, found once. Either way a harmonic costs O(n dim^2) at most. Not for s = 0,
+ * where a structure that is free to move has no Z^-1. */
 #pragma once
 
 #include <complex.h>

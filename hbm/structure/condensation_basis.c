@@ -1,9 +1,9 @@
 /* condensation_basis.c - see condensation_basis.h. The rows are the directions of all contacts, and the first response.
- * * q the motions along those rows that are as independent as they can be chosen (pivoted QR): row P = 1. A row that is
- * nearly a combination of rows chosen before is replaced by its component orthogonal to them, normalised: as a
- * coordinate the row itself would give unit motions and forces that are 1/(that component) times too large * y motions
- * that move none of them, as modes; P is corrected so that K does not couple q and y (P^T K Y = 0) * Where the rows
- * span everything, q = x. */
+ *   q    the motions along those rows that are as independent as they can be chosen (pivoted QR): row P = 1. A row that
+ *        is nearly a combination of rows chosen before is replaced by its normalised component orthogonal to them: as
+ *        a coordinate the row itself would give motions and forces that are 1/(that component) times as large
+ *   y    motions that move none of the rows, as modes; P is corrected so that K does not couple q and y (P^T K Y = 0)
+ * Where the rows span everything, q = x. */
 #include "hbm/structure/condensation_basis.h"
 
 #include <float.h>
