@@ -14,9 +14,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-enum {
-  HC_ROOM_LIBRARY = 256 * 1024 /* [bytes] upper bound of such a call's need, without `bytes` that grow with its sizes */
-};
+enum { HC_ROOM_LIBRARY = 256 * 1024 }; /* [bytes] bound of such a call's need, without the caller's `bytes` */
 
 static inline bool hc_room_for(size_t bytes)
 {

@@ -6,11 +6,8 @@
 
 #include "numerics/wide_vectors.h"
 
-enum {
-  LONG = 128,
-  LANES = 8 /* length from which, and number of partial sums in which, sums are split: the result does not depend on the
-               vector width */
-};
+/* Sums of LONG numbers and more are made of LANES partial sums, so that they do not depend on the vector width. */
+enum { LONG = 128, LANES = 8 };
 
 /* z = a x + b y */
 WIDE_VECTORS static void combine(long n, double a, const double *x, double b, const double *y, double *z)

@@ -10,18 +10,15 @@
 #include "numerics/series.h"
 
 enum {
-  MOST_OF_ROWS =
-      600, /* unknowns with twice the harmonics up to which every row of a curve is examined: tens of milliseconds */
-  MOST_FINER = 100, /* harmonics of the finer equations, when more than twice: some milliseconds for an oscillator */
+  MOST_OF_ROWS = 600, /* unknowns with twice the harmonics up to which all rows are examined: tens of milliseconds */
+  MOST_FINER = 100,   /* harmonics of the finer equations, when more than twice: some milliseconds for an oscillator */
   MOST_UNKNOWNS = 1500, /* of those finer equations with many coordinates: about a second a step */
-  STRIDE =
-      20, /* numbers of harmonics above twice are multiples of this: each new number allocates the workspace again */
+  STRIDE = 20,          /* harmonics above twice are a multiple of this: a new number remakes the workspace */
   MOST_STEPS = 10, /* Newton steps for motions: one or two suffice but near turning points and for stiff contacts */
   FEW_STEPS = 5    /* Newton steps for multipliers, where no convergence just means unknown bounds */
 };
 
-static const double converged = 0.02; /* Newton step, as part of the whole correction, at which the error is known to 2
-                                         % */
+static const double converged = 0.02; /* [correction] Newton step at which the error is known to 2 % */
 /* [1] in the metric at X: no finer solution is next to X if Newton has not converged and moved or stepped by more than
  * `lost`, or converged farther away than `another`. The error is then unbounded: the finer equations may have none
  * beyond a fold. */

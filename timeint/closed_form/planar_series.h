@@ -47,14 +47,14 @@ void planar_series_guard(const planar_series *s, const scaled_contact *c, double
 typedef struct planar_columns { /* of one contact */
   int columns;                  /* capacity of columns */
   bool fresh;
-  double h, kt, friction;                                                              /* friction: mu kn */
-  double limit[TRACK_TERMS], e[2][TRACK_TERMS], turn[TRACK_TERMS], slide[TRACK_TERMS]; /* terms of the motion: mu N, e,
-                                                                                          q, U'.e */
-  double across[2][TRACK_TERMS];                                                       /* mu N e_perp */
-  double *u[2], *v; /* [TRACK_TERMS][columns] terms of dU, dV */
-  double *angle;    /* [TRACK_TERMS][columns] terms of dphi */
-  double *pull[2];  /* [columns] current term of dT */
-  double *sum;      /* [columns] */
+  double h, kt, friction; /* friction: mu kn */
+  /* terms of the motion: mu N, e, q, U'.e */
+  double limit[TRACK_TERMS], e[2][TRACK_TERMS], turn[TRACK_TERMS], slide[TRACK_TERMS];
+  double across[2][TRACK_TERMS]; /* mu N e_perp */
+  double *u[2], *v;              /* [TRACK_TERMS][columns] terms of dU, dV */
+  double *angle;                 /* [TRACK_TERMS][columns] terms of dphi */
+  double *pull[2];               /* [columns] current term of dT */
+  double *sum;                   /* [columns] */
 } planar_columns;
 
 /* Arrays are memory's. */

@@ -17,7 +17,7 @@
 typedef struct response_measure { /* of one response r, for an oscillator X */
   double x, p, a;                 /* r, r', r'' at the end of the last step */
   double max, min;
-  double sum, sum_sq, sum_cos, sum_sin; /* sums over the instants of the wave         */
+  double sum, sum_sq, sum_cos, sum_sin; /* sums over the instants of the wave */
   double integral[3];                   /* integrals of r, r cos, r sin; not valid if no_integrals */
   double wave[TIMEINT_WAVE];
 } response_measure;
@@ -36,8 +36,8 @@ typedef struct contact_range {
 typedef struct measure { /* lengths in units of the model's L, until measure_report */
   const scaled_model *m;
   int n_responses, n_contacts;
-  int periods;                     /* number of periods begun                                 */
-  int next;                        /* index of the next instant of the wave                   */
+  int periods;                     /* number of periods begun */
+  int next;                        /* index of the next instant of the wave */
   bool no_integrals;               /* some step has no accurate integrals: the sums are used */
   response_measure *response;      /* [n_responses] */
   contact_state *state;            /* [n_contacts] at the end of the last step */
