@@ -1,4 +1,4 @@
-/* model.h - what is simulated: a structure of n degrees of freedom, and contacts between them.
+/* model.h - the simulated model: a structure of n degrees of freedom, and contacts between them.
  *
  *     M x'' + C x' + K x + sum_j [ t_j T_j + n_j (N_j - N0_j) ] = sum_k p_k cos(k omega t) + q_k sin(k omega t)
  *     u_j = t_j . x   tangential motion        v_j = n_j . x   normal motion        (t_j, n_j: directions in x)

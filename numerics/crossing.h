@@ -26,7 +26,7 @@ typedef struct guard {
   double a[SERIES_MAX_DIM], constant;
   double size;                   /* bound of |f - mean - constant| */
   double mean;                   /* mean of f without the constant */
-  double bound1, bound2, bound3; /* of |f'|, |f''|, |f'''| */
+  double bound1, bound2, bound3; /* bounds of |f'|, |f''|, |f'''| */
   double noise;                  /* rounding error of f and by its angle */
 } guard;
 

@@ -10,7 +10,7 @@
 
 enum { LARGE = 64 };
 
-struct floquet { /* a workspace of GSL serves one size of matrix: there is one for each size 3..LARGE */
+struct floquet { /* a workspace of GSL is for one size of matrix: one for each size 3..LARGE */
   int n;
   gsl_eigen_nonsymm_workspace **work; /* [n + 1] */
   gsl_vector_complex **values;        /* [n + 1] */

@@ -9,7 +9,7 @@ typedef struct sparse {
   int n;         /* rows and columns */
   int *start;    /* [n + 1] start[j] .. start[j + 1] - 1: entries of column j; or NULL */
   int *row;      /* row of each entry, ascending in a column */
-  double *value; /* of each entry */
+  double *value; /* value of each entry */
 } sparse;
 
 /* Allocates n columns and `entries` entries, start all 0. HC_NO_MEMORY: nothing to free. */

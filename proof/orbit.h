@@ -29,7 +29,7 @@ typedef struct orbit_segment {
   int size;                   /* length of Z */
   int slider[LIMIT_CONTACTS]; /* index of w in Z, -1: it does not stick */
   int began[LIMIT_CONTACTS];  /* event at which stick began, -1: sticks all period */
-  char from[LIMIT_CONTACTS];  /* the letter before that event */
+  char from[LIMIT_CONTACTS];  /* letter before that event */
   int place[LIMIT_CONTACTS];  /* index of w in the monodromy's state x, v, w; -1: not in the state, or w is independent
                                  of it */
   int state;                  /* size of that state */
@@ -56,7 +56,7 @@ typedef struct orbit {
   const certificate *c;
   slong precision;
   int n, m, contacts, unknowns;
-  int harmonics, harmonic[LIMIT_HARMONICS + 1]; /* of Z; harmonic numbers */
+  int harmonics, harmonic[LIMIT_HARMONICS + 1]; /* number of harmonics in Z; harmonic numbers */
   int load_column[LIMIT_HARMONICS];             /* index in Z of each load's cosine, or of 1 for harmonic 0 */
   int first_harmonic;                           /* index of cos omega t in Z */
   arb_mat_struct *inverse_mass;

@@ -82,7 +82,8 @@ typedef struct bench_options {
   bool alone;     /* without other programs */
 } bench_options;
 
-/* HC_INTERRUPTED keeps what was measured; HC_NOT_CONVERGED: no stable orbit at *failed_at. bench_clear in any case. */
+/* Runs the bench. HC_INTERRUPTED: rows measured before are kept; HC_NOT_CONVERGED: no stable orbit at *failed_at. Call
+ * bench_clear in any case. */
 hc_status bench_run(const compare_setup *setup, const bench_options *options, const hc_monitor *monitor, bench *out,
                     double *failed_at);
 void bench_clear(bench *b);

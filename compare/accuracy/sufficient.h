@@ -36,13 +36,13 @@ typedef struct sufficient {
   int linear;                 /* of these: no contact changes its state, so that any number of harmonics is exact */
   int lost;                   /* without a reference solution next to them, or with one whose error estimate exceeds the
                                  allowed error */
-  int harmonics;              /* of the reference               */
+  int harmonics;              /* harmonics of the reference */
   double predicted;           /* [1] its largest error estimate */
   /* Frequencies closer than `strip` to a turning point are omitted: few harmonics may have no solution there. */
   double strip; /* [1] of omega */
   int n_folds;
   double folds[SUFFICIENT_FOLDS];
-  hc_status end; /* of the curve */
+  hc_status end; /* status of the curve */
 } sufficient;
 
 /* Examines setup->compare.omega, or, if empty, the whole curve. error: [1] allowed. HC_NO_MEMORY, HC_INTERRUPTED;

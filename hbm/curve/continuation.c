@@ -157,8 +157,8 @@ static bool check_trial(path *p, double ratio)
   return accepted;
 }
 
-/* Predict and correct one step. HC_OK and accepted, or HC_OK and not, or why there is no trial. p->step becomes the
- * next one. */
+/* Predicts and corrects one step. HC_OK with *accepted, or the status with which there is no trial. p->step becomes the
+ * next step length. */
 static hc_status trial_step(path *p, bool *accepted)
 {
   double ratio = path_predict(p, p->step);

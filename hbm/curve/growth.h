@@ -1,4 +1,5 @@
-/* growth.h - does a response curve go to infinity at a finite frequency? By energy, of a motion x with harmonics x_h:
+/* growth.h - test whether a response curve goes to infinity at a finite frequency, by the energies of a motion x with
+ * harmonics x_h:
  *
  *     E = 1/4 sum_h (h omega)^2 x_h^H M x_h          [force length] kinetic energy, averaged over a period
  *     W = pi sum_k k |x_k^H p_k|                     work of the loads in a period, largest over their phase

@@ -38,8 +38,8 @@ static int finer_harmonics(double highest, int n_harm, int dim, double omega)
   return own > twice ? (int)fmin(own, fmax(most, twice)) : twice;
 }
 
-/* Equations of n_harm harmonics, and X with zeros for what they have more; made anew where the number is another, freed
- * with the solver's equations. */
+/* Prepares finer equations of n_harm harmonics, made again if that number changes and freed with the solver, and X
+ * padded with zeros as start. */
 static hc_status begin_finer(hbm_solver *s, finer_solution *f, int n_harm, const double *X)
 {
   const int ours = s->sys.n_harm;

@@ -26,7 +26,7 @@
  * NaN: errors of the contact force, HC_SINGULAR, HC_NOT_FINITE, HC_NO_MEMORY. */
 hc_status hbm_predict(hbm_solver *s, double omega, const double *X, motion_error *out);
 
-/* The same of response r, counted from 0, of the solution that hbm_predict was last asked about, with HC_OK: nothing is
+/* The same for response r, counted from 0, of the solution of the last hbm_predict, which returned HC_OK: nothing is
  * solved again. HC_BAD_INPUT: there is no such response. */
 hc_status hbm_predict_response(hbm_solver *s, double omega, const double *X, int r, motion_error *out);
 

@@ -74,7 +74,7 @@ static double omega_at(const hbm_segment *s, double t)
          t * t * r * s->d_omega1;
 }
 
-/* Has the interpolant passed omega at t? For root_change. */
+/* For root_change: true if the interpolant has passed omega at t. */
 typedef struct omega_passage {
   const hbm_segment *s;
   double omega;
@@ -237,7 +237,7 @@ static bool may_turn_at(const hbm_segment *s, double omega)
   return near;
 }
 
-/* Is X one of the points first.. of c? */
+/* True if X equals one of the points first..c->n - 1 of c. */
 static bool has_point(const hbm_curve *c, int first, const double *X)
 {
   const metric_at at = {c->metric, c->n_coef, X, NULL};

@@ -303,7 +303,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   if (!isfinite(size)) return HC_NOT_FINITE;
   for (int d = 0; d < a->n_dof; ++d) period_samples_of(&a->of, X + d * length, a->motion[d]);
   if (a->n_dof == 2) memset(a->motion[2], 0, (size_t)a->n_time * sizeof(double));
-  if (a->n_dof == 3) { /* the normal forces of both halves, less what they are at rest */
+  if (a->n_dof == 3) { /* normal forces of both halves, less N0 */
     for (int i = 0; i < a->n_time; ++i) a->of.sample[i] = 2 * contact_normal_change(&a->law, a->motion[2][i]);
     period_samples_series(&a->of, a->of.sample, a->n_harm, F + 2 * length);
   }

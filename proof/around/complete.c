@@ -260,11 +260,12 @@ static void response_spread(const orbit *o, mag_t spread)
   }
 }
 
-/* Claims that hold what check.py encloses, too. Its interval and this program's share the true value, so this one,
- * widened by the width of the other, holds both. check.py takes ranges by the first order: of an extremum at most 4
- * times the sum of the radii on a substep, of mean and harmonic 1 less; and it starts from a box within `radius`, which
- * gave `spread`. Of the multiplier both take discs of the same matrix, check.py with every entry's rounding as large as
- * the largest's: up to 4 times as wide among 500 structures; MULTIPLIER_WIDTHS are allowed, and 16 radii. */
+/* Claims wide enough for check.py's enclosures, too. Its interval and this program's both contain the true value, so
+ * this one, widened by the width of the other, contains both. check.py bounds ranges to first order: for an extremum at
+ * most 4 times the sum of the radii on a substep, less for mean and harmonic 1; and its box is within `radius`, for
+ * which `spread` was computed. For the multiplier both use discs of the same matrix, check.py with every entry's
+ * rounding as large as the largest: up to 4 times as wide in 500 structures; allowed are MULTIPLIER_WIDTHS and 16
+ * radii. */
 static void write_claims(json_t *claims, const certificate *c, const quantities *q, const mag_t spread)
 {
   LOCAL(arb) radius = {0};
@@ -283,8 +284,8 @@ static void write_claims(json_t *claims, const certificate *c, const quantities 
 
 /* ---- all of it ---- */
 
-/* Fills in the certificate *made, with claims of radii alone at first, and decides it; false: v says why there is
- * none. */
+/* Completes the draft to the certificate *made, at first with claims of radii only, decides it, and adds the other
+ * claims; false: none, reason in *v. */
 static bool make(json_t *draft, const certificate *c, double most_work, certificate **made, decision *v, char *why,
                  size_t size)
 {

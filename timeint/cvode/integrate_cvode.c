@@ -110,7 +110,7 @@ hc_status integrate_make_parts(cvode_integrator *in, int n, int method, void *eq
   if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
   in->ls = hc_own_solver(in->ctx, in, setup, solve);
   in->cv = CVodeCreate(method, in->ctx);
-  return in->ls && in->cv && hc_room_for(0) ? HC_OK : HC_NO_MEMORY; /* room: CVodeInit comes next */
+  return in->ls && in->cv && hc_room_for(0) ? HC_OK : HC_NO_MEMORY; /* hc_room_for: for CVodeInit, which comes next */
 }
 
 void integrate_free_parts(cvode_integrator *in)

@@ -116,7 +116,7 @@ static hc_status make_parts(regularised *in, const modal_base *base)
   if (st == HC_OK) st = structure_newton_make(&in->variation, base, &in->base.memory);
   if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, &in->newton, solve);
   if (st != HC_OK) return st;
-  in->s = N_VCloneVectorArray(in->n, in->base.y); /* room: asked for above */
+  in->s = N_VCloneVectorArray(in->n, in->base.y); /* memory: tested in integrate_make_parts */
   in->s_tolerance = workspace_doubles(&in->base.memory, (size_t)in->n);
   return in->s && in->s_tolerance ? HC_OK : HC_NO_MEMORY;
 }

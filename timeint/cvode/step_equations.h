@@ -21,7 +21,7 @@ typedef struct step_contact {
 } step_contact;
 
 typedef struct step_equations {
-  const modal_base *base;    /* the owner's */
+  const modal_base *base;    /* not owned */
   int n, n_contacts, n_rows; /* n_rows = rows.count */
   contact_rows rows;
   double gamma, by_K, by_C;

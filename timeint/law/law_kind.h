@@ -61,14 +61,14 @@ typedef enum track_event {
 
 /* A guard of a state: g = by_u (U - from_u) + by_v (V + gap) + constant, or by_u U' + by_v V'. */
 typedef struct track_condition {
-  track_event event; /* what happens where it falls through 0 */
+  track_event event; /* event where it falls through 0 */
   bool of_rates;
   double by_u, by_v, from_u, gap, constant;
 } track_condition;
 
 /* A guard as a series in tau: coefficients g[TRACK_TERMS]; below -noise it is negative. */
 typedef struct track_guard {
-  track_event event; /* what happens where it falls through 0 */
+  track_event event; /* event where it falls through 0 */
   double noise, g[TRACK_TERMS];
 } track_guard;
 
