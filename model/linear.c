@@ -46,7 +46,7 @@ double linear_step_response(double c, double k, double t)
     }
     return sum;
   }
-  /* the slow root is not a difference, nor is what it does */
+  /* slow root and its exponential without cancellation */
   const double root = sqrt(0.25 * c * c - k), fast = -0.5 * c - root, slow = -k / (0.5 * c + root);
   const double by_slow = slow != 0 ? expm1(slow * t) / slow : t;
   return (by_slow - expm1(fast * t) / fast) / (slow - fast);

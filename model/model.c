@@ -31,7 +31,7 @@ hc_status model_new(int n, int n_loads, int n_contacts, int n_responses, model *
     model_free(m);
     return HC_NO_MEMORY;
   }
-  /* Every pointer into the block, in one order. */
+  /* Places all vectors and matrices in the block. */
   double *next = m->numbers;
   m->mass = take(&next, length * length);
   m->damping = take(&next, length * length);
@@ -145,7 +145,7 @@ static bool law_is_odd(const contact *c)
   return odd;
 }
 
-/* Is a = sign b, to the last bit? */
+/* True if a = sign b exactly. */
 static bool along_one_line(int n, const double *a, double sign, const double *b)
 {
   for (int i = 0; i < n; ++i)

@@ -13,7 +13,7 @@ typedef struct moving_contact {
   double cu[SERIES_MAX_DIM], cv[SERIES_MAX_DIM];
 } moving_contact;
 
-/* The contacts of an oscillator, in memory to free: *out is never NULL on HC_OK. HC_NO_MEMORY: it is. */
+/* The contacts of an oscillator, *out to be freed. HC_NO_MEMORY: *out is NULL. */
 static inline hc_status moving_contacts_of_model(const model *m, moving_contact **out)
 {
   *out = calloc((size_t)m->n_contacts + 1, sizeof **out);
@@ -25,13 +25,13 @@ static inline hc_status moving_contacts_of_model(const model *m, moving_contact 
   return HC_OK;
 }
 
-/* Stiffness [force/length] that the first coordinate sees of it while it sticks: kt cu^2 + kn cv^2. */
+/* Stiffness [force/length] of the stuck contact for its first coordinate: kt cu^2 + kn cv^2. */
 static inline double moving_contact_stuck_stiffness(const moving_contact *c)
 {
   return c->law.kt * c->cu[0] * c->cu[0] + c->law.kn * c->cv[0] * c->cv[0];
 }
 
-/* Does it have a slider that the motion pulls at? */
+/* True if it has friction and its tangential motion u is not always 0. */
 static inline bool moving_contact_has_slider(const moving_contact *c, int n_dof)
 {
   bool moves = false;

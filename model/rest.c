@@ -1,5 +1,6 @@
-/* rest.c - see rest.h. Newton on the static equations, whose forces are piecewise linear but for polynomials. Where its
- * step does not lead down (a contact opens, all there is to hold a motion slips), one with all contacts stuck does. */
+/* rest.c - see rest.h. Newton on the static equations, whose forces are piecewise linear but for polynomials. If its
+ * step does not reduce the residual (a contact opens, or all contacts that resist a motion slip), a step with all
+ * contacts stuck is tried. */
 #include "model/rest.h"
 
 #include <float.h>
@@ -10,8 +11,9 @@
 #include "numerics/norm.h"
 
 enum { ITERATIONS = 100, HALVINGS = 12 };
-static const double converged = 1e-12;           /* [all forces by size] of what may be left where Newton stops */
-static const double rounding = 64 * DBL_EPSILON; /* the same that is rounding of the sums */
+static const double converged = 1e-12;           /* [statics.size] largest residual that counts as converged where
+                                                    Newton stalls */
+static const double rounding = 64 * DBL_EPSILON; /* [statics.size] residual that is rounding */
 
 typedef struct statics {
   const model *m;
@@ -21,17 +23,17 @@ typedef struct statics {
   double *tractions;  /* [n] sum t_j T_j at rest */
   double *J;          /* [n][n] dR/dx */
   int *pivot;         /* [n] */
-  double size;        /* [force] all forces of the last residual, and what they are differences of, added up by size */
-  double pull;        /* [force] its tractions alone */
+  double size;        /* [force] sum of |terms| of the last residual */
+  double pull;        /* [force] sum of |tractions| in it */
 } statics;
 
-/* f[n] += force a, by size too. */
+/* f[n] += force a; s->size += its terms' sizes. */
 static void add_force(statics *s, double force, const double *a, double *f)
 {
   for (int i = 0; i < s->m->n; ++i) f[i] += force * a[i], s->size += fabs(force * a[i]);
 }
 
-/* T of a contact of one tangent, or of two with one limit (those of j and j + 1), into R; its slopes into J. */
+/* Adds T of contact j (with two tangents and one limit: of j and j + 1) to R, its derivatives to J unless NULL. */
 static void add_traction(statics *s, int j, const double *x, double *R, double *J)
 {
   const model_contact *c = &s->m->contacts[j];
@@ -55,7 +57,7 @@ static void add_traction(statics *s, int j, const double *x, double *R, double *
     add_outer(n, c->law.mu * spring * u[d] / pulled, c[d].tangent, c->normal, J);
 }
 
-/* R = K x + contacts - p_0 at x; dR/dx into J unless it is NULL. */
+/* R = K x + contacts - p_0 at x; J = dR/dx unless NULL. */
 static void residual(statics *s, const double *x, double *R, double *J)
 {
   const model *m = s->m;
@@ -79,7 +81,7 @@ static void residual(statics *s, const double *x, double *R, double *J)
   }
 }
 
-/* K and all contacts stuck. */
+/* J = K and all contacts stuck. */
 static void stuck_stiffness(const model *m, double *J)
 {
   memcpy(J, m->stiffness, (size_t)m->n * (size_t)m->n * sizeof *J);
@@ -89,7 +91,7 @@ static void stuck_stiffness(const model *m, double *J)
   }
 }
 
-/* x goes down along J^-1 R, which is found with s->J as it is: false if no part of that leaves less than |R|. */
+/* Line search along -J^-1 R with s->J: moves s->x, or false if no trial reduces |R|. */
 static bool step_down(statics *s)
 {
   const int n = s->m->n;
@@ -108,7 +110,7 @@ static bool step_down(statics *s)
   return false;
 }
 
-/* s->x, from 0: is it where the model rests? */
+/* Solves for s->x from 0; true if it is a rest position. */
 static bool comes_to_rest(statics *s)
 {
   for (int k = 0; k < ITERATIONS; ++k) {
@@ -136,7 +138,7 @@ static double expand_about(contact *c, double v0)
   return a[1];
 }
 
-/* *m, a copy of the statics' model, is written in y. */
+/* Transforms *m, a copy of s->m, to y. */
 static void move_to_rest(statics *s, model *m, int load)
 {
   const int n = m->n;
@@ -151,7 +153,7 @@ static void move_to_rest(statics *s, model *m, int load)
     if (contact_never_opens(&c->law)) add_outer(n, expand_about(&c->law, v0), c->normal, c->normal, m->stiffness);
     else c->law.gap += v0;
   }
-  /* T of y is that of x: it stays on the left, and what it carries at rest on the right. */
+  /* T stays on the left side of the equations; its value at rest is added to the right side. */
   for (int i = 0; i < n; ++i) left[i] = is_rounding ? 0 : s->tractions[i] - s->R[i];
   if (!is_zero(n, left)) return;
   --m->n_loads; /* the block of numbers keeps its vectors */

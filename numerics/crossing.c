@@ -63,7 +63,7 @@ static guarded_point falling_root(const guarded *s, guarded_point a, guarded_poi
     if (x.f > 0 || (rises && x.d1 > 0)) a = x;
     else b = x;
     const double newton = x.th - x.f / x.d1;
-    /* before the bracket is looked at: at the root, it may be an end of it */
+    /* tested before the bracket, since at the root x may be an end of it */
     if (x.d1 < 0 && fabs(newton - x.th) <= 2 * DBL_EPSILON * (1 + fabs(x.th))) break;
     const bool inside = x.d1 < 0 && newton > a.th && newton < b.th;
     const double next = inside ? newton : 0.5 * (a.th + b.th), moved = next - x.th;
@@ -94,8 +94,8 @@ static guarded_point minimum(const guarded *s, guarded_point a, guarded_point b)
 static inline double lesser(double x, double y) { return x < y ? x : y; }
 static inline double greater(double x, double y) { return x > y ? x : y; }
 
-/* At the last halving that rounding allows, ends of different sign are taken for one crossing, and ends of the same
- * sign for none. */
+/* When rounding allows no further halving, ends of different sign count as one crossing, ends of the same sign as
+ * none. */
 bool guarded_first(const guarded *s, guarded_point a, guarded_point b, guarded_point *root)
 {
   const double width = b.th - a.th, sag = s->bound2 * width * width / 8; /* f is at most this far from its chord */
@@ -125,12 +125,13 @@ bool guarded_first(const guarded *s, guarded_point a, guarded_point b, guarded_p
 typedef struct guarded_motion {
   const series_vector *m;
   const guard *g;
-  series_node last; /* evaluated */
+  series_node last; /* node of the last evaluation */
 } guarded_motion;
 
 static guarded_point guard_at(const guard *g, const series_node *at)
 {
-  const double d2 = g->order == 0 ? guard_derivative(g, at, 2) : 0; /* else of x''', which a node has not */
+  const double d2 = g->order == 0 ? guard_derivative(g, at, 2) : 0; /* order 1 would need x''', which a node does not
+                                                                       hold */
   return (guarded_point){at->th, guard_value(g, at), guard_derivative(g, at, 1), d2};
 }
 

@@ -33,10 +33,10 @@ void zgetri_(const int *n, double complex *a, const int *lda, const int *pivot, 
 void zgetrs_(const char *transposed, const int *n, const int *columns, const double complex *a, const int *lda,
              const int *pivot, double complex *b, const int *ldb, int *info, size_t transposed_length);
 
-/* OpenBLAS, where it stands in for the reference BLAS, may start threads: one is what this program is built for. Built
- * without any (Debian's libopenblas0-serial 0.3.21 and 0.3.29) it must not be called from two threads at once: they get
- * the same workspace, and 7 of 1000 factors of 20 rows are wrong when four threads ask for them. Its calls take turns.
- * The symbols are missing elsewhere. */
+/* OpenBLAS, if it replaces the reference BLAS, may start threads; this program wants one. Built without any (Debian's
+ * libopenblas0-serial 0.3.21 and 0.3.29) it must not be called from two threads at once: they get the same workspace,
+ * and 7 of 1000 factors of 20 rows are wrong when four threads ask for them. Its calls are then serialised. Other BLAS
+ * lack these symbols. */
 void openblas_set_num_threads(int threads) __attribute__((weak));
 int openblas_get_parallel(void) __attribute__((weak)); /* 0: built without threads */
 void blas_thread_shutdown_(void) __attribute__((weak));
@@ -84,8 +84,8 @@ static void add_small_product(int m, int n, int k, double alpha, const double *A
 void dense_add_product(int m, int n, int k, double alpha, const double *A, int lda, const double *B, int ldb,
                        double beta, double *C, int ldc)
 {
-  enum { MOST_OF_B = 16, MOST_ROWS = 64 }; /* up to which loops are less than a call */
-  const int rows_of_B = ldb > 0 ? ldb : 1; /* of an empty sum, too */
+  enum { MOST_OF_B = 16, MOST_ROWS = 64 }; /* sizes up to which loops are faster than a call */
+  const int rows_of_B = ldb > 0 ? ldb : 1; /* 1 for an empty sum, too */
   if ((long)n * k <= MOST_OF_B && m <= MOST_ROWS) {
     add_small_product(m, n, k, alpha, A, lda, B, ldb, beta, C, ldc);
     return;
@@ -99,7 +99,7 @@ WIDE_VECTORS static void add_columns(size_t rows, int n, double alpha, const dou
 {
   const double *restrict column = A;
   int j = 0;
-  for (; j + 4 <= n; j += 4, column += 4 * rows) { /* what sum[i] costs, once for four columns */
+  for (; j + 4 <= n; j += 4, column += 4 * rows) { /* sum[i] is loaded and stored once for four columns */
     const double a = alpha * x[j], b = alpha * x[j + 1], c = alpha * x[j + 2], d = alpha * x[j + 3];
     for (size_t i = 0; i < rows; ++i)
       sum[i] += (a * column[i] + b * column[i + rows]) + (c * column[i + 2 * rows] + d * column[i + 3 * rows]);
@@ -116,7 +116,7 @@ void dense_times_vector(int m, int n, double alpha, const double *A, const doubl
   add_columns((size_t)m, n, alpha, A, x, y);
 }
 
-/* Four partial sums side by side; from wherever a double may be. */
+/* Four partial sums side by side, with the alignment of a double. */
 typedef double four __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
 
 #define FOUR_AT(a) (*(const four *)(a))
@@ -143,7 +143,7 @@ WIDE_VECTORS void dense_rows_times_vector(int n, int rows, const double *A, cons
 
 void dense_transpose(int rows, int columns, const double *A, double *B)
 {
-  enum { TILE = 16 }; /* both sides of it stay in the cache */
+  enum { TILE = 16 }; /* source and target tiles stay in the cache */
   for (int j = 0; j < columns; j += TILE)
     for (int i = 0; i < rows; i += TILE)
       for (int c = j; c < columns && c < j + TILE; ++c)
@@ -184,7 +184,7 @@ bool dense_is_symmetric(int n, const double *A)
 
 hc_status dense_modes(int n, const double *K, const double *M, double *lambda, double *phi)
 {
-  if (n == 1) { /* as one division says it: the same bits with every LAPACK */
+  if (n == 1) { /* by one division: the same bits with every LAPACK */
     if (!(*M > 0)) return HC_SINGULAR;
     *lambda = *K / *M, *phi = 1 / sqrt(*M);
     return HC_OK;
@@ -206,8 +206,7 @@ hc_status dense_modes(int n, const double *K, const double *M, double *lambda, d
   return st;
 }
 
-/* QR with column pivoting of A[rows][n] in place; then tau[], the pivots from 0, and how many diagonal entries of R
- * count. */
+/* QR with column pivoting of A[rows][n] in place; then tau[], pivots counted from 0, and the numerical rank. */
 static hc_status pivoted_qr(int n, int rows, double *A, double tolerance, int *pivot, double *tau, double *work,
                             int work_length, int *rank)
 {
@@ -249,7 +248,8 @@ hc_status dense_span(int n, int rows, const double *const *row, double tolerance
   return st;
 }
 
-/* Column k of vectors as LAPACK leaves them: of a pair, real parts, then imaginary parts of its first. */
+/* Column k of vectors as LAPACK stores them: a complex pair has the real parts, then the imaginary parts of its first
+ * vector. */
 static void unpack_vector(size_t n, const double *vectors, size_t k, double im, double complex *to)
 {
   const double *x = vectors + (im < 0 ? k - 1 : k) * n, *y = x + n;
@@ -277,7 +277,8 @@ hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *
 
 /* ---- LU factors ------------------------------------------------------------------------------------ */
 
-/* x -= L of the columns of a PANEL, x beginning where they do: four at a time, so that x is loaded and stored once. */
+/* x -= L x for the columns of a PANEL, which start at x's row: four columns at a time, so that x is loaded and stored
+ * once. */
 enum { PANEL = 4 };
 static inline void subtract_panel(int n, const double *a, int ld, double *restrict x)
 {
@@ -287,14 +288,14 @@ static inline void subtract_panel(int n, const double *a, int ld, double *restri
   for (int i = PANEL; i < n; ++i) x[i] = x[i] - x0 * a[i] - x1 * b[i] - x2 * c[i] - x3 * d[i];
 }
 
-/* x -= column k of L x[k]. */
+/* x -= x[k] times column k of L. */
 static inline void subtract_column(int n, const double *A, int k, double *restrict x)
 {
   const double *column = A + n * k, factor = x[k];
   for (int i = k + 1; i < n; ++i) x[i] -= factor * column[i];
 }
 
-/* Column k's pivot, from 1, into its place, and the column becomes L's; false where it is 0. */
+/* Moves column k's pivot (counted from 1) into place and turns the column into L's; false if the pivot is 0. */
 static bool take_pivot(int n, double *A, int k, int *pivot)
 {
   double *column = A + n * k;
@@ -313,7 +314,7 @@ static bool take_pivot(int n, double *A, int k, int *pivot)
   return true;
 }
 
-/* dgetrf for matrices so small that its calls cost more than they gain (table in dense.h). */
+/* dgetrf for small matrices, where LAPACK's calls cost more than they gain (table in dense.h). */
 static bool factor_small(int n, double *A, int *pivot)
 {
   for (int first = 0; first < n; first += PANEL) {

@@ -1,6 +1,6 @@
-/* dense.h - dense linear algebra by BLAS and LAPACK, matrices by columns. What they call a failure comes back as a
- * status; nothing is printed. Which BLAS is there changes rounding and time alone: OpenBLAS, kept to one thread, takes
- * a fifth of the reference one's time from some 100 unknowns on. */
+/* dense.h - dense linear algebra by BLAS and LAPACK, matrices by columns. Their failures are returned as a status;
+ * nothing is printed. The choice of BLAS affects rounding and time only: OpenBLAS, kept to one thread, takes a fifth of
+ * the reference BLAS's time from about 100 unknowns on. */
 #pragma once
 
 #include <complex.h>
@@ -8,11 +8,11 @@
 #include "numerics/base/status.h"
 
 /* Ends the threads that OpenBLAS starts when it is loaded: idle, each spins for some 30 ms before it sleeps, as long as
- * `compare` takes for a case of the paper. For a program whose own BLAS it is, before its first call; OpenBLAS starts
- * them again where it is told to use several. */
+ * `compare` takes for a case of the paper. For a program that is OpenBLAS's only user, before its first call; OpenBLAS
+ * starts them again if it is told to use several. */
 void dense_end_idle_threads(void);
 
-/* C = A B; A[m][k], B[k][n], C[m][n] by columns, apart from each other. */
+/* C = A B; A[m][k], B[k][n], C[m][n] by columns, not overlapping. */
 void dense_multiply(int m, int n, int k, const double *A, const double *B, double *C);
 
 /* C := alpha A B + beta C of parts of matrices: an entry (i, j) of each is at [i + ld j]; dgemm. C is not read where
@@ -32,46 +32,45 @@ void dense_congruence(int n, int m, const double *A, const double *B, double *wo
 /* B[columns][rows] = A^T of A[rows][columns]. */
 void dense_transpose(int rows, int columns, const double *A, double *B);
 
-/* Up to so many unknowns, a real system is solved by code of our own, since a call of LAPACK costs more than the work.
- * Factors, microseconds on one thread, OpenBLAS 0.3.21 and reference LAPACK 3.11, the least of 15, same run:
+/* Most unknowns of a real system that is solved by own code, since a call of LAPACK costs more than the work. Factors,
+ * microseconds on one thread, OpenBLAS 0.3.21 and reference LAPACK 3.11, the least of 15, same run:
  *     n               3     5     8     11    16    21    24    32    42    64    96    201
  *     here            0.02  0.04  0.10  0.17  0.33  0.65  0.92  1.9   3.9   12.6  40    345
  *     OpenBLAS        0.05  0.10  0.24  0.43  0.87  1.6   2.2   4.0   5.5   13.4  27    157
  *     reference       0.08  0.17  0.37  0.64  1.3   2.4   3.1   6.0   11    33    100   782 */
 enum { DENSE_SMALL = 64 };
 
-/* LU factors with partial pivoting of A[n][n], in its place; pivot[k], from 1, is the row exchanged with row k.
+/* LU factors with partial pivoting of A[n][n], in its place; pivot[k], counted from 1, is the row exchanged with row k.
  * HC_SINGULAR for a pivot that is 0 or not finite. */
 hc_status dense_factor(int n, double *A, int *pivot);
 
-/* X := A^-1 X with these; X[columns][n]. */
+/* X := A^-1 X with these factors; X[columns][n]. */
 void dense_solve(int n, const double *A, const int *pivot, int columns, double *X);
 
-/* Sign of det A, of its factors. */
+/* Sign of det A from its factors. */
 int dense_sign(int n, const double *A, const int *pivot);
 
-/* Is A[n][n] symmetric but for rounding of each entry? */
+/* True if A[n][n] is symmetric up to rounding of each entry. */
 bool dense_is_symmetric(int n, const double *A);
 
-/* Is A[n][n], whose columns are ld apart, diagonal but for rounding relative to its largest entry? */
+/* True if A[n][n], with leading dimension ld, is diagonal up to rounding of its largest entry. */
 bool dense_is_diagonal(int n, const double *A, int ld);
 
 /* Eigenvalues of K phi = lambda M phi, ascending, and eigenvectors with phi^T M phi = 1 in the columns of phi[n][n]:
- * K[n][n] symmetric, M[n][n] symmetric and positive definite; both are only read, their lower halves. Errors are of
- * the order of rounding relative to the largest eigenvalue. HC_NO_MEMORY; HC_SINGULAR if M is not positive definite to
- * rounding; HC_NOT_CONVERGED. */
+ * K[n][n] symmetric, M[n][n] symmetric and positive definite, lower halves only. Errors are of the order of rounding of
+ * the largest eigenvalue. HC_NO_MEMORY; HC_SINGULAR if M is not positive definite to rounding; HC_NOT_CONVERGED. */
 hc_status dense_modes(int n, const double *K, const double *M, double *lambda, double *phi);
 
-/* Which of `rows` vectors row_i[n] span what all of them span, and what they leave out: pivot[0..rank-1] are their
- * numbers, a choice that is as independent as it easily can be; basis[n][n] is orthonormal, its first `rank` columns
- * span the same as the vectors, the others what is orthogonal to them all. triangle[rank][rank], upper: the chosen
- * vectors, made as long as 1, are basis triangle. One counts as dependent where no more than `tolerance` of it is new.
- * row[i] is vector i; triangle has room for [rows][rows], at most n wide. HC_NO_MEMORY. */
+/* Selects independent vectors among `rows` vectors row_i[n] by QR with column pivoting: pivot[0..rank-1] are the
+ * indices of a subset that spans the same space; basis[n][n] is orthonormal, its first `rank` columns span that space,
+ * the others its complement. triangle[rank][rank], upper: the chosen vectors, normalised, are basis triangle. A
+ * normalised vector counts as dependent if its new component is not above `tolerance`. row[i] is vector i; the caller's
+ * triangle holds [m][m], m = min(rows, n). HC_NO_MEMORY. */
 hc_status dense_span(int n, int rows, const double *const *row, double tolerance, int *rank, int *pivot, double *basis,
                      double *triangle);
 
 /* Eigenvalues lambda[n] of the real A[n][n], which is overwritten, eigenvectors in the columns of V[n][n], and left
- * ones, w_k^* A = lambda_k w_k^*, in those of W[n][n], unless either is NULL; all as long as 1. HC_NO_MEMORY,
+ * ones, w_k^* A = lambda_k w_k^*, in those of W[n][n]; V and W may be NULL; all have length 1. HC_NO_MEMORY,
  * HC_NOT_CONVERGED. */
 hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *V, double complex *W);
 
@@ -79,7 +78,7 @@ hc_status dense_eigen(int n, double *A, double complex *lambda, double complex *
  * finite. */
 hc_status dense_factor_complex(int n, double complex *A, int *pivot);
 
-/* B := A^-1 B, or A^-T B where transposed; B[columns][n]. */
+/* B := A^-1 B, or A^-T B if transposed; B[columns][n]. */
 void dense_solve_complex(int n, const double complex *A, const int *pivot, bool transposed, int columns,
                          double complex *B);
 

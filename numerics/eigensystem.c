@@ -8,11 +8,14 @@
 
 #include "numerics/dense.h"
 
-static const double same = 1e-11;              /* of two eigenvalues, relative: their eigenvectors are not told apart */
-static const double one_space = 1e-14;         /* of what couples such eigenvectors, relative to the eigenvalues */
-static const double converged = 1e-9;          /* of a step E: what is left is its square */
-static const double lapack = 64 * DBL_EPSILON; /* of the largest eigenvalue: LAPACK's error in any */
-static const double most_skewed = 1e4;         /* |w_k| |v_k|, 1 where eigenvectors are orthogonal: digits lost */
+static const double same = 1e-11;              /* relative distance of two eigenvalues below which they count as one,
+                                                  with one eigenspace */
+static const double one_space = 1e-14;         /* largest coupling within such an eigenspace, relative to the
+                                                  eigenvalues */
+static const double converged = 1e-9;          /* largest step E at which Newton ends; the error is then its square */
+static const double lapack = 64 * DBL_EPSILON; /* [largest eigenvalue] LAPACK's error of any eigenvalue */
+static const double most_skewed = 1e4;         /* largest |w_k| |v_k|, the loss of accuracy; 1 for orthogonal
+                                                  eigenvectors */
 enum { MOST_STEPS = 5 };
 
 static size_t square(int n) { return (size_t)n * (size_t)n; }
@@ -42,14 +45,14 @@ static void add_product(wide_complex *to, wide_complex a, wide_complex b)
 static wide_complex widen(double complex z) { return (wide_complex){creal(z), cimag(z)}; }
 static double complex narrow(wide_complex z) { return (double)z.re + I * (double)z.im; }
 
-/* factors: LU of V. What a pivot of 0 makes of W is not finite, which most_skewed refuses. */
+/* factors: LU of V. A zero pivot makes W not finite, which most_skewed rejects. */
 static void factor(eigensystem *e)
 {
   for (size_t i = 0; i < square(e->n); ++i) e->factors[i] = narrow(e->vectors[i]);
   (void)dense_factor_complex(e->n, e->factors, e->pivot);
 }
 
-/* One Newton step; what is left to do in largest[2]. */
+/* One Newton step; largest[2]: measures of convergence, see below. */
 static void improve(eigensystem *e, const long double *A, double least, double largest[2])
 {
   const size_t n = (size_t)e->n;
@@ -74,8 +77,8 @@ static void improve(eigensystem *e, const long double *A, double least, double l
     e->values[j].re += creal(F[j]);
     e->values[j].im += cimag(F[j]);
   }
-  /* E of column j from F in its place; largest[0]: of its entries; largest[1]: of F_ij/D_j of eigenvalues no farther
-   * apart than `least`, or so close to each other that any basis of theirs will do. */
+  /* F becomes E, column by column; largest[0]: largest |E_ij|; largest[1]: largest |F_ij/(|D_i| + |D_j|)| among
+   * eigenvalues that count as one: no farther apart than `least`, or relatively than `same`. */
   for (size_t j = 0; j < n; ++j) {
     double complex *F = e->correction + j * n;
     const double complex at = narrow(e->values[j]);
@@ -99,7 +102,7 @@ static void improve(eigensystem *e, const long double *A, double least, double l
   memcpy(e->vectors, better, n * n * sizeof *better);
 }
 
-/* W = V^-1: that of the factors, and one Newton step, W += W (1 - V W). By columns while it is made. */
+/* W = V^-1 from the factors and one Newton step, W += W (1 - V W). Computed by columns, stored by rows. */
 static void invert(eigensystem *e)
 {
   const size_t n = (size_t)e->n;
@@ -146,10 +149,11 @@ hc_status eigensystem_find(eigensystem *e, const long double *A)
   for (size_t k = 0; k < n; ++k) e->values[k] = widen(e->lambda[k]);
   for (int steps = 0; !(steps > 1 && left[0] <= converged && left[1] <= one_space); ++steps) {
     if (steps == MOST_STEPS) return HC_SINGULAR;
-    improve(e, A, steps == 0 ? lapack * size : 0, left); /* first: these are not apart, but for errors */
+    improve(e, A, steps == 0 ? lapack * size : 0, left); /* first step: eigenvalues closer than LAPACK's error count as
+                                                            one */
   }
   invert(e);
-  /* Exactly real what is real. */
+  /* Real eigenvalues get exactly real vectors. */
   for (size_t k = 0; k < n; ++k) {
     const bool real = cimag(e->lambda[k]) == 0;
     e->lambda[k] = real ? (double)e->values[k].re : narrow(e->values[k]);

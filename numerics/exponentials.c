@@ -6,8 +6,8 @@
 
 #include "numerics/roots.h"
 
-static const double rounding = 64 * DBL_EPSILON; /* of a term, relative: what it was computed from, too */
-static const double nothing = 1e-3;              /* [noise] what terms left out may add up to */
+static const double rounding = 64 * DBL_EPSILON; /* relative rounding error of a term, its input included */
+static const double nothing = 1e-3;              /* [noise] largest sum of terms that the search may neglect */
 
 /* e^{rate tau}, and its modulus. */
 static double complex exponential(double complex rate, double tau, double *size)
@@ -55,15 +55,15 @@ static double sum_at(const void *self, double tau, double *slope)
   return exponential_sum_at(in->e, in->s, tau, slope);
 }
 
-/* What is known of a sum at a point: its value, slope, a bound of its second derivative up to h, and how far it surely
- * does not fall below -noise. */
+/* Bounds of a sum at a point: value, slope, bound of the second derivative over h, and the step over which it is proven
+ * not to fall below -noise. */
 typedef struct outlook {
   double f, slope, bend, safe;
 } outlook;
 
 static double growth(double complex rate, double h) { return creal(rate) > 0 ? exp(creal(rate) * h) : 1; }
 
-/* How far the sum surely stays positive from tau on, at most h; if it falls to 0 within that, *root is where. */
+/* A step from tau, at most h, over which the sum stays positive, or falls through 0 once, at *root (else INFINITY). */
 static double clear_step(const exponentials *e, const exponential_sum *s, double tau, double h, double *root)
 {
   outlook o = {.f = s->constant};
@@ -94,7 +94,7 @@ static double clear_step(const exponentials *e, const exponential_sum *s, double
 int exponentials_first_fall(exponentials *e, int n_sums, const exponential_sum *sums, double from, double to,
                             double *at)
 {
-  /* Over it no term grows by more than e. */
+  /* longest: no term grows by more than a factor e over it. */
   double most = 0;
   for (int k = 0; k < e->n; ++k) most = fmax(most, creal(e->rate[k]));
   const double longest = 1 / most;

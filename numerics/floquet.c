@@ -10,7 +10,7 @@
 
 enum { LARGE = 64 };
 
-struct floquet { /* a workspace of GSL serves one size of matrix: there is one for each size 3..LARGE */
+struct floquet { /* a workspace of GSL is for one size of matrix: one for each size 3..LARGE */
   int n;
   gsl_eigen_nonsymm_workspace **work; /* [n + 1] */
   gsl_vector_complex **values;        /* [n + 1] */
@@ -74,7 +74,8 @@ static hc_status by_iteration(floquet *f, const double *phi, int row, int column
   for (int i = 0; i < m; ++i)
     for (int j = 0; j < m; ++j)
       gsl_matrix_set(&matrix.matrix, (size_t)i, (size_t)j, phi[active[i] * row + active[j] * column]);
-  if (m > LARGE) return dense_eigen(m, f->matrix, lambda, NULL, NULL); /* of the transposed matrix */
+  if (m > LARGE)
+    return dense_eigen(m, f->matrix, lambda, NULL, NULL); /* of the transpose, which has the same eigenvalues */
   if (gsl_eigen_nonsymm(&matrix.matrix, f->values[m], f->work[m])) return HC_NOT_CONVERGED;
   for (int i = 0; i < m; ++i) {
     gsl_complex z = gsl_vector_complex_get(f->values[m], (size_t)i);

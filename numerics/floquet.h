@@ -7,7 +7,7 @@
 
 typedef struct floquet floquet;
 
-/* For matrices up to n x n; what those up to 64 x 64 take is allocated here. HC_NO_MEMORY. */
+/* For matrices up to n x n; work space for sizes up to 64 x 64 is allocated here. HC_NO_MEMORY. */
 hc_status floquet_new(int n, floquet **out);
 void floquet_free(floquet *f);
 
@@ -16,5 +16,5 @@ void floquet_free(floquet *f);
 hc_status floquet_multipliers(floquet *f, const double *phi, int row, int column, int m, const int *active,
                               double complex *lambda);
 
-/* The one of largest modulus; 0 if there are none. */
+/* The multiplier of largest modulus; 0 if m is 0. */
 double complex floquet_largest(int m, const double complex *lambda);

@@ -7,23 +7,23 @@
 #include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 
-/* What a row has outside its group is 0 within so much of what it has inside [1]: a contact that sticks has the
- * rounding of a Fourier transform there. Newton's steps are off by that, its answers are not. A_LL is nearly singular
- * where the response of the unknowns of L to those of R is beyond `most_response` [1]. */
+/* rounding [1]: a row belongs to L if its entries outside its group are below this part of those inside: sticking
+ * contacts have rounding of a Fourier transform there. It changes Newton's steps, not the solution. most_response [1]:
+ * A_LL counts as nearly singular if an entry of W is larger. */
 static const double rounding = 1e-13, most_response = 1e5;
 
 typedef struct part { /* a group; its unknowns of L are list[begin .. begin + L), those of R are rest[at .. at + R) */
   int first, end, begin, L, at, R;
-  double *factors, *W; /* [L][L] of A_LL; [R + last][L], the last of what belongs to no group */
+  double *factors, *W; /* [L][L] factors of A_LL; [R + last][L] W, the last columns for unknowns of no group */
 } part;
 
 struct grouped {
-  int n, n_parts, n_list, n_rest, last; /* last: unknowns of no group, the end of `rest` */
+  int n, n_parts, n_list, n_rest, last; /* last: number of unknowns of no group, at the end of `rest` */
   part *parts;
-  int *list, *rest;           /* the unknowns of L and of R */
-  int *pivot_list, *pivot;    /* of each A_LL, one behind the other; of `reduced` */
-  double *inside, *outside;   /* [n] sum of a row's entries by size */
-  double *factors, *W;        /* what parts point into */
+  int *list, *rest;           /* indices of the unknowns of L; of R */
+  int *pivot_list, *pivot;    /* pivots of each A_LL, one behind the other; of `reduced` */
+  double *inside, *outside;   /* [n] sums of |entries| of each row within and outside its group */
+  double *factors, *W;        /* memory of all parts' factors and W */
   double *reduced, *coupling; /* [R][R] factors of A_RR - A_RL W; [L][R] A_RL of a group */
   double *y;                  /* [n] */
   workspace memory;
@@ -64,7 +64,7 @@ void grouped_free(grouped *g)
   free(g);
 }
 
-/* Which unknowns are of L, which of R; `factors` and `W` of each group. */
+/* Divides the unknowns into L and R, and places factors and W of each group. */
 static void divide(grouped *g, const double *A)
 {
   const size_t n = (size_t)g->n;
@@ -98,7 +98,7 @@ static void divide(grouped *g, const double *A)
   for (int i = g->n - g->last; i < g->n; ++i) g->rest[g->n_rest++] = i;
 }
 
-/* B[columns][rows] := those entries of A. */
+/* B[columns][rows] := the entries of A in these rows and columns. */
 static void gather(const grouped *g, const double *A, int rows, const int *row, int columns, const int *column,
                    double *B)
 {

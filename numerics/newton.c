@@ -1,4 +1,4 @@
-/* newton.c - see newton.h. What KINSOL does, and what is done about it:
+/* newton.c - see newton.h. Properties of KINSOL, and the remedy here:
  *   a NaN residual is "success" for KIN_NONE and an endless loop for KIN_LINESEARCH   a positive return refuses z
  *   the default longest step is 1000 |z0|, which is 0 from z = 0                      max_step is always set
  *   the Jacobian is kept for 10 iterations                              one setup an iteration, unless it is to be kept
@@ -30,15 +30,15 @@ struct newton { /* from newton_new, to newton_free; not shared between threads *
   int *pivot;        /* [n] of the factors in jac */
   grouped *groups;   /* NULL where the problem has none, or is small */
   bool by_groups;    /* the last factors are those of `groups`, jac is the matrix */
-  long factorings;   /* so far */
-  double *start;     /* [n] where the solve began */
-  bool factored;     /* there are factors, of the last solve */
-  hc_status refusal; /* why the problem last refused a z */
-  int trials;        /* residuals that KINSOL asked for since it last asked for a Jacobian */
+  long factorings;   /* number of factorisations so far */
+  double *start;     /* [n] start of the solve */
+  bool factored;     /* valid factors exist, of the last solve */
+  hc_status refusal; /* status with which the problem last rejected a z */
+  int trials;        /* number of residuals since KINSOL's last Jacobian */
 };
 
-/* KINSOL's line search halves its steps until they are 2^-36 of z, in either of two loops. The second has no end where
- * the same z does not give the same residual. */
+/* Most residuals between two Jacobians. KINSOL's line search halves its steps until they are 2^-36 of z, in each of two
+ * loops; the second is endless if the same z does not give the same residual. */
 enum { MOST_TRIALS = 200 };
 
 static int on_residual(N_Vector z, N_Vector r, void *self)
@@ -59,9 +59,9 @@ static int on_jacobian(N_Vector z, N_Vector r, SUNMatrix jac, void *self, N_Vect
   return nw->refusal == HC_OK ? 0 : 1;
 }
 
-/* The same for KINSOL. SUNDIALS 7 tells of a function that failed in a text that it allocates, and crashes where that
- * fails, too (room.h). Out of memory therefore looks like a solution, at which KINSOL ends: a residual of 0, whatever
- * the Jacobian. `refusal` keeps what happened. */
+/* on_residual for KINSOL. SUNDIALS 7 reports a failing function in a text that it allocates, and crashes if that fails,
+ * too (room.h). Without memory these functions therefore feign a solution, residual 0, so that KINSOL ends; `refusal`
+ * keeps the status. */
 static int kinsol_residual(N_Vector z, N_Vector r, void *self)
 {
   newton *nw = self;
@@ -89,7 +89,7 @@ static int kinsol_jacobian(N_Vector z, N_Vector r, SUNMatrix jac, void *self, N_
   return 0;
 }
 
-/* KINSOL clears the matrix before each Jacobian, which writes every entry. */
+/* KINSOL would clear the matrix before each Jacobian: not needed, since all entries are written. */
 static int keep_entries(SUNMatrix jac)
 {
   (void)jac;
@@ -140,8 +140,9 @@ static hc_status make_kinsol(newton *nw)
   bad |= KINInit(nw->kin, kinsol_residual, nw->z);
   bad |= KINSetLinearSolver(nw->kin, nw->ls, nw->jac);
   bad |= KINSetJacFn(nw->kin, kinsol_jacobian);
-  bad |= KINSetMaxSubSetupCalls(nw->kin, 1);  /* where a Jacobian is kept, after each step it is asked for how long */
-  bad |= KINSetScaledStepTol(nw->kin, 1e-15); /* small steps are no convergence: the residual decides */
+  bad |= KINSetMaxSubSetupCalls(nw->kin, 1);  /* with `keeps` KINSOL decides after each step whether to reuse the
+                                                 Jacobian */
+  bad |= KINSetScaledStepTol(nw->kin, 1e-15); /* small steps do not count as convergence: the residual decides */
   return bad ? HC_NO_MEMORY : HC_OK;
 }
 
@@ -215,8 +216,8 @@ hc_status newton_backsolve(newton *nw, double *x)
   return HC_OK;
 }
 
-/* One Newton step from z, whose residual is nw->r, taken back if that grows and is not far below the tolerance.
- * *better: it was taken. */
+/* One Newton step from z, whose residual is nw->r; undone if the residual grows and is not far below the tolerance.
+ * *better: it was kept. */
 static hc_status polish_once(newton *nw, const newton_options *opt, newton_report *report, bool *better)
 {
   int n = nw->problem.n;
@@ -240,8 +241,8 @@ static hc_status polish_once(newton *nw, const newton_options *opt, newton_repor
   return on_residual(nw->z, nw->r, nw) ? nw->refusal : HC_OK;
 }
 
-/* Newton steps from a converged z: one, with the Jacobian there; with one that was kept as long as they pay. Leaves the
- * factors at the z before the step, or those that were kept. */
+/* Polishing from a converged z: one Newton step with a new Jacobian; or, with a reused Jacobian, steps while they halve
+ * the residual. Leaves the factors used. */
 static hc_status polish(newton *nw, const newton_options *opt, newton_report *report)
 {
   const bool kept = opt->keeps > 0 && nw->factored && !opt->ends_fresh;

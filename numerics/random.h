@@ -1,5 +1,5 @@
-/* random.h - random numbers, of the stress scenes and of the tests: splitmix64 (Steele, Lea, Flood 2014), all 64 bits
- * good, any seed good. The seed is the caller's, so that every run and every machine sees the same. */
+/* random.h - random numbers for stress scenes and tests: splitmix64 (Steele, Lea, Flood 2014), good in all 64 bits and
+ * for any seed. The caller holds the seed, so that runs are reproducible on every machine. */
 #pragma once
 
 #include <stdint.h>
@@ -12,7 +12,7 @@ static inline uint64_t random_bits(uint64_t *seed)
   return z ^ (z >> 31);
 }
 
-/* low..high, both included; a range far below 2^64 is hit evenly. */
+/* low..high, both included; uniform for ranges far below 2^64. */
 static inline int random_int(uint64_t *seed, int low, int high)
 {
   return (int)(low + (int64_t)(random_bits(seed) % (uint64_t)((int64_t)high - low + 1)));

@@ -25,8 +25,8 @@ typedef struct bracket {
   double a, fa, b, fb, c, fc;
 } bracket;
 
-/* Part of the way from a to b at which to look next: where x, as the quadratic in f through the three points, has
- * f = 0. Chandrupatla's condition: that quadratic is monotone over the bracket; else one half. */
+/* Next point as a fraction of the way from a to b: zero of x as a quadratic in f through the three points.
+ * Chandrupatla's condition: that quadratic is monotone over the bracket; else one half. */
 static double part_of_way(const bracket *k)
 {
   double xi = (k->a - k->b) / (k->c - k->b), phi = (k->fa - k->fb) / (k->fc - k->fb);
@@ -135,7 +135,7 @@ typedef struct change_search {
 
 static double width_of(const change_search *k) { return k->out->x - k->out->before; }
 
-/* Move an end to x; *is_beyond: which. */
+/* Evaluate `beyond` at x and move that end of the bracket to x; *is_beyond: its value. */
 static hc_status ask_beyond(change_search *k, double x, bool *is_beyond)
 {
   *is_beyond = false;
@@ -162,8 +162,7 @@ hc_status root_change(root_predicate *beyond, void *self, double a, double b, do
   return st;
 }
 
-/* Where the guess changes first, as far as steps of an eighth of the bracket show; to within `margin`. False if it
- * fails. */
+/* *x: first change of `likely`, scanned in eighths of the bracket, to within `margin`. False if `likely` fails. */
 static bool find_likely_change(const change_search *k, double margin, double *x)
 {
   const double eighth = width_of(k) / 8;
@@ -186,7 +185,7 @@ static bool find_likely_change(const change_search *k, double margin, double *x)
 
 static bool is_between(const change_search *k, double x) { return (x - k->out->before) * (k->out->x - x) > 0; }
 
-/* Ask at either side of the likely change, `margin` away. *held: both answers were as guessed. */
+/* Evaluate `beyond` at `margin` on either side of the likely change. *held: `likely` was right at both. */
 static hc_status ask_around(change_search *k, double margin, bool *held)
 {
   const double step = copysign(margin, width_of(k));
@@ -208,7 +207,7 @@ static hc_status ask_around(change_search *k, double margin, bool *held)
 hc_status root_change_guided(root_predicate *beyond, root_predicate *likely, void *self, double a, double b,
                              double tolerance, root_point *out)
 {
-  const double first = 1.0 / 32, worst = 0.25; /* margins, in parts of the width */
+  const double first = 1.0 / 32, worst = 0.25; /* [width] first and largest margin */
   *out = (root_point){b, 1, 0, a};
   change_search k = {beyond, likely, self, out};
   double part = first;
@@ -218,7 +217,7 @@ hc_status root_change_guided(root_predicate *beyond, root_predicate *likely, voi
     bool held;
     if (width <= wanted) return HC_OK;
     hc_status st = ask_around(&k, fmax(part * width, 0.25 * wanted), &held);
-    part = held ? 2 * part * part : fmin(8 * part, worst); /* as the width shrank: to two margins */
+    part = held ? 2 * part * part : fmin(8 * part, worst); /* the width has shrunk to two margins */
     if (st == HC_OK && !held && fabs(width_of(&k)) > 0.5 * width) st = ask_middle(&k);
     if (st != HC_OK) return st;
   }

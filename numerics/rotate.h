@@ -1,5 +1,5 @@
-/* rotate.h - cosines and sines of several angles near one whose own are known: a polynomial instead of a call of libm
- * for each, which the compiler does for two or more of them at a time. Needs nothing, allocates nothing. */
+/* rotate.h - cosines and sines of several angles near one whose cosine and sine are known, by polynomials, which the
+ * compiler vectorises, instead of a call of libm for each. Needs nothing, allocates nothing. */
 #pragma once
 
 /* [rad] The polynomials' remainders, x^22/22! and x^23/23!, are below 0.15 roundings of 1 up to here. */

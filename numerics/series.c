@@ -83,7 +83,7 @@ void series_grid_fill(series_grid *g, const series_vector *m, const double *tabl
   for (int i = 0; i <= 2 * SERIES_GRID; ++i) g->node[i].th = TWO_PI * i / SERIES_GRID;
 }
 
-/* One turn serves all coordinates. */
+/* Cosines and sines are computed once for all series. */
 static inline series_node sum_at(const series_vector *m, double th, double c, double s, int dim)
 {
   series_node node = {.th = th};

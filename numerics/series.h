@@ -10,7 +10,7 @@ typedef struct series_jet {
   double x, d1, d2;
 } series_jet;
 
-/* Coefficients of n_harm harmonics. */
+/* Number of coefficients for n_harm harmonics. */
 static inline int series_length(int n_harm) { return 2 * n_harm + 1; }
 
 /* From cos and sin of h th, in *ch and *sh, to those of (h + 1) th; c and s are those of th. From 1, 0 the error of the
@@ -25,7 +25,7 @@ static inline void series_turn(double c, double s, double *ch, double *sh)
 /* x, x', x'' at the angle whose cosine and sine are c and s. Error: about n_harm rounding units of sum |X|. */
 series_jet series_at(int n_harm, const double *X, double c, double s);
 
-/* Largest and smallest value over a period, to rounding: every extremum is found; in crossing.c, which finds them. */
+/* Largest and smallest value over a period, to rounding: every extremum is found (crossing.c). */
 void series_extrema(int n_harm, const double *X, double *max, double *min);
 
 /* Root mean square over a period, mean included. */
@@ -51,11 +51,11 @@ typedef struct series_node {
 
 series_node series_vector_at(const series_vector *m, double th);
 
-/* On SERIES_GRID equidistant angles a period. */
+/* The series on SERIES_GRID equidistant angles per period. */
 typedef struct series_grid {
   series_vector m;
   double size[3][SERIES_MAX_DIM];        /* sums of |coefficients| of x, x', x'' */
-  series_node node[2 * SERIES_GRID + 1]; /* two periods: one that starts anywhere in the first lies in them */
+  series_node node[2 * SERIES_GRID + 1]; /* two periods, so that a period may start anywhere in the first */
 } series_grid;
 
 /* cos and sin of h th_i for half the grid, [n_harm][2][SERIES_GRID/2], filled once: half a period later odd harmonics

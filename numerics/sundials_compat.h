@@ -19,8 +19,8 @@ static inline void hc_sundials_quiet_handler(int line, const char *func, const c
   (void)line, (void)func, (void)file, (void)msg, (void)code, (void)data, (void)ctx;
 }
 
-/* A context that prints nothing: errors are values here. Returns 0, or another number; *ctx is the caller's to free
- * if it is not NULL. Room is asked for once more for the vectors, matrices and solvers that are made next (room.h). */
+/* A context that prints nothing: errors are values here. Returns 0, or another number; *ctx is the caller's to free if
+ * it is not NULL. Memory is also tested for the vectors, matrices and solvers that are made next (room.h). */
 static inline int hc_sundials_context(SUNContext *ctx)
 {
   if (!hc_room_for(0)) return 1;
@@ -59,12 +59,12 @@ static inline SUNLinearSolver_Type hc_is_direct(SUNLinearSolver ls)
 
 static inline int hc_release_solver(SUNLinearSolver ls)
 {
-  ls->content = NULL; /* the owner, who frees himself */
+  ls->content = NULL; /* the owner frees itself */
   SUNLinSolFreeEmpty(ls);
   return 0;
 }
 
-/* A direct linear solver by these two functions, with its owner as content; NULL: no memory. */
+/* A direct linear solver with these two functions and `owner` as content; NULL: no memory. */
 static inline SUNLinearSolver hc_own_solver(SUNContext ctx, void *owner, int (*setup)(SUNLinearSolver, SUNMatrix),
                                             int (*solve)(SUNLinearSolver, SUNMatrix, N_Vector, N_Vector, sunrealtype))
 {

@@ -1,12 +1,13 @@
-/* vectors.c - see vectors.h. Any result may be one of the operands. Operations on several vectors at once are left to
- * SUNDIALS, which calls these: CVODES allocates for its sensitivities where one of them is another's. */
+/* vectors.c - see vectors.h. Any result may be one of the operands. Operations on several vectors at once are SUNDIALS'
+ * own, which call these: with other ones CVODES would allocate for its sensitivities. */
 #include "numerics/vectors.h"
 
 #include <math.h>
 
 #include "numerics/wide_vectors.h"
 
-enum { LONG = 128, LANES = 8 /* partial sums of long vectors, so that the sum is the same whatever the width */ };
+/* Sums of LONG numbers and more are made of LANES partial sums, so that they do not depend on the vector width. */
+enum { LONG = 128, LANES = 8 };
 
 /* z = a x + b y */
 WIDE_VECTORS static void combine(long n, double a, const double *x, double b, const double *y, double *z)

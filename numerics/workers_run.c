@@ -1,8 +1,8 @@
-/* workers_run.c - see workers.h: a list of tasks. A file of its own: tests stand between it and workers.c. */
+/* workers_run.c - see workers.h: a list of tasks. Separate from workers.c, so that tests can replace that. */
 #include "numerics/workers.h"
 
 typedef struct task_list {
-  workers workers; /* its lock is of next and done */
+  workers workers; /* its lock protects next and done */
   workers_task task;
   void *self;
   int n, next, done;
@@ -31,7 +31,7 @@ static void *work_on_list(void *self)
   return NULL;
 }
 
-/* The monitor of a task on the calling thread: the progress of the whole list stays where it is. */
+/* The monitor of a task on the calling thread: reports the unchanged progress of the whole list. */
 typedef struct frozen_progress {
   const hc_monitor *whole;
   double done;

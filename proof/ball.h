@@ -1,5 +1,5 @@
-/* ball.h - FLINT's balls: an arb_t is a midpoint and a radius, and every result contains what it is for all numbers in
- * its operands. The headers moved when Arb (Debian 12) became a part of FLINT 3 (Debian 13). */
+/* ball.h - FLINT's balls: an arb_t is a midpoint and a radius, and the result of an operation contains the results for
+ * all numbers in its operands. The headers moved when Arb (Debian 12) became a part of FLINT 3 (Debian 13). */
 #pragma once
 
 #if __has_include(<flint/arb.h>)
@@ -17,8 +17,8 @@
 #endif
 #include <stddef.h>
 
-/* A number that is cleared where its block ends: LOCAL(arb) x = {0}, y = {0}; all bits 0 are an initialised 0, but of
- * an fmpq, which is set before it is read. */
+/* A local number that is cleared at the end of its block: LOCAL(arb) x = {0}, y = {0}. All bits 0 are an initialised 0,
+ * except for an fmpq, which must be set before it is read. */
 #define LOCAL(type) __attribute__((cleanup(clear_##type))) type##_t
 static inline void clear_arb(arb_t *x) { arb_clear(*x); }
 static inline void clear_acb(acb_t *x) { acb_clear(*x); }
@@ -29,8 +29,8 @@ static inline void clear_fmpq(fmpq_t *x) { fmpq_clear(*x); }
 static inline void clear_arb_mat(arb_mat_t *x) { arb_mat_clear(*x); }
 static inline void clear_acb_mat(acb_mat_t *x) { acb_mat_clear(*x); }
 
-/* Arrays that are cleared together: a pool of {0}, in an object or LOCAL(pool). All entries are 0 at first. Memory that
- * is not to be had ends the program, as it does inside FLINT; what certificates may hold is bounded. */
+/* Arrays that are cleared together: a pool of {0}, in an object or LOCAL(pool). All entries are 0 at first. Out of
+ * memory ends the program, as inside FLINT; the size of certificates is bounded. */
 typedef enum pool_kind { POOL_BYTES, POOL_BALLS, POOL_MAGS, POOL_RATIONALS, POOL_MATRICES } pool_kind;
 typedef struct pool_block pool_block;
 typedef struct pool {

@@ -1,5 +1,5 @@
-/* certificate.c - reading: every number is exact, every list has its length, everything is bounded. An object of the
- * model has the keys that are known, no others: a theorem about another model would be worse than none. */
+/* certificate.c - reading: every number is exact, every list has its length, everything is bounded. Objects of the
+ * model must have known keys only: a theorem about another model would be worse than none. */
 #include "proof/certificate.h"
 #include "numerics/base/message.h"
 #include <ctype.h>
@@ -24,7 +24,7 @@ wrong(reading *r, const char *format, ...)
 {
   va_list args;
   va_start(args, format);
-  if (!r->failed) message_add_list(&r->why, format, args); /* the first fault is the one to tell */
+  if (!r->failed) message_add_list(&r->why, format, args); /* the first fault is reported */
   va_end(args);
   r->failed = true;
 }
@@ -79,7 +79,7 @@ static fmpq *positive(reading *r, const json_t *object, const char *key)
   return value;
 }
 
-/* The length of a list, least .. most; `least` where it is none. */
+/* The length of a list, which must be least .. most; on a fault `least`. */
 static int length(reading *r, const json_t *json, const char *where, int least, int most)
 {
   const size_t n = json_array_size(json);
@@ -115,7 +115,7 @@ static int integer(reading *r, const json_t *object, const char *key, int from, 
 
 /* ---- the model ---- */
 
-/* Which of keys[n] an object has, as bits; it must have no others. */
+/* Bit mask of the keys[n] that an object has; other keys are a fault. */
 static unsigned keys_of(reading *r, const json_t *json, const char *where, int n, const char *const *keys)
 {
   unsigned has = 0;

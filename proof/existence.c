@@ -6,7 +6,8 @@
 
 /* ---- F and dF/dy ---- */
 
-/* Sets the entry *at, which is new only when the pattern is made: it is the same in every box. Equal places add up. */
+/* Sets entry *at; entries are allocated in the first call only, since the pattern is the same for every box. Several
+ * entries for one position are summed. */
 static void put(jacobian *d, int *at, int column, const arb_t value)
 {
   if (!d) return;
@@ -25,7 +26,7 @@ static void put(jacobian *d, int *at, int column, const arb_t value)
 static void put_slider(const orbit *o, const orbit_segment *s, int contact, const arb_t factor, jacobian *d, int *at)
 {
   arb_ptr gradient = o->scratch;
-  if (!d || s->began[contact] < 0) return; /* a slider that always sticks is a number */
+  if (!d || s->began[contact] < 0) return; /* a slider that sticks all period is a constant */
   slider_line(o, contact, s->from[contact], gradient);
   for (int c = 0; c < o->n; c++) {
     arb_mul(gradient + c, gradient + c, factor, o->precision);
@@ -33,10 +34,11 @@ static void put_slider(const orbit *o, const orbit_segment *s, int contact, cons
   }
 }
 
-/* The guard of event i: what vanishes when the letter of its contact changes. */
+/* The guard of event i, which is 0 when the letter of its contact changes. */
 static void guard_equation(const orbit *o, int i, arb_t f, jacobian *d, int *at)
 {
-  const orbit_segment *s = &o->segments[(i + o->m - 1) % o->m]; /* that ends here: its sliders are still there */
+  const orbit_segment *s = &o->segments[(i + o->m - 1) % o->m]; /* the segment that ends here, whose sliders still
+                                                                   stick */
   const int j = orbit_guarded(o, i), n = o->n;
   const char before = orbit_letter(o, i - 1, j), after = orbit_letter(o, i, j);
   const guard kind = guard_of(before, after);
@@ -103,7 +105,7 @@ void box_set(orbit *o, mag_srcptr radius)
 
 /* ---- Krawczyk ---- */
 
-/* The unknowns at an event are n of x, then n of v, then t: 0, 1, 2. */
+/* Kind of an unknown, in the order of an event: 0 for x, 1 for v, 2 for t. */
 static int kind_of(const orbit *o, int unknown) { return unknown % (2 * o->n + 1) / o->n; }
 
 /* defect: sum over c of |I - B middle|_rc scale_c; shift: |B F|_r. The first in long double, since it is most of the
@@ -116,13 +118,13 @@ void existence_measure(krawczyk *k)
   const int n = o->unknowns;
   LOCAL(pool) own = {0};
   long double *row = pool_take(own, POOL_BYTES, (size_t)n * sizeof *row);
-  double *size = pool_take(own, POOL_BYTES, (size_t)n * sizeof *size); /* to a part in 1e9 */
+  double *size = pool_take(own, POOL_BYTES, (size_t)n * sizeof *size); /* sums of absolute values, accurate to 1e-9 */
   arb_ptr inverse = pool_balls(own, n);
   LOCAL(arb) sum = {0};
   LOCAL(mag) entry = {0}, scale = {0};
   for (int r = 0; r < n; r++) {
     const double *b = k->inverse + (size_t)r * n;
-    long double total[3] = {DBL_MIN, DBL_MIN, DBL_MIN}; /* above all that is lost below LDBL_MIN */
+    long double total[3] = {DBL_MIN, DBL_MIN, DBL_MIN}; /* covers all underflow below LDBL_MIN */
     for (int c = 0; c < n; c++) row[c] = size[c] = c == r;
     for (int c = 0; c < n; c++) {
       arb_set_d(inverse + c, b[c]);
@@ -133,7 +135,7 @@ void existence_measure(krawczyk *k)
     }
     for (int c = 0; c < n; c++) total[kind_of(o, c)] += fabsl(row[c]) + (n + 5) * LDBL_EPSILON * size[c];
     mag_zero(k->defect + r);
-    for (int kind = 0; kind < 3; kind++) { /* 1e-15: these sums, and the rounding to double */
+    for (int kind = 0; kind < 3; kind++) { /* 1e-15: rounding of these sums and to double */
       mag_set_d(entry, (double)(total[kind] * (1 + 1e-15L)));
       arb_get_mag(scale, o->scale + kind * o->n);
       mag_addmul(k->defect + r, entry, scale);
@@ -176,7 +178,7 @@ bool existence_holds(krawczyk *k, const arb_t radius, double *ratio)
   LOCAL(arb) bound = {0};
   for (int c = 0; c < n; c++) {
     arb_mul(bound, radius, o->scale + kind_of(o, c) * o->n, o->precision);
-    arb_get_mag(half + c, bound); /* not below radius scale */
+    arb_get_mag(half + c, bound); /* rounded up */
   }
   box_set(o, half);
   *ratio = INFINITY;
@@ -192,7 +194,7 @@ bool existence_holds(krawczyk *k, const arb_t radius, double *ratio)
   bool holds = true;
   *ratio = 0;
   for (int r = 0; r < n; r++) {
-    /* |B F(y0)| + |I - B dF/dy(Y)| radius scale < radius scale: exactly one zero is in Y, and it is in the image. */
+    /* |B F(y0)| + |I - B dF/dy(Y)| radius scale < radius scale: Y has exactly one zero, which lies in the image. */
     mag_set(k->image + r, k->shift + r);
     arb_get_mag(entry, radius);
     mag_addmul(k->image + r, k->defect + r, entry);

@@ -1,21 +1,21 @@
-/* flow.c - Z(t) = exp(A t) Z(0), in balls: Taylor series that leave out the empty parts of rows, a remainder from the
+/* flow.c - Z(t) = exp(A t) Z(0), in balls: Taylor series over the nonzero ranges of rows, a remainder bound by the
  * norm, squarings. */
 #include "proof/orbit.h"
 #include <math.h>
 
 enum {
-  LIMIT_STEPS = 1 << 15,   /* substeps of all segments                  */
-  LIMIT_WORK = 1 << 26,    /* of them, times size^2 (precision/128)^2   */
-  LIMIT_ENTRIES = 1 << 22, /* of all exponentials that are kept         */
+  LIMIT_STEPS = 1 << 15,   /* most substeps of all segments */
+  LIMIT_WORK = 1 << 26,    /* most of substeps times size^2 (precision/128)^2 */
+  LIMIT_ENTRIES = 1 << 22, /* most entries of all exponentials */
   LIMIT_TERMS = 600,
-  REACH = 1, /* powers of two: of |A| step */
-  FAR = 4,   /* and where |A| duration is above */
+  REACH = 1, /* log2 of the bound of |A| step */
+  FAR = 4,   /* the same for |A| duration > 2^STIFF */
   STIFF = 13
 };
 
 /* ---- Taylor series ---- */
 
-/* What a series of A h to the given degree leaves out, relative to the norm of what it is applied to:
+/* Truncation error of the series of exp(A h) of this degree, relative to the norm of its operand:
  *     |A h|^(degree + 1) / (degree + 1)! exp |A h| */
 static void remainder_bound(mag_t rest, const mag_t norm, int degree)
 {
@@ -27,7 +27,7 @@ static void remainder_bound(mag_t rest, const mag_t norm, int degree)
   mag_mul(rest, rest, growth);
 }
 
-/* The smallest degree that leaves less than 2^-bits; at most LIMIT_TERMS. */
+/* The smallest degree with a truncation error below 2^-bits; at most LIMIT_TERMS. */
 static int degree_for(const mag_t norm, slong bits)
 {
   int degree = 1;
@@ -48,8 +48,8 @@ static void norm_of(mag_t norm, const orbit_segment *s, arb_srcptr z)
   }
 }
 
-/* Adds to every component what a vector of this norm may hold, but to constants, whose rows are empty: they leave no
- * rest. */
+/* Adds to every component the bound that a vector of this norm implies, except to constants, whose rows of A are empty:
+ * their series is exact. */
 static void add_rest(const orbit_segment *s, arb_ptr z, const mag_t norm)
 {
   LOCAL(mag) entry = {0};
@@ -97,11 +97,11 @@ void flow_duration(const orbit *o, int i, arb_t tau)
   LOCAL(arb) from = {0};
   orbit_time(o, i, from);
   orbit_time(o, i + 1, tau);
-  if (o->c->section) arb_set(tau, o->duration); /* its time is fixed */
+  if (o->c->section) arb_set(tau, o->duration); /* the time of a section is fixed */
   else arb_sub(tau, tau, from, o->precision);
 }
 
-/* Substeps of |A| step <= 2^reach, a power of two of them. */
+/* Chooses a power of two substeps with |A| step <= 2^reach. */
 static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *work, double *entries)
 {
   orbit_segment *s = &o->segments[i];
@@ -113,7 +113,8 @@ static bool choose_steps(orbit *o, int i, failure *f, long *steps, double *work,
   arf_get_mag(norm, arb_midref(s->span));
   mag_mul(norm, norm, s->norm);
   int reach = REACH;
-  if (mag_cmp_2exp_si(norm, STIFF) > 0) reach = FAR; /* the motion itself is slow then, and a longer series cheaper */
+  if (mag_cmp_2exp_si(norm, STIFF) > 0)
+    reach = FAR; /* stiff: the motion itself is slow, and longer series are cheaper */
   for (s->levels = 0; fine && mag_cmp_2exp_si(norm, s->levels + reach) > 0;)
     if (1L << ++s->levels > LIMIT_STEPS) break;
   if (reach > o->reach) o->reach = reach;
@@ -222,7 +223,7 @@ void walk_start(walk *w, const orbit *o, int i)
   arb_one(w->end);
 }
 
-/* The bits of 0 at the end of a substep's number: where its Z stands in w->at. */
+/* Number of trailing zero bits of a substep's index: the slot of its Z in w->at. */
 static int trailing(const walk *w, long k)
 {
   int bits = 0;
@@ -236,12 +237,12 @@ bool walk_next(walk *w)
   const orbit_segment *s = w->s;
   const int size = s->size;
   if (++w->k == w->steps) return false;
-  /* Z at k from Z at k less its lowest bit: a ball is multiplied at most log2(steps) times. */
+  /* Z at k from Z at k without its lowest bit: no ball is multiplied more than log2(steps) times. */
   const int slot = trailing(w, w->k);
   arb_ptr z = w->at + (slong)slot * size;
   if (w->k == 0) _arb_vec_set(z, s->start, size);
   else times_vector(z, s->power + slot, w->at + (slong)trailing(w, w->k & (w->k - 1)) * size, o->precision);
-  if (w->k == w->steps - 1) { /* as long as the segment may last */
+  if (w->k == w->steps - 1) { /* the last substep: as long as the segment may last */
     LOCAL(arb) left = {0}, length = {0};
     flow_duration(o, (int)(s - o->segments), left);
     arb_mul_si(length, s->step, w->k, o->precision);

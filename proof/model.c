@@ -1,5 +1,5 @@
-/* model.c - what follows from the model and the letters alone: the matrix A of every segment, the functions that guards
- * and conditions are made of, and the refusal of sequences that the theorem does not cover. */
+/* model.c - all that depends on the model and the letters only: the matrix A of every segment, the linear functions for
+ * guards and conditions, and the rejection of sequences that the theorem does not cover. */
 #include "proof/orbit.h"
 #include <stdarg.h>
 
@@ -22,7 +22,7 @@ static void balls(arb_ptr to, const fmpq *from, slong n, slong precision)
 
 /* ---- contacts ---- */
 
-/* Is a[n] = ratio b[n] exactly, b not 0? */
+/* True if a[n] = ratio b[n] exactly and b is not 0. */
 static bool proportional(const fmpq *a, const fmpq *b, int n, fmpq_t ratio)
 {
   int pivot = 0;
@@ -46,7 +46,7 @@ static void contact_set(orbit *o, contact_balls *f, const contact_given *k, cons
   f->t = pool_balls(&o->pool, 2L * n + CONTACT_NUMBERS + 2);
   f->n = f->t + n, f->kt = f->n + n + 1, f->mu = f->kt + 1, f->kn = f->mu + 1, f->gap = f->kn + 1, f->load = f->gap + 1;
   f->rest = f->load + 1, f->ratio = f->rest + 1;
-  balls(f->t, k->t, 2L * n + CONTACT_NUMBERS, precision); /* in the order in which they were read */
+  balls(f->t, k->t, 2L * n + CONTACT_NUMBERS, precision); /* t, n and the numbers in the certificate's order */
   arb_set_fmpq(f->rest, rest, precision);
   f->parallel = k->angled; /* u and v are proportional by construction, whatever the cosine is */
   if (k->angled) {
@@ -169,7 +169,7 @@ static void forces(const orbit *o, const orbit_segment *s, arb_mat_t r, arb_ptr 
     }
 }
 
-/* The part of each row that is not 0, and the norm. */
+/* The nonzero range of each row, and the norm. */
 static void measure_rows(orbit_segment *s)
 {
   LOCAL(mag) sum = {0}, entry = {0};
@@ -204,7 +204,8 @@ static void segment_set(orbit *o, int i)
       s->from[j] = orbit_letter(o, e - 1, j);
       if (s->from[j] != 'S') s->began[j] = (e + o->m) % o->m;
     }
-    const bool fixed = s->began[j] < 0 || (o->friction[j].parallel && s->from[j] == 'O'); /* there touching fixes u */
+    const bool fixed = s->began[j] < 0 || (o->friction[j].parallel && s->from[j] == 'O'); /* then u is fixed by
+                                                                                             touching */
     if (!fixed) s->place[j] = s->state++;
   }
   if (s->size > o->largest) o->largest = s->size;
@@ -249,7 +250,7 @@ int orbit_guarded(const orbit *o, int i)
   return -1;
 }
 
-/* Are two contacts equal, with equal histories? */
+/* True if two contacts and their histories are equal. */
 static bool twins(const orbit *o, int a, int b)
 {
   const contact_given *k = &o->c->contacts[a], *l = &o->c->contacts[b];
@@ -259,8 +260,8 @@ static bool twins(const orbit *o, int a, int b)
   return equal;
 }
 
-/* The row [coordinates + 1] of a guard that is no limit, exactly but for a factor: n.x + gap, or s kt t.v - mu kn n.v.
- * false: that factor may be 0. */
+/* The row [coordinates + 1] of a touch or stick guard, exact up to a factor: n.x + gap, or s kt t.v - mu kn n.v. false:
+ * that factor may be 0. */
 static bool guard_shape(const orbit *o, int contact, guard kind, int sign, fmpq *shape)
 {
   const contact_given *k = &o->c->contacts[contact];
@@ -286,7 +287,7 @@ static bool guard_shape(const orbit *o, int contact, guard kind, int sign, fmpq 
   return !arb_contains_zero(factor);
 }
 
-/* Several contacts may change at one event if their guards are exactly proportional: F has one of them. */
+/* True if contacts a and b may change at one event: their guards are exactly proportional, and F has one of them. */
 static bool changes_together(const orbit *o, int event, int a, int b)
 {
   const contact_given *k = &o->c->contacts[a], *l = &o->c->contacts[b];
@@ -359,7 +360,7 @@ void orbit_starts(orbit *o)
   }
 }
 
-/* The loads' harmonics in Z, and the first, with which a1 and b1 are made. */
+/* Harmonics of Z: those of the loads, and 1, for a1 and b1. */
 static void choose_harmonics(orbit *o)
 {
   const certificate *c = o->c;

@@ -1,13 +1,14 @@
-/* multipliers.c - the monodromy matrix of the orbit, and where its eigenvalues are. */
+/* multipliers.c - the monodromy matrix of the orbit, and bounds of its eigenvalues. */
 #include "proof/orbit.h"
 
-/* d w of a contact that begins to stick at event i, over dx there: [n]. v: velocities at the event. */
+/* Gradient [n] of w by x, for a contact that begins to stick at an event with velocities v. */
 static void new_slider(const orbit *o, int contact, char before, arb_srcptr v, arb_ptr gradient)
 {
   const contact_balls *f = &o->friction[contact];
   slider_line(o, contact, before, gradient);
   if (before != 'O')
-    return; /* s -> S: the gradient of t.x - s mu N/kt; no part of the time, whose derivative vanishes there */
+    return; /* s -> S: the gradient of t.x - s mu N/kt; the instant has no part, since the derivative of w by time is 0
+               there */
   /* O -> S: dw = (t - (u'/v') n).dx, since the instant of touching moves */
   LOCAL(arb) u = {0}, w = {0};
   arb_dot(u, NULL, 0, f->t, 1, v, 1, o->n, o->precision);
@@ -31,7 +32,7 @@ static void transfer(const orbit *o, int i, arb_srcptr columns, arb_mat_t m)
     for (int r = 0; r < 2 * n && s->place[j] >= 0; r++)
       arb_set(arb_mat_entry(m, r, s->place[j]), columns + number * s->size + r);
   }
-  /* w: kept while the stick goes on, dropped when it ends, new where one begins */
+  /* w: unchanged while stick continues, dropped when it ends, new when it begins */
   arb_ptr gradient = o->scratch;
   for (int j = 0; j < o->contacts; j++) {
     const int row = t->place[j];
@@ -46,7 +47,7 @@ static void transfer(const orbit *o, int i, arb_srcptr columns, arb_mat_t m)
 
 int monodromy(const orbit *o, arb_mat_t product, failure *f)
 {
-  /* Start at the event with the fewest sliders in the state, so that no multiplier is a 0 that means nothing. */
+  /* Start at the event with the fewest sliders in the state, which avoids spurious zero multipliers. */
   int first = 0;
   for (int i = 1; i < o->m; i++)
     if (o->segments[i].state < o->segments[first].state) first = i;
@@ -68,8 +69,8 @@ int monodromy(const orbit *o, arb_mat_t product, failure *f)
   return fewest;
 }
 
-/* Gershgorin discs of e[n][n]: a group that hangs together has as many eigenvalues as discs. So the largest modulus is
- * not above all discs, and not below the nearest point of any group. */
+/* Gershgorin discs of e[n][n]: a connected group of discs contains as many eigenvalues as discs. So the largest modulus
+ * is at most that of the farthest point of all discs, and at least that of the nearest point of each group. */
 static void largest_modulus(const acb_mat_t e, int n, arb_t modulus, slong precision)
 {
   LOCAL(pool) own = {0};

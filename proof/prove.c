@@ -44,7 +44,7 @@ bool prove(const certificate *c, const double *inverse, decision *v)
   orbit *o = orbit_new(c, f);
   bool holds = o && flow_prepare(o, f) && existence_prepare(&k, o, inverse, f);
   if (holds) {
-    /* the larger radius first: the image that is left is that of the smaller one */
+    /* the larger radius first, so that k.image is finally that of the smaller one */
     LOCAL(arb) radius = {0};
     double ratio;
     existence_measure(&k);

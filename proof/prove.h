@@ -1,16 +1,16 @@
-/* prove.h - the whole decision about one certificate, and its words. */
+/* prove.h - the decision about one certificate. */
 #pragma once
 
 #include "proof/orbit.h"
 
 typedef struct decision {
-  failure failure;       /* no reason: accepted */
-  bool exists;           /* at both radii       */
-  quantities quantities; /* what is proven      */
+  failure failure;       /* empty reason: accepted */
+  bool exists;           /* proven at both radii */
+  quantities quantities; /* proven bounds */
 } decision;
 void decision_init(decision *v);
 void decision_clear(decision *v);
 
-/* Does the theorem hold as claimed? In this order: existence, sequence, stability, quantities, claims. inverse: of
- * dF/dy, of any quality, [unknowns][unknowns]; NULL: made here. */
+/* True if the theorem holds as claimed. Order: existence, sequence, stability, quantities, claims. inverse:
+ * [unknowns][unknowns], an approximate inverse of dF/dy of any quality; NULL: computed here. */
 bool prove(const certificate *c, const double *inverse, decision *v);

@@ -1,22 +1,23 @@
-/* quantities.c - bounds of the orbit's amplitude, mean and harmonic 1: of the motion at all times, by its series. */
+/* quantities.c - bounds of the orbit's amplitude, mean and harmonic 1, over the whole motion, by its series. */
 #include "proof/orbit.h"
 
 enum { DEPTH = 60, PARTS = 4000, ROUGH = 12, NEWTON_STEPS = 60 };
 
-/* The largest value of sign times the response. Of each substep that may have it: Taylor coefficients, by the place on
- * the substep, of the function and its two derivatives, whose constant terms carry the rest; and the segment's end. */
+/* Search for the largest value of sign times the response. Pieces are the substeps that may contain it: Taylor
+ * coefficients on the substep of the function and its two derivatives, with the rest added to the constant terms; and
+ * the segment's end. */
 typedef struct extremum {
   pool pool;
   const orbit *o;
   int sign, n;
-  arb_ptr *pieces;      /* [n] each [3][degree + 1], and the end, at most 1 */
-  arf_t low, high;      /* the largest value is between them     */
-  arf_t close;          /* what need not be told apart           */
-  arb_ptr coefficients; /* [DEPTH + 2][3][degree + 1]         */
+  arb_ptr *pieces;      /* [n] each [3][degree + 1], followed by the end, at most 1 */
+  arf_t low, high;      /* bounds of the largest value */
+  arf_t close;          /* difference of values that need not be resolved */
+  arb_ptr coefficients; /* [DEPTH + 2][3][degree + 1] */
   long parts;
 } extremum;
 
-/* bound = max(bound, the lower (side < 0) or upper end of x) */
+/* bound = max(bound, lower end of x if side < 0, else upper end) */
 static void raise_to(const extremum *e, arf_t bound, const arb_t x, int side)
 {
   LOCAL(arf) end = {0};
@@ -25,7 +26,7 @@ static void raise_to(const extremum *e, arf_t bound, const arb_t x, int side)
   arf_max(bound, bound, end);
 }
 
-/* The value at a ball is attained: that in the middle, and the slope on the ball times what it is wide. */
+/* Adds the value at the ball `at`, which is attained: value at its midpoint plus slope on the ball times its radius. */
 static void attained_at(extremum *e, arb_srcptr p, const arb_t at)
 {
   const int n = e->o->degree + 1;
@@ -93,7 +94,7 @@ static void bound_on(extremum *e, arb_srcptr p, int level, double a, double b)
   mag_mul_2exp_si(twice, twice, 1);
   const bool even = mag_cmp(most, twice) <= 0 && !mag_is_zero(most); /* within a factor of 2, so of one sign */
   const known_sign slope = bernstein_side(g + n, n - 1);
-  if (arf_cmp(bound, e->low) <= 0) return; /* not here */
+  if (arf_cmp(bound, e->low) <= 0) return; /* the maximum is not on this piece */
   if (slope != SIDE_BOTH) attained_at(e, p, slope == SIDE_POSITIVE ? to : from);
   else if (even && arb_is_negative(curvature)) concave(e, p, from, to, curvature);
   else if (even) {
@@ -110,7 +111,7 @@ static void bound_on(extremum *e, arb_srcptr p, int level, double a, double b)
   }
 }
 
-/* Given what is attained. */
+/* The largest value, from the pieces and e->low, values that are attained. */
 static void find_largest(extremum *e, arb_t value)
 {
   const int n = e->o->degree + 1;
@@ -120,13 +121,13 @@ static void find_largest(extremum *e, arb_t value)
       bernstein(e->coefficients + d * n, e->pieces[i] + d * n, n - 1, n - 1, none, e->o->precision);
     bound_on(e, e->pieces[i], 0, 0, 1);
   }
-  arf_max(e->high, e->high, e->low); /* where no piece can exceed what is attained */
+  arf_max(e->high, e->high, e->low); /* if no piece exceeds attained values */
   arb_set_interval_arf(value, e->low, e->high, e->o->precision);
   if (e->sign < 0) arb_neg(value, value);
 }
 
-/* Keeps the substep unless the function stays below what is attained elsewhere. rows: the response and its two
- * derivatives; x, rest: its polynomial; work: [2][degree + 1] */
+/* Adds the substep to the pieces, unless the function stays below values attained elsewhere. rows: the response and its
+ * two derivatives; x, rest: its polynomial; work: [2][degree + 1] */
 static void consider(extremum *e, const walk *w, arb_srcptr rows, arb_srcptr x, const mag_t rest, arb_ptr work)
 {
   const orbit *o = e->o;
@@ -143,7 +144,7 @@ static void consider(extremum *e, const walk *w, arb_srcptr rows, arb_srcptr x, 
   if (arf_cmp(bound, e->low) <= 0) return;
   arb_ptr p = e->pieces[e->n++] = pool_balls(&e->pool, 3L * n + 1);
   arb_set(p + 3L * n, w->end);
-  for (int d = 0; d < 3; d++) { /* derivatives by the place on the substep */
+  for (int d = 0; d < 3; d++) { /* derivatives by s in [0, 1] on the substep */
     arb_ptr derivative = p + d * n;
     walk_polynomial(w, rows + d * o->largest, derivative, slack);
     arb_add_error_mag(derivative, slack);
@@ -214,7 +215,7 @@ bool response_quantities(const orbit *o, quantities *q, failure *f)
     arf_neg_inf(e->high);
     e->coefficients = pool_balls(&e->pool, coefficients);
     e->pieces = pool_take(&e->pool, POOL_BYTES, steps * sizeof *e->pieces);
-    for (int i = 0; i < o->m; i++) { /* every event is attained: with these, few substeps need a second look */
+    for (int i = 0; i < o->m; i++) { /* values at events are attained: they exclude most substeps */
       arb_dot(value, NULL, 0, rows, 1, orbit_event(o, i), 1, o->n, p);
       if (side) arb_neg(value, value);
       raise_to(e, e->low, value, -1);
@@ -235,7 +236,7 @@ bool response_quantities(const orbit *o, quantities *q, failure *f)
     }
     walk_end(&w);
   }
-  /* what need not be told apart: a small part of the range */
+  /* close: a small part of the range */
   arf_add(extrema[0].close, extrema[0].low, extrema[1].low, p, ARF_RND_FLOOR);
   arf_abs(extrema[0].close, extrema[0].close);
   arf_mul_2exp_si(extrema[0].close, extrema[0].close, -(p - 20));

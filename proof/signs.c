@@ -1,7 +1,8 @@
-/* signs.c - is the sequence of letters the law's? On every segment each contact must satisfy its inequalities, strictly
- * inside. At an end a function may be exactly 0 (a guard vanishes there, or w is defined so); then it is enough that
- * the derivative of that order has a sign on a whole neighbourhood of the end. With these, the state after a transition
- * is the prescribed one, and every transition is transversal: the same inequalities say so just before and after it. */
+/* signs.c - checks that the sequence of letters obeys the law. On every segment each contact must satisfy its
+ * inequalities strictly inside. At an end a function may be exactly 0 (a guard vanishes there, or w is defined so);
+ * then the derivative of the order of that zero must have a sign on a neighbourhood of the end. With these, the state
+ * after a transition is the prescribed one, and every transition is transversal: the same inequalities say so just
+ * before and after it. */
 #include "proof/orbit.h"
 #include <math.h>
 
@@ -10,8 +11,8 @@ enum { DEPTH = 62, PARTS = 20000, FEW = 12, FEW_DEPTH = 3 };
 typedef struct condition {
   int contact;
   const char *words;
-  int start, end; /* orders of the zeros that are allowed there; 0: none */
-  arb_ptr row;    /* [3][size] G and its derivatives, as functions of Z  */
+  int start, end; /* order of the zero that is allowed at either end; 0: none */
+  arb_ptr row;    /* [3][size] G and its derivatives, as rows on Z */
 } condition;
 
 typedef struct sequence {
@@ -21,10 +22,10 @@ typedef struct sequence {
   failure *f;
   int n;
   condition conditions[3 * LIMIT_CONTACTS];
-  arb_ptr rows;         /* [3 contacts][3][largest]                        */
-  arb_ptr polynomial;   /* [degree + 1]                                    */
+  arb_ptr rows;         /* [3 contacts][3][largest] */
+  arb_ptr polynomial;   /* [degree + 1] */
   arb_ptr coefficients; /* [DEPTH + 2][3][degree + 1] G, at the start, at the end */
-  double from, width;   /* of the substep, in time */
+  double from, width;   /* the current substep, in time */
   long parts;
 } sequence;
 
@@ -48,8 +49,8 @@ static void derive(const orbit *o, const orbit_segment *s, arb_srcptr row, arb_p
                              o->precision);
 }
 
-/* Stick that began by touching where u and v are proportional: both limits are exactly (mu kn -+ kt t/n)(v + gap), so
- * the signs of two constants and the gap's condition decide. Balls would see 0/0 at both ends. */
+/* Stick after touching, with u and v proportional: both limits are exactly (mu kn -+ kt t/n)(v + gap), so the signs of
+ * two constants and the gap's condition decide. In balls both ends would be 0/0. */
 static bool inside_cone(const sequence *q, int contact)
 {
   const slong precision = q->o->precision;
@@ -105,7 +106,7 @@ static bool list_conditions(sequence *q)
 
 /* ---- whether they hold ---- */
 
-/* The last that is said stands. Returns false. */
+/* Replaces the failure by this one. Returns false. */
 static bool ended(const sequence *q, const condition *c, double a, double b, const char *what)
 {
   q->f->reason[0] = 0;
@@ -115,9 +116,9 @@ static bool ended(const sequence *q, const condition *c, double a, double b, con
                 q->f->from, q->f->to, c->contact, c->words, what);
 }
 
-/* Is G > 0 on the part [a, b] of the substep, but for allowed zeros at the segment's ends? Bernstein coefficients stand
- * at `level`: of G, of its derivative at the start (`starts`), of the one at the end (`ends`). false: it is negative
- * somewhere. true with *decided false: depth ran out, and no part is negative as a whole. */
+/* Decides whether G > 0 on the part [a, b] of the substep, except allowed zeros at the segment's ends. Bernstein
+ * coefficients at `level`: of G, of its derivative at the start (if `starts`), of that at the end (if `ends`). false:
+ * negative somewhere. true with *decided false: not decided within `depth`, but no part is proven negative. */
 static bool positive_on(sequence *q, const condition *c, int degree, int depth, int level, double a, double b,
                         bool starts, bool ends, bool *decided)
 {
@@ -125,8 +126,8 @@ static bool positive_on(sequence *q, const condition *c, int degree, int depth, 
   arb_ptr g = q->coefficients + 3 * n * level, left = g + 3 * n;
   const known_sign value = bernstein_side(g, degree), rises = starts ? bernstein_side(g + n, degree) : SIDE_BOTH,
                    falls = ends ? bernstein_side(g + 2 * n, degree) : SIDE_BOTH;
-  if (value == SIDE_POSITIVE) return true; /* everywhere else: G > 0                                 */
-  if (rises == SIDE_POSITIVE) return true; /* start, order p: G^(p) > 0 on [0, b]                    */
+  if (value == SIDE_POSITIVE) return true; /* everywhere else: G > 0 */
+  if (rises == SIDE_POSITIVE) return true; /* start, order p: G^(p) > 0 on [0, b] */
   if (falls == SIDE_NEGATIVE) return true; /* end, order 1: G' < 0 on [a, end], the longest possible */
   if (value == SIDE_NEGATIVE || rises == SIDE_NEGATIVE || falls == SIDE_POSITIVE)
     return ended(q, c, a, b, "it is negative");
@@ -146,7 +147,7 @@ static bool positive_on(sequence *q, const condition *c, int degree, int depth, 
 
 static bool holds_on_substep(sequence *q, const walk *w, const condition *c)
 {
-  /* first with the constant term alone, then with low degree, then with all there is */
+  /* attempts: constant term only, low degree, full degree */
   static const int degrees[] = {0, FEW, 1 << 20}, depths[] = {0, FEW_DEPTH, DEPTH};
   const orbit *o = q->o;
   const slong n = o->degree + 1;

@@ -1,4 +1,4 @@
-/* accuracy.c - see accuracy.h: the table over truncation orders and sampling rates, and the orders it shows.
+/* accuracy.c - see accuracy.h: the table over truncation orders and sampling rates, and its orders of convergence.
  *
  *     the curve with exact forces and most harmonics -> the exact law's orbits to compare with, the response's peak
  *     each H: the curve with exact forces -> a solution next to each orbit
@@ -15,10 +15,10 @@
 #include "numerics/roots.h"
 #include "numerics/workers.h"
 
-/* ---- what is compared with: the exact law's orbits next to the solutions at the compared frequencies, and the peak of
- * the response. The peak is that of the orbits, by shooting: three frequencies that enclose it, from the peak of the
- * curve by harmonic balance, then a cubic's or, where that is not enough, a minimum search between them. By harmonic
- * balance alone it would take 160 harmonics to know it to 1e-8. ---- */
+/* ---- the reference: the exact law's orbits next to the solutions at the compared frequencies, and the peak of the
+ * response. The peak is that of the orbits, by shooting: three frequencies that enclose it, from the peak of the curve
+ * by harmonic balance, then the peak of a cubic or, if that is not accurate enough, a minimum search. By harmonic
+ * balance alone 1e-8 would take 160 harmonics. ---- */
 
 typedef struct target {
   double omega;
@@ -27,16 +27,16 @@ typedef struct target {
 
 typedef struct reference {
   int n;
-  target *targets; /* [n] by frequency */
-  int harmonics;   /* of the curve they were looked for from */
+  target *targets; /* [n] ascending in omega */
+  int harmonics;   /* of the curve from which they were found */
   bool peak_by_orbit;
   double peak_amplitude, peak_omega;
 } reference;
 
 enum { PEAK_LEVELS = 6 };
 
-static const double reusable = 0.01; /* [amplitude] an orbit within this of a solution of the fine curve is taken as
-                                        the one next to it */
+static const double reusable = 0.01; /* [amplitude] largest waveform distance at which an orbit counts as the one next
+                                        to a solution of the fine curve */
 
 static bool is_known(const reference *r, double omega, const periodic_motion *orbit)
 {
@@ -46,7 +46,7 @@ static bool is_known(const reference *r, double omega, const periodic_motion *or
   return false;
 }
 
-/* The orbit next to a solution: of the comparison's rows, else by shooting. False: none. */
+/* The orbit next to a solution: from the comparison's rows, else by shooting. False: none. */
 static bool orbit_next_to(const comparison *c, timeint *ti, double *state, hbm_solver *hbm, const double *X,
                           double omega, const hc_monitor *monitor, periodic_motion *out)
 {
@@ -81,19 +81,20 @@ static hc_status targets_at(const comparison *c, timeint *ti, double *state, hbm
 }
 
 enum { CLIMB_ORBITS = 4 };
-static const double same_omega = 1e-9; /* [omega] of an orbit that was found */
+static const double same_omega = 1e-9; /* [omega] distance within which an orbit counts as found already */
 
 typedef struct climber {
   timeint *ti;
-  hbm_solver *hbm;            /* a large structure's, whose curve */
-  const hbm_curve *curve;     /* shows how the amplitude changes, and whose states are extrapolated; else NULL */
-  int n_found;                /* orbits; the last of them are kept: */
-  double omega[CLIMB_ORBITS]; /* at which frequencies, */
-  double *state;              /* [CLIMB_ORBITS][n_states] on them; until the first is found, next to it */
-  double *here;               /* [n_states] memory */
+  hbm_solver *hbm;            /* solver of the curve, for a large structure; else NULL */
+  const hbm_curve *curve;     /* response curve, which predicts amplitudes for a large structure */
+  int n_found;                /* number of orbits found, of which the last CLIMB_ORBITS are stored */
+  double omega[CLIMB_ORBITS]; /* their frequencies */
+  double *state;              /* [CLIMB_ORBITS][n_states] states on them; before the first, a start */
+  double *here;               /* [n_states] start of the next search */
 } climber;
 
-/* c->here = the state of the last orbit, or on the polynomial in omega through those that are kept. */
+/* c->here = the state of the last orbit or, for a large structure, extrapolated by the polynomial in omega through the
+ * stored ones. */
 static void start_at(const climber *c, double omega)
 {
   const int kept = c->n_found < CLIMB_ORBITS ? c->n_found : CLIMB_ORBITS;
@@ -109,7 +110,7 @@ static void start_at(const climber *c, double omega)
   }
 }
 
-/* *value = -amplitude of the orbit at omega next to the climber's start; NaN where there is none. */
+/* *value = -amplitude of the orbit at omega next to start_at(); NaN: none. */
 static hc_status minus_amplitude(void *self, double omega, double *value)
 {
   climber *c = self;
@@ -127,10 +128,9 @@ static hc_status minus_amplitude(void *self, double omega, double *value)
   return st;
 }
 
-/* Three frequencies d apart, the one in the middle no lower than the others: from *omega uphill, closer together where
- * an orbit is missing or is no part of a hill. False: not within PEAK_LEVELS, or not within the sweep, at whose ends a
- * peak is where the sweep ends. *omega and f[1] are then the last middle, f[1] NaN if it has no orbit. f: minus the
- * amplitudes. */
+/* Encloses a peak by three frequencies d apart, the middle one no lower than the others: moves *omega uphill, and
+ * reduces d where an orbit is missing or the curvature has the wrong sign. False: not within PEAK_LEVELS, or beyond the
+ * sweep. *omega and f[1] are then the last middle, f[1] NaN if it has no orbit. f: minus the amplitudes. */
 static bool enclose_peak(climber *c, double low, double high, double *omega, double *d, double f[3])
 {
   for (int level = 0; level < PEAK_LEVELS; ++level) {
@@ -148,9 +148,10 @@ static bool enclose_peak(climber *c, double low, double high, double *omega, dou
   return false;
 }
 
-static const double top_fall = 1e-9; /* [amplitude] 4.5e-5 of the width: less than the search below leaves */
+static const double top_fall = 1e-9; /* [amplitude] corresponds to 4.5e-5 of the width, less than the error of the
+                                        search below */
 
-/* *top = the minimum of the cubic through f, at three frequencies d apart, and the orbit at the lowest point of their
+/* *top = the minimum of the cubic through f, at three frequencies d apart, and an orbit at the minimum of their
  * parabola. False: it is lower than that orbit by more than top_fall, or there is none. */
 static bool top_of_cubic(climber *c, double omega, double d, const double f[3], root_point *top)
 {
@@ -164,13 +165,13 @@ static bool top_of_cubic(climber *c, double omega, double d, const double f[3], 
   return cubic_bend > 0 && fall <= top_fall * fabs(low);
 }
 
-/* Amplitude of the curve at omega, of several that is nearest to `near`; NaN where there is none. */
+/* Amplitude of the curve at omega, of several solutions the one nearest to `near`; NaN: none. */
 static double amplitude_of_curve(const climber *c, double omega, double near)
 {
   hbm_curve at = {0};
   hbm_measures m;
   double nearest = NAN;
-  hbm_curve_at(c->hbm, c->curve, omega, &at); /* what was found is there, whatever else was not */
+  hbm_curve_at(c->hbm, c->curve, omega, &at); /* solutions found before an error are used */
   for (int k = 0; k < at.n; ++k)
     if (hbm_measure(c->hbm, at.X + (size_t)k * (size_t)at.n_coef, &m) == HC_OK &&
         !(fabs(m.amplitude - near) >= fabs(nearest - near)))
@@ -179,8 +180,8 @@ static double amplitude_of_curve(const climber *c, double omega, double near)
   return nearest;
 }
 
-/* top_of_cubic with f[0] foretold in place of an orbit, f[1] being the orbit at the curve's own peak, of amplitude
- * `high`: what the curve's amplitude is off changes evenly with omega. */
+/* top_of_cubic with f[0] estimated instead of computed, f[1] being the orbit at the curve's own peak, of amplitude
+ * `high`: assumes that the error of the curve's amplitude is linear in omega. */
 static bool top_by_curve(climber *c, double omega, double d, double high, double f[3], root_point *top)
 {
   if (!c->hbm || minus_amplitude(c, omega + d, &f[2]) != HC_OK) return false;
@@ -188,8 +189,8 @@ static bool top_by_curve(climber *c, double omega, double d, double high, double
   return f[1] <= f[0] && f[1] <= f[2] && top_of_cubic(c, omega, d, f, top);
 }
 
-/* From omega on, where c->state is next to an orbit and the curve has its peak, of amplitude of_curve. False: *out is
- * untouched. */
+/* Finds the peak from omega, the peak of the curve with amplitude of_curve, c->state being next to an orbit there.
+ * False: *out is unchanged. */
 static bool climb(const compare_setup *setup, climber *c, double omega, double of_curve, reference *out)
 {
   const double low = fmin(setup->omega_from, setup->omega_to), high = fmax(setup->omega_from, setup->omega_to);
@@ -204,7 +205,7 @@ static bool climb(const compare_setup *setup, climber *c, double omega, double o
   else if (!known && !top_of_cubic(c, omega, d, f, &peak)) /* flat: 1e-4 of the width are 5e-9 of the amplitude */
     root_minimum(minus_amplitude, c, omega - d, f[0], omega, f[1], omega + d, f[2], 1e-4 * width, &peak);
   if (isnan(peak.f)) return false;
-  out->peak_amplitude = -peak.f; /* the highest found, also where an orbit in between is missing */
+  out->peak_amplitude = -peak.f; /* the highest found, also if an orbit in between is missing */
   out->peak_omega = peak.x;
   return out->peak_by_orbit = true;
 }
@@ -230,7 +231,7 @@ static void find_peak(const compare_setup *setup, timeint *ti, double *states, h
   hbm_curve_free(&peak);
 }
 
-/* From the curve of `hbm`, whose forces are exact. out->targets is the caller's to free in any case. */
+/* Makes the reference from the curve of `hbm`, with exact forces. The caller frees out->targets in any case. */
 static hc_status reference_make(const compare_setup *setup, const comparison *c, hbm_solver *hbm,
                                 const hbm_curve *curve, const hc_monitor *monitor, reference *out)
 {
@@ -256,7 +257,7 @@ static hc_status reference_make(const compare_setup *setup, const comparison *c,
 
 enum { EXACT = 0 };
 
-static const double floor_of_orbits = 1e-8; /* [1] ten times the error of the referee's orbits */
+static const double floor_of_orbits = 1e-8; /* [1] least error for a fit: ten times the error of the referee's orbits */
 
 /* The solution next to each target, for one H and N. */
 typedef struct solutions {
@@ -268,21 +269,21 @@ typedef struct solutions {
   long iterations;
 } solutions;
 
-/* What the sampled rows of one H start from. */
+/* The solutions with exact forces for one H, from which its sampled rows start. */
 typedef struct plain_solutions {
-  int n_harm, turning_points; /* with exact forces */
+  int n_harm, turning_points; /* H; of its curve with exact forces */
   solutions s;
 } plain_solutions;
 
 typedef struct table_work {
   const compare_setup *setup;
   const comparison *c;
-  const hc_monitor *monitor;                   /* the calling thread's */
+  const hc_monitor *monitor;                   /* of the calling thread */
   int n_harm, n_samples, *harmonics, *samples; /* ascending, each once */
   reference ref;
   plain_solutions plain[NUMBER_LIST_MAX]; /* [n_harm] */
-  bool *there;                            /* [n_harm (n_samples + 1)] rows that are whole */
-  accuracy_row *rows;                     /* of each H that with exact forces, then the samples */
+  bool *there;                            /* [n_harm (n_samples + 1)] true for rows that are complete */
+  accuracy_row *rows;                     /* [n_harm (n_samples + 1)] for each H exact forces, then the samples */
   order_row regularisation;
 } table_work;
 
@@ -311,7 +312,7 @@ static bool keep_solution(solutions *s, int i, hbm_solver *hbm, double omega, co
   return s->there[i] = true;
 }
 
-/* The nearest pair of a target without solution and a solution of *at not taken yet; false when there is no more. */
+/* The nearest pair of a target without solution and an unused solution of *at; false: none left. */
 static bool nearest_pair(const table_work *w, const solutions *s, int first, int last, const hbm_curve *at,
                          const periodic_motion *found, const bool *taken, int *i, int *k)
 {
@@ -341,7 +342,7 @@ static hc_status assign(const table_work *w, response_curve *t, int first, int l
   for (int b = 0; b < at.n && st == HC_OK; ++b) {
     const double *X = at.X + (size_t)b * at.n_coef;
     s->iterations += at.points[b].iterations;
-    taken[b] = motion_of_response(t->hbm, at.points[b].omega, X, 0, NULL, &found[b]) != HC_OK; /* not to be had */
+    taken[b] = motion_of_response(t->hbm, at.points[b].omega, X, 0, NULL, &found[b]) != HC_OK; /* unusable */
   }
   while (st == HC_OK && nearest_pair(w, s, first, last, &at, found, taken, &i, &k)) {
     taken[k] = true;
@@ -363,7 +364,7 @@ static hc_status solve_exact(const table_work *w, response_curve *t, solutions *
   return st;
 }
 
-/* Where two starts converged to the same solution, the one that came from farther away is dropped. */
+/* If two starts converged to the same solution, the one with the more distant start is dropped. */
 static void drop_doubles(const table_work *w, const solutions *from, solutions *s)
 {
   for (int a = 0; a < s->n; ++a)
@@ -485,7 +486,7 @@ static hc_status sampled_row(const table_work *w, int samples, const plain_solut
 
 /* ---- the whole ------------------------------------------------------------------------------- */
 
-/* A list of whole numbers, ascending, each once, into out[]; how many. */
+/* The whole numbers of a list, ascending and without duplicates, into out[]; returns their number. */
 static int whole_numbers(const number_list *list, int *out)
 {
   number_list sorted = *list;
@@ -520,7 +521,7 @@ static void put_orders(const table_work *w, accuracy *out)
   if (w->regularisation.fit.points > 1) out->orders[out->n_orders++] = w->regularisation;
 }
 
-/* The orbits to compare with, and the rows with exact forces. */
+/* The reference orbits, and the rows with exact forces. */
 static hc_status exact_rows(table_work *w)
 {
   const int least = compare_reference_harmonics(w->setup->model);
@@ -565,13 +566,13 @@ hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc
 {
   int harmonics[NUMBER_LIST_MAX], samples[NUMBER_LIST_MAX];
   *out = (accuracy){0};
-  const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor}; /* how far it is the tasks tell */
+  const hc_monitor aside = {hc_monitor_tick_aside, (void *)monitor}; /* progress is reported by the tasks */
   table_work w = {.setup = setup, .c = c, .monitor = &aside, .harmonics = harmonics, .samples = samples};
   w.n_harm = whole_numbers(&setup->compare.harmonics, harmonics);
   w.n_samples = whole_numbers(&setup->compare.samples, samples);
   if (w.n_harm == 0) return HC_OK;
   if (harmonics[0] < 1 || harmonics[w.n_harm - 1] > HBM_MAX_HARMONICS) return HC_BAD_INPUT;
-  int few = 0; /* harmonics than a load has */
+  int few = 0; /* number of H below the highest harmonic of the loads */
   while (few < w.n_harm && harmonics[few] < model_highest_load(setup->model)) ++few;
   w.harmonics += few, w.n_harm -= few;
   if (w.n_harm == 0) return HC_OK;
@@ -582,7 +583,7 @@ hc_status accuracy_run(const compare_setup *setup, const comparison *c, const hc
   hc_status st = out->rows && out->orders && w.there ? exact_rows(&w) : HC_NO_MEMORY;
   if (st == HC_OK) st = workers_run(setup->jobs, w.n_harm * w.n_samples + 1, do_task, &w, monitor);
   if (out->rows && out->orders && w.there) {
-    for (size_t i = 0; i < most_rows; ++i) /* those that are there move together, in their order */
+    for (size_t i = 0; i < most_rows; ++i) /* complete rows move to the front, in their order */
       if (w.there[i]) out->rows[out->n_rows++] = out->rows[i];
     put_orders(&w, out);
     put_reference(&w, out);

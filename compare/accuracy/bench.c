@@ -14,9 +14,9 @@
 #include "numerics/norm.h"
 
 enum { MOST_SETTINGS = 8, FEWEST = 3 };
-static const double enough = 0.25; /* [s] a row measured FEWEST times and for as long is repeated no more */
+static const double enough = 0.25; /* [s] time after which a row is not repeated, if it has run FEWEST times */
 
-/* A method's settings: every a with every b. a: harmonics or regularisation, b: samples or tolerance; 0 is none. */
+/* A method's settings, all pairs of a (harmonics or regularisation) and b (samples or tolerance); 0: none. */
 typedef struct family {
   bench_method method;
   int n_a;
@@ -68,32 +68,33 @@ const char *bench_settings(const bench_row *r, char text[BENCH_TEXT])
 /* ---- a method at one frequency, timed ---- */
 
 const double bench_longest = 1.5, bench_longest_shot = 0.3;
-static const double timed_method_slow = 0.2; /* [s] of a solution: what takes longer is measured by its first run */
-static const double shortest_run = 5e-4;     /* [s] the clock is good to a microsecond */
-static const double other_orbit = 0.3;       /* [amplitude] of the waveform: few harmonics are some ten percent off,
-                                          another orbit is elsewhere */
+static const double timed_method_slow = 0.2; /* [s] a solution that takes longer is measured by its first run only */
+static const double shortest_run = 5e-4;     /* [s] least duration of a timed run; the clock's resolution is a
+                                                microsecond */
+static const double other_orbit = 0.3;       /* [amplitude] waveform error above which it is another orbit: few
+                                                harmonics err by some ten percent */
 
 typedef struct timed_method {
-  bench_row *row; /* the caller's; settings are read, outcome and errors written */
+  bench_row *row; /* not owned; settings are read, outcome and errors written */
   compare_setup setup;
-  hbm_solver *hbm; /* one of the two */
+  hbm_solver *hbm; /* exactly one of hbm and ti is not NULL */
   timeint *ti;
   workspace memory;        /* of the arrays below */
-  double *X, *trial;       /* [most_coef] the HBM method's own solution at the neighbour; the one at omega */
+  double *X, *trial;       /* [most_coef] the HBM method's own solution at the neighbour; at omega */
   double *state;           /* [n_states] */
   periodic_motion *motion; /* [n_responses] of the last solution */
   double *seconds;         /* [cap] of each run */
-  int runs, cap, batch;    /* batch: solutions a run, so that a run is long enough for the clock */
-  double spent;            /* [s] */
+  int runs, cap, batch;    /* batch: solutions in a run, so that it is long enough for the clock */
+  double spent;            /* [s] total time of all runs */
 } timed_method;
 
-/* What one solution came to. */
+/* Result of one solution. */
 typedef struct answer {
   hc_status status;
   bool too_long;
 } answer;
 
-/* A batch of solutions; the time of one. */
+/* Solves a batch; returns the time of one solution. */
 static double solve(timed_method *t, const bench_start *at, const hc_monitor *monitor, answer *a)
 {
   timeint_result r;
@@ -111,7 +112,7 @@ static double solve(timed_method *t, const bench_start *at, const hc_monitor *mo
       work_limit l = {.outer = monitor, .until = thread_seconds() + (marches ? bench_longest : bench_longest_shot)};
       hc_monitor limited = {work_limit_tick, &l};
       memcpy(t->state, at->state, (size_t)at->n_states * sizeof *t->state);
-      timeint_forget(t->ti); /* the same solution is asked for again and again */
+      timeint_forget(t->ti); /* the same solution is computed repeatedly */
       a->status = timeint_steady(t->ti, at->omega, t->state, &limited, &r);
       a->too_long = a->status == HC_INTERRUPTED && !l.stopped;
     }
@@ -138,7 +139,7 @@ static hc_status from_own_curve(const bench_start *at, const hc_monitor *monitor
   hbm_curve curve = {0}, found = {0};
   hbm_measures m;
   double most = -1;
-  hbm_trace(t->hbm, t->setup.omega_from, t->setup.omega_to, &limited, &curve); /* as far as it comes */
+  hbm_trace(t->hbm, t->setup.omega_from, t->setup.omega_to, &limited, &curve); /* as far as the curve goes */
   hc_status st = l.stopped ? HC_INTERRUPTED : hbm_curve_at(t->hbm, &curve, at->neighbour, &found);
   for (int k = 0; k < found.n && st == HC_OK; ++k) {
     const double *X = found.X + (size_t)k * found.n_coef;
@@ -186,8 +187,8 @@ static void record_answer(const timed_method *t, const answer *a, const bench_st
   row->seconds = took;
 }
 
-/* Ready to run up to cap times, the first run done: errors and outcome are in the row. HC_INTERRUPTED, HC_NO_MEMORY;
- * what goes wrong with the method itself is the row's outcome. Free in any case. */
+/* Makes a method for up to cap runs and does the first run: errors and outcome into the row. HC_INTERRUPTED,
+ * HC_NO_MEMORY; a failure of the method itself is the row's outcome. Call timed_method_finish in any case. */
 static hc_status timed_method_start(const compare_setup *setup, const bench_start *at, bench_row *row, int cap,
                                     const hc_monitor *monitor, timed_method *t)
 {
@@ -209,23 +210,23 @@ static hc_status timed_method_start(const compare_setup *setup, const bench_star
   double took = solve(t, at, monitor, &a);
   if (a.status == HC_NO_MEMORY || (a.status == HC_INTERRUPTED && !a.too_long)) return a.status;
   record_answer(t, &a, at, took, row);
-  if (took > timed_method_slow && row->outcome == BENCH_SOLVED) t->seconds[t->runs++] = took; /* is the only one */
+  if (took > timed_method_slow && row->outcome == BENCH_SOLVED) t->seconds[t->runs++] = took; /* the only run */
   if (took < shortest_run) t->batch = (int)fmin(ceil(shortest_run / fmax(took, 1e-7)), 1000);
   return HC_OK;
 }
 
-/* Once more, timed. */
+/* One more timed run. */
 static hc_status timed_method_run(timed_method *t, const bench_start *at, const hc_monitor *monitor)
 {
   answer a;
   if (t->row->outcome != BENCH_SOLVED || t->runs == t->cap) return HC_OK;
   double took = solve(t, at, monitor, &a);
-  if (a.too_long) return HC_OK; /* by a hair, this time: not counted */
+  if (a.too_long) return HC_OK; /* just above the limit this time: not counted */
   if (a.status == HC_OK) t->seconds[t->runs++] = took;
   return a.status;
 }
 
-/* hbm_exact: what the whole curve takes, into the row; left at NaN when it takes too long. */
+/* hbm_exact: time of the whole curve into the row; NaN if too long. */
 static hc_status timed_method_curve(timed_method *t, const hc_monitor *monitor)
 {
   work_limit l = {.outer = monitor, .until = thread_seconds() + bench_longest};
@@ -260,13 +261,13 @@ static void timed_method_finish(timed_method *t)
 
 /* ---- the rounds ------------------------------------------------------------------------------- */
 
-/* What the functions below have at hand: the settings, one frequency's start and its methods, the result. */
+/* State of the bench at one frequency. */
 typedef struct bench_work {
   const compare_setup *setup;
   const bench_options *options;
   const hc_monitor *outer;
-  double from, width,
-      done; /* [1] progress: where this frequency begins, its part of the whole, the part of that done */
+  double from, width, done; /* [1] progress: start of this frequency, its fraction of the whole, fraction of it that is
+                               done */
   hc_monitor monitor;
   bench_start start;
   timed_method *methods;
@@ -311,7 +312,8 @@ static hc_status add_family(bench *b, const family *f, double omega)
   return st;
 }
 
-/* It marches, and with settings no finer took too long; shooting's time does not rise with finer ones. */
+/* True for a marching row if a row with no finer settings took too long; not for shooting, whose time does not rise
+ * with finer settings. */
 static bool hopeless(const bench_row *rows, int i)
 {
   if (rows[i].method != BENCH_EXACT_MARCHING && rows[i].method != BENCH_REGULARISED_MARCHING) return false;
@@ -337,7 +339,7 @@ static hc_status measure_ours(bench_work *w, bench_frequency *p)
   for (int i = 0; i < N_FAMILIES && st == HC_OK; ++i) st = add_family(w->out, &families[i], p->omega);
   p->n = w->out->n_rows - p->first;
   if (st == HC_OK && !(w->methods = calloc((size_t)p->n, sizeof *w->methods))) st = HC_NO_MEMORY;
-  /* All rows once: what they find; and the curves. */
+  /* All rows once, for errors and outcomes; and the curves. */
   if (st == HC_OK) {
     bench_row *rows = w->out->rows + p->first;
     for (int i = 0; i < p->n && st == HC_OK; ++i) {
@@ -408,7 +410,7 @@ void bench_judge(int n, bench_row *rows, double floor)
     r->error_finer = NAN;
     if (r->outcome != BENCH_SOLVED) continue;
     r->error_finer = fmax(r->error, floor);
-    for (int k = 0; k < n; ++k) /* At settings no coarser than a's in any respect? NaN is no setting. */
+    for (int k = 0; k < n; ++k) /* settings no coarser in any respect; NaN is not a setting */
       if (rows[k].outcome == BENCH_SOLVED &&
           (rows[k].method == r->method && rows[k].harmonics >= r->harmonics && rows[k].samples >= r->samples &&
            !(rows[k].regularisation > r->regularisation) && !(rows[k].tolerance > r->tolerance)))

@@ -1,4 +1,4 @@
-/* bench.h - work against precision: time and error of every method at one frequency.
+/* bench.h - work-precision comparison: time and error of every method at one frequency.
  *
  *     reference    the exact law's periodic orbit at omega, by shooting as tight as rounding allows
  *     error        |amplitude - reference's| / reference's amplitude; error_harmonic_1 likewise of |a1 + i b1|; of
@@ -7,8 +7,8 @@
  *                  sweep: an HBM method from its own solution there, time integration from the exact orbit's state
  *                  there. With its measures, without making the workspace.
  *
- * The branch is that of the largest stable response at omega. Methods take turns; nothing is printed. Not here:
- * whole curves over H and N (accuracy.h; tests/bench). */
+ * The branch is that of the largest stable response at omega. Methods take turns; nothing is printed. Not here: whole
+ * curves over H and N (accuracy.h; tests/bench). */
 #pragma once
 
 #include "compare/compare_settings.h"
@@ -32,41 +32,42 @@ typedef enum bench_method { BENCH_METHOD_LIST(BENCH_ENUM) BENCH_METHODS } bench_
 const char *bench_method_name(bench_method m);
 
 typedef enum bench_outcome {
-  BENCH_WAITING, /* not run: stopped before            */
+  BENCH_WAITING, /* not run, since the bench was stopped */
   BENCH_SOLVED,
-  BENCH_FAILED,      /* why: status                        */
+  BENCH_FAILED,      /* reason: status */
   BENCH_OTHER_ORBIT, /* a solution, but not the one next to the reference */
-  BENCH_TOO_LONG     /* than bench_longest, or a coarser setting did*/
+  BENCH_TOO_LONG     /* longer than bench_longest, or a coarser setting was*/
 } bench_outcome;
 const char *bench_outcome_name(bench_outcome o); /* "solved", ... */
 
-extern const double bench_longest, bench_longest_shot; /* [s] of processor time that one solution may take; by
+extern const double bench_longest, bench_longest_shot; /* [s] most processor time of one solution; the same by
                                                           shooting */
 
 /* One method with one choice of settings. */
 typedef struct bench_row {
   bench_method method;
   double omega;
-  int harmonics, samples;           /* 0: this method has none */
-  double regularisation, tolerance; /* NaN: none */
+  int harmonics, samples;           /* 0: not a setting of this method */
+  double regularisation, tolerance; /* NaN: not a setting of this method */
   bench_outcome outcome;
   hc_status status;
   double error, error_harmonic_1; /* [1] NaN unless solved */
-  double error_finer;        /* [1] the largest error at these or finer settings of the method: a coarse setting that is
-                         accurate by chance does not count */
+  double error_finer;        /* [1] largest error at these or finer settings of the method, so that accuracy by chance
+                                does not count */
   double seconds, low, high; /* [s] median and quartiles over `repeats` */
   int repeats;
   double curve_seconds; /* [s] hbm_exact: the whole response curve; else NaN */
-  bool front;           /* Pareto front: no row has error_finer and seconds no larger, and one of them smaller */
+  bool front;           /* Pareto front: no other row is at least as good in error_finer and seconds and better in
+                           one */
 } bench_row;
 
 /* One frequency. */
 typedef struct bench_frequency {
   double omega, neighbour;      /* [rad/time] */
-  double amplitude, multiplier; /* of the reference: [length], [1] a period */
-  double floor;                 /* [1] errors below are taken for it: the reference is no better */
-  int first, n;                 /* its rows */
-  char scipy[96];               /* version, or why there is no scipy_lsoda */
+  double amplitude, multiplier; /* of the reference: [length]; [1] largest modulus, per period */
+  double floor;                 /* [1] error of the reference; smaller errors count as this */
+  int first, n;                 /* index of its first row; number of rows */
+  char scipy[96];               /* version of scipy, or the reason why there is no scipy_lsoda */
 } bench_frequency;
 
 typedef struct bench {
@@ -76,22 +77,23 @@ typedef struct bench {
 } bench;
 
 typedef struct bench_options {
-  number_list at; /* n = 0: of the compared frequencies the one where the response is largest */
-  int repeats;    /* > 0; rows that take long are repeated less, as their `repeats` says */
-  bool alone;     /* no other programs */
+  number_list at; /* n = 0: the compared frequency with the largest response */
+  int repeats;    /* > 0; slow rows are repeated less, see bench_row.repeats */
+  bool alone;     /* without other programs */
 } bench_options;
 
-/* HC_INTERRUPTED keeps what was measured; HC_NOT_CONVERGED: no stable orbit at *failed_at. bench_clear in any case. */
+/* Runs the bench. HC_INTERRUPTED: rows measured before are kept; HC_NOT_CONVERGED: no stable orbit at *failed_at. Call
+ * bench_clear in any case. */
 hc_status bench_run(const compare_setup *setup, const bench_options *options, const hc_monitor *monitor, bench *out,
                     double *failed_at);
 void bench_clear(bench *b);
 
-/* error_finer and front of the n rows of one frequency. */
+/* Sets error_finer and front of the n rows of one frequency. */
 void bench_judge(int n, bench_row *rows, double floor);
 
-/* The fastest solved row with error_finer within the goal, and of the other methods *second; or NULL. */
+/* The fastest solved row with error_finer <= goal; *second: the fastest of other methods. NULL: none. */
 const bench_row *bench_cheapest(int n, const bench_row *rows, double goal, const bench_row **second);
 
-/* "H = 10, N = 1024", "regularisation 1e-4, tolerance 1e-6": in text[BENCH_TEXT], which is returned. */
+/* "H = 10, N = 1024", "regularisation 1e-4, tolerance 1e-6": into text[BENCH_TEXT], which is returned. */
 enum { BENCH_TEXT = 64 };
 const char *bench_settings(const bench_row *r, char text[BENCH_TEXT]);

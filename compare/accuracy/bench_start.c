@@ -24,10 +24,11 @@ void bench_start_free(bench_start *at)
 }
 
 enum { CURVE_HARMONICS = 20, TRIES = 8, COARSEST_DECADE = -6 };
-static const double best_floor = 1e-12; /* [1] rounding of a period's integration, seen from its amplitude */
-static const double marching = 1e-12;   /* transient.tolerance of a reference that shooting did not bring below 1e-10 */
-static const double first_distance = 1e-3, nearby = 0.3; /* [omega] of the neighbour; [amplitude] how far apart
-                                                               two neighbours may be */
+static const double best_floor = 1e-12; /* [1] error of the amplitude by rounding of a period's integration */
+static const double marching = 1e-12;   /* transient.tolerance of marching, if shooting's reference is coarser than
+                                           5e-10 */
+static const double first_distance = 1e-3, nearby = 0.3; /* [omega] first distance of the neighbour; [amplitude] largest
+                                                            distance of neighbouring motions */
 
 hc_status finder_start(const compare_setup *setup, const number_list *at, const hc_monitor *monitor, finder *f)
 {
@@ -73,7 +74,7 @@ hc_status finder_default(finder *f, double *omega)
   return st == HC_OK && most < 0 ? HC_NOT_CONVERGED : st;
 }
 
-/* The exact law's orbit next to state, which moves there; f->motion: every response of it. */
+/* The exact law's orbit next to state, which becomes one on it; f->motion: its responses. */
 static hc_status exact_orbit(finder *f, double omega, transient_steady steady, double tolerance,
                              const hc_monitor *monitor, double *state, timeint_result *r)
 {
@@ -86,7 +87,7 @@ static hc_status exact_orbit(finder *f, double omega, transient_steady steady, d
   hc_status st = timeint_new(f->setup.model, &how, &ti);
   memcpy(f->trial, state, bytes);
   if (st == HC_OK) st = timeint_steady(ti, omega, f->trial, monitor, r);
-  for (int i = f->setup.model->n_responses; i-- > 0 && st == HC_OK;) { /* *r ends as the first one's */
+  for (int i = f->setup.model->n_responses; i-- > 0 && st == HC_OK;) { /* *r is finally that of the first response */
     if (f->setup.model->n_responses > 1) st = timeint_response(ti, i, r);
     f->motion[i] = motion_of_transient(r);
   }
@@ -95,7 +96,7 @@ static hc_status exact_orbit(finder *f, double omega, transient_steady steady, d
   return st;
 }
 
-/* By shooting, at the smallest power of ten as tolerance at which it converges in spite of rounding. */
+/* By shooting, with the smallest power of ten as tolerance at which it converges. */
 static hc_status tightest_orbit(finder *f, double omega, const hc_monitor *monitor, double *state, timeint_result *r,
                                 double *floor)
 {
@@ -107,7 +108,7 @@ static hc_status tightest_orbit(finder *f, double omega, const hc_monitor *monit
   return st;
 }
 
-/* The motions that f->motion has become what errors are measured against. */
+/* Takes f->motion as the reference. */
 static void take_reference(const finder *f, bench_start *start)
 {
   start->size = 0;
@@ -117,14 +118,15 @@ static void take_reference(const finder *f, bench_start *start)
   }
 }
 
-/* Where shooting stopped at a coarse tolerance: the orbit by marching, from there. */
+/* If shooting converged at a coarse tolerance only: the orbit by marching from there. */
 static hc_status march_for(finder *f, double omega, const hc_monitor *monitor, bench_start *start, timeint_result *r,
                            double *floor)
 {
   timeint_result marched;
   if (*floor < 5e-10) return HC_OK;
   hc_status st = exact_orbit(f, omega, TRANSIENT_STEADY_MARCH, marching, monitor, f->state, &marched);
-  if (st != HC_OK) return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK; /* the floor says how good it is */
+  if (st != HC_OK)
+    return st == HC_INTERRUPTED || st == HC_NO_MEMORY ? st : HC_OK; /* the reference keeps the floor of shooting */
   take_reference(f, start);
   marched.multiplier = r->multiplier;
   *r = marched;
@@ -160,7 +162,7 @@ static hc_status largest_stable(finder *f, double omega, const hc_monitor *monit
   return st == HC_OK && best->amplitude < 0 ? HC_NOT_CONVERGED : st;
 }
 
-/* Is every response of a within nearby of b's? */
+/* True if every response of a is within `nearby` of b's. */
 static bool are_near(int n, const periodic_motion *a, const periodic_motion *b, double size)
 {
   for (int i = 0; i < n; ++i)
@@ -168,7 +170,7 @@ static bool are_near(int n, const periodic_motion *a, const periodic_motion *b, 
   return true;
 }
 
-/* The same branch at omega: both sides of it. */
+/* Solves the same branch at omega, by HBM and by the exact law; false if they fail or are too far apart. */
 static bool try_neighbour(finder *f, double omega, const hc_monitor *monitor, bench_start *start)
 {
   hbm_point point;

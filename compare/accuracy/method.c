@@ -19,7 +19,7 @@ compare_setup method_setup(const compare_setup *setup, bench_method method, int 
   const bool marches = method == BENCH_EXACT_MARCHING || method == BENCH_REGULARISED_MARCHING;
   t->law = regularisation > 0 ? TRANSIENT_LAW_REGULARISED : TRANSIENT_LAW_EXACT;
   if (regularisation > 0) t->regularisation = regularisation;
-  t->regularisation_error = 0; /* its error is what is measured */
+  t->regularisation_error = 0; /* its error is to be measured */
   t->tolerance = tolerance;
   t->method = method == BENCH_CLOSED_SHOOTING ? TRANSIENT_METHOD_CLOSED_FORM : TRANSIENT_METHOD_CVODE;
   t->scout = method == BENCH_EXACT_SCOUTED || method == BENCH_REGULARISED_SCOUTED;

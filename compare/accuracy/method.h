@@ -1,5 +1,5 @@
-/* method.h - one method with one choice of settings: what it finds, how far that is from the reference, and what it
- * costs. The tables over H and N (accuracy.c) and the benchmark at one frequency (bench.c) are made of these. */
+/* method.h - settings of one method, and quartiles, for the tables over H and N (accuracy.c) and the benchmark at one
+ * frequency (bench.c). */
 #pragma once
 
 #include "compare/accuracy/bench.h"
@@ -9,9 +9,9 @@
 
 bool method_is_hbm(bench_method m);
 
-/* *setup with the method's settings; samples 0: as they are, regularisation NaN: the exact law. */
+/* A copy of *setup with the method's settings; samples 0: unchanged, regularisation NaN: the exact law. */
 compare_setup method_setup(const compare_setup *setup, bench_method method, int harmonics, int samples,
                            double regularisation, double tolerance);
 
-/* Median and quartiles of v[n], which is sorted; NaN of none. */
+/* Median and quartiles of v[n], which gets sorted; NaN for n = 0. */
 void method_quartiles(int n, double *v, double *low, double *median, double *high);

@@ -11,11 +11,11 @@
 
 enum { LEAST_POINTS = 3, LEVELS = 4 };
 
-static const double asymptotic = 0.1; /* [1] a larger error says nothing of how it will fall */
+static const double asymptotic = 0.1; /* [1] larger errors are not yet in the asymptotic range */
 
 static const order_fit no_fit = {.order = NAN, .spread = NAN, .from = NAN, .to = NAN};
 
-/* The usable points, from the finest, and their logarithms; how many. */
+/* The usable points, from the finest on, and their logarithms; returns their number. */
 static int usable_points(int n, const double *x, const double *e, double floor, double *used, double *log_x,
                          double *log_e)
 {
@@ -68,7 +68,7 @@ static const comparison_row *most_regularised(const comparison *c)
   return top && top->orbit_status == HC_OK ? top : NULL;
 }
 
-/* Amplitude error of the orbit next to `row`'s, onto which `state` moves; NaN: not to be had. */
+/* *e: amplitude error of the regularised orbit next to `row`'s; `state` becomes one on it. NaN: none found. */
 static hc_status error_at(const compare_setup *setup, double regularisation, const comparison_row *row, double *state,
                           const hc_monitor *monitor, double *e)
 {
@@ -79,7 +79,7 @@ static hc_status error_at(const compare_setup *setup, double regularisation, con
   hc_monitor bounded = {work_limit_tick, &p};
   *e = NAN;
   other.transient.regularisation = regularisation;
-  other.transient.regularisation_error = 0; /* the error is what is asked for */
+  other.transient.regularisation_error = 0; /* this error is to be measured */
   hc_status st = timeint_new(other.model, &other.transient, &ti);
   if (st == HC_OK) {
     st = timeint_orbit(ti, row->omega, 1, state, &bounded, &r);
@@ -89,7 +89,7 @@ static hc_status error_at(const compare_setup *setup, double regularisation, con
   return st == HC_NO_MEMORY ? st : p.stopped ? HC_INTERRUPTED : HC_OK;
 }
 
-/* What slowed modes cost CVODE's orbits does not fall with the regularisation, and is larger than its error. */
+/* True if modes are slowed at omega: the error of that does not fall with the regularisation, and exceeds its error. */
 static bool slows_modes(const compare_setup *setup, double omega)
 {
   timeint *ti = NULL;
@@ -116,7 +116,7 @@ hc_status order_of_regularisation(const compare_setup *setup, const comparison *
   }
   free(state);
   if (st == HC_OK) out->fit = order_fit_to(LEVELS, x, e, 100 * setup->transient.tolerance);
-  if (out->fit.points) { /* in the regularisation, from coarse to fine */
+  if (out->fit.points) { /* from 1/rho to rho, coarse to fine */
     out->fit.from = 1 / out->fit.from;
     out->fit.to = 1 / out->fit.to;
   }

@@ -1,4 +1,4 @@
-/* scipy.c - see scipy.h: a child process, its lines read as they come, a limit on its time. */
+/* scipy.c - see scipy.h: a child process with a time limit, whose output is read line by line. */
 #include "compare/accuracy/scipy.h"
 
 #include <errno.h>
@@ -17,18 +17,18 @@ extern char **environ;
 
 enum { NUMBER = 32, LINE = 256, NOT_THERE = 69, MOST_PERIODS = 3000 };
 static const double longest = 6; /* [s] of wall time, Python's start included */
-static const double left = 1e-9; /* [1] of the distance from which it starts */
+static const double left = 1e-9; /* [distance of the start] distance to the orbit at which marching ends */
 
-/* The child and what it has said. */
+/* The child process and its output. */
 typedef struct child {
   pid_t pid;
   int from;        /* its standard output */
-  char line[LINE]; /* as much as there is of the next line */
+  char line[LINE]; /* the part of the next line received so far */
   size_t n;
-  bool ended; /* nothing more comes */
+  bool ended; /* end of its output */
 } child;
 
-/* "python3 -c SCRIPT" and the numbers that the script wants. */
+/* "python3 -c SCRIPT" and the script's numbers. */
 typedef struct arguments {
   int n;
   char **argv;          /* [n + 1] */
@@ -61,7 +61,7 @@ static hc_status fill(arguments *a, const model *m, const bench_start *at, int p
   return HC_OK;
 }
 
-/* Python's messages go to /dev/null; signals are handled as in a new program. */
+/* Starts the child, with Python's messages to /dev/null and default signal handling. */
 static bool start(child *c, arguments *a)
 {
   int ends[2];
@@ -90,7 +90,7 @@ static double wall(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* The next line into text[LINE]. False: no more, or no more time, or the monitor said stop. */
+/* The next line into text[LINE]. False: end of output, out of time, or stopped by the monitor. */
 static bool next_line(child *c, double until, const hc_monitor *monitor, char *text, bool *stopped)
 {
   for (;;) {
@@ -103,7 +103,7 @@ static bool next_line(child *c, double until, const hc_monitor *monitor, char *t
       memmove(c->line, end + 1, c->n);
       return true;
     }
-    if (c->n == LINE) c->n = 0; /* no line of ours */
+    if (c->n == LINE) c->n = 0; /* too long: not a line of the script */
     struct pollfd p = {.fd = c->from, .events = POLLIN};
     if ((*stopped = !hc_monitor_tick(monitor, -1)) || wall() > until) return false;
     if (poll(&p, 1, 50) <= 0) continue;
@@ -129,7 +129,8 @@ static void take(const char *text, scipy_run *runs, int *n)
   if (runs[k].n < SCIPY_MOST_REPEATS) runs[k].seconds[runs[k].n++] = v[1];
 }
 
-/* With this python3: its exit code, -1 when it was stopped, NOT_THERE when there is no such program or no scipy. */
+/* Runs the script with this python3; returns its exit code, -1 if it was killed, NOT_THERE if the program or scipy is
+ * missing. */
 static int run(const char *python, arguments *a, const hc_monitor *monitor, scipy_run *runs, int *n, char text[96],
                bool *stopped)
 {

@@ -20,15 +20,18 @@ enum {
   ROUNDS = 5,
   REFINED = 4
 };
-static const double least_strip = 1e-3, widths = 50;     /* of omega; half widths of the resonances instead, if less */
-static const double proven = 0.05;                       /* of the error: the truth's own */
-static const double most_work = 5e10, little_work = 2e9; /* [unknowns^3] of a search; of more frequencies */
-static const double seen = 0.9;   /* the largest error of the frequencies looked at, of the largest there is */
-static const double still = 1e-9; /* of the largest amplitude: a response that is not looked at */
+static const double least_strip = 1e-3, widths = 50;     /* [omega] least distance from a turning point; [half widths of
+                                                            resonances] upper limit of that */
+static const double proven = 0.05;                       /* [allowed error] largest error estimate of the truth */
+static const double most_work = 5e10, little_work = 2e9; /* [unknowns^3] most work of a search; of additional
+                                                            frequencies */
+static const double seen = 0.9;   /* assumed ratio of the largest error at the frequencies examined to the largest on
+                                     the curve */
+static const double still = 1e-9; /* [largest amplitude] responses with a smaller amplitude are not examined */
 
-/* One solution that settings are compared with. */
+/* One solution of the truth, with which settings are compared. */
 typedef struct target {
-  double omega, error; /* error: of the setting tried last */
+  double omega, error; /* error: that of the last setting tried */
   const char *quantity;
   double *X;               /* [n_coef of the truth] */
   periodic_motion *motion; /* [responses] */
@@ -39,7 +42,7 @@ typedef struct search {
   const hc_monitor *monitor;
   double allowed, work;
   hbm_solver *truth;
-  response_curve curve; /* where solutions are found */
+  response_curve curve; /* response curve from which solutions are taken */
   int n;
   target *targets;
   workspace memory; /* of the targets and X */
@@ -58,7 +61,7 @@ static hbm_settings exact_settings(const search *s, int harmonics)
 
 /* ---- the truth ---- */
 
-/* Where the curve turns, by its interpolant; X[n_coef] is room. */
+/* The turning points of the curve, by its interpolant; X[n_coef]: work. */
 static void find_folds(const hbm_curve *c, double *X, sufficient *out)
 {
   enum { STEPS = 64 };
@@ -82,7 +85,8 @@ static bool near_fold(const sufficient *out, double omega)
   return false;
 }
 
-/* The solution of the truth next to X becomes a target, if it is one that says something. *predicted grows. */
+/* Adds the truth's solution next to X to the targets, unless it is linear or lost. *predicted: raised to its error
+ * estimate. */
 static hc_status add_target(search *s, double omega, const double *X, int n_coef, double *predicted)
 {
   const int length = hbm_n_coefficients(s->truth), n = s->setup->model->n_responses;
@@ -141,7 +145,7 @@ static void add_nonlinear_points(search *s, number_list *out)
     }
 }
 
-/* The frequencies that were asked for; else along the curve, its peak, and as near to its folds as it is looked at. */
+/* The given frequencies; else some along the curve, its peak, the ends, and `strip` beside its folds. */
 static hc_status choose_frequencies(search *s, number_list *out)
 {
   const hbm_curve *c = &s->curve.curve;
@@ -169,7 +173,7 @@ static hc_status choose_frequencies(search *s, number_list *out)
   return HC_OK;
 }
 
-/* The truth: twice the harmonics until its own error is small enough, or no more are affordable. */
+/* The truth: doubles the harmonics until its error estimate is small enough, or the work too large. */
 static hc_status find_truth(search *s, const number_list *omega)
 {
   hc_status st = HC_OK;
@@ -193,7 +197,7 @@ static hc_status find_truth(search *s, const number_list *omega)
 
 /* ---- one setting ---- */
 
-/* How far the solution X of the solver is from the target. */
+/* Error of the solution X of hbm relative to the target. */
 static double distance(search *s, hbm_solver *hbm, const double *X, target *t)
 {
   double worst = 0, largest = 0;
@@ -214,8 +218,8 @@ static double distance(search *s, hbm_solver *hbm, const double *X, target *t)
   return worst;
 }
 
-/* *error: the largest, of which the targets keep theirs; or INFINITY. No more are tried after one is above `enough`,
- * and that one is first next time. HC_TOO_MANY_POINTS: too much work. */
+/* *error: the largest error over the targets, which store theirs; INFINITY: a solution is missing. Stops at the first
+ * above `enough`, which is tried first next time. HC_TOO_MANY_POINTS: too much work. */
 static hc_status try_setting(search *s, const hbm_settings *how, double enough, double *error, const target **where)
 {
   hbm_solver *hbm;
@@ -250,7 +254,8 @@ static hc_status try_setting(search *s, const hbm_settings *how, double enough, 
   return st;
 }
 
-/* Does the curve of such settings go where an error is within `allowed`? Few harmonics may have another. */
+/* *yes: the response curve with these settings contains solutions within `allowed`; with few harmonics it may be
+ * another curve. */
 static hc_status follows(search *s, const hbm_settings *how, bool *yes)
 {
   enum { PROBES = 6 };
@@ -288,7 +293,7 @@ static int ascending_targets(const void *a, const void *b)
   return (d > 0) - (d < 0);
 }
 
-/* New targets halfway between all that there are, if that is not too much work; else between the worst ones and their
+/* Adds targets halfway between all present ones, if that is affordable; else between the worst ones and their
  * neighbours. */
 static hc_status refine(search *s, bool everywhere)
 {
@@ -319,14 +324,15 @@ static hc_status refine(search *s, bool everywhere)
   return st;
 }
 
-/* None of the loads' may be missing. */
+/* All harmonics of the loads are needed. */
 static int fewest_harmonics(const search *s)
 {
   const int highest = model_highest_load(s->setup->model);
   return highest > 1 ? highest : 1;
 }
 
-/* The least harmonics from which on `allowed` is kept, into row, from row->harmonics on; how: the rest. */
+/* The fewest harmonics, from row->harmonics on, such that these and more keep `allowed`, into row; how: other
+ * settings. */
 static hc_status least_harmonics(search *s, hbm_settings how, int most, sufficient_row *row)
 {
   const int from = row->harmonics > 0 ? row->harmonics : fewest_harmonics(s);
@@ -357,7 +363,7 @@ static hc_status exact_row(search *s, bool keep_mean, int most, sufficient_row *
   hc_status st = HC_OK;
   how.keep_mean = keep_mean;
   *row = (sufficient_row){.keep_mean = keep_mean, .error = NAN, .next_error = NAN, .omega = NAN};
-  /* Most solutions are not known to `allowed`: nothing can be said. */
+  /* Most solutions have no reference that is accurate enough: no result. */
   if (s->out->lost > s->n) return row->most_harmonics = s->out->harmonics, HC_OK;
   for (int round = 0; round <= ROUNDS && st == HC_OK;) {
     st = least_harmonics(s, how, most, row);
@@ -367,7 +373,7 @@ static hc_status exact_row(search *s, bool keep_mean, int most, sufficient_row *
     st = follows(s, &how, &yes);
     if (st == HC_OK && !yes) row->by_chance = row->harmonics++;
     if (st != HC_OK || !yes) continue;
-    ++round; /* what is between the frequencies may be worse */
+    ++round; /* errors between the frequencies may be larger */
     st = error_of(s, &how, row);
     const int before = s->n;
     if (st == HC_OK && round <= ROUNDS && s->setup->compare.omega.n == 0) st = refine(s, round == 1);
@@ -388,7 +394,8 @@ static double cost(const search *s, int harmonics, int samples)
   return s->setup->model->n_contacts * (10 * log2(samples) + 20) * samples + 2 * n * n * n / 3;
 }
 
-/* The cheapest pair that keeps `allowed` from here on, into row; how: the rest. */
+/* The cheapest pair of harmonics and samples such that it and larger ones keep `allowed`, into row; how: other
+ * settings. */
 static hc_status cheapest_pair(search *s, int least, hbm_settings how, sufficient_row *row)
 {
   const double allowed = seen * s->allowed;
@@ -408,7 +415,7 @@ static hc_status cheapest_pair(search *s, int least, hbm_settings how, sufficien
       if ((st = try_setting(s, &how, allowed, &error, &where)) != HC_OK) break;
       if (!(error <= allowed) && first) by_chance = first;
       first = !(error <= allowed) ? 0 : first ? first : n;
-      const int beyond = first < MANY_SAMPLES ? 4 : 2; /* of many, errors fall evenly */
+      const int beyond = first < MANY_SAMPLES ? 4 : 2; /* with many samples errors fall regularly */
       if (first == 0 || (n < beyond * first && n < MOST_SAMPLES)) continue;
       how.samples = first;
       if ((st = follows(s, &how, &yes)) != HC_OK || !yes) break;
@@ -452,7 +459,7 @@ static hc_status sampled_row(search *s, const sufficient_row *exact, sufficient_
   return st;
 }
 
-/* [1] of omega: so near to a turning point nothing is compared. */
+/* [omega] Distance from turning points within which nothing is compared. */
 static double strip_of(const compare_setup *setup, double error)
 {
   model_scales scales;

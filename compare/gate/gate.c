@@ -1,4 +1,4 @@
-/* gate.c - see gate.h. What is compared with what is decided in judge_solution(), and nowhere else. */
+/* gate.c - see gate.h. The reference of each solution is decided in judge_solution(), and nowhere else. */
 #include "compare/gate/gate.h"
 
 #include <stdarg.h>
@@ -33,7 +33,7 @@ const char *gate_result_name(gate_result r)
   return names[r];
 }
 
-static bool within(double found, double allowed) { return found <= allowed * (1 + GATE_SLACK); } /* NaN is not */
+static bool within(double found, double allowed) { return found <= allowed * (1 + GATE_SLACK); } /* false for NaN */
 
 /* ---- collecting ---- */
 
@@ -57,7 +57,7 @@ static void add(judge *j, const gate_check *check)
   g->not_applicable += check->result == GATE_NOT_APPLICABLE;
 }
 
-/* A check of row, or of the curve for NULL, that has passed so far. */
+/* A check of `row` (NULL: of the curve), initially GATE_PASS. */
 static gate_check check_of(const comparison_row *row, const char *quantity, const char *against)
 {
   gate_check c = {.branch = -1, .response = -1, .quantity = quantity, .against = against, .result = GATE_PASS};
@@ -78,7 +78,7 @@ __attribute__((format(printf, 3, 4))) static void not_passed(gate_check *c, gate
 
 /* ---- one HBM solution ---- */
 
-/* A check for each quantity of the discrepancy from `motion`, which is the transient or the orbit. */
+/* Adds a check for each quantity of the discrepancy from `motion`, the transient or the orbit. */
 static void check_errors(judge *j, const comparison_row *r, const discrepancy *errors, const timeint_result *motion,
                          const char *against)
 {
@@ -211,7 +211,7 @@ hc_status gate_judge(const char *name, const compare_setup *setup, const compari
   return j.st;
 }
 
-/* The comparison as a whole failed. */
+/* The check of a comparison that failed as a whole. */
 static hc_status judge_failure(hc_status failure, gate_case *out)
 {
   judge j = {.out = out, .st = HC_OK};
@@ -285,10 +285,10 @@ bool gate_is_worst(const gate_case *g, int i)
     const bool idle = c->result == GATE_NOT_APPLICABLE, other_idle = other->result == GATE_NOT_APPLICABLE;
     if (idle && !other_idle) return false;
     if (other_idle && !idle) continue;
-    /* as shown: what is below GATE_SLACK counts as 0, so that noise does not rank */
+    /* gate_shown: values below GATE_SLACK count as 0, so that noise does not rank */
     double mine = gate_shown(c) / c->allowed, theirs = gate_shown(other) / other->allowed;
     if (theirs > mine || (!(mine > theirs) && k < i))
-      return false; /* of equal ones, and of those without numbers, the first is the worst */
+      return false; /* among equal ones, and those without numbers, the first is the worst */
   }
   return true;
 }
@@ -307,7 +307,7 @@ typedef struct junit {
   hc_status st; /* HC_NO_MEMORY from then on */
 } junit;
 
-/* In an attribute or between tags; what XML 1.0 cannot hold utf8_clean makes spaces. */
+/* Escapes text for an attribute or between tags; utf8_clean replaces what XML 1.0 does not allow by spaces. */
 static void put_text(junit *x, const char *raw)
 {
   char *text = x->st == HC_OK ? utf8_clean(raw, true) : NULL;

@@ -8,9 +8,9 @@
  *             extrapolation leaves x''''(h_p + h)^2 h^2/24, h_p being the last segment's length, interpolation
  *             x'''' h^4/384. The next step is chosen to keep e at TOLERANCE.
  *
- * `auto` steps naturally until the curve gets steep or Newton fails, then by arc-length, and returns when the curve
- * is flat again. It goes on from a point only forward along its own tangent, so it cannot retrace its path.
- * `fixed_step` has none of this: path_fixed_step. */
+ * `auto` steps naturally until the curve gets steep or Newton fails, then by arc-length, and returns when the curve is
+ * flat again. From a point it continues only forward along the curve's tangent, so it cannot retrace its path.
+ * `fixed_step` does none of this: path_fixed_step. */
 #include "hbm/curve/continuation.h"
 
 #include <stdlib.h>
@@ -25,38 +25,43 @@
 #include "numerics/base/workspace.h"
 #include "numerics/norm.h"
 
-/* [1] of interpolation, in the metric: of the contact that it is worst for. Sampled forces have turning points of their
- * own, between samples, which longer steps pass over. */
+/* [1] tolerated interpolation error in the metric, that is of the contact with the largest one. Less for sampled
+ * forces: they have spurious turning points between samples, which longer steps would pass over. */
 static const double TOLERANCE = 2e-4, TOLERANCE_SAMPLED = 1e-4;
 static const double STEP_FIRST = 0.02, STEP_MAX = 0.5, STEP_MIN = 1e-11;
-static const double STEP_CORNER = 1e-4; /* where steps are this short the curve has a corner: a kink is accepted */
-static const double STEP_ROUND = 1e-9;  /* where steps fail below this, a step round the corner is tried */
+static const double STEP_CORNER = 1e-4; /* [1] step length at or below which the curve is taken to have a corner, and a
+                                           kink is accepted */
+static const double STEP_ROUND = 1e-9;  /* [1] step length below which, after a failure, a step round the corner is
+                                           tried */
 static const double LOOP_RANGE = 4;     /* factor beyond the start of the sweep up to which a loop is followed */
-static const double LONGER = 4;        /* factor from one length of a step round a corner or past an edge to the next */
-static const double LESS = 0.1;        /* of the last step over a join that failed: then one is tried again */
-static const double LONGEST_OVER = 16; /* times the step that failed: over a join */
-static const double LEAST_PART = 1e-6; /* of a step over a join, by which the vibration is changed at first */
-enum { CLOSER = 20 };                  /* halvings of that change: parabolas of both sides may differ by thousands */
-static const double LINEAR_NEAR = 1e-2;      /* the linear response counts as the predicted solution within this part */
-static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end, above which they are resumed */
+static const double LONGER = 4; /* factor between successive trial lengths of a step round a corner or over a join */
+static const double LESS = 0.1; /* a failed step over a join is tried again when steps are shorter by this factor */
+static const double LONGEST_OVER = 16; /* longest step over a join, in units of the step that failed */
+static const double LEAST_PART = 1e-6; /* first relative change of the vibration in a step over a join, in units of that
+                                          step */
+enum { CLOSER = 20 }; /* halvings of that change: the curvatures of the two sides may differ by a factor of thousands */
+static const double LINEAR_NEAR = 1e-2;      /* [1] largest distance from the prediction at which the linear response is
+                                                taken as solution */
+static const double STEEP = 0.2, FLAT = 0.6; /* flatness below which natural steps end; above which they resume */
 
-/* The step's controller. A trial counts as smooth where the corrector moved the prediction by no more than a quarter of
- * the step, the tangent turned by less than 45 degrees (cos > 0.7), and the error is at most four tolerances: the step
- * was then 4^(1/4) = 1.4 times too long, as much as the estimate may be off. The next one is chosen for the tolerance,
- * with 0.9 for safety, within the factors of a solver of differential equations; many iterations of Newton ask for a
- * shorter one. */
+/* The step's controller. A trial is accepted as smooth if the corrector moved the prediction by at most MOST_MOVED of
+ * the step, the tangent turned by less than 45 degrees (LEAST_COSINE), and the error is at most MOST_ERROR tolerances:
+ * the step was then at most 4^(1/4) = 1.4 times too long, which is within the uncertainty of the estimate. The next
+ * step is chosen for the tolerance, times SAFETY, within growth factors as in solvers of differential equations; after
+ * MANY_ITERATIONS of Newton it is at most SHRINK_SLOW times as long. */
 static const double MOST_MOVED = 0.25, LEAST_COSINE = 0.7, MOST_ERROR = 4, SAFETY = 0.9;
 static const double SHRINK_ACCEPTED = 0.4, GROW_ACCEPTED = 2, SHRINK_REFUSED = 0.2, GROW_REFUSED = 0.5;
 static const double SHRINK_FAILED = 0.4, SHRINK_SLOW = 0.7;
 enum { MANY_ITERATIONS = 8 };
 
-enum { FEW_HARMONICS = 6 }; /* from whose solution that of twice as many and more is looked for */
+enum { FEW_HARMONICS = 6 }; /* harmonics of the ramp whose solution is the guess for twice as many or more */
 
-/* A sweep is four units of omega long in the curve's metric, so that STEP_MAX makes eight steps at least; one of a
- * single omega has a unit all the same. Errors beside a resonance narrower than a millionth of omega are measured as if
- * it had that width. */
+/* SWEEP_UNITS: length of a sweep in the curve's metric; with STEP_MAX it takes at least eight steps. LEAST_UNIT: least
+ * unit of omega, relative to omega, for a sweep of one frequency. NARROWEST: least resonance width, relative to omega,
+ * by which errors in omega are measured. */
 static const double SWEEP_UNITS = 4, LEAST_UNIT = 1e-3, NARROWEST = 1e-6;
-static const double WAY_BACK = -0.99; /* cos of the angle to the last tangent, 172 degrees: it retraces the curve */
+static const double WAY_BACK = -0.99; /* cosine to the last tangent (172 degrees) below which a step retraces the
+                                         curve */
 enum { MAX_POINTS = 200000, FLAT_STEPS = 6 };
 
 static bool steps_are_fixed(const hbm_solver *s) { return s->how.continuation == HBM_CONTINUATION_FIXED_STEP; }
@@ -77,7 +82,7 @@ static void switch_to_arclength(path *p)
 static hc_status correct_natural(path *p)
 {
   p->d_omega = 1;
-  p->det_sign = 1; /* of the linear equations: det Z_h = (K - M h^2 omega^2)^2 + (C h omega)^2 */
+  p->det_sign = 1; /* for the linear response: det Z_h = (K - M h^2 omega^2)^2 + (C h omega)^2 > 0 */
   if (p->s->how.skip_linear && hbm_linear_point(p->s, p->omega, LINEAR_NEAR, p->X, p->dX, &p->point)) return HC_OK;
   hc_status st = hbm_solve_fixed(p->s, p->omega, p->X, &p->point);
   if (st == HC_OK) st = hbm_tangent_fixed(p->s, p->X, p->dX);
@@ -98,7 +103,8 @@ static double cosine(const path *p, const double *aX, double a_omega, const doub
          sqrt(path_inner(p, aX, a_omega, aX, a_omega) * path_inner(p, bX, b_omega, bX, b_omega));
 }
 
-/* Turn the trial's tangent forward. Returns cos of the angle to the last one; *forward: the step goes along both. */
+/* Turn the trial's tangent forward. Returns its cosine to the last tangent; *forward: the step has a positive component
+ * along both. */
 static double orient(path *p, bool *forward)
 {
   const hbm_curve *c = p->curve;
@@ -123,7 +129,8 @@ static void trace_trial(const path *p, const char *objection)
              p->point.iterations, objection ? "refused: " : "point", objection ? objection : "");
 }
 
-/* Accept the corrected trial? Sets the next step, or the shorter one to try again with. ratio: of path_predict. */
+/* True if the corrected trial is accepted. Sets p->step to the next length, or to a shorter one for another trial.
+ * ratio: as returned by path_predict. */
 static bool check_trial(path *p, double ratio)
 {
   bool forward;
@@ -150,8 +157,8 @@ static bool check_trial(path *p, double ratio)
   return accepted;
 }
 
-/* Predict and correct one step. HC_OK and accepted, or HC_OK and not, or why there is no trial. p->step becomes the
- * next one. */
+/* Predicts and corrects one step. HC_OK with *accepted, or the status with which there is no trial. p->step becomes the
+ * next step length. */
 static hc_status trial_step(path *p, bool *accepted)
 {
   double ratio = path_predict(p, p->step);
@@ -184,8 +191,8 @@ static void predict_along_own_tangent(path *p, double h)
 }
 
 /* A step of length h round a corner too sharp for a plane across the old tangent, as where a nearly rigid contact is
- * made or lost: the equations at h beyond the corner tell the direction there (their kernel, turned by the curve's
- * orientation), and the prediction is made along that. */
+ * made or lost. The direction beyond the corner is the kernel of the equations at a point h along the old tangent,
+ * turned by the curve's orientation; the prediction is made along it. */
 static hc_status step_round_corner(path *p, double h, bool *accepted)
 {
   const hbm_curve *c = p->curve;
@@ -212,7 +219,7 @@ static hc_status step_round_corner(path *p, double h, bool *accepted)
   return HC_OK;
 }
 
-/* Steps of growing length, up to what a step may be where there is a kink at all. */
+/* Steps round a corner of growing length, up to STEP_CORNER. */
 static bool round_corner(path *p)
 {
   bool accepted = false;
@@ -224,14 +231,15 @@ static bool round_corner(path *p)
 
 /* ---- joins of rest and slip ---------------------------------------------------------------------------- */
 
-/* Where the places of rest of a slider have shrunk to one (planar_rest.h) rest and slip meet. The curve of rest comes
- * there smoothly; that of slip leaves it along the discs' lens, by s, with omega a line and a parabola in s: dX/domega
- * grows without bound towards the join, and omega may turn back within a little. Corners of the same kind are where
- * other discs come to hold a slider. The far side is looked for in planes across the last tangent, before and behind
- * the last point, then across the direction found there, from starts at which other contacts rest, or by other discs.
- * The orientation tells the way that the curve goes on from what it came by. */
+/* A join is the point of a curve where the set of possible rest positions of a slider shrinks to one (planar_rest.h).
+ * On the side of rest the curve is smooth. On the side of slip it moves along the lens of two discs by a parameter s,
+ * with omega linear plus quadratic in s: dX/domega is unbounded towards the join, and omega may turn back close to it.
+ * Corners of the same kind lie where other discs come to hold a slider. The far side is searched for in planes across
+ * the last tangent, before and behind the last point, then across the direction found there, from starts at which other
+ * contacts rest, or are held by other discs. The orientation distinguishes the continuation from the way back. */
 
-/* Which contacts rest all period in the trial, held by how many discs, as a number; 0: the forces are not found. */
+/* Hash of the trial's contact pattern: which contacts rest all period, by how many discs, and whether at w = 0. 0: the
+ * forces could not be evaluated. */
 static uint64_t resting(path *p)
 {
   const contact_forces *f = p->s->sys.contacts;
@@ -251,15 +259,16 @@ static bool rests_like(path *p, uint64_t before)
   return now == 0 || now == before;
 }
 
-/* The trial: the prediction, its vibration multiplied. */
+/* Sets the trial to the prediction with its harmonics above the mean multiplied by factor. */
 static void vibrate_by(path *p, double factor)
 {
   for (int i = p->s->sys.dim; i < p->curve->n_coef; ++i) p->X[i] = factor * p->X_predicted[i];
 }
 
-/* The trial: the prediction with its vibration made larger or smaller by some h at most, so that other contacts rest
- * than did, and of these starts that with the least residual: next to the join the force grows like a root, and from a
- * start farther from it than the solution Newton comes to the wrong side. False if there is no such start. */
+/* Sets the trial to the prediction with its vibration changed, relatively by at most LONGEST_OVER h, so that its
+ * contact pattern differs from `before`; among such starts to that of least residual: next to the join the force varies
+ * like a square root, and from a start farther from the join than the solution Newton ends on the wrong side. False if
+ * there is none. */
 static bool start_beyond(path *p, uint64_t before, double h, double sign)
 {
   vibrate_by(p, 1);
@@ -289,10 +298,10 @@ static bool start_beyond(path *p, uint64_t before, double h, double sign)
   return least < INFINITY;
 }
 
-/* The point of the curve in the plane at the length h along the last tangent, from a start with the vibration larger
- * or smaller by sign, at which other contacts rest than `before`. Where it is far off, or not found, that in the plane
- * across the direction that the equations have there: the last tangent does not lead to it where the slider begins to
- * drift, or at a sharp corner. Accepted if the curve goes on from there. */
+/* Solves in the plane at the length h along the last tangent, from start_beyond with the vibration enlarged or reduced
+ * by sign. If that is far off or fails, solves again in the plane across the direction of the curve there (trial's
+ * tangent or kernel): the last tangent does not lead beyond the join where the slider begins to drift, or at a sharp
+ * corner. True if the contact pattern differs from `before` and the curve continues forward. */
 static bool step_over_join(path *p, uint64_t before, double h, double sign)
 {
   const hbm_curve *c = p->curve;
@@ -315,7 +324,8 @@ static bool step_over_join(path *p, uint64_t before, double h, double sign)
   return false;
 }
 
-/* Over a join that lies within the step that failed, by the shortest one that leads to the other side. */
+/* Passes a join that lies within the failed step, by the shortest step that leads to the other side. False if none
+ * does. */
 static bool pass_join(path *p)
 {
   hbm_curve *c = p->curve;
@@ -339,7 +349,7 @@ static bool pass_join(path *p)
   return true;
 }
 
-/* The trial becomes a point of the curve; the next step is natural or not by how flat the curve is there. */
+/* Appends the trial to the curve, and selects natural or arc-length steps by the flatness there. */
 static hc_status append_trial(path *p)
 {
   hbm_curve *c = p->curve;
@@ -362,8 +372,9 @@ static hc_status append_trial(path *p)
   return HC_OK;
 }
 
-/* End the curve exactly on a limit of the sweep that its last step crossed; its last point is beyond, or the curve has
- * turned back between the last two: then it stays as it is where there is no solution on the limit. */
+/* End the curve exactly on a limit of the sweep that its last step crossed. beyond: the last point is outside and is
+ * replaced; else the curve turned back between the last two points, and stays unchanged if no solution is found on the
+ * limit. */
 static hc_status end_on(path *p, double limit, bool beyond)
 {
   hbm_curve *c = p->curve;
@@ -377,7 +388,7 @@ static hc_status end_on(path *p, double limit, bool beyond)
   return st;
 }
 
-/* Does the branch turn back past the end of the sweep between its last two points, both of which are inside? */
+/* True if the interpolant between the last two points, both inside the sweep, reaches its end and turns back. */
 static bool turned_past_end(const path *p)
 {
   const hbm_curve *c = p->curve;
@@ -387,16 +398,16 @@ static bool turned_past_end(const path *p)
   return p->direction * (hbm_segment_farthest(&seg, p->direction) - p->to) >= 0;
 }
 
-/* Is the sweep over? Yes past its end; also where the branch turned back past its start and did not come back within
- * a factor LOOP_RANGE: the curve is then cut where it left the sweep. In between (a loop of a superharmonic
- * resonance across the start) it is followed outside the sweep. */
+/* *done: the sweep is over, past its end, or because the branch turned back past its start by a factor LOOP_RANGE: the
+ * curve is then cut where it left the sweep. Until then (a loop of a superharmonic resonance across the start) it is
+ * followed outside the sweep. */
 static hc_status end_at_limit(path *p, bool *done)
 {
   hbm_curve *c = p->curve;
   double omega = c->points[c->n - 1].omega;
   *done = p->direction * (omega - p->to) >= 0;
   if (*done) return end_on(p, p->to, true);
-  if (turned_past_end(p)) { /* unless the interpolant alone does */
+  if (turned_past_end(p)) { /* an error of end_on: only the interpolant does, not the curve */
     *done = end_on(p, p->to, false) == HC_OK;
     if (*done) return HC_OK;
   }
@@ -413,10 +424,10 @@ static hc_status end_at_limit(path *p, bool *done)
   return end_on(p, behind, true);
 }
 
-/* *known: the curve goes on along what is known, its own points, where it is closed, or another part. */
+/* *known: the last point lies on the curve itself, which is then closed, or on a known part. */
 static hc_status is_known_from_here(path *p, bool *known)
 {
-  enum { NEIGHBOURS = 4 }; /* segments before the last point that it may be next to by a turn */
+  enum { NEIGHBOURS = 4 }; /* last segments, not searched: after a turn the last point lies close to them */
   hbm_curve *c = p->curve;
   const hbm_curve *others = p->course->known;
   const int last = c->n - 1;
@@ -427,7 +438,7 @@ static hc_status is_known_from_here(path *p, bool *known)
   c->closed = st == HC_OK && segment >= 0;
   if (st == HC_OK && others) st = hbm_curve_passes(p->s, others, others->n, c, last, false, &c->met_segment);
   c->met = st == HC_OK && others && c->met_segment >= 0;
-  /* through a branch point to the mirror image of what it came along */
+  /* the last segment crosses the symmetric branch: beyond is the mirror image of this branch */
   c->met |= others && hbm_on_either_side(p->s, c->n_coef, hbm_curve_X(c, last - 1), hbm_curve_X(c, last));
   *known = c->closed || c->met;
   return st;
@@ -477,7 +488,7 @@ static hc_status first_point(path *p, const hc_monitor *monitor)
   return hbm_curve_append(c, c->n_coef, p->X, p->dX, &p->point);
 }
 
-/* Part of the sweep that is done, by the last point. */
+/* Fraction of the sweep that is done, by omega of the last point, in 0..1. */
 static double part_done(const path *p)
 {
   double part = (p->curve->points[p->curve->n - 1].omega - p->from) / (p->to - p->from);
@@ -502,9 +513,9 @@ static hc_status accept_trial(path *p, bool *done)
   return st;
 }
 
-/* After a step that was not accepted, step_status being HC_OK or why there was no trial: arc length instead of natural
- * steps, or a step over a join or round a corner, each once a point and distance. HC_OK: try again with a shorter
- * step. */
+/* After a step that was not accepted; step_status: HC_OK, or why there was no trial. Switches from natural to
+ * arc-length steps, or tries a step over a join or round a corner, once for each point (over a join again for much
+ * shorter steps). HC_OK: continue, with a shorter step if no point was added. */
 static hc_status recover(path *p, hc_status step_status, bool *done)
 {
   hbm_curve *c = p->curve;
@@ -540,8 +551,8 @@ hc_status path_settle(hbm_solver *s, hbm_curve *c, int left)
   return st;
 }
 
-/* After a step: the last point may yet be replaced by one on a limit of the sweep, and so may the first one outside;
- * where harmonics or samples adapt, any point. */
+/* Settles the points that can no longer change: not the last point nor those outside the sweep, which a point on a
+ * limit may replace; none where harmonics or samples adapt. */
 static hc_status settle_path(path *p)
 {
   const int n = p->curve->n, left = p->first_outside ? n - p->first_outside : 1;
@@ -552,13 +563,12 @@ static hc_status settle_path(path *p)
   return st;
 }
 
-/* HC_UNBOUNDED where the curve goes to infinity at the frequency of its last point. Where E is 1e6 W (growth.h), a
- * change of omega by 1e-7 of it changes the amplitude by as much as there is: only a curve as steep as that is
- * examined. */
+/* HC_UNBOUNDED where the curve goes to infinity at the frequency of its last point. Only steep curves are examined:
+ * where E is 1e6 W (growth.h), a relative change of omega by 1e-7 changes the amplitude by 100 %. */
 static hc_status end_without_bound(const path *p)
 {
   const hbm_point *last = &p->curve->points[p->curve->n - 1];
-  const double steep = 1e-5; /* [1] change of ln omega by that of the motion */
+  const double steep = 1e-5; /* [1] d ln omega/d(motion), the largest that is examined */
   bool grows;
   if (p->s->ramp || !(path_flatness(p) * p->curve->omega_scale <= steep * last->omega)) return HC_OK;
   const hc_status st = hbm_growth(p->s, last->omega, hbm_curve_X(p->curve, p->curve->n - 1), &grows);
@@ -589,7 +599,7 @@ static hc_status follow(path *p, const hc_monitor *monitor)
   return st;
 }
 
-/* One way through the sweep with one number of samples. *more_samples: it should be gone again with more of them. */
+/* Traces the course once, with a fixed number of samples. *more_samples: it should be traced again with more. */
 static hc_status trace_once(path *p, const hc_monitor *monitor, bool *more_samples)
 {
   hbm_curve *c = p->curve;
@@ -679,29 +689,31 @@ void hbm_scale_steps(hbm_solver *s, double scale) { s->step_scale = scale > 0 &&
  *     exact forces: quick ramps (ramp.h), of the damping, then of the force
  *     Newton from the guess of hbm_solver_take_guess
  *     slow ramps, of the damping, then of the force: followed like a response curve, round folds and corners
- * The end of a ramp is solved again with the model's own equations. The guess may take long: asked before the ramps it
- * was slower in 68 of 500 structures of `stress`, 89 s for all where they now take 22, and quicker in three.
- * Steps of quick ramps are QUICK_STEPS times as long and not solved to rounding: six of seven slow first solutions are
- * found 1.3 to 10 times as fast. At a tolerance of 1e-5 half of the ramps fail.
- * Slow ramps of 1173 scenes of `stress`: median 43 points, 99th percentile 246, maximum 806 (1200 steps). */
+ * The end of a ramp is solved again with the model's own equations. The guess may take long: before the ramps it was
+ * slower in 68 of 500 structures of `stress` (89 s for all instead of 22) and faster in three. Steps of quick ramps are
+ * QUICK_STEPS times as long and solved to QUICK_TOLERANCE: six of seven slow first solutions are found 1.3 to 10 times
+ * as fast. At a tolerance of 1e-5 half of the ramps fail. Slow ramps of 1173 scenes of `stress`: median 43 points, 99th
+ * percentile 246, maximum 806 (1200 steps). */
 static const double QUICK_STEPS = 2, QUICK_TOLERANCE = 1e-7;
 enum { MOST_QUICK_STEPS = 1000, MOST_SLOW_STEPS = 1500, HALVINGS = 2 };
 
-/* The monitor of a ramp: counts steps, which know what part is done; iterations of large systems do not. */
+/* The monitor of a ramp: counts its steps, whose ticks carry the part done; ticks inside solves of large systems carry
+ * -1. */
 typedef struct ramp_watch {
   const hc_monitor *outer;
-  int left;     /* steps */
-  bool stopped; /* on request */
+  int left;     /* number of steps left */
+  bool stopped; /* true if the outer monitor asked to stop */
 } ramp_watch;
 
 static bool watch_step(void *self, double done)
 {
   ramp_watch *w = self;
-  w->stopped = !hc_monitor_tick(w->outer, -1); /* `done` is of the ramp, not of the work */
+  w->stopped = !hc_monitor_tick(w->outer, -1); /* `done` is the ramp's, not that of the caller's work */
   return !w->stopped && (done < 0 || w->left-- > 0);
 }
 
-/* The curve along the ramp. Equations stay as fine as they are, and nothing that is true of omega alone is used. */
+/* The curve along the ramp. Harmonics and samples stay fixed, and the linear closed form, valid only for a sweep of
+ * omega, is off. */
 static hc_status trace_ramp(hbm_solver *s, const hbm_ramp *ramp, const hc_monitor *monitor, hbm_curve *curve)
 {
   const hbm_settings how = s->how;
@@ -747,8 +759,8 @@ typedef hc_status first_solution(hbm_solver *s, double omega, const hc_monitor *
 
 static bool may_go_on(hc_status st) { return st != HC_OK && st != HC_INTERRUPTED && st != HC_NO_MEMORY; }
 
-/* From a solution X with `fewer` harmonics, or as many. Where Newton does not get there, by way of the number in the
- * middle, which is halved `halvings` times at most. */
+/* Solves from X, a solution with `fewer` harmonics or as many. If Newton fails, by way of the number of harmonics in
+ * the middle, recursively at most `halvings` times. */
 static hc_status with_more_harmonics(hbm_solver *s, int fewer, int halvings, double omega, double *X, hbm_point *point)
 {
   const int middle = (fewer + s->sys.n_harm) / 2;
@@ -765,14 +777,14 @@ static hc_status with_more_harmonics(hbm_solver *s, int fewer, int halvings, dou
   return st == HC_OK ? with_more_harmonics(s, middle, halvings - 1, omega, X, point) : st;
 }
 
-/* From the solution by other settings, with as many harmonics or fewer, that `find` finds. */
+/* Solves from the solution that `find` finds with the settings `how`, of as many harmonics or fewer. */
 static hc_status from_other(hbm_solver *s, const hbm_settings *how, first_solution *find, double omega,
                             const hc_monitor *monitor, double *X, hbm_point *point)
 {
   hbm_solver *other;
   hc_status st = hbm_solver_new(s->model, how, &other);
   if (st != HC_OK) return st;
-  other->guess = (hbm_guess){.ask = s->guess.ask, .self = s->guess.self}; /* s frees it */
+  other->guess = (hbm_guess){.ask = s->guess.ask, .self = s->guess.self}; /* s owns it */
   st = find(other, omega, monitor, X, point);
   const int iterations = point->iterations;
   if (st == HC_OK) st = with_more_harmonics(s, other->sys.n_harm, HALVINGS, omega, X, point);
@@ -782,8 +794,8 @@ static hc_status from_other(hbm_solver *s, const hbm_settings *how, first_soluti
   return st;
 }
 
-/* Sampled equations: a path along those with exact forces has no false turning points, and costs as little as the
- * samples are many. */
+/* For sampled forces: a path with exact forces has no spurious turning points, and costs less than one with many
+ * samples. */
 static hc_status from_exact_forces(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   hbm_settings how = s->how;
@@ -806,7 +818,8 @@ static hc_status by_quick_ramp(hbm_solver *s, double omega, const hc_monitor *mo
   return may_go_on(st) ? follow_ramp(s, HBM_RAMP_DAMPING, true, omega, monitor, X, point) : st;
 }
 
-/* Along the damping; a ramp of many harmonics takes ten times as long and more. */
+/* A quick ramp of the damping; with many harmonics first one with FEW_HARMONICS, which takes a tenth of the time or
+ * less. */
 static hc_status by_quick_ramps(hbm_solver *s, double omega, const hc_monitor *monitor, double *X, hbm_point *point)
 {
   hbm_settings how = s->how;
@@ -869,7 +882,7 @@ hc_status hbm_first_solution(hbm_solver *s, double omega, const hc_monitor *moni
 
 hc_status hbm_solve(hbm_solver *s, double omega, double *X, hbm_point *point)
 {
-  if (!is_zero(s->sys.n_coef, X)) return hbm_solve_fixed(s, omega, X, point); /* zeros are no guess */
+  if (!is_zero(s->sys.n_coef, X)) return hbm_solve_fixed(s, omega, X, point); /* X = 0: no guess is given */
   hc_status st = hbm_first_solution(s, omega, NULL, X, point);
   if (st != HC_OK) memset(X, 0, (size_t)s->sys.n_coef * sizeof(double));
   return st;

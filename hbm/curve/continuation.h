@@ -10,9 +10,9 @@
  * steps that are fixed where harmonics or samples are to adapt. */
 hc_status hbm_trace(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve);
 
-/* The same with more parts (response_curve.h): what else begins at the sweep's other end or where a symmetric part's
- * symmetry breaks; of continuation `auto` alone. curve->end and ends_at are the first part's, which counts as whole
- * where another part comes from the other side to the place at which it stopped. */
+/* As hbm_trace, then with continuation `auto` also the parts (response_curve.h) that begin at the sweep's other end or
+ * where a symmetric part's symmetry breaks. curve->end and ends_at are the first part's; end becomes HC_OK if another
+ * part, from the other side, reaches the place at which the first one stopped. */
 hc_status hbm_trace_all(hbm_solver *s, double from, double to, const hc_monitor *monitor, hbm_curve *curve);
 
 /* Continuation steps `scale` times as long as they would be, 0 < scale <= 1 (else 1): solutions must not depend on

@@ -7,8 +7,9 @@
 #include "hbm/solver/hbm_solver_impl.h"
 #include "numerics/base/constants.h"
 
-static const double most_stored = 1e6; /* [W] a resonance of damping 8e-8 of critical stores that much: 1/(4 pi zeta) */
-static const double most_damped = 1e-6; /* [W] */
+static const double most_stored = 1e6; /* largest E/W of a bounded motion: a resonance of damping ratio zeta has 1/(4 pi
+                                          zeta), here zeta = 8e-8 */
+static const double most_damped = 1e-6; /* least D/W at which damping bounds the motion */
 
 /* |x^H A x|, A[n][n] by columns. */
 static double form(int n, const double *A, const double complex *x)

@@ -1,5 +1,5 @@
-/* parts.c - the whole of a response curve that has a cheap start. A curve followed from one end of the sweep shows what
- * is connected to that end; more parts begin
+/* parts.c - further parts of a response curve that have a cheap start. A curve followed from one end of the sweep
+ * contains only what is connected to that end; more parts begin
  *
  *     at the other end        from the solution that Newton finds there from the linear response, which is the solution
  *                             itself where no contact changes state; where no part has come there, as hbm_trace begins
@@ -7,9 +7,9 @@
  *                             the determinant of the even harmonics' block changes its sign. The kernel of that block
  *                             is the other branch's direction there; its mirror image is not followed.
  *
- * Newton is given no line search at an end that a part has come to.
- * A start that lies on a known part costs its check alone; a part ends where it comes to a known one. Where one comes
- * to the place at which the first part had to stop, from the other side, the curve is whole. */
+ * At an end that a part has reached already Newton runs without a line search. A start on a known part is not followed;
+ * a part ends where it reaches a known one. If one reaches the place at which the first part had to stop, from the
+ * other side, the curve counts as whole (end = HC_OK). */
 #include <string.h>
 
 #include "hbm/curve/continuation.h"
@@ -30,14 +30,14 @@ typedef struct part_search {
 
 static bool must_end(hc_status st) { return st == HC_INTERRUPTED || st == HC_NO_MEMORY; }
 
-/* Room for X has what the solver's equations have, and what adaptive harmonics may come to have. */
+/* Entries of a row of X: for the solver's harmonics, or the most that adaptive ones may reach. */
 static size_t row_length(const hbm_solver *s)
 {
   return (size_t)hbm_system_length(&s->sys,
                                    s->sys.n_harm > REFINE_MOST_HARMONICS ? s->sys.n_harm : REFINE_MOST_HARMONICS);
 }
 
-/* Does the first part stop early, within the next segments behind the given one of the curve? Negative: none. */
+/* True if the first part stops early, on the given segment or one of the NEXT behind it. segment < 0: false. */
 static bool leads_to_stop(const hbm_curve *c, int segment)
 {
   enum { NEXT = 3 };
@@ -46,7 +46,8 @@ static bool leads_to_stop(const hbm_curve *c, int segment)
   return segment >= 0 && segment < first->n && segment + NEXT >= first->n;
 }
 
-/* The part of a course becomes one of the curve. Not HC_OK only where there is no going on: how it ended is in it. */
+/* Follows a course and adds it to the curve as a part. Errors HC_INTERRUPTED and HC_NO_MEMORY only: other ends are in
+ * the part's record. */
 static hc_status add_part(part_search *p, const path_course *course, hbm_part_start start)
 {
   hbm_curve part = {0};
@@ -118,13 +119,14 @@ static hc_status from_the_other_end(part_search *p)
 
 /* ---- where symmetry breaks --------------------------------------------------------------------------------- */
 
-/* A branch point is located to this part of the segment by halving: its kernel is off by as much. The other branch is
- * begun this far along it, in the metric; there it differs from the symmetric one by more than solutions are told apart
- * by (1e-7) and omega by its square. Longer where Newton falls back. */
+/* LOCATED: a branch point is located to this part of the segment by halving, and its kernel is off by as much.
+ * FIRST_AWAY: distance along the kernel, in the metric, at which the other branch begins: more than the 1e-7 that tells
+ * solutions apart; omega differs by its square. FURTHER times as far, up to MOST_AWAY, where Newton returns to the
+ * symmetric branch. */
 static const double LOCATED = 1e-6, FIRST_AWAY = 1e-3, MOST_AWAY = 0.1, FURTHER = 4;
 enum { MOST_HALVINGS = 40 };
 
-/* Sign at the solution on segment k at sigma, which is left in x. 0: it was not found. */
+/* hbm_even_sign of the solution on segment k at sigma, which is left in x. 0: not found, or not symmetric. */
 static int sign_at(part_search *p, int k, double sigma, hbm_candidate *x)
 {
   if (hbm_segment_point(p->s, p->curve, k, sigma, x) != HC_OK || !p->s->on_symmetric) return 0;
@@ -207,11 +209,11 @@ hc_status hbm_trace_all(hbm_solver *s, double from, double to, const hc_monitor 
   hbm_curve_measure_by(curve, first.metric, first.omega_scale);
   curve->n_coef = first.n_coef;
   hc_status st = first.n > 0 ? hbm_curve_add_part(curve, &first, HBM_PART_FROM_FIRST) : HC_OK;
-  curve->settled = curve->n; /* those have been told of */
+  curve->settled = curve->n; /* hbm_trace has reported these to the watch */
   curve->end = main, curve->ends_at = first.ends_at, curve->left_at_start = first.left_at_start;
   hbm_curve_free(&first);
   if (st == HC_OK && !must_end(main) && from != to && s->how.continuation == HBM_CONTINUATION_AUTO) {
-    s->monitor = monitor; /* asked inside long solves, too */
+    s->monitor = monitor; /* ticks inside long solves, too */
     s->done = -1;
     st = from_the_other_end(&p);
     for (int i = 0; i < curve->n_parts && st == HC_OK && s->symmetric; ++i) st = from_branch_points(&p, i);

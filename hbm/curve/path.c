@@ -41,8 +41,9 @@ double path_flatness(const path *p)
   return fabs(p->d_omega) / p->curve->omega_scale / path_length(p, p->dX, p->d_omega);
 }
 
-/* The last segment's cubic is extrapolated by four of its lengths at most, then its tangent. The errors' ratio is that
- * of continuation.c, h^4/384 to (h_p + h)^2 h^2/24: (24/384) h^2/(h_p + h)^2, of the tangent alone as if h_p were 0. */
+/* MOST_LENGTHS: the last segment's cubic is extrapolated by at most so many of its lengths; beyond, its tangent is.
+ * RATIO: the ratio of errors of continuation.c, h^4/384 to (h_p + h)^2 h^2/24, is RATIO h^2/(h_p + h)^2; for the
+ * tangent alone h_p = 0. */
 static const double MOST_LENGTHS = 4, RATIO = 24.0 / 384;
 
 double path_predict(path *p, double h)
@@ -125,11 +126,12 @@ hc_status path_correct_in_plane(path *p)
  *   correct   plain Newton in the plane across that tangent, at most hbm.iterations of them
  *   tangent   the one that points along the last: normal . t = 1 (corrector.h) sees to it
  *
- * What converges near the prediction is a point of the curve; what does not, or converges further from it than across a
- * kink of 76 degrees, ends the curve: on the way it would be another branch. There is no shorter step to try
- * again with, no line search, no rule for corners, and no orientation by a determinant: the curve may turn round at a
- * kink and retrace its path. The first point, and the curve's end on the sweep's limit, are found as always. */
-static const double FIXED_MOVED = 4; /* [step] tan(76 degrees) */
+ * A step that converges near the prediction gives a point of the curve. One that does not converge, or converges
+ * farther from the prediction than a kink of 76 degrees explains, ends the curve: the point may be on another branch.
+ * There is no shorter step to try again with, no line search, no rule for corners, and no orientation by a determinant:
+ * the curve may turn round at a kink and retrace its path. The first point, and the curve's end on the sweep's limit,
+ * are found as always. */
+static const double FIXED_MOVED = 4; /* largest correction, in steps: tan(76 degrees) */
 
 hc_status path_fixed_step(path *p, bool *accepted)
 {
@@ -148,12 +150,13 @@ hc_status path_fixed_step(path *p, bool *accepted)
 
 /* ---- harmonics and samples ---------------------------------------------------------------------------- */
 
-/* Harmonics change along the curve, as far as the last point needs. Samples do not: the curve of sampled equations
- * turns elsewhere for another N, so one that needs more starts again with twice as many. */
+/* The number of harmonics changes along the curve, as the last point needs it. The number of samples N does not:
+ * turning points of sampled equations depend on N, so a curve that needs more samples starts again with twice as
+ * many. */
 
-/* Harmonics are dropped where they have not shown at four points in a row, that is, have come to a twentieth of the
- * accuracy at most: the ladder's rungs are a factor of 1.4 apart, so that errors, like H^-3, grow by 2.8. If that
- * fails, four times as many points are waited for. */
+/* Harmonics are dropped after POINTS_BEFORE_DROPPING successive points at which they came to less than DROPPABLE of
+ * hbm.accuracy: successive numbers of harmonics differ by a factor of 1.4, so errors, which fall like H^-3, grow by
+ * 2.8. After a failure WAITED_LONGER times as many further points must pass before the next attempt. */
 enum { POINTS_BEFORE_DROPPING = 4, WAITED_LONGER = 4 };
 static const double DROPPABLE = 0.05;
 
@@ -221,7 +224,8 @@ static hc_status change_harmonics(path *p, int n_harm)
   return st;
 }
 
-/* More harmonics until the last point meets hbm.accuracy; *too_few: it takes more samples first. */
+/* More harmonics until the last point meets hbm.accuracy; *too_few: true if the curve must start again with more
+ * samples first. */
 static hc_status add_harmonics(path *p, bool *too_few)
 {
   hbm_solver *s = p->s;

@@ -10,20 +10,20 @@
 #include "numerics/series.h"
 
 enum {
-  MOST_OF_ROWS = 600,   /* of the equations with twice the harmonics, for each row of a curve: tens of milliseconds */
-  MOST_FINER = 100,     /* some milliseconds of an oscillator */
-  MOST_UNKNOWNS = 1500, /* of the finer equations of many coordinates: about a second a step */
-  STRIDE = 20,          /* harmonics between two sizes of the workspace, which is remade with each */
-  MOST_STEPS = 10,      /* of Newton: one or two but near turning points and for stiff contacts */
-  FEW_STEPS = 5         /* where not finding a solution says enough */
+  MOST_OF_ROWS = 600, /* unknowns with twice the harmonics up to which all rows are examined: tens of milliseconds */
+  MOST_FINER = 100,   /* harmonics of the finer equations, when more than twice: some milliseconds for an oscillator */
+  MOST_UNKNOWNS = 1500, /* of those finer equations with many coordinates: about a second a step */
+  STRIDE = 20,          /* harmonics above twice are a multiple of this: a new number remakes the workspace */
+  MOST_STEPS = 10, /* Newton steps for motions: one or two suffice but near turning points and for stiff contacts */
+  FEW_STEPS = 5    /* Newton steps for multipliers, where no convergence just means unknown bounds */
 };
 
-static const double converged = 0.02; /* a step this small beside what all came to changes the error by as little */
-/* [1] in the metric at X. Newton that has not converged after steps as long has no such solution to come to; one that
- * far away is another: beyond a fold of theirs the finer equations have none next to X, and no number bounds what X is
- * off. */
+static const double converged = 0.02; /* [correction] Newton step at which the error is known to 2 % */
+/* [1] in the metric at X: no finer solution is next to X if Newton has not converged and moved or stepped by more than
+ * `lost`, or converged farther away than `another`. The error is then unbounded: the finer equations may have none
+ * beyond a fold. */
 static const double lost = 0.1, another = 0.3;
-static const double roundings = 4; /* a motion and its measures take a few */
+static const double roundings = 4; /* error bound of a motion and its measures, in units of the rounding of a step */
 
 /* Twice the harmonics, and more where these do not reach the natural frequency of the mass on its stuck contacts, at
  * which it swings after each impact: up to there errors hardly fall with the harmonics, and twice as many say
@@ -38,8 +38,8 @@ static int finer_harmonics(double highest, int n_harm, int dim, double omega)
   return own > twice ? (int)fmin(own, fmax(most, twice)) : twice;
 }
 
-/* Equations of n_harm harmonics, and X with zeros for what they have more; made anew where the number is another, freed
- * with the solver's equations. */
+/* Prepares finer equations of n_harm harmonics, made again if that number changes and freed with the solver, and X
+ * padded with zeros as start. */
 static hc_status begin_finer(hbm_solver *s, finer_solution *f, int n_harm, const double *X)
 {
   const int ours = s->sys.n_harm;
@@ -62,7 +62,7 @@ static hc_status begin_finer(hbm_solver *s, finer_solution *f, int n_harm, const
   return HC_OK;
 }
 
-/* [1] How far f->improved is from X. */
+/* [1] Distance of f->improved from X in the metric. */
 static double improvement(const hbm_solver *s, const finer_solution *f)
 {
   const metric_at at = {s->sys.metric, f->n, f->asked, NULL};
@@ -98,15 +98,15 @@ static periodic_motion motion_of(int n_harm, const double *x)
   return motion_of_series(n_harm, x, max, min);
 }
 
-/* The first response's motion; x[2 n_harm + 1] is room. */
+/* The first response's motion; x[2 n_harm + 1] is work space. */
 static periodic_motion measured(const hbm_solver *s, int n_harm, const double *X, double *x)
 {
   hbm_system_response(&s->sys, n_harm, X, x);
   return motion_of(n_harm, x);
 }
 
-/* What n harmonics leave out is added. Of sampled forces and n < H all of the distance may be aliasing, which more
- * harmonics do not mend. */
+/* The factor 1/|1 - (H/n)^3| of predict.h. With sampled forces and n < H the whole distance may be aliasing, which more
+ * harmonics do not reduce: 1. */
 static double extrapolation(const hbm_solver *s, int n)
 {
   const double ratio = fmax((double)s->sys.n_harm / n, n > s->sys.n_harm ? 0.5 : 0);
@@ -150,9 +150,9 @@ static bool need_moduli(hbm_solver *s)
   return s->moduli != NULL;
 }
 
-/* moduli[n_states] of the solution next to X with twice the harmonics, and by what to multiply what differs. With fewer
- * harmonics than reach the contacts' own frequency errors do not fall with their number yet: twice as many are off by
- * as much again. */
+/* moduli[n_states] of the solution next to X with twice the harmonics, and the factor from the difference of moduli to
+ * the error. While the harmonics do not reach the contacts' own frequency errors do not fall with their number: the
+ * finer solution may err as much again, factor 2. */
 static hc_status finer_moduli(hbm_solver *s, double omega, const double *X, hbm_stability *finer, double *moduli,
                               double *factor)
 {
@@ -176,13 +176,13 @@ bool hbm_stability_error_is_costly(const hbm_solver *s)
 
 hc_status hbm_finer_stability(hbm_solver *s, double omega, const double *X, hbm_stability *finer, double *factor)
 {
-  hc_status st = hbm_stability_at(s, omega, X, finer); /* makes what is needed */
+  hc_status st = hbm_stability_at(s, omega, X, finer); /* allocates what hbm_moduli needs */
   if (st == HC_OK && !need_moduli(s)) st = HC_NO_MEMORY;
   return st == HC_OK ? finer_moduli(s, omega, X, finer, s->moduli, factor) : st;
 }
 
-/* What the largest modulus is between if each is off by something between `from` and `to` times what the other's
- * differs by: the largest need not be the one that passes 1. */
+/* Bounds of the largest modulus if each errs by between `from` and `to` times its difference from the reference's. All
+ * moduli count: the largest now need not be the one that passes 1. */
 static void take_range(const hbm_solver *s, double from, double to, hbm_stability *out)
 {
   const double *ours = s->moduli, *theirs = ours + n_states(s);
@@ -194,9 +194,10 @@ static void take_range(const hbm_solver *s, double from, double to, hbm_stabilit
   }
 }
 
-/* Is the share of X in the upper half of its harmonics so small that the error does not reach 1? X is off by about a
- * seventh of it where errors fall like H^-3. Where a contact grazes, its instants move by the root of what the motion
- * does, and multipliers by as many radians of the contact's own frequency. s->truncated becomes X without that half. */
+/* True if the share of X in the upper half of its harmonics is so small that the multiplier's error does not reach 1. X
+ * errs by about a seventh of that share where errors fall like H^-3. Where a contact grazes, its transitions move by
+ * the root of the error of the motion, and multipliers by these angles times contacts' own frequency/omega.
+ * s->truncated becomes X without that half. */
 static bool is_plain_by_share(hbm_solver *s, double omega, const double *X, double multiplier)
 {
   const metric_at at = hbm_metric_at(s, X);
@@ -206,8 +207,8 @@ static bool is_plain_by_share(hbm_solver *s, double omega, const double *X, doub
   return fmax(multiplier, 1) * own * sqrt(share) <= fabs(multiplier - 1);
 }
 
-/* Is the row of a curve as plain as one before, on the same side of 1? Errors change little from row to row where
- * contacts do the same: not by four times over eight rows. */
+/* True if the error of the last row examined, on the same side of 1, shows that this row's does not reach 1 either.
+ * Where contacts do the same, errors change by less than `margin` over MOST_ROWS rows. */
 static bool is_plain_by_rows_before(const hbm_solver *s, const contact_report *now, double multiplier)
 {
   enum { MOST_ROWS = 8 };
@@ -218,8 +219,9 @@ static bool is_plain_by_rows_before(const hbm_solver *s, const contact_report *n
   return same && b->since < MOST_ROWS && margin * b->error <= fabs(multiplier - 1);
 }
 
-/* Has s->truncated all of its multipliers where X has them? Asked where its harmonics reach the contacts' own
- * frequency: up to there errors do not fall with their number, and two motions may agree by chance. */
+/* Takes the multipliers of s->truncated as the reference. True if the bounds of the largest modulus that follow exclude
+ * 1. False unless its harmonics reach the contacts' own frequency: below, errors do not fall with their number, and two
+ * motions may agree by chance. */
 static bool is_plain_by_truncation(hbm_solver *s, double omega, hbm_stability *out)
 {
   const contact_forces *orbit;
@@ -248,7 +250,7 @@ hc_status hbm_stability_with_error(hbm_solver *s, double omega, const double *X,
   if ((st = hbm_located_orbit(s, X, &orbit, &report)) != HC_OK) return st;
   if (is_row && is_plain_by_rows_before(s, &report, out->multiplier)) {
     out->as_row_before = true;
-    hbm_keep_stability(s, omega, X, out); /* the same word when it is asked for again, for a drawing */
+    hbm_keep_stability(s, omega, X, out); /* the same verdict when it is asked for again, for a drawing */
     return HC_OK;
   }
   st = hbm_moduli_of(s, omega, X, s->moduli);

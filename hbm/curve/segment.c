@@ -74,7 +74,7 @@ static double omega_at(const hbm_segment *s, double t)
          t * t * r * s->d_omega1;
 }
 
-/* Has the interpolant passed omega at t? For root_change. */
+/* For root_change: true if the interpolant has passed omega at t. */
 typedef struct omega_passage {
   const hbm_segment *s;
   double omega;
@@ -150,8 +150,9 @@ static int find_omega(const hbm_segment *s, double omega, bool include_end, doub
 
 enum { MAX_HALVINGS = 40 };
 
-/* Newton leaves 1e-10 of the forces, the usual tolerance: solutions nearer than 1e-9 in the metric are one. One belongs
- * to the interpolant that it is off by no more than a tenth of the segment: the step's controller leaves 1e-4. */
+/* SAME: solutions nearer than this in the metric are one; Newton's usual tolerance is 1e-10 of the forces. NEAR: a
+ * solution belongs to the segment if it is off the interpolant by no more than this part of its length (plus ROUNDING);
+ * the step's controller allows 1e-4. */
 static const double SAME = 1e-9, NEAR = 0.1, ROUNDING = 1e-8;
 
 hc_status hbm_candidate_new(int n_coef, hbm_candidate *out)
@@ -224,8 +225,8 @@ static hc_status halve(hbm_solver *s, const hbm_curve *c, int k, const hbm_segme
   return st == HC_OK ? hbm_curve_append(halves, c->n_coef, seg->X1, seg->dX1, &c->points[k + 1]) : st;
 }
 
-/* Does the interpolant turn back so near omega that the curve may be on its other side? Where it turns it errs by less
- * than a tenth of its range. */
+/* True if the interpolant turns back so near omega that the curve itself may turn beyond it: at an extremum the
+ * interpolant errs by less than NEAR of its range of omega. */
 static bool may_turn_at(const hbm_segment *s, double omega)
 {
   double extrema[2], low = fmin(s->omega0, s->omega1), high = fmax(s->omega0, s->omega1);
@@ -236,7 +237,7 @@ static bool may_turn_at(const hbm_segment *s, double omega)
   return near;
 }
 
-/* Is X one of the points first.. of c? */
+/* True if X equals one of the points first..c->n - 1 of c. */
 static bool has_point(const hbm_curve *c, int first, const double *X)
 {
   const metric_at at = {c->metric, c->n_coef, X, NULL};
@@ -280,12 +281,12 @@ hc_status hbm_segment_solutions(hbm_solver *s, const hbm_curve *c, int k, double
   return st;
 }
 
-/* Solutions that Newton finds from two sides, each to 1e-10 of the forces, are within this of each other in the metric
- * also where the equations are a thousand times as ill conditioned. */
+/* Distance in the metric within which solutions found by Newton from two sides, each to 1e-10 of the forces, are one:
+ * allows for a condition number a thousand times the usual. */
 static const double MET = 1e-7;
 
-/* Where the equations have other harmonics by now, a point is on the segment if the interpolant, whose error is some
- * 2e-4, comes this near. */
+/* Where the number of harmonics has changed since, a point is on the segment if the interpolant, whose error is some
+ * 2e-4, is within this distance plus hbm.accuracy. */
 static const double NEAR_OTHER = 1e-3;
 
 hc_status hbm_curve_passes(hbm_solver *s, const hbm_curve *c, int segments, const hbm_curve *of, int point,
@@ -326,7 +327,7 @@ hc_status hbm_curve_passes(hbm_solver *s, const hbm_curve *c, int segments, cons
 
 /* ---- of the whole curve: at an omega -------------------------------------------------------------------- */
 
-/* A solution at omega, found from guess or, if that is NULL, from nothing, appended unless it is there already: one of
+/* Appends a solution at omega, found from guess or, if that is NULL, by hbm_first_solution, unless it is one of
  * at[before..]. */
 static hc_status append_solution(hbm_solver *s, const hbm_curve *c, const double *guess, double omega, int before,
                                  hbm_curve *at)
@@ -342,8 +343,8 @@ static hc_status append_solution(hbm_solver *s, const hbm_curve *c, const double
   return st;
 }
 
-/* Planes across the interpolant may miss the curve at a join of rest and slip: from both ends of a segment, at
- * omega. */
+/* Newton at omega from both ends of segment k, for joins of rest and slip, where planes across the interpolant may miss
+ * the curve. */
 static hc_status solve_from_ends(hbm_solver *s, const hbm_curve *c, int k, double omega, int before, hbm_curve *at)
 {
   for (int end = k; end <= k + 1; ++end)
@@ -351,8 +352,8 @@ static hc_status solve_from_ends(hbm_solver *s, const hbm_curve *c, int k, doubl
   return at->n > before ? HC_OK : HC_NOT_CONVERGED;
 }
 
-/* Is point i, or its mirror image where the model is symmetric, one of the points before `end`? Solutions of one part
- * are told apart as finely as Newton leaves them: next to a fold there are two. */
+/* True if point i, or its mirror image in a symmetric model, equals one of the points before..end - 1. Within one part
+ * the tolerance is SAME, not MET: next to a fold two solutions are close. */
 static bool is_twin(const hbm_solver *s, const hbm_curve *at, int before, int end, int i)
 {
   double *X = hbm_curve_X(at, i);
@@ -362,13 +363,13 @@ static bool is_twin(const hbm_solver *s, const hbm_curve *at, int before, int en
     twin = !(metric_distance(&m, X, hbm_curve_X(at, j)) > (at->points[i].part == at->points[j].part ? SAME : MET));
     if (twin || !hbm_mirror(s, X)) continue;
     twin = !(metric_distance(&m, X, hbm_curve_X(at, j)) > MET);
-    hbm_mirror(s, X); /* as it was */
+    hbm_mirror(s, X); /* restores X */
   }
   return twin;
 }
 
-/* Solutions that are there twice: interpolants of steep segments may overshoot into the next one, parts of a curve may
- * end on one another, and a branch of a symmetric model has its mirror image. */
+/* Removes duplicates: interpolants of steep segments may overshoot into the next one, parts of a curve may end on one
+ * another, and a branch of a symmetric model has its mirror image. */
 static void drop_twins(const hbm_solver *s, int before, hbm_curve *at)
 {
   const size_t row = (size_t)at->n_coef * sizeof(double);
@@ -390,8 +391,8 @@ static bool is_within(const hbm_curve *c, double omega)
   return below && above;
 }
 
-/* The motion in which no contact changes state, where it solves the equations: in closed form at any omega that the
- * curve spans, whether or not a part of it has come to it. */
+/* Appends the motion in which no contact changes state, where it solves the equations: closed form, at any omega that
+ * the curve spans, whether or not a part contains it. */
 static hc_status append_linear(hbm_solver *s, const hbm_curve *c, double omega, hbm_curve *at)
 {
   hbm_candidate x;
@@ -428,7 +429,8 @@ hc_status hbm_curve_at(hbm_solver *s, const hbm_curve *c, double omega, hbm_curv
 
 /* ---- a part of a segment that shrinks ---------------------------------------------------------------- */
 
-static const double SHORTEST_PART = 1e-7; /* ends that are right to 1e-13 of the segment: 1e-6 of the part */
+static const double SHORTEST_PART = 1e-7; /* [segment] ends are right to 1e-13 of the segment, which is then 1e-6 of the
+                                             part */
 
 hc_status hbm_narrowing_start(hbm_narrowing *p, const hbm_curve *c, int k)
 {
@@ -468,8 +470,8 @@ void hbm_narrowing_move(hbm_narrowing *p, bool first, double sigma, const hbm_ca
 
 /* ---- of the whole curve: the peak ------------------------------------------------------------------------ */
 
-/* The two segments that meet at the highest point, by a position: -1 is the point before, 0 the highest, 1 the point
- * after. */
+/* Search on the two segments that meet at the highest point, by a position: -1 is the point before, 0 the highest, 1
+ * the point after. */
 typedef struct peak_search {
   hbm_solver *s;
   const hbm_curve *c;
@@ -496,8 +498,9 @@ static hc_status minus_amplitude_at(void *self, double position, double *minus_a
   return st;
 }
 
-/* d amplitude [length] by a step dX from X. At an extremum of the response over time its place does not count, so that
- * the amplitude is as smooth as the curve; the difference leaves 1e-10 of it. */
+/* Derivative of the amplitude [length] along dX at X, by a central difference, whose error is 1e-10 of the amplitude.
+ * Since the response is stationary at its extrema, their shifts do not count, and the amplitude is as smooth as the
+ * curve. */
 static double amplitude_slope(hbm_solver *s, int n, const double *X, const double *dX, double *moved)
 {
   const metric_at at = {s->sys.metric, n, X, NULL};
@@ -510,7 +513,7 @@ static double amplitude_slope(hbm_solver *s, int n, const double *X, const doubl
   return step > 0 ? (amplitude[1] - amplitude[0]) / (2 * step) : 0;
 }
 
-/* The interpolant's slope between the ends of what is left, by sigma. */
+/* Derivative by sigma of the interpolant's amplitude between the ends of the narrowed part. */
 static hc_status guessed_slope(void *self, double sigma, double *slope)
 {
   peak_search *p = self;
@@ -526,16 +529,16 @@ static double guessed_amplitude(peak_search *p, double sigma)
   return hbm_amplitude_at(p->s, p->between.X);
 }
 
-/* Where the amplitude no longer rises, beside the highest point: an end of what is left between solutions where the
- * interpolant has its summit or, where these do not lead on, where the tangents at its ends meet: at a corner, as
- * sampled forces have. The search for the highest amplitude takes several times as many; it sees more of a curve of
- * sampled forces, with its summits beside each other, where it costs nothing. NULL: not asked, or not found. */
+/* The summit beside the highest point, where the amplitude ceases to rise, for many unknowns: narrows the segment by
+ * solutions at the interpolant's summit or, where these do not help (a corner, as sampled forces have), where the
+ * tangents at its ends meet; returns the higher end. root_minimum takes several times as many solves, but sees more of
+ * a curve of sampled forces, with adjacent summits. NULL: few unknowns, or not found. */
 static const hbm_point *peak_by_slope(peak_search *p, double highest, double **X, double **dX)
 {
   enum { SUMMIT_TRIES = 20 };      /* corners of the plates took 2 to 16, with 24 to 196 samples */
-  const double least_gain = 1e-11; /* [amplitude] a part as short as it may get has a tenth of that */
+  const double least_gain = 1e-11; /* [amplitude] a part of the shortest length gains a tenth of that */
   double end[2], slope[2], before = INFINITY;
-  bool encloses = false, shortest = false; /* is what is left as short as it may be? */
+  bool encloses = false, shortest = false; /* shortest: the part can be narrowed no more */
   for (int k = p->top - 1; k <= p->top && hbm_has_many_unknowns(p->s) && !encloses; ++k) {
     if (hbm_narrowing_start(&p->near, p->c, k) != HC_OK) return NULL;
     guessed_slope(p, 0, &slope[0]), guessed_slope(p, 1, &slope[1]);
@@ -617,8 +620,8 @@ hc_status hbm_curve_peak(hbm_solver *s, const hbm_curve *c, hbm_curve *peak)
 
 /* ---- summits become points ------------------------------------------------------------------------------- */
 
-/* The summit of the curve on segment k into x: where the interpolant has one, and again between the solution there and
- * the end on the other side, unless a solve takes long. True if it is higher than `highest`. */
+/* The summit of the curve on segment k into x: solved at the interpolant's summit and, for few unknowns, once more on
+ * the part narrowed by that solution. True if it is higher than `highest`. */
 static bool find_summit(peak_search *p, int k, double highest)
 {
   const int times_most = hbm_has_many_unknowns(p->s) ? 1 : 2;
@@ -662,10 +665,11 @@ static hc_status add_summit(hbm_solver *s, hbm_curve *c, const double *high, int
   hc_status st = hbm_candidate_new(c->n_coef, &x);
   if (st != HC_OK) return st;
   st = hbm_candidate_new(c->n_coef, &p.between);
-  if (st == HC_OK) st = hbm_narrowing_start(&p.near, c, 0); /* allocates, which find_summit then need not */
+  if (st == HC_OK) st = hbm_narrowing_start(&p.near, c, 0); /* allocates, so that find_summit cannot fail by that */
   if (st == HC_OK) {
     const int k = find_summit(&p, *top - 1, high[1]) ? *top - 1 : find_summit(&p, *top, high[1]) ? *top : -1;
-    /* A pair of turning points that only the summit is between, as sampled forces have, is left out as before. */
+    /* No point is inserted where it would add two turning points with only the summit between them, as sampled forces
+     * have. */
     const bool turns = k >= 0 && (x.point.d_omega > 0) != (c->points[k].d_omega > 0) &&
                        (x.point.d_omega > 0) != (c->points[k + 1].d_omega > 0);
     if (k >= 0 && !turns) st = insert_point(c, k, &x), ++*top;

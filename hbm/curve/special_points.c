@@ -22,12 +22,13 @@
 #include "numerics/norm.h"
 #include "numerics/roots.h"
 
-/* A segment spans a fraction of the sweep, so this part of it is far less than the 1e-9 of omega that
- * special_points.h promises; of contact changes of many unknowns, a tenth of that. */
+/* Tolerances of sigma. A segment spans a fraction of the sweep, so SIGMA_TOLERANCE is far less than the 1e-9 of omega
+ * that special_points.h promises. For contact changes with many unknowns: SIGMA_OF_MANY, but at most OMEGA_OF_MANY of
+ * omega, a tenth of the promise. */
 static const double SIGMA_TOLERANCE = 1e-11, SIGMA_OF_MANY = 1e-8, OMEGA_OF_MANY = 1e-10;
 enum { MAX_CONTACT_CHANGES = 64 /* on one segment */, MOST_CONTACTS_FOLLOWED = 24 };
-/* What is nearer than this, relative to omega and to the amplitude (near a turning point omega alone says little), is
- * at one place: special_points.h promises no more. */
+/* Points that differ by less than this, relative to omega and to the amplitude (near a turning point omega alone says
+ * little), cannot be told apart: special_points.h promises no more. */
 static const double SAME_OMEGA = 1e-9, SAME_AMPLITUDE = 1e-8;
 
 /* The test functions at a point. */
@@ -36,25 +37,25 @@ typedef struct test_values {
   int branch_sign;
   int pairs_outside;
   double pair;           /* as in hbm_stability */
-  contact_regime regime; /* regime and number of transitions: the contact pattern */
+  contact_regime regime; /* with transitions: the contact pattern */
   int transitions;
-  bool of_motion; /* as in hbm_stability: else the structure's own roots are all there is to it */
+  bool of_motion; /* as in hbm_stability: the multipliers depend on the motion */
 } test_values;
 
-/* A special point; of a contact change, how many transitions the pattern has on either side. */
+/* A special point, with the number of transitions on either side for a contact change. */
 typedef struct found_point {
   hbm_special special;
-  double sigma; /* where on its segment it lies */
+  double sigma; /* place on its segment */
   int transitions_before, transitions_after;
 } found_point;
 
 typedef struct detector {
   hbm_solver *s;
   const hbm_curve *c;
-  hbm_candidate x;     /* the solution on a segment that was evaluated last */
-  hbm_narrowing near;  /* of a contact change */
-  contact_regime *was; /* [n_contacts] of each contact, on one side of it */
-  int n, first;        /* of found; `first` is the first one of the current segment */
+  hbm_candidate x;     /* the solution between points that was evaluated last */
+  hbm_narrowing near;  /* the part of the segment around a contact change */
+  contact_regime *was; /* [n_contacts] regime of each contact before a contact change */
+  int n, first;        /* entries of found; index of the current segment's first one */
   found_point *found;  /* [n] */
 } detector;
 
@@ -69,8 +70,8 @@ static int branch_sign(const detector *d, const double *X, double omega, double 
   return hbm_det_sign_at(d->s, omega, X, &det_sign) == HC_OK ? (d_omega > 0 ? det_sign : -det_sign) : 0;
 }
 
-/* with_multipliers: they cost more than all the rest, and only the searches for a period doubling or a Neimark-Sacker
- * point ask. */
+/* with_multipliers: set only in searches for a period doubling or a Neimark-Sacker point; they cost more than all the
+ * rest. */
 static hc_status evaluate_tests(detector *d, double omega, double d_omega, const double *X, bool with_multipliers,
                                 test_values *v)
 {
@@ -91,7 +92,7 @@ static hc_status evaluate_at_point(detector *d, int k, test_values *v)
   const hbm_point *p = &d->c->points[k];
   const double *X = hbm_curve_X(d->c, k);
   hc_status st = evaluate_tests(d, p->omega, p->d_omega, X, !hbm_stability_is_costly(d->s), v);
-  const bool known = model_has_kinks(d->s->model); /* the curve has it of its symmetric points */
+  const bool known = model_has_kinks(d->s->model); /* the curve stores the sign at its symmetric points */
   if (st == HC_OK) v->branch_sign = known ? p->even_sign : branch_sign(d, X, p->omega, p->d_omega);
   return st;
 }
@@ -101,7 +102,7 @@ static bool same_pattern(const test_values *a, const test_values *b)
   return a->regime == b->regime && a->transitions == b->transitions;
 }
 
-/* The solution in d->x, at sigma, behind those of this segment that come before it. */
+/* Inserts the solution in d->x, at sigma, in the order of sigma among those of this segment. */
 static hc_status insert_special(detector *d, double sigma, hbm_special_kind kind, const test_values *before,
                                 const test_values *after)
 {
@@ -119,7 +120,7 @@ static hc_status insert_special(detector *d, double sigma, hbm_special_kind kind
   return HC_OK;
 }
 
-/* The point among found[0..n-1] of p's kind that p cannot be told from; -1 if there is none. */
+/* Index of the point among found[0..n-1] of p's kind and at p's place; -1 if there is none. */
 static int twin_of(const found_point *found, int n, const found_point *p)
 {
   for (int k = n - 1; k >= 0; --k) {
@@ -131,8 +132,8 @@ static int twin_of(const found_point *found, int n, const found_point *p)
   return -1;
 }
 
-/* *one takes what happens at *other in: false if nothing is left, since two turning points or period doublings at one
- * place lead back, as does a pattern that is the same before and after. */
+/* Merges *other into *one, at the same place. False if they cancel: two turning points or period doublings at one
+ * place, or a contact pattern that is the same before and after both. */
 static bool take_in(found_point *one, const found_point *other)
 {
   if (one->special.kind != HBM_CONTACT_CHANGE) return false;
@@ -145,13 +146,14 @@ static bool take_in(found_point *one, const found_point *other)
 typedef struct segment_search {
   detector *d;
   int k;
-  hbm_special_kind kind;     /* what is looked for */
-  const test_values *before; /* of searches by bisection: what is left */
-  double sigma;              /* where the search was last, NaN at first */
-  test_values here;          /* the test functions there */
+  hbm_special_kind kind;     /* kind of point searched for */
+  const test_values *before; /* test functions at the start of the search; NULL for roots of smooth functions */
+  double sigma;              /* place of `here`, NaN if there is none */
+  test_values here;          /* test functions at sigma */
 } segment_search;
 
-/* d->x and s->here at sigma, unless they are: of a contact change in the part that shrinks around it. */
+/* Sets d->x and s->here to sigma, if they are elsewhere; a contact change is solved for on the narrowed part around
+ * it. */
 static hc_status evaluate_at(segment_search *s, double sigma)
 {
   detector *d = s->d;
@@ -211,8 +213,8 @@ static hc_status pairs_outside_differ_at(void *self, double sigma, bool *differ)
   return st;
 }
 
-/* [rad/time] From omega along the curve to the first point from k on, in that direction, whose stability is known: a
- * change of stability is not beyond it. 0: it is that one. */
+/* [rad/time] Distance from omega to the first point of the curve, from k on in that direction, whose stability is
+ * known: the change of stability is not beyond it. 0 if that is point k itself. */
 static double reach_of_unknown(detector *d, int k, int direction, double omega)
 {
   double reach = 0;
@@ -228,9 +230,10 @@ static double reach_of_unknown(detector *d, int k, int direction, double omega)
   return reach;
 }
 
-/* The point found at sigma, where d->x is, into the list, with its error in omega: that of the test function, by what
- * it is of the solution with twice the harmonics, over its slope along the curve; but as far as stability is unknown
- * about it, over which that slope need not hold. Beside it, since at a broken symmetry the equations are singular. */
+/* Inserts the point found at sigma, where d->x is, with its error in omega: error of the test function, from the
+ * solution with twice the harmonics, over its slope along the curve; at least the distance over which stability is
+ * unknown, since the slope need not hold there. Evaluated beside the point, since at a broken symmetry the equations
+ * are singular. */
 static hc_status insert_with_error(segment_search *s, double sigma)
 {
   const double beside = sigma < 0.5 ? sigma + 0.05 : sigma - 0.05;
@@ -277,7 +280,7 @@ static hc_status is_broken(void *self, double sigma, bool *broken)
   return st;
 }
 
-/* Where the sign changes on segment k: a branch point of the equations themselves, so that it has no error. */
+/* Locates the change of branch_sign on segment k: a branch point of the equations themselves, so omega_error is 0. */
 static hc_status locate_breaking(detector *d, int k, const test_values *a)
 {
   segment_search s = {.d = d, .k = k, .kind = HBM_SYMMETRY_BREAKING, .before = a, .sigma = NAN};
@@ -287,7 +290,7 @@ static hc_status locate_breaking(detector *d, int k, const test_values *a)
   return st == HC_OK ? insert_special(d, change.x, HBM_SYMMETRY_BREAKING, &s.here, &s.here) : st;
 }
 
-/* A point at omega, from one of the guesses, into d->x. */
+/* Solves at omega into d->x, from the first guess that converges. */
 static hc_status solve_at_omega(detector *d, double *const guess[2], double omega)
 {
   hc_status st = HC_NOT_CONVERGED;
@@ -299,8 +302,8 @@ static hc_status solve_at_omega(detector *d, double *const guess[2], double omeg
 }
 
 /* Planes across the interpolant may miss a join of rest and slip: the change on segment k by bisection of omega. Next
- * to the join Newton may not come to the motion that slips, to that which rests it does: where there is neither, within
- * a step over a join or the last part of omega, it slips. */
+ * to the join Newton may fail for the slipping motion but not for the resting one: where it fails, within a step over a
+ * join or within edges->located of omega, the motion is taken to slip. */
 static hc_status locate_edge(detector *d, int k, const test_values *before, const test_values *end)
 {
   const hbm_point *p = &d->c->points[k];
@@ -328,8 +331,8 @@ static hc_status locate_edge(detector *d, int k, const test_values *before, cons
   return insert_special(d, 0.5, HBM_CONTACT_CHANGE, before, end);
 }
 
-/* The regimes that a contact change is named by: of the contacts whose own one changes between its two sides, the
- * strongest; where it is none's, of all contacts. */
+/* The regimes reported for a contact change: the strongest among the contacts whose regime changes there; if no single
+ * contact's does, that of all contacts, as in *before and *after already. */
 static hc_status name_change(segment_search *s, const root_point *change, test_values *before, test_values *after)
 {
   detector *d = s->d;
@@ -383,7 +386,7 @@ static hc_status locate_contact_changes(detector *d, int k, test_values before, 
  * there. */
 static hc_status locate_neimark_sacker(detector *d, int k, const test_values *before, double from, double to)
 {
-  const double on_circle = 1e-6; /* located to 1e-11 of the segment, over which a pair moves by less than 1e5 */
+  const double on_circle = 1e-6; /* located to 1e-11 of the segment; a pair changes by less than 1e5 over a segment */
   segment_search s = {.d = d, .k = k, .kind = HBM_NEIMARK_SACKER, .before = before, .sigma = NAN};
   root_point change;
   hc_status st = root_change(pairs_outside_differ_at, &s, from, to, SIGMA_TOLERANCE, &change);
@@ -392,8 +395,8 @@ static hc_status locate_neimark_sacker(detector *d, int k, const test_values *be
   return insert_with_error(&s, change.x);
 }
 
-/* How far the test function is from where it is 0, negative beyond: the sign is that of `before`, or of pairs as many
- * pairs outside. NaN where there is none. */
+/* |test function|, negative beyond its zero, that is where its sign, or for pairs the number outside, differs from
+ * `before`. NaN where it has no value. */
 static double distance_of(hbm_special_kind kind, const test_values *before, const test_values *v)
 {
   const double f = test_of(kind, v);
@@ -401,7 +404,7 @@ static double distance_of(hbm_special_kind kind, const test_values *before, cons
   return test_of(kind, before) > 0 ? f : -f;
 }
 
-/* HC_STALLED: beyond, and nothing less is looked for. */
+/* HC_STALLED ends root_minimum: a place beyond 0 is found. */
 static hc_status distance_at(void *self, double sigma, double *value)
 {
   segment_search *s = self;
@@ -410,12 +413,12 @@ static hc_status distance_at(void *self, double sigma, double *value)
   return st == HC_OK && *value < 0 ? HC_STALLED : st;
 }
 
-/* Two changes of that kind on segment k, at whose ends the test function is on one side of 0. v: the test functions at
- * the points k - 1 to k + 2. A function that is convex lies above the lines through the points before and behind: only
- * where both are beyond 0 at once can it be. */
+/* Two changes of that kind on segment k, at whose ends the test function has one sign. v: the test functions at the
+ * points k - 1 to k + 2. A convex function lies above both lines through the neighbouring segments' ends: it can be
+ * beyond 0 only where both lines are. */
 static hc_status locate_pair(detector *d, int k, hbm_special_kind kind, const test_values *v)
 {
-  const double near_enough = 1e-3; /* of the segment: what is between two changes nearer to each other is missed */
+  const double near_enough = 1e-3; /* [segment] two changes closer than this are missed */
   segment_search s = {.d = d, .k = k, .kind = kind, .before = &v[1], .sigma = NAN};
   double f[4], length[3];
   for (int i = 0; i < 4; ++i) f[i] = distance_of(kind, s.before, &v[i]);
@@ -441,8 +444,8 @@ static hc_status locate_pair(detector *d, int k, hbm_special_kind kind, const te
   return st == HC_OK ? locate_root(d, k, kind, beyond, value, 1, test_of(kind, &v[2])) : st;
 }
 
-/* Do the ends of segment k lie at one place, to what special_points.h promises? What changes between them is then
- * located; planes across a chord as short as rounding need not meet the curve (at a kink, where it also turns). */
+/* True if the ends of segment k are closer than the tolerance of special_points.h: a change between them is then
+ * located by that, and planes across so short a chord need not meet the curve (at a kink, where it also turns). */
 static bool is_one_place(const detector *d, int k)
 {
   const hbm_point *p = &d->c->points[k];
@@ -451,7 +454,7 @@ static bool is_one_place(const detector *d, int k)
          metric_distance(&at, at.X, hbm_curve_X(d->c, k + 1)) <= SAME_AMPLITUDE;
 }
 
-/* The end of segment k, where `kind` happens on the branch of its start. */
+/* Inserts the end of segment k as a special point, on the branch of the segment's start. */
 static hc_status take_end(detector *d, int k, hbm_special_kind kind, const test_values *before,
                           const test_values *after)
 {
@@ -515,9 +518,9 @@ hc_status hbm_specials(hbm_solver *s, const hbm_curve *c, hbm_special **out, int
   for (int k = 0; st != HC_NO_MEMORY && k + 1 < evaluated; ++k) {
     const hc_status found = hbm_curve_has_segment(c, k) ? search_segment(&d, k, &v[k]) : HC_OK;
     if (found == HC_NO_MEMORY) st = found;
-    if (found != HC_OK) not_located = found; /* the search goes on: the others are still to be found */
+    if (found != HC_OK) not_located = found; /* the search continues with the other segments */
   }
-  /* One point of those that cannot be told apart. */
+  /* Merge points that cannot be told apart. */
   int kept = 0;
   for (int i = 0; i < d.n; ++i) {
     const int k = twin_of(d.found, kept, &d.found[i]);

@@ -6,7 +6,7 @@
 #include "numerics/base/workspace.h"
 #include "numerics/dense.h"
 
-/* One of a contact's coordinates as a combination of few of q. */
+/* One coordinate of a contact: x = sum of weight[i] q[coordinate[i]]. */
 typedef struct combination {
   int n, *coordinate; /* [n] */
   double *weight;     /* [n] */
@@ -14,15 +14,16 @@ typedef struct combination {
 
 /* A contact, or the two halves of one with two tangents under one limit. */
 typedef struct member {
-  int first, contacts; /* the model's contact, or the first of them; how many */
+  int first, contacts; /* index of its first contact in the model; number of contacts, 1 or 2 */
   int n_dof;
   combination of[EVALUATOR_MOST_DOF]; /* [n_dof] */
   double cu[SERIES_MAX_DIM], cv[SERIES_MAX_DIM];
   const contact_evaluator *by;
   void *evaluator;
-  int n_tangents;         /* the first of its coordinates, those that friction alone acts on */
-  double kt, sign;        /* [force/length] of each, by x; of the friction force */
-  hbm_friction_mean mean; /* a mistake, as the sign is */
+  int n_tangents;         /* number of leading coordinates on which only friction acts */
+  double kt, sign;        /* [force/length] tangential stiffness by such a coordinate; sign of the friction force, -1 as
+                             a mistake */
+  hbm_friction_mean mean; /* mistake about the mean friction force, as `sign` */
   double *jac;            /* [n_dof (2H+1)]^2 */
   bool differentiated;
   contact_regime regime; /* of the last evaluation */
@@ -31,13 +32,13 @@ typedef struct member {
 struct contact_forces {
   int dim, length /* 2H+1 */, n_members;
   member *members;    /* [n_members] */
-  bool itself;        /* there is one contact, and its one coordinate is the one of q: nothing to gather or scatter */
+  bool itself;        /* one contact with one coordinate, which is q: X, F and the Jacobian are used directly */
   int *member_of;     /* [contacts] */
-  double *x, *f;      /* [EVALUATOR_MOST_DOF (2H+1)] of one member */
+  double *x, *f;      /* [EVALUATOR_MOST_DOF (2H+1)] motion and forces of one member */
   double *jac;        /* [dim (2H+1)]^2 */
-  int n_rows;         /* coordinates of all members */
-  double *directions; /* [n_rows][dim] these in q, by columns; NULL where scattering is the faster way */
-  double *product;    /* [dim][2H+1][n_rows] of the Jacobian, with `directions` */
+  int n_rows;         /* number of coordinates of all members */
+  double *directions; /* [n_rows][dim] directions of these in q; NULL where scattering is faster */
+  double *product;    /* [dim][2H+1][n_rows] work for the Jacobian; with `directions` only */
   bool assembled;
   workspace memory; /* of all of these */
 };
@@ -64,7 +65,8 @@ static hc_status make_member(const placed_contact *c, int dim, hbm_force force, 
   contact_coordinates x;
   kind->coordinates(c, dim, &x);
   m->sign = how->mistakes.turned >> (m->first < 31 ? m->first : 31) & 1 ? -1 : 1;
-  if (m->sign < 0 && x.n_dof == 1 && x.moved.cu[0] != 0 && x.moved.cv[0] != 0) /* T and N are told apart by u and v */
+  if (m->sign < 0 && x.n_dof == 1 && x.moved.cu[0] != 0 && x.moved.cv[0] != 0) /* the sign concerns T alone, which needs
+                                                                                  a coordinate of its own */
     x = (contact_coordinates){.n_dof = 2,
                               .direction = {c->tangent, c->normal},
                               .divisor = {1, 1},
@@ -87,8 +89,8 @@ static hc_status make_member(const placed_contact *c, int dim, hbm_force force, 
   return m->jac ? m->by->make(&x, how, &m->evaluator) : HC_NO_MEMORY;
 }
 
-/* Does the Jacobian cost less as a product of matrices than scattered member by member? That takes some ten times as
- * long an operation. */
+/* True if the Jacobian is faster as a matrix product than scattered member by member, which takes some ten times as
+ * long per operation. */
 static bool product_pays(const contact_forces *f)
 {
   double scattered = 0;
@@ -102,7 +104,7 @@ static bool product_pays(const contact_forces *f)
 
 static hc_status make_product(contact_forces *f)
 {
-  enum { FEW = 8 }; /* coordinates: everything is small */
+  enum { FEW = 8 }; /* coordinates q below which scattering is fast enough */
   for (int j = 0; j < f->n_members; ++j) f->n_rows += f->members[j].n_dof;
   if (f->dim < FEW || f->n_rows == 0 || !product_pays(f)) return HC_OK;
   const size_t dim = (size_t)f->dim, rows = (size_t)f->n_rows;
@@ -193,7 +195,7 @@ static void scatter(const contact_forces *f, const combination *of, const double
   }
 }
 
-/* The mistakes about the friction force F of the motion x; without F those of the Jacobian. */
+/* Applies the deliberate mistakes to the friction force F of the motion x; with F = NULL to the Jacobian. */
 static void spoil_friction(member *m, int length, const double *x, double *F)
 {
   const size_t rows = (size_t)m->n_dof * (size_t)length;
@@ -280,7 +282,7 @@ static void differentiate_forces(contact_forces *f, size_t q)
   }
 }
 
-/* Where directions have most of the coordinates in them: B^T (J B), block by block. */
+/* The Jacobian as B^T (J B), block by block, for directions with few zeros. */
 static void multiply_members(contact_forces *f)
 {
   const size_t n = (size_t)f->dim * (size_t)f->length;
@@ -359,7 +361,7 @@ void contact_forces_add_by_omega(const contact_forces *f, double *dF)
   }
 }
 
-/* Both u and v may be multiples of one coordinate: d held/du is that by the coordinate over du/dx. */
+/* If u and v are multiples of one coordinate x, all of d held/dx is attributed to u: by[0] = (d held/dx)/(du/dx). */
 void contact_forces_held_by(const contact_forces *f, int j, const contact_interval *p, double by[2])
 {
   const member *m = member_of(f, j);

@@ -14,8 +14,8 @@
 
 typedef struct contact_forces contact_forces;
 
-/* n contacts in q[dim], whose directions are copied; with a planar one the next, its second half, is not looked at.
- * HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
+/* n contacts in q[dim], whose directions are copied. A planar contact stands for itself and the next entry, its second
+ * half, which is not read. HC_BAD_INPUT, HC_NO_MEMORY: *out is NULL. */
 hc_status contact_forces_new_of(int dim, int n, const placed_contact *contacts, hbm_force force,
                                 const evaluator_settings *how, contact_forces **out);
 
@@ -24,8 +24,8 @@ hc_status contact_forces_new(const model *m, const condensation *c, hbm_force fo
                              contact_forces **out);
 void contact_forces_free(contact_forces *f); /* NULL is allowed */
 
-/* F[dim (2H+1)] [force] at X [length], and what the Jacobian needs where `derive`. Errors of the evaluators:
- * exact_force_eval, planar_force_eval, aft_eval, planar_aft_evaluator. */
+/* F[dim (2H+1)] [force] at X [length]. derive: contact_forces_jacobian will be called for this X. Errors of the
+ * evaluators: exact_force_eval, planar_force_eval, aft_eval, planar_aft_evaluator. */
 hc_status contact_forces_eval(contact_forces *f, const double *X, double *F, bool derive, contact_report *report);
 
 /* dF/dX, [dim (2H+1)]^2 by columns, at the last evaluation, which derived and ended with HC_OK; valid until the next
@@ -35,23 +35,25 @@ const double *contact_forces_jacobian(contact_forces *f);
 /* w[n_contacts] [length]: the sliders at th = 0 on the closed orbit of the last evaluation. */
 void contact_forces_sliders(const contact_forces *f, double *w);
 
-/* What happened to contact j in the last evaluation. */
+/* Regime of contact j in the last evaluation. */
 contact_regime contact_forces_regime(const contact_forces *f, int j);
 
-/* The intervals of contact j, of located forces only: of two tangents under one limit those of both at the first, none
- * at the second. What held of one of them depends on: d held = by[0] du + by[1] dv at its origin. */
+/* The intervals of contact j (exact forces only); two tangents under one limit have theirs at the first half, none at
+ * the second. contact_forces_held_by: the derivative of an interval's `held`, d held = by[0] du + by[1] dv at its
+ * origin. */
 const contact_interval *contact_forces_intervals(const contact_forces *f, int j, int *n);
 void contact_forces_held_by(const contact_forces *f, int j, const contact_interval *p, double by[2]);
 
-/* Does contact j follow a smooth law, of located forces; and its slopes at th along the last evaluation's motion. */
+/* True if contact j follows a smooth law with exact forces; its derivatives at th [rad] along the last evaluation's
+ * motion. */
 bool contact_forces_bends(const contact_forces *f, int j);
 contact_slopes contact_forces_slopes(const contact_forces *f, int j, double th, double omega);
 
-/* The frequency of evaluations to come: true if any force depends on it. dF[dim (2H+1)] += dF/domega at the last
- * evaluation, which derived. */
+/* Sets the frequency [rad/time] of the next evaluations; true if any force depends on it. dF[dim (2H+1)] += dF/domega
+ * at the last evaluation, which derived. */
 bool contact_forces_at(contact_forces *f, double omega);
 void contact_forces_add_by_omega(const contact_forces *f, double *dF);
 
-/* For the planar contact that j is the first half of, what the last evaluation found, of
- * located forces only; NULL of any other contact. Valid until the next evaluation. */
+/* The period of a planar contact whose first half is j, from the last evaluation with exact forces; NULL for other
+ * contacts. Valid until the next evaluation. */
 const planar_cycle *contact_forces_planar(const contact_forces *f, int j);

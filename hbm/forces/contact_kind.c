@@ -20,7 +20,8 @@ static int largest_entry(int n, const double *direction)
   return largest;
 }
 
-/* Is the normal a multiple of the tangent, which is not 0? To the last bit: what is nearly one has two coordinates. */
+/* True if the normal is exactly a multiple of the tangent, which is not 0; a nearly parallel one gets two
+ * coordinates. */
 static bool are_parallel(int n, const double *tangent, const double *normal)
 {
   const int k = largest_entry(n, tangent);
@@ -29,8 +30,8 @@ static bool are_parallel(int n, const double *tangent, const double *normal)
   return true;
 }
 
-/* u and v, or the one coordinate that both are multiples of, in the size of q's entry that moves it most. A contact
- * that nothing moves does nothing. */
+/* u and v, or the one coordinate of which both are multiples, scaled to the largest entry of its direction. A contact
+ * with zero directions stays at rest. */
 static void line_coordinates(const placed_contact *c, int dim, contact_coordinates *out)
 {
   const bool along = contact_rubs(&c->law) && !is_zero(dim, c->tangent);
@@ -49,7 +50,7 @@ static void line_coordinates(const placed_contact *c, int dim, contact_coordinat
   out->moved.cv[0] = c->normal[k];
 }
 
-/* u_1, u_2 and, where it moves the normal force, v. */
+/* u_1, u_2 and, if the normal force varies with it, v. */
 static void plane_coordinates(const placed_contact *c, int dim, contact_coordinates *out)
 {
   const bool across = c->law.kn > 0 && !is_zero(dim, c->normal);

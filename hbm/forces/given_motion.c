@@ -16,7 +16,7 @@ bool given_motion_is_planar(const given_motion *m) { return m->circle && contact
 
 int given_motion_planar_dof(const contact *law) { return law->kn > 0 ? 3 : 2; }
 
-/* Unit vectors: X is in the contact's own directions. */
+/* Directions of a pair: X holds u_1, u_2 and v themselves. */
 static const double unit[GIVEN_MOST_DOF][GIVEN_MOST_DOF] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 static void place(const given_motion *m, placed_contact *out)

@@ -1,12 +1,12 @@
 /* planar_aft.c - see planar_aft.h.
  *   X -> u_1, u_2, v at th_i = 2 pi i/N -> r -> the slider from sample to sample (planar_slider.h) until it closes
  *     -> T_1, T_2, N - N0 at th_i -> F
- * A period maps w to w no farther apart. Once out of contact all is forgotten, and the second period is the orbit.
- * Where contact is kept the periods contract as far as it slips, perhaps little: after a few of them Newton's step goes
- * to where the period would close, w + (I - A)^-1 (w' - w), A = dw'/dw the product of the steps'. Where that does not
- * bring it nearer, it is dragged on. An orbit that slips is the only one: Newton begins on the last motion's. One that
- * slips by rounding alone is one of many that stick, and which depends on where it began: from w = 0, since the same X
- * must have the same forces. */
+ * A period does not increase distances between sliders. If contact is lost, w is forgotten, and the second period is
+ * the orbit. If not, periods contract only as far as it slips, perhaps little: after a few of them Newton's step w + (I
+ * - A)^-1 (w' - w) aims at the closed orbit, A = dw'/dw being the product of the steps' derivatives; where that does
+ * not help, further periods are followed. A slipping orbit is unique: Newton starts from the last motion's. An orbit
+ * that slips by rounding only is one of many sticking ones, and depends on its start: w = 0, so that the same X always
+ * gives the same forces. */
 #include "hbm/planar/planar_aft.h"
 
 #include <string.h>
@@ -19,49 +19,51 @@
 #include "numerics/dense.h"
 
 enum {
-  PLANAR_PLAIN_PASSES = 4, /* periods dragged before any is guessed */
-  PLANAR_AFT_PASSES = 400, /* at most */
+  PLANAR_PLAIN_PASSES = 4, /* periods followed before the first step of Newton */
+  PLANAR_AFT_PASSES = 400, /* most periods followed */
   PANEL = 16               /* products added up at once by BLAS */
 };
 
-/* How the orbit of the last evaluation came about: what its slider depends on. */
+/* How the orbit of the last evaluation was found; decides on what its slider depends. */
 typedef enum planar_orbit {
-  PLANAR_CLOSED,  /* it slips or separates: the one closed orbit there is */
-  PLANAR_RESTS,   /* stuck, in `rest` */
-  PLANAR_DRAGGED, /* stuck, where `passes` periods from w = 0 have left it */
-  PLANAR_GUESSED, /* stuck, where `passes` or more have, some of them guessed; `last` is where one of these began */
+  PLANAR_CLOSED,  /* slips or separates: the unique closed orbit */
+  PLANAR_RESTS,   /* sticks, at the place in `rest` */
+  PLANAR_DRAGGED, /* sticks, at the place after `passes` periods from w = 0 */
+  PLANAR_GUESSED, /* sticks, after periods some of which began at steps of Newton; `last`: start of the last such
+                     period */
   PLANAR_ONE_PASS /* one period from w = 0, whether it closes or not */
 } planar_orbit;
 
 typedef struct planar_aft {
   int n_dof, n_harm, n_time;
   hbm_restart restart;
-  contact law;         /* of a half */
-  double *motion[3];   /* [n_time] u_1, u_2 and r (planar_slider.h), of a constant normal force the same everywhere */
+  contact law;         /* law of one half */
+  double *motion[3];   /* [n_time] [length] u_1, u_2 and r (planar_slider.h), a constant if the normal force is */
   double *traction[2]; /* [n_time] [force] */
   period_samples of;
-  unsigned char *move; /* [n_time] planar_move that led to each sample, of the orbit */
+  unsigned char *move; /* [n_time] planar_move of the step to each sample, on the orbit */
   planar_orbit orbit;
   int passes;
-  double start[2]; /* slider before sample 0 on the orbit; of PLANAR_ONE_PASS 0 */
-  double last[2];  /* of PLANAR_GUESSED */
-  double first[2]; /* slider at sample 0 */
+  double start[2]; /* [length] slider before sample 0 on the orbit; 0 for PLANAR_ONE_PASS */
+  double last[2];  /* [length] see PLANAR_GUESSED */
+  double first[2]; /* [length] slider at sample 0 */
   planar_rest rest;
-  double *table; /* of series.h */
+  double *table; /* of series_grid_table_fill */
   planar_point grid[PLANAR_GRID];
-  /* For the Jacobian; n_col = n_dof (2H+1) columns by X and two by the slider before sample 0. */
+  /* For the Jacobian: n_col = n_dof (2H+1) derivatives by X and two by the slider before sample 0. */
   double *symbol;   /* [4H+1] */
-  double *basis[2]; /* [2H+1] harmonics at the sample before and at the one that is looked at */
-  double *held;     /* [2H+1] their sum since w moved last */
-  double *by[2];    /* [n_col] dw_1, dw_2 */
-  double *whole;    /* [n_col][2 (2H+1)] d(T_1, T_2) */
-  int n_panel;      /* products of harmonics and dw that `whole` is still to lose, at most PANEL */
-  double *harmonic; /* [PANEL][2H+1] */
-  double *moved;    /* [n_col][2][PANEL] */
+  double *basis[2]; /* [2H+1] harmonics at the previous and at the current sample */
+  double *held;     /* [2H+1] sum of the harmonics of samples in contact since w moved last */
+  double *by[2];    /* [n_col] derivatives of w_1, w_2 */
+  double *whole;    /* [n_col][2 (2H+1)] derivatives of the harmonics of T_1, T_2 */
+  int n_panel;      /* number of products harmonic x dw not yet subtracted from `whole`, at most PANEL */
+  double *harmonic; /* [PANEL][2H+1] first factors of these products */
+  double *moved;    /* [n_col][2][PANEL] second factors */
   workspace memory; /* of all of these */
 } planar_aft;
 
-/* The first period is entered as slider.c does: out of contact, or with w = 0 put into the circle at sample 0. */
+/* Sample i of the motion. The first period starts as in slider.c: out of contact, or with w = 0 moved into the circle
+ * at sample 0. */
 static inline planar_sample planar_aft_sample(const planar_aft *a, int i)
 {
   return (planar_sample){{a->motion[0][i], a->motion[1][i]}, a->motion[2][i]};
@@ -131,11 +133,11 @@ static planar_move planar_aft_step(const planar_aft *a, int i, bool entering, do
 
 typedef struct period {
   bool slips, separates;
-  double A[2][2]; /* dw at the end/dw at the start, where it was asked for */
+  double A[2][2]; /* d(w at the end)/d(w at the start), if differentiated */
 } period;
 
-/* Tractions and moves of one period, from w before sample 0 to w at the last one. `again`: those of the period before
- * are known, at whose end w was. Where the slider comes to where it was then, all that follows is the same. */
+/* Tractions and moves of one period, from w before sample 0 to w at the last one. again: a->traction and a->move hold
+ * the previous period, which ended at w; from the sample on at which the slider is where it was then, they are kept. */
 static period drag(planar_aft *a, bool entering, bool again, bool differentiated, double w[2])
 {
   period p = {.A = {{1, 0}, {0, 1}}};
@@ -183,14 +185,14 @@ static bool planar_aft_fixed_point(double A[2][2], const double b[2], double x[2
   return true;
 }
 
-/* The rest `missed` of a period of derivative A may be that much of the slider's error [length]. */
+/* Bound of the slider's error [length], if a period with derivative A misses closing by `missed`. */
 static double error_of(const period *p, double missed)
 {
   const double det = (1 - p->A[0][0]) * (1 - p->A[1][1]) - p->A[0][1] * p->A[1][0];
   return missed * (2 + fabs(p->A[0][0]) + fabs(p->A[0][1]) + fabs(p->A[1][0]) + fabs(p->A[1][1])) / fabs(det);
 }
 
-/* Does the slider go farther than that along the orbit? In touch all the time. */
+/* True if the slider's path over the orbit, always in contact, is longer than `far` [length]. */
 static bool slips_far(const planar_aft *a, double far)
 {
   double way = 0, before[2] = {0};
@@ -204,9 +206,10 @@ static bool slips_far(const planar_aft *a, double far)
   return way > far;
 }
 
-/* Periods until one ends where it began, to `enough` [length]; at the end of the last one, to `most`. Where slip dies
- * out, a full step of Newton may end beyond, where it sticks: then back to where that began, and 9/10 of each step.
- * near_orbit: HC_NOT_CLOSED unless another start would have led there, too. */
+/* Follows periods until one closes to `enough` [length], or, when no step improves it or after the last one, to `most`.
+ * Where slip dies out, a full step of Newton may lead to a place where it sticks: then it returns to the start of that
+ * step and takes 9/10 of each. near_orbit: w is the last motion's; HC_NOT_CLOSED unless any other start would lead to
+ * the same orbit. */
 static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double w[2], double size)
 {
   const double enough = 1e-15 * size, most = 1e-12 * (hypot(w[0], w[1]) + size), near = 1e-9 * size,
@@ -242,14 +245,14 @@ static hc_status close_orbit(planar_aft *a, bool apart, bool near_orbit, double 
 
 /* ---- rest ----------------------------------------------------------------------------------------------- */
 
-/* Other programs march, and so does what repeats their habits. */
+/* True if the restart uses planar_rest.h; the others follow periods, as other programs do. */
 static bool rests_where_nearest(const planar_aft *a)
 {
   return a->restart == HBM_RESTART_INTERPOLATED || a->restart == HBM_RESTART_SAMPLE;
 }
 
-/* a->rest: of the motion itself, not of its samples, between which an instant where a disc holds the slider would
- * jump. */
+/* a->rest, from the motion itself: with samples only, the instants whose discs hold the slider would jump between
+ * them. */
 static hc_status find_rest(planar_aft *a, const double *X)
 {
   const int length = series_length(a->n_harm);
@@ -258,7 +261,7 @@ static hc_status find_rest(planar_aft *a, const double *X)
   return planar_rest_find(&m, a->grid, &a->rest);
 }
 
-/* The orbit of a slider that stays in a->rest. */
+/* The orbit of a slider that stays at a->rest.w. */
 static void take_rest(planar_aft *a)
 {
   a->orbit = PLANAR_RESTS;
@@ -293,14 +296,14 @@ static void fill_report(const planar_aft *a, contact_report *out)
 static hc_status evaluate(void *self, const double *X, double *F, double *jac, contact_report *report)
 {
   planar_aft *a = self;
-  (void)jac; /* `jacobian` makes it */
+  (void)jac; /* by `jacobian` instead */
   const int length = series_length(a->n_harm);
   double size = 0; /* bounds |u| and |v| */
   for (int i = 0; i < a->n_dof * length; ++i) size += fabs(X[i]);
   if (!isfinite(size)) return HC_NOT_FINITE;
   for (int d = 0; d < a->n_dof; ++d) period_samples_of(&a->of, X + d * length, a->motion[d]);
   if (a->n_dof == 2) memset(a->motion[2], 0, (size_t)a->n_time * sizeof(double));
-  if (a->n_dof == 3) { /* the normal forces of both halves, less what they are at rest */
+  if (a->n_dof == 3) { /* normal forces of both halves, less N0 */
     for (int i = 0; i < a->n_time; ++i) a->of.sample[i] = 2 * contact_normal_change(&a->law, a->motion[2][i]);
     period_samples_series(&a->of, a->of.sample, a->n_harm, F + 2 * length);
   }
@@ -313,7 +316,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   const bool near_orbit = a->orbit == PLANAR_CLOSED && !once && !apart;
   hc_status st = near_orbit ? close_orbit(a, apart, true, w, size) : HC_NOT_CLOSED;
   a->rest = (planar_rest){.exists = false};
-  if (st != HC_OK || a->orbit != PLANAR_CLOSED) { /* not known from the last motion */
+  if (st != HC_OK || a->orbit != PLANAR_CLOSED) { /* not found from the last motion's orbit */
     st = HC_OK;
     if (!apart && rests_where_nearest(a)) st = find_rest(a, X);
     if (st != HC_OK) return st;
@@ -353,7 +356,7 @@ static void empty_panel(planar_aft *a)
   a->n_panel = 0;
 }
 
-/* whole -= kt dw at the samples whose harmonics add up to `sum`. */
+/* whole -= kt dw at several samples, `sum` being the sum of their harmonics; queued until empty_panel. */
 static void subtract(planar_aft *a, const double *restrict sum)
 {
   const int length = series_length(a->n_harm), n = columns(a) + 2;
@@ -369,7 +372,7 @@ static void subtract(planar_aft *a, const double *restrict sum)
 static void subtract_held(planar_aft *a)
 {
   const size_t bytes = (size_t)series_length(a->n_harm) * sizeof(double);
-  if (a->held[0] == 0) return; /* of no sample */
+  if (a->held[0] == 0) return; /* no sample */
   subtract(a, a->held);
   memset(a->held, 0, bytes);
 }
@@ -379,7 +382,7 @@ static void clear_rows(planar_aft *a)
   for (int d = 0; d < 2; ++d) memset(a->by[d], 0, ((size_t)columns(a) + 2) * sizeof(double));
 }
 
-/* One step to sample i; with `forces`, what T does there. */
+/* Derivatives over the step to sample i; forces: also those of T there. */
 static void differentiate_step(planar_aft *a, int i, planar_move move, const planar_slope *slope, bool forces)
 {
   if (move != PLANAR_HELD && forces) subtract_held(a);
@@ -407,7 +410,8 @@ static void differentiate_step(planar_aft *a, int i, planar_move move, const pla
   else if (move != PLANAR_APART) period_samples_add(&a->of, 1, i, a->held);
 }
 
-/* The rows carried on over a period that begins with the slider w; with `forces`, the orbit, whose moves are known. */
+/* Derivatives over a period from the slider w; forces: the period is the orbit, whose moves are in a->move, and those
+ * of T are added. */
 static void differentiate_period(planar_aft *a, bool entering, double w[2], bool forces)
 {
   planar_slope slope;
@@ -428,8 +432,8 @@ static void start_rows(planar_aft *a)
   a->by[0][columns(a)] = a->by[1][columns(a) + 1] = 1;
 }
 
-/* by[d][q] of X = that of the slider which a period with these rows brings back to where it was. False where any comes
- * back. */
+/* by[d][q] = derivative by X of the fixed point of a period with these derivatives. False if I - A is singular: any
+ * slider returns. */
 static bool close_rows(planar_aft *a)
 {
   const int n = columns(a);
@@ -470,7 +474,7 @@ static void rows_of_rest(planar_aft *a)
     }
 }
 
-/* by = dw_0/dX of an orbit that sticks where it was dragged to. */
+/* by = dw_0/dX of an orbit that sticks where earlier periods ended. */
 static void rows_of_history(planar_aft *a)
 {
   double w[2] = {0};
@@ -485,7 +489,7 @@ static void rows_of_history(planar_aft *a)
   for (int pass = 0; pass < a->passes; ++pass) differentiate_period(a, pass == 0, w, false);
 }
 
-/* The columns by the slider before sample 0, times what that depends on. */
+/* whole by X += (whole by w_0) dw_0/dX. */
 static void add_start(planar_aft *a)
 {
   const int n = columns(a), rows = 2 * series_length(a->n_harm);

@@ -10,13 +10,13 @@ enum { N = COLLOCATION_POINTS };
 
 /* ---- the last step, to first order ------------------------------------------------------------------------ */
 
-/* A pass is moved to where it closes, when that is near, by the same variational equations as the force's derivatives
- * (planar_force.c), w while it sticks and phi while it slips. Moved by d, phi is then off by about d^2; the ends of
- * intervals stay where they are, and what is integrated over the intervals is off by d^2, too, since the force is
- * continuous there. [rad] The most that phi may be moved by: */
+/* When a pass nearly closes, it is corrected to the closed orbit by the variational equations of the force's
+ * derivatives (planar_force.c): w while it sticks, phi while it slips. A correction by d leaves an error of about d^2
+ * in phi; ends of intervals are not moved, and integrals over intervals err by d^2, too, since the force is continuous
+ * there. [rad] The largest correction of phi: */
 static const double SHIFT_MOST = 3e-9;
 
-/* d phi = -e_perp.dw/length, where u - w has that length and direction. */
+/* d phi = -e_perp.dw/length, u - w having this length and the direction phi. */
 static double turn(double phi, double length, const double dw[2])
 {
   return (dw[0] * sin(phi) - dw[1] * cos(phi)) / length;
@@ -29,7 +29,7 @@ static void swing(double phi, double R, double dphi, double dw[2])
   dw[1] = -R * cos(phi) * dphi;
 }
 
-/* From the start, or from the interval before, into interval i. */
+/* Carries dw or *dphi into interval i, from the start of the period or from the previous interval. */
 static void shift_into(const planar_cycle *c, int i, double dw[2], double *dphi)
 {
   const planar_interval *p = &c->interval[i];
@@ -48,7 +48,7 @@ static void shift_into(const planar_cycle *c, int i, double dw[2], double *dphi)
   }
 }
 
-/* phi of a panel by dphi at its beginning; what that is at its end. */
+/* Changes phi of a panel by dphi at its beginning; returns the change at its end. */
 static double move_panel(const collocation *c, planar_panel *p, double dphi)
 {
   const double h = p->to - p->from;
@@ -64,12 +64,12 @@ static double move_panel(const collocation *c, planar_panel *p, double dphi)
   return dphi * p->growth;
 }
 
-/* Moves the last pass, which must have been in contact all the time, by dw0 [length] of its start; false, and nothing
- * is changed, where phi would be moved by more than SHIFT_MOST. */
+/* Corrects the last pass, always in contact, for a change dw0 [length] of its start. False, and nothing is changed, if
+ * phi would change by more than SHIFT_MOST. */
 static bool shift_pass(planar_cycle *c, const double dw0[2])
 {
   double dw[2] = {dw0[0], dw0[1]}, dphi = 0;
-  /* Passes lead no two sliders apart, so that none moves by more than the start. */
+  /* A pass does not increase distances, so w changes by no more than its start. */
   for (int i = 0; i < c->n; ++i) {
     const planar_interval *p = &c->interval[i];
     if (p->state == CONTACT_STICK) continue;
@@ -88,18 +88,18 @@ static bool shift_pass(planar_cycle *c, const double dw0[2])
 
 enum { MAX_CHANGES_PER_HARMONIC = 64, MAX_CHANGES_AT_ANGLE = 3, MAX_NEWTON = 20, MAX_PASSES = 100 };
 
-/* The slider while it is followed. */
+/* The slider during a pass. */
 typedef struct slider {
   bool slips;
   double w[2], dw[2][2]; /* while it sticks: position and d w/d w0 */
   double phi, dphi[2];   /* while it slips: direction and d phi/d w0 */
-  double way[2];         /* what w has moved by since th = 0, by the sums of its speed */
-  planar_begin begin;    /* of the interval under way */
+  double way[2];         /* displacement of w since th = 0, integrated from its rate */
+  planar_begin begin;    /* start of the current interval */
 } slider;
 
 /* ---- changes of state ------------------------------------------------------------------------------ */
 
-/* It begins to slip at a limit R where u - w has this length: d phi = -e_perp . dw/length. */
+/* Slip begins: phi is the direction of u - w, d phi = -e_perp . dw/length with length = |u - w|. */
 static void set_direction(slider *k, const planar_point *at)
 {
   const double t1 = at->u[0] - k->w[0], t2 = at->u[1] - k->w[1], length = hypot(t1, t2);
@@ -119,7 +119,7 @@ static void set_position(slider *k, const planar_point *at)
   }
 }
 
-/* Does a slider at the limit slip? Where it moves neither way to rounding, if it is about to. */
+/* True if a slider at the limit slips: s > 0, or s = 0 to rounding and s' > 0. */
 static bool slips_at_limit(const planar_cycle *c, const planar_point *at, double phi)
 {
   const double noise = 16 * DBL_EPSILON * (c->m->of_u[1] + c->m->of_R[1]), speed = planar_slip_speed(at, phi);
@@ -138,7 +138,7 @@ static void leave_stick(const planar_cycle *c, slider *k, const planar_point *at
   memcpy(k->dw, dw, sizeof dw);
 }
 
-/* At th = 0 from w, put into the circle. */
+/* State at th = 0 from w, moved into the circle. */
 static void start(const planar_cycle *c, slider *k, const double w[2])
 {
   const planar_point *at = &c->grid[0];
@@ -179,7 +179,7 @@ static hc_status stick(planar_cycle *c, slider *k, planar_point *at, double to)
   return st;
 }
 
-/* += the integral of s e over a panel. */
+/* way += integral of s e over a panel. */
 static void add_way(const planar_cycle *c, const planar_panel *p, double way[2])
 {
   const double width = p->to - p->from;
@@ -211,8 +211,8 @@ static hc_status slip(planar_cycle *c, slider *k, planar_point *at, double to)
   return st;
 }
 
-/* Where u - w, R and their rates are 0 to rounding, which state follows cannot be told there, but a little later: the
- * search goes on from that angle in stick, the slider put into the circle. */
+/* Where u - w, R and their rates are 0 to rounding the next state cannot be decided: the search continues a little
+ * later, sticking, with the slider moved into the circle. */
 static void skip_degenerate(const planar_cycle *c, slider *k, planar_point *at, double to)
 {
   const double little = 1e-8;
@@ -248,8 +248,8 @@ static void begin_pass(planar_cycle *c)
   c->changes = 0;
 }
 
-/* One pass from w0, which becomes the slider at its end; A[row][col] = d(that)/d w0. moved: end - w0. Where w has moved
- * little, that is better known from its speed than from the difference of two places. */
+/* One pass from w0, which becomes the slider at its end; A[row][col] = d(that)/d w0. moved: end - w0, by integrating
+ * the rate of w if w0 was not moved into the circle: more accurate than the difference when small. */
 static hc_status go_round(planar_cycle *c, double w[2], double A[2][2], double moved[2])
 {
   slider k;
@@ -287,9 +287,9 @@ static double size_of(const planar_cycle *c) { return c->m->of_u[0] + c->m->of_R
 static double length_of(const double x[2]) { return hypot(x[0], x[1]); }
 
 typedef struct closing {
-  double w[2], end[2], distance; /* [length] start of a pass and its end; from one to the other */
-  double step[2];                /* to go on with */
-  double left;                   /* [1] of a difference at the start, at the end: a bound */
+  double w[2], end[2], distance; /* [length] start of a pass, its end, and their distance */
+  double step[2];                /* [length] Newton's step from w, or end - w */
+  double left;                   /* [1] bound of the derivative of the end by the start */
 } closing;
 
 static hc_status try_from(planar_cycle *c, const double w[2], closing *out)
@@ -299,15 +299,16 @@ static hc_status try_from(planar_cycle *c, const double w[2], closing *out)
   *out = (closing){.w = {w[0], w[1]}, .end = {end[0], end[1]}, .step = {moved[0], moved[1]}};
   out->distance = hypot(out->step[0], out->step[1]);
   out->left = hypot(hypot(A[0][0], A[0][1]), hypot(A[1][0], A[1][1]));
-  /* Newton's step (1 - A)^-1 step; the step as it is where that does not exist, or is longer than size_of(c). */
+  /* Newton's step (1 - A)^-1 step; the plain step if that does not exist, or is longer than size_of(c). */
   const double a = 1 - A[0][0], b = -A[0][1], d = -A[1][0], e = 1 - A[1][1], det = a * e - b * d;
   const double x = (e * out->step[0] - b * out->step[1]) / det, y = (a * out->step[1] - d * out->step[0]) / det;
   if (fabs(det) > DBL_EPSILON && hypot(x, y) <= size_of(c)) out->step[0] = x, out->step[1] = y;
   return st;
 }
 
-/* Newton from the last pass until its step does not become less; one that does not is halved, unless it is rounding.
- * Where slip begins a pass moves w by little, wherever it is: the step tells how far off that is. */
+/* Newton from the last pass until its step is rounding. A step that does not shrink is halved, unless the pass closes
+ * to `enough`. Progress is judged by the step, not by end - w: at the onset of slip a pass moves w little, wherever it
+ * starts. */
 static hc_status close_by_newton(planar_cycle *c, closing *now, bool *closed)
 {
   const double rounding = 64 * DBL_EPSILON * size_of(c), enough = 1e-11 * size_of(c);
@@ -330,8 +331,7 @@ static hc_status close_by_newton(planar_cycle *c, closing *now, bool *closed)
   return st;
 }
 
-/* Two passes; the first as far as what is left of it after the second matters, which is little: that one goes on from
- * an angle or a place that is off by the rough panels' error times what slip leaves of it. */
+/* Two passes from w, the first with rough panels: the second forgets most of its error. */
 static hc_status begin_roughly(planar_cycle *c, const double w[2], closing *last)
 {
   c->slip.resolved = PLANAR_ROUGH;
@@ -341,8 +341,8 @@ static hc_status begin_roughly(planar_cycle *c, const double w[2], closing *last
   return st == HC_OK ? try_from(c, (double[2]){last->end[0], last->end[1]}, last) : st;
 }
 
-/* It slips for ever: Newton from where the discs that have no point in common leave it most room; where Newton does not
- * end, from some passes further on. */
+/* The closed orbit that slips: Newton from the centre found by planar_rest.h, or after further passes where Newton
+ * fails. */
 static hc_status close_slip(planar_cycle *c)
 {
   closing now;
@@ -357,7 +357,7 @@ static hc_status close_slip(planar_cycle *c)
 
 /* ---- rest ---------------------------------------------------------------------------------------------- */
 
-/* c->rest; if there is one, the cycle is that. */
+/* Finds c->rest; if it exists, the cycle is one stick interval. */
 static hc_status find_rest(planar_cycle *c)
 {
   const hc_status st = planar_rest_find(c->m, c->grid, &c->rest);

@@ -14,22 +14,22 @@ enum { N = COLLOCATION_POINTS };
 /* A slipping planar contact at one point of a step. */
 typedef struct weighted_state {
   planar_state is;
-  double weight; /* of its equation: 1/(R + s h) [1/length] */
+  double weight; /* factor that scales its equation: 1/(R + s h) [1/length] */
 } weighted_state;
 
 struct planar_flow {
   const model *m;
   int n, n_states;
   collocation c;
-  double twice[N][N];   /* a a: from accelerations to positions */
-  double *K, *C;        /* [n][n] by columns, K_j of the interval, C */
-  double *K_at, *C_at;  /* [N][n][n] the same at the points of a step, with the slopes of smooth laws */
-  planar_bends *bends;  /* NULL: there are none */
-  const void *orbit;    /* of bends */
-  double *matrix;       /* [N (n + planar)]^2 by columns */
+  double twice[N][N];   /* square of the collocation's a: from accelerations to positions */
+  double *K, *C;        /* [n][n] by columns: K_j of the interval; C of the model */
+  double *K_at, *C_at;  /* [N][n][n] the same at the points of a step, with the derivatives of smooth laws */
+  planar_bends *bends;  /* callback for smooth contacts; NULL: none */
+  const void *orbit;    /* argument of bends */
+  double *matrix;       /* [N (n + planar)]^2 by columns: collocation equations of a step */
   int *pivot;           /* [N (n + planar)] */
-  double *right;        /* [n_states][N (n + planar)] right sides, then accelerations, of every column of phi */
-  double *now;          /* [2 n + n_contacts] a column of phi */
+  double *right;        /* [n_states][N (n + planar)] for each column of phi the right side, then the accelerations */
+  double *now;          /* [2 n + n_contacts] current column of phi */
   weighted_state *at;   /* [planar][N] */
   double *along, *perp; /* [planar][N][n] t.e and t.e_perp */
   workspace memory;     /* of all of these */
@@ -77,7 +77,7 @@ void planar_flow_bend(planar_flow *f, planar_bends *bends, const void *self) { f
 
 /* ---- a step ------------------------------------------------------------------------------------------ */
 
-/* What angles of the period are where the interval covers them. */
+/* Shift, 0 or 2 pi, of the angle th of the period into the interval. */
 static double shift_to(const planar_interval *p, double th) { return th >= p->from && th < p->to ? 0 : TWO_PI; }
 
 /* The panel that covers th. */
@@ -119,7 +119,7 @@ static void add_product(int n, double k, const double *a, const double *b, doubl
     for (int r = 0; r < n; ++r) A[(size_t)q * (size_t)n + (size_t)r] += k * a[r] * b[q];
 }
 
-/* The slopes of contact j on that interval; false: it has none, or does not touch. */
+/* Derivatives of smooth contact j; false if it is not smooth, or separated. */
 static bool bends(const planar_flow *f, const contact_interval *const *interval, int j, double th, double omega,
                   contact_slopes *out)
 {
@@ -173,7 +173,7 @@ static double radius_by_v(const planar_flow *f, const planar_slipping *s)
   return law->mu * law->kn / law->kt;
 }
 
-/* What the accelerations at point j add to the structure's equations at point i. */
+/* Block (i, j) of the matrix: coefficients of the accelerations at point j in the structure's equations at point i. */
 static void fill_motion_block(planar_flow *f, int n_slipping, const planar_slipping *slipping, double h, int i, int j)
 {
   const size_t n = (size_t)f->n, of_point = n + (size_t)n_slipping, ld = N * of_point;
@@ -244,7 +244,7 @@ static hc_status advance_step(planar_flow *f, const contact_interval *const *int
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) {
       fill_motion_block(f, n_slipping, slipping, h, i, j);
-      /* The same of the equations of slip. */
+      /* The rows of the slip equations in that block. */
       const size_t n = (size_t)f->n, of_point = n + (size_t)n_slipping, ld = N * of_point;
       const double once = h * f->c.a[i][j], twice = h * h * f->twice[i][j];
       for (int k = 0; k < n_slipping; ++k) {
@@ -291,7 +291,8 @@ hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *int
                               const planar_slipping *slipping, double from, double to, double omega, int columns,
                               double *phi)
 {
-  const double turns_a_step = f->bends ? 2 : 3; /* slopes that vary have their own harmonics */
+  const double turns_a_step = f->bends ? 2 : 3; /* [rad] of the highest frequency per step; less with varying
+                                                   stiffness */
   const model *m = f->m;
   memcpy(f->K, m->stiffness, (size_t)f->n * (size_t)f->n * sizeof *f->K);
   for (int j = 0; j < m->n_contacts; ++j) {
@@ -301,12 +302,12 @@ hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *int
     add_outer(f->n, contact_interval_stiffness(&c->law, interval[j]), c->tangent,
               contact_slip_sign(interval[j]->state) ? c->normal : c->tangent, f->K);
   }
-  for (int k = 0; k < n_slipping; ++k) { /* of both halves */
+  for (int k = 0; k < n_slipping; ++k) { /* kn of both halves */
     const model_contact *c = &m->contacts[slipping[k].contact];
     add_outer(f->n, 2 * c->law.kn, c->normal, c->normal, f->K);
   }
-  /* [1/time] No frequency of K_j and M is higher: the largest sum over a row of |K|, over the least of M that a row
-   * leaves. */
+  /* [1/time^2] Estimated bound of the squared frequencies of K_j and M: the largest row sum of |K| over the row's
+   * diagonal dominance in M, but at least a tenth of its diagonal. */
   double most = 0;
   for (int i = 0; i < f->n; ++i) {
     double k = 0, mass = 2 * f->m->mass[(size_t)i * (size_t)(f->n + 1)];
@@ -317,7 +318,7 @@ hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *int
     const double least = 0.1 * f->m->mass[(size_t)i * (size_t)(f->n + 1)];
     most = fmax(most, k / fmax(mass, least));
   }
-  for (int k = 0; k < f->m->n_contacts; ++k) { /* kt of planar contacts, in no K */
+  for (int k = 0; k < f->m->n_contacts; ++k) { /* kt of planar contacts is not in K */
     const model_contact *c = &f->m->contacts[k];
     for (int i = 0; i < f->n; ++i)
       most = fmax(most, 2 * c->law.kt * fabs(c->tangent[i]) / f->m->mass[(size_t)i * (size_t)(f->n + 1)]);
@@ -325,8 +326,7 @@ hc_status planar_flow_advance(planar_flow *f, const contact_interval *const *int
   hc_status st = HC_OK;
   for (double at = from; at < to && st == HC_OK;) {
     double width = turns_a_step * omega / sqrt(most);
-    for (int look = 0; look < 5 && f->bends;
-         ++look) { /* as they are from the step's beginning to its end, as it is then */
+    for (int look = 0; look < 5 && f->bends; ++look) { /* stiffnesses at five places of the step */
       const double there = at + 0.25 * look * width;
       double stiffest = most;
       for (int j = 0; j < m->n_contacts; ++j) {

@@ -1,8 +1,8 @@
-/* planar_force.c - see planar_force.h. Lengths until the end, where they are multiplied with kt: (u - w) and R e.
+/* planar_force.c - see planar_force.h. Forces are computed as lengths, u - w and R e, and multiplied by kt at the end.
  *
- * What the slider's position depends on is kept as a row of derivatives: d w (two rows) while it sticks, d phi while
- * it slips, by the columns of X and two more, of w0 = w(0). On the closed orbit w0 repeats itself, d w0 = (1 - A)^-1 B
- * dX with A, B the derivatives of the pass; the last two columns are then eliminated. */
+ * Derivatives of the slider's position are rows: d w (two rows) while it sticks, d phi while it slips; columns are the
+ * derivatives by X, and two by w0 = w(0). On the closed orbit w(2 pi) = w0, d w0 = (1 - A)^-1 B dX with A, B the
+ * derivatives of the pass; the last two columns are then eliminated. */
 #include "hbm/planar/planar_force.h"
 
 #include <string.h>
@@ -22,24 +22,25 @@ struct planar_force {
   int n_harm, n_dof, n_coef, n_size; /* n_size = n_dof n_coef */
   int n_col;                         /* n_size + 2 */
   contact law;                       /* of both halves together */
-  exact_force *normal;               /* N - N0 and when there is contact; NULL where N is constant */
+  exact_force *normal;               /* gives N - N0 and the intervals of contact; NULL if N is constant */
   double *F_normal, *jac_normal;     /* [n_coef], [n_coef]^2 */
-  double *X;                         /* [n_size] of the last evaluation, which its motion is read from later, too */
+  double *X;                         /* [n_size] X of the last evaluation, to which `motion` points */
   planar_motion motion;
-  double *table; /* of series.h */
+  double *table; /* of series_grid_table_fill */
   planar_point grid[PLANAR_GRID];
   collocation rule;
   planar_contact *contact; /* [cap] */
   planar_cycle cycle;
-  contact_interval *intervals;         /* [cycle.cap] its intervals, for contact_evaluator.h */
-  double *indicator, *symbol, *weight; /* [4H+1] of an interval, of all stick intervals; [2H+1] */
-  double *F;                           /* [2][n_coef] [length] of T/kt */
+  contact_interval *intervals;         /* [cycle.cap] the cycle's intervals in the form of contact_evaluator.h */
+  double *indicator, *symbol, *weight; /* [4H+1] Fourier series of an interval's indicator; of all stick intervals;
+                                          [2H+1] interval_series_weights */
+  double *F;                           /* [2][n_coef] [length] harmonics of T/kt */
   double *by;                          /* [2][n_coef][n_col] its derivatives */
   double *dw[2], *dphi;                /* [n_col] */
-  double *node;                        /* [3][N][n_col] d phi at the points of a panel; d(R e) there, with weights */
-  double *matrix;                      /* [n_coef]^2 */
+  double *node;                        /* [3][N][n_col] d phi at the points of a panel; weighted d(R e) there (2) */
+  double *matrix;                      /* [n_coef]^2 dT/du of stick, over kt */
   double *base, *rate;                 /* [N][n_coef] 1, cos, sin at the points, and their derivatives */
-  double *test;                        /* [n_coef][N] what is integrated with: 1/2, cos, sin */
+  double *test;                        /* [n_coef][N] test functions of the integrals: 1/2, cos, sin */
   workspace memory;                    /* of all of these */
 };
 
@@ -58,7 +59,7 @@ static void fill_base(int n_harm, double th, double *base, double *rate)
   }
 }
 
-/* to += a du_1 + b du_2 + c dv, base being that of an angle: derivatives of a combination of the motions there. */
+/* to += derivatives by X of a u_1 + b u_2 + c v at the angle of `base` (with `rate`: of their derivatives by th). */
 static void add_motion(const planar_force *f, const double *base, double a, double b, double c, double *to)
 {
   const int L = f->n_coef;
@@ -69,7 +70,7 @@ static void add_motion(const planar_force *f, const double *base, double a, doub
 
 static void clear_row(const planar_force *f, double *row) { memset(row, 0, (size_t)f->n_col * sizeof *row); }
 
-/* d phi = e_perp.(du - dw)/length where u - w has that length and direction. */
+/* Slip begins: d phi = e_perp.(du - dw)/length, u - w having this length and the direction phi. */
 static void begin_slip(planar_force *f, const double *base, double phi, double length)
 {
   const double a = -sin(phi) / length, b = cos(phi) / length;
@@ -89,7 +90,7 @@ static void come_to_rest(planar_force *f, const double *base, double phi, double
   add_motion(f, base, 0, 1, -per_v * sine, f->dw[1]);
 }
 
-/* The angle of touch-down moves by -dR/R'. */
+/* Contact begins at an angle that changes by -dR/R'. */
 static void begin_contact(planar_force *f, const planar_interval *p, const planar_point *at, const double *base,
                           const double *rate)
 {
@@ -108,7 +109,7 @@ static void begin_contact(planar_force *f, const planar_interval *p, const plana
   add_motion(f, base, 0, 0, -planar_slip_slope(&f->motion, at, phi) * per_v / speed, f->dphi);
 }
 
-/* From w0 at th = 0, whose derivatives are in dw, into the circle. */
+/* From w0 at th = 0, with derivatives in dw, to the slider moved into the circle. */
 static void begin_period(planar_force *f, const planar_interval *p, const planar_point *at, const double *base)
 {
   const double t1 = at->u[0] - f->cycle.start[0], t2 = at->u[1] - f->cycle.start[1], length = hypot(t1, t2),
@@ -119,8 +120,7 @@ static void begin_period(planar_force *f, const planar_interval *p, const planar
   if (!slips) come_to_rest(f, base, phi, at->R);
 }
 
-/* From what was before into interval i, whose derivatives are then in dw or dphi; base and rate become those of its
- * angle. */
+/* Carries the derivatives into interval i, in dw or dphi; sets base and rate at its start. */
 static void begin_interval(planar_force *f, int i, double *base, double *rate)
 {
   const planar_cycle *c = &f->cycle;
@@ -129,7 +129,7 @@ static void begin_interval(planar_force *f, int i, double *base, double *rate)
   fill_base(f->n_harm, p->from, base, rate);
   if (p->begin == PLANAR_TOUCHES) begin_contact(f, p, &at, base, rate);
   else if (p->begin == PLANAR_STARTS) begin_period(f, p, &at, base);
-  else if (p->state == before->state) return; /* stick goes on, its slider moved by rounding */
+  else if (p->state == before->state) return; /* stick continues; the slider changed by rounding only */
   else if (p->state == CONTACT_STICK)
     come_to_rest(f, base, c->slip.panel[before->panel + before->n_panels - 1].phi[N - 1], at.R);
   else begin_slip(f, base, c->slip.panel[p->panel].phi0, at.R);
@@ -138,7 +138,7 @@ static void begin_interval(planar_force *f, int i, double *base, double *rate)
 /* ---- a panel of slip ------------------------------------------------------------------------------- */
 
 typedef struct slip_points {
-  double weight[N]; /* width a[last][i]/pi: of Fourier's integrals */
+  double weight[N]; /* width a[last][i]/pi: weights of the Fourier integrals */
   double cosine[N], sine[N], R[N], pull[N];
 } slip_points;
 
@@ -161,7 +161,7 @@ static void fill_bases(planar_force *f, const planar_panel *p)
   }
 }
 
-/* Whole rows of a loop of constant length. */
+/* Loops over whole rows have constant length, which is faster. */
 static inline void subtract_row(double factor, const double *restrict row, double *restrict from)
 {
   for (int j = 0; j < 2 * N; ++j) from[j] -= factor * row[j];
@@ -220,8 +220,8 @@ static void fill_change(const planar_force *f, const slip_points *q, int i, doub
     first[2 * L + k] += e * c * base[k], second[2 * L + k] += e * s * base[k];
 }
 
-/* += a panel's integrals over pi of R e with 1/2, cos, sin .. of h th, into F; if wanted with their derivatives, into
- * by, dphi being those of phi where it begins, and then where it ends. */
+/* F += a panel's integrals of R e times 1/2, cos, sin .. of h th, over pi. derive: by += their derivatives, with dphi
+ * at the panel's beginning, which becomes that at its end. */
 static void add_panel(planar_force *f, const planar_panel *p, bool derive)
 {
   const int L = f->n_coef;
@@ -244,7 +244,7 @@ static void add_panel(planar_force *f, const planar_panel *p, bool derive)
   }
   if (!derive) return;
   follow_angle(f, p, &q);
-  /* Its integrals with the harmonics; of a mean half of that. */
+  /* by += integrals of d(R e) with the test functions. */
   const size_t n = (size_t)f->n_col;
   double *change[2] = {f->node + N * n, f->node + 2 * N * n};
   for (int i = 0; i < N; ++i) fill_change(f, &q, i, change[0] + (size_t)i * n, change[1] + (size_t)i * n);
@@ -282,7 +282,7 @@ static hc_status make_workspace(planar_force *f)
   return exact_force_new(f->n_harm, 1, 1, &across, &f->normal);
 }
 
-/* Without v, N is what v = 0 gives. */
+/* The law of both halves together. n_dof = 2: N is constant, its value at v = 0. */
 static contact whole_law(const contact *half, int n_dof)
 {
   contact law = {half->kt, 2 * half->kn, half->mu / 2, half->gap, 2 * half->load};
@@ -323,7 +323,7 @@ void planar_force_free(planar_force *f)
 
 /* ---- the orbit --------------------------------------------------------------------------------------- */
 
-/* The normal force, and between which angles there is contact. */
+/* The normal force, and the intervals of contact. */
 static hc_status find_contacts(planar_force *f, const double *X)
 {
   planar_cycle *c = &f->cycle;
@@ -361,7 +361,7 @@ static hc_status find_orbit(planar_force *f, const double *X)
 
 /* ---- stick ------------------------------------------------------------------------------------------- */
 
-/* u - w on the interval: its share of the symbol, and of what is constant. */
+/* Adds u - w on the interval: its indicator to the symbol (u), and the constant w to F; derive: dw to by. */
 static void add_stick(planar_force *f, const planar_interval *p, bool derive)
 {
   const int L = f->n_coef;
@@ -385,7 +385,7 @@ static void clear_sums(planar_force *f)
   memset(f->symbol, 0, (size_t)force_jacobian_symbol_length(f->n_harm) * sizeof *f->symbol);
 }
 
-/* The integrals of all intervals. In dw the derivatives of w0; at the end those of w(2 pi). */
+/* The integrals of all intervals. dw: derivatives of w0; on return those of w(2 pi). */
 static void add_intervals(planar_force *f, bool derive)
 {
   const planar_cycle *c = &f->cycle;
@@ -405,7 +405,7 @@ static void add_intervals(planar_force *f, bool derive)
   come_to_rest(f, base, c->slip.panel[last->panel + last->n_panels - 1].phi[N - 1], at.R);
 }
 
-/* Derivatives of the place where it rests. */
+/* dw = derivatives of the rest position. */
 static void follow_rest(planar_force *f)
 {
   const planar_rest *r = &f->cycle.rest;
@@ -444,8 +444,8 @@ static void integrate(planar_force *f, bool derive)
   }
   if (derive && f->cycle.rest.exists) follow_rest(f);
   add_intervals(f, derive);
-  /* On the closed orbit d w0 = A d w0 + B: of what dw has after a pass from w0, into dw; then by += (derivatives by w0)
-   * d w0. */
+  /* On the closed orbit d w0 = A d w0 + B dX, A and B being in dw after the pass: dw becomes d w0/dX, then by +=
+   * (derivatives by w0) d w0/dX. */
   if (closes) {
     const int n = f->n_size;
     const double a = 1 - f->dw[0][n], b = -f->dw[0][n + 1], c = -f->dw[1][n], d = 1 - f->dw[1][n + 1],
@@ -465,7 +465,7 @@ static void integrate(planar_force *f, bool derive)
 
 /* ---- put together --------------------------------------------------------------------------------------- */
 
-/* From what integrate() has derived: F_d = kt (K u_d + rest), K being Toeplitz + Hankel of stick. */
+/* dF/dX from the sums of integrate(): dF_d = kt (K du_d + by), K being Toeplitz + Hankel of the stick intervals. */
 static void put_jacobian(const planar_force *f, double *jac)
 {
   const size_t L = (size_t)f->n_coef, n = (size_t)f->n_size;
@@ -502,7 +502,7 @@ static hc_status find_force(planar_force *f, const double *X, bool may_shift, bo
   }
   for (size_t i = 0; f->n_dof == 3 && i < L; ++i) F[2 * L + i] = f->F_normal[i];
   const planar_cycle *c = &f->cycle;
-  for (int i = 0; i < c->n; ++i) { /* sliders come to rest at no angle: monodromy.c moves them */
+  for (int i = 0; i < c->n; ++i) { /* origin -1: monodromy.c propagates these sliders itself */
     const planar_interval *p = &c->interval[i];
     f->intervals[i] = (contact_interval){.from = p->from, .to = p->to, .state = p->state, .origin = -1};
   }
@@ -537,7 +537,7 @@ static hc_status evaluate(void *self, const double *X, double *F, double *jac, c
   return find_force(self, X, jac != NULL, false, F, report); /* `jacobian` derives */
 }
 
-/* At the last evaluation, whose passes, which had no trouble, are gone through once more. */
+/* dF/dX at the last evaluation, by one more integration over its orbit. */
 static void jacobian(void *self, double *jac)
 {
   planar_force *f = self;

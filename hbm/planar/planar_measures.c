@@ -12,7 +12,7 @@
 
 enum { N = COLLOCATION_POINTS };
 
-/* square += (X - [constant])^2, of 2 n_harm harmonics: products of cosines and sines are sums of them. */
+/* square += (X - constant)^2, a series of 2 n_harm harmonics by the product formulas of cosines and sines. */
 static void add_square(int n_harm, const double *X, double constant, double *square)
 {
   const double mean = X[0] - constant;
@@ -33,7 +33,7 @@ static void add_square(int n_harm, const double *X, double constant, double *squ
   }
 }
 
-/* The largest |u - w| of a stick interval; square: room. */
+/* The largest |u - w| of a stick interval; square[4 n_harm + 1]: work. */
 static double stick_distance(const planar_motion *m, const planar_interval *p, double *square)
 {
   const double one = 1;
@@ -55,7 +55,7 @@ static double slip_distance(const planar_motion *m, const planar_interval *p)
   return most + m->rest;
 }
 
-/* A panel's part of the path of w and of the integral of R |dw|. */
+/* sum[0] += length of the path of w on a panel, sum[1] += integral of R |dw|. */
 static void add_panel(const planar_cycle *c, const planar_panel *p, double sum[2])
 {
   const collocation *rule = c->slip.c;

@@ -29,7 +29,7 @@ planar_motion planar_motion_make(const contact *law, int n_harm, const double *u
   return m;
 }
 
-/* The sums of one series at the angle of these cosines and sines. */
+/* Value and two derivatives of one series at the angle whose cosines and sines are in turn[]. */
 static void sum(const planar_motion *m, const double *X, const double *turn, double *x, double *dx, double *ddx)
 {
   double value = X[0], first = 0, second = 0;

@@ -20,7 +20,7 @@ enum { MAX_EXCHANGES = 100, MAX_NEWTON = 30, MOST_HOLD = 3 };
 typedef struct stick_guard {
   const planar_motion *m;
   double w[2];
-  planar_point last; /* evaluated */
+  planar_point last; /* the motion at the angle evaluated last */
 } stick_guard;
 
 static guarded_point guard_at(const stick_guard *s, const planar_point *p)
@@ -43,7 +43,7 @@ static guarded_point guard_new_at(void *self, double th)
 bool planar_stick_ends(const planar_motion *m, const planar_point *grid, const double w[2], const planar_point *from,
                        double to, planar_point *root)
 {
-  /* On an interval of the grid that begins in stick |u - w| grows to no more than the largest R and what u moves. */
+  /* pulled: bound of |u - w| on an interval of the grid that begins in stick: largest R plus the change of u. */
   const double *U = m->of_u, *R = m->of_R, step = TWO_PI / SERIES_GRID;
   const double pulled = fmin(R[0] + U[1] * step, U[0] + hypot(w[0], w[1]));
   stick_guard stick = {m, {w[0], w[1]}, *from};
@@ -83,8 +83,8 @@ static disc_distance distance_at(const planar_point *p, const double w[2])
                          .bend = p->ddu[0] * e1 + p->ddu[1] * e2 + across * across / length - p->ddR};
 }
 
-/* The angle where h is stationary, from one no farther from it than from the next of the grid: Newton, or halves where
- * that leads out. From an angle that is good to 1e-9 one more step leads to it, to rounding. */
+/* The angle of a maximum of h, within one step of the grid from th: Newton, or bisection where that leaves the bracket.
+ * One more step from an angle accurate to 1e-9 gives it to rounding. */
 static planar_point climb(const planar_motion *m, const double w[2], double th)
 {
   enum { MOST_STEPS = 60 };
@@ -105,7 +105,7 @@ static planar_point climb(const planar_motion *m, const double w[2], double th)
   return p;
 }
 
-/* The disc that w is farthest out of, into *out, and h there: of the peaks between nodes of the grid where h rises at
+/* The disc of largest h at w into *out; returns that h. Maxima are searched between nodes of the grid where h rises at
  * the one and falls at the next. */
 static double farthest(const planar_motion *m, const planar_point *grid, const double w[2], planar_point *out)
 {
@@ -125,9 +125,9 @@ static double farthest(const planar_motion *m, const planar_point *grid, const d
   return most;
 }
 
-static const double ONE_INSTANT = 1e-6; /* [rad] they are located to 1e-9 */
+static const double ONE_INSTANT = 1e-6; /* [rad] maxima closer than this are one instant; they are located to 1e-9 */
 
-/* |u - w| - R; the direction of u - w. */
+/* h = |u - w| - R; e: direction of u - w. */
 static double outside(const planar_point *disc, const double w[2], double e[2])
 {
   const double t1 = disc->u[0] - w[0], t2 = disc->u[1] - w[1], length = hypot(t1, t2);
@@ -135,7 +135,7 @@ static double outside(const planar_point *disc, const double w[2], double e[2])
   return length - disc->R;
 }
 
-/* dw and dv with e_i.dw + dv = away_i; false where the three directions do not tell them. */
+/* Solves e_i.dw + dv = away_i for dw and dv; false if the system is singular. */
 static bool move_three(const double e[][2], const double away[3], double dw[2], double *dv)
 {
   const double a = e[0][0] - e[2][0], b = e[0][1] - e[2][1], c = e[1][0] - e[2][0], d = e[1][1] - e[2][1];
@@ -151,13 +151,13 @@ static bool move_three(const double e[][2], const double away[3], double dw[2], 
 
 /* The best candidate for c so far. */
 typedef struct choice {
-  const planar_point *disc[1 + MOST_HOLD]; /* the new one, and those that held c before */
+  const planar_point *disc[1 + MOST_HOLD]; /* the new disc, then those that determined c before */
   int n;
-  double worst; /* [length] the largest h of all these discs at the best one */
+  double worst; /* [length] largest h of all these discs at best.centre */
   planar_rest best;
 } choice;
 
-/* The point c, held by disc[0] and disc[j], disc[k], of which 0 stand for none. */
+/* Takes w, determined by disc[0], disc[j] and disc[k] (index 0: none), as c if its largest h is the least so far. */
 static void consider(choice *c, const double w[2], int j, int k)
 {
   double worst = -INFINITY, e[2];
@@ -170,7 +170,7 @@ static void consider(choice *c, const double w[2], int j, int k)
                           .at = {*c->disc[0], *c->disc[j], *c->disc[k]}};
 }
 
-/* On the line through the centres of disc[0] and disc[j], as far out of the one as of the other. */
+/* The point with equal h of disc[0] and disc[j] on the line through their centres. */
 static void consider_two(choice *c, int j)
 {
   const planar_point *a = c->disc[0], *b = c->disc[j];
@@ -180,7 +180,7 @@ static void consider_two(choice *c, int j)
   consider(c, (double[2]){a->u[0] + part * way[0], a->u[1] + part * way[1]}, j, 0);
 }
 
-/* As far out of disc[0] as of disc[j] and disc[k]: Newton, since h are convex, from w. */
+/* The point with equal h of disc[0], disc[j] and disc[k]: Newton from `from`; h are convex. */
 static void consider_three(choice *c, int j, int k, const double from[2], double noise)
 {
   const planar_point *const disc[] = {c->disc[0], c->disc[j], c->disc[k]};
@@ -211,12 +211,12 @@ static void exchange(planar_rest *r, const planar_point *next, double noise)
 
 /* ---- where it is ----------------------------------------------------------------------------------------- */
 
-/* How the direction e of a disc turns, by what c moves across it: turned - by_c q. The instant where h is largest
- * shifts by dth: with U = u'.e_perp, B = -h'' > 0, L = |u - c| and q = dc.e_perp
+/* Rotation of the direction e of disc i, turned - by_c q, where q = dc.e_perp. The instant of largest h shifts by dth:
+ * with U = u'.e_perp, B = -h'' > 0 and L = |u - c|
  *
  *     L turn = across + U dth - q,      B dth = rate + U (across - q)/L
  *
- * At an instant of which B is 0 to rounding, as of samples, dth = 0. */
+ * If B is 0 to rounding, dth = 0. */
 static void turn_of(const planar_rest *r, int i, const planar_disc_change *change, double *turned, double *by_c)
 {
   const planar_point *p = &r->at[i];
@@ -228,7 +228,7 @@ static void turn_of(const planar_rest *r, int i, const planar_disc_change *chang
   *turned = *by_c * change->across + (shifts ? U * change->rate / (B * L) : 0);
 }
 
-/* The instants where h is largest at c itself; so far they are those at the c before the last exchange. */
+/* Moves the instants to the maxima of h at c; before, they belong to c before the last exchange. */
 static void locate(const planar_motion *m, planar_rest *r)
 {
   const int held = r->n;
@@ -261,7 +261,7 @@ static void centre_between_two(planar_rest *r)
 hc_status planar_rest_find(const planar_motion *m, const planar_point *grid, planar_rest *out)
 {
   enum { NEWTON_STEPS = 2 };
-  /* Half of the excursions that are not counted as slip (planar_cycle.c). */
+  /* Half of the excursion that does not count as slip (planar_motion_noise). */
   const double noise = 8 * DBL_EPSILON * (m->of_u[0] + m->of_R[0]);
   *out = (planar_rest){.room = INFINITY};
   for (int i = 0; i < MAX_EXCHANGES; ++i) {
@@ -279,7 +279,7 @@ hc_status planar_rest_find(const planar_motion *m, const planar_point *grid, pla
     const double part = !(out->room > 0) ? 1 : size > out->room ? 1 - out->room / size : 0;
     out->exists = out->room >= -noise;
     for (int d = 0; d < 2; ++d) out->w[d] = part * out->centre[d];
-    /* Peaks that nodes of the grid do not tell. */
+    /* Maxima of h between nodes of the grid that farthest() did not see. */
     double e[2];
     if (!out->exists || !planar_stick_ends(m, grid, out->w, &grid[0], TWO_PI, &next)) return HC_OK;
     next = climb(m, out->w, next.th);
@@ -291,16 +291,16 @@ hc_status planar_rest_find(const planar_motion *m, const planar_point *grid, pla
 
 /* ---- how it moves ---------------------------------------------------------------------------------------- */
 
-/* dc and d(-room): h_i = -room at instants where they are largest, whose shift changes nothing to first order. Two
- * discs hold c between their centres, so that both directions turn by the same; the second's e_perp is the other
- * way. */
+/* dc and dv = d(-room), from h_i = -room; to first order the shift of the instants does not matter, h being stationary
+ * there. With two discs c lies between their centres, so both directions rotate by the same; the second's e_perp has
+ * the opposite sign. */
 static void move_centre(const planar_rest *r, const planar_disc_change *change, double dc[2], double *dv)
 {
   const double away[] = {change[0].away, r->n > 1 ? change[1].away : 0, r->n > 2 ? change[2].away : 0};
   const double *e = r->e[0];
   if (r->n == 3 && move_three(r->e, away, dc, dv)) return;
   double along = change[0].away + change[0].radius, across = change[0].across;
-  *dv = -change[0].radius; /* of one disc c is the centre */
+  *dv = -change[0].radius; /* with one disc c is its centre */
   if (r->n > 1) {
     double turned[2], by_c[2];
     for (int i = 0; i < 2; ++i) turn_of(r, i, &change[i], &turned[i], &by_c[i]);
@@ -323,5 +323,5 @@ void planar_rest_move(const planar_rest *r, const planar_disc_change *change, do
   for (int d = 0; d < 2; ++d) dw[d] = dc[d] + dv * o[d] - room / size * (dc[d] - along * o[d]);
 }
 
-/* 100 joins bound the work of a curve that chatters; 60 halvings pass the last bit of omega. */
+/* most: bounds the work on a curve that chatters. bisections: more than omega has bits. */
 const slip_edges planar_edges = {.too_short = 1e-4, .located = 1e-6, .most = 100, .bisections = 60};

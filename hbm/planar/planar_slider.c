@@ -1,17 +1,18 @@
 /* planar_slider.c - see planar_slider.h.
  *
- * Slip along a straight motion is known in closed form. Let d be the way of u in the step, of length l and direction n,
- * delta the angle from n to e, e = (u - w)/r. With e' = (u'.e_perp/r) e_perp and u' = d, r = r0 + t (r1 - r0):
+ * Slip along a straight motion is known in closed form. Let d be the displacement of u in the step, of length l and
+ * direction n, delta the angle from n to e, e = (u - w)/r. With e' = (u'.e_perp/r) e_perp and u' = d, r = r0 + t (r1 -
+ * r0):
  *
  *     delta' = -l sin(delta)/r(t)      tan(delta_1/2) = E tan(delta_0/2)      E = exp(-l M)      M = integral of dt/r
  *
- * so e turns towards n; where contact has just been made (r0 = 0) M is infinite and e = n at once. While it turns,
- * s = u'.e - r' only grows: slip begins inside a step, where |u - w| = r, but ends at samples only. With c =
- * cos(delta_0), A = 1 + c and B = 1 - c, all that is needed is free of angles:
+ * so e turns towards n; where contact has just been made (r0 = 0) M is infinite and e = n at once. While it turns, s =
+ * u'.e - r' only grows: slip begins inside a step, where |u - w| = r, but ends at samples only. With c = cos(delta_0),
+ * A = 1 + c and B = 1 - c, no angles are needed:
  *
  *     cos(delta_1) = (A - B E^2)/(A + B E^2)      sin(delta_1) = G sin(delta_0)      G = 2 E/(A + B E^2)
  *
- * Where slip begins (at t) does not matter to first order: sticking longer turns u - w as slip turns e. Hence
+ * The instant t at which slip begins does not matter to first order: sticking longer turns u - w as slip turns e. Hence
  *
  *     d phi_1 = G d phi_0 + (1 - G) d psi - sin(delta_1) d(l M),    phi = psi + delta,   d psi = n_perp.dd/l
  *     d phi_0 = e_perp.(du_0 (1 - t) + du_1 t - dw)/r(t)            dw_1 = du_1 - e_1 dr_1 - r_1 e_1_perp d phi_1 */
@@ -25,19 +26,19 @@ static double dot(const double a[2], const double b[2]) { return a[0] * b[0] + a
 
 static double norm(const double a[2]) { return sqrt(dot(a, a)); }
 
-/* Is w within r of u? The slider is put on the circle by u - r e: farther out by rounding only, it has not slipped. */
+/* True if |u - w| <= r up to rounding: w = u - r e, on the circle, has not slipped. */
 static bool stays(const planar_sample *to, const double w[2], double distance)
 {
   const double size = fabs(to->u[0]) + fabs(to->u[1]) + fabs(w[0]) + fabs(w[1]);
   return distance <= to->r + 4 * DBL_EPSILON * (size + to->r);
 }
 
-/* d phi [1/length] by each of u and r at the start, at the end, and by w at the start. */
+/* Derivatives [1/length] of phi at the end of a step, by u and r at its start and end, and by w at its start. */
 typedef struct turning {
   double from[3], to[3], w[2];
 } turning;
 
-/* From the direction e of slip at the end of a step, and from how it turns. */
+/* dw at the end of a step of slip, from its direction e there and the derivatives of phi. */
 static void slope_of_slip(const planar_sample *to, const double e[2], const turning *phi, planar_slope *slope)
 {
   const double perp[2] = {-e[1], e[0]};
@@ -68,8 +69,8 @@ planar_move planar_slider_enter(const planar_sample *to, double w[2], planar_slo
   return PLANAR_SLIPPED;
 }
 
-/* Contact was made since `from`: w is u there, or where the line meets r = 0; by mistake 0, or as before it was
- * lost. */
+/* Contact was made since `from`. By the restart w starts at u of `from`, or of the point of the line with r = 0; the
+ * mistakes: at 0, or as before contact was lost. */
 static planar_move return_after_separation(hbm_restart restart, const planar_sample *from, const planar_sample *to,
                                            double w[2], planar_slope *slope)
 {
@@ -80,7 +81,7 @@ static planar_move return_after_separation(hbm_restart restart, const planar_sam
   for (int d = 0; d < 2; ++d) w[d] = on_motion ? from->u[d] + t * way[d] : 0;
   if (slope) *slope = (planar_slope){.w = {{1, 0}, {0, 1}}};
   const planar_move move = planar_slider_enter(to, w, slope);
-  /* slope = that of `later`, whose start moves with the motion, or nowhere. */
+  /* slope by w becomes slope by the motion, on which the start w depends (not for HBM_RESTART_ZEROED). */
   for (int d = 0; d < 2 && slope; ++d) {
     const double by_t = (slope->w[d][0] * way[0] + slope->w[d][1] * way[1]) / (rise * rise);
     for (int c = 0; c < 2; ++c) {
@@ -97,11 +98,11 @@ static planar_move return_after_separation(hbm_restart restart, const planar_sam
 
 /* ---- along the line ------------------------------------------------------------------------------ */
 
-/* A step in which it slips from t on, or from its start. */
+/* A step with slip from the fraction t of it on. */
 typedef struct slip_line {
-  double t, r_t;        /* where slip begins, r there */
-  double length, n[2];  /* of the step from sample to sample, and its direction */
-  double e0[2], e1[2];  /* direction of slip where it begins, and at the end */
+  double t, r_t;        /* [1] fraction of the step at which slip begins; r there [length] */
+  double length, n[2];  /* [length] of u's displacement in the step; its direction */
+  double e0[2], e1[2];  /* direction e where slip begins, and at the end */
   double M;             /* [1/length] integral of dt/r over the slip */
   double by_r0, by_r1;  /* -dM/dr_0, -dM/dr_1 */
   double G, one_less_G; /* d phi_1/d phi_0, and 1 - G */
@@ -152,7 +153,7 @@ static void slope_of_line(const planar_sample *to, const slip_line *l, planar_sl
 static planar_move go_along_line(const planar_sample *from, const planar_sample *to, double w[2], planar_slope *slope)
 {
   const double q[2] = {to->u[0] - w[0], to->u[1] - w[1]};
-  if (stays(to, w, norm(q))) return PLANAR_HELD; /* and all the way: |u - w| - r is convex */
+  if (stays(to, w, norm(q))) return PLANAR_HELD; /* nor did it slip before: |u - w| - r is convex */
   const double p[2] = {from->u[0] - w[0], from->u[1] - w[1]}, d[2] = {to->u[0] - from->u[0], to->u[1] - from->u[1]};
   slip_line l = {.t = slip_begins(p, d, from->r, to->r - from->r), .length = norm(d)};
   l.r_t = from->r + l.t * (to->r - from->r);
@@ -182,8 +183,8 @@ static planar_move go_along_line(const planar_sample *from, const planar_sample 
   return PLANAR_SLIPPED;
 }
 
-/* The slider starts where the line meets r = 0, and slips at once, along the line, where u leaves faster than r grows.
- */
+/* Contact is made: the slider starts at the point of the line with r = 0, and slips at once, along the line, if u moves
+ * faster than r grows. */
 static planar_move touch_on_line(const planar_sample *from, const planar_sample *to, double w[2], planar_slope *slope)
 {
   const double rise = to->r - from->r, t = -from->r / rise;

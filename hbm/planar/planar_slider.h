@@ -1,16 +1,16 @@
 /* planar_slider.h - the slider of a contact with two tangents under the law of the circle (planar_slip.h), from
  * one sample of the motion to the next. With r = mu N/kt [length] the law is: the slider w stays within r of u, moves
- * only where it must, and then straight towards u,
+ * only if it must, and then straight towards u,
  *
- *     |u - w| <= r,      T = kt (u - w),      apart where r <= 0: w = u, T = 0
+ *     |u - w| <= r,      T = kt (u - w),      separated where r <= 0: w = u, T = 0
  *
- * r is taken without a bound on N, so that it falls through 0 where contact is lost. Two rules:
- *     along the line   between samples u and r change evenly, and the law is followed exactly: as the restart
+ * r is computed with N as if in contact, so it becomes negative where contact is lost. Two rules:
+ *     along the line   between samples u and r vary linearly, and the law is integrated exactly: as the restart
  *                      `interpolated` does with one tangent. Error of order 2 in the step.
- *     radial return    the slider stays or goes straight to the circle about the next sample: as other programs do,
- *                      with the restart `sample` and the mistakes that hbm_settings.h lists. Order 1 where the
- *                      direction of slip turns, as each step takes the direction that it ends with.
- * On a straight motion both are the law of one tangent. libm only, nothing is allocated, cannot fail. */
+ *     radial return    the slider stays, or moves straight onto the circle about the next sample, as in other programs:
+ *                      for the restart `sample` and the mistakes that hbm_settings.h lists. Error of order 1 where the
+ *                      direction of slip turns, since each step uses the direction at its end.
+ * On a straight motion both equal the law of one tangent. libm only, nothing is allocated, cannot fail. */
 #pragma once
 
 #include "hbm/hbm_settings.h"
@@ -22,23 +22,23 @@ typedef struct planar_sample {
 
 typedef enum planar_move {
   PLANAR_APART,  /* no contact at the end of the step */
-  PLANAR_HELD,   /* it sticks, w is as it was */
-  PLANAR_PLACED, /* contact was made in the step, w was put somewhere, where it sticks */
-  PLANAR_SLIPPED /* it slips, w is on the circle */
+  PLANAR_HELD,   /* it sticks, w unchanged */
+  PLANAR_PLACED, /* contact was made in the step; it sticks at a new w */
+  PLANAR_SLIPPED /* it slips; w is on the circle */
 } planar_move;
 
-/* What w at the end of a step depends on: dw = from d(u_1, u_2, r) + to d(u_1, u_2, r) + w dw, of the sample that the
- * step starts from, of that where it ends, and of w before. Left alone by PLANAR_HELD and PLANAR_APART. */
+/* Derivatives of w at the end of a step: dw = from d(u_1, u_2, r) at the first sample + to d(u_1, u_2, r) at the second
+ * + w dw before the step. Not set with PLANAR_HELD and PLANAR_APART. */
 typedef struct planar_slope {
   double from[2][3], to[2][3], w[2][2];
 } planar_slope;
 
-/* One step. w [length] becomes the slider at `to`. slope may be NULL. */
+/* One step from sample `from` to `to`; w [length] becomes the slider at `to`. slope may be NULL. */
 planar_move planar_slider_step(hbm_restart restart, const planar_sample *from, const planar_sample *to, double w[2],
                                planar_slope *slope);
 
-/* w put into the circle about `to`, at once: how the first of all periods begins. */
+/* Moves w into the circle about `to`: start of the first period. */
 planar_move planar_slider_enter(const planar_sample *to, double w[2], planar_slope *slope);
 
-/* Does the slider forget where it was when contact is lost? By HBM_RESTART_KEPT it does not. */
+/* True if w is reset when contact is lost; false for HBM_RESTART_KEPT. */
 static inline bool planar_slider_forgets(hbm_restart restart) { return restart != HBM_RESTART_KEPT; }

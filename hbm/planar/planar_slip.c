@@ -1,5 +1,5 @@
-/* planar_slip.c - see planar_slip.h. A panel's slopes are found by Newton. Where s falls through 0 within it, the
- * panel is made anew up to there, so that phi at its end is as good as at any panel's end.
+/* planar_slip.c - see planar_slip.h. A panel's slopes are found by Newton. Where s falls through 0 within it, the panel
+ * is computed again up to there, so that phi at its end has the accuracy of a panel's end.
  *
  * Touch-down, R = 0: the equation is singular, phi = direction of u', and differentiating it once gives the slope of
  * the one branch that is regular, phi' = u''.e_perp/(|u'| + R'). All others tend to it as R grows. Lift-off while it
@@ -15,7 +15,7 @@
 
 enum { N = COLLOCATION_POINTS, MAX_NEWTON = 12, MAX_STEPS = 60 };
 
-static const double least_width = 1e-10; /* [rad] of a panel, unless less is left */
+static const double least_width = 1e-10; /* [rad] least width of a panel, unless the remaining angle is less */
 
 static double turned(const double x[2], double phi) { return x[1] * cos(phi) - x[0] * sin(phi); } /* x.e_perp */
 static double along(const double x[2], double phi) { return x[0] * cos(phi) + x[1] * sin(phi); }  /* x.e */
@@ -60,7 +60,7 @@ void planar_panel_directions(const planar_panel *p, double cosine[N], double sin
 
 /* ---- one panel ------------------------------------------------------------------------------------ */
 
-/* Whole rows, zeros included: a loop of constant length is the faster one. */
+/* Whole rows, zeros included: loops of constant length are faster. */
 static inline void subtract_row(double factor, const double *restrict row, double *restrict from)
 {
   for (int j = 0; j < N + 2; ++j) from[j] -= factor * row[j];
@@ -71,7 +71,7 @@ typedef struct panel_points {
   double rise[N];      /* [rad] phi - phi0 */
   double cosine, sine; /* of phi0 */
   double speed[N];     /* s at the points */
-  double mismatch;     /* [rad] of PLANAR_RESOLVED */
+  double mismatch;     /* [rad] last two Legendre coefficients of the slope times the width */
 } panel_points;
 
 /* phi from the slopes. */
@@ -84,7 +84,7 @@ static inline void set_angles(const collocation *c, planar_panel *p, panel_point
   for (int i = 0; i < N; ++i) q->rise[i] = h * rise[i], p->phi[i] = p->phi0 + q->rise[i];
 }
 
-/* One step of Newton for the slopes; how far phi moved by it [rad], not finite where that is impossible. */
+/* One step of Newton for the slopes; returns the change of phi [rad], not finite if the matrix is singular. */
 WIDE_VECTORS static double newton_step(const collocation *c, planar_panel *p, panel_points *q)
 {
   const double h = p->to - p->from, *restrict u = q->at.du[0], *restrict v = q->at.du[1];
@@ -101,10 +101,9 @@ WIDE_VECTORS static double newton_step(const collocation *c, planar_panel *p, pa
     A[i][N] = turn[i];
     A[i][N + 1] = -pull[i];
   }
-  /* Gauss's elimination: A x = b for both right-hand sides, the last two columns, in place. Without row exchanges: A
-   * is a diagonal >= 0 plus Radau's matrix, each row times a number > 0 while it slips, of which elimination is
-   * stable as it is. Where it is not, Newton does not arrive, and a narrower panel is tried, whose diagonal has more
-   * weight. */
+  /* Gauss's elimination: A x = b for both right-hand sides, the last two columns, in place. Without row exchanges: A is
+   * a diagonal >= 0 plus Radau's matrix with rows multiplied by numbers > 0 while it slips, for which elimination is
+   * stable. If not, Newton fails, and a narrower panel is tried, whose diagonal has more weight. */
   double inverse[N];
   for (int k = 0; k < N; ++k) {
     inverse[k] = 1 / A[k][k];
@@ -125,8 +124,8 @@ WIDE_VECTORS static double newton_step(const collocation *c, planar_panel *p, pa
   return moved;
 }
 
-/* The panel from p->from, p->phi0 to p->to, unless what it leaves unresolved is `hopeless` on the way; its slopes to
- * begin with are those that p has. false where Newton does not arrive. */
+/* Solves the panel from p->from, p->phi0 to p->to, starting with the slopes in p. False if Newton does not converge, or
+ * q->mismatch clearly exceeds `hopeless` [rad] on the way. */
 static bool make_panel(const collocation *c, const planar_motion *m, double enough, double hopeless, planar_panel *p,
                        panel_points *q)
 {
@@ -148,7 +147,7 @@ static bool make_panel(const collocation *c, const planar_motion *m, double enou
   return moved <= enough;
 }
 
-/* The panel made anew from where it begins to `to`, a part of the way, with slopes that it has there already. */
+/* Shortens the panel to end at `to`, with slopes interpolated from the present ones as first guess. */
 static void shorten(const collocation *c, double to, planar_panel *p)
 {
   const double part = (to - p->from) / (p->to - p->from);
@@ -169,7 +168,7 @@ static double speed_at(const planar_slip *s, const planar_panel *p, double th, p
   return planar_slip_speed(at, phi);
 }
 
-/* s falls through 0 once in (low, high]. */
+/* Angle [rad] where s falls through 0, once, in (low, high]. */
 static double resting_angle(const planar_slip *s, const planar_panel *p, double low, double high)
 {
   planar_point at;
@@ -186,7 +185,7 @@ static double resting_angle(const planar_slip *s, const planar_panel *p, double 
   return high;
 }
 
-/* The least s in [low, high], where a point between has less than both ends. */
+/* The minimum of s in [low, high], given that an inner point has less than both ends; *at_angle: where. */
 static double least_speed(const planar_slip *s, const planar_panel *p, double low, double high, double *at_angle)
 {
   planar_point at;
@@ -201,8 +200,8 @@ static double least_speed(const planar_slip *s, const planar_panel *p, double lo
   return speed;
 }
 
-/* Does a parabola through three samples of s fall to less than half of the middle one? Then its least value is looked
- * for: the samples are many for a slope that is resolved, and a parabola follows it between three of them. */
+/* True if the parabola through three samples of s falls below half of the middle one, so that the minimum must be
+ * computed. For a resolved slope the samples are dense enough for a parabola. */
 static bool may_dip(double t0, double s0, double t1, double s1, double t2, double s2)
 {
   const double left = (s1 - s0) / (t1 - t0), right = (s2 - s1) / (t2 - t1), bend = (right - left) / (t2 - t0);
@@ -212,7 +211,7 @@ static bool may_dip(double t0, double s0, double t1, double s1, double t2, doubl
   return !(least > 0.5 * s1);
 }
 
-/* Where s first falls through 0 on the panel, s(from) = first; false if it does not. */
+/* *th: where s first falls through 0 on the panel; first: s at p->from. False if it does not. */
 static bool comes_to_rest(const planar_slip *s, const planar_panel *p, const panel_points *q, double first, double *th)
 {
   const double noise = 16 * DBL_EPSILON * (s->m->of_u[1] + s->m->of_R[1]);
@@ -237,11 +236,11 @@ static bool comes_to_rest(const planar_slip *s, const planar_panel *p, const pan
 
 /* ---- panel by panel ---------------------------------------------------------------------------------- */
 
-/* Panels carry products of phi with harmonics of three motions: 2 n - 2 degrees of the rule integrate to rounding what
- * turns by no more than 4 rad to either side of the middle. */
+/* [rad] The widest panel: integrands are products of phi with harmonics, up to 3 n_harm in all; the rule, of degree 2 n
+ * - 2, integrates them to rounding if their phase varies by at most 4 rad to either side of the middle. */
 static double widest(const planar_motion *m) { return 8.0 / (3 * m->n_harm); }
 
-/* Not far beyond where s, at its present rate, will be 0: the equation goes on there, but for nothing. */
+/* [rad] Width of the next panel, at most 1.5 times the extrapolated distance to s = 0. */
 static double width_to_try(const planar_slip *s, const planar_point *at, double phi, double left)
 {
   double width = s->width > 0 ? s->width : 0.5 * widest(s->m);
@@ -251,7 +250,7 @@ static double width_to_try(const planar_slip *s, const planar_point *at, double 
   return width < 0.95 * left ? width : left;
 }
 
-/* [1] The share of the largest force's integral that a panel's error can spoil. */
+/* [1] Weight of a panel's error in the integral of the force, relative to a panel at the largest force. */
 static double share(const planar_slip *s, const planar_point *at, double left, bool lifts_off)
 {
   const double R = s->m->of_R[0];
@@ -265,14 +264,14 @@ static double bend_at(const planar_motion *m, const planar_point *at, double phi
   return (turned(at->ddu, phi) - (along(at->du, phi) + at->dR) * slope) / at->R;
 }
 
-/* Slopes to begin with, from phi' and phi'', which are known where the panel begins. */
+/* First guess of the slopes from phi' and phi'' at the panel's beginning. */
 static void guess_from_start(const planar_slip *s, const planar_point *at, double phi, planar_panel *p)
 {
   const double first = planar_slip_slope(s->m, at, phi), bend = bend_at(s->m, at, phi, first);
   for (int i = 0; i < N; ++i) p->slope[i] = first + bend * (p->to - p->from) * s->c->x[i];
 }
 
-/* [rad] A step of Newton's after which the next one would be of its square. */
+/* [rad] Step of Newton at which it stops: the next one would be about its square. */
 static double enough(const planar_slip *s) { return s->resolved > PLANAR_RESOLVED ? 1e-3 : 1e-7; }
 
 /* The next panel with its points, made and resolved. */
@@ -285,7 +284,7 @@ static hc_status next_panel(planar_slip *s, const planar_point *at, double phi, 
   const double allowed = s->resolved / sqrt(share(s, at, left, lifts_off));
   double width = width_to_try(s, at, phi, left);
   *p = (planar_panel){.from = at->th, .to = width < left ? at->th + width : to, .phi0 = phi};
-  /* The same where slip goes on: those of the panel before, continued if that is not too far beyond it. */
+  /* First guess where slip continues: the slopes of the panel before, extrapolated if not too far. */
   const planar_panel *before = s->n > 0 ? p - 1 : p;
   const bool goes_on = s->n > 0 && before->to == p->from && before->phi[N - 1] == p->phi0;
   const double ratio = (p->to - p->from) / (before->to - before->from);

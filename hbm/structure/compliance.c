@@ -1,5 +1,5 @@
 /* compliance.c - see compliance.h. The first-order form, in modal coordinates eta of K and M and with a frequency u
- * that makes both halves of a state one size:
+ * that scales both halves of a state to one size:
  *     d/dt [eta; eta'/u] = A [eta; eta'/u] + [0; f/u],   A = [0  u; -Lambda/u  -C]
  *     eta = sum_k v_k (w_k^* f) / (u w_k^* (v_k; ...)) / (s - lambda_k)      v: upper half of an eigenvector of A,
  *                                                                            w: lower half of the left one */
@@ -15,33 +15,33 @@
 
 /* ---- the sum over modes, for s = i omega ----------------------------------------------------------------
  *
- *     G_ab(s) = sum_i  x_a(i) x_b(i) / (k_i + (c_i + d) s + s^2)                           modes that damping leaves
+ *     G_ab(s) = sum_i  x_a(i) x_b(i) / (k_i + (c_i + d) s + s^2)                           C diagonal in the modes
  *     G_ab(s) = sum_i  l_a(i) r_b(i) / (s - lambda_i) + the same conjugate where Im lambda_i > 0      any damping
  *
- * Modes far above s come in by the power series of their sum in s: its coefficients are real, and made once for a range
- * of s. A value then costs what the few modes near s cost, whatever n is. d = 0 in the second form. An entry is a
- * direction's motion in a mode of unit mass. Sums over modes are products of matrices, real and imaginary parts being
- * two numbers of one factor. Modes are sorted by how far from s = 0 their poles are. */
+ * Modes whose poles are far above s are summed by a power series in s, whose real coefficients are computed once for a
+ * range of s; a value then costs as much as the few modes near s, whatever n is. The second form needs d = 0. x_a(i):
+ * entry of direction a in mode i of unit mass. Sums over modes are matrix products, in which real and imaginary parts
+ * are two columns. Modes are sorted by the distance of their poles from s = 0. */
 
-/* A mode is far where its poles are more than FAR times as far from 0 as s: what the series leaves out after TERMS
- * terms is (1/FAR)^TERMS = 1e-17 of it. */
+/* FAR: a mode is summed by the series if its poles are more than FAR times as far from 0 as s. TERMS of the series:
+ * their truncation error is (1/FAR)^TERMS = 1e-17 of the sum. */
 enum { FAR = 4, TERMS = 28 };
-/* The series of so many entries are summed side by side, their coefficients next to each other. */
+/* Number of entries whose series are summed together, with adjacent coefficients (vector instructions). */
 enum { LANES = 8 };
 
 typedef struct mode_sum {
   int n, dim, rows;
   bool poles;
-  double *k, *c;             /* [n] of modes */
-  double complex *lambda;    /* [n] of poles */
-  double *distance;          /* [n] of the nearer pole from 0, ascending */
-  double *lr, *li, *rr, *ri; /* [rows][n] left and right, real and imaginary parts; of modes lr alone */
-  double *weight;            /* [4][n] of one value */
-  double *product, *turned;  /* [n][2 dim] what multiplies the right parts' real part, and their imaginary part */
-  double *term;              /* [rows][dim] of the series */
+  double *k, *c;             /* [n] k_i and c_i of real modes */
+  double complex *lambda;    /* [n] the poles */
+  double *distance;          /* [n] distance of the mode's nearer pole from 0, ascending */
+  double *lr, *li, *rr, *ri; /* [rows][n] l and r, real and imaginary parts; of real modes only lr, the x */
+  double *weight;            /* [4][n] work: real and imaginary parts of the modes' factors */
+  double *product, *turned;  /* [n][2 dim] work: left parts times weights, to be multiplied by rr; by ri */
+  double *term;              /* [rows][dim] work: one coefficient of the series, all entries */
   double complex *power;     /* [n] */
-  int near;                  /* modes that are summed one by one; the others by the series */
-  double reach;              /* of the series, which is in s/reach; 0: none yet */
+  int near;                  /* number of modes, from the first on, summed one by one; the others are in the series */
+  double reach;              /* [rad/time] largest w of the series, whose variable is s/reach; 0: no series yet */
   double *series;            /* [rows dim/LANES][TERMS][LANES] */
   workspace memory;          /* of all of these */
 } mode_sum;
@@ -52,7 +52,7 @@ static double distance_of_mode(double k, double c)
   return root > 0 ? fabs(k) / (fabs(c) / 2 + sqrt(root)) : sqrt(fabs(k));
 }
 
-/* What a sum is made of: real modes or, where there is lambda, poles, one of each pair. */
+/* Input of mode_sum_new: real modes or, if lambda is not NULL, poles, one of each pair. */
 typedef struct mode_table {
   int n;
   const double *k, *c, *x;                     /* [n], [n], [rows][n] */
@@ -77,7 +77,7 @@ static void mode_sum_free(mode_sum *m)
   free(m);
 }
 
-/* For a < dim and all b < rows. HC_NO_MEMORY: *out is NULL. */
+/* The sum G_ab for a < dim and b < rows. HC_NO_MEMORY: *out is NULL. */
 static hc_status mode_sum_new(const mode_table *of, int dim, int rows, mode_sum **out)
 {
   const int n = of->n;
@@ -124,12 +124,12 @@ static hc_status mode_sum_new(const mode_table *of, int dim, int rows, mode_sum 
   return HC_OK;
 }
 
-/* Is it a sum over real modes, so that d may be other than 0? */
+/* True for a sum over real modes, which allows d != 0. */
 static bool mode_sum_takes_damping(const mode_sum *m) { return !m->poles; }
 
 /* ---- the series ---------------------------------------------------------------------------------- */
 
-/* The place of an entry's coefficient t. */
+/* Address of coefficient t of an entry's series. */
 static double *coefficient(const mode_sum *m, size_t entry, int t)
 {
   return m->series + (entry / LANES * TERMS + (size_t)t) * LANES + entry % LANES;
@@ -201,7 +201,7 @@ static inline void sum_derivatives(const double *restrict T, double v, lane_sums
 
 /* ---- a value ------------------------------------------------------------------------------------- */
 
-/* weight: real and imaginary parts of 1/z of the first n modes, by `square` of 1/z^2 factor_i. */
+/* The factor of each mode: 1/z (VALUE), or its derivative by s or by d. */
 typedef enum { VALUE, BY_S, BY_D } wanted;
 
 static double complex of_mode(const mode_sum *m, int i, double w, double d, wanted what)
@@ -238,7 +238,7 @@ static void add_modes(mode_sum *m, int n, int from, int to, double complex *G)
 static hc_status add_up(mode_sum *m, int n, double w, double d, wanted what, int from, int to, double complex *G)
 {
   memset(G, 0, (size_t)(to - from) * (size_t)m->dim * sizeof *G);
-  /* Into weight[4][n]: what real and imaginary parts of products are multiplied by. */
+  /* weight[4][n]: factors of the real and of the imaginary parts of l r (add_modes). */
   double *ar = m->weight, *ai = ar + m->n, *br = ai + m->n, *bi = br + m->n, sum = 0;
   for (int i = 0; i < n; ++i) {
     double complex z, conjugate = 0;
@@ -258,8 +258,8 @@ static hc_status add_up(mode_sum *m, int n, double w, double d, wanted what, int
   return HC_OK;
 }
 
-/* G[from <= b < to][dim], if not NULL, at s = i w. by_s, if not NULL, gets dG/ds, and by_d dG/dd (of real modes). The
- * largest w to be expected soon is `reach`: the power series is for up to there. HC_NOT_FINITE: an undamped mode
+/* G[from <= b < to][dim], if not NULL, at s = i w. by_s, if not NULL, gets dG/ds, and by_d dG/dd (of real modes).
+ * reach: largest w to be expected; a new power series covers 1.5 times as much. HC_NOT_FINITE: an undamped mode
  * resonates at w. */
 static hc_status mode_sum_at(mode_sum *m, double w, double reach, double d, int from, int to, double complex *G,
                              double complex *by_s, double complex *by_d)
@@ -271,7 +271,7 @@ static hc_status mode_sum_at(mode_sum *m, double w, double reach, double d, int 
   hc_status st = G ? add_up(m, n, w, d, VALUE, from, to, G) : HC_OK;
   if (st == HC_OK && by_s) st = add_up(m, n, w, d, BY_S, from, to, by_s);
   if (st == HC_OK && by_d) st = add_up(m, n, w, d, BY_D, from, to, by_d);
-  /* += the series and, if by_s is not NULL, its derivative, at s = i w. Of v = (s/reach)^2 < 0: even powers are
+  /* += the series and, if by_s is not NULL, its derivative, at s = i w. With v = (s/reach)^2 < 0 even powers are
    * real. */
   if (st == HC_OK && by_series) {
     const double x = w / m->reach, v = -x * x;
@@ -291,7 +291,7 @@ static hc_status mode_sum_at(mode_sum *m, double w, double reach, double d, int 
 
 /* ---- a structure's sums --------------------------------------------------------------------------- */
 
-/* Rounding is multiplied by as much: of an eigenvector, and of G or S by inversion. */
+/* Largest factors by which rounding may be magnified: 1/|w^* v| of an eigenvector; max|G| max|S| of the inversion. */
 static const double most_condition = 1e6, most_cancelled = 1e8;
 
 typedef struct asked_change {
@@ -301,23 +301,24 @@ typedef struct asked_change {
 
 struct compliance {
   int n, dim, n_loads, n_responses;
-  mode_sum *of_q, *of_responses; /* left rows q or responses, right rows q, then cosine and sine of each load */
+  mode_sum *of_q, *of_responses; /* left rows q or responses; right rows q, then cosine and sine of each load */
   double complex *G;             /* [dim + 2 n_loads][dim or n_responses] */
-  double complex *by_s, *by_d;   /* the same */
-  asked_change change;           /* what by_s is of, once asked for */
+  double complex *by_s, *by_d;   /* [as G] dG/ds, later dG of compliance_change; dG/dd */
+  asked_change change;           /* arguments of the last compliance_change, whose dG is in by_s; valid if
+                                    change_is_known */
   bool change_is_known;
   int *pivot;           /* [dim] */
   double complex *work; /* [DENSE_INVERT_WORK dim] */
   workspace memory;     /* of all of these */
 };
 
-/* What mode sums are made of. */
+/* The structure in modal coordinates, from which both sums are made. */
 typedef struct modal_form {
   int n, rows;    /* rows: responses, q, loads */
   double *omega2; /* [n] */
   double *phi;    /* [n][n] */
   double *C;      /* [n][n] phi^T C phi */
-  double *x;      /* [rows][n] each direction's entries in the modes */
+  double *x;      /* [rows][n] entries of each direction in the modes */
   workspace memory;
 } modal_form;
 
@@ -329,7 +330,7 @@ static void add_row(modal_form *f, const double *d)
   for (size_t i = 0; i < n; ++i) x[i] = dot_product(f->n, f->phi + i * n, d);
 }
 
-/* Either sum begins with its left rows: of the responses, or of q. */
+/* Order of rows: responses, q, loads; the sum of_q begins at q, so each sum's left rows come first. */
 static hc_status make_form(const model *m, int dim, const double *B, modal_form *f)
 {
   const size_t n = (size_t)m->n, rows = (size_t)m->n_responses + (size_t)dim + 2 * (size_t)m->n_loads;
@@ -382,7 +383,8 @@ typedef struct pole_table {
   double complex *left, *right; /* [rows][n kept] */
 } pole_table;
 
-/* From the eigenvectors V, W the rows' entries at the poles with Im lambda >= 0. False where one is ill conditioned. */
+/* Poles with Im lambda >= 0 and the rows' l and r, from the eigenvectors V, W. False if an eigenvalue is ill
+ * conditioned. */
 static bool take_poles(const modal_form *f, double u, const double complex *lambda, const double complex *V,
                        const double complex *W, pole_table *t)
 {
@@ -411,7 +413,7 @@ static hc_status sum_poles(const model *m, int dim, const modal_form *f, complia
   const size_t n = (size_t)f->n, ld = 2 * n;
   double sum = 0;
   for (size_t i = 0; i < n; ++i) sum += sqrt(fabs(f->omega2[i]));
-  const double u = sum > 0 ? sum / f->n : 1; /* a frequency amid the structure's own */
+  const double u = sum > 0 ? sum / f->n : 1; /* mean natural frequency */
   workspace own = {0};
   double *A = workspace_doubles(&own, ld * ld);
   double complex *lambda = workspace_array(&own, ld, sizeof *lambda), *V = workspace_array(&own, ld * ld, sizeof *V),
@@ -448,7 +450,7 @@ hc_status compliance_new(const model *m, int dim, const double *B, compliance **
   if (!c) return HC_NO_MEMORY;
   *c = (compliance){.n = m->n, .dim = dim, .n_loads = m->n_loads, .n_responses = m->n_responses};
   hc_status st = make_form(m, dim, B, &f);
-  bool damped = true; /* a mode that loses no energy could resonate without bound */
+  bool damped = true; /* true if each mode dissipates: else a resonance is unbounded */
   for (size_t i = 0; i < (size_t)m->n && st == HC_OK; ++i) damped &= f.C[i * (size_t)(m->n + 1)] > 0;
   if (st == HC_OK && damped)
     st = dense_is_diagonal(f.n, f.C, f.n) ? sum_modes(m, dim, &f, c) : sum_poles(m, dim, &f, c);

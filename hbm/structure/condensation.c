@@ -13,19 +13,19 @@ struct condensation {
   const model *m;
   int n_harm;
   condensation_basis basis;
-  compliance *compliance; /* of a large structure; NULL: there is none */
+  compliance *compliance; /* sum over modes for a large rest; NULL: not used */
   double more_mass;       /* [1/mass] n/trace M */
-  /* at the omega asked for last; of harmonic h at [h] */
+  /* the rest is valid for the last condensation_at; [h] is harmonic h */
   double omega, more_damping;
   bool hysteretic; /* condensation_make_hysteretic */
   bool known;
-  bool loaded;               /* without a rest: loads, the same at every omega but for inertial ones, are there */
-  bool *by_compliance;       /* [n_harm + 1] the harmonic is by it */
-  double complex *motion;    /* [n_loads][dim] of q under a load, nothing else acting, where it is */
+  bool loaded;               /* dim = n only: `load` is filled; later only inertial loads change with omega */
+  bool *by_compliance;       /* [n_harm + 1] S of the harmonic is from the compliance */
+  double complex *motion;    /* [n_loads][dim] q under a load alone, without contacts; of harmonics by_compliance */
   double complex *workspace; /* [2 n_loads][dim] */
-  double complex *vector;    /* [2][dim + rest] of responses and derivatives */
+  double complex *vector;    /* [2][dim + rest] work of responses and derivatives */
   double complex *S;         /* [n_harm + 1][dim][dim] */
-  double *size;              /* [dim][dim] of the harmonic asked for last */
+  double *size;              /* [dim][dim] result of condensation_sizes */
   double complex *by_q;      /* [n_harm + 1][dim][rest]: Z_yy^-1 Z_yq */
   double complex *by_y;      /* [n_harm + 1][dim][rest]: (Z_qy Z_yy^-1)^T */
   double complex *load;      /* [n_loads][dim] */
@@ -35,7 +35,7 @@ struct condensation {
   workspace memory;          /* of all of these */
 };
 
-/* What Z is at h: K + (alpha M + beta C) with these. */
+/* Coefficients of Z = K + alpha M + beta C at harmonic h. */
 static condensation_change dynamic_at(const condensation *c, int h)
 {
   const double w = h * c->omega;
@@ -57,15 +57,15 @@ static double complex Z_at(const condensation *c, condensation_change dynamic, s
   return c->basis.K[at] + change_at(c, dynamic, at);
 }
 
-/* Z_yy of harmonic h is diagonal: at rest whatever the damping. */
+/* True if Z_yy of harmonic h is diagonal; for h = 0 damping does not matter. */
 static bool rest_is_diagonal(const condensation *c, int h) { return c->basis.diagonal || (c->basis.modes && h == 0); }
 
-/* What compliance.h wants to know of harmonic h. */
+/* Arguments of compliance.h for harmonic h: w, reach, d. */
 static double frequency(const condensation *c, int h) { return h * c->omega; }
 static double reach_of(const condensation *c) { return frequency(c, c->n_harm); }
 static double more_rate(const condensation *c) { return c->more_damping * c->more_mass; }
 
-/* With a rest at least as large its modes pay. */
+/* Least size of the rest for which the sum over modes is the faster way. */
 enum { LARGE = 24 };
 
 hc_status condensation_new(const model *m, int n_harm, condensation **out)
@@ -113,7 +113,7 @@ void condensation_free(condensation *c)
 void condensation_make_hysteretic(condensation *c)
 {
   c->hysteretic = true;
-  compliance_free(c->compliance); /* knows viscous damping alone */
+  compliance_free(c->compliance); /* valid for viscous damping only */
   c->compliance = NULL;
 }
 
@@ -145,7 +145,7 @@ const double *condensation_first_response(const condensation *c) { return c->bas
 
 /* ---- at one omega ----------------------------------------------------------------------------- */
 
-/* Z_yy, factored. */
+/* Z_yy of harmonic h, factored (or its inverse where diagonal). HC_NOT_FINITE if singular. */
 static hc_status prepare_rest(condensation *c, int h, condensation_change dynamic)
 {
   const int dim = c->basis.dim, rest = c->basis.rest;
@@ -205,13 +205,13 @@ static void fill_load(condensation *c, int l)
   solve_rest(c, h, false, 1, y);
 }
 
-/* S, couplings and loads of harmonic h by the rest: HC_NOT_FINITE where Z_yy is singular. */
+/* S, couplings and loads of harmonic h by eliminating the rest. HC_NOT_FINITE where Z_yy is singular. */
 static hc_status fill_by_rest(condensation *c, int h)
 {
   const condensation_change dynamic = dynamic_at(c, h);
   hc_status st = prepare_rest(c, h, dynamic);
   if (st != HC_OK) return st;
-  /* At rest K couples q and modes of the rest nowhere: S = K_qq, p = p_q, and no coupling is ever anything but 0. */
+  /* For h = 0 K does not couple q with modes of the rest: S = K_qq, p = p_q, and by_q, by_y stay 0. */
   const bool uncoupled = h == 0 && c->basis.modes;
   const int dim = c->basis.dim;
   for (int e = 0; e < dim && uncoupled; ++e)
@@ -242,7 +242,7 @@ static void multiply(int dim, const double complex *S, const double complex *a, 
     for (int d = 0; d < dim; ++d) out[d] += S[(size_t)e * (size_t)dim + (size_t)d] * a[e];
 }
 
-/* S and the loads of harmonic h by a sum over modes, if there is one to rely on here. */
+/* S and the loads of harmonic h by the sum over modes; false if it is not available or not reliable at this omega. */
 static bool fill_by_compliance(condensation *c, int h)
 {
   const size_t dim = (size_t)c->basis.dim;
@@ -330,7 +330,7 @@ condensation_change condensation_by_damping(const condensation *c, int h)
   return (condensation_change){I * (h * c->omega * c->more_mass), 0, 0};
 }
 
-/* dG and dg of compliance.h. NULL where it cannot tell: Z_yy is then there. */
+/* dG and dg of compliance.h. NULL if not available: the harmonic is then by Z_yy (fill_by_rest). */
 static const double complex *change_by_compliance(condensation *c, int h, condensation_change by)
 {
   const double w = frequency(c, h);
@@ -411,8 +411,8 @@ void condensation_stiffness_change(condensation *c, int h, condensation_change b
   else apply_by_rest(c, h, by, a, c->vector, dS_a);
 }
 
-/* By compliance p = S g:  dp = dS g + S dg; by the rest dp = Z_qy Z_yy^-1 dZ_yy Z_yy^-1 p_y - dZ_qy Z_yy^-1 p_y; and of
- * an inertial load 2/omega p more. */
+/* By compliance p = S g: dp = dS g + S dg; by the rest dp = Z_qy Z_yy^-1 dZ_yy Z_yy^-1 p_y - dZ_qy Z_yy^-1 p_y; an
+ * inertial load adds by.inertial p. */
 void condensation_load_change(condensation *c, int l, condensation_change by, double complex *dp)
 {
   const int h = c->m->loads[l].harmonic;

@@ -1,8 +1,8 @@
 /* condensation_basis.c - see condensation_basis.h. The rows are the directions of all contacts, and the first response.
  *   q    the motions along those rows that are as independent as they can be chosen (pivoted QR): row P = 1. A row that
- *        is nearly a combination of rows chosen before leaves what is new of it, as long as 1: as a coordinate the row
- *        itself would be a motion of all other rows too, by 1 over that new part, and so would be the forces on it
- *   y    what moves none of them: its modes; P is bent so that no static force couples q and y (P^T K Y = 0)
+ *        is nearly a combination of rows chosen before is replaced by its normalised component orthogonal to them: as
+ *        a coordinate the row itself would give motions and forces that are 1/(that component) times as large
+ *   y    motions that move none of the rows, as modes; P is corrected so that K does not couple q and y (P^T K Y = 0)
  * Where the rows span everything, q = x. */
 #include "hbm/structure/condensation_basis.h"
 
@@ -12,12 +12,13 @@
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 
-/* Directions that differ by less than this from others are the same but for rounding of the case file's numbers. */
+/* Relative length of a row's new component below which the row counts as dependent: rounding of the case file's
+ * numbers. */
 static const double dependent = 1e-10;
-/* What is new of a row, of length 1, where the row is no coordinate any more. Between the two the choice costs nothing
- * but zeros of other contacts' directions. */
+/* Relative length of a row's new component below which that component, not the row, becomes the coordinate. Contacts'
+ * directions then have fewer zeros; nothing else changes. */
 static const double little = 0.1;
-/* Entries of a direction this small beside its largest are rounding of the change of coordinates. */
+/* Entries of a direction below this part of its largest are set to 0: rounding of the change of coordinates. */
 static const double negligible = 1e-12;
 /* A mode of the rest is free if its eigenvalue is less than this part of the largest. */
 static const double free_mode = 1e-14;
@@ -69,7 +70,7 @@ static int collect_rows(const model *m, const double **row)
   return n;
 }
 
-/* The chosen rows, as long as 1, for q = rows x; Q R are the rows afterwards, too. */
+/* The chosen rows, normalised, for q = rows x; R is changed so that the rows stay Q R. */
 static void keep_rows(const model *m, const double *const *row, const int *pivot, double *R, condensation_basis *b)
 {
   const size_t n = (size_t)m->n, dim = (size_t)b->dim;
@@ -99,7 +100,7 @@ static void turn_to_modes(const model *m, condensation_basis *b, const double *l
   for (size_t i = 0; i < (size_t)n * (size_t)dim; ++i) P[i] += work[i];
 }
 
-/* Where K and M are symmetric. */
+/* The rest's modes as coordinates y, for symmetric K and M. */
 static hc_status choose_modes(const model *m, condensation_basis *b)
 {
   const int n = m->n, rest = b->rest;
@@ -141,7 +142,8 @@ static void transform_vectors(const model *m, condensation_basis *b)
   }
   for (int r = 0; r < m->n_responses; ++r)
     transform(b, m->n, m->responses + (size_t)r * n, b->responses + (size_t)r * n);
-  for (int j = 0; j < 2 * m->n_contacts; ++j) { /* rounding would couple what has nothing to do with each other */
+  for (int j = 0; j < 2 * m->n_contacts; ++j) { /* entries that are only rounding would couple independent
+                                                   coordinates */
     double *d = b->directions + (size_t)j * dim;
     const double largest = norm_max(b->dim, d);
     for (int i = 0; i < b->dim; ++i)
@@ -149,7 +151,8 @@ static void transform_vectors(const model *m, condensation_basis *b)
   }
 }
 
-/* eps sum_e |P_e|^T |K| |P_d|: what K leaves of a motion that it does not resist. work[2 n] of zeros. */
+/* b->rounding[d] = eps sum_e |P_e|^T |K| |P_d|: rounding error of the force of a motion that K does not resist. work[2
+ * n] of zeros. */
 static void find_rounding(const model *m, condensation_basis *b, double *work)
 {
   const size_t n = (size_t)m->n, dim = (size_t)b->dim;
@@ -194,8 +197,8 @@ hc_status condensation_basis_make(const model *m, condensation_basis *b)
     dense_congruence(m->n, m->n, b->T, m->damping, work, b->C);
     dense_congruence(m->n, m->n, b->T, m->stiffness, work, b->K);
     transform_vectors(m, b);
-    /* By the choice of Y the rest's blocks of M and K are diagonal, and K couples it with q nowhere: what is left
-     * there is rounding. */
+    /* By the choice of Y the rest's blocks of M and K are diagonal, and K does not couple it with q: entries there are
+     * rounding, and set to 0. */
     if (modes) {
       const int n = b->n, dim = b->dim;
       for (int j = 0; j < n; ++j)

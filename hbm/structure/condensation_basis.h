@@ -8,19 +8,19 @@
 
 typedef struct condensation_basis {
   int n, dim, rest;   /* dim + rest = n */
-  bool modes;         /* y are modes: M and K of the rest are diagonal, and K couples them with q nowhere */
-  bool diagonal;      /* C of the rest is, too */
-  double *rows;       /* [dim][n]: q = rows x, where there is a rest */
+  bool modes;         /* y are modes: their blocks of M and K are diagonal, and K does not couple them with q */
+  bool diagonal;      /* the rest's block of C is diagonal, too */
+  double *rows;       /* [dim][n]: q = rows x; used only if rest > 0 */
   double *T;          /* [n][n] by columns: x = T (q, y) */
   double *M, *C, *K;  /* [n][n] by columns: T^T M T, ... */
   double *directions; /* [n_contacts][2][dim]: tangent and normal in q */
-  double *loads;      /* [n_loads][2][n]: T^T of cosine and sine */
-  double *responses;  /* [n_responses][n]: T^T of each */
-  double *rounding;   /* [dim] [force/length] of the mean forces on all q together, for q_d = 1 */
+  double *loads;      /* [n_loads][2][n]: T^T times cosine and sine */
+  double *responses;  /* [n_responses][n]: T^T times each response */
+  double *rounding;   /* [dim] [force/length] condensation_rounding */
   workspace memory;
 } condensation_basis;
 
-/* HC_NO_MEMORY; HC_SINGULAR: what is left when all contacts are held can move freely, or M is not positive definite.
+/* HC_NO_MEMORY; HC_SINGULAR: K has a rigid-body motion with q fixed, or M is not positive definite. Call
  * condensation_basis_clear in any case. */
 hc_status condensation_basis_make(const model *m, condensation_basis *out);
 void condensation_basis_clear(condensation_basis *b);

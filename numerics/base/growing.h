@@ -1,12 +1,12 @@
-/* growing.h - lists with room for a power of two of entries. */
+/* growing.h - lists whose capacity is a power of two. */
 #pragma once
 
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The list with room for `more` entries of `size` bytes beside the `count` there are; NULL: out of memory, and the list
- * is as it was. */
+/* Returns the list, perhaps moved, with capacity for `more` entries of `size` bytes beside its `count` entries; NULL:
+ * out of memory, the list is unchanged. */
 static inline void *growing_by(void *list, int count, int more, size_t size)
 {
   size_t room = 1;
@@ -18,7 +18,7 @@ static inline void *growing_by(void *list, int count, int more, size_t size)
 
 static inline void *growing(void *list, int count, size_t size) { return growing_by(list, count, 1, size); }
 
-/* The same for a list that a variable holds, which gets the larger one; false: out of memory. */
+/* The same for one more entry of a list in a variable, which is updated; false: out of memory. */
 #define GROW(list, count) grow_in_place(&(list), count, sizeof *(list))
 static inline bool grow_in_place(void *variable, int count, size_t size)
 {

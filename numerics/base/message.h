@@ -8,7 +8,7 @@
 typedef struct message {
   char *text; /* [size] always terminated */
   size_t size, used;
-  bool full; /* something did not fit: the text ends in "..." and takes no more */
+  bool full; /* a text did not fit: the message ends in "...", and further additions are ignored */
 } message;
 
 void message_start(message *m, char *text, size_t size); /* size >= 8 */
@@ -30,7 +30,7 @@ void message_add_input(message *m, const char *text, size_t length, size_t limit
 /* The same between backquotes, 60 bytes of it: `text`. */
 void message_add_quoted(message *m, const char *text, size_t length);
 
-/* The same as text of its own, for a %s. Returns quote. */
-enum { MESSAGE_QUOTE = 256 /* 60 bytes as \xNN, and what is around them */ };
+/* The same in a separate text, as an argument of %s. Returns quote. */
+enum { MESSAGE_QUOTE = 256 /* 60 bytes as \xNN, backquotes and "..." */ };
 const char *message_quote(const char *text, size_t length, char quote[MESSAGE_QUOTE]);
-#define QUOTED(text, length) message_quote(text, length, (char[MESSAGE_QUOTE]){0}) /* lives as long as its block */
+#define QUOTED(text, length) message_quote(text, length, (char[MESSAGE_QUOTE]){0}) /* valid in the enclosing block */

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LONGEST = 40 }; /* letters of a word; a longer one is near to nothing */
+enum { LONGEST = 40 }; /* letters of a word; a longer one is never near */
 
 static int smallest(int a, int b) { return a < b ? a : b; }
 

@@ -94,7 +94,7 @@ number_fault number_read_integer(const char *text, size_t length, int *value)
   double x;
   number_fault fault = number_read(text, length, &x);
   if (fault != NUMBER_FINE) return fault;
-  /* Is a text that is a number digits alone, after a sign? */
+  /* An integer has only digits after its sign. */
   for (size_t i = text[0] == '+' || text[0] == '-'; i < length; ++i)
     if (text[i] < '0' || text[i] > '9') return NUMBER_NOT_INTEGER;
   if (!(x >= INT_MIN && x <= INT_MAX)) return NUMBER_TOO_LARGE;

@@ -1,6 +1,6 @@
-/* number.h - numbers as text, strictly and the same in every locale: reading a whole text as one finite number, and
- * the shortest text that reads back to the same bits. Safe from several threads; the host program's locale is
- * neither used nor changed. A text need not be terminated: text[length] and what comes after is not looked at. */
+/* number.h - numbers as text, strictly and the same in every locale: reading a whole text as one finite number, and the
+ * shortest text that reads back to the same bits. Safe from several threads; the host program's locale is neither used
+ * nor changed. A text need not be terminated: text[length] and beyond is not read. */
 #pragma once
 
 #include <stddef.h>
@@ -11,7 +11,7 @@ typedef enum number_fault {
   NUMBER_NOT_FINITE, /* nan or inf */
   NUMBER_TOO_LARGE,  /* larger than any double (or int) */
   NUMBER_TOO_SMALL,  /* not zero, but zero as a double */
-  NUMBER_NOT_INTEGER /* an integer was asked for: `1.0` and `1e3` are not written as one */
+  NUMBER_NOT_INTEGER /* not an integer where one is required: `1.0`, `1e3` */
 } number_fault;
 
 /* The whole of text[length] as [+-]digits[.digits][e[+-]digits] in decimal, or a fault with *value untouched. */
@@ -25,7 +25,7 @@ number_fault number_read_integer(const char *text, size_t length, int *value);
 enum { NUMBER_TEXT = 32 };
 const char *number_write(double value, char text[NUMBER_TEXT]);
 
-/* A short list of numbers by value, as options and case files give them. */
+/* A list of numbers, copied by value, from options and case files. */
 enum { NUMBER_LIST_MAX = 1024 };
 
 typedef struct number_list {
@@ -33,7 +33,7 @@ typedef struct number_list {
   double v[NUMBER_LIST_MAX];
 } number_list;
 
-/* The order in which qsort puts doubles: a, b: const double *. Not for NaN, which is no part of any order. */
+/* Comparison for qsort of doubles, ascending; a, b: const double *. Not for NaN. */
 static inline int ascending(const void *a, const void *b)
 {
   double x = *(const double *)a, y = *(const double *)b;

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* The path's last part, without the folders before it. *stem, if not NULL: its length without its ending. */
+/* The path's last component. *stem, if not NULL: its length without the file name extension. */
 static inline const char *path_name(const char *path, int *stem)
 {
   const char *slash = strrchr(path, '/'), *name = slash && slash[1] ? slash + 1 : path, *dot = strrchr(name, '.');
@@ -11,5 +11,5 @@ static inline const char *path_name(const char *path, int *stem)
   return name;
 }
 
-/* name[length] in the folder of `path`, or itself if absolute: to be freed; NULL: out of memory. */
+/* name[length] in the folder of `path`, or unchanged if absolute; to be freed. NULL: out of memory. */
 char *path_beside(const char *path, const char *name, size_t length);

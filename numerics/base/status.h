@@ -1,5 +1,5 @@
-/* status.h - every answer of a call that may fail: code and words, in one list.
- * Every fallible function of the library returns an hc_status; none prints, exits or sets errno for the caller. */
+/* status.h - the statuses of calls that may fail: code and text, in one list. Every fallible function of the library
+ * returns an hc_status; none prints, exits or sets errno for the caller. */
 #pragma once
 
 #include <stdbool.h>
@@ -31,11 +31,11 @@
 typedef enum hc_status { HC_STATUS_LIST(HC_STATUS_ENUM) } hc_status;
 #undef HC_STATUS_ENUM
 
-/* The words for a status; a constant string, never NULL. */
+/* The text of a status; a constant string, never NULL. */
 const char *hc_status_text(hc_status status);
 
-/* Long work calls this now and then: done is the fraction finished, 0..1, or negative when unknown.
- * Answer false to stop; the work then returns HC_INTERRUPTED and keeps what it has. `tick` may be NULL. */
+/* Callback of long work: done is the fraction finished, 0..1, or negative if unknown. Return false to stop the work,
+ * which then returns HC_INTERRUPTED with its results so far. `tick` may be NULL. */
 typedef struct hc_monitor {
   bool (*tick)(void *self, double done);
   void *self;
@@ -46,8 +46,8 @@ static inline bool hc_monitor_tick(const hc_monitor *m, double done)
   return !m || !m->tick || m->tick(m->self, done);
 }
 
-/* The tick of a monitor whose self is another monitor or NULL: passes each tick on to that one, with the fraction
- * unknown. For a part of the work whose own fraction is not that of the whole. */
+/* The tick of a monitor whose self is another monitor or NULL: passes each tick on to it with an unknown fraction. For
+ * a part of the work whose fraction is not that of the whole. */
 static inline bool hc_monitor_tick_aside(void *self, double done)
 {
   (void)done;

@@ -1,10 +1,10 @@
-/* thread_clock.h - how long the calling thread has computed, and how long it took. */
+/* thread_clock.h - processor time of the calling thread, and wall time. */
 #pragma once
 
 #include <stdlib.h>
 #include <time.h>
 
-/* [s] of that clock; only differences mean something. */
+/* [s] Reading of a clock; only differences are meaningful. */
 static inline double clock_seconds(clockid_t clock)
 {
   struct timespec t;
@@ -12,8 +12,8 @@ static inline double clock_seconds(clockid_t clock)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Processor time of this thread, in which waiting does not count; times HBMCHECK_CLOCK where that is set: what is found
- * before a limit of time is then the same on a slow machine, which is how tests ask. */
+/* [s] Processor time of this thread, without waiting, multiplied by HBMCHECK_CLOCK if that is set: with it tests make
+ * results under a time limit the same on a slow machine. */
 static inline double thread_seconds(void)
 {
   const char *set = getenv("HBMCHECK_CLOCK");
@@ -21,5 +21,5 @@ static inline double thread_seconds(void)
   return (rate > 0 ? rate : 1) * clock_seconds(CLOCK_THREAD_CPUTIME_ID);
 }
 
-/* Time on the wall. */
+/* [s] Wall time. */
 static inline double wall_seconds(void) { return clock_seconds(CLOCK_MONOTONIC); }

@@ -1,5 +1,5 @@
-/* trace.h - one line a step on stderr, for whoever wants to watch the work: HBMCHECK_TRACE=curve,newton,... or `all`.
- * Off, a line costs the test of a bit. */
+/* trace.h - a line per step on stderr, to watch the solvers: HBMCHECK_TRACE=curve,newton,... or `all`. Switched off, a
+ * line costs the test of a bit. */
 #pragma once
 
 #include "numerics/base/message.h"
@@ -14,10 +14,10 @@
 typedef enum trace_part { TRACE_PARTS(TRACE_ENUM) TRACE_COUNT } trace_part;
 #undef TRACE_ENUM
 
-extern unsigned trace_wanted; /* bit TRACE_curve and so on: set before there are threads, by trace_start */
+extern unsigned trace_wanted; /* bit TRACE_curve etc.: set by trace_start before threads are started */
 
-/* The parts that a list such as "curve,newton" names are traced from now on; NULL and "": none. HC_BAD_INPUT, with a
- * message into *msg, which was started, that says which word is none of them. */
+/* Switches the trace on for the parts in a list such as "curve,newton"; NULL and "": none. HC_BAD_INPUT: an unknown
+ * word, named in the message added to *msg, which must be started. */
 hc_status trace_start(const char *list, message *msg);
 
 static inline bool trace_on(trace_part part) { return trace_wanted >> part & 1; }
@@ -25,5 +25,5 @@ static inline bool trace_on(trace_part part) { return trace_wanted >> part & 1; 
 /* "curve   omega 5.2 ..." and a line's end, in one write. */
 void trace_line(trace_part part, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The arguments are evaluated only where the part is traced. */
+/* The arguments are evaluated only if the part is traced. */
 #define TRACE(part, ...) (trace_on(TRACE_##part) ? trace_line(TRACE_##part, __VA_ARGS__) : (void)0)

@@ -1,5 +1,5 @@
-/* workspace.h - the arrays of one object, which live and die together: each is taken where it is needed, whether all of
- * them were to be had is asked once, and one call frees them. */
+/* workspace.h - the arrays of one object with a common lifetime: arrays are allocated one by one, failure is checked
+ * once at the end (`failed`), and one call frees all. */
 #pragma once
 
 #include <stdbool.h>
@@ -15,11 +15,11 @@ typedef struct workspace_block {
 /* Empty with {0}. */
 typedef struct workspace {
   workspace_block *last;
-  bool failed; /* an array was not to be had: what was taken is not complete */
+  bool failed; /* an allocation failed: some array is NULL */
 } workspace;
 
-/* n entries of `size` bytes, all 0, aligned for any type (and for FFTW); n may be 0. NULL without memory, and from then
- * on w->failed. */
+/* n entries of `size` bytes, all 0, aligned for any type (and for FFTW); n may be 0. NULL: out of memory, and w->failed
+ * is set. */
 static inline void *workspace_array(workspace *w, size_t n, size_t size)
 {
   const bool fits = n <= (SIZE_MAX - sizeof(workspace_block)) / size;

@@ -40,7 +40,7 @@ char *decimal_write(const arf_t x, slong place, int round)
   if (place <= 0) {
     arf_mul_fmpz(scaled, x, power, ARF_PREC_EXACT, ARF_RND_DOWN);
     arf_get_fmpz(integer, scaled, round < 0 ? ARF_RND_FLOOR : round > 0 ? ARF_RND_CEIL : ARF_RND_NEAR);
-  } else { /* what is left of the point is enough, rounded the same way twice */
+  } else { /* the integer part is enough, rounded twice in the same direction */
     arf_get_fmpz(integer, x, round > 0 ? ARF_RND_CEIL : ARF_RND_FLOOR);
     if (round > 0) fmpz_cdiv_q(integer, integer, power);
     else fmpz_fdiv_q(integer, integer, power);

@@ -1,14 +1,14 @@
-/* answer.h - what was decided, as JSON and decimals that are rounded outward. */
+/* answer.h - the decision as JSON, with decimals rounded outward. */
 #pragma once
 
 #include "proof/prove.h"
 
 /* Decimals, to be freed with free(): x to an absolute 10^place, rounded down (-1), up (1) or to the nearest (0). */
 char *decimal_write(const arf_t x, slong place, int round);
-/* The place of the leading digit; of 0: `otherwise`. */
+/* Exponent of ten of the leading digit; `otherwise` for 0. */
 slong decimal_place(const arf_t x, slong otherwise);
-/* [low, high] around x, each end moved out by `pad` at least. */
+/* [low, high] containing x, each end moved outward by at least `pad`. */
 json_t *decimal_interval(const arb_t x, const mag_t pad, slong precision);
 
-/* The answer as README.md has it. certificate: a certificate, or NULL; why: of a file that is wrong, else NULL. */
+/* The answer in the format of README.md. c may be NULL; why: the reason if the file is wrong, else NULL. */
 json_t *answer_json(const certificate *c, const decision *v, const char *why);

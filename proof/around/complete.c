@@ -1,5 +1,5 @@
-/* complete.c - Newton in extended precision, the radii that pass, approximate eigenvectors, and claims that leave room
- * for a checker whose enclosures are wider. The certificate is then read and decided like any other. */
+/* complete.c - Newton in extended precision, the radii that pass, approximate eigenvectors, and claims wide enough for
+ * a checker with wider enclosures. The certificate is then read and decided like any other. */
 #include "proof/around/complete.h"
 #include "numerics/base/number.h"
 #include <math.h>
@@ -9,16 +9,16 @@
 enum { NEWTON_STEPS = 60, WIDE_DIGITS = 40, MULTIPLIER_WIDTHS = 8 };
 static const double ROOM = 0.001, NEAR = 1e-8, FAR = 1e-3;
 
-/* Decimal digits of an event's numbers, of the scales: what the precision leaves for the growth over a period. */
+/* Decimal digits of an event's numbers relative to the scales, from the precision less the growth over a period. */
 static slong digits_of(slong precision)
 {
   const slong digits = (slong)((double)(precision - 45) * 0.30103);
   return digits > 8 ? digits : 8;
 }
 
-/* ---- what a candidate may lack ---- */
+/* ---- defaults of a candidate ---- */
 
-/* Numbers become strings, everywhere in the value but in integers that are no theorem's numbers. */
+/* A copy in which numbers are decimal strings, except the integers in counts[]. */
 static json_t *as_strings(json_t *json)
 {
   static const char *const counts[] = {"harmonic", "multiple", "precision_bits", "section"};
@@ -77,7 +77,7 @@ static void set_defaults(json_t *draft, int precision)
     size[1] = fmax(size[1], largest_of(json_object_get(event, "v")));
   }
   if (!(size[0] > 0) && !(size[1] > 0)) size[0] = 1;
-  size[0] = fmax(size[0], 1e-3 * size[1] * size[2]); /* an orbit may cross its section at rest, or in the middle */
+  size[0] = fmax(size[0], 1e-3 * size[1] * size[2]); /* at a section x or v may be 0 */
   size[1] = fmax(size[1], 1e-3 * size[0] / size[2]);
   for (i = 0; i < 3; i++) {
     snprintf(text, sizeof text, "%.2e", size[i]);
@@ -94,7 +94,7 @@ static void set_defaults(json_t *draft, int precision)
 
 static double near_double(const arb_t x) { return arf_get_d(arb_midref(x), ARF_RND_NEAR); }
 
-/* The share of Newton's step by which no segment becomes shorter or longer by more than half. step: [unknowns] */
+/* The largest part <= 1 of Newton's step that changes no segment's duration by more than half. step: [unknowns] */
 static double damping(const orbit *o, const double *step)
 {
   const int stride = 2 * o->n + 1;
@@ -108,7 +108,7 @@ static double damping(const orbit *o, const double *step)
   return share;
 }
 
-/* y -= B F(y) until it moves no more; the largest step that remains, relative to the scales. */
+/* Newton, y -= B F(y), until the step relative to the scales is rounding. */
 static bool refine(krawczyk *k, orbit *o, double most_work, failure *f)
 {
   const int n = o->unknowns, stride = 2 * o->n + 1;
@@ -121,7 +121,7 @@ static bool refine(krawczyk *k, orbit *o, double most_work, failure *f)
   for (int i = 0; i < NEWTON_STEPS && fine; i++) {
     if (i > 0) {
       box_set(o, NULL);
-      const bool near = i == 1 ? largest < NEAR : largest <= 1e-3 * last; /* so that one B does for all steps */
+      const bool near = i == 1 ? largest < NEAR : largest <= 1e-3 * last; /* one B serves all steps near the solution */
       if (largest > FAR && !flow_prepare(o, f)) return false;
       if (!near && (work += pow(n, 3)) > most_work) return refute(f, -1, -1, "Newton takes too much work");
       fine = near ? shooting_equations(o, k->value, NULL) : existence_prepare(k, o, NULL, f);
@@ -148,7 +148,7 @@ static bool refine(krawczyk *k, orbit *o, double most_work, failure *f)
   return true;
 }
 
-/* The events' numbers as decimals, and the centre at exactly these. */
+/* Writes the events' numbers as decimals, and sets the centre to exactly these. */
 static void write_events(json_t *draft, orbit *o)
 {
   const slong digits = digits_of(o->precision);
@@ -180,8 +180,8 @@ static bool holds_at(krawczyk *k, slong power, double *ratio)
   return existence_holds(k, radius, ratio);
 }
 
-/* Powers of ten: the smallest radius, about 8 |B F|, and the largest that passes with room for another checker's balls.
- * Leaves the box at the smallest. */
+/* Finds the radii, powers of ten: the smallest, about 8 |B F|, and the largest that passes with ratio < ROOM, for
+ * another checker's wider balls. The box is then that of the smallest. */
 static bool find_radii(krawczyk *k, json_t *claims, failure *f)
 {
   const orbit *o = k->o;
@@ -194,7 +194,7 @@ static bool find_radii(krawczyk *k, json_t *claims, failure *f)
     if (++smallest >= last || smallest >= 1)
       return refute(f, -1, -1, "existence: Krawczyk gives %.2g of the radius", ratio);
   slong best = smallest;
-  while (best < 0 && fails - best > 1) { /* 1 passes where F is linear */
+  while (best < 0 && fails - best > 1) { /* 10^0 passes if F is linear */
     const slong middle = fails == 1 ? 0 : (best + fails) / 2 - ((best + fails) % 2 < 0);
     if (holds_at(k, middle, &ratio) && ratio < ROOM) best = middle;
     else fails = middle;
@@ -207,7 +207,7 @@ static bool find_radii(krawczyk *k, json_t *claims, failure *f)
   return true;
 }
 
-/* Approximate eigenvectors of the monodromy matrix, to so many digits. */
+/* Approximate eigenvectors of the monodromy matrix, to `digits` digits. */
 static void write_vectors(json_t *draft, const orbit *o, slong digits)
 {
   failure unused = {0};
@@ -236,7 +236,7 @@ static void write_vectors(json_t *draft, const orbit *o, slong digits)
   _acb_vec_clear(values, n);
 }
 
-/* The largest sum of the radii of the response's Taylor coefficients on a substep, by its place, in the box. */
+/* The largest sum over a substep of the radii of the response's Taylor coefficients, for the box. */
 static void response_spread(const orbit *o, mag_t spread)
 {
   LOCAL(pool) own = {0};
@@ -260,11 +260,12 @@ static void response_spread(const orbit *o, mag_t spread)
   }
 }
 
-/* Claims that hold what check.py encloses, too. Its interval and this program's share the true value, so this one,
- * widened by the width of the other, holds both. check.py takes ranges by the first order: of an extremum at most 4
- * times the sum of the radii on a substep, of mean and harmonic 1 less; and it starts from a box within `radius`, which
- * gave `spread`. Of the multiplier both take discs of the same matrix, check.py with every entry's rounding as large as
- * the largest's: up to 4 times as wide among 500 structures; MULTIPLIER_WIDTHS are allowed, and 16 radii. */
+/* Claims wide enough for check.py's enclosures, too. Its interval and this program's both contain the true value, so
+ * this one, widened by the width of the other, contains both. check.py bounds ranges to first order: for an extremum at
+ * most 4 times the sum of the radii on a substep, less for mean and harmonic 1; and its box is within `radius`, for
+ * which `spread` was computed. For the multiplier both use discs of the same matrix, check.py with every entry's
+ * rounding as large as the largest: up to 4 times as wide in 500 structures; allowed are MULTIPLIER_WIDTHS and 16
+ * radii. */
 static void write_claims(json_t *claims, const certificate *c, const quantities *q, const mag_t spread)
 {
   LOCAL(arb) radius = {0};
@@ -283,8 +284,8 @@ static void write_claims(json_t *claims, const certificate *c, const quantities 
 
 /* ---- all of it ---- */
 
-/* Fills in the certificate *made, with claims of radii alone at first, and decides it; false: v says why there is
- * none. */
+/* Completes the draft to the certificate *made, at first with claims of radii only, decides it, and adds the other
+ * claims; false: none, reason in *v. */
 static bool make(json_t *draft, const certificate *c, double most_work, certificate **made, decision *v, char *why,
                  size_t size)
 {

@@ -1,10 +1,11 @@
-/* complete.h - from a candidate in double precision to a certificate. Not trusted: what it writes is checked. */
+/* complete.h - makes a certificate from a candidate in double precision. Not trusted: its result is checked. */
 #pragma once
 
 #include "proof/around/answer.h"
 
-/* unknowns^3 of all inverses that Newton makes: some tens of seconds */
+/* most work of all inverses that Newton makes, as sum of unknowns^3: some tens of seconds */
 #define COMPLETE_MOST_WORK 3e10
 
-/* The answer to a candidate, as README.md has it; precision: of the balls if it says nothing, 0: 128 bits. */
+/* The answer to a candidate in the format of README.md; precision: bits of the balls if the candidate has none, 0:
+ * 128. */
 json_t *complete(json_t *candidate, int precision, double most_work);

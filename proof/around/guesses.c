@@ -1,5 +1,5 @@
-/* guesses.c - weights of the norm, and the approximate inverse B of dF/dy. A proof holds whatever they are; with good
- * ones there are few substeps, and Krawczyk's test passes. */
+/* guesses.c - weights of the norm, and the approximate inverse B of dF/dy. A proof is valid for any of them; good ones
+ * lead to few substeps, and to success of Krawczyk's test. */
 #include "proof/orbit.h"
 #include <math.h>
 
@@ -14,15 +14,15 @@ static double upper(const arb_t x)
 
 static slong weight_of(double log2) { return lround(fmax(-4000, fmin(4000, log2))); }
 
-/* |A_ij| of the accelerations by Z, in the weights of x: those of v are by a frequency more. */
+/* |A_ij| of the accelerations, row i, by Z_j, scaled with the weights of x. */
 static double weighed(const orbit *o, const orbit_segment *s, int i, int j)
 {
   return ldexp(upper(arb_mat_entry(s->a, o->n + i, j)), (int)((j < o->n ? s->weight[j] : 0) - s->weight[i]));
 }
 
-/* Powers of two that balance A: of x so that rows and columns of the stiffness are alike (Osborne), by Omega more of v,
- * Omega^2/|f| of what loads the masses, but not far above what x is. Any choice is right, a good one makes few
- * substeps. */
+/* Powers of two that balance A: for x such that rows and columns of the stiffness are of one size (Osborne), for v
+ * larger by Omega, for loads and sliders Omega^2/|f|, limited relative to the scale of x. Any choice is valid; a good
+ * one gives few substeps. */
 void guess_weights(const orbit *o, orbit_segment *s)
 {
   enum { ROOM = 20, SWEEPS = 8 };
@@ -46,7 +46,7 @@ void guess_weights(const orbit *o, orbit_segment *s)
   for (int j = n; j < s->size; j++) {
     s->weight[j] = j < 2 * n ? s->weight[j - n] + weight_of(frequency) : weight_of(frequency);
     if (j < 2 * n) continue;
-    int pair = j; /* cosine and sine alike */
+    int pair = j; /* cosine and sine get the same weight */
     if (j > 2 * n && j <= 2 * n + 2 * o->harmonics) pair = (j - 2 * n) % 2 ? j + 1 : j - 1;
     double load = 0;
     for (int i = 0; i < n; i++) load = fmax(load, fmax(weighed(o, s, i, j), weighed(o, s, i, pair)));
@@ -58,7 +58,7 @@ void guess_weights(const orbit *o, orbit_segment *s)
 
 static double number_near(const arb_t x) { return arf_get_d(arb_midref(x), ARF_RND_NEAR); }
 
-/* a[n][n] becomes its inverse, by Gauss-Jordan with row pivots; nothing is assumed of how good it is. swap: [n] */
+/* a[n][n] becomes its inverse, by Gauss-Jordan with row pivots; its accuracy does not matter for a proof. swap: [n] */
 static bool invert(double *a, int n, int *swap)
 {
   for (int k = 0; k < n; k++) {

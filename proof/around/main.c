@@ -11,8 +11,8 @@ enum { EXIT_ACCEPTED = 0, EXIT_REJECTED = 1, EXIT_WRONG = 2, EXIT_USAGE = 64 };
 
 typedef struct options {
   bool complete, json;
-  int precision;      /* 0: 128 */
-  const char *output; /* of complete */
+  int precision;      /* bits for `complete`; 0: 128 */
+  const char *output; /* output file of `complete` */
 } options;
 
 static const char usage[] =
@@ -63,9 +63,9 @@ static bool print_line(const json_t *answer, FILE *to)
 
 /* ---- one text ---- */
 
-static char text[LIMIT_BYTES + 2]; /* a 0 at the end */
+static char text[LIMIT_BYTES + 2]; /* terminated by 0 */
 
-/* Its next line, or all of it; the length, above LIMIT_BYTES where it is longer. */
+/* Reads the next line, or the whole file, into text; returns its length, above LIMIT_BYTES if it is too long. */
 static size_t next_text(FILE *from, bool line)
 {
   size_t n = 0;

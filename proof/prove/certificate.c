@@ -41,8 +41,8 @@ static json_t *forcing(const model *m, double omega)
   return loads;
 }
 
-/* The angle [deg] by which the case gives the directions of its contact j, where cosine and sine are no decimals; else
- * 0. */
+/* The angle [deg] of contact j of the case, if its directions are given by an angle whose cosine and sine are no
+ * decimals; else 0. */
 static double inclined(const scene *sc, int j)
 {
   if (sc->structure && !sc->structure->contacts[j].by_angle) return 0;
@@ -50,12 +50,12 @@ static double inclined(const scene *sc, int j)
   return fabs(angle) < 90 ? angle : 0;
 }
 
-/* NULL: it exerts no force that changes. */
+/* The contact as JSON; NULL: it exerts no varying force. */
 static json_t *contact_of(const model *m, const model_contact *c, double angle, bool *friction)
 {
   const contact *law = &c->law;
   const bool closes = law->kn > 0 && !is_zero(m->n, c->normal);
-  const double load = closes ? NAN : law->load + law->kn * fmax(law->gap, 0); /* N, where it is constant */
+  const double load = closes ? NAN : law->load + law->kn * fmax(law->gap, 0); /* N if it is constant, else NaN */
   *friction = contact_has_friction(law) && !is_zero(m->n, c->tangent) && (closes || load > 0);
   if (!closes && !*friction) return NULL;
   json_t *to = json_object();
@@ -86,7 +86,7 @@ hc_status certificate_model_make(const scene *sc, const model *m, int r, certifi
   for (int j = 0, of_case = 0; j < m->n_contacts && out->contact && out->friction; ++j) {
     json_t *one = contact_of(m, &m->contacts[j], inclined(sc, of_case), &out->friction[out->n_contacts]);
     if (one && !json_array_append_new(contacts, one)) out->contact[out->n_contacts++] = j;
-    of_case += !contact_goes_on(m->contacts[j + 1].pair); /* the list ends with an empty one */
+    of_case += !contact_goes_on(m->contacts[j + 1].pair); /* model_new allocates one more, empty entry */
   }
   out->response = vector(m->n, m->responses + (size_t)r * (size_t)m->n, 1);
   out->model = json_pack("{s:o,s:o,s:o,s:o,s:o}", "mass", matrix(m->n, m->mass), "damping", matrix(m->n, m->damping),

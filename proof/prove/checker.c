@@ -19,11 +19,11 @@ static const char program[] = "hbmcheck-proof";
 struct proof_checker {
   pid_t pid; /* 0: not started */
   FILE *to, *from;
-  char *line; /* [room] its last answer */
+  char *line; /* [room] last answer */
   size_t room;
 };
 
-/* The program's path, or its name where it is to be looked for in PATH. */
+/* The program's path, or its name if it is to be searched in PATH. */
 static void find_program(char path[PATH_MAX])
 {
   const char *named = getenv("HBMCHECK_PROOF");
@@ -35,7 +35,7 @@ static void find_program(char path[PATH_MAX])
   else if (!slash || access(path, X_OK) != 0) memcpy(path, program, sizeof program);
 }
 
-/* With `in` and `out` as its streams, SIGPIPE as by default. 0 or an errno. */
+/* Starts the program with `in` and `out` as its streams, SIGPIPE as by default. Returns 0 or an errno. */
 static int spawn(proof_checker *c, int in, int out)
 {
   char path[PATH_MAX], complete[] = "complete", standard[] = "-", output[] = "-o";
@@ -61,7 +61,7 @@ static int spawn(proof_checker *c, int in, int out)
   return bad;
 }
 
-/* Two pipes, no end of which the child has but as its streams. 0 or an errno. */
+/* Makes two pipes, of which the child inherits only its streams, and starts it. Returns 0 or an errno. */
 static int start(proof_checker *c)
 {
   int to[2] = {-1, -1}, from[2] = {-1, -1};
@@ -94,7 +94,7 @@ hc_status proof_checker_new(proof_checker **out)
 void proof_checker_free(proof_checker *c)
 {
   if (!c) return;
-  if (c->to) fclose(c->to); /* then it ends */
+  if (c->to) fclose(c->to); /* the program ends at the end of its input */
   if (c->from) fclose(c->from);
   while (c->pid > 0 && waitpid(c->pid, NULL, 0) < 0 && errno == EINTR) {}
   free(c->line);
@@ -104,7 +104,7 @@ void proof_checker_free(proof_checker *c)
 hc_status proof_checker_ask(proof_checker *c, const json_t *question, json_t **answer)
 {
   *answer = NULL;
-  errno = 0; /* at the end of a stream there is none */
+  errno = 0; /* end of file sets no errno */
   if (json_dumpf(question, c->to, JSON_COMPACT) < 0 || putc('\n', c->to) == EOF || fflush(c->to) != 0) return HC_IO;
   const ssize_t length = getline(&c->line, &c->room, c->from);
   if (length > 0) *answer = json_loadb(c->line, (size_t)length, 0, NULL);

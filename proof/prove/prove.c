@@ -1,4 +1,4 @@
-/* prove.c - see prove.h: frequencies, solutions, orbits; what the checker answers, as rows. */
+/* prove.c - see prove.h: frequencies, solutions, orbits, and the checker's answers as rows. */
 #include "proof/prove/prove.h"
 
 #include <math.h>
@@ -15,18 +15,20 @@
 #include "proof/prove/checker.h"
 
 enum {
-  MOST_PERIODS = 2000, /* from an unstable orbit to where the motion goes */
-  MOST_MOVES = 8,      /* of sliders that never slip: the motion follows them, some of the way */
-  MOST_UNKNOWNS = 800, /* of HBM with more harmonics: some tenths of a second a solution */
-  MOST_CUTS = 12,      /* periods of the motion from a solution whose events are tried */
-  MOST_FAILURES = 8    /* of HBM in a row, each with a quarter more harmonics: with six times as many */
+  MOST_PERIODS = 2000, /* most periods from an unstable orbit to a steady state */
+  MOST_MOVES = 8,      /* most moves of sliders that never slip; the motion partly follows each */
+  MOST_UNKNOWNS = 800, /* of HBM with more harmonics: tenths of a second for a solution */
+  MOST_CUTS = 12,      /* most periods of the motion from a solution whose events are tried */
+  MOST_FAILURES = 8    /* successive failures of HBM, each with a quarter more harmonics: up to six times as many */
 };
-static const double most_work = 5e8; /* unknowns^3 of the checker, over all periods whose events are tried */
+static const double most_work = 5e8; /* most work of the checker, sum of unknowns^3 over the periods whose events are
+                                        tried */
 static const double enough = 0.01,
-                    room = 0.02;        /* [1] of a slider's interval: nearer to an end, it is moved so far in */
-static const double same_orbit = 1e-6;  /* [1] of the amplitude: measures that differ by less are of one orbit */
-static const double same_motion = 1e-9; /* [1] of the amplitude: a slider that was moved changed no more */
-static const double same_branch = 0.5;  /* [1] by how much a slider that is moved may change the amplitude */
+                    room = 0.02;        /* [slider's interval] a slider closer than `enough` to an end is moved to
+                                           `room` from it */
+static const double same_orbit = 1e-6;  /* [amplitude] orbits with a smaller difference of measures are one */
+static const double same_motion = 1e-9; /* [amplitude] largest change by moving a slider that does not count */
+static const double same_branch = 0.5;  /* [amplitude] largest change by moving a slider on the same branch */
 
 static const struct {
   const char *words, *meaning;
@@ -49,16 +51,16 @@ typedef struct prover {
   proof_keep *keep;
   void *keeper;
   proofs *out;
-  int n_found; /* orbits at this frequency */
+  int n_found; /* number of orbits found at this frequency */
   timeint_result *found;
 } prover;
 
 /* ---- what the checker says ---- */
 
-/* The multiplier's distance from +1 within which a failure is put down to the fold. */
+/* Distance of a multiplier from +1 within which a failure is attributed to a fold. */
 static const double near_fold = 1e-2;
 
-/* The reason that the answer's words are about: the first whose key they contain. */
+/* The reason for an answer: the first whose key its text contains. */
 static proof_reason reason_of(const json_t *answer, const json_t *rest, const timeint_result *r)
 {
   static const struct {
@@ -69,7 +71,7 @@ static proof_reason reason_of(const json_t *answer, const json_t *rest, const ti
               {"singular", PROOF_FOLD},
               {"too stiff", PROOF_TOO_LARGE},
               {"too much work", PROOF_TOO_LARGE},
-              {"a list of", PROOF_TOO_LARGE}, /* longer than it reads */
+              {"a list of", PROOF_TOO_LARGE}, /* a list beyond the checker's limits */
               {"not decided", PROOF_GRAZE},
               {"is negative", PROOF_GRAZE},
               {"Newton", PROOF_NO_ORBIT}};
@@ -114,8 +116,8 @@ static void read_claims(const json_t *claims, proof_row *row)
 
 /* ---- an orbit ---- */
 
-/* Sliders that never slip and are on the verge of it away from there, by a share of their intervals; false: one has no
- * place. */
+/* Moves sliders that never slip but are close to a limit to `share` of their interval from it; false: an interval is
+ * empty. */
 static bool move_sliders(const prover *p, const orbit_events *e, double share, bool *moved)
 {
   double *w = p->state + 2 * e->n_dof;
@@ -132,13 +134,13 @@ static bool move_sliders(const prover *p, const orbit_events *e, double share, b
   return true;
 }
 
-/* The events of the orbit *r, p->state on it, and of one next to it where sliders that never slip had no room. */
+/* The events of the orbit *r, p->state being on it; or of one next to it, with sliders moved away from their limits. */
 static hc_status find_events(prover *p, timeint_result *r, proof_row *row, orbit_events *e)
 {
   const double amplitude = r->amplitude;
   hc_status st = timeint_events(p->ti, r->period_multiple, e);
   double share = room;
-  for (int moves = 0; st == HC_OK; ++moves, share *= 2) { /* a motion that follows wants more */
+  for (int moves = 0; st == HC_OK; ++moves, share *= 2) { /* the motion partly follows, so the next move is larger */
     bool moved;
     const bool possible = move_sliders(p, e, share, &moved);
     if (possible && !moved) return HC_OK;
@@ -154,14 +156,14 @@ static hc_status find_events(prover *p, timeint_result *r, proof_row *row, orbit
   return st;
 }
 
-/* The checker's answer on the candidate into *row, and *certificate where it is proven. */
+/* The checker's answer to the candidate into *row; *certificate if it is proven. */
 static hc_status ask(prover *p, const timeint_result *r, const orbit_events *e, proof_row *row, json_t **certificate)
 {
   json_t *candidate = certificate_of(&p->model, row->omega, row->multiple, r->amplitude, e), *answer = NULL;
   const double began = wall_seconds();
   hc_status st = candidate ? proof_checker_ask(p->checker, candidate, &answer) : HC_NO_MEMORY;
   row->seconds = wall_seconds() - began;
-  if (st == HC_IO && !hc_monitor_tick(p->monitor, -1)) st = HC_INTERRUPTED; /* the signal ended both */
+  if (st == HC_IO && !hc_monitor_tick(p->monitor, -1)) st = HC_INTERRUPTED; /* a signal has ended the checker, too */
   const json_t *refined = json_object_get(answer, "certificate");
   const char *said = json_string_value(json_object_get(answer, "verdict"));
   const char *words = json_string_value(json_object_get(answer, "reason"));
@@ -188,7 +190,7 @@ static hc_status add_row(prover *p, proof_row *row, json_t *certificate)
 
 static bool fatal(hc_status st) { return st == HC_NO_MEMORY || st == HC_INTERRUPTED || st == HC_IO; }
 
-/* The row of the orbit *r, p->state on it. */
+/* Adds the row of the orbit *r, p->state being on it. */
 static hc_status prove_orbit(prover *p, timeint_result *r, proof_row *row)
 {
   orbit_events e = {0};
@@ -223,7 +225,7 @@ static hc_status remember(prover *p, const timeint_result *r)
   return HC_OK;
 }
 
-/* X becomes HBM's solution with h harmonics, the mean and exact forces, from X on; p->state is on it. */
+/* X becomes HBM's solution with h harmonics, the mean and exact forces, from X as guess; p->state: a state on it. */
 static hc_status solve_finer(prover *p, int h, double omega, double *X)
 {
   hbm_settings how = p->setup->hbm;
@@ -237,15 +239,15 @@ static hc_status solve_finer(prover *p, int h, double omega, double *X)
   return st;
 }
 
-/* Is the orbit not much farther from the row's solution than that was expected to be? Else it is another solution's. */
+/* True if the orbit is within three times the row's estimated error; else it belongs to another solution. */
 static bool is_near(const timeint_result *r, const proof_row *row)
 {
   return !(fabs(r->amplitude - row->hbm_amplitude) > 3 * row->predicted + same_orbit * r->amplitude);
 }
 
-/* The orbit next to X. If there is none, or Newton has gone to one that is farther than X was expected to be off, HBM
- * goes on from X with ever more harmonics, and the mean, until one is; if none ever is, the first that was found is
- * taken. What has no solution then is of too few harmonics; where one fails the next may not. */
+/* The orbit next to X. If none is found, or only one farther than X's estimated error, HBM is solved from X with ever
+ * more harmonics, and the mean, until an orbit is near; if none is, the first one found is taken. row->too_few: no
+ * orbit, and HBM has no solution with the most harmonics; after a failure of HBM the next number is tried, too. */
 static hc_status find_orbit(prover *p, double omega, const double *X, timeint_result *r, proof_row *row)
 {
   const int length = hbm_n_coefficients(p->response.hbm), own = hbm_n_harmonics(p->response.hbm);
@@ -281,8 +283,9 @@ static hc_status find_orbit(prover *p, double omega, const double *X, timeint_re
   return st;
 }
 
-/* Newton on the period map does not find an orbit where a stiff contact is closed for an instant only: the checker's
- * does, on the events of a period of the motion from X, or of one of the next where t = 0 cuts through a contact. */
+/* For orbits that Newton on the period map does not find, as where a stiff contact closes for an instant only: the
+ * checker's Newton starts from the events of a period of the motion from X, or of a later one if t = 0 lies within a
+ * contact. */
 static hc_status prove_events(prover *p, const double *X, proof_row *row)
 {
   json_t *certificate = NULL;
@@ -313,10 +316,10 @@ static hc_status prove_events(prover *p, const double *X, proof_row *row)
   return st;
 }
 
-/* Does a law have no straight pieces? */
+/* True if a contact's law is not piecewise linear. */
 static bool is_curved(const model *m) { return model_has_circle(m) || model_is_smooth(m); }
 
-/* The orbit next to solution k. *leads_on: it is none that motions stay on. */
+/* Proves the orbit next to solution k. *leads_on: it is unstable, or none was found, so that motions leave. */
 static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *leads_on)
 {
   const double *X = hbm_curve_X(at, k), omega = at->points[k].omega;
@@ -345,7 +348,7 @@ static hc_status prove_solution(prover *p, const hbm_curve *at, int k, bool *lea
   return st == HC_OK ? prove_orbit(p, &r, &row) : prove_events(p, X, &row);
 }
 
-/* Where time integration goes from p->state, if that is not known yet. */
+/* Proves the steady state from p->state, unless it is known already. */
 static hc_status prove_steady(prover *p, double omega)
 {
   proof_row row = {
@@ -358,7 +361,7 @@ static hc_status prove_steady(prover *p, double omega)
   return kept == HC_OK ? prove_orbit(p, &r, &row) : kept;
 }
 
-/* Every solution first, so that what motions go to from unstable ones is told once. */
+/* All solutions first, so that steady states reached from unstable ones are proven once. */
 static hc_status prove_at(prover *p, double omega)
 {
   hbm_curve at = {0};
@@ -381,7 +384,7 @@ static hc_status prove_at(prover *p, double omega)
   return fatal(st) ? st : HC_OK;
 }
 
-/* Each frequency is a part of the whole. */
+/* All frequencies; progress by their number. */
 static hc_status prove_all(prover *p)
 {
   number_list omega;

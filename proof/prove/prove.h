@@ -1,6 +1,6 @@
-/* prove.h - from compared to proven: next to each harmonic-balance solution, and where time integration goes from those
- * that are unstable, the orbit of the exact law as a certificate, about which hbmcheck-proof decides (proof/). What
- * is found here needs no trust: a wrong candidate is not proven. What proven means: docs/proof.md. */
+/* prove.h - certificates for the exact law's orbits next to harmonic-balance solutions, and for the motions to which
+ * time integration goes from unstable ones; hbmcheck-proof (proof/) decides about them. This code need not be trusted:
+ * a wrong candidate is not proven. Meaning of proven: docs/proof.md. */
 #pragma once
 
 #include <jansson.h>
@@ -31,7 +31,7 @@ typedef enum proof_reason { PROOF_REASONS(PROOF_ENUM) PROOF_N_REASONS } proof_re
 const char *proof_reason_text(proof_reason r);
 const char *proof_reason_meaning(proof_reason r);
 
-/* low <= what it is <= high; NaN: not known. */
+/* Bounds low <= value <= high; NaN: unknown. */
 typedef struct proof_bounds {
   double low, high;
 } proof_bounds;
@@ -42,39 +42,40 @@ typedef struct proof_row {
   double omega;
   int branch; /* of the HBM solution; -1: a steady state beside them */
   bool proven;
-  proof_reason reason;       /* where it is not */
-  char detail[PROOF_DETAIL]; /* what the checker said, for a message */
+  proof_reason reason;       /* valid if not proven */
+  char detail[PROOF_DETAIL]; /* the checker's reason, for a message */
   char states[PROOF_STATES]; /* letters of the contacts, interval by interval */
-  int transitions, multiple; /* of the orbit's period; of how many forcing periods */
-  double radius;             /* [1] of the certificate's scales: the orbit is no farther from its numbers */
-  int harmonics;             /* of the HBM solution that led to the orbit, where the case's own did not; else 0, */
-  bool too_few;              /* or with the most that were tried there is no solution */
-  bool by_events;            /* the orbit was found from the events of the motion from the solution */
-  bool moved;                /* sliders that never slip had to be moved for it, */
-  bool other_member;         /* which changed its amplitude: the error of HBM's is not known */
-  int free_sliders;          /* that never slip: where they rest is in the certificate, and for each place there is an
-                                orbit; unique is that of these places */
+  int transitions, multiple; /* number of transitions in the orbit's period; period in forcing periods */
+  double radius;             /* [certificate's scales] bound of the distance of the orbit from the certificate's
+                                numbers */
+  int harmonics;             /* of a finer HBM solution that led to the orbit instead of the case's own; else 0 */
+  bool too_few;              /* no HBM solution with the most harmonics tried, and no orbit */
+  bool by_events;            /* the orbit was found from the events of a motion that starts at the solution */
+  bool moved;                /* sliders that never slip were moved away from their limits */
+  bool other_member;         /* this changed the amplitude, so that HBM's error is unknown */
+  int free_sliders;          /* number of sliders that never slip: the certificate has their places; the orbit is unique
+                                for these places only */
   int stability;             /* +1 proven stable, -1 proven unstable, 0 unproven */
   proof_bounds amplitude, mean, harmonic_1; /* [length] of the orbit */
-  proof_bounds multiplier;         /* [1] of the largest Floquet multiplier's modulus, over the orbit's period */
-  proof_bounds error;              /* [length] of HBM's amplitude: its value minus the bounds above */
-  double hbm_amplitude, predicted; /* [length] its value, and how far off it expected to be; NaN: not known */
-  double seconds;                  /* of wall time: the checker's, refining and deciding */
-  char certificate[PROOF_NAME];    /* name of the file, where there is one */
+  proof_bounds multiplier;                  /* [1] largest modulus of a Floquet multiplier, over the orbit's period */
+  proof_bounds error;                       /* [length] HBM's amplitude minus the orbit's */
+  double hbm_amplitude, predicted;          /* [length] HBM's amplitude, and its own error estimate; NaN: unknown */
+  double seconds;                           /* [s] of wall time of the checker, for refining and deciding */
+  char certificate[PROOF_NAME];             /* file name; empty: none */
 } proof_row;
 
 typedef struct proofs {
   int n;
   proof_row *rows;
-  hc_status curve_end; /* of the response curve: what lies beyond was not looked at */
+  hc_status curve_end; /* status of the response curve, beyond whose end nothing was examined */
 } proofs;
 
-/* Called with each row before it is kept, and its certificate (NULL: unproven, nothing to write); it fills in
- * row->certificate. */
+/* Callback with each row before it is stored, and its certificate (NULL: unproven); sets row->certificate. */
 typedef hc_status proof_keep(void *self, proof_row *row, const json_t *certificate);
 
-/* At the frequencies of *setup, which is the scene's; the first response. HC_IO: the checker cannot be started, or
- * ended (errno); HC_NO_MEMORY, HC_INTERRUPTED. What was found is kept; free with proofs_clear in any case. */
+/* Proves the first response's motions at the frequencies of *setup, the scene's. HC_IO: the checker cannot be started,
+ * or ended (errno); HC_NO_MEMORY, HC_INTERRUPTED. Rows found before an error are kept; call proofs_clear in any
+ * case. */
 hc_status prove_run(const scene *sc, const compare_setup *setup, const hc_monitor *monitor, proof_keep *keep,
                     void *keeper, proofs *out);
 void proofs_clear(proofs *p);

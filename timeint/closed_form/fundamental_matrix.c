@@ -7,11 +7,12 @@
 #include "numerics/dense.h"
 #include "timeint/closed_form/modal_motion.h"
 
-/* [reach of the motion] Terms of columns grow with their number faster by a factor of 0.7. Where 1e-6 is enough, powers
- * up to 24 of twice a step that is good to rounding leave 2^24 of that, 1e-9; where even that fails, half as long. */
+/* [reach of the motion] Step lengths. fine: the terms of columns converge 0.7 times as fast as the motion's. coarse,
+ * for 1e-6: twice the reach multiplies the truncation error, rounding, by 2^24, to 1e-9; the step is halved where that
+ * fails. */
 static const double fine_step = 0.7, coarse_step = 2;
-/* [column] Truncation tolerance of a step. Multipliers of coarse matrices agree to 4e-11, those of matrices with slowed
- * modes to 5e-10; the slowing itself changes them by 4e-6. */
+/* [column] Truncation tolerances of a step. Measured change of multipliers by coarse steps: 4e-11, with slowed modes
+ * 5e-10; the slowing itself changes them by 4e-6. */
 static const double of_coarse = 1e-6, of_slowed = 1e-5;
 
 /* to[count] += by from[count] */
@@ -20,7 +21,7 @@ static void add_real(int count, double by, const double *restrict from, double *
   for (int q = 0; q < count; ++q) to[q] += by * from[q];
 }
 
-/* The same, to complex numbers whose parts are `apart` from each other. */
+/* The same for complex numbers: imaginary parts are `apart` behind the real ones. */
 static void add_complex(int count, double complex by, const double *from, double *to, size_t apart)
 {
   add_real(count, creal(by), from, to);
@@ -45,7 +46,7 @@ static void find_eta(const modes_columns *s, const scaled_model *m, const comple
   }
 }
 
-/* to := by z of all columns; to and z may be the same. */
+/* to := by z, all columns; to and z may be the same. */
 static void multiply(const modes_columns *s, int count, double complex by, const double *z, double *to)
 {
   const size_t apart = (size_t)s->n_columns;
@@ -108,7 +109,7 @@ static void find_motion(fundamental_matrix *v, const scaled_model *m, int j)
   project(v, m->base->normal + at, v->dv);
 }
 
-/* dphi of two directions into the first slider's row, from those of a slider with |U - W| = R. */
+/* dphi into the first slider's row at the start of a slip with |U - W| = R, from dW in both rows. */
 static void begin_to_turn(fundamental_matrix *v, const scaled_model *m, int j, const contact_track *t, double radius)
 {
   double *one = slider_of(v, j), *two = slider_of(v, j + 1);
@@ -117,7 +118,7 @@ static void begin_to_turn(fundamental_matrix *v, const scaled_model *m, int j, c
     one[q] = (t[0].along * (v->du[1][q] - two[q]) - t[1].along * (v->du[0][q] - one[q])) / radius;
 }
 
-/* dW of a slider that is tied to the motion; of two directions from dphi in the first one's row. */
+/* dW of a slider that follows from the motion; with two directions also from dphi in the first one's row. */
 static void tie(fundamental_matrix *v, const scaled_model *m, int j, const contact_track *t, double radius)
 {
   const scaled_contact *c = &m->contact[j];
@@ -125,7 +126,7 @@ static void tie(fundamental_matrix *v, const scaled_model *m, int j, const conta
   const bool turned = directions > 1 && t->state != CONTACT_SEPARATED;
   const double by_angle[2] = {turned ? radius * t[1].along : 0, turned ? -radius * t[0].along : 0};
   find_motion(v, m, j);
-  for (int a = directions - 1; a >= 0; --a) { /* the first last: its row is dphi */
+  for (int a = directions - 1; a >= 0; --a) { /* the first row last, since it holds dphi */
     const double *angle = slider_of(v, j);
     double *row = slider_of(v, j + a);
     for (int q = 0; q < v->n_columns; ++q)
@@ -158,7 +159,7 @@ void fundamental_matrix_follow(fundamental_matrix *v, const scaled_model *m, con
   memcpy(v->track, track, (size_t)m->n_contacts * sizeof *track);
 }
 
-/* Does a slip turn, or would if it were not held? */
+/* True if any contact slips in two directions, turning or held. */
 static bool has_slip_that_turns(const scaled_model *m, const contact_track *track)
 {
   for (int j = 0; j < m->n_contacts; ++j)
@@ -166,7 +167,7 @@ static bool has_slip_that_turns(const scaled_model *m, const contact_track *trac
   return false;
 }
 
-/* A step from v->theta of the motion and its columns together, up to `most`. Its length; 0: not finite. */
+/* A step from v->theta of the motion and its columns together, of at most `most`. Returns its length; 0: not finite. */
 static double step_along(fundamental_matrix *v, const scaled_model *m, double most)
 {
   const double shortest = 1e-12; /* [reach] */
@@ -194,7 +195,7 @@ static hc_status advance_along(fundamental_matrix *v, const scaled_model *m, dou
   return HC_OK;
 }
 
-/* A single mass: its columns in closed form. The response to a constant force 1 from rest is `step` in X, e01 in P. */
+/* Columns of a single mass in closed form. `step` and e[0][1]: response of X and P from rest to a constant force 1. */
 static void advance_single(fundamental_matrix *v, const scaled_model *m, const contact_track *track, double span)
 {
   const modal_base *b = m->base;
@@ -216,7 +217,7 @@ static void advance_single(fundamental_matrix *v, const scaled_model *m, const c
   }
 }
 
-/* What contact j takes from slowed mode f where the motion is 1 in mode `at`, or (-1) its slider has moved by 1. */
+/* Force of contact j on slowed mode f for a unit motion of mode `at`, or (-1) of its slider. */
 static double force_on(const fundamental_matrix *v, const scaled_model *m, const contact_forces_linear *law, int j,
                        int f, int at)
 {
@@ -226,7 +227,7 @@ static double force_on(const fundamental_matrix *v, const scaled_model *m, const
   return t[i] * (law->t_u * t[at] + law->t_v * normal[at]) + normal[i] * law->n_v * normal[at];
 }
 
-/* v->follow: (by_K K + contacts) of the slowed modes times what they do is minus what contacts do to them. */
+/* v->follow: solves (by_K K + contacts) follow = -(forces of contacts) for the slowed modes. */
 static hc_status find_following(fundamental_matrix *v, const scaled_model *m, const contact_track *track)
 {
   const size_t slowed = (size_t)v->n_slowed;
@@ -262,12 +263,13 @@ hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m,
   v->n_columns = 0;
   for (int i = 0; i < v->n_states; ++i) {
     const int j = i - 2 * v->n;
-    const bool on_limit = j >= 0 && scaled_directions(m, j) > 1 && track[j].state != CONTACT_SEPARATED; /* w says e */
+    const bool on_limit = j >= 0 && scaled_directions(m, j) > 1 && track[j].state != CONTACT_SEPARATED; /* w determines
+                                                                                                           e */
     const bool moves =
         j < 0 ? m->base->slowed[i % v->n] == 1 : (m->contact[j].law.has_friction && (track[j].since_start || on_limit));
     if (!moves) continue;
     row_of(v, i)[v->n_columns] = 1;
-    /* In column q, of a state, slowed modes as springs. */
+    /* Slowed modes follow that state as springs. */
     if (v->n_slowed > 0) {
       const bool rate = i >= v->n && i < 2 * v->n;
       const double *follow = v->follow + (size_t)(rate ? i - v->n : i) * (size_t)v->n_slowed;
@@ -278,7 +280,7 @@ hc_status fundamental_matrix_begin(fundamental_matrix *v, const scaled_model *m,
   for (int j = 0; j < m->n_contacts; j += scaled_directions(m, j)) {
     const contact_track *t = &track[j];
     if (t->state != CONTACT_SEPARATED && m->contact[j].law.has_friction && !t->since_start) {
-      /* At the start of a period, where w has just been put on the limit: dphi; dW where it sticks there. */
+      /* w was on or beyond the limit at the start: dphi; dW if it sticks. */
       const double *w = y + 2 * v->n + j;
       double u[2], normal;
       scaled_contact_motion(m, j, y, u, &normal);
@@ -306,8 +308,7 @@ hc_status fundamental_matrix_advance(fundamental_matrix *v, const scaled_model *
   if (interval_modes_pay(v->modes, 1 / m->by_C, span)) st = interval_modes_of(v->modes, m, track, &modes);
   if (st != HC_OK) return st;
   if (modes) {
-    /* count columns over `span`, contacts in the states of track[] and of the modes. The matrix as
-     * series_columns_advance has it. */
+    /* All columns over `span` by complex modes, with the matrix layout of series_columns_advance. */
     const size_t n = (size_t)v->by_modes.n, row = (size_t)v->n_states, apart = (size_t)v->by_modes.n_columns;
     for (size_t k = 0; k < (size_t)modes->count; ++k) {
       const double complex mu = modes->lambda[k] * m->by_C, grown = cexp(mu * span);

@@ -18,16 +18,16 @@ enum {
 typedef struct by_series { /* from integrate_new_closed_form, to integrate_free; not shared between threads */
   integrator base;
   int n, n_contacts;
-  const scaled_model *m; /* of the period under way; the caller's */
-  contact_track *track;  /* [n_contacts] now */
-  double theta, length;  /* where the present step began, and its length */
-  double *y, *end;       /* [2 n] the motion there, and at its end */
-  double *response;      /* [TRACK_ORDER + 1] of one response */
+  const scaled_model *m; /* model of the current period; not owned */
+  contact_track *track;  /* [n_contacts] current contact states */
+  double theta, length;  /* [rad] start of the current step, and its length */
+  double *y, *end;       /* [2 n] motion at its start and at its end */
+  double *response;      /* [TRACK_ORDER + 1] series of one response */
   motion_series series;
   interval_modes *modes; /* or NULL */
-  motion_modes stiff;    /* the motion since stiff.theta, where by_modes */
+  motion_modes stiff;    /* the motion since stiff.theta, if by_modes */
   bool fits_single;
-  motion_single single; /* where that: the motion of the present step, if by_single */
+  motion_single single; /* the motion of the current step, if by_single; made only if fits_single */
   bool by_modes, by_single;
   fundamental_matrix variations;
   workspace memory; /* of all arrays */
@@ -46,7 +46,7 @@ static hc_status begin(by_series *in, const double *y)
   return HC_OK;
 }
 
-/* Are all guards linear in the motion, and so sums of exponentials? */
+/* True if all guards are linear in the motion, hence sums of exponentials. */
 static bool guards_are_linear(const by_series *in)
 {
   for (int j = 0; j < in->n_contacts; ++j)
@@ -54,7 +54,7 @@ static bool guards_are_linear(const by_series *in)
   return true;
 }
 
-/* Is the motion from in->theta on one by complex modes? Then it is in in->stiff. */
+/* Chooses the method of the next step: by_single, by_modes (the motion is then in in->stiff), else by series. */
 static hc_status choose(by_series *in)
 {
   const complex_modes *modes;
@@ -68,7 +68,7 @@ static hc_status choose(by_series *in)
   return st;
 }
 
-/* The first event within the step, whose length becomes the time to it; -1: none. */
+/* The first event within the step, which is shortened to it; returns its contact, -1: none. */
 static int find_event(by_series *in, track_event *event)
 {
   int first = -1;
@@ -95,7 +95,7 @@ static contact_motion contact_at_end(const by_series *in, int j)
   return motion_series_contact(&in->series, j, directions, in->length);
 }
 
-/* Contact j at the end of the step. */
+/* Passes the event of contact j at the end of the step. */
 static hc_status pass(by_series *in, int j, track_event event, bool varies, int *count)
 {
   const scaled_contact *c = &in->m->contact[j];
@@ -116,7 +116,7 @@ static hc_status pass(by_series *in, int j, track_event event, bool varies, int 
   return HC_OK;
 }
 
-/* Contact `changing` passes the event at the end of the step, if it is not -1; then on to the next step, at theta. */
+/* Passes the event of contact `changing` (-1: none) at the end of the step; the next step starts at theta. */
 static hc_status end_step(by_series *in, int changing, track_event event, bool varies, double theta, int *count)
 {
   hc_status st = changing >= 0 ? pass(in, changing, event, varies, count) : HC_OK;
@@ -132,7 +132,7 @@ static hc_status end_step(by_series *in, int changing, track_event event, bool v
   return HC_OK;
 }
 
-/* One step of a series, or to the first event in it. */
+/* One step by series, or to the first event within it. */
 static hc_status step_by_series(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
 {
   track_event event = TRACK_STICKS;
@@ -153,7 +153,7 @@ static hc_status step_by_series(by_series *in, bool varies, integrate_watch *wat
   return st == HC_OK ? end_step(in, changing, event, varies, end, count) : st;
 }
 
-/* To the first event, in watched steps. */
+/* By complex modes to the first event, in watched steps. */
 static hc_status interval_by_modes(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
 {
   track_event event = TRACK_STICKS;
@@ -175,7 +175,7 @@ static hc_status interval_by_modes(by_series *in, bool varies, integrate_watch *
   return end_step(in, changing, event, varies, end, count);
 }
 
-/* To the first event; watched, to the first turn of X. */
+/* In closed form to the first event; if watched, also to the first turn of X. */
 static hc_status step_in_closed_form(by_series *in, bool varies, integrate_watch *watch, void *self, int *count)
 {
   track_event event = TRACK_STICKS;
@@ -308,7 +308,7 @@ static bool fourier(const integrator *base, int i, double out[3])
   for (int k = 0; k <= TRACK_ORDER; ++k, power *= h) out[0] += in->response[k] * power / (k + 1);
   out[1] = integral_of_product(in->response, cosine, h);
   out[2] = integral_of_product(in->response, sine, h);
-  return h <= 3; /* beyond, the series of the cosine is cut too short */
+  return h <= 3; /* beyond, the truncated series of the cosine is inaccurate */
 }
 
 static bool extremes(const integrator *base, int i, double *max, double *min)
@@ -342,7 +342,8 @@ hc_status integrate_new_closed_form(const modal_base *base, double stiff, integr
   by_series *in = calloc(1, sizeof *in); /* zeroed, so free works half-built */
   if (!in) return HC_NO_MEMORY;
   in->base.does = &class;
-  in->base.has_coarse = base->n_planar > 0; /* where slip turns, a matrix takes up to fifty times its period */
+  in->base.has_coarse = base->n_planar > 0; /* where slip turns, a matrix takes up to fifty times the time of a
+                                               period */
   in->n = base->n;
   in->n_contacts = base->n_contacts;
   workspace *w = &in->memory;

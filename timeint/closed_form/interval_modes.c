@@ -6,23 +6,24 @@
 #include "numerics/eigensystem.h"
 #include "numerics/norm.h"
 
-static const double short_span = 20;        /* [rad of the fastest mode] some ten steps of a series */
-static const size_t most_bytes = 32u << 20; /* of what is kept */
+static const double short_span = 20;        /* [rad of the fastest mode] about ten steps of a series, which are then
+                                               less work */
+static const size_t most_bytes = 32u << 20; /* most memory of the cache */
 enum { MOST_MODES = 64, MOST_SETS = 256, NO_CONTACT = 255 };
 
 struct interval_modes { /* from interval_modes_new, to interval_modes_free */
   const modal_base *base;
-  double fastest; /* [rad/time] no eigenvalue is much larger */
-  double stiff;   /* fastest over omega from where on modes pay */
-  long asked;     /* how often */
+  double fastest; /* [rad/time] approximate bound of eigenvalues */
+  double stiff;   /* fastest/omega above which modes pay */
+  long asked;     /* number of requests so far */
   int n_sets, used;
-  complex_modes *set;    /* [n_sets], `used` of them filled */
-  unsigned char *wanted; /* [n_contacts] of the interval */
+  complex_modes *set;    /* [n_sets] the cache, of which `used` are filled */
+  unsigned char *wanted; /* [n_contacts] states requested */
   long double *matrix;   /* [2 n][2 n] */
-  double *scale;         /* [n] of x in it */
+  double *scale;         /* [n] scale of x in it */
   int *order;            /* [2 n] */
   eigensystem eigen;
-  workspace memory; /* of these arrays and those of the sets */
+  workspace memory; /* memory of these arrays and those of the sets */
 };
 
 /* Complex numbers of one set. */
@@ -154,7 +155,7 @@ static void take_mode(const interval_modes *p, complex_modes *s, int k, int from
   }
 }
 
-/* The one that has these states, or the one to be overwritten. */
+/* The set for p->wanted, or, if not found, the one to be overwritten. */
 static complex_modes *look_up(interval_modes *p, bool *found)
 {
   complex_modes *oldest = &p->set[0];
@@ -176,7 +177,7 @@ hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const cont
   *out = NULL;
   for (int j = 0; j < p->base->n_contacts; ++j) {
     const contact_forces_linear f = contact_track_forces(&track[j], &m->contact[j]);
-    /* What contact j adds to the matrix of the interval: its state, or NO_CONTACT for nothing. */
+    /* The state of contact j, or NO_CONTACT if it adds nothing to the matrix. */
     const bool nothing = f.t_u == 0 && f.t_v == 0 && f.n_v == 0;
     p->wanted[j] = nothing ? NO_CONTACT : (unsigned char)track[j].state;
   }
@@ -192,7 +193,7 @@ hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const cont
     long double *A = p->matrix;
     memset(A, 0, ld * ld * sizeof *A);
     fill_stiffness(p, m, track, A);
-    const double least = p->fastest > 0 ? 1e-6 * p->fastest : 1; /* of a body that nothing holds */
+    const double least = p->fastest > 0 ? 1e-6 * p->fastest : 1; /* for rigid-body motions */
     for (size_t i = 0; i < n; ++i) p->scale[i] = fmax(sqrt(fabs((double)A[i * ld + n + i])), least);
     for (size_t col = 0; col < n; ++col) {
       A[(n + col) * ld + col] = p->scale[col];
@@ -203,7 +204,7 @@ hc_status interval_modes_of(interval_modes *p, const scaled_model *m, const cont
     }
     hc_status st = eigensystem_find(&p->eigen, p->matrix);
     if (st == HC_NO_MEMORY || st == HC_NOT_FINITE) return st;
-    /* All of them but the second of each pair, slowest first. */
+    /* All modes but the second of each pair, slowest first. */
     if (st == HC_OK) {
       const double complex *lambda = p->eigen.lambda;
       s->count = 0;

@@ -7,9 +7,10 @@
 #include "numerics/exponentials.h"
 #include "numerics/roots.h"
 
-static const double near_resonance = 0.25;  /* of k - 1 + i c: below, r is computed as a divided difference */
-static const double resonant_digits = 1e-3; /* of k - 1 + i c, as the divisor of an integral: loses three digits */
-static const double longest_step = 1.5;     /* [rad] for which one bound is taken */
+static const double near_resonance = 0.25;  /* |k - 1 + i c| below which r is computed as a divided difference */
+static const double resonant_digits = 1e-3; /* |k - 1 + i c| below which an integral, divided by it, loses three
+                                               digits */
+static const double longest_step = 1.5;     /* [rad] longest step with one bound of g'' */
 enum { RESTART = 32 };
 
 mode mode_make(double c, double k)
@@ -100,7 +101,8 @@ static double guard_at(const void *self, double tau, double *slope)
   return guard_value(in->g, &at);
 }
 
-/* How far the guard surely stays positive from *now on, at most h; if it falls to 0 within that, *root is where. */
+/* A step from *now, at most h, over which the guard stays positive, or falls through 0 once, at *root (else
+ * INFINITY). */
 static double clear_step(const modal_motion *m, const modal_guard *g, const modal_point *now, double h, double *root,
                          long *evaluations)
 {

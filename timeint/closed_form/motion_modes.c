@@ -6,8 +6,8 @@
 
 #include "numerics/norm.h"
 
-static const double most_cancelled = 100;        /* sum of the parts over what they add up to */
-static const double rounding = 64 * DBL_EPSILON; /* of a response's rate, of sums of some tens of terms */
+static const double most_cancelled = 100;        /* largest ratio of the sum of the parts' sizes to the motion */
+static const double rounding = 64 * DBL_EPSILON; /* rounding of a response's rate, a sum of some tens of terms */
 
 static exponential_sum *make_sums(workspace *w, size_t count, size_t terms)
 {
@@ -43,7 +43,7 @@ hc_status motion_modes_make(motion_modes *mm, const modal_base *base, workspace 
 
 static double complex on_circle(double angle) { return cos(angle) + I * sin(angle); }
 
-/* What loads and constant contact forces do to mode k. */
+/* Response of mode k to loads and constant contact forces: fixed, forward, back. */
 static void force(motion_modes *mm, const scaled_model *m, const contact_track *track, double omega, size_t k)
 {
   const complex_modes *modes = mm->modes;
@@ -63,7 +63,7 @@ static void force(motion_modes *mm, const scaled_model *m, const contact_track *
   }
 }
 
-/* Mode k at the beginning, without loads: what the loads leave to it. */
+/* c_k: mode k at the start less its response to loads and constant forces. */
 static double complex free_part(const motion_modes *mm, double omega, const double *y, size_t k)
 {
   const size_t n = (size_t)mm->base->n, loads = (size_t)mm->base->n_loads;
@@ -74,7 +74,7 @@ static double complex free_part(const motion_modes *mm, double omega, const doub
   return c;
 }
 
-/* Do the parts of the motion add up without losing digits? Motions are about 1. */
+/* True if the parts of the motion do not cancel. Motions are about 1. */
 static bool adds_up(const motion_modes *mm, const double *y)
 {
   const complex_modes *modes = mm->modes;
@@ -97,7 +97,7 @@ static bool adds_up(const motion_modes *mm, const double *y)
   return x <= most_cancelled * largest_x && p <= most_cancelled * largest_p;
 }
 
-/* The sum whose share in mode k is of[k stride]. */
+/* The sum of exponentials of a row with entry of[k stride] for mode k. */
 static void expand(const motion_modes *mm, const double complex *of, size_t stride, exponential_sum *s)
 {
   const size_t loads = (size_t)mm->base->n_loads;

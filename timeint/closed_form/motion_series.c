@@ -43,7 +43,7 @@ static void add_pull(motion_series *s, int row, double force)
   if (row >= 0) s->pull[row] += force;
 }
 
-/* What T of the slips that turn takes from coefficient k. */
+/* Adds T of turning slips to coefficient k of the forces. */
 static void add_turning(motion_series *s, const scaled_model *m, int k)
 {
   for (planar_series *c = s->turning; c < s->turning + s->n_turning; ++c) {
@@ -53,7 +53,7 @@ static void add_turning(motion_series *s, const scaled_model *m, int k)
   }
 }
 
-/* The tau up to which what is left out is rounding of what is kept, or of 1, about what a motion is. */
+/* The tau up to which the truncation error is rounding of the motion or of 1, its typical size. */
 static double reach(const motion_series *s)
 {
   const size_t n = (size_t)s->n;
@@ -90,7 +90,7 @@ static double expand(motion_series *s, const scaled_model *m, double theta)
     modal_base_subtract_K(b, m->by_K, x, force);
     modal_base_subtract_C(b, m->by_C * (k + 1), x + n, force);
     memset(s->pull, 0, (size_t)s->rows.count * sizeof *s->pull);
-    /* What the contacts take from coefficient k: constants only in the first. */
+    /* Linear contact forces of coefficient k; constants only in coefficient 0. */
     for (int j = 0; j < s->n_contacts; ++j) {
       const contact_forces_linear *f = &s->law[j];
       const size_t at = (size_t)j * TERMS + (size_t)k;
@@ -108,7 +108,7 @@ static double expand(motion_series *s, const scaled_model *m, double theta)
   return tau;
 }
 
-/* Which slips' directions are held from there on (law_kind.h); the longest step on which that holds. */
+/* Decides which slips keep their direction (law_kind.h); returns the longest step for which that is valid. */
 static double hold(const motion_series *s, const scaled_model *m, contact_track *track)
 {
   double reach = INFINITY;

@@ -2,13 +2,13 @@
  *
  *     X'' + by_C C X' + by_K K X = p(theta) - sum_j [ t_j T_j + n_j (N_j - N0_j) ],  T_j, N_j linear (contact_track.h)
  *     X(theta0 + tau) = sum_k x_k tau^k:      (k + 1)(k + 2) x_{k+2} = the k-th coefficients of all the others
- * The equation is linear with constant coefficients, so the series converges for every tau; TRACK_ORDER terms are
- * exact to rounding up to a tau of about 2 over the highest frequency present. So the motion is its exponential,
- * applied to the state: nothing is decomposed, nothing is lost where frequencies coincide or a body is free, and the
- * guards of all contacts come as polynomials. A term costs O(n contacts) in modes. Source: Jorba and Zou,
- * Experimental Mathematics 14 (2005) 99, for the length of a step. Where a circle slips its T is not linear in the
- * motion, the equation is no exponential, and the series converges as far as the nearest singularity: planar_series.h.
- * Nothing is allocated after motion_series_make. */
+ * The equation is linear with constant coefficients, so the series converges for every tau; TRACK_ORDER terms are exact
+ * to rounding up to a tau of about 2 over the highest frequency present. So the motion is the matrix exponential
+ * applied to the state, without eigenvectors, and accurate also where frequencies coincide or a body is free; the
+ * guards of all contacts are polynomials. A term costs O(n contacts). Source: Jorba and Zou, Experimental Mathematics
+ * 14 (2005) 99, for the length of a step. Where a contact with two tangents slips, T is not linear in the motion, and
+ * the series converges up to the nearest singularity: planar_series.h. Nothing is allocated after
+ * motion_series_make. */
 #pragma once
 
 #include "numerics/base/workspace.h"
@@ -17,23 +17,23 @@
 
 typedef struct motion_series {
   int n, n_contacts;
-  double *x;     /* [TRACK_ORDER + 1][n] */
-  double *u, *v; /* [n_contacts][TRACK_ORDER + 1] */
+  double *x;     /* [TRACK_ORDER + 1][n] coefficients of X */
+  double *u, *v; /* [n_contacts][TRACK_ORDER + 1] coefficients of U, V */
   double *force; /* [n] */
   contact_rows rows;
-  double *q, *pull;           /* [rows.count] their motion in a term; their forces */
-  double *load;               /* [n_loads][2] cosine and sine of one term */
-  contact_forces_linear *law; /* [n_contacts] of the interval */
-  int n_turning;              /* contacts that slip in a direction that turns, in this interval: */
+  double *q, *pull;           /* [rows.count] coefficient of the rows' motion; of forces on them */
+  double *load;               /* [n_loads][2] coefficient of the loads' cosine and sine */
+  contact_forces_linear *law; /* [n_contacts] linear forces in the interval */
+  int n_turning;              /* number of contacts whose slip turns in this interval */
   planar_series *turning;     /* [n_planar] */
 } motion_series;
 
 /* Arrays are memory's. HC_NO_MEMORY. */
 hc_status motion_series_make(motion_series *s, const modal_base *base, workspace *memory);
 
-/* The series from X = y[0..n-1], X' = y[n..2n-1] at theta, and how far it is exact to rounding (INFINITY: for ever).
- * Before, slips that have no time left to turn are held in their direction (law_kind.h): *held is the longest step on
- * which that holds. */
+/* The series from X = y[0..n-1], X' = y[n..2n-1] at theta; returns the tau up to which it is exact to rounding,
+ * possibly INFINITY. First decides which slips keep their direction (hold, law_kind.h): *held is the longest step for
+ * which that is valid. */
 double motion_series_begin(motion_series *s, const scaled_model *m, contact_track *track, double theta, const double *y,
                            double *held);
 
@@ -43,11 +43,11 @@ void motion_series_at(const motion_series *s, double tau, int order, double *out
 /* The motion of contact j, in its `directions`, at tau. */
 contact_motion motion_series_contact(const motion_series *s, int j, int directions, double tau);
 
-/* All guards of contact j. How many there are. */
+/* All guards of contact j; returns their number. */
 int motion_series_guards(const motion_series *s, const scaled_model *m, const contact_track *track, int j,
                          track_guard guard[TRACK_GUARDS]);
 
-/* The directions that turn, at tau: of contact j into t[], if it is one; of all into track[]. */
+/* Directions of turning slips at tau: of contact j into t[], if its slip turns; of all into track[]. */
 void motion_series_direction(const motion_series *s, int j, double tau, contact_track *t);
 void motion_series_turn(const motion_series *s, double tau, contact_track *track);
 
@@ -57,6 +57,6 @@ void motion_series_of(const motion_series *s, const double *row, double *r);
 /* sum c_k tau^k. */
 double series_value(const double *c, double tau);
 
-/* The first tau of [0, h] at which the guard falls through 0; one that is below its noise at 0 has fallen there.
- * INFINITY: it does not, but for an excursion below its noise. */
+/* The first tau of [0, h] at which the guard falls through 0, 0 if it is below -noise there; INFINITY: none, except for
+ * excursions smaller than the noise. */
 double series_first_fall(const track_guard *guard, double h);

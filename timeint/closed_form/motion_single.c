@@ -21,7 +21,7 @@ hc_status motion_single_make(motion_single *s, const modal_base *base, workspace
 
 static int sign_of(double a) { return (a > 0) - (a < 0); }
 
-/* The mass and its load in these contact states. */
+/* Sets the mode, its load and the sign of X' in these contact states. */
 static void begin(motion_single *s, const scaled_model *m, const contact_track *track, double theta, const double *y)
 {
   const modal_base *b = m->base;
@@ -43,8 +43,8 @@ static void begin(motion_single *s, const scaled_model *m, const contact_track *
   if (s->way == 0) s->way = sign_of(d + creal(load) * cos(theta) - cimag(load) * sin(theta) - k * y[0]);
 }
 
-/* Does the guard fall(q) = by q + constant of a contact that sticks reach 0 where N does, to rounding? It does where
- * u is a multiple of v and stick began by touching: T and N vanish together, and separation is what happens there. */
+/* True if the guard by q + constant of stick reaches 0 where N does, to rounding: where u is a multiple of v and stick
+ * began with a touch, T and N vanish together, and the event is separation. */
 static bool falls_with_normal_force(const track_condition *g, const scaled_contact *c, double normal, double by,
                                     double constant)
 {
@@ -54,7 +54,7 @@ static bool falls_with_normal_force(const track_condition *g, const scaled_conta
   return fabs(by * q + constant) <= rounding;
 }
 
-/* All guards of the contacts, and that of the turn. */
+/* All guards of the contacts, and, if to_turn, that of the turn of X; returns their number. */
 static int find_guards(motion_single *s, const scaled_model *m, const contact_track *track, bool to_turn)
 {
   int n = 0;

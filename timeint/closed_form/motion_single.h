@@ -8,21 +8,22 @@
 
 typedef struct motion_single {
   modal_motion motion;
-  modal_point end;    /* of the interval */
-  int way;            /* sign of P in the interval */
+  modal_point end;    /* end of the interval */
+  int way;            /* sign of X' in the interval */
   modal_guard *guard; /* [TRACK_GUARDS n_contacts + 1] */
-  int *of;            /* [TRACK_GUARDS n_contacts + 1] whose guard; -1: the turn's */
+  int *of;            /* [TRACK_GUARDS n_contacts + 1] contact of each guard; -1: turn of X */
   track_event *event;
 } motion_single;
 
-/* Is there such a motion: one degree of freedom, its loads constant or once a period? */
+/* True for one degree of freedom with loads of harmonics 0 and 1 only. */
 bool motion_single_fits(const modal_base *base);
 
 /* Arrays are memory's. HC_NO_MEMORY. */
 hc_status motion_single_make(motion_single *s, const modal_base *base, workspace *memory);
 
-/* From X = y[0], X' = y[1] at theta on, to the first event or, where `to_turn`, the first turn of X, at most *span,
- * which becomes the time to it. *whose: the contact, -1: none. At a turn X' is then exactly 0. HC_NOT_FINITE. */
+/* The motion from X = y[0], X' = y[1] at theta to the first event or, if to_turn, the first turn of X, at most *span,
+ * which becomes the time to it. *whose: the event's contact, -1: none. At a turn X' is set to exactly 0.
+ * HC_NOT_FINITE. */
 hc_status motion_single_go(motion_single *s, const scaled_model *m, const contact_track *track, double theta,
                            const double *y, bool to_turn, double *span, int *whose, track_event *event,
                            long *evaluations);

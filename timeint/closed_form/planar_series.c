@@ -17,7 +17,7 @@ void planar_series_begin(planar_series *s, int j, const contact_track t[2], cons
   s->e[1][0] = t[1].along;
 }
 
-/* What coefficients before e_k and q_{k-1} contribute: all in one pass over them. */
+/* Contributions of coefficients before e_k and q_{k-1}, computed in one pass. */
 typedef struct sums {
   double across, held; /* to (U'.e_perp)_m and (mu N q)_m, m = k if fresh, else k - 1 */
   double turned[2];    /* to (q e)_{k-1} */
@@ -146,7 +146,7 @@ static void find_angle(planar_columns *c, int width, int k)
 {
   double *angle = term(c->angle, c, k);
   if (k == 0 && !c->fresh) return;
-  const int order = c->fresh ? k : k - 1; /* of the equation that tells it */
+  const int order = c->fresh ? k : k - 1; /* order of the equation that determines dphi_k */
   const double by = c->fresh ? (k > 0 ? k * c->limit[1] / c->h : 0) + c->kt * c->slide[0] : k * c->limit[0] / c->h;
   double *sum = c->sum;
   memset(sum, 0, (size_t)width * sizeof *sum);

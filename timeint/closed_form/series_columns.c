@@ -9,11 +9,11 @@
 #include "numerics/wide_vectors.h"
 
 enum {
-  BLOCK = 64, /* columns: six arrays of them and of 100 modes stay in the second cache */
-  LAST = 24   /* the highest power of h; the 24 of motion_series.h */
+  BLOCK = 64, /* columns of a block: six arrays of them for 100 modes fit into the second cache */
+  LAST = 24   /* highest power of h, as TRACK_ORDER */
 };
 
-static const double died_away = 1e-200; /* [square] of a column from 1 on: below, squares of terms underflow */
+static const double died_away = 1e-200; /* [square] least size of a column: below, squares of terms underflow */
 
 hc_status series_columns_make(series_columns *s, const modal_base *base, workspace *w)
 {
@@ -46,7 +46,7 @@ hc_status series_columns_make(series_columns *s, const modal_base *base, workspa
   return HC_OK;
 }
 
-/* Does T, does N of a contact with that law follow its motion? */
+/* True if T, if N of these linear forces depends on the motion. */
 static bool has_tangent(const contact_forces_linear *f) { return f->t_u != 0 || f->t_v != 0 || f->t_w != 0; }
 static bool has_normal(const contact_forces_linear *f) { return f->t_v != 0 || f->n_v != 0; }
 
@@ -55,13 +55,13 @@ static void add_row(series_columns *s, const double *row)
   memcpy(s->rows + (size_t)s->n_moving++ * (size_t)s->n, row, (size_t)s->n * sizeof *row);
 }
 
-/* Is it the first direction of a slip that turns? */
+/* True if j is the first direction of a contact whose slip turns. */
 static bool turns(const scaled_model *m, const contact_track *track, int j)
 {
   return track[j].turns && m->contact[j].direction == 0;
 }
 
-/* Two directions have half of N each: the first gets all of it. */
+/* Two directions have half of N each: all of it is moved to the first. */
 static void join_normals(series_columns *s, int j)
 {
   if (s->law[j - 1].t_v != 0 || s->law[j].t_v != 0) return;
@@ -176,7 +176,8 @@ WIDE_VECTORS static void add_squares(const series_columns *s, int width, double 
   }
 }
 
-/* Is power k of every column below the rounding of its motion and its rate, of which it is k/h times as much? */
+/* True if power k of every column is below the tolerance of its motion and of its rate, to which it contributes k/h
+ * times as much. */
 static bool is_rounding(series_columns *s, int width, int k, double h, const double *z)
 {
   const double rounding = s->rounding * fmin(fmax(h, DBL_EPSILON), 1) / k;
@@ -187,8 +188,8 @@ static bool is_rounding(series_columns *s, int width, int k, double h, const dou
   return small;
 }
 
-/* s->x and s->p to s->x_end and s->p_end over a step h; the last power of it that was taken, LAST + 1 if those up to
- * LAST do not suffice. */
+/* Advances s->x and s->p to s->x_end and s->p_end over a step h. Returns the last power of h that was used, LAST + 1 if
+ * LAST does not suffice. */
 WIDE_VECTORS static int expand(series_columns *s, const scaled_model *m, int width, double h)
 {
   const modal_base *b = m->base;
@@ -207,14 +208,15 @@ WIDE_VECTORS static int expand(series_columns *s, const scaled_model *m, int wid
     project(s, width, k - 1, next, s->motion_next);
     subtract_stiffness(s, m, width, k - 2, by * h, z, second);
     subtract(s, width, b->diagonal_C, b->C, s->turned_C, by * (k - 1) * m->by_C, next, true, second);
-    /* What power k adds to the motion at h and to its rate. */
+    /* Contribution of power k to the motion at h and to its rate. */
     for (size_t i = 0; i < count; ++i) {
       s->x_end[i] += second[i];
       s->p_end[i] += (k / h) * second[i];
     }
-    if (k == 2) add_squares(s, width, 2 / h, second, s->size); /* a column that begins with its slider alone */
+    if (k == 2)
+      add_squares(s, width, 2 / h, second, s->size); /* columns that start with dW only have size 0 otherwise */
     if (!s->along || s->rounding > DBL_EPSILON) small = is_rounding(s, width, k, h, second) ? small + 1 : 0;
-    if (small == 2) return k; /* two: without damping even powers know nothing of odd ones */
+    if (small == 2) return k; /* two in a row: without damping even and odd powers are independent */
     double *spent = z, *forces = s->motion;
     z = next, next = second, second = spent;
     s->motion = s->motion_next, s->motion_next = forces;
@@ -225,7 +227,7 @@ WIDE_VECTORS static int expand(series_columns *s, const scaled_model *m, int wid
 /* s->x and s->p over the span, in steps of equal length unless one is too long. */
 static hc_status advance_block(series_columns *s, const scaled_model *m, int width, double span)
 {
-  const double shortest = 1e-12; /* a motion that needs shorter steps is none */
+  const double shortest = 1e-12; /* [span] step below which the motion counts as not finite */
   for (double left = span; left > 0;) {
     const double h = s->reach < left ? left / ceil(left / s->reach) : left;
     if (expand(s, m, width, h) > LAST) {
@@ -242,7 +244,7 @@ static hc_status advance_block(series_columns *s, const scaled_model *m, int wid
   return HC_OK;
 }
 
-/* Rows of a block, of the columns from q on, from the matrix and back. */
+/* Copies rows of a block of columns from the matrix; back. */
 static void take_rows(int rows, int width, const double *matrix, int ld, double *block)
 {
   for (size_t i = 0; i < (size_t)rows; ++i)
@@ -272,14 +274,14 @@ static hc_status by_steps(series_columns *s, const scaled_model *m, double span,
   return HC_OK;
 }
 
-/* How often a step that is short enough has to be doubled for a span. */
+/* Number of doublings from a step within s->reach to the span. */
 static int doublings_of(const series_columns *s, double span)
 {
   return span > s->reach ? (int)ceil(log2(span / s->reach)) : 0;
 }
 
-/* Is it less work to square the map of one step? In products by n^2 of a column: a step has LAST terms, each twice by
- * n n_rows. */
+/* True if squaring the map of one step is less work. Unit: n^2 operations on a column; a step has LAST terms, each with
+ * two products by n n_rows. */
 static bool squares_pay(const series_columns *s, double span, int count)
 {
   const double n = s->n, states = s->n_states, step = LAST * 2 * s->n_rows / n, product = 2 * states / n;
@@ -287,7 +289,7 @@ static bool squares_pay(const series_columns *s, double span, int count)
          (states * step + (doublings_of(s, span) * states + count) * product) < span / s->reach * count * step;
 }
 
-/* The map of that span by the map of a step, squared again and again; of all states, sliders stay. */
+/* Advances by the map of the span, found by repeated squaring of the map of a step; sliders are constant. */
 static hc_status by_squares(series_columns *s, const scaled_model *m, double span, int count, int ld, double *matrix)
 {
   const size_t states = (size_t)s->n_states, moving = 2 * (size_t)s->n;
@@ -298,7 +300,8 @@ static hc_status by_squares(series_columns *s, const scaled_model *m, double spa
   if (st != HC_OK) return st;
   for (int i = 0; i < doublings; ++i) {
     double *squared = s->squared;
-    dense_multiply(s->n_states, s->n_states, s->n_states, s->map, s->map, squared); /* by rows as by columns */
+    dense_multiply(s->n_states, s->n_states, s->n_states, s->map, s->map, squared); /* a square is the same by rows and
+                                                                                       by columns */
     s->squared = s->map, s->map = squared;
   }
   dense_add_product(count, (int)moving, s->n_states, 1, matrix, ld, s->map, s->n_states, 0, s->squared, count);
@@ -312,8 +315,8 @@ hc_status series_columns_advance(series_columns *s, const scaled_model *m, doubl
   return (squares_pay(s, span, count) ? by_squares : by_steps)(s, m, span, count, ld, matrix);
 }
 
-/* dphi of the slips that turn: from the sliders' rows into the first terms; when the step is over, with terms up to
- * power `last` of the motion, back. */
+/* dphi of turning slips: last = 0: from the sliders' rows into the first terms; else, after a step with powers up to
+ * `last`, back. */
 static void exchange_angles(series_columns *s, int width, int last)
 {
   for (int i = 0; i < s->along->n_turning; ++i) {
@@ -338,7 +341,8 @@ bool series_columns_turn(series_columns *s, const scaled_model *m, const motion_
     take_rows(s->n_contacts, width, from + 2 * rows, ld, s->slider);
     exchange_angles(s, width, 0);
     const int last = expand(s, m, width, h);
-    if (last > LAST && q == 0 && s->rounding > DBL_EPSILON) return false; /* other blocks have the same radius */
+    if (last > LAST && q == 0 && s->rounding > DBL_EPSILON)
+      return false; /* other blocks have the same radius of convergence */
     exchange_angles(s, width, last < LAST ? last : LAST);
     put_rows(s->n, width, s->x_end, from, ld);
     put_rows(s->n, width, s->p_end, from + rows, ld);

@@ -27,7 +27,7 @@ void events_newton_linearise(events_newton *s, const scaled_model *m, const doub
   }
 }
 
-/* dz/dd where nothing moves. */
+/* dz/dd at constant x, p. */
 static double share_of(const events_newton *s, int j) { return 1 / (1 - s->step.gamma * s->slopes[j].rate_own); }
 
 bool events_newton_factor(events_newton *s, const scaled_model *m, double gamma)

@@ -7,8 +7,8 @@
 #include "numerics/sundials_compat.h"
 #include "numerics/vectors.h"
 
-/* CVODE's linear solver is its owner's: the matrix, which has no entries, is set by the owner's CVLsLinSysFn, which
- * makes the factors, too. */
+/* CVODE's linear solver calls the owner's: the matrix has no entries; the owner's CVLsLinSysFn fills and factors its
+ * own equations. */
 
 static SUNMatrix_ID kind_of_matrix(SUNMatrix a)
 {
@@ -57,10 +57,10 @@ hc_status integrate_cvode_tolerance(integrator *base, double tolerance)
   return HC_OK;
 }
 
-/* [1] Within a period the state may grow to so much of the unit of length, which is about its size at the beginning. */
+/* [1] Largest state within a period, in units of length, about its size at the beginning; beyond: HC_UNBOUNDED. */
 static const double most_growth = 1e9;
 
-/* Fails beyond most_growth: what escapes in finite time takes steps without end. */
+/* Fails beyond most_growth: a motion that is unbounded in finite time takes steps without end. */
 int integrate_weights(N_Vector y, N_Vector weight, void *self)
 {
   const cvode_integrator *in = self;
@@ -110,7 +110,7 @@ hc_status integrate_make_parts(cvode_integrator *in, int n, int method, void *eq
   if (!in->y || !in->dky || !in->jac) return HC_NO_MEMORY;
   in->ls = hc_own_solver(in->ctx, in, setup, solve);
   in->cv = CVodeCreate(method, in->ctx);
-  return in->ls && in->cv && hc_room_for(0) ? HC_OK : HC_NO_MEMORY; /* room: CVodeInit comes next */
+  return in->ls && in->cv && hc_room_for(0) ? HC_OK : HC_NO_MEMORY; /* hc_room_for: for CVodeInit, which comes next */
 }
 
 void integrate_free_parts(cvode_integrator *in)

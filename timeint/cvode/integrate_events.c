@@ -1,13 +1,13 @@
-/* integrate_events.c - see integrate_events.h: between two changes of contact state, an interval, the equations that
- * CVODE integrates and the root functions that end it; what happens at a change; a period from its first to its last.
+/* integrate_events.c - see integrate_events.h: the equations that CVODE integrates in an interval between two changes
+ * of contact state, the root functions that end it, changes of state, and a period.
  *
- * Root functions of a contact, six, so that a period allocates nothing: the guards of its state, which end it where
- * they fall through 0, and the rates of these, which end nothing. Without them a guard could fall and rise within one
- * step unseen: CVODE's search for the root of the rate between evaluates all functions there.
- * Functions that are not there are 1; none is ever exactly 0, which CVODE answers with an error.
+ * A contact has six root functions, so that a period allocates nothing: the guards of its state, which end it where
+ * they fall through 0, and their rates, which end nothing. Without the rates a guard could fall and rise unseen within
+ * a step; CVODE's search for the root of the rate evaluates all functions in between. Unused functions are 1; none is
+ * exactly 0, which is an error for CVODE.
  *
- * A guard that has fallen at the beginning of an interval, or with another contact's in the same instant, is passed at
- * once. The monodromy matrix is fundamental_matrix.h's. */
+ * Guards that are already negative at the beginning of an interval, or fall in the same instant as another contact's,
+ * are passed at once. The monodromy matrix is fundamental_matrix.h's. */
 #include "timeint/cvode/integrate_events.h"
 
 #include <float.h>
@@ -22,8 +22,10 @@
 #include "timeint/cvode/events_newton.h"
 #include "timeint/cvode/integrate_cvode.h"
 
-static const double at_end = 64 * DBL_EPSILON; /* nearer to 2 pi CVODE would answer CV_TOO_CLOSE to a restart */
-static const double stiff = 60; /* largest decay rate over lowest frequency, from where on BDF takes fewer steps */
+static const double at_end = 64 * DBL_EPSILON; /* [2 pi] distance from the end within which CVODE answers a restart with
+                                                  CV_TOO_CLOSE */
+static const double stiff = 60; /* largest decay rate over lowest frequency above which BDF takes fewer steps than
+                                   Adams */
 
 enum {
   ROOTS = 2 * TRACK_GUARDS,
@@ -34,22 +36,23 @@ enum {
 typedef struct events { /* from integrate_new_events, to integrate_free; not shared between threads */
   cvode_integrator base;
   int n, n_contacts;
-  bool is_single;                  /* of motion_single.h: */
-  double theta0, theta1, began[2]; /* the step under way, and where it began */
-  contact_track *track;            /* [n_contacts] now */
-  contact_forces_linear *law;      /* [n_contacts] of these states */
-  int *info;                       /* [n_contacts][ROOTS] what CVODE says of the root functions */
-  double *rate;                    /* [n_equations] dy where the guards' rates are wanted */
-  int n_own, n_equations;          /* 2 n, and contacts' own states (law_kind.h): the angles of e */
-  int *own_of;                     /* [n_contacts] which is the contact's; -1: none */
-  double *own;                     /* [n_own] where sliders are wanted */
+  bool is_single;                  /* the structure is of motion_single.h */
+  double theta0, theta1, began[2]; /* bounds of the current step; X, X' at its beginning */
+  contact_track *track;            /* [n_contacts] current contact states */
+  contact_forces_linear *law;      /* [n_contacts] linear forces in these states */
+  int *info;                       /* [n_contacts][ROOTS] CVODE's root information */
+  double *rate;                    /* [n_equations] work: dy, for the rates of guards */
+  int n_own, n_equations;          /* number of contacts' own states (law_kind.h), the angles of e; equations: 2 n and
+                                      most own states */
+  int *own_of;                     /* [n_contacts] index of the contact's own state; -1: none */
+  double *own;                     /* [n_own] work: own states at an angle of dense output */
   events_newton newton;
-  double held_pull; /* what a held direction may change of a rate until N = 0 */
-  int passed;       /* events since the period began */
-  bool is_smooth;   /* a contact's law is: the monodromy matrix then comes from differences */
-  bool varies;      /* the monodromy is asked for */
+  double held_pull; /* largest change of a rate until N = 0 that keeping e constant may cause */
+  int passed;       /* number of events since the period began */
+  bool is_smooth;   /* a contact's law is smooth: the monodromy matrix is then from differences */
+  bool varies;      /* this period computes the monodromy matrix */
   fundamental_matrix variations;
-  interval_modes *modes; /* for them */
+  interval_modes *modes; /* of the variations; or NULL */
 } events;
 
 /* ---- equations -------------------------------------------------------------------------------------- */
@@ -73,7 +76,7 @@ static void add_curved(const events *in, const double *y, double *dy)
   }
 }
 
-/* dy at y, in the states as they are. */
+/* dy at y, in the current contact states. */
 static void events_rate(const events *in, double theta, const double *y, double *dy)
 {
   const scaled_model *m = in->base.m;
@@ -128,8 +131,8 @@ static law_instant instant_at(const events *in, int j, double theta, const doubl
   return now;
 }
 
-/* The guards of contact j at theta and y, where its rate is dy: the value and rate of each, without an own state also
- * half the rate of that. How many. */
+/* The guards of contact j at theta and y with rate dy; returns their number. g[0], g[1]: value and rate, g[2], without
+ * an own state: half the second derivative. */
 static int events_guards(const events *in, int j, double theta, const double *y, const double *dy,
                          track_guard guard[TRACK_GUARDS])
 {
@@ -170,26 +173,26 @@ static void use_states(events *in)
 
 static double *own_states(const events *in) { return NV_DATA_S(in->base.y) + 2 * in->n; }
 
-/* Tracks of contact j, from its own state among own[n_own]. */
+/* Sets the direction in t[], the tracks of contact j, from its own state in own[n_own]. */
 static void follow_own(const events *in, int j, const double *own, contact_track *t)
 {
   if (t->turns) in->base.m->contact[j].kind->own_follow(t, own[in->own_of[j]]);
 }
 
-/* Contact j, where its direction stops turning, or the period ends. */
+/* Notes the turn of contact j's direction, at an event or at the end of the period. */
 static void note_turn(events *in, int j)
 {
   contact_track *t = &in->track[j];
   if (t->turns) contact_track_note_turn(t, &in->base.m->contact[j], own_states(in)[in->own_of[j]] - t->opens.began);
 }
 
-/* In motion from theta on: the own state of contact j, and its rate at a touch. */
+/* Sets the own state of contact j at theta, and the start of the turn after a touch. */
 static void begin_own(events *in, int j, double theta)
 {
   const scaled_contact *c = &in->base.m->contact[j];
   double *y = NV_DATA_S(in->base.y);
   contact_track *t = &in->track[j];
-  if (!t->turns || !c->kind->own_begin) return; /* only a law with a state of its own turns */
+  if (!t->turns || !c->kind->own_begin) return; /* only laws with an own state turn */
   own_states(in)[in->own_of[j]] = c->kind->own_begin(t);
   if (!t->fresh) return;
   for (int a = 0; a < c->kind->directions; ++a) t[a].fresh = false;
@@ -198,7 +201,8 @@ static void begin_own(events *in, int j, double theta)
   c->kind->own_open(t, c, &now);
 }
 
-/* That a direction is held, or no more, counts as no change of state, and the monodromy matrix does not see it. */
+/* Passes the event of contact j at theta. TRACK_TURNS and TRACK_HOLDS are no changes of state, and do not concern the
+ * monodromy matrix. */
 static hc_status pass(events *in, int j, track_event event, double theta, int *count)
 {
   const scaled_contact *c = &in->base.m->contact[j];
@@ -225,8 +229,8 @@ static hc_status pass(events *in, int j, track_event event, double theta, int *c
   return HC_OK;
 }
 
-/* Has the guard fallen, and does it go on falling? At rest its second derivative says; that of an angle is not known:
- * 0. */
+/* True if the guard is at or below 0 and falls further. If its rate is 0 the second derivative decides; that of an own
+ * state's guard is unknown, 0. */
 static bool goes_on_falling(const track_guard *guard)
 {
   const double *g = guard->g, noise = guard->noise;
@@ -234,7 +238,7 @@ static bool goes_on_falling(const track_guard *guard)
   return g[1] < -noise || (g[1] <= noise && g[2] < -noise);
 }
 
-/* Guards that have fallen already and go on falling; until there is none. */
+/* Passes guards that have fallen and fall further, until there is none. */
 static hc_status pass_fallen(events *in, double theta, int *count)
 {
   for (bool more = true; more;) {
@@ -256,7 +260,7 @@ static hc_status pass_fallen(events *in, double theta, int *count)
   return HC_OK;
 }
 
-/* CVODE from theta on, in the states as they are. */
+/* Restarts CVODE at theta, in the current contact states. */
 static hc_status start(events *in, double theta)
 {
   int flag = CVodeReInit(in->base.cv, theta, in->base.y);
@@ -264,7 +268,7 @@ static hc_status start(events *in, double theta)
   return integrate_translate(&in->base, flag);
 }
 
-/* CVODE stopped on roots at theta. A contact's first guard, which is that of separation or touch, counts before its
+/* Passes the roots on which CVODE stopped at theta. A contact's first guard, separation or touch, has priority over its
  * others. */
 static hc_status pass_roots(events *in, double theta, int *count)
 {
@@ -316,7 +320,7 @@ static hc_status begin(events *in, const double *y, int *count)
   for (int i = 0; i < in->base.m->n_states; ++i) size += fabs(y[i]);
   if (!isfinite(size)) return HC_NOT_FINITE;
   memcpy(NV_DATA_S(in->base.y), y, 2 * (size_t)in->n * sizeof *y);
-  /* Which contacts have a state of their own. */
+  /* Indices of the contacts' own states. */
   in->n_own = 0;
   for (int j = 0; j < in->n_contacts; ++j) {
     const scaled_contact *c = &in->base.m->contact[j];
@@ -335,7 +339,7 @@ static hc_status begin(events *in, const double *y, int *count)
   return st == HC_OK ? pass_fallen(in, 0, count) : st;
 }
 
-/* A slip that turns, where sliders are wanted. */
+/* integrate_turn: the direction of contact j's slip from in->own. */
 static void turn(const void *self, int j, contact_track *t)
 {
   const events *in = self;
@@ -345,8 +349,8 @@ static void turn(const void *self, int j, contact_track *t)
 static hc_status period(integrator *base, const scaled_model *m, double *y, double *monodromy, integrate_watch *watch,
                         void *self);
 
-/* The step of differences where laws bend over the motion `a` of their contacts: (h/a)^2 is what it leaves out, 1e-12/h
- * the rounding of a period over it. */
+/* The step h of central differences, for laws that are nonlinear over a motion or velocity `a`: truncation error
+ * (h/a)^2, rounding of a period 1e-12/h. */
 static double difference_step(const scaled_model *m, const double *y)
 {
   double a = 1;
@@ -359,8 +363,8 @@ static double difference_step(const scaled_model *m, const double *y)
   return fmax(1e-4 * pow(a, 2. / 3), 1e-8);
 }
 
-/* Central differences of the period map: of the order of 1e-8 off where laws bend over a motion of the order of 1. A
- * coarse matrix is of the differences from y itself. */
+/* The monodromy matrix by central differences of the period map: error about 1e-8 for laws that are nonlinear over a
+ * motion of 1. A coarse matrix uses one-sided differences. */
 static hc_status differ(events *in, const double *y, double *monodromy)
 {
   const scaled_model *m = in->base.m;
@@ -415,7 +419,7 @@ static hc_status period(integrator *base, const scaled_model *m, double *y, doub
     follow_own(in, j, own_states(in), &in->track[j]);
     note_turn(in, j);
   }
-  integrate_sliders(in->track, m, 0, NULL, NULL, y); /* slips that turn are where their own states are */
+  integrate_sliders(in->track, m, 0, NULL, NULL, y); /* directions of slips are already set from own states */
   contact_track_end(in->track, in->n_contacts, y + 2 * in->n);
   if (monodromy) fundamental_matrix_end(&in->variations, m, in->track, y, monodromy);
   return HC_OK;
@@ -462,8 +466,8 @@ static const integrator_class class = {.period = period,
                                        .tolerance = integrate_cvode_tolerance,
                                        .free = release};
 
-/* What fails here is memory, whatever the flag (CVodeSetLinearSolver's CVLS_MEM_FAIL is the number
- * of CV_CONV_FAILURE). */
+/* Only memory can fail here, whatever the flag (CVodeSetLinearSolver's CVLS_MEM_FAIL has the number of
+ * CV_CONV_FAILURE). */
 static hc_status make_cvode(events *in)
 {
   N_VConst(0.0, in->base.y);

@@ -7,5 +7,5 @@
 
 #include "timeint/period/integrate.h"
 
-/* tolerance > 0: CVODE's, of the states' sizes (integrate_weights). HC_BAD_INPUT, HC_NO_MEMORY. */
+/* tolerance > 0: CVODE's, relative to the states' sizes (integrate_weights). HC_BAD_INPUT, HC_NO_MEMORY. */
 hc_status integrate_new_events(const modal_base *base, double tolerance, integrator **out);

@@ -16,11 +16,12 @@
 #include "timeint/cvode/integrate_cvode.h"
 #include "timeint/cvode/structure_newton.h"
 
-static const double variation_tolerance = 1e-6; /* of the variations' steps; they are about 1 */
+static const double variation_tolerance = 1e-6; /* relative and absolute tolerance of the variations, which are about
+                                                   1 */
 
 enum {
-  MAX_STEPS = 1000000,  /* per period: a thousand times what a hard one takes */
-  MAX_ERROR_FAILS = 20, /* per step: a corner is met with a step 1e4 times too long now and then */
+  MAX_STEPS = 1000000,  /* per period: a thousand times those of a difficult one */
+  MAX_ERROR_FAILS = 20, /* per step: at a corner the step is sometimes 1e4 times too long */
   MAX_NEWTON_FAILS = 30
 };
 
@@ -29,8 +30,8 @@ typedef struct regularised { /* from integrate_new_regularised, to integrate_fre
   int n; /* number of states */
   structure_newton newton;
   N_Vector *s;                /* [n][n] d y / d y_j(0), j = 0..n-1: CVODES calls them sensitivities */
-  structure_newton variation; /* d y' / d y where their right-hand side is wanted */
-  double *s_tolerance;        /* [n] absolute tolerance of each s_j, which CVODES copies */
+  structure_newton variation; /* d y'/d y for the variations' right-hand side */
+  double *s_tolerance;        /* [n] absolute tolerance of each s_j; copied by CVODES */
 } regularised;
 
 static int rhs(sunrealtype theta, N_Vector y, N_Vector dy, void *self)
@@ -66,7 +67,7 @@ static int variation_rhs(int n, sunrealtype theta, N_Vector y, N_Vector dy, N_Ve
   return 0;
 }
 
-/* What fails here is memory, whatever the flag: CVodeSetLinearSolver's CVLS_MEM_FAIL is the number of CV_CONV_FAILURE.
+/* Only memory can fail here, whatever the flag: CVodeSetLinearSolver's CVLS_MEM_FAIL has the number of CV_CONV_FAILURE.
  * CVODE's rule for when to renew the Jacobian stays as it is: renewing it in every step was measured 30 % slower, since
  * CVODE then forgets the rate of convergence and takes a second Newton iteration to learn it. */
 static hc_status make_cvode(regularised *in)
@@ -115,7 +116,7 @@ static hc_status make_parts(regularised *in, const modal_base *base)
   if (st == HC_OK) st = structure_newton_make(&in->variation, base, &in->base.memory);
   if (st == HC_OK) st = integrate_make_parts(&in->base, in->n, CV_BDF, &in->newton, solve);
   if (st != HC_OK) return st;
-  in->s = N_VCloneVectorArray(in->n, in->base.y); /* room: asked for above */
+  in->s = N_VCloneVectorArray(in->n, in->base.y); /* memory: tested in integrate_make_parts */
   in->s_tolerance = workspace_doubles(&in->base.memory, (size_t)in->n);
   return in->s && in->s_tolerance ? HC_OK : HC_NO_MEMORY;
 }

@@ -71,7 +71,7 @@ static void solve_D(const step_equations *s, double *x)
 
 /* ---- the contacts ---------------------------------------------------------------------------------------- */
 
-/* Column `row` of I + gamma^2 G S gets what a force on row `by` that is `force` per unit of it does. */
+/* Adds to column `row` of I + gamma^2 G S the effect of a force on row `by`, `force` per unit of motion of `row`. */
 static void add_force(step_equations *s, int by, double force, int row)
 {
   if (by < 0 || row < 0) return;

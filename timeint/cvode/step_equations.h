@@ -14,23 +14,23 @@
 #include "timeint/law/contact_rows.h"
 #include "timeint/law/scaled.h"
 
-/* With two directions by_u has two rows, and n_v is half the contact's. */
+/* The contact's derivatives. With two directions by_u has two rows, and n_v is half the contact's. */
 typedef struct step_contact {
-  int directions; /* that share this: 1, 2; 0: the second, whose forces are the first's */
+  int directions; /* 1 or 2 for a contact's first direction; 0 for its second, which the first includes */
   double by_u[2][2], by_v[2], n_v;
 } step_contact;
 
 typedef struct step_equations {
-  const modal_base *base;    /* the owner's */
+  const modal_base *base;    /* not owned */
   int n, n_contacts, n_rows; /* n_rows = rows.count */
   contact_rows rows;
   double gamma, by_K, by_C;
-  step_contact *contact; /* [n_contacts] for the owner to set before step_equations_factor */
-  double *D;             /* [n] or [n][n]: D, or its factors */
+  step_contact *contact; /* [n_contacts] set by the caller before step_equations_factor */
+  double *D;             /* [n] D if diagonal, else [n][n] its factors */
   double *pulled;        /* [n][n_rows] D^-1 B^T */
   double *compliant;     /* [n_rows][n_rows] B D^-1 B^T */
   double *small;         /* [n_rows][n_rows] factors of I + gamma^2 B D^-1 B^T S */
-  double *force, *q;     /* [n_rows] c, then the forces; B x */
+  double *force, *q;     /* [n_rows] c, after solving the forces; B x */
   double *p;             /* [n] */
   int *pivot, *small_pivot;
 } step_equations;
@@ -38,16 +38,16 @@ typedef struct step_equations {
 /* Arrays are memory's. HC_NO_MEMORY. */
 hc_status step_equations_make(step_equations *s, const modal_base *base, workspace *memory);
 
-/* Factors of s->contact with s->gamma and *m's coefficients; false: singular. */
+/* Factors the equations with s->contact, s->gamma and *m's coefficients; false: singular. */
 bool step_equations_factor(step_equations *s, const scaled_model *m);
 
-/* a[n], b[n] become x, p; s->force[n_rows] is c at first, s->q is B x at last. */
+/* a[n], b[n] become x, p. On entry s->force[n_rows] is c, on return s->q is B x. */
 void step_equations_solve(step_equations *s, double *a, double *b);
 
-/* The motion of contact j in s->q, in its directions: u, and v, which is returned. */
+/* The motion of contact j from s->q: u in its directions; returns v. */
 double step_equations_motion(const step_equations *s, int j, int directions, double u[2]);
 
-/* force[row] += f, where that row is there. */
+/* force[row] += f, unless row is -1. */
 static inline void step_equations_add(double *force, int row, double f)
 {
   if (row >= 0) force[row] += f;

@@ -3,12 +3,12 @@
 
 #include <string.h>
 
-/* Contact j's motion, and rates, of the rows' motion in the step's q and the newton's dq. */
+/* Contact j's motion from s->step.q, and its rate from s->dq if a law depends on it. */
 static contact_motion moves_of(const structure_newton *s, const scaled_model *m, int j, int directions)
 {
   contact_motion at = {0};
   at.v = step_equations_motion(&s->step, j, directions, at.u);
-  if (m->by_rates) at.du[0] = contact_rows_at(s->dq, s->step.rows.along[j]); /* of one tangent */
+  if (m->by_rates) at.du[0] = contact_rows_at(s->dq, s->step.rows.along[j]); /* such laws have one tangent */
   return at;
 }
 
@@ -104,7 +104,7 @@ bool structure_newton_factor(structure_newton *s, const scaled_model *m, double 
   return step_equations_factor(&s->step, m);
 }
 
-/* d[] of contact j := its slider, of d. */
+/* d[] of contact j becomes its slider w. */
 static void find_slider(const structure_newton *s, int j, double *d)
 {
   const planar_derivatives *l = &s->law[j];
@@ -123,7 +123,7 @@ void structure_newton_solve(structure_newton *s, double *r)
 {
   const int n = s->step.n;
   double *d = r + 2 * n;
-  /* s->step.force := what contacts' forces are where x = 0: -by_u d, of tanh, which has no slider, -by_u t . a. */
+  /* s->step.force := contacts' forces at x = 0: -by_u d; with tanh, which has no slider, -by_u t . a. */
   step_equations *step = &s->step;
   bool rates = false;
   for (int j = 0; j < step->n_contacts && !rates; ++j) rates = s->law[j].t_du != 0;
@@ -149,7 +149,7 @@ void structure_newton_multiply(structure_newton *s, const scaled_model *m, const
   double *force = out + n;
   find_motion(s, m, z);
   memset(step->force, 0, (size_t)step->n_rows * sizeof *step->force);
-  /* What contact j does where the motion is s->step.q and z: its forces into s->step.force, its sliders' rates into
+  /* Linearised forces of contact j for the variation s->step.q, z into s->step.force; its sliders' rates into
    * rate[]. */
   for (int j = 0; j < step->n_contacts; ++j) {
     const double *slider = z + 2 * n + j;

@@ -11,23 +11,23 @@
 
 typedef struct structure_newton {
   step_equations step;
-  planar_derivatives *law; /* [n_contacts] where the equations were linearised */
+  planar_derivatives *law; /* [n_contacts] the law's derivatives at the last structure_newton_linearise */
   double (*share)[2][2];   /* [n_contacts] (1 + gamma r_u)^-1 */
-  double *dq;              /* [n_rows] rates of the contacts' motion, where a law depends on them */
+  double *dq;              /* [n_rows] rates of the rows' motion, if a law depends on them */
 } structure_newton;
 
 /* Arrays are memory's. HC_NO_MEMORY. */
 hc_status structure_newton_make(structure_newton *s, const modal_base *base, workspace *memory);
 
 /* dy[n_states] at theta and y[n_states], the same as scaled_rhs, and, unless that is NULL, state[n_contacts], as
- * scaled_contact_state. Answers whether all of dy is finite. */
+ * scaled_contact_state. True if all of dy is finite. */
 bool structure_newton_rate(const structure_newton *s, const scaled_model *m, double theta, const double *y, double *dy,
                            contact_state *state);
 
 /* The law's derivatives at y. */
 void structure_newton_linearise(structure_newton *s, const scaled_model *m, const double *y);
 
-/* Factors for that gamma and *m's coefficients; false: singular. */
+/* Factors the equations for gamma and *m's coefficients; false: singular. */
 bool structure_newton_factor(structure_newton *s, const scaled_model *m, double gamma);
 
 /* r[n_states] := (I - gamma J)^-1 r. */

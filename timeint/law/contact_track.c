@@ -5,9 +5,9 @@
 
 #include "numerics/base/constants.h"
 
-static const double rounding = 16 * DBL_EPSILON; /* of sums of a few terms, relative to their sizes */
+static const double rounding = 16 * DBL_EPSILON; /* rounding of sums of a few terms, relative to their sizes */
 
-/* Rounding of the guards; motions are of the order of 1. */
+/* Noise of the guards; motions are of the order of 1. */
 double contact_track_distance_noise(const scaled_contact *c, double v)
 {
   return rounding * (1 + fabs(v) + fabs(c->law.gap));
@@ -46,7 +46,7 @@ static void set_state(contact_track *t, const scaled_contact *c, contact_state s
   }
 }
 
-/* It slips along e: the sign of one tangent's is its state. */
+/* Sets slip along e; with one tangent the state is its sign. */
 static void set_slip(contact_track *t, const scaled_contact *c)
 {
   const bool turns = c->kind->directions > 1;
@@ -101,7 +101,7 @@ void contact_track_begin(contact_track *t, const scaled_contact *c, const contac
   for (int a = 0; a < c->kind->directions; ++a) t[a].most = t->state == CONTACT_SEPARATED ? INFINITY : 0;
 }
 
-/* V + gap, or minus that; then the law's own. */
+/* V + gap, or minus that; then the guards of the law. */
 int contact_track_conditions(const contact_track *t, const scaled_contact *c, track_condition conditions[TRACK_GUARDS])
 {
   const bool apart = t->state == CONTACT_SEPARATED;
@@ -158,7 +158,7 @@ void contact_track_pass(contact_track *t, const scaled_contact *c, track_event e
   case TRACK_SLIPS_PLUS:
   case TRACK_SLIPS_MINUS:
     for (int a = 0; a < directions; ++a) s[a] = at->u[a] - t[a].rest;
-    if (directions == 1) s[0] = event == TRACK_SLIPS_PLUS ? 1 : -1; /* known where T and N vanish together, too */
+    if (directions == 1) s[0] = event == TRACK_SLIPS_PLUS ? 1 : -1; /* also valid where T and N vanish together */
     set_direction(t, c, s);
     set_slip(t, c);
     return;
@@ -220,8 +220,8 @@ contact_forces_linear contact_track_forces(const contact_track *t, const scaled_
 {
   const law_regularised *law = &c->law;
   if (t->state == CONTACT_SEPARATED) return (contact_forces_linear){.n_0 = -c->preload};
-  contact_forces_linear f = {.n_v = law->kn, .n_0 = law->gap > 0 ? 0 : law->kn * law->gap}; /* N0 is left out, not added
-                                                                                              and subtracted */
+  contact_forces_linear f = {.n_v = law->kn, .n_0 = law->gap > 0 ? 0 : law->kn * law->gap}; /* N - N0 = kn V for gap <=
+                                                                                               0: no cancellation */
   if (!law->has_friction || t->turns) return f;
   if (t->state == CONTACT_STICK) {
     f.t_u = law->kt;

@@ -36,11 +36,12 @@ static int conditions(const contact_track *t, const scaled_contact *c, track_con
   return 2;
 }
 
-/* Where traction and limit vanish together (a contact that stuck when it touched, one degree of freedom), or where the
- * motion turns at the limit, a slip of no length begins or does not, by rounding: it is not counted. */
+/* A slip of zero length is not counted: where traction and limit vanish together (a contact that stuck when it touched,
+ * one degree of freedom), or where the motion turns at the limit, rounding decides whether it occurs. */
 static int counts(contact_track *t, track_event event, double theta)
 {
-  const double at_once = 1e-6; /* [rad] around a turn or a touch a slip that long moves the slider by its square */
+  const double at_once = 1e-6; /* [rad] longest slip that counts as zero: around a turn or a touch it moves the slider
+                                  by its square */
   const bool slipped = contact_slip_sign(t->state) != 0, no_length = slipped && theta - t->changed <= at_once;
   t->changed = event == TRACK_TOUCHES ? -INFINITY : theta;
   if (no_length && event == TRACK_SEPARATES) return 0;

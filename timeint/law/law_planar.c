@@ -4,29 +4,30 @@
  *     S  = kt (u - w)
  *     w' = e max(|S| - mu N, 0)/eta,  e = S/|S|
  *     T  = S, limited to |T| <= mu N; `overstress`: T = S
- * width -> 0, eta -> 0 give the exact law. Where w moves, S is longer than mu N by eta |w'|: T is exact but for its
- * direction, which turns as if R = mu N/kt were longer by eta |w'|/kt. So where a slider creeps along the circle the
- * error is first order in eta (law_regularised.h: second).
+ * width -> 0, eta -> 0 give the exact law. Where w moves, |S| exceeds mu N by eta |w'|: T is exact except for its
+ * direction, which turns as if R = mu N/kt were larger by eta |w'|/kt. So where the direction of slip turns the error
+ * is of first order in eta (law_regularised.h: second).
  *
  * Under the exact law (contact_track.h) its guards are
  *     stick  (mu N)^2 - |T|^2        slip  kt s, of the series of e (planar_series.h) or, by CVODE, its angle
- * Shortly before N = 0 the direction e has no time left to turn the motion, but turns the faster itself: it is then
- * held.
+ * Shortly before N = 0 the direction e turns ever faster, but no longer affects the motion: it is then kept constant
+ * (held).
  *
- * CVODE carries the angle of e as a state: T = mu N e, phi' = kt (U'.e_perp)/(mu N). At touch-down that is 0/0. The one
- * solution that does not run away backwards in time starts along U', with
+ * CVODE carries the angle of e as a state: T = mu N e, phi' = kt (U'.e_perp)/(mu N). At touch-down that is 0/0. The
+ * only solution that stays bounded backwards in time starts along U', with
  *     phi'_0 = beta psi'/(1 + beta),   beta = kt |U'|/(mu kn V'),   psi' = U''.e_perp/|U'|: the turn of U'
- * and phi grows at that rate for the first `opening`: off by its square, which changes a rate of the motion by its
- * fourth power, or third as beta -> 1. Before N = 0 phi is held where what it could still change is small. The guard of
- * stick is linear there, mu N - |T|, which means something at N = 0, too.
- * Proof: tests/timeint/test_law.c, test_circle.c. */
+ * and phi grows at that rate for the first `opening` [rad] of theta: its error is of second order in `opening`, and
+ * changes a rate of the motion by fourth order (third as beta -> 1). Before N = 0 phi is held once its effect is small.
+ * The guard of stick is mu N - |T| there, which is valid at N = 0, too. Proof: tests/timeint/test_law.c,
+ * test_circle.c. */
 #include "timeint/law/contact_track.h"
 
-static const double held_pull = 1e-17; /* what a wrong direction of T could change of a rate until N = 0 */
-static const double held_time = 1e-13; /* [rad] too short for steps */
-static const double opening = 1e-4;    /* [rad] */
+static const double held_pull = 1e-17; /* while the direction is held: largest change of a rate, until N = 0, that its
+                                          error can cause */
+static const double held_time = 1e-13; /* [rad] time to N = 0 that is too short for steps */
+static const double opening = 1e-4;    /* [rad] of theta after a touch during which phi' is constant */
 
-/* The spring's force, and by how much it is longer than the limit. */
+/* The spring's force S, its length, the limit mu N, and the excess of |S| over it, 0 in stick. */
 typedef struct overload {
   double s[2], size, limit, excess;
 } overload;
@@ -61,7 +62,7 @@ static planar_derivatives derivatives(const law_regularised *c, const contact_mo
   planar_derivatives r = {.n_v = law_regularised_derivatives(c, 0, v, 0).n_v};
   if (!c->has_friction) return r;
   const overload o = load_of(c, u, n, w);
-  const double kept = o.excess > 0 ? o.limit / o.size : 1; /* of what turns the force */
+  const double kept = o.excess > 0 ? o.limit / o.size : 1; /* factor of the part of kt that turns T */
   for (int a = 0; a < 2; ++a) {
     const double e = o.excess > 0 ? o.s[a] / o.size : 0;
     for (int b = 0; b < 2; ++b) {
@@ -75,7 +76,7 @@ static planar_derivatives derivatives(const law_regularised *c, const contact_mo
   return r;
 }
 
-/* (mu N)^2 - |kt (U - rest)|^2 of a contact that sticks; the series of e has that of one that slips. */
+/* The guard (mu N)^2 - |kt (U - rest)|^2 of stick, as a series; that of slip is planar_series_guard. */
 static int curved_guards(const contact_track *t, const scaled_contact *c, const double *u, const double *v,
                          track_guard guard[TRACK_GUARDS])
 {
@@ -98,7 +99,7 @@ static int curved_guards(const contact_track *t, const scaled_contact *c, const 
   return 1;
 }
 
-/* That e is held, or no more, is no change of state. */
+/* A change between held and turning e is no transition. */
 static int counts(contact_track *t, track_event event, double theta)
 {
   (void)t, (void)theta;
@@ -174,7 +175,8 @@ static track_guard end_of_slip(const scaled_contact *c, const law_instant *now, 
   return guard_of(TRACK_STICKS, value, rate, contact_track_rate_noise(c, hypot(du[0], du[1]), now->at.dv));
 }
 
-/* mu kn (V + gap)^2 + may_change V': mu kn times the square of the time left, times the speed of it, is small. */
+/* Guard mu kn (V + gap)^2 + may_change V': negative where the limit mu kn (V + gap), times the time left (V + gap)/-V',
+ * is below may_change. */
 static track_guard start_of_hold(const scaled_contact *c, const law_instant *now, double may_change)
 {
   const double d = now->at.v + c->law.gap;
@@ -192,7 +194,7 @@ static int own_guards(const contact_track *t, const scaled_contact *c, const law
                           apart * now->at.dv, contact_track_distance_noise(c, now->at.v));
   if (t->state == CONTACT_SEPARATED) return n;
   if (t->state == CONTACT_STICK) {
-    /* mu N - |T|; where T = 0 its rate is that of the T to come. */
+    /* mu N - |T|; where T = 0 the rate of |T| is kt |U'|. */
     const double s[2] = {now->at.u[0] - t[0].rest, now->at.u[1] - t[1].rest}, size = hypot(s[0], s[1]);
     const double grows =
         size > 0 ? (s[0] * now->at.du[0] + s[1] * now->at.du[1]) / size : hypot(now->at.du[0], now->at.du[1]);

@@ -41,7 +41,7 @@ const law_kind law_polynomial = {.directions = 1,
                                  .pull = polynomial_pull,
                                  .slopes = polynomial_slopes};
 
-/* T of N, with its derivatives by N and U'. */
+/* T for the normal force N, with its derivatives by N and U'. */
 static double rubbing(const law_regularised *c, double N, double du, double *by_N, double *by_du)
 {
   const double z = du / c->smooth.epsilon, cosh_1 = 1 / cosh(fmin(fabs(z), 700));

@@ -9,7 +9,7 @@
 #include "numerics/dense.h"
 #include "numerics/norm.h"
 
-static const double rounding = 1e-13; /* of what is left beside the diagonal of C, relative to that */
+static const double rounding = 1e-13; /* off-diagonal entries of C that count as 0, relative to the diagonal */
 
 /* y = A x, or A^T x; A[n][n] by columns. */
 static void times(int n, const double *A, const double *x, double *y)
@@ -24,7 +24,7 @@ static void transposed_times(int n, const double *A, const double *x, double *y)
   for (int col = 0; col < n; ++col) y[col] = dot_product(n, A + (size_t)col * (size_t)n, x);
 }
 
-/* out := phi^T A phi, with room for one vector. */
+/* out := phi^T A phi; vector[n]: work. */
 static void to_modes(int n, const double *phi, const double *A, double *vector, double *out)
 {
   for (int col = 0; col < n; ++col) {
@@ -42,8 +42,8 @@ static double size_of_sum(int n, const double *left, const double *A, const doub
   return sum;
 }
 
-/* Is A[n][n] = phi^T of phi diagonal, but for rounding: relative to the diagonal, or, where modes are very different,
- * to the n^2 terms that each entry is the sum of? Then its diagonal moves to A[0..n-1]. */
+/* True if A[n][n] = phi^T of phi is diagonal up to rounding, relative to the diagonal or, for very different modes, to
+ * the n^2 terms of each entry. Then its diagonal is moved to A[0..n-1]. */
 static bool keep_diagonal(int n, const double *phi, const double *of, double *A)
 {
   const size_t ld = (size_t)n;
@@ -116,7 +116,7 @@ static void fill(modal_base *b, const model *m, const double *omega2, double *ve
   scale(ld * ld, b->inverse, b->s);
 }
 
-/* What is known from the modes with all contacts stuck; phi[n][n]: room for them. */
+/* Sets highest and lowest from the modes with all contacts stuck; omega2[n], phi[n][n]: work. */
 static hc_status look_at_stuck(modal_base *b, const model *m, double *omega2, double *phi)
 {
   hc_status st = model_modes(m, true, omega2, phi);
@@ -127,7 +127,7 @@ static hc_status look_at_stuck(modal_base *b, const model *m, double *omega2, do
   return HC_OK;
 }
 
-/* Doubles in b->numbers; *b's arrays there, where it is not NULL. */
+/* Number of doubles in b->numbers; sets *b's arrays, unless b->numbers is NULL. */
 static size_t place_arrays(modal_base *b)
 {
   const size_t n = (size_t)b->n, contacts = (size_t)b->n_contacts, loads = (size_t)b->n_loads,
@@ -183,8 +183,8 @@ hc_status modal_base_new(const model *m, modal_base **out)
   return st;
 }
 
-/* The highest natural frequency, contacts stuck, by the power iteration from the contacts' rows: a percent below it at
- * worst, which lengthens the first try of a step. x[n], y[n]: room. */
+/* The highest natural frequency, contacts stuck, by power iteration: up to a percent too low, which only makes the
+ * first trial step longer. x[n], y[n]: work. */
 static double highest_stuck(const modal_base *b, const model *m, double *x, double *y)
 {
   enum { ITERATIONS = 100 };

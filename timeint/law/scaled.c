@@ -5,29 +5,29 @@
 
 #include "numerics/norm.h"
 
-/* Kinked laws: without and with two directions that share a limit; smooth laws. */
+/* Kinked laws with one tangent, with two that share a limit; smooth laws. */
 static const law_kind *const kinds[] = {&law_line, &law_planar};
 #define ROW(code, name) [code] = &law_##name,
 static const law_kind *const smooth_kinds[] = {CONTACT_SMOOTH_LIST(ROW)};
 #undef ROW
 
-/* [vibration * regularisation]: with 1e-4 the corner puts case 2 off by less than the slider's lag does, 2e-5. */
+/* [vibration times regularisation] width of the corner; at 1e-4 it changes case 2 by less than the slider's lag does,
+ * 2e-5. */
 static const double of_vibration = 0.25;
 
-/* Width [length] of the corner in N of contact j: a part of its own vibration. What others move, the gap, and where the
- * structure rests have no share in it. */
+/* Width [length] of the corner in N of contact j, proportional to its own vibration (without its mean and its gap). */
 static double corner_width(const scaled_model *m, const transient_settings *how, int j, double length)
 {
   if (how->law == TRANSIENT_LAW_EXACT) return 0;
   return of_vibration * how->regularisation * (m->vibration ? m->vibration[j] : length);
 }
 
-/* unit [force/length]: of forces, divided by length. */
+/* unit [force/length]: unit of force over unit of length. */
 static void make_contact(scaled_contact *sc, const model_contact *from, double unit, double omega, double length,
                          double width, const transient_settings *how, bool moves_along)
 {
   contact law = contact_in_units(&from->law, unit, length, omega * length);
-  if (!moves_along) law.kt = 0; /* u = 0 always: the tangential spring does no work */
+  if (!moves_along) law.kt = 0; /* u = 0 always: no tangential force */
   sc->law = law_regularised_make(&law, width / length, how->regularisation);
   sc->preload = contact_preload(&law);
   sc->kind = law.smooth != CONTACT_KINKED ? smooth_kinds[law.smooth] : kinds[from->circle && sc->law.has_friction];

@@ -6,8 +6,8 @@
 
 #include "numerics/norm.h"
 
-static const double not_moved = 1e-10; /* [largest vibration] a row that moves less is moved by rounding alone */
-static const double grown = 2;         /* [1] */
+static const double not_moved = 1e-10; /* [largest vibration] a row that moves less moves by rounding only */
+static const double grown = 2;         /* [1] factor by which a vibration must grow to be updated */
 
 hc_status state_sizes_make(state_sizes *s, const modal_base *base, workspace *memory)
 {
@@ -28,7 +28,7 @@ static const double *row_of(const state_sizes *s, const modal_base *base, int r)
   return base->response + (size_t)(r - 2 * s->n_contacts) * n;
 }
 
-/* What the loads that vibrate do to row b without any resonance. */
+/* Quasi-static response of row b to the alternating loads (state_sizes.h). */
 static double driven(const modal_base *base, const double *b, double omega)
 {
   const size_t n = (size_t)base->n;
@@ -53,7 +53,7 @@ void state_sizes_begin(state_sizes *s, const modal_base *base, const model *m, d
   }
 }
 
-/* The share of L that row r has where the largest vibration is `most`. */
+/* [L] Size of row r, for the largest vibration `most`; 1 for rows that are ignored. */
 static double unit_of(const state_sizes *s, int r, double most)
 {
   const double size = fmax(s->vibration[r], s->own[r]) / most;

@@ -72,14 +72,14 @@ static hc_status add_instants(measure *me, const integrator *in, double theta1)
   return HC_OK;
 }
 
-/* Integral over h of what has the values, first and second derivatives g[end][3] at its two ends: of the quintic
- * through them, off by h^7/100800 of the sixth derivative. */
+/* Integral over h of a function with value, first and second derivative g[end][3] at its two ends, by the quintic
+ * through them: error h^7/100800 times the sixth derivative. */
 static double integral_of(double h, double g[2][3])
 {
   return h / 2 * (g[0][0] + g[1][0]) + h * h / 10 * (g[0][1] - g[1][1]) + h * h * h / 120 * (g[0][2] + g[1][2]);
 }
 
-/* A response r, r', r''. */
+/* A response: r, r', r''. */
 typedef struct jet {
   double x, p, a;
 } jet;
@@ -89,7 +89,7 @@ static jet jet_of(const scaled_model *m, int i, const double *y, const double *r
   return (jet){scaled_response(m, i, y), scaled_response(m, i, y + m->n), scaled_response(m, i, rate + m->n)};
 }
 
-/* Where the next step begins. */
+/* Stores the start of the next step. */
 static void begin_step(response_measure *r, const jet *at)
 {
   r->x = at->x;
@@ -98,7 +98,7 @@ static void begin_step(response_measure *r, const jet *at)
   extend(r, r->x);
 }
 
-/* U and V of all contacts at y, a step of h after they were seen last; h = 0: at the beginning of a period. */
+/* Extends the ranges of U and V of all contacts by the state y, h after the previous one; h = 0: start of a period. */
 static void extend_ranges(measure *me, double h, const double *y)
 {
   const modal_base *b = me->m->base;
@@ -108,7 +108,7 @@ static void extend_ranges(measure *me, double h, const double *y)
     contact_range *r = &me->range[j];
     const double x = dot_product(me->m->n, row, y), p = dot_product(me->m->n, row, y + n);
     double peak = x;
-    if (h > 0 && r->p * p < 0) { /* where the rate, taken for linear, is 0 */
+    if (h > 0 && r->p * p < 0) { /* place where the rate, interpolated linearly, is 0 */
       const double t = r->p / (r->p - p), s = 1 - t;
       peak = s * s * ((1 + 2 * t) * r->x + t * h * r->p) + t * t * ((1 + 2 * s) * x - s * h * p);
     }
@@ -148,7 +148,8 @@ static hc_status rate_at(void *self, double theta, double *rate)
   return st;
 }
 
-/* A root of it between t0 and t1, where it has the values f0 and f1 of opposite sign. me->inside: the state there. */
+/* A root of dense_rate between t0 and t1, where it has the values f0 and f1 of opposite sign. me->inside: the state
+ * there. */
 static hc_status find_root(measure *me, const integrator *in, int i, int order, double t0, double f0, double t1,
                            double f1, double *root)
 {
@@ -169,7 +170,8 @@ static hc_status add_peak(measure *me, const integrator *in, int i, double t0, d
   return st;
 }
 
-/* The peaks in the step from t0, where it began, to t1: the integrator's, or the rate changes sign at most twice. */
+/* The peaks in the step from t0 to t1: the integrator's extremes, else roots of the rate, which changes sign at most
+ * twice. */
 static hc_status add_peaks(measure *me, const integrator *in, int i, double t0, double t1, const jet *end)
 {
   const double p0 = me->response[i].p, a0 = me->response[i].a, p1 = end->p, a1 = end->a;
@@ -204,9 +206,8 @@ hc_status measure_step(void *self, const integrator *in, double theta0, double t
   integrate_at_end(in, me->m, theta1, y, me->end_rate, me->state);
   for (int i = 0; i < me->n_responses; ++i) {
     const jet end = jet_of(me->m, i, y, me->end_rate);
-    /* Integrals of response i, times 1, cos, sin, over the step from theta0, where it began, to theta1: the
-     * integrator's, or from both ends. Not over a step so long that this is not as good as the step itself: then sums
-     * over the instants must do. */
+    /* Integrals of response i, times 1, cos, sin, over the step from theta0 to theta1: the integrator's, or from both
+     * ends. After a step too long for that the sums over the instants are used instead. */
     response_measure *r = &me->response[i];
     double step[3] = {0};
     const double h = theta1 - theta0, ends[2][3] = {{r->x, r->p, r->a}, {end.x, end.p, end.a}};
