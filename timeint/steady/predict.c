@@ -5,14 +5,14 @@
 #include <string.h>
 
 #include "timeint/steady/closed_form_start.h"
-#include "timeint/steady/shoot.h"
+#include "timeint/steady/confirm.h"
+#include "timeint/steady/orbit.h"
 #include "timeint/steady/timeint_private.h"
 
 static const double rounding = 16 * DBL_EPSILON; /* [amplitude] of a closed form */
-static const double enough = 1e-4;   /* [change] to which half the regularisation's orbit need be known: a second-order
+static const double enough = 1e-4; /* [change] to which half the regularisation's orbit need be known: a second-order
                                        error of the amplitude is far smaller than the sliders' first-order change */
-static const double rough = 0.25;    /* [change] to which it may be known where steps contract no more */
-static const double coarsest = 1e-8; /* CVODE's tolerance for it */
+static const double rough = 0.25;  /* [change] to which it may be known where steps contract no more */
 static const double per_change = 1e-7; /* that tolerance, relative to the change: it scatters by 250 times itself */
 
 static periodic_motion motion_of(const timeint_result *r)
@@ -64,10 +64,10 @@ static hc_status halve(timeint *ti, const double *state, int k, const hc_monitor
       ti->y[i] += 0.5 * apart;
     }
     goal = fmax(goal, enough * change);
-    st = timeint_set_tolerance(ti, fmin(fmax(per_change * change, timeint_final_tolerance(ti)), coarsest));
-    if (st == HC_OK) st = shoot_confirm(ti->shoot, k, goal, 0, monitor, &found, r);
+    st = timeint_set_tolerance(ti, fmin(fmax(per_change * change, timeint_final_tolerance(ti)), CONFIRM_COARSEST));
+    if (st == HC_OK) st = confirm_orbit(ti, k, goal, 0, monitor, &found, r);
     if (st == HC_NOT_CONVERGED && found.distance <= rough * change) /* a matrix by CVODES costs some 50 periods */
-      st = shoot_confirm(ti->shoot, k, rough * change, 0, monitor, &found, r);
+      st = confirm_orbit(ti, k, rough * change, 0, monitor, &found, r);
     if (!shoot_found_no_orbit(st)) return st;
   }
   hc_status st = shoot_newton(ti->shoot, k, timeint_size(ti) / ti->length, goal, monitor, &found);
@@ -125,7 +125,7 @@ static hc_status slowed_part(timeint *ti, const double *state, const hc_monitor 
     timeint_get_state(closed, closed->point[0]);
     st = orbit_measure(closed, k, &here);
     if (st == HC_OK) st = timeint_begin(slowed, closed->omega, closed->point[0]);
-    if (st == HC_OK) st = shoot_slowed(closed->shoot, k, monitor);
+    if (st == HC_OK) st = confirm_slowed(closed, k, monitor);
     if (st == HC_OK) st = orbit_measure(slowed, k, &there);
     for (int i = 0; i < n && st == HC_OK; ++i) {
       st = timeint_response(closed, i, &here);

@@ -4,7 +4,8 @@
 #include <complex.h>
 
 #include "numerics/norm.h"
-#include "timeint/steady/shoot.h"
+#include "timeint/steady/confirm.h"
+#include "timeint/steady/orbit.h"
 #include "timeint/steady/timeint_private.h"
 
 static const double same_width = 0.01; /* [1] of width: a second-order error is 2 % another then */
@@ -70,7 +71,7 @@ static hc_status find_again(timeint *ti, const hc_monitor *monitor, timeint_resu
       .distance = INFINITY, .multiplier = r->multiplier_re + I * r->multiplier_im, .free_sliders = r->free_sliders};
   hc_status st = HC_NOT_CONVERGED;
   if (ti->how.steady == TRANSIENT_STEADY_MARCH) return settle_by_integration(ti, monitor, r);
-  if (ti->closed_form) st = shoot_confirm(ti->shoot, k, orbit_goal(ti), 0, monitor, &found, r);
+  if (ti->closed_form) st = confirm_orbit(ti, k, orbit_goal(ti), 0, monitor, &found, r);
   if (shoot_found_no_orbit(st)) {
     const double reach = ORBIT_NEXT_TO * timeint_scaled_size(ti);
     st = shoot_newton(ti->shoot, k, reach, orbit_goal(ti), monitor, &found);

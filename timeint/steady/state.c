@@ -215,6 +215,16 @@ hc_status timeint_period(timeint *ti, bool measured)
   return HC_OK;
 }
 
+void timeint_note_measured(timeint *ti, int k, const double *end, int switches, int returns)
+{
+  ti->last.k = k;
+  ti->last.omega = ti->omega;
+  ti->last.length = ti->length;
+  ti->last.switches = switches;
+  ti->last.returns = returns;
+  memcpy(ti->last.end, end, sizeof *end * (size_t)ti->n);
+}
+
 void timeint_get_state(const timeint *ti, double *state)
 {
   const int n = ti->n_dof;

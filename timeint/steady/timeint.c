@@ -8,6 +8,7 @@
 #include "numerics/norm.h"
 #include "timeint/steady/closed_form_start.h"
 #include "timeint/steady/mass_scaling.h"
+#include "timeint/steady/period_map.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
@@ -58,6 +59,7 @@ static hc_status make_parts(timeint *ti)
   hc_status st = make_memory(ti);
   if (st == HC_OK) st = timeint_make_integrators(ti);
   if (st == HC_OK) st = settle_new(ti->n, &ti->settle);
+  if (st == HC_OK) st = period_map_new(ti, &ti->map);
   return st == HC_OK ? shoot_new(ti, &ti->shoot) : st;
 }
 
@@ -128,7 +130,10 @@ static hc_status make_all(const model *m, const timeint *of, const transient_set
   timeint *ti;
   *out = NULL;
   hc_status st = make(m, of, how, !closed, &ti);
-  if (st == HC_OK && closed && mass_scaling_may_pay(ti->whole)) st = make(ti->model, ti, how, true, &ti->slowed);
+  if (st == HC_OK && closed && mass_scaling_may_pay(ti->whole)) {
+    st = make(ti->model, ti, how, true, &ti->slowed);
+    if (st == HC_OK) period_map_borrow_from(ti->map, ti->slowed->map);
+  }
   if (st == HC_OK && !closed && ti->how.scout) st = closed_start_new(ti);
   return keep_or_free(ti, st, out);
 }
@@ -180,6 +185,7 @@ void timeint_free(timeint *ti)
   timeint_free(ti->slowed);
   timeint_free(ti->closed_form);
   shoot_free(ti->shoot);
+  period_map_free(ti->map);
   settle_free(ti->settle);
   integrate_free(ti->exact);
   integrate_free(ti->in);
