@@ -173,7 +173,7 @@ static void list_sites(modal_flow *f)
   dense_transpose(f->n, f->rows, f->direction, f->turned);
 }
 
-static void project(int n, const double *phi, const double *from, double *to)
+static void modal_project(int n, const double *phi, const double *from, double *to)
 {
   for (int k = 0; k < n; ++k) to[k] = dot_product(n, phi + (size_t)k * (size_t)n, from);
 }
@@ -196,8 +196,8 @@ static hc_status make_modal(const model *m, const double *phi, const double *lam
   }
   for (size_t k = 0; k < n && st == HC_OK; ++k) f->damping[k] = C[k * (n + 1)], f->lambda[k] = lambda[k];
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
-    project(m->n, phi, m->contacts[j].tangent, f->modes->contacts[j].tangent);
-    project(m->n, phi, m->contacts[j].normal, f->modes->contacts[j].normal);
+    modal_project(m->n, phi, m->contacts[j].tangent, f->modes->contacts[j].tangent);
+    modal_project(m->n, phi, m->contacts[j].normal, f->modes->contacts[j].normal);
   }
   free(work);
   return st;
@@ -325,8 +325,8 @@ void modal_flow_begin(modal_flow *f, double omega, int changes)
 
 /* The contacts' stiffness for motions far faster than slip turns, from direction t to direction r at Z[r + rows t]:
  * across slip a circle is stuck. */
-static void add_contact(const modal_flow *f, const contact_site *s, const contact_interval *at,
-                        const planar_slipping *slipping, double th, double *Z)
+static void modal_add_contact(const modal_flow *f, const contact_site *s, const contact_interval *at,
+                              const planar_slipping *slipping, double th, double *Z)
 {
   const contact *c = law_of(f, s);
   const int rows = f->rows, normal = s->first + s->rows - 1;
@@ -431,7 +431,7 @@ static hc_status hold_modes(const modal_flow *f, int first, const contact_interv
     const planar_slipping *slips = NULL;
     for (int k = 0; k < n_slipping && !slips; ++k)
       if (slipping[k].contact == f->site[s].contact) slips = &slipping[k];
-    add_contact(f, &f->site[s], interval[f->site[s].contact], slips, th, Z);
+    modal_add_contact(f, &f->site[s], interval[f->site[s].contact], slips, th, Z);
   }
   dense_add_product(held->n, f->rows, f->rows, 1, f->direction + first, f->n, Z, f->rows, 0, held->left, held->n);
   dense_multiply(held->n, held->n, f->rows, held->left, f->turned + (size_t)first * rows, held->K);
@@ -666,7 +666,7 @@ static void fill_matrix(modal_flow *f, int unknowns)
 }
 
 /* to[columns] += by from[columns]. */
-static inline void add_row(int columns, double by, const double *restrict from, double *restrict to)
+static inline void modal_add_row(int columns, double by, const double *restrict from, double *restrict to)
 {
   for (int q = 0; q < columns; ++q) to[q] += by * from[q];
 }
@@ -681,19 +681,20 @@ WIDE_VECTORS static void fill_free(modal_flow *f, int columns, const double *phi
     for (int t = 0; t < f->law[s].held; ++t)
       for (size_t i = 0; i < S; ++i)
         for (size_t r = 0; r < rows; ++r)
-          add_row(columns, f->G_sum[(i * rows + (size_t)(site->first + t)) * rows + r],
-                  phi + (2 * n + (size_t)(site->contact + t)) * states, f->q + (i * rows + r) * width);
+          modal_add_row(columns, f->G_sum[(i * rows + (size_t)(site->first + t)) * rows + r],
+                        phi + (2 * n + (size_t)(site->contact + t)) * states, f->q + (i * rows + r) * width);
     if (!f->law[s].slides) continue;
     double *zeta = f->zeta + (size_t)s * width;
     for (size_t q = 0; q < width; ++q) zeta[q] = -phi[(2 * n + (size_t)site->contact) * states + q];
     for (int t = 0; t < 2; ++t)
       for (size_t k = 0; k < n; ++k)
-        add_row(columns, f->law[s].across[t] * f->direction[(size_t)(site->first + t) * n + k], phi + k * states, zeta);
+        modal_add_row(columns, f->law[s].across[t] * f->direction[(size_t)(site->first + t) * n + k], phi + k * states,
+                      zeta);
   }
 }
 
 /* f->u: right sides, by rows. */
-WIDE_VECTORS static void fill_right(modal_flow *f, int columns)
+WIDE_VECTORS static void modal_fill_right(modal_flow *f, int columns)
 {
   const size_t width = (size_t)columns, rows = (size_t)f->rows;
   for (int s = 0; s < f->n_sites; ++s) {
@@ -709,7 +710,7 @@ WIDE_VECTORS static void fill_right(modal_flow *f, int columns)
           for (size_t c = 0; c < width; ++c) u[c] = law->y_of[i] * f->zeta[(size_t)s * width + c];
           for (int j = 0; j < S; ++j)
             for (int r = 0; r < 3; ++r)
-              add_row(columns, law->y[i][j][r], q + ((size_t)j * rows + (size_t)r) * width, u);
+              modal_add_row(columns, law->y[i][j][r], q + ((size_t)j * rows + (size_t)r) * width, u);
         }
       }
   }
@@ -728,14 +729,14 @@ WIDE_VECTORS static void fill_forces(modal_flow *f, int columns, const double *p
         double *to = f->f + ((size_t)i * rows + (size_t)(site->first + r)) * width;
         for (int e = 0; e < law->unknowns; ++e)
           if (law->force[i][r][e] != 0)
-            add_row(columns, law->force[i][r][e], f->u + (size_t)(law->at + i * law->unknowns + e) * width, to);
-        if (r < law->held) add_row(columns, -1, phi + (size_t)(2 * f->n + site->contact + r) * states, to);
+            modal_add_row(columns, law->force[i][r][e], f->u + (size_t)(law->at + i * law->unknowns + e) * width, to);
+        if (r < law->held) modal_add_row(columns, -1, phi + (size_t)(2 * f->n + site->contact + r) * states, to);
       }
   }
 }
 
 /* phi at the end of the step. */
-WIDE_VECTORS static void finish(modal_flow *f, int columns, double *phi)
+WIDE_VECTORS static void modal_finish(modal_flow *f, int columns, double *phi)
 {
   const size_t n = (size_t)f->n, states = (size_t)f->n_states, width = (size_t)columns;
   for (size_t k = 0; k < n; ++k) {
@@ -751,8 +752,8 @@ WIDE_VECTORS static void finish(modal_flow *f, int columns, double *phi)
     const double *force = f->f + i * (size_t)f->rows * width;
     dense_add_product(columns, f->n, f->rows, 1, force, columns, f->turned, f->rows, 0, f->p, columns);
     for (size_t k = 0; k < n; ++k) {
-      add_row(columns, -f->gamma[(k * S + S - 1) * S + i], f->p + k * width, phi + k * states);
-      add_row(columns, -f->kappa[k * S + i], f->p + k * width, phi + (n + k) * states);
+      modal_add_row(columns, -f->gamma[(k * S + S - 1) * S + i], f->p + k * width, phi + k * states);
+      modal_add_row(columns, -f->kappa[k * S + i], f->p + k * width, phi + (n + k) * states);
     }
   }
   for (int s = 0; s < f->n_sites; ++s)
@@ -761,9 +762,9 @@ WIDE_VECTORS static void finish(modal_flow *f, int columns, double *phi)
              f->u + (size_t)(f->law[s].at + (S - 1) * 2 + 1) * width, width * sizeof *phi);
 }
 
-static hc_status advance_step(modal_flow *f, const contact_interval *const *interval, int n_slipping,
-                              const planar_slipping *slipping, double from, double to, double omega, double h,
-                              int columns, double *phi)
+static hc_status modal_step(modal_flow *f, const contact_interval *const *interval, int n_slipping,
+                            const planar_slipping *slipping, double from, double to, double omega, double h,
+                            int columns, double *phi)
 {
   int unknowns = 0;
   hc_status st = fill_modes(f, h);
@@ -773,13 +774,13 @@ static hc_status advance_step(modal_flow *f, const contact_interval *const *inte
     fill_matrix(f, unknowns);
     if (dense_factor(unknowns, f->matrix, f->pivot) != HC_OK) return HC_SINGULAR;
     fill_free(f, columns, phi);
-    fill_right(f, columns);
+    modal_fill_right(f, columns);
     dense_transpose(columns, unknowns, f->u, f->solved);
     dense_solve(unknowns, f->matrix, f->pivot, columns, f->solved);
     dense_transpose(unknowns, columns, f->solved, f->u);
   }
   fill_forces(f, columns, phi);
-  finish(f, columns, phi);
+  modal_finish(f, columns, phi);
   return isfinite(phi[0]) ? HC_OK : HC_NOT_FINITE;
 }
 
@@ -793,8 +794,8 @@ hc_status modal_flow_advance(modal_flow *f, const contact_interval *const *inter
     const int steps = (int)ceil((end - at) / f->width * (1 - 1e-12));
     const double h = (end - at) / (steps > 0 ? steps : 1);
     for (int i = 0; i < steps && st == HC_OK; ++i)
-      st = advance_step(f, interval, n_slipping, slipping, at + i * h, i + 1 < steps ? at + (i + 1) * h : end, omega,
-                        h / omega, columns, phi);
+      st = modal_step(f, interval, n_slipping, slipping, at + i * h, i + 1 < steps ? at + (i + 1) * h : end, omega,
+                      h / omega, columns, phi);
     at = end;
   }
   return st;

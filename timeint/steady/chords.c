@@ -69,7 +69,7 @@ static hc_status begin_with_slowed(period_map *map, double reach, double enough)
   double *state = ti->point[0];
   timeint_get_state(ti, state);
   hc_status st = timeint_begin(slowed, ti->omega, state);
-  if (st != HC_OK || !period_map_borrows(of)) return st; /* nothing is slowed at this frequency */
+  if (st != HC_OK || !isfinite(slowed->fastest)) return st; /* nothing is slowed at this frequency */
   const double unit = slowed->length / ti->length;
   period_map_begin(of, map->k, map->monitor);
   st = by_chords(of, reach / unit, fmax(enough, period_map_scatter(of)) / unit,

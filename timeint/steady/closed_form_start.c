@@ -84,7 +84,7 @@ void timeint_forget(timeint *ti)
 }
 
 /* The orbit that was reached from this one in closed form, if it is remembered; else NULL. */
-static const struct confirmed *recall(const timeint *ti, int k, const double *start)
+static const struct confirmed *recall_confirmed(const timeint *ti, int k, const double *start)
 {
   double *here = ti->point[0], *there = ti->point[1];
   timeint_take_state(ti, start, here);
@@ -110,8 +110,8 @@ motion_error *closed_start_predictions(timeint *ti, const double *state, const d
 }
 
 /* From the closed form's orbit, at `start`, to CVODE's. */
-static hc_status confirm(timeint *ti, const double *start, const timeint_result *first, bool stable,
-                         const hc_monitor *monitor, timeint_result *r)
+static hc_status confirm_or_shoot(timeint *ti, const double *start, const timeint_result *first, bool stable,
+                                  const hc_monitor *monitor, timeint_result *r)
 {
   const int k = first->period_multiple;
   const bool left_orbit = r->left_orbit;
@@ -121,7 +121,7 @@ static hc_status confirm(timeint *ti, const double *start, const timeint_result 
                         .multiplier = first->multiplier_re + I * first->multiplier_im,
                         .free_sliders = first->free_sliders};
   if (linear_regime_steady(ti, r)) return HC_OK;
-  const struct confirmed *known = recall(ti, k, start);
+  const struct confirmed *known = recall_confirmed(ti, k, start);
   if (known) {
     *r = known->result;
     r->left_orbit = left_orbit; /* of this start; the switches are the orbit's */
@@ -195,7 +195,7 @@ hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, co
     if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
     r->left_orbit = first.left_orbit;
     if (st == HC_OK) timeint_use_measured(ti, ti->closed_form);
-    if (st == HC_OK && why == HC_OK) st = confirm(ti, start, &first, orbit_of == 0, monitor, r);
+    if (st == HC_OK && why == HC_OK) st = confirm_or_shoot(ti, start, &first, orbit_of == 0, monitor, r);
     else if (st == HC_OK) {
       ti->creeps = why == HC_CREEPS;
       if (ti->creeps) memcpy(ti->drift, ti->closed_form->drift, sizeof *ti->drift * (size_t)ti->n_dof);

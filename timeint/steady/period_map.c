@@ -29,8 +29,8 @@ hc_status period_map_new(timeint *ti, period_map **out)
   if (!map) return HC_NO_MEMORY;
   map->ti = ti;
   map->n = ti->n;
-  double **const vectors[] = {&map->z,     &map->f,     &map->travel,  &map->kept.at, &map->before,
-                              &map->start, &map->first, &map->iterate, &map->step,    &map->vector};
+  double **const vectors[] = {&map->z,     &map->f,       &map->travel, &map->kept.at, &map->before,
+                              &map->first, &map->iterate, &map->step,   &map->vector};
   double **const matrices[] = {&map->phi, &map->kept.phi, &map->factors, &map->one_period, &map->product};
   const size_t n = (size_t)map->n;
   workspace *w = &map->memory;
@@ -52,18 +52,11 @@ void period_map_free(period_map *map)
   free(map);
 }
 
-void period_map_borrow_from(period_map *map, period_map *lender) { map->lender = lender; }
+void period_map_borrow_from(period_map *map, period_map *lender) { map->lender = lender->lender = lender; }
 
-static period_map *lender_of(period_map *map)
-{
-  const timeint *ti = map->ti;
-  if (map->lender) return map->lender;
-  return ti->how.method == TRANSIENT_METHOD_CLOSED_FORM && isfinite(ti->fastest) ? map : NULL;
-}
+bool period_map_borrows(const period_map *map) { return map->lender != NULL; }
 
-bool period_map_borrows(period_map *map) { return lender_of(map) != NULL; }
-
-bool period_map_has_coarse(period_map *map) { return !period_map_borrows(map) && integrate_has_coarse(map->ti->in); }
+bool period_map_has_coarse(const period_map *map) { return !map->lender && integrate_has_coarse(map->ti->in); }
 
 void period_map_begin(period_map *map, int k, const hc_monitor *monitor)
 {
@@ -141,18 +134,14 @@ static hc_status integrate_k_periods(period_map *map, period_matrix matrix)
 hc_status period_map_at(period_map *map, const double *z, period_matrix matrix)
 {
   const size_t bytes = sizeof *z * (size_t)map->n;
-  if (period_map_borrows(map)) matrix = PERIODS_ALONE;
+  if (map->lender) matrix = PERIODS_ALONE;
   if (map->known && map->matrix >= matrix && memcmp(map->z, z, bytes) == 0) return HC_OK;
   memcpy(map->z, z, bytes);
   memcpy(map->f, z, bytes);
   hc_status st = integrate_k_periods(map, matrix);
   map->known = st == HC_OK;
   map->matrix = matrix;
-  if (map->known && !map->begun) {
-    memcpy(map->start, z, bytes);
-    memcpy(map->first, map->f, bytes);
-    map->begun = true;
-  }
+  if (map->known && !map->begun) memcpy(map->first, map->f, bytes), map->begun = true;
   return st;
 }
 
@@ -189,7 +178,6 @@ static void use_own_equations(period_map *map)
 void period_map_began_with(period_map *map, const period_map *lender)
 {
   const double unit = lender->ti->length / map->ti->length;
-  memcpy(map->start, map->before, sizeof *map->start * (size_t)map->n);
   for (int i = 0; i < map->n; ++i) map->first[i] = lender->first[i] / unit_ratio(lender, map, i) * unit;
   map->begun = true;
 }
@@ -238,7 +226,7 @@ static hc_status keep_at_rest(const period_map *map, period_map *lender, double 
 static hc_status renew(period_map *map)
 {
   const timeint *ti = map->ti;
-  period_map *lender = lender_of(map);
+  period_map *lender = map->lender;
   kept_matrix *kept = &lender->kept;
   double *y = lender->vector;
   kept->k = 0;
@@ -259,9 +247,9 @@ static hc_status renew(period_map *map)
   return HC_OK;
 }
 
-bool period_map_can_borrow(period_map *map)
+bool period_map_can_borrow(const period_map *map)
 {
-  const period_map *lender = lender_of(map);
+  const period_map *lender = map->lender;
   const kept_matrix *kept = &lender->kept;
   const double within = map->ti->no_multipliers ? same_frequency * map->ti->omega : 0;
   return kept->k == map->k && kept->fastest == lender->ti->fastest && fabs(kept->omega - map->ti->omega) <= within;
@@ -270,7 +258,7 @@ bool period_map_can_borrow(period_map *map)
 /* map->phi: the lender's, converted. */
 static void take_kept(period_map *map)
 {
-  const period_map *lender = lender_of(map);
+  const period_map *lender = map->lender;
   const int n = map->n;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i)
@@ -288,7 +276,7 @@ hc_status period_map_borrow(period_map *map, bool anew)
  * itself: as little work then. */
 static hc_status give_own_matrix(period_map *map)
 {
-  period_map *lender = lender_of(map);
+  period_map *lender = map->lender;
   kept_matrix *kept = &lender->kept;
   const int n = map->n;
   memcpy(map->vector, map->z, (size_t)n * sizeof *map->z);
@@ -328,7 +316,7 @@ static bool slips_where_rested(const period_map *map, const period_map *lender)
 hc_status period_map_find_matrix(period_map *map)
 {
   const timeint *ti = map->ti;
-  period_map *lender = lender_of(map);
+  period_map *lender = map->lender;
   if (!lender) return HC_OK;
   if (!period_map_can_borrow(map)) return period_map_borrow(map, true);
   const bool other = lender != map,

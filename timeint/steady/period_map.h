@@ -52,8 +52,8 @@ struct period_map {          /* from period_map_new, to period_map_free; others 
   bool measures;        /* set by who expects the next point on an orbit: its period is measured as well */
 
   double *before;         /* [n] ti->y when the search began */
-  bool begun;             /* start, first are valid */
-  double *start, *first;  /* [n] the first point asked for in this search, and F^k of it */
+  bool begun;             /* first is valid */
+  double *first;          /* [n] F^k(before) */
   double *iterate, *step; /* [n] of the search: its present point, the step there */
 
   double *factors, *vector;     /* [n][n] of I - Phi; [n] scratch of one function */
@@ -66,15 +66,16 @@ struct period_map {          /* from period_map_new, to period_map_free; others 
 hc_status period_map_new(timeint *ti, period_map **out);
 void period_map_free(period_map *map); /* NULL is allowed */
 
-/* The matrices of this map are those of `lender`, of a handle of the same model, which lives as long. */
+/* The matrices of this map, and of `lender` itself, are those that `lender` keeps; of a handle of the same model, which
+ * lives as long. */
 void period_map_borrow_from(period_map *map, period_map *lender);
 
-/* Are this map's matrices borrowed? Of a lender whose modes are slowed at its frequency: from itself. */
-bool period_map_borrows(period_map *map);
+/* True if this map's matrices are borrowed: a lender's are, from itself. */
+bool period_map_borrows(const period_map *map);
 
 /* Are there coarse matrices? The periods of such a map take a tenth of the time without one: a matrix serves on as long
  * as steps with it contract. */
-bool period_map_has_coarse(period_map *map);
+bool period_map_has_coarse(const period_map *map);
 
 /* A search for a fixed point of k periods from ti->y on: nothing is known of it. */
 void period_map_begin(period_map *map, int k, const hc_monitor *monitor);
@@ -93,7 +94,7 @@ hc_status period_map_find_matrix(period_map *map);
 /* The same, but phi is the lender's last matrix of these periods wherever that was, or, if `anew` or there is none, at
  * map->z. */
 hc_status period_map_borrow(period_map *map, bool anew);
-bool period_map_can_borrow(period_map *map); /* true if there is one */
+bool period_map_can_borrow(const period_map *map); /* true if there is one */
 
 /* phi, by another handle of the same model along the k periods from map->z on, as good as Newton needs it. */
 hc_status period_map_matrix_by(period_map *map, period_map *other);

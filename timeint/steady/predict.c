@@ -15,7 +15,7 @@ static const double enough = 1e-4; /* [change] to which half the regularisation'
 static const double rough = 0.25;  /* [change] to which it may be known where steps contract no more */
 static const double per_change = 1e-7; /* that tolerance, relative to the change: it scatters by 250 times itself */
 
-static periodic_motion motion_of(const timeint_result *r)
+static periodic_motion predict_motion(const timeint_result *r)
 {
   periodic_motion m = {.amplitude = r->amplitude,
                        .max = r->max,
@@ -28,9 +28,9 @@ static periodic_motion motion_of(const timeint_result *r)
 }
 
 /* The distance between the measures of two results, as an error of one of them [length]. */
-static motion_error change(const timeint_result *one, const timeint_result *other)
+static motion_error predict_change(const timeint_result *one, const timeint_result *other)
 {
-  const periodic_motion a = motion_of(one), b = motion_of(other);
+  const periodic_motion a = predict_motion(one), b = predict_motion(other);
   const motion_distance d = motion_between(&a, &b);
   const double least = MOTION_LEAST_SHARE * d.waveform;
   return (motion_error){fmax(d.amplitude, least), fmax(d.harmonic_1, least), d.waveform};
@@ -50,7 +50,7 @@ static hc_status find_closed_form(timeint *ti, double omega, int k, const double
 
 /* The orbit with half the regularisation, from `state`, where the motion is, on the orbit with all of it: half way to
  * the exact law's, which has none. *r: of the orbit so far, then of that one. */
-static hc_status halve(timeint *ti, const double *state, int k, const hc_monitor *monitor, timeint_result *r)
+static hc_status predict_halved(timeint *ti, const double *state, int k, const hc_monitor *monitor, timeint_result *r)
 {
   shoot_report found = {.distance = INFINITY, .multiplier = NAN};
   double goal = orbit_goal(ti);
@@ -83,10 +83,10 @@ static hc_status regularisation(timeint *ti, const double *state, const hc_monit
   hc_status st = timeint_begin(ti, r->omega, state);
   if (st != HC_OK) return st;
   timeint_regularise(ti, 0.5 * rho);
-  st = halve(ti, state, r->period_multiple, monitor, &half);
+  st = predict_halved(ti, state, r->period_multiple, monitor, &half);
   for (int i = 0; i < n && st == HC_OK; ++i) {
     if (i > 0) st = timeint_response(ti, i, &half);
-    const motion_error e = change(&r[i], &half);
+    const motion_error e = predict_change(&r[i], &half);
     if (st == HC_OK) out[i] = (motion_error){2 * e.amplitude, 2 * e.harmonic_1, 2 * e.waveform};
   }
   timeint_regularise(ti, rho);
@@ -131,7 +131,7 @@ static hc_status slowed_part(timeint *ti, const double *state, const hc_monitor 
       st = timeint_response(closed, i, &here);
       if (st == HC_OK) st = timeint_response(slowed, i, &there);
       if (st != HC_OK) break;
-      const motion_error slowed_by = change(&here, &there), rest = change(&there, &r[i]);
+      const motion_error slowed_by = predict_change(&here, &there), rest = predict_change(&there, &r[i]);
       out[i] = (motion_error){slowed_by.amplitude + rest.amplitude, slowed_by.harmonic_1 + rest.harmonic_1,
                               slowed_by.waveform + rest.waveform};
     }

@@ -42,7 +42,7 @@ static bool widths_fit(const timeint *ti)
 }
 
 /* [length] (max - min)/2 of response i on the orbit measured. */
-static double amplitude_of(const timeint *ti, int i)
+static double regularised_amplitude(const timeint *ti, int i)
 {
   return motion_amplitude(ti->measure.response[i].max, ti->measure.response[i].min) * ti->length;
 }
@@ -53,13 +53,13 @@ static double largest_change(const timeint *ti, const double *before)
   double most = 0, error = 0;
   for (int i = 0; i < ti->measure.n_responses; ++i) most = fmax(most, before[i]);
   for (int i = 0; i < ti->measure.n_responses; ++i)
-    if (before[i] > still * most) error = larger(error, fabs(amplitude_of(ti, i) / before[i] - 1));
+    if (before[i] > still * most) error = larger(error, fabs(regularised_amplitude(ti, i) / before[i] - 1));
   return error;
 }
 
 static void note_amplitudes(const timeint *of, double *amplitudes)
 {
-  for (int i = 0; i < of->measure.n_responses; ++i) amplitudes[i] = amplitude_of(of, i);
+  for (int i = 0; i < of->measure.n_responses; ++i) amplitudes[i] = regularised_amplitude(of, i);
 }
 
 /* The orbit next to ti->y with the equations as they are now, measured into *r. */
@@ -105,7 +105,8 @@ static hc_status find_exact(timeint *ti, int k, const hc_monitor *monitor, bool 
 
 /* The regularisation is halved, and the orbit found with that, until amplitudes are within `limit` of exact[responses],
  * or where that is not known (NULL), of what half the regularisation makes of them. */
-static hc_status halve(timeint *ti, const double *exact, double limit, const hc_monitor *monitor, timeint_result *r)
+static hc_status regularised_halve(timeint *ti, const double *exact, double limit, const hc_monitor *monitor,
+                                   timeint_result *r)
 {
   double *before = ti->amplitudes + ti->measure.n_responses;
   double error = exact ? largest_change(ti, exact) : INFINITY;
@@ -139,6 +140,6 @@ hc_status regularised_check(timeint *ti, const hc_monitor *monitor, timeint_resu
     st = find_again(ti, monitor, r);
   }
   if (st == HC_OK && known) note_amplitudes(ti->closed_form, ti->amplitudes);
-  if (st == HC_OK && limit > 0) st = halve(ti, known ? ti->amplitudes : NULL, resolved, monitor, r);
+  if (st == HC_OK && limit > 0) st = regularised_halve(ti, known ? ti->amplitudes : NULL, resolved, monitor, r);
   return shoot_found_no_orbit(st) ? HC_NOT_SETTLED : st;
 }

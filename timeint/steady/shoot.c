@@ -148,7 +148,7 @@ static double nonlinear_part(const shoot *s, const double *z)
   const period_map *map = s->map;
   const int n = s->n;
   double *e = s->vector, *rest = s->other;
-  for (int i = 0; i < n; ++i) e[i] = map->start[i] - z[i];
+  for (int i = 0; i < n; ++i) e[i] = map->before[i] - z[i];
   for (int i = 0; i < n; ++i) {
     rest[i] = map->first[i] - map->f[i]; /* F(z*) is z*, and nearer to F(z0)'s own errors */
     for (int j = 0; j < n; ++j) rest[i] -= map->phi[i + j * n] * e[j];
@@ -224,7 +224,7 @@ static hc_status take_side_that_sticks(shoot *s)
 
 /* From map->iterate, next to the orbit: further Newton steps until it is as near as the goal asks or the scatter of
  * periods allows; ti->y and *r are then those of the nearest point. */
-static hc_status finish(shoot *s, double goal, shoot_report *r)
+static hc_status shoot_finish(shoot *s, double goal, shoot_report *r)
 {
   const size_t bytes = sizeof *s->best * (size_t)s->n;
   period_map *map = s->map;
@@ -244,7 +244,7 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
   if (st == HC_OK) st = period_map_find_matrix(map);
   if (st != HC_OK) return st;
   const bool asked = !(period_map_borrows(map) && s->ti->no_multipliers);
-  r->moved = timeint_distance(s->ti, map->start, s->best);
+  r->moved = timeint_distance(s->ti, map->before, s->best);
   r->nonlinear = nonlinear_part(s, s->best);
   st = take_side_that_sticks(s);
   if (st == HC_OK && asked) st = find_multiplier(s, r);
@@ -256,7 +256,7 @@ static hc_status finish(shoot *s, double goal, shoot_report *r)
 
 /* ---- the search ------------------------------------------------------------------------------------------ */
 
-static void begin(shoot *s, int k, const hc_monitor *monitor, shoot_report *report)
+static void shoot_begin(shoot *s, int k, const hc_monitor *monitor, shoot_report *report)
 {
   period_map_begin(s->map, k, monitor);
   for (int i = 0; i < s->n; ++i) s->weight[i] = 1 / s->ti->sizes.of[i];
@@ -265,7 +265,7 @@ static void begin(shoot *s, int k, const hc_monitor *monitor, shoot_report *repo
 }
 
 /* The residual at which Newton stops. A residual r is a distance of about r/(1 - rho) from the orbit: hence a share of
- * the goal times 1 - rho, but no less than the scatter of periods. finish() judges the point it comes to. */
+ * the goal times 1 - rho, but no less than the scatter of periods. shoot_shoot_finish() judges the point it comes to. */
 static double small_residual(const shoot *s, double goal)
 {
   return fmax(SHOOT_SHARE_OF_GOAL * goal * (1 - fmin(s->ti->contraction, 1)), period_map_scatter(s->map));
@@ -293,7 +293,7 @@ static void note_found(shoot *s, const shoot_report *report)
 /* What became of the search: *report, and ti->y where it is to be. */
 static hc_status conclude(shoot *s, hc_status st, double goal, shoot_report *report)
 {
-  if (st == HC_OK) st = finish(s, goal, report);
+  if (st == HC_OK) st = shoot_finish(s, goal, report);
   if (st != HC_OK) memcpy(s->ti->y, s->map->before, sizeof *s->best * (size_t)s->n);
   return st;
 }
@@ -307,7 +307,7 @@ hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_moni
     *report = s->found.report;
     return HC_OK;
   }
-  begin(s, k, monitor, report);
+  shoot_begin(s, k, monitor, report);
   const bool coarse = period_map_has_coarse(map);
   const newton_options options = {.z_scale = s->weight,
                                   .r_scale = s->weight,
@@ -325,7 +325,7 @@ hc_status shoot_newton(shoot *s, int k, double reach, double goal, const hc_moni
 hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor, shoot_report *report)
 {
   const size_t bytes = sizeof *s->best * (size_t)s->n;
-  begin(s, k, monitor, report);
+  shoot_begin(s, k, monitor, report);
   s->refusal = HC_OK;
   if (KINSetFuncNormTol(s->kin, small_residual(s, goal)) != KIN_SUCCESS) return HC_NOT_FINITE;
   memcpy(NV_DATA_S(s->u), s->map->before, bytes);
@@ -334,7 +334,7 @@ hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor
   memcpy(s->map->iterate, NV_DATA_S(s->u), bytes);
   if (s->refusal != HC_OK) return s->refusal;
   if (flag == KIN_MEM_FAIL) return HC_NO_MEMORY;
-  return conclude(s, HC_OK, goal, report); /* whatever KINSOL says: finish() judges the iterate itself */
+  return conclude(s, HC_OK, goal, report); /* whatever KINSOL says: shoot_shoot_finish() judges the iterate itself */
 }
 
 void shoot_direction(shoot *s, double *z)
