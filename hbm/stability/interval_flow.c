@@ -36,9 +36,10 @@ struct interval_flow {
   int kept, oldest;
   decomposition known[MOST_STATES];
   int *pivot;                          /* [2n] */
-  double complex *work;                /* [3][2n][2n] and [2n] */
-  double *y;                           /* [2 moving][n_states] */
-  int n_lasting, *lasting;             /* [moving] of interval_flow_survivors: which of y */
+  double complex *work;                /* [3][2n][2n] and [2n] of decompose: V, its factors, W; lambda */
+  double *y;                           /* [2 moving][n_states] coordinates of phi in the eigenvectors */
+  double *column;                      /* [2n] of phi, by the matrix exponential */
+  int n_lasting, *lasting;             /* [moving] of interval_flow_survivors: which rows of y outlast it */
   workspace memory;                    /* of all of these */
   gsl_matrix *augmented, *exponential; /* [n_states]^2, for what has no eigenvectors; made when needed */
 };
@@ -216,6 +217,7 @@ hc_status interval_flow_new(const model *m, interval_flow **out)
   f->pivot = workspace_array(&f->memory, 2 * n, sizeof *f->pivot);
   f->work = workspace_array(&f->memory, 12 * n * n + 2 * n, sizeof *f->work);
   f->y = workspace_array(&f->memory, 4 * n * (2 * n + contacts), sizeof *f->y);
+  f->column = workspace_doubles(&f->memory, 2 * n);
   f->lasting = workspace_array(&f->memory, 2 * n, sizeof *f->lasting);
   hc_status st = f->memory.failed ? HC_NO_MEMORY : divide_by_mass(m, f);
   if (st == HC_OK) *out = f;
@@ -304,9 +306,9 @@ static hc_status advance_by_exponential(interval_flow *f, const contact_interval
       double sum = 0;
       for (size_t k = 0; k < states; ++k)
         sum += gsl_matrix_get(f->exponential, i, k) * phi[k * states + q] / (k >= n && k < ld ? f->unit : 1);
-      f->y[i] = sum;
+      f->column[i] = sum;
     }
-    for (size_t i = 0; i < ld; ++i) phi[i * states + q] = f->y[i] * (i >= n ? f->unit : 1);
+    for (size_t i = 0; i < ld; ++i) phi[i * states + q] = f->column[i] * (i >= n ? f->unit : 1);
   }
   return HC_OK;
 }

@@ -26,48 +26,53 @@ enum { S = 5 /* points of a step */, MOST_ROWS = 3 };
 /* A contact in touch with its rows of directions: tangent and normal, or both tangents and the normal of a pair under
  * one limit. */
 typedef struct contact_site {
-  int contact, rows, first;
+  int contact; /* of the model; of a pair the first */
+  int rows;    /* directions: 2, or 3 of a circle */
+  int first;   /* of these, among the rows of all sites */
 } contact_site;
 
-/* Over a step. */
+/* What a site's contact does over a step. */
 typedef struct site_law {
-  bool slides;                        /* a circle that slips */
-  int unknowns, at;                   /* at a point, 0 while separated; the first of them */
-  int held;                           /* rows of dheld that hold it */
-  double force[S][MOST_ROWS][3];      /* f = force u - dheld */
-  double y[S][S][MOST_ROWS], y_of[S]; /* y at a point: y q at all of them + y_of zeta at the start */
+  bool slides;                        /* a circle that slips: unknowns are dv and y */
+  int unknowns, at;                   /* their number at a point, 0 while separated; place of the first among all */
+  int held;                           /* rows whose force contains a dheld: tangents of one that sticks */
+  double force[S][MOST_ROWS][3];      /* at a point, f = force u - dheld */
+  double y[S][S][MOST_ROWS], y_of[S]; /* y at a point = sum of y q over all points + y_of zeta at the start */
   double across[2];                   /* e_perp at the start */
 } site_law;
 
 struct modal_flow {
-  model *modes;      /* the model in its modes */
-  int n, n_states;   /* modes; 2 n + contacts */
-  int n_sites, rows; /* all sites' rows */
-  contact_site *site;
-  double *damping, *lambda; /* [n] c, omega^2 */
-  double *stuck, *stuck_c;  /* [n] the same of the structure with its contacts stuck */
-  double *direction;        /* [rows][n] by rows */
-  double *turned;           /* [n][rows] by rows */
+  model *modes;             /* the model in its modes */
+  int n, n_states;          /* modes; 2 n + contacts */
+  int n_sites, rows;        /* contacts, of a pair one; all sites' rows */
+  contact_site *site;       /* [n_sites] */
+  double *damping, *lambda; /* [n] c [1/time], omega^2 [1/time^2] */
+  double *stuck, *stuck_c;  /* [n] lambda and c of the structure with its contacts stuck */
+  double *direction;        /* [rows][n] by rows: b of all sites */
+  double *turned;           /* [n][rows] by rows: its transpose */
   int first_fast;           /* modes from here on are stable by Metelitsyn's criterion */
-  double *jump;             /* [n] what one change of contact moves the energy of modes k.. by at most */
-  double *least_damping;    /* [n] the least damping c of modes k.. */
-  double omega;             /* of modal_flow_begin */
+  double *jump;             /* [n] the largest part of the energy of modes k.. that one change of contact moves */
+  double *least_damping;    /* [n] the least c of modes k.. */
+  double omega;             /* [rad/time] of modal_flow_begin */
   int fast;                 /* modes from here on are left to decay on this orbit */
   double width;             /* [rad] of a step */
-  collocation c;            /* of panels */
+  collocation c;            /* nodes of the panels of slip (planar_slip.h) */
+  /* Radau's points and weights, A^2, A^-1, and the sums of its rows */
   double x[S], a[S * S], a2[S * S], inverse[S * S], inverse_sum[S];
-  double h;                                         /* of what follows */
-  double *gamma, *alpha, *beta, *kappa, *dv, *dv_v; /* [n][S][S], [n][S] three times, [n] */
-  double *G, *G_sum;                                /* [S][S][rows][rows], [S][rows][rows] */
-  double *Q;                                        /* [S rows][2 n] by rows: alpha b, beta b */
-  site_law *law;                                    /* [sites] */
-  double *matrix;                                   /* [S rows]^2 by columns */
-  int *pivot;
-  double *q, *u, *solved, *f; /* [S rows][columns] by rows */
-  double *p;                  /* [n][columns] */
-  double *zeta;               /* [sites][columns] */
-  double *product;            /* [S][MOST_ROWS][S][MOST_ROWS] of a pair of sites */
-  workspace memory;
+  double h;                     /* [time] the step length that the following is for */
+  double *gamma, *alpha, *beta; /* [n][S][S], [n][S], [n][S] eta at the points (head of this file) */
+  double *kappa, *dv, *dv_v;    /* [n][S], [n], [n] eta' at the end = dv eta + dv_v eta' - kappa p */
+  double *weighted;             /* [n][rows] of fill_modes: gamma b */
+  double *G, *G_sum;            /* [S][S][rows][rows], [S][rows][rows] summed over the second point */
+  double *Q;                    /* [S rows][2 n] by rows: alpha b, beta b */
+  site_law *law;                /* [n_sites] */
+  double *matrix;               /* [S rows]^2 by columns: 1 + P G force */
+  int *pivot;                   /* [S rows] of its factors */
+  double *q, *u, *f;            /* [S rows][columns] by rows: motions, unknowns, forces of contacts at the points */
+  double *solved;               /* [columns][S rows] by rows: unknowns of a column together */
+  double *p;                    /* [n][columns] forces on modes */
+  double *zeta;                 /* [n_sites][columns] at the start of the step */
+  workspace memory;             /* of all the arrays above */
 };
 
 /* ---- what is fast ------------------------------------------------------------------------------------ */
@@ -104,7 +109,7 @@ static hc_status gram_norm(const modal_flow *f, int k, bool normals, double *out
   return st;
 }
 
-/* Does half of mode k last over a period? */
+/* True if half of mode k lasts over a period. */
 static bool lasts(const modal_flow *f, int k, double period)
 {
   return exp(-0.5 * f->damping[k] * period) > 0.5 || exp(-0.5 * f->stuck_c[k] * period) > 0.5;
@@ -246,6 +251,7 @@ static void take_memory(modal_flow *f)
   f->pivot = workspace_array(&f->memory, points, sizeof *f->pivot);
   double **of_columns[] = {&f->q, &f->u, &f->solved, &f->f};
   for (int i = 0; i < 4; ++i) *of_columns[i] = workspace_doubles(&f->memory, points * states);
+  f->weighted = workspace_doubles(&f->memory, n * rows);
   f->p = workspace_doubles(&f->memory, n * states);
   f->zeta = workspace_doubles(&f->memory, contacts * states);
 }
@@ -368,7 +374,7 @@ static void add_own(dominance *of, double entry, double one, double other)
 
 static bool is_positive(const dominance *of) { return of->positive && of->own < 1 && sqrt(of->sum) < 1 - of->own; }
 
-/* Are modal_flow.h's L and Q positive definite, for the modes fast.. held by K[n][n]? b[n][n], bK = b K. */
+/* True if modal_flow.h's L and Q are positive definite, for the modes fast.. held by K[n][n]. b[n][n], bK = b K. */
 static bool energy_decays(const modal_flow *f, int n, const double *K, const double *b, const double *bK)
 {
   const double *w2 = f->lambda + f->fast, *c = f->damping + f->fast, rate = 0.5 * f->least_damping[f->fast];
@@ -456,7 +462,7 @@ static hc_status find_roots(const modal_flow *f, const held_modes *held, double 
   return dense_eigen(2 * held->n, A, *root, NULL, NULL);
 }
 
-/* Are they to the left of -c/4? */
+/* True if they are to the left of -c/4. */
 static hc_status roots_decay(const modal_flow *f, const held_modes *held, bool *decays)
 {
   double complex *root;
@@ -541,11 +547,11 @@ static hc_status fill_modes(modal_flow *f, double h)
     double *sum = f->G_sum + (size_t)i * rows * rows;
     memset(sum, 0, rows * rows * sizeof *sum);
     for (int j = 0; j < S; ++j) {
-      double *weighted = f->p, *G = f->G + (size_t)(i * S + j) * rows * rows;
+      double *G = f->G + (size_t)(i * S + j) * rows * rows;
       for (size_t k = 0; k < n; ++k)
         for (size_t r = 0; r < rows; ++r)
-          weighted[k * rows + r] = f->gamma[(k * S + (size_t)i) * S + (size_t)j] * f->turned[k * rows + r];
-      dense_multiply(f->rows, f->rows, f->n, weighted, f->direction, G);
+          f->weighted[k * rows + r] = f->gamma[(k * S + (size_t)i) * S + (size_t)j] * f->turned[k * rows + r];
+      dense_multiply(f->rows, f->rows, f->n, f->weighted, f->direction, G);
       for (size_t e = 0; e < rows * rows; ++e) sum[e] += G[e];
     }
   }

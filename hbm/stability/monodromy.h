@@ -4,8 +4,8 @@
  *
  * with dheld_j = kt dw_j set by dx at the instant the slider comes to rest (transitions.h). k is piecewise constant but
  * where a planar contact slips or a law is smooth. The vector field is continuous, so transitions add no jumps
- * (saltation is the identity). Nothing is truncated: unlike Hill's method it needs no decay of the Jacobian's harmonics.
- * Check: without slip the determinant is exp(-trace(M^-1 C) T). */
+ * (saltation is the identity). Nothing is truncated: unlike Hill's method it needs no decay of the Jacobian's
+ * harmonics. Check: without slip the determinant is exp(-trace(M^-1 C) T). */
 #pragma once
 
 #include <complex.h>
@@ -18,8 +18,8 @@ typedef struct variation variation; /* variation.h */
 
 /* How multipliers are found: a row for each way, chosen when a monodromy is made. */
 typedef struct multiplier_method {
-  /* *self for m, which must live as long, and its variation. HC_NO_MEMORY; HC_SINGULAR if the mass is; in modes those of
-   * modal_flow_new. *self is to be freed all the same, or NULL. */
+  /* *self, for m, which must live as long, and its variation. HC_NO_MEMORY; HC_SINGULAR if the mass is; in modes those
+   * of modal_flow_new. *self is to be freed all the same, or NULL. */
   hc_status (*make)(const model *m, void **self, variation **v);
   void (*free)(void *self);
   /* lambda[2 n + contacts]: the multipliers of the orbit of variation_begin, *count of them, all but those that are 0.

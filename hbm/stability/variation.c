@@ -94,10 +94,11 @@ static void enter_line(variation *v, int j, double th)
 
 static const double NEGLIGIBLE_SLIP = 1e-6; /* [rad] */
 
-/* True if contact j's slider is stuck all period. Slip intervals of less than 1e-6 rad in all count as stick: the slip path
- * goes with the square of their length, so 1e-6 rad move the slider by rounding only. They occur at shakedown: the
- * slider has moved until the largest |T| is just mu N, a graze. Such an orbit is the last of a family that differs
- * by where the slider rests; its one-sided derivative, as if it slipped at the graze, has the family's multiplier 1. */
+/* True if contact j's slider is stuck all period. Slip intervals of less than 1e-6 rad in all count as stick: the
+ * slip path goes with the square of their length, so 1e-6 rad move the slider by rounding only. They occur at
+ * shakedown: the slider has moved until the largest |T| is just mu N, a graze. Such an orbit is the last of a family
+ * that differs by where the slider rests; its one-sided derivative, as if it slipped at the graze, has the family's
+ * multiplier 1. */
 static bool stuck_all_period(const contact_forces *orbit, int j)
 {
   double stuck = 0, touching = 0;
@@ -110,8 +111,9 @@ static bool stuck_all_period(const contact_forces *orbit, int j)
   return touching >= TWO_PI * (1 - 1e-15) && stuck >= touching - NEGLIGIBLE_SLIP;
 }
 
-/* True if dheld_j is a state of the system. Not if the slider is stuck all period, and not if every stick interval starts
- * with a touch-down that puts the slider at the same place whatever the motion: dheld_j is then 0 at all times. */
+/* True if dheld_j is a state of the system. Not if the slider is stuck all period, and not if every stick interval
+ * starts with a touch-down that puts the slider at the same place whatever the motion: dheld_j is then 0 at all times.
+ */
 static bool slider_is_state(const contact_forces *orbit, int j)
 {
   int n;

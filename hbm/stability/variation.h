@@ -1,5 +1,5 @@
-/* variation.h - perturbations of an event-located orbit, from one interval of the period to the next: between two angles
- * at which a contact changes its state. What becomes of them within an interval is another's (interval_flow.h,
+/* variation.h - perturbations of an event-located orbit, from one interval of the period to the next: between two
+ * angles at which a contact changes its state. What becomes of them within an interval is another's (interval_flow.h,
  * planar_flow.h, modal_flow.h).
  *
  * The state is (dx, dx', dheld_1, ..., dheld_n); dheld_j counts only while contact j is stuck. Row i of phi is state i,

@@ -10,9 +10,11 @@ enum {
   CHORD_IDLE = 3,    /* idle steps before the matrix is renewed, which costs 25 to 150 of them */
   CHORD_RENEWALS = 3 /* matrices without which steps do not contract: then there is no orbit */
 };
-static const double chord_contracts = 0.5;    /* [least residual] a step that leaves more is idle */
-static const double chord_leads_away = 10;    /* [least residual] the matrix is renewed at once where one leaves that */
-static const double chord_contracts_to = 0.1; /* [last factor] that by which the next step is shorter, as a rule */
+static const double chord_contracts = 0.5; /* [least residual] a step that leaves more is idle */
+static const double chord_leads_away = 10; /* [least residual] the matrix is renewed at once where one leaves that */
+/* [last ratio of two steps' lengths] The ratio expected of the next two: the next point is measured where that leads
+ * onto the orbit. A wrong guess costs a period. */
+static const double chord_contracts_to = 0.1;
 static const double near_orbit = 1e-7;     /* [size] distance to which the slowed orbit is found: the whole model's is
                                               1e-6 off; a slider that travels less may rest on the orbit itself */
 static const double resolves_rest = 1e-11; /* [size] distance to the orbit at which such a slider no longer moves */

@@ -70,7 +70,7 @@ hc_status closed_start_share(timeint *ti, timeint *closed_form)
   return use_closed_form(ti);
 }
 
-/* Do the two differ by rounding? */
+/* True if the two differ by rounding only. */
 static bool same_state(int n, const double *a, const double *b)
 {
   double apart = 0, size = 0;

@@ -16,9 +16,9 @@ static const double contracts = 0.3; /* [last step] a step no shorter than that 
  * fast modes it is not known beforehand. */
 static const double scatter_seen = 1e-6;
 static const double coarse_scatter = 0.02; /* [expected step] what coarse periods may scatter, at worst */
-static const double chord_leaves = 0.05;   /* [last step] twice what was seen: from 1/0.05 of what is attainable a step
-                                              comes to that, and is by fine periods */
-static const double as_expected = 10;      /* [expected step] a longer one is not taken */
+static const double chord_leaves =
+    0.05;                             /* [last step] twice what was seen; once that is attainable, periods are fine */
+static const double as_expected = 10; /* [expected step] a longer one is not taken */
 
 /* map->phi: Phi of the exact law in closed form along the k periods from ti->y on, or of a large structure next to
  * there. Its factors. */

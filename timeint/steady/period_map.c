@@ -8,9 +8,9 @@
 #include "numerics/dense.h"
 #include "timeint/closed_form/series_columns.h"
 
-/* [omega] A matrix serves as far away where no multiplier is asked for: chord steps still contract by a tenth. */
+/* [omega] A matrix serves as far away where no multiplier is asked for: steps that do not contract with it renew it. */
 static const double same_frequency = 2e-4;
-/* [size] A state as near has the same matrix but for some 1e-4, as much as slowed modes change it. */
+/* [size] A state as near has the same matrix but for some 1e-4. */
 static const double same_matrix = 1e-4;
 enum { REST_TRIES = 4 }; /* of keep_at_rest; the second shows, as a rule, that all rest */
 

@@ -35,7 +35,7 @@ typedef struct kept_matrix {
   double *phi;    /* [n][n] by columns, in the lender's units */
 } kept_matrix;
 
-struct period_map {          /* from period_map_new, to period_map_free; others than period_map.c only read */
+struct period_map {          /* from period_map_new, to period_map_free; others write only what is said to be theirs */
   timeint *ti;               /* whose periods these are */
   int n;                     /* states */
   int k;                     /* periods of a point, of period_map_begin */
@@ -49,12 +49,12 @@ struct period_map {          /* from period_map_new, to period_map_free; others 
   double *travel;       /* [n] of each slider: its largest distance, in a period, from where that period began */
   period_matrix matrix; /* what these periods came with, in phi */
   long events;          /* changes of contact states in them; exact law only */
-  bool measures;        /* set by who expects the next point on an orbit: its period is measured as well */
+  bool measures;        /* the searcher's: it expects the next point on an orbit, whose period is measured as well */
 
   double *before;         /* [n] ti->y when the search began */
   bool begun;             /* first is valid */
   double *first;          /* [n] F^k(before) */
-  double *iterate, *step; /* [n] of the search: its present point, the step there */
+  double *iterate, *step; /* [n] the searcher's: its present point; the step there */
 
   double *factors, *vector;     /* [n][n] of I - Phi; [n] scratch of one function */
   int *pivot;                   /* [n] of factors */
@@ -73,8 +73,8 @@ void period_map_borrow_from(period_map *map, period_map *lender);
 /* True if this map's matrices are borrowed: a lender's are, from itself. */
 bool period_map_borrows(const period_map *map);
 
-/* Are there coarse matrices? The periods of such a map take a tenth of the time without one: a matrix serves on as long
- * as steps with it contract. */
+/* True if there are coarse matrices. The periods of such a map take a tenth of the time without one: a matrix serves
+ * on as long as steps with it contract. */
 bool period_map_has_coarse(const period_map *map);
 
 /* A search for a fixed point of k periods from ti->y on: nothing is known of it. */
@@ -99,7 +99,7 @@ bool period_map_can_borrow(const period_map *map); /* true if there is one */
 /* phi, by another handle of the same model along the k periods from map->z on, as good as Newton needs it. */
 hc_status period_map_matrix_by(period_map *map, period_map *other);
 
-/* Is state i a free slider? By phi alone where F^k is not known. */
+/* True if state i is a free slider; by phi alone where F^k is not known. */
 bool period_map_is_free(const period_map *map, int i);
 
 /* jac[n][n] = I - Phi. */

@@ -12,7 +12,7 @@ static const double same_width = 0.01; /* [1] of width: a second-order error is 
 static const double still = 1e-9;      /* [largest amplitude] a response that moves less does not count */
 enum { MOST_HALVINGS = 12 };           /* 1e-4 becomes 2e-8 */
 
-/* Does a corner of contact j's law act on the orbit measured? */
+/* True if a corner of contact j's law acts on the orbit measured. */
 static bool acts(const timeint *ti, int j)
 {
   const scaled_contact *c = &ti->scaled.contact[j];
@@ -30,7 +30,7 @@ static bool any_acts(const timeint *ti)
   return false;
 }
 
-/* Are the corners' widths those of the orbit measured? */
+/* True if the corners' widths are those of the orbit measured. */
 static bool widths_fit(const timeint *ti)
 {
   for (int j = 0; j < ti->scaled.n_contacts; ++j) {
@@ -81,7 +81,7 @@ static hc_status find_again(timeint *ti, const hc_monitor *monitor, timeint_resu
   return st;
 }
 
-/* Is the closed form on the exact law's orbit next to ti->y, measured? */
+/* *known: the closed form is on the exact law's orbit next to ti->y, and has measured it. */
 static hc_status find_exact(timeint *ti, int k, const hc_monitor *monitor, bool *known)
 {
   timeint *closed = ti->closed_form;

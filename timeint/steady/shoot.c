@@ -264,8 +264,8 @@ static void shoot_begin(shoot *s, int k, const hc_monitor *monitor, shoot_report
   *report = (shoot_report){.distance = INFINITY, .moved = INFINITY, .nonlinear = INFINITY, .multiplier = NAN};
 }
 
-/* The residual at which Newton stops. A residual r is a distance of about r/(1 - rho) from the orbit: hence a share of
- * the goal times 1 - rho, but no less than the scatter of periods. shoot_shoot_finish() judges the point it comes to. */
+/* The residual at which Newton stops. A residual r is a distance of about r/(1 - rho) from the orbit: hence a share
+ * of the goal times 1 - rho, but no less than the scatter of periods. shoot_finish() judges the point it comes to. */
 static double small_residual(const shoot *s, double goal)
 {
   return fmax(SHOOT_SHARE_OF_GOAL * goal * (1 - fmin(s->ti->contraction, 1)), period_map_scatter(s->map));
@@ -334,7 +334,7 @@ hc_status shoot_anderson(shoot *s, int k, double goal, const hc_monitor *monitor
   memcpy(s->map->iterate, NV_DATA_S(s->u), bytes);
   if (s->refusal != HC_OK) return s->refusal;
   if (flag == KIN_MEM_FAIL) return HC_NO_MEMORY;
-  return conclude(s, HC_OK, goal, report); /* whatever KINSOL says: shoot_shoot_finish() judges the iterate itself */
+  return conclude(s, HC_OK, goal, report); /* whatever KINSOL says: shoot_finish() judges the iterate itself */
 }
 
 void shoot_direction(shoot *s, double *z)
