@@ -112,13 +112,6 @@ planar_state planar_slipping_at(const collocation *c, const planar_slipping *s, 
   return a;
 }
 
-/* A += k a b^T, by columns. */
-static void add_product(int n, double k, const double *a, const double *b, double *A)
-{
-  for (int q = 0; q < n && k != 0; ++q)
-    for (int r = 0; r < n; ++r) A[(size_t)q * (size_t)n + (size_t)r] += k * a[r] * b[q];
-}
-
 /* Derivatives of smooth contact j; false if it is not smooth, or separated. */
 static bool bends(const planar_flow *f, const contact_interval *const *interval, int j, double th, double omega,
                   contact_slopes *out)
@@ -139,9 +132,9 @@ static void fill_slopes(planar_flow *f, const contact_interval *const *interval,
       const model_contact *c = &f->m->contacts[j];
       contact_slopes at;
       if (!bends(f, interval, j, from + (to - from) * f->c.x[i], omega, &at)) continue;
-      add_product(f->n, at.n_v, c->normal, c->normal, K);
-      add_product(f->n, at.t_v, c->tangent, c->normal, K);
-      add_product(f->n, at.t_du, c->tangent, c->tangent, C);
+      add_outer(f->n, at.n_v, c->normal, c->normal, K);
+      add_outer(f->n, at.t_v, c->tangent, c->normal, K);
+      add_outer(f->n, at.t_du, c->tangent, c->tangent, C);
     }
   }
 }

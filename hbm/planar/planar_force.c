@@ -502,7 +502,7 @@ static hc_status find_force(planar_force *f, const double *X, bool may_shift, bo
   }
   for (size_t i = 0; f->n_dof == 3 && i < L; ++i) F[2 * L + i] = f->F_normal[i];
   const planar_cycle *c = &f->cycle;
-  for (int i = 0; i < c->n; ++i) { /* origin -1: monodromy.c propagates these sliders itself */
+  for (int i = 0; i < c->n; ++i) { /* origin -1: variation.c propagates these sliders itself */
     const planar_interval *p = &c->interval[i];
     f->intervals[i] = (contact_interval){.from = p->from, .to = p->to, .state = p->state, .origin = -1};
   }

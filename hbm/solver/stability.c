@@ -98,10 +98,10 @@ hc_status hbm_multipliers(hbm_solver *s, const contact_forces *orbit, double ome
   if (known->key == key) return *out = known->stability, HC_OK;
   hc_status st = HC_OK;
   if (!s->monodromy && !s->multipliers_unknown)
-    st = monodromy_new(s->model, modal ? MONODROMY_IN_MODES : MONODROMY_BY_INTERVALS, &s->monodromy);
+    st = monodromy_new(s->model, modal ? &multipliers_in_modes : &multipliers_by_intervals, &s->monodromy);
   if (modal && st == HC_BAD_INPUT) s->multipliers_unknown = true;
   if (!s->monodromy && s->multipliers_unknown) return HC_OK;
-  if (st == HC_OK) st = monodromy_stability(s->monodromy, s->model, orbit, omega, out);
+  if (st == HC_OK) st = monodromy_stability(s->monodromy, orbit, omega, out);
   s->multipliers_of = st == HC_OK ? key : 0;
   if (st == HC_OK) *known = (known_stability){key, *out};
   if (!modal || st != HC_NOT_CONVERGED) return st;
@@ -127,7 +127,7 @@ static void take_moduli(const hbm_solver *s, double *moduli)
 hc_status hbm_moduli(hbm_solver *s, const contact_forces *orbit, double omega, hbm_stability *out, double *moduli)
 {
   s->multipliers_of = 0;
-  const hc_status st = monodromy_stability(s->monodromy, s->model, orbit, omega, out);
+  const hc_status st = monodromy_stability(s->monodromy, orbit, omega, out);
   if (st == HC_OK) take_moduli(s, moduli);
   return st;
 }

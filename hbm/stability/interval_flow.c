@@ -36,9 +36,10 @@ struct interval_flow {
   int kept, oldest;
   decomposition known[MOST_STATES];
   int *pivot;                          /* [2n] */
-  double complex *work;                /* [3][2n][2n] and [2n] */
-  double *y;                           /* [2 moving][n_states] */
-  int n_lasting, *lasting;             /* [moving] of interval_flow_leave: which of y */
+  double complex *work;                /* [3][2n][2n] and [2n] of decompose: V, its factors, W; lambda */
+  double *y;                           /* [2 moving][n_states] coordinates of phi in the eigenvectors */
+  double *column;                      /* [2n] of phi, by the matrix exponential */
+  int n_lasting, *lasting;             /* [moving] of interval_flow_survivors: which rows of y outlast it */
   workspace memory;                    /* of all of these */
   gsl_matrix *augmented, *exponential; /* [n_states]^2, for what has no eigenvectors; made when needed */
 };
@@ -52,7 +53,7 @@ static void subtract_outer(interval_flow *f, double k, const double *a, const do
     for (int i = 0; i < f->n; ++i) f->A[(size_t)e * (size_t)f->moving + (size_t)(f->n + i)] -= k * a[i] * b[e];
 }
 
-static void add_contact(interval_flow *f, int j, const contact_interval *p)
+static void interval_add_contact(interval_flow *f, int j, const contact_interval *p)
 {
   const model_contact *c = &f->m->contacts[j];
   const double *along = f->along + (size_t)j * (size_t)f->n, *across = f->across + (size_t)j * (size_t)f->n;
@@ -74,7 +75,7 @@ static void interval_fill_A(interval_flow *f, const contact_interval *const *int
       f->A[(n + e) * ld + n + i] = -f->by_C[e * n + i];
     }
   for (int j = 0; j < f->m->n_contacts; ++j)
-    if (interval[j]) add_contact(f, j, interval[j]);
+    if (interval[j]) interval_add_contact(f, j, interval[j]);
   for (size_t e = 0; e < n; ++e) sum += fabs(f->A[e * ld + n + e]);
   f->unit = sum > 0 ? sqrt(sum / f->m->n) : 1;
   for (size_t e = 0; e < n; ++e) {
@@ -86,7 +87,7 @@ static void interval_fill_A(interval_flow *f, const contact_interval *const *int
 /* ---- its eigenvectors --------------------------------------------------------------------------------- */
 
 /* W = V^-T. The norm of W times that of V bounds what rounding is multiplied by, at every interval anew. */
-static bool invert(interval_flow *f, const double complex *V, double complex *lu, double complex *W)
+static bool interval_invert(interval_flow *f, const double complex *V, double complex *lu, double complex *W)
 {
   const double most = 1e4;
   const size_t ld = (size_t)f->moving;
@@ -143,7 +144,7 @@ static hc_status decompose(interval_flow *f, const contact_interval *const *inte
   memcpy(d->key, f->key, contacts);
   interval_fill_A(f, interval);
   hc_status st = dense_eigen(f->moving, f->A, lambda, V, NULL);
-  d->usable = st == HC_OK && invert(f, V, lu, W);
+  d->usable = st == HC_OK && interval_invert(f, V, lu, W);
   if (d->usable) keep_halves(f, lambda, V, W, d);
   return st == HC_NOT_CONVERGED ? HC_OK : st;
 }
@@ -170,7 +171,7 @@ static const double DEAD = 1e-24;
 
 /* ---- made and freed ------------------------------------------------------------------------------ */
 
-static void solve_columns(int n, const double *lu, const int *pivot, int columns, const double *from, double *to)
+static void interval_solve(int n, const double *lu, const int *pivot, int columns, const double *from, double *to)
 {
   memcpy(to, from, (size_t)n * (size_t)columns * sizeof *to);
   dense_solve(n, lu, pivot, columns, to);
@@ -186,12 +187,12 @@ static hc_status divide_by_mass(const model *m, interval_flow *f)
     st = dense_factor(n, lu, f->pivot);
   }
   if (st == HC_OK) {
-    solve_columns(n, lu, f->pivot, n, m->stiffness, f->by_K);
-    solve_columns(n, lu, f->pivot, n, m->damping, f->by_C);
+    interval_solve(n, lu, f->pivot, n, m->stiffness, f->by_K);
+    interval_solve(n, lu, f->pivot, n, m->damping, f->by_C);
   }
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
-    solve_columns(n, lu, f->pivot, 1, m->contacts[j].tangent, f->along + (size_t)j * (size_t)n);
-    solve_columns(n, lu, f->pivot, 1, m->contacts[j].normal, f->across + (size_t)j * (size_t)n);
+    interval_solve(n, lu, f->pivot, 1, m->contacts[j].tangent, f->along + (size_t)j * (size_t)n);
+    interval_solve(n, lu, f->pivot, 1, m->contacts[j].normal, f->across + (size_t)j * (size_t)n);
   }
   free(lu);
   return st;
@@ -216,6 +217,7 @@ hc_status interval_flow_new(const model *m, interval_flow **out)
   f->pivot = workspace_array(&f->memory, 2 * n, sizeof *f->pivot);
   f->work = workspace_array(&f->memory, 12 * n * n + 2 * n, sizeof *f->work);
   f->y = workspace_array(&f->memory, 4 * n * (2 * n + contacts), sizeof *f->y);
+  f->column = workspace_doubles(&f->memory, 2 * n);
   f->lasting = workspace_array(&f->memory, 2 * n, sizeof *f->lasting);
   hc_status st = f->memory.failed ? HC_NO_MEMORY : divide_by_mass(m, f);
   if (st == HC_OK) *out = f;
@@ -237,14 +239,14 @@ void interval_flow_free(interval_flow *f)
 
 /* The first `columns` columns of C = A B, by rows: A[rows][inner], B[inner][n_states], C[rows][n_states]. Counted by
  * columns, as in dense.h, these are the transposes. */
-static void multiply(const interval_flow *f, int rows, int inner, int columns, const double *A, const double *B,
-                     double *C)
+static void interval_multiply(const interval_flow *f, int rows, int inner, int columns, const double *A,
+                              const double *B, double *C)
 {
   dense_add_product(columns, rows, inner, 1, B, f->n_states, A, inner, 0, C, f->n_states);
 }
 
 /* (e^(lambda t) - 1)/lambda. */
-static double complex integral(double complex lambda, double t)
+static double complex interval_integral(double complex lambda, double t)
 {
   const double complex z = lambda * t;
   if (cabs(z) > 0.1) return (cexp(z) - 1) / lambda;
@@ -264,8 +266,8 @@ static double complex pull_on(const interval_flow *f, const decomposition *d, in
 }
 
 /* y = e^(lambda t) y + (e^(lambda t) - 1)/lambda b dheld, of coordinate k. */
-static void grow(const interval_flow *f, const decomposition *d, const contact_interval *const *interval,
-                 double duration, int k, int columns, const double *phi)
+static void interval_grow(const interval_flow *f, const decomposition *d, const contact_interval *const *interval,
+                          double duration, int k, int columns, const double *phi)
 {
   const double complex growth = cexp(d->lambda[k] * duration);
   const double c = creal(growth), s = cimag(growth);
@@ -278,7 +280,7 @@ static void grow(const interval_flow *f, const decomposition *d, const contact_i
   for (int j = 0; j < f->m->n_contacts; ++j) {
     if (!contact_interval_holds(&f->m->contacts[j].law, interval[j])) continue;
     const double *held = phi + (size_t)(f->moving + j) * (size_t)f->n_states;
-    const double complex by_held = integral(d->lambda[k], duration) * pull_on(f, d, k, j);
+    const double complex by_held = interval_integral(d->lambda[k], duration) * pull_on(f, d, k, j);
     for (int q = 0; q < columns; ++q) re[q] += creal(by_held) * held[q], im[q] += cimag(by_held) * held[q];
   }
 }
@@ -304,9 +306,9 @@ static hc_status advance_by_exponential(interval_flow *f, const contact_interval
       double sum = 0;
       for (size_t k = 0; k < states; ++k)
         sum += gsl_matrix_get(f->exponential, i, k) * phi[k * states + q] / (k >= n && k < ld ? f->unit : 1);
-      f->y[i] = sum;
+      f->column[i] = sum;
     }
-    for (size_t i = 0; i < ld; ++i) phi[i * states + q] = f->y[i] * (i >= n ? f->unit : 1);
+    for (size_t i = 0; i < ld; ++i) phi[i * states + q] = f->column[i] * (i >= n ? f->unit : 1);
   }
   return HC_OK;
 }
@@ -318,9 +320,9 @@ hc_status interval_flow_advance(interval_flow *f, const contact_interval *const 
   hc_status st = interval_find(f, interval, &d);
   if (st == HC_OK && !d->usable) st = advance_by_exponential(f, interval, duration, columns, phi);
   else if (st == HC_OK) {
-    multiply(f, 2 * d->n, f->moving, columns, d->W, phi, f->y);
-    for (int k = 0; k < d->n; ++k) grow(f, d, interval, duration, k, columns, phi);
-    multiply(f, f->moving, 2 * d->n, columns, d->V, f->y, phi);
+    interval_multiply(f, 2 * d->n, f->moving, columns, d->W, phi, f->y);
+    for (int k = 0; k < d->n; ++k) interval_grow(f, d, interval, duration, k, columns, phi);
+    interval_multiply(f, f->moving, 2 * d->n, columns, d->V, f->y, phi);
   }
   if (st == HC_OK && !isfinite(phi[0])) st = HC_NOT_FINITE;
   return st;
@@ -349,8 +351,8 @@ static void add_slider(const interval_flow *f, const decomposition *d, double du
   }
 }
 
-hc_status interval_flow_leave(interval_flow *f, const contact_interval *const *interval, double duration, int n_sliders,
-                              int *slider, const bool *goes_on, double *phi, int *columns)
+hc_status interval_flow_survivors(interval_flow *f, const contact_interval *const *interval, double duration,
+                                  int n_sliders, int *slider, const bool *sticks_on, double *phi, int *columns)
 {
   const decomposition *d;
   hc_status st = interval_find(f, interval, &d);
@@ -366,7 +368,7 @@ hc_status interval_flow_leave(interval_flow *f, const contact_interval *const *i
   }
   for (; *columns < f->n_lasting; ++*columns) add_coordinate(f, d, f->lasting[*columns], 1, *columns, phi);
   for (int s = 0; s < n_sliders; ++s) {
-    const bool counts = goes_on[s] || f->n_lasting < f->moving;
+    const bool counts = sticks_on[s] || f->n_lasting < f->moving;
     if (!counts) continue;
     slider[*columns - f->n_lasting] = slider[s];
     add_slider(f, d, duration, slider[s], (*columns)++, phi);
@@ -374,22 +376,22 @@ hc_status interval_flow_leave(interval_flow *f, const contact_interval *const *i
   return HC_OK;
 }
 
-hc_status interval_flow_left(interval_flow *f, const contact_interval *const *interval, const int *slider, int columns,
-                             const double *phi, double *left)
+hc_status interval_flow_coordinates(interval_flow *f, const contact_interval *const *interval, const int *slider,
+                                    int columns, const double *phi, double *out)
 {
   const size_t ld = (size_t)f->moving, states = (size_t)f->n_states;
   const decomposition *d;
   hc_status st = interval_find(f, interval, &d);
   if (st != HC_OK) return st;
   for (int r = 0; r < f->n_lasting; ++r) {
-    double *row = left + (size_t)r * states;
-    if (d->usable) multiply(f, 1, f->moving, columns, d->W + (size_t)f->lasting[r] * ld, phi, row);
+    double *row = out + (size_t)r * states;
+    if (d->usable) interval_multiply(f, 1, f->moving, columns, d->W + (size_t)f->lasting[r] * ld, phi, row);
     else memcpy(row, phi + (size_t)r * states, (size_t)columns * sizeof *row);
   }
   for (int r = f->n_lasting; r < columns; ++r) {
     const int j = slider[r - f->n_lasting];
     const double *held = phi + (ld + (size_t)j) * states;
-    for (int q = 0; q < columns; ++q) left[(size_t)r * states + (size_t)q] = held[q] / f->m->contacts[j].law.kt;
+    for (int q = 0; q < columns; ++q) out[(size_t)r * states + (size_t)q] = held[q] / f->m->contacts[j].law.kt;
   }
   return HC_OK;
 }

@@ -26,12 +26,13 @@ hc_status interval_flow_advance(interval_flow *f, const contact_interval *const 
 /* A basis of the perturbations that outlast an interval. A motion of which e^(lambda t) leaves less than 1e-24 is lost
  * in rounding, but for the offset at which a slider that sticks all the interval holds it. The map of a period that
  * ends with the interval has the multipliers of this basis, and else only 0.
- *   leave   the basis, into the first *columns columns of phi: the motions that last, then one column a slider, moved
- *           by 1 (dheld = kt, which keeps entries of one size). slider[n_sliders]: contacts whose dheld counts over
- *           the interval; goes_on[]: does it count behind it, too? On return slider[] has those with a column, in order
- *   left    left[columns][n_states] by rows: phi at the interval's end, in coordinates of this basis
+ *   survivors     the basis, into the first *columns columns of phi: the motions that last, then one column a slider,
+ *                 moved by 1 (dheld = kt, which keeps entries of one size). slider[n_sliders]: contacts whose dheld
+ *                 counts over the interval; sticks_on[]: true if it counts behind it, too. On return slider[] has those
+ *                 with a column, in order
+ *   coordinates   out[columns][n_states] by rows: phi at the interval's end in coordinates of that basis
  * HC_NO_MEMORY. */
-hc_status interval_flow_leave(interval_flow *f, const contact_interval *const *interval, double duration, int n_sliders,
-                              int *slider, const bool *goes_on, double *phi, int *columns);
-hc_status interval_flow_left(interval_flow *f, const contact_interval *const *interval, const int *slider, int columns,
-                             const double *phi, double *left);
+hc_status interval_flow_survivors(interval_flow *f, const contact_interval *const *interval, double duration,
+                                  int n_sliders, int *slider, const bool *sticks_on, double *phi, int *columns);
+hc_status interval_flow_coordinates(interval_flow *f, const contact_interval *const *interval, const int *slider,
+                                    int columns, const double *phi, double *out);

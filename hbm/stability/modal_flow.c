@@ -26,48 +26,53 @@ enum { S = 5 /* points of a step */, MOST_ROWS = 3 };
 /* A contact in touch with its rows of directions: tangent and normal, or both tangents and the normal of a pair under
  * one limit. */
 typedef struct contact_site {
-  int contact, rows, first;
+  int contact; /* of the model; of a pair the first */
+  int rows;    /* directions: 2, or 3 of a circle */
+  int first;   /* of these, among the rows of all sites */
 } contact_site;
 
-/* Over a step. */
+/* What a site's contact does over a step. */
 typedef struct site_law {
-  bool slides;                        /* a circle that slips */
-  int unknowns, at;                   /* at a point, 0 while separated; the first of them */
-  int held;                           /* rows of dheld that hold it */
-  double force[S][MOST_ROWS][3];      /* f = force u - dheld */
-  double y[S][S][MOST_ROWS], y_of[S]; /* y at a point: y q at all of them + y_of zeta at the start */
+  bool slides;                        /* a circle that slips: unknowns are dv and y */
+  int unknowns, at;                   /* their number at a point, 0 while separated; place of the first among all */
+  int held;                           /* rows whose force contains a dheld: tangents of one that sticks */
+  double force[S][MOST_ROWS][3];      /* at a point, f = force u - dheld */
+  double y[S][S][MOST_ROWS], y_of[S]; /* y at a point = sum of y q over all points + y_of zeta at the start */
   double across[2];                   /* e_perp at the start */
 } site_law;
 
 struct modal_flow {
-  model *modes;      /* the model in its modes */
-  int n, n_states;   /* modes; 2 n + contacts */
-  int n_sites, rows; /* all sites' rows */
-  contact_site *site;
-  double *damping, *lambda; /* [n] c, omega^2 */
-  double *stuck, *stuck_c;  /* [n] the same of the structure with its contacts stuck */
-  double *direction;        /* [rows][n] by rows */
-  double *turned;           /* [n][rows] by rows */
+  model *modes;             /* the model in its modes */
+  int n, n_states;          /* modes; 2 n + contacts */
+  int n_sites, rows;        /* contacts, of a pair one; all sites' rows */
+  contact_site *site;       /* [n_sites] */
+  double *damping, *lambda; /* [n] c [1/time], omega^2 [1/time^2] */
+  double *stuck, *stuck_c;  /* [n] lambda and c of the structure with its contacts stuck */
+  double *direction;        /* [rows][n] by rows: b of all sites */
+  double *turned;           /* [n][rows] by rows: its transpose */
   int first_fast;           /* modes from here on are stable by Metelitsyn's criterion */
-  double *jump;             /* [n] what one change of contact moves the energy of modes k.. by at most */
-  double *least_damping;    /* [n] the least damping c of modes k.. */
-  double omega;             /* of modal_flow_begin */
+  double *jump;             /* [n] the largest part of the energy of modes k.. that one change of contact moves */
+  double *least_damping;    /* [n] the least c of modes k.. */
+  double omega;             /* [rad/time] of modal_flow_begin */
   int fast;                 /* modes from here on are left to decay on this orbit */
   double width;             /* [rad] of a step */
-  collocation c;            /* of panels */
+  collocation c;            /* nodes of the panels of slip (planar_slip.h) */
+  /* Radau's points and weights, A^2, A^-1, and the sums of its rows */
   double x[S], a[S * S], a2[S * S], inverse[S * S], inverse_sum[S];
-  double h;                                         /* of what follows */
-  double *gamma, *alpha, *beta, *kappa, *dv, *dv_v; /* [n][S][S], [n][S] three times, [n] */
-  double *G, *G_sum;                                /* [S][S][rows][rows], [S][rows][rows] */
-  double *Q;                                        /* [S rows][2 n] by rows: alpha b, beta b */
-  site_law *law;                                    /* [sites] */
-  double *matrix;                                   /* [S rows]^2 by columns */
-  int *pivot;
-  double *q, *u, *solved, *f; /* [S rows][columns] by rows */
-  double *p;                  /* [n][columns] */
-  double *zeta;               /* [sites][columns] */
-  double *product;            /* [S][MOST_ROWS][S][MOST_ROWS] of a pair of sites */
-  workspace memory;
+  double h;                     /* [time] the step length that the following is for */
+  double *gamma, *alpha, *beta; /* [n][S][S], [n][S], [n][S] eta at the points (head of this file) */
+  double *kappa, *dv, *dv_v;    /* [n][S], [n], [n] eta' at the end = dv eta + dv_v eta' - kappa p */
+  double *weighted;             /* [n][rows] of fill_modes: gamma b */
+  double *G, *G_sum;            /* [S][S][rows][rows], [S][rows][rows] summed over the second point */
+  double *Q;                    /* [S rows][2 n] by rows: alpha b, beta b */
+  site_law *law;                /* [n_sites] */
+  double *matrix;               /* [S rows]^2 by columns: 1 + P G force */
+  int *pivot;                   /* [S rows] of its factors */
+  double *q, *u, *f;            /* [S rows][columns] by rows: motions, unknowns, forces of contacts at the points */
+  double *solved;               /* [columns][S rows] by rows: unknowns of a column together */
+  double *p;                    /* [n][columns] forces on modes */
+  double *zeta;                 /* [n_sites][columns] at the start of the step */
+  workspace memory;             /* of all the arrays above */
 };
 
 /* ---- what is fast ------------------------------------------------------------------------------------ */
@@ -104,7 +109,7 @@ static hc_status gram_norm(const modal_flow *f, int k, bool normals, double *out
   return st;
 }
 
-/* Does half of mode k last over a period? */
+/* True if half of mode k lasts over a period. */
 static bool lasts(const modal_flow *f, int k, double period)
 {
   return exp(-0.5 * f->damping[k] * period) > 0.5 || exp(-0.5 * f->stuck_c[k] * period) > 0.5;
@@ -173,7 +178,7 @@ static void list_sites(modal_flow *f)
   dense_transpose(f->n, f->rows, f->direction, f->turned);
 }
 
-static void project(int n, const double *phi, const double *from, double *to)
+static void modal_project(int n, const double *phi, const double *from, double *to)
 {
   for (int k = 0; k < n; ++k) to[k] = dot_product(n, phi + (size_t)k * (size_t)n, from);
 }
@@ -196,8 +201,8 @@ static hc_status make_modal(const model *m, const double *phi, const double *lam
   }
   for (size_t k = 0; k < n && st == HC_OK; ++k) f->damping[k] = C[k * (n + 1)], f->lambda[k] = lambda[k];
   for (int j = 0; j < m->n_contacts && st == HC_OK; ++j) {
-    project(m->n, phi, m->contacts[j].tangent, f->modes->contacts[j].tangent);
-    project(m->n, phi, m->contacts[j].normal, f->modes->contacts[j].normal);
+    modal_project(m->n, phi, m->contacts[j].tangent, f->modes->contacts[j].tangent);
+    modal_project(m->n, phi, m->contacts[j].normal, f->modes->contacts[j].normal);
   }
   free(work);
   return st;
@@ -246,6 +251,7 @@ static void take_memory(modal_flow *f)
   f->pivot = workspace_array(&f->memory, points, sizeof *f->pivot);
   double **of_columns[] = {&f->q, &f->u, &f->solved, &f->f};
   for (int i = 0; i < 4; ++i) *of_columns[i] = workspace_doubles(&f->memory, points * states);
+  f->weighted = workspace_doubles(&f->memory, n * rows);
   f->p = workspace_doubles(&f->memory, n * states);
   f->zeta = workspace_doubles(&f->memory, contacts * states);
 }
@@ -325,8 +331,8 @@ void modal_flow_begin(modal_flow *f, double omega, int changes)
 
 /* The contacts' stiffness for motions far faster than slip turns, from direction t to direction r at Z[r + rows t]:
  * across slip a circle is stuck. */
-static void add_contact(const modal_flow *f, const contact_site *s, const contact_interval *at,
-                        const planar_slipping *slipping, double th, double *Z)
+static void modal_add_contact(const modal_flow *f, const contact_site *s, const contact_interval *at,
+                              const planar_slipping *slipping, double th, double *Z)
 {
   const contact *c = law_of(f, s);
   const int rows = f->rows, normal = s->first + s->rows - 1;
@@ -368,7 +374,7 @@ static void add_own(dominance *of, double entry, double one, double other)
 
 static bool is_positive(const dominance *of) { return of->positive && of->own < 1 && sqrt(of->sum) < 1 - of->own; }
 
-/* Are modal_flow.h's L and Q positive definite, for the modes fast.. held by K[n][n]? b[n][n], bK = b K. */
+/* True if modal_flow.h's L and Q are positive definite, for the modes fast.. held by K[n][n]. b[n][n], bK = b K. */
 static bool energy_decays(const modal_flow *f, int n, const double *K, const double *b, const double *bK)
 {
   const double *w2 = f->lambda + f->fast, *c = f->damping + f->fast, rate = 0.5 * f->least_damping[f->fast];
@@ -431,7 +437,7 @@ static hc_status hold_modes(const modal_flow *f, int first, const contact_interv
     const planar_slipping *slips = NULL;
     for (int k = 0; k < n_slipping && !slips; ++k)
       if (slipping[k].contact == f->site[s].contact) slips = &slipping[k];
-    add_contact(f, &f->site[s], interval[f->site[s].contact], slips, th, Z);
+    modal_add_contact(f, &f->site[s], interval[f->site[s].contact], slips, th, Z);
   }
   dense_add_product(held->n, f->rows, f->rows, 1, f->direction + first, f->n, Z, f->rows, 0, held->left, held->n);
   dense_multiply(held->n, held->n, f->rows, held->left, f->turned + (size_t)first * rows, held->K);
@@ -456,7 +462,7 @@ static hc_status find_roots(const modal_flow *f, const held_modes *held, double 
   return dense_eigen(2 * held->n, A, *root, NULL, NULL);
 }
 
-/* Are they to the left of -c/4? */
+/* True if they are to the left of -c/4. */
 static hc_status roots_decay(const modal_flow *f, const held_modes *held, bool *decays)
 {
   double complex *root;
@@ -541,11 +547,11 @@ static hc_status fill_modes(modal_flow *f, double h)
     double *sum = f->G_sum + (size_t)i * rows * rows;
     memset(sum, 0, rows * rows * sizeof *sum);
     for (int j = 0; j < S; ++j) {
-      double *weighted = f->p, *G = f->G + (size_t)(i * S + j) * rows * rows;
+      double *G = f->G + (size_t)(i * S + j) * rows * rows;
       for (size_t k = 0; k < n; ++k)
         for (size_t r = 0; r < rows; ++r)
-          weighted[k * rows + r] = f->gamma[(k * S + (size_t)i) * S + (size_t)j] * f->turned[k * rows + r];
-      dense_multiply(f->rows, f->rows, f->n, weighted, f->direction, G);
+          f->weighted[k * rows + r] = f->gamma[(k * S + (size_t)i) * S + (size_t)j] * f->turned[k * rows + r];
+      dense_multiply(f->rows, f->rows, f->n, f->weighted, f->direction, G);
       for (size_t e = 0; e < rows * rows; ++e) sum[e] += G[e];
     }
   }
@@ -666,7 +672,7 @@ static void fill_matrix(modal_flow *f, int unknowns)
 }
 
 /* to[columns] += by from[columns]. */
-static inline void add_row(int columns, double by, const double *restrict from, double *restrict to)
+static inline void modal_add_row(int columns, double by, const double *restrict from, double *restrict to)
 {
   for (int q = 0; q < columns; ++q) to[q] += by * from[q];
 }
@@ -681,19 +687,20 @@ WIDE_VECTORS static void fill_free(modal_flow *f, int columns, const double *phi
     for (int t = 0; t < f->law[s].held; ++t)
       for (size_t i = 0; i < S; ++i)
         for (size_t r = 0; r < rows; ++r)
-          add_row(columns, f->G_sum[(i * rows + (size_t)(site->first + t)) * rows + r],
-                  phi + (2 * n + (size_t)(site->contact + t)) * states, f->q + (i * rows + r) * width);
+          modal_add_row(columns, f->G_sum[(i * rows + (size_t)(site->first + t)) * rows + r],
+                        phi + (2 * n + (size_t)(site->contact + t)) * states, f->q + (i * rows + r) * width);
     if (!f->law[s].slides) continue;
     double *zeta = f->zeta + (size_t)s * width;
     for (size_t q = 0; q < width; ++q) zeta[q] = -phi[(2 * n + (size_t)site->contact) * states + q];
     for (int t = 0; t < 2; ++t)
       for (size_t k = 0; k < n; ++k)
-        add_row(columns, f->law[s].across[t] * f->direction[(size_t)(site->first + t) * n + k], phi + k * states, zeta);
+        modal_add_row(columns, f->law[s].across[t] * f->direction[(size_t)(site->first + t) * n + k], phi + k * states,
+                      zeta);
   }
 }
 
 /* f->u: right sides, by rows. */
-WIDE_VECTORS static void fill_right(modal_flow *f, int columns)
+WIDE_VECTORS static void modal_fill_right(modal_flow *f, int columns)
 {
   const size_t width = (size_t)columns, rows = (size_t)f->rows;
   for (int s = 0; s < f->n_sites; ++s) {
@@ -709,7 +716,7 @@ WIDE_VECTORS static void fill_right(modal_flow *f, int columns)
           for (size_t c = 0; c < width; ++c) u[c] = law->y_of[i] * f->zeta[(size_t)s * width + c];
           for (int j = 0; j < S; ++j)
             for (int r = 0; r < 3; ++r)
-              add_row(columns, law->y[i][j][r], q + ((size_t)j * rows + (size_t)r) * width, u);
+              modal_add_row(columns, law->y[i][j][r], q + ((size_t)j * rows + (size_t)r) * width, u);
         }
       }
   }
@@ -728,14 +735,14 @@ WIDE_VECTORS static void fill_forces(modal_flow *f, int columns, const double *p
         double *to = f->f + ((size_t)i * rows + (size_t)(site->first + r)) * width;
         for (int e = 0; e < law->unknowns; ++e)
           if (law->force[i][r][e] != 0)
-            add_row(columns, law->force[i][r][e], f->u + (size_t)(law->at + i * law->unknowns + e) * width, to);
-        if (r < law->held) add_row(columns, -1, phi + (size_t)(2 * f->n + site->contact + r) * states, to);
+            modal_add_row(columns, law->force[i][r][e], f->u + (size_t)(law->at + i * law->unknowns + e) * width, to);
+        if (r < law->held) modal_add_row(columns, -1, phi + (size_t)(2 * f->n + site->contact + r) * states, to);
       }
   }
 }
 
 /* phi at the end of the step. */
-WIDE_VECTORS static void finish(modal_flow *f, int columns, double *phi)
+WIDE_VECTORS static void modal_finish(modal_flow *f, int columns, double *phi)
 {
   const size_t n = (size_t)f->n, states = (size_t)f->n_states, width = (size_t)columns;
   for (size_t k = 0; k < n; ++k) {
@@ -751,8 +758,8 @@ WIDE_VECTORS static void finish(modal_flow *f, int columns, double *phi)
     const double *force = f->f + i * (size_t)f->rows * width;
     dense_add_product(columns, f->n, f->rows, 1, force, columns, f->turned, f->rows, 0, f->p, columns);
     for (size_t k = 0; k < n; ++k) {
-      add_row(columns, -f->gamma[(k * S + S - 1) * S + i], f->p + k * width, phi + k * states);
-      add_row(columns, -f->kappa[k * S + i], f->p + k * width, phi + (n + k) * states);
+      modal_add_row(columns, -f->gamma[(k * S + S - 1) * S + i], f->p + k * width, phi + k * states);
+      modal_add_row(columns, -f->kappa[k * S + i], f->p + k * width, phi + (n + k) * states);
     }
   }
   for (int s = 0; s < f->n_sites; ++s)
@@ -761,9 +768,9 @@ WIDE_VECTORS static void finish(modal_flow *f, int columns, double *phi)
              f->u + (size_t)(f->law[s].at + (S - 1) * 2 + 1) * width, width * sizeof *phi);
 }
 
-static hc_status advance_step(modal_flow *f, const contact_interval *const *interval, int n_slipping,
-                              const planar_slipping *slipping, double from, double to, double omega, double h,
-                              int columns, double *phi)
+static hc_status modal_step(modal_flow *f, const contact_interval *const *interval, int n_slipping,
+                            const planar_slipping *slipping, double from, double to, double omega, double h,
+                            int columns, double *phi)
 {
   int unknowns = 0;
   hc_status st = fill_modes(f, h);
@@ -773,13 +780,13 @@ static hc_status advance_step(modal_flow *f, const contact_interval *const *inte
     fill_matrix(f, unknowns);
     if (dense_factor(unknowns, f->matrix, f->pivot) != HC_OK) return HC_SINGULAR;
     fill_free(f, columns, phi);
-    fill_right(f, columns);
+    modal_fill_right(f, columns);
     dense_transpose(columns, unknowns, f->u, f->solved);
     dense_solve(unknowns, f->matrix, f->pivot, columns, f->solved);
     dense_transpose(unknowns, columns, f->solved, f->u);
   }
   fill_forces(f, columns, phi);
-  finish(f, columns, phi);
+  modal_finish(f, columns, phi);
   return isfinite(phi[0]) ? HC_OK : HC_NOT_FINITE;
 }
 
@@ -793,8 +800,8 @@ hc_status modal_flow_advance(modal_flow *f, const contact_interval *const *inter
     const int steps = (int)ceil((end - at) / f->width * (1 - 1e-12));
     const double h = (end - at) / (steps > 0 ? steps : 1);
     for (int i = 0; i < steps && st == HC_OK; ++i)
-      st = advance_step(f, interval, n_slipping, slipping, at + i * h, i + 1 < steps ? at + (i + 1) * h : end, omega,
-                        h / omega, columns, phi);
+      st = modal_step(f, interval, n_slipping, slipping, at + i * h, i + 1 < steps ? at + (i + 1) * h : end, omega,
+                      h / omega, columns, phi);
     at = end;
   }
   return st;

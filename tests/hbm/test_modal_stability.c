@@ -18,12 +18,12 @@ static void damp(model *m, double a, double b)
   for (int i = 0; i < m->n * m->n; ++i) m->damping[i] = a * m->mass[i] + b * m->stiffness[i];
 }
 
-static int multipliers_by(monodromy_method method, const model *m, const contact_forces *orbit, double omega,
+static int multipliers_by(const multiplier_method *method, const model *m, const contact_forces *orbit, double omega,
                           double complex *lambda, hbm_stability *st)
 {
   const double complex *found;
   CHECK_MADE(monodromy, w, monodromy_new(m, method, &w));
-  assert_int_equal(monodromy_stability(w, m, orbit, omega, st), HC_OK);
+  assert_int_equal(monodromy_stability(w, orbit, omega, st), HC_OK);
   const int n = monodromy_multipliers(w, &found);
   assert_true(n <= MOST);
   memcpy(lambda, found, (size_t)n * sizeof *lambda);
@@ -82,8 +82,8 @@ static void multipliers_are_those_by_intervals(CHECK_STATE)
       for (int i = 0; i < n; ++i) x[c * n + i] = size * random_signed(&seed) / (1 + c * c);
     hbm_guess_of(s, x, X);
     CHECK_FILLED(contact_report, report, hbm_located_orbit(s, X, &orbit, &report));
-    const int n_a = multipliers_by(MONODROMY_BY_INTERVALS, m, orbit, omega, by_intervals, &a),
-              n_b = multipliers_by(MONODROMY_IN_MODES, m, orbit, omega, in_modes, &b);
+    const int n_a = multipliers_by(&multipliers_by_intervals, m, orbit, omega, by_intervals, &a),
+              n_b = multipliers_by(&multipliers_in_modes, m, orbit, omega, in_modes, &b);
     large += check_found("by intervals", k, n_a, by_intervals, n_b, in_modes);
     check_found("in modes", k, n_b, in_modes, n_a, by_intervals);
     CHECK_NEAR(b.multiplier, a.multiplier, 1e-8 * fmax(1, a.multiplier), "structure %d", k);
@@ -148,12 +148,12 @@ static void survivors_have_the_multipliers_of_all(CHECK_STATE)
   CHECK_FILLED(hbm_point, point, hbm_first_solution(s, omega, NULL, X, &point));
   CHECK_FILLED(contact_report, report, hbm_located_orbit(s, X, &orbit, &report));
   assert_true(report.regime == CONTACT_SEPARATES);
-  const int n_few = multipliers_by(MONODROMY_IN_MODES, m, orbit, omega, few, &a),
-            n_all = multipliers_by(MONODROMY_FROM_ALL_STATES, m, orbit, omega, all, &b);
+  const int n_few = multipliers_by(&multipliers_in_modes, m, orbit, omega, few, &a),
+            n_all = multipliers_by(&multipliers_from_all_states, m, orbit, omega, all, &b);
   assert_true(n_few < 400 && check_found("all", 0, n_all, all, n_few, few) > 0);
   CHECK_NEAR(a.multiplier, b.multiplier, 1e-10 * b.multiplier, "of 442 masses");
   damp(m, 0, 0.00003);
-  assert_true(multipliers_by(MONODROMY_IN_MODES, m, orbit, omega, few, &a) > 400);
+  assert_true(multipliers_by(&multipliers_in_modes, m, orbit, omega, few, &a) > 400);
   hbm_solver_free(s);
   model_free(m);
   model_free(small.model);
@@ -267,8 +267,8 @@ static void flutter_of_fast_modes_is_seen(CHECK_STATE)
       assert_int_equal(hbm_stability_verdict(&b), heavy ? 1 : -1);
       CHECK_FILLED(contact_report, report, hbm_located_orbit(s, X, &orbit, &report));
       if (!circle) { /* by intervals a circle's slip would take minutes */
-        multipliers_by(MONODROMY_BY_INTERVALS, m, orbit, 1, by_intervals, &a);
-        multipliers_by(MONODROMY_IN_MODES, m, orbit, 1, in_modes, &b);
+        multipliers_by(&multipliers_by_intervals, m, orbit, 1, by_intervals, &a);
+        multipliers_by(&multipliers_in_modes, m, orbit, 1, in_modes, &b);
         assert_true((a.multiplier > 1) == !heavy);
         CHECK_NEAR(b.multiplier, a.multiplier, 0.1 * a.multiplier, "zeta of the pair: %g", heavy ? 0.01 : 0.001);
       }

@@ -99,21 +99,21 @@ static void products_of(const model *m, int last, bool all, double *fold, double
   double phi[STATES * STATES] = {0}, left[STATES * STATES];
   double complex lambda[STATES];
   int slider[] = {0}, active[] = {0, 1, 2, 3, 4};
-  const bool goes_on[] = {false};
+  const bool sticks_on[] = {false};
   CHECK_MADE(interval_flow, f, interval_flow_new(m, &f));
   CHECK_MADE(floquet, eigen, floquet_new(STATES, &eigen));
   *columns = 4;
   for (int i = 0; i < 4; ++i) phi[i * (STATES + 1)] = 1;
   if (!all)
-    assert_int_equal(interval_flow_leave(f, at[last], duration[last], last == STUCK, slider, goes_on, phi, columns),
-                     HC_OK);
+    assert_int_equal(
+        interval_flow_survivors(f, at[last], duration[last], last == STUCK, slider, sticks_on, phi, columns), HC_OK);
   for (int i = 0; i < 2; ++i) {
     const int now = (last + 1 + i) % 2;
     for (int q = 0; q < *columns && now == STUCK; ++q)
       phi[4 * STATES + q] = kt * (t[0] * phi[q] + t[1] * phi[STATES + q]);
     assert_int_equal(interval_flow_advance(f, at[now], duration[now], *columns, phi), HC_OK);
   }
-  if (!all) assert_int_equal(interval_flow_left(f, at[last], slider, *columns, phi, left), HC_OK);
+  if (!all) assert_int_equal(interval_flow_coordinates(f, at[last], slider, *columns, phi, left), HC_OK);
   assert_int_equal(floquet_multipliers(eigen, all ? phi : left, STATES, 1, *columns, active, lambda), HC_OK);
   double complex both[2] = {1, 1};
   for (int i = 0; i < *columns; ++i) {

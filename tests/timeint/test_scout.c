@@ -3,7 +3,8 @@
 #include "tests/check.h"
 
 #include "tests/timeint/scenes.h"
-#include "timeint/steady/shoot.h"
+#include "timeint/steady/confirm.h"
+#include "timeint/steady/orbit.h"
 #include "timeint/steady/timeint_private.h"
 
 typedef struct found {
@@ -236,7 +237,7 @@ static void an_interrupt_is_heeded(CHECK_STATE)
   CHECK_LE(20, refused, "ticks");
 }
 
-/* shoot_confirm from a state off the orbit, or with the matrix of another model: CVODE's periods decide. Confirmed is
+/* confirm_orbit from a state off the orbit, or with the matrix of another model: CVODE's periods decide. Confirmed is
  * what closes; to |I - Phi| |(I - Phi)^-1| < 100 of the tolerance where the matrix is another's. Or it is not
  * confirmed, and the motion is where it was. Widths of the regularised law are estimated from the
  * start, to a factor of two: an error of second order, 1.6e-5 here, is up to four times as large. */
@@ -257,11 +258,11 @@ static void a_spoiled_orbit(CHECK_STATE)
       y.x *= 1 + off, y.v *= 1 - 0.5 * off;
       assert_int_equal(timeint_begin(ti, 6.7, y.all), HC_OK);
       assert_int_equal(timeint_set_tolerance(ti, timeint_final_tolerance(ti)), HC_OK);
-      ti->model->contacts[0].law.kn *= factor; /* of the matrix; ti->scaled stays */
+      ti->closed_form->model->contacts[0].law.kn *= factor; /* of the matrix */
       double before[3];
       memcpy(before, ti->y, sizeof before);
       shoot_report report = {.multiplier = 0.5};
-      hc_status st = shoot_confirm(ti->shoot, 1, orbit_goal(ti), 0, NULL, &report, &r);
+      hc_status st = confirm_orbit(ti, 1, orbit_goal(ti), 0, NULL, &report, &r);
       if (st == HC_OK) {
         const double by_width = law ? 0 : 3 * 1.6e-5;
         CHECK_NEAR(r.amplitude, at.r.amplitude, (100 * 1e-9 + by_width) * at.r.amplitude, "off %g, %g", off, factor);
@@ -294,7 +295,7 @@ static void an_orbit_far_away_is_not_confirmed(CHECK_STATE)
     assert_int_equal(timeint_begin(ti, 12, z.all), HC_OK);
     assert_int_equal(timeint_set_tolerance(ti, timeint_final_tolerance(ti)), HC_OK);
     shoot_report report = {.multiplier = 0.5};
-    assert_int_equal(shoot_confirm(ti->shoot, 1, orbit_goal(ti), 0, NULL, &report, &r), far ? HC_NOT_CONVERGED : HC_OK);
+    assert_int_equal(confirm_orbit(ti, 1, orbit_goal(ti), 0, NULL, &report, &r), far ? HC_NOT_CONVERGED : HC_OK);
   }
   timeint_free(ti);
 }

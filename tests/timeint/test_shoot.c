@@ -5,7 +5,7 @@
 #include "tests/scene_parts.h"
 #include "tests/timeint/oracle.h"
 #include "tests/timeint/scenes.h"
-#include "timeint/steady/shoot.h"
+#include "timeint/steady/orbit.h"
 #include "timeint/steady/timeint_private.h"
 
 static timeint *made(scene sc, int law, int steady, int start)

@@ -4,10 +4,12 @@
 #include <complex.h>
 #include <string.h>
 
+#include "timeint/steady/confirm.h"
 #include "timeint/steady/escape.h"
 #include "timeint/steady/linear_regime.h"
+#include "timeint/steady/orbit.h"
+#include "timeint/steady/period_map.h"
 #include "timeint/steady/regularised.h"
-#include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
 static const double closed_start_tolerance = 1e-12; /* rounding of a period is some 1e-14; CVODE confirms to 1e-9 */
@@ -31,8 +33,10 @@ struct memory {
   timeint_result untouched; /* a result before the closed form's orbit was tried */
 };
 
-static hc_status make_memory(timeint *ti)
+/* What ti needs beside its closed form, which is there. */
+static hc_status use_closed_form(timeint *ti)
 {
+  if (ti->closed_form->slowed) period_map_borrow_from(ti->map, ti->closed_form->slowed->map);
   const size_t n = (size_t)ti->n;
   struct memory *m = ti->confirmed = workspace_array(&ti->memory, 1, sizeof *m);
   for (size_t i = 0; i < REMEMBERED && m; ++i) {
@@ -52,9 +56,10 @@ hc_status closed_start_new(timeint *ti)
   how.scout = false; /* it has none of its own */
   how.tolerance = fmin(how.tolerance, closed_start_tolerance);
   hc_status st = timeint_new_like(ti, &how, &ti->closed_form);
-  if (st == HC_OK && ti->closed_form->slowed)
-    ti->closed_form->how.tolerance = fmin(10 * ti->how.tolerance, large_tolerance); /* share_of_goal of it is reached */
-  return st == HC_OK ? make_memory(ti) : st;
+  if (st != HC_OK) return st;
+  if (ti->closed_form->slowed) /* SHOOT_SHARE_OF_GOAL of it is reached */
+    ti->closed_form->how.tolerance = fmin(ti->how.tolerance / SHOOT_SHARE_OF_GOAL, large_tolerance);
+  return use_closed_form(ti);
 }
 
 hc_status closed_start_share(timeint *ti, timeint *closed_form)
@@ -62,10 +67,10 @@ hc_status closed_start_share(timeint *ti, timeint *closed_form)
   ti->closed_form = closed_form;
   ti->shares_closed_form = true;
   ++closed_form->owners;
-  return make_memory(ti);
+  return use_closed_form(ti);
 }
 
-/* Do the two differ by rounding? */
+/* True if the two differ by rounding only. */
 static bool same_state(int n, const double *a, const double *b)
 {
   double apart = 0, size = 0;
@@ -79,7 +84,7 @@ void timeint_forget(timeint *ti)
 }
 
 /* The orbit that was reached from this one in closed form, if it is remembered; else NULL. */
-static const struct confirmed *recall(const timeint *ti, int k, const double *start)
+static const struct confirmed *recall_confirmed(const timeint *ti, int k, const double *start)
 {
   double *here = ti->point[0], *there = ti->point[1];
   timeint_take_state(ti, start, here);
@@ -105,8 +110,8 @@ motion_error *closed_start_predictions(timeint *ti, const double *state, const d
 }
 
 /* From the closed form's orbit, at `start`, to CVODE's. */
-static hc_status confirm(timeint *ti, const double *start, const timeint_result *first, bool stable,
-                         const hc_monitor *monitor, timeint_result *r)
+static hc_status confirm_or_shoot(timeint *ti, const double *start, const timeint_result *first, bool stable,
+                                  const hc_monitor *monitor, timeint_result *r)
 {
   const int k = first->period_multiple;
   const bool left_orbit = r->left_orbit;
@@ -116,7 +121,7 @@ static hc_status confirm(timeint *ti, const double *start, const timeint_result 
                         .multiplier = first->multiplier_re + I * first->multiplier_im,
                         .free_sliders = first->free_sliders};
   if (linear_regime_steady(ti, r)) return HC_OK;
-  const struct confirmed *known = recall(ti, k, start);
+  const struct confirmed *known = recall_confirmed(ti, k, start);
   if (known) {
     *r = known->result;
     r->left_orbit = left_orbit; /* of this start; the switches are the orbit's */
@@ -124,7 +129,7 @@ static hc_status confirm(timeint *ti, const double *start, const timeint_result 
     return timeint_begin(ti, ti->omega, known->state);
   }
   const double off = ti->how.law == TRANSIENT_LAW_EXACT ? 0 : ti->how.regularisation * timeint_scaled_size(ti);
-  hc_status st = shoot_confirm(ti->shoot, k, orbit_goal(ti), off, monitor, &found, r);
+  hc_status st = confirm_orbit(ti, k, orbit_goal(ti), off, monitor, &found, r);
   r->contraction = first->contraction; /* its multiplier may be that of several times k periods */
   /* By CVODE alone, next to the closed form's orbit at ti->y; stable, unless an orbit was asked for whatever its
    * stability. */
@@ -190,7 +195,7 @@ hc_status closed_start_steady(timeint *ti, int orbit_of, const double *state, co
     if (st == HC_OK) st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
     r->left_orbit = first.left_orbit;
     if (st == HC_OK) timeint_use_measured(ti, ti->closed_form);
-    if (st == HC_OK && why == HC_OK) st = confirm(ti, start, &first, orbit_of == 0, monitor, r);
+    if (st == HC_OK && why == HC_OK) st = confirm_or_shoot(ti, start, &first, orbit_of == 0, monitor, r);
     else if (st == HC_OK) {
       ti->creeps = why == HC_CREEPS;
       if (ti->creeps) memcpy(ti->drift, ti->closed_form->drift, sizeof *ti->drift * (size_t)ti->n_dof);
@@ -212,7 +217,7 @@ hc_status closed_start_confirm(timeint *ti, int k, const hc_monitor *monitor, ti
   if (linear_regime_steady(ti, r)) return HC_OK;
   hc_status st = timeint_set_tolerance(ti, timeint_final_tolerance(ti));
   if (st == HC_OK) st = regularised_begin(ti, k, monitor);
-  if (st == HC_OK) st = shoot_confirm(ti->shoot, k, orbit_goal(ti), 0, monitor, &found, r);
+  if (st == HC_OK) st = confirm_orbit(ti, k, orbit_goal(ti), 0, monitor, &found, r);
   *done = !shoot_found_no_orbit(st);
   return *done ? st : HC_OK;
 }

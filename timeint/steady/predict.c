@@ -5,17 +5,17 @@
 #include <string.h>
 
 #include "timeint/steady/closed_form_start.h"
-#include "timeint/steady/shoot.h"
+#include "timeint/steady/confirm.h"
+#include "timeint/steady/orbit.h"
 #include "timeint/steady/timeint_private.h"
 
 static const double rounding = 16 * DBL_EPSILON; /* [amplitude] of a closed form */
-static const double enough = 1e-4;   /* [change] to which half the regularisation's orbit need be known: a second-order
+static const double enough = 1e-4; /* [change] to which half the regularisation's orbit need be known: a second-order
                                        error of the amplitude is far smaller than the sliders' first-order change */
-static const double rough = 0.25;    /* [change] to which it may be known where steps contract no more */
-static const double coarsest = 1e-8; /* CVODE's tolerance for it */
+static const double rough = 0.25;  /* [change] to which it may be known where steps contract no more */
 static const double per_change = 1e-7; /* that tolerance, relative to the change: it scatters by 250 times itself */
 
-static periodic_motion motion_of(const timeint_result *r)
+static periodic_motion predict_motion(const timeint_result *r)
 {
   periodic_motion m = {.amplitude = r->amplitude,
                        .max = r->max,
@@ -28,9 +28,9 @@ static periodic_motion motion_of(const timeint_result *r)
 }
 
 /* The distance between the measures of two results, as an error of one of them [length]. */
-static motion_error change(const timeint_result *one, const timeint_result *other)
+static motion_error predict_change(const timeint_result *one, const timeint_result *other)
 {
-  const periodic_motion a = motion_of(one), b = motion_of(other);
+  const periodic_motion a = predict_motion(one), b = predict_motion(other);
   const motion_distance d = motion_between(&a, &b);
   const double least = MOTION_LEAST_SHARE * d.waveform;
   return (motion_error){fmax(d.amplitude, least), fmax(d.harmonic_1, least), d.waveform};
@@ -50,7 +50,7 @@ static hc_status find_closed_form(timeint *ti, double omega, int k, const double
 
 /* The orbit with half the regularisation, from `state`, where the motion is, on the orbit with all of it: half way to
  * the exact law's, which has none. *r: of the orbit so far, then of that one. */
-static hc_status halve(timeint *ti, const double *state, int k, const hc_monitor *monitor, timeint_result *r)
+static hc_status predict_halved(timeint *ti, const double *state, int k, const hc_monitor *monitor, timeint_result *r)
 {
   shoot_report found = {.distance = INFINITY, .multiplier = NAN};
   double goal = orbit_goal(ti);
@@ -64,10 +64,10 @@ static hc_status halve(timeint *ti, const double *state, int k, const hc_monitor
       ti->y[i] += 0.5 * apart;
     }
     goal = fmax(goal, enough * change);
-    st = timeint_set_tolerance(ti, fmin(fmax(per_change * change, timeint_final_tolerance(ti)), coarsest));
-    if (st == HC_OK) st = shoot_confirm(ti->shoot, k, goal, 0, monitor, &found, r);
+    st = timeint_set_tolerance(ti, fmin(fmax(per_change * change, timeint_final_tolerance(ti)), CONFIRM_COARSEST));
+    if (st == HC_OK) st = confirm_orbit(ti, k, goal, 0, monitor, &found, r);
     if (st == HC_NOT_CONVERGED && found.distance <= rough * change) /* a matrix by CVODES costs some 50 periods */
-      st = shoot_confirm(ti->shoot, k, rough * change, 0, monitor, &found, r);
+      st = confirm_orbit(ti, k, rough * change, 0, monitor, &found, r);
     if (!shoot_found_no_orbit(st)) return st;
   }
   hc_status st = shoot_newton(ti->shoot, k, timeint_size(ti) / ti->length, goal, monitor, &found);
@@ -83,10 +83,10 @@ static hc_status regularisation(timeint *ti, const double *state, const hc_monit
   hc_status st = timeint_begin(ti, r->omega, state);
   if (st != HC_OK) return st;
   timeint_regularise(ti, 0.5 * rho);
-  st = halve(ti, state, r->period_multiple, monitor, &half);
+  st = predict_halved(ti, state, r->period_multiple, monitor, &half);
   for (int i = 0; i < n && st == HC_OK; ++i) {
     if (i > 0) st = timeint_response(ti, i, &half);
-    const motion_error e = change(&r[i], &half);
+    const motion_error e = predict_change(&r[i], &half);
     if (st == HC_OK) out[i] = (motion_error){2 * e.amplitude, 2 * e.harmonic_1, 2 * e.waveform};
   }
   timeint_regularise(ti, rho);
@@ -125,13 +125,13 @@ static hc_status slowed_part(timeint *ti, const double *state, const hc_monitor 
     timeint_get_state(closed, closed->point[0]);
     st = orbit_measure(closed, k, &here);
     if (st == HC_OK) st = timeint_begin(slowed, closed->omega, closed->point[0]);
-    if (st == HC_OK) st = shoot_slowed(closed->shoot, k, monitor);
+    if (st == HC_OK) st = confirm_slowed(closed, k, monitor);
     if (st == HC_OK) st = orbit_measure(slowed, k, &there);
     for (int i = 0; i < n && st == HC_OK; ++i) {
       st = timeint_response(closed, i, &here);
       if (st == HC_OK) st = timeint_response(slowed, i, &there);
       if (st != HC_OK) break;
-      const motion_error slowed_by = change(&here, &there), rest = change(&there, &r[i]);
+      const motion_error slowed_by = predict_change(&here, &there), rest = predict_change(&there, &r[i]);
       out[i] = (motion_error){slowed_by.amplitude + rest.amplitude, slowed_by.harmonic_1 + rest.harmonic_1,
                               slowed_by.waveform + rest.waveform};
     }

@@ -4,14 +4,15 @@
 #include <complex.h>
 
 #include "numerics/norm.h"
-#include "timeint/steady/shoot.h"
+#include "timeint/steady/confirm.h"
+#include "timeint/steady/orbit.h"
 #include "timeint/steady/timeint_private.h"
 
 static const double same_width = 0.01; /* [1] of width: a second-order error is 2 % another then */
 static const double still = 1e-9;      /* [largest amplitude] a response that moves less does not count */
 enum { MOST_HALVINGS = 12 };           /* 1e-4 becomes 2e-8 */
 
-/* Does a corner of contact j's law act on the orbit measured? */
+/* True if a corner of contact j's law acts on the orbit measured. */
 static bool acts(const timeint *ti, int j)
 {
   const scaled_contact *c = &ti->scaled.contact[j];
@@ -29,7 +30,7 @@ static bool any_acts(const timeint *ti)
   return false;
 }
 
-/* Are the corners' widths those of the orbit measured? */
+/* True if the corners' widths are those of the orbit measured. */
 static bool widths_fit(const timeint *ti)
 {
   for (int j = 0; j < ti->scaled.n_contacts; ++j) {
@@ -41,7 +42,7 @@ static bool widths_fit(const timeint *ti)
 }
 
 /* [length] (max - min)/2 of response i on the orbit measured. */
-static double amplitude_of(const timeint *ti, int i)
+static double regularised_amplitude(const timeint *ti, int i)
 {
   return motion_amplitude(ti->measure.response[i].max, ti->measure.response[i].min) * ti->length;
 }
@@ -52,13 +53,13 @@ static double largest_change(const timeint *ti, const double *before)
   double most = 0, error = 0;
   for (int i = 0; i < ti->measure.n_responses; ++i) most = fmax(most, before[i]);
   for (int i = 0; i < ti->measure.n_responses; ++i)
-    if (before[i] > still * most) error = larger(error, fabs(amplitude_of(ti, i) / before[i] - 1));
+    if (before[i] > still * most) error = larger(error, fabs(regularised_amplitude(ti, i) / before[i] - 1));
   return error;
 }
 
 static void note_amplitudes(const timeint *of, double *amplitudes)
 {
-  for (int i = 0; i < of->measure.n_responses; ++i) amplitudes[i] = amplitude_of(of, i);
+  for (int i = 0; i < of->measure.n_responses; ++i) amplitudes[i] = regularised_amplitude(of, i);
 }
 
 /* The orbit next to ti->y with the equations as they are now, measured into *r. */
@@ -70,7 +71,7 @@ static hc_status find_again(timeint *ti, const hc_monitor *monitor, timeint_resu
       .distance = INFINITY, .multiplier = r->multiplier_re + I * r->multiplier_im, .free_sliders = r->free_sliders};
   hc_status st = HC_NOT_CONVERGED;
   if (ti->how.steady == TRANSIENT_STEADY_MARCH) return settle_by_integration(ti, monitor, r);
-  if (ti->closed_form) st = shoot_confirm(ti->shoot, k, orbit_goal(ti), 0, monitor, &found, r);
+  if (ti->closed_form) st = confirm_orbit(ti, k, orbit_goal(ti), 0, monitor, &found, r);
   if (shoot_found_no_orbit(st)) {
     const double reach = ORBIT_NEXT_TO * timeint_scaled_size(ti);
     st = shoot_newton(ti->shoot, k, reach, orbit_goal(ti), monitor, &found);
@@ -80,7 +81,7 @@ static hc_status find_again(timeint *ti, const hc_monitor *monitor, timeint_resu
   return st;
 }
 
-/* Is the closed form on the exact law's orbit next to ti->y, measured? */
+/* *known: the closed form is on the exact law's orbit next to ti->y, and has measured it. */
 static hc_status find_exact(timeint *ti, int k, const hc_monitor *monitor, bool *known)
 {
   timeint *closed = ti->closed_form;
@@ -104,7 +105,8 @@ static hc_status find_exact(timeint *ti, int k, const hc_monitor *monitor, bool 
 
 /* The regularisation is halved, and the orbit found with that, until amplitudes are within `limit` of exact[responses],
  * or where that is not known (NULL), of what half the regularisation makes of them. */
-static hc_status halve(timeint *ti, const double *exact, double limit, const hc_monitor *monitor, timeint_result *r)
+static hc_status regularised_halve(timeint *ti, const double *exact, double limit, const hc_monitor *monitor,
+                                   timeint_result *r)
 {
   double *before = ti->amplitudes + ti->measure.n_responses;
   double error = exact ? largest_change(ti, exact) : INFINITY;
@@ -138,6 +140,6 @@ hc_status regularised_check(timeint *ti, const hc_monitor *monitor, timeint_resu
     st = find_again(ti, monitor, r);
   }
   if (st == HC_OK && known) note_amplitudes(ti->closed_form, ti->amplitudes);
-  if (st == HC_OK && limit > 0) st = halve(ti, known ? ti->amplitudes : NULL, resolved, monitor, r);
+  if (st == HC_OK && limit > 0) st = regularised_halve(ti, known ? ti->amplitudes : NULL, resolved, monitor, r);
   return shoot_found_no_orbit(st) ? HC_NOT_SETTLED : st;
 }

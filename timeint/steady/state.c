@@ -53,7 +53,7 @@ static void take_state(const timeint *ti, const double *state, double length, do
 
 void timeint_take_state(const timeint *ti, const double *state, double *y) { take_state(ti, state, ti->length, y); }
 
-static double size_of(const timeint *ti)
+static double state_size(const timeint *ti)
 {
   double size = 0;
   for (int i = 0; i < 2 * ti->n_dof; ++i) size = hypot(size, ti->y[i]);
@@ -120,7 +120,7 @@ void timeint_use_measured(timeint *ti, const timeint *of)
 }
 
 /* The orbit at ti->omega that was given out as `state`; NULL: none was lately. */
-static const known_orbit *recall(const timeint *ti, const double *state)
+static const known_orbit *recall_known(const timeint *ti, const double *state)
 {
   for (const known_orbit *k = ti->known; k < ti->known + KNOWN_ORBITS; ++k)
     if (k->omega == ti->omega && !memcmp(k->state, state, (size_t)ti->n * sizeof *state)) return k;
@@ -129,7 +129,7 @@ static const known_orbit *recall(const timeint *ti, const double *state)
 
 void timeint_remember(timeint *ti, const double *state)
 {
-  if (recall(ti, state)) return;
+  if (recall_known(ti, state)) return;
   known_orbit *k = &ti->known[ti->next_known];
   ti->next_known = (ti->next_known + 1) % KNOWN_ORBITS;
   k->omega = ti->omega;
@@ -154,7 +154,7 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   ti->rhs0 = integrate_rhs(ti->in);
   ti->least_length = least_length(ti);
   take_state(ti, state, 1, ti->y);
-  double length = fmax(ti->least_length, size_of(ti));
+  double length = fmax(ti->least_length, state_size(ti));
   /* The unit of length for a model at rest without force: the largest gap, or 1. */
   if (!(length > 0)) {
     double l = 0;
@@ -165,7 +165,7 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state)
   take_state(ti, state, length, ti->y);
   ti->length = length;
   state_sizes_begin(&ti->sizes, ti->base, m, omega);
-  const known_orbit *known = recall(ti, state);
+  const known_orbit *known = recall_known(ti, state);
   ti->how.regularisation = known ? known->regularisation : ti->regularisation;
   if (known) memcpy(ti->sizes.vibration, known->vibration, (size_t)ti->sizes.n_rows * sizeof(double));
   else state_sizes_see(&ti->sizes, ti->base, length, ti->y);
@@ -213,6 +213,16 @@ hc_status timeint_period(timeint *ti, bool measured)
   ++ti->periods;
   if (!measured) follow_length(ti); /* all periods of a measurement are in one unit */
   return HC_OK;
+}
+
+void timeint_note_measured(timeint *ti, int k, const double *end, int switches, int returns)
+{
+  ti->last.k = k;
+  ti->last.omega = ti->omega;
+  ti->last.length = ti->length;
+  ti->last.switches = switches;
+  ti->last.returns = returns;
+  memcpy(ti->last.end, end, sizeof *end * (size_t)ti->n);
 }
 
 void timeint_get_state(const timeint *ti, double *state)
@@ -271,7 +281,7 @@ double timeint_response_unit(const timeint *ti, int i)
   return state_sizes_unit(&ti->sizes, 2 * ti->model->n_contacts + i) * ti->length;
 }
 
-double timeint_size(const timeint *ti) { return size_of(ti) * ti->length; }
+double timeint_size(const timeint *ti) { return state_size(ti) * ti->length; }
 double timeint_motion_size(const timeint *ti) { return fmax(timeint_size(ti), ti->least_length); }
 double timeint_scaled_size(const timeint *ti) { return timeint_motion_size(ti) / ti->length; }
 

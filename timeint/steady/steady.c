@@ -14,9 +14,9 @@
 #include "timeint/steady/escape.h"
 #include "timeint/steady/linear_regime.h"
 #include "timeint/steady/mass_scaling.h"
+#include "timeint/steady/orbit.h"
 #include "timeint/steady/regularised.h"
 #include "timeint/steady/settle.h"
-#include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
 /* ---- the approach to an attractor --------------------------------------------------------------------

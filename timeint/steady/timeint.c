@@ -8,6 +8,7 @@
 #include "numerics/norm.h"
 #include "timeint/steady/closed_form_start.h"
 #include "timeint/steady/mass_scaling.h"
+#include "timeint/steady/period_map.h"
 #include "timeint/steady/shoot.h"
 #include "timeint/steady/timeint_private.h"
 
@@ -29,7 +30,7 @@ static bool all_finite(size_t count, const double *a)
   return ok;
 }
 
-static hc_status make_memory(timeint *ti)
+static hc_status timeint_make_memory(timeint *ti)
 {
   double **const vectors[] = {
       &ti->y,        &ti->saved,    &ti->direction, &ti->neighbour, &ti->separation, &ti->closed_form_state,
@@ -53,11 +54,12 @@ static hc_status make_memory(timeint *ti)
   return st != HC_OK ? st : measure_make(&ti->measure, ti->n, ti->base->n_responses, ti->model->n_contacts, w);
 }
 
-static hc_status make_parts(timeint *ti)
+static hc_status timeint_make_parts(timeint *ti)
 {
-  hc_status st = make_memory(ti);
+  hc_status st = timeint_make_memory(ti);
   if (st == HC_OK) st = timeint_make_integrators(ti);
   if (st == HC_OK) st = settle_new(ti->n, &ti->settle);
+  if (st == HC_OK) st = period_map_new(ti, &ti->map);
   return st == HC_OK ? shoot_new(ti, &ti->shoot) : st;
 }
 
@@ -76,7 +78,8 @@ static hc_status settle_to_rest(timeint *ti, const model *m, const timeint *of)
 }
 
 /* The handle, alone: of m, or of the model about rest that `of` has. */
-static hc_status make(const model *m, const timeint *of, const transient_settings *how, bool may_slow, timeint **out)
+static hc_status timeint_make(const model *m, const timeint *of, const transient_settings *how, bool may_slow,
+                              timeint **out)
 {
   *out = NULL;
   const size_t n = (size_t)m->n;
@@ -106,7 +109,7 @@ static hc_status make(const model *m, const timeint *of, const transient_setting
   hc_status st = settle_to_rest(ti, m, of);
   if (st == HC_OK) st = modal_base_new(ti->model, &ti->whole);
   ti->base = ti->whole;
-  if (st == HC_OK && (st = make_parts(ti)) == HC_OK) {
+  if (st == HC_OK && (st = timeint_make_parts(ti)) == HC_OK) {
     *out = ti;
     return HC_OK;
   }
@@ -127,8 +130,11 @@ static hc_status make_all(const model *m, const timeint *of, const transient_set
   const bool closed = how->method == TRANSIENT_METHOD_CLOSED_FORM;
   timeint *ti;
   *out = NULL;
-  hc_status st = make(m, of, how, !closed, &ti);
-  if (st == HC_OK && closed && mass_scaling_may_pay(ti->whole)) st = make(ti->model, ti, how, true, &ti->slowed);
+  hc_status st = timeint_make(m, of, how, !closed, &ti);
+  if (st == HC_OK && closed && mass_scaling_may_pay(ti->whole)) {
+    st = timeint_make(ti->model, ti, how, true, &ti->slowed);
+    if (st == HC_OK) period_map_borrow_from(ti->map, ti->slowed->map);
+  }
   if (st == HC_OK && !closed && ti->how.scout) st = closed_start_new(ti);
   return keep_or_free(ti, st, out);
 }
@@ -169,7 +175,7 @@ hc_status timeint_new_beside(timeint *of, const transient_settings *how, timeint
   const bool same = of->closed_form && (of->closed_form->slowed || of->closed_form->how.tolerance <= how->tolerance);
   if (!same || !how->scout || how->method == TRANSIENT_METHOD_CLOSED_FORM) return timeint_new_like(of, how, out);
   if (how->law == TRANSIENT_LAW_EXACT && (*out = timeint_closed_form_of(of))) return HC_OK;
-  hc_status st = make(of->model, of, how, true, &ti);
+  hc_status st = timeint_make(of->model, of, how, true, &ti);
   if (st == HC_OK) st = closed_start_share(ti, of->closed_form);
   return keep_or_free(ti, st, out);
 }
@@ -180,6 +186,7 @@ void timeint_free(timeint *ti)
   timeint_free(ti->slowed);
   timeint_free(ti->closed_form);
   shoot_free(ti->shoot);
+  period_map_free(ti->map);
   settle_free(ti->settle);
   integrate_free(ti->exact);
   integrate_free(ti->in);

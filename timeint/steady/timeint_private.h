@@ -42,7 +42,8 @@ struct timeint {          /* from timeint_new, to timeint_free; not shared betwe
   integrator *in;
   integrator *exact; /* of the exact law, for sweeps, where `in` is not and there is no closed_form; else NULL */
   settle *settle;
-  struct shoot *shoot;
+  struct period_map *map;   /* of its periods */
+  struct shoot *shoot;      /* the search for its fixed points */
   timeint *closed_form;     /* of the same model, in closed form; NULL without transient.scout           */
   bool shares_closed_form;  /* it is another handle's, too                                              */
   int owners;               /* handles whose closed_form this is, or 1                                   */
@@ -100,6 +101,10 @@ hc_status timeint_begin(timeint *ti, double omega, const double *state);
 
 /* The equations in another unit of length, ti->y in it, and sizes of states there. */
 void timeint_use_length(timeint *ti, double length);
+
+/* ti->measure is of the orbit of k periods that ended at end[n], of so many switches, which returns after so many
+ * periods: ti->last. */
+void timeint_note_measured(timeint *ti, int k, const double *end, int switches, int returns);
 
 /* Vibrations become those of the periods that `of`, a handle of the same model, measured last; nothing happens where
  * there are none. */
